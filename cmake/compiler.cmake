@@ -1,0 +1,44 @@
+# What every target is compiled with, and the two functions that make targets.
+
+add_library(cornerd_sanitizer INTERFACE)
+if(CORNERD_SANITIZE)
+  target_compile_options(cornerd_sanitizer INTERFACE -fsanitize=${CORNERD_SANITIZE}
+    -fno-omit-frame-pointer -fno-sanitize-recover=all)
+  target_link_options(cornerd_sanitizer INTERFACE -fsanitize=${CORNERD_SANITIZE})
+endif()
+if(CORNERD_FUZZ)
+  target_compile_options(cornerd_sanitizer INTERFACE
+    -fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=all)
+  target_link_options(cornerd_sanitizer INTERFACE -fsanitize=address,undefined)
+endif()
+
+add_library(cornerd_warnings INTERFACE)
+target_compile_options(cornerd_warnings INTERFACE -Wall -Wextra -Wpedantic -Wshadow
+  -Wnon-virtual-dtor -Wold-style-cast -Woverloaded-virtual $<$<BOOL:${CORNERD_WERROR}>:-Werror>)
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  # GCC 12 reports these inside Eigen's and the standard library's own inlined code.
+  target_compile_options(cornerd_warnings INTERFACE
+    -Wno-maybe-uninitialized -Wno-array-bounds -Wno-stringop-overflow -Wno-restrict)
+endif()
+
+find_program(CORNERD_CCACHE ccache)
+if(CORNERD_CCACHE)
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${CORNERD_CCACHE})
+endif()
+
+# cornerd_add_library(NAME SOURCES file... LINK target...)
+# A static library; its headers are included from the top of src/ ("core/scan.hpp") or of the tree
+# ("drivers/rplidar/decoder.hpp").
+function(cornerd_add_library name)
+  cmake_parse_arguments(arg "" "" "SOURCES;LINK" ${ARGN})
+  add_library(${name} STATIC ${arg_SOURCES})
+  target_include_directories(${name} PUBLIC ${PROJECT_SOURCE_DIR}/src ${PROJECT_SOURCE_DIR})
+  target_link_libraries(${name} PUBLIC ${arg_LINK} cornerd_sanitizer PRIVATE cornerd_warnings)
+endfunction()
+
+# cornerd_add_executable(NAME SOURCES file... LINK target...)
+function(cornerd_add_executable name)
+  cmake_parse_arguments(arg "" "" "SOURCES;LINK" ${ARGN})
+  add_executable(${name} ${arg_SOURCES})
+  target_link_libraries(${name} PRIVATE ${arg_LINK} cornerd_sanitizer cornerd_warnings)
+endfunction()

@@ -1,0 +1,31 @@
+# Debian's packages, as header-only targets: a cross build then needs no package of the board's
+# architecture, and the daemon no shared library but the C library.
+
+find_path(CORNERD_EIGEN_DIR Eigen/Core PATHS /usr/include/eigen3 REQUIRED NO_CMAKE_FIND_ROOT_PATH)
+add_library(cornerd_eigen INTERFACE)
+target_include_directories(cornerd_eigen SYSTEM INTERFACE ${CORNERD_EIGEN_DIR})
+
+find_path(CORNERD_JSON_DIR nlohmann/json.hpp PATHS /usr/include REQUIRED NO_CMAKE_FIND_ROOT_PATH)
+add_library(cornerd_json INTERFACE)
+
+find_path(CORNERD_SPDLOG_DIR spdlog/spdlog.h PATHS /usr/include REQUIRED NO_CMAKE_FIND_ROOT_PATH)
+find_package(Threads REQUIRED)
+add_library(cornerd_spdlog INTERFACE)
+target_compile_definitions(cornerd_spdlog INTERFACE SPDLOG_HEADER_ONLY SPDLOG_FMT_EXTERNAL
+                                                    FMT_HEADER_ONLY)
+target_link_libraries(cornerd_spdlog INTERFACE Threads::Threads)
+
+find_path(CORNERD_CLI11_DIR CLI/CLI.hpp PATHS /usr/include REQUIRED NO_CMAKE_FIND_ROOT_PATH)
+add_library(cornerd_cli11 INTERFACE)
+
+if(CORNERD_BUILD_TESTS)
+  # From Debian's sources, so that sanitized and ARM builds get a library built like themselves.
+  set(INSTALL_GTEST OFF CACHE BOOL "" FORCE)
+  add_subdirectory(/usr/src/googletest ${CMAKE_BINARY_DIR}/googletest EXCLUDE_FROM_ALL)
+  foreach(library gtest gtest_main gmock gmock_main)
+    target_link_libraries(${library} PUBLIC $<BUILD_INTERFACE:cornerd_sanitizer>)
+    get_target_property(directories ${library} INTERFACE_INCLUDE_DIRECTORIES)
+    set_target_properties(${library} PROPERTIES
+      INTERFACE_SYSTEM_INCLUDE_DIRECTORIES "${directories}")
+  endforeach()
+endif()

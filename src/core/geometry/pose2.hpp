@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <cmath>
+
+#include "core/geometry/angle.hpp"
+
+namespace cornerd::core {
+
+using Vec2 = Eigen::Vector2d;
+
+/// Twice the signed area of the triangle (0, a, b): positive where b lies counter-clockwise of a.
+inline double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
+inline Vec2 rotate_left(const Vec2& v) { return {-v.y(), v.x()}; }
+inline Vec2 unit_vector(double angle_rad) { return {std::cos(angle_rad), std::sin(angle_rad)}; }
+
+/// A rigid motion of the plane: `T_a_b * p_b` is the point p_b of frame b, seen from frame a.
+struct Pose2 {
+  double x_m = 0;
+  double y_m = 0;
+  double theta_rad = 0;  ///< in (-pi, pi]
+
+  Vec2 translation() const { return {x_m, y_m}; }
+
+  Vec2 operator*(const Vec2& point) const {
+    const double c = std::cos(theta_rad);
+    const double s = std::sin(theta_rad);
+    return {x_m + c * point.x() - s * point.y(), y_m + s * point.x() + c * point.y()};
+  }
+
+  Pose2 operator*(const Pose2& other) const {
+    const Vec2 moved = *this * other.translation();
+    return {moved.x(), moved.y(), normalize_angle(theta_rad + other.theta_rad)};
+  }
+
+  Pose2 inverse() const {
+    const double c = std::cos(theta_rad);
+    const double s = std::sin(theta_rad);
+    return {-c * x_m - s * y_m, s * x_m - c * y_m, normalize_angle(-theta_rad)};
+  }
+};
+
+/// Of (x [m], y [m], theta [rad]) in the frame of the pose it belongs to; symmetric.
+using Covariance3 = Eigen::Matrix3d;
+
+}  // namespace cornerd::core

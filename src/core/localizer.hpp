@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+// THE FILE TO READ FIRST, with localizer.cpp: one turn of the lidar in, one pose out.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "core/breakpoint/breakpoint.hpp"
+#include "core/geometry/pose2.hpp"
+#include "core/map/wall_map.hpp"
+#include "core/scan.hpp"
+
+namespace cornerd::core {
+
+struct DetectorConfig {
+  Method method = Method::kAltbd;
+  double sigma_offset = 0.04;         ///< share of the range (El Amin et al., step 5)
+  double corner_tolerance_m = 0.23;   ///< Dth_corner: half a door of 46 cm (step 13)
+};
+
+struct LocalizerConfig {
+  double min_range_m = 0.15;
+  double max_range_m = 12.0;
+  Pose2 T_base_lidar;
+  DetectorConfig detector;
+};
+
+enum class PoseState : std::uint8_t { kFix, kTracking, kPredicted, kAmbiguous, kLost };
+
+/// A place that explains the turn. Scores of one turn compare: 1 is the best place of all.
+struct Alternative {
+  Pose2 T_map_base;
+  double score = 0;
+};
+
+inline constexpr std::size_t kMaxAlternatives = 16;
+
+/// Where the robot was at `t_ns`, and how far to believe it. In the states ambiguous and lost
+/// nothing but `alternatives` says anything about the place.
+struct PoseEstimate {
+  std::uint64_t seq = 0;  ///< counts the turns
+  TimeNs t_ns = 0;
+  PoseState state = PoseState::kLost;
+  Pose2 T_map_base;
+  Covariance3 covariance = Covariance3::Zero();
+  std::optional<std::size_t> room;  ///< index into the map's rooms
+  std::size_t corners = 0;          ///< breakpoints that were recognised
+  std::size_t inliers = 0;          ///< samples that lie on the map's walls
+  double rmse_m = 0;                ///< of the inliers
+  double age_s = 0;                 ///< since the last turn that named a place
+  std::vector<Alternative> alternatives;  ///< capacity kMaxAlternatives; best first
+};
+
+/// Everything that one turn gave. Reused from turn to turn.
+struct TurnResult {
+  TurnResult() { pose.alternatives.reserve(kMaxAlternatives); }
+  PoseEstimate pose;
+  Detection detection;
+};
+
+/// Finds the robot in a map, turn by turn. All memory is taken at construction: step() allocates
+/// nothing, takes no lock, does no I/O (tests/unit/core/localizer_allocation_test.cpp counts).
+/// Not safe for concurrent calls.
+class Localizer {
+ public:
+  /// Without a map it detects breakpoints and is always lost.
+  Localizer(std::shared_ptr<const WallMap> map, const LocalizerConfig& config);
+  ~Localizer();
+  Localizer(Localizer&&) noexcept;
+  Localizer& operator=(Localizer&&) noexcept;
+
+  /// Localizes in one complete turn. The result is valid until the next call.
+  const TurnResult& step(const Scan& scan);
+
+  /// Forgets where the robot was: the next turn is recognised without a prior.
+  void relocalize();
+
+ private:
+  struct Workspace;
+  std::unique_ptr<Workspace> workspace_;
+};
+
+}  // namespace cornerd::core

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+// One turn of the sensor, and what cuts the stream of samples into turns.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "core/types.hpp"
+
+namespace cornerd::core {
+
+/// An A1 at its slowest (1 Hz) and its fastest mode (127 us a sample) gives 7,874 samples a turn.
+inline constexpr std::size_t kMaxSamplesPerTurn = 8192;
+
+/// The samples of one turn in the order of their arrival. Room for kMaxSamplesPerTurn is taken at
+/// construction, so that filling and reusing one allocates nothing.
+class Scan {
+ public:
+  Scan() { samples_.reserve(kMaxSamplesPerTurn); }
+
+  void clear() { samples_.clear(); }
+
+  /// False, and nothing added, where the turn is full.
+  bool add(const Sample& sample) {
+    if (samples_.size() >= kMaxSamplesPerTurn) return false;
+    samples_.push_back(sample);
+    return true;
+  }
+
+  std::span<const Sample> samples() const { return samples_; }
+  std::size_t size() const { return samples_.size(); }
+  bool empty() const { return samples_.empty(); }
+
+  /// Time of the first sample; 0 for an empty scan.
+  TimeNs start_ns() const { return empty() ? 0 : samples_.front().t_ns; }
+  /// Time of the last sample; 0 for an empty scan.
+  TimeNs end_ns() const { return empty() ? 0 : samples_.back().t_ns; }
+
+ private:
+  std::vector<Sample> samples_;
+};
+
+/// Collects samples until a revolution is complete. A stream joined in the middle of a turn gives
+/// its first scan at the end of the first whole one.
+class TurnAssembler {
+ public:
+  /// True when `sample` began a new turn and `turn` now holds the complete one before it.
+  /// `turn` is swapped in, never copied; nothing is allocated.
+  bool add(const Sample& sample, Scan& turn);
+
+  /// Hands out the turn in progress where it is a whole one in all but its closing mark: the end of
+  /// a recording. True where `turn` was filled.
+  bool finish(Scan& turn);
+
+  /// Forgets the turn in progress: the device was reopened, the stream has a hole.
+  void reset();
+
+  /// Samples beyond kMaxSamplesPerTurn, and those of turns that were begun but never ended.
+  std::size_t dropped() const { return dropped_; }
+
+ private:
+  Scan collecting_;
+  bool synced_ = false;
+  std::size_t dropped_ = 0;
+};
+
+}  // namespace cornerd::core
