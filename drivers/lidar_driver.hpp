@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: MIT
+// What the daemon asks of a lidar, be it a device on a port or a recording that stands in for one.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <stop_token>
+#include <string_view>
+
+#include "core/ring_buffer.hpp"
+#include "core/types.hpp"
+
+namespace cornerd::drivers {
+
+enum class LidarState : std::uint8_t {
+  kAbsent,       ///< no such port
+  kOpening,      ///< the port is there and cannot be opened yet: rights, or another process
+  kIdentifying,  ///< asking who it is and how it feels
+  kStarting,     ///< motor on, scan asked for, no data yet
+  kRunning,
+  kFaulty,   ///< answers, but cannot measure: its own health error, or a dead stream
+  kBackoff,  ///< waiting before the next try
+  kEnded,    ///< a recording has been played to its end
+};
+
+std::string_view to_string(LidarState state);
+
+/// Short text of fixed size, so that a status can cross threads without a lock or an allocation.
+struct ShortText {
+  std::array<char, 160> chars{};
+  std::string_view view() const;
+  void set(std::string_view text);  ///< cut where it is longer
+};
+
+/// All that was thrown away on the way from bytes to samples, by cause, and what was kept.
+struct StreamCounters {
+  std::uint64_t bytes = 0;
+  std::uint64_t samples = 0;
+  std::uint64_t turns = 0;
+  std::uint64_t skipped_bytes = 0;      ///< belonged to no packet: banner, stale or damaged bytes
+  std::uint64_t bad_checksums = 0;      ///< capsules whose checksum is wrong
+  std::uint64_t lost_capsules = 0;      ///< holes seen in the capsules' start angles
+  std::uint64_t bad_nodes = 0;          ///< standard nodes whose check bits are wrong
+  std::uint64_t resyncs = 0;            ///< times that the packet boundary had to be found anew
+  std::uint64_t unpaired_capsules = 0;  ///< capsules without the next one that their angles need
+  std::uint64_t false_turn_marks = 0;   ///< start flags in the middle of a turn
+  std::uint64_t clock_resets = 0;       ///< times that the sample clock had to be fitted anew
+};
+
+struct LidarStatus {
+  LidarState state = LidarState::kAbsent;
+  ShortText detail;  ///< for a person: what is wrong, what to do
+  ShortText model;
+  ShortText firmware;
+  ShortText health;
+  ShortText mode;
+  double rate_hz = 0;     ///< turns a second
+  double samples_hz = 0;  ///< samples a second, empty ones too
+  StreamCounters counters;
+};
+
+/// Where a driver delivers. One driver, one sink, one thread.
+class SampleSink {
+ public:
+  virtual ~SampleSink() = default;
+  virtual void on_sample(const core::Sample& sample) = 0;
+  /// The stream has a hole that the samples do not show: begin a new turn.
+  virtual void on_gap() = 0;
+};
+
+class LidarDriver {
+ public:
+  virtual ~LidarDriver() = default;
+
+  /// Delivers samples until a stop is asked for or the source has ended. The reader thread's body:
+  /// never throws; faults of the device are states, retried with back-off.
+  virtual void run(std::stop_token stop, SampleSink& sink) = 0;
+
+  /// The newest status. One reading thread at a time; never blocks run().
+  virtual LidarStatus status() = 0;
+};
+
+}  // namespace cornerd::drivers

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+// Bytes with the time of their arrival become samples with the time of their measurement.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+
+#include "drivers/lidar_driver.hpp"
+#include "drivers/rplidar/decoder.hpp"
+
+namespace cornerd::rplidar {
+
+struct SampleStreamConfig {
+  std::optional<WireFormat> format;  ///< of a stream without a descriptor; nullopt: find out
+  bool inverted = false;             ///< mounted upside down: bearing = +angle instead of -angle
+  double sample_period_s = 0;        ///< what the device says; 0: the format's usual one
+  std::uint32_t baud = 115200;
+};
+
+/// Decoder and sample clock in one. Allocates nothing after construction.
+class SampleStream {
+ public:
+  explicit SampleStream(const SampleStreamConfig& config);
+  ~SampleStream();
+  SampleStream(SampleStream&&) noexcept;
+  SampleStream& operator=(SampleStream&&) noexcept;
+
+  /// `arrival_ns`: when the last of these bytes was read from the port.
+  void feed(std::span<const std::uint8_t> bytes, core::TimeNs arrival_ns,
+            drivers::SampleSink& sink);
+  /// Bytes that bear no clock: time runs from 0 as their transmission at `baud` would have it.
+  void feed_untimed(std::span<const std::uint8_t> bytes, drivers::SampleSink& sink);
+  void finish(drivers::SampleSink& sink);
+
+  std::optional<WireFormat> format() const;
+  const drivers::StreamCounters& counters() const;
+
+ private:
+  class Implementation;
+  std::unique_ptr<Implementation> implementation_;
+};
+
+}  // namespace cornerd::rplidar

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+// The config file: every key, its default, its limits.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/localizer.hpp"
+
+namespace cornerd::settings {
+
+/// A config, map or override that is wrong. what() is one line: file, JSON pointer, reason.
+class SettingsError : public std::runtime_error {
+ public:
+  SettingsError(const std::string& file, const std::string& pointer, const std::string& reason);
+};
+
+/// EX_CONFIG of sysexits.h: what a program ends with on a SettingsError.
+inline constexpr int kExitConfig = 78;
+
+enum class DriverKind : std::uint8_t { kRplidar, kReplay };
+enum class MotorKind : std::uint8_t { kDtr, kGpio, kPwm, kNone };
+
+struct MountConfig {
+  double x_m = 0;
+  double y_m = 0;
+  double theta_rad = 0;
+  bool inverted = false;
+};
+
+struct MotorConfig {
+  MotorKind kind = MotorKind::kDtr;
+  std::filesystem::path path;  ///< sysfs folder of the GPIO line or PWM channel
+  double duty = 1.0;           ///< of a PWM channel, 0..1
+  double period_s = 4e-5;      ///< of a PWM channel
+};
+
+struct LidarConfig {
+  DriverKind driver = DriverKind::kRplidar;
+  std::filesystem::path device = "/dev/ttyUSB0";
+  std::uint32_t baud = 115200;
+  std::string mode =
+      "auto";  ///< or a mode's name as the device gives it: "Standard", "Express" ...
+  double min_range_m = 0.15;
+  double max_range_m = 12.0;
+  MountConfig mount;
+  MotorConfig motor;
+  std::filesystem::path file;  ///< replay: the recording
+  double speed = 1.0;          ///< replay: times real time; 0: as fast as it goes
+  bool loop = false;           ///< replay: begin again at the end
+};
+
+struct OdometryConfig {
+  std::string source = "none";
+  double wheel_radius_m = 0.0325;
+  double track_m = 0.16;
+  double counts_per_turn = 1440;
+};
+
+struct SocketConfig {
+  std::filesystem::path pose = "/run/cornerd/pose.sock";
+  std::filesystem::path control = "/run/cornerd/control.sock";
+};
+
+struct RealtimeConfig {
+  int priority = 50;
+  bool lock_memory = true;
+};
+
+struct Config {
+  LidarConfig lidar;
+  std::filesystem::path map;  ///< absolute, or as given where the config came from no file
+  core::DetectorConfig detector;
+  OdometryConfig odometry;
+  SocketConfig socket;
+  RealtimeConfig realtime;
+
+  core::LocalizerConfig localizer() const;
+};
+
+/// Reads a config file. Relative paths in it become absolute, from the folder of the file.
+/// `overrides`: "/json/pointer=value", applied before the checks; the value is JSON, or else taken
+/// as a string. Throws SettingsError.
+Config load_config(const std::filesystem::path& file,
+                   const std::vector<std::string>& overrides = {});
+
+/// The same from text. `file` names it in errors; `require_map`: a config without map is an error.
+Config parse_config(std::string_view text, const std::filesystem::path& file,
+                    const std::vector<std::string>& overrides = {}, bool require_map = true);
+
+}  // namespace cornerd::settings

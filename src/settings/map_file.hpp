@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string_view>
+
+#include "core/map/wall_map.hpp"
+#include "settings/config.hpp"
+
+namespace cornerd::settings {
+
+/// Reads a cornerd-map. Throws SettingsError with file, JSON pointer and reason.
+core::FloorPlan parse_floor_plan(std::string_view text, const std::filesystem::path& file);
+std::shared_ptr<const core::WallMap> load_map(const std::filesystem::path& file);
+
+}  // namespace cornerd::settings
