@@ -17,8 +17,8 @@ namespace cornerd::core {
 
 struct DetectorConfig {
   Method method = Method::kAltbd;
-  double sigma_offset = 0.04;         ///< share of the range (El Amin et al., step 5)
-  double corner_tolerance_m = 0.23;   ///< Dth_corner: half a door of 46 cm (step 13)
+  double sigma_offset = 0.04;        ///< share of the range (El Amin et al., step 5)
+  double corner_tolerance_m = 0.23;  ///< Dth_corner: half a door of 46 cm (step 13)
 };
 
 struct LocalizerConfig {
@@ -46,11 +46,11 @@ struct PoseEstimate {
   PoseState state = PoseState::kLost;
   Pose2 T_map_base;
   Covariance3 covariance = Covariance3::Zero();
-  std::optional<std::size_t> room;  ///< index into the map's rooms
-  std::size_t corners = 0;          ///< breakpoints that were recognised
-  std::size_t inliers = 0;          ///< samples that lie on the map's walls
-  double rmse_m = 0;                ///< of the inliers
-  double age_s = 0;                 ///< since the last turn that named a place
+  std::optional<std::size_t> room;        ///< index into the map's rooms
+  std::size_t corners = 0;                ///< breakpoints that were recognised
+  std::size_t inliers = 0;                ///< samples that lie on the map's walls
+  double rmse_m = 0;                      ///< of the inliers
+  double age_s = 0;                       ///< since the last turn that named a place
   std::vector<Alternative> alternatives;  ///< capacity kMaxAlternatives; best first
 };
 

@@ -41,16 +41,17 @@ class Scan {
   std::vector<Sample> samples_;
 };
 
-/// Collects samples until a revolution is complete. A stream joined in the middle of a turn gives
-/// its first scan at the end of the first whole one.
+/// Collects samples until a revolution is complete: the next one starts, or the source says that it
+/// ends. A stream joined in the middle of a turn gives its first scan at the end of the first whole
+/// one.
 class TurnAssembler {
  public:
-  /// True when `sample` began a new turn and `turn` now holds the complete one before it.
-  /// `turn` is swapped in, never copied; nothing is allocated.
+  /// True when `sample` completed a turn, which `turn` now holds. It is swapped in, never copied;
+  /// nothing is allocated.
   bool add(const Sample& sample, Scan& turn);
 
-  /// Hands out the turn in progress where it is a whole one in all but its closing mark: the end of
-  /// a recording. True where `turn` was filled.
+  /// The end of a recording: hands out the turn in progress where it has gone round all but 10
+  /// degrees. True where `turn` was filled.
   bool finish(Scan& turn);
 
   /// Forgets the turn in progress: the device was reopened, the stream has a hole.
@@ -61,7 +62,7 @@ class TurnAssembler {
 
  private:
   Scan collecting_;
-  bool synced_ = false;
+  bool collects_ = false;  ///< a turn has begun that was seen from its start
   std::size_t dropped_ = 0;
 };
 

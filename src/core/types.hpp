@@ -24,6 +24,7 @@ struct Sample {
   float range_m = 0;      ///< 0: nothing returned
   std::uint8_t quality = 0;
   bool starts_turn = false;  ///< the first sample of a revolution
+  bool ends_turn = false;    ///< the last one, where the source knows: a recorded SCAN does
 };
 
 }  // namespace cornerd::core

@@ -23,7 +23,7 @@ struct WallSegment {
   double offset_m = 0;         ///< negative: the sensor is on the side that the normal points to
   Vec2 first = Vec2::Zero();   ///< foot of the first sample on the line (counter-clockwise order)
   Vec2 last = Vec2::Zero();
-  double sigma_offset_m = 0;   ///< of the line at the centroid of its samples
+  double sigma_offset_m = 0;  ///< of the line at the centroid of its samples
   double sigma_angle_rad = 0;
   std::uint32_t first_sample = 0;  ///< index in the order of bearing
   std::uint32_t last_sample = 0;   ///< inclusive; smaller than first_sample across the seam
@@ -36,12 +36,12 @@ struct Breakpoint {
   Vec2 position = Vec2::Zero();
   Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();
   BreakpointKind kind = BreakpointKind::kCorner;
-  bool convex = false;          ///< the free space opens by more than pi
-  bool wall_on_right = true;    ///< a wall is seen on that side
+  bool convex = false;        ///< the free space opens by more than pi
+  bool wall_on_right = true;  ///< a wall is seen on that side
   bool wall_on_left = true;
-  double right_wall_rad = 0;    ///< direction along that wall, away from the breakpoint
+  double right_wall_rad = 0;  ///< direction along that wall, away from the breakpoint
   double left_wall_rad = 0;
-  double opening_rad = 0;       ///< of the free space at a corner, from the right wall to the left
+  double opening_rad = 0;  ///< of the free space at a corner, from the right wall to the left
   std::uint32_t right_support = 0;  ///< samples on that wall
   std::uint32_t left_support = 0;
 };

@@ -43,14 +43,16 @@ struct Face {
   double length_m = 0;
 };
 
-/// A place where the free space changes direction: two faces meet, or a thin wall ends.
+/// A place where the free space changes direction: two faces meet, or a thin wall ends. "Left" and
+/// "right" are as somebody sees them who stands in the opening and looks at the corner.
 struct Corner {
   Vec2 position = Vec2::Zero();
-  double opening_rad = 0;   ///< of the free space: pi/2 in a room's corner, 3pi/2 at a wall's edge
-  double bisector_rad = 0;  ///< direction into the middle of the opening, map frame
-  double right_face_rad = 0;  ///< direction along the face that bounds the opening clockwise
-  double left_face_rad = 0;   ///< the same, counter-clockwise: right_face_rad + opening_rad
+  double opening_rad = 0;    ///< of the free space: pi/2 in a room's corner, 3pi/2 at a wall's edge
+  double left_face_rad = 0;  ///< direction along the left face, away from the corner, map frame
+  double right_face_rad = 0;  ///< the same on the right: left_face_rad + opening_rad
   bool is_convex() const { return opening_rad > kPi; }  ///< the solid sticks out
+  /// Direction into the middle of the opening.
+  double bisector_rad() const { return normalize_angle(left_face_rad + opening_rad / 2); }
 };
 
 /// The map as the localizer uses it. Immutable after construction; const methods may be called from

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: MIT
+#include "core/map/wall_map.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+#include "core/map/outline.hpp"
+
+namespace cornerd::core {
+namespace {
+
+void check(const Wall& wall, std::size_t index) {
+  const auto fail = [&](const char* reason) {
+    throw std::invalid_argument("wall " + std::to_string(index) + ": " + reason);
+  };
+  if (!wall.from.allFinite() || !wall.to.allFinite() || !std::isfinite(wall.thickness_m)) {
+    fail("a number is not finite");
+  }
+  if (wall.thickness_m < 0) fail("its thickness is negative");
+  if (wall.thickness_m == 0 && (wall.to - wall.from).norm() < 1e-3) {
+    fail("it has neither length nor thickness");
+  }
+}
+
+/// Even-odd rule: counts the polygon's sides that cross the way from the point to the right.
+bool contains(const std::vector<Vec2>& polygon, const Vec2& point) {
+  bool inside = false;
+  for (std::size_t i = 0, j = polygon.size() - 1; i < polygon.size(); j = i++) {
+    const Vec2& a = polygon[i];
+    const Vec2& b = polygon[j];
+    if ((a.y() > point.y()) == (b.y() > point.y())) continue;
+    const double crossing_x = a.x() + (point.y() - a.y()) / (b.y() - a.y()) * (b.x() - a.x());
+    if (point.x() < crossing_x) inside = !inside;
+  }
+  return inside;
+}
+
+}  // namespace
+
+WallMap::WallMap(FloorPlan plan) : plan_(std::move(plan)) {
+  std::vector<WallBox> boxes;
+  for (std::size_t i = 0; i < plan_.walls.size(); ++i) {
+    check(plan_.walls[i], i);
+    boxes.emplace_back(plan_.walls[i]);
+  }
+  faces_ = outline_of(boxes);
+  if (faces_.empty()) throw std::invalid_argument("the map has no walls");
+  corners_ = corners_of(faces_);
+  lower_left_ = upper_right_ = faces_.front().from;
+  for (const Face& face : faces_) {
+    lower_left_ = lower_left_.cwiseMin(face.from).cwiseMin(face.to);
+    upper_right_ = upper_right_.cwiseMax(face.from).cwiseMax(face.to);
+  }
+}
+
+std::optional<std::size_t> WallMap::room_at(const Vec2& point) const {
+  for (std::size_t i = 0; i < plan_.rooms.size(); ++i) {
+    if (contains(plan_.rooms[i].polygon, point)) return i;
+  }
+  return std::nullopt;
+}
+
+bool WallMap::is_solid(const Vec2& point) const {
+  return std::any_of(plan_.walls.begin(), plan_.walls.end(), [&](const Wall& wall) {
+    if (wall.thickness_m == 0) return false;
+    const WallBox box(wall);
+    const Vec2 local = box.to_local(point);
+    return std::abs(local.x()) < box.half_length_m && std::abs(local.y()) < box.half_width_m;
+  });
+}
+
+double WallMap::range_along(const Vec2& origin, double angle_rad, double max_range_m) const {
+  const Vec2 ray = unit_vector(angle_rad);
+  double nearest_m = max_range_m;
+  bool hit = false;
+  for (const Face& face : faces_) {
+    const double approach = -face.normal.dot(ray);
+    const double height_m = face.normal.dot(origin) - face.offset_m;
+    if (approach <= 1e-12 || height_m <= 0 || height_m > nearest_m * approach) continue;
+    const double range_m = height_m / approach;
+    const double along_m = face.direction.dot(origin + range_m * ray - face.from);
+    if (along_m < 0 || along_m > face.length_m) continue;
+    nearest_m = range_m;
+    hit = true;
+  }
+  return hit ? nearest_m : 0;
+}
+
+}  // namespace cornerd::core

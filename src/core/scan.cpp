@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+#include "core/scan.hpp"
+
+#include <cmath>
+#include <utility>
+
+#include "core/geometry/angle.hpp"
+
+namespace cornerd::core {
+namespace {
+
+/// How far the head has turned from the first to the last sample, either way round.
+double swept_rad(std::span<const Sample> samples) {
+  double swept = 0;
+  for (std::size_t i = 1; i < samples.size(); ++i) {
+    swept += angle_between(samples[i - 1].bearing_rad, samples[i].bearing_rad);
+  }
+  return std::abs(swept);
+}
+
+}  // namespace
+
+bool TurnAssembler::add(const Sample& sample, Scan& turn) {
+  bool completed = false;
+  if (sample.starts_turn) {
+    completed = collects_ && !collecting_.empty();
+    if (completed) std::swap(collecting_, turn);
+    collecting_.clear();
+    collects_ = true;
+  }
+  if (!collects_ || !collecting_.add(sample)) ++dropped_;
+  if (sample.ends_turn && collects_ && !completed) {
+    std::swap(collecting_, turn);
+    collecting_.clear();
+    collects_ = false;
+    completed = true;
+  }
+  return completed;
+}
+
+bool TurnAssembler::finish(Scan& turn) {
+  constexpr double kWholeTurnRad = radians(350);
+  const bool whole = collects_ && swept_rad(collecting_.samples()) >= kWholeTurnRad;
+  if (whole) {
+    std::swap(collecting_, turn);
+  } else {
+    dropped_ += collecting_.size();
+  }
+  collecting_.clear();
+  collects_ = false;
+  return whole;
+}
+
+void TurnAssembler::reset() {
+  dropped_ += collecting_.size();
+  collecting_.clear();
+  collects_ = false;
+}
+
+}  // namespace cornerd::core
