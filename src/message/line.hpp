@@ -5,12 +5,15 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <string>
 #include <string_view>
 
 #include "core/localizer.hpp"
+#include "message/json_text.hpp"
 
 namespace cornerd::message {
+
+/// Version of the messages themselves: grows only where a field would change its meaning.
+inline constexpr int kSchema = 1;
 
 /// What STATUS says. Texts must outlive the call that writes them.
 struct StatusFields {
@@ -38,7 +41,9 @@ struct StatusFields {
 };
 
 /// One line under construction. Memory for the longest SCAN is taken at construction; writing
-/// allocates nothing and ends every message with a newline.
+/// allocates nothing (texts of reasonable length taken as given) and ends every message with a
+/// newline. What is returned is valid until the next message. Values that are not finite are left
+/// out. Not safe for concurrent calls.
 class LineWriter {
  public:
   LineWriter();
@@ -70,7 +75,13 @@ class LineWriter {
   std::string_view truth(core::TimeNs t_ns, const core::Pose2& T_map_base);
 
  private:
-  std::string line_;
+  void begin(std::string_view message_class);
+  std::string_view finish();
+  void metres(std::string_view key, double value_m);
+  void angle(std::string_view key, double value_rad);
+  void place(const core::Pose2& T_map_base);
+
+  JsonText json_;
 };
 
 }  // namespace cornerd::message

@@ -2,6 +2,7 @@
 // What a client may send, and what a recording holds: one line in, one checked value out.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -46,15 +47,17 @@ struct RelocalizeRequest {};
 struct SetPoseRequest {
   core::Pose2 T_map_base;
 };
+/// A request without t is one of now: `timed` is false and t_ns 0. A recorded one always has it.
 struct OdometryReading {
   core::TimeNs t_ns = 0;
+  bool timed = true;
   std::optional<std::int64_t> left;
   std::optional<std::int64_t> right;
   std::optional<double> gyro_rad_s;
 };
 
 struct RequestError {
-  std::string code;  ///< "json", "class", "field", "too-long"
+  std::string code;  ///< "too-long", "json", "class", "field"
   std::string text;
 };
 
@@ -66,10 +69,16 @@ struct Request {
   std::string id_json;  ///< JSON text; empty: none was sent
 };
 
+/// A longer line closes the connection of the client that sends it.
+inline constexpr std::size_t kMaxRequestBytes = 64 * 1024;
+/// Fits the longest SCAN, written with all the places that a double has.
+inline constexpr std::size_t kMaxRecordedBytes = 2 * 1024 * 1024;
+
 /// Never throws; any bytes give a Request, a bad line one that holds RequestError.
 Request parse_request(std::string_view line);
 
 /// The lines of a recording that are inputs; the rest is none of these.
+/// A scan's first sample starts a turn.
 struct RecordedScan {
   core::TimeNs t_ns = 0;
   core::TimeNs duration_ns = 0;

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: MIT
+#include "message/field_reader.hpp"
+
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace cornerd::message {
+namespace {
+
+/// No message nests deeper than three; the bound keeps a line of brackets from costing memory.
+constexpr int kMaxDepth = 8;
+
+bool nests_deeper(std::string_view text, int max_depth) {
+  int depth = 0;
+  bool in_string = false;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (in_string) {
+      if (c == '\\') ++i;
+      if (c == '"') in_string = false;
+    } else if (c == '"') {
+      in_string = true;
+    } else if (c == '{' || c == '[') {
+      if (++depth > max_depth) return true;
+    } else if (c == '}' || c == ']') {
+      --depth;
+    }
+  }
+  return false;
+}
+
+std::string shortest(double value) {
+  std::array<char, 32> digits;
+  return {digits.data(), std::to_chars(digits.begin(), digits.end(), value).ptr};
+}
+
+std::string quoted(std::string_view name) { return "\"" + std::string(name) + "\""; }
+
+}  // namespace
+
+std::optional<Json> parse_object(std::string_view line, std::size_t max_bytes,
+                                 RequestError& error) {
+  if (line.size() > max_bytes) {
+    error = {"too-long", "a line has at most " + std::to_string(max_bytes) + " bytes"};
+    return std::nullopt;
+  }
+  if (nests_deeper(line, kMaxDepth)) {
+    error = {"json", "nested deeper than " + std::to_string(kMaxDepth) + " levels"};
+    return std::nullopt;
+  }
+  Json parsed = Json::parse(line, nullptr, /*allow_exceptions=*/false);
+  if (!parsed.is_object()) {
+    error = {"json", "not one JSON object in UTF-8 on a line of its own"};
+    return std::nullopt;
+  }
+  return parsed;
+}
+
+void FieldReader::fail(const std::string& reason) {
+  if (!error_) error_ = {"field", reason};
+}
+
+const Json* FieldReader::find(const char* name) {
+  const auto found = object_.find(name);
+  if (found == object_.end()) {
+    fail(quoted(name) + " is missing");
+    return nullptr;
+  }
+  return &*found;
+}
+
+double FieldReader::check(const std::string& name, const Json& value, Limits limits) {
+  if (!value.is_number()) {
+    fail(name + " must be a number");
+    return 0;
+  }
+  const double number = value.get<double>();
+  if (!(number >= limits.low && number <= limits.high)) {
+    fail(name + " must be from " + shortest(limits.low) + " to " + shortest(limits.high));
+    return 0;
+  }
+  return number;
+}
+
+double FieldReader::number(const char* name, Limits limits) {
+  const Json* value = find(name);
+  return value == nullptr ? 0 : check(quoted(name), *value, limits);
+}
+
+std::optional<double> FieldReader::optional_number(const char* name, Limits limits) {
+  if (!has(name)) return std::nullopt;
+  return number(name, limits);
+}
+
+std::optional<std::int64_t> FieldReader::optional_integer(const char* name) {
+  if (!has(name)) return std::nullopt;
+  const Json& value = object_[name];
+  constexpr std::int64_t kMax = std::numeric_limits<std::int64_t>::max();
+  if (value.is_number_unsigned() && value.get<std::uint64_t>() > static_cast<std::uint64_t>(kMax)) {
+    fail(quoted(name) + " must fit 64 bits");
+    return std::nullopt;
+  }
+  if (value.is_number_integer()) return value.get<std::int64_t>();
+  // Languages without integers write 12.0 or 1e6; beyond 2^53 such a number has lost digits.
+  constexpr double kLargestExact = 9007199254740992.0;
+  const double number = check(quoted(name), value, {-kLargestExact, kLargestExact});
+  if (number != std::floor(number)) fail(quoted(name) + " must be a whole number");
+  return error_ ? std::nullopt : std::optional(static_cast<std::int64_t>(number));
+}
+
+std::string_view FieldReader::text(const char* name) {
+  const Json* value = find(name);
+  if (value == nullptr) return {};
+  if (!value->is_string()) {
+    fail(quoted(name) + " must be a string");
+    return {};
+  }
+  return value->get_ref<const std::string&>();
+}
+
+const Json& FieldReader::array(const char* name, std::size_t max_size) {
+  static const Json kEmpty = Json::array();
+  const Json* value = find(name);
+  if (value == nullptr) return kEmpty;
+  if (!value->is_array()) {
+    fail(quoted(name) + " must be an array");
+    return kEmpty;
+  }
+  if (value->size() > max_size) {
+    fail(quoted(name) + " has more than " + std::to_string(max_size) + " elements");
+    return kEmpty;
+  }
+  return *value;
+}
+
+double FieldReader::element(const char* name, const Json& array, std::size_t index, Limits limits) {
+  const Json& value = array[index];
+  if (value.is_number()) {
+    const double number = value.get<double>();
+    if (number >= limits.low && number <= limits.high) return number;
+  }
+  return check(quoted(name) + "[" + std::to_string(index) + "]", value, limits);
+}
+
+}  // namespace cornerd::message

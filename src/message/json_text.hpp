@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+// Compact JSON, written from left to right into memory that was taken beforehand.
+#pragma once
+
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <type_traits>
+
+#include "core/types.hpp"
+
+namespace cornerd::message {
+
+/// Commas place themselves: a value follows either an opening bracket, a key or another value.
+/// Allocates only where the text outgrows `capacity`.
+class JsonText {
+ public:
+  explicit JsonText(std::size_t capacity) { text_.reserve(capacity); }
+
+  void clear() { text_.clear(); }
+  std::string_view view() const { return text_; }
+
+  void open_object() { open('{'); }
+  void close_object() { text_ += '}'; }
+  void open_array() { open('['); }
+  void close_array() { text_ += ']'; }
+  void end_line() { text_ += '\n'; }
+
+  void key(std::string_view name);
+
+  /// Quoted and escaped; bytes that are no UTF-8 become U+FFFD.
+  void string(std::string_view value);
+  /// Text that is JSON already.
+  void raw(std::string_view json);
+  void boolean(bool value) { raw(value ? "true" : "false"); }
+  template <std::integral T>
+  void integer(T value) {
+    separate();
+    if constexpr (std::is_signed_v<T>) {
+      append_integer(static_cast<std::int64_t>(value));
+    } else {
+      append_integer(static_cast<std::uint64_t>(value));
+    }
+  }
+  /// At most `decimals` (<= 9) places, without trailing zeros. Finite values only.
+  void fixed(double value, int decimals);
+  /// Six significant digits. Finite values only.
+  void significant(double value);
+  /// An angle in (-pi, pi], to a microradian: rounded towards zero at the ends of that interval, so
+  /// that what is read back lies in it too.
+  void angle(double value_rad);
+  /// Seconds with six places: what a double keeps of UNIX time.
+  void seconds(core::TimeNs t_ns);
+  void hex(std::span<const std::uint8_t> bytes);
+
+ private:
+  void open(char bracket) {
+    separate();
+    text_ += bracket;
+  }
+  void separate();
+  void append_integer(std::int64_t value);
+  void append_integer(std::uint64_t value);
+  void append_scaled(std::int64_t scaled, int decimals, bool keep_zeros);
+
+  std::string text_;
+};
+
+}  // namespace cornerd::message

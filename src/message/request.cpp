@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+#include "message/request.hpp"
+
+#include <utility>
+
+#include "message/field_reader.hpp"
+#include "message/odometry_fields.hpp"
+
+namespace cornerd::message {
+namespace {
+
+using Body = decltype(Request::body);
+
+constexpr std::size_t kMaxIdBytes = 256;
+constexpr std::size_t kMaxWatchedClasses = 64;
+
+/// An id is any scalar; it comes back as it was written.
+std::string read_id(const Json& object, FieldReader& fields) {
+  const auto id = object.find("id");
+  if (id == object.end()) return {};
+  if (id->is_structured()) {
+    fields.fail("\"id\" must be a string, a number, true, false or null");
+    return {};
+  }
+  std::string text = id->dump();
+  if (text.size() > kMaxIdBytes) {
+    fields.fail("\"id\" has more than " + std::to_string(kMaxIdBytes) + " bytes");
+    return {};
+  }
+  return text;
+}
+
+Body read_watch(FieldReader& fields) {
+  WatchRequest watch;
+  for (const Json& name : fields.array("classes", kMaxWatchedClasses)) {
+    if (!name.is_string()) {
+      fields.fail("\"classes\" must hold names of classes");
+      break;
+    }
+    const auto& text = name.get_ref<const std::string&>();
+    const auto message_class = message_class_from(text);
+    if (!message_class) {
+      fields.fail("\"classes\" holds an unknown class: " + text.substr(0, 64));
+      break;
+    }
+    watch.classes.insert(*message_class);
+  }
+  return watch;
+}
+
+Body read_set_pose(FieldReader& fields) {
+  SetPoseRequest request;
+  request.T_map_base.x_m = fields.number("x", kCoordinateLimits_m);
+  request.T_map_base.y_m = fields.number("y", kCoordinateLimits_m);
+  request.T_map_base.theta_rad = core::normalize_angle(fields.number("theta", kAngleLimits_rad));
+  return request;
+}
+
+Body read_body(const std::string& name, FieldReader& fields) {
+  if (name == "WATCH") return read_watch(fields);
+  if (name == "POLL") return PollRequest{};
+  if (name == "RELOCALIZE") return RelocalizeRequest{};
+  if (name == "SET_POSE") return read_set_pose(fields);
+  if (name == "ODOMETRY") return read_odometry(fields);
+  return RequestError{"class", "no request of this class: " + name.substr(0, 64)};
+}
+
+}  // namespace
+
+Request parse_request(std::string_view line) {
+  Request request;
+  RequestError error;
+  const auto object = parse_object(line, kMaxRequestBytes, error);
+  if (!object) {
+    request.body = std::move(error);
+    return request;
+  }
+  FieldReader fields(*object);
+  request.id_json = read_id(*object, fields);
+  if (!fields.has("class")) {
+    request.body = RequestError{"class", "\"class\" is missing"};
+    return request;
+  }
+  request.name = fields.text("class");
+  if (!fields.error()) request.body = read_body(request.name, fields);
+  if (fields.error()) request.body = *fields.error();
+  return request;
+}
+
+}  // namespace cornerd::message

@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: MIT
+// One line a key: its name, the member that holds its default, its limits. config/cornerd.full.json
+// says what each of them means.
+#include "settings/config.hpp"
+
+#include <sys/un.h>
+
+#include <utility>
+
+#include "settings/object_reader.hpp"
+#include "settings/override.hpp"
+
+namespace cornerd::settings {
+namespace {
+
+constexpr std::size_t kMaxConfigBytes = 1 << 20;
+constexpr std::size_t kMaxNameBytes = 64;
+
+constexpr Choice<DriverKind> kDrivers[] = {{"rplidar", DriverKind::kRplidar},
+                                           {"replay", DriverKind::kReplay}};
+constexpr Choice<MotorKind> kMotorsByName[] = {{"dtr", MotorKind::kDtr},
+                                               {"none", MotorKind::kNone}};
+constexpr Choice<MotorKind> kMotorsByPath[] = {{"gpio", MotorKind::kGpio},
+                                               {"pwm", MotorKind::kPwm}};
+constexpr Choice<core::Method> kMethods[] = {{"altbd", core::Method::kAltbd},
+                                             {"abd-iepf", core::Method::kAbdIepf},
+                                             {"lt", core::Method::kLineTracking}};
+constexpr Choice<std::string_view> kOdometrySources[] = {{"none", "none"}};
+
+void read_mount(ObjectReader mount, MountConfig& config) {
+  mount.number("x", config.x_m, {-10, 10});
+  mount.number("y", config.y_m, {-10, 10});
+  mount.number("theta", config.theta_rad, {-6.2832, 6.2832});
+  mount.boolean("inverted", config.inverted);
+  mount.finish();
+}
+
+/// A name, or an object where the motor hangs on a line of its own.
+void read_motor(ObjectReader& lidar, MotorConfig& config) {
+  const Json* value = lidar.find("motor");
+  if (value == nullptr) return;
+  if (!value->is_object()) {
+    lidar.choice("motor", config.kind, kMotorsByName);
+    return;
+  }
+  ObjectReader motor = lidar.object("motor");
+  if (!motor.choice("kind", config.kind, kMotorsByPath)) motor.fail("kind", "is missing");
+  if (!motor.path("path", config.path)) motor.fail("path", "is missing");
+  if (config.kind == MotorKind::kPwm) {
+    motor.number("duty", config.duty, {0, 1});
+    motor.number("period", config.period_s, {1e-6, 1});
+  }
+  motor.finish();
+}
+
+void read_speed(ObjectReader& lidar, double& speed) {
+  const Json* value = lidar.find("speed");
+  if (value != nullptr && *value == "max") {
+    speed = 0;
+  } else {
+    lidar.number("speed", speed, {0, 1000});
+  }
+}
+
+void read_lidar(ObjectReader lidar, LidarConfig& config) {
+  lidar.choice("driver", config.driver, kDrivers);
+  lidar.path("device", config.device);
+  lidar.integer("baud", config.baud, 9'600u, 4'000'000u);
+  lidar.text("mode", config.mode, kMaxNameBytes);
+  lidar.number("min_range", config.min_range_m, {0, 40});
+  lidar.number("max_range", config.max_range_m, {0.1, 40});
+  read_mount(lidar.object("mount"), config.mount);
+  read_motor(lidar, config.motor);
+  lidar.path("file", config.file);
+  read_speed(lidar, config.speed);
+  lidar.boolean("loop", config.loop);
+  lidar.finish();
+  if (config.max_range_m <= config.min_range_m) {
+    lidar.fail("max_range", "must be more than min_range, " + to_text(config.min_range_m));
+  }
+  if (config.driver == DriverKind::kReplay && config.file.empty()) {
+    lidar.fail("file", "is missing; the driver \"replay\" plays it");
+  }
+}
+
+void read_detector(ObjectReader detector, core::DetectorConfig& config) {
+  detector.choice("method", config.method, kMethods);
+  detector.number("sigma_offset", config.sigma_offset, {0.001, 1});
+  detector.number("corner_tolerance", config.corner_tolerance_m, {0.001, 10});
+  detector.finish();
+}
+
+void read_odometry(ObjectReader odometry, OdometryConfig& config) {
+  std::string_view source = config.source;
+  if (odometry.choice("source", source, kOdometrySources)) config.source = source;
+  odometry.number("wheel_radius", config.wheel_radius_m, {0.001, 10});
+  odometry.number("track", config.track_m, {0.001, 10});
+  odometry.number("counts_per_turn", config.counts_per_turn, {1, 1e7});
+  odometry.finish();
+}
+
+void read_socket_path(ObjectReader& socket, std::string_view key, std::filesystem::path& member) {
+  constexpr std::size_t kMaxBytes = sizeof(sockaddr_un::sun_path) - 1;
+  socket.path(key, member);
+  if (member.native().size() > kMaxBytes) {
+    socket.fail(key, "a socket's path has at most " + std::to_string(kMaxBytes) +
+                         " bytes: " + member.string());
+  }
+}
+
+void read_sockets(ObjectReader socket, SocketConfig& config) {
+  read_socket_path(socket, "pose", config.pose);
+  read_socket_path(socket, "control", config.control);
+  socket.finish();
+  if (config.pose == config.control) socket.fail("control", "must not be the same as pose");
+}
+
+void read_realtime(ObjectReader realtime, RealtimeConfig& config) {
+  realtime.integer("priority", config.priority, 0, 99);
+  realtime.boolean("lock_memory", config.lock_memory);
+  realtime.finish();
+}
+
+Config read_config(ObjectReader root, bool require_map) {
+  Config config;
+  read_lidar(root.object("lidar"), config.lidar);
+  if (!root.path("map", config.map) && require_map) {
+    root.fail("map", "is missing; it is the one key without a default");
+  }
+  read_detector(root.object("detector"), config.detector);
+  read_odometry(root.object("odometry"), config.odometry);
+  read_sockets(root.object("socket"), config.socket);
+  read_realtime(root.object("realtime"), config.realtime);
+  root.finish();
+  return config;
+}
+
+}  // namespace
+
+core::LocalizerConfig Config::localizer() const {
+  core::LocalizerConfig config;
+  config.min_range_m = lidar.min_range_m;
+  config.max_range_m = lidar.max_range_m;
+  config.T_base_lidar = {lidar.mount.x_m, lidar.mount.y_m,
+                         core::normalize_angle(lidar.mount.theta_rad)};
+  config.detector = detector;
+  return config;
+}
+
+Config parse_config(std::string_view text, const std::filesystem::path& file,
+                    const std::vector<std::string>& overrides, bool require_map) {
+  DocumentContext context{.file = file};
+  if (!file.empty()) context.folder = std::filesystem::absolute(file).parent_path();
+  Json document = parse_document(text, file);
+  for (const std::string& override_text : overrides) {
+    context.overridden.insert(apply_override(document, override_text));
+  }
+  return read_config({context, document, ""}, require_map);
+}
+
+Config load_config(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
+  return parse_config(read_file(file, kMaxConfigBytes), file, overrides);
+}
+
+}  // namespace cornerd::settings

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: MIT
+#include "settings/map_file.hpp"
+
+#include <stdexcept>
+#include <utility>
+
+#include "settings/object_reader.hpp"
+
+namespace cornerd::settings {
+namespace {
+
+/// A file of the most walls, written generously.
+constexpr std::size_t kMaxMapBytes = 32 << 20;
+constexpr std::size_t kMaxWalls = 100'000;
+constexpr std::size_t kMaxRooms = 10'000;
+constexpr std::size_t kMaxPolygonPoints = 10'000;
+constexpr std::size_t kMaxNameBytes = 128;
+constexpr int kVersion = 1;
+
+constexpr Interval kCoordinate_m{-10'000, 10'000};
+constexpr Interval kThickness_m{0, 10};
+
+/// Nearer than that two points are one: a tenth of a millimetre, below any drawing's precision.
+constexpr double kSamePoint_m = 1e-4;
+
+const Json& require_array(ObjectReader& object, std::string_view key, std::size_t min_size,
+                          std::size_t max_size) {
+  const Json* array = object.find(key);
+  if (array == nullptr) object.fail(key, "is missing");
+  if (!array->is_array()) object.fail(key, "must be an array");
+  if (array->size() < min_size) {
+    object.fail(key, "must have at least " + std::to_string(min_size) +
+                         (min_size == 1 ? " element" : " elements"));
+  }
+  if (array->size() > max_size) {
+    object.fail(key, "must have at most " + std::to_string(max_size) + " elements");
+  }
+  return *array;
+}
+
+/// `fail` is called with the reason and does not return.
+core::Vec2 read_point(const Json& value, const auto& fail) {
+  if (!value.is_array() || value.size() != 2 || !value[0].is_number() || !value[1].is_number()) {
+    fail("must be a point, [x, y] in metres");
+  }
+  const core::Vec2 point{value[0].get<double>(), value[1].get<double>()};
+  if (!(point.minCoeff() >= kCoordinate_m.low && point.maxCoeff() <= kCoordinate_m.high)) {
+    fail("coordinates must be from " + to_text(kCoordinate_m.low) + " to " +
+         to_text(kCoordinate_m.high));
+  }
+  return point;
+}
+
+core::Vec2 require_point(ObjectReader& object, std::string_view key) {
+  const Json* value = object.find(key);
+  if (value == nullptr) object.fail(key, "is missing");
+  return read_point(*value, [&](const std::string& reason) { object.fail(key, reason); });
+}
+
+core::Wall read_wall(ObjectReader object, double default_thickness_m) {
+  core::Wall wall;
+  wall.from = require_point(object, "from");
+  wall.to = require_point(object, "to");
+  wall.thickness_m = default_thickness_m;
+  object.number("thickness", wall.thickness_m, kThickness_m);
+  object.finish();
+  if ((wall.to - wall.from).norm() < kSamePoint_m && wall.thickness_m < kSamePoint_m) {
+    object.fail("to", "the wall has neither length nor thickness");
+  }
+  return wall;
+}
+
+core::Room read_room(ObjectReader object) {
+  core::Room room;
+  if (!object.text("name", room.name, kMaxNameBytes)) object.fail("name", "is missing");
+  const Json& polygon = require_array(object, "polygon", 3, kMaxPolygonPoints);
+  room.polygon.reserve(polygon.size());
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    room.polygon.push_back(read_point(
+        polygon[i], [&](const std::string& reason) { object.fail("polygon", i, reason); }));
+  }
+  object.finish();
+  return room;
+}
+
+void check_format(ObjectReader& root) {
+  std::string format;
+  if (!root.text("format", format, kMaxNameBytes) || format != "cornerd-map") {
+    root.fail("format", "must be \"cornerd-map\"; is this file a map?");
+  }
+  int version = 0;
+  if (!root.integer("version", version, 0, 1'000'000)) root.fail("version", "is missing");
+  if (version != kVersion) {
+    root.fail("version", "is " + std::to_string(version) + "; this program reads version " +
+                             std::to_string(kVersion));
+  }
+}
+
+core::FloorPlan read_plan(ObjectReader root, const std::filesystem::path& file) {
+  core::FloorPlan plan;
+  check_format(root);
+  plan.name = file.stem().string();
+  root.text("name", plan.name, kMaxNameBytes);
+  root.number("thickness", plan.thickness_m, kThickness_m);
+  const Json& walls = require_array(root, "walls", 1, kMaxWalls);
+  plan.walls.reserve(walls.size());
+  for (std::size_t i = 0; i < walls.size(); ++i) {
+    plan.walls.push_back(read_wall(root.element("walls", walls, i), plan.thickness_m));
+  }
+  if (root.find("rooms") != nullptr) {
+    const Json& rooms = require_array(root, "rooms", 0, kMaxRooms);
+    plan.rooms.reserve(rooms.size());
+    for (std::size_t i = 0; i < rooms.size(); ++i) {
+      plan.rooms.push_back(read_room(root.element("rooms", rooms, i)));
+    }
+  }
+  root.finish();
+  return plan;
+}
+
+}  // namespace
+
+core::FloorPlan parse_floor_plan(std::string_view text, const std::filesystem::path& file) {
+  const DocumentContext context{.file = file};
+  const Json document = parse_document(text, file);
+  return read_plan({context, document, ""}, file);
+}
+
+std::shared_ptr<const core::WallMap> load_map(const std::filesystem::path& file) {
+  core::FloorPlan plan = parse_floor_plan(read_file(file, kMaxMapBytes), file);
+  try {
+    return std::make_shared<const core::WallMap>(std::move(plan));
+  } catch (const std::invalid_argument& error) {
+    throw SettingsError(file.string(), "/walls", error.what());
+  }
+}
+
+}  // namespace cornerd::settings

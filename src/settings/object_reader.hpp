@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: MIT
+// Takes the keys of a JSON object, one call a key: the call is the one place that knows the key,
+// and what the member held before is its default.
+#pragma once
+
+#include <array>
+#include <concepts>
+#include <cstddef>
+#include <filesystem>
+#include <set>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "settings/document.hpp"
+
+namespace cornerd::settings {
+
+/// What all objects of one document share.
+struct DocumentContext {
+  std::filesystem::path file;          ///< as errors name it
+  std::filesystem::path folder{};      ///< of relative paths; empty: they stay as they are
+  std::set<std::string> overridden{};  ///< pointers of values that did not come from the file
+};
+
+struct Interval {
+  double low = 0;
+  double high = 0;
+};
+
+template <typename Value>
+struct Choice {
+  std::string_view name;
+  Value value;
+};
+
+/// Every function throws SettingsError where the key is there and its value wrong; an absent key
+/// leaves the member as it is. A reader that goes out of scope without finish() checks nothing.
+class ObjectReader {
+ public:
+  ObjectReader(const DocumentContext& context, const Json& value, std::string pointer);
+
+  bool number(std::string_view key, double& member, Interval limits);
+  template <std::integral Integer>
+  bool integer(std::string_view key, Integer& member, Integer low, Integer high) {
+    double value = static_cast<double>(member);
+    if (!number(key, value, {static_cast<double>(low), static_cast<double>(high)})) return false;
+    member = static_cast<Integer>(value);
+    if (static_cast<double>(member) != value) fail(key, "must be a whole number");
+    return true;
+  }
+  bool boolean(std::string_view key, bool& member);
+  bool text(std::string_view key, std::string& member, std::size_t max_bytes);
+  /// Relative to the folder of the file; to the working directory where it was given elsewhere.
+  bool path(std::string_view key, std::filesystem::path& member);
+  template <typename Value, std::size_t kCount>
+  bool choice(std::string_view key, Value& member, const Choice<Value> (&choices)[kCount]) {
+    std::array<std::string_view, kCount> names;
+    for (std::size_t i = 0; i < kCount; ++i) names[i] = choices[i].name;
+    const Json* value = find(key);
+    if (value == nullptr) return false;
+    member = choices[find_name(key, *value, names)].value;
+    return true;
+  }
+
+  /// The value itself, for what has a shape of its own; nullptr where the key is absent.
+  const Json* find(std::string_view key);
+  /// A nested object; an empty one where the key is absent.
+  ObjectReader object(std::string_view key);
+  ObjectReader element(std::string_view key, const Json& array, std::size_t index) const;
+
+  /// Every key has been asked for: any other one is an error.
+  void finish() const;
+
+  [[noreturn]] void fail(std::string_view key, const std::string& reason) const;
+  [[noreturn]] void fail(std::string_view key, std::size_t index, const std::string& reason) const;
+  std::string pointer(std::string_view key) const { return child_pointer(pointer_, key); }
+
+ private:
+  std::size_t find_name(std::string_view key, const Json& value,
+                        std::span<const std::string_view> names) const;
+
+  const DocumentContext& context_;
+  const Json& value_;
+  std::string pointer_;
+  std::vector<std::string> known_;
+};
+
+/// For messages: 0.15, 12, 1e+06.
+std::string to_text(double value);
+
+}  // namespace cornerd::settings
