@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+#include <utility>
+
+#include "core/localizer.hpp"
+#include "core/scan.hpp"
+
+namespace cornerd::core {
+
+/// From samples to poses: the one object that the daemon, replays and tests alike run. Allocates
+/// nothing after construction. Not safe for concurrent calls.
+class Pipeline {
+ public:
+  /// `map`: may be null; see Localizer.
+  Pipeline(std::shared_ptr<const WallMap> map, const LocalizerConfig& config)
+      : localizer_(std::move(map), config) {}
+
+  /// What a turn gave, where this sample is the first after it; else null. Valid, like turn(),
+  /// until the next call.
+  const TurnResult* add(const Sample& sample) {
+    return assembler_.add(sample, turn_) ? &localizer_.step(turn_) : nullptr;
+  }
+
+  /// The stream ends, or goes on somewhere else: what the turn in progress gave, where it is whole.
+  const TurnResult* finish() {
+    const bool whole = assembler_.finish(turn_);
+    assembler_.reset();
+    return whole ? &localizer_.step(turn_) : nullptr;
+  }
+
+  /// The turn that the last result is of.
+  const Scan& turn() const { return turn_; }
+
+  Localizer& localizer() { return localizer_; }
+  const TurnAssembler& assembler() const { return assembler_; }
+
+ private:
+  TurnAssembler assembler_;
+  Scan turn_;
+  Localizer localizer_;
+};
+
+}  // namespace cornerd::core
