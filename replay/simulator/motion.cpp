@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: MIT
+#include "replay/simulator/motion.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+namespace cornerd::replay {
+namespace {
+
+/// A piece of a drive at constant rates.
+struct Leg {
+  double start_s = 0;
+  double duration_s = 0;
+  core::Pose2 from;
+  core::Vec2 velocity_m_s = core::Vec2::Zero();
+  double yaw_rate_rad_s = 0;
+};
+
+class Drive {
+ public:
+  Drive(const std::vector<core::Vec2>& points, const DriveConfig& config) : config_(config) {
+    std::vector<core::Vec2> stops;
+    for (const core::Vec2& point : points) {
+      if (stops.empty() || point != stops.back()) stops.push_back(point);
+    }
+    if (config.loop && stops.size() > 1 && stops.front() == stops.back()) stops.pop_back();
+    if (stops.size() < 2) throw std::invalid_argument("a path needs two different points");
+    if (!(config.speed_m_s > 0) || !(config.yaw_rate_rad_s > 0)) {
+      throw std::invalid_argument("speed and yaw rate of a drive must be positive");
+    }
+    end_ = {stops[0].x(), stops[0].y(), heading(stops[0], stops[1])};
+    const double first_heading_rad = end_.theta_rad;
+    for (std::size_t i = 1; i < stops.size(); ++i) go_to(stops[i]);
+    if (config.loop) {
+      go_to(stops[0]);
+      turn_to(first_heading_rad);
+    }
+  }
+
+  core::Pose2 pose_at(double t_s) const {
+    if (config_.loop) t_s = std::fmod(t_s, length_s_);
+    const auto after = std::upper_bound(legs_.begin(), legs_.end(), t_s,
+                                        [](double t, const Leg& leg) { return t < leg.start_s; });
+    const Leg& leg = after == legs_.begin() ? legs_.front() : *(after - 1);
+    const double dt_s = std::clamp(t_s - leg.start_s, 0.0, leg.duration_s);
+    return {leg.from.x_m + leg.velocity_m_s.x() * dt_s, leg.from.y_m + leg.velocity_m_s.y() * dt_s,
+            core::normalize_angle(leg.from.theta_rad + leg.yaw_rate_rad_s * dt_s)};
+  }
+
+ private:
+  static double heading(const core::Vec2& from, const core::Vec2& to) {
+    return std::atan2(to.y() - from.y(), to.x() - from.x());
+  }
+
+  void turn_to(double heading_rad) {
+    const double turn_rad = core::angle_between(end_.theta_rad, heading_rad);
+    if (turn_rad == 0) return;
+    const double duration_s = std::abs(turn_rad) / config_.yaw_rate_rad_s;
+    legs_.push_back({length_s_, duration_s, end_, core::Vec2::Zero(), turn_rad / duration_s});
+    end_.theta_rad = heading_rad;
+    length_s_ += duration_s;
+  }
+
+  void go_to(const core::Vec2& point) {
+    turn_to(heading(end_.translation(), point));
+    const core::Vec2 way = point - end_.translation();
+    const double duration_s = way.norm() / config_.speed_m_s;
+    legs_.push_back({length_s_, duration_s, end_, way / duration_s, 0});
+    end_ = {point.x(), point.y(), end_.theta_rad};
+    length_s_ += duration_s;
+  }
+
+  DriveConfig config_;
+  std::vector<Leg> legs_;
+  core::Pose2 end_;
+  double length_s_ = 0;
+};
+
+}  // namespace
+
+Motion stand_still(const core::Pose2& T_map_base) {
+  return [T_map_base](core::TimeNs, std::int64_t) { return T_map_base; };
+}
+
+Motion visit_places(std::vector<core::Pose2> places, std::int64_t turns_each) {
+  if (places.empty()) throw std::invalid_argument("there is no place to visit");
+  if (turns_each < 1) throw std::invalid_argument("a visit takes at least one turn");
+  return [places = std::move(places), turns_each](core::TimeNs, std::int64_t turn) {
+    const auto last = static_cast<std::int64_t>(places.size()) - 1;
+    const std::int64_t index = std::clamp<std::int64_t>(turn / turns_each, 0, last);
+    return places[static_cast<std::size_t>(index)];
+  };
+}
+
+Motion drive_path(const std::vector<core::Vec2>& points, const DriveConfig& config) {
+  return [drive = Drive(points, config)](core::TimeNs t_ns, std::int64_t) {
+    return drive.pose_at(core::to_seconds(t_ns));
+  };
+}
+
+}  // namespace cornerd::replay

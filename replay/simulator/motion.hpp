@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+// Where a simulated robot is at any time.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "core/geometry/pose2.hpp"
+#include "core/types.hpp"
+
+namespace cornerd::replay {
+
+/// The pose of `base` in `map`, at a time since the start and in a turn of the sensor. Turn 0 is
+/// the first whole one; what comes before it is turn -1.
+using Motion = std::function<core::Pose2(core::TimeNs t_ns, std::int64_t turn)>;
+
+Motion stand_still(const core::Pose2& T_map_base);
+
+/// Stands at each place for some turns of the sensor, then is at the next one at once; stays at the
+/// last. Throws std::invalid_argument where `places` is empty or `turns_each` is not positive.
+Motion visit_places(std::vector<core::Pose2> places, std::int64_t turns_each);
+
+struct DriveConfig {
+  double speed_m_s = 0.2;
+  double yaw_rate_rad_s = 1.5;  ///< while it turns on the spot
+  bool loop = false;            ///< from the last point back to the first, for ever
+};
+
+/// Drives straight from point to point and turns on the spot in between, as a robot with two wheels
+/// does. It starts at the first point, looking at the second; at the end it stands, unless it
+/// loops. Throws std::invalid_argument for fewer than two different points, or a rate that is not
+/// positive.
+Motion drive_path(const std::vector<core::Vec2>& points, const DriveConfig& config);
+
+}  // namespace cornerd::replay

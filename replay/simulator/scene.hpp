@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+// What a lidar sees, whatever it is made of.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+
+#include "core/geometry/pose2.hpp"
+#include "core/map/wall_map.hpp"
+#include "core/types.hpp"
+#include "replay/simulator/motion.hpp"
+
+namespace cornerd::replay {
+
+class Scene {
+ public:
+  virtual ~Scene() = default;
+
+  /// Distance along a ray in the lidar's frame; 0: nothing there. Times and turns of successive
+  /// calls do not decrease.
+  virtual double range_along(core::TimeNs t_ns, std::int64_t turn, const core::Vec2& origin,
+                             double bearing_rad) = 0;
+};
+
+/// A robot with a lidar among the walls of a map.
+class MapScene : public Scene {
+ public:
+  MapScene(std::shared_ptr<const core::WallMap> map, Motion motion,
+           const core::Pose2& T_base_lidar = {});
+
+  double range_along(core::TimeNs t_ns, std::int64_t turn, const core::Vec2& origin,
+                     double bearing_rad) override;
+
+  /// The truth: the pose of `base`.
+  core::Pose2 T_map_base(core::TimeNs t_ns, std::int64_t turn) const { return motion_(t_ns, turn); }
+
+ private:
+  std::shared_ptr<const core::WallMap> map_;
+  Motion motion_;
+  core::Pose2 T_base_lidar_;
+};
+
+}  // namespace cornerd::replay

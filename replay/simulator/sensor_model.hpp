@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+// How an A1 errs.
+#pragma once
+
+#include <cstdint>
+
+#include "replay/simulator/random.hpp"
+
+namespace cornerd::replay {
+
+/// Errors of a simulated A1. The defaults: noise after the A1M8 datasheet (resolution under 0.5 mm
+/// below 1.5 m, under 1 % of the distance beyond) and readings of a wall, which give 1.5 mm below
+/// 1 m and about 0.5 % of the range farther out. Indoors, real units lose 38-84 % of their samples:
+/// set `missing` for that.
+struct SensorModel {
+  double min_range_m = 0.15;  ///< nearer walls give nothing
+  double max_range_m = 12.0;  ///< farther ones neither
+
+  double sigma_floor_m = 0.0015;  ///< standard deviation of a range: the larger of this
+  double sigma_share = 0.005;     ///< and this share of the range
+
+  /// Standard deviation between the direction that a sample claims and the one it measured.
+  double angle_jitter_rad = core::radians(0.05);
+
+  double missing = 0.005;  ///< share of the samples without a return
+  /// Mean number of samples until a sample's fate is drawn anew: 1 loses samples one by one, more
+  /// loses whole stretches, as dark or glossy surfaces do. The share stays the same.
+  double missing_run = 1;
+  /// Share of the samples that are wrong: half of them anywhere within the limits (crosstalk), half
+  /// too near (something in the way).
+  double outliers = 0.002;
+
+  /// Width of the beam. Where its two sides see ranges further than `mixed_step_m` apart, the
+  /// sample lies anywhere between them, as a triangulating sensor's does at an edge. 0: a ray.
+  double beam_width_rad = 0;
+  double mixed_step_m = 0.05;
+
+  double range_scale = 1;     ///< bias: measured = scale * true + offset
+  double range_offset_m = 0;  ///< bias
+  /// Bias: the angle disc's centre is off the axis; amplitude of the direction's error, and the
+  /// device angle at which it is zero and growing.
+  double eccentricity_rad = 0;
+  double eccentricity_phase_rad = 0;
+
+  /// A sensor without any error but its range limits.
+  static SensorModel perfect();
+};
+
+/// The errors of one sensor, sample after sample.
+class SensorNoise {
+ public:
+  SensorNoise(const SensorModel& model, std::uint64_t seed) : model_(model), random_(seed) {}
+
+  /// Where a sample that claims `device_angle_rad` really looks, less what it claims.
+  double direction_error(double device_angle_rad);
+
+  /// What is measured of a wall at `range_m` (0: no wall); 0: nothing.
+  double measured(double range_m);
+
+  /// What is measured where the two sides of the beam see different ranges.
+  double mixed(double one_m, double other_m);
+
+ private:
+  bool is_missing();
+
+  SensorModel model_;
+  Random random_;
+  bool missing_now_ = false;
+};
+
+}  // namespace cornerd::replay

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+
+#include "core/types.hpp"
+
+namespace cornerd::replay {
+
+/// When bytes have crossed a serial line of 8N1: ten bit times each, one after the other.
+class SerialLine {
+ public:
+  explicit SerialLine(std::uint32_t baud = 115200) : baud_(baud) {}
+
+  /// When the last of `count` bytes arrives that are handed to the line at `t_ns`.
+  core::TimeNs send(core::TimeNs t_ns, std::size_t count) {
+    free_ns_ = std::max(free_ns_, t_ns) + duration_ns(count);
+    return free_ns_;
+  }
+  core::TimeNs free_ns() const { return free_ns_; }
+  core::TimeNs duration_ns(std::size_t count) const {
+    return static_cast<core::TimeNs>(count) * 10 * core::kNsPerSecond / baud_;
+  }
+
+ private:
+  std::uint32_t baud_;
+  core::TimeNs free_ns_ = 0;
+};
+
+}  // namespace cornerd::replay

@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: MIT
+#include "replay/simulator/simulator.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+namespace cornerd::replay {
+namespace {
+
+/// The A1's optics, as the vendor's decoder of ultra capsules corrects for them.
+constexpr double kLaserOffsetM = 0.024;
+constexpr double kLaserAngleDeg = 8.0;
+constexpr double kNearestCorrectedM = 0.050;
+constexpr double kNearOffsetDeg = 7.5;  ///< nearer than that, and for empty samples
+
+/// What an A1 reports with a return: standard nodes carry 15 with one, 0 without.
+constexpr std::uint8_t kQuality = 15;
+
+constexpr std::uint64_t kHeadSeed = 0x9E3779B97F4A7C15u;  ///< keeps head and noise independent
+
+double optical_offset_deg(double range_m) {
+  if (range_m < kNearestCorrectedM) return kNearOffsetDeg;
+  return kLaserAngleDeg - core::degrees(std::asin(kLaserOffsetM / range_m));
+}
+
+double within_turn(double angle_deg) { return angle_deg - 360 * std::floor(angle_deg / 360); }
+
+std::int64_t to_q6(double angle_deg) { return std::llround(angle_deg * 64); }
+std::uint16_t within_turn_q6(std::int64_t angle_q6) {
+  constexpr std::int64_t kTurn = 360 * 64;
+  return static_cast<std::uint16_t>(((angle_q6 % kTurn) + kTurn) % kTurn);
+}
+
+/// The turn that a sample belongs to: the last one before the mark already starts the next turn.
+std::int64_t turn_of(double angle_deg, double step_deg) {
+  return static_cast<std::int64_t>(std::floor((angle_deg + step_deg) / 360));
+}
+bool is_last_before_mark(double angle_deg, double step_deg) {
+  return turn_of(angle_deg, step_deg) > turn_of(angle_deg, 0);
+}
+
+std::uint32_t to_units(double range_m, double units_per_m, std::uint32_t most) {
+  return static_cast<std::uint32_t>(
+      std::clamp(std::round(range_m * units_per_m), 0.0, static_cast<double>(most)));
+}
+
+}  // namespace
+
+core::TimeNs usual_sample_period_ns(rplidar::WireFormat format) {
+  switch (format) {
+    case rplidar::WireFormat::kStandard:
+      return 508'000;
+    case rplidar::WireFormat::kExpress:
+      return 254'000;
+    case rplidar::WireFormat::kUltra:
+      break;
+  }
+  return 127'000;
+}
+
+Simulator::Simulator(std::unique_ptr<Scene> scene, const SimulatorConfig& config)
+    : scene_(std::move(scene)),
+      config_(config),
+      wire_(config.wire),
+      noise_(config.sensor, config.seed),
+      head_(config.motor_hz, config.motor_jitter, usual_sample_period_ns(config.wire),
+            config.seed ^ kHeadSeed) {
+  if (!(config.motor_hz >= 1 && config.motor_hz <= 15) ||
+      !(config.motor_jitter >= 0 && config.motor_jitter <= 0.1)) {
+    throw std::invalid_argument("the motor must turn at 1 to 15 Hz, with a jitter of at most 0.1");
+  }
+  head_.start(0, config.start_angle_deg);
+  start(0, config.wire, config.sample_period_ns);
+}
+
+void Simulator::start(core::TimeNs t_ns, rplidar::WireFormat wire, core::TimeNs sample_period_ns) {
+  wire_ = wire;
+  head_.resume(t_ns, sample_period_ns > 0 ? sample_period_ns : usual_sample_period_ns(wire));
+  restart_ = true;
+  next_first_ = head_.next();
+  if (wire == rplidar::WireFormat::kUltra) {
+    next_first_mm_ = measured_for_ultra(next_first_, turn_of(next_first_.angle_deg, 0));
+  }
+}
+
+WirePacket Simulator::next() {
+  switch (wire_) {
+    case rplidar::WireFormat::kStandard:
+      return next_node();
+    case rplidar::WireFormat::kExpress:
+      return next_express();
+    case rplidar::WireFormat::kUltra:
+      break;
+  }
+  return next_ultra();
+}
+
+double Simulator::range_at(const Head& head, std::int64_t turn, double device_angle_deg) {
+  const double sign = config_.inverted ? 1 : -1;
+  return scene_->range_along(head.t_ns, turn, core::Vec2::Zero(),
+                             sign * core::radians(device_angle_deg));
+}
+
+Simulator::Sight Simulator::triangulate(const Head& head, std::int64_t turn, double error_deg) {
+  const double sign = config_.inverted ? 1 : -1;
+  const double bearing_rad = sign * core::radians(head.angle_deg - kLaserAngleDeg + error_deg);
+  const core::Vec2 laser = sign * kLaserOffsetM * core::rotate_left(core::unit_vector(bearing_rad));
+  const double along_m = scene_->range_along(head.t_ns, turn, laser, bearing_rad);
+  if (along_m <= 0) return {kNearOffsetDeg, 0};
+  const double range_m = std::hypot(along_m, kLaserOffsetM);
+  return {optical_offset_deg(range_m), range_m};
+}
+
+double Simulator::measured_at(const Head& head, std::int64_t turn, double device_angle_deg) {
+  const double error_rad = noise_.direction_error(core::radians(device_angle_deg));
+  const double angle_deg = device_angle_deg + core::degrees(error_rad);
+  const double half_beam_deg = core::degrees(config_.sensor.beam_width_rad) / 2;
+  if (half_beam_deg <= 0) return noise_.measured(range_at(head, turn, angle_deg));
+  return noise_.measured(noise_.mixed(range_at(head, turn, angle_deg - half_beam_deg),
+                                      range_at(head, turn, angle_deg + half_beam_deg)));
+}
+
+std::uint32_t Simulator::measured_for_ultra(const Head& head, std::int64_t turn) {
+  const double error_deg =
+      core::degrees(noise_.direction_error(core::radians(head.angle_deg - kLaserAngleDeg)));
+  const double half_beam_deg = core::degrees(config_.sensor.beam_width_rad) / 2;
+  double range_m = triangulate(head, turn, error_deg - half_beam_deg).range_m;
+  if (half_beam_deg > 0) {
+    range_m = noise_.mixed(range_m, triangulate(head, turn, error_deg + half_beam_deg).range_m);
+  }
+  return to_units(noise_.measured(range_m), 1e3, 28'656);
+}
+
+double Simulator::sweep(std::size_t count) {
+  heads_[0] = next_first_;
+  for (std::size_t k = 1; k < count; ++k) heads_[k] = head_.next();
+  next_first_ = head_.next();
+  const std::int64_t start_q6 = to_q6(heads_[0].angle_deg);
+  const double step_deg = static_cast<double>(to_q6(next_first_.angle_deg) - start_q6) / 64.0 /
+                          static_cast<double>(count);
+  // From here on the angles are those that the capsule's two start angles tell of.
+  for (std::size_t k = 0; k < count; ++k) {
+    heads_[k].angle_deg = static_cast<double>(start_q6) / 64.0 + static_cast<double>(k) * step_deg;
+    samples_[k] = {heads_[k].t_ns, turn_of(heads_[k].angle_deg, step_deg),
+                   is_last_before_mark(heads_[k].angle_deg, step_deg), 0, 0};
+  }
+  return step_deg;
+}
+
+WirePacket Simulator::packet(std::size_t bytes, std::size_t samples, core::TimeNs ready_ns) {
+  restart_ = false;
+  return {ready_ns, std::span(bytes_).first(bytes), std::span(samples_).first(samples)};
+}
+
+WirePacket Simulator::next_node() {
+  const Head head = next_first_;
+  const double step_deg = head_.step_deg();
+  next_first_ = head_.next();
+  SimulatedSample& sample = samples_[0];
+  sample = {head.t_ns, turn_of(head.angle_deg, step_deg),
+            is_last_before_mark(head.angle_deg, step_deg), 0, 0};
+
+  const double offset_deg = triangulate(head, sample.turn, 0).offset_deg;
+  std::uint16_t angle_q6 = within_turn_q6(to_q6(head.angle_deg - offset_deg));
+  sample.dist_q2 = to_units(measured_at(head, sample.turn, angle_q6 / 64.0), 4e3, 0xFFFF);
+  // A node without a return has nothing to be corrected by.
+  if (sample.dist_q2 == 0) angle_q6 = within_turn_q6(to_q6(head.angle_deg));
+  sample.device_angle_deg = angle_q6 / 64.0;
+
+  const NodeBytes node = encode_node(sample.starts_turn, sample.dist_q2 != 0 ? kQuality : 0,
+                                     angle_q6, static_cast<std::uint16_t>(sample.dist_q2));
+  std::copy(node.begin(), node.end(), bytes_.begin());
+  return packet(node.size(), 1, head.t_ns + head_.period_ns());
+}
+
+WirePacket Simulator::next_express() {
+  sweep(kExpressSamples);
+  std::array<ExpressSample, kExpressSamples> wire;
+  for (std::size_t k = 0; k < kExpressSamples; ++k) {
+    const Head& head = heads_[k];
+    SimulatedSample& sample = samples_[k];
+    const double offset_deg = triangulate(head, sample.turn, 0).offset_deg;
+    std::uint32_t offset_q3 = to_units(offset_deg, 8, 63);
+    const double range_m = measured_at(head, sample.turn, head.angle_deg - offset_q3 / 8.0);
+    const std::uint32_t dist_mm = to_units(range_m, 1e3, 0x3FFF);
+    if (dist_mm == 0) offset_q3 = 0;
+    wire[k] = {static_cast<std::uint16_t>(dist_mm), static_cast<std::uint8_t>(offset_q3)};
+    sample.device_angle_deg = within_turn(head.angle_deg - offset_q3 / 8.0);
+    sample.dist_q2 = 4 * dist_mm;
+  }
+  const std::uint16_t start_q6 = within_turn_q6(to_q6(heads_[0].angle_deg));
+  const ExpressBytes capsule = encode_express(start_q6, restart_, wire);
+  std::copy(capsule.begin(), capsule.end(), bytes_.begin());
+  return packet(capsule.size(), kExpressSamples,
+                heads_[kExpressSamples - 1].t_ns + head_.period_ns());
+}
+
+WirePacket Simulator::next_ultra() {
+  const double step_deg = sweep(kUltraSamples);
+  std::array<std::uint32_t, kUltraSamples + 1> dist_mm{};
+  dist_mm[0] = next_first_mm_;
+  for (std::size_t k = 1; k < kUltraSamples; ++k) {
+    dist_mm[k] = measured_for_ultra(heads_[k], samples_[k].turn);
+  }
+  next_first_mm_ = measured_for_ultra(next_first_, turn_of(next_first_.angle_deg, step_deg));
+  dist_mm[kUltraSamples] = next_first_mm_;
+
+  const std::uint16_t start_q6 = within_turn_q6(to_q6(heads_[0].angle_deg));
+  const UltraCapsule capsule = encode_ultra(start_q6, restart_, dist_mm);
+  for (std::size_t k = 0; k < kUltraSamples; ++k) {
+    const double offset_deg = optical_offset_deg(capsule.carried_mm[k] * 1e-3);
+    samples_[k].device_angle_deg = within_turn(heads_[k].angle_deg - offset_deg);
+    samples_[k].dist_q2 = 4 * capsule.carried_mm[k];
+  }
+  std::copy(capsule.bytes.begin(), capsule.bytes.end(), bytes_.begin());
+  return packet(capsule.bytes.size(), kUltraSamples, next_first_.t_ns + head_.period_ns());
+}
+
+}  // namespace cornerd::replay
