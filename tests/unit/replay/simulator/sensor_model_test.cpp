@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: MIT
+#include "replay/simulator/sensor_model.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace cornerd::replay {
+namespace {
+
+TEST(SensorNoise, Perfect_ChangesNothingWithinTheLimits) {
+  SensorNoise noise(SensorModel::perfect(), 1);
+  EXPECT_EQ(noise.measured(1.25), 1.25);
+  EXPECT_EQ(noise.measured(0.15), 0.15);
+  EXPECT_EQ(noise.measured(0.149), 0);
+  EXPECT_EQ(noise.measured(12.01), 0);
+  EXPECT_EQ(noise.measured(0), 0);
+  EXPECT_EQ(noise.direction_error(1), 0);
+}
+
+TEST(SensorNoise, Missing_HasItsShareAndRunLength) {
+  for (const double run : {1.0, 10.0}) {
+    SensorModel model = SensorModel::perfect();
+    model.missing = 0.6;
+    model.missing_run = run;
+    SensorNoise noise(model, 3);
+    int missing = 0;
+    int changes = 0;
+    bool last = false;
+    constexpr int kCount = 200'000;
+    for (int i = 0; i < kCount; ++i) {
+      const bool now = noise.measured(1) == 0;
+      missing += now;
+      changes += now != last;
+      last = now;
+    }
+    EXPECT_NEAR(static_cast<double>(missing) / kCount, 0.6, 0.01);
+    EXPECT_NEAR(static_cast<double>(changes) / kCount, 2 * 0.6 * 0.4 / run, 0.01);
+  }
+}
+
+TEST(SensorNoise, Outliers_HaveTheirShareAndStayWithinTheLimits) {
+  SensorModel model = SensorModel::perfect();
+  model.outliers = 0.1;
+  SensorNoise noise(model, 5);
+  int outliers = 0;
+  int nearer = 0;
+  for (int i = 0; i < 100'000; ++i) {
+    const double range_m = noise.measured(2);
+    EXPECT_GE(range_m, 0.15);
+    EXPECT_LE(range_m, 12);
+    outliers += range_m != 2;
+    nearer += range_m < 2;
+  }
+  EXPECT_NEAR(outliers / 1e5, 0.1, 0.005);
+  EXPECT_GT(nearer, outliers / 2);
+}
+
+TEST(SensorNoise, Spread_GrowsWithTheRangeBeyondTheFloor) {
+  SensorModel model = SensorModel::perfect();
+  model.sigma_floor_m = 0.0015;
+  model.sigma_share = 0.005;
+  for (const double range_m : {0.25, 4.0}) {
+    SensorNoise noise(model, 11);
+    double sum = 0;
+    double sum_of_squares = 0;
+    constexpr int kCount = 100'000;
+    for (int i = 0; i < kCount; ++i) {
+      const double error_m = noise.measured(range_m) - range_m;
+      sum += error_m;
+      sum_of_squares += error_m * error_m;
+    }
+    const double sigma_m = std::max(0.0015, 0.005 * range_m);
+    EXPECT_NEAR(sum / kCount, 0, 0.02 * sigma_m);
+    EXPECT_NEAR(std::sqrt(sum_of_squares / kCount), sigma_m, 0.02 * sigma_m);
+  }
+}
+
+TEST(SensorNoise, Biases_ScaleShiftAndBend) {
+  SensorModel model = SensorModel::perfect();
+  model.range_scale = 1.01;
+  model.range_offset_m = -0.02;
+  model.eccentricity_rad = 0.01;
+  model.eccentricity_phase_rad = 0.5;
+  SensorNoise noise(model, 1);
+  EXPECT_DOUBLE_EQ(noise.measured(3), 3.01);
+  EXPECT_DOUBLE_EQ(noise.direction_error(0.5), 0);
+  EXPECT_DOUBLE_EQ(noise.direction_error(0.5 + core::kPi / 2), 0.01);
+}
+
+TEST(SensorNoise, Mixed_LiesBetweenTheSidesOfAnEdge) {
+  SensorNoise noise(SensorModel::perfect(), 1);
+  EXPECT_EQ(noise.mixed(1.0, 1.01), 1.0);
+  EXPECT_EQ(noise.mixed(0, 1.01), 1.01);
+  for (int i = 0; i < 100; ++i) {
+    const double range_m = noise.mixed(3, 1);
+    EXPECT_GE(range_m, 1);
+    EXPECT_LE(range_m, 3);
+  }
+}
+
+}  // namespace
+}  // namespace cornerd::replay

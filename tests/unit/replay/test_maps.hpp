@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+
+#include "core/map/wall_map.hpp"
+
+namespace cornerd::replay {
+
+/// A room of 2 by 3 metres inside, its lower left inner corner at the origin.
+inline std::shared_ptr<const core::WallMap> make_room() {
+  core::FloorPlan plan;
+  plan.name = "room";
+  plan.walls = {{{0, 0}, {2, 0}, 0}, {{2, 0}, {2, 3}, 0}, {{2, 3}, {0, 3}, 0}, {{0, 3}, {0, 0}, 0}};
+  return std::make_shared<const core::WallMap>(plan);
+}
+
+}  // namespace cornerd::replay
