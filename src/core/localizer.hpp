@@ -10,27 +10,15 @@
 
 #include "core/breakpoint/breakpoint.hpp"
 #include "core/geometry/pose2.hpp"
+#include "core/localizer_config.hpp"
 #include "core/map/wall_map.hpp"
 #include "core/scan.hpp"
 
 namespace cornerd::core {
 
-struct DetectorConfig {
-  Method method = Method::kAltbd;
-  double sigma_offset = 0.04;        ///< share of the range (El Amin et al., step 5)
-  double corner_tolerance_m = 0.23;  ///< Dth_corner: half a door of 46 cm (step 13)
-};
-
-struct LocalizerConfig {
-  double min_range_m = 0.15;
-  double max_range_m = 12.0;
-  Pose2 T_base_lidar;
-  DetectorConfig detector;
-};
-
 enum class PoseState : std::uint8_t { kFix, kTracking, kPredicted, kAmbiguous, kLost };
 
-/// A place that explains the turn. Scores of one turn compare: 1 is the best place of all.
+/// A place that explains the turn. The scores of one turn are shares of belief: they sum to 1.
 struct Alternative {
   Pose2 T_map_base;
   double score = 0;

@@ -12,8 +12,6 @@
 
 namespace cornerd::core {
 
-enum class Method : std::uint8_t { kAltbd, kAbdIepf, kLineTracking };
-
 /// Corner: two walls that meet, both seen. Terminal: the end of a wall in front of what is behind.
 enum class BreakpointKind : std::uint8_t { kCorner, kTerminal };
 
@@ -41,7 +39,7 @@ struct Breakpoint {
   bool wall_on_left = true;
   double right_wall_rad = 0;  ///< direction along that wall, away from the breakpoint
   double left_wall_rad = 0;
-  double opening_rad = 0;  ///< of the free space at a corner, from the right wall to the left
+  double opening_rad = 0;  ///< of the free space at a corner, from the left wall to the right one
   std::uint32_t right_support = 0;  ///< samples on that wall
   std::uint32_t left_support = 0;
 };
@@ -60,10 +58,12 @@ struct Detection {
     breakpoints.clear();
     segments.clear();
     overflowed = 0;
+    noise_scale = 1;
   }
   std::vector<Breakpoint> breakpoints;
   std::vector<WallSegment> segments;
   std::size_t overflowed = 0;
+  double noise_scale = 1;  ///< residuals of the walls' samples against the sensor's noise model
 };
 
 }  // namespace cornerd::core

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+#include "core/breakpoint/line_fit.hpp"
+
+#include <algorithm>
+
+namespace cornerd::core {
+
+void LineFit::add(const LineFit& other) {
+  const Vec2 shift = other.origin_ - origin_;
+  x_ += other.x_ + other.w_ * shift.x();
+  y_ += other.y_ + other.w_ * shift.y();
+  xx_ += other.xx_ + 2 * shift.x() * other.x_ + other.w_ * shift.x() * shift.x();
+  xy_ += other.xy_ + shift.x() * other.y_ + shift.y() * other.x_ + other.w_ * shift.x() * shift.y();
+  yy_ += other.yy_ + 2 * shift.y() * other.y_ + other.w_ * shift.y() * shift.y();
+  w_ += other.w_;
+  count_ += other.count_;
+}
+
+LineFit::Moments LineFit::moments() const {
+  const double mx = x_ / w_;
+  const double my = y_ / w_;
+  return {{mx, my}, xx_ / w_ - mx * mx, xy_ / w_ - mx * my, yy_ / w_ - my * my};
+}
+
+Line LineFit::line() const {
+  const Moments m = moments();
+  // Direction of the larger eigenvector of the scatter, by the half-angle formulas.
+  const double d = m.xx - m.yy;
+  const double h = std::sqrt(d * d + 4 * m.xy * m.xy);
+  const double cos2 = h > 0 ? d / h : 1;
+  double dx = std::sqrt(std::max(0.0, (1 + cos2) / 2));
+  double dy = std::sqrt(std::max(0.0, (1 - cos2) / 2));
+  if (m.xy < 0) dx = -dx;
+  Line line;
+  line.centroid = m.mean + origin_;
+  line.normal = {-dy, dx};
+  line.offset_m = line.normal.dot(line.centroid);
+  if (line.offset_m > 0) {
+    line.normal = -line.normal;
+    line.offset_m = -line.offset_m;
+  }
+  line.weight = w_;
+  line.spread_m2 = std::max((m.xx + m.yy + h) / 2, 1e-12);
+  return line;
+}
+
+double LineFit::chi_square() const {
+  const Moments m = moments();
+  const double d = m.xx - m.yy;
+  const double h = std::sqrt(d * d + 4 * m.xy * m.xy);
+  return std::max(0.0, w_ * (m.xx + m.yy - h) / 2);
+}
+
+}  // namespace cornerd::core

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cmath>
+
+#include <Eigen/Core>
+
+#include "core/geometry/pose2.hpp"
+
+namespace cornerd::core {
+
+/// normal.dot(p) = offset_m, with what is known of its accuracy.
+struct Line {
+  Vec2 normal = Vec2::Zero();
+  double offset_m = 0;
+  Vec2 centroid = Vec2::Zero();
+  double weight = 0;     ///< sum of the points' 1 / sigma^2: variance of the offset at the centroid
+  double spread_m2 = 0;  ///< weighted variance of the points along the line
+  Vec2 direction() const { return {normal.y(), -normal.x()}; }  ///< rotate_left(direction) = normal
+
+  /// Variance of the line's place across itself, `along_m` from its centroid.
+  double variance_at(double along_m) const { return (1 + along_m * along_m / spread_m2) / weight; }
+};
+
+/// Running sums of weighted points: adding one, taking one back and fitting the line with the least
+/// squared distance to all of them are each a handful of operations, however many there are.
+class LineFit {
+ public:
+  /// Sums are kept relative to `origin`, near the points, so that nothing cancels.
+  explicit LineFit(const Vec2& origin = Vec2::Zero()) : origin_(origin) {}
+
+  void add(double x_m, double y_m, double weight) { accumulate(x_m, y_m, weight, 1); }
+  void remove(double x_m, double y_m, double weight) { accumulate(x_m, y_m, -weight, -1); }
+
+  void add(const LineFit& other);
+
+  int count() const { return count_; }
+
+  /// Needs two points or more. The normal points towards the sensor at (0, 0).
+  Line line() const;
+
+  /// Sum of the squared weighted distances of all points to the best line.
+  double chi_square() const;
+
+ private:
+  struct Moments {
+    Vec2 mean;
+    double xx;
+    double xy;
+    double yy;
+  };
+  Moments moments() const;
+  void accumulate(double x_m, double y_m, double weight, int count) {
+    const double x = x_m - origin_.x();
+    const double y = y_m - origin_.y();
+    w_ += weight;
+    x_ += weight * x;
+    y_ += weight * y;
+    xx_ += weight * x * x;
+    xy_ += weight * x * y;
+    yy_ += weight * y * y;
+    count_ += count;
+  }
+
+  Vec2 origin_;
+  double w_ = 0;
+  double x_ = 0;
+  double y_ = 0;
+  double xx_ = 0;
+  double xy_ = 0;
+  double yy_ = 0;
+  int count_ = 0;
+};
+
+}  // namespace cornerd::core

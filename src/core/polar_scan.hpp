@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/scan.hpp"
+
+namespace cornerd::core {
+
+/// A return with all that the steps of the algorithm ask of it again and again.
+struct PolarPoint {
+  double bearing_rad = 0;  ///< in [-pi, pi]
+  double range_m = 0;
+  double ray_x = 0;  ///< unit vector of the ray, lidar frame
+  double ray_y = 0;
+  double x_m = 0;
+  double y_m = 0;
+};
+
+/// The returns of one turn in the order of their bearing, whatever the order of their arrival: an
+/// A1 corrects each bearing by the range, so that some samples step back.
+class PolarScan {
+ public:
+  PolarScan();
+
+  /// Keeps the samples within the limits. Allocates nothing.
+  void assign(const Scan& scan, double min_range_m, double max_range_m);
+
+  std::span<const PolarPoint> points() const { return points_; }
+  std::size_t size() const { return points_.size(); }
+  const PolarPoint& operator[](std::size_t i) const { return points_[i]; }
+
+  /// Usual distance in bearing from one sample to the next, empty ones included.
+  double spacing_rad() const { return spacing_rad_; }
+
+ private:
+  void sort();
+
+  std::vector<PolarPoint> points_;
+  double spacing_rad_ = 0;
+};
+
+}  // namespace cornerd::core
