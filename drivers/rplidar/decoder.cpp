@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: MIT
+#include "drivers/rplidar/decoder.hpp"
+
+#include <cstddef>
+
+#include "drivers/rplidar/wire/byte_window.hpp"
+#include "drivers/rplidar/wire/capsule_decoder.hpp"
+#include "drivers/rplidar/wire/node_chain.hpp"
+#include "drivers/rplidar/wire/scan_descriptor.hpp"
+#include "drivers/rplidar/wire/standard_decoder.hpp"
+
+namespace cornerd::rplidar {
+namespace {
+
+// Where so many bytes make no sense in a format, the belief in the format was wrong: its descriptor
+// was damaged, or the caller mistaken.
+constexpr std::size_t kDoubtFormatAfter = 4096;
+
+}  // namespace
+
+/// A window over the bytes, and two states: locked, where one of the formats' decoders takes packet
+/// after packet, and searching, where byte after byte is skipped until a packet is found.
+class Decoder::Implementation {
+ public:
+  explicit Implementation(std::optional<WireFormat> format) : format_(format) {}
+
+  void feed(std::span<const std::uint8_t> bytes, RawSampleSink& sink) {
+    counters_.bytes += bytes.size();
+    while (!bytes.empty()) {
+      bytes = bytes.subspan(window_.append(bytes));
+      while (step(false, sink)) {
+      }
+    }
+  }
+
+  void finish(RawSampleSink& sink) {
+    while (step(true, sink)) {
+    }
+    counters_.skipped_bytes += window_.unread().size();
+    window_.consume(window_.unread().size());
+    capsules_.drop_waiting(index_);
+    state_ = State::kSearching;
+    has_history_ = false;
+  }
+
+  std::optional<WireFormat> format() const { return format_; }
+  const drivers::StreamCounters& counters() const { return counters_; }
+
+ private:
+  enum class State : std::uint8_t {
+    kSearching,
+    kLocked,
+    kForeign,  ///< in a stream that no A1 sends: nothing but a descriptor ends it
+  };
+
+  /// True where something was taken out of the window.
+  bool step(bool final, RawSampleSink& sink) {
+    if (state_ != State::kLocked) return search(final, sink);
+    const Step result = *format_ == WireFormat::kStandard
+                            ? standard_.step(window_, index_, final, sink)
+                            : capsules_.step(window_, index_, sink);
+    if (result != Step::kLost) return result == Step::kProgress;
+    state_ = State::kSearching;
+    skipped_since_lock_ = 0;
+    return true;
+  }
+
+  bool search(bool final, RawSampleSink& sink) {
+    const auto bytes = window_.unread();
+    if (bytes.empty()) return false;
+    const DescriptorMatch descriptor = match_scan_descriptor(bytes);
+    if (descriptor.verdict == Verdict::kMore && !final) return false;
+    if (descriptor.verdict == Verdict::kYes) {
+      window_.consume(kDescriptorSize);
+      begin_stream(descriptor.format, sink);
+      return true;
+    }
+    if (state_ != State::kForeign) {
+      for (const WireFormat format :
+           {WireFormat::kExpress, WireFormat::kUltra, WireFormat::kStandard}) {
+        if (format_ && *format_ != format) continue;
+        const Verdict verdict = match_packet(format, bytes, final);
+        if (verdict == Verdict::kMore) return false;
+        if (verdict == Verdict::kNo) continue;
+        lock_again(format, sink);
+        return true;
+      }
+    }
+    window_.consume(1);
+    ++counters_.skipped_bytes;
+    if (++skipped_since_lock_ == kDoubtFormatAfter && state_ != State::kForeign) format_.reset();
+    return true;
+  }
+
+  static Verdict match_packet(WireFormat format, std::span<const std::uint8_t> bytes, bool final) {
+    return format == WireFormat::kStandard ? match_node_chain(bytes, nullptr, 1, final).verdict
+                                           : match_capsule(bytes, format, final);
+  }
+
+  void begin_stream(std::optional<WireFormat> format, RawSampleSink& sink) {
+    capsules_.drop_waiting(index_);
+    if (counters_.samples > 0) sink.on_gap();
+    format_ = format;
+    state_ = format ? State::kLocked : State::kForeign;
+    if (format) lock(*format, false);
+  }
+
+  void lock_again(WireFormat format, RawSampleSink& sink) {
+    const bool same_stream = has_history_ && format_ == format;
+    const std::size_t packet = format == WireFormat::kStandard ? kNodeSize : capsule_size(format);
+    if (same_stream && skipped_since_lock_ % packet != 0) ++counters_.resyncs;
+    // Capsules tell by their angles how many of them are gone; nodes do not.
+    if (same_stream && format == WireFormat::kStandard) sink.on_gap();
+    format_ = format;
+    state_ = State::kLocked;
+    lock(format, same_stream);
+  }
+
+  void lock(WireFormat format, bool same_stream) {
+    has_history_ = true;
+    skipped_since_lock_ = 0;
+    if (format == WireFormat::kStandard) {
+      standard_.lock();
+    } else {
+      capsules_.lock(format, same_stream);
+    }
+  }
+
+  std::optional<WireFormat> format_;
+  State state_ = State::kSearching;
+  drivers::StreamCounters counters_;
+  ByteWindow window_;
+  std::uint64_t index_ = 0;
+  std::size_t skipped_since_lock_ = 0;
+  bool has_history_ = false;  ///< packets of `format_` have been decoded in this stream
+  StandardDecoder standard_{counters_};
+  CapsuleDecoder capsules_{counters_};
+};
+
+Decoder::Decoder(std::optional<WireFormat> format)
+    : implementation_(std::make_unique<Implementation>(format)) {}
+Decoder::~Decoder() = default;
+Decoder::Decoder(Decoder&&) noexcept = default;
+Decoder& Decoder::operator=(Decoder&&) noexcept = default;
+
+void Decoder::feed(std::span<const std::uint8_t> bytes, RawSampleSink& sink) {
+  implementation_->feed(bytes, sink);
+}
+void Decoder::finish(RawSampleSink& sink) { implementation_->finish(sink); }
+std::optional<WireFormat> Decoder::format() const { return implementation_->format(); }
+const drivers::StreamCounters& Decoder::counters() const { return implementation_->counters(); }
+
+}  // namespace cornerd::rplidar

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: MIT
+#include "drivers/rplidar/sample_clock.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+namespace cornerd::rplidar {
+namespace {
+
+constexpr double kBlockNs = 125e6;
+constexpr std::size_t kBlocksForPace = 3;
+
+// A reader that was held up sees its backlog sooner than a device delivers it, so its lateness
+// melts away. Lateness that stays is a device that paused, or samples that were never counted.
+constexpr double kLateNs = 50e6;
+constexpr int kLateBlocks = 4;
+constexpr double kMelting = 0.9;
+
+// Period against nominal: one mode's period may stand in for another's (201 us for 127).
+constexpr double kMinPace = 0.5;
+constexpr double kMaxPace = 2.0;
+
+}  // namespace
+
+void SampleClock::reset(double period_s) {
+  if (anchored_) ++resets_;
+  anchored_ = false;
+  nominal_ns_ = period_s * 1e9;
+  period_ns_ = nominal_ns_;
+}
+
+void SampleClock::reanchor() {
+  if (anchored_) ++resets_;
+  anchored_ = false;
+}
+
+void SampleClock::observe(std::uint64_t index, core::TimeNs latest_ns) {
+  if (!anchored_) {
+    origin_index_ = index;
+    origin_ns_ = latest_ns;
+    anchor({0, 0});
+  }
+  const Point point{static_cast<double>(index - origin_index_),
+                    static_cast<double>(latest_ns - origin_ns_)};
+  offset_ns_ += std::min(0.0, lateness_ns(point));
+
+  if (block_empty_ || lateness_ns(point) < lateness_ns(earliest_)) earliest_ = point;
+  block_empty_ = false;
+  if ((point.x - block_begin_) * nominal_ns_ >= kBlockNs) {
+    close_block();
+    block_begin_ = point.x;
+    block_empty_ = true;
+  }
+}
+
+core::TimeNs SampleClock::time_of(std::uint64_t index) {
+  const double x = static_cast<double>(static_cast<std::int64_t>(index - origin_index_));
+  core::TimeNs t_ns = origin_ns_ + static_cast<core::TimeNs>(offset_ns_ + period_ns_ * x);
+  // A fit that moved back is caught up with at half pace, so that no two samples swap.
+  if (has_last_) t_ns = std::max(t_ns, last_ns_ + static_cast<core::TimeNs>(period_ns_ / 2));
+  last_ns_ = t_ns;
+  has_last_ = true;
+  return t_ns;
+}
+
+void SampleClock::anchor(const Point& point) {
+  offset_ns_ = point.y - period_ns_ * point.x;
+  anchored_ = true;
+  point_count_ = 0;
+  block_begin_ = point.x;
+  block_empty_ = true;
+  late_blocks_ = 0;
+}
+
+void SampleClock::close_block() {
+  const double late_ns = lateness_ns(earliest_);
+  if (late_ns <= kLateNs) {
+    late_blocks_ = 0;
+    remember(earliest_);
+    if (point_count_ >= kBlocksForPace) fit();
+    return;
+  }
+  if (late_blocks_ == 0 || late_ns < kMelting * late_ns_) {
+    late_ns_ = late_ns;
+    late_blocks_ = 1;
+    return;
+  }
+  if (++late_blocks_ < kLateBlocks) return;
+  ++resets_;
+  anchor(earliest_);
+}
+
+void SampleClock::remember(const Point& point) {
+  if (point_count_ == kBlocks) {
+    std::copy(points_.begin() + 1, points_.end(), points_.begin());
+    --point_count_;
+  }
+  points_[point_count_++] = point;
+}
+
+// Of all lines that no point lies below, the one with the least sum of distances: it runs along the
+// edge of the lower hull above the mean of x (Moon, Skelly, Towsley: Estimation and removal of
+// clock skew from network delay measurements).
+void SampleClock::fit() {
+  std::array<Point, kBlocks> hull;
+  std::size_t size = 0;
+  double sum_x = 0;
+  for (std::size_t i = 0; i < point_count_; ++i) {
+    const Point& point = points_[i];
+    sum_x += point.x;
+    const auto above_edge = [&] {
+      const Point& a = hull[size - 2];
+      const Point& b = hull[size - 1];
+      return (b.y - a.y) * (point.x - a.x) >= (point.y - a.y) * (b.x - a.x);
+    };
+    while (size >= 2 && above_edge()) --size;
+    hull[size++] = point;
+  }
+  const double mean_x = sum_x / static_cast<double>(point_count_);
+  std::size_t end = 1;
+  while (end + 1 < size && hull[end].x < mean_x) ++end;
+  const Point& a = hull[end - 1];
+  const Point& b = hull[end];
+  if (b.x <= a.x) return;
+  const double pace_ns = (b.y - a.y) / (b.x - a.x);
+  if (pace_ns < kMinPace * nominal_ns_ || pace_ns > kMaxPace * nominal_ns_) return;
+  period_ns_ = pace_ns;
+  offset_ns_ = a.y - pace_ns * a.x;
+}
+
+}  // namespace cornerd::rplidar

@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: MIT
+#include "drivers/rplidar/sample_stream.hpp"
+
+#include <algorithm>
+#include <cstddef>
+
+#include "drivers/rplidar/sample_clock.hpp"
+#include "drivers/rplidar/wire/capsule.hpp"
+
+namespace cornerd::rplidar {
+namespace {
+
+// A read may bring a whole buffer. What stands before its end arrived that much earlier, as the
+// wire is only so fast; in pieces of this size the decoder sees when.
+constexpr std::size_t kPiece = 8;
+constexpr int kBitsPerByte = 10;  // 8N1
+
+// From the middle of a measurement to the first bit of its packet (the vendor's SDK assumes as
+// much): half a period of measuring, one of computing.
+constexpr double kPeriodsToSend = 1.5;
+
+double usual_period_s(WireFormat format) {
+  switch (format) {
+    case WireFormat::kStandard:
+      return 508e-6;
+    case WireFormat::kExpress:
+      return 254e-6;
+    case WireFormat::kUltra:
+      return 127e-6;
+  }
+  return 508e-6;
+}
+
+/// A packet of a format, as the clock needs it: its bytes, and how far the newest sample that has
+/// arrived is ahead of the first one that is being delivered.
+struct Packet {
+  std::size_t bytes;
+  std::size_t samples_ahead;
+};
+
+Packet packet_of(WireFormat format) {
+  if (format == WireFormat::kStandard) return {kNodeSize, 1};
+  return {capsule_size(format), 2 * capsule_samples(format) - 1};
+}
+
+float bearing_of(std::uint16_t angle_q6, bool inverted) {
+  constexpr float kRadian = 3.14159265358979F / (kFullTurnQ6 / 2);
+  constexpr float kLargest = 3.1415925F;  // the last float below pi
+  const int angle = angle_q6 <= kFullTurnQ6 / 2 ? angle_q6 : angle_q6 - kFullTurnQ6;
+  const float bearing = static_cast<float>(inverted ? angle : -angle) * kRadian;
+  return std::clamp(bearing, -kLargest, kLargest);
+}
+
+}  // namespace
+
+class SampleStream::Implementation : private RawSampleSink {
+ public:
+  explicit Implementation(const SampleStreamConfig& config)
+      : config_(config), decoder_(config.format), clock_(period_s(WireFormat::kStandard)) {}
+
+  void feed(std::span<const std::uint8_t> bytes, core::TimeNs arrival_ns,
+            drivers::SampleSink& sink) {
+    sink_ = &sink;
+    const double byte_ns = 1e9 * kBitsPerByte / config_.baud;
+    while (!bytes.empty()) {
+      const auto piece = bytes.first(std::min(kPiece, bytes.size()));
+      bytes = bytes.subspan(piece.size());
+      piece_arrival_ns_ =
+          arrival_ns - static_cast<core::TimeNs>(byte_ns * static_cast<double>(bytes.size()));
+      first_of_piece_ = true;
+      decoder_.feed(piece, *this);
+    }
+    first_of_piece_ = false;
+  }
+
+  void feed_untimed(std::span<const std::uint8_t> bytes, drivers::SampleSink& sink) {
+    sink_ = &sink;
+    timed_ = false;
+    decoder_.feed(bytes, *this);
+  }
+
+  void finish(drivers::SampleSink& sink) {
+    sink_ = &sink;
+    decoder_.finish(*this);
+  }
+
+  std::optional<WireFormat> format() const { return decoder_.format(); }
+
+  const drivers::StreamCounters& counters() {
+    counters_ = decoder_.counters();
+    counters_.clock_resets = clock_.resets();
+    return counters_;
+  }
+
+ private:
+  void on_sample(const RawSample& raw) override {
+    const WireFormat format = *decoder_.format();
+    if (format != clock_format_) {
+      clock_format_ = format;
+      clock_.reset(period_s(format));
+    }
+    sink_->on_sample({.t_ns = time_of(raw, format),
+                      .bearing_rad = bearing_of(raw.angle_q6, config_.inverted),
+                      .range_m = static_cast<float>(raw.dist_q2) / 4000,
+                      .quality = raw.quality,
+                      .starts_turn = raw.starts_turn});
+  }
+
+  void on_gap() override {
+    clock_.reanchor();
+    sink_->on_gap();
+  }
+
+  core::TimeNs time_of(const RawSample& raw, WireFormat format) {
+    if (!timed_) return core::from_seconds(static_cast<double>(raw.index) * period_s(format));
+    if (first_of_piece_ || !clock_.anchored()) {
+      const Packet packet = packet_of(format);
+      const double byte_ns = 1e9 * kBitsPerByte / config_.baud;
+      const double sent_ns =
+          byte_ns * static_cast<double>(packet.bytes) + kPeriodsToSend * clock_.period_s() * 1e9;
+      clock_.observe(raw.index + packet.samples_ahead,
+                     piece_arrival_ns_ - static_cast<core::TimeNs>(sent_ns));
+      first_of_piece_ = false;
+    }
+    return clock_.time_of(raw.index);
+  }
+
+  double period_s(WireFormat format) const {
+    return config_.sample_period_s > 0 ? config_.sample_period_s : usual_period_s(format);
+  }
+
+  SampleStreamConfig config_;
+  Decoder decoder_;
+  SampleClock clock_;
+  std::optional<WireFormat> clock_format_;
+  drivers::SampleSink* sink_ = nullptr;
+  core::TimeNs piece_arrival_ns_ = 0;
+  bool first_of_piece_ = false;
+  bool timed_ = true;
+  drivers::StreamCounters counters_;
+};
+
+SampleStream::SampleStream(const SampleStreamConfig& config)
+    : implementation_(std::make_unique<Implementation>(config)) {}
+SampleStream::~SampleStream() = default;
+SampleStream::SampleStream(SampleStream&&) noexcept = default;
+SampleStream& SampleStream::operator=(SampleStream&&) noexcept = default;
+
+void SampleStream::feed(std::span<const std::uint8_t> bytes, core::TimeNs arrival_ns,
+                        drivers::SampleSink& sink) {
+  implementation_->feed(bytes, arrival_ns, sink);
+}
+void SampleStream::feed_untimed(std::span<const std::uint8_t> bytes, drivers::SampleSink& sink) {
+  implementation_->feed_untimed(bytes, sink);
+}
+void SampleStream::finish(drivers::SampleSink& sink) { implementation_->finish(sink); }
+std::optional<WireFormat> SampleStream::format() const { return implementation_->format(); }
+const drivers::StreamCounters& SampleStream::counters() const {
+  return implementation_->counters();
+}
+
+}  // namespace cornerd::rplidar

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: MIT
+#include "drivers/rplidar/wire/capsule_decoder.hpp"
+
+#include <algorithm>
+
+#include "drivers/rplidar/wire/express.hpp"
+#include "drivers/rplidar/wire/ultra.hpp"
+
+namespace cornerd::rplidar {
+namespace {
+
+constexpr std::uint8_t kUnknownQuality = 47;  // the format has none; the vendor's SDK says this
+
+}  // namespace
+
+void CapsuleDecoder::lock(WireFormat format, bool same_stream) {
+  if (same_stream && format == format_) {
+    followed_at_once_ = false;
+    return;
+  }
+  format_ = format;
+  has_waiting_ = false;
+  followed_at_once_ = true;
+  damaged_ = 0;
+  turn_began_in_hole_ = false;
+  cadence_.reset(format);
+}
+
+Step CapsuleDecoder::step(ByteWindow& window, std::uint64_t& index, RawSampleSink& sink) {
+  const std::size_t size = capsule_size(format_);
+  const auto bytes = window.unread();
+  if (bytes.size() < 2) return Step::kMore;
+  if (!has_capsule_sync(bytes)) return Step::kLost;
+  if (bytes.size() < size) return Step::kMore;
+  const auto capsule = bytes.first(size);
+  if (!has_right_checksum(capsule)) {
+    ++counters_->bad_checksums;
+    ++damaged_;
+    return Step::kLost;
+  }
+  pair(capsule, index, sink);
+  window.consume(size);
+  return Step::kProgress;
+}
+
+void CapsuleDecoder::pair(std::span<const std::uint8_t> next, std::uint64_t& index,
+                          RawSampleSink& sink) {
+  if (has_waiting_ && begins_stream(next)) {
+    drop_waiting(index);
+    sink.on_gap();
+  } else if (has_waiting_) {
+    const int start_q6 = start_angle_q6(waiting_);
+    const int diff_q6 = (start_angle_q6(next) - start_q6 + kFullTurnQ6) % kFullTurnQ6;
+    const auto [judgement, missing] = cadence_.judge(diff_q6, damaged_);
+    if (judgement == CapsuleCadence::Judgement::kNeighbours && followed_at_once_) {
+      decode_waiting(next, diff_q6, index, sink);
+      index += capsule_samples(format_);
+    } else {
+      const int damaged = damaged_;
+      drop_waiting(index);
+      if (judgement == CapsuleCadence::Judgement::kUnknown) {
+        ++counters_->lost_capsules;
+        sink.on_gap();
+        turn_began_in_hole_ = false;
+      } else {
+        counters_->lost_capsules += static_cast<std::uint64_t>(std::max(0, missing - damaged));
+        index += static_cast<std::uint64_t>(missing) * capsule_samples(format_);
+        turn_began_in_hole_ = turn_began_in_hole_ || start_q6 + diff_q6 >= kFullTurnQ6;
+      }
+    }
+  }
+  std::copy(next.begin(), next.end(), waiting_.begin());
+  has_waiting_ = true;
+  followed_at_once_ = true;
+  damaged_ = 0;
+}
+
+void CapsuleDecoder::drop_waiting(std::uint64_t& index) {
+  if (!has_waiting_) return;
+  ++counters_->unpaired_capsules;
+  index += capsule_samples(format_);
+  has_waiting_ = false;
+  damaged_ = 0;
+}
+
+void CapsuleDecoder::decode_waiting(std::span<const std::uint8_t> next, int diff_q6,
+                                    std::uint64_t index, RawSampleSink& sink) {
+  std::array<SweepSample, kUltraSamples> samples;
+  const Sweep sweep{.start_q6 = start_angle_q6(waiting_), .diff_q6 = diff_q6};
+  const std::span<const std::uint8_t, kUltraSize> capsule(waiting_);
+  const std::span<SweepSample, kUltraSamples> decoded(samples);
+  if (format_ == WireFormat::kExpress) {
+    decode_express(capsule.first<kExpressSize>(), sweep, decoded.first<kExpressSamples>());
+  } else {
+    decode_ultra(capsule, first_major(next), sweep, decoded);
+  }
+  for (const SweepSample& sample : decoded.first(capsule_samples(format_))) {
+    const bool starts_turn = sample.starts_turn || turn_began_in_hole_;
+    turn_began_in_hole_ = false;
+    ++counters_->samples;
+    if (starts_turn) ++counters_->turns;
+    sink.on_sample({.index = index++,
+                    .angle_q6 = sample.angle_q6,
+                    .dist_q2 = sample.dist_q2,
+                    .quality = sample.dist_q2 > 0 ? kUnknownQuality : std::uint8_t{0},
+                    .starts_turn = starts_turn});
+  }
+}
+
+}  // namespace cornerd::rplidar

@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: MIT
+#include "drivers/rplidar/wire/standard_decoder.hpp"
+
+#include <algorithm>
+
+#include "drivers/rplidar/wire/node_chain.hpp"
+#include "drivers/rplidar/wire/scan_descriptor.hpp"
+
+namespace cornerd::rplidar {
+namespace {
+
+// A relock that takes longer than this many bytes (6 ms) no longer knows how many nodes are gone.
+constexpr std::size_t kRelockReach = 64;
+
+}  // namespace
+
+void StandardDecoder::lock() {
+  has_front_ = false;
+  confirmed_ = 0;
+  search_offset_ = 0;
+  turns_.forget();
+}
+
+Step StandardDecoder::step(ByteWindow& window, std::uint64_t& index, bool final,
+                           RawSampleSink& sink) {
+  if (search_offset_ > 0) return relock(window, index, final, sink);
+  if (!has_front_) return begin(window);
+  const auto bytes = window.unread();
+  if (bytes.size() < 2 * kNodeSize) return final ? end(window, index, sink) : Step::kMore;
+
+  const auto next = parse_standard_node(bytes.subspan(kNodeSize));
+  const bool plausible =
+      next && track_.explains(*next, 1) && !(next->start_flag && !track_.near_zero());
+  if (!plausible) {
+    search_offset_ = 1;
+    return relock(window, index, final, sink);
+  }
+  deliver_front(window, index, sink);
+  ++index;
+  advance(*next, 1);
+  return Step::kProgress;
+}
+
+Step StandardDecoder::begin(ByteWindow& window) {
+  const auto bytes = window.unread();
+  if (bytes.size() < kNodeSize) return Step::kMore;
+  const auto node = parse_standard_node(bytes);
+  if (!node) return Step::kLost;
+  front_ = *node;
+  track_.begin(front_);
+  front_starts_turn_ = turns_.advance(front_.start_flag, track_);
+  counters_->false_turn_marks = turns_.false_marks();
+  has_front_ = true;
+  return Step::kProgress;
+}
+
+// The node after the front is not what was expected. Either it is damaged in itself, or the
+// boundary has moved, and then it moved inside the front's own bytes or after them: every place
+// from there on is tried.
+Step StandardDecoder::relock(ByteWindow& window, std::uint64_t& index, bool final,
+                             RawSampleSink& sink) {
+  for (; search_offset_ <= kRelockReach; ++search_offset_) {
+    const std::size_t offset = search_offset_;
+    const auto bytes = window.unread();
+    if (bytes.size() < offset + kNodeSize && final) return end(window, index, sink);
+    const auto rest = bytes.subspan(std::min(offset, bytes.size()));
+
+    const auto descriptor = match_scan_descriptor(rest);
+    if (descriptor.verdict == Verdict::kMore && !final) return Step::kMore;
+    if (descriptor.verdict == Verdict::kYes) {
+      const bool front_is_whole = offset == kNodeSize;
+      if (front_is_whole) {
+        deliver_front(window, index, sink);
+      } else {
+        skip(window, offset);
+      }
+      ++index;
+      return Step::kLost;
+    }
+
+    const int periods = std::max(1, static_cast<int>((offset + 2) / kNodeSize));
+    const ChainMatch chain = match_node_chain(rest, &track_, periods, final);
+    if (chain.verdict == Verdict::kMore) return Step::kMore;
+    if (chain.verdict == Verdict::kNo) continue;
+
+    const bool aligned = offset % kNodeSize == 0;
+    // The first node after a descriptor is a stale one, of any angle, on every real A1.
+    const bool fresh = confirmed_ == 0;
+    std::size_t to_skip = offset;
+    if (aligned && (chain.continues_track || fresh)) {
+      deliver_front(window, index, sink);
+      to_skip -= kNodeSize;
+    }
+    if (aligned) {
+      counters_->bad_nodes += offset / kNodeSize - 1;
+    } else {
+      ++counters_->resyncs;
+    }
+    skip(window, to_skip);
+    index += static_cast<std::uint64_t>(periods);
+    search_offset_ = 0;
+    if (chain.continues_track) {
+      advance(*parse_standard_node(rest), periods);
+      return Step::kProgress;
+    }
+    if (!fresh) sink.on_gap();
+    turns_.forget();
+    has_front_ = false;
+    return Step::kProgress;
+  }
+  ++counters_->resyncs;
+  skip(window, search_offset_);
+  ++index;
+  return Step::kLost;
+}
+
+// What is left when a recording ends can no longer be confirmed. It gets the benefit of the doubt
+// as far as one node beyond the last sure one.
+Step StandardDecoder::end(ByteWindow& window, std::uint64_t& index, RawSampleSink& sink) {
+  deliver_front(window, index, sink);
+  ++index;
+  const auto rest = window.unread();
+  if (rest.size() >= kNodeSize) {
+    const auto node = parse_standard_node(rest);
+    if (node && (!node->start_flag || track_.near_zero())) {
+      advance(*node, 1);
+      deliver_front(window, index, sink);
+      ++index;
+    }
+  }
+  skip(window, window.unread().size());
+  return Step::kLost;
+}
+
+void StandardDecoder::advance(const StandardNode& node, int periods) {
+  track_.advance(node, periods);
+  front_ = node;
+  front_starts_turn_ = turns_.advance(node.start_flag, track_);
+  counters_->false_turn_marks = turns_.false_marks();
+  ++confirmed_;
+}
+
+void StandardDecoder::deliver_front(ByteWindow& window, std::uint64_t index, RawSampleSink& sink) {
+  window.consume(kNodeSize);
+  ++counters_->samples;
+  if (front_starts_turn_) ++counters_->turns;
+  sink.on_sample({.index = index,
+                  .angle_q6 = front_.angle_q6,
+                  .dist_q2 = front_.dist_q2,
+                  .quality = front_.quality,
+                  .starts_turn = front_starts_turn_});
+}
+
+void StandardDecoder::skip(ByteWindow& window, std::size_t count) {
+  counters_->skipped_bytes += count;
+  window.consume(count);
+}
+
+}  // namespace cornerd::rplidar
