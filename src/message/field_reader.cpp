@@ -37,7 +37,7 @@ std::string shortest(double value) {
   return {digits.data(), std::to_chars(digits.begin(), digits.end(), value).ptr};
 }
 
-std::string quoted(std::string_view name) { return "\"" + std::string(name) + "\""; }
+std::string in_quotes(std::string_view name) { return "\"" + std::string(name) + "\""; }
 
 }  // namespace
 
@@ -66,7 +66,7 @@ void FieldReader::fail(const std::string& reason) {
 const Json* FieldReader::find(const char* name) {
   const auto found = object_.find(name);
   if (found == object_.end()) {
-    fail(quoted(name) + " is missing");
+    fail(in_quotes(name) + " is missing");
     return nullptr;
   }
   return &*found;
@@ -87,7 +87,7 @@ double FieldReader::check(const std::string& name, const Json& value, Limits lim
 
 double FieldReader::number(const char* name, Limits limits) {
   const Json* value = find(name);
-  return value == nullptr ? 0 : check(quoted(name), *value, limits);
+  return value == nullptr ? 0 : check(in_quotes(name), *value, limits);
 }
 
 std::optional<double> FieldReader::optional_number(const char* name, Limits limits) {
@@ -100,14 +100,14 @@ std::optional<std::int64_t> FieldReader::optional_integer(const char* name) {
   const Json& value = object_[name];
   constexpr std::int64_t kMax = std::numeric_limits<std::int64_t>::max();
   if (value.is_number_unsigned() && value.get<std::uint64_t>() > static_cast<std::uint64_t>(kMax)) {
-    fail(quoted(name) + " must fit 64 bits");
+    fail(in_quotes(name) + " must fit 64 bits");
     return std::nullopt;
   }
   if (value.is_number_integer()) return value.get<std::int64_t>();
   // Languages without integers write 12.0 or 1e6; beyond 2^53 such a number has lost digits.
   constexpr double kLargestExact = 9007199254740992.0;
-  const double number = check(quoted(name), value, {-kLargestExact, kLargestExact});
-  if (number != std::floor(number)) fail(quoted(name) + " must be a whole number");
+  const double number = check(in_quotes(name), value, {-kLargestExact, kLargestExact});
+  if (number != std::floor(number)) fail(in_quotes(name) + " must be a whole number");
   return error_ ? std::nullopt : std::optional(static_cast<std::int64_t>(number));
 }
 
@@ -115,7 +115,7 @@ std::string_view FieldReader::text(const char* name) {
   const Json* value = find(name);
   if (value == nullptr) return {};
   if (!value->is_string()) {
-    fail(quoted(name) + " must be a string");
+    fail(in_quotes(name) + " must be a string");
     return {};
   }
   return value->get_ref<const std::string&>();
@@ -126,11 +126,11 @@ const Json& FieldReader::array(const char* name, std::size_t max_size) {
   const Json* value = find(name);
   if (value == nullptr) return kEmpty;
   if (!value->is_array()) {
-    fail(quoted(name) + " must be an array");
+    fail(in_quotes(name) + " must be an array");
     return kEmpty;
   }
   if (value->size() > max_size) {
-    fail(quoted(name) + " has more than " + std::to_string(max_size) + " elements");
+    fail(in_quotes(name) + " has more than " + std::to_string(max_size) + " elements");
     return kEmpty;
   }
   return *value;
@@ -142,7 +142,7 @@ double FieldReader::element(const char* name, const Json& array, std::size_t ind
     const double number = value.get<double>();
     if (number >= limits.low && number <= limits.high) return number;
   }
-  return check(quoted(name) + "[" + std::to_string(index) + "]", value, limits);
+  return check(in_quotes(name) + "[" + std::to_string(index) + "]", value, limits);
 }
 
 }  // namespace cornerd::message

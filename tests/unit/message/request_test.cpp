@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: MIT
+#include "message/request.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+
+namespace cornerd::message {
+namespace {
+
+using ::testing::HasSubstr;
+
+RequestError error_of(std::string_view line) {
+  const Request request = parse_request(line);
+  const auto* error = std::get_if<RequestError>(&request.body);
+  EXPECT_NE(error, nullptr) << line;
+  return error != nullptr ? *error : RequestError{};
+}
+
+TEST(ParseRequest, Watch_TakesTheNamedClasses) {
+  const Request request = parse_request(R"({"class":"WATCH","classes":["POSE","SCAN"],"id":7})");
+  const auto& classes = std::get<WatchRequest>(request.body).classes;
+  EXPECT_TRUE(classes.contains(MessageClass::kPose));
+  EXPECT_TRUE(classes.contains(MessageClass::kScan));
+  EXPECT_FALSE(classes.contains(MessageClass::kStatus));
+  EXPECT_EQ(request.name, "WATCH");
+  EXPECT_EQ(request.id_json, "7");
+}
+
+TEST(ParseRequest, WatchOfNothing_IsAnEmptySet) {
+  const Request request = parse_request(R"({"class":"WATCH","classes":[]})");
+  EXPECT_TRUE(std::get<WatchRequest>(request.body).classes.empty());
+}
+
+TEST(ParseRequest, WatchOfAnUnknownClass_IsNamed) {
+  const RequestError error = error_of(R"({"class":"WATCH","classes":["POSE","pose"]})");
+  EXPECT_EQ(error.code, "field");
+  EXPECT_THAT(error.text, HasSubstr("pose"));
+}
+
+TEST(ParseRequest, WatchWithoutGoodClasses_IsAnError) {
+  for (const char* line : {R"({"class":"WATCH"})", R"({"class":"WATCH","classes":"POSE"})",
+                           R"({"class":"WATCH","classes":[1]})"}) {
+    EXPECT_THAT(error_of(line).text, HasSubstr("\"classes\"")) << line;
+  }
+}
+
+TEST(ParseRequest, RequestsWithoutFields_AreTaken) {
+  EXPECT_TRUE(std::holds_alternative<PollRequest>(parse_request(R"({"class":"POLL"})").body));
+  EXPECT_TRUE(std::holds_alternative<RelocalizeRequest>(
+      parse_request(R"({"class":"RELOCALIZE","later":"field"})").body));
+}
+
+TEST(ParseRequest, SetPose_IsBroughtIntoOneTurn) {
+  const Request request = parse_request(R"({"class":"SET_POSE","x":1,"y":-2.5,"theta":4})");
+  const auto& pose = std::get<SetPoseRequest>(request.body).T_map_base;
+  EXPECT_EQ(pose.x_m, 1);
+  EXPECT_EQ(pose.y_m, -2.5);
+  EXPECT_NEAR(pose.theta_rad, 4 - core::kTwoPi, 1e-12);
+}
+
+TEST(ParseRequest, SetPoseInDegrees_IsRefused) {
+  EXPECT_THAT(error_of(R"({"class":"SET_POSE","x":1,"y":0,"theta":90})").text,
+              HasSubstr("\"theta\" must be from -6.3 to 6.3"));
+}
+
+TEST(ParseRequest, SetPoseWithoutAField_NamesIt) {
+  EXPECT_EQ(error_of(R"({"class":"SET_POSE","x":1,"theta":0})").text, "\"y\" is missing");
+  EXPECT_EQ(error_of(R"({"class":"SET_POSE","x":"1","y":0,"theta":0})").text,
+            "\"x\" must be a number");
+}
+
+TEST(ParseRequest, Odometry_MayLackAnyField) {
+  const auto bare = std::get<OdometryReading>(parse_request(R"({"class":"ODOMETRY"})").body);
+  EXPECT_FALSE(bare.timed);
+  EXPECT_EQ(bare.left, std::nullopt);
+  const auto full = std::get<OdometryReading>(
+      parse_request(R"({"class":"ODOMETRY","t":1.5,"left":-3,"right":4.0,"gyro":0.1})").body);
+  EXPECT_TRUE(full.timed);
+  EXPECT_EQ(full.t_ns, 1'500'000'000);
+  EXPECT_EQ(full.left, -3);
+  EXPECT_EQ(full.right, 4);
+  EXPECT_EQ(full.gyro_rad_s, 0.1);
+}
+
+TEST(ParseRequest, OdometryCountsThatAreNoCounts_AreRefused) {
+  EXPECT_THAT(error_of(R"({"class":"ODOMETRY","left":1.5})").text, HasSubstr("whole number"));
+  EXPECT_THAT(error_of(R"({"class":"ODOMETRY","left":18446744073709551615})").text,
+              HasSubstr("64 bits"));
+  EXPECT_THAT(error_of(R"({"class":"ODOMETRY","left":true})").text, HasSubstr("a number"));
+  EXPECT_THAT(error_of(R"({"class":"ODOMETRY","t":1e10})").text, HasSubstr("\"t\""));
+}
+
+TEST(ParseRequest, IdOfAnyScalarType_IsRepeated) {
+  const auto id_of = [](const std::string& id) {
+    return parse_request(R"({"class":"POLL","id":)" + id + "}").id_json;
+  };
+  for (const char* id :
+       {"0", "-7", "18446744073709551615", "2.5", "true", "null", "\"a\\\"b\"", "\"\xc3\xbc\""}) {
+    EXPECT_EQ(id_of(id), id);
+  }
+  EXPECT_EQ(parse_request(R"({"class":"POLL"})").id_json, "");
+}
+
+TEST(ParseRequest, IdThatIsNoScalarOrTooLong_IsAnError) {
+  EXPECT_THAT(error_of(R"({"class":"POLL","id":[1]})").text, HasSubstr("\"id\""));
+  EXPECT_THAT(error_of(R"({"class":"POLL","id":")" + std::string(300, 'x') + "\"}").text,
+              HasSubstr("\"id\""));
+}
+
+TEST(ParseRequest, ErrorOfAnotherField_StillBearsTheId) {
+  const Request request = parse_request(R"({"class":"WATCH","id":"mine"})");
+  EXPECT_TRUE(std::holds_alternative<RequestError>(request.body));
+  EXPECT_EQ(request.id_json, "\"mine\"");
+  EXPECT_EQ(request.name, "WATCH");
+}
+
+TEST(ParseRequest, UnknownOrMissingClass_HasItsOwnCode) {
+  EXPECT_EQ(error_of(R"({"class":"FLY"})").code, "class");
+  EXPECT_THAT(error_of(R"({"class":"FLY"})").text, HasSubstr("FLY"));
+  EXPECT_EQ(error_of("{}").code, "class");
+  EXPECT_EQ(error_of(R"({"class":3})").code, "field");
+}
+
+TEST(ParseRequest, WhatIsNoObject_IsAJsonError) {
+  for (const char* line : {"", " ", "hello", "[]", "1", "{\"class\":\"POLL\"", "{}{}", "\xff",
+                           "{\"class\":\"\xff\"}", "{\"class\":\"POLL\",\"n\":1e999}", "null"}) {
+    EXPECT_EQ(error_of(line).code, "json") << line;
+  }
+}
+
+TEST(ParseRequest, TooLongOrTooDeep_IsRefusedBeforeItIsRead) {
+  EXPECT_EQ(error_of(std::string(kMaxRequestBytes + 1, ' ')).code, "too-long");
+  EXPECT_EQ(error_of(std::string(kMaxRequestBytes, '[')).code, "json");
+  EXPECT_THAT(error_of(R"({"a":[[[[[[[[1]]]]]]]]})").text, HasSubstr("nested"));
+}
+
+TEST(ParseRequest, BracketsInsideAString_AreNoDepth) {
+  const Request request = parse_request(R"({"class":"POLL","id":"[[[[[[[[[[\"[[[["})");
+  EXPECT_TRUE(std::holds_alternative<PollRequest>(request.body));
+}
+
+TEST(MessageClass, EveryName_LeadsBackToItsClass) {
+  for (int i = 0; i <= static_cast<int>(MessageClass::kEvent); ++i) {
+    const auto message_class = static_cast<MessageClass>(i);
+    EXPECT_EQ(message_class_from(to_string(message_class)), message_class);
+  }
+  EXPECT_EQ(to_string(MessageClass::kBreakpoints), "BREAKPOINTS");
+  EXPECT_EQ(message_class_from("TRUTH"), std::nullopt);
+}
+
+}  // namespace
+}  // namespace cornerd::message

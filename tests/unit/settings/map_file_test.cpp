@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: MIT
+#include "settings/map_file.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include "error_of.hpp"
+
+namespace cornerd::settings {
+namespace {
+
+using ::testing::EndsWith;
+using ::testing::HasSubstr;
+
+std::string map_of(const std::string& rest) {
+  return R"({"format": "cornerd-map", "version": 1, )" + rest + "}";
+}
+
+std::string map_error(const std::string& text) {
+  return error_of([&text] { parse_floor_plan(text, "/m/a.json"); });
+}
+
+std::string wall_error(const std::string& wall) {
+  return map_error(map_of("\"walls\": [" + wall + "]"));
+}
+
+constexpr const char* kWall = R"("walls": [{"from": [0, 0], "to": [1, 0]}])";
+
+TEST(MapFile, EveryField_ReachesThePlan) {
+  const core::FloorPlan plan = parse_floor_plan(map_of(R"("name": "flat", "thickness": 0.018,
+        "walls": [{"from": [0, 0], "to": [2.4, 0]},
+                  {"from": [1.2, -1], "to": [1.2, 0.8], "thickness": 0}],
+        "rooms": [{"name": "room-1", "polygon": [[0, 0], [1, 0], [1, 1]]}])"),
+                                                "/m/a.json");
+  EXPECT_EQ(plan.name, "flat");
+  EXPECT_EQ(plan.thickness_m, 0.018);
+  ASSERT_EQ(plan.walls.size(), 2u);
+  EXPECT_EQ(plan.walls[0].to, core::Vec2(2.4, 0));
+  EXPECT_EQ(plan.walls[0].thickness_m, 0.018);
+  EXPECT_EQ(plan.walls[1].from, core::Vec2(1.2, -1));
+  EXPECT_EQ(plan.walls[1].thickness_m, 0);
+  ASSERT_EQ(plan.rooms.size(), 1u);
+  EXPECT_EQ(plan.rooms[0].name, "room-1");
+  EXPECT_EQ(plan.rooms[0].polygon[2], core::Vec2(1, 1));
+}
+
+TEST(MapFile, NameAndRooms_AreOptional) {
+  const core::FloorPlan plan = parse_floor_plan(map_of(kWall), "/m/flat.json");
+  EXPECT_EQ(plan.name, "flat");
+  EXPECT_TRUE(plan.rooms.empty());
+}
+
+TEST(MapFile, OtherJson_IsNoMap) {
+  EXPECT_THAT(map_error("{}"), HasSubstr("/m/a.json: /format: must be \"cornerd-map\""));
+  EXPECT_THAT(map_error(R"({"format": "other"})"), HasSubstr("/format"));
+  EXPECT_THAT(map_error("[]"), EndsWith("must be an object"));
+  EXPECT_THAT(map_error("solid cube"), HasSubstr("line 1, column 1"));
+}
+
+TEST(MapFile, AnotherVersion_IsRefused) {
+  EXPECT_THAT(map_error(R"({"format": "cornerd-map"})"), EndsWith("/version: is missing"));
+  EXPECT_THAT(map_error(R"({"format": "cornerd-map", "version": 2})"),
+              HasSubstr("/version: is 2; this program reads version 1"));
+}
+
+TEST(MapFile, WithoutWalls_IsRefused) {
+  EXPECT_THAT(map_error(map_of("\"name\": \"x\"")), EndsWith("/walls: is missing"));
+  EXPECT_THAT(map_error(map_of("\"walls\": []")), EndsWith("/walls: must have at least 1 element"));
+  EXPECT_THAT(map_error(map_of("\"walls\": {}")), EndsWith("/walls: must be an array"));
+}
+
+TEST(MapFile, WrongWall_IsNamedByItsIndex) {
+  const std::string good = R"({"from": [0, 0], "to": [1, 0]}, )";
+  EXPECT_THAT(wall_error(good + R"({"from": [0, 0]})"), EndsWith("/walls/1/to: is missing"));
+  EXPECT_THAT(wall_error(good + R"({"from": [0], "to": [1, 0]})"),
+              EndsWith("/walls/1/from: must be a point, [x, y] in metres"));
+  EXPECT_THAT(wall_error(good + R"({"from": [0, "a"], "to": [1, 0]})"), HasSubstr("/walls/1/from"));
+  EXPECT_THAT(wall_error(good + R"({"from": [0, 0], "to": [1e9, 0]})"),
+              HasSubstr("/walls/1/to: coordinates must be from -10000 to 10000"));
+  EXPECT_THAT(wall_error(good + "3"), EndsWith("/walls/1: must be an object"));
+  EXPECT_THAT(wall_error(R"({"from": [0, 0], "to": [1, 0], "thickness": -1})"),
+              HasSubstr("/walls/0/thickness"));
+  EXPECT_THAT(wall_error(R"({"from": [0, 0], "to": [1, 0], "thicknes": 1})"),
+              HasSubstr("/walls/0/thicknes: unknown key; did you mean \"thickness\"?"));
+}
+
+TEST(MapFile, WallOfNothing_IsRefused) {
+  EXPECT_THAT(wall_error(R"({"from": [1, 1], "to": [1, 1]})"),
+              EndsWith("the wall has neither length nor thickness"));
+  EXPECT_NO_THROW(parse_floor_plan(
+      map_of(R"("walls": [{"from": [1, 1], "to": [1, 1], "thickness": 0.1}])"), "a.json"));
+}
+
+TEST(MapFile, WrongRoom_IsNamedByItsIndex) {
+  const auto room_error = [](const std::string& room) {
+    return map_error(map_of(std::string(kWall) + ", \"rooms\": [" + room + "]"));
+  };
+  EXPECT_THAT(room_error(R"({"name": "a", "polygon": [[0, 0], [1, 0]]})"),
+              EndsWith("/rooms/0/polygon: must have at least 3 elements"));
+  EXPECT_THAT(room_error(R"({"polygon": [[0, 0], [1, 0], [1, 1]]})"),
+              EndsWith("/rooms/0/name: is missing"));
+  EXPECT_THAT(room_error(R"({"name": "a", "polygon": [[0, 0], [1, 0], [1]]})"),
+              HasSubstr("/rooms/0/polygon/2: must be a point"));
+}
+
+TEST(MapFile, MoreWallsThanAnyBuilding_IsRefused) {
+  std::string walls = "0";
+  for (int i = 0; i < 100'000; ++i) walls += ",0";
+  EXPECT_THAT(wall_error(walls), EndsWith("/walls: must have at most 100000 elements"));
+}
+
+TEST(LoadMap, FileOnDisk_BecomesAMap) {
+  const auto file = std::filesystem::path(::testing::TempDir()) / "cornerd_load_map_test.json";
+  std::ofstream(file) << map_of(
+      R"("thickness": 0.02, "walls": [{"from": [0, 0], "to": [1, 0]}, {"from": [0, 0], "to": [0, 1]}])");
+  const auto map = load_map(file);
+  std::filesystem::remove(file);
+  EXPECT_EQ(map->plan().walls.size(), 2u);
+  EXPECT_FALSE(map->faces().empty());
+}
+
+TEST(LoadMap, AbsentFile_IsNamed) {
+  EXPECT_EQ(error_of([] { load_map("/nowhere/a.json"); }),
+            "/nowhere/a.json: cannot be opened: No such file or directory");
+}
+
+}  // namespace
+}  // namespace cornerd::settings

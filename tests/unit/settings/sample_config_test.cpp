@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: MIT
+// The samples in config/ are documentation that is read by the program: they must be true.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <functional>
+#include <regex>
+#include <string>
+
+#include "error_of.hpp"
+#include "settings/document.hpp"
+
+namespace cornerd::settings {
+namespace {
+
+const std::filesystem::path kSamples = std::filesystem::path(CORNERD_SOURCE_DIR) / "config";
+
+Json full_sample() {
+  const auto file = kSamples / "cornerd.full.json";
+  return parse_document(read_file(file, 1 << 20), file);
+}
+
+/// The keys that the program knows in an object, by its own word.
+std::string known_keys(const std::string& object_pointer) {
+  const std::string unknown = object_pointer + "/zzzzzzzzzzzz=1";
+  return error_of([&] { parse_config(R"({"map": "/m"})", "", {unknown}); });
+}
+
+void expect_all_known_keys_in(const Json& object, const std::string& pointer,
+                              const std::string& comments) {
+  const std::string message = known_keys(pointer);
+  const std::regex word("[a-z_]+");
+  const std::string list = message.substr(message.find("known here: ") + 12);
+  for (auto key = std::sregex_iterator(list.begin(), list.end(), word);
+       key != std::sregex_iterator(); ++key) {
+    const std::string name = key->str();
+    EXPECT_TRUE(object.contains(name) || comments.find("// \"" + name + "\":") != std::string::npos)
+        << "config/cornerd.full.json lacks " << pointer << "/" << name;
+  }
+}
+
+TEST(FullSample, EveryKeyTheProgramKnows_IsThere) {
+  const Json sample = full_sample();
+  const std::string text = read_file(kSamples / "cornerd.full.json", 1 << 20);
+  expect_all_known_keys_in(sample, "", text);
+  for (const char* section : {"lidar", "detector", "odometry", "socket", "realtime"}) {
+    expect_all_known_keys_in(sample[section], std::string("/") + section, text);
+  }
+  expect_all_known_keys_in(sample["lidar"]["mount"], "/lidar/mount", text);
+}
+
+TEST(FullSample, EveryValue_IsTheDefault) {
+  const Config sample = load_config(kSamples / "cornerd.full.json");
+  const Config defaults;
+  EXPECT_EQ(sample.lidar.driver, defaults.lidar.driver);
+  EXPECT_EQ(sample.lidar.device, defaults.lidar.device);
+  EXPECT_EQ(sample.lidar.baud, defaults.lidar.baud);
+  EXPECT_EQ(sample.lidar.mode, defaults.lidar.mode);
+  EXPECT_EQ(sample.lidar.min_range_m, defaults.lidar.min_range_m);
+  EXPECT_EQ(sample.lidar.max_range_m, defaults.lidar.max_range_m);
+  EXPECT_EQ(sample.lidar.mount.x_m, defaults.lidar.mount.x_m);
+  EXPECT_EQ(sample.lidar.mount.y_m, defaults.lidar.mount.y_m);
+  EXPECT_EQ(sample.lidar.mount.theta_rad, defaults.lidar.mount.theta_rad);
+  EXPECT_EQ(sample.lidar.mount.inverted, defaults.lidar.mount.inverted);
+  EXPECT_EQ(sample.lidar.motor.kind, defaults.lidar.motor.kind);
+  EXPECT_EQ(sample.lidar.speed, defaults.lidar.speed);
+  EXPECT_EQ(sample.lidar.loop, defaults.lidar.loop);
+  EXPECT_EQ(sample.detector.method, defaults.detector.method);
+  EXPECT_EQ(sample.detector.sigma_offset, defaults.detector.sigma_offset);
+  EXPECT_EQ(sample.detector.corner_tolerance_m, defaults.detector.corner_tolerance_m);
+  EXPECT_EQ(sample.odometry.source, defaults.odometry.source);
+  EXPECT_EQ(sample.odometry.wheel_radius_m, defaults.odometry.wheel_radius_m);
+  EXPECT_EQ(sample.odometry.track_m, defaults.odometry.track_m);
+  EXPECT_EQ(sample.odometry.counts_per_turn, defaults.odometry.counts_per_turn);
+  EXPECT_EQ(sample.socket.pose, defaults.socket.pose);
+  EXPECT_EQ(sample.socket.control, defaults.socket.control);
+  EXPECT_EQ(sample.realtime.priority, defaults.realtime.priority);
+  EXPECT_EQ(sample.realtime.lock_memory, defaults.realtime.lock_memory);
+}
+
+TEST(FullSample, MotorsInItsComments_AreRead) {
+  const std::string text = read_file(kSamples / "cornerd.full.json", 1 << 20);
+  const std::regex example(R"(//\s+(\{ "kind".*\}))");
+  int examples = 0;
+  for (auto match = std::sregex_iterator(text.begin(), text.end(), example);
+       match != std::sregex_iterator(); ++match, ++examples) {
+    EXPECT_NO_THROW(
+        parse_config(R"({"map": "/m", "lidar": {"motor": )" + (*match)[1].str() + "}}", "sample"));
+  }
+  EXPECT_EQ(examples, 2);
+}
+
+TEST(SmallSample, Always_IsRead) { EXPECT_NO_THROW(load_config(kSamples / "cornerd.json")); }
+
+}  // namespace
+}  // namespace cornerd::settings
