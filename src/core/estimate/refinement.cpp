@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: MIT
+#include "core/estimate/refinement.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Cholesky>
+
+namespace cornerd::core {
+namespace {
+
+/// A point farther than this many standard deviations from its face pulls at nothing.
+constexpr double kCutSigmas = 4;
+constexpr int kMaxSteps = 12;
+constexpr double kConverged_m = 2e-5;
+constexpr double kConverged_rad = 1e-5;
+/// Relative pivot below which the walls in sight do not fix the pose: a lone wall, a bare corridor.
+constexpr double kMinPivot = 1e-7;
+constexpr std::size_t kMinInliers = 8;
+
+}  // namespace
+
+struct Refinement::Step {
+  Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d gradient = Eigen::Vector3d::Zero();
+  double chi_square = 0;
+  double squares_m2 = 0;
+  std::size_t inliers = 0;
+};
+
+Refinement::Refinement(double max_range_m, const SensorNoise& noise)
+    : noise_(noise), prediction_(max_range_m) {}
+
+Refinement::Step Refinement::step(const WallMap& map, const Pose2& T_map_lidar,
+                                  std::span<const PolarPoint> points, double slack_m,
+                                  double noise_scale) {
+  const auto hits = prediction_.cast(map, T_map_lidar, points);
+  const double c = std::cos(T_map_lidar.theta_rad);
+  const double s = std::sin(T_map_lidar.theta_rad);
+  Step sums;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (hits[i].face == PredictedHit::kNone) continue;
+    const PolarPoint& point = points[i];
+    const Face& face = map.faces()[hits[i].face];
+    const double rx = c * point.x_m - s * point.y_m;
+    const double ry = s * point.x_m + c * point.y_m;
+    const double distance_m = face.normal.x() * (T_map_lidar.x_m + rx) +
+                              face.normal.y() * (T_map_lidar.y_m + ry) - face.offset_m;
+    const double sine =
+        std::abs(face.normal.x() * rx + face.normal.y() * ry) / std::max(point.range_m, 1e-6);
+    const double variance =
+        noise_.variance_across_m2(point.range_m, sine) * noise_scale * noise_scale +
+        slack_m * slack_m;
+    const double z_square = distance_m * distance_m / variance;
+    if (z_square >= kCutSigmas * kCutSigmas) continue;
+    // Tukey's biweight: full weight at the wall, none at the cut.
+    const double share = 1 - z_square / (kCutSigmas * kCutSigmas);
+    const double weight = share * share / variance;
+    const Eigen::Vector3d slope(face.normal.x(), face.normal.y(),
+                                face.normal.y() * rx - face.normal.x() * ry);
+    sums.information.noalias() += weight * slope * slope.transpose();
+    sums.gradient.noalias() += weight * distance_m * slope;
+    sums.chi_square += z_square;
+    sums.squares_m2 += distance_m * distance_m;
+    ++sums.inliers;
+  }
+  return sums;
+}
+
+RefinedPose Refinement::refine(const WallMap& map, const Pose2& start, double reach_m,
+                               std::span<const PolarPoint> thin, std::span<const PolarPoint> points,
+                               double noise_scale) {
+  RefinedPose refined;
+  refined.T_map_lidar = start;
+  double slack_m = reach_m;
+  Eigen::LDLT<Eigen::Matrix3d> solver;
+  Step sums;
+  for (int k = 0; k < kMaxSteps; ++k) {
+    const bool rough = slack_m > 0.004;
+    sums = step(map, refined.T_map_lidar, rough ? thin : points, rough ? slack_m : 0, noise_scale);
+    solver.compute(sums.information);
+    const Eigen::Vector3d pivots = solver.vectorD();
+    if (sums.inliers < kMinInliers || !(pivots.minCoeff() > kMinPivot * pivots.maxCoeff())) {
+      return refined;
+    }
+    const Eigen::Vector3d move = solver.solve(sums.gradient);
+    refined.T_map_lidar.x_m -= move.x();
+    refined.T_map_lidar.y_m -= move.y();
+    refined.T_map_lidar.theta_rad = normalize_angle(refined.T_map_lidar.theta_rad - move.z());
+    if (!rough && move.head<2>().norm() < kConverged_m && std::abs(move.z()) < kConverged_rad) {
+      break;
+    }
+    slack_m *= 0.4;
+  }
+  const auto inliers = static_cast<double>(sums.inliers);
+  const double spread = std::max(1.0, sums.chi_square / std::max(1.0, inliers - 3));
+  // The biweight at the optimum keeps this share of a normal residual's information.
+  refined.covariance = solver.solve(Eigen::Matrix3d::Identity()) * spread;
+  refined.inliers = sums.inliers;
+  refined.rmse_m = std::sqrt(sums.squares_m2 / std::max(1.0, inliers));
+  refined.valid = refined.covariance.allFinite();
+  return refined;
+}
+
+}  // namespace cornerd::core

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <span>
+
+#include "core/map/turn_prediction.hpp"
+#include "core/map/wall_map.hpp"
+#include "core/polar_scan.hpp"
+#include "core/sensor_noise.hpp"
+
+namespace cornerd::core {
+
+struct RefinedPose {
+  Pose2 T_map_lidar;
+  Covariance3 covariance = Covariance3::Zero();  ///< x, y in the map frame, theta
+  std::size_t inliers = 0;
+  double rmse_m = 0;   ///< of the inliers' distances to their walls
+  bool valid = false;  ///< false: the points do not determine the pose
+};
+
+/// Maximum likelihood fit of all wall points to the faces that the place can see, by Gauss-Newton
+/// on point-to-face distances with a redescending loss. Each step predicts anew which face a ray
+/// meets, so that the far side of a thin wall never attracts a point of the near one.
+class Refinement {
+ public:
+  Refinement(double max_range_m, const SensorNoise& noise);
+
+  /// From a place that is off by up to `reach_m`. `thin`: a selection of `points` for the first
+  /// steps, which need no precision.
+  RefinedPose refine(const WallMap& map, const Pose2& start, double reach_m,
+                     std::span<const PolarPoint> thin, std::span<const PolarPoint> points,
+                     double noise_scale);
+
+ private:
+  struct Step;
+  Step step(const WallMap& map, const Pose2& T_map_lidar, std::span<const PolarPoint> points,
+            double slack_m, double noise_scale);
+
+  SensorNoise noise_;
+  TurnPrediction prediction_;
+};
+
+}  // namespace cornerd::core

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+#include "core/recognition/decision.hpp"
+
+#include <cmath>
+
+namespace cornerd::core {
+namespace {
+
+/// Log-likelihoods count every ray as if it were independent. A displaced wall or a person moves
+/// many rays at once, so that this much of a difference decides nothing yet.
+constexpr double kMargin = 15;
+/// Where the prior is good enough to choose among rivals.
+constexpr double kPriorRadius_m = 0.25;
+constexpr double kPriorAngle_rad = radians(20);
+
+}  // namespace
+
+Decision decide(std::span<const Place> places, const std::optional<Pose2>& prior) {
+  Decision decision;
+  if (places.empty()) return decision;
+  const double best = places.front().explanation.log_likelihood;
+  while (decision.rivals < places.size() &&
+         places[decision.rivals].explanation.log_likelihood > best - kMargin) {
+    ++decision.rivals;
+  }
+  if (decision.rivals == 1) {
+    decision.state = PoseState::kFix;
+    return decision;
+  }
+  decision.state = PoseState::kAmbiguous;
+  if (!prior) return decision;
+  std::size_t near = 0;
+  for (std::size_t i = 0; i < decision.rivals; ++i) {
+    if (!same_place(places[i].refined.T_map_lidar, *prior, kPriorRadius_m, kPriorAngle_rad))
+      continue;
+    decision.place = i;
+    ++near;
+  }
+  if (near == 1) decision.state = PoseState::kTracking;
+  return decision;
+}
+
+double relative_belief(const Place& place, const Place& likeliest) {
+  const double behind = likeliest.explanation.log_likelihood - place.explanation.log_likelihood;
+  return std::exp(-behind / kMargin);
+}
+
+}  // namespace cornerd::core

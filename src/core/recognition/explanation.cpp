@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+#include "core/recognition/explanation.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace cornerd::core {
+namespace {
+
+/// Shares of what a ray does, when the place is right: a usual indoor turn, with a wide margin.
+constexpr double kHitShare = 0.8;
+constexpr double kShortShare = 0.15;
+constexpr double kOtherShare = 0.05;
+/// An unexplained range may be anything that an A1 can measure.
+constexpr double kOtherSpan_m = 12;
+constexpr double kHitSigmas = 4;
+/// Least standard deviation of a range: what walls are off their place in any map.
+constexpr double kMapSigma_m = 0.003;
+/// The beam's own width at a wall's edge makes ranges that belong to neither side.
+constexpr double kMinSine = 0.05;
+
+}  // namespace
+
+Explanation explain(const WallMap& map, std::span<const PolarPoint> points,
+                    std::span<const PredictedHit> hits, const Pose2& T_map_lidar,
+                    const SensorNoise& noise, double noise_scale, double slack_m) {
+  static const double kLogRootTwoPi = std::log(std::sqrt(kTwoPi));
+  const double log_other = std::log(kOtherShare / kOtherSpan_m);
+  const double c = std::cos(T_map_lidar.theta_rad);
+  const double s = std::sin(T_map_lidar.theta_rad);
+  Explanation result;
+  result.rays = points.size();
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const PolarPoint& point = points[i];
+    if (hits[i].face == PredictedHit::kNone) {
+      // Beyond all walls: whatever it was, the map does not have it.
+      ++result.shorts;
+      result.log_likelihood += log_other;
+      continue;
+    }
+    const Vec2& normal = map.faces()[hits[i].face].normal;
+    const double sine =
+        std::max(kMinSine, std::abs(normal.x() * (c * point.ray_x - s * point.ray_y) +
+                                    normal.y() * (s * point.ray_x + c * point.ray_y)));
+    const double variance = noise.variance_across_m2(hits[i].range_m, sine) / (sine * sine) *
+                                noise_scale * noise_scale +
+                            kMapSigma_m * kMapSigma_m + slack_m * slack_m;
+    const double error_m = point.range_m - hits[i].range_m;
+    const double z_square = error_m * error_m / variance;
+    if (z_square < kHitSigmas * kHitSigmas) {
+      ++result.hits;
+      result.log_likelihood += std::max(
+          log_other, std::log(kHitShare) - kLogRootTwoPi - std::log(variance) / 2 - z_square / 2);
+    } else if (error_m < 0) {
+      ++result.shorts;
+      result.log_likelihood += std::log(kShortShare / hits[i].range_m);
+    } else {
+      ++result.through;
+      result.log_likelihood += log_other;
+    }
+  }
+  return result;
+}
+
+}  // namespace cornerd::core

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+
+#include "core/geometry/pose2.hpp"
+
+namespace cornerd::core {
+
+/// A place where the turn may have been taken, and how many breakpoints speak for it.
+struct Hypothesis {
+  Pose2 T_map_lidar;
+  int votes = 0;
+};
+
+/// True where the two are the same place for every purpose of recognition.
+inline bool same_place(const Pose2& a, const Pose2& b, double distance_m, double angle_rad) {
+  return (a.translation() - b.translation()).squaredNorm() < distance_m * distance_m &&
+         std::abs(angle_between(a.theta_rad, b.theta_rad)) < angle_rad;
+}
+
+}  // namespace cornerd::core

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+// From a turn's breakpoints to the places where they could have been seen, as a star tracker goes
+// from spots to stars.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "core/breakpoint/breakpoint.hpp"
+#include "core/catalog/catalog.hpp"
+#include "core/recognition/hypothesis.hpp"
+
+namespace cornerd::core {
+
+/// Matches pairs of breakpoints with the catalogue's pairs of the same distance and the same walls,
+/// then lets all breakpoints vote on each place that this gives. All memory is taken at
+/// construction.
+class Recognition {
+ public:
+  explicit Recognition(const Catalog& catalog);
+
+  /// The places that pairs of breakpoints point to, best voted first, each place once.
+  std::span<const Hypothesis> from_pairs(std::span<const Breakpoint> breakpoints);
+
+  /// The places that each breakpoint alone points to: a corner fixes position and heading. Far more
+  /// of them, for turns that show few corners and for making sure that nothing was overlooked.
+  std::span<const Hypothesis> from_single_corners(std::span<const Breakpoint> breakpoints);
+
+  /// Breakpoints that have their landmark at this place.
+  int recognised(std::span<const Breakpoint> breakpoints, const Pose2& T_map_lidar) const;
+
+  static constexpr std::size_t kMaxHypotheses = 2048;
+
+ private:
+  void select(std::span<const Breakpoint> breakpoints);
+  void add_pair(const Breakpoint& first, const Breakpoint& second);
+  void add(const Pose2& T_map_lidar);
+  std::span<const Hypothesis> ranked();
+
+  const Catalog& catalog_;
+  std::vector<const Breakpoint*> selected_;
+  std::vector<Hypothesis> hypotheses_;
+};
+
+/// True where a breakpoint of a turn taken with the given heading looks like the landmark: the same
+/// kind of corner, its walls in the same directions.
+bool looks_like(const Breakpoint& breakpoint, const Corner& landmark, double heading_rad);
+
+}  // namespace cornerd::core
