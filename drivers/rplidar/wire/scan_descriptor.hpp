@@ -7,11 +7,10 @@
 #include <span>
 
 #include "drivers/rplidar/decoder.hpp"
+#include "drivers/rplidar/protocol/descriptor.hpp"
 #include "drivers/rplidar/wire/byte_window.hpp"
 
 namespace cornerd::rplidar {
-
-inline constexpr std::size_t kDescriptorSize = 7;
 
 struct DescriptorMatch {
   Verdict verdict = Verdict::kNo;
