@@ -67,6 +67,9 @@ class SampleSink {
   virtual void on_sample(const core::Sample& sample) = 0;
   /// The stream has a hole that the samples do not show: begin a new turn.
   virtual void on_gap() = 0;
+  /// False while there is no room for another sample. A device cannot wait for it, a recording
+  /// that is played as fast as it goes does.
+  virtual bool ready() const { return true; }
 };
 
 class LidarDriver {

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <istream>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -15,11 +16,18 @@
 
 namespace cornerd::replay {
 
-/// A file that cannot be opened or is no recording at all. what() is one line with the file's name.
+/// A file that cannot be read or written, or is no recording. what() is one line with its name.
 class RecordingError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
+
+enum class RecordingKind : std::uint8_t { kBytes, kMessages };
+
+/// By the name where it ends in .bin or .ndjson, else by the first character: a message begins
+/// with '{', which no answer of an A1 does.
+/// Throws RecordingError where the file cannot be read or is compressed.
+RecordingKind kind_of_recording(const std::filesystem::path& file);
 
 struct RecordingOptions {
   std::optional<rplidar::WireFormat> wire;  ///< of bytes that begin without a descriptor
@@ -33,18 +41,26 @@ class RecordingSink : public drivers::SampleSink {
 };
 
 /// Plays one recording in the order of its lines. Damaged lines and bytes are counted and passed
-/// over. Memory does not grow with the file.
+/// over; a last line that was torn off is not even counted, as a recorder that was ended leaves
+/// one. Memory does not grow with the file: a line of over message::kMaxRecordedBytes is damaged.
+///
+/// Each SCAN is one turn, whatever its angles: its first sample starts it, the next SCAN's or the
+/// end of the recording completes it. A recording that has both SERIAL and SCAN tells everything
+/// twice; the kind that comes first is played, the other is not.
 class RecordingPlayer {
  public:
   /// Throws RecordingError.
   RecordingPlayer(const std::filesystem::path& file, const RecordingOptions& options);
+  /// `stream` must outlive the player.
+  RecordingPlayer(std::istream& stream, RecordingKind kind, const RecordingOptions& options);
   ~RecordingPlayer();
 
-  /// Plays the next piece (a line, or a block of bytes). False at the end. `on_gap` of the sink is
-  /// called between a SCAN message's samples and those of the next.
+  /// Plays the next piece: a line, or a block of bytes. False at the end, when all that was held
+  /// back has been delivered too. `on_gap` is called where bytes are missing, never between SCANs.
+  /// Throws RecordingError where the file can no longer be read.
   bool step(RecordingSink& sink);
 
-  /// Time of the last piece that was played.
+  /// Time of the last piece that was played. Bytes without a clock: since the first of them.
   core::TimeNs time_ns() const;
   const drivers::StreamCounters& counters() const;
   std::uint64_t bad_lines() const;

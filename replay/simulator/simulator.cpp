@@ -60,6 +60,17 @@ core::TimeNs usual_sample_period_ns(rplidar::WireFormat format) {
   return 127'000;
 }
 
+core::Sample to_sample(const SimulatedSample& simulated, bool inverted) {
+  const double bearing_rad = (inverted ? 1 : -1) * core::radians(simulated.device_angle_deg);
+  core::Sample sample;
+  sample.t_ns = simulated.t_ns;
+  sample.bearing_rad = static_cast<float>(core::normalize_angle(bearing_rad));
+  sample.range_m = static_cast<float>(simulated.dist_q2) / 4000.0f;
+  sample.quality = simulated.dist_q2 != 0 ? kQuality : 0;
+  sample.starts_turn = simulated.starts_turn;
+  return sample;
+}
+
 Simulator::Simulator(std::unique_ptr<Scene> scene, const SimulatorConfig& config)
     : scene_(std::move(scene)),
       config_(config),

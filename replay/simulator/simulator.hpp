@@ -43,6 +43,9 @@ struct SimulatedSample {
   std::uint32_t dist_q2 = 0;    ///< what the wire claims, millimetres * 4; 0: nothing returned
 };
 
+/// The same as a decoder and its clock would deliver it.
+core::Sample to_sample(const SimulatedSample& simulated, bool inverted = false);
+
 /// One packet of the stream: a node or a capsule.
 struct WirePacket {
   core::TimeNs ready_ns = 0;                 ///< when all that it tells of has been measured

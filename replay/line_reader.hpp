@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <istream>
+#include <string>
+#include <string_view>
+
+namespace cornerd::replay {
+
+/// Lines of a stream, none of which takes more memory than the limit.
+class LineReader {
+ public:
+  enum class Result : std::uint8_t {
+    kLine,
+    kTornLine,  ///< the stream's last line, without its newline
+    kTooLong,   ///< passed over; line() is empty
+    kEnd,
+  };
+
+  LineReader(std::istream& stream, std::size_t most_chars)
+      : stream_(stream), most_chars_(most_chars) {}
+
+  Result next();
+
+  /// Without its end; valid until the next call.
+  std::string_view line() const { return line_; }
+  /// Of the line that was read last; the first is 1.
+  std::uint64_t number() const { return number_; }
+
+ private:
+  std::istream& stream_;
+  std::size_t most_chars_;
+  std::string line_;
+  std::uint64_t number_ = 0;
+};
+
+}  // namespace cornerd::replay

@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: MIT
+#include "replay/replay_driver.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <exception>
+#include <string>
+#include <thread>
+#include <utility>
+
+#include "drivers/counter_names.hpp"
+
+namespace cornerd::replay {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// A stop is honoured within this time.
+constexpr std::chrono::milliseconds kLongestSleep{50};
+/// How long the consumer is left alone where it has no room.
+constexpr std::chrono::microseconds kRoomSleep{500};
+/// A step of the recorded time beyond this is a clock that was set, or a pause nobody waits for.
+constexpr core::TimeNs kLongestPauseNs = 10 * core::kNsPerSecond;
+
+void add(drivers::StreamCounters& sum, const drivers::StreamCounters& more) {
+  for (const drivers::CounterName& counter : drivers::kCounterNames) {
+    sum.*counter.member += more.*counter.member;
+  }
+}
+
+}  // namespace
+
+/// Lets samples pass when their time has come.
+class ReplayDriver::Pacer : public RecordingSink {
+ public:
+  Pacer(drivers::SampleSink& sink, double speed, const std::stop_token& stop)
+      : sink_(sink), speed_(speed), stop_(stop) {}
+
+  void begin_pass() {
+    if (samples_ > 0) sink_.on_gap();
+    first_of_pass_ = true;
+    samples_of_pass_ = 0;
+  }
+
+  void on_sample(const core::Sample& recorded) override {
+    if (stop_.stop_requested()) return;
+    core::Sample sample = recorded;
+    if (first_of_pass_ && samples_ > 0) shift_ns_ = last_ns_ + period_ns_ - recorded.t_ns;
+    sample.t_ns += shift_ns_;
+    if (!first_of_pass_) period_ns_ = std::max<core::TimeNs>(1, sample.t_ns - last_ns_);
+    first_of_pass_ = false;
+    if (speed_ > 0) wait_until(sample.t_ns);
+    while (speed_ <= 0 && !sink_.ready() && !stop_.stop_requested()) {
+      std::this_thread::sleep_for(kRoomSleep);
+    }
+    if (stop_.stop_requested()) return;
+    measure_rates(sample);
+    last_ns_ = sample.t_ns;
+    ++samples_;
+    ++samples_of_pass_;
+    sink_.on_sample(sample);
+  }
+
+  void on_gap() override { sink_.on_gap(); }
+  void on_odometry(const message::OdometryReading&) override {}
+
+  std::uint64_t samples_of_pass() const { return samples_of_pass_; }
+  double rate_hz() const { return rate_hz_; }
+  double samples_hz() const { return samples_hz_; }
+
+ private:
+  void wait_until(core::TimeNs t_ns) {
+    const core::TimeNs step_ns = t_ns - last_ns_;
+    if (samples_ == 0 || step_ns < 0 || step_ns > kLongestPauseNs) {
+      anchor_ = Clock::now();
+      anchor_ns_ = t_ns;
+    }
+    const auto due = anchor_ + std::chrono::nanoseconds(static_cast<std::int64_t>(
+                                   static_cast<double>(t_ns - anchor_ns_) / speed_));
+    for (auto now = Clock::now(); now < due && !stop_.stop_requested(); now = Clock::now()) {
+      std::this_thread::sleep_for(std::min<Clock::duration>(due - now, kLongestSleep));
+    }
+  }
+
+  void measure_rates(const core::Sample& sample) {
+    if (!sample.starts_turn) return;
+    const double turn_s = core::to_seconds(sample.t_ns - turn_start_ns_);
+    if (turn_start_samples_ > 0 && turn_s > 0) {
+      rate_hz_ = 1 / turn_s;
+      samples_hz_ = static_cast<double>(samples_ - turn_start_samples_) / turn_s;
+    }
+    turn_start_ns_ = sample.t_ns;
+    turn_start_samples_ = samples_;
+  }
+
+  drivers::SampleSink& sink_;
+  double speed_;
+  std::stop_token stop_;
+  Clock::time_point anchor_;
+  core::TimeNs anchor_ns_ = 0;
+  core::TimeNs last_ns_ = 0;
+  core::TimeNs period_ns_ = 1;
+  core::TimeNs shift_ns_ = 0;
+  std::uint64_t samples_ = 0;
+  std::uint64_t samples_of_pass_ = 0;
+  bool first_of_pass_ = true;
+  core::TimeNs turn_start_ns_ = 0;
+  std::uint64_t turn_start_samples_ = 0;
+  double rate_hz_ = 0;
+  double samples_hz_ = 0;
+};
+
+ReplayDriver::ReplayDriver(ReplayDriverConfig config) : config_(std::move(config)) {
+  status_.state = drivers::LidarState::kOpening;
+  status_.detail.set(config_.file.string());
+  status_.model.set("recording");
+  published_.publish(status_);
+}
+
+void ReplayDriver::publish(const RecordingPlayer& player, const Pacer& pacer) {
+  drivers::LidarStatus now = status_;
+  add(now.counters, player.counters());
+  now.rate_hz = pacer.rate_hz();
+  now.samples_hz = pacer.samples_hz();
+  if (player.bad_lines() > 0) now.detail.set(player.first_problem());
+  published_.publish(now);
+}
+
+void ReplayDriver::play(const std::stop_token& stop, Pacer& pacer) {
+  status_.state = drivers::LidarState::kRunning;
+  bool again = true;
+  while (again && !stop.stop_requested()) {
+    RecordingPlayer player(config_.file, config_.recording);
+    pacer.begin_pass();
+    while (!stop.stop_requested() && player.step(pacer)) publish(player, pacer);
+    again = config_.loop && pacer.samples_of_pass() > 0;
+    if (!again) status_.state = drivers::LidarState::kEnded;
+    publish(player, pacer);
+    add(status_.counters, player.counters());
+  }
+}
+
+void ReplayDriver::run(std::stop_token stop, drivers::SampleSink& sink) {
+  Pacer pacer(sink, config_.speed, stop);
+  try {
+    play(stop, pacer);
+  } catch (const std::exception& error) {
+    status_.state = drivers::LidarState::kFaulty;
+    status_.detail.set(error.what());
+    published_.publish(status_);
+  }
+}
+
+}  // namespace cornerd::replay

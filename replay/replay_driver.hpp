@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <filesystem>
+#include <stop_token>
+
+#include "core/latest.hpp"
+#include "drivers/lidar_driver.hpp"
+#include "replay/recording.hpp"
+
+namespace cornerd::replay {
+
+struct ReplayDriverConfig {
+  std::filesystem::path file;
+  double speed = 1;   ///< times real time; 0: as fast as the sink takes it
+  bool loop = false;  ///< begin again at the end
+  RecordingOptions recording;
+};
+
+/// A recording in place of a device. Samples keep their recorded times; with `loop` time goes on
+/// growing from one pass to the next. A file that cannot be played is the state kFaulty, its end
+/// kEnded; run() returns after either.
+class ReplayDriver : public drivers::LidarDriver {
+ public:
+  explicit ReplayDriver(ReplayDriverConfig config);
+
+  void run(std::stop_token stop, drivers::SampleSink& sink) override;
+  drivers::LidarStatus status() override { return published_.read(); }
+
+ private:
+  class Pacer;
+
+  void publish(const RecordingPlayer& player, const Pacer& pacer);
+  void play(const std::stop_token& stop, Pacer& pacer);
+
+  ReplayDriverConfig config_;
+  drivers::LidarStatus status_;  ///< run()'s own copy
+  core::Latest<drivers::LidarStatus> published_;
+};
+
+}  // namespace cornerd::replay
