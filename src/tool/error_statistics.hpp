@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "core/localizer.hpp"
+
+namespace cornerd::tool {
+
+/// How far a run of poses is from the truth, and whether its own doubts are honest.
+class ErrorStatistics {
+ public:
+  /// A pose further from the truth than this is wrong, not merely inexact.
+  static constexpr double kWrongDistanceM = 0.10;
+  static constexpr double kWrongAngleRad = core::radians(5);
+
+  void add(const core::PoseEstimate& estimate, const core::Pose2& T_map_base_true);
+  /// A turn that the truth says nothing about.
+  void add_unknown() { ++unknown_; }
+
+  std::size_t turns() const { return turns_; }
+  std::size_t count(core::PoseState state) const { return states_[index(state)]; }
+  std::size_t wrong() const { return wrong_; }
+  /// Ambiguous turns, one of whose alternatives is the true place.
+  std::size_t ambiguous_with_truth() const { return ambiguous_with_truth_; }
+  double mean_error_m() const;
+  double max_error_m() const;
+  /// Normalised estimation error squared: 3 on average where the covariances are honest.
+  double mean_nees() const;
+
+  /// Several lines for a person.
+  std::string report() const;
+
+ private:
+  static constexpr std::size_t kStates = 5;
+  static std::size_t index(core::PoseState state) { return static_cast<std::size_t>(state); }
+
+  void add_pose(const core::PoseEstimate& estimate, const core::Pose2& truth);
+
+  std::size_t turns_ = 0;
+  std::size_t unknown_ = 0;
+  std::array<std::size_t, kStates> states_{};
+  std::size_t wrong_ = 0;
+  std::size_t ambiguous_with_truth_ = 0;
+  std::vector<double> distances_m_;
+  std::vector<double> angles_rad_;
+  double nees_sum_ = 0;
+  std::size_t nees_count_ = 0;
+};
+
+}  // namespace cornerd::tool

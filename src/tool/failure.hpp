@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <stdexcept>
+#include <string>
+
+#include "settings/config.hpp"
+
+namespace cornerd::tool {
+
+/// What cornerctl ends with.
+enum ExitCode : int {
+  kExitDone = 0,
+  kExitFailed = 1,  ///< said on standard error
+  kExitUsage = 2,
+  kExitConfig = settings::kExitConfig  ///< a config or map that is wrong
+};
+
+/// Ends a command with kExitFailed. what() is one line for the user.
+class Failure : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// Ends a command with kExitUsage: its options are well formed but make no sense together.
+class UsageError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// Whoever read our standard output has gone. Not an error: he has seen enough.
+class OutputClosed : public std::exception {};
+
+}  // namespace cornerd::tool

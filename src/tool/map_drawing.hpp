@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "core/breakpoint/breakpoint.hpp"
+#include "core/map/wall_map.hpp"
+#include "core/scan.hpp"
+#include "tool/svg.hpp"
+
+namespace cornerd::tool {
+
+/// A map to scale, and on it what a lidar saw and where the robot was. Draw from the bottom up:
+/// what is added later lies above.
+class MapDrawing {
+ public:
+  /// Draws the grid, the rooms with their names, the walls and their corners.
+  explicit MapDrawing(const core::WallMap& map);
+
+  /// A way through the map. `truth`: thin and dashed, for the one that is only compared with.
+  void add_path(std::span<const core::Vec2> points, bool truth = false);
+  /// The returns of one turn.
+  void add_scan(const core::Scan& scan, const core::Pose2& T_map_lidar);
+  /// Corners as rings, terminals as squares.
+  void add_breakpoints(std::span<const core::Breakpoint> breakpoints,
+                       const core::Pose2& T_map_lidar);
+  /// The robot as an arrowhead.
+  void add_pose(const core::Pose2& T_map_base);
+  /// The ellipse that holds the true position 95 times of 100.
+  void add_uncertainty(const core::Pose2& T_map_base, const core::Covariance3& covariance);
+
+  /// The whole picture. `subtitle`: one line under the map's name.
+  std::string document(std::string_view subtitle);
+
+ private:
+  void draw_grid(double step_m);
+  void draw_rooms();
+  void draw_walls();
+  void draw_corners();
+  void draw_scale_bar(double length_m);
+
+  const core::WallMap& map_;
+  Svg svg_;
+};
+
+}  // namespace cornerd::tool

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <optional>
+
+#include "core/localizer.hpp"
+#include "core/scan.hpp"
+#include "drivers/lidar_driver.hpp"
+#include "message/line.hpp"
+#include "message/request.hpp"
+#include "tool/output.hpp"
+
+namespace cornerd::tool {
+
+/// The daemon's messages about a recording, as far as they were asked for.
+class MessagePrinter {
+ public:
+  /// `plan`: names the rooms; may be null.
+  MessagePrinter(Output& output, message::ClassSet classes, const core::FloorPlan* plan);
+
+  void print_turn(const core::Scan& turn, const core::TurnResult& result);
+
+  /// What comes now is of another file: rates begin anew.
+  void begin_recording();
+  /// STATUS where a second has passed since the last one. Time is that of the data.
+  void print_status_when_due(core::TimeNs t_ns, const drivers::StreamCounters& counters);
+  void print_status(core::TimeNs t_ns, const drivers::StreamCounters& counters,
+                    drivers::LidarState state);
+
+ private:
+  struct Mark {
+    core::TimeNs t_ns = 0;
+    drivers::StreamCounters counters;
+  };
+
+  Output& output_;
+  message::ClassSet classes_;
+  const core::FloorPlan* plan_;
+  message::LineWriter writer_;
+  std::optional<Mark> last_status_;
+};
+
+}  // namespace cornerd::tool

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/geometry/pose2.hpp"
+#include "drivers/rplidar/decoder.hpp"
+#include "message/request.hpp"
+#include "settings/config.hpp"
+
+namespace CLI {
+class App;
+}
+
+namespace cornerd::tool {
+
+/// --config, --map and --set of the commands that need settings.
+class SettingsOptions {
+ public:
+  void add_config(CLI::App& command);
+  void add_map(CLI::App& command);
+
+  /// The config with everything that the command line puts over it. Without --config: defaults.
+  /// Throws settings::SettingsError; UsageError where a map is needed and none is named.
+  settings::Config resolve(bool needs_map) const;
+
+  /// Puts "/json/pointer=value" over the config, before what --set says.
+  void add_override(const std::string& text) { overrides_.push_back(text); }
+
+ private:
+  std::filesystem::path config_;
+  std::filesystem::path map_;
+  std::vector<std::string> overrides_;
+  std::vector<std::string> set_;
+};
+
+/// --wire standard|express|ultra|auto, for bytes that begin without a response descriptor.
+void add_wire_option(CLI::App& command, std::string& wire);
+/// nullopt for auto; the option accepts nothing that is unknown.
+std::optional<rplidar::WireFormat> parse_wire(const std::string& wire);
+
+/// "POSE,SCAN" as a set. Throws UsageError.
+message::ClassSet parse_classes(const std::vector<std::string>& names);
+
+/// "x,y,theta" in metres and radians. Throws UsageError.
+core::Pose2 parse_pose(const std::string& text);
+
+/// "x,y x,y ..." in metres. Throws UsageError.
+std::vector<core::Vec2> parse_points(const std::string& text);
+
+}  // namespace cornerd::tool

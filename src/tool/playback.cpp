@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+#include "tool/playback.hpp"
+
+#include <cstdio>
+#include <utility>
+
+#include "tool/failure.hpp"
+
+namespace cornerd::tool {
+
+class Playback::Sink : public replay::RecordingSink {
+ public:
+  explicit Sink(Playback& playback) : playback_(playback) {}
+
+  void on_sample(const core::Sample& sample) override {
+    playback_.on_result(playback_.pipeline_.add(sample));
+  }
+  void on_gap() override { playback_.on_result(playback_.pipeline_.finish()); }
+  void on_odometry(const message::OdometryReading&) override {}
+
+ private:
+  Playback& playback_;
+};
+
+Playback::Playback(core::Pipeline& pipeline, OnTurn on_turn, OnPiece on_piece)
+    : pipeline_(pipeline), on_turn_(std::move(on_turn)), on_piece_(std::move(on_piece)) {}
+
+void Playback::on_result(const core::TurnResult* result) {
+  if (result == nullptr) return;
+  ++turns_;
+  on_turn_(pipeline_.turn(), *result);
+  if (independent_) pipeline_.localizer().relocalize();
+}
+
+void Playback::play(const std::filesystem::path& file, const replay::RecordingOptions& options) {
+  replay::RecordingPlayer player(file, options);
+  Sink sink(*this);
+  turns_ = 0;
+  pipeline_.localizer().relocalize();
+  while (player.step(sink)) {
+    if (on_piece_) on_piece_(player.time_ns(), player.counters());
+  }
+  on_result(pipeline_.finish());
+  if (on_piece_) on_piece_(player.time_ns(), player.counters());
+
+  if (player.bad_lines() > 0) {
+    std::fprintf(stderr, "%s: %llu lines passed over; the first: %s\n", file.c_str(),
+                 static_cast<unsigned long long>(player.bad_lines()),
+                 player.first_problem().c_str());
+  }
+  if (turns_ == 0) throw Failure(file.string() + ": not one whole turn of a lidar in it");
+}
+
+}  // namespace cornerd::tool

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <functional>
+
+#include "core/pipeline.hpp"
+#include "drivers/lidar_driver.hpp"
+#include "replay/recording.hpp"
+
+namespace cornerd::tool {
+
+/// Plays recordings through the daemon's own pipeline.
+class Playback {
+ public:
+  /// Called for every turn; both arguments are valid during the call alone.
+  using OnTurn = std::function<void(const core::Scan& turn, const core::TurnResult& result)>;
+  /// Called after every piece of the recording, with the time and the counters so far.
+  using OnPiece = std::function<void(core::TimeNs t_ns, const drivers::StreamCounters& counters)>;
+
+  Playback(core::Pipeline& pipeline, OnTurn on_turn, OnPiece on_piece = {});
+
+  /// Forget everything between turns, as if each were the first.
+  void set_independent(bool independent) { independent_ = independent; }
+
+  /// Plays one file to its end; nothing of an earlier one is remembered. What was passed over is
+  /// said on standard error. Throws replay::RecordingError, and Failure where the file holds not a
+  /// single whole turn.
+  void play(const std::filesystem::path& file, const replay::RecordingOptions& options);
+
+ private:
+  class Sink;
+
+  void on_result(const core::TurnResult* result);
+
+  core::Pipeline& pipeline_;
+  OnTurn on_turn_;
+  OnPiece on_piece_;
+  bool independent_ = false;
+  std::size_t turns_ = 0;
+};
+
+}  // namespace cornerd::tool

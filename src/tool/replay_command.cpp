@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: MIT
+// cornerctl replay: recordings through the daemon's own pipeline. Same input, same output bytes.
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include "settings/map_file.hpp"
+#include "tool/commands.hpp"
+#include "tool/error_statistics.hpp"
+#include "tool/failure.hpp"
+#include "tool/message_printer.hpp"
+#include "tool/options.hpp"
+#include "tool/output.hpp"
+#include "tool/pace.hpp"
+#include "tool/playback.hpp"
+#include "tool/truth.hpp"
+
+namespace cornerd::tool {
+
+namespace {
+
+using message::MessageClass;
+
+struct ReplayOptions {
+  std::vector<std::filesystem::path> files;
+  SettingsOptions settings;
+  std::vector<std::string> classes = {"POSE", "STATUS"};
+  std::string speed = "max";
+  std::string wire = "auto";
+  std::filesystem::path truth;
+  bool independent = false;
+};
+
+void replay(const ReplayOptions& options) {
+  const message::ClassSet classes = parse_classes(options.classes);
+  const std::optional<double> speed = parse_speed(options.speed);
+  const bool needs_map = classes.contains(MessageClass::kPose) || !options.truth.empty();
+  const settings::Config config = options.settings.resolve(needs_map);
+  const auto map = needs_map ? settings::load_map(config.map) : nullptr;
+  std::optional<Truth> truth;
+  if (!options.truth.empty()) truth = Truth::load(options.truth);
+
+  Output output(/*flush_each=*/speed.has_value());
+  MessagePrinter printer(output, classes, map ? &map->plan() : nullptr);
+  core::Pipeline pipeline(map, config.localizer());
+  ErrorStatistics errors;
+  std::optional<Pace> pace;
+
+  const auto on_turn = [&](const core::Scan& turn, const core::TurnResult& result) {
+    printer.print_turn(turn, result);
+    if (!truth) return;
+    const std::optional<core::Pose2> T_map_base = truth->at(result.pose.t_ns);
+    T_map_base ? errors.add(result.pose, *T_map_base) : errors.add_unknown();
+  };
+  drivers::StreamCounters counters;
+  core::TimeNs t_ns = 0;
+  const auto on_piece = [&](core::TimeNs piece_ns, const drivers::StreamCounters& so_far) {
+    t_ns = piece_ns;
+    counters = so_far;
+    if (pace) pace->wait_until(t_ns);
+    printer.print_status_when_due(t_ns, counters);
+  };
+
+  Playback playback(pipeline, on_turn, on_piece);
+  playback.set_independent(options.independent);
+  const replay::RecordingOptions recording{parse_wire(options.wire), config.lidar.mount.inverted};
+  for (const std::filesystem::path& file : options.files) {
+    if (speed) pace.emplace(*speed);
+    printer.begin_recording();
+    playback.play(file, recording);
+    printer.print_status(t_ns, counters, drivers::LidarState::kEnded);
+  }
+  output.flush();
+  if (truth) std::fputs(errors.report().c_str(), stderr);
+}
+
+}  // namespace
+
+void add_replay(CLI::App& program) {
+  CLI::App* command =
+      program.add_subcommand("replay", "the daemon's own pipeline over recordings, to messages");
+  const auto options = std::make_shared<ReplayOptions>();
+  command->add_option("files", options->files, "recordings (.bin, .ndjson), one after another")
+      ->required()
+      ->type_name("FILE");
+  options->settings.add_config(*command);
+  options->settings.add_map(*command);
+  command->add_option("--classes", options->classes, "messages to print")
+      ->delimiter(',')
+      ->capture_default_str();
+  command->add_option("--speed", options->speed, "max, or times real time")->capture_default_str();
+  add_wire_option(*command, options->wire);
+  command
+      ->add_option("--truth", options->truth,
+                   "where the robot really was: error statistics on standard error")
+      ->type_name("FILE");
+  command->add_flag("--independent", options->independent, "forget everything between turns");
+  command->callback([options] { replay(*options); });
+}
+
+}  // namespace cornerd::tool

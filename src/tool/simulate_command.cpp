@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: MIT
+// cornerctl simulate: a recording of a simulated robot in a map, with its truth.
+#include <cstdint>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include <CLI/CLI.hpp>
+
+#include "replay/recording_writer.hpp"
+#include "replay/simulator/simulated_recording.hpp"
+#include "settings/map_file.hpp"
+#include "tool/commands.hpp"
+#include "tool/failure.hpp"
+#include "tool/options.hpp"
+#include "tool/simulation_options.hpp"
+
+namespace cornerd::tool {
+
+namespace {
+
+struct SimulateOptions {
+  SettingsOptions settings;
+  SimulationOptions simulation;
+  std::int64_t turns = 0;
+  std::string wire = "express";
+  std::filesystem::path output;
+  std::filesystem::path truth;
+};
+
+void simulate(const SimulateOptions& options) {
+  const settings::Config settings = options.settings.resolve(/*needs_map=*/true);
+  const auto map = settings::load_map(settings.map);
+  const SimulationOptions& simulation = options.simulation;
+  const replay::Motion motion = simulation.motion(*map);
+
+  replay::SimulatedRecordingConfig config;
+  config.simulator = simulation.simulator(*parse_wire(options.wire), settings.lidar.mount.inverted);
+  config.T_base_lidar = settings.localizer().T_base_lidar;
+  config.turns = options.turns > 0 ? options.turns : simulation.usual_turns();
+  config.byte_fault_share = simulation.byte_faults;
+
+  replay::RecordingWriter recording(options.output);
+  std::optional<replay::TruthWriter> truth;
+  if (!options.truth.empty()) {
+    if (!recording.has_lines() && !simulation.stands_still()) {
+      throw UsageError(
+          "--truth of a robot that moves needs a recording with times: -o FILE.ndjson");
+    }
+    truth.emplace(options.truth);
+  }
+  const replay::SimulatedRecordingSummary summary =
+      simulate_recording(map, motion, config, recording, truth ? &*truth : nullptr);
+  std::fprintf(stderr, "%s: %lld turns in %.1f s, %llu samples, %.0f %% of them with a return\n",
+               options.output.c_str(), static_cast<long long>(config.turns), summary.duration_s,
+               static_cast<unsigned long long>(summary.samples),
+               100.0 * static_cast<double>(summary.returns) / static_cast<double>(summary.samples));
+}
+
+}  // namespace
+
+void add_simulate(CLI::App& program) {
+  CLI::App* command =
+      program.add_subcommand("simulate", "record a simulated robot in a map, with its truth");
+  const auto options = std::make_shared<SimulateOptions>();
+  options->settings.add_config(*command);
+  options->settings.add_map(*command);
+  options->simulation.add_to(*command);
+  command
+      ->add_option("--turns", options->turns,
+                   "whole turns of the lidar; else as many as the places, or 10")
+      ->check(CLI::PositiveNumber)
+      ->type_name("N");
+  command->add_option("--wire", options->wire, "standard, express or ultra")
+      ->check(CLI::IsMember({"standard", "express", "ultra"}))
+      ->capture_default_str();
+  command
+      ->add_option("-o,--output", options->output,
+                   "the recording: .ndjson with times, .bin the bare bytes")
+      ->required()
+      ->type_name("FILE");
+  command->add_option("--truth", options->truth, "where the robot really was, for replay --truth")
+      ->type_name("FILE");
+  command->callback([options] { simulate(*options); });
+}
+
+}  // namespace cornerd::tool

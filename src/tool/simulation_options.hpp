@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "core/map/wall_map.hpp"
+#include "replay/simulator/scene.hpp"
+#include "replay/simulator/simulator.hpp"
+
+namespace CLI {
+class App;
+}
+
+namespace cornerd::tool {
+
+/// Where a simulated robot is and how its lidar errs: what simulate and emulate have in common.
+struct SimulationOptions {
+  std::string pose;        ///< x,y,theta: stands there
+  std::size_t places = 0;  ///< visits so many random places
+  std::string path;        ///< "x,y x,y ...": drives along
+  bool loop = false;       ///< drives the path again and again
+  std::int64_t turns_each = 1;
+  double speed_m_s = 0.2;
+  double motor_hz = 7.3;
+  double missing = -1;  ///< negative: the sensor model's own
+  double byte_faults = 0;
+  std::uint64_t seed = 1;
+
+  void add_to(CLI::App& command);
+
+  bool stands_still() const { return !pose.empty(); }
+  /// Turns of the sensor in a recording of which nobody says how long it is.
+  std::int64_t usual_turns() const;
+  /// Throws UsageError unless exactly one of pose, places and path is given.
+  replay::Motion motion(const core::WallMap& map) const;
+  replay::SimulatorConfig simulator(rplidar::WireFormat wire, bool inverted) const;
+};
+
+}  // namespace cornerd::tool

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "core/geometry/pose2.hpp"
+
+namespace cornerd::tool {
+
+/// How a shape looks. Colours as SVG has them ("#2f3640", "none"); widths in pixels.
+struct Paint {
+  std::string_view fill = "none";
+  std::string_view stroke = "none";
+  double stroke_width = 1;
+  double opacity = 1;
+  std::string_view dashes = {};  ///< stroke-dasharray; empty: solid
+};
+
+struct TextStyle {
+  std::string_view fill = "#000000";
+  double size = 12;                    ///< pixels
+  std::string_view anchor = "middle";  ///< or start, end
+  bool bold = false;
+  double turn_deg = 0;  ///< counter-clockwise
+};
+
+/// An SVG picture of a piece of the plane: shapes are given in metres with y upwards, strokes and
+/// texts in pixels. Offsets in pixels, y downwards, shift a text off the point that it belongs to.
+class Svg {
+ public:
+  /// Shows the rectangle between the two corners, and `margin_px` around it.
+  Svg(const core::Vec2& lower_left, const core::Vec2& upper_right, double pixels_per_m,
+      double margin_px);
+
+  void polygon(std::span<const core::Vec2> points, const Paint& paint);
+  void polyline(std::span<const core::Vec2> points, const Paint& paint);
+  void line(const core::Vec2& from, const core::Vec2& to, const Paint& paint);
+  void dot(const core::Vec2& center, double radius_px, const Paint& paint);
+  /// Half axes in metres; `turn_rad`: of the first axis, counter-clockwise from x.
+  void ellipse(const core::Vec2& center, double first_m, double second_m, double turn_rad,
+               const Paint& paint);
+  void text(const core::Vec2& at, std::string_view text, const TextStyle& style,
+            double right_px = 0, double down_px = 0);
+
+  /// What is drawn until the end of the group shares an id, for those who edit the picture.
+  void begin_group(std::string_view id);
+  void end_group();
+
+  /// The page of the whole picture, in metres: for frames and scale bars.
+  double pixels_per_m() const { return pixels_per_m_; }
+  double width_px() const { return width_px_; }
+  double height_px() const { return height_px_; }
+
+  /// The complete document. `title` is what a browser's tab shows.
+  std::string document(std::string_view title) const;
+
+ private:
+  core::Vec2 to_pixels(const core::Vec2& point_m) const;
+  void points(std::string_view element, std::span<const core::Vec2> points, const Paint& paint);
+  void paint(const Paint& paint);
+  void number(double value);
+  void attribute(std::string_view name, double value);
+
+  core::Vec2 lower_left_;
+  double pixels_per_m_;
+  double margin_px_;
+  double width_px_;
+  double height_px_;
+  std::string body_;
+};
+
+/// Text as the content of an XML element or attribute: the five special characters as entities,
+/// control characters, which XML has none of, as U+FFFD.
+std::string escape_xml(std::string_view text);
+
+}  // namespace cornerd::tool
