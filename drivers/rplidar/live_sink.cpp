@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+#include "drivers/rplidar/live_sink.hpp"
+
+#include <utility>
+
+namespace cornerd::rplidar {
+namespace {
+
+constexpr int kBlindTurns = 20;
+constexpr std::size_t kMinReturnsPercent = 1;
+
+}  // namespace
+
+void LiveSink::on_sample(const core::Sample& sample) {
+  if (sample.starts_turn) end_turn();
+  ++count_;
+  ++turn_samples_;
+  if (sample.range_m > 0) ++turn_returns_;
+  core::Sample live = sample;
+  live.t_ns += unix_offset_ns_;
+  board_.count(sample);
+  next_.on_sample(live);
+}
+
+std::size_t LiveSink::take_count() { return std::exchange(count_, 0); }
+
+bool LiveSink::blind() const { return blind_turns_ >= kBlindTurns; }
+
+void LiveSink::end_turn() {
+  const bool sees = turn_returns_ * 100 >= turn_samples_ * kMinReturnsPercent;
+  blind_turns_ = sees ? 0 : blind_turns_ + 1;
+  turn_samples_ = 0;
+  turn_returns_ = 0;
+  unix_offset_ns_ = clock_.unix_offset_ns();
+}
+
+}  // namespace cornerd::rplidar

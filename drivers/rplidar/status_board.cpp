@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: MIT
+#include "drivers/rplidar/status_board.hpp"
+
+#include "drivers/counter_names.hpp"
+
+namespace cornerd::rplidar {
+namespace {
+
+constexpr core::TimeNs kUpdateNs = core::kNsPerSecond / 2;
+
+drivers::StreamCounters sum(drivers::StreamCounters a, const drivers::StreamCounters& b) {
+  for (const auto& counter : drivers::kCounterNames) a.*counter.member += b.*counter.member;
+  return a;
+}
+
+double rate_hz(std::uint64_t intervals, core::TimeNs duration_ns) {
+  return duration_ns > 0 ? static_cast<double>(intervals) / core::to_seconds(duration_ns) : 0;
+}
+
+}  // namespace
+
+void StatusBoard::set_state(drivers::LidarState state, std::string_view detail) {
+  status_.state = state;
+  status_.detail.set(detail);
+  publish();
+}
+
+void StatusBoard::set_device(std::string_view model, std::string_view firmware) {
+  status_.model.set(model);
+  status_.firmware.set(firmware);
+  publish();
+}
+
+void StatusBoard::set_health(std::string_view health) {
+  status_.health.set(health);
+  publish();
+}
+
+void StatusBoard::set_mode(std::string_view mode) {
+  status_.mode.set(mode);
+  publish();
+}
+
+void StatusBoard::begin_stream() {
+  before_ = status_.counters;
+  status_.rate_hz = 0;
+  status_.samples_hz = 0;
+  samples_ = 0;
+  turns_ = 0;
+}
+
+void StatusBoard::count(const core::Sample& sample) {
+  if (samples_++ == 0) first_ns_ = sample.t_ns;
+  last_ns_ = sample.t_ns;
+  if (!sample.starts_turn) return;
+  if (turns_++ == 0) first_turn_ns_ = sample.t_ns;
+  last_turn_ns_ = sample.t_ns;
+}
+
+void StatusBoard::update(const drivers::StreamCounters& of_stream, core::TimeNs now_ns) {
+  if (now_ns - updated_ns_ < kUpdateNs) return;
+  updated_ns_ = now_ns;
+  status_.counters = sum(before_, of_stream);
+  measure_rates();
+  publish();
+}
+
+// Turns are counted from mark to mark, so that the slow ones of 1 Hz get a rate too.
+void StatusBoard::measure_rates() {
+  if (samples_ == 0) {
+    status_.samples_hz = 0;
+    status_.rate_hz = 0;
+    return;
+  }
+  status_.samples_hz = rate_hz(samples_ - 1, last_ns_ - first_ns_);
+  samples_ = 0;
+  if (turns_ < 2) return;
+  status_.rate_hz = rate_hz(turns_ - 1, last_turn_ns_ - first_turn_ns_);
+  turns_ = 1;
+  first_turn_ns_ = last_turn_ns_;
+}
+
+}  // namespace cornerd::rplidar

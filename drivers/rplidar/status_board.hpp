@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+
+#include "core/latest.hpp"
+#include "core/types.hpp"
+#include "drivers/lidar_driver.hpp"
+
+namespace cornerd::rplidar {
+
+/// What a driver knows about its device, written by the reader thread, read by another one. Neither
+/// ever waits, and nothing is allocated.
+class StatusBoard {
+ public:
+  /// Reader thread, as all that follow but read().
+  void set_state(drivers::LidarState state, std::string_view detail);
+  void set_device(std::string_view model, std::string_view firmware);
+  void set_health(std::string_view health);
+  void set_mode(std::string_view mode);
+
+  drivers::LidarState state() const { return status_.state; }
+
+  /// Another stream begins; its counters go on top of those before.
+  void begin_stream();
+  void count(const core::Sample& sample);
+  /// Publishes counters and rates, twice a second at most.
+  void update(const drivers::StreamCounters& of_stream, core::TimeNs now_ns);
+
+  /// The other thread.
+  drivers::LidarStatus read() { return latest_.read(); }
+
+ private:
+  void publish() { latest_.publish(status_); }
+  void measure_rates();
+
+  drivers::LidarStatus status_;
+  drivers::StreamCounters before_;  ///< of the streams that have ended
+  core::TimeNs updated_ns_ = 0;
+
+  std::uint64_t samples_ = 0;  ///< since first_ns_
+  core::TimeNs first_ns_ = 0;
+  core::TimeNs last_ns_ = 0;
+  std::uint64_t turns_ = 0;  ///< turn marks since first_turn_ns_, that one included
+  core::TimeNs first_turn_ns_ = 0;
+  core::TimeNs last_turn_ns_ = 0;
+
+  core::Latest<drivers::LidarStatus> latest_;
+};
+
+}  // namespace cornerd::rplidar

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: MIT
+#include "drivers/serial/serial_port.hpp"
+
+#include <fcntl.h>
+#include <poll.h>
+#include <sys/file.h>
+#include <sys/ioctl.h>
+#include <termios.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <limits>
+#include <utility>
+
+#include "drivers/serial/baud_rate.hpp"
+#include "drivers/serial/file_descriptor.hpp"
+
+namespace cornerd::drivers {
+namespace {
+
+constexpr int kWriteTimeoutMs = 500;
+
+class SerialPort : public ByteStream {
+ public:
+  explicit SerialPort(FileDescriptor fd) : fd_(std::move(fd)) {}
+  // A terminal outlives its last close where its other end is open, and would stay exclusive.
+  ~SerialPort() override { ::ioctl(fd_.get(), TIOCNXCL); }
+  SerialPort(const SerialPort&) = delete;
+  SerialPort& operator=(const SerialPort&) = delete;
+
+  ReadResult read(std::span<std::uint8_t> buffer, std::chrono::milliseconds timeout) override {
+    pollfd entry{.fd = fd_.get(), .events = POLLIN, .revents = 0};
+    const int timeout_ms = static_cast<int>(
+        std::clamp<std::int64_t>(timeout.count(), 0, std::numeric_limits<int>::max()));
+    const int ready = ::poll(&entry, 1, timeout_ms);
+    if (ready < 0) return {errno == EINTR ? ReadStatus::kTimeout : ReadStatus::kLost, 0};
+    if (ready == 0) return {};
+    // What arrived before a hang-up is still there to be read.
+    const ssize_t count = ::read(fd_.get(), buffer.data(), buffer.size());
+    if (count > 0) return {ReadStatus::kData, static_cast<std::size_t>(count)};
+    const bool nothing_yet = count == 0 ? (entry.revents & (POLLHUP | POLLERR | POLLNVAL)) == 0
+                                        : errno == EAGAIN || errno == EINTR;
+    return {nothing_yet ? ReadStatus::kTimeout : ReadStatus::kLost, 0};
+  }
+
+  bool write(std::span<const std::uint8_t> bytes) override {
+    while (!bytes.empty()) {
+      const ssize_t count = ::write(fd_.get(), bytes.data(), bytes.size());
+      if (count > 0) {
+        bytes = bytes.subspan(static_cast<std::size_t>(count));
+      } else if (count < 0 && errno == EINTR) {
+        continue;
+      } else if (count < 0 && errno == EAGAIN) {
+        pollfd entry{.fd = fd_.get(), .events = POLLOUT, .revents = 0};
+        if (::poll(&entry, 1, kWriteTimeoutMs) <= 0) return false;
+      } else {
+        return false;
+      }
+    }
+    return true;
+  }
+
+  void discard_input() override { ::tcflush(fd_.get(), TCIFLUSH); }
+
+  bool set_dtr(bool asserted) override {
+    int line = TIOCM_DTR;
+    return ::ioctl(fd_.get(), asserted ? TIOCMBIS : TIOCMBIC, &line) == 0;
+  }
+
+ private:
+  FileDescriptor fd_;
+};
+
+OpenResult failure(OpenError error, const std::string& path, const std::string& reason) {
+  return {.stream = nullptr, .error = error, .message = path + ": " + reason};
+}
+
+OpenResult explain_open_failure(const std::string& path, int error) {
+  switch (error) {
+    case ENOENT:
+    case ENODEV:
+    case ENXIO:
+      return failure(OpenError::kAbsent, path, "no such port");
+    case EACCES:
+    case EPERM:
+      return failure(OpenError::kDenied, path,
+                     "no permission to open it; is the user in the group dialout?");
+    case EBUSY:
+      return failure(OpenError::kBusy, path, "held by another process");
+    default:
+      return failure(OpenError::kFailed, path, std::strerror(error));
+  }
+}
+
+bool make_raw(int fd, speed_t speed) {
+  termios settings{};
+  if (::tcgetattr(fd, &settings) != 0) return false;
+  ::cfmakeraw(&settings);
+  settings.c_iflag &= ~static_cast<tcflag_t>(IXOFF | IXANY | INPCK);
+  settings.c_iflag |= IGNBRK;
+  settings.c_cflag &= ~static_cast<tcflag_t>(CSIZE | CSTOPB | PARENB | CRTSCTS | HUPCL);
+  settings.c_cflag |= CS8 | CLOCAL | CREAD;
+  settings.c_cc[VMIN] = 0;
+  settings.c_cc[VTIME] = 0;
+  return ::cfsetspeed(&settings, speed) == 0 && ::tcsetattr(fd, TCSANOW, &settings) == 0;
+}
+
+}  // namespace
+
+OpenResult open_serial_port(const std::string& path, std::uint32_t baud) {
+  const auto speed = termios_speed(baud);
+  if (!speed) {
+    return failure(OpenError::kFailed, path, std::to_string(baud) + " baud is not supported");
+  }
+  FileDescriptor fd(::open(path.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC));
+  if (!fd) return explain_open_failure(path, errno);
+  if (::isatty(fd.get()) == 0) return failure(OpenError::kFailed, path, "not a serial port");
+  if (::flock(fd.get(), LOCK_EX | LOCK_NB) != 0) {
+    if (errno != EWOULDBLOCK) return failure(OpenError::kFailed, path, std::strerror(errno));
+    return failure(OpenError::kBusy, path, "held by another process");
+  }
+  if (::ioctl(fd.get(), TIOCEXCL) != 0 || !make_raw(fd.get(), *speed)) {
+    return failure(OpenError::kFailed, path, std::strerror(errno));
+  }
+  ::tcflush(fd.get(), TCIOFLUSH);
+  return {.stream = std::make_unique<SerialPort>(std::move(fd)),
+          .error = OpenError::kNone,
+          .message = {}};
+}
+
+}  // namespace cornerd::drivers
