@@ -20,9 +20,10 @@ constexpr double kRecognisedReach_m = 0.10;
 constexpr double kPriorReach_m = 0.15;
 /// A pose older than this is no prior any more.
 constexpr double kMaxPriorAge_s = 2;
-/// A place that leaves more than this of the rays unexplained may be the wrong one of several: then
-/// all that could have been overlooked is tested too.
-constexpr double kCertainHits = 0.9;
+/// A place that leaves more than this of the rays unexplained, or that few rays speak for, may be the
+/// wrong one of several: then all that could have been overlooked is tested too.
+constexpr double kCertainHitShare = 0.9;
+constexpr std::size_t kCertainHits = 100;
 
 /// A pose of `lidar` becomes that of `base`: the offset turns with the heading.
 Covariance3 covariance_of_base(const Covariance3& of_lidar, const Pose2& T_map_lidar,
@@ -39,7 +40,7 @@ struct Localizer::Workspace {
   /// What needs a map.
   struct Place {
     Place(const WallMap& map, const LocalizerConfig& config)
-        : catalog(map, config.max_range_m), recognition(catalog), verification(map, config) {}
+        : catalog(map, config.max_range_m), recognition(map, catalog), verification(map, config) {}
     Catalog catalog;
     Recognition recognition;
     Verification verification;
@@ -116,9 +117,18 @@ void Localizer::Workspace::recognise(TimeNs t_ns) {
     const Hypothesis carried_on{*before, 0};
     verification.consider(std::span(&carried_on, 1), kPriorReach_m);
   }
-  const auto places = verification.places();
-  if (places.empty() || places.front().explanation.hit_share() < kCertainHits) {
+  const auto in_doubt = [&] {
+    const auto places = verification.places();
+    if (places.empty()) return true;
+    const Explanation& best = places.front().explanation;
+    return best.hits < kCertainHits || best.hit_share() < kCertainHitShare;
+  };
+  if (in_doubt()) {
     verification.consider(place->recognition.from_single_corners(breakpoints), kRecognisedReach_m);
+  }
+  if (in_doubt()) {
+    verification.consider(place->recognition.from_walls(result.detection.segments, breakpoints),
+                          kRecognisedReach_m);
   }
 }
 

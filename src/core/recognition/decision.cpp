@@ -9,6 +9,9 @@ namespace {
 /// Log-likelihoods count every ray as if it were independent. A displaced wall or a person moves
 /// many rays at once, so that this much of a difference decides nothing yet.
 constexpr double kMargin = 15;
+/// Each ray that even the likeliest place does not explain says that the map or the model is off by
+/// something, and widens the margin by this much.
+constexpr double kMarginPerStranger = 0.25;
 /// Where the prior is good enough to choose among rivals.
 constexpr double kPriorRadius_m = 0.25;
 constexpr double kPriorAngle_rad = radians(20);
@@ -18,9 +21,11 @@ constexpr double kPriorAngle_rad = radians(20);
 Decision decide(std::span<const Place> places, const std::optional<Pose2>& prior) {
   Decision decision;
   if (places.empty()) return decision;
-  const double best = places.front().explanation.log_likelihood;
+  const Explanation& likeliest = places.front().explanation;
+  const auto strangers = static_cast<double>(likeliest.rays - likeliest.hits);
+  const double margin = kMargin + kMarginPerStranger * strangers;
   while (decision.rivals < places.size() &&
-         places[decision.rivals].explanation.log_likelihood > best - kMargin) {
+         places[decision.rivals].explanation.log_likelihood > likeliest.log_likelihood - margin) {
     ++decision.rivals;
   }
   if (decision.rivals == 1) {

@@ -7,11 +7,19 @@
 namespace cornerd::core {
 namespace {
 
-/// Shares of what a ray does, when the place is right: a usual indoor turn, with a wide margin.
-constexpr double kHitShare = 0.8;
-constexpr double kShortShare = 0.15;
+/// What a ray does when the place is right: shares of a usual indoor turn, with a wide margin.
+constexpr double kHitShare = 0.7;
+constexpr double kNearShare = 0.15;
+constexpr double kShortShare = 0.1;
 constexpr double kOtherShare = 0.05;
-/// An unexplained range may be anything that an A1 can measure.
+/// A wall may be this far off where the map has it (a standard deviation); so may all walls of a
+/// turn that was taken in motion.
+constexpr double kNearSigma_m = 0.03;
+constexpr double kNearSigmas = 2.5;
+/// What stands in front of a wall may stand anywhere: this much of the way counts, whatever the
+/// distance, so that no place gains by having its walls near.
+constexpr double kShortSpan_m = 2;
+/// A range that nothing explains may be anything that an A1 can measure.
 constexpr double kOtherSpan_m = 12;
 constexpr double kHitSigmas = 4;
 /// Least standard deviation of a range: what walls are off their place in any map.
@@ -25,6 +33,7 @@ Explanation explain(const WallMap& map, std::span<const PolarPoint> points,
                     std::span<const PredictedHit> hits, const Pose2& T_map_lidar,
                     const SensorNoise& noise, double noise_scale, double slack_m) {
   static const double kLogRootTwoPi = std::log(std::sqrt(kTwoPi));
+  const double log_short = std::log(kShortShare / kShortSpan_m);
   const double log_other = std::log(kOtherShare / kOtherSpan_m);
   const double c = std::cos(T_map_lidar.theta_rad);
   const double s = std::sin(T_map_lidar.theta_rad);
@@ -47,17 +56,24 @@ Explanation explain(const WallMap& map, std::span<const PolarPoint> points,
                             kMapSigma_m * kMapSigma_m + slack_m * slack_m;
     const double error_m = point.range_m - hits[i].range_m;
     const double z_square = error_m * error_m / variance;
+    const double near_variance = kNearSigma_m * kNearSigma_m + variance;
     if (z_square < kHitSigmas * kHitSigmas) {
       ++result.hits;
-      result.log_likelihood += std::max(
-          log_other, std::log(kHitShare) - kLogRootTwoPi - std::log(variance) / 2 - z_square / 2);
+    } else if (error_m * error_m < kNearSigmas * kNearSigmas * near_variance) {
+      ++result.near;
     } else if (error_m < 0) {
       ++result.shorts;
-      result.log_likelihood += std::log(kShortShare / hits[i].range_m);
+      result.log_likelihood += log_short;
+      continue;
     } else {
       ++result.through;
       result.log_likelihood += log_other;
+      continue;
     }
+    const double hit = std::log(kHitShare) - std::log(variance) / 2 - z_square / 2;
+    const double near =
+        std::log(kNearShare) - std::log(near_variance) / 2 - error_m * error_m / near_variance / 2;
+    result.log_likelihood += std::max(hit, near) - kLogRootTwoPi;
   }
   return result;
 }

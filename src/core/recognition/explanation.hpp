@@ -13,12 +13,14 @@ namespace cornerd::core {
 /// How well a place explains a turn, ray by ray.
 struct Explanation {
   std::size_t rays = 0;
-  std::size_t hits = 0;     ///< met the wall that the map has there
+  std::size_t hits = 0;  ///< met the wall that the map has there
+  std::size_t near = 0;  ///< met something close to it: a wall that is not quite where it should be
   std::size_t shorts = 0;   ///< something that the map does not have stood in front of the wall
   std::size_t through = 0;  ///< went through a wall of the map
   double log_likelihood = 0;
 
   double hit_share() const { return share(hits); }
+  double near_share() const { return share(hits + near); }
   double through_share() const { return share(through); }
 
  private:

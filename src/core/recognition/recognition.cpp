@@ -14,6 +14,11 @@ constexpr double kMinBaseline_m = 0.15;
 constexpr double kDistanceFloor_m = 0.01;
 constexpr double kGateSigmas = 3.5;
 constexpr double kDirectionTolerance_rad = radians(15);
+/// Two walls meet at an angle that fixes a place only when they are far from parallel.
+constexpr double kMinWallSine = 0.5;
+/// What a wall may seem to go on past its end: the heading of a short wall is known to a few
+/// degrees.
+constexpr double kWallEndTolerance_m = 0.10;
 /// What a breakpoint may be off at a place that only a pair or a single corner gave.
 constexpr double kVoteRadius_m = Catalog::kVisitRadius_m;
 /// Places closer than this lead to the same place when they are refined.
@@ -25,6 +30,17 @@ bool agree(double a_rad, double b_rad) {
 }
 
 double sigma_of(const Breakpoint& breakpoint) { return std::sqrt(breakpoint.covariance.trace()); }
+
+/// True where the seen piece of wall, at this place, lies on the face.
+bool holds(const Face& face, const WallSegment& seen, const Pose2& T_map_lidar) {
+  const auto along_m = [&](const Vec2& point) {
+    return face.direction.dot(T_map_lidar * point - face.from);
+  };
+  const double low_m = along_m(seen.first);
+  const double high_m = along_m(seen.last);
+  return std::min(low_m, high_m) > -kWallEndTolerance_m &&
+         std::max(low_m, high_m) < face.length_m + kWallEndTolerance_m;
+}
 
 }  // namespace
 
@@ -39,7 +55,8 @@ bool looks_like(const Breakpoint& breakpoint, const Corner& landmark, double hea
           agree(breakpoint.right_wall_rad + heading_rad, landmark.right_face_rad));
 }
 
-Recognition::Recognition(const Catalog& catalog) : catalog_(catalog) {
+Recognition::Recognition(const WallMap& map, const Catalog& catalog)
+    : map_(map), catalog_(catalog) {
   selected_.reserve(kMaxBreakpointsPerTurn);
   hypotheses_.reserve(kMaxHypotheses);
 }
@@ -108,6 +125,48 @@ std::span<const Hypothesis> Recognition::from_single_corners(
       add({origin.x(), origin.y(), heading_rad});
     }
   }
+  return ranked();
+}
+
+void Recognition::add_walls(const WallSegment& first, const WallSegment& second) {
+  const double first_rad = std::atan2(first.normal.y(), first.normal.x());
+  const double turn_rad =
+      angle_between(first_rad, std::atan2(second.normal.y(), second.normal.x()));
+  for (const Face& a : map_.faces()) {
+    const double heading_rad = normalize_angle(std::atan2(a.normal.y(), a.normal.x()) - first_rad);
+    for (const Face& b : map_.faces()) {
+      const double sine = cross(a.normal, b.normal);
+      if (std::abs(sine) < kMinWallSine) continue;
+      if (!agree(std::atan2(sine, a.normal.dot(b.normal)), turn_rad)) continue;
+      // Where the sensor is as far from both faces as it saw the walls.
+      const double height_a = a.offset_m - first.offset_m;
+      const double height_b = b.offset_m - second.offset_m;
+      const Pose2 T_map_lidar{(height_a * b.normal.y() - height_b * a.normal.y()) / sine,
+                              (height_b * a.normal.x() - height_a * b.normal.x()) / sine,
+                              heading_rad};
+      if (holds(a, first, T_map_lidar) && holds(b, second, T_map_lidar)) add(T_map_lidar);
+    }
+  }
+}
+
+std::span<const Hypothesis> Recognition::from_walls(std::span<const WallSegment> segments,
+                                                    std::span<const Breakpoint> breakpoints) {
+  hypotheses_.clear();
+  select(breakpoints);
+  const WallSegment* first = nullptr;
+  const WallSegment* second = nullptr;
+  std::uint32_t best = 0;
+  for (const WallSegment& a : segments) {
+    for (const WallSegment& b : segments) {
+      if (std::abs(cross(a.normal, b.normal)) < kMinWallSine) continue;
+      const std::uint32_t support = std::min(a.support, b.support);
+      if (support <= best) continue;
+      best = support;
+      first = &a;
+      second = &b;
+    }
+  }
+  if (first != nullptr) add_walls(*first, *second);
   return ranked();
 }
 

@@ -17,7 +17,7 @@ namespace cornerd::core {
 /// construction.
 class Recognition {
  public:
-  explicit Recognition(const Catalog& catalog);
+  Recognition(const WallMap& map, const Catalog& catalog);
 
   /// The places that pairs of breakpoints point to, best voted first, each place once.
   std::span<const Hypothesis> from_pairs(std::span<const Breakpoint> breakpoints);
@@ -25,6 +25,11 @@ class Recognition {
   /// The places that each breakpoint alone points to: a corner fixes position and heading. Far more
   /// of them, for turns that show few corners and for making sure that nothing was overlooked.
   std::span<const Hypothesis> from_single_corners(std::span<const Breakpoint> breakpoints);
+
+  /// The places that two walls point to that are not parallel: for turns that show no corner that
+  /// could be trusted. The most of all, each tested only for its walls' lengths.
+  std::span<const Hypothesis> from_walls(std::span<const WallSegment> segments,
+                                         std::span<const Breakpoint> breakpoints);
 
   /// Breakpoints that have their landmark at this place.
   int recognised(std::span<const Breakpoint> breakpoints, const Pose2& T_map_lidar) const;
@@ -34,9 +39,11 @@ class Recognition {
  private:
   void select(std::span<const Breakpoint> breakpoints);
   void add_pair(const Breakpoint& first, const Breakpoint& second);
+  void add_walls(const WallSegment& first, const WallSegment& second);
   void add(const Pose2& T_map_lidar);
   std::span<const Hypothesis> ranked();
 
+  const WallMap& map_;
   const Catalog& catalog_;
   std::vector<const Breakpoint*> selected_;
   std::vector<Hypothesis> hypotheses_;

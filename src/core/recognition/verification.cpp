@@ -18,10 +18,11 @@ constexpr double kMinRoughHits = 0.4;
 constexpr double kMaxRoughThrough = 0.35;
 
 // A right place: at least half of the rays end on the map's walls (the rest may be people and
-// chairs), and hardly any goes through a wall.
-constexpr double kMinHits = 0.5;
+// chairs), and hardly any goes through a wall. The two walls of one corner fit to any other corner,
+// so that a turn of few rays needs more than half.
+constexpr std::size_t kMinSurplus = 30;
+constexpr double kMinHitShare = 0.25;
 constexpr double kMaxThrough = 0.08;
-constexpr std::size_t kMinHitCount = 20;
 /// A pose that is known no better than this is no pose: a lone wall, a bare corridor.
 constexpr double kMaxSigma_m = 0.05;
 constexpr double kMaxSigma_rad = radians(3);
@@ -91,8 +92,10 @@ bool Verification::is_known(const Pose2& T_map_lidar) const {
 
 bool Verification::passes(const Place& place) const {
   const Covariance3& covariance = place.refined.covariance;
-  return place.explanation.hits >= kMinHitCount && place.explanation.hit_share() >= kMinHits &&
-         place.explanation.through_share() <= kMaxThrough &&
+  const Explanation& explanation = place.explanation;
+  const std::size_t explained = explanation.hits + explanation.near;
+  return explained >= explanation.rays - explained + kMinSurplus &&
+         explanation.hit_share() >= kMinHitShare && explanation.through_share() <= kMaxThrough &&
          covariance(0, 0) + covariance(1, 1) < kMaxSigma_m * kMaxSigma_m &&
          covariance(2, 2) < kMaxSigma_rad * kMaxSigma_rad;
 }
