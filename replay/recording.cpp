@@ -124,7 +124,7 @@ class RecordingPlayer::Implementation {
     message::RecordedLine line = message::parse_recorded_line(lines_.line());
     if (const auto* error = std::get_if<message::RequestError>(&line)) {
       if (result == LineReader::Result::kLine) note_problem(error->text);
-    } else if (const auto* scan = std::get_if<message::RecordedScan>(&line)) {
+    } else if (auto* scan = std::get_if<message::RecordedScan>(&line)) {
       play(*scan, sink);
     } else if (const auto* bytes = std::get_if<message::RecordedBytes>(&line)) {
       play(*bytes, sink);
@@ -140,8 +140,10 @@ class RecordingPlayer::Implementation {
     return input_ == input;
   }
 
-  void play(const message::RecordedScan& scan, RecordingSink& sink) {
+  void play(message::RecordedScan& scan, RecordingSink& sink) {
     if (!is_input(Input::kScans) || scan.samples.empty()) return;
+    scan.samples.front().starts_turn = true;
+    scan.samples.back().ends_turn = true;
     for (const core::Sample& sample : scan.samples) sink.on_sample(sample);
     time_ns_ = scan.samples.back().t_ns;
     scan_counters_.samples += scan.samples.size();

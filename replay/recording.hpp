@@ -44,8 +44,8 @@ class RecordingSink : public drivers::SampleSink {
 /// over; a last line that was torn off is not even counted, as a recorder that was ended leaves
 /// one. Memory does not grow with the file: a line of over message::kMaxRecordedBytes is damaged.
 ///
-/// Each SCAN is one turn, whatever its angles: its first sample starts it, the next SCAN's or the
-/// end of the recording completes it. A recording that has both SERIAL and SCAN tells everything
+/// Each SCAN is one turn, whatever its angles: its first sample starts it, its last one ends it. A
+/// recording that has both SERIAL and SCAN tells everything
 /// twice; the kind that comes first is played, the other is not.
 class RecordingPlayer {
  public:

@@ -20,6 +20,8 @@ class SerialLine {
     return free_ns_;
   }
   core::TimeNs free_ns() const { return free_ns_; }
+  /// Takes back what was handed over and has not been sent by then.
+  void free_from(core::TimeNs t_ns) { free_ns_ = t_ns; }
   core::TimeNs duration_ns(std::size_t count) const {
     return static_cast<core::TimeNs>(count) * 10 * core::kNsPerSecond / baud_;
   }

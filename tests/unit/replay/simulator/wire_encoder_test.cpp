@@ -5,22 +5,14 @@
 #include <gtest/gtest.h>
 
 #include <numeric>
-#include <string>
-#include <vector>
+
+#include "tests/unit/replay/hex.hpp"
 
 namespace cornerd::replay {
 namespace {
 
 using ::testing::ElementsAre;
 using ::testing::ElementsAreArray;
-
-std::vector<std::uint8_t> from_hex(const std::string& hex) {
-  std::vector<std::uint8_t> bytes;
-  for (std::size_t i = 0; i + 1 < hex.size(); i += 2) {
-    bytes.push_back(static_cast<std::uint8_t>(std::stoi(hex.substr(i, 2), nullptr, 16)));
-  }
-  return bytes;
-}
 
 /// The protocol's own reading of a coded distance, written from its table.
 std::uint32_t decode_major(std::uint32_t code) {

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+// An A1 at the far end of a serial line: requests in, answers and scans out.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "core/types.hpp"
+#include "drivers/rplidar/protocol/answers.hpp"
+#include "drivers/rplidar/protocol/descriptor.hpp"
+#include "drivers/rplidar/protocol/request.hpp"
+#include "replay/emulator/firmware.hpp"
+#include "replay/emulator/transmitter.hpp"
+#include "replay/simulator/simulator.hpp"
+
+namespace cornerd::replay {
+
+struct EmulatorConfig {
+  const Firmware* firmware = find_firmware("1.29");
+  rplidar::Health health;
+  bool reset_heals = true;  ///< RESET makes the health good; else it stays as it was
+  double spin_up_s = 0;     ///< from a scan request to the first data, but for FORCE_SCAN
+  /// Whether configuration type 0x01 (desired rotation) is answered. Vendor software waits 2 s for
+  /// an answer to it in vain where it is not.
+  bool answers_rotation_request = true;
+  std::uint32_t baud = 115200;
+  std::array<std::uint8_t, 16> serial = {0xC0, 0x12, 0x9A, 0xE1, 0xC3, 0xE2, 0x9B, 0xD2,
+                                         0xA7, 0xE7, 0x9C, 0xF3, 0x40, 0x55, 0x34, 0x12};
+};
+
+/// The device's side of the protocol. It knows no port and no clock: whoever drives it says what
+/// time it is (not decreasing, from 0), hands over what the host sent, and takes what has crossed
+/// the line by then. Not safe for concurrent calls.
+///
+/// A request that the firmware does not know, or whose checksum is wrong, is not answered and has
+/// no effect; any other one ends a scan in progress, of which the packet on the line still arrives.
+/// With a health that has failed no scan starts, silently, as in the device's protection stop.
+class Emulator {
+ public:
+  Emulator(const EmulatorConfig& config, std::unique_ptr<Simulator> simulator);
+
+  void receive(std::span<const std::uint8_t> bytes, core::TimeNs now_ns);
+
+  /// Appends the bytes that have left the device by `now_ns`.
+  void take(core::TimeNs now_ns, std::vector<std::uint8_t>& out);
+
+  /// When take() will next have something to give; nullopt where only a request brings it about.
+  std::optional<core::TimeNs> next_ns() const;
+
+  bool scanning() const { return scanning_; }
+  Scene& scene() { return simulator_->scene(); }
+
+ private:
+  void handle(const rplidar::Request& request, core::TimeNs now_ns);
+  void answer(core::TimeNs now_ns, rplidar::AnswerType type, std::span<const std::uint8_t> payload);
+  void answer_configuration(std::span<const std::uint8_t> request, core::TimeNs now_ns);
+  void start_scan(const FirmwareScanMode& mode, bool force, core::TimeNs now_ns);
+  void stop_scan(core::TimeNs now_ns);
+  void reset(core::TimeNs now_ns);
+  void measure_until(core::TimeNs now_ns);
+  void prepare_packet();
+
+  EmulatorConfig config_;
+  std::unique_ptr<Simulator> simulator_;
+  rplidar::RequestParser parser_;
+  core::TimeNs request_begun_ns_ = 0;
+  Transmitter transmitter_;
+  rplidar::Health health_;
+  core::TimeNs deaf_until_ns_ = 0;
+
+  bool scanning_ = false;
+  FirmwareScanMode mode_;
+  core::TimeNs packet_ready_ns_ = 0;  ///< of the packet that is being measured
+  std::vector<std::uint8_t> packet_;
+};
+
+}  // namespace cornerd::replay

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: MIT
+#include "replay/emulator/pseudo_terminal.hpp"
+
+#include <fcntl.h>
+#include <poll.h>
+#include <stdlib.h>
+#include <termios.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <chrono>
+#include <string>
+#include <system_error>
+#include <thread>
+
+namespace cornerd::replay {
+namespace {
+
+[[noreturn]] void fail(const std::string& what) {
+  throw std::system_error(errno, std::generic_category(), what);
+}
+
+void make_link(const std::filesystem::path& link, const std::filesystem::path& target) {
+  if (std::filesystem::is_symlink(std::filesystem::symlink_status(link))) {
+    std::filesystem::remove(link);
+  }
+  std::filesystem::create_symlink(target, link);
+}
+
+}  // namespace
+
+PseudoTerminal::PseudoTerminal(const std::filesystem::path& link) : link_(link) {
+  master_ = ::posix_openpt(O_RDWR | O_NOCTTY | O_CLOEXEC | O_NONBLOCK);
+  if (master_ < 0) fail("pseudo-terminal");
+  try {
+    std::array<char, 128> name{};
+    if (::grantpt(master_) != 0 || ::unlockpt(master_) != 0 ||
+        ::ptsname_r(master_, name.data(), name.size()) != 0) {
+      fail("pseudo-terminal");
+    }
+    path_ = name.data();
+    prepare_for_next_client();
+    if (!link_.empty()) make_link(link_, path_);
+  } catch (...) {
+    ::close(master_);
+    throw;
+  }
+}
+
+PseudoTerminal::~PseudoTerminal() {
+  std::error_code ignored;
+  if (!link_.empty() && std::filesystem::read_symlink(link_, ignored) == path_) {
+    std::filesystem::remove(link_, ignored);
+  }
+  ::close(master_);
+}
+
+/// As a port that is opened afresh: raw, and without what an earlier client left unread.
+void PseudoTerminal::prepare_for_next_client() {
+  const int client_end = ::open(path_.c_str(), O_RDWR | O_NOCTTY | O_CLOEXEC | O_NONBLOCK);
+  if (client_end < 0) fail(path_.string());
+  termios settings{};
+  if (::tcgetattr(client_end, &settings) == 0) {
+    ::cfmakeraw(&settings);
+    ::cfsetspeed(&settings, B115200);
+    ::tcsetattr(client_end, TCSANOW, &settings);
+  }
+  ::tcflush(client_end, TCIOFLUSH);
+  ::close(client_end);
+  has_client_ = false;
+}
+
+bool PseudoTerminal::wait(int timeout_ms) {
+  pollfd poll_for{master_, POLLIN, 0};
+  const int ready = ::poll(&poll_for, 1, timeout_ms);
+  if (ready <= 0) return has_client_;
+  if ((poll_for.revents & POLLHUP) == 0) {
+    has_client_ = true;
+  } else if ((poll_for.revents & POLLIN) == 0) {
+    if (has_client_) prepare_for_next_client();
+    // The hang-up is a lasting state, for which poll() does not wait.
+    std::this_thread::sleep_for(std::chrono::milliseconds(timeout_ms));
+  }
+  return has_client_;
+}
+
+std::size_t PseudoTerminal::read(std::span<std::uint8_t> buffer) {
+  const ssize_t count = ::read(master_, buffer.data(), buffer.size());
+  return count > 0 ? static_cast<std::size_t>(count) : 0;
+}
+
+std::size_t PseudoTerminal::write(std::span<const std::uint8_t> bytes) {
+  if (!has_client_ || bytes.empty()) return 0;
+  const ssize_t count = ::write(master_, bytes.data(), bytes.size());
+  return count > 0 ? static_cast<std::size_t>(count) : 0;
+}
+
+}  // namespace cornerd::replay

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: MIT
+#include "replay/emulator/recorded_scene.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace cornerd::replay {
+namespace {
+
+/// Half of the widest step between two samples of an A1 (2 kHz at 10 Hz: 1.8 degrees). Farther from
+/// every sample there was a hole.
+constexpr double kFarthestSampleRad = core::radians(1.0);
+
+}  // namespace
+
+/// Cuts the samples into turns and keeps those that a step of the player has completed.
+class RecordedScene::TurnCollector : public RecordingSink {
+ public:
+  void on_sample(const core::Sample& sample) override {
+    if (assembler_.add(sample, turn_)) keep();
+  }
+  void on_gap() override { finish(); }
+  void on_odometry(const message::OdometryReading&) override {}
+
+  void finish() {
+    if (assembler_.finish(turn_)) keep();
+  }
+
+  std::deque<std::vector<Return>> turns;
+
+ private:
+  void keep() {
+    std::vector<Return>& returns = turns.emplace_back();
+    returns.reserve(turn_.size());
+    for (const core::Sample& sample : turn_.samples()) {
+      returns.push_back({sample.bearing_rad, sample.range_m});
+    }
+    std::sort(returns.begin(), returns.end(),
+              [](const Return& a, const Return& b) { return a.bearing_rad < b.bearing_rad; });
+  }
+
+  core::TurnAssembler assembler_;
+  core::Scan turn_;
+};
+
+RecordedScene::RecordedScene(std::filesystem::path file, const RecordingOptions& options)
+    : file_(std::move(file)), options_(options) {
+  open();
+  load_next_turn();
+}
+
+RecordedScene::~RecordedScene() = default;
+
+void RecordedScene::open() {
+  player_ = std::make_unique<RecordingPlayer>(file_, options_);
+  turns_ = std::make_unique<TurnCollector>();
+}
+
+void RecordedScene::load_next_turn() {
+  bool began_anew = false;
+  while (turns_->turns.empty()) {
+    if (player_->step(*turns_)) continue;
+    turns_->finish();
+    if (!turns_->turns.empty()) break;
+    if (began_anew) throw RecordingError(file_.string() + ": holds no whole turn of a lidar");
+    began_anew = true;
+    open();
+  }
+  returns_ = std::move(turns_->turns.front());
+  turns_->turns.pop_front();
+}
+
+double RecordedScene::nearest_range(double bearing_rad) const {
+  const double bearing = core::normalize_angle(bearing_rad);
+  const auto after =
+      std::lower_bound(returns_.begin(), returns_.end(), bearing,
+                       [](const Return& entry, double value) { return entry.bearing_rad < value; });
+  const Return& next = after == returns_.end() ? returns_.front() : *after;
+  const Return& previous = after == returns_.begin() ? returns_.back() : *(after - 1);
+  const double to_next = std::abs(core::angle_between(bearing, next.bearing_rad));
+  const double to_previous = std::abs(core::angle_between(bearing, previous.bearing_rad));
+  if (std::min(to_next, to_previous) > kFarthestSampleRad) return 0;
+  return to_next < to_previous ? next.range_m : previous.range_m;
+}
+
+double RecordedScene::range_along(core::TimeNs, std::int64_t turn, const core::Vec2& origin,
+                                  double bearing_rad) {
+  if (turn > turn_) {
+    turn_ = turn;
+    load_next_turn();
+  }
+  // A ray that passes the axis at a distance meets each circle around it at another bearing.
+  const double left_m = core::cross(core::unit_vector(bearing_rad), origin);
+  double range_m = nearest_range(bearing_rad);
+  for (int i = 0; i < 3 && range_m > std::abs(left_m); ++i) {
+    range_m = nearest_range(bearing_rad + std::asin(left_m / range_m));
+  }
+  if (range_m <= std::abs(left_m)) return 0;
+  return std::sqrt(range_m * range_m - left_m * left_m) -
+         core::unit_vector(bearing_rad).dot(origin);
+}
+
+}  // namespace cornerd::replay

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <filesystem>
+#include <memory>
+#include <vector>
+
+#include "core/scan.hpp"
+#include "replay/recording.hpp"
+#include "replay/simulator/scene.hpp"
+
+namespace cornerd::replay {
+
+/// What a lidar saw once: the turns of a recording, one after the other, for ever. Along a ray it
+/// has the return that was recorded nearest to it, so it can be scanned anew in any mode.
+class RecordedScene : public Scene {
+ public:
+  /// Throws RecordingError where the file cannot be read or has no whole turn.
+  RecordedScene(std::filesystem::path file, const RecordingOptions& options);
+  ~RecordedScene() override;
+
+  double range_along(core::TimeNs t_ns, std::int64_t turn, const core::Vec2& origin,
+                     double bearing_rad) override;
+
+ private:
+  class TurnCollector;
+  struct Return {
+    double bearing_rad = 0;
+    double range_m = 0;
+  };
+
+  void open();
+  void load_next_turn();
+  double nearest_range(double bearing_rad) const;
+
+  std::filesystem::path file_;
+  RecordingOptions options_;
+  std::unique_ptr<RecordingPlayer> player_;
+  std::unique_ptr<TurnCollector> turns_;
+  std::int64_t turn_ = 0;
+  std::vector<Return> returns_;  ///< of the turn in force, by bearing, empty ones too
+};
+
+}  // namespace cornerd::replay
