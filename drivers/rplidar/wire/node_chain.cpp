@@ -9,6 +9,7 @@ namespace {
 constexpr int kDegree = 64;
 constexpr int kNodesOnTrack = 4;
 constexpr int kNodesAlone = 10;
+constexpr int kMostNodes = 40;  // to see a slow head's advance through the corrections' jitter
 
 // Consecutive nodes of real A1s differ by -7 to +10 degrees.
 constexpr int kMinStep = -10 * kDegree;
@@ -42,9 +43,8 @@ ChainMatch match_node_chain(std::span<const std::uint8_t> bytes, const NodeTrack
     on_track = on_track && track->explains(*node, periods + count);
     const bool turns = advance_q6 >= count * kMinAdvancePerNode;
     if (on_track && turns && count + 1 >= kNodesOnTrack) return {Verdict::kYes, true};
-    if (count + 1 >= kNodesAlone) {
-      return {alone && turns ? Verdict::kYes : Verdict::kNo, on_track};
-    }
+    if (alone && turns && count + 1 >= kNodesAlone) return {Verdict::kYes, false};
+    if (count + 1 >= kMostNodes) break;
     previous_q6 = node->angle_q6;
     bytes = bytes.subspan(kNodeSize);
   }

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: MIT
+#include "drivers/rplidar/sample_clock.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+namespace cornerd::rplidar {
+namespace {
+
+constexpr double kPeriodS = 254e-6;
+constexpr double kStartS = 100;
+
+/// A device whose samples arrive late by a few milliseconds, now and then by more.
+class SimulatedArrivals {
+ public:
+  explicit SimulatedArrivals(double pace = 1) : period_s_(kPeriodS * pace) {}
+
+  double true_s(std::uint64_t index) const {
+    return kStartS + pause_s_ + static_cast<double>(index) * period_s_;
+  }
+
+  /// Feeds `count` samples in packets of 32 and gives the largest error of their times.
+  double run(SampleClock& clock, std::uint64_t count) {
+    double worst_s = 0;
+    for (const std::uint64_t end = index_ + count; index_ < end; ++index_) {
+      if (index_ % 32 == 0) observe(clock);
+      const double t_s = core::to_seconds(clock.time_of(index_));
+      worst_s = std::max(worst_s, std::abs(t_s - true_s(index_)));
+      EXPECT_GE(t_s, last_s_);
+      last_s_ = t_s;
+    }
+    return worst_s;
+  }
+
+  /// The reader sees nothing until then, and all of it at once.
+  void stall(double duration_s) { not_before_s_ = true_s(index_) + duration_s; }
+  /// The device sends nothing for a while, and does not count either.
+  void pause(double duration_s) { pause_s_ += duration_s; }
+
+ private:
+  void observe(SampleClock& clock) {
+    std::exponential_distribution<double> lateness(1 / 2e-3);
+    const double arrival_s = std::max(true_s(index_) + lateness(random_), not_before_s_);
+    clock.observe(index_, core::from_seconds(arrival_s));
+  }
+
+  double period_s_;
+  double pause_s_ = 0;
+  double not_before_s_ = 0;
+  double last_s_ = 0;
+  std::uint64_t index_ = 0;
+  std::mt19937 random_{5};
+};
+
+TEST(SampleClock, JitteryArrivals_GiveEvenTimes) {
+  SampleClock clock(kPeriodS);
+  SimulatedArrivals arrivals;
+  arrivals.run(clock, 8000);
+  EXPECT_LT(arrivals.run(clock, 40000), 0.5e-3);
+  EXPECT_EQ(clock.resets(), 0U);
+}
+
+TEST(SampleClock, PaceOnePercentOff_IsLearnt) {
+  for (const double pace : {0.99, 1.01}) {
+    SampleClock clock(kPeriodS);
+    SimulatedArrivals arrivals(pace);
+    EXPECT_LT(arrivals.run(clock, 4000), 15e-3) << "in the first second";
+    arrivals.run(clock, 16000);
+    EXPECT_LT(arrivals.run(clock, 40000), 0.5e-3);
+    EXPECT_NEAR(clock.period_s() / (kPeriodS * pace), 1, 2e-4);
+  }
+}
+
+TEST(SampleClock, ReaderThatStalls_ShiftsNoTimes) {
+  for (const double stall_s : {0.1, 0.3, 1.0}) {
+    SampleClock clock(kPeriodS);
+    SimulatedArrivals arrivals;
+    arrivals.run(clock, 20000);
+    arrivals.stall(stall_s);
+    EXPECT_LT(arrivals.run(clock, 20000), 1e-3) << stall_s;
+    EXPECT_EQ(clock.resets(), 0U) << stall_s;
+  }
+}
+
+TEST(SampleClock, DeviceThatPauses_IsFollowedAndCounted) {
+  SampleClock clock(kPeriodS);
+  SimulatedArrivals arrivals;
+  arrivals.run(clock, 20000);
+  arrivals.pause(0.8);
+  arrivals.run(clock, 4000);
+  EXPECT_LT(arrivals.run(clock, 20000), 10e-3);
+  EXPECT_EQ(clock.resets(), 1U);
+}
+
+TEST(SampleClock, BrokenCount_KeepsThePace) {
+  SampleClock clock(kPeriodS);
+  SimulatedArrivals arrivals(1.01);
+  arrivals.run(clock, 40000);
+  clock.reanchor();
+  EXPECT_NEAR(clock.period_s() / (kPeriodS * 1.01), 1, 2e-4);
+  EXPECT_FALSE(clock.anchored());
+  EXPECT_EQ(clock.resets(), 1U);
+}
+
+}  // namespace
+}  // namespace cornerd::rplidar

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: MIT
+#include "drivers/rplidar/sample_stream.hpp"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "wire_fixture.hpp"
+
+namespace cornerd::rplidar::test {
+namespace {
+
+using testing::SizeIs;
+
+class Samples : public drivers::SampleSink {
+ public:
+  void on_sample(const core::Sample& sample) override { all.push_back(sample); }
+  void on_gap() override { ++gaps; }
+  std::vector<core::Sample> all;
+  int gaps = 0;
+};
+
+Samples stream_untimed(const Bytes& bytes, const SampleStreamConfig& config) {
+  SampleStream stream(config);
+  Samples samples;
+  stream.feed_untimed(bytes, samples);
+  stream.finish(samples);
+  return samples;
+}
+
+TEST(SampleStream, DeviceAngles_BecomeBearingsOfTheLidarFrame) {
+  const Bytes bytes =
+      join({kStandardDescriptor, node(false, 15, 90, 1000), node(false, 15, 91, 0)});
+  const auto upright = stream_untimed(bytes, {});
+  ASSERT_THAT(upright.all, SizeIs(2));
+  EXPECT_NEAR(upright.all[0].bearing_rad, -std::numbers::pi / 2, 1e-6);
+  EXPECT_FLOAT_EQ(upright.all[0].range_m, 1.0F);
+  EXPECT_EQ(upright.all[0].quality, 15);
+  EXPECT_EQ(upright.all[1].range_m, 0);
+  const auto inverted = stream_untimed(bytes, {.format = {}, .inverted = true});
+  EXPECT_NEAR(inverted.all[0].bearing_rad, std::numbers::pi / 2, 1e-6);
+}
+
+TEST(SampleStream, Bearings_StayWithinPi) {
+  for (const bool inverted : {false, true}) {
+    const auto samples = stream_untimed(nodes(400, 100, 1), {.format = {}, .inverted = inverted});
+    for (const core::Sample& sample : samples.all) {
+      EXPECT_LE(std::abs(static_cast<double>(sample.bearing_rad)), std::numbers::pi);
+    }
+  }
+}
+
+TEST(SampleStream, BytesWithoutAClock_AreTimedByTheirNumber) {
+  const auto standard = stream_untimed(nodes(1000, 30), {});
+  EXPECT_EQ(standard.all[0].t_ns, 0);
+  EXPECT_EQ(standard.all[999].t_ns, 999 * 508'000);
+  const auto express = stream_untimed(join(express_capsules(20, 5)), {});
+  EXPECT_EQ(express.all[600].t_ns, 600 * 254'000);
+  const auto ultra = stream_untimed(join(ultra_capsules(20, 5)), {});
+  EXPECT_EQ(ultra.all[600].t_ns, 600 * 127'000);
+  const auto stability = stream_untimed(
+      join(ultra_capsules(20, 5)), {.format = {}, .inverted = false, .sample_period_s = 201e-6});
+  EXPECT_EQ(stability.all[600].t_ns, 600 * 201'000);
+}
+
+TEST(SampleStream, LostNode_LeavesItsTime) {
+  Bytes bytes = nodes(400, 30);
+  bytes.erase(bytes.begin() + 1002);
+  EXPECT_EQ(stream_untimed(bytes, {}).all.back().t_ns, 399 * 508'000);
+}
+
+/// A capsule that is complete at its time, on a wire of 115200 baud, read in blocks of any size.
+TEST(SampleStream, TimedBytes_GiveTheTimeOfMeasurement) {
+  constexpr double kByteS = 10.0 / 115200;
+  constexpr double kPeriodS = 254e-6;
+  const auto capsules = express_capsules(1000, 5, 21.4);
+  SampleStream stream({.format = WireFormat::kExpress});
+  Samples samples;
+  Bytes waiting;
+  double last_byte_s = 0;
+  for (std::size_t c = 0; c < capsules.size(); ++c) {
+    // The last sample of capsule c is measured at (32 c + 31.5) periods, if the first is at 0.
+    const double sent_s = 1 + (32.0 * static_cast<double>(c) + 31 + 1.5) * kPeriodS;
+    for (std::size_t i = 0; i < capsules[c].size(); ++i) {
+      waiting.push_back(capsules[c][i]);
+      last_byte_s = sent_s + kByteS * static_cast<double>(i + 1);
+      if (waiting.size() < 100) continue;
+      stream.feed(waiting, core::from_seconds(last_byte_s + 1e-3 * (c % 3 == 0)), samples);
+      waiting.clear();
+    }
+  }
+  ASSERT_GT(samples.all.size(), 30000U);
+  for (std::size_t i = 8000; i < samples.all.size(); ++i) {
+    const double true_s = 1 + static_cast<double>(i) * kPeriodS;
+    ASSERT_NEAR(core::to_seconds(samples.all[i].t_ns), true_s, 1e-3) << i;
+  }
+  EXPECT_EQ(stream.counters().clock_resets, 0U);
+}
+
+}  // namespace
+}  // namespace cornerd::rplidar::test
