@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "core/geometry/pose2.hpp"
 #include "core/scan.hpp"
 
 namespace cornerd::core {
@@ -26,7 +27,10 @@ class PolarScan {
   PolarScan();
 
   /// Keeps the samples within the limits. Allocates nothing.
-  void assign(const Scan& scan, double min_range_m, double max_range_m);
+  /// `motion`: of the lidar; each return is moved to where the lidar of time `at_ns` would have
+  /// seen it, so that a turn taken in motion has straight walls.
+  void assign(const Scan& scan, double min_range_m, double max_range_m, const Twist2& motion = {},
+              TimeNs at_ns = 0);
 
   std::span<const PolarPoint> points() const { return points_; }
   std::size_t size() const { return points_.size(); }

@@ -42,6 +42,19 @@ struct Pose2 {
   }
 };
 
+/// How a frame moves, in its own axes.
+struct Twist2 {
+  double vx_m_s = 0;
+  double vy_m_s = 0;
+  double omega_rad_s = 0;
+
+  /// The motion over a time so short that the way is straight.
+  Pose2 over(double dt_s) const {
+    return {vx_m_s * dt_s, vy_m_s * dt_s, normalize_angle(omega_rad_s * dt_s)};
+  }
+  double speed_m_s() const { return std::hypot(vx_m_s, vy_m_s); }
+};
+
 /// Of (x [m], y [m], theta [rad]) in the frame of the pose it belongs to; symmetric.
 using Covariance3 = Eigen::Matrix3d;
 

@@ -12,6 +12,8 @@ constexpr double kMargin = 15;
 /// Each ray that even the likeliest place does not explain says that the map or the model is off by
 /// something, and widens the margin by this much.
 constexpr double kMarginPerStranger = 0.25;
+/// The margin where things are counted instead of rays.
+constexpr double kMarginOfThings = 12;
 /// Where the prior is good enough to choose among rivals.
 constexpr double kPriorRadius_m = 0.25;
 constexpr double kPriorAngle_rad = radians(20);
@@ -24,8 +26,12 @@ Decision decide(std::span<const Place> places, const std::optional<Pose2>& prior
   const Explanation& likeliest = places.front().explanation;
   const auto strangers = static_cast<double>(likeliest.rays - likeliest.hits);
   const double margin = kMargin + kMarginPerStranger * strangers;
-  while (decision.rivals < places.size() &&
-         places[decision.rivals].explanation.log_likelihood > likeliest.log_likelihood - margin) {
+  for (const Place& place : places) {
+    const Explanation& other = place.explanation;
+    const bool in_doubt =
+        other.log_likelihood > likeliest.log_likelihood - margin ||
+        other.log_likelihood_of_things > likeliest.log_likelihood_of_things - kMarginOfThings;
+    if (!in_doubt) break;
     ++decision.rivals;
   }
   if (decision.rivals == 1) {

@@ -19,6 +19,11 @@ constexpr double kNearSigmas = 2.5;
 /// What stands in front of a wall may stand anywhere: this much of the way counts, whatever the
 /// distance, so that no place gains by having its walls near.
 constexpr double kShortSpan_m = 2;
+/// One thing hides many rays: after this many in a row the next one is no news, and counts for a
+/// fraction where things are counted. By rays alone a closed door weighs the more the nearer the
+/// robot is to it, and a room that is symmetric but for its door would be entered backwards.
+constexpr std::size_t kFreshRays = 4;
+constexpr double kStaleShare = 0.01;
 /// A range that nothing explains may be anything that an A1 can measure.
 constexpr double kOtherSpan_m = 12;
 constexpr double kHitSigmas = 4;
@@ -37,14 +42,28 @@ Explanation explain(const WallMap& map, std::span<const PolarPoint> points,
   const double log_other = std::log(kOtherShare / kOtherSpan_m);
   const double c = std::cos(T_map_lidar.theta_rad);
   const double s = std::sin(T_map_lidar.theta_rad);
+  std::size_t hidden_in_a_row = 0;
   Explanation result;
   result.rays = points.size();
   for (std::size_t i = 0; i < points.size(); ++i) {
     const PolarPoint& point = points[i];
+    const auto add = [&](double log_density) {
+      result.log_likelihood += log_density;
+      result.log_likelihood_of_things += log_density;
+    };
+    const auto add_hidden = [&](double log_density) {
+      // What a ray of this range would have given at a wall.
+      const double usual =
+          std::log(kHitShare / noise.sigma_range_m(point.range_m)) - kLogRootTwoPi - 0.5;
+      ++result.shorts;
+      result.log_likelihood += log_density;
+      result.log_likelihood_of_things += ++hidden_in_a_row <= kFreshRays
+                                             ? log_density
+                                             : usual + kStaleShare * (log_density - usual);
+    };
     if (hits[i].face == PredictedHit::kNone) {
       // Beyond all walls: whatever it was, the map does not have it.
-      ++result.shorts;
-      result.log_likelihood += log_other;
+      add_hidden(log_other);
       continue;
     }
     const Vec2& normal = map.faces()[hits[i].face].normal;
@@ -62,18 +81,18 @@ Explanation explain(const WallMap& map, std::span<const PolarPoint> points,
     } else if (error_m * error_m < kNearSigmas * kNearSigmas * near_variance) {
       ++result.near;
     } else if (error_m < 0) {
-      ++result.shorts;
-      result.log_likelihood += log_short;
+      add_hidden(log_short);
       continue;
     } else {
       ++result.through;
-      result.log_likelihood += log_other;
+      add(log_other);
       continue;
     }
     const double hit = std::log(kHitShare) - std::log(variance) / 2 - z_square / 2;
     const double near =
         std::log(kNearShare) - std::log(near_variance) / 2 - error_m * error_m / near_variance / 2;
-    result.log_likelihood += std::max(hit, near) - kLogRootTwoPi;
+    add(std::max(hit, near) - kLogRootTwoPi);
+    hidden_in_a_row = 0;
   }
   return result;
 }

@@ -18,6 +18,8 @@ struct Explanation {
   std::size_t shorts = 0;   ///< something that the map does not have stood in front of the wall
   std::size_t through = 0;  ///< went through a wall of the map
   double log_likelihood = 0;
+  /// The same, but what hides many rays in a row counts once: it is one thing, near or large.
+  double log_likelihood_of_things = 0;
 
   double hit_share() const { return share(hits); }
   double near_share() const { return share(hits + near); }
