@@ -86,6 +86,7 @@ Step StandardDecoder::relock(ByteWindow& window, std::uint64_t& index, bool fina
     const bool aligned = offset % kNodeSize == 0;
     // The first node after a descriptor is a stale one, of any angle, on every real A1.
     const bool fresh = confirmed_ == 0;
+    if (fresh && !chain.continues_track) front_starts_turn_ = false;
     std::size_t to_skip = offset;
     if (aligned && (chain.continues_track || fresh)) {
       deliver_front(window, index, sink);

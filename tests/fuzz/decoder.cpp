@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: MIT
+// Any bytes, in any portions, become samples within the wire's limits. The first byte chooses the
+// format that the caller believes in, and the portions.
+#include "drivers/rplidar/decoder.hpp"
+
+#include <algorithm>
+#include <cstdlib>
+#include <optional>
+#include <span>
+
+#include "drivers/rplidar/wire/standard_node.hpp"
+
+namespace {
+
+using namespace cornerd::rplidar;
+
+void require(bool condition) {
+  if (!condition) std::abort();
+}
+
+class CheckingSink : public RawSampleSink {
+ public:
+  void on_sample(const RawSample& sample) override {
+    constexpr std::uint32_t kFarthestQ2 = (28656 + (510 << 4)) * 4;  // ultra: major and prediction
+    require(sample.angle_q6 < kFullTurnQ6);
+    require(sample.dist_q2 <= kFarthestQ2);
+    require(sample.quality < 64);
+    require(!any_ || sample.index > last_index_);
+    last_index_ = sample.index;
+    any_ = true;
+    ++samples_;
+    // Half a turn at 20 turns a second is 49 nodes; a gap may cut a turn short.
+    if (sample.starts_turn && since_start_ >= 0) require(since_start_ >= 2);
+    if (sample.starts_turn) since_start_ = 0;
+    if (since_start_ >= 0) ++since_start_;
+  }
+
+  void on_gap() override { since_start_ = -1; }
+
+  std::uint64_t samples() const { return samples_; }
+
+ private:
+  bool any_ = false;
+  std::uint64_t last_index_ = 0;
+  std::uint64_t samples_ = 0;
+  int since_start_ = -1;  ///< samples; -1: no turn in progress
+};
+
+std::optional<WireFormat> format_of(unsigned choice) {
+  switch (choice % 4) {
+    case 0:
+      return WireFormat::kStandard;
+    case 1:
+      return WireFormat::kExpress;
+    case 2:
+      return WireFormat::kUltra;
+    default:
+      return std::nullopt;
+  }
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  if (size == 0) return 0;
+  const unsigned choice = data[0];
+  const std::size_t portion = choice / 4 == 0 ? size : choice / 4;
+  Decoder decoder(format_of(choice));
+  CheckingSink sink;
+  std::span<const std::uint8_t> bytes(data + 1, size - 1);
+  while (!bytes.empty()) {
+    const auto piece = bytes.first(std::min(portion, bytes.size()));
+    decoder.feed(piece, sink);
+    bytes = bytes.subspan(piece.size());
+  }
+  decoder.finish(sink);
+
+  const auto& counters = decoder.counters();
+  require(counters.bytes == size - 1);
+  require(counters.samples == sink.samples());
+  require(counters.skipped_bytes <= counters.bytes);
+  require(counters.turns <= counters.samples);
+  return 0;
+}

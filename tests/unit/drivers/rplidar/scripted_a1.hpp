@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+// An A1 in memory, on a clock that moves only while somebody waits.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "drivers/clock.hpp"
+#include "drivers/rplidar/protocol/answers.hpp"
+#include "drivers/rplidar/protocol/request.hpp"
+#include "drivers/serial/serial_port.hpp"
+#include "wire_fixture.hpp"
+
+namespace cornerd::rplidar::test {
+
+class ManualClock : public drivers::Clock {
+ public:
+  core::TimeNs monotonic_ns() override { return now_ns; }
+  core::TimeNs unix_offset_ns() override { return offset_ns; }
+  void wait(std::chrono::milliseconds duration, const std::stop_token&) override {
+    advance(duration);
+  }
+  void advance(std::chrono::nanoseconds duration) {
+    now_ns += duration.count();
+    if (on_advance) on_advance();
+  }
+
+  core::TimeNs now_ns = core::kNsPerSecond;
+  core::TimeNs offset_ns = 0;
+  std::function<void()> on_advance;
+};
+
+/// The device itself, plugged in or not; what it is asked, it answers as the real one does.
+struct ScriptedA1 {
+  explicit ScriptedA1(ManualClock& its_clock) : clock(its_clock) {}
+
+  drivers::OpenResult open();
+
+  ManualClock& clock;
+  DeviceInfo info{.model = 0x18, .firmware = firmware_version(1, 29), .hardware = 7};
+  std::deque<Health> health{Health{}};  ///< the last one stays
+  std::vector<std::string> mode_names{"Standard", "Express", "Boost", "Sensitivity", "Stability"};
+  bool answers = true;
+  bool measures = true;
+  int lost_answers = 0;  ///< so many answers are lost on the way
+  int resets_to_measure = 0;
+  Bytes chatter;  ///< what the port has to say before it is asked
+  drivers::OpenError open_error = drivers::OpenError::kNone;
+  std::optional<core::TimeNs> unplugged_at_ns;
+
+  std::vector<Request> requests;
+  bool motor_turns = false;
+  bool scanning = false;
+  int resets = 0;
+  int opened = 0;
+
+  void receive(const Request& request);
+  bool unplugged() const { return unplugged_at_ns && clock.now_ns >= *unplugged_at_ns; }
+
+  std::deque<std::uint8_t> output;
+  core::TimeNs output_from_ns = 0;  ///< nothing comes earlier
+  int capsule = 0;
+
+ private:
+  void answer(std::uint8_t type, const Bytes& payload);
+  void answer_conf(const Request& request);
+};
+
+/// What went over the wire, as names: "STOP", "INFO", "HEALTH", "CONF", "RESET", "SCAN", "EXPRESS
+/// 1".
+std::vector<std::string> names(const std::vector<Request>& requests);
+
+}  // namespace cornerd::rplidar::test

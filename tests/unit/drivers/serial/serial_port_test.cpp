@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: MIT
+#include "drivers/serial/serial_port.hpp"
+
+#include <fcntl.h>
+#include <gmock/gmock.h>
+#include <stdlib.h>
+#include <sys/wait.h>
+#include <termios.h>
+#include <unistd.h>
+
+#include <array>
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <vector>
+
+#include "drivers/serial/baud_rate.hpp"
+#include "drivers/serial/file_descriptor.hpp"
+#include "drivers/serial/recording_byte_stream.hpp"
+
+namespace cornerd::drivers {
+namespace {
+
+using std::chrono::milliseconds;
+using testing::HasSubstr;
+using testing::StartsWith;
+using Bytes = std::vector<std::uint8_t>;
+using Status = ByteStream::ReadStatus;
+
+/// The far end of a pseudo-terminal.
+class PtyMaster {
+ public:
+  PtyMaster() : fd_(::posix_openpt(O_RDWR | O_NOCTTY | O_CLOEXEC)) {
+    ::grantpt(fd_.get());
+    ::unlockpt(fd_.get());
+    std::array<char, 64> name{};
+    ::ptsname_r(fd_.get(), name.data(), name.size());
+    path = name.data();
+  }
+
+  void write(const Bytes& bytes) {
+    ASSERT_EQ(::write(fd_.get(), bytes.data(), bytes.size()), static_cast<ssize_t>(bytes.size()));
+  }
+
+  Bytes read(std::size_t count) {
+    Bytes bytes(count);
+    const ssize_t got = ::read(fd_.get(), bytes.data(), bytes.size());
+    bytes.resize(got > 0 ? static_cast<std::size_t>(got) : 0);
+    return bytes;
+  }
+
+  void hang_up() { fd_ = FileDescriptor(); }
+
+  std::string path;
+
+ private:
+  FileDescriptor fd_;
+};
+
+Bytes read_all(ByteStream& port, std::size_t count) {
+  Bytes all;
+  std::array<std::uint8_t, 64> buffer{};
+  while (all.size() < count) {
+    const auto [status, got] = port.read(buffer, milliseconds(2000));
+    if (status != Status::kData) break;
+    all.insert(all.end(), buffer.begin(), buffer.begin() + static_cast<std::ptrdiff_t>(got));
+  }
+  return all;
+}
+
+TEST(SerialPort, EveryByte_PassesUnchangedBothWays) {
+  PtyMaster master;
+  const auto opened = open_serial_port(master.path, 115200);
+  ASSERT_NE(opened.stream, nullptr) << opened.message;
+  Bytes bytes(256);
+  for (std::size_t i = 0; i < bytes.size(); ++i) bytes[i] = static_cast<std::uint8_t>(i);
+  // What a terminal in its usual mode would act on, at the end too.
+  for (const int special : {0x03, 0x04, 0x0A, 0x0D, 0x11, 0x13, 0x1A, 0xFF, 0xFF}) {
+    bytes.push_back(static_cast<std::uint8_t>(special));
+  }
+  master.write(bytes);
+  EXPECT_EQ(read_all(*opened.stream, bytes.size()), bytes);
+  ASSERT_TRUE(opened.stream->write(bytes));
+  EXPECT_EQ(master.read(1000), bytes);
+}
+
+TEST(SerialPort, NothingThere_IsATimeout) {
+  PtyMaster master;
+  const auto opened = open_serial_port(master.path, 115200);
+  std::array<std::uint8_t, 8> buffer{};
+  EXPECT_EQ(opened.stream->read(buffer, milliseconds(1)).status, Status::kTimeout);
+}
+
+TEST(SerialPort, HangUp_IsReportedAfterTheLastBytes) {
+  PtyMaster master;
+  const auto opened = open_serial_port(master.path, 115200);
+  master.write({1, 2, 3});
+  EXPECT_EQ(read_all(*opened.stream, 3), (Bytes{1, 2, 3}));
+  master.hang_up();
+  std::array<std::uint8_t, 8> buffer{};
+  EXPECT_EQ(opened.stream->read(buffer, milliseconds(2000)).status, Status::kLost);
+  EXPECT_FALSE(opened.stream->write(Bytes{1}));
+}
+
+TEST(SerialPort, DiscardedInput_IsGone) {
+  PtyMaster master;
+  const auto opened = open_serial_port(master.path, 115200);
+  master.write({1, 2, 3});
+  std::array<std::uint8_t, 1> first{};
+  ASSERT_EQ(opened.stream->read(first, milliseconds(2000)).count, 1U);
+  opened.stream->discard_input();
+  EXPECT_EQ(opened.stream->read(first, milliseconds(1)).status, Status::kTimeout);
+}
+
+TEST(SerialPort, SecondOpener_IsRefused) {
+  PtyMaster master;
+  const auto first = open_serial_port(master.path, 115200);
+  ASSERT_NE(first.stream, nullptr);
+  const auto second = open_serial_port(master.path, 115200);
+  EXPECT_EQ(second.stream, nullptr);
+  EXPECT_EQ(second.error, OpenError::kBusy);
+  EXPECT_EQ(second.message, master.path + ": held by another process");
+}
+
+TEST(SerialPort, AfterClosing_IsFreeAgain) {
+  PtyMaster master;
+  open_serial_port(master.path, 115200);
+  EXPECT_NE(open_serial_port(master.path, 115200).stream, nullptr);
+  // Programs that know no flock get in as well.
+  EXPECT_TRUE(FileDescriptor(::open(master.path.c_str(), O_RDWR | O_NOCTTY | O_CLOEXEC)));
+}
+
+TEST(SerialPort, MissingPort_IsNamed) {
+  const auto opened = open_serial_port("/dev/no-such-port", 115200);
+  EXPECT_EQ(opened.error, OpenError::kAbsent);
+  EXPECT_EQ(opened.message, "/dev/no-such-port: no such port");
+}
+
+TEST(SerialPort, FileThatIsNoPort_IsRefused) {
+  const auto opened = open_serial_port("/dev/null", 115200);
+  EXPECT_EQ(opened.error, OpenError::kFailed);
+  EXPECT_EQ(opened.message, "/dev/null: not a serial port");
+}
+
+TEST(SerialPort, OddSpeed_IsRefused) {
+  PtyMaster master;
+  const auto opened = open_serial_port(master.path, 256000);
+  EXPECT_EQ(opened.error, OpenError::kFailed);
+  EXPECT_EQ(opened.message, master.path + ": 256000 baud is not supported");
+}
+
+TEST(SerialPort, MissingRights_AreSaid) {
+  PtyMaster master;
+  std::filesystem::permissions(master.path, std::filesystem::perms::none);
+  if (::geteuid() == 0) GTEST_SKIP() << "root has all rights";
+  EXPECT_EQ(open_serial_port(master.path, 115200).error, OpenError::kDenied);
+}
+
+TEST(SerialPort, PseudoTerminal_HasNoDtr) {
+  PtyMaster master;
+  EXPECT_FALSE(open_serial_port(master.path, 115200).stream->set_dtr(true));
+}
+
+TEST(BaudRate, StandardRates_HaveTheirConstants) {
+  EXPECT_EQ(termios_speed(115200), B115200);
+  EXPECT_EQ(termios_speed(9600), B9600);
+  EXPECT_EQ(termios_speed(0), std::nullopt);
+}
+
+TEST(RecordingByteStream, BothDirections_AreSeen) {
+  PtyMaster master;
+  std::vector<std::pair<RecordingByteStream::Direction, Bytes>> seen;
+  RecordingByteStream port(
+      open_serial_port(master.path, 115200).stream,
+      [&](RecordingByteStream::Direction direction, std::span<const std::uint8_t> bytes) {
+        seen.emplace_back(direction, Bytes(bytes.begin(), bytes.end()));
+      });
+  ASSERT_TRUE(port.write(Bytes{0xA5, 0x50}));
+  master.write({0xA5, 0x5A});
+  EXPECT_EQ(read_all(port, 2), (Bytes{0xA5, 0x5A}));
+  ASSERT_EQ(seen.size(), 2U);
+  EXPECT_EQ(seen[0].first, RecordingByteStream::Direction::kSent);
+  EXPECT_EQ(seen[0].second, (Bytes{0xA5, 0x50}));
+  EXPECT_EQ(seen[1].first, RecordingByteStream::Direction::kReceived);
+}
+
+}  // namespace
+}  // namespace cornerd::drivers
