@@ -32,6 +32,7 @@ int main(int argc, char** argv) {
   tool::add_watch(program);
   tool::add_replay(program);
   tool::add_detect(program);
+  tool::add_record(program);
   tool::add_simulate(program);
   tool::add_map(program);
 

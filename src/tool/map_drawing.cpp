@@ -51,6 +51,14 @@ std::string short_number(double value) {
   return {digits.data(), end.ptr};
 }
 
+double area_of(std::span<const Vec2> polygon) {
+  double area2 = 0;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    area2 += core::cross(polygon[i], polygon[(i + 1) % polygon.size()]);
+  }
+  return std::abs(area2) / 2;
+}
+
 /// Centre of gravity of a polygon's area; the mean of its points where it has none.
 Vec2 centroid(std::span<const Vec2> polygon) {
   Vec2 weighted = Vec2::Zero();
@@ -83,18 +91,29 @@ MapDrawing::MapDrawing(const core::WallMap& map)
   const double size_m = (map.upper_right() - map.lower_left()).maxCoeff();
   draw_rooms();
   draw_grid(round_below(size_m / 5));
+  draw_room_names();
   draw_walls();
   draw_corners();
   draw_scale_bar(round_below(size_m / 4));
 }
 
 void MapDrawing::draw_rooms() {
+  // A room may lie within another one: the smaller on top.
+  std::vector<const core::Room*> rooms;
+  for (const core::Room& room : map_.plan().rooms) rooms.push_back(&room);
+  std::stable_sort(rooms.begin(), rooms.end(), [](const auto* one, const auto* other) {
+    return area_of(one->polygon) > area_of(other->polygon);
+  });
   svg_.begin_group("rooms");
-  const auto& rooms = map_.plan().rooms;
   for (std::size_t i = 0; i < rooms.size(); ++i) {
-    svg_.polygon(rooms[i].polygon, {.fill = kRoomTints[i % kRoomTints.size()]});
+    svg_.polygon(rooms[i]->polygon, {.fill = kRoomTints[i % kRoomTints.size()]});
   }
-  for (const core::Room& room : rooms) {
+  svg_.end_group();
+}
+
+void MapDrawing::draw_room_names() {
+  svg_.begin_group("room-names");
+  for (const core::Room& room : map_.plan().rooms) {
     svg_.text(centroid(room.polygon), room.name, {.fill = kLabel, .size = 17}, 0, 6);
   }
   svg_.end_group();

@@ -37,6 +37,7 @@ class MapDrawing {
  private:
   void draw_grid(double step_m);
   void draw_rooms();
+  void draw_room_names();
   void draw_walls();
   void draw_corners();
   void draw_scale_bar(double length_m);

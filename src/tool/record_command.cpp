@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: MIT
+// cornerctl record: what comes from a lidar's port, and in .ndjson what is sent to it, with times.
+#include <atomic>
+#include <cstdio>
+#include <exception>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <thread>
+#include <utility>
+
+#include <CLI/CLI.hpp>
+
+#include "drivers/clock.hpp"
+#include "drivers/rplidar/rplidar_driver.hpp"
+#include "drivers/serial/recording_byte_stream.hpp"
+#include "drivers/serial/serial_port.hpp"
+#include "replay/recording_writer.hpp"
+#include "tool/commands.hpp"
+#include "tool/failure.hpp"
+#include "tool/options.hpp"
+#include "tool/stop_signal.hpp"
+
+namespace cornerd::tool {
+
+namespace {
+
+using drivers::RecordingByteStream;
+
+struct RecordOptions {
+  SettingsOptions settings;
+  std::filesystem::path output;
+  double seconds = 0;
+};
+
+/// Writes what the driver's thread sees; a full disk ends the recording, not the thread.
+class Recorder {
+ public:
+  explicit Recorder(const std::filesystem::path& file) : writer_(file) {}
+
+  void observe(RecordingByteStream::Direction direction, std::span<const std::uint8_t> bytes) {
+    if (failed_) return;
+    try {
+      drivers::Clock& clock = drivers::system_clock();
+      const core::TimeNs t_ns = clock.monotonic_ns() + clock.unix_offset_ns();
+      const bool received = direction == RecordingByteStream::Direction::kReceived;
+      received ? writer_.received(t_ns, bytes) : writer_.sent(t_ns, bytes);
+    } catch (...) {
+      problem_ = std::current_exception();
+      failed_ = true;
+    }
+  }
+
+  bool failed() const { return failed_; }
+  /// After the driver's thread has ended. Throws what went wrong.
+  void finish() {
+    if (problem_) std::rethrow_exception(problem_);
+    writer_.flush();
+  }
+
+ private:
+  replay::RecordingWriter writer_;
+  std::exception_ptr problem_;
+  std::atomic<bool> failed_ = false;
+};
+
+class NoSink : public drivers::SampleSink {
+ public:
+  void on_sample(const core::Sample&) override {}
+  void on_gap() override {}
+};
+
+rplidar::RplidarDriverConfig driver_config(const settings::LidarConfig& lidar) {
+  rplidar::RplidarDriverConfig config;
+  config.device = lidar.device.string();
+  config.baud = lidar.baud;
+  config.mode = lidar.mode;
+  config.inverted = lidar.mount.inverted;
+  config.motor = {static_cast<rplidar::MotorKind>(lidar.motor.kind), lidar.motor.path,
+                  lidar.motor.duty, lidar.motor.period_s};
+  return config;
+}
+
+void say_when_changed(const drivers::LidarStatus& now, drivers::LidarStatus& said) {
+  if (now.state == said.state && now.detail.view() == said.detail.view()) return;
+  said = now;
+  const std::string_view state = to_string(now.state);
+  const std::string_view detail = now.detail.view();
+  std::fprintf(stderr, "cornerctl: %.*s%s%.*s\n", static_cast<int>(state.size()), state.data(),
+               detail.empty() ? "" : ": ", static_cast<int>(detail.size()), detail.data());
+}
+
+void record(RecordOptions& options) {
+  const settings::LidarConfig lidar = options.settings.resolve(/*needs_map=*/false).lidar;
+  const rplidar::RplidarDriverConfig config = driver_config(lidar);
+
+  // A driver waits for a port that is not there; a person who mistyped its name should not.
+  drivers::OpenResult first = drivers::open_serial_port(config.device, config.baud);
+  if (!first.stream) throw Failure(first.message);
+
+  Recorder recorder(options.output);
+  StopSignal stop_signal;
+  const auto open_port = [&]() -> drivers::OpenResult {
+    drivers::OpenResult port = first.stream ? std::exchange(first, {})
+                                            : drivers::open_serial_port(config.device, config.baud);
+    if (port.stream) {
+      port.stream = std::make_unique<RecordingByteStream>(
+          std::move(port.stream),
+          [&](auto direction, auto bytes) { recorder.observe(direction, bytes); });
+    }
+    return port;
+  };
+  rplidar::RplidarDriver driver(config, open_port);
+
+  drivers::LidarStatus said;
+  {
+    NoSink sink;
+    const std::jthread reader([&](const std::stop_token& stop) { driver.run(stop, sink); });
+    const core::TimeNs began_ns = drivers::system_clock().monotonic_ns();
+    const auto over = [&] {
+      const core::TimeNs elapsed_ns = drivers::system_clock().monotonic_ns() - began_ns;
+      return recorder.failed() ||
+             (options.seconds > 0 && core::to_seconds(elapsed_ns) >= options.seconds);
+    };
+    while (!over() && !stop_signal.wait(std::chrono::milliseconds(50))) {
+      say_when_changed(driver.status(), said);
+    }
+  }
+  recorder.finish();
+  const drivers::StreamCounters counters = driver.status().counters;
+  if (counters.samples == 0) throw Failure(config.device + ": sent not a single sample");
+  std::fprintf(stderr, "%s: %llu bytes, %llu turns\n", options.output.c_str(),
+               static_cast<unsigned long long>(counters.bytes),
+               static_cast<unsigned long long>(counters.turns));
+}
+
+}  // namespace
+
+void add_record(CLI::App& program) {
+  CLI::App* command = program.add_subcommand("record", "keep what a lidar sends");
+  const auto options = std::make_shared<RecordOptions>();
+  const auto override_with = [options](const char* pointer) {
+    return [options, pointer](const std::string& value) {
+      options->settings.add_override(pointer + ("=" + value));
+    };
+  };
+  command->add_option_function<std::string>("--device", override_with("/lidar/device"), "its port")
+      ->type_name("DEV");
+  command->add_option_function<std::string>("--baud", override_with("/lidar/baud"), "its speed");
+  command->add_option_function<std::string>("--mode", override_with("/lidar/mode"),
+                                            "auto, or a scan mode by name");
+  options->settings.add_config(*command);
+  command
+      ->add_option("-o,--output", options->output,
+                   "the recording: .bin what came, .ndjson both ways with times")
+      ->required()
+      ->type_name("FILE");
+  command->add_option("--seconds", options->seconds, "else until interrupted")
+      ->check(CLI::PositiveNumber)
+      ->type_name("N");
+  command->callback([options] { record(*options); });
+}
+
+}  // namespace cornerd::tool
