@@ -70,14 +70,28 @@ class NoSink : public drivers::SampleSink {
   void on_gap() override {}
 };
 
+rplidar::MotorKind motor_kind(settings::MotorKind kind) {
+  switch (kind) {
+    case settings::MotorKind::kDtr:
+      return rplidar::MotorKind::kDtr;
+    case settings::MotorKind::kGpio:
+      return rplidar::MotorKind::kGpio;
+    case settings::MotorKind::kPwm:
+      return rplidar::MotorKind::kPwm;
+    case settings::MotorKind::kNone:
+      break;
+  }
+  return rplidar::MotorKind::kNone;
+}
+
 rplidar::RplidarDriverConfig driver_config(const settings::LidarConfig& lidar) {
   rplidar::RplidarDriverConfig config;
   config.device = lidar.device.string();
   config.baud = lidar.baud;
   config.mode = lidar.mode;
   config.inverted = lidar.mount.inverted;
-  config.motor = {static_cast<rplidar::MotorKind>(lidar.motor.kind), lidar.motor.path,
-                  lidar.motor.duty, lidar.motor.period_s};
+  config.motor = {motor_kind(lidar.motor.kind), lidar.motor.path, lidar.motor.duty,
+                  lidar.motor.period_s};
   return config;
 }
 

@@ -1,0 +1,243 @@
+// SPDX-License-Identifier: MIT
+// The program as its users call it: words in; standard output, standard error and exit code out.
+#include "tool/cornerctl.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "temporary_folder.hpp"
+#include "tool/failure.hpp"
+#include "xml_check.hpp"
+
+namespace cornerd::tool {
+namespace {
+
+using testing::HasSubstr;
+using testing::StartsWith;
+
+struct Outcome {
+  int exit_code = 0;
+  std::string out;
+  std::string err;
+};
+
+Outcome run(const std::vector<std::string>& words) {
+  std::vector<const char*> arguments = {"cornerctl"};
+  for (const std::string& word : words) arguments.push_back(word.c_str());
+  testing::internal::CaptureStdout();
+  testing::internal::CaptureStderr();
+  Outcome outcome;
+  outcome.exit_code = run_cornerctl(static_cast<int>(arguments.size()), arguments.data());
+  outcome.out = testing::internal::GetCapturedStdout();
+  outcome.err = testing::internal::GetCapturedStderr();
+  return outcome;
+}
+
+std::size_t count_lines(const std::string& text, const std::string& beginning) {
+  std::istringstream lines(text);
+  std::size_t count = 0;
+  for (std::string line; std::getline(lines, line);) count += line.starts_with(beginning) ? 1 : 0;
+  return count;
+}
+
+std::string read(const std::filesystem::path& file) {
+  std::ostringstream text;
+  text << std::ifstream(file).rdbuf();
+  return text.str();
+}
+
+class Cornerctl : public testing::Test {
+ protected:
+  std::string path(const std::string& name) const { return (folder_.path() / name).string(); }
+  void write(const std::string& name, const std::string& text) const {
+    std::ofstream(path(name)) << text;
+  }
+  /// Four turns at one place of the sample map, and their truth in still.truth.
+  std::string recording() const {
+    run({"simulate", "--map", kMap, "--pose", "0.3,0.5,1", "--turns", "4", "-o",
+         path("still.ndjson"), "--truth", path("still.truth")});
+    return path("still.ndjson");
+  }
+
+  const std::string kMap = CORNERD_SOURCE_DIR "/config/maps/krpai-2019-a.json";
+  TemporaryFolder folder_;
+};
+
+TEST_F(Cornerctl, HelpAndVersion_AreNoErrors) {
+  EXPECT_EQ(run({"--help"}).exit_code, kExitDone);
+  EXPECT_THAT(run({"replay", "--help"}).out, HasSubstr("--truth"));
+  EXPECT_EQ(run({"--version"}).out, "cornerctl " CORNERD_VERSION "\n");
+  EXPECT_EQ(run({"map", "check", "--version"}).exit_code, kExitDone);
+}
+
+TEST_F(Cornerctl, WrongUsage_EndsWith2AndSaysWhyOnStandardError) {
+  const std::vector<std::vector<std::string>> wrong = {
+      {},
+      {"dance"},
+      {"replay"},
+      {"replay", "x.bin"},
+      {"replay", "x.bin", "--map", kMap, "--nonsense"},
+      {"replay", "x.bin", "--map", kMap, "--speed", "fast"},
+      {"replay", "x.bin", "--map", kMap, "--classes", "POSES"},
+      {"replay", "x.bin", "--map", kMap, "--wire", "dense"},
+      {"detect", "x.bin", "--method", "guess"},
+      {"simulate", "--map", kMap, "-o", path("x.bin")},
+      {"simulate", "--map", kMap, "-o", path("x.bin"), "--pose", "1,2"},
+      {"simulate", "--map", kMap, "-o", path("x.bin"), "--pose", "1,1,0", "--places", "2"},
+      {"map"},
+      {"map", "render", kMap},
+  };
+  for (const auto& words : wrong) {
+    const Outcome outcome = run(words);
+    EXPECT_EQ(outcome.exit_code, kExitUsage) << testing::PrintToString(words);
+    EXPECT_EQ(outcome.out, "");
+    EXPECT_NE(outcome.err, "");
+  }
+}
+
+TEST_F(Cornerctl, WrongMapOrConfig_EndsWith78AndOneLine) {
+  write("no-map.json", R"({"format": "cornerd-map", "version": 1, "walls": 7})");
+  write("typo.json", R"({"lidar": {"devise": "/dev/ttyUSB0"}})");
+  const std::vector<std::vector<std::string>> wrong = {
+      {"map", "check", path("no-map.json")},
+      {"map", "check", path("absent.json")},
+      {"replay", "x.bin", "--map", path("no-map.json")},
+      {"replay", "x.bin", "--map", kMap, "--config", path("typo.json")},
+      {"replay", "x.bin", "--map", kMap, "--set", "/lidar/baud=fast"},
+  };
+  for (const auto& words : wrong) {
+    const Outcome outcome = run(words);
+    EXPECT_EQ(outcome.exit_code, kExitConfig) << testing::PrintToString(words);
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+  }
+  EXPECT_THAT(run(wrong[0]).err, HasSubstr("no-map.json: /"));
+  EXPECT_THAT(run(wrong[3]).err, HasSubstr("/lidar/devise"));
+}
+
+TEST_F(Cornerctl, FileThatIsNoRecording_Fails) {
+  write("noise.bin", "The quick brown fox jumps over the lazy dog.");
+  for (const std::string& name : {path("absent.bin"), path("noise.bin"), path(".")}) {
+    const Outcome outcome = run({"replay", name, "--map", kMap});
+    EXPECT_EQ(outcome.exit_code, kExitFailed) << name;
+    EXPECT_THAT(outcome.err, HasSubstr(name));
+  }
+}
+
+TEST_F(Cornerctl, MapCheck_TellsWhatIsInTheMap) {
+  const Outcome outcome = run({"map", "check", kMap});
+  EXPECT_EQ(outcome.exit_code, kExitDone);
+  EXPECT_THAT(outcome.out, HasSubstr("krpai-2019-a"));
+  EXPECT_THAT(outcome.out, HasSubstr("room-1"));
+  EXPECT_EQ(outcome.err, "");
+}
+
+TEST_F(Cornerctl, SimulateAndReplay_FindTheRobotWhereItIs) {
+  const Outcome outcome = run(
+      {"replay", recording(), "--map", kMap, "--classes", "POSE", "--truth", path("still.truth")});
+  EXPECT_EQ(outcome.exit_code, kExitDone);
+  EXPECT_EQ(count_lines(outcome.out, R"({"class":"POSE")"), 4U);
+  EXPECT_THAT(outcome.err, HasSubstr("turns            4"));
+  EXPECT_THAT(outcome.err, HasSubstr("wrong            0"));
+}
+
+TEST_F(Cornerctl, Replay_GivesTheSameBytesForTheSameInput) {
+  const std::vector<std::string> words = {
+      "replay", recording(), "--map", kMap, "--classes", "VERSION,SCAN,BREAKPOINTS,POSE,STATUS"};
+  const std::string once = run(words).out;
+  EXPECT_THAT(once, StartsWith(R"({"class":"VERSION")"));
+  EXPECT_EQ(count_lines(once, R"({"class":"SCAN")"), 4U);
+  EXPECT_EQ(once, run(words).out);
+}
+
+TEST_F(Cornerctl, Replay_NeedsNoMapWithoutPoses) {
+  const Outcome outcome = run({"replay", recording(), "--classes", "SCAN,STATUS"});
+  EXPECT_EQ(outcome.exit_code, kExitDone);
+  EXPECT_EQ(count_lines(outcome.out, R"({"class":"SCAN")"), 4U);
+  EXPECT_GE(count_lines(outcome.out, R"({"class":"STATUS")"), 1U);
+}
+
+TEST_F(Cornerctl, Replay_PlaysSeveralFilesOneAfterAnother) {
+  const std::string file = recording();
+  const Outcome outcome = run({"replay", file, file, "--classes", "SCAN"});
+  EXPECT_EQ(count_lines(outcome.out, R"({"class":"SCAN")"), 8U);
+}
+
+TEST_F(Cornerctl, ReplayOfItsOwnScans_SeesTheSameTurns) {
+  write("scans.ndjson", run({"replay", recording(), "--classes", "SCAN"}).out);
+  const Outcome outcome = run({"replay", path("scans.ndjson"), "--map", kMap, "--classes", "POSE"});
+  EXPECT_EQ(outcome.exit_code, kExitDone);
+  EXPECT_EQ(count_lines(outcome.out, R"({"class":"POSE")"), 4U);
+}
+
+TEST_F(Cornerctl, Detect_GivesTheBreakpointsOfEveryTurn) {
+  const Outcome outcome = run({"detect", recording(), "--method", "altbd"});
+  EXPECT_EQ(outcome.exit_code, kExitDone);
+  EXPECT_EQ(count_lines(outcome.out, R"({"class":"BREAKPOINTS")"), 4U);
+  EXPECT_THAT(outcome.out, HasSubstr(R"("kind":"corner")"));
+}
+
+TEST_F(Cornerctl, BareBytesOfAMovingRobot_BearNoTruth) {
+  const Outcome outcome = run({"simulate", "--map", kMap, "--path", "0.3,0.3 0.3,0.6", "-o",
+                               path("moving.bin"), "--truth", path("moving.truth")});
+  EXPECT_EQ(outcome.exit_code, kExitUsage);
+}
+
+TEST_F(Cornerctl, MapRender_DrawsTheRecordingInTheMap) {
+  const Outcome outcome = run({"map", "render", kMap, "-o", path("map.svg"), "--recording",
+                               recording(), "--truth", path("still.truth")});
+  EXPECT_EQ(outcome.exit_code, kExitDone) << outcome.err;
+  const std::string picture = read(path("map.svg"));
+  EXPECT_EQ(find_xml_error(picture), "");
+  EXPECT_THAT(picture, HasSubstr("id=\"scan\""));
+  EXPECT_THAT(picture, HasSubstr("4 of 4 turns"));
+}
+
+TEST_F(Cornerctl, FileThatCannotBeWritten_Fails) {
+  const Outcome outcome = run({"map", "render", kMap, "-o", path("absent/map.svg")});
+  EXPECT_EQ(outcome.exit_code, kExitFailed);
+  EXPECT_THAT(outcome.err, HasSubstr("absent/map.svg: No such file or directory"));
+}
+
+TEST_F(Cornerctl, Watch_FailsAtOnceWhereNoDaemonIs) {
+  const Outcome outcome = run({"watch", "--socket", path("pose.sock")});
+  EXPECT_EQ(outcome.exit_code, kExitFailed);
+  EXPECT_THAT(outcome.err, HasSubstr("pose.sock"));
+}
+
+TEST_F(Cornerctl, Record_FailsAtOnceWhereNoPortIs) {
+  const Outcome outcome = run({"record", "--device", path("tty"), "-o", path("r.bin")});
+  EXPECT_EQ(outcome.exit_code, kExitFailed);
+  EXPECT_THAT(outcome.err, HasSubstr(path("tty")));
+  EXPECT_FALSE(std::filesystem::exists(path("r.bin")));
+}
+
+TEST_F(Cornerctl, ReaderThatGoesAway_EndsItQuietly) {
+  const std::string file = recording();
+  std::signal(SIGPIPE, SIG_IGN);
+  int ends[2];
+  ASSERT_EQ(::pipe(ends), 0);
+  const int standard_output = ::dup(STDOUT_FILENO);
+  ::dup2(ends[1], STDOUT_FILENO);
+  ::close(ends[0]);
+  ::close(ends[1]);
+  testing::internal::CaptureStderr();
+  const char* const words[] = {"cornerctl", "replay", file.c_str(), "--classes", "SCAN"};
+  const int exit_code = run_cornerctl(5, words);
+  ::dup2(standard_output, STDOUT_FILENO);
+  ::close(standard_output);
+  std::clearerr(stdout);
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+  EXPECT_EQ(exit_code, kExitDone);
+}
+
+}  // namespace
+}  // namespace cornerd::tool
