@@ -32,6 +32,7 @@ int run_cornerctl(int argc, const char* const* argv) {
   add_detect(program);
   add_record(program);
   add_simulate(program);
+  add_emulate(program);
   add_map(program);
 
   try {

@@ -26,6 +26,7 @@ struct SimulateOptions {
   SimulationOptions simulation;
   std::int64_t turns = 0;
   std::string wire = "express";
+  double byte_faults = 0;
   std::filesystem::path output;
   std::filesystem::path truth;
 };
@@ -40,7 +41,7 @@ void simulate(const SimulateOptions& options) {
   config.simulator = simulation.simulator(*parse_wire(options.wire), settings.lidar.mount.inverted);
   config.T_base_lidar = settings.localizer().T_base_lidar;
   config.turns = options.turns > 0 ? options.turns : simulation.usual_turns();
-  config.byte_fault_share = simulation.byte_faults;
+  config.byte_fault_share = options.byte_faults;
 
   replay::RecordingWriter recording(options.output);
   std::optional<replay::TruthWriter> truth;

@@ -29,14 +29,14 @@ void SimulationOptions::add_to(CLI::App& command) {
   command.add_option("--drive-speed", speed_m_s, "metres a second along the path")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
+  command.add_option("--turn-speed", yaw_rate_rad_s, "radians a second on the spot")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
   command.add_option("--motor", motor_hz, "turns of the lidar a second")
       ->check(CLI::Range(1.0, 15.0))
       ->capture_default_str();
   command.add_option("--missing", missing, "share of samples without a return")
       ->check(CLI::Range(0.0, 1.0));
-  command.add_option("--byte-faults", byte_faults, "probability that a byte is lost or damaged")
-      ->check(CLI::Range(0.0, 1.0))
-      ->capture_default_str();
   command.add_option("--seed", seed, "of all randomness")->capture_default_str();
 }
 
@@ -50,6 +50,7 @@ replay::Motion SimulationOptions::motion(const core::WallMap& map) const {
   }
   replay::DriveConfig drive;
   drive.speed_m_s = speed_m_s;
+  drive.yaw_rate_rad_s = yaw_rate_rad_s;
   drive.loop = loop;
   return replay::drive_path(parse_points(path), drive);
 }

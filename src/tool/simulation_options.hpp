@@ -24,9 +24,9 @@ struct SimulationOptions {
   bool loop = false;       ///< drives the path again and again
   std::int64_t turns_each = 1;
   double speed_m_s = 0.2;
+  double yaw_rate_rad_s = 1.5;
   double motor_hz = 7.3;
   double missing = -1;  ///< negative: the sensor model's own
-  double byte_faults = 0;
   std::uint64_t seed = 1;
 
   void add_to(CLI::App& command);
