@@ -57,6 +57,7 @@ RecordedLine read_scan(FieldReader& fields) {
       sample.quality = static_cast<std::uint8_t>(fields.element("quality", *quality, i, {0, 255}));
     }
     sample.starts_turn = i == 0;
+    sample.ends_turn = i + 1 == count;
   }
   return scan;
 }

@@ -78,7 +78,7 @@ inline constexpr std::size_t kMaxRecordedBytes = 2 * 1024 * 1024;
 Request parse_request(std::string_view line);
 
 /// The lines of a recording that are inputs; the rest is none of these.
-/// A scan's first sample starts a turn.
+/// A whole turn: its first sample starts it, its last one ends it.
 struct RecordedScan {
   core::TimeNs t_ns = 0;
   core::TimeNs duration_ns = 0;

@@ -38,6 +38,8 @@ TEST(RecordedScan, Samples_AreSpreadOverTheDuration) {
   EXPECT_EQ(scan.samples[3].t_ns, 2'300'000'000);
   EXPECT_TRUE(scan.samples[0].starts_turn);
   EXPECT_FALSE(scan.samples[1].starts_turn);
+  EXPECT_FALSE(scan.samples[2].ends_turn);
+  EXPECT_TRUE(scan.samples[3].ends_turn);
   EXPECT_EQ(scan.samples[1].bearing_rad, -1);
   EXPECT_EQ(scan.samples[1].range_m, 2);
 }

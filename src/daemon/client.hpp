@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string_view>
+
+#include "daemon/file_descriptor.hpp"
+#include "daemon/line_splitter.hpp"
+#include "daemon/outbox.hpp"
+#include "message/request.hpp"
+
+namespace cornerd::daemon {
+
+/// One connection: lines in, lines out, neither ever waited for.
+class Client {
+ public:
+  /// Makes the socket's send buffer small, so that the kernel holds little that is stale.
+  Client(FileDescriptor fd, message::ClassSet watched);
+
+  int fd() const { return fd_.get(); }
+  Outbox& outbox() { return outbox_; }
+  const Outbox& outbox() const { return outbox_; }
+  void watch(message::ClassSet classes) { watched_ = classes; }
+  bool watches(message::MessageClass message_class) const {
+    return watched_.contains(message_class);
+  }
+
+  /// False where the connection is at its end.
+  [[nodiscard]] bool send();
+  enum class Input : std::uint8_t { kOpen, kTooLong, kBroken };
+  [[nodiscard]] Input receive(const std::function<void(std::string_view line)>& handle);
+
+  /// What epoll has to watch for now.
+  std::uint32_t wanted_events() const;
+
+ private:
+  bool accepts_requests() const;
+
+  FileDescriptor fd_;
+  message::ClassSet watched_;
+  LineSplitter input_;
+  Outbox outbox_;
+  bool blocked_ = false;      ///< the outbox waits for the client to read
+  bool input_ended_ = false;  ///< the client sends no more; it may still read
+};
+
+}  // namespace cornerd::daemon

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+#include "daemon/clock_watch.hpp"
+
+#include <cstdlib>
+
+namespace cornerd::daemon {
+namespace {
+
+/// Slewing moves the clock by at most a tenth of the time that passes (adjtimex(2)): 10 ms between
+/// two calls.
+constexpr std::int64_t kStep_ns = 50'000'000;
+
+}  // namespace
+
+std::optional<std::int64_t> ClockWatch::step_ns(std::int64_t unix_ns, std::int64_t monotonic_ns) {
+  const std::int64_t offset_ns = unix_ns - monotonic_ns;
+  const std::int64_t moved_ns = offset_ns - offset_ns_.value_or(offset_ns);
+  offset_ns_ = offset_ns;
+  return std::abs(moved_ns) >= kStep_ns ? std::optional(moved_ns) : std::nullopt;
+}
+
+}  // namespace cornerd::daemon

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "core/map/wall_map.hpp"
+#include "daemon/clock_watch.hpp"
+#include "daemon/event_loop.hpp"
+#include "daemon/localization.hpp"
+#include "daemon/message_server.hpp"
+#include "daemon/notifier.hpp"
+#include "daemon/periodic_timer.hpp"
+#include "daemon/status_publisher.hpp"
+#include "daemon/termination_signals.hpp"
+#include "daemon/turn_publisher.hpp"
+#include "drivers/lidar_driver.hpp"
+#include "settings/config.hpp"
+
+namespace cornerd::daemon {
+
+/// The whole program: a driver's samples in, messages to clients out.
+class Daemon {
+ public:
+  /// Opens the sockets and starts the threads. Throws std::runtime_error, one line.
+  Daemon(const settings::Config& config, std::shared_ptr<const core::WallMap> map,
+         std::unique_ptr<drivers::LidarDriver> lidar, std::string version);
+
+  /// Serves until a signal asks for the end.
+  void run();
+
+ private:
+  void on_tick();
+  void on_watchdog();
+  void on_signal();
+  /// On the clock of the samples: UNIX time live, the recording's own in a replay.
+  core::TimeNs now_ns() const;
+
+  const bool is_live_;
+  TerminationSignals signals_;  ///< before the threads
+  EventLoop loop_;
+  Notifier notifier_;
+  MessageServer server_;
+  TurnPublisher turns_;
+  StatusPublisher status_;
+  ClockWatch clock_;
+  PeriodicTimer tick_;
+  std::optional<PeriodicTimer> watchdog_;
+  message::LineWriter line_;
+  int ticks_ = 0;
+  std::unique_ptr<drivers::LidarDriver> lidar_;
+  Localization localization_;  ///< last: its threads end first
+};
+
+}  // namespace cornerd::daemon

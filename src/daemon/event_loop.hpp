@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <unordered_map>
+
+#include "daemon/file_descriptor.hpp"
+
+namespace cornerd::daemon {
+
+/// Calls whoever waits for a descriptor: epoll, level-triggered. One thread.
+class EventLoop {
+ public:
+  /// `events`: those of epoll(7). A handler may add and remove any descriptor, its own too.
+  using Handler = std::function<void(std::uint32_t events)>;
+
+  /// Throws std::system_error, as does add().
+  EventLoop();
+
+  /// The descriptor stays its owner's, who removes it before closing it.
+  void add(int fd, std::uint32_t events, Handler handler);
+  void change(int fd, std::uint32_t events);
+  void remove(int fd);
+
+  /// One round: waits for events at most `timeout_ms` (-1: for ever), and handles them.
+  void run_once(int timeout_ms);
+  /// Rounds until stop().
+  void run();
+  void stop() { running_ = false; }
+
+ private:
+  FileDescriptor epoll_;
+  std::unordered_map<int, std::shared_ptr<const Handler>> handlers_;
+  bool running_ = false;
+};
+
+}  // namespace cornerd::daemon

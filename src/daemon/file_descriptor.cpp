@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: MIT
+#include "daemon/file_descriptor.hpp"
+
+#include <cerrno>
+#include <system_error>
+
+namespace cornerd::daemon {
+
+FileDescriptor require_fd(int fd, const char* what) {
+  if (fd < 0) throw std::system_error(errno, std::generic_category(), what);
+  return FileDescriptor(fd);
+}
+
+}  // namespace cornerd::daemon

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: MIT
+#include "daemon/localization.hpp"
+
+#include <pthread.h>
+#include <sys/eventfd.h>
+#include <unistd.h>
+
+#include <utility>
+
+#include "daemon/clock.hpp"
+
+namespace cornerd::daemon {
+namespace {
+
+/// More than a second of turns that the server may be busy with something else.
+constexpr std::size_t kReportSlots = 16;
+
+}  // namespace
+
+Localization::Localization(drivers::LidarDriver& driver, core::Pipeline pipeline,
+                           SampleChannel::WhenFull when_full)
+    : driver_(driver),
+      pipeline_(std::move(pipeline)),
+      channel_(when_full),
+      reports_(kReportSlots),
+      reported_(require_fd(::eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC), "eventfd")) {}
+
+Localization::~Localization() {
+  localizer_.request_stop();
+  reader_.request_stop();
+  channel_.close();
+}
+
+void Localization::start() {
+  localizer_ = std::jthread([this](const std::stop_token& stop) { localize(stop); });
+  reader_ = std::jthread([this](const std::stop_token& stop) { read(stop); });
+}
+
+int Localization::prioritize_reader(int priority) {
+  sched_param parameters{};
+  parameters.sched_priority = priority;
+  return ::pthread_setschedparam(reader_.native_handle(), SCHED_FIFO, &parameters);
+}
+
+void Localization::read(const std::stop_token& stop) {
+  driver_.run(stop, channel_);
+  // A recording that has ended: its last turn has no successor that would complete it.
+  channel_.on_gap();
+}
+
+void Localization::localize(const std::stop_token& stop) {
+  SampleChannel::Item item;
+  while (true) {
+    // In this order: a stop that is asked for after the question changes wakes().
+    const std::uint32_t seen = channel_.wakes();
+    if (stop.stop_requested()) return;
+    while (!stop.stop_requested() && channel_.pop(item)) process(item);
+    rounds_.fetch_add(1, std::memory_order_relaxed);
+    channel_.wait(seen);
+  }
+}
+
+void Localization::process(const SampleChannel::Item& item) {
+  if (relocalize_.exchange(false, std::memory_order_relaxed)) pipeline_.localizer().relocalize();
+  const core::TurnResult* result =
+      item.kind == SampleChannel::Kind::kGap ? pipeline_.finish() : pipeline_.add(item.sample);
+  if (result == nullptr) return;
+  rounds_.fetch_add(1, std::memory_order_relaxed);
+  const bool handed_over = reports_.put([&](TurnReport& report) {
+    report.result = *result;
+    report.turn = pipeline_.turn();
+    report.latency_ns = monotonic_ns() - item.arrival_ns;
+  });
+  if (!handed_over) lost_reports_.fetch_add(1, std::memory_order_relaxed);
+  ::eventfd_write(reported_.get(), 1);
+}
+
+void Localization::clear_event() const {
+  eventfd_t count = 0;
+  ::eventfd_read(reported_.get(), &count);
+}
+
+bool Localization::has_progressed() {
+  const std::uint32_t rounds = rounds_.load(std::memory_order_relaxed);
+  const bool progressed = rounds != rounds_seen_;
+  rounds_seen_ = rounds;
+  channel_.wake();
+  return progressed;
+}
+
+}  // namespace cornerd::daemon

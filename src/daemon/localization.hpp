@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <thread>
+
+#include "core/pipeline.hpp"
+#include "daemon/file_descriptor.hpp"
+#include "daemon/sample_channel.hpp"
+#include "daemon/slot_exchange.hpp"
+#include "drivers/lidar_driver.hpp"
+
+namespace cornerd::daemon {
+
+/// What one turn gave, for the server's thread.
+struct TurnReport {
+  core::TurnResult result;
+  core::Scan turn;
+  /// From when the turn's end was handed over by the driver to when the pose was there.
+  std::int64_t latency_ns = 0;
+};
+
+/// The two threads that must not be late: one runs the driver, one the pipeline. Once they run,
+/// neither locks, logs or allocates; what they have to say goes through the server's thread.
+class Localization {
+ public:
+  /// `driver` must outlive this.
+  Localization(drivers::LidarDriver& driver, core::Pipeline pipeline,
+               SampleChannel::WhenFull when_full);
+  /// Stops both: the driver ends its device's work in its own thread.
+  ~Localization();
+  Localization(const Localization&) = delete;
+  Localization& operator=(const Localization&) = delete;
+
+  // All that follows is for the server's thread.
+
+  /// Throws std::system_error.
+  void start();
+  /// SCHED_FIFO for the thread that reads the port. Returns errno of a refusal, or 0.
+  int prioritize_reader(int priority);
+
+  /// Readable when there are reports.
+  int event_fd() const { return reported_.get(); }
+  /// Calls `use` with every TurnReport there is, oldest first.
+  void take(const auto& use) {
+    clear_event();
+    while (reports_.take(use)) {
+    }
+  }
+  /// The next turn is recognised without a prior.
+  void relocalize() { relocalize_.store(true, std::memory_order_relaxed); }
+
+  /// True where the localizer has come round since the last call, which asked it to.
+  bool has_progressed();
+
+  std::uint64_t lost_samples() const { return channel_.lost(); }
+  std::uint64_t lost_reports() const { return lost_reports_.load(std::memory_order_relaxed); }
+
+ private:
+  void read(const std::stop_token& stop);
+  void localize(const std::stop_token& stop);
+  void process(const SampleChannel::Item& item);
+  void clear_event() const;
+
+  drivers::LidarDriver& driver_;
+  core::Pipeline pipeline_;
+  SampleChannel channel_;
+  SlotExchange<TurnReport> reports_;
+  FileDescriptor reported_;
+  std::atomic<bool> relocalize_{false};
+  std::atomic<std::uint32_t> lost_reports_{0};
+  std::atomic<std::uint32_t> rounds_{0};
+  std::uint32_t rounds_seen_ = 0;
+  std::jthread localizer_;
+  std::jthread reader_;
+};
+
+}  // namespace cornerd::daemon

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MIT
+#include "daemon/log.hpp"
+
+#include <spdlog/sinks/stdout_color_sinks.h>
+#include <spdlog/spdlog.h>
+
+#include <cstdlib>
+
+namespace cornerd::daemon {
+
+void set_up_log() {
+  auto log = spdlog::stderr_color_st("cornerd");
+  // sd-daemon(3): the service manager sets it where standard error is the journal.
+  const bool is_journal = std::getenv("JOURNAL_STREAM") != nullptr;
+  log->set_pattern(is_journal ? "%l: %v" : "%H:%M:%S.%e %^%l%$: %v");
+  spdlog::set_default_logger(std::move(log));
+}
+
+}  // namespace cornerd::daemon

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+#include <cstdio>
+#include <exception>
+#include <span>
+
+#include "daemon/daemon.hpp"
+#include "daemon/lidar_factory.hpp"
+#include "daemon/log.hpp"
+#include "daemon/options.hpp"
+#include "settings/config.hpp"
+#include "settings/map_file.hpp"
+
+namespace {
+
+using namespace cornerd;
+
+constexpr int kExitFailed = 1;
+constexpr int kExitUsage = 2;
+
+void complain(const char* what) { std::fprintf(stderr, "cornerd: %s\n", what); }
+
+int run(const daemon::Options& options) {
+  if (options.help) {
+    std::fwrite(daemon::kHelp.data(), 1, daemon::kHelp.size(), stdout);
+    return 0;
+  }
+  if (options.version) {
+    std::puts("cornerd " CORNERD_VERSION);
+    return 0;
+  }
+  const settings::Config config = settings::load_config(options.config, options.overrides);
+  auto map = settings::load_map(config.map);
+  if (options.check) {
+    std::puts("ok");
+    return 0;
+  }
+  daemon::set_up_log();
+  daemon::Daemon(config, std::move(map), daemon::make_lidar(config.lidar), CORNERD_VERSION).run();
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    const std::span<const char* const> arguments(argv, static_cast<std::size_t>(argc));
+    return run(daemon::parse_options(arguments.subspan(argc > 0 ? 1 : 0)));
+  } catch (const daemon::UsageError& error) {
+    complain(error.what());
+    std::fputs("cornerd --help says more\n", stderr);
+    return kExitUsage;
+  } catch (const settings::SettingsError& error) {
+    complain(error.what());
+    return settings::kExitConfig;
+  } catch (const std::exception& error) {
+    complain(error.what());
+    return kExitFailed;
+  }
+}

@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: MIT
+#include "daemon/message_server.hpp"
+
+#include <sys/epoll.h>
+
+#include <iterator>
+#include <utility>
+#include <variant>
+
+namespace cornerd::daemon {
+namespace {
+
+using message::MessageClass;
+
+/// Everybody may read where the robot is: any program of the robot, without a word to the group
+/// file. Changing it takes membership in the daemon's group.
+constexpr mode_t kPoseMode = 0666;
+constexpr mode_t kControlMode = 0660;
+
+/// What a client gets that has not said what it wants.
+message::ClassSet default_classes(SocketRole role) {
+  message::ClassSet classes;
+  if (role == SocketRole::kPose) {
+    classes.insert(MessageClass::kPose);
+    classes.insert(MessageClass::kStatus);
+  }
+  return classes;
+}
+
+template <typename... Handlers>
+struct Overloaded : Handlers... {
+  using Handlers::operator()...;
+};
+
+}  // namespace
+
+MessageServer::Socket::Socket(const std::filesystem::path& path, SocketRole its_role)
+    : listener(path, its_role == SocketRole::kPose ? kPoseMode : kControlMode), role(its_role) {}
+
+MessageServer::MessageServer(EventLoop& loop, std::string version, std::function<void()> relocalize)
+    : loop_(loop), version_(std::move(version)), relocalize_(std::move(relocalize)) {}
+
+MessageServer::~MessageServer() {
+  for (Socket& socket : sockets_) {
+    loop_.remove(socket.listener.fd());
+    while (!socket.clients.empty()) remove(socket, socket.clients.begin());
+  }
+}
+
+void MessageServer::listen(const std::filesystem::path& path, SocketRole role) {
+  Socket& socket = sockets_.emplace_back(path, role);
+  loop_.add(socket.listener.fd(), EPOLLIN,
+            [this, &socket](std::uint32_t /*events*/) { accept_clients(socket); });
+}
+
+void MessageServer::accept_clients(Socket& socket) {
+  FileDescriptor fd = socket.listener.accept();
+  if (fd.is_open()) welcome(socket, std::move(fd));
+}
+
+void MessageServer::welcome(Socket& socket, FileDescriptor fd) {
+  const ClientIterator client =
+      socket.clients.emplace(socket.clients.end(), std::move(fd), default_classes(socket.role));
+  if (socket.clients.size() > kMaxClientsPerSocket) {
+    client->outbox().answer(line_.error("too-many-clients", "no more clients are served", "", ""));
+    static_cast<void>(client->send());
+    socket.clients.erase(client);
+    return;
+  }
+  client->outbox().answer(line_.version("cornerd", version_));
+  const std::string& status = newest_[static_cast<std::size_t>(MessageClass::kStatus)];
+  if (client->watches(MessageClass::kStatus) && !status.empty()) {
+    client->outbox().put(MessageClass::kStatus, status);
+  }
+  loop_.add(client->fd(), EPOLLIN, [this, &socket, client](std::uint32_t events) {
+    handle_events(socket, client, events);
+  });
+  send_or_remove(socket, client);
+}
+
+void MessageServer::handle_events(Socket& socket, ClientIterator client, std::uint32_t events) {
+  if (events & EPOLLIN) {
+    const Client::Input input =
+        client->receive([&](std::string_view line) { answer(*client, socket.role, line); });
+    if (input == Client::Input::kTooLong) {
+      client->outbox().answer(line_.error("too-long", "a line has at most 64 KiB", "", ""));
+      static_cast<void>(client->send());
+    }
+    if (input != Client::Input::kOpen) return remove(socket, client);
+  } else if (events & (EPOLLHUP | EPOLLERR)) {
+    return remove(socket, client);
+  }
+  send_or_remove(socket, client);
+}
+
+bool MessageServer::send_or_remove(Socket& socket, ClientIterator client) {
+  if (!client->send()) {
+    remove(socket, client);
+    return false;
+  }
+  loop_.change(client->fd(), client->wanted_events());
+  return true;
+}
+
+void MessageServer::remove(Socket& socket, ClientIterator client) {
+  dropped_by_gone_ += client->outbox().dropped();
+  loop_.remove(client->fd());
+  socket.clients.erase(client);
+}
+
+void MessageServer::answer(Client& client, SocketRole role, std::string_view text) {
+  const message::Request request = message::parse_request(text);
+  const auto ok = [&] { client.outbox().answer(line_.ok(request.name, request.id_json)); };
+  const auto error = [&](std::string_view code, std::string_view reason) {
+    client.outbox().answer(line_.error(code, reason, request.name, request.id_json));
+  };
+  const auto change_belief = [&](const auto& act) {
+    if (role == SocketRole::kControl) {
+      act();
+    } else {
+      error("read-only", "this socket only tells; the control socket takes such requests");
+    }
+  };
+  const auto not_yet = [&] {
+    change_belief([&] { error("unsupported", "this version does not take such requests yet"); });
+  };
+  std::visit(Overloaded{
+                 [&](const message::RequestError& wrong) { error(wrong.code, wrong.text); },
+                 [&](const message::WatchRequest& watch) {
+                   client.watch(watch.classes);
+                   ok();
+                 },
+                 [&](const message::PollRequest&) {
+                   answer_poll(client);
+                   ok();
+                 },
+                 [&](const message::RelocalizeRequest&) {
+                   change_belief([&] {
+                     relocalize_();
+                     ok();
+                   });
+                 },
+                 [&](const message::SetPoseRequest&) { not_yet(); },
+                 [&](const message::OdometryReading&) { not_yet(); },
+             },
+             request.body);
+}
+
+void MessageServer::answer_poll(Client& client) {
+  for (const MessageClass message_class : {MessageClass::kPose, MessageClass::kStatus}) {
+    const std::string& newest = newest_[static_cast<std::size_t>(message_class)];
+    if (!newest.empty()) client.outbox().answer(newest);
+  }
+}
+
+void MessageServer::publish(MessageClass message_class, std::string_view line) {
+  newest_[static_cast<std::size_t>(message_class)] = line;
+  for (Socket& socket : sockets_) {
+    for (auto next = socket.clients.begin(); next != socket.clients.end();) {
+      const ClientIterator client = next++;
+      if (!client->watches(message_class)) continue;
+      client->outbox().put(message_class, line);
+      send_or_remove(socket, client);
+    }
+  }
+}
+
+bool MessageServer::is_watched(MessageClass message_class) const {
+  for (const Socket& socket : sockets_) {
+    for (const Client& client : socket.clients) {
+      if (client.watches(message_class)) return true;
+    }
+  }
+  return false;
+}
+
+std::size_t MessageServer::clients() const {
+  std::size_t count = 0;
+  for (const Socket& socket : sockets_) count += socket.clients.size();
+  return count;
+}
+
+std::uint64_t MessageServer::dropped() const {
+  std::uint64_t count = dropped_by_gone_;
+  for (const Socket& socket : sockets_) {
+    for (const Client& client : socket.clients) count += client.outbox().dropped();
+  }
+  return count;
+}
+
+}  // namespace cornerd::daemon

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <list>
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "daemon/client.hpp"
+#include "daemon/event_loop.hpp"
+#include "daemon/unix_listener.hpp"
+#include "message/line.hpp"
+#include "message/request.hpp"
+
+namespace cornerd::daemon {
+
+/// What a socket is for. Whoever may connect to the pose socket learns where the robot is; whoever
+/// may connect to the control socket can also change what the daemon believes.
+enum class SocketRole : std::uint8_t { kPose, kControl };
+
+/// The clients of both sockets: sends them what they watch, answers what they ask. One thread, that
+/// of the loop, which must outlive it.
+class MessageServer {
+ public:
+  static constexpr std::size_t kMaxClientsPerSocket = 32;
+
+  /// `relocalize`: what to do at that request.
+  MessageServer(EventLoop& loop, std::string version, std::function<void()> relocalize);
+  ~MessageServer();
+  MessageServer(const MessageServer&) = delete;
+  MessageServer& operator=(const MessageServer&) = delete;
+
+  /// Throws std::runtime_error where the socket cannot be had.
+  void listen(const std::filesystem::path& path, SocketRole role);
+
+  /// To all that watch the class. The newest of each class is kept for POLL and newcomers.
+  void publish(message::MessageClass message_class, std::string_view line);
+  bool is_watched(message::MessageClass message_class) const;
+
+  std::size_t clients() const;
+  /// Messages that clients lost because they did not read.
+  std::uint64_t dropped() const;
+
+ private:
+  struct Socket {
+    Socket(const std::filesystem::path& path, SocketRole its_role);
+    UnixListener listener;
+    SocketRole role;
+    std::list<Client> clients;
+  };
+  using ClientIterator = std::list<Client>::iterator;
+
+  void accept_clients(Socket& socket);
+  void welcome(Socket& socket, FileDescriptor fd);
+  void handle_events(Socket& socket, ClientIterator client, std::uint32_t events);
+  /// Sends what waits; removes the client where it is gone. False where it was.
+  bool send_or_remove(Socket& socket, ClientIterator client);
+  void remove(Socket& socket, ClientIterator client);
+  void answer(Client& client, SocketRole role, std::string_view line);
+  void answer_poll(Client& client);
+
+  EventLoop& loop_;
+  const std::string version_;
+  const std::function<void()> relocalize_;
+  message::LineWriter line_;
+  std::list<Socket> sockets_;
+  std::array<std::string, 8> newest_;  ///< by class
+  std::uint64_t dropped_by_gone_ = 0;
+};
+
+}  // namespace cornerd::daemon

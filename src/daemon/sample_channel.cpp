@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+#include "daemon/sample_channel.hpp"
+
+#include <chrono>
+#include <thread>
+
+#include "daemon/clock.hpp"
+
+namespace cornerd::daemon {
+namespace {
+
+/// Two seconds of an A1's fastest mode.
+constexpr std::size_t kCapacity = 16384;
+constexpr std::uint32_t kWakeInterval = 4096;
+
+/// Far less than the ring holds, at any speed that a recording is played with.
+constexpr std::chrono::milliseconds kRetryInterval{1};
+
+}  // namespace
+
+SampleChannel::SampleChannel(WhenFull when_full) : when_full_(when_full), ring_(kCapacity) {}
+
+bool SampleChannel::push(const Item& item) {
+  while (!ring_.push(item)) {
+    if (when_full_ == WhenFull::kLose || closed_.load(std::memory_order_relaxed)) return false;
+    wake();
+    std::this_thread::sleep_for(kRetryInterval);
+  }
+  return true;
+}
+
+void SampleChannel::on_sample(const core::Sample& sample) {
+  if (owes_gap_) on_gap();
+  const bool may_complete_turn = sample.starts_turn || sample.ends_turn;
+  const std::int64_t arrival_ns = may_complete_turn ? monotonic_ns() : 0;
+  const Item item{.sample = sample, .arrival_ns = arrival_ns, .kind = Kind::kSample};
+  if (owes_gap_ || !push(item)) {
+    owes_gap_ = true;
+    lost_.fetch_add(1, std::memory_order_relaxed);
+  }
+  if (may_complete_turn || ++since_wake_ >= kWakeInterval) {
+    since_wake_ = 0;
+    wake();
+  }
+}
+
+void SampleChannel::on_gap() {
+  owes_gap_ = !push({.sample = {}, .arrival_ns = monotonic_ns(), .kind = Kind::kGap});
+  wake();
+}
+
+void SampleChannel::wake() {
+  wakes_.fetch_add(1, std::memory_order_release);
+  wakes_.notify_one();
+}
+
+void SampleChannel::close() {
+  closed_.store(true, std::memory_order_relaxed);
+  wake();
+}
+
+}  // namespace cornerd::daemon

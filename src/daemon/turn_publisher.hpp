@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <optional>
+
+#include "core/map/wall_map.hpp"
+#include "daemon/latency_window.hpp"
+#include "daemon/localization.hpp"
+#include "daemon/message_server.hpp"
+#include "message/line.hpp"
+
+namespace cornerd::daemon {
+
+/// Makes messages of what the turns gave.
+class TurnPublisher {
+ public:
+  static constexpr std::size_t kStates = static_cast<std::size_t>(core::PoseState::kLost) + 1;
+
+  TurnPublisher(MessageServer& server, std::shared_ptr<const core::WallMap> map);
+
+  void publish(const TurnReport& report);
+
+  const LatencyWindow& latencies() const { return latencies_; }
+  /// Of the newest turn; nullopt before the first.
+  std::optional<core::PoseState> state() const { return state_; }
+  core::TimeNs end_of_newest_turn_ns() const { return end_ns_; }
+  /// Poses so far, by state.
+  const std::array<std::uint64_t, kStates>& poses() const { return poses_; }
+
+ private:
+  void publish_change(core::PoseState to, core::TimeNs t_ns);
+
+  MessageServer& server_;
+  std::shared_ptr<const core::WallMap> map_;
+  message::LineWriter line_;
+  LatencyWindow latencies_;
+  std::optional<core::PoseState> state_;
+  core::TimeNs end_ns_ = 0;
+  std::array<std::uint64_t, kStates> poses_{};
+};
+
+}  // namespace cornerd::daemon

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: MIT
+#include "daemon/unix_listener.hpp"
+
+#include <sys/socket.h>
+#include <sys/stat.h>
+#include <sys/un.h>
+
+#include <cerrno>
+#include <cstring>
+#include <stdexcept>
+#include <string>
+
+namespace cornerd::daemon {
+namespace {
+
+constexpr int kBacklog = 16;
+
+[[noreturn]] void fail(const std::filesystem::path& path, const std::string& reason) {
+  throw std::runtime_error(path.string() + ": " + reason);
+}
+
+sockaddr_un address_of(const std::filesystem::path& path) {
+  sockaddr_un address{};
+  address.sun_family = AF_UNIX;
+  const std::string& name = path.native();
+  if (name.size() >= sizeof(address.sun_path)) fail(path, "too long for a socket");
+  std::memcpy(address.sun_path, name.data(), name.size());
+  return address;
+}
+
+const sockaddr* generic(const sockaddr_un& address) {
+  return reinterpret_cast<const sockaddr*>(&address);
+}
+
+FileDescriptor make_socket() {
+  return require_fd(::socket(AF_UNIX, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0), "socket");
+}
+
+/// Only a connection refused tells that nobody listens: a full backlog is EAGAIN, and alive.
+void remove_stale(const std::filesystem::path& path, const sockaddr_un& address) {
+  struct stat file {};
+  if (::lstat(path.c_str(), &file) != 0) return;
+  if (!S_ISSOCK(file.st_mode)) fail(path, "is there already and is no socket");
+  const FileDescriptor probe = make_socket();
+  if (::connect(probe.get(), generic(address), sizeof(address)) == 0 || errno != ECONNREFUSED) {
+    fail(path, "another cornerd listens there");
+  }
+  ::unlink(path.c_str());
+}
+
+}  // namespace
+
+UnixListener::UnixListener(const std::filesystem::path& path, mode_t mode) : path_(path) {
+  const sockaddr_un address = address_of(path);
+  std::error_code ignored;
+  if (path.has_parent_path()) std::filesystem::create_directory(path.parent_path(), ignored);
+  remove_stale(path, address);
+  fd_ = make_socket();
+  if (::bind(fd_.get(), generic(address), sizeof(address)) != 0) {
+    fail(path, std::string("cannot be made: ") + std::strerror(errno));
+  }
+  struct stat file {};
+  if (::stat(path.c_str(), &file) == 0) {
+    device_ = file.st_dev;
+    inode_ = file.st_ino;
+  }
+  // After bind(), since the service's umask would decide otherwise; before listen(), since nobody
+  // can connect until then.
+  if (::chmod(path.c_str(), mode) != 0 || ::listen(fd_.get(), kBacklog) != 0) {
+    const std::string reason = std::strerror(errno);
+    ::unlink(path.c_str());
+    fail(path, "cannot be listened on: " + reason);
+  }
+}
+
+UnixListener::~UnixListener() {
+  struct stat file {};
+  if (::lstat(path_.c_str(), &file) == 0 && file.st_dev == device_ && file.st_ino == inode_) {
+    ::unlink(path_.c_str());
+  }
+}
+
+FileDescriptor UnixListener::accept() const {
+  return FileDescriptor(::accept4(fd_.get(), nullptr, nullptr, SOCK_NONBLOCK | SOCK_CLOEXEC));
+}
+
+}  // namespace cornerd::daemon

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <sys/types.h>
+
+#include <filesystem>
+
+#include "daemon/file_descriptor.hpp"
+
+namespace cornerd::daemon {
+
+/// A listening UNIX stream socket with a name in the file system, removed at the end.
+class UnixListener {
+ public:
+  /// A socket file that nobody listens on any more is replaced; one that somebody does is left
+  /// alone. Throws std::runtime_error, one line with the path.
+  UnixListener(const std::filesystem::path& path, mode_t mode);
+  /// Removes the file where it is still this socket's.
+  ~UnixListener();
+  UnixListener(const UnixListener&) = delete;
+  UnixListener& operator=(const UnixListener&) = delete;
+
+  int fd() const { return fd_.get(); }
+  /// The next waiting client, non-blocking; not open where there is none.
+  FileDescriptor accept() const;
+
+ private:
+  std::filesystem::path path_;
+  FileDescriptor fd_;
+  dev_t device_ = 0;
+  ino_t inode_ = 0;
+};
+
+}  // namespace cornerd::daemon

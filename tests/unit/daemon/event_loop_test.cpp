@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+#include "daemon/event_loop.hpp"
+
+#include <gtest/gtest.h>
+#include <sys/epoll.h>
+#include <sys/eventfd.h>
+
+#include <system_error>
+
+namespace cornerd::daemon {
+namespace {
+
+FileDescriptor readable_fd() { return FileDescriptor(::eventfd(1, EFD_NONBLOCK | EFD_CLOEXEC)); }
+
+TEST(EventLoop, ReadyDescriptor_CallsItsHandler) {
+  EventLoop loop;
+  const FileDescriptor fd = readable_fd();
+  int calls = 0;
+  loop.add(fd.get(), EPOLLIN, [&](std::uint32_t events) {
+    EXPECT_TRUE(events & EPOLLIN);
+    ++calls;
+  });
+  loop.run_once(0);
+  EXPECT_EQ(calls, 1);
+  loop.change(fd.get(), 0);
+  loop.run_once(0);
+  EXPECT_EQ(calls, 1);
+}
+
+TEST(EventLoop, HandlerThatRemovesItself_IsNotCalledAgain) {
+  EventLoop loop;
+  const FileDescriptor fd = readable_fd();
+  int calls = 0;
+  loop.add(fd.get(), EPOLLIN, [&, token = std::string(100, 'x')](std::uint32_t) {
+    loop.remove(fd.get());
+    calls += token.size() == 100 ? 1 : 1000;  // its own captures are still there
+  });
+  loop.run_once(0);
+  loop.run_once(0);
+  EXPECT_EQ(calls, 1);
+}
+
+TEST(EventLoop, HandlerRemovedInTheSameRound_IsNotCalled) {
+  EventLoop loop;
+  const FileDescriptor first = readable_fd();
+  const FileDescriptor second = readable_fd();
+  int calls = 0;
+  const auto remove_both = [&](std::uint32_t) {
+    ++calls;
+    loop.remove(first.get());
+    loop.remove(second.get());
+  };
+  loop.add(first.get(), EPOLLIN, remove_both);
+  loop.add(second.get(), EPOLLIN, remove_both);
+  loop.run_once(0);
+  EXPECT_EQ(calls, 1);
+}
+
+TEST(EventLoop, Stop_EndsRun) {
+  EventLoop loop;
+  const FileDescriptor fd = readable_fd();
+  loop.add(fd.get(), EPOLLIN, [&](std::uint32_t) { loop.stop(); });
+  loop.run();
+  SUCCEED() << "run() returned";
+}
+
+TEST(EventLoop, DescriptorThatIsNone_IsRefused) {
+  EventLoop loop;
+  EXPECT_THROW(loop.add(-1, EPOLLIN, [](std::uint32_t) {}), std::system_error);
+}
+
+}  // namespace
+}  // namespace cornerd::daemon

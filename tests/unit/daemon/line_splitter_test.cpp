@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+#include "daemon/line_splitter.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+namespace cornerd::daemon {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
+
+class LineSplitterTest : public ::testing::Test {
+ protected:
+  bool feed(std::string_view bytes) {
+    return splitter_.feed(bytes, [this](std::string_view line) { lines_.emplace_back(line); });
+  }
+
+  LineSplitter splitter_{8};
+  std::vector<std::string> lines_;
+};
+
+TEST_F(LineSplitterTest, LinesInAnyPortions_AreTheSame) {
+  const std::string text = "one\ntwo\r\n\n\nthree\n";
+  EXPECT_TRUE(feed(text));
+  for (const char c : text) EXPECT_TRUE(feed({&c, 1}));
+  EXPECT_THAT(lines_, ElementsAre("one", "two", "three", "one", "two", "three"));
+}
+
+TEST_F(LineSplitterTest, RestWithoutNewline_IsKeptForTheEnd) {
+  EXPECT_TRUE(feed("a\nrest"));
+  EXPECT_THAT(lines_, ElementsAre("a"));
+  EXPECT_EQ(splitter_.take_rest(), "rest");
+  EXPECT_EQ(splitter_.take_rest(), "");
+}
+
+TEST_F(LineSplitterTest, LineAtTheLimit_IsTaken) {
+  EXPECT_TRUE(feed("12345678\n"));
+  EXPECT_THAT(lines_, ElementsAre("12345678"));
+}
+
+TEST_F(LineSplitterTest, LineBeyondTheLimit_IsRefusedBeforeItEnds) {
+  EXPECT_TRUE(feed("1234"));
+  EXPECT_FALSE(feed("56789"));
+  EXPECT_THAT(lines_, IsEmpty());
+}
+
+TEST_F(LineSplitterTest, LinesBeforeTheOneTooLong_AreHandled) {
+  EXPECT_FALSE(feed("ok\n123456789\n"));
+  EXPECT_THAT(lines_, ElementsAre("ok"));
+}
+
+}  // namespace
+}  // namespace cornerd::daemon

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: MIT
+#include "daemon/localization.hpp"
+
+#include <gtest/gtest.h>
+#include <poll.h>
+
+#include <atomic>
+#include <cmath>
+#include <vector>
+
+namespace cornerd::daemon {
+namespace {
+
+/// Turns of a round room, as fast as the sink takes them; then it waits for its stop as a device
+/// does, or ends as a recording does.
+class FakeLidar final : public drivers::LidarDriver {
+ public:
+  FakeLidar(int turns, bool ends) : turns_(turns), ends_(ends) {}
+
+  void run(std::stop_token stop, drivers::SampleSink& sink) override {
+    constexpr int kSamples = 360;
+    for (int turn = 0; turn < turns_ && !stop.stop_requested(); ++turn) {
+      for (int i = 0; i < kSamples; ++i) {
+        const double bearing_rad = core::kPi - core::kTwoPi * i / kSamples;
+        sink.on_sample({.t_ns = std::int64_t{turn} * 1000 + i,
+                        .bearing_rad = static_cast<float>(bearing_rad),
+                        .range_m = 1,
+                        .starts_turn = i == 0});
+      }
+    }
+    while (!ends_ && !stop.stop_requested()) std::this_thread::yield();
+    stopped_ = true;
+  }
+  drivers::LidarStatus status() override { return {}; }
+
+  bool has_stopped() const { return stopped_; }
+
+ private:
+  const int turns_;
+  const bool ends_;
+  std::atomic<bool> stopped_{false};
+};
+
+core::Pipeline pipeline_without_map() { return {nullptr, core::LocalizerConfig{}}; }
+
+/// The starts of the turns that are reported until `count` are there or nothing comes any more.
+std::vector<core::TimeNs> collect(Localization& localization, std::size_t count) {
+  std::vector<core::TimeNs> starts;
+  pollfd readable{localization.event_fd(), POLLIN, 0};
+  while (starts.size() < count && ::poll(&readable, 1, 30'000) == 1) {
+    localization.take([&starts](const TurnReport& report) {
+      EXPECT_EQ(report.turn.size(), 360u);
+      EXPECT_GT(report.latency_ns, 0);
+      EXPECT_EQ(report.result.pose.state, core::PoseState::kLost) << "there is no map";
+      starts.push_back(report.turn.start_ns());
+    });
+  }
+  return starts;
+}
+
+TEST(Localization, EveryTurnOfARecording_IsReportedInOrder) {
+  // As many as there are slots, so that none is lost however late this thread is.
+  constexpr std::size_t kTurns = 16;
+  FakeLidar lidar(kTurns, /*ends=*/true);
+  Localization localization(lidar, pipeline_without_map(), SampleChannel::WhenFull::kWait);
+  localization.start();
+  const auto starts = collect(localization, kTurns);
+  ASSERT_EQ(starts.size(), kTurns) << "the last one too, although no other turn follows it";
+  for (std::size_t i = 0; i < kTurns; ++i)
+    EXPECT_EQ(starts[i], static_cast<core::TimeNs>(i) * 1000);
+  EXPECT_EQ(localization.lost_reports(), 0u);
+}
+
+TEST(Localization, ServerThatIsBusy_LosesNewTurnsAndKnowsIt) {
+  constexpr int kTurns = 100;
+  FakeLidar lidar(kTurns, /*ends=*/true);
+  Localization localization(lidar, pipeline_without_map(), SampleChannel::WhenFull::kWait);
+  localization.start();
+  while (localization.lost_reports() + 16 < kTurns) std::this_thread::yield();
+  const auto starts = collect(localization, 16);
+  EXPECT_EQ(starts.size(), 16u);
+  EXPECT_EQ(starts.front(), 0);
+}
+
+TEST(Localization, End_StopsADriverThatWaitsForItsDevice) {
+  FakeLidar lidar(3, /*ends=*/false);
+  {
+    Localization localization(lidar, pipeline_without_map(), SampleChannel::WhenFull::kLose);
+    localization.start();
+    collect(localization, 2);
+  }
+  EXPECT_TRUE(lidar.has_stopped());
+}
+
+TEST(Localization, EndBeforeTheStart_IsQuiet) {
+  FakeLidar lidar(1, /*ends=*/true);
+  const Localization localization(lidar, pipeline_without_map(), SampleChannel::WhenFull::kLose);
+  EXPECT_FALSE(lidar.has_stopped());
+}
+
+TEST(Localization, IdleLocalizer_StillProvesThatItLives) {
+  FakeLidar lidar(0, /*ends=*/false);
+  Localization localization(lidar, pipeline_without_map(), SampleChannel::WhenFull::kLose);
+  localization.start();
+  for (int round = 0; round < 3; ++round) {
+    while (!localization.has_progressed()) std::this_thread::yield();
+  }
+  SUCCEED() << "three times round without a sample";
+}
+
+}  // namespace
+}  // namespace cornerd::daemon

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+#include "daemon/options.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <vector>
+
+namespace cornerd::daemon {
+namespace {
+
+using ::testing::ElementsAre;
+
+Options parse(const std::vector<const char*>& arguments) { return parse_options(arguments); }
+
+TEST(Options, BothWaysToGiveAValue_AreTheSame) {
+  EXPECT_EQ(parse({"--config", "a.json"}).config, "a.json");
+  EXPECT_EQ(parse({"--config=a.json"}).config, "a.json");
+}
+
+TEST(Options, Overrides_KeepTheirOrderAndTheirEqualsSigns) {
+  const Options options = parse({"--config=c", "--set", "/a=1", "--set=/b=x=y", "--check"});
+  EXPECT_THAT(options.overrides, ElementsAre("/a=1", "/b=x=y"));
+  EXPECT_TRUE(options.check);
+}
+
+TEST(Options, HelpAndVersion_NeedNoConfig) {
+  EXPECT_TRUE(parse({"--help"}).help);
+  EXPECT_TRUE(parse({"--version"}).version);
+}
+
+TEST(Options, WrongUsage_IsRefused) {
+  EXPECT_THROW(parse({}), UsageError);
+  EXPECT_THROW(parse({"--check"}), UsageError);
+  EXPECT_THROW(parse({"--config"}), UsageError);
+  EXPECT_THROW(parse({"--config=c", "--check=yes"}), UsageError);
+  EXPECT_THROW(parse({"--config=c", "--verbose"}), UsageError);
+  EXPECT_THROW(parse({"c.json"}), UsageError);
+}
+
+TEST(Options, Help_NamesEveryOption) {
+  for (const char* option : {"--config", "--set", "--check", "--help", "--version"}) {
+    EXPECT_NE(kHelp.find(option), std::string_view::npos) << option;
+  }
+}
+
+}  // namespace
+}  // namespace cornerd::daemon

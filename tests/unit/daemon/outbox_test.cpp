@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: MIT
+#include "daemon/outbox.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+
+namespace cornerd::daemon {
+namespace {
+
+using message::MessageClass;
+using Result = Outbox::Result;
+
+/// A socket whose other end reads when the test says so.
+class Pipe {
+ public:
+  explicit Pipe(std::size_t room) : room_(room) {}
+
+  Outbox::Write writer() {
+    return [this](std::string_view bytes) -> std::ptrdiff_t {
+      if (broken_) return -1;
+      const std::size_t taken = std::min(bytes.size(), room_);
+      received_ += bytes.substr(0, taken);
+      room_ -= taken;
+      return static_cast<std::ptrdiff_t>(taken);
+    };
+  }
+  void make_room(std::size_t bytes) { room_ += bytes; }
+  void break_off() { broken_ = true; }
+  const std::string& received() const { return received_; }
+
+ private:
+  std::size_t room_;
+  bool broken_ = false;
+  std::string received_;
+};
+
+TEST(Outbox, ClientThatReads_GetsEverythingInOrder) {
+  Outbox outbox;
+  Pipe pipe(1000);
+  outbox.put(MessageClass::kScan, "{\"s\":1}\n");
+  outbox.put(MessageClass::kPose, "{\"p\":1}\n");
+  outbox.answer("{\"a\":1}\n");
+  EXPECT_EQ(outbox.flush(pipe.writer()), Result::kEmpty);
+  EXPECT_EQ(pipe.received(), "{\"a\":1}\n{\"s\":1}\n{\"p\":1}\n");
+  EXPECT_EQ(outbox.dropped(), 0u);
+}
+
+TEST(Outbox, ClientThatDoesNotRead_GetsTheNewestAndIsToldWhatItLost) {
+  Outbox outbox;
+  Pipe pipe(0);
+  for (const char* line : {"{\"p\":1}\n", "{\"p\":2}\n", "{\"p\":3}\n"}) {
+    outbox.put(MessageClass::kPose, line);
+    EXPECT_EQ(outbox.flush(pipe.writer()), Result::kBlocked);
+  }
+  outbox.put(MessageClass::kStatus, "{\"s\":1}\n");
+  pipe.make_room(1000);
+  EXPECT_EQ(outbox.flush(pipe.writer()), Result::kEmpty);
+  EXPECT_EQ(pipe.received(), "{\"p\":3,\"dropped\":2}\n{\"s\":1}\n");
+  EXPECT_EQ(outbox.dropped(), 2u);
+}
+
+TEST(Outbox, AfterTheLossWasTold_TheCountBeginsAnew) {
+  Outbox outbox;
+  Pipe pipe(0);
+  outbox.put(MessageClass::kPose, "{\"p\":1}\n");
+  outbox.put(MessageClass::kPose, "{\"p\":2}\n");
+  pipe.make_room(1000);
+  ASSERT_EQ(outbox.flush(pipe.writer()), Result::kEmpty);
+  outbox.put(MessageClass::kPose, "{\"p\":3}\n");
+  ASSERT_EQ(outbox.flush(pipe.writer()), Result::kEmpty);
+  EXPECT_EQ(pipe.received(), "{\"p\":2,\"dropped\":1}\n{\"p\":3}\n");
+}
+
+TEST(Outbox, TornLine_IsFinishedBeforeAnyOther) {
+  Outbox outbox;
+  Pipe pipe(3);
+  outbox.put(MessageClass::kPose, "{\"p\":1}\n");
+  EXPECT_EQ(outbox.flush(pipe.writer()), Result::kBlocked);
+  outbox.answer("{\"a\":1}\n");
+  outbox.put(MessageClass::kPose, "{\"p\":2}\n");
+  outbox.put(MessageClass::kPose, "{\"p\":3}\n");
+  while (outbox.flush(pipe.writer()) == Result::kBlocked) pipe.make_room(1);
+  EXPECT_EQ(pipe.received(), "{\"p\":1}\n{\"a\":1}\n{\"p\":3,\"dropped\":1}\n");
+}
+
+TEST(Outbox, AnswersAreNeverLost) {
+  Outbox outbox;
+  Pipe pipe(0);
+  std::string all;
+  for (int i = 0; i < 100; ++i) {
+    const std::string line = "{\"id\":" + std::to_string(i) + "}\n";
+    all += line;
+    outbox.answer(line);
+    EXPECT_EQ(outbox.flush(pipe.writer()), Result::kBlocked);
+  }
+  EXPECT_EQ(outbox.waiting_answers(), 100u);
+  pipe.make_room(100'000);
+  EXPECT_EQ(outbox.flush(pipe.writer()), Result::kEmpty);
+  EXPECT_EQ(pipe.received(), all);
+}
+
+TEST(Outbox, BrokenConnection_IsTold) {
+  Outbox outbox;
+  Pipe pipe(1000);
+  pipe.break_off();
+  EXPECT_EQ(outbox.flush(pipe.writer()), Result::kEmpty) << "nothing to write, nothing noticed";
+  outbox.answer("{}\n");
+  EXPECT_EQ(outbox.flush(pipe.writer()), Result::kBroken);
+}
+
+}  // namespace
+}  // namespace cornerd::daemon

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: MIT
+#include "daemon/unix_listener.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include <fstream>
+#include <optional>
+#include <string>
+
+#include "scratch_folder.hpp"
+#include "test_client.hpp"
+
+namespace cornerd::daemon {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+
+std::string error_of(const std::filesystem::path& path) {
+  try {
+    const UnixListener listener(path, 0600);
+  } catch (const std::exception& error) {
+    return error.what();
+  }
+  return {};
+}
+
+/// Leaves a socket file behind that nobody listens on, as a killed daemon does.
+void leave_stale_socket(const std::filesystem::path& path) {
+  const FileDescriptor fd(::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0));
+  sockaddr_un address{};
+  address.sun_family = AF_UNIX;
+  std::strncpy(address.sun_path, path.c_str(), sizeof(address.sun_path) - 1);
+  ASSERT_EQ(::bind(fd.get(), reinterpret_cast<const sockaddr*>(&address), sizeof(address)), 0);
+}
+
+TEST(UnixListener, Client_IsAccepted) {
+  const ScratchFolder folder;
+  const UnixListener listener(folder / "s", 0600);
+  EXPECT_FALSE(listener.accept().is_open());
+  const TestClient client(folder / "s");
+  EXPECT_TRUE(client.is_connected());
+  EXPECT_TRUE(listener.accept().is_open());
+}
+
+TEST(UnixListener, Mode_IsTheOneAskedForWhateverTheUmask) {
+  const ScratchFolder folder;
+  const mode_t before = ::umask(0077);
+  const UnixListener listener(folder / "s", 0666);
+  ::umask(before);
+  struct stat file {};
+  ASSERT_EQ(::stat((folder / "s").c_str(), &file), 0);
+  EXPECT_EQ(file.st_mode & 0777, 0666u);
+}
+
+TEST(UnixListener, End_RemovesTheFile) {
+  const ScratchFolder folder;
+  { const UnixListener listener(folder / "s", 0600); }
+  EXPECT_FALSE(std::filesystem::exists(folder / "s"));
+}
+
+TEST(UnixListener, End_LeavesAFileThatIsNoLongerItsOwn) {
+  const ScratchFolder folder;
+  std::optional<UnixListener> first;
+  first.emplace(folder / "s", 0600);
+  std::filesystem::rename(folder / "s", folder / "moved");
+  const UnixListener second(folder / "s", 0600);
+  first.reset();
+  EXPECT_TRUE(TestClient(folder / "s").is_connected());
+}
+
+TEST(UnixListener, StaleFile_IsReplaced) {
+  const ScratchFolder folder;
+  leave_stale_socket(folder / "s");
+  const UnixListener listener(folder / "s", 0600);
+  EXPECT_TRUE(TestClient(folder / "s").is_connected());
+}
+
+TEST(UnixListener, SocketOfALiveInstance_IsLeftAlone) {
+  const ScratchFolder folder;
+  const UnixListener first(folder / "s", 0600);
+  EXPECT_EQ(error_of(folder / "s"), (folder / "s").string() + ": another cornerd listens there");
+  EXPECT_TRUE(TestClient(folder / "s").is_connected());
+}
+
+TEST(UnixListener, FileThatIsNoSocket_IsLeftAlone) {
+  const ScratchFolder folder;
+  std::ofstream(folder / "s") << "precious";
+  EXPECT_THAT(error_of(folder / "s"), HasSubstr("is no socket"));
+  EXPECT_EQ(std::filesystem::file_size(folder / "s"), 8u);
+}
+
+TEST(UnixListener, FolderThatIsMissing_IsMade) {
+  const ScratchFolder folder;
+  const UnixListener listener(folder / "run" / "s", 0600);
+  EXPECT_TRUE(std::filesystem::exists(folder / "run"));
+}
+
+TEST(UnixListener, PathThatCannotBe_IsNamed) {
+  EXPECT_THAT(error_of("/nowhere/at/all/s"), StartsWith("/nowhere/at/all/s: cannot be made: "));
+  EXPECT_THAT(error_of("/tmp/" + std::string(200, 'x')), HasSubstr("too long for a socket"));
+}
+
+}  // namespace
+}  // namespace cornerd::daemon
