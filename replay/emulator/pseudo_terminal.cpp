@@ -40,7 +40,7 @@ PseudoTerminal::PseudoTerminal(const std::filesystem::path& link) : link_(link) 
       fail("pseudo-terminal");
     }
     path_ = name.data();
-    prepare_for_next_client();
+    if (!prepare_for_next_client()) fail(path_.string());
     if (!link_.empty()) make_link(link_, path_);
   } catch (...) {
     ::close(master_);
@@ -56,25 +56,26 @@ PseudoTerminal::~PseudoTerminal() {
   ::close(master_);
 }
 
-/// As a port that is opened afresh: raw, and without what an earlier client left unread.
-void PseudoTerminal::prepare_for_next_client() {
+/// As a port that is opened afresh: raw, and without what an earlier client left unread. The next
+/// client may already be there, so what it has set and written stays.
+bool PseudoTerminal::prepare_for_next_client() {
   const int client_end = ::open(path_.c_str(), O_RDWR | O_NOCTTY | O_CLOEXEC | O_NONBLOCK);
-  if (client_end < 0) fail(path_.string());
+  if (client_end < 0) return false;
   termios settings{};
-  if (::tcgetattr(client_end, &settings) == 0) {
+  if (::tcgetattr(client_end, &settings) == 0 && (settings.c_lflag & (ICANON | ECHO)) != 0) {
     ::cfmakeraw(&settings);
     ::cfsetspeed(&settings, B115200);
     ::tcsetattr(client_end, TCSANOW, &settings);
   }
-  ::tcflush(client_end, TCIOFLUSH);
+  ::tcflush(client_end, TCIFLUSH);
   ::close(client_end);
   has_client_ = false;
+  return true;
 }
 
 bool PseudoTerminal::wait(int timeout_ms) {
   pollfd poll_for{master_, POLLIN, 0};
-  const int ready = ::poll(&poll_for, 1, timeout_ms);
-  if (ready <= 0) return has_client_;
+  if (::poll(&poll_for, 1, timeout_ms) < 0) return has_client_;
   if ((poll_for.revents & POLLHUP) == 0) {
     has_client_ = true;
   } else if ((poll_for.revents & POLLIN) == 0) {

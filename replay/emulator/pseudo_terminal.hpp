@@ -33,7 +33,7 @@ class PseudoTerminal {
   std::size_t write(std::span<const std::uint8_t> bytes);
 
  private:
-  void prepare_for_next_client();
+  bool prepare_for_next_client();
 
   int master_ = -1;
   std::filesystem::path path_;

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: MIT
+#include "replay/emulator/pty_emulator.hpp"
+
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <poll.h>
+#include <unistd.h>
+
+#include <fstream>
+#include <string>
+#include <system_error>
+#include <thread>
+#include <vector>
+
+#include "tests/unit/replay/hex.hpp"
+#include "tests/unit/replay/temporary_folder.hpp"
+#include "tests/unit/replay/test_maps.hpp"
+
+namespace cornerd::replay {
+namespace {
+
+/// Longer than any answer takes on any machine; reached only where the test fails.
+constexpr int kPatienceMs = 20'000;
+
+/// A program that has the port open.
+class Client {
+ public:
+  explicit Client(const std::filesystem::path& port)
+      : port_(::open(port.c_str(), O_RDWR | O_NOCTTY | O_CLOEXEC)) {}
+  ~Client() { ::close(port_); }
+  Client(const Client&) = delete;
+  Client& operator=(const Client&) = delete;
+
+  bool is_open() const { return port_ >= 0; }
+  void send(const std::string& hex) {
+    const auto bytes = from_hex(hex);
+    ASSERT_EQ(::write(port_, bytes.data(), bytes.size()), static_cast<ssize_t>(bytes.size()));
+  }
+  /// Reads until the hexadecimal text has arrived. False where it does not come.
+  bool receive(const std::string& hex) {
+    std::string received;
+    pollfd readable{port_, POLLIN, 0};
+    while (received.find(hex) == std::string::npos) {
+      if (::poll(&readable, 1, kPatienceMs) <= 0) return false;
+      std::uint8_t buffer[256];
+      const ssize_t count = ::read(port_, buffer, sizeof buffer);
+      if (count <= 0) return false;
+      received += to_hex({buffer, static_cast<std::size_t>(count)});
+    }
+    return true;
+  }
+
+ private:
+  int port_;
+};
+
+Emulator make_emulator() {
+  return {EmulatorConfig{},
+          std::make_unique<Simulator>(
+              std::make_unique<MapScene>(make_room(), stand_still({1, 1, 0})), SimulatorConfig{})};
+}
+
+class PtyEmulatorTest : public ::testing::Test {
+ protected:
+  PtyEmulatorTest() : emulator_(make_emulator(), folder_.path() / "port") {
+    emulator_.set_on_time([this](core::TimeNs t_ns, core::TimeNs unix_ns) {
+      last_t_ns_ = t_ns;
+      last_unix_ns_ = unix_ns;
+    });
+    thread_ = std::jthread([this](const std::stop_token& stop) { emulator_.run(stop); });
+  }
+
+  void stop() {
+    thread_.request_stop();
+    thread_.join();
+  }
+
+  TemporaryFolder folder_;
+  PtyEmulator emulator_;
+  core::TimeNs last_t_ns_ = -1;
+  core::TimeNs last_unix_ns_ = -1;
+  std::jthread thread_;
+};
+
+TEST_F(PtyEmulatorTest, Clients_ComeAndGoAndFindAPortWithoutStaleBytes) {
+  for (int i = 0; i < 3; ++i) {
+    Client client(folder_.path() / "port");
+    ASSERT_TRUE(client.is_open());
+    client.send("a552");
+    EXPECT_TRUE(client.receive("a55a0300000006000000"));
+    client.send("a520");
+    EXPECT_TRUE(client.receive("a55a0500004081"));
+  }
+}
+
+TEST_F(PtyEmulatorTest, TimeRuns_WithAndWithoutAClient) {
+  {
+    Client client(folder_.path() / "port");
+    client.send("a552");
+    EXPECT_TRUE(client.receive("a55a0300000006000000"));
+  }
+  std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  stop();
+  EXPECT_GT(last_t_ns_, 40'000'000);
+  EXPECT_GT(last_unix_ns_, core::TimeNs{1'600'000'000} * core::kNsPerSecond);
+}
+
+TEST_F(PtyEmulatorTest, ClientThatDoesNotRead_DelaysNobody) {
+  Client client(folder_.path() / "port");
+  client.send("a58205030000000021");
+  std::this_thread::sleep_for(std::chrono::milliseconds(300));
+  stop();
+}
+
+TEST(PseudoTerminal, Link_IsReplacedAndGoesWithIt) {
+  const TemporaryFolder folder;
+  const auto link = folder.path() / "port";
+  std::filesystem::create_symlink("/nonexistent", link);
+  {
+    const PseudoTerminal terminal(link);
+    EXPECT_EQ(std::filesystem::read_symlink(link), terminal.path());
+  }
+  EXPECT_FALSE(std::filesystem::is_symlink(std::filesystem::symlink_status(link)));
+}
+
+TEST(PseudoTerminal, FileInTheLinksPlace_IsKept) {
+  const TemporaryFolder folder;
+  const auto link = folder.path() / "port";
+  std::ofstream(link) << "precious";
+  EXPECT_THROW(PseudoTerminal{link}, std::system_error);
+  EXPECT_TRUE(std::filesystem::is_regular_file(link));
+}
+
+}  // namespace
+}  // namespace cornerd::replay
