@@ -14,6 +14,8 @@ constexpr double kMargin = 15;
 constexpr double kMarginPerStranger = 0.25;
 /// The margin where things are counted instead of rays.
 constexpr double kMarginOfThings = 12;
+/// What one thing more may hide of the turn: a door, a person next to the robot.
+constexpr double kOneThingShare = 0.25;
 /// Where the prior is good enough to choose among rivals.
 constexpr double kPriorRadius_m = 0.25;
 constexpr double kPriorAngle_rad = radians(20);
@@ -24,15 +26,17 @@ Decision decide(std::span<const Place> places, const std::optional<Pose2>& prior
   Decision decision;
   if (places.empty()) return decision;
   const Explanation& likeliest = places.front().explanation;
+  const auto rays = static_cast<double>(likeliest.rays);
   const auto strangers = static_cast<double>(likeliest.rays - likeliest.hits);
   const double margin = kMargin + kMarginPerStranger * strangers;
-  for (const Place& place : places) {
-    const Explanation& other = place.explanation;
-    const bool in_doubt =
-        other.log_likelihood > likeliest.log_likelihood - margin ||
-        other.log_likelihood_of_things > likeliest.log_likelihood_of_things - kMarginOfThings;
-    if (!in_doubt) break;
-    ++decision.rivals;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const Explanation& other = places[i].explanation;
+    const bool as_likely = other.log_likelihood > likeliest.log_likelihood - margin;
+    const bool one_thing_apart =
+        other.log_likelihood_of_things > likeliest.log_likelihood_of_things - kMarginOfThings &&
+        static_cast<double>(other.shorts) <
+            static_cast<double>(likeliest.shorts) + kOneThingShare * rays;
+    if (as_likely || one_thing_apart) decision.rivals = i + 1;
   }
   if (decision.rivals == 1) {
     decision.state = PoseState::kFix;

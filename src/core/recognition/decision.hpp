@@ -14,7 +14,7 @@ namespace cornerd::core {
 struct Decision {
   PoseState state = PoseState::kLost;
   std::size_t place = 0;   ///< index of the chosen place, in the states fix and tracking
-  std::size_t rivals = 0;  ///< in the state ambiguous: how many of the first places are in doubt
+  std::size_t rivals = 0;  ///< how many of the first places hold all that are in doubt
 };
 
 /// Names one place only where the turn does. `places`: the likeliest first. `prior`: where the

@@ -52,8 +52,12 @@ void Verification::consider(std::span<const Hypothesis> hypotheses, double reach
   shortlist(hypotheses, reach_m);
   const std::size_t count = std::min(candidates_.size(), kMaxExamined);
   for (std::size_t i = 0; i < count; ++i) examine(candidates_[i].T_map_lidar, reach_m);
-  std::stable_sort(places_.begin(), places_.end(), [](const Place& a, const Place& b) {
-    return a.explanation.log_likelihood > b.explanation.log_likelihood;
+  // Not stable_sort, which takes memory; ties are broken by the place.
+  std::sort(places_.begin(), places_.end(), [](const Place& a, const Place& b) {
+    if (a.explanation.log_likelihood != b.explanation.log_likelihood) {
+      return a.explanation.log_likelihood > b.explanation.log_likelihood;
+    }
+    return a.refined.T_map_lidar.x_m < b.refined.T_map_lidar.x_m;
   });
 }
 

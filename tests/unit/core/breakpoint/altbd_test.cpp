@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+#include "core/breakpoint/altbd.hpp"
+
+#include <gtest/gtest.h>
+
+#include "../fixtures.hpp"
+
+namespace cornerd::core {
+namespace {
+
+struct Tracked {
+  SegmentTracks tracks;
+  double noise_scale = 0;
+  std::size_t dropped = 0;
+};
+
+Tracked track(const PolarScan& points, const SensorNoise& believed = {}) {
+  Altbd altbd({}, believed);
+  Tracked tracked;
+  tracked.tracks.reserve(kMaxSegmentsPerTurn);
+  tracked.dropped = altbd.track(points, tracked.tracks);
+  tracked.noise_scale = altbd.noise_scale();
+  return tracked;
+}
+
+TEST(Altbd, RectangularRoom_HasFourWallsAndTheSeam) {
+  const auto map = testing::make_map(testing::rectangular_room(3, 2));
+  testing::TurnSource source(11);
+  for (int k = 0; k < 20; ++k) {
+    const Pose2 T_map_lidar = source.place_in(0.5, 2.5, 0.5, 1.5);
+    const PolarScan points = testing::polar(source.take(*map, T_map_lidar));
+    const Tracked tracked = track(points);
+    // The seam at bearing pi cuts a wall, or falls into a corner.
+    EXPECT_GE(tracked.tracks.size(), 4U);
+    EXPECT_LE(tracked.tracks.size(), 5U);
+    std::uint32_t support = 0;
+    for (const SegmentTrack& wall : tracked.tracks) support += wall.support;
+    EXPECT_GT(support, points.size() * 97 / 100);
+  }
+}
+
+TEST(Altbd, OutliersAlone_BreakNoWall) {
+  const auto map = testing::make_map(testing::rectangular_room(3, 2));
+  testing::TurnSource source(12);
+  const Scan clean = source.take(*map, {1.5, 1, 0.3});
+  Scan scan;
+  int index = 0;
+  for (Sample sample : clean.samples()) {
+    if (index++ % 40 == 20) sample.range_m *= 0.5F;
+    scan.add(sample);
+  }
+  EXPECT_LE(track(testing::polar(scan)).tracks.size(), 5U);
+}
+
+TEST(Altbd, NoiseTwiceTheModel_IsNoticedAndBreaksLittle) {
+  const auto map = testing::make_map(testing::rectangular_room(3, 2));
+  testing::TurnSource source(13);
+  testing::TurnOptions options;
+  options.noise = {0.003, 0.01, 2 * SensorNoise{}.bearing_rad};
+  const Tracked tracked = track(testing::polar(source.take(*map, {1.5, 1, 0.3}, options)));
+  EXPECT_LE(tracked.tracks.size(), 7U);  // one may break before enough of the noise was seen
+  EXPECT_NEAR(tracked.noise_scale, 2, 0.3);
+}
+
+TEST(Altbd, FewerThanFivePoints_AreNoWall) {
+  Scan scan;
+  for (int i = 0; i < 4; ++i) {
+    Sample sample;
+    sample.bearing_rad = static_cast<float>(0.01 * i);
+    sample.range_m = 1;
+    scan.add(sample);
+  }
+  EXPECT_TRUE(track(testing::polar(scan)).tracks.empty());
+  EXPECT_TRUE(track(testing::polar(Scan())).tracks.empty());
+}
+
+TEST(Altbd, MoreWallsThanFit_AreDroppedAndCounted) {
+  const auto map = testing::make_map(testing::rectangular_room(3, 2));
+  testing::TurnSource source(14);
+  const PolarScan points = testing::polar(source.take(*map, {1.5, 1, 0.3}));
+  Altbd altbd({}, {});
+  SegmentTracks tracks;
+  tracks.reserve(2);
+  const std::size_t capacity = tracks.capacity();
+  EXPECT_GE(altbd.track(points, tracks), 2U);
+  EXPECT_EQ(tracks.size(), capacity);
+}
+
+}  // namespace
+}  // namespace cornerd::core

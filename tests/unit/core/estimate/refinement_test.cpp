@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+#include "core/estimate/refinement.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/LU>
+
+#include "../fixtures.hpp"
+
+namespace cornerd::core {
+namespace {
+
+class RefinementTest : public ::testing::Test {
+ protected:
+  RefinedPose refine(const Scan& scan, const Pose2& start, double reach_m = 0.1) {
+    const PolarScan points = testing::polar(scan);
+    std::vector<PolarPoint> thin;
+    for (std::size_t i = 0; i < points.size(); i += 6) thin.push_back(points[i]);
+    return refinement_.refine(*map_, start, reach_m, thin, points.points(), 1);
+  }
+
+  std::shared_ptr<const WallMap> map_ = testing::make_map(testing::l_shaped_room());
+  Refinement refinement_{12, {}};
+  testing::TurnSource source_{51};
+};
+
+TEST_F(RefinementTest, ExactTurn_IsFoundExactly) {
+  testing::TurnOptions options;
+  options.with_noise = false;
+  const Pose2 T_map_lidar{1.2, 0.9, 0.7};
+  const RefinedPose refined = refine(source_.take(*map_, T_map_lidar, options), {1.25, 0.85, 0.75});
+  ASSERT_TRUE(refined.valid);
+  EXPECT_NEAR(refined.T_map_lidar.x_m, 1.2, 1e-5);
+  EXPECT_NEAR(refined.T_map_lidar.y_m, 0.9, 1e-5);
+  EXPECT_NEAR(refined.T_map_lidar.theta_rad, 0.7, 1e-5);
+}
+
+TEST_F(RefinementTest, NoisyTurns_HaveAnHonestCovariance) {
+  double nees = 0;
+  int count = 0;
+  for (int k = 0; k < 300; ++k) {
+    const Pose2 T_map_lidar = source_.place_in(0.5, 2.2, 0.4, 1.5);
+    const Pose2 start = T_map_lidar * Pose2{0.03, -0.03, 0.03};
+    const RefinedPose refined = refine(source_.take(*map_, T_map_lidar), start);
+    ASSERT_TRUE(refined.valid);
+    const Eigen::Vector3d error(
+        refined.T_map_lidar.x_m - T_map_lidar.x_m, refined.T_map_lidar.y_m - T_map_lidar.y_m,
+        angle_between(T_map_lidar.theta_rad, refined.T_map_lidar.theta_rad));
+    EXPECT_LT(error.head<2>().norm(), 0.005);
+    nees += error.dot(refined.covariance.inverse() * error);
+    ++count;
+  }
+  EXPECT_GT(nees / count, 2.5);  // 3 where it is exact
+  EXPECT_LT(nees / count, 4.0);
+}
+
+TEST_F(RefinementTest, LoneWall_DeterminesNoPose) {
+  FloorPlan plan;
+  plan.walls.push_back({{-5, 1}, {5, 1}, 0.02});
+  map_ = testing::make_map(plan);
+  EXPECT_FALSE(refine(source_.take(*map_, {0, 0, 0}), {0.02, 0.02, 0.01}).valid);
+}
+
+TEST_F(RefinementTest, NoPoints_DetermineNoPose) { EXPECT_FALSE(refine(Scan(), {1, 1, 0}).valid); }
+
+TEST_F(RefinementTest, ThirdOfTheRaysStopped_PullsAtNothing) {
+  const Pose2 T_map_lidar{1.2, 0.9, 0.7};
+  const Scan clear = source_.take(*map_, T_map_lidar);
+  Scan scan;
+  for (std::size_t i = 0; i < clear.size(); ++i) {
+    Sample sample = clear.samples()[i];
+    if (i % 180 < 60) sample.range_m *= 0.6F;
+    scan.add(sample);
+  }
+  const RefinedPose refined = refine(scan, T_map_lidar * Pose2{0.04, 0.02, -0.03});
+  ASSERT_TRUE(refined.valid);
+  EXPECT_LT((refined.T_map_lidar.translation() - T_map_lidar.translation()).norm(), 0.003);
+}
+
+}  // namespace
+}  // namespace cornerd::core

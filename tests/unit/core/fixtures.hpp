@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+// Small buildings and the turns that a lidar would take in them.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <random>
+
+#include "core/map/wall_map.hpp"
+#include "core/polar_scan.hpp"
+#include "core/scan.hpp"
+#include "core/sensor_noise.hpp"
+
+namespace cornerd::core::testing {
+
+/// A closed room with its lower left inner corner at (0, 0).
+FloorPlan rectangular_room(double width_m, double depth_m);
+
+/// An L-shaped room of 4 x 3 m without any symmetry: its upper right quarter is solid.
+FloorPlan l_shaped_room();
+
+/// Two equal rectangular rooms side by side that cannot see each other.
+FloorPlan two_equal_rooms();
+
+std::shared_ptr<const WallMap> make_map(FloorPlan plan);
+
+struct TurnOptions {
+  int samples = 540;
+  double missing_share = 0;
+  bool with_noise = true;
+  SensorNoise noise;
+  double first_bearing_rad = 3.0;  ///< the turn goes clockwise from here
+  Twist2 motion;                   ///< of the lidar, around the middle of the turn
+  double turn_s = 0.137;
+  TimeNs start_ns = 0;
+};
+
+/// Simulated turns, equal on every run.
+class TurnSource {
+ public:
+  explicit TurnSource(std::uint64_t seed = 1) : random_(seed) {}
+
+  Scan take(const WallMap& map, const Pose2& T_map_lidar, const TurnOptions& options = {});
+  Pose2 place_in(double low_x_m, double high_x_m, double low_y_m, double high_y_m);
+
+ private:
+  double uniform(double low, double high);
+  double normal();
+  std::mt19937_64 random_;
+};
+
+PolarScan polar(const Scan& scan);
+
+}  // namespace cornerd::core::testing

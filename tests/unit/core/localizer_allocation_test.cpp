@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+// The way from a sample to a pose takes no memory after construction. Replaces the program's
+// operator new, and so watches the standard library and Eigen (through malloc) alike.
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cstdlib>
+#include <new>
+
+#include "core/pipeline.hpp"
+#include "fixtures.hpp"
+
+namespace {
+
+std::atomic<long> allocations{0};
+
+void* allocate(std::size_t size) {
+  ++allocations;
+  void* memory = std::malloc(size == 0 ? 1 : size);  // NOLINT: this is what operator new is made of
+  if (memory == nullptr) throw std::bad_alloc();
+  return memory;
+}
+
+}  // namespace
+
+void* operator new(std::size_t size) { return allocate(size); }
+void* operator new[](std::size_t size) { return allocate(size); }
+void operator delete(void* memory) noexcept { std::free(memory); }                 // NOLINT
+void operator delete[](void* memory) noexcept { std::free(memory); }               // NOLINT
+void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }    // NOLINT
+void operator delete[](void* memory, std::size_t) noexcept { std::free(memory); }  // NOLINT
+
+namespace cornerd::core {
+namespace {
+
+TEST(Pipeline, FromSampleToPose_AllocatesNothing) {
+  const auto map = testing::make_map(testing::l_shaped_room());
+  const auto symmetric = testing::make_map(testing::rectangular_room(3, 2));
+  testing::TurnSource source(71);
+  std::vector<Scan> turns;
+  testing::TurnOptions sparse;
+  sparse.missing_share = 0.8;
+  turns.emplace_back();
+  turns.back().add({0, 0, 1, 15, true, true});
+  for (int k = 0; k < 20; ++k) {
+    turns.push_back(source.take(*map, source.place_in(0.4, 2.2, 0.4, 1.4)));
+    turns.push_back(source.take(*map, source.place_in(0.4, 2.2, 0.4, 1.4), sparse));
+    turns.push_back(source.take(*symmetric, source.place_in(0.4, 2.2, 0.4, 1.4)));
+  }
+  for (const auto& building : {map, symmetric}) {
+    Pipeline pipeline(building, {});
+    int states[5] = {};
+    const long before = allocations;
+    for (const Scan& turn : turns) {
+      for (const Sample& sample : turn.samples()) {
+        const TurnResult* result = pipeline.add(sample);
+        if (result != nullptr) ++states[static_cast<int>(result->pose.state)];
+      }
+    }
+    EXPECT_EQ(allocations - before, 0);
+    // All ways through the step were taken.
+    EXPECT_GT(
+        states[static_cast<int>(PoseState::kFix)] + states[static_cast<int>(PoseState::kTracking)],
+        building == map ? 0 : -1);
+    EXPECT_GT(states[static_cast<int>(PoseState::kAmbiguous)], 0);
+    EXPECT_GT(states[static_cast<int>(PoseState::kLost)], 0);
+  }
+}
+
+TEST(Pipeline, TheCounter_Counts) {
+  const long before = allocations;
+  delete new int(3);
+  EXPECT_GT(allocations - before, 0);
+}
+
+}  // namespace
+}  // namespace cornerd::core

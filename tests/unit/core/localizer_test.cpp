@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: MIT
+#include "core/localizer.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "fixtures.hpp"
+
+namespace cornerd::core {
+namespace {
+
+TEST(Localizer, UniqueRoom_IsFixedFromOneTurn) {
+  const auto map = testing::make_map(testing::l_shaped_room());
+  testing::TurnSource source(61);
+  for (int k = 0; k < 100; ++k) {
+    Localizer localizer(map, {});
+    const Pose2 T_map_base = source.place_in(0.4, 2.2, 0.4, 2.6);
+    const PoseEstimate& pose = localizer.step(source.take(*map, T_map_base)).pose;
+    ASSERT_EQ(pose.state, PoseState::kFix);
+    EXPECT_LT((pose.T_map_base.translation() - T_map_base.translation()).norm(), 0.005);
+    EXPECT_LT(std::abs(angle_between(pose.T_map_base.theta_rad, T_map_base.theta_rad)), 0.005);
+    EXPECT_EQ(pose.seq, 1U);
+    EXPECT_GT(pose.inliers, 500U);
+    EXPECT_GE(pose.corners, 3U);
+    EXPECT_LT(pose.rmse_m, 0.01);
+  }
+}
+
+TEST(Localizer, PlainRectangle_IsAmbiguousAndItsAlternativesHoldTheTruth) {
+  const auto map = testing::make_map(testing::rectangular_room(3, 2));
+  testing::TurnSource source(62);
+  for (int k = 0; k < 50; ++k) {
+    Localizer localizer(map, {});
+    const Pose2 T_map_base = source.place_in(0.4, 2.6, 0.4, 1.6);
+    const PoseEstimate& pose = localizer.step(source.take(*map, T_map_base)).pose;
+    // At the very middle the two places differ by half a turn alone: they are still two.
+    ASSERT_EQ(pose.state, PoseState::kAmbiguous);
+    ASSERT_EQ(pose.alternatives.size(), 2U);
+    double nearest = 1;
+    double sum = 0;
+    for (const Alternative& alternative : pose.alternatives) {
+      nearest = std::min(nearest,
+                         (alternative.T_map_base.translation() - T_map_base.translation()).norm());
+      sum += alternative.score;
+    }
+    EXPECT_LT(nearest, 0.01);
+    EXPECT_NEAR(sum, 1, 1e-12);
+    EXPECT_GE(pose.alternatives[0].score, pose.alternatives[1].score);
+  }
+}
+
+TEST(Localizer, TwoEqualRooms_AreAmbiguousUntilAPriorTells) {
+  const auto map = testing::make_map(testing::two_equal_rooms());
+  testing::TurnSource source(63);
+  Localizer localizer(map, {});
+  const PoseEstimate& pose = localizer.step(source.take(*map, {6.8, 1.2, 0.3})).pose;
+  ASSERT_EQ(pose.state, PoseState::kAmbiguous);
+  EXPECT_EQ(pose.alternatives.size(), 2U);
+}
+
+TEST(Localizer, OtherBuilding_IsLost) {
+  const auto map = testing::make_map(testing::l_shaped_room());
+  const auto elsewhere = testing::make_map(testing::rectangular_room(7, 6.3));
+  testing::TurnSource source(64);
+  for (int k = 0; k < 50; ++k) {
+    Localizer localizer(map, {});
+    const Pose2 T_map_base = source.place_in(1, 6, 1, 5);
+    const PoseEstimate& pose = localizer.step(source.take(*elsewhere, T_map_base)).pose;
+    EXPECT_EQ(pose.state, PoseState::kLost);
+    EXPECT_TRUE(pose.alternatives.empty());
+  }
+}
+
+TEST(Localizer, EmptyTurn_IsLost) {
+  const auto map = testing::make_map(testing::l_shaped_room());
+  Localizer localizer(map, {});
+  EXPECT_EQ(localizer.step(Scan()).pose.state, PoseState::kLost);
+  EXPECT_EQ(localizer.step(Scan()).pose.seq, 2U);
+}
+
+TEST(Localizer, NoMap_DetectsAndIsLost) {
+  const auto map = testing::make_map(testing::l_shaped_room());
+  testing::TurnSource source(65);
+  Localizer localizer(nullptr, {});
+  const TurnResult& result = localizer.step(source.take(*map, {1, 1, 0}));
+  EXPECT_EQ(result.pose.state, PoseState::kLost);
+  EXPECT_GE(result.detection.breakpoints.size(), 4U);
+}
+
+TEST(Localizer, LidarOffTheCentre_GivesThePoseOfTheBase) {
+  const auto map = testing::make_map(testing::l_shaped_room());
+  testing::TurnSource source(66);
+  LocalizerConfig config;
+  config.T_base_lidar = {0.1, -0.05, 2.0};
+  Localizer localizer(map, config);
+  const Pose2 T_map_base{1.3, 1.0, -0.8};
+  const PoseEstimate& pose =
+      localizer.step(source.take(*map, T_map_base * config.T_base_lidar)).pose;
+  ASSERT_EQ(pose.state, PoseState::kFix);
+  EXPECT_LT((pose.T_map_base.translation() - T_map_base.translation()).norm(), 0.005);
+  EXPECT_NEAR(pose.T_map_base.theta_rad, T_map_base.theta_rad, 0.005);
+}
+
+TEST(Localizer, RobotThatDrives_IsFollowed) {
+  const auto map = testing::make_map(testing::l_shaped_room());
+  testing::TurnSource source(67);
+  Localizer localizer(map, {});
+  testing::TurnOptions options;
+  options.motion = {0.3, 0, 0.5};
+  Pose2 T_map_base{0.6, 0.6, 0};
+  for (int turn = 0; turn < 12; ++turn) {
+    const PoseEstimate& pose = localizer.step(source.take(*map, T_map_base, options)).pose;
+    ASSERT_TRUE(pose.state == PoseState::kFix || pose.state == PoseState::kTracking) << turn;
+    EXPECT_LT((pose.T_map_base.translation() - T_map_base.translation()).norm(),
+              turn < 4 ? 0.03 : 0.006);
+    T_map_base = T_map_base * options.motion.over(options.turn_s);
+    options.start_ns += from_seconds(options.turn_s);
+  }
+}
+
+TEST(Localizer, Room_IsNamed) {
+  const auto map = testing::make_map(testing::l_shaped_room());
+  testing::TurnSource source(68);
+  Localizer localizer(map, {});
+  const PoseEstimate& pose = localizer.step(source.take(*map, {1, 2.4, 0})).pose;
+  ASSERT_TRUE(pose.room);
+  EXPECT_EQ(map->plan().rooms[*pose.room].name, "nook");
+}
+
+TEST(Localizer, SameTurns_GiveTheSamePosesToTheLastBit) {
+  const auto map = testing::make_map(testing::l_shaped_room());
+  const auto run = [&] {
+    testing::TurnSource source(69);
+    Localizer localizer(map, {});
+    std::vector<double> values;
+    for (int k = 0; k < 10; ++k) {
+      const PoseEstimate& pose = localizer.step(source.take(*map, {1 + 0.01 * k, 1, 0})).pose;
+      values.insert(values.end(), {pose.T_map_base.x_m, pose.T_map_base.y_m, pose.rmse_m});
+    }
+    return values;
+  };
+  EXPECT_EQ(run(), run());
+}
+
+}  // namespace
+}  // namespace cornerd::core

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+#include "core/polar_scan.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+
+#include "fixtures.hpp"
+
+namespace cornerd::core {
+namespace {
+
+bool is_sorted(const PolarScan& points) {
+  return std::is_sorted(
+      points.points().begin(), points.points().end(),
+      [](const PolarPoint& a, const PolarPoint& b) { return a.bearing_rad < b.bearing_rad; });
+}
+
+Scan scan_of(std::initializer_list<double> bearings_rad) {
+  Scan scan;
+  for (const double bearing : bearings_rad) {
+    Sample sample;
+    sample.bearing_rad = static_cast<float>(bearing);
+    sample.range_m = 1;
+    scan.add(sample);
+  }
+  return scan;
+}
+
+TEST(PolarScan, ClockwiseTurnWithBackwardSteps_IsSorted) {
+  const PolarScan points =
+      testing::polar(scan_of({1, 0.9, 0.95, 0.5, -1, -0.9, -3, 3, 2, 2.1, 1.2}));
+  EXPECT_EQ(points.size(), 11U);
+  EXPECT_TRUE(is_sorted(points));
+}
+
+TEST(PolarScan, AnyOrderAtAll_IsSorted) {
+  std::mt19937 random(5);
+  Scan scan;
+  for (std::size_t i = 0; i < kMaxSamplesPerTurn; ++i) {
+    Sample sample;
+    sample.bearing_rad = static_cast<float>(static_cast<double>(random()) / 4294967296.0 * 6 - 3);
+    sample.range_m = 1;
+    scan.add(sample);
+  }
+  const PolarScan points = testing::polar(scan);
+  EXPECT_EQ(points.size(), kMaxSamplesPerTurn);
+  EXPECT_TRUE(is_sorted(points));
+}
+
+TEST(PolarScan, ReturnsOutsideTheLimits_AreLeftOut) {
+  Scan scan;
+  for (const float range : {0.0F, 0.1F, 0.2F, 5.0F, 13.0F}) {
+    Sample sample;
+    sample.range_m = range;
+    scan.add(sample);
+  }
+  PolarScan points;
+  points.assign(scan, 0.15, 12);
+  EXPECT_EQ(points.size(), 2U);
+  points.assign(Scan(), 0.15, 12);
+  EXPECT_EQ(points.size(), 0U);
+}
+
+TEST(PolarScan, TurnTakenInMotion_LooksAsIfTakenAtRest) {
+  const auto map = testing::make_map(testing::rectangular_room(3, 2));
+  const Pose2 T_map_lidar{1.3, 0.8, 0.4};
+  testing::TurnSource source;
+  testing::TurnOptions options;
+  options.with_noise = false;
+  options.motion = {0.4, -0.2, 0.8};
+  const Scan scan = source.take(*map, T_map_lidar, options);
+  PolarScan points;
+  points.assign(scan, 0.15, 12, options.motion, from_seconds(options.turn_s / 2));
+  ASSERT_TRUE(is_sorted(points));
+  for (const PolarPoint& point : points.points()) {
+    const Vec2 place = T_map_lidar * Vec2(point.x_m, point.y_m);
+    const double to_wall = std::min({std::abs(place.x()), std::abs(place.x() - 3),
+                                     std::abs(place.y()), std::abs(place.y() - 2)});
+    EXPECT_LT(to_wall, 1e-6);
+  }
+}
+
+}  // namespace
+}  // namespace cornerd::core

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+#include "core/recognition/decision.hpp"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+namespace cornerd::core {
+namespace {
+
+Place place_at(double x_m, double log_likelihood, double of_things) {
+  Place place;
+  place.refined.T_map_lidar = {x_m, 0, 0};
+  place.refined.valid = true;
+  place.explanation.rays = 300;
+  place.explanation.hits = 300;
+  place.explanation.log_likelihood = log_likelihood;
+  place.explanation.log_likelihood_of_things = of_things;
+  return place;
+}
+
+TEST(Decide, NoPlace_IsLost) {
+  EXPECT_EQ(decide({}, std::nullopt).state, PoseState::kLost);
+  EXPECT_EQ(decide({}, Pose2{}).state, PoseState::kLost);
+}
+
+TEST(Decide, OnePlaceFarAhead_IsAFix) {
+  const std::vector<Place> places = {place_at(1, 1000, 1000), place_at(5, 900, 900)};
+  const Decision decision = decide(places, std::nullopt);
+  EXPECT_EQ(decision.state, PoseState::kFix);
+  EXPECT_EQ(decision.place, 0U);
+}
+
+TEST(Decide, TwoPlacesAlike_AreAmbiguous) {
+  const std::vector<Place> places = {place_at(1, 1000, 1000), place_at(5, 995, 995),
+                                     place_at(9, 800, 800)};
+  const Decision decision = decide(places, std::nullopt);
+  EXPECT_EQ(decision.state, PoseState::kAmbiguous);
+  EXPECT_EQ(decision.rivals, 2U);
+}
+
+TEST(Decide, RivalBehindByRaysOfOneThing_StaysInDoubt) {
+  const std::vector<Place> places = {place_at(1, 1000, 1000), place_at(5, 700, 995)};
+  EXPECT_EQ(decide(places, std::nullopt).state, PoseState::kAmbiguous);
+}
+
+TEST(Decide, PriorAtOneRival_ChoosesIt) {
+  const std::vector<Place> places = {place_at(1, 1000, 1000), place_at(5, 995, 995)};
+  const Decision decision = decide(places, Pose2{5.1, 0.05, 0.1});
+  EXPECT_EQ(decision.state, PoseState::kTracking);
+  EXPECT_EQ(decision.place, 1U);
+}
+
+TEST(Decide, PriorSomewhereElse_ChoosesNothing) {
+  const std::vector<Place> places = {place_at(1, 1000, 1000), place_at(5, 995, 995)};
+  EXPECT_EQ(decide(places, Pose2{3, 0, 0}).state, PoseState::kAmbiguous);
+}
+
+TEST(Decide, PriorAgainstAClearTurn_IsOverruled) {
+  const std::vector<Place> places = {place_at(1, 1000, 1000), place_at(5, 500, 500)};
+  const Decision decision = decide(places, Pose2{5, 0, 0});
+  EXPECT_EQ(decision.state, PoseState::kFix);
+  EXPECT_EQ(decision.place, 0U);
+}
+
+}  // namespace
+}  // namespace cornerd::core
