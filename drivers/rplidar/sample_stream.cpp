@@ -44,7 +44,7 @@ Packet packet_of(WireFormat format) {
 }
 
 float bearing_of(std::uint16_t angle_q6, bool inverted) {
-  constexpr float kRadian = 3.14159265358979F / (kFullTurnQ6 / 2);
+  constexpr float kRadian = 3.14159265358979F / 180 / 64;
   constexpr float kLargest = 3.1415925F;  // the last float below pi
   const int angle = angle_q6 <= kFullTurnQ6 / 2 ? angle_q6 : angle_q6 - kFullTurnQ6;
   const float bearing = static_cast<float>(inverted ? angle : -angle) * kRadian;

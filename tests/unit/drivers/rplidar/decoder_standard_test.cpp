@@ -206,5 +206,12 @@ TEST(DecoderStandard, StaleFirstNode_IsDeliveredAndDisturbsNothing) {
   EXPECT_EQ(sink.turns(), 2U);
 }
 
+TEST(DecoderStandard, StaleFirstNodeWithAStartFlag_BeginsNoTurn) {
+  const auto sink = decode(join({kStandardDescriptor, node(true, 15, 10, 0), nodes(40, 340)}));
+  EXPECT_THAT(sink.samples, SizeIs(41));
+  EXPECT_FALSE(sink.samples[0].starts_turn);
+  EXPECT_EQ(sink.turns(), 1U);
+}
+
 }  // namespace
 }  // namespace cornerd::rplidar::test
