@@ -31,18 +31,23 @@ TEST(SlotExchange, NoSlotLeft_RefusesUntilOneIsReturned) {
 
 TEST(SlotExchange, TwoThreads_NeverSeeAHalfWrittenValue) {
   using Value = std::array<int, 64>;
-  constexpr int kValues = 20'000;
+  constexpr int kValues = 2'000;
   SlotExchange<Value> exchange(4);
   std::jthread producer([&exchange] {
     for (int i = 1; i <= kValues;) {
-      if (exchange.put([i](Value& slot) { slot.fill(i); })) ++i;
+      if (exchange.put([i](Value& slot) { slot.fill(i); })) {
+        ++i;
+      } else {
+        std::this_thread::yield();
+      }
     }
   });
   for (int expected = 1; expected <= kValues;) {
-    exchange.take([&expected](const Value& slot) {
+    const bool taken = exchange.take([&expected](const Value& slot) {
       for (const int element : slot) ASSERT_EQ(element, expected);
       ++expected;
     });
+    if (!taken) std::this_thread::yield();
   }
 }
 

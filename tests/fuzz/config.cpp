@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+// Any text, and any override, is a config or a SettingsError of one line.
+#include "settings/config.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <cstring>
+#include <string>
+#include <string_view>
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace cornerd::settings;
+  const std::string_view input(reinterpret_cast<const char*>(data), size);
+  // What follows a zero byte is an override.
+  const std::size_t zero = input.find('\0');
+  std::vector<std::string> overrides;
+  if (zero != std::string_view::npos) overrides.emplace_back(input.substr(zero + 1));
+  try {
+    const Config config = parse_config(input.substr(0, zero), "/etc/fuzz.json", overrides);
+    if (!(config.lidar.max_range_m > config.lidar.min_range_m) || config.map.empty()) std::abort();
+  } catch (const SettingsError& error) {
+    if (std::strchr(error.what(), '\n') != nullptr) std::abort();
+  }
+  return 0;
+}

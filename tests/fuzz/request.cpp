@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+// Any bytes are a request or an error, and either can be answered with a line that is JSON.
+#include "message/request.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+
+#include <nlohmann/json.hpp>
+
+#include "message/line.hpp"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace cornerd::message;
+  static LineWriter writer;
+  const Request request = parse_request({reinterpret_cast<const char*>(data), size});
+  const auto* error = std::get_if<RequestError>(&request.body);
+  const std::string_view answer =
+      error != nullptr ? writer.error(error->code, error->text, request.name, request.id_json)
+                       : writer.ok(request.name, request.id_json);
+  if (!nlohmann::json::accept(answer) || answer.find('\n') != answer.size() - 1) std::abort();
+  return 0;
+}

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: MIT
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <fstream>
+#include <string>
+
+#include "daemon_process.hpp"
+
+namespace cornerd::system_test {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+
+class CommandLine : public DaemonTest {
+ protected:
+  /// Exit 78 and one line that names the file, the pointer and the reason.
+  void expect_config_error(const std::vector<std::string>& arguments, const std::string& file,
+                           const std::string& rest) {
+    for (const bool checks : {false, true}) {
+      std::vector<std::string> all = arguments;
+      if (checks) all.emplace_back("--check");
+      const Result result = run(all);
+      EXPECT_EQ(result.exit_code, 78);
+      EXPECT_EQ(std::count(result.output.begin(), result.output.end(), '\n'), 1) << result.output;
+      EXPECT_THAT(result.output, StartsWith("cornerd: " + file + ": " + rest));
+    }
+  }
+
+  std::string write(const char* name, const std::string& text) {
+    std::ofstream(folder_ / name) << text;
+    return (folder_ / name).string();
+  }
+};
+
+TEST_F(CommandLine, CheckOfGoodSettings_SaysOk) {
+  const Result result = run({"--config", config(), "--check"});
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_EQ(result.output, "ok\n");
+}
+
+TEST_F(CommandLine, KeyWithATypo_IsNamed) {
+  const std::string file =
+      write("typo.json", R"({ "map": "map.json", "lidar": { "devise": "x" } })");
+  expect_config_error({"--config", file}, file, "/lidar/devise: unknown key");
+}
+
+TEST_F(CommandLine, ConfigThatIsNoJson_IsNamedByLine) {
+  const std::string file = write("bad.json", "{\n  \"map\" }\n");
+  expect_config_error({"--config", file}, file, "line 2, column");
+}
+
+TEST_F(CommandLine, MapThatIsNoMap_IsNamed) {
+  const std::string map = write("nomap.json", R"({ "hello": 1 })");
+  expect_config_error({"--config", config(), "--set", "/map=" + map}, map, "/format: ");
+}
+
+TEST_F(CommandLine, MapWithAWrongWall_IsNamedByItsPointer) {
+  const std::string map = write(
+      "wall.json", R"({ "format": "cornerd-map", "version": 1, "walls": [ { "from": [0, 0] } ] })");
+  expect_config_error({"--config", config(), "--set", "/map=" + map}, map, "/walls/0/to: ");
+}
+
+TEST_F(CommandLine, FilesThatAreMissing_AreNamed) {
+  expect_config_error({"--config", "/nowhere/c.json"}, "/nowhere/c.json", "cannot be opened");
+  expect_config_error({"--config", config(), "--set", "/map=/nowhere/m.json"}, "/nowhere/m.json",
+                      "cannot be opened");
+}
+
+TEST_F(CommandLine, WrongUsage_IsCode2) {
+  EXPECT_EQ(run({}).exit_code, 2);
+  const Result result = run({"--config", config(), "--frobnicate"});
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_THAT(result.output, HasSubstr("--frobnicate"));
+}
+
+TEST_F(CommandLine, HelpAndVersion_AreData) {
+  const Result help = run({"--help"});
+  EXPECT_EQ(help.exit_code, 0);
+  EXPECT_THAT(help.output, HasSubstr("--check"));
+  const Result version = run({"--version"});
+  EXPECT_EQ(version.exit_code, 0);
+  EXPECT_THAT(version.output, StartsWith("cornerd "));
+}
+
+}  // namespace
+}  // namespace cornerd::system_test

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: MIT
+#include "daemon_process.hpp"
+
+#include <fcntl.h>
+#include <signal.h>
+#include <stdlib.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <fstream>
+#include <sstream>
+#include <thread>
+
+#include "room_recording.hpp"
+
+namespace cornerd::system_test {
+namespace {
+
+/// Long enough for a loaded machine and a sanitizer; a passing test never waits for it.
+constexpr std::chrono::seconds kPatience{60};
+constexpr std::chrono::milliseconds kPoll{10};
+
+bool wait_until(const auto& condition) {
+  const auto deadline = std::chrono::steady_clock::now() + kPatience;
+  while (!condition()) {
+    if (std::chrono::steady_clock::now() > deadline) return false;
+    std::this_thread::sleep_for(kPoll);
+  }
+  return true;
+}
+
+}  // namespace
+
+DaemonProcess::DaemonProcess(const std::vector<std::string>& arguments,
+                             const std::filesystem::path& errors,
+                             const std::map<std::string, std::string>& environment)
+    : errors_(errors) {
+  std::vector<char*> argv;
+  std::string program = CORNERD_BINARY;
+  argv.push_back(program.data());
+  std::vector<std::string> copies = arguments;
+  for (std::string& argument : copies) argv.push_back(argument.data());
+  argv.push_back(nullptr);
+  pid_ = ::fork();
+  if (pid_ != 0) return;
+  const int fd = ::open(errors_.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
+  ::dup2(fd, STDOUT_FILENO);
+  ::dup2(fd, STDERR_FILENO);
+  for (const auto& [name, value] : environment) ::setenv(name.c_str(), value.c_str(), 1);
+  ::execv(argv[0], argv.data());
+  ::_exit(127);
+}
+
+DaemonProcess::~DaemonProcess() {
+  if (pid_ <= 0) return;
+  ::kill(pid_, SIGKILL);
+  ::waitpid(pid_, nullptr, 0);
+}
+
+void DaemonProcess::send_signal(int signal) const { ::kill(pid_, signal); }
+
+bool DaemonProcess::is_running() const {
+  siginfo_t ended{};
+  const int result = ::waitid(P_PID, static_cast<id_t>(pid_), &ended, WEXITED | WNOHANG | WNOWAIT);
+  return result == 0 && ended.si_pid == 0;
+}
+
+std::optional<int> DaemonProcess::wait_for_exit() {
+  int status = 0;
+  pid_t ended = 0;
+  if (!wait_until([&] { return (ended = ::waitpid(pid_, &status, WNOHANG)) != 0; })) return {};
+  pid_ = -1;
+  return ended > 0 && WIFEXITED(status) ? std::optional(WEXITSTATUS(status)) : std::nullopt;
+}
+
+std::string DaemonProcess::output() const {
+  std::ostringstream text;
+  text << std::ifstream(errors_).rdbuf();
+  return text.str();
+}
+
+DaemonTest::DaemonTest() {
+  write_map(folder_ / "map.json");
+  write_recording(folder_ / "room.ndjson", 10);
+  std::ofstream(folder_ / "cornerd.json") << R"({
+    "lidar": { "driver": "replay", "file": "room.ndjson", "speed": 5, "loop": true },
+    "map": "map.json",
+    "socket": { "pose": "pose.sock", "control": "control.sock" },
+    "realtime": { "priority": 0, "lock_memory": false } })";
+}
+
+DaemonProcess DaemonTest::start(const std::vector<std::string>& overrides,
+                                const std::map<std::string, std::string>& environment) {
+  std::vector<std::string> arguments = {"--config", config()};
+  for (const std::string& text : overrides) {
+    arguments.emplace_back("--set");
+    arguments.push_back(text);
+  }
+  return {arguments, folder_ / "log", environment};
+}
+
+DaemonTest::Result DaemonTest::run(const std::vector<std::string>& arguments) {
+  DaemonProcess process(arguments, folder_ / "output");
+  Result result{process.wait_for_exit(), {}};
+  result.output = process.output();
+  return result;
+}
+
+TestClient DaemonTest::connect(const char* socket) {
+  std::optional<TestClient> client;
+  EXPECT_TRUE(wait_until([&] { return client.emplace(folder_ / socket).is_connected(); }))
+      << "nobody listens on " << socket;
+  return std::move(*client);
+}
+
+json DaemonTest::next(TestClient& client) {
+  const auto line = client.read_line(std::chrono::milliseconds(kPatience).count());
+  return line ? json::parse(*line) : json("nothing");
+}
+
+json DaemonTest::next_of(TestClient& client, const std::string& message_class) {
+  while (true) {
+    json message = next(client);
+    if (!message.is_object() || message["class"] == message_class) return message;
+  }
+}
+
+}  // namespace cornerd::system_test

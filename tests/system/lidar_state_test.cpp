@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+
+#include <gtest/gtest.h>
+
+#include "daemon_process.hpp"
+
+namespace cornerd::system_test {
+namespace {
+
+class LidarState : public DaemonTest {
+ protected:
+  /// The first STATUS whose lidar is in that state.
+  static json status_in(TestClient& client, const std::string& state) {
+    while (true) {
+      json status = next_of(client, "STATUS");
+      if (!status.is_object() || status["lidar"]["state"] == state) return status;
+    }
+  }
+};
+
+TEST_F(LidarState, MissingPort_IsWaitedForAndReported) {
+  const DaemonProcess daemon = start({"/lidar/driver=rplidar", "/lidar/device=/dev/no_such_lidar"});
+  TestClient client = connect();
+  const json status = status_in(client, "absent");
+  EXPECT_NE(status["lidar"]["detail"].get<std::string>().find("/dev/no_such_lidar"),
+            std::string::npos)
+      << status;
+  EXPECT_TRUE(daemon.is_running());
+  EXPECT_NE(daemon.output().find("/dev/no_such_lidar"), std::string::npos) << daemon.output();
+}
+
+TEST_F(LidarState, RecordingThatIsMissing_IsReported) {
+  const DaemonProcess daemon = start({"/lidar/file=/nowhere/r.bin"});
+  TestClient client = connect();
+  const json status = status_in(client, "faulty");
+  EXPECT_NE(status["lidar"]["detail"].get<std::string>().find("/nowhere/r.bin"), std::string::npos);
+  EXPECT_TRUE(daemon.is_running());
+}
+
+TEST_F(LidarState, RecordingAtItsEnd_IsReportedAndTheLastPoseStaysToBeAskedFor) {
+  const DaemonProcess daemon = start({"/lidar/loop=false", "/lidar/speed=max"});
+  TestClient client = connect();
+  const json status = status_in(client, "ended");
+  EXPECT_EQ(status["class"], "STATUS");
+  client.send(R"({"class":"POLL","id":"end"})"
+              "\n");
+  const json pose = next_of(client, "POSE");
+  EXPECT_EQ(pose["class"], "POSE");
+  EXPECT_TRUE(daemon.is_running());
+}
+
+}  // namespace
+}  // namespace cornerd::system_test

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+#include "room_recording.hpp"
+
+#include <fstream>
+
+#include "core/geometry/angle.hpp"
+#include "core/scan.hpp"
+#include "message/line.hpp"
+#include "settings/map_file.hpp"
+
+namespace cornerd::system_test {
+namespace {
+
+constexpr const char* kMap = R"({
+  "format": "cornerd-map", "version": 1, "name": "test-room", "thickness": 0.02,
+  "walls": [ { "from": [0, 0], "to": [2.4, 0] }, { "from": [2.4, 0], "to": [2.4, 1.1] },
+             { "from": [2.4, 1.1], "to": [1.5, 1.1] }, { "from": [1.5, 1.1], "to": [1.5, 1.7] },
+             { "from": [1.5, 1.7], "to": [0, 1.7] }, { "from": [0, 1.7], "to": [0, 0] },
+             { "from": [0, 1.2], "to": [0.4, 1.2] } ],
+  "rooms": [ { "name": "only", "polygon": [[0, 0], [2.4, 0], [2.4, 1.7], [0, 1.7]] } ] })";
+
+constexpr int kSamplesPerTurn = 720;
+constexpr core::TimeNs kTurnNs = core::kNsPerSecond / 10;
+
+}  // namespace
+
+void write_map(const std::filesystem::path& file) { std::ofstream(file) << kMap; }
+
+void write_recording(const std::filesystem::path& file, int turns) {
+  const core::WallMap map(settings::parse_floor_plan(kMap, file));
+  core::Scan turn;
+  message::LineWriter line;
+  std::ofstream stream(file);
+  for (int i = 0; i < turns; ++i) {
+    turn.clear();
+    for (int k = 0; k < kSamplesPerTurn; ++k) {
+      // Clockwise, as an RPLidar turns.
+      const double bearing_rad = core::kPi - core::kTwoPi * k / kSamplesPerTurn;
+      const double range_m = map.range_along({kTrueX, kTrueY}, kTrueTheta + bearing_rad, 12);
+      turn.add({.t_ns = i * kTurnNs + k * kTurnNs / kSamplesPerTurn,
+                .bearing_rad = static_cast<float>(bearing_rad),
+                .range_m = static_cast<float>(range_m),
+                .quality = 47});
+    }
+    stream << line.scan(turn);
+  }
+}
+
+}  // namespace cornerd::system_test

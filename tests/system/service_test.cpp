@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+// What a service manager relies on: the word that the daemon is ready, its watchdog, its end.
+#include <gtest/gtest.h>
+#include <poll.h>
+#include <signal.h>
+#include <sys/socket.h>
+#include <sys/un.h>
+
+#include <cstring>
+#include <string>
+
+#include "daemon/file_descriptor.hpp"
+#include "daemon_process.hpp"
+
+namespace cornerd::system_test {
+namespace {
+
+/// The manager's end of $NOTIFY_SOCKET.
+class Manager {
+ public:
+  explicit Manager(const std::string& path) : fd_(::socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC, 0)) {
+    sockaddr_un address{};
+    address.sun_family = AF_UNIX;
+    std::memcpy(address.sun_path, path.data(), path.size());
+    EXPECT_EQ(::bind(fd_.get(), reinterpret_cast<const sockaddr*>(&address), sizeof(address)), 0);
+  }
+
+  /// True once that word has come; others before it are passed over.
+  bool hears(const std::string& word) const {
+    while (true) {
+      pollfd readable{fd_.get(), POLLIN, 0};
+      if (::poll(&readable, 1, 60'000) <= 0) return false;
+      char text[512];
+      const ssize_t count = ::recv(fd_.get(), text, sizeof(text), 0);
+      if (count > 0 && std::string(text, static_cast<std::size_t>(count)) == word) return true;
+    }
+  }
+
+ private:
+  daemon::FileDescriptor fd_;
+};
+
+class Service : public DaemonTest {};
+
+TEST_F(Service, Ready_IsSaidWhenTheSocketsAccept) {
+  const std::string path = (folder_ / "notify").string();
+  const Manager manager(path);
+  const DaemonProcess daemon = start({}, {{"NOTIFY_SOCKET", path}});
+  ASSERT_TRUE(manager.hears("READY=1"));
+  EXPECT_TRUE(TestClient(folder_ / "pose.sock").is_connected());
+  EXPECT_TRUE(TestClient(folder_ / "control.sock").is_connected());
+  daemon.send_signal(SIGTERM);
+  EXPECT_TRUE(manager.hears("STOPPING=1"));
+}
+
+TEST_F(Service, Watchdog_IsFedWhileThereIsNoLidarToo) {
+  const std::string path = (folder_ / "notify").string();
+  const Manager manager(path);
+  const DaemonProcess daemon = start({"/lidar/driver=rplidar", "/lidar/device=/dev/no_such_lidar"},
+                                     {{"NOTIFY_SOCKET", path}, {"WATCHDOG_USEC", "100000"}});
+  for (int i = 0; i < 3; ++i) EXPECT_TRUE(manager.hears("WATCHDOG=1"));
+}
+
+class ServiceEnd : public Service, public ::testing::WithParamInterface<int> {};
+
+TEST_P(ServiceEnd, TerminationSignal_EndsCleanlyAndRemovesTheSockets) {
+  DaemonProcess daemon = start();
+  TestClient client = connect();
+  next_of(client, "POSE");
+  daemon.send_signal(GetParam());
+  EXPECT_EQ(daemon.wait_for_exit(), 0) << daemon.output();
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "pose.sock"));
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "control.sock"));
+}
+
+INSTANTIATE_TEST_SUITE_P(EachSignal, ServiceEnd, ::testing::Values(SIGTERM, SIGINT, SIGHUP));
+
+TEST_F(Service, KilledInstance_LeavesNothingThatHindersTheNext) {
+  {
+    const DaemonProcess daemon = start();
+    connect();
+  }
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "pose.sock")) << "it was killed";
+  const DaemonProcess daemon = start();
+  TestClient client = connect();
+  EXPECT_EQ(next_of(client, "POSE")["class"], "POSE");
+}
+
+}  // namespace
+}  // namespace cornerd::system_test
