@@ -23,8 +23,10 @@ constexpr float kSpeedGain = 0.25F;
 constexpr float kWholeTolerance = 0.35F;
 constexpr int kMaxHoleQ6 = kFullTurnQ6 / 2;
 
-// So many alike in a row are a new speed, not holes.
+// So many alike in a row are a new speed, not holes; fewer where there was none before, as with an
+// early head, whose express capsules take 16 ms.
 constexpr int kNewSpeed = 4;
+constexpr int kFirstSpeed = 2;
 
 }  // namespace
 
@@ -47,16 +49,19 @@ CapsuleCadence::Result CapsuleCadence::judge(int diff_q6, int damaged_between) {
   const bool like_the_last = std::abs(diff_q6 - rejected_q6_) * 5 <= rejected_q6_;
   rejections_ = damaged_between == 0 && diff_q6 > 0 && like_the_last ? rejections_ + 1 : 1;
   rejected_q6_ = diff_q6;
-  if (rejections_ >= kNewSpeed) {
+  if (rejections_ >= (known ? kNewSpeed : kFirstSpeed)) {
     expected_q6_ = diff;
     rejections_ = 0;
     return {Judgement::kNeighbours, 0};
   }
 
-  if (!known || diff_q6 > kMaxHoleQ6) return {};
+  if (!known) return {};
+  if (diff_q6 > kMaxHoleQ6) return {Judgement::kUnknown, 1};
   const float periods = diff / expected_q6_;
   const float whole = std::round(periods);
-  if (whole < 1 || std::abs(periods - whole) > kWholeTolerance) return {};
+  if (whole < 1 || std::abs(periods - whole) > kWholeTolerance) {
+    return {Judgement::kUnknown, 1};
+  }
   return {Judgement::kHole, static_cast<int>(whole) - 1};
 }
 

@@ -13,7 +13,7 @@ class CapsuleCadence {
 
   struct Result {
     Judgement judgement = Judgement::kUnknown;
-    int missing = 0;  ///< capsules in a kHole
+    int missing = 0;  ///< capsules in a kHole; at least so many where it is kUnknown
   };
 
   /// Forgets the speed: another stream begins.

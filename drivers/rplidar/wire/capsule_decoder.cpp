@@ -59,7 +59,7 @@ void CapsuleDecoder::pair(std::span<const std::uint8_t> next, std::uint64_t& ind
       const int damaged = damaged_;
       drop_waiting(index);
       if (judgement == CapsuleCadence::Judgement::kUnknown) {
-        ++counters_->lost_capsules;
+        counters_->lost_capsules += static_cast<std::uint64_t>(missing);
         sink.on_gap();
         turn_began_in_hole_ = false;
       } else {
