@@ -17,7 +17,7 @@ class ErrorStatistics {
   static constexpr double kWrongDistanceM = 0.10;
   static constexpr double kWrongAngleRad = core::radians(5);
 
-  void add(const core::PoseEstimate& estimate, const core::Pose2& T_map_base_true);
+  void add(const core::PoseEstimate& estimate, const core::Pose2& T_map_base);
   /// A turn that the truth says nothing about.
   void add_unknown() { ++unknown_; }
 
