@@ -57,7 +57,16 @@ void CapsuleDecoder::pair(std::span<const std::uint8_t> next, std::uint64_t& ind
       index += capsule_samples(format_);
     } else {
       const int damaged = damaged_;
-      drop_waiting(index);
+      const bool one_missing = judgement == CapsuleCadence::Judgement::kHole && missing == 1;
+      if (one_missing) {
+        // The head turned evenly over the two capsules: half the angle is the first one's.
+        decode_waiting({}, diff_q6 / 2, index, sink);
+        index += capsule_samples(format_);
+        has_waiting_ = false;
+      } else {
+        drop_waiting(index);
+      }
+      const int hole_from_q6 = one_missing ? start_q6 + diff_q6 / 2 : start_q6;
       if (judgement == CapsuleCadence::Judgement::kUnknown) {
         counters_->lost_capsules += static_cast<std::uint64_t>(missing);
         sink.on_gap();
@@ -65,7 +74,8 @@ void CapsuleDecoder::pair(std::span<const std::uint8_t> next, std::uint64_t& ind
       } else {
         counters_->lost_capsules += static_cast<std::uint64_t>(std::max(0, missing - damaged));
         index += static_cast<std::uint64_t>(missing) * capsule_samples(format_);
-        turn_began_in_hole_ = turn_began_in_hole_ || start_q6 + diff_q6 >= kFullTurnQ6;
+        const bool wraps = hole_from_q6 < kFullTurnQ6 && start_q6 + diff_q6 >= kFullTurnQ6;
+        turn_began_in_hole_ = turn_began_in_hole_ || wraps;
       }
     }
   }
@@ -92,7 +102,11 @@ void CapsuleDecoder::decode_waiting(std::span<const std::uint8_t> next, int diff
   if (format_ == WireFormat::kExpress) {
     decode_express(capsule.first<kExpressSize>(), sweep, decoded.first<kExpressSamples>());
   } else {
-    decode_ultra(capsule, first_major(next), sweep, decoded);
+    decode_ultra(capsule, next.empty() ? 0 : first_major(next), sweep, decoded);
+    if (next.empty()) {
+      // The last ranges are differences to the next capsule's first one.
+      for (SweepSample& sample : decoded.last(2)) sample.dist_q2 = 0;
+    }
   }
   for (const SweepSample& sample : decoded.first(capsule_samples(format_))) {
     const bool starts_turn = sample.starts_turn || turn_began_in_hole_;

@@ -14,8 +14,9 @@
 namespace cornerd::rplidar {
 
 /// Express and ultra capsules. A capsule says where its first sample points; where the last one
-/// does, only the next capsule tells: each waits for its successor, and is given up where that one
-/// is lost, damaged, or of a stream that began anew.
+/// does, only the next capsule tells: each waits for its successor. Where that one is lost or
+/// damaged the one after it tells as well; where more are missing, or a stream began anew, it is
+/// given up.
 class CapsuleDecoder {
  public:
   explicit CapsuleDecoder(drivers::StreamCounters& counters) : counters_(&counters) {}
@@ -29,6 +30,7 @@ class CapsuleDecoder {
 
  private:
   void pair(std::span<const std::uint8_t> next, std::uint64_t& index, RawSampleSink& sink);
+  /// `next`: the capsule after the waiting one; empty where it is missing.
   void decode_waiting(std::span<const std::uint8_t> next, int diff_q6, std::uint64_t index,
                       RawSampleSink& sink);
 
