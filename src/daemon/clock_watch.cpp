@@ -8,7 +8,7 @@ namespace {
 
 /// Slewing moves the clock by at most a tenth of the time that passes (adjtimex(2)): 10 ms between
 /// two calls.
-constexpr std::int64_t kStep_ns = 50'000'000;
+constexpr std::int64_t kStepNs = 50'000'000;
 
 }  // namespace
 
@@ -16,7 +16,7 @@ std::optional<std::int64_t> ClockWatch::step_ns(std::int64_t unix_ns, std::int64
   const std::int64_t offset_ns = unix_ns - monotonic_ns;
   const std::int64_t moved_ns = offset_ns - offset_ns_.value_or(offset_ns);
   offset_ns_ = offset_ns;
-  return std::abs(moved_ns) >= kStep_ns ? std::optional(moved_ns) : std::nullopt;
+  return std::abs(moved_ns) >= kStepNs ? std::optional(moved_ns) : std::nullopt;
 }
 
 }  // namespace cornerd::daemon

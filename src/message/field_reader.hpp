@@ -23,10 +23,10 @@ struct Limits {
 };
 
 /// UNIX time or time since a start, either sign; the nanoseconds fit 64 bits with room to spare.
-inline constexpr Limits kTimeLimits_s{-9e9, 9e9};
-inline constexpr Limits kCoordinateLimits_m{-1e5, 1e5};
+inline constexpr Limits kTimeLimitsS{-9e9, 9e9};
+inline constexpr Limits kCoordinateLimitsM{-1e5, 1e5};
 /// A turn and a little: degrees by mistake are noticed.
-inline constexpr Limits kAngleLimits_rad{-6.3, 6.3};
+inline constexpr Limits kAngleLimitsRad{-6.3, 6.3};
 
 /// The object of one line; nullopt with `error` set where the line is too long, too deep, or no
 /// JSON object.
@@ -42,7 +42,7 @@ class FieldReader {
   double number(const char* name, Limits limits);
   std::optional<double> optional_number(const char* name, Limits limits);
   std::optional<std::int64_t> optional_integer(const char* name);
-  core::TimeNs time(const char* name) { return core::from_seconds(number(name, kTimeLimits_s)); }
+  core::TimeNs time(const char* name) { return core::from_seconds(number(name, kTimeLimitsS)); }
   std::string_view text(const char* name);
   /// An empty array where the field is wrong.
   const Json& array(const char* name, std::size_t max_size);

@@ -21,8 +21,8 @@ constexpr double kLargestScaled = 9e15;
 /// The largest number of microradians below pi.
 constexpr std::int64_t kPiInMicroradians = 3'141'592;
 
-template <typename... Format>
-void append_digits(std::string& text, auto value, Format... format) {
+template <typename Value, typename... Format>
+void append_digits(std::string& text, Value value, Format... format) {
   std::array<char, 32> digits;
   text.append(digits.data(), std::to_chars(digits.begin(), digits.end(), value, format...).ptr);
 }

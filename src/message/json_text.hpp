@@ -2,7 +2,6 @@
 // Compact JSON, written from left to right into memory that was taken beforehand.
 #pragma once
 
-#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -36,7 +35,7 @@ class JsonText {
   /// Text that is JSON already.
   void raw(std::string_view json);
   void boolean(bool value) { raw(value ? "true" : "false"); }
-  template <std::integral T>
+  template <typename T>
   void integer(T value) {
     separate();
     if constexpr (std::is_signed_v<T>) {

@@ -11,13 +11,13 @@
 namespace cornerd::message {
 namespace {
 
-constexpr Limits kDurationLimits_s{0, 60};
-constexpr Limits kRangeLimits_m{-1000, 1000};
+constexpr Limits kDurationLimitsS{0, 60};
+constexpr Limits kRangeLimitsM{-1000, 1000};
 
 /// Null is how some writers put the infinity that stands for no return elsewhere (REP 117).
 double read_range(FieldReader& fields, const Json& ranges, std::size_t index) {
   if (ranges[index].is_null()) return 0;
-  return std::max(0.0, fields.element("ranges", ranges, index, kRangeLimits_m));
+  return std::max(0.0, fields.element("ranges", ranges, index, kRangeLimitsM));
 }
 
 /// The array, or nullptr where there is none; of another length it is an error.
@@ -34,7 +34,7 @@ const Json* optional_array(FieldReader& fields, const char* name, std::size_t si
 RecordedLine read_scan(FieldReader& fields) {
   RecordedScan scan;
   scan.t_ns = fields.time("t");
-  const double duration_s = fields.optional_number("duration", kDurationLimits_s).value_or(0);
+  const double duration_s = fields.optional_number("duration", kDurationLimitsS).value_or(0);
   scan.duration_ns = core::from_seconds(duration_s);
   const Json& angles = fields.array("angles", core::kMaxSamplesPerTurn);
   const Json& ranges = fields.array("ranges", core::kMaxSamplesPerTurn);
@@ -46,12 +46,12 @@ RecordedLine read_scan(FieldReader& fields) {
   scan.samples.reserve(count);
   for (std::size_t i = 0; i < count && !fields.error(); ++i) {
     const double offset_s = times != nullptr
-                                ? fields.element("times", *times, i, kDurationLimits_s)
+                                ? fields.element("times", *times, i, kDurationLimitsS)
                                 : duration_s * static_cast<double>(i) / static_cast<double>(count);
     core::Sample& sample = scan.samples.emplace_back();
     sample.t_ns = scan.t_ns + core::from_seconds(offset_s);
     sample.bearing_rad = static_cast<float>(
-        core::normalize_angle(fields.element("angles", angles, i, kAngleLimits_rad)));
+        core::normalize_angle(fields.element("angles", angles, i, kAngleLimitsRad)));
     sample.range_m = static_cast<float>(read_range(fields, ranges, i));
     if (quality != nullptr) {
       sample.quality = static_cast<std::uint8_t>(fields.element("quality", *quality, i, {0, 255}));
@@ -124,9 +124,9 @@ std::variant<RequestError, RecordedTruth> parse_truth_line(std::string_view line
   FieldReader fields(*object);
   RecordedTruth truth;
   truth.t_ns = fields.time("t");
-  truth.T_map_base.x_m = fields.number("x", kCoordinateLimits_m);
-  truth.T_map_base.y_m = fields.number("y", kCoordinateLimits_m);
-  truth.T_map_base.theta_rad = core::normalize_angle(fields.number("theta", kAngleLimits_rad));
+  truth.T_map_base.x_m = fields.number("x", kCoordinateLimitsM);
+  truth.T_map_base.y_m = fields.number("y", kCoordinateLimitsM);
+  truth.T_map_base.theta_rad = core::normalize_angle(fields.number("theta", kAngleLimitsRad));
   if (fields.error()) return *fields.error();
   return truth;
 }

@@ -50,9 +50,9 @@ Body read_watch(FieldReader& fields) {
 
 Body read_set_pose(FieldReader& fields) {
   SetPoseRequest request;
-  request.T_map_base.x_m = fields.number("x", kCoordinateLimits_m);
-  request.T_map_base.y_m = fields.number("y", kCoordinateLimits_m);
-  request.T_map_base.theta_rad = core::normalize_angle(fields.number("theta", kAngleLimits_rad));
+  request.T_map_base.x_m = fields.number("x", kCoordinateLimitsM);
+  request.T_map_base.y_m = fields.number("y", kCoordinateLimitsM);
+  request.T_map_base.theta_rad = core::normalize_angle(fields.number("theta", kAngleLimitsRad));
   return request;
 }
 

@@ -17,11 +17,11 @@ constexpr std::size_t kMaxPolygonPoints = 10'000;
 constexpr std::size_t kMaxNameBytes = 128;
 constexpr int kVersion = 1;
 
-constexpr Interval kCoordinate_m{-10'000, 10'000};
-constexpr Interval kThickness_m{0, 10};
+constexpr Interval kCoordinateM{-10'000, 10'000};
+constexpr Interval kThicknessM{0, 10};
 
 /// Nearer than that two points are one: a tenth of a millimetre, below any drawing's precision.
-constexpr double kSamePoint_m = 1e-4;
+constexpr double kSamePointM = 1e-4;
 
 const Json& require_array(ObjectReader& object, std::string_view key, std::size_t min_size,
                           std::size_t max_size) {
@@ -44,9 +44,9 @@ core::Vec2 read_point(const Json& value, const auto& fail) {
     fail("must be a point, [x, y] in metres");
   }
   const core::Vec2 point{value[0].get<double>(), value[1].get<double>()};
-  if (!(point.minCoeff() >= kCoordinate_m.low && point.maxCoeff() <= kCoordinate_m.high)) {
-    fail("coordinates must be from " + to_text(kCoordinate_m.low) + " to " +
-         to_text(kCoordinate_m.high));
+  if (!(point.minCoeff() >= kCoordinateM.low && point.maxCoeff() <= kCoordinateM.high)) {
+    fail("coordinates must be from " + to_text(kCoordinateM.low) + " to " +
+         to_text(kCoordinateM.high));
   }
   return point;
 }
@@ -62,9 +62,9 @@ core::Wall read_wall(ObjectReader object, double default_thickness_m) {
   wall.from = require_point(object, "from");
   wall.to = require_point(object, "to");
   wall.thickness_m = default_thickness_m;
-  object.number("thickness", wall.thickness_m, kThickness_m);
+  object.number("thickness", wall.thickness_m, kThicknessM);
   object.finish();
-  if ((wall.to - wall.from).norm() < kSamePoint_m && wall.thickness_m < kSamePoint_m) {
+  if ((wall.to - wall.from).norm() < kSamePointM && wall.thickness_m < kSamePointM) {
     object.fail("to", "the wall has neither length nor thickness");
   }
   return wall;
@@ -101,7 +101,7 @@ core::FloorPlan read_plan(ObjectReader root, const std::filesystem::path& file) 
   check_format(root);
   plan.name = file.stem().string();
   root.text("name", plan.name, kMaxNameBytes);
-  root.number("thickness", plan.thickness_m, kThickness_m);
+  root.number("thickness", plan.thickness_m, kThicknessM);
   const Json& walls = require_array(root, "walls", 1, kMaxWalls);
   plan.walls.reserve(walls.size());
   for (std::size_t i = 0; i < walls.size(); ++i) {

@@ -4,7 +4,6 @@
 #pragma once
 
 #include <array>
-#include <concepts>
 #include <cstddef>
 #include <filesystem>
 #include <set>
@@ -43,7 +42,7 @@ class ObjectReader {
   ObjectReader(const DocumentContext& context, const Json& value, std::string pointer);
 
   bool number(std::string_view key, double& member, Interval limits);
-  template <std::integral Integer>
+  template <typename Integer>
   bool integer(std::string_view key, Integer& member, Integer low, Integer high) {
     double value = static_cast<double>(member);
     if (!number(key, value, {static_cast<double>(low), static_cast<double>(high)})) return false;
