@@ -63,12 +63,12 @@ class Cornerctl : public testing::Test {
   }
   /// Four turns at one place of the sample map, and their truth in still.truth.
   std::string recording() const {
-    run({"simulate", "--map", kMap, "--pose", "0.3,0.5,1", "--turns", "4", "-o",
+    run({"simulate", "--map", map_, "--pose", "0.3,0.5,1", "--turns", "4", "-o",
          path("still.ndjson"), "--truth", path("still.truth")});
     return path("still.ndjson");
   }
 
-  const std::string kMap = CORNERD_SOURCE_DIR "/config/maps/krpai-2019-a.json";
+  const std::string map_ = CORNERD_SOURCE_DIR "/config/maps/krpai-2019-a.json";
   TemporaryFolder folder_;
 };
 
@@ -85,16 +85,16 @@ TEST_F(Cornerctl, WrongUsage_EndsWith2AndSaysWhyOnStandardError) {
       {"dance"},
       {"replay"},
       {"replay", "x.bin"},
-      {"replay", "x.bin", "--map", kMap, "--nonsense"},
-      {"replay", "x.bin", "--map", kMap, "--speed", "fast"},
-      {"replay", "x.bin", "--map", kMap, "--classes", "POSES"},
-      {"replay", "x.bin", "--map", kMap, "--wire", "dense"},
+      {"replay", "x.bin", "--map", map_, "--nonsense"},
+      {"replay", "x.bin", "--map", map_, "--speed", "fast"},
+      {"replay", "x.bin", "--map", map_, "--classes", "POSES"},
+      {"replay", "x.bin", "--map", map_, "--wire", "dense"},
       {"detect", "x.bin", "--method", "guess"},
-      {"simulate", "--map", kMap, "-o", path("x.bin")},
-      {"simulate", "--map", kMap, "-o", path("x.bin"), "--pose", "1,2"},
-      {"simulate", "--map", kMap, "-o", path("x.bin"), "--pose", "1,1,0", "--places", "2"},
+      {"simulate", "--map", map_, "-o", path("x.bin")},
+      {"simulate", "--map", map_, "-o", path("x.bin"), "--pose", "1,2"},
+      {"simulate", "--map", map_, "-o", path("x.bin"), "--pose", "1,1,0", "--places", "2"},
       {"map"},
-      {"map", "render", kMap},
+      {"map", "render", map_},
   };
   for (const auto& words : wrong) {
     const Outcome outcome = run(words);
@@ -111,8 +111,8 @@ TEST_F(Cornerctl, WrongMapOrConfig_EndsWith78AndOneLine) {
       {"map", "check", path("no-map.json")},
       {"map", "check", path("absent.json")},
       {"replay", "x.bin", "--map", path("no-map.json")},
-      {"replay", "x.bin", "--map", kMap, "--config", path("typo.json")},
-      {"replay", "x.bin", "--map", kMap, "--set", "/lidar/baud=fast"},
+      {"replay", "x.bin", "--map", map_, "--config", path("typo.json")},
+      {"replay", "x.bin", "--map", map_, "--set", "/lidar/baud=fast"},
   };
   for (const auto& words : wrong) {
     const Outcome outcome = run(words);
@@ -126,14 +126,14 @@ TEST_F(Cornerctl, WrongMapOrConfig_EndsWith78AndOneLine) {
 TEST_F(Cornerctl, FileThatIsNoRecording_Fails) {
   write("noise.bin", "The quick brown fox jumps over the lazy dog.");
   for (const std::string& name : {path("absent.bin"), path("noise.bin"), path(".")}) {
-    const Outcome outcome = run({"replay", name, "--map", kMap});
+    const Outcome outcome = run({"replay", name, "--map", map_});
     EXPECT_EQ(outcome.exit_code, kExitFailed) << name;
     EXPECT_THAT(outcome.err, HasSubstr(name));
   }
 }
 
 TEST_F(Cornerctl, MapCheck_TellsWhatIsInTheMap) {
-  const Outcome outcome = run({"map", "check", kMap});
+  const Outcome outcome = run({"map", "check", map_});
   EXPECT_EQ(outcome.exit_code, kExitDone);
   EXPECT_THAT(outcome.out, HasSubstr("krpai-2019-a"));
   EXPECT_THAT(outcome.out, HasSubstr("room-1"));
@@ -142,7 +142,7 @@ TEST_F(Cornerctl, MapCheck_TellsWhatIsInTheMap) {
 
 TEST_F(Cornerctl, SimulateAndReplay_FindTheRobotWhereItIs) {
   const Outcome outcome = run(
-      {"replay", recording(), "--map", kMap, "--classes", "POSE", "--truth", path("still.truth")});
+      {"replay", recording(), "--map", map_, "--classes", "POSE", "--truth", path("still.truth")});
   EXPECT_EQ(outcome.exit_code, kExitDone);
   EXPECT_EQ(count_lines(outcome.out, R"({"class":"POSE")"), 4U);
   EXPECT_THAT(outcome.err, HasSubstr("turns            4"));
@@ -151,7 +151,7 @@ TEST_F(Cornerctl, SimulateAndReplay_FindTheRobotWhereItIs) {
 
 TEST_F(Cornerctl, Replay_GivesTheSameBytesForTheSameInput) {
   const std::vector<std::string> words = {
-      "replay", recording(), "--map", kMap, "--classes", "VERSION,SCAN,BREAKPOINTS,POSE,STATUS"};
+      "replay", recording(), "--map", map_, "--classes", "VERSION,SCAN,BREAKPOINTS,POSE,STATUS"};
   const std::string once = run(words).out;
   EXPECT_THAT(once, StartsWith(R"({"class":"VERSION")"));
   EXPECT_EQ(count_lines(once, R"({"class":"SCAN")"), 4U);
@@ -173,7 +173,7 @@ TEST_F(Cornerctl, Replay_PlaysSeveralFilesOneAfterAnother) {
 
 TEST_F(Cornerctl, ReplayOfItsOwnScans_SeesTheSameTurns) {
   write("scans.ndjson", run({"replay", recording(), "--classes", "SCAN"}).out);
-  const Outcome outcome = run({"replay", path("scans.ndjson"), "--map", kMap, "--classes", "POSE"});
+  const Outcome outcome = run({"replay", path("scans.ndjson"), "--map", map_, "--classes", "POSE"});
   EXPECT_EQ(outcome.exit_code, kExitDone);
   EXPECT_EQ(count_lines(outcome.out, R"({"class":"POSE")"), 4U);
 }
@@ -186,13 +186,13 @@ TEST_F(Cornerctl, Detect_GivesTheBreakpointsOfEveryTurn) {
 }
 
 TEST_F(Cornerctl, BareBytesOfAMovingRobot_BearNoTruth) {
-  const Outcome outcome = run({"simulate", "--map", kMap, "--path", "0.3,0.3 0.3,0.6", "-o",
+  const Outcome outcome = run({"simulate", "--map", map_, "--path", "0.3,0.3 0.3,0.6", "-o",
                                path("moving.bin"), "--truth", path("moving.truth")});
   EXPECT_EQ(outcome.exit_code, kExitUsage);
 }
 
 TEST_F(Cornerctl, MapRender_DrawsTheRecordingInTheMap) {
-  const Outcome outcome = run({"map", "render", kMap, "-o", path("map.svg"), "--recording",
+  const Outcome outcome = run({"map", "render", map_, "-o", path("map.svg"), "--recording",
                                recording(), "--truth", path("still.truth")});
   EXPECT_EQ(outcome.exit_code, kExitDone) << outcome.err;
   const std::string picture = read(path("map.svg"));
@@ -202,7 +202,7 @@ TEST_F(Cornerctl, MapRender_DrawsTheRecordingInTheMap) {
 }
 
 TEST_F(Cornerctl, FileThatCannotBeWritten_Fails) {
-  const Outcome outcome = run({"map", "render", kMap, "-o", path("absent/map.svg")});
+  const Outcome outcome = run({"map", "render", map_, "-o", path("absent/map.svg")});
   EXPECT_EQ(outcome.exit_code, kExitFailed);
   EXPECT_THAT(outcome.err, HasSubstr("absent/map.svg: No such file or directory"));
 }

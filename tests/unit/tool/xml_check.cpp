@@ -29,13 +29,13 @@ bool is_text(std::string_view text) {
 
 /// An opening tag without its angle brackets: name, and attributes in quotes.
 bool is_opening(const std::string& inside, std::string& name) {
-  static const std::regex head("^[a-z]+");
-  static const std::regex attribute("^\\s+[A-Za-z:-]+=\"");
+  static const std::regex kHead("^[a-z]+");
+  static const std::regex kAttribute("^\\s+[A-Za-z:-]+=\"");
   std::smatch match;
-  if (!std::regex_search(inside, match, head)) return false;
+  if (!std::regex_search(inside, match, kHead)) return false;
   name = match.str();
   std::string rest = match.suffix();
-  while (std::regex_search(rest, match, attribute)) {
+  while (std::regex_search(rest, match, kAttribute)) {
     const std::string value = match.suffix();
     const std::size_t quote = value.find('"');
     if (quote == std::string::npos || !is_text(value.substr(0, quote))) return false;
