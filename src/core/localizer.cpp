@@ -7,6 +7,8 @@
 
 #include "core/breakpoint/detector.hpp"
 #include "core/catalog/catalog.hpp"
+#include "core/estimate/pose_memory.hpp"
+#include "core/estimate/refinement.hpp"
 #include "core/recognition/decision.hpp"
 #include "core/recognition/recognition.hpp"
 #include "core/recognition/verification.hpp"
@@ -15,41 +17,19 @@ namespace cornerd::core {
 namespace {
 
 /// A place that recognition gave is off by up to this much; one that was carried on from the turn
-/// before, by what a robot drives meanwhile.
+/// before, by what a robot drives meanwhile; one that a turn in motion gave, by the motion.
 constexpr double kRecognisedReach_m = 0.10;
 constexpr double kPriorReach_m = 0.15;
-/// A pose older than this is no prior any more.
-constexpr double kMaxPriorAge_s = 2;
-/// Two poses tell the motion between them where they are one or two turns apart, and the robot did
-/// not jump: nobody who needs an A1 is faster.
-constexpr double kMinMotionTime_s = 0.03;
-constexpr double kMaxMotionTime_s = 0.5;
-constexpr double kMaxSpeed_m_s = 2;
-constexpr double kMaxOmega_rad_s = 6;
+constexpr double kMotionReach_m = 0.08;
 /// A place that leaves more than this of the rays unexplained, or that few rays speak for, may be
-/// the wrong one of several: then all that could have been overlooked is tested too.
+/// the wrong one of several.
 constexpr double kCertainHitShare = 0.9;
 constexpr std::size_t kCertainHits = 100;
-
-/// A pose of `lidar` becomes that of `base`: the offset turns with the heading.
-Covariance3 covariance_of_base(const Covariance3& of_lidar, const Pose2& T_map_lidar,
-                               const Pose2& T_map_base) {
-  Covariance3 slope = Covariance3::Identity();
-  slope(0, 2) = -(T_map_base.y_m - T_map_lidar.y_m);
-  slope(1, 2) = T_map_base.x_m - T_map_lidar.x_m;
-  return slope * of_lidar * slope.transpose();
-}
-
-/// What is left of the motion within a turn after the samples were moved back by it: the robot may
-/// have changed its speed since the last two poses. At a steady 0.1 to 0.5 m/s the mean error grew
-/// by 3 % of half a turn's way.
-Covariance3 doubt_of_motion(const Twist2& motion) {
-  constexpr double kShare = 0.03;
-  constexpr double kHalfTurn_s = 0.07;
-  const double way_m = kShare * kHalfTurn_s * motion.speed_m_s();
-  const double turn_rad = kShare * kHalfTurn_s * motion.omega_rad_s;
-  return Eigen::Vector3d(way_m * way_m, way_m * way_m, turn_rad * turn_rad).asDiagonal();
-}
+/// A motion has to explain one ray in so many more than rest does: it fits things that are not on
+/// the map a little, always.
+constexpr std::size_t kRaysForAMotion = 50;
+/// Residuals this much beyond the turn's own noise are smeared by a motion.
+constexpr double kSmearedSpread = 1.4;
 
 }  // namespace
 
@@ -57,10 +37,14 @@ struct Localizer::Workspace {
   /// What needs a map.
   struct Place {
     Place(const WallMap& map, const LocalizerConfig& config)
-        : catalog(map, config.max_range_m), recognition(map, catalog), verification(map, config) {}
+        : catalog(map, config.max_range_m),
+          recognition(map, catalog),
+          verification(map, config),
+          refinement(config.max_range_m, config.noise) {}
     Catalog catalog;
     Recognition recognition;
     Verification verification;
+    Refinement refinement;
   };
 
   Workspace(std::shared_ptr<const WallMap> the_map, const LocalizerConfig& the_config)
@@ -71,9 +55,12 @@ struct Localizer::Workspace {
     if (map) place.emplace(*map, config);
   }
 
-  std::optional<Pose2> prior(TimeNs t_ns) const;
-  void remember(const Pose2& T_map_lidar, TimeNs t_ns);
-  void recognise(TimeNs t_ns);
+  void look(const Scan& scan, TimeNs t_ns, const Twist2& as_if_moving);
+  void look_for_the_motion(const Scan& scan, TimeNs t_ns);
+  void look_everywhere();
+  bool in_doubt() const;
+  bool is_smeared() const;
+  std::size_t best_hits() const;
   void report(const Decision& decision, TimeNs t_ns);
   void report_pose(const core::Place& found, TimeNs t_ns);
   void report_alternatives(std::span<const core::Place> rivals);
@@ -84,11 +71,10 @@ struct Localizer::Workspace {
   Detector detector;
   std::optional<Place> place;
 
+  PoseMemory memory;
   PolarScan points;
+  Twist2 motion;  ///< that `points` were moved back by
   TurnResult result;
-  std::optional<Pose2> last_T_map_lidar;
-  TimeNs last_pose_ns = 0;
-  Twist2 motion;  ///< of the lidar, from the last two poses
 };
 
 Localizer::Localizer(std::shared_ptr<const WallMap> map, const LocalizerConfig& config)
@@ -102,72 +88,90 @@ const TurnResult& Localizer::step(const Scan& scan) {
   const TimeNs t_ns = scan.start_ns() + (scan.end_ns() - scan.start_ns()) / 2;
   ++w.result.pose.seq;
 
-  // 1. The turn's returns in the order of their bearing, as a robot that stood still had seen them.
-  w.points.assign(scan, w.config.min_range_m, w.config.max_range_m, w.motion, t_ns);
+  // 1. The turn's walls and corners, and the places whose corners form the same pattern, tested
+  //    against every ray.
+  w.look(scan, t_ns, w.memory.motion());
 
-  // 2. Its walls, and the corners and ends of walls between them (ALTBD).
-  w.detector.detect(w.points, w.result.detection);
+  // 2. Where none is convincing, the robot may have changed its speed since the last turns.
+  if (w.in_doubt() || w.is_smeared()) w.look_for_the_motion(scan, t_ns);
 
-  // 3. The places whose corners form the same pattern, tested against every ray of the turn.
-  w.recognise(t_ns);
+  // 3. Where still none is, all places are tested that could have been overlooked.
+  if (w.in_doubt()) w.look_everywhere();
 
   // 4. One place is a fix, several are ambiguous, none is lost.
   const Decision decision =
-      w.place ? decide(w.place->verification.places(), w.prior(t_ns)) : Decision{};
+      w.place ? decide(w.place->verification.places(), w.memory.prior(t_ns)) : Decision{};
   w.report(decision, t_ns);
   return w.result;
 }
 
-void Localizer::relocalize() {
-  workspace_->last_T_map_lidar.reset();
-  workspace_->motion = {};
-}
+void Localizer::relocalize() { workspace_->memory.forget(); }
 
-/// Where the lidar should be by now.
-std::optional<Pose2> Localizer::Workspace::prior(TimeNs t_ns) const {
-  if (!last_T_map_lidar) return std::nullopt;
-  const double age_s = to_seconds(t_ns - last_pose_ns);
-  if (std::abs(age_s) > kMaxPriorAge_s) return std::nullopt;
-  return *last_T_map_lidar * motion.over(age_s);
-}
+void Localizer::Workspace::look(const Scan& scan, TimeNs t_ns, const Twist2& as_if_moving) {
+  // The returns in the order of their bearing, as a lidar that stood still would have seen them.
+  motion = as_if_moving;
+  points.assign(scan, config.min_range_m, config.max_range_m, t_ns, motion);
 
-void Localizer::Workspace::remember(const Pose2& T_map_lidar, TimeNs t_ns) {
-  const double dt_s = to_seconds(t_ns - last_pose_ns);
-  motion = {};
-  if (last_T_map_lidar && dt_s > kMinMotionTime_s && dt_s < kMaxMotionTime_s) {
-    const Pose2 way = last_T_map_lidar->inverse() * T_map_lidar;
-    const Twist2 seen{way.x_m / dt_s, way.y_m / dt_s, way.theta_rad / dt_s};
-    const bool plausible =
-        seen.speed_m_s() < kMaxSpeed_m_s && std::abs(seen.omega_rad_s) < kMaxOmega_rad_s;
-    if (plausible) motion = seen;
-  }
-  last_T_map_lidar = T_map_lidar;
-  last_pose_ns = t_ns;
-}
-
-void Localizer::Workspace::recognise(TimeNs t_ns) {
+  // Walls, and the corners and ends of walls between them (ALTBD).
+  detector.detect(points, result.detection);
   if (!place) return;
+
+  // The places that pairs of corners point to, and the one where the robot should be by now.
   Verification& verification = place->verification;
-  const std::span<const Breakpoint> breakpoints = result.detection.breakpoints;
   verification.begin(points.points(), std::clamp(result.detection.noise_scale, 0.5, 4.0));
-  verification.consider(place->recognition.from_pairs(breakpoints), kRecognisedReach_m);
-  if (const std::optional<Pose2> before = prior(t_ns)) {
-    const Hypothesis carried_on{*before, 0};
+  verification.consider(place->recognition.from_pairs(result.detection.breakpoints),
+                        kRecognisedReach_m);
+  if (const std::optional<Pose2> prior = memory.prior(t_ns)) {
+    const Hypothesis carried_on{*prior, 0};
     verification.consider(std::span(&carried_on, 1), kPriorReach_m);
   }
-  const auto in_doubt = [&] {
-    const auto places = verification.places();
-    if (places.empty()) return true;
-    const Explanation& best = places.front().explanation;
-    return best.hits < kCertainHits || best.hit_share() < kCertainHitShare;
+}
+
+bool Localizer::Workspace::in_doubt() const {
+  if (!place || place->verification.places().empty()) return true;
+  const Explanation& best = place->verification.places().front().explanation;
+  return best.hits < kCertainHits || best.hit_share() < kCertainHitShare;
+}
+
+bool Localizer::Workspace::is_smeared() const {
+  return place && !place->verification.places().empty() &&
+         place->verification.places().front().refined.spread > kSmearedSpread;
+}
+
+std::size_t Localizer::Workspace::best_hits() const {
+  const auto places = place->verification.places();
+  return places.empty() ? 0 : places.front().explanation.hits;
+}
+
+void Localizer::Workspace::look_for_the_motion(const Scan& scan, TimeNs t_ns) {
+  if (!place) return;
+  Twist2 best_motion = motion;
+  std::size_t best = best_hits();
+  const auto try_motion = [&](const Twist2& candidate) {
+    look(scan, t_ns, candidate);
+    if (best_hits() <= best + points.size() / kRaysForAMotion) return;
+    best = best_hits();
+    best_motion = motion;
   };
-  if (in_doubt()) {
-    verification.consider(place->recognition.from_single_corners(breakpoints), kRecognisedReach_m);
+  if (!motion.is_rest()) try_motion({});
+  for (int k = 0; k < 2 && (in_doubt() || is_smeared()) && best_hits() > 0; ++k) {
+    const Pose2 start = place->verification.places().front().refined.T_map_lidar;
+    const RefinedMotion refined = place->refinement.refine_motion(
+        *map, start, kMotionReach_m, points.points(), result.detection.noise_scale);
+    if (!refined.valid || !is_plausible(refined.motion)) break;
+    try_motion(motion + refined.motion);
   }
-  if (in_doubt()) {
-    verification.consider(place->recognition.from_walls(result.detection.segments, breakpoints),
-                          kRecognisedReach_m);
-  }
+  if (motion != best_motion) look(scan, t_ns, best_motion);
+}
+
+void Localizer::Workspace::look_everywhere() {
+  if (!place) return;
+  const std::span<const Breakpoint> breakpoints = result.detection.breakpoints;
+  Recognition& recognition = place->recognition;
+  place->verification.consider(recognition.from_single_corners(breakpoints), kRecognisedReach_m);
+  if (!in_doubt()) return;
+  place->verification.consider(recognition.from_walls(result.detection.segments, breakpoints),
+                               kRecognisedReach_m);
 }
 
 void Localizer::Workspace::report(const Decision& decision, TimeNs t_ns) {
@@ -186,7 +190,7 @@ void Localizer::Workspace::report(const Decision& decision, TimeNs t_ns) {
   } else if (decision.state == PoseState::kAmbiguous) {
     report_alternatives(place->verification.places().first(decision.rivals));
   }
-  pose.age_s = last_pose_ns == 0 ? 0 : to_seconds(t_ns - last_pose_ns);
+  pose.age_s = memory.age_s(t_ns);
 }
 
 void Localizer::Workspace::report_pose(const core::Place& found, TimeNs t_ns) {
@@ -200,7 +204,7 @@ void Localizer::Workspace::report_pose(const core::Place& found, TimeNs t_ns) {
       place->recognition.recognised(result.detection.breakpoints, T_map_lidar));
   pose.inliers = found.explanation.hits;
   pose.rmse_m = found.refined.rmse_m;
-  remember(T_map_lidar, t_ns);
+  memory.remember(T_map_lidar, t_ns);
 }
 
 void Localizer::Workspace::report_alternatives(std::span<const core::Place> rivals) {

@@ -10,14 +10,10 @@ namespace cornerd::core {
 
 namespace {
 
-/// A motion below this is the noise of two poses, and moves no sample by what a lidar could tell.
-constexpr double kStandstill_m_s = 0.01;
-constexpr double kStandstill_rad_s = 0.01;
-
-PolarPoint point_at(double bearing_rad, double range_m) {
+PolarPoint point_at(double bearing_rad, double range_m, double dt_s) {
   const double c = std::cos(bearing_rad);
   const double s = std::sin(bearing_rad);
-  return {bearing_rad, range_m, c, s, range_m * c, range_m * s};
+  return {bearing_rad, range_m, c, s, range_m * c, range_m * s, dt_s};
 }
 
 PolarPoint moved(const PolarPoint& point, const Pose2& T_now_then) {
@@ -28,23 +24,23 @@ PolarPoint moved(const PolarPoint& point, const Pose2& T_now_then) {
           place.x() / range_m,
           place.y() / range_m,
           place.x(),
-          place.y()};
+          place.y(),
+          point.dt_s};
 }
 
 }  // namespace
 
 PolarScan::PolarScan() { points_.reserve(kMaxSamplesPerTurn); }
 
-void PolarScan::assign(const Scan& scan, double min_range_m, double max_range_m,
-                       const Twist2& motion, TimeNs at_ns) {
-  const bool moves =
-      motion.speed_m_s() > kStandstill_m_s || std::abs(motion.omega_rad_s) > kStandstill_rad_s;
+void PolarScan::assign(const Scan& scan, double min_range_m, double max_range_m, TimeNs at_ns,
+                       const Twist2& motion) {
   points_.clear();
   for (const Sample& sample : scan.samples()) {
     const double range_m = sample.range_m;
     if (!(range_m >= min_range_m && range_m <= max_range_m)) continue;
-    const PolarPoint point = point_at(sample.bearing_rad, range_m);
-    points_.push_back(moves ? moved(point, motion.over(to_seconds(sample.t_ns - at_ns))) : point);
+    const double dt_s = to_seconds(sample.t_ns - at_ns);
+    const PolarPoint point = point_at(sample.bearing_rad, range_m, dt_s);
+    points_.push_back(motion.is_rest() ? point : moved(point, motion.over(dt_s)));
   }
   spacing_rad_ = scan.empty() ? 0 : kTwoPi / static_cast<double>(scan.size());
   sort();

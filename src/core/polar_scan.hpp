@@ -18,6 +18,7 @@ struct PolarPoint {
   double ray_y = 0;
   double x_m = 0;
   double y_m = 0;
+  double dt_s = 0;  ///< when it was measured, from the time that the turn is seen at
 };
 
 /// The returns of one turn in the order of their bearing, whatever the order of their arrival: an
@@ -29,8 +30,8 @@ class PolarScan {
   /// Keeps the samples within the limits. Allocates nothing.
   /// `motion`: of the lidar; each return is moved to where the lidar of time `at_ns` would have
   /// seen it, so that a turn taken in motion has straight walls.
-  void assign(const Scan& scan, double min_range_m, double max_range_m, const Twist2& motion = {},
-              TimeNs at_ns = 0);
+  void assign(const Scan& scan, double min_range_m, double max_range_m, TimeNs at_ns = 0,
+              const Twist2& motion = {});
 
   std::span<const PolarPoint> points() const { return points_; }
   std::size_t size() const { return points_.size(); }

@@ -17,6 +17,10 @@ constexpr double kConverged_rad = 1e-5;
 /// Relative pivot below which the walls in sight do not fix the pose: a lone wall, a bare corridor.
 constexpr double kMinPivot = 1e-7;
 constexpr std::size_t kMinInliers = 8;
+constexpr int kMotionSteps = 8;
+/// How fast a robot of this size may be, as a standard deviation.
+constexpr double kMotionSigma_m_s = 0.5;
+constexpr double kMotionSigma_rad_s = 2;
 
 }  // namespace
 
@@ -93,12 +97,70 @@ RefinedPose Refinement::refine(const WallMap& map, const Pose2& start, double re
     slack_m *= 0.4;
   }
   const auto inliers = static_cast<double>(sums.inliers);
-  const double spread = std::max(1.0, sums.chi_square / std::max(1.0, inliers - 3));
-  // The biweight at the optimum keeps this share of a normal residual's information.
-  refined.covariance = solver.solve(Eigen::Matrix3d::Identity()) * spread;
+  refined.spread = sums.chi_square / std::max(1.0, inliers - 3);
+  refined.covariance = solver.solve(Eigen::Matrix3d::Identity()) * std::max(1.0, refined.spread);
   refined.inliers = sums.inliers;
   refined.rmse_m = std::sqrt(sums.squares_m2 / std::max(1.0, inliers));
   refined.valid = refined.covariance.allFinite();
+  return refined;
+}
+
+RefinedMotion Refinement::refine_motion(const WallMap& map, const Pose2& start, double reach_m,
+                                        std::span<const PolarPoint> points, double noise_scale) {
+  using Vector6 = Eigen::Matrix<double, 6, 1>;
+  using Matrix6 = Eigen::Matrix<double, 6, 6>;
+  const Vector6 belief =
+      (Vector6() << 0, 0, 0, 1 / (kMotionSigma_m_s * kMotionSigma_m_s),
+       1 / (kMotionSigma_m_s * kMotionSigma_m_s), 1 / (kMotionSigma_rad_s * kMotionSigma_rad_s))
+          .finished();
+  RefinedMotion refined;
+  refined.T_map_lidar = start;
+  Eigen::Vector3d twist = Eigen::Vector3d::Zero();
+  double slack_m = reach_m;
+  for (int k = 0; k < kMotionSteps; ++k) {
+    const Pose2& T_map_lidar = refined.T_map_lidar;
+    const auto hits = prediction_.cast(map, T_map_lidar, points);
+    const double c = std::cos(T_map_lidar.theta_rad);
+    const double s = std::sin(T_map_lidar.theta_rad);
+    Matrix6 information = belief.asDiagonal();
+    Vector6 gradient = Vector6::Zero();
+    gradient.tail<3>() = belief.tail<3>().cwiseProduct(twist);
+    std::size_t inliers = 0;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      if (hits[i].face == PredictedHit::kNone) continue;
+      const PolarPoint& point = points[i];
+      const Face& face = map.faces()[hits[i].face];
+      // All in the lidar's frame: the wall's normal, and the point where the motion so far puts it.
+      const Vec2 normal(c * face.normal.x() + s * face.normal.y(),
+                        c * face.normal.y() - s * face.normal.x());
+      const double x_m = point.x_m + point.dt_s * (twist.x() - twist.z() * point.y_m);
+      const double y_m = point.y_m + point.dt_s * (twist.y() + twist.z() * point.x_m);
+      const double height_m = face.normal.dot(T_map_lidar.translation()) - face.offset_m;
+      const double distance_m = normal.x() * x_m + normal.y() * y_m + height_m;
+      const double sine = std::abs(normal.x() * point.ray_x + normal.y() * point.ray_y);
+      const double variance =
+          noise_.variance_across_m2(point.range_m, sine) * noise_scale * noise_scale +
+          slack_m * slack_m;
+      const double share = 1 - distance_m * distance_m / (variance * kCutSigmas * kCutSigmas);
+      if (share <= 0) continue;
+      const double weight = share * share / variance;
+      const Eigen::Vector3d slope(normal.x(), normal.y(), normal.y() * x_m - normal.x() * y_m);
+      Vector6 slopes;
+      slopes << slope, point.dt_s * slope;
+      information.noalias() += weight * slopes * slopes.transpose();
+      gradient.noalias() += weight * distance_m * slopes;
+      ++inliers;
+    }
+    const Eigen::LDLT<Matrix6> solver(information);
+    if (inliers < kMinInliers || solver.info() != Eigen::Success) return refined;
+    const Vector6 move = solver.solve(gradient);
+    if (!move.allFinite()) return refined;
+    refined.T_map_lidar = T_map_lidar * Pose2{-move[0], -move[1], -move[2]};
+    twist -= move.tail<3>();
+    slack_m = std::max(0.4 * slack_m, 1e-3);
+  }
+  refined.motion = {twist.x(), twist.y(), twist.z()};
+  refined.valid = true;
   return refined;
 }
 

@@ -15,7 +15,14 @@ struct RefinedPose {
   Covariance3 covariance = Covariance3::Zero();  ///< x, y in the map frame, theta
   std::size_t inliers = 0;
   double rmse_m = 0;   ///< of the inliers' distances to their walls
+  double spread = 0;   ///< of the same in units of the noise: 1 where the model is right
   bool valid = false;  ///< false: the points do not determine the pose
+};
+
+struct RefinedMotion {
+  Pose2 T_map_lidar;
+  Twist2 motion;  ///< in addition to the one that the points were moved back by
+  bool valid = false;
 };
 
 /// Maximum likelihood fit of all wall points to the faces that the place can see, by Gauss-Newton
@@ -30,6 +37,12 @@ class Refinement {
   RefinedPose refine(const WallMap& map, const Pose2& start, double reach_m,
                      std::span<const PolarPoint> thin, std::span<const PolarPoint> points,
                      double noise_scale);
+
+  /// The same for a robot whose motion within the turn is not known: estimates it along with the
+  /// pose. A turn has far more points than the six unknowns; a weak belief in rest keeps a
+  /// direction in which no wall is seen from running away.
+  RefinedMotion refine_motion(const WallMap& map, const Pose2& start, double reach_m,
+                              std::span<const PolarPoint> points, double noise_scale);
 
  private:
   struct Step;

@@ -53,6 +53,11 @@ struct Twist2 {
     return {vx_m_s * dt_s, vy_m_s * dt_s, normalize_angle(omega_rad_s * dt_s)};
   }
   double speed_m_s() const { return std::hypot(vx_m_s, vy_m_s); }
+  Twist2 operator+(const Twist2& other) const {
+    return {vx_m_s + other.vx_m_s, vy_m_s + other.vy_m_s, omega_rad_s + other.omega_rad_s};
+  }
+  bool operator==(const Twist2&) const = default;
+  bool is_rest() const { return vx_m_s == 0 && vy_m_s == 0 && omega_rad_s == 0; }
 };
 
 /// Of (x [m], y [m], theta [rad]) in the frame of the pose it belongs to; symmetric.

@@ -72,7 +72,7 @@ TEST(PolarScan, TurnTakenInMotion_LooksAsIfTakenAtRest) {
   options.motion = {0.4, -0.2, 0.8};
   const Scan scan = source.take(*map, T_map_lidar, options);
   PolarScan points;
-  points.assign(scan, 0.15, 12, options.motion, from_seconds(options.turn_s / 2));
+  points.assign(scan, 0.15, 12, from_seconds(options.turn_s / 2), options.motion);
   ASSERT_TRUE(is_sorted(points));
   for (const PolarPoint& point : points.points()) {
     const Vec2 place = T_map_lidar * Vec2(point.x_m, point.y_m);

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+#include "core/estimate/pose_memory.hpp"
+
+#include <cmath>
+
+namespace cornerd::core {
+namespace {
+
+/// A pose older than this is no prior any more.
+constexpr double kMaxPriorAge_s = 2;
+/// Two poses tell the motion between them where they are one or two turns apart, and the robot did
+/// not jump: nobody who needs an A1 is faster.
+constexpr double kMinMotionTime_s = 0.03;
+constexpr double kMaxMotionTime_s = 0.5;
+constexpr double kMaxSpeed_m_s = 2;
+constexpr double kMaxOmega_rad_s = 6;
+/// A motion below this is the noise of two poses, and moves no sample by what a lidar could tell.
+constexpr double kRest_m_s = 0.01;
+constexpr double kRest_rad_s = 0.01;
+
+}  // namespace
+
+void PoseMemory::remember(const Pose2& T_map_lidar, TimeNs t_ns) {
+  const double dt_s = to_seconds(t_ns - last_ns_);
+  motion_ = {};
+  if (last_T_map_lidar_ && dt_s > kMinMotionTime_s && dt_s < kMaxMotionTime_s) {
+    const Pose2 way = last_T_map_lidar_->inverse() * T_map_lidar;
+    const Twist2 seen{way.x_m / dt_s, way.y_m / dt_s, way.theta_rad / dt_s};
+    const bool moves = seen.speed_m_s() > kRest_m_s || std::abs(seen.omega_rad_s) > kRest_rad_s;
+    if (moves && is_plausible(seen)) motion_ = seen;
+  }
+  last_T_map_lidar_ = T_map_lidar;
+  last_ns_ = t_ns;
+  ever_ = true;
+}
+
+void PoseMemory::forget() {
+  last_T_map_lidar_.reset();
+  motion_ = {};
+}
+
+std::optional<Pose2> PoseMemory::prior(TimeNs t_ns) const {
+  if (!last_T_map_lidar_) return std::nullopt;
+  const double age_s = to_seconds(t_ns - last_ns_);
+  if (std::abs(age_s) > kMaxPriorAge_s) return std::nullopt;
+  return *last_T_map_lidar_ * motion_.over(age_s);
+}
+
+bool is_plausible(const Twist2& motion) {
+  return motion.speed_m_s() < kMaxSpeed_m_s && std::abs(motion.omega_rad_s) < kMaxOmega_rad_s;
+}
+
+Covariance3 doubt_of_motion(const Twist2& motion) {
+  constexpr double kShare = 0.02;
+  constexpr double kHalfTurn_s = 0.07;
+  const double way_m = kShare * kHalfTurn_s * motion.speed_m_s();
+  const double turn_rad = kShare * kHalfTurn_s * motion.omega_rad_s;
+  return Eigen::Vector3d(way_m * way_m, way_m * way_m, turn_rad * turn_rad).asDiagonal();
+}
+
+Covariance3 covariance_of_base(const Covariance3& of_lidar, const Pose2& T_map_lidar,
+                               const Pose2& T_map_base) {
+  Covariance3 slope = Covariance3::Identity();
+  slope(0, 2) = -(T_map_base.y_m - T_map_lidar.y_m);
+  slope(1, 2) = T_map_base.x_m - T_map_lidar.x_m;
+  return slope * of_lidar * slope.transpose();
+}
+
+}  // namespace cornerd::core

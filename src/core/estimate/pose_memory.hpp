@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <optional>
+
+#include "core/geometry/pose2.hpp"
+#include "core/types.hpp"
+
+namespace cornerd::core {
+
+/// The last poses of the lidar, and what they say of the next turn.
+class PoseMemory {
+ public:
+  void remember(const Pose2& T_map_lidar, TimeNs t_ns);
+  void forget();
+
+  /// Where the lidar should be by now; nullopt where nothing recent is known.
+  std::optional<Pose2> prior(TimeNs t_ns) const;
+
+  /// Of the lidar, in its own axes, from the last two poses; rest where they do not tell.
+  const Twist2& motion() const { return motion_; }
+
+  /// Seconds since the last pose; 0 before the first.
+  double age_s(TimeNs t_ns) const { return ever_ ? to_seconds(t_ns - last_ns_) : 0; }
+
+ private:
+  std::optional<Pose2> last_T_map_lidar_;
+  TimeNs last_ns_ = 0;
+  bool ever_ = false;
+  Twist2 motion_;
+};
+
+/// True where a robot that needs an A1 may move like this.
+bool is_plausible(const Twist2& motion);
+
+/// What is left of the motion within a turn after its samples were moved back by it: the robot does
+/// not keep its speed to the end. 2 % of half a turn's way makes the covariance of steady drives at
+/// 0.1 to 0.5 m/s no smaller than their errors.
+Covariance3 doubt_of_motion(const Twist2& motion);
+
+/// A covariance of `lidar` becomes that of `base`: the offset between them turns with the heading.
+Covariance3 covariance_of_base(const Covariance3& of_lidar, const Pose2& T_map_lidar,
+                               const Pose2& T_map_base);
+
+}  // namespace cornerd::core
