@@ -20,17 +20,16 @@ namespace {
 
 struct DetectOptions {
   std::vector<std::filesystem::path> files;
-  std::string method = "altbd";
+  std::string method;
   SettingsOptions settings;
   std::vector<std::string> classes = {"BREAKPOINTS"};
   std::string wire = "auto";
 };
 
 void detect(DetectOptions& options) {
-  if (options.method != "altbd") {
-    throw UsageError("--method: there is no '" + options.method + "' yet; there is altbd");
+  if (!options.method.empty()) {
+    options.settings.add_override("/detector/method=" + options.method);
   }
-  options.settings.add_override("/detector/method=" + options.method);
   const message::ClassSet classes = parse_classes(options.classes);
   if (classes.contains(message::MessageClass::kPose)) {
     throw UsageError("--classes: POSE needs a map; use replay");
@@ -57,8 +56,10 @@ void add_detect(CLI::App& program) {
   command->add_option("files", options->files, "recordings (.bin, .ndjson), one after another")
       ->required()
       ->type_name("FILE");
-  command->add_option("--method", options->method, "how corners are found: altbd")
-      ->capture_default_str();
+  command
+      ->add_option("--method", options->method,
+                   "how walls are found; without it, as the configuration says")
+      ->check(CLI::IsMember({"altbd", "abd-iepf", "lt"}));
   options->settings.add_config(*command);
   command->add_option("--classes", options->classes, "messages to print: BREAKPOINTS, SCAN")
       ->delimiter(',')

@@ -46,11 +46,6 @@ double Altbd::noise_scale() const {
   return std::sqrt((kPriorResiduals + residual_sum_) / (kPriorResiduals + residual_count_));
 }
 
-double Altbd::weight_of(const PolarPoint& point) const {
-  const double sigma = noise_.sigma_range_m(point.range_m);
-  return 1 / (sigma * sigma);
-}
-
 Altbd::Prediction Altbd::predict(const PolarScan& scan, std::size_t index) const {
   Prediction prediction;
   const PolarPoint& point = scan[index];
@@ -81,45 +76,31 @@ Altbd::Prediction Altbd::predict(const PolarScan& scan, std::size_t index) const
 }
 
 bool Altbd::start(const PolarScan& scan, std::size_t index) {
-  current_.fit = LineFit({scan[index].x_m, scan[index].y_m});
-  for (std::size_t i = index; i < index + kSeedSize; ++i) {
-    const PolarPoint& point = scan[i];
-    current_.fit.add(point.x_m, point.y_m, weight_of(point));
-  }
+  current_ = SegmentTrack::starting_at(scan, index);
+  for (std::size_t i = index; i < index + kSeedSize; ++i) current_.add(scan, i, noise_);
   current_.line = current_.fit.line();
-  current_.first = static_cast<std::uint32_t>(index);
-  current_.last = static_cast<std::uint32_t>(index + kSeedSize - 1);
-  current_.support = kSeedSize;
 
   // A seed across the step from a near wall to a far one is a line along the rays.
   const PolarPoint& middle = scan[index + kSeedSize / 2];
   const double sine = -current_.line.normal.dot(Vec2(middle.ray_x, middle.ray_y));
   if (sine < kMinSine) return false;
   if (scan[current_.last].bearing_rad - scan[index].bearing_rad > kMaxGap_rad) return false;
+  // The weights know the noise along the rays; what counts here is the noise across the line.
+  const double sigma_m = noise_.sigma_range_m(middle.range_m);
   const double variance = noise_.variance_across_m2(middle.range_m, sine);
-  const double scale = noise_scale();
-  const double chi_square =
-      current_.fit.chi_square() / (weight_of(middle) * variance * scale * scale);
-  return chi_square < kGateSigmas * kGateSigmas;
+  const double chi_square = current_.fit.chi_square() * sigma_m * sigma_m / variance;
+  const double limit = kGateSigmas * noise_scale();
+  return chi_square < limit * limit;
 }
 
-void Altbd::extend(const PolarPoint& point, std::size_t index) {
-  current_.fit.add(point.x_m, point.y_m, weight_of(point));
+void Altbd::extend(const PolarScan& scan, std::size_t index) {
+  current_.add(scan, index, noise_);
   current_.line = current_.fit.line();
-  current_.last = static_cast<std::uint32_t>(index);
-  ++current_.support;
 }
 
 void Altbd::learn_noise(double z_square) {
   residual_sum_ += z_square;
   residual_count_ += 1;
-}
-
-bool Altbd::close(SegmentTracks& tracks) const {
-  if (current_.support < kMinSupport) return true;
-  if (tracks.size() == tracks.capacity()) return false;
-  tracks.push_back(current_);
-  return true;
 }
 
 std::size_t Altbd::track(const PolarScan& scan, SegmentTracks& tracks) {
@@ -139,14 +120,14 @@ std::size_t Altbd::track(const PolarScan& scan, SegmentTracks& tracks) {
       if (prediction.valid && prediction.inside_ellipse()) {
         const double across_m = prediction.residual_m * prediction.across_share;
         learn_noise(across_m * across_m / prediction.variance_m2);
-        extend(scan[next], next);
+        extend(scan, next);
         misses = 0;
       } else {
         if (++misses == kMissesToBreak) break;
       }
     }
     const bool wall = current_.support >= kMinSupport;
-    if (!close(tracks)) ++dropped;
+    if (!keep_wall(current_, tracks)) ++dropped;
     // What is no wall gives back all but its first sample: another line may start within it.
     index = wall ? current_.last + 1U : index + 1;
   }

@@ -36,17 +36,12 @@ class Altbd {
   /// How much larger the residuals were than the noise model says, over the last turn.
   double noise_scale() const;
 
-  /// "More than four points" make a segment (section V.B).
-  static constexpr std::uint32_t kMinSupport = 5;
-
  private:
   struct Prediction;
   Prediction predict(const PolarScan& scan, std::size_t index) const;
   bool start(const PolarScan& scan, std::size_t index);
-  void extend(const PolarPoint& point, std::size_t index);
+  void extend(const PolarScan& scan, std::size_t index);
   void learn_noise(double z_square);
-  bool close(SegmentTracks& tracks) const;
-  double weight_of(const PolarPoint& point) const;
 
   DetectorConfig config_;
   SensorNoise noise_;

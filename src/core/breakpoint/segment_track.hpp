@@ -1,16 +1,40 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
 #include "core/breakpoint/breakpoint.hpp"
 #include "core/breakpoint/line_fit.hpp"
+#include "core/polar_scan.hpp"
+#include "core/sensor_noise.hpp"
 
 namespace cornerd::core {
 
+/// "More than four points" make a segment (El Amin et al., section V.B), whatever the method.
+inline constexpr std::uint32_t kMinSupport = 5;
+
 /// A wall as a detector works on it: which samples, and the line through them.
 struct SegmentTrack {
+  /// A wall that is to begin with the sample at `index`, and holds none yet.
+  static SegmentTrack starting_at(const PolarScan& scan, std::size_t index) {
+    SegmentTrack track;
+    track.fit = LineFit({scan[index].x_m, scan[index].y_m});
+    track.first = static_cast<std::uint32_t>(index);
+    return track;
+  }
+
+  /// Takes the sample at `index` as the last one so far, weighted by its range's noise. The line
+  /// stays as it was.
+  void add(const PolarScan& scan, std::size_t index, const SensorNoise& noise) {
+    const PolarPoint& point = scan[index];
+    const double sigma_m = noise.sigma_range_m(point.range_m);
+    fit.add(point.x_m, point.y_m, 1 / (sigma_m * sigma_m));
+    last = static_cast<std::uint32_t>(index);
+    ++support;
+  }
+
   LineFit fit;
   Line line;
   std::uint32_t first = 0;  ///< index into the PolarScan
@@ -20,5 +44,13 @@ struct SegmentTrack {
 
 /// The walls of a turn, counter-clockwise. Reserved for kMaxSegmentsPerTurn at construction.
 using SegmentTracks = std::vector<SegmentTrack>;
+
+/// Keeps what has the support of a wall. False where it does not fit in `tracks`.
+inline bool keep_wall(const SegmentTrack& track, SegmentTracks& tracks) {
+  if (track.support < kMinSupport) return true;
+  if (tracks.size() == tracks.capacity()) return false;
+  tracks.push_back(track);
+  return true;
+}
 
 }  // namespace cornerd::core

@@ -67,6 +67,32 @@ TEST(Pipeline, FromSampleToPose_AllocatesNothing) {
   }
 }
 
+TEST(Pipeline, FromSampleToPoseByEachMethod_AllocatesNothing) {
+  const auto map = testing::make_map(testing::l_shaped_room());
+  for (const Method method : {Method::kAltbd, Method::kAbdIepf, Method::kLineTracking}) {
+    LocalizerConfig config;
+    config.detector.method = method;
+    Pipeline pipeline(map, config);
+    testing::TurnSource source(72);
+    testing::TurnOptions noisy;
+    noisy.noise = {0.01, 0.03, radians(0.5)};
+    noisy.missing_share = 0.3;
+    noisy.samples = 2000;
+    std::size_t segments = 0;
+    for (int k = 0; k < 10; ++k) {
+      const Pose2 T_map_lidar = source.place_in(0.4, 2.2, 0.4, 1.4);
+      const Scan turn = source.take(*map, T_map_lidar, k % 2 == 0 ? testing::TurnOptions{} : noisy);
+      const long before = allocations;
+      for (const Sample& sample : turn.samples()) {
+        const TurnResult* result = pipeline.add(sample);
+        if (result != nullptr) segments += result->detection.segments.size();
+      }
+      EXPECT_EQ(allocations - before, 0) << static_cast<int>(method);
+    }
+    EXPECT_GT(segments, 0U) << static_cast<int>(method);
+  }
+}
+
 TEST(Pipeline, TheCounter_Counts) {
   const long before = allocations;
   delete new int(3);

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+#include "core/breakpoint/line_tracking.hpp"
+
+#include <cmath>
+
+namespace cornerd::core {
+namespace {
+
+/// Step 1: two samples make a line.
+constexpr std::size_t kSeedSize = 2;
+
+double distance_m(const Line& line, const PolarPoint& point) {
+  return std::abs(line.normal.dot(Vec2(point.x_m, point.y_m)) - line.offset_m);
+}
+
+}  // namespace
+
+std::size_t LineTracking::track(const PolarScan& scan, SegmentTracks& tracks) const {
+  tracks.clear();
+  std::size_t dropped = 0;
+  std::size_t index = 0;
+  while (index + kSeedSize <= scan.size()) {
+    SegmentTrack wall = SegmentTrack::starting_at(scan, index);
+    wall.add(scan, index++, noise_);
+    do {
+      wall.add(scan, index++, noise_);
+      wall.line = wall.fit.line();
+    } while (index < scan.size() && distance_m(wall.line, scan[index]) <= kMaxDistance_m);
+    if (!keep_wall(wall, tracks)) ++dropped;
+  }
+  return dropped;
+}
+
+}  // namespace cornerd::core

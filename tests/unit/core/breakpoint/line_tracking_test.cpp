@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: MIT
+#include "core/breakpoint/line_tracking.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "../fixtures.hpp"
+
+namespace cornerd::core {
+namespace {
+
+SegmentTracks track(const PolarScan& points) {
+  SegmentTracks tracks;
+  tracks.reserve(kMaxSegmentsPerTurn);
+  EXPECT_EQ(LineTracking(SensorNoise{}).track(points, tracks), 0U);
+  return tracks;
+}
+
+std::uint32_t support_of(const SegmentTracks& tracks) {
+  std::uint32_t support = 0;
+  for (const SegmentTrack& wall : tracks) support += wall.support;
+  return support;
+}
+
+double distance_m(const Line& line, const PolarPoint& point) {
+  return std::abs(line.normal.dot(Vec2(point.x_m, point.y_m)) - line.offset_m);
+}
+
+TEST(LineTracking, RectangularRoom_HasFourWallsAndTheSeam) {
+  const auto map = testing::make_map(testing::rectangular_room(3, 2));
+  testing::TurnSource source(31);
+  testing::TurnOptions exact;
+  exact.with_noise = false;
+  for (int k = 0; k < 20; ++k) {
+    const Pose2 T_map_lidar = source.place_in(0.5, 2.5, 0.5, 1.5);
+    const SegmentTracks tracks = track(testing::polar(source.take(*map, T_map_lidar, exact)));
+    EXPECT_GE(tracks.size(), 4U);
+    EXPECT_LE(tracks.size(), 5U);
+    // With noise a line through two samples can point anywhere: more pieces, but of the same walls.
+    const PolarScan points = testing::polar(source.take(*map, T_map_lidar));
+    EXPECT_GE(track(points).size(), 4U);
+    EXPECT_GT(support_of(track(points)), points.size() * 95 / 100);
+  }
+}
+
+TEST(LineTracking, Walls_AreRunsThatFollowEachOther) {
+  const auto map = testing::make_map(testing::l_shaped_room());
+  testing::TurnSource source(32);
+  for (int k = 0; k < 20; ++k) {
+    const Pose2 T_map_lidar = source.place_in(0.5, 2.2, 0.4, 1.5);
+    const PolarScan points = testing::polar(source.take(*map, T_map_lidar));
+    std::uint32_t free_from = 0;
+    for (const SegmentTrack& wall : track(points)) {
+      EXPECT_GE(wall.first, free_from);
+      EXPECT_EQ(wall.last - wall.first + 1, wall.support);
+      EXPECT_LT(wall.last, points.size());
+      free_from = wall.last + 1;
+    }
+  }
+}
+
+TEST(LineTracking, AWall_EndsWhereTheNextSampleIsFartherThanTheLimit) {
+  const auto map = testing::make_map(testing::l_shaped_room());
+  testing::TurnSource source(33);
+  for (int k = 0; k < 20; ++k) {
+    const Pose2 T_map_lidar = source.place_in(0.5, 2.2, 0.4, 1.5);
+    const PolarScan points = testing::polar(source.take(*map, T_map_lidar));
+    for (const SegmentTrack& wall : track(points)) {
+      if (wall.last + 1 == points.size()) continue;
+      EXPECT_GT(distance_m(wall.line, points[wall.last + 1]), LineTracking::kMaxDistance_m);
+    }
+  }
+}
+
+/// A flat wall half a metre in front of the sensor, 1.2 m wide, whose right part stands `step_m`
+/// nearer.
+PolarScan stepped_wall(double step_m) {
+  Scan scan;
+  for (int i = -50; i <= 50; ++i) {
+    Sample sample;
+    sample.bearing_rad = static_cast<float>(radians(i));
+    const double depth_m = i < 0 ? 0.5 - step_m : 0.5;
+    sample.range_m = static_cast<float>(depth_m / std::cos(radians(i)));
+    scan.add(sample);
+  }
+  return testing::polar(scan);
+}
+
+TEST(LineTracking, AStep_IsSeenFromTheLimitOn) {
+  EXPECT_EQ(track(stepped_wall(0.9 * LineTracking::kMaxDistance_m)).size(), 1U);
+  const SegmentTracks tracks = track(stepped_wall(1.1 * LineTracking::kMaxDistance_m));
+  ASSERT_EQ(tracks.size(), 2U);
+  EXPECT_EQ(tracks[0].last, 49U);
+  EXPECT_EQ(tracks[1].first, 50U);
+}
+
+TEST(LineTracking, FewerThanFivePoints_AreNoWall) {
+  Scan scan;
+  EXPECT_TRUE(track(testing::polar(scan)).empty());
+  for (std::uint32_t i = 1; i <= kMinSupport; ++i) {
+    Sample sample;
+    sample.bearing_rad = 0.01F * static_cast<float>(i);
+    sample.range_m = 1;
+    scan.add(sample);
+    EXPECT_EQ(track(testing::polar(scan)).size(), i < kMinSupport ? 0U : 1U);
+  }
+}
+
+TEST(LineTracking, MoreWallsThanFit_AreDroppedAndCounted) {
+  const auto map = testing::make_map(testing::rectangular_room(3, 2));
+  testing::TurnSource source(34);
+  const PolarScan points = testing::polar(source.take(*map, {1.5, 1, 0.3}));
+  const std::size_t all = track(points).size();
+  SegmentTracks tracks;
+  tracks.reserve(2);
+  const std::size_t capacity = tracks.capacity();
+  EXPECT_EQ(LineTracking(SensorNoise{}).track(points, tracks), all - capacity);
+  EXPECT_EQ(tracks.size(), capacity);
+}
+
+}  // namespace
+}  // namespace cornerd::core
