@@ -23,7 +23,9 @@ endif()
 
 find_program(CORNERD_CCACHE ccache)
 if(CORNERD_CCACHE)
-  set(CMAKE_CXX_COMPILER_LAUNCHER ${CORNERD_CCACHE})
+  # Without this it caches nothing that uses a precompiled header.
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env
+    CCACHE_SLOPPINESS=pch_defines,time_macros ${CORNERD_CCACHE})
 endif()
 
 # cornerd_add_library(NAME SOURCES file... LINK target...)

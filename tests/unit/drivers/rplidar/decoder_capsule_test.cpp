@@ -10,7 +10,6 @@
 namespace cornerd::rplidar::test {
 namespace {
 
-using testing::Each;
 using testing::ElementsAre;
 using testing::IsEmpty;
 using testing::SizeIs;

@@ -28,7 +28,7 @@ class Samples : public drivers::SampleSink {
 };
 
 class RplidarDriverTest : public testing::Test {
- protected:
+ public:
   /// Runs the driver until `duration` has passed on the clock.
   void run(std::chrono::milliseconds duration) {
     std::stop_source stop;

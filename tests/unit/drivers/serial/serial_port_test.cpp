@@ -22,8 +22,6 @@ namespace cornerd::drivers {
 namespace {
 
 using std::chrono::milliseconds;
-using testing::HasSubstr;
-using testing::StartsWith;
 using Bytes = std::vector<std::uint8_t>;
 using Status = ByteStream::ReadStatus;
 
