@@ -197,14 +197,14 @@ void Localizer::Workspace::report_pose(const core::Place& found, TimeNs t_ns) {
   const Pose2& T_map_lidar = found.refined.T_map_lidar;
   PoseEstimate& pose = result.pose;
   pose.T_map_base = T_map_lidar * T_lidar_base;
-  pose.covariance = covariance_of_base(found.refined.covariance + doubt_of_motion(motion),
-                                       T_map_lidar, pose.T_map_base);
+  memory.remember(T_map_lidar, t_ns);
+  const Covariance3 of_lidar = found.refined.covariance + doubt_of_motion(motion, memory.motion());
+  pose.covariance = covariance_of_base(of_lidar, T_map_lidar, pose.T_map_base);
   pose.room = map->room_at(pose.T_map_base.translation());
   pose.corners = static_cast<std::size_t>(
       place->recognition.recognised(result.detection.breakpoints, T_map_lidar));
   pose.inliers = found.explanation.hits;
   pose.rmse_m = found.refined.rmse_m;
-  memory.remember(T_map_lidar, t_ns);
 }
 
 void Localizer::Workspace::report_alternatives(std::span<const core::Place> rivals) {

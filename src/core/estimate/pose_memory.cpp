@@ -50,12 +50,19 @@ bool is_plausible(const Twist2& motion) {
   return motion.speed_m_s() < kMaxSpeed_m_s && std::abs(motion.omega_rad_s) < kMaxOmega_rad_s;
 }
 
-Covariance3 doubt_of_motion(const Twist2& motion) {
-  constexpr double kShare = 0.02;
+Covariance3 doubt_of_motion(const Twist2& used, const Twist2& seen) {
   constexpr double kHalfTurn_s = 0.07;
-  const double way_m = kShare * kHalfTurn_s * motion.speed_m_s();
-  const double turn_rad = kShare * kHalfTurn_s * motion.omega_rad_s;
-  return Eigen::Vector3d(way_m * way_m, way_m * way_m, turn_rad * turn_rad).asDiagonal();
+  constexpr double kSteadyShare = 0.02;
+  constexpr double kChangeShare = 0.25;
+  const Twist2 change = seen + Twist2{-used.vx_m_s, -used.vy_m_s, -used.omega_rad_s};
+  const auto variance = [](double steady, double changed) {
+    const double doubt = kHalfTurn_s * (kSteadyShare * steady + kChangeShare * changed);
+    return doubt * doubt;
+  };
+  const double place_m2 = variance(used.speed_m_s(), change.speed_m_s());
+  return Eigen::Vector3d(place_m2, place_m2,
+                         variance(std::abs(used.omega_rad_s), std::abs(change.omega_rad_s)))
+      .asDiagonal();
 }
 
 Covariance3 covariance_of_base(const Covariance3& of_lidar, const Pose2& T_map_lidar,

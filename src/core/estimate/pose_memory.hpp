@@ -33,10 +33,11 @@ class PoseMemory {
 /// True where a robot that needs an A1 may move like this.
 bool is_plausible(const Twist2& motion);
 
-/// What is left of the motion within a turn after its samples were moved back by it: the robot does
-/// not keep its speed to the end. 2 % of half a turn's way makes the covariance of steady drives at
-/// 0.1 to 0.5 m/s no smaller than their errors.
-Covariance3 doubt_of_motion(const Twist2& motion);
+/// What is left of the motion within a turn after its samples were moved back by `used`: the robot
+/// does not keep its speed to the end (2 % of half a turn's way makes the covariance of steady
+/// drives at 0.1 to 0.5 m/s no smaller than their errors), and where the way from the pose before
+/// says another motion, `seen`, it changed its speed in between.
+Covariance3 doubt_of_motion(const Twist2& used, const Twist2& seen);
 
 /// A covariance of `lidar` becomes that of `base`: the offset between them turns with the heading.
 Covariance3 covariance_of_base(const Covariance3& of_lidar, const Pose2& T_map_lidar,
