@@ -25,6 +25,16 @@ constexpr double kMotionReach_m = 0.08;
 /// the wrong one of several.
 constexpr double kCertainHitShare = 0.9;
 constexpr std::size_t kCertainHits = 100;
+/// A place is evident where it explains nearly every ray, or most of them and several corners. What
+/// fits less well may be a building or a motion that is not what it seems: only a place that was
+/// expected is believed on that.
+constexpr double kEvidentHitShare = 0.9;
+constexpr double kEvidentHitShareOfCorners = 0.6;
+constexpr std::size_t kEvidentCorners = 3;
+/// A robot moves no farther than this between two turns. A place farther off was either wrong or
+/// the robot was carried: the next turn tells.
+constexpr double kJump_m = 0.5;
+constexpr double kJump_rad = radians(60);
 /// A motion has to explain one ray in so many more than rest does: it fits things that are not on
 /// the map a little, always.
 constexpr std::size_t kRaysForAMotion = 50;
@@ -58,6 +68,7 @@ struct Localizer::Workspace {
   void look(const Scan& scan, TimeNs t_ns, const Twist2& as_if_moving);
   void look_for_the_motion(const Scan& scan, TimeNs t_ns);
   void look_everywhere();
+  PoseState believe(TimeNs t_ns);
   bool in_doubt() const;
   bool is_smeared() const;
   std::size_t best_hits() const;
@@ -73,7 +84,8 @@ struct Localizer::Workspace {
 
   PoseMemory memory;
   PolarScan points;
-  Twist2 motion;  ///< that `points` were moved back by
+  Twist2 motion;                             ///< that `points` were moved back by
+  std::optional<Pose2> doubted_T_map_lidar;  ///< a jump of the turn before that waits for a second
   TurnResult result;
 };
 
@@ -99,13 +111,41 @@ const TurnResult& Localizer::step(const Scan& scan) {
   if (w.in_doubt()) w.look_everywhere();
 
   // 4. One place is a fix, several are ambiguous, none is lost.
-  const Decision decision =
+  Decision decision =
       w.place ? decide(w.place->verification.places(), w.memory.prior(t_ns)) : Decision{};
+
+  // 5. What is less than evident, or far from where the robot just was, is not believed at once.
+  if (decision.state == PoseState::kFix) decision.state = w.believe(t_ns);
   w.report(decision, t_ns);
   return w.result;
 }
 
-void Localizer::relocalize() { workspace_->memory.forget(); }
+void Localizer::relocalize() {
+  workspace_->memory.forget();
+  workspace_->doubted_T_map_lidar.reset();
+}
+
+PoseState Localizer::Workspace::believe(TimeNs t_ns) {
+  const core::Place& found = place->verification.places().front();
+  const Pose2& T_map_lidar = found.refined.T_map_lidar;
+  const double hit_share = found.explanation.hit_share();
+  const auto corners = static_cast<std::size_t>(
+      place->recognition.recognised(result.detection.breakpoints, T_map_lidar));
+  const bool evident = hit_share >= kEvidentHitShare ||
+                       (hit_share >= kEvidentHitShareOfCorners && corners >= kEvidentCorners);
+  const std::optional<Pose2> prior = memory.prior(t_ns);
+  const bool expected = prior && same_place(*prior, T_map_lidar, kJump_m, kJump_rad);
+  const bool confirmed =
+      doubted_T_map_lidar && same_place(*doubted_T_map_lidar, T_map_lidar, kJump_m, kJump_rad);
+  doubted_T_map_lidar.reset();
+  if (expected) return evident ? PoseState::kFix : PoseState::kTracking;
+  if (!evident) return PoseState::kLost;
+  if (prior && !confirmed) {
+    doubted_T_map_lidar = T_map_lidar;
+    return PoseState::kLost;
+  }
+  return PoseState::kFix;
+}
 
 void Localizer::Workspace::look(const Scan& scan, TimeNs t_ns, const Twist2& as_if_moving) {
   // The returns in the order of their bearing, as a lidar that stood still would have seen them.
