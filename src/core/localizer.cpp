@@ -25,9 +25,9 @@ constexpr double kMotionReach_m = 0.08;
 /// the wrong one of several.
 constexpr double kCertainHitShare = 0.9;
 constexpr std::size_t kCertainHits = 100;
-/// A place is evident where it explains nearly every ray, or most of them and several corners. What
-/// fits less well may be a building or a motion that is not what it seems: only a place that was
-/// expected is believed on that.
+/// A place is evident where it explains nearly every ray and a corner, or most rays and several.
+/// What fits less well may be a building or a motion that is not what it seems: only a place that
+/// was expected is believed on that.
 constexpr double kEvidentHitShare = 0.9;
 constexpr double kEvidentHitShareOfCorners = 0.6;
 constexpr std::size_t kEvidentCorners = 3;
