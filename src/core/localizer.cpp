@@ -85,7 +85,7 @@ struct Localizer::Workspace {
   PoseMemory memory;
   PolarScan points;
   Twist2 motion;                             ///< that `points` were moved back by
-  std::optional<Pose2> doubted_T_map_lidar;  ///< a jump of the turn before that waits for a second
+  std::optional<Pose2> T_map_doubted;  ///< a jump of the turn before that waits for a second
   TurnResult result;
 };
 
@@ -122,7 +122,7 @@ const TurnResult& Localizer::step(const Scan& scan) {
 
 void Localizer::relocalize() {
   workspace_->memory.forget();
-  workspace_->doubted_T_map_lidar.reset();
+  workspace_->T_map_doubted.reset();
 }
 
 PoseState Localizer::Workspace::believe(TimeNs t_ns) {
@@ -136,12 +136,12 @@ PoseState Localizer::Workspace::believe(TimeNs t_ns) {
   const std::optional<Pose2> prior = memory.prior(t_ns);
   const bool expected = prior && same_place(*prior, T_map_lidar, kJump_m, kJump_rad);
   const bool confirmed =
-      doubted_T_map_lidar && same_place(*doubted_T_map_lidar, T_map_lidar, kJump_m, kJump_rad);
-  doubted_T_map_lidar.reset();
+      T_map_doubted && same_place(*T_map_doubted, T_map_lidar, kJump_m, kJump_rad);
+  T_map_doubted.reset();
   if (expected) return evident ? PoseState::kFix : PoseState::kTracking;
   if (!evident) return PoseState::kLost;
   if (prior && !confirmed) {
-    doubted_T_map_lidar = T_map_lidar;
+    T_map_doubted = T_map_lidar;
     return PoseState::kLost;
   }
   return PoseState::kFix;
