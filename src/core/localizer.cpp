@@ -84,7 +84,7 @@ struct Localizer::Workspace {
 
   PoseMemory memory;
   PolarScan points;
-  Twist2 motion;                             ///< that `points` were moved back by
+  Twist2 motion;                       ///< that `points` were moved back by
   std::optional<Pose2> T_map_doubted;  ///< a jump of the turn before that waits for a second
   TurnResult result;
 };
