@@ -14,7 +14,7 @@ namespace cornerd::settings {
 namespace {
 
 constexpr std::size_t kMaxConfigBytes = 1 << 20;
-constexpr std::size_t kMaxNameBytes = 64;
+constexpr std::size_t kMaxModeBytes = 64;
 
 constexpr Choice<DriverKind> kDrivers[] = {{"rplidar", DriverKind::kRplidar},
                                            {"replay", DriverKind::kReplay}};
@@ -66,7 +66,7 @@ void read_lidar(ObjectReader lidar, LidarConfig& config) {
   lidar.choice("driver", config.driver, kDrivers);
   lidar.path("device", config.device);
   lidar.integer("baud", config.baud, 9'600u, 4'000'000u);
-  lidar.text("mode", config.mode, kMaxNameBytes);
+  lidar.text("mode", config.mode, kMaxModeBytes);
   lidar.number("min_range", config.min_range_m, {0, 40});
   lidar.number("max_range", config.max_range_m, {0.1, 40});
   read_mount(lidar.object("mount"), config.mount);

@@ -6,20 +6,20 @@
 namespace cornerd::rplidar {
 namespace {
 
-constexpr int kDegree = 64;
+constexpr int kChainDegree = 64;
 constexpr int kNodesOnTrack = 4;
 constexpr int kNodesAlone = 10;
 constexpr int kMostNodes = 40;  // to see a slow head's advance through the corrections' jitter
 
 // Consecutive nodes of real A1s differ by -7 to +10 degrees.
-constexpr int kMinStep = -10 * kDegree;
-constexpr int kMaxStep = 14 * kDegree;
+constexpr int kChainMinStep = -10 * kChainDegree;
+constexpr int kChainMaxStep = 14 * kChainDegree;
 // Bytes that stand still (a wall at one distance, read three bytes off) are no rotation.
-constexpr int kMinAdvancePerNode = kDegree / 16;
-constexpr int kZeroZone = 30 * kDegree;
+constexpr int kMinAdvancePerNode = kChainDegree / 16;
+constexpr int kChainZeroZone = 30 * kChainDegree;
 
 bool flag_is_believable(const StandardNode& node) {
-  return !node.start_flag || std::abs(angle_step_q6(0, node.angle_q6)) <= kZeroZone;
+  return !node.start_flag || std::abs(angle_step_q6(0, node.angle_q6)) <= kChainZeroZone;
 }
 
 }  // namespace
@@ -36,7 +36,7 @@ ChainMatch match_node_chain(std::span<const std::uint8_t> bytes, const NodeTrack
     if (!node) break;
     if (count > 0) {
       const int step_q6 = angle_step_q6(previous_q6, node->angle_q6);
-      alone = alone && step_q6 >= kMinStep && step_q6 <= kMaxStep;
+      alone = alone && step_q6 >= kChainMinStep && step_q6 <= kChainMaxStep;
       advance_q6 += step_q6;
     }
     alone = alone && flag_is_believable(*node);

@@ -7,12 +7,12 @@
 namespace cornerd::rplidar {
 namespace {
 
-constexpr float kDegree = 64;
+constexpr float kTrackDegree = 64;
 constexpr float kTurn = kFullTurnQ6;
 
 // 508 us a sample: 1 degree at 5.5 turns a second; 0.18 at 1, 3.7 at 20.
-constexpr float kUsualStep = 1.2F * kDegree;
-constexpr float kMaxStep = 4 * kDegree;
+constexpr float kUsualStep = 1.2F * kTrackDegree;
+constexpr float kTrackMaxStep = 4 * kTrackDegree;
 
 // Gains of a critically damped filter over about 8 nodes.
 constexpr float kAngleGain = 1.0F / 8;
@@ -20,9 +20,9 @@ constexpr float kStepGain = 1.0F / 128;
 
 // The core's angle correction spans 9.2 degrees between a near return and none; the smoothed angle
 // may stand at either end.
-constexpr float kTolerance = 13 * kDegree;
+constexpr float kTolerance = 13 * kTrackDegree;
 // Real start flags arrive at 351 to 359 degrees.
-constexpr float kZeroZone = 30 * kDegree;
+constexpr float kTrackZeroZone = 30 * kTrackDegree;
 
 float wrap_difference(float difference) {
   return difference - kTurn * std::round(difference / kTurn);
@@ -46,7 +46,7 @@ void NodeTrack::advance(const StandardNode& node, int periods) {
       wrap_difference(static_cast<float>(node.angle_q6) - (angle_q6_ + expected_move));
   last_move_q6_ = expected_move + residual * kAngleGain;
   angle_q6_ = wrap_angle(angle_q6_ + last_move_q6_);
-  step_q6_ = std::clamp(step_q6_ + residual * kStepGain, 0.01F * kDegree, kMaxStep);
+  step_q6_ = std::clamp(step_q6_ + residual * kStepGain, 0.01F * kTrackDegree, kTrackMaxStep);
 }
 
 bool NodeTrack::explains(const StandardNode& node, int periods) const {
@@ -54,6 +54,6 @@ bool NodeTrack::explains(const StandardNode& node, int periods) const {
   return std::abs(wrap_difference(static_cast<float>(node.angle_q6) - expected)) <= kTolerance;
 }
 
-bool NodeTrack::near_zero() const { return std::abs(wrap_difference(angle_q6_)) <= kZeroZone; }
+bool NodeTrack::near_zero() const { return std::abs(wrap_difference(angle_q6_)) <= kTrackZeroZone; }
 
 }  // namespace cornerd::rplidar

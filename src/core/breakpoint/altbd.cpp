@@ -9,8 +9,6 @@ namespace {
 
 /// Samples that start a line; fewer have no residual, more span the short faces of thin walls.
 constexpr std::uint32_t kSeedSize = 3;
-/// Axes of the ellipse in standard deviations: one sample in 2,000 of a normal residual is a miss.
-constexpr double kGateSigmas = 3.5;
 /// Misses in a row that end a wall: outliers come alone, mixed pixels in twos.
 constexpr std::uint32_t kMissesToBreak = 3;
 /// A ray closer to the wall's direction than this tells nothing of where it meets the wall.

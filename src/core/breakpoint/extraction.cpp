@@ -11,7 +11,6 @@ namespace cornerd::core {
 namespace {
 
 constexpr double kMinCornerAngle_rad = radians(15);
-constexpr double kGateSigmas = 3.5;
 
 double heading(const Vec2& direction) { return std::atan2(direction.y(), direction.x()); }
 

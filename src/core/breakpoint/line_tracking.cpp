@@ -7,7 +7,7 @@ namespace cornerd::core {
 namespace {
 
 /// Step 1: two samples make a line.
-constexpr std::size_t kSeedSize = 2;
+constexpr std::size_t kLineSeed = 2;
 
 double distance_m(const Line& line, const PolarPoint& point) {
   return std::abs(line.normal.dot(Vec2(point.x_m, point.y_m)) - line.offset_m);
@@ -19,7 +19,7 @@ std::size_t LineTracking::track(const PolarScan& scan, SegmentTracks& tracks) co
   tracks.clear();
   std::size_t dropped = 0;
   std::size_t index = 0;
-  while (index + kSeedSize <= scan.size()) {
+  while (index + kLineSeed <= scan.size()) {
     SegmentTrack wall = SegmentTrack::starting_at(scan, index);
     wall.add(scan, index++, noise_);
     do {

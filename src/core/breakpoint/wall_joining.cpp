@@ -6,7 +6,6 @@
 namespace cornerd::core {
 namespace {
 
-constexpr double kGateSigmas = 3.5;
 /// Samples that may lie between two pieces of one wall: a table leg, a run of outliers.
 constexpr std::size_t kMaxInterruption = 4;
 /// What two pieces of one wall may be apart, so that no door becomes a wall.

@@ -30,7 +30,7 @@ constexpr double kHitSigmas = 4;
 /// Least standard deviation of a range: what walls are off their place in any map.
 constexpr double kMapSigma_m = 0.003;
 /// The beam's own width at a wall's edge makes ranges that belong to neither side.
-constexpr double kMinSine = 0.05;
+constexpr double kMinIncidenceSine = 0.05;
 
 }  // namespace
 
@@ -68,7 +68,7 @@ Explanation explain(const WallMap& map, std::span<const PolarPoint> points,
     }
     const Vec2& normal = map.faces()[hits[i].face].normal;
     const double sine =
-        std::max(kMinSine, std::abs(normal.x() * (c * point.ray_x - s * point.ray_y) +
+        std::max(kMinIncidenceSine, std::abs(normal.x() * (c * point.ray_x - s * point.ray_y) +
                                     normal.y() * (s * point.ray_x + c * point.ray_y)));
     const double variance = noise.variance_across_m2(hits[i].range_m, sine) / (sine * sine) *
                                 noise_scale * noise_scale +

@@ -12,7 +12,7 @@ constexpr std::size_t kMaxSelected = 7;
 constexpr double kMinBaseline_m = 0.15;
 /// Least tolerance of a distance between two breakpoints: what a map may be off.
 constexpr double kDistanceFloor_m = 0.01;
-constexpr double kGateSigmas = 3.5;
+constexpr double kPatternGateSigmas = 3.5;
 constexpr double kDirectionTolerance_rad = radians(15);
 /// Two walls meet at an angle that fixes a place only when they are far from parallel.
 constexpr double kMinWallSine = 0.5;
@@ -80,7 +80,7 @@ void Recognition::add_pair(const Breakpoint& first, const Breakpoint& second) {
   const double distance_m = seen.norm();
   if (distance_m < kMinBaseline_m) return;
   const double tolerance_m =
-      kDistanceFloor_m + kGateSigmas * std::hypot(sigma_of(first), sigma_of(second));
+      kDistanceFloor_m + kPatternGateSigmas * std::hypot(sigma_of(first), sigma_of(second));
   const double seen_rad = std::atan2(seen.y(), seen.x());
   const Vec2 seen_middle = (first.position + second.position) / 2;
   const auto landmarks = catalog_.landmarks();

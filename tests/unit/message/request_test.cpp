@@ -11,7 +11,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-RequestError error_of(std::string_view line) {
+RequestError request_error(std::string_view line) {
   const Request request = parse_request(line);
   const auto* error = std::get_if<RequestError>(&request.body);
   EXPECT_NE(error, nullptr) << line;
@@ -34,7 +34,7 @@ TEST(ParseRequest, WatchOfNothing_IsAnEmptySet) {
 }
 
 TEST(ParseRequest, WatchOfAnUnknownClass_IsNamed) {
-  const RequestError error = error_of(R"({"class":"WATCH","classes":["POSE","pose"]})");
+  const RequestError error = request_error(R"({"class":"WATCH","classes":["POSE","pose"]})");
   EXPECT_EQ(error.code, "field");
   EXPECT_THAT(error.text, HasSubstr("pose"));
 }
@@ -42,7 +42,7 @@ TEST(ParseRequest, WatchOfAnUnknownClass_IsNamed) {
 TEST(ParseRequest, WatchWithoutGoodClasses_IsAnError) {
   for (const char* line : {R"({"class":"WATCH"})", R"({"class":"WATCH","classes":"POSE"})",
                            R"({"class":"WATCH","classes":[1]})"}) {
-    EXPECT_THAT(error_of(line).text, HasSubstr("\"classes\"")) << line;
+    EXPECT_THAT(request_error(line).text, HasSubstr("\"classes\"")) << line;
   }
 }
 
@@ -61,13 +61,13 @@ TEST(ParseRequest, SetPose_IsBroughtIntoOneTurn) {
 }
 
 TEST(ParseRequest, SetPoseInDegrees_IsRefused) {
-  EXPECT_THAT(error_of(R"({"class":"SET_POSE","x":1,"y":0,"theta":90})").text,
+  EXPECT_THAT(request_error(R"({"class":"SET_POSE","x":1,"y":0,"theta":90})").text,
               HasSubstr("\"theta\" must be from -6.3 to 6.3"));
 }
 
 TEST(ParseRequest, SetPoseWithoutAField_NamesIt) {
-  EXPECT_EQ(error_of(R"({"class":"SET_POSE","x":1,"theta":0})").text, "\"y\" is missing");
-  EXPECT_EQ(error_of(R"({"class":"SET_POSE","x":"1","y":0,"theta":0})").text,
+  EXPECT_EQ(request_error(R"({"class":"SET_POSE","x":1,"theta":0})").text, "\"y\" is missing");
+  EXPECT_EQ(request_error(R"({"class":"SET_POSE","x":"1","y":0,"theta":0})").text,
             "\"x\" must be a number");
 }
 
@@ -85,11 +85,11 @@ TEST(ParseRequest, Odometry_MayLackAnyField) {
 }
 
 TEST(ParseRequest, OdometryCountsThatAreNoCounts_AreRefused) {
-  EXPECT_THAT(error_of(R"({"class":"ODOMETRY","left":1.5})").text, HasSubstr("whole number"));
-  EXPECT_THAT(error_of(R"({"class":"ODOMETRY","left":18446744073709551615})").text,
+  EXPECT_THAT(request_error(R"({"class":"ODOMETRY","left":1.5})").text, HasSubstr("whole number"));
+  EXPECT_THAT(request_error(R"({"class":"ODOMETRY","left":18446744073709551615})").text,
               HasSubstr("64 bits"));
-  EXPECT_THAT(error_of(R"({"class":"ODOMETRY","left":true})").text, HasSubstr("a number"));
-  EXPECT_THAT(error_of(R"({"class":"ODOMETRY","t":1e10})").text, HasSubstr("\"t\""));
+  EXPECT_THAT(request_error(R"({"class":"ODOMETRY","left":true})").text, HasSubstr("a number"));
+  EXPECT_THAT(request_error(R"({"class":"ODOMETRY","t":1e10})").text, HasSubstr("\"t\""));
 }
 
 TEST(ParseRequest, IdOfAnyScalarType_IsRepeated) {
@@ -104,8 +104,8 @@ TEST(ParseRequest, IdOfAnyScalarType_IsRepeated) {
 }
 
 TEST(ParseRequest, IdThatIsNoScalarOrTooLong_IsAnError) {
-  EXPECT_THAT(error_of(R"({"class":"POLL","id":[1]})").text, HasSubstr("\"id\""));
-  EXPECT_THAT(error_of(R"({"class":"POLL","id":")" + std::string(300, 'x') + "\"}").text,
+  EXPECT_THAT(request_error(R"({"class":"POLL","id":[1]})").text, HasSubstr("\"id\""));
+  EXPECT_THAT(request_error(R"({"class":"POLL","id":")" + std::string(300, 'x') + "\"}").text,
               HasSubstr("\"id\""));
 }
 
@@ -117,23 +117,23 @@ TEST(ParseRequest, ErrorOfAnotherField_StillBearsTheId) {
 }
 
 TEST(ParseRequest, UnknownOrMissingClass_HasItsOwnCode) {
-  EXPECT_EQ(error_of(R"({"class":"FLY"})").code, "class");
-  EXPECT_THAT(error_of(R"({"class":"FLY"})").text, HasSubstr("FLY"));
-  EXPECT_EQ(error_of("{}").code, "class");
-  EXPECT_EQ(error_of(R"({"class":3})").code, "field");
+  EXPECT_EQ(request_error(R"({"class":"FLY"})").code, "class");
+  EXPECT_THAT(request_error(R"({"class":"FLY"})").text, HasSubstr("FLY"));
+  EXPECT_EQ(request_error("{}").code, "class");
+  EXPECT_EQ(request_error(R"({"class":3})").code, "field");
 }
 
 TEST(ParseRequest, WhatIsNoObject_IsAJsonError) {
   for (const char* line : {"", " ", "hello", "[]", "1", "{\"class\":\"POLL\"", "{}{}", "\xff",
                            "{\"class\":\"\xff\"}", "{\"class\":\"POLL\",\"n\":1e999}", "null"}) {
-    EXPECT_EQ(error_of(line).code, "json") << line;
+    EXPECT_EQ(request_error(line).code, "json") << line;
   }
 }
 
 TEST(ParseRequest, TooLongOrTooDeep_IsRefusedBeforeItIsRead) {
-  EXPECT_EQ(error_of(std::string(kMaxRequestBytes + 1, ' ')).code, "too-long");
-  EXPECT_EQ(error_of(std::string(kMaxRequestBytes, '[')).code, "json");
-  EXPECT_THAT(error_of(R"({"a":[[[[[[[[1]]]]]]]]})").text, HasSubstr("nested"));
+  EXPECT_EQ(request_error(std::string(kMaxRequestBytes + 1, ' ')).code, "too-long");
+  EXPECT_EQ(request_error(std::string(kMaxRequestBytes, '[')).code, "json");
+  EXPECT_THAT(request_error(R"({"a":[[[[[[[[1]]]]]]]]})").text, HasSubstr("nested"));
 }
 
 TEST(ParseRequest, BracketsInsideAString_AreNoDepth) {

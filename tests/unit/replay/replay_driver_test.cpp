@@ -18,7 +18,7 @@ namespace {
 
 using drivers::LidarState;
 
-struct Samples : drivers::SampleSink {
+struct PlayedSamples : drivers::SampleSink {
   void on_sample(const core::Sample& sample) override {
     samples.push_back(sample);
     if (samples.size() == stop_after) stop.request_stop();
@@ -45,7 +45,7 @@ std::filesystem::path write_recording(const TemporaryFolder& folder) {
 TEST(ReplayDriver, Recording_IsDeliveredInItsOwnTimeAndEnds) {
   const TemporaryFolder folder;
   ReplayDriver driver({write_recording(folder), 0, false, {}});
-  Samples sink;
+  PlayedSamples sink;
   driver.run({}, sink);
   ASSERT_EQ(sink.samples.size(), 8u);
   EXPECT_EQ(sink.samples[0].t_ns, 5 * core::kNsPerSecond);
@@ -61,7 +61,7 @@ TEST(ReplayDriver, Recording_IsDeliveredInItsOwnTimeAndEnds) {
 TEST(ReplayDriver, Loop_LetsTimeGoOnGrowingEvenly) {
   const TemporaryFolder folder;
   ReplayDriver driver({write_recording(folder), 0, true, {}});
-  Samples sink;
+  PlayedSamples sink;
   sink.stop_after = 28;
   driver.run(sink.stop.get_token(), sink);
   ASSERT_EQ(sink.samples.size(), 28u);
@@ -75,7 +75,7 @@ TEST(ReplayDriver, Loop_LetsTimeGoOnGrowingEvenly) {
 TEST(ReplayDriver, Speed_PacesTheSamples) {
   const TemporaryFolder folder;
   ReplayDriver driver({write_recording(folder), 2, false, {}});
-  Samples sink;
+  PlayedSamples sink;
   const auto begin = std::chrono::steady_clock::now();
   driver.run({}, sink);
   // 0.175 s from the first sample to the last, at twice the speed. Slower is the machine's affair.
@@ -86,7 +86,7 @@ TEST(ReplayDriver, Speed_PacesTheSamples) {
 TEST(ReplayDriver, Stop_IsHonouredWhileItWaits) {
   const TemporaryFolder folder;
   ReplayDriver driver({write_recording(folder), 1e-6, false, {}});  // 25 ms become seven hours
-  Samples sink;
+  PlayedSamples sink;
   sink.stop_after = 1;
   driver.run(sink.stop.get_token(), sink);
   EXPECT_EQ(sink.samples.size(), 1u);
@@ -124,7 +124,7 @@ TEST(ReplayDriver, FullSpeed_DoesNotOverrunASlowConsumer) {
 
 TEST(ReplayDriver, UnreadableFile_IsAFaultThatIsNamed) {
   ReplayDriver driver({"/nonexistent/a.bin", 1, true, {}});
-  Samples sink;
+  PlayedSamples sink;
   driver.run({}, sink);
   const drivers::LidarStatus status = driver.status();
   EXPECT_EQ(status.state, LidarState::kFaulty);
@@ -135,7 +135,7 @@ TEST(ReplayDriver, LoopOverNothing_Ends) {
   const TemporaryFolder folder;
   std::ofstream(folder.path() / "empty.bin").flush();
   ReplayDriver driver({folder.path() / "empty.bin", 0, true, {}});
-  Samples sink;
+  PlayedSamples sink;
   driver.run({}, sink);
   EXPECT_EQ(driver.status().state, LidarState::kEnded);
 }

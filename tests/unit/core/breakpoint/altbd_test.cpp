@@ -14,7 +14,7 @@ struct Tracked {
   std::size_t dropped = 0;
 };
 
-Tracked track(const PolarScan& points, const SensorNoise& believed = {}) {
+Tracked altbd_walls(const PolarScan& points, const SensorNoise& believed = {}) {
   Altbd altbd({}, believed);
   Tracked tracked;
   tracked.tracks.reserve(kMaxSegmentsPerTurn);
@@ -29,7 +29,7 @@ TEST(Altbd, RectangularRoom_HasFourWallsAndTheSeam) {
   for (int k = 0; k < 20; ++k) {
     const Pose2 T_map_lidar = source.place_in(0.5, 2.5, 0.5, 1.5);
     const PolarScan points = testing::polar(source.take(*map, T_map_lidar));
-    const Tracked tracked = track(points);
+    const Tracked tracked = altbd_walls(points);
     // The seam at bearing pi cuts a wall, or falls into a corner.
     EXPECT_GE(tracked.tracks.size(), 4U);
     EXPECT_LE(tracked.tracks.size(), 5U);
@@ -49,7 +49,7 @@ TEST(Altbd, OutliersAlone_BreakNoWall) {
     if (index++ % 40 == 20) sample.range_m *= 0.5F;
     scan.add(sample);
   }
-  EXPECT_LE(track(testing::polar(scan)).tracks.size(), 5U);
+  EXPECT_LE(altbd_walls(testing::polar(scan)).tracks.size(), 5U);
 }
 
 TEST(Altbd, NoiseTwiceTheModel_IsNoticedAndBreaksLittle) {
@@ -57,7 +57,7 @@ TEST(Altbd, NoiseTwiceTheModel_IsNoticedAndBreaksLittle) {
   testing::TurnSource source(13);
   testing::TurnOptions options;
   options.noise = {0.003, 0.01, 2 * SensorNoise{}.bearing_rad};
-  const Tracked tracked = track(testing::polar(source.take(*map, {1.5, 1, 0.3}, options)));
+  const Tracked tracked = altbd_walls(testing::polar(source.take(*map, {1.5, 1, 0.3}, options)));
   EXPECT_LE(tracked.tracks.size(), 7U);  // one may break before enough of the noise was seen
   EXPECT_NEAR(tracked.noise_scale, 2, 0.3);
 }
@@ -70,8 +70,8 @@ TEST(Altbd, FewerThanFivePoints_AreNoWall) {
     sample.range_m = 1;
     scan.add(sample);
   }
-  EXPECT_TRUE(track(testing::polar(scan)).tracks.empty());
-  EXPECT_TRUE(track(testing::polar(Scan())).tracks.empty());
+  EXPECT_TRUE(altbd_walls(testing::polar(scan)).tracks.empty());
+  EXPECT_TRUE(altbd_walls(testing::polar(Scan())).tracks.empty());
 }
 
 TEST(Altbd, MoreWallsThanFit_AreDroppedAndCounted) {

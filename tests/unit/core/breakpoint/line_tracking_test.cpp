@@ -10,14 +10,14 @@
 namespace cornerd::core {
 namespace {
 
-SegmentTracks track(const PolarScan& points) {
+SegmentTracks lines_of(const PolarScan& points) {
   SegmentTracks tracks;
   tracks.reserve(kMaxSegmentsPerTurn);
   EXPECT_EQ(LineTracking(SensorNoise{}).track(points, tracks), 0U);
   return tracks;
 }
 
-std::uint32_t support_of(const SegmentTracks& tracks) {
+std::uint32_t lines_support(const SegmentTracks& tracks) {
   std::uint32_t support = 0;
   for (const SegmentTrack& wall : tracks) support += wall.support;
   return support;
@@ -34,13 +34,13 @@ TEST(LineTracking, RectangularRoom_HasFourWallsAndTheSeam) {
   exact.with_noise = false;
   for (int k = 0; k < 20; ++k) {
     const Pose2 T_map_lidar = source.place_in(0.5, 2.5, 0.5, 1.5);
-    const SegmentTracks tracks = track(testing::polar(source.take(*map, T_map_lidar, exact)));
+    const SegmentTracks tracks = lines_of(testing::polar(source.take(*map, T_map_lidar, exact)));
     EXPECT_GE(tracks.size(), 4U);
     EXPECT_LE(tracks.size(), 5U);
     // With noise a line through two samples can point anywhere: more pieces, but of the same walls.
     const PolarScan points = testing::polar(source.take(*map, T_map_lidar));
-    EXPECT_GE(track(points).size(), 4U);
-    EXPECT_GT(support_of(track(points)), points.size() * 95 / 100);
+    EXPECT_GE(lines_of(points).size(), 4U);
+    EXPECT_GT(lines_support(lines_of(points)), points.size() * 95 / 100);
   }
 }
 
@@ -51,7 +51,7 @@ TEST(LineTracking, Walls_AreRunsThatFollowEachOther) {
     const Pose2 T_map_lidar = source.place_in(0.5, 2.2, 0.4, 1.5);
     const PolarScan points = testing::polar(source.take(*map, T_map_lidar));
     std::uint32_t free_from = 0;
-    for (const SegmentTrack& wall : track(points)) {
+    for (const SegmentTrack& wall : lines_of(points)) {
       EXPECT_GE(wall.first, free_from);
       EXPECT_EQ(wall.last - wall.first + 1, wall.support);
       EXPECT_LT(wall.last, points.size());
@@ -66,7 +66,7 @@ TEST(LineTracking, AWall_EndsWhereTheNextSampleIsFartherThanTheLimit) {
   for (int k = 0; k < 20; ++k) {
     const Pose2 T_map_lidar = source.place_in(0.5, 2.2, 0.4, 1.5);
     const PolarScan points = testing::polar(source.take(*map, T_map_lidar));
-    for (const SegmentTrack& wall : track(points)) {
+    for (const SegmentTrack& wall : lines_of(points)) {
       if (wall.last + 1 == points.size()) continue;
       EXPECT_GT(distance_m(wall.line, points[wall.last + 1]), LineTracking::kMaxDistance_m);
     }
@@ -88,8 +88,8 @@ PolarScan stepped_wall(double step_m) {
 }
 
 TEST(LineTracking, AStep_IsSeenFromTheLimitOn) {
-  EXPECT_EQ(track(stepped_wall(0.9 * LineTracking::kMaxDistance_m)).size(), 1U);
-  const SegmentTracks tracks = track(stepped_wall(1.1 * LineTracking::kMaxDistance_m));
+  EXPECT_EQ(lines_of(stepped_wall(0.9 * LineTracking::kMaxDistance_m)).size(), 1U);
+  const SegmentTracks tracks = lines_of(stepped_wall(1.1 * LineTracking::kMaxDistance_m));
   ASSERT_EQ(tracks.size(), 2U);
   EXPECT_EQ(tracks[0].last, 49U);
   EXPECT_EQ(tracks[1].first, 50U);
@@ -97,13 +97,13 @@ TEST(LineTracking, AStep_IsSeenFromTheLimitOn) {
 
 TEST(LineTracking, FewerThanFivePoints_AreNoWall) {
   Scan scan;
-  EXPECT_TRUE(track(testing::polar(scan)).empty());
+  EXPECT_TRUE(lines_of(testing::polar(scan)).empty());
   for (std::uint32_t i = 1; i <= kMinSupport; ++i) {
     Sample sample;
     sample.bearing_rad = 0.01F * static_cast<float>(i);
     sample.range_m = 1;
     scan.add(sample);
-    EXPECT_EQ(track(testing::polar(scan)).size(), i < kMinSupport ? 0U : 1U);
+    EXPECT_EQ(lines_of(testing::polar(scan)).size(), i < kMinSupport ? 0U : 1U);
   }
 }
 
@@ -111,7 +111,7 @@ TEST(LineTracking, MoreWallsThanFit_AreDroppedAndCounted) {
   const auto map = testing::make_map(testing::rectangular_room(3, 2));
   testing::TurnSource source(34);
   const PolarScan points = testing::polar(source.take(*map, {1.5, 1, 0.3}));
-  const std::size_t all = track(points).size();
+  const std::size_t all = lines_of(points).size();
   SegmentTracks tracks;
   tracks.reserve(2);
   const std::size_t capacity = tracks.capacity();

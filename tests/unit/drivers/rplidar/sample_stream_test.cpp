@@ -13,7 +13,7 @@ namespace {
 
 using testing::SizeIs;
 
-class Samples : public drivers::SampleSink {
+class StreamedSamples : public drivers::SampleSink {
  public:
   void on_sample(const core::Sample& sample) override { all.push_back(sample); }
   void on_gap() override { ++gaps; }
@@ -21,9 +21,9 @@ class Samples : public drivers::SampleSink {
   int gaps = 0;
 };
 
-Samples stream_untimed(const Bytes& bytes, const SampleStreamConfig& config) {
+StreamedSamples stream_untimed(const Bytes& bytes, const SampleStreamConfig& config) {
   SampleStream stream(config);
-  Samples samples;
+  StreamedSamples samples;
   stream.feed_untimed(bytes, samples);
   stream.finish(samples);
   return samples;
@@ -76,7 +76,7 @@ TEST(SampleStream, TimedBytes_GiveTheTimeOfMeasurement) {
   constexpr double kPeriodS = 254e-6;
   const auto capsules = express_capsules(1000, 5, 21.4);
   SampleStream stream({.format = WireFormat::kExpress});
-  Samples samples;
+  StreamedSamples samples;
   Bytes waiting;
   double last_byte_s = 0;
   for (std::size_t c = 0; c < capsules.size(); ++c) {
