@@ -69,7 +69,7 @@ Explanation explain(const WallMap& map, std::span<const PolarPoint> points,
     const Vec2& normal = map.faces()[hits[i].face].normal;
     const double sine =
         std::max(kMinIncidenceSine, std::abs(normal.x() * (c * point.ray_x - s * point.ray_y) +
-                                    normal.y() * (s * point.ray_x + c * point.ray_y)));
+                                             normal.y() * (s * point.ray_x + c * point.ray_y)));
     const double variance = noise.variance_across_m2(hits[i].range_m, sine) / (sine * sine) *
                                 noise_scale * noise_scale +
                             kMapSigma_m * kMapSigma_m + slack_m * slack_m;
