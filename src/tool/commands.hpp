@@ -16,5 +16,6 @@ void add_record(CLI::App& program);
 void add_simulate(CLI::App& program);
 void add_emulate(CLI::App& program);
 void add_map(CLI::App& program);
+void add_bench(CLI::App& program);
 
 }  // namespace cornerd::tool

@@ -34,6 +34,7 @@ int run_cornerctl(int argc, const char* const* argv) {
   add_simulate(program);
   add_emulate(program);
   add_map(program);
+  add_bench(program);
 
   try {
     program.parse(argc, argv);

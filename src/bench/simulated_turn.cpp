@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+#include "bench/simulated_turn.hpp"
+
+namespace cornerd::bench {
+namespace {
+
+constexpr core::TimeNs kTurn_ns = 137'000'000;  // an A1 that runs free on 5 V
+constexpr double kSight_m = 100;                // the sensor model has limits of its own
+
+}  // namespace
+
+TurnSimulator::TurnSimulator(const replay::SensorModel& sensor, std::size_t samples,
+                             std::uint64_t seed)
+    : noise_(sensor, seed), samples_(samples) {}
+
+const core::Scan& TurnSimulator::take(const core::WallMap& map, const core::Pose2& T_map_lidar) {
+  turn_.clear();
+  const core::Vec2 origin = T_map_lidar.translation();
+  for (std::size_t i = 0; i < samples_; ++i) {
+    const double share = (static_cast<double>(i) + 0.5) / static_cast<double>(samples_);
+    const double bearing_rad = core::kPi - core::kTwoPi * share;
+    const double looks_rad = bearing_rad - noise_.direction_error(-bearing_rad);
+    const double range_m = map.range_along(origin, T_map_lidar.theta_rad + looks_rad, kSight_m);
+    core::Sample sample;
+    sample.t_ns = static_cast<core::TimeNs>(share * static_cast<double>(kTurn_ns));
+    sample.bearing_rad = static_cast<float>(bearing_rad);
+    sample.range_m = static_cast<float>(noise_.measured(range_m));
+    sample.starts_turn = i == 0;
+    turn_.add(sample);
+  }
+  return turn_;
+}
+
+}  // namespace cornerd::bench

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+#include "tool/progress_bar.hpp"
+
+#include <unistd.h>
+
+#include <cstdio>
+#include <utility>
+
+namespace cornerd::tool {
+
+ProgressBar::ProgressBar(std::string title, std::size_t total)
+    : title_(std::move(title)), total_(total), on_terminal_(isatty(STDERR_FILENO) == 1) {}
+
+ProgressBar::~ProgressBar() {
+  if (on_terminal_ && shown_percent_ <= 100) std::fputs("\r\033[K", stderr);
+}
+
+void ProgressBar::show(std::size_t done) {
+  if (!on_terminal_ || total_ == 0) return;
+  const std::size_t percent = 100 * done / total_;
+  if (percent == shown_percent_) return;
+  shown_percent_ = percent;
+  constexpr std::size_t kWidth = 40;
+  const std::string bar(kWidth * done / total_, '#');
+  std::fprintf(stderr, "\r%s [%-40s] %3zu %%", title_.c_str(), bar.c_str(), percent);
+}
+
+}  // namespace cornerd::tool

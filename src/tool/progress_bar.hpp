@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+namespace cornerd::tool {
+
+/// A line on standard error that says how far a long command is; nothing where that is no terminal.
+class ProgressBar {
+ public:
+  ProgressBar(std::string title, std::size_t total);
+  ~ProgressBar();  ///< takes the line away
+  ProgressBar(const ProgressBar&) = delete;
+  ProgressBar& operator=(const ProgressBar&) = delete;
+
+  void show(std::size_t done);
+
+ private:
+  std::string title_;
+  std::size_t total_;
+  bool on_terminal_;
+  std::size_t shown_percent_ = 101;
+};
+
+}  // namespace cornerd::tool
