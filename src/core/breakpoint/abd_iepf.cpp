@@ -7,24 +7,43 @@
 namespace cornerd::core {
 namespace {
 
-/// Section V.C, both.
-constexpr double kSigma = 0.0038;
-constexpr double kLambda_rad = radians(8);
-
 /// Round a closed room a segment's ends can be one place. Below an A1's resolution a chord has no
 /// direction to speak of, and the distance to that place counts instead.
 constexpr double kMinChord_m = 0.001;
 
-const double kSinLambda = std::sin(kLambda_rad);
-const double kCosLambda = std::cos(kLambda_rad);
-
 Vec2 place_of(const PolarPoint& point) { return {point.x_m, point.y_m}; }
 
-/// Eq. 1.
-bool are_apart(AbdThreshold threshold, const PolarPoint& before, const PolarPoint& after) {
-  const double limit_m = abd_threshold_m(threshold, before, after);
-  return (place_of(after) - place_of(before)).squaredNorm() > limit_m * limit_m;
-}
+/// What eq. 4 and 5 ask of the configuration, made once a turn.
+struct Abd {
+  explicit Abd(const AbdIepfConfig& config)
+      : threshold(config.threshold),
+        lambda_rad(config.lambda_rad),
+        sin_lambda(std::sin(config.lambda_rad)),
+        cos_lambda(std::cos(config.lambda_rad)),
+        sigma3(3 * config.sigma_r) {}
+
+  double limit_m(const PolarPoint& before, const PolarPoint& after) const {
+    if (after.bearing_rad - before.bearing_rad >= lambda_rad) return 0;
+    const double sine = before.ray_x * after.ray_y - before.ray_y * after.ray_x;
+    const double cosine = before.ray_x * after.ray_x + before.ray_y * after.ray_y;
+    const double ratio = sine / (sin_lambda * cosine - cos_lambda * sine);
+    if (threshold == AbdThreshold::kBorgesAldon) return before.range_m * ratio + sigma3;
+    const auto [shorter_m, longer_m] = std::minmax(before.range_m, after.range_m);
+    return shorter_m * (1 - sigma3) * ratio + sigma3 * longer_m;
+  }
+
+  /// Eq. 1.
+  bool are_apart(const PolarPoint& before, const PolarPoint& after) const {
+    const double limit = limit_m(before, after);
+    return (place_of(after) - place_of(before)).squaredNorm() > limit * limit;
+  }
+
+  AbdThreshold threshold;
+  double lambda_rad;
+  double sin_lambda;
+  double cos_lambda;
+  double sigma3;
+};
 
 struct Farthest {
   std::size_t index = 0;
@@ -36,12 +55,13 @@ Farthest farthest_from_chord(const PolarScan& scan, std::size_t first, std::size
   const Vec2 begin = place_of(scan[first]);
   const Vec2 chord = place_of(scan[last]) - begin;
   const double length_m = chord.norm();
-  const Vec2 direction = length_m > kMinChord_m ? Vec2(chord / length_m) : Vec2::Zero();
+  const bool closed = length_m <= kMinChord_m;
+  const Vec2 direction = closed ? Vec2::Zero() : Vec2(chord / length_m);
   Farthest farthest;
   for (std::size_t i = first + 1; i < last; ++i) {
     const Vec2 offset = place_of(scan[i]) - begin;
-    const double along_m = direction.dot(offset);
-    const double height_m2 = offset.squaredNorm() - along_m * along_m;
+    const double height_m = cross(direction, offset);
+    const double height_m2 = closed ? offset.squaredNorm() : height_m * height_m;
     if (height_m2 > farthest.height_m2) farthest = {i, height_m2};
   }
   return farthest;
@@ -49,19 +69,13 @@ Farthest farthest_from_chord(const PolarScan& scan, std::size_t first, std::size
 
 }  // namespace
 
-double abd_threshold_m(AbdThreshold threshold, const PolarPoint& before, const PolarPoint& after) {
-  if (after.bearing_rad - before.bearing_rad >= kLambda_rad) return 0;
-  const Vec2 ray(before.ray_x, before.ray_y);
-  const Vec2 next_ray(after.ray_x, after.ray_y);
-  const double sine = cross(ray, next_ray);
-  const double ratio = sine / (kSinLambda * ray.dot(next_ray) - kCosLambda * sine);
-  if (threshold == AbdThreshold::kBorgesAldon) return before.range_m * ratio + 3 * kSigma;
-  const auto [shorter_m, longer_m] = std::minmax(before.range_m, after.range_m);
-  return shorter_m * (1 - 3 * kSigma) * ratio + 3 * kSigma * longer_m;
+double abd_threshold_m(const AbdIepfConfig& config, const PolarPoint& before,
+                       const PolarPoint& after) {
+  return Abd(config).limit_m(before, after);
 }
 
-AbdIepf::AbdIepf(const SensorNoise& noise, const AbdIepfOptions& options)
-    : noise_(noise), options_(options) {
+AbdIepf::AbdIepf(const DetectorConfig& config, const SensorNoise& noise)
+    : noise_(noise), config_(config.abd_iepf), min_support_(config.min_support) {
   ends_.reserve(kMaxSamplesPerTurn);  // they are different samples: no turn has more of them
 }
 
@@ -74,7 +88,7 @@ SegmentTrack AbdIepf::fit(const PolarScan& scan, std::size_t first, std::size_t 
 
 std::size_t AbdIepf::split(const PolarScan& scan, std::size_t first, std::size_t last,
                            SegmentTracks& tracks) {
-  const double limit_m2 = options_.split_limit_m * options_.split_limit_m;
+  const double limit_m2 = config_.split_limit_m * config_.split_limit_m;
   std::size_t dropped = 0;
   std::size_t begin = first;
   ends_.assign(1, last);
@@ -85,7 +99,8 @@ std::size_t AbdIepf::split(const PolarScan& scan, std::size_t first, std::size_t
       ends_.push_back(farthest.index);
       continue;
     }
-    if (!keep_wall(fit(scan, begin == first ? first : begin + 1, end), tracks)) ++dropped;
+    const std::size_t own = begin == first ? first : begin + 1;
+    if (end + 1 >= own + min_support_ && !keep_wall(fit(scan, own, end), tracks)) ++dropped;
     begin = end;
     ends_.pop_back();
   }
@@ -94,11 +109,11 @@ std::size_t AbdIepf::split(const PolarScan& scan, std::size_t first, std::size_t
 
 std::size_t AbdIepf::track(const PolarScan& scan, SegmentTracks& tracks) {
   tracks.clear();
+  const Abd abd(config_);
   std::size_t dropped = 0;
   std::size_t first = 0;
   for (std::size_t next = 1; next <= scan.size(); ++next) {
-    const bool ends =
-        next == scan.size() || are_apart(options_.threshold, scan[next - 1], scan[next]);
+    const bool ends = next == scan.size() || abd.are_apart(scan[next - 1], scan[next]);
     if (!ends) continue;
     dropped += split(scan, first, next - 1, tracks);
     first = next;

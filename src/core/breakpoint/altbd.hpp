@@ -5,9 +5,10 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 
 #include "core/breakpoint/segment_track.hpp"
-#include "core/localizer_config.hpp"
+#include "core/detector_config.hpp"
 #include "core/polar_scan.hpp"
 #include "core/sensor_noise.hpp"
 
@@ -16,38 +17,60 @@ namespace cornerd::core {
 /// Tracks the walls of a turn, sample by sample: a line through the samples so far predicts where
 /// the next ray will meet the wall, and an ellipse around that point decides whether it did.
 ///
-/// Three things differ from the paper's print, because at an A1's density (neighbours are 3-8 mm
-/// apart, noise is 2-10 mm) the printed form breaks at noise:
+/// Three things differ from the paper's print (printed_altbd.hpp), because at an A1's density
+/// (neighbours are 3-8 mm apart, noise is 2-10 mm) the printed form breaks at noise:
 ///  - the line is fitted to the whole segment (running sums, step 1 with every sample), not to
-///  three
-///    points;
+///    three points;
 ///  - the ellipse's axes follow the sensor's noise, the angle of incidence and the line's own
 ///    uncertainty; both terms of step 12 are squared, so that it is an ellipse. sigma_offset
 ///    remains as the bound of the minor axis, as a share of the range;
 ///  - a wall ends after three misses in a row, at the first of them: a single one is an outlier.
+///
+/// It takes the samples as they come: next() goes on where it stopped for want of more.
 class Altbd {
  public:
-  explicit Altbd(const DetectorConfig& config, const SensorNoise& noise);
+  Altbd(const DetectorConfig& config, const SensorNoise& noise);
 
-  /// Walls of at least kMinSupport samples. Allocates nothing beyond the capacity of `tracks`;
-  /// walls that do not fit are dropped, and counted in the result.
-  std::size_t track(const PolarScan& scan, SegmentTracks& tracks);
+  /// Forgets the turn before, but for its noise.
+  void begin();
 
-  /// How much larger the residuals were than the noise model says, over the last turn.
+  enum class Event : std::uint8_t {
+    kNone,        ///< the scan is at its end; where it has not `ended`, it may go on
+    kShortWall,   ///< a wall, begun and ended, of at most doubtful_samples
+    kWallBegun,   ///< a wall has more than doubtful_samples now, and goes on
+    kWallEnded,   ///< the wall that was begun
+  };
+
+  /// Tracks on through the scan, which may have grown since the last call, to the next event; `wall`
+  /// is what it happened to. Walls have at least min_support samples.
+  Event next(const PolarScan& scan, bool ended, SegmentTrack& wall);
+
+  /// How much larger the residuals were than the noise model says, of late.
   double noise_scale() const;
 
  private:
-  struct Prediction;
-  Prediction predict(const PolarScan& scan, std::size_t index) const;
   bool start(const PolarScan& scan, std::size_t index);
+  bool is_hit(const PolarScan& scan, std::size_t index);
+  void give_back_lone_hit(const PolarScan& scan);
   void extend(const PolarScan& scan, std::size_t index);
-  void learn_noise(double z_square);
+  double noise_variance_scale() const;
 
-  DetectorConfig config_;
+  AltbdConfig config_;
+  double sigma_offset_;
+  std::uint32_t min_support_;
   SensorNoise noise_;
+
   SegmentTrack current_;
-  double residual_sum_ = 0;  ///< of squared, normalised residuals
-  double residual_count_ = 0;
+  bool tracking_ = false;
+  bool begun_ = false;  ///< kWallBegun was said of the current wall
+  std::size_t index_ = 0;  ///< of the wall's first sample, or of the next one to try
+  std::size_t next_ = 0;
+  std::uint32_t misses_ = 0;
+  std::uint32_t hits_ = 0;           ///< in a row, up to the wall's last sample
+  std::uint32_t before_misses_ = 0;  ///< its last sample before the misses before those hits
+  std::uint32_t refit_at_ = 0;  ///< support at which the line is fitted anew
+  double residual_sum_;         ///< of squared, normalised residuals
+  double residual_count_;
 };
 
 }  // namespace cornerd::core

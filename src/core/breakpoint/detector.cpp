@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: MIT
 #include "core/breakpoint/detector.hpp"
 
-#include "core/breakpoint/extraction.hpp"
-#include "core/breakpoint/wall_joining.hpp"
+#include <type_traits>
 
 namespace cornerd::core {
 
 Detector::Tracker Detector::make_tracker(const DetectorConfig& config, const SensorNoise& noise) {
   switch (config.method) {
+    case Method::kPrintedAltbd:
+      return PrintedAltbd(config, noise);
     case Method::kAbdIepf:
-      return AbdIepf(noise);
+      return AbdIepf(config, noise);
     case Method::kLineTracking:
-      return LineTracking(noise);
+      return LineTracking(config, noise);
     case Method::kAltbd:
       break;
   }
@@ -19,21 +20,44 @@ Detector::Tracker Detector::make_tracker(const DetectorConfig& config, const Sen
 }
 
 Detector::Detector(const DetectorConfig& config, const SensorNoise& noise)
-    : config_(config), noise_(noise), tracker_(make_tracker(config, noise)) {
+    : tracker_(make_tracker(config, noise)), chain_(config, noise) {
   tracks_.reserve(kMaxSegmentsPerTurn);
 }
 
 void Detector::detect(const PolarScan& scan, Detection& detection) {
   detection.clear();
+  chain_.begin();
   std::visit(
       [&](auto& tracker) {
-        detection.overflowed = tracker.track(scan, tracks_);
-        detection.noise_scale = tracker.noise_scale();
+        if constexpr (std::is_same_v<std::decay_t<decltype(tracker)>, Altbd>) {
+          tracker.begin();
+          feed(tracker, chain_, scan, /*ended=*/true, detection);
+          detection.noise_scale = tracker.noise_scale();
+        } else {
+          detection.overflowed = tracker.track(scan, tracks_);
+          for (const SegmentTrack& wall : tracks_) chain_.add(scan, wall, 1, detection);
+        }
       },
       tracker_);
-  join_walls(scan, detection.noise_scale, tracks_);
-  settle_borders(scan, noise_, tracks_);
-  extract_breakpoints(scan, tracks_, config_, noise_, detection);
+  chain_.finish(scan, detection.noise_scale, detection);
+}
+
+void feed(Altbd& tracker, WallChain& chain, const PolarScan& scan, bool ended,
+          Detection& detection) {
+  SegmentTrack wall;
+  for (;;) {
+    switch (tracker.next(scan, ended, wall)) {
+      case Altbd::Event::kNone:
+        return;
+      case Altbd::Event::kShortWall:
+      case Altbd::Event::kWallBegun:
+        chain.add(scan, wall, tracker.noise_scale(), detection);
+        break;
+      case Altbd::Event::kWallEnded:
+        chain.grow(wall);
+        break;
+    }
+  }
 }
 
 }  // namespace cornerd::core

@@ -7,8 +7,10 @@
 #include "core/breakpoint/altbd.hpp"
 #include "core/breakpoint/breakpoint.hpp"
 #include "core/breakpoint/line_tracking.hpp"
+#include "core/breakpoint/printed_altbd.hpp"
 #include "core/breakpoint/segment_track.hpp"
-#include "core/localizer_config.hpp"
+#include "core/breakpoint/wall_chain.hpp"
+#include "core/detector_config.hpp"
 #include "core/polar_scan.hpp"
 
 namespace cornerd::core {
@@ -22,13 +24,16 @@ class Detector {
   void detect(const PolarScan& scan, Detection& detection);
 
  private:
-  using Tracker = std::variant<Altbd, AbdIepf, LineTracking>;
+  using Tracker = std::variant<Altbd, PrintedAltbd, AbdIepf, LineTracking>;
   static Tracker make_tracker(const DetectorConfig& config, const SensorNoise& noise);
 
-  DetectorConfig config_;
-  SensorNoise noise_;
   Tracker tracker_;
   SegmentTracks tracks_;
+  WallChain chain_;
 };
+
+/// Hands the walls that ALTBD finds, from where it stopped to the scan's end, to the chain.
+void feed(Altbd& tracker, WallChain& chain, const PolarScan& scan, bool ended,
+          Detection& detection);
 
 }  // namespace cornerd::core

@@ -4,8 +4,12 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include <Eigen/LU>
+
+#include "core/breakpoint/wall_end.hpp"
+#include "core/breakpoint/wall_tests.hpp"
 
 namespace cornerd::core {
 namespace {
@@ -28,19 +32,9 @@ class Border {
         noise_scale_(noise_scale) {}
 
   std::optional<Breakpoint> corner() const;
-  std::optional<Breakpoint> terminal_of_right() const;
-  std::optional<Breakpoint> terminal_of_left() const;
 
  private:
   bool free_between(const Vec2& corner) const;
-  bool ends_before(const SegmentTrack& wall, std::size_t last, int step) const;
-  Breakpoint terminal(const SegmentTrack& wall, std::size_t last, int step) const;
-  std::size_t neighbour(std::size_t index, int step) const {
-    return (index + scan_.size() + static_cast<std::size_t>(step)) % scan_.size();
-  }
-  std::size_t samples_between() const {
-    return (left_.first + scan_.size() - right_.last - 1) % scan_.size();
-  }
 
   const PolarScan& scan_;
   const SegmentTrack& right_;
@@ -64,7 +58,7 @@ Eigen::Matrix2d intersection_covariance(const Line& a, const Line& b, const Vec2
 /// Nothing was seen through the place where the walls are said to meet: the samples between them
 /// are no farther than the walls.
 bool Border::free_between(const Vec2& corner) const {
-  const std::size_t count = samples_between();
+  const std::size_t count = samples_between(scan_, right_, left_);
   const double limit_m = corner.norm() + config_.corner_tolerance_m;
   std::size_t behind = 0;
   for (std::size_t k = 1; k <= count; ++k) {
@@ -112,79 +106,10 @@ std::optional<Breakpoint> Border::corner() const {
   return breakpoint;
 }
 
-/// True where the samples after the wall's last one lie behind the line of the wall.
-bool Border::ends_before(const SegmentTrack& wall, std::size_t last, int step) const {
-  constexpr int kLookAhead = 3;
-  int behind = 0;
-  int before = 0;
-  std::size_t index = last;
-  for (int k = 0; k < kLookAhead; ++k) {
-    index = neighbour(index, step);
-    const PolarPoint& point = scan_[index];
-    const double approach = -wall.line.normal.dot(Vec2(point.ray_x, point.ray_y));
-    const double height_m = wall.line.normal.dot(Vec2(point.x_m, point.y_m)) - wall.line.offset_m;
-    const double sigma_m =
-        std::sqrt(noise_.variance_across_m2(point.range_m, std::abs(approach))) * noise_scale_;
-    const bool far_behind = height_m < -kGateSigmas * sigma_m;
-    const bool nearer = point.range_m < scan_[last].range_m && !far_behind;
-    behind += far_behind ? 1 : 0;
-    before += nearer ? 1 : 0;
-  }
-  return behind >= 2 && before == 0;
-}
+}  // namespace
 
-Breakpoint Border::terminal(const SegmentTrack& wall, std::size_t last, int step) const {
-  // The wall ends somewhere between its last sample and where the next ray would have met it.
-  const Vec2 direction = wall.line.direction();
-  const PolarPoint& end = scan_[last];
-  const PolarPoint& next = scan_[neighbour(last, step)];
-  const Vec2 last_point(end.x_m, end.y_m);
-  const Vec2 foot =
-      last_point - (wall.line.normal.dot(last_point) - wall.line.offset_m) * wall.line.normal;
-  const Vec2 ray(next.ray_x, next.ray_y);
-  const double approach = -wall.line.normal.dot(ray);
-  double span_m = 0;
-  if (approach > 0.01) {
-    const Vec2 meeting = (-wall.line.offset_m / approach) * ray;
-    span_m = std::max(0.0, step * direction.dot(meeting - foot));
-  }
-  span_m = std::min(span_m, 2 * 0.05);
-
-  Breakpoint breakpoint;
-  breakpoint.kind = BreakpointKind::kTerminal;
-  breakpoint.convex = true;
-  breakpoint.position = foot + step * span_m / 2 * direction;
-  const double variance_along = span_m * span_m / 12 + 1e-6;
-  const double variance_across =
-      wall.line.variance_at(direction.dot(breakpoint.position - wall.line.centroid)) *
-      noise_scale_ * noise_scale_;
-  breakpoint.covariance = variance_along * direction * direction.transpose() +
-                          variance_across * wall.line.normal * wall.line.normal.transpose();
-  const bool wall_on_right = step > 0;
-  breakpoint.wall_on_right = wall_on_right;
-  breakpoint.wall_on_left = !wall_on_right;
-  if (wall_on_right) {
-    breakpoint.right_wall_rad = heading(-direction);
-    breakpoint.right_support = wall.support;
-  } else {
-    breakpoint.left_wall_rad = heading(direction);
-    breakpoint.left_support = wall.support;
-  }
-  return breakpoint;
-}
-
-std::optional<Breakpoint> Border::terminal_of_right() const {
-  if (!ends_before(right_, right_.last, +1)) return std::nullopt;
-  return terminal(right_, right_.last, +1);
-}
-
-std::optional<Breakpoint> Border::terminal_of_left() const {
-  if (!ends_before(left_, left_.first, -1)) return std::nullopt;
-  return terminal(left_, left_.first, -1);
-}
-
-WallSegment describe(const PolarScan& scan, const SegmentTrack& track, double noise_scale) {
-  const Line& line = track.line;
+WallSegment describe_wall(const PolarScan& scan, const SegmentTrack& wall, double noise_scale) {
+  const Line& line = wall.line;
   const auto foot = [&](std::size_t index) -> Vec2 {
     const Vec2 point(scan[index].x_m, scan[index].y_m);
     return point - (line.normal.dot(point) - line.offset_m) * line.normal;
@@ -192,21 +117,19 @@ WallSegment describe(const PolarScan& scan, const SegmentTrack& track, double no
   WallSegment segment;
   segment.normal = line.normal;
   segment.offset_m = line.offset_m;
-  segment.first = foot(track.first);
-  segment.last = foot(track.last);
+  segment.first = foot(wall.first);
+  segment.last = foot(wall.last);
   segment.sigma_offset_m = noise_scale / std::sqrt(line.weight);
   segment.sigma_angle_rad = noise_scale / std::sqrt(line.weight * line.spread_m2);
-  segment.first_sample = track.first;
-  segment.last_sample = track.last;
-  segment.support = track.support;
+  segment.first_sample = wall.first;
+  segment.last_sample = wall.last;
+  segment.support = wall.support;
   return segment;
 }
 
-}  // namespace
-
-void extract_breakpoints(const PolarScan& scan, const SegmentTracks& tracks,
-                         const DetectorConfig& config, const SensorNoise& noise,
-                         Detection& detection) {
+void extract_border(const PolarScan& scan, const SegmentTrack& right, const SegmentTrack& left,
+                    const DetectorConfig& config, const SensorNoise& noise, double noise_scale,
+                    Detection& detection) {
   const auto add = [&](const std::optional<Breakpoint>& breakpoint) {
     if (!breakpoint) return;
     if (detection.breakpoints.size() < kMaxBreakpointsPerTurn) {
@@ -215,18 +138,13 @@ void extract_breakpoints(const PolarScan& scan, const SegmentTracks& tracks,
       ++detection.overflowed;
     }
   };
-  for (std::size_t i = 0; i < tracks.size(); ++i) {
-    detection.segments.push_back(describe(scan, tracks[i], detection.noise_scale));
-    if (tracks.size() < 2) break;
-    const SegmentTrack& left = tracks[(i + 1) % tracks.size()];
-    const Border border(scan, tracks[i], left, config, noise, detection.noise_scale);
-    const std::optional<Breakpoint> corner = border.corner();
-    if (corner) {
-      add(corner);
-    } else {
-      add(border.terminal_of_right());
-      add(border.terminal_of_left());
-    }
+  const Border border(scan, right, left, config, noise, noise_scale);
+  if (const std::optional<Breakpoint> corner = border.corner()) return add(corner);
+  const std::size_t between = samples_between(scan, right, left);
+  for (const auto& [wall, side] : {std::pair(&right, WallSide::kRight), {&left, WallSide::kLeft}}) {
+    const WallEnd end(scan, *wall, side, between, noise, noise_scale);
+    const std::optional<Breakpoint> corner = end.corner();
+    add(corner ? corner : end.terminal());
   }
 }
 

@@ -4,17 +4,20 @@
 
 #include "core/breakpoint/breakpoint.hpp"
 #include "core/breakpoint/segment_track.hpp"
-#include "core/localizer_config.hpp"
+#include "core/detector_config.hpp"
 #include "core/polar_scan.hpp"
 
 namespace cornerd::core {
 
-/// Looks at every pair of neighbouring walls. Where their lines meet between them there is a
-/// corner, placed at the intersection: the paper's own point (step 14) is off by up to a sample's
-/// spacing. Where a wall ends in front of something farther there is a terminal. Where something
-/// nearer hides how the wall goes on there is nothing.
-void extract_breakpoints(const PolarScan& scan, const SegmentTracks& tracks,
-                         const DetectorConfig& config, const SensorNoise& noise,
-                         Detection& detection);
+/// Looks at the border of two neighbouring walls and adds what it shows to `detection`. Where their
+/// lines meet between them there is a corner, placed at the intersection: the paper's own point
+/// (step 14) is off by up to a sample's spacing. Where a wall ends in front of something farther
+/// there is an edge: a corner where the face of its end gave returns, too, else a terminal. Where
+/// something nearer hides how the wall goes on there is nothing.
+void extract_border(const PolarScan& scan, const SegmentTrack& right, const SegmentTrack& left,
+                    const DetectorConfig& config, const SensorNoise& noise, double noise_scale,
+                    Detection& detection);
+
+WallSegment describe_wall(const PolarScan& scan, const SegmentTrack& wall, double noise_scale);
 
 }  // namespace cornerd::core

@@ -16,6 +16,18 @@ void LineFit::add(const LineFit& other) {
   count_ += other.count_;
 }
 
+LineFit LineFit::without(const LineFit& part) const {
+  LineFit rest = *this;
+  rest.w_ -= part.w_;
+  rest.x_ -= part.x_;
+  rest.y_ -= part.y_;
+  rest.xx_ -= part.xx_;
+  rest.xy_ -= part.xy_;
+  rest.yy_ -= part.yy_;
+  rest.count_ -= part.count_;
+  return rest;
+}
+
 LineFit::Moments LineFit::moments() const {
   const double mx = x_ / w_;
   const double my = y_ / w_;

@@ -34,6 +34,9 @@ class LineFit {
 
   void add(const LineFit& other);
 
+  /// What this fit has beyond `part`, which was it when it held fewer points.
+  LineFit without(const LineFit& part) const;
+
   int count() const { return count_; }
 
   /// Needs two points or more. The normal points towards the sensor at (0, 0).

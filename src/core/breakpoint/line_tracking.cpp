@@ -25,8 +25,8 @@ std::size_t LineTracking::track(const PolarScan& scan, SegmentTracks& tracks) co
     do {
       wall.add(scan, index++, noise_);
       wall.line = wall.fit.line();
-    } while (index < scan.size() && distance_m(wall.line, scan[index]) <= kMaxDistance_m);
-    if (!keep_wall(wall, tracks)) ++dropped;
+    } while (index < scan.size() && distance_m(wall.line, scan[index]) <= max_distance_m_);
+    if (wall.support >= min_support_ && !keep_wall(wall, tracks)) ++dropped;
   }
   return dropped;
 }

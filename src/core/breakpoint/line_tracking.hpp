@@ -6,6 +6,7 @@
 #include <cstddef>
 
 #include "core/breakpoint/segment_track.hpp"
+#include "core/detector_config.hpp"
 #include "core/polar_scan.hpp"
 #include "core/sensor_noise.hpp"
 
@@ -19,20 +20,17 @@ namespace cornerd::core {
 /// follow the sensor's noise, since the covariances of the breakpoints are made of them.
 class LineTracking {
  public:
-  /// D_max. The paper prints none; this is three standard deviations of an A1's range at 2 m.
-  static constexpr double kMaxDistance_m = 0.03;
+  LineTracking(const DetectorConfig& config, const SensorNoise& noise)
+      : noise_(noise), max_distance_m_(config.lt.max_distance_m), min_support_(config.min_support) {}
 
-  explicit LineTracking(const SensorNoise& noise) : noise_(noise) {}
-
-  /// Walls of at least kMinSupport samples. Allocates nothing beyond the capacity of `tracks`;
+  /// Walls of at least min_support samples. Allocates nothing beyond the capacity of `tracks`;
   /// walls that do not fit are dropped, and counted in the result.
   std::size_t track(const PolarScan& scan, SegmentTracks& tracks) const;
 
-  /// A constant limit learns nothing of the noise: the model is believed.
-  double noise_scale() const { return 1; }
-
  private:
   SensorNoise noise_;
+  double max_distance_m_;
+  std::uint32_t min_support_;
 };
 
 }  // namespace cornerd::core

@@ -12,9 +12,6 @@
 
 namespace cornerd::core {
 
-/// "More than four points" make a segment (El Amin et al., section V.B), whatever the method.
-inline constexpr std::uint32_t kMinSupport = 5;
-
 /// Where a residual stops being noise: one sample in 2,000 of a normal one is beyond.
 inline constexpr double kGateSigmas = 3.5;
 
@@ -32,10 +29,29 @@ struct SegmentTrack {
   /// stays as it was.
   void add(const PolarScan& scan, std::size_t index, const SensorNoise& noise) {
     const PolarPoint& point = scan[index];
-    const double sigma_m = noise.sigma_range_m(point.range_m);
-    fit.add(point.x_m, point.y_m, 1 / (sigma_m * sigma_m));
+    fit.add(point.x_m, point.y_m, weight_of(point, noise));
     last = static_cast<std::uint32_t>(index);
     ++support;
+  }
+
+  /// The same at the other end.
+  void add_in_front(const PolarScan& scan, std::size_t index, const SensorNoise& noise) {
+    const PolarPoint& point = scan[index];
+    fit.add(point.x_m, point.y_m, weight_of(point, noise));
+    first = static_cast<std::uint32_t>(index);
+    ++support;
+  }
+
+  /// Gives up a sample that it holds. The ends stay as they were.
+  void take_back(const PolarScan& scan, std::size_t index, const SensorNoise& noise) {
+    const PolarPoint& point = scan[index];
+    fit.remove(point.x_m, point.y_m, weight_of(point, noise));
+    --support;
+  }
+
+  static double weight_of(const PolarPoint& point, const SensorNoise& noise) {
+    const double sigma_m = noise.sigma_range_m(point.range_m);
+    return 1 / (sigma_m * sigma_m);
   }
 
   LineFit fit;
@@ -48,9 +64,8 @@ struct SegmentTrack {
 /// The walls of a turn, counter-clockwise. Reserved for kMaxSegmentsPerTurn at construction.
 using SegmentTracks = std::vector<SegmentTrack>;
 
-/// Keeps what has the support of a wall. False where it does not fit in `tracks`.
+/// False where it does not fit in `tracks`.
 inline bool keep_wall(const SegmentTrack& track, SegmentTracks& tracks) {
-  if (track.support < kMinSupport) return true;
   if (tracks.size() == tracks.capacity()) return false;
   tracks.push_back(track);
   return true;

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: MIT
+#include "core/breakpoint/printed_altbd.hpp"
+
+#include <cmath>
+
+namespace cornerd::core {
+namespace {
+
+constexpr std::size_t kThree = 3;
+
+/// Line through three neighbouring samples, all of one weight.
+Line line_through(const PolarScan& scan, std::size_t first) {
+  LineFit fit({scan[first].x_m, scan[first].y_m});
+  for (std::size_t i = first; i < first + kThree; ++i) fit.add(scan[i].x_m, scan[i].y_m, 1);
+  return fit.line();
+}
+
+double relative_error(const Line& line, const PolarPoint& point) {
+  const double j_m = line.normal.dot(Vec2(point.x_m, point.y_m)) - line.offset_m;
+  return std::abs(j_m) / point.range_m;
+}
+
+}  // namespace
+
+/// The next sample as steps 6-11 see it.
+struct PrintedAltbd::Miss {
+  double k_m = 0;         ///< from the predicted point, along the line
+  double j_m = 0;         ///< across it
+  double q_max_m = 0;     ///< step 9
+  double h_max = 0;       ///< steps 5 and 18
+  bool meets = false;     ///< the ray meets the line in front of the sensor
+  double error = 0;       ///< steps 3 and 17
+  double distance_m = 0;  ///< from the predicted point
+};
+
+PrintedAltbd::PrintedAltbd(const DetectorConfig& config, const SensorNoise& noise)
+    : config_(config), noise_(noise) {}
+
+void PrintedAltbd::start(const PolarScan& scan, std::size_t index) {
+  current_ = SegmentTrack::starting_at(scan, index);
+  for (std::size_t i = index; i < index + kThree; ++i) current_.add(scan, i, noise_);
+  predictor_ = line_through(scan, index);
+  error_sum_ = 0;
+  for (std::size_t k = 0; k < kThree; ++k) {
+    errors_[k] = relative_error(predictor_, scan[index + k]);
+    error_sum_ += errors_[k];
+  }
+}
+
+double PrintedAltbd::mean_error() const {
+  if (config_.printed_altbd.mean == ErrorMean::kAll) return error_sum_ / current_.support;
+  return (errors_[0] + errors_[1] + errors_[2]) / kThree;
+}
+
+PrintedAltbd::Miss PrintedAltbd::measure(const PolarScan& scan, std::size_t index) const {
+  const PolarPoint& point = scan[index];
+  const PolarPoint& before = scan[current_.last];
+  const Vec2 ray(point.ray_x, point.ray_y);
+  const double approach = predictor_.normal.dot(ray);
+  Miss miss;
+  if (approach * predictor_.offset_m <= 0) return miss;
+  miss.meets = true;
+  const Vec2 predicted = predictor_.offset_m / approach * ray;
+  const Vec2 offset = Vec2(point.x_m, point.y_m) - predicted;
+  miss.k_m = predictor_.direction().dot(offset);
+  miss.j_m = predictor_.normal.dot(offset);
+  miss.q_max_m =
+      std::abs(predictor_.direction().dot(predicted - Vec2(before.x_m, before.y_m)));
+  const double h_max = mean_error() + config_.sigma_offset;
+  miss.h_max = config_.printed_altbd.minor == MinorAxis::kMetres ? h_max : h_max * point.range_m;
+  miss.error = std::abs(miss.j_m) / point.range_m;
+  miss.distance_m = offset.norm();
+  return miss;
+}
+
+/// Step 12.
+bool PrintedAltbd::inside(const Miss& miss) const {
+  if (!miss.meets || miss.q_max_m <= 0) return false;
+  const double k2 = miss.k_m * miss.k_m;
+  const double j2 = miss.j_m * miss.j_m;
+  if (config_.printed_altbd.axes == EllipseAxes::kPrinted) {
+    return k2 / miss.q_max_m + j2 / miss.h_max <= 1;
+  }
+  return k2 / (miss.q_max_m * miss.q_max_m) + j2 / (miss.h_max * miss.h_max) <= 1;
+}
+
+/// Steps 16-18, and the line that the reading refits.
+void PrintedAltbd::extend(const PolarScan& scan, std::size_t index, double error) {
+  errors_[current_.support % kThree] = error;
+  error_sum_ += error;
+  current_.add(scan, index, noise_);
+  if (config_.printed_altbd.line == TrackedLine::kAll) {
+    predictor_ = current_.fit.line();
+  } else if (config_.printed_altbd.line == TrackedLine::kLastThree) {
+    predictor_ = line_through(scan, index + 1 - kThree);
+  }
+}
+
+std::size_t PrintedAltbd::track(const PolarScan& scan, SegmentTracks& tracks) {
+  tracks.clear();
+  std::size_t dropped = 0;
+  std::size_t index = 0;
+  while (index + kThree <= scan.size()) {
+    start(scan, index);
+    std::size_t next = index + kThree;
+    Miss miss;
+    for (; next < scan.size(); ++next) {
+      miss = measure(scan, next);
+      if (!inside(miss)) break;
+      extend(scan, next, miss.error);
+    }
+    const bool corner = miss.meets && miss.distance_m <= config_.corner_tolerance_m;
+    if (current_.support >= config_.min_support) {
+      current_.line = current_.fit.line();
+      if (!keep_wall(current_, tracks)) ++dropped;
+      index = corner ? next : next - 1;
+    } else {
+      // Step 15 would take the same three samples again where they were all there was.
+      index = corner || next == index + kThree ? index + 1 : next - 1;
+    }
+  }
+  return dropped;
+}
+
+}  // namespace cornerd::core

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: MIT
+#include "core/breakpoint/wall_tests.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace cornerd::core {
+namespace {
+
+/// What two pieces of one wall may be apart, so that no door becomes a wall.
+constexpr double kMaxPieceGap_m = 0.3;
+/// More than this between two walls is never noise.
+const double kMinPieceCosine = std::cos(radians(60));
+/// Chi-square of two degrees of freedom that one line for two costs at most: one in 2,000.
+constexpr double kJoinedChiSquare = 40;
+
+Vec2 place(const PolarPoint& point) { return {point.x_m, point.y_m}; }
+
+/// From weights by the noise of the range to the noise across a line met at its middle.
+double across_factor(const SensorNoise& noise, const Line& line) {
+  const double range_m = line.centroid.norm();
+  const double sine = std::min(1.0, -line.offset_m / range_m);
+  const double sigma_m = noise.sigma_range_m(range_m);
+  return sigma_m * sigma_m / noise.variance_across_m2(range_m, sine);
+}
+
+}  // namespace
+
+std::size_t samples_between(const PolarScan& scan, const SegmentTrack& right,
+                            const SegmentTrack& left) {
+  return (left.first + scan.size() - right.last - 1) % scan.size();
+}
+
+double misfit(const SensorNoise& noise, const Line& line, const PolarPoint& point) {
+  const double across_m = line.normal.dot(place(point)) - line.offset_m;
+  const double sine = std::abs(line.normal.dot(Vec2(point.ray_x, point.ray_y)));
+  return across_m * across_m / noise.variance_across_m2(point.range_m, sine);
+}
+
+bool is_one_wall(const PolarScan& scan, const SensorNoise& noise, double noise_scale,
+                 const SegmentTrack& right, const SegmentTrack& left) {
+  if (samples_between(scan, right, left) > kMaxInterruption) return false;
+  const Vec2 gap = place(scan[left.first]) - place(scan[right.last]);
+  if (gap.squaredNorm() > kMaxPieceGap_m * kMaxPieceGap_m) return false;
+  if (right.line.normal.dot(left.line.normal) < kMinPieceCosine) return false;
+
+  LineFit both = right.fit;
+  both.add(left.fit);
+  const double cost = both.chi_square() - right.fit.chi_square() - left.fit.chi_square();
+  return cost * across_factor(noise, both.line()) < kJoinedChiSquare * noise_scale * noise_scale;
+}
+
+void append(SegmentTrack& right, const SegmentTrack& left) {
+  right.fit.add(left.fit);
+  right.line = right.fit.line();
+  right.last = left.last;
+  right.support += left.support;
+}
+
+std::size_t split_between(const PolarScan& scan, const SensorNoise& noise, double noise_scale,
+                          const SegmentTrack& right, const SegmentTrack& wall,
+                          const SegmentTrack& left) {
+  if (samples_between(scan, right, wall) > kMaxInterruption) return kNoSplit;
+  if (samples_between(scan, wall, left) > kMaxInterruption) return kNoSplit;
+  const std::size_t n = scan.size();
+  const std::size_t count = (wall.last + n - wall.first) % n + 1;
+  const double gate = kGateSigmas * kGateSigmas * noise_scale * noise_scale;
+  // The best place to change from one line to the other; a sample beyond the gate costs the gate.
+  double all_left = 0;
+  for (std::size_t k = 0; k < count; ++k) {
+    all_left += std::min(gate, misfit(noise, left.line, scan[(wall.first + k) % n]));
+  }
+  double cost = all_left;
+  double best = all_left;
+  std::size_t split = 0;
+  for (std::size_t k = 0; k < count; ++k) {
+    const PolarPoint& point = scan[(wall.first + k) % n];
+    cost += std::min(gate, misfit(noise, right.line, point)) -
+            std::min(gate, misfit(noise, left.line, point));
+    if (cost < best) {
+      best = cost;
+      split = k + 1;
+    }
+  }
+  // Mean of a chi-square and three and a half of its standard deviations.
+  const double samples = static_cast<double>(count);
+  const double limit = samples + kGateSigmas * std::sqrt(2 * samples);
+  return best < limit * noise_scale * noise_scale ? split : kNoSplit;
+}
+
+}  // namespace cornerd::core

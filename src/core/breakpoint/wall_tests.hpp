@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+// What is asked of neighbouring walls, and how the answers are judged.
+#pragma once
+
+#include <cstddef>
+#include <limits>
+
+#include "core/breakpoint/segment_track.hpp"
+#include "core/polar_scan.hpp"
+#include "core/sensor_noise.hpp"
+
+namespace cornerd::core {
+
+/// Samples that may lie between two pieces of one wall: a table leg, a run of outliers.
+inline constexpr std::size_t kMaxInterruption = 4;
+
+/// Samples after the end of `right` and before the beginning of `left`.
+std::size_t samples_between(const PolarScan& scan, const SegmentTrack& right,
+                            const SegmentTrack& left);
+
+/// Squared distance of a sample to a line in units of the noise.
+double misfit(const SensorNoise& noise, const Line& line, const PolarPoint& point);
+
+/// True where two neighbours are pieces of one wall.
+bool is_one_wall(const PolarScan& scan, const SensorNoise& noise, double noise_scale,
+                 const SegmentTrack& right, const SegmentTrack& left);
+
+/// `left` becomes a part of `right`.
+void append(SegmentTrack& right, const SegmentTrack& left);
+
+inline constexpr std::size_t kNoSplit = std::numeric_limits<std::size_t>::max();
+
+/// Where the samples of a short wall between two others all lie on these: how many of its samples,
+/// from its first on, are the right one's. kNoSplit where they do not.
+std::size_t split_between(const PolarScan& scan, const SensorNoise& noise, double noise_scale,
+                          const SegmentTrack& right, const SegmentTrack& wall,
+                          const SegmentTrack& left);
+
+}  // namespace cornerd::core
