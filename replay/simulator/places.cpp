@@ -25,6 +25,10 @@ bool has_walls_on_all_sides(const core::WallMap& map, const core::Vec2& point) {
 
 }  // namespace
 
+bool is_indoors(const core::WallMap& map, const core::Vec2& point) {
+  return !map.is_solid(point) && (map.room_at(point) || has_walls_on_all_sides(map, point));
+}
+
 double clearance_at(const core::WallMap& map, const core::Vec2& point) {
   double nearest_m = std::numeric_limits<double>::infinity();
   for (const core::Face& face : map.faces()) {
@@ -48,8 +52,7 @@ std::vector<core::Pose2> random_places(const core::WallMap& map, std::size_t cou
     const double y_m = random.uniform(map.lower_left().y(), map.upper_right().y());
     const double theta_rad = random.uniform(-core::kPi, core::kPi);
     const core::Vec2 point(x_m, y_m);
-    if (map.is_solid(point) || clearance_at(map, point) < clearance_m) continue;
-    if (!map.room_at(point) && !has_walls_on_all_sides(map, point)) continue;
+    if (clearance_at(map, point) < clearance_m || !is_indoors(map, point)) continue;
     places.push_back({x_m, y_m, theta_rad});
   }
   return places;

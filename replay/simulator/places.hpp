@@ -15,6 +15,9 @@ namespace cornerd::replay {
 std::vector<core::Pose2> random_places(const core::WallMap& map, std::size_t count,
                                        double clearance_m, std::uint64_t seed);
 
+/// True where a robot could stand: in free space, in one of the rooms or with walls on all sides.
+bool is_indoors(const core::WallMap& map, const core::Vec2& point);
+
 /// Distance from a point to the nearest wall surface; infinite for a map without any.
 double clearance_at(const core::WallMap& map, const core::Vec2& point);
 

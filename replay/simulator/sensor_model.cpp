@@ -8,29 +8,29 @@ namespace cornerd::replay {
 
 SensorModel SensorModel::perfect() {
   SensorModel model;
-  model.sigma_floor_m = 0;
-  model.sigma_share = 0;
-  model.angle_jitter_rad = 0;
+  model.noise.floor_m = 0;
+  model.noise.share = 0;
+  model.noise.bearing_rad = 0;
   model.missing = 0;
   model.outliers = 0;
   return model;
 }
 
-double SensorNoise::direction_error(double device_angle_rad) {
+double SensorErrors::direction_error(double device_angle_rad) {
   double error_rad =
       model_.eccentricity_rad * std::sin(device_angle_rad - model_.eccentricity_phase_rad);
-  if (model_.angle_jitter_rad > 0) error_rad += model_.angle_jitter_rad * random_.normal();
+  if (model_.noise.bearing_rad > 0) error_rad += model_.noise.bearing_rad * random_.normal();
   return error_rad;
 }
 
-bool SensorNoise::is_missing() {
+bool SensorErrors::is_missing() {
   if (model_.missing_run <= 1 || random_.chance(1 / model_.missing_run)) {
     missing_now_ = random_.chance(model_.missing);
   }
   return missing_now_;
 }
 
-double SensorNoise::measured(double range_m) {
+double SensorErrors::measured(double range_m) {
   if (is_missing()) return 0;
   if (random_.chance(model_.outliers)) {
     const double farthest_m =
@@ -38,16 +38,21 @@ double SensorNoise::measured(double range_m) {
     return random_.uniform(model_.min_range_m, farthest_m);
   }
   if (range_m < model_.min_range_m || range_m > model_.max_range_m) return 0;
-  const double sigma_m = std::max(model_.sigma_floor_m, model_.sigma_share * range_m);
+  const double sigma_m = model_.noise.sigma_range_m(range_m);
   const double noise_m = sigma_m > 0 ? sigma_m * random_.normal() : 0;
   return std::max(0.0, model_.range_scale * range_m + model_.range_offset_m + noise_m);
 }
 
-double SensorNoise::mixed(double one_m, double other_m) {
+double SensorErrors::mixed(double one_m, double other_m) {
   if (one_m <= 0 || other_m <= 0 || std::abs(one_m - other_m) < model_.mixed_step_m) {
     return one_m > 0 ? one_m : other_m;
   }
   return random_.uniform(std::min(one_m, other_m), std::max(one_m, other_m));
+}
+
+bool SensorErrors::swaps_nodes() {
+  // Each swap takes two nodes, of which one steps back.
+  return model_.backward > 0 && random_.chance(model_.backward / (1 - model_.backward));
 }
 
 }  // namespace cornerd::replay

@@ -4,23 +4,20 @@
 
 #include <cstdint>
 
+#include "core/sensor_noise.hpp"
 #include "replay/simulator/random.hpp"
 
 namespace cornerd::replay {
 
-/// Errors of a simulated A1. The defaults: noise after the A1M8 datasheet (resolution under 0.5 mm
-/// below 1.5 m, under 1 % of the distance beyond) and readings of a wall, which give 1.5 mm below
-/// 1 m and about 0.5 % of the range farther out. Indoors, real units lose 38-84 % of their samples:
-/// set `missing` for that.
+/// Errors of a simulated A1. Indoors, real units lose 38-84 % of their samples: set `missing` for
+/// that.
 struct SensorModel {
   double min_range_m = 0.15;  ///< nearer walls give nothing
   double max_range_m = 12.0;  ///< farther ones neither
 
-  double sigma_floor_m = 0.0015;  ///< standard deviation of a range: the larger of this
-  double sigma_share = 0.005;     ///< and this share of the range
-
-  /// Standard deviation between the direction that a sample claims and the one it measured.
-  double angle_jitter_rad = core::radians(0.05);
+  /// Of the range, and between the direction that a sample claims and the one that it measured: the
+  /// same model that the localizer believes in. The sigmas may be 0 here.
+  core::SensorNoise noise;
 
   double missing = 0.005;  ///< share of the samples without a return
   /// Mean number of samples until a sample's fate is drawn anew: 1 loses samples one by one, more
@@ -35,6 +32,10 @@ struct SensorModel {
   double beam_width_rad = 0;
   double mixed_step_m = 0.05;
 
+  /// Share of the standard nodes that arrive a step late, behind the next one, so that the angle
+  /// steps back. Returns after empty nodes step back in any case, as only theirs are corrected.
+  double backward = 0;
+
   double range_scale = 1;     ///< bias: measured = scale * true + offset
   double range_offset_m = 0;  ///< bias
   /// Bias: the angle disc's centre is off the axis; amplitude of the direction's error, and the
@@ -47,9 +48,9 @@ struct SensorModel {
 };
 
 /// The errors of one sensor, sample after sample.
-class SensorNoise {
+class SensorErrors {
  public:
-  SensorNoise(const SensorModel& model, std::uint64_t seed) : model_(model), random_(seed) {}
+  SensorErrors(const SensorModel& model, std::uint64_t seed) : model_(model), random_(seed) {}
 
   /// Where a sample that claims `device_angle_rad` really looks, less what it claims.
   double direction_error(double device_angle_rad);
@@ -59,6 +60,9 @@ class SensorNoise {
 
   /// What is measured where the two sides of the beam see different ranges.
   double mixed(double one_m, double other_m);
+
+  /// True where the next two nodes change places. Asked once for each pair that may.
+  bool swaps_nodes();
 
  private:
   bool is_missing();

@@ -75,7 +75,7 @@ Simulator::Simulator(std::unique_ptr<Scene> scene, const SimulatorConfig& config
     : scene_(std::move(scene)),
       config_(config),
       wire_(config.wire),
-      noise_(config.sensor, config.seed),
+      errors_(config.sensor, config.seed),
       head_(config.motor_hz, config.motor_jitter, usual_sample_period_ns(config.wire),
             config.seed ^ kHeadSeed) {
   if (!(config.motor_hz >= 1 && config.motor_hz <= 15) ||
@@ -90,6 +90,7 @@ void Simulator::start(core::TimeNs t_ns, rplidar::WireFormat wire, core::TimeNs 
   wire_ = wire;
   head_.resume(t_ns, sample_period_ns > 0 ? sample_period_ns : usual_sample_period_ns(wire));
   restart_ = true;
+  swapped_ = false;
   next_first_ = head_.next();
   if (wire == rplidar::WireFormat::kUltra) {
     next_first_mm_ = measured_for_ultra(next_first_, turn_of(next_first_.angle_deg, 0));
@@ -125,23 +126,23 @@ Simulator::Sight Simulator::triangulate(const Head& head, std::int64_t turn, dou
 }
 
 double Simulator::measured_at(const Head& head, std::int64_t turn, double device_angle_deg) {
-  const double error_rad = noise_.direction_error(core::radians(device_angle_deg));
+  const double error_rad = errors_.direction_error(core::radians(device_angle_deg));
   const double angle_deg = device_angle_deg + core::degrees(error_rad);
   const double half_beam_deg = core::degrees(config_.sensor.beam_width_rad) / 2;
-  if (half_beam_deg <= 0) return noise_.measured(range_at(head, turn, angle_deg));
-  return noise_.measured(noise_.mixed(range_at(head, turn, angle_deg - half_beam_deg),
-                                      range_at(head, turn, angle_deg + half_beam_deg)));
+  if (half_beam_deg <= 0) return errors_.measured(range_at(head, turn, angle_deg));
+  return errors_.measured(errors_.mixed(range_at(head, turn, angle_deg - half_beam_deg),
+                                        range_at(head, turn, angle_deg + half_beam_deg)));
 }
 
 std::uint32_t Simulator::measured_for_ultra(const Head& head, std::int64_t turn) {
   const double error_deg =
-      core::degrees(noise_.direction_error(core::radians(head.angle_deg - kLaserAngleDeg)));
+      core::degrees(errors_.direction_error(core::radians(head.angle_deg - kLaserAngleDeg)));
   const double half_beam_deg = core::degrees(config_.sensor.beam_width_rad) / 2;
   double range_m = triangulate(head, turn, error_deg - half_beam_deg).range_m;
   if (half_beam_deg > 0) {
-    range_m = noise_.mixed(range_m, triangulate(head, turn, error_deg + half_beam_deg).range_m);
+    range_m = errors_.mixed(range_m, triangulate(head, turn, error_deg + half_beam_deg).range_m);
   }
-  return to_units(noise_.measured(range_m), 1e3, 28'656);
+  return to_units(errors_.measured(range_m), 1e3, 28'656);
 }
 
 double Simulator::sweep(std::size_t count) {
@@ -165,10 +166,20 @@ WirePacket Simulator::packet(std::size_t bytes, std::size_t samples, core::TimeN
   return {ready_ns, std::span(bytes_).first(bytes), std::span(samples_).first(samples)};
 }
 
-WirePacket Simulator::next_node() {
-  const Head head = next_first_;
+Simulator::Head Simulator::take_node() {
   const double step_deg = head_.step_deg();
+  Head head = next_first_;
   next_first_ = head_.next();
+  // The mark of a turn stays where it is.
+  const bool same_turn = turn_of(head.angle_deg, 0) == turn_of(next_first_.angle_deg, step_deg);
+  swapped_ = !swapped_ && same_turn && errors_.swaps_nodes();
+  if (swapped_) std::swap(head.angle_deg, next_first_.angle_deg);
+  return head;
+}
+
+WirePacket Simulator::next_node() {
+  const double step_deg = head_.step_deg();
+  const Head head = take_node();
   SimulatedSample& sample = samples_[0];
   sample = {head.t_ns, turn_of(head.angle_deg, step_deg),
             is_last_before_mark(head.angle_deg, step_deg), 0, 0};

@@ -94,6 +94,8 @@ class Simulator {
   std::uint32_t measured_for_ultra(const Head& head, std::int64_t turn);
 
   WirePacket next_node();
+  /// The head's position that the next node tells of; moves the head on.
+  Head take_node();
   WirePacket next_express();
   WirePacket next_ultra();
   /// Moves the head through a capsule of `count` samples. Returns the degrees between two of them.
@@ -103,9 +105,10 @@ class Simulator {
   std::unique_ptr<Scene> scene_;
   SimulatorConfig config_;
   rplidar::WireFormat wire_;
-  SensorNoise noise_;
+  SensorErrors errors_;
   RotatingHead head_;
   bool restart_ = true;
+  bool swapped_ = false;             ///< the node to come was due before the last one
   Head next_first_;                  ///< first position of the packet to come
   std::uint32_t next_first_mm_ = 0;  ///< its distance: an ultra capsule needs the next one's
 

@@ -10,8 +10,8 @@ namespace cornerd::bench {
 std::vector<Circumstances> usual_circumstances() {
   const auto sensor = [](double floor_m, double share, double missing) {
     replay::SensorModel model;
-    model.sigma_floor_m = floor_m;
-    model.sigma_share = share;
+    model.noise.floor_m = floor_m;
+    model.noise.share = share;
     model.missing = missing;
     return model;
   };

@@ -11,7 +11,7 @@ constexpr double kSight_m = 100;                // the sensor model has limits o
 
 TurnSimulator::TurnSimulator(const replay::SensorModel& sensor, std::size_t samples,
                              std::uint64_t seed)
-    : noise_(sensor, seed), samples_(samples) {}
+    : errors_(sensor, seed), samples_(samples) {}
 
 const core::Scan& TurnSimulator::take(const core::WallMap& map, const core::Pose2& T_map_lidar) {
   turn_.clear();
@@ -19,12 +19,12 @@ const core::Scan& TurnSimulator::take(const core::WallMap& map, const core::Pose
   for (std::size_t i = 0; i < samples_; ++i) {
     const double share = (static_cast<double>(i) + 0.5) / static_cast<double>(samples_);
     const double bearing_rad = core::kPi - core::kTwoPi * share;
-    const double looks_rad = bearing_rad - noise_.direction_error(-bearing_rad);
+    const double looks_rad = bearing_rad - errors_.direction_error(-bearing_rad);
     const double range_m = map.range_along(origin, T_map_lidar.theta_rad + looks_rad, kSight_m);
     core::Sample sample;
     sample.t_ns = static_cast<core::TimeNs>(share * static_cast<double>(kTurn_ns));
     sample.bearing_rad = static_cast<float>(bearing_rad);
-    sample.range_m = static_cast<float>(noise_.measured(range_m));
+    sample.range_m = static_cast<float>(errors_.measured(range_m));
     sample.starts_turn = i == 0;
     turn_.add(sample);
   }

@@ -22,7 +22,7 @@ class TurnSimulator {
   const core::Scan& take(const core::WallMap& map, const core::Pose2& T_map_lidar);
 
  private:
-  replay::SensorNoise noise_;
+  replay::SensorErrors errors_;
   std::size_t samples_;
   core::Scan turn_;
 };

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "core/geometry/angle.hpp"
+#include "core/sigma_table.hpp"
 
 namespace cornerd::core {
 
@@ -13,8 +14,11 @@ struct SensorNoise {
   double floor_m = 0.0015;
   double share = 0.005;  ///< of the range
   double bearing_rad = radians(0.05);
+  SigmaTable table{};  ///< in place of floor and share, where it is not empty
 
-  double sigma_range_m(double range_m) const { return std::max(floor_m, share * range_m); }
+  double sigma_range_m(double range_m) const {
+    return table.empty() ? std::max(floor_m, share * range_m) : table.sigma_m(range_m);
+  }
 
   /// Variance of a return's distance to the wall it lies on. `sine`: of the angle between ray and
   /// wall. A grazing ray hardly feels errors of the range, and feels all of those of the bearing.

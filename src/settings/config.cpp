@@ -7,6 +7,7 @@
 
 #include <utility>
 
+#include "settings/noise.hpp"
 #include "settings/object_reader.hpp"
 #include "settings/override.hpp"
 
@@ -69,6 +70,7 @@ void read_lidar(ObjectReader lidar, LidarConfig& config) {
   lidar.text("mode", config.mode, kMaxModeBytes);
   lidar.number("min_range", config.min_range_m, {0, 40});
   lidar.number("max_range", config.max_range_m, {0.1, 40});
+  read_noise(lidar.object("noise"), config.noise);
   read_mount(lidar.object("mount"), config.mount);
   read_motor(lidar, config.motor);
   lidar.path("file", config.file);
@@ -144,6 +146,7 @@ core::LocalizerConfig Config::localizer() const {
   config.T_base_lidar = {lidar.mount.x_m, lidar.mount.y_m,
                          core::normalize_angle(lidar.mount.theta_rad)};
   config.detector = detector;
+  config.noise = lidar.noise;
   return config;
 }
 

@@ -47,6 +47,7 @@ struct LidarConfig {
       "auto";  ///< or a mode's name as the device gives it: "Standard", "Express" ...
   double min_range_m = 0.15;
   double max_range_m = 12.0;
+  core::SensorNoise noise;
   MountConfig mount;
   MotorConfig motor;
   std::filesystem::path file;  ///< replay: the recording

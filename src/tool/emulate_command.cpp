@@ -70,7 +70,7 @@ void emulate(const EmulateOptions& options) {
   device.spin_up_s = options.spin_up_s;
   auto simulator = std::make_unique<replay::Simulator>(
       std::move(world.scene),
-      options.simulation.simulator(rplidar::WireFormat::kStandard, config.lidar.mount.inverted));
+      options.simulation.simulator(rplidar::WireFormat::kStandard, config.lidar));
   replay::PtyEmulator emulator(replay::Emulator(device, std::move(simulator)), options.link);
 
   std::optional<replay::TruthWriter> truth;
@@ -109,7 +109,7 @@ void add_emulate(CLI::App& program) {
   add_wire_option(*command, options->wire);
   command->add_option("--firmware", options->firmware, "1.29, 1.24 or 1.17")->capture_default_str();
   command->add_option("--spin-up", options->spin_up_s, "seconds until the motor is fast enough")
-      ->check(CLI::NonNegativeNumber);
+      ->check(number_within(0, 3600));
   command->add_option("--link", options->link, "a symbolic link to the pseudo-terminal")
       ->type_name("PATH");
   command->add_option("--truth", options->truth, "where the robot really is, in UNIX time")

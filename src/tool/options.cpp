@@ -10,6 +10,7 @@
 #include <CLI/CLI.hpp>
 
 #include "settings/document.hpp"
+#include "settings/object_reader.hpp"
 #include "tool/failure.hpp"
 
 namespace cornerd::tool {
@@ -82,6 +83,26 @@ message::ClassSet parse_classes(const std::vector<std::string>& names) {
     classes.insert(*known);
   }
   return classes;
+}
+
+bool is_same_file(const std::filesystem::path& one, const std::filesystem::path& other) {
+  if (one.empty() || other.empty()) return false;
+  std::error_code ignored;
+  const bool linked = std::filesystem::equivalent(one, other, ignored);
+  return linked || std::filesystem::weakly_canonical(one, ignored) ==
+                       std::filesystem::weakly_canonical(other, ignored);
+}
+
+CLI::Validator number_within(double low, double high) {
+  const std::string limits = settings::to_text(low) + " to " + settings::to_text(high);
+  return {[low, high, limits](std::string& text) {
+            double number = 0;
+            const bool read = CLI::detail::lexical_cast(text, number);
+            return read && number >= low && number <= high
+                       ? std::string()
+                       : "must be a number from " + limits + ", not " + text;
+          },
+          "FLOAT in [" + limits + "]"};
 }
 
 core::Pose2 parse_pose(const std::string& text) {

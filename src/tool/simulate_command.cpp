@@ -38,11 +38,14 @@ void simulate(const SimulateOptions& options) {
   const replay::Motion motion = simulation.motion(*map);
 
   replay::SimulatedRecordingConfig config;
-  config.simulator = simulation.simulator(*parse_wire(options.wire), settings.lidar.mount.inverted);
+  config.simulator = simulation.simulator(*parse_wire(options.wire), settings.lidar);
   config.T_base_lidar = settings.localizer().T_base_lidar;
   config.turns = options.turns > 0 ? options.turns : simulation.usual_turns();
   config.byte_fault_share = options.byte_faults;
 
+  if (is_same_file(options.output, options.truth)) {
+    throw UsageError("--truth: the recording itself is already written there");
+  }
   replay::RecordingWriter recording(options.output);
   std::optional<replay::TruthWriter> truth;
   if (!options.truth.empty()) {

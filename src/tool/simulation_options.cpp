@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "tool/simulation_options.hpp"
 
+#include <cstdio>
+#include <vector>
+
 #include <CLI/CLI.hpp>
 
 #include "replay/simulator/motion.hpp"
@@ -15,6 +18,12 @@ namespace {
 /// From the middle of a small robot to the nearest wall; nearer than 0.15 m an A1 sees nothing.
 constexpr double kClearanceM = 0.15;
 
+void warn_unless_indoors(const core::WallMap& map, const core::Vec2& point) {
+  if (replay::is_indoors(map, point)) return;
+  std::fprintf(stderr, "cornerctl: warning: %.12g,%.12g is %s of the map; the lidar sees little\n",
+               point.x(), point.y(), map.is_solid(point) ? "inside a wall" : "outside the walls");
+}
+
 }  // namespace
 
 void SimulationOptions::add_to(CLI::App& command) {
@@ -27,16 +36,15 @@ void SimulationOptions::add_to(CLI::App& command) {
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
   command.add_option("--drive-speed", speed_m_s, "metres a second along the path")
-      ->check(CLI::PositiveNumber)
+      ->check(number_within(1e-3, 100))
       ->capture_default_str();
   command.add_option("--turn-speed", yaw_rate_rad_s, "radians a second on the spot")
-      ->check(CLI::PositiveNumber)
+      ->check(number_within(1e-3, 100))
       ->capture_default_str();
   command.add_option("--motor", motor_hz, "turns of the lidar a second")
-      ->check(CLI::Range(1.0, 15.0))
+      ->check(number_within(1, 15))
       ->capture_default_str();
-  command.add_option("--missing", missing, "share of samples without a return")
-      ->check(CLI::Range(0.0, 1.0));
+  sensor.add_to(command);
   command.add_option("--seed", seed, "of all randomness")->capture_default_str();
 }
 
@@ -44,7 +52,11 @@ replay::Motion SimulationOptions::motion(const core::WallMap& map) const {
   if (!pose.empty() + (places > 0) + !path.empty() != 1) {
     throw UsageError("say where the robot is: one of --pose, --places and --path");
   }
-  if (!pose.empty()) return replay::stand_still(parse_pose(pose));
+  if (!pose.empty()) {
+    const core::Pose2 T_map_base = parse_pose(pose);
+    warn_unless_indoors(map, T_map_base.translation());
+    return replay::stand_still(T_map_base);
+  }
   if (places > 0) {
     return replay::visit_places(replay::random_places(map, places, kClearanceM, seed), turns_each);
   }
@@ -52,7 +64,9 @@ replay::Motion SimulationOptions::motion(const core::WallMap& map) const {
   drive.speed_m_s = speed_m_s;
   drive.yaw_rate_rad_s = yaw_rate_rad_s;
   drive.loop = loop;
-  return replay::drive_path(parse_points(path), drive);
+  const std::vector<core::Vec2> points = parse_points(path);
+  for (const core::Vec2& point : points) warn_unless_indoors(map, point);
+  return replay::drive_path(points, drive);
 }
 
 std::int64_t SimulationOptions::usual_turns() const {
@@ -61,12 +75,12 @@ std::int64_t SimulationOptions::usual_turns() const {
 }
 
 replay::SimulatorConfig SimulationOptions::simulator(rplidar::WireFormat wire,
-                                                     bool inverted) const {
+                                                     const settings::LidarConfig& lidar) const {
   replay::SimulatorConfig config;
-  if (missing >= 0) config.sensor.missing = missing;
+  config.sensor = sensor.model(lidar.noise);
   config.wire = wire;
   config.motor_hz = motor_hz;
-  config.inverted = inverted;
+  config.inverted = lidar.mount.inverted;
   config.seed = seed;
   return config;
 }

@@ -9,6 +9,8 @@
 #include "core/map/wall_map.hpp"
 #include "replay/simulator/scene.hpp"
 #include "replay/simulator/simulator.hpp"
+#include "settings/config.hpp"
+#include "tool/sensor_options.hpp"
 
 namespace CLI {
 class App;
@@ -26,7 +28,7 @@ struct SimulationOptions {
   double speed_m_s = 0.2;
   double yaw_rate_rad_s = 1.5;
   double motor_hz = 7.3;
-  double missing = -1;  ///< negative: the sensor model's own
+  SensorOptions sensor;
   std::uint64_t seed = 1;
 
   void add_to(CLI::App& command);
@@ -34,9 +36,11 @@ struct SimulationOptions {
   bool stands_still() const { return !pose.empty(); }
   /// Turns of the sensor in a recording of which nobody says how long it is.
   std::int64_t usual_turns() const;
-  /// Throws UsageError unless exactly one of pose, places and path is given.
+  /// Throws UsageError unless exactly one of pose, places and path is given. Says on standard error
+  /// where the robot would stand in a wall or outside the building.
   replay::Motion motion(const core::WallMap& map) const;
-  replay::SimulatorConfig simulator(rplidar::WireFormat wire, bool inverted) const;
+  replay::SimulatorConfig simulator(rplidar::WireFormat wire,
+                                    const settings::LidarConfig& lidar) const;
 };
 
 }  // namespace cornerd::tool

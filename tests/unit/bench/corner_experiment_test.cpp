@@ -42,8 +42,8 @@ TEST(ScoreMethods, Seed_DecidesAlone) {
 TEST(UsualCircumstances, Sensors_AreFour) {
   const auto circumstances = usual_circumstances();
   ASSERT_EQ(circumstances.size(), 4u);
-  EXPECT_DOUBLE_EQ(circumstances[0].sensor.sigma_share, 0.005);
-  EXPECT_DOUBLE_EQ(circumstances[3].sensor.sigma_floor_m, 0.003);
+  EXPECT_DOUBLE_EQ(circumstances[0].sensor.noise.share, 0.005);
+  EXPECT_DOUBLE_EQ(circumstances[3].sensor.noise.floor_m, 0.003);
   EXPECT_DOUBLE_EQ(circumstances[3].sensor.missing, 1.0 / 3);
 }
 

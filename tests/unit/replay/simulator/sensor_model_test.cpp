@@ -4,12 +4,13 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <utility>
 
 namespace cornerd::replay {
 namespace {
 
-TEST(SensorNoise, Perfect_ChangesNothingWithinTheLimits) {
-  SensorNoise noise(SensorModel::perfect(), 1);
+TEST(SensorErrors, Perfect_ChangesNothingWithinTheLimits) {
+  SensorErrors noise(SensorModel::perfect(), 1);
   EXPECT_EQ(noise.measured(1.25), 1.25);
   EXPECT_EQ(noise.measured(0.15), 0.15);
   EXPECT_EQ(noise.measured(0.149), 0);
@@ -18,12 +19,12 @@ TEST(SensorNoise, Perfect_ChangesNothingWithinTheLimits) {
   EXPECT_EQ(noise.direction_error(1), 0);
 }
 
-TEST(SensorNoise, Missing_HasItsShareAndRunLength) {
+TEST(SensorErrors, Missing_HasItsShareAndRunLength) {
   for (const double run : {1.0, 10.0}) {
     SensorModel model = SensorModel::perfect();
     model.missing = 0.6;
     model.missing_run = run;
-    SensorNoise noise(model, 3);
+    SensorErrors noise(model, 3);
     int missing = 0;
     int changes = 0;
     bool last = false;
@@ -39,10 +40,10 @@ TEST(SensorNoise, Missing_HasItsShareAndRunLength) {
   }
 }
 
-TEST(SensorNoise, Outliers_HaveTheirShareAndStayWithinTheLimits) {
+TEST(SensorErrors, Outliers_HaveTheirShareAndStayWithinTheLimits) {
   SensorModel model = SensorModel::perfect();
   model.outliers = 0.1;
-  SensorNoise noise(model, 5);
+  SensorErrors noise(model, 5);
   int outliers = 0;
   int nearer = 0;
   for (int i = 0; i < 100'000; ++i) {
@@ -56,12 +57,12 @@ TEST(SensorNoise, Outliers_HaveTheirShareAndStayWithinTheLimits) {
   EXPECT_GT(nearer, outliers / 2);
 }
 
-TEST(SensorNoise, Spread_GrowsWithTheRangeBeyondTheFloor) {
+TEST(SensorErrors, Spread_GrowsWithTheRangeBeyondTheFloor) {
   SensorModel model = SensorModel::perfect();
-  model.sigma_floor_m = 0.0015;
-  model.sigma_share = 0.005;
+  model.noise.floor_m = 0.0015;
+  model.noise.share = 0.005;
   for (const double range_m : {0.25, 4.0}) {
-    SensorNoise noise(model, 11);
+    SensorErrors noise(model, 11);
     double sum = 0;
     double sum_of_squares = 0;
     constexpr int kCount = 100'000;
@@ -76,20 +77,36 @@ TEST(SensorNoise, Spread_GrowsWithTheRangeBeyondTheFloor) {
   }
 }
 
-TEST(SensorNoise, Biases_ScaleShiftAndBend) {
+TEST(SensorErrors, Spread_FollowsACalibratedTable) {
+  const core::SigmaTable::Point points[] = {{0.5, 0.001}, {2, 0.007}};
+  SensorModel model = SensorModel::perfect();
+  model.noise.table = core::SigmaTable(points);
+  for (const auto& [range_m, sigma_m] : {std::pair{0.5, 0.001}, {1.25, 0.004}, {4.0, 0.014}}) {
+    SensorErrors noise(model, 11);
+    double sum_of_squares = 0;
+    constexpr int kCount = 100'000;
+    for (int i = 0; i < kCount; ++i) {
+      const double error_m = noise.measured(range_m) - range_m;
+      sum_of_squares += error_m * error_m;
+    }
+    EXPECT_NEAR(std::sqrt(sum_of_squares / kCount), sigma_m, 0.02 * sigma_m) << range_m;
+  }
+}
+
+TEST(SensorErrors, Biases_ScaleShiftAndBend) {
   SensorModel model = SensorModel::perfect();
   model.range_scale = 1.01;
   model.range_offset_m = -0.02;
   model.eccentricity_rad = 0.01;
   model.eccentricity_phase_rad = 0.5;
-  SensorNoise noise(model, 1);
+  SensorErrors noise(model, 1);
   EXPECT_DOUBLE_EQ(noise.measured(3), 3.01);
   EXPECT_DOUBLE_EQ(noise.direction_error(0.5), 0);
   EXPECT_DOUBLE_EQ(noise.direction_error(0.5 + core::kPi / 2), 0.01);
 }
 
-TEST(SensorNoise, Mixed_LiesBetweenTheSidesOfAnEdge) {
-  SensorNoise noise(SensorModel::perfect(), 1);
+TEST(SensorErrors, Mixed_LiesBetweenTheSidesOfAnEdge) {
+  SensorErrors noise(SensorModel::perfect(), 1);
   EXPECT_EQ(noise.mixed(1.0, 1.01), 1.0);
   EXPECT_EQ(noise.mixed(0, 1.01), 1.01);
   for (int i = 0; i < 100; ++i) {

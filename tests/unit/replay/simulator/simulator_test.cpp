@@ -104,7 +104,7 @@ TEST_P(SimulatorOfEveryFormat, SameSeed_GivesTheSameBytesAndAnotherDoesNot) {
 
 TEST(Simulator, ExpressNoise_HasTheModelsSpread) {
   SimulatorConfig config = config_for(rplidar::WireFormat::kExpress);
-  config.sensor.sigma_floor_m = 0.004;
+  config.sensor.noise.floor_m = 0.004;
   Simulator simulator(standing_scene(), config);
   double sum_of_squares = 0;
   int count = 0;
@@ -116,6 +116,43 @@ TEST(Simulator, ExpressNoise_HasTheModelsSpread) {
     }
   }
   EXPECT_NEAR(std::sqrt(sum_of_squares / count), 0.004, 0.0002);
+}
+
+TEST(Simulator, StandardNodes_StepBackAsOftenAsAsked) {
+  SimulatorConfig config = config_for(rplidar::WireFormat::kStandard);
+  config.sensor.backward = 0.03;
+  Simulator simulator(standing_scene(), config);
+  constexpr int kCount = 50'000;
+  int steps_back = 0;
+  double last_deg = 0;
+  for (int i = 0; i < kCount; ++i) {
+    const SimulatedSample sample = simulator.next().samples[0];
+    steps_back +=
+        core::angle_between(core::radians(last_deg), core::radians(sample.device_angle_deg)) < 0;
+    last_deg = sample.device_angle_deg;
+    ASSERT_NEAR(sample.dist_q2 / 4000.0, true_range_m(sample.device_angle_deg), 0.000126);
+    if (sample.starts_turn) ASSERT_GT(sample.device_angle_deg, 351);
+  }
+  EXPECT_NEAR(static_cast<double>(steps_back) / kCount, 0.03, 0.003);
+}
+
+/// Real A1s lose a third of their samples in stretches, and 2 to 5 % of their nodes step back.
+TEST(Simulator, StandardNodesAfterEmptyOnes_StepBackAsThoseOfRealDevices) {
+  SimulatorConfig config = config_for(rplidar::WireFormat::kStandard);
+  config.sensor.missing = 0.38;
+  config.sensor.missing_run = 6;
+  Simulator simulator(standing_scene(), config);
+  constexpr int kCount = 20'000;
+  int steps_back = 0;
+  double last_deg = 0;
+  for (int i = 0; i < kCount; ++i) {
+    const SimulatedSample sample = simulator.next().samples[0];
+    steps_back +=
+        core::angle_between(core::radians(last_deg), core::radians(sample.device_angle_deg)) < 0;
+    last_deg = sample.device_angle_deg;
+  }
+  EXPECT_GT(steps_back, 0.02 * kCount);
+  EXPECT_LT(steps_back, 0.05 * kCount);
 }
 
 TEST(Simulator, Inverted_CountsItsAngleTheOtherWay) {

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+#include "tool/sensor_options.hpp"
+
+#include <CLI/CLI.hpp>
+
+#include "core/geometry/angle.hpp"
+#include "settings/config.hpp"
+#include "settings/noise.hpp"
+#include "tool/options.hpp"
+
+namespace cornerd::tool {
+
+void SensorOptions::add_to(CLI::App& command) {
+  command
+      .add_option("--noise", noise,
+                  "the lidar's noise, as calibrate noise writes it; else the config's lidar.noise")
+      ->type_name("FILE");
+  command.add_option("--sigma-floor", floor_m, "standard deviation of a range: the larger of this")
+      ->check(number_within(0, 1));
+  command
+      .add_option("--sigma-share", share, "(m) and this share of the range; in place of --noise")
+      ->check(number_within(0, 1));
+  command.add_option("--bearing-noise", bearing_deg, "standard deviation of a bearing (degrees)")
+      ->check(number_within(0, 5));
+  command.add_option("--missing", missing, "share of samples without a return")
+      ->check(number_within(0, 1));
+  command
+      .add_option(
+          "--missing-run", missing_run,
+          "mean number of samples until one's fate is drawn anew: more lose whole stretches")
+      ->check(number_within(1, 1e6));
+  command.add_option("--outliers", outliers, "share of samples that are wrong")
+      ->check(number_within(0, 1));
+  command
+      .add_option("--beam", beam_deg,
+                  "width of the beam (degrees): at an edge a sample lies between its two sides")
+      ->check(number_within(0, 10));
+  command
+      .add_option("--backward", backward,
+                  "share of standard nodes that arrive behind the next one: their angle steps back")
+      ->check(number_within(0, 0.4));
+}
+
+replay::SensorModel SensorOptions::model(const core::SensorNoise& configured) const {
+  replay::SensorModel model;
+  model.noise = noise.empty() ? configured : settings::load_noise(noise);
+  if (floor_m || share) model.noise.table = {};
+  model.noise.floor_m = floor_m.value_or(model.noise.floor_m);
+  model.noise.share = share.value_or(model.noise.share);
+  if (bearing_deg) model.noise.bearing_rad = core::radians(*bearing_deg);
+  model.missing = missing.value_or(model.missing);
+  model.missing_run = missing_run.value_or(model.missing_run);
+  model.outliers = outliers.value_or(model.outliers);
+  if (beam_deg) model.beam_width_rad = core::radians(*beam_deg);
+  model.backward = backward.value_or(model.backward);
+  return model;
+}
+
+}  // namespace cornerd::tool

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <filesystem>
+#include <optional>
+
+#include "core/sensor_noise.hpp"
+#include "replay/simulator/sensor_model.hpp"
+
+namespace CLI {
+class App;
+}
+
+namespace cornerd::tool {
+
+/// How a simulated lidar errs: options over the defaults of the sensor model.
+struct SensorOptions {
+  std::filesystem::path noise;  ///< a file with the key /lidar/noise, as calibrate noise writes it
+  std::optional<double> floor_m;
+  std::optional<double> share;
+  std::optional<double> bearing_deg;
+  std::optional<double> missing;
+  std::optional<double> missing_run;
+  std::optional<double> outliers;
+  std::optional<double> beam_deg;
+  std::optional<double> backward;
+
+  void add_to(CLI::App& command);
+
+  /// `configured`: the noise that the config names; --noise goes before it.
+  /// Throws settings::SettingsError.
+  replay::SensorModel model(const core::SensorNoise& configured) const;
+};
+
+}  // namespace cornerd::tool
