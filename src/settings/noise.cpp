@@ -31,7 +31,7 @@ void read_table(ObjectReader& noise, core::SigmaTable& table) {
   }
   std::vector<core::SigmaTable::Point> points;
   for (std::size_t i = 0; i < array->size(); ++i) {
-    points.push_back(read_sigma(noise.element(kKey, (*array)[i], i)));
+    points.push_back(read_sigma(noise.element(kKey, *array, i)));
     if (i > 0 && points[i].range_m <= points[i - 1].range_m) {
       noise.fail(kKey, i, "must be of a longer range than the one before");
     }

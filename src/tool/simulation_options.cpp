@@ -28,7 +28,9 @@ void warn_unless_indoors(const core::WallMap& map, const core::Vec2& point) {
 
 void SimulationOptions::add_to(CLI::App& command) {
   command.add_option("--pose", pose, "the robot stands there (m, m, rad)")->type_name("X,Y,THETA");
-  command.add_option("--places", places, "it visits so many random places")->type_name("N");
+  command.add_option("--places", places, "it visits so many random places")
+      ->check(number_within(1, 1e6))
+      ->type_name("N");
   command.add_option("--path", path, "it drives from point to point (m)")
       ->type_name("\"X,Y X,Y ...\"");
   command.add_flag("--loop", loop, "and from the last point back to the first, for ever");

@@ -131,7 +131,9 @@ TEST(Simulator, StandardNodes_StepBackAsOftenAsAsked) {
         core::angle_between(core::radians(last_deg), core::radians(sample.device_angle_deg)) < 0;
     last_deg = sample.device_angle_deg;
     ASSERT_NEAR(sample.dist_q2 / 4000.0, true_range_m(sample.device_angle_deg), 0.000126);
-    if (sample.starts_turn) ASSERT_GT(sample.device_angle_deg, 351);
+    if (sample.starts_turn) {
+      ASSERT_GT(sample.device_angle_deg, 351);
+    }
   }
   EXPECT_NEAR(static_cast<double>(steps_back) / kCount, 0.03, 0.003);
 }

@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: MIT
+#include "calibration/range_noise.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "calibration/median.hpp"
+
+namespace cornerd::calibration {
+namespace {
+
+/// Narrow where an A1's noise changes fastest; the paper's limits, 0.6 and 1 m, are among them.
+constexpr std::array kEdgesM = {0.0, 0.3, 0.45, 0.6, 0.8, 1.0, 1.25, 1.5, 2.0,
+                                2.5, 3.0, 4.0,  5.0, 6.0, 8.0, 10.0, 12.5};
+constexpr double kNearestM = 0.15;  ///< an A1 sees nothing before
+constexpr std::size_t kLeastBinsPerCell = 12;
+constexpr double kFlat = 0.577;     ///< tangent of 30 degrees
+constexpr double kSteep = 0.839;    ///< of 40 degrees
+constexpr double kTooSteep = 2.75;  ///< of 70 degrees: the footprint of the beam counts there
+constexpr std::size_t kLeastSteepBins = 12;
+/// Half a step of a standard node's distance: no wire carries less noise than that.
+constexpr double kLeastSigmaM = 0.000125;
+/// The table's sigma between its points is good to a tenth.
+constexpr double kDoubtOfRangeVariance = 0.2;
+constexpr double kMostBearingRad = 0.05;
+constexpr int kFitRounds = 20;
+
+bool is_flat(const BinSpread& bin) { return std::abs(bin.steepness()) < kFlat; }
+bool is_steep(const BinSpread& bin) {
+  return std::abs(bin.steepness()) >= kSteep && std::abs(bin.steepness()) < kTooSteep;
+}
+
+double without_bearing(const BinSpread& bin, double bearing_rad) {
+  const double aside_m = bin.slope_m * bearing_rad;
+  const double rest = bin.sigma_m * bin.sigma_m - aside_m * aside_m;
+  return std::max(std::sqrt(std::max(rest, 0.0)), kLeastSigmaM);
+}
+
+RangeCell make_cell(std::span<const BinSpread> bins, double from_m, double to_m,
+                    double bearing_rad) {
+  std::vector<double> ranges;
+  std::vector<double> sigmas;
+  std::vector<double> as_met;
+  for (const BinSpread& bin : bins) {
+    if (bin.range_m < from_m || bin.range_m >= to_m) continue;
+    as_met.push_back(bin.sigma_m);
+    if (!is_flat(bin)) continue;
+    ranges.push_back(bin.range_m);
+    sigmas.push_back(without_bearing(bin, bearing_rad));
+  }
+  return {from_m,
+          to_m,
+          median(ranges),
+          median(sigmas),
+          quantile(sigmas, 0.25),
+          quantile(sigmas, 0.75),
+          median(as_met),
+          sigmas.size()};
+}
+
+/// Each cell begins at an edge and ends at the next one behind which there are enough bins, within
+/// twice the range; where there is none, nothing is known between the two edges.
+std::vector<RangeCell> make_cells(std::span<const BinSpread> bins, double bearing_rad) {
+  std::vector<RangeCell> cells;
+  for (std::size_t first = 0; first + 1 < kEdgesM.size(); ++first) {
+    const double limit_m = 2 * std::max(kEdgesM[first], kNearestM);
+    for (std::size_t last = first + 1; last < kEdgesM.size(); ++last) {
+      const RangeCell cell = make_cell(bins, kEdgesM[first], kEdgesM[last], bearing_rad);
+      if (cell.bins >= kLeastBinsPerCell) {
+        cells.push_back(cell);
+        first = last - 1;
+        break;
+      }
+      if (kEdgesM[last] >= limit_m) break;
+    }
+  }
+  return cells;
+}
+
+std::vector<core::SigmaTable::Point> points_of(std::span<const RangeCell> cells) {
+  std::vector<core::SigmaTable::Point> points;
+  for (const RangeCell& cell : cells) points.push_back({cell.range_m, cell.sigma_m});
+  return points;
+}
+
+/// What the steep bins have beyond the noise of the range. `bearing_rad`: the last answer. nullopt
+/// where there are too few of them.
+std::optional<double> bearing_noise(std::span<const BinSpread> bins,
+                                    const core::SigmaTable& range_noise, double bearing_rad) {
+  std::vector<Weighted> squares;
+  for (const BinSpread& bin : bins) {
+    if (!is_steep(bin)) continue;
+    const double all = bin.sigma_m * bin.sigma_m;
+    const double along = std::pow(range_noise.sigma_m(bin.range_m), 2);
+    const double slope = bin.slope_m * bin.slope_m;
+    // Where the range's own noise is large, or few returns tell the spread, little is left to see.
+    // By what is believed so far, as weights by what was measured would prefer what came out small.
+    const double believed = along + slope * bearing_rad * bearing_rad;
+    const double doubt = std::hypot(believed * std::sqrt(2.0 / static_cast<double>(bin.returns)),
+                                    kDoubtOfRangeVariance * along);
+    squares.push_back({(all - along) / slope, slope / doubt});
+  }
+  if (squares.size() < kLeastSteepBins) return std::nullopt;
+  return std::min(std::sqrt(std::max(weighted_median(squares), 0.0)), kMostBearingRad);
+}
+
+/// Sum over the cells of |log(measured / model)|: a cell that is off by half counts as one that is
+/// off by double, and one odd cell does not bend the whole.
+double misfit(std::span<const RangeCell> cells, double floor_m, double share) {
+  double sum = 0;
+  double weights = 0;
+  for (const RangeCell& cell : cells) {
+    const double model_m = std::max(floor_m, share * cell.range_m);
+    const double weight = std::sqrt(static_cast<double>(cell.bins));
+    sum += weight * std::abs(std::log(cell.sigma_m / model_m));
+    weights += weight;
+  }
+  return sum / weights;
+}
+
+void fit_floor_and_share(std::span<const RangeCell> cells, RangeNoise& fit) {
+  // Logarithmic grids, the second one around the best of the first.
+  constexpr int kSteps = 40;
+  double floor_m = 0.0016;  // geometric middles of 0.1 mm .. 25 mm and 0.0002 .. 0.1
+  double share = 0.0045;
+  fit.plain_misfit = misfit(cells, floor_m, share);
+  double reach = std::log(25.0);
+  for (int round = 0; round < 3; ++round) {
+    const double middle_floor_m = floor_m;
+    const double middle_share = share;
+    for (int i = -kSteps; i <= kSteps; ++i) {
+      for (int j = -kSteps; j <= kSteps; ++j) {
+        const double try_floor_m = middle_floor_m * std::exp(reach * i / kSteps);
+        const double try_share = middle_share * std::exp(reach * j / kSteps);
+        const double found = misfit(cells, try_floor_m, try_share);
+        if (found >= fit.plain_misfit) continue;
+        fit.plain_misfit = found;
+        floor_m = try_floor_m;
+        share = try_share;
+      }
+    }
+    reach *= 2.0 / kSteps;
+  }
+  // Where nothing was measured the nearest sigma holds, the farthest one's share of the range does:
+  // as in the table.
+  fit.plain.floor_m = std::max(floor_m, share * cells.front().range_m);
+  fit.plain.share = std::max(share, floor_m / cells.back().range_m);
+}
+
+}  // namespace
+
+std::vector<core::SigmaTable::Point> RangeNoise::table() const { return points_of(cells); }
+
+std::optional<RangeNoise> fit_range_noise(std::span<const BinSpread> bins) {
+  RangeNoise fit;
+  double bearing_rad = 0;
+  for (int round = 0; round < kFitRounds; ++round) {
+    fit.cells = make_cells(bins, bearing_rad);
+    if (fit.cells.empty()) return std::nullopt;
+    const auto found = bearing_noise(bins, core::SigmaTable(fit.table()), bearing_rad);
+    fit.bearing_measured = found.has_value();
+    bearing_rad = found.value_or(0);
+  }
+  if (fit.bearing_measured) fit.plain.bearing_rad = bearing_rad;
+  fit_floor_and_share(fit.cells, fit);
+  return fit;
+}
+
+}  // namespace cornerd::calibration

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+#include "tool/noise_drawing.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "tool/plot.hpp"
+
+namespace cornerd::tool {
+
+namespace {
+
+using calibration::BinSpread;
+using calibration::RangeCell;
+
+constexpr Paint kDirection{.fill = "#1b9e77", .opacity = 0.35};
+constexpr Paint kCellBar{.stroke = "#2f3640", .stroke_width = 1.5};
+constexpr Paint kCellDot{.fill = "#2f3640"};
+constexpr Paint kPlainLine{.stroke = "#c2255c", .stroke_width = 2};
+constexpr Paint kTableLine{.stroke = "#2f6f9f", .stroke_width = 2, .dashes = "6 4"};
+constexpr double kToMm = 1e3;
+
+std::vector<core::Vec2> curve(const core::SensorNoise& noise, double end_m) {
+  std::vector<core::Vec2> points;
+  constexpr int kSteps = 400;
+  for (int i = 0; i <= kSteps; ++i) {
+    const double range_m = end_m * i / kSteps;
+    points.emplace_back(range_m, kToMm * noise.sigma_range_m(range_m));
+  }
+  return points;
+}
+
+}  // namespace
+
+std::string draw_noise(const calibration::RangeNoise& noise, std::span<const BinSpread> bins) {
+  const double end_m = std::ceil(2 * noise.cells.back().to_m) / 2;
+  double highest_m = 0;
+  for (const RangeCell& cell : noise.cells) highest_m = std::max(highest_m, cell.high_m);
+  Plot plot({0, end_m, "range (m)"}, {0, 1.6 * kToMm * highest_m, "sigma of the range (mm)"},
+            "Noise of the lidar");
+  for (const BinSpread& bin : bins) {
+    if (bin.range_m < end_m) plot.dot(bin.range_m, kToMm * bin.sigma_m, 2, kDirection);
+  }
+  for (const RangeCell& cell : noise.cells) {
+    const core::Vec2 bar[] = {{cell.range_m, kToMm * cell.low_m},
+                              {cell.range_m, kToMm * cell.high_m}};
+    plot.line(bar, kCellBar);
+    plot.dot(cell.range_m, kToMm * cell.sigma_m, 4, kCellDot);
+  }
+  plot.line(curve(noise.plain, end_m), kPlainLine);
+  core::SensorNoise tabled = noise.plain;
+  tabled.table = core::SigmaTable(noise.table());
+  plot.line(curve(tabled, end_m), kTableLine);
+  plot.legend("a direction, as measured", kDirection);
+  plot.legend("range alone: median and quartiles", kCellDot);
+  plot.legend("floor and share", kPlainLine);
+  plot.legend("table", kTableLine);
+  return plot.document();
+}
+
+}  // namespace cornerd::tool
