@@ -15,6 +15,14 @@ namespace cornerd::core {
 namespace {
 
 constexpr double kMinCornerAngle_rad = radians(15);
+/// Rays that may give nothing between the last sample of a wall that they graze and its corner.
+constexpr double kGrazingRays = 3;
+/// Samples closer to a ray than this lie between an edge and what is behind it, on nothing.
+constexpr double kMinRestSine = 0.06;
+/// They have no direction to speak of where it is less certain than this.
+constexpr double kMaxRestSigma_rad = radians(9);
+/// A corner made of so few samples is none where its place is less certain than this.
+constexpr double kMaxSigma_m = 0.02;
 
 double heading(const Vec2& direction) { return std::atan2(direction.y(), direction.x()); }
 
@@ -35,6 +43,7 @@ class Border {
 
  private:
   bool free_between(const Vec2& corner) const;
+  bool is_reached(const Vec2& corner, const SegmentTrack& wall, std::size_t end, int step) const;
 
   const PolarScan& scan_;
   const SegmentTrack& right_;
@@ -68,6 +77,27 @@ bool Border::free_between(const Vec2& corner) const {
   return behind == 0 || (count > 3 && behind == 1);
 }
 
+/// Follows a wall over the samples between the two, to the last that lies on it: single ones that
+/// its tracker did not get to, behind an outlier or where few rays return. From there to the corner
+/// it is no farther than Dth_corner, or, where rays graze the wall, than a few of them.
+bool Border::is_reached(const Vec2& corner, const SegmentTrack& wall, std::size_t end,
+                        int step) const {
+  const std::size_t n = scan_.size();
+  const std::size_t count = samples_between(scan_, right_, left_);
+  const double gate = kGateSigmas * noise_scale_;
+  std::size_t farthest = end;
+  for (std::size_t k = 1; k <= count; ++k) {
+    const std::size_t index = (step > 0 ? end + k : end + n - k) % n;
+    if (misfit(noise_, wall.line, scan_[index]) < gate * gate) farthest = index;
+  }
+  const PolarPoint& point = scan_[farthest];
+  const double distance_m = (corner - Vec2(point.x_m, point.y_m)).norm();
+  if (distance_m <= config_.corner_tolerance_m) return true;
+  const double gap_rad = angle_between(point.bearing_rad, heading(corner));
+  return distance_m <= 2 * config_.corner_tolerance_m &&
+         std::abs(gap_rad) <= kGrazingRays * scan_.spacing_rad();
+}
+
 std::optional<Breakpoint> Border::corner() const {
   const Line& a = right_.line;
   const Line& b = left_.line;
@@ -86,9 +116,8 @@ std::optional<Breakpoint> Border::corner() const {
   if (gap_rad < -margin_rad || gap_rad > kPi / 2) return std::nullopt;
   if (angle_between(end.bearing_rad, bearing_rad) < -margin_rad) return std::nullopt;
   if (angle_between(bearing_rad, begin.bearing_rad) < -margin_rad) return std::nullopt;
-  const double to_end_m = (point - Vec2(end.x_m, end.y_m)).norm();
-  const double to_begin_m = (point - Vec2(begin.x_m, begin.y_m)).norm();
-  if (std::max(to_end_m, to_begin_m) > config_.corner_tolerance_m) return std::nullopt;
+  if (!is_reached(point, right_, right_.last, +1)) return std::nullopt;
+  if (!is_reached(point, left_, left_.first, -1)) return std::nullopt;
   if (!free_between(point)) return std::nullopt;
 
   Breakpoint breakpoint;
@@ -104,6 +133,32 @@ std::optional<Breakpoint> Border::corner() const {
   breakpoint.left_support = left_.support;
   breakpoint.covariance = intersection_covariance(a, b, point, noise_scale_);
   return breakpoint;
+}
+
+/// What is seen of a third wall beyond the end of one: the next two to four of the free samples,
+/// where they lie on a line. Too few to be a wall by themselves, but enough to show where this one
+/// ends.
+std::optional<SegmentTrack> rest_beside(const PolarScan& scan, std::size_t end, int step,
+                                        std::size_t free_samples, const SensorNoise& noise,
+                                        double noise_scale) {
+  const std::size_t n = scan.size();
+  for (std::size_t count = std::min(free_samples, kMaxInterruption); count >= 2; --count) {
+    const std::size_t first = (step > 0 ? end + 1 : end + n - count) % n;
+    SegmentTrack rest = SegmentTrack::starting_at(scan, first);
+    for (std::size_t k = 0; k < count; ++k) rest.add(scan, (first + k) % n, noise);
+    rest.line = rest.fit.line();
+    const double sigma_angle_rad = noise_scale / std::sqrt(rest.line.weight * rest.line.spread_m2);
+    if (sigma_angle_rad > kMaxRestSigma_rad) continue;
+    const double gate = kGateSigmas * noise_scale;
+    bool lies = true;
+    for (std::size_t k = 0; k < count && lies; ++k) {
+      const PolarPoint& point = scan[(first + k) % n];
+      lies = -rest.line.normal.dot(Vec2(point.ray_x, point.ray_y)) > kMinRestSine &&
+             misfit(noise, rest.line, point) < gate * gate;
+    }
+    if (lies) return rest;
+  }
+  return std::nullopt;
 }
 
 }  // namespace
@@ -138,13 +193,22 @@ void extract_border(const PolarScan& scan, const SegmentTrack& right, const Segm
       ++detection.overflowed;
     }
   };
-  const Border border(scan, right, left, config, noise, noise_scale);
-  if (const std::optional<Breakpoint> corner = border.corner()) return add(corner);
+  const auto corner_of = [&](const SegmentTrack& on_right, const SegmentTrack& on_left) {
+    return Border(scan, on_right, on_left, config, noise, noise_scale).corner();
+  };
+  if (const std::optional<Breakpoint> corner = corner_of(right, left)) return add(corner);
   const std::size_t between = samples_between(scan, right, left);
   for (const auto& [wall, side] : {std::pair(&right, WallSide::kRight), {&left, WallSide::kLeft}}) {
+    const bool on_right = side == WallSide::kRight;
     const WallEnd end(scan, *wall, side, between, noise, noise_scale);
-    const std::optional<Breakpoint> corner = end.corner();
-    add(corner ? corner : end.terminal());
+    std::optional<Breakpoint> found = end.corner();
+    if (!found) {
+      const auto rest = rest_beside(scan, on_right ? right.last : left.first, on_right ? +1 : -1,
+                                    between, noise, noise_scale);
+      if (rest) found = on_right ? corner_of(right, *rest) : corner_of(*rest, left);
+      if (found && found->covariance.trace() > kMaxSigma_m * kMaxSigma_m) found.reset();
+    }
+    add(found ? found : end.terminal());
   }
 }
 

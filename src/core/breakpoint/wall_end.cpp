@@ -99,7 +99,8 @@ std::optional<Breakpoint> WallEnd::corner() const {
   std::size_t count = 0;
   for (; count < free_samples_; ++count) {
     const Beyond beyond = look(count + 1);
-    const double slack_m = kGateSigmas * beyond.sigma_along_m;
+    // The foot is that of a sample with an error of its own.
+    const double slack_m = std::sqrt(2) * kGateSigmas * beyond.sigma_along_m;
     if (std::abs(beyond.height_m) > kMaxFace_m) break;
     if (beyond.along_m < -slack_m || beyond.along_m > span_m_ + slack_m) break;
     along_sum += beyond.along_m;
