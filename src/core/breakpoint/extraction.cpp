@@ -17,12 +17,16 @@ namespace {
 constexpr double kMinCornerAngle_rad = radians(15);
 /// Rays that may give nothing between the last sample of a wall that they graze and its corner.
 constexpr double kGrazingRays = 3;
+/// What they may leave open, in units of Dth_corner.
+constexpr double kGrazingReach = 2;
 /// Samples closer to a ray than this lie between an edge and what is behind it, on nothing.
 constexpr double kMinRestSine = 0.06;
 /// They have no direction to speak of where it is less certain than this.
 constexpr double kMaxRestSigma_rad = radians(9);
 /// A corner made of so few samples is none where its place is less certain than this.
 constexpr double kMaxSigma_m = 0.02;
+
+Vec2 place_on(const PolarPoint& point) { return {point.x_m, point.y_m}; }
 
 double heading(const Vec2& direction) { return std::atan2(direction.y(), direction.x()); }
 
@@ -88,14 +92,19 @@ bool Border::is_reached(const Vec2& corner, const SegmentTrack& wall, std::size_
   std::size_t farthest = end;
   for (std::size_t k = 1; k <= count; ++k) {
     const std::size_t index = (step > 0 ? end + k : end + n - k) % n;
+    if ((place_on(scan_[index]) - place_on(scan_[farthest])).norm() > kMaxPieceGap_m) break;
     if (misfit(noise_, wall.line, scan_[index]) < gate * gate) farthest = index;
   }
   const PolarPoint& point = scan_[farthest];
-  const double distance_m = (corner - Vec2(point.x_m, point.y_m)).norm();
+  const double distance_m = (corner - place_on(point)).norm();
   if (distance_m <= config_.corner_tolerance_m) return true;
   const double gap_rad = angle_between(point.bearing_rad, heading(corner));
-  return distance_m <= 2 * config_.corner_tolerance_m &&
-         std::abs(gap_rad) <= kGrazingRays * scan_.spacing_rad();
+  if (std::abs(gap_rad) > kGrazingRays * scan_.spacing_rad()) return false;
+  // What is seen next lies in front of the wall, or the wall would have ended before the corner.
+  const PolarPoint& next = scan_[step > 0 ? left_.first : right_.last];
+  const double height_m = wall.line.normal.dot(place_on(next)) - wall.line.offset_m;
+  const bool behind = height_m < 0 && misfit(noise_, wall.line, next) > gate * gate;
+  return !behind && distance_m <= kGrazingReach * config_.corner_tolerance_m;
 }
 
 std::optional<Breakpoint> Border::corner() const {

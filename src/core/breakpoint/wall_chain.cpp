@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "core/breakpoint/wall_chain.hpp"
 
+#include <cmath>
+
 #include "core/breakpoint/extraction.hpp"
 #include "core/breakpoint/wall_tests.hpp"
 
@@ -85,18 +87,24 @@ bool WallChain::dissolve(const PolarScan& scan, std::size_t before, std::size_t 
 void WallChain::settle(const PolarScan& scan, SegmentTrack& right, SegmentTrack& left) const {
   if (samples_between(scan, right, left) > kMaxInterruption) return;
   const std::size_t n = scan.size();
+  // A sample at the border of one wall that lies on the other's line, and not far from it.
+  const auto belongs = [&](std::uint32_t index, const SegmentTrack& from, const SegmentTrack& to) {
+    const PolarPoint& point = scan[index];
+    const PolarPoint& end = scan[&to == &left ? left.first : right.last];
+    const double gap_m = std::hypot(point.x_m - end.x_m, point.y_m - end.y_m);
+    return gap_m < kMaxPieceGap_m &&
+           misfit(noise_, to.line, point) < misfit(noise_, from.line, point);
+  };
   const std::uint32_t before = right.support;
   for (int k = 0; k < kBorderSamples && right.support > kKeptSamples; ++k) {
-    const PolarPoint& point = scan[right.last];
-    if (misfit(noise_, left.line, point) >= misfit(noise_, right.line, point)) break;
+    if (!belongs(right.last, right, left)) break;
     right.take_back(scan, right.last, noise_);
     left.add_in_front(scan, right.last, noise_);
     right.last = static_cast<std::uint32_t>((right.last + n - 1) % n);
   }
   const bool gave = right.support < before;
   for (int k = 0; k < kBorderSamples && left.support > kKeptSamples && !gave; ++k) {
-    const PolarPoint& point = scan[left.first];
-    if (misfit(noise_, right.line, point) >= misfit(noise_, left.line, point)) break;
+    if (!belongs(left.first, left, right)) break;
     left.take_back(scan, left.first, noise_);
     right.add(scan, left.first, noise_);
     left.first = static_cast<std::uint32_t>((left.first + 1) % n);

@@ -109,9 +109,12 @@ std::optional<Breakpoint> WallEnd::corner() const {
     variance_height += beyond.sigma_height_m * beyond.sigma_height_m;
   }
   if (count < kMinFaceSamples) return std::nullopt;
-  if (height_sum * height_sum < kGateSigmas * kGateSigmas * variance_height) return std::nullopt;
-
   const double samples = static_cast<double>(count);
+  const double from_centroid_m = outward_.dot(foot_ - wall_.line.centroid);
+  const double variance_line = noise_scale_ * noise_scale_ * wall_.line.variance_at(from_centroid_m);
+  const double variance = variance_height + samples * samples * variance_line;
+  if (height_sum * height_sum < kGateSigmas * kGateSigmas * variance) return std::nullopt;
+
   const double along_m = std::clamp(along_sum / samples, 0.0, span_m_);
   constexpr double kSquareness_m2 = 1e-6;  // of the face: a millimetre
   Breakpoint breakpoint =

@@ -7,8 +7,6 @@
 namespace cornerd::core {
 namespace {
 
-/// What two pieces of one wall may be apart, so that no door becomes a wall.
-constexpr double kMaxPieceGap_m = 0.3;
 /// More than this between two walls is never noise.
 const double kMinPieceCosine = std::cos(radians(60));
 /// Chi-square of two degrees of freedom that one line for two costs at most: one in 2,000.

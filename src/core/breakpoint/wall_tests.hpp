@@ -14,6 +14,9 @@ namespace cornerd::core {
 /// Samples that may lie between two pieces of one wall: a table leg, a run of outliers.
 inline constexpr std::size_t kMaxInterruption = 4;
 
+/// What two pieces of one wall may be apart, so that no door becomes a wall.
+inline constexpr double kMaxPieceGap_m = 0.3;
+
 /// Samples after the end of `right` and before the beginning of `left`.
 std::size_t samples_between(const PolarScan& scan, const SegmentTrack& right,
                             const SegmentTrack& left);
