@@ -21,7 +21,42 @@ const std::array kPaperMethods = {
     NamedMethod{"lt", "LT", of(Method::kLineTracking)},
 };
 
-const std::array<NamedMethod, 0> kVariants = {};
+DetectorConfig printed_altbd(const core::PrintedAltbdConfig& reading) {
+  DetectorConfig config = of(Method::kPrintedAltbd);
+  config.printed_altbd = reading;
+  return config;
+}
+
+DetectorConfig abd_iepf(core::AbdThreshold threshold, double split_limit_m) {
+  DetectorConfig config = of(Method::kAbdIepf);
+  config.abd_iepf.threshold = threshold;
+  config.abd_iepf.split_limit_m = split_limit_m;
+  return config;
+}
+
+using core::AbdThreshold;
+using core::EllipseAxes;
+using core::ErrorMean;
+using core::MinorAxis;
+using core::TrackedLine;
+
+const std::array kVariants = {
+    NamedMethod{"altbd-printed", "ALTBD as printed", printed_altbd({})},
+    NamedMethod{"altbd-printed-metres", "printed: h_max in metres",
+                printed_altbd({.minor = MinorAxis::kMetres})},
+    NamedMethod{"altbd-printed-squared", "printed: axes squared",
+                printed_altbd({.axes = EllipseAxes::kSquared})},
+    NamedMethod{"altbd-printed-last-three", "printed: line of last three",
+                printed_altbd({.line = TrackedLine::kLastThree})},
+    NamedMethod{"altbd-printed-all", "printed: line of all",
+                printed_altbd({.line = TrackedLine::kAll})},
+    NamedMethod{"altbd-printed-mean-all", "printed: mean of all errors",
+                printed_altbd({.mean = ErrorMean::kAll})},
+    NamedMethod{"altbd-printed-squared-all", "printed: squared, line of all",
+                printed_altbd({.axes = EllipseAxes::kSquared, .line = TrackedLine::kAll})},
+    NamedMethod{"abd-iepf-borges", "ABD (eq. 4)+IEPF", abd_iepf(AbdThreshold::kBorgesAldon, 0.03)},
+    NamedMethod{"abd-iepf-printed", "ABD+IEPF, 46 cm", abd_iepf(AbdThreshold::kWeerakoon, 0.46)},
+};
 
 }  // namespace
 

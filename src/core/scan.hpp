@@ -10,8 +10,9 @@
 
 namespace cornerd::core {
 
-/// An A1 at its slowest (1 Hz) and its fastest mode (127 us a sample) gives 7,874 samples a turn.
-inline constexpr std::size_t kMaxSamplesPerTurn = 8192;
+/// An A1 at its slowest (1 Hz) and its fastest mode (127 us a sample) gives 7,874 samples a turn;
+/// `cornerctl bench` goes up to 10,000.
+inline constexpr std::size_t kMaxSamplesPerTurn = 10240;
 
 /// The samples of one turn in the order of their arrival. Room for kMaxSamplesPerTurn is taken at
 /// construction, so that filling and reusing one allocates nothing.

@@ -9,8 +9,8 @@
 namespace cornerd::message {
 namespace {
 
-/// 8192 samples of at most 10 + 9 + 4 + 9 characters each, with room for the rest.
-constexpr std::size_t kLongestLine = 320 * 1024;
+/// 10240 samples of at most 10 + 9 + 4 + 9 characters each, with room for the rest.
+constexpr std::size_t kLongestLine = 400 * 1024;
 
 /// A hundredth of a millimetre: the wire's own step is a quarter of one.
 constexpr int kMetreDecimals = 5;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // cornerctl bench: the published experiment, measured again.
 #include <cstdint>
+#include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -8,8 +9,11 @@
 
 #include <CLI/CLI.hpp>
 
-#include "bench/corner_experiment.hpp"
+#include "bench/workload.hpp"
 #include "core/scan.hpp"
+#include "tool/bench_instructions.hpp"
+#include "tool/bench_json.hpp"
+#include "tool/bench_plots.hpp"
 #include "tool/bench_text.hpp"
 #include "tool/commands.hpp"
 #include "tool/contest_maps.hpp"
@@ -21,6 +25,9 @@ namespace cornerd::tool {
 
 namespace {
 
+/// The median of so many runs is a turn's time.
+constexpr std::size_t kTimingRepeats = 51;
+
 struct BenchOptions {
   std::filesystem::path maps;
   std::vector<std::string> methods;
@@ -28,6 +35,10 @@ struct BenchOptions {
   std::size_t positions = 10'000;
   std::size_t samples = 800;
   std::uint64_t seed = 1;
+  bool instructions = false;
+  std::filesystem::path plots;
+  std::string json;
+  std::size_t detections = 0;
 };
 
 std::vector<bench::NamedMethod> chosen_methods(const BenchOptions& options) {
@@ -44,32 +55,73 @@ std::vector<bench::NamedMethod> chosen_methods(const BenchOptions& options) {
   return methods;
 }
 
-void bench_corners(const BenchOptions& options, Output& output) {
+/// The noise of the published experiment, as far as an A1's has been measured.
+replay::SensorModel usual_sensor() { return bench::usual_circumstances().front().sensor; }
+
+/// What a counter of instructions is started on: it does nothing else.
+void only_detect(const BenchOptions& options) {
   const auto maps = load_contest_maps(options.maps);
+  const auto turns =
+      bench::simulate_paper_turns(maps, usual_sensor(), options.samples, options.seed);
+  bench::Workload workload(chosen_methods(options).front(), turns.turns);
+  for (std::size_t i = 0; i < options.detections; ++i) workload.run_all();
+}
+
+BenchReport measure(const BenchOptions& options) {
+  const std::filesystem::path folder = contest_maps_folder(options.maps);
+  const auto maps = load_contest_maps(folder);
   const auto methods = chosen_methods(options);
-  output.write("Corners at " + std::to_string(options.positions) + " random places, " +
-               std::to_string(options.samples) + " samples a turn\n\n");
-  for (const bench::Circumstances& circumstances : bench::usual_circumstances()) {
-    ProgressBar bar(circumstances.title, options.positions);
-    const auto scores = bench::score_methods(maps, methods, circumstances.sensor, options.samples,
-                                             options.positions, options.seed,
-                                             [&](std::size_t done) { bar.show(done); });
-    output.write(corner_table(circumstances.title, scores) + "\n");
+
+  BenchReport report;
+  report.samples = options.samples;
+  report.positions = options.positions;
+  report.seed = options.seed;
+  report.turns = bench::simulate_paper_turns(maps, usual_sensor(), options.samples, options.seed);
+  report.supported_corners = bench::supported_corners(report.turns);
+  report.preparation_us = bench::time_preparation_us(report.turns.turns, kTimingRepeats);
+  report.paper = bench::run_paper_experiment(report.turns, methods, kTimingRepeats);
+  if (options.instructions) {
+    count_instructions({maps, folder, usual_sensor(), options.seed}, methods, report);
   }
-  output.write(corner_table_legend());
+  for (const bench::Circumstances& circumstances : bench::usual_circumstances()) {
+    if (options.positions == 0) break;
+    ProgressBar bar(circumstances.title, options.positions);
+    report.corners.push_back(
+        {circumstances.title, bench::score_methods(maps, methods, circumstances.sensor,
+                                                   options.samples, options.positions, options.seed,
+                                                   [&](std::size_t done) { bar.show(done); })});
+  }
+  return report;
 }
 
 void run_bench(const BenchOptions& options) {
-  Output output(/*flush_each=*/true);
-  bench_corners(options, output);
+  if (options.detections > 0) {
+    only_detect(options);
+    return;
+  }
+  // Before the work: whatever cannot be written is said at once.
+  std::unique_ptr<Output> json;
+  if (options.json == "-") json = std::make_unique<Output>();
+  if (!options.json.empty() && !json) {
+    json = std::make_unique<Output>(std::filesystem::path(options.json));
+  }
+  const BenchReport report = measure(options);
+  if (!options.plots.empty()) draw_bench(report, options.plots);
+  if (json) {
+    json->write(bench_json(report));
+    json->flush();
+  }
+  if (options.json == "-") return;
+  Output output;
+  output.write(bench_text(report));
   output.flush();
 }
 
 }  // namespace
 
 void add_bench(CLI::App& program) {
-  CLI::App* command =
-      program.add_subcommand("bench", "the published tables, measured again on this machine");
+  CLI::App* command = program.add_subcommand(
+      "bench", "the published tables, measured again on this machine, and more places");
   const auto options = std::make_shared<BenchOptions>();
   command
       ->add_option("--maps", options->maps,
@@ -81,13 +133,24 @@ void add_bench(CLI::App& program) {
       ->delimiter(',')
       ->type_name("NAME,...");
   command->add_flag("--variants", options->variants, "also other forms of the methods");
-  command->add_option("--positions", options->positions, "random places")
-      ->check(CLI::Range(std::size_t{1}, std::size_t{10'000'000}))
+  command->add_option("--positions", options->positions, "random places; 0: the paper's 43 alone")
+      ->check(CLI::Range(std::size_t{0}, std::size_t{10'000'000}))
+      ->type_name("N")
       ->capture_default_str();
   command->add_option("--samples", options->samples, "a turn")
       ->check(CLI::Range(std::size_t{1}, core::kMaxSamplesPerTurn))
+      ->type_name("N")
       ->capture_default_str();
   command->add_option("--seed", options->seed, "of all randomness")->capture_default_str();
+  command->add_flag("--instructions", options->instructions,
+                    "count the instructions a turn, of 400 to 10,000 samples: by the processor's "
+                    "counter, else by valgrind (slow)");
+  command->add_option("--plots", options->plots, "draw the figures into this folder, as SVG")
+      ->type_name("DIR");
+  command->add_option("--json", options->json, "all figures; -: on standard output, and no text")
+      ->type_name("FILE");
+  command->add_option("--only-detect", options->detections)
+      ->group("");  // hidden: what valgrind is started on
   command->callback([options] { run_bench(*options); });
 }
 

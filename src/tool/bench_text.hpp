@@ -1,19 +1,28 @@
 // SPDX-License-Identifier: MIT
-// What cornerctl bench measured, as tables for a person.
+// What cornerctl bench measured, as tables for a person. What was not measured is left out.
 #pragma once
 
-#include <cstddef>
-#include <span>
 #include <string>
 
-#include "bench/corner_experiment.hpp"
+#include "tool/bench_report.hpp"
 
 namespace cornerd::tool {
 
-/// One circumstance: a line a method.
-std::string corner_table(const std::string& title, std::span<const bench::MethodScore> scores);
+/// Time per turn and location, beside the paper's.
+std::string time_table(const BenchReport& report);
 
-/// What the columns of corner_table() are.
-std::string corner_table_legend();
+/// True and false corners per location, beside the paper's.
+std::string true_false_table(const BenchReport& report);
+
+/// Position errors, beside the paper's.
+std::string position_table(const BenchReport& report);
+
+/// Instructions per turn and sample, over the number of samples.
+std::string scaling_table(const BenchReport& report);
+
+/// Precision, recall and error of the corners: a table for each circumstance.
+std::string corner_tables(const BenchReport& report);
+
+std::string bench_text(const BenchReport& report);
 
 }  // namespace cornerd::tool

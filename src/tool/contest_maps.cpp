@@ -39,8 +39,12 @@ fs::path find_folder() {
 
 }  // namespace
 
+fs::path contest_maps_folder(const fs::path& named) {
+  return named.empty() ? find_folder() : named;
+}
+
 std::vector<std::shared_ptr<const core::WallMap>> load_contest_maps(const fs::path& folder) {
-  const fs::path found = folder.empty() ? find_folder() : folder;
+  const fs::path found = contest_maps_folder(folder);
   std::vector<std::shared_ptr<const core::WallMap>> maps;
   for (const char layout : {'a', 'b', 'c', 'd'}) {
     maps.push_back(settings::load_map(file_of(found, layout)));

@@ -58,7 +58,7 @@ TEST(LineWriter, WorstLines_AllocateNothing) {
   written += writer.serial(0, LineWriter::Direction::kRx, bytes).size();
   counting = false;
 
-  EXPECT_GT(written, 8192u * 20) << "the scan was not at its longest";
+  EXPECT_GT(written, core::kMaxSamplesPerTurn * 20) << "the scan was not at its longest";
   EXPECT_EQ(allocations, 0);
 }
 

@@ -102,7 +102,7 @@ TEST(RecordedScan, MoreThanATurn_IsRefused) {
     return R"({"class":"SCAN","t":1,"angles":[)" + zeros + R"(],"ranges":[)" + zeros + "]}";
   };
   EXPECT_EQ(scan_of(line_of(core::kMaxSamplesPerTurn)).samples.size(), core::kMaxSamplesPerTurn);
-  EXPECT_THAT(error_of(line_of(core::kMaxSamplesPerTurn + 1)), HasSubstr("8192"));
+  EXPECT_THAT(error_of(line_of(core::kMaxSamplesPerTurn + 1)), HasSubstr("10240"));
 }
 
 TEST(RecordedSerial, Bytes_AreRead) {

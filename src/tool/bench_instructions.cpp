@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+#include "tool/bench_instructions.hpp"
+
+#include <cstdio>
+#include <optional>
+#include <set>
+#include <string>
+
+#include "bench/instruction_counter.hpp"
+#include "bench/workload.hpp"
+#include "tool/callgrind.hpp"
+#include "tool/progress_bar.hpp"
+
+namespace cornerd::tool {
+
+namespace {
+
+/// An A1's turns are of 270 to 1,450 samples; what lies beyond shows how the methods grow.
+const std::set<std::size_t> kCountedSizes = {400, 800, 1450, 2900, 5800, 10'000};
+
+/// One detection in each of the turns.
+std::optional<double> count_by_processor(bench::InstructionCounter& counter,
+                                         const CountedTurns& turns,
+                                         const bench::NamedMethod& method, std::size_t samples) {
+  const auto simulated = bench::simulate_paper_turns(turns.maps, turns.sensor, samples, turns.seed);
+  bench::Workload workload(method, simulated.turns);
+  workload.run_all();
+  const auto count = counter.count([&] { workload.run_all(); });
+  if (!count) return std::nullopt;
+  return static_cast<double>(*count) / static_cast<double>(workload.turns());
+}
+
+std::optional<double> count_by_valgrind(const CountedTurns& turns, const bench::NamedMethod& method,
+                                        std::size_t samples, std::size_t places) {
+  const auto count = [&](int times) {
+    return count_by_callgrind({"bench", "--maps", turns.folder.string(), "--methods",
+                               std::string(method.name), "--samples", std::to_string(samples),
+                               "--seed", std::to_string(turns.seed), "--only-detect",
+                               std::to_string(times)});
+  };
+  const auto once = count(1);
+  const auto twice = once ? count(2) : std::nullopt;
+  if (!twice || *twice < *once) return std::nullopt;
+  return static_cast<double>(*twice - *once) / static_cast<double>(places);
+}
+
+}  // namespace
+
+void count_instructions(const CountedTurns& turns, std::span<const bench::NamedMethod> methods,
+                        BenchReport& report) {
+  bench::InstructionCounter counter;
+  std::set<std::size_t> sizes = kCountedSizes;
+  sizes.insert(report.samples);
+  ProgressBar bar("instructions", sizes.size() * methods.size());
+  std::size_t done = 0;
+  for (const std::size_t samples : sizes) {
+    for (const bench::NamedMethod& method : methods) {
+      const auto count =
+          counter.is_available()
+              ? count_by_processor(counter, turns, method, samples)
+              : count_by_valgrind(turns, method, samples, report.turns.places.size());
+      if (!count) {
+        std::fprintf(stderr,
+                     "cornerctl: instructions cannot be counted here: no performance counter for "
+                     "this user, and no valgrind\n");
+        report.instructions.clear();
+        return;
+      }
+      report.instructions.push_back({std::string(method.title), samples, *count});
+      bar.show(++done);
+    }
+  }
+  report.counter = counter.is_available() ? "the processor" : "valgrind";
+}
+
+}  // namespace cornerd::tool

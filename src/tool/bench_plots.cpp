@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: MIT
+#include "tool/bench_plots.hpp"
+
+#include <algorithm>
+#include <system_error>
+#include <vector>
+
+#include "bench/paper_figures.hpp"
+#include "tool/boxplot_drawing.hpp"
+#include "tool/failure.hpp"
+#include "tool/map_drawing.hpp"
+#include "tool/output.hpp"
+
+namespace cornerd::tool {
+
+namespace {
+
+constexpr double kPlotMm = 1e3;
+
+void save(const std::filesystem::path& file, const std::string& document) {
+  Output output(file);
+  output.write(document);
+  output.flush();
+}
+
+std::string draw_times(const BenchReport& report) {
+  std::vector<BoxplotSeries> series;
+  for (const bench::PaperResult& result : report.paper) {
+    BoxplotSeries times{std::string(result.method.title), {}};
+    for (const bench::PlaceResult& place : result.places) times.values.push_back(place.time_us);
+    series.push_back(std::move(times));
+  }
+  return draw_boxplots(
+      {"Time a turn", std::to_string(report.turns.places.size()) + " places", "microseconds"},
+      series);
+}
+
+std::string draw_positions(const BenchReport& report) {
+  std::vector<BoxplotSeries> series;
+  for (const bench::PaperResult& result : report.paper) {
+    if (result.method.name == "lt") continue;  // nor has the paper's figure
+    BoxplotSeries errors{std::string(result.method.title), {}};
+    for (const bench::PlaceResult& place : result.places) {
+      if (!place.nearest_corners_error_m) continue;
+      errors.values.push_back(kPlotMm * *place.nearest_corners_error_m);
+    }
+    series.push_back(std::move(errors));
+  }
+  BoxplotSeries own{"cornerd", {}};
+  if (!report.paper.empty()) {
+    for (const bench::PlaceResult& place : report.paper.front().places) {
+      if (place.localizer_error_m) own.values.push_back(kPlotMm * *place.localizer_error_m);
+    }
+  }
+  series.push_back(std::move(own));
+  return draw_boxplots(
+      {"Position error", "by the two nearest corners; cornerd: by the whole turn", "millimetres"},
+      series);
+}
+
+/// The turn that shows most corners.
+std::size_t richest_turn(const BenchReport& report) {
+  const auto& counts = report.supported_corners;
+  return static_cast<std::size_t>(std::max_element(counts.begin(), counts.end()) - counts.begin());
+}
+
+std::string draw_bench_turn(const BenchReport& report, const bench::PaperResult& result,
+                            std::size_t turn) {
+  const bench::PaperPlace& place = report.turns.places[turn];
+  const bench::PlaceResult& found = result.places[turn];
+  MapDrawing drawing(*report.turns.maps[place.map]);
+  drawing.add_scan(report.turns.turns[turn], place.T_map_lidar);
+  drawing.add_breakpoints(found.breakpoints, place.T_map_lidar);
+  drawing.add_pose(place.T_map_lidar);
+  return drawing.document(std::string(result.method.title) + ": " +
+                          std::to_string(found.true_corners) + " true corners (rings), " +
+                          std::to_string(found.false_corners) +
+                          " false ones; squares: ends of walls");
+}
+
+}  // namespace
+
+void draw_bench(const BenchReport& report, const std::filesystem::path& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) throw Failure(folder.string() + ": " + error.message());
+  save(folder / "times.svg", draw_times(report));
+  save(folder / "positions.svg", draw_positions(report));
+  if (report.turns.turns.empty()) return;
+  const std::size_t turn = richest_turn(report);
+  for (const bench::PaperResult& result : report.paper) {
+    save(folder / ("turn-" + std::string(result.method.name) + ".svg"),
+         draw_bench_turn(report, result, turn));
+  }
+}
+
+}  // namespace cornerd::tool

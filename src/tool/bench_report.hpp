@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "bench/corner_experiment.hpp"
+#include "bench/paper_experiment.hpp"
+
+namespace cornerd::tool {
+
+/// The scores of all methods under one circumstance.
+struct CornerReport {
+  std::string circumstances;
+  std::vector<bench::MethodScore> scores;
+};
+
+/// Instructions that a method takes for a turn of so many samples, the mean over the 43 places.
+struct InstructionFigure {
+  std::string method;  ///< its title
+  std::size_t samples = 0;
+  double per_turn = 0;
+};
+
+/// All that cornerctl bench measured.
+struct BenchReport {
+  std::size_t samples = 0;  ///< a turn
+  std::size_t positions = 0;
+  std::uint64_t seed = 0;
+
+  bench::PaperTurns turns;
+  std::vector<bench::PaperResult> paper;
+  std::vector<std::size_t> supported_corners;  ///< of each of the turns
+  double preparation_us = 0;
+
+  std::string counter;  ///< what counted instructions; empty: nothing
+  std::vector<InstructionFigure> instructions;
+  std::vector<CornerReport> corners;
+
+  std::optional<double> instructions_of(std::string_view method, std::size_t samples_a_turn) const {
+    for (const InstructionFigure& figure : instructions) {
+      if (figure.method == method && figure.samples == samples_a_turn) return figure.per_turn;
+    }
+    return std::nullopt;
+  }
+};
+
+}  // namespace cornerd::tool

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+#include "bench/paper_places.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <stdexcept>
+
+#include "bench/corner_experiment.hpp"
+#include "bench/paper_figures.hpp"
+#include "replay/simulator/places.hpp"
+#include "tests/unit/bench/contest_maps.hpp"
+#include "tests/unit/replay/test_maps.hpp"
+
+namespace cornerd::bench {
+namespace {
+
+TEST(PaperPlaces, Rooms_HaveAsManyAsThePaper) {
+  const auto maps = contest_maps();
+  const auto places = paper_places(maps);
+  ASSERT_EQ(places.size(), 43u);
+  std::array<std::size_t, kPaperLocations.size()> counts{};
+  for (const PaperPlace& place : places) {
+    ++counts[place.location];
+    const core::WallMap& map = *maps[place.map];
+    const core::Vec2 point = place.T_map_lidar.translation();
+    const auto room = map.room_at(point);
+    ASSERT_TRUE(room);
+    EXPECT_EQ(map.plan().rooms[*room].name, kPaperLocations[place.location].room);
+    EXPECT_FALSE(map.is_solid(point));
+    EXPECT_GE(replay::clearance_at(map, point), kClearance_m);
+  }
+  EXPECT_EQ(counts, (std::array<std::size_t, 5>{9, 8, 10, 8, 8}));
+}
+
+TEST(PaperPlaces, Layouts_TakeTurns) {
+  std::array<std::size_t, 4> counts{};
+  for (const PaperPlace& place : paper_places(contest_maps())) ++counts[place.map];
+  for (const std::size_t count : counts) EXPECT_GE(count, 10u);
+}
+
+TEST(PaperPlaces, PlacesOfARoom_AreApart) {
+  const auto places = paper_places(contest_maps());
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    for (std::size_t j = i + 1; j < places.size(); ++j) {
+      const core::Vec2 way =
+          places[i].T_map_lidar.translation() - places[j].T_map_lidar.translation();
+      EXPECT_GT(way.norm(), 0.02) << i << " and " << j;
+    }
+  }
+}
+
+TEST(PaperPlaces, MapWithoutTheRooms_IsRefused) {
+  const std::vector maps = {replay::make_room()};
+  EXPECT_THROW(paper_places(maps), std::runtime_error);
+}
+
+}  // namespace
+}  // namespace cornerd::bench

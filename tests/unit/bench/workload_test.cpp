@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+#include "bench/workload.hpp"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "bench/instruction_counter.hpp"
+#include "bench/simulated_turn.hpp"
+#include "tests/unit/replay/test_maps.hpp"
+
+namespace cornerd::bench {
+namespace {
+
+std::vector<core::Scan> room_turns(std::size_t samples) {
+  TurnSimulator simulator({}, samples, 1);
+  return {simulator.take(*replay::make_room(), {1, 1, 0}),
+          simulator.take(*replay::make_room(), {1.5, 2, 1})};
+}
+
+TEST(Workload, Run_DetectsInThatTurn) {
+  const auto turns = room_turns(800);
+  Workload workload(paper_methods().front(), turns);
+  ASSERT_EQ(workload.turns(), 2u);
+  workload.run(1);
+  ASSERT_EQ(workload.detection().breakpoints.size(), 4u);
+  const core::Vec2 second = workload.detection().breakpoints.front().position;
+  workload.run(0);
+  EXPECT_NE(workload.detection().breakpoints.front().position, second);
+}
+
+TEST(Workload, MoreSamples_TakeMoreTime) {
+  const auto time_us = [](std::size_t samples) {
+    const auto turns = room_turns(samples);
+    Workload workload(paper_methods().front(), turns);
+    const auto times_us = time_turns_us(workload, 9);
+    EXPECT_EQ(times_us.size(), 2u);
+    return times_us.front();
+  };
+  EXPECT_GT(time_us(10'000), 2 * time_us(400));
+  EXPECT_GT(time_preparation_us(room_turns(400), 3), 0);
+}
+
+TEST(InstructionCounter, WhereThereIsOne_CountsWork) {
+  InstructionCounter counter;
+  volatile int sum = 0;
+  const auto work = [&](int steps) {
+    return counter.count([&] {
+      for (int i = 0; i < steps; ++i) sum = sum + i;
+    });
+  };
+  const auto some = work(1'000);
+  const auto more = work(100'000);
+  EXPECT_EQ(some.has_value(), counter.is_available());
+  if (!counter.is_available()) GTEST_SKIP() << "no performance counter for this user";
+  EXPECT_GT(*more, *some + 99'000);
+}
+
+}  // namespace
+}  // namespace cornerd::bench

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: MIT
+// cornerctl bench as its users call it, at few places.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "temporary_folder.hpp"
+#include "tool/cornerctl.hpp"
+#include "tool/failure.hpp"
+#include "xml_check.hpp"
+
+namespace cornerd::tool {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+struct BenchOutcome {
+  int exit_code = 0;
+  std::string out;
+  std::string err;
+};
+
+class BenchCommand : public testing::Test {
+ protected:
+  static BenchOutcome run(std::vector<std::string> words,
+                          const std::string& maps = CORNERD_SOURCE_DIR "/config/maps") {
+    words.insert(words.begin(), {"bench", "--maps", maps});
+    std::vector<const char*> arguments = {"cornerctl"};
+    for (const std::string& word : words) arguments.push_back(word.c_str());
+    testing::internal::CaptureStdout();
+    testing::internal::CaptureStderr();
+    BenchOutcome outcome;
+    outcome.exit_code = run_cornerctl(static_cast<int>(arguments.size()), arguments.data());
+    outcome.out = testing::internal::GetCapturedStdout();
+    outcome.err = testing::internal::GetCapturedStderr();
+    return outcome;
+  }
+
+  static std::string read(const std::filesystem::path& file) {
+    std::ostringstream text;
+    text << std::ifstream(file).rdbuf();
+    return text.str();
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(BenchCommand, Text_HasThePapersFiguresBesideOurs) {
+  const BenchOutcome outcome = run({"--positions", "8"});
+  EXPECT_EQ(outcome.exit_code, kExitDone);
+  EXPECT_EQ(outcome.err, "");
+  EXPECT_THAT(outcome.out, HasSubstr("Table I"));
+  EXPECT_THAT(outcome.out, HasSubstr("(101.6 +- 2.6 ms)"));
+  EXPECT_THAT(outcome.out, HasSubstr("(157 / 2)"));
+  EXPECT_THAT(outcome.out, HasSubstr("11.20 +- 2.14"));
+  EXPECT_THAT(outcome.out, HasSubstr("Corners at 8 random places"));
+  EXPECT_THAT(outcome.out, HasSubstr("sigma max(3 mm, 1 %), a third missing"));
+}
+
+TEST_F(BenchCommand, Json_HasAllFiguresAndNoText) {
+  const BenchOutcome outcome = run({"--positions", "8", "--methods", "altbd,lt", "--json", "-"});
+  EXPECT_EQ(outcome.exit_code, kExitDone);
+  const auto figures = nlohmann::json::parse(outcome.out);
+  EXPECT_EQ(figures["samples"], 800);
+  ASSERT_EQ(figures["paper_experiment"].size(), 2u);
+  EXPECT_EQ(figures["paper_experiment"][1]["method"], "lt");
+  EXPECT_EQ(figures["paper_experiment"][0]["places"].size(), 43u);
+  ASSERT_EQ(figures["corners"].size(), 4u);
+  const auto& score = figures["corners"][0]["methods"][0];
+  EXPECT_EQ(score["turns"], 8);
+  EXPECT_GT(score["recall_supported"], 0.8);
+}
+
+TEST_F(BenchCommand, Seed_DecidesAllButTheTimes) {
+  const auto corners_of = [](const std::string& seed) {
+    const BenchOutcome outcome =
+        run({"--positions", "8", "--methods", "altbd", "--json", "-", "--seed", seed});
+    return nlohmann::json::parse(outcome.out)["corners"];
+  };
+  EXPECT_EQ(corners_of("5"), corners_of("5"));
+  EXPECT_NE(corners_of("5"), corners_of("6"));
+}
+
+TEST_F(BenchCommand, Plots_AreDrawn) {
+  const std::filesystem::path plots = folder_.path() / "new" / "plots";
+  const BenchOutcome outcome = run({"--positions", "0", "--plots", plots.string()});
+  EXPECT_EQ(outcome.exit_code, kExitDone);
+  EXPECT_THAT(outcome.out, Not(HasSubstr("random places")));
+  for (const char* name : {"times", "positions", "turn-altbd", "turn-abd-iepf", "turn-lt"}) {
+    const std::string picture = read(plots / (std::string(name) + ".svg"));
+    EXPECT_EQ(find_xml_error(picture), "") << name;
+    EXPECT_GT(count_elements(picture, "polygon"), 2u) << name;
+  }
+}
+
+TEST_F(BenchCommand, WhatCannotBeWritten_IsSaid) {
+  std::ofstream(folder_.path() / "file") << "";
+  const BenchOutcome plots =
+      run({"--positions", "0", "--plots", (folder_.path() / "file" / "plots").string()});
+  EXPECT_EQ(plots.exit_code, kExitFailed);
+  EXPECT_NE(plots.err, "");
+  const BenchOutcome json = run({"--json", (folder_.path() / "absent" / "x.json").string()});
+  EXPECT_EQ(json.exit_code, kExitFailed);
+  EXPECT_EQ(json.out, "");
+}
+
+TEST_F(BenchCommand, MapsThatAreNotThere_AreWrongSettings) {
+  const BenchOutcome outcome = run({"--positions", "0"}, folder_.path().string());
+  EXPECT_EQ(outcome.exit_code, kExitConfig);
+  EXPECT_THAT(outcome.err, HasSubstr("krpai-2019-a.json"));
+}
+
+}  // namespace
+}  // namespace cornerd::tool
