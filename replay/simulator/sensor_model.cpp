@@ -30,7 +30,7 @@ bool SensorErrors::is_missing() {
   return missing_now_;
 }
 
-double SensorErrors::measured(double range_m) {
+double SensorErrors::measured(double range_m, std::optional<double> ray_rad) {
   if (is_missing()) return 0;
   if (random_.chance(model_.outliers)) {
     const double farthest_m =
@@ -38,9 +38,15 @@ double SensorErrors::measured(double range_m) {
     return random_.uniform(model_.min_range_m, farthest_m);
   }
   if (range_m < model_.min_range_m || range_m > model_.max_range_m) return 0;
-  const double sigma_m = model_.noise.sigma_range_m(range_m);
+  double sigma_m = model_.noise.sigma_range_m(range_m);
+  double bias_m = model_.range_offset_m;
+  if (ray_rad) {
+    const double distance_m = range_m * std::cos(*ray_rad);
+    if (model_.wall.covers(distance_m)) sigma_m = model_.wall.sigma_m(distance_m);
+    bias_m += model_.wall.error_m(distance_m, *ray_rad);
+  }
   const double noise_m = sigma_m > 0 ? sigma_m * random_.normal() : 0;
-  return std::max(0.0, model_.range_scale * range_m + model_.range_offset_m + noise_m);
+  return std::max(0.0, model_.range_scale * range_m + bias_m + noise_m);
 }
 
 double SensorErrors::mixed(double one_m, double other_m) {

@@ -3,7 +3,9 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
+#include "calibration/wall_model.hpp"
 #include "core/sensor_noise.hpp"
 #include "replay/simulator/random.hpp"
 
@@ -18,6 +20,9 @@ struct SensorModel {
   /// Of the range, and between the direction that a sample claims and the one that it measured: the
   /// same model that the localizer believes in. The sigmas may be 0 here.
   core::SensorNoise noise;
+  /// Where it is not empty: what a range errs by, and its sigma, by the distance of the wall and
+  /// the ray's angle to the wall's normal.
+  calibration::WallModel wall;
 
   double missing = 0.005;  ///< share of the samples without a return
   /// Mean number of samples until a sample's fate is drawn anew: 1 loses samples one by one, more
@@ -55,8 +60,10 @@ class SensorErrors {
   /// Where a sample that claims `device_angle_rad` really looks, less what it claims.
   double direction_error(double device_angle_rad);
 
-  /// What is measured of a wall at `range_m` (0: no wall); 0: nothing.
-  double measured(double range_m);
+  /// What is measured of a wall at `range_m` (0: no wall); 0: nothing. `ray_rad`: from the wall's
+  /// normal, counter-clockwise, where it is known and wants_rays().
+  double measured(double range_m, std::optional<double> ray_rad = std::nullopt);
+  bool wants_rays() const { return !model_.wall.empty(); }
 
   /// What is measured where the two sides of the beam see different ranges.
   double mixed(double one_m, double other_m);

@@ -125,13 +125,29 @@ Simulator::Sight Simulator::triangulate(const Head& head, std::int64_t turn, dou
   return {optical_offset_deg(range_m), range_m};
 }
 
+std::optional<double> Simulator::ray_at(const Head& head, std::int64_t turn,
+                                        double device_angle_deg, double range_m) {
+  if (!errors_.wants_rays() || range_m <= 0) return std::nullopt;
+  constexpr double kAsideDeg = 0.05;
+  constexpr double kGrazing = 20;  // growth of the range per radian, in ranges: 87 degrees
+  const double before_m = range_at(head, turn, device_angle_deg - kAsideDeg);
+  const double after_m = range_at(head, turn, device_angle_deg + kAsideDeg);
+  if (before_m <= 0 || after_m <= 0) return std::nullopt;
+  const double growth = (after_m - before_m) / (2 * core::radians(kAsideDeg) * range_m);
+  const bool straight = std::abs(before_m + after_m - 2 * range_m) < 1e-3 * range_m;
+  if (!straight || std::abs(growth) > kGrazing) return std::nullopt;
+  return (config_.inverted ? 1 : -1) * std::atan(growth);
+}
+
 double Simulator::measured_at(const Head& head, std::int64_t turn, double device_angle_deg) {
   const double error_rad = errors_.direction_error(core::radians(device_angle_deg));
   const double angle_deg = device_angle_deg + core::degrees(error_rad);
   const double half_beam_deg = core::degrees(config_.sensor.beam_width_rad) / 2;
-  if (half_beam_deg <= 0) return errors_.measured(range_at(head, turn, angle_deg));
-  return errors_.measured(errors_.mixed(range_at(head, turn, angle_deg - half_beam_deg),
-                                        range_at(head, turn, angle_deg + half_beam_deg)));
+  const double range_m = half_beam_deg <= 0
+                             ? range_at(head, turn, angle_deg)
+                             : errors_.mixed(range_at(head, turn, angle_deg - half_beam_deg),
+                                             range_at(head, turn, angle_deg + half_beam_deg));
+  return errors_.measured(range_m, ray_at(head, turn, angle_deg, range_m));
 }
 
 std::uint32_t Simulator::measured_for_ultra(const Head& head, std::int64_t turn) {
@@ -142,7 +158,8 @@ std::uint32_t Simulator::measured_for_ultra(const Head& head, std::int64_t turn)
   if (half_beam_deg > 0) {
     range_m = errors_.mixed(range_m, triangulate(head, turn, error_deg + half_beam_deg).range_m);
   }
-  return to_units(errors_.measured(range_m), 1e3, 28'656);
+  const double angle_deg = head.angle_deg + error_deg - optical_offset_deg(range_m);
+  return to_units(errors_.measured(range_m, ray_at(head, turn, angle_deg, range_m)), 1e3, 28'656);
 }
 
 double Simulator::sweep(std::size_t count) {

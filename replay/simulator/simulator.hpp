@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -90,6 +91,9 @@ class Simulator {
 
   double range_at(const Head& head, std::int64_t turn, double device_angle_deg);
   Sight triangulate(const Head& head, std::int64_t turn, double error_deg);
+  /// Of a ray to the normal of the wall that it meets; nullopt at an edge, or where nobody asks.
+  std::optional<double> ray_at(const Head& head, std::int64_t turn, double device_angle_deg,
+                               double range_m);
   double measured_at(const Head& head, std::int64_t turn, double device_angle_deg);
   std::uint32_t measured_for_ultra(const Head& head, std::int64_t turn);
 

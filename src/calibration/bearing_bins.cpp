@@ -12,10 +12,11 @@ namespace cornerd::calibration {
 namespace {
 
 constexpr std::size_t kBins = 720;
+constexpr std::size_t kWidest = 8;                ///< of them in one
 constexpr std::size_t kMostReturnsPerBin = 4000;  ///< ten minutes of an A1
 /// A spread of ten samples is good to a quarter of itself; the fits take many of them together.
 constexpr std::size_t kLeastReturns = 10;
-/// Share of the bins that half a degree must fill before a whole one is not worth its blur.
+/// Share of the bins that must be told before wider ones are not worth their blur.
 constexpr double kEnoughBins = 0.5;
 
 constexpr double kGateSigmas = 3;
@@ -161,11 +162,19 @@ std::vector<BinSpread> BearingBins::spreads_of_width(std::size_t bins) const {
 }
 
 std::vector<BinSpread> BearingBins::spreads() const {
-  const auto seen =
-      std::count_if(bins_.begin(), bins_.end(), [](const auto& bin) { return !bin.empty(); });
-  std::vector<BinSpread> narrow = spreads_of_width(1);
-  if (static_cast<double>(narrow.size()) >= kEnoughBins * static_cast<double>(seen)) return narrow;
-  return spreads_of_width(2);
+  for (std::size_t width = 1; width < kWidest; width *= 2) {
+    std::size_t seen = 0;
+    for (std::size_t first = 0; first < kBins; first += width) {
+      const auto begin = bins_.begin() + static_cast<std::ptrdiff_t>(first);
+      seen += std::any_of(begin, begin + static_cast<std::ptrdiff_t>(width),
+                          [](const auto& bin) { return !bin.empty(); });
+    }
+    std::vector<BinSpread> spreads = spreads_of_width(width);
+    if (static_cast<double>(spreads.size()) >= kEnoughBins * static_cast<double>(seen)) {
+      return spreads;
+    }
+  }
+  return spreads_of_width(kWidest);
 }
 
 }  // namespace cornerd::calibration

@@ -42,7 +42,7 @@ class BearingBins {
   std::vector<Return> all() const;
 
   /// Bins with too few returns for a spread are left out. Where half a degree gathers too little,
-  /// bins are a degree wide.
+  /// bins are wider: 1, 2 or 4 degrees, by which five turns are enough.
   std::vector<BinSpread> spreads() const;
 
  private:

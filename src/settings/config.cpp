@@ -146,7 +146,7 @@ core::LocalizerConfig Config::localizer() const {
   config.T_base_lidar = {lidar.mount.x_m, lidar.mount.y_m,
                          core::normalize_angle(lidar.mount.theta_rad)};
   config.detector = detector;
-  config.noise = lidar.noise;
+  config.noise = lidar.noise.sensor;
   return config;
 }
 

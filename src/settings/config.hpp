@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "calibration/wall_model.hpp"
 #include "core/localizer.hpp"
 
 namespace cornerd::settings {
@@ -39,6 +40,11 @@ struct MotorConfig {
   double period_s = 4e-5;      ///< of a PWM channel
 };
 
+struct NoiseConfig {
+  core::SensorNoise sensor;     ///< what the localizer believes in
+  calibration::WallModel wall;  ///< what a simulated lidar errs by before a wall, on top
+};
+
 struct LidarConfig {
   DriverKind driver = DriverKind::kRplidar;
   std::filesystem::path device = "/dev/ttyUSB0";
@@ -47,7 +53,7 @@ struct LidarConfig {
       "auto";  ///< or a mode's name as the device gives it: "Standard", "Express" ...
   double min_range_m = 0.15;
   double max_range_m = 12.0;
-  core::SensorNoise noise;
+  NoiseConfig noise;
   MountConfig mount;
   MotorConfig motor;
   std::filesystem::path file;  ///< replay: the recording

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "settings/noise.hpp"
 
+#include <cmath>
+#include <string>
+#include <utility>
 #include <vector>
-
-#include "settings/config.hpp"
 
 namespace cornerd::settings {
 namespace {
@@ -12,6 +13,7 @@ constexpr std::size_t kMaxNoiseBytes = 1 << 20;
 
 /// A sigma of 0 would make every return infinitely good.
 constexpr Interval kSigmaM = {1e-5, 1};
+constexpr double kMostCoefficient = 1e6;
 
 core::SigmaTable::Point read_sigma(ObjectReader point) {
   core::SigmaTable::Point read;
@@ -39,17 +41,75 @@ void read_table(ObjectReader& noise, core::SigmaTable& table) {
   table = core::SigmaTable(points);
 }
 
+void read_coefficients(ObjectReader& piece, calibration::WallPiece& read) {
+  constexpr std::string_view kKey = "coefficients";
+  const Json* rows = piece.find(kKey);
+  if (rows == nullptr) piece.fail(kKey, "is missing");
+  if (!rows->is_array() || rows->size() > read.coefficients.size()) {
+    piece.fail(kKey, "must be a list of at most " + std::to_string(read.coefficients.size()) +
+                         " lists, one for each power of the ray");
+  }
+  for (std::size_t i = 0; i < rows->size(); ++i) {
+    const Json& row = (*rows)[i];
+    auto& target = read.coefficients[i];
+    if (!row.is_array() || row.size() > target.size()) {
+      piece.fail(kKey, i,
+                 "must be a list of at most " + std::to_string(target.size()) +
+                     " numbers, one for each power of the distance");
+    }
+    for (std::size_t j = 0; j < row.size(); ++j) {
+      if (!row[j].is_number() || !(std::abs(row[j].get<double>()) <= kMostCoefficient)) {
+        piece.fail(kKey, i,
+                   "must hold numbers from -" + to_text(kMostCoefficient) + " to " +
+                       to_text(kMostCoefficient));
+      }
+      target[j] = row[j].get<double>();
+    }
+  }
+}
+
+calibration::WallPiece read_piece(ObjectReader piece) {
+  calibration::WallPiece read;
+  if (!piece.number("from", read.from_m, {0, 100})) piece.fail("from", "is missing");
+  if (!piece.number("to", read.to_m, {0, 100})) piece.fail("to", "is missing");
+  if (read.to_m < read.from_m) piece.fail("to", "must not be less than from");
+  if (!piece.number("ray", read.ray_rad, {0, 1.57})) piece.fail("ray", "is missing");
+  if (!piece.number("sigma", read.sigma_m, kSigmaM)) piece.fail("sigma", "is missing");
+  read_coefficients(piece, read);
+  piece.finish();
+  return read;
+}
+
+void read_wall_model(ObjectReader& noise, calibration::WallModel& model) {
+  constexpr std::string_view kKey = "wall";
+  const Json* array = noise.find(kKey);
+  if (array == nullptr) return;
+  if (!array->is_array()) noise.fail(kKey, "must be a list of { \"from\", \"to\", ... }");
+  if (array->size() > calibration::kMostWallPieces) {
+    noise.fail(kKey, "has more than " + std::to_string(calibration::kMostWallPieces) + " entries");
+  }
+  std::vector<calibration::WallPiece> pieces;
+  for (std::size_t i = 0; i < array->size(); ++i) {
+    pieces.push_back(read_piece(noise.element(kKey, *array, i)));
+    if (i > 0 && pieces[i].to_m <= pieces[i - 1].to_m) {
+      noise.fail(kKey, i, "must reach farther than the one before");
+    }
+  }
+  model = calibration::WallModel(std::move(pieces));
+}
+
 }  // namespace
 
-void read_noise(ObjectReader noise, core::SensorNoise& config) {
-  noise.number("floor", config.floor_m, kSigmaM);
-  noise.number("share", config.share, {0, 1});
-  noise.number("bearing", config.bearing_rad, {0, 0.1});
-  read_table(noise, config.table);
+void read_noise(ObjectReader noise, NoiseConfig& config) {
+  noise.number("floor", config.sensor.floor_m, kSigmaM);
+  noise.number("share", config.sensor.share, {0, 1});
+  noise.number("bearing", config.sensor.bearing_rad, {0, 0.1});
+  read_table(noise, config.sensor.table);
+  read_wall_model(noise, config.wall);
   noise.finish();
 }
 
-core::SensorNoise load_noise(const std::filesystem::path& file) {
+NoiseConfig load_noise(const std::filesystem::path& file) {
   const std::string text = read_file(file, kMaxNoiseBytes);
   const Config config = parse_config(text, file, {}, /*require_map=*/false);
   if (!parse_document(text, file).contains(Json::json_pointer("/lidar/noise"))) {

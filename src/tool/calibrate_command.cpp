@@ -1,17 +1,22 @@
 // SPDX-License-Identifier: MIT
 // cornerctl calibrate noise: the lidar's noise from recordings of a robot that stands still.
+#include <charconv>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <CLI/CLI.hpp>
 
 #include "calibration/bearing_bins.hpp"
+#include "calibration/known_wall.hpp"
 #include "calibration/median.hpp"
 #include "calibration/range_noise.hpp"
+#include "calibration/wall_fit.hpp"
 #include "replay/recording.hpp"
 #include "tool/commands.hpp"
 #include "tool/failure.hpp"
@@ -30,12 +35,15 @@ struct CalibrateNoiseOptions {
   std::string wire = "auto";
   std::filesystem::path output;
   std::filesystem::path plot;
+  std::filesystem::path wall_plot;
 };
 
 /// Floor and share that are off by more than this in the mean give way to the table.
 constexpr double kMisfitForTable = 0.2;
 /// Median over the directions of what they drifted, in sigmas: 1.7 in an even movement.
 constexpr double kMovedDrift = 1;
+constexpr double kNearestWallM = 0.05;
+constexpr double kFarthestWallM = 12;
 
 class BinsSink : public replay::RecordingSink {
  public:
@@ -65,54 +73,109 @@ void warn_if_moved(const std::string& file, const std::vector<calibration::BinSp
                file.c_str());
 }
 
-/// What the directions of one recording saw.
-std::vector<calibration::BinSpread> measure(const std::string& file, const std::string& wire) {
+/// A recording, and the distance of the wall before it where the user knows that: "FILE@0.45".
+struct RecordingOfWall {
+  std::string file;
+  std::optional<double> distance_m;
+};
+
+RecordingOfWall parse_recording(const std::string& text) {
+  const std::size_t at = text.rfind('@');
+  if (at == std::string::npos || std::filesystem::exists(text)) return {text, std::nullopt};
+  const std::string number = text.substr(at + 1);
+  double distance_m = 0;
+  const auto [end, error] =
+      std::from_chars(number.data(), number.data() + number.size(), distance_m);
+  if (error != std::errc() || end != number.data() + number.size() ||
+      !(distance_m >= kNearestWallM && distance_m <= kFarthestWallM)) {
+    throw UsageError("'" + text +
+                     "': after the @ stands the wall's distance, in metres from 0.05 to "
+                     "12, as in still.bin@0.45");
+  }
+  return {text.substr(0, at), distance_m};
+}
+
+/// All that the recordings tell.
+struct Measured {
+  std::vector<calibration::BinSpread> spreads;
+  std::vector<calibration::KnownWall> walls;
+};
+
+void measure(const RecordingOfWall& recording, const std::string& wire, Measured& measured) {
+  const std::string& file = recording.file;
   calibration::BearingBins bins;
   BinsSink sink(bins);
   replay::RecordingPlayer player(file, {parse_wire(wire), /*inverted=*/false});
   while (player.step(sink)) {
   }
-  std::vector<calibration::BinSpread> spreads = bins.spreads();
+  const std::vector<calibration::BinSpread> spreads = bins.spreads();
   std::fprintf(stderr, "%s: %zu turns, %zu returns, %zu directions with a spread\n", file.c_str(),
                sink.turns(), bins.returns(), spreads.size());
   warn_if_moved(file, spreads);
-  return spreads;
+  measured.spreads.insert(measured.spreads.end(), spreads.begin(), spreads.end());
+  if (!recording.distance_m) return;
+  auto wall = calibration::find_known_wall(bins.all(), *recording.distance_m);
+  if (!wall) {
+    char text[80];
+    std::snprintf(text, sizeof text, ": no straight wall at %.3f m is in it",
+                  *recording.distance_m);
+    throw Failure(file + text);
+  }
+  measured.walls.push_back(std::move(*wall));
+}
+
+std::vector<calibration::WallPieceFit> fit_walls(const std::vector<calibration::KnownWall>& walls) {
+  std::vector<calibration::WallReturn> returns;
+  for (const calibration::KnownWall& wall : walls) {
+    returns.insert(returns.end(), wall.returns.begin(), wall.returns.end());
+  }
+  return calibration::fit_wall_model(returns);
+}
+
+void write_file(const std::filesystem::path& path, const std::string& text) {
+  Output file(path);
+  file.write(text);
+  file.flush();
 }
 
 void calibrate_noise(const CalibrateNoiseOptions& options) {
-  std::vector<calibration::BinSpread> spreads;
-  for (const std::string& file : options.files) {
-    const auto more = measure(file, options.wire);
-    spreads.insert(spreads.end(), more.begin(), more.end());
+  Measured measured;
+  for (const std::string& text : options.files) {
+    measure(parse_recording(text), options.wire, measured);
   }
-  const auto noise = calibration::fit_range_noise(spreads);
+  const auto noise = calibration::fit_range_noise(measured.spreads);
   if (!noise) {
     throw Failure(
         "too little to tell the noise from: record some 20 turns or more of a lidar that "
         "stands still and sees walls");
   }
+  const std::vector<calibration::WallPieceFit> walls = fit_walls(measured.walls);
+  if (walls.empty() && !options.wall_plot.empty()) {
+    throw UsageError("--plot-wall: needs recordings at known distances, FILE@METRES");
+  }
   Output report;
   report.write(describe_noise(*noise));
+  if (!measured.walls.empty()) report.write("\n" + describe_distances(measured.walls));
+  if (!walls.empty()) report.write("\n" + describe_wall_model(walls));
   report.flush();
+  const bool with_table = options.model == "table" ||
+                          (options.model == "auto" && noise->plain_misfit > kMisfitForTable);
   if (!options.output.empty()) {
-    const bool with_table = options.model == "table" ||
-                            (options.model == "auto" && noise->plain_misfit > kMisfitForTable);
-    Output fragment(options.output);
-    fragment.write(noise_fragment(*noise, with_table));
-    fragment.flush();
+    write_file(options.output, noise_fragment(*noise, with_table, walls));
   }
-  if (!options.plot.empty()) {
-    Output picture(options.plot);
-    picture.write(draw_noise(*noise, spreads));
-    picture.flush();
-  }
+  if (!options.plot.empty()) write_file(options.plot, draw_noise(*noise, measured.spreads));
+  if (!options.wall_plot.empty()) write_file(options.wall_plot, draw_walls(walls, measured.walls));
 }
 
 void add_noise(CLI::App& group) {
   CLI::App* command = group.add_subcommand(
       "noise", "the lidar's noise over the range, from recordings of a robot that stands still");
   const auto options = std::make_shared<CalibrateNoiseOptions>();
-  command->add_option("files", options->files, "recordings (.bin, .ndjson), each from one place")
+  command
+      ->add_option(
+          "files", options->files,
+          "recordings (.bin, .ndjson), each from one place; FILE@METRES: before a straight wall "
+          "that is so far from the lidar's axis")
       ->required()
       ->type_name("FILE");
   command
@@ -125,7 +188,10 @@ void add_noise(CLI::App& group) {
       ->add_option("-o,--output", options->output,
                    "the key lidar.noise, for a config and for simulate --noise")
       ->type_name("JSON");
-  command->add_option("--plot", options->plot, "draw what was measured and fitted")
+  command->add_option("--plot", options->plot, "draw sigma over the range")->type_name("SVG");
+  command
+      ->add_option("--plot-wall", options->wall_plot,
+                   "draw what the ranges of walls at known distances err by")
       ->type_name("SVG");
   add_wire_option(*command, options->wire);
   command->callback([options] { calibrate_noise(*options); });

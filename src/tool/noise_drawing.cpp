@@ -2,7 +2,11 @@
 #include "tool/noise_drawing.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdio>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "tool/plot.hpp"
@@ -20,6 +24,8 @@ constexpr Paint kCellDot{.fill = "#2f3640"};
 constexpr Paint kPlainLine{.stroke = "#c2255c", .stroke_width = 2};
 constexpr Paint kTableLine{.stroke = "#2f6f9f", .stroke_width = 2, .dashes = "6 4"};
 constexpr double kToMm = 1e3;
+constexpr std::array<std::string_view, 6> kWallTints = {"#c2255c", "#2f6f9f", "#1b9e77",
+                                                        "#d1813a", "#6741d9", "#2f3640"};
 
 std::vector<core::Vec2> curve(const core::SensorNoise& noise, double end_m) {
   std::vector<core::Vec2> points;
@@ -56,6 +62,43 @@ std::string draw_noise(const calibration::RangeNoise& noise, std::span<const Bin
   plot.legend("range alone: median and quartiles", kCellDot);
   plot.legend("floor and share", kPlainLine);
   plot.legend("table", kTableLine);
+  return plot.document();
+}
+
+std::string draw_walls(std::span<const calibration::WallPieceFit> fits,
+                       std::span<const calibration::KnownWall> walls) {
+  std::vector<calibration::WallPiece> pieces;
+  double rays_deg = 10;
+  double highest_mm = 1;
+  for (const calibration::WallPieceFit& fit : fits) {
+    pieces.push_back(fit.piece);
+    rays_deg = std::max(rays_deg, core::degrees(fit.piece.ray_rad));
+    highest_mm = std::max(highest_mm, kToMm * (fit.rms_m + 2 * fit.piece.sigma_m));
+  }
+  const calibration::WallModel model(std::move(pieces));
+  Plot plot({-rays_deg, rays_deg, "ray, from the wall's normal (degrees)"},
+            {-highest_mm, highest_mm, "measured less true range (mm)"}, "Walls at known distances");
+  constexpr std::size_t kMostDots = 300;  // for each wall
+  for (std::size_t i = 0; i < walls.size(); ++i) {
+    const auto& returns = walls[i].returns;
+    const Paint dots{.fill = kWallTints[i % kWallTints.size()], .opacity = 0.3};
+    for (std::size_t k = 0; k < returns.size(); k += 1 + returns.size() / kMostDots) {
+      plot.dot(core::degrees(returns[k].ray_rad), kToMm * returns[k].error_m, 1.5, dots);
+    }
+  }
+  for (std::size_t i = 0; i < walls.size(); ++i) {
+    const Paint stroke{.stroke = kWallTints[i % kWallTints.size()], .stroke_width = 1.5};
+    std::vector<core::Vec2> points;
+    for (double ray_deg = -rays_deg; ray_deg <= rays_deg; ray_deg += 1) {
+      const double error_m = model.error_m(walls[i].distance_m, core::radians(ray_deg));
+      points.emplace_back(ray_deg, kToMm * error_m);
+    }
+    plot.line(points, stroke);
+    char label[32];
+    std::snprintf(label, sizeof label, "%.2f m", walls[i].distance_m);
+    constexpr std::size_t kMostLegends = 16;
+    if (i < kMostLegends) plot.legend(label, stroke);
+  }
   return plot.document();
 }
 

@@ -5,7 +5,9 @@
 #include <string>
 
 #include "calibration/bearing_bins.hpp"
+#include "calibration/known_wall.hpp"
 #include "calibration/range_noise.hpp"
+#include "calibration/wall_fit.hpp"
 
 namespace cornerd::tool {
 
@@ -13,5 +15,10 @@ namespace cornerd::tool {
 /// fitted models as lines.
 std::string draw_noise(const calibration::RangeNoise& noise,
                        std::span<const calibration::BinSpread> bins);
+
+/// What ranges err by over the ray's angle, as SVG: the returns as dots, the fitted model as a line
+/// for every wall.
+std::string draw_walls(std::span<const calibration::WallPieceFit> fits,
+                       std::span<const calibration::KnownWall> walls);
 
 }  // namespace cornerd::tool

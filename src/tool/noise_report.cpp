@@ -52,6 +52,34 @@ void append_cells(std::string& out, const RangeNoise& noise) {
   }
 }
 
+/// As many digits as a polynomial needs whose terms cancel.
+std::string exact_number(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.9g", value);
+  return text;
+}
+
+void append_wall_model(std::string& out, std::span<const calibration::WallPieceFit> walls) {
+  out += ",\n      \"wall\": [";
+  std::string separator = "\n";
+  for (const calibration::WallPieceFit& fit : walls) {
+    const calibration::WallPiece& piece = fit.piece;
+    out += separator + "        { \"from\": " + exact_number(piece.from_m) +
+           ", \"to\": " + exact_number(piece.to_m) + ", \"ray\": " + exact_number(piece.ray_rad) +
+           ", \"sigma\": " + short_decimal(piece.sigma_m) + ",\n          \"coefficients\": [";
+    for (std::size_t i = 0; i <= fit.ray_order; ++i) {
+      out += i == 0 ? " [" : ",\n                            [";
+      for (std::size_t j = 0; j <= fit.distance_order; ++j) {
+        out += (j == 0 ? " " : ", ") + exact_number(piece.coefficients[i][j]);
+      }
+      out += " ]";
+    }
+    out += " ] }";
+    separator = ",\n";
+  }
+  out += "\n      ]";
+}
+
 }  // namespace
 
 std::string describe_noise(const RangeNoise& noise) {
@@ -76,7 +104,48 @@ std::string describe_noise(const RangeNoise& noise) {
   return out;
 }
 
-std::string noise_fragment(const RangeNoise& noise, bool with_table) {
+std::string describe_distances(std::span<const calibration::KnownWall> walls) {
+  std::string out;
+  append_line(out, "%-12s %12s %10s %8s", "wall at [m]", "measured [m]", "bias [mm]", "returns");
+  double x = 0;
+  double y = 0;
+  double xx = 0;
+  double xy = 0;
+  const auto n = static_cast<double>(walls.size());
+  for (const calibration::KnownWall& wall : walls) {
+    append_line(out, "%-12.3f %12.4f %+10.2f %8zu", wall.distance_m, wall.measured_m,
+                kMmPerM * (wall.measured_m - wall.distance_m), wall.returns.size());
+    x += wall.distance_m / n;
+    y += wall.measured_m / n;
+    xx += wall.distance_m * wall.distance_m / n;
+    xy += wall.distance_m * wall.measured_m / n;
+  }
+  const double spread = xx - x * x;
+  constexpr double kLeastSpreadM2 = 0.01;  // distances 10 cm about their mean
+  if (spread > kLeastSpreadM2) {
+    const double scale = (xy - x * y) / spread;
+    append_line(out, "bias     measured = %.4f * true %+.2f mm", scale, kMmPerM * (y - scale * x));
+  }
+  return out;
+}
+
+std::string describe_wall_model(std::span<const calibration::WallPieceFit> fits) {
+  std::string out;
+  append_line(out, "%-13s %9s %8s %10s %10s %10s %11s  %s", "wall [m]", "distances", "returns",
+              "ray order", "its order", "error [mm]", "rest [mm]", "beyond 3 sigma");
+  for (const calibration::WallPieceFit& fit : fits) {
+    append_line(out, "%.2f - %-6.2f %9zu %8zu %10zu %10zu %10.2f %11.2f %14.2f%%", fit.piece.from_m,
+                fit.piece.to_m, fit.distances, fit.returns, fit.ray_order, fit.distance_order,
+                kMmPerM * fit.rms_m, kMmPerM * fit.piece.sigma_m, 100 * fit.beyond_3_sigma);
+  }
+  append_line(out,
+              "error: root mean square of measured less true range; rest: what the polynomials");
+  append_line(out, "leave of it (a normal distribution has 0.27 %% beyond 3 sigma)");
+  return out;
+}
+
+std::string noise_fragment(const RangeNoise& noise, bool with_table,
+                           std::span<const calibration::WallPieceFit> walls) {
   std::string out = "{\n  \"lidar\": {\n    \"noise\": {\n";
   out += "      \"floor\": " + short_decimal(noise.plain.floor_m) + ",\n";
   out += "      \"share\": " + short_decimal(noise.plain.share) + ",\n";
@@ -91,6 +160,7 @@ std::string noise_fragment(const RangeNoise& noise, bool with_table) {
     }
     out += "\n      ]";
   }
+  if (!walls.empty()) append_wall_model(out, walls);
   return out + "\n    }\n  }\n}\n";
 }
 

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <span>
 #include <string>
 
+#include "calibration/known_wall.hpp"
 #include "calibration/range_noise.hpp"
+#include "calibration/wall_fit.hpp"
 
 namespace cornerd::tool {
 
@@ -12,6 +15,13 @@ std::string describe_noise(const calibration::RangeNoise& noise);
 
 /// For config files, `simulate --noise` and `emulate --noise`: { "lidar": { "noise": ... } }.
 /// `with_table`: with the measured ranges, which then count instead of floor and share.
-std::string noise_fragment(const calibration::RangeNoise& noise, bool with_table);
+/// `walls`: the paper's model, where it was fitted.
+std::string noise_fragment(const calibration::RangeNoise& noise, bool with_table,
+                           std::span<const calibration::WallPieceFit> walls);
+
+/// For people: what the recordings at known distances say of the range's bias.
+std::string describe_distances(std::span<const calibration::KnownWall> walls);
+/// And of the paper's model: its pieces and what they leave.
+std::string describe_wall_model(std::span<const calibration::WallPieceFit> fits);
 
 }  // namespace cornerd::tool

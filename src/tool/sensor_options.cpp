@@ -4,7 +4,6 @@
 #include <CLI/CLI.hpp>
 
 #include "core/geometry/angle.hpp"
-#include "settings/config.hpp"
 #include "settings/noise.hpp"
 #include "tool/options.hpp"
 
@@ -41,10 +40,15 @@ void SensorOptions::add_to(CLI::App& command) {
       ->check(number_within(0, 0.4));
 }
 
-replay::SensorModel SensorOptions::model(const core::SensorNoise& configured) const {
+replay::SensorModel SensorOptions::model(const settings::NoiseConfig& configured) const {
   replay::SensorModel model;
-  model.noise = noise.empty() ? configured : settings::load_noise(noise);
-  if (floor_m || share) model.noise.table = {};
+  const settings::NoiseConfig given = noise.empty() ? configured : settings::load_noise(noise);
+  model.noise = given.sensor;
+  model.wall = given.wall;
+  if (floor_m || share) {
+    model.noise.table = {};
+    model.wall = {};
+  }
   model.noise.floor_m = floor_m.value_or(model.noise.floor_m);
   model.noise.share = share.value_or(model.noise.share);
   if (bearing_deg) model.noise.bearing_rad = core::radians(*bearing_deg);

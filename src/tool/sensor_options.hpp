@@ -4,8 +4,8 @@
 #include <filesystem>
 #include <optional>
 
-#include "core/sensor_noise.hpp"
 #include "replay/simulator/sensor_model.hpp"
+#include "settings/config.hpp"
 
 namespace CLI {
 class App;
@@ -27,9 +27,10 @@ struct SensorOptions {
 
   void add_to(CLI::App& command);
 
-  /// `configured`: the noise that the config names; --noise goes before it.
+  /// `configured`: the noise that the config names; --noise goes before it, floor and share before
+  /// any table and the wall model's own sigmas.
   /// Throws settings::SettingsError.
-  replay::SensorModel model(const core::SensorNoise& configured) const;
+  replay::SensorModel model(const settings::NoiseConfig& configured) const;
 };
 
 }  // namespace cornerd::tool

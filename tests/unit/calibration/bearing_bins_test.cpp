@@ -54,7 +54,11 @@ TEST(BearingBins, FewTurns_TakeWiderBinsOrNone) {
   const std::size_t wide = room.record().spreads().size();
   EXPECT_GT(wide, 250u);
   EXPECT_LE(wide, 360u);
-  room.turns = 3;
+  room.turns = 5;
+  const BearingBins five = room.record();
+  EXPECT_GT(five.spreads().size(), 60u);
+  EXPECT_NEAR(median_sigma_m(five), 0.002, 0.0004);
+  room.turns = 2;
   EXPECT_TRUE(room.record().spreads().empty());
 }
 

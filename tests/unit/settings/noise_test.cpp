@@ -24,6 +24,7 @@ std::string noise_error(const std::string& noise) {
 
 TEST(Noise, Absent_IsTheDefault) {
   const core::SensorNoise noise = parse_noise("{}").localizer().noise;
+  EXPECT_TRUE(parse_noise("{}").lidar.noise.wall.empty());
   EXPECT_EQ(noise.floor_m, core::SensorNoise{}.floor_m);
   EXPECT_EQ(noise.share, core::SensorNoise{}.share);
   EXPECT_EQ(noise.bearing_rad, core::SensorNoise{}.bearing_rad);
@@ -61,6 +62,32 @@ TEST(Noise, WrongValues_AreNamedByTheirPointer) {
   EXPECT_THAT(
       noise_error(R"({"ranges": [{"range": 1, "sigma": 0.1}, {"range": 1, "sigma": 0.1}]})"),
       HasSubstr("/lidar/noise/ranges/1: must be of a longer range"));
+}
+
+TEST(Noise, WallModel_IsRead) {
+  const calibration::WallModel wall = parse_noise(R"({"wall": [
+      {"from": 0.2, "to": 0.6, "ray": 1, "sigma": 0.002, "coefficients": [[0.001, 0.01], [0.003]]},
+      {"from": 0.6, "to": 1, "ray": 1, "sigma": 0.003, "coefficients": []}]})")
+                                          .lidar.noise.wall;
+  EXPECT_NEAR(wall.error_m(0.5, 0.1), 0.001 + 0.005 + 0.0003, 1e-12);
+  EXPECT_EQ(wall.error_m(0.8, 0.1), 0);
+  EXPECT_EQ(wall.sigma_m(0.8), 0.003);
+}
+
+TEST(Noise, WrongWallModels_AreNamedByTheirPointer) {
+  const auto piece_error = [](const std::string& coefficients, const std::string& to = "1") {
+    return noise_error(R"({"wall": [{"from": 0.2, "ray": 1, "sigma": 0.002, "to": )" + to +
+                       R"(, "coefficients": )" + coefficients + "}]}");
+  };
+  EXPECT_THAT(noise_error(R"({"wall": {}})"), HasSubstr("/lidar/noise/wall: must be a list"));
+  EXPECT_THAT(noise_error(R"({"wall": [{}]})"), EndsWith("/lidar/noise/wall/0/from: is missing"));
+  EXPECT_THAT(piece_error("[]", "0.1"), HasSubstr("/wall/0/to: must not be less than from"));
+  EXPECT_THAT(piece_error("7"), HasSubstr("/wall/0/coefficients: must be a list of at most 7"));
+  EXPECT_THAT(piece_error("[[],[],[],[],[],[],[],[]]"), HasSubstr("/wall/0/coefficients: must"));
+  EXPECT_THAT(piece_error("[[0], [1, 2, 3, 4, 5]]"),
+              HasSubstr("/wall/0/coefficients/1: must be a list of at most 4"));
+  EXPECT_THAT(piece_error("[[0], [\"x\"]]"), HasSubstr("/wall/0/coefficients/1: must hold"));
+  EXPECT_THAT(piece_error("[[1e9]]"), HasSubstr("/wall/0/coefficients/0: must hold numbers"));
 }
 
 TEST(Noise, MoreRangesThanTheTableHolds_AreAnError) {

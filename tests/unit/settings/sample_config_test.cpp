@@ -59,10 +59,11 @@ TEST(FullSample, EveryValue_IsTheDefault) {
   EXPECT_EQ(sample.lidar.mode, defaults.lidar.mode);
   EXPECT_EQ(sample.lidar.min_range_m, defaults.lidar.min_range_m);
   EXPECT_EQ(sample.lidar.max_range_m, defaults.lidar.max_range_m);
-  EXPECT_EQ(sample.lidar.noise.floor_m, defaults.lidar.noise.floor_m);
-  EXPECT_EQ(sample.lidar.noise.share, defaults.lidar.noise.share);
-  EXPECT_NEAR(sample.lidar.noise.bearing_rad, defaults.lidar.noise.bearing_rad, 1e-6);
-  EXPECT_TRUE(sample.lidar.noise.table.empty());
+  EXPECT_EQ(sample.lidar.noise.sensor.floor_m, defaults.lidar.noise.sensor.floor_m);
+  EXPECT_EQ(sample.lidar.noise.sensor.share, defaults.lidar.noise.sensor.share);
+  EXPECT_NEAR(sample.lidar.noise.sensor.bearing_rad, defaults.lidar.noise.sensor.bearing_rad, 1e-6);
+  EXPECT_TRUE(sample.lidar.noise.sensor.table.empty());
+  EXPECT_TRUE(sample.lidar.noise.wall.empty());
   EXPECT_EQ(sample.lidar.mount.x_m, defaults.lidar.mount.x_m);
   EXPECT_EQ(sample.lidar.mount.y_m, defaults.lidar.mount.y_m);
   EXPECT_EQ(sample.lidar.mount.theta_rad, defaults.lidar.mount.theta_rad);

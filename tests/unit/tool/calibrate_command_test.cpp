@@ -6,6 +6,7 @@
 #include <fstream>
 #include <sstream>
 #include <string>
+#include <vector>
 
 #include "command_run.hpp"
 #include "settings/noise.hpp"
@@ -47,7 +48,7 @@ TEST_F(CalibrateNoise, SimulatedLidar_GivesBackItsNoiseAsAFileThatSimulateTakes)
   EXPECT_THAT(run.out, HasSubstr("directions"));
   EXPECT_THAT(run.err, HasSubstr("still.bin: "));
   EXPECT_THAT(run.err, Not(HasSubstr("warning")));
-  const core::SensorNoise noise = settings::load_noise(path("noise.json"));
+  const core::SensorNoise noise = settings::load_noise(path("noise.json")).sensor;
   EXPECT_NEAR(noise.floor_m, 0.002, 0.0003);
   EXPECT_NEAR(noise.share, 0.002, 0.0003);
   EXPECT_NEAR(core::degrees(noise.bearing_rad), 0.15, 0.02);
@@ -64,15 +65,65 @@ TEST_F(CalibrateNoise, Model_ChoosesWhatIsWritten) {
   CommandRun({"calibrate", "noise", file, "--model", "table", "-o", path("table.json")});
   EXPECT_THAT(text_of("plain.json"), Not(HasSubstr("ranges")));
   EXPECT_THAT(text_of("table.json"), HasSubstr("ranges"));
-  EXPECT_NEAR(settings::load_noise(path("table.json")).sigma_range_m(0.7), 0.002, 0.0003);
+  EXPECT_NEAR(settings::load_noise(path("table.json")).sensor.sigma_range_m(0.7), 0.002, 0.0003);
 }
 
 TEST_F(CalibrateNoise, TooFewTurns_AreAFailureThatSaysWhatToDo) {
-  const CommandRun run({"calibrate", "noise", recording("0.002", "3"), "-o", path("noise.json")});
+  const CommandRun run({"calibrate", "noise", recording("0.002", "1"), "-o", path("noise.json")});
   EXPECT_EQ(run.exit_code, kExitFailed);
   EXPECT_THAT(run.err, HasSubstr("record some 20 turns"));
   EXPECT_EQ(run.out, "");
   EXPECT_FALSE(std::filesystem::exists(path("noise.json")));
+}
+
+TEST_F(CalibrateNoise, WallsAtKnownDistances_GiveBackTheModelThatTheSimulatorDrewFrom) {
+  recording("0.002", "1");
+  std::ofstream(path("truth.json")) << R"({"lidar": {"noise": {"bearing": 0, "wall": [
+      {"from": 0.1, "to": 0.6, "ray": 1.2, "sigma": 0.001,
+       "coefficients": [[0.002], [0], [0, 0.004]]},
+      {"from": 0.6, "to": 2.25, "ray": 1.2, "sigma": 0.003,
+       "coefficients": [[-0.002, 0.003], [0], [0.002]]}]}}})";
+  std::vector<std::string> words = {"calibrate",        "noise",         "-o",
+                                    path("noise.json"), "--plot",        path("noise.svg"),
+                                    "--plot-wall",      path("wall.svg")};
+  for (const char* distance :
+       {"0.2", "0.3", "0.4", "0.5", "0.59", "0.8", "0.9", "1.2", "1.6", "2.0"}) {
+    const std::string file = path(std::string("wall-") + distance + ".bin");
+    const CommandRun run({"simulate", "--map", path("hall.json"), "--wire", "standard", "--pose",
+                          std::string("3,") + distance + ",0", "--turns", "10", "--noise",
+                          path("truth.json"), "--outliers", "0", "-o", file});
+    ASSERT_EQ(run.exit_code, kExitDone) << run.err;
+    words.push_back(file + "@" + distance);
+  }
+  const CommandRun run(words);
+  ASSERT_EQ(run.exit_code, kExitDone) << run.err;
+  EXPECT_THAT(run.out, HasSubstr("wall at [m]"));
+  EXPECT_THAT(run.out, HasSubstr("beyond 3 sigma"));
+  const calibration::WallModel truth = settings::load_noise(path("truth.json")).wall;
+  const calibration::WallModel found = settings::load_noise(path("noise.json")).wall;
+  for (const double distance_m : {0.25, 0.4, 0.55, 0.85, 1.3, 1.9}) {
+    for (const double ray_rad : {-0.9, -0.4, 0.0, 0.4, 0.9}) {
+      EXPECT_NEAR(found.error_m(distance_m, ray_rad), truth.error_m(distance_m, ray_rad), 0.0012)
+          << distance_m << ' ' << ray_rad;
+    }
+    EXPECT_NEAR(found.sigma_m(distance_m), truth.sigma_m(distance_m),
+                0.15 * truth.sigma_m(distance_m));
+  }
+  EXPECT_EQ(find_xml_error(text_of("noise.svg")), "");
+  EXPECT_EQ(find_xml_error(text_of("wall.svg")), "");
+}
+
+TEST_F(CalibrateNoise, WallThatIsNotThere_IsAFailureAndADistanceThatIsNoneWrongUsage) {
+  const std::string file = recording("0.002");
+  const CommandRun absent({"calibrate", "noise", file + "@11"});
+  EXPECT_EQ(absent.exit_code, kExitFailed);
+  EXPECT_THAT(absent.err, HasSubstr("no straight wall at 11.000 m"));
+  for (const char* distance : {"@nan", "@inf", "@0", "@-1", "@1m", "@", "@100"}) {
+    EXPECT_EQ(CommandRun({"calibrate", "noise", file + distance}).exit_code, kExitUsage)
+        << distance;
+  }
+  EXPECT_EQ(CommandRun({"calibrate", "noise", file, "--plot-wall", path("w.svg")}).exit_code,
+            kExitUsage);
 }
 
 TEST_F(CalibrateNoise, WrongUsage_EndsWith2) {

@@ -93,8 +93,8 @@ TEST_F(SimulationOptionsTest, SensorModel_TakesTheLastWordFromTheCommandLine) {
   std::ofstream(path("noise.json"))
       << R"({"lidar": {"noise": {"floor": 0.02, "ranges": [{"range": 1, "sigma": 0.3}]}}})";
   SensorOptions options;
-  core::SensorNoise configured;
-  configured.floor_m = 0.01;
+  settings::NoiseConfig configured;
+  configured.sensor.floor_m = 0.01;
   EXPECT_EQ(options.model(configured).noise.floor_m, 0.01);
   options.noise = path("noise.json");
   EXPECT_NEAR(options.model(configured).noise.sigma_range_m(1), 0.3, 1e-6);
