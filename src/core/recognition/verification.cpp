@@ -24,7 +24,7 @@ constexpr std::size_t kMinSurplus = 30;
 constexpr double kMinHitShare = 0.25;
 constexpr double kMaxThrough = 0.08;
 /// A pose that is known no better than this is no pose: a lone wall, a bare corridor.
-constexpr double kMaxSigma_m = 0.05;
+constexpr double kMaxPoseSigma_m = 0.05;
 constexpr double kMaxSigma_rad = radians(3);
 
 }  // namespace
@@ -100,7 +100,7 @@ bool Verification::passes(const Place& place) const {
   const std::size_t explained = explanation.hits + explanation.near;
   return explained >= explanation.rays - explained + kMinSurplus &&
          explanation.hit_share() >= kMinHitShare && explanation.through_share() <= kMaxThrough &&
-         covariance(0, 0) + covariance(1, 1) < kMaxSigma_m * kMaxSigma_m &&
+         covariance(0, 0) + covariance(1, 1) < kMaxPoseSigma_m * kMaxPoseSigma_m &&
          covariance(2, 2) < kMaxSigma_rad * kMaxSigma_rad;
 }
 
