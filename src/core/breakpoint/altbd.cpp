@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/breakpoint/wall_tests.hpp"
+
 namespace cornerd::core {
 namespace {
 
@@ -11,11 +13,50 @@ namespace {
 constexpr double kMinSine = 0.03;
 /// Three samples closer to a ray than this are a step between two walls more often than one.
 constexpr double kMinSeedSine = 0.06;
-/// A line of more samples than this is fitted anew only when it has grown by an eighth: each sample
-/// still counts, and the line moves by less than its own uncertainty in between.
-constexpr std::uint32_t kAlwaysRefit = 8;
+/// A line is fitted anew when its wall has grown by a third, an older one when it has doubled: each
+/// sample counts, and the ellipse knows the line's uncertainty in between.
+constexpr std::uint32_t kYoung = 32;
+constexpr std::uint32_t kYoungShare = 3;
+/// Samples of a seed that needs no ellipses.
+constexpr std::uint32_t kLongSeed = 8;
+/// Samples that follow() gives one weight: their ranges differ little.
+constexpr std::size_t kBlock = 16;
+/// Share of the gate's square within which a sample is near: j^2 / minor^2 is below it, and
+/// k^2 / major^2 below half of it. The rest is room for the ranges of a block.
+constexpr double kNear = 0.6;
 
 constexpr double square(double x) { return x * x; }
+
+Vec2 place_of_point(const PolarPoint& point) { return {point.x_m, point.y_m}; }
+
+/// What a sample near a line is.
+struct Near {
+  Vec2 approach;      ///< the line's normal, away from the sensor
+  double height_m;    ///< the line's distance from the sensor
+  double max_gap_m;   ///< along the line
+  double max_gap_rad;
+  double limit_m;     ///< across the line, for a ray that meets it squarely; less by the sine
+};
+
+/// Sums up the samples of a block up to the first that is not near. A function of its own: its
+/// values then stay in registers.
+[[gnu::noinline]] const PolarPoint* sum_near(const PolarPoint* point, const PolarPoint* end,
+                                             double bearing_rad, const Near& near,
+                                             PointSums& result) {
+  const Near n = near;
+  PointSums sums;
+  for (; point != end; ++point) {
+    const double range_m = point->range_m;
+    const double sine = n.approach.x() * point->ray_x + n.approach.y() * point->ray_y;
+    const double step_rad = point->bearing_rad - bearing_rad;
+    if (!(std::abs(range_m * sine - n.height_m) < n.limit_m * sine)) break;
+    if (!(step_rad * range_m < n.max_gap_m * sine && step_rad < n.max_gap_rad)) break;
+    bearing_rad = point->bearing_rad;
+    sums.add(point->x_m, point->y_m);
+  }
+  result = sums;
+  return point;
+}
 
 }  // namespace
 
@@ -42,24 +83,42 @@ double Altbd::noise_variance_scale() const {
 
 double Altbd::noise_scale() const { return std::sqrt(noise_variance_scale()); }
 
-/// Steps 1-4: a line through the first samples.
-bool Altbd::start(const PolarScan& scan, std::size_t index) {
-  const std::size_t end = index + config_.seed_samples;
+/// Steps 1-4: a line through the first samples, of one weight since they are neighbours.
+bool Altbd::start(const PolarScan& scan, std::size_t index, std::uint32_t samples) {
+  if (index + samples > scan.size()) return false;
+  const PolarPoint& first = scan[index];
+  const PolarPoint& last = scan[index + samples - 1];
+  if (last.bearing_rad - first.bearing_rad > config_.max_gap_rad) return false;
+  const PolarPoint& middle = scan[index + samples / 2];
+  const double sigma2 = square(noise_.sigma_range_m(middle.range_m));
+  PointSums sums;
+  for (std::size_t i = index; i < index + samples; ++i) sums.add(scan[i].x_m, scan[i].y_m);
   current_ = SegmentTrack::starting_at(scan, index);
-  for (std::size_t i = index; i < end; ++i) current_.add(scan, i, noise_);
-  current_.line = current_.fit.line();
-  refit_at_ = 0;
+  current_.fit.add(sums, static_cast<int>(samples), 1 / sigma2);
+  current_.last = static_cast<std::uint32_t>(index + samples - 1);
+  current_.support = samples;
+  refit();
 
   // A seed across the step from a near wall to a far one is a line along the rays.
-  const PolarPoint& middle = scan[index + config_.seed_samples / 2];
-  const double sine = -current_.line.normal.dot(Vec2(middle.ray_x, middle.ray_y));
+  const Vec2& normal = current_.line.normal;
+  const double sine = -(normal.x() * middle.ray_x + normal.y() * middle.ray_y);
   if (sine < kMinSeedSine) return false;
-  if (scan[current_.last].bearing_rad - scan[index].bearing_rad > config_.max_gap_rad) return false;
   // The weights know the noise along the rays; what counts here is the noise across the line.
   const double variance = noise_.variance_across_m2(middle.range_m, sine);
-  const double chi_square =
-      current_.fit.chi_square() * square(noise_.sigma_range_m(middle.range_m)) / variance;
-  return chi_square < square(config_.gate_sigmas) * noise_variance_scale();
+  const double spare = samples - 2;
+  return current_.fit.chi_square() * sigma2 / variance < gate2_ * std::sqrt(spare);
+}
+
+/// A long seed saves the ellipses of a young wall, where nothing is in doubt: no gap, no outlier.
+bool Altbd::start_any(const PolarScan& scan, std::size_t index) {
+  constexpr double kMaxSeed_m = 0.2;
+  if (index + kLongSeed <= scan.size()) {
+    const PolarPoint& first = scan[index];
+    const PolarPoint& last = scan[index + kLongSeed - 1];
+    const double extent2 = square(last.x_m - first.x_m) + square(last.y_m - first.y_m);
+    if (extent2 < square(kMaxSeed_m) && start(scan, index, kLongSeed)) return true;
+  }
+  return start(scan, index, config_.seed_samples);
 }
 
 /// Steps 6-12. The next ray meets the line at the predicted point p'; the sample misses it by
@@ -84,32 +143,74 @@ bool Altbd::is_hit(const PolarScan& scan, std::size_t index) {
 
   if (std::abs(step_m) > config_.max_gap_m) return false;
 
-  const double gate2 = square(config_.gate_sigmas) * noise_variance_scale();
   const double sigma2 = square(noise_.sigma_range_m(range_m));
   const double aside2 = square(noise_.bearing_rad * range_m);
   const double variance =
       sigma2 * sine * sine + aside2 * cosine * cosine + line.variance_at(to_centroid_m);
-  const double minor2 = std::min(gate2 * variance, square(sigma_offset_ * range_m));
-  const double major2 = square(step_m) + 4 * gate2 * sigma2 * cosine * cosine;
+  const double minor2 = std::min(gate2_ * variance, square(sigma_offset_ * range_m));
+  const double major2 = square(step_m) + 4 * gate2_ * sigma2 * cosine * cosine;
   const double j2 = j_m * j_m;
   if (j2 > minor2) return false;
   // k = j cos / sin: j^2 / minor^2 + k^2 / major^2 <= 1, without its fractions.
   const double sine2 = sine * sine;
   if (j2 * (sine2 * major2 + cosine * cosine * minor2) > sine2 * minor2 * major2) return false;
-  if (misses_ == 0) {
-    residual_sum_ += j2 / variance;
-    residual_count_ += 1;
-  }
   return true;
 }
 
 /// Steps 16-18.
 void Altbd::extend(const PolarScan& scan, std::size_t index) {
   current_.add(scan, index, noise_);
-  if (current_.support < refit_at_) return;
+  if (current_.support >= refit_at_) refit();
+}
+
+void Altbd::refit() {
   current_.line = current_.fit.line();
-  refit_at_ =
-      current_.support + (current_.support < kAlwaysRefit ? 1 : current_.support / kAlwaysRefit);
+  const std::uint32_t share = current_.support < kYoung ? kYoungShare : 1;
+  refit_at_ = current_.support + std::max<std::uint32_t>(1, current_.support / share);
+  gate2_ = square(config_.gate_sigmas) * noise_variance_scale();
+}
+
+/// The next samples, up to the next refit, that are so near to the line that they are inside the
+/// ellipse whatever its exact size. Returns how many there are. Most samples of a turn go this way,
+/// in a third of the instructions of is_hit().
+std::size_t Altbd::follow(const PolarScan& scan) {
+  const std::size_t begin = next_;
+  const std::size_t stop = std::min(scan.size(), begin + (refit_at_ - current_.support));
+  const Line& line = current_.line;
+  Near near{-line.normal, -line.offset_m, config_.max_gap_m, config_.max_gap_rad, 0};
+  // The wall goes away from its centroid: its uncertainty here is the least of what is to come.
+  const PolarPoint& last = scan[current_.last];
+  const double along_m = (Vec2(last.x_m, last.y_m) - line.centroid).norm();
+  const double variance_line = line.variance_at(along_m);
+  while (next_ < stop) {
+    const std::size_t block_end = std::min(stop, next_ + kBlock);
+    const double range_m = scan[next_].range_m;
+    const double variance = square(noise_.sigma_range_m(range_m));
+    const double gate2 =
+        std::min(gate2_ * (variance + variance_line), square(sigma_offset_ * range_m));
+    near.limit_m = std::sqrt(kNear * gate2);
+    PointSums sums;
+    const PolarPoint* const first = &scan[next_];
+    const PolarPoint* const end =
+        sum_near(first, &scan[0] + block_end, scan[next_ - 1].bearing_rad, near, sums);
+    if (end != first) current_.fit.add(sums, static_cast<int>(end - first), 1 / variance);
+    next_ += static_cast<std::size_t>(end - first);
+    if (next_ < block_end) break;
+  }
+  const auto count = static_cast<std::uint32_t>(next_ - begin);
+  if (count == 0) return 0;
+  current_.last = static_cast<std::uint32_t>(next_ - 1);
+  current_.support += count;
+  if (current_.support >= refit_at_) refit();
+  return count;
+}
+
+/// What the wall's samples tell of the noise: their distances to the line, less what the line took.
+void Altbd::learn_noise() {
+  constexpr std::uint32_t kTellingSamples = 8;
+  if (current_.support < kTellingSamples) return;
+  residual_sum_ += current_.fit.chi_square() * across_factor(noise_, current_.line);
+  residual_count_ += current_.support - 2;
 }
 
 /// A sample of what is behind that lies on the wall's line by chance, after the wall's end.
@@ -119,21 +220,34 @@ void Altbd::give_back_lone_hit(const PolarScan& scan) {
   current_.last = before_misses_;
 }
 
+bool Altbd::announces(SegmentTrack& wall) {
+  if (begun_ || current_.support <= config_.doubtful_samples) return false;
+  begun_ = true;
+  wall = current_;
+  return true;
+}
+
 Altbd::Event Altbd::next(const PolarScan& scan, bool ended, SegmentTrack& wall) {
   for (;;) {
     if (!tracking_) {
-      if (index_ + config_.seed_samples > scan.size()) return Event::kNone;
-      if (!start(scan, index_)) {
+      if (index_ + (ended ? config_.seed_samples : kLongSeed) > scan.size()) return Event::kNone;
+      if (!start_any(scan, index_)) {
         ++index_;
         continue;
       }
       tracking_ = true;
       begun_ = false;
-      next_ = index_ + config_.seed_samples;
+      next_ = current_.last + 1U;
       misses_ = 0;
-      hits_ = config_.seed_samples;
+      hits_ = current_.support;
     }
     while (next_ < scan.size() && misses_ < config_.misses_to_break) {
+      if (misses_ == 0) {
+        const std::size_t followed = follow(scan);
+        hits_ += static_cast<std::uint32_t>(followed);
+        if (followed > 0 && announces(wall)) return Event::kWallBegun;
+        if (followed > 0) continue;
+      }
       if (!is_hit(scan, next_)) {
         ++misses_;
         ++next_;
@@ -144,10 +258,7 @@ Altbd::Event Altbd::next(const PolarScan& scan, bool ended, SegmentTrack& wall) 
       extend(scan, next_);
       misses_ = 0;
       ++next_;
-      if (begun_ || current_.support <= config_.doubtful_samples) continue;
-      begun_ = true;
-      wall = current_;
-      return Event::kWallBegun;
+      if (announces(wall)) return Event::kWallBegun;
     }
     if (misses_ < config_.misses_to_break && !ended) return Event::kNone;
 
@@ -158,6 +269,7 @@ Altbd::Event Altbd::next(const PolarScan& scan, bool ended, SegmentTrack& wall) 
     index_ = is_wall ? current_.last + 1U : index_ + 1;
     if (!is_wall) continue;
     current_.line = current_.fit.line();
+    learn_noise();
     wall = current_;
     return begun_ ? Event::kWallEnded : Event::kShortWall;
   }

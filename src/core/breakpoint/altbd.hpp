@@ -49,8 +49,13 @@ class Altbd {
   double noise_scale() const;
 
  private:
-  bool start(const PolarScan& scan, std::size_t index);
+  bool start_any(const PolarScan& scan, std::size_t index);
+  bool start(const PolarScan& scan, std::size_t index, std::uint32_t samples);
   bool is_hit(const PolarScan& scan, std::size_t index);
+  bool announces(SegmentTrack& wall);
+  std::size_t follow(const PolarScan& scan);
+  void refit();
+  void learn_noise();
   void give_back_lone_hit(const PolarScan& scan);
   void extend(const PolarScan& scan, std::size_t index);
   double noise_variance_scale() const;
@@ -69,6 +74,7 @@ class Altbd {
   std::uint32_t hits_ = 0;           ///< in a row, up to the wall's last sample
   std::uint32_t before_misses_ = 0;  ///< its last sample before the misses before those hits
   std::uint32_t refit_at_ = 0;  ///< support at which the line is fitted anew
+  double gate2_ = 0;            ///< squared, in units of the noise that is believed
   double residual_sum_;         ///< of squared, normalised residuals
   double residual_count_;
 };

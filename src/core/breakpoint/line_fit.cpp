@@ -16,6 +16,19 @@ void LineFit::add(const LineFit& other) {
   count_ += other.count_;
 }
 
+void LineFit::add(const PointSums& sums, int count, double weight) {
+  const double n = count;
+  const double ox = origin_.x();
+  const double oy = origin_.y();
+  w_ += weight * n;
+  x_ += weight * (sums.x - n * ox);
+  y_ += weight * (sums.y - n * oy);
+  xx_ += weight * (sums.xx - ox * (2 * sums.x - n * ox));
+  xy_ += weight * (sums.xy - ox * sums.y - oy * (sums.x - n * ox));
+  yy_ += weight * (sums.yy - oy * (2 * sums.y - n * oy));
+  count_ += count;
+}
+
 LineFit LineFit::without(const LineFit& part) const {
   LineFit rest = *this;
   rest.w_ -= part.w_;

@@ -22,6 +22,22 @@ struct Line {
   double variance_at(double along_m) const { return (1 + along_m * along_m / spread_m2) / weight; }
 };
 
+/// Plain sums over a few points.
+struct PointSums {
+  void add(double x_m, double y_m) {
+    x += x_m;
+    y += y_m;
+    xx += x_m * x_m;
+    xy += x_m * y_m;
+    yy += y_m * y_m;
+  }
+  double x = 0;
+  double y = 0;
+  double xx = 0;
+  double xy = 0;
+  double yy = 0;
+};
+
 /// Running sums of weighted points: adding one, taking one back and fitting the line with the least
 /// squared distance to all of them are each a handful of operations, however many there are.
 class LineFit {
@@ -33,6 +49,8 @@ class LineFit {
   void remove(double x_m, double y_m, double weight) { accumulate(x_m, y_m, -weight, -1); }
 
   void add(const LineFit& other);
+  /// `count` points of one weight.
+  void add(const PointSums& sums, int count, double weight);
 
   /// What this fit has beyond `part`, which was it when it held fewer points.
   LineFit without(const LineFit& part) const;

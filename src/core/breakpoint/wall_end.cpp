@@ -14,7 +14,7 @@ constexpr std::size_t kMinFaceSamples = 2;
 /// Samples beyond the end that are asked whether the wall hides them.
 constexpr std::size_t kLookAhead = 3;
 /// Half of what a wall's end may be uncertain by; rays that graze a wall meet it in larger steps.
-constexpr double kMaxSpan_m = 0.08;
+constexpr double kMaxSpan_m = 0.12;
 
 double heading_of(const Vec2& direction) { return std::atan2(direction.y(), direction.x()); }
 

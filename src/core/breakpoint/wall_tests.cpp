@@ -14,15 +14,14 @@ constexpr double kJoinedChiSquare = 40;
 
 Vec2 place(const PolarPoint& point) { return {point.x_m, point.y_m}; }
 
-/// From weights by the noise of the range to the noise across a line met at its middle.
+}  // namespace
+
 double across_factor(const SensorNoise& noise, const Line& line) {
   const double range_m = line.centroid.norm();
   const double sine = std::min(1.0, -line.offset_m / range_m);
   const double sigma_m = noise.sigma_range_m(range_m);
   return sigma_m * sigma_m / noise.variance_across_m2(range_m, sine);
 }
-
-}  // namespace
 
 std::size_t samples_between(const PolarScan& scan, const SegmentTrack& right,
                             const SegmentTrack& left) {

@@ -21,6 +21,10 @@ inline constexpr double kMaxPieceGap_m = 0.3;
 std::size_t samples_between(const PolarScan& scan, const SegmentTrack& right,
                             const SegmentTrack& left);
 
+/// From variances in units of the range's noise to those of the noise across a line, where rays
+/// meet its middle.
+double across_factor(const SensorNoise& noise, const Line& line);
+
 /// Squared distance of a sample to a line in units of the noise.
 double misfit(const SensorNoise& noise, const Line& line, const PolarPoint& point);
 
