@@ -50,9 +50,9 @@ double SensorErrors::measured(double range_m, std::optional<double> ray_rad) {
 }
 
 double SensorErrors::mixed(double one_m, double other_m) {
-  if (one_m <= 0 || other_m <= 0 || std::abs(one_m - other_m) < model_.mixed_step_m) {
-    return one_m > 0 ? one_m : other_m;
-  }
+  if (one_m <= 0 || other_m <= 0) return std::max(one_m, other_m);
+  // One surface: what its middle has, or every bearing would be off by half a beam.
+  if (std::abs(one_m - other_m) < model_.mixed_step_m) return (one_m + other_m) / 2;
   return random_.uniform(std::min(one_m, other_m), std::max(one_m, other_m));
 }
 

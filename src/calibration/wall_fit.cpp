@@ -144,7 +144,9 @@ std::vector<WallPieceFit> fit_wall_model(std::span<const WallReturn> returns) {
       fit.piece.ray_rad = std::max(fit.piece.ray_rad, std::abs(each.ray_rad));
       squares += each.error_m * each.error_m;
     }
-    if (fit.piece.ray_rad <= 0) continue;
+    // A wall at a border alone is told by the piece before it.
+    const bool new_distances = fits.empty() || fit.piece.to_m > fits.back().piece.to_m;
+    if (fit.piece.ray_rad <= 0 || !new_distances) continue;
     fit.rms_m = std::sqrt(squares / static_cast<double>(inside.size()));
     fit_piece(inside, fit);
     fits.push_back(fit);

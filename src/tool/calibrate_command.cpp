@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 // cornerctl calibrate noise: the lidar's noise from recordings of a robot that stands still.
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <iterator>
 #include <memory>
 #include <optional>
 #include <string>
@@ -13,6 +15,7 @@
 #include <CLI/CLI.hpp>
 
 #include "calibration/bearing_bins.hpp"
+#include "calibration/found_walls.hpp"
 #include "calibration/known_wall.hpp"
 #include "calibration/median.hpp"
 #include "calibration/range_noise.hpp"
@@ -98,7 +101,8 @@ RecordingOfWall parse_recording(const std::string& text) {
 /// All that the recordings tell.
 struct Measured {
   std::vector<calibration::BinSpread> spreads;
-  std::vector<calibration::KnownWall> walls;
+  std::vector<calibration::KnownWall> walls;  ///< at the distances that the user told
+  std::vector<calibration::KnownWall> found;  ///< in recordings without one
 };
 
 void measure(const RecordingOfWall& recording, const std::string& wire, Measured& measured) {
@@ -113,7 +117,11 @@ void measure(const RecordingOfWall& recording, const std::string& wire, Measured
                sink.turns(), bins.returns(), spreads.size());
   warn_if_moved(file, spreads);
   measured.spreads.insert(measured.spreads.end(), spreads.begin(), spreads.end());
-  if (!recording.distance_m) return;
+  if (!recording.distance_m) {
+    auto found = calibration::find_walls(spreads, bins.all());
+    std::move(found.begin(), found.end(), std::back_inserter(measured.found));
+    return;
+  }
   auto wall = calibration::find_known_wall(bins.all(), *recording.distance_m);
   if (!wall) {
     char text[80];
@@ -149,22 +157,27 @@ void calibrate_noise(const CalibrateNoiseOptions& options) {
         "too little to tell the noise from: record some 20 turns or more of a lidar that "
         "stands still and sees walls");
   }
-  const std::vector<calibration::WallPieceFit> walls = fit_walls(measured.walls);
-  if (walls.empty() && !options.wall_plot.empty()) {
-    throw UsageError("--plot-wall: needs recordings at known distances, FILE@METRES");
+  const bool distances_known = !measured.walls.empty();
+  const auto& sources = distances_known ? measured.walls : measured.found;
+  const std::vector<calibration::WallPieceFit> walls = fit_walls(sources);
+  if (walls.empty() && (options.model == "paper" || !options.wall_plot.empty())) {
+    throw Failure("no straight wall up to 2.25 m away for the paper's model");
   }
   Output report;
   report.write(describe_noise(*noise));
-  if (!measured.walls.empty()) report.write("\n" + describe_distances(measured.walls));
-  if (!walls.empty()) report.write("\n" + describe_wall_model(walls));
+  if (distances_known) report.write("\n" + describe_distances(sources));
+  if (!walls.empty()) report.write("\n" + describe_wall_model(walls, distances_known));
   report.flush();
   const bool with_table = options.model == "table" ||
-                          (options.model == "auto" && noise->plain_misfit > kMisfitForTable);
+                          (options.model != "plain" && noise->plain_misfit > kMisfitForTable);
   if (!options.output.empty()) {
-    write_file(options.output, noise_fragment(*noise, with_table, walls));
+    const bool with_walls = distances_known || options.model == "paper";
+    write_file(options.output,
+               noise_fragment(*noise, with_table,
+                              with_walls ? walls : std::vector<calibration::WallPieceFit>()));
   }
   if (!options.plot.empty()) write_file(options.plot, draw_noise(*noise, measured.spreads));
-  if (!options.wall_plot.empty()) write_file(options.wall_plot, draw_walls(walls, measured.walls));
+  if (!options.wall_plot.empty()) write_file(options.wall_plot, draw_walls(walls, sources));
 }
 
 void add_noise(CLI::App& group) {
@@ -181,8 +194,9 @@ void add_noise(CLI::App& group) {
   command
       ->add_option(
           "--model", options->model,
-          "what -o writes: plain (floor and share), table, or the table where plain is off")
-      ->check(CLI::IsMember({"auto", "plain", "table"}))
+          "what -o writes: plain (floor and share), table, auto (the table where plain is off), "
+          "or paper: auto and the paper's model of walls, which FILE@METRES writes anyway")
+      ->check(CLI::IsMember({"auto", "plain", "table", "paper"}))
       ->capture_default_str();
   command
       ->add_option("-o,--output", options->output,
@@ -191,7 +205,7 @@ void add_noise(CLI::App& group) {
   command->add_option("--plot", options->plot, "draw sigma over the range")->type_name("SVG");
   command
       ->add_option("--plot-wall", options->wall_plot,
-                   "draw what the ranges of walls at known distances err by")
+                   "draw what the ranges of walls err by, over the ray's angle")
       ->type_name("SVG");
   add_wire_option(*command, options->wire);
   command->callback([options] { calibrate_noise(*options); });

@@ -129,7 +129,8 @@ std::string describe_distances(std::span<const calibration::KnownWall> walls) {
   return out;
 }
 
-std::string describe_wall_model(std::span<const calibration::WallPieceFit> fits) {
+std::string describe_wall_model(std::span<const calibration::WallPieceFit> fits,
+                                bool distances_known) {
   std::string out;
   append_line(out, "%-13s %9s %8s %10s %10s %10s %11s  %s", "wall [m]", "distances", "returns",
               "ray order", "its order", "error [mm]", "rest [mm]", "beyond 3 sigma");
@@ -141,6 +142,11 @@ std::string describe_wall_model(std::span<const calibration::WallPieceFit> fits)
   append_line(out,
               "error: root mean square of measured less true range; rest: what the polynomials");
   append_line(out, "leave of it (a normal distribution has 0.27 %% beyond 3 sigma)");
+  if (!distances_known) {
+    append_line(out,
+                "The walls' distances are fitted to the same returns: a bias of the range does "
+                "not show.");
+  }
   return out;
 }
 

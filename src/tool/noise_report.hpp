@@ -21,7 +21,9 @@ std::string noise_fragment(const calibration::RangeNoise& noise, bool with_table
 
 /// For people: what the recordings at known distances say of the range's bias.
 std::string describe_distances(std::span<const calibration::KnownWall> walls);
-/// And of the paper's model: its pieces and what they leave.
-std::string describe_wall_model(std::span<const calibration::WallPieceFit> fits);
+/// And of the paper's model: its pieces and what they leave. `distances_known`: else they come from
+/// the recordings themselves.
+std::string describe_wall_model(std::span<const calibration::WallPieceFit> fits,
+                                bool distances_known);
 
 }  // namespace cornerd::tool

@@ -16,6 +16,7 @@ namespace cornerd::tool {
 /// How a simulated lidar errs: options over the defaults of the sensor model.
 struct SensorOptions {
   std::filesystem::path noise;  ///< a file with the key /lidar/noise, as calibrate noise writes it
+  bool real = false;            ///< what real A1s lose and mix up, under all options below
   std::optional<double> floor_m;
   std::optional<double> share;
   std::optional<double> bearing_deg;

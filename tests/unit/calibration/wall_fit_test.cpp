@@ -80,6 +80,12 @@ TEST(WallFit, FewDistances_LowerTheOrderNotTheSense) {
   EXPECT_NEAR(model_of(fits).error_m(2.0, 1), 0.004, 0.0002);
 }
 
+TEST(WallFit, WallAtABorderAlone_IsOnePiece) {
+  std::vector<WallReturn> border;
+  for (int i = 0; i < 500; ++i) border.push_back({0.6, -1 + 0.004 * i, 0.001});
+  EXPECT_EQ(fit_wall_model(border).size(), 1u);
+}
+
 TEST(WallFit, RangesWithoutMeasurement_HaveNoPiece) {
   EXPECT_TRUE(fit_wall_model({}).empty());
   std::vector<WallReturn> near;

@@ -89,6 +89,20 @@ TEST_F(SimulationOptionsTest, NoiseFile_IsTakenAndNamedWhereItIsWrong) {
   EXPECT_THAT(simulate({"--noise", path("other.json")}).err, HasSubstr("/lidar/noise: is missing"));
 }
 
+TEST_F(SimulationOptionsTest, Real_IsTheGroundUnderOtherOptions) {
+  SensorOptions options;
+  options.real = true;
+  EXPECT_GT(options.model({}).missing, 0.3);
+  EXPECT_GT(options.model({}).missing_run, 2);
+  EXPECT_GT(options.model({}).beam_width_rad, 0);
+  EXPECT_GT(options.model({}).backward, 0);
+  options.missing = 0.1;
+  options.bearing_deg = 0;
+  EXPECT_EQ(options.model({}).missing, 0.1);
+  EXPECT_EQ(options.model({}).noise.bearing_rad, 0);
+  EXPECT_GT(options.model({}).missing_run, 2);
+}
+
 TEST_F(SimulationOptionsTest, SensorModel_TakesTheLastWordFromTheCommandLine) {
   std::ofstream(path("noise.json"))
       << R"({"lidar": {"noise": {"floor": 0.02, "ranges": [{"range": 1, "sigma": 0.3}]}}})";

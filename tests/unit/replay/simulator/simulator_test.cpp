@@ -157,6 +157,27 @@ TEST(Simulator, StandardNodesAfterEmptyOnes_StepBackAsThoseOfRealDevices) {
   EXPECT_LT(steps_back, 0.05 * kCount);
 }
 
+TEST(Simulator, WideBeam_LooksAsFarLeftAsRight) {
+  for (const auto wire : {rplidar::WireFormat::kStandard, rplidar::WireFormat::kUltra}) {
+    SimulatorConfig config = config_for(wire);
+    config.sensor.beam_width_rad = core::radians(1);
+    Simulator simulator(standing_scene(), config);
+    double sum_m = 0;
+    int count = 0;
+    while (count < 3000) {
+      for (const SimulatedSample& sample : simulator.next().samples) {
+        const double deg = sample.device_angle_deg;
+        const double range_m = true_range_m(deg);
+        const double slope_m = true_range_m(deg + 0.1) - true_range_m(deg - 0.1);
+        // A beam that looked to one side would gain on every slope that rises there.
+        sum_m += (slope_m > 0 ? 1 : -1) * (sample.dist_q2 / 4000.0 - range_m);
+        ++count;
+      }
+    }
+    EXPECT_NEAR(sum_m / count, 0, 0.0004);
+  }
+}
+
 TEST(Simulator, Inverted_CountsItsAngleTheOtherWay) {
   SimulatorConfig config = config_for(rplidar::WireFormat::kStandard);
   config.inverted = true;
