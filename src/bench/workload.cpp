@@ -16,16 +16,24 @@ double cpu_time_us() {
   return static_cast<double>(now.tv_sec) * 1e6 + static_cast<double>(now.tv_nsec) * 1e-3;
 }
 
+/// The median time of each of `count` tasks. They take turns: run again and again, one would train
+/// the branch predictor as no robot does.
 template <typename Task>
-double median_time_us(std::size_t repeats, Task&& task) {
-  std::vector<double> times_us;
-  for (std::size_t i = 0; i < repeats; ++i) {
-    const double start_us = cpu_time_us();
-    task();
-    times_us.push_back(cpu_time_us() - start_us);
+std::vector<double> median_times_us(std::size_t count, std::size_t repeats, Task&& task) {
+  std::vector<std::vector<double>> times_us(count);
+  for (std::size_t round = 0; round < repeats; ++round) {
+    for (std::size_t i = 0; i < count; ++i) {
+      const double start_us = cpu_time_us();
+      task(i);
+      times_us[i].push_back(cpu_time_us() - start_us);
+    }
   }
-  std::sort(times_us.begin(), times_us.end());
-  return quantile(times_us, 0.5);
+  std::vector<double> medians_us;
+  for (std::vector<double>& times : times_us) {
+    std::sort(times.begin(), times.end());
+    medians_us.push_back(quantile(times, 0.5));
+  }
+  return medians_us;
 }
 
 void prepare(const core::Scan& turn, core::PolarScan& points) {
@@ -47,21 +55,14 @@ void Workload::run_all() {
 }
 
 std::vector<double> time_turns_us(Workload& workload, std::size_t repeats) {
-  workload.run_all();  // caches and branch predictors warm up
-  std::vector<double> times_us;
-  for (std::size_t i = 0; i < workload.turns(); ++i) {
-    times_us.push_back(median_time_us(repeats, [&] { workload.run(i); }));
-  }
-  return times_us;
+  return median_times_us(workload.turns(), repeats, [&](std::size_t i) { workload.run(i); });
 }
 
 double time_preparation_us(std::span<const core::Scan> turns, std::size_t repeats) {
   core::PolarScan points;
-  std::vector<double> times_us;
-  for (const core::Scan& turn : turns) {
-    times_us.push_back(median_time_us(repeats, [&] { prepare(turn, points); }));
-  }
-  return mean_and_spread(times_us).mean;
+  return mean_and_spread(median_times_us(turns.size(), repeats,
+                                         [&](std::size_t i) { prepare(turns[i], points); }))
+      .mean;
 }
 
 }  // namespace cornerd::bench

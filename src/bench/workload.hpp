@@ -31,7 +31,7 @@ class Workload {
   core::Detection detection_;
 };
 
-/// CPU time of this thread that each turn takes, the median of `repeats`, in microseconds.
+/// CPU time of this thread that each turn takes, the median of `repeats` rounds, in microseconds.
 std::vector<double> time_turns_us(Workload& workload, std::size_t repeats);
 
 /// CPU time of this thread that putting a turn in order takes, in microseconds: the mean over the
