@@ -141,7 +141,11 @@ void add_bench(CLI::App& program) {
       ->check(CLI::Range(std::size_t{1}, core::kMaxSamplesPerTurn))
       ->type_name("N")
       ->capture_default_str();
-  command->add_option("--seed", options->seed, "of all randomness")->capture_default_str();
+  command->add_option("--seed", options->seed, "of all randomness")
+      ->check([](const std::string& text) {  // else -1 is the largest number
+        return text.starts_with('-') ? std::string("is negative") : std::string();
+      })
+      ->capture_default_str();
   command->add_flag("--instructions", options->instructions,
                     "count the instructions a turn, of 400 to 10,000 samples: by the processor's "
                     "counter, else by valgrind (slow)");

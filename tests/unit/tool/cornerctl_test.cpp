@@ -96,6 +96,7 @@ TEST_F(Cornerctl, WrongUsage_EndsWith2AndSaysWhyOnStandardError) {
       {"bench", "--positions", "-1"},
       {"bench", "--positions", "nan"},
       {"bench", "--samples", "-3"},
+      {"bench", "--seed", "-1"},
       {"bench", "--methods", "guess"},
       {"map"},
       {"map", "render", map_},
