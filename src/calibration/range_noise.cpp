@@ -31,10 +31,12 @@ bool is_steep(const BinSpread& bin) {
   return std::abs(bin.steepness()) >= kSteep && std::abs(bin.steepness()) < kTooSteep;
 }
 
+/// At least half of the bin's sigma: a bin whose spread came out small by chance would otherwise
+/// claim a range without noise.
 double without_bearing(const BinSpread& bin, double bearing_rad) {
   const double aside_m = bin.slope_m * bearing_rad;
-  const double rest = bin.sigma_m * bin.sigma_m - aside_m * aside_m;
-  return std::max(std::sqrt(std::max(rest, 0.0)), kLeastSigmaM);
+  const double all = bin.sigma_m * bin.sigma_m;
+  return std::max(std::sqrt(std::max(all - aside_m * aside_m, all / 4)), kLeastSigmaM);
 }
 
 RangeCell make_cell(std::span<const BinSpread> bins, double from_m, double to_m,

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdarg>
 #include <cstdio>
-#include <initializer_list>
 
 #include "core/geometry/angle.hpp"
 
@@ -17,10 +17,12 @@ using calibration::RangeNoise;
 
 constexpr double kMmPerM = 1e3;
 
-template <typename... Arguments>
-void append_line(std::string& out, const char* format, Arguments... arguments) {
+__attribute__((format(printf, 2, 3))) void append_line(std::string& out, const char* format, ...) {
   char line[200];
-  std::snprintf(line, sizeof line, format, arguments...);
+  va_list arguments;
+  va_start(arguments, format);
+  std::vsnprintf(line, sizeof line, format, arguments);
+  va_end(arguments);
   out += line;
   out += '\n';
 }
@@ -85,7 +87,7 @@ void append_wall_model(std::string& out, std::span<const calibration::WallPieceF
 std::string describe_noise(const RangeNoise& noise) {
   std::string out;
   append_cells(out, noise);
-  append_line(out, "");
+  out += '\n';
   append_line(
       out, "model    sigma = max(%.2f mm, %.2f %% of the range); residual %.0f %% in the mean",
       kMmPerM * noise.plain.floor_m, 100 * noise.plain.share, 100 * std::expm1(noise.plain_misfit));
