@@ -21,6 +21,9 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
     -Wno-maybe-uninitialized -Wno-array-bounds -Wno-stringop-overflow -Wno-restrict)
 endif()
 
+# Nobody asks errno after a root: with it, the compiler calls a function where an instruction does.
+add_compile_options(-fno-math-errno)
+
 find_program(CORNERD_CCACHE ccache)
 if(CORNERD_CCACHE)
   # Without this it caches nothing that uses a precompiled header.

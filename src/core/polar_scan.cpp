@@ -46,6 +46,15 @@ void PolarScan::assign(const Scan& scan, double min_range_m, double max_range_m,
   sort();
 }
 
+void PolarScan::begin(double spacing_rad) {
+  points_.clear();
+  spacing_rad_ = spacing_rad;
+}
+
+void PolarScan::append(double bearing_rad, double range_m) {
+  if (points_.size() < kMaxSamplesPerTurn) points_.push_back(point_at(bearing_rad, range_m, 0));
+}
+
 void PolarScan::sort() {
   const auto by_bearing = [](const PolarPoint& a, const PolarPoint& b) {
     return a.bearing_rad < b.bearing_rad;

@@ -33,6 +33,12 @@ class PolarScan {
   void assign(const Scan& scan, double min_range_m, double max_range_m, TimeNs at_ns = 0,
               const Twist2& motion = {});
 
+  /// For a turn that is still going on: empty, with what is known of its samples' distance.
+  void begin(double spacing_rad);
+  /// The next return, at a bearing that is not below the last one's; it may go on beyond pi.
+  /// Ignored where the turn is full.
+  void append(double bearing_rad, double range_m);
+
   std::span<const PolarPoint> points() const { return points_; }
   std::size_t size() const { return points_.size(); }
   const PolarPoint& operator[](std::size_t i) const { return points_[i]; }

@@ -13,29 +13,26 @@ namespace {
 constexpr double kMinSine = 0.03;
 /// Three samples closer to a ray than this are a step between two walls more often than one.
 constexpr double kMinSeedSine = 0.06;
-/// A line is fitted anew when its wall has grown by a third, an older one when it has doubled: each
+/// A line is fitted anew when its wall has grown by a half, an older one when it has doubled: each
 /// sample counts, and the ellipse knows the line's uncertainty in between.
-constexpr std::uint32_t kYoung = 32;
-constexpr std::uint32_t kYoungShare = 3;
+constexpr std::uint32_t kYoung = 16;
+constexpr std::uint32_t kYoungShare = 2;
 /// Samples of a seed that needs no ellipses.
 constexpr std::uint32_t kLongSeed = 8;
 /// Samples that follow() gives one weight: their ranges differ little.
-constexpr std::size_t kBlock = 16;
+constexpr std::size_t kBlock = 32;
 /// Share of the gate's square within which a sample is near: j^2 / minor^2 is below it, and
 /// k^2 / major^2 below half of it. The rest is room for the ranges of a block.
 constexpr double kNear = 0.6;
 
 constexpr double square(double x) { return x * x; }
 
-Vec2 place_of_point(const PolarPoint& point) { return {point.x_m, point.y_m}; }
-
 /// What a sample near a line is.
 struct Near {
-  Vec2 approach;      ///< the line's normal, away from the sensor
-  double height_m;    ///< the line's distance from the sensor
-  double max_gap_m;   ///< along the line
-  double max_gap_rad;
-  double limit_m;     ///< across the line, for a ray that meets it squarely; less by the sine
+  Vec2 approach;     ///< the line's normal, away from the sensor
+  double height_m;   ///< the line's distance from the sensor
+  double max_gap_m;  ///< along the line
+  double limit_m;    ///< across the line, for a ray that meets it squarely; less by the sine
 };
 
 /// Sums up the samples of a block up to the first that is not near. A function of its own: its
@@ -50,7 +47,7 @@ struct Near {
     const double sine = n.approach.x() * point->ray_x + n.approach.y() * point->ray_y;
     const double step_rad = point->bearing_rad - bearing_rad;
     if (!(std::abs(range_m * sine - n.height_m) < n.limit_m * sine)) break;
-    if (!(step_rad * range_m < n.max_gap_m * sine && step_rad < n.max_gap_rad)) break;
+    if (!(step_rad * range_m < n.max_gap_m * sine)) break;
     bearing_rad = point->bearing_rad;
     sums.add(point->x_m, point->y_m);
   }
@@ -77,9 +74,7 @@ void Altbd::begin() {
   residual_count_ = config_.prior_residuals;
 }
 
-double Altbd::noise_variance_scale() const {
-  return residual_sum_ / residual_count_;
-}
+double Altbd::noise_variance_scale() const { return residual_sum_ / residual_count_; }
 
 double Altbd::noise_scale() const { return std::sqrt(noise_variance_scale()); }
 
@@ -134,6 +129,9 @@ bool Altbd::is_hit(const PolarScan& scan, std::size_t index) {
 
   const double j_m = line.normal.x() * point.x_m + line.normal.y() * point.y_m - line.offset_m;
   const double range_m = point.range_m + j_m / sine;  // of p'
+  const double j2 = j_m * j_m;
+  const double limit2 = square(sigma_offset_ * range_m);
+  if (j2 > limit2) return false;
   const Vec2 direction = line.direction();
   const double cosine = direction.x() * point.ray_x + direction.y() * point.ray_y;
   const double along_m = range_m * cosine;  // place of p' on the line, from the sensor's foot
@@ -147,9 +145,8 @@ bool Altbd::is_hit(const PolarScan& scan, std::size_t index) {
   const double aside2 = square(noise_.bearing_rad * range_m);
   const double variance =
       sigma2 * sine * sine + aside2 * cosine * cosine + line.variance_at(to_centroid_m);
-  const double minor2 = std::min(gate2_ * variance, square(sigma_offset_ * range_m));
+  const double minor2 = std::min(gate2_ * variance, limit2);
   const double major2 = square(step_m) + 4 * gate2_ * sigma2 * cosine * cosine;
-  const double j2 = j_m * j_m;
   if (j2 > minor2) return false;
   // k = j cos / sin: j^2 / minor^2 + k^2 / major^2 <= 1, without its fractions.
   const double sine2 = sine * sine;
@@ -170,35 +167,41 @@ void Altbd::refit() {
   gate2_ = square(config_.gate_sigmas) * noise_variance_scale();
 }
 
-/// The next samples, up to the next refit, that are so near to the line that they are inside the
+/// Samples that follow() looks at: a block, or what is left to the next refit.
+std::size_t Altbd::to_follow() const {
+  return std::min<std::size_t>(kBlock, refit_at_ - current_.support);
+}
+
+/// The next samples of a block that are so near to the line that they are inside the
 /// ellipse whatever its exact size. Returns how many there are. Most samples of a turn go this way,
 /// in a third of the instructions of is_hit().
 std::size_t Altbd::follow(const PolarScan& scan) {
   const std::size_t begin = next_;
-  const std::size_t stop = std::min(scan.size(), begin + (refit_at_ - current_.support));
+  const std::size_t stop = std::min(scan.size(), begin + to_follow());
   const Line& line = current_.line;
-  Near near{-line.normal, -line.offset_m, config_.max_gap_m, config_.max_gap_rad, 0};
+  Near near{-line.normal, -line.offset_m, config_.max_gap_m, 0};
   // The wall goes away from its centroid: its uncertainty here is the least of what is to come.
   const PolarPoint& last = scan[current_.last];
   const double along_m = (Vec2(last.x_m, last.y_m) - line.centroid).norm();
   const double variance_line = line.variance_at(along_m);
-  while (next_ < stop) {
-    const std::size_t block_end = std::min(stop, next_ + kBlock);
-    const double range_m = scan[next_].range_m;
-    const double variance = square(noise_.sigma_range_m(range_m));
-    const double gate2 =
-        std::min(gate2_ * (variance + variance_line), square(sigma_offset_ * range_m));
-    near.limit_m = std::sqrt(kNear * gate2);
-    PointSums sums;
-    const PolarPoint* const first = &scan[next_];
-    const PolarPoint* const end =
-        sum_near(first, &scan[0] + block_end, scan[next_ - 1].bearing_rad, near, sums);
-    if (end != first) current_.fit.add(sums, static_cast<int>(end - first), 1 / variance);
-    next_ += static_cast<std::size_t>(end - first);
-    if (next_ < block_end) break;
+  std::size_t block_end = stop;
+  const double bearing_rad = scan[next_ - 1].bearing_rad;
+  if (scan[block_end - 1].bearing_rad - bearing_rad > config_.max_gap_rad) {
+    block_end = next_ + 1;
+    if (scan[next_].bearing_rad - bearing_rad > config_.max_gap_rad) return 0;
   }
-  const auto count = static_cast<std::uint32_t>(next_ - begin);
+  const double range_m = scan[next_].range_m;
+  const double variance = square(noise_.sigma_range_m(range_m));
+  const double gate2 =
+      std::min(gate2_ * (variance + variance_line), square(sigma_offset_ * range_m));
+  near.limit_m = std::sqrt(kNear * gate2);
+  PointSums sums;
+  const PolarPoint* const first = &scan[begin];
+  const PolarPoint* const end = sum_near(first, &scan[0] + block_end, bearing_rad, near, sums);
+  const auto count = static_cast<std::uint32_t>(end - first);
   if (count == 0) return 0;
+  current_.fit.add(sums, static_cast<int>(count), 1 / variance);
+  next_ += count;
   current_.last = static_cast<std::uint32_t>(next_ - 1);
   current_.support += count;
   if (current_.support >= refit_at_) refit();
@@ -243,6 +246,8 @@ Altbd::Event Altbd::next(const PolarScan& scan, bool ended, SegmentTrack& wall) 
     }
     while (next_ < scan.size() && misses_ < config_.misses_to_break) {
       if (misses_ == 0) {
+        // Whole blocks alone, so that the walls are the same however the returns come.
+        if (!ended && next_ + to_follow() > scan.size()) return Event::kNone;
         const std::size_t followed = follow(scan);
         hits_ += static_cast<std::uint32_t>(followed);
         if (followed > 0 && announces(wall)) return Event::kWallBegun;

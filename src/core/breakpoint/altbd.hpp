@@ -35,14 +35,14 @@ class Altbd {
   void begin();
 
   enum class Event : std::uint8_t {
-    kNone,        ///< the scan is at its end; where it has not `ended`, it may go on
-    kShortWall,   ///< a wall, begun and ended, of at most doubtful_samples
-    kWallBegun,   ///< a wall has more than doubtful_samples now, and goes on
-    kWallEnded,   ///< the wall that was begun
+    kNone,       ///< the scan is at its end; where it has not `ended`, it may go on
+    kShortWall,  ///< a wall, begun and ended, of at most doubtful_samples
+    kWallBegun,  ///< a wall has more than doubtful_samples now, and goes on
+    kWallEnded,  ///< the wall that was begun
   };
 
-  /// Tracks on through the scan, which may have grown since the last call, to the next event; `wall`
-  /// is what it happened to. Walls have at least min_support samples.
+  /// Tracks on through the scan, which may have grown since the last call, to the next event;
+  /// `wall` is what it happened to. Walls have at least min_support samples.
   Event next(const PolarScan& scan, bool ended, SegmentTrack& wall);
 
   /// How much larger the residuals were than the noise model says, of late.
@@ -53,6 +53,7 @@ class Altbd {
   bool start(const PolarScan& scan, std::size_t index, std::uint32_t samples);
   bool is_hit(const PolarScan& scan, std::size_t index);
   bool announces(SegmentTrack& wall);
+  std::size_t to_follow() const;
   std::size_t follow(const PolarScan& scan);
   void refit();
   void learn_noise();
@@ -67,15 +68,15 @@ class Altbd {
 
   SegmentTrack current_;
   bool tracking_ = false;
-  bool begun_ = false;  ///< kWallBegun was said of the current wall
+  bool begun_ = false;     ///< kWallBegun was said of the current wall
   std::size_t index_ = 0;  ///< of the wall's first sample, or of the next one to try
   std::size_t next_ = 0;
   std::uint32_t misses_ = 0;
   std::uint32_t hits_ = 0;           ///< in a row, up to the wall's last sample
   std::uint32_t before_misses_ = 0;  ///< its last sample before the misses before those hits
-  std::uint32_t refit_at_ = 0;  ///< support at which the line is fitted anew
-  double gate2_ = 0;            ///< squared, in units of the noise that is believed
-  double residual_sum_;         ///< of squared, normalised residuals
+  std::uint32_t refit_at_ = 0;       ///< support at which the line is fitted anew
+  double gate2_ = 0;                 ///< squared, in units of the noise that is believed
+  double residual_sum_;              ///< of squared, normalised residuals
   double residual_count_;
 };
 

@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <new>
 
+#include "core/breakpoint/breakpoint_stream.hpp"
 #include "core/pipeline.hpp"
 #include "fixtures.hpp"
 
@@ -73,7 +74,8 @@ TEST(Pipeline, FromSampleToPose_AllocatesNothing) {
 
 TEST(Pipeline, FromSampleToPoseByEachMethod_AllocatesNothing) {
   const auto map = testing::make_map(testing::l_shaped_room());
-  for (const Method method : {Method::kAltbd, Method::kAbdIepf, Method::kLineTracking}) {
+  for (const Method method :
+       {Method::kAltbd, Method::kPrintedAltbd, Method::kAbdIepf, Method::kLineTracking}) {
     LocalizerConfig config;
     config.detector.method = method;
     Pipeline pipeline(map, config);
@@ -94,6 +96,26 @@ TEST(Pipeline, FromSampleToPoseByEachMethod_AllocatesNothing) {
       EXPECT_EQ(allocations - before, 0) << static_cast<int>(method);
     }
     EXPECT_GT(segments, 0U) << static_cast<int>(method);
+  }
+}
+
+TEST(BreakpointStream, FromReturnToBreakpoint_AllocatesNothing) {
+  const auto map = testing::make_map(testing::l_shaped_room());
+  testing::TurnSource source(73);
+  for (const Sweep sweep : {Sweep::kCounterClockwise, Sweep::kClockwise}) {
+    BreakpointStream stream({}, {}, sweep);
+    std::size_t found = 0;
+    for (int k = 0; k < 10; ++k) {
+      const Scan turn = source.take(*map, source.place_in(0.4, 2.2, 0.4, 1.4));
+      const long before = allocations;
+      stream.begin(kTwoPi / static_cast<double>(turn.size()));
+      for (const Sample& sample : turn.samples()) {
+        found += stream.add(sample.bearing_rad, sample.range_m).size();
+      }
+      found += stream.finish().size();
+      EXPECT_EQ(allocations - before, 0);
+    }
+    EXPECT_EQ(found > 30, sweep == Sweep::kClockwise);  // the turns are taken clockwise
   }
 }
 

@@ -13,10 +13,16 @@ namespace {
 
 constexpr AbdThreshold kThresholds[] = {AbdThreshold::kBorgesAldon, AbdThreshold::kWeerakoon};
 
-SegmentTracks track(const PolarScan& points, const AbdIepfOptions& options = {}) {
+DetectorConfig with(const AbdIepfConfig& abd_iepf) {
+  DetectorConfig config;
+  config.abd_iepf = abd_iepf;
+  return config;
+}
+
+SegmentTracks track(const PolarScan& points, const AbdIepfConfig& options = {}) {
   SegmentTracks tracks;
   tracks.reserve(kMaxSegmentsPerTurn);
-  EXPECT_EQ(AbdIepf({}, options).track(points, tracks), 0U);
+  EXPECT_EQ(AbdIepf(with(options), {}).track(points, tracks), 0U);
   return tracks;
 }
 
@@ -58,9 +64,9 @@ TEST(AbdThreshold, Formulas_AreThoseOfThePaper) {
       const PolarPoint before = at(bearing, 1.4);
       const PolarPoint after = at(bearing + radians(step), 0.9);
       const double ratio = std::sin(radians(step)) / std::sin(lambda - radians(step));
-      EXPECT_NEAR(abd_threshold_m(AbdThreshold::kBorgesAldon, before, after),
+      EXPECT_NEAR(abd_threshold_m({.threshold = AbdThreshold::kBorgesAldon}, before, after),
                   1.4 * ratio + 3 * 0.0038, 1e-9);
-      EXPECT_NEAR(abd_threshold_m(AbdThreshold::kWeerakoon, before, after),
+      EXPECT_NEAR(abd_threshold_m({.threshold = AbdThreshold::kWeerakoon}, before, after),
                   0.9 * (1 - 3 * 0.0038) * ratio + 3 * 0.0038 * 1.4, 1e-9);
     }
   }
@@ -69,7 +75,8 @@ TEST(AbdThreshold, Formulas_AreThoseOfThePaper) {
 TEST(AbdThreshold, SamplesLambdaOrMoreApart_AreNeverNeighbours) {
   for (const AbdThreshold threshold : kThresholds) {
     for (const double step : {8.001, 45.0, 179.0, 181.0, 189.0, 359.0}) {
-      EXPECT_EQ(abd_threshold_m(threshold, at(-kPi, 1), at(-kPi + radians(step), 1)), 0);
+      EXPECT_EQ(abd_threshold_m({.threshold = threshold}, at(-kPi, 1), at(-kPi + radians(step), 1)),
+                0);
     }
   }
 }
@@ -115,7 +122,7 @@ TEST(AbdIepf, Walls_AreRunsWithinTheLimitOfTheirChords) {
       // After a cut, the chord that was judged began a sample earlier.
       SegmentTrack judged = wall;
       if (wall.first > 0) --judged.first;
-      const double limit_m = AbdIepfOptions::kUsualSplitLimit_m;
+      const double limit_m = AbdIepfConfig().split_limit_m;
       EXPECT_LE(std::min(height_m(points, wall), height_m(points, judged)), limit_m + 1e-6);
       free_from = wall.last + 1;
     }
@@ -147,8 +154,8 @@ TEST(AbdIepf, PrintedLimit_RunsOverTheCornersOfASmallRoom) {
   for (int k = 0; k < 20; ++k) {
     const PolarScan points =
         testing::polar(source.take(*map, source.place_in(0.25, 0.45, 0.2, 0.3)));
-    AbdIepfOptions printed;
-    printed.split_limit_m = AbdIepfOptions::kPrintedSplitLimit_m;
+    AbdIepfConfig printed;
+    printed.split_limit_m = 0.46;  // the width of the arena's doors
     EXPECT_GT(worst_residual_m(points, track(points, printed)), 0.1);
     EXPECT_LT(worst_residual_m(points, track(points)), 0.05);
   }
@@ -173,12 +180,12 @@ TEST(AbdIepf, EndsAtOnePlace_AreSplitAtTheFarthestSample) {
 TEST(AbdIepf, FewerThanFivePoints_AreNoWall) {
   Scan scan;
   EXPECT_TRUE(track(testing::polar(scan)).empty());
-  for (std::uint32_t i = 1; i <= kMinSupport; ++i) {
+  for (std::uint32_t i = 1; i <= DetectorConfig().min_support; ++i) {
     Sample sample;
     sample.bearing_rad = 0.01F * static_cast<float>(i);
     sample.range_m = 1;
     scan.add(sample);
-    EXPECT_EQ(track(testing::polar(scan)).size(), i < kMinSupport ? 0U : 1U);
+    EXPECT_EQ(track(testing::polar(scan)).size(), i < DetectorConfig().min_support ? 0U : 1U);
   }
 }
 
@@ -193,7 +200,7 @@ TEST(AbdIepf, FullTurnOfNoise_EndsWithinTheRoomThatWasTaken) {
   for (const AbdThreshold threshold : kThresholds) {
     SegmentTracks tracks;
     tracks.reserve(kMaxSegmentsPerTurn);
-    AbdIepf({}, {threshold, 1e-6}).track(points, tracks);
+    AbdIepf(with({.threshold = threshold, .split_limit_m = 1e-6}), {}).track(points, tracks);
     EXPECT_LE(tracks.size(), kMaxSegmentsPerTurn);
     for (const SegmentTrack& wall : tracks) EXPECT_LT(wall.last, points.size());
   }
@@ -207,7 +214,7 @@ TEST(AbdIepf, MoreWallsThanFit_AreDroppedAndCounted) {
   SegmentTracks tracks;
   tracks.reserve(2);
   const std::size_t capacity = tracks.capacity();
-  EXPECT_EQ(AbdIepf({}).track(points, tracks), all - capacity);
+  EXPECT_EQ(AbdIepf({}, {}).track(points, tracks), all - capacity);
   EXPECT_EQ(tracks.size(), capacity);
 }
 

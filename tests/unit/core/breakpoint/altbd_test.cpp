@@ -11,14 +11,18 @@ namespace {
 struct Tracked {
   SegmentTracks tracks;
   double noise_scale = 0;
-  std::size_t dropped = 0;
 };
 
 Tracked altbd_walls(const PolarScan& points, const SensorNoise& believed = {}) {
   Altbd altbd({}, believed);
+  altbd.begin();
   Tracked tracked;
-  tracked.tracks.reserve(kMaxSegmentsPerTurn);
-  tracked.dropped = altbd.track(points, tracked.tracks);
+  SegmentTrack wall;
+  for (;;) {
+    const Altbd::Event event = altbd.next(points, /*ended=*/true, wall);
+    if (event == Altbd::Event::kNone) break;
+    if (event != Altbd::Event::kWallBegun) tracked.tracks.push_back(wall);
+  }
   tracked.noise_scale = altbd.noise_scale();
   return tracked;
 }
@@ -56,7 +60,7 @@ TEST(Altbd, NoiseTwiceTheModel_IsNoticedAndBreaksLittle) {
   const auto map = testing::make_map(testing::rectangular_room(3, 2));
   testing::TurnSource source(13);
   testing::TurnOptions options;
-  options.noise = {0.003, 0.01, 2 * SensorNoise{}.bearing_rad};
+  options.noise = {.floor_m = 0.003, .share = 0.01, .bearing_rad = 2 * SensorNoise{}.bearing_rad};
   const Tracked tracked = altbd_walls(testing::polar(source.take(*map, {1.5, 1, 0.3}, options)));
   EXPECT_LE(tracked.tracks.size(), 7U);  // one may break before enough of the noise was seen
   EXPECT_NEAR(tracked.noise_scale, 2, 0.3);
@@ -74,16 +78,47 @@ TEST(Altbd, FewerThanFivePoints_AreNoWall) {
   EXPECT_TRUE(altbd_walls(testing::polar(Scan())).tracks.empty());
 }
 
-TEST(Altbd, MoreWallsThanFit_AreDroppedAndCounted) {
+TEST(Altbd, NoiseOfTheTurnBefore_IsRemembered) {
   const auto map = testing::make_map(testing::rectangular_room(3, 2));
   testing::TurnSource source(14);
-  const PolarScan points = testing::polar(source.take(*map, {1.5, 1, 0.3}));
+  testing::TurnOptions options;
+  options.noise = {.floor_m = 0.003, .share = 0.01, .bearing_rad = 2 * SensorNoise{}.bearing_rad};
+  const PolarScan points = testing::polar(source.take(*map, {1.5, 1, 0.3}, options));
   Altbd altbd({}, {});
-  SegmentTracks tracks;
-  tracks.reserve(2);
-  const std::size_t capacity = tracks.capacity();
-  EXPECT_GE(altbd.track(points, tracks), 2U);
-  EXPECT_EQ(tracks.size(), capacity);
+  SegmentTrack wall;
+  for (int turn = 0; turn < 2; ++turn) {
+    altbd.begin();
+    if (turn == 1) {
+      EXPECT_GT(altbd.noise_scale(), 1.5);
+    }
+    while (altbd.next(points, true, wall) != Altbd::Event::kNone) {
+    }
+  }
+}
+
+TEST(Altbd, WallThatGrows_IsAnnouncedAndEnds) {
+  const auto map = testing::make_map(testing::rectangular_room(3, 2));
+  testing::TurnSource source(15);
+  const PolarScan whole = testing::polar(source.take(*map, {1.5, 1, 0.3}));
+  PolarScan growing;
+  growing.begin(whole.spacing_rad());
+  Altbd altbd({}, {});
+  altbd.begin();
+  SegmentTrack wall;
+  std::vector<Altbd::Event> events;
+  for (const PolarPoint& point : whole.points()) {
+    growing.append(point.bearing_rad, point.range_m);
+    const Altbd::Event event = altbd.next(growing, /*ended=*/false, wall);
+    if (event != Altbd::Event::kNone) events.push_back(event);
+    if (event == Altbd::Event::kWallBegun) {
+      EXPECT_GT(wall.support, AltbdConfig().doubtful_samples);
+      EXPECT_LT(wall.support, 3 * AltbdConfig().doubtful_samples);
+    }
+  }
+  ASSERT_GE(events.size(), 7U);
+  for (std::size_t i = 0; i < events.size(); ++i) {
+    EXPECT_EQ(events[i], i % 2 == 0 ? Altbd::Event::kWallBegun : Altbd::Event::kWallEnded);
+  }
 }
 
 }  // namespace

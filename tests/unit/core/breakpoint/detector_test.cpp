@@ -131,7 +131,7 @@ TEST(Detector, EachMethod_SeesWhatItsOwnLimitsTell) {
   const Scan whole = source.take(*testing::make_map(testing::rectangular_room(3, 2)), {1.2, 1, 0});
   Scan gap;
   for (const Sample& sample : whole.samples()) {
-    if (std::abs(sample.bearing_rad - kPi / 2) > radians(11)) gap.add(sample);
+    if (std::abs(sample.bearing_rad - kPi / 2) > radians(7.5)) gap.add(sample);
   }
   EXPECT_EQ(count_walls(Method::kAltbd, gap), 4U);
   EXPECT_EQ(count_walls(Method::kAbdIepf, gap), 5U);

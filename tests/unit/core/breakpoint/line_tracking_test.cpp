@@ -13,7 +13,7 @@ namespace {
 SegmentTracks lines_of(const PolarScan& points) {
   SegmentTracks tracks;
   tracks.reserve(kMaxSegmentsPerTurn);
-  EXPECT_EQ(LineTracking(SensorNoise{}).track(points, tracks), 0U);
+  EXPECT_EQ(LineTracking({}, {}).track(points, tracks), 0U);
   return tracks;
 }
 
@@ -68,7 +68,7 @@ TEST(LineTracking, AWall_EndsWhereTheNextSampleIsFartherThanTheLimit) {
     const PolarScan points = testing::polar(source.take(*map, T_map_lidar));
     for (const SegmentTrack& wall : lines_of(points)) {
       if (wall.last + 1 == points.size()) continue;
-      EXPECT_GT(distance_m(wall.line, points[wall.last + 1]), LineTracking::kMaxDistance_m);
+      EXPECT_GT(distance_m(wall.line, points[wall.last + 1]), LineTrackingConfig().max_distance_m);
     }
   }
 }
@@ -88,8 +88,8 @@ PolarScan stepped_wall(double step_m) {
 }
 
 TEST(LineTracking, AStep_IsSeenFromTheLimitOn) {
-  EXPECT_EQ(lines_of(stepped_wall(0.9 * LineTracking::kMaxDistance_m)).size(), 1U);
-  const SegmentTracks tracks = lines_of(stepped_wall(1.1 * LineTracking::kMaxDistance_m));
+  EXPECT_EQ(lines_of(stepped_wall(0.9 * LineTrackingConfig().max_distance_m)).size(), 1U);
+  const SegmentTracks tracks = lines_of(stepped_wall(1.1 * LineTrackingConfig().max_distance_m));
   ASSERT_EQ(tracks.size(), 2U);
   EXPECT_EQ(tracks[0].last, 49U);
   EXPECT_EQ(tracks[1].first, 50U);
@@ -98,12 +98,12 @@ TEST(LineTracking, AStep_IsSeenFromTheLimitOn) {
 TEST(LineTracking, FewerThanFivePoints_AreNoWall) {
   Scan scan;
   EXPECT_TRUE(lines_of(testing::polar(scan)).empty());
-  for (std::uint32_t i = 1; i <= kMinSupport; ++i) {
+  for (std::uint32_t i = 1; i <= DetectorConfig().min_support; ++i) {
     Sample sample;
     sample.bearing_rad = 0.01F * static_cast<float>(i);
     sample.range_m = 1;
     scan.add(sample);
-    EXPECT_EQ(lines_of(testing::polar(scan)).size(), i < kMinSupport ? 0U : 1U);
+    EXPECT_EQ(lines_of(testing::polar(scan)).size(), i < DetectorConfig().min_support ? 0U : 1U);
   }
 }
 
@@ -115,7 +115,7 @@ TEST(LineTracking, MoreWallsThanFit_AreDroppedAndCounted) {
   SegmentTracks tracks;
   tracks.reserve(2);
   const std::size_t capacity = tracks.capacity();
-  EXPECT_EQ(LineTracking(SensorNoise{}).track(points, tracks), all - capacity);
+  EXPECT_EQ(LineTracking({}, {}).track(points, tracks), all - capacity);
   EXPECT_EQ(tracks.size(), capacity);
 }
 

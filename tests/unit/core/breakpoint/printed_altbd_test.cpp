@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+#include "core/breakpoint/printed_altbd.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "../fixtures.hpp"
+
+namespace cornerd::core {
+namespace {
+
+SegmentTracks printed_walls(const PolarScan& points, const PrintedAltbdConfig& reading = {}) {
+  DetectorConfig config;
+  config.printed_altbd = reading;
+  SegmentTracks tracks;
+  tracks.reserve(kMaxSegmentsPerTurn);
+  PrintedAltbd(config, {}).track(points, tracks);
+  return tracks;
+}
+
+PolarScan turn_in_room(const testing::TurnOptions& options) {
+  const auto map = testing::make_map(testing::rectangular_room(3, 2));
+  testing::TurnSource source(51);
+  return testing::polar(source.take(*map, {1.5, 1, 0.3}, options));
+}
+
+testing::TurnOptions dense() {
+  testing::TurnOptions options;
+  options.samples = 800;
+  return options;
+}
+
+TEST(PrintedAltbd, ExactTurn_HasTheWallsInTheDimensionallySoundReading) {
+  testing::TurnOptions exact;
+  exact.with_noise = false;
+  const SegmentTracks walls = printed_walls(
+      turn_in_room(exact), {.axes = EllipseAxes::kSquared, .minor = MinorAxis::kShareOfRange});
+  // The seam cuts one wall in two.
+  EXPECT_GE(walls.size(), 4U);
+  EXPECT_LE(walls.size(), 5U);
+}
+
+TEST(PrintedAltbd, NoiseAtTheDensityOfAnA1_BreaksTheWallsOfThreePointLines) {
+  const PolarScan noisy = turn_in_room(dense());
+  const PrintedAltbdConfig first_three{.axes = EllipseAxes::kSquared};
+  EXPECT_GT(printed_walls(noisy, first_three).size(), 15U);  // of four
+}
+
+TEST(PrintedAltbd, EachReading_EndsWithinTheRoomThatWasTaken) {
+  const PolarScan noisy = turn_in_room(dense());
+  for (const EllipseAxes axes : {EllipseAxes::kPrinted, EllipseAxes::kSquared}) {
+    for (const MinorAxis minor : {MinorAxis::kMetres, MinorAxis::kShareOfRange}) {
+      for (const TrackedLine line :
+           {TrackedLine::kFirstThree, TrackedLine::kLastThree, TrackedLine::kAll}) {
+        for (const ErrorMean mean : {ErrorMean::kLastThree, ErrorMean::kAll}) {
+          for (const SegmentTrack& wall : printed_walls(noisy, {axes, minor, line, mean})) {
+            EXPECT_GE(wall.support, DetectorConfig().min_support);
+            EXPECT_LT(wall.last, noisy.size());
+          }
+        }
+      }
+    }
+  }
+}
+
+TEST(PrintedAltbd, FewerThanFivePoints_AreNoWall) {
+  PolarScan points;
+  points.begin(0.01);
+  for (int i = 0; i < 4; ++i) points.append(0.01 * i, 1);
+  EXPECT_TRUE(printed_walls(points).empty());
+  EXPECT_TRUE(printed_walls(testing::polar(Scan())).empty());
+}
+
+}  // namespace
+}  // namespace cornerd::core
