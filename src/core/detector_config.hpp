@@ -32,7 +32,8 @@ struct AltbdConfig {
   std::uint32_t doubtful_samples = 12;
 };
 
-/// Whether step 12 divides by the axes, as it is printed, or by their squares, as an ellipse has it.
+/// Whether step 12 divides by the axes, as it is printed, or by their squares, as an ellipse has
+/// it.
 enum class EllipseAxes : std::uint8_t { kPrinted, kSquared };
 /// What step 5's h_max, a share, is taken to be: metres, or a share of the range.
 enum class MinorAxis : std::uint8_t { kMetres, kShareOfRange };
@@ -71,6 +72,31 @@ struct LineTrackingConfig {
   double max_distance_m = 0.03;
 };
 
+/// What becomes of the walls, whatever the method found them: joining, corners, ends. All defaults
+/// are what `cornerctl bench` likes best.
+struct ExtractionConfig {
+  /// Deviation in standard deviations that is still noise: one in 2,000 of a normal one is beyond.
+  double gate_sigmas = 3.5;
+  /// Samples that may lie between two pieces of one wall: a table leg, a run of outliers.
+  std::size_t max_interruption = 4;
+  /// What the pieces may be apart, so that no door becomes a wall.
+  double max_piece_gap_m = 0.3;
+  /// Chi-square that one line instead of two may cost. Normal noise reaches 15 once in 2,000 times;
+  /// a tracker that stops at the worst noise reaches more.
+  double joined_chi_square = 40;
+  /// Between the walls of a corner.
+  double min_corner_angle_rad = radians(15);
+  /// Rays that may give nothing between a wall that they graze and its corner.
+  double grazing_rays = 3;
+  /// Depth of the face of a wall's end, which is too short for a wall of its own.
+  double max_face_m = 0.08;
+  /// Between a wall's last sample and where the next ray would have met it: a wall that ends
+  /// somewhere in more than this has no place to end at.
+  double max_end_span_m = 0.12;
+  /// Uncertainty of the direction of two to four samples that count as the rest of a wall.
+  double max_rest_sigma_rad = radians(9);
+};
+
 struct DetectorConfig {
   Method method = Method::kAltbd;
   double sigma_offset = 0.04;        ///< share of the range (paper, step 5 and section V.C)
@@ -81,6 +107,7 @@ struct DetectorConfig {
   PrintedAltbdConfig printed_altbd;
   AbdIepfConfig abd_iepf;
   LineTrackingConfig lt;
+  ExtractionConfig extraction;
 };
 
 }  // namespace cornerd::core

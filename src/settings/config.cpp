@@ -7,6 +7,7 @@
 
 #include <utility>
 
+#include "settings/detector_settings.hpp"
 #include "settings/noise.hpp"
 #include "settings/object_reader.hpp"
 #include "settings/override.hpp"
@@ -23,9 +24,6 @@ constexpr Choice<MotorKind> kMotorsByName[] = {{"dtr", MotorKind::kDtr},
                                                {"none", MotorKind::kNone}};
 constexpr Choice<MotorKind> kMotorsByPath[] = {{"gpio", MotorKind::kGpio},
                                                {"pwm", MotorKind::kPwm}};
-constexpr Choice<core::Method> kMethods[] = {{"altbd", core::Method::kAltbd},
-                                             {"abd-iepf", core::Method::kAbdIepf},
-                                             {"lt", core::Method::kLineTracking}};
 constexpr Choice<std::string_view> kOdometrySources[] = {{"none", "none"}};
 
 void read_mount(ObjectReader mount, MountConfig& config) {
@@ -83,13 +81,6 @@ void read_lidar(ObjectReader lidar, LidarConfig& config) {
   if (config.driver == DriverKind::kReplay && config.file.empty()) {
     lidar.fail("file", "is missing; the driver \"replay\" plays it");
   }
-}
-
-void read_detector(ObjectReader detector, core::DetectorConfig& config) {
-  detector.choice("method", config.method, kMethods);
-  detector.number("sigma_offset", config.sigma_offset, {0.001, 1});
-  detector.number("corner_tolerance", config.corner_tolerance_m, {0.001, 10});
-  detector.finish();
 }
 
 void read_odometry(ObjectReader odometry, OdometryConfig& config) {

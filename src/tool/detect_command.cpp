@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // cornerctl detect: the breakpoints of every turn, without a map.
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -13,6 +14,7 @@
 #include "tool/options.hpp"
 #include "tool/output.hpp"
 #include "tool/playback.hpp"
+#include "tool/turn_drawing.hpp"
 
 namespace cornerd::tool {
 
@@ -24,7 +26,23 @@ struct DetectOptions {
   SettingsOptions settings;
   std::vector<std::string> classes = {"BREAKPOINTS"};
   std::string wire = "auto";
+  std::filesystem::path plot;
+  std::size_t plotted_turn = 1;
 };
+
+void save_plot(const DetectOptions& options, const core::Scan& turn,
+               const core::Detection& detection) {
+  Output picture(options.plot);
+  const std::size_t corners =
+      std::count_if(detection.breakpoints.begin(), detection.breakpoints.end(),
+                    [](const auto& b) { return b.kind == core::BreakpointKind::kCorner; });
+  picture.write(draw_turn(
+      turn, detection,
+      std::to_string(turn.size()) + " samples, " + std::to_string(detection.segments.size()) +
+          " walls, " + std::to_string(corners) + " corners (rings), " +
+          std::to_string(detection.breakpoints.size() - corners) + " ends (squares)"));
+  picture.flush();
+}
 
 void detect(DetectOptions& options) {
   if (!options.method.empty()) {
@@ -39,13 +57,21 @@ void detect(DetectOptions& options) {
   Output output;
   MessagePrinter printer(output, classes, nullptr);
   core::Pipeline pipeline(nullptr, config.localizer());
+  std::size_t turns = 0;
   Playback playback(pipeline, [&](const core::Scan& turn, const core::TurnResult& result) {
     printer.print_turn(turn, result);
+    if (++turns == options.plotted_turn && !options.plot.empty()) {
+      save_plot(options, turn, result.detection);
+    }
   });
   for (const std::filesystem::path& file : options.files) {
     playback.play(file, {parse_wire(options.wire), config.lidar.mount.inverted});
   }
   output.flush();
+  if (!options.plot.empty() && turns < options.plotted_turn) {
+    throw Failure("--turn " + std::to_string(options.plotted_turn) + ": there are " +
+                  std::to_string(turns) + " turns");
+  }
 }
 
 }  // namespace
@@ -59,12 +85,17 @@ void add_detect(CLI::App& program) {
   command
       ->add_option("--method", options->method,
                    "how walls are found; without it, as the configuration says")
-      ->check(CLI::IsMember({"altbd", "abd-iepf", "lt"}));
+      ->check(CLI::IsMember({"altbd", "altbd-printed", "abd-iepf", "lt"}));
   options->settings.add_config(*command);
   command->add_option("--classes", options->classes, "messages to print: BREAKPOINTS, SCAN")
       ->delimiter(',')
       ->capture_default_str();
   add_wire_option(*command, options->wire);
+  command->add_option("--plot", options->plot, "draw a turn with its walls and breakpoints, as SVG")
+      ->type_name("FILE");
+  command->add_option("--turn", options->plotted_turn, "which turn --plot draws, from 1 on")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 100'000'000));
   command->callback([options] { detect(*options); });
 }
 

@@ -233,7 +233,10 @@ bool Altbd::announces(SegmentTrack& wall) {
 Altbd::Event Altbd::next(const PolarScan& scan, bool ended, SegmentTrack& wall) {
   for (;;) {
     if (!tracking_) {
-      if (index_ + (ended ? config_.seed_samples : kLongSeed) > scan.size()) return Event::kNone;
+      if (index_ + (ended ? config_.seed_samples : std::max(kLongSeed, config_.seed_samples)) >
+          scan.size()) {
+        return Event::kNone;
+      }
       if (!start_any(scan, index_)) {
         ++index_;
         continue;

@@ -14,15 +14,10 @@
 namespace cornerd::core {
 namespace {
 
-constexpr double kMinCornerAngle_rad = radians(15);
-/// Rays that may give nothing between the last sample of a wall that they graze and its corner.
-constexpr double kGrazingRays = 3;
-/// What they may leave open, in units of Dth_corner.
+/// What rays that graze a wall may leave open, in units of Dth_corner.
 constexpr double kGrazingReach = 2;
 /// Samples closer to a ray than this lie between an edge and what is behind it, on nothing.
 constexpr double kMinRestSine = 0.06;
-/// They have no direction to speak of where it is less certain than this.
-constexpr double kMaxRestSigma_rad = radians(9);
 /// A corner made of so few samples is none where its place is less certain than this.
 constexpr double kMaxSigma_m = 0.02;
 
@@ -35,13 +30,8 @@ double heading(const Vec2& direction) { return std::atan2(direction.y(), directi
 class Border {
  public:
   Border(const PolarScan& scan, const SegmentTrack& right, const SegmentTrack& left,
-         const DetectorConfig& config, const SensorNoise& noise, double noise_scale)
-      : scan_(scan),
-        right_(right),
-        left_(left),
-        config_(config),
-        noise_(noise),
-        noise_scale_(noise_scale) {}
+         double corner_tolerance_m, const Judgement& by)
+      : scan_(scan), right_(right), left_(left), corner_tolerance_m_(corner_tolerance_m), by_(by) {}
 
   std::optional<Breakpoint> corner() const;
 
@@ -52,9 +42,8 @@ class Border {
   const PolarScan& scan_;
   const SegmentTrack& right_;
   const SegmentTrack& left_;
-  const DetectorConfig& config_;
-  const SensorNoise& noise_;
-  double noise_scale_;
+  double corner_tolerance_m_;  ///< Dth_corner
+  const Judgement& by_;
 };
 
 /// Covariance of the intersection: each line may move across itself by its own uncertainty there.
@@ -72,7 +61,7 @@ Eigen::Matrix2d intersection_covariance(const Line& a, const Line& b, const Vec2
 /// are no farther than the walls.
 bool Border::free_between(const Vec2& corner) const {
   const std::size_t count = samples_between(scan_, right_, left_);
-  const double limit_m = corner.norm() + config_.corner_tolerance_m;
+  const double limit_m = corner.norm() + corner_tolerance_m_;
   std::size_t behind = 0;
   for (std::size_t k = 1; k <= count; ++k) {
     const PolarPoint& point = scan_[(right_.last + k) % scan_.size()];
@@ -88,30 +77,31 @@ bool Border::is_reached(const Vec2& corner, const SegmentTrack& wall, std::size_
                         int step) const {
   const std::size_t n = scan_.size();
   const std::size_t count = samples_between(scan_, right_, left_);
-  const double gate = kGateSigmas * noise_scale_;
+  const double gate2 = by_.gate2();
   std::size_t farthest = end;
   for (std::size_t k = 1; k <= count; ++k) {
     const std::size_t index = (step > 0 ? end + k : end + n - k) % n;
-    if ((place_on(scan_[index]) - place_on(scan_[farthest])).norm() > kMaxPieceGap_m) break;
-    if (misfit(noise_, wall.line, scan_[index]) < gate * gate) farthest = index;
+    if ((place_on(scan_[index]) - place_on(scan_[farthest])).norm() > by_.limits.max_piece_gap_m)
+      break;
+    if (misfit(by_.noise, wall.line, scan_[index]) < gate2) farthest = index;
   }
   const PolarPoint& point = scan_[farthest];
   const double distance_m = (corner - place_on(point)).norm();
-  if (distance_m <= config_.corner_tolerance_m) return true;
+  if (distance_m <= corner_tolerance_m_) return true;
   const double gap_rad = angle_between(point.bearing_rad, heading(corner));
-  if (std::abs(gap_rad) > kGrazingRays * scan_.spacing_rad()) return false;
+  if (std::abs(gap_rad) > by_.limits.grazing_rays * scan_.spacing_rad()) return false;
   // What is seen next lies in front of the wall, or the wall would have ended before the corner.
   const PolarPoint& next = scan_[step > 0 ? left_.first : right_.last];
   const double height_m = wall.line.normal.dot(place_on(next)) - wall.line.offset_m;
-  const bool behind = height_m < 0 && misfit(noise_, wall.line, next) > gate * gate;
-  return !behind && distance_m <= kGrazingReach * config_.corner_tolerance_m;
+  const bool behind = height_m < 0 && misfit(by_.noise, wall.line, next) > gate2;
+  return !behind && distance_m <= kGrazingReach * corner_tolerance_m_;
 }
 
 std::optional<Breakpoint> Border::corner() const {
   const Line& a = right_.line;
   const Line& b = left_.line;
   const double sine = cross(a.normal, b.normal);
-  if (std::abs(sine) < std::sin(kMinCornerAngle_rad)) return std::nullopt;
+  if (std::abs(sine) < std::sin(by_.limits.min_corner_angle_rad)) return std::nullopt;
   const Vec2 point((a.offset_m * b.normal.y() - b.offset_m * a.normal.y()) / sine,
                    (b.offset_m * a.normal.x() - a.offset_m * b.normal.x()) / sine);
 
@@ -120,8 +110,8 @@ std::optional<Breakpoint> Border::corner() const {
   const PolarPoint& begin = scan_[left_.first];
   const double gap_rad = angle_between(end.bearing_rad, begin.bearing_rad);
   const double bearing_rad = heading(point);
-  const double margin_rad =
-      2 * scan_.spacing_rad() + kGateSigmas * noise_.floor_m / std::max(point.norm(), 0.05);
+  const double margin_rad = 2 * scan_.spacing_rad() + by_.limits.gate_sigmas * by_.noise.floor_m /
+                                                          std::max(point.norm(), 0.05);
   if (gap_rad < -margin_rad || gap_rad > kPi / 2) return std::nullopt;
   if (angle_between(end.bearing_rad, bearing_rad) < -margin_rad) return std::nullopt;
   if (angle_between(bearing_rad, begin.bearing_rad) < -margin_rad) return std::nullopt;
@@ -140,7 +130,7 @@ std::optional<Breakpoint> Border::corner() const {
   breakpoint.convex = opening > kPi;
   breakpoint.right_support = right_.support;
   breakpoint.left_support = left_.support;
-  breakpoint.covariance = intersection_covariance(a, b, point, noise_scale_);
+  breakpoint.covariance = intersection_covariance(a, b, point, by_.noise_scale);
   return breakpoint;
 }
 
@@ -148,22 +138,22 @@ std::optional<Breakpoint> Border::corner() const {
 /// where they lie on a line. Too few to be a wall by themselves, but enough to show where this one
 /// ends.
 std::optional<SegmentTrack> rest_beside(const PolarScan& scan, std::size_t end, int step,
-                                        std::size_t free_samples, const SensorNoise& noise,
-                                        double noise_scale) {
+                                        std::size_t free_samples, const Judgement& by) {
   const std::size_t n = scan.size();
-  for (std::size_t count = std::min(free_samples, kMaxInterruption); count >= 2; --count) {
+  for (std::size_t count = std::min(free_samples, by.limits.max_interruption); count >= 2;
+       --count) {
     const std::size_t first = (step > 0 ? end + 1 : end + n - count) % n;
     SegmentTrack rest = SegmentTrack::starting_at(scan, first);
-    for (std::size_t k = 0; k < count; ++k) rest.add(scan, (first + k) % n, noise);
+    for (std::size_t k = 0; k < count; ++k) rest.add(scan, (first + k) % n, by.noise);
     rest.line = rest.fit.line();
-    const double sigma_angle_rad = noise_scale / std::sqrt(rest.line.weight * rest.line.spread_m2);
-    if (sigma_angle_rad > kMaxRestSigma_rad) continue;
-    const double gate = kGateSigmas * noise_scale;
+    const double sigma_angle_rad =
+        by.noise_scale / std::sqrt(rest.line.weight * rest.line.spread_m2);
+    if (sigma_angle_rad > by.limits.max_rest_sigma_rad) continue;
     bool lies = true;
     for (std::size_t k = 0; k < count && lies; ++k) {
       const PolarPoint& point = scan[(first + k) % n];
       lies = -rest.line.normal.dot(Vec2(point.ray_x, point.ray_y)) > kMinRestSine &&
-             misfit(noise, rest.line, point) < gate * gate;
+             misfit(by.noise, rest.line, point) < by.gate2();
     }
     if (lies) return rest;
   }
@@ -192,8 +182,7 @@ WallSegment describe_wall(const PolarScan& scan, const SegmentTrack& wall, doubl
 }
 
 void extract_border(const PolarScan& scan, const SegmentTrack& right, const SegmentTrack& left,
-                    const DetectorConfig& config, const SensorNoise& noise, double noise_scale,
-                    Detection& detection) {
+                    double corner_tolerance_m, const Judgement& by, Detection& detection) {
   const auto add = [&](const std::optional<Breakpoint>& breakpoint) {
     if (!breakpoint) return;
     if (detection.breakpoints.size() < kMaxBreakpointsPerTurn) {
@@ -203,17 +192,17 @@ void extract_border(const PolarScan& scan, const SegmentTrack& right, const Segm
     }
   };
   const auto corner_of = [&](const SegmentTrack& on_right, const SegmentTrack& on_left) {
-    return Border(scan, on_right, on_left, config, noise, noise_scale).corner();
+    return Border(scan, on_right, on_left, corner_tolerance_m, by).corner();
   };
   if (const std::optional<Breakpoint> corner = corner_of(right, left)) return add(corner);
   const std::size_t between = samples_between(scan, right, left);
   for (const auto& [wall, side] : {std::pair(&right, WallSide::kRight), {&left, WallSide::kLeft}}) {
     const bool on_right = side == WallSide::kRight;
-    const WallEnd end(scan, *wall, side, between, noise, noise_scale);
+    const WallEnd end(scan, *wall, side, between, by);
     std::optional<Breakpoint> found = end.corner();
     if (!found) {
-      const auto rest = rest_beside(scan, on_right ? right.last : left.first, on_right ? +1 : -1,
-                                    between, noise, noise_scale);
+      const auto rest =
+          rest_beside(scan, on_right ? right.last : left.first, on_right ? +1 : -1, between, by);
       if (rest) found = on_right ? corner_of(right, *rest) : corner_of(*rest, left);
       if (found && found->covariance.trace() > kMaxSigma_m * kMaxSigma_m) found.reset();
     }

@@ -4,7 +4,7 @@
 
 #include "core/breakpoint/breakpoint.hpp"
 #include "core/breakpoint/segment_track.hpp"
-#include "core/detector_config.hpp"
+#include "core/breakpoint/wall_tests.hpp"
 #include "core/polar_scan.hpp"
 
 namespace cornerd::core {
@@ -15,8 +15,7 @@ namespace cornerd::core {
 /// there is an edge: a corner where the face of its end gave returns, too, else a terminal. Where
 /// something nearer hides how the wall goes on there is nothing.
 void extract_border(const PolarScan& scan, const SegmentTrack& right, const SegmentTrack& left,
-                    const DetectorConfig& config, const SensorNoise& noise, double noise_scale,
-                    Detection& detection);
+                    double corner_tolerance_m, const Judgement& by, Detection& detection);
 
 WallSegment describe_wall(const PolarScan& scan, const SegmentTrack& wall, double noise_scale);
 

@@ -21,7 +21,9 @@ namespace cornerd::core {
 class LineTracking {
  public:
   LineTracking(const DetectorConfig& config, const SensorNoise& noise)
-      : noise_(noise), max_distance_m_(config.lt.max_distance_m), min_support_(config.min_support) {}
+      : noise_(noise),
+        max_distance_m_(config.lt.max_distance_m),
+        min_support_(config.min_support) {}
 
   /// Walls of at least min_support samples. Allocates nothing beyond the capacity of `tracks`;
   /// walls that do not fit are dropped, and counted in the result.

@@ -64,8 +64,7 @@ PrintedAltbd::Miss PrintedAltbd::measure(const PolarScan& scan, std::size_t inde
   const Vec2 offset = Vec2(point.x_m, point.y_m) - predicted;
   miss.k_m = predictor_.direction().dot(offset);
   miss.j_m = predictor_.normal.dot(offset);
-  miss.q_max_m =
-      std::abs(predictor_.direction().dot(predicted - Vec2(before.x_m, before.y_m)));
+  miss.q_max_m = std::abs(predictor_.direction().dot(predicted - Vec2(before.x_m, before.y_m)));
   const double h_max = mean_error() + config_.sigma_offset;
   miss.h_max = config_.printed_altbd.minor == MinorAxis::kMetres ? h_max : h_max * point.range_m;
   miss.error = std::abs(miss.j_m) / point.range_m;

@@ -12,9 +12,6 @@
 
 namespace cornerd::core {
 
-/// Where a residual stops being noise: one sample in 2,000 of a normal one is beyond.
-inline constexpr double kGateSigmas = 3.5;
-
 /// A wall as a detector works on it: which samples, and the line through them.
 struct SegmentTrack {
   /// A wall that is to begin with the sample at `index`, and holds none yet.

@@ -32,11 +32,11 @@ void WallChain::add(const PolarScan& scan, const SegmentTrack& wall, double nois
                     Detection& detection) {
   added_ = wall;
   SegmentTrack next = wall;
-  while (walls_.size() >= 2 && dissolve(scan, walls_.size() - 2, walls_.size() - 1, next,
-                                        noise_scale)) {
+  while (walls_.size() >= 2 &&
+         dissolve(scan, walls_.size() - 2, walls_.size() - 1, next, noise_scale)) {
     walls_.pop_back();
   }
-  if (!walls_.empty() && is_one_wall(scan, noise_, noise_scale, walls_.back(), next)) {
+  if (!walls_.empty() && is_one_wall(scan, judgement(noise_scale), walls_.back(), next)) {
     append(walls_.back(), next);
     return;
   }
@@ -67,7 +67,7 @@ bool WallChain::dissolve(const PolarScan& scan, std::size_t before, std::size_t 
   SegmentTrack& right = walls_[before];
   if (wall.support > config_.altbd.doubtful_samples) return false;
   if (before == doubtful || right.support <= wall.support) return false;
-  const std::size_t split = split_between(scan, noise_, noise_scale, right, wall, after);
+  const std::size_t split = split_between(scan, judgement(noise_scale), right, wall, after);
   if (split == kNoSplit) return false;
   const std::size_t n = scan.size();
   const std::size_t count = (wall.last + n - wall.first) % n + 1;
@@ -85,14 +85,14 @@ bool WallChain::dissolve(const PolarScan& scan, std::size_t before, std::size_t 
 /// Gives each sample at the border of two neighbouring walls to the wall that it lies on. A tracker
 /// runs a sample or two around a corner before it notices.
 void WallChain::settle(const PolarScan& scan, SegmentTrack& right, SegmentTrack& left) const {
-  if (samples_between(scan, right, left) > kMaxInterruption) return;
+  if (samples_between(scan, right, left) > config_.extraction.max_interruption) return;
   const std::size_t n = scan.size();
   // A sample at the border of one wall that lies on the other's line, and not far from it.
   const auto belongs = [&](std::uint32_t index, const SegmentTrack& from, const SegmentTrack& to) {
     const PolarPoint& point = scan[index];
     const PolarPoint& end = scan[&to == &left ? left.first : right.last];
     const double gap_m = std::hypot(point.x_m - end.x_m, point.y_m - end.y_m);
-    return gap_m < kMaxPieceGap_m &&
+    return gap_m < config_.extraction.max_piece_gap_m &&
            misfit(noise_, to.line, point) < misfit(noise_, from.line, point);
   };
   const std::uint32_t before = right.support;
@@ -127,7 +127,8 @@ void WallChain::advance(const PolarScan& scan, std::size_t certain, double noise
 void WallChain::report(const PolarScan& scan, std::size_t right, double noise_scale,
                        Detection& detection) {
   const SegmentTrack& left = walls_[(right + 1) % walls_.size()];
-  extract_border(scan, walls_[right], left, config_, noise_, noise_scale, detection);
+  extract_border(scan, walls_[right], left, config_.corner_tolerance_m, judgement(noise_scale),
+                 detection);
 }
 
 void WallChain::close_seam(const PolarScan& scan, double noise_scale) {
@@ -138,7 +139,7 @@ void WallChain::close_seam(const PolarScan& scan, double noise_scale) {
     holds_first_ = false;
   };
   while (walls_.size() >= 2 &&
-         is_one_wall(scan, noise_, noise_scale, walls_.back(), walls_.front())) {
+         is_one_wall(scan, judgement(noise_scale), walls_.back(), walls_.front())) {
     append(walls_.back(), walls_.front());
     remove_front();
   }

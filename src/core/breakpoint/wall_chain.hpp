@@ -5,6 +5,7 @@
 
 #include "core/breakpoint/breakpoint.hpp"
 #include "core/breakpoint/segment_track.hpp"
+#include "core/breakpoint/wall_tests.hpp"
 #include "core/detector_config.hpp"
 #include "core/polar_scan.hpp"
 #include "core/sensor_noise.hpp"
@@ -36,6 +37,9 @@ class WallChain {
   const SegmentTracks& walls() const { return walls_; }
 
  private:
+  Judgement judgement(double noise_scale) const {
+    return {config_.extraction, noise_, noise_scale};
+  }
   bool dissolve(const PolarScan& scan, std::size_t before, std::size_t doubtful,
                 SegmentTrack& after, double noise_scale);
   void settle(const PolarScan& scan, SegmentTrack& right, SegmentTrack& left) const;

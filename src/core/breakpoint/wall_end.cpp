@@ -7,14 +7,10 @@
 namespace cornerd::core {
 namespace {
 
-/// What the face of a wall's end sticks out or back at most; a longer one is a wall of its own.
-constexpr double kMaxFace_m = 0.08;
 /// Samples that show a face: one alone may be a mixed pixel.
 constexpr std::size_t kMinFaceSamples = 2;
 /// Samples beyond the end that are asked whether the wall hides them.
 constexpr std::size_t kLookAhead = 3;
-/// Half of what a wall's end may be uncertain by; rays that graze a wall meet it in larger steps.
-constexpr double kMaxSpan_m = 0.12;
 
 double heading_of(const Vec2& direction) { return std::atan2(direction.y(), direction.x()); }
 
@@ -29,18 +25,15 @@ struct WallEnd::Beyond {
   double sigma_along_m = 0;
   double sigma_height_m = 0;
   double range_m = 0;
-
-  bool is_behind() const { return height_m < -kGateSigmas * sigma_height_m; }
 };
 
 WallEnd::WallEnd(const PolarScan& scan, const SegmentTrack& wall, WallSide side,
-                 std::size_t free_samples, const SensorNoise& noise, double noise_scale)
+                 std::size_t free_samples, const Judgement& by)
     : scan_(scan),
       wall_(wall),
       side_(side),
       free_samples_(free_samples),
-      noise_(noise),
-      noise_scale_(noise_scale),
+      by_(by),
       last_(side == WallSide::kRight ? wall.last : wall.first),
       outward_(static_cast<int>(side) * wall.line.direction()) {
   const Line& line = wall.line;
@@ -52,7 +45,7 @@ WallEnd::WallEnd(const PolarScan& scan, const SegmentTrack& wall, WallSide side,
   const double approach = -line.normal.dot(ray);
   constexpr double kMinApproach = 0.01;
   if (approach < kMinApproach) {
-    span_m_ = 2 * kMaxSpan_m;
+    span_m_ = 2 * by.limits.max_end_span_m;
   } else {
     span_m_ = std::max(0.0, outward_.dot(-line.offset_m / approach * ray - foot_));
   }
@@ -69,7 +62,8 @@ WallEnd::Beyond WallEnd::look(std::size_t nth) const {
   beyond.along_m = outward_.dot(place - foot_);
   beyond.height_m = normal.dot(place) - wall_.line.offset_m;
   const auto sigma = [&](double share) {
-    return noise_scale_ * std::sqrt(noise_.variance_across_m2(point.range_m, std::abs(share)));
+    return by_.noise_scale *
+           std::sqrt(by_.noise.variance_across_m2(point.range_m, std::abs(share)));
   };
   beyond.sigma_along_m = sigma(outward_.dot(ray));
   beyond.sigma_height_m = sigma(normal.dot(ray));
@@ -82,7 +76,8 @@ Breakpoint WallEnd::place(double along_m, double variance_along_m2) const {
   Breakpoint breakpoint;
   breakpoint.position = foot_ + along_m * outward_;
   const double from_centroid_m = outward_.dot(breakpoint.position - line.centroid);
-  const double variance_across = line.variance_at(from_centroid_m) * noise_scale_ * noise_scale_;
+  const double variance_across =
+      line.variance_at(from_centroid_m) * by_.noise_scale * by_.noise_scale;
   breakpoint.covariance = variance_along_m2 * outward_ * outward_.transpose() +
                           variance_across * line.normal * line.normal.transpose();
   const bool on_right = side_ == WallSide::kRight;
@@ -100,8 +95,8 @@ std::optional<Breakpoint> WallEnd::corner() const {
   for (; count < free_samples_; ++count) {
     const Beyond beyond = look(count + 1);
     // The foot is that of a sample with an error of its own.
-    const double slack_m = std::sqrt(2) * kGateSigmas * beyond.sigma_along_m;
-    if (std::abs(beyond.height_m) > kMaxFace_m) break;
+    const double slack_m = std::sqrt(2) * by_.limits.gate_sigmas * beyond.sigma_along_m;
+    if (std::abs(beyond.height_m) > by_.limits.max_face_m) break;
     if (beyond.along_m < -slack_m || beyond.along_m > span_m_ + slack_m) break;
     along_sum += beyond.along_m;
     height_sum += beyond.height_m;
@@ -111,19 +106,20 @@ std::optional<Breakpoint> WallEnd::corner() const {
   if (count < kMinFaceSamples) return std::nullopt;
   const double samples = static_cast<double>(count);
   const double from_centroid_m = outward_.dot(foot_ - wall_.line.centroid);
-  const double variance_line = noise_scale_ * noise_scale_ * wall_.line.variance_at(from_centroid_m);
+  const double variance_line =
+      by_.noise_scale * by_.noise_scale * wall_.line.variance_at(from_centroid_m);
   const double variance = variance_height + samples * samples * variance_line;
-  if (height_sum * height_sum < kGateSigmas * kGateSigmas * variance) return std::nullopt;
+  if (height_sum * height_sum < by_.limits.gate_sigmas * by_.limits.gate_sigmas * variance)
+    return std::nullopt;
 
   const double along_m = std::clamp(along_sum / samples, 0.0, span_m_);
   constexpr double kSquareness_m2 = 1e-6;  // of the face: a millimetre
-  Breakpoint breakpoint =
-      place(along_m, variance_along / (samples * samples) + kSquareness_m2);
+  Breakpoint breakpoint = place(along_m, variance_along / (samples * samples) + kSquareness_m2);
   breakpoint.kind = BreakpointKind::kCorner;
   breakpoint.convex = height_sum < 0;
   breakpoint.opening_rad = breakpoint.convex ? 3 * kPi / 2 : kPi / 2;
-  const double face_rad = heading_of(breakpoint.convex ? Vec2(-wall_.line.normal)
-                                                       : wall_.line.normal);
+  const double face_rad =
+      heading_of(breakpoint.convex ? Vec2(-wall_.line.normal) : wall_.line.normal);
   const bool on_right = side_ == WallSide::kRight;
   (on_right ? breakpoint.left_wall_rad : breakpoint.right_wall_rad) = face_rad;
   (on_right ? breakpoint.left_support : breakpoint.right_support) =
@@ -135,7 +131,7 @@ bool WallEnd::goes_on_behind() const {
   std::size_t behind = 0;
   for (std::size_t k = 1; k <= kLookAhead; ++k) {
     const Beyond beyond = look(k);
-    if (beyond.is_behind()) {
+    if (beyond.height_m < -by_.limits.gate_sigmas * beyond.sigma_height_m) {
       ++behind;
     } else if (beyond.range_m < scan_[last_].range_m) {
       return false;
@@ -145,7 +141,7 @@ bool WallEnd::goes_on_behind() const {
 }
 
 std::optional<Breakpoint> WallEnd::terminal() const {
-  if (span_m_ > kMaxSpan_m || !goes_on_behind()) return std::nullopt;
+  if (span_m_ > by_.limits.max_end_span_m || !goes_on_behind()) return std::nullopt;
   constexpr double kFlatness_m2 = 1e-6;  // a millimetre
   Breakpoint breakpoint = place(span_m_ / 2, span_m_ * span_m_ / 12 + kFlatness_m2);
   breakpoint.kind = BreakpointKind::kTerminal;

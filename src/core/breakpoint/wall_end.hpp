@@ -6,8 +6,8 @@
 
 #include "core/breakpoint/breakpoint.hpp"
 #include "core/breakpoint/segment_track.hpp"
+#include "core/breakpoint/wall_tests.hpp"
 #include "core/polar_scan.hpp"
-#include "core/sensor_noise.hpp"
 
 namespace cornerd::core {
 
@@ -19,7 +19,7 @@ class WallEnd {
  public:
   /// `free_samples`: beyond the end, on no wall.
   WallEnd(const PolarScan& scan, const SegmentTrack& wall, WallSide side, std::size_t free_samples,
-          const SensorNoise& noise, double noise_scale);
+          const Judgement& by);
 
   /// A corner where samples lie on the face of the wall's end, square to it and too short for a
   /// wall of its own: their mean tells where the wall ends.
@@ -39,8 +39,7 @@ class WallEnd {
   const SegmentTrack& wall_;
   WallSide side_;
   std::size_t free_samples_;
-  const SensorNoise& noise_;
-  double noise_scale_;
+  Judgement by_;
   std::size_t last_;   ///< the wall's sample at this end
   Vec2 outward_;       ///< along the wall, beyond its end
   Vec2 foot_;          ///< of the last sample on the line

@@ -9,8 +9,6 @@ namespace {
 
 /// More than this between two walls is never noise.
 const double kMinPieceCosine = std::cos(radians(60));
-/// Chi-square of two degrees of freedom that one line for two costs at most: one in 2,000.
-constexpr double kJoinedChiSquare = 40;
 
 Vec2 place(const PolarPoint& point) { return {point.x_m, point.y_m}; }
 
@@ -34,17 +32,18 @@ double misfit(const SensorNoise& noise, const Line& line, const PolarPoint& poin
   return across_m * across_m / noise.variance_across_m2(point.range_m, sine);
 }
 
-bool is_one_wall(const PolarScan& scan, const SensorNoise& noise, double noise_scale,
-                 const SegmentTrack& right, const SegmentTrack& left) {
-  if (samples_between(scan, right, left) > kMaxInterruption) return false;
+bool is_one_wall(const PolarScan& scan, const Judgement& by, const SegmentTrack& right,
+                 const SegmentTrack& left) {
+  if (samples_between(scan, right, left) > by.limits.max_interruption) return false;
   const Vec2 gap = place(scan[left.first]) - place(scan[right.last]);
-  if (gap.squaredNorm() > kMaxPieceGap_m * kMaxPieceGap_m) return false;
+  if (gap.norm() > by.limits.max_piece_gap_m) return false;
   if (right.line.normal.dot(left.line.normal) < kMinPieceCosine) return false;
 
   LineFit both = right.fit;
   both.add(left.fit);
   const double cost = both.chi_square() - right.fit.chi_square() - left.fit.chi_square();
-  return cost * across_factor(noise, both.line()) < kJoinedChiSquare * noise_scale * noise_scale;
+  const double limit = by.limits.joined_chi_square * by.noise_scale * by.noise_scale;
+  return cost * across_factor(by.noise, both.line()) < limit;
 }
 
 void append(SegmentTrack& right, const SegmentTrack& left) {
@@ -54,26 +53,25 @@ void append(SegmentTrack& right, const SegmentTrack& left) {
   right.support += left.support;
 }
 
-std::size_t split_between(const PolarScan& scan, const SensorNoise& noise, double noise_scale,
-                          const SegmentTrack& right, const SegmentTrack& wall,
-                          const SegmentTrack& left) {
-  if (samples_between(scan, right, wall) > kMaxInterruption) return kNoSplit;
-  if (samples_between(scan, wall, left) > kMaxInterruption) return kNoSplit;
+std::size_t split_between(const PolarScan& scan, const Judgement& by, const SegmentTrack& right,
+                          const SegmentTrack& wall, const SegmentTrack& left) {
+  if (samples_between(scan, right, wall) > by.limits.max_interruption) return kNoSplit;
+  if (samples_between(scan, wall, left) > by.limits.max_interruption) return kNoSplit;
   const std::size_t n = scan.size();
   const std::size_t count = (wall.last + n - wall.first) % n + 1;
-  const double gate = kGateSigmas * kGateSigmas * noise_scale * noise_scale;
+  const double gate = by.gate2();
   // The best place to change from one line to the other; a sample beyond the gate costs the gate.
   double all_left = 0;
   for (std::size_t k = 0; k < count; ++k) {
-    all_left += std::min(gate, misfit(noise, left.line, scan[(wall.first + k) % n]));
+    all_left += std::min(gate, misfit(by.noise, left.line, scan[(wall.first + k) % n]));
   }
   double cost = all_left;
   double best = all_left;
   std::size_t split = 0;
   for (std::size_t k = 0; k < count; ++k) {
     const PolarPoint& point = scan[(wall.first + k) % n];
-    cost += std::min(gate, misfit(noise, right.line, point)) -
-            std::min(gate, misfit(noise, left.line, point));
+    cost += std::min(gate, misfit(by.noise, right.line, point)) -
+            std::min(gate, misfit(by.noise, left.line, point));
     if (cost < best) {
       best = cost;
       split = k + 1;
@@ -81,8 +79,8 @@ std::size_t split_between(const PolarScan& scan, const SensorNoise& noise, doubl
   }
   // Mean of a chi-square and three and a half of its standard deviations.
   const double samples = static_cast<double>(count);
-  const double limit = samples + kGateSigmas * std::sqrt(2 * samples);
-  return best < limit * noise_scale * noise_scale ? split : kNoSplit;
+  const double limit = samples + by.limits.gate_sigmas * std::sqrt(2 * samples);
+  return best < limit * by.noise_scale * by.noise_scale ? split : kNoSplit;
 }
 
 }  // namespace cornerd::core

@@ -6,16 +6,23 @@
 #include <limits>
 
 #include "core/breakpoint/segment_track.hpp"
+#include "core/detector_config.hpp"
 #include "core/polar_scan.hpp"
 #include "core/sensor_noise.hpp"
 
 namespace cornerd::core {
 
-/// Samples that may lie between two pieces of one wall: a table leg, a run of outliers.
-inline constexpr std::size_t kMaxInterruption = 4;
+/// By what the walls of a turn are judged.
+struct Judgement {
+  const ExtractionConfig& limits;
+  const SensorNoise& noise;
+  double noise_scale = 1;  ///< of the turn's noise to the model's
 
-/// What two pieces of one wall may be apart, so that no door becomes a wall.
-inline constexpr double kMaxPieceGap_m = 0.3;
+  /// Squared, in units of the model's noise.
+  double gate2() const {
+    return limits.gate_sigmas * limits.gate_sigmas * noise_scale * noise_scale;
+  }
+};
 
 /// Samples after the end of `right` and before the beginning of `left`.
 std::size_t samples_between(const PolarScan& scan, const SegmentTrack& right,
@@ -29,8 +36,8 @@ double across_factor(const SensorNoise& noise, const Line& line);
 double misfit(const SensorNoise& noise, const Line& line, const PolarPoint& point);
 
 /// True where two neighbours are pieces of one wall.
-bool is_one_wall(const PolarScan& scan, const SensorNoise& noise, double noise_scale,
-                 const SegmentTrack& right, const SegmentTrack& left);
+bool is_one_wall(const PolarScan& scan, const Judgement& by, const SegmentTrack& right,
+                 const SegmentTrack& left);
 
 /// `left` becomes a part of `right`.
 void append(SegmentTrack& right, const SegmentTrack& left);
@@ -39,8 +46,7 @@ inline constexpr std::size_t kNoSplit = std::numeric_limits<std::size_t>::max();
 
 /// Where the samples of a short wall between two others all lie on these: how many of its samples,
 /// from its first on, are the right one's. kNoSplit where they do not.
-std::size_t split_between(const PolarScan& scan, const SensorNoise& noise, double noise_scale,
-                          const SegmentTrack& right, const SegmentTrack& wall,
-                          const SegmentTrack& left);
+std::size_t split_between(const PolarScan& scan, const Judgement& by, const SegmentTrack& right,
+                          const SegmentTrack& wall, const SegmentTrack& left);
 
 }  // namespace cornerd::core

@@ -113,7 +113,7 @@ TEST(Config, ValueOutOfRange_IsNamedWithItsLimits) {
 
 TEST(Config, UnknownChoice_ListsWhatThereIs) {
   EXPECT_THAT(config_error(R"({"map": "/m", "detector": {"method": "magic"}})"),
-              EndsWith(R"(must be one of "altbd", "abd-iepf", "lt")"));
+              EndsWith(R"(must be one of "altbd", "altbd-printed", "abd-iepf", "lt")"));
   EXPECT_THAT(config_error(R"({"map": "/m", "odometry": {"source": "wheels"}})"),
               EndsWith(R"(must be "none")"));
 }

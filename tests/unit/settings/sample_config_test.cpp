@@ -48,6 +48,46 @@ TEST(FullSample, EveryKeyTheProgramKnows_IsThere) {
   }
   expect_all_known_keys_in(sample["lidar"]["mount"], "/lidar/mount", text);
   expect_all_known_keys_in(sample["lidar"]["noise"], "/lidar/noise", text);
+  for (const char* section : {"altbd", "printed_altbd", "abd_iepf", "lt", "extraction"}) {
+    expect_all_known_keys_in(sample["detector"][section], std::string("/detector/") + section,
+                             text);
+  }
+}
+
+void expect_default_detector(const core::DetectorConfig& sample) {
+  const core::DetectorConfig defaults;
+  constexpr double kRounding = 1e-5;  // of angles, in the file
+  EXPECT_EQ(sample.method, defaults.method);
+  EXPECT_EQ(sample.sigma_offset, defaults.sigma_offset);
+  EXPECT_EQ(sample.corner_tolerance_m, defaults.corner_tolerance_m);
+  EXPECT_EQ(sample.min_support, defaults.min_support);
+  EXPECT_EQ(sample.altbd.gate_sigmas, defaults.altbd.gate_sigmas);
+  EXPECT_EQ(sample.altbd.seed_samples, defaults.altbd.seed_samples);
+  EXPECT_EQ(sample.altbd.misses_to_break, defaults.altbd.misses_to_break);
+  EXPECT_NEAR(sample.altbd.max_gap_rad, defaults.altbd.max_gap_rad, kRounding);
+  EXPECT_EQ(sample.altbd.max_gap_m, defaults.altbd.max_gap_m);
+  EXPECT_EQ(sample.altbd.prior_residuals, defaults.altbd.prior_residuals);
+  EXPECT_EQ(sample.altbd.doubtful_samples, defaults.altbd.doubtful_samples);
+  EXPECT_EQ(sample.printed_altbd.axes, defaults.printed_altbd.axes);
+  EXPECT_EQ(sample.printed_altbd.minor, defaults.printed_altbd.minor);
+  EXPECT_EQ(sample.printed_altbd.line, defaults.printed_altbd.line);
+  EXPECT_EQ(sample.printed_altbd.mean, defaults.printed_altbd.mean);
+  EXPECT_EQ(sample.abd_iepf.threshold, defaults.abd_iepf.threshold);
+  EXPECT_EQ(sample.abd_iepf.sigma_r, defaults.abd_iepf.sigma_r);
+  EXPECT_NEAR(sample.abd_iepf.lambda_rad, defaults.abd_iepf.lambda_rad, kRounding);
+  EXPECT_EQ(sample.abd_iepf.split_limit_m, defaults.abd_iepf.split_limit_m);
+  EXPECT_EQ(sample.lt.max_distance_m, defaults.lt.max_distance_m);
+  EXPECT_EQ(sample.extraction.gate_sigmas, defaults.extraction.gate_sigmas);
+  EXPECT_EQ(sample.extraction.max_interruption, defaults.extraction.max_interruption);
+  EXPECT_EQ(sample.extraction.max_piece_gap_m, defaults.extraction.max_piece_gap_m);
+  EXPECT_EQ(sample.extraction.joined_chi_square, defaults.extraction.joined_chi_square);
+  EXPECT_NEAR(sample.extraction.min_corner_angle_rad, defaults.extraction.min_corner_angle_rad,
+              kRounding);
+  EXPECT_EQ(sample.extraction.grazing_rays, defaults.extraction.grazing_rays);
+  EXPECT_EQ(sample.extraction.max_face_m, defaults.extraction.max_face_m);
+  EXPECT_EQ(sample.extraction.max_end_span_m, defaults.extraction.max_end_span_m);
+  EXPECT_NEAR(sample.extraction.max_rest_sigma_rad, defaults.extraction.max_rest_sigma_rad,
+              kRounding);
 }
 
 TEST(FullSample, EveryValue_IsTheDefault) {
@@ -71,9 +111,7 @@ TEST(FullSample, EveryValue_IsTheDefault) {
   EXPECT_EQ(sample.lidar.motor.kind, defaults.lidar.motor.kind);
   EXPECT_EQ(sample.lidar.speed, defaults.lidar.speed);
   EXPECT_EQ(sample.lidar.loop, defaults.lidar.loop);
-  EXPECT_EQ(sample.detector.method, defaults.detector.method);
-  EXPECT_EQ(sample.detector.sigma_offset, defaults.detector.sigma_offset);
-  EXPECT_EQ(sample.detector.corner_tolerance_m, defaults.detector.corner_tolerance_m);
+  expect_default_detector(sample.detector);
   EXPECT_EQ(sample.odometry.source, defaults.odometry.source);
   EXPECT_EQ(sample.odometry.wheel_radius_m, defaults.odometry.wheel_radius_m);
   EXPECT_EQ(sample.odometry.track_m, defaults.odometry.track_m);
