@@ -66,6 +66,7 @@ PaperResult run_method(const PaperTurns& turns, const NamedMethod& method,
     CornerScore score;
     score.add(at.breakpoints, truth.at(i));
     at.true_corners = score.detections(BreakpointKind::kCorner, Verdict::kTrue);
+    at.missed_corners = score.missed();
     at.false_corners = score.detections(BreakpointKind::kCorner, Verdict::kFalse) +
                        score.detections(BreakpointKind::kCorner, Verdict::kAside);
 

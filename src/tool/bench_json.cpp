@@ -24,6 +24,7 @@ Figures json_of(const bench::PlaceResult& result, const bench::PaperPlace& place
                      {"theta", place.T_map_lidar.theta_rad},
                      {"time_us", result.time_us},
                      {"true_corners", result.true_corners},
+                     {"missed_corners", result.missed_corners},
                      {"false_corners", result.false_corners}};
   if (result.nearest_corners_error_m) {
     figures["nearest_corners_error"] = *result.nearest_corners_error_m;

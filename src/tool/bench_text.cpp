@@ -198,6 +198,11 @@ std::string true_false_table(const BenchReport& report) {
   table.add_row("places with a false one", "", [&](const PaperResult& result) {
     return std::to_string(count_corners(all_places(result)).faulty_places);
   });
+  table.add_row("missed of those with 5", "", [&](const PaperResult& result) {
+    std::size_t missed = 0;
+    for (const bench::PlaceResult& place : result.places) missed += place.missed_corners;
+    return std::to_string(missed);
+  });
   std::size_t supported = 0;
   for (const std::size_t count : report.supported_corners) supported += count;
   return "Table II: true / false corners (the paper's)\n" + table.text() +

@@ -67,7 +67,12 @@ bool Border::free_between(const Vec2& corner) const {
     const PolarPoint& point = scan_[(right_.last + k) % scan_.size()];
     behind += point.range_m > limit_m ? 1 : 0;
   }
-  return behind == 0 || (count > 3 && behind == 1);
+  if (behind != 1) return behind == 0;
+  // One alone is an outlier, among several or in a gap that nothing could be seen through.
+  constexpr std::size_t kSeveral = 3;
+  constexpr double kNarrow_m = 0.06;
+  const Vec2 gap = place_on(scan_[left_.first]) - place_on(scan_[right_.last]);
+  return count > kSeveral || gap.norm() < kNarrow_m;
 }
 
 /// Follows a wall over the samples between the two, to the last that lies on it: single ones that
