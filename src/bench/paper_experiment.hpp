@@ -34,7 +34,7 @@ struct PlaceResult {
   /// Detections that claim to be corners and are none, or are a wall's end that shows one wall, or
   /// a corner that is found already.
   std::size_t false_corners = 0;
-  std::size_t missed_corners = 0;  ///< of those whose walls both give 5 returns
+  std::size_t missed_corners = 0;                 ///< of those whose walls both give 5 returns
   std::optional<double> nearest_corners_error_m;  ///< of the paper's position
   std::optional<double> localizer_error_m;        ///< of cornerd's, where it names a place
   std::vector<core::Breakpoint> breakpoints;

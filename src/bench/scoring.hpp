@@ -41,7 +41,7 @@ class CornerScore {
 
   std::size_t supported() const { return supported_; }  ///< corners, both walls with 5 returns
   std::size_t missed() const { return supported_ - supported_found_; }  ///< of the supported
-  std::size_t visible() const { return visible_; }      ///< those included, both walls with one
+  std::size_t visible() const { return visible_; }  ///< those included, both walls with one
 
   /// Share of the detections that are true corners. Those at one-sided wall ends (and hidden
   /// corners) are left out, or are false where `strictly`. 1 where nothing was detected.

@@ -126,8 +126,8 @@ TEST(Detector, EachMethod_SeesWhatItsOwnLimitsTell) {
   EXPECT_EQ(count_walls(Method::kAbdIepf, stepped), 4U);
   EXPECT_EQ(count_walls(Method::kLineTracking, stepped), 4U);
 
-  // A piece of the upper wall that gives no returns, as wide as a door: wider than lambda of ABD and
-  // than the gap that ALTBD bridges; LT bridges any.
+  // A piece of the upper wall that gives no returns, as wide as a door: wider than lambda of ABD
+  // and than the gap that ALTBD bridges; LT bridges any.
   const Scan whole = source.take(*testing::make_map(testing::rectangular_room(3, 2)), {1.2, 1, 0});
   Scan gap;
   for (const Sample& sample : whole.samples()) {
