@@ -21,14 +21,16 @@ namespace {
 constexpr double kRecognisedReach_m = 0.10;
 constexpr double kPriorReach_m = 0.15;
 constexpr double kMotionReach_m = 0.08;
-/// A place that leaves more than this of the rays unexplained, or that few rays speak for, may be
-/// the wrong one of several.
-constexpr double kCertainHitShare = 0.9;
+/// A place that leaves more of the rays unexplained than outliers and mixed pixels do, or that few
+/// rays speak for, may be the wrong one of several: rooms of one building share walls. Where the
+/// robot was expected there, things that are not on the map may take their part.
+constexpr double kCertainHitShare = 0.97;
+constexpr double kCertainHitShareExpected = 0.9;
 constexpr std::size_t kCertainHits = 100;
 /// A place is evident where it explains nearly every ray and a corner, or most rays and several.
 /// What fits less well may be a building or a motion that is not what it seems: only a place that
 /// was expected is believed on that.
-constexpr double kEvidentHitShare = 0.9;
+constexpr double kEvidentHitShare = 0.95;
 constexpr double kEvidentHitShareOfCorners = 0.6;
 constexpr std::size_t kEvidentCorners = 3;
 /// A robot moves no farther than this between two turns. A place farther off was either wrong or
@@ -67,9 +69,9 @@ struct Localizer::Workspace {
 
   void look(const Scan& scan, TimeNs t_ns, const Twist2& as_if_moving);
   void look_for_the_motion(const Scan& scan, TimeNs t_ns);
-  void look_everywhere();
+  void look_everywhere(TimeNs t_ns);
   PoseState believe(TimeNs t_ns);
-  bool in_doubt() const;
+  bool in_doubt(TimeNs t_ns) const;
   bool is_smeared() const;
   std::size_t best_hits() const;
   void report(const Decision& decision, TimeNs t_ns);
@@ -105,10 +107,10 @@ const TurnResult& Localizer::step(const Scan& scan) {
   w.look(scan, t_ns, w.memory.motion());
 
   // 2. Where none is convincing, the robot may have changed its speed since the last turns.
-  if (w.in_doubt() || w.is_smeared()) w.look_for_the_motion(scan, t_ns);
+  if (w.in_doubt(t_ns) || w.is_smeared()) w.look_for_the_motion(scan, t_ns);
 
   // 3. Where still none is, all places are tested that could have been overlooked.
-  if (w.in_doubt()) w.look_everywhere();
+  if (w.in_doubt(t_ns)) w.look_everywhere(t_ns);
 
   // 4. One place is a fix, several are ambiguous, none is lost.
   Decision decision =
@@ -167,10 +169,13 @@ void Localizer::Workspace::look(const Scan& scan, TimeNs t_ns, const Twist2& as_
   }
 }
 
-bool Localizer::Workspace::in_doubt() const {
+bool Localizer::Workspace::in_doubt(TimeNs t_ns) const {
   if (!place || place->verification.places().empty()) return true;
-  const Explanation& best = place->verification.places().front().explanation;
-  return best.hits < kCertainHits || best.hit_share() < kCertainHitShare;
+  const core::Place& best = place->verification.places().front();
+  const std::optional<Pose2> prior = memory.prior(t_ns);
+  const bool expected = prior && same_place(*prior, best.refined.T_map_lidar, kJump_m, kJump_rad);
+  return best.explanation.hits < kCertainHits ||
+         best.explanation.hit_share() < (expected ? kCertainHitShareExpected : kCertainHitShare);
 }
 
 bool Localizer::Workspace::is_smeared() const {
@@ -194,7 +199,7 @@ void Localizer::Workspace::look_for_the_motion(const Scan& scan, TimeNs t_ns) {
     best_motion = motion;
   };
   if (!motion.is_rest()) try_motion({});
-  for (int k = 0; k < 2 && (in_doubt() || is_smeared()) && best_hits() > 0; ++k) {
+  for (int k = 0; k < 2 && (in_doubt(t_ns) || is_smeared()) && best_hits() > 0; ++k) {
     const Pose2 start = place->verification.places().front().refined.T_map_lidar;
     const RefinedMotion refined = place->refinement.refine_motion(
         *map, start, kMotionReach_m, points.points(), result.detection.noise_scale);
@@ -204,12 +209,12 @@ void Localizer::Workspace::look_for_the_motion(const Scan& scan, TimeNs t_ns) {
   if (motion != best_motion) look(scan, t_ns, best_motion);
 }
 
-void Localizer::Workspace::look_everywhere() {
+void Localizer::Workspace::look_everywhere(TimeNs t_ns) {
   if (!place) return;
   const std::span<const Breakpoint> breakpoints = result.detection.breakpoints;
   Recognition& recognition = place->recognition;
   place->verification.consider(recognition.from_single_corners(breakpoints), kRecognisedReach_m);
-  if (!in_doubt()) return;
+  if (!in_doubt(t_ns)) return;
   place->verification.consider(recognition.from_walls(result.detection.segments, breakpoints),
                                kRecognisedReach_m);
 }
