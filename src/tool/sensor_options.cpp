@@ -58,6 +58,19 @@ void SensorOptions::add_to(CLI::App& command) {
       .add_option("--backward", backward,
                   "share of standard nodes that arrive behind the next one: their angle steps back")
       ->check(number_within(0, 0.4));
+  command
+      .add_option("--range-scale", range_scale, "bias: what is measured of a metre (m)")
+      ->check(number_within(0.9, 1.1));
+  command.add_option("--range-offset", range_offset_m, "bias: added to every range (m)")
+      ->check(number_within(-0.1, 0.1));
+  command
+      .add_option("--eccentricity", eccentricity_deg,
+                  "bias: of the angle disc, largest error of a direction (degrees)")
+      ->check(number_within(0, 3));
+  command
+      .add_option("--eccentricity-phase", eccentricity_phase_deg,
+                  "device angle at which that error is zero and growing (degrees)")
+      ->check(number_within(-360, 360));
 }
 
 replay::SensorModel SensorOptions::model(const settings::NoiseConfig& configured) const {
@@ -78,6 +91,10 @@ replay::SensorModel SensorOptions::model(const settings::NoiseConfig& configured
   model.outliers = outliers.value_or(model.outliers);
   if (beam_deg) model.beam_width_rad = core::radians(*beam_deg);
   model.backward = backward.value_or(model.backward);
+  model.range_scale = range_scale.value_or(model.range_scale);
+  model.range_offset_m = range_offset_m.value_or(model.range_offset_m);
+  if (eccentricity_deg) model.eccentricity_rad = core::radians(*eccentricity_deg);
+  if (eccentricity_phase_deg) model.eccentricity_phase_rad = core::radians(*eccentricity_phase_deg);
   return model;
 }
 

@@ -25,6 +25,10 @@ struct SensorOptions {
   std::optional<double> outliers;
   std::optional<double> beam_deg;
   std::optional<double> backward;
+  std::optional<double> range_scale;
+  std::optional<double> range_offset_m;
+  std::optional<double> eccentricity_deg;
+  std::optional<double> eccentricity_phase_deg;
 
   void add_to(CLI::App& command);
 
