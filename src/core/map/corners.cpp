@@ -48,7 +48,7 @@ class Grid {
 };
 
 /// The ends of all faces and the crossings of line walls, each place once.
-std::vector<Vec2> vertices_of(std::span<const Face> faces) {
+std::vector<Vec2> vertices_of(std::span<const Face> faces, const CellGrid& faces_by_place) {
   std::vector<Vec2> vertices;
   Grid grid(1e-3);
   const auto add = [&](const Vec2& point) {
@@ -64,9 +64,12 @@ std::vector<Vec2> vertices_of(std::span<const Face> faces) {
     add(face.from);
     add(face.to);
   }
-  for (std::size_t i = 0; i < faces.size(); ++i) {
-    for (std::size_t j = i + 1; j < faces.size(); ++j) {
-      const Face& a = faces[i];
+  std::vector<std::uint32_t> near;
+  for (std::uint32_t i = 0; i < faces.size(); ++i) {
+    const Face& a = faces[i];
+    faces_by_place.collect(Extent::of_segment(a.from, a.to, 0), near);
+    for (const std::uint32_t j : near) {
+      if (j <= i) continue;
       const Face& b = faces[j];
       const double sine = cross(a.direction, b.direction);
       if (std::abs(sine) < 1e-9) continue;
@@ -116,9 +119,14 @@ void add_corners(const Vec2& vertex, std::span<const Arm> arms, std::vector<Corn
 std::vector<Corner> corners_of(std::span<const Face> faces) {
   std::vector<Corner> corners;
   std::vector<Arm> arms;
-  for (const Vec2& vertex : vertices_of(faces)) {
+  std::vector<Extent> extents;
+  for (const Face& face : faces) extents.push_back(Extent::of_segment(face.from, face.to, 0));
+  const CellGrid grid(extents);
+  std::vector<std::uint32_t> near;
+  for (const Vec2& vertex : vertices_of(faces, grid)) {
     arms.clear();
-    for (const Face& face : faces) add_arms(face, vertex, arms);
+    grid.collect(Extent::of_segment(vertex, vertex, kSamePoint_m), near);
+    for (const std::uint32_t i : near) add_arms(faces[i], vertex, arms);
     add_corners(vertex, arms, corners);
   }
   return corners;

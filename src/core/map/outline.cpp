@@ -103,6 +103,7 @@ std::vector<Interval> remaining(std::vector<Interval> hidden) {
   return left;
 }
 
+/// Cheap, and true for a few that do not touch.
 bool may_touch(const WallBox& a, const WallBox& b) {
   const double reach = a.half_length_m + a.half_width_m + b.half_length_m + b.half_width_m;
   return (a.centre - b.centre).squaredNorm() <= (reach + 1e-3) * (reach + 1e-3);
@@ -155,18 +156,24 @@ Vec2 WallBox::to_local(const Vec2& point) const {
   return {along.dot(d), cross(along, d)};
 }
 
+Extent WallBox::extent() const {
+  const Vec2 reach = half_length_m * along;
+  return Extent::of_segment(centre - reach, centre + reach, half_width_m + kGeometryEpsilon_m);
+}
+
 std::vector<Face> outline_of(std::span<const WallBox> boxes) {
   std::vector<Face> faces;
-  std::vector<std::size_t> neighbours;
+  std::vector<std::uint32_t> near;
   std::vector<Interval> hidden;
+  std::vector<Extent> extents;
+  for (const WallBox& box : boxes) extents.push_back(box.extent());
+  const CellGrid grid(extents);
   for (std::size_t i = 0; i < boxes.size(); ++i) {
-    neighbours.clear();
-    for (std::size_t j = 0; j < boxes.size(); ++j) {
-      if (j != i && may_touch(boxes[i], boxes[j])) neighbours.push_back(j);
-    }
+    grid.collect(extents[i], near);
+    std::erase_if(near, [&](std::uint32_t j) { return j == i || !may_touch(boxes[i], boxes[j]); });
     for (const Edge& edge : edges_of(boxes[i], i)) {
       hidden.clear();
-      for (const std::size_t j : neighbours) {
+      for (const std::uint32_t j : near) {
         const Interval piece = hidden_by(edge, boxes[i], boxes[j], j);
         if (piece.begin < piece.end) hidden.push_back(piece);
       }

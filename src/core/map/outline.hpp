@@ -23,6 +23,7 @@ struct WallBox {
   explicit WallBox(const Wall& wall);
   bool is_line() const { return half_width_m == 0; }
   Vec2 to_local(const Vec2& point) const;
+  Extent extent() const;
 };
 
 /// The surface of the union of all walls: what lies inside another wall is left out, what two walls

@@ -43,14 +43,10 @@ std::span<const PredictedHit> TurnPrediction::cast(const WallMap& map, const Pos
   const auto to_lidar = [&](const Vec2& v) {
     return Vec2(c * v.x() + s * v.y(), -s * v.x() + c * v.y());
   };
-  const std::span<const Face> faces = map.faces();
-  for (std::uint32_t i = 0; i < faces.size(); ++i) {
-    const Face& face = faces[i];
-    const double height_m = face.normal.dot(origin) - face.offset_m;
-    if (height_m <= 0 || height_m > max_range_m_) continue;
-    const Vec2 from = to_lidar(face.from - origin);
-    const Vec2 to = to_lidar(face.to - origin);
-    const Vec2 normal = to_lidar(face.normal);
+  sight_.look(map, origin, max_range_m_, [&](std::uint32_t i, const FaceInSight& seen) {
+    const Vec2 from = to_lidar(seen.from);
+    const Vec2 to = to_lidar(seen.to);
+    const Vec2 normal = to_lidar(map.faces()[i].normal);
     // Seen from its free side a face runs counter-clockwise from `from` to `to`, over less than pi:
     // where the bearing falls on the way, it crosses the seam.
     const double from_rad = std::atan2(from.y(), from.x());
@@ -58,12 +54,12 @@ std::span<const PredictedHit> TurnPrediction::cast(const WallMap& map, const Pos
     const std::size_t begin = first_at(points, from_rad);
     const std::size_t end = first_at(points, to_rad);
     if (from_rad <= to_rad) {
-      cover(i, normal, height_m, begin, end, points);
+      cover(i, normal, seen.height_m, begin, end, points);
     } else {
-      cover(i, normal, height_m, begin, points.size(), points);
-      cover(i, normal, height_m, 0, end, points);
+      cover(i, normal, seen.height_m, begin, points.size(), points);
+      cover(i, normal, seen.height_m, 0, end, points);
     }
-  }
+  });
   for (PredictedHit& hit : hits_) {
     if (hit.face == PredictedHit::kNone) hit.range_m = 0;
   }

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "core/map/sight.hpp"
 #include "core/map/wall_map.hpp"
 #include "core/polar_scan.hpp"
 
@@ -17,8 +18,8 @@ struct PredictedHit {
   std::uint32_t face = kNone;  ///< index into WallMap::faces()
 };
 
-/// Predicts all rays of a turn at once: every face that looks towards the sensor covers an interval
-/// of bearings, and only the rays in it are intersected with its line. Memory is taken at
+/// Predicts all rays of a turn at once: every face that the place may see covers an interval of
+/// bearings, and only the rays in it are intersected with its line. Memory is taken at
 /// construction.
 class TurnPrediction {
  public:
@@ -33,6 +34,7 @@ class TurnPrediction {
              std::size_t end, std::span<const PolarPoint> points);
 
   double max_range_m_;
+  Sight sight_;
   std::vector<PredictedHit> hits_;
 };
 

@@ -53,17 +53,39 @@ WallMap::WallMap(FloorPlan plan) : plan_(std::move(plan)) {
     lower_left_ = lower_left_.cwiseMin(face.from).cwiseMin(face.to);
     upper_right_ = upper_right_.cwiseMax(face.from).cwiseMax(face.to);
   }
+  index();
+}
+
+void WallMap::index() {
+  std::vector<Extent> extents;
+  for (const Face& face : faces_) extents.push_back(Extent::of_segment(face.from, face.to, 0));
+  face_grid_ = CellGrid(extents);
+  extents.clear();
+  for (const Wall& wall : plan_.walls) extents.push_back(WallBox(wall).extent());
+  wall_grid_ = CellGrid(extents);
+  extents.clear();
+  for (const Room& room : plan_.rooms) {
+    Extent extent{room.polygon.front(), room.polygon.front()};
+    for (const Vec2& point : room.polygon) {
+      extent.low = extent.low.cwiseMin(point);
+      extent.high = extent.high.cwiseMax(point);
+    }
+    extents.push_back(extent);
+  }
+  room_grid_ = CellGrid(extents);
 }
 
 std::optional<std::size_t> WallMap::room_at(const Vec2& point) const {
-  for (std::size_t i = 0; i < plan_.rooms.size(); ++i) {
+  for (const std::uint32_t i : room_grid_.at(point)) {
     if (contains(plan_.rooms[i].polygon, point)) return i;
   }
   return std::nullopt;
 }
 
 bool WallMap::is_solid(const Vec2& point) const {
-  return std::any_of(plan_.walls.begin(), plan_.walls.end(), [&](const Wall& wall) {
+  const auto walls = wall_grid_.at(point);
+  return std::any_of(walls.begin(), walls.end(), [&](std::uint32_t i) {
+    const Wall& wall = plan_.walls[i];
     if (wall.thickness_m == 0) return false;
     const WallBox box(wall);
     const Vec2 local = box.to_local(point);
@@ -75,16 +97,21 @@ double WallMap::range_along(const Vec2& origin, double angle_rad, double max_ran
   const Vec2 ray = unit_vector(angle_rad);
   double nearest_m = max_range_m;
   bool hit = false;
-  for (const Face& face : faces_) {
+  const auto meet = [&](const Face& face) {
     const double approach = -face.normal.dot(ray);
     const double height_m = face.normal.dot(origin) - face.offset_m;
-    if (approach <= 1e-12 || height_m <= 0 || height_m > nearest_m * approach) continue;
+    if (approach <= 1e-12 || height_m <= 0 || height_m > nearest_m * approach) return;
     const double range_m = height_m / approach;
     const double along_m = face.direction.dot(origin + range_m * ray - face.from);
-    if (along_m < 0 || along_m > face.length_m) continue;
+    if (along_m < 0 || along_m > face.length_m) return;
     nearest_m = range_m;
     hit = true;
-  }
+  };
+  face_grid_.walk(origin, ray, max_range_m,
+                  [&](std::span<const std::uint32_t> faces, double leaves_m) {
+                    for (const std::uint32_t i : faces) meet(faces_[i]);
+                    return !hit || nearest_m > leaves_m;
+                  });
   return hit ? nearest_m : 0;
 }
 

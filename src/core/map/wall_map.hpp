@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/geometry/pose2.hpp"
+#include "core/map/cell_grid.hpp"
 
 namespace cornerd::core {
 
@@ -78,15 +79,23 @@ class WallMap {
   bool is_solid(const Vec2& point) const;
 
   /// Distance to the nearest face along one ray; 0 where there is none within `max_range_m`.
-  /// For tools and tests; the localizer predicts whole turns at once (ray_cast.hpp).
+  /// For tools and tests; the localizer predicts whole turns at once (turn_prediction.hpp).
   double range_along(const Vec2& origin, double angle_rad, double max_range_m) const;
 
+  /// Which faces lie where.
+  const CellGrid& face_grid() const { return face_grid_; }
+
  private:
+  void index();
+
   FloorPlan plan_;
   std::vector<Face> faces_;
   std::vector<Corner> corners_;
   Vec2 lower_left_ = Vec2::Zero();
   Vec2 upper_right_ = Vec2::Zero();
+  CellGrid face_grid_;
+  CellGrid wall_grid_;  ///< of plan_.walls
+  CellGrid room_grid_;  ///< of plan_.rooms
 };
 
 }  // namespace cornerd::core

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+// Buildings of any size, to see how the localizer's cost grows and where it is in doubt.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "core/map/wall_map.hpp"
+
+namespace cornerd::bench {
+
+/// Offices on both sides of corridors, which a corridor along the building's side joins. Each room
+/// has a width, a door and a cupboard of its own. The first room that reaches `corners` corners, as
+/// a lidar sees them, is the last; small maps have two rooms at least. Rooms are named.
+core::FloorPlan office_building(std::size_t corners, std::uint64_t seed);
+
+/// A corridor with `rooms` rooms on one side that are equal to the millimetre.
+core::FloorPlan equal_rooms(std::size_t rooms);
+
+}  // namespace cornerd::bench
