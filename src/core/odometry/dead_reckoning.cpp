@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+#include "core/odometry/dead_reckoning.hpp"
+
+#include <cmath>
+
+namespace cornerd::core {
+namespace {
+
+double unless_small(double change_rad, double dead_band_rad) {
+  return std::abs(change_rad) < dead_band_rad ? 0 : change_rad;
+}
+
+/// The way of a wheel whose angle must change by more than the dead band to count.
+double counted(double way_m, double radius_m, double dead_band_rad) {
+  return unless_small(way_m / radius_m, dead_band_rad) * radius_m;
+}
+
+}  // namespace
+
+double heading_change(const MotionStep& step, const DriveGeometry& geometry,
+                      const DeadReckoningConfig& config) {
+  const double radius_m = geometry.wheel_radius_m;
+  const double left_m = counted(step.left_m, radius_m, config.dead_band_rad);
+  const double right_m = counted(step.right_m, radius_m, config.dead_band_rad);
+  const double by_encoder = config.encoder_factor * (right_m - left_m) / geometry.track_m;
+  const double by_gyro = config.gyro_factor * step.gyro_rad;
+  double change_rad = by_encoder;
+  if (step.has_gyro) {
+    switch (config.source) {
+      case HeadingSource::kEncoder:
+        break;
+      case HeadingSource::kGyro:
+        change_rad = by_gyro;
+        break;
+      case HeadingSource::kMean:
+        change_rad = (by_encoder / config.encoder_factor + step.gyro_rad) / 2;
+        break;
+      case HeadingSource::kWeighted:
+      case HeadingSource::kFilter:
+        change_rad = (by_encoder + by_gyro) / 2;
+        break;
+    }
+  }
+  return unless_small(change_rad, config.dead_band_rad);
+}
+
+const Pose2& DeadReckoning::add(const MotionStep& step) {
+  const double radius_m = geometry_.wheel_radius_m;
+  const double way_m = (counted(step.left_m, radius_m, config_.dead_band_rad) +
+                        counted(step.right_m, radius_m, config_.dead_band_rad)) /
+                       2;
+  T_start_base_ = T_start_base_ * arc(way_m, heading_change(step, geometry_, config_));
+  return T_start_base_;
+}
+
+}  // namespace cornerd::core

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+// Bertocco, Oliveira, Santos: Odometry and Feature Extraction (2019), section III.
+#pragma once
+
+#include "core/odometry/motion_step.hpp"
+#include "core/odometry/odometry_config.hpp"
+
+namespace cornerd::core {
+
+struct DeadReckoningConfig {
+  HeadingSource source = HeadingSource::kEncoder;  ///< one of the paper's four
+  double encoder_factor = 1;                       ///< c_enco; of equation 4 both are 1
+  double gyro_factor = 1;                          ///< c_gyro
+  /// tr: smaller changes of a wheel's angle or of the heading count as none; the paper has 0.01.
+  double dead_band_rad = 0;
+};
+
+/// The change of heading in a step, by the paper's modes: encoders alone, gyro alone, equation 4,
+/// equation 5. Without a gyro all of them take the encoders.
+double heading_change(const MotionStep& step, const DriveGeometry& geometry,
+                      const DeadReckoningConfig& config);
+
+/// Adds up steps from a known start. Nothing corrects it.
+class DeadReckoning {
+ public:
+  DeadReckoning(const DriveGeometry& geometry, const DeadReckoningConfig& config,
+                const Pose2& start = {})
+      : geometry_(geometry), config_(config), T_start_base_(start) {}
+
+  const Pose2& add(const MotionStep& step);
+  const Pose2& pose() const { return T_start_base_; }
+
+ private:
+  DriveGeometry geometry_;
+  DeadReckoningConfig config_;
+  Pose2 T_start_base_;
+};
+
+}  // namespace cornerd::core

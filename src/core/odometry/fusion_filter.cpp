@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: MIT
+#include "core/odometry/fusion_filter.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Cholesky>
+
+namespace cornerd::core {
+namespace {
+
+/// Wheels and gyro that differ by more than this, squared and in units of what they may, do so
+/// because a wheel slips: four sigma.
+constexpr double kSlip = 16;
+/// Where one wheel slips the other is not quite sure either: this share of the slip's variance.
+constexpr double kSlipOfOther = 0.03;
+/// Chi-square with three degrees of freedom that one true fix in a million exceeds.
+constexpr double kStranger = 30.7;
+/// What a robot may do in a time of which nothing is known, a second of it.
+constexpr double kUnknown_m_s = 0.5;
+constexpr double kUnknown_rad_s = 1.5;
+/// Nothing that is built is farther from what it was built to be.
+constexpr double kMostScale = 0.5;
+constexpr double kMostBias_rad_s = 0.5;
+/// A tyre is no line: where it touches the floor wanders with every turn on the spot.
+constexpr double kScrub_rad_per_sqrt_rad = 0.003;
+
+constexpr double squared(double value) { return value * value; }
+
+}  // namespace
+
+FusionFilter::FusionFilter(const OdometryConfig& config)
+    : geometry_(config.geometry), noise_(config.noise) {
+  covariance_(kBias, kBias) = squared(noise_.gyro_bias_rad_s);
+  covariance_(kLeft, kLeft) = squared(noise_.wheel_scale);
+  covariance_(kRight, kRight) = squared(noise_.wheel_scale);
+  covariance_(kTrack, kTrack) = squared(noise_.track_scale);
+  covariance_(kGyro, kGyro) = squared(noise_.gyro_scale);
+}
+
+FusionFilter::Wheels FusionFilter::wheels(const MotionStep& step) const {
+  Wheels wheels;
+  wheels.left_m = step.left_m * (1 + state_[kLeft]);
+  wheels.right_m = step.right_m * (1 + state_[kRight]);
+  wheels.way_m = (wheels.left_m + wheels.right_m) / 2;
+  wheels.turn_rad = (wheels.right_m - wheels.left_m) / (geometry_.track_m * (1 + state_[kTrack]));
+  return wheels;
+}
+
+Pose2 FusionFilter::motion_of(const MotionStep& step) const {
+  const Wheels moved = wheels(step);
+  const double turn_rad =
+      step.has_gyro ? (step.gyro_rad - state_[kBias] * step.duration_s()) / (1 + state_[kGyro])
+                    : moved.turn_rad;
+  return arc(moved.way_m, turn_rad);
+}
+
+void FusionFilter::predict(const MotionStep& step) {
+  if (step.is_hole) return predict_hole(step);
+  const double dt_s = step.duration_s();
+  const Wheels moved = wheels(step);
+  const double track_m = geometry_.track_m * (1 + state_[kTrack]);
+  const double resolution_m2 = squared(geometry_.metres_per_count()) / 12;
+  const bool moves = step.left_m != 0 || step.right_m != 0;
+  const auto wheel_variance = [&](double way_m) {
+    return squared(noise_.wheel_m_per_sqrt_m) * std::abs(way_m) + (moves ? resolution_m2 : 0);
+  };
+  double left_m2 = wheel_variance(moved.left_m);
+  double right_m2 = wheel_variance(moved.right_m);
+  double turn_rad2 = (left_m2 + right_m2) / squared(track_m) +
+                     squared(kScrub_rad_per_sqrt_rad) * std::abs(moved.turn_rad);
+
+  // What the gyro says beyond the wheels, and how much that may be.
+  const double gyro_gain = 1 + state_[kGyro];
+  const double bias_rad = state_[kBias] * dt_s;
+  // When within the step the rate changed nobody knows: evenly between its two ends.
+  const double gyro_rad2 =
+      squared(noise_.gyro_rad_s_per_sqrt_hz) * dt_s + squared(step.gyro_change_rad) / 3;
+  Row turn_by = turn_slope(moved.way_m, moved.turn_rad);
+  Row seen_by = seen_slope(turn_by, moved.turn_rad, dt_s);
+  double surprise_rad = step.gyro_rad - gyro_gain * moved.turn_rad - bias_rad;
+  double known_rad2 = variance_along(seen_by) + gyro_rad2;
+  // The way is taken in the direction half-way through the wheels' turn, and follows it as the gyro
+  // corrects it; a slip is too large for that, and the way is taken at what the gyro leaves of it.
+  double course_rad = state_[kTheta] + moved.turn_rad / 2;
+  double follows = 1;
+  if (step.has_gyro) {
+    const bool slips =
+        squared(surprise_rad) > kSlip * (known_rad2 + squared(gyro_gain) * turn_rad2);
+    if (slips) {
+      // One of the wheels did not do what its counts say, most likely the one that says more; the
+      // gyro does not slip. With that wheel in doubt, the gyro tells its way as well.
+      ++slips_;
+      const double slip_m2 = squared(surprise_rad / gyro_gain * track_m);
+      (std::abs(moved.left_m) > std::abs(moved.right_m) ? left_m2 : right_m2) += slip_m2;
+      left_m2 += kSlipOfOther * slip_m2;
+      right_m2 += kSlipOfOther * slip_m2;
+      turn_rad2 += (1 + 2 * kSlipOfOther) * slip_m2 / squared(track_m);
+    }
+    // The slopes are those at what both together say: taken at the wheels' own turn, its noise
+    // would be in the slope as well as in the surprise, and bias the scales (by 1 % in
+    // tests/unit/core/odometry/fusion_filter_test.cpp).
+    const double both_rad = moved.turn_rad + gyro_gain * turn_rad2 /
+                                                 (known_rad2 + squared(gyro_gain) * turn_rad2) *
+                                                 surprise_rad;
+    if (slips) {
+      course_rad = state_[kTheta] + both_rad / 2;
+      follows = 0;
+    }
+    turn_by = turn_slope(moved.way_m, both_rad);
+    seen_by = seen_slope(turn_by, both_rad, dt_s);
+    known_rad2 = variance_along(seen_by) + gyro_rad2;
+  }
+  Row way_by = Row::Zero();
+  way_by[kLeft] = step.left_m / 2;
+  way_by[kRight] = step.right_m / 2;
+
+  // The pose moves on: F and G of the pose's three rows.
+  const double c = std::cos(course_rad);
+  const double s = std::sin(course_rad);
+  Matrix transition = Matrix::Identity();
+  transition(kX, kTheta) = -moved.way_m * s;
+  transition(kY, kTheta) = moved.way_m * c;
+  const double aside_m = follows * moved.way_m / 2;
+  transition.row(kX) += c * way_by - aside_m * s * turn_by;
+  transition.row(kY) += s * way_by + aside_m * c * turn_by;
+  transition.row(kTheta) += turn_by;
+
+  const Eigen::Vector3d by_way(c, s, 0);
+  const Eigen::Vector3d by_turn(-aside_m * s, aside_m * c, 1);
+  const double way_m2 = (left_m2 + right_m2) / 4;
+  const double way_turn = (right_m2 - left_m2) / (2 * track_m);
+
+  // The covariance of the pose moved on with what the gyro sees: the wheels' noise is in both.
+  Vector with_seen = transition * (covariance_ * seen_by.transpose());
+  with_seen.head<3>() += gyro_gain * (by_way * way_turn + by_turn * turn_rad2);
+  const double seen_rad2 = known_rad2 + squared(gyro_gain) * turn_rad2;
+
+  covariance_ = (transition * covariance_ * transition.transpose()).eval();
+  covariance_.topLeftCorner<3, 3>() +=
+      by_way * by_way.transpose() * way_m2 + by_turn * by_turn.transpose() * turn_rad2 +
+      (by_way * by_turn.transpose() + by_turn * by_way.transpose()) * way_turn;
+  covariance_(kBias, kBias) += squared(noise_.bias_rad_s_per_sqrt_s) * dt_s;
+  for (const int scale : {kLeft, kRight, kTrack, kGyro}) {
+    covariance_(scale, scale) += squared(noise_.scale_per_sqrt_s) * dt_s;
+  }
+  state_[kX] += moved.way_m * c;
+  state_[kY] += moved.way_m * s;
+  state_[kTheta] += moved.turn_rad;
+
+  if (step.has_gyro && seen_rad2 > 0) {
+    const Vector gain = with_seen / seen_rad2;
+    state_ += gain * surprise_rad;
+    covariance_ -= gain * with_seen.transpose();
+  }
+  keep_in_bounds();
+}
+
+FusionFilter::Row FusionFilter::turn_slope(double way_m, double turn_rad) const {
+  const double track_m = geometry_.track_m * (1 + state_[kTrack]);
+  Row slope = Row::Zero();
+  slope[kLeft] = -(way_m - turn_rad * track_m / 2) / (track_m * (1 + state_[kLeft]));
+  slope[kRight] = (way_m + turn_rad * track_m / 2) / (track_m * (1 + state_[kRight]));
+  slope[kTrack] = -turn_rad / (1 + state_[kTrack]);
+  return slope;
+}
+
+FusionFilter::Row FusionFilter::seen_slope(const Row& turn_by, double turn_rad, double dt_s) const {
+  Row slope = (1 + state_[kGyro]) * turn_by;
+  slope[kBias] += dt_s;
+  slope[kGyro] += turn_rad;
+  return slope;
+}
+
+double FusionFilter::variance_along(const Row& slope) const {
+  return (slope * covariance_ * slope.transpose()).value();
+}
+
+void FusionFilter::predict_hole(const MotionStep& step) {
+  const double dt_s = step.duration_s();
+  const double moved_m2 = squared(kUnknown_m_s * dt_s);
+  covariance_(kX, kX) += moved_m2;
+  covariance_(kY, kY) += moved_m2;
+  covariance_(kTheta, kTheta) += squared(std::min(kUnknown_rad_s * dt_s, kPi));
+}
+
+void FusionFilter::set_pose(const Pose2& T_map_base, const Covariance3& covariance) {
+  state_.head<3>() << T_map_base.x_m, T_map_base.y_m, T_map_base.theta_rad;
+  covariance_.topRows<3>().setZero();
+  covariance_.leftCols<3>().setZero();
+  covariance_.topLeftCorner<3, 3>() = covariance;
+}
+
+bool FusionFilter::correct(const Pose2& T_map_base, const Covariance3& covariance) {
+  const Eigen::Vector3d surprise(T_map_base.x_m - state_[kX], T_map_base.y_m - state_[kY],
+                                 angle_between(state_[kTheta], T_map_base.theta_rad));
+  const Eigen::LLT<Eigen::Matrix3d> root(pose_covariance() + covariance);
+  if (root.info() != Eigen::Success) return false;
+  if (!(surprise.dot(root.solve(surprise)) < kStranger)) return false;
+  const Eigen::Matrix<double, kSize, 3> with_pose = covariance_.leftCols<3>();
+  const Eigen::Matrix<double, kSize, 3> gain = root.solve(with_pose.transpose()).transpose();
+  state_ += gain * surprise;
+  covariance_ -= gain * with_pose.transpose();
+  keep_in_bounds();
+  return true;
+}
+
+LearnedOdometry FusionFilter::learned() const {
+  return {state_[kBias], state_[kLeft], state_[kRight], state_[kTrack], state_[kGyro]};
+}
+
+void FusionFilter::keep_in_bounds() {
+  state_[kTheta] = normalize_angle(state_[kTheta]);
+  state_[kBias] = std::clamp(state_[kBias], -kMostBias_rad_s, kMostBias_rad_s);
+  for (const int scale : {kLeft, kRight, kTrack, kGyro}) {
+    state_[scale] = std::clamp(state_[scale], -kMostScale, kMostScale);
+  }
+  // What rounding makes of a symmetric matrix is symmetric to the last bits alone.
+  covariance_ = ((covariance_ + covariance_.transpose()) / 2).eval();
+  for (int i = 0; i < kSize; ++i) covariance_(i, i) = std::max(covariance_(i, i), 1e-14);
+}
+
+}  // namespace cornerd::core

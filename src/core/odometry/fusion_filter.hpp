@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+
+#include <Eigen/Core>
+
+#include "core/odometry/motion_step.hpp"
+#include "core/odometry/odometry_config.hpp"
+
+namespace cornerd::core {
+
+/// What the filter knows of the robot itself. A scale is a relative error: the wheel's true way is
+/// 1 + scale times what its counts say, the true track 1 + scale times the configured one, and a
+/// gyro reads 1 + scale times the true rate, plus the bias.
+struct LearnedOdometry {
+  double gyro_bias_rad_s = 0;
+  double left_scale = 0;
+  double right_scale = 0;
+  double track_scale = 0;
+  double gyro_scale = 0;
+};
+
+/// An extended Kalman filter over the pose of `base` in `map` and LearnedOdometry. Wheels move it,
+/// the gyro corrects the turn of each step, the lidar's fixes correct all of it. Fixed size, no
+/// allocation.
+class FusionFilter {
+ public:
+  enum Index : std::uint8_t { kX, kY, kTheta, kBias, kLeft, kRight, kTrack, kGyro, kSize };
+  using Vector = Eigen::Matrix<double, kSize, 1>;
+  using Matrix = Eigen::Matrix<double, kSize, kSize>;
+
+  explicit FusionFilter(const OdometryConfig& config);
+
+  /// Moves the pose on by what wheels and gyro did.
+  void predict(const MotionStep& step);
+
+  /// Forgets the pose alone, and takes this one; what was learned stays.
+  void set_pose(const Pose2& T_map_base, const Covariance3& covariance);
+
+  /// A pose that the lidar gave for the time reached. False where it is too far off to belong to
+  /// the same drive; nothing is changed then. The covariance is taken as it is.
+  bool correct(const Pose2& T_map_base, const Covariance3& covariance);
+
+  Pose2 pose() const { return {state_[kX], state_[kY], state_[kTheta]}; }
+  Covariance3 pose_covariance() const { return covariance_.topLeftCorner<3, 3>(); }
+  LearnedOdometry learned() const;
+  const Vector& state() const { return state_; }
+  const Matrix& covariance() const { return covariance_; }
+
+  /// The turn of `base` in a step by what is known now, and the way.
+  Pose2 motion_of(const MotionStep& step) const;
+
+  /// Steps in which the wheels' turn could not be the gyro's: slip, or a frozen encoder.
+  std::uint64_t slips() const { return slips_; }
+
+ private:
+  struct Wheels {
+    double left_m = 0;
+    double right_m = 0;
+    double way_m = 0;
+    double turn_rad = 0;
+  };
+  using Row = Eigen::RowVector<double, kSize>;
+  Wheels wheels(const MotionStep& step) const;
+  /// How the wheels' turn, and what the gyro says of it, change with the state.
+  Row turn_slope(double way_m, double turn_rad) const;
+  Row seen_slope(const Row& turn_by, double turn_rad, double dt_s) const;
+  double variance_along(const Row& slope) const;
+  void predict_hole(const MotionStep& step);
+  void keep_in_bounds();
+
+  DriveGeometry geometry_;
+  OdometryNoise noise_;
+  Vector state_ = Vector::Zero();
+  Matrix covariance_ = Matrix::Zero();
+  std::uint64_t slips_ = 0;
+};
+
+}  // namespace cornerd::core

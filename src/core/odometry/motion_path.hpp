@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+
+#include "core/geometry/pose2.hpp"
+#include "core/types.hpp"
+
+namespace cornerd::core {
+
+/// Where `base` was lately, in a frame of its own that starts anywhere and drifts: what the samples
+/// of a turn are moved back by. Holds the last readings alone; nothing is allocated.
+class MotionPath {
+ public:
+  /// Goes on by a motion that ends at `t_ns`.
+  void add(TimeNs from_ns, TimeNs t_ns, const Pose2& motion);
+  /// What was before is of no use: the way from there is not known.
+  void clear() { size_ = 0; }
+
+  /// True where the path tells of all of this time, but for what the last motion may be carried on.
+  bool covers(TimeNs from_ns, TimeNs to_ns) const;
+
+  /// The pose at a time that is covered. Times that grow are found fastest.
+  Pose2 at(TimeNs t_ns) const;
+
+  /// The last motion is taken to go on for so long after the last reading.
+  static constexpr TimeNs kLongestGuess_ns = kNsPerSecond / 4;
+
+ private:
+  /// Two seconds at 200 readings a second.
+  static constexpr std::size_t kCapacity = 512;
+  struct Point {
+    TimeNs t_ns = 0;
+    Pose2 T_start_base;
+  };
+  const Point& point(std::size_t age) const {
+    return points_[(next_ + 2 * kCapacity - 1 - age) % kCapacity];
+  }
+  void put(const Point& point);
+
+  std::array<Point, kCapacity> points_;
+  std::size_t next_ = 0;
+  std::size_t size_ = 0;
+};
+
+}  // namespace cornerd::core

@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: MIT
+#include "core/odometry/odometer.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace cornerd::core {
+namespace {
+
+/// A prediction that is less sure than this helps nobody to find the place again.
+constexpr double kMostSigma_m = 0.3;
+constexpr double kMostSigma_rad = radians(15);
+/// So many fixes in a row that the wheels cannot explain: they are not this robot's, or spin free.
+constexpr std::uint32_t kDistrusted = 3;
+/// The lidar's own errors are the same from turn to turn, those of its noise are not: what a
+/// covariance does not know of, measured on simulated rooms and by the peers' bias figures.
+constexpr double kFixFloor_m = 0.002;
+constexpr double kFixFloor_rad = 0.001;
+/// How far wheels and gyro mistake the motion of half a turn, as a share of it.
+constexpr double kMotionShare = 0.01;
+
+Covariance3 with_floor(const Covariance3& covariance) {
+  Covariance3 sum = covariance;
+  sum(0, 0) += kFixFloor_m * kFixFloor_m;
+  sum(1, 1) += kFixFloor_m * kFixFloor_m;
+  sum(2, 2) += kFixFloor_rad * kFixFloor_rad;
+  return sum;
+}
+
+}  // namespace
+
+Odometer::Odometer(const OdometryConfig& config)
+    : config_(config), gate_(config), filter_(config) {}
+
+void Odometer::add(const OdometryReading& reading, std::optional<TimeNs> now_ns) {
+  if (!config_.enabled) return;
+  std::optional<MotionStep> step = gate_.add(reading, now_ns);
+  if (!step) return;
+  if (step->is_hole) {
+    path_.clear();
+  } else {
+    path_.add(step->from_ns, step->to_ns, filter_.motion_of(*step));
+  }
+  if (size_ == kPending) {
+    consume(pending_[first_]);
+    first_ = (first_ + 1) % kPending;
+    --size_;
+  }
+  pending_[(first_ + size_++) % kPending] = *step;
+}
+
+void Odometer::consume(const MotionStep& step) {
+  // The clock of the readings was set back, or the lidar is well ahead of it.
+  if (step.to_ns <= step.from_ns) return;
+  MotionStep rest = step;
+  // What was guessed is taken off: all counts count once.
+  rest.left_m -= guessed_.left_m;
+  rest.right_m -= guessed_.right_m;
+  rest.gyro_rad -= guessed_.gyro_rad;
+  if (guessed_.to_ns > guessed_.from_ns) rest.from_ns = std::min(guessed_.to_ns, rest.to_ns - 1);
+  if (guessed_.to_ns > guessed_.from_ns && guessed_.has_gyro != step.has_gyro) {
+    rest.has_gyro = false;
+  }
+  guessed_ = {};
+  filter_.predict(rest);
+  last_ = step;
+  reached_ns_ = step.to_ns;
+}
+
+void Odometer::consume_until(TimeNs t_ns) {
+  while (size_ > 0) {
+    MotionStep& next = pending_[first_];
+    if (next.from_ns >= t_ns) return;
+    if (next.to_ns > t_ns) {
+      consume(next.split(t_ns));
+      return;
+    }
+    consume(next);
+    first_ = (first_ + 1) % kPending;
+    --size_;
+  }
+}
+
+void Odometer::guess_until(TimeNs t_ns) {
+  const TimeNs longest_ns = MotionPath::kLongestGuess_ns;
+  if (size_ > 0 || t_ns <= reached_ns_ || t_ns > last_.to_ns + longest_ns) return;
+  if (last_.is_hole || last_.to_ns <= last_.from_ns) return;
+  const double share = to_seconds(t_ns - reached_ns_) / last_.duration_s();
+  MotionStep guess = last_;
+  guess.from_ns = reached_ns_;
+  guess.to_ns = t_ns;
+  guess.left_m *= share;
+  guess.right_m *= share;
+  guess.gyro_rad *= share;
+  guess.gyro_change_rad = 0;
+  filter_.predict(guess);
+  if (guessed_.to_ns == guessed_.from_ns) guessed_.from_ns = reached_ns_;
+  guessed_.to_ns = t_ns;
+  guessed_.left_m += guess.left_m;
+  guessed_.right_m += guess.right_m;
+  guessed_.gyro_rad += guess.gyro_rad;
+  guessed_.has_gyro = guess.has_gyro;
+  reached_ns_ = t_ns;
+}
+
+void Odometer::advance(TimeNs start_ns, TimeNs middle_ns, TimeNs end_ns) {
+  start_ns_ = start_ns;
+  middle_ns_ = middle_ns;
+  end_ns_ = end_ns;
+  knows_motion_ = config_.enabled && path_.covers(start_ns, end_ns);
+  if (!config_.enabled) return;
+  consume_until(middle_ns);
+  guess_until(middle_ns);
+  const TimeNs behind_ns = middle_ns - last_.to_ns;
+  present_ = behind_ns >= -kNsPerSecond && behind_ns <= MotionPath::kLongestGuess_ns;
+  if (!present_) has_pose_ = false;
+}
+
+bool Odometer::straighten(const Scan& turn, const Pose2& T_base_lidar, Scan& still) const {
+  if (!knows_motion_) return false;
+  // The way from one of these to the next, 2 ms, is straight enough.
+  constexpr std::size_t kPieces = 64;
+  std::array<Pose2, kPieces + 1> T_middle_then;
+  const Pose2 T_middle_start = (path_.at(middle_ns_) * T_base_lidar).inverse();
+  const double piece_ns = static_cast<double>(end_ns_ - start_ns_) / kPieces;
+  for (std::size_t i = 0; i <= kPieces; ++i) {
+    const TimeNs t_ns = start_ns_ + static_cast<TimeNs>(static_cast<double>(i) * piece_ns);
+    T_middle_then[i] = T_middle_start * path_.at(t_ns) * T_base_lidar;
+  }
+  still.clear();
+  for (const Sample& sample : turn.samples()) {
+    Sample moved = sample;
+    if (sample.range_m > 0) {
+      const double piece = static_cast<double>(sample.t_ns - start_ns_) / std::max(piece_ns, 1.0);
+      const auto i = static_cast<std::size_t>(std::clamp(piece, 0.0, kPieces - 1.0));
+      const double share = piece - static_cast<double>(i);
+      const Pose2& from = T_middle_then[i];
+      const Pose2& to = T_middle_then[i + 1];
+      const double turn_rad = from.theta_rad + share * angle_between(from.theta_rad, to.theta_rad);
+      const Vec2 place = from.translation() + share * (to.translation() - from.translation()) +
+                         sample.range_m * unit_vector(turn_rad + sample.bearing_rad);
+      moved.bearing_rad = static_cast<float>(std::atan2(place.y(), place.x()));
+      moved.range_m = static_cast<float>(place.norm());
+    }
+    still.add(moved);
+  }
+  return true;
+}
+
+Covariance3 Odometer::doubt_of_motion() const {
+  const Pose2 way = path_.at(start_ns_).inverse() * path_.at(end_ns_);
+  const double place_m = kMotionShare / 2 * way.translation().norm();
+  const double turn_rad = kMotionShare / 2 * way.theta_rad;
+  return Eigen::Vector3d(place_m * place_m, place_m * place_m, turn_rad * turn_rad).asDiagonal();
+}
+
+std::optional<PredictedPose> Odometer::prediction() const {
+  if (!has_pose_ || !present_ || strangers_in_a_row_ >= kDistrusted) return std::nullopt;
+  if (to_seconds(middle_ns_ - fixed_ns_) > config_.bridge_s) return std::nullopt;
+  const Covariance3 covariance = filter_.pose_covariance();
+  const double place_m2 = std::max(covariance(0, 0), covariance(1, 1));
+  if (!(place_m2 < kMostSigma_m * kMostSigma_m) ||
+      !(covariance(2, 2) < kMostSigma_rad * kMostSigma_rad)) {
+    return std::nullopt;
+  }
+  return PredictedPose{filter_.pose(), covariance};
+}
+
+void Odometer::correct(const Pose2& T_map_base, const Covariance3& covariance) {
+  if (!config_.enabled || !present_) return;
+  const Covariance3 doubt = with_floor(covariance);
+  if (has_pose_ && filter_.correct(T_map_base, doubt)) {
+    strangers_in_a_row_ = 0;
+    ++fixes_;
+  } else {
+    if (has_pose_) {
+      ++strangers_in_a_row_;
+      ++strangers_;
+    }
+    filter_.set_pose(T_map_base, doubt);
+  }
+  has_pose_ = true;
+  fixed_ns_ = middle_ns_;
+}
+
+void Odometer::set_pose(const Pose2& T_map_base, const Covariance3& covariance) {
+  filter_.set_pose(T_map_base, covariance);
+  has_pose_ = true;
+  fixed_ns_ = middle_ns_;
+}
+
+void Odometer::forget() {
+  has_pose_ = false;
+  strangers_in_a_row_ = 0;
+}
+
+OdometrySummary Odometer::summary() const {
+  OdometrySummary summary;
+  summary.present = present_;
+  summary.trusted = present_ && strangers_in_a_row_ < kDistrusted;
+  summary.learned = filter_.learned();
+  const auto sigma = [&](FusionFilter::Index i) { return std::sqrt(filter_.covariance()(i, i)); };
+  summary.sigma = {sigma(FusionFilter::kBias), sigma(FusionFilter::kLeft),
+                   sigma(FusionFilter::kRight), sigma(FusionFilter::kTrack),
+                   sigma(FusionFilter::kGyro)};
+  summary.counters = gate_.counters();
+  summary.slips = filter_.slips();
+  summary.fixes = fixes_;
+  summary.strangers = strangers_;
+  return summary;
+}
+
+}  // namespace cornerd::core

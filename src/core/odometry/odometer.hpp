@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: MIT
+// What a localizer asks of odometry: where the robot is by now, and how it moved during a turn.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+
+#include "core/geometry/pose2.hpp"
+#include "core/odometry/fusion_filter.hpp"
+#include "core/odometry/motion_path.hpp"
+#include "core/odometry/odometry_config.hpp"
+#include "core/odometry/odometry_reading.hpp"
+#include "core/odometry/reading_gate.hpp"
+#include "core/scan.hpp"
+
+namespace cornerd::core {
+
+struct PredictedPose {
+  Pose2 T_map_base;
+  Covariance3 covariance = Covariance3::Zero();
+};
+
+/// For STATUS: what comes in, and what has been learned of the robot.
+struct OdometrySummary {
+  bool present = false;  ///< readings come
+  bool trusted = false;  ///< and agree with the lidar
+  LearnedOdometry learned;
+  LearnedOdometry sigma;  ///< of the learned ones
+  OdometryCounters counters;
+  std::uint64_t slips = 0;
+  std::uint64_t fixes = 0;      ///< of the lidar that taught
+  std::uint64_t strangers = 0;  ///< that no motion of the wheels could explain
+};
+
+/// Readings in, at any rate and of any quality; predictions out. The filter follows the lidar: it
+/// stands at the time of the newest turn, and what came after waits. Allocates nothing after
+/// construction. Not safe for concurrent calls.
+class Odometer {
+ public:
+  explicit Odometer(const OdometryConfig& config);
+
+  bool enabled() const { return config_.enabled; }
+
+  /// `now_ns`: see ReadingGate.
+  void add(const OdometryReading& reading, std::optional<TimeNs> now_ns);
+
+  /// Goes on to the middle of a turn that ends at `end_ns`. All that follows is about that time.
+  void advance(TimeNs start_ns, TimeNs middle_ns, TimeNs end_ns);
+
+  /// The samples of the turn as a lidar that stood still in its middle would have seen them; false
+  /// where the motion is not known, and `still` is not touched.
+  bool straighten(const Scan& turn, const Pose2& T_base_lidar, Scan& still) const;
+  /// True where straighten() can.
+  bool knows_motion() const { return knows_motion_; }
+  /// What is left of the motion within a straightened turn.
+  Covariance3 doubt_of_motion() const;
+
+  /// Where the robot should be; nullopt before the first fix, long after the last one, and where
+  /// wheels and lidar have lately told different stories.
+  std::optional<PredictedPose> prediction() const;
+
+  /// The lidar's pose for the time reached; teaches.
+  void correct(const Pose2& T_map_base, const Covariance3& covariance);
+  /// From somebody else, for the time reached; teaches nothing.
+  void set_pose(const Pose2& T_map_base, const Covariance3& covariance);
+  /// Where the robot is is no longer known; what was learned stays.
+  void forget();
+
+  OdometrySummary summary() const;
+
+ private:
+  /// More readings than come in half a turn of the slowest lidar, at 500 a second.
+  static constexpr std::size_t kPending = 256;
+
+  void consume(const MotionStep& step);
+  void consume_until(TimeNs t_ns);
+  void guess_until(TimeNs t_ns);
+
+  OdometryConfig config_;
+  ReadingGate gate_;
+  FusionFilter filter_;
+  MotionPath path_;
+
+  std::array<MotionStep, kPending> pending_;  ///< not yet in the filter; a ring
+  std::size_t first_ = 0;
+  std::size_t size_ = 0;
+  TimeNs reached_ns_ = 0;  ///< the filter stands here
+  MotionStep last_;        ///< the newest whole step in the filter, for a guess
+  MotionStep guessed_;     ///< what the filter has taken beyond the newest reading
+
+  TimeNs start_ns_ = 0;  ///< of the turn
+  TimeNs middle_ns_ = 0;
+  TimeNs end_ns_ = 0;
+  bool knows_motion_ = false;
+  bool has_pose_ = false;
+  bool present_ = false;
+  TimeNs fixed_ns_ = 0;
+  std::uint32_t strangers_in_a_row_ = 0;
+  std::uint64_t fixes_ = 0;
+  std::uint64_t strangers_ = 0;
+};
+
+}  // namespace cornerd::core

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+
+#include "core/geometry/angle.hpp"
+
+namespace cornerd::core {
+
+/// A robot with two driven wheels, as it was built.
+struct DriveGeometry {
+  double wheel_radius_m = 0.0325;
+  double track_m = 0.16;              ///< between the wheels
+  double counts_per_turn = 1440;      ///< of a wheel
+  std::int64_t ceiling = 0xFFFFFFFF;  ///< the highest count; 0 follows. 0: counts never wrap
+
+  double metres_per_count() const { return kTwoPi * wheel_radius_m / counts_per_turn; }
+};
+
+/// What no robot that needs an A1 does, so that a reading that says so is garbage.
+struct OdometryLimits {
+  double wheel_speed_m_s = 3;
+  double gyro_rad_s = 35;  ///< the range of the usual chips, 2,000 degrees a second
+};
+
+/// How far wheels and gyro may be off, as standard deviations. Those of the scales and of the bias
+/// say how well the numbers above are known before the lidar teaches better ones.
+struct OdometryNoise {
+  double wheel_m_per_sqrt_m = 0.002;       ///< a wheel's way after a metre: its rolling, its slip
+  double gyro_rad_s_per_sqrt_hz = 0.0005;  ///< five times a MEMS gyro's data sheet: it vibrates
+  double wheel_scale = 0.03;
+  double track_scale = 0.05;
+  double gyro_scale = 0.03;
+  double gyro_bias_rad_s = 0.02;
+  /// How the learned ones walk away: tyres wear, a gyro warms up.
+  double scale_per_sqrt_s = 2e-5;
+  double bias_rad_s_per_sqrt_s = 5e-5;
+};
+
+/// Where a change of heading comes from. The first four are those of Bertocco et al. (2019).
+enum class HeadingSource : std::uint8_t { kEncoder, kGyro, kMean, kWeighted, kFilter };
+
+struct OdometryConfig {
+  bool enabled = false;
+  DriveGeometry geometry;
+  OdometryLimits limits;
+  OdometryNoise noise;
+  double bridge_s = 10;  ///< a pose is carried on without the lidar for so long
+};
+
+}  // namespace cornerd::core

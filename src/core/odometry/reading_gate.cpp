@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: MIT
+#include "core/odometry/reading_gate.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/odometry/wrapping_counter.hpp"
+
+namespace cornerd::core {
+namespace {
+
+/// Beside the lidar's clock: transport and two clocks cost some of it, a wrong clock much more.
+constexpr TimeNs kMostAhead_ns = kNsPerSecond / 2;
+constexpr TimeNs kMostBehind_ns = 5 * kNsPerSecond;
+/// So many refused readings in a row are no accident: the client's clock was set.
+constexpr std::uint32_t kClockWasSet = 20;
+/// Counts that jumped and then go on evenly so often are a controller that was restarted.
+constexpr std::uint32_t kRestarted = 3;
+/// Counts farther apart say where the robot went, not how.
+constexpr TimeNs kLongestStep_ns = kNsPerSecond;
+/// Between two rates of a gyro that is there.
+constexpr double kLongestGyroGap_s = 0.2;
+constexpr double kGyroCoverage = 0.8;
+/// A gyro that has said the same so often while wheels and it came this far apart is stuck.
+constexpr std::uint32_t kFrozenRates = 10;
+constexpr double kFrozen_rad = 0.15;
+/// Two encoders that tick between the same two readings.
+constexpr double kSlackCounts = 2;
+
+}  // namespace
+
+std::optional<MotionStep> ReadingGate::add(const OdometryReading& reading,
+                                           std::optional<TimeNs> now_ns) {
+  ++counters_.readings;
+  if (!is_in_time(reading.t_ns, now_ns)) return std::nullopt;
+  if (reading.gyro_rad_s) add_gyro(reading.t_ns, *reading.gyro_rad_s);
+  if (!reading.left || !reading.right) return std::nullopt;
+  return add_counts({reading.t_ns, *reading.left, *reading.right});
+}
+
+bool ReadingGate::is_in_time(TimeNs t_ns, std::optional<TimeNs> now_ns) {
+  if (now_ns && t_ns > *now_ns + kMostAhead_ns) {
+    ++counters_.future;
+    return false;
+  }
+  if (now_ns && t_ns < *now_ns - kMostBehind_ns) {
+    ++counters_.past;
+    return false;
+  }
+  if (last_ns_ && t_ns < *last_ns_) {
+    ++counters_.past;
+    if (++refused_in_a_row_ < kClockWasSet) return false;
+    ++counters_.restarts;
+    last_.reset();
+    doubted_.reset();
+    gyro_ns_.reset();
+  }
+  refused_in_a_row_ = 0;
+  last_ns_ = t_ns;
+  return true;
+}
+
+void ReadingGate::add_gyro(TimeNs t_ns, double rate_rad_s) {
+  if (!(std::abs(rate_rad_s) <= config_.limits.gyro_rad_s)) {
+    ++counters_.gyro;
+    return;
+  }
+  if (rate_rad_s != gyro_rad_s_) {
+    same_rates_ = 0;
+    turned_since_rad_ = 0;
+  } else {
+    ++same_rates_;
+  }
+  if (gyro_ns_) {
+    const double dt_s = to_seconds(t_ns - *gyro_ns_);
+    if (dt_s <= kLongestGyroGap_s) {
+      gyro_rad_ += dt_s * (gyro_rad_s_ + rate_rad_s) / 2;
+      gyro_change_rad_ += dt_s * std::abs(rate_rad_s - gyro_rad_s_) / 2;
+      gyro_covered_s_ += dt_s;
+    }
+  }
+  gyro_ns_ = t_ns;
+  gyro_rad_s_ = rate_rad_s;
+}
+
+bool ReadingGate::is_possible(const Counts& from, const Counts& to) const {
+  const DriveGeometry& geometry = config_.geometry;
+  const double most = kSlackCounts + config_.limits.wheel_speed_m_s *
+                                         to_seconds(to.t_ns - from.t_ns) /
+                                         geometry.metres_per_count();
+  const auto within = [&](std::int64_t a, std::int64_t b) {
+    return std::abs(static_cast<double>(count_difference(a, b, geometry.ceiling))) <= most;
+  };
+  return to.t_ns > from.t_ns && within(from.left, to.left) && within(from.right, to.right);
+}
+
+std::optional<MotionStep> ReadingGate::add_counts(const Counts& counts) {
+  if (!last_) {
+    last_ = counts;
+    MotionStep before;
+    take_gyro(before);
+    return std::nullopt;
+  }
+  if (counts.t_ns == last_->t_ns) {
+    ++counters_.past;
+    return std::nullopt;
+  }
+  if (!is_possible(*last_, counts)) {
+    ++counters_.jumps;
+    doubts_ = doubted_ && is_possible(*doubted_, counts) ? doubts_ + 1 : 1;
+    doubted_ = counts;
+    if (doubts_ < kRestarted) return std::nullopt;
+    ++counters_.restarts;
+    return restart(counts);
+  }
+  doubted_.reset();
+  if (counts.t_ns - last_->t_ns > kLongestStep_ns) return restart(counts);
+
+  MotionStep step = step_between(*last_, counts);
+  last_ = counts;
+  return step;
+}
+
+std::optional<MotionStep> ReadingGate::restart(const Counts& counts) {
+  ++counters_.holes;
+  MotionStep hole;
+  hole.from_ns = last_->t_ns;
+  hole.to_ns = counts.t_ns;
+  hole.is_hole = true;
+  take_gyro(hole);
+  last_ = counts;
+  doubted_.reset();
+  doubts_ = 0;
+  return hole;
+}
+
+MotionStep ReadingGate::step_between(const Counts& from, const Counts& to) {
+  const DriveGeometry& geometry = config_.geometry;
+  const auto way_m = [&](std::int64_t a, std::int64_t b) {
+    return static_cast<double>(count_difference(a, b, geometry.ceiling)) *
+           geometry.metres_per_count();
+  };
+  MotionStep step;
+  step.from_ns = from.t_ns;
+  step.to_ns = to.t_ns;
+  step.left_m = way_m(from.left, to.left);
+  step.right_m = way_m(from.right, to.right);
+  take_gyro(step);
+  if (step.has_gyro && gyro_is_frozen(step)) step.has_gyro = false;
+  return step;
+}
+
+void ReadingGate::take_gyro(MotionStep& step) {
+  const double duration_s = step.duration_s();
+  // What is not covered is a small part, or the rate holds on.
+  if (gyro_covered_s_ > 0 && gyro_covered_s_ >= kGyroCoverage * duration_s) {
+    const double share = duration_s / gyro_covered_s_;
+    step.gyro_rad = gyro_rad_ * share;
+    step.gyro_change_rad = gyro_change_rad_ * share;
+    step.has_gyro = true;
+  }
+  gyro_rad_ = 0;
+  gyro_change_rad_ = 0;
+  gyro_covered_s_ = 0;
+}
+
+bool ReadingGate::gyro_is_frozen(const MotionStep& step) {
+  turned_since_rad_ += (step.right_m - step.left_m) / config_.geometry.track_m - step.gyro_rad;
+  if (same_rates_ < kFrozenRates || std::abs(turned_since_rad_) < kFrozen_rad) return false;
+  ++counters_.frozen;
+  return true;
+}
+
+}  // namespace cornerd::core

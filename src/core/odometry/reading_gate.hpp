@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "core/odometry/motion_step.hpp"
+#include "core/odometry/odometry_config.hpp"
+#include "core/odometry/odometry_reading.hpp"
+
+namespace cornerd::core {
+
+/// What was refused, by cause.
+struct OdometryCounters {
+  std::uint64_t readings = 0;
+  std::uint64_t past = 0;      ///< before the last one, or long before now
+  std::uint64_t future = 0;    ///< well after now
+  std::uint64_t jumps = 0;     ///< more counts than a wheel can turn
+  std::uint64_t gyro = 0;      ///< rates that are none
+  std::uint64_t frozen = 0;    ///< rates that stay the same to the bit while the wheels turn
+  std::uint64_t holes = 0;     ///< times of which nothing is known
+  std::uint64_t restarts = 0;  ///< counts or times that went on somewhere else
+};
+
+/// Makes steps of readings, and refuses what cannot be. One bad reading costs itself alone; counts
+/// or times that stay elsewhere are a controller that was restarted, and are taken as a new start.
+/// Counts and rates may come in the same readings or in different ones. Allocates nothing.
+class ReadingGate {
+ public:
+  explicit ReadingGate(const OdometryConfig& config) : config_(config) {}
+
+  /// The step that ends with this reading, where it ends one. `now_ns`: the time of the newest
+  /// sample of the lidar, to tell the future by; nullopt where there is none yet.
+  std::optional<MotionStep> add(const OdometryReading& reading, std::optional<TimeNs> now_ns);
+
+  const OdometryCounters& counters() const { return counters_; }
+
+ private:
+  struct Counts {
+    TimeNs t_ns = 0;
+    std::int64_t left = 0;
+    std::int64_t right = 0;
+  };
+
+  bool is_in_time(TimeNs t_ns, std::optional<TimeNs> now_ns);
+  void add_gyro(TimeNs t_ns, double rate_rad_s);
+  std::optional<MotionStep> add_counts(const Counts& counts);
+  std::optional<MotionStep> restart(const Counts& counts);
+  bool is_possible(const Counts& from, const Counts& to) const;
+  MotionStep step_between(const Counts& from, const Counts& to);
+  /// Moves what the gyro said since the last counts into the step.
+  void take_gyro(MotionStep& step);
+  bool gyro_is_frozen(const MotionStep& step);
+
+  OdometryConfig config_;
+  OdometryCounters counters_;
+  std::optional<TimeNs> last_ns_;  ///< of any reading that was taken
+  std::uint32_t refused_in_a_row_ = 0;
+
+  std::optional<Counts> last_;
+  std::optional<Counts> doubted_;  ///< the newest counts that jumped
+  std::uint32_t doubts_ = 0;       ///< how many in a row agree with each other
+
+  // The gyro since the last counts.
+  std::optional<TimeNs> gyro_ns_;
+  double gyro_rad_s_ = 0;
+  double gyro_rad_ = 0;
+  double gyro_change_rad_ = 0;
+  double gyro_covered_s_ = 0;
+
+  // How long the gyro has said the same.
+  std::uint32_t same_rates_ = 0;
+  double turned_since_rad_ = 0;  ///< by the wheels, less the gyro
+};
+
+}  // namespace cornerd::core

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT
+#include "core/odometry/dead_reckoning.hpp"
+
+#include <gtest/gtest.h>
+
+namespace cornerd::core {
+namespace {
+
+constexpr DriveGeometry kRobot{0.05, 0.2, 1000, 0};
+
+MotionStep step_of(double left_m, double right_m, double gyro_rad) {
+  MotionStep step;
+  step.to_ns = kNsPerSecond / 10;
+  step.left_m = left_m;
+  step.right_m = right_m;
+  step.gyro_rad = gyro_rad;
+  step.has_gyro = true;
+  return step;
+}
+
+TEST(HeadingChange, EachMode_IsItsEquation) {
+  const MotionStep step = step_of(0.01, 0.03, 0.2);  // wheels: 0.1 rad
+  const auto change = [&](HeadingSource source, double c_enco, double c_gyro) {
+    return heading_change(step, kRobot, {source, c_enco, c_gyro, 0});
+  };
+  EXPECT_DOUBLE_EQ(change(HeadingSource::kEncoder, 1, 1), 0.1);
+  EXPECT_DOUBLE_EQ(change(HeadingSource::kEncoder, 1.5, 1), 0.15);
+  EXPECT_DOUBLE_EQ(change(HeadingSource::kGyro, 1, 1), 0.2);
+  EXPECT_DOUBLE_EQ(change(HeadingSource::kGyro, 1, 0.9), 0.18);
+  EXPECT_DOUBLE_EQ(change(HeadingSource::kMean, 1, 1), 0.15);
+  EXPECT_DOUBLE_EQ(change(HeadingSource::kMean, 2, 2), 0.15);
+  EXPECT_DOUBLE_EQ(change(HeadingSource::kWeighted, 1.5, 0.9), (0.15 + 0.18) / 2);
+}
+
+TEST(HeadingChange, WithoutAGyro_TakesTheEncoders) {
+  MotionStep step = step_of(0.01, 0.03, 0.2);
+  step.has_gyro = false;
+  EXPECT_DOUBLE_EQ(heading_change(step, kRobot, {HeadingSource::kMean, 1, 1, 0}), 0.1);
+}
+
+TEST(DeadReckoning, ACircleInSmallSteps_EndsWhereItBegan) {
+  DeadReckoning odometry(kRobot, {});
+  for (int i = 0; i < 1000; ++i) {
+    odometry.add(step_of((0.5 - 0.1) * kTwoPi / 1000, (0.5 + 0.1) * kTwoPi / 1000, 0));
+  }
+  EXPECT_NEAR(odometry.pose().x_m, 0, 1e-9);
+  EXPECT_NEAR(odometry.pose().y_m, 0, 1e-9);
+  EXPECT_NEAR(odometry.pose().theta_rad, 0, 1e-9);
+}
+
+TEST(DeadReckoning, QuarterCircle_GoesInTheDirectionHalfWayThrough) {
+  DeadReckoning odometry(kRobot, {}, {1, 2, kPi / 2});
+  const Pose2& pose = odometry.add(step_of(0.1, 0.1 + 0.2 * kPi / 2, 0));
+  const double way_m = 0.1 + 0.2 * kPi / 4;
+  EXPECT_NEAR(pose.x_m, 1 - way_m * std::sin(kPi / 4), 1e-12);
+  EXPECT_NEAR(pose.y_m, 2 + way_m * std::cos(kPi / 4), 1e-12);
+  EXPECT_NEAR(pose.theta_rad, kPi, 1e-12);
+}
+
+TEST(DeadReckoning, DeadBand_LosesASlowDrive) {
+  DeadReckoning with(kRobot, {HeadingSource::kEncoder, 1, 1, 0.01});
+  DeadReckoning without(kRobot, {});
+  // Each step turns the wheels by 0.008 and 0.006 rad: under the paper's 0.01.
+  for (int i = 0; i < 100; ++i) {
+    with.add(step_of(0.0004, 0.0003, 0));
+    without.add(step_of(0.0004, 0.0003, 0));
+  }
+  EXPECT_EQ(with.pose().x_m, 0);
+  EXPECT_GT(without.pose().x_m, 0.03);
+  with.add(step_of(0.01, 0.02, 0));
+  EXPECT_GT(with.pose().x_m, 0.01);
+}
+
+}  // namespace
+}  // namespace cornerd::core

@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: MIT
+#include "core/odometry/odometer.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "../fixtures.hpp"
+#include "driven_robot.hpp"
+
+namespace cornerd::core {
+namespace {
+
+constexpr double kTurn_s = 0.14;
+const Covariance3 kFixCovariance = Covariance3::Identity() * 1e-6;
+
+OdometryConfig switched_on() {
+  OdometryConfig config;
+  config.enabled = true;
+  return config;
+}
+
+/// Readings at 50 Hz, a turn of the lidar every 7 of them; each reading comes `late` readings late.
+class Ride {
+ public:
+  explicit Ride(const OdometryConfig& config, int late = 0, int every = 1)
+      : odometer(config), robot_(config.geometry, errors(), 3), late_(late), every_(every) {}
+
+  static testing::RobotErrors errors() {
+    testing::RobotErrors errors;
+    errors.left_scale = 0.01;
+    errors.gyro_bias_rad_s = 0.01;
+    errors.wheel_m_per_sqrt_m = 0.001;
+    errors.gyro_rad_s_per_sqrt_hz = 0.0003;
+    return errors;
+  }
+
+  /// To the end of the next turn; `truth` is then the pose in its middle.
+  void turn(bool readings = true) {
+    const TimeNs start_ns = robot_.now_ns();
+    for (int i = 0; i < 14; ++i, ++ticks_) {
+      const testing::Rates rates = testing::lively_drive(0.01 * ticks_);
+      const OdometryReading reading = robot_.drive(0.01, rates.speed_m_s, rates.rate_rad_s);
+      if (i == 6) truth = robot_.truth();
+      waiting_.push_back(reading);
+      if (waiting_.size() <= static_cast<std::size_t>(late_)) continue;
+      if (readings && ticks_ % every_ == 0) odometer.add(waiting_.front(), reading.t_ns);
+      waiting_.erase(waiting_.begin());
+    }
+    odometer.advance(start_ns, start_ns + 70'000'000, robot_.now_ns());
+  }
+  double error_m() const {
+    const auto predicted = odometer.prediction();
+    if (!predicted) return 1e9;
+    return (predicted->T_map_base.translation() - truth.translation()).norm();
+  }
+
+  Odometer odometer;
+  Pose2 truth;
+
+ private:
+  testing::DrivenRobot robot_;
+  int late_;
+  int every_;
+  int ticks_ = 0;
+  std::vector<OdometryReading> waiting_;
+};
+
+TEST(Odometer, BeforeTheFirstFix_PredictsNothing) {
+  Ride ride(switched_on());
+  for (int k = 0; k < 5; ++k) ride.turn();
+  EXPECT_FALSE(ride.odometer.prediction());
+  EXPECT_TRUE(ride.odometer.knows_motion());
+}
+
+TEST(Odometer, BetweenFixes_PredictsTheMiddleOfTheTurn) {
+  Ride ride(switched_on());
+  for (int k = 0; k < 300; ++k) {
+    ride.turn();
+    if (k > 50) {
+      ASSERT_LT(ride.error_m(), 0.004) << k;
+    }
+    ride.odometer.correct(ride.truth, kFixCovariance);
+  }
+  EXPECT_EQ(ride.odometer.summary().strangers, 0U);
+  EXPECT_TRUE(ride.odometer.summary().trusted);
+  EXPECT_NEAR(ride.odometer.summary().learned.gyro_bias_rad_s, 0.01, 0.001);
+}
+
+TEST(Odometer, ReadingsThatComeLateOrSeldom_StillCountOnce) {
+  for (const auto& [late, every] : {std::pair{8, 1}, {0, 17}, {8, 17}}) {
+    Ride ride(switched_on(), late, every);
+    for (int k = 0; k < 100; ++k) {
+      ride.turn();
+      if (k < 60) ride.odometer.correct(ride.truth, kFixCovariance);
+    }
+    // Six seconds blind. The last reading is up to 0.25 s old: what the rates did since is a guess.
+    EXPECT_LT(ride.error_m(), 0.12) << late << ' ' << every;
+    EXPECT_EQ(ride.odometer.summary().counters.jumps, 0U);
+  }
+}
+
+TEST(Odometer, Blind_GoesOnForAsLongAsItIsAllowed) {
+  OdometryConfig config = switched_on();
+  config.bridge_s = 3;
+  Ride ride(config);
+  for (int k = 0; k < 200; ++k) {
+    ride.turn();
+    ride.odometer.correct(ride.truth, kFixCovariance);
+  }
+  for (int k = 1; k <= 40; ++k) {
+    ride.turn();
+    ASSERT_EQ(ride.odometer.prediction().has_value(), k * kTurn_s <= 3) << k;
+    if (k * kTurn_s <= 3) {
+      EXPECT_LT(ride.error_m(), 0.02);
+    }
+  }
+}
+
+TEST(Odometer, ReadingsStop_PredictionStops) {
+  Ride ride(switched_on());
+  for (int k = 0; k < 20; ++k) {
+    ride.turn();
+    ride.odometer.correct(ride.truth, kFixCovariance);
+  }
+  for (int k = 0; k < 4; ++k) ride.turn(/*readings=*/false);
+  EXPECT_FALSE(ride.odometer.prediction());
+  EXPECT_FALSE(ride.odometer.knows_motion());
+  EXPECT_FALSE(ride.odometer.summary().present);
+  for (int k = 0; k < 20; ++k) {
+    ride.turn();
+    ride.odometer.correct(ride.truth, kFixCovariance);
+  }
+  EXPECT_TRUE(ride.odometer.prediction());
+}
+
+TEST(Odometer, WheelsThatTellAnotherStory_AreNotBelieved) {
+  Ride ride(switched_on());
+  for (int k = 0; k < 50; ++k) {
+    ride.turn();
+    ride.odometer.correct(ride.truth, kFixCovariance);
+  }
+  // The robot hangs in the air: the wheels go on, the lidar sees the same place.
+  const Pose2 hanging = ride.truth;
+  for (int k = 0; k < 15; ++k) {
+    ride.turn();
+    ride.odometer.correct(hanging, kFixCovariance);
+  }
+  EXPECT_FALSE(ride.odometer.prediction());
+  EXPECT_FALSE(ride.odometer.summary().trusted);
+  EXPECT_GT(ride.odometer.summary().strangers, 3U);
+}
+
+TEST(Odometer, Forgotten_NeedsAFix) {
+  Ride ride(switched_on());
+  ride.turn();
+  ride.odometer.correct(ride.truth, kFixCovariance);
+  ride.odometer.forget();
+  ride.turn();
+  EXPECT_FALSE(ride.odometer.prediction());
+}
+
+TEST(Odometer, SwitchedOff_DoesNothing) {
+  Ride ride(OdometryConfig{});
+  ride.turn();
+  ride.odometer.correct(ride.truth, kFixCovariance);
+  ride.turn();
+  EXPECT_FALSE(ride.odometer.knows_motion());
+  EXPECT_FALSE(ride.odometer.prediction());
+}
+
+TEST(Odometer, ATurnTakenInMotion_IsStraightened) {
+  const auto map = testing::make_map(testing::rectangular_room(4, 3));
+  const OdometryConfig config = switched_on();
+  testing::DrivenRobot robot(config.geometry, {});
+  Odometer odometer(config);
+  const Pose2 T_base_lidar{0.05, -0.02, 0.3};
+  constexpr double kSpeed_m_s = 0.5;
+  constexpr double kRate_rad_s = 2;
+  for (int i = 0; i < 15; ++i) odometer.add(robot.drive(0.01, kSpeed_m_s, kRate_rad_s), {});
+
+  // Each ray from where the robot is at its time, the middle of the turn at (1, 1) in the room.
+  const TimeNs start_ns = 15'000'000;
+  const auto pose_at = [&](double t_s) {
+    const double turn_rad = kRate_rad_s * (t_s - 0.075);
+    const double chord_m = 2 * kSpeed_m_s / kRate_rad_s * std::sin(turn_rad / 2);
+    return Pose2{1, 1, 0.7} * arc(chord_m, turn_rad);
+  };
+  Scan turn;
+  for (int i = 0; i < 400; ++i) {
+    Sample sample;
+    sample.t_ns = start_ns + i * 300'000;
+    sample.bearing_rad = static_cast<float>(normalize_angle(3 - kTwoPi * i / 400));
+    const Pose2 T_map_lidar = pose_at(to_seconds(sample.t_ns)) * T_base_lidar;
+    sample.range_m = static_cast<float>(map->range_along(
+        T_map_lidar.translation(), T_map_lidar.theta_rad + sample.bearing_rad, 12));
+    turn.add(sample);
+  }
+  Scan still;
+  odometer.advance(start_ns, 75'000'000, turn.end_ns());
+  ASSERT_TRUE(odometer.straighten(turn, T_base_lidar, still));
+  ASSERT_EQ(still.size(), turn.size());
+  const Pose2 T_map_lidar = pose_at(0.075) * T_base_lidar;
+  double worst_m = 0;
+  for (const Sample& sample : still.samples()) {
+    const Vec2 point = T_map_lidar * (sample.range_m * unit_vector(sample.bearing_rad));
+    const double off_m = std::min({std::abs(point.x()), std::abs(point.x() - 4),
+                                   std::abs(point.y()), std::abs(point.y() - 3)});
+    worst_m = std::max(worst_m, off_m);
+  }
+  EXPECT_LT(worst_m, 0.002);
+}
+
+}  // namespace
+}  // namespace cornerd::core

@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: MIT
+#include "core/odometry/reading_gate.hpp"
+
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <random>
+
+#include "driven_robot.hpp"
+
+namespace cornerd::core {
+namespace {
+
+constexpr TimeNs kMillisecond_ns = 1'000'000;
+
+OdometryConfig small_robot() {
+  OdometryConfig config;
+  config.enabled = true;
+  config.geometry.ceiling = 65535;
+  return config;
+}
+
+/// What the gate makes of a steady drive of 3 s with one reading replaced.
+struct Outcome {
+  double left_m = 0;
+  double gyro_rad = 0;
+  int steps = 0;
+  int holes = 0;
+  OdometryCounters counters;
+};
+Outcome drive_with(const std::function<void(int, OdometryReading&)>& spoil) {
+  const OdometryConfig config = small_robot();
+  testing::DrivenRobot robot(config.geometry, {});
+  ReadingGate gate(config);
+  Outcome outcome;
+  for (int i = 0; i < 150; ++i) {
+    OdometryReading reading = robot.drive(0.02, 0.3, 0.1);
+    spoil(i, reading);
+    const auto step = gate.add(reading, robot.now_ns());
+    if (!step) continue;
+    ++outcome.steps;
+    outcome.holes += step->is_hole;
+    outcome.left_m += step->left_m;
+    outcome.gyro_rad += step->gyro_rad;
+  }
+  outcome.counters = gate.counters();
+  return outcome;
+}
+
+constexpr double kLeft_m = (0.3 - 0.1 * 0.08) * 0.02 * 149;
+
+TEST(ReadingGate, CleanDrive_GivesAllOfIt) {
+  const Outcome outcome = drive_with([](int, OdometryReading&) {});
+  EXPECT_EQ(outcome.steps, 149);
+  EXPECT_NEAR(outcome.left_m, kLeft_m, 0.001);
+  EXPECT_NEAR(outcome.gyro_rad, 0.1 * 0.02 * 149, 1e-9);
+}
+
+TEST(ReadingGate, SpeedsThatNobodyDrives_CostTheirReadingAlone) {
+  for (const std::int64_t garbage :
+       {std::int64_t{30464}, std::int64_t{5198147}, std::numeric_limits<std::int64_t>::min(),
+        std::numeric_limits<std::int64_t>::max()}) {
+    const Outcome outcome = drive_with([&](int i, OdometryReading& reading) {
+      if (i == 70) reading.left = garbage;
+    });
+    EXPECT_EQ(outcome.counters.jumps, 1U) << garbage;
+    EXPECT_EQ(outcome.holes, 0);
+    EXPECT_NEAR(outcome.left_m, kLeft_m, 0.001);
+  }
+}
+
+TEST(ReadingGate, CountsThatStayElsewhere_AreARestart) {
+  const Outcome outcome = drive_with([](int i, OdometryReading& reading) {
+    if (i >= 70) reading.left = *reading.left + 30464;
+  });
+  EXPECT_EQ(outcome.counters.restarts, 1U);
+  EXPECT_EQ(outcome.holes, 1);
+  EXPECT_NEAR(outcome.left_m, kLeft_m - 3 * 0.02 * 0.292, 0.002);
+}
+
+TEST(ReadingGate, WholeReadingsLost_AreMadeUpForByTheCounts) {
+  const Outcome outcome = drive_with([](int i, OdometryReading& reading) {
+    if (i > 70 && i < 80) reading.left.reset();
+  });
+  EXPECT_EQ(outcome.steps, 140);
+  EXPECT_NEAR(outcome.left_m, kLeft_m, 0.001);
+  EXPECT_NEAR(outcome.gyro_rad, 0.1 * 0.02 * 149, 1e-9);
+}
+
+TEST(ReadingGate, ASecondWithoutReadings_IsAHole) {
+  const Outcome outcome = drive_with([](int i, OdometryReading& reading) {
+    if (i > 50 && i < 110) reading.right.reset();
+  });
+  EXPECT_EQ(outcome.holes, 1);
+  EXPECT_EQ(outcome.counters.holes, 1U);
+}
+
+TEST(ReadingGate, TheFarFutureAndThePast_AreRefused) {
+  const Outcome outcome = drive_with([](int i, OdometryReading& reading) {
+    if (i == 40) reading.t_ns += 3600 * kNsPerSecond;
+    if (i == 60) reading.t_ns -= 100 * kMillisecond_ns;
+    if (i == 80) reading.t_ns -= 3600 * kNsPerSecond;
+    if (i == 90) reading.t_ns -= 20 * kMillisecond_ns;
+  });
+  EXPECT_EQ(outcome.counters.future, 1U);
+  EXPECT_EQ(outcome.counters.past, 3U);
+  EXPECT_NEAR(outcome.left_m, kLeft_m, 0.001);
+}
+
+TEST(ReadingGate, AClockThatWasSetBack_IsFollowedAfterAWhile) {
+  const Outcome outcome = drive_with([](int i, OdometryReading& reading) {
+    if (i >= 50) reading.t_ns -= 2 * kNsPerSecond;
+  });
+  EXPECT_EQ(outcome.counters.restarts, 1U);
+  EXPECT_GT(outcome.left_m, 0.7 * kLeft_m);
+}
+
+TEST(ReadingGate, RatesThatAreNone_AreLeftOut) {
+  const Outcome outcome = drive_with([](int i, OdometryReading& reading) {
+    if (i == 30) reading.gyro_rad_s = std::nan("");
+    if (i == 50) reading.gyro_rad_s = 5198147;
+  });
+  EXPECT_EQ(outcome.counters.gyro, 2U);
+  EXPECT_NEAR(outcome.gyro_rad, 0.1 * 0.02 * 149, 0.01);
+}
+
+TEST(ReadingGate, AGyroThatIsStuck_IsNoticedByTheWheels) {
+  OdometryConfig config = small_robot();
+  testing::DrivenRobot robot(config.geometry, {});
+  ReadingGate gate(config);
+  int with_gyro = 0;
+  for (int i = 0; i < 100; ++i) {
+    OdometryReading reading = robot.drive(0.02, 0.2, 1);
+    reading.gyro_rad_s = 0.25;
+    const auto step = gate.add(reading, std::nullopt);
+    with_gyro += step && step->has_gyro;
+  }
+  EXPECT_LT(with_gyro, 15);
+  EXPECT_GT(gate.counters().frozen, 80U);
+}
+
+TEST(ReadingGate, CountsAndRatesInLinesOfTheirOwn_MeetInOneStep) {
+  const OdometryConfig config = small_robot();
+  testing::DrivenRobot robot(config.geometry, {});
+  ReadingGate gate(config);
+  double gyro_rad = 0;
+  int steps = 0;
+  for (int i = 0; i < 100; ++i) {
+    OdometryReading counts = robot.drive(0.01, 0.2, 0.5);
+    const OdometryReading rate{counts.t_ns, {}, {}, counts.gyro_rad_s};
+    counts.gyro_rad_s.reset();
+    EXPECT_FALSE(gate.add(rate, std::nullopt));
+    if (i % 4 != 0) continue;
+    const auto step = gate.add(counts, std::nullopt);
+    if (!step) continue;
+    ++steps;
+    EXPECT_TRUE(step->has_gyro);
+    gyro_rad += step->gyro_rad;
+  }
+  EXPECT_EQ(steps, 24);
+  EXPECT_NEAR(gyro_rad, 0.5 * 0.96, 1e-9);
+}
+
+TEST(ReadingGate, AnyReadings_GiveStepsThatARobotCouldTake) {
+  const OdometryConfig config = small_robot();
+  std::mt19937_64 random(9);
+  ReadingGate gate(config);
+  TimeNs t_ns = 0;
+  for (int i = 0; i < 100000; ++i) {
+    OdometryReading reading;
+    t_ns += static_cast<TimeNs>(random() % 200) * kMillisecond_ns - 20 * kMillisecond_ns;
+    reading.t_ns = random() % 100 == 0 ? static_cast<TimeNs>(random() >> 2) : t_ns;
+    if (random() % 10 != 0) reading.left = static_cast<std::int64_t>(random() >> (random() % 64));
+    if (random() % 10 != 0) reading.right = static_cast<std::int64_t>(random() >> (random() % 64));
+    if (random() % 3 != 0) reading.gyro_rad_s = std::bit_cast<double>(random());
+    const auto step = gate.add(reading, t_ns);
+    if (!step) continue;
+    ASSERT_GT(step->to_ns, step->from_ns);
+    ASSERT_LE(std::abs(step->left_m), 3 * step->duration_s() + 0.001);
+    ASSERT_LE(std::abs(step->right_m), 3 * step->duration_s() + 0.001);
+    ASSERT_LE(std::abs(step->gyro_rad), 35.0 * std::max(step->duration_s(), 0.0) + 1e-9);
+  }
+}
+
+}  // namespace
+}  // namespace cornerd::core
