@@ -28,8 +28,6 @@ struct AltbdConfig {
   double max_gap_m = 0.3;
   /// The noise model counts like this many residuals when the turn's own noise is judged.
   double prior_residuals = 20;
-  /// Samples of a wall so short that it may be noise about its neighbours, and is tested for it.
-  std::uint32_t doubtful_samples = 12;
 };
 
 /// Whether step 12 divides by the axes, as it is printed, or by their squares, as an ellipse has
@@ -84,6 +82,10 @@ struct ExtractionConfig {
   /// Chi-square that one line instead of two may cost. Normal noise reaches 15 once in 2,000 times;
   /// a tracker that stops at the worst noise reaches more.
   double joined_chi_square = 40;
+  /// A wall of no more samples than this, or whose direction is less certain, may be noise about
+  /// its neighbours, and is tested for it.
+  std::uint32_t doubtful_samples = 12;
+  double doubtful_sigma_rad = radians(3);
   /// Between the walls of a corner.
   double min_corner_angle_rad = radians(15);
   /// Rays that may give nothing between a wall that they graze and its corner.

@@ -124,6 +124,7 @@ const TurnResult& Localizer::step(const Scan& scan) {
 
 void Localizer::relocalize() {
   workspace_->memory.forget();
+  workspace_->detector.forget();
   workspace_->T_map_doubted.reset();
 }
 

@@ -31,7 +31,6 @@ void read_altbd(ObjectReader altbd, core::AltbdConfig& config) {
   altbd.number("max_gap_angle", config.max_gap_rad, {0.001, 3.1416});
   altbd.number("max_gap", config.max_gap_m, {0.001, 10});
   altbd.number("prior_residuals", config.prior_residuals, {1, 1e6});
-  altbd.integer("doubtful_samples", config.doubtful_samples, 3U, kMaxCount);
   altbd.finish();
 }
 
@@ -56,6 +55,8 @@ void read_extraction(ObjectReader extraction, core::ExtractionConfig& config) {
   extraction.integer<std::size_t>("max_interruption", config.max_interruption, 0, kMaxCount);
   extraction.number("max_piece_gap", config.max_piece_gap_m, {0, 10});
   extraction.number("joined_chi_square", config.joined_chi_square, {0, 1e6});
+  extraction.integer("doubtful_samples", config.doubtful_samples, 3U, kMaxCount);
+  extraction.number("doubtful_sigma", config.doubtful_sigma_rad, {0.001, 1.5});
   extraction.number("min_corner_angle", config.min_corner_angle_rad, {0.01, 1.5});
   extraction.number("grazing_rays", config.grazing_rays, {0, 100});
   extraction.number("max_face", config.max_face_m, {0, 1});

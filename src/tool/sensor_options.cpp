@@ -58,8 +58,7 @@ void SensorOptions::add_to(CLI::App& command) {
       .add_option("--backward", backward,
                   "share of standard nodes that arrive behind the next one: their angle steps back")
       ->check(number_within(0, 0.4));
-  command
-      .add_option("--range-scale", range_scale, "bias: what is measured of a metre (m)")
+  command.add_option("--range-scale", range_scale, "bias: what is measured of a metre (m)")
       ->check(number_within(0.9, 1.1));
   command.add_option("--range-offset", range_offset_m, "bias: added to every range (m)")
       ->check(number_within(-0.1, 0.1));

@@ -19,6 +19,10 @@ constexpr std::uint32_t kYoung = 16;
 constexpr std::uint32_t kYoungShare = 2;
 /// Samples of a seed that needs no ellipses.
 constexpr std::uint32_t kLongSeed = 8;
+/// What the noise may be found to be, of the model's variance: ranges in whole millimetres are not
+/// free of noise, and beyond ten times the model's sigma there are no walls.
+constexpr double kMinVarianceScale = 0.1;
+constexpr double kMaxVarianceScale = 100;
 /// Samples that follow() gives one weight: their ranges differ little.
 constexpr std::size_t kBlock = 32;
 /// Share of the gate's square within which a sample is near: j^2 / minor^2 is below it, and
@@ -59,6 +63,7 @@ struct Near {
 
 Altbd::Altbd(const DetectorConfig& config, const SensorNoise& noise)
     : config_(config.altbd),
+      extraction_(config.extraction),
       sigma_offset_(config.sigma_offset),
       min_support_(config.min_support),
       noise_(noise),
@@ -69,12 +74,18 @@ void Altbd::begin() {
   tracking_ = false;
   begun_ = false;
   index_ = 0;
-  // The noise is the sensor's: what the last turn showed is where this one begins.
-  residual_sum_ = config_.prior_residuals * noise_variance_scale();
+  // The noise is the sensor's: where the last turn showed more than the model, this one begins with
+  // it. Never with less: a turn without noise would leave a gate that no other turn passes.
+  residual_sum_ =
+      config_.prior_residuals * std::clamp(noise_variance_scale(), 1.0, kMaxVarianceScale);
   residual_count_ = config_.prior_residuals;
 }
 
-double Altbd::noise_variance_scale() const { return residual_sum_ / residual_count_; }
+void Altbd::forget() { residual_sum_ = residual_count_ = config_.prior_residuals; }
+
+double Altbd::noise_variance_scale() const {
+  return std::clamp(residual_sum_ / residual_count_, kMinVarianceScale, kMaxVarianceScale);
+}
 
 double Altbd::noise_scale() const { return std::sqrt(noise_variance_scale()); }
 
@@ -224,7 +235,7 @@ void Altbd::give_back_lone_hit(const PolarScan& scan) {
 }
 
 bool Altbd::announces(SegmentTrack& wall) {
-  if (begun_ || current_.support <= config_.doubtful_samples) return false;
+  if (begun_ || is_doubtful(current_, extraction_, noise_scale())) return false;
   begun_ = true;
   wall = current_;
   return true;

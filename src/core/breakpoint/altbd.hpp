@@ -41,6 +41,9 @@ class Altbd {
     kWallEnded,  ///< the wall that was begun
   };
 
+  /// Forgets what the turns showed of the noise: the model is believed again.
+  void forget();
+
   /// Tracks on through the scan, which may have grown since the last call, to the next event;
   /// `wall` is what it happened to. Walls have at least min_support samples.
   Event next(const PolarScan& scan, bool ended, SegmentTrack& wall);
@@ -62,6 +65,7 @@ class Altbd {
   double noise_variance_scale() const;
 
   AltbdConfig config_;
+  ExtractionConfig extraction_;
   double sigma_offset_;
   std::uint32_t min_support_;
   SensorNoise noise_;

@@ -2,6 +2,7 @@
 #include "core/breakpoint/breakpoint_stream.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "core/breakpoint/detector.hpp"
@@ -21,10 +22,14 @@ void BreakpointStream::begin(double spacing_rad) {
   detection_.clear();
   waiting_count_ = 0;
   begun_ = false;
+  finished_ = false;
 }
 
 std::span<const Breakpoint> BreakpointStream::add(double bearing_rad, double range_m) {
   const std::size_t known = detection_.breakpoints.size();
+  if (finished_ || !(range_m > 0) || !std::isfinite(range_m) || !std::isfinite(bearing_rad)) {
+    return news(known);
+  }
   const double angle_rad = static_cast<int>(sweep_) * bearing_rad;
   if (!begun_) {
     begun_ = true;
@@ -33,7 +38,9 @@ std::span<const Breakpoint> BreakpointStream::add(double bearing_rad, double ran
   // The sweep goes on from where it was: bearings wrap, it does not.
   const Return item{reached_rad_ + angle_between(reached_rad_, angle_rad), range_m};
   reached_rad_ = std::max(reached_rad_, item.sweep_rad);
-  if (item.sweep_rad >= begin_rad_ + kTwoPi || item.sweep_rad < begin_rad_) return news(known);
+  if (item.sweep_rad >= begin_rad_ + kTwoPi || item.sweep_rad < begin_rad_ - kMaxStepBack_rad) {
+    return news(known);
+  }
 
   if (waiting_count_ == waiting_.size()) {
     take(waiting_[0]);
@@ -64,6 +71,8 @@ void BreakpointStream::take(const Return& item) {
 
 std::span<const Breakpoint> BreakpointStream::finish() {
   const std::size_t known = detection_.breakpoints.size();
+  if (finished_) return news(known);
+  finished_ = true;
   for (std::size_t i = 0; i < waiting_count_; ++i) take(waiting_[i]);
   waiting_count_ = 0;
   feed(tracker_, chain_, scan_, /*ended=*/true, detection_);

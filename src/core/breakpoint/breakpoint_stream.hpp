@@ -28,12 +28,14 @@ class BreakpointStream {
  public:
   BreakpointStream(const DetectorConfig& config, const SensorNoise& noise, Sweep sweep);
 
-  /// A turn begins. `spacing_rad`: usual distance in bearing between two samples.
+  /// A turn begins. `spacing_rad`: distance in bearing between two samples, as of the turn
+  /// before.
   void begin(double spacing_rad);
 
   /// The next return, lidar frame. A bearing may step back by up to kMaxStepBack_rad, as those of
-  /// an A1 do. Returns beyond a whole circle, or more than kMaxSamplesPerTurn, are ignored.
-  /// The breakpoints that this return made certain; valid until the next call.
+  /// an A1 do. Ranges that are none, returns beyond a whole circle, and more than
+  /// kMaxSamplesPerTurn are ignored. The breakpoints that this return made certain; valid until the
+  /// next call.
   std::span<const Breakpoint> add(double bearing_rad, double range_m);
 
   /// The turn is at its end: the rest of its breakpoints.
@@ -60,11 +62,12 @@ class BreakpointStream {
   PolarScan scan_;
   Detection detection_;
   std::vector<Breakpoint> mirrored_;
-  std::array<Return, 32> waiting_;  ///< by rising sweep: what a later return may still precede
+  std::array<Return, 96> waiting_;  ///< by rising sweep: what a later return may still precede
   std::size_t waiting_count_ = 0;
   double reached_rad_ = 0;
   double begin_rad_ = 0;
   bool begun_ = false;
+  bool finished_ = true;
 };
 
 /// The same breakpoint in a mirror along the x axis: what was on its left is on its right.

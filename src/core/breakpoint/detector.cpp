@@ -42,6 +42,10 @@ void Detector::detect(const PolarScan& scan, Detection& detection) {
   chain_.finish(scan, detection.noise_scale, detection);
 }
 
+void Detector::forget() {
+  if (auto* altbd = std::get_if<Altbd>(&tracker_)) altbd->forget();
+}
+
 void feed(Altbd& tracker, WallChain& chain, const PolarScan& scan, bool ended,
           Detection& detection) {
   SegmentTrack wall;

@@ -23,6 +23,9 @@ class Detector {
 
   void detect(const PolarScan& scan, Detection& detection);
 
+  /// Forgets what the turns showed of the noise.
+  void forget();
+
  private:
   using Tracker = std::variant<Altbd, PrintedAltbd, AbdIepf, LineTracking>;
   static Tracker make_tracker(const DetectorConfig& config, const SensorNoise& noise);

@@ -44,7 +44,7 @@ void WallChain::add(const PolarScan& scan, const SegmentTrack& wall, double nois
     ++detection.overflowed;
     return;
   }
-  const bool doubtful = next.support <= config_.altbd.doubtful_samples;
+  const bool doubtful = is_doubtful(next, config_.extraction, noise_scale);
   advance(scan, walls_.size() - (doubtful ? 1 : 0), noise_scale, detection);
 }
 
@@ -65,7 +65,7 @@ bool WallChain::dissolve(const PolarScan& scan, std::size_t before, std::size_t 
                          SegmentTrack& after, double noise_scale) {
   const SegmentTrack wall = walls_[doubtful];
   SegmentTrack& right = walls_[before];
-  if (wall.support > config_.altbd.doubtful_samples) return false;
+  if (!is_doubtful(wall, config_.extraction, noise_scale)) return false;
   if (before == doubtful || right.support <= wall.support) return false;
   const std::size_t split = split_between(scan, judgement(noise_scale), right, wall, after);
   if (split == kNoSplit) return false;

@@ -32,6 +32,12 @@ double misfit(const SensorNoise& noise, const Line& line, const PolarPoint& poin
   return across_m * across_m / noise.variance_across_m2(point.range_m, sine);
 }
 
+bool is_doubtful(const SegmentTrack& wall, const ExtractionConfig& limits, double noise_scale) {
+  const double limit = limits.doubtful_sigma_rad / noise_scale;
+  return wall.support <= limits.doubtful_samples ||
+         wall.line.weight * wall.line.spread_m2 * limit * limit < 1;
+}
+
 bool is_one_wall(const PolarScan& scan, const Judgement& by, const SegmentTrack& right,
                  const SegmentTrack& left) {
   if (samples_between(scan, right, left) > by.limits.max_interruption) return false;

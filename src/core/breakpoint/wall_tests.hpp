@@ -35,6 +35,9 @@ double across_factor(const SensorNoise& noise, const Line& line);
 /// Squared distance of a sample to a line in units of the noise.
 double misfit(const SensorNoise& noise, const Line& line, const PolarPoint& point);
 
+/// True for a wall so short that it may be noise about its neighbours.
+bool is_doubtful(const SegmentTrack& wall, const ExtractionConfig& limits, double noise_scale);
+
 /// True where two neighbours are pieces of one wall.
 bool is_one_wall(const PolarScan& scan, const Judgement& by, const SegmentTrack& right,
                  const SegmentTrack& left);

@@ -67,7 +67,6 @@ void expect_default_detector(const core::DetectorConfig& sample) {
   EXPECT_NEAR(sample.altbd.max_gap_rad, defaults.altbd.max_gap_rad, kRounding);
   EXPECT_EQ(sample.altbd.max_gap_m, defaults.altbd.max_gap_m);
   EXPECT_EQ(sample.altbd.prior_residuals, defaults.altbd.prior_residuals);
-  EXPECT_EQ(sample.altbd.doubtful_samples, defaults.altbd.doubtful_samples);
   EXPECT_EQ(sample.printed_altbd.axes, defaults.printed_altbd.axes);
   EXPECT_EQ(sample.printed_altbd.minor, defaults.printed_altbd.minor);
   EXPECT_EQ(sample.printed_altbd.line, defaults.printed_altbd.line);
@@ -81,6 +80,9 @@ void expect_default_detector(const core::DetectorConfig& sample) {
   EXPECT_EQ(sample.extraction.max_interruption, defaults.extraction.max_interruption);
   EXPECT_EQ(sample.extraction.max_piece_gap_m, defaults.extraction.max_piece_gap_m);
   EXPECT_EQ(sample.extraction.joined_chi_square, defaults.extraction.joined_chi_square);
+  EXPECT_EQ(sample.extraction.doubtful_samples, defaults.extraction.doubtful_samples);
+  EXPECT_NEAR(sample.extraction.doubtful_sigma_rad, defaults.extraction.doubtful_sigma_rad,
+              kRounding);
   EXPECT_NEAR(sample.extraction.min_corner_angle_rad, defaults.extraction.min_corner_angle_rad,
               kRounding);
   EXPECT_EQ(sample.extraction.grazing_rays, defaults.extraction.grazing_rays);

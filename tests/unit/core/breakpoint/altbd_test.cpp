@@ -96,6 +96,29 @@ TEST(Altbd, NoiseOfTheTurnBefore_IsRemembered) {
   }
 }
 
+TEST(Altbd, TurnsWithoutNoise_LeaveNoGateThatOthersCannotPass) {
+  const auto map = testing::make_map(testing::rectangular_room(3, 2));
+  testing::TurnSource source(16);
+  testing::TurnOptions exact;
+  exact.with_noise = false;
+  const PolarScan clean = testing::polar(source.take(*map, {1.5, 1, 0.3}, exact));
+  const PolarScan noisy = testing::polar(source.take(*map, {1.5, 1, 0.3}));
+  Altbd altbd({}, {});
+  SegmentTrack wall;
+  for (int turn = 0; turn < 10; ++turn) {
+    altbd.begin();
+    while (altbd.next(clean, true, wall) != Altbd::Event::kNone) {
+    }
+  }
+  altbd.begin();
+  std::uint32_t support = 0;
+  for (Altbd::Event event = altbd.next(noisy, true, wall); event != Altbd::Event::kNone;
+       event = altbd.next(noisy, true, wall)) {
+    if (event != Altbd::Event::kWallBegun) support += wall.support;
+  }
+  EXPECT_GT(support, noisy.size() * 9 / 10);
+}
+
 TEST(Altbd, WallThatGrows_IsAnnouncedAndEnds) {
   const auto map = testing::make_map(testing::rectangular_room(3, 2));
   testing::TurnSource source(15);
@@ -111,8 +134,8 @@ TEST(Altbd, WallThatGrows_IsAnnouncedAndEnds) {
     const Altbd::Event event = altbd.next(growing, /*ended=*/false, wall);
     if (event != Altbd::Event::kNone) events.push_back(event);
     if (event == Altbd::Event::kWallBegun) {
-      EXPECT_GT(wall.support, AltbdConfig().doubtful_samples);
-      EXPECT_LT(wall.support, 3 * AltbdConfig().doubtful_samples);
+      EXPECT_GT(wall.support, ExtractionConfig().doubtful_samples);
+      EXPECT_LT(wall.support, 3 * ExtractionConfig().doubtful_samples);
     }
   }
   ASSERT_GE(events.size(), 7U);

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "../fixtures.hpp"
@@ -91,7 +92,7 @@ TEST(BreakpointStream, BackwardSteps_ChangeNothing) {
   testing::TurnSource source(43);
   const PolarScan turn = noisy_turn(source, *map, {1.1, 0.9, 0.4});
   std::vector<PolarPoint> shuffled(turn.points().begin(), turn.points().end());
-  for (std::size_t i = 5; i + 1 < shuffled.size(); i += 23) std::swap(shuffled[i], shuffled[i + 1]);
+  for (std::size_t i = 0; i + 1 < shuffled.size(); i += 23) std::swap(shuffled[i], shuffled[i + 1]);
 
   const auto run = [&](std::span<const PolarPoint> points) {
     BreakpointStream stream({}, {}, Sweep::kCounterClockwise);
@@ -159,7 +160,29 @@ TEST(BreakpointStream, ReturnsBeyondTheCircle_AreIgnored) {
   }
   append(streamed, stream.finish());
   EXPECT_EQ(streamed.size(), 4U);
+  const std::size_t walls = stream.detection().segments.size();
   EXPECT_TRUE(stream.finish().empty());
+  EXPECT_EQ(stream.detection().segments.size(), walls);
+}
+
+TEST(BreakpointStream, RangesThatAreNone_AreIgnored) {
+  const auto map = testing::make_map(testing::rectangular_room(3, 2));
+  testing::TurnSource source(47);
+  const PolarScan turn = testing::polar(source.take(*map, {1.3, 0.8, 0.1}));
+  BreakpointStream stream({}, {}, Sweep::kCounterClockwise);
+  for (int round = 0; round < 2; ++round) {
+    stream.begin(turn.spacing_rad());
+    std::vector<Breakpoint> streamed;
+    for (const PolarPoint& point : turn.points()) {
+      for (const double none : {0.0, -1.0, std::nan(""), HUGE_VAL}) {
+        EXPECT_TRUE(stream.add(point.bearing_rad, none).empty());
+      }
+      EXPECT_TRUE(stream.add(std::nan(""), 1).empty());
+      append(streamed, stream.add(point.bearing_rad, point.range_m));
+    }
+    append(streamed, stream.finish());
+    EXPECT_EQ(streamed.size(), 4U);
+  }
 }
 
 }  // namespace
