@@ -41,7 +41,7 @@ class TruthOfTurns {
 
 /// Where cornerd says the lidar is, each turn by itself.
 std::optional<core::Pose2> localize(core::Localizer& localizer, const core::Scan& turn) {
-  localizer.relocalize();
+  localizer.forget();
   const core::PoseEstimate& pose = localizer.step(turn).pose;
   if (pose.state != core::PoseState::kFix) return std::nullopt;
   return pose.T_map_base;

@@ -7,6 +7,7 @@
 
 #include "core/breakpoint/detector.hpp"
 #include "core/catalog/catalog.hpp"
+#include "core/estimate/bias_estimator.hpp"
 #include "core/estimate/pose_memory.hpp"
 #include "core/estimate/refinement.hpp"
 #include "core/recognition/decision.hpp"
@@ -40,8 +41,23 @@ constexpr double kJump_rad = radians(60);
 /// A motion has to explain one ray in so many more than rest does: it fits things that are not on
 /// the map a little, always.
 constexpr std::size_t kRaysForAMotion = 50;
+/// The lidar's bias is learnt from turns that the map explains nearly whole, of a robot that
+/// stands: a motion would pass for one.
+constexpr double kTeachingShare = 0.8;
+/// Turns within which a lidar's bias is learnt, and the share of the rays that a place explains at
+/// least roughly where a bias is all that is wrong.
+constexpr std::size_t kTurnsOfANewLidar = 20;
+constexpr double kAllButExact = 0.95;
 /// Residuals this much beyond the turn's own noise are smeared by a motion.
 constexpr double kSmearedSpread = 1.4;
+
+/// What a bias of 1 % and 5 mm that is not learnt yet does to poses in rooms of a metre or two.
+Covariance3 doubt_of_bias() {
+  constexpr double kPlace_m = 0.006;
+  constexpr double kHeading_rad = radians(0.15);
+  return Eigen::Vector3d(kPlace_m * kPlace_m, kPlace_m * kPlace_m, kHeading_rad * kHeading_rad)
+      .asDiagonal();
+}
 
 }  // namespace
 
@@ -52,11 +68,13 @@ struct Localizer::Workspace {
         : catalog(map, config.max_range_m),
           recognition(map, catalog),
           verification(map, config),
-          refinement(config.max_range_m, config.noise) {}
+          refinement(config.max_range_m, config.noise),
+          bias(config.max_range_m, config.noise, config.bias) {}
     Catalog catalog;
     Recognition recognition;
     Verification verification;
     Refinement refinement;
+    BiasEstimator bias;
   };
 
   Workspace(std::shared_ptr<const WallMap> the_map, const LocalizerConfig& the_config)
@@ -74,6 +92,8 @@ struct Localizer::Workspace {
   bool in_doubt(TimeNs t_ns) const;
   bool is_smeared() const;
   std::size_t best_hits() const;
+  bool may_be_biased() const;
+  bool teaches(const Decision& decision) const;
   void report(const Decision& decision, TimeNs t_ns);
   void report_pose(const core::Place& found, TimeNs t_ns);
   void report_alternatives(std::span<const core::Place> rivals);
@@ -107,7 +127,9 @@ const TurnResult& Localizer::step(const Scan& scan) {
   w.look(scan, t_ns, w.memory.motion());
 
   // 2. Where none is convincing, the robot may have changed its speed since the last turns.
-  if (w.in_doubt(t_ns) || w.is_smeared()) w.look_for_the_motion(scan, t_ns);
+  if ((w.in_doubt(t_ns) || w.is_smeared()) && !w.may_be_biased()) {
+    w.look_for_the_motion(scan, t_ns);
+  }
 
   // 3. Where still none is, all places are tested that could have been overlooked.
   if (w.in_doubt(t_ns)) w.look_everywhere(t_ns);
@@ -119,13 +141,36 @@ const TurnResult& Localizer::step(const Scan& scan) {
   // 5. What is less than evident, or far from where the robot just was, is not believed at once.
   if (decision.state == PoseState::kFix) decision.state = w.believe(t_ns);
   w.report(decision, t_ns);
+
+  // 6. A turn whose place is known tells how the lidar errs always.
+  if (w.teaches(decision)) {
+    const core::Place& at = w.place->verification.places()[decision.place];
+    w.place->bias.learn(*w.map, at.refined.T_map_lidar, w.points.points(),
+                        std::max(1.0, w.result.detection.noise_scale));
+  }
   return w.result;
 }
 
 void Localizer::relocalize() {
   workspace_->memory.forget();
-  workspace_->detector.forget();
   workspace_->T_map_doubted.reset();
+}
+
+void Localizer::forget() {
+  relocalize();
+  workspace_->detector.forget();
+  if (workspace_->place) workspace_->place->bias.forget();
+}
+
+SensorBias Localizer::bias() const {
+  return workspace_->place ? workspace_->place->bias.bias() : workspace_->config.bias;
+}
+
+bool Localizer::Workspace::teaches(const Decision& decision) const {
+  if (!config.learn_bias) return false;
+  if (decision.state != PoseState::kFix && decision.state != PoseState::kTracking) return false;
+  const core::Place& at = place->verification.places()[decision.place];
+  return memory.stands() && at.explanation.near_share() > kTeachingShare;
 }
 
 PoseState Localizer::Workspace::believe(TimeNs t_ns) {
@@ -153,7 +198,8 @@ PoseState Localizer::Workspace::believe(TimeNs t_ns) {
 void Localizer::Workspace::look(const Scan& scan, TimeNs t_ns, const Twist2& as_if_moving) {
   // The returns in the order of their bearing, as a lidar that stood still would have seen them.
   motion = as_if_moving;
-  points.assign(scan, config.min_range_m, config.max_range_m, t_ns, motion);
+  points.assign(scan, config.min_range_m, config.max_range_m, t_ns, motion,
+                place ? place->bias.bias() : config.bias);
 
   // Walls, and the corners and ends of walls between them (ALTBD).
   detector.detect(points, result.detection);
@@ -182,6 +228,14 @@ bool Localizer::Workspace::in_doubt(TimeNs t_ns) const {
 bool Localizer::Workspace::is_smeared() const {
   return place && !place->verification.places().empty() &&
          place->verification.places().front().refined.spread > kSmearedSpread;
+}
+
+/// A bias fits like a motion: walls are where they should be, but not exactly. While the lidar is
+/// new and the robot is seen to stand, it is the bias.
+bool Localizer::Workspace::may_be_biased() const {
+  if (!config.learn_bias || !place || place->verification.places().empty()) return false;
+  return place->bias.turns() < kTurnsOfANewLidar && memory.stands() &&
+         place->verification.places().front().explanation.near_share() > kAllButExact;
 }
 
 std::size_t Localizer::Workspace::best_hits() const {
@@ -246,6 +300,9 @@ void Localizer::Workspace::report_pose(const core::Place& found, TimeNs t_ns) {
   memory.remember(T_map_lidar, t_ns);
   const Covariance3 of_lidar = found.refined.covariance + doubt_of_motion(motion, memory.motion());
   pose.covariance = covariance_of_base(of_lidar, T_map_lidar, pose.T_map_base);
+  if (found.refined.spread > kSmearedSpread && place->bias.turns() < kTurnsOfANewLidar) {
+    pose.covariance += doubt_of_bias();
+  }
   pose.room = map->room_at(pose.T_map_base.translation());
   pose.corners = static_cast<std::size_t>(
       place->recognition.recognised(result.detection.breakpoints, T_map_lidar));

@@ -66,6 +66,12 @@ class Localizer {
   /// Forgets where the robot was: the next turn is recognised without a prior.
   void relocalize();
 
+  /// Forgets everything, what was learnt of the sensor included: as newly constructed.
+  void forget();
+
+  /// How the lidar errs always, as far as it is known by now.
+  SensorBias bias() const;
+
  private:
   struct Workspace;
   std::unique_ptr<Workspace> workspace_;

@@ -3,6 +3,7 @@
 
 #include "core/detector_config.hpp"
 #include "core/geometry/pose2.hpp"
+#include "core/sensor_bias.hpp"
 #include "core/sensor_noise.hpp"
 
 namespace cornerd::core {
@@ -13,6 +14,8 @@ struct LocalizerConfig {
   Pose2 T_base_lidar;
   DetectorConfig detector;
   SensorNoise noise;
+  SensorBias bias;         ///< as far as it is known beforehand
+  bool learn_bias = true;  ///< the rest, from the turns whose place is known
 };
 
 }  // namespace cornerd::core

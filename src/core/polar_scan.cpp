@@ -16,6 +16,11 @@ PolarPoint point_at(double bearing_rad, double range_m, double dt_s) {
   return {bearing_rad, range_m, c, s, range_m * c, range_m * s, dt_s};
 }
 
+PolarPoint unbiased(const PolarPoint& point, const SensorBias& bias) {
+  const double bearing_rad = bias.true_bearing_rad(point.bearing_rad, point.ray_y, point.ray_x);
+  return point_at(bearing_rad, std::max(bias.true_range_m(point.range_m), 1e-6), point.dt_s);
+}
+
 PolarPoint moved(const PolarPoint& point, const Pose2& T_now_then) {
   const Vec2 place = T_now_then * Vec2(point.x_m, point.y_m);
   const double range_m = std::max(place.norm(), 1e-6);
@@ -33,13 +38,15 @@ PolarPoint moved(const PolarPoint& point, const Pose2& T_now_then) {
 PolarScan::PolarScan() { points_.reserve(kMaxSamplesPerTurn); }
 
 void PolarScan::assign(const Scan& scan, double min_range_m, double max_range_m, TimeNs at_ns,
-                       const Twist2& motion) {
+                       const Twist2& motion, const SensorBias& bias) {
   points_.clear();
+  const bool biased = !bias.is_none();
   for (const Sample& sample : scan.samples()) {
     const double range_m = sample.range_m;
     if (!(range_m >= min_range_m && range_m <= max_range_m)) continue;
     const double dt_s = to_seconds(sample.t_ns - at_ns);
-    const PolarPoint point = point_at(sample.bearing_rad, range_m, dt_s);
+    PolarPoint point = point_at(sample.bearing_rad, range_m, dt_s);
+    if (biased) point = unbiased(point, bias);
     points_.push_back(motion.is_rest() ? point : moved(point, motion.over(dt_s)));
   }
   spacing_rad_ = scan.empty() ? 0 : kTwoPi / static_cast<double>(scan.size());

@@ -7,6 +7,7 @@
 
 #include "core/geometry/pose2.hpp"
 #include "core/scan.hpp"
+#include "core/sensor_bias.hpp"
 
 namespace cornerd::core {
 
@@ -30,8 +31,9 @@ class PolarScan {
   /// Keeps the samples within the limits. Allocates nothing.
   /// `motion`: of the lidar; each return is moved to where the lidar of time `at_ns` would have
   /// seen it, so that a turn taken in motion has straight walls.
+  /// `bias`: of the lidar, taken off each return.
   void assign(const Scan& scan, double min_range_m, double max_range_m, TimeNs at_ns = 0,
-              const Twist2& motion = {});
+              const Twist2& motion = {}, const SensorBias& bias = {});
 
   /// For a turn that is still going on: empty, with what is known of its samples' distance.
   void begin(double spacing_rad);

@@ -29,7 +29,7 @@ void Playback::on_result(const core::TurnResult* result) {
   if (result == nullptr) return;
   ++turns_;
   on_turn_(pipeline_.turn(), *result);
-  if (independent_) pipeline_.localizer().relocalize();
+  if (independent_) pipeline_.localizer().forget();
 }
 
 void Playback::play(const std::filesystem::path& file, const replay::RecordingOptions& options) {

@@ -17,17 +17,22 @@ constexpr double kMaxOmega_rad_s = 6;
 /// A motion below this is the noise of two poses, and moves no sample by what a lidar could tell.
 constexpr double kRest_m_s = 0.01;
 constexpr double kRest_rad_s = 0.01;
+/// Two poses of a robot that stands may differ by this, of a lidar whose bias is not known yet.
+constexpr double kStanding_m_s = 0.05;
+constexpr double kStanding_rad_s = 0.05;
 
 }  // namespace
 
 void PoseMemory::remember(const Pose2& T_map_lidar, TimeNs t_ns) {
   const double dt_s = to_seconds(t_ns - last_ns_);
   motion_ = {};
+  stands_ = false;
   if (last_T_map_lidar_ && dt_s > kMinMotionTime_s && dt_s < kMaxMotionTime_s) {
     const Pose2 way = last_T_map_lidar_->inverse() * T_map_lidar;
     const Twist2 seen{way.x_m / dt_s, way.y_m / dt_s, way.theta_rad / dt_s};
     const bool moves = seen.speed_m_s() > kRest_m_s || std::abs(seen.omega_rad_s) > kRest_rad_s;
     if (moves && is_plausible(seen)) motion_ = seen;
+    stands_ = seen.speed_m_s() < kStanding_m_s && std::abs(seen.omega_rad_s) < kStanding_rad_s;
   }
   last_T_map_lidar_ = T_map_lidar;
   last_ns_ = t_ns;
@@ -37,6 +42,7 @@ void PoseMemory::remember(const Pose2& T_map_lidar, TimeNs t_ns) {
 void PoseMemory::forget() {
   last_T_map_lidar_.reset();
   motion_ = {};
+  stands_ = false;
 }
 
 std::optional<Pose2> PoseMemory::prior(TimeNs t_ns) const {

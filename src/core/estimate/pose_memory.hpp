@@ -20,6 +20,9 @@ class PoseMemory {
   /// Of the lidar, in its own axes, from the last two poses; rest where they do not tell.
   const Twist2& motion() const { return motion_; }
 
+  /// True where the last two poses show a robot that did not move between them.
+  bool stands() const { return stands_; }
+
   /// Seconds since the last pose; 0 before the first.
   double age_s(TimeNs t_ns) const { return ever_ ? to_seconds(t_ns - last_ns_) : 0; }
 
@@ -28,6 +31,7 @@ class PoseMemory {
   TimeNs last_ns_ = 0;
   bool ever_ = false;
   Twist2 motion_;
+  bool stands_ = false;
 };
 
 /// True where a robot that needs an A1 may move like this.

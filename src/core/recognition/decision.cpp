@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/recognition/decision.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace cornerd::core {
@@ -16,6 +17,8 @@ constexpr double kMarginPerStranger = 0.25;
 constexpr double kMarginOfThings = 12;
 /// What one thing more may hide of the turn: a door, a person next to the robot.
 constexpr double kOneThingShare = 0.25;
+/// A place that explains so many rays more than the likeliest one is a rival to it, however roughly.
+constexpr std::size_t kRaysForARival = 4;
 /// Where the prior is good enough to choose among rivals.
 constexpr double kPriorRadius_m = 0.25;
 constexpr double kPriorAngle_rad = radians(20);
@@ -28,7 +31,9 @@ Decision decide(std::span<const Place> places, const std::optional<Pose2>& prior
   const Explanation& likeliest = places.front().explanation;
   const auto rays = static_cast<double>(likeliest.rays);
   const auto strangers = static_cast<double>(likeliest.rays - likeliest.hits);
-  const double margin = kMargin + kMarginPerStranger * strangers;
+  // Where not even the likeliest place's walls are as exact as the model, its likelihood is not.
+  const double misfit = std::max(1.0, places.front().refined.spread);
+  const double margin = misfit * (kMargin + kMarginPerStranger * strangers);
   for (std::size_t i = 0; i < places.size(); ++i) {
     const Explanation& other = places[i].explanation;
     const bool as_likely = other.log_likelihood > likeliest.log_likelihood - margin;
@@ -36,7 +41,10 @@ Decision decide(std::span<const Place> places, const std::optional<Pose2>& prior
         other.log_likelihood_of_things > likeliest.log_likelihood_of_things - kMarginOfThings &&
         static_cast<double>(other.shorts) <
             static_cast<double>(likeliest.shorts) + kOneThingShare * rays;
-    if (as_likely || one_thing_apart) decision.rivals = i + 1;
+    // Less exact, but nothing stands in its way: the sensor may be biased, or a wall displaced.
+    const bool explains_more =
+        other.hits + other.near > likeliest.hits + likeliest.near + kRaysForARival;
+    if (as_likely || one_thing_apart || explains_more) decision.rivals = i + 1;
   }
   if (decision.rivals == 1) {
     decision.state = PoseState::kFix;

@@ -43,10 +43,10 @@ TEST(Workload, MoreSamples_TakeMoreTime) {
 
 TEST(InstructionCounter, WhereThereIsOne_CountsWork) {
   InstructionCounter counter;
-  volatile int sum = 0;
-  const auto work = [&](int steps) {
+  volatile unsigned sum = 0;
+  const auto work = [&](unsigned steps) {
     return counter.count([&] {
-      for (int i = 0; i < steps; ++i) sum = sum + i;
+      for (unsigned i = 0; i < steps; ++i) sum = sum + i;
     });
   };
   const auto some = work(1'000);

@@ -44,6 +44,24 @@ TEST(Decide, RivalBehindByRaysOfOneThing_StaysInDoubt) {
   EXPECT_EQ(decide(places, std::nullopt).state, PoseState::kAmbiguous);
 }
 
+TEST(Decide, RivalThatExplainsMoreRays_StaysInDoubt) {
+  // As with a sensor that is off by 1 % and 5 mm: the true place fits less exactly, but all over.
+  std::vector<Place> places = {place_at(1, 1000, 1000), place_at(5, 800, 800)};
+  places[0].explanation.hits = 280;
+  places[1].explanation.hits = 220;
+  places[1].explanation.near = 75;
+  EXPECT_EQ(decide(places, std::nullopt).state, PoseState::kAmbiguous);
+  places[1].explanation.near = 55;
+  EXPECT_EQ(decide(places, std::nullopt).state, PoseState::kFix);
+}
+
+TEST(Decide, WallsLessExactThanTheModel_WidenTheMargin) {
+  std::vector<Place> places = {place_at(1, 1000, 1000), place_at(5, 970, 970)};
+  EXPECT_EQ(decide(places, std::nullopt).state, PoseState::kFix);
+  places[0].refined.spread = 2.5;
+  EXPECT_EQ(decide(places, std::nullopt).state, PoseState::kAmbiguous);
+}
+
 TEST(Decide, PriorAtOneRival_ChoosesIt) {
   const std::vector<Place> places = {place_at(1, 1000, 1000), place_at(5, 995, 995)};
   const Decision decision = decide(places, Pose2{5.1, 0.05, 0.1});

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: MIT
+#include "core/estimate/bias_estimator.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Cholesky>
+
+namespace cornerd::core {
+namespace {
+
+/// What an A1 may be off by before anything is known: standard deviations of scale, offset, and
+/// both parts of the bearing.
+const Eigen::Vector4d kPriorSigma(0.01, 0.005, radians(0.3), radians(0.3));
+/// Beyond these the map is wrong, not the sensor.
+const Eigen::Vector4d kLimit(0.03, 0.02, radians(1.5), radians(1.5));
+/// A turn's information counts for this share: walls are off their place in the map by more than a
+/// point's noise, and by the same in each turn at one place.
+constexpr double kTurnShare = 0.05;
+/// Of what was learnt, a turn forgets this share: a minute at 5.5 turns a second keeps a third.
+constexpr double kForgotten = 0.003;
+constexpr double kCut = 4;
+constexpr std::size_t kMinPoints = 60;
+
+Eigen::Vector4d vector_of(const SensorBias& bias) {
+  return {bias.range_scale, bias.range_offset_m, bias.bearing_sine_rad, bias.bearing_cosine_rad};
+}
+
+}  // namespace
+
+BiasEstimator::BiasEstimator(double max_range_m, const SensorNoise& noise, const SensorBias& known)
+    : noise_(noise), prediction_(max_range_m), bias_(known), known_(vector_of(known)) {}
+
+void BiasEstimator::forget() {
+  bias_ = {known_[0], known_[1], known_[2], known_[3]};
+  information_.setZero();
+  evidence_.setZero();
+  turns_ = 0;
+}
+
+void BiasEstimator::learn(const WallMap& map, const Pose2& T_map_lidar,
+                          std::span<const PolarPoint> points, double noise_scale) {
+  const auto hits = prediction_.cast(map, T_map_lidar, points);
+  const double c = std::cos(T_map_lidar.theta_rad);
+  const double s = std::sin(T_map_lidar.theta_rad);
+  Eigen::Matrix<double, 7, 7> information = Eigen::Matrix<double, 7, 7>::Zero();
+  Eigen::Matrix<double, 7, 1> gradient = Eigen::Matrix<double, 7, 1>::Zero();
+  std::size_t used = 0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (hits[i].face == PredictedHit::kNone) continue;
+    const PolarPoint& point = points[i];
+    const Face& face = map.faces()[hits[i].face];
+    // All in the lidar's frame.
+    const Vec2 normal(c * face.normal.x() + s * face.normal.y(),
+                      c * face.normal.y() - s * face.normal.x());
+    const double height_m = face.normal.dot(T_map_lidar.translation()) - face.offset_m;
+    const double distance_m = normal.x() * point.x_m + normal.y() * point.y_m + height_m;
+    const double along_ray = normal.x() * point.ray_x + normal.y() * point.ray_y;
+    const double across_ray = normal.y() * point.ray_x - normal.x() * point.ray_y;
+    // Wider than the noise: the bias is still in the residuals.
+    const double variance =
+        noise_.variance_across_m2(point.range_m, std::abs(along_ray)) * noise_scale * noise_scale;
+    const double share = 1 - distance_m * distance_m / (kCut * kCut * (variance + 1e-4));
+    if (share <= 0) continue;
+    Eigen::Matrix<double, 7, 1> slope;
+    slope << normal, point.range_m * across_ray, point.range_m * along_ray, along_ray,
+        point.range_m * across_ray * point.ray_y, point.range_m * across_ray * point.ray_x;
+    const double weight = share * share / variance;
+    information.noalias() += weight * slope * slope.transpose();
+    gradient.noalias() += weight * distance_m * slope;
+    ++used;
+  }
+  if (used < kMinPoints) return;
+
+  const Eigen::LDLT<Eigen::Matrix3d> of_pose(information.topLeftCorner<3, 3>());
+  if (of_pose.info() != Eigen::Success || !of_pose.isPositive()) return;
+  const Eigen::Matrix<double, 3, 4> coupled = information.topRightCorner<3, 4>();
+  const Eigen::Matrix<double, 3, 4> solved = of_pose.solve(coupled);
+  const Matrix4 of_bias = information.bottomRightCorner<4, 4>() - coupled.transpose() * solved;
+  const Vector4 pull = gradient.tail<4>() - solved.transpose() * gradient.head<3>();
+  if (!of_bias.allFinite() || !pull.allFinite()) return;
+
+  information_ = (1 - kForgotten) * information_ + kTurnShare * of_bias;
+  evidence_ = (1 - kForgotten) * evidence_ + kTurnShare * (of_bias * vector_of(bias_) + pull);
+  const Vector4 prior = kPriorSigma.cwiseAbs2().cwiseInverse();
+  const Matrix4 sum = information_ + Matrix4(prior.asDiagonal());
+  const Vector4 best = sum.ldlt().solve(evidence_ + prior.cwiseProduct(known_));
+  if (!best.allFinite()) return;
+  const Vector4 limited = best.cwiseMax(-kLimit).cwiseMin(kLimit);
+  bias_ = {limited[0], limited[1], limited[2], limited[3]};
+  ++turns_;
+}
+
+}  // namespace cornerd::core

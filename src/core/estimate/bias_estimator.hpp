@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <span>
+
+#include <Eigen/Core>
+
+#include "core/map/turn_prediction.hpp"
+#include "core/map/wall_map.hpp"
+#include "core/polar_scan.hpp"
+#include "core/sensor_bias.hpp"
+#include "core/sensor_noise.hpp"
+
+namespace cornerd::core {
+
+/// Learns a lidar's bias from the turns whose place is known: least squares of the points'
+/// distances to their walls over the pose of each turn and one bias for all of them. The poses are
+/// eliminated turn by turn (Schur complement), so that a turn leaves a 4 x 4 matrix behind,
+/// whatever its size. Allocates nothing.
+class BiasEstimator {
+ public:
+  BiasEstimator(double max_range_m, const SensorNoise& noise, const SensorBias& known);
+
+  /// What is believed so far; `known` at first.
+  const SensorBias& bias() const { return bias_; }
+  /// Turns that it was learnt from.
+  std::size_t turns() const { return turns_; }
+
+  /// Back to what was known at first.
+  void forget();
+
+  /// `points`: of a turn at rest, corrected by bias(), seen from `T_map_lidar`.
+  void learn(const WallMap& map, const Pose2& T_map_lidar, std::span<const PolarPoint> points,
+             double noise_scale);
+
+ private:
+  using Vector4 = Eigen::Vector4d;
+  using Matrix4 = Eigen::Matrix4d;
+
+  SensorNoise noise_;
+  TurnPrediction prediction_;
+  SensorBias bias_;
+  Vector4 known_;
+  Matrix4 information_ = Matrix4::Zero();  ///< that turns gave, fading
+  Vector4 evidence_ = Vector4::Zero();     ///< information times the bias that they speak for
+  std::size_t turns_ = 0;
+};
+
+}  // namespace cornerd::core

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "core/geometry/angle.hpp"
+
+namespace cornerd::core {
+
+/// How a lidar errs always in the same way: measured = (1 + range_scale) * true + range_offset_m,
+/// at a bearing that is off by bearing_sine_rad * sin(bearing) + bearing_cosine_rad * cos(bearing),
+/// as the eccentricity of its angle disc makes it. On hardware this decides the error of a pose,
+/// not the noise: 1 % and 5 mm cost 6 to 7 mm in rooms of a metre.
+struct SensorBias {
+  double range_scale = 0;
+  double range_offset_m = 0;
+  double bearing_sine_rad = 0;
+  double bearing_cosine_rad = 0;
+
+  bool is_none() const {
+    return range_scale == 0 && range_offset_m == 0 && bearing_sine_rad == 0 &&
+           bearing_cosine_rad == 0;
+  }
+  double true_range_m(double measured_m) const {
+    return (measured_m - range_offset_m) / (1 + range_scale);
+  }
+  /// The sine and cosine of the claimed bearing are known to most callers.
+  double true_bearing_rad(double claimed_rad, double sine, double cosine) const {
+    return normalize_angle(claimed_rad - bearing_sine_rad * sine - bearing_cosine_rad * cosine);
+  }
+};
+
+}  // namespace cornerd::core

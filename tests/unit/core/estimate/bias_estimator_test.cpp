@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: MIT
+#include "core/estimate/bias_estimator.hpp"
+
+#include <gtest/gtest.h>
+
+#include "../fixtures.hpp"
+#include "core/localizer.hpp"
+
+namespace cornerd::core {
+namespace {
+
+/// The same turn as a lidar with this bias gives it.
+Scan biased(const Scan& turn, const SensorBias& bias) {
+  Scan result;
+  for (Sample sample : turn.samples()) {
+    if (sample.range_m > 0) {
+      sample.range_m =
+          static_cast<float>((1 + bias.range_scale) * sample.range_m + bias.range_offset_m);
+    }
+    const double bearing_rad = sample.bearing_rad;
+    sample.bearing_rad = static_cast<float>(
+        normalize_angle(bearing_rad + bias.bearing_sine_rad * std::sin(bearing_rad) +
+                        bias.bearing_cosine_rad * std::cos(bearing_rad)));
+    result.add(sample);
+  }
+  return result;
+}
+
+constexpr SensorBias kBias{0.01, 0.005, radians(0.2), radians(-0.2)};
+
+/// Mean position error at the last ten of `places` places, ten turns at each.
+double error_after_m(int places, Localizer& localizer, const WallMap& map) {
+  testing::TurnSource source(61);
+  testing::TurnOptions options;
+  double error_m = 0;
+  int fixes = 0;
+  for (int place = 0; place < places; ++place) {
+    const Pose2 T_map_lidar = source.place_in(0.4, 2.2, 0.4, 1.4);
+    localizer.relocalize();
+    for (int k = 0; k < 10; ++k) {
+      options.start_ns += from_seconds(0.137);
+      const Scan turn = biased(source.take(map, T_map_lidar, options), kBias);
+      const PoseEstimate& pose = localizer.step(turn).pose;
+      const bool named = pose.state == PoseState::kFix || pose.state == PoseState::kTracking;
+      if (!named || place < places - 10) continue;
+      error_m += (pose.T_map_base.translation() - T_map_lidar.translation()).norm();
+      ++fixes;
+    }
+  }
+  EXPECT_GE(fixes, 40);
+  return error_m / fixes;
+}
+
+TEST(BiasEstimator, TurnsAtKnownPlaces_ShowTheBias) {
+  const auto map = testing::make_map(testing::l_shaped_room());
+  BiasEstimator estimator(12, {}, {});
+  testing::TurnSource source(62);
+  PolarScan points;
+  for (int k = 0; k < 60; ++k) {
+    const Pose2 T_map_lidar = source.place_in(0.4, 2.2, 0.4, 1.4);
+    points.assign(biased(source.take(*map, T_map_lidar), kBias), 0.1, 12, 0, {}, estimator.bias());
+    estimator.learn(*map, T_map_lidar, points.points(), 1);
+  }
+  EXPECT_EQ(estimator.turns(), 60U);
+  EXPECT_NEAR(estimator.bias().range_scale, kBias.range_scale, 0.0015);
+  EXPECT_NEAR(estimator.bias().range_offset_m, kBias.range_offset_m, 0.0015);
+  EXPECT_NEAR(estimator.bias().bearing_sine_rad, kBias.bearing_sine_rad, radians(0.03));
+  EXPECT_NEAR(estimator.bias().bearing_cosine_rad, kBias.bearing_cosine_rad, radians(0.03));
+}
+
+TEST(BiasEstimator, SensorWithoutBias_IsLeftAsItIs) {
+  const auto map = testing::make_map(testing::l_shaped_room());
+  BiasEstimator estimator(12, {}, {});
+  testing::TurnSource source(63);
+  PolarScan points;
+  for (int k = 0; k < 60; ++k) {
+    const Pose2 T_map_lidar = source.place_in(0.4, 2.2, 0.4, 1.4);
+    points.assign(source.take(*map, T_map_lidar), 0.1, 12, 0, {}, estimator.bias());
+    estimator.learn(*map, T_map_lidar, points.points(), 1);
+  }
+  EXPECT_NEAR(estimator.bias().range_scale, 0, 0.001);
+  EXPECT_NEAR(estimator.bias().range_offset_m, 0, 0.001);
+  EXPECT_NEAR(estimator.bias().bearing_sine_rad, 0, radians(0.03));
+  EXPECT_NEAR(estimator.bias().bearing_cosine_rad, 0, radians(0.03));
+}
+
+TEST(BiasEstimator, TurnOfFewPoints_TeachesNothing) {
+  const auto map = testing::make_map(testing::l_shaped_room());
+  BiasEstimator estimator(12, {}, {});
+  testing::TurnSource source(64);
+  testing::TurnOptions sparse;
+  sparse.samples = 30;
+  estimator.learn(*map, {1, 1, 0}, testing::polar(source.take(*map, {1, 1, 0}, sparse)).points(),
+                  1);
+  EXPECT_EQ(estimator.turns(), 0U);
+  EXPECT_TRUE(estimator.bias().is_none());
+}
+
+TEST(Localizer, BiasedLidar_IsLearntWhileItRuns) {
+  const auto map = testing::make_map(testing::l_shaped_room());
+  Localizer learning(map, {});
+  LocalizerConfig config;
+  config.learn_bias = false;
+  Localizer trusting(map, config);
+  const double with_m = error_after_m(20, learning, *map);
+  const double without_m = error_after_m(20, trusting, *map);
+  EXPECT_LT(with_m, 0.001);
+  EXPECT_GT(without_m, 0.004);
+  EXPECT_NEAR(learning.bias().range_scale, kBias.range_scale, 0.002);
+  EXPECT_TRUE(trusting.bias().is_none());
+  learning.forget();
+  EXPECT_TRUE(learning.bias().is_none());
+}
+
+TEST(Localizer, BiasThatIsKnown_IsTakenOffFromTheFirstTurn) {
+  const auto map = testing::make_map(testing::l_shaped_room());
+  LocalizerConfig config;
+  config.bias = kBias;
+  config.learn_bias = false;
+  Localizer localizer(map, config);
+  EXPECT_LT(error_after_m(10, localizer, *map), 0.001);
+}
+
+}  // namespace
+}  // namespace cornerd::core
