@@ -34,6 +34,14 @@ void read_mount(ObjectReader mount, MountConfig& config) {
   mount.finish();
 }
 
+void read_bias(ObjectReader bias, core::SensorBias& config) {
+  bias.number("range_scale", config.range_scale, {-0.1, 0.1});
+  bias.number("range_offset", config.range_offset_m, {-0.1, 0.1});
+  bias.number("bearing_sine", config.bearing_sine_rad, {-0.1, 0.1});
+  bias.number("bearing_cosine", config.bearing_cosine_rad, {-0.1, 0.1});
+  bias.finish();
+}
+
 /// A name, or an object where the motor hangs on a line of its own.
 void read_motor(ObjectReader& lidar, MotorConfig& config) {
   const Json* value = lidar.find("motor");
@@ -69,6 +77,8 @@ void read_lidar(ObjectReader lidar, LidarConfig& config) {
   lidar.number("min_range", config.min_range_m, {0, 40});
   lidar.number("max_range", config.max_range_m, {0.1, 40});
   read_noise(lidar.object("noise"), config.noise);
+  read_bias(lidar.object("bias"), config.bias);
+  lidar.boolean("learn_bias", config.learn_bias);
   read_mount(lidar.object("mount"), config.mount);
   read_motor(lidar, config.motor);
   lidar.path("file", config.file);
@@ -138,6 +148,8 @@ core::LocalizerConfig Config::localizer() const {
                          core::normalize_angle(lidar.mount.theta_rad)};
   config.detector = detector;
   config.noise = lidar.noise.sensor;
+  config.bias = lidar.bias;
+  config.learn_bias = lidar.learn_bias;
   return config;
 }
 

@@ -54,6 +54,8 @@ struct LidarConfig {
   double min_range_m = 0.15;
   double max_range_m = 12.0;
   NoiseConfig noise;
+  core::SensorBias bias;
+  bool learn_bias = true;
   MountConfig mount;
   MotorConfig motor;
   std::filesystem::path file;  ///< replay: the recording

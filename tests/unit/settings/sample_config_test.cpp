@@ -48,6 +48,7 @@ TEST(FullSample, EveryKeyTheProgramKnows_IsThere) {
   }
   expect_all_known_keys_in(sample["lidar"]["mount"], "/lidar/mount", text);
   expect_all_known_keys_in(sample["lidar"]["noise"], "/lidar/noise", text);
+  expect_all_known_keys_in(sample["lidar"]["bias"], "/lidar/bias", text);
   for (const char* section : {"altbd", "printed_altbd", "abd_iepf", "lt", "extraction"}) {
     expect_all_known_keys_in(sample["detector"][section], std::string("/detector/") + section,
                              text);
@@ -106,6 +107,8 @@ TEST(FullSample, EveryValue_IsTheDefault) {
   EXPECT_NEAR(sample.lidar.noise.sensor.bearing_rad, defaults.lidar.noise.sensor.bearing_rad, 1e-6);
   EXPECT_TRUE(sample.lidar.noise.sensor.table.empty());
   EXPECT_TRUE(sample.lidar.noise.wall.empty());
+  EXPECT_TRUE(sample.lidar.bias.is_none());
+  EXPECT_EQ(sample.lidar.learn_bias, defaults.lidar.learn_bias);
   EXPECT_EQ(sample.lidar.mount.x_m, defaults.lidar.mount.x_m);
   EXPECT_EQ(sample.lidar.mount.y_m, defaults.lidar.mount.y_m);
   EXPECT_EQ(sample.lidar.mount.theta_rad, defaults.lidar.mount.theta_rad);
