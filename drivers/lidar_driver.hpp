@@ -8,6 +8,7 @@
 #include <stop_token>
 #include <string_view>
 
+#include "core/odometry/odometry_reading.hpp"
 #include "core/ring_buffer.hpp"
 #include "core/types.hpp"
 
@@ -67,6 +68,8 @@ class SampleSink {
   virtual void on_sample(const core::Sample& sample) = 0;
   /// The stream has a hole that the samples do not show: begin a new turn.
   virtual void on_gap() = 0;
+  /// Of wheels and gyro: from recordings that hold both, among the samples of the same time.
+  virtual void on_reading(const core::OdometryReading& /*reading*/) {}
   /// False while there is no room for another sample. A device cannot wait for it, a recording
   /// that is played as fast as it goes does.
   virtual bool ready() const { return true; }

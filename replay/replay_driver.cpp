@@ -62,7 +62,7 @@ class ReplayDriver::Pacer : public RecordingSink {
   }
 
   void on_gap() override { sink_.on_gap(); }
-  void on_odometry(const message::OdometryReading&) override {}
+  void on_odometry(const message::OdometryReading& reading) override { sink_.on_reading(reading); }
 
   std::uint64_t samples_of_pass() const { return samples_of_pass_; }
   double rate_hz() const { return rate_hz_; }

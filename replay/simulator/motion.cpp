@@ -9,13 +9,42 @@
 namespace cornerd::replay {
 namespace {
 
-/// A piece of a drive at constant rates.
+/// Along a piece of a drive of some length (or angle), up to a rate and down again.
+class Profile {
+ public:
+  Profile() = default;
+  /// `acceleration`: 0 is at once.
+  Profile(double length, double rate, double acceleration) : length_(length), rate_(rate) {
+    if (acceleration > 0) {
+      rate_ = std::min(rate, std::sqrt(length * acceleration));
+      ramp_s_ = rate_ / acceleration;
+    }
+    duration_s_ = length / rate_ + ramp_s_;
+  }
+  double duration_s() const { return duration_s_; }
+  /// In [0, 1].
+  double share(double t_s) const {
+    t_s = std::clamp(t_s, 0.0, duration_s_);
+    const double left_s = duration_s_ - t_s;
+    if (t_s < ramp_s_) return rate_ * t_s * t_s / (2 * ramp_s_) / length_;
+    if (left_s < ramp_s_) return 1 - rate_ * left_s * left_s / (2 * ramp_s_) / length_;
+    return rate_ * (t_s - ramp_s_ / 2) / length_;
+  }
+
+ private:
+  double length_ = 1;
+  double rate_ = 1;
+  double ramp_s_ = 0;
+  double duration_s_ = 0;
+};
+
+/// Straight on, or a turn on the spot.
 struct Leg {
   double start_s = 0;
-  double duration_s = 0;
   core::Pose2 from;
-  core::Vec2 velocity_m_s = core::Vec2::Zero();
-  double yaw_rate_rad_s = 0;
+  core::Vec2 way_m = core::Vec2::Zero();
+  double turn_rad = 0;
+  Profile profile;
 };
 
 class Drive {
@@ -30,6 +59,9 @@ class Drive {
     if (!(config.speed_m_s > 0) || !(config.yaw_rate_rad_s > 0)) {
       throw std::invalid_argument("speed and yaw rate of a drive must be positive");
     }
+    if (!(config.acceleration_m_s2 >= 0) || !(config.yaw_acceleration_rad_s2 >= 0)) {
+      throw std::invalid_argument("accelerations of a drive must not be negative");
+    }
     end_ = {stops[0].x(), stops[0].y(), heading(stops[0], stops[1])};
     const double first_heading_rad = end_.theta_rad;
     for (std::size_t i = 1; i < stops.size(); ++i) go_to(stops[i]);
@@ -39,14 +71,16 @@ class Drive {
     }
   }
 
+  double duration_s() const { return length_s_; }
+
   core::Pose2 pose_at(double t_s) const {
     if (config_.loop) t_s = std::fmod(t_s, length_s_);
     const auto after = std::upper_bound(legs_.begin(), legs_.end(), t_s,
                                         [](double t, const Leg& leg) { return t < leg.start_s; });
     const Leg& leg = after == legs_.begin() ? legs_.front() : *(after - 1);
-    const double dt_s = std::clamp(t_s - leg.start_s, 0.0, leg.duration_s);
-    return {leg.from.x_m + leg.velocity_m_s.x() * dt_s, leg.from.y_m + leg.velocity_m_s.y() * dt_s,
-            core::normalize_angle(leg.from.theta_rad + leg.yaw_rate_rad_s * dt_s)};
+    const double share = leg.profile.share(t_s - leg.start_s);
+    return {leg.from.x_m + leg.way_m.x() * share, leg.from.y_m + leg.way_m.y() * share,
+            core::normalize_angle(leg.from.theta_rad + leg.turn_rad * share)};
   }
 
  private:
@@ -57,19 +91,20 @@ class Drive {
   void turn_to(double heading_rad) {
     const double turn_rad = core::angle_between(end_.theta_rad, heading_rad);
     if (turn_rad == 0) return;
-    const double duration_s = std::abs(turn_rad) / config_.yaw_rate_rad_s;
-    legs_.push_back({length_s_, duration_s, end_, core::Vec2::Zero(), turn_rad / duration_s});
+    const Profile profile(std::abs(turn_rad), config_.yaw_rate_rad_s,
+                          config_.yaw_acceleration_rad_s2);
+    legs_.push_back({length_s_, end_, core::Vec2::Zero(), turn_rad, profile});
     end_.theta_rad = heading_rad;
-    length_s_ += duration_s;
+    length_s_ += profile.duration_s();
   }
 
   void go_to(const core::Vec2& point) {
     turn_to(heading(end_.translation(), point));
     const core::Vec2 way = point - end_.translation();
-    const double duration_s = way.norm() / config_.speed_m_s;
-    legs_.push_back({length_s_, duration_s, end_, way / duration_s, 0});
+    const Profile profile(way.norm(), config_.speed_m_s, config_.acceleration_m_s2);
+    legs_.push_back({length_s_, end_, way, 0, profile});
     end_ = {point.x(), point.y(), end_.theta_rad};
-    length_s_ += duration_s;
+    length_s_ += profile.duration_s();
   }
 
   DriveConfig config_;
@@ -92,6 +127,10 @@ Motion visit_places(std::vector<core::Pose2> places, std::int64_t turns_each) {
     const std::int64_t index = std::clamp<std::int64_t>(turn / turns_each, 0, last);
     return places[static_cast<std::size_t>(index)];
   };
+}
+
+double drive_duration_s(const std::vector<core::Vec2>& points, const DriveConfig& config) {
+  return Drive(points, config).duration_s();
 }
 
 Motion drive_path(const std::vector<core::Vec2>& points, const DriveConfig& config) {

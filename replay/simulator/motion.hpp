@@ -23,8 +23,10 @@ Motion visit_places(std::vector<core::Pose2> places, std::int64_t turns_each);
 
 struct DriveConfig {
   double speed_m_s = 0.2;
-  double yaw_rate_rad_s = 1.5;  ///< while it turns on the spot
-  bool loop = false;            ///< from the last point back to the first, for ever
+  double yaw_rate_rad_s = 1.5;         ///< while it turns on the spot
+  double acceleration_m_s2 = 0;        ///< 0: at once
+  double yaw_acceleration_rad_s2 = 0;  ///< 0: at once
+  bool loop = false;                   ///< from the last point back to the first, for ever
 };
 
 /// Drives straight from point to point and turns on the spot in between, as a robot with two wheels
@@ -32,5 +34,8 @@ struct DriveConfig {
 /// loops. Throws std::invalid_argument for fewer than two different points, or a rate that is not
 /// positive.
 Motion drive_path(const std::vector<core::Vec2>& points, const DriveConfig& config);
+
+/// How long that takes, once around where it loops.
+double drive_duration_s(const std::vector<core::Vec2>& points, const DriveConfig& config);
 
 }  // namespace cornerd::replay

@@ -2,12 +2,14 @@
 #include "replay/simulator/simulated_recording.hpp"
 
 #include <algorithm>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 #include <vector>
 
 #include "replay/simulator/byte_faults.hpp"
 #include "replay/simulator/serial_line.hpp"
+#include "replay/simulator/simulated_odometry.hpp"
 
 namespace cornerd::replay {
 namespace {
@@ -19,6 +21,7 @@ constexpr core::TimeNs kTruthPeriodNs = 10'000'000;
 /// capsule is up to 44 degrees long, and is decoded when the next one has arrived.
 constexpr double kLeadOutShare = 0.3;
 
+constexpr std::uint64_t kOdometrySeed = 0xA0761D6478BD642Fu;
 constexpr std::uint64_t kFaultSeed = 0xD1B54A32D192ED03u;
 constexpr std::uint64_t kJitterSeed = 0x8CB92BA72F3D8DD7u;
 
@@ -56,14 +59,59 @@ class TruthSampler {
   core::TimeNs written_ns_ = -1;
 };
 
+/// A map with something over the lidar for a while.
+class CoveredScene final : public MapScene {
+ public:
+  CoveredScene(std::shared_ptr<const core::WallMap> map, const Motion& motion,
+               const SimulatedRecordingConfig& config)
+      : MapScene(std::move(map), motion, config.T_base_lidar),
+        from_ns_(config.covered_from_ns),
+        to_ns_(config.covered_to_ns) {}
+
+  double range_along(core::TimeNs t_ns, std::int64_t turn, const core::Vec2& origin,
+                     double bearing_rad) override {
+    if (t_ns >= from_ns_ && t_ns < to_ns_) return 0;
+    return MapScene::range_along(t_ns, turn, origin, bearing_rad);
+  }
+
+ private:
+  core::TimeNs from_ns_;
+  core::TimeNs to_ns_;
+};
+
+/// What the robot's controller sends meanwhile, in the order of time.
+class OdometryLines {
+ public:
+  OdometryLines(const SimulatedRecordingConfig& config, const Motion& motion,
+                RecordingWriter& recording)
+      : recording_(recording) {
+    if (config.robot) {
+      odometry_.emplace(motion, *config.robot, config.simulator.seed ^ kOdometrySeed);
+    }
+  }
+
+  void write_until(core::TimeNs t_ns) {
+    while (odometry_ && odometry_->next_ns() <= t_ns) {
+      const core::OdometryReading reading = odometry_->next();
+      recording_.odometry({reading.t_ns, true, *reading.left, *reading.right,
+                           reading.gyro_rad_s.has_value(), reading.gyro_rad_s.value_or(0)});
+    }
+  }
+
+ private:
+  RecordingWriter& recording_;
+  std::optional<SimulatedOdometry> odometry_;
+};
+
 /// What a reader gets of the bytes: portions, some damaged, each a little late.
 class Reads {
  public:
-  Reads(const SimulatedRecordingConfig& config, RecordingWriter& recording)
+  Reads(const SimulatedRecordingConfig& config, RecordingWriter& recording, OdometryLines& odometry)
       : faults_(config.byte_fault_share, config.simulator.seed ^ kFaultSeed),
         random_(config.simulator.seed ^ kJitterSeed),
         jitter_s_(config.arrival_jitter_s),
-        recording_(recording) {}
+        recording_(recording),
+        odometry_(odometry) {}
 
   void send(core::TimeNs ready_ns, std::span<const std::uint8_t> bytes) {
     line_.send(ready_ns, bytes.size());
@@ -75,6 +123,7 @@ class Reads {
     const core::TimeNs late_ns = core::from_seconds(random_.uniform(0, jitter_s_));
     arrival_ns_ = std::max(arrival_ns_, line_.free_ns() + late_ns);
     const std::span<const std::uint8_t> arrived = faults_.pass(portion_);
+    odometry_.write_until(arrival_ns_);
     recording_.received(arrival_ns_, arrived);
     bytes_ += arrived.size();
     portion_.clear();
@@ -89,6 +138,7 @@ class Reads {
   Random random_;
   double jitter_s_;
   RecordingWriter& recording_;
+  OdometryLines& odometry_;
   std::vector<std::uint8_t> portion_;
   core::TimeNs arrival_ns_ = 0;
   std::uint64_t bytes_ = 0;
@@ -104,10 +154,11 @@ SimulatedRecordingSummary simulate_recording(std::shared_ptr<const core::WallMap
   if (!(config.byte_fault_share >= 0 && config.byte_fault_share < 1)) {
     throw std::invalid_argument("the share of bad bytes must be in [0, 1)");
   }
-  Simulator simulator(std::make_unique<MapScene>(std::move(map), motion, config.T_base_lidar),
+  Simulator simulator(std::make_unique<CoveredScene>(std::move(map), motion, config),
                       config.simulator);
   TruthSampler truth_sampler(motion, truth);
-  Reads reads(config, recording);
+  OdometryLines odometry(config, motion, recording);
+  Reads reads(config, recording, odometry);
   if (config.with_descriptor) {
     const DescriptorBytes descriptor = simulator.descriptor();
     reads.send(0, descriptor);

@@ -3,10 +3,12 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 
 #include "core/map/wall_map.hpp"
 #include "replay/recording_writer.hpp"
 #include "replay/simulator/motion.hpp"
+#include "replay/simulator/robot_model.hpp"
 #include "replay/simulator/simulator.hpp"
 
 namespace cornerd::replay {
@@ -14,10 +16,14 @@ namespace cornerd::replay {
 struct SimulatedRecordingConfig {
   SimulatorConfig simulator;
   core::Pose2 T_base_lidar;
-  std::int64_t turns = 10;         ///< whole turns in the recording
-  double byte_fault_share = 0;     ///< bytes lost or damaged on the way (ByteFaults)
-  double arrival_jitter_s = 1e-3;  ///< a read is late by up to this, evenly
-  bool with_descriptor = true;     ///< begin with the response descriptor
+  std::int64_t turns = 10;          ///< whole turns in the recording
+  double byte_fault_share = 0;      ///< bytes lost or damaged on the way (ByteFaults)
+  double arrival_jitter_s = 1e-3;   ///< a read is late by up to this, evenly
+  bool with_descriptor = true;      ///< begin with the response descriptor
+  std::optional<RobotModel> robot;  ///< what tells the ODOMETRY lines; without it there are none
+  /// Something hangs over the lidar for this time: nothing returns.
+  core::TimeNs covered_from_ns = 0;
+  core::TimeNs covered_to_ns = 0;
 };
 
 struct SimulatedRecordingSummary {

@@ -48,6 +48,9 @@ constexpr double kTeachingShare = 0.8;
 /// least roughly where a bias is all that is wrong.
 constexpr std::size_t kTurnsOfANewLidar = 20;
 constexpr double kAllButExact = 0.95;
+/// How sure somebody is who says where the robot is.
+constexpr double kGivenSigma_m = 0.1;
+constexpr double kGivenSigma_rad = radians(5);
 /// Residuals this much beyond the turn's own noise are smeared by a motion.
 constexpr double kSmearedSpread = 1.4;
 
@@ -81,10 +84,12 @@ struct Localizer::Workspace {
       : config(the_config),
         T_lidar_base(the_config.T_base_lidar.inverse()),
         map(std::move(the_map)),
-        detector(the_config.detector, the_config.noise) {
+        detector(the_config.detector, the_config.noise),
+        odometer(the_config.odometry) {
     if (map) place.emplace(*map, config);
   }
 
+  const Scan& straightened(const Scan& turn, TimeNs t_ns);
   void look(const Scan& scan, TimeNs t_ns, const Twist2& as_if_moving);
   void look_for_the_motion(const Scan& scan, TimeNs t_ns);
   void look_everywhere(TimeNs t_ns);
@@ -97,6 +102,8 @@ struct Localizer::Workspace {
   void report(const Decision& decision, TimeNs t_ns);
   void report_pose(const core::Place& found, TimeNs t_ns);
   void report_alternatives(std::span<const core::Place> rivals);
+  void report_prediction(const PredictedPose& predicted);
+  bool contradicts(const PredictedPose& predicted) const;
 
   LocalizerConfig config;
   Pose2 T_lidar_base;
@@ -104,6 +111,8 @@ struct Localizer::Workspace {
   Detector detector;
   std::optional<Place> place;
 
+  Odometer odometer;
+  Scan still;  ///< the turn as a lidar that stood still would have seen it
   PoseMemory memory;
   PolarScan points;
   Twist2 motion;                       ///< that `points` were moved back by
@@ -117,10 +126,14 @@ Localizer::~Localizer() = default;
 Localizer::Localizer(Localizer&&) noexcept = default;
 Localizer& Localizer::operator=(Localizer&&) noexcept = default;
 
-const TurnResult& Localizer::step(const Scan& scan) {
+const TurnResult& Localizer::step(const Scan& turn) {
   Workspace& w = *workspace_;
-  const TimeNs t_ns = scan.start_ns() + (scan.end_ns() - scan.start_ns()) / 2;
+  const TimeNs t_ns = turn.start_ns() + (turn.end_ns() - turn.start_ns()) / 2;
   ++w.result.pose.seq;
+
+  // 0. Odometry, where there is any, says how the robot moved during the turn and where it should
+  // be.
+  const Scan& scan = w.straightened(turn, t_ns);
 
   // 1. The turn's walls and corners, and the places whose corners form the same pattern, tested
   //    against every ray.
@@ -151,13 +164,30 @@ const TurnResult& Localizer::step(const Scan& scan) {
   return w.result;
 }
 
+void Localizer::add(const OdometryReading& reading, std::optional<TimeNs> now_ns) {
+  workspace_->odometer.add(reading, now_ns);
+}
+
+void Localizer::set_pose(const Pose2& T_map_base) {
+  relocalize();
+  Workspace& w = *workspace_;
+  const Covariance3 doubt =
+      Eigen::Vector3d(kGivenSigma_m * kGivenSigma_m, kGivenSigma_m * kGivenSigma_m,
+                      kGivenSigma_rad * kGivenSigma_rad)
+          .asDiagonal();
+  w.memory.remember(T_map_base * w.config.T_base_lidar, w.result.pose.t_ns);
+  w.odometer.set_pose(T_map_base, doubt);
+}
+
 void Localizer::relocalize() {
+  workspace_->odometer.forget();
   workspace_->memory.forget();
   workspace_->T_map_doubted.reset();
 }
 
 void Localizer::forget() {
   relocalize();
+  workspace_->odometer = Odometer(workspace_->config.odometry);
   workspace_->detector.forget();
   if (workspace_->place) workspace_->place->bias.forget();
 }
@@ -171,6 +201,17 @@ bool Localizer::Workspace::teaches(const Decision& decision) const {
   if (decision.state != PoseState::kFix && decision.state != PoseState::kTracking) return false;
   const core::Place& at = place->verification.places()[decision.place];
   return memory.stands() && at.explanation.near_share() > kTeachingShare;
+}
+
+const Scan& Localizer::Workspace::straightened(const Scan& turn, TimeNs t_ns) {
+  odometer.advance(turn.start_ns(), t_ns, turn.end_ns());
+  std::optional<Pose2> T_map_lidar;
+  if (const auto predicted = odometer.prediction()) {
+    T_map_lidar = predicted->T_map_base * config.T_base_lidar;
+  }
+  const bool known = odometer.straighten(turn, config.T_base_lidar, still);
+  memory.expect(T_map_lidar, known);
+  return known ? still : turn;
 }
 
 PoseState Localizer::Workspace::believe(TimeNs t_ns) {
@@ -290,7 +331,29 @@ void Localizer::Workspace::report(const Decision& decision, TimeNs t_ns) {
   } else if (decision.state == PoseState::kAmbiguous) {
     report_alternatives(place->verification.places().first(decision.rivals));
   }
+  if (pose.state == PoseState::kLost || pose.state == PoseState::kAmbiguous) {
+    const auto predicted = odometer.prediction();
+    if (predicted && !contradicts(*predicted)) report_prediction(*predicted);
+  }
   pose.age_s = memory.age_s(t_ns);
+  result.odometry = odometer.summary();
+}
+
+bool Localizer::Workspace::contradicts(const PredictedPose& predicted) const {
+  if (result.pose.state == PoseState::kLost) return T_map_doubted.has_value();
+  const auto is_near = [&](const Alternative& other) {
+    return same_place(predicted.T_map_base, other.T_map_base, kJump_m, kJump_rad);
+  };
+  return std::none_of(result.pose.alternatives.begin(), result.pose.alternatives.end(), is_near);
+}
+
+void Localizer::Workspace::report_prediction(const PredictedPose& predicted) {
+  PoseEstimate& pose = result.pose;
+  pose.state = PoseState::kPredicted;
+  pose.alternatives.clear();
+  pose.T_map_base = predicted.T_map_base;
+  pose.covariance = predicted.covariance;
+  if (map) pose.room = map->room_at(pose.T_map_base.translation());
 }
 
 void Localizer::Workspace::report_pose(const core::Place& found, TimeNs t_ns) {
@@ -298,11 +361,14 @@ void Localizer::Workspace::report_pose(const core::Place& found, TimeNs t_ns) {
   PoseEstimate& pose = result.pose;
   pose.T_map_base = T_map_lidar * T_lidar_base;
   memory.remember(T_map_lidar, t_ns);
-  const Covariance3 of_lidar = found.refined.covariance + doubt_of_motion(motion, memory.motion());
+  const Covariance3 of_lidar = found.refined.covariance +
+                               (odometer.knows_motion() ? odometer.doubt_of_motion()
+                                                        : doubt_of_motion(motion, memory.motion()));
   pose.covariance = covariance_of_base(of_lidar, T_map_lidar, pose.T_map_base);
   if (found.refined.spread > kSmearedSpread && place->bias.turns() < kTurnsOfANewLidar) {
     pose.covariance += doubt_of_bias();
   }
+  odometer.correct(pose.T_map_base, pose.covariance);
   pose.room = map->room_at(pose.T_map_base.translation());
   pose.corners = static_cast<std::size_t>(
       place->recognition.recognised(result.detection.breakpoints, T_map_lidar));

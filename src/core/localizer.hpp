@@ -12,6 +12,7 @@
 #include "core/geometry/pose2.hpp"
 #include "core/localizer_config.hpp"
 #include "core/map/wall_map.hpp"
+#include "core/odometry/odometer.hpp"
 #include "core/scan.hpp"
 
 namespace cornerd::core {
@@ -47,6 +48,7 @@ struct TurnResult {
   TurnResult() { pose.alternatives.reserve(kMaxAlternatives); }
   PoseEstimate pose;
   Detection detection;
+  OdometrySummary odometry;
 };
 
 /// Finds the robot in a map, turn by turn. All memory is taken at construction: step() allocates
@@ -62,6 +64,12 @@ class Localizer {
 
   /// Localizes in one complete turn. The result is valid until the next call.
   const TurnResult& step(const Scan& scan);
+
+  /// What wheels and gyro say; before the turn that it belongs to. `now_ns`: see ReadingGate.
+  void add(const OdometryReading& reading, std::optional<TimeNs> now_ns);
+
+  /// Somebody knows that the robot is about there, as of the last turn.
+  void set_pose(const Pose2& T_map_base);
 
   /// Forgets where the robot was: the next turn is recognised without a prior.
   void relocalize();

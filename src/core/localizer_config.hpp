@@ -4,6 +4,7 @@
 #include "core/detector_config.hpp"
 #include "core/geometry/pose2.hpp"
 #include "core/sensor_bias.hpp"
+#include "core/odometry/odometry_config.hpp"
 #include "core/sensor_noise.hpp"
 
 namespace cornerd::core {
@@ -16,6 +17,7 @@ struct LocalizerConfig {
   SensorNoise noise;
   SensorBias bias;         ///< as far as it is known beforehand
   bool learn_bias = true;  ///< the rest, from the turns whose place is known
+  OdometryConfig odometry;
 };
 
 }  // namespace cornerd::core

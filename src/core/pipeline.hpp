@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <utility>
 
 #include "core/localizer.hpp"
@@ -20,8 +21,12 @@ class Pipeline {
   /// What a turn gave, where this sample is the first after it; else null. Valid, like turn(),
   /// until the next call.
   const TurnResult* add(const Sample& sample) {
+    now_ns_ = sample.t_ns;
     return assembler_.add(sample, turn_) ? &localizer_.step(turn_) : nullptr;
   }
+
+  /// What the robot's wheels and gyro say, in the order of time among the samples.
+  void add(const OdometryReading& reading) { localizer_.add(reading, now_ns_); }
 
   /// The stream ends, or goes on somewhere else: what the turn in progress gave, where it is whole.
   const TurnResult* finish() {
@@ -37,6 +42,7 @@ class Pipeline {
   const TurnAssembler& assembler() const { return assembler_; }
 
  private:
+  std::optional<TimeNs> now_ns_;  ///< of the newest sample
   TurnAssembler assembler_;
   Scan turn_;
   Localizer localizer_;

@@ -48,7 +48,7 @@ void ask_for_realtime(const settings::RealtimeConfig& config, Localization& loca
 Daemon::Daemon(const settings::Config& config, std::shared_ptr<const core::WallMap> map,
                std::unique_ptr<drivers::LidarDriver> lidar, std::string version)
     : is_live_(config.lidar.driver != settings::DriverKind::kReplay),
-      server_(loop_, std::move(version), [this] { localization_.relocalize(); }),
+      server_(loop_, std::move(version), control_actions(config)),
       turns_(server_, map),
       status_(server_, notifier_),
       tick_(kTick),
@@ -70,6 +70,21 @@ Daemon::Daemon(const settings::Config& config, std::shared_ptr<const core::WallM
     watchdog_.emplace(microseconds(*period_us));
     loop_.add(watchdog_->fd(), EPOLLIN, [this](std::uint32_t) { on_watchdog(); });
   }
+}
+
+ControlActions Daemon::control_actions(const settings::Config& config) {
+  ControlActions actions;
+  actions.relocalize = [this] { localization_.relocalize(); };
+  actions.set_pose = [this](const message::SetPoseRequest& request) {
+    localization_.set_pose(request.T_map_base);
+  };
+  if (config.odometry.source == settings::OdometrySource::kSocket) {
+    actions.add_odometry = [this](message::OdometryReading reading) {
+      if (!reading.timed) reading.t_ns = now_ns();
+      localization_.add(reading);
+    };
+  }
+  return actions;
 }
 
 void Daemon::run() {

@@ -31,6 +31,7 @@ class Daemon {
   void run();
 
  private:
+  ControlActions control_actions(const settings::Config& config);
   void on_tick();
   void on_watchdog();
   void on_signal();

@@ -14,6 +14,9 @@ namespace {
 
 /// More than a second of turns that the server may be busy with something else.
 constexpr std::size_t kReportSlots = 16;
+/// Two seconds of a controller that sends 500 a second: a turn takes one at most.
+constexpr std::size_t kReadingSlots = 1024;
+constexpr std::size_t kGivenPoseSlots = 4;
 
 }  // namespace
 
@@ -22,6 +25,8 @@ Localization::Localization(drivers::LidarDriver& driver, core::Pipeline pipeline
     : driver_(driver),
       pipeline_(std::move(pipeline)),
       channel_(when_full),
+      readings_(kReadingSlots),
+      given_poses_(kGivenPoseSlots),
       reports_(kReportSlots),
       reported_(require_fd(::eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC), "eventfd")) {}
 
@@ -62,6 +67,11 @@ void Localization::localize(const std::stop_token& stop) {
 
 void Localization::process(const SampleChannel::Item& item) {
   if (relocalize_.exchange(false, std::memory_order_relaxed)) pipeline_.localizer().relocalize();
+  core::Pose2 T_map_base;
+  while (given_poses_.pop(T_map_base)) pipeline_.localizer().set_pose(T_map_base);
+  core::OdometryReading reading;
+  while (readings_.pop(reading)) pipeline_.add(reading);
+  if (item.kind == SampleChannel::Kind::kReading) return pipeline_.add(item.reading);
   const core::TurnResult* result =
       item.kind == SampleChannel::Kind::kGap ? pipeline_.finish() : pipeline_.add(item.sample);
   if (result == nullptr) return;

@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "core/pipeline.hpp"
+#include "core/ring_buffer.hpp"
 #include "daemon/file_descriptor.hpp"
 #include "daemon/sample_channel.hpp"
 #include "daemon/slot_exchange.hpp"
@@ -49,6 +50,11 @@ class Localization {
     while (reports_.take(use)) {
     }
   }
+  /// What wheels and gyro say. One that finds no room is lost; the next one's counts make up for
+  /// it.
+  void add(const core::OdometryReading& reading) { readings_.push(reading); }
+  /// The robot is about there.
+  void set_pose(const core::Pose2& T_map_base) { given_poses_.push(T_map_base); }
   /// The next turn is recognised without a prior.
   void relocalize() { relocalize_.store(true, std::memory_order_relaxed); }
 
@@ -67,6 +73,8 @@ class Localization {
   drivers::LidarDriver& driver_;
   core::Pipeline pipeline_;
   SampleChannel channel_;
+  core::RingBuffer<core::OdometryReading> readings_;
+  core::RingBuffer<core::Pose2> given_poses_;
   SlotExchange<TurnReport> reports_;
   FileDescriptor reported_;
   std::atomic<bool> relocalize_{false};

@@ -39,8 +39,8 @@ Overloaded(Handlers...) -> Overloaded<Handlers...>;
 MessageServer::Socket::Socket(const std::filesystem::path& path, SocketRole its_role)
     : listener(path, its_role == SocketRole::kPose ? kPoseMode : kControlMode), role(its_role) {}
 
-MessageServer::MessageServer(EventLoop& loop, std::string version, std::function<void()> relocalize)
-    : loop_(loop), version_(std::move(version)), relocalize_(std::move(relocalize)) {}
+MessageServer::MessageServer(EventLoop& loop, std::string version, ControlActions actions)
+    : loop_(loop), version_(std::move(version)), actions_(std::move(actions)) {}
 
 MessageServer::~MessageServer() {
   for (Socket& socket : sockets_) {
@@ -123,9 +123,6 @@ void MessageServer::answer(Client& client, SocketRole role, std::string_view tex
       error("read-only", "this socket only tells; the control socket takes such requests");
     }
   };
-  const auto not_yet = [&] {
-    change_belief([&] { error("unsupported", "this version does not take such requests yet"); });
-  };
   std::visit(Overloaded{
                  [&](const message::RequestError& wrong) { error(wrong.code, wrong.text); },
                  [&](const message::WatchRequest& watch) {
@@ -138,12 +135,25 @@ void MessageServer::answer(Client& client, SocketRole role, std::string_view tex
                  },
                  [&](const message::RelocalizeRequest&) {
                    change_belief([&] {
-                     relocalize_();
+                     actions_.relocalize();
                      ok();
                    });
                  },
-                 [&](const message::SetPoseRequest&) { not_yet(); },
-                 [&](const message::OdometryReading&) { not_yet(); },
+                 [&](const message::SetPoseRequest& set_pose) {
+                   change_belief([&] {
+                     if (!actions_.set_pose) return error("unsupported", "no pose can be set");
+                     actions_.set_pose(set_pose);
+                     ok();
+                   });
+                 },
+                 [&](const message::OdometryReading& reading) {
+                   change_belief([&] {
+                     if (!actions_.add_odometry) {
+                       return error("unsupported", "odometry.source of the config is not socket");
+                     }
+                     actions_.add_odometry(reading);  // too many for an answer each
+                   });
+                 },
              },
              request.body);
 }

@@ -22,14 +22,20 @@ namespace cornerd::daemon {
 /// may connect to the control socket can also change what the daemon believes.
 enum class SocketRole : std::uint8_t { kPose, kControl };
 
+/// What a client of the control socket may change. An empty one is refused as unsupported.
+struct ControlActions {
+  std::function<void()> relocalize;
+  std::function<void(const message::SetPoseRequest&)> set_pose = {};
+  std::function<void(const message::OdometryReading&)> add_odometry = {};
+};
+
 /// The clients of both sockets: sends them what they watch, answers what they ask. One thread, that
 /// of the loop, which must outlive it.
 class MessageServer {
  public:
   static constexpr std::size_t kMaxClientsPerSocket = 32;
 
-  /// `relocalize`: what to do at that request.
-  MessageServer(EventLoop& loop, std::string version, std::function<void()> relocalize);
+  MessageServer(EventLoop& loop, std::string version, ControlActions actions);
   ~MessageServer();
   MessageServer(const MessageServer&) = delete;
   MessageServer& operator=(const MessageServer&) = delete;
@@ -65,7 +71,7 @@ class MessageServer {
 
   EventLoop& loop_;
   const std::string version_;
-  const std::function<void()> relocalize_;
+  const ControlActions actions_;
   message::LineWriter line_;
   std::list<Socket> sockets_;
   std::array<std::string, 8> newest_;  ///< by class

@@ -33,7 +33,7 @@ void SampleChannel::on_sample(const core::Sample& sample) {
   if (owes_gap_) on_gap();
   const bool may_complete_turn = sample.starts_turn || sample.ends_turn;
   const std::int64_t arrival_ns = may_complete_turn ? monotonic_ns() : 0;
-  const Item item{.sample = sample, .arrival_ns = arrival_ns, .kind = Kind::kSample};
+  const Item item{.sample = sample, .reading = {}, .arrival_ns = arrival_ns, .kind = Kind::kSample};
   if (owes_gap_ || !push(item)) {
     owes_gap_ = true;
     lost_.fetch_add(1, std::memory_order_relaxed);
@@ -45,8 +45,14 @@ void SampleChannel::on_sample(const core::Sample& sample) {
 }
 
 void SampleChannel::on_gap() {
-  owes_gap_ = !push({.sample = {}, .arrival_ns = monotonic_ns(), .kind = Kind::kGap});
+  owes_gap_ =
+      !push({.sample = {}, .reading = {}, .arrival_ns = monotonic_ns(), .kind = Kind::kGap});
   wake();
+}
+
+void SampleChannel::on_reading(const core::OdometryReading& reading) {
+  // One that is lost is made up for by the counts of the next.
+  push({.sample = {}, .reading = reading, .arrival_ns = 0, .kind = Kind::kReading});
 }
 
 void SampleChannel::wake() {

@@ -17,9 +17,10 @@ namespace cornerd::daemon {
 /// samples, before the ring can fill.
 class SampleChannel final : public drivers::SampleSink {
  public:
-  enum class Kind : std::uint8_t { kSample, kGap };
+  enum class Kind : std::uint8_t { kSample, kGap, kReading };
   struct Item {
     core::Sample sample;
+    core::OdometryReading reading;
     std::int64_t arrival_ns = 0;  ///< monotonic; 0 for a sample in the middle of a turn
     Kind kind = Kind::kSample;
   };
@@ -32,6 +33,7 @@ class SampleChannel final : public drivers::SampleSink {
   /// Producer.
   void on_sample(const core::Sample& sample) override;
   void on_gap() override;
+  void on_reading(const core::OdometryReading& reading) override;
 
   /// Consumer.
   bool pop(Item& item) { return ring_.pop(item); }

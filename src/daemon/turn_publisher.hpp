@@ -26,6 +26,8 @@ class TurnPublisher {
   const LatencyWindow& latencies() const { return latencies_; }
   /// Of the newest turn; nullopt before the first.
   std::optional<core::PoseState> state() const { return state_; }
+  /// What the newest turn knew of it.
+  const core::OdometrySummary& odometry() const { return odometry_; }
   core::TimeNs end_of_newest_turn_ns() const { return end_ns_; }
   /// Poses so far, by state.
   const std::array<std::uint64_t, kStates>& poses() const { return poses_; }
@@ -38,6 +40,7 @@ class TurnPublisher {
   message::LineWriter line_;
   LatencyWindow latencies_;
   std::optional<core::PoseState> state_;
+  core::OdometrySummary odometry_;
   core::TimeNs end_ns_ = 0;
   std::array<std::uint64_t, kStates> poses_{};
 };

@@ -227,6 +227,44 @@ std::string_view LineWriter::breakpoints(core::TimeNs t_ns, const core::Detectio
   return finish();
 }
 
+void LineWriter::odometry_summary(const core::OdometrySummary& odometry) {
+  const auto learned = [this](const core::LearnedOdometry& values) {
+    const std::pair<std::string_view, double> named[] = {{"gyro_bias", values.gyro_bias_rad_s},
+                                                         {"gyro_scale", values.gyro_scale},
+                                                         {"left_scale", values.left_scale},
+                                                         {"right_scale", values.right_scale},
+                                                         {"track_scale", values.track_scale}};
+    for (const auto& [key, value] : named) {
+      if (!std::isfinite(value)) continue;
+      json_.key(key);
+      json_.fixed(value, kTimeDecimals);
+    }
+  };
+  const core::OdometryCounters& refused = odometry.counters;
+  const std::pair<std::string_view, std::uint64_t> counters[] = {
+      {"readings", refused.readings}, {"past", refused.past},           {"future", refused.future},
+      {"jumps", refused.jumps},       {"bad_rates", refused.gyro},      {"frozen", refused.frozen},
+      {"holes", refused.holes},       {"restarts", refused.restarts},   {"slips", odometry.slips},
+      {"fixes", odometry.fixes},      {"strangers", odometry.strangers}};
+  json_.key("odometry");
+  json_.open_object();
+  json_.key("state");
+  json_.string(!odometry.present ? "absent" : odometry.trusted ? "running" : "distrusted");
+  learned(odometry.learned);
+  json_.key("sigma");
+  json_.open_object();
+  learned(odometry.sigma);
+  json_.close_object();
+  json_.key("counters");
+  json_.open_object();
+  for (const auto& [key, value] : counters) {
+    json_.key(key);
+    json_.integer(value);
+  }
+  json_.close_object();
+  json_.close_object();
+}
+
 std::string_view LineWriter::status(const StatusFields& status) {
   const auto text = [this](std::string_view key, std::string_view value) {
     if (value.empty()) return;
@@ -259,6 +297,7 @@ std::string_view LineWriter::status(const StatusFields& status) {
     json_.integer(counter.value);
   }
   json_.close_object();
+  if (status.odometry != nullptr && status.odometry->enabled) odometry_summary(*status.odometry);
   if (status.latency.valid) {
     json_.key("latency");
     json_.open_object();

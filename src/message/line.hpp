@@ -31,6 +31,7 @@ struct StatusFields {
     std::uint64_t value = 0;
   };
   std::span<const Counter> counters;
+  const core::OdometrySummary* odometry = nullptr;  ///< left out where it is switched off, too
   /// From a turn's last sample to its pose, over the last turns; left out where there are none.
   struct {
     double p50_s = 0;
@@ -77,6 +78,7 @@ class LineWriter {
  private:
   void begin(std::string_view message_class);
   std::string_view finish();
+  void odometry_summary(const core::OdometrySummary& odometry);
   void metres(std::string_view key, double value_m);
   void angle(std::string_view key, double value_rad);
   void place(const core::Pose2& T_map_base);

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/geometry/pose2.hpp"
+#include "core/odometry/odometry_reading.hpp"
 #include "core/types.hpp"
 
 namespace cornerd::message {
@@ -48,12 +49,8 @@ struct SetPoseRequest {
   core::Pose2 T_map_base;
 };
 /// A request without t is one of now: `timed` is false and t_ns 0. A recorded one always has it.
-struct OdometryReading {
-  core::TimeNs t_ns = 0;
+struct OdometryReading : core::OdometryReading {
   bool timed = true;
-  std::optional<std::int64_t> left;
-  std::optional<std::int64_t> right;
-  std::optional<double> gyro_rad_s;
 };
 
 struct RequestError {

@@ -24,7 +24,14 @@ constexpr Choice<MotorKind> kMotorsByName[] = {{"dtr", MotorKind::kDtr},
                                                {"none", MotorKind::kNone}};
 constexpr Choice<MotorKind> kMotorsByPath[] = {{"gpio", MotorKind::kGpio},
                                                {"pwm", MotorKind::kPwm}};
-constexpr Choice<std::string_view> kOdometrySources[] = {{"none", "none"}};
+constexpr Choice<OdometrySource> kOdometrySources[] = {{"none", OdometrySource::kNone},
+                                                       {"socket", OdometrySource::kSocket}};
+constexpr Choice<core::HeadingSource> kOdometryModes[] = {
+    {"filter", core::HeadingSource::kFilter},
+    {"encoder", core::HeadingSource::kEncoder},
+    {"gyro", core::HeadingSource::kGyro},
+    {"mean", core::HeadingSource::kMean},
+    {"weighted", core::HeadingSource::kWeighted}};
 
 void read_mount(ObjectReader mount, MountConfig& config) {
   mount.number("x", config.x_m, {-10, 10});
@@ -93,13 +100,34 @@ void read_lidar(ObjectReader lidar, LidarConfig& config) {
   }
 }
 
+void read_odometry_noise(ObjectReader noise, core::OdometryNoise& config) {
+  noise.number("wheel", config.wheel_m_per_sqrt_m, {1e-5, 1});
+  noise.number("gyro", config.gyro_rad_s_per_sqrt_hz, {1e-6, 1});
+  noise.number("wheel_scale", config.wheel_scale, {0, 0.5});
+  noise.number("track_scale", config.track_scale, {0, 0.5});
+  noise.number("gyro_scale", config.gyro_scale, {0, 0.5});
+  noise.number("gyro_bias", config.gyro_bias_rad_s, {0, 1});
+  noise.finish();
+}
+
 void read_odometry(ObjectReader odometry, OdometryConfig& config) {
-  std::string_view source = config.source;
-  if (odometry.choice("source", source, kOdometrySources)) config.source = source;
-  odometry.number("wheel_radius", config.wheel_radius_m, {0.001, 10});
-  odometry.number("track", config.track_m, {0.001, 10});
-  odometry.number("counts_per_turn", config.counts_per_turn, {1, 1e7});
+  odometry.choice("source", config.source, kOdometrySources);
+  core::DriveGeometry& geometry = config.core.geometry;
+  odometry.number("wheel_radius", geometry.wheel_radius_m, {0.001, 10});
+  odometry.number("track", geometry.track_m, {0.001, 10});
+  odometry.number("counts_per_turn", geometry.counts_per_turn, {1, 1e7});
+  odometry.integer("ceiling", geometry.ceiling, std::int64_t{0}, std::int64_t{1} << 53);
+  odometry.choice("mode", config.core.mode, kOdometryModes);
+  ObjectReader factors = odometry.object("factors");
+  factors.number("encoder", config.core.paper.encoder_factor, {0, 10});
+  factors.number("gyro", config.core.paper.gyro_factor, {0, 10});
+  factors.finish();
+  odometry.number("dead_band", config.core.paper.dead_band_rad, {0, 1});
+  read_odometry_noise(odometry.object("noise"), config.core.noise);
+  odometry.number("max_speed", config.core.limits.wheel_speed_m_s, {0.01, 100});
+  odometry.number("bridge", config.core.bridge_s, {0, 3600});
   odometry.finish();
+  config.core.enabled = config.source != OdometrySource::kNone;
 }
 
 void read_socket_path(ObjectReader& socket, std::string_view key, std::filesystem::path& member) {
@@ -150,6 +178,7 @@ core::LocalizerConfig Config::localizer() const {
   config.noise = lidar.noise.sensor;
   config.bias = lidar.bias;
   config.learn_bias = lidar.learn_bias;
+  config.odometry = odometry.core;
   return config;
 }
 

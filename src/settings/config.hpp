@@ -11,6 +11,7 @@
 
 #include "calibration/wall_model.hpp"
 #include "core/localizer.hpp"
+#include "core/odometry/odometry_config.hpp"
 
 namespace cornerd::settings {
 
@@ -63,11 +64,11 @@ struct LidarConfig {
   bool loop = false;           ///< replay: begin again at the end
 };
 
+enum class OdometrySource : std::uint8_t { kNone, kSocket };
+
 struct OdometryConfig {
-  std::string source = "none";
-  double wheel_radius_m = 0.0325;
-  double track_m = 0.16;
-  double counts_per_turn = 1440;
+  OdometrySource source = OdometrySource::kNone;
+  core::OdometryConfig core;  ///< `enabled` where there is a source
 };
 
 struct SocketConfig {

@@ -18,6 +18,7 @@ MessagePrinter::MessagePrinter(Output& output, message::ClassSet classes,
 }
 
 void MessagePrinter::print_turn(const core::Scan& turn, const core::TurnResult& result) {
+  odometry_ = result.odometry;
   if (classes_.contains(MessageClass::kScan)) output_.write(writer_.scan(turn));
   if (classes_.contains(MessageClass::kBreakpoints)) {
     output_.write(writer_.breakpoints(turn.start_ns(), result.detection));
@@ -25,7 +26,10 @@ void MessagePrinter::print_turn(const core::Scan& turn, const core::TurnResult& 
   if (classes_.contains(MessageClass::kPose)) output_.write(writer_.pose(result.pose, plan_));
 }
 
-void MessagePrinter::begin_recording() { last_status_.reset(); }
+void MessagePrinter::begin_recording() {
+  last_status_.reset();
+  odometry_ = {};
+}
 
 void MessagePrinter::print_status_when_due(core::TimeNs t_ns,
                                            const drivers::StreamCounters& counters) {
@@ -48,6 +52,7 @@ void MessagePrinter::print_status(core::TimeNs t_ns, const drivers::StreamCounte
   status.t_ns = t_ns;
   status.lidar_state = drivers::to_string(state);
   status.counters = named;
+  status.odometry = &odometry_;
   if (last_status_ && t_ns > last_status_->t_ns) {
     const double elapsed_s = core::to_seconds(t_ns - last_status_->t_ns);
     const auto rate = [&](std::uint64_t now, std::uint64_t then) {

@@ -38,6 +38,7 @@ class MessagePrinter {
   const core::FloorPlan* plan_;
   message::LineWriter writer_;
   std::optional<Mark> last_status_;
+  core::OdometrySummary odometry_;  ///< as of the last turn
 };
 
 }  // namespace cornerd::tool

@@ -13,10 +13,13 @@ class Playback::Sink : public replay::RecordingSink {
   explicit Sink(Playback& playback) : playback_(playback) {}
 
   void on_sample(const core::Sample& sample) override {
+    playback_.play_readings_until(sample.t_ns);
     playback_.on_result(playback_.pipeline_.add(sample));
   }
   void on_gap() override { playback_.on_result(playback_.pipeline_.finish()); }
-  void on_odometry(const message::OdometryReading&) override {}
+  void on_odometry(const message::OdometryReading& reading) override {
+    if (!playback_.has_readings_) playback_.pipeline_.add(reading);
+  }
 
  private:
   Playback& playback_;
@@ -24,6 +27,12 @@ class Playback::Sink : public replay::RecordingSink {
 
 Playback::Playback(core::Pipeline& pipeline, OnTurn on_turn, OnPiece on_piece)
     : pipeline_(pipeline), on_turn_(std::move(on_turn)), on_piece_(std::move(on_piece)) {}
+
+void Playback::play_readings_until(core::TimeNs t_ns) {
+  while (next_reading_ < readings_.size() && readings_[next_reading_].t_ns <= t_ns) {
+    pipeline_.add(readings_[next_reading_++]);
+  }
+}
 
 void Playback::on_result(const core::TurnResult* result) {
   if (result == nullptr) return;
@@ -36,6 +45,7 @@ void Playback::play(const std::filesystem::path& file, const replay::RecordingOp
   replay::RecordingPlayer player(file, options);
   Sink sink(*this);
   turns_ = 0;
+  next_reading_ = 0;
   pipeline_.localizer().relocalize();
   while (player.step(sink)) {
     if (on_piece_) on_piece_(player.time_ns(), player.counters());

@@ -4,6 +4,8 @@
 #include <cstddef>
 #include <filesystem>
 #include <functional>
+#include <utility>
+#include <vector>
 
 #include "core/pipeline.hpp"
 #include "drivers/lidar_driver.hpp"
@@ -24,6 +26,12 @@ class Playback {
   /// Forget everything between turns, as if each were the first.
   void set_independent(bool independent) { independent_ = independent; }
 
+  /// Wheels and gyro of another file, in the order of its times; in place of the recording's own.
+  void set_odometry(std::vector<core::OdometryReading> readings) {
+    readings_ = std::move(readings);
+    has_readings_ = true;
+  }
+
   /// Plays one file to its end; nothing of an earlier one is remembered. What was passed over is
   /// said on standard error. Throws replay::RecordingError, and Failure where the file holds not a
   /// single whole turn.
@@ -37,7 +45,12 @@ class Playback {
   core::Pipeline& pipeline_;
   OnTurn on_turn_;
   OnPiece on_piece_;
+  void play_readings_until(core::TimeNs t_ns);
+
   bool independent_ = false;
+  bool has_readings_ = false;
+  std::vector<core::OdometryReading> readings_;
+  std::size_t next_reading_ = 0;
   std::size_t turns_ = 0;
 };
 

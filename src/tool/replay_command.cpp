@@ -14,6 +14,7 @@
 #include "tool/error_statistics.hpp"
 #include "tool/failure.hpp"
 #include "tool/message_printer.hpp"
+#include "tool/odometry_file.hpp"
 #include "tool/options.hpp"
 #include "tool/output.hpp"
 #include "tool/pace.hpp"
@@ -32,6 +33,7 @@ struct ReplayOptions {
   std::vector<std::string> classes = {"POSE", "STATUS"};
   std::string speed = "max";
   std::string wire = "auto";
+  std::filesystem::path odometry;
   std::filesystem::path truth;
   bool independent = false;
 };
@@ -40,7 +42,8 @@ void replay(const ReplayOptions& options) {
   const message::ClassSet classes = parse_classes(options.classes);
   const std::optional<double> speed = parse_speed(options.speed);
   const bool needs_map = classes.contains(MessageClass::kPose) || !options.truth.empty();
-  const settings::Config config = options.settings.resolve(needs_map);
+  settings::Config config = options.settings.resolve(needs_map);
+  if (!options.odometry.empty()) config.odometry.core.enabled = true;
   const auto map = needs_map ? settings::load_map(config.map) : nullptr;
   std::optional<Truth> truth;
   if (!options.truth.empty()) truth = Truth::load(options.truth);
@@ -68,6 +71,7 @@ void replay(const ReplayOptions& options) {
 
   Playback playback(pipeline, on_turn, on_piece);
   playback.set_independent(options.independent);
+  if (!options.odometry.empty()) playback.set_odometry(load_odometry(options.odometry));
   const replay::RecordingOptions recording{parse_wire(options.wire), config.lidar.mount.inverted};
   for (const std::filesystem::path& file : options.files) {
     if (speed) pace.emplace(*speed);
@@ -95,6 +99,11 @@ void add_replay(CLI::App& program) {
       ->capture_default_str();
   command->add_option("--speed", options->speed, "max, or times real time")->capture_default_str();
   add_wire_option(*command, options->wire);
+  command
+      ->add_option("--odometry", options->odometry,
+                   "wheels and gyro: ODOMETRY lines, in place of those of the recordings, which "
+                   "count where the config's odometry.source is not none")
+      ->type_name("FILE");
   command
       ->add_option("--truth", options->truth,
                    "where the robot really was: error statistics on standard error")

@@ -14,6 +14,7 @@
 #include "settings/map_file.hpp"
 #include "tool/commands.hpp"
 #include "tool/failure.hpp"
+#include "tool/odometry_options.hpp"
 #include "tool/options.hpp"
 #include "tool/simulation_options.hpp"
 
@@ -24,6 +25,7 @@ namespace {
 struct SimulateOptions {
   SettingsOptions settings;
   SimulationOptions simulation;
+  OdometryOptions odometry;
   std::int64_t turns = 0;
   std::string wire = "express";
   double byte_faults = 0;
@@ -42,11 +44,21 @@ void simulate(const SimulateOptions& options) {
   config.T_base_lidar = settings.localizer().T_base_lidar;
   config.turns = options.turns > 0 ? options.turns : simulation.usual_turns();
   config.byte_fault_share = options.byte_faults;
+  config.robot = options.odometry.robot(settings.odometry);
+  const OdometryOptions::Times covered = options.odometry.covered_times();
+  config.covered_from_ns = covered.from_ns;
+  config.covered_to_ns = covered.to_ns;
 
   if (is_same_file(options.output, options.truth)) {
     throw UsageError("--truth: the recording itself is already written there");
   }
+  if (config.robot && simulation.places > 0) {
+    throw UsageError("--odometry: the robot has to drive or to stand, --places carries it");
+  }
   replay::RecordingWriter recording(options.output);
+  if (config.robot && !recording.has_lines()) {
+    throw UsageError("--odometry needs a recording with times: -o FILE.ndjson");
+  }
   std::optional<replay::TruthWriter> truth;
   if (!options.truth.empty()) {
     if (!recording.has_lines() && !simulation.stands_still()) {
@@ -72,9 +84,11 @@ void add_simulate(CLI::App& program) {
   options->settings.add_config(*command);
   options->settings.add_map(*command);
   options->simulation.add_to(*command);
+  options->odometry.add_to(*command);
   command
-      ->add_option("--turns", options->turns,
-                   "whole turns of the lidar; else as many as the places, or 10")
+      ->add_option(
+          "--turns", options->turns,
+          "whole turns of the lidar; else as many as the places, once through the scenario, or 10")
       ->check(CLI::PositiveNumber)
       ->type_name("N");
   command->add_option("--wire", options->wire, "standard, express or ultra")

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "core/map/wall_map.hpp"
+#include "replay/simulator/motion.hpp"
 #include "replay/simulator/scene.hpp"
 #include "replay/simulator/simulator.hpp"
 #include "settings/config.hpp"
@@ -23,10 +24,13 @@ struct SimulationOptions {
   std::string pose;        ///< x,y,theta: stands there
   std::size_t places = 0;  ///< visits so many random places
   std::string path;        ///< "x,y x,y ...": drives along
+  std::string scenario;    ///< a drive that has a name, through flat-7
   bool loop = false;       ///< drives the path again and again
   std::int64_t turns_each = 1;
   double speed_m_s = 0.2;
   double yaw_rate_rad_s = 1.5;
+  double acceleration_m_s2 = 0;
+  double yaw_acceleration_rad_s2 = 0;
   double motor_hz = 7.3;
   SensorOptions sensor;
   std::uint64_t seed = 1;
@@ -36,9 +40,10 @@ struct SimulationOptions {
   bool stands_still() const { return !pose.empty(); }
   /// Turns of the sensor in a recording of which nobody says how long it is.
   std::int64_t usual_turns() const;
-  /// Throws UsageError unless exactly one of pose, places and path is given. Says on standard error
-  /// where the robot would stand in a wall or outside the building.
+  /// Throws UsageError unless exactly one of pose, places, path and scenario is given. Says on
+  /// standard error where the robot would stand in a wall or outside the building.
   replay::Motion motion(const core::WallMap& map) const;
+  replay::DriveConfig drive() const;
   replay::SimulatorConfig simulator(rplidar::WireFormat wire,
                                     const settings::LidarConfig& lidar) const;
 };

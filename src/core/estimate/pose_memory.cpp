@@ -40,12 +40,14 @@ void PoseMemory::remember(const Pose2& T_map_lidar, TimeNs t_ns) {
 }
 
 void PoseMemory::forget() {
+  expected_T_map_lidar_.reset();
   last_T_map_lidar_.reset();
   motion_ = {};
   stands_ = false;
 }
 
 std::optional<Pose2> PoseMemory::prior(TimeNs t_ns) const {
+  if (expected_T_map_lidar_) return expected_T_map_lidar_;
   if (!last_T_map_lidar_) return std::nullopt;
   const double age_s = to_seconds(t_ns - last_ns_);
   if (std::abs(age_s) > kMaxPriorAge_s) return std::nullopt;

@@ -14,11 +14,18 @@ class PoseMemory {
   void remember(const Pose2& T_map_lidar, TimeNs t_ns);
   void forget();
 
+  /// What odometry knows of the turn to come goes before what the last poses say: where the lidar
+  /// should be in its middle, and that its samples have been moved there already.
+  void expect(const std::optional<Pose2>& T_map_lidar, bool straightened) {
+    expected_T_map_lidar_ = T_map_lidar;
+    straightened_ = straightened;
+  }
+
   /// Where the lidar should be by now; nullopt where nothing recent is known.
   std::optional<Pose2> prior(TimeNs t_ns) const;
 
   /// Of the lidar, in its own axes, from the last two poses; rest where they do not tell.
-  const Twist2& motion() const { return motion_; }
+  Twist2 motion() const { return straightened_ ? Twist2{} : motion_; }
 
   /// True where the last two poses show a robot that did not move between them.
   bool stands() const { return stands_; }
@@ -30,6 +37,8 @@ class PoseMemory {
   std::optional<Pose2> last_T_map_lidar_;
   TimeNs last_ns_ = 0;
   bool ever_ = false;
+  std::optional<Pose2> expected_T_map_lidar_;
+  bool straightened_ = false;
   Twist2 motion_;
   bool stands_ = false;
 };

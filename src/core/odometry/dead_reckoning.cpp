@@ -20,10 +20,10 @@ double counted(double way_m, double radius_m, double dead_band_rad) {
 double heading_change(const MotionStep& step, const DriveGeometry& geometry,
                       const DeadReckoningConfig& config) {
   const double radius_m = geometry.wheel_radius_m;
-  const double left_m = counted(step.left_m, radius_m, config.dead_band_rad);
-  const double right_m = counted(step.right_m, radius_m, config.dead_band_rad);
-  const double by_encoder = config.encoder_factor * (right_m - left_m) / geometry.track_m;
-  const double by_gyro = config.gyro_factor * step.gyro_rad;
+  const double left_m = counted(step.left_m, radius_m, config.factors.dead_band_rad);
+  const double right_m = counted(step.right_m, radius_m, config.factors.dead_band_rad);
+  const double by_encoder = config.factors.encoder_factor * (right_m - left_m) / geometry.track_m;
+  const double by_gyro = config.factors.gyro_factor * step.gyro_rad;
   double change_rad = by_encoder;
   if (step.has_gyro) {
     switch (config.source) {
@@ -33,7 +33,7 @@ double heading_change(const MotionStep& step, const DriveGeometry& geometry,
         change_rad = by_gyro;
         break;
       case HeadingSource::kMean:
-        change_rad = (by_encoder / config.encoder_factor + step.gyro_rad) / 2;
+        change_rad = (by_encoder / config.factors.encoder_factor + step.gyro_rad) / 2;
         break;
       case HeadingSource::kWeighted:
       case HeadingSource::kFilter:
@@ -41,15 +41,28 @@ double heading_change(const MotionStep& step, const DriveGeometry& geometry,
         break;
     }
   }
-  return unless_small(change_rad, config.dead_band_rad);
+  return unless_small(change_rad, config.factors.dead_band_rad);
+}
+
+MotionStep by_wheels_alone(const MotionStep& step, const DriveGeometry& geometry,
+                           const DeadReckoningConfig& config) {
+  const double radius_m = geometry.wheel_radius_m;
+  const double dead_band_rad = config.factors.dead_band_rad;
+  const double way_m = (counted(step.left_m, radius_m, dead_band_rad) +
+                        counted(step.right_m, radius_m, dead_band_rad)) /
+                       2;
+  const double half_m = heading_change(step, geometry, config) * geometry.track_m / 2;
+  MotionStep alone = step;
+  alone.left_m = way_m - half_m;
+  alone.right_m = way_m + half_m;
+  alone.has_gyro = false;
+  return alone;
 }
 
 const Pose2& DeadReckoning::add(const MotionStep& step) {
-  const double radius_m = geometry_.wheel_radius_m;
-  const double way_m = (counted(step.left_m, radius_m, config_.dead_band_rad) +
-                        counted(step.right_m, radius_m, config_.dead_band_rad)) /
-                       2;
-  T_start_base_ = T_start_base_ * arc(way_m, heading_change(step, geometry_, config_));
+  const MotionStep alone = by_wheels_alone(step, geometry_, config_);
+  T_start_base_ =
+      T_start_base_ * arc(alone.way_m(), (alone.right_m - alone.left_m) / geometry_.track_m);
   return T_start_base_;
 }
 

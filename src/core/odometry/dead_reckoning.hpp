@@ -9,16 +9,18 @@ namespace cornerd::core {
 
 struct DeadReckoningConfig {
   HeadingSource source = HeadingSource::kEncoder;  ///< one of the paper's four
-  double encoder_factor = 1;                       ///< c_enco; of equation 4 both are 1
-  double gyro_factor = 1;                          ///< c_gyro
-  /// tr: smaller changes of a wheel's angle or of the heading count as none; the paper has 0.01.
-  double dead_band_rad = 0;
+  PaperFactors factors;
 };
 
 /// The change of heading in a step, by the paper's modes: encoders alone, gyro alone, equation 4,
 /// equation 5. Without a gyro all of them take the encoders.
 double heading_change(const MotionStep& step, const DriveGeometry& geometry,
                       const DeadReckoningConfig& config);
+
+/// The same step as wheels without a gyro would have to tell it: the filter's way to use a mode of
+/// the paper.
+MotionStep by_wheels_alone(const MotionStep& step, const DriveGeometry& geometry,
+                           const DeadReckoningConfig& config);
 
 /// Adds up steps from a known start. Nothing corrects it.
 class DeadReckoning {

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/odometry/dead_reckoning.hpp"
+
 namespace cornerd::core {
 namespace {
 
@@ -19,6 +21,16 @@ constexpr double kFixFloor_rad = 0.001;
 /// How far wheels and gyro mistake the motion of half a turn, as a share of it.
 constexpr double kMotionShare = 0.01;
 
+/// The paper's modes learn nothing: for them all is as it was configured.
+OdometryConfig as_configured(OdometryConfig config) {
+  if (config.mode != HeadingSource::kFilter) {
+    OdometryNoise& noise = config.noise;
+    noise.wheel_scale = noise.track_scale = noise.gyro_scale = noise.gyro_bias_rad_s = 0;
+    noise.scale_per_sqrt_s = noise.bias_rad_s_per_sqrt_s = 0;
+  }
+  return config;
+}
+
 Covariance3 with_floor(const Covariance3& covariance) {
   Covariance3 sum = covariance;
   sum(0, 0) += kFixFloor_m * kFixFloor_m;
@@ -30,12 +42,15 @@ Covariance3 with_floor(const Covariance3& covariance) {
 }  // namespace
 
 Odometer::Odometer(const OdometryConfig& config)
-    : config_(config), gate_(config), filter_(config) {}
+    : config_(config), gate_(config), filter_(as_configured(config)) {}
 
 void Odometer::add(const OdometryReading& reading, std::optional<TimeNs> now_ns) {
   if (!config_.enabled) return;
   std::optional<MotionStep> step = gate_.add(reading, now_ns);
   if (!step) return;
+  if (config_.mode != HeadingSource::kFilter && !step->is_hole) {
+    *step = by_wheels_alone(*step, config_.geometry, {config_.mode, config_.paper});
+  }
   if (step->is_hole) {
     path_.clear();
   } else {
@@ -107,7 +122,8 @@ void Odometer::advance(TimeNs start_ns, TimeNs middle_ns, TimeNs end_ns) {
   start_ns_ = start_ns;
   middle_ns_ = middle_ns;
   end_ns_ = end_ns;
-  knows_motion_ = config_.enabled && path_.covers(start_ns, end_ns);
+  knows_motion_ =
+      config_.enabled && strangers_in_a_row_ < kDistrusted && path_.covers(start_ns, end_ns);
   if (!config_.enabled) return;
   consume_until(middle_ns);
   guess_until(middle_ns);
@@ -196,6 +212,7 @@ void Odometer::forget() {
 
 OdometrySummary Odometer::summary() const {
   OdometrySummary summary;
+  summary.enabled = config_.enabled;
   summary.present = present_;
   summary.trusted = present_ && strangers_in_a_row_ < kDistrusted;
   summary.learned = filter_.learned();

@@ -24,6 +24,7 @@ struct PredictedPose {
 
 /// For STATUS: what comes in, and what has been learned of the robot.
 struct OdometrySummary {
+  bool enabled = false;
   bool present = false;  ///< readings come
   bool trusted = false;  ///< and agree with the lidar
   LearnedOdometry learned;

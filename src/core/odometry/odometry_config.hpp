@@ -40,11 +40,22 @@ struct OdometryNoise {
 /// Where a change of heading comes from. The first four are those of Bertocco et al. (2019).
 enum class HeadingSource : std::uint8_t { kEncoder, kGyro, kMean, kWeighted, kFilter };
 
+/// What the paper's modes multiply and leave out.
+struct PaperFactors {
+  double encoder_factor = 1;  ///< c_enco
+  double gyro_factor = 1;     ///< c_gyro
+  /// tr: smaller changes of a wheel's angle or of the heading count as none; the paper has 0.01.
+  double dead_band_rad = 0;
+};
+
 struct OdometryConfig {
   bool enabled = false;
   DriveGeometry geometry;
   OdometryLimits limits;
   OdometryNoise noise;
+  HeadingSource mode =
+      HeadingSource::kFilter;  ///< the paper's are for comparison: they learn nothing
+  PaperFactors paper;
   double bridge_s = 10;  ///< a pose is carried on without the lidar for so long
 };
 

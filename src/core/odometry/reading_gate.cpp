@@ -9,8 +9,9 @@
 namespace cornerd::core {
 namespace {
 
-/// Beside the lidar's clock: transport and two clocks cost some of it, a wrong clock much more.
-constexpr TimeNs kMostAhead_ns = kNsPerSecond / 2;
+/// Beside the lidar's clock, which is that of a turn ago: a slow turn takes a second, a wrong clock
+/// is off by much more.
+constexpr TimeNs kMostAhead_ns = 2 * kNsPerSecond;
 constexpr TimeNs kMostBehind_ns = 5 * kNsPerSecond;
 /// So many refused readings in a row are no accident: the client's clock was set.
 constexpr std::uint32_t kClockWasSet = 20;

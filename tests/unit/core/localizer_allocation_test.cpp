@@ -99,6 +99,35 @@ TEST(Pipeline, FromSampleToPoseByEachMethod_AllocatesNothing) {
   }
 }
 
+TEST(Pipeline, WithOdometry_AllocatesNothing) {
+  const auto map = testing::make_map(testing::l_shaped_room());
+  testing::TurnSource source(74);
+  LocalizerConfig config;
+  config.odometry.enabled = true;
+  Pipeline pipeline(map, config);
+  std::vector<Scan> turns;
+  testing::TurnOptions covered;
+  covered.missing_share = 1;
+  for (int k = 0; k < 30; ++k) {
+    testing::TurnOptions options = k < 20 ? testing::TurnOptions{} : covered;
+    options.start_ns = TimeNs{k} * 140'000'000;
+    turns.push_back(source.take(*map, {1, 1, 0.5}, options));
+  }
+  int predicted = 0;
+  const long before = allocations;
+  for (const Scan& turn : turns) {
+    for (TimeNs dt_ns = 0; dt_ns < 140'000'000; dt_ns += 20'000'000) {
+      pipeline.add(OdometryReading{turn.start_ns() + dt_ns, 5, 7, 0.001});
+    }
+    for (const Sample& sample : turn.samples()) {
+      const TurnResult* result = pipeline.add(sample);
+      predicted += result != nullptr && result->pose.state == PoseState::kPredicted;
+    }
+  }
+  EXPECT_EQ(allocations - before, 0);
+  EXPECT_GT(predicted, 5);
+}
+
 TEST(BreakpointStream, FromReturnToBreakpoint_AllocatesNothing) {
   const auto map = testing::make_map(testing::l_shaped_room());
   testing::TurnSource source(73);

@@ -63,7 +63,14 @@ class MessageServerTest : public ::testing::Test {
   const std::filesystem::path control_path_ = folder_ / "control.sock";
   EventLoop loop_;
   int relocalizations_ = 0;
-  MessageServer server_{loop_, "1.2.3", [this] { ++relocalizations_; }};
+  std::vector<core::Pose2> given_;
+  std::vector<message::OdometryReading> readings_;
+  MessageServer server_{
+      loop_,
+      "1.2.3",
+      {[this] { ++relocalizations_; },
+       [this](const message::SetPoseRequest& request) { given_.push_back(request.T_map_base); },
+       [this](const message::OdometryReading& reading) { readings_.push_back(reading); }}};
 };
 
 TEST_F(MessageServerTest, NewClient_GetsVersionThenPoseAndStatusAlone) {
@@ -148,9 +155,38 @@ TEST_F(MessageServerTest, Relocalize_IsForTheControlSocket) {
   EXPECT_EQ(relocalizations_, 1);
 }
 
-TEST_F(MessageServerTest, RequestOfALaterVersion_IsRefusedClearly) {
-  TestClient client = greeted(control_path_);
+TEST_F(MessageServerTest, SetPose_IsForTheControlSocket) {
+  TestClient reader = greeted(pose_path_);
+  const char* request = R"({"class":"SET_POSE","x":1,"y":2,"theta":0.5,"id":7})";
+  EXPECT_EQ(ask(reader, request)["code"], "read-only");
+  EXPECT_TRUE(given_.empty());
+  TestClient controller = greeted(control_path_);
+  EXPECT_EQ(ask(controller, request)["class"], "OK");
+  ASSERT_EQ(given_.size(), 1U);
+  EXPECT_EQ(given_[0].y_m, 2);
+}
+
+TEST_F(MessageServerTest, Odometry_IsTakenWithoutAnAnswer) {
+  TestClient reader = greeted(pose_path_);
+  EXPECT_EQ(ask(reader, R"({"class":"ODOMETRY","left":1,"right":2})")["code"], "read-only");
+  TestClient controller = greeted(control_path_);
+  controller.send("{\"class\":\"ODOMETRY\",\"t\":5,\"left\":1,\"right\":2,\"gyro\":0.1}\n");
+  // The next answer is that of the next request.
+  EXPECT_EQ(ask(controller, R"({"class":"RELOCALIZE"})")["request"], "RELOCALIZE");
+  ASSERT_EQ(readings_.size(), 1U);
+  EXPECT_EQ(readings_[0].t_ns, 5 * core::kNsPerSecond);
+  EXPECT_EQ(readings_[0].right, 2);
+  EXPECT_EQ(readings_[0].gyro_rad_s, 0.1);
+  EXPECT_EQ(ask(controller, R"({"class":"ODOMETRY","left":"x"})")["code"], "field");
+}
+
+TEST_F(MessageServerTest, WhatNobodyTakes_IsRefusedClearly) {
+  const std::filesystem::path path = folder_ / "other.sock";
+  MessageServer server{loop_, "1.2.3", {[] {}}};
+  server.listen(path, SocketRole::kControl);
+  TestClient client = greeted(path);
   EXPECT_EQ(ask(client, R"({"class":"SET_POSE","x":0,"y":0,"theta":0})")["code"], "unsupported");
+  EXPECT_EQ(ask(client, R"({"class":"ODOMETRY","left":0,"right":0})")["code"], "unsupported");
 }
 
 TEST_F(MessageServerTest, ClientThatOnlyAsks_GetsItsAnswerAfterItsLastWord) {

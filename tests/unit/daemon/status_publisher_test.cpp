@@ -47,7 +47,7 @@ class StatusPublisherTest : public ::testing::Test {
 
   ScratchFolder folder_;
   EventLoop loop_;
-  MessageServer server_{loop_, "1", [] {}};
+  MessageServer server_{loop_, "1", {[] {}}};
   Notifier notifier_;
   StatusPublisher publisher_{server_, notifier_};
   std::optional<TestClient> client_;

@@ -93,6 +93,29 @@ void expect_default_detector(const core::DetectorConfig& sample) {
               kRounding);
 }
 
+void expect_default_odometry(const OdometryConfig& sample, const OdometryConfig& defaults) {
+  EXPECT_EQ(sample.source, defaults.source);
+  EXPECT_EQ(sample.core.enabled, defaults.core.enabled);
+  const core::DriveGeometry& geometry = sample.core.geometry;
+  EXPECT_EQ(geometry.wheel_radius_m, defaults.core.geometry.wheel_radius_m);
+  EXPECT_EQ(geometry.track_m, defaults.core.geometry.track_m);
+  EXPECT_EQ(geometry.counts_per_turn, defaults.core.geometry.counts_per_turn);
+  EXPECT_EQ(geometry.ceiling, defaults.core.geometry.ceiling);
+  EXPECT_EQ(sample.core.mode, defaults.core.mode);
+  EXPECT_EQ(sample.core.paper.encoder_factor, defaults.core.paper.encoder_factor);
+  EXPECT_EQ(sample.core.paper.gyro_factor, defaults.core.paper.gyro_factor);
+  EXPECT_EQ(sample.core.paper.dead_band_rad, defaults.core.paper.dead_band_rad);
+  const core::OdometryNoise& noise = sample.core.noise;
+  EXPECT_EQ(noise.wheel_m_per_sqrt_m, defaults.core.noise.wheel_m_per_sqrt_m);
+  EXPECT_EQ(noise.gyro_rad_s_per_sqrt_hz, defaults.core.noise.gyro_rad_s_per_sqrt_hz);
+  EXPECT_EQ(noise.wheel_scale, defaults.core.noise.wheel_scale);
+  EXPECT_EQ(noise.track_scale, defaults.core.noise.track_scale);
+  EXPECT_EQ(noise.gyro_scale, defaults.core.noise.gyro_scale);
+  EXPECT_EQ(noise.gyro_bias_rad_s, defaults.core.noise.gyro_bias_rad_s);
+  EXPECT_EQ(sample.core.limits.wheel_speed_m_s, defaults.core.limits.wheel_speed_m_s);
+  EXPECT_EQ(sample.core.bridge_s, defaults.core.bridge_s);
+}
+
 TEST(FullSample, EveryValue_IsTheDefault) {
   const Config sample = load_config(kSamples / "cornerd.full.json");
   const Config defaults;
@@ -117,10 +140,7 @@ TEST(FullSample, EveryValue_IsTheDefault) {
   EXPECT_EQ(sample.lidar.speed, defaults.lidar.speed);
   EXPECT_EQ(sample.lidar.loop, defaults.lidar.loop);
   expect_default_detector(sample.detector);
-  EXPECT_EQ(sample.odometry.source, defaults.odometry.source);
-  EXPECT_EQ(sample.odometry.wheel_radius_m, defaults.odometry.wheel_radius_m);
-  EXPECT_EQ(sample.odometry.track_m, defaults.odometry.track_m);
-  EXPECT_EQ(sample.odometry.counts_per_turn, defaults.odometry.counts_per_turn);
+  expect_default_odometry(sample.odometry, defaults.odometry);
   EXPECT_EQ(sample.socket.pose, defaults.socket.pose);
   EXPECT_EQ(sample.socket.control, defaults.socket.control);
   EXPECT_EQ(sample.realtime.priority, defaults.realtime.priority);

@@ -21,7 +21,7 @@ MotionStep step_of(double left_m, double right_m, double gyro_rad) {
 TEST(HeadingChange, EachMode_IsItsEquation) {
   const MotionStep step = step_of(0.01, 0.03, 0.2);  // wheels: 0.1 rad
   const auto change = [&](HeadingSource source, double c_enco, double c_gyro) {
-    return heading_change(step, kRobot, {source, c_enco, c_gyro, 0});
+    return heading_change(step, kRobot, {source, {c_enco, c_gyro, 0}});
   };
   EXPECT_DOUBLE_EQ(change(HeadingSource::kEncoder, 1, 1), 0.1);
   EXPECT_DOUBLE_EQ(change(HeadingSource::kEncoder, 1.5, 1), 0.15);
@@ -35,7 +35,7 @@ TEST(HeadingChange, EachMode_IsItsEquation) {
 TEST(HeadingChange, WithoutAGyro_TakesTheEncoders) {
   MotionStep step = step_of(0.01, 0.03, 0.2);
   step.has_gyro = false;
-  EXPECT_DOUBLE_EQ(heading_change(step, kRobot, {HeadingSource::kMean, 1, 1, 0}), 0.1);
+  EXPECT_DOUBLE_EQ(heading_change(step, kRobot, {HeadingSource::kMean, {1, 1, 0}}), 0.1);
 }
 
 TEST(DeadReckoning, ACircleInSmallSteps_EndsWhereItBegan) {
@@ -58,7 +58,7 @@ TEST(DeadReckoning, QuarterCircle_GoesInTheDirectionHalfWayThrough) {
 }
 
 TEST(DeadReckoning, DeadBand_LosesASlowDrive) {
-  DeadReckoning with(kRobot, {HeadingSource::kEncoder, 1, 1, 0.01});
+  DeadReckoning with(kRobot, {HeadingSource::kEncoder, {1, 1, 0.01}});
   DeadReckoning without(kRobot, {});
   // Each step turns the wheels by 0.008 and 0.006 rad: under the paper's 0.01.
   for (int i = 0; i < 100; ++i) {

@@ -58,5 +58,28 @@ TEST(VisitPlaces, Place_ChangesWithTheTurn) {
   EXPECT_THROW(visit_places({}, 2), std::invalid_argument);
 }
 
+TEST(DrivePath, WithAcceleration_GoesOffAndStopsGently) {
+  DriveConfig config;
+  config.speed_m_s = 1;
+  config.acceleration_m_s2 = 0.5;
+  const Motion motion = drive_path({{0, 0}, {4, 0}}, config);
+  // Two seconds up to speed over 1 m, two at speed, two down again.
+  EXPECT_DOUBLE_EQ(drive_duration_s({{0, 0}, {4, 0}}, config), 6);
+  EXPECT_NEAR(at(motion, 1).x_m, 0.25, 1e-9);
+  EXPECT_NEAR(at(motion, 2).x_m, 1, 1e-9);
+  EXPECT_NEAR(at(motion, 3).x_m, 2, 1e-9);
+  EXPECT_NEAR(at(motion, 5).x_m, 3.75, 1e-9);
+  EXPECT_NEAR(at(motion, 6).x_m, 4, 1e-9);
+  EXPECT_NEAR(at(motion, 9).x_m, 4, 1e-9);
+}
+
+TEST(DrivePath, TooShortForItsSpeed_IsHalfUpAndHalfDown) {
+  DriveConfig config;
+  config.speed_m_s = 10;
+  config.acceleration_m_s2 = 1;
+  EXPECT_NEAR(drive_duration_s({{0, 0}, {1, 0}}, config), 2, 1e-9);
+  EXPECT_NEAR(at(drive_path({{0, 0}, {1, 0}}, config), 1).x_m, 0.5, 1e-9);
+}
+
 }  // namespace
 }  // namespace cornerd::replay

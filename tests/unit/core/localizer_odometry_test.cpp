@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: MIT
+// The localizer with wheels and a gyro: straightened turns, and poses without the lidar.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/localizer.hpp"
+#include "fixtures.hpp"
+#include "odometry/driven_robot.hpp"
+
+namespace cornerd::core {
+namespace {
+
+constexpr double kTurnOfDrive_s = 0.14;
+
+/// A robot on a circle in the L-shaped room, seen by its lidar and by its wheels.
+class CircleDrive {
+ public:
+  CircleDrive(double speed_m_s, double rate_rad_s, double bridge_s = 10)
+      : map_(testing::make_map(testing::l_shaped_room())),
+        localizer_(map_, config(bridge_s)),
+        robot_({}, errors(), 5),
+        speed_m_s_(speed_m_s),
+        rate_rad_s_(rate_rad_s) {}
+
+  const PoseEstimate& turn(bool covered = false, const std::optional<Pose2>& elsewhere = {}) {
+    testing::TurnOptions options;
+    options.turn_s = kTurnOfDrive_s;
+    options.start_ns = robot_.now_ns();
+    options.motion = {speed_m_s_, 0, rate_rad_s_};
+    options.missing_share = covered ? 1 : 0;
+    for (int i = 0; i < 14; ++i) {
+      localizer_.add(robot_.drive(0.01, speed_m_s_, rate_rad_s_), std::nullopt);
+      if (i == 6) truth_ = Pose2{1.2, 0.9, 0.3} * robot_.truth();
+    }
+    const Scan scan = source_.take(*map_, elsewhere.value_or(truth_), options);
+    const TurnResult& result = localizer_.step(scan);
+    odometry_ = result.odometry;
+    return result.pose;
+  }
+  double error_m(const PoseEstimate& pose) const {
+    return (pose.T_map_base.translation() - truth_.translation()).norm();
+  }
+  const OdometrySummary& odometry() const { return odometry_; }
+
+ private:
+  static LocalizerConfig config(double bridge_s) {
+    LocalizerConfig config;
+    config.odometry.enabled = true;
+    config.odometry.bridge_s = bridge_s;
+    return config;
+  }
+  static testing::RobotErrors errors() {
+    testing::RobotErrors errors;
+    errors.left_scale = 0.01;
+    errors.gyro_bias_rad_s = 0.01;
+    return errors;
+  }
+
+  std::shared_ptr<const WallMap> map_;
+  Localizer localizer_;
+  testing::DrivenRobot robot_;
+  testing::TurnSource source_{91};
+  double speed_m_s_;
+  double rate_rad_s_;
+  Pose2 truth_;
+  OdometrySummary odometry_;
+};
+
+TEST(LocalizerWithOdometry, FastSpin_IsFixedFromTheSecondTurnOn) {
+  CircleDrive drive(0.4, 2.5);
+  drive.turn();
+  for (int k = 0; k < 40; ++k) {
+    const PoseEstimate& pose = drive.turn();
+    ASSERT_EQ(pose.state, PoseState::kFix) << k;
+    EXPECT_LT(drive.error_m(pose), 0.01) << k;
+  }
+}
+
+TEST(LocalizerWithOdometry, CoveredLidar_IsBridgedAndItsDoubtGrows) {
+  CircleDrive drive(0.3, 0.8);
+  for (int k = 0; k < 100; ++k) drive.turn();
+  double last_m2 = 0;
+  for (int k = 1; k <= 35; ++k) {
+    const PoseEstimate& pose = drive.turn(/*covered=*/true);
+    ASSERT_EQ(pose.state, PoseState::kPredicted) << k;
+    EXPECT_NEAR(pose.age_s, k * kTurnOfDrive_s, 0.02);
+    EXPECT_LT(drive.error_m(pose), 0.03);
+    EXPECT_GT(pose.covariance.trace(), last_m2);
+    last_m2 = pose.covariance.trace();
+    EXPECT_TRUE(pose.room);
+    EXPECT_TRUE(pose.alternatives.empty());
+  }
+  EXPECT_EQ(drive.turn().state, PoseState::kFix);
+}
+
+TEST(LocalizerWithOdometry, AfterTheBridge_IsLost) {
+  CircleDrive drive(0.3, 0.8, /*bridge_s=*/1);
+  for (int k = 0; k < 20; ++k) drive.turn();
+  for (int k = 1; k <= 12; ++k) {
+    EXPECT_EQ(drive.turn(/*covered=*/true).state,
+              k * kTurnOfDrive_s <= 1 ? PoseState::kPredicted : PoseState::kLost)
+        << k;
+  }
+}
+
+TEST(LocalizerWithOdometry, CarriedElsewhere_IsNotPredictedAgainstTheTurn) {
+  CircleDrive drive(0, 0.001);
+  for (int k = 0; k < 20; ++k) drive.turn();
+  const Pose2 elsewhere{2.2, 0.5, -2};
+  EXPECT_EQ(drive.turn(false, elsewhere).state, PoseState::kLost);
+  const PoseEstimate& pose = drive.turn(false, elsewhere);
+  EXPECT_EQ(pose.state, PoseState::kFix);
+  EXPECT_NEAR(pose.T_map_base.x_m, 2.2, 0.01);
+}
+
+TEST(LocalizerWithOdometry, Summary_TellsWhatWasLearned) {
+  CircleDrive drive(0.3, 0.8);
+  for (int k = 0; k < 200; ++k) drive.turn();
+  const OdometrySummary& odometry = drive.odometry();
+  EXPECT_TRUE(odometry.enabled);
+  EXPECT_TRUE(odometry.trusted);
+  EXPECT_GT(odometry.fixes, 190U);
+  // One circle tells the way, but neither wheel from wheel nor bias from scale.
+  EXPECT_NEAR((odometry.learned.left_scale + odometry.learned.right_scale) / 2, 0.005, 0.002);
+}
+
+TEST(Localizer, AGivenPose_TellsTwinsApart) {
+  const auto map = testing::make_map(testing::two_equal_rooms());
+  testing::TurnSource source(92);
+  Localizer localizer(map, {});
+  testing::TurnOptions options;
+  ASSERT_EQ(localizer.step(source.take(*map, {6.8, 1.2, 0.3}, options)).pose.state,
+            PoseState::kAmbiguous);
+  localizer.set_pose({6.75, 1.25, 0.25});
+  options.start_ns = 140'000'000;
+  const PoseEstimate& pose = localizer.step(source.take(*map, {6.8, 1.2, 0.3}, options)).pose;
+  ASSERT_EQ(pose.state, PoseState::kTracking);
+  EXPECT_NEAR(pose.T_map_base.x_m, 6.8, 0.01);
+}
+
+}  // namespace
+}  // namespace cornerd::core

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: MIT
+// Simulated drives with wheels and a gyro, from the recording to the pose.
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <sstream>
+
+#include <nlohmann/json.hpp>
+
+#include "command_run.hpp"
+#include "temporary_folder.hpp"
+
+namespace cornerd::tool {
+namespace {
+
+using nlohmann::json;
+
+class OdometryCommandTest : public ::testing::Test {
+ protected:
+  CommandRun simulate(std::vector<std::string> more) {
+    std::vector<std::string> words = {
+        "simulate", "--map",    map_,      "--scenario", "circuit-1",  "--turns",       "150",
+        "-o",       recording_, "--truth", truth_,       "--odometry", "--drive-speed", "0.4"};
+    words.insert(words.end(), more.begin(), more.end());
+    return CommandRun(words);
+  }
+  CommandRun replay(std::vector<std::string> more) {
+    std::vector<std::string> words = {"replay", recording_, "--map", map_, "--truth", truth_};
+    words.insert(words.end(), more.begin(), more.end());
+    return CommandRun(words);
+  }
+  static std::size_t count(const std::string& text, const std::string& what) {
+    std::size_t found = 0;
+    for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + 1)) {
+      ++found;
+    }
+    return found;
+  }
+
+  TemporaryFolder folder_;
+  const std::string map_ = CORNERD_SOURCE_DIR "/config/maps/flat-7.json";
+  const std::string recording_ = (folder_.path() / "drive.ndjson").string();
+  const std::string truth_ = (folder_.path() / "truth.ndjson").string();
+};
+
+TEST_F(OdometryCommandTest, CoveredLidar_IsBridgedByTheRecordedOdometry) {
+  ASSERT_EQ(simulate({"--covered", "15,17"}).exit_code, 0);
+  const CommandRun without = replay({});
+  EXPECT_EQ(count(without.out, "\"state\":\"predicted\""), 0U);
+  EXPECT_EQ(count(without.out, "\"odometry\""), 0U);
+  const CommandRun with = replay({"--set", "/odometry/source=socket"});
+  EXPECT_NEAR(static_cast<double>(count(with.out, "\"state\":\"predicted\"")), 15, 2);
+  EXPECT_EQ(count(with.out, "\"state\":\"lost\""), 0U);
+  EXPECT_NE(with.err.find("wrong            0"), std::string::npos) << with.err;
+  EXPECT_NE(with.out.find("\"odometry\":{\"state\":\"running\""), std::string::npos);
+}
+
+TEST_F(OdometryCommandTest, AnotherFile_GoesBeforeTheRecordingsOwn) {
+  ASSERT_EQ(simulate({"--covered", "15,17"}).exit_code, 0);
+  const std::string same = replay({"--set", "/odometry/source=socket"}).out;
+  // In a recording a reading stands where it arrived, in a file of its own by its time.
+  EXPECT_EQ(count(replay({"--odometry", recording_}).out, "\"state\":\"predicted\""),
+            count(same, "\"state\":\"predicted\""));
+  const std::string nothing = (folder_.path() / "none.ndjson").string();
+  std::ofstream(nothing) << "{\"t\":0,\"x\":0,\"y\":0,\"theta\":0}\n{\"class\":\"POSE\"}\n";
+  EXPECT_EQ(replay({"--odometry", nothing}).exit_code, 1);
+}
+
+TEST_F(OdometryCommandTest, PapersModes_BridgeToo) {
+  ASSERT_EQ(simulate({"--covered", "15,16"}).exit_code, 0);
+  for (const char* mode : {"encoder", "gyro", "mean", "weighted"}) {
+    const CommandRun run = replay({"--set", "/odometry/source=socket", "--set",
+                                   std::string("/odometry/mode=\"") + mode + "\""});
+    EXPECT_GT(count(run.out, "\"state\":\"predicted\""), 4U) << mode << run.err;
+  }
+}
+
+TEST_F(OdometryCommandTest, Readings_AreInTheOrderOfTime) {
+  ASSERT_EQ(simulate({"--no-gyro", "--odometry-rate", "100"}).exit_code, 0);
+  std::ifstream stream(recording_);
+  double last_s = -1;
+  std::size_t readings = 0;
+  for (std::string text; std::getline(stream, text);) {
+    const json line = json::parse(text);
+    EXPECT_GE(line["t"].get<double>(), last_s);
+    last_s = line["t"];
+    if (line["class"] != "ODOMETRY") continue;
+    ++readings;
+    EXPECT_FALSE(line.contains("gyro"));
+  }
+  EXPECT_NEAR(static_cast<double>(readings), 100 * last_s, 3);
+}
+
+TEST_F(OdometryCommandTest, WrongUse_IsNamed) {
+  EXPECT_EQ(simulate({"--wheel-errors", "1"}).exit_code, 2);
+  EXPECT_EQ(simulate({"--wheel-errors", "0.9,0"}).exit_code, 2);
+  EXPECT_EQ(simulate({"--wheel-errors", "nan,0"}).exit_code, 2);
+  EXPECT_EQ(simulate({"--covered", "5,4"}).exit_code, 2);
+  EXPECT_EQ(simulate({"--gyro-bias", "nan"}).exit_code, 2);
+  EXPECT_EQ(simulate({"--path", "1,1 2,1"}).exit_code, 2);
+  const std::string bytes = (folder_.path() / "x.bin").string();
+  EXPECT_EQ(CommandRun({"simulate", "--map", map_, "--pose", "1,1,0", "--odometry", "-o", bytes})
+                .exit_code,
+            2);
+  EXPECT_EQ(CommandRun({"simulate", "--map", map_, "--places", "3", "--odometry", "-o", recording_})
+                .exit_code,
+            2);
+}
+
+}  // namespace
+}  // namespace cornerd::tool
