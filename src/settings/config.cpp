@@ -124,6 +124,13 @@ void read_odometry(ObjectReader odometry, OdometryConfig& config) {
   factors.finish();
   odometry.number("dead_band", config.core.paper.dead_band_rad, {0, 1});
   read_odometry_noise(odometry.object("noise"), config.core.noise);
+  ObjectReader start = odometry.object("start");
+  start.number("left_scale", config.core.start.left_scale, {-0.5, 0.5});
+  start.number("right_scale", config.core.start.right_scale, {-0.5, 0.5});
+  start.number("track_scale", config.core.start.track_scale, {-0.5, 0.5});
+  start.number("gyro_scale", config.core.start.gyro_scale, {-0.5, 0.5});
+  start.number("gyro_bias", config.core.start.gyro_bias_rad_s, {-0.5, 0.5});
+  start.finish();
   odometry.number("max_speed", config.core.limits.wheel_speed_m_s, {0.01, 100});
   odometry.number("bridge", config.core.bridge_s, {0, 3600});
   odometry.finish();

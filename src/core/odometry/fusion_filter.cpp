@@ -31,6 +31,11 @@ constexpr double squared(double value) { return value * value; }
 
 FusionFilter::FusionFilter(const OdometryConfig& config)
     : geometry_(config.geometry), noise_(config.noise) {
+  state_[kBias] = config.start.gyro_bias_rad_s;
+  state_[kLeft] = config.start.left_scale;
+  state_[kRight] = config.start.right_scale;
+  state_[kTrack] = config.start.track_scale;
+  state_[kGyro] = config.start.gyro_scale;
   covariance_(kBias, kBias) = squared(noise_.gyro_bias_rad_s);
   covariance_(kLeft, kLeft) = squared(noise_.wheel_scale);
   covariance_(kRight, kRight) = squared(noise_.wheel_scale);

@@ -10,17 +10,6 @@
 
 namespace cornerd::core {
 
-/// What the filter knows of the robot itself. A scale is a relative error: the wheel's true way is
-/// 1 + scale times what its counts say, the true track 1 + scale times the configured one, and a
-/// gyro reads 1 + scale times the true rate, plus the bias.
-struct LearnedOdometry {
-  double gyro_bias_rad_s = 0;
-  double left_scale = 0;
-  double right_scale = 0;
-  double track_scale = 0;
-  double gyro_scale = 0;
-};
-
 /// An extended Kalman filter over the pose of `base` in `map` and LearnedOdometry. Wheels move it,
 /// the gyro corrects the turn of each step, the lidar's fixes correct all of it. Fixed size, no
 /// allocation.

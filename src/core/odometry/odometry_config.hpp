@@ -48,11 +48,23 @@ struct PaperFactors {
   double dead_band_rad = 0;
 };
 
+/// What is known of the robot itself. A scale is a relative error: the wheel's true way is 1 + scale
+/// times what its counts say, the true track 1 + scale times the configured one, and a gyro reads
+/// 1 + scale times the true rate, plus the bias.
+struct LearnedOdometry {
+  double gyro_bias_rad_s = 0;
+  double left_scale = 0;
+  double right_scale = 0;
+  double track_scale = 0;
+  double gyro_scale = 0;
+};
+
 struct OdometryConfig {
   bool enabled = false;
   DriveGeometry geometry;
   OdometryLimits limits;
   OdometryNoise noise;
+  LearnedOdometry start;  ///< what learning starts from
   HeadingSource mode =
       HeadingSource::kFilter;  ///< the paper's are for comparison: they learn nothing
   PaperFactors paper;

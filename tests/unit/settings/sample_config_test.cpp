@@ -113,6 +113,12 @@ void expect_default_odometry(const OdometryConfig& sample, const OdometryConfig&
   EXPECT_EQ(noise.gyro_scale, defaults.core.noise.gyro_scale);
   EXPECT_EQ(noise.gyro_bias_rad_s, defaults.core.noise.gyro_bias_rad_s);
   EXPECT_EQ(sample.core.limits.wheel_speed_m_s, defaults.core.limits.wheel_speed_m_s);
+  const core::LearnedOdometry& start = sample.core.start;
+  EXPECT_EQ(start.left_scale, defaults.core.start.left_scale);
+  EXPECT_EQ(start.right_scale, defaults.core.start.right_scale);
+  EXPECT_EQ(start.track_scale, defaults.core.start.track_scale);
+  EXPECT_EQ(start.gyro_scale, defaults.core.start.gyro_scale);
+  EXPECT_EQ(start.gyro_bias_rad_s, defaults.core.start.gyro_bias_rad_s);
   EXPECT_EQ(sample.core.bridge_s, defaults.core.bridge_s);
 }
 

@@ -17,9 +17,9 @@ using nlohmann::json;
 
 class OdometryCommandTest : public ::testing::Test {
  protected:
-  CommandRun simulate(std::vector<std::string> more) {
+  CommandRun simulate(std::vector<std::string> more, const std::string& turns = "150") {
     std::vector<std::string> words = {
-        "simulate", "--map",    map_,      "--scenario", "circuit-1",  "--turns",       "150",
+        "simulate", "--map",    map_,      "--scenario", "circuit-1",  "--turns",       turns,
         "-o",       recording_, "--truth", truth_,       "--odometry", "--drive-speed", "0.4"};
     words.insert(words.end(), more.begin(), more.end());
     return CommandRun(words);
@@ -89,6 +89,37 @@ TEST_F(OdometryCommandTest, Readings_AreInTheOrderOfTime) {
     EXPECT_FALSE(line.contains("gyro"));
   }
   EXPECT_NEAR(static_cast<double>(readings), 100 * last_s, 3);
+}
+
+TEST_F(OdometryCommandTest, Calibrate_WritesWhatAReplayReads) {
+  ASSERT_EQ(
+      simulate({"--wheel-errors", "0.015,0.025", "--gyro-error", "0.02", "--gyro-bias", "0.01"},
+               "300")
+          .exit_code,
+      0);
+  const std::string output = (folder_.path() / "odometry.json").string();
+  const CommandRun run({"calibrate", "odometry", recording_, "--map", map_, "-o", output});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_NE(run.out.find("least squares"), std::string::npos);
+  EXPECT_NE(run.out.find("weighted"), std::string::npos);
+  std::ifstream stream(output);
+  const json start = json::parse(stream)["odometry"]["start"];
+  EXPECT_NEAR(start["left_scale"].get<double>(), 0.015, 0.003);
+  EXPECT_NEAR(start["right_scale"].get<double>(), 0.025, 0.003);
+  EXPECT_NEAR(start["gyro_scale"].get<double>(), 0.02, 0.006);  // turns one way alone
+  EXPECT_NEAR(start["gyro_bias"].get<double>(), 0.01, 0.001);
+
+  const CommandRun by_truth({"calibrate", "odometry", recording_, "--truth", truth_, "-o", output});
+  EXPECT_EQ(by_truth.exit_code, 0) << by_truth.err;
+  EXPECT_EQ(CommandRun({"replay", recording_, "--config", output, "--map", map_}).exit_code, 0);
+}
+
+TEST_F(OdometryCommandTest, CalibrateWithoutOdometry_Fails) {
+  const CommandRun simulated({"simulate", "--map", map_, "--pose", "1.6,2,0", "-o", recording_});
+  ASSERT_EQ(simulated.exit_code, 0);
+  const CommandRun run({"calibrate", "odometry", recording_, "--map", map_});
+  EXPECT_EQ(run.exit_code, 1);
+  EXPECT_NE(run.err.find("no odometry"), std::string::npos);
 }
 
 TEST_F(OdometryCommandTest, WrongUse_IsNamed) {

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+// What a recorded drive, whose places are known, says of a robot's wheels and gyro.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+
+#include "core/geometry/pose2.hpp"
+#include "core/odometry/dead_reckoning.hpp"
+#include "core/odometry/fusion_filter.hpp"
+#include "core/odometry/motion_step.hpp"
+
+namespace cornerd::calibration {
+
+/// Where the robot was, by the lidar or by a truth.
+struct KnownPlace {
+  core::TimeNs t_ns = 0;
+  core::Pose2 T_map_base;
+};
+
+/// A drive by wheels and gyro alone, from its first known place on.
+struct DriveError {
+  double mean_m = 0;  ///< over the known places
+  double end_m = 0;   ///< at the last one
+  std::size_t places = 0;
+};
+
+/// Steps and places in the order of time, as everywhere here.
+DriveError reckon(std::span<const core::MotionStep> steps, std::span<const KnownPlace> places,
+                  const core::DriveGeometry& geometry, const core::DeadReckoningConfig& config);
+/// The same with what was learned; the heading is the gyro's where there is one.
+DriveError reckon(std::span<const core::MotionStep> steps, std::span<const KnownPlace> places,
+                  const core::DriveGeometry& geometry, const core::LearnedOdometry& learned);
+
+/// Bertocco et al.: the factors of a mode for which the mean error is least, by grid search from
+/// 0.8 to 1.2 in steps of 0.01, then of 0.001 around the best.
+core::PaperFactors search_factors(std::span<const core::MotionStep> steps,
+                                  std::span<const KnownPlace> places,
+                                  const core::DriveGeometry& geometry,
+                                  const core::DeadReckoningConfig& start);
+
+struct OdometryFit {
+  core::LearnedOdometry learned;
+  core::LearnedOdometry sigma;
+  std::size_t windows = 0;
+  bool has_gyro = false;
+};
+
+/// Least squares over windows of about a second from known place to known place: the way by the
+/// wheels, the turn by wheels and gyro. Windows that fit badly (a slip) count less. Nullopt where
+/// the drive does not tell them all: too short, without turns or without straights.
+std::optional<OdometryFit> fit_odometry(std::span<const core::MotionStep> steps,
+                                        std::span<const KnownPlace> places,
+                                        const core::DriveGeometry& geometry);
+
+}  // namespace cornerd::calibration

@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: MIT
+// cornerctl calibrate odometry: what wheels and gyro are off by, from a recorded drive.
+#include "tool/calibrate_odometry.hpp"
+
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include "calibration/odometry_fit.hpp"
+#include "core/odometry/reading_gate.hpp"
+#include "core/pipeline.hpp"
+#include "replay/recording.hpp"
+#include "settings/map_file.hpp"
+#include "tool/failure.hpp"
+#include "tool/options.hpp"
+#include "tool/output.hpp"
+#include "tool/text_table.hpp"
+#include "tool/truth.hpp"
+
+namespace cornerd::tool {
+
+namespace {
+
+using calibration::DriveError;
+using core::HeadingSource;
+
+struct CalibrateOdometryOptions {
+  std::filesystem::path file;
+  SettingsOptions settings;
+  std::filesystem::path truth;
+  std::string wire = "auto";
+  std::filesystem::path output;
+};
+
+struct RecordedDrive {
+  std::vector<core::MotionStep> steps;
+  std::vector<calibration::KnownPlace> places;
+};
+
+/// The steps of the drive, and what the lidar makes of its turns.
+class DriveSink final : public replay::RecordingSink {
+ public:
+  DriveSink(core::Pipeline& pipeline, const core::OdometryConfig& odometry, const Truth* truth)
+      : pipeline_(pipeline), gate_(odometry), truth_(truth) {}
+
+  void on_sample(const core::Sample& sample) override {
+    now_ns_ = sample.t_ns;
+    take(pipeline_.add(sample));
+  }
+  void on_gap() override { take(pipeline_.finish()); }
+  void on_odometry(const message::OdometryReading& reading) override {
+    pipeline_.add(reading);
+    if (const auto step = gate_.add(reading, now_ns_)) drive_.steps.push_back(*step);
+  }
+  RecordedDrive finish() {
+    take(pipeline_.finish());
+    return std::move(drive_);
+  }
+
+ private:
+  void take(const core::TurnResult* result) {
+    if (result == nullptr) return;
+    const core::PoseEstimate& pose = result->pose;
+    if (!drive_.places.empty() && pose.t_ns <= drive_.places.back().t_ns) return;
+    if (truth_ != nullptr) {
+      if (const auto T_map_base = truth_->at(pose.t_ns)) {
+        drive_.places.push_back({pose.t_ns, *T_map_base});
+      }
+    } else if (pose.state == core::PoseState::kFix) {
+      drive_.places.push_back({pose.t_ns, pose.T_map_base});
+    }
+  }
+
+  core::Pipeline& pipeline_;
+  core::ReadingGate gate_;
+  const Truth* truth_;
+  std::optional<core::TimeNs> now_ns_;
+  RecordedDrive drive_;
+};
+
+RecordedDrive play(const CalibrateOdometryOptions& options, const settings::Config& config,
+                   const Truth* truth) {
+  core::LocalizerConfig localizer = config.localizer();
+  localizer.odometry.enabled = true;  // straightened turns give better places
+  core::Pipeline pipeline(truth != nullptr ? nullptr : settings::load_map(config.map), localizer);
+  DriveSink sink(pipeline, config.odometry.core, truth);
+  replay::RecordingPlayer player(options.file,
+                                 {parse_wire(options.wire), config.lidar.mount.inverted});
+  while (player.step(sink)) {
+  }
+  RecordedDrive drive = sink.finish();
+  if (drive.steps.empty()) throw Failure(options.file.string() + ": no odometry in it");
+  if (drive.places.size() < 2) {
+    throw Failure(options.file.string() + ": the robot was not found in the map");
+  }
+  return drive;
+}
+
+std::vector<std::string> row(const char* name, const std::string& factors,
+                             const DriveError& error) {
+  return {name, factors, formatted("%.3f", error.mean_m), formatted("%.3f", error.end_m)};
+}
+
+std::string describe_factors(HeadingSource source, const core::PaperFactors& factors) {
+  if (source == HeadingSource::kEncoder) return formatted("%.3f", factors.encoder_factor);
+  if (source == HeadingSource::kGyro) return formatted("%.3f", factors.gyro_factor);
+  return formatted("%.3f, %.3f", factors.encoder_factor, factors.gyro_factor);
+}
+
+std::string describe_learned(const calibration::OdometryFit& fit) {
+  TextTable table;
+  const auto add = [&](const char* name, double value, double sigma) {
+    table.add_row({name, formatted("%+.5f", value), formatted("+- %.5f", sigma)});
+  };
+  add("left wheel", fit.learned.left_scale, fit.sigma.left_scale);
+  add("right wheel", fit.learned.right_scale, fit.sigma.right_scale);
+  add("track", fit.learned.track_scale, fit.sigma.track_scale);
+  if (fit.has_gyro) {
+    add("gyro scale", fit.learned.gyro_scale, fit.sigma.gyro_scale);
+    add("gyro bias, rad/s", fit.learned.gyro_bias_rad_s, fit.sigma.gyro_bias_rad_s);
+  }
+  return table.text();
+}
+
+std::string fragment(const calibration::OdometryFit& fit, const core::PaperFactors& factors) {
+  const core::LearnedOdometry& learned = fit.learned;
+  return formatted(
+      "{\n  \"odometry\": {\n    \"start\": {\n      \"left_scale\": %.6f,\n      "
+      "\"right_scale\": %.6f,\n      \"track_scale\": %.6f,\n      \"gyro_scale\": %.6f,\n      "
+      "\"gyro_bias\": %.6f\n    },\n    \"factors\": { \"encoder\": %.3f, \"gyro\": %.3f }\n  "
+      "}\n}\n",
+      learned.left_scale, learned.right_scale, learned.track_scale, learned.gyro_scale,
+      learned.gyro_bias_rad_s, factors.encoder_factor, factors.gyro_factor);
+}
+
+void calibrate_odometry(const CalibrateOdometryOptions& options) {
+  std::optional<Truth> truth;
+  if (!options.truth.empty()) truth = Truth::load(options.truth);
+  const settings::Config config = options.settings.resolve(/*needs_map=*/!truth);
+  const RecordedDrive drive = play(options, config, truth ? &*truth : nullptr);
+  const core::DriveGeometry& geometry = config.odometry.core.geometry;
+  const auto fit = calibration::fit_odometry(drive.steps, drive.places, geometry);
+  if (!fit) {
+    throw Failure(options.file.string() +
+                  ": too little to tell wheels and gyro from: drive half a minute or more, with "
+                  "straights and turns both ways");
+  }
+
+  TextTable table;
+  table.add_row({"heading from", "factors", "mean error, m", "at the end, m"});
+  const double dead_band_rad = config.odometry.core.paper.dead_band_rad;
+  core::PaperFactors weighted;
+  const std::pair<HeadingSource, const char*> modes[] = {{HeadingSource::kEncoder, "encoder"},
+                                                         {HeadingSource::kGyro, "gyro"},
+                                                         {HeadingSource::kMean, "mean"},
+                                                         {HeadingSource::kWeighted, "weighted"}};
+  for (const auto& [source, name] : modes) {
+    if (source != HeadingSource::kEncoder && !fit->has_gyro) continue;
+    core::DeadReckoningConfig reckoning{source, {1, 1, dead_band_rad}};
+    if (source != HeadingSource::kWeighted) {
+      table.add_row(row(name, "none", reckon(drive.steps, drive.places, geometry, reckoning)));
+    }
+    if (source == HeadingSource::kMean) continue;
+    reckoning.factors = search_factors(drive.steps, drive.places, geometry, reckoning);
+    if (source == HeadingSource::kWeighted) weighted = reckoning.factors;
+    table.add_row(row(name, describe_factors(source, reckoning.factors),
+                      reckon(drive.steps, drive.places, geometry, reckoning)));
+  }
+  table.add_row(
+      row("least squares", "below", reckon(drive.steps, drive.places, geometry, fit->learned)));
+
+  Output report;
+  report.write(formatted("The drive by wheels and gyro alone, against %zu known places:\n",
+                         drive.places.size()));
+  report.write(table.text());
+  report.write(
+      formatted("\nLeast squares over %zu windows of a second, as shares:\n", fit->windows));
+  report.write(describe_learned(*fit));
+  report.flush();
+  if (!options.output.empty()) {
+    Output file(options.output);
+    file.write(fragment(*fit, weighted));
+    file.flush();
+  }
+}
+
+}  // namespace
+
+void add_calibrate_odometry(CLI::App& group) {
+  CLI::App* command = group.add_subcommand(
+      "odometry", "what wheels and gyro are off by, from a recorded drive in a known map");
+  const auto options = std::make_shared<CalibrateOdometryOptions>();
+  command
+      ->add_option("file", options->file,
+                   "a drive with ODOMETRY lines (.ndjson): half a minute or "
+                   "more, with straights and turns both ways")
+      ->required()
+      ->type_name("FILE");
+  options->settings.add_config(*command);
+  options->settings.add_map(*command);
+  command
+      ->add_option("--truth", options->truth,
+                   "where the robot really was, in place of the lidar's own fixes")
+      ->type_name("FILE");
+  command
+      ->add_option("-o,--output", options->output,
+                   "the keys odometry.start and odometry.factors, for a config")
+      ->type_name("JSON");
+  add_wire_option(*command, options->wire);
+  command->callback([options] { calibrate_odometry(*options); });
+}
+
+}  // namespace cornerd::tool
