@@ -3,8 +3,8 @@
 
 #include "core/detector_config.hpp"
 #include "core/geometry/pose2.hpp"
-#include "core/sensor_bias.hpp"
 #include "core/odometry/odometry_config.hpp"
+#include "core/sensor_bias.hpp"
 #include "core/sensor_noise.hpp"
 
 namespace cornerd::core {

@@ -48,9 +48,9 @@ struct PaperFactors {
   double dead_band_rad = 0;
 };
 
-/// What is known of the robot itself. A scale is a relative error: the wheel's true way is 1 + scale
-/// times what its counts say, the true track 1 + scale times the configured one, and a gyro reads
-/// 1 + scale times the true rate, plus the bias.
+/// What is known of the robot itself. A scale is a relative error: the wheel's true way is 1 +
+/// scale times what its counts say, the true track 1 + scale times the configured one, and a gyro
+/// reads 1 + scale times the true rate, plus the bias.
 struct LearnedOdometry {
   double gyro_bias_rad_s = 0;
   double left_scale = 0;
