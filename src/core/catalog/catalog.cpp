@@ -4,19 +4,24 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
+
+#include "core/map/sight.hpp"
 
 namespace cornerd::core {
 namespace {
 
-constexpr double kBin_m = 0.01;
+constexpr double kOffWall_m = 1e-3;
 
-/// True where nothing stands between two points in the free space. Both are pulled a little into
-/// their corner's opening, off the walls that they belong to.
+/// A landmark's place, pulled a little into its opening, off the walls that it belongs to.
+Vec2 off_wall(const Corner& landmark) {
+  return landmark.position + kOffWall_m * unit_vector(landmark.bisector_rad());
+}
+
+/// True where nothing stands between two landmarks.
 bool in_sight(const WallMap& map, const Corner& a, const Corner& b) {
-  constexpr double kOffWall_m = 1e-3;
-  const Vec2 from = a.position + kOffWall_m * unit_vector(a.bisector_rad());
-  const Vec2 to = b.position + kOffWall_m * unit_vector(b.bisector_rad());
-  const Vec2 way = to - from;
+  const Vec2 from = off_wall(a);
+  const Vec2 way = off_wall(b) - from;
   const double distance_m = way.norm();
   if (distance_m < kOffWall_m) return false;
   const double range_m =
@@ -29,8 +34,9 @@ bool in_sight(const WallMap& map, const Corner& a, const Corner& b) {
 Catalog::Catalog(const WallMap& map, double reach_m)
     : landmarks_(map.corners().begin(), map.corners().end()) {
   index_places(map);
-  collect_pairs(map, reach_m);
-  index_pairs();
+  const std::vector<LandmarkPair> pairs = pairs_in_sight(map, reach_m);
+  pairs_ = PairIndex(landmarks_, pairs);
+  list_neighbours(pairs);
 }
 
 void Catalog::index_places(const WallMap& map) {
@@ -55,40 +61,77 @@ void Catalog::index_places(const WallMap& map) {
   std::partial_sum(first_in_cell_.begin(), first_in_cell_.end(), first_in_cell_.begin());
 }
 
-void Catalog::collect_pairs(const WallMap& map, double reach_m) {
-  for (std::uint32_t a = 0; a < landmarks_.size(); ++a) {
-    for (std::uint32_t b = a + 1; b < landmarks_.size(); ++b) {
-      const double distance_m = (landmarks_[a].position - landmarks_[b].position).norm();
-      if (distance_m > reach_m || !in_sight(map, landmarks_[a], landmarks_[b])) continue;
-      pairs_.push_back({distance_m, a, b});
+std::vector<LandmarkPair> Catalog::pairs_in_sight(const WallMap& map, double reach_m) const {
+  struct Other {
+    double distance_m;
+    std::uint32_t index;
+  };
+  const std::size_t most = std::clamp<std::size_t>(
+      kMaxPairs / std::max<std::size_t>(1, landmarks_.size()), 4, kMaxNeighbours);
+  Sight sight;
+  std::vector<Other> others;
+  std::vector<LandmarkPair> pairs;
+  for (std::uint32_t i = 0; i < landmarks_.size(); ++i) {
+    const Corner& landmark = landmarks_[i];
+    sight.look(map, off_wall(landmark), reach_m + kOffWall_m,
+               [](std::uint32_t, const FaceInSight&) {});
+    others.clear();
+    const double farthest_m = std::min(reach_m, sight.horizon().farthest_m() + 2 * kOffWall_m);
+    visit_within(landmark.position, farthest_m, [&](std::uint32_t j) {
+      const Vec2 way = landmarks_[j].position - landmark.position;
+      const double distance_m = way.norm();
+      if (j == i || distance_m > reach_m || !sight.horizon().may_see(way, 3 * kOffWall_m)) return;
+      others.push_back({distance_m, j});
+    });
+    std::sort(others.begin(), others.end(), [](const Other& a, const Other& b) {
+      return a.distance_m != b.distance_m ? a.distance_m < b.distance_m : a.index < b.index;
+    });
+    std::size_t found = 0;
+    for (const Other& other : others) {
+      if (!in_sight(map, landmark, landmarks_[other.index])) continue;
+      pairs.push_back({std::min(i, other.index), std::max(i, other.index),
+                       static_cast<float>(other.distance_m)});
+      if (++found == most) break;
     }
   }
-  std::sort(pairs_.begin(), pairs_.end(), [](const LandmarkPair& p, const LandmarkPair& q) {
-    return p.distance_m < q.distance_m;
-  });
+  // Most were found from both ends.
+  const auto ends = [](const LandmarkPair& pair) { return std::pair(pair.from, pair.to); };
+  std::sort(pairs.begin(), pairs.end(),
+            [&](const LandmarkPair& a, const LandmarkPair& b) { return ends(a) < ends(b); });
+  pairs.erase(
+      std::unique(pairs.begin(), pairs.end(),
+                  [&](const LandmarkPair& a, const LandmarkPair& b) { return ends(a) == ends(b); }),
+      pairs.end());
+  return pairs;
 }
 
-void Catalog::index_pairs() {
-  const double longest_m = pairs_.empty() ? 0 : pairs_.back().distance_m;
-  const auto bins = static_cast<std::size_t>(longest_m / kBin_m) + 2;
-  first_pair_.assign(bins, static_cast<std::uint32_t>(pairs_.size()));
-  for (std::size_t i = pairs_.size(); i-- > 0;) {
-    first_pair_[static_cast<std::size_t>(pairs_[i].distance_m / kBin_m)] =
-        static_cast<std::uint32_t>(i);
+void Catalog::list_neighbours(std::span<const LandmarkPair> pairs) {
+  first_neighbour_.assign(landmarks_.size() + 1, 0);
+  for (const LandmarkPair& pair : pairs) {
+    ++first_neighbour_[pair.from + 1];
+    ++first_neighbour_[pair.to + 1];
   }
-  for (std::size_t bin = bins - 1; bin-- > 0;) {
-    first_pair_[bin] = std::min(first_pair_[bin], first_pair_[bin + 1]);
+  std::partial_sum(first_neighbour_.begin(), first_neighbour_.end(), first_neighbour_.begin());
+  neighbours_.resize(first_neighbour_.back());
+  std::vector<std::uint32_t> next(first_neighbour_.begin(), first_neighbour_.end() - 1);
+  for (const LandmarkPair& pair : pairs) {
+    neighbours_[next[pair.from]++] = pair;
+    neighbours_[next[pair.to]++] = {pair.to, pair.from, pair.distance_m};
+  }
+  for (std::size_t i = 0; i < landmarks_.size(); ++i) {
+    std::sort(neighbours_.begin() + first_neighbour_[i],
+              neighbours_.begin() + first_neighbour_[i + 1],
+              [](const LandmarkPair& a, const LandmarkPair& b) {
+                return a.distance_m != b.distance_m ? a.distance_m < b.distance_m : a.to < b.to;
+              });
   }
 }
 
-std::span<const LandmarkPair> Catalog::pairs_between(double low_m, double high_m) const {
-  const auto bin = static_cast<std::size_t>(std::max(0.0, low_m) / kBin_m);
-  if (pairs_.empty() || bin >= first_pair_.size()) return {};
-  std::size_t begin = first_pair_[bin];
-  while (begin < pairs_.size() && pairs_[begin].distance_m < low_m) ++begin;
-  std::size_t end = begin;
-  while (end < pairs_.size() && pairs_[end].distance_m <= high_m) ++end;
-  return std::span(pairs_).subspan(begin, end - begin);
+std::size_t Catalog::memory_bytes() const {
+  return landmarks_.capacity() * sizeof(Corner) + pairs_.memory_bytes() +
+         neighbours_.capacity() * sizeof(LandmarkPair) +
+         (first_neighbour_.capacity() + first_in_cell_.capacity() + in_cells_.capacity()) *
+             sizeof(std::uint32_t);
 }
 
 }  // namespace cornerd::core

@@ -8,16 +8,10 @@
 #include <span>
 #include <vector>
 
+#include "core/catalog/pair_index.hpp"
 #include "core/map/wall_map.hpp"
 
 namespace cornerd::core {
-
-/// Two landmarks in line of sight, as indices into Catalog::landmarks().
-struct LandmarkPair {
-  double distance_m = 0;
-  std::uint32_t a = 0;
-  std::uint32_t b = 0;
-};
 
 /// Made once from the map. Immutable; const methods may be called from any thread.
 class Catalog {
@@ -27,28 +21,27 @@ class Catalog {
 
   std::span<const Corner> landmarks() const { return landmarks_; }
 
-  /// All pairs whose distance lies in [low_m, high_m], by rising distance. The sorted distances are
-  /// addressed directly (the k-vector of star trackers): no search, however large the catalogue.
-  std::span<const LandmarkPair> pairs_between(double low_m, double high_m) const;
-  std::size_t pair_count() const { return pairs_.size(); }
+  /// The pairs of landmarks in line of sight. Of a landmark that sees very many others, those with
+  /// the nearest: kMaxNeighbours of them, fewer in a map of more than kMaxPairs / kMaxNeighbours.
+  const PairIndex& pairs() const { return pairs_; }
+  /// The sub-catalogue of one landmark: its pairs, the nearest first.
+  std::span<const LandmarkPair> neighbours(std::uint32_t landmark) const {
+    return std::span(neighbours_)
+        .subspan(first_neighbour_[landmark],
+                 first_neighbour_[landmark + 1] - first_neighbour_[landmark]);
+  }
 
   /// Calls visit(index) for every landmark that may lie within kVisitRadius_m of the point.
   template <typename Visitor>
   void visit_near(const Vec2& point, Visitor&& visit) const {
-    const std::size_t first_column = column_of(point.x() - kVisitRadius_m);
-    const std::size_t last_column = column_of(point.x() + kVisitRadius_m);
-    const std::size_t last_row = row_of(point.y() + kVisitRadius_m);
-    for (std::size_t row = row_of(point.y() - kVisitRadius_m); row <= last_row; ++row) {
-      for (std::size_t column = first_column; column <= last_column; ++column) {
-        const std::size_t cell = row * columns_ + column;
-        for (std::uint32_t i = first_in_cell_[cell]; i < first_in_cell_[cell + 1]; ++i) {
-          visit(in_cells_[i]);
-        }
-      }
-    }
+    visit_within(point, kVisitRadius_m, visit);
   }
 
+  std::size_t memory_bytes() const;
+
   static constexpr double kVisitRadius_m = 0.1;
+  static constexpr std::size_t kMaxNeighbours = 32;
+  static constexpr std::size_t kMaxPairs = 800'000;
 
  private:
   /// Cells outside the map are those at its border.
@@ -59,13 +52,25 @@ class Catalog {
     const double cell = distance_m / cell_m_;
     return cell < static_cast<double>(count - 1) ? static_cast<std::size_t>(cell) : count - 1;
   }
+  template <typename Visitor>
+  void visit_within(const Vec2& point, double radius_m, Visitor&& visit) const {
+    const std::size_t first_column = column_of(point.x() - radius_m);
+    const std::size_t last_column = column_of(point.x() + radius_m);
+    const std::size_t last_row = row_of(point.y() + radius_m);
+    for (std::size_t row = row_of(point.y() - radius_m); row <= last_row; ++row) {
+      const std::uint32_t begin = first_in_cell_[row * columns_ + first_column];
+      const std::uint32_t end = first_in_cell_[row * columns_ + last_column + 1];
+      for (std::uint32_t i = begin; i < end; ++i) visit(in_cells_[i]);
+    }
+  }
   void index_places(const WallMap& map);
-  void collect_pairs(const WallMap& map, double reach_m);
-  void index_pairs();
+  std::vector<LandmarkPair> pairs_in_sight(const WallMap& map, double reach_m) const;
+  void list_neighbours(std::span<const LandmarkPair> pairs);
 
   std::vector<Corner> landmarks_;
-  std::vector<LandmarkPair> pairs_;        ///< by rising distance
-  std::vector<std::uint32_t> first_pair_;  ///< for each bin of distance: the first pair in it
+  PairIndex pairs_;
+  std::vector<LandmarkPair> neighbours_;
+  std::vector<std::uint32_t> first_neighbour_;
 
   // A grid over the map: the landmarks of cell i are in_cells_[first_in_cell_[i]] and following.
   Vec2 lower_left_ = Vec2::Zero();

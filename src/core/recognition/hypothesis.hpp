@@ -14,6 +14,15 @@ struct Hypothesis {
   int votes = 0;
 };
 
+/// Best voted first. Ties are broken by the place, so that equal input gives equal output on every
+/// machine.
+inline bool is_better(const Hypothesis& a, const Hypothesis& b) {
+  if (a.votes != b.votes) return a.votes > b.votes;
+  if (a.T_map_lidar.x_m != b.T_map_lidar.x_m) return a.T_map_lidar.x_m < b.T_map_lidar.x_m;
+  if (a.T_map_lidar.y_m != b.T_map_lidar.y_m) return a.T_map_lidar.y_m < b.T_map_lidar.y_m;
+  return a.T_map_lidar.theta_rad < b.T_map_lidar.theta_rad;
+}
+
 /// True where the two are the same place for every purpose of recognition.
 inline bool same_place(const Pose2& a, const Pose2& b, double distance_m, double angle_rad) {
   return (a.translation() - b.translation()).squaredNorm() < distance_m * distance_m &&

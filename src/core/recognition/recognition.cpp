@@ -9,6 +9,15 @@ namespace {
 
 /// Breakpoints that form pairs: those that more would only confirm.
 constexpr std::size_t kMaxSelected = 7;
+/// Entries of the catalogue that a turn's pairs look at. So many pairs are looked up whatever that
+/// costs: one or two may be no pairs at all.
+constexpr std::size_t kMaxEntries = 8192;
+constexpr std::size_t kLeastPairs = 4;
+/// Places that all breakpoints vote on: those that most pairs point to.
+constexpr std::size_t kMaxVotedOn = 512;
+/// A place with fewer votes than this share of the best one's is not where the turn was taken: what
+/// is seen there, the map does not have. (Where the best is none either, all others are looked for.)
+constexpr double kLeastVoteShare = 0.5;
 constexpr double kMinBaseline_m = 0.15;
 /// Least tolerance of a distance between two breakpoints: what a map may be off.
 constexpr double kDistanceFloor_m = 0.01;
@@ -56,12 +65,13 @@ bool looks_like(const Breakpoint& breakpoint, const Corner& landmark, double hea
 }
 
 Recognition::Recognition(const WallMap& map, const Catalog& catalog)
-    : map_(map), catalog_(catalog) {
+    : map_(map), catalog_(catalog), places_(kMaxHypotheses) {
   selected_.reserve(kMaxBreakpointsPerTurn);
-  hypotheses_.reserve(kMaxHypotheses);
+  pairs_.reserve(kMaxSelected * (kMaxSelected - 1) / 2);
 }
 
-void Recognition::select(std::span<const Breakpoint> breakpoints) {
+void Recognition::begin(std::span<const Breakpoint> breakpoints) {
+  places_.clear();
   selected_.clear();
   for (const Breakpoint& breakpoint : breakpoints) selected_.push_back(&breakpoint);
   // The best known first: those whose place is sharp, corners before terminals.
@@ -71,49 +81,82 @@ void Recognition::select(std::span<const Breakpoint> breakpoints) {
   });
 }
 
-void Recognition::add(const Pose2& T_map_lidar) {
-  if (hypotheses_.size() < kMaxHypotheses) hypotheses_.push_back({T_map_lidar, 0});
+void Recognition::add(const Pose2& T_map_lidar) { places_.add(T_map_lidar); }
+
+void Recognition::select_pair(const Breakpoint& one, const Breakpoint& other) {
+  const double distance_m = (other.position - one.position).norm();
+  if (distance_m < kMinBaseline_m) return;
+  // The longest wall of the two has the sharpest direction.
+  const auto support = [](const Breakpoint& b) {
+    return std::max(b.left_support, b.right_support);
+  };
+  SelectedPair pair;
+  pair.first = support(one) >= support(other) ? &one : &other;
+  pair.second = pair.first == &one ? &other : &one;
+  const bool by_left =
+      pair.first->wall_on_left &&
+      (!pair.first->wall_on_right || pair.first->left_support >= pair.first->right_support);
+  const Vec2 way = pair.second->position - pair.first->position;
+  const double tolerance_m =
+      kDistanceFloor_m + kPatternGateSigmas * std::hypot(sigma_of(one), sigma_of(other));
+  pair.query.low_m = distance_m - tolerance_m;
+  pair.query.high_m = distance_m + tolerance_m;
+  pair.query.convex = pair.first->kind == BreakpointKind::kTerminal || pair.first->convex;
+  pair.query.side = by_left ? FaceSide::kLeft : FaceSide::kRight;
+  pair.query.wall_rad =
+      angle_between(std::atan2(way.y(), way.x()),
+                    by_left ? pair.first->left_wall_rad : pair.first->right_wall_rad);
+  pair.query.tolerance_rad = kDirectionTolerance_rad;
+  pair.cost = catalog_.pairs().cost(pair.query);
+  pairs_.push_back(pair);
 }
 
-void Recognition::add_pair(const Breakpoint& first, const Breakpoint& second) {
+void Recognition::add_pair(const SelectedPair& pair) {
+  const Breakpoint& first = *pair.first;
+  const Breakpoint& second = *pair.second;
   const Vec2 seen = second.position - first.position;
-  const double distance_m = seen.norm();
-  if (distance_m < kMinBaseline_m) return;
-  const double tolerance_m =
-      kDistanceFloor_m + kPatternGateSigmas * std::hypot(sigma_of(first), sigma_of(second));
   const double seen_rad = std::atan2(seen.y(), seen.x());
   const Vec2 seen_middle = (first.position + second.position) / 2;
   const auto landmarks = catalog_.landmarks();
-  const auto propose = [&](const Corner& a, const Corner& b) {
+  catalog_.pairs().visit(pair.query, [&](const LandmarkPair& candidate) {
+    const Corner& a = landmarks[candidate.from];
+    const Corner& b = landmarks[candidate.to];
     const Vec2 drawn = b.position - a.position;
     const double heading_rad = normalize_angle(std::atan2(drawn.y(), drawn.x()) - seen_rad);
     if (!looks_like(first, a, heading_rad) || !looks_like(second, b, heading_rad)) return;
     const Vec2 middle = (a.position + b.position) / 2;
     const Vec2 origin = middle - Pose2{0, 0, heading_rad} * seen_middle;
     add({origin.x(), origin.y(), heading_rad});
-  };
-  for (const LandmarkPair& pair :
-       catalog_.pairs_between(distance_m - tolerance_m, distance_m + tolerance_m)) {
-    propose(landmarks[pair.a], landmarks[pair.b]);
-    propose(landmarks[pair.b], landmarks[pair.a]);
-  }
+  });
 }
 
 std::span<const Hypothesis> Recognition::from_pairs(std::span<const Breakpoint> breakpoints) {
-  hypotheses_.clear();
-  select(breakpoints);
+  begin(breakpoints);
+  pairs_.clear();
   const std::size_t count = std::min(selected_.size(), kMaxSelected);
   for (std::size_t i = 0; i < count; ++i) {
-    for (std::size_t j = i + 1; j < count; ++j) add_pair(*selected_[i], *selected_[j]);
+    for (std::size_t j = i + 1; j < count; ++j) select_pair(*selected_[i], *selected_[j]);
+  }
+  std::sort(pairs_.begin(), pairs_.end(), [](const SelectedPair& a, const SelectedPair& b) {
+    if (a.cost != b.cost) return a.cost < b.cost;
+    return a.query.low_m > b.query.low_m;
+  });
+  std::size_t entries = 0;
+  for (std::size_t i = 0; i < pairs_.size(); ++i) {
+    entries += pairs_[i].cost;
+    if (entries > kMaxEntries && i >= kLeastPairs) break;
+    add_pair(pairs_[i]);
   }
   return ranked();
 }
 
 std::span<const Hypothesis> Recognition::from_single_corners(
     std::span<const Breakpoint> breakpoints) {
-  hypotheses_.clear();
-  select(breakpoints);
+  begin(breakpoints);
+  std::size_t compared = 0;
   for (const Breakpoint* breakpoint : selected_) {
+    compared += catalog_.landmarks().size();
+    if (compared > kMaxSingles) break;
     for (const Corner& landmark : catalog_.landmarks()) {
       // The wall with more samples gives the heading; the other has to agree with it.
       const bool by_left = breakpoint->left_support >= breakpoint->right_support;
@@ -151,8 +194,8 @@ void Recognition::add_walls(const WallSegment& first, const WallSegment& second)
 
 std::span<const Hypothesis> Recognition::from_walls(std::span<const WallSegment> segments,
                                                     std::span<const Breakpoint> breakpoints) {
-  hypotheses_.clear();
-  select(breakpoints);
+  begin(breakpoints);
+  if (map_.faces().size() > kMaxFacesForWalls) return {};
   const WallSegment* first = nullptr;
   const WallSegment* second = nullptr;
   std::uint32_t best = 0;
@@ -170,45 +213,56 @@ std::span<const Hypothesis> Recognition::from_walls(std::span<const WallSegment>
   return ranked();
 }
 
+bool Recognition::has_landmark(const Breakpoint& breakpoint, const Pose2& T_map_lidar, double c,
+                               double s) const {
+  const Vec2 point(T_map_lidar.x_m + c * breakpoint.position.x() - s * breakpoint.position.y(),
+                   T_map_lidar.y_m + s * breakpoint.position.x() + c * breakpoint.position.y());
+  bool found = false;
+  catalog_.visit_near(point, [&](std::uint32_t index) {
+    const Corner& landmark = catalog_.landmarks()[index];
+    found = found || ((landmark.position - point).squaredNorm() < kVoteRadius_m * kVoteRadius_m &&
+                      looks_like(breakpoint, landmark, T_map_lidar.theta_rad));
+  });
+  return found;
+}
+
 int Recognition::recognised(std::span<const Breakpoint> breakpoints,
                             const Pose2& T_map_lidar) const {
+  const double c = std::cos(T_map_lidar.theta_rad);
+  const double s = std::sin(T_map_lidar.theta_rad);
   int count = 0;
   for (const Breakpoint& breakpoint : breakpoints) {
-    const Vec2 point = T_map_lidar * breakpoint.position;
-    bool found = false;
-    catalog_.visit_near(point, [&](std::uint32_t index) {
-      const Corner& landmark = catalog_.landmarks()[index];
-      found = found || ((landmark.position - point).squaredNorm() < kVoteRadius_m * kVoteRadius_m &&
-                        looks_like(breakpoint, landmark, T_map_lidar.theta_rad));
-    });
-    count += found ? 1 : 0;
+    count += has_landmark(breakpoint, T_map_lidar, c, s) ? 1 : 0;
   }
   return count;
 }
 
-std::span<const Hypothesis> Recognition::ranked() {
-  for (Hypothesis& hypothesis : hypotheses_) {
-    hypothesis.votes = 0;
-    for (const Breakpoint* breakpoint : selected_) {
-      const int vote = recognised(std::span(breakpoint, 1), hypothesis.T_map_lidar);
-      hypothesis.votes += breakpoint->kind == BreakpointKind::kCorner ? 2 * vote : vote;
-    }
+int Recognition::votes(const Pose2& T_map_lidar) const {
+  const double c = std::cos(T_map_lidar.theta_rad);
+  const double s = std::sin(T_map_lidar.theta_rad);
+  int votes = 0;
+  for (const Breakpoint* breakpoint : selected_) {
+    if (!has_landmark(*breakpoint, T_map_lidar, c, s)) continue;
+    votes += breakpoint->kind == BreakpointKind::kCorner ? 2 : 1;
   }
-  // Ties are broken by the place, so that equal input gives equal output on every machine.
-  std::sort(hypotheses_.begin(), hypotheses_.end(), [](const Hypothesis& a, const Hypothesis& b) {
-    if (a.votes != b.votes) return a.votes > b.votes;
-    if (a.T_map_lidar.x_m != b.T_map_lidar.x_m) return a.T_map_lidar.x_m < b.T_map_lidar.x_m;
-    return a.T_map_lidar.y_m < b.T_map_lidar.y_m;
-  });
+  return votes;
+}
+
+std::span<const Hypothesis> Recognition::ranked() {
+  const std::span<Hypothesis> hypotheses = places_.most_named(kMaxVotedOn);
+  for (Hypothesis& hypothesis : hypotheses) hypothesis.votes = votes(hypothesis.T_map_lidar);
+  std::sort(hypotheses.begin(), hypotheses.end(), is_better);
+  const double least = hypotheses.empty() ? 0 : kLeastVoteShare * hypotheses.front().votes;
   std::size_t kept = 0;
-  for (const Hypothesis& hypothesis : hypotheses_) {
+  for (const Hypothesis& hypothesis : hypotheses) {
+    if (hypothesis.votes < least) break;
     const auto is_same = [&](const Hypothesis& other) {
       return same_place(other.T_map_lidar, hypothesis.T_map_lidar, kSamePlace_m, kSameHeading_rad);
     };
-    const auto end = hypotheses_.begin() + static_cast<std::ptrdiff_t>(kept);
-    if (std::none_of(hypotheses_.begin(), end, is_same)) hypotheses_[kept++] = hypothesis;
+    const auto end = hypotheses.begin() + static_cast<std::ptrdiff_t>(kept);
+    if (std::none_of(hypotheses.begin(), end, is_same)) hypotheses[kept++] = hypothesis;
   }
-  return std::span(hypotheses_).first(kept);
+  return hypotheses.first(kept);
 }
 
 }  // namespace cornerd::core

@@ -14,35 +14,72 @@ namespace {
 TEST(Catalog, Pairs_AreThoseThatSeeEachOther) {
   const WallMap map(testing::two_equal_rooms());
   const Catalog catalog(map, 12);
-  EXPECT_GT(catalog.pair_count(), 0U);
-  for (const LandmarkPair& pair : catalog.pairs_between(0, 100)) {
-    const Vec2& a = catalog.landmarks()[pair.a].position;
-    const Vec2& b = catalog.landmarks()[pair.b].position;
-    EXPECT_NEAR((a - b).norm(), pair.distance_m, 1e-12);
-    const bool inside_a = a.x() > -0.01 && a.x() < 3.01 && a.y() > -0.01 && a.y() < 2.01;
-    const bool inside_b = b.x() > 4.99 && b.x() < 8.01 && b.y() > -0.01 && b.y() < 2.01;
-    EXPECT_FALSE(inside_a && inside_b) << "through the walls between the rooms";
+  EXPECT_GT(catalog.pairs().size(), 0U);
+  std::size_t listed = 0;
+  for (std::uint32_t i = 0; i < catalog.landmarks().size(); ++i) {
+    double last_m = 0;
+    for (const LandmarkPair& pair : catalog.neighbours(i)) {
+      ++listed;
+      EXPECT_EQ(pair.from, i);
+      EXPECT_GE(pair.distance_m, last_m);
+      last_m = pair.distance_m;
+      const Vec2& a = catalog.landmarks()[pair.from].position;
+      const Vec2& b = catalog.landmarks()[pair.to].position;
+      EXPECT_NEAR((a - b).norm(), pair.distance_m, 1e-5);
+      const bool inside_a = a.x() > -0.01 && a.x() < 3.01 && a.y() > -0.01 && a.y() < 2.01;
+      const bool inside_b = b.x() > 4.99 && b.x() < 8.01 && b.y() > -0.01 && b.y() < 2.01;
+      EXPECT_FALSE(inside_a && inside_b) << "through the walls between the rooms";
+    }
+  }
+  EXPECT_EQ(listed, 2 * catalog.pairs().size());
+}
+
+TEST(Catalog, Neighbours_AreAllThatARayReaches) {
+  testing::TurnSource source(32);
+  FloorPlan plan;
+  for (int i = 0; i < 60; ++i) {
+    const Pose2 place = source.place_in(0, 9, 0, 9);
+    plan.walls.push_back({place.translation(), place * Vec2(0.4, 0), 0.1});
+  }
+  const WallMap map(plan);
+  const double reach_m = 2.5;
+  const Catalog catalog(map, reach_m);
+  const auto free_place = [](const Corner& corner) {
+    return Vec2(corner.position + 1e-3 * unit_vector(corner.bisector_rad()));
+  };
+  for (std::uint32_t i = 0; i < catalog.landmarks().size(); ++i) {
+    const auto neighbours = catalog.neighbours(i);
+    const Vec2 from = free_place(catalog.landmarks()[i]);
+    for (std::uint32_t j = 0; j < catalog.landmarks().size(); ++j) {
+      const Vec2 way = free_place(catalog.landmarks()[j]) - from;
+      const double distance_m =
+          (catalog.landmarks()[j].position - catalog.landmarks()[i].position).norm();
+      if (i == j || std::abs(distance_m - reach_m) < 0.01) continue;
+      const bool sees = distance_m < reach_m &&
+                        map.range_along(from, std::atan2(way.y(), way.x()), way.norm()) == 0;
+      const bool listed = std::any_of(neighbours.begin(), neighbours.end(),
+                                      [&](const LandmarkPair& pair) { return pair.to == j; });
+      if (sees) {
+        EXPECT_TRUE(listed) << i << " and " << j;
+      } else if (distance_m > reach_m) {
+        EXPECT_FALSE(listed) << i << " and " << j;
+      }
+    }
   }
 }
 
-TEST(Catalog, PairsBetween_AreAllOfThatDistanceAndNoOthers) {
-  const WallMap map(testing::l_shaped_room());
-  const Catalog catalog(map, 12);
-  const auto all = catalog.pairs_between(0, 100);
-  EXPECT_EQ(all.size(), catalog.pair_count());
-  for (double low = -0.5; low < 6; low += 0.037) {
-    const double high = low + 0.2;
-    const auto some = catalog.pairs_between(low, high);
-    const auto expected = std::count_if(all.begin(), all.end(), [&](const LandmarkPair& pair) {
-      return pair.distance_m >= low && pair.distance_m <= high;
-    });
-    EXPECT_EQ(static_cast<std::ptrdiff_t>(some.size()), expected);
-    for (const LandmarkPair& pair : some) {
-      EXPECT_GE(pair.distance_m, low);
-      EXPECT_LE(pair.distance_m, high);
-    }
+TEST(Catalog, HallOfColumns_KeepsTheNearestOfManyNeighbours) {
+  FloorPlan plan;
+  for (int i = 0; i < 12; ++i) {
+    for (int j = 0; j < 12; ++j) plan.walls.push_back({{i, j}, {i, j}, 0.02});
   }
-  EXPECT_TRUE(catalog.pairs_between(50, 60).empty());
+  const WallMap map(plan);
+  const Catalog catalog(map, 12);
+  EXPECT_LE(catalog.pairs().size(), catalog.landmarks().size() * Catalog::kMaxNeighbours);
+  for (std::uint32_t i = 0; i < catalog.landmarks().size(); ++i) {
+    ASSERT_GE(catalog.neighbours(i).size(), Catalog::kMaxNeighbours);
+    EXPECT_LT(catalog.neighbours(i).front().distance_m, 0.03);
+  }
 }
 
 TEST(Catalog, VisitNear_MissesNoLandmarkWithinItsRadius) {
