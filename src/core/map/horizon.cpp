@@ -2,6 +2,7 @@
 #include "core/map/horizon.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -101,26 +102,37 @@ bool Horizon::add(const Face& face, const FaceInSight& seen) {
   return true;
 }
 
-bool Horizon::may_see(const Vec2& way, double half_size_m) const {
+Horizon::Sectors Horizon::around(const Vec2& way, double half_size_m) {
   const double radius_m = half_size_m * 1.4143;
   const double distance_m =
       std::abs(way.x()) + std::abs(way.y());  // at most sqrt(2) times too much
-  const double square_m2 = way.squaredNorm();
-  if (square_m2 <= 4 * radius_m * radius_m) return true;
+  if (way.squaredNorm() <= 4 * radius_m * radius_m) return ~Sectors{0};
   // A direction's position grows by at most kPerQuarter for each radian; the arc sine of at most a
   // half by at most pi/3 times it.
   const double aside = kPerQuarter * 1.0473 * radius_m * 1.4143 / distance_m;
-  const double middle = sector_position(way);
-  const double near_m = std::sqrt(square_m2) - radius_m;
-  const double low = middle - aside;
-  const auto first = static_cast<std::size_t>(low < 0 ? low + static_cast<double>(kSectors) : low);
-  const double high = middle + aside;
-  auto last = static_cast<std::size_t>(high);
-  if (last >= kSectors) last -= kSectors;
-  for (std::size_t i = std::min(first, kSectors - 1);; i = after(i)) {
-    if (sectors_[i].far_m2 > near_m * near_m) return true;
-    if (i == last) return false;
+  const double low = sector_position(way) - aside;
+  const auto count = static_cast<int>(2 * aside) + 2;  // of sectors: fewer than half of all
+  const auto first = static_cast<int>(low + static_cast<double>(kSectors)) - 64;
+  return std::rotl((Sectors{1} << count) - 1, first);
+}
+
+Horizon::Sectors Horizon::open_beyond(double near_m) const {
+  const double near_m2 = near_m > 0 ? near_m * near_m : 0;
+  Sectors open = 0;
+  for (std::size_t i = 0; i < kSectors; ++i) {
+    open |= static_cast<Sectors>(sectors_[i].far_m2 > near_m2) << i;
   }
+  return open;
+}
+
+bool Horizon::may_see(const Vec2& way, double half_size_m) const {
+  const double near_m = way.norm() - half_size_m * 1.4143;
+  Sectors sectors = around(way, half_size_m);
+  for (; sectors != 0; sectors &= sectors - 1) {
+    const Sector& sector = sectors_[static_cast<std::size_t>(std::countr_zero(sectors))];
+    if (near_m <= 0 || sector.far_m2 > near_m * near_m) return true;
+  }
+  return false;
 }
 
 double Horizon::farthest_m() const {

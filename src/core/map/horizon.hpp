@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 
 #include "core/map/wall_map.hpp"
 
@@ -32,6 +33,16 @@ class Horizon {
 
   /// What is farther off than this is not seen in any direction.
   double farthest_m() const;
+
+  /// A bit for each sector.
+  using Sectors = std::uint64_t;
+  static_assert(kSectors == 64);
+
+  /// Those in which one may see beyond a distance.
+  Sectors open_beyond(double near_m) const;
+  /// Those that something within `half_size_m` of the middle of a box, which is `way` off, may
+  /// reach into.
+  static Sectors around(const Vec2& way, double half_size_m);
 
  private:
   /// Two faces that leave no more than this share of a sector open between them leave nothing: ten

@@ -40,7 +40,7 @@ class Sight {
   }
   template <typename Visitor>
   void look_into(const WallMap& map, const Vec2& origin, std::size_t column, std::size_t row,
-                 Visitor&& visit);
+                 Horizon::Sectors open, Visitor&& visit);
   void begin(double reach_m);
 
   Horizon horizon_;
@@ -58,14 +58,14 @@ inline void Sight::begin(double reach_m) {
 
 template <typename Visitor>
 void Sight::look_into(const WallMap& map, const Vec2& origin, std::size_t column, std::size_t row,
-                      Visitor&& visit) {
+                      Horizon::Sectors open, Visitor&& visit) {
   const CellGrid& grid = map.face_grid();
   const auto faces = grid.in_cell(column, row);
   if (faces.empty()) return;
   const double half_m = grid.cell_m() / 2;
   const Vec2 middle = grid.lower_left() + Vec2(static_cast<double>(2 * column + 1) * half_m,
                                                static_cast<double>(2 * row + 1) * half_m);
-  if (!horizon_.may_see(middle - origin, half_m)) return;
+  if ((Horizon::around(middle - origin, half_m) & open) == 0) return;
   for (const std::uint32_t index : faces) {
     const Face& face = map.faces()[index];
     FaceInSight seen;
@@ -99,13 +99,15 @@ void Sight::look(const WallMap& map, const Vec2& origin, double reach_m, Visitor
       std::min(std::min(to_column, 1 - to_column), std::min(to_row, 1 - to_row));
   const std::ptrdiff_t rings =
       std::max(std::max(column, columns - 1 - column), std::max(row, rows - 1 - row));
+  Horizon::Sectors open = 0;
   const auto look_at = [&](std::ptrdiff_t c, std::ptrdiff_t r) {
-    look_into(map, origin, static_cast<std::size_t>(c), static_cast<std::size_t>(r), visit);
+    look_into(map, origin, static_cast<std::size_t>(c), static_cast<std::size_t>(r), open, visit);
   };
   // Rings of cells around the place's own, until none has a cell nearer than what is seen.
   for (std::ptrdiff_t ring = 0; ring <= rings; ++ring) {
     const double near_m = (static_cast<double>(ring - 1) + to_border) * grid.cell_m();
-    if (ring > 1 && near_m > horizon_.farthest_m()) return;
+    open = horizon_.open_beyond(near_m);
+    if (open == 0) return;
     const std::ptrdiff_t first_row = std::max<std::ptrdiff_t>(row - ring, 0);
     const std::ptrdiff_t last_row = std::min(row + ring, rows - 1);
     const std::ptrdiff_t first_column = std::max<std::ptrdiff_t>(column - ring, 0);
