@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/recognition/recognition.hpp"
 
@@ -16,6 +17,13 @@ constexpr std::size_t kMaxExamined = 24;
 
 constexpr double kMinRoughHits = 0.4;
 constexpr double kMaxRoughThrough = 0.35;
+/// After it was refined on few rays, a place this far behind the best one is no rival, neither by
+/// rays nor by things. Places that all rays left in doubt were behind by up to 27 with clear turns,
+/// and by 74 where most rays were missing and many others belonged to nothing on the map.
+constexpr double kRoughMargin = 60;
+constexpr double kRoughMarginPerStranger = 2;
+/// What is left to refine then.
+constexpr double kRefinedReach_m = 0.01;
 
 // A right place: at least half of the rays end on the map's walls (the rest may be people and
 // chairs), and hardly any goes through a wall. The two walls of one corner fit to any other corner,
@@ -50,8 +58,8 @@ void Verification::begin(std::span<const PolarPoint> points, double noise_scale)
 
 void Verification::consider(std::span<const Hypothesis> hypotheses, double reach_m) {
   shortlist(hypotheses, reach_m);
-  const std::size_t count = std::min(candidates_.size(), kMaxExamined);
-  for (std::size_t i = 0; i < count; ++i) examine(candidates_[i].T_map_lidar, reach_m);
+  refine_roughly(reach_m);
+  for (const Candidate& candidate : candidates_) examine(candidate.T_map_lidar);
   // Not stable_sort, which takes memory; ties are broken by the place.
   std::sort(places_.begin(), places_.end(), [](const Place& a, const Place& b) {
     if (a.explanation.log_likelihood != b.explanation.log_likelihood) {
@@ -69,7 +77,8 @@ void Verification::shortlist(std::span<const Hypothesis> hypotheses, double reac
         explain(map_, thin_, hits, hypothesis.T_map_lidar, noise_, noise_scale_, reach_m / 2);
     if (rough.hit_share() < kMinRoughHits || rough.through_share() > kMaxRoughThrough) continue;
     if (candidates_.size() < candidates_.capacity()) {
-      candidates_.push_back({hypothesis.T_map_lidar, rough.log_likelihood});
+      candidates_.push_back(
+          {hypothesis.T_map_lidar, rough.log_likelihood, rough.log_likelihood_of_things});
     }
   }
   std::sort(candidates_.begin(), candidates_.end(), [](const Candidate& a, const Candidate& b) {
@@ -78,9 +87,40 @@ void Verification::shortlist(std::span<const Hypothesis> hypotheses, double reac
   });
 }
 
-void Verification::examine(const Pose2& T_map_lidar, double reach_m) {
+void Verification::refine_roughly(double reach_m) {
+  candidates_.resize(std::min(candidates_.size(), kMaxExamined));
+  double best = -std::numeric_limits<double>::infinity();
+  double best_of_things = best;
+  double strangers = 0;
+  std::size_t kept = 0;
+  for (const Candidate& candidate : candidates_) {
+    const RefinedPose refined =
+        refinement_.refine(map_, candidate.T_map_lidar, reach_m, thin_, thin_, noise_scale_);
+    if (!refined.valid) continue;
+    const auto hits = prediction_.cast(map_, refined.T_map_lidar, thin_);
+    const Explanation rough =
+        explain(map_, thin_, hits, refined.T_map_lidar, noise_, noise_scale_, 0);
+    if (rough.log_likelihood > best) {
+      best = rough.log_likelihood;
+      strangers = static_cast<double>(rough.rays - rough.hits);
+    }
+    best_of_things = std::max(best_of_things, rough.log_likelihood_of_things);
+    candidates_[kept++] = {refined.T_map_lidar, rough.log_likelihood,
+                           rough.log_likelihood_of_things};
+  }
+  candidates_.resize(kept);
+  const double margin = kRoughMargin + kRoughMarginPerStranger * strangers;
+  std::erase_if(candidates_, [&](const Candidate& candidate) {
+    return candidate.log_likelihood < best - margin &&
+           candidate.log_likelihood_of_things < best_of_things - margin;
+  });
+}
+
+void Verification::examine(const Pose2& T_map_lidar) {
+  if (is_known(T_map_lidar)) return;
   Place place;
-  place.refined = refinement_.refine(map_, T_map_lidar, reach_m, thin_, points_, noise_scale_);
+  place.refined =
+      refinement_.refine(map_, T_map_lidar, kRefinedReach_m, thin_, points_, noise_scale_);
   if (!place.refined.valid || is_known(place.refined.T_map_lidar)) return;
   const auto hits = prediction_.cast(map_, place.refined.T_map_lidar, points_);
   place.explanation =

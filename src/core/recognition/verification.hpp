@@ -18,7 +18,8 @@ struct Place {
 };
 
 /// Tests hypotheses against the whole turn: first roughly, on a few rays; those that pass are
-/// refined and tested on all of them. All memory is taken at construction.
+/// refined on these, and those that could then be the best or its rival on all rays. All memory is
+/// taken at construction.
 class Verification {
  public:
   Verification(const WallMap& map, const LocalizerConfig& config);
@@ -41,9 +42,11 @@ class Verification {
   struct Candidate {
     Pose2 T_map_lidar;
     double log_likelihood = 0;
+    double log_likelihood_of_things = 0;
   };
   void shortlist(std::span<const Hypothesis> hypotheses, double reach_m);
-  void examine(const Pose2& T_map_lidar, double reach_m);
+  void refine_roughly(double reach_m);
+  void examine(const Pose2& T_map_lidar);
   bool is_known(const Pose2& T_map_lidar) const;
   bool passes(const Place& place) const;
 
