@@ -38,7 +38,7 @@ Refinement::Refinement(double max_range_m, const SensorNoise& noise)
 Refinement::Step Refinement::step(const WallMap& map, const Pose2& T_map_lidar,
                                   std::span<const PolarPoint> points, double slack_m,
                                   double noise_scale) {
-  const auto hits = prediction_.cast(map, T_map_lidar, points);
+  const auto hits = prediction_.cast_near(map, T_map_lidar, points);
   const double c = std::cos(T_map_lidar.theta_rad);
   const double s = std::sin(T_map_lidar.theta_rad);
   Step sums;
@@ -119,7 +119,7 @@ RefinedMotion Refinement::refine_motion(const WallMap& map, const Pose2& start, 
   double slack_m = reach_m;
   for (int k = 0; k < kMotionSteps; ++k) {
     const Pose2& T_map_lidar = refined.T_map_lidar;
-    const auto hits = prediction_.cast(map, T_map_lidar, points);
+    const auto hits = prediction_.cast_near(map, T_map_lidar, points);
     const double c = std::cos(T_map_lidar.theta_rad);
     const double s = std::sin(T_map_lidar.theta_rad);
     Matrix6 information = belief.asDiagonal();

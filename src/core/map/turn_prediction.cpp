@@ -7,6 +7,9 @@
 namespace cornerd::core {
 namespace {
 
+/// More than any error of a range, and than a place may be off.
+constexpr double kBeyond_m = 1;
+
 /// First ray at or after the bearing.
 std::size_t first_at(std::span<const PolarPoint> points, double bearing_rad) {
   const auto found = std::partition_point(
@@ -36,14 +39,28 @@ void TurnPrediction::cover(std::uint32_t face, const Vec2& normal_lidar, double 
 
 std::span<const PredictedHit> TurnPrediction::cast(const WallMap& map, const Pose2& T_map_lidar,
                                                    std::span<const PolarPoint> points) {
-  hits_.assign(points.size(), {max_range_m_, PredictedHit::kNone});
+  return cast(map, T_map_lidar, points, max_range_m_);
+}
+
+std::span<const PredictedHit> TurnPrediction::cast_near(const WallMap& map,
+                                                        const Pose2& T_map_lidar,
+                                                        std::span<const PolarPoint> points) {
+  double farthest_m = 0;
+  for (const PolarPoint& point : points) farthest_m = std::max(farthest_m, point.range_m);
+  return cast(map, T_map_lidar, points, std::min(max_range_m_, farthest_m + kBeyond_m));
+}
+
+std::span<const PredictedHit> TurnPrediction::cast(const WallMap& map, const Pose2& T_map_lidar,
+                                                   std::span<const PolarPoint> points,
+                                                   double reach_m) {
+  hits_.assign(points.size(), {reach_m, PredictedHit::kNone});
   const double c = std::cos(T_map_lidar.theta_rad);
   const double s = std::sin(T_map_lidar.theta_rad);
   const Vec2 origin = T_map_lidar.translation();
   const auto to_lidar = [&](const Vec2& v) {
     return Vec2(c * v.x() + s * v.y(), -s * v.x() + c * v.y());
   };
-  sight_.look(map, origin, max_range_m_, [&](std::uint32_t i, const FaceInSight& seen) {
+  sight_.look(map, origin, reach_m, [&](std::uint32_t i, const FaceInSight& seen) {
     const Vec2 from = to_lidar(seen.from);
     const Vec2 to = to_lidar(seen.to);
     const Vec2 normal = to_lidar(map.faces()[i].normal);

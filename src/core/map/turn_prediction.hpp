@@ -28,8 +28,14 @@ class TurnPrediction {
   /// `points` by rising bearing. The result is valid until the next call.
   std::span<const PredictedHit> cast(const WallMap& map, const Pose2& T_map_lidar,
                                      std::span<const PolarPoint> points);
+  /// The same, but walls count only where they are not much farther off than the farthest return:
+  /// what lies beyond cannot have been seen, and costs most where the place is wrong.
+  std::span<const PredictedHit> cast_near(const WallMap& map, const Pose2& T_map_lidar,
+                                          std::span<const PolarPoint> points);
 
  private:
+  std::span<const PredictedHit> cast(const WallMap& map, const Pose2& T_map_lidar,
+                                     std::span<const PolarPoint> points, double reach_m);
   void cover(std::uint32_t face, const Vec2& normal_lidar, double height_m, std::size_t begin,
              std::size_t end, std::span<const PolarPoint> points);
 

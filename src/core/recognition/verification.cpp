@@ -22,6 +22,8 @@ constexpr double kMaxRoughThrough = 0.35;
 /// and by 74 where most rays were missing and many others belonged to nothing on the map.
 constexpr double kRoughMargin = 60;
 constexpr double kRoughMarginPerStranger = 2;
+/// The same before it was refined: up to 68, and 169.
+constexpr double kUnrefinedMargin = 150;
 /// What is left to refine then.
 constexpr double kRefinedReach_m = 0.01;
 
@@ -72,7 +74,7 @@ void Verification::consider(std::span<const Hypothesis> hypotheses, double reach
 void Verification::shortlist(std::span<const Hypothesis> hypotheses, double reach_m) {
   candidates_.clear();
   for (const Hypothesis& hypothesis : hypotheses) {
-    const auto hits = prediction_.cast(map_, hypothesis.T_map_lidar, thin_);
+    const auto hits = prediction_.cast_near(map_, hypothesis.T_map_lidar, thin_);
     const Explanation rough =
         explain(map_, thin_, hits, hypothesis.T_map_lidar, noise_, noise_scale_, reach_m / 2);
     if (rough.hit_share() < kMinRoughHits || rough.through_share() > kMaxRoughThrough) continue;
@@ -89,15 +91,20 @@ void Verification::shortlist(std::span<const Hypothesis> hypotheses, double reac
 
 void Verification::refine_roughly(double reach_m) {
   candidates_.resize(std::min(candidates_.size(), kMaxExamined));
+  const double unrefined_best = candidates_.empty() ? 0 : candidates_.front().log_likelihood;
   double best = -std::numeric_limits<double>::infinity();
   double best_of_things = best;
   double strangers = 0;
   std::size_t kept = 0;
   for (const Candidate& candidate : candidates_) {
+    if (candidate.log_likelihood <
+        unrefined_best - kUnrefinedMargin - kRoughMarginPerStranger * strangers) {
+      break;
+    }
     const RefinedPose refined =
         refinement_.refine(map_, candidate.T_map_lidar, reach_m, thin_, thin_, noise_scale_);
     if (!refined.valid) continue;
-    const auto hits = prediction_.cast(map_, refined.T_map_lidar, thin_);
+    const auto hits = prediction_.cast_near(map_, refined.T_map_lidar, thin_);
     const Explanation rough =
         explain(map_, thin_, hits, refined.T_map_lidar, noise_, noise_scale_, 0);
     if (rough.log_likelihood > best) {
