@@ -17,9 +17,10 @@ using core::Vec2;
 constexpr double kThickness_m = 0.12;
 constexpr double kDoor_m = 0.9;
 constexpr double kCorridor_m = 1.8;
-/// Corners that a room adds: four of its own, four at its door, four at its cupboard, less what it
-/// shares. Counted in the maps that this makes.
-constexpr double kCornersPerRoom = 11.4;
+/// Corners that a room adds (four of its own, four at its door, four at its cupboard), and those of
+/// the corridors of a small building. Counted in the maps that this makes.
+constexpr double kCornersPerRoom = 12;
+constexpr double kOtherCorners = 14;
 
 /// What a room looks like from its corridor: x along the corridor from the room's left wall, y away
 /// from the corridor.
@@ -80,13 +81,12 @@ core::FloorPlan office_building(std::size_t corners, std::uint64_t seed) {
   core::FloorPlan plan;
   plan.name = "offices-" + std::to_string(corners);
   plan.thickness_m = kThickness_m;
-  const auto rooms = std::max<std::size_t>(
-      2, static_cast<std::size_t>(std::lround(static_cast<double>(corners) / kCornersPerRoom)));
+  const auto rooms = static_cast<std::size_t>(
+      std::max(1L, std::lround((static_cast<double>(corners) - kOtherCorners) / kCornersPerRoom)));
   // About as wide as it is high.
   const auto rooms_per_side = static_cast<std::size_t>(
       std::ceil(std::sqrt(static_cast<double>(rooms) / 2 * (2 * 4.5 + kCorridor_m) / 4)));
   double y_m = 0;
-  double widest_m = 0;
   std::size_t done = 0;
   while (done < rooms) {
     const double below_m = random.uniform(3.2, 5.8);
@@ -99,7 +99,7 @@ core::FloorPlan office_building(std::size_t corners, std::uint64_t seed) {
       if (done < rooms) above.add(random_room(random, above_m), "room-" + std::to_string(++done));
     }
     below.close(below_m);
-    above.close(above_m);
+    if (above.x_m() > 0) above.close(above_m);
     // The corridor's end, past the longer side.
     const double end_m = std::max(below.x_m(), above.x_m());
     plan.walls.push_back({{below.x_m(), corridor_m}, {end_m, corridor_m}, kThickness_m});
@@ -111,7 +111,6 @@ core::FloorPlan office_building(std::size_t corners, std::uint64_t seed) {
                            {end_m, corridor_m},
                            {end_m, corridor_m + kCorridor_m},
                            {-kCorridor_m, corridor_m + kCorridor_m}}});
-    widest_m = std::max(widest_m, end_m);
     y_m = corridor_m + kCorridor_m + above_m;
   }
   // The corridor along the side.

@@ -10,8 +10,8 @@
 namespace cornerd::bench {
 
 /// Offices on both sides of corridors, which a corridor along the building's side joins. Each room
-/// has a width, a door and a cupboard of its own. The first room that reaches `corners` corners, as
-/// a lidar sees them, is the last; small maps have two rooms at least. Rooms are named.
+/// has a width, a door and a cupboard of its own. So many rooms that there are about `corners`
+/// corners, as a lidar sees them, outside and inside. Rooms are named.
 core::FloorPlan office_building(std::size_t corners, std::uint64_t seed);
 
 /// A corridor with `rooms` rooms on one side that are equal to the millimetre.

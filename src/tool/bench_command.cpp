@@ -14,6 +14,7 @@
 #include "tool/bench_instructions.hpp"
 #include "tool/bench_json.hpp"
 #include "tool/bench_plots.hpp"
+#include "tool/bench_scale.hpp"
 #include "tool/bench_text.hpp"
 #include "tool/commands.hpp"
 #include "tool/contest_maps.hpp"
@@ -39,6 +40,9 @@ struct BenchOptions {
   std::filesystem::path plots;
   std::string json;
   std::size_t detections = 0;
+  bool scale = false;
+  std::vector<std::size_t> corners;
+  const CLI::Option* positions_given = nullptr;
 };
 
 std::vector<bench::NamedMethod> chosen_methods(const BenchOptions& options) {
@@ -94,7 +98,27 @@ BenchReport measure(const BenchOptions& options) {
   return report;
 }
 
+void run_scale(const BenchOptions& options) {
+  ScaleBenchOptions scale;
+  if (!options.corners.empty()) scale.corners = options.corners;
+  if (options.positions_given->count() > 0) scale.turns = options.positions;
+  scale.seed = options.seed;
+  scale.instructions = options.instructions;
+  scale.plots = options.plots;
+  scale.json = options.json;
+  if (options.detections > 0) {
+    only_localize(scale, options.detections);
+  } else {
+    run_scale_bench(scale);
+  }
+}
+
 void run_bench(const BenchOptions& options) {
+  if (options.scale) {
+    run_scale(options);
+    return;
+  }
+  if (!options.corners.empty()) throw UsageError("--corners is for --scale");
   if (options.detections > 0) {
     only_detect(options);
     return;
@@ -133,10 +157,20 @@ void add_bench(CLI::App& program) {
       ->delimiter(',')
       ->type_name("NAME,...");
   command->add_flag("--variants", options->variants, "also other forms of the methods");
-  command->add_option("--positions", options->positions, "random places; 0: the paper's 43 alone")
-      ->check(CLI::Range(std::size_t{0}, std::size_t{10'000'000}))
-      ->type_name("N")
-      ->capture_default_str();
+  command->add_flag(
+      "--scale", options->scale,
+      "instead: the first fix in buildings of 20 to 20,000 corners, and in equal rooms; "
+      "--positions: turns in each, else 200");
+  command->add_option("--corners", options->corners, "with --scale: buildings of about so many")
+      ->delimiter(',')
+      ->check(CLI::Range(std::size_t{0}, std::size_t{100'000}))
+      ->type_name("N,...");
+  options->positions_given =
+      command
+          ->add_option("--positions", options->positions, "random places; 0: the paper's 43 alone")
+          ->check(CLI::Range(std::size_t{0}, std::size_t{10'000'000}))
+          ->type_name("N")
+          ->capture_default_str();
   command->add_option("--samples", options->samples, "a turn")
       ->check(CLI::Range(std::size_t{1}, core::kMaxSamplesPerTurn))
       ->type_name("N")

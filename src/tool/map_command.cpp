@@ -13,6 +13,7 @@
 #include "settings/map_file.hpp"
 #include "tool/commands.hpp"
 #include "tool/failure.hpp"
+#include "tool/look_alikes.hpp"
 #include "tool/map_drawing.hpp"
 #include "tool/options.hpp"
 #include "tool/output.hpp"
@@ -32,8 +33,16 @@ std::string describe(const core::WallMap& map) {
   return text;
 }
 
-void check(const std::filesystem::path& file) {
-  const auto map = settings::load_map(file);
+struct CheckOptions {
+  std::filesystem::path map;
+  std::filesystem::path plot;
+  std::size_t places = 400;
+};
+
+void check(const CheckOptions& options) {
+  const auto map = settings::load_map(options.map);
+  std::optional<Output> picture;
+  if (!options.plot.empty()) picture.emplace(options.plot);
   const auto corners = map->corners();
   const auto convex = std::count_if(corners.begin(), corners.end(),
                                     [](const core::Corner& corner) { return corner.is_convex(); });
@@ -54,6 +63,16 @@ void check(const std::filesystem::path& file) {
   output.write(rooms);
   output.write("\n");
   output.flush();
+  if (options.places == 0) return;
+  const std::vector<ExaminedPlace> places = examine_places(map, options.places);
+  output.write(describe_look_alikes(*map, places));
+  output.flush();
+  if (!picture) return;
+  MapDrawing drawing(*map);
+  drawing.add_examined_places(places);
+  picture->write(drawing.document(
+      describe(*map) + "; red: places that one turn cannot tell from those at the lines' ends"));
+  picture->flush();
 }
 
 struct RenderOptions {
@@ -143,10 +162,18 @@ void render(RenderOptions& options) {
 }
 
 void add_check(CLI::App& group) {
-  CLI::App* command = group.add_subcommand("check", "validate a map and say what is in it");
-  const auto file = std::make_shared<std::filesystem::path>();
-  command->add_option("map", *file, "the map")->required()->type_name("MAP");
-  command->callback([file] { check(*file); });
+  CLI::App* command = group.add_subcommand(
+      "check", "validate a map and say what is in it, and which places a turn cannot tell apart");
+  const auto options = std::make_shared<CheckOptions>();
+  command->add_option("map", options->map, "the map")->required()->type_name("MAP");
+  command
+      ->add_option("--places", options->places,
+                   "look around at about so many places; 0: only validate")
+      ->check(CLI::Range(std::size_t{0}, std::size_t{1'000'000}))
+      ->type_name("N")
+      ->capture_default_str();
+  command->add_option("--plot", options->plot, "draw them")->type_name("SVG");
+  command->callback([options] { check(*options); });
 }
 
 void add_render(CLI::App& group) {

@@ -189,6 +189,21 @@ void MapDrawing::add_scan(const core::Scan& scan, const core::Pose2& T_map_lidar
   svg_.end_group();
 }
 
+void MapDrawing::add_examined_places(std::span<const ExaminedPlace> places) {
+  svg_.begin_group("look-alikes");
+  for (const ExaminedPlace& place : places) {
+    for (const core::Pose2& other : place.look_alikes) {
+      svg_.line(place.place.translation(), other.translation(),
+                {.stroke = kRobot, .stroke_width = 0.6, .opacity = 0.25});
+    }
+  }
+  for (const ExaminedPlace& place : places) {
+    const std::string_view colour = place.is_known ? kReturn : place.is_lost ? kLabel : kRobot;
+    svg_.dot(place.place.translation(), place.is_known ? 2 : 3.2, {.fill = colour});
+  }
+  svg_.end_group();
+}
+
 void MapDrawing::add_breakpoints(std::span<const core::Breakpoint> breakpoints,
                                  const core::Pose2& T_map_lidar) {
   svg_.begin_group("breakpoints");

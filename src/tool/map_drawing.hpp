@@ -8,6 +8,7 @@
 #include "core/breakpoint/breakpoint.hpp"
 #include "core/map/wall_map.hpp"
 #include "core/scan.hpp"
+#include "tool/look_alikes.hpp"
 #include "tool/svg.hpp"
 
 namespace cornerd::tool {
@@ -30,6 +31,10 @@ class MapDrawing {
   void add_pose(const core::Pose2& T_map_base);
   /// The ellipse that holds the true position 95 times of 100.
   void add_uncertainty(const core::Pose2& T_map_base, const core::Covariance3& covariance);
+
+  /// Places that one turn tells from all others, and those that it does not, with lines to what
+  /// they look like.
+  void add_examined_places(std::span<const ExaminedPlace> places);
 
   /// The whole picture. `subtitle`: one line under the map's name.
   std::string document(std::string_view subtitle);

@@ -75,6 +75,11 @@ void WallMap::index() {
   room_grid_ = CellGrid(extents);
 }
 
+std::size_t WallMap::memory_bytes() const {
+  return faces_.capacity() * sizeof(Face) + corners_.capacity() * sizeof(Corner) +
+         face_grid_.memory_bytes() + wall_grid_.memory_bytes() + room_grid_.memory_bytes();
+}
+
 std::optional<std::size_t> WallMap::room_at(const Vec2& point) const {
   for (const std::uint32_t i : room_grid_.at(point)) {
     if (contains(plan_.rooms[i].polygon, point)) return i;

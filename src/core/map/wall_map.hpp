@@ -85,6 +85,9 @@ class WallMap {
   /// Which faces lie where.
   const CellGrid& face_grid() const { return face_grid_; }
 
+  /// Of what was made from the plan.
+  std::size_t memory_bytes() const;
+
  private:
   void index();
 

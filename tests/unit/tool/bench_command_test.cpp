@@ -53,6 +53,26 @@ class BenchCommand : public testing::Test {
   TemporaryFolder folder_;
 };
 
+TEST_F(BenchCommand, Scale_IsATableAPictureAndFigures) {
+  const BenchOutcome outcome =
+      run({"--scale", "--corners", "60,120", "--positions", "6", "--plots",
+           (folder_.path() / "plots").string(), "--json", (folder_.path() / "scale.json").string()});
+  EXPECT_EQ(outcome.exit_code, kExitDone);
+  EXPECT_EQ(outcome.err, "");
+  EXPECT_THAT(outcome.out, HasSubstr("offices, about 120"));
+  EXPECT_THAT(outcome.out, HasSubstr("equal rooms"));
+  const auto figures = nlohmann::json::parse(read(folder_.path() / "scale.json"));
+  ASSERT_EQ(figures["scale"].size(), 3U);
+  EXPECT_EQ(figures["scale"][0]["turns"], 6);
+  EXPECT_EQ(figures["scale"][0]["wrong"], 0);
+  EXPECT_FALSE(figures["scale"][0].contains("instructions"));
+  EXPECT_EQ(find_xml_error(read(folder_.path() / "plots/scale.svg")), "");
+}
+
+TEST_F(BenchCommand, CornersWithoutScale_AreWrongUsage) {
+  EXPECT_EQ(run({"--corners", "60"}).exit_code, kExitUsage);
+}
+
 TEST_F(BenchCommand, Text_HasThePapersFiguresBesideOurs) {
   const BenchOutcome outcome = run({"--positions", "8"});
   EXPECT_EQ(outcome.exit_code, kExitDone);

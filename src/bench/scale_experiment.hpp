@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+// How the first fix in a building depends on the building's size: no prior, one turn.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/localizer.hpp"
+#include "core/scan.hpp"
+
+namespace cornerd::bench {
+
+struct ScaleCase {
+  std::string title;
+  core::FloorPlan plan;
+};
+
+/// Office buildings of about so many corners each, and a corridor of twelve equal rooms, where all
+/// that can be asked for is that the true place is among the alternatives.
+std::vector<ScaleCase> scale_cases(const std::vector<std::size_t>& corners, std::uint64_t seed);
+
+struct ScaleResult {
+  std::string title;
+  std::size_t rooms = 0;
+  std::size_t corners = 0;
+  std::size_t pairs = 0;         ///< in the catalogue
+  double map_s = 0;              ///< to find the plan's faces and corners and index them
+  double catalog_s = 0;          ///< to make the catalogue
+  std::size_t memory_bytes = 0;  ///< of faces, corners, their index and the catalogue
+  std::size_t turns = 0;
+  std::size_t fixed = 0;  ///< rightly
+  std::size_t wrong = 0;  ///< over 10 cm or 5 degrees off
+  std::size_t ambiguous = 0;
+  std::size_t ambiguous_with_truth = 0;  ///< the true place among the alternatives
+  std::size_t lost = 0;
+  double mean_error_m = 0;             ///< of the right fixes
+  double time_us = 0;                  ///< CPU time a turn, mean
+  double time_99_us = 0;               ///< 99 of 100 turns take no longer
+  std::optional<double> instructions;  ///< a turn, mean
+};
+
+/// Turns at random places of one building.
+class ScaleTurns {
+ public:
+  ScaleTurns(std::shared_ptr<const core::WallMap> map, std::size_t turns, std::uint64_t seed);
+
+  const std::vector<core::Pose2>& places() const { return places_; }
+  const std::vector<core::Scan>& turns() const { return turns_; }
+
+  /// Localizes in every turn, each time as if nothing had been known.
+  void localize(core::Localizer& localizer,
+                const std::function<void(std::size_t turn, const core::PoseEstimate&)>& done) const;
+
+ private:
+  std::vector<core::Pose2> places_;
+  std::vector<core::Scan> turns_;
+};
+
+ScaleResult run_scale_case(const ScaleCase& building, std::size_t turns, std::uint64_t seed);
+
+}  // namespace cornerd::bench

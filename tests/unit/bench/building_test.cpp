@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+#include "bench/building.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "replay/simulator/places.hpp"
+
+namespace cornerd::bench {
+namespace {
+
+TEST(OfficeBuilding, HasAboutTheCornersThatAreAskedFor) {
+  for (const double corners : {200.0, 2000.0, 20'000.0}) {
+    const core::WallMap map(office_building(static_cast<std::size_t>(corners), 1));
+    EXPECT_NEAR(static_cast<double>(map.corners().size()), corners, 0.15 * corners);
+  }
+  EXPECT_LT(core::WallMap(office_building(20, 1)).corners().size(), 40U);
+}
+
+TEST(OfficeBuilding, EachRoom_OpensToAFreePlaceIndoors) {
+  const core::WallMap map(office_building(300, 2));
+  EXPECT_GT(map.plan().rooms.size(), 20U);
+  for (const core::Pose2& place : replay::random_places(map, 50, 0.3, 3)) {
+    EXPECT_TRUE(map.room_at(place.translation()));
+  }
+}
+
+TEST(OfficeBuilding, SameSeed_IsTheSameBuilding) {
+  const auto one = office_building(500, 4);
+  const auto same = office_building(500, 4);
+  const auto other = office_building(500, 5);
+  ASSERT_EQ(one.walls.size(), same.walls.size());
+  for (std::size_t i = 0; i < one.walls.size(); ++i) {
+    EXPECT_EQ(one.walls[i].from, same.walls[i].from);
+    EXPECT_EQ(one.walls[i].to, same.walls[i].to);
+  }
+  EXPECT_NE(one.walls[3].to, other.walls[3].to);
+}
+
+TEST(EqualRooms, LookTheSameFromEachOne) {
+  const core::WallMap map(equal_rooms(5));
+  const core::Vec2 place(1.1, 3.3);
+  for (int i = 0; i < 360; ++i) {
+    const double range_m = map.range_along(place, core::radians(i + 0.3), 3);
+    EXPECT_NEAR(map.range_along(place + core::Vec2(7, 0), core::radians(i + 0.3), 3), range_m,
+                1e-6);
+  }
+}
+
+}  // namespace
+}  // namespace cornerd::bench

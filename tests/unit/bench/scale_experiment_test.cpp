@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+#include "bench/scale_experiment.hpp"
+
+#include <gtest/gtest.h>
+
+namespace cornerd::bench {
+namespace {
+
+TEST(ScaleExperiment, BuildingOfAHundredRooms_IsKnownAtOnce) {
+  const auto cases = scale_cases({1200}, 1);
+  ASSERT_EQ(cases.size(), 2U);
+  const ScaleResult result = run_scale_case(cases[0], 40, 1);
+  EXPECT_EQ(result.turns, 40U);
+  EXPECT_EQ(result.fixed + result.wrong + result.ambiguous + result.lost, 40U);
+  EXPECT_GE(result.fixed, 38U);
+  EXPECT_EQ(result.wrong, 0U);
+  EXPECT_LT(result.mean_error_m, 0.002);
+  EXPECT_GT(result.pairs, 1000U);
+  EXPECT_GT(result.memory_bytes, 100'000U);
+  EXPECT_GT(result.time_99_us, 0);
+}
+
+TEST(ScaleExperiment, EqualRooms_AreAmbiguousWithTheTruthAmongThem) {
+  const auto cases = scale_cases({}, 1);
+  const ScaleResult result = run_scale_case(cases[0], 60, 2);
+  EXPECT_EQ(result.wrong, 0U);
+  EXPECT_GT(result.ambiguous, 30U);
+  EXPECT_EQ(result.ambiguous_with_truth, result.ambiguous);
+}
+
+TEST(ScaleExperiment, TwentyThousandCorners_StayWithinSixtyFourMebibytes) {
+  const auto cases = scale_cases({20'000}, 1);
+  const ScaleResult result = run_scale_case(cases[0], 10, 1);
+  EXPECT_GT(result.corners, 18'000U);
+  EXPECT_LT(result.memory_bytes, std::size_t{64} << 20);
+  EXPECT_EQ(result.wrong, 0U);
+  EXPECT_GE(result.fixed, 9U);
+}
+
+}  // namespace
+}  // namespace cornerd::bench
