@@ -5,6 +5,8 @@ install(TARGETS cornerd cornerctl RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 
 install(DIRECTORY config/maps/ DESTINATION ${CMAKE_INSTALL_DATADIR}/cornerd/maps
   FILES_MATCHING PATTERN "*.json")
+install(DIRECTORY config/robots/ DESTINATION ${CMAKE_INSTALL_DATADIR}/cornerd/robots
+  FILES_MATCHING PATTERN "*.json")
 install(FILES config/cornerd.full.json DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(FILES systemd/realtime.conf DESTINATION ${CMAKE_INSTALL_DOCDIR})
 

@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <fstream>
 #include <functional>
+#include <iterator>
 #include <regex>
 #include <string>
 
@@ -151,6 +153,18 @@ TEST(FullSample, EveryValue_IsTheDefault) {
   EXPECT_EQ(sample.socket.control, defaults.socket.control);
   EXPECT_EQ(sample.realtime.priority, defaults.realtime.priority);
   EXPECT_EQ(sample.realtime.lock_memory, defaults.realtime.lock_memory);
+}
+
+TEST(SampleRobots, BothOfThem_AreRead) {
+  for (const char* name : {"pioneer-p3dx", "contest-16cm"}) {
+    const std::filesystem::path file =
+        std::string(CORNERD_SOURCE_DIR "/config/robots/") + name + ".json";
+    std::ifstream stream(file);
+    const std::string text(std::istreambuf_iterator<char>(stream), {});
+    const Config config = parse_config(text, file, {}, /*require_map=*/false);
+    EXPECT_TRUE(config.odometry.core.enabled) << name;
+    EXPECT_GT(config.odometry.core.geometry.track_m, 0.1) << name;
+  }
 }
 
 TEST(FullSample, MotorsInItsComments_AreRead) {
