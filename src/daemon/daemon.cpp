@@ -46,15 +46,15 @@ void ask_for_realtime(const settings::RealtimeConfig& config, Localization& loca
 }  // namespace
 
 Daemon::Daemon(const settings::Config& config, std::shared_ptr<const core::WallMap> map,
-               std::unique_ptr<drivers::LidarDriver> lidar, std::string version)
+               core::Pipeline pipeline, std::unique_ptr<drivers::LidarDriver> lidar,
+               std::string version)
     : is_live_(config.lidar.driver != settings::DriverKind::kReplay),
       server_(loop_, std::move(version), control_actions(config)),
       turns_(server_, map),
       status_(server_, notifier_),
       tick_(kTick),
       lidar_(std::move(lidar)),
-      localization_(*lidar_, core::Pipeline(map, config.localizer()),
-                    when_full(config.lidar.driver)) {
+      localization_(*lidar_, std::move(pipeline), when_full(config.lidar.driver)) {
   server_.listen(config.socket.pose, SocketRole::kPose);
   server_.listen(config.socket.control, SocketRole::kControl);
   // Only who has the sockets is this robot's daemon, and may touch its port.

@@ -35,7 +35,10 @@ int run(const daemon::Options& options) {
     return 0;
   }
   daemon::set_up_log();
-  daemon::Daemon(config, std::move(map), daemon::make_lidar(config.lidar), CORNERD_VERSION).run();
+  core::Pipeline pipeline(map, config.localizer());
+  daemon::Daemon(config, std::move(map), std::move(pipeline), daemon::make_lidar(config.lidar),
+                 CORNERD_VERSION)
+      .run();
   return 0;
 }
 
