@@ -3,9 +3,9 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <random>
 
+#include "core/geometry/pose2.hpp"
 #include "core/odometry/odometry_config.hpp"
 #include "core/odometry/odometry_reading.hpp"
 
