@@ -24,11 +24,10 @@ namespace cornerd::daemon {
 class Daemon {
  public:
   /// Opens the sockets and starts the threads. Throws std::runtime_error, one line.
-  /// `pipeline`: for the same map; it is made before, while a signal still ends the program at once,
-  /// as a large building's catalogue takes its time.
+  /// `pipeline`: for the same map; it is made before, while a signal still ends the program at
+  /// once, as a large building's catalogue takes its time.
   Daemon(const settings::Config& config, std::shared_ptr<const core::WallMap> map,
-         core::Pipeline pipeline, std::unique_ptr<drivers::LidarDriver> lidar,
-         std::string version);
+         core::Pipeline pipeline, std::unique_ptr<drivers::LidarDriver> lidar, std::string version);
 
   /// Serves until a signal asks for the end.
   void run();

@@ -17,7 +17,8 @@ constexpr double kMarginPerStranger = 0.25;
 constexpr double kMarginOfThings = 12;
 /// What one thing more may hide of the turn: a door, a person next to the robot.
 constexpr double kOneThingShare = 0.25;
-/// A place that explains so many rays more than the likeliest one is a rival to it, however roughly.
+/// A place that explains so many rays more than the likeliest one is a rival to it, however
+/// roughly.
 constexpr std::size_t kRaysForARival = 4;
 /// Where the prior is good enough to choose among rivals.
 constexpr double kPriorRadius_m = 0.25;

@@ -16,7 +16,8 @@ constexpr std::size_t kLeastPairs = 4;
 /// Places that all breakpoints vote on: those that most pairs point to.
 constexpr std::size_t kMaxVotedOn = 512;
 /// A place with fewer votes than this share of the best one's is not where the turn was taken: what
-/// is seen there, the map does not have. (Where the best is none either, all others are looked for.)
+/// is seen there, the map does not have. (Where the best is none either, all others are looked
+/// for.)
 constexpr double kLeastVoteShare = 0.5;
 constexpr double kMinBaseline_m = 0.15;
 /// Least tolerance of a distance between two breakpoints: what a map may be off.

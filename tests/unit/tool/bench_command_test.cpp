@@ -54,9 +54,9 @@ class BenchCommand : public testing::Test {
 };
 
 TEST_F(BenchCommand, Scale_IsATableAPictureAndFigures) {
-  const BenchOutcome outcome =
-      run({"--scale", "--corners", "60,120", "--positions", "6", "--plots",
-           (folder_.path() / "plots").string(), "--json", (folder_.path() / "scale.json").string()});
+  const BenchOutcome outcome = run({"--scale", "--corners", "60,120", "--positions", "6", "--plots",
+                                    (folder_.path() / "plots").string(), "--json",
+                                    (folder_.path() / "scale.json").string()});
   EXPECT_EQ(outcome.exit_code, kExitDone);
   EXPECT_EQ(outcome.err, "");
   EXPECT_THAT(outcome.out, HasSubstr("offices, about 120"));
