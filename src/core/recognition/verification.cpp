@@ -79,8 +79,8 @@ void Verification::shortlist(std::span<const Hypothesis> hypotheses, double reac
         explain(map_, thin_, hits, hypothesis.T_map_lidar, noise_, noise_scale_, reach_m / 2);
     if (rough.hit_share() < kMinRoughHits || rough.through_share() > kMaxRoughThrough) continue;
     if (candidates_.size() < candidates_.capacity()) {
-      candidates_.push_back(
-          {hypothesis.T_map_lidar, rough.log_likelihood, rough.log_likelihood_of_things});
+      candidates_.push_back({hypothesis.T_map_lidar, rough.log_likelihood,
+                             rough.log_likelihood_of_things, rough.hits + rough.near});
     }
   }
   std::sort(candidates_.begin(), candidates_.end(), [](const Candidate& a, const Candidate& b) {
@@ -95,6 +95,7 @@ void Verification::refine_roughly(double reach_m) {
   double best = -std::numeric_limits<double>::infinity();
   double best_of_things = best;
   double strangers = 0;
+  std::size_t best_explained = 0;
   std::size_t kept = 0;
   for (const Candidate& candidate : candidates_) {
     if (candidate.log_likelihood <
@@ -110,15 +111,17 @@ void Verification::refine_roughly(double reach_m) {
     if (rough.log_likelihood > best) {
       best = rough.log_likelihood;
       strangers = static_cast<double>(rough.rays - rough.hits);
+      best_explained = rough.hits + rough.near;
     }
     best_of_things = std::max(best_of_things, rough.log_likelihood_of_things);
     candidates_[kept++] = {refined.T_map_lidar, rough.log_likelihood,
-                           rough.log_likelihood_of_things};
+                           rough.log_likelihood_of_things, rough.hits + rough.near};
   }
   candidates_.resize(kept);
   const double margin = kRoughMargin + kRoughMarginPerStranger * strangers;
+  // One that explains more rays, however roughly, is a rival to the end: the lidar may be biased.
   std::erase_if(candidates_, [&](const Candidate& candidate) {
-    return candidate.log_likelihood < best - margin &&
+    return candidate.explained <= best_explained && candidate.log_likelihood < best - margin &&
            candidate.log_likelihood_of_things < best_of_things - margin;
   });
 }

@@ -43,6 +43,7 @@ class Verification {
     Pose2 T_map_lidar;
     double log_likelihood = 0;
     double log_likelihood_of_things = 0;
+    std::size_t explained = 0;  ///< rays, at least roughly
   };
   void shortlist(std::span<const Hypothesis> hypotheses, double reach_m);
   void refine_roughly(double reach_m);
