@@ -74,6 +74,18 @@ Refinement::Step Refinement::step(const WallMap& map, const Pose2& T_map_lidar,
 RefinedPose Refinement::refine(const WallMap& map, const Pose2& start, double reach_m,
                                std::span<const PolarPoint> thin, std::span<const PolarPoint> points,
                                double noise_scale) {
+  return descend(map, start, reach_m, thin, points, noise_scale, kMaxSteps);
+}
+
+RefinedPose Refinement::approach(const WallMap& map, const Pose2& start, double reach_m,
+                                 std::span<const PolarPoint> thin, double noise_scale) {
+  return descend(map, start, reach_m, thin, thin, noise_scale, 1);
+}
+
+RefinedPose Refinement::descend(const WallMap& map, const Pose2& start, double reach_m,
+                                std::span<const PolarPoint> thin,
+                                std::span<const PolarPoint> points, double noise_scale,
+                                int last_steps) {
   RefinedPose refined;
   refined.T_map_lidar = start;
   double slack_m = reach_m;
@@ -91,9 +103,9 @@ RefinedPose Refinement::refine(const WallMap& map, const Pose2& start, double re
     refined.T_map_lidar.x_m -= move.x();
     refined.T_map_lidar.y_m -= move.y();
     refined.T_map_lidar.theta_rad = normalize_angle(refined.T_map_lidar.theta_rad - move.z());
-    if (!rough && move.head<2>().norm() < kConverged_m && std::abs(move.z()) < kConverged_rad) {
-      break;
-    }
+    const bool converged =
+        move.head<2>().norm() < kConverged_m && std::abs(move.z()) < kConverged_rad;
+    if (!rough && (converged || --last_steps == 0)) break;
     slack_m *= 0.4;
   }
   const auto inliers = static_cast<double>(sums.inliers);

@@ -38,6 +38,10 @@ class Refinement {
                      std::span<const PolarPoint> thin, std::span<const PolarPoint> points,
                      double noise_scale);
 
+  /// The same by few points and no more steps than it takes to tell whether the place may be right.
+  RefinedPose approach(const WallMap& map, const Pose2& start, double reach_m,
+                       std::span<const PolarPoint> thin, double noise_scale);
+
   /// The same for a robot whose motion within the turn is not known: estimates it along with the
   /// pose. A turn has far more points than the six unknowns; a weak belief in rest keeps a
   /// direction in which no wall is seen from running away.
@@ -46,6 +50,10 @@ class Refinement {
 
  private:
   struct Step;
+  /// `last_steps`: at most so many on `points`.
+  RefinedPose descend(const WallMap& map, const Pose2& start, double reach_m,
+                      std::span<const PolarPoint> thin, std::span<const PolarPoint> points,
+                      double noise_scale, int last_steps);
   Step step(const WallMap& map, const Pose2& T_map_lidar, std::span<const PolarPoint> points,
             double slack_m, double noise_scale);
 

@@ -103,7 +103,7 @@ void Verification::refine_roughly(double reach_m) {
       break;
     }
     const RefinedPose refined =
-        refinement_.refine(map_, candidate.T_map_lidar, reach_m, thin_, thin_, noise_scale_);
+        refinement_.approach(map_, candidate.T_map_lidar, reach_m, thin_, noise_scale_);
     if (!refined.valid) continue;
     const auto hits = prediction_.cast_near(map_, refined.T_map_lidar, thin_);
     const Explanation rough =
