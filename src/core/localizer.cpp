@@ -11,6 +11,7 @@
 #include "core/estimate/pose_memory.hpp"
 #include "core/estimate/refinement.hpp"
 #include "core/recognition/decision.hpp"
+#include "core/recognition/paper_recognition.hpp"
 #include "core/recognition/recognition.hpp"
 #include "core/recognition/verification.hpp"
 
@@ -70,11 +71,13 @@ struct Localizer::Workspace {
     Place(const WallMap& map, const LocalizerConfig& config)
         : catalog(map, config.max_range_m),
           recognition(map, catalog),
+          paper(map, catalog),
           verification(map, config),
           refinement(config.max_range_m, config.noise),
           bias(config.max_range_m, config.noise, config.bias) {}
     Catalog catalog;
     Recognition recognition;
+    PaperRecognition paper;
     Verification verification;
     Refinement refinement;
     BiasEstimator bias;
@@ -249,7 +252,10 @@ void Localizer::Workspace::look(const Scan& scan, TimeNs t_ns, const Twist2& as_
   // The places that pairs of corners point to, and the one where the robot should be by now.
   Verification& verification = place->verification;
   verification.begin(points.points(), std::clamp(result.detection.noise_scale, 0.5, 4.0));
-  verification.consider(place->recognition.from_pairs(result.detection.breakpoints),
+  const Detection& seen = result.detection;
+  verification.consider(config.recognition == RecognitionMethod::kPaper
+                            ? place->paper.places(seen.breakpoints, seen.segments)
+                            : place->recognition.from_pairs(seen.breakpoints),
                         kRecognisedReach_m);
   if (const std::optional<Pose2> prior = memory.prior(t_ns)) {
     const Hypothesis carried_on{*prior, 0};
@@ -306,7 +312,7 @@ void Localizer::Workspace::look_for_the_motion(const Scan& scan, TimeNs t_ns) {
 }
 
 void Localizer::Workspace::look_everywhere(TimeNs t_ns) {
-  if (!place) return;
+  if (!place || config.recognition == RecognitionMethod::kPaper) return;
   const std::span<const Breakpoint> breakpoints = result.detection.breakpoints;
   Recognition& recognition = place->recognition;
   place->verification.consider(recognition.from_single_corners(breakpoints), kRecognisedReach_m);

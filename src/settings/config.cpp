@@ -33,6 +33,9 @@ constexpr Choice<core::HeadingSource> kOdometryModes[] = {
     {"mean", core::HeadingSource::kMean},
     {"weighted", core::HeadingSource::kWeighted}};
 
+constexpr Choice<core::RecognitionMethod> kRecognitions[] = {
+    {"patterns", core::RecognitionMethod::kPatterns}, {"paper", core::RecognitionMethod::kPaper}};
+
 void read_mount(ObjectReader mount, MountConfig& config) {
   mount.number("x", config.x_m, {-10, 10});
   mount.number("y", config.y_m, {-10, 10});
@@ -159,6 +162,11 @@ void read_realtime(ObjectReader realtime, RealtimeConfig& config) {
   realtime.finish();
 }
 
+void read_localizer(ObjectReader localizer, core::RecognitionMethod& recognition) {
+  localizer.choice("recognition", recognition, kRecognitions);
+  localizer.finish();
+}
+
 Config read_config(ObjectReader root, bool require_map) {
   Config config;
   read_lidar(root.object("lidar"), config.lidar);
@@ -166,6 +174,7 @@ Config read_config(ObjectReader root, bool require_map) {
     root.fail("map", "is missing; it is the one key without a default");
   }
   read_detector(root.object("detector"), config.detector);
+  read_localizer(root.object("localizer"), config.recognition);
   read_odometry(root.object("odometry"), config.odometry);
   read_sockets(root.object("socket"), config.socket);
   read_realtime(root.object("realtime"), config.realtime);
@@ -182,6 +191,7 @@ core::LocalizerConfig Config::localizer() const {
   config.T_base_lidar = {lidar.mount.x_m, lidar.mount.y_m,
                          core::normalize_angle(lidar.mount.theta_rad)};
   config.detector = detector;
+  config.recognition = recognition;
   config.noise = lidar.noise.sensor;
   config.bias = lidar.bias;
   config.learn_bias = lidar.learn_bias;

@@ -85,6 +85,7 @@ struct Config {
   LidarConfig lidar;
   std::filesystem::path map;  ///< absolute, or as given where the config came from no file
   core::DetectorConfig detector;
+  core::RecognitionMethod recognition = core::RecognitionMethod::kPatterns;
   OdometryConfig odometry;
   SocketConfig socket;
   RealtimeConfig realtime;

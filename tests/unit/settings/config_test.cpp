@@ -123,6 +123,8 @@ TEST(Config, ValueOutOfRange_IsNamedWithItsLimits) {
 }
 
 TEST(Config, UnknownChoice_ListsWhatThereIs) {
+  EXPECT_THAT(config_error(R"({"map": "/m", "localizer": {"recognition": "guess"}})"),
+              HasSubstr("/localizer/recognition"));
   EXPECT_THAT(config_error(R"({"map": "/m", "detector": {"method": "magic"}})"),
               EndsWith(R"(must be one of "altbd", "altbd-printed", "abd-iepf", "lt")"));
   EXPECT_THAT(config_error(R"({"map": "/m", "odometry": {"source": "wheels"}})"),

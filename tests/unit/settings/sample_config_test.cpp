@@ -45,7 +45,7 @@ TEST(FullSample, EveryKeyTheProgramKnows_IsThere) {
   const Json sample = full_sample();
   const std::string text = read_file(kSamples / "cornerd.full.json", 1 << 20);
   expect_all_known_keys_in(sample, "", text);
-  for (const char* section : {"lidar", "detector", "odometry", "socket", "realtime"}) {
+  for (const char* section : {"lidar", "detector", "localizer", "odometry", "socket", "realtime"}) {
     expect_all_known_keys_in(sample[section], std::string("/") + section, text);
   }
   expect_all_known_keys_in(sample["lidar"]["mount"], "/lidar/mount", text);

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+#include "core/recognition/paper_recognition.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "../fixtures.hpp"
+#include "core/breakpoint/detector.hpp"
+#include "core/localizer.hpp"
+
+namespace cornerd::core {
+namespace {
+
+class PaperRecognitionTest : public ::testing::Test {
+ protected:
+  std::span<const Hypothesis> places_of(const Pose2& T_map_lidar) {
+    detector_.detect(testing::polar(source_.take(*map_, T_map_lidar)), detection_);
+    return recognition_.places(detection_.breakpoints, detection_.segments);
+  }
+
+  std::shared_ptr<const WallMap> map_ = testing::make_map(testing::l_shaped_room());
+  Catalog catalog_{*map_, 12};
+  PaperRecognition recognition_{*map_, catalog_};
+  testing::TurnSource source_{51};
+  Detector detector_{{}, {}};
+  Detection detection_;
+};
+
+TEST_F(PaperRecognitionTest, RoomWithoutSymmetry_IsRecognised) {
+  int found = 0;
+  for (int k = 0; k < 40; ++k) {
+    const Pose2 T_map_lidar = source_.place_in(0.4, 2.2, 0.4, 1.4);
+    const auto places = places_of(T_map_lidar);
+    found += std::any_of(places.begin(), places.end(), [&](const Hypothesis& place) {
+      return same_place(place.T_map_lidar, T_map_lidar, 0.1, radians(5));
+    });
+  }
+  EXPECT_GE(found, 36);
+}
+
+TEST_F(PaperRecognitionTest, FewerThanThreeCorners_NameNoPlace) {
+  places_of({1, 1, 0});
+  detection_.breakpoints.resize(2);
+  EXPECT_TRUE(recognition_.places(detection_.breakpoints, detection_.segments).empty());
+  EXPECT_TRUE(recognition_.places({}, {}).empty());
+}
+
+TEST_F(PaperRecognitionTest, LocalizerThatIsAskedTo_UsesIt) {
+  LocalizerConfig config;
+  config.recognition = RecognitionMethod::kPaper;
+  Localizer localizer(map_, config);
+  int fixes = 0;
+  for (int k = 0; k < 20; ++k) {
+    const Pose2 T_map_lidar = source_.place_in(0.4, 2.2, 0.4, 1.4);
+    localizer.relocalize();
+    const PoseEstimate& pose = localizer.step(source_.take(*map_, T_map_lidar)).pose;
+    if (pose.state != PoseState::kFix) continue;
+    ++fixes;
+    EXPECT_TRUE(same_place(pose.T_map_base, T_map_lidar, 0.02, radians(1)));
+  }
+  EXPECT_GE(fixes, 16);
+}
+
+}  // namespace
+}  // namespace cornerd::core
