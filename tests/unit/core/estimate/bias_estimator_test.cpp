@@ -28,7 +28,7 @@ Scan biased(const Scan& turn, const SensorBias& bias) {
 
 constexpr SensorBias kBias{0.01, 0.005, radians(0.2), radians(-0.2)};
 
-/// Mean position error at the last ten of `places` places, ten turns at each.
+/// Mean position error at the last five of `places` places, ten turns at each.
 double error_after_m(int places, Localizer& localizer, const WallMap& map) {
   testing::TurnSource source(61);
   testing::TurnOptions options;
@@ -42,12 +42,12 @@ double error_after_m(int places, Localizer& localizer, const WallMap& map) {
       const Scan turn = biased(source.take(map, T_map_lidar, options), kBias);
       const PoseEstimate& pose = localizer.step(turn).pose;
       const bool named = pose.state == PoseState::kFix || pose.state == PoseState::kTracking;
-      if (!named || place < places - 10) continue;
+      if (!named || place < places - 5) continue;
       error_m += (pose.T_map_base.translation() - T_map_lidar.translation()).norm();
       ++fixes;
     }
   }
-  EXPECT_GE(fixes, 40);
+  EXPECT_GE(fixes, 20);
   return error_m / fixes;
 }
 
@@ -102,8 +102,8 @@ TEST(Localizer, BiasedLidar_IsLearntWhileItRuns) {
   LocalizerConfig config;
   config.learn_bias = false;
   Localizer trusting(map, config);
-  const double with_m = error_after_m(20, learning, *map);
-  const double without_m = error_after_m(20, trusting, *map);
+  const double with_m = error_after_m(14, learning, *map);
+  const double without_m = error_after_m(14, trusting, *map);
   EXPECT_LT(with_m, 0.001);
   EXPECT_GT(without_m, 0.004);
   EXPECT_NEAR(learning.bias().range_scale, kBias.range_scale, 0.002);
@@ -118,7 +118,7 @@ TEST(Localizer, BiasThatIsKnown_IsTakenOffFromTheFirstTurn) {
   config.bias = kBias;
   config.learn_bias = false;
   Localizer localizer(map, config);
-  EXPECT_LT(error_after_m(10, localizer, *map), 0.001);
+  EXPECT_LT(error_after_m(5, localizer, *map), 0.001);
 }
 
 }  // namespace
