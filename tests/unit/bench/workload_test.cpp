@@ -29,16 +29,13 @@ TEST(Workload, Run_DetectsInThatTurn) {
   EXPECT_NE(workload.detection().breakpoints.front().position, second);
 }
 
-TEST(Workload, MoreSamples_TakeMoreTime) {
-  const auto time_us = [](std::size_t samples) {
-    const auto turns = room_turns(samples);
-    Workload workload(paper_methods().front(), turns);
-    const auto times_us = time_turns_us(workload, 9);
-    EXPECT_EQ(times_us.size(), 2u);
-    return times_us.front();
-  };
-  EXPECT_GT(time_us(10'000), 2 * time_us(400));
-  EXPECT_GT(time_preparation_us(room_turns(400), 3), 0);
+TEST(Workload, EachTurn_IsTimed) {
+  const auto turns = room_turns(400);
+  Workload workload(paper_methods().front(), turns);
+  const auto times_us = time_turns_us(workload, 9);
+  ASSERT_EQ(times_us.size(), 2u);
+  for (const double time_us : times_us) EXPECT_GT(time_us, 0);
+  EXPECT_GT(time_preparation_us(turns, 3), 0);
 }
 
 TEST(InstructionCounter, WhereThereIsOne_CountsWork) {
