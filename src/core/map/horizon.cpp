@@ -9,7 +9,7 @@
 namespace cornerd::core {
 namespace {
 
-constexpr double kPerQuarter = Horizon::kSectors / 4;
+constexpr double kPerQuarter = Horizon::kSectors / 4.0;
 
 /// Grows with the direction's angle from 0 to kSectors, without trigonometry: the way around the
 /// square |x| + |y| = 1.
