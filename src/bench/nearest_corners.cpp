@@ -44,8 +44,6 @@ std::vector<Recognised> recognise(std::span<const core::Breakpoint> breakpoints,
   return corners;
 }
 
-double heading_of(const core::Vec2& way) { return std::atan2(way.y(), way.x()); }
-
 }  // namespace
 
 std::optional<core::Pose2> place_by_nearest_corners(std::span<const core::Breakpoint> breakpoints,
@@ -60,8 +58,8 @@ std::optional<core::Pose2> place_by_nearest_corners(std::span<const core::Breakp
       });
   if (second == corners.end()) return std::nullopt;
 
-  const double theta_rad = core::normalize_angle(heading_of(second->on_map - first.on_map) -
-                                                 heading_of(second->seen - first.seen));
+  const double theta_rad = core::normalize_angle(core::angle_of(second->on_map - first.on_map) -
+                                                 core::angle_of(second->seen - first.seen));
   const core::Pose2 turned{0, 0, theta_rad};
   const core::Vec2 middle_of_seen = (first.seen + second->seen) / 2;
   const core::Vec2 place = (first.on_map + second->on_map) / 2 - turned * middle_of_seen;

@@ -135,7 +135,7 @@ const TurnResult& Localizer::step(const Scan& turn) {
   ++w.result.pose.seq;
 
   // 0. Odometry, where there is any, says how the robot moved during the turn and where it should
-  // be.
+  //    be.
   const Scan& scan = w.straightened(turn, t_ns);
 
   // 1. The turn's walls and corners, and the places whose corners form the same pattern, tested

@@ -13,6 +13,9 @@ namespace cornerd::core {
 
 /// A return with all that the steps of the algorithm ask of it again and again.
 struct PolarPoint {
+  Vec2 place() const { return {x_m, y_m}; }
+  Vec2 ray() const { return {ray_x, ray_y}; }
+
   double bearing_rad = 0;  ///< in [-pi, pi]
   double range_m = 0;
   double ray_x = 0;  ///< unit vector of the ray, lidar frame

@@ -149,7 +149,6 @@ bool Altbd::is_hit(const PolarScan& scan, std::size_t index) {
   const double to_centroid_m =
       along_m - direction.x() * line.centroid.x() - direction.y() * line.centroid.y();
   const double step_m = along_m - direction.x() * before.x_m - direction.y() * before.y_m;
-
   if (std::abs(step_m) > config_.max_gap_m) return false;
 
   const double sigma2 = square(noise_.sigma_range_m(range_m));
@@ -161,8 +160,7 @@ bool Altbd::is_hit(const PolarScan& scan, std::size_t index) {
   if (j2 > minor2) return false;
   // k = j cos / sin: j^2 / minor^2 + k^2 / major^2 <= 1, without its fractions.
   const double sine2 = sine * sine;
-  if (j2 * (sine2 * major2 + cosine * cosine * minor2) > sine2 * minor2 * major2) return false;
-  return true;
+  return j2 * (sine2 * major2 + cosine * cosine * minor2) <= sine2 * minor2 * major2;
 }
 
 /// Steps 16-18.
@@ -188,15 +186,14 @@ std::size_t Altbd::to_follow() const {
 /// in a third of the instructions of is_hit().
 std::size_t Altbd::follow(const PolarScan& scan) {
   const std::size_t begin = next_;
-  const std::size_t stop = std::min(scan.size(), begin + to_follow());
+  std::size_t block_end = std::min(scan.size(), begin + to_follow());
   const Line& line = current_.line;
   Near near{-line.normal, -line.offset_m, config_.max_gap_m, 0};
   // The wall goes away from its centroid: its uncertainty here is the least of what is to come.
   const PolarPoint& last = scan[current_.last];
-  const double along_m = (Vec2(last.x_m, last.y_m) - line.centroid).norm();
+  const double along_m = (last.place() - line.centroid).norm();
   const double variance_line = line.variance_at(along_m);
-  std::size_t block_end = stop;
-  const double bearing_rad = scan[next_ - 1].bearing_rad;
+  const double bearing_rad = last.bearing_rad;
   if (scan[block_end - 1].bearing_rad - bearing_rad > config_.max_gap_rad) {
     block_end = next_ + 1;
     if (scan[next_].bearing_rad - bearing_rad > config_.max_gap_rad) return 0;

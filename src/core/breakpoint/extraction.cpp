@@ -21,17 +21,18 @@ constexpr double kMinRestSine = 0.06;
 /// A corner made of so few samples is none where its place is less certain than this.
 constexpr double kMaxSigma_m = 0.02;
 
-Vec2 place_on(const PolarPoint& point) { return {point.x_m, point.y_m}; }
-
-double heading(const Vec2& direction) { return std::atan2(direction.y(), direction.x()); }
-
 /// One border between a wall (on the right of it as the sensor sees it, at lower bearings) and the
 /// next one (on the left).
 class Border {
  public:
   Border(const PolarScan& scan, const SegmentTrack& right, const SegmentTrack& left,
          double corner_tolerance_m, const Judgement& by)
-      : scan_(scan), right_(right), left_(left), corner_tolerance_m_(corner_tolerance_m), by_(by) {}
+      : scan_(scan),
+        right_(right),
+        left_(left),
+        between_(samples_between(scan, right, left)),
+        corner_tolerance_m_(corner_tolerance_m),
+        by_(by) {}
 
   std::optional<Breakpoint> corner() const;
 
@@ -42,6 +43,7 @@ class Border {
   const PolarScan& scan_;
   const SegmentTrack& right_;
   const SegmentTrack& left_;
+  std::size_t between_;        ///< samples on neither wall
   double corner_tolerance_m_;  ///< Dth_corner
   const Judgement& by_;
 };
@@ -60,10 +62,9 @@ Eigen::Matrix2d intersection_covariance(const Line& a, const Line& b, const Vec2
 /// Nothing was seen through the place where the walls are said to meet: the samples between them
 /// are no farther than the walls.
 bool Border::free_between(const Vec2& corner) const {
-  const std::size_t count = samples_between(scan_, right_, left_);
   const double limit_m = corner.norm() + corner_tolerance_m_;
   std::size_t behind = 0;
-  for (std::size_t k = 1; k <= count; ++k) {
+  for (std::size_t k = 1; k <= between_; ++k) {
     const PolarPoint& point = scan_[(right_.last + k) % scan_.size()];
     behind += point.range_m > limit_m ? 1 : 0;
   }
@@ -71,8 +72,8 @@ bool Border::free_between(const Vec2& corner) const {
   // One alone is an outlier, among several or in a gap that nothing could be seen through.
   constexpr std::size_t kSeveral = 3;
   constexpr double kNarrow_m = 0.06;
-  const Vec2 gap = place_on(scan_[left_.first]) - place_on(scan_[right_.last]);
-  return count > kSeveral || gap.norm() < kNarrow_m;
+  const Vec2 gap = scan_[left_.first].place() - scan_[right_.last].place();
+  return between_ > kSeveral || gap.norm() < kNarrow_m;
 }
 
 /// Follows a wall over the samples between the two, to the last that lies on it: single ones that
@@ -81,23 +82,21 @@ bool Border::free_between(const Vec2& corner) const {
 bool Border::is_reached(const Vec2& corner, const SegmentTrack& wall, std::size_t end,
                         int step) const {
   const std::size_t n = scan_.size();
-  const std::size_t count = samples_between(scan_, right_, left_);
   const double gate2 = by_.gate2();
   std::size_t farthest = end;
-  for (std::size_t k = 1; k <= count; ++k) {
+  for (std::size_t k = 1; k <= between_; ++k) {
     const std::size_t index = (step > 0 ? end + k : end + n - k) % n;
-    if ((place_on(scan_[index]) - place_on(scan_[farthest])).norm() > by_.limits.max_piece_gap_m)
-      break;
+    if ((scan_[index].place() - scan_[farthest].place()).norm() > by_.limits.max_piece_gap_m) break;
     if (misfit(by_.noise, wall.line, scan_[index]) < gate2) farthest = index;
   }
   const PolarPoint& point = scan_[farthest];
-  const double distance_m = (corner - place_on(point)).norm();
+  const double distance_m = (corner - point.place()).norm();
   if (distance_m <= corner_tolerance_m_) return true;
-  const double gap_rad = angle_between(point.bearing_rad, heading(corner));
+  const double gap_rad = angle_between(point.bearing_rad, angle_of(corner));
   if (std::abs(gap_rad) > by_.limits.grazing_rays * scan_.spacing_rad()) return false;
   // What is seen next lies in front of the wall, or the wall would have ended before the corner.
   const PolarPoint& next = scan_[step > 0 ? left_.first : right_.last];
-  const double height_m = wall.line.normal.dot(place_on(next)) - wall.line.offset_m;
+  const double height_m = wall.line.normal.dot(next.place()) - wall.line.offset_m;
   const bool behind = height_m < 0 && misfit(by_.noise, wall.line, next) > gate2;
   return !behind && distance_m <= kGrazingReach * corner_tolerance_m_;
 }
@@ -114,7 +113,7 @@ std::optional<Breakpoint> Border::corner() const {
   const PolarPoint& end = scan_[right_.last];
   const PolarPoint& begin = scan_[left_.first];
   const double gap_rad = angle_between(end.bearing_rad, begin.bearing_rad);
-  const double bearing_rad = heading(point);
+  const double bearing_rad = angle_of(point);
   const double margin_rad = 2 * scan_.spacing_rad() + by_.limits.gate_sigmas * by_.noise.floor_m /
                                                           std::max(point.norm(), 0.05);
   if (gap_rad < -margin_rad || gap_rad > kPi / 2) return std::nullopt;
@@ -127,8 +126,8 @@ std::optional<Breakpoint> Border::corner() const {
   Breakpoint breakpoint;
   breakpoint.position = point;
   breakpoint.kind = BreakpointKind::kCorner;
-  breakpoint.right_wall_rad = heading(-a.direction());
-  breakpoint.left_wall_rad = heading(b.direction());
+  breakpoint.right_wall_rad = angle_of(-a.direction());
+  breakpoint.left_wall_rad = angle_of(b.direction());
   double opening = angle_between(breakpoint.left_wall_rad, breakpoint.right_wall_rad);
   if (opening < 0) opening += kTwoPi;
   breakpoint.opening_rad = opening;
@@ -157,7 +156,7 @@ std::optional<SegmentTrack> rest_beside(const PolarScan& scan, std::size_t end, 
     bool lies = true;
     for (std::size_t k = 0; k < count && lies; ++k) {
       const PolarPoint& point = scan[(first + k) % n];
-      lies = -rest.line.normal.dot(Vec2(point.ray_x, point.ray_y)) > kMinRestSine &&
+      lies = -rest.line.normal.dot(point.ray()) > kMinRestSine &&
              misfit(by.noise, rest.line, point) < by.gate2();
     }
     if (lies) return rest;
@@ -170,7 +169,7 @@ std::optional<SegmentTrack> rest_beside(const PolarScan& scan, std::size_t end, 
 WallSegment describe_wall(const PolarScan& scan, const SegmentTrack& wall, double noise_scale) {
   const Line& line = wall.line;
   const auto foot = [&](std::size_t index) -> Vec2 {
-    const Vec2 point(scan[index].x_m, scan[index].y_m);
+    const Vec2 point = scan[index].place();
     return point - (line.normal.dot(point) - line.offset_m) * line.normal;
   };
   WallSegment segment;

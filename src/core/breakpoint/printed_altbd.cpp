@@ -16,7 +16,7 @@ Line line_through(const PolarScan& scan, std::size_t first) {
 }
 
 double relative_error(const Line& line, const PolarPoint& point) {
-  const double j_m = line.normal.dot(Vec2(point.x_m, point.y_m)) - line.offset_m;
+  const double j_m = line.normal.dot(point.place()) - line.offset_m;
   return std::abs(j_m) / point.range_m;
 }
 
@@ -55,16 +55,16 @@ double PrintedAltbd::mean_error() const {
 PrintedAltbd::Miss PrintedAltbd::measure(const PolarScan& scan, std::size_t index) const {
   const PolarPoint& point = scan[index];
   const PolarPoint& before = scan[current_.last];
-  const Vec2 ray(point.ray_x, point.ray_y);
+  const Vec2 ray = point.ray();
   const double approach = predictor_.normal.dot(ray);
   Miss miss;
   if (approach * predictor_.offset_m <= 0) return miss;
   miss.meets = true;
   const Vec2 predicted = predictor_.offset_m / approach * ray;
-  const Vec2 offset = Vec2(point.x_m, point.y_m) - predicted;
+  const Vec2 offset = point.place() - predicted;
   miss.k_m = predictor_.direction().dot(offset);
   miss.j_m = predictor_.normal.dot(offset);
-  miss.q_max_m = std::abs(predictor_.direction().dot(predicted - Vec2(before.x_m, before.y_m)));
+  miss.q_max_m = std::abs(predictor_.direction().dot(predicted - before.place()));
   const double h_max = mean_error() + config_.sigma_offset;
   miss.h_max = config_.printed_altbd.minor == MinorAxis::kMetres ? h_max : h_max * point.range_m;
   miss.error = std::abs(miss.j_m) / point.range_m;

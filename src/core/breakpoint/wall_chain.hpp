@@ -34,8 +34,6 @@ class WallChain {
   /// The turn is at its end: what the seam held back is reported, and all walls are described.
   void finish(const PolarScan& scan, double noise_scale, Detection& detection);
 
-  const SegmentTracks& walls() const { return walls_; }
-
  private:
   Judgement judgement(double noise_scale) const {
     return {config_.extraction, noise_, noise_scale};

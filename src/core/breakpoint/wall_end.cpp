@@ -12,10 +12,6 @@ constexpr std::size_t kMinFaceSamples = 2;
 /// Samples beyond the end that are asked whether the wall hides them.
 constexpr std::size_t kLookAhead = 3;
 
-double heading_of(const Vec2& direction) { return std::atan2(direction.y(), direction.x()); }
-
-Vec2 place_of_sample(const PolarPoint& point) { return {point.x_m, point.y_m}; }
-
 }  // namespace
 
 /// A sample beyond the end, as the wall sees it.
@@ -37,11 +33,11 @@ WallEnd::WallEnd(const PolarScan& scan, const SegmentTrack& wall, WallSide side,
       last_(side == WallSide::kRight ? wall.last : wall.first),
       outward_(static_cast<int>(side) * wall.line.direction()) {
   const Line& line = wall.line;
-  const Vec2 point = place_of_sample(scan[last_]);
+  const Vec2 point = scan[last_].place();
   foot_ = point - (line.normal.dot(point) - line.offset_m) * line.normal;
   const std::size_t n = scan.size();
   const PolarPoint& next = scan[(last_ + n + static_cast<std::size_t>(side)) % n];
-  const Vec2 ray(next.ray_x, next.ray_y);
+  const Vec2 ray = next.ray();
   const double approach = -line.normal.dot(ray);
   constexpr double kMinApproach = 0.01;
   if (approach < kMinApproach) {
@@ -55,8 +51,8 @@ WallEnd::Beyond WallEnd::look(std::size_t nth) const {
   const std::size_t n = scan_.size();
   const std::size_t index = side_ == WallSide::kRight ? last_ + nth : last_ + n - nth;
   const PolarPoint& point = scan_[index % n];
-  const Vec2 place = place_of_sample(point);
-  const Vec2 ray(point.ray_x, point.ray_y);
+  const Vec2 place = point.place();
+  const Vec2 ray = point.ray();
   const Vec2& normal = wall_.line.normal;
   Beyond beyond;
   beyond.along_m = outward_.dot(place - foot_);
@@ -81,7 +77,7 @@ Breakpoint WallEnd::place(double along_m, double variance_along_m2) const {
   breakpoint.covariance = variance_along_m2 * outward_ * outward_.transpose() +
                           variance_across * line.normal * line.normal.transpose();
   const bool on_right = side_ == WallSide::kRight;
-  (on_right ? breakpoint.right_wall_rad : breakpoint.left_wall_rad) = heading_of(-outward_);
+  (on_right ? breakpoint.right_wall_rad : breakpoint.left_wall_rad) = angle_of(-outward_);
   (on_right ? breakpoint.right_support : breakpoint.left_support) = wall_.support;
   return breakpoint;
 }
@@ -119,7 +115,7 @@ std::optional<Breakpoint> WallEnd::corner() const {
   breakpoint.convex = height_sum < 0;
   breakpoint.opening_rad = breakpoint.convex ? 3 * kPi / 2 : kPi / 2;
   const double face_rad =
-      heading_of(breakpoint.convex ? Vec2(-wall_.line.normal) : wall_.line.normal);
+      angle_of(breakpoint.convex ? Vec2(-wall_.line.normal) : wall_.line.normal);
   const bool on_right = side_ == WallSide::kRight;
   (on_right ? breakpoint.left_wall_rad : breakpoint.right_wall_rad) = face_rad;
   (on_right ? breakpoint.left_support : breakpoint.right_support) =

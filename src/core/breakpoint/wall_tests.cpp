@@ -10,8 +10,6 @@ namespace {
 /// More than this between two walls is never noise.
 const double kMinPieceCosine = std::cos(radians(60));
 
-Vec2 place(const PolarPoint& point) { return {point.x_m, point.y_m}; }
-
 }  // namespace
 
 double across_factor(const SensorNoise& noise, const Line& line) {
@@ -27,8 +25,8 @@ std::size_t samples_between(const PolarScan& scan, const SegmentTrack& right,
 }
 
 double misfit(const SensorNoise& noise, const Line& line, const PolarPoint& point) {
-  const double across_m = line.normal.dot(place(point)) - line.offset_m;
-  const double sine = std::abs(line.normal.dot(Vec2(point.ray_x, point.ray_y)));
+  const double across_m = line.normal.dot(point.place()) - line.offset_m;
+  const double sine = std::abs(line.normal.dot(point.ray()));
   return across_m * across_m / noise.variance_across_m2(point.range_m, sine);
 }
 
@@ -41,7 +39,7 @@ bool is_doubtful(const SegmentTrack& wall, const ExtractionConfig& limits, doubl
 bool is_one_wall(const PolarScan& scan, const Judgement& by, const SegmentTrack& right,
                  const SegmentTrack& left) {
   if (samples_between(scan, right, left) > by.limits.max_interruption) return false;
-  const Vec2 gap = place(scan[left.first]) - place(scan[right.last]);
+  const Vec2 gap = scan[left.first].place() - scan[right.last].place();
   if (gap.norm() > by.limits.max_piece_gap_m) return false;
   if (right.line.normal.dot(left.line.normal) < kMinPieceCosine) return false;
 

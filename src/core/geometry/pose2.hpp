@@ -15,6 +15,8 @@ using Vec2 = Eigen::Vector2d;
 inline double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
 inline Vec2 rotate_left(const Vec2& v) { return {-v.y(), v.x()}; }
 inline Vec2 unit_vector(double angle_rad) { return {std::cos(angle_rad), std::sin(angle_rad)}; }
+/// Of a direction, counter-clockwise from x, in [-pi, pi].
+inline double angle_of(const Vec2& way) { return std::atan2(way.y(), way.x()); }
 
 /// A rigid motion of the plane: `T_a_b * p_b` is the point p_b of frame b, seen from frame a.
 struct Pose2 {
