@@ -1,0 +1,264 @@
+// SPDX-License-Identifier: MIT
+// The way from a lidar's bytes to a published pose, stage by stage, for the counter beside this:
+//
+//   turn_cost MAP SAMPLES
+//
+// drives a simulated A1 of that many samples a turn, ten turns a second at most, through a contest
+// arena at 0.2 m/s. Everything runs in one thread, with the daemon's own parts; what it prints is
+// for the reader to see that poses came.
+#include <sys/socket.h>
+#include <sys/un.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/breakpoint/detector.hpp"
+#include "core/catalog/catalog.hpp"
+#include "core/pipeline.hpp"
+#include "core/recognition/recognition.hpp"
+#include "core/recognition/verification.hpp"
+#include "daemon/event_loop.hpp"
+#include "daemon/message_server.hpp"
+#include "daemon/sample_channel.hpp"
+#include "daemon/turn_publisher.hpp"
+#include "drivers/rplidar/sample_stream.hpp"
+#include "markers.hpp"
+#include "message/state_names.hpp"
+#include "replay/simulator/simulator.hpp"
+#include "settings/map_file.hpp"
+
+CORNERD_COST_STAGE(turn)
+CORNERD_COST_STAGE(decode)
+CORNERD_COST_STAGE(localize)
+CORNERD_COST_STAGE(publish)
+CORNERD_COST_STAGE(detect)
+CORNERD_COST_STAGE(recognize)
+CORNERD_COST_STAGE(refine)
+CORNERD_COST_STAGE(explain)
+CORNERD_COST_STAGE(first_fix)
+
+namespace cornerd {
+namespace {
+
+constexpr double kSpeed_m_s = 0.2;
+/// Turns until the localizer has learnt what it learns at first, and those that are counted.
+constexpr int kTurnsBefore = 25;
+constexpr int kTurns = 20;
+
+/// As fast as the format is, and no more than ten turns a second.
+replay::SimulatorConfig lidar_of(std::size_t samples) {
+  replay::SimulatorConfig config;
+  config.wire = samples > 540 ? rplidar::WireFormat::kUltra : rplidar::WireFormat::kExpress;
+  const double period_s = core::to_seconds(replay::usual_sample_period_ns(config.wire));
+  config.motor_hz = 1 / (period_s * static_cast<double>(samples));
+  config.motor_jitter = 0;
+  return config;
+}
+
+/// Stands while the localizer learns, then drives along the street of the contest arena.
+replay::Motion drive(double turns_hz) {
+  return [begins_s = kTurnsBefore / turns_hz](core::TimeNs t_ns, std::int64_t) {
+    const double way_m = kSpeed_m_s * std::max(0.0, core::to_seconds(t_ns) - begins_s);
+    return core::Pose2{0.95, 0.25 + way_m, core::kPi / 2};
+  };
+}
+
+/// Connects, and reads what comes: a client as the daemon has them.
+class Reader {
+ public:
+  explicit Reader(const std::filesystem::path& path) : fd_(::socket(AF_UNIX, SOCK_STREAM, 0)) {
+    sockaddr_un address{};
+    address.sun_family = AF_UNIX;
+    path.string().copy(address.sun_path, sizeof address.sun_path - 1);
+    if (::connect(fd_, reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0) {
+      throw std::runtime_error("cannot connect to " + path.string());
+    }
+  }
+  ~Reader() { ::close(fd_); }
+  Reader(const Reader&) = delete;
+  Reader& operator=(const Reader&) = delete;
+
+  std::size_t read() {
+    std::array<char, 4096> block;
+    const ssize_t count = ::recv(fd_, block.data(), block.size(), MSG_DONTWAIT);
+    return count > 0 ? static_cast<std::size_t>(count) : 0;
+  }
+
+ private:
+  int fd_;
+};
+
+/// The parts of the localizer one by one, on a turn that it has just localized.
+class Parts {
+ public:
+  explicit Parts(std::shared_ptr<const core::WallMap> map)
+      : map_(std::move(map)),
+        catalog_(*map_, config_.max_range_m),
+        recognition_(*map_, catalog_),
+        detector_(config_.detector, config_.noise),
+        refinement_(config_.max_range_m, config_.noise),
+        prediction_(config_.max_range_m),
+        fresh_(map_, config_) {}
+
+  void count(const core::Scan& turn, const core::TurnResult& result) {
+    cost_begin_detect();
+    points_.assign(turn, config_.min_range_m, config_.max_range_m, result.pose.t_ns);
+    detector_.detect(points_, detection_);
+    cost_end_detect();
+
+    cost_begin_recognize();
+    static_cast<void>(recognition_.from_pairs(detection_.breakpoints));
+    cost_end_recognize();
+
+    thin_.clear();
+    for (std::size_t i = 0; i < points_.size(); i += 4) thin_.push_back(points_[i]);
+    core::Pose2 start = result.pose.T_map_base;
+    start.x_m += 0.02;
+    start.theta_rad += 0.02;
+    cost_begin_refine();
+    const core::RefinedPose refined =
+        refinement_.refine(*map_, start, 0.15, thin_, points_.points(), 1);
+    cost_end_refine();
+
+    cost_begin_explain();
+    const auto hits = prediction_.cast(*map_, refined.T_map_lidar, points_.points());
+    static_cast<void>(
+        core::explain(*map_, points_.points(), hits, refined.T_map_lidar, config_.noise, 1, 0));
+    cost_end_explain();
+
+    fresh_.relocalize();
+    cost_begin_first_fix();
+    static_cast<void>(fresh_.step(turn));
+    cost_end_first_fix();
+  }
+
+ private:
+  std::shared_ptr<const core::WallMap> map_;
+  core::LocalizerConfig config_;
+  core::Catalog catalog_;
+  core::Recognition recognition_;
+  core::Detector detector_;
+  core::Refinement refinement_;
+  core::TurnPrediction prediction_;
+  core::Localizer fresh_;
+  core::PolarScan points_;
+  std::vector<core::PolarPoint> thin_;
+  core::Detection detection_;
+};
+
+/// The daemon without its threads.
+class Daemon {
+ public:
+  Daemon(std::shared_ptr<const core::WallMap> map, const std::filesystem::path& socket)
+      : pipeline_(map, {}), parts_(map), server_(loop_, "0", {}), publisher_(server_, map) {
+    server_.listen(socket, daemon::SocketRole::kPose);
+    client_.emplace(socket);
+    loop_.run_once(0);
+    client_->read();
+  }
+
+  /// From where the last turn began to where the next one does.
+  void turn(replay::Simulator& lidar, bool counts) {
+    decode(lidar, counts);
+    if (counts) cost_begin_localize();
+    const core::TurnResult* result = localize();
+    if (counts) cost_end_localize();
+    if (result == nullptr) return;
+    if (counts) cost_begin_publish();
+    publisher_.publish(report_);
+    if (counts) cost_end_publish();
+    if (counts) cost_end_turn();
+
+    loop_.run_once(0);
+    const std::size_t bytes = client_->read();
+    if (!counts) return;
+    std::printf("%-10s %zu samples %zu bytes\n",
+                std::string(message::to_string(result->pose.state)).c_str(),
+                pipeline_.turn().size(), bytes);
+    parts_.count(pipeline_.turn(), *result);
+  }
+
+ private:
+  /// Each packet as a read of its own. What the simulator computes is not to be counted.
+  void decode(replay::Simulator& lidar, bool counts) {
+    packets_.clear();
+    bool begins = false;
+    while (!begins) {
+      const replay::WirePacket packet = lidar.next();
+      packets_.push_back({{packet.bytes.begin(), packet.bytes.end()}, packet.ready_ns});
+      for (const auto& sample : packet.samples) begins |= sample.starts_turn;
+    }
+    if (counts) cost_begin_turn();
+    if (counts) cost_begin_decode();
+    for (const Packet& packet : packets_) stream_.feed(packet.bytes, packet.ready_ns, channel_);
+    if (counts) cost_end_decode();
+  }
+
+  const core::TurnResult* localize() {
+    const core::TurnResult* last = nullptr;
+    daemon::SampleChannel::Item item;
+    while (channel_.pop(item)) {
+      const core::TurnResult* result = pipeline_.add(item.sample);
+      if (result == nullptr) continue;
+      last = result;
+      report_.result = *result;
+      report_.turn = pipeline_.turn();
+    }
+    return last;
+  }
+
+  struct Packet {
+    std::vector<std::uint8_t> bytes;
+    core::TimeNs ready_ns;
+  };
+
+  rplidar::SampleStream stream_{{}};
+  daemon::SampleChannel channel_{daemon::SampleChannel::WhenFull::kLose};
+  core::Pipeline pipeline_;
+  Parts parts_;
+  daemon::EventLoop loop_;
+  daemon::MessageServer server_;
+  daemon::TurnPublisher publisher_;
+  daemon::TurnReport report_;
+  std::optional<Reader> client_;
+  std::vector<Packet> packets_;
+};
+
+int run(const std::filesystem::path& map_file, std::size_t samples) {
+  auto map = settings::load_map(map_file);
+  const replay::SimulatorConfig config = lidar_of(samples);
+  auto scene = std::make_unique<replay::MapScene>(map, drive(config.motor_hz));
+  replay::Simulator lidar(std::move(scene), config);
+  const std::filesystem::path socket =
+      std::filesystem::temp_directory_path() / ("cornerd-cost-" + std::to_string(::getpid()));
+  Daemon daemon(std::move(map), socket);
+  for (int i = 0; i < kTurnsBefore + kTurns; ++i) daemon.turn(lidar, i >= kTurnsBefore);
+  return 0;
+}
+
+}  // namespace
+}  // namespace cornerd
+
+int main(int argc, char** argv) {
+  if (argc != 3) {
+    std::fputs("usage: turn_cost MAP SAMPLES\n", stderr);
+    return 2;
+  }
+  try {
+    return cornerd::run(argv[1], std::strtoul(argv[2], nullptr, 10));
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "turn_cost: %s\n", error.what());
+    return 1;
+  }
+}
