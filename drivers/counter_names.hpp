@@ -17,6 +17,7 @@ struct CounterName {
 
 inline constexpr std::array kCounterNames = {
     CounterName{"bytes", &StreamCounters::bytes},
+    CounterName{"used_bytes", &StreamCounters::used_bytes},
     CounterName{"samples", &StreamCounters::samples},
     CounterName{"turns", &StreamCounters::turns},
     CounterName{"skipped_bytes", &StreamCounters::skipped_bytes},

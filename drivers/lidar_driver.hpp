@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <stop_token>
@@ -11,6 +12,7 @@
 #include "core/odometry/odometry_reading.hpp"
 #include "core/ring_buffer.hpp"
 #include "core/types.hpp"
+#include "drivers/lidar_fault.hpp"
 
 namespace cornerd::drivers {
 
@@ -29,14 +31,15 @@ std::string_view to_string(LidarState state);
 
 /// Short text of fixed size, so that a status can cross threads without a lock or an allocation.
 struct ShortText {
-  std::array<char, 160> chars{};
+  std::array<char, 240> chars{};
   std::string_view view() const;
   void set(std::string_view text);  ///< cut where it is longer
 };
 
 /// All that was thrown away on the way from bytes to samples, by cause, and what was kept.
 struct StreamCounters {
-  std::uint64_t bytes = 0;
+  std::uint64_t bytes = 0;  ///< all that came; each ends up in used_bytes or in skipped_bytes
+  std::uint64_t used_bytes = 0;
   std::uint64_t samples = 0;
   std::uint64_t turns = 0;
   std::uint64_t skipped_bytes = 0;      ///< belonged to no packet: banner, stale or damaged bytes
@@ -51,6 +54,7 @@ struct StreamCounters {
 
 struct LidarStatus {
   LidarState state = LidarState::kAbsent;
+  LidarFault fault = LidarFault::kNone;
   ShortText detail;  ///< for a person: what is wrong, what to do
   ShortText model;
   ShortText firmware;
@@ -75,6 +79,13 @@ class SampleSink {
   virtual bool ready() const { return true; }
 };
 
+/// A state that a driver has come to. Some last no longer than a few milliseconds.
+struct LidarChange {
+  LidarState state = LidarState::kAbsent;
+  LidarFault fault = LidarFault::kNone;
+  ShortText detail;
+};
+
 class LidarDriver {
  public:
   virtual ~LidarDriver() = default;
@@ -85,6 +96,20 @@ class LidarDriver {
 
   /// The newest status. One reading thread at a time; never blocks run().
   virtual LidarStatus status() = 0;
+
+  /// The next state that the driver came to, oldest first; false where there is none left. The same
+  /// thread's as status().
+  virtual bool take_change(LidarChange& change) = 0;
+
+  /// Grows as long as run() is not stuck, whatever the device does. Any thread.
+  std::uint32_t rounds() const { return rounds_.load(std::memory_order_relaxed); }
+
+ protected:
+  /// run() has come round.
+  void come_round() { rounds_.fetch_add(1, std::memory_order_relaxed); }
+
+ private:
+  std::atomic<std::uint32_t> rounds_{0};
 };
 
 }  // namespace cornerd::drivers

@@ -33,8 +33,8 @@ void add(drivers::StreamCounters& sum, const drivers::StreamCounters& more) {
 /// Lets samples pass when their time has come.
 class ReplayDriver::Pacer : public RecordingSink {
  public:
-  Pacer(drivers::SampleSink& sink, double speed, const std::stop_token& stop)
-      : sink_(sink), speed_(speed), stop_(stop) {}
+  Pacer(ReplayDriver& driver, drivers::SampleSink& sink, double speed, const std::stop_token& stop)
+      : driver_(driver), sink_(sink), speed_(speed), stop_(stop) {}
 
   void begin_pass() {
     if (samples_ > 0) sink_.on_gap();
@@ -52,6 +52,7 @@ class ReplayDriver::Pacer : public RecordingSink {
     if (speed_ > 0) wait_until(sample.t_ns);
     while (speed_ <= 0 && !sink_.ready() && !stop_.stop_requested()) {
       std::this_thread::sleep_for(kRoomSleep);
+      driver_.come_round();
     }
     if (stop_.stop_requested()) return;
     measure_rates(sample);
@@ -79,6 +80,7 @@ class ReplayDriver::Pacer : public RecordingSink {
                                    static_cast<double>(t_ns - anchor_ns_) / speed_));
     for (auto now = Clock::now(); now < due && !stop_.stop_requested(); now = Clock::now()) {
       std::this_thread::sleep_for(std::min<Clock::duration>(due - now, kLongestSleep));
+      driver_.come_round();
     }
   }
 
@@ -94,6 +96,7 @@ class ReplayDriver::Pacer : public RecordingSink {
     turn_start_samples_ = samples_;
   }
 
+  ReplayDriver& driver_;
   drivers::SampleSink& sink_;
   double speed_;
   std::stop_token stop_;
@@ -116,7 +119,15 @@ ReplayDriver::ReplayDriver(ReplayDriverConfig config) : config_(std::move(config
   status_.state = drivers::LidarState::kOpening;
   status_.detail.set(config_.file.string());
   status_.model.set("recording");
-  published_.publish(status_);
+  publish(status_);
+}
+
+void ReplayDriver::publish(const drivers::LidarStatus& now) {
+  published_.publish(now);
+  come_round();
+  if (now.state == last_change_.state && now.detail.view() == last_change_.detail.view()) return;
+  last_change_ = {now.state, now.fault, now.detail};
+  changes_.push(last_change_);
 }
 
 void ReplayDriver::publish(const RecordingPlayer& player, const Pacer& pacer) {
@@ -125,7 +136,7 @@ void ReplayDriver::publish(const RecordingPlayer& player, const Pacer& pacer) {
   now.rate_hz = pacer.rate_hz();
   now.samples_hz = pacer.samples_hz();
   if (player.bad_lines() > 0) now.detail.set(player.first_problem());
-  published_.publish(now);
+  publish(now);
 }
 
 void ReplayDriver::play(const std::stop_token& stop, Pacer& pacer) {
@@ -143,13 +154,13 @@ void ReplayDriver::play(const std::stop_token& stop, Pacer& pacer) {
 }
 
 void ReplayDriver::run(std::stop_token stop, drivers::SampleSink& sink) {
-  Pacer pacer(sink, config_.speed, stop);
+  Pacer pacer(*this, sink, config_.speed, stop);
   try {
     play(stop, pacer);
   } catch (const std::exception& error) {
     status_.state = drivers::LidarState::kFaulty;
     status_.detail.set(error.what());
-    published_.publish(status_);
+    publish(status_);
   }
 }
 

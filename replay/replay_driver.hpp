@@ -5,6 +5,7 @@
 #include <stop_token>
 
 #include "core/latest.hpp"
+#include "core/ring_buffer.hpp"
 #include "drivers/lidar_driver.hpp"
 #include "replay/recording.hpp"
 
@@ -26,16 +27,21 @@ class ReplayDriver : public drivers::LidarDriver {
 
   void run(std::stop_token stop, drivers::SampleSink& sink) override;
   drivers::LidarStatus status() override { return published_.read(); }
+  bool take_change(drivers::LidarChange& change) override { return changes_.pop(change); }
 
  private:
   class Pacer;
 
   void publish(const RecordingPlayer& player, const Pacer& pacer);
+  void publish(const drivers::LidarStatus& now);
   void play(const std::stop_token& stop, Pacer& pacer);
 
   ReplayDriverConfig config_;
   drivers::LidarStatus status_;  ///< run()'s own copy
   core::Latest<drivers::LidarStatus> published_;
+  static constexpr std::size_t kChanges = 16;  ///< a recording goes through four
+  core::RingBuffer<drivers::LidarChange> changes_{kChanges};
+  drivers::LidarChange last_change_;
 };
 
 }  // namespace cornerd::replay

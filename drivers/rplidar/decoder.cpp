@@ -72,6 +72,7 @@ class Decoder::Implementation {
     if (descriptor.verdict == Verdict::kMore && !final) return false;
     if (descriptor.verdict == Verdict::kYes) {
       window_.consume(kDescriptorSize);
+      counters_.used_bytes += kDescriptorSize;
       begin_stream(descriptor.format, sink);
       return true;
     }

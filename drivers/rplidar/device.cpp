@@ -10,7 +10,6 @@ using std::chrono::milliseconds;
 
 // Each limit and the failure that it answers.
 constexpr milliseconds kAnswerTimeout{500};  // a request lost on the way, or sent too early
-constexpr int kInfoTries = 5;                // a device that is still booting: 0.7 s
 constexpr milliseconds kQuiet{20};           // a scan in flight, a banner: neither pauses so long
 constexpr milliseconds kDrainLimit{500};     // a device that does not stop talking
 constexpr milliseconds kBootLimit{1500};     // a banner that never comes; real ones take 671 ms
@@ -25,17 +24,19 @@ constexpr std::uint32_t kMaxModes = 16;
 bool Device::quiet() {
   if (!send(Request(Command::kStop))) return false;
   read_until_quiet(kQuiet, kDrainLimit, false);
+  if (heard_banner_) wait_while_it_boots();
   return !lost_;
 }
 
 bool Device::reset() {
   if (!send(Request(Command::kReset))) return false;
   read_until_quiet(kQuiet, kBootLimit, true);
+  heard_banner_ = false;
   return !lost_;
 }
 
-std::optional<DeviceInfo> Device::info() {
-  for (int attempt = 0; attempt < kInfoTries && !lost_; ++attempt) {
+std::optional<DeviceInfo> Device::info(int tries) {
+  for (int attempt = 0; attempt < tries && !lost_; ++attempt) {
     const auto answer = ask(Request(Command::kGetInfo), AnswerType::kInfo);
     if (answer) return DeviceInfo::decode(*answer);
   }
@@ -102,6 +103,11 @@ std::optional<Device::Answer> Device::ask(const Request& request, AnswerType typ
   while (!stop_.stop_requested() && clock_.monotonic_ns() < deadline_ns) {
     const auto result = read(kSlice);
     if (lost_) return std::nullopt;
+    if (heard_banner_) {
+      // What was asked before it had started was not heard.
+      wait_while_it_boots();
+      return std::nullopt;
+    }
     for (const std::uint8_t byte : std::span(buffer_).first(result.count)) {
       if (!descriptor) {
         const auto found = search.add(byte);
@@ -111,10 +117,18 @@ std::optional<Device::Answer> Device::ask(const Request& request, AnswerType typ
         continue;
       }
       answer_[received++] = byte;
-      if (received == descriptor->size) return std::span(answer_).first(received);
+      if (received < descriptor->size) continue;
+      used_bytes_ += kDescriptorSize + received;
+      return std::span(answer_).first(received);
     }
   }
   return std::nullopt;
+}
+
+void Device::wait_while_it_boots() {
+  heard_banner_ = false;
+  booted_ = true;
+  read_until_quiet(kQuiet, kDrainLimit, false);
 }
 
 bool Device::send(const Request& request) {
@@ -136,6 +150,8 @@ void Device::read_until_quiet(Milliseconds quiet, Milliseconds limit, bool wait_
 drivers::ByteStream::ReadResult Device::read(Milliseconds timeout) {
   const auto result = port_.read(buffer_, timeout);
   lost_ = lost_ || result.status == drivers::ByteStream::ReadStatus::kLost;
+  heard_bytes_ += result.count;
+  if (banner_.add(std::span(buffer_).first(result.count))) heard_banner_ = true;
   return result;
 }
 

@@ -13,6 +13,7 @@
 
 #include "drivers/clock.hpp"
 #include "drivers/rplidar/protocol/answers.hpp"
+#include "drivers/rplidar/protocol/banner_search.hpp"
 #include "drivers/rplidar/protocol/descriptor.hpp"
 #include "drivers/rplidar/protocol/request.hpp"
 #include "drivers/rplidar/scan_mode.hpp"
@@ -32,8 +33,8 @@ class Device {
   bool quiet();
   /// RESET, and the boot banner read away.
   bool reset();
-  /// GET_INFO, asked up to five times.
-  std::optional<DeviceInfo> info();
+  /// GET_INFO, asked up to so many times.
+  std::optional<DeviceInfo> info(int tries = 5);
   std::optional<Health> health();
   /// What it can do, by its firmware: the table of modes from 1.24, the two periods from 1.17,
   /// standard alone before. Modes that no A1 has are left out.
@@ -43,6 +44,11 @@ class Device {
 
   /// The port is gone.
   bool lost() const { return lost_; }
+  /// Bytes that came since the device was opened, and those of them that were answers.
+  std::uint64_t heard_bytes() const { return heard_bytes_; }
+  std::uint64_t used_bytes() const { return used_bytes_; }
+  /// It has printed its banner unasked: somebody has just switched it on.
+  bool booted() const { return booted_; }
 
  private:
   using Milliseconds = std::chrono::milliseconds;
@@ -50,6 +56,7 @@ class Device {
 
   bool send(const Request& request);
   std::optional<Answer> ask(const Request& request, AnswerType type);
+  void wait_while_it_boots();
   std::optional<ConfAnswer> ask_conf(ConfType type, std::optional<std::uint16_t> mode = {});
   std::optional<ScanMode> conf_mode(std::uint16_t id);
   void read_until_quiet(Milliseconds quiet, Milliseconds limit, bool wait_for_first);
@@ -59,6 +66,11 @@ class Device {
   drivers::Clock& clock_;
   std::stop_token stop_;
   bool lost_ = false;
+  bool booted_ = false;
+  bool heard_banner_ = false;  ///< and nobody has taken notice yet
+  BannerSearch banner_;
+  std::uint64_t heard_bytes_ = 0;
+  std::uint64_t used_bytes_ = 0;
   std::array<std::uint8_t, 256> buffer_{};
   std::array<std::uint8_t, 256> answer_{};
 };

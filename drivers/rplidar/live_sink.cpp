@@ -16,10 +16,8 @@ void LiveSink::on_sample(const core::Sample& sample) {
   ++count_;
   ++turn_samples_;
   if (sample.range_m > 0) ++turn_returns_;
-  core::Sample live = sample;
-  live.t_ns += unix_offset_ns_;
   board_.count(sample);
-  next_.on_sample(live);
+  next_.on_sample(sample);
 }
 
 std::size_t LiveSink::take_count() { return std::exchange(count_, 0); }
@@ -31,7 +29,6 @@ void LiveSink::end_turn() {
   blind_turns_ = sees ? 0 : blind_turns_ + 1;
   turn_samples_ = 0;
   turn_returns_ = 0;
-  unix_offset_ns_ = clock_.unix_offset_ns();
 }
 
 }  // namespace cornerd::rplidar

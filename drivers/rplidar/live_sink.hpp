@@ -3,18 +3,16 @@
 
 #include <cstddef>
 
-#include "drivers/clock.hpp"
 #include "drivers/lidar_driver.hpp"
 #include "drivers/rplidar/status_board.hpp"
 
 namespace cornerd::rplidar {
 
-/// Between the stream and whoever wants its samples: sets them from monotonic to UNIX time, counts
-/// them for the status, and watches whether the laser sees anything at all.
+/// Between the stream and whoever wants its samples: counts them for the status, and watches
+/// whether the laser sees anything at all.
 class LiveSink : public drivers::SampleSink {
  public:
-  LiveSink(drivers::SampleSink& next, StatusBoard& board, drivers::Clock& clock)
-      : next_(next), board_(board), clock_(clock), unix_offset_ns_(clock.unix_offset_ns()) {}
+  LiveSink(drivers::SampleSink& next, StatusBoard& board) : next_(next), board_(board) {}
 
   void on_sample(const core::Sample& sample) override;
   void on_gap() override { next_.on_gap(); }
@@ -29,8 +27,6 @@ class LiveSink : public drivers::SampleSink {
 
   drivers::SampleSink& next_;
   StatusBoard& board_;
-  drivers::Clock& clock_;
-  core::TimeNs unix_offset_ns_;  ///< renewed at each turn, so that no turn is torn by a clock step
   std::size_t count_ = 0;
   std::size_t turn_samples_ = 0;
   std::size_t turn_returns_ = 0;

@@ -6,25 +6,54 @@
 #include <chrono>
 #include <utility>
 
-#include "drivers/rplidar/device.hpp"
+#include "drivers/rplidar/hint.hpp"
 #include "drivers/rplidar/live_sink.hpp"
+#include "drivers/rplidar/protocol/banner_search.hpp"
 #include "drivers/rplidar/sample_stream.hpp"
+#include "drivers/serial/watched_byte_stream.hpp"
 
 namespace cornerd::rplidar {
 namespace {
 
+using drivers::LidarFault;
 using drivers::LidarState;
 using std::chrono::milliseconds;
 
+// Between two looks at a port that is not there, or not yet this user's: a look costs nothing, and
+// a lidar that is plugged in again is to be found at once.
+constexpr milliseconds kPortInterval{200};
+// Between two tries of a device that answers but does not work: each of them disturbs it.
 constexpr milliseconds kFirstBackoff{100};
 constexpr milliseconds kLongestBackoff{2000};
-constexpr milliseconds kReadSlice{100};  // how long a stop may stay unnoticed
+constexpr milliseconds kReadSlice{100};  // how long a stop, or whoever watches, has to wait
 // A head that spins up sends nothing before it turns evenly.
 constexpr core::TimeNs kSpinUpLimitNs = 6 * core::kNsPerSecond;
-constexpr core::TimeNs kSilenceLimitNs = 2 * core::kNsPerSecond;
+// A head that was held up goes on by itself when it is let go: that is said first, and only then it
+// is started anew.
+constexpr core::TimeNs kStallNs = core::kNsPerSecond;
+constexpr core::TimeNs kSilenceLimitNs = 3 * core::kNsPerSecond;
+// A device that was left quiet says nothing; a line that is switched on may give a byte or two.
+constexpr std::uint64_t kStreamBytes = 8;
+constexpr std::uint32_t kUsualBaud = 115200;
 
-LidarState state_after(drivers::OpenError error) {
-  return error == drivers::OpenError::kAbsent ? LidarState::kAbsent : LidarState::kOpening;
+struct PortFailure {
+  LidarState state;
+  LidarFault fault;
+};
+
+PortFailure failure_of(drivers::OpenError error) {
+  switch (error) {
+    case drivers::OpenError::kAbsent:
+      return {LidarState::kAbsent, LidarFault::kNoPort};
+    case drivers::OpenError::kDenied:
+      return {LidarState::kOpening, LidarFault::kNoPermission};
+    case drivers::OpenError::kBusy:
+      return {LidarState::kOpening, LidarFault::kPortHeld};
+    case drivers::OpenError::kNone:
+    case drivers::OpenError::kFailed:
+      break;
+  }
+  return {LidarState::kOpening, LidarFault::kPortError};
 }
 
 /// However a session ends, the device is left quiet and its motor off.
@@ -52,116 +81,179 @@ RplidarDriver::RplidarDriver(RplidarDriverConfig config, PortOpener open_port,
       clock_(clock),
       motor_(make_motor(config_.motor)) {
   if (open_port_) return;
-  open_port_ = [this] { return drivers::open_serial_port(config_.device, config_.baud); };
+  open_port_ = [this](std::uint32_t baud) {
+    return drivers::open_serial_port(config_.device, baud);
+  };
 }
 
 void RplidarDriver::run(std::stop_token stop, drivers::SampleSink& sink) {
   milliseconds backoff = kFirstBackoff;
   while (!stop.stop_requested()) {
-    drivers::OpenResult opened = open_port_();
-    if (opened.stream) {
-      has_run_ = false;
-      const Fault fault = session(*opened.stream, stop, sink);
-      opened.stream.reset();
-      if (has_run_) {
-        backoff = kFirstBackoff;
-        sink.on_gap();
-      }
-      if (stop.stop_requested()) break;
-      board_.set_state(fault.state, fault.detail);
-    } else {
-      board_.set_state(state_after(opened.error), opened.message + "; waiting for it");
+    drivers::OpenResult opened = open_port_(config_.baud);
+    come_round();
+    if (!opened.stream) {
+      const auto [state, fault] = failure_of(opened.error);
+      say(state, fault, opened.message);
+      wait(kPortInterval, stop);
+      continue;
     }
-    clock_.wait(backoff, stop);
+    has_run_ = false;
+    Failure failure = session(*opened.stream, stop, sink);
+    opened.stream.reset();
+    if (has_run_) {
+      backoff = kFirstBackoff;
+      sink.on_gap();
+    }
+    if (stop.stop_requested()) break;
+    if (failure.fault == LidarFault::kNoAnswer && answers_at_usual_speed(stop)) {
+      failure.fault = LidarFault::kWrongBaud;
+      failure.extra = "one at " + std::to_string(kUsualBaud) + " baud";
+    }
+    say(failure.state, failure.fault, failure.extra);
+    wait(backoff, stop);
     backoff = std::min(2 * backoff, kLongestBackoff);
   }
-  board_.set_state(LidarState::kAbsent, config_.device + ": closed");
+  board_.set_state(LidarState::kAbsent, LidarFault::kNone, config_.device + ": closed");
 }
 
-RplidarDriver::Fault RplidarDriver::session(drivers::ByteStream& port, const std::stop_token& stop,
-                                            drivers::SampleSink& sink) {
+RplidarDriver::Failure RplidarDriver::session(drivers::ByteStream& opened,
+                                              const std::stop_token& stop,
+                                              drivers::SampleSink& sink) {
+  drivers::WatchedByteStream port(opened, [this] { come_round(); });
   const Shutdown shutdown(port, *motor_);
   Device device(port, clock_, stop);
-  board_.set_state(LidarState::kIdentifying, config_.device + ": asking who it is");
-  if (!device.quiet()) return lost();
-  if (std::exchange(reset_first_, false)) device.reset();
+  ScanMode mode;
+  const Failure failure = converse(device, port, mode);
+  board_.count_dialogue(device.heard_bytes(), device.used_bytes());
+  if (device.lost()) return {};
+  if (failure.fault != LidarFault::kNone) return failure;
+  return measure(port, mode, stop, sink);
+}
 
+RplidarDriver::Failure RplidarDriver::converse(Device& device, drivers::ByteStream& port,
+                                               ScanMode& mode) {
+  board_.set_state(LidarState::kIdentifying, LidarFault::kNone,
+                   config_.device + ": asking who it is");
+  device.quiet();
+  if (device.booted()) {
+    say(LidarState::kIdentifying, LidarFault::kBooting);
+  } else if (device.heard_bytes() > kStreamBytes) {
+    say(LidarState::kIdentifying, LidarFault::kStreamRunning);
+  }
+  if (std::exchange(reset_first_, false)) {
+    const auto health = device.health();
+    if (health && health->failed()) {
+      say(LidarState::kFaulty, LidarFault::kProtectionStop, health->text());
+    }
+    device.reset();
+  }
+
+  const std::uint64_t heard_before = device.heard_bytes();
+  const bool had_booted = device.booted();
   const auto info = device.info();
-  if (device.lost()) return lost();
+  if (device.booted() && !had_booted) say(LidarState::kIdentifying, LidarFault::kBooting);
   if (!info) {
-    return {LidarState::kBackoff, config_.device + ": no answer; is it an RPLidar with " +
-                                      std::to_string(config_.baud) +
-                                      " baud, and has it 5 V enough?"};
+    if (device.heard_bytes() > heard_before) {
+      return {LidarState::kBackoff, LidarFault::kWrongBaud, "noise"};
+    }
+    return {LidarState::kBackoff, LidarFault::kNoAnswer, std::to_string(config_.baud)};
   }
   board_.set_device(info->model_name(), info->firmware_text());
 
   auto health = device.health();
   if (health && health->failed()) {
-    board_.set_state(LidarState::kFaulty, config_.device + ": " + health->text() + "; resetting");
+    say(LidarState::kFaulty, LidarFault::kProtectionStop, health->text());
     device.reset();
     health = device.health();
   }
-  if (device.lost()) return lost();
-  if (!health) return {LidarState::kBackoff, config_.device + ": does not tell its health"};
+  if (!health) return {LidarState::kBackoff, LidarFault::kNoAnswer, std::to_string(config_.baud)};
   board_.set_health(health->text());
-  if (health->failed()) {
-    return {LidarState::kFaulty, config_.device + ": reports a hardware fault, " + health->text() +
-                                     "; check that its head turns freely and its supply holds 5 V"};
-  }
+  if (health->failed()) return {LidarState::kFaulty, LidarFault::kHealthError, health->text()};
 
   const auto modes = device.modes(*info);
-  if (device.lost()) return lost();
-  const ScanMode* const mode = choose_mode(modes, config_.mode);
-  if (mode == nullptr) {
-    return {LidarState::kFaulty,
-            config_.device + ": has no mode \"" + config_.mode + "\", but " + list_names(modes)};
+  const ScanMode* const chosen = choose_mode(modes, config_.mode);
+  if (chosen == nullptr) {
+    return {LidarState::kFaulty, LidarFault::kNoSuchMode,
+            "\"" + config_.mode + "\", but " + list_names(modes)};
   }
-  board_.set_mode(mode->name);
-
-  board_.set_state(LidarState::kStarting, config_.device + ": waiting for its head to turn");
-  if (!motor_->start(port)) return {LidarState::kFaulty, "motor: " + motor_->error()};
-  if (!device.start(*mode)) return lost();
-  return measure(port, *mode, stop, sink);
+  mode = *chosen;
+  board_.set_mode(mode.name);
+  board_.set_state(LidarState::kStarting, LidarFault::kNone,
+                   config_.device + ": waiting for its head to turn");
+  if (!motor_->start(port)) {
+    return {LidarState::kFaulty, LidarFault::kMotorControl, motor_->error()};
+  }
+  device.start(mode);
+  return {.fault = LidarFault::kNone};
 }
 
-RplidarDriver::Fault RplidarDriver::measure(drivers::ByteStream& port, const ScanMode& mode,
-                                            const std::stop_token& stop,
-                                            drivers::SampleSink& sink) {
+RplidarDriver::Failure RplidarDriver::measure(drivers::ByteStream& port, const ScanMode& mode,
+                                              const std::stop_token& stop,
+                                              drivers::SampleSink& sink) {
   SampleStream stream({.format = mode.format,
                        .inverted = config_.inverted,
                        .sample_period_s = mode.period_s,
                        .baud = config_.baud});
-  LiveSink live(sink, board_, clock_);
+  LiveSink live(sink, board_);
+  BannerSearch banner;
   board_.begin_stream();
+  Failure failure;
   std::array<std::uint8_t, 512> buffer;
   core::TimeNs heard_ns = clock_.monotonic_ns();
   while (!stop.stop_requested()) {
     const auto [status, count] = port.read(buffer, kReadSlice);
     const core::TimeNs now_ns = clock_.monotonic_ns();
-    if (status == drivers::ByteStream::ReadStatus::kLost) return lost();
-    stream.feed(std::span(buffer).first(count), now_ns, live);
+    if (status == drivers::ByteStream::ReadStatus::kLost) break;
+    const auto bytes = std::span(buffer).first(count);
+    stream.feed(bytes, now_ns, live);
     board_.update(stream.counters(), now_ns);
-
+    if (banner.add(bytes)) {
+      failure.fault = LidarFault::kRestarted;
+      break;
+    }
+    const core::TimeNs silent_ns = now_ns - heard_ns;
     if (live.take_count() > 0) {
       heard_ns = now_ns;
       has_run_ = true;
       const LidarState state = live.blind() ? LidarState::kFaulty : LidarState::kRunning;
-      if (board_.state() != state) {
-        board_.set_state(state, live.blind() ? "its head turns, but nothing returns: is the laser "
-                                               "covered, or dead?"
-                                             : "");
+      if (board_.state() != state || board_.fault() == LidarFault::kMotorStalled) {
+        live.blind() ? say(state, LidarFault::kDeadLaser)
+                     : board_.set_state(state, LidarFault::kNone, "");
       }
-    } else if (now_ns - heard_ns > (has_run_ ? kSilenceLimitNs : kSpinUpLimitNs)) {
+    } else if (silent_ns > (has_run_ ? kSilenceLimitNs : kSpinUpLimitNs)) {
       reset_first_ = true;
-      return {LidarState::kBackoff,
-              config_.device + ": sends no measurements; does its motor turn? Starting it anew"};
+      failure.fault = has_run_ ? LidarFault::kMotorStalled : LidarFault::kNoData;
+      break;
+    } else if (has_run_ && silent_ns > kStallNs && board_.fault() != LidarFault::kMotorStalled) {
+      say(LidarState::kFaulty, LidarFault::kMotorStalled);
     }
   }
-  return {};
+  board_.end_stream(stream.counters());
+  return failure;
 }
 
-RplidarDriver::Fault RplidarDriver::lost() const {
-  return {LidarState::kBackoff, config_.device + ": the port is gone; waiting for it"};
+bool RplidarDriver::answers_at_usual_speed(const std::stop_token& stop) {
+  if (config_.baud == kUsualBaud) return false;
+  const drivers::OpenResult opened = open_port_(kUsualBaud);
+  if (!opened.stream) return false;
+  drivers::WatchedByteStream port(*opened.stream, [this] { come_round(); });
+  Device device(port, clock_, stop);
+  const bool answers = device.quiet() && device.info(1).has_value();
+  board_.count_dialogue(device.heard_bytes(), device.used_bytes());
+  return answers;
+}
+
+void RplidarDriver::wait(milliseconds duration, const std::stop_token& stop) {
+  for (; duration.count() > 0 && !stop.stop_requested(); duration -= kReadSlice) {
+    clock_.wait(std::min(duration, kReadSlice), stop);
+    come_round();
+  }
+}
+
+void RplidarDriver::say(LidarState state, LidarFault fault, std::string_view extra) {
+  const std::string text = hint(fault, config_.device, extra);
+  if (board_.state() == state && board_.fault() == fault && board_.detail() == text) return;
+  board_.set_state(state, fault, text);
 }
 
 }  // namespace cornerd::rplidar

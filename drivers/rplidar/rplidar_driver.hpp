@@ -8,6 +8,7 @@
 
 #include "drivers/clock.hpp"
 #include "drivers/lidar_driver.hpp"
+#include "drivers/rplidar/device.hpp"
 #include "drivers/rplidar/motor.hpp"
 #include "drivers/rplidar/scan_mode.hpp"
 #include "drivers/rplidar/status_board.hpp"
@@ -23,11 +24,11 @@ struct RplidarDriverConfig {
   MotorConfig motor;
 };
 
-/// An A1 on a serial port: opens it, asks who it is, starts it, delivers its samples in UNIX time,
-/// and begins again after every failure. Leaves it stopped, motor off.
+/// An A1 on a serial port: opens it, asks who it is, starts it, delivers its samples on the clock's
+/// monotonic time, and begins again after every failure. Leaves it stopped, motor off.
 class RplidarDriver : public drivers::LidarDriver {
  public:
-  using PortOpener = std::function<drivers::OpenResult()>;
+  using PortOpener = std::function<drivers::OpenResult(std::uint32_t baud)>;
 
   /// `open_port`: instead of the config's device, for tests and recorders.
   explicit RplidarDriver(RplidarDriverConfig config, PortOpener open_port = nullptr,
@@ -35,18 +36,25 @@ class RplidarDriver : public drivers::LidarDriver {
 
   void run(std::stop_token stop, drivers::SampleSink& sink) override;
   drivers::LidarStatus status() override { return board_.read(); }
+  bool take_change(drivers::LidarChange& change) override { return board_.take_change(change); }
 
  private:
   /// Why a session ended, and what the driver is until the next one.
-  struct Fault {
+  struct Failure {
     drivers::LidarState state = drivers::LidarState::kBackoff;
-    std::string detail;
+    drivers::LidarFault fault = drivers::LidarFault::kUnplugged;
+    std::string extra = {};  ///< see hint()
   };
 
-  Fault session(drivers::ByteStream& port, const std::stop_token& stop, drivers::SampleSink& sink);
-  Fault measure(drivers::ByteStream& port, const ScanMode& mode, const std::stop_token& stop,
-                drivers::SampleSink& sink);
-  Fault lost() const;
+  Failure session(drivers::ByteStream& port, const std::stop_token& stop,
+                  drivers::SampleSink& sink);
+  Failure converse(Device& device, drivers::ByteStream& port, ScanMode& mode);
+  Failure measure(drivers::ByteStream& port, const ScanMode& mode, const std::stop_token& stop,
+                  drivers::SampleSink& sink);
+  /// Whether it answers at the speed that every A1 has, where the settings say another.
+  bool answers_at_usual_speed(const std::stop_token& stop);
+  void wait(std::chrono::milliseconds duration, const std::stop_token& stop);
+  void say(drivers::LidarState state, drivers::LidarFault fault, std::string_view extra = {});
 
   RplidarDriverConfig config_;
   PortOpener open_port_;

@@ -19,9 +19,19 @@ double rate_hz(std::uint64_t intervals, core::TimeNs duration_ns) {
 
 }  // namespace
 
-void StatusBoard::set_state(drivers::LidarState state, std::string_view detail) {
+void StatusBoard::set_state(drivers::LidarState state, drivers::LidarFault fault,
+                            std::string_view detail) {
   status_.state = state;
+  status_.fault = fault;
   status_.detail.set(detail);
+  publish();
+  changes_.push({state, fault, status_.detail});
+}
+
+void StatusBoard::count_dialogue(std::uint64_t bytes, std::uint64_t used_bytes) {
+  status_.counters.bytes += bytes;
+  status_.counters.used_bytes += used_bytes;
+  status_.counters.skipped_bytes += bytes - used_bytes;
   publish();
 }
 
@@ -47,6 +57,14 @@ void StatusBoard::begin_stream() {
   status_.samples_hz = 0;
   samples_ = 0;
   turns_ = 0;
+}
+
+void StatusBoard::end_stream(drivers::StreamCounters of_stream) {
+  of_stream.skipped_bytes = of_stream.bytes - of_stream.used_bytes;
+  status_.counters = sum(before_, of_stream);
+  status_.rate_hz = 0;
+  status_.samples_hz = 0;
+  publish();
 }
 
 void StatusBoard::count(const core::Sample& sample) {

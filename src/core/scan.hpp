@@ -29,6 +29,11 @@ class Scan {
     return true;
   }
 
+  /// Sets all times to another clock, `by_ns` ahead.
+  void shift(TimeNs by_ns) {
+    for (Sample& sample : samples_) sample.t_ns += by_ns;
+  }
+
   std::span<const Sample> samples() const { return samples_; }
   std::size_t size() const { return samples_.size(); }
   bool empty() const { return samples_.empty(); }

@@ -21,10 +21,8 @@ using std::chrono::milliseconds;
 constexpr milliseconds kTick{100};
 constexpr int kTicksPerStatus = 10;
 
-/// A recording waits for the localizer, a device does not.
-SampleChannel::WhenFull when_full(settings::DriverKind driver) {
-  return driver == settings::DriverKind::kReplay ? SampleChannel::WhenFull::kWait
-                                                 : SampleChannel::WhenFull::kLose;
+SourceKind source_of(settings::DriverKind driver) {
+  return driver == settings::DriverKind::kReplay ? SourceKind::kRecording : SourceKind::kDevice;
 }
 
 /// Asked for and refused is worth a line, and costs nothing else.
@@ -54,7 +52,7 @@ Daemon::Daemon(const settings::Config& config, std::shared_ptr<const core::WallM
       status_(server_, notifier_),
       tick_(kTick),
       lidar_(std::move(lidar)),
-      localization_(*lidar_, std::move(pipeline), when_full(config.lidar.driver)) {
+      localization_(*lidar_, std::move(pipeline), source_of(config.lidar.driver)) {
   server_.listen(config.socket.pose, SocketRole::kPose);
   server_.listen(config.socket.control, SocketRole::kControl);
   // Only who has the sockets is this robot's daemon, and may touch its port.
@@ -80,7 +78,11 @@ ControlActions Daemon::control_actions(const settings::Config& config) {
   };
   if (config.odometry.source == settings::OdometrySource::kSocket) {
     actions.add_odometry = [this](message::OdometryReading reading) {
-      if (!reading.timed) reading.t_ns = now_ns();
+      if (is_live_) {
+        reading.t_ns = reading.timed ? reading.t_ns - (unix_ns() - monotonic_ns()) : monotonic_ns();
+      } else if (!reading.timed) {
+        reading.t_ns = now_ns();
+      }
       localization_.add(reading);
     };
   }
@@ -108,10 +110,22 @@ void Daemon::on_tick() {
       server_.publish(message::MessageClass::kEvent, line_.event(now_ns(), "clock step", text));
     }
   }
-  const drivers::LidarStatus lidar = lidar_->status();
-  const bool is_due = ticks_++ % kTicksPerStatus == 0;
-  if (status_.notice_change(lidar, now_ns()) || is_due) {
-    status_.publish(lidar, turns_, localization_, now_ns());
+  publish_changes();
+  if (ticks_++ % kTicksPerStatus == 0) {
+    status_.publish(lidar_->status(), turns_, localization_, now_ns());
+  }
+}
+
+void Daemon::publish_changes() {
+  drivers::LidarChange change;
+  while (lidar_->take_change(change)) {
+    if (!status_.notice(change, now_ns())) continue;
+    // Some states last for milliseconds: each is told all the same.
+    drivers::LidarStatus then = lidar_->status();
+    then.state = change.state;
+    then.fault = change.fault;
+    then.detail = change.detail;
+    status_.publish(then, turns_, localization_, now_ns());
   }
 }
 

@@ -35,6 +35,7 @@ class Daemon {
  private:
   ControlActions control_actions(const settings::Config& config);
   void on_tick();
+  void publish_changes();
   void on_watchdog();
   void on_signal();
   /// On the clock of the samples: UNIX time live, the recording's own in a replay.

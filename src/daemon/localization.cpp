@@ -20,11 +20,12 @@ constexpr std::size_t kGivenPoseSlots = 4;
 
 }  // namespace
 
-Localization::Localization(drivers::LidarDriver& driver, core::Pipeline pipeline,
-                           SampleChannel::WhenFull when_full)
+Localization::Localization(drivers::LidarDriver& driver, core::Pipeline pipeline, SourceKind source)
     : driver_(driver),
+      source_(source),
       pipeline_(std::move(pipeline)),
-      channel_(when_full),
+      channel_(source == SourceKind::kDevice ? SampleChannel::WhenFull::kLose
+                                             : SampleChannel::WhenFull::kWait),
       readings_(kReadingSlots),
       given_poses_(kGivenPoseSlots),
       reports_(kReportSlots),
@@ -51,6 +52,7 @@ void Localization::read(const std::stop_token& stop) {
   driver_.run(stop, channel_);
   // A recording that has ended: its last turn has no successor that would complete it.
   channel_.on_gap();
+  reader_has_ended_.store(true, std::memory_order_relaxed);
 }
 
 void Localization::localize(const std::stop_token& stop) {
@@ -79,6 +81,11 @@ void Localization::process(const SampleChannel::Item& item) {
   const bool handed_over = reports_.put([&](TurnReport& report) {
     report.result = *result;
     report.turn = pipeline_.turn();
+    if (source_ == SourceKind::kDevice) {
+      const core::TimeNs to_unix_ns = unix_ns() - monotonic_ns();
+      report.result.pose.t_ns += to_unix_ns;
+      report.turn.shift(to_unix_ns);
+    }
     report.latency_ns = monotonic_ns() - item.arrival_ns;
   });
   if (!handed_over) lost_reports_.fetch_add(1, std::memory_order_relaxed);
@@ -92,10 +99,14 @@ void Localization::clear_event() const {
 
 bool Localization::has_progressed() {
   const std::uint32_t rounds = rounds_.load(std::memory_order_relaxed);
-  const bool progressed = rounds != rounds_seen_;
-  rounds_seen_ = rounds;
+  const std::uint32_t driver_rounds = driver_.rounds();
+  const bool reader_lives =
+      driver_rounds != driver_rounds_seen_ || reader_has_ended_.load(std::memory_order_relaxed);
   channel_.wake();
-  return progressed;
+  if (rounds == rounds_seen_ || !reader_lives) return false;
+  rounds_seen_ = rounds;
+  driver_rounds_seen_ = driver_rounds;
+  return true;
 }
 
 }  // namespace cornerd::daemon

@@ -15,7 +15,11 @@
 
 namespace cornerd::daemon {
 
-/// What one turn gave, for the server's thread.
+/// What the samples come from. A device does not wait, and its samples bear monotonic time, so that
+/// nobody who sets the clock disturbs it; a recording waits for the localizer, and bears its own.
+enum class SourceKind : std::uint8_t { kDevice, kRecording };
+
+/// What one turn gave, for the server's thread. Its times are UNIX time, or the recording's own.
 struct TurnReport {
   core::TurnResult result;
   core::Scan turn;
@@ -28,8 +32,7 @@ struct TurnReport {
 class Localization {
  public:
   /// `driver` must outlive this.
-  Localization(drivers::LidarDriver& driver, core::Pipeline pipeline,
-               SampleChannel::WhenFull when_full);
+  Localization(drivers::LidarDriver& driver, core::Pipeline pipeline, SourceKind source);
   /// Stops both: the driver ends its device's work in its own thread.
   ~Localization();
   Localization(const Localization&) = delete;
@@ -50,15 +53,16 @@ class Localization {
     while (reports_.take(use)) {
     }
   }
-  /// What wheels and gyro say. One that finds no room is lost; the next one's counts make up for
-  /// it.
+  /// What wheels and gyro say, on the clock of the samples. One that finds no room is lost; the
+  /// next one's counts make up for it.
   void add(const core::OdometryReading& reading) { readings_.push(reading); }
   /// The robot is about there.
   void set_pose(const core::Pose2& T_map_base) { given_poses_.push(T_map_base); }
   /// The next turn is recognised without a prior.
   void relocalize() { relocalize_.store(true, std::memory_order_relaxed); }
 
-  /// True where the localizer has come round since the last call, which asked it to.
+  /// True where reader and localizer have both come round since this was last true. Asks the
+  /// localizer to.
   bool has_progressed();
 
   std::uint64_t lost_samples() const { return channel_.lost(); }
@@ -71,6 +75,7 @@ class Localization {
   void clear_event() const;
 
   drivers::LidarDriver& driver_;
+  const SourceKind source_;
   core::Pipeline pipeline_;
   SampleChannel channel_;
   core::RingBuffer<core::OdometryReading> readings_;
@@ -80,7 +85,9 @@ class Localization {
   std::atomic<bool> relocalize_{false};
   std::atomic<std::uint32_t> lost_reports_{0};
   std::atomic<std::uint32_t> rounds_{0};
+  std::atomic<bool> reader_has_ended_{false};
   std::uint32_t rounds_seen_ = 0;
+  std::uint32_t driver_rounds_seen_ = 0;
   std::jthread localizer_;
   std::jthread reader_;
 };

@@ -13,6 +13,7 @@
 namespace cornerd::daemon {
 namespace {
 
+using drivers::LidarFault;
 using drivers::LidarState;
 using message::MessageClass;
 using Counter = message::StatusFields::Counter;
@@ -24,15 +25,26 @@ constexpr std::array<std::string_view, TurnPublisher::kStates> kPoseCounterNames
 /// A driver has fewer different things to say.
 constexpr std::size_t kMostWords = 64;
 
-bool is_trouble(LidarState state) {
-  return state == LidarState::kAbsent || state == LidarState::kFaulty ||
-         state == LidarState::kBackoff;
+bool is_trouble(const drivers::LidarChange& change) {
+  return change.fault != LidarFault::kNone || change.state == LidarState::kFaulty ||
+         change.state == LidarState::kAbsent || change.state == LidarState::kBackoff;
 }
 
-std::string describe(const drivers::LidarStatus& lidar) {
-  std::string text(drivers::to_string(lidar.state));
-  if (!lidar.detail.view().empty()) text.append(": ").append(lidar.detail.view());
+/// "faulty, dead-laser: its head turns, but ..."
+std::string describe(LidarState state, LidarFault fault, std::string_view detail) {
+  std::string text(drivers::to_string(state));
+  if (fault != LidarFault::kNone) text.append(", ").append(drivers::to_string(fault));
+  if (!detail.empty()) text.append(": ").append(detail);
   return text;
+}
+
+/// What an EVENT calls a change.
+std::string_view name_of(const std::optional<drivers::LidarChange>& from,
+                         const drivers::LidarChange& to) {
+  const bool ran = from && from->state == LidarState::kRunning;
+  if (to.state == LidarState::kRunning) return "device found";
+  if (ran && to.state != LidarState::kFaulty) return "device lost";
+  return to.fault == LidarFault::kNone ? "device state" : "device fault";
 }
 
 }  // namespace
@@ -40,26 +52,24 @@ std::string describe(const drivers::LidarStatus& lidar) {
 StatusPublisher::StatusPublisher(MessageServer& server, Notifier& notifier)
     : server_(server), notifier_(notifier) {}
 
-bool StatusPublisher::notice_change(const drivers::LidarStatus& lidar, core::TimeNs t_ns) {
-  const std::string text = describe(lidar);
+bool StatusPublisher::notice(const drivers::LidarChange& change, core::TimeNs t_ns) {
+  const std::string text = describe(change.state, change.fault, change.detail.view());
   if (text == text_) return false;
   text_ = text;
-  log_once(lidar.state, text);
-  if (state_ == lidar.state) return true;
-  if (lidar.state == LidarState::kRunning) {
-    server_.publish(MessageClass::kEvent, line_.event(t_ns, "device found", text));
-  } else if (state_ == LidarState::kRunning) {
-    server_.publish(MessageClass::kEvent, line_.event(t_ns, "device lost", text));
+  log_once(change, text);
+  const bool is_new = !last_ || last_->state != change.state || last_->fault != change.fault;
+  if (is_new) {
+    server_.publish(MessageClass::kEvent, line_.event(t_ns, name_of(last_, change), text));
   }
-  state_ = lidar.state;
+  last_ = change;
   return true;
 }
 
-void StatusPublisher::log_once(drivers::LidarState state, const std::string& text) {
-  if (state == LidarState::kRunning) said_.clear();
+void StatusPublisher::log_once(const drivers::LidarChange& change, const std::string& text) {
+  if (change.state == LidarState::kRunning) said_.clear();
   if (said_.size() == kMostWords) said_.clear();
   if (!said_.insert(text).second) return;
-  spdlog::log(is_trouble(state) ? spdlog::level::warn : spdlog::level::info, "lidar {}", text);
+  spdlog::log(is_trouble(change) ? spdlog::level::warn : spdlog::level::info, "lidar {}", text);
 }
 
 void StatusPublisher::publish(const drivers::LidarStatus& lidar, const TurnPublisher& turns,
@@ -80,6 +90,7 @@ void StatusPublisher::publish(const drivers::LidarStatus& lidar, const TurnPubli
   message::StatusFields status;
   status.t_ns = t_ns;
   status.lidar_state = drivers::to_string(lidar.state);
+  status.lidar_fault = drivers::to_string(lidar.fault);
   status.lidar_detail = lidar.detail.view();
   status.lidar_model = lidar.model.view();
   status.lidar_firmware = lidar.firmware.view();
@@ -94,7 +105,7 @@ void StatusPublisher::publish(const drivers::LidarStatus& lidar, const TurnPubli
                     latencies.percentile(0.99), !latencies.empty()};
   server_.publish(MessageClass::kStatus, line_.status(status));
 
-  std::string summary = "lidar " + describe(lidar);
+  std::string summary = "lidar " + describe(lidar.state, lidar.fault, lidar.detail.view());
   if (lidar.state == LidarState::kRunning && turns.state()) {
     summary.append("; pose ").append(message::to_string(*turns.state()));
   }

@@ -282,6 +282,7 @@ std::string_view LineWriter::status(const StatusFields& status) {
   json_.key("lidar");
   json_.open_object();
   text("state", status.lidar_state);
+  text("fault", status.lidar_fault);
   text("detail", status.lidar_detail);
   text("model", status.lidar_model);
   text("firmware", status.lidar_firmware);

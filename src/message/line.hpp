@@ -19,7 +19,8 @@ inline constexpr int kSchema = 1;
 struct StatusFields {
   core::TimeNs t_ns = 0;
   std::string_view lidar_state;
-  std::string_view lidar_detail;  ///< this and those below: left out where empty
+  std::string_view lidar_fault;  ///< this and those below: left out where empty
+  std::string_view lidar_detail;
   std::string_view lidar_model;
   std::string_view lidar_firmware;
   std::string_view lidar_health;

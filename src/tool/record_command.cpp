@@ -114,9 +114,9 @@ void record(RecordOptions& options) {
 
   Recorder recorder(options.output);
   StopSignal stop_signal;
-  const auto open_port = [&]() -> drivers::OpenResult {
-    drivers::OpenResult port = first.stream ? std::exchange(first, {})
-                                            : drivers::open_serial_port(config.device, config.baud);
+  const auto open_port = [&](std::uint32_t baud) -> drivers::OpenResult {
+    drivers::OpenResult port =
+        first.stream ? std::exchange(first, {}) : drivers::open_serial_port(config.device, baud);
     if (port.stream) {
       port.stream = std::make_unique<RecordingByteStream>(
           std::move(port.stream),

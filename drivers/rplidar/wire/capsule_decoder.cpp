@@ -40,6 +40,7 @@ Step CapsuleDecoder::step(ByteWindow& window, std::uint64_t& index, RawSampleSin
   }
   pair(capsule, index, sink);
   window.consume(size);
+  counters_->used_bytes += size;
   return Step::kProgress;
 }
 

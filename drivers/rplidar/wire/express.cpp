@@ -5,7 +5,7 @@ namespace cornerd::rplidar {
 namespace {
 
 constexpr std::size_t kCabinSize = 5;
-constexpr std::size_t kCabins = kExpressSamples / 2;
+constexpr std::size_t kExpressCabins = kExpressSamples / 2;
 
 // The correction's six bits are unsigned: 0 to 7.875 degrees. The protocol paper calls the top one
 // a sign; real devices disagree with it.
@@ -21,7 +21,7 @@ SweepSample decode_sample(const SweepCursor& cursor, int distance_word, int corr
 void decode_express(std::span<const std::uint8_t, kExpressSize> capsule, const Sweep& sweep,
                     std::span<SweepSample, kExpressSamples> samples) {
   SweepCursor cursor(sweep, sweep.diff_q6 << 5);  // Q6 to Q16 is 10 bits, less 5 for 32 samples
-  for (std::size_t cabin = 0; cabin < kCabins; ++cabin) {
+  for (std::size_t cabin = 0; cabin < kExpressCabins; ++cabin) {
     const auto bytes = capsule.subspan(kCapsuleHeaderSize + cabin * kCabinSize, kCabinSize);
     samples[2 * cabin] = decode_sample(cursor, bytes[0] | bytes[1] << 8, bytes[4] & 0xF);
     cursor.advance();

@@ -143,6 +143,7 @@ void StandardDecoder::advance(const StandardNode& node, int periods) {
 
 void StandardDecoder::deliver_front(ByteWindow& window, std::uint64_t index, RawSampleSink& sink) {
   window.consume(kNodeSize);
+  counters_->used_bytes += kNodeSize;
   ++counters_->samples;
   if (front_starts_turn_) ++counters_->turns;
   sink.on_sample({.index = index,

@@ -7,7 +7,7 @@
 namespace cornerd::rplidar {
 namespace {
 
-constexpr std::size_t kCabins = kUltraSamples / 3;
+constexpr std::size_t kUltraCabins = kUltraSamples / 3;
 
 std::uint32_t cabin_word(std::span<const std::uint8_t> capsule, std::size_t cabin) {
   const auto bytes = capsule.subspan(kCapsuleHeaderSize + cabin * 4, 4);
@@ -68,11 +68,11 @@ int first_major(std::span<const std::uint8_t> capsule) { return major_of(cabin_w
 void decode_ultra(std::span<const std::uint8_t, kUltraSize> capsule, int next_major,
                   const Sweep& sweep, std::span<SweepSample, kUltraSamples> samples) {
   SweepCursor cursor(sweep, (sweep.diff_q6 << 5) / 3);
-  for (std::size_t cabin = 0; cabin < kCabins; ++cabin) {
+  for (std::size_t cabin = 0; cabin < kUltraCabins; ++cabin) {
     const std::uint32_t word = cabin_word(capsule, cabin);
     const VarbitDistance major = decode_varbit(major_of(word));
     const VarbitDistance next =
-        decode_varbit(cabin + 1 < kCabins ? major_of(cabin_word(capsule, cabin + 1)) : next_major);
+        decode_varbit(cabin + 1 < kUltraCabins ? major_of(cabin_word(capsule, cabin + 1)) : next_major);
     const VarbitDistance& first_base = major.mm == 0 ? next : major;
 
     const std::array<int, 3> distances_mm{major.mm, predict(first_base, sign_extend_10(word >> 12)),

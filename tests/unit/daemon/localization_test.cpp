@@ -5,8 +5,12 @@
 #include <poll.h>
 
 #include <atomic>
+#include <chrono>
 #include <cmath>
+#include <thread>
 #include <vector>
+
+#include "daemon/clock.hpp"
 
 namespace cornerd::daemon {
 namespace {
@@ -28,17 +32,23 @@ class FakeLidar final : public drivers::LidarDriver {
                         .starts_turn = i == 0});
       }
     }
-    while (!ends_ && !stop.stop_requested()) std::this_thread::yield();
+    while (!ends_ && !stop.stop_requested()) {
+      if (!is_stuck_) come_round();
+      std::this_thread::yield();
+    }
     stopped_ = true;
   }
   drivers::LidarStatus status() override { return {}; }
+  bool take_change(drivers::LidarChange& /*change*/) override { return false; }
 
+  void get_stuck() { is_stuck_ = true; }
   bool has_stopped() const { return stopped_; }
 
  private:
   const int turns_;
   const bool ends_;
   std::atomic<bool> stopped_{false};
+  std::atomic<bool> is_stuck_{false};
 };
 
 core::Pipeline pipeline_without_map() { return {nullptr, core::LocalizerConfig{}}; }
@@ -62,7 +72,7 @@ TEST(Localization, EveryTurnOfARecording_IsReportedInOrder) {
   // As many as there are slots, so that none is lost however late this thread is.
   constexpr std::size_t kTurns = 16;
   FakeLidar lidar(kTurns, /*ends=*/true);
-  Localization localization(lidar, pipeline_without_map(), SampleChannel::WhenFull::kWait);
+  Localization localization(lidar, pipeline_without_map(), SourceKind::kRecording);
   localization.start();
   const auto starts = collect(localization, kTurns);
   ASSERT_EQ(starts.size(), kTurns) << "the last one too, although no other turn follows it";
@@ -74,7 +84,7 @@ TEST(Localization, EveryTurnOfARecording_IsReportedInOrder) {
 TEST(Localization, ServerThatIsBusy_LosesNewTurnsAndKnowsIt) {
   constexpr int kTurns = 100;
   FakeLidar lidar(kTurns, /*ends=*/true);
-  Localization localization(lidar, pipeline_without_map(), SampleChannel::WhenFull::kWait);
+  Localization localization(lidar, pipeline_without_map(), SourceKind::kRecording);
   localization.start();
   while (localization.lost_reports() + 16 < kTurns) std::this_thread::yield();
   const auto starts = collect(localization, 16);
@@ -85,7 +95,7 @@ TEST(Localization, ServerThatIsBusy_LosesNewTurnsAndKnowsIt) {
 TEST(Localization, End_StopsADriverThatWaitsForItsDevice) {
   FakeLidar lidar(3, /*ends=*/false);
   {
-    Localization localization(lidar, pipeline_without_map(), SampleChannel::WhenFull::kLose);
+    Localization localization(lidar, pipeline_without_map(), SourceKind::kDevice);
     localization.start();
     collect(localization, 2);
   }
@@ -94,18 +104,47 @@ TEST(Localization, End_StopsADriverThatWaitsForItsDevice) {
 
 TEST(Localization, EndBeforeTheStart_IsQuiet) {
   FakeLidar lidar(1, /*ends=*/true);
-  const Localization localization(lidar, pipeline_without_map(), SampleChannel::WhenFull::kLose);
+  const Localization localization(lidar, pipeline_without_map(), SourceKind::kDevice);
   EXPECT_FALSE(lidar.has_stopped());
 }
 
 TEST(Localization, IdleLocalizer_StillProvesThatItLives) {
   FakeLidar lidar(0, /*ends=*/false);
-  Localization localization(lidar, pipeline_without_map(), SampleChannel::WhenFull::kLose);
+  Localization localization(lidar, pipeline_without_map(), SourceKind::kDevice);
   localization.start();
   for (int round = 0; round < 3; ++round) {
     while (!localization.has_progressed()) std::this_thread::yield();
   }
   SUCCEED() << "three times round without a sample";
+}
+
+TEST(Localization, ReaderThatIsStuck_IsNoProgress) {
+  FakeLidar lidar(0, /*ends=*/false);
+  lidar.get_stuck();
+  Localization localization(lidar, pipeline_without_map(), SourceKind::kDevice);
+  localization.start();
+  const auto until = std::chrono::steady_clock::now() + std::chrono::milliseconds(100);
+  while (std::chrono::steady_clock::now() < until) EXPECT_FALSE(localization.has_progressed());
+}
+
+TEST(Localization, ReaderAtTheEndOfItsRecording_IsNotStuck) {
+  FakeLidar lidar(0, /*ends=*/true);
+  Localization localization(lidar, pipeline_without_map(), SourceKind::kRecording);
+  localization.start();
+  while (!lidar.has_stopped()) std::this_thread::yield();
+  for (int round = 0; round < 3; ++round) {
+    while (!localization.has_progressed()) std::this_thread::yield();
+  }
+}
+
+TEST(Localization, TurnsOfADevice_AreReportedInUnixTime) {
+  FakeLidar lidar(3, /*ends=*/false);
+  Localization localization(lidar, pipeline_without_map(), SourceKind::kDevice);
+  localization.start();
+  const core::TimeNs offset_ns = unix_ns() - monotonic_ns();
+  for (const core::TimeNs start_ns : collect(localization, 2)) {
+    EXPECT_NEAR(static_cast<double>(start_ns - offset_ns), 0, 1e9);
+  }
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 namespace cornerd::daemon {
 namespace {
 
+using drivers::LidarFault;
 using drivers::LidarState;
 using nlohmann::json;
 
@@ -18,6 +19,7 @@ class IdleLidar final : public drivers::LidarDriver {
  public:
   void run(std::stop_token /*stop*/, drivers::SampleSink& /*sink*/) override {}
   drivers::LidarStatus status() override { return {}; }
+  bool take_change(drivers::LidarChange& /*change*/) override { return false; }
 };
 
 class StatusPublisherTest : public ::testing::Test {
@@ -38,11 +40,10 @@ class StatusPublisherTest : public ::testing::Test {
     return line ? json::parse(*line) : json("nothing");
   }
 
-  static drivers::LidarStatus lidar(LidarState state, std::string_view detail) {
-    drivers::LidarStatus status;
-    status.state = state;
-    status.detail.set(detail);
-    return status;
+  static drivers::LidarChange change(LidarState state, LidarFault fault, std::string_view detail) {
+    drivers::LidarChange change{.state = state, .fault = fault, .detail = {}};
+    change.detail.set(detail);
+    return change;
   }
 
   ScratchFolder folder_;
@@ -54,38 +55,51 @@ class StatusPublisherTest : public ::testing::Test {
 };
 
 TEST_F(StatusPublisherTest, SameStateAndReason_IsNoChange) {
-  EXPECT_TRUE(publisher_.notice_change(lidar(LidarState::kAbsent, "no port"), 0));
-  EXPECT_FALSE(publisher_.notice_change(lidar(LidarState::kAbsent, "no port"), 0));
-  EXPECT_TRUE(publisher_.notice_change(lidar(LidarState::kAbsent, "still no port"), 0));
-  EXPECT_EQ(next(), "nothing") << "an event is for found and lost alone";
+  const auto absent = change(LidarState::kAbsent, LidarFault::kNoPort, "no port");
+  EXPECT_TRUE(publisher_.notice(absent, 0));
+  EXPECT_EQ(next(), json::parse(R"({"class":"EVENT","t":0,"what":"device fault",
+                                    "detail":"absent, no-port: no port"})"));
+  EXPECT_FALSE(publisher_.notice(absent, 0));
+  EXPECT_TRUE(publisher_.notice(change(LidarState::kAbsent, LidarFault::kNoPort, "still none"), 0));
+  EXPECT_EQ(next(), "nothing") << "an event is for states and faults, not for words";
 }
 
-TEST_F(StatusPublisherTest, DeviceFoundAndLost_AreEvents) {
-  publisher_.notice_change(lidar(LidarState::kAbsent, "no port"), 0);
-  publisher_.notice_change(lidar(LidarState::kRunning, ""), 1'000'000'000);
-  EXPECT_EQ(next(), json::parse(R"({"class":"EVENT","t":1,"what":"device found",
-                                    "detail":"running"})"));
-  publisher_.notice_change(lidar(LidarState::kBackoff, "silence"), 2'000'000'000);
-  EXPECT_EQ(next(), json::parse(R"({"class":"EVENT","t":2,"what":"device lost",
-                                    "detail":"backoff: silence"})"));
+TEST_F(StatusPublisherTest, EachStateAndFault_IsAnEvent) {
+  const auto expect = [this](const drivers::LidarChange& change, const char* what,
+                             const char* detail) {
+    publisher_.notice(change, 1'000'000'000);
+    const json event = next();
+    EXPECT_EQ(event["what"], what);
+    EXPECT_EQ(event["detail"], detail);
+  };
+  expect(change(LidarState::kStarting, LidarFault::kNone, ""), "device state", "starting");
+  expect(change(LidarState::kRunning, LidarFault::kNone, ""), "device found", "running");
+  expect(change(LidarState::kFaulty, LidarFault::kDeadLaser, "dark"), "device fault",
+         "faulty, dead-laser: dark");
+  expect(change(LidarState::kRunning, LidarFault::kNone, ""), "device found", "running");
+  expect(change(LidarState::kBackoff, LidarFault::kUnplugged, "gone"), "device lost",
+         "backoff, unplugged: gone");
 }
 
 TEST_F(StatusPublisherTest, Status_HasTheDriversCountersAndTheDaemonsOwn) {
   IdleLidar idle;
-  const Localization localization(idle, {nullptr, core::LocalizerConfig{}},
-                                  SampleChannel::WhenFull::kLose);
+  const Localization localization(idle, {nullptr, core::LocalizerConfig{}}, SourceKind::kDevice);
   TurnPublisher turns(server_, nullptr);
   TurnReport report;
   report.latency_ns = 2'000'000;
   turns.publish(report);
   EXPECT_EQ(next()["what"], "state change");
 
-  drivers::LidarStatus status = lidar(LidarState::kRunning, "fine");
+  drivers::LidarStatus status;
+  status.state = LidarState::kFaulty;
+  status.fault = LidarFault::kMotorStalled;
+  status.detail.set("fine");
   status.counters.bad_checksums = 7;
   publisher_.publish(status, turns, localization, 5'000'000'000);
   const json line = next();
   EXPECT_EQ(line["t"], 5);
-  EXPECT_EQ(line["lidar"]["state"], "running");
+  EXPECT_EQ(line["lidar"]["state"], "faulty");
+  EXPECT_EQ(line["lidar"]["fault"], "motor-stalled");
   EXPECT_EQ(line["lidar"]["detail"], "fine");
   EXPECT_EQ(line["counters"]["bad_checksums"], 7);
   EXPECT_EQ(line["counters"]["poses_lost"], 1);

@@ -4,12 +4,17 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
+#include <functional>
+#include <map>
+#include <string>
+#include <utility>
 
 #include "scripted_a1.hpp"
 
 namespace cornerd::rplidar::test {
 namespace {
 
+using drivers::LidarFault;
 using drivers::LidarState;
 using std::chrono::milliseconds;
 using std::chrono::seconds;
@@ -34,19 +39,32 @@ class RplidarDriverTest : public testing::Test {
     std::stop_source stop;
     const core::TimeNs end_ns = clock.now_ns + std::chrono::nanoseconds(duration).count();
     clock.on_advance = [&, end_ns] {
-      const auto status = driver->status();
-      if (states.empty() || states.back() != status.state) states.push_back(status.state);
-      last = status;
+      if (event && clock.now_ns >= event_ns) std::exchange(event, nullptr)();
+      drivers::LidarChange change;
+      while (driver->take_change(change)) {
+        if (states.empty() || states.back() != change.state) states.push_back(change.state);
+        if (change.fault != LidarFault::kNone) faults.push_back(change.fault);
+        hints[change.fault] = change.detail.view();
+      }
+      last = driver->status();
+      const auto& counters = last.counters;
+      EXPECT_LE(counters.used_bytes + counters.skipped_bytes, counters.bytes);
       if (clock.now_ns >= end_ns) stop.request_stop();
     };
     driver->run(stop.get_token(), samples);
     clock.on_advance = nullptr;
   }
 
-  void make(const std::string& mode = "auto") {
+  /// What happens so long after now.
+  void after(std::chrono::milliseconds duration, std::function<void()> happens) {
+    event_ns = clock.now_ns + std::chrono::nanoseconds(duration).count();
+    event = std::move(happens);
+  }
+
+  void make(const std::string& mode = "auto", std::uint32_t baud = 115200) {
     driver.emplace(
-        RplidarDriverConfig{.device = "/dev/lidar", .mode = mode, .motor = {}},
-        [this] { return a1.open(); }, clock);
+        RplidarDriverConfig{.device = "/dev/lidar", .baud = baud, .mode = mode, .motor = {}},
+        [this](std::uint32_t at_baud) { return a1.open(at_baud); }, clock);
   }
 
   void SetUp() override { make(); }
@@ -55,7 +73,11 @@ class RplidarDriverTest : public testing::Test {
   ScriptedA1 a1{clock};
   Samples samples;
   std::optional<RplidarDriver> driver;
+  core::TimeNs event_ns = 0;
+  std::function<void()> event;
   std::vector<LidarState> states;
+  std::vector<LidarFault> faults;
+  std::map<LidarFault, std::string> hints;
   drivers::LidarStatus last;
 };
 
@@ -81,9 +103,9 @@ TEST_F(RplidarDriverTest, HealthyDevice_RunsInExpressAndIsLeftQuiet) {
   EXPECT_FALSE(a1.motor_turns);
 }
 
-TEST_F(RplidarDriverTest, Samples_BearUnixTime) {
+TEST_F(RplidarDriverTest, Samples_BearTheTimeThatNobodySets) {
   clock.offset_ns = 1'700'000'000 * core::kNsPerSecond;
-  const core::TimeNs start_ns = clock.now_ns + clock.offset_ns;
+  const core::TimeNs start_ns = clock.now_ns;
   run(seconds(2));
   ASSERT_FALSE(samples.all.empty());
   EXPECT_GT(samples.all.front().t_ns, start_ns);
@@ -102,6 +124,7 @@ TEST_F(RplidarDriverTest, ModeThatTheDeviceLacks_IsNamedWithThoseItHas) {
   make("Sensitivity");
   run(seconds(1));
   EXPECT_EQ(last.state, LidarState::kFaulty);
+  EXPECT_EQ(last.fault, LidarFault::kNoSuchMode);
   EXPECT_EQ(last.detail.view(),
             "/dev/lidar: has no mode \"Sensitivity\", but Standard, Express, Boost");
 }
@@ -124,7 +147,47 @@ TEST_F(RplidarDriverTest, DeviceThatWasLeftScanning_IsQuietedFirst) {
   a1.chatter = join(express_capsules(3, 100));
   run(seconds(1));
   EXPECT_EQ(last.state, LidarState::kRunning);
+  EXPECT_THAT(faults, ElementsAre(LidarFault::kStreamRunning));
   EXPECT_EQ(a1.opened, 1);
+}
+
+TEST_F(RplidarDriverTest, DeviceThatBoots_IsWaitedFor) {
+  const std::string banner = "RP LIDAR System.\r\nFirmware Ver 1.29 - rtm\r\nModel: 18\r\n";
+  a1.chatter.assign(banner.begin(), banner.end());
+  a1.lost_answers = 1;
+  run(seconds(2));
+  EXPECT_EQ(last.state, LidarState::kRunning);
+  EXPECT_THAT(faults, ElementsAre(LidarFault::kBooting));
+  EXPECT_EQ(a1.opened, 1);
+}
+
+TEST_F(RplidarDriverTest, DeviceThatRestartsByItself_IsSaidAtOnceAndStartedAgain) {
+  after(seconds(2), [&] {
+    const std::string banner = "RP LIDAR System.\r\nFirmware Ver 1.29 - rtm\r\nModel: 18\r\n";
+    a1.output.insert(a1.output.end(), banner.begin(), banner.end());
+    a1.scanning = false;
+  });
+  run(seconds(3));
+  EXPECT_THAT(faults, Contains(LidarFault::kRestarted));
+  EXPECT_EQ(last.state, LidarState::kRunning);
+  EXPECT_EQ(a1.resets, 0);
+}
+
+TEST_F(RplidarDriverTest, WrongSpeed_IsFoundOutAndNamed) {
+  a1.baud = 115200;
+  make("auto", 57600);
+  run(seconds(5));
+  EXPECT_THAT(faults, Contains(LidarFault::kWrongBaud));
+  EXPECT_EQ(hints[LidarFault::kWrongBaud],
+            "/dev/lidar: no answer at the speed of the settings, but one at 115200 baud; set "
+            "lidar.baud");
+}
+
+TEST_F(RplidarDriverTest, NoiseInsteadOfAnswers_IsAWrongSpeed) {
+  a1.answers = false;
+  a1.noise = true;
+  run(seconds(5));
+  EXPECT_THAT(faults, Contains(LidarFault::kWrongBaud));
 }
 
 TEST_F(RplidarDriverTest, LostAnswer_IsAskedForAgain) {
@@ -140,13 +203,14 @@ TEST_F(RplidarDriverTest, BadHealth_IsResetOnce) {
   EXPECT_EQ(a1.resets, 1);
   EXPECT_EQ(last.state, LidarState::kRunning);
   EXPECT_THAT(states, Contains(LidarState::kFaulty));
+  EXPECT_THAT(faults, ElementsAre(LidarFault::kProtectionStop));
 }
 
 TEST_F(RplidarDriverTest, HealthThatStaysBad_IsAFaultWithItsCode) {
   a1.health = {Health{.status = 2, .code = 0x8001}};
   run(seconds(2));
-  EXPECT_EQ(last.state, LidarState::kFaulty);
-  EXPECT_THAT(std::string(last.detail.view()), HasSubstr("0x8001"));
+  EXPECT_THAT(faults, IsSupersetOf({LidarFault::kProtectionStop, LidarFault::kHealthError}));
+  EXPECT_THAT(hints[LidarFault::kHealthError], HasSubstr("0x8001"));
   EXPECT_THAT(names(a1.requests), Not(Contains("EXPRESS 1")));
 }
 
@@ -155,7 +219,8 @@ TEST_F(RplidarDriverTest, MissingPort_IsWaitedFor) {
   run(seconds(5));
   EXPECT_THAT(states, ElementsAre(LidarState::kAbsent));
   EXPECT_EQ(last.detail.view(), "/dev/lidar: no such port; waiting for it");
-  EXPECT_THAT(a1.opened, testing::AllOf(testing::Ge(5), testing::Le(8))) << "0.1 s, doubled to 2 s";
+  EXPECT_EQ(last.fault, LidarFault::kNoPort);
+  EXPECT_NEAR(a1.opened, 25, 1) << "five times a second, however long";
   a1.unplugged_at_ns.reset();
   run(seconds(2));
   EXPECT_EQ(last.state, LidarState::kRunning);
@@ -165,6 +230,7 @@ TEST_F(RplidarDriverTest, PortOfAnotherProcess_IsWaitedForByName) {
   a1.open_error = drivers::OpenError::kBusy;
   run(seconds(1));
   EXPECT_EQ(last.state, LidarState::kOpening);
+  EXPECT_EQ(last.fault, LidarFault::kPortHeld);
   EXPECT_EQ(last.detail.view(), "/dev/lidar: held by another process; waiting for it");
 }
 
@@ -173,6 +239,7 @@ TEST_F(RplidarDriverTest, SilentDevice_IsReportedAndTriedAgain) {
   run(seconds(5));
   EXPECT_EQ(last.state, LidarState::kIdentifying);
   EXPECT_THAT(states, Contains(LidarState::kBackoff));
+  EXPECT_THAT(faults, Contains(LidarFault::kNoAnswer));
   EXPECT_EQ(a1.opened, 2);
 }
 
@@ -180,6 +247,7 @@ TEST_F(RplidarDriverTest, UnpluggedAndBack_RunsAgain) {
   a1.unplugged_at_ns = clock.now_ns + 2 * core::kNsPerSecond;
   run(seconds(3));
   EXPECT_THAT(states, Contains(LidarState::kAbsent));
+  EXPECT_THAT(faults, IsSupersetOf({LidarFault::kUnplugged, LidarFault::kNoPort}));
   EXPECT_EQ(samples.gaps, 1);
   const auto before = samples.all.size();
   a1.unplugged_at_ns.reset();
@@ -189,17 +257,63 @@ TEST_F(RplidarDriverTest, UnpluggedAndBack_RunsAgain) {
   EXPECT_GT(last.counters.samples, before + 1000) << "counters go on over a reopened port";
 }
 
-TEST_F(RplidarDriverTest, DeviceThatFallsSilent_IsReset) {
-  std::stop_source stop;
-  clock.on_advance = [&] {
-    if (clock.now_ns > 3 * core::kNsPerSecond && a1.resets == 0) a1.measures = false;
-    if (a1.resets > 0) a1.measures = true;
-    if (clock.now_ns > 10 * core::kNsPerSecond) stop.request_stop();
-    last = driver->status();
-  };
-  driver->run(stop.get_token(), samples);
+TEST_F(RplidarDriverTest, DeviceThatFallsSilent_IsSaidAndThenReset) {
+  a1.resets_to_measure = 1;
+  after(seconds(3), [&] { a1.measures = false; });
+  run(milliseconds(4500));
+  EXPECT_EQ(last.state, LidarState::kFaulty);
+  EXPECT_EQ(last.fault, LidarFault::kMotorStalled);
+  EXPECT_EQ(a1.resets, 0);
+}
+
+TEST_F(RplidarDriverTest, HeadThatWasHeldUp_GoesOnWithoutAReset) {
+  after(seconds(2), [&] {
+    a1.measures = false;
+    after(seconds(2), [&] { a1.measures = true; });
+  });
+  run(seconds(6));
+  EXPECT_THAT(faults, ElementsAre(LidarFault::kMotorStalled));
+  EXPECT_EQ(last.state, LidarState::kRunning);
+  EXPECT_EQ(a1.resets, 0);
+  EXPECT_EQ(a1.opened, 1);
+}
+
+TEST_F(RplidarDriverTest, SilenceThatLasts_EndsWithAReset) {
+  a1.resets_to_measure = 1;
+  after(seconds(2), [&] { a1.measures = false; });
+  run(seconds(9));
   EXPECT_EQ(a1.resets, 1);
   EXPECT_EQ(last.state, LidarState::kRunning);
+}
+
+TEST_F(RplidarDriverTest, DeviceThatNeverMeasures_IsAFaultOfItsOwn) {
+  a1.measures = false;
+  run(seconds(8));
+  EXPECT_THAT(faults, Contains(LidarFault::kNoData));
+  EXPECT_THAT(faults, Not(Contains(LidarFault::kMotorStalled)));
+}
+
+TEST_F(RplidarDriverTest, LaserThatIsDead_IsAFaultUntilSomethingReturns) {
+  a1.blind = true;
+  after(seconds(6), [&] { a1.blind = false; });
+  run(seconds(5));
+  EXPECT_EQ(last.state, LidarState::kFaulty);
+  EXPECT_EQ(last.fault, LidarFault::kDeadLaser);
+  run(seconds(3));
+  EXPECT_EQ(last.state, LidarState::kRunning);
+}
+
+TEST_F(RplidarDriverTest, EachByteThatCame_IsUsedOrSkippedInTheEnd) {
+  a1.chatter = join(express_capsules(3, 100));
+  after(seconds(1), [&] {
+    const Bytes garbage(37, 0x55);
+    a1.output.insert(a1.output.end(), garbage.begin(), garbage.end());
+  });
+  run(seconds(3));
+  const auto counters = driver->status().counters;
+  EXPECT_EQ(counters.bytes, a1.read_bytes);
+  EXPECT_EQ(counters.used_bytes + counters.skipped_bytes, counters.bytes);
+  EXPECT_GE(counters.skipped_bytes, a1.chatter.size() + 37);
 }
 
 TEST_F(RplidarDriverTest, StopWhileItWaits_EndsWithinAFifthOfASecond) {
@@ -222,7 +336,7 @@ TEST_F(RplidarDriverTest, MotorThatCannotBeStarted_IsAFault) {
   driver.emplace(
       RplidarDriverConfig{.device = "/dev/lidar",
                           .motor = {.kind = MotorKind::kGpio, .path = "/no/such/gpio"}},
-      [this] { return a1.open(); }, clock);
+      [this](std::uint32_t at_baud) { return a1.open(at_baud); }, clock);
   run(seconds(1));
   EXPECT_EQ(last.state, LidarState::kFaulty);
   EXPECT_THAT(std::string(last.detail.view()), HasSubstr("/no/such/gpio/value"));

@@ -13,6 +13,15 @@ using std::chrono::nanoseconds;
 
 constexpr core::TimeNs kCapsuleNs = 32 * 254'000;
 
+/// The same capsule without a single return.
+void make_blind(Bytes& capsule) {
+  std::fill(capsule.begin() + 4, capsule.end(), std::uint8_t{0});
+  std::uint8_t checksum = 0;
+  for (std::size_t i = 2; i < capsule.size(); ++i) checksum ^= capsule[i];
+  capsule[0] = static_cast<std::uint8_t>(0xA0 | (checksum & 15));
+  capsule[1] = static_cast<std::uint8_t>(0x50 | checksum >> 4);
+}
+
 class ScriptedPort : public drivers::ByteStream {
  public:
   explicit ScriptedPort(ScriptedA1& device) : device_(device) {}
@@ -33,6 +42,7 @@ class ScriptedPort : public drivers::ByteStream {
     std::copy_n(device_.output.begin(), count, buffer.begin());
     device_.output.erase(device_.output.begin(),
                          device_.output.begin() + static_cast<std::ptrdiff_t>(count));
+    device_.read_bytes += count;
     return {ReadStatus::kData, count};
   }
 
@@ -56,7 +66,8 @@ class ScriptedPort : public drivers::ByteStream {
     if (!device_.measures || !device_.motor_turns) return;
     device_.output_from_ns = std::max(device_.output_from_ns, device_.clock.now_ns) + kCapsuleNs;
     const int c = device_.capsule++;
-    const Bytes capsule = express_capsules(c + 1, 5, 21.4).back();
+    Bytes capsule = express_capsules(c + 1, 5, 21.4).back();
+    if (device_.blind) make_blind(capsule);
     device_.output.insert(device_.output.end(), capsule.begin(), capsule.end());
   }
 
@@ -66,8 +77,9 @@ class ScriptedPort : public drivers::ByteStream {
 
 }  // namespace
 
-drivers::OpenResult ScriptedA1::open() {
+drivers::OpenResult ScriptedA1::open(std::uint32_t at_baud) {
   ++opened;
+  understood = baud == 0 || at_baud == baud;
   if (unplugged()) return {nullptr, drivers::OpenError::kAbsent, "/dev/lidar: no such port"};
   if (open_error != drivers::OpenError::kNone) {
     return {nullptr, open_error, "/dev/lidar: held by another process"};
@@ -78,6 +90,7 @@ drivers::OpenResult ScriptedA1::open() {
 }
 
 void ScriptedA1::receive(const Request& request) {
+  if (!understood) return;
   requests.push_back(request);
   scanning = false;
   switch (request.command()) {
@@ -121,6 +134,7 @@ void ScriptedA1::receive(const Request& request) {
 }
 
 void ScriptedA1::answer(std::uint8_t type, const Bytes& payload) {
+  if (noise) output.insert(output.end(), 20, std::uint8_t{0xE7});
   if (!answers || lost_answers-- > 0) return;
   const auto head =
       Descriptor{.size = static_cast<std::uint32_t>(payload.size()), .stream = false, .type = type}

@@ -41,15 +41,18 @@ class ManualClock : public drivers::Clock {
 struct ScriptedA1 {
   explicit ScriptedA1(ManualClock& its_clock) : clock(its_clock) {}
 
-  drivers::OpenResult open();
+  drivers::OpenResult open(std::uint32_t at_baud);
 
   ManualClock& clock;
   DeviceInfo info{.model = 0x18, .firmware = firmware_version(1, 29), .hardware = 7};
   std::deque<Health> health{Health{}};  ///< the last one stays
   std::vector<std::string> mode_names{"Standard", "Express", "Boost", "Sensitivity", "Stability"};
   bool answers = true;
+  bool noise = false;  ///< comes in place of its answers
   bool measures = true;
-  int lost_answers = 0;  ///< so many answers are lost on the way
+  bool blind = false;      ///< nothing returns
+  std::uint32_t baud = 0;  ///< at any other it hears and says nothing; 0: at each it does
+  int lost_answers = 0;    ///< so many answers are lost on the way
   int resets_to_measure = 0;
   Bytes chatter;  ///< what the port has to say before it is asked
   drivers::OpenError open_error = drivers::OpenError::kNone;
@@ -60,6 +63,7 @@ struct ScriptedA1 {
   bool scanning = false;
   int resets = 0;
   int opened = 0;
+  std::uint64_t read_bytes = 0;
 
   void receive(const Request& request);
   bool unplugged() const { return unplugged_at_ns && clock.now_ns >= *unplugged_at_ns; }
@@ -67,6 +71,7 @@ struct ScriptedA1 {
   std::deque<std::uint8_t> output;
   core::TimeNs output_from_ns = 0;  ///< nothing comes earlier
   int capsule = 0;
+  bool understood = true;  ///< opened at its own speed
 
  private:
   void answer(std::uint8_t type, const Bytes& payload);
