@@ -29,3 +29,6 @@ install_missing() {
 # shellcheck disable=SC2034
 build_packages=(cmake ninja-build g++ libeigen3-dev libspdlog-dev libfmt-dev nlohmann-json3-dev
   libcli11-dev)
+# What makes packages of it.
+# shellcheck disable=SC2034
+package_packages=(dpkg-dev fakeroot file gzip)

@@ -10,6 +10,15 @@ install(DIRECTORY config/robots/ DESTINATION ${CMAKE_INSTALL_DATADIR}/cornerd/ro
 install(FILES config/cornerd.full.json DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(FILES systemd/realtime.conf DESTINATION ${CMAKE_INSTALL_DOCDIR})
 
+configure_file(cmake/debian/changelog ${PROJECT_BINARY_DIR}/debian/changelog @ONLY)
+foreach(file ${PROJECT_BINARY_DIR}/debian/changelog CHANGELOG.md)
+  get_filename_component(name ${file} NAME)
+  execute_process(COMMAND gzip -9nc ${file} WORKING_DIRECTORY ${PROJECT_SOURCE_DIR}
+    OUTPUT_FILE ${PROJECT_BINARY_DIR}/debian/${name}.gz COMMAND_ERROR_IS_FATAL ANY)
+  install(FILES ${PROJECT_BINARY_DIR}/debian/${name}.gz DESTINATION ${CMAKE_INSTALL_DOCDIR})
+endforeach()
+install(FILES cmake/debian/copyright DESTINATION ${CMAKE_INSTALL_DOCDIR})
+
 # cornerd_follow_prefix(FILE): a copy in the build folder, its paths those of this installation.
 function(cornerd_follow_prefix file)
   get_filename_component(name ${file} NAME)

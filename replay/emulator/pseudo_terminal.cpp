@@ -4,6 +4,7 @@
 #include <fcntl.h>
 #include <poll.h>
 #include <stdlib.h>
+#include <sys/ioctl.h>
 #include <termios.h>
 #include <unistd.h>
 
@@ -68,6 +69,9 @@ bool PseudoTerminal::prepare_for_next_client() {
     ::tcsetattr(client_end, TCSANOW, &settings);
   }
   ::tcflush(client_end, TCIFLUSH);
+  // A port loses this with its last client; a pseudo-terminal keeps it when that one is killed. (Who
+  // lacks CAP_SYS_ADMIN has been refused above, and waits in vain for a next client.)
+  ::ioctl(client_end, TIOCNXCL);
   ::close(client_end);
   has_client_ = false;
   return true;

@@ -1,0 +1,28 @@
+# Manual pages, made of what the programs say of themselves. A cross build runs them in the emulator
+# that its toolchain file names; without one there are no pages.
+if(CMAKE_CROSSCOMPILING AND NOT CMAKE_CROSSCOMPILING_EMULATOR)
+  message(WARNING "no emulator to run the programs in: no manual pages")
+  return()
+endif()
+
+set(cornerd_pages)
+# cornerd_man_page(PAGE DEPENDS file... COMMAND script arguments...)
+function(cornerd_man_page page)
+  cmake_parse_arguments(arg "" "" "DEPENDS;COMMAND" ${ARGN})
+  set(output ${PROJECT_BINARY_DIR}/man/${page}.gz)
+  string(REGEX REPLACE ".*\\." "" section ${page})
+  add_custom_command(OUTPUT ${output}
+    COMMAND ${PROJECT_SOURCE_DIR}/cmake/man_page ${output} ${PROJECT_VERSION} ${arg_COMMAND}
+    DEPENDS ${PROJECT_SOURCE_DIR}/cmake/man_page ${arg_DEPENDS}
+    VERBATIM)
+  install(FILES ${output} DESTINATION ${CMAKE_INSTALL_MANDIR}/man${section})
+  set(cornerd_pages ${cornerd_pages} ${output} PARENT_SCOPE)
+endfunction()
+
+cornerd_man_page(cornerd.8 DEPENDS cornerd
+  COMMAND program ${CMAKE_CROSSCOMPILING_EMULATOR} $<TARGET_FILE:cornerd>)
+cornerd_man_page(cornerctl.1 DEPENDS cornerctl
+  COMMAND program ${CMAKE_CROSSCOMPILING_EMULATOR} $<TARGET_FILE:cornerctl>)
+cornerd_man_page(cornerd.json.5 DEPENDS ${PROJECT_SOURCE_DIR}/config/cornerd.full.json
+  COMMAND file ${PROJECT_SOURCE_DIR}/config/cornerd.full.json)
+add_custom_target(man_pages ALL DEPENDS ${cornerd_pages})
