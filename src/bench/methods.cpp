@@ -21,8 +21,15 @@ const std::array kPaperMethods = {
     NamedMethod{"lt", "LT", of(Method::kLineTracking)},
 };
 
+/// As the paper has them: walls of more than four points.
+DetectorConfig walls_of_five(Method method) {
+  DetectorConfig config = of(method);
+  config.min_support = 5;
+  return config;
+}
+
 DetectorConfig printed_altbd(const core::PrintedAltbdConfig& reading) {
-  DetectorConfig config = of(Method::kPrintedAltbd);
+  DetectorConfig config = walls_of_five(Method::kPrintedAltbd);
   config.printed_altbd = reading;
   return config;
 }
@@ -41,6 +48,8 @@ using core::MinorAxis;
 using core::TrackedLine;
 
 const std::array kVariants = {
+    NamedMethod{"altbd-5", "ALTBD, walls of 5", walls_of_five(Method::kAltbd)},
+    NamedMethod{"abd-iepf-5", "ABD+IEPF, walls of 5", walls_of_five(Method::kAbdIepf)},
     NamedMethod{"altbd-printed", "ALTBD as printed", printed_altbd({})},
     NamedMethod{"altbd-printed-metres", "printed: h_max in metres",
                 printed_altbd({.minor = MinorAxis::kMetres})},

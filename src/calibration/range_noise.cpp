@@ -152,6 +152,13 @@ void fit_floor_and_share(std::span<const RangeCell> cells, RangeNoise& fit) {
 
 }  // namespace
 
+bool RangeNoise::is_of_walls() const {
+  constexpr double kMostShare = 0.1;
+  return std::all_of(cells.begin(), cells.end(), [](const RangeCell& cell) {
+    return cell.sigma_m <= kMostShare * cell.range_m;
+  });
+}
+
 std::vector<core::SigmaTable::Point> RangeNoise::table() const { return points_of(cells); }
 
 std::optional<RangeNoise> fit_range_noise(std::span<const BinSpread> bins) {

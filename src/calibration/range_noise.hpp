@@ -32,6 +32,9 @@ struct RangeNoise {
   /// Mean departure of the cells' sigmas from floor and share, as a factor less 1.
   double plain_misfit = 0;
 
+  /// False where what returned can be no wall: a lidar is not off by a tenth of the range.
+  bool is_of_walls() const;
+
   /// The cells as a table, of which a sensor's noise may be made.
   std::vector<core::SigmaTable::Point> table() const;
 };

@@ -158,6 +158,11 @@ void calibrate_noise(const CalibrateNoiseOptions& options) {
         "too little to tell the noise from: record some 20 turns or more of a lidar that "
         "stands still and sees walls");
   }
+  if (!noise->is_of_walls()) {
+    throw Failure(
+        "the returns are too scattered to be of walls: is it a recording of a lidar that stands "
+        "still, and is --wire its format?");
+  }
   const bool distances_known = !measured.walls.empty();
   const auto& sources = distances_known ? measured.walls : measured.found;
   const std::vector<calibration::WallPieceFit> walls = fit_walls(sources);

@@ -14,13 +14,6 @@
 namespace cornerd::core {
 namespace {
 
-/// What rays that graze a wall may leave open, in units of Dth_corner.
-constexpr double kGrazingReach = 2;
-/// Samples closer to a ray than this lie between an edge and what is behind it, on nothing.
-constexpr double kMinRestSine = 0.06;
-/// A corner made of so few samples is none where its place is less certain than this.
-constexpr double kMaxSigma_m = 0.02;
-
 /// One border between a wall (on the right of it as the sensor sees it, at lower bearings) and the
 /// next one (on the left).
 class Border {
@@ -70,10 +63,8 @@ bool Border::free_between(const Vec2& corner) const {
   }
   if (behind != 1) return behind == 0;
   // One alone is an outlier, among several or in a gap that nothing could be seen through.
-  constexpr std::size_t kSeveral = 3;
-  constexpr double kNarrow_m = 0.06;
   const Vec2 gap = scan_[left_.first].place() - scan_[right_.last].place();
-  return between_ > kSeveral || gap.norm() < kNarrow_m;
+  return between_ > by_.limits.see_through_samples || gap.norm() < by_.limits.see_through_gap_m;
 }
 
 /// Follows a wall over the samples between the two, to the last that lies on it: single ones that
@@ -98,14 +89,14 @@ bool Border::is_reached(const Vec2& corner, const SegmentTrack& wall, std::size_
   const PolarPoint& next = scan_[step > 0 ? left_.first : right_.last];
   const double height_m = wall.line.normal.dot(next.place()) - wall.line.offset_m;
   const bool behind = height_m < 0 && misfit(by_.noise, wall.line, next) > gate2;
-  return !behind && distance_m <= kGrazingReach * corner_tolerance_m_;
+  return !behind && distance_m <= by_.limits.grazing_reach * corner_tolerance_m_;
 }
 
 std::optional<Breakpoint> Border::corner() const {
   const Line& a = right_.line;
   const Line& b = left_.line;
   const double sine = cross(a.normal, b.normal);
-  if (std::abs(sine) < std::sin(by_.limits.min_corner_angle_rad)) return std::nullopt;
+  if (std::abs(sine) < by_.angles.min_corner_sine) return std::nullopt;
   const Vec2 point((a.offset_m * b.normal.y() - b.offset_m * a.normal.y()) / sine,
                    (b.offset_m * a.normal.x() - a.offset_m * b.normal.x()) / sine);
 
@@ -156,7 +147,7 @@ std::optional<SegmentTrack> rest_beside(const PolarScan& scan, std::size_t end, 
     bool lies = true;
     for (std::size_t k = 0; k < count && lies; ++k) {
       const PolarPoint& point = scan[(first + k) % n];
-      lies = -rest.line.normal.dot(point.ray()) > kMinRestSine &&
+      lies = -rest.line.normal.dot(point.ray()) > by.angles.min_rest_sine &&
              misfit(by.noise, rest.line, point) < by.gate2();
     }
     if (lies) return rest;
@@ -208,7 +199,8 @@ void extract_border(const PolarScan& scan, const SegmentTrack& right, const Segm
       const auto rest =
           rest_beside(scan, on_right ? right.last : left.first, on_right ? +1 : -1, between, by);
       if (rest) found = on_right ? corner_of(right, *rest) : corner_of(*rest, left);
-      if (found && found->covariance.trace() > kMaxSigma_m * kMaxSigma_m) found.reset();
+      const double limit_m = by.limits.max_rest_corner_sigma_m;
+      if (found && found->covariance.trace() > limit_m * limit_m) found.reset();
     }
     add(found ? found : end.terminal());
   }

@@ -17,7 +17,7 @@ constexpr std::uint32_t kKeptSamples = 4;
 }  // namespace
 
 WallChain::WallChain(const DetectorConfig& config, const SensorNoise& noise)
-    : config_(config), noise_(noise) {
+    : config_(config), angles_(config.extraction), noise_(noise) {
   walls_.reserve(kMaxSegmentsPerTurn);
 }
 

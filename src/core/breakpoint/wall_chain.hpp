@@ -36,7 +36,7 @@ class WallChain {
 
  private:
   Judgement judgement(double noise_scale) const {
-    return {config_.extraction, noise_, noise_scale};
+    return {config_.extraction, angles_, noise_, noise_scale};
   }
   bool dissolve(const PolarScan& scan, std::size_t before, std::size_t doubtful,
                 SegmentTrack& after, double noise_scale);
@@ -47,6 +47,7 @@ class WallChain {
   void report(const PolarScan& scan, std::size_t right, double noise_scale, Detection& detection);
 
   DetectorConfig config_;
+  AngleLimits angles_;
   SensorNoise noise_;
   SegmentTracks walls_;
   SegmentTrack added_;        ///< the last wall as add() was given it

@@ -5,14 +5,6 @@
 #include <cmath>
 
 namespace cornerd::core {
-namespace {
-
-/// Samples that show a face: one alone may be a mixed pixel.
-constexpr std::size_t kMinFaceSamples = 2;
-/// Samples beyond the end that are asked whether the wall hides them.
-constexpr std::size_t kLookAhead = 3;
-
-}  // namespace
 
 /// A sample beyond the end, as the wall sees it.
 struct WallEnd::Beyond {
@@ -45,6 +37,7 @@ WallEnd::WallEnd(const PolarScan& scan, const SegmentTrack& wall, WallSide side,
   } else {
     span_m_ = std::max(0.0, outward_.dot(-line.offset_m / approach * ray - foot_));
   }
+  face_ = look_at_face();
 }
 
 WallEnd::Beyond WallEnd::look(std::size_t nth) const {
@@ -82,50 +75,54 @@ Breakpoint WallEnd::place(double along_m, double variance_along_m2) const {
   return breakpoint;
 }
 
-std::optional<Breakpoint> WallEnd::corner() const {
-  double along_sum = 0;
-  double height_sum = 0;
-  double variance_along = 0;
-  double variance_height = 0;
-  std::size_t count = 0;
-  for (; count < free_samples_; ++count) {
-    const Beyond beyond = look(count + 1);
+WallEnd::Face WallEnd::look_at_face() const {
+  Face face;
+  for (; face.count < free_samples_; ++face.count) {
+    const Beyond beyond = look(face.count + 1);
     // The foot is that of a sample with an error of its own.
     const double slack_m = std::sqrt(2) * by_.limits.gate_sigmas * beyond.sigma_along_m;
     if (std::abs(beyond.height_m) > by_.limits.max_face_m) break;
     if (beyond.along_m < -slack_m || beyond.along_m > span_m_ + slack_m) break;
-    along_sum += beyond.along_m;
-    height_sum += beyond.height_m;
-    variance_along += beyond.sigma_along_m * beyond.sigma_along_m;
-    variance_height += beyond.sigma_height_m * beyond.sigma_height_m;
+    face.along_m += beyond.along_m;
+    face.height_m += beyond.height_m;
+    face.variance_along_m2 += beyond.sigma_along_m * beyond.sigma_along_m;
+    face.variance_height_m2 += beyond.sigma_height_m * beyond.sigma_height_m;
   }
-  if (count < kMinFaceSamples) return std::nullopt;
-  const double samples = static_cast<double>(count);
+  if (face.count == 0) return face;
+  const double samples = static_cast<double>(face.count);
   const double from_centroid_m = outward_.dot(foot_ - wall_.line.centroid);
-  const double variance_line =
+  face.along_m /= samples;
+  face.height_m /= samples;
+  face.variance_along_m2 /= samples * samples;
+  face.variance_height_m2 =
+      face.variance_height_m2 / (samples * samples) +
       by_.noise_scale * by_.noise_scale * wall_.line.variance_at(from_centroid_m);
-  const double variance = variance_height + samples * samples * variance_line;
-  if (height_sum * height_sum < by_.limits.gate_sigmas * by_.limits.gate_sigmas * variance)
-    return std::nullopt;
+  return face;
+}
 
-  const double along_m = std::clamp(along_sum / samples, 0.0, span_m_);
+std::optional<Breakpoint> WallEnd::corner() const {
+  if (face_.count < by_.limits.min_face_samples) return std::nullopt;
+  const double gate2 = by_.limits.gate_sigmas * by_.limits.gate_sigmas;
+  if (face_.height_m * face_.height_m < gate2 * face_.variance_height_m2) return std::nullopt;
+
   constexpr double kSquareness_m2 = 1e-6;  // of the face: a millimetre
-  Breakpoint breakpoint = place(along_m, variance_along / (samples * samples) + kSquareness_m2);
+  Breakpoint breakpoint =
+      place(std::clamp(face_.along_m, 0.0, span_m_), face_.variance_along_m2 + kSquareness_m2);
   breakpoint.kind = BreakpointKind::kCorner;
-  breakpoint.convex = height_sum < 0;
+  breakpoint.convex = face_.height_m < 0;
   breakpoint.opening_rad = breakpoint.convex ? 3 * kPi / 2 : kPi / 2;
   const double face_rad =
       angle_of(breakpoint.convex ? Vec2(-wall_.line.normal) : wall_.line.normal);
   const bool on_right = side_ == WallSide::kRight;
   (on_right ? breakpoint.left_wall_rad : breakpoint.right_wall_rad) = face_rad;
   (on_right ? breakpoint.left_support : breakpoint.right_support) =
-      static_cast<std::uint32_t>(count);
+      static_cast<std::uint32_t>(face_.count);
   return breakpoint;
 }
 
-bool WallEnd::goes_on_behind() const {
+bool WallEnd::goes_on_behind(std::size_t skip) const {
   std::size_t behind = 0;
-  for (std::size_t k = 1; k <= kLookAhead; ++k) {
+  for (std::size_t k = 1 + skip; k <= by_.limits.look_beyond + skip; ++k) {
     const Beyond beyond = look(k);
     if (beyond.height_m < -by_.limits.gate_sigmas * beyond.sigma_height_m) {
       ++behind;
@@ -137,9 +134,20 @@ bool WallEnd::goes_on_behind() const {
 }
 
 std::optional<Breakpoint> WallEnd::terminal() const {
-  if (span_m_ > by_.limits.max_end_span_m || !goes_on_behind()) return std::nullopt;
   constexpr double kFlatness_m2 = 1e-6;  // a millimetre
-  Breakpoint breakpoint = place(span_m_ / 2, span_m_ * span_m_ / 12 + kFlatness_m2);
+  if (!goes_on_behind(face_.count)) return std::nullopt;
+  Breakpoint breakpoint;
+  if (face_.count > 0) {
+    // Too little to tell a corner, but enough to tell where the wall is at its end.
+    breakpoint =
+        place(std::clamp(face_.along_m, 0.0, span_m_), face_.variance_along_m2 + kFlatness_m2);
+  } else {
+    if (span_m_ > by_.limits.max_end_span_m) return std::nullopt;
+    // A wall that comes towards the sensor shows the face of its end: where that returns nothing,
+    // the wall ends at its last sample, or that is the face's.
+    const bool comes_near = outward_.dot(foot_) < 0;
+    breakpoint = place(comes_near ? 0 : span_m_ / 2, span_m_ * span_m_ / 12 + kFlatness_m2);
+  }
   breakpoint.kind = BreakpointKind::kTerminal;
   breakpoint.convex = true;
   breakpoint.wall_on_right = side_ == WallSide::kRight;

@@ -5,13 +5,6 @@
 #include <cmath>
 
 namespace cornerd::core {
-namespace {
-
-/// More than this between two walls is never noise.
-const double kMinPieceCosine = std::cos(radians(60));
-
-}  // namespace
-
 double across_factor(const SensorNoise& noise, const Line& line) {
   const double range_m = line.centroid.norm();
   const double sine = std::min(1.0, -line.offset_m / range_m);
@@ -41,7 +34,7 @@ bool is_one_wall(const PolarScan& scan, const Judgement& by, const SegmentTrack&
   if (samples_between(scan, right, left) > by.limits.max_interruption) return false;
   const Vec2 gap = scan[left.first].place() - scan[right.last].place();
   if (gap.norm() > by.limits.max_piece_gap_m) return false;
-  if (right.line.normal.dot(left.line.normal) < kMinPieceCosine) return false;
+  if (right.line.normal.dot(left.line.normal) < by.angles.min_piece_cosine) return false;
 
   LineFit both = right.fit;
   both.add(left.fit);

@@ -2,6 +2,7 @@
 // What is asked of neighbouring walls, and how the answers are judged.
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <limits>
 
@@ -12,9 +13,21 @@
 
 namespace cornerd::core {
 
+/// The angles among the limits, as their tests want them: no trigonometry per wall.
+struct AngleLimits {
+  explicit AngleLimits(const ExtractionConfig& limits)
+      : min_piece_cosine(std::cos(limits.max_piece_angle_rad)),
+        min_corner_sine(std::sin(limits.min_corner_angle_rad)),
+        min_rest_sine(std::sin(limits.min_rest_angle_rad)) {}
+  double min_piece_cosine;
+  double min_corner_sine;
+  double min_rest_sine;
+};
+
 /// By what the walls of a turn are judged.
 struct Judgement {
   const ExtractionConfig& limits;
+  const AngleLimits& angles;
   const SensorNoise& noise;
   double noise_scale = 1;  ///< of the turn's noise to the model's
 

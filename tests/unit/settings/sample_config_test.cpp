@@ -82,6 +82,8 @@ void expect_default_detector(const core::DetectorConfig& sample) {
   EXPECT_EQ(sample.extraction.gate_sigmas, defaults.extraction.gate_sigmas);
   EXPECT_EQ(sample.extraction.max_interruption, defaults.extraction.max_interruption);
   EXPECT_EQ(sample.extraction.max_piece_gap_m, defaults.extraction.max_piece_gap_m);
+  EXPECT_NEAR(sample.extraction.max_piece_angle_rad, defaults.extraction.max_piece_angle_rad,
+              kRounding);
   EXPECT_EQ(sample.extraction.joined_chi_square, defaults.extraction.joined_chi_square);
   EXPECT_EQ(sample.extraction.doubtful_samples, defaults.extraction.doubtful_samples);
   EXPECT_NEAR(sample.extraction.doubtful_sigma_rad, defaults.extraction.doubtful_sigma_rad,
@@ -89,10 +91,18 @@ void expect_default_detector(const core::DetectorConfig& sample) {
   EXPECT_NEAR(sample.extraction.min_corner_angle_rad, defaults.extraction.min_corner_angle_rad,
               kRounding);
   EXPECT_EQ(sample.extraction.grazing_rays, defaults.extraction.grazing_rays);
+  EXPECT_EQ(sample.extraction.grazing_reach, defaults.extraction.grazing_reach);
+  EXPECT_EQ(sample.extraction.see_through_samples, defaults.extraction.see_through_samples);
+  EXPECT_EQ(sample.extraction.see_through_gap_m, defaults.extraction.see_through_gap_m);
   EXPECT_EQ(sample.extraction.max_face_m, defaults.extraction.max_face_m);
+  EXPECT_EQ(sample.extraction.min_face_samples, defaults.extraction.min_face_samples);
+  EXPECT_EQ(sample.extraction.look_beyond, defaults.extraction.look_beyond);
   EXPECT_EQ(sample.extraction.max_end_span_m, defaults.extraction.max_end_span_m);
   EXPECT_NEAR(sample.extraction.max_rest_sigma_rad, defaults.extraction.max_rest_sigma_rad,
               kRounding);
+  EXPECT_NEAR(sample.extraction.min_rest_angle_rad, defaults.extraction.min_rest_angle_rad,
+              kRounding);
+  EXPECT_EQ(sample.extraction.max_rest_corner_sigma_m, defaults.extraction.max_rest_corner_sigma_m);
 }
 
 void expect_default_odometry(const OdometryConfig& sample, const OdometryConfig& defaults) {

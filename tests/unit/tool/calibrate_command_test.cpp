@@ -4,9 +4,12 @@
 
 #include <filesystem>
 #include <fstream>
+#include <random>
 #include <sstream>
 #include <string>
 #include <vector>
+
+#include <nlohmann/json.hpp>
 
 #include "command_run.hpp"
 #include "settings/noise.hpp"
@@ -73,6 +76,26 @@ TEST_F(CalibrateNoise, TooFewTurns_AreAFailureThatSaysWhatToDo) {
   EXPECT_EQ(run.exit_code, kExitFailed);
   EXPECT_THAT(run.err, HasSubstr("record some 20 turns"));
   EXPECT_EQ(run.out, "");
+  EXPECT_FALSE(std::filesystem::exists(path("noise.json")));
+}
+
+TEST_F(CalibrateNoise, ReturnsOfNoWall_AreAFailureThatSaysSo) {
+  {
+    std::mt19937 random(3);
+    std::uniform_real_distribution<double> range_m(0.3, 6);
+    std::ofstream file(path("chance.ndjson"));
+    for (int turn = 0; turn < 60; ++turn) {
+      nlohmann::json scan = {{"class", "SCAN"}, {"t", 0.2 * turn}, {"duration", 0.18}};
+      for (int i = 0; i < 300; ++i) {
+        scan["angles"].push_back(0.02 * i);
+        scan["ranges"].push_back(range_m(random));
+      }
+      file << scan << '\n';
+    }
+  }
+  const CommandRun run({"calibrate", "noise", path("chance.ndjson"), "-o", path("noise.json")});
+  EXPECT_EQ(run.exit_code, kExitFailed);
+  EXPECT_THAT(run.err, HasSubstr("too scattered to be of walls"));
   EXPECT_FALSE(std::filesystem::exists(path("noise.json")));
 }
 

@@ -66,9 +66,9 @@ TEST(Altbd, NoiseTwiceTheModel_IsNoticedAndBreaksLittle) {
   EXPECT_NEAR(tracked.noise_scale, 2, 0.3);
 }
 
-TEST(Altbd, FewerThanFivePoints_AreNoWall) {
+TEST(Altbd, TooFewPoints_AreNoWall) {
   Scan scan;
-  for (int i = 0; i < 4; ++i) {
+  for (std::uint32_t i = 0; i + 1 < DetectorConfig().min_support; ++i) {
     Sample sample;
     sample.bearing_rad = static_cast<float>(0.01 * i);
     sample.range_m = 1;

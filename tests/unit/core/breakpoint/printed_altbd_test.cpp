@@ -64,10 +64,10 @@ TEST(PrintedAltbd, EachReading_EndsWithinTheRoomThatWasTaken) {
   }
 }
 
-TEST(PrintedAltbd, FewerThanFivePoints_AreNoWall) {
+TEST(PrintedAltbd, TooFewPoints_AreNoWall) {
   PolarScan points;
   points.begin(0.01);
-  for (int i = 0; i < 4; ++i) points.append(0.01 * i, 1);
+  for (std::uint32_t i = 0; i + 1 < DetectorConfig().min_support; ++i) points.append(0.01 * i, 1);
   EXPECT_TRUE(printed_walls(points).empty());
   EXPECT_TRUE(printed_walls(testing::polar(Scan())).empty());
 }
