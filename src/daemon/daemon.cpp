@@ -57,6 +57,12 @@ Daemon::Daemon(const settings::Config& config, std::shared_ptr<const core::WallM
   server_.listen(config.socket.control, SocketRole::kControl);
   // Only who has the sockets is this robot's daemon, and may touch its port.
   localization_.start();
+  // A recording brings its own.
+  auto odometry = is_live_ ? make_odometry(config.odometry) : nullptr;
+  if (odometry) {
+    odometry_.emplace(std::move(odometry), localization_);
+    status_.set_odometry(&*odometry_);
+  }
   ask_for_realtime(config.realtime, localization_);
 
   loop_.add(signals_.fd(), EPOLLIN, [this](std::uint32_t) { on_signal(); });
@@ -111,7 +117,8 @@ void Daemon::on_tick() {
     }
   }
   publish_changes();
-  if (ticks_++ % kTicksPerStatus == 0) {
+  const bool sensors_changed = odometry_ && odometry_->notice_changes(server_, now_ns());
+  if (ticks_++ % kTicksPerStatus == 0 || sensors_changed) {
     status_.publish(lidar_->status(), turns_, localization_, now_ns());
   }
 }

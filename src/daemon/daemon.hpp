@@ -11,6 +11,7 @@
 #include "daemon/localization.hpp"
 #include "daemon/message_server.hpp"
 #include "daemon/notifier.hpp"
+#include "daemon/odometry_source.hpp"
 #include "daemon/periodic_timer.hpp"
 #include "daemon/status_publisher.hpp"
 #include "daemon/termination_signals.hpp"
@@ -54,7 +55,8 @@ class Daemon {
   message::LineWriter line_;
   int ticks_ = 0;
   std::unique_ptr<drivers::LidarDriver> lidar_;
-  Localization localization_;  ///< last: its threads end first
+  Localization localization_;               ///< before what is below: its threads end first
+  std::optional<OdometrySource> odometry_;  ///< feeds it
 };
 
 }  // namespace cornerd::daemon

@@ -53,8 +53,8 @@ class Localization {
     while (reports_.take(use)) {
     }
   }
-  /// What wheels and gyro say, on the clock of the samples. One that finds no room is lost; the
-  /// next one's counts make up for it.
+  /// What wheels and gyro say, on the clock of the samples; of one thread, be it the server's or
+  /// another. One that finds no room is lost; the next one's counts make up for it.
   void add(const core::OdometryReading& reading) { readings_.push(reading); }
   /// The robot is about there.
   void set_pose(const core::Pose2& T_map_base) { given_poses_.push(T_map_base); }

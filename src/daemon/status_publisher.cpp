@@ -100,6 +100,7 @@ void StatusPublisher::publish(const drivers::LidarStatus& lidar, const TurnPubli
   status.samples_hz = lidar.samples_hz;
   status.counters = counters;
   status.odometry = &turns.odometry();
+  if (odometry_ != nullptr) odometry_->describe(status);
   const LatencyWindow& latencies = turns.latencies();
   status.latency = {latencies.percentile(0.5), latencies.percentile(0.95),
                     latencies.percentile(0.99), !latencies.empty()};

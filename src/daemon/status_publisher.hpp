@@ -8,6 +8,7 @@
 #include "daemon/localization.hpp"
 #include "daemon/message_server.hpp"
 #include "daemon/notifier.hpp"
+#include "daemon/odometry_source.hpp"
 #include "daemon/turn_publisher.hpp"
 #include "drivers/lidar_driver.hpp"
 #include "message/line.hpp"
@@ -24,6 +25,8 @@ class StatusPublisher {
   bool notice(const drivers::LidarChange& change, core::TimeNs t_ns);
   void publish(const drivers::LidarStatus& lidar, const TurnPublisher& turns,
                const Localization& localization, core::TimeNs t_ns);
+  /// Whose sensors to tell of; null: none of this program's.
+  void set_odometry(OdometrySource* odometry) { odometry_ = odometry; }
 
  private:
   /// Between two tries a driver goes through the same states again and again: each is worth a line
@@ -31,6 +34,7 @@ class StatusPublisher {
   void log_once(const drivers::LidarChange& change, const std::string& text);
 
   MessageServer& server_;
+  OdometrySource* odometry_ = nullptr;
   Notifier& notifier_;
   message::LineWriter line_;
   std::optional<drivers::LidarChange> last_;

@@ -262,6 +262,30 @@ void LineWriter::odometry_summary(const core::OdometrySummary& odometry) {
     json_.integer(value);
   }
   json_.close_object();
+}
+
+void LineWriter::odometry_sensors(const StatusFields& status) {
+  if (status.odometry_sensors.empty()) return;
+  json_.key("sensors");
+  json_.open_object();
+  for (const StatusFields::Sensor& sensor : status.odometry_sensors) {
+    json_.key(sensor.name);
+    json_.open_object();
+    json_.key("state");
+    json_.string(sensor.state);
+    if (!sensor.detail.empty()) {
+      json_.key("detail");
+      json_.string(sensor.detail);
+    }
+    json_.close_object();
+  }
+  json_.key("counters");
+  json_.open_object();
+  for (const StatusFields::Counter& counter : status.odometry_counters) {
+    json_.key(counter.name);
+    json_.integer(counter.value);
+  }
+  json_.close_object();
   json_.close_object();
 }
 
@@ -298,7 +322,12 @@ std::string_view LineWriter::status(const StatusFields& status) {
     json_.integer(counter.value);
   }
   json_.close_object();
-  if (status.odometry != nullptr && status.odometry->enabled) odometry_summary(*status.odometry);
+  if (status.odometry != nullptr &&
+      (status.odometry->enabled || !status.odometry_sensors.empty())) {
+    odometry_summary(*status.odometry);
+    odometry_sensors(status);
+    json_.close_object();
+  }
   if (status.latency.valid) {
     json_.key("latency");
     json_.open_object();

@@ -32,7 +32,16 @@ struct StatusFields {
     std::uint64_t value = 0;
   };
   std::span<const Counter> counters;
-  const core::OdometrySummary* odometry = nullptr;  ///< left out where it is switched off, too
+  const core::OdometrySummary* odometry =
+      nullptr;  ///< left out where it is switched off and has no sensors, too
+  /// The devices that odometry comes from; empty where they are not this program's.
+  struct Sensor {
+    std::string_view name;
+    std::string_view state;
+    std::string_view detail;  ///< left out where empty
+  };
+  std::span<const Sensor> odometry_sensors;
+  std::span<const Counter> odometry_counters;  ///< of the devices
   /// From a turn's last sample to its pose, over the last turns; left out where there are none.
   struct {
     double p50_s = 0;
@@ -80,6 +89,7 @@ class LineWriter {
   void begin(std::string_view message_class);
   std::string_view finish();
   void odometry_summary(const core::OdometrySummary& odometry);
+  void odometry_sensors(const StatusFields& status);
   void metres(std::string_view key, double value_m);
   void angle(std::string_view key, double value_rad);
   void place(const core::Pose2& T_map_base);

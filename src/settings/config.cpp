@@ -17,6 +17,7 @@ namespace {
 
 constexpr std::size_t kMaxConfigBytes = 1 << 20;
 constexpr std::size_t kMaxModeBytes = 64;
+constexpr std::size_t kMaxDeviceNameBytes = 64;
 
 constexpr Choice<DriverKind> kDrivers[] = {{"rplidar", DriverKind::kRplidar},
                                            {"replay", DriverKind::kReplay}};
@@ -25,7 +26,9 @@ constexpr Choice<MotorKind> kMotorsByName[] = {{"dtr", MotorKind::kDtr},
 constexpr Choice<MotorKind> kMotorsByPath[] = {{"gpio", MotorKind::kGpio},
                                                {"pwm", MotorKind::kPwm}};
 constexpr Choice<OdometrySource> kOdometrySources[] = {{"none", OdometrySource::kNone},
-                                                       {"socket", OdometrySource::kSocket}};
+                                                       {"socket", OdometrySource::kSocket},
+                                                       {"kernel", OdometrySource::kKernel}};
+constexpr Choice<char> kGyroAxes[] = {{"x", 'x'}, {"y", 'y'}, {"z", 'z'}};
 constexpr Choice<core::HeadingSource> kOdometryModes[] = {
     {"filter", core::HeadingSource::kFilter},
     {"encoder", core::HeadingSource::kEncoder},
@@ -113,8 +116,34 @@ void read_odometry_noise(ObjectReader noise, core::OdometryNoise& config) {
   noise.finish();
 }
 
+void read_encoder(ObjectReader encoder, KernelOdometryConfig::Encoder& config) {
+  encoder.text("counter", config.counter, kMaxDeviceNameBytes);
+  encoder.integer("count", config.count, 0, 255);
+  encoder.boolean("reversed", config.reversed);
+  encoder.finish();
+  if (config.counter.empty()) encoder.fail("counter", "must name a counter");
+}
+
+void read_kernel_odometry(ObjectReader kernel, KernelOdometryConfig& config) {
+  read_encoder(kernel.object("left"), config.left);
+  read_encoder(kernel.object("right"), config.right);
+  ObjectReader gyro = kernel.object("gyro");
+  gyro.text("device", config.gyro.device, kMaxDeviceNameBytes);
+  if (config.gyro.device == "none") config.gyro.device.clear();
+  gyro.choice("axis", config.gyro.axis, kGyroAxes);
+  gyro.boolean("reversed", config.gyro.reversed);
+  gyro.finish();
+  kernel.number("rate", config.rate_hz, {5, 500});
+  kernel.path("sysfs", config.sysfs);
+  kernel.finish();
+  if (config.left.counter == config.right.counter && config.left.count == config.right.count) {
+    kernel.fail("right", "must not be the same as left");
+  }
+}
+
 void read_odometry(ObjectReader odometry, OdometryConfig& config) {
   odometry.choice("source", config.source, kOdometrySources);
+  read_kernel_odometry(odometry.object("kernel"), config.kernel);
   core::DriveGeometry& geometry = config.core.geometry;
   odometry.number("wheel_radius", geometry.wheel_radius_m, {0.001, 10});
   odometry.number("track", geometry.track_m, {0.001, 10});
@@ -138,6 +167,8 @@ void read_odometry(ObjectReader odometry, OdometryConfig& config) {
   odometry.number("bridge", config.core.bridge_s, {0, 3600});
   odometry.finish();
   config.core.enabled = config.source != OdometrySource::kNone;
+  // The driver goes by each counter's own ceiling.
+  if (config.source == OdometrySource::kKernel) geometry.ceiling = 0;
 }
 
 void read_socket_path(ObjectReader& socket, std::string_view key, std::filesystem::path& member) {

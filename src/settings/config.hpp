@@ -64,10 +64,31 @@ struct LidarConfig {
   bool loop = false;           ///< replay: begin again at the end
 };
 
-enum class OdometrySource : std::uint8_t { kNone, kSocket };
+enum class OdometrySource : std::uint8_t { kNone, kSocket, kKernel };
+
+/// Encoders and gyro by the board's own drivers: drivers/odometry/README.md.
+struct KernelOdometryConfig {
+  struct Encoder {
+    std::string counter;  ///< its name
+    int count = 0;
+    bool reversed = false;
+  };
+  Encoder left{.counter = "48300180.counter"};   ///< eQEP0 of a BeagleBone
+  Encoder right{.counter = "48304180.counter"};  ///< eQEP2
+  struct Gyro {
+    std::string device =
+        "mpu6050";  ///< its name or label; empty ("none" in the file): there is none
+    char axis = 'z';
+    bool reversed = false;
+  };
+  Gyro gyro;
+  double rate_hz = 50;
+  std::filesystem::path sysfs = "/sys";
+};
 
 struct OdometryConfig {
   OdometrySource source = OdometrySource::kNone;
+  KernelOdometryConfig kernel;
   core::OdometryConfig core;  ///< `enabled` where there is a source
 };
 

@@ -122,13 +122,39 @@ TEST(Config, ValueOutOfRange_IsNamedWithItsLimits) {
   EXPECT_THAT(config_error(R"({"map": ""})"), EndsWith("/map: must not be empty"));
 }
 
+TEST(Config, KernelOdometry_NamesItsDevicesAndGoesByTheirCeilings) {
+  const Config config = parse(R"({"map": "/m", "odometry": {"source": "kernel", "ceiling": 65535,
+    "kernel": {"left": {"counter": "a", "count": 1, "reversed": true}, "right": {"counter": "a"},
+               "gyro": {"device": "none", "axis": "x", "reversed": true}, "rate": 100,
+               "sysfs": "/tree"}}})");
+  const KernelOdometryConfig& kernel = config.odometry.kernel;
+  EXPECT_EQ(config.odometry.source, OdometrySource::kKernel);
+  EXPECT_EQ(kernel.left.counter, "a");
+  EXPECT_EQ(kernel.left.count, 1);
+  EXPECT_TRUE(kernel.left.reversed);
+  EXPECT_FALSE(kernel.right.reversed);
+  EXPECT_EQ(kernel.gyro.device, "");
+  EXPECT_EQ(kernel.gyro.axis, 'x');
+  EXPECT_TRUE(kernel.gyro.reversed);
+  EXPECT_EQ(kernel.rate_hz, 100);
+  EXPECT_EQ(kernel.sysfs, "/tree");
+  EXPECT_TRUE(config.localizer().odometry.enabled);
+  EXPECT_EQ(config.localizer().odometry.geometry.ceiling, 0);
+}
+
+TEST(Config, OneCounterForBothWheels_IsRefused) {
+  EXPECT_THAT(config_error(R"({"map": "/m", "odometry": {"kernel": {"left": {"counter": "a"},
+    "right": {"counter": "a"}}}})"),
+              HasSubstr("/odometry/kernel/right: "));
+}
+
 TEST(Config, UnknownChoice_ListsWhatThereIs) {
   EXPECT_THAT(config_error(R"({"map": "/m", "localizer": {"recognition": "guess"}})"),
               HasSubstr("/localizer/recognition"));
   EXPECT_THAT(config_error(R"({"map": "/m", "detector": {"method": "magic"}})"),
               EndsWith(R"(must be one of "altbd", "altbd-printed", "abd-iepf", "lt")"));
   EXPECT_THAT(config_error(R"({"map": "/m", "odometry": {"source": "wheels"}})"),
-              EndsWith(R"(must be one of "none", "socket")"));
+              EndsWith(R"(must be one of "none", "socket", "kernel")"));
 }
 
 TEST(Config, ValuesThatContradict_AreNamed) {

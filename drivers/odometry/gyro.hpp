@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "drivers/odometry/sensor.hpp"
+
+namespace cornerd::drivers {
+
+struct GyroConfig {
+  std::string device;     ///< its name or label: "mpu6050"; empty: there is none
+  char axis = 'z';        ///< the one that looks up or down
+  bool reversed = false;  ///< it looks down
+};
+
+/// A gyro by the kernel's industrial I/O subsystem.
+class Gyro : public Sensor {
+ public:
+  /// `sysfs`: where that is mounted.
+  Gyro(const std::filesystem::path& sysfs, GyroConfig config);
+
+  /// See Encoder::look(). The scale is asked for again, as a range may be changed.
+  void look();
+
+  /// rad/s, counter-clockwise. Nullopt where there is none to be had: see status().
+  std::optional<double> read();
+
+ private:
+  bool read_scale();
+  /// Of this axis, or of all axes.
+  std::optional<std::string> read_of_axis(const char* what) const;
+
+  GyroConfig config_;
+  std::filesystem::path devices_;
+  std::filesystem::path folder_;
+  double scale_rad_s_ = 0;
+  double offset_ = 0;
+};
+
+}  // namespace cornerd::drivers

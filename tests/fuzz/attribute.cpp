@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+// Any bytes in an attribute of sysfs are a number or none; a number is finite, and the same as what
+// is printed of it.
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <string>
+#include <string_view>
+
+#include "drivers/odometry/attribute_text.hpp"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace cornerd::drivers;
+  const std::string_view text(reinterpret_cast<const char*>(data), size);
+  const auto integer = parse_integer(text);
+  if (integer && parse_integer(std::to_string(*integer)) != integer) std::abort();
+  const auto decimal = parse_decimal(text);
+  if (decimal && !std::isfinite(*decimal)) std::abort();
+  if (integer && decimal != static_cast<double>(*integer)) std::abort();
+  return 0;
+}

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+// A folder that looks as sysfs does on a board: the names, the files and their texts as Linux 6.1
+// has them for its drivers ti-eqep and inv-mpu6050.
+#pragma once
+
+#include <stdlib.h>
+
+#include <filesystem>
+#include <fstream>
+#include <stdexcept>
+#include <string>
+
+namespace cornerd::test {
+
+class SysfsTree {
+ public:
+  SysfsTree() {
+    std::string pattern = std::filesystem::temp_directory_path() / "cornerd-sysfs-XXXXXX";
+    if (::mkdtemp(pattern.data()) == nullptr) throw std::runtime_error("no temporary folder");
+    root_ = pattern;
+  }
+  ~SysfsTree() { std::filesystem::remove_all(root_); }
+  SysfsTree(const SysfsTree&) = delete;
+  SysfsTree& operator=(const SysfsTree&) = delete;
+
+  const std::filesystem::path& root() const { return root_; }
+
+  /// An eQEP as the udev rule leaves it; `number` follows the order of probing.
+  void add_counter(int number, const std::string& name) {
+    const std::string device = counter(number);
+    write(device + "/name", name);
+    write(device + "/num_counts", "1");
+    write(device + "/num_signals", "2");
+    write(device + "/count0/name", "QPOSCNT");
+    write(device + "/count0/count", "0");
+    write(device + "/count0/ceiling", "4294967295");
+    write(device + "/count0/enable", "1");
+    write(device + "/count0/function", "quadrature x4");
+  }
+  void set_count(int number, const std::string& text) {
+    write(counter(number) + "/count0/count", text);
+  }
+  void set_of_count(int number, const std::string& attribute, const std::string& text) {
+    write(counter(number) + "/count0/" + attribute, text);
+  }
+  static std::string counter(int number) {
+    return "bus/counter/devices/counter" + std::to_string(number);
+  }
+
+  /// An MPU-6050 at its widest range.
+  void add_gyro(int number, const std::string& name) {
+    const std::string device = gyro(number);
+    write(device + "/name", name);
+    write(device + "/in_anglvel_scale", "0.001064724");
+    for (const char* axis : {"x", "y", "z"}) {
+      write(device + "/in_anglvel_" + axis + "_raw", "0");
+    }
+    write(device + "/in_accel_scale", "0.000598");
+  }
+  void set_rate(int number, const std::string& text) {
+    write(gyro(number) + "/in_anglvel_z_raw", text);
+  }
+  static std::string gyro(int number) {
+    return "bus/iio/devices/iio:device" + std::to_string(number);
+  }
+
+  /// In place, as the kernel's files change: who has one open reads the new text.
+  void write(const std::string& file, const std::string& text) {
+    std::filesystem::create_directories((root_ / file).parent_path());
+    std::ofstream(root_ / file) << text << '\n';
+  }
+  void remove(const std::string& file) { std::filesystem::remove_all(root_ / file); }
+  void rename(const std::string& from, const std::string& to) {
+    std::filesystem::rename(root_ / from, root_ / to);
+  }
+
+ private:
+  std::filesystem::path root_;
+};
+
+}  // namespace cornerd::test
