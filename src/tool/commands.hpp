@@ -15,6 +15,7 @@ void add_detect(CLI::App& program);
 void add_record(CLI::App& program);
 void add_simulate(CLI::App& program);
 void add_emulate(CLI::App& program);
+void add_survey(CLI::App& program);
 void add_calibrate(CLI::App& program);
 void add_map(CLI::App& program);
 void add_bench(CLI::App& program);

@@ -33,6 +33,7 @@ int run_cornerctl(int argc, const char* const* argv) {
   add_record(program);
   add_simulate(program);
   add_emulate(program);
+  add_survey(program);
   add_calibrate(program);
   add_map(program);
   add_bench(program);

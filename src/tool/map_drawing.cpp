@@ -189,6 +189,16 @@ void MapDrawing::add_scan(const core::Scan& scan, const core::Pose2& T_map_lidar
   svg_.end_group();
 }
 
+void MapDrawing::add_points(std::span<const Vec2> points) {
+  svg_.begin_group("points");
+  for (const Vec2& point : points) svg_.dot(point, 0.8, {.fill = kReturn, .opacity = 0.35});
+  svg_.end_group();
+}
+
+void MapDrawing::add_thin(const Vec2& from, const Vec2& to) {
+  svg_.line(from, to, {.stroke = kConvex, .stroke_width = 4, .opacity = 0.8});
+}
+
 void MapDrawing::add_examined_places(std::span<const ExaminedPlace> places) {
   svg_.begin_group("look-alikes");
   for (const ExaminedPlace& place : places) {

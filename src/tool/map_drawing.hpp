@@ -24,6 +24,10 @@ class MapDrawing {
   void add_path(std::span<const core::Vec2> points, bool truth = false);
   /// The returns of one turn.
   void add_scan(const core::Scan& scan, const core::Pose2& T_map_lidar);
+  /// Returns of a whole drive, on the map.
+  void add_points(std::span<const core::Vec2> points);
+  /// A stretch of wall that nothing was seen of.
+  void add_thin(const core::Vec2& from, const core::Vec2& to);
   /// Corners as rings, terminals as squares.
   void add_breakpoints(std::span<const core::Breakpoint> breakpoints,
                        const core::Pose2& T_map_lidar);

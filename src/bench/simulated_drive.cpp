@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+#include "bench/simulated_drive.hpp"
+
+#include <optional>
+#include <utility>
+
+#include "replay/simulator/simulated_odometry.hpp"
+
+namespace cornerd::bench {
+
+SimulatedDrive simulate_drive(std::shared_ptr<const core::WallMap> map,
+                              const replay::Motion& motion, const SimulatedDriveConfig& config) {
+  replay::Simulator simulator(std::make_unique<replay::MapScene>(std::move(map), motion),
+                              config.simulator);
+  std::optional<replay::SimulatedOdometry> odometry;
+  if (config.has_odometry) odometry.emplace(motion, config.robot, config.simulator.seed + 1);
+
+  SimulatedDrive simulated;
+  core::TurnAssembler assembler;
+  core::Scan turn;
+  while (simulated.drive.size() < config.turns) {
+    for (const replay::SimulatedSample& sample : simulator.next().samples) {
+      while (odometry && odometry->next_ns() <= sample.t_ns) {
+        simulated.drive.add(odometry->next(), sample.t_ns);
+      }
+      if (assembler.add(replay::to_sample(sample), turn)) simulated.drive.add(turn);
+    }
+  }
+  for (std::size_t i = 0; i < simulated.drive.size(); ++i) {
+    simulated.T_map_base.push_back(
+        motion(simulated.drive.middle_ns(i), static_cast<std::int64_t>(i)));
+  }
+  return simulated;
+}
+
+}  // namespace cornerd::bench

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "core/map/wall_map.hpp"
+#include "replay/simulator/motion.hpp"
+#include "replay/simulator/robot_model.hpp"
+#include "replay/simulator/simulator.hpp"
+#include "survey/recorded_drive.hpp"
+
+namespace cornerd::bench {
+
+/// A drive in memory, and where the robot was in the middle of each of its turns.
+struct SimulatedDrive {
+  survey::RecordedDrive drive;
+  std::vector<core::Pose2> T_map_base;
+};
+
+struct SimulatedDriveConfig {
+  replay::SimulatorConfig simulator;
+  replay::RobotModel robot;
+  bool has_odometry = true;
+  std::size_t turns = 100;
+};
+
+SimulatedDrive simulate_drive(std::shared_ptr<const core::WallMap> map,
+                              const replay::Motion& motion, const SimulatedDriveConfig& config);
+
+}  // namespace cornerd::bench

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+// A simulated drive through a known building, surveyed, and a second one localized in the result.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "bench/simulated_drive.hpp"
+#include "bench/survey_scoring.hpp"
+#include "survey/survey.hpp"
+
+namespace cornerd::bench {
+
+/// The drive that the odometry was measured on: all rooms of config/maps/flat-7.json, wheels 1.5
+/// and 2.5 % larger than configured, the gyro 2 % and 0.01 rad/s off, 0.4 m/s.
+SimulatedDrive survey_drive(std::shared_ptr<const core::WallMap> map, std::size_t turns,
+                            std::uint64_t seed, bool has_odometry = true);
+
+/// Turns of that drive that are 100 m.
+inline constexpr std::size_t kSurveyTurns = 2600;
+
+struct LocalizationScore {
+  std::size_t turns = 0;
+  std::size_t named = 0;  ///< a place
+  std::size_t wrong = 0;  ///< over 10 cm or 5 degrees off
+  double mean_error_m = 0;
+  double error_95_m = 0;
+};
+
+/// The daemon's localizer on a drive, without odometry. `T_true_map`: of the map's frame.
+LocalizationScore localize_drive(std::shared_ptr<const core::WallMap> map,
+                                 const SimulatedDrive& drive, const core::Pose2& T_true_map);
+
+struct SurveyCase {
+  std::string title;
+  survey::SurveyResult result;
+  double cpu_s = 0;
+  SurveyScore score;
+  LocalizationScore second_drive;
+};
+
+}  // namespace cornerd::bench

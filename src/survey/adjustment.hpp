@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "survey/drive_mapper.hpp"
+#include "survey/mapped_face.hpp"
+
+namespace cornerd::survey {
+
+/// What is believed of two faces beyond what was seen of them.
+struct FaceBond {
+  std::uint32_t one = 0;
+  std::uint32_t other = 0;
+  double turn_rad = 0;       ///< from the normal of `one` to that of `other`
+  bool on_one_line = false;  ///< and they lie on one line
+  double sigma_rad = 0.0001;
+  double sigma_m = 0.0001;
+};
+
+struct AdjustmentResult {
+  double sigma = 0;  ///< of the observations' residuals, in units of their doubts
+  std::size_t outliers = 0;
+  int steps = 0;
+};
+
+/// Sparse least squares over all poses of a drive and all faces of the map at once: each
+/// observation ties a pose to a face, each link a pose to the one before. The first pose stays
+/// where it is. Observations that contradict all others lose their weight. Poses, lines and the
+/// lines' covariances are changed in place.
+AdjustmentResult adjust(MappedDrive& drive, std::span<const FaceBond> bonds = {});
+
+}  // namespace cornerd::survey

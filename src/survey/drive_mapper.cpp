@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: MIT
+#include "survey/drive_mapper.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "survey/sighting_extractor.hpp"
+#include "survey/turn_matcher.hpp"
+
+namespace cornerd::survey {
+namespace {
+
+/// Walls sighted so seldom, and not for so many turns, were none.
+constexpr std::size_t kSeldom = 3;
+constexpr std::size_t kForgottenAfter = 40;
+/// A face begins with a sighting whose direction is known to this.
+constexpr double kNewFaceSigma_rad = core::radians(4);
+/// What wheels and gyro tell of the way between two turns, beyond the prior's own doubt.
+constexpr double kLinkShare = 0.01;
+constexpr double kLinkFloor_m = 0.001;
+constexpr double kLinkFloor_rad = core::radians(0.05);
+
+class Mapper {
+ public:
+  Mapper(const RecordedDrive& drive, const core::LocalizerConfig& config, const MappedDrive* before)
+      : before_(before),
+        reader_(drive, config, before ? before->learned : std::nullopt,
+                before && !before->has_odometry ? std::span<const core::Pose2>(before->T_map_lidar)
+                                                : std::span<const core::Pose2>()),
+        extractor_(config.detector, config.noise) {
+    if (before) result_.faces = before->faces;
+    for (MappedFace& face : result_.faces) {
+      face.sightings = 0;
+      face.id = next_id_++;
+    }
+    known_faces_ = next_id_;
+    result_.has_odometry = !drive.readings().empty();
+    result_.first_point.push_back(0);
+  }
+
+  bool step() {
+    if (!reader_.next()) return false;
+    sightings_.clear();
+    extractor_.extract(reader_.points(), sightings_);
+    locate();
+    take_in();
+    keep_points();
+    return true;
+  }
+
+  MappedDrive finish() {
+    forget(/*all=*/true);
+    rename_faces();
+    if (result_.has_odometry) result_.learned = reader_.learned();
+    return std::move(result_);
+  }
+
+ private:
+  void locate() {
+    const TurnPrior& prior = reader_.prior();
+    const std::size_t turn = reader_.turn();
+    core::Pose2 T_map_lidar = prior.T_map_lidar;
+    core::Covariance3 covariance = prior.covariance;
+    if (before_) {
+      T_map_lidar = before_->T_map_lidar[turn];
+      covariance = Eigen::Vector3d(1e-5, 1e-5, 1e-6).asDiagonal();
+      TurnMatcher::assign(sightings_, result_.faces, T_map_lidar, kExactReach, faces_of_);
+    } else if (turn == 0) {
+      faces_of_.assign(sightings_.size(), kNoFace);
+    } else {
+      const TurnMatch match = find(prior);
+      if (match.valid) {
+        T_map_lidar = match.T_map_lidar;
+        covariance = match.covariance;
+      } else {
+        result_.strange_turns.push_back(turn);
+        TurnMatcher::assign(sightings_, result_.faces, T_map_lidar, kExactReach, faces_of_);
+      }
+    }
+    add_link(prior);
+    result_.T_map_lidar.push_back(T_map_lidar);
+    reader_.place(T_map_lidar, covariance);
+  }
+
+  TurnMatch find(const TurnPrior& prior) {
+    const double place_m = std::sqrt(std::max(prior.covariance(0, 0), prior.covariance(1, 1)));
+    const double heading_rad = std::sqrt(prior.covariance(2, 2));
+    const Reach reach{std::clamp(3 * place_m, 0.05, 0.5),
+                      std::clamp(3 * heading_rad, core::radians(3), core::radians(25))};
+    TurnMatch best = matcher_.match(sightings_, result_.faces, prior.T_map_lidar, prior.covariance,
+                                    reach, faces_of_);
+    if (best.matched_share > 0.8 || prior.by_odometry) return best;
+    // Without odometry the heading is the unknown: a robot spins up within a turn.
+    for (const double away : {-2.0, -1.0, 1.0, 2.0}) {
+      core::Pose2 start = prior.T_map_lidar;
+      start.theta_rad = core::normalize_angle(start.theta_rad + away * 1.5 * heading_rad);
+      const TurnMatch other = matcher_.match(sightings_, result_.faces, start, 4 * prior.covariance,
+                                             reach, other_faces_of_);
+      if (!other.valid || other.matched_share <= best.matched_share) continue;
+      best = other;
+      faces_of_.swap(other_faces_of_);
+    }
+    return best;
+  }
+
+  void add_link(const TurnPrior& prior) {
+    DriveLink link;
+    link.T_before_now = prior.T_before_now;
+    double place_m = kLinkFloor_m + kLinkShare * prior.T_before_now.translation().norm();
+    double heading_rad = kLinkFloor_rad + kLinkShare * std::abs(prior.T_before_now.theta_rad);
+    if (!prior.by_odometry) {
+      place_m = std::sqrt(prior.covariance(0, 0));
+      heading_rad = std::sqrt(prior.covariance(2, 2));
+    }
+    link.covariance =
+        Eigen::Vector3d(squared(place_m), squared(place_m), squared(heading_rad)).asDiagonal();
+    result_.links.push_back(link);
+  }
+
+  void take_in() {
+    const auto turn = static_cast<std::uint32_t>(reader_.turn());
+    const core::Pose2& T_map_lidar = result_.T_map_lidar.back();
+    for (std::size_t i = 0; i < sightings_.size(); ++i) {
+      const Sighting& seen = sightings_[i];
+      if (faces_of_[i] == kNoFace) {
+        if (seen.sigma_angle_rad > kNewFaceSigma_rad) continue;
+        result_.faces.emplace_back(seen, T_map_lidar, turn);
+        result_.faces.back().id = next_id_++;
+        result_.observations.push_back({turn, result_.faces.back().id, seen});
+        continue;
+      }
+      MappedFace& face = result_.faces[faces_of_[i]];
+      if (face.id < known_faces_) {
+        // Adjusted already, and to be adjusted again: only what was seen of it counts.
+        face.see(seen, T_map_lidar, turn);
+      } else {
+        face.update(seen, T_map_lidar, turn);
+      }
+      result_.observations.push_back({turn, face.id, seen});
+    }
+    if (turn % kForgottenAfter == 0) forget(/*all=*/false);
+  }
+
+  /// Takes out the faces that were never seen again.
+  void forget(bool all) {
+    const std::size_t before = result_.faces.size();
+    std::erase_if(result_.faces, [&](const MappedFace& face) {
+      if (face.sightings >= kSeldom) return false;
+      return all || (face.id >= known_faces_ && face.last_turn + kForgottenAfter < reader_.turn());
+    });
+    result_.forgotten_faces += before - result_.faces.size();
+  }
+
+  /// From the faces' ids to their places in the list.
+  void rename_faces() {
+    std::vector<std::uint32_t> places(next_id_, kNoFace);
+    for (std::size_t i = 0; i < result_.faces.size(); ++i) {
+      places[result_.faces[i].id] = static_cast<std::uint32_t>(i);
+    }
+    std::erase_if(result_.observations, [&](Observation& observation) {
+      observation.face = places[observation.face];
+      return observation.face == kNoFace;
+    });
+  }
+
+  void keep_points() {
+    for (const core::PolarPoint& point : reader_.points().points()) {
+      result_.points.push_back(
+          {static_cast<float>(point.bearing_rad), static_cast<float>(point.range_m)});
+    }
+    result_.first_point.push_back(result_.points.size());
+  }
+
+  const MappedDrive* before_;
+  TurnReader reader_;
+  SightingExtractor extractor_;
+  TurnMatcher matcher_;
+  std::vector<Sighting> sightings_;
+  std::vector<std::uint32_t> faces_of_;
+  std::vector<std::uint32_t> other_faces_of_;
+  std::uint32_t next_id_ = 0;
+  std::uint32_t known_faces_ = 0;  ///< ids below this are of the earlier pass
+  MappedDrive result_;
+};
+
+}  // namespace
+
+MappedDrive map_drive(const RecordedDrive& drive, const core::LocalizerConfig& config,
+                      const MappedDrive* before, const Progress& progress) {
+  Mapper mapper(drive, config, before);
+  for (std::size_t done = 0; mapper.step(); ++done) {
+    if (progress) progress(done);
+  }
+  return mapper.finish();
+}
+
+}  // namespace cornerd::survey

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "survey/mapped_face.hpp"
+#include "survey/recorded_drive.hpp"
+#include "survey/turn_reader.hpp"
+
+namespace cornerd::survey {
+
+/// One wall of one turn, and the face that it was taken for.
+struct Observation {
+  std::uint32_t turn = 0;
+  std::uint32_t face = kNoFace;
+  Sighting seen;
+};
+
+/// The way from one turn to the next by wheels and gyro, or by what a robot can do at all.
+struct DriveLink {
+  core::Pose2 T_before_now;
+  core::Covariance3 covariance = core::Covariance3::Identity();  ///< in the frame of the earlier
+};
+
+/// A return in the frame of the lidar in the middle of its turn.
+struct StraightPoint {
+  float bearing_rad = 0;
+  float range_m = 0;
+};
+
+/// What one pass through a drive gave: all that the adjustment asks for.
+struct MappedDrive {
+  std::vector<core::Pose2> T_map_lidar;  ///< of each turn
+  std::vector<DriveLink> links;          ///< links[i]: from turn i - 1 to turn i; [0] is none
+  std::vector<MappedFace> faces;
+  std::vector<Observation> observations;
+  std::vector<std::size_t> strange_turns;  ///< whose walls did not tell where they are
+  std::size_t forgotten_faces = 0;         ///< begun, but never seen again
+  std::optional<core::LearnedOdometry> learned;
+  bool has_odometry = false;
+
+  /// Returns of all turns by bearing, one turn after another; turn i: [first_point[i],
+  /// first_point[i + 1]).
+  std::vector<StraightPoint> points;
+  std::vector<std::size_t> first_point;
+  std::span<const StraightPoint> points_of(std::size_t turn) const {
+    return std::span(points).subspan(first_point[turn], first_point[turn + 1] - first_point[turn]);
+  }
+};
+
+/// Called with the turns done.
+using Progress = std::function<void(std::size_t)>;
+
+/// Goes through a drive and maps it as it goes: each turn is placed by the faces mapped so far, and
+/// what it saw beyond them begins new ones. `before`: an earlier, adjusted pass, whose faces are
+/// known from the start, whose poses are better than any prediction, and whose odometry has
+/// learned.
+MappedDrive map_drive(const RecordedDrive& drive, const core::LocalizerConfig& config,
+                      const MappedDrive* before, const Progress& progress);
+
+}  // namespace cornerd::survey

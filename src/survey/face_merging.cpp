@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: MIT
+#include "survey/face_merging.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace cornerd::survey {
+namespace {
+
+constexpr double kMergeSigmas = 3.5;
+/// A short face says little of its direction: no reason to merge it with all that it crosses.
+constexpr double kMaxDoubt_rad = core::radians(8);
+
+/// Begin and end of `other` along `face`, begin first.
+std::pair<double, double> extent_on(const MappedFace& face, const MappedFace& other) {
+  const double a = face.along_of(other.first());
+  const double b = face.along_of(other.last());
+  return {std::min(a, b), std::max(a, b)};
+}
+
+bool gap_is_closed(const MappedFace& face, const FaceEvidence& evidence, const MappedFace& other) {
+  const auto [begin_m, end_m] = extent_on(face, other);
+  if (begin_m > face.end_m()) return evidence.open_between(face.end_m(), begin_m) == 0;
+  if (end_m < face.begin_m()) return evidence.open_between(end_m, face.begin_m()) == 0;
+  return true;
+}
+
+bool lie_on_one_line(const MappedFace& longer, const MappedFace& shorter,
+                     const MergeLimits& limits) {
+  const double turn_rad = core::angle_between(longer.normal_rad(), shorter.normal_rad());
+  const double angle_sigma_rad = std::sqrt(longer.covariance()(0, 0) + shorter.covariance()(0, 0));
+  const double allowed_rad =
+      std::min(kMaxDoubt_rad, limits.heading_rad + kMergeSigmas * angle_sigma_rad);
+  if (std::abs(turn_rad) > allowed_rad) return false;
+  // Compared where the two are nearest to each other.
+  const auto [begin_m, end_m] = extent_on(longer, shorter);
+  const double middle_m = (begin_m + end_m) / 2;
+  const double nearest_m = std::clamp(middle_m, longer.begin_m(), longer.end_m());
+  const core::Vec2 place = longer.at(nearest_m);
+  const double own_m = std::clamp(shorter.along_of(place), shorter.begin_m(), shorter.end_m());
+  const double sigma_m = std::sqrt(longer.variance_at(middle_m) + shorter.variance_at(own_m));
+  const double apart_m = longer.height_of(shorter.at(own_m));
+  return std::abs(apart_m) < limits.place_m + kMergeSigmas * std::min(sigma_m, limits.place_m);
+}
+
+bool are_one(const MappedDrive& drive, const std::vector<FaceEvidence>& evidence, std::size_t a,
+             std::size_t b, const MergeLimits& limits) {
+  const MappedFace& one = drive.faces[a];
+  const MappedFace& other = drive.faces[b];
+  if (one.normal().dot(other.normal()) < 0.9) return false;
+  const auto [begin_m, end_m] = extent_on(one, other);
+  const double gap_m = std::max(begin_m - one.end_m(), one.begin_m() - end_m);
+  if (gap_m > (evidence.empty() ? 0.0 : limits.gap_m)) return false;
+  const bool first_longer = one.length_m() >= other.length_m();
+  if (!lie_on_one_line(first_longer ? one : other, first_longer ? other : one, limits)) {
+    return false;
+  }
+  return evidence.empty() || gap_m <= 0 ||
+         (gap_is_closed(one, evidence[a], other) && gap_is_closed(other, evidence[b], one));
+}
+
+}  // namespace
+
+std::size_t merge_faces(MappedDrive& drive, const std::vector<FaceEvidence>& evidence,
+                        const MergeLimits& limits) {
+  // The faces that were seen most take the others in.
+  std::vector<std::uint32_t> order(drive.faces.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+    return drive.faces[a].sightings > drive.faces[b].sightings;
+  });
+  std::vector<std::uint32_t> into(drive.faces.size());
+  std::iota(into.begin(), into.end(), 0);
+  std::size_t merged = 0;
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    for (std::size_t k = 0; k < i; ++k) {
+      const std::uint32_t host = order[k];
+      if (into[host] != host || !are_one(drive, evidence, host, order[i], limits)) continue;
+      into[order[i]] = host;
+      const MappedFace& guest = drive.faces[order[i]];
+      MappedFace& face = drive.faces[host];
+      face.extend(guest.first());
+      face.extend(guest.last());
+      face.sightings += guest.sightings;
+      face.first_turn = std::min(face.first_turn, guest.first_turn);
+      face.last_turn = std::max(face.last_turn, guest.last_turn);
+      ++merged;
+      break;
+    }
+  }
+  if (merged == 0) return 0;
+
+  std::vector<std::uint32_t> place(drive.faces.size(), kNoFace);
+  std::vector<MappedFace> kept;
+  for (std::size_t i = 0; i < drive.faces.size(); ++i) {
+    if (into[i] != i) continue;
+    place[i] = static_cast<std::uint32_t>(kept.size());
+    kept.push_back(drive.faces[i]);
+  }
+  for (Observation& observation : drive.observations) {
+    observation.face = place[into[observation.face]];
+  }
+  drive.faces = std::move(kept);
+  return merged;
+}
+
+}  // namespace cornerd::survey

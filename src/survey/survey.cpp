@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: MIT
+#include "survey/survey.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+#include <utility>
+
+#include "survey/adjustment.hpp"
+#include "survey/evidence.hpp"
+#include "survey/right_angles.hpp"
+
+namespace cornerd::survey {
+namespace {
+
+/// Points that are kept for pictures.
+constexpr std::size_t kPicturePoints = 60'000;
+
+/// Of one of the passes over all turns, as a share of the whole.
+Progress part(const SurveyProgress& progress, double begin, double end, std::size_t turns) {
+  if (!progress) return {};
+  return [=](std::size_t turn) {
+    progress(begin + (end - begin) * static_cast<double>(turn) / static_cast<double>(turns));
+  };
+}
+
+std::vector<core::Vec2> picture_points(const MappedDrive& drive) {
+  std::vector<core::Vec2> points;
+  const std::size_t step = drive.points.size() / kPicturePoints + 1;
+  for (std::size_t turn = 0; turn < drive.T_map_lidar.size(); ++turn) {
+    for (std::size_t i = drive.first_point[turn]; i < drive.first_point[turn + 1]; ++i) {
+      if (i % step != 0) continue;
+      const StraightPoint& point = drive.points[i];
+      points.push_back(drive.T_map_lidar[turn] *
+                       core::Vec2(point.range_m * core::unit_vector(point.bearing_rad)));
+    }
+  }
+  return points;
+}
+
+/// Stretches of the pieces that were prolonged to a corner, or bridged.
+std::vector<ThinPlace> thin_places(const MappedDrive& drive,
+                                   const std::vector<FaceEvidence>& evidence,
+                                   const std::vector<WallPiece>& pieces) {
+  constexpr double kWorthSaying_m = 0.05;
+  std::vector<ThinPlace> thin;
+  for (const WallPiece& piece : pieces) {
+    const MappedFace& face = drive.faces[piece.face];
+    const FaceEvidence& seen = evidence[piece.face];
+    double from_m = piece.begin_m;
+    const auto close = [&](double to_m) {
+      if (to_m - from_m > kWorthSaying_m) thin.push_back({face.at(from_m), face.at(to_m)});
+    };
+    for (std::size_t cell = 0; cell < seen.size(); ++cell) {
+      if (!seen.is_wall(cell)) continue;
+      const double begin_m = seen.along_of(cell);
+      if (begin_m > piece.end_m) break;
+      close(begin_m);
+      from_m = std::max(from_m, begin_m + FaceEvidence::kCell_m);
+    }
+    close(piece.end_m);
+  }
+  return thin;
+}
+
+}  // namespace
+
+SurveyResult survey(const RecordedDrive& recorded, const SurveyConfig& config,
+                    const SurveyProgress& progress) {
+  if (recorded.size() == 0) throw std::invalid_argument("not one whole turn of a lidar in it");
+  const std::size_t turns = recorded.size();
+  SurveyResult result;
+
+  // First pass: find the way, and learn the wheels and the gyro.
+  MappedDrive first = map_drive(recorded, config.sensor, nullptr, part(progress, 0, 0.35, turns));
+  result.strange_turns = first.strange_turns;
+  if (first.faces.empty()) throw std::invalid_argument("no walls were seen");
+  adjust(first);
+  result.merged_faces = merge_faces(first, {}, config.merging);
+  adjust(first);
+
+  // Second pass: the turns straightened by what was learned, and matched to the adjusted map.
+  MappedDrive drive = map_drive(recorded, config.sensor, &first, part(progress, 0.4, 0.75, turns));
+  first = {};
+  result.merged_faces += merge_faces(drive, {}, config.merging);
+  adjust(drive);
+
+  // What the rays say of the walls, and the walls that are one.
+  std::vector<FaceEvidence> evidence =
+      gather_evidence(drive, config.sensor.noise, part(progress, 0.8, 0.9, turns));
+  const std::size_t merged = merge_faces(drive, evidence, config.merging);
+  result.merged_faces += merged;
+  AdjustmentResult fit = adjust(drive);
+  evidence = gather_evidence(drive, config.sensor.noise, part(progress, 0.9, 1, turns));
+
+  // From faces to walls: cut, join, pair, and once more all at once with what the pairs say.
+  std::vector<Dropped> ignored;
+  std::vector<WallPiece> pieces = cut_pieces(drive, evidence, config.pieces, ignored);
+  std::vector<FaceBond> bonds = bonds_of(drive, pieces, pair_sides(drive, pieces, config.solids));
+  if (config.manhattan) {
+    const std::vector<FaceBond> square = right_angles(drive);
+    bonds.insert(bonds.end(), square.begin(), square.end());
+  }
+  fit = adjust(drive, bonds);
+  pieces = cut_pieces(drive, evidence, config.pieces, result.dropped);
+  join_corners(drive, evidence, config.pieces, pieces);
+  drop_lonely(drive, config.pieces, pieces, result.dropped);
+  const std::vector<WallPair> pairs = pair_sides(drive, pieces, config.solids);
+  result.plan.walls = build_walls(drive, pieces, pairs);
+  if (result.plan.walls.empty()) {
+    throw std::invalid_argument("no wall was seen well enough to be believed");
+  }
+
+  result.thin = thin_places(drive, evidence, pieces);
+  result.points = picture_points(drive);
+  const core::Pose2 T_lidar_base = config.sensor.T_base_lidar.inverse();
+  for (std::size_t turn = 0; turn < turns; ++turn) {
+    result.T_map_base.push_back(drive.T_map_lidar[turn] * T_lidar_base);
+    result.t_ns.push_back(recorded.middle_ns(turn));
+  }
+  result.forgotten_faces = drive.forgotten_faces;
+  result.observations = drive.observations.size();
+  result.outliers = fit.outliers;
+  result.sigma = fit.sigma;
+  result.has_odometry = drive.has_odometry;
+  result.learned = drive.learned;
+  return result;
+}
+
+void move_frame(const core::Pose2& T_new_map, SurveyResult& result) {
+  for (core::Wall& wall : result.plan.walls) {
+    wall.from = T_new_map * wall.from;
+    wall.to = T_new_map * wall.to;
+  }
+  for (core::Pose2& pose : result.T_map_base) pose = T_new_map * pose;
+  for (core::Vec2& point : result.points) point = T_new_map * point;
+  for (ThinPlace& place : result.thin) place = {T_new_map * place.from, T_new_map * place.to};
+  for (Dropped& piece : result.dropped) {
+    piece.from = T_new_map * piece.from;
+    piece.to = T_new_map * piece.to;
+  }
+}
+
+}  // namespace cornerd::survey

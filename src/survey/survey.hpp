@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+// THE FILE TO READ FIRST, with survey.cpp: a recorded drive in, a map and the way through it out.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/localizer_config.hpp"
+#include "core/map/wall_map.hpp"
+#include "survey/face_merging.hpp"
+#include "survey/recorded_drive.hpp"
+#include "survey/wall_piece.hpp"
+#include "survey/wall_solids.hpp"
+
+namespace cornerd::survey {
+
+struct SurveyConfig {
+  core::LocalizerConfig sensor;  ///< limits of the range, mount, noise, detector, odometry
+  MergeLimits merging;
+  PieceLimits pieces;
+  SolidLimits solids;
+  bool manhattan = false;  ///< walls that are square to the others within their doubt become so
+};
+
+/// Where the evidence for a wall is thin: of its length, the part that no ray ended on.
+struct ThinPlace {
+  core::Vec2 from;
+  core::Vec2 to;
+};
+
+struct SurveyResult {
+  core::FloorPlan plan;                 ///< frame: the robot in the middle of the first turn
+  std::vector<core::Pose2> T_map_base;  ///< of each turn, at its middle
+  std::vector<core::TimeNs> t_ns;
+  std::vector<core::Vec2> points;  ///< some of the returns, on the map
+  std::vector<ThinPlace> thin;
+  std::vector<Dropped> dropped;
+  std::vector<std::size_t> strange_turns;  ///< whose walls did not tell where they were
+  std::size_t forgotten_faces = 0;
+  std::size_t merged_faces = 0;
+  std::size_t observations = 0;
+  std::size_t outliers = 0;
+  double sigma = 0;  ///< of the residuals, in units of their doubts
+  bool has_odometry = false;
+  std::optional<core::LearnedOdometry> learned;
+};
+
+/// The same map in another frame: `T_new_map` is where the robot was in the first turn.
+void move_frame(const core::Pose2& T_new_map, SurveyResult& result);
+
+/// Called with the share of the work that is done.
+using SurveyProgress = std::function<void(double)>;
+
+/// Throws std::invalid_argument, with the reason, where the drive gives no map: no walls, or turns
+/// that do not overlap.
+SurveyResult survey(const RecordedDrive& drive, const SurveyConfig& config,
+                    const SurveyProgress& progress = {});
+
+}  // namespace cornerd::survey

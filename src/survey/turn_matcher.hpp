@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "survey/mapped_face.hpp"
+
+namespace cornerd::survey {
+
+/// Where the lidar was in a turn, by the faces that the map has already.
+struct TurnMatch {
+  core::Pose2 T_map_lidar;
+  core::Covariance3 covariance = core::Covariance3::Zero();
+  double matched_share = 0;  ///< of the samples on sighted walls: those on faces of the map
+  bool valid = false;        ///< false: too little was matched to say more than the prior did
+};
+
+/// How far off a prediction may be.
+struct Reach {
+  double place_m = 0.1;
+  double heading_rad = core::radians(8);
+};
+
+/// Matches the walls of one turn to the faces of the map: a wall belongs to a face that looks the
+/// same way, lies on the same line and overlaps it.
+class TurnMatcher {
+ public:
+  /// `faces_of`: for each sighting the face that it is of, or kNoFace.
+  TurnMatch match(std::span<const Sighting> sightings, std::span<const MappedFace> faces,
+                  const core::Pose2& prior, const core::Covariance3& covariance, const Reach& reach,
+                  std::vector<std::uint32_t>& faces_of);
+
+  /// The faces alone, for a pose that is known.
+  static void assign(std::span<const Sighting> sightings, std::span<const MappedFace> faces,
+                     const core::Pose2& T_map_lidar, const Reach& reach,
+                     std::vector<std::uint32_t>& faces_of);
+};
+
+/// A pose that is known but for what is left after an adjustment.
+inline constexpr Reach kExactReach{0.02, core::radians(1)};
+
+}  // namespace cornerd::survey

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: MIT
+#include "survey/turn_reader.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/estimate/pose_memory.hpp"
+
+namespace cornerd::survey {
+namespace {
+
+/// How far a robot without odometry may be from where its last motion leads: what it speeds up in
+/// the seventh of a second from turn to turn.
+constexpr double kUnknownMotion_m = 0.05;
+constexpr double kUnknownMotion_rad = core::radians(6);
+/// What a prediction by odometry is never sure of more than.
+constexpr double kOdometryFloor_m = 0.002;
+constexpr double kOdometryFloor_rad = core::radians(0.1);
+
+core::OdometryConfig patient(core::OdometryConfig config, bool has_readings,
+                             const std::optional<core::LearnedOdometry>& learned) {
+  constexpr double kAlways_s = 1e9;
+  config.enabled = has_readings;
+  config.bridge_s = kAlways_s;
+  if (learned) config.start = *learned;
+  return config;
+}
+
+core::Covariance3 diagonal(double place_m, double heading_rad) {
+  return Eigen::Vector3d(place_m * place_m, place_m * place_m, heading_rad * heading_rad)
+      .asDiagonal();
+}
+
+}  // namespace
+
+TurnReader::TurnReader(const RecordedDrive& drive, const core::LocalizerConfig& config,
+                       const std::optional<core::LearnedOdometry>& learned,
+                       std::span<const core::Pose2> known_T_map_lidar)
+    : drive_(drive),
+      config_(config),
+      T_lidar_base_(config.T_base_lidar.inverse()),
+      known_T_map_lidar_(known_T_map_lidar),
+      odometer_(patient(config.odometry, !drive.readings().empty(), learned)) {}
+
+bool TurnReader::next() {
+  if (begun_) ++turn_;
+  if (turn_ >= drive_.size()) return false;
+  hear_readings();
+  drive_.load(turn_, scan_);
+  const core::TimeNs t_ns = drive_.middle_ns(turn_);
+  odometer_.advance(drive_.start_ns(turn_), t_ns, drive_.end_ns(turn_));
+  predict(t_ns);
+  const bool straight = odometer_.straighten(scan_, config_.T_base_lidar, still_);
+  points_.assign(straight ? still_ : scan_, config_.min_range_m, config_.max_range_m, t_ns,
+                 straight ? core::Twist2{} : motion(t_ns), config_.bias);
+  begun_ = true;
+  return true;
+}
+
+void TurnReader::hear_readings() {
+  // One past the turn's end, so that nothing of its motion is guessed.
+  constexpr std::size_t kTurnsAhead = 2;
+  const core::TimeNs end_ns = drive_.end_ns(turn_);
+  const auto readings = drive_.readings();
+  for (; next_reading_ < readings.size(); ++next_reading_) {
+    const RecordedDrive::Reading& next = readings[next_reading_];
+    const bool ahead = heard_ns_ < end_ns && next.turn <= turn_ + kTurnsAhead;
+    if (next.turn > turn_ && !ahead) return;
+    odometer_.add(next.reading, next.now_ns);
+    heard_ns_ = next.reading.t_ns;
+  }
+}
+
+void TurnReader::predict(core::TimeNs t_ns) {
+  prior_ = {};
+  if (!begun_) {
+    // The map's frame is the robot's own in the first turn.
+    prior_.T_map_lidar = config_.T_base_lidar;
+    prior_.covariance = diagonal(1e-6, 1e-7);
+    return;
+  }
+  if (const auto predicted = odometer_.prediction()) {
+    prior_.T_map_lidar = predicted->T_map_base * config_.T_base_lidar;
+    prior_.covariance = predicted->covariance + diagonal(kOdometryFloor_m, kOdometryFloor_rad);
+    prior_.T_before_now = filtered_T_map_lidar_.inverse() * prior_.T_map_lidar;
+    prior_.by_odometry = true;
+    return;
+  }
+  const double dt_s = core::to_seconds(t_ns - last_ns_);
+  prior_.T_before_now = last_motion_.over(std::clamp(dt_s, 0.0, 1.0));
+  prior_.T_map_lidar = last_T_map_lidar_ * prior_.T_before_now;
+  // Twice the time, twice the speed that it may have taken up.
+  const double grown = std::clamp(dt_s / 0.15, 1.0, 10.0);
+  prior_.covariance = diagonal(kUnknownMotion_m * grown, kUnknownMotion_rad * grown);
+}
+
+core::Twist2 TurnReader::motion(core::TimeNs) const {
+  const auto known = known_T_map_lidar_;
+  if (known.size() < 2) return last_motion_;
+  const std::size_t before = turn_ > 0 ? turn_ - 1 : 0;
+  const std::size_t after = std::min(turn_ + 1, known.size() - 1);
+  const double dt_s = core::to_seconds(drive_.middle_ns(after) - drive_.middle_ns(before));
+  if (!(dt_s > 0) || dt_s > 1) return last_motion_;
+  const core::Pose2 way = known[before].inverse() * known[after];
+  const double half_rad = way.theta_rad / 2;
+  // Half-way through the turn the way points along the robot's own axes.
+  const double c = std::cos(half_rad);
+  const double s = std::sin(half_rad);
+  return {(c * way.x_m + s * way.y_m) / dt_s, (c * way.y_m - s * way.x_m) / dt_s,
+          way.theta_rad / dt_s};
+}
+
+void TurnReader::place(const core::Pose2& T_map_lidar, const core::Covariance3& covariance) {
+  const core::TimeNs t_ns = drive_.middle_ns(turn_);
+  const double dt_s = core::to_seconds(t_ns - last_ns_);
+  if (turn_ > 0 && dt_s > 0 && dt_s < 1) {
+    const core::Pose2 way = last_T_map_lidar_.inverse() * T_map_lidar;
+    last_motion_ = {way.x_m / dt_s, way.y_m / dt_s, way.theta_rad / dt_s};
+  } else {
+    last_motion_ = {};
+  }
+  last_ns_ = t_ns;
+  last_T_map_lidar_ = T_map_lidar;
+  const core::Pose2 T_map_base = T_map_lidar * T_lidar_base_;
+  odometer_.correct(T_map_base, core::covariance_of_base(covariance, T_map_lidar, T_map_base));
+  const auto filtered = odometer_.prediction();
+  filtered_T_map_lidar_ = filtered ? filtered->T_map_base * config_.T_base_lidar : T_map_lidar;
+}
+
+}  // namespace cornerd::survey

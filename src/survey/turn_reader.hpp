@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <limits>
+#include <optional>
+#include <span>
+
+#include "core/localizer_config.hpp"
+#include "core/odometry/odometer.hpp"
+#include "core/polar_scan.hpp"
+#include "core/scan.hpp"
+#include "survey/recorded_drive.hpp"
+
+namespace cornerd::survey {
+
+/// Where the lidar should be in a turn by what was known before it.
+struct TurnPrior {
+  core::Pose2 T_map_lidar;
+  core::Covariance3 covariance = core::Covariance3::Zero();
+  core::Pose2 T_before_now;  ///< the way from the turn before, as far as it was foreseen
+  bool by_odometry = false;
+};
+
+/// Goes through a drive turn by turn: each as a lidar that stood still in its middle would have
+/// seen it, with a prediction of where that was. Wheels and gyro tell both where there are any, and
+/// learn from the poses that the survey finds; else the way from pose to pose does.
+class TurnReader {
+ public:
+  /// `learned`: of wheels and gyro, by a reader that went before.
+  /// `known`: poses of all turns by an earlier pass, for a drive without odometry; may be empty.
+  TurnReader(const RecordedDrive& drive, const core::LocalizerConfig& config,
+             const std::optional<core::LearnedOdometry>& learned,
+             std::span<const core::Pose2> known_T_map_lidar);
+
+  /// Goes on to the next turn; false after the last one.
+  bool next();
+  std::size_t turn() const { return turn_; }
+  const core::PolarScan& points() const { return points_; }
+  const TurnPrior& prior() const { return prior_; }
+
+  /// Where the lidar was; to be said of each turn before the next one.
+  void place(const core::Pose2& T_map_lidar, const core::Covariance3& covariance);
+
+  core::LearnedOdometry learned() const { return odometer_.summary().learned; }
+  core::OdometryCounters counters() const { return odometer_.summary().counters; }
+
+ private:
+  void hear_readings();
+  void predict(core::TimeNs t_ns);
+  core::Twist2 motion(core::TimeNs t_ns) const;
+
+  const RecordedDrive& drive_;
+  core::LocalizerConfig config_;
+  core::Pose2 T_lidar_base_;
+  std::span<const core::Pose2> known_T_map_lidar_;
+  core::Odometer odometer_;
+  std::size_t next_reading_ = 0;
+  core::TimeNs heard_ns_ = std::numeric_limits<core::TimeNs>::min();
+
+  bool begun_ = false;
+  std::size_t turn_ = 0;
+  core::Scan scan_;
+  core::Scan still_;
+  core::PolarScan points_;
+  TurnPrior prior_;
+
+  core::TimeNs last_ns_ = 0;
+  core::Pose2 last_T_map_lidar_;
+  core::Twist2 last_motion_;
+  core::Pose2 filtered_T_map_lidar_;  ///< what the odometer made of it
+};
+
+}  // namespace cornerd::survey

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: MIT
+#include "survey/wall_piece.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+namespace cornerd::survey {
+namespace {
+
+/// Cells in a row that rays went through make a hole: one alone is the noise of the poses.
+constexpr std::size_t kHoleCells = 2;
+
+std::string text_of(std::size_t count, const char* what) {
+  return std::to_string(count) + " " + what;
+}
+
+class Cutter {
+ public:
+  Cutter(const MappedDrive& drive, std::uint32_t face, const FaceEvidence& evidence,
+         const PieceLimits& limits, std::vector<WallPiece>& pieces, std::vector<Dropped>& dropped)
+      : face_(drive.faces[face]),
+        index_(face),
+        evidence_(evidence),
+        limits_(limits),
+        pieces_(pieces),
+        dropped_(dropped) {}
+
+  void cut() {
+    if (face_.sightings < limits_.sightings) {
+      drop(face_.begin_m(), face_.end_m(), "seen in " + text_of(face_.sightings, "turns"));
+      return;
+    }
+    std::size_t holes = 0;
+    std::size_t through = 0;
+    for (std::size_t i = 0; i < evidence_.size(); ++i) {
+      const bool within =
+          evidence_.along_of(i) + FaceEvidence::kCell_m > face_.begin_m() - kSlack_m &&
+          evidence_.along_of(i) < face_.end_m() + kSlack_m;
+      if (evidence_.is_wall(i) && within) {
+        take(i);
+        holes = 0;
+      } else if (evidence_.is_open(i)) {
+        through += within ? 1 : 0;
+        if (++holes >= kHoleCells) close();
+      }
+    }
+    close();
+    if (found_ == 0) {
+      drop(face_.begin_m(), face_.end_m(),
+           through > 0 ? "rays went through it: it moved, or it was open at times"
+                       : "too few rays ended on it");
+    }
+  }
+
+ private:
+  static constexpr double kSlack_m = 0.03;
+
+  void take(std::size_t cell) {
+    const double begin_m = evidence_.along_of(cell);
+    if (current_ && begin_m - current_->end_m > limits_.gap_m) close();
+    if (!current_) {
+      current_.emplace();
+      current_->face = index_;
+      current_->begin_m = begin_m;
+    }
+    current_->end_m = begin_m + FaceEvidence::kCell_m;
+    current_->seen_m += FaceEvidence::kCell_m;
+    current_->hits += evidence_.hits(cell);
+  }
+
+  void close() {
+    if (!current_) return;
+    WallPiece piece = *std::exchange(current_, std::nullopt);
+    // A cell at either end is there as soon as a few rays meet its beginning.
+    piece.begin_m = std::max(piece.begin_m, face_.begin_m());
+    piece.end_m = std::min(piece.end_m, face_.end_m());
+    if (piece.length_m() < limits_.least_m || piece.hits < limits_.hits) {
+      if (piece.length_m() > 0) {
+        drop(piece.begin_m, piece.end_m,
+             piece.hits < limits_.hits ? "hit by " + text_of(piece.hits, "rays") : "too short");
+      }
+      ++found_;
+      return;
+    }
+    piece.begin.point = face_.at(piece.begin_m);
+    piece.end.point = face_.at(piece.end_m);
+    pieces_.push_back(piece);
+    ++found_;
+  }
+
+  void drop(double begin_m, double end_m, std::string why) {
+    dropped_.push_back({face_.at(begin_m), face_.at(end_m), std::move(why)});
+  }
+
+  const MappedFace& face_;
+  std::uint32_t index_;
+  const FaceEvidence& evidence_;
+  const PieceLimits& limits_;
+  std::vector<WallPiece>& pieces_;
+  std::vector<Dropped>& dropped_;
+  std::optional<WallPiece> current_;
+  std::size_t found_ = 0;
+};
+
+}  // namespace
+
+std::vector<WallPiece> cut_pieces(const MappedDrive& drive,
+                                  const std::vector<FaceEvidence>& evidence,
+                                  const PieceLimits& limits, std::vector<Dropped>& dropped) {
+  std::vector<WallPiece> pieces;
+  for (std::size_t i = 0; i < drive.faces.size(); ++i) {
+    Cutter(drive, static_cast<std::uint32_t>(i), evidence[i], limits, pieces, dropped).cut();
+  }
+  return pieces;
+}
+
+void drop_lonely(const MappedDrive& drive, const PieceLimits& limits,
+                 std::vector<WallPiece>& pieces, std::vector<Dropped>& dropped) {
+  std::vector<std::uint32_t> place(pieces.size(), kNoPiece);
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    const WallPiece& piece = pieces[i];
+    const bool adjoined = piece.begin.neighbour != kNoPiece || piece.end.neighbour != kNoPiece;
+    if (!adjoined && piece.length_m() < limits.lonely_m) {
+      const MappedFace& face = drive.faces[piece.face];
+      dropped.push_back({face.at(piece.begin_m), face.at(piece.end_m), "short, and stands alone"});
+      continue;
+    }
+    place[i] = static_cast<std::uint32_t>(kept);
+    if (kept != i) pieces[kept] = piece;
+    ++kept;
+  }
+  pieces.resize(kept);
+  for (WallPiece& piece : pieces) {
+    for (PieceEnd* end : {&piece.begin, &piece.end}) {
+      if (end->neighbour != kNoPiece) end->neighbour = place[end->neighbour];
+    }
+  }
+}
+
+}  // namespace cornerd::survey

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: MIT
+// cornerctl survey: from a recorded drive to a map that the robot can localize in.
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include "survey/survey.hpp"
+#include "tool/commands.hpp"
+#include "tool/failure.hpp"
+#include "tool/options.hpp"
+#include "tool/output.hpp"
+#include "tool/progress_bar.hpp"
+#include "tool/survey_files.hpp"
+
+namespace cornerd::tool {
+
+namespace {
+
+struct SurveyOptions {
+  std::vector<std::filesystem::path> files;
+  SettingsOptions settings;
+  std::string wire = "auto";
+  std::filesystem::path odometry;
+  std::filesystem::path output;
+  std::filesystem::path plot;
+  std::filesystem::path trajectory;
+  std::string name;
+  std::string start;
+  bool manhattan = false;
+};
+
+void write_file(const std::filesystem::path& file, const std::string& text) {
+  Output output(file);
+  output.write(text);
+  output.flush();
+}
+
+void run_survey(const SurveyOptions& options) {
+  for (const std::filesystem::path& file : options.files) {
+    for (const auto& written : {options.output, options.plot, options.trajectory}) {
+      if (is_same_file(file, written)) {
+        throw UsageError(file.string() + ": would be written over what is read");
+      }
+    }
+  }
+  const core::Pose2 start = options.start.empty() ? core::Pose2{} : parse_pose(options.start);
+  const settings::Config config = options.settings.resolve(/*needs_map=*/false);
+  const survey::RecordedDrive drive = load_drive(
+      options.files, {parse_wire(options.wire), config.lidar.mount.inverted}, options.odometry);
+  survey::SurveyConfig survey_config;
+  survey_config.sensor = config.localizer();
+  survey_config.manhattan = options.manhattan;
+
+  survey::SurveyResult result;
+  {
+    constexpr std::size_t kSteps = 1000;
+    ProgressBar bar("survey", kSteps);
+    try {
+      result = survey::survey(drive, survey_config, [&](double share) {
+        bar.show(static_cast<std::size_t>(share * static_cast<double>(kSteps)));
+      });
+    } catch (const std::invalid_argument& error) {
+      throw Failure(options.files.front().string() + ": " + error.what());
+    }
+  }
+  survey::move_frame(start, result);
+  result.plan.name = options.name.empty() ? options.output.stem().string() : options.name;
+
+  write_file(options.output, map_text(result.plan));
+  if (!options.trajectory.empty()) write_file(options.trajectory, trajectory_text(result));
+  if (!options.plot.empty()) write_file(options.plot, survey_drawing(result));
+  Output report;
+  report.write(survey_report(result));
+  report.flush();
+}
+
+}  // namespace
+
+void add_survey(CLI::App& program) {
+  CLI::App* command = program.add_subcommand("survey", "a map of the walls from a recorded drive");
+  const auto options = std::make_shared<SurveyOptions>();
+  command->add_option("files", options->files, "recordings of one drive, in their order")
+      ->required()
+      ->type_name("FILE");
+  command->add_option("-o,--output", options->output, "the map")->required()->type_name("MAP");
+  command->add_option("--name", options->name, "of the map; the file's without it")
+      ->type_name("NAME");
+  command
+      ->add_option("--start", options->start,
+                   "where in the map the robot was in the first turn (m, m, rad); else its origin")
+      ->type_name("X,Y,THETA");
+  command->add_option("--plot", options->plot, "draw walls, points and the way")->type_name("SVG");
+  command
+      ->add_option("--trajectory", options->trajectory,
+                   "the corrected way, a pose for each turn, as --truth files have it")
+      ->type_name("NDJSON");
+  command->add_flag("--manhattan", options->manhattan,
+                    "make walls square that are so within their doubt");
+  command
+      ->add_option("--odometry", options->odometry,
+                   "ODOMETRY lines of another file, in place of the recordings' own")
+      ->type_name("FILE");
+  options->settings.add_config(*command);
+  add_wire_option(*command, options->wire);
+  command->callback([options] { run_survey(*options); });
+}
+
+}  // namespace cornerd::tool

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <map>
+#include <string>
+
+#include "tool/survey_files.hpp"
+#include "tool/text_table.hpp"
+
+namespace cornerd::tool {
+
+namespace {
+
+double length_of(const core::Vec2& from, const core::Vec2& to) { return (to - from).norm(); }
+
+std::string describe_drive(const survey::SurveyResult& result) {
+  double way_m = 0;
+  for (std::size_t i = 1; i < result.T_map_base.size(); ++i) {
+    way_m += length_of(result.T_map_base[i - 1].translation(), result.T_map_base[i].translation());
+  }
+  const double duration_s = core::to_seconds(result.t_ns.back() - result.t_ns.front());
+  return formatted("%zu turns, %.1f s, %.1f m %s\n", result.T_map_base.size(), duration_s, way_m,
+                   result.has_odometry ? "by wheels and lidar" : "by the lidar alone");
+}
+
+std::string describe_walls(const survey::SurveyResult& result) {
+  std::size_t solids = 0;
+  double length_m = 0;
+  for (const core::Wall& wall : result.plan.walls) {
+    solids += wall.thickness_m > 0 ? 1 : 0;
+    length_m += length_of(wall.from, wall.to);
+  }
+  double thin_m = 0;
+  for (const survey::ThinPlace& place : result.thin) thin_m += length_of(place.from, place.to);
+  return formatted(
+      "%zu walls, %.1f m: %zu with both sides, %zu seen from one side; %.2f m were not seen but "
+      "lie between what was\n",
+      result.plan.walls.size(), length_m, solids, result.plan.walls.size() - solids, thin_m);
+}
+
+}  // namespace
+
+std::string survey_report(const survey::SurveyResult& result) {
+  std::string text = describe_drive(result) + describe_walls(result);
+  text += formatted("%zu sightings of walls, residuals %.2f of their doubt, %zu outliers\n",
+                    result.observations, result.sigma, result.outliers);
+  if (!result.strange_turns.empty()) {
+    text += formatted("%zu turns saw too little of the map to be placed by it\n",
+                      result.strange_turns.size());
+  }
+  if (result.learned) {
+    const core::LearnedOdometry& learned = *result.learned;
+    text +=
+        formatted("odometry: left %+.4f, right %+.4f, track %+.4f, gyro %+.4f and %+.5f rad/s\n",
+                  learned.left_scale, learned.right_scale, learned.track_scale, learned.gyro_scale,
+                  learned.gyro_bias_rad_s);
+  }
+  if (result.merged_faces > 0) {
+    text += formatted("%zu pieces were merged with others\n", result.merged_faces);
+  }
+  if (result.forgotten_faces + result.dropped.size() == 0) return text;
+  text += "dropped:\n";
+  if (result.forgotten_faces > 0) {
+    text += formatted("  %zu that were seen once or twice\n", result.forgotten_faces);
+  }
+  std::vector<survey::Dropped> dropped = result.dropped;
+  std::stable_sort(dropped.begin(), dropped.end(), [](const auto& one, const auto& other) {
+    return length_of(one.from, one.to) > length_of(other.from, other.to);
+  });
+  for (const survey::Dropped& piece : dropped) {
+    text +=
+        formatted("  %.2f m from %.2f,%.2f to %.2f,%.2f: %s\n", length_of(piece.from, piece.to),
+                  piece.from.x(), piece.from.y(), piece.to.x(), piece.to.y(), piece.why.c_str());
+  }
+  return text;
+}
+
+}  // namespace cornerd::tool

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+#include "survey/adjustment.hpp"
+
+#include <gtest/gtest.h>
+
+#include "mapped_scene.hpp"
+
+namespace cornerd::survey {
+namespace {
+
+using core::Vec2;
+
+const std::vector<std::pair<Vec2, Vec2>> kRoom = {
+    {{-1, -1}, {3, -1}}, {{3, -1}, {3, 2}}, {{3, 2}, {-1, 2}}, {{-1, 2}, {-1, -1}}};
+const std::vector<core::Pose2> kWay = {{0, 0, 0}, {0.5, 0, 0.1}, {1, 0.2, 0.4}, {1.2, 0.6, 1.2}};
+
+TEST(Adjustment, Adjust_DisturbedPosesAndWalls_AreFoundAgain) {
+  MappedDrive drive = mapped_drive(kRoom, kWay);
+  for (std::size_t i = 1; i < kWay.size(); ++i) {
+    drive.T_map_lidar[i].x_m += 0.03;
+    drive.T_map_lidar[i].theta_rad -= 0.02;
+  }
+  drive.faces[1].set_line(drive.faces[1].normal_rad() + 0.03, 0.05);
+  const AdjustmentResult result = adjust(drive);
+  EXPECT_LT(result.sigma, 1e-3);
+  EXPECT_EQ(result.outliers, 0U);
+  for (std::size_t i = 0; i < kWay.size(); ++i) {
+    EXPECT_NEAR(drive.T_map_lidar[i].x_m, kWay[i].x_m, 1e-4);
+    EXPECT_NEAR(drive.T_map_lidar[i].y_m, kWay[i].y_m, 1e-4);
+    EXPECT_NEAR(drive.T_map_lidar[i].theta_rad, kWay[i].theta_rad, 1e-4);
+  }
+  EXPECT_NEAR(drive.faces[1].height_of({3, 0}), 0, 1e-4);
+}
+
+TEST(Adjustment, Adjust_FirstPose_StaysWhereItIs) {
+  MappedDrive drive = mapped_drive(kRoom, kWay);
+  drive.T_map_lidar[0] = {0.2, 0.1, 0.05};
+  adjust(drive);
+  EXPECT_DOUBLE_EQ(drive.T_map_lidar[0].x_m, 0.2);
+  EXPECT_DOUBLE_EQ(drive.T_map_lidar[0].theta_rad, 0.05);
+}
+
+TEST(Adjustment, Adjust_OneFalseObservation_LosesItsWeight) {
+  std::vector<core::Pose2> way;
+  for (int i = 0; i < 20; ++i) way.push_back({0.05 * i, 0, 0});
+  MappedDrive drive = mapped_drive(kRoom, way);
+  for (Observation& observation : drive.observations) {
+    if (observation.turn == 10 && observation.face == 1) observation.seen.centroid.x() += 0.1;
+  }
+  const AdjustmentResult result = adjust(drive);
+  EXPECT_EQ(result.outliers, 1U);
+  EXPECT_NEAR(drive.T_map_lidar[10].x_m, way[10].x_m, 5e-4);
+  EXPECT_NEAR(drive.faces[1].height_of({3, 0}), 0, 1e-4);
+}
+
+TEST(Adjustment, Adjust_Bond_MakesBothSidesParallel) {
+  std::vector<std::pair<Vec2, Vec2>> walls = kRoom;
+  walls[2] = {{3, 2}, {-1, 2.004}};  // a milliradian askew
+  MappedDrive drive = mapped_drive(walls, kWay);
+  FaceBond bond;
+  bond.one = 0;
+  bond.other = 2;
+  bond.turn_rad = core::kPi;
+  bond.sigma_rad = 1e-6;
+  adjust(drive, std::span(&bond, 1));
+  EXPECT_NEAR(
+      core::angle_between(drive.faces[0].normal_rad() + core::kPi, drive.faces[2].normal_rad()), 0,
+      1e-6);
+}
+
+TEST(Adjustment, Adjust_MoreSightings_LeaveLessDoubt) {
+  MappedDrive few = mapped_drive(kRoom, std::vector<core::Pose2>(3, core::Pose2{0.5, 0.5, 0}));
+  MappedDrive many = mapped_drive(kRoom, std::vector<core::Pose2>(12, core::Pose2{0.5, 0.5, 0}));
+  adjust(few);
+  adjust(many);
+  EXPECT_NEAR(few.faces[0].variance_at(0) / many.faces[0].variance_at(0), 4, 0.01);
+}
+
+TEST(Adjustment, Adjust_ASingleTurn_ChangesNothing) {
+  MappedDrive drive = mapped_drive(kRoom, std::span(kWay).first(1));
+  EXPECT_EQ(adjust(drive).steps, 0);
+}
+
+}  // namespace
+}  // namespace cornerd::survey

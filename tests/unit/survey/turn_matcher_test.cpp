@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: MIT
+#include "survey/turn_matcher.hpp"
+
+#include <gtest/gtest.h>
+
+#include "mapped_scene.hpp"
+
+namespace cornerd::survey {
+namespace {
+
+using core::Vec2;
+
+/// A room of 4 x 3 m with the origin inside it, and a second wall behind one of its own.
+class TurnMatcherTest : public testing::Test {
+ protected:
+  TurnMatcherTest() {
+    const std::vector<std::pair<Vec2, Vec2>> walls = {
+        {{-1, -1}, {3, -1}}, {{3, -1}, {3, 2}}, {{3, 2}, {-1, 2}}, {{-1, 2}, {-1, -1}}};
+    for (const auto& [from, to] : walls) {
+      faces_.push_back(face_between(from, to));
+      seen_.push_back(sighting_of(from, to, pose_));
+    }
+  }
+  core::Pose2 pose_{0.5, 0.3, 0.4};
+  std::vector<MappedFace> faces_;
+  std::vector<Sighting> seen_;
+  std::vector<std::uint32_t> faces_of_;
+  TurnMatcher matcher_;
+  core::Covariance3 vague_ = core::Covariance3::Identity();
+};
+
+TEST_F(TurnMatcherTest, Match_FromBesideTheTruth_FindsIt) {
+  const core::Pose2 prior{0.42, 0.36, 0.5};
+  const TurnMatch match = matcher_.match(seen_, faces_, prior, vague_, {0.2, 0.2}, faces_of_);
+  ASSERT_TRUE(match.valid);
+  EXPECT_NEAR(match.T_map_lidar.x_m, pose_.x_m, 1e-4);
+  EXPECT_NEAR(match.T_map_lidar.y_m, pose_.y_m, 1e-4);
+  EXPECT_NEAR(match.T_map_lidar.theta_rad, pose_.theta_rad, 1e-4);
+  EXPECT_EQ(faces_of_, (std::vector<std::uint32_t>{0, 1, 2, 3}));
+  EXPECT_DOUBLE_EQ(match.matched_share, 1);
+}
+
+TEST_F(TurnMatcherTest, Match_OppositeSideOfAThinWall_IsAnotherFace) {
+  // The other side of the right wall, 2 cm behind it, looking away.
+  faces_[1] = face_between({3.02, 2}, {3.02, -1});
+  TurnMatcher::assign(seen_, faces_, pose_, {0.1, 0.1}, faces_of_);
+  EXPECT_EQ(faces_of_[1], kNoFace);
+}
+
+TEST_F(TurnMatcherTest, Match_WallBeyondADoor_IsAnotherFace) {
+  const Sighting beyond = sighting_of({3, 2.9}, {3, 4}, pose_);
+  TurnMatcher::assign(std::span(&beyond, 1), faces_, pose_, kExactReach, faces_of_);
+  EXPECT_EQ(faces_of_[0], kNoFace);
+}
+
+TEST_F(TurnMatcherTest, Match_OneMovedThing_DoesNotPull) {
+  seen_.push_back(sighting_of({2.4, -0.85}, {2.8, -0.85}, pose_));  // a box before the wall
+  const TurnMatch match = matcher_.match(seen_, faces_, pose_, vague_, {0.2, 0.2}, faces_of_);
+  ASSERT_TRUE(match.valid);
+  EXPECT_NEAR(match.T_map_lidar.y_m, pose_.y_m, 0.002);
+  EXPECT_EQ(faces_of_[4], kNoFace);
+}
+
+TEST_F(TurnMatcherTest, Match_ParallelWallsAlone_KeepsThePriorAlongThem) {
+  const std::vector<Sighting> two = {seen_[0], seen_[2]};
+  const core::Covariance3 prior_covariance = Eigen::Vector3d(1e-4, 1e-4, 1e-4).asDiagonal();
+  const core::Pose2 prior{0.55, 0.33, 0.41};
+  const TurnMatch match =
+      matcher_.match(two, faces_, prior, prior_covariance, {0.1, 0.1}, faces_of_);
+  ASSERT_TRUE(match.valid);
+  EXPECT_NEAR(match.T_map_lidar.x_m, 0.55, 1e-3);
+  EXPECT_NEAR(match.T_map_lidar.y_m, pose_.y_m, 1e-3);
+  EXPECT_GT(match.covariance(0, 0), 20 * match.covariance(1, 1));
+}
+
+TEST_F(TurnMatcherTest, Match_NothingKnown_IsNotValid) {
+  const TurnMatch match = matcher_.match(seen_, {}, pose_, vague_, {0.2, 0.2}, faces_of_);
+  EXPECT_FALSE(match.valid);
+}
+
+}  // namespace
+}  // namespace cornerd::survey

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: MIT
+#include "survey/wall_piece.hpp"
+
+#include <gtest/gtest.h>
+
+#include "mapped_scene.hpp"
+
+namespace cornerd::survey {
+namespace {
+
+using core::Vec2;
+
+struct Scene {
+  MappedDrive drive;
+  std::vector<FaceEvidence> evidence;
+  std::vector<WallPiece> pieces;
+  std::vector<Dropped> dropped;
+};
+
+Scene cut(const std::vector<std::pair<Vec2, Vec2>>& walls) {
+  Scene scene;
+  std::vector<core::Pose2> way;
+  for (int i = 0; i < 20; ++i) way.push_back({0.1 * i, 0, 0});
+  scene.drive = mapped_drive(walls, way);
+  add_returns(scene.drive);
+  scene.evidence = gather_evidence(scene.drive, {}, {});
+  scene.pieces = cut_pieces(scene.drive, scene.evidence, {}, scene.dropped);
+  return scene;
+}
+
+TEST(CutPieces, FaceOverADoorway_BecomesTwo) {
+  Scene scene = cut({{{3, 2}, {2, 2}}, {{1, 2}, {-1, 2}}, {{5, 4}, {-3, 4}}});
+  // As if somebody had taken both pieces for one wall.
+  scene.drive.faces[0].extend({-1, 2});
+  scene.drive.faces.erase(scene.drive.faces.begin() + 1);
+  scene.drive.observations.clear();
+  scene.evidence = gather_evidence(scene.drive, {}, {});
+  scene.pieces = cut_pieces(scene.drive, scene.evidence, {}, scene.dropped);
+  std::vector<double> lengths_m;
+  for (const WallPiece& piece : scene.pieces) {
+    if (piece.face == 0) lengths_m.push_back(piece.length_m());
+  }
+  ASSERT_EQ(lengths_m.size(), 2U);
+  EXPECT_NEAR(lengths_m[0], 1, 0.05);
+  EXPECT_NEAR(lengths_m[1], 2, 0.05);
+}
+
+TEST(CutPieces, FaceThatRaysWentThrough_IsDroppedWithTheReason) {
+  Scene scene = cut({{{5, 4}, {-3, 4}}});
+  scene.drive.faces.push_back(face_between({1.5, 2}, {0.5, 2}));  // somebody stood there
+  scene.evidence = gather_evidence(scene.drive, {}, {});
+  scene.dropped.clear();
+  scene.pieces = cut_pieces(scene.drive, scene.evidence, {}, scene.dropped);
+  ASSERT_EQ(scene.dropped.size(), 1U);
+  EXPECT_NE(scene.dropped[0].why.find("rays went through"), std::string::npos);
+}
+
+TEST(CutPieces, FaceSeenInFewTurns_IsDroppedWithTheReason) {
+  Scene scene = cut({{{5, 4}, {-3, 4}}});
+  scene.drive.faces[0].sightings = 4;
+  scene.pieces = cut_pieces(scene.drive, scene.evidence, {}, scene.dropped);
+  EXPECT_TRUE(scene.pieces.empty());
+  ASSERT_EQ(scene.dropped.size(), 1U);
+  EXPECT_EQ(scene.dropped[0].why, "seen in 4 turns");
+}
+
+TEST(JoinCorners, RoomCorner_MeetsInTheIntersection) {
+  Scene scene = cut({{{-1, -1}, {3, -1}}, {{3, -1}, {3, 2}}});
+  join_corners(scene.drive, scene.evidence, {}, scene.pieces);
+  ASSERT_EQ(scene.pieces.size(), 2U);
+  EXPECT_EQ(scene.pieces[0].end.neighbour, 1U);
+  EXPECT_EQ(scene.pieces[1].begin.neighbour, 0U);
+  EXPECT_TRUE(scene.pieces[0].end.is_concave);
+  EXPECT_NEAR((scene.pieces[0].end.point - Vec2(3, -1)).norm(), 0, 1e-6);
+  EXPECT_EQ(scene.pieces[0].begin.neighbour, kNoPiece);
+}
+
+TEST(JoinCorners, EdgeOfAWall_IsConvex) {
+  Scene scene = cut({{{1.9, 1.5}, {1, 1.5}}, {{1, 1.5}, {1, 3}}});
+  ASSERT_EQ(scene.pieces.size(), 2U);
+  join_corners(scene.drive, scene.evidence, {}, scene.pieces);
+  EXPECT_EQ(scene.pieces[0].end.neighbour, 1U);
+  EXPECT_FALSE(scene.pieces[0].end.is_concave);
+}
+
+TEST(JoinCorners, WallsWithADoorwayBetween_AreNotJoined) {
+  Scene scene =
+      cut({{{3, 1}, {3, 2}}, {{2.75, 2.2}, {-1, 2.2}}, {{6, -2}, {6, 5}}, {{6, 5}, {-2, 5}}});
+  join_corners(scene.drive, scene.evidence, {}, scene.pieces);
+  EXPECT_EQ(scene.pieces[0].end.neighbour, kNoPiece) << "rays went through the corner";
+}
+
+TEST(JoinCorners, WallOnAnotherOnesSide_EndsThere) {
+  Scene scene = cut({{{4, 2}, {-2, 2}}, {{1, 2}, {1, 1}}});
+  join_corners(scene.drive, scene.evidence, {}, scene.pieces);
+  ASSERT_EQ(scene.pieces.size(), 2U);
+  EXPECT_EQ(scene.pieces[1].begin.neighbour, 0U);
+  EXPECT_TRUE(scene.pieces[1].begin.within);
+  EXPECT_EQ(scene.pieces[0].begin.neighbour, kNoPiece);
+}
+
+TEST(DropLonely, ShortPieceAlone_GoesAndNamesStayRight) {
+  Scene scene = cut({{{0.5, 1}, {0.38, 1}}, {{-1, -1}, {3, -1}}, {{3, -1}, {3, 2}}});
+  join_corners(scene.drive, scene.evidence, {}, scene.pieces);
+  ASSERT_EQ(scene.pieces.size(), 3U);
+  drop_lonely(scene.drive, {}, scene.pieces, scene.dropped);
+  ASSERT_EQ(scene.pieces.size(), 2U);
+  EXPECT_EQ(scene.pieces[0].end.neighbour, 1U);
+  EXPECT_EQ(scene.dropped.back().why, "short, and stands alone");
+}
+
+}  // namespace
+}  // namespace cornerd::survey

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+// A drive is simulated, surveyed, and localized in what came of it.
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <sstream>
+
+#include "command_run.hpp"
+#include "settings/map_file.hpp"
+#include "temporary_folder.hpp"
+#include "tool/truth.hpp"
+#include "xml_check.hpp"
+
+namespace cornerd::tool {
+namespace {
+
+class SurveyCommandTest : public ::testing::Test {
+ protected:
+  std::string file(const std::string& name) const { return (folder_.path() / name).string(); }
+  static std::string content(const std::string& name) {
+    std::ifstream stream(name);
+    std::ostringstream text;
+    text << stream.rdbuf();
+    return text.str();
+  }
+  void simulate(const std::string& recording, const std::string& truth, const std::string& seed) {
+    ASSERT_EQ(CommandRun({"simulate", "--map", arena_, "--path",
+                          "0.9,0.9 0.9,1.5 1.15,1.15 0.9,0.9", "--loop", "--turns", "120",
+                          "--odometry", "--seed", seed, "-o", recording, "--truth", truth})
+                  .exit_code,
+              0);
+  }
+
+  TemporaryFolder folder_;
+  const std::string arena_ = CORNERD_SOURCE_DIR "/config/maps/krpai-2019-a.json";
+};
+
+TEST_F(SurveyCommandTest, SimulatedDrive_GivesAMapToLocalizeIn) {
+  simulate(file("one.ndjson"), file("one.truth"), "1");
+  const Truth truth = Truth::load(file("one.truth"));
+  constexpr core::TimeNs kMiddleOfTheFirstTurn = 91'000'000;
+  const core::Pose2 start = truth.at(kMiddleOfTheFirstTurn).value();
+  std::ostringstream pose;
+  pose << start.x_m << "," << start.y_m << "," << start.theta_rad;
+  const CommandRun run({"survey", file("one.ndjson"), "-o", file("map.json"), "--start", pose.str(),
+                        "--plot", file("map.svg"), "--trajectory", file("way.ndjson")});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_NE(run.out.find("by wheels and lidar"), std::string::npos);
+
+  EXPECT_EQ(CommandRun({"map", "check", file("map.json"), "--places", "0"}).exit_code, 0);
+  EXPECT_EQ(settings::load_map(file("map.json"))->plan().name, "map");
+  EXPECT_EQ(find_xml_error(content(file("map.svg"))), "");
+  EXPECT_EQ(Truth::load(file("way.ndjson")).points().size(), 120U);
+
+  simulate(file("two.ndjson"), file("two.truth"), "2");
+  const CommandRun replay({"replay", file("two.ndjson"), "--map", file("map.json"), "--truth",
+                           file("two.truth"), "--classes", "STATUS"});
+  EXPECT_NE(replay.err.find("wrong            0"), std::string::npos) << replay.err;
+}
+
+TEST_F(SurveyCommandTest, NoTurnInIt_Fails) {
+  std::ofstream(file("empty.ndjson")) << "";
+  const CommandRun run({"survey", file("empty.ndjson"), "-o", file("map.json")});
+  EXPECT_EQ(run.exit_code, 1);
+  EXPECT_NE(run.err.find("not one whole turn"), std::string::npos);
+}
+
+TEST_F(SurveyCommandTest, OutputOverTheRecording_IsWrongUsage) {
+  std::ofstream(file("a.ndjson")) << "";
+  EXPECT_EQ(CommandRun({"survey", file("a.ndjson"), "-o", file("a.ndjson")}).exit_code, 2);
+}
+
+TEST_F(SurveyCommandTest, StartThatIsNoPose_IsWrongUsage) {
+  std::ofstream(file("a.ndjson")) << "";
+  EXPECT_EQ(CommandRun({"survey", file("a.ndjson"), "-o", file("m.json"), "--start", "nan,0,0"})
+                .exit_code,
+            2);
+}
+
+}  // namespace
+}  // namespace cornerd::tool
