@@ -9,6 +9,7 @@
 #include <stop_token>
 #include <string_view>
 
+#include "core/lateness.hpp"
 #include "core/odometry/odometry_reading.hpp"
 #include "core/ring_buffer.hpp"
 #include "core/types.hpp"
@@ -63,6 +64,9 @@ struct LidarStatus {
   double rate_hz = 0;     ///< turns a second
   double samples_hz = 0;  ///< samples a second, empty ones too
   StreamCounters counters;
+  /// How much later than could be the bytes of each packet were read: the driver's thread, and the
+  /// way there.
+  core::Lateness lateness;
 };
 
 /// Where a driver delivers. One driver, one sink, one thread.

@@ -206,7 +206,7 @@ RplidarDriver::Failure RplidarDriver::measure(drivers::ByteStream& port, const S
     if (status == drivers::ByteStream::ReadStatus::kLost) break;
     const auto bytes = std::span(buffer).first(count);
     stream.feed(bytes, now_ns, live);
-    board_.update(stream.counters(), now_ns);
+    board_.update(stream.counters(), stream.lateness(), now_ns);
     if (banner.add(bytes)) {
       failure.fault = LidarFault::kRestarted;
       break;

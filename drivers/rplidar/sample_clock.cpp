@@ -43,6 +43,7 @@ void SampleClock::observe(std::uint64_t index, core::TimeNs latest_ns) {
   const Point point{static_cast<double>(index - origin_index_),
                     static_cast<double>(latest_ns - origin_ns_)};
   offset_ns_ += std::min(0.0, lateness_ns(point));
+  last_lateness_ns_ = static_cast<core::TimeNs>(std::max(0.0, lateness_ns(point)));
 
   if (block_empty_ || lateness_ns(point) < lateness_ns(earliest_)) earliest_ = point;
   block_empty_ = false;

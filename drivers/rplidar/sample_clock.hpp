@@ -28,6 +28,9 @@ class SampleClock {
   /// Time of a sample. Called with growing indices it never goes back.
   core::TimeNs time_of(std::uint64_t index);
 
+  /// How much later than could be the newest observation was made.
+  core::TimeNs last_lateness_ns() const { return last_lateness_ns_; }
+
   bool anchored() const { return anchored_; }
   double period_s() const { return period_ns_ * 1e-9; }
   /// Times that the fit had to be given up after it had begun.
@@ -66,6 +69,7 @@ class SampleClock {
   core::TimeNs last_ns_ = 0;
   bool has_last_ = false;
   std::uint64_t resets_ = 0;
+  core::TimeNs last_lateness_ns_ = 0;
 };
 
 }  // namespace cornerd::rplidar

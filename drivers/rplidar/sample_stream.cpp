@@ -61,6 +61,7 @@ class SampleStream::Implementation : private RawSampleSink {
   void feed(std::span<const std::uint8_t> bytes, core::TimeNs arrival_ns,
             drivers::SampleSink& sink) {
     sink_ = &sink;
+    first_of_feed_ = true;
     const double byte_ns = 1e9 * kBitsPerByte / config_.baud;
     while (!bytes.empty()) {
       const auto piece = bytes.first(std::min(kPiece, bytes.size()));
@@ -85,6 +86,8 @@ class SampleStream::Implementation : private RawSampleSink {
   }
 
   std::optional<WireFormat> format() const { return decoder_.format(); }
+
+  const core::Lateness& lateness() const { return lateness_; }
 
   const drivers::StreamCounters& counters() {
     counters_ = decoder_.counters();
@@ -121,6 +124,8 @@ class SampleStream::Implementation : private RawSampleSink {
       clock_.observe(raw.index + packet.samples_ahead,
                      piece_arrival_ns_ - static_cast<core::TimeNs>(sent_ns));
       first_of_piece_ = false;
+      if (first_of_feed_) lateness_.add(clock_.last_lateness_ns());
+      first_of_feed_ = false;
     }
     return clock_.time_of(raw.index);
   }
@@ -136,6 +141,8 @@ class SampleStream::Implementation : private RawSampleSink {
   drivers::SampleSink* sink_ = nullptr;
   core::TimeNs piece_arrival_ns_ = 0;
   bool first_of_piece_ = false;
+  bool first_of_feed_ = false;
+  core::Lateness lateness_;
   bool timed_ = true;
   drivers::StreamCounters counters_;
 };
@@ -158,5 +165,6 @@ std::optional<WireFormat> SampleStream::format() const { return implementation_-
 const drivers::StreamCounters& SampleStream::counters() const {
   return implementation_->counters();
 }
+const core::Lateness& SampleStream::lateness() const { return implementation_->lateness(); }
 
 }  // namespace cornerd::rplidar

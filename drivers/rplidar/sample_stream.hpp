@@ -36,6 +36,8 @@ class SampleStream {
 
   std::optional<WireFormat> format() const;
   const drivers::StreamCounters& counters() const;
+  /// Of each feed() that brought samples: how much later it came than could be.
+  const core::Lateness& lateness() const;
 
  private:
   class Implementation;

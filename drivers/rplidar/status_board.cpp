@@ -75,10 +75,12 @@ void StatusBoard::count(const core::Sample& sample) {
   last_turn_ns_ = sample.t_ns;
 }
 
-void StatusBoard::update(const drivers::StreamCounters& of_stream, core::TimeNs now_ns) {
+void StatusBoard::update(const drivers::StreamCounters& of_stream, const core::Lateness& lateness,
+                         core::TimeNs now_ns) {
   if (now_ns - updated_ns_ < kUpdateNs) return;
   updated_ns_ = now_ns;
   status_.counters = sum(before_, of_stream);
+  status_.lateness = lateness;
   measure_rates();
   publish();
 }

@@ -34,7 +34,8 @@ class StatusBoard {
   void end_stream(drivers::StreamCounters of_stream);
   void count(const core::Sample& sample);
   /// Publishes counters and rates, twice a second at most.
-  void update(const drivers::StreamCounters& of_stream, core::TimeNs now_ns);
+  void update(const drivers::StreamCounters& of_stream, const core::Lateness& lateness,
+              core::TimeNs now_ns);
 
   /// The other thread.
   drivers::LidarStatus read() { return latest_.read(); }

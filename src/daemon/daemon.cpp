@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "daemon/daemon.hpp"
 
+#include <signal.h>
 #include <spdlog/spdlog.h>
 #include <sys/epoll.h>
 
@@ -9,7 +10,7 @@
 #include <utility>
 
 #include "daemon/clock.hpp"
-#include "daemon/memory_lock.hpp"
+#include "daemon/realtime.hpp"
 
 namespace cornerd::daemon {
 namespace {
@@ -25,54 +26,63 @@ SourceKind source_of(settings::DriverKind driver) {
   return driver == settings::DriverKind::kReplay ? SourceKind::kRecording : SourceKind::kDevice;
 }
 
-/// Asked for and refused is worth a line, and costs nothing else.
-void ask_for_realtime(const settings::RealtimeConfig& config, Localization& localization) {
-  if (config.priority > 0) {
-    if (const int error = localization.prioritize_reader(config.priority)) {
-      spdlog::warn("priority {} is refused: {}; the unit's real-time drop-in allows it",
-                   config.priority, std::strerror(error));
-    }
-  }
-  if (config.lock_memory) {
-    if (const int error = lock_memory()) {
-      spdlog::warn("memory is not locked: {}; the unit's real-time drop-in allows it",
-                   std::strerror(error));
-    }
-  }
-}
-
 }  // namespace
 
-Daemon::Daemon(const settings::Config& config, std::shared_ptr<const core::WallMap> map,
-               core::Pipeline pipeline, std::unique_ptr<drivers::LidarDriver> lidar,
+Daemon::Daemon(Loaded loaded, Reloader::Load load, std::unique_ptr<drivers::LidarDriver> lidar,
                std::string version)
-    : is_live_(config.lidar.driver != settings::DriverKind::kReplay),
-      server_(loop_, std::move(version), control_actions(config)),
-      turns_(server_, map),
+    : config_(std::move(loaded.config)),
+      is_live_(config_.lidar.driver != settings::DriverKind::kReplay),
+      server_(loop_, std::move(version), control_actions(config_)),
+      turns_(server_, std::move(loaded.map)),
       status_(server_, notifier_),
       tick_(kTick),
+      reloader_(std::move(load)),
       lidar_(std::move(lidar)),
-      localization_(*lidar_, std::move(pipeline), source_of(config.lidar.driver)) {
-  server_.listen(config.socket.pose, SocketRole::kPose);
-  server_.listen(config.socket.control, SocketRole::kControl);
+      localization_(*lidar_, std::move(loaded.pipeline), source_of(config_.lidar.driver)) {
+  server_.listen(config_.socket.pose, SocketRole::kPose);
+  server_.listen(config_.socket.control, SocketRole::kControl);
   // Only who has the sockets is this robot's daemon, and may touch its port.
   localization_.start();
   // A recording brings its own.
-  auto odometry = is_live_ ? make_odometry(config.odometry) : nullptr;
+  auto odometry = is_live_ ? make_odometry(config_.odometry) : nullptr;
   if (odometry) {
     odometry_.emplace(std::move(odometry), localization_);
     status_.set_odometry(&*odometry_);
   }
-  ask_for_realtime(config.realtime, localization_);
+  ask_for_realtime();
 
   loop_.add(signals_.fd(), EPOLLIN, [this](std::uint32_t) { on_signal(); });
   loop_.add(tick_.fd(), EPOLLIN, [this](std::uint32_t) { on_tick(); });
+  loop_.add(reloader_.event_fd(), EPOLLIN, [this](std::uint32_t) { on_loaded(); });
   loop_.add(localization_.event_fd(), EPOLLIN, [this](std::uint32_t) {
     localization_.take([this](const TurnReport& report) { turns_.publish(report); });
   });
   if (const auto period_us = notifier_.watchdog_period_us()) {
     watchdog_.emplace(microseconds(*period_us));
     loop_.add(watchdog_->fd(), EPOLLIN, [this](std::uint32_t) { on_watchdog(); });
+  }
+}
+
+/// Asked for and refused is worth a line, and costs nothing else.
+void Daemon::ask_for_realtime() {
+  const settings::RealtimeConfig& config = config_.realtime;
+  if (config.priority > 0) {
+    if (const int error = localization_.prioritize_reader(config.priority)) {
+      spdlog::warn("priority {} is refused: {}; the unit's real-time drop-in allows it",
+                   config.priority, std::strerror(error));
+    } else {
+      health_.priority = config.priority;
+      spdlog::info("the port is read with priority {} (SCHED_FIFO)", config.priority);
+    }
+  }
+  if (config.lock_memory) {
+    const int error = lock_memory();
+    health_.memory_is_locked = error == 0;
+    if (error != 0) {
+      touch_memory();
+      spdlog::warn("memory is not locked: {}; the unit's real-time drop-in allows it",
+                   std::strerror(error));
+    }
   }
 }
 
@@ -103,12 +113,41 @@ void Daemon::run() {
 }
 
 void Daemon::on_signal() {
-  spdlog::info("{}: ending", signals_.take());
-  loop_.stop();
+  const int signal = signals_.take();
+  if (signal == SIGHUP) {
+    spdlog::info("SIGHUP: reading settings and map again");
+    notifier_.reloading();
+    reloader_.start();
+  } else if (signal != 0) {
+    spdlog::info("{}: ending", signal == SIGTERM ? "SIGTERM" : "SIGINT");
+    loop_.stop();
+  }
+}
+
+void Daemon::on_loaded() {
+  Reloader::Outcome outcome = reloader_.take();
+  if (!outcome.error.empty()) {
+    spdlog::error("nothing is changed: {}", outcome.error);
+    server_.publish(message::MessageClass::kEvent,
+                    line_.event(now_ns(), "reload refused", outcome.error));
+    return notifier_.ready();
+  }
+  Loaded& loaded = outcome.loaded;
+  if (const std::string list = needs_restart(config_, loaded.config); !list.empty()) {
+    spdlog::warn("takes effect at the next start: {}", list);
+  }
+  const std::string name =
+      fmt::format("{}, {} walls", loaded.map->plan().name, loaded.map->plan().walls.size());
+  turns_.expect_map(localization_.replace(std::move(loaded.pipeline)), std::move(loaded.map));
+  if (health_.memory_is_locked) health_.memory_is_locked = lock_memory() == 0;
+  if (config_.realtime.lock_memory && !health_.memory_is_locked) touch_memory();
+  spdlog::info("map loaded: {}", name);
+  server_.publish(message::MessageClass::kEvent, line_.event(now_ns(), "map loaded", name));
+  notifier_.ready();
 }
 
 void Daemon::on_tick() {
-  tick_.acknowledge();
+  health_.server.add(tick_.acknowledge().count());
   if (is_live_) {
     if (const auto step_ns = clock_.step_ns(unix_ns(), monotonic_ns())) {
       const std::string text = fmt::format("{:+.3f} s", core::to_seconds(*step_ns));
@@ -119,7 +158,7 @@ void Daemon::on_tick() {
   publish_changes();
   const bool sensors_changed = odometry_ && odometry_->notice_changes(server_, now_ns());
   if (ticks_++ % kTicksPerStatus == 0 || sensors_changed) {
-    status_.publish(lidar_->status(), turns_, localization_, now_ns());
+    status_.publish(lidar_->status(), turns_, localization_, health_, now_ns());
   }
 }
 
@@ -132,7 +171,7 @@ void Daemon::publish_changes() {
     then.state = change.state;
     then.fault = change.fault;
     then.detail = change.detail;
-    status_.publish(then, turns_, localization_, now_ns());
+    status_.publish(then, turns_, localization_, health_, now_ns());
   }
 }
 

@@ -13,8 +13,9 @@
 #include "daemon/notifier.hpp"
 #include "daemon/odometry_source.hpp"
 #include "daemon/periodic_timer.hpp"
+#include "daemon/reloader.hpp"
+#include "daemon/signals.hpp"
 #include "daemon/status_publisher.hpp"
-#include "daemon/termination_signals.hpp"
 #include "daemon/turn_publisher.hpp"
 #include "drivers/lidar_driver.hpp"
 #include "settings/config.hpp"
@@ -25,10 +26,10 @@ namespace cornerd::daemon {
 class Daemon {
  public:
   /// Opens the sockets and starts the threads. Throws std::runtime_error, one line.
-  /// `pipeline`: for the same map; it is made before, while a signal still ends the program at
-  /// once, as a large building's catalogue takes its time.
-  Daemon(const settings::Config& config, std::shared_ptr<const core::WallMap> map,
-         core::Pipeline pipeline, std::unique_ptr<drivers::LidarDriver> lidar, std::string version);
+  /// `load`: what `loaded` came from; SIGHUP calls it again. The first call is the caller's, while
+  /// a signal still ends the program at once, as a large building's catalogue takes its time.
+  Daemon(Loaded loaded, Reloader::Load load, std::unique_ptr<drivers::LidarDriver> lidar,
+         std::string version);
 
   /// Serves until a signal asks for the end.
   void run();
@@ -39,11 +40,14 @@ class Daemon {
   void publish_changes();
   void on_watchdog();
   void on_signal();
+  void on_loaded();
+  void ask_for_realtime();
   /// On the clock of the samples: UNIX time live, the recording's own in a replay.
   core::TimeNs now_ns() const;
 
+  settings::Config config_;
   const bool is_live_;
-  TerminationSignals signals_;  ///< before the threads
+  Signals signals_;  ///< before the threads
   EventLoop loop_;
   Notifier notifier_;
   MessageServer server_;
@@ -54,6 +58,8 @@ class Daemon {
   std::optional<PeriodicTimer> watchdog_;
   message::LineWriter line_;
   int ticks_ = 0;
+  DaemonHealth health_;
+  Reloader reloader_;
   std::unique_ptr<drivers::LidarDriver> lidar_;
   Localization localization_;               ///< before what is below: its threads end first
   std::optional<OdometrySource> odometry_;  ///< feeds it

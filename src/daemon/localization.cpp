@@ -5,9 +5,11 @@
 #include <sys/eventfd.h>
 #include <unistd.h>
 
+#include <memory>
 #include <utility>
 
 #include "daemon/clock.hpp"
+#include "daemon/realtime.hpp"
 
 namespace cornerd::daemon {
 namespace {
@@ -20,10 +22,11 @@ constexpr std::size_t kGivenPoseSlots = 4;
 
 }  // namespace
 
-Localization::Localization(drivers::LidarDriver& driver, core::Pipeline pipeline, SourceKind source)
+Localization::Localization(drivers::LidarDriver& driver, std::unique_ptr<core::Pipeline> pipeline,
+                           SourceKind source)
     : driver_(driver),
       source_(source),
-      pipeline_(std::move(pipeline)),
+      current_(std::make_unique<Generation>(std::move(pipeline), 0u)),
       channel_(source == SourceKind::kDevice ? SampleChannel::WhenFull::kLose
                                              : SampleChannel::WhenFull::kWait),
       readings_(kReadingSlots),
@@ -35,6 +38,10 @@ Localization::~Localization() {
   localizer_.request_stop();
   reader_.request_stop();
   channel_.close();
+  localizer_ = {};
+  reader_ = {};
+  delete next_.load();
+  delete retired_.load();
 }
 
 void Localization::start() {
@@ -67,29 +74,63 @@ void Localization::localize(const std::stop_token& stop) {
   }
 }
 
+std::uint32_t Localization::replace(std::unique_ptr<core::Pipeline> pipeline) {
+  delete next_.exchange(nullptr);
+  delete retired_.exchange(nullptr);
+  next_.store(new Generation{std::move(pipeline), ++newest_});
+  return newest_;
+}
+
 void Localization::process(const SampleChannel::Item& item) {
-  if (relocalize_.exchange(false, std::memory_order_relaxed)) pipeline_.localizer().relocalize();
+  if (item.arrival_ns != 0) own_health_.lateness.add(monotonic_ns() - item.arrival_ns);
+  process(*current_->pipeline, item);
+  if (item.arrival_ns != 0) succeed(item);
+}
+
+void Localization::succeed(const SampleChannel::Item& item) {
+  // The one before has yet to be fetched by whoever frees it.
+  if (next_.load() == nullptr || retired_.load() != nullptr) return;
+  Generation* const next = next_.exchange(nullptr);
+  if (next == nullptr) return;
+  retired_.store(current_.release());
+  current_.reset(next);
+  // The sample that ended the last turn is the next one's first.
+  const bool begins = item.kind == SampleChannel::Kind::kSample && item.sample.starts_turn;
+  if (begins) next->pipeline->add(item.sample);
+}
+
+void Localization::process(core::Pipeline& pipeline, const SampleChannel::Item& item) {
+  if (relocalize_.exchange(false, std::memory_order_relaxed)) pipeline.localizer().relocalize();
   core::Pose2 T_map_base;
-  while (given_poses_.pop(T_map_base)) pipeline_.localizer().set_pose(T_map_base);
+  while (given_poses_.pop(T_map_base)) pipeline.localizer().set_pose(T_map_base);
   core::OdometryReading reading;
-  while (readings_.pop(reading)) pipeline_.add(reading);
-  if (item.kind == SampleChannel::Kind::kReading) return pipeline_.add(item.reading);
+  while (readings_.pop(reading)) pipeline.add(reading);
+  if (item.kind == SampleChannel::Kind::kReading) return pipeline.add(item.reading);
   const core::TurnResult* result =
-      item.kind == SampleChannel::Kind::kGap ? pipeline_.finish() : pipeline_.add(item.sample);
-  if (result == nullptr) return;
+      item.kind == SampleChannel::Kind::kGap ? pipeline.finish() : pipeline.add(item.sample);
+  if (result != nullptr) report(pipeline, *result, item.arrival_ns);
+}
+
+void Localization::report(const core::Pipeline& pipeline, const core::TurnResult& result,
+                          std::int64_t arrival_ns) {
   rounds_.fetch_add(1, std::memory_order_relaxed);
+  ++turns_;
   const bool handed_over = reports_.put([&](TurnReport& report) {
-    report.result = *result;
-    report.turn = pipeline_.turn();
+    report.result = result;
+    report.turn = pipeline.turn();
+    report.result.pose.seq = turns_;  // goes on from pipeline to pipeline
     if (source_ == SourceKind::kDevice) {
       const core::TimeNs to_unix_ns = unix_ns() - monotonic_ns();
       report.result.pose.t_ns += to_unix_ns;
       report.turn.shift(to_unix_ns);
     }
-    report.latency_ns = monotonic_ns() - item.arrival_ns;
+    report.latency_ns = monotonic_ns() - arrival_ns;
+    report.generation = current_->number;
   });
   if (!handed_over) lost_reports_.fetch_add(1, std::memory_order_relaxed);
   ::eventfd_write(reported_.get(), 1);
+  own_health_.page_faults = page_faults_of_thread();
+  health_.publish(own_health_);
 }
 
 void Localization::clear_event() const {

@@ -6,6 +6,8 @@
 #include <memory>
 #include <thread>
 
+#include "core/lateness.hpp"
+#include "core/latest.hpp"
 #include "core/pipeline.hpp"
 #include "core/ring_buffer.hpp"
 #include "daemon/file_descriptor.hpp"
@@ -25,6 +27,14 @@ struct TurnReport {
   core::Scan turn;
   /// From when the turn's end was handed over by the driver to when the pose was there.
   std::int64_t latency_ns = 0;
+  /// Of the pipeline that made it: grows with each that is put in another's place.
+  std::uint32_t generation = 0;
+};
+
+/// How a thread keeps its time.
+struct LoopHealth {
+  core::Lateness lateness;
+  std::uint64_t page_faults = 0;
 };
 
 /// The two threads that must not be late: one runs the driver, one the pipeline. Once they run,
@@ -32,7 +42,8 @@ struct TurnReport {
 class Localization {
  public:
   /// `driver` must outlive this.
-  Localization(drivers::LidarDriver& driver, core::Pipeline pipeline, SourceKind source);
+  Localization(drivers::LidarDriver& driver, std::unique_ptr<core::Pipeline> pipeline,
+               SourceKind source);
   /// Stops both: the driver ends its device's work in its own thread.
   ~Localization();
   Localization(const Localization&) = delete;
@@ -50,6 +61,7 @@ class Localization {
   /// Calls `use` with every TurnReport there is, oldest first.
   void take(const auto& use) {
     clear_event();
+    delete retired_.exchange(nullptr);
     while (reports_.take(use)) {
     }
   }
@@ -58,6 +70,8 @@ class Localization {
   void add(const core::OdometryReading& reading) { readings_.push(reading); }
   /// The robot is about there.
   void set_pose(const core::Pose2& T_map_base) { given_poses_.push(T_map_base); }
+  /// From the next turn on this one localizes; it knows nothing yet. Returns its generation.
+  std::uint32_t replace(std::unique_ptr<core::Pipeline> pipeline);
   /// The next turn is recognised without a prior.
   void relocalize() { relocalize_.store(true, std::memory_order_relaxed); }
 
@@ -65,23 +79,44 @@ class Localization {
   /// localizer to.
   bool has_progressed();
 
+  /// Lateness: from when a turn's last sample was handed over to when the localizer looks at it.
+  LoopHealth localizer_health() { return health_.read(); }
+  std::uint64_t reader_page_faults() const { return channel_.producer_page_faults(); }
+
   std::uint64_t lost_samples() const { return channel_.lost(); }
   std::uint64_t lost_reports() const { return lost_reports_.load(std::memory_order_relaxed); }
 
  private:
+  struct Generation {
+    std::unique_ptr<core::Pipeline> pipeline;
+    std::uint32_t number = 0;
+  };
+
   void read(const std::stop_token& stop);
   void localize(const std::stop_token& stop);
   void process(const SampleChannel::Item& item);
+  void process(core::Pipeline& pipeline, const SampleChannel::Item& item);
+  void report(const core::Pipeline& pipeline, const core::TurnResult& result,
+              std::int64_t arrival_ns);
+  /// Puts the next pipeline, where there is one, in the place of this, between two turns.
+  void succeed(const SampleChannel::Item& item);
   void clear_event() const;
 
   drivers::LidarDriver& driver_;
   const SourceKind source_;
-  core::Pipeline pipeline_;
+  std::unique_ptr<Generation> current_;  ///< the localizer's thread's, as is the next
+  std::uint64_t turns_ = 0;
+  /// To that thread and back: it takes no memory and gives none away.
+  std::atomic<Generation*> next_{nullptr};
+  std::atomic<Generation*> retired_{nullptr};
+  std::uint32_t newest_ = 0;  ///< number of the last one that was handed over
   SampleChannel channel_;
   core::RingBuffer<core::OdometryReading> readings_;
   core::RingBuffer<core::Pose2> given_poses_;
   SlotExchange<TurnReport> reports_;
   FileDescriptor reported_;
+  LoopHealth own_health_;  ///< the localizer's thread's
+  core::Latest<LoopHealth> health_;
   std::atomic<bool> relocalize_{false};
   std::atomic<std::uint32_t> lost_reports_{0};
   std::atomic<std::uint32_t> rounds_{0};

@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: MIT
 #include <cstdio>
 #include <exception>
+#include <memory>
 #include <span>
+#include <utility>
 
 #include "daemon/daemon.hpp"
 #include "daemon/lidar_factory.hpp"
 #include "daemon/log.hpp"
 #include "daemon/options.hpp"
+#include "daemon/realtime.hpp"
+#include "daemon/reloader.hpp"
 #include "settings/config.hpp"
 #include "settings/map_file.hpp"
 
@@ -28,17 +32,23 @@ int run(const daemon::Options& options) {
     std::puts("cornerd " CORNERD_VERSION);
     return 0;
   }
-  const settings::Config config = settings::load_config(options.config, options.overrides);
-  auto map = settings::load_map(config.map);
   if (options.check) {
+    settings::load_map(settings::load_config(options.config, options.overrides).map);
     std::puts("ok");
     return 0;
   }
   daemon::set_up_log();
-  core::Pipeline pipeline(map, config.localizer());
-  daemon::Daemon(config, std::move(map), std::move(pipeline), daemon::make_lidar(config.lidar),
-                 CORNERD_VERSION)
-      .run();
+  daemon::use_small_stacks();
+  const auto load = [&options] {
+    daemon::Loaded loaded;
+    loaded.config = settings::load_config(options.config, options.overrides);
+    loaded.map = settings::load_map(loaded.config.map);
+    loaded.pipeline = std::make_unique<core::Pipeline>(loaded.map, loaded.config.localizer());
+    return loaded;
+  };
+  daemon::Loaded loaded = load();
+  auto lidar = daemon::make_lidar(loaded.config.lidar);
+  daemon::Daemon(std::move(loaded), load, std::move(lidar), CORNERD_VERSION).run();
   return 0;
 }
 

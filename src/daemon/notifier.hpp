@@ -18,6 +18,8 @@ class Notifier {
   Notifier();
 
   void ready() { send("READY=1"); }
+  /// Settings are being read again; ready() says that this is over.
+  void reloading() { send("RELOADING=1"); }
   void stopping() { send("STOPPING=1"); }
   void alive() { send("WATCHDOG=1"); }
   /// A line for a person, sent where it differs from the last.

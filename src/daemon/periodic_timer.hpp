@@ -14,11 +14,13 @@ class PeriodicTimer {
   explicit PeriodicTimer(std::chrono::nanoseconds period);
 
   int fd() const { return fd_.get(); }
-  /// No longer readable until the next period.
-  void acknowledge() const;
+  /// No longer readable until the next period. Returns by how much this one is late.
+  std::chrono::nanoseconds acknowledge();
 
  private:
+  std::chrono::nanoseconds period_;
   FileDescriptor fd_;
+  std::chrono::nanoseconds due_;  ///< on the monotonic clock
 };
 
 }  // namespace cornerd::daemon

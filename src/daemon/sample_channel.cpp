@@ -5,6 +5,7 @@
 #include <thread>
 
 #include "daemon/clock.hpp"
+#include "daemon/realtime.hpp"
 
 namespace cornerd::daemon {
 namespace {
@@ -40,6 +41,8 @@ void SampleChannel::on_sample(const core::Sample& sample) {
   }
   if (may_complete_turn || ++since_wake_ >= kWakeInterval) {
     since_wake_ = 0;
+    page_faults_.store(static_cast<std::uint32_t>(page_faults_of_thread()),
+                       std::memory_order_relaxed);
     wake();
   }
 }

@@ -46,6 +46,10 @@ class SampleChannel final : public drivers::SampleSink {
   /// Ends all waiting of the producer; what it still brings is lost.
   void close();
   std::uint64_t lost() const { return lost_.load(std::memory_order_relaxed); }
+  /// Of the producer's thread, as of the last turn's beginning.
+  std::uint64_t producer_page_faults() const {
+    return page_faults_.load(std::memory_order_relaxed);
+  }
 
  private:
   bool push(const Item& item);
@@ -56,6 +60,7 @@ class SampleChannel final : public drivers::SampleSink {
   bool owes_gap_ = false;  ///< samples were lost, and the consumer does not know yet
   std::atomic<std::uint32_t> wakes_{0};
   std::atomic<std::uint32_t> lost_{0};
+  std::atomic<std::uint32_t> page_faults_{0};
   std::atomic<bool> closed_{false};
 };
 

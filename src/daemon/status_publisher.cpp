@@ -73,7 +73,8 @@ void StatusPublisher::log_once(const drivers::LidarChange& change, const std::st
 }
 
 void StatusPublisher::publish(const drivers::LidarStatus& lidar, const TurnPublisher& turns,
-                              const Localization& localization, core::TimeNs t_ns) {
+                              Localization& localization, const DaemonHealth& health,
+                              core::TimeNs t_ns) {
   std::array<Counter, drivers::kCounterNames.size() + kPoseCounterNames.size() + 4> counters;
   auto next = counters.begin();
   for (const auto& [name, member] : drivers::kCounterNames) {
@@ -104,6 +105,15 @@ void StatusPublisher::publish(const drivers::LidarStatus& lidar, const TurnPubli
   const LatencyWindow& latencies = turns.latencies();
   status.latency = {latencies.percentile(0.5), latencies.percentile(0.95),
                     latencies.percentile(0.99), !latencies.empty()};
+  const LoopHealth localizer = localization.localizer_health();
+  const std::array<message::StatusFields::Loop, 3> loops = {{
+      {"reader", &lidar.lateness, localization.reader_page_faults()},
+      {"localizer", &localizer.lateness, localizer.page_faults},
+      {"server", &health.server, std::nullopt},
+  }};
+  status.realtime_priority = health.priority;
+  status.memory_is_locked = health.memory_is_locked;
+  status.loops = loops;
   server_.publish(MessageClass::kStatus, line_.status(status));
 
   std::string summary = "lidar " + describe(lidar.state, lidar.fault, lidar.detail.view());

@@ -15,6 +15,13 @@
 
 namespace cornerd::daemon {
 
+/// How the daemon itself keeps its time, beside what Localization knows.
+struct DaemonHealth {
+  int priority = 0;  ///< of the thread that reads the port; 0: an ordinary one
+  bool memory_is_locked = false;
+  core::Lateness server;  ///< of its ticks
+};
+
 /// Says how lidar and daemon are: as STATUS, as EVENT where the lidar's state or fault changes, to
 /// the service manager and to the log.
 class StatusPublisher {
@@ -24,7 +31,7 @@ class StatusPublisher {
   /// For each state that the lidar came to. True where it is a change: time for a STATUS.
   bool notice(const drivers::LidarChange& change, core::TimeNs t_ns);
   void publish(const drivers::LidarStatus& lidar, const TurnPublisher& turns,
-               const Localization& localization, core::TimeNs t_ns);
+               Localization& localization, const DaemonHealth& health, core::TimeNs t_ns);
   /// Whose sensors to tell of; null: none of this program's.
   void set_odometry(OdometrySource* odometry) { odometry_ = odometry; }
 

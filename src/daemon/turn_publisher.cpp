@@ -3,20 +3,43 @@
 
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
+#include <cmath>
 #include <string>
 #include <utility>
 
+#include "core/geometry/angle.hpp"
 #include "message/state_names.hpp"
 
 namespace cornerd::daemon {
 
 using message::MessageClass;
 
+namespace {
+
+/// More than a robot moves between two turns: it was carried, or one of the two places was wrong.
+constexpr double kJump_m = 0.5;
+constexpr double kJump_rad = core::radians(60);
+/// No robot is told that it turned round because turns were missing.
+constexpr double kJumpAtAll_rad = core::radians(179);
+
+}  // namespace
+
 TurnPublisher::TurnPublisher(MessageServer& server, std::shared_ptr<const core::WallMap> map)
     : server_(server), map_(std::move(map)) {}
 
+void TurnPublisher::expect_map(std::uint32_t generation, std::shared_ptr<const core::WallMap> map) {
+  next_generation_ = generation;
+  next_map_ = std::move(map);
+}
+
 void TurnPublisher::publish(const TurnReport& report) {
   const core::PoseEstimate& pose = report.result.pose;
+  if (next_map_ && report.generation == next_generation_) {
+    map_ = std::move(next_map_);
+    next_map_.reset();
+    last_fix_.reset();  // places of one map say nothing about another's
+  }
   latencies_.add(core::to_seconds(report.latency_ns));
   ++poses_[static_cast<std::size_t>(pose.state)];
   odometry_ = report.result.odometry;
@@ -31,6 +54,25 @@ void TurnPublisher::publish(const TurnReport& report) {
                     line_.breakpoints(report.turn.start_ns(), report.result.detection));
   }
   if (pose.state != state_) publish_change(pose.state, pose.t_ns);
+  publish_jump(pose);
+}
+
+void TurnPublisher::publish_jump(const core::PoseEstimate& pose) {
+  if (pose.state != core::PoseState::kFix && pose.state != core::PoseState::kTracking) return;
+  if (last_fix_) {
+    const auto turns = static_cast<double>(pose.seq - last_fix_->seq);
+    const double way_m =
+        (pose.T_map_base.translation() - last_fix_->T_map_base.translation()).norm();
+    const double turned_rad =
+        std::abs(core::angle_between(last_fix_->T_map_base.theta_rad, pose.T_map_base.theta_rad));
+    if (way_m > kJump_m * turns || turned_rad > std::min(kJump_rad * turns, kJumpAtAll_rad)) {
+      const std::string text =
+          fmt::format("{:.3f} m, {:.1f} degrees", way_m, core::degrees(turned_rad));
+      spdlog::info("jump: {}", text);
+      server_.publish(MessageClass::kEvent, line_.event(pose.t_ns, "jump", text));
+    }
+  }
+  last_fix_ = {pose.seq, pose.T_map_base};
 }
 
 void TurnPublisher::publish_change(core::PoseState to, core::TimeNs t_ns) {

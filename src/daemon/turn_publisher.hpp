@@ -22,6 +22,8 @@ class TurnPublisher {
   TurnPublisher(MessageServer& server, std::shared_ptr<const core::WallMap> map);
 
   void publish(const TurnReport& report);
+  /// The map of the turns from that generation on.
+  void expect_map(std::uint32_t generation, std::shared_ptr<const core::WallMap> map);
 
   const LatencyWindow& latencies() const { return latencies_; }
   /// Of the newest turn; nullopt before the first.
@@ -34,9 +36,17 @@ class TurnPublisher {
 
  private:
   void publish_change(core::PoseState to, core::TimeNs t_ns);
+  void publish_jump(const core::PoseEstimate& pose);
 
   MessageServer& server_;
   std::shared_ptr<const core::WallMap> map_;
+  std::shared_ptr<const core::WallMap> next_map_;
+  std::uint32_t next_generation_ = 0;
+  struct Fix {
+    std::uint64_t seq = 0;
+    core::Pose2 T_map_base;
+  };
+  std::optional<Fix> last_fix_;
   message::LineWriter line_;
   LatencyWindow latencies_;
   std::optional<core::PoseState> state_;

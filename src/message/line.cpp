@@ -336,7 +336,39 @@ std::string_view LineWriter::status(const StatusFields& status) {
     number("p99", status.latency.p99_s, kTimeDecimals);
     json_.close_object();
   }
+  if (!status.loops.empty()) loops(status);
   return finish();
+}
+
+void LineWriter::loops(const StatusFields& status) {
+  json_.key("realtime");
+  json_.open_object();
+  json_.key("priority");
+  json_.integer(status.realtime_priority);
+  json_.key("memory_locked");
+  json_.boolean(status.memory_is_locked);
+  json_.key("edges");
+  json_.open_array();
+  for (const core::TimeNs edge_ns : core::Lateness::kEdgesNs) {
+    json_.fixed(core::to_seconds(edge_ns), kTimeDecimals);
+  }
+  json_.close_array();
+  for (const StatusFields::Loop& loop : status.loops) {
+    json_.key(loop.name);
+    json_.open_object();
+    json_.key("late");
+    json_.open_array();
+    for (const std::uint32_t count : loop.lateness->counts) json_.integer(count);
+    json_.close_array();
+    json_.key("max");
+    json_.fixed(core::to_seconds(loop.lateness->max_ns), kTimeDecimals);
+    if (loop.page_faults) {
+      json_.key("page_faults");
+      json_.integer(*loop.page_faults);
+    }
+    json_.close_object();
+  }
+  json_.close_object();
 }
 
 std::string_view LineWriter::event(core::TimeNs t_ns, std::string_view what,

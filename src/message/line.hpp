@@ -4,9 +4,11 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string_view>
 
+#include "core/lateness.hpp"
 #include "core/localizer.hpp"
 #include "message/json_text.hpp"
 
@@ -49,6 +51,15 @@ struct StatusFields {
     double p99_s = 0;
     bool valid = false;
   } latency;
+  /// A loop of the program, and how late it came to its work.
+  struct Loop {
+    std::string_view name;
+    const core::Lateness* lateness = nullptr;
+    std::optional<std::uint64_t> page_faults;
+  };
+  std::span<const Loop> loops;  ///< with the two below left out where empty
+  int realtime_priority = 0;
+  bool memory_is_locked = false;
 };
 
 /// One line under construction. Memory for the longest SCAN is taken at construction; writing
@@ -88,6 +99,7 @@ class LineWriter {
  private:
   void begin(std::string_view message_class);
   std::string_view finish();
+  void loops(const StatusFields& status);
   void odometry_summary(const core::OdometrySummary& odometry);
   void odometry_sensors(const StatusFields& status);
   void metres(std::string_view key, double value_m);

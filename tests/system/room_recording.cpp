@@ -2,6 +2,7 @@
 #include "room_recording.hpp"
 
 #include <fstream>
+#include <string>
 
 #include "core/geometry/angle.hpp"
 #include "core/scan.hpp"
@@ -24,7 +25,12 @@ constexpr core::TimeNs kTurnNs = core::kNsPerSecond / 10;
 
 }  // namespace
 
-void write_map(const std::filesystem::path& file) { std::ofstream(file) << kMap; }
+void write_map(const std::filesystem::path& file, const std::string& room) {
+  std::string text = kMap;
+  const std::string name = "only";
+  text.replace(text.find(name), name.size(), room);
+  std::ofstream(file) << text;
+}
 
 void write_recording(const std::filesystem::path& file, int turns) {
   const core::WallMap map(settings::parse_floor_plan(kMap, file));

@@ -7,10 +7,12 @@
 #include <sys/un.h>
 
 #include <cstring>
+#include <fstream>
 #include <string>
 
 #include "daemon/file_descriptor.hpp"
 #include "daemon_process.hpp"
+#include "room_recording.hpp"
 
 namespace cornerd::system_test {
 namespace {
@@ -40,7 +42,15 @@ class Manager {
   daemon::FileDescriptor fd_;
 };
 
-class Service : public DaemonTest {};
+class Service : public DaemonTest {
+ protected:
+  static json next_event(TestClient& client, const std::string& what) {
+    while (true) {
+      json event = next_of(client, "EVENT");
+      if (!event.is_object() || event["what"] == what) return event;
+    }
+  }
+};
 
 TEST_F(Service, Ready_IsSaidWhenTheSocketsAccept) {
   const std::string path = (folder_ / "notify").string();
@@ -73,7 +83,53 @@ TEST_P(ServiceEnd, TerminationSignal_EndsCleanlyAndRemovesTheSockets) {
   EXPECT_FALSE(std::filesystem::exists(folder_ / "control.sock"));
 }
 
-INSTANTIATE_TEST_SUITE_P(EachSignal, ServiceEnd, ::testing::Values(SIGTERM, SIGINT, SIGHUP));
+INSTANTIATE_TEST_SUITE_P(EachSignal, ServiceEnd, ::testing::Values(SIGTERM, SIGINT));
+
+TEST_F(Service, Hangup_LoadsTheMapAgainAndMissesNoTurn) {
+  const std::string path = (folder_ / "notify").string();
+  const Manager manager(path);
+  const DaemonProcess daemon = start({}, {{"NOTIFY_SOCKET", path}});
+  ASSERT_TRUE(manager.hears("READY=1"));
+  TestClient client = connect();
+  client.send(R"({"class":"WATCH","classes":["POSE","EVENT"]})"
+              "\n");
+  EXPECT_EQ(next_of(client, "POSE")["room"], "only");
+  write_map(folder_ / "map.json", "after");
+  std::uint64_t last = next_of(client, "POSE")["seq"];
+  daemon.send_signal(SIGHUP);
+  bool said = false;
+  for (json message = next(client); message.is_object(); message = next(client)) {
+    said = said || (message["class"] == "EVENT" && message["what"] == "map loaded");
+    if (message["class"] != "POSE") continue;
+    if (message["room"] == "after") break;
+    EXPECT_EQ(message["room"], "only");
+    EXPECT_EQ(message["seq"].get<std::uint64_t>(), last + 1 + message.value("dropped", 0u));
+    last = message["seq"];
+  }
+  EXPECT_TRUE(said);
+  EXPECT_TRUE(manager.hears("RELOADING=1"));
+  EXPECT_TRUE(manager.hears("READY=1"));
+}
+
+TEST_F(Service, HangupWithABadFile_ChangesNothingAndSaysWhy) {
+  const DaemonProcess daemon = start();
+  TestClient client = connect();
+  next_of(client, "POSE");
+  client.send(R"({"class":"WATCH","classes":["POSE","EVENT"]})"
+              "\n");
+  std::ofstream(folder_ / "map.json") << R"({ "format": "cornerd-map", "version": 1 })";
+  daemon.send_signal(SIGHUP);
+  const json event = next_event(client, "reload refused");
+  EXPECT_NE(event["detail"].get<std::string>().find("map.json: /walls"), std::string::npos)
+      << event;
+  EXPECT_EQ(next_of(client, "POSE")["room"], "only");
+  std::ofstream(folder_ / "cornerd.json") << "{ no JSON";
+  daemon.send_signal(SIGHUP);
+  EXPECT_NE(next_event(client, "reload refused")["detail"].get<std::string>().find("cornerd.json"),
+            std::string::npos);
+  EXPECT_EQ(next_of(client, "POSE")["room"], "only");
+  EXPECT_TRUE(daemon.is_running());
+}
 
 TEST_F(Service, KilledInstance_LeavesNothingThatHindersTheNext) {
   {

@@ -51,7 +51,9 @@ class FakeLidar final : public drivers::LidarDriver {
   std::atomic<bool> is_stuck_{false};
 };
 
-core::Pipeline pipeline_without_map() { return {nullptr, core::LocalizerConfig{}}; }
+std::unique_ptr<core::Pipeline> pipeline_without_map() {
+  return std::make_unique<core::Pipeline>(nullptr, core::LocalizerConfig{});
+}
 
 /// The starts of the turns that are reported until `count` are there or nothing comes any more.
 std::vector<core::TimeNs> collect(Localization& localization, std::size_t count) {
@@ -106,6 +108,29 @@ TEST(Localization, EndBeforeTheStart_IsQuiet) {
   FakeLidar lidar(1, /*ends=*/true);
   const Localization localization(lidar, pipeline_without_map(), SourceKind::kDevice);
   EXPECT_FALSE(lidar.has_stopped());
+}
+
+TEST(Localization, ReplacedPipeline_TakesOverBetweenTwoTurnsAndMissesNone) {
+  FakeLidar lidar(16, /*ends=*/true);
+  Localization localization(lidar, pipeline_without_map(), SourceKind::kRecording);
+  EXPECT_EQ(localization.replace(pipeline_without_map()), 1u);
+  EXPECT_EQ(localization.replace(pipeline_without_map()), 2u) << "one that was never used";
+  localization.start();
+  std::vector<std::uint32_t> generations;
+  std::vector<core::TimeNs> starts;
+  pollfd readable{localization.event_fd(), POLLIN, 0};
+  while (starts.size() < 16 && ::poll(&readable, 1, 30'000) == 1) {
+    localization.take([&](const TurnReport& report) {
+      generations.push_back(report.generation);
+      starts.push_back(report.turn.start_ns());
+    });
+  }
+  for (std::size_t i = 0; i < starts.size(); ++i) {
+    EXPECT_EQ(starts[i], static_cast<core::TimeNs>(i) * 1000);
+    EXPECT_EQ(generations[i], 2u);
+  }
+  EXPECT_EQ(starts.size(), 16u);
+  localization.replace(pipeline_without_map());
 }
 
 TEST(Localization, IdleLocalizer_StillProvesThatItLives) {

@@ -83,7 +83,9 @@ TEST_F(StatusPublisherTest, EachStateAndFault_IsAnEvent) {
 
 TEST_F(StatusPublisherTest, Status_HasTheDriversCountersAndTheDaemonsOwn) {
   IdleLidar idle;
-  const Localization localization(idle, {nullptr, core::LocalizerConfig{}}, SourceKind::kDevice);
+  Localization localization(idle,
+                            std::make_unique<core::Pipeline>(nullptr, core::LocalizerConfig{}),
+                            SourceKind::kDevice);
   TurnPublisher turns(server_, nullptr);
   TurnReport report;
   report.latency_ns = 2'000'000;
@@ -95,7 +97,10 @@ TEST_F(StatusPublisherTest, Status_HasTheDriversCountersAndTheDaemonsOwn) {
   status.fault = LidarFault::kMotorStalled;
   status.detail.set("fine");
   status.counters.bad_checksums = 7;
-  publisher_.publish(status, turns, localization, 5'000'000'000);
+  status.lateness.add(300'000);
+  DaemonHealth health{.priority = 20, .memory_is_locked = true, .server = {}};
+  health.server.add(2'000'000'000);
+  publisher_.publish(status, turns, localization, health, 5'000'000'000);
   const json line = next();
   EXPECT_EQ(line["t"], 5);
   EXPECT_EQ(line["lidar"]["state"], "faulty");
@@ -106,6 +111,15 @@ TEST_F(StatusPublisherTest, Status_HasTheDriversCountersAndTheDaemonsOwn) {
   EXPECT_EQ(line["counters"]["poses_fix"], 0);
   EXPECT_EQ(line["counters"]["clients"], 1);
   EXPECT_EQ(line["latency"]["p99"], 0.002);
+  const json& realtime = line["realtime"];
+  EXPECT_EQ(realtime["priority"], 20);
+  EXPECT_EQ(realtime["memory_locked"], true);
+  EXPECT_EQ(realtime["edges"][2], 0.0005);
+  EXPECT_EQ(realtime["reader"]["late"][2], 1);
+  EXPECT_EQ(realtime["reader"]["max"], 0.0003);
+  EXPECT_EQ(realtime["server"]["late"].back(), 1) << "beyond the last edge";
+  EXPECT_EQ(realtime["server"]["late"].size(), realtime["edges"].size() + 1);
+  EXPECT_TRUE(realtime["localizer"].contains("page_faults"));
 }
 
 }  // namespace

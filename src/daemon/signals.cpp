@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "daemon/termination_signals.hpp"
+#include "daemon/signals.hpp"
 
 #include <pthread.h>
 #include <signal.h>
@@ -19,22 +19,15 @@ sigset_t block_signals() {
 
 }  // namespace
 
-TerminationSignals::TerminationSignals() {
+Signals::Signals() {
   const sigset_t signals = block_signals();
   fd_ = require_fd(::signalfd(-1, &signals, SFD_NONBLOCK | SFD_CLOEXEC), "signalfd");
 }
 
-const char* TerminationSignals::take() const {
+int Signals::take() const {
   signalfd_siginfo info{};
-  if (::read(fd_.get(), &info, sizeof(info)) != sizeof(info)) return "no signal";
-  switch (info.ssi_signo) {
-    case SIGTERM:
-      return "SIGTERM";
-    case SIGINT:
-      return "SIGINT";
-    default:
-      return "SIGHUP";
-  }
+  if (::read(fd_.get(), &info, sizeof(info)) != sizeof(info)) return 0;
+  return static_cast<int>(info.ssi_signo);
 }
 
 }  // namespace cornerd::daemon

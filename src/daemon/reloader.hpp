@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <thread>
+
+#include "core/map/wall_map.hpp"
+#include "core/pipeline.hpp"
+#include "daemon/file_descriptor.hpp"
+#include "settings/config.hpp"
+
+namespace cornerd::daemon {
+
+/// Settings, their map, and what localizes in it.
+struct Loaded {
+  settings::Config config;
+  std::shared_ptr<const core::WallMap> map;
+  std::unique_ptr<core::Pipeline> pipeline;
+};
+
+/// Reads settings and map again in a thread of its own: a large building's catalogue takes its
+/// time, and nobody waits for it.
+class Reloader {
+ public:
+  /// Throws where the settings or the map are wrong.
+  using Load = std::function<Loaded()>;
+
+  struct Outcome {
+    Loaded loaded;
+    std::string error;  ///< one line; empty: all is well
+  };
+
+  /// Throws std::system_error.
+  explicit Reloader(Load load);
+
+  /// Begins to load. Asked for while it loads, it loads once more when that is done.
+  void start();
+
+  /// Readable when there is an outcome.
+  int event_fd() const { return done_.get(); }
+  /// Of the load that has ended.
+  Outcome take();
+
+ private:
+  void run();
+
+  Load load_;
+  FileDescriptor done_;
+  bool loads_ = false;
+  bool once_more_ = false;
+  Outcome outcome_;  ///< the thread's, until done_ says otherwise
+  std::jthread thread_;
+};
+
+/// What differs between two settings and takes effect at the next start alone, as the pointers of
+/// the settings, separated by ", "; empty: nothing does.
+std::string needs_restart(const settings::Config& before, const settings::Config& now);
+
+}  // namespace cornerd::daemon

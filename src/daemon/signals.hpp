@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "daemon/file_descriptor.hpp"
+
+namespace cornerd::daemon {
+
+/// SIGTERM, SIGINT and SIGHUP as something to wait for. From its construction on none of them ends
+/// the program. Make it before any thread, since threads inherit that the signals are blocked.
+class Signals {
+ public:
+  /// Throws std::system_error.
+  Signals();
+
+  int fd() const { return fd_.get(); }
+  /// The number of the signal that came; 0 where none did.
+  int take() const;
+
+ private:
+  FileDescriptor fd_;
+};
+
+}  // namespace cornerd::daemon
