@@ -39,5 +39,6 @@ install(CODE "
 
 cornerd_follow_prefix(systemd/cornerd.service)
 install(FILES ${PROJECT_BINARY_DIR}/cornerd.service DESTINATION lib/systemd/system)
+install(FILES systemd/cornerd.socket systemd/cornerd-control.socket DESTINATION lib/systemd/system)
 install(FILES systemd/cornerd.sysusers DESTINATION lib/sysusers.d RENAME cornerd.conf)
-install(FILES systemd/60-cornerd.rules DESTINATION lib/udev/rules.d)
+install(FILES systemd/61-cornerd.rules DESTINATION lib/udev/rules.d)

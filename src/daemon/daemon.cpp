@@ -5,9 +5,11 @@
 #include <spdlog/spdlog.h>
 #include <sys/epoll.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstring>
 #include <utility>
+#include <vector>
 
 #include "daemon/clock.hpp"
 #include "daemon/realtime.hpp"
@@ -39,8 +41,7 @@ Daemon::Daemon(Loaded loaded, Reloader::Load load, std::unique_ptr<drivers::Lida
       reloader_(std::move(load)),
       lidar_(std::move(lidar)),
       localization_(*lidar_, std::move(loaded.pipeline), source_of(config_.lidar.driver)) {
-  server_.listen(config_.socket.pose, SocketRole::kPose);
-  server_.listen(config_.socket.control, SocketRole::kControl);
+  open_sockets();
   // Only who has the sockets is this robot's daemon, and may touch its port.
   localization_.start();
   // A recording brings its own.
@@ -60,6 +61,23 @@ Daemon::Daemon(Loaded loaded, Reloader::Load load, std::unique_ptr<drivers::Lida
   if (const auto period_us = notifier_.watchdog_period_us()) {
     watchdog_.emplace(microseconds(*period_us));
     loop_.add(watchdog_->fd(), EPOLLIN, [this](std::uint32_t) { on_watchdog(); });
+  }
+}
+
+void Daemon::open_sockets() {
+  std::vector<InheritedSocket> inherited = take_inherited_sockets();
+  const auto open = [&](const std::filesystem::path& path, SocketRole role) {
+    const auto found = std::find_if(inherited.begin(), inherited.end(),
+                                    [&](const auto& socket) { return socket.path == path; });
+    if (found == inherited.end()) return server_.listen(path, role);
+    server_.listen(std::move(*found), role);
+    inherited.erase(found);
+  };
+  open(config_.socket.pose, SocketRole::kPose);
+  open(config_.socket.control, SocketRole::kControl);
+  for (const InheritedSocket& socket : inherited) {
+    spdlog::warn("{}: the service manager listens there, and the settings name another path",
+                 socket.path.string());
   }
 }
 

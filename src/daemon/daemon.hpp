@@ -41,6 +41,7 @@ class Daemon {
   void on_watchdog();
   void on_signal();
   void on_loaded();
+  void open_sockets();
   void ask_for_realtime();
   /// On the clock of the samples: UNIX time live, the recording's own in a replay.
   core::TimeNs now_ns() const;

@@ -2,10 +2,13 @@
 #include "daemon/message_server.hpp"
 
 #include <sys/epoll.h>
+#include <unistd.h>
 
 #include <iterator>
 #include <utility>
 #include <variant>
+
+#include "daemon/peer.hpp"
 
 namespace cornerd::daemon {
 namespace {
@@ -36,9 +39,6 @@ Overloaded(Handlers...) -> Overloaded<Handlers...>;
 
 }  // namespace
 
-MessageServer::Socket::Socket(const std::filesystem::path& path, SocketRole its_role)
-    : listener(path, its_role == SocketRole::kPose ? kPoseMode : kControlMode), role(its_role) {}
-
 MessageServer::MessageServer(EventLoop& loop, std::string version, ControlActions actions)
     : loop_(loop), version_(std::move(version)), actions_(std::move(actions)) {}
 
@@ -50,25 +50,45 @@ MessageServer::~MessageServer() {
 }
 
 void MessageServer::listen(const std::filesystem::path& path, SocketRole role) {
-  Socket& socket = sockets_.emplace_back(path, role);
+  sockets_.emplace_back(path, role == SocketRole::kPose ? kPoseMode : kControlMode, role);
+  serve(sockets_.back());
+}
+
+void MessageServer::listen(InheritedSocket socket, SocketRole role) {
+  sockets_.emplace_back(socket.path, std::move(socket.fd), role);
+  serve(sockets_.back());
+}
+
+void MessageServer::serve(Socket& socket) {
   loop_.add(socket.listener.fd(), EPOLLIN,
             [this, &socket](std::uint32_t /*events*/) { accept_clients(socket); });
 }
 
 void MessageServer::accept_clients(Socket& socket) {
   FileDescriptor fd = socket.listener.accept();
-  if (fd.is_open()) welcome(socket, std::move(fd));
+  if (!fd.is_open()) return;
+  if (socket.role == SocketRole::kControl) {
+    // The file's mode says the same, unless somebody has changed it.
+    const std::optional<Peer> peer = peer_of(fd.get());
+    if (!peer || !belongs_to(*peer, socket.listener.group(), ::geteuid())) {
+      return turn_away(std::move(fd), "forbidden", "this is for members of the socket's group");
+    }
+  }
+  if (socket.clients.size() >= kMaxClientsPerSocket) {
+    return turn_away(std::move(fd), "too-many-clients", "no more clients are served");
+  }
+  welcome(socket, std::move(fd));
+}
+
+void MessageServer::turn_away(FileDescriptor fd, std::string_view code, std::string_view reason) {
+  Client client(std::move(fd), {});
+  client.outbox().answer(line_.error(code, reason, "", ""));
+  static_cast<void>(client.send());
 }
 
 void MessageServer::welcome(Socket& socket, FileDescriptor fd) {
   const ClientIterator client =
       socket.clients.emplace(socket.clients.end(), std::move(fd), default_classes(socket.role));
-  if (socket.clients.size() > kMaxClientsPerSocket) {
-    client->outbox().answer(line_.error("too-many-clients", "no more clients are served", "", ""));
-    static_cast<void>(client->send());
-    socket.clients.erase(client);
-    return;
-  }
   client->outbox().answer(line_.version("cornerd", version_));
   const std::string& status = newest_[static_cast<std::size_t>(MessageClass::kStatus)];
   if (client->watches(MessageClass::kStatus) && !status.empty()) {

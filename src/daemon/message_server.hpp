@@ -9,9 +9,11 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "daemon/client.hpp"
 #include "daemon/event_loop.hpp"
+#include "daemon/inherited_sockets.hpp"
 #include "daemon/unix_listener.hpp"
 #include "message/line.hpp"
 #include "message/request.hpp"
@@ -42,6 +44,8 @@ class MessageServer {
 
   /// Throws std::runtime_error where the socket cannot be had.
   void listen(const std::filesystem::path& path, SocketRole role);
+  /// On a socket that is there already.
+  void listen(InheritedSocket socket, SocketRole role);
 
   /// To all that watch the class. The newest of each class is kept for POLL and newcomers.
   void publish(message::MessageClass message_class, std::string_view line);
@@ -53,15 +57,21 @@ class MessageServer {
 
  private:
   struct Socket {
-    Socket(const std::filesystem::path& path, SocketRole its_role);
+    Socket(const std::filesystem::path& path, mode_t mode, SocketRole its_role)
+        : listener(path, mode), role(its_role) {}
+    Socket(const std::filesystem::path& path, FileDescriptor inherited, SocketRole its_role)
+        : listener(path, std::move(inherited)), role(its_role) {}
     UnixListener listener;
     SocketRole role;
     std::list<Client> clients;
   };
   using ClientIterator = std::list<Client>::iterator;
 
+  void serve(Socket& socket);
   void accept_clients(Socket& socket);
   void welcome(Socket& socket, FileDescriptor fd);
+  /// Tells a client why, and no more.
+  void turn_away(FileDescriptor fd, std::string_view code, std::string_view reason);
   void handle_events(Socket& socket, ClientIterator client, std::uint32_t events);
   /// Sends what waits; removes the client where it is gone. False where it was.
   bool send_or_remove(Socket& socket, ClientIterator client);

@@ -5,26 +5,13 @@
 #include <sys/un.h>
 #include <unistd.h>
 
-#include <charconv>
 #include <cstddef>
 #include <cstdlib>
 #include <cstring>
 
+#include "daemon/environment.hpp"
+
 namespace cornerd::daemon {
-namespace {
-
-std::optional<std::uint64_t> number_in_environment(const char* name) {
-  const char* text = std::getenv(name);
-  if (text == nullptr) return std::nullopt;
-  std::uint64_t number = 0;
-  const char* end = text + std::strlen(text);
-  const auto result = std::from_chars(text, end, number);
-  if (result.ec != std::errc() || result.ptr != end) return std::nullopt;
-  return number;
-}
-
-}  // namespace
-
 Notifier::Notifier() {
   const char* address = std::getenv("NOTIFY_SOCKET");
   if (address != nullptr) address_ = address;

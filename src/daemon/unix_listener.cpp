@@ -9,6 +9,7 @@
 #include <cstring>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace cornerd::daemon {
 namespace {
@@ -63,6 +64,7 @@ UnixListener::UnixListener(const std::filesystem::path& path, mode_t mode) : pat
   if (::stat(path.c_str(), &file) == 0) {
     device_ = file.st_dev;
     inode_ = file.st_ino;
+    group_ = file.st_gid;
   }
   // After bind(), since the service's umask would decide otherwise; before listen(), since nobody
   // can connect until then.
@@ -73,7 +75,14 @@ UnixListener::UnixListener(const std::filesystem::path& path, mode_t mode) : pat
   }
 }
 
+UnixListener::UnixListener(const std::filesystem::path& path, FileDescriptor inherited)
+    : path_(path), fd_(std::move(inherited)) {
+  struct stat file {};
+  if (::stat(path.c_str(), &file) == 0) group_ = file.st_gid;
+}
+
 UnixListener::~UnixListener() {
+  if (inode_ == 0) return;
   struct stat file {};
   if (::lstat(path_.c_str(), &file) == 0 && file.st_dev == device_ && file.st_ino == inode_) {
     ::unlink(path_.c_str());

@@ -15,6 +15,8 @@ class UnixListener {
   /// A socket file that nobody listens on any more is replaced; one that somebody does is left
   /// alone. Throws std::runtime_error, one line with the path.
   UnixListener(const std::filesystem::path& path, mode_t mode);
+  /// Of a socket that listens there already; the file is somebody else's to remove.
+  UnixListener(const std::filesystem::path& path, FileDescriptor inherited);
   /// Removes the file where it is still this socket's.
   ~UnixListener();
   UnixListener(const UnixListener&) = delete;
@@ -23,10 +25,13 @@ class UnixListener {
   int fd() const { return fd_.get(); }
   /// The next waiting client, non-blocking; not open where there is none.
   FileDescriptor accept() const;
+  /// The group of the file.
+  gid_t group() const { return group_; }
 
  private:
   std::filesystem::path path_;
   FileDescriptor fd_;
+  gid_t group_ = 0;
   dev_t device_ = 0;
   ino_t inode_ = 0;
 };

@@ -30,11 +30,23 @@ bool wait_until(const auto& condition) {
   return true;
 }
 
+/// As sd_listen_fds(3) has it: from 3 on, without a gap.
+void pass_on(const std::vector<int>& sockets) {
+  constexpr int kFirst = 3;
+  constexpr int kOutOfTheWay = 100;
+  std::vector<int> copies;
+  for (const int fd : sockets) copies.push_back(::fcntl(fd, F_DUPFD, kOutOfTheWay));
+  for (std::size_t i = 0; i < copies.size(); ++i) ::dup2(copies[i], kFirst + static_cast<int>(i));
+  ::setenv("LISTEN_FDS", std::to_string(sockets.size()).c_str(), 1);
+  ::setenv("LISTEN_PID", std::to_string(::getpid()).c_str(), 1);
+}
+
 }  // namespace
 
 DaemonProcess::DaemonProcess(const std::vector<std::string>& arguments,
                              const std::filesystem::path& errors,
-                             const std::map<std::string, std::string>& environment)
+                             const std::map<std::string, std::string>& environment,
+                             const std::vector<int>& sockets)
     : errors_(errors) {
   std::vector<char*> argv;
   std::string program = CORNERD_BINARY;
@@ -48,6 +60,7 @@ DaemonProcess::DaemonProcess(const std::vector<std::string>& arguments,
   ::dup2(fd, STDOUT_FILENO);
   ::dup2(fd, STDERR_FILENO);
   for (const auto& [name, value] : environment) ::setenv(name.c_str(), value.c_str(), 1);
+  if (!sockets.empty()) pass_on(sockets);
   ::execv(argv[0], argv.data());
   ::_exit(127);
 }

@@ -24,8 +24,10 @@ using nlohmann::json;
 /// The built cornerd, running. Killed at the end where it still does.
 class DaemonProcess {
  public:
+  /// `sockets`: that listen, passed on as a service manager does.
   DaemonProcess(const std::vector<std::string>& arguments, const std::filesystem::path& errors,
-                const std::map<std::string, std::string>& environment = {});
+                const std::map<std::string, std::string>& environment = {},
+                const std::vector<int>& sockets = {});
   ~DaemonProcess();
   DaemonProcess(const DaemonProcess&) = delete;
   DaemonProcess& operator=(const DaemonProcess&) = delete;
@@ -63,6 +65,7 @@ class DaemonTest : public ::testing::Test {
   static json next_of(TestClient& client, const std::string& message_class);
   static json next(TestClient& client);
 
+  std::vector<std::string> with_config() const { return {"--config", config()}; }
   std::string config() const { return (folder_ / "cornerd.json").string(); }
 
   ScratchFolder folder_;

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT
+// Sockets that somebody else made, and clients that may not.
+#include <grp.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/socket.h>
+#include <sys/stat.h>
+#include <sys/un.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cstring>
+#include <string>
+
+#include "daemon/unix_listener.hpp"
+#include "daemon_process.hpp"
+
+namespace cornerd::system_test {
+namespace {
+
+class Activation : public DaemonTest {};
+
+TEST_F(Activation, SocketsOfTheManager_AreServedAndLeftToIt) {
+  const daemon::UnixListener pose(folder_ / "pose.sock", 0666);
+  const daemon::UnixListener control(folder_ / "control.sock", 0660);
+  // Clients may come before the daemon.
+  TestClient early(folder_ / "pose.sock");
+  ASSERT_TRUE(early.is_connected());
+  DaemonProcess daemon(with_config(), folder_ / "log", {}, {pose.fd(), control.fd()});
+  EXPECT_EQ(next_of(early, "POSE")["class"], "POSE");
+  TestClient controller = connect("control.sock");
+  controller.send(R"({"class":"RELOCALIZE","id":1})"
+                  "\n");
+  EXPECT_EQ(next_of(controller, "OK")["id"], 1);
+  daemon.send_signal(SIGTERM);
+  EXPECT_EQ(daemon.wait_for_exit(), 0) << daemon.output();
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "pose.sock"));
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "control.sock"));
+}
+
+TEST_F(Activation, SocketOfAnotherPath_IsNotServed) {
+  const daemon::UnixListener other(folder_ / "other.sock", 0666);
+  const DaemonProcess daemon(with_config(), folder_ / "log", {}, {other.fd()});
+  TestClient client = connect("control.sock");
+  next(client);
+  EXPECT_NE(daemon.output().find("other.sock"), std::string::npos) << daemon.output();
+}
+
+/// Connects as nobody, in no group, and says whether VERSION came first.
+bool strangers_are_served(const std::filesystem::path& socket) {
+  const pid_t child = ::fork();
+  if (child == 0) {
+    constexpr uid_t kNobody = 65534;
+    if (::setgroups(0, nullptr) != 0 || ::setgid(kNobody) != 0 || ::setuid(kNobody) != 0) {
+      ::_exit(2);
+    }
+    TestClient client(socket);
+    const auto line = client.read_line(60'000);
+    ::_exit(line && line->find("\"VERSION\"") != std::string::npos ? 0 : 1);
+  }
+  int status = 0;
+  ::waitpid(child, &status, 0);
+  return WIFEXITED(status) && WEXITSTATUS(status) == 0;
+}
+
+TEST_F(Activation, StrangersToTheGroup_AreTurnedAwayFromControlAlone) {
+  if (::geteuid() != 0) GTEST_SKIP() << "to be somebody else takes root";
+  const DaemonProcess daemon = start();
+  connect("control.sock");
+  // Somebody opens what the mode would have kept shut.
+  std::filesystem::permissions(folder_ / "control.sock", std::filesystem::perms::all);
+  std::filesystem::permissions(folder_ / "", std::filesystem::perms::all);
+  EXPECT_TRUE(strangers_are_served(folder_ / "pose.sock"));
+  EXPECT_FALSE(strangers_are_served(folder_ / "control.sock"));
+}
+
+}  // namespace
+}  // namespace cornerd::system_test
