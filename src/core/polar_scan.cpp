@@ -5,32 +5,57 @@
 #include <cmath>
 
 #include "core/geometry/angle.hpp"
+#include "core/geometry/small_angle.hpp"
 
 namespace cornerd::core {
 
 namespace {
 
-PolarPoint point_at(double bearing_rad, double range_m, double dt_s) {
-  const double c = std::cos(bearing_rad);
-  const double s = std::sin(bearing_rad);
-  return {bearing_rad, range_m, c, s, range_m * c, range_m * s, dt_s};
+PolarPoint point_at(double bearing_rad, double range_m, double dt_s, const Vec2& ray) {
+  return {bearing_rad, range_m, ray.x(), ray.y(), range_m * ray.x(), range_m * ray.y(), dt_s};
 }
+
+/// Rays in the order of a turn: each is the one before turned a little, one of some is computed
+/// afresh, so that nothing adds up.
+class RayFan {
+ public:
+  const Vec2& at(double bearing_rad) {
+    if (left_-- == 0) {
+      left_ = kTurnedInARow;
+      ray_ = unit_vector(bearing_rad);
+    } else {
+      ray_ = turned(ray_, bearing_rad - bearing_rad_);
+    }
+    bearing_rad_ = bearing_rad;
+    return ray_;
+  }
+
+ private:
+  static constexpr int kTurnedInARow = 31;
+  int left_ = 0;
+  double bearing_rad_ = 0;
+  Vec2 ray_ = Vec2::Zero();
+};
 
 PolarPoint unbiased(const PolarPoint& point, const SensorBias& bias) {
   const double bearing_rad = bias.true_bearing_rad(point.bearing_rad, point.ray_y, point.ray_x);
-  return point_at(bearing_rad, std::max(bias.true_range_m(point.range_m), 1e-6), point.dt_s);
+  return point_at(bearing_rad, std::max(bias.true_range_m(point.range_m), 1e-6), point.dt_s,
+                  turned(point.ray(), angle_between(point.bearing_rad, bearing_rad)));
 }
 
-PolarPoint moved(const PolarPoint& point, const Pose2& T_now_then) {
-  const Vec2 place = T_now_then * Vec2(point.x_m, point.y_m);
+PolarPoint moved(const PolarPoint& point, const Twist2& motion) {
+  const double dt_s = point.dt_s;
+  const Vec2 place = Vec2(motion.vx_m_s * dt_s, motion.vy_m_s * dt_s) +
+                     turned(point.place(), motion.omega_rad_s * dt_s);
   const double range_m = std::max(place.norm(), 1e-6);
-  return {std::atan2(place.y(), place.x()),
+  const Vec2 ray = place * (1 / range_m);
+  return {normalize_angle(point.bearing_rad + turn_between(point.ray(), place)),
           range_m,
-          place.x() / range_m,
-          place.y() / range_m,
+          ray.x(),
+          ray.y(),
           place.x(),
           place.y(),
-          point.dt_s};
+          dt_s};
 }
 
 }  // namespace
@@ -41,13 +66,15 @@ void PolarScan::assign(const Scan& scan, double min_range_m, double max_range_m,
                        const Twist2& motion, const SensorBias& bias) {
   points_.clear();
   const bool biased = !bias.is_none();
+  const bool moves = !motion.is_rest();
+  RayFan rays;
   for (const Sample& sample : scan.samples()) {
     const double range_m = sample.range_m;
     if (!(range_m >= min_range_m && range_m <= max_range_m)) continue;
     const double dt_s = to_seconds(sample.t_ns - at_ns);
-    PolarPoint point = point_at(sample.bearing_rad, range_m, dt_s);
+    PolarPoint point = point_at(sample.bearing_rad, range_m, dt_s, rays.at(sample.bearing_rad));
     if (biased) point = unbiased(point, bias);
-    points_.push_back(motion.is_rest() ? point : moved(point, motion.over(dt_s)));
+    points_.push_back(moves ? moved(point, motion) : point);
   }
   spacing_rad_ = scan.empty() ? 0 : kTwoPi / static_cast<double>(scan.size());
   sort();
@@ -59,7 +86,8 @@ void PolarScan::begin(double spacing_rad) {
 }
 
 void PolarScan::append(double bearing_rad, double range_m) {
-  if (points_.size() < kMaxSamplesPerTurn) points_.push_back(point_at(bearing_rad, range_m, 0));
+  if (points_.size() < kMaxSamplesPerTurn)
+    points_.push_back(point_at(bearing_rad, range_m, 0, unit_vector(bearing_rad)));
 }
 
 void PolarScan::sort() {

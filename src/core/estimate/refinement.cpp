@@ -6,14 +6,19 @@
 
 #include <Eigen/Cholesky>
 
+#include "core/recognition/hypothesis.hpp"
+
 namespace cornerd::core {
 namespace {
 
-/// A point farther than this many standard deviations from its face pulls at nothing.
-constexpr double kCutSigmas = 4;
+constexpr double kCutSigmas = PointLanes::kCutSigmas;
 constexpr int kMaxSteps = 12;
 constexpr double kConverged_m = 2e-5;
 constexpr double kConverged_rad = 1e-5;
+/// A move that is smaller than this leaves each ray at the face that it met before; where it does
+/// not, at a face's end, one ray of hundreds is off by as little.
+constexpr double kSameSight_m = 1e-3;
+constexpr double kSameSight_rad = 5e-4;
 /// Relative pivot below which the walls in sight do not fix the pose: a lone wall, a bare corridor.
 constexpr double kMinPivot = 1e-7;
 constexpr std::size_t kMinInliers = 8;
@@ -35,39 +40,44 @@ struct Refinement::Step {
 Refinement::Refinement(double max_range_m, const SensorNoise& noise)
     : noise_(noise), prediction_(max_range_m) {}
 
+void Refinement::look(const WallMap& map, const Pose2& T_map_lidar,
+                      std::span<const PolarPoint> points, double noise_scale) {
+  const bool same_points = points.data() == seen_.data() && points.size() == seen_.size();
+  if (same_points && same_place(T_map_lidar, T_map_seen_, kSameSight_m, kSameSight_rad)) return;
+  if (!same_points) lanes_.assign(points, noise_, noise_scale);
+  hits_ = prediction_.cast_near(map, T_map_lidar, points);
+  seen_ = points;
+  T_map_seen_ = T_map_lidar;
+}
+
 Refinement::Step Refinement::step(const WallMap& map, const Pose2& T_map_lidar,
-                                  std::span<const PolarPoint> points, double slack_m,
-                                  double noise_scale) {
-  const auto hits = prediction_.cast_near(map, T_map_lidar, points);
+                                  double slack_m) const {
   const double c = std::cos(T_map_lidar.theta_rad);
   const double s = std::sin(T_map_lidar.theta_rad);
   Step sums;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    if (hits[i].face == PredictedHit::kNone) continue;
-    const PolarPoint& point = points[i];
-    const Face& face = map.faces()[hits[i].face];
-    const double rx = c * point.x_m - s * point.y_m;
-    const double ry = s * point.x_m + c * point.y_m;
-    const double distance_m = face.normal.x() * (T_map_lidar.x_m + rx) +
-                              face.normal.y() * (T_map_lidar.y_m + ry) - face.offset_m;
-    const double sine =
-        std::abs(face.normal.x() * rx + face.normal.y() * ry) / std::max(point.range_m, 1e-6);
-    const double variance =
-        noise_.variance_across_m2(point.range_m, sine) * noise_scale * noise_scale +
-        slack_m * slack_m;
-    const double z_square = distance_m * distance_m / variance;
-    if (z_square >= kCutSigmas * kCutSigmas) continue;
-    // Tukey's biweight: full weight at the wall, none at the cut.
-    const double share = 1 - z_square / (kCutSigmas * kCutSigmas);
-    const double weight = share * share / variance;
-    const Eigen::Vector3d slope(face.normal.x(), face.normal.y(),
-                                face.normal.y() * rx - face.normal.x() * ry);
-    sums.information.noalias() += weight * slope * slope.transpose();
-    sums.gradient.noalias() += weight * distance_m * slope;
-    sums.chi_square += z_square;
-    sums.squares_m2 += distance_m * distance_m;
-    ++sums.inliers;
+  // Rays side by side mostly meet the same face: what the face has to say is said once for all.
+  for (std::size_t begin = 0, end = 0; begin < hits_.size(); begin = end) {
+    const std::uint32_t met = hits_[begin].face;
+    while (end < hits_.size() && hits_[end].face == met) ++end;
+    if (met == PredictedHit::kNone) continue;
+    const Face& face = map.faces()[met];
+    const double nx = face.normal.x();
+    const double ny = face.normal.y();
+    const double height_m = nx * T_map_lidar.x_m + ny * T_map_lidar.y_m - face.offset_m;
+    const FaceSums sum =
+        lanes_.sum(begin, end, {c * nx + s * ny, c * ny - s * nx}, height_m, slack_m);
+    sums.information(0, 0) += sum.weight * nx * nx;
+    sums.information(0, 1) += sum.weight * nx * ny;
+    sums.information(1, 1) += sum.weight * ny * ny;
+    sums.information(0, 2) += sum.lever * nx;
+    sums.information(1, 2) += sum.lever * ny;
+    sums.information(2, 2) += sum.lever_squared;
+    sums.gradient += Eigen::Vector3d(sum.distance * nx, sum.distance * ny, sum.distance_lever);
+    sums.chi_square += sum.z_squared;
+    sums.squares_m2 += sum.squared_m2;
+    sums.inliers += static_cast<std::size_t>(sum.points);
   }
+  sums.information.triangularView<Eigen::StrictlyLower>() = sums.information.transpose();
   return sums;
 }
 
@@ -91,9 +101,11 @@ RefinedPose Refinement::descend(const WallMap& map, const Pose2& start, double r
   double slack_m = reach_m;
   Eigen::LDLT<Eigen::Matrix3d> solver;
   Step sums;
+  seen_ = {};
   for (int k = 0; k < kMaxSteps; ++k) {
     const bool rough = slack_m > 0.004;
-    sums = step(map, refined.T_map_lidar, rough ? thin : points, rough ? slack_m : 0, noise_scale);
+    look(map, refined.T_map_lidar, rough ? thin : points, noise_scale);
+    sums = step(map, refined.T_map_lidar, rough ? slack_m : 0);
     solver.compute(sums.information);
     const Eigen::Vector3d pivots = solver.vectorD();
     if (sums.inliers < kMinInliers || !(pivots.minCoeff() > kMinPivot * pivots.maxCoeff())) {

@@ -3,6 +3,7 @@
 
 #include <span>
 
+#include "core/estimate/point_lanes.hpp"
 #include "core/map/turn_prediction.hpp"
 #include "core/map/wall_map.hpp"
 #include "core/polar_scan.hpp"
@@ -26,8 +27,9 @@ struct RefinedMotion {
 };
 
 /// Maximum likelihood fit of all wall points to the faces that the place can see, by Gauss-Newton
-/// on point-to-face distances with a redescending loss. Each step predicts anew which face a ray
-/// meets, so that the far side of a thin wall never attracts a point of the near one.
+/// on point-to-face distances with a redescending loss. After each step that moves the lidar it is
+/// predicted anew which face a ray meets, so that the far side of a thin wall never attracts a
+/// point of the near one.
 class Refinement {
  public:
   Refinement(double max_range_m, const SensorNoise& noise);
@@ -54,11 +56,18 @@ class Refinement {
   RefinedPose descend(const WallMap& map, const Pose2& start, double reach_m,
                       std::span<const PolarPoint> thin, std::span<const PolarPoint> points,
                       double noise_scale, int last_steps);
-  Step step(const WallMap& map, const Pose2& T_map_lidar, std::span<const PolarPoint> points,
-            double slack_m, double noise_scale);
+  /// Which face each of the points meets, seen from here.
+  void look(const WallMap& map, const Pose2& T_map_lidar, std::span<const PolarPoint> points,
+            double noise_scale);
+  /// Of what was looked at last.
+  Step step(const WallMap& map, const Pose2& T_map_lidar, double slack_m) const;
 
   SensorNoise noise_;
   TurnPrediction prediction_;
+  PointLanes lanes_;
+  std::span<const PolarPoint> seen_;  ///< the points in the lanes, and that `hits_` belong to
+  std::span<const PredictedHit> hits_;
+  Pose2 T_map_seen_;  ///< where `hits_` were predicted from
 };
 
 }  // namespace cornerd::core

@@ -46,7 +46,11 @@ TEST(BreakpointStream, ReturnByReturn_GivesTheBreakpointsOfTheWholeTurn) {
   Detector detector({}, {});
   BreakpointStream stream({}, {}, Sweep::kCounterClockwise);
   for (int k = 0; k < 40; ++k) {
-    const PolarScan turn = noisy_turn(source, *map, source.place_in(0.3, 3.7, 0.3, 1.5));
+    // As the stream takes them: a whole turn's rays are computed from one another.
+    PolarScan turn;
+    const PolarScan taken = noisy_turn(source, *map, source.place_in(0.3, 3.7, 0.3, 1.5));
+    turn.begin(taken.spacing_rad());
+    for (const PolarPoint& point : taken.points()) turn.append(point.bearing_rad, point.range_m);
     Detection whole;
     detector.detect(turn, whole);
 

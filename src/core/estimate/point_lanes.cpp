@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: MIT
+#include "core/estimate/point_lanes.hpp"
+
+#include <algorithm>
+
+#include <Eigen/Core>
+
+namespace cornerd::core {
+namespace {
+
+constexpr std::size_t kLanes = 4;
+using Lanes = Eigen::Array<float, kLanes, 1>;
+
+/// So that a point on its wall has a weight, whatever noise is claimed: a micrometre, squared.
+constexpr float kLeastVariance_m2 = 1e-12F;
+
+/// The lanes that count where only so many points are left.
+constexpr float kFirst[kLanes][kLanes] = {{0, 0, 0, 0}, {1, 0, 0, 0}, {1, 1, 0, 0}, {1, 1, 1, 0}};
+
+Eigen::Map<const Lanes> lanes(const std::vector<float>& values, std::size_t at) {
+  return Eigen::Map<const Lanes>(values.data() + at);
+}
+Eigen::Map<Lanes> lanes(std::vector<float>& values, std::size_t at) {
+  return Eigen::Map<Lanes>(values.data() + at);
+}
+
+}  // namespace
+
+PointLanes::PointLanes() {
+  for (auto* values : {&x_m_, &y_m_, &inverse_range_, &across_m2_, &along_m2_}) {
+    values->reserve(kMaxSamplesPerTurn + kLanes);
+  }
+}
+
+void PointLanes::assign(std::span<const PolarPoint> points, const SensorNoise& noise,
+                        double noise_scale) {
+  const std::size_t size = std::min(points.size(), kMaxSamplesPerTurn) + kLanes;
+  for (auto* values : {&x_m_, &y_m_, &inverse_range_, &across_m2_, &along_m2_}) {
+    values->assign(size, 1);
+  }
+  for (std::size_t i = 0; i + kLanes < size; ++i) {
+    x_m_[i] = static_cast<float>(points[i].x_m);
+    y_m_[i] = static_cast<float>(points[i].y_m);
+    inverse_range_[i] = static_cast<float>(points[i].range_m);
+    if (!noise.table.empty()) {
+      along_m2_[i] = static_cast<float>(noise.table.sigma_m(points[i].range_m));
+    }
+  }
+  const auto floor_m = static_cast<float>(noise.floor_m);
+  const auto share = static_cast<float>(noise.share);
+  const auto bearing_rad = static_cast<float>(noise.bearing_rad);
+  const auto scale = static_cast<float>(noise_scale);
+  for (std::size_t i = 0; i + kLanes <= size; i += kLanes) {
+    const Lanes range_m = lanes(inverse_range_, i);
+    Lanes sigma_m = lanes(along_m2_, i);
+    if (noise.table.empty()) sigma_m = (share * range_m).max(floor_m);
+    const Lanes along_m = scale * sigma_m;
+    const Lanes across_m = scale * bearing_rad * range_m;
+    lanes(across_m2_, i) = across_m * across_m;
+    lanes(along_m2_, i) = along_m * along_m - across_m * across_m;
+    lanes(inverse_range_, i) = Lanes::Ones() / range_m;
+  }
+}
+
+FaceSums PointLanes::sum(std::size_t begin, std::size_t end, const Vec2& normal, double height_m,
+                         double slack_m) const {
+  constexpr auto kPerCut = static_cast<float>(1 / (kCutSigmas * kCutSigmas));
+  // What is above 0 at all, as 1.
+  constexpr float kHuge = 1e30F;
+  const auto nx = static_cast<float>(normal.x());
+  const auto ny = static_cast<float>(normal.y());
+  const auto height = static_cast<float>(height_m);
+  const auto least_m2 = static_cast<float>(slack_m * slack_m) + kLeastVariance_m2;
+  Lanes weights = Lanes::Zero();
+  Lanes levers = weights;
+  Lanes levers_squared = weights;
+  Lanes distances = weights;
+  Lanes distances_levers = weights;
+  Lanes z_squares = weights;
+  Lanes squares_m2 = weights;
+  Lanes inside = weights;
+  for (std::size_t i = begin; i < end; i += kLanes) {
+    const Lanes x = lanes(x_m_, i);
+    const Lanes y = lanes(y_m_, i);
+    const Lanes towards_m = nx * x + ny * y;
+    const Lanes distance_m = towards_m + height;
+    const Lanes lever_m = ny * x - nx * y;
+    const Lanes sine = towards_m * lanes(inverse_range_, i);
+    const Lanes variance_m2 = lanes(along_m2_, i) * sine * sine + lanes(across_m2_, i) + least_m2;
+    const Lanes information = Lanes::Ones() / variance_m2;
+    const Lanes z_squared = distance_m * distance_m * information;
+    Lanes share = (1 - z_squared * kPerCut).max(0.0F);
+    if (end - i < kLanes) share *= Eigen::Map<const Lanes>(kFirst[end - i]);
+    const Lanes is_inside = (share * kHuge).min(1.0F);
+    const Lanes weight = share * share * information;
+    weights += weight;
+    levers += weight * lever_m;
+    levers_squared += weight * lever_m * lever_m;
+    distances += weight * distance_m;
+    distances_levers += weight * distance_m * lever_m;
+    z_squares += is_inside * z_squared;
+    squares_m2 += is_inside * distance_m * distance_m;
+    inside += is_inside;
+  }
+  return {weights.sum(),          levers.sum(),    levers_squared.sum(), distances.sum(),
+          distances_levers.sum(), z_squares.sum(), squares_m2.sum(),     inside.sum()};
+}
+
+}  // namespace cornerd::core

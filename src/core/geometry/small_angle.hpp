@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+// Series for small angles. A Cortex-A8 takes 800 cycles for the library's sine and cosine, 600 for
+// its arc tangent (tests/arm/cost), and a turn asks for each of them hundreds of times.
+#pragma once
+
+#include <cmath>
+
+#include "core/geometry/pose2.hpp"
+
+namespace cornerd::core {
+
+inline constexpr double kSmallAngle_rad = 0.1;
+
+/// A direction turned counter-clockwise; off by 2e-11 at most.
+inline Vec2 turned(const Vec2& way, double angle_rad) {
+  double c = 0;
+  double s = 0;
+  if (std::abs(angle_rad) < kSmallAngle_rad) {
+    const double square = angle_rad * angle_rad;
+    c = 1 - square * (1.0 / 2 - square * (1.0 / 24 - square * (1.0 / 720)));
+    s = angle_rad - angle_rad * square * (1.0 / 6 - square * (1.0 / 120));
+  } else {
+    c = std::cos(angle_rad);
+    s = std::sin(angle_rad);
+  }
+  return {c * way.x() - s * way.y(), s * way.x() + c * way.y()};
+}
+
+/// From the one direction to the other, counter-clockwise, in [-pi, pi]; off by 1e-12 at most.
+inline double turn_between(const Vec2& from, const Vec2& to) {
+  const double across = cross(from, to);
+  const double along = from.dot(to);
+  if (!(std::abs(across) < kSmallAngle_rad * along)) return std::atan2(across, along);
+  const double tangent = across / along;
+  const double square = tangent * tangent;
+  return tangent - tangent * square *
+                       (1.0 / 3 - square * (1.0 / 5 - square * (1.0 / 7 - square * (1.0 / 9))));
+}
+
+}  // namespace cornerd::core

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: MIT
+#include "core/estimate/point_lanes.hpp"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+namespace cornerd::core {
+namespace {
+
+constexpr std::size_t kWallPoints = 37;
+const double kWallAngle_rad = 0.4;
+const double kHeight_m = 1.7;
+const double kScale = 1.3;
+
+/// Returns of a wall whose foot lies behind the lidar, some far off it.
+PolarScan noisy_wall() {
+  std::mt19937_64 random(7);
+  std::normal_distribution<double> normal;
+  PolarScan scan;
+  scan.begin(0.03);
+  for (std::size_t i = 0; i < kWallPoints; ++i) {
+    const double from_normal_rad = -0.9 + 0.05 * static_cast<double>(i);
+    const double off_m = i % 9 == 4 ? 0.2 : 0.003 * normal(random);
+    scan.append(kWallAngle_rad + kPi + from_normal_rad,
+                (kHeight_m + off_m) / std::cos(from_normal_rad));
+  }
+  return scan;
+}
+
+/// Point by point, in double precision.
+FaceSums exact_sum(std::span<const PolarPoint> points, const SensorNoise& noise, double slack_m) {
+  const Vec2 normal = unit_vector(kWallAngle_rad);
+  FaceSums sum;
+  for (const PolarPoint& point : points) {
+    const double distance_m = normal.dot(point.place()) + kHeight_m;
+    const double lever_m = normal.y() * point.x_m - normal.x() * point.y_m;
+    const double variance_m2 =
+        noise.variance_across_m2(point.range_m, std::abs(normal.dot(point.ray()))) * kScale *
+            kScale +
+        slack_m * slack_m;
+    const double z_squared = distance_m * distance_m / variance_m2;
+    if (z_squared >= 16) continue;
+    const double share = 1 - z_squared / 16;
+    const double weight = share * share / variance_m2;
+    sum.weight += weight;
+    sum.lever += weight * lever_m;
+    sum.lever_squared += weight * lever_m * lever_m;
+    sum.distance += weight * distance_m;
+    sum.distance_lever += weight * distance_m * lever_m;
+    sum.z_squared += z_squared;
+    sum.squared_m2 += distance_m * distance_m;
+    sum.points += 1;
+  }
+  return sum;
+}
+
+void expect_near(const FaceSums& one, const FaceSums& other) {
+  constexpr double kShare = 1e-3;  // a NEON division is an approximation
+  EXPECT_NEAR(one.weight, other.weight, kShare * other.weight);
+  EXPECT_NEAR(one.lever, other.lever, kShare * other.weight);
+  EXPECT_NEAR(one.lever_squared, other.lever_squared, kShare * other.lever_squared);
+  EXPECT_NEAR(one.distance, other.distance, 1e-6 * other.weight);
+  EXPECT_NEAR(one.distance_lever, other.distance_lever, 2e-6 * other.weight);
+  EXPECT_NEAR(one.z_squared, other.z_squared, kShare * other.z_squared);
+  EXPECT_NEAR(one.squared_m2, other.squared_m2, kShare * other.squared_m2);
+  EXPECT_EQ(one.points, other.points);
+}
+
+TEST(PointLanes, PointsOfAWall_AddUpAsInDoublePrecision) {
+  const PolarScan scan = noisy_wall();
+  SensorNoise by_table;
+  const SigmaTable::Point measured[] = {{1, 0.002}, {3, 0.009}};
+  by_table.table = SigmaTable(measured);
+  PointLanes lanes;
+  for (const SensorNoise& noise : {SensorNoise{}, by_table}) {
+    lanes.assign(scan.points(), noise, kScale);
+    for (const double slack_m : {0.0, 0.01}) {
+      // Every number of points that fours can leave over.
+      for (std::size_t begin = 0; begin < 5; ++begin) {
+        const auto part = scan.points().subspan(begin);
+        expect_near(lanes.sum(begin, scan.size(), unit_vector(kWallAngle_rad), kHeight_m, slack_m),
+                    exact_sum(part, noise, slack_m));
+      }
+    }
+  }
+}
+
+TEST(PointLanes, NoPoints_AddNothing) {
+  PointLanes lanes;
+  lanes.assign({}, {}, 1);
+  EXPECT_EQ(lanes.sum(0, 0, {1, 0}, 1, 0).points, 0);
+}
+
+TEST(PointLanes, PointsOnTheWallWithoutNoise_HaveAWeight) {
+  PolarScan scan;
+  scan.begin(0.1);
+  scan.append(kPi, 2);
+  PointLanes lanes;
+  lanes.assign(scan.points(), {0, 0, 0}, 1);
+  const FaceSums sum = lanes.sum(0, 1, {1, 0}, 2, 0);
+  EXPECT_TRUE(std::isfinite(sum.weight));
+  EXPECT_GT(sum.weight, 0);
+}
+
+}  // namespace
+}  // namespace cornerd::core
