@@ -205,7 +205,7 @@ RplidarDriver::Failure RplidarDriver::measure(drivers::ByteStream& port, const S
     const core::TimeNs now_ns = clock_.monotonic_ns();
     if (status == drivers::ByteStream::ReadStatus::kLost) break;
     const auto bytes = std::span(buffer).first(count);
-    stream.feed(bytes, now_ns, live);
+    stream.feed(bytes, now_ns, live, count < buffer.size());
     board_.update(stream.counters(), stream.lateness(), now_ns);
     if (banner.add(bytes)) {
       failure.fault = LidarFault::kRestarted;

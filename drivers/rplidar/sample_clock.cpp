@@ -34,7 +34,7 @@ void SampleClock::reanchor() {
   anchored_ = false;
 }
 
-void SampleClock::observe(std::uint64_t index, core::TimeNs latest_ns) {
+void SampleClock::observe(std::uint64_t index, core::TimeNs latest_ns, bool fresh) {
   if (!anchored_) {
     origin_index_ = index;
     origin_ns_ = latest_ns;
@@ -43,6 +43,11 @@ void SampleClock::observe(std::uint64_t index, core::TimeNs latest_ns) {
   const Point point{static_cast<double>(index - origin_index_),
                     static_cast<double>(latest_ns - origin_ns_)};
   offset_ns_ += std::min(0.0, lateness_ns(point));
+  if (fresh && lateness_ns(point) > kLateNs) {
+    // Too late an anchor, should it be one, is pulled back by the next observation.
+    ++resets_;
+    anchor(point);
+  }
   last_lateness_ns_ = static_cast<core::TimeNs>(std::max(0.0, lateness_ns(point)));
 
   if (block_empty_ || lateness_ns(point) < lateness_ns(earliest_)) earliest_ = point;

@@ -22,8 +22,10 @@ class SampleClock {
   /// The count of the samples has been broken: its pace still holds, its offset does not.
   void reanchor();
 
-  /// Sample `index` was measured at `latest_ns` or before. Indices never decrease.
-  void observe(std::uint64_t index, core::TimeNs latest_ns);
+  /// Sample `index` was measured at `latest_ns` or before. Indices never decrease. `fresh`: the
+  /// reader had caught up, so that nothing but the wire's own delay lies in between; where it is
+  /// far later than it should be all the same, samples were lost that nobody counted.
+  void observe(std::uint64_t index, core::TimeNs latest_ns, bool fresh = false);
 
   /// Time of a sample. Called with growing indices it never goes back.
   core::TimeNs time_of(std::uint64_t index);

@@ -58,9 +58,10 @@ class SampleStream::Implementation : private RawSampleSink {
   explicit Implementation(const SampleStreamConfig& config)
       : config_(config), decoder_(config.format), clock_(period_s(WireFormat::kStandard)) {}
 
-  void feed(std::span<const std::uint8_t> bytes, core::TimeNs arrival_ns,
-            drivers::SampleSink& sink) {
+  void feed(std::span<const std::uint8_t> bytes, core::TimeNs arrival_ns, drivers::SampleSink& sink,
+            bool fresh) {
     sink_ = &sink;
+    fresh_ = fresh;
     first_of_feed_ = true;
     const double byte_ns = 1e9 * kBitsPerByte / config_.baud;
     while (!bytes.empty()) {
@@ -102,7 +103,11 @@ class SampleStream::Implementation : private RawSampleSink {
       clock_format_ = format;
       clock_.reset(period_s(format));
     }
-    sink_->on_sample({.t_ns = time_of(raw, format),
+    const std::uint64_t resets = clock_.resets();
+    const core::TimeNs t_ns = time_of(raw, format);
+    // Nobody knows how many samples are gone, and a turn of two halves is none.
+    if (clock_.resets() != resets) sink_->on_gap();
+    sink_->on_sample({.t_ns = t_ns,
                       .bearing_rad = bearing_of(raw.angle_q6, config_.inverted),
                       .range_m = static_cast<float>(raw.dist_q2) / 4000,
                       .quality = raw.quality,
@@ -122,7 +127,7 @@ class SampleStream::Implementation : private RawSampleSink {
       const double sent_ns =
           byte_ns * static_cast<double>(packet.bytes) + kPeriodsToSend * clock_.period_s() * 1e9;
       clock_.observe(raw.index + packet.samples_ahead,
-                     piece_arrival_ns_ - static_cast<core::TimeNs>(sent_ns));
+                     piece_arrival_ns_ - static_cast<core::TimeNs>(sent_ns), fresh_);
       first_of_piece_ = false;
       if (first_of_feed_) lateness_.add(clock_.last_lateness_ns());
       first_of_feed_ = false;
@@ -142,6 +147,7 @@ class SampleStream::Implementation : private RawSampleSink {
   core::TimeNs piece_arrival_ns_ = 0;
   bool first_of_piece_ = false;
   bool first_of_feed_ = false;
+  bool fresh_ = false;
   core::Lateness lateness_;
   bool timed_ = true;
   drivers::StreamCounters counters_;
@@ -154,8 +160,8 @@ SampleStream::SampleStream(SampleStream&&) noexcept = default;
 SampleStream& SampleStream::operator=(SampleStream&&) noexcept = default;
 
 void SampleStream::feed(std::span<const std::uint8_t> bytes, core::TimeNs arrival_ns,
-                        drivers::SampleSink& sink) {
-  implementation_->feed(bytes, arrival_ns, sink);
+                        drivers::SampleSink& sink, bool fresh) {
+  implementation_->feed(bytes, arrival_ns, sink, fresh);
 }
 void SampleStream::feed_untimed(std::span<const std::uint8_t> bytes, drivers::SampleSink& sink) {
   implementation_->feed_untimed(bytes, sink);

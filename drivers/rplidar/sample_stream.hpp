@@ -27,9 +27,10 @@ class SampleStream {
   SampleStream(SampleStream&&) noexcept;
   SampleStream& operator=(SampleStream&&) noexcept;
 
-  /// `arrival_ns`: when the last of these bytes was read from the port.
-  void feed(std::span<const std::uint8_t> bytes, core::TimeNs arrival_ns,
-            drivers::SampleSink& sink);
+  /// `arrival_ns`: when the last of these bytes was read from the port. `fresh`: there were no
+  /// more.
+  void feed(std::span<const std::uint8_t> bytes, core::TimeNs arrival_ns, drivers::SampleSink& sink,
+            bool fresh = false);
   /// Bytes that bear no clock: time runs from 0 as their transmission at `baud` would have it.
   void feed_untimed(std::span<const std::uint8_t> bytes, drivers::SampleSink& sink);
   void finish(drivers::SampleSink& sink);

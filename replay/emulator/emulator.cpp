@@ -109,15 +109,29 @@ void Emulator::start_scan(const FirmwareScanMode& mode, bool force, core::TimeNs
   scanning_ = true;
   transmitter_.queue(now_ns + kAnswerDelayNs, scan_descriptor(mode.format));
   const core::TimeNs spin_up_ns = force ? 0 : core::from_seconds(config_.spin_up_s);
-  simulator_->start(now_ns + kAnswerDelayNs + spin_up_ns, mode.format,
-                    core::TimeNs{mode.period_q8_us} * 1000 / 256);
-  prepare_packet();
+  begin_stream(now_ns + kAnswerDelayNs + spin_up_ns);
 }
 
 void Emulator::stop_scan(core::TimeNs now_ns) {
   if (!scanning_) return;
   scanning_ = false;
   transmitter_.drop_waiting(now_ns);
+}
+
+void Emulator::set_stalled(bool stalled, core::TimeNs now_ns) {
+  measure_until(now_ns);
+  if (stalled_ && !stalled && scanning_) begin_stream(now_ns);
+  stalled_ = stalled;
+}
+
+void Emulator::set_health(const rplidar::Health& health, core::TimeNs now_ns) {
+  health_ = health;
+  if (health_.failed()) stop_scan(now_ns);
+}
+
+void Emulator::begin_stream(core::TimeNs now_ns) {
+  simulator_->start(now_ns, mode_.format, core::TimeNs{mode_.period_q8_us} * 1000 / 256);
+  prepare_packet();
 }
 
 void Emulator::reset(core::TimeNs now_ns) {
@@ -139,10 +153,8 @@ void Emulator::prepare_packet() {
 }
 
 void Emulator::measure_until(core::TimeNs now_ns) {
-  if (scanning_ && now_ns - packet_ready_ns_ > kLongestHoldUpNs) {
-    simulator_->start(now_ns, mode_.format, core::TimeNs{mode_.period_q8_us} * 1000 / 256);
-    prepare_packet();
-  }
+  if (stalled_) return;
+  if (scanning_ && now_ns - packet_ready_ns_ > kLongestHoldUpNs) begin_stream(now_ns);
   while (scanning_ && packet_ready_ns_ <= now_ns) {
     transmitter_.queue(packet_ready_ns_, packet_);
     prepare_packet();
@@ -156,7 +168,7 @@ void Emulator::take(core::TimeNs now_ns, std::vector<std::uint8_t>& out) {
 
 std::optional<core::TimeNs> Emulator::next_ns() const {
   const std::optional<core::TimeNs> sending_ns = transmitter_.next_ns();
-  if (!scanning_) return sending_ns;
+  if (!scanning_ || stalled_) return sending_ns;
   return std::min(packet_ready_ns_, sending_ns.value_or(packet_ready_ns_));
 }
 

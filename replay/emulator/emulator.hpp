@@ -51,6 +51,13 @@ class Emulator {
   /// When take() will next have something to give; nullopt where only a request brings it about.
   std::optional<core::TimeNs> next_ns() const;
 
+  /// Somebody holds the head, or lets it go: the stream pauses, and goes on by itself.
+  void set_stalled(bool stalled, core::TimeNs now_ns);
+  /// What it finds wrong with itself from now on. One that has failed ends the scan.
+  void set_health(const rplidar::Health& health, core::TimeNs now_ns);
+  /// Its supply breaks down and comes back: as after a RESET, without being asked.
+  void power_cycle(core::TimeNs now_ns) { reset(now_ns); }
+
   bool scanning() const { return scanning_; }
   Scene& scene() { return simulator_->scene(); }
 
@@ -59,6 +66,7 @@ class Emulator {
   void answer(core::TimeNs now_ns, rplidar::AnswerType type, std::span<const std::uint8_t> payload);
   void answer_configuration(std::span<const std::uint8_t> request, core::TimeNs now_ns);
   void start_scan(const FirmwareScanMode& mode, bool force, core::TimeNs now_ns);
+  void begin_stream(core::TimeNs now_ns);
   void stop_scan(core::TimeNs now_ns);
   void reset(core::TimeNs now_ns);
   void measure_until(core::TimeNs now_ns);
@@ -73,6 +81,7 @@ class Emulator {
   core::TimeNs deaf_until_ns_ = 0;
 
   bool scanning_ = false;
+  bool stalled_ = false;
   FirmwareScanMode mode_;
   core::TimeNs packet_ready_ns_ = 0;  ///< of the packet that is being measured
   std::vector<std::uint8_t> packet_;

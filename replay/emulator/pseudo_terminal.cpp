@@ -15,6 +15,8 @@
 #include <system_error>
 #include <thread>
 
+#include "drivers/serial/baud_rate.hpp"
+
 namespace cornerd::replay {
 namespace {
 
@@ -69,8 +71,8 @@ bool PseudoTerminal::prepare_for_next_client() {
     ::tcsetattr(client_end, TCSANOW, &settings);
   }
   ::tcflush(client_end, TCIFLUSH);
-  // A port loses this with its last client; a pseudo-terminal keeps it when that one is killed. (Who
-  // lacks CAP_SYS_ADMIN has been refused above, and waits in vain for a next client.)
+  // A port loses this with its last client; a pseudo-terminal keeps it when that one is killed.
+  // (Who lacks CAP_SYS_ADMIN has been refused above, and waits in vain for a next client.)
   ::ioctl(client_end, TIOCNXCL);
   ::close(client_end);
   has_client_ = false;
@@ -88,6 +90,13 @@ bool PseudoTerminal::wait(int timeout_ms) {
     std::this_thread::sleep_for(std::chrono::milliseconds(timeout_ms));
   }
   return has_client_;
+}
+
+bool PseudoTerminal::has_speed(std::uint32_t baud) const {
+  const auto wanted = drivers::termios_speed(baud);
+  termios settings{};
+  if (!wanted || ::tcgetattr(master_, &settings) != 0) return true;
+  return ::cfgetospeed(&settings) == *wanted;
 }
 
 std::size_t PseudoTerminal::read(std::span<std::uint8_t> buffer) {

@@ -25,6 +25,9 @@ class PseudoTerminal {
   /// port open.
   bool wait(int timeout_ms);
 
+  /// Whether the client has set that speed; true for one that termios does not know.
+  bool has_speed(std::uint32_t baud) const;
+
   /// Bytes that the client has written; 0 where there are none.
   std::size_t read(std::span<std::uint8_t> buffer);
 

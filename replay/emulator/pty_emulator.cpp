@@ -49,12 +49,17 @@ void PtyEmulator::run(const std::stop_token& stop) {
 }
 
 void PtyEmulator::exchange(core::TimeNs now_ns, bool has_client) {
+  const std::uint32_t baud = expected_baud_.load();
+  const bool understood = baud == 0 || terminal_.has_speed(baud);
   std::array<std::uint8_t, 512> in;
   for (std::size_t count = terminal_.read(in); count > 0; count = terminal_.read(in)) {
-    emulator_.receive(std::span(in).first(count), now_ns);
+    if (understood) emulator_.receive(std::span(in).first(count), now_ns);
   }
   out_.clear();
   emulator_.take(now_ns, out_);
+  if (!understood) {
+    for (std::uint8_t& byte : out_) byte = static_cast<std::uint8_t>(byte * 37 + 11);
+  }
   const std::size_t written = terminal_.write(out_);
   if (has_client) lost_bytes_ += out_.size() - written;
 }

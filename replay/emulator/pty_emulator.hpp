@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -25,6 +26,11 @@ class PtyEmulator {
 
   const std::filesystem::path& path() const { return terminal_.path(); }
   void set_on_time(OnTime on_time) { on_time_ = std::move(on_time); }
+  /// The device itself, for what is called by on_time.
+  Emulator& emulator() { return emulator_; }
+  /// A client that sets another speed is not understood, and hears noise. 0: any will do, as on
+  /// every pseudo-terminal. Any thread.
+  void expect_speed(std::uint32_t baud) { expected_baud_.store(baud); }
 
   /// Until a stop is asked for, which is honoured within 20 ms.
   void run(const std::stop_token& stop);
@@ -39,6 +45,7 @@ class PtyEmulator {
   PseudoTerminal terminal_;
   OnTime on_time_;
   std::vector<std::uint8_t> out_;
+  std::atomic<std::uint32_t> expected_baud_{0};
   std::uint64_t lost_bytes_ = 0;
 };
 

@@ -51,11 +51,15 @@ void use_small_stacks() {
 
 int lock_memory() { return ::mlockall(MCL_CURRENT) == 0 ? 0 : errno; }
 
-void touch_memory() {
+bool touch_memory() {
+  bool is_known = true;
   for (const Mapping& mapping : mappings()) {
-    ::madvise(mapping.begin, mapping.size,
-              mapping.writable ? MADV_POPULATE_WRITE : MADV_POPULATE_READ);
+    const int result = ::madvise(mapping.begin, mapping.size,
+                                 mapping.writable ? MADV_POPULATE_WRITE : MADV_POPULATE_READ);
+    // Some mappings have no memory to give; that they cannot be asked at all is EINVAL for each.
+    if (result != 0 && errno == EINVAL && mapping.writable) is_known = false;
   }
+  return is_known;
 }
 
 std::uint64_t page_faults_of_thread() {

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT
+#include "fault_plan.hpp"
+
+namespace cornerd::soak {
+namespace {
+
+/// Between two faults, seconds: long enough for poses to come back.
+constexpr double kMeanPause_s = 8;
+constexpr double kLongestFault_s = 6;
+
+}  // namespace
+
+FaultPlan::FaultPlan(replay::EmulatedDevice& device, replay::CoverableScene& scene,
+                     std::uint64_t seed)
+    : device_(device), scene_(scene), random_(seed) {}
+
+void FaultPlan::advance(core::TimeNs now_ns) {
+  if (now_ns < next_ns_) return;
+  is_on_ ? end(now_ns) : begin(now_ns);
+}
+
+void FaultPlan::begin(core::TimeNs now_ns) {
+  is_on_ = true;
+  next_ns_ = now_ns + core::from_seconds(random_.uniform(0.001, kLongestFault_s));
+  replay::StreamFaults& faults = device_.faults();
+  const std::size_t kind = random_.bits() % kNames.size();
+  ++counts_[kind];
+  switch (kind) {
+    case 0:
+      faults.damaged_share = random_.chance(0.5) ? 0.001 : 0.05;
+      break;
+    case 1:
+      faults.to_lose = 1 + random_.bits() % 3000;
+      break;
+    case 2:
+      faults.to_repeat = 1 + random_.bits() % 300;
+      break;
+    case 3:
+      faults.to_invent = 1 + random_.bits() % 3000;
+      break;
+    case 4:
+      device_.plug(false);
+      break;
+    case 5:
+      device_.emulator().set_stalled(true, now_ns);
+      break;
+    case 6:
+      device_.emulator().set_health({.status = 2, .code = 0x8001}, now_ns);
+      break;
+    case 7:
+      scene_.cover(true);
+      break;
+    case 8:
+      device_.emulator().power_cycle(now_ns);
+      break;
+    case 9:
+      // More than a second, and the emulator begins its stream anew.
+      device_.faults().to_lose = 11'520;
+      break;
+    default:
+      break;
+  }
+}
+
+void FaultPlan::end(core::TimeNs now_ns) {
+  is_on_ = false;
+  next_ns_ = now_ns + core::from_seconds(random_.uniform(0, 2 * kMeanPause_s));
+  device_.faults().damaged_share = 0;
+  device_.faults().to_lose = 0;
+  device_.plug(true);
+  device_.emulator().set_stalled(false, now_ns);
+  scene_.cover(false);
+}
+
+}  // namespace cornerd::soak

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string_view>
+
+#include "replay/emulator/emulated_device.hpp"
+#include "replay/simulator/coverable_scene.hpp"
+
+namespace cornerd::soak {
+
+/// Everything that may befall a lidar and its cable, at random times, one after the other, each for
+/// a random while.
+class FaultPlan {
+ public:
+  static constexpr std::array<std::string_view, 11> kNames = {
+      "noise on the line", "bytes lost",    "bytes repeated",
+      "bytes invented",    "unplugged",     "motor stalled",
+      "protection stop",   "laser covered", "supply breakdown",
+      "stream held up",    "quiet"};
+
+  FaultPlan(replay::EmulatedDevice& device, replay::CoverableScene& scene, std::uint64_t seed);
+
+  /// To be called with each new time.
+  void advance(core::TimeNs now_ns);
+  /// How often each has happened so far.
+  const std::array<std::uint64_t, kNames.size()>& counts() const { return counts_; }
+
+ private:
+  void begin(core::TimeNs now_ns);
+  void end(core::TimeNs now_ns);
+
+  replay::EmulatedDevice& device_;
+  replay::CoverableScene& scene_;
+  replay::Random random_;
+  core::TimeNs next_ns_ = 0;
+  bool is_on_ = false;
+  std::array<std::uint64_t, kNames.size()> counts_{};
+};
+
+}  // namespace cornerd::soak

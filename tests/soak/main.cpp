@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+// daemon_soak [--turns N] [--seed N]: the daemon's loops through every fault, at many times real
+// time. Says what happened; 1 where something does not hold that must.
+#include <cstdio>
+#include <cstdlib>
+#include <string_view>
+
+#include "message/state_names.hpp"
+#include "soak_run.hpp"
+
+namespace {
+
+using namespace cornerd;
+
+void print(const soak::SoakReport& report) {
+  const auto number = [](std::uint64_t value) { return static_cast<unsigned long long>(value); };
+  std::printf("%llu turns, %.1f h, in %.0f s: %.0f times real time\n", number(report.turns),
+              report.simulated_s / 3600, report.real_s, report.simulated_s / report.real_s);
+  for (std::size_t i = 0; i < report.poses.size(); ++i) {
+    const auto name = message::to_string(static_cast<core::PoseState>(i));
+    std::printf("  %-20.*s %10llu\n", static_cast<int>(name.size()), name.data(),
+                number(report.poses[i]));
+  }
+  std::printf("  %-20s %10llu (worst error of all %.3f m)\n", "wrong", number(report.wrong),
+              report.worst_error_m);
+  for (std::size_t i = 0; i < report.faults.size(); ++i) {
+    std::printf("  %-20.*s %10llu times\n", static_cast<int>(soak::FaultPlan::kNames[i].size()),
+                soak::FaultPlan::kNames[i].data(), number(report.faults[i]));
+  }
+  std::printf("  bytes %llu = used %llu + skipped %llu; the port gave %llu\n",
+              number(report.counters.bytes), number(report.counters.used_bytes),
+              number(report.counters.skipped_bytes), number(report.read_bytes));
+  std::printf("  resident memory %llu kB after a tenth, %llu kB at the end\n",
+              number(report.warm_bytes / 1024), number(report.end_bytes / 1024));
+  std::printf("  longest time without progress of both loops: %.2f s\n",
+              report.longest_without_progress_s);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  soak::SoakConfig config;
+  for (int i = 1; i + 1 < argc; i += 2) {
+    const std::string_view name = argv[i];
+    if (name == "--turns") {
+      config.turns = std::strtoull(argv[i + 1], nullptr, 10);
+    } else if (name == "--seed") {
+      config.seed = std::strtoull(argv[i + 1], nullptr, 10);
+    } else {
+      std::fprintf(stderr, "daemon_soak [--turns N] [--seed N]\n");
+      return 2;
+    }
+  }
+  const soak::SoakReport report = soak::run(config);
+  print(report);
+  const auto failures = report.failures(config);
+  for (const auto& failure : failures) std::printf("FAILED: %s\n", failure.c_str());
+  return failures.empty() ? 0 : 1;
+}

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: MIT
+#include "soak_run.hpp"
+
+#include <poll.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <utility>
+
+#include "core/geometry/angle.hpp"
+#include "core/pipeline.hpp"
+#include "daemon/localization.hpp"
+#include "drivers/rplidar/rplidar_driver.hpp"
+#include "replay/simulator/motion.hpp"
+#include "settings/map_file.hpp"
+
+namespace cornerd::soak {
+namespace {
+
+using std::chrono::duration;
+using Clock = std::chrono::steady_clock;
+
+/// Farther off than this a place is another one.
+constexpr double kWrong_m = 0.15;
+constexpr double kWrong_rad = core::radians(10);
+constexpr std::uint64_t kFlatBytes = 1 << 20;
+
+std::uint64_t resident_bytes() {
+  std::uint64_t size = 0;
+  std::uint64_t resident = 0;
+  std::ifstream("/proc/self/statm") >> size >> resident;
+  return resident * static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
+}
+
+/// Everything but the program under test.
+class World {
+ public:
+  explicit World(const SoakConfig& config)
+      : map(settings::load_map(std::filesystem::path(CORNERD_SOURCE_DIR) /
+                               "config/maps/krpai-2019-a.json")),
+        motion(replay::drive_path({{0.36, 1.1},
+                                   {0.36, 0.24},
+                                   {0.95, 0.24},
+                                   {0.95, 1.15},
+                                   {1.6, 1.15},
+                                   {0.95, 1.15},
+                                   {0.95, 0.24},
+                                   {0.36, 0.24}},
+                                  {.speed_m_s = 0.2,
+                                   .yaw_rate_rad_s = 1,
+                                   .acceleration_m_s2 = 0.5,
+                                   .yaw_acceleration_rad_s2 = 4,
+                                   .loop = true})),
+        device(emulator(config.seed), clock, config.seed + 1),
+        plan(device, *scene, config.seed + 2) {
+    clock.set_on_advance([this](core::TimeNs now_ns) { plan.advance(now_ns); });
+  }
+
+  std::shared_ptr<const core::WallMap> map;
+  replay::Motion motion;
+  replay::CoverableScene* scene = nullptr;
+  replay::VirtualClock clock;
+  replay::EmulatedDevice device;
+  FaultPlan plan;
+
+ private:
+  replay::Emulator emulator(std::uint64_t seed) {
+    auto coverable =
+        std::make_unique<replay::CoverableScene>(std::make_unique<replay::MapScene>(map, motion));
+    scene = coverable.get();
+    replay::SimulatorConfig simulator;
+    simulator.seed = seed;
+    return {{}, std::make_unique<replay::Simulator>(std::move(coverable), simulator)};
+  }
+};
+
+void judge(const core::PoseEstimate& pose, const core::Pose2& truth, SoakReport& report) {
+  if (pose.state != core::PoseState::kFix && pose.state != core::PoseState::kTracking) return;
+  const double error_m = (pose.T_map_base.translation() - truth.translation()).norm();
+  const double error_rad =
+      std::abs(core::angle_between(truth.theta_rad, pose.T_map_base.theta_rad));
+  report.worst_error_m = std::max(report.worst_error_m, error_m);
+  if (error_m > kWrong_m || error_rad > kWrong_rad) ++report.wrong;
+}
+
+}  // namespace
+
+SoakReport run(const SoakConfig& config) {
+  World world(config);
+  rplidar::RplidarDriver driver(
+      {.device = "/dev/emulated", .motor = {}},
+      [&world](std::uint32_t /*baud*/) { return world.device.open(); }, world.clock);
+  SoakReport report;
+  const auto began = Clock::now();
+  {
+    // A source that waits: virtual time is in no hurry.
+    daemon::Localization localization(
+        driver, std::make_unique<core::Pipeline>(world.map, core::LocalizerConfig{}),
+        daemon::SourceKind::kRecording);
+    localization.start();
+    auto progressed = began;
+    pollfd readable{localization.event_fd(), POLLIN, 0};
+    while (report.turns < config.turns) {
+      ::poll(&readable, 1, 100);
+      localization.take([&](const daemon::TurnReport& turn) {
+        ++report.turns;
+        ++report.poses[static_cast<std::size_t>(turn.result.pose.state)];
+        judge(turn.result.pose, world.motion(turn.result.pose.t_ns, 0), report);
+      });
+      if (report.warm_bytes == 0 && report.turns >= config.turns / 10) {
+        report.warm_bytes = resident_bytes();
+      }
+      const auto now = Clock::now();
+      const double still_s = duration<double>(now - progressed).count();
+      report.longest_without_progress_s = std::max(report.longest_without_progress_s, still_s);
+      if (localization.has_progressed()) progressed = now;
+      if (still_s > 10 * config.patience_s) break;
+    }
+    report.end_bytes = resident_bytes();
+  }
+  report.real_s = duration<double>(Clock::now() - began).count();
+  report.simulated_s = core::to_seconds(world.clock.monotonic_ns());
+  report.faults = world.plan.counts();
+  report.counters = driver.status().counters;
+  report.read_bytes = world.device.read_bytes();
+  return report;
+}
+
+std::vector<std::string> SoakReport::failures(const SoakConfig& config) const {
+  std::vector<std::string> failures;
+  const auto require = [&failures](bool holds, const char* what) {
+    if (!holds) failures.emplace_back(what);
+  };
+  require(turns >= config.turns, "it came to a standstill");
+  require(wrong == 0, "there were wrong fixes");
+  require(counters.bytes == read_bytes, "bytes came that are not counted");
+  require(counters.used_bytes + counters.skipped_bytes == counters.bytes,
+          "bytes are neither used nor skipped");
+  require(longest_without_progress_s < config.patience_s, "a watchdog would have bitten");
+  require(end_bytes < warm_bytes + kFlatBytes, "memory grew");
+  return failures;
+}
+
+}  // namespace cornerd::soak

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "daemon/turn_publisher.hpp"
+#include "drivers/lidar_driver.hpp"
+#include "fault_plan.hpp"
+
+namespace cornerd::soak {
+
+struct SoakConfig {
+  std::uint64_t turns = 2000;
+  std::uint64_t seed = 1;
+  /// Less than a watchdog of ten seconds allows.
+  double patience_s = 5;
+};
+
+struct SoakReport {
+  std::uint64_t turns = 0;
+  std::array<std::uint64_t, daemon::TurnPublisher::kStates> poses{};
+  std::uint64_t wrong = 0;  ///< fixes that are elsewhere
+  double worst_error_m = 0;
+  std::array<std::uint64_t, FaultPlan::kNames.size()> faults{};
+  drivers::StreamCounters counters;
+  std::uint64_t read_bytes = 0;  ///< as the port counts them
+  double simulated_s = 0;
+  double real_s = 0;
+  double longest_without_progress_s = 0;  ///< of both loops, as the watchdog sees it
+  std::uint64_t warm_bytes = 0;           ///< of resident memory, after a tenth of the turns
+  std::uint64_t end_bytes = 0;
+
+  /// What does not hold; empty: all is well.
+  std::vector<std::string> failures(const SoakConfig& config) const;
+};
+
+/// An emulated A1 on a robot that drives, every fault of FaultPlan, and the daemon's own reader and
+/// localizer, as fast as they can.
+SoakReport run(const SoakConfig& config);
+
+}  // namespace cornerd::soak

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <condition_variable>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <thread>
+
+#include "replay/emulator/pty_emulator.hpp"
+#include "replay/simulator/coverable_scene.hpp"
+
+namespace cornerd::system_test {
+
+/// An A1 that stands in a room, on a pseudo-terminal that can be unplugged.
+class EmulatedLidar {
+ public:
+  /// `map`: of the room; `link`: the port's name.
+  EmulatedLidar(const std::filesystem::path& map, const std::filesystem::path& link,
+                const replay::EmulatorConfig& config = {});
+  /// Unplugs it.
+  ~EmulatedLidar() { stop(); }
+  EmulatedLidar(const EmulatedLidar&) = delete;
+  EmulatedLidar& operator=(const EmulatedLidar&) = delete;
+
+  /// Does that to the device, in its own thread and at its own time; returns when it is done.
+  void act(std::function<void(replay::Emulator&, core::TimeNs)> action);
+  void cover(bool covered) { scene_->cover(covered); }
+  void expect_speed(std::uint32_t baud) { pty_->expect_speed(baud); }
+
+ private:
+  void stop();
+
+  replay::CoverableScene* scene_ = nullptr;
+  std::unique_ptr<replay::PtyEmulator> pty_;
+  std::mutex mutex_;
+  std::condition_variable done_;
+  std::function<void(replay::Emulator&, core::TimeNs)> action_;
+  std::jthread thread_;
+};
+
+}  // namespace cornerd::system_test

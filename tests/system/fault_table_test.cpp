@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: MIT
+// What befalls a lidar, the state that the daemon reports, and when it is over. Prints a table:
+//   build/dev/tests/system_daemon --gtest_filter='FaultTable.*' | grep '^|'
+// With CORNERD_TIMES=1 it also holds the daemon to its times, on a machine that has nothing else to
+// do.
+#include <gtest/gtest.h>
+#include <signal.h>
+
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <memory>
+#include <string>
+
+#include "daemon_process.hpp"
+#include "emulated_lidar.hpp"
+
+namespace cornerd::system_test {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point then) {
+  return std::chrono::duration<double>(Clock::now() - then).count();
+}
+
+class FaultTable : public DaemonTest {
+ protected:
+  FaultTable() { plug_in(); }
+
+  void plug_in(const replay::EmulatorConfig& config = {}) {
+    lidar_.reset();
+    lidar_ = std::make_unique<EmulatedLidar>(folder_ / "map.json", folder_ / "lidar", config);
+  }
+
+  /// cornerd on the emulated port, when it has its first pose.
+  void start_daemon(const std::vector<std::string>& more = {}) {
+    launch(more);
+    wait_for_fix();
+  }
+
+  void launch(const std::vector<std::string>& more = {}) {
+    std::vector<std::string> overrides = {"/lidar/driver=rplidar",
+                                          "/lidar/device=" + (folder_ / "lidar").string()};
+    overrides.insert(overrides.end(), more.begin(), more.end());
+    std::vector<std::string> arguments = with_config();
+    for (const std::string& text : overrides) {
+      arguments.emplace_back("--set");
+      arguments.push_back(text);
+    }
+    daemon_ = std::make_unique<DaemonProcess>(arguments, folder_ / "log");
+    client_ = std::make_unique<TestClient>(connect());
+    client_->send(R"({"class":"WATCH","classes":["POSE","EVENT","STATUS"]})"
+                  "\n");
+  }
+
+  void wait_for_fix() {
+    for (json pose = next_of(*client_, "POSE"); pose.is_object() && pose["state"] != "fix";) {
+      pose = next_of(*client_, "POSE");
+    }
+  }
+
+  /// Seconds until a STATUS tells of that fault; `state`: the one that it comes with.
+  double wait_for_fault(const std::string& fault, std::string& state) {
+    const auto began = Clock::now();
+    while (true) {
+      const json status = next_of(*client_, "STATUS");
+      if (!status.is_object()) return -1;
+      if (status["lidar"].value("fault", "") != fault) continue;
+      state = status["lidar"]["state"];
+      EXPECT_FALSE(status["lidar"]["detail"].get<std::string>().empty()) << "without a hint";
+      return seconds_since(began);
+    }
+  }
+
+  /// Begins the fault, ends it, and prints how long each took to be seen.
+  void expect(const char* what, const std::string& fault, const std::string& state,
+              const std::function<void()>& begin, const std::function<void()>& end,
+              double limit_s = 0, double back_limit_s = 0) {
+    begin();
+    std::string seen;
+    const double noticed_s = wait_for_fault(fault, seen);
+    EXPECT_EQ(seen, state) << what;
+    end();
+    const auto ended = Clock::now();
+    skip_stale_poses();
+    wait_for_fix();
+    print(what, seen + ", " + fault, noticed_s, seconds_since(ended));
+    if (std::getenv("CORNERD_TIMES") == nullptr) return;
+    if (limit_s > 0) {
+      EXPECT_LT(noticed_s, limit_s) << what;
+      EXPECT_LT(seconds_since(ended), back_limit_s) << what;
+    }
+  }
+
+  /// Poses of before the fault may still be on their way: those end with the first STATUS.
+  void skip_stale_poses() {
+    client_->send("{\"class\":\"POLL\",\"id\":\"now\"}\n");
+    for (json ok = next_of(*client_, "OK"); ok.is_object() && ok.value("id", "") != "now";) {
+      ok = next_of(*client_, "OK");
+    }
+  }
+
+  static void print(const char* what, const std::string& state, double noticed_s, double back_s) {
+    std::printf("| %-44s | %-26s | %6.2f s | %6.2f s |\n", what, state.c_str(), noticed_s, back_s);
+    std::fflush(stdout);
+  }
+
+  std::unique_ptr<EmulatedLidar> lidar_;
+  std::unique_ptr<DaemonProcess> daemon_;
+  std::unique_ptr<TestClient> client_;
+};
+
+TEST_F(FaultTable, Unplugged) {
+  start_daemon();
+  expect(
+      "plug pulled out; put in again", "unplugged", "backoff", [&] { lidar_.reset(); },
+      [&] { plug_in(); }, 1, 2);
+}
+
+TEST_F(FaultTable, NoPort) {
+  lidar_.reset();
+  launch();
+  expect(
+      "no port at the start; plugged in", "no-port", "absent", [] {}, [&] { plug_in(); }, 1, 2);
+}
+
+TEST_F(FaultTable, MotorStalled) {
+  start_daemon();
+  expect(
+      "head held; let go within 3 s", "motor-stalled", "faulty",
+      [&] { lidar_->act([](auto& device, auto t_ns) { device.set_stalled(true, t_ns); }); },
+      [&] { lidar_->act([](auto& device, auto t_ns) { device.set_stalled(false, t_ns); }); });
+}
+
+TEST_F(FaultTable, ProtectionStop) {
+  start_daemon();
+  expect(
+      "protection stop; RESET heals it", "protection-stop", "faulty",
+      [&] {
+        lidar_->act([](auto& device, auto t_ns) {
+          device.set_health({.status = 2, .code = 0x8001}, t_ns);
+        });
+      },
+      [] {});
+}
+
+TEST_F(FaultTable, HealthError) {
+  replay::EmulatorConfig config;
+  config.health = {.status = 2, .code = 0x8001};
+  config.reset_heals = false;
+  plug_in(config);
+  launch();
+  expect(
+      "health error that RESET does not heal; healed", "health-error", "faulty", [] {},
+      [&] { lidar_->act([](auto& device, auto t_ns) { device.set_health({}, t_ns); }); });
+}
+
+TEST_F(FaultTable, DeadLaser) {
+  start_daemon();
+  expect(
+      "nothing returns; sees again", "dead-laser", "faulty", [&] { lidar_->cover(true); },
+      [&] { lidar_->cover(false); });
+}
+
+TEST_F(FaultTable, WrongSpeed) {
+  lidar_->expect_speed(115200);
+  launch({"/lidar/baud=57600"});
+  expect(
+      "lidar.baud is wrong; the device's follows", "wrong-baud", "backoff", [] {},
+      [&] { lidar_->expect_speed(57600); });
+}
+
+TEST_F(FaultTable, StreamRunningAndKilled) {
+  start_daemon();
+  daemon_->send_signal(SIGKILL);
+  const auto began = Clock::now();
+  launch();
+  wait_for_fix();
+  const double back_s = seconds_since(began);
+  EXPECT_NE(daemon_->output().find("stream-running"), std::string::npos) << daemon_->output();
+  print("killed (SIGKILL) and started again", "identifying, stream-running", 0, back_s);
+  if (std::getenv("CORNERD_TIMES") != nullptr) {
+    EXPECT_LT(back_s, 1.5);
+  }
+}
+
+TEST_F(FaultTable, SupplyBreakdown) {
+  start_daemon();
+  expect(
+      "supply breaks down for a moment", "restarted", "backoff",
+      [&] { lidar_->act([](auto& device, auto t_ns) { device.power_cycle(t_ns); }); }, [] {});
+}
+
+TEST_F(FaultTable, NoDataAfterTheStart) {
+  lidar_->act([](auto& device, auto t_ns) { device.set_stalled(true, t_ns); });
+  launch();
+  expect(
+      "head does not turn at the start; turns", "no-data", "backoff", [] {},
+      [&] { lidar_->act([](auto& device, auto t_ns) { device.set_stalled(false, t_ns); }); });
+}
+
+TEST_F(FaultTable, Booting) {
+  lidar_->act([](auto& device, auto t_ns) { device.power_cycle(t_ns); });
+  launch();
+  expect(
+      "switched on as the daemon starts", "booting", "identifying", [] {}, [] {});
+}
+
+}  // namespace
+}  // namespace cornerd::system_test
