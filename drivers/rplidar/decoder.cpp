@@ -110,8 +110,9 @@ class Decoder::Implementation {
     const bool same_stream = has_history_ && format_ == format;
     const std::size_t packet = format == WireFormat::kStandard ? kNodeSize : capsule_size(format);
     if (same_stream && skipped_since_lock_ % packet != 0) ++counters_.resyncs;
-    // Capsules tell by their angles how many of them are gone; nodes do not.
-    if (same_stream && format == WireFormat::kStandard) sink.on_gap();
+    // Capsules tell by their angles how many of them are gone, if not many are; nodes do not.
+    const bool tells = same_stream && format != WireFormat::kStandard;
+    if (!tells && counters_.samples > 0) sink.on_gap();
     format_ = format;
     state_ = State::kLocked;
     lock(format, same_stream);

@@ -98,12 +98,12 @@ class SampleStream::Implementation : private RawSampleSink {
 
  private:
   void on_sample(const RawSample& raw) override {
+    const std::uint64_t resets = clock_.resets();
     const WireFormat format = *decoder_.format();
     if (format != clock_format_) {
       clock_format_ = format;
       clock_.reset(period_s(format));
     }
-    const std::uint64_t resets = clock_.resets();
     const core::TimeNs t_ns = time_of(raw, format);
     // Nobody knows how many samples are gone, and a turn of two halves is none.
     if (clock_.resets() != resets) sink_->on_gap();
