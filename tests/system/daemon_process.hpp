@@ -34,6 +34,7 @@ class DaemonProcess {
 
   void send_signal(int signal) const;
   bool is_running() const;
+  pid_t pid() const { return pid_; }
   /// The exit code; nullopt where it does not end in time, or by a signal.
   std::optional<int> wait_for_exit();
   /// What it wrote to standard error and standard output.

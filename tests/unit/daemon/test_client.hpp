@@ -38,6 +38,11 @@ class TestClient {
     return true;
   }
 
+  /// Sends what there is room for: whoever does not read its answers is not read for long.
+  void offer(std::string_view text) {
+    static_cast<void>(::send(fd_.get(), text.data(), text.size(), MSG_NOSIGNAL | MSG_DONTWAIT));
+  }
+
   void finish_sending() { ::shutdown(fd_.get(), SHUT_WR); }
 
   /// The next line without its newline; nullopt where none comes in time or the connection ended.
