@@ -121,6 +121,19 @@ std::string_view FieldReader::text(const char* name) {
   return value->get_ref<const std::string&>();
 }
 
+std::string_view FieldReader::optional_text(const char* name) {
+  return has(name) ? text(name) : std::string_view();
+}
+
+const Json& FieldReader::optional_object(const char* name) {
+  static const Json kEmpty = Json::object();
+  if (!has(name)) return kEmpty;
+  const Json& value = object_[name];
+  if (value.is_object()) return value;
+  fail(in_quotes(name) + " must be an object");
+  return kEmpty;
+}
+
 const Json& FieldReader::array(const char* name, std::size_t max_size) {
   static const Json kEmpty = Json::array();
   const Json* value = find(name);

@@ -44,6 +44,10 @@ class FieldReader {
   std::optional<std::int64_t> optional_integer(const char* name);
   core::TimeNs time(const char* name) { return core::from_seconds(number(name, kTimeLimitsS)); }
   std::string_view text(const char* name);
+  /// Empty where there is none.
+  std::string_view optional_text(const char* name);
+  /// An empty object where there is none or the field is wrong.
+  const Json& optional_object(const char* name);
   /// An empty array where the field is wrong.
   const Json& array(const char* name, std::size_t max_size);
 

@@ -10,6 +10,8 @@ class App;
 namespace cornerd::tool {
 
 void add_watch(CLI::App& program);
+void add_doctor(CLI::App& program);
+void add_monitor(CLI::App& program);
 void add_replay(CLI::App& program);
 void add_detect(CLI::App& program);
 void add_record(CLI::App& program);

@@ -28,6 +28,8 @@ int run_cornerctl(int argc, const char* const* argv) {
   program.require_subcommand(1);
   program.fallthrough();
   add_watch(program);
+  add_monitor(program);
+  add_doctor(program);
   add_replay(program);
   add_detect(program);
   add_record(program);

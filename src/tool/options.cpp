@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "tool/options.hpp"
 
+#include <unistd.h>
+
 #include <charconv>
 #include <cmath>
 #include <optional>
@@ -18,6 +20,7 @@ namespace cornerd::tool {
 namespace {
 
 constexpr std::size_t kMaxConfigBytes = std::size_t{1} << 20;
+constexpr const char* kInstalledConfig = "/etc/cornerd/cornerd.json";
 
 /// Exactly `count` finite numbers between commas; empty where the text is anything else.
 std::vector<double> parse_numbers(std::string_view text, std::size_t count) {
@@ -49,6 +52,10 @@ void SettingsOptions::add_config(CLI::App& command) {
 void SettingsOptions::add_map(CLI::App& command) {
   command.add_option("--map", map_, "map of the building; else the one that the config names")
       ->type_name("FILE");
+}
+
+void SettingsOptions::use_installed_config() {
+  if (config_.empty() && ::access(kInstalledConfig, R_OK) == 0) config_ = kInstalledConfig;
 }
 
 settings::Config SettingsOptions::resolve(bool needs_map) const {

@@ -28,6 +28,12 @@ class SettingsOptions {
   /// Throws settings::SettingsError; UsageError where a map is needed and none is named.
   settings::Config resolve(bool needs_map) const;
 
+  /// Without --config: the service's, where it is there to be read.
+  void use_installed_config();
+  const std::filesystem::path& config_file() const { return config_; }
+  /// What --set says, as settings::parse_config takes it.
+  const std::vector<std::string>& set() const { return set_; }
+
   /// Puts "/json/pointer=value" over the config, before what --set says.
   void add_override(const std::string& text) { overrides_.push_back(text); }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -15,8 +16,9 @@ class SocketClient {
   SocketClient(const SocketClient&) = delete;
   SocketClient& operator=(const SocketClient&) = delete;
 
-  /// False where nobody listens there; problem() says why.
-  bool connect(const std::filesystem::path& socket);
+  /// False where nobody listens there; problem() and error_number() say why. Not `patient`: where
+  /// somebody listens and too many wait before us, too.
+  bool connect(const std::filesystem::path& socket, bool patient = true);
   void close();
 
   /// False where the daemon has gone.
@@ -26,12 +28,26 @@ class SocketClient {
   /// until the next call. Empty: the daemon has gone; a line that it did not end is dropped.
   std::string_view receive();
 
+  /// What is there of it already: whole lines, or none. nullopt: the daemon has gone.
+  std::optional<std::string_view> take();
+
+  /// To wait for what it says; -1 where it is not connected.
+  int fd() const { return fd_; }
+
   const std::string& problem() const { return problem_; }
+  int error_number() const { return error_number_; }
 
  private:
+  bool fail(const std::string& path, int error_number);
+  /// One read, as recv() has the flags; false where the daemon has gone.
+  bool fetch(int flags);
+  /// Hands out the whole lines that are there.
+  std::string_view whole_lines();
+
   int fd_ = -1;
   std::string buffer_;
   std::size_t handed_out_ = 0;
+  int error_number_ = 0;
   std::string problem_;
 };
 

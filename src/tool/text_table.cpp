@@ -2,20 +2,8 @@
 #include "tool/text_table.hpp"
 
 #include <algorithm>
-#include <array>
-#include <cstdarg>
-#include <cstdio>
 
 namespace cornerd::tool {
-
-std::string formatted(const char* format, ...) {
-  std::array<char, 256> text{};
-  va_list arguments;
-  va_start(arguments, format);
-  std::vsnprintf(text.data(), text.size(), format, arguments);
-  va_end(arguments);
-  return text.data();
-}
 
 std::string TextTable::text(bool numbers) const {
   std::vector<std::size_t> widths;

@@ -6,10 +6,9 @@
 #include <string_view>
 #include <vector>
 
-namespace cornerd::tool {
+#include "tool/formatted.hpp"
 
-/// printf to a string.
-__attribute__((format(printf, 1, 2))) std::string formatted(const char* format, ...);
+namespace cornerd::tool {
 
 /// Lines of a label and cells, each column as wide as its widest cell.
 class TextTable {

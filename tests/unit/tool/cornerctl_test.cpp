@@ -93,6 +93,7 @@ TEST_F(Cornerctl, WrongUsage_EndsWith2AndSaysWhyOnStandardError) {
       {"simulate", "--map", map_, "-o", path("x.bin")},
       {"simulate", "--map", map_, "-o", path("x.bin"), "--pose", "1,2"},
       {"simulate", "--map", map_, "-o", path("x.bin"), "--pose", "1,1,0", "--places", "2"},
+      {"doctor", "--nonsense"},
       {"bench", "--positions", "-1"},
       {"bench", "--positions", "nan"},
       {"bench", "--samples", "-3"},
@@ -118,6 +119,7 @@ TEST_F(Cornerctl, WrongMapOrConfig_EndsWith78AndOneLine) {
       {"replay", "x.bin", "--map", path("no-map.json")},
       {"replay", "x.bin", "--map", map_, "--config", path("typo.json")},
       {"replay", "x.bin", "--map", map_, "--set", "/lidar/baud=fast"},
+      {"doctor", "--config", path("typo.json")},
   };
   for (const auto& words : wrong) {
     const Outcome outcome = run(words);
@@ -216,6 +218,25 @@ TEST_F(Cornerctl, Watch_FailsAtOnceWhereNoDaemonIs) {
   const Outcome outcome = run({"watch", "--socket", path("pose.sock")});
   EXPECT_EQ(outcome.exit_code, kExitFailed);
   EXPECT_THAT(outcome.err, HasSubstr("pose.sock"));
+}
+
+TEST_F(Cornerctl, Doctor_NamesWhatIsWrongAndFails) {
+  write("cornerd.json", R"({"lidar": {"device": "/dev/no-such-port"}, "map": ")" + map_ +
+                            R"(", "socket": {"pose": ")" + path("pose.sock") + "\"}}");
+  const Outcome outcome = run({"doctor", "--config", path("cornerd.json")});
+  EXPECT_EQ(outcome.exit_code, kExitFailed);
+  EXPECT_THAT(outcome.out, HasSubstr("ok     map "));
+  EXPECT_THAT(outcome.out, HasSubstr("WRONG  port      /dev/no-such-port: no such port"));
+  EXPECT_THAT(outcome.out, HasSubstr("WRONG  daemon "));
+  EXPECT_THAT(outcome.err, HasSubstr("wrong"));
+}
+
+TEST_F(Cornerctl, Doctor_LooksAtTheRestWhereTheConfigIsWrong) {
+  write("typo.json", R"({"lidar": {"devise": "/dev/ttyUSB0"}})");
+  const Outcome outcome = run({"doctor", "--config", path("typo.json")});
+  EXPECT_EQ(outcome.exit_code, kExitConfig);
+  EXPECT_THAT(outcome.out, HasSubstr("/lidar/devise"));
+  EXPECT_THAT(outcome.out, HasSubstr("port "));
 }
 
 TEST_F(Cornerctl, Record_FailsAtOnceWhereNoPortIs) {

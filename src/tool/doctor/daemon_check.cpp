@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: MIT
+#include <cerrno>
+#include <cstring>
+
+#include "tool/doctor/checks.hpp"
+#include "tool/doctor/process_table.hpp"
+#include "tool/formatted.hpp"
+
+namespace cornerd::tool {
+
+namespace {
+
+/// More damaged bytes than line noise explains.
+constexpr double kBadShare = 0.01;
+
+std::vector<Finding> unreachable(const Patient& patient) {
+  const std::string socket = patient.config.socket.pose.string();
+  const int error = patient.daemon.connect_errno;
+  const auto process = find_process(patient.machine, "cornerd");
+  if (error == EACCES) {
+    return {{Verdict::kWrong,
+             "daemon",
+             socket + ": you may not enter its folder",
+             {"sudo cornerctl doctor, or correct the rights of the folder"}}};
+  }
+  if (process) {
+    return {{Verdict::kWrong,
+             "daemon",
+             "cornerd runs (process " + std::to_string(process->pid) +
+                 "), but not with the socket " + socket,
+             {"name the config that it runs with: cornerctl doctor --config FILE"}}};
+  }
+  const bool is_installed = patient.machine.exists("/lib/systemd/system/cornerd.service") ||
+                            patient.machine.exists("/usr/lib/systemd/system/cornerd.service") ||
+                            patient.machine.exists("/etc/systemd/system/cornerd.service");
+  Finding finding{Verdict::kWrong, "daemon",
+                  "does not run (" + socket + ": " + std::strerror(error) + ")"};
+  if (is_installed) {
+    finding.mends = {"sudo systemctl start cornerd", "why it ended: journalctl -u cornerd -n 20"};
+  } else {
+    finding.mends = {"cornerd --config FILE, or install the package"};
+  }
+  return {finding};
+}
+
+/// "running, A1M8 firmware 1.29, health good, 7.1 turns/s"
+std::string describe_lidar(const message::ToldStatus& status) {
+  std::string text = status.lidar_state;
+  if (!status.lidar_fault.empty()) text += ", " + status.lidar_fault;
+  if (!status.lidar_detail.empty()) return text + ": " + status.lidar_detail;
+  if (!status.lidar_model.empty()) text += ", " + status.lidar_model;
+  if (!status.lidar_firmware.empty()) text += " firmware " + status.lidar_firmware;
+  if (!status.lidar_health.empty()) text += ", health " + status.lidar_health;
+  if (status.rate_hz) text += formatted(", %.1f turns/s", *status.rate_hz);
+  return text;
+}
+
+Finding lidar_finding(const message::ToldStatus& status) {
+  const bool runs = status.lidar_state == "running" && status.lidar_fault.empty();
+  Finding finding{runs ? Verdict::kGood : Verdict::kWrong, "lidar", describe_lidar(status)};
+  // The daemon's own text says what to do about the rest.
+  if (!runs && status.lidar_detail.empty()) {
+    finding.mends = {"see again in some seconds: it may only be starting"};
+  }
+  return finding;
+}
+
+void add_line_quality(const message::ToldStatus& status, std::vector<Finding>& findings) {
+  const auto bytes = static_cast<double>(status.counter("bytes"));
+  const double share = bytes > 0 ? static_cast<double>(status.counter("skipped_bytes")) / bytes : 0;
+  if (share <= kBadShare) return;
+  findings.push_back(
+      {Verdict::kNote,
+       "line",
+       formatted("%.1f %% of the lidar's bytes were damaged or belonged to nothing", 100 * share),
+       {"a shorter or screened cable, away from motors; a steadier 5 V"}});
+}
+
+}  // namespace
+
+std::vector<Finding> check_daemon(const Patient& patient) {
+  const DaemonView& daemon = patient.daemon;
+  // EAGAIN: its queue of those who want to be let in is full.
+  const bool hangs = daemon.connect_errno == EAGAIN;
+  if (daemon.connect_errno != 0 && !hangs) return unreachable(patient);
+  if (hangs || daemon.version.empty()) {
+    return {
+        {Verdict::kWrong,
+         "daemon",
+         "takes connections and says nothing: it hangs, or its socket waits for one that cannot "
+         "start",
+         {"sudo systemctl restart cornerd", "why it does not start: journalctl -u cornerd -n 20"}}};
+  }
+  std::vector<Finding> findings = {
+      {Verdict::kGood, "daemon",
+       "cornerd " + daemon.version + " answers on " + patient.config.socket.pose.string()}};
+  if (!daemon.status) return findings;
+  findings.push_back(lidar_finding(*daemon.status));
+  add_line_quality(*daemon.status, findings);
+  for (const message::ToldStatus::Sensor& sensor : daemon.status->odometry_sensors) {
+    if (sensor.state == "running") continue;
+    findings.push_back(
+        {Verdict::kWrong,
+         "odometry",
+         sensor.name + " is " + sensor.state + (sensor.detail.empty() ? "" : ": " + sensor.detail),
+         {"drivers/odometry/README.md has pins, overlays and names"}});
+  }
+  return findings;
+}
+
+}  // namespace cornerd::tool

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+namespace cornerd::tool {
+
+enum class Verdict : unsigned char {
+  kGood,
+  kNote,   ///< no fault, but worth knowing
+  kWrong,  ///< keeps the pose away, or will
+};
+
+/// What one check has to say.
+struct Finding {
+  Verdict verdict = Verdict::kGood;
+  std::string subject;  ///< one word: "port"
+  std::string what;
+  std::vector<std::string> mends{};  ///< what to do about it, a line each
+};
+
+/// A line for each finding and for each way to mend it.
+std::string findings_text(std::span<const Finding> findings);
+
+std::size_t count_wrong(std::span<const Finding> findings);
+
+}  // namespace cornerd::tool

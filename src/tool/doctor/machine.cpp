@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: MIT
+#include "tool/doctor/machine.hpp"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+
+namespace cornerd::tool {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kMostBytes = std::size_t{4} << 20;
+constexpr int kMostLinks = 32;
+
+}  // namespace
+
+fs::path Machine::outside(const fs::path& inside) const { return root_ / inside.relative_path(); }
+
+fs::path Machine::resolve(const fs::path& file) const {
+  fs::path done = "/";
+  fs::path rest = file.relative_path();
+  for (int links = 0; !rest.empty();) {
+    const fs::path part = *rest.begin();
+    fs::path tail;
+    for (auto next = std::next(rest.begin()); next != rest.end(); ++next) tail /= *next;
+    rest = tail;
+    if (part == "..") {
+      done = done.parent_path();
+      continue;
+    }
+    if (part == "." || part.empty()) continue;
+    const std::string target = read_link(done / part);
+    if (target.empty() || ++links > kMostLinks) {
+      done /= part;
+      continue;
+    }
+    if (fs::path(target).is_absolute()) done = "/";
+    rest = fs::path(target).relative_path() / rest;
+  }
+  return done;
+}
+
+bool Machine::exists(const fs::path& file) const { return facts(file).has_value(); }
+
+std::optional<FileFacts> Machine::facts(const fs::path& file) const {
+  // Not stat(): on a board of 32 bits that fails where a number of the file has more.
+  struct statx found {};
+  if (::statx(AT_FDCWD, outside(resolve(file)).c_str(), 0, STATX_BASIC_STATS, &found) != 0) {
+    return std::nullopt;
+  }
+  return FileFacts{found.stx_uid,       found.stx_gid,       found.stx_mode,
+                   found.stx_dev_major, found.stx_dev_minor, found.stx_ino};
+}
+
+std::optional<std::string> Machine::read(const fs::path& file) const {
+  // Not to wait: the kernel's log has no end, only nothing more for now.
+  const int fd =
+      ::open(outside(resolve(file)).c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC | O_NOCTTY);
+  if (fd < 0) return std::nullopt;
+  std::optional<std::string> text = std::string();
+  while (text->size() < kMostBytes) {
+    char chunk[8192];
+    const ssize_t got = ::read(fd, chunk, sizeof chunk);
+    // EPIPE: the log has lost lines that were to come next; there are more.
+    if (got < 0 && (errno == EINTR || errno == EPIPE)) continue;
+    if (got < 0 && errno != EAGAIN && text->empty()) text.reset();
+    if (got <= 0) break;
+    text->append(chunk, static_cast<std::size_t>(got));
+  }
+  ::close(fd);
+  return text;
+}
+
+std::string Machine::read_line(const fs::path& file) const {
+  const std::optional<std::string> text = read(file);
+  return text ? text->substr(0, text->find('\n')) : std::string();
+}
+
+std::string Machine::read_link(const fs::path& link) const {
+  std::error_code error;
+  const fs::path target = fs::read_symlink(outside(link), error);
+  return error ? std::string() : target.string();
+}
+
+std::vector<std::string> Machine::list(const fs::path& folder) const {
+  std::vector<std::string> names;
+  std::error_code error;
+  fs::directory_iterator entries(outside(resolve(folder)), error);
+  // What vanishes meanwhile, as processes do, ends the list early at worst.
+  for (; !error && entries != fs::directory_iterator(); entries.increment(error)) {
+    names.push_back(entries->path().filename().string());
+  }
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+bool Machine::may_list(const fs::path& folder) const {
+  return ::access(outside(resolve(folder)).c_str(), R_OK | X_OK) == 0;
+}
+
+std::vector<std::string_view> split_words(std::string_view text, std::string_view separators) {
+  std::vector<std::string_view> words;
+  for (std::size_t begin = 0; begin < text.size();) {
+    const std::size_t end = std::min(text.find_first_of(separators, begin), text.size());
+    if (end > begin) words.push_back(text.substr(begin, end - begin));
+    begin = end + 1;
+  }
+  return words;
+}
+
+}  // namespace cornerd::tool

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "message/told_line.hpp"
+#include "settings/config.hpp"
+#include "tool/doctor/accounts.hpp"
+#include "tool/doctor/machine.hpp"
+
+namespace cornerd::tool {
+
+/// What the daemon said while it was listened to.
+struct DaemonView {
+  int connect_errno = 0;  ///< why nobody could be asked; 0: somebody answered
+  std::string version;    ///< empty: it said nothing at all
+  std::optional<message::ToldStatus> status;
+  /// Poses by state, in the order of core::PoseState.
+  std::array<std::uint64_t, 5> poses{};
+};
+
+/// All that is examined.
+struct Patient {
+  Machine machine;
+  settings::Config config;
+  std::string config_name = "the config";  ///< as advice calls it
+  Account caller;                          ///< who asks; its groups are those of its session
+  DaemonView daemon;
+};
+
+/// The account that the service runs under; nullopt where it is not installed.
+std::optional<Account> service_account(const Machine& machine);
+
+/// Where lidar.device leads to in the end.
+std::filesystem::path port_of(const Patient& patient);
+
+}  // namespace cornerd::tool

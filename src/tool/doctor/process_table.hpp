@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "tool/doctor/machine.hpp"
+
+namespace cornerd::tool {
+
+struct Process {
+  int pid = 0;
+  std::string name;
+};
+
+struct PortHolders {
+  std::vector<Process> processes;
+  /// False: other people's processes keep it to themselves what they have open.
+  bool complete = true;
+};
+
+std::optional<Process> find_process(const Machine& machine, std::string_view name);
+
+/// Who has the device open, or a lock on it. `device`: its own path, not a link to it.
+PortHolders holders_of(const Machine& machine, const std::filesystem::path& device);
+
+/// The process of a line of /proc/locks, where it is a lock on that file.
+std::optional<int> lock_owner(std::string_view line, const FileFacts& file);
+
+}  // namespace cornerd::tool

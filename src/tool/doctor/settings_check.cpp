@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+#include <cstdio>
+
+#include "settings/document.hpp"
+#include "settings/map_file.hpp"
+#include "tool/doctor/checks.hpp"
+#include "tool/formatted.hpp"
+
+namespace cornerd::tool {
+
+namespace {
+
+constexpr std::size_t kMaxSettingsBytes = std::size_t{1} << 20;
+/// Fewer corners than a pattern has: there is nothing to recognise.
+constexpr std::size_t kFewestCorners = 3;
+
+void check_config_file(const std::filesystem::path& file, const std::vector<std::string>& overrides,
+                       SettingsCheck& check) {
+  const std::string text = file.empty() ? "{}" : settings::read_file(file, kMaxSettingsBytes);
+  check.config = settings::parse_config(text, file, overrides, /*require_map=*/false);
+  if (file.empty()) {
+    check.findings.push_back({Verdict::kNote,
+                              "config",
+                              "none is installed and none was named: every key has its default",
+                              {"name one: cornerctl doctor --config FILE"}});
+  } else {
+    check.findings.push_back({Verdict::kGood, "config", file.string()});
+  }
+}
+
+void check_map_file(SettingsCheck& check) {
+  const std::filesystem::path& file = check.config.map;
+  if (file.empty()) {
+    check.findings.push_back(
+        {Verdict::kWrong,
+         "map",
+         "the settings name none: there can be no pose",
+         {R"(draw one (README.md, "A map") and name it: "map": "/path/to/map.json")"}});
+    return;
+  }
+  const auto map = settings::load_map(file);
+  const core::Vec2 size = map->upper_right() - map->lower_left();
+  Finding finding{
+      Verdict::kGood, "map",
+      file.string() + formatted(": %.3f x %.3f m, %zu walls, %zu corners", size.x(), size.y(),
+                                map->plan().walls.size(), map->corners().size())};
+  if (map->corners().size() < kFewestCorners) {
+    finding.verdict = Verdict::kWrong;
+    finding.mends = {"poses are recognised by corners: give the map the walls of the building"};
+  }
+  check.findings.push_back(finding);
+}
+
+/// Runs one of them; what it throws is a finding too.
+template <typename Body>
+void record_error(SettingsCheck& check, const char* subject, const char* mend, const Body& body) {
+  try {
+    body();
+  } catch (const settings::SettingsError& error) {
+    check.findings.push_back({Verdict::kWrong, subject, error.what(), {mend}});
+    if (!check.error) check.error = std::current_exception();
+  }
+}
+
+}  // namespace
+
+SettingsCheck check_settings(const std::filesystem::path& file,
+                             const std::vector<std::string>& overrides) {
+  SettingsCheck check;
+  record_error(check, "config",
+               "correct it there; cornerd.full.json explains every key; what is said below goes by "
+               "the defaults",
+               [&] { check_config_file(file, overrides, check); });
+  if (check.error) return check;
+  record_error(check, "map", "correct it there; cornerctl map check FILE tells whether it is right",
+               [&] { check_map_file(check); });
+  return check;
+}
+
+}  // namespace cornerd::tool

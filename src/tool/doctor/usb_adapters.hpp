@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "tool/doctor/machine.hpp"
+
+namespace cornerd::tool {
+
+/// A serial port behind USB, or an adapter that no driver has made a port of.
+struct UsbAdapter {
+  std::string port;                ///< "ttyUSB0"; empty: no driver has taken it
+  std::string vendor;              ///< "10c4"
+  std::string product;             ///< "ea60"
+  std::string title;               ///< as it calls itself; may be empty
+  std::filesystem::path device{};  ///< its folder below /sys/devices
+
+  /// The chip on the A1's own USB board.
+  bool is_cp2102() const { return vendor == "10c4" && product == "ea60"; }
+  /// "CP2102 USB to UART Bridge Controller, 10c4:ea60"
+  std::string describe() const;
+};
+
+/// All that have a port, and CP2102s without one.
+std::vector<UsbAdapter> find_usb_adapters(const Machine& machine);
+
+}  // namespace cornerd::tool

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: MIT
+#include "tool/monitor/advice.hpp"
+
+#include <cmath>
+#include <optional>
+
+#include "tool/formatted.hpp"
+
+namespace cornerd::tool {
+
+namespace {
+
+using core::PoseState;
+
+/// STATUS comes every second, whatever the lidar does.
+constexpr double kLongestSilence_s = 3.5;
+/// More damaged bytes than line noise explains.
+constexpr double kBadByteShare = 0.01;
+/// Below that share of turns that name a place, people ask why.
+constexpr double kGoodTurnShare = 0.8;
+constexpr std::size_t kEnoughTurns = 20;
+
+std::string seconds_text(double seconds) { return formatted("%.0f s", std::floor(seconds)); }
+
+std::optional<Advice> advise_on_connection(const MonitorState& state, core::TimeNs now_ns) {
+  if (!state.is_connected()) {
+    return Advice{
+        Style::kBad,
+        "no daemon since " + seconds_text(state.connection_age_s(now_ns)) + ": " + state.reason() +
+            "; trying again",
+        "start it: sudo systemctl start cornerd; why it ended: journalctl -u cornerd -n 20"};
+  }
+  if (const double silence_s = state.silence_s(now_ns); silence_s > kLongestSilence_s) {
+    return Advice{Style::kBad, "the daemon has said nothing for " + seconds_text(silence_s),
+                  "is it stopped? sudo systemctl restart cornerd; cornerctl doctor looks further"};
+  }
+  if (!state.status()) return Advice{Style::kDim, "waiting for the daemon's first word", ""};
+  return std::nullopt;
+}
+
+std::optional<Advice> advise_on_lidar(const message::ToldStatus& status) {
+  if (status.lidar_state == "running" && status.lidar_fault.empty()) return std::nullopt;
+  const bool is_coming = status.lidar_fault.empty() &&
+                         (status.lidar_state == "identifying" || status.lidar_state == "starting" ||
+                          status.lidar_state == "opening");
+  return Advice{
+      is_coming ? Style::kDoubt : Style::kBad,
+      "lidar " + status.lidar_state + (status.lidar_fault.empty() ? "" : ", " + status.lidar_fault),
+      status.lidar_detail};
+}
+
+std::optional<Advice> advise_on_pose(const MonitorState& state, core::TimeNs now_ns) {
+  if (!state.pose()) return Advice{Style::kDoubt, "the lidar runs, and no turn is over yet", ""};
+  const message::ToldPose& pose = *state.pose();
+  if (state.recent() > 1 && !state.pose_rate_hz(now_ns)) {
+    return Advice{Style::kBad, "the lidar runs, and no turns come", "cornerctl doctor"};
+  }
+  switch (pose.state) {
+    case PoseState::kLost:
+      return Advice{Style::kBad, "no place of the map fits what the lidar sees",
+                    "is it the right map, is the robot inside it, does lidar.mount say how the "
+                    "lidar sits, are the walls hidden? key l shows what it sees"};
+    case PoseState::kAmbiguous:
+      return Advice{
+          Style::kDoubt, formatted("%zu places fit what the lidar sees", pose.alternatives.size()),
+          "move on, or say where it is (SET_POSE); cornerctl map check tells which places "
+          "look alike"};
+    case PoseState::kPredicted:
+      return Advice{Style::kDoubt,
+                    formatted("by wheels and gyro alone for %.1f s", pose.age_s.value_or(0)),
+                    "is the lidar covered, or the robot where the map has nothing?"};
+    case PoseState::kFix:
+    case PoseState::kTracking:
+      return std::nullopt;
+  }
+  return std::nullopt;
+}
+
+std::optional<Advice> advise_on_quality(const MonitorState& state) {
+  const std::size_t named = state.recent(PoseState::kFix) + state.recent(PoseState::kTracking);
+  const std::size_t turns = state.recent();
+  if (turns >= kEnoughTurns &&
+      static_cast<double>(named) < kGoodTurnShare * static_cast<double>(turns)) {
+    return Advice{Style::kDoubt,
+                  formatted("%zu of the last %zu turns named no place", turns - named, turns),
+                  "things that are not on the map hide its walls, or its walls are elsewhere"};
+  }
+  for (const message::ToldStatus::Sensor& sensor : state.status()->odometry_sensors) {
+    if (sensor.state == "running") continue;
+    return Advice{Style::kDoubt, "odometry: " + sensor.name + " is " + sensor.state, sensor.detail};
+  }
+  const auto bytes = static_cast<double>(state.status()->counter("bytes"));
+  const auto skipped = static_cast<double>(state.status()->counter("skipped_bytes"));
+  if (skipped > kBadByteShare * bytes) {
+    return Advice{Style::kDoubt,
+                  formatted("%.1f %% of the lidar's bytes were damaged", 100 * skipped / bytes),
+                  "a shorter or screened cable, away from motors; a steadier 5 V"};
+  }
+  if (!state.complaint().empty()) {
+    return Advice{Style::kDoubt, state.complaint(), "are cornerd and cornerctl of one version?"};
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+Advice advise(const MonitorState& state, core::TimeNs now_ns) {
+  std::optional<Advice> advice = advise_on_connection(state, now_ns);
+  if (!advice) advice = advise_on_lidar(*state.status());
+  if (!advice) advice = advise_on_pose(state, now_ns);
+  if (!advice) advice = advise_on_quality(state);
+  return advice.value_or(Advice{Style::kGood, "all is well", ""});
+}
+
+}  // namespace cornerd::tool

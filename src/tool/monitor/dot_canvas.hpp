@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/geometry/pose2.hpp"
+#include "tool/monitor/frame.hpp"
+
+namespace cornerd::tool {
+
+/// Dots finer than a terminal's cells: eight to a cell by Braille characters, which makes them
+/// square; one to a cell where the terminal has no such characters. Dot (0, 0) is the upper left.
+class DotCanvas {
+ public:
+  DotCanvas(std::size_t columns, std::size_t rows, bool unicode);
+
+  /// Dots each way.
+  std::size_t width() const { return columns_ * dots_across_; }
+  std::size_t height() const { return rows_ * dots_down_; }
+  /// Height of a dot by its width, on a screen whose cells are twice as high as wide.
+  double dot_aspect() const { return dots_across_ == 1 ? 2.0 : 1.0; }
+
+  /// A later one decides the style of its cell. Nothing where it lies outside.
+  void dot(double across, double down, Style style);
+  void line(const core::Vec2& from, const core::Vec2& to, Style style);
+
+  /// Draws it with its upper left cell there.
+  void draw_on(Frame& frame, std::size_t column, std::size_t row) const;
+
+ private:
+  struct DotCell {
+    std::uint8_t dots = 0;
+    Style style = Style::kPlain;
+  };
+
+  std::size_t columns_;
+  std::size_t rows_;
+  std::size_t dots_across_;
+  std::size_t dots_down_;
+  std::vector<DotCell> cells_;
+};
+
+}  // namespace cornerd::tool

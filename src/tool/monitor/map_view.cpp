@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: MIT
+#include "tool/monitor/map_view.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "tool/monitor/dot_canvas.hpp"
+
+namespace cornerd::tool {
+
+namespace {
+
+using core::Pose2;
+using core::Vec2;
+
+/// Sights of the lidar's view, so that it does not breathe with every turn.
+constexpr std::array<double, 6> kSights_m = {0.5, 1, 2, 4, 8, 12};
+
+/// Metres to dots, and to the cells of the frame.
+class Projection {
+ public:
+  Projection(const DotCanvas& canvas, const Region& region, const Vec2& middle, const Vec2& size_m)
+      : canvas_(canvas), region_(region), middle_(middle) {
+    const double across = std::max(1.0, static_cast<double>(canvas.width()) - 1);
+    const double down =
+        std::max(1.0, static_cast<double>(canvas.height()) - 1) * canvas.dot_aspect();
+    metres_per_dot_ = std::max({size_m.x() / across, size_m.y() / down, 1e-6});
+  }
+
+  Vec2 dot(const Vec2& point) const {
+    const Vec2 off = (point - middle_) / metres_per_dot_;
+    return {static_cast<double>(canvas_.width()) / 2 + off.x(),
+            static_cast<double>(canvas_.height()) / 2 - off.y() / canvas_.dot_aspect()};
+  }
+
+  /// Puts a character there, where it lies inside.
+  void put(Frame& frame, const Vec2& point, Cell cell) const {
+    const Vec2 at = dot(point);
+    const double column = std::floor(at.x() / dots_across());
+    const double row = std::floor(at.y() / dots_down());
+    if (!(column >= 0 && column < static_cast<double>(region_.columns))) return;
+    if (!(row >= 0 && row < static_cast<double>(region_.rows))) return;
+    frame.put(region_.column + static_cast<std::size_t>(column),
+              region_.row + static_cast<std::size_t>(row), cell);
+  }
+
+  double metres_per_cell() const { return metres_per_dot_ * dots_across(); }
+
+ private:
+  double dots_across() const {
+    return static_cast<double>(canvas_.width()) / static_cast<double>(region_.columns);
+  }
+  double dots_down() const {
+    return static_cast<double>(canvas_.height()) / static_cast<double>(region_.rows);
+  }
+
+  const DotCanvas& canvas_;
+  Region region_;
+  Vec2 middle_;
+  double metres_per_dot_ = 1;
+};
+
+char32_t arrow(double direction_rad, bool unicode) {
+  constexpr std::u32string_view kArrows = U"→↗↑↖←↙↓↘";
+  constexpr std::u32string_view kAsciiArrows = U">^<v";
+  const std::u32string_view arrows = unicode ? kArrows : kAsciiArrows;
+  const auto count = static_cast<double>(arrows.size());
+  const double turns = direction_rad / (2 * core::kPi);
+  const double index = std::round((turns - std::floor(turns)) * count);
+  return arrows[static_cast<std::size_t>(index) % arrows.size()];
+}
+
+/// How far the lidar's view is to reach, of the steps that there are.
+double sight_of(const SeenTurn& turn) {
+  double farthest_m = 0;
+  for (const core::Sample& sample : turn.scan.samples) {
+    farthest_m = std::max(farthest_m, double{sample.range_m});
+  }
+  const auto* const sight = std::lower_bound(kSights_m.begin(), kSights_m.end(), farthest_m);
+  return sight == kSights_m.end() ? farthest_m : *sight;
+}
+
+void draw_walls(DotCanvas& canvas, const Projection& projection, const core::WallMap& map) {
+  for (const core::Face& face : map.faces()) {
+    canvas.line(projection.dot(face.from), projection.dot(face.to), Style::kWall);
+  }
+}
+
+void draw_returns(DotCanvas& canvas, const Projection& projection, const SeenTurn& turn,
+                  const Pose2& T_view_lidar) {
+  for (const core::Sample& sample : turn.scan.samples) {
+    if (sample.range_m <= 0) continue;
+    const Vec2 point = core::unit_vector(sample.bearing_rad) * double{sample.range_m};
+    const Vec2 at = projection.dot(T_view_lidar * point);
+    canvas.dot(at.x(), at.y(), Style::kReturn);
+  }
+}
+
+void draw_breakpoints(Frame& frame, const Projection& projection,
+                      const message::ToldBreakpoints& breakpoints, const Pose2& T_view_lidar) {
+  for (const message::ToldBreakpoint& point : breakpoints.points) {
+    projection.put(frame, T_view_lidar * point.position,
+                   {point.is_corner ? U'o' : U'x', Style::kMark});
+  }
+}
+
+double draw_lidar_view(Frame& frame, const Region& region, const MonitorState& state,
+                       const Scene& scene, const ViewChoice& choice) {
+  if (!state.turn()) return 0;
+  const double size_m = 2 * sight_of(*state.turn()) / std::exp2(choice.zoom);
+  DotCanvas canvas(region.columns, region.rows, choice.unicode);
+  const Pose2& T_base_lidar = scene.T_base_lidar;
+  const Projection projection(canvas, region, T_base_lidar.translation(), {size_m, size_m});
+  draw_returns(canvas, projection, *state.turn(), T_base_lidar);
+  canvas.draw_on(frame, region.column, region.row);
+  draw_breakpoints(frame, projection, state.breakpoints(), T_base_lidar);
+  projection.put(frame, Vec2::Zero(), {arrow(0, choice.unicode), Style::kRobot});
+  return projection.metres_per_cell();
+}
+
+double draw_map_view(Frame& frame, const Region& region, const MonitorState& state,
+                     const Scene& scene, const ViewChoice& choice) {
+  const core::WallMap& map = *scene.map;
+  const std::optional<Pose2> robot = state.pose() ? state.pose()->T_map_base : std::nullopt;
+  const Vec2 size_m = (map.upper_right() - map.lower_left()) / std::exp2(choice.zoom);
+  const bool follows = choice.zoom > 0 && robot;
+  const Vec2 middle =
+      follows ? robot->translation() : Vec2((map.upper_right() + map.lower_left()) / 2);
+  DotCanvas canvas(region.columns, region.rows, choice.unicode);
+  const Projection projection(canvas, region, middle, size_m);
+
+  draw_walls(canvas, projection, map);
+  const bool is_placed = state.turn() && state.turn()->T_map_base;
+  const Pose2 T_map_lidar =
+      is_placed ? *state.turn()->T_map_base * scene.T_base_lidar : scene.T_base_lidar;
+  if (is_placed) draw_returns(canvas, projection, *state.turn(), T_map_lidar);
+  canvas.draw_on(frame, region.column, region.row);
+  if (is_placed) draw_breakpoints(frame, projection, state.breakpoints(), T_map_lidar);
+  if (state.pose()) {
+    for (const core::Alternative& place : state.pose()->alternatives) {
+      projection.put(frame, place.T_map_base.translation(), {U'?', Style::kDoubt});
+    }
+  }
+  if (robot) {
+    projection.put(frame, robot->translation(),
+                   {arrow(robot->theta_rad, choice.unicode), Style::kRobot});
+  }
+  return projection.metres_per_cell();
+}
+
+}  // namespace
+
+double draw_map(Frame& frame, const Region& region, const MonitorState& state, const Scene& scene,
+                const ViewChoice& choice) {
+  if (region.columns == 0 || region.rows == 0) return 0;
+  if (scene.map == nullptr || choice.lidar_view) {
+    return draw_lidar_view(frame, region, state, scene, choice);
+  }
+  return draw_map_view(frame, region, state, scene, choice);
+}
+
+}  // namespace cornerd::tool

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+#include "tool/monitor/monitor_state.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace cornerd::tool {
+
+namespace {
+
+constexpr std::size_t kMostEvents = 50;
+/// Three seconds of an A1.
+constexpr std::size_t kMostArrivals = 22;
+constexpr std::size_t kMostStates = 100;
+constexpr core::TimeNs kLongestPause_ns = 2 * core::kNsPerSecond;
+
+template <typename Value>
+void push_limited(std::deque<Value>& values, Value value, std::size_t most) {
+  values.push_back(std::move(value));
+  if (values.size() > most) values.pop_front();
+}
+
+}  // namespace
+
+void MonitorState::lose(std::string_view reason, core::TimeNs now_ns) {
+  if (connected_ || !since_ns_) since_ns_ = now_ns;
+  connected_ = false;
+  reason_ = reason;
+  // What it said last is no longer so.
+  pose_.reset();
+  status_.reset();
+  turn_.reset();
+  breakpoints_ = {};
+  arrivals_.clear();
+  states_.clear();
+  complaint_.clear();
+}
+
+void MonitorState::connect(core::TimeNs now_ns) {
+  connected_ = true;
+  since_ns_ = now_ns;
+  heard_ns_ = now_ns;
+}
+
+double MonitorState::connection_age_s(core::TimeNs now_ns) const {
+  return core::to_seconds(now_ns - since_ns_.value_or(now_ns));
+}
+
+double MonitorState::silence_s(core::TimeNs now_ns) const {
+  return core::to_seconds(now_ns - heard_ns_);
+}
+
+void MonitorState::note(message::ToldPose pose, core::TimeNs now_ns) {
+  push_limited(states_, pose.state, kMostStates);
+  push_limited(arrivals_, now_ns, kMostArrivals);
+  pose_ = std::move(pose);
+}
+
+void MonitorState::hear(std::string_view line, core::TimeNs now_ns) {
+  heard_ns_ = now_ns;
+  message::ToldLine told = message::parse_told_line(line);
+  if (const auto* error = std::get_if<message::RequestError>(&told)) {
+    complaint_ = "a message that makes no sense: " + error->text;
+  } else if (const auto* refused = std::get_if<message::ToldError>(&told)) {
+    complaint_ = refused->code + ": " + refused->text;
+  } else if (auto* version = std::get_if<message::ToldVersion>(&told)) {
+    version_ = std::move(version->version);
+  } else if (auto* pose = std::get_if<message::ToldPose>(&told)) {
+    note(std::move(*pose), now_ns);
+  } else if (auto* scan = std::get_if<message::RecordedScan>(&told)) {
+    // POSE comes first, then SCAN and BREAKPOINTS of the same turn.
+    turn_ = {std::move(*scan), pose_ ? pose_->T_map_base : std::nullopt};
+    breakpoints_ = {};
+  } else if (auto* points = std::get_if<message::ToldBreakpoints>(&told)) {
+    breakpoints_ = std::move(*points);
+  } else if (auto* status = std::get_if<message::ToldStatus>(&told)) {
+    status_ = std::move(*status);
+  } else if (auto* event = std::get_if<message::ToldEvent>(&told)) {
+    events_.push_front(std::move(*event));
+    if (events_.size() > kMostEvents) events_.pop_back();
+  }
+}
+
+std::optional<double> MonitorState::pose_rate_hz(core::TimeNs now_ns) const {
+  if (arrivals_.size() < 2 || arrivals_.back() <= arrivals_.front()) return std::nullopt;
+  if (now_ns - arrivals_.back() > kLongestPause_ns) return std::nullopt;
+  return static_cast<double>(arrivals_.size() - 1) /
+         core::to_seconds(arrivals_.back() - arrivals_.front());
+}
+
+std::size_t MonitorState::recent(core::PoseState state) const {
+  return static_cast<std::size_t>(std::count(states_.begin(), states_.end(), state));
+}
+
+}  // namespace cornerd::tool

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "tool/monitor/frame.hpp"
+#include "tool/monitor/monitor_state.hpp"
+
+namespace cornerd::tool {
+
+struct PanelLine {
+  std::string text;
+  Style style = Style::kPlain;
+};
+
+/// Pose, rates, lidar and events in words, the most important first, in lines of about 31
+/// characters.
+std::vector<PanelLine> panel_lines(const MonitorState& state, core::TimeNs now_ns);
+
+/// "3 s", "5 min", "2 h"
+std::string age_text(double seconds);
+
+/// "fix", in the colour that it has everywhere.
+PanelLine state_line(const MonitorState& state);
+
+}  // namespace cornerd::tool

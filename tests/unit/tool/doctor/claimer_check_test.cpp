@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "doctor/stand_in.hpp"
+#include "tool/doctor/checks.hpp"
+
+namespace cornerd::tool {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+class CheckClaimers : public testing::Test {
+ protected:
+  CheckClaimers() { stand_in_.plug_in(); }
+  std::vector<Finding> findings() const { return check_claimers(stand_in_.patient); }
+  StandIn stand_in_;
+};
+
+TEST_F(CheckClaimers, NobodyIsInstalled_IsGood) {
+  EXPECT_THAT(findings(), ElementsAre(Finds(Verdict::kGood, "claimers", "neither")));
+}
+
+TEST_F(CheckClaimers, GpsdThatTakesEveryCp2102_IsToBeTold) {
+  stand_in_.write("/etc/default/gpsd", "# comment\nDEVICES=\"\"\nUSBAUTO=\"true\"\n");
+  const auto found = findings();
+  ASSERT_THAT(found, ElementsAre(Finds(Verdict::kWrong, "gpsd", "every CP2102")));
+  EXPECT_THAT(found[0].mends, ElementsAre(HasSubstr("udev rules"), HasSubstr("USBAUTO=\"false\"")));
+  stand_in_.write("/etc/default/gpsd", "USBAUTO=\"true\"\nUSBAUTO='false'\n");
+  EXPECT_THAT(findings(), ElementsAre(Finds(Verdict::kGood, "gpsd", "leaves the port alone")));
+}
+
+TEST_F(CheckClaimers, RulesOfThePackage_KeepGpsdOff) {
+  stand_in_.write("/etc/default/gpsd", "USBAUTO=\"true\"\n");
+  stand_in_.write("/etc/udev/rules.d/61-cornerd.rules");
+  EXPECT_THAT(findings(), ElementsAre(Finds(Verdict::kGood, "gpsd", "leaves the port alone")));
+  // Plugged in before they were there.
+  stand_in_.write("/run/udev/data/c188:0", "E:SYSTEMD_WANTS=gpsdctl@ttyUSB0.service\n");
+  EXPECT_THAT(findings(), ElementsAre(Finds(Verdict::kWrong, "gpsd", "every CP2102")));
+  stand_in_.write("/run/udev/data/c188:0", "E:ID_MODEL=CP2102\n");
+  EXPECT_THAT(findings(), ElementsAre(Finds(Verdict::kGood, "gpsd", "leaves the port alone")));
+}
+
+TEST_F(CheckClaimers, GpsdThatIsGivenThePort_IsToLeaveIt) {
+  stand_in_.write("/etc/default/gpsd", "DEVICES=\"/dev/ttyS1 /dev/rplidar\"\nUSBAUTO=\"false\"\n");
+  EXPECT_THAT(findings(), ElementsAre(Finds(Verdict::kWrong, "gpsd", "told to read /dev/ttyUSB0")));
+}
+
+TEST_F(CheckClaimers, GpsdBesideAUartOfTheBoard_DoesNotMind) {
+  stand_in_.patient.config.lidar.device = "/dev/ttyS4";
+  stand_in_.write("/dev/ttyS4");
+  stand_in_.write("/etc/default/gpsd", "USBAUTO=\"true\"\n");
+  stand_in_.run_process(9, "ModemManager");
+  EXPECT_THAT(findings(), ElementsAre(Finds(Verdict::kGood, "gpsd", "leaves the port alone")));
+}
+
+TEST_F(CheckClaimers, ModemManager_GoesByWhatUdevNoted) {
+  stand_in_.run_process(9, "ModemManager");
+  const auto found = findings();
+  ASSERT_THAT(found, ElementsAre(Finds(Verdict::kWrong, "modems", "ModemManager talks")));
+  EXPECT_THAT(found[0].mends, ElementsAre(HasSubstr("udev rules"), HasSubstr("mask --now")));
+  stand_in_.write("/run/udev/data/c188:0", "S:rplidar\nE:ID_MM_PORT_IGNORE=1\n");
+  EXPECT_THAT(findings(), ElementsAre(Finds(Verdict::kGood, "modems", "leaves the port alone")));
+}
+
+TEST_F(CheckClaimers, Brltty_TakesCp2102s) {
+  stand_in_.run_process(9, "brltty");
+  EXPECT_THAT(findings(), ElementsAre(Finds(Verdict::kWrong, "brltty", "Braille")));
+}
+
+}  // namespace
+}  // namespace cornerd::tool

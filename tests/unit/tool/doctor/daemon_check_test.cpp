@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: MIT
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cerrno>
+
+#include "doctor/stand_in.hpp"
+#include "tool/doctor/checks.hpp"
+
+namespace cornerd::tool {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::SizeIs;
+
+class CheckDaemon : public testing::Test {
+ protected:
+  CheckDaemon() {
+    daemon().version = "1.2.3";
+    daemon().status.emplace();
+    daemon().status->lidar_state = "running";
+  }
+  DaemonView& daemon() { return stand_in_.patient.daemon; }
+  void see(std::uint64_t fixes, std::uint64_t ambiguous, std::uint64_t lost) {
+    daemon().poses = {fixes, 0, 0, ambiguous, lost};
+  }
+  StandIn stand_in_;
+};
+
+TEST_F(CheckDaemon, RunningLidar_IsGood) {
+  message::ToldStatus& status = *daemon().status;
+  status.lidar_model = "A1M8";
+  status.lidar_firmware = "1.29";
+  status.lidar_health = "good";
+  status.rate_hz = 7.125;
+  EXPECT_THAT(
+      check_daemon(stand_in_.patient),
+      ElementsAre(
+          Finds(Verdict::kGood, "daemon", "cornerd 1.2.3 answers on /run/cornerd/pose.sock"),
+          Finds(Verdict::kGood, "lidar", "running, A1M8 firmware 1.29, health good, 7.1 turns/s")));
+}
+
+TEST_F(CheckDaemon, FaultOfTheLidar_IsToldInTheDaemonsWords) {
+  message::ToldStatus& status = *daemon().status;
+  status.lidar_state = "faulty";
+  status.lidar_fault = "dead-laser";
+  status.lidar_detail = "/dev/rplidar: its head turns, but nothing returns";
+  EXPECT_THAT(check_daemon(stand_in_.patient)[1],
+              Finds(Verdict::kWrong, "lidar", "faulty, dead-laser: /dev/rplidar: its head turns"));
+  EXPECT_THAT(check_poses(stand_in_.patient), IsEmpty());
+}
+
+TEST_F(CheckDaemon, DamagedBytes_AreNotedAboveTheNoise) {
+  daemon().status->counters = {{"bytes", 1000}, {"skipped_bytes", 10}};
+  EXPECT_THAT(check_daemon(stand_in_.patient), SizeIs(2));
+  daemon().status->counters = {{"bytes", 1000}, {"skipped_bytes", 25}};
+  EXPECT_THAT(check_daemon(stand_in_.patient)[2], Finds(Verdict::kNote, "line", "2.5 %"));
+}
+
+TEST_F(CheckDaemon, SensorsOfTheOdometry_AreNamed) {
+  daemon().status->odometry_sensors = {{"gyro", "running", ""},
+                                       {"left", "absent", "no counter 48300180.counter"}};
+  EXPECT_THAT(check_daemon(stand_in_.patient)[2],
+              Finds(Verdict::kWrong, "odometry", "left is absent: no counter 48300180.counter"));
+}
+
+TEST_F(CheckDaemon, NobodyListens_IsExplained) {
+  daemon() = {};
+  daemon().connect_errno = ENOENT;
+  EXPECT_THAT(check_daemon(stand_in_.patient)[0].mends, ElementsAre(HasSubstr("install")));
+  stand_in_.write("/lib/systemd/system/cornerd.service");
+  const auto found = check_daemon(stand_in_.patient);
+  ASSERT_THAT(found, ElementsAre(Finds(Verdict::kWrong, "daemon", "does not run")));
+  EXPECT_THAT(found[0].mends, ElementsAre("sudo systemctl start cornerd", HasSubstr("journalctl")));
+  stand_in_.run_process(31, "cornerd");
+  EXPECT_THAT(
+      check_daemon(stand_in_.patient)[0],
+      Finds(Verdict::kWrong, "daemon", "cornerd runs (process 31), but not with the socket"));
+  daemon().connect_errno = EACCES;
+  EXPECT_THAT(check_daemon(stand_in_.patient)[0], Finds(Verdict::kWrong, "daemon", "not enter"));
+}
+
+TEST_F(CheckDaemon, DaemonThatHangs_IsToBeRestarted) {
+  daemon() = {};
+  EXPECT_THAT(check_daemon(stand_in_.patient)[0], Finds(Verdict::kWrong, "daemon", "it hangs"));
+  daemon().connect_errno = EAGAIN;
+  EXPECT_THAT(check_daemon(stand_in_.patient)[0], Finds(Verdict::kWrong, "daemon", "it hangs"));
+}
+
+TEST_F(CheckDaemon, Poses_AreGoodWhereHalfOfThemNameAPlace) {
+  see(5, 2, 3);
+  EXPECT_THAT(check_poses(stand_in_.patient),
+              ElementsAre(Finds(Verdict::kGood, "poses", "5 fix, 2 ambiguous, 3 lost")));
+  see(0, 0, 0);
+  EXPECT_THAT(check_poses(stand_in_.patient), ElementsAre(Finds(Verdict::kWrong, "poses", "none")));
+}
+
+TEST_F(CheckDaemon, LostAndAmbiguous_HaveDifferentCures) {
+  see(1, 0, 9);
+  EXPECT_THAT(check_poses(stand_in_.patient)[0].mends[0], HasSubstr("right map"));
+  see(1, 8, 1);
+  EXPECT_THAT(check_poses(stand_in_.patient)[0].mends[0], HasSubstr("look-alike"));
+}
+
+}  // namespace
+}  // namespace cornerd::tool

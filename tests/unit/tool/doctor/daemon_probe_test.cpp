@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+#include "tool/doctor/daemon_probe.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cerrno>
+#include <string>
+#include <thread>
+
+#include "listening_socket.hpp"
+#include "temporary_folder.hpp"
+
+namespace cornerd::tool {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr const char* kGreeting =
+    "{\"class\":\"VERSION\",\"program\":\"cornerd\",\"version\":\"1.2.3\",\"schema\":1}\n"
+    "{\"class\":\"STATUS\",\"t\":1,\"lidar\":{\"state\":\"running\"}}\nnonsense\n";
+
+TEST(ProbeDaemon, WhatItSays_IsCounted) {
+  const TemporaryFolder folder;
+  const ListeningSocket daemon(folder.path() / "pose.sock");
+  std::string said = kGreeting;
+  for (int i = 0; i < 10; ++i) said += "{\"class\":\"POSE\",\"t\":1,\"state\":\"lost\"}\n";
+  // The queue of the socket holds both until they are wanted.
+  const std::jthread client([&] { daemon.accept_and_send(said); });
+  const DaemonView view = probe_daemon(folder.path() / "pose.sock", 60s);
+  EXPECT_EQ(view.connect_errno, 0);
+  EXPECT_EQ(view.version, "1.2.3");
+  ASSERT_TRUE(view.status);
+  EXPECT_EQ(view.status->lidar_state, "running");
+  EXPECT_EQ(view.poses[static_cast<std::size_t>(core::PoseState::kLost)], 10U);
+}
+
+TEST(ProbeDaemon, SilentDaemon_IsGivenUp) {
+  const TemporaryFolder folder;
+  const ListeningSocket daemon(folder.path() / "pose.sock");
+  const DaemonView view = probe_daemon(folder.path() / "pose.sock", 1ms);
+  EXPECT_EQ(view.connect_errno, 0);
+  EXPECT_EQ(view.version, "");
+}
+
+TEST(ProbeDaemon, NobodyThere_TellsWhy) {
+  EXPECT_EQ(probe_daemon("/nowhere/pose.sock", 1s).connect_errno, ENOENT);
+  EXPECT_EQ(probe_daemon(std::string(200, 'x'), 1s).connect_errno, ENAMETOOLONG);
+}
+
+}  // namespace
+}  // namespace cornerd::tool

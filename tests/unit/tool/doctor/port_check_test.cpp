@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: MIT
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "doctor/stand_in.hpp"
+#include "tool/doctor/checks.hpp"
+
+namespace cornerd::tool {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+TEST(CheckPort, PortThatIsThere_IsGoodAndNamed) {
+  const StandIn stand_in;
+  stand_in.plug_in();
+  EXPECT_THAT(check_port(stand_in.patient),
+              ElementsAre(Finds(Verdict::kGood, "port",
+                                "/dev/rplidar -> /dev/ttyUSB0 (CP2102 USB to UART Bridge "
+                                "Controller, 10c4:ea60)")));
+}
+
+TEST(CheckPort, AdapterWithoutRules_IsFoundUnderItsOtherName) {
+  const StandIn stand_in;
+  stand_in.plug_in_without_rules();
+  auto findings = check_port(stand_in.patient);
+  ASSERT_THAT(findings, ElementsAre(Finds(Verdict::kWrong, "port", "there is /dev/ttyUSB0")));
+  EXPECT_THAT(findings[0].mends,
+              ElementsAre(StartsWith("install systemd/61-cornerd.rules"),
+                          "or set lidar.device to \"/dev/ttyUSB0\" in cornerd.json"));
+  stand_in.write("/lib/udev/rules.d/61-cornerd.rules");
+  EXPECT_THAT(check_port(stand_in.patient)[0].mends[0], StartsWith("sudo udevadm control"));
+}
+
+TEST(CheckPort, OtherNameOfAUsbPort_IsProposed) {
+  StandIn stand_in;
+  stand_in.plug_in_without_rules();
+  stand_in.patient.config.lidar.device = "/dev/ttyUSB1";
+  EXPECT_THAT(check_port(stand_in.patient)[0].mends,
+              ElementsAre("set lidar.device to \"/dev/ttyUSB0\" in cornerd.json"));
+}
+
+TEST(CheckPort, OtherAdapters_AreMentioned) {
+  const StandIn stand_in;
+  stand_in.plug_in();
+  stand_in.write("/sys/devices/pci0/usb1/1-2/idVendor", "1a86\n");
+  stand_in.write("/sys/devices/pci0/usb1/1-2/idProduct", "7523\n");
+  stand_in.link("/sys/class/tty/ttyUSB1", "../../devices/pci0/usb1/1-2");
+  EXPECT_THAT(
+      check_port(stand_in.patient),
+      ElementsAre(Finds(Verdict::kGood, "port", "also plugged in: /dev/ttyUSB1 (1a86:7523)")));
+}
+
+TEST(CheckPort, AdapterWithoutDriver_WantsTheDriver) {
+  const StandIn stand_in;
+  stand_in.write("/sys/bus/usb/devices/1-1/idVendor", "10c4\n");
+  stand_in.write("/sys/bus/usb/devices/1-1/idProduct", "ea60\n");
+  const auto findings = check_port(stand_in.patient);
+  ASSERT_THAT(findings, ElementsAre(Finds(Verdict::kWrong, "port", "without a driver")));
+  EXPECT_THAT(findings[0].mends, ElementsAre("sudo modprobe cp210x"));
+}
+
+TEST(CheckPort, NothingPluggedIn_AsksForPlugAndCable) {
+  const StandIn stand_in;
+  const auto findings = check_port(stand_in.patient);
+  ASSERT_THAT(findings, ElementsAre(Finds(Verdict::kWrong, "port", "/dev/rplidar: no such port")));
+  EXPECT_THAT(findings[0].mends, ElementsAre(HasSubstr("plug the lidar in"), HasSubstr("cable")));
+}
+
+TEST(CheckPort, UartsOfABoard_AreExplained) {
+  StandIn stand_in;
+  stand_in.patient.config.lidar.device = "/dev/ttyO4";
+  EXPECT_THAT(check_port(stand_in.patient)[0].mends, ElementsAre(HasSubstr("\"/dev/ttyS4\"")));
+  stand_in.patient.config.lidar.device = "/dev/ttyS4";
+  EXPECT_THAT(check_port(stand_in.patient)[0].mends, ElementsAre(HasSubstr("overlay")));
+  stand_in.write("/dev/ttyS4");
+  stand_in.write("/sys/class/tty/ttyS4/type", "0\n");
+  EXPECT_THAT(check_port(stand_in.patient),
+              ElementsAre(Finds(Verdict::kWrong, "port", "no UART behind it")));
+  stand_in.write("/sys/class/tty/ttyS4/type", "4\n");
+  EXPECT_THAT(check_port(stand_in.patient), ElementsAre(Finds(Verdict::kGood, "port", "ttyS4")));
+}
+
+TEST(CheckPort, RecordingInItsPlace_MustBeThere) {
+  StandIn stand_in;
+  stand_in.patient.config.lidar.driver = settings::DriverKind::kReplay;
+  stand_in.patient.config.lidar.file = "/drive.bin";
+  EXPECT_THAT(check_port(stand_in.patient),
+              ElementsAre(Finds(Verdict::kWrong, "lidar", "no such recording")));
+  stand_in.write("/drive.bin");
+  EXPECT_THAT(check_port(stand_in.patient),
+              ElementsAre(Finds(Verdict::kNote, "lidar", "/drive.bin")));
+}
+
+}  // namespace
+}  // namespace cornerd::tool

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "doctor/stand_in.hpp"
+#include "tool/doctor/checks.hpp"
+
+namespace cornerd::tool {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+class CheckRights : public testing::Test {
+ protected:
+  CheckRights() {
+    stand_in_.plug_in();
+    stand_in_.write("/etc/passwd", "root:x:0:0::/:/bin/sh\nada:x:1000:1000::/:/bin/sh\n");
+    stand_in_.write("/etc/group", "root:x:0:\ndialout:x:20:\nuucp:x:10:\n");
+  }
+  Finding judge(gid_t gid, mode_t mode) const {
+    FileFacts port;
+    port.gid = gid;
+    port.mode = mode;
+    return judge_rights(stand_in_.patient, port);
+  }
+  StandIn stand_in_;
+};
+
+TEST_F(CheckRights, CallerOutsideTheGroup_IsToJoinIt) {
+  const Finding finding = judge(20, 0660);
+  EXPECT_THAT(finding, Finds(Verdict::kWrong, "rights",
+                             "ada must not open /dev/ttyUSB0 (crw-rw---- root dialout)"));
+  EXPECT_THAT(finding.mends,
+              ElementsAre("sudo usermod -aG dialout ada, then log out and in again"));
+}
+
+TEST_F(CheckRights, SessionOlderThanTheMembership_IsToBeRenewed) {
+  stand_in_.write("/etc/group", "dialout:x:20:ada\n");
+  EXPECT_THAT(judge(20, 0660).mends, ElementsAre(HasSubstr("this session is older")));
+  stand_in_.patient.caller.gids.insert(20);
+  EXPECT_THAT(judge(20, 0660), Finds(Verdict::kGood, "rights", "ada may open"));
+}
+
+TEST_F(CheckRights, Service_IsInDialoutByItsUnit) {
+  stand_in_.write("/etc/passwd", "cornerd:x:990:990::/:/bin/false\n");
+  EXPECT_THAT(judge(20, 0660), Finds(Verdict::kGood, "rights", "the service's user cornerd may"));
+  const Finding elsewhere = judge(10, 0660);
+  EXPECT_THAT(elsewhere, Finds(Verdict::kWrong, "rights", "user cornerd must not"));
+  EXPECT_THAT(elsewhere.mends, ElementsAre(HasSubstr("usermod -aG uucp cornerd")));
+}
+
+TEST_F(CheckRights, PortOfRootAlone_WantsTheRules) {
+  EXPECT_THAT(judge(0, 0600).mends, ElementsAre(HasSubstr("udev rules")));
+  EXPECT_THAT(judge(0, 0660).mends, ElementsAre(HasSubstr("udev rules")));
+}
+
+TEST_F(CheckRights, WithoutPort_SaysNothing) {
+  EXPECT_EQ(check_rights(stand_in_.patient).size(), 1U);
+  stand_in_.patient.config.lidar.device = "/dev/ttyUSB7";
+  EXPECT_THAT(check_rights(stand_in_.patient), IsEmpty());
+}
+
+}  // namespace
+}  // namespace cornerd::tool
