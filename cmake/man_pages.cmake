@@ -1,5 +1,9 @@
 # Manual pages, made of what the programs say of themselves. A cross build runs them in the emulator
-# that its toolchain file names; without one there are no pages.
+# that its toolchain file names; without one there are no pages. Nor are there any of builds that are
+# never installed.
+if(CORNERD_SANITIZE OR CORNERD_FUZZ)
+  return()
+endif()
 if(CMAKE_CROSSCOMPILING AND NOT CMAKE_CROSSCOMPILING_EMULATOR)
   message(WARNING "no emulator to run the programs in: no manual pages")
   return()
