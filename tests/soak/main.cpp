@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <string_view>
 
+#include "core/geometry/angle.hpp"
 #include "message/state_names.hpp"
 #include "soak_run.hpp"
 
@@ -21,8 +22,8 @@ void print(const soak::SoakReport& report) {
     std::printf("  %-20.*s %10llu\n", static_cast<int>(name.size()), name.data(),
                 number(report.poses[i]));
   }
-  std::printf("  %-20s %10llu (worst error of all %.3f m)\n", "wrong", number(report.wrong),
-              report.worst_error_m);
+  std::printf("  %-20s %10llu (worst errors of all: %.3f m, %.1f degrees)\n", "wrong",
+              number(report.wrong), report.worst_error_m, core::degrees(report.worst_error_rad));
   for (std::size_t i = 0; i < report.faults.size(); ++i) {
     std::printf("  %-20.*s %10llu times\n", static_cast<int>(soak::FaultPlan::kNames[i].size()),
                 soak::FaultPlan::kNames[i].data(), number(report.faults[i]));

@@ -18,6 +18,7 @@
 #include "drivers/rplidar/rplidar_driver.hpp"
 #include "replay/simulator/motion.hpp"
 #include "settings/map_file.hpp"
+#include "tests/sanitized.hpp"
 
 namespace cornerd::soak {
 namespace {
@@ -25,9 +26,10 @@ namespace {
 using std::chrono::duration;
 using Clock = std::chrono::steady_clock;
 
-/// Farther off than this a place is another one.
+/// Farther off than this a place is another one. The robot turns by 8 degrees during a turn of the
+/// lidar: of one that saw nothing but its end, the pose's time and heading are off by that.
 constexpr double kWrong_m = 0.15;
-constexpr double kWrong_rad = core::radians(10);
+constexpr double kWrong_rad = core::radians(15);
 constexpr std::uint64_t kFlatBytes = 1 << 20;
 
 std::uint64_t resident_bytes() {
@@ -85,6 +87,7 @@ void judge(const core::PoseEstimate& pose, const core::Pose2& truth, SoakReport&
   const double error_rad =
       std::abs(core::angle_between(truth.theta_rad, pose.T_map_base.theta_rad));
   report.worst_error_m = std::max(report.worst_error_m, error_m);
+  report.worst_error_rad = std::max(report.worst_error_rad, error_rad);
   if (error_m > kWrong_m || error_rad > kWrong_rad) ++report.wrong;
 }
 
@@ -142,7 +145,7 @@ std::vector<std::string> SoakReport::failures(const SoakConfig& config) const {
   require(counters.used_bytes + counters.skipped_bytes == counters.bytes,
           "bytes are neither used nor skipped");
   require(longest_without_progress_s < config.patience_s, "a watchdog would have bitten");
-  require(end_bytes < warm_bytes + kFlatBytes, "memory grew");
+  require(test::kSanitized || end_bytes < warm_bytes + kFlatBytes, "memory grew");
   return failures;
 }
 

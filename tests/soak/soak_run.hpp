@@ -24,6 +24,7 @@ struct SoakReport {
   std::array<std::uint64_t, daemon::TurnPublisher::kStates> poses{};
   std::uint64_t wrong = 0;  ///< fixes that are elsewhere
   double worst_error_m = 0;
+  double worst_error_rad = 0;
   std::array<std::uint64_t, FaultPlan::kNames.size()> faults{};
   drivers::StreamCounters counters;
   std::uint64_t read_bytes = 0;  ///< as the port counts them

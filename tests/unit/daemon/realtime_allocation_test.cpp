@@ -22,6 +22,7 @@
 #include "replay/simulator/motion.hpp"
 #include "replay/simulator/simulator.hpp"
 #include "settings/map_file.hpp"
+#include "tests/sanitized.hpp"
 
 namespace {
 
@@ -42,17 +43,12 @@ void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
 namespace cornerd::daemon {
 namespace {
 
-#if defined(__arm__) || defined(__SANITIZE_THREAD__) || defined(__SANITIZE_ADDRESS__)
-constexpr std::uint64_t kTurns = 200;
+#ifdef __arm__
+constexpr std::uint64_t kTurns = 200;  // in an emulator
 #else
-constexpr std::uint64_t kTurns = 10'000;
+constexpr std::uint64_t kTurns = test::kSanitized ? 200 : 10'000;
 #endif
 constexpr std::uint64_t kWarmUpTurns = 100;
-#if defined(__SANITIZE_THREAD__) || defined(__SANITIZE_ADDRESS__)
-constexpr bool kCountsPageFaults = false;  // a sanitizer's own
-#else
-constexpr bool kCountsPageFaults = true;
-#endif
 
 /// Express capsules, one a read; then nothing more, and time stands still.
 class Wire : public drivers::ByteStream {
@@ -164,7 +160,7 @@ TEST(Realtime, ReaderAndLocalizer_NeitherAllocateNorFaultAfterTheWarmUp) {
     }
   }
   EXPECT_EQ(allocations_of_loops - allocations, 0U) << "in " << kTurns << " turns";
-  if (kCountsPageFaults && is_touched) {
+  if (!test::kSanitized && is_touched) {
     EXPECT_EQ(faults_so_far() - faults, 0U) << "in " << kTurns << " turns";
   }
   EXPECT_GE(turns, kTurns);
