@@ -74,16 +74,30 @@ Counter& counter() {
   return instance;
 }
 
-/// The processor's state is not told to plugins. Thumb code has instructions of two bytes, and
-/// those of four begin with a half word that is large; ARM code is aligned to four bytes.
+std::uint16_t first_half(const qemu_plugin_insn* instruction) {
+  std::uint16_t half = 0;
+  std::memcpy(&half, qemu_plugin_insn_data(instruction), sizeof half);
+  return half;
+}
+
+/// Thumb instructions of four bytes begin with a half word that is at least this.
+constexpr std::uint16_t kFirstOfFour = 0xE800;
+
+/// The processor's state is not told to plugins. Thumb code has instructions of two bytes, ARM code
+/// none. (QEMU's own word for an instruction's size is not to be trusted at the end of a page:
+/// there it has looked ahead and counts what it saw.)
 bool is_thumb(const qemu_plugin_tb* block) {
   if (qemu_plugin_tb_vaddr(block) % 4 != 0) return true;
-  for (std::size_t i = 0; i < qemu_plugin_tb_n_insns(block); ++i) {
+  const std::size_t count = qemu_plugin_tb_n_insns(block);
+  for (std::size_t i = 0; i < count; ++i) {
     const qemu_plugin_insn* instruction = qemu_plugin_tb_get_insn(block, i);
-    if (qemu_plugin_insn_size(instruction) == 2) return true;
-    std::uint16_t first = 0;
-    std::memcpy(&first, qemu_plugin_insn_data(instruction), sizeof first);
-    if (first < 0xE800) return false;
+    const bool is_last = i + 1 == count;
+    const std::size_t size = is_last
+                                 ? qemu_plugin_insn_size(instruction)
+                                 : qemu_plugin_insn_vaddr(qemu_plugin_tb_get_insn(block, i + 1)) -
+                                       qemu_plugin_insn_vaddr(instruction);
+    if (size == 2) return true;
+    if (first_half(instruction) < kFirstOfFour) return false;
   }
   return true;
 }
@@ -113,8 +127,9 @@ void on_translation(qemu_plugin_id_t /*id*/, qemu_plugin_tb* translated) {
   const bool thumb = is_thumb(translated);
   for (std::size_t i = 0; i < qemu_plugin_tb_n_insns(translated); ++i) {
     const qemu_plugin_insn* instruction = qemu_plugin_tb_get_insn(translated, i);
+    const bool is_short = thumb && first_half(instruction) < kFirstOfFour;
     const std::span bytes(static_cast<const std::uint8_t*>(qemu_plugin_insn_data(instruction)),
-                          qemu_plugin_insn_size(instruction));
+                          is_short ? 2u : 4u);
     ++block->counts.of_class[static_cast<std::size_t>(classify(bytes, thumb))];
   }
   const char* name = qemu_plugin_insn_symbol(qemu_plugin_tb_get_insn(translated, 0));

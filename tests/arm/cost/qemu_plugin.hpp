@@ -28,6 +28,7 @@ std::uint64_t qemu_plugin_tb_vaddr(const qemu_plugin_tb* block);
 qemu_plugin_insn* qemu_plugin_tb_get_insn(const qemu_plugin_tb* block, std::size_t index);
 const void* qemu_plugin_insn_data(const qemu_plugin_insn* instruction);
 std::size_t qemu_plugin_insn_size(const qemu_plugin_insn* instruction);
+std::uint64_t qemu_plugin_insn_vaddr(const qemu_plugin_insn* instruction);
 const char* qemu_plugin_insn_symbol(const qemu_plugin_insn* instruction);
 
 }  // extern "C"
