@@ -26,9 +26,8 @@ std::optional<Advice> advise_on_connection(const MonitorState& state, core::Time
   if (!state.is_connected()) {
     return Advice{
         Style::kBad,
-        "no daemon since " + seconds_text(state.connection_age_s(now_ns)) + ": " + state.reason() +
-            "; trying again",
-        "start it: sudo systemctl start cornerd; why it ended: journalctl -u cornerd -n 20"};
+        "no daemon since " + seconds_text(state.connection_age_s(now_ns)) + ": " + state.reason(),
+        "start it: sudo systemctl start cornerd; why it ended: journalctl -u cornerd"};
   }
   if (const double silence_s = state.silence_s(now_ns); silence_s > kLongestSilence_s) {
     return Advice{Style::kBad, "the daemon has said nothing for " + seconds_text(silence_s),

@@ -18,6 +18,9 @@ constexpr std::size_t kColumnsForBoth = 64;
 /// How many of them then: state, place and what speaks for it.
 constexpr std::size_t kPanelRowsAbove = 6;
 constexpr std::size_t kFewestMapRows = 4;
+constexpr std::size_t kRowsForAdvice = 20;
+constexpr std::size_t kAdviceRows = 3;
+constexpr std::size_t kMostAdviceRows = 5;
 
 void draw_title(Frame& frame, const MonitorState& state, const Scene& scene) {
   for (std::size_t column = 0; column < frame.columns(); ++column) {
@@ -60,16 +63,20 @@ double draw_body(Frame& frame, const Region& body, const MonitorState& state, co
                   state, scene, choice);
 }
 
-void draw_advice(Frame& frame, std::size_t row, std::size_t rows, const Advice& advice) {
+std::vector<PanelLine> advice_lines(const Advice& advice, std::size_t columns) {
   std::vector<PanelLine> lines;
-  for (const std::string& line : wrap_text(advice.what, frame.columns())) {
+  for (const std::string& line : wrap_text(advice.what, columns)) {
     lines.push_back({line, advice.style});
   }
-  for (const std::string& line : wrap_text(advice.mend, frame.columns())) lines.push_back({line});
-  // The end may be missing on a small screen; what is wrong is in its first line.
-  for (std::size_t i = 0; i < std::min(rows, lines.size()); ++i) {
-    frame.write(0, row + i, lines[i].text, lines[i].style);
-  }
+  for (const std::string& line : wrap_text(advice.mend, columns)) lines.push_back({line});
+  return lines;
+}
+
+/// Always the same on a screen with room, so that the map does not jump, but for a long
+/// explanation.
+std::size_t advice_rows(std::size_t needed, std::size_t rows) {
+  if (rows >= kRowsForAdvice) return std::clamp(needed, kAdviceRows, kMostAdviceRows);
+  return rows >= 3 ? 1 : 0;
 }
 
 /// "|-----| 0.5 m": the longest round length that fits.
@@ -103,11 +110,15 @@ Frame draw_screen(const MonitorState& state, const Scene& scene, const ViewChoic
   Frame frame(columns, rows);
   const std::size_t all = frame.rows();
   const std::size_t key_rows = all >= 8 ? 1 : 0;
-  const std::size_t advice_rows = all >= 20 ? 3 : all >= 3 ? 1 : 0;
-  const std::size_t body_rows = all - std::min(all, 1 + key_rows + advice_rows);
+  const std::vector<PanelLine> advice = advice_lines(advise(state, now_ns), frame.columns());
+  const std::size_t said_rows = advice_rows(advice.size(), all);
+  const std::size_t body_rows = all - std::min(all, 1 + key_rows + said_rows);
   const double metres_per_cell =
       draw_body(frame, {0, 1, frame.columns(), body_rows}, state, scene, choice, now_ns);
-  draw_advice(frame, 1 + body_rows, advice_rows, advise(state, now_ns));
+  // The end may be missing on a small screen; what is wrong is in its first line.
+  for (std::size_t i = 0; i < std::min(said_rows, advice.size()); ++i) {
+    frame.write(0, 1 + body_rows + i, advice[i].text, advice[i].style);
+  }
   if (key_rows > 0) draw_keys(frame, all - 1, metres_per_cell);
   draw_title(frame, state, scene);
   return frame;

@@ -170,6 +170,14 @@ TEST_F(Screen, WithoutDaemon_SaysWhatToDo) {
   EXPECT_THAT(text, HasSubstr("systemctl start cornerd"));
 }
 
+TEST_F(Screen, LongExplanation_HasRoomAt80By24) {
+  std::string detail;
+  for (int i = 0; i < 23; ++i) detail += "ten chars ";
+  detail += "the end";
+  state_.hear(status_line(R"("state":"faulty","detail":")" + detail + '"'), 0);
+  EXPECT_THAT(shown(80, 24), HasSubstr("the end\n"));
+}
+
 TEST_F(Screen, HostileNames_CannotWriteToTheTerminal) {
   state_.hear(status_line(R"("state":"\u001b]0;owned\u0007","detail":"\u001b[2J")"), 0);
   for (const char c : shown(80, 24)) EXPECT_TRUE(c == '\n' || static_cast<unsigned char>(c) >= ' ');
