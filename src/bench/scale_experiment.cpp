@@ -7,6 +7,7 @@
 
 #include "bench/building.hpp"
 #include "bench/instruction_counter.hpp"
+#include "bench/localization/pose_score.hpp"
 #include "bench/simulated_turn.hpp"
 #include "bench/statistics.hpp"
 #include "core/catalog/catalog.hpp"
@@ -18,8 +19,6 @@ namespace {
 constexpr std::size_t kScaleSamples = 800;
 constexpr std::size_t kEqualRooms = 12;
 constexpr double kScaleClearance_m = 0.3;
-constexpr double kWrong_m = 0.1;
-constexpr double kWrong_rad = core::radians(5);
 
 double thread_time_s() {
   timespec now{};
@@ -27,16 +26,11 @@ double thread_time_s() {
   return static_cast<double>(now.tv_sec) + static_cast<double>(now.tv_nsec) * 1e-9;
 }
 
-bool is_at_truth(const core::Pose2& found, const core::Pose2& truth) {
-  return (found.translation() - truth.translation()).norm() <= kWrong_m &&
-         std::abs(core::angle_between(found.theta_rad, truth.theta_rad)) <= kWrong_rad;
-}
-
 void judge_pose(const core::PoseEstimate& pose, const core::Pose2& truth, ScaleResult& result) {
   switch (pose.state) {
     case core::PoseState::kFix:
     case core::PoseState::kTracking:
-      if (!is_at_truth(pose.T_map_base, truth)) {
+      if (!is_right(pose.T_map_base, truth)) {
         ++result.wrong;
         return;
       }
@@ -47,7 +41,7 @@ void judge_pose(const core::PoseEstimate& pose, const core::Pose2& truth, ScaleR
       ++result.ambiguous;
       result.ambiguous_with_truth += std::any_of(
           pose.alternatives.begin(), pose.alternatives.end(),
-          [&](const core::Alternative& other) { return is_at_truth(other.T_map_base, truth); });
+          [&](const core::Alternative& other) { return is_right(other.T_map_base, truth); });
       return;
     case core::PoseState::kPredicted:
     case core::PoseState::kLost:

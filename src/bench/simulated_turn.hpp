@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 
 #include "core/geometry/pose2.hpp"
 #include "core/map/wall_map.hpp"
@@ -11,17 +12,28 @@
 
 namespace cornerd::bench {
 
-/// Turns of a lidar that stands still: `samples` rays evenly spread over the circle, clockwise as
-/// an A1 turns, with the errors of the simulator's sensor. There is no wire in between: ranges and
-/// bearings are not rounded, and start at the lidar's back.
+inline constexpr core::TimeNs kFreeTurn_ns = 137'000'000;  ///< an A1 that runs free on 5 V
+
+/// Turns of a lidar: `samples` rays evenly spread over the circle, clockwise as an A1 turns, with
+/// the errors of the simulator's sensor. There is no wire in between: ranges and bearings are not
+/// rounded, and start at the lidar's back.
 class TurnSimulator {
  public:
-  TurnSimulator(const replay::SensorModel& sensor, std::size_t samples, std::uint64_t seed);
+  TurnSimulator(const replay::SensorModel& sensor, std::size_t samples, std::uint64_t seed,
+                core::TimeNs turn_ns = kFreeTurn_ns);
 
-  /// The result is valid until the next call. Takes the next numbers of the random sequence.
+  /// Of a lidar that stands still. The result is valid until the next call. Takes the next numbers
+  /// of the random sequence.
   const core::Scan& take(const core::WallMap& map, const core::Pose2& T_map_lidar);
 
+  /// How far one sees at a time, in a direction in the lidar's frame then; 0: no wall.
+  using Sight = std::function<double(core::TimeNs t_ns, double bearing_rad)>;
+  const core::Scan& take(core::TimeNs start_ns, const Sight& range_along);
+
+  core::TimeNs turn_ns() const { return turn_ns_; }
+
  private:
+  core::TimeNs turn_ns_;
   replay::SensorErrors errors_;
   std::size_t samples_;
   core::Scan turn_;

@@ -2,6 +2,7 @@
 #include "core/localizer.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -35,6 +36,10 @@ constexpr std::size_t kCertainHits = 100;
 constexpr double kEvidentHitShare = 0.95;
 constexpr double kEvidentHitShareOfCorners = 0.6;
 constexpr std::size_t kEvidentCorners = 3;
+/// Or where a corner speaks for it and what it does not explain may be things in front of the
+/// walls, for nothing was seen through one.
+constexpr double kEvidentHitShareAmongThings = 0.55;
+constexpr double kThroughShareAmongThings = 0.01;
 /// A robot moves no farther than this between two turns. A place farther off was either wrong or
 /// the robot was carried: the next turn tells.
 constexpr double kJump_m = 0.5;
@@ -42,6 +47,11 @@ constexpr double kJump_rad = radians(60);
 /// A motion has to explain one ray in so many more than rest does: it fits things that are not on
 /// the map a little, always.
 constexpr std::size_t kRaysForAMotion = 50;
+/// Where nothing explains half of the rays, the robot may be turning: so many of these rates are
+/// tried, by turns. Places are found within some 0.8 rad/s of the true one.
+constexpr std::array kGuesses_rad_s = {1.5, -1.5, 3.0, -3.0, 0.75, -0.75};
+constexpr std::size_t kGuessesATurn = 2;
+constexpr double kGuessedShare = 0.8;
 /// The lidar's bias is learnt from turns that the map explains nearly whole, of a robot that
 /// stands: a motion would pass for one.
 constexpr double kTeachingShare = 0.8;
@@ -118,6 +128,7 @@ struct Localizer::Workspace {
   Scan still;  ///< the turn as a lidar that stood still would have seen it
   PoseMemory memory;
   PolarScan points;
+  std::size_t guesses = 0;             ///< of the motion, so far
   Twist2 motion;                       ///< that `points` were moved back by
   std::optional<Pose2> T_map_doubted;  ///< a jump of the turn before that waits for a second
   TurnResult result;
@@ -178,7 +189,7 @@ void Localizer::set_pose(const Pose2& T_map_base) {
       Eigen::Vector3d(kGivenSigma_m * kGivenSigma_m, kGivenSigma_m * kGivenSigma_m,
                       kGivenSigma_rad * kGivenSigma_rad)
           .asDiagonal();
-  w.memory.remember(T_map_base * w.config.T_base_lidar, w.result.pose.t_ns);
+  w.memory.remember(T_map_base * w.config.T_base_lidar, w.result.pose.t_ns, {});
   w.odometer.set_pose(T_map_base, doubt);
 }
 
@@ -224,7 +235,9 @@ PoseState Localizer::Workspace::believe(TimeNs t_ns) {
   const auto corners = static_cast<std::size_t>(
       place->recognition.recognised(result.detection.breakpoints, T_map_lidar));
   const bool evident = hit_share >= kEvidentHitShare ||
-                       (hit_share >= kEvidentHitShareOfCorners && corners >= kEvidentCorners);
+                       (hit_share >= kEvidentHitShareOfCorners && corners >= kEvidentCorners) ||
+                       (hit_share >= kEvidentHitShareAmongThings && corners >= 1 &&
+                        found.explanation.through_share() <= kThroughShareAmongThings);
   const std::optional<Pose2> prior = memory.prior(t_ns);
   const bool expected = prior && same_place(*prior, T_map_lidar, kJump_m, kJump_rad);
   const bool confirmed =
@@ -232,7 +245,10 @@ PoseState Localizer::Workspace::believe(TimeNs t_ns) {
   T_map_doubted.reset();
   if (expected) return evident ? PoseState::kFix : PoseState::kTracking;
   if (!evident) return PoseState::kLost;
-  if (prior && !confirmed) {
+  // What explains every ray needs no second turn.
+  const bool certain =
+      hit_share >= kCertainHitShare && found.explanation.hits >= kCertainHits && corners >= 2;
+  if (prior && !confirmed && !certain) {
     T_map_doubted = T_map_lidar;
     return PoseState::kLost;
   }
@@ -301,12 +317,26 @@ void Localizer::Workspace::look_for_the_motion(const Scan& scan, TimeNs t_ns) {
     best_motion = motion;
   };
   if (!motion.is_rest()) try_motion({});
-  for (int k = 0; k < 2 && (in_doubt(t_ns) || is_smeared()) && best_hits() > 0; ++k) {
-    const Pose2 start = place->verification.places().front().refined.T_map_lidar;
-    const RefinedMotion refined = place->refinement.refine_motion(
-        *map, start, kMotionReach_m, points.points(), result.detection.noise_scale);
-    if (!refined.valid || !is_plausible(refined.motion)) break;
-    try_motion(motion + refined.motion);
+  const auto refine = [&] {
+    for (int k = 0; k < 2 && (in_doubt(t_ns) || is_smeared()) && best_hits() > 0; ++k) {
+      const Pose2 start = place->verification.places().front().refined.T_map_lidar;
+      const RefinedMotion refined = place->refinement.refine_motion(
+          *map, start, kMotionReach_m, points.points(), result.detection.noise_scale);
+      if (!refined.valid || !is_plausible(refined.motion)) break;
+      try_motion(motion + refined.motion);
+    }
+  };
+  refine();
+  const bool is_known = odometer.knows_motion() || memory.prior(t_ns);
+  for (std::size_t k = 0; k < kGuessesATurn && !is_known && best_hits() < points.size() / 2; ++k) {
+    const Twist2 motion_before = best_motion;
+    const std::size_t best_before = best;
+    try_motion({0, 0, kGuesses_rad_s[guesses++ % kGuesses_rad_s.size()]});
+    refine();
+    // A guess that is right explains nearly all; any other explains a little more than rest does.
+    if (static_cast<double>(best) > kGuessedShare * static_cast<double>(points.size())) break;
+    best_motion = motion_before;
+    best = best_before;
   }
   if (motion != best_motion) look(scan, t_ns, best_motion);
 }
@@ -366,7 +396,7 @@ void Localizer::Workspace::report_pose(const core::Place& found, TimeNs t_ns) {
   const Pose2& T_map_lidar = found.refined.T_map_lidar;
   PoseEstimate& pose = result.pose;
   pose.T_map_base = T_map_lidar * T_lidar_base;
-  memory.remember(T_map_lidar, t_ns);
+  memory.remember(T_map_lidar, t_ns, motion);
   const Covariance3 of_lidar = found.refined.covariance +
                                (odometer.knows_motion() ? odometer.doubt_of_motion()
                                                         : doubt_of_motion(motion, memory.motion()));

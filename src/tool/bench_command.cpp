@@ -13,6 +13,7 @@
 #include "core/scan.hpp"
 #include "tool/bench_instructions.hpp"
 #include "tool/bench_json.hpp"
+#include "tool/bench_localization.hpp"
 #include "tool/bench_plots.hpp"
 #include "tool/bench_scale.hpp"
 #include "tool/bench_text.hpp"
@@ -41,6 +42,8 @@ struct BenchOptions {
   std::string json;
   std::size_t detections = 0;
   bool scale = false;
+  bool localizer = false;
+  std::string only_localize;
   std::vector<std::size_t> corners;
   const CLI::Option* positions_given = nullptr;
 };
@@ -113,7 +116,26 @@ void run_scale(const BenchOptions& options) {
   }
 }
 
+void run_localizer(const BenchOptions& options) {
+  LocalizationBenchOptions localization;
+  localization.maps = options.maps;
+  if (options.positions_given->count() > 0) localization.places = options.positions;
+  localization.seed = options.seed;
+  localization.instructions = options.instructions;
+  localization.json = options.json;
+  if (options.detections > 0) {
+    only_localize_in_arena(localization, options.detections, options.only_localize == "tracking");
+  } else {
+    run_localization_bench(localization);
+  }
+}
+
 void run_bench(const BenchOptions& options) {
+  if (options.localizer) {
+    if (options.scale) throw UsageError("--localizer and --scale exclude each other");
+    run_localizer(options);
+    return;
+  }
   if (options.scale) {
     run_scale(options);
     return;
@@ -161,6 +183,11 @@ void add_bench(CLI::App& program) {
       "--scale", options->scale,
       "instead: the first fix in buildings of 20 to 20,000 corners, and in equal rooms; "
       "--positions: turns in each, else 200");
+  command->add_flag(
+      "--localizer", options->localizer,
+      "instead: poses against the truth and the Cramer-Rao bound, with a biased lidar, few "
+      "returns, things in the way, a displaced wall, a closed door, in motion, kidnapped; "
+      "--positions: places for each, else 1,000");
   command->add_option("--corners", options->corners, "with --scale: buildings of about so many")
       ->delimiter(',')
       ->check(CLI::Range(std::size_t{0}, std::size_t{100'000}))
@@ -189,6 +216,7 @@ void add_bench(CLI::App& program) {
       ->type_name("FILE");
   command->add_option("--only-detect", options->detections)
       ->group("");  // hidden: what valgrind is started on
+  command->add_option("--only-localize", options->only_localize)->group("");  // likewise
   command->callback([options] { run_bench(*options); });
 }
 

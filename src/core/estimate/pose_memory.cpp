@@ -23,15 +23,15 @@ constexpr double kStanding_rad_s = 0.05;
 
 }  // namespace
 
-void PoseMemory::remember(const Pose2& T_map_lidar, TimeNs t_ns) {
+void PoseMemory::remember(const Pose2& T_map_lidar, TimeNs t_ns, const Twist2& motion) {
   const double dt_s = to_seconds(t_ns - last_ns_);
-  motion_ = {};
+  motion_ = straightened_ ? Twist2{} : motion;
   stands_ = false;
   if (last_T_map_lidar_ && dt_s > kMinMotionTime_s && dt_s < kMaxMotionTime_s) {
     const Pose2 way = last_T_map_lidar_->inverse() * T_map_lidar;
     const Twist2 seen{way.x_m / dt_s, way.y_m / dt_s, way.theta_rad / dt_s};
     const bool moves = seen.speed_m_s() > kRest_m_s || std::abs(seen.omega_rad_s) > kRest_rad_s;
-    if (moves && is_plausible(seen)) motion_ = seen;
+    if (is_plausible(seen)) motion_ = moves ? seen : Twist2{};
     stands_ = seen.speed_m_s() < kStanding_m_s && std::abs(seen.omega_rad_s) < kStanding_rad_s;
   }
   last_T_map_lidar_ = T_map_lidar;

@@ -11,7 +11,8 @@ namespace cornerd::core {
 /// The last poses of the lidar, and what they say of the next turn.
 class PoseMemory {
  public:
-  void remember(const Pose2& T_map_lidar, TimeNs t_ns);
+  /// `motion`: that the turn itself showed, which counts where no pose before tells better.
+  void remember(const Pose2& T_map_lidar, TimeNs t_ns, const Twist2& motion);
   void forget();
 
   /// What odometry knows of the turn to come goes before what the last poses say: where the lidar

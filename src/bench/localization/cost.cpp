@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+#include "bench/localization/cost.hpp"
+
+#include "bench/localization/circle.hpp"
+#include "bench/simulated_turn.hpp"
+#include "core/localizer.hpp"
+
+namespace cornerd::bench {
+namespace {
+
+constexpr std::size_t kCostSamples = 800;
+constexpr std::uint64_t kCostSeed = 1;
+
+}  // namespace
+
+void localize_turns(const std::shared_ptr<const core::WallMap>& map, std::size_t turns,
+                    bool tracking) {
+  const CircularMotion motion = tracking ? CircularMotion{0.2, 1.5} : CircularMotion{};
+  const auto places = random_circles(*map, motion, tracking ? 1 : turns, kCostSeed);
+  TurnSimulator lidar({}, kCostSamples, kCostSeed);
+  core::Localizer localizer(map, {});
+  core::TimeNs t_ns = 0;
+  for (std::size_t i = 0; i < turns; ++i, t_ns += lidar.turn_ns()) {
+    const replay::Motion robot = circling(places[tracking ? 0 : i], motion);
+    if (!tracking) localizer.relocalize();
+    localizer.step(lidar.take(t_ns, [&](core::TimeNs at_ns, double bearing_rad) {
+      constexpr double kSight_m = 100;
+      const core::Pose2 at = robot(at_ns, 0);
+      return map->range_along(at.translation(), at.theta_rad + bearing_rad, kSight_m);
+    }));
+  }
+}
+
+}  // namespace cornerd::bench

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+#include "bench/localization/kidnapping.hpp"
+
+#include <algorithm>
+
+#include "bench/localization/pose_score.hpp"
+#include "bench/simulated_turn.hpp"
+#include "replay/simulator/places.hpp"
+
+namespace cornerd::bench {
+namespace {
+
+constexpr std::size_t kKidnappingSamples = 800;
+constexpr double kKidnappingClearance_m = 0.15;
+
+bool names_a_place(core::PoseState state) {
+  return state == core::PoseState::kFix || state == core::PoseState::kTracking;
+}
+
+}  // namespace
+
+KidnappingScore run_kidnapping(const std::vector<std::shared_ptr<const core::WallMap>>& maps,
+                               std::size_t jumps, std::uint64_t seed,
+                               const std::function<void(std::size_t done)>& progress) {
+  KidnappingScore score;
+  for (std::size_t m = 0; m < maps.size(); ++m) {
+    const core::WallMap& map = *maps[m];
+    const std::size_t share = jumps * (m + 1) / maps.size() - jumps * m / maps.size();
+    TurnSimulator lidar({}, kKidnappingSamples, seed + m);
+    core::Localizer localizer(maps[m], {});
+    core::TimeNs t_ns = 0;
+    const auto places = replay::random_places(map, share + 1, kKidnappingClearance_m, seed + m);
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      const core::Pose2& place = places[i];
+      std::size_t recovered = KidnappingScore::kTurns;
+      for (std::size_t k = 0; k < KidnappingScore::kTurns; ++k) {
+        const core::Scan& turn = lidar.take(t_ns, [&](core::TimeNs, double bearing_rad) {
+          constexpr double kSight_m = 100;
+          return map.range_along(place.translation(), place.theta_rad + bearing_rad, kSight_m);
+        });
+        t_ns += lidar.turn_ns();
+        const core::PoseEstimate& pose = localizer.step(turn).pose;
+        if (i == 0 || !names_a_place(pose.state)) continue;
+        if (is_right(pose.T_map_base, place)) {
+          recovered = std::min(recovered, k);
+        } else {
+          ++(k == 0 ? score.wrong_first : score.wrong_later);
+        }
+      }
+      if (i == 0) continue;  // where the robot is taken from
+      ++score.jumps;
+      if (recovered < KidnappingScore::kTurns) {
+        ++score.recovered[recovered];
+      } else {
+        ++score.never;
+      }
+      if (progress) progress(score.jumps);
+    }
+  }
+  return score;
+}
+
+}  // namespace cornerd::bench

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: MIT
+#include "bench/localization/pose_score.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include <Eigen/Cholesky>
+
+#include "bench/statistics.hpp"
+#include "core/recognition/hypothesis.hpp"
+
+namespace cornerd::bench {
+namespace {
+
+/// 95 % of a chi-square of three degrees of freedom.
+constexpr double kInside95 = 7.815;
+
+}  // namespace
+
+bool is_right(const core::Pose2& T_map_base, const core::Pose2& truth) {
+  return core::same_place(T_map_base, truth, kWrong_m, kWrong_rad);
+}
+
+void PoseScore::add(const core::PoseEstimate& estimate, const core::Pose2& truth,
+                    const core::Covariance3& bound) {
+  using core::PoseState;
+  ++turns_;
+  const bool right = is_right(estimate.T_map_base, truth);
+  switch (estimate.state) {
+    case PoseState::kLost:
+      ++lost_;
+      return;
+    case PoseState::kAmbiguous:
+      ++ambiguous_;
+      ambiguous_with_truth_ +=
+          std::any_of(estimate.alternatives.begin(), estimate.alternatives.end(),
+                      [&](const auto& other) { return is_right(other.T_map_base, truth); });
+      return;
+    case PoseState::kPredicted:
+      ++predicted_;
+      wrong_ += right ? 0 : 1;
+      return;
+    case PoseState::kFix:
+    case PoseState::kTracking:
+      ++named_;
+      wrong_ += right ? 0 : 1;
+  }
+  const Eigen::Vector3d error(estimate.T_map_base.x_m - truth.x_m,
+                              estimate.T_map_base.y_m - truth.y_m,
+                              core::angle_between(truth.theta_rad, estimate.T_map_base.theta_rad));
+  const double nees = error.dot(estimate.covariance.ldlt().solve(error));
+  nees_ += nees;
+  inside_95_ += nees < kInside95 ? 1 : 0;
+  if (!right) return;
+  errors_m_.push_back(error.head<2>().norm());
+  squares_m2_ += error.head<2>().squaredNorm();
+  bound_m2_ += bound.topLeftCorner<2, 2>().trace();
+  heading_rad_ += std::abs(error.z());
+}
+
+double PoseScore::per_right(double sum) const {
+  return errors_m_.empty() ? 0 : sum / static_cast<double>(errors_m_.size());
+}
+
+double PoseScore::mean_error_m() const {
+  return per_right(std::accumulate(errors_m_.begin(), errors_m_.end(), 0.0));
+}
+
+double PoseScore::median_error_m() const {
+  std::vector<double> sorted = errors_m_;
+  std::sort(sorted.begin(), sorted.end());
+  return quantile(sorted, 0.5);
+}
+
+double PoseScore::rmse_m() const { return std::sqrt(per_right(squares_m2_)); }
+double PoseScore::bound_m() const { return std::sqrt(per_right(bound_m2_)); }
+double PoseScore::mean_heading_error_rad() const { return per_right(heading_rad_); }
+double PoseScore::of_bound() const { return bound_m2_ > 0 ? rmse_m() / bound_m() : 0; }
+
+double PoseScore::mean_nees() const {
+  return named_ == 0 ? 0 : nees_ / static_cast<double>(named_);
+}
+
+double PoseScore::share_inside_95() const {
+  return named_ == 0 ? 0 : static_cast<double>(inside_95_) / static_cast<double>(named_);
+}
+
+}  // namespace cornerd::bench

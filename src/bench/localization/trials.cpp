@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: MIT
+#include "bench/localization/trials.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "bench/building.hpp"
+#include "bench/localization/circle.hpp"
+#include "bench/localization/cramer_rao.hpp"
+#include "bench/localization/world.hpp"
+#include "bench/simulated_turn.hpp"
+#include "replay/simulator/simulated_odometry.hpp"
+
+namespace cornerd::bench {
+namespace {
+
+using Maps = std::vector<std::shared_ptr<const core::WallMap>>;
+
+constexpr std::size_t kTrialSamples = 800;
+constexpr double kTrialSight_m = 100;
+
+MappedBuilding as_mapped(const std::shared_ptr<const core::WallMap>& map) { return {map, {map}}; }
+
+std::vector<MappedBuilding> as_mapped(const Maps& maps) {
+  std::vector<MappedBuilding> buildings;
+  for (const auto& map : maps) buildings.push_back(as_mapped(map));
+  return buildings;
+}
+
+template <typename Change>
+std::vector<MappedBuilding> changed(const Maps& maps, Change&& change) {
+  std::vector<MappedBuilding> buildings;
+  for (const auto& map : maps) {
+    MappedBuilding building{map, {}};
+    for (core::FloorPlan& plan : change(*map)) {
+      building.worlds.push_back(std::make_shared<const core::WallMap>(std::move(plan)));
+    }
+    if (!building.worlds.empty()) buildings.push_back(std::move(building));
+  }
+  return buildings;
+}
+
+/// One robot at one place after another.
+class Robot {
+ public:
+  Robot(const Trial& trial, std::shared_ptr<const core::WallMap> map, std::uint64_t seed)
+      : trial_(trial),
+        map_(std::move(map)),
+        seed_(seed),
+        random_(seed),
+        lidar_(trial.sensor, kTrialSamples, seed, trial.turn_ns),
+        localizer_(map_, config(trial)),
+        bound_(trial.sensor.noise, core::LocalizerConfig().max_range_m) {}
+
+  void visit(const core::WallMap& world, const core::Pose2& start, PoseScore& score) {
+    localizer_.relocalize();
+    const replay::Motion motion = circling(start, trial_.motion);
+    replay::SimulatedOdometry odometry(motion, {}, seed_++);
+    std::vector<RoundThing> things;
+    if (trial_.clutter > 0) {
+      things = clutter_around(world, start.translation(), trial_.clutter, random_);
+    }
+    for (std::size_t k = 0; k < trial_.turns_each; ++k) {
+      const auto start_ns = static_cast<core::TimeNs>(k) * trial_.turn_ns;
+      const core::Scan& turn = lidar_.take(start_ns, [&](core::TimeNs t_ns, double bearing_rad) {
+        const core::Pose2 at = motion(t_ns, 0);
+        const double angle_rad = at.theta_rad + bearing_rad;
+        return range_with(things, at.translation(), angle_rad,
+                          world.range_along(at.translation(), angle_rad, kTrialSight_m));
+      });
+      while (trial_.odometry && odometry.next_ns() <= turn.end_ns()) {
+        localizer_.add(odometry.next(), std::nullopt);
+      }
+      const core::PoseEstimate& pose = localizer_.step(turn).pose;
+      const core::Pose2 truth = motion(pose.t_ns, 0);
+      points_.assign(turn, core::LocalizerConfig().min_range_m,
+                     core::LocalizerConfig().max_range_m);
+      score.add(pose, truth, bound_.bound(*map_, truth, points_));
+    }
+  }
+
+ private:
+  static core::LocalizerConfig config(const Trial& trial) {
+    core::LocalizerConfig config;
+    config.odometry.enabled = trial.odometry;
+    return config;
+  }
+
+  const Trial& trial_;
+  std::shared_ptr<const core::WallMap> map_;
+  std::uint64_t seed_;
+  replay::Random random_;
+  TurnSimulator lidar_;
+  core::Localizer localizer_;
+  CramerRao bound_;
+  core::PolarScan points_;
+};
+
+}  // namespace
+
+std::vector<Trial> usual_trials(const Maps& arenas,
+                                const std::shared_ptr<const core::WallMap>& flat) {
+  constexpr double kDisplaced_m = 0.03;
+  constexpr core::TimeNs kSlowTurn_ns = 181'818'182;  // 5.5 turns a second
+  const CircularMotion brisk{0.5, 1.5};
+  const replay::SensorModel usual;
+  const auto with = [&](auto&& change) {
+    replay::SensorModel sensor = usual;
+    change(sensor);
+    return sensor;
+  };
+  const replay::SensorModel sparse = with([](auto& sensor) { sensor.missing = 0.6; });
+  const replay::SensorModel biased = with([](auto& sensor) {
+    sensor.range_scale = 1.01;
+    sensor.range_offset_m = 0.005;
+    sensor.eccentricity_rad = core::radians(0.3);
+  });
+  const auto displaced = changed(
+      arenas, [](const core::WallMap& map) { return with_a_wall_displaced(map, kDisplaced_m); });
+  const auto closed = changed(arenas, with_a_door_closed);
+  const std::vector<MappedBuilding> arena = as_mapped(arenas);
+  const std::vector<MappedBuilding> home = {as_mapped(flat)};
+  const auto rooms = std::make_shared<const core::WallMap>(equal_rooms(12));
+
+  std::vector<Trial> trials;
+  const auto add = [&](std::string title, const auto& buildings) -> Trial& {
+    Trial& trial = trials.emplace_back();
+    trial.title = std::move(title);
+    trial.buildings = buildings;
+    return trial;
+  };
+  add("arena", arena);
+  add("flat", home);
+  add("12 equal rooms", std::vector{as_mapped(rooms)});
+  Trial& bias = add("biased lidar, 20 turns each", arena);
+  bias.sensor = biased;
+  bias.turns_each = 20;
+  add("60 % missing", arena).sensor = sparse;
+  add("30 % of the rays stopped", arena).clutter = 0.3;
+  add("a wall displaced by 3 cm", displaced);
+  add("a door closed", closed);
+  for (const bool odometry : {false, true}) {
+    Trial& moving = add(odometry ? "0.5 m/s, 1.5 rad/s, odometry" : "0.5 m/s, 1.5 rad/s", home);
+    moving.motion = brisk;
+    moving.turns_each = 30;
+    moving.turn_ns = kSlowTurn_ns;
+    moving.odometry = odometry;
+  }
+  return trials;
+}
+
+PoseScore run_trial(const Trial& trial, std::size_t places, std::uint64_t seed,
+                    const std::function<void(std::size_t done)>& progress) {
+  PoseScore score;
+  std::size_t done = 0;
+  const std::size_t buildings = trial.buildings.size();
+  for (std::size_t b = 0; b < buildings; ++b) {
+    const MappedBuilding& building = trial.buildings[b];
+    Robot robot(trial, building.map, seed + b);
+    const std::size_t worlds = building.worlds.size();
+    const std::size_t share = places * (b + 1) / buildings - places * b / buildings;
+    for (std::size_t w = 0; w < worlds; ++w) {
+      const core::WallMap& world = *building.worlds[w];
+      const std::size_t count = share * (w + 1) / worlds - share * w / worlds;
+      for (const core::Pose2& start :
+           random_circles(world, trial.motion, count, seed + 100 * b + 10'000 * w)) {
+        robot.visit(world, start, score);
+        if (progress) progress(++done);
+      }
+    }
+  }
+  return score;
+}
+
+}  // namespace cornerd::bench

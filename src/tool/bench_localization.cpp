@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: MIT
+#include "tool/bench_localization.hpp"
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "bench/localization/cost.hpp"
+#include "bench/localization/kidnapping.hpp"
+#include "bench/localization/trials.hpp"
+#include "settings/map_file.hpp"
+#include "tool/callgrind.hpp"
+#include "tool/contest_maps.hpp"
+#include "tool/output.hpp"
+#include "tool/progress_bar.hpp"
+#include "tool/text_table.hpp"
+
+namespace cornerd::tool {
+namespace {
+
+using OrderedJson = nlohmann::ordered_json;
+
+constexpr double kMetresToMillimetres = 1e3;
+/// Turns by whose cost the others' is told from the program's own.
+constexpr std::size_t kFewTurns = 20;
+constexpr std::size_t kManyTurns = 60;
+
+struct TrialResult {
+  std::string title;
+  bench::PoseScore score;
+};
+
+struct CostResult {
+  std::optional<double> first_fix;  ///< instructions a turn of 800 samples, no prior
+  std::optional<double> tracking;
+};
+
+struct LocalizationReport {
+  std::vector<TrialResult> trials;
+  bench::KidnappingScore kidnapping;
+  std::optional<CostResult> cost;
+};
+
+std::optional<double> count_turn(const LocalizationBenchOptions& options, bool tracking) {
+  const auto count = [&](std::size_t turns) {
+    return count_by_callgrind({"bench", "--localizer", "--maps",
+                               contest_maps_folder(options.maps).string(), "--only-localize",
+                               tracking ? "tracking" : "first", "--only-detect",
+                               std::to_string(turns)});
+  };
+  const auto few = count(kFewTurns);
+  const auto many = few ? count(kManyTurns) : std::nullopt;
+  if (!many || *many < *few) return std::nullopt;
+  return static_cast<double>(*many - *few) / (kManyTurns - kFewTurns);
+}
+
+double percent(std::size_t part, std::size_t whole) {
+  return 100 * static_cast<double>(part) / static_cast<double>(std::max<std::size_t>(1, whole));
+}
+
+std::string trials_text(const std::vector<TrialResult>& trials) {
+  TextTable table;
+  table.add_row({"trial", "turns", "named %", "wrong", "ambiguous", "of these true", "lost",
+                 "mean mm", "median", "rms", "of bound", "mean deg", "NEES", "< 7.8 %"});
+  for (const auto& [title, score] : trials) {
+    table.add_row({title, std::to_string(score.turns()),
+                   formatted("%.2f", percent(score.named(), score.turns())),
+                   std::to_string(score.wrong()), std::to_string(score.ambiguous()),
+                   std::to_string(score.ambiguous_with_truth()), std::to_string(score.lost()),
+                   formatted("%.3f", kMetresToMillimetres * score.mean_error_m()),
+                   formatted("%.3f", kMetresToMillimetres * score.median_error_m()),
+                   formatted("%.3f", kMetresToMillimetres * score.rmse_m()),
+                   formatted("%.2f", score.of_bound()),
+                   formatted("%.3f", core::degrees(score.mean_heading_error_rad())),
+                   formatted("%.2f", score.mean_nees()),
+                   formatted("%.1f", 100 * score.share_inside_95())});
+  }
+  return "The localizer, turns of 800 samples, each without a prior unless the robot moves\n\n" +
+         table.text(/*numbers=*/true) +
+         "\n  wrong: over 10 cm or 5 degrees off; rms of bound: over the Cramer-Rao bound's of the "
+         "same turns;\n  NEES: normalised error squared, 3 where covariances are honest, and 95 % "
+         "below 7.8\n";
+}
+
+std::string kidnapping_text(const bench::KidnappingScore& score) {
+  std::string text = "\nKidnapped " + std::to_string(score.jumps) + " times: right again with turn";
+  for (std::size_t k = 0; k < score.recovered.size(); ++k) {
+    if (score.recovered[k] == 0) continue;
+    text += formatted(" %zu: %zu,", k + 1, score.recovered[k]);
+  }
+  return text + formatted(" never: %zu; wrong with the first turn: %zu, later: %zu\n", score.never,
+                          score.wrong_first, score.wrong_later);
+}
+
+std::string cost_text(const CostResult& cost) {
+  const auto millions = [](const std::optional<double>& value) {
+    return value ? formatted("%.2f million", *value * 1e-6) : std::string("not counted");
+  };
+  return "\nInstructions a turn of 800 samples, arena A: first fix " + millions(cost.first_fix) +
+         ", tracking " + millions(cost.tracking) + "\n";
+}
+
+OrderedJson json_of(const TrialResult& trial) {
+  const bench::PoseScore& score = trial.score;
+  return {{"trial", trial.title},
+          {"turns", score.turns()},
+          {"named", score.named()},
+          {"wrong", score.wrong()},
+          {"predicted", score.predicted()},
+          {"ambiguous", score.ambiguous()},
+          {"ambiguous_with_truth", score.ambiguous_with_truth()},
+          {"lost", score.lost()},
+          {"mean_error", score.mean_error_m()},
+          {"median_error", score.median_error_m()},
+          {"rmse", score.rmse_m()},
+          {"bound", score.bound_m()},
+          {"of_bound", score.of_bound()},
+          {"mean_heading_error", score.mean_heading_error_rad()},
+          {"nees", score.mean_nees()},
+          {"share_inside_95", score.share_inside_95()}};
+}
+
+std::string report_json(const LocalizationReport& report, const LocalizationBenchOptions& options) {
+  OrderedJson document = {{"seed", options.seed}, {"samples", 800}};
+  for (const TrialResult& trial : report.trials) document["trials"].push_back(json_of(trial));
+  const bench::KidnappingScore& kidnapping = report.kidnapping;
+  document["kidnapping"] = {{"jumps", kidnapping.jumps},
+                            {"recovered_with_turn", kidnapping.recovered},
+                            {"never", kidnapping.never},
+                            {"wrong_first", kidnapping.wrong_first},
+                            {"wrong_later", kidnapping.wrong_later}};
+  if (report.cost && report.cost->first_fix) {
+    document["instructions"]["first_fix"] = *report.cost->first_fix;
+  }
+  if (report.cost && report.cost->tracking) {
+    document["instructions"]["tracking"] = *report.cost->tracking;
+  }
+  return document.dump(2) + '\n';
+}
+
+}  // namespace
+
+void only_localize_in_arena(const LocalizationBenchOptions& options, std::size_t turns,
+                            bool tracking) {
+  bench::localize_turns(load_contest_maps(contest_maps_folder(options.maps)).front(), turns,
+                        tracking);
+}
+
+void run_localization_bench(const LocalizationBenchOptions& options) {
+  const std::filesystem::path folder = contest_maps_folder(options.maps);
+  const auto arenas = load_contest_maps(folder);
+  const auto flat = settings::load_map(folder / "flat-7.json");
+  std::unique_ptr<Output> json;
+  if (options.json == "-") json = std::make_unique<Output>();
+  if (!options.json.empty() && !json) {
+    json = std::make_unique<Output>(std::filesystem::path(options.json));
+  }
+
+  LocalizationReport report;
+  for (const bench::Trial& trial : bench::usual_trials(arenas, flat)) {
+    ProgressBar bar(trial.title, options.places);
+    report.trials.push_back({trial.title, bench::run_trial(trial, options.places, options.seed,
+                                                           [&](std::size_t n) { bar.show(n); })});
+  }
+  {
+    ProgressBar bar("kidnapping", options.places);
+    report.kidnapping = bench::run_kidnapping(arenas, options.places, options.seed,
+                                              [&](std::size_t n) { bar.show(n); });
+  }
+  if (options.instructions) {
+    report.cost = CostResult{count_turn(options, false), count_turn(options, true)};
+  }
+  if (json) {
+    json->write(report_json(report, options));
+    json->flush();
+  }
+  if (options.json == "-") return;
+  Output output;
+  output.write(trials_text(report.trials) + kidnapping_text(report.kidnapping) +
+               (report.cost ? cost_text(*report.cost) : ""));
+  output.flush();
+}
+
+}  // namespace cornerd::tool
