@@ -115,7 +115,7 @@ struct Localizer::Workspace {
   void report(const Decision& decision, TimeNs t_ns);
   void report_pose(const core::Place& found, TimeNs t_ns);
   void report_alternatives(std::span<const core::Place> rivals);
-  void report_prediction(const PredictedPose& predicted);
+  void predict(const PredictedPose& predicted, PoseEstimate& pose) const;
   bool contradicts(const PredictedPose& predicted) const;
 
   LocalizerConfig config;
@@ -132,6 +132,7 @@ struct Localizer::Workspace {
   Twist2 motion;                       ///< that `points` were moved back by
   std::optional<Pose2> T_map_doubted;  ///< a jump of the turn before that waits for a second
   TurnResult result;
+  PoseEstimate between;  ///< of a reading between two turns
 };
 
 Localizer::Localizer(std::shared_ptr<const WallMap> map, const LocalizerConfig& config)
@@ -178,8 +179,21 @@ const TurnResult& Localizer::step(const Scan& turn) {
   return w.result;
 }
 
-void Localizer::add(const OdometryReading& reading, std::optional<TimeNs> now_ns) {
-  workspace_->odometer.add(reading, now_ns);
+const PoseEstimate* Localizer::add(const OdometryReading& reading, std::optional<TimeNs> now_ns) {
+  Workspace& w = *workspace_;
+  const bool moved = w.odometer.add(reading, now_ns);
+  const PoseState last = w.result.pose.state;
+  if (!moved || !w.config.odometry.publish || last == PoseState::kAmbiguous ||
+      last == PoseState::kLost) {
+    return nullptr;
+  }
+  const std::optional<PredictedPose> ahead = w.odometer.ahead();
+  if (!ahead) return nullptr;
+  w.between.seq = ++w.result.pose.seq;
+  w.between.t_ns = ahead->t_ns;
+  w.predict(*ahead, w.between);
+  w.between.age_s = w.memory.age_s(ahead->t_ns);
+  return &w.between;
 }
 
 void Localizer::set_pose(const Pose2& T_map_base) {
@@ -369,7 +383,7 @@ void Localizer::Workspace::report(const Decision& decision, TimeNs t_ns) {
   }
   if (pose.state == PoseState::kLost || pose.state == PoseState::kAmbiguous) {
     const auto predicted = odometer.prediction();
-    if (predicted && !contradicts(*predicted)) report_prediction(*predicted);
+    if (predicted && !contradicts(*predicted)) predict(*predicted, result.pose);
   }
   pose.age_s = memory.age_s(t_ns);
   result.odometry = odometer.summary();
@@ -383,8 +397,7 @@ bool Localizer::Workspace::contradicts(const PredictedPose& predicted) const {
   return std::none_of(result.pose.alternatives.begin(), result.pose.alternatives.end(), is_near);
 }
 
-void Localizer::Workspace::report_prediction(const PredictedPose& predicted) {
-  PoseEstimate& pose = result.pose;
+void Localizer::Workspace::predict(const PredictedPose& predicted, PoseEstimate& pose) const {
   pose.state = PoseState::kPredicted;
   pose.alternatives.clear();
   pose.T_map_base = predicted.T_map_base;

@@ -30,7 +30,7 @@ inline constexpr std::size_t kMaxAlternatives = 16;
 /// Where the robot was at `t_ns`, and how far to believe it. In the states ambiguous and lost
 /// nothing but `alternatives` says anything about the place.
 struct PoseEstimate {
-  std::uint64_t seq = 0;  ///< counts the turns
+  std::uint64_t seq = 0;  ///< counts the estimates
   TimeNs t_ns = 0;
   PoseState state = PoseState::kLost;
   Pose2 T_map_base;
@@ -65,8 +65,10 @@ class Localizer {
   /// Localizes in one complete turn. The result is valid until the next call.
   const TurnResult& step(const Scan& scan);
 
-  /// What wheels and gyro say; before the turn that it belongs to. `now_ns`: see ReadingGate.
-  void add(const OdometryReading& reading, std::optional<TimeNs> now_ns);
+  /// What wheels and gyro say; before the turn that it belongs to. `now_ns`: see ReadingGate. Where
+  /// odometry.publish is on and the last turn named a place: where the robot is by now, in the
+  /// state predicted, valid until the next call; else null.
+  const PoseEstimate* add(const OdometryReading& reading, std::optional<TimeNs> now_ns);
 
   /// Somebody knows that the robot is about there, as of the last turn.
   void set_pose(const Pose2& T_map_base);

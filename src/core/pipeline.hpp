@@ -25,8 +25,12 @@ class Pipeline {
     return assembler_.add(sample, turn_) ? &localizer_.step(turn_) : nullptr;
   }
 
-  /// What the robot's wheels and gyro say, in the order of time among the samples.
-  void add(const OdometryReading& reading) { localizer_.add(reading, now_ns_); }
+  /// What the robot's wheels and gyro say, in the order of time among the samples. Returns what
+  /// Localizer::add() does. `now_ns`: by a clock, where the samples have one; else the newest
+  /// sample tells the time.
+  const PoseEstimate* add(const OdometryReading& reading, std::optional<TimeNs> now_ns = {}) {
+    return localizer_.add(reading, now_ns ? now_ns : now_ns_);
+  }
 
   /// The stream ends, or goes on somewhere else: what the turn in progress gave, where it is whole.
   const TurnResult* finish() {

@@ -43,6 +43,7 @@ Daemon::Daemon(Loaded loaded, Reloader::Load load, std::unique_ptr<drivers::Lida
       localization_(*lidar_, std::move(loaded.pipeline), source_of(config_.lidar.driver)) {
   open_sockets();
   // Only who has the sockets is this robot's daemon, and may touch its port.
+  if (config.odometry.core.publish) localization_.publish_readings();
   localization_.start();
   // A recording brings its own.
   auto odometry = is_live_ ? make_odometry(config_.odometry) : nullptr;
@@ -57,6 +58,8 @@ Daemon::Daemon(Loaded loaded, Reloader::Load load, std::unique_ptr<drivers::Lida
   loop_.add(reloader_.event_fd(), EPOLLIN, [this](std::uint32_t) { on_loaded(); });
   loop_.add(localization_.event_fd(), EPOLLIN, [this](std::uint32_t) {
     localization_.take([this](const TurnReport& report) { turns_.publish(report); });
+    localization_.take_predictions(
+        [this](const core::PoseEstimate& pose) { turns_.publish(pose); });
   });
   if (const auto period_us = notifier_.watchdog_period_us()) {
     watchdog_.emplace(microseconds(*period_us));

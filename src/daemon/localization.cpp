@@ -19,6 +19,8 @@ constexpr std::size_t kReportSlots = 16;
 /// Two seconds of a controller that sends 500 a second: a turn takes one at most.
 constexpr std::size_t kReadingSlots = 1024;
 constexpr std::size_t kGivenPoseSlots = 4;
+/// More than a tenth of a second of readings.
+constexpr std::size_t kPredictionSlots = 64;
 
 }  // namespace
 
@@ -32,6 +34,7 @@ Localization::Localization(drivers::LidarDriver& driver, std::unique_ptr<core::P
       readings_(kReadingSlots),
       given_poses_(kGivenPoseSlots),
       reports_(kReportSlots),
+      predictions_(kPredictionSlots),
       reported_(require_fd(::eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC), "eventfd")) {}
 
 Localization::~Localization() {
@@ -69,6 +72,7 @@ void Localization::localize(const std::stop_token& stop) {
     const std::uint32_t seen = channel_.wakes();
     if (stop.stop_requested()) return;
     while (!stop.stop_requested() && channel_.pop(item)) process(item);
+    if (publishes_readings_) take_readings();
     rounds_.fetch_add(1, std::memory_order_relaxed);
     channel_.wait(seen);
   }
@@ -103,9 +107,8 @@ void Localization::process(core::Pipeline& pipeline, const SampleChannel::Item& 
   if (relocalize_.exchange(false, std::memory_order_relaxed)) pipeline.localizer().relocalize();
   core::Pose2 T_map_base;
   while (given_poses_.pop(T_map_base)) pipeline.localizer().set_pose(T_map_base);
-  core::OdometryReading reading;
-  while (readings_.pop(reading)) pipeline.add(reading);
-  if (item.kind == SampleChannel::Kind::kReading) return pipeline.add(item.reading);
+  take_readings();
+  if (item.kind == SampleChannel::Kind::kReading) return report(pipeline.add(item.reading));
   const core::TurnResult* result =
       item.kind == SampleChannel::Kind::kGap ? pipeline.finish() : pipeline.add(item.sample);
   if (result != nullptr) report(pipeline, *result, item.arrival_ns);
@@ -114,11 +117,11 @@ void Localization::process(core::Pipeline& pipeline, const SampleChannel::Item& 
 void Localization::report(const core::Pipeline& pipeline, const core::TurnResult& result,
                           std::int64_t arrival_ns) {
   rounds_.fetch_add(1, std::memory_order_relaxed);
-  ++turns_;
+  ++poses_;
   const bool handed_over = reports_.put([&](TurnReport& report) {
     report.result = result;
     report.turn = pipeline.turn();
-    report.result.pose.seq = turns_;  // goes on from pipeline to pipeline
+    report.result.pose.seq = poses_;  // goes on from pipeline to pipeline
     if (source_ == SourceKind::kDevice) {
       const core::TimeNs to_unix_ns = unix_ns() - monotonic_ns();
       report.result.pose.t_ns += to_unix_ns;
@@ -131,6 +134,27 @@ void Localization::report(const core::Pipeline& pipeline, const core::TurnResult
   ::eventfd_write(reported_.get(), 1);
   own_health_.page_faults = page_faults_of_thread();
   health_.publish(own_health_);
+}
+
+void Localization::take_readings() {
+  core::OdometryReading reading;
+  const bool is_device = source_ == SourceKind::kDevice;
+  while (readings_.pop(reading)) {
+    report(
+        current_->pipeline->add(reading, is_device ? std::optional(monotonic_ns()) : std::nullopt));
+  }
+}
+
+void Localization::report(const core::PoseEstimate* prediction) {
+  if (prediction == nullptr) return;
+  // One that finds no room is lost: the next one is newer.
+  ++poses_;
+  predictions_.put([&](core::PoseEstimate& pose) {
+    pose = *prediction;
+    pose.seq = poses_;
+    if (source_ == SourceKind::kDevice) pose.t_ns += unix_ns() - monotonic_ns();
+  });
+  ::eventfd_write(reported_.get(), 1);
 }
 
 void Localization::clear_event() const {

@@ -65,9 +65,19 @@ class Localization {
     while (reports_.take(use)) {
     }
   }
+  /// The same with every pose between turns. After take().
+  void take_predictions(const auto& use) {
+    while (predictions_.take(use)) {
+    }
+  }
   /// What wheels and gyro say, on the clock of the samples; of one thread, be it the server's or
   /// another. One that finds no room is lost; the next one's counts make up for it.
-  void add(const core::OdometryReading& reading) { readings_.push(reading); }
+  void add(const core::OdometryReading& reading) {
+    readings_.push(reading);
+    if (publishes_readings_) channel_.wake();
+  }
+  /// A pose for every reading: odometry.publish. Before start().
+  void publish_readings() { publishes_readings_ = true; }
   /// The robot is about there.
   void set_pose(const core::Pose2& T_map_base) { given_poses_.push(T_map_base); }
   /// From the next turn on this one localizes; it knows nothing yet. Returns its generation.
@@ -100,12 +110,14 @@ class Localization {
               std::int64_t arrival_ns);
   /// Puts the next pipeline, where there is one, in the place of this, between two turns.
   void succeed(const SampleChannel::Item& item);
+  void take_readings();
+  void report(const core::PoseEstimate* prediction);
   void clear_event() const;
 
   drivers::LidarDriver& driver_;
   const SourceKind source_;
   std::unique_ptr<Generation> current_;  ///< the localizer's thread's, as is the next
-  std::uint64_t turns_ = 0;
+  std::uint64_t poses_ = 0;
   /// To that thread and back: it takes no memory and gives none away.
   std::atomic<Generation*> next_{nullptr};
   std::atomic<Generation*> retired_{nullptr};
@@ -114,6 +126,8 @@ class Localization {
   core::RingBuffer<core::OdometryReading> readings_;
   core::RingBuffer<core::Pose2> given_poses_;
   SlotExchange<TurnReport> reports_;
+  SlotExchange<core::PoseEstimate> predictions_;
+  bool publishes_readings_ = false;
   FileDescriptor reported_;
   LoopHealth own_health_;  ///< the localizer's thread's
   core::Latest<LoopHealth> health_;

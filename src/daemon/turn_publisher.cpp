@@ -75,6 +75,10 @@ void TurnPublisher::publish_jump(const core::PoseEstimate& pose) {
   last_fix_ = {pose.seq, pose.T_map_base};
 }
 
+void TurnPublisher::publish(const core::PoseEstimate& pose) {
+  server_.publish(MessageClass::kPose, line_.pose(pose, map_ ? &map_->plan() : nullptr));
+}
+
 void TurnPublisher::publish_change(core::PoseState to, core::TimeNs t_ns) {
   using message::to_string;
   std::string change(state_ ? to_string(*state_) : "none");

@@ -24,6 +24,8 @@ class TurnPublisher {
   void publish(const TurnReport& report);
   /// The map of the turns from that generation on.
   void expect_map(std::uint32_t generation, std::shared_ptr<const core::WallMap> map);
+  /// A pose between two turns. It is no turn's, and changes no state.
+  void publish(const core::PoseEstimate& pose);
 
   const LatencyWindow& latencies() const { return latencies_; }
   /// Of the newest turn; nullopt before the first.

@@ -165,6 +165,7 @@ void read_odometry(ObjectReader odometry, OdometryConfig& config) {
   start.finish();
   odometry.number("max_speed", config.core.limits.wheel_speed_m_s, {0.01, 100});
   odometry.number("bridge", config.core.bridge_s, {0, 3600});
+  odometry.boolean("publish", config.core.publish);
   odometry.finish();
   config.core.enabled = config.source != OdometrySource::kNone;
   // The driver goes by each counter's own ceiling.

@@ -14,6 +14,7 @@
 #include "tool/bench_instructions.hpp"
 #include "tool/bench_json.hpp"
 #include "tool/bench_localization.hpp"
+#include "tool/bench_odometry.hpp"
 #include "tool/bench_plots.hpp"
 #include "tool/bench_scale.hpp"
 #include "tool/bench_text.hpp"
@@ -44,6 +45,7 @@ struct BenchOptions {
   bool scale = false;
   bool localizer = false;
   std::string only_localize;
+  bool odometry = false;
   std::vector<std::size_t> corners;
   const CLI::Option* positions_given = nullptr;
 };
@@ -136,6 +138,11 @@ void run_bench(const BenchOptions& options) {
     run_localizer(options);
     return;
   }
+  if (options.odometry) {
+    if (options.scale) throw UsageError("--odometry and --scale are two benchmarks");
+    run_odometry_bench({options.maps, options.plots, options.json, options.seed});
+    return;
+  }
   if (options.scale) {
     run_scale(options);
     return;
@@ -188,6 +195,9 @@ void add_bench(CLI::App& program) {
       "instead: poses against the truth and the Cramer-Rao bound, with a biased lidar, few "
       "returns, things in the way, a displaced wall, a closed door, in motion, kidnapped; "
       "--positions: places for each, else 1,000");
+  command->add_flag(
+      "--odometry", options->odometry,
+      "instead: the paper's modes of odometry on its drives; --maps: with flat-7.json");
   command->add_option("--corners", options->corners, "with --scale: buildings of about so many")
       ->delimiter(',')
       ->check(CLI::Range(std::size_t{0}, std::size_t{100'000}))

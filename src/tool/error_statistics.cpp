@@ -110,9 +110,9 @@ double ErrorStatistics::mean_nees() const {
   return nees_count_ == 0 ? 0 : nees_sum_ / static_cast<double>(nees_count_);
 }
 
-std::string ErrorStatistics::report() const {
+std::string ErrorStatistics::report(std::string_view counted) const {
   std::string out;
-  append(out, "turns      %7zu\n", turns_);
+  append(out, "%-10.*s %7zu\n", static_cast<int>(counted.size()), counted.data(), turns_);
   for (std::size_t i = 0; i < kStates; ++i) {
     if (states_[i] > 0 || i == index(core::PoseState::kFix)) {
       append_share(out, message::to_string(static_cast<core::PoseState>(i)), states_[i], turns_);

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/localizer.hpp"
@@ -32,7 +33,7 @@ class ErrorStatistics {
   double mean_nees() const;
 
   /// Several lines for a person.
-  std::string report() const;
+  std::string report(std::string_view counted = "turns") const;
 
  private:
   static constexpr std::size_t kStates = 5;

@@ -179,6 +179,18 @@ void MapDrawing::add_path(std::span<const Vec2> points, bool truth) {
   }
 }
 
+void MapDrawing::add_track(std::span<const Vec2> points, std::string_view colour) {
+  svg_.polyline(points, {.stroke = colour, .stroke_width = 1.6, .opacity = 0.85});
+}
+
+void MapDrawing::add_legend(std::string_view text, std::string_view colour) {
+  constexpr double kLegendPx = 115;
+  const double unit_m = 1 / svg_.pixels_per_m();
+  const Vec2 from = map_.lower_left() + Vec2(kLegendPx * legends_++, -44) * unit_m;
+  svg_.line(from, from + Vec2(16, 0) * unit_m, {.stroke = colour, .stroke_width = 2});
+  svg_.text(from, text, {.fill = kInk, .size = 12, .anchor = "start"}, 20, 4);
+}
+
 void MapDrawing::add_scan(const core::Scan& scan, const core::Pose2& T_map_lidar) {
   svg_.begin_group("scan");
   for (const core::Sample& sample : scan.samples()) {

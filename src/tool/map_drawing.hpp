@@ -22,6 +22,10 @@ class MapDrawing {
 
   /// A way through the map. `truth`: thin and dashed, for the one that is only compared with.
   void add_path(std::span<const core::Vec2> points, bool truth = false);
+  /// The same in a colour of one's own.
+  void add_track(std::span<const core::Vec2> points, std::string_view colour);
+  /// A line of the legend, under the picture.
+  void add_legend(std::string_view text, std::string_view colour);
   /// The returns of one turn.
   void add_scan(const core::Scan& scan, const core::Pose2& T_map_lidar);
   /// Returns of a whole drive, on the map.
@@ -53,6 +57,7 @@ class MapDrawing {
 
   const core::WallMap& map_;
   Svg svg_;
+  int legends_ = 0;
 };
 
 }  // namespace cornerd::tool

@@ -23,7 +23,11 @@ void MessagePrinter::print_turn(const core::Scan& turn, const core::TurnResult& 
   if (classes_.contains(MessageClass::kBreakpoints)) {
     output_.write(writer_.breakpoints(turn.start_ns(), result.detection));
   }
-  if (classes_.contains(MessageClass::kPose)) output_.write(writer_.pose(result.pose, plan_));
+  print_pose(result.pose);
+}
+
+void MessagePrinter::print_pose(const core::PoseEstimate& pose) {
+  if (classes_.contains(MessageClass::kPose)) output_.write(writer_.pose(pose, plan_));
 }
 
 void MessagePrinter::begin_recording() {

@@ -20,6 +20,9 @@ class MessagePrinter {
 
   void print_turn(const core::Scan& turn, const core::TurnResult& result);
 
+  /// A pose between two turns.
+  void print_pose(const core::PoseEstimate& pose);
+
   /// What comes now is of another file: rates begin anew.
   void begin_recording();
   /// STATUS where a second has passed since the last one. Time is that of the data.

@@ -18,7 +18,7 @@ class Playback::Sink : public replay::RecordingSink {
   }
   void on_gap() override { playback_.on_result(playback_.pipeline_.finish()); }
   void on_odometry(const message::OdometryReading& reading) override {
-    if (!playback_.has_readings_) playback_.pipeline_.add(reading);
+    if (!playback_.has_readings_) playback_.add(reading);
   }
 
  private:
@@ -30,8 +30,13 @@ Playback::Playback(core::Pipeline& pipeline, OnTurn on_turn, OnPiece on_piece)
 
 void Playback::play_readings_until(core::TimeNs t_ns) {
   while (next_reading_ < readings_.size() && readings_[next_reading_].t_ns <= t_ns) {
-    pipeline_.add(readings_[next_reading_++]);
+    add(readings_[next_reading_++]);
   }
+}
+
+void Playback::add(const core::OdometryReading& reading) {
+  const core::PoseEstimate* pose = pipeline_.add(reading);
+  if (pose != nullptr && on_prediction_) on_prediction_(*pose);
 }
 
 void Playback::on_result(const core::TurnResult* result) {

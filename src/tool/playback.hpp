@@ -21,7 +21,12 @@ class Playback {
   /// Called after every piece of the recording, with the time and the counters so far.
   using OnPiece = std::function<void(core::TimeNs t_ns, const drivers::StreamCounters& counters)>;
 
+  /// Called for every pose between two turns (odometry.publish).
+  using OnPrediction = std::function<void(const core::PoseEstimate& pose)>;
+
   Playback(core::Pipeline& pipeline, OnTurn on_turn, OnPiece on_piece = {});
+
+  void set_on_prediction(OnPrediction on_prediction) { on_prediction_ = std::move(on_prediction); }
 
   /// Forget everything between turns, as if each were the first.
   void set_independent(bool independent) { independent_ = independent; }
@@ -45,6 +50,8 @@ class Playback {
   core::Pipeline& pipeline_;
   OnTurn on_turn_;
   OnPiece on_piece_;
+  OnPrediction on_prediction_;
+  void add(const core::OdometryReading& reading);
   void play_readings_until(core::TimeNs t_ns);
 
   bool independent_ = false;

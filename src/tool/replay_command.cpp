@@ -52,6 +52,7 @@ void replay(const ReplayOptions& options) {
   MessagePrinter printer(output, classes, map ? &map->plan() : nullptr);
   core::Pipeline pipeline(map, config.localizer());
   ErrorStatistics errors;
+  ErrorStatistics errors_between;
   std::optional<Pace> pace;
 
   const auto on_turn = [&](const core::Scan& turn, const core::TurnResult& result) {
@@ -71,6 +72,11 @@ void replay(const ReplayOptions& options) {
 
   Playback playback(pipeline, on_turn, on_piece);
   playback.set_independent(options.independent);
+  playback.set_on_prediction([&](const core::PoseEstimate& pose) {
+    printer.print_pose(pose);
+    if (!truth) return;
+    if (const auto T_map_base = truth->at(pose.t_ns)) errors_between.add(pose, *T_map_base);
+  });
   if (!options.odometry.empty()) playback.set_odometry(load_odometry(options.odometry));
   const replay::RecordingOptions recording{parse_wire(options.wire), config.lidar.mount.inverted};
   for (const std::filesystem::path& file : options.files) {
@@ -81,6 +87,10 @@ void replay(const ReplayOptions& options) {
   }
   output.flush();
   if (truth) std::fputs(errors.report().c_str(), stderr);
+  if (errors_between.turns() > 0) {
+    std::fprintf(stderr, "between the turns, by odometry\n%s",
+                 errors_between.report("poses").c_str());
+  }
 }
 
 }  // namespace

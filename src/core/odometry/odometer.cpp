@@ -31,6 +31,20 @@ OdometryConfig as_configured(OdometryConfig config) {
   return config;
 }
 
+/// What of the step is left after what was guessed of it: all counts count once.
+MotionStep less_guess(const MotionStep& step, MotionStep& guessed) {
+  MotionStep rest = step;
+  rest.left_m -= guessed.left_m;
+  rest.right_m -= guessed.right_m;
+  rest.gyro_rad -= guessed.gyro_rad;
+  if (guessed.to_ns > guessed.from_ns) {
+    rest.from_ns = std::min(guessed.to_ns, rest.to_ns - 1);
+    if (guessed.has_gyro != step.has_gyro) rest.has_gyro = false;
+  }
+  guessed = {};
+  return rest;
+}
+
 Covariance3 with_floor(const Covariance3& covariance) {
   Covariance3 sum = covariance;
   sum(0, 0) += kFixFloor_m * kFixFloor_m;
@@ -42,12 +56,12 @@ Covariance3 with_floor(const Covariance3& covariance) {
 }  // namespace
 
 Odometer::Odometer(const OdometryConfig& config)
-    : config_(config), gate_(config), filter_(as_configured(config)) {}
+    : config_(config), gate_(config), filter_(as_configured(config)), ahead_(filter_) {}
 
-void Odometer::add(const OdometryReading& reading, std::optional<TimeNs> now_ns) {
-  if (!config_.enabled) return;
+bool Odometer::add(const OdometryReading& reading, std::optional<TimeNs> now_ns) {
+  if (!config_.enabled) return false;
   std::optional<MotionStep> step = gate_.add(reading, now_ns);
-  if (!step) return;
+  if (!step) return false;
   if (config_.mode != HeadingSource::kFilter && !step->is_hole) {
     *step = by_wheels_alone(*step, config_.geometry, {config_.mode, config_.paper});
   }
@@ -60,24 +74,16 @@ void Odometer::add(const OdometryReading& reading, std::optional<TimeNs> now_ns)
     consume(pending_[first_]);
     first_ = (first_ + 1) % kPending;
     --size_;
+    ahead_is_stale_ = true;
   }
   pending_[(first_ + size_++) % kPending] = *step;
+  return true;
 }
 
 void Odometer::consume(const MotionStep& step) {
   // The clock of the readings was set back, or the lidar is well ahead of it.
   if (step.to_ns <= step.from_ns) return;
-  MotionStep rest = step;
-  // What was guessed is taken off: all counts count once.
-  rest.left_m -= guessed_.left_m;
-  rest.right_m -= guessed_.right_m;
-  rest.gyro_rad -= guessed_.gyro_rad;
-  if (guessed_.to_ns > guessed_.from_ns) rest.from_ns = std::min(guessed_.to_ns, rest.to_ns - 1);
-  if (guessed_.to_ns > guessed_.from_ns && guessed_.has_gyro != step.has_gyro) {
-    rest.has_gyro = false;
-  }
-  guessed_ = {};
-  filter_.predict(rest);
+  filter_.predict(less_guess(step, guessed_));
   last_ = step;
   reached_ns_ = step.to_ns;
 }
@@ -125,6 +131,7 @@ void Odometer::advance(TimeNs start_ns, TimeNs middle_ns, TimeNs end_ns) {
   knows_motion_ =
       config_.enabled && strangers_in_a_row_ < kDistrusted && path_.covers(start_ns, end_ns);
   if (!config_.enabled) return;
+  ahead_is_stale_ = true;
   consume_until(middle_ns);
   guess_until(middle_ns);
   const TimeNs behind_ns = middle_ns - last_.to_ns;
@@ -171,19 +178,40 @@ Covariance3 Odometer::doubt_of_motion() const {
 }
 
 std::optional<PredictedPose> Odometer::prediction() const {
+  return prediction_of(filter_, middle_ns_);
+}
+
+std::optional<PredictedPose> Odometer::ahead() {
+  if (ahead_is_stale_) {
+    ahead_ = filter_;
+    ahead_guessed_ = guessed_;
+    ahead_by_ = 0;
+    ahead_is_stale_ = false;
+  }
+  for (; ahead_by_ < size_; ++ahead_by_) {
+    const MotionStep& step = pending_[(first_ + ahead_by_) % kPending];
+    if (step.to_ns > step.from_ns) ahead_.predict(less_guess(step, ahead_guessed_));
+  }
+  return size_ > 0 ? prediction_of(ahead_, pending_[(first_ + size_ - 1) % kPending].to_ns)
+                   : std::nullopt;
+}
+
+std::optional<PredictedPose> Odometer::prediction_of(const FusionFilter& filter,
+                                                     TimeNs t_ns) const {
   if (!has_pose_ || !present_ || strangers_in_a_row_ >= kDistrusted) return std::nullopt;
-  if (to_seconds(middle_ns_ - fixed_ns_) > config_.bridge_s) return std::nullopt;
-  const Covariance3 covariance = filter_.pose_covariance();
+  if (to_seconds(t_ns - fixed_ns_) > config_.bridge_s) return std::nullopt;
+  const Covariance3 covariance = filter.pose_covariance();
   const double place_m2 = std::max(covariance(0, 0), covariance(1, 1));
   if (!(place_m2 < kMostSigma_m * kMostSigma_m) ||
       !(covariance(2, 2) < kMostSigma_rad * kMostSigma_rad)) {
     return std::nullopt;
   }
-  return PredictedPose{filter_.pose(), covariance};
+  return PredictedPose{t_ns, filter.pose(), covariance};
 }
 
 void Odometer::correct(const Pose2& T_map_base, const Covariance3& covariance) {
   if (!config_.enabled || !present_) return;
+  ahead_is_stale_ = true;
   const Covariance3 doubt = with_floor(covariance);
   if (has_pose_ && filter_.correct(T_map_base, doubt)) {
     strangers_in_a_row_ = 0;
@@ -200,6 +228,7 @@ void Odometer::correct(const Pose2& T_map_base, const Covariance3& covariance) {
 }
 
 void Odometer::set_pose(const Pose2& T_map_base, const Covariance3& covariance) {
+  ahead_is_stale_ = true;
   filter_.set_pose(T_map_base, covariance);
   has_pose_ = true;
   fixed_ns_ = middle_ns_;

@@ -18,6 +18,7 @@
 namespace cornerd::core {
 
 struct PredictedPose {
+  TimeNs t_ns = 0;
   Pose2 T_map_base;
   Covariance3 covariance = Covariance3::Zero();
 };
@@ -44,8 +45,8 @@ class Odometer {
 
   bool enabled() const { return config_.enabled; }
 
-  /// `now_ns`: see ReadingGate.
-  void add(const OdometryReading& reading, std::optional<TimeNs> now_ns);
+  /// `now_ns`: see ReadingGate. True where it moved the robot on: ahead() is of its time then.
+  bool add(const OdometryReading& reading, std::optional<TimeNs> now_ns);
 
   /// Goes on to the middle of a turn that ends at `end_ns`. All that follows is about that time.
   void advance(TimeNs start_ns, TimeNs middle_ns, TimeNs end_ns);
@@ -62,6 +63,9 @@ class Odometer {
   /// wheels and lidar have lately told different stories.
   std::optional<PredictedPose> prediction() const;
 
+  /// The same at the time of the newest reading, for OdometryConfig::publish.
+  std::optional<PredictedPose> ahead();
+
   /// The lidar's pose for the time reached; teaches.
   void correct(const Pose2& T_map_base, const Covariance3& covariance);
   /// From somebody else, for the time reached; teaches nothing.
@@ -76,6 +80,7 @@ class Odometer {
   static constexpr std::size_t kPending = 256;
 
   void consume(const MotionStep& step);
+  std::optional<PredictedPose> prediction_of(const FusionFilter& filter, TimeNs t_ns) const;
   void consume_until(TimeNs t_ns);
   void guess_until(TimeNs t_ns);
 
@@ -90,6 +95,11 @@ class Odometer {
   TimeNs reached_ns_ = 0;  ///< the filter stands here
   MotionStep last_;        ///< the newest whole step in the filter, for a guess
   MotionStep guessed_;     ///< what the filter has taken beyond the newest reading
+
+  FusionFilter ahead_;          ///< with what is pending
+  std::size_t ahead_by_ = 0;    ///< steps of what is pending; where it is stale, none
+  MotionStep ahead_guessed_;    ///< as guessed_
+  bool ahead_is_stale_ = true;  ///< the filter has moved since
 
   TimeNs start_ns_ = 0;  ///< of the turn
   TimeNs middle_ns_ = 0;

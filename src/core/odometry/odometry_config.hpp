@@ -69,6 +69,7 @@ struct OdometryConfig {
       HeadingSource::kFilter;  ///< the paper's are for comparison: they learn nothing
   PaperFactors paper;
   double bridge_s = 10;  ///< a pose is carried on without the lidar for so long
+  bool publish = false;  ///< a pose for every reading, carried on from the last turn
 };
 
 }  // namespace cornerd::core

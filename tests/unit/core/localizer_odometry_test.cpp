@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdint>
+#include <vector>
 
 #include "core/localizer.hpp"
 #include "fixtures.hpp"
@@ -16,9 +18,9 @@ constexpr double kTurnOfDrive_s = 0.14;
 /// A robot on a circle in the L-shaped room, seen by its lidar and by its wheels.
 class CircleDrive {
  public:
-  CircleDrive(double speed_m_s, double rate_rad_s, double bridge_s = 10)
+  CircleDrive(double speed_m_s, double rate_rad_s, double bridge_s = 10, bool publish = false)
       : map_(testing::make_map(testing::l_shaped_room())),
-        localizer_(map_, config(bridge_s)),
+        localizer_(map_, config(bridge_s, publish)),
         robot_({}, errors(), 5),
         speed_m_s_(speed_m_s),
         rate_rad_s_(rate_rad_s) {}
@@ -30,7 +32,9 @@ class CircleDrive {
     options.motion = {speed_m_s_, 0, rate_rad_s_};
     options.missing_share = covered ? 1 : 0;
     for (int i = 0; i < 14; ++i) {
-      localizer_.add(robot_.drive(0.01, speed_m_s_, rate_rad_s_), std::nullopt);
+      const OdometryReading reading = robot_.drive(0.01, speed_m_s_, rate_rad_s_);
+      const PoseEstimate* between = localizer_.add(reading, std::nullopt);
+      if (between != nullptr) between_.push_back({*between, Pose2{1.2, 0.9, 0.3} * robot_.truth()});
       if (i == 6) truth_ = Pose2{1.2, 0.9, 0.3} * robot_.truth();
     }
     const Scan scan = source_.take(*map_, elsewhere.value_or(truth_), options);
@@ -42,12 +46,18 @@ class CircleDrive {
     return (pose.T_map_base.translation() - truth_.translation()).norm();
   }
   const OdometrySummary& odometry() const { return odometry_; }
+  struct Between {
+    PoseEstimate pose;
+    Pose2 truth;
+  };
+  const std::vector<Between>& between() const { return between_; }
 
  private:
-  static LocalizerConfig config(double bridge_s) {
+  static LocalizerConfig config(double bridge_s, bool publish) {
     LocalizerConfig config;
     config.odometry.enabled = true;
     config.odometry.bridge_s = bridge_s;
+    config.odometry.publish = publish;
     return config;
   }
   static testing::RobotErrors errors() {
@@ -65,7 +75,39 @@ class CircleDrive {
   double rate_rad_s_;
   Pose2 truth_;
   OdometrySummary odometry_;
+  std::vector<Between> between_;
 };
+
+TEST(LocalizerWithOdometry, PublishedReadings_ArePredictedPosesBetweenTheTurns) {
+  CircleDrive drive(0.4, 0.8, 10, true);
+  for (int k = 0; k < 40; ++k) drive.turn();
+  EXPECT_TRUE(drive.between().size() > 39 * 13);
+  std::uint64_t seq = 0;
+  for (const CircleDrive::Between& between : drive.between()) {
+    EXPECT_EQ(between.pose.state, PoseState::kPredicted);
+    EXPECT_GT(between.pose.seq, seq);
+    seq = between.pose.seq;
+    EXPECT_GT(between.pose.age_s, 0);
+    EXPECT_LT(between.pose.age_s, 2 * kTurnOfDrive_s);
+    EXPECT_LT((between.pose.T_map_base.translation() - between.truth.translation()).norm(), 0.02);
+  }
+}
+
+TEST(LocalizerWithOdometry, ReadingsThatNobodyAskedToPublish_GiveNoPose) {
+  CircleDrive drive(0.4, 0.8);
+  for (int k = 0; k < 3; ++k) drive.turn();
+  EXPECT_TRUE(drive.between().empty());
+}
+
+TEST(LocalizerWithOdometry, CarriedRobot_IsNotPredictedBetweenTheTurns) {
+  CircleDrive drive(0.4, 0.8, 10, true);
+  for (int k = 0; k < 10; ++k) drive.turn();
+  const PoseEstimate& pose = drive.turn(false, Pose2{0.5, 2.4, -2});
+  const std::size_t before = drive.between().size();
+  ASSERT_EQ(pose.state, PoseState::kLost);
+  drive.turn(false, Pose2{0.5, 2.4, -2});
+  EXPECT_EQ(drive.between().size(), before);
+}
 
 TEST(LocalizerWithOdometry, FastSpin_IsFixedFromTheSecondTurnOn) {
   CircleDrive drive(0.4, 2.5);

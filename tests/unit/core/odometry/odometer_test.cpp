@@ -55,6 +55,14 @@ class Ride {
     return (predicted->T_map_base.translation() - truth.translation()).norm();
   }
 
+  /// One reading more, and where the robot is then.
+  Pose2 go_on() {
+    const testing::Rates rates = testing::lively_drive(0.01 * ticks_++);
+    const OdometryReading reading = robot_.drive(0.01, rates.speed_m_s, rates.rate_rad_s);
+    odometer.add(reading, reading.t_ns);
+    return robot_.truth();
+  }
+
   Odometer odometer;
   Pose2 truth;
 
@@ -71,6 +79,49 @@ TEST(Odometer, BeforeTheFirstFix_PredictsNothing) {
   for (int k = 0; k < 5; ++k) ride.turn();
   EXPECT_FALSE(ride.odometer.prediction());
   EXPECT_TRUE(ride.odometer.knows_motion());
+}
+
+TEST(Odometer, Ahead_IsWhereTheRobotIsByNow) {
+  Ride ride(switched_on());
+  for (int k = 0; k < 300; ++k) {
+    ride.turn();
+    ride.odometer.correct(ride.truth, kFixCovariance);
+  }
+  double variance_m2 = 0;
+  for (int i = 0; i < 100; ++i) {
+    const Pose2 now = ride.go_on();
+    const auto ahead = ride.odometer.ahead();
+    ASSERT_TRUE(ahead);
+    EXPECT_LT((ahead->T_map_base.translation() - now.translation()).norm(), 0.01) << i;
+    EXPECT_LT(std::abs(angle_between(ahead->T_map_base.theta_rad, now.theta_rad)), 0.01) << i;
+    EXPECT_GT(ahead->covariance.trace(), variance_m2) << i;
+    variance_m2 = ahead->covariance.trace();
+  }
+}
+
+TEST(Odometer, Ahead_IsWhatTheNextTurnStartsFrom) {
+  // What was carried on reading by reading and what the turn consumes are the same counts.
+  Ride ride(switched_on());
+  for (int k = 0; k < 20; ++k) {
+    ride.turn();
+    ride.odometer.correct(ride.truth, kFixCovariance);
+  }
+  ride.go_on();
+  ASSERT_TRUE(ride.odometer.ahead());
+  for (int i = 0; i < 9; ++i) ride.go_on();
+  const PredictedPose ahead = ride.odometer.ahead().value();
+  ride.odometer.advance(ahead.t_ns - 1000, ahead.t_ns, ahead.t_ns + 1000);
+  const PredictedPose reached = ride.odometer.prediction().value();
+  EXPECT_NEAR(reached.T_map_base.x_m, ahead.T_map_base.x_m, 1e-9);
+  EXPECT_NEAR(reached.T_map_base.y_m, ahead.T_map_base.y_m, 1e-9);
+  EXPECT_TRUE(reached.covariance.isApprox(ahead.covariance, 1e-6));
+}
+
+TEST(Odometer, BeforeTheFirstFix_IsNothingAhead) {
+  Ride ride(switched_on());
+  ride.turn();
+  ride.go_on();
+  EXPECT_FALSE(ride.odometer.ahead());
 }
 
 TEST(Odometer, BetweenFixes_PredictsTheMiddleOfTheTurn) {

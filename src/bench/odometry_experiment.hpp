@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+// Figures 3 to 6 of Bertocco et al. (2019) as ours: where the paper's four modes of odometry think
+// that a robot is, after its two circuits and its exploration of a flat.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "calibration/odometry_fit.hpp"
+#include "core/geometry/pose2.hpp"
+#include "core/odometry/dead_reckoning.hpp"
+#include "replay/simulator/robot_model.hpp"
+#include "replay/simulator/scenarios.hpp"
+
+namespace cornerd::bench {
+
+struct OdometryRobot {
+  std::string_view title;
+  std::string_view name;  ///< in names of files
+  replay::RobotModel model;
+};
+
+/// A Pioneer P3-DX and a robot of 16 cm, both as wrong: wheels 1.5 and 2.5 % larger than
+/// configured, the gyro 2 % and 0.01 rad/s off, a wheel that slips every 20 m.
+std::vector<OdometryRobot> odometry_robots();
+
+/// A drive as one way of reckoning has it.
+struct ReckonedTrack {
+  core::HeadingSource source = core::HeadingSource::kEncoder;  ///< kFilter: by least squares
+  std::optional<core::PaperFactors> factors;                   ///< found on this very drive
+  calibration::DriveError error;
+  std::vector<core::Vec2> points;  ///< in `map`
+};
+
+struct OdometryResult {
+  std::string_view scenario;
+  double length_m = 0;
+  std::vector<core::Vec2> truth;
+  /// The modes without factors, then those that have any with them, then least squares.
+  std::vector<ReckonedTrack> tracks;
+};
+
+/// A robot drives the scenario once. Same input, same result.
+OdometryResult run_odometry_case(const OdometryRobot& robot, const replay::Scenario& scenario,
+                                 std::uint64_t seed);
+
+}  // namespace cornerd::bench

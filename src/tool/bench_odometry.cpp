@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: MIT
+#include "tool/bench_odometry.hpp"
+
+#include <memory>
+#include <string_view>
+#include <system_error>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "bench/odometry_experiment.hpp"
+#include "settings/map_file.hpp"
+#include "tool/contest_maps.hpp"
+#include "tool/failure.hpp"
+#include "tool/map_drawing.hpp"
+#include "tool/output.hpp"
+#include "tool/progress_bar.hpp"
+#include "tool/text_table.hpp"
+
+namespace cornerd::tool {
+
+namespace {
+
+using bench::OdometryResult;
+using bench::ReckonedTrack;
+using core::HeadingSource;
+
+struct RobotResults {
+  bench::OdometryRobot robot;
+  std::vector<OdometryResult> drives;
+};
+
+std::string_view name_of(HeadingSource source) {
+  switch (source) {
+    case HeadingSource::kEncoder:
+      return "encoder";
+    case HeadingSource::kGyro:
+      return "gyro";
+    case HeadingSource::kMean:
+      return "mean";
+    case HeadingSource::kWeighted:
+      return "weighted";
+    case HeadingSource::kFilter:
+      break;
+  }
+  return "least squares";
+}
+
+std::string title_of(const ReckonedTrack& track) {
+  const std::string name(name_of(track.source));
+  if (track.source == HeadingSource::kMean) return name + " (eq. 4)";
+  if (track.source == HeadingSource::kWeighted) return name + " (eq. 5)";
+  if (track.source == HeadingSource::kFilter) return name + ", ours";
+  return track.factors ? name + ", factor" : name;
+}
+
+std::string factors_text(const ReckonedTrack& track) {
+  if (!track.factors) return "-";
+  const core::PaperFactors& factors = *track.factors;
+  if (track.source == HeadingSource::kEncoder) return formatted("%.3f", factors.encoder_factor);
+  if (track.source == HeadingSource::kGyro) return formatted("%.3f", factors.gyro_factor);
+  return formatted("%.3f, %.3f", factors.encoder_factor, factors.gyro_factor);
+}
+
+std::string table_of(const OdometryResult& drive) {
+  TextTable table;
+  table.add_row({"heading from", "factors", "mean [m]", "end [m]"});
+  for (const ReckonedTrack& track : drive.tracks) {
+    table.add_row({title_of(track), factors_text(track), formatted("%.3f", track.error.mean_m),
+                   formatted("%.3f", track.error.end_m)});
+  }
+  return formatted("%.*s, %.1f m\n", static_cast<int>(drive.scenario.size()), drive.scenario.data(),
+                   drive.length_m) +
+         table.text() + '\n';
+}
+
+std::string odometry_text(const std::vector<RobotResults>& robots) {
+  std::string text =
+      "Odometry alone: how far off it is, in the mean and at the end, once around. Factors are\n"
+      "found on the very drive.\n\n";
+  for (const RobotResults& results : robots) {
+    text.append(results.robot.title).append("\n\n");
+    for (const OdometryResult& drive : results.drives) text.append(table_of(drive));
+  }
+  text.pop_back();
+  return text;
+}
+
+std::string odometry_json(const std::vector<RobotResults>& robots, std::uint64_t seed) {
+  nlohmann::ordered_json drives = nlohmann::ordered_json::array();
+  for (const RobotResults& results : robots) {
+    for (const OdometryResult& drive : results.drives) {
+      nlohmann::ordered_json tracks = nlohmann::ordered_json::array();
+      for (const ReckonedTrack& track : drive.tracks) {
+        nlohmann::ordered_json figures = {{"heading", name_of(track.source)}};
+        if (track.factors) {
+          figures["encoder_factor"] = track.factors->encoder_factor;
+          figures["gyro_factor"] = track.factors->gyro_factor;
+        }
+        figures["mean_error"] = track.error.mean_m;
+        figures["end_error"] = track.error.end_m;
+        tracks.push_back(std::move(figures));
+      }
+      drives.push_back({{"robot", results.robot.name},
+                        {"drive", drive.scenario},
+                        {"length", drive.length_m},
+                        {"tracks", std::move(tracks)}});
+    }
+  }
+  return nlohmann::ordered_json({{"seed", seed}, {"odometry", std::move(drives)}}).dump(2) + '\n';
+}
+
+/// The modes as they are, or with their factors and least squares.
+std::string draw_tracks(const core::WallMap& map, const bench::OdometryRobot& robot,
+                        const OdometryResult& drive, bool with_factors) {
+  MapDrawing drawing(map);
+  drawing.add_path(drive.truth, /*truth=*/true);
+  drawing.add_legend("truth", "#2f3640");
+  for (const ReckonedTrack& track : drive.tracks) {
+    const bool is_fitted = track.factors || track.source == HeadingSource::kFilter;
+    if (is_fitted != with_factors) continue;
+    constexpr std::string_view kInks[] = {"#c2255c", "#2f6f9f", "#d9822b", "#d9822b", "#1b9e77"};
+    const std::string_view ink = kInks[static_cast<std::size_t>(track.source)];
+    drawing.add_track(track.points, ink);
+    drawing.add_legend(title_of(track), ink);
+  }
+  return drawing.document(std::string(robot.title) + ", " + std::string(drive.scenario) +
+                          (with_factors ? ": odometry with factors" : ": odometry as it comes"));
+}
+
+void save_picture(const std::filesystem::path& file, const std::string& document) {
+  Output output(file);
+  output.write(document);
+  output.flush();
+}
+
+}  // namespace
+
+void run_odometry_bench(const OdometryBenchOptions& options) {
+  // Before the work: whatever cannot be written is said at once.
+  std::unique_ptr<Output> json;
+  if (options.json == "-") json = std::make_unique<Output>();
+  if (!options.json.empty() && !json) {
+    json = std::make_unique<Output>(std::filesystem::path(options.json));
+  }
+  std::shared_ptr<const core::WallMap> map;
+  if (!options.plots.empty()) {
+    map = settings::load_map(contest_maps_folder(options.maps) / "flat-7.json");
+    std::error_code error;
+    std::filesystem::create_directories(options.plots, error);
+    if (error) throw Failure(options.plots.string() + ": " + error.message());
+  }
+
+  std::vector<RobotResults> robots;
+  {
+    const auto all = bench::odometry_robots();
+    ProgressBar bar("odometry", all.size() * replay::scenarios().size());
+    std::size_t done = 0;
+    for (const bench::OdometryRobot& robot : all) {
+      robots.push_back({robot, {}});
+      for (const replay::Scenario& scenario : replay::scenarios()) {
+        robots.back().drives.push_back(bench::run_odometry_case(robot, scenario, options.seed));
+        bar.show(++done);
+      }
+    }
+  }
+  for (const RobotResults& results : robots) {
+    for (const OdometryResult& drive : results.drives) {
+      if (!map) break;
+      const std::string name = std::string(results.robot.name) + '-' + std::string(drive.scenario);
+      save_picture(options.plots / (name + ".svg"), draw_tracks(*map, results.robot, drive, false));
+      save_picture(options.plots / (name + "-factors.svg"),
+                   draw_tracks(*map, results.robot, drive, true));
+    }
+  }
+  if (json) {
+    json->write(odometry_json(robots, options.seed));
+    json->flush();
+  }
+  if (options.json == "-") return;
+  Output output;
+  output.write(odometry_text(robots));
+  output.flush();
+}
+
+}  // namespace cornerd::tool

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+#include "bench/odometry_experiment.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace cornerd::bench {
+namespace {
+
+using core::HeadingSource;
+
+const ReckonedTrack& track_of(const OdometryResult& result, HeadingSource source, bool factors) {
+  return *std::find_if(result.tracks.begin(), result.tracks.end(), [&](const ReckonedTrack& track) {
+    return track.source == source && track.factors.has_value() == factors;
+  });
+}
+
+class OdometryExperiment : public ::testing::Test {
+ protected:
+  const OdometryResult result_ =
+      run_odometry_case(odometry_robots().front(), *replay::find_scenario("circuit-1"), 1);
+};
+
+TEST_F(OdometryExperiment, AllModes_AreThereWithAndWithoutTheFactorsThatTheyHave) {
+  ASSERT_EQ(result_.tracks.size(), 7u);
+  EXPECT_NEAR(result_.length_m, 7.9, 0.1);
+  for (const ReckonedTrack& track : result_.tracks) {
+    EXPECT_GT(track.error.places, 100u);
+    EXPECT_GT(track.points.size(), 1000u);
+  }
+}
+
+TEST_F(OdometryExperiment, Factors_MakeAModeBetterOnTheDriveThatTheyAreOf) {
+  for (const HeadingSource mode : {HeadingSource::kEncoder, HeadingSource::kGyro}) {
+    EXPECT_LT(track_of(result_, mode, true).error.mean_m,
+              track_of(result_, mode, false).error.mean_m);
+  }
+}
+
+TEST_F(OdometryExperiment, WeightedMean_IsBetterThanTheMeanAndTheWheels) {
+  const double weighted_m = track_of(result_, HeadingSource::kWeighted, true).error.mean_m;
+  EXPECT_LE(weighted_m, track_of(result_, HeadingSource::kEncoder, true).error.mean_m);
+  EXPECT_LE(weighted_m, track_of(result_, HeadingSource::kMean, false).error.mean_m);
+}
+
+TEST_F(OdometryExperiment, DrawnTrack_EndsAsFarOffAsTheTableSays) {
+  for (const ReckonedTrack& track : result_.tracks) {
+    EXPECT_NEAR((track.points.back() - result_.truth.back()).norm(), track.error.end_m, 0.06);
+  }
+}
+
+TEST_F(OdometryExperiment, SameSeed_GivesTheSameFigures) {
+  const OdometryResult again =
+      run_odometry_case(odometry_robots().front(), *replay::find_scenario("circuit-1"), 1);
+  for (std::size_t i = 0; i < result_.tracks.size(); ++i) {
+    EXPECT_EQ(again.tracks[i].error.mean_m, result_.tracks[i].error.mean_m);
+  }
+}
+
+}  // namespace
+}  // namespace cornerd::bench
