@@ -51,11 +51,8 @@ ReckonedTrack reckon_by_mode(const Drive& drive, HeadingSource source,
                              const std::optional<core::PaperFactors>& factors) {
   ReckonedTrack track{.source = source, .factors = factors, .error = {}, .points = {}};
   const core::DeadReckoningConfig config{source, factors.value_or(core::PaperFactors{})};
-  track.error = calibration::reckon(drive.steps, drive.places, drive.geometry, config);
-  core::DeadReckoning reckoning(drive.geometry, config, drive.places.front().T_map_base);
-  for (const core::MotionStep& step : drive.steps) {
-    track.points.push_back(reckoning.add(step).translation());
-  }
+  track.error =
+      calibration::reckon(drive.steps, drive.places, drive.geometry, config, &track.points);
   return track;
 }
 
@@ -63,16 +60,8 @@ ReckonedTrack reckon_by_mode(const Drive& drive, HeadingSource source,
 ReckonedTrack reckon_by_fit(const Drive& drive, const core::LearnedOdometry& learned) {
   ReckonedTrack track{
       .source = HeadingSource::kFilter, .factors = std::nullopt, .error = {}, .points = {}};
-  track.error = calibration::reckon(drive.steps, drive.places, drive.geometry, learned);
-  core::OdometryConfig config;
-  config.geometry = drive.geometry;
-  config.start = learned;
-  const core::FusionFilter filter(config);
-  core::Pose2 T_map_base = drive.places.front().T_map_base;
-  for (const core::MotionStep& step : drive.steps) {
-    T_map_base = T_map_base * filter.motion_of(step);
-    track.points.push_back(T_map_base.translation());
-  }
+  track.error =
+      calibration::reckon(drive.steps, drive.places, drive.geometry, learned, &track.points);
   return track;
 }
 

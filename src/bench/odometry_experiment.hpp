@@ -32,7 +32,7 @@ struct ReckonedTrack {
   core::HeadingSource source = core::HeadingSource::kEncoder;  ///< kFilter: by least squares
   std::optional<core::PaperFactors> factors;                   ///< found on this very drive
   calibration::DriveError error;
-  std::vector<core::Vec2> points;  ///< in `map`
+  calibration::DrivePoints points;
 };
 
 struct OdometryResult {

@@ -61,7 +61,7 @@ Moved moved_by(const MotionStep& step, const core::DriveGeometry& geometry,
 /// Walks through the steps, and looks at each known place where the robot has got to.
 template <typename Motion>
 DriveError walk(std::span<const MotionStep> steps, std::span<const KnownPlace> places,
-                const Motion& motion) {
+                DrivePoints* points, const Motion& motion) {
   DriveError error;
   std::size_t next = 0;
   while (next < places.size() && !steps.empty() && places[next].t_ns < steps.front().from_ns) {
@@ -83,6 +83,7 @@ DriveError walk(std::span<const MotionStep> steps, std::span<const KnownPlace> p
       }
       error.end_m = (T_map_base.translation() - places[next].T_map_base.translation()).norm();
       error.mean_m += error.end_m;
+      if (points != nullptr) points->push_back(T_map_base.translation());
       ++error.places;
       ++next;
     }
@@ -160,16 +161,18 @@ Residuals residuals_of(const Window& window, const core::DriveGeometry& geometry
 }  // namespace
 
 DriveError reckon(std::span<const MotionStep> steps, std::span<const KnownPlace> places,
-                  const core::DriveGeometry& geometry, const core::DeadReckoningConfig& config) {
-  return walk(steps, places, [&](const MotionStep& step) {
+                  const core::DriveGeometry& geometry, const core::DeadReckoningConfig& config,
+                  DrivePoints* points) {
+  return walk(steps, places, points, [&](const MotionStep& step) {
     const MotionStep alone = core::by_wheels_alone(step, geometry, config);
     return core::arc(alone.way_m(), (alone.right_m - alone.left_m) / geometry.track_m);
   });
 }
 
 DriveError reckon(std::span<const MotionStep> steps, std::span<const KnownPlace> places,
-                  const core::DriveGeometry& geometry, const core::LearnedOdometry& learned) {
-  return walk(steps, places, [&](const MotionStep& step) {
+                  const core::DriveGeometry& geometry, const core::LearnedOdometry& learned,
+                  DrivePoints* points) {
+  return walk(steps, places, points, [&](const MotionStep& step) {
     const Moved moved = moved_by(step, geometry, learned);
     return core::arc(moved.way_m, moved.turn_rad);
   });

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "core/geometry/pose2.hpp"
 #include "core/odometry/dead_reckoning.hpp"
@@ -26,12 +27,17 @@ struct DriveError {
   std::size_t places = 0;
 };
 
+/// Where each of the known places after the first was thought to be.
+using DrivePoints = std::vector<core::Vec2>;
+
 /// Steps and places in the order of time, as everywhere here.
 DriveError reckon(std::span<const core::MotionStep> steps, std::span<const KnownPlace> places,
-                  const core::DriveGeometry& geometry, const core::DeadReckoningConfig& config);
+                  const core::DriveGeometry& geometry, const core::DeadReckoningConfig& config,
+                  DrivePoints* points = nullptr);
 /// The same with what was learned; the heading is the gyro's where there is one.
 DriveError reckon(std::span<const core::MotionStep> steps, std::span<const KnownPlace> places,
-                  const core::DriveGeometry& geometry, const core::LearnedOdometry& learned);
+                  const core::DriveGeometry& geometry, const core::LearnedOdometry& learned,
+                  DrivePoints* points = nullptr);
 
 /// Bertocco et al.: the factors of a mode for which the mean error is least, by grid search from
 /// 0.8 to 1.2 in steps of 0.01, then of 0.001 around the best.

@@ -43,7 +43,7 @@ Daemon::Daemon(Loaded loaded, Reloader::Load load, std::unique_ptr<drivers::Lida
       localization_(*lidar_, std::move(loaded.pipeline), source_of(config_.lidar.driver)) {
   open_sockets();
   // Only who has the sockets is this robot's daemon, and may touch its port.
-  if (config.odometry.core.publish) localization_.publish_readings();
+  if (config_.odometry.core.publish) localization_.publish_readings();
   localization_.start();
   // A recording brings its own.
   auto odometry = is_live_ ? make_odometry(config_.odometry) : nullptr;

@@ -117,10 +117,12 @@ void Localization::process(core::Pipeline& pipeline, const SampleChannel::Item& 
 void Localization::report(const core::Pipeline& pipeline, const core::TurnResult& result,
                           std::int64_t arrival_ns) {
   rounds_.fetch_add(1, std::memory_order_relaxed);
+  ++turns_;
   ++poses_;
   const bool handed_over = reports_.put([&](TurnReport& report) {
     report.result = result;
     report.turn = pipeline.turn();
+    report.number = turns_;
     report.result.pose.seq = poses_;  // goes on from pipeline to pipeline
     if (source_ == SourceKind::kDevice) {
       const core::TimeNs to_unix_ns = unix_ns() - monotonic_ns();

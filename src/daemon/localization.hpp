@@ -25,6 +25,7 @@ enum class SourceKind : std::uint8_t { kDevice, kRecording };
 struct TurnReport {
   core::TurnResult result;
   core::Scan turn;
+  std::uint64_t number = 0;  ///< of the turn; POSE.seq counts poses between turns as well
   /// From when the turn's end was handed over by the driver to when the pose was there.
   std::int64_t latency_ns = 0;
   /// Of the pipeline that made it: grows with each that is put in another's place.
@@ -117,7 +118,8 @@ class Localization {
   drivers::LidarDriver& driver_;
   const SourceKind source_;
   std::unique_ptr<Generation> current_;  ///< the localizer's thread's, as is the next
-  std::uint64_t poses_ = 0;
+  std::uint64_t turns_ = 0;
+  std::uint64_t poses_ = 0;  ///< those between the turns included
   /// To that thread and back: it takes no memory and gives none away.
   std::atomic<Generation*> next_{nullptr};
   std::atomic<Generation*> retired_{nullptr};

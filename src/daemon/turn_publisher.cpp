@@ -54,13 +54,13 @@ void TurnPublisher::publish(const TurnReport& report) {
                     line_.breakpoints(report.turn.start_ns(), report.result.detection));
   }
   if (pose.state != state_) publish_change(pose.state, pose.t_ns);
-  publish_jump(pose);
+  publish_jump(pose, report.number);
 }
 
-void TurnPublisher::publish_jump(const core::PoseEstimate& pose) {
+void TurnPublisher::publish_jump(const core::PoseEstimate& pose, std::uint64_t number) {
   if (pose.state != core::PoseState::kFix && pose.state != core::PoseState::kTracking) return;
   if (last_fix_) {
-    const auto turns = static_cast<double>(pose.seq - last_fix_->seq);
+    const auto turns = static_cast<double>(number - last_fix_->number);
     const double way_m =
         (pose.T_map_base.translation() - last_fix_->T_map_base.translation()).norm();
     const double turned_rad =
@@ -72,7 +72,7 @@ void TurnPublisher::publish_jump(const core::PoseEstimate& pose) {
       server_.publish(MessageClass::kEvent, line_.event(pose.t_ns, "jump", text));
     }
   }
-  last_fix_ = {pose.seq, pose.T_map_base};
+  last_fix_ = {number, pose.T_map_base};
 }
 
 void TurnPublisher::publish(const core::PoseEstimate& pose) {

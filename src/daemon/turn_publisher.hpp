@@ -38,14 +38,14 @@ class TurnPublisher {
 
  private:
   void publish_change(core::PoseState to, core::TimeNs t_ns);
-  void publish_jump(const core::PoseEstimate& pose);
+  void publish_jump(const core::PoseEstimate& pose, std::uint64_t number);
 
   MessageServer& server_;
   std::shared_ptr<const core::WallMap> map_;
   std::shared_ptr<const core::WallMap> next_map_;
   std::uint32_t next_generation_ = 0;
   struct Fix {
-    std::uint64_t seq = 0;
+    std::uint64_t number = 0;
     core::Pose2 T_map_base;
   };
   std::optional<Fix> last_fix_;

@@ -12,11 +12,13 @@
 
 #include <CLI/CLI.hpp>
 
+#include "calibration/filtered_drive.hpp"
 #include "calibration/odometry_fit.hpp"
 #include "core/odometry/reading_gate.hpp"
 #include "core/pipeline.hpp"
 #include "replay/recording.hpp"
 #include "settings/map_file.hpp"
+#include "tool/drive_drawing.hpp"
 #include "tool/failure.hpp"
 #include "tool/options.hpp"
 #include "tool/output.hpp"
@@ -36,6 +38,7 @@ struct CalibrateOdometryOptions {
   std::filesystem::path truth;
   std::string wire = "auto";
   std::filesystem::path output;
+  std::filesystem::path plot;
 };
 
 struct RecordedDrive {
@@ -139,10 +142,47 @@ std::string fragment(const calibration::OdometryFit& fit, const core::PaperFacto
       learned.gyro_bias_rad_s, factors.encoder_factor, factors.gyro_factor);
 }
 
+/// A drive's first half teaches the filter, in the second one it is alone.
+calibration::FilteredDrive filter_half(const RecordedDrive& drive, core::OdometryConfig config) {
+  config.enabled = true;
+  const core::TimeNs first_ns = drive.places.front().t_ns;
+  const core::TimeNs last_ns = drive.places.back().t_ns;
+  return calibration::filter_drive(drive.steps, drive.places, config,
+                                   first_ns + (last_ns - first_ns) / 2);
+}
+
+std::string draw_reckonings(const RecordedDrive& drive, const settings::Config& config,
+                            const calibration::OdometryFit& fit,
+                            const calibration::FilteredDrive& filtered) {
+  const core::DriveGeometry& geometry = config.odometry.core.geometry;
+  calibration::DrivePoints known;
+  for (const calibration::KnownPlace& place : drive.places) {
+    known.push_back(place.T_map_base.translation());
+  }
+  calibration::DrivePoints raw;
+  reckon(drive.steps, drive.places, geometry, core::DeadReckoningConfig{}, &raw);
+  calibration::DrivePoints fitted;
+  reckon(drive.steps, drive.places, geometry, fit.learned, &fitted);
+  const std::span<const core::Vec2> points(filtered.points);
+  const std::size_t alone = filtered.alone.places;
+  const DrawnTrack tracks[] = {
+      {"by the lidar", "#2f3640", known, true},
+      {"wheels as configured", "#c2255c", raw},
+      {"least squares", "#d9822b", fitted},
+      {"filter, taught by the lidar", "#8fb8d8", points.first(points.size() - alone)},
+      {"filter, then alone", "#2f6f9f", points.last(alone)}};
+  std::shared_ptr<const core::WallMap> map;
+  if (!config.map.empty()) map = settings::load_map(config.map);
+  return draw_drive("The drive by wheels and gyro", tracks, map.get());
+}
+
 void calibrate_odometry(const CalibrateOdometryOptions& options) {
   std::optional<Truth> truth;
   if (!options.truth.empty()) truth = Truth::load(options.truth);
   const settings::Config config = options.settings.resolve(/*needs_map=*/!truth);
+  // Before the work: what cannot be written is said at once.
+  std::unique_ptr<Output> plot;
+  if (!options.plot.empty()) plot = std::make_unique<Output>(options.plot);
   const RecordedDrive drive = play(options, config, truth ? &*truth : nullptr);
   const core::DriveGeometry& geometry = config.odometry.core.geometry;
   const auto fit = calibration::fit_odometry(drive.steps, drive.places, geometry);
@@ -175,6 +215,9 @@ void calibrate_odometry(const CalibrateOdometryOptions& options) {
   table.add_row(
       row("least squares", "below", reckon(drive.steps, drive.places, geometry, fit->learned)));
 
+  const calibration::FilteredDrive filtered = filter_half(drive, config.odometry.core);
+  table.add_row(row("filter, 2nd half", "learned in the 1st", filtered.alone));
+
   Output report;
   report.write(formatted("The drive by wheels and gyro alone, against %zu known places:\n",
                          drive.places.size()));
@@ -183,6 +226,10 @@ void calibrate_odometry(const CalibrateOdometryOptions& options) {
       formatted("\nLeast squares over %zu windows of a second, as shares:\n", fit->windows));
   report.write(describe_learned(*fit));
   report.flush();
+  if (plot) {
+    plot->write(draw_reckonings(drive, config, *fit, filtered));
+    plot->flush();
+  }
   if (!options.output.empty()) {
     Output file(options.output);
     file.write(fragment(*fit, weighted));
@@ -212,6 +259,10 @@ void add_calibrate_odometry(CLI::App& group) {
       ->add_option("-o,--output", options->output,
                    "the keys odometry.start and odometry.factors, for a config")
       ->type_name("JSON");
+  command
+      ->add_option("--plot", options->plot,
+                   "draw the drive as wheels, least squares and the filter have it")
+      ->type_name("SVG");
   add_wire_option(*command, options->wire);
   command->callback([options] { calibrate_odometry(*options); });
 }

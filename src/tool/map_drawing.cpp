@@ -184,7 +184,7 @@ void MapDrawing::add_track(std::span<const Vec2> points, std::string_view colour
 }
 
 void MapDrawing::add_legend(std::string_view text, std::string_view colour) {
-  constexpr double kLegendPx = 115;
+  constexpr double kLegendPx = 128;
   const double unit_m = 1 / svg_.pixels_per_m();
   const Vec2 from = map_.lower_left() + Vec2(kLegendPx * legends_++, -44) * unit_m;
   svg_.line(from, from + Vec2(16, 0) * unit_m, {.stroke = colour, .stroke_width = 2});

@@ -5,6 +5,8 @@
 #include <exception>
 #include <filesystem>
 #include <memory>
+#include <mutex>
+#include <optional>
 #include <string>
 #include <thread>
 #include <utility>
@@ -16,6 +18,7 @@
 #include "drivers/serial/recording_byte_stream.hpp"
 #include "drivers/serial/serial_port.hpp"
 #include "replay/recording_writer.hpp"
+#include "tool/board_odometry.hpp"
 #include "tool/commands.hpp"
 #include "tool/failure.hpp"
 #include "tool/options.hpp"
@@ -39,17 +42,23 @@ class Recorder {
   explicit Recorder(const std::filesystem::path& file) : writer_(file) {}
 
   void observe(RecordingByteStream::Direction direction, std::span<const std::uint8_t> bytes) {
-    if (failed_) return;
-    try {
-      drivers::Clock& clock = drivers::system_clock();
-      const core::TimeNs t_ns = clock.monotonic_ns() + clock.unix_offset_ns();
-      const bool received = direction == RecordingByteStream::Direction::kReceived;
-      received ? writer_.received(t_ns, bytes) : writer_.sent(t_ns, bytes);
-    } catch (...) {
-      problem_ = std::current_exception();
-      failed_ = true;
-    }
+    drivers::Clock& clock = drivers::system_clock();
+    const core::TimeNs t_ns = clock.monotonic_ns() + clock.unix_offset_ns();
+    const bool received = direction == RecordingByteStream::Direction::kReceived;
+    write([&] { received ? writer_.received(t_ns, bytes) : writer_.sent(t_ns, bytes); });
   }
+  /// Of another thread.
+  void observe(const core::OdometryReading& reading) {
+    message::LineWriter::OdometryFields fields;
+    fields.t_ns = reading.t_ns;
+    fields.has_counts = reading.left && reading.right;
+    fields.left = reading.left.value_or(0);
+    fields.right = reading.right.value_or(0);
+    fields.has_gyro = reading.gyro_rad_s.has_value();
+    fields.gyro_rad_s = reading.gyro_rad_s.value_or(0);
+    write([&] { writer_.odometry(fields); });
+  }
+  bool has_lines() const { return writer_.has_lines(); }
 
   bool failed() const { return failed_; }
   /// After the driver's thread has ended. Throws what went wrong.
@@ -59,6 +68,18 @@ class Recorder {
   }
 
  private:
+  void write(const auto& put) {
+    if (failed_) return;
+    const std::scoped_lock lock(mutex_);
+    try {
+      put();
+    } catch (...) {
+      problem_ = std::current_exception();
+      failed_ = true;
+    }
+  }
+
+  std::mutex mutex_;
   replay::RecordingWriter writer_;
   std::exception_ptr problem_;
   std::atomic<bool> failed_ = false;
@@ -105,8 +126,8 @@ void say_when_changed(const drivers::LidarStatus& now, drivers::LidarStatus& sai
 }
 
 void record(RecordOptions& options) {
-  const settings::LidarConfig lidar = options.settings.resolve(/*needs_map=*/false).lidar;
-  const rplidar::RplidarDriverConfig config = driver_config(lidar);
+  const settings::Config settings = options.settings.resolve(/*needs_map=*/false);
+  const rplidar::RplidarDriverConfig config = driver_config(settings.lidar);
 
   // A driver waits for a port that is not there; a person who mistyped its name should not.
   drivers::OpenResult first = drivers::open_serial_port(config.device, config.baud);
@@ -127,8 +148,13 @@ void record(RecordOptions& options) {
   rplidar::RplidarDriver driver(config, open_port);
 
   drivers::LidarStatus said;
+  std::optional<std::uint64_t> readings;
   {
     NoSink sink;
+    std::optional<BoardOdometry> odometry;
+    if (settings.odometry.source == settings::OdometrySource::kKernel && recorder.has_lines()) {
+      odometry.emplace(settings.odometry, [&](const auto& reading) { recorder.observe(reading); });
+    }
     const std::jthread reader([&](const std::stop_token& stop) { driver.run(stop, sink); });
     const core::TimeNs began_ns = drivers::system_clock().monotonic_ns();
     const auto over = [&] {
@@ -139,6 +165,7 @@ void record(RecordOptions& options) {
     while (!over() && !stop_signal.wait(std::chrono::milliseconds(50))) {
       say_when_changed(driver.status(), said);
     }
+    if (odometry) readings = odometry->status().counters.readings;
   }
   recorder.finish();
   const drivers::StreamCounters counters = driver.status().counters;
@@ -146,6 +173,10 @@ void record(RecordOptions& options) {
   std::fprintf(stderr, "%s: %llu bytes, %llu turns\n", options.output.c_str(),
                static_cast<unsigned long long>(counters.bytes),
                static_cast<unsigned long long>(counters.turns));
+  if (readings) {
+    std::fprintf(stderr, "%s: %llu readings of wheels and gyro\n", options.output.c_str(),
+                 static_cast<unsigned long long>(*readings));
+  }
 }
 
 }  // namespace
@@ -165,8 +196,10 @@ void add_record(CLI::App& program) {
                                             "auto, or a scan mode by name");
   options->settings.add_config(*command);
   command
-      ->add_option("-o,--output", options->output,
-                   "the recording: .bin what came, .ndjson both ways with times")
+      ->add_option(
+          "-o,--output", options->output,
+          "the recording: .bin what came, .ndjson both ways with times, and wheels and gyro where "
+          "the config's odometry.source is kernel")
       ->required()
       ->type_name("FILE");
   command->add_option("--seconds", options->seconds, "else until interrupted")
