@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "tool/svg.hpp"
 #include "tool/text_table.hpp"
@@ -41,6 +42,16 @@ Bounds bounds_of(std::span<const DrawnTrack> tracks, const core::WallMap* map) {
   // A robot that stands is drawn as well.
   bounds.high = bounds.high.cwiseMax(bounds.low + Vec2::Ones());
   return bounds;
+}
+
+/// Points nearer to the last one than this say nothing to the eye.
+std::vector<Vec2> thinned(std::span<const Vec2> points, double least_m) {
+  std::vector<Vec2> thin;
+  for (const Vec2& point : points) {
+    if (thin.empty() || (point - thin.back()).norm() >= least_m) thin.push_back(point);
+  }
+  if (!points.empty()) thin.push_back(points.back());
+  return thin;
 }
 
 /// 1, 2 or 5 times a power of ten: some five steps across.
@@ -86,7 +97,7 @@ std::string draw_drive(std::string_view title, std::span<const DrawnTrack> track
                       .stroke_width = track.is_truth ? 1.0 : 1.6,
                       .opacity = 0.85,
                       .dashes = track.is_truth ? "5 4" : ""};
-    svg.polyline(track.points, paint);
+    svg.polyline(thinned(track.points, 1.5 / svg.pixels_per_m()), paint);
     svg.text(upper_left, track.name,
              {.fill = track.colour, .size = 13, .anchor = "start", .bold = true}, 8, down_px);
     down_px += kLegendLinePx;
