@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <optional>
 #include <utility>
 
 #include "drivers/rplidar/hint.hpp"
@@ -226,10 +227,26 @@ RplidarDriver::Failure RplidarDriver::measure(drivers::ByteStream& port, const S
       break;
     } else if (has_run_ && silent_ns > kStallNs && board_.fault() != LidarFault::kMotorStalled) {
       say(LidarState::kFaulty, LidarFault::kMotorStalled);
+      const auto health = health_of_silent(port, mode, stop);
+      if (!health || !health->failed()) continue;
+      failure = {LidarState::kFaulty, LidarFault::kProtectionStop, health->text()};
+      break;
     }
   }
   board_.end_stream(stream.counters());
   return failure;
+}
+
+std::optional<Health> RplidarDriver::health_of_silent(drivers::ByteStream& port,
+                                                      const ScanMode& mode,
+                                                      const std::stop_token& stop) {
+  Device device(port, clock_, stop);
+  device.quiet();
+  const auto health = device.health();
+  // The question has ended the scan.
+  device.start(mode);
+  board_.count_dialogue(device.heard_bytes(), device.used_bytes());
+  return health;
 }
 
 bool RplidarDriver::answers_at_usual_speed(const std::stop_token& stop) {

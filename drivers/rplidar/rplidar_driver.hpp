@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <stop_token>
 #include <string>
 
@@ -51,6 +52,9 @@ class RplidarDriver : public drivers::LidarDriver {
   Failure converse(Device& device, drivers::ByteStream& port, ScanMode& mode);
   Failure measure(drivers::ByteStream& port, const ScanMode& mode, const std::stop_token& stop,
                   drivers::SampleSink& sink);
+  /// Of a device that stopped measuring: it may have stopped to protect itself. nullopt: no answer.
+  std::optional<Health> health_of_silent(drivers::ByteStream& port, const ScanMode& mode,
+                                         const std::stop_token& stop);
   /// Whether it answers at the speed that every A1 has, where the settings say another.
   bool answers_at_usual_speed(const std::stop_token& stop);
   void wait(std::chrono::milliseconds duration, const std::stop_token& stop);

@@ -29,9 +29,11 @@ void StatusBoard::set_state(drivers::LidarState state, drivers::LidarFault fault
 }
 
 void StatusBoard::count_dialogue(std::uint64_t bytes, std::uint64_t used_bytes) {
-  status_.counters.bytes += bytes;
-  status_.counters.used_bytes += used_bytes;
-  status_.counters.skipped_bytes += bytes - used_bytes;
+  for (drivers::StreamCounters* const counters : {&status_.counters, &before_}) {
+    counters->bytes += bytes;
+    counters->used_bytes += used_bytes;
+    counters->skipped_bytes += bytes - used_bytes;
+  }
   publish();
 }
 

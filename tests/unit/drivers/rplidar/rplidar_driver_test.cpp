@@ -278,6 +278,19 @@ TEST_F(RplidarDriverTest, HeadThatWasHeldUp_GoesOnWithoutAReset) {
   EXPECT_EQ(a1.opened, 1);
 }
 
+TEST_F(RplidarDriverTest, ProtectionStopWhileItMeasures_IsSeenAfterASecondAndReset) {
+  a1.resets_to_measure = 1;
+  after(seconds(2), [&] {
+    a1.measures = false;
+    a1.health = {Health{.status = 2, .code = 0x8001}, Health{}};
+  });
+  run(milliseconds(3300));
+  EXPECT_THAT(faults, IsSupersetOf({LidarFault::kMotorStalled, LidarFault::kProtectionStop}));
+  run(seconds(2));
+  EXPECT_EQ(a1.resets, 1);
+  EXPECT_EQ(last.state, LidarState::kRunning);
+}
+
 TEST_F(RplidarDriverTest, SilenceThatLasts_EndsWithAReset) {
   a1.resets_to_measure = 1;
   after(seconds(2), [&] { a1.measures = false; });
