@@ -15,10 +15,12 @@ constexpr std::size_t kSeldom = 3;
 constexpr std::size_t kForgottenAfter = 40;
 /// A face begins with a sighting whose direction is known to this.
 constexpr double kNewFaceSigma_rad = core::radians(4);
-/// What wheels and gyro tell of the way between two turns, beyond the prior's own doubt.
-constexpr double kLinkShare = 0.01;
-constexpr double kLinkFloor_m = 0.001;
-constexpr double kLinkFloor_rad = core::radians(0.05);
+/// Of the samples on walls: where so many are matched, no other heading is tried.
+constexpr double kGoodShare = 0.8;
+constexpr double kEnoughShare = 0.5;
+/// How far off such another heading is, and what is not known of the place then.
+constexpr double kVague_rad = core::radians(6);
+constexpr double kVague_m = 0.05;
 
 class Mapper {
  public:
@@ -83,19 +85,18 @@ class Mapper {
   }
 
   TurnMatch find(const TurnPrior& prior) {
-    const double place_m = std::sqrt(std::max(prior.covariance(0, 0), prior.covariance(1, 1)));
-    const double heading_rad = std::sqrt(prior.covariance(2, 2));
-    const Reach reach{std::clamp(3 * place_m, 0.05, 0.5),
-                      std::clamp(3 * heading_rad, core::radians(3), core::radians(25))};
-    TurnMatch best = matcher_.match(sightings_, result_.faces, prior.T_map_lidar, prior.covariance,
-                                    reach, faces_of_);
-    if (best.matched_share > 0.8 || prior.by_odometry) return best;
-    // Without odometry the heading is the unknown: a robot spins up within a turn.
-    for (const double away : {-2.0, -1.0, 1.0, 2.0}) {
+    TurnMatch best = match(prior.T_map_lidar, prior.covariance, faces_of_);
+    const double enough = prior.by_odometry ? kEnoughShare : kGoodShare;
+    if (best.valid && best.matched_share > enough) return best;
+    // The heading is what is off most: a robot spins up within a turn, its wheels slip.
+    const core::Covariance3 vague =
+        prior.covariance + core::Covariance3(Eigen::Vector3d(squared(kVague_m), squared(kVague_m),
+                                                             squared(kVague_rad))
+                                                 .asDiagonal());
+    for (const double away : {-2.0, -1.0, 0.0, 1.0, 2.0}) {
       core::Pose2 start = prior.T_map_lidar;
-      start.theta_rad = core::normalize_angle(start.theta_rad + away * 1.5 * heading_rad);
-      const TurnMatch other = matcher_.match(sightings_, result_.faces, start, 4 * prior.covariance,
-                                             reach, other_faces_of_);
+      start.theta_rad = core::normalize_angle(start.theta_rad + away * 1.5 * kVague_rad);
+      const TurnMatch other = match(start, vague, other_faces_of_);
       if (!other.valid || other.matched_share <= best.matched_share) continue;
       best = other;
       faces_of_.swap(other_faces_of_);
@@ -103,17 +104,21 @@ class Mapper {
     return best;
   }
 
+  TurnMatch match(const core::Pose2& start, const core::Covariance3& covariance,
+                  std::vector<std::uint32_t>& faces_of) {
+    const double place_m = std::sqrt(std::max(covariance(0, 0), covariance(1, 1)));
+    const double heading_rad = std::sqrt(covariance(2, 2));
+    const Reach reach{std::clamp(3 * place_m, 0.05, 0.5),
+                      std::clamp(3 * heading_rad, core::radians(3), core::radians(25))};
+    return matcher_.match(sightings_, result_.faces, start, covariance, reach, faces_of);
+  }
+
   void add_link(const TurnPrior& prior) {
     DriveLink link;
     link.T_before_now = prior.T_before_now;
-    double place_m = kLinkFloor_m + kLinkShare * prior.T_before_now.translation().norm();
-    double heading_rad = kLinkFloor_rad + kLinkShare * std::abs(prior.T_before_now.theta_rad);
-    if (!prior.by_odometry) {
-      place_m = std::sqrt(prior.covariance(0, 0));
-      heading_rad = std::sqrt(prior.covariance(2, 2));
-    }
     link.covariance =
-        Eigen::Vector3d(squared(place_m), squared(place_m), squared(heading_rad)).asDiagonal();
+        Eigen::Vector3d(squared(prior.sigma_m), squared(prior.sigma_m), squared(prior.sigma_rad))
+            .asDiagonal();
     result_.links.push_back(link);
   }
 

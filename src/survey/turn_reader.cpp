@@ -16,6 +16,10 @@ constexpr double kUnknownMotion_rad = core::radians(6);
 /// What a prediction by odometry is never sure of more than.
 constexpr double kOdometryFloor_m = 0.002;
 constexpr double kOdometryFloor_rad = core::radians(0.1);
+/// And what it errs by, as a share of the motion: wheels, tracks above all, slip where they turn.
+constexpr double kWayShare = 0.05;
+constexpr double kTurnShare = 0.03;
+constexpr double kTurnShareOfWheels = 0.2;
 
 core::OdometryConfig patient(core::OdometryConfig config, bool has_readings,
                              const std::optional<core::LearnedOdometry>& learned) {
@@ -66,6 +70,7 @@ void TurnReader::hear_readings() {
     const RecordedDrive::Reading& next = readings[next_reading_];
     const bool ahead = heard_ns_ < end_ns && next.turn <= turn_ + kTurnsAhead;
     if (next.turn > turn_ && !ahead) return;
+    has_gyro_ |= next.reading.gyro_rad_s.has_value();
     odometer_.add(next.reading, next.now_ns);
     heard_ns_ = next.reading.t_ns;
   }
@@ -81,8 +86,11 @@ void TurnReader::predict(core::TimeNs t_ns) {
   }
   if (const auto predicted = odometer_.prediction()) {
     prior_.T_map_lidar = predicted->T_map_base * config_.T_base_lidar;
-    prior_.covariance = predicted->covariance + diagonal(kOdometryFloor_m, kOdometryFloor_rad);
     prior_.T_before_now = filtered_T_map_lidar_.inverse() * prior_.T_map_lidar;
+    const double turn_share = has_gyro_ ? kTurnShare : kTurnShareOfWheels;
+    prior_.sigma_m = kOdometryFloor_m + kWayShare * prior_.T_before_now.translation().norm();
+    prior_.sigma_rad = kOdometryFloor_rad + turn_share * std::abs(prior_.T_before_now.theta_rad);
+    prior_.covariance = predicted->covariance + diagonal(prior_.sigma_m, prior_.sigma_rad);
     prior_.by_odometry = true;
     return;
   }
@@ -91,7 +99,9 @@ void TurnReader::predict(core::TimeNs t_ns) {
   prior_.T_map_lidar = last_T_map_lidar_ * prior_.T_before_now;
   // Twice the time, twice the speed that it may have taken up.
   const double grown = std::clamp(dt_s / 0.15, 1.0, 10.0);
-  prior_.covariance = diagonal(kUnknownMotion_m * grown, kUnknownMotion_rad * grown);
+  prior_.sigma_m = kUnknownMotion_m * grown;
+  prior_.sigma_rad = kUnknownMotion_rad * grown;
+  prior_.covariance = diagonal(prior_.sigma_m, prior_.sigma_rad);
 }
 
 core::Twist2 TurnReader::motion(core::TimeNs) const {

@@ -19,6 +19,8 @@ struct TurnPrior {
   core::Pose2 T_map_lidar;
   core::Covariance3 covariance = core::Covariance3::Zero();
   core::Pose2 T_before_now;  ///< the way from the turn before, as far as it was foreseen
+  double sigma_m = 0;        ///< of that way
+  double sigma_rad = 0;
   bool by_odometry = false;
 };
 
@@ -56,6 +58,7 @@ class TurnReader {
   std::span<const core::Pose2> known_T_map_lidar_;
   core::Odometer odometer_;
   std::size_t next_reading_ = 0;
+  bool has_gyro_ = false;
   core::TimeNs heard_ns_ = std::numeric_limits<core::TimeNs>::min();
 
   bool begun_ = false;
