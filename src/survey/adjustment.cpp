@@ -11,7 +11,11 @@
 namespace cornerd::survey {
 namespace {
 
-constexpr int kMaxSteps = 12;
+constexpr int kMaxSteps = 15;
+/// The first steps let what is far off pull as well: walls that were mapped twice and are one now
+/// bring the poses together. From step to step that is less.
+constexpr double kFirstLeniency = 256;
+constexpr double kLeniencyShare = 0.25;
 /// Steps smaller than this are the end.
 constexpr double kStill_m = 2e-6;
 /// Chi-square (two degrees of freedom) at which an observation counts half.
@@ -69,6 +73,7 @@ class Adjustment {
       Equations equations(static_cast<std::size_t>(first_face_) + 2 * drive_.faces.size());
       chi_square_ = 0;
       result_.outliers = 0;
+      leniency_ = std::max(1.0, kFirstLeniency * std::pow(kLeniencyShare, result_.steps - 1));
       std::fill(information_.begin(), information_.end(), Eigen::Matrix2d::Zero());
       for (const Observation& observation : drive_.observations) add(observation, equations);
       for (std::size_t turn = 1; turn < drive_.links.size(); ++turn) add_link(turn, equations);
@@ -78,7 +83,7 @@ class Adjustment {
         equations.hold(first_face_ + static_cast<int>(i), 1e-3);
       }
       Eigen::VectorXd move;
-      if (!equations.solve(move) || apply(move) < kStill_m) break;
+      if (!equations.solve(move) || (apply(move) < kStill_m && leniency_ <= 1)) break;
     }
     for (std::size_t i = 0; i < drive_.faces.size(); ++i) {
       if (information_[i].determinant() > 0) {
@@ -107,7 +112,7 @@ class Adjustment {
     const double angle_weight = 1 / (seen.sigma_angle_rad * seen.sigma_angle_rad);
     const double height_weight = 1 / (seen.sigma_offset_m * seen.sigma_offset_m);
     const double chi2 = angle_rad * angle_rad * angle_weight + height_m * height_m * height_weight;
-    const double weight = 1 / (1 + chi2 / kHalfWeight);
+    const double weight = 1 / (1 + chi2 / (kHalfWeight * leniency_));
     chi_square_ += std::min(chi2, kHalfWeight);
     if (chi2 > kHalfWeight) ++result_.outliers;
 
@@ -191,6 +196,7 @@ class Adjustment {
   int first_face_;
   std::vector<Eigen::Matrix2d> information_;
   double chi_square_ = 0;
+  double leniency_ = 1;
   AdjustmentResult result_;
 };
 

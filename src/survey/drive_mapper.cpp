@@ -90,9 +90,9 @@ class Mapper {
     if (best.valid && best.matched_share > enough) return best;
     // The heading is what is off most: a robot spins up within a turn, its wheels slip.
     const core::Covariance3 vague =
-        prior.covariance + core::Covariance3(Eigen::Vector3d(squared(kVague_m), squared(kVague_m),
-                                                             squared(kVague_rad))
-                                                 .asDiagonal());
+        prior.covariance +
+        core::Covariance3(Eigen::Vector3d(squared(kVague_m), squared(kVague_m), squared(kVague_rad))
+                              .asDiagonal());
     for (const double away : {-2.0, -1.0, 0.0, 1.0, 2.0}) {
       core::Pose2 start = prior.T_map_lidar;
       start.theta_rad = core::normalize_angle(start.theta_rad + away * 1.5 * kVague_rad);

@@ -86,6 +86,12 @@ void FaceEvidence::add(double along_m, std::uint32_t Cell::*count) {
   }
 }
 
+std::uint32_t FaceEvidence::hits_at(double along_m) const {
+  const double cell = (along_m - begin_m_) / kCell_m;
+  if (!(cell >= 0 && cell < static_cast<double>(cells_.size()))) return 0;
+  return hits(static_cast<std::size_t>(cell));
+}
+
 bool FaceEvidence::is_wall(std::size_t cell) const {
   return hits(cell) >= kFewRays && hits(cell) > passes(cell);
 }

@@ -31,6 +31,8 @@ class FaceEvidence {
 
   std::uint32_t hits(std::size_t cell) const { return cells_[cell].hits; }
   std::uint32_t passes(std::size_t cell) const { return cells_[cell].passes; }
+  /// Of the cell at a place along the face; 0 beyond the ends.
+  std::uint32_t hits_at(double along_m) const;
   bool is_wall(std::size_t cell) const;
   bool is_open(std::size_t cell) const;
   /// Metres between two places that rays went through.

@@ -44,6 +44,38 @@ bool lie_on_one_line(const MappedFace& longer, const MappedFace& shorter,
   return std::abs(apart_m) < limits.place_m + kMergeSigmas * std::min(sigma_m, limits.place_m);
 }
 
+/// Share of the shorter one's cells at which rays ended on both.
+double shared_cells(const MappedFace& one, const FaceEvidence& on_one, const MappedFace& other,
+                    const FaceEvidence& on_other) {
+  const bool other_shorter = other.length_m() < one.length_m();
+  const FaceEvidence& shorter = other_shorter ? on_other : on_one;
+  const FaceEvidence& longer = other_shorter ? on_one : on_other;
+  const MappedFace& from = other_shorter ? other : one;
+  const MappedFace& to = other_shorter ? one : other;
+  std::size_t hit = 0;
+  std::size_t both = 0;
+  for (std::size_t cell = 0; cell < shorter.size(); ++cell) {
+    const double along_m = shorter.along_of(cell) + FaceEvidence::kCell_m / 2;
+    if (shorter.hits(cell) == 0 || along_m < from.begin_m() || along_m > from.end_m()) continue;
+    ++hit;
+    both += longer.hits_at(to.along_of(from.at(along_m))) > 0 ? 1 : 0;
+  }
+  return hit > 0 ? static_cast<double>(both) / static_cast<double>(hit) : 0;
+}
+
+/// One wall that was mapped twice, since the way or the sensor was off in between.
+bool are_doubles(const MappedFace& one, const FaceEvidence& on_one, const MappedFace& other,
+                 const FaceEvidence& on_other, const MergeLimits& limits) {
+  constexpr double kMostlyShared = 0.5;
+  const double turn_rad = core::angle_between(one.normal_rad(), other.normal_rad());
+  if (std::abs(turn_rad) > limits.double_rad) return false;
+  const MappedFace& shorter = other.length_m() < one.length_m() ? other : one;
+  const MappedFace& longer = other.length_m() < one.length_m() ? one : other;
+  const core::Vec2 middle = shorter.at((shorter.begin_m() + shorter.end_m()) / 2);
+  if (std::abs(longer.height_of(middle)) > limits.double_m) return false;
+  return shared_cells(one, on_one, other, on_other) > kMostlyShared;
+}
+
 bool are_one(const MappedDrive& drive, const std::vector<FaceEvidence>& evidence, std::size_t a,
              std::size_t b, const MergeLimits& limits) {
   const MappedFace& one = drive.faces[a];
@@ -52,6 +84,9 @@ bool are_one(const MappedDrive& drive, const std::vector<FaceEvidence>& evidence
   const auto [begin_m, end_m] = extent_on(one, other);
   const double gap_m = std::max(begin_m - one.end_m(), one.begin_m() - end_m);
   if (gap_m > (evidence.empty() ? 0.0 : limits.gap_m)) return false;
+  if (!evidence.empty() && gap_m < 0 && are_doubles(one, evidence[a], other, evidence[b], limits)) {
+    return true;
+  }
   const bool first_longer = one.length_m() >= other.length_m();
   if (!lie_on_one_line(first_longer ? one : other, first_longer ? other : one, limits)) {
     return false;

@@ -16,6 +16,10 @@ struct MergeLimits {
   double heading_rad = core::radians(1.5);
   /// Along the wall, where no ray went through.
   double gap_m = 0.3;
+  /// Across the wall, where rays ended on both at the same places: the one in front would have
+  /// hidden the other, so that they are one that was mapped twice.
+  double double_m = 0.1;
+  double double_rad = core::radians(5);
 };
 
 /// Makes one face of those that are: they look the same way, lie on one line within what is known

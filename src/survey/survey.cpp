@@ -62,6 +62,20 @@ std::vector<ThinPlace> thin_places(const MappedDrive& drive,
   return thin;
 }
 
+/// Merges what the rays say is one wall, until nothing is left to merge.
+std::size_t unite(MappedDrive& drive, const SurveyConfig& config, const Progress& progress) {
+  constexpr int kMostRounds = 3;
+  std::size_t merged = 0;
+  for (int round = 0; round < kMostRounds; ++round) {
+    const auto evidence = gather_evidence(drive, config.sensor.noise, progress);
+    const std::size_t now = merge_faces(drive, evidence, config.merging);
+    if (now == 0) break;
+    merged += now;
+    adjust(drive);
+  }
+  return merged;
+}
+
 }  // namespace
 
 SurveyResult survey(const RecordedDrive& recorded, const SurveyConfig& config,
@@ -71,26 +85,22 @@ SurveyResult survey(const RecordedDrive& recorded, const SurveyConfig& config,
   SurveyResult result;
 
   // First pass: find the way, and learn the wheels and the gyro.
-  MappedDrive first = map_drive(recorded, config.sensor, nullptr, part(progress, 0, 0.35, turns));
+  MappedDrive first = map_drive(recorded, config.sensor, nullptr, part(progress, 0, 0.3, turns));
   result.strange_turns = first.strange_turns;
   if (first.faces.empty()) throw std::invalid_argument("no walls were seen");
   adjust(first);
   result.merged_faces = merge_faces(first, {}, config.merging);
   adjust(first);
+  result.merged_faces += unite(first, config, part(progress, 0.35, 0.4, turns));
 
   // Second pass: the turns straightened by what was learned, and matched to the adjusted map.
-  MappedDrive drive = map_drive(recorded, config.sensor, &first, part(progress, 0.4, 0.75, turns));
+  MappedDrive drive = map_drive(recorded, config.sensor, &first, part(progress, 0.45, 0.75, turns));
   first = {};
   result.merged_faces += merge_faces(drive, {}, config.merging);
-  adjust(drive);
-
-  // What the rays say of the walls, and the walls that are one.
-  std::vector<FaceEvidence> evidence =
-      gather_evidence(drive, config.sensor.noise, part(progress, 0.8, 0.9, turns));
-  const std::size_t merged = merge_faces(drive, evidence, config.merging);
-  result.merged_faces += merged;
   AdjustmentResult fit = adjust(drive);
-  evidence = gather_evidence(drive, config.sensor.noise, part(progress, 0.9, 1, turns));
+  result.merged_faces += unite(drive, config, part(progress, 0.8, 0.9, turns));
+  std::vector<FaceEvidence> evidence =
+      gather_evidence(drive, config.sensor.noise, part(progress, 0.9, 1, turns));
 
   // From faces to walls: cut, join, pair, and once more all at once with what the pairs say.
   std::vector<Dropped> ignored;
@@ -102,6 +112,7 @@ SurveyResult survey(const RecordedDrive& recorded, const SurveyConfig& config,
   }
   fit = adjust(drive, bonds);
   pieces = cut_pieces(drive, evidence, config.pieces, result.dropped);
+  part_crossings(drive, config.pieces, pieces, result.dropped);
   join_corners(drive, evidence, config.pieces, pieces);
   drop_lonely(drive, config.pieces, pieces, result.dropped);
   const std::vector<WallPair> pairs = pair_sides(drive, pieces, config.solids);

@@ -76,18 +76,23 @@ class Cutter {
     // A cell at either end is there as soon as a few rays meet its beginning.
     piece.begin_m = std::max(piece.begin_m, face_.begin_m());
     piece.end_m = std::min(piece.end_m, face_.end_m());
-    if (piece.length_m() < limits_.least_m || piece.hits < limits_.hits) {
-      if (piece.length_m() > 0) {
-        drop(piece.begin_m, piece.end_m,
-             piece.hits < limits_.hits ? "hit by " + text_of(piece.hits, "rays") : "too short");
-      }
-      ++found_;
+    ++found_;
+    const std::string reason = doubt_of(piece);
+    if (!reason.empty()) {
+      if (piece.length_m() > 0) drop(piece.begin_m, piece.end_m, reason);
       return;
     }
     piece.begin.point = face_.at(piece.begin_m);
     piece.end.point = face_.at(piece.end_m);
     pieces_.push_back(piece);
-    ++found_;
+  }
+
+  /// Why it is no wall; empty where it is one.
+  std::string doubt_of(const WallPiece& piece) const {
+    if (piece.hits < limits_.hits) return "hit by " + text_of(piece.hits, "rays");
+    if (piece.length_m() < limits_.least_m) return "too short";
+    if (piece.seen_m < limits_.seen_share * piece.length_m()) return "seen here and there alone";
+    return {};
   }
 
   void drop(double begin_m, double end_m, std::string why) {
@@ -114,6 +119,50 @@ std::vector<WallPiece> cut_pieces(const MappedDrive& drive,
     Cutter(drive, static_cast<std::uint32_t>(i), evidence[i], limits, pieces, dropped).cut();
   }
   return pieces;
+}
+
+void part_crossings(const MappedDrive& drive, const PieceLimits& limits,
+                    std::vector<WallPiece>& pieces, std::vector<Dropped>& dropped) {
+  const double small_sine = std::sin(core::radians(30));
+  // The pieces that most rays ended on stay as they are.
+  std::stable_sort(pieces.begin(), pieces.end(),
+                   [](const WallPiece& a, const WallPiece& b) { return a.hits > b.hits; });
+  std::vector<WallPiece> kept;
+  for (WallPiece& piece : pieces) {
+    const MappedFace& face = drive.faces[piece.face];
+    const double whole_m = piece.length_m();
+    bool mistaken = false;
+    for (const WallPiece& better : kept) {
+      const MappedFace& other = drive.faces[better.face];
+      const double sine = core::cross(face.direction(), other.direction());
+      if (std::abs(sine) < 1e-6) continue;
+      const double along_m = core::cross(other.at(0) - face.at(0), other.direction()) / sine;
+      const double along_other_m = other.along_of(face.at(along_m));
+      // Not the corner that they make: there both end, to within their cells.
+      constexpr double kInside_m = 0.06;
+      const bool through =
+          along_m > piece.begin_m + kInside_m && along_m < piece.end_m - kInside_m &&
+          along_other_m > better.begin_m + kInside_m && along_other_m < better.end_m - kInside_m;
+      if (!through) continue;
+      if (std::abs(sine) < small_sine) {
+        mistaken = true;
+      } else {
+        // Its begin is behind the other where the way leads up to its front, and else its end.
+        (sine < 0 ? piece.begin_m : piece.end_m) = along_m;
+      }
+    }
+    if (mistaken || piece.length_m() < limits.least_m) {
+      dropped.push_back({face.at(piece.begin_m), face.at(piece.end_m),
+                         mistaken ? "a mistaken line along a wall" : "behind a wall"});
+      continue;
+    }
+    if (piece.length_m() < whole_m) {
+      piece.begin.point = face.at(piece.begin_m);
+      piece.end.point = face.at(piece.end_m);
+    }
+    kept.push_back(piece);
+  }
+  pieces = std::move(kept);
 }
 
 void drop_lonely(const MappedDrive& drive, const PieceLimits& limits,

@@ -53,6 +53,8 @@ struct PieceLimits {
   /// Rays that have to have ended on it, and turns that saw it.
   std::size_t hits = 30;
   std::size_t sightings = 5;
+  /// Of a piece's length, what has to have been seen.
+  double seen_share = 0.6;
   /// From what was seen of a wall to the corner that it makes with the next one.
   double corner_m = 0.3;
 };
@@ -61,6 +63,11 @@ struct PieceLimits {
 std::vector<WallPiece> cut_pieces(const MappedDrive& drive,
                                   const std::vector<FaceEvidence>& evidence,
                                   const PieceLimits& limits, std::vector<Dropped>& dropped);
+
+/// Where one piece runs through another, the part behind the one that more rays ended on was never
+/// seen; and one that runs through another at a small angle is a mistaken line along it.
+void part_crossings(const MappedDrive& drive, const PieceLimits& limits,
+                    std::vector<WallPiece>& pieces, std::vector<Dropped>& dropped);
 
 /// Lets pieces end where they meet: in the corner of two, or on the side of a third. Nothing is
 /// prolonged through what rays went through.
