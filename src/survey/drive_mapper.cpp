@@ -18,6 +18,7 @@ constexpr double kNewFaceSigma_rad = core::radians(4);
 /// Of the samples on walls: where so many are matched, no other heading is tried.
 constexpr double kGoodShare = 0.8;
 constexpr double kEnoughShare = 0.5;
+constexpr double kLeastShareAlone = 0.4;
 /// How far off such another heading is, and what is not known of the place then.
 constexpr double kVague_rad = core::radians(6);
 constexpr double kVague_m = 0.05;
@@ -59,18 +60,21 @@ class Mapper {
 
  private:
   void locate() {
-    const TurnPrior& prior = reader_.prior();
+    TurnPrior prior = reader_.prior();
     const std::size_t turn = reader_.turn();
+    if (before_) {
+      prior.T_map_lidar = before_->T_map_lidar[turn];
+      prior.covariance = Eigen::Vector3d(1e-5, 1e-5, 1e-6).asDiagonal();
+    }
     core::Pose2 T_map_lidar = prior.T_map_lidar;
     core::Covariance3 covariance = prior.covariance;
-    if (before_) {
-      T_map_lidar = before_->T_map_lidar[turn];
-      covariance = Eigen::Vector3d(1e-5, 1e-5, 1e-6).asDiagonal();
-      TurnMatcher::assign(sightings_, result_.faces, T_map_lidar, kExactReach, faces_of_);
-    } else if (turn == 0) {
-      faces_of_.assign(sightings_.size(), kNoFace);
-    } else {
+    double share =
+        TurnMatcher::assign(sightings_, result_.faces, T_map_lidar, kExactReach, faces_of_);
+    // Adjusted already, or the one that the map's frame is.
+    const bool known = turn == 0 || (before_ && share > kEnoughShare);
+    if (!known) {
       const TurnMatch match = find(prior);
+      share = match.matched_share;
       if (match.valid) {
         T_map_lidar = match.T_map_lidar;
         covariance = match.covariance;
@@ -79,6 +83,8 @@ class Mapper {
         TurnMatcher::assign(sightings_, result_.faces, T_map_lidar, kExactReach, faces_of_);
       }
     }
+    // Where nothing but the walls tells the way, a turn that fits badly has lost it.
+    begins_faces_ = turn == 0 || prior.by_odometry || share > kLeastShareAlone;
     add_link(prior);
     result_.T_map_lidar.push_back(T_map_lidar);
     reader_.place(T_map_lidar, covariance);
@@ -128,7 +134,7 @@ class Mapper {
     for (std::size_t i = 0; i < sightings_.size(); ++i) {
       const Sighting& seen = sightings_[i];
       if (faces_of_[i] == kNoFace) {
-        if (seen.sigma_angle_rad > kNewFaceSigma_rad) continue;
+        if (seen.sigma_angle_rad > kNewFaceSigma_rad || !begins_faces_) continue;
         result_.faces.emplace_back(seen, T_map_lidar, turn);
         result_.faces.back().id = next_id_++;
         result_.observations.push_back({turn, result_.faces.back().id, seen});
@@ -183,6 +189,7 @@ class Mapper {
   std::vector<Sighting> sightings_;
   std::vector<std::uint32_t> faces_of_;
   std::vector<std::uint32_t> other_faces_of_;
+  bool begins_faces_ = true;  ///< with what the turn saw beyond them
   std::uint32_t next_id_ = 0;
   std::uint32_t known_faces_ = 0;  ///< ids below this are of the earlier pass
   MappedDrive result_;

@@ -2,7 +2,9 @@
 #include "survey/survey.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
+#include <string>
 #include <utility>
 
 #include "survey/adjustment.hpp"
@@ -62,6 +64,22 @@ std::vector<ThinPlace> thin_places(const MappedDrive& drive,
   return thin;
 }
 
+/// Without odometry nothing else tells the way: a drive that lost it gives no map.
+void refuse_without_overlap(const RecordedDrive& recorded, const MappedDrive& drive) {
+  constexpr double kMostStrange = 0.02;
+  const double strange = static_cast<double>(drive.strange_turns.size());
+  if (drive.has_odometry || strange <= kMostStrange * static_cast<double>(recorded.size())) return;
+  const double first_s =
+      core::to_seconds(recorded.start_ns(drive.strange_turns.front()) - recorded.start_ns(0));
+  throw std::invalid_argument(
+      "without odometry, " + std::to_string(drive.strange_turns.size()) + " of " +
+      std::to_string(recorded.size()) +
+      " turns see too little of what was seen before them, the "
+      "first " +
+      std::to_string(std::llround(first_s)) +
+      " s after the start; drive more slowly there, or record the odometry too");
+}
+
 /// Merges what the rays say is one wall, until nothing is left to merge.
 std::size_t unite(MappedDrive& drive, const SurveyConfig& config, const Progress& progress) {
   constexpr int kMostRounds = 3;
@@ -88,6 +106,7 @@ SurveyResult survey(const RecordedDrive& recorded, const SurveyConfig& config,
   MappedDrive first = map_drive(recorded, config.sensor, nullptr, part(progress, 0, 0.3, turns));
   result.strange_turns = first.strange_turns;
   if (first.faces.empty()) throw std::invalid_argument("no walls were seen");
+  refuse_without_overlap(recorded, first);
   adjust(first);
   result.merged_faces = merge_faces(first, {}, config.merging);
   adjust(first);

@@ -71,13 +71,18 @@ double weight_of(const Deviation& off) {
 
 }  // namespace
 
-void TurnMatcher::assign(std::span<const Sighting> sightings, std::span<const MappedFace> faces,
-                         const core::Pose2& T_map_lidar, const Reach& reach,
-                         std::vector<std::uint32_t>& faces_of) {
+double TurnMatcher::assign(std::span<const Sighting> sightings, std::span<const MappedFace> faces,
+                           const core::Pose2& T_map_lidar, const Reach& reach,
+                           std::vector<std::uint32_t>& faces_of) {
   faces_of.clear();
+  double matched = 0;
+  double all = 0;
   for (const Sighting& seen : sightings) {
     faces_of.push_back(best_face(seen, PlacedSighting(seen, T_map_lidar), faces, reach));
+    all += seen.support;
+    if (faces_of.back() != kNoFace) matched += seen.support;
   }
+  return all > 0 ? matched / all : 0;
 }
 
 TurnMatch TurnMatcher::match(std::span<const Sighting> sightings, std::span<const MappedFace> faces,
@@ -117,16 +122,9 @@ TurnMatch TurnMatcher::match(std::span<const Sighting> sightings, std::span<cons
     if (!rough && move.head<2>().norm() < 1e-5 && std::abs(move.z()) < 1e-6) break;
   }
 
-  assign(sightings, faces, pose, kExactReach, faces_of);
-  double matched = 0;
-  double all = 0;
-  for (std::size_t i = 0; i < sightings.size(); ++i) {
-    all += sightings[i].support;
-    if (faces_of[i] != kNoFace) matched += sightings[i].support;
-  }
+  result.matched_share = assign(sightings, faces, pose, kExactReach, faces_of);
   result.T_map_lidar = pose;
   result.covariance = information.inverse();
-  result.matched_share = all > 0 ? matched / all : 0;
   const double worst_m2 = std::max(result.covariance(0, 0), result.covariance(1, 1));
   result.valid = result.matched_share > kLeastShare && worst_m2 < squared(kSureSigma_m);
   return result;

@@ -33,9 +33,10 @@ class TurnMatcher {
                   std::vector<std::uint32_t>& faces_of);
 
   /// The faces alone, for a pose that is known.
-  static void assign(std::span<const Sighting> sightings, std::span<const MappedFace> faces,
-                     const core::Pose2& T_map_lidar, const Reach& reach,
-                     std::vector<std::uint32_t>& faces_of);
+  /// Returns the share of the samples that are on faces.
+  static double assign(std::span<const Sighting> sightings, std::span<const MappedFace> faces,
+                       const core::Pose2& T_map_lidar, const Reach& reach,
+                       std::vector<std::uint32_t>& faces_of);
 };
 
 /// A pose that is known but for what is left after an adjustment.

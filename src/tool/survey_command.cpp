@@ -10,6 +10,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "survey/ransac_survey.hpp"
 #include "survey/survey.hpp"
 #include "tool/commands.hpp"
 #include "tool/failure.hpp"
@@ -32,6 +33,8 @@ struct SurveyOptions {
   std::filesystem::path trajectory;
   std::string name;
   std::string start;
+  std::string method = "adjusted";
+  std::size_t iterations = survey::RansacConfig().iterations;
   bool manhattan = false;
 };
 
@@ -39,6 +42,28 @@ void write_file(const std::filesystem::path& file, const std::string& text) {
   Output output(file);
   output.write(text);
   output.flush();
+}
+
+survey::SurveyResult make_map(const SurveyOptions& options, const core::LocalizerConfig& sensor,
+                              const survey::RecordedDrive& drive) {
+  constexpr std::size_t kSteps = 1000;
+  ProgressBar bar("survey", kSteps);
+  const auto show = [&](double share) {
+    bar.show(static_cast<std::size_t>(share * static_cast<double>(kSteps)));
+  };
+  try {
+    if (options.method == "ransac") {
+      survey::RansacConfig config;
+      config.iterations = options.iterations;
+      return survey::ransac_survey(drive, sensor, config, show);
+    }
+    survey::SurveyConfig config;
+    config.sensor = sensor;
+    config.manhattan = options.manhattan;
+    return survey::survey(drive, config, show);
+  } catch (const std::invalid_argument& error) {
+    throw Failure(options.files.front().string() + ": " + error.what());
+  }
 }
 
 void run_survey(const SurveyOptions& options) {
@@ -53,28 +78,16 @@ void run_survey(const SurveyOptions& options) {
   const settings::Config config = options.settings.resolve(/*needs_map=*/false);
   const survey::RecordedDrive drive = load_drive(
       options.files, {parse_wire(options.wire), config.lidar.mount.inverted}, options.odometry);
-  survey::SurveyConfig survey_config;
-  survey_config.sensor = config.localizer();
-  survey_config.manhattan = options.manhattan;
-
-  survey::SurveyResult result;
-  {
-    constexpr std::size_t kSteps = 1000;
-    ProgressBar bar("survey", kSteps);
-    try {
-      result = survey::survey(drive, survey_config, [&](double share) {
-        bar.show(static_cast<std::size_t>(share * static_cast<double>(kSteps)));
-      });
-    } catch (const std::invalid_argument& error) {
-      throw Failure(options.files.front().string() + ": " + error.what());
-    }
-  }
+  survey::SurveyResult result = make_map(options, config.localizer(), drive);
   survey::move_frame(start, result);
   result.plan.name = options.name.empty() ? options.output.stem().string() : options.name;
 
   write_file(options.output, map_text(result.plan));
   if (!options.trajectory.empty()) write_file(options.trajectory, trajectory_text(result));
-  if (!options.plot.empty()) write_file(options.plot, survey_drawing(result));
+  if (!options.plot.empty()) {
+    write_file(options.plot,
+               options.method == "ransac" ? ransac_canvas(result) : survey_drawing(result));
+  }
   Output report;
   report.write(survey_report(result));
   report.flush();
@@ -100,6 +113,15 @@ void add_survey(CLI::App& program) {
       ->add_option("--trajectory", options->trajectory,
                    "the corrected way, a pose for each turn, as --truth files have it")
       ->type_name("NDJSON");
+  command
+      ->add_option("--method", options->method,
+                   "adjusted: the way is corrected while it maps; ransac: lines in the points that "
+                   "the odometry alone gives (Bertocco et al.), to compare with")
+      ->check(CLI::IsMember({"adjusted", "ransac"}))
+      ->capture_default_str();
+  command->add_option("--iterations", options->iterations, "of --method ransac")
+      ->check(CLI::Range(std::size_t{1}, std::size_t{1'000'000}))
+      ->capture_default_str();
   command->add_flag("--manhattan", options->manhattan,
                     "make walls square that are so within their doubt");
   command

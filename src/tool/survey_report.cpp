@@ -41,6 +41,7 @@ std::string describe_walls(const survey::SurveyResult& result) {
 
 std::string survey_report(const survey::SurveyResult& result) {
   std::string text = describe_drive(result) + describe_walls(result);
+  if (result.observations == 0) return text;  // the paper's way
   text += formatted("%zu sightings of walls, residuals %.2f of their doubt, %zu outliers\n",
                     result.observations, result.sigma, result.outliers);
   if (!result.strange_turns.empty()) {
