@@ -3,11 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
+#include <ctime>
+#include <utility>
 
-#include "bench/statistics.hpp"
 #include "core/localizer.hpp"
 #include "replay/simulator/scenarios.hpp"
+#include "survey/ransac_survey.hpp"
 
 namespace cornerd::bench {
 
@@ -53,6 +54,53 @@ LocalizationScore localize_drive(std::shared_ptr<const core::WallMap> map,
   std::sort(errors_m.begin(), errors_m.end());
   score.error_95_m = errors_m[errors_m.size() * 95 / 100];
   return score;
+}
+
+namespace {
+
+/// More corners than this in a flat are noise, and no map: nobody waits for a localizer in them.
+constexpr std::size_t kMostCorners = 2000;
+/// Turns of the second drive: once through all rooms.
+constexpr std::size_t kSecondTurns = 1200;
+
+double cpu_now_s() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
+
+}  // namespace
+
+SurveyExperiment run_survey_experiment(std::shared_ptr<const core::WallMap> map, std::size_t turns,
+                                       std::uint64_t seed) {
+  const SimulatedDrive drive = survey_drive(map, turns, seed);
+  const SimulatedDrive alone = survey_drive(map, turns, seed, /*has_odometry=*/false);
+  const SimulatedDrive second = survey_drive(map, std::min(turns, kSecondTurns), seed + 1);
+  SurveyExperiment experiment;
+  experiment.in_true_map = localize_drive(map, second, {});
+  for (std::size_t i = 1; i < drive.T_map_base.size(); ++i) {
+    experiment.way_m +=
+        (drive.T_map_base[i].translation() - drive.T_map_base[i - 1].translation()).norm();
+  }
+
+  const auto add = [&](const char* title, const SimulatedDrive& driven, auto&& make) {
+    SurveyCase made;
+    made.title = title;
+    const double begin_s = cpu_now_s();
+    made.result = make();
+    made.cpu_s = cpu_now_s() - begin_s;
+    made.result.plan.name = title;
+    const auto found = std::make_shared<const core::WallMap>(made.result.plan);
+    made.score = score_survey(*map, driven.T_map_base, *found, driven.T_map_base.front());
+    if (found->corners().size() < kMostCorners) {
+      made.second_drive = localize_drive(found, second, made.score.T_true_map);
+    }
+    experiment.cases.push_back(std::move(made));
+  };
+  add("adjusted", drive, [&] { return survey::survey(drive.drive, {}); });
+  core::LocalizerConfig taught;
+  taught.odometry.start = experiment.cases.front().result.learned.value_or(core::LearnedOdometry());
+  add("adjusted, lidar alone", alone, [&] { return survey::survey(alone.drive, {}); });
+  add("ransac", drive, [&] { return survey::ransac_survey(drive.drive, {}, {}); });
+  add("ransac, odometry taught", drive,
+      [&] { return survey::ransac_survey(drive.drive, taught, {}); });
+  return experiment;
 }
 
 }  // namespace cornerd::bench

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -38,7 +39,18 @@ struct SurveyCase {
   survey::SurveyResult result;
   double cpu_s = 0;
   SurveyScore score;
-  LocalizationScore second_drive;
+  std::optional<LocalizationScore> second_drive;  ///< none in a map that is no map
 };
+
+struct SurveyExperiment {
+  std::vector<SurveyCase> cases;
+  LocalizationScore in_true_map;  ///< the same second drive
+  double way_m = 0;
+};
+
+/// Ours with odometry and without, and the paper's way: with the odometry as it is, and with what
+/// ours learned of it.
+SurveyExperiment run_survey_experiment(std::shared_ptr<const core::WallMap> map, std::size_t turns,
+                                       std::uint64_t seed);
 
 }  // namespace cornerd::bench

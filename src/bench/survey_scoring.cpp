@@ -139,6 +139,8 @@ std::vector<core::Corner> seen_corners(const core::WallMap& truth, const SeenWal
       const core::Face& face = truth.faces()[i];
       const double to_end_m =
           std::min((face.from - corner.position).norm(), (face.to - corner.position).norm());
+      // Not the other side of a line.
+      if (face.normal.dot(core::unit_vector(corner.bisector_rad())) <= 0) continue;
       if (to_end_m < 1e-6 && seen.sees_near(i, corner.position)) ++faces;
     }
     if (faces >= 2) corners.push_back(corner);

@@ -17,6 +17,7 @@
 #include "tool/bench_odometry.hpp"
 #include "tool/bench_plots.hpp"
 #include "tool/bench_scale.hpp"
+#include "tool/bench_survey.hpp"
 #include "tool/bench_text.hpp"
 #include "tool/commands.hpp"
 #include "tool/contest_maps.hpp"
@@ -46,6 +47,7 @@ struct BenchOptions {
   bool localizer = false;
   std::string only_localize;
   bool odometry = false;
+  bool survey = false;
   std::vector<std::size_t> corners;
   const CLI::Option* positions_given = nullptr;
 };
@@ -134,13 +136,19 @@ void run_localizer(const BenchOptions& options) {
 
 void run_bench(const BenchOptions& options) {
   if (options.localizer) {
-    if (options.scale) throw UsageError("--localizer and --scale exclude each other");
+    if (options.scale || options.survey)
+      throw UsageError("--localizer excludes --scale and --survey");
     run_localizer(options);
     return;
   }
   if (options.odometry) {
     if (options.scale) throw UsageError("--odometry and --scale are two benchmarks");
     run_odometry_bench({options.maps, options.plots, options.json, options.seed});
+    return;
+  }
+  if (options.survey) {
+    if (options.scale) throw UsageError("--survey or --scale, one at a time");
+    run_survey_bench({options.maps, options.plots, options.seed});
     return;
   }
   if (options.scale) {
@@ -198,6 +206,9 @@ void add_bench(CLI::App& program) {
   command->add_flag(
       "--odometry", options->odometry,
       "instead: the paper's modes of odometry on its drives; --maps: with flat-7.json");
+  command->add_flag("--survey", options->survey,
+                    "instead: a drive of 100 m, surveyed by both methods, and a second one "
+                    "localized in the maps");
   command->add_option("--corners", options->corners, "with --scale: buildings of about so many")
       ->delimiter(',')
       ->check(CLI::Range(std::size_t{0}, std::size_t{100'000}))

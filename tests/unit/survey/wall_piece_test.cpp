@@ -76,7 +76,7 @@ TEST(JoinCorners, RoomCorner_MeetsInTheIntersection) {
 }
 
 TEST(JoinCorners, EdgeOfAWall_IsConvex) {
-  Scene scene = cut({{{1.9, 1.5}, {1, 1.5}}, {{1, 1.5}, {1, 3}}});
+  Scene scene = cut({{{1.9, 1.5}, {1, 1.5}}, {{1, 1.5}, {1, 1.9}}});
   ASSERT_EQ(scene.pieces.size(), 2U);
   join_corners(scene.drive, scene.evidence, {}, scene.pieces);
   EXPECT_EQ(scene.pieces[0].end.neighbour, 1U);
