@@ -18,6 +18,10 @@ target_link_libraries(cornerd_spdlog INTERFACE Threads::Threads)
 find_path(CORNERD_CLI11_DIR CLI/CLI.hpp PATHS /usr/include REQUIRED NO_CMAKE_FIND_ROOT_PATH)
 add_library(cornerd_cli11 INTERFACE)
 
+# The one library that is linked, to the tool, and only where it is found: a cross build goes without.
+find_package(PNG QUIET)
+set(CORNERD_PNG ${PNG_FOUND})
+
 if(CORNERD_BUILD_TESTS)
   # From Debian's sources, so that sanitized and ARM builds get a library built like themselves.
   set(INSTALL_GTEST OFF CACHE BOOL "" FORCE)

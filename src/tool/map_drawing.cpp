@@ -211,6 +211,18 @@ void MapDrawing::add_thin(const Vec2& from, const Vec2& to) {
   svg_.line(from, to, {.stroke = kConvex, .stroke_width = 4, .opacity = 0.8});
 }
 
+void MapDrawing::add_left_out(const Vec2& place) {
+  const double arm_m = 4 * pixel_m();
+  const Paint paint{.stroke = kBreakpoint, .stroke_width = 1.5};
+  svg_.line(place + Vec2(-arm_m, -arm_m), place + Vec2(arm_m, arm_m), paint);
+  svg_.line(place + Vec2(-arm_m, arm_m), place + Vec2(arm_m, -arm_m), paint);
+}
+
+void MapDrawing::add_closed(const Vec2& place, double width_m) {
+  const double radius_px = std::max(4.0, width_m / 2 / pixel_m());
+  svg_.dot(place, radius_px, {.stroke = kConvex, .stroke_width = 1.5});
+}
+
 void MapDrawing::add_examined_places(std::span<const ExaminedPlace> places) {
   svg_.begin_group("look-alikes");
   for (const ExaminedPlace& place : places) {

@@ -32,6 +32,9 @@ class MapDrawing {
   void add_points(std::span<const core::Vec2> points);
   /// A stretch of wall that nothing was seen of.
   void add_thin(const core::Vec2& from, const core::Vec2& to);
+  /// What an import left out, as a cross; where it closed a gap, a ring of its width.
+  void add_left_out(const core::Vec2& place);
+  void add_closed(const core::Vec2& place, double width_m);
   /// Corners as rings, terminals as squares.
   void add_breakpoints(std::span<const core::Breakpoint> breakpoints,
                        const core::Pose2& T_map_lidar);
@@ -43,6 +46,9 @@ class MapDrawing {
   /// Places that one turn tells from all others, and those that it does not, with lines to what
   /// they look like.
   void add_examined_places(std::span<const ExaminedPlace> places);
+
+  /// What a pixel of the picture is in the map.
+  double pixel_m() const { return 1 / svg_.pixels_per_m(); }
 
   /// The whole picture. `subtitle`: one line under the map's name.
   std::string document(std::string_view subtitle);

@@ -14,6 +14,7 @@
 #include "survey/survey.hpp"
 #include "tool/commands.hpp"
 #include "tool/failure.hpp"
+#include "tool/map_text.hpp"
 #include "tool/options.hpp"
 #include "tool/output.hpp"
 #include "tool/progress_bar.hpp"

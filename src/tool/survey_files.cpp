@@ -3,7 +3,6 @@
 
 #include <cstdio>
 #include <optional>
-#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -15,9 +14,6 @@
 namespace cornerd::tool {
 
 namespace {
-
-/// Tenths of a micrometre: what meets in the survey meets in the file.
-constexpr int kMapDecimals = 7;
 
 class SurveySink final : public replay::RecordingSink {
  public:
@@ -45,14 +41,6 @@ class SurveySink final : public replay::RecordingSink {
   std::optional<core::TimeNs> now_ns_;
 };
 
-void write_point(message::JsonText& json, std::string_view name, const core::Vec2& point) {
-  json.key(name);
-  json.open_array();
-  json.fixed(point.x(), kMapDecimals);
-  json.fixed(point.y(), kMapDecimals);
-  json.close_array();
-}
-
 }  // namespace
 
 survey::RecordedDrive load_drive(std::span<const std::filesystem::path> files,
@@ -76,25 +64,6 @@ survey::RecordedDrive load_drive(std::span<const std::filesystem::path> files,
   }
   if (!odometry.empty()) drive.set_odometry(load_odometry(odometry));
   return drive;
-}
-
-std::string map_text(const core::FloorPlan& plan) {
-  message::JsonText json(256);
-  json.string(plan.name);
-  std::string text = "{ \"format\": \"cornerd-map\", \"version\": 1, \"name\": ";
-  text.append(json.view()).append(",\n  \"walls\": [\n");
-  for (std::size_t i = 0; i < plan.walls.size(); ++i) {
-    const core::Wall& wall = plan.walls[i];
-    json.clear();
-    json.open_object();
-    write_point(json, "from", wall.from);
-    write_point(json, "to", wall.to);
-    json.key("thickness");
-    json.fixed(wall.thickness_m, kMapDecimals);
-    json.close_object();
-    text.append("    ").append(json.view()).append(i + 1 < plan.walls.size() ? ",\n" : "\n");
-  }
-  return text + "  ] }\n";
 }
 
 std::string trajectory_text(const survey::SurveyResult& result) {

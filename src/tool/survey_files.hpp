@@ -17,9 +17,6 @@ survey::RecordedDrive load_drive(std::span<const std::filesystem::path> files,
                                  const replay::RecordingOptions& options,
                                  const std::filesystem::path& odometry);
 
-/// A map file.
-std::string map_text(const core::FloorPlan& plan);
-
 /// A --truth file: a line for each turn.
 std::string trajectory_text(const survey::SurveyResult& result);
 

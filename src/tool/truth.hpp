@@ -28,4 +28,7 @@ class Truth {
   std::vector<message::RecordedTruth> points_;
 };
 
+/// Between two poses, the heading by the shorter way. `share`: 0 at the first, 1 at the second.
+core::Pose2 interpolate(const core::Pose2& from, const core::Pose2& to, double share);
+
 }  // namespace cornerd::tool

@@ -205,7 +205,22 @@ TEST_F(Cornerctl, MapRender_DrawsTheRecordingInTheMap) {
   const std::string picture = read(path("map.svg"));
   EXPECT_EQ(find_xml_error(picture), "");
   EXPECT_THAT(picture, HasSubstr("id=\"scan\""));
-  EXPECT_THAT(picture, HasSubstr("4 of 4 turns"));
+  EXPECT_THAT(picture, HasSubstr("id=\"points\""));
+  EXPECT_THAT(picture, HasSubstr("4 of 4 turns found"));
+}
+
+TEST_F(Cornerctl, MapRenderWithATrajectory_DrawsTheRecordingFromThere) {
+  const std::string file = recording();
+  const Outcome outcome = run({"map", "render", map_, "-o", path("map.svg"), "--recording", file,
+                               "--trajectory", path("still.truth")});
+  EXPECT_EQ(outcome.exit_code, kExitDone) << outcome.err;
+  const std::string picture = read(path("map.svg"));
+  EXPECT_EQ(find_xml_error(picture), "");
+  EXPECT_THAT(picture, HasSubstr("id=\"points\""));
+  EXPECT_THAT(picture, HasSubstr("placed by still.truth"));
+  EXPECT_EQ(run({"map", "render", map_, "-o", path("map.svg"), "--trajectory", path("still.truth")})
+                .exit_code,
+            kExitUsage);
 }
 
 TEST_F(Cornerctl, FileThatCannotBeWritten_Fails) {

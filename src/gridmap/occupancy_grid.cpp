@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+#include "gridmap/occupancy_grid.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace cornerd::gridmap {
+namespace {
+
+Cell by_thresholds(double occupancy, const MapServerYaml& yaml, bool graded) {
+  if (occupancy > yaml.occupied_threshold) return Cell::kOccupied;
+  if (occupancy < yaml.free_threshold) return Cell::kFree;
+  if (!graded) return Cell::kUnknown;
+  const double middle = (yaml.occupied_threshold + yaml.free_threshold) / 2;
+  return occupancy >= middle ? Cell::kOccupied : Cell::kFree;
+}
+
+Cell read_shade(double shade, const MapServerYaml& yaml) {
+  if (yaml.negate) shade = 1 - shade;
+  if (yaml.mode == ShadeMode::kRaw) {
+    const double per_cent = std::round(255 * shade);
+    return per_cent > 100 ? Cell::kUnknown : by_thresholds(per_cent / 100, yaml, false);
+  }
+  return by_thresholds(1 - shade, yaml, yaml.mode == ShadeMode::kScale);
+}
+
+}  // namespace
+
+std::size_t OccupancyGrid::count(Cell kind) const {
+  return static_cast<std::size_t>(std::count(cells_.begin(), cells_.end(), kind));
+}
+
+Cell OccupancyGrid::at(const core::Vec2& point) const {
+  return at(static_cast<std::int64_t>(std::floor(point.x())),
+            static_cast<std::int64_t>(std::floor(point.y())));
+}
+
+OccupancyGrid read_shades(const Image& image, const MapServerYaml& yaml) {
+  OccupancyGrid grid(image.width, image.height);
+  const double white = image.white;
+  for (std::size_t line = 0; line < image.height; ++line) {
+    for (std::size_t column = 0; column < image.width; ++column) {
+      const std::size_t i = line * image.width + column;
+      if (!image.alphas.empty() && image.alphas[i] != 255) continue;
+      grid.set(static_cast<std::int64_t>(column), grid.rows() - 1 - static_cast<std::int64_t>(line),
+               read_shade(image.shades[i] / white, yaml));
+    }
+  }
+  return grid;
+}
+
+}  // namespace cornerd::gridmap

@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: MIT
+#include "gridmap/solids.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+namespace cornerd::gridmap {
+namespace {
+
+using core::Vec2;
+
+constexpr double kLookStep = 0.5;  ///< between two looks along a wall
+constexpr double kMargin = 1;      ///< from a face: what the raster may be off by
+constexpr double kLeastOverlap = 1;
+/// Both faces of a wall deviate from parallel by at most this over their length.
+constexpr double kWedge = 1;
+/// A face that is covered by so much of its length by walls found before needs no other.
+constexpr double kEnough = 0.9;
+
+/// Two faces that may be those of one wall, in the wall's own axes.
+struct Candidate {
+  std::size_t front = 0;
+  std::size_t back = 0;
+  Vec2 origin = Vec2::Zero();  ///< on the wall's axis
+  Vec2 way = Vec2::Zero();
+  double thickness = 0;
+  Stretch both;  ///< along the axis: where both faces are
+  Stretch all;   ///< where any of them is
+};
+
+std::optional<Candidate> match(const GridFace& front, const GridFace& back,
+                               const SolidLimits& limits) {
+  if (front.way.dot(back.way) > -0.97) return std::nullopt;
+  Candidate candidate;
+  candidate.way = (front.way - back.way).normalized();
+  const Vec2 normal = core::rotate_left(candidate.way);
+  const auto along = [&](const Vec2& point) { return candidate.way.dot(point - front.from); };
+  const Stretch a{along(front.from), along(front.to)};
+  const Stretch b{along(back.to), along(back.from)};
+  candidate.both = {std::max(a.begin, b.begin), std::min(a.end, b.end)};
+  candidate.all = {std::min(a.begin, b.begin), std::max(a.end, b.end)};
+  const double overlap = candidate.both.length();
+  if (overlap < kLeastOverlap) return std::nullopt;
+  if (std::abs(core::cross(front.way, back.way)) * overlap > kWedge) return std::nullopt;
+  // Heights of both faces in the middle of what they share.
+  const Vec2 middle = front.from + (candidate.both.begin + candidate.both.end) / 2 * candidate.way;
+  const double top = -front.height_of(middle) * front.normal().dot(normal);
+  const double bottom = -back.height_of(middle) * back.normal().dot(normal);
+  candidate.thickness = top - bottom;
+  if (candidate.thickness < -limits.slack || candidate.thickness > limits.block) {
+    return std::nullopt;
+  }
+  candidate.thickness = std::max(candidate.thickness, 0.0);
+  candidate.origin = front.from + (top + bottom) / 2 * normal;
+  return candidate;
+}
+
+class SolidFinder {
+ public:
+  SolidFinder(const OccupancyGrid& grid, std::span<const GridFace> faces, const SolidLimits& limits)
+      : grid_(grid), faces_(faces), limits_(limits), covered_(faces.size()) {}
+
+  std::vector<core::Wall> find() {
+    std::vector<Candidate> candidates = match_faces();
+    std::stable_sort(
+        candidates.begin(), candidates.end(),
+        [](const Candidate& a, const Candidate& b) { return a.thickness < b.thickness; });
+    for (const Candidate& candidate : candidates) {
+      if (is_covered(candidate.front, candidate) && is_covered(candidate.back, candidate)) continue;
+      add(candidate);
+    }
+    return std::move(walls_);
+  }
+
+ private:
+  std::vector<Candidate> match_faces() const {
+    std::vector<core::Extent> extents;
+    for (const GridFace& face : faces_) {
+      extents.push_back(core::Extent::of_segment(face.from, face.to, 0));
+    }
+    const core::CellGrid places(extents);
+    std::vector<Candidate> candidates;
+    std::vector<std::uint32_t> near;
+    for (std::size_t i = 0; i < faces_.size(); ++i) {
+      const GridFace& face = faces_[i];
+      if (face.is_joint) continue;
+      places.collect(core::Extent::of_segment(face.from, face.to, limits_.block), near);
+      for (const std::uint32_t j : near) {
+        if (j <= i || faces_[j].is_joint) continue;
+        auto candidate = match(face, faces_[j], limits_);
+        if (!candidate) continue;
+        candidate->front = i;
+        candidate->back = j;
+        candidates.push_back(*candidate);
+      }
+    }
+    return candidates;
+  }
+
+  /// True where a place of the axis has nothing free across the wall.
+  bool is_solid(const Candidate& candidate, double along, bool occupied_alone) const {
+    const Vec2 centre = candidate.origin + along * candidate.way;
+    const Vec2 normal = core::rotate_left(candidate.way);
+    const double reach = std::max(candidate.thickness / 2 - kMargin, 0.0);
+    for (double s = -reach; s <= reach; s += kLookStep) {
+      const Cell cell = grid_.at(Vec2(centre + s * normal));
+      if (cell == Cell::kFree || (occupied_alone && cell != Cell::kOccupied)) return false;
+      if (reach == 0) break;
+    }
+    return true;
+  }
+
+  /// The whole of what both faces share, but for single looks beside a rough border.
+  bool is_solid(const Candidate& candidate, bool occupied_alone) const {
+    std::size_t looks = 0;
+    std::size_t solid = 0;
+    const double end = candidate.both.end - kLookStep / 2;
+    for (double s = candidate.both.begin + kLookStep / 2; s <= end; s += kLookStep) {
+      ++looks;
+      if (is_solid(candidate, s, occupied_alone)) ++solid;
+    }
+    return static_cast<double>(solid) >= 0.95 * static_cast<double>(looks);
+  }
+
+  /// From the end of what both faces share to where the longer of them ends, as far as it is solid,
+  /// and a little into what is there.
+  double grow(const Candidate& candidate, bool ahead, bool occupied_alone) const {
+    const double sign = ahead ? 1 : -1;
+    const double from = ahead ? candidate.both.end : candidate.both.begin;
+    const double to = ahead ? candidate.all.end : candidate.all.begin;
+    const double last = std::abs(to - from);
+    for (double s = kLookStep / 2; s < last; s += kLookStep) {
+      const double along = from + sign * s;
+      if (!is_solid(candidate, along, occupied_alone) &&
+          !is_solid(candidate, along + sign * kLookStep, occupied_alone)) {
+        return from + sign * std::max(s - kLookStep / 2, 0.0);
+      }
+    }
+    return is_solid(candidate, to + sign, false) ? to + sign * limits_.into : to;
+  }
+
+  bool is_covered(std::size_t index, const Candidate& candidate) const {
+    const GridFace& face = faces_[index];
+    const Vec2 begin = candidate.origin + candidate.both.begin * candidate.way;
+    const Vec2 end = candidate.origin + candidate.both.end * candidate.way;
+    Stretch part{face.along(begin), face.along(end)};
+    if (part.begin > part.end) std::swap(part.begin, part.end);
+    double left = 0;
+    for (const Stretch& open : uncovered(face.length(), covered_[index])) {
+      left += std::max(0.0, std::min(open.end, part.end) - std::max(open.begin, part.begin));
+    }
+    return left < (1 - kEnough) * part.length();
+  }
+
+  void add(const Candidate& candidate) {
+    const bool occupied_alone = candidate.thickness > limits_.thickness;
+    if (!is_solid(candidate, occupied_alone)) return;
+    const Stretch reach{grow(candidate, false, occupied_alone),
+                        grow(candidate, true, occupied_alone)};
+    core::Wall wall;
+    wall.thickness_m = candidate.thickness < limits_.least ? limits_.thin : candidate.thickness;
+    const double half = wall.thickness_m / 2;
+    if (reach.length() >= wall.thickness_m) {
+      wall.from = candidate.origin + (reach.begin + half) * candidate.way;
+      wall.to = candidate.origin + (reach.end - half) * candidate.way;
+    } else {
+      // Thicker than long: as a wall that runs across.
+      const Vec2 middle = candidate.origin + (reach.begin + reach.end) / 2 * candidate.way;
+      const Vec2 across = (half - reach.length() / 2) * core::rotate_left(candidate.way);
+      wall.thickness_m = reach.length();
+      wall.from = middle - across;
+      wall.to = middle + across;
+    }
+    const core::WallBox box(wall);
+    for (std::size_t i = 0; i < faces_.size(); ++i) {
+      const Stretch part = covered(faces_[i], box, limits_.slack);
+      if (part.length() > 0) covered_[i].push_back(part);
+    }
+    walls_.push_back(wall);
+  }
+
+  const OccupancyGrid& grid_;
+  std::span<const GridFace> faces_;
+  const SolidLimits& limits_;
+  std::vector<std::vector<Stretch>> covered_;  ///< of each face
+  std::vector<core::Wall> walls_;
+};
+
+/// Cuts [begin, end] down to where |start + s * slope| <= limit.
+void clip(double start, double slope, double limit, Stretch& stretch) {
+  if (std::abs(slope) < 1e-9) {
+    if (std::abs(start) > limit) stretch = {0, 0};
+    return;
+  }
+  const double s = (-limit - start) / slope;
+  const double t = (limit - start) / slope;
+  stretch.begin = std::max(stretch.begin, std::min(s, t));
+  stretch.end = std::min(stretch.end, std::max(s, t));
+}
+
+}  // namespace
+
+Stretch covered(const GridFace& face, const core::WallBox& wall, double slack) {
+  const Vec2 start = wall.to_local(face.from);
+  const Vec2 slope = wall.to_local(face.from + face.way) - start;
+  Stretch stretch{0, face.length()};
+  if (face.height_of(wall.centre) > slack) return {0, 0};
+  clip(start.x(), slope.x(), wall.half_length_m + slack, stretch);
+  clip(start.y(), slope.y(), wall.half_width_m + slack, stretch);
+  return stretch;
+}
+
+std::vector<Stretch> uncovered(double length, std::vector<Stretch> covered) {
+  std::sort(covered.begin(), covered.end(),
+            [](const Stretch& a, const Stretch& b) { return a.begin < b.begin; });
+  std::vector<Stretch> open;
+  double reached = 0;
+  for (const Stretch& part : covered) {
+    if (part.begin > reached) open.push_back({reached, std::min(part.begin, length)});
+    reached = std::max(reached, part.end);
+  }
+  if (reached < length) open.push_back({reached, length});
+  return open;
+}
+
+std::vector<core::Wall> find_solids(const OccupancyGrid& grid, std::span<const GridFace> faces,
+                                    const SolidLimits& limits) {
+  return SolidFinder(grid, faces, limits).find();
+}
+
+}  // namespace cornerd::gridmap

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: MIT
+#include "gridmap/grid_import.hpp"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "drawn_map.hpp"
+#include "settings/map_file.hpp"
+#include "sketch.hpp"
+
+namespace cornerd::gridmap {
+namespace {
+
+core::WallMap sample_map(const char* name) {
+  return core::WallMap(
+      settings::load_map(std::string(CORNERD_SOURCE_DIR "/config/maps/") + name)->plan());
+}
+
+ImportResult import_drawn(const DrawnMap& drawn) {
+  return import_grid(drawn.grid, drawn.resolution_m, drawn.T_map_picture, {});
+}
+
+TEST(GridImport, DrawnFlat_IsThereToThePictureSAccuracy) {
+  const core::WallMap flat = sample_map("flat-7.json");
+  for (const double yaw_rad : {0.0, 0.2}) {
+    const DrawnMap drawn = draw_map(flat, 0.05, yaw_rad);
+    const ImportResult result = import_drawn(drawn);
+    EXPECT_EQ(result.made_by, MadeBy::kDrawing);
+    const ImportScore score = score_import(flat, core::WallMap(result.plan), drawn);
+    SCOPED_TRACE(score.text());
+    EXPECT_GE(score.corner_errors_m.size(), score.corners - 2);
+    EXPECT_LT(score.max_m(), 0.0354);  // half a cell both ways
+    EXPECT_LE(score.invented_corners, 2U);
+    EXPECT_EQ(score.missed_m, 0);
+    EXPECT_EQ(score.invented_m, 0);
+  }
+}
+
+TEST(GridImport, ObliquePicture_IsFarMoreAccurateThanItsCells) {
+  const core::WallMap flat = sample_map("flat-7.json");
+  const DrawnMap drawn = draw_map(flat, 0.05, 0.2);
+  const core::WallMap imported(import_drawn(drawn).plan);
+  EXPECT_LT(score_import(flat, imported, drawn).median_m(), 0.004);
+}
+
+TEST(GridImport, WhatALidarMapped_HasItsSurfacesInTheMiddleOfTheCells) {
+  const core::WallMap arena = sample_map("krpai-2019-a.json");
+  const DrawnMap drawn = scan_map(arena, 0.02, 0.2, 0.01, 25);
+  const ImportResult result = import_drawn(drawn);
+  EXPECT_EQ(result.made_by, MadeBy::kLidar);
+  const ImportScore score = score_import(arena, core::WallMap(result.plan), drawn);
+  SCOPED_TRACE(score.text());
+  EXPECT_GE(score.corner_errors_m.size(), score.corners - 1);
+  EXPECT_LT(score.median_m(), 0.005);
+  EXPECT_LT(score.missed_m, 0.1);
+  EXPECT_LT(score.invented_m, 0.1);
+}
+
+TEST(GridImport, ThinWalls_AreLinesOrAsThickAsTold) {
+  const OccupancyGrid grid = sketch({"??????????", "?........?", "?.######.?", "?........?"});
+  ImportOptions options;
+  options.made_by = MadeBy::kLidar;
+  ImportResult result = import_grid(grid, 0.05, {}, options);
+  ASSERT_EQ(result.plan.walls.size(), 1U);
+  EXPECT_EQ(result.plan.walls[0].thickness_m, 0);
+  options.thin_m = 0.018;
+  result = import_grid(grid, 0.05, {}, options);
+  EXPECT_NEAR(result.plan.walls[0].thickness_m, 0.018, 1e-9);
+}
+
+TEST(GridImport, UnknownGapInAWall_IsClosedAndADoorStaysOpen) {
+  const auto walls_of = [](const char* wall) {
+    const OccupancyGrid grid = sketch({"????????????????????????", wall, "........................",
+                                       "........................", "########################"});
+    return import_grid(grid, 0.05, {}, {.made_by = MadeBy::kDrawing});
+  };
+  const ImportResult unknown = walls_of("##########????##########");
+  EXPECT_EQ(unknown.plan.walls.size(), 2U);
+  ASSERT_EQ(unknown.joined_gaps.size(), 1U);
+  EXPECT_NEAR(unknown.joined_gaps[0].size_m, 0.2, 1e-9);
+  const ImportResult door = walls_of("##########....##########");
+  EXPECT_EQ(door.plan.walls.size(), 3U);
+  EXPECT_TRUE(door.joined_gaps.empty());
+}
+
+TEST(GridImport, SpecksAndPockets_AreReported) {
+  const OccupancyGrid grid =
+      sketch({"####################", "#..................#", "#....#.........###.#",
+              "#..............#.#.#", "#..............###.#", "#..................#",
+              "####################"});
+  const ImportResult result = import_grid(grid, 0.05, {1, 2, 0}, {});
+  ASSERT_EQ(result.specks.size(), 1U);
+  EXPECT_NEAR(result.specks[0].place.x(), 1 + 5.5 * 0.05, 1e-9);
+  EXPECT_NEAR(result.specks[0].place.y(), 2 + 4.5 * 0.05, 1e-9);
+  EXPECT_EQ(result.pockets.size(), 1U);
+}
+
+TEST(GridImport, PictureWithoutABorder_GivesNoWalls) {
+  EXPECT_TRUE(import_grid(OccupancyGrid(5, 5), 0.05, {}, {}).plan.walls.empty());
+  EXPECT_TRUE(import_grid(sketch({"....", "...."}), 0.05, {}, {}).plan.walls.empty());
+}
+
+TEST(GridImport, AnyPicture_GivesWallsThatAreAMap) {
+  std::mt19937 random(20194);
+  for (int trial = 0; trial < 60; ++trial) {
+    OccupancyGrid grid(24, 17);
+    const unsigned denseness = 1 + trial % 5;
+    for (std::int64_t row = 0; row < grid.rows(); ++row) {
+      for (std::int64_t column = 0; column < grid.columns(); ++column) {
+        const unsigned dice = random() % 8;
+        grid.set(column, row,
+                 dice < denseness ? Cell::kOccupied
+                 : dice == 7      ? Cell::kUnknown
+                                  : Cell::kFree);
+      }
+    }
+    for (const MadeBy made_by : {MadeBy::kDrawing, MadeBy::kLidar}) {
+      ImportResult result = import_grid(grid, 0.05, {1, -2, 0.3}, {.made_by = made_by});
+      if (result.plan.walls.empty()) continue;
+      EXPECT_NO_THROW(core::WallMap(std::move(result.plan)));
+    }
+  }
+}
+
+}  // namespace
+}  // namespace cornerd::gridmap

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MIT
+#include "gridmap/map_server_yaml.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "gridmap/grid_error.hpp"
+
+namespace cornerd::gridmap {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+const std::string kRest =
+    "resolution: 0.05\norigin: [-10, -8.5, 0.1]\nnegate: 0\noccupied_thresh: 0.65\n"
+    "free_thresh: 0.196\n";
+const std::string kWhole = "image: map.pgm\n" + kRest;
+
+/// "/key: reason"
+std::string yaml_error(const std::string& text) {
+  try {
+    parse_map_server_yaml(text);
+  } catch (const GridError& error) {
+    return error.pointer() + ": " + error.what();
+  }
+  return "none";
+}
+
+std::string replaced(const std::string& old, const std::string& by) {
+  std::string text = kWhole;
+  text.replace(text.find(old), old.size(), by);
+  return text;
+}
+
+TEST(MapServerYaml, WhatMapSaverWrites_IsRead) {
+  const MapServerYaml yaml = parse_map_server_yaml(kWhole);
+  EXPECT_EQ(yaml.image, "map.pgm");
+  EXPECT_EQ(yaml.resolution_m, 0.05);
+  EXPECT_EQ(yaml.T_map_picture.x_m, -10);
+  EXPECT_EQ(yaml.T_map_picture.y_m, -8.5);
+  EXPECT_EQ(yaml.T_map_picture.theta_rad, 0.1);
+  EXPECT_FALSE(yaml.negate);
+  EXPECT_EQ(yaml.occupied_threshold, 0.65);
+  EXPECT_EQ(yaml.free_threshold, 0.196);
+  EXPECT_EQ(yaml.mode, ShadeMode::kTrinary);
+  EXPECT_TRUE(yaml.unknown_keys.empty());
+}
+
+TEST(MapServerYaml, OtherWaysToWriteIt_AreRead) {
+  const MapServerYaml yaml = parse_map_server_yaml(
+      "---\r\n# by hand\r\nimage: \"a #1.png\"  # quoted\r\nmode: scale\r\nresolution: +5e-2\r\n"
+      "origin:\r\n- 1.0\r\n  - 2\r\n- -.5\r\n\r\nnegate: true\r\noccupied_thresh: 1\r\n"
+      "free_thresh: 0.0\r\nauthor: 'me'\r\n...\r\nwhatever\r\n");
+  EXPECT_EQ(yaml.image, "a #1.png");
+  EXPECT_EQ(yaml.resolution_m, 0.05);
+  EXPECT_EQ(yaml.T_map_picture.y_m, 2);
+  EXPECT_EQ(yaml.T_map_picture.theta_rad, -0.5);
+  EXPECT_TRUE(yaml.negate);
+  EXPECT_EQ(yaml.mode, ShadeMode::kScale);
+  EXPECT_THAT(yaml.unknown_keys, ElementsAre("author"));
+}
+
+TEST(MapServerYaml, WrongValues_AreNamedByTheirKey) {
+  EXPECT_THAT(yaml_error(kRest), HasSubstr("/image: is missing"));
+  EXPECT_THAT(yaml_error(kWhole + "mode: sparse\n"), HasSubstr("/mode: must be"));
+  EXPECT_THAT(yaml_error(kWhole + "negate: 0\n"), HasSubstr("/negate: this key is there twice"));
+  EXPECT_THAT(yaml_error(replaced("0.05", "0")), HasSubstr("/resolution: must be from"));
+  EXPECT_THAT(yaml_error(replaced("0.05", "nan")), HasSubstr("/resolution: must be a number"));
+  EXPECT_THAT(yaml_error(replaced("0.05", "[1]")), HasSubstr("/resolution: must be a number"));
+  EXPECT_THAT(yaml_error(replaced("0.05", "5 cm")), HasSubstr("/resolution: must be a number"));
+  EXPECT_THAT(yaml_error(replaced(", 0.1]", "]")), HasSubstr("/origin: must be a list"));
+  EXPECT_THAT(yaml_error(replaced("-8.5", "here")), HasSubstr("/origin/1: must be a number"));
+  EXPECT_THAT(yaml_error(replaced("negate: 0", "negate: 2")), HasSubstr("/negate: must be 0 or 1"));
+  EXPECT_THAT(yaml_error(replaced("0.65", "0.1")), HasSubstr("/free_thresh: must be below"));
+}
+
+TEST(MapServerYaml, OtherYaml_IsRefusedByItsLine) {
+  EXPECT_THAT(yaml_error("image: {a: 1}\n" + kRest), HasSubstr("line 1: more YAML"));
+  EXPECT_THAT(yaml_error("image: &x map.pgm\n" + kRest), HasSubstr("line 1: more YAML"));
+  EXPECT_THAT(yaml_error("image: 'map.pgm\n" + kRest), HasSubstr("line 1: the quote"));
+  EXPECT_THAT(yaml_error("image: \"a\\n\"\n" + kRest), HasSubstr("line 1: escapes"));
+  EXPECT_THAT(yaml_error("map:\n  image: map.pgm\n"), HasSubstr("line 2: is indented"));
+  EXPECT_THAT(yaml_error("- 1\n"), HasSubstr("line 1: a list"));
+  EXPECT_THAT(yaml_error("image map.pgm\n"), HasSubstr("line 1: is no"));
+  EXPECT_THAT(yaml_error("image:map.pgm\n"), HasSubstr("line 1: no space"));
+  EXPECT_THAT(yaml_error("image: map.pgm\norigin: [1,\n2, 3]\n"), HasSubstr("line 2: the list"));
+}
+
+}  // namespace
+}  // namespace cornerd::gridmap
