@@ -38,6 +38,27 @@ TEST(FaceMerging, Merge_BothSidesOfAWall_StayTwo) {
   EXPECT_EQ(merge_faces(drive, {}, {}), 0U);
 }
 
+TEST(FaceMerging, Merge_MappedTwice6cmApart_IsOneByItsRays) {
+  // The same wall, seen by half of the turns 6 cm farther off: the poses were wrong by that.
+  MappedDrive drive = with_walls({{{3, 2}, {-1, 2}}});
+  drive.faces.push_back(face_between({2.5, 2.06}, {-0.5, 2.06}));
+  for (std::size_t turn = 5; turn < 10; ++turn) {
+    for (std::size_t i = drive.first_point[turn]; i < drive.first_point[turn + 1]; ++i) {
+      StraightPoint& point = drive.points[i];
+      point.range_m *= 2.06F / 2.0F;
+    }
+  }
+  EXPECT_EQ(merge_faces(drive, {}, {}), 0U) << "without the rays it might be a step";
+  const auto evidence = gather_evidence(drive, {}, {});
+  EXPECT_EQ(merge_faces(drive, evidence, {}), 1U);
+}
+
+TEST(FaceMerging, Merge_BoxBeforeAWall_StaysTwo) {
+  MappedDrive drive = with_walls({{{3, 2}, {-1, 2}}, {{1.3, 1.94}, {0.7, 1.94}}});
+  const auto evidence = gather_evidence(drive, {}, {});
+  EXPECT_EQ(merge_faces(drive, evidence, {}), 0U) << "the box hides the wall behind it";
+}
+
 TEST(FaceMerging, Merge_AcrossAnOpenGap_StaysTwo) {
   MappedDrive drive = with_walls({{{3, 2}, {1.2, 2}}, {{1, 2}, {-1, 2}}, {{6, 4}, {-4, 4}}});
   const auto evidence = gather_evidence(drive, {}, {});

@@ -64,6 +64,54 @@ TEST(CutPieces, FaceSeenInFewTurns_IsDroppedWithTheReason) {
   EXPECT_EQ(scene.dropped[0].why, "seen in 4 turns");
 }
 
+WallPiece piece_of(MappedDrive& drive, const Vec2& from, const Vec2& to, std::size_t hits) {
+  const MappedFace face = face_between(from, to);
+  WallPiece piece;
+  piece.face = static_cast<std::uint32_t>(drive.faces.size());
+  piece.begin_m = face.begin_m();
+  piece.end_m = face.end_m();
+  piece.hits = hits;
+  drive.faces.push_back(face);
+  return piece;
+}
+
+TEST(PartCrossings, WallThroughAnother_EndsAtItsFront) {
+  MappedDrive drive;
+  // Free space below the first; the second comes up from there and runs through it.
+  std::vector<WallPiece> pieces = {piece_of(drive, {2, 1}, {-2, 1}, 900),
+                                   piece_of(drive, {0, 0}, {0, 1.5}, 100)};
+  std::vector<Dropped> dropped;
+  part_crossings(drive, {}, pieces, dropped);
+  ASSERT_EQ(pieces.size(), 2U);
+  EXPECT_NEAR((pieces[1].end.point - Vec2(0, 1)).norm(), 0, 1e-9);
+  EXPECT_NEAR((pieces[1].begin.point - Vec2(0, 0)).norm(), 0, 1e-9);
+  EXPECT_TRUE(dropped.empty());
+}
+
+TEST(PartCrossings, LineAlongAWall_IsMistaken) {
+  MappedDrive drive;
+  std::vector<WallPiece> pieces = {piece_of(drive, {1, 1.1}, {-1, 0.9}, 100),
+                                   piece_of(drive, {2, 1}, {-2, 1}, 900)};
+  std::vector<Dropped> dropped;
+  part_crossings(drive, {}, pieces, dropped);
+  ASSERT_EQ(pieces.size(), 1U);
+  EXPECT_EQ(pieces[0].hits, 900U);
+  ASSERT_EQ(dropped.size(), 1U);
+  EXPECT_EQ(dropped[0].why, "a mistaken line along a wall");
+}
+
+TEST(PartCrossings, CornerOfAnEdge_StaysWhole) {
+  MappedDrive drive;
+  // Both reach a cell beyond the edge that they make.
+  std::vector<WallPiece> pieces = {piece_of(drive, {2, 1}, {-0.02, 1}, 900),
+                                   piece_of(drive, {0, 0.98}, {0, 2}, 100)};
+  std::vector<Dropped> dropped;
+  part_crossings(drive, {}, pieces, dropped);
+  ASSERT_EQ(pieces.size(), 2U);
+  EXPECT_NEAR(pieces[0].length_m(), 2.02, 1e-9);
+  EXPECT_NEAR(pieces[1].length_m(), 1.02, 1e-9);
+}
+
 TEST(JoinCorners, RoomCorner_MeetsInTheIntersection) {
   Scene scene = cut({{{-1, -1}, {3, -1}}, {{3, -1}, {3, 2}}});
   join_corners(scene.drive, scene.evidence, {}, scene.pieces);
