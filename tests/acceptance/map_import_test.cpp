@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MIT
+// The figures of src/gridmap/README.md: pictures of known buildings, imported; how near their walls
+// come, and how well the turns of a lidar in the true building are localized in them.
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <tuple>
+
+#include "../unit/gridmap/drawn_map.hpp"
+#include "core/pipeline.hpp"
+#include "gridmap/grid_import.hpp"
+#include "replay/simulator/places.hpp"
+#include "replay/simulator/simulated_recording.hpp"
+#include "settings/map_file.hpp"
+#include "tool/error_statistics.hpp"
+#include "tool/playback.hpp"
+#include "tool/truth.hpp"
+
+namespace cornerd {
+namespace {
+
+enum class Artist { kDrawing, kLidar };
+using PictureKind = std::tuple<const char*, Artist, double, double>;
+
+class MapImportFigures : public testing::TestWithParam<PictureKind> {
+ protected:
+  static constexpr std::size_t kPlaces = 100;
+
+  /// Turns at random places of the true building, each by itself, in another map of it.
+  static tool::ErrorStatistics localize(std::shared_ptr<const core::WallMap> truth_map,
+                                        std::shared_ptr<const core::WallMap> map) {
+    const std::string recording_file = testing::TempDir() + "map-import.ndjson";
+    const std::string truth_file = testing::TempDir() + "map-import.truth.ndjson";
+    {
+      replay::SimulatedRecordingConfig config;
+      config.simulator.seed = 20195;
+      config.turns = kPlaces;
+      replay::RecordingWriter recording(recording_file);
+      replay::TruthWriter truth(truth_file);
+      const auto places = replay::random_places(*truth_map, kPlaces, 0.2, 20196);
+      replay::simulate_recording(truth_map, replay::visit_places(places, 1), config, recording,
+                                 &truth);
+    }
+    const tool::Truth truth = tool::Truth::load(truth_file);
+    tool::ErrorStatistics statistics;
+    core::Pipeline pipeline(std::move(map), {});
+    tool::Playback playback(pipeline, [&](const core::Scan&, const core::TurnResult& result) {
+      const auto T_map_base = truth.at(result.pose.t_ns);
+      if (T_map_base) statistics.add(result.pose, *T_map_base);
+    });
+    playback.set_independent(true);
+    playback.play(recording_file, {});
+    std::filesystem::remove(recording_file);
+    std::filesystem::remove(truth_file);
+    return statistics;
+  }
+};
+
+TEST_P(MapImportFigures, WallsAndPoses_AreWithinThePicture) {
+  const auto [name, maker, resolution_m, yaw_rad] = GetParam();
+  const auto truth = settings::load_map(std::filesystem::path(CORNERD_SOURCE_DIR) / "config/maps" /
+                                        (std::string(name) + ".json"));
+  const std::size_t scans = truth->corners().size() > 50 ? 300 : 100;
+  const gridmap::DrawnMap drawn =
+      maker == Artist::kDrawing ? gridmap::draw_map(*truth, resolution_m, yaw_rad)
+                                : gridmap::scan_map(*truth, resolution_m, yaw_rad, 0.01, scans);
+  gridmap::ImportResult result =
+      gridmap::import_grid(drawn.grid, resolution_m, drawn.T_map_picture, {});
+  const auto imported = std::make_shared<const core::WallMap>(std::move(result.plan));
+  const gridmap::ImportScore score = gridmap::score_import(*truth, *imported, drawn);
+  const tool::ErrorStatistics poses = localize(truth, imported);
+  const std::size_t fixes = poses.count(core::PoseState::kFix);
+  std::printf("%-12s %s %.2f m %.1f rad: %s; %zu of %zu fixes, mean %.1f mm, %zu wrong\n", name,
+              maker == Artist::kDrawing ? "drawn" : "lidar", resolution_m, yaw_rad,
+              score.text().c_str(), fixes, poses.turns(), 1000 * poses.mean_error_m(),
+              poses.wrong());
+  EXPECT_LT(score.missed_m, 0.02 * score.faces_m);
+  EXPECT_LT(score.invented_m, 0.02 * score.faces_m);
+  EXPECT_LT(score.median_m(), 0.5 * resolution_m + 0.009);  // of the arena's walls, half
+  EXPECT_LE(poses.wrong(), poses.turns() / 50);
+}
+
+INSTANTIATE_TEST_SUITE_P(Pictures, MapImportFigures,
+                         testing::Combine(testing::Values("flat-7", "krpai-2019-a"),
+                                          testing::Values(Artist::kDrawing, Artist::kLidar),
+                                          testing::Values(0.05, 0.02, 0.01),
+                                          testing::Values(0.0, 0.2)));
+
+}  // namespace
+}  // namespace cornerd
