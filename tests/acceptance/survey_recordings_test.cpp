@@ -21,11 +21,11 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Registration of the same recordings (2 to 7 mm), in the frame of place 5.
-constexpr std::array<core::Pose2, 5> kPlaces = {{{0.0583, -1.2050, -0.50980},
-                                                 {0.0626, -0.8514, -0.17760},
-                                                 {0.0492, -0.7280, -0.01997},
-                                                 {0.0103, -0.3480, 0.02060},
-                                                 {0, 0, 0}}};
+constexpr std::array<core::Pose2, 5> kRegisteredPlaces = {{{0.0583, -1.2050, -0.50980},
+                                                           {0.0626, -0.8514, -0.17760},
+                                                           {0.0492, -0.7280, -0.01997},
+                                                           {0.0103, -0.3480, 0.02060},
+                                                           {0, 0, 0}}};
 
 class RealRoom : public testing::Test {
  protected:
@@ -87,7 +87,7 @@ TEST_F(RealRoom, MapOfOnePlace_LocalizesTheOthersWithin3cm) {
     EXPECT_GE(poses.size(), turns.size() * 98 / 100) << "place " << place;
     for (const core::Pose2& pose : poses) {
       const core::Pose2 found = T_place_map * pose;
-      const core::Pose2& known = kPlaces[static_cast<std::size_t>(place - 1)];
+      const core::Pose2& known = kRegisteredPlaces[static_cast<std::size_t>(place - 1)];
       ASSERT_LT((found.translation() - known.translation()).norm(), 0.03) << "place " << place;
     }
   }
