@@ -63,11 +63,13 @@ class CountingSink : public drivers::SampleSink {
     last_ns_ = sample.t_ns;
     ++samples;
   }
-  void on_gap() override {}
+  /// What comes after it may be of another session, whose clock is fitted anew.
+  void on_gap() override { last_ns_ = kBefore; }
   std::uint64_t samples = 0;
 
  private:
-  core::TimeNs last_ns_ = -core::kNsPerSecond;
+  static constexpr core::TimeNs kBefore = -core::kNsPerSecond;
+  core::TimeNs last_ns_ = kBefore;
 };
 
 }  // namespace
