@@ -17,11 +17,11 @@ namespace cornerd::tool {
 
 namespace {
 
-constexpr double kMm = 1e3;
+constexpr double kMillimetres = 1e3;
 
 std::string describe_second(const std::optional<bench::LocalizationScore>& score) {
   if (!score) return "-";
-  return formatted("%.2f mm, %zu wrong", score->mean_error_m * kMm, score->wrong);
+  return formatted("%.2f mm, %zu wrong", score->mean_error_m * kMillimetres, score->wrong);
 }
 
 std::string experiment_text(const bench::SurveyExperiment& experiment) {
@@ -30,12 +30,12 @@ std::string experiment_text(const bench::SurveyExperiment& experiment) {
                  "second drive, mean error", "CPU"});
   for (const bench::SurveyCase& made : experiment.cases) {
     const bench::SurveyScore& score = made.score;
-    table.add_row(
-        {made.title, formatted("%zu of %zu", score.walls_found, score.walls_seen),
-         formatted("%.2f m", score.invented_m),
-         formatted("%zu of %zu", score.corners_found, score.corners_seen),
-         formatted("%.2f, %.2f mm", score.corner_median_m() * kMm, score.corner_max_m() * kMm),
-         describe_second(made.second_drive), formatted("%.1f s", made.cpu_s)});
+    table.add_row({made.title, formatted("%zu of %zu", score.walls_found, score.walls_seen),
+                   formatted("%.2f m", score.invented_m),
+                   formatted("%zu of %zu", score.corners_found, score.corners_seen),
+                   formatted("%.2f, %.2f mm", score.corner_median_m() * kMillimetres,
+                             score.corner_max_m() * kMillimetres),
+                   describe_second(made.second_drive), formatted("%.1f s", made.cpu_s)});
   }
   return formatted(
              "A drive of %.1f m through seven rooms, wheels 1.5 and 2.5 %% and gyro 2 %% and "
@@ -45,11 +45,12 @@ std::string experiment_text(const bench::SurveyExperiment& experiment) {
          formatted(
              "A second drive in the true map: mean error %.2f mm, %zu of %zu turns named a "
              "place, %zu wrong.\n",
-             experiment.in_true_map.mean_error_m * kMm, experiment.in_true_map.named,
+             experiment.in_true_map.mean_error_m * kMillimetres, experiment.in_true_map.named,
              experiment.in_true_map.turns, experiment.in_true_map.wrong);
 }
 
-void draw(const bench::SurveyExperiment& experiment, const std::filesystem::path& folder) {
+void draw_experiment(const bench::SurveyExperiment& experiment,
+                     const std::filesystem::path& folder) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error) throw Failure(folder.string() + ": " + error.message());
@@ -68,7 +69,7 @@ void run_survey_bench(const SurveyBenchOptions& options) {
   const auto map = settings::load_map(contest_maps_folder(options.maps) / "flat-7.json");
   const bench::SurveyExperiment experiment =
       bench::run_survey_experiment(map, bench::kSurveyTurns, options.seed);
-  if (!options.plots.empty()) draw(experiment, options.plots);
+  if (!options.plots.empty()) draw_experiment(experiment, options.plots);
   Output output;
   output.write(experiment_text(experiment));
   output.flush();

@@ -39,7 +39,7 @@ struct SurveyOptions {
   bool manhattan = false;
 };
 
-void write_file(const std::filesystem::path& file, const std::string& text) {
+void write_survey_file(const std::filesystem::path& file, const std::string& text) {
   Output output(file);
   output.write(text);
   output.flush();
@@ -83,11 +83,11 @@ void run_survey(const SurveyOptions& options) {
   survey::move_frame(start, result);
   result.plan.name = options.name.empty() ? options.output.stem().string() : options.name;
 
-  write_file(options.output, map_text(result.plan));
-  if (!options.trajectory.empty()) write_file(options.trajectory, trajectory_text(result));
+  write_survey_file(options.output, map_text(result.plan));
+  if (!options.trajectory.empty()) write_survey_file(options.trajectory, trajectory_text(result));
   if (!options.plot.empty()) {
-    write_file(options.plot,
-               options.method == "ransac" ? ransac_canvas(result) : survey_drawing(result));
+    write_survey_file(options.plot,
+                      options.method == "ransac" ? ransac_canvas(result) : survey_drawing(result));
   }
   Output report;
   report.write(survey_report(result));
