@@ -71,8 +71,8 @@ void decode_ultra(std::span<const std::uint8_t, kUltraSize> capsule, int next_ma
   for (std::size_t cabin = 0; cabin < kUltraCabins; ++cabin) {
     const std::uint32_t word = cabin_word(capsule, cabin);
     const VarbitDistance major = decode_varbit(major_of(word));
-    const VarbitDistance next =
-        decode_varbit(cabin + 1 < kUltraCabins ? major_of(cabin_word(capsule, cabin + 1)) : next_major);
+    const VarbitDistance next = decode_varbit(
+        cabin + 1 < kUltraCabins ? major_of(cabin_word(capsule, cabin + 1)) : next_major);
     const VarbitDistance& first_base = major.mm == 0 ? next : major;
 
     const std::array<int, 3> distances_mm{major.mm, predict(first_base, sign_extend_10(word >> 12)),
