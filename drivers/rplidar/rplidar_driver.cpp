@@ -208,14 +208,15 @@ RplidarDriver::Failure RplidarDriver::measure(drivers::ByteStream& port, const S
     const auto bytes = std::span(buffer).first(count);
     stream.feed(bytes, now_ns, live, count < buffer.size());
     board_.update(stream.counters(), stream.lateness(), now_ns);
+    const bool measured = live.take_count() > 0;
+    has_run_ = has_run_ || measured;
     if (banner.add(bytes)) {
       failure.fault = LidarFault::kRestarted;
       break;
     }
     const core::TimeNs silent_ns = now_ns - heard_ns;
-    if (live.take_count() > 0) {
+    if (measured) {
       heard_ns = now_ns;
-      has_run_ = true;
       const LidarState state = live.blind() ? LidarState::kFaulty : LidarState::kRunning;
       if (board_.state() != state || board_.fault() == LidarFault::kMotorStalled) {
         live.blind() ? say(state, LidarFault::kDeadLaser)

@@ -4,6 +4,7 @@
 // chooses how much a read brings; the same bytes answer again and again.
 #include <algorithm>
 #include <cstdlib>
+#include <limits>
 #include <memory>
 #include <span>
 #include <stop_token>
@@ -68,7 +69,7 @@ class CountingSink : public drivers::SampleSink {
   std::uint64_t samples = 0;
 
  private:
-  static constexpr core::TimeNs kBefore = -core::kNsPerSecond;
+  static constexpr core::TimeNs kBefore = std::numeric_limits<core::TimeNs>::min();
   core::TimeNs last_ns_ = kBefore;
 };
 
