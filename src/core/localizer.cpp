@@ -40,6 +40,9 @@ constexpr std::size_t kEvidentCorners = 3;
 /// walls, for nothing was seen through one.
 constexpr double kEvidentHitShareAmongThings = 0.55;
 constexpr double kThroughShareAmongThings = 0.01;
+/// A turn that shows nothing over so much of the circle (the lidar was covered meanwhile) may be
+/// that of many places: then only several corners make one evident.
+constexpr double kWidestGap_rad = radians(120);
 /// A robot moves no farther than this between two turns. A place farther off was either wrong or
 /// the robot was carried: the next turn tells.
 constexpr double kJump_m = 0.5;
@@ -248,9 +251,10 @@ PoseState Localizer::Workspace::believe(TimeNs t_ns) {
   const double hit_share = found.explanation.hit_share();
   const auto corners = static_cast<std::size_t>(
       place->recognition.recognised(result.detection.breakpoints, T_map_lidar));
-  const bool evident = hit_share >= kEvidentHitShare ||
+  const bool whole = points.widest_gap_rad() < kWidestGap_rad;
+  const bool evident = (whole && hit_share >= kEvidentHitShare) ||
                        (hit_share >= kEvidentHitShareOfCorners && corners >= kEvidentCorners) ||
-                       (hit_share >= kEvidentHitShareAmongThings && corners >= 1 &&
+                       (whole && hit_share >= kEvidentHitShareAmongThings && corners >= 1 &&
                         found.explanation.through_share() <= kThroughShareAmongThings);
   const std::optional<Pose2> prior = memory.prior(t_ns);
   const bool expected = prior && same_place(*prior, T_map_lidar, kJump_m, kJump_rad);
@@ -260,8 +264,8 @@ PoseState Localizer::Workspace::believe(TimeNs t_ns) {
   if (expected) return evident ? PoseState::kFix : PoseState::kTracking;
   if (!evident) return PoseState::kLost;
   // What explains every ray needs no second turn.
-  const bool certain =
-      hit_share >= kCertainHitShare && found.explanation.hits >= kCertainHits && corners >= 2;
+  const bool certain = whole && hit_share >= kCertainHitShare &&
+                       found.explanation.hits >= kCertainHits && corners >= 2;
   if (prior && !confirmed && !certain) {
     T_map_doubted = T_map_lidar;
     return PoseState::kLost;

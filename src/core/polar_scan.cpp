@@ -90,6 +90,15 @@ void PolarScan::append(double bearing_rad, double range_m) {
     points_.push_back(point_at(bearing_rad, range_m, 0, unit_vector(bearing_rad)));
 }
 
+double PolarScan::widest_gap_rad() const {
+  if (points_.size() < 2) return kTwoPi;
+  double widest_rad = points_.front().bearing_rad + kTwoPi - points_.back().bearing_rad;
+  for (std::size_t i = 1; i < points_.size(); ++i) {
+    widest_rad = std::max(widest_rad, points_[i].bearing_rad - points_[i - 1].bearing_rad);
+  }
+  return widest_rad;
+}
+
 void PolarScan::sort() {
   const auto by_bearing = [](const PolarPoint& a, const PolarPoint& b) {
     return a.bearing_rad < b.bearing_rad;

@@ -51,6 +51,9 @@ class PolarScan {
   /// Usual distance in bearing from one sample to the next, empty ones included.
   double spacing_rad() const { return spacing_rad_; }
 
+  /// Between two neighbouring returns; the whole circle where there are fewer than two.
+  double widest_gap_rad() const;
+
  private:
   void sort();
 

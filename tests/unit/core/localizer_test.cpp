@@ -72,6 +72,21 @@ TEST(Localizer, OtherBuilding_IsLost) {
   }
 }
 
+TEST(Localizer, LidarCoveredForMostOfTheTurn_NamesNoPlaceByAWallAndACorner) {
+  const auto map = testing::make_map(testing::l_shaped_room());
+  testing::TurnSource source(65);
+  for (int k = 0; k < 50; ++k) {
+    Localizer localizer(map, {});
+    Scan covered;
+    for (Sample sample : source.take(*map, source.place_in(0.4, 2.2, 0.4, 2.6)).samples()) {
+      if (std::abs(sample.bearing_rad) > radians(60)) sample.range_m = 0;
+      covered.add(sample);
+    }
+    const PoseEstimate& pose = localizer.step(covered).pose;
+    if (pose.state == PoseState::kFix) EXPECT_GE(pose.corners, 3U);
+  }
+}
+
 TEST(Localizer, EmptyTurn_IsLost) {
   const auto map = testing::make_map(testing::l_shaped_room());
   Localizer localizer(map, {});

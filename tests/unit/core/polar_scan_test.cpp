@@ -49,6 +49,19 @@ TEST(PolarScan, AnyOrderAtAll_IsSorted) {
   EXPECT_TRUE(is_sorted(points));
 }
 
+TEST(PolarScan, WidestGap_GoesAcrossTheSeamToo) {
+  PolarScan points;
+  EXPECT_EQ(points.widest_gap_rad(), kTwoPi);
+  points.begin(0.01);
+  points.append(-1, 1);
+  EXPECT_EQ(points.widest_gap_rad(), kTwoPi);
+  points.append(0.5, 1);
+  points.append(1, 1);
+  EXPECT_NEAR(points.widest_gap_rad(), kTwoPi - 2, 1e-12);
+  points.append(3, 1);
+  EXPECT_NEAR(points.widest_gap_rad(), kTwoPi - 4, 1e-12);
+}
+
 TEST(PolarScan, ReturnsOutsideTheLimits_AreLeftOut) {
   Scan scan;
   for (const float range : {0.0F, 0.1F, 0.2F, 5.0F, 13.0F}) {
