@@ -39,11 +39,11 @@ core::Covariance3 diagonal(double place_m, double heading_rad) {
 
 TurnReader::TurnReader(const RecordedDrive& drive, const core::LocalizerConfig& config,
                        const std::optional<core::LearnedOdometry>& learned,
-                       std::span<const core::Pose2> T_map_lidar_known)
+                       std::span<const core::Pose2> known_poses)
     : drive_(drive),
       config_(config),
       T_lidar_base_(config.T_base_lidar.inverse()),
-      T_map_lidar_known_(T_map_lidar_known),
+      known_poses_(known_poses),
       odometer_(patient(config.odometry, !drive.readings().empty(), learned)) {}
 
 bool TurnReader::next() {
@@ -105,7 +105,7 @@ void TurnReader::predict(core::TimeNs t_ns) {
 }
 
 core::Twist2 TurnReader::motion(core::TimeNs) const {
-  const auto known = T_map_lidar_known_;
+  const auto known = known_poses_;
   if (known.size() < 2) return last_motion_;
   const std::size_t before = turn_ > 0 ? turn_ - 1 : 0;
   const std::size_t after = std::min(turn_ + 1, known.size() - 1);

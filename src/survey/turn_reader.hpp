@@ -33,7 +33,7 @@ class TurnReader {
   /// `known`: poses of all turns by an earlier pass, for a drive without odometry; may be empty.
   TurnReader(const RecordedDrive& drive, const core::LocalizerConfig& config,
              const std::optional<core::LearnedOdometry>& learned,
-             std::span<const core::Pose2> T_map_lidar_known);
+             std::span<const core::Pose2> known_poses);
 
   /// Goes on to the next turn; false after the last one.
   bool next();
@@ -55,7 +55,7 @@ class TurnReader {
   const RecordedDrive& drive_;
   core::LocalizerConfig config_;
   core::Pose2 T_lidar_base_;
-  std::span<const core::Pose2> T_map_lidar_known_;
+  std::span<const core::Pose2> known_poses_;
   core::Odometer odometer_;
   std::size_t next_reading_ = 0;
   bool has_gyro_ = false;
