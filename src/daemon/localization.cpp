@@ -28,7 +28,7 @@ Localization::Localization(drivers::LidarDriver& driver, std::unique_ptr<core::P
                            SourceKind source)
     : driver_(driver),
       source_(source),
-      current_(std::make_unique<Generation>(std::move(pipeline), 0u)),
+      current_(new Generation{std::move(pipeline), 0}),
       channel_(source == SourceKind::kDevice ? SampleChannel::WhenFull::kLose
                                              : SampleChannel::WhenFull::kWait),
       readings_(kReadingSlots),

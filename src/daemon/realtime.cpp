@@ -34,7 +34,9 @@ std::vector<Mapping> mappings() {
     char rights[5] = {};
     if (std::sscanf(line.c_str(), "%lx-%lx %4s", &begin, &end, rights) != 3) continue;
     if (rights[0] != 'r' || rights[3] != 'p' || line.find("[v") != std::string::npos) continue;
-    all.push_back({reinterpret_cast<void*>(begin), end - begin, rights[1] == 'w'});
+    // The kernel writes addresses as numbers.
+    void* const address = reinterpret_cast<void*>(begin);  // NOLINT(performance-no-int-to-ptr)
+    all.push_back({address, end - begin, rights[1] == 'w'});
   }
   return all;
 }

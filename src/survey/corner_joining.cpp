@@ -87,7 +87,7 @@ class CornerJoiner {
     const WallPiece& side = pieces_[b];
     if (along_other_m < side.begin_m || along_other_m > side.end_m) return;
     for (const bool at_end : {true, false}) {
-      const auto to_side = way_to(a, at_end ? along_one_m : along_one_m, at_end);
+      const auto to_side = way_to(a, along_one_m, at_end);
       if (!to_side) continue;
       // A wall comes to another one's side from its free side alone.
       const double far_m = at_end ? pieces_[a].begin_m : pieces_[a].end_m;
