@@ -78,7 +78,8 @@ TEST(Localizer, LidarCoveredForMostOfTheTurn_NamesNoPlaceByAWallAndACorner) {
   for (int k = 0; k < 50; ++k) {
     Localizer localizer(map, {});
     Scan covered;
-    for (Sample sample : source.take(*map, source.place_in(0.4, 2.2, 0.4, 2.6)).samples()) {
+    const Scan turn = source.take(*map, source.place_in(0.4, 2.2, 0.4, 2.6));
+    for (Sample sample : turn.samples()) {
       if (std::abs(sample.bearing_rad) > radians(60)) sample.range_m = 0;
       covered.add(sample);
     }
