@@ -42,7 +42,7 @@ constexpr double kEvidentHitShareAmongThings = 0.55;
 constexpr double kThroughShareAmongThings = 0.01;
 /// A turn that shows nothing over so much of the circle (the lidar was covered meanwhile) may be
 /// that of many places: then only several corners make one evident.
-constexpr double kWidestGap_rad = radians(120);
+constexpr double kWidestGap_rad = radians(170);
 /// A robot moves no farther than this between two turns. A place farther off was either wrong or
 /// the robot was carried: the next turn tells.
 constexpr double kJump_m = 0.5;
