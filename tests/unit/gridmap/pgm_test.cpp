@@ -25,7 +25,7 @@ std::string pgm_error(const std::string& bytes) {
 
 TEST(Pgm, Bytes_AreShadesFromTheTopDown) {
   const Image image =
-      decode_image(std::string("P5\n# GIMP\n3 2\n255\n\x00\x80\xff\x01\x02\x03", 27));
+      decode_image(std::string("P5\n# GIMP\n3 2\n255\n\x00\x80\xff\x01\x02\x03", 24));
   EXPECT_EQ(image.width, 3U);
   EXPECT_EQ(image.height, 2U);
   EXPECT_EQ(image.white, 255);
