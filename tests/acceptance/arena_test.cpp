@@ -4,17 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
-#include <memory>
 #include <string>
 #include <tuple>
 
-#include "core/pipeline.hpp"
-#include "replay/simulator/places.hpp"
-#include "replay/simulator/simulated_recording.hpp"
+#include "random_places.hpp"
 #include "settings/map_file.hpp"
-#include "tool/error_statistics.hpp"
-#include "tool/playback.hpp"
-#include "tool/truth.hpp"
 
 namespace cornerd {
 namespace {
@@ -42,28 +36,7 @@ class Arena : public testing::TestWithParam<std::tuple<const char*, WireFormat>>
     config.simulator.seed = 20191;
     config.turns = kPlaces;
     config.byte_fault_share = circumstances.byte_fault_share;
-    const std::string name = testing::TempDir() + "arena-" + layout +
-                             std::to_string(static_cast<int>(circumstances.wire));
-    const std::string recording_file = name + ".ndjson";
-    const std::string truth_file = name + ".truth.ndjson";
-    {
-      replay::RecordingWriter recording(recording_file);
-      replay::TruthWriter truth(truth_file);
-      const auto places = replay::random_places(*map, kPlaces, 0.2, 20192);
-      replay::simulate_recording(map, replay::visit_places(places, 1), config, recording, &truth);
-    }
-    const tool::Truth truth = tool::Truth::load(truth_file);
-    tool::ErrorStatistics statistics;
-    core::Pipeline pipeline(map, {});
-    tool::Playback playback(pipeline, [&](const core::Scan&, const core::TurnResult& result) {
-      const auto T_map_base = truth.at(result.pose.t_ns);
-      if (T_map_base) statistics.add(result.pose, *T_map_base);
-    });
-    playback.set_independent(true);
-    playback.play(recording_file, {});
-    std::filesystem::remove(recording_file);
-    std::filesystem::remove(truth_file);
-    return statistics;
+    return localize_random_places(map, map, config);
   }
 
   static double share(const tool::ErrorStatistics& statistics, PoseState state) {

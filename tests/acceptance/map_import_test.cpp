@@ -10,14 +10,9 @@
 #include <tuple>
 
 #include "../unit/gridmap/drawn_map.hpp"
-#include "core/pipeline.hpp"
 #include "gridmap/grid_import.hpp"
-#include "replay/simulator/places.hpp"
-#include "replay/simulator/simulated_recording.hpp"
+#include "random_places.hpp"
 #include "settings/map_file.hpp"
-#include "tool/error_statistics.hpp"
-#include "tool/playback.hpp"
-#include "tool/truth.hpp"
 
 namespace cornerd {
 namespace {
@@ -29,33 +24,12 @@ class MapImportFigures : public testing::TestWithParam<PictureKind> {
  protected:
   static constexpr std::size_t kPlaces = 100;
 
-  /// Turns at random places of the true building, each by itself, in another map of it.
-  static tool::ErrorStatistics localize(std::shared_ptr<const core::WallMap> truth_map,
-                                        std::shared_ptr<const core::WallMap> map) {
-    const std::string recording_file = testing::TempDir() + "map-import.ndjson";
-    const std::string truth_file = testing::TempDir() + "map-import.truth.ndjson";
-    {
-      replay::SimulatedRecordingConfig config;
-      config.simulator.seed = 20195;
-      config.turns = kPlaces;
-      replay::RecordingWriter recording(recording_file);
-      replay::TruthWriter truth(truth_file);
-      const auto places = replay::random_places(*truth_map, kPlaces, 0.2, 20196);
-      replay::simulate_recording(truth_map, replay::visit_places(places, 1), config, recording,
-                                 &truth);
-    }
-    const tool::Truth truth = tool::Truth::load(truth_file);
-    tool::ErrorStatistics statistics;
-    core::Pipeline pipeline(std::move(map), {});
-    tool::Playback playback(pipeline, [&](const core::Scan&, const core::TurnResult& result) {
-      const auto T_map_base = truth.at(result.pose.t_ns);
-      if (T_map_base) statistics.add(result.pose, *T_map_base);
-    });
-    playback.set_independent(true);
-    playback.play(recording_file, {});
-    std::filesystem::remove(recording_file);
-    std::filesystem::remove(truth_file);
-    return statistics;
+  static tool::ErrorStatistics localize(const std::shared_ptr<const core::WallMap>& truth_map,
+                                        const std::shared_ptr<const core::WallMap>& map) {
+    replay::SimulatedRecordingConfig config;
+    config.simulator.seed = 20195;
+    config.turns = kPlaces;
+    return localize_random_places(truth_map, map, config);
   }
 };
 

@@ -12,12 +12,11 @@
 
 #include <nlohmann/json.hpp>
 
-#include "tests/unit/daemon/scratch_folder.hpp"
+#include "tests/temporary_folder.hpp"
 #include "tests/unit/daemon/test_client.hpp"
 
 namespace cornerd::system_test {
 
-using daemon::ScratchFolder;
 using daemon::TestClient;
 using nlohmann::json;
 
@@ -69,7 +68,7 @@ class DaemonTest : public ::testing::Test {
   std::vector<std::string> with_config() const { return {"--config", config()}; }
   std::string config() const { return (folder_ / "cornerd.json").string(); }
 
-  ScratchFolder folder_;
+  test::TemporaryFolder folder_;
 };
 
 }  // namespace cornerd::system_test

@@ -9,8 +9,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "scratch_folder.hpp"
 #include "test_client.hpp"
+#include "tests/temporary_folder.hpp"
 
 namespace cornerd::daemon {
 namespace {
@@ -58,7 +58,7 @@ class MessageServerTest : public ::testing::Test {
     return "{\"class\":\"POSE\",\"seq\":" + std::to_string(seq) + "}\n";
   }
 
-  ScratchFolder folder_;
+  test::TemporaryFolder folder_;
   const std::filesystem::path pose_path_ = folder_ / "pose.sock";
   const std::filesystem::path control_path_ = folder_ / "control.sock";
   EventLoop loop_;

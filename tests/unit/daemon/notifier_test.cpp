@@ -10,7 +10,7 @@
 #include <cstring>
 #include <string>
 
-#include "scratch_folder.hpp"
+#include "tests/temporary_folder.hpp"
 
 namespace cornerd::daemon {
 namespace {
@@ -38,7 +38,7 @@ class NotifierTest : public ::testing::Test {
   }
 
  private:
-  ScratchFolder folder_;
+  test::TemporaryFolder folder_;
   FileDescriptor manager_;
 };
 

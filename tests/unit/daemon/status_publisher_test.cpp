@@ -5,8 +5,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "scratch_folder.hpp"
 #include "test_client.hpp"
+#include "tests/temporary_folder.hpp"
 
 namespace cornerd::daemon {
 namespace {
@@ -46,7 +46,7 @@ class StatusPublisherTest : public ::testing::Test {
     return change;
   }
 
-  ScratchFolder folder_;
+  test::TemporaryFolder folder_;
   EventLoop loop_;
   MessageServer server_{loop_, "1", {[] {}}};
   Notifier notifier_;

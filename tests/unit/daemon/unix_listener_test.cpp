@@ -9,8 +9,8 @@
 #include <optional>
 #include <string>
 
-#include "scratch_folder.hpp"
 #include "test_client.hpp"
+#include "tests/temporary_folder.hpp"
 
 namespace cornerd::daemon {
 namespace {
@@ -37,7 +37,7 @@ void leave_stale_socket(const std::filesystem::path& path) {
 }
 
 TEST(UnixListener, Client_IsAccepted) {
-  const ScratchFolder folder;
+  const test::TemporaryFolder folder;
   const UnixListener listener(folder / "s", 0600);
   EXPECT_FALSE(listener.accept().is_open());
   const TestClient client(folder / "s");
@@ -46,7 +46,7 @@ TEST(UnixListener, Client_IsAccepted) {
 }
 
 TEST(UnixListener, Mode_IsTheOneAskedForWhateverTheUmask) {
-  const ScratchFolder folder;
+  const test::TemporaryFolder folder;
   const mode_t before = ::umask(0077);
   const UnixListener listener(folder / "s", 0666);
   ::umask(before);
@@ -56,13 +56,13 @@ TEST(UnixListener, Mode_IsTheOneAskedForWhateverTheUmask) {
 }
 
 TEST(UnixListener, End_RemovesTheFile) {
-  const ScratchFolder folder;
+  const test::TemporaryFolder folder;
   { const UnixListener listener(folder / "s", 0600); }
   EXPECT_FALSE(std::filesystem::exists(folder / "s"));
 }
 
 TEST(UnixListener, End_LeavesAFileThatIsNoLongerItsOwn) {
-  const ScratchFolder folder;
+  const test::TemporaryFolder folder;
   std::optional<UnixListener> first;
   first.emplace(folder / "s", 0600);
   std::filesystem::rename(folder / "s", folder / "moved");
@@ -72,28 +72,28 @@ TEST(UnixListener, End_LeavesAFileThatIsNoLongerItsOwn) {
 }
 
 TEST(UnixListener, StaleFile_IsReplaced) {
-  const ScratchFolder folder;
+  const test::TemporaryFolder folder;
   leave_stale_socket(folder / "s");
   const UnixListener listener(folder / "s", 0600);
   EXPECT_TRUE(TestClient(folder / "s").is_connected());
 }
 
 TEST(UnixListener, SocketOfALiveInstance_IsLeftAlone) {
-  const ScratchFolder folder;
+  const test::TemporaryFolder folder;
   const UnixListener first(folder / "s", 0600);
   EXPECT_EQ(error_of(folder / "s"), (folder / "s").string() + ": another cornerd listens there");
   EXPECT_TRUE(TestClient(folder / "s").is_connected());
 }
 
 TEST(UnixListener, FileThatIsNoSocket_IsLeftAlone) {
-  const ScratchFolder folder;
+  const test::TemporaryFolder folder;
   std::ofstream(folder / "s") << "precious";
   EXPECT_THAT(error_of(folder / "s"), HasSubstr("is no socket"));
   EXPECT_EQ(std::filesystem::file_size(folder / "s"), 8u);
 }
 
 TEST(UnixListener, FolderThatIsMissing_IsMade) {
-  const ScratchFolder folder;
+  const test::TemporaryFolder folder;
   const UnixListener listener(folder / "run" / "s", 0600);
   EXPECT_TRUE(std::filesystem::exists(folder / "run"));
 }

@@ -10,7 +10,7 @@
 
 #include "core/scan.hpp"
 #include "replay/simulator/simulated_recording.hpp"
-#include "tests/unit/replay/temporary_folder.hpp"
+#include "tests/temporary_folder.hpp"
 #include "tests/unit/replay/test_maps.hpp"
 
 namespace cornerd::replay {
@@ -114,7 +114,7 @@ TEST(RecordingPlayer, TornLastLine_IsNoProblem) {
 }
 
 TEST(RecordingPlayer, BytesAndLines_GiveTheSameSamples) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   simulate(folder.path() / "a.bin");
   simulate(folder.path() / "a.ndjson");
   RecordingPlayer bytes(folder.path() / "a.bin", {});
@@ -133,7 +133,7 @@ TEST(RecordingPlayer, BytesAndLines_GiveTheSameSamples) {
 }
 
 TEST(RecordingPlayer, SerialBesideScans_IsToldOnce) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   simulate(folder.path() / "a.ndjson");
   std::ifstream stream(folder.path() / "a.ndjson");
   std::string both;
@@ -143,7 +143,7 @@ TEST(RecordingPlayer, SerialBesideScans_IsToldOnce) {
 }
 
 TEST(RecordingPlayer, DamagedBytes_AreCounted) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   simulate(folder.path() / "a.bin", 1e-3);
   RecordingPlayer player(folder.path() / "a.bin", {});
   EXPECT_GT(play(player).samples.size(), 1000u);
@@ -151,7 +151,7 @@ TEST(RecordingPlayer, DamagedBytes_AreCounted) {
 }
 
 TEST(RecordingPlayer, Kind_IsKnownByNameOrByTheFirstCharacter) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   const auto write = [&](const char* name, const std::string& text) {
     std::ofstream(folder.path() / name, std::ios::binary) << text;
     return folder.path() / name;
@@ -163,7 +163,7 @@ TEST(RecordingPlayer, Kind_IsKnownByNameOrByTheFirstCharacter) {
 }
 
 TEST(RecordingPlayer, WhatIsNoRecording_IsNamedWithItsReason) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   const auto problem_with = [](const std::filesystem::path& file) -> std::string {
     try {
       RecordingPlayer(file, {});

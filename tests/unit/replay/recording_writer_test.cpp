@@ -6,7 +6,7 @@
 #include <fstream>
 #include <string>
 
-#include "tests/unit/replay/temporary_folder.hpp"
+#include "tests/temporary_folder.hpp"
 
 namespace cornerd::replay {
 namespace {
@@ -19,7 +19,7 @@ std::string text_of(const std::filesystem::path& file) {
 constexpr std::array<std::uint8_t, 3> kBytes = {0xA5, 0x00, 0x5A};
 
 TEST(RecordingWriter, Ndjson_HoldsBothDirectionsAndOdometry) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   RecordingWriter writer(folder.path() / "a.ndjson");
   writer.sent(1'500'000'000, kBytes);
   writer.received(2'000'000'000, kBytes);
@@ -38,7 +38,7 @@ TEST(RecordingWriter, Ndjson_HoldsBothDirectionsAndOdometry) {
 }
 
 TEST(RecordingWriter, Bin_HoldsReceivedBytesAlone) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   RecordingWriter writer(folder.path() / "a.bin");
   writer.sent(1, kBytes);
   writer.received(2, kBytes);
@@ -48,7 +48,7 @@ TEST(RecordingWriter, Bin_HoldsReceivedBytesAlone) {
 }
 
 TEST(TruthWriter, StandingStill_TakesTwoLines) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   TruthWriter writer(folder.path() / "truth.ndjson");
   for (int i = 0; i < 10; ++i) writer.add(i * core::kNsPerSecond, {1, 2, 0.5});
   writer.add(10 * core::kNsPerSecond, {1.5, 2, 0.5});

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "core/ring_buffer.hpp"
-#include "tests/unit/replay/temporary_folder.hpp"
+#include "tests/temporary_folder.hpp"
 
 namespace cornerd::replay {
 namespace {
@@ -31,7 +31,7 @@ struct PlayedSamples : drivers::SampleSink {
 };
 
 /// Two turns of four samples, 0.1 s each.
-std::filesystem::path write_recording(const TemporaryFolder& folder) {
+std::filesystem::path write_recording(const test::TemporaryFolder& folder) {
   const std::filesystem::path file = folder.path() / "a.ndjson";
   std::ofstream stream(file);
   for (const char* t : {"5.0", "5.1"}) {
@@ -43,7 +43,7 @@ std::filesystem::path write_recording(const TemporaryFolder& folder) {
 }
 
 TEST(ReplayDriver, Recording_IsDeliveredInItsOwnTimeAndEnds) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   ReplayDriver driver({write_recording(folder), 0, false, {}});
   PlayedSamples sink;
   driver.run({}, sink);
@@ -59,7 +59,7 @@ TEST(ReplayDriver, Recording_IsDeliveredInItsOwnTimeAndEnds) {
 }
 
 TEST(ReplayDriver, Loop_LetsTimeGoOnGrowingEvenly) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   ReplayDriver driver({write_recording(folder), 0, true, {}});
   PlayedSamples sink;
   sink.stop_after = 28;
@@ -73,7 +73,7 @@ TEST(ReplayDriver, Loop_LetsTimeGoOnGrowingEvenly) {
 }
 
 TEST(ReplayDriver, Speed_PacesTheSamples) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   ReplayDriver driver({write_recording(folder), 2, false, {}});
   PlayedSamples sink;
   const auto begin = std::chrono::steady_clock::now();
@@ -84,7 +84,7 @@ TEST(ReplayDriver, Speed_PacesTheSamples) {
 }
 
 TEST(ReplayDriver, Stop_IsHonouredWhileItWaits) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   ReplayDriver driver({write_recording(folder), 1e-6, false, {}});  // 25 ms become seven hours
   PlayedSamples sink;
   sink.stop_after = 1;
@@ -104,7 +104,7 @@ TEST(ReplayDriver, FullSpeed_DoesNotOverrunASlowConsumer) {
     std::size_t delivered = 0;
     std::atomic<std::size_t> consumed{0};
   };
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   ReplayDriver driver({write_recording(folder), 0, false, {}});
   RingSink sink;
   std::jthread consumer([&](const std::stop_token& stop) {
@@ -132,7 +132,7 @@ TEST(ReplayDriver, UnreadableFile_IsAFaultThatIsNamed) {
 }
 
 TEST(ReplayDriver, LoopOverNothing_Ends) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   std::ofstream(folder.path() / "empty.bin").flush();
   ReplayDriver driver({folder.path() / "empty.bin", 0, true, {}});
   PlayedSamples sink;

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "error_of.hpp"
+#include "tests/temporary_folder.hpp"
 
 namespace cornerd::settings {
 namespace {
@@ -114,11 +115,11 @@ TEST(MapFile, MoreWallsThanAnyBuilding_IsRefused) {
 }
 
 TEST(LoadMap, FileOnDisk_BecomesAMap) {
-  const auto file = std::filesystem::path(::testing::TempDir()) / "cornerd_load_map_test.json";
+  const test::TemporaryFolder folder;
+  const auto file = folder / "map.json";
   std::ofstream(file) << map_of(
       R"("thickness": 0.02, "walls": [{"from": [0, 0], "to": [1, 0]}, {"from": [0, 0], "to": [0, 1]}])");
   const auto map = load_map(file);
-  std::filesystem::remove(file);
   EXPECT_EQ(map->plan().walls.size(), 2u);
   EXPECT_FALSE(map->faces().empty());
 }

@@ -11,7 +11,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "temporary_folder.hpp"
+#include "tests/temporary_folder.hpp"
 #include "tool/cornerctl.hpp"
 #include "tool/failure.hpp"
 #include "xml_check.hpp"
@@ -50,7 +50,7 @@ class BenchCommand : public testing::Test {
     return text.str();
   }
 
-  TemporaryFolder folder_;
+  test::TemporaryFolder folder_;
 };
 
 TEST_F(BenchCommand, Scale_IsATableAPictureAndFigures) {

@@ -13,7 +13,7 @@
 
 #include "command_run.hpp"
 #include "settings/noise.hpp"
-#include "temporary_folder.hpp"
+#include "tests/temporary_folder.hpp"
 #include "tool/failure.hpp"
 #include "xml_check.hpp"
 
@@ -41,7 +41,7 @@ class CalibrateNoise : public testing::Test {
     return path("still.bin");
   }
 
-  TemporaryFolder folder_;
+  test::TemporaryFolder folder_;
 };
 
 TEST_F(CalibrateNoise, SimulatedLidar_GivesBackItsNoiseAsAFileThatSimulateTakes) {

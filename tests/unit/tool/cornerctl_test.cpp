@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-#include "temporary_folder.hpp"
+#include "tests/temporary_folder.hpp"
 #include "tool/failure.hpp"
 #include "xml_check.hpp"
 
@@ -69,7 +69,7 @@ class Cornerctl : public testing::Test {
   }
 
   const std::string map_ = CORNERD_SOURCE_DIR "/config/maps/krpai-2019-a.json";
-  TemporaryFolder folder_;
+  test::TemporaryFolder folder_;
 };
 
 TEST_F(Cornerctl, HelpAndVersion_AreNoErrors) {

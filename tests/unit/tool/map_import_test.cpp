@@ -10,7 +10,7 @@
 
 #include "command_run.hpp"
 #include "settings/map_file.hpp"
-#include "temporary_folder.hpp"
+#include "tests/temporary_folder.hpp"
 #include "tool/failure.hpp"
 #include "xml_check.hpp"
 
@@ -53,7 +53,7 @@ class MapImport : public testing::Test {
     return CommandRun({"map", "import", path(yaml_name), "-o", path("room.json")});
   }
 
-  TemporaryFolder folder_;
+  test::TemporaryFolder folder_;
 };
 
 TEST_F(MapImport, RosMap_BecomesAMapThatCheckAccepts) {

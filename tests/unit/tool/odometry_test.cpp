@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "command_run.hpp"
-#include "temporary_folder.hpp"
+#include "tests/temporary_folder.hpp"
 
 namespace cornerd::tool {
 namespace {
@@ -37,7 +37,7 @@ class OdometryCommandTest : public ::testing::Test {
     return found;
   }
 
-  TemporaryFolder folder_;
+  test::TemporaryFolder folder_;
   const std::string map_ = CORNERD_SOURCE_DIR "/config/maps/flat-7.json";
   const std::string recording_ = (folder_.path() / "drive.ndjson").string();
   const std::string truth_ = (folder_.path() / "truth.ndjson").string();

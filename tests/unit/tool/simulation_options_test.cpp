@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "command_run.hpp"
-#include "temporary_folder.hpp"
+#include "tests/temporary_folder.hpp"
 #include "tool/failure.hpp"
 #include "tool/sensor_options.hpp"
 
@@ -29,7 +29,7 @@ class SimulationOptionsTest : public testing::Test {
   }
 
   const std::string map_ = CORNERD_SOURCE_DIR "/config/maps/krpai-2019-a.json";
-  TemporaryFolder folder_;
+  test::TemporaryFolder folder_;
 };
 
 TEST_F(SimulationOptionsTest, NumberThatIsNone_IsWrongUsage) {

@@ -7,7 +7,7 @@
 
 #include "command_run.hpp"
 #include "settings/map_file.hpp"
-#include "temporary_folder.hpp"
+#include "tests/temporary_folder.hpp"
 #include "tool/truth.hpp"
 #include "xml_check.hpp"
 
@@ -31,7 +31,7 @@ class SurveyCommandTest : public ::testing::Test {
               0);
   }
 
-  TemporaryFolder folder_;
+  test::TemporaryFolder folder_;
   const std::string arena_ = CORNERD_SOURCE_DIR "/config/maps/krpai-2019-a.json";
 };
 

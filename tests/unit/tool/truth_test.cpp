@@ -7,7 +7,7 @@
 #include <fstream>
 #include <string>
 
-#include "temporary_folder.hpp"
+#include "tests/temporary_folder.hpp"
 #include "tool/failure.hpp"
 
 namespace cornerd::tool {
@@ -59,7 +59,7 @@ class TruthFile : public testing::Test {
     return "";
   }
 
-  TemporaryFolder folder_;
+  test::TemporaryFolder folder_;
 };
 
 TEST_F(TruthFile, GoodLines_AreRead) {

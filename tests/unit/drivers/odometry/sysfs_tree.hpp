@@ -3,27 +3,17 @@
 // has them for its drivers ti-eqep and inv-mpu6050.
 #pragma once
 
-#include <stdlib.h>
-
 #include <filesystem>
 #include <fstream>
-#include <stdexcept>
 #include <string>
+
+#include "tests/temporary_folder.hpp"
 
 namespace cornerd::test {
 
 class SysfsTree {
  public:
-  SysfsTree() {
-    std::string pattern = std::filesystem::temp_directory_path() / "cornerd-sysfs-XXXXXX";
-    if (::mkdtemp(pattern.data()) == nullptr) throw std::runtime_error("no temporary folder");
-    root_ = pattern;
-  }
-  ~SysfsTree() { std::filesystem::remove_all(root_); }
-  SysfsTree(const SysfsTree&) = delete;
-  SysfsTree& operator=(const SysfsTree&) = delete;
-
-  const std::filesystem::path& root() const { return root_; }
+  const std::filesystem::path& root() const { return folder_.path(); }
 
   /// An eQEP as the udev rule leaves it; `number` follows the order of probing.
   void add_counter(int number, const std::string& name) {
@@ -66,16 +56,16 @@ class SysfsTree {
 
   /// In place, as the kernel's files change: who has one open reads the new text.
   void write(const std::string& file, const std::string& text) {
-    std::filesystem::create_directories((root_ / file).parent_path());
-    std::ofstream(root_ / file) << text << '\n';
+    std::filesystem::create_directories((folder_ / file).parent_path());
+    std::ofstream(folder_ / file) << text << '\n';
   }
-  void remove(const std::string& file) { std::filesystem::remove_all(root_ / file); }
+  void remove(const std::string& file) { std::filesystem::remove_all(folder_ / file); }
   void rename(const std::string& from, const std::string& to) {
-    std::filesystem::rename(root_ / from, root_ / to);
+    std::filesystem::rename(folder_ / from, folder_ / to);
   }
 
  private:
-  std::filesystem::path root_;
+  TemporaryFolder folder_;
 };
 
 }  // namespace cornerd::test

@@ -2,11 +2,12 @@
 #include "drivers/rplidar/motor.hpp"
 
 #include <gmock/gmock.h>
-#include <stdlib.h>
 
 #include <fstream>
 #include <iterator>
 #include <vector>
+
+#include "tests/temporary_folder.hpp"
 
 namespace cornerd::rplidar {
 namespace {
@@ -32,16 +33,16 @@ class DtrLine : public drivers::ByteStream {
 class SysfsFolder {
  public:
   explicit SysfsFolder(std::initializer_list<const char*> files) {
-    std::string pattern = fs::temp_directory_path() / "cornerd-motor-XXXXXX";
-    path = ::mkdtemp(pattern.data());
-    for (const char* file : files) std::ofstream(path / file) << "?";
+    for (const char* file : files) std::ofstream(folder_ / file) << "?";
   }
-  ~SysfsFolder() { fs::remove_all(path); }
   std::string read(const char* file) const {
-    std::ifstream stream(path / file);
+    std::ifstream stream(folder_ / file);
     return {std::istreambuf_iterator<char>(stream), {}};
   }
-  fs::path path;
+  const fs::path& path() const { return folder_.path(); }
+
+ private:
+  cornerd::test::TemporaryFolder folder_;
 };
 
 TEST(Motor, Dtr_StopsTheMotorWhereItIsSet) {
@@ -61,7 +62,7 @@ TEST(Motor, PortWithoutDtr_IsNoError) {
 TEST(Motor, Gpio_IsHighToTurn) {
   const SysfsFolder line{"value"};
   DtrLine port;
-  const auto motor = make_motor({.kind = MotorKind::kGpio, .path = line.path});
+  const auto motor = make_motor({.kind = MotorKind::kGpio, .path = line.path()});
   EXPECT_TRUE(motor->start(port));
   EXPECT_EQ(line.read("value"), "1");
   EXPECT_TRUE(motor->stop(port));
@@ -73,7 +74,7 @@ TEST(Motor, Pwm_HasPeriodAndDutyInNanoseconds) {
   const SysfsFolder channel{"period", "duty_cycle", "enable"};
   DtrLine port;
   const auto motor =
-      make_motor({.kind = MotorKind::kPwm, .path = channel.path, .duty = 0.5, .period_s = 4e-5});
+      make_motor({.kind = MotorKind::kPwm, .path = channel.path(), .duty = 0.5, .period_s = 4e-5});
   EXPECT_TRUE(motor->start(port));
   EXPECT_EQ(channel.read("period"), "40000");
   EXPECT_EQ(channel.read("duty_cycle"), "20000");
@@ -86,9 +87,9 @@ TEST(Motor, Pwm_HasPeriodAndDutyInNanoseconds) {
 TEST(Motor, MissingSysfsFile_IsNamed) {
   const SysfsFolder empty{};
   DtrLine port;
-  const auto motor = make_motor({.kind = MotorKind::kGpio, .path = empty.path});
+  const auto motor = make_motor({.kind = MotorKind::kGpio, .path = empty.path()});
   EXPECT_FALSE(motor->start(port));
-  EXPECT_THAT(motor->error(), HasSubstr((empty.path / "value").string()));
+  EXPECT_THAT(motor->error(), HasSubstr((empty.path() / "value").string()));
   EXPECT_THAT(motor->error(), HasSubstr("No such file"));
 }
 

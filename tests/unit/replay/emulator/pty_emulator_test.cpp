@@ -12,8 +12,8 @@
 #include <thread>
 #include <vector>
 
+#include "tests/temporary_folder.hpp"
 #include "tests/unit/replay/hex.hpp"
-#include "tests/unit/replay/temporary_folder.hpp"
 #include "tests/unit/replay/test_maps.hpp"
 
 namespace cornerd::replay {
@@ -75,7 +75,7 @@ class PtyEmulatorTest : public ::testing::Test {
     thread_.join();
   }
 
-  TemporaryFolder folder_;
+  test::TemporaryFolder folder_;
   PtyEmulator emulator_;
   core::TimeNs last_t_ns_ = -1;
   core::TimeNs last_unix_ns_ = -1;
@@ -113,7 +113,7 @@ TEST_F(PtyEmulatorTest, ClientThatDoesNotRead_DelaysNobody) {
 }
 
 TEST(PseudoTerminal, Link_IsReplacedAndGoesWithIt) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   const auto link = folder.path() / "port";
   std::filesystem::create_symlink("/nonexistent", link);
   {
@@ -124,7 +124,7 @@ TEST(PseudoTerminal, Link_IsReplacedAndGoesWithIt) {
 }
 
 TEST(PseudoTerminal, FileInTheLinksPlace_IsKept) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   const auto link = folder.path() / "port";
   std::ofstream(link) << "precious";
   EXPECT_THROW(PseudoTerminal{link}, std::system_error);

@@ -6,7 +6,7 @@
 #include <fstream>
 
 #include "replay/simulator/simulated_recording.hpp"
-#include "tests/unit/replay/temporary_folder.hpp"
+#include "tests/temporary_folder.hpp"
 #include "tests/unit/replay/test_maps.hpp"
 
 namespace cornerd::replay {
@@ -28,7 +28,7 @@ class RecordedRoom : public ::testing::Test {
 
   const core::Pose2 kFirst{0.8, 1.0, 0};
   const core::Pose2 kSecond{1.2, 2.0, 0};
-  TemporaryFolder folder_;
+  test::TemporaryFolder folder_;
   std::filesystem::path file_ = folder_.path() / "a.ndjson";
 };
 
@@ -71,7 +71,7 @@ TEST_F(RecordedRoom, Emulated_GivesTheRecordedRangesInAnyFormat) {
 }
 
 TEST(RecordedScene, RecordingWithoutATurn_IsRefused) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   std::ofstream(folder.path() / "a.bin") << "no lidar has ever said this";
   EXPECT_THROW(RecordedScene(folder.path() / "a.bin", {}), RecordingError);
 }

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "message/request.hpp"
-#include "tests/unit/replay/temporary_folder.hpp"
+#include "tests/temporary_folder.hpp"
 #include "tests/unit/replay/test_maps.hpp"
 
 namespace cornerd::replay {
@@ -23,7 +23,7 @@ std::vector<std::string> lines_of(const std::filesystem::path& file) {
 }
 
 TEST(SimulateRecording, Files_CarryTheSameBytesInBothKinds) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   SimulatedRecordingConfig config;
   config.turns = 2;
   config.byte_fault_share = 1e-3;
@@ -52,7 +52,7 @@ TEST(SimulateRecording, Files_CarryTheSameBytesInBothKinds) {
 }
 
 TEST(SimulateRecording, TruthOfPlaces_HasTheTimeOfEachArrivalAndDeparture) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   SimulatedRecordingConfig config;
   config.turns = 6;
   {

@@ -8,7 +8,7 @@
 #include <thread>
 
 #include "listening_socket.hpp"
-#include "temporary_folder.hpp"
+#include "tests/temporary_folder.hpp"
 
 namespace cornerd::tool {
 namespace {
@@ -20,7 +20,7 @@ constexpr const char* kGreeting =
     "{\"class\":\"STATUS\",\"t\":1,\"lidar\":{\"state\":\"running\"}}\nnonsense\n";
 
 TEST(ProbeDaemon, WhatItSays_IsCounted) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   const ListeningSocket daemon(folder.path() / "pose.sock");
   std::string said = kGreeting;
   for (int i = 0; i < 10; ++i) said += "{\"class\":\"POSE\",\"t\":1,\"state\":\"lost\"}\n";
@@ -35,7 +35,7 @@ TEST(ProbeDaemon, WhatItSays_IsCounted) {
 }
 
 TEST(ProbeDaemon, SilentDaemon_IsGivenUp) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   const ListeningSocket daemon(folder.path() / "pose.sock");
   const DaemonView view = probe_daemon(folder.path() / "pose.sock", 1ms);
   EXPECT_EQ(view.connect_errno, 0);

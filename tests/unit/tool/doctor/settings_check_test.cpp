@@ -19,7 +19,7 @@ class CheckSettings : public testing::Test {
     std::ofstream(file) << text;
     return check_settings(file, {});
   }
-  TemporaryFolder folder_;
+  test::TemporaryFolder folder_;
 };
 
 TEST_F(CheckSettings, GoodOnes_AreSummedUp) {

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "temporary_folder.hpp"
+#include "tests/temporary_folder.hpp"
 #include "tool/doctor/finding.hpp"
 #include "tool/doctor/patient.hpp"
 
@@ -61,7 +61,7 @@ class StandIn {
   Patient patient;
 
  private:
-  TemporaryFolder folder_;
+  test::TemporaryFolder folder_;
 };
 
 /// A finding with this verdict and subject, and a text that matches.

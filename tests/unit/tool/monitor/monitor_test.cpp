@@ -18,7 +18,7 @@
 
 #include "listening_socket.hpp"
 #include "monitor/told.hpp"
-#include "temporary_folder.hpp"
+#include "tests/temporary_folder.hpp"
 
 namespace cornerd::tool {
 namespace {
@@ -103,7 +103,7 @@ class MonitorOnTerminal : public testing::Test {
     ASSERT_TRUE(sees("fix  hall"));
   }
 
-  TemporaryFolder folder_;
+  test::TemporaryFolder folder_;
   std::filesystem::path socket_;
   std::optional<ListeningSocket> listener_;
   int daemon_ = -1;

@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <cstdlib>
+#include <stdlib.h>
+
 #include <filesystem>
 #include <stdexcept>
 #include <string>
 
-namespace cornerd::replay {
+namespace cornerd::test {
 
-/// A folder of its own for one test, gone with it.
+/// A folder of its own for one test, gone with it. Tests run side by side: a file of a fixed name
+/// would be another one's too. Its path is short enough for a socket's.
 class TemporaryFolder {
  public:
   TemporaryFolder() {
@@ -24,9 +26,10 @@ class TemporaryFolder {
   TemporaryFolder& operator=(const TemporaryFolder&) = delete;
 
   const std::filesystem::path& path() const { return path_; }
+  std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
 
  private:
   std::filesystem::path path_;
 };
 
-}  // namespace cornerd::replay
+}  // namespace cornerd::test
