@@ -7,7 +7,6 @@
 
 #include "bench/building.hpp"
 #include "bench/instruction_counter.hpp"
-#include "bench/localization/pose_score.hpp"
 #include "bench/simulated_turn.hpp"
 #include "bench/statistics.hpp"
 #include "core/catalog/catalog.hpp"
@@ -24,29 +23,6 @@ double thread_time_s() {
   timespec now{};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
   return static_cast<double>(now.tv_sec) + static_cast<double>(now.tv_nsec) * 1e-9;
-}
-
-void judge_pose(const core::PoseEstimate& pose, const core::Pose2& truth, ScaleResult& result) {
-  switch (pose.state) {
-    case core::PoseState::kFix:
-    case core::PoseState::kTracking:
-      if (!is_right(pose.T_map_base, truth)) {
-        ++result.wrong;
-        return;
-      }
-      ++result.fixed;
-      result.mean_error_m += (pose.T_map_base.translation() - truth.translation()).norm();
-      return;
-    case core::PoseState::kAmbiguous:
-      ++result.ambiguous;
-      result.ambiguous_with_truth += std::any_of(
-          pose.alternatives.begin(), pose.alternatives.end(),
-          [&](const core::Alternative& other) { return is_right(other.T_map_base, truth); });
-      return;
-    case core::PoseState::kPredicted:
-    case core::PoseState::kLost:
-      ++result.lost;
-  }
 }
 
 }  // namespace
@@ -80,7 +56,6 @@ ScaleResult run_scale_case(const ScaleCase& building, std::size_t turns, std::ui
   ScaleResult result;
   result.title = building.title;
   result.rooms = building.plan.rooms.size();
-  result.turns = turns;
   const core::LocalizerConfig config;
   const double start_s = thread_time_s();
   const auto map = std::make_shared<const core::WallMap>(building.plan);
@@ -100,10 +75,9 @@ ScaleResult run_scale_case(const ScaleCase& building, std::size_t turns, std::ui
   double before_s = thread_time_s();
   simulated.localize(localizer, [&](std::size_t turn, const core::PoseEstimate& pose) {
     times_us.push_back((thread_time_s() - before_s) * 1e6);
-    judge_pose(pose, simulated.places()[turn], result);
+    result.score.add(pose, simulated.places()[turn]);
     before_s = thread_time_s();
   });
-  result.mean_error_m /= static_cast<double>(std::max<std::size_t>(1, result.fixed));
   result.time_us = mean_and_spread(times_us).mean;
   std::sort(times_us.begin(), times_us.end());
   result.time_99_us = quantile(times_us, 0.99);

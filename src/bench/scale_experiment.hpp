@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "bench/localization/pose_score.hpp"
 #include "core/localizer.hpp"
 #include "core/scan.hpp"
 
@@ -32,13 +33,7 @@ struct ScaleResult {
   double map_s = 0;              ///< to find the plan's faces and corners and index them
   double catalog_s = 0;          ///< to make the catalogue
   std::size_t memory_bytes = 0;  ///< of faces, corners, their index and the catalogue
-  std::size_t turns = 0;
-  std::size_t fixed = 0;  ///< rightly
-  std::size_t wrong = 0;  ///< over 10 cm or 5 degrees off
-  std::size_t ambiguous = 0;
-  std::size_t ambiguous_with_truth = 0;  ///< the true place among the alternatives
-  std::size_t lost = 0;
-  double mean_error_m = 0;             ///< of the right fixes
+  PoseScore score;
   double time_us = 0;                  ///< CPU time a turn, mean
   double time_99_us = 0;               ///< 99 of 100 turns take no longer
   std::optional<double> instructions;  ///< a turn, mean

@@ -2,20 +2,20 @@
 #include "bench/simulated_turn.hpp"
 
 namespace cornerd::bench {
-namespace {
-
-constexpr double kTurnSight_m = 100;  // the sensor model has limits of its own
-
-}  // namespace
 
 TurnSimulator::TurnSimulator(const replay::SensorModel& sensor, std::size_t samples,
                              std::uint64_t seed, core::TimeNs turn_ns)
     : turn_ns_(turn_ns), errors_(sensor, seed), samples_(samples) {}
 
 const core::Scan& TurnSimulator::take(const core::WallMap& map, const core::Pose2& T_map_lidar) {
-  const core::Vec2 origin = T_map_lidar.translation();
-  return take(0, [&](core::TimeNs, double bearing_rad) {
-    return map.range_along(origin, T_map_lidar.theta_rad + bearing_rad, kTurnSight_m);
+  return take(map, 0, replay::stand_still(T_map_lidar));
+}
+
+const core::Scan& TurnSimulator::take(const core::WallMap& map, core::TimeNs start_ns,
+                                      const replay::Motion& T_map_lidar) {
+  return take(start_ns, [&](core::TimeNs t_ns, double bearing_rad) {
+    const core::Pose2 at = T_map_lidar(t_ns, 0);
+    return map.range_along(at.translation(), at.theta_rad + bearing_rad, kSight_m);
   });
 }
 

@@ -8,6 +8,7 @@
 #include "core/geometry/pose2.hpp"
 #include "core/map/wall_map.hpp"
 #include "core/scan.hpp"
+#include "replay/simulator/motion.hpp"
 #include "replay/simulator/sensor_model.hpp"
 
 namespace cornerd::bench {
@@ -25,6 +26,12 @@ class TurnSimulator {
   /// Of a lidar that stands still. The result is valid until the next call. Takes the next numbers
   /// of the random sequence.
   const core::Scan& take(const core::WallMap& map, const core::Pose2& T_map_lidar);
+  /// Of one that moves.
+  const core::Scan& take(const core::WallMap& map, core::TimeNs start_ns,
+                         const replay::Motion& T_map_lidar);
+
+  /// Farther than any map reaches: the sensor model has limits of its own.
+  static constexpr double kSight_m = 100;
 
   /// How far one sees at a time, in a direction in the lidar's frame then; 0: no wall.
   using Sight = std::function<double(core::TimeNs t_ns, double bearing_rad)>;

@@ -12,6 +12,7 @@
 #include "core/estimate/pose_memory.hpp"
 #include "core/estimate/refinement.hpp"
 #include "core/recognition/decision.hpp"
+#include "core/recognition/evidence.hpp"
 #include "core/recognition/paper_recognition.hpp"
 #include "core/recognition/recognition.hpp"
 #include "core/recognition/verification.hpp"
@@ -24,25 +25,6 @@ namespace {
 constexpr double kRecognisedReach_m = 0.10;
 constexpr double kPriorReach_m = 0.15;
 constexpr double kMotionReach_m = 0.08;
-/// A place that leaves more of the rays unexplained than outliers and mixed pixels do, or that few
-/// rays speak for, may be the wrong one of several: rooms of one building share walls. Where the
-/// robot was expected there, things that are not on the map may take their part.
-constexpr double kCertainHitShare = 0.97;
-constexpr double kCertainHitShareExpected = 0.9;
-constexpr std::size_t kCertainHits = 100;
-/// A place is evident where it explains nearly every ray and a corner, or most rays and several.
-/// What fits less well may be a building or a motion that is not what it seems: only a place that
-/// was expected is believed on that.
-constexpr double kEvidentHitShare = 0.95;
-constexpr double kEvidentHitShareOfCorners = 0.6;
-constexpr std::size_t kEvidentCorners = 3;
-/// Or where a corner speaks for it and what it does not explain may be things in front of the
-/// walls, for nothing was seen through one.
-constexpr double kEvidentHitShareAmongThings = 0.55;
-constexpr double kThroughShareAmongThings = 0.01;
-/// A turn that shows nothing over so much of the circle (the lidar was covered meanwhile) may be
-/// that of many places: then only several corners make one evident.
-constexpr double kWidestGap_rad = radians(170);
 /// A robot moves no farther than this between two turns. A place farther off was either wrong or
 /// the robot was carried: the next turn tells.
 constexpr double kJump_m = 0.5;
@@ -84,13 +66,14 @@ struct Localizer::Workspace {
     Place(const WallMap& map, const LocalizerConfig& config)
         : catalog(map, config.max_range_m),
           recognition(map, catalog),
-          paper(map, catalog),
           verification(map, config),
           refinement(config.max_range_m, config.noise),
-          bias(config.max_range_m, config.noise, config.bias) {}
+          bias(config.max_range_m, config.noise, config.bias) {
+      if (config.recognition == RecognitionMethod::kPaper) paper.emplace(map, catalog);
+    }
     Catalog catalog;
     Recognition recognition;
-    PaperRecognition paper;
+    std::optional<PaperRecognition> paper;  ///< where it is asked for, instead
     Verification verification;
     Refinement refinement;
     BiasEstimator bias;
@@ -109,14 +92,16 @@ struct Localizer::Workspace {
   void look(const Scan& scan, TimeNs t_ns, const Twist2& as_if_moving);
   void look_for_the_motion(const Scan& scan, TimeNs t_ns);
   void look_everywhere(TimeNs t_ns);
-  PoseState believe(TimeNs t_ns);
+  std::size_t corners_of(const Decision& decision) const;
+  PoseState believe(std::size_t corners, TimeNs t_ns);
+  bool is_expected(const Pose2& T_map_lidar, TimeNs t_ns) const;
   bool in_doubt(TimeNs t_ns) const;
   bool is_smeared() const;
   std::size_t best_hits() const;
   bool may_be_biased() const;
   bool teaches(const Decision& decision) const;
-  void report(const Decision& decision, TimeNs t_ns);
-  void report_pose(const core::Place& found, TimeNs t_ns);
+  void report(const Decision& decision, std::size_t corners, TimeNs t_ns);
+  void report_pose(const core::Place& found, std::size_t corners, TimeNs t_ns);
   void report_alternatives(std::span<const core::Place> rivals);
   void predict(const PredictedPose& predicted, PoseEstimate& pose) const;
   bool contradicts(const PredictedPose& predicted) const;
@@ -170,8 +155,9 @@ const TurnResult& Localizer::step(const Scan& turn) {
       w.place ? decide(w.place->verification.places(), w.memory.prior(t_ns)) : Decision{};
 
   // 5. What is less than evident, or far from where the robot just was, is not believed at once.
-  if (decision.state == PoseState::kFix) decision.state = w.believe(t_ns);
-  w.report(decision, t_ns);
+  const std::size_t corners = w.corners_of(decision);
+  if (decision.state == PoseState::kFix) decision.state = w.believe(corners, t_ns);
+  w.report(decision, corners, t_ns);
 
   // 6. A turn whose place is known tells how the lidar errs always.
   if (w.teaches(decision)) {
@@ -229,7 +215,7 @@ SensorBias Localizer::bias() const {
 
 bool Localizer::Workspace::teaches(const Decision& decision) const {
   if (!config.learn_bias) return false;
-  if (decision.state != PoseState::kFix && decision.state != PoseState::kTracking) return false;
+  if (!names_a_place(decision.state)) return false;
   const core::Place& at = place->verification.places()[decision.place];
   return memory.stands() && at.explanation.near_share() > kTeachingShare;
 }
@@ -245,28 +231,30 @@ const Scan& Localizer::Workspace::straightened(const Scan& turn, TimeNs t_ns) {
   return known ? still : turn;
 }
 
-PoseState Localizer::Workspace::believe(TimeNs t_ns) {
+std::size_t Localizer::Workspace::corners_of(const Decision& decision) const {
+  if (!names_a_place(decision.state)) return 0;
+  const core::Place& found = place->verification.places()[decision.place];
+  return static_cast<std::size_t>(
+      place->recognition.recognised(result.detection.breakpoints, found.refined.T_map_lidar));
+}
+
+bool Localizer::Workspace::is_expected(const Pose2& T_map_lidar, TimeNs t_ns) const {
+  const std::optional<Pose2> prior = memory.prior(t_ns);
+  return prior && same_place(*prior, T_map_lidar, kJump_m, kJump_rad);
+}
+
+PoseState Localizer::Workspace::believe(std::size_t corners, TimeNs t_ns) {
   const core::Place& found = place->verification.places().front();
   const Pose2& T_map_lidar = found.refined.T_map_lidar;
-  const double hit_share = found.explanation.hit_share();
-  const auto corners = static_cast<std::size_t>(
-      place->recognition.recognised(result.detection.breakpoints, T_map_lidar));
-  const bool whole = points.widest_gap_rad() < kWidestGap_rad;
-  const bool evident = (whole && hit_share >= kEvidentHitShare) ||
-                       (hit_share >= kEvidentHitShareOfCorners && corners >= kEvidentCorners) ||
-                       (whole && hit_share >= kEvidentHitShareAmongThings && corners >= 1 &&
-                        found.explanation.through_share() <= kThroughShareAmongThings);
-  const std::optional<Pose2> prior = memory.prior(t_ns);
-  const bool expected = prior && same_place(*prior, T_map_lidar, kJump_m, kJump_rad);
+  const Evidence evidence{found.explanation, corners, points.widest_gap_rad()};
   const bool confirmed =
       T_map_doubted && same_place(*T_map_doubted, T_map_lidar, kJump_m, kJump_rad);
   T_map_doubted.reset();
-  if (expected) return evident ? PoseState::kFix : PoseState::kTracking;
-  if (!evident) return PoseState::kLost;
-  // What explains every ray needs no second turn.
-  const bool certain = whole && hit_share >= kCertainHitShare &&
-                       found.explanation.hits >= kCertainHits && corners >= 2;
-  if (prior && !confirmed && !certain) {
+  if (is_expected(T_map_lidar, t_ns)) {
+    return is_evident(evidence) ? PoseState::kFix : PoseState::kTracking;
+  }
+  if (!is_evident(evidence)) return PoseState::kLost;
+  if (memory.prior(t_ns) && !confirmed && !is_certain(evidence)) {
     T_map_doubted = T_map_lidar;
     return PoseState::kLost;
   }
@@ -283,27 +271,23 @@ void Localizer::Workspace::look(const Scan& scan, TimeNs t_ns, const Twist2& as_
   detector.detect(points, result.detection);
   if (!place) return;
 
-  // The places that pairs of corners point to, and the one where the robot should be by now.
+  // The place where the robot should be by now, and those that pairs of corners point to.
   Verification& verification = place->verification;
   verification.begin(points.points(), std::clamp(result.detection.noise_scale, 0.5, 4.0));
-  const Detection& seen = result.detection;
-  verification.consider(config.recognition == RecognitionMethod::kPaper
-                            ? place->paper.places(seen.breakpoints, seen.segments)
-                            : place->recognition.from_pairs(seen.breakpoints),
-                        kRecognisedReach_m);
   if (const std::optional<Pose2> prior = memory.prior(t_ns)) {
     const Hypothesis carried_on{*prior, 0};
     verification.consider(std::span(&carried_on, 1), kPriorReach_m);
   }
+  const Detection& seen = result.detection;
+  verification.consider(place->paper ? place->paper->places(seen.breakpoints, seen.segments)
+                                     : place->recognition.from_pairs(seen.breakpoints),
+                        kRecognisedReach_m);
 }
 
 bool Localizer::Workspace::in_doubt(TimeNs t_ns) const {
   if (!place || place->verification.places().empty()) return true;
   const core::Place& best = place->verification.places().front();
-  const std::optional<Pose2> prior = memory.prior(t_ns);
-  const bool expected = prior && same_place(*prior, best.refined.T_map_lidar, kJump_m, kJump_rad);
-  return best.explanation.hits < kCertainHits ||
-         best.explanation.hit_share() < (expected ? kCertainHitShareExpected : kCertainHitShare);
+  return !leaves_no_doubt(best.explanation, is_expected(best.refined.T_map_lidar, t_ns));
 }
 
 bool Localizer::Workspace::is_smeared() const {
@@ -360,7 +344,7 @@ void Localizer::Workspace::look_for_the_motion(const Scan& scan, TimeNs t_ns) {
 }
 
 void Localizer::Workspace::look_everywhere(TimeNs t_ns) {
-  if (!place || config.recognition == RecognitionMethod::kPaper) return;
+  if (!place || place->paper) return;
   const std::span<const Breakpoint> breakpoints = result.detection.breakpoints;
   Recognition& recognition = place->recognition;
   place->verification.consider(recognition.from_single_corners(breakpoints), kRecognisedReach_m);
@@ -369,7 +353,7 @@ void Localizer::Workspace::look_everywhere(TimeNs t_ns) {
                                kRecognisedReach_m);
 }
 
-void Localizer::Workspace::report(const Decision& decision, TimeNs t_ns) {
+void Localizer::Workspace::report(const Decision& decision, std::size_t corners, TimeNs t_ns) {
   PoseEstimate& pose = result.pose;
   pose.state = decision.state;
   pose.t_ns = t_ns;
@@ -380,8 +364,8 @@ void Localizer::Workspace::report(const Decision& decision, TimeNs t_ns) {
   pose.alternatives.clear();
   pose.covariance.setZero();
   pose.T_map_base = {};
-  if (decision.state == PoseState::kFix || decision.state == PoseState::kTracking) {
-    report_pose(place->verification.places()[decision.place], t_ns);
+  if (names_a_place(decision.state)) {
+    report_pose(place->verification.places()[decision.place], corners, t_ns);
   } else if (decision.state == PoseState::kAmbiguous) {
     report_alternatives(place->verification.places().first(decision.rivals));
   }
@@ -409,7 +393,7 @@ void Localizer::Workspace::predict(const PredictedPose& predicted, PoseEstimate&
   if (map) pose.room = map->room_at(pose.T_map_base.translation());
 }
 
-void Localizer::Workspace::report_pose(const core::Place& found, TimeNs t_ns) {
+void Localizer::Workspace::report_pose(const core::Place& found, std::size_t corners, TimeNs t_ns) {
   const Pose2& T_map_lidar = found.refined.T_map_lidar;
   PoseEstimate& pose = result.pose;
   pose.T_map_base = T_map_lidar * T_lidar_base;
@@ -423,8 +407,7 @@ void Localizer::Workspace::report_pose(const core::Place& found, TimeNs t_ns) {
   }
   odometer.correct(pose.T_map_base, pose.covariance);
   pose.room = map->room_at(pose.T_map_base.translation());
-  pose.corners = static_cast<std::size_t>(
-      place->recognition.recognised(result.detection.breakpoints, T_map_lidar));
+  pose.corners = corners;
   pose.inliers = found.explanation.hits;
   pose.rmse_m = found.refined.rmse_m;
 }

@@ -19,6 +19,11 @@ namespace cornerd::core {
 
 enum class PoseState : std::uint8_t { kFix, kTracking, kPredicted, kAmbiguous, kLost };
 
+/// True where a turn itself says where the robot is.
+constexpr bool names_a_place(PoseState state) {
+  return state == PoseState::kFix || state == PoseState::kTracking;
+}
+
 /// A place that explains the turn. The scores of one turn are shares of belief: they sum to 1.
 struct Alternative {
   Pose2 T_map_base;

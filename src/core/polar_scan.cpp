@@ -117,6 +117,7 @@ void PolarScan::sort() {
   // turn of a lidar at all: then the work is bounded by a sort that is indifferent to the order.
   std::size_t moves_left = 16 * points_.size();
   for (std::size_t i = 1; i < points_.size(); ++i) {
+    if (!by_bearing(points_[i], points_[i - 1])) continue;
     const PolarPoint moving = points_[i];
     std::size_t place = i;
     while (place > 0 && by_bearing(moving, points_[place - 1])) {

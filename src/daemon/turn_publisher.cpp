@@ -58,7 +58,7 @@ void TurnPublisher::publish(const TurnReport& report) {
 }
 
 void TurnPublisher::publish_jump(const core::PoseEstimate& pose, std::uint64_t number) {
-  if (pose.state != core::PoseState::kFix && pose.state != core::PoseState::kTracking) return;
+  if (!core::names_a_place(pose.state)) return;
   if (last_fix_) {
     const auto turns = static_cast<double>(number - last_fix_->number);
     const double way_m =

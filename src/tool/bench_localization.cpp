@@ -25,7 +25,7 @@ using OrderedJson = nlohmann::ordered_json;
 constexpr double kMetresToMillimetres = 1e3;
 /// Turns by whose cost the others' is told from the program's own.
 constexpr std::size_t kFewTurns = 20;
-constexpr std::size_t kManyTurns = 60;
+constexpr std::size_t kManyTurns = bench::kMostCountedTurns;
 
 struct TrialResult {
   std::string title;

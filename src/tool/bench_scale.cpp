@@ -49,14 +49,14 @@ std::string scale_text(const std::vector<bench::ScaleResult>& results) {
   table.add_row({"building", "corners", "rooms", "load s", "MiB", "fix %", "wrong", "ambiguous",
                  "of these true", "lost", "error mm", "time ms", "99 %", "10^6 instr."});
   for (const bench::ScaleResult& r : results) {
-    const double turns = static_cast<double>(std::max<std::size_t>(1, r.turns));
+    const double turns = static_cast<double>(std::max<std::size_t>(1, r.score.turns()));
     table.add_row({r.title, std::to_string(r.corners), std::to_string(r.rooms),
                    formatted("%.3f", r.map_s + r.catalog_s),
                    formatted("%.2f", static_cast<double>(r.memory_bytes) / kMebibyte),
-                   formatted("%.1f", 100 * static_cast<double>(r.fixed) / turns),
-                   std::to_string(r.wrong), std::to_string(r.ambiguous),
-                   std::to_string(r.ambiguous_with_truth), std::to_string(r.lost),
-                   formatted("%.2f", kMillimetre * r.mean_error_m),
+                   formatted("%.1f", 100 * static_cast<double>(r.score.right()) / turns),
+                   std::to_string(r.score.wrong()), std::to_string(r.score.ambiguous()),
+                   std::to_string(r.score.ambiguous_with_truth()), std::to_string(r.score.lost()),
+                   formatted("%.2f", kMillimetre * r.score.mean_error_m()),
                    formatted("%.3f", kMicroToMilli * r.time_us),
                    formatted("%.3f", kMicroToMilli * r.time_99_us),
                    r.instructions ? formatted("%.2f", *r.instructions / kMillion) : "-"});
@@ -76,13 +76,13 @@ std::string scale_json(const std::vector<bench::ScaleResult>& results,
                                       {"map_s", r.map_s},
                                       {"catalog_s", r.catalog_s},
                                       {"memory_bytes", r.memory_bytes},
-                                      {"turns", r.turns},
-                                      {"fixed", r.fixed},
-                                      {"wrong", r.wrong},
-                                      {"ambiguous", r.ambiguous},
-                                      {"ambiguous_with_truth", r.ambiguous_with_truth},
-                                      {"lost", r.lost},
-                                      {"mean_error", r.mean_error_m},
+                                      {"turns", r.score.turns()},
+                                      {"fixed", r.score.right()},
+                                      {"wrong", r.score.wrong()},
+                                      {"ambiguous", r.score.ambiguous()},
+                                      {"ambiguous_with_truth", r.score.ambiguous_with_truth()},
+                                      {"lost", r.score.lost()},
+                                      {"mean_error", r.score.mean_error_m()},
                                       {"time_us", r.time_us},
                                       {"time_99_us", r.time_99_us}};
     if (r.instructions) figures["instructions"] = *r.instructions;

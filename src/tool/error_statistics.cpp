@@ -8,8 +8,7 @@
 #include <numeric>
 #include <string_view>
 
-#include <Eigen/Cholesky>
-
+#include "bench/localization/pose_error.hpp"
 #include "message/state_names.hpp"
 
 namespace cornerd::tool {
@@ -24,11 +23,6 @@ double distance(const core::Pose2& a, const core::Pose2& b) {
 
 double turn(const core::Pose2& a, const core::Pose2& b) {
   return std::abs(core::angle_between(a.theta_rad, b.theta_rad));
-}
-
-bool is_wrong(const core::Pose2& estimate, const core::Pose2& truth) {
-  return distance(estimate, truth) > ErrorStatistics::kWrongDistanceM ||
-         turn(estimate, truth) > ErrorStatistics::kWrongAngleRad;
 }
 
 double mean(const std::vector<double>& values) {
@@ -77,9 +71,7 @@ void ErrorStatistics::add(const core::PoseEstimate& estimate, const core::Pose2&
       add_pose(estimate, truth);
       break;
     case core::PoseState::kAmbiguous:
-      ambiguous_with_truth_ += std::any_of(
-          estimate.alternatives.begin(), estimate.alternatives.end(),
-          [&](const core::Alternative& place) { return !is_wrong(place.T_map_base, truth); });
+      ambiguous_with_truth_ += bench::lists_truth(estimate, truth) ? 1 : 0;
       break;
     case core::PoseState::kLost:
       break;
@@ -90,14 +82,11 @@ void ErrorStatistics::add_pose(const core::PoseEstimate& estimate, const core::P
   const core::Pose2& pose = estimate.T_map_base;
   distances_m_.push_back(distance(pose, truth));
   angles_rad_.push_back(turn(pose, truth));
-  wrong_ += is_wrong(pose, truth);
-
-  const Eigen::LLT<core::Covariance3> root(estimate.covariance);
-  if (root.info() != Eigen::Success) return;
-  const Eigen::Vector3d error(pose.x_m - truth.x_m, pose.y_m - truth.y_m,
-                              core::angle_between(truth.theta_rad, pose.theta_rad));
-  nees_sum_ += error.dot(root.solve(error));
-  ++nees_count_;
+  wrong_ += bench::is_right(pose, truth) ? 0 : 1;
+  if (const auto nees = bench::normalised_error_squared(estimate, truth)) {
+    nees_sum_ += *nees;
+    ++nees_count_;
+  }
 }
 
 double ErrorStatistics::mean_error_m() const { return mean(distances_m_); }

@@ -14,10 +14,6 @@ namespace cornerd::tool {
 /// How far a run of poses is from the truth, and whether its own doubts are honest.
 class ErrorStatistics {
  public:
-  /// A pose further from the truth than this is wrong, not merely inexact.
-  static constexpr double kWrongDistanceM = 0.10;
-  static constexpr double kWrongAngleRad = core::radians(5);
-
   void add(const core::PoseEstimate& estimate, const core::Pose2& T_map_base);
   /// A turn that the truth says nothing about.
   void add_unknown() { ++unknown_; }

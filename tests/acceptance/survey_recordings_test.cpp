@@ -52,7 +52,7 @@ class RealRoom : public testing::Test {
     for (std::size_t i = 0; i < drive.size(); ++i) {
       drive.load(i, turn);
       const core::PoseEstimate& pose = localizer.step(turn).pose;
-      if (pose.state == core::PoseState::kFix || pose.state == core::PoseState::kTracking) {
+      if (core::names_a_place(pose.state)) {
         poses.push_back(pose.T_map_base);
       }
     }

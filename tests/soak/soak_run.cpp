@@ -82,7 +82,7 @@ class World {
 };
 
 void judge(const core::PoseEstimate& pose, const core::Pose2& truth, SoakReport& report) {
-  if (pose.state != core::PoseState::kFix && pose.state != core::PoseState::kTracking) return;
+  if (!core::names_a_place(pose.state)) return;
   const double error_m = (pose.T_map_base.translation() - truth.translation()).norm();
   const double error_rad =
       std::abs(core::angle_between(truth.theta_rad, pose.T_map_base.theta_rad));

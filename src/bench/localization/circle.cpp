@@ -18,8 +18,7 @@ bool is_clear(const core::WallMap& world, const core::Vec2& centre, double radiu
   const int points = static_cast<int>(std::ceil(core::kTwoPi * radius_m / kCircleClearance_m)) + 1;
   for (int i = 0; i < points; ++i) {
     const double angle_rad = core::kTwoPi * i / points;
-    const core::Vec2 point =
-        centre + radius_m * core::Vec2(std::cos(angle_rad), std::sin(angle_rad));
+    const core::Vec2 point = centre + radius_m * core::unit_vector(angle_rad);
     if (world.is_solid(point)) return false;
     if (replay::clearance_at(world, point) < kCircleClearance_m) return false;
   }

@@ -16,18 +16,15 @@ constexpr std::uint64_t kCostSeed = 1;
 void localize_turns(const std::shared_ptr<const core::WallMap>& map, std::size_t turns,
                     bool tracking) {
   const CircularMotion motion = tracking ? CircularMotion{0.2, 1.5} : CircularMotion{};
-  const auto places = random_circles(*map, motion, tracking ? 1 : turns, kCostSeed);
+  const auto places = random_circles(*map, motion, tracking ? 1 : kMostCountedTurns, kCostSeed);
   TurnSimulator lidar({}, kCostSamples, kCostSeed);
   core::Localizer localizer(map, {});
   core::TimeNs t_ns = 0;
-  for (std::size_t i = 0; i < turns; ++i, t_ns += lidar.turn_ns()) {
-    const replay::Motion robot = circling(places[tracking ? 0 : i], motion);
+  for (std::size_t i = 0; i < kMostCountedTurns; ++i, t_ns += lidar.turn_ns()) {
+    const core::Scan& turn = lidar.take(*map, t_ns, circling(places[tracking ? 0 : i], motion));
+    if (i >= turns) continue;
     if (!tracking) localizer.relocalize();
-    localizer.step(lidar.take(t_ns, [&](core::TimeNs at_ns, double bearing_rad) {
-      constexpr double kSight_m = 100;
-      const core::Pose2 at = robot(at_ns, 0);
-      return map->range_along(at.translation(), at.theta_rad + bearing_rad, kSight_m);
-    }));
+    localizer.step(turn);
   }
 }
 

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "bench/localization/pose_score.hpp"
+#include "bench/localization/pose_error.hpp"
 #include "bench/simulated_turn.hpp"
 #include "replay/simulator/places.hpp"
 
@@ -12,10 +12,6 @@ namespace {
 
 constexpr std::size_t kKidnappingSamples = 800;
 constexpr double kKidnappingClearance_m = 0.15;
-
-bool names_a_place(core::PoseState state) {
-  return state == core::PoseState::kFix || state == core::PoseState::kTracking;
-}
 
 }  // namespace
 
@@ -34,13 +30,10 @@ KidnappingScore run_kidnapping(const std::vector<std::shared_ptr<const core::Wal
       const core::Pose2& place = places[i];
       std::size_t recovered = KidnappingScore::kTurns;
       for (std::size_t k = 0; k < KidnappingScore::kTurns; ++k) {
-        const core::Scan& turn = lidar.take(t_ns, [&](core::TimeNs, double bearing_rad) {
-          constexpr double kSight_m = 100;
-          return map.range_along(place.translation(), place.theta_rad + bearing_rad, kSight_m);
-        });
+        const core::Scan& turn = lidar.take(map, t_ns, replay::stand_still(place));
         t_ns += lidar.turn_ns();
         const core::PoseEstimate& pose = localizer.step(turn).pose;
-        if (i == 0 || !names_a_place(pose.state)) continue;
+        if (i == 0 || !core::names_a_place(pose.state)) continue;
         if (is_right(pose.T_map_base, place)) {
           recovered = std::min(recovered, k);
         } else {

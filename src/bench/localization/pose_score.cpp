@@ -5,10 +5,8 @@
 #include <cmath>
 #include <numeric>
 
-#include <Eigen/Cholesky>
-
+#include "bench/localization/pose_error.hpp"
 #include "bench/statistics.hpp"
-#include "core/recognition/hypothesis.hpp"
 
 namespace cornerd::bench {
 namespace {
@@ -17,10 +15,6 @@ namespace {
 constexpr double kInside95 = 7.815;
 
 }  // namespace
-
-bool is_right(const core::Pose2& T_map_base, const core::Pose2& truth) {
-  return core::same_place(T_map_base, truth, kWrong_m, kWrong_rad);
-}
 
 void PoseScore::add(const core::PoseEstimate& estimate, const core::Pose2& truth,
                     const core::Covariance3& bound) {
@@ -33,9 +27,7 @@ void PoseScore::add(const core::PoseEstimate& estimate, const core::Pose2& truth
       return;
     case PoseState::kAmbiguous:
       ++ambiguous_;
-      ambiguous_with_truth_ +=
-          std::any_of(estimate.alternatives.begin(), estimate.alternatives.end(),
-                      [&](const auto& other) { return is_right(other.T_map_base, truth); });
+      ambiguous_with_truth_ += lists_truth(estimate, truth) ? 1 : 0;
       return;
     case PoseState::kPredicted:
       ++predicted_;
@@ -46,17 +38,16 @@ void PoseScore::add(const core::PoseEstimate& estimate, const core::Pose2& truth
       ++named_;
       wrong_ += right ? 0 : 1;
   }
-  const Eigen::Vector3d error(estimate.T_map_base.x_m - truth.x_m,
-                              estimate.T_map_base.y_m - truth.y_m,
-                              core::angle_between(truth.theta_rad, estimate.T_map_base.theta_rad));
-  const double nees = error.dot(estimate.covariance.ldlt().solve(error));
-  nees_ += nees;
-  inside_95_ += nees < kInside95 ? 1 : 0;
+  if (const auto nees = normalised_error_squared(estimate, truth)) {
+    nees_ += *nees;
+    inside_95_ += *nees < kInside95 ? 1 : 0;
+  }
   if (!right) return;
-  errors_m_.push_back(error.head<2>().norm());
-  squares_m2_ += error.head<2>().squaredNorm();
+  const double error_m = (estimate.T_map_base.translation() - truth.translation()).norm();
+  errors_m_.push_back(error_m);
+  squares_m2_ += error_m * error_m;
   bound_m2_ += bound.topLeftCorner<2, 2>().trace();
-  heading_rad_ += std::abs(error.z());
+  heading_rad_ += std::abs(core::angle_between(truth.theta_rad, estimate.T_map_base.theta_rad));
 }
 
 double PoseScore::per_right(double sum) const {

@@ -8,13 +8,6 @@
 
 namespace cornerd::bench {
 
-/// A pose farther from the truth than this is wrong, not merely inexact.
-inline constexpr double kWrong_m = 0.1;
-inline constexpr double kWrong_rad = core::radians(5);
-
-/// True where two poses are so near each other that one may pass for the other.
-bool is_right(const core::Pose2& T_map_base, const core::Pose2& truth);
-
 /// What many turns said of places that are known.
 class PoseScore {
  public:
@@ -23,8 +16,9 @@ class PoseScore {
            const core::Covariance3& bound = core::Covariance3::Zero());
 
   std::size_t turns() const { return turns_; }
-  std::size_t named() const { return named_; }  ///< fix and tracking, right or wrong
-  std::size_t wrong() const { return wrong_; }  ///< of these, and of the predicted
+  std::size_t named() const { return named_; }            ///< fix and tracking, right or wrong
+  std::size_t right() const { return errors_m_.size(); }  ///< of these
+  std::size_t wrong() const { return wrong_; }            ///< of these, and of the predicted
   std::size_t predicted() const { return predicted_; }
   std::size_t ambiguous() const { return ambiguous_; }
   std::size_t ambiguous_with_truth() const { return ambiguous_with_truth_; }

@@ -19,7 +19,6 @@ namespace {
 using Maps = std::vector<std::shared_ptr<const core::WallMap>>;
 
 constexpr std::size_t kTrialSamples = 800;
-constexpr double kTrialSight_m = 100;
 
 MappedBuilding as_mapped(const std::shared_ptr<const core::WallMap>& map) { return {map, {map}}; }
 
@@ -68,7 +67,7 @@ class Robot {
         const core::Pose2 at = motion(t_ns, 0);
         const double angle_rad = at.theta_rad + bearing_rad;
         return range_with(things, at.translation(), angle_rad,
-                          world.range_along(at.translation(), angle_rad, kTrialSight_m));
+                          world.range_along(at.translation(), angle_rad, TurnSimulator::kSight_m));
       });
       while (trial_.odometry && odometry.next_ns() <= turn.end_ns()) {
         localizer_.add(odometry.next(), std::nullopt);

@@ -15,8 +15,6 @@ constexpr double kWorldSight_m = 100;
 /// Rays by which the share of a turn is judged.
 constexpr int kClutterRays = 360;
 
-Vec2 direction(double angle_rad) { return {std::cos(angle_rad), std::sin(angle_rad)}; }
-
 double share_stopped(const core::WallMap& map, const Vec2& place,
                      const std::vector<RoundThing>& things) {
   int stopped = 0;
@@ -32,7 +30,7 @@ double share_stopped(const core::WallMap& map, const Vec2& place,
 
 double range_with(const std::vector<RoundThing>& things, const Vec2& origin, double angle_rad,
                   double range_m) {
-  const Vec2 ray = direction(angle_rad);
+  const Vec2 ray = core::unit_vector(angle_rad);
   for (const RoundThing& thing : things) {
     const Vec2 to = thing.centre - origin;
     const double along_m = to.dot(ray);
@@ -56,7 +54,7 @@ std::vector<RoundThing> clutter_around(const core::WallMap& map, const Vec2& pla
     const double radius_m = random.uniform(kSmallest_m, kLargest_m);
     const double centre_m = random.uniform(kNearest_m, std::max(kNearest_m, range_m));
     if (centre_m - radius_m < kNearest_m / 2) continue;
-    things.push_back({place + centre_m * direction(angle_rad), radius_m});
+    things.push_back({place + centre_m * core::unit_vector(angle_rad), radius_m});
   }
   return things;
 }
@@ -68,7 +66,7 @@ std::vector<core::Wall> doors_of(const core::WallMap& map) {
       const Vec2 along = (to - from).normalized();
       const Vec2 beyond = to + (wall.thickness_m / 2 + 1e-3) * along;
       if (map.is_solid(beyond)) continue;
-      const double open_m = map.range_along(beyond, std::atan2(along.y(), along.x()), kMaxDoor_m);
+      const double open_m = map.range_along(beyond, core::angle_of(along), kMaxDoor_m);
       if (open_m < kMinDoor_m) continue;
       // A door between two ends is found from both.
       const core::Wall door{to, beyond + open_m * along, wall.thickness_m};

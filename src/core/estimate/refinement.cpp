@@ -17,8 +17,10 @@ constexpr double kConverged_m = 2e-5;
 constexpr double kConverged_rad = 1e-5;
 /// A move that is smaller than this leaves each ray at the face that it met before; where it does
 /// not, at a face's end, one ray of hundreds is off by as little.
-constexpr double kSameSight_m = 1e-3;
-constexpr double kSameSight_rad = 5e-4;
+constexpr double kSameSight_m = 2e-3;
+constexpr double kSameSight_rad = 1e-3;
+/// The same while all that is looked for is known to `slack` only: this share of it.
+constexpr double kSameSightShare = 0.25;
 /// Relative pivot below which the walls in sight do not fix the pose: a lone wall, a bare corridor.
 constexpr double kMinPivot = 1e-7;
 constexpr std::size_t kMinInliers = 8;
@@ -41,9 +43,11 @@ Refinement::Refinement(double max_range_m, const SensorNoise& noise)
     : noise_(noise), prediction_(max_range_m) {}
 
 void Refinement::look(const WallMap& map, const Pose2& T_map_lidar,
-                      std::span<const PolarPoint> points, double noise_scale) {
+                      std::span<const PolarPoint> points, double noise_scale, double slack_m) {
+  const double same_m = std::max(kSameSight_m, kSameSightShare * slack_m);
+  const double same_rad = kSameSight_rad / kSameSight_m * same_m;
   const bool same_points = points.data() == seen_.data() && points.size() == seen_.size();
-  if (same_points && same_place(T_map_lidar, T_map_seen_, kSameSight_m, kSameSight_rad)) return;
+  if (same_points && same_place(T_map_lidar, T_map_seen_, same_m, same_rad)) return;
   if (!same_points) lanes_.assign(points, noise_, noise_scale);
   hits_ = prediction_.cast_near(map, T_map_lidar, points);
   seen_ = points;
@@ -104,8 +108,9 @@ RefinedPose Refinement::descend(const WallMap& map, const Pose2& start, double r
   seen_ = {};
   for (int k = 0; k < kMaxSteps; ++k) {
     const bool rough = slack_m > 0.004;
-    look(map, refined.T_map_lidar, rough ? thin : points, noise_scale);
-    sums = step(map, refined.T_map_lidar, rough ? slack_m : 0);
+    const double step_slack_m = rough ? slack_m : 0;
+    look(map, refined.T_map_lidar, rough ? thin : points, noise_scale, step_slack_m);
+    sums = step(map, refined.T_map_lidar, step_slack_m);
     solver.compute(sums.information);
     const Eigen::Vector3d pivots = solver.vectorD();
     if (sums.inliers < kMinInliers || !(pivots.minCoeff() > kMinPivot * pivots.maxCoeff())) {

@@ -58,7 +58,7 @@ class Refinement {
                       double noise_scale, int last_steps);
   /// Which face each of the points meets, seen from here.
   void look(const WallMap& map, const Pose2& T_map_lidar, std::span<const PolarPoint> points,
-            double noise_scale);
+            double noise_scale, double slack_m);
   /// Of what was looked at last.
   Step step(const WallMap& map, const Pose2& T_map_lidar, double slack_m) const;
 

@@ -32,17 +32,42 @@ constexpr double kMapSigma_m = 0.003;
 /// The beam's own width at a wall's edge makes ranges that belong to neither side.
 constexpr double kMinIncidenceSine = 0.05;
 
+const double kLogHitShare = std::log(kHitShare);
+const double kLogNearShare = std::log(kNearShare);
+const double kLogShort = std::log(kShortShare / kShortSpan_m);
+const double kLogOther = std::log(kOtherShare / kOtherSpan_m);
+const double kLogRootTwoPi = std::log(std::sqrt(kTwoPi));
+/// Below this a hit is likelier than something near whatever their variances are, for a near one's
+/// is the greater.
+const double kSurelyHitSquare = 2 * (kLogHitShare - kLogNearShare);
+
+/// The sum of many numbers' logarithms: they are multiplied, and one logarithm is taken for some
+/// dozens of them. Logarithms were two thirds of the cost of explaining a turn.
+class SumOfLogarithms {
+ public:
+  void add(double number) {
+    product_ *= number;
+    if (product_ > 1e-200 && product_ < 1e200) return;
+    sum_ += std::log(product_);
+    product_ = 1;
+  }
+  double value() const { return sum_ + std::log(product_); }
+
+ private:
+  double sum_ = 0;
+  double product_ = 1;
+};
+
 }  // namespace
 
 Explanation explain(const WallMap& map, std::span<const PolarPoint> points,
                     std::span<const PredictedHit> hits, const Pose2& T_map_lidar,
                     const SensorNoise& noise, double noise_scale, double slack_m) {
-  static const double kLogRootTwoPi = std::log(std::sqrt(kTwoPi));
-  const double log_short = std::log(kShortShare / kShortSpan_m);
-  const double log_other = std::log(kOtherShare / kOtherSpan_m);
   const double c = std::cos(T_map_lidar.theta_rad);
   const double s = std::sin(T_map_lidar.theta_rad);
   std::size_t hidden_in_a_row = 0;
+  SumOfLogarithms variances;  // of hits and near ones
+  SumOfLogarithms sigmas;     // of hits that things were in the way of
   Explanation result;
   result.rays = points.size();
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -52,18 +77,20 @@ Explanation explain(const WallMap& map, std::span<const PolarPoint> points,
       result.log_likelihood_of_things += log_density;
     };
     const auto add_hidden = [&](double log_density) {
-      // What a ray of this range would have given at a wall.
-      const double usual =
-          std::log(kHitShare / noise.sigma_range_m(point.range_m)) - kLogRootTwoPi - 0.5;
       ++result.shorts;
       result.log_likelihood += log_density;
-      result.log_likelihood_of_things += ++hidden_in_a_row <= kFreshRays
-                                             ? log_density
-                                             : usual + kStaleShare * (log_density - usual);
+      if (++hidden_in_a_row <= kFreshRays) {
+        result.log_likelihood_of_things += log_density;
+        return;
+      }
+      // What a ray of this range would have given at a wall, but for the logarithm of its sigma.
+      const double usual = kLogHitShare - kLogRootTwoPi - 0.5;
+      result.log_likelihood_of_things += usual + kStaleShare * (log_density - usual);
+      sigmas.add(noise.sigma_range_m(point.range_m));
     };
     if (hits[i].face == PredictedHit::kNone) {
       // Beyond all walls: whatever it was, the map does not have it.
-      add_hidden(log_other);
+      add_hidden(kLogOther);
       continue;
     }
     const Vec2& normal = map.faces()[hits[i].face].normal;
@@ -81,19 +108,26 @@ Explanation explain(const WallMap& map, std::span<const PolarPoint> points,
     } else if (error_m * error_m < kNearSigmas * kNearSigmas * near_variance) {
       ++result.near;
     } else if (error_m < 0) {
-      add_hidden(log_short);
+      add_hidden(kLogShort);
       continue;
     } else {
       ++result.through;
-      add(log_other);
+      add(kLogOther);
       continue;
     }
-    const double hit = std::log(kHitShare) - std::log(variance) / 2 - z_square / 2;
-    const double near =
-        std::log(kNearShare) - std::log(near_variance) / 2 - error_m * error_m / near_variance / 2;
-    add(std::max(hit, near) - kLogRootTwoPi);
     hidden_in_a_row = 0;
+    const double near_z_square = error_m * error_m / near_variance;
+    const double ahead = kSurelyHitSquare - z_square + near_z_square;
+    if (ahead > 0 || ahead + std::log(near_variance / variance) > 0) {
+      variances.add(variance);
+      add(kLogHitShare - kLogRootTwoPi - z_square / 2);
+    } else {
+      variances.add(near_variance);
+      add(kLogNearShare - kLogRootTwoPi - near_z_square / 2);
+    }
   }
+  result.log_likelihood -= variances.value() / 2;
+  result.log_likelihood_of_things -= variances.value() / 2 + (1 - kStaleShare) * sigmas.value();
   return result;
 }
 

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "core/recognition/evidence.hpp"
 #include "core/recognition/recognition.hpp"
 
 namespace cornerd::core {
@@ -53,6 +53,7 @@ void Verification::begin(std::span<const PolarPoint> points, double noise_scale)
   points_ = points;
   noise_scale_ = noise_scale;
   places_.clear();
+  best_ = {};
   thin_.clear();
   const std::size_t stride = std::max<std::size_t>(1, points.size() / kThinRays);
   for (std::size_t i = 0; i < points.size(); i += stride) thin_.push_back(points[i]);
@@ -92,37 +93,44 @@ void Verification::shortlist(std::span<const Hypothesis> hypotheses, double reac
 void Verification::refine_roughly(double reach_m) {
   candidates_.resize(std::min(candidates_.size(), kMaxExamined));
   const double unrefined_best = candidates_.empty() ? 0 : candidates_.front().log_likelihood;
-  double best = -std::numeric_limits<double>::infinity();
-  double best_of_things = best;
-  double strangers = 0;
-  std::size_t best_explained = 0;
   std::size_t kept = 0;
   for (const Candidate& candidate : candidates_) {
-    if (candidate.log_likelihood <
-        unrefined_best - kUnrefinedMargin - kRoughMarginPerStranger * strangers) {
-      break;
-    }
+    if (candidate.log_likelihood < unrefined_best - kUnrefinedMargin - margin_of_strangers()) break;
+    if (is_settled(candidate.T_map_lidar)) continue;
     const RefinedPose refined =
         refinement_.approach(map_, candidate.T_map_lidar, reach_m, thin_, noise_scale_);
     if (!refined.valid) continue;
     const auto hits = prediction_.cast_near(map_, refined.T_map_lidar, thin_);
     const Explanation rough =
         explain(map_, thin_, hits, refined.T_map_lidar, noise_, noise_scale_, 0);
-    if (rough.log_likelihood > best) {
-      best = rough.log_likelihood;
-      strangers = static_cast<double>(rough.rays - rough.hits);
-      best_explained = rough.hits + rough.near;
+    if (rough.log_likelihood > best_.log_likelihood) {
+      best_.log_likelihood = rough.log_likelihood;
+      best_.explained = rough.hits + rough.near;
+      best_.strangers = rough.rays - rough.hits;
     }
-    best_of_things = std::max(best_of_things, rough.log_likelihood_of_things);
+    best_.log_likelihood_of_things =
+        std::max(best_.log_likelihood_of_things, rough.log_likelihood_of_things);
     candidates_[kept++] = {refined.T_map_lidar, rough.log_likelihood,
                            rough.log_likelihood_of_things, rough.hits + rough.near};
   }
   candidates_.resize(kept);
-  const double margin = kRoughMargin + kRoughMarginPerStranger * strangers;
+  const double margin = kRoughMargin + margin_of_strangers();
   // One that explains more rays, however roughly, is a rival to the end: the lidar may be biased.
   std::erase_if(candidates_, [&](const Candidate& candidate) {
-    return candidate.explained <= best_explained && candidate.log_likelihood < best - margin &&
-           candidate.log_likelihood_of_things < best_of_things - margin;
+    return candidate.explained <= best_.explained &&
+           candidate.log_likelihood < best_.log_likelihood - margin &&
+           candidate.log_likelihood_of_things < best_.log_likelihood_of_things - margin;
+  });
+}
+
+double Verification::margin_of_strangers() const {
+  return kRoughMarginPerStranger * static_cast<double>(best_.strangers);
+}
+
+bool Verification::is_settled(const Pose2& T_map_lidar) const {
+  return std::any_of(places_.begin(), places_.end(), [&](const Place& place) {
+    return same_place(place.refined.T_map_lidar, T_map_lidar, kDistinct_m, kDistinct_rad) &&
+           leaves_no_doubt(place.explanation, /*expected=*/false);
   });
 }
 

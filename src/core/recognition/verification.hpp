@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -45,8 +47,18 @@ class Verification {
     double log_likelihood_of_things = 0;
     std::size_t explained = 0;  ///< rays, at least roughly
   };
+  /// Of the turn so far: what is far behind is no rival.
+  struct BestByFewRays {
+    double log_likelihood = -std::numeric_limits<double>::infinity();
+    double log_likelihood_of_things = -std::numeric_limits<double>::infinity();
+    std::size_t explained = 0;
+    std::size_t strangers = 0;  ///< rays that it does not hit
+  };
   void shortlist(std::span<const Hypothesis> hypotheses, double reach_m);
   void refine_roughly(double reach_m);
+  double margin_of_strangers() const;
+  /// True where this leads to a place that is known and leaves no doubt.
+  bool is_settled(const Pose2& T_map_lidar) const;
   void examine(const Pose2& T_map_lidar);
   bool is_known(const Pose2& T_map_lidar) const;
   bool passes(const Place& place) const;
@@ -59,6 +71,7 @@ class Verification {
   double noise_scale_ = 1;
   std::vector<PolarPoint> thin_;
   std::vector<Candidate> candidates_;
+  BestByFewRays best_;
   std::vector<Place> places_;
 };
 

@@ -10,11 +10,13 @@ TEST(ScaleExperiment, BuildingOfAHundredRooms_IsKnownAtOnce) {
   const auto cases = scale_cases({1200}, 1);
   ASSERT_EQ(cases.size(), 2U);
   const ScaleResult result = run_scale_case(cases[0], 40, 1);
-  EXPECT_EQ(result.turns, 40U);
-  EXPECT_EQ(result.fixed + result.wrong + result.ambiguous + result.lost, 40U);
-  EXPECT_GE(result.fixed, 38U);
-  EXPECT_EQ(result.wrong, 0U);
-  EXPECT_LT(result.mean_error_m, 0.002);
+  EXPECT_EQ(result.score.turns(), 40U);
+  EXPECT_EQ(
+      result.score.right() + result.score.wrong() + result.score.ambiguous() + result.score.lost(),
+      40U);
+  EXPECT_GE(result.score.right(), 38U);
+  EXPECT_EQ(result.score.wrong(), 0U);
+  EXPECT_LT(result.score.mean_error_m(), 0.002);
   EXPECT_GT(result.pairs, 1000U);
   EXPECT_GT(result.memory_bytes, 100'000U);
   EXPECT_GT(result.time_99_us, 0);
@@ -23,9 +25,9 @@ TEST(ScaleExperiment, BuildingOfAHundredRooms_IsKnownAtOnce) {
 TEST(ScaleExperiment, EqualRooms_AreAmbiguousWithTheTruthAmongThem) {
   const auto cases = scale_cases({}, 1);
   const ScaleResult result = run_scale_case(cases[0], 60, 2);
-  EXPECT_EQ(result.wrong, 0U);
-  EXPECT_GT(result.ambiguous, 30U);
-  EXPECT_EQ(result.ambiguous_with_truth, result.ambiguous);
+  EXPECT_EQ(result.score.wrong(), 0U);
+  EXPECT_GT(result.score.ambiguous(), 30U);
+  EXPECT_EQ(result.score.ambiguous_with_truth(), result.score.ambiguous());
 }
 
 TEST(ScaleExperiment, TwentyThousandCorners_StayWithinSixtyFourMebibytes) {
@@ -33,8 +35,8 @@ TEST(ScaleExperiment, TwentyThousandCorners_StayWithinSixtyFourMebibytes) {
   const ScaleResult result = run_scale_case(cases[0], 10, 1);
   EXPECT_GT(result.corners, 18'000U);
   EXPECT_LT(result.memory_bytes, std::size_t{64} << 20);
-  EXPECT_EQ(result.wrong, 0U);
-  EXPECT_GE(result.fixed, 9U);
+  EXPECT_EQ(result.score.wrong(), 0U);
+  EXPECT_GE(result.score.right(), 9U);
 }
 
 }  // namespace

@@ -41,7 +41,7 @@ double error_after_m(int places, Localizer& localizer, const WallMap& map) {
       options.start_ns += from_seconds(0.137);
       const Scan turn = biased(source.take(map, T_map_lidar, options), kBias);
       const PoseEstimate& pose = localizer.step(turn).pose;
-      const bool named = pose.state == PoseState::kFix || pose.state == PoseState::kTracking;
+      const bool named = names_a_place(pose.state);
       if (!named || place < places - 5) continue;
       error_m += (pose.T_map_base.translation() - T_map_lidar.translation()).norm();
       ++fixes;

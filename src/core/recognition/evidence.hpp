@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+
+#include "core/recognition/explanation.hpp"
+
+namespace cornerd::core {
+
+/// What a turn says for one place, whatever it says of others.
+struct Evidence {
+  Explanation explanation;
+  std::size_t corners = 0;    ///< breakpoints that the map has there too
+  double widest_gap_rad = 0;  ///< between two returns
+};
+
+/// True where no other place needs to be looked for: hardly a ray is left that another one could
+/// explain. `expected`: the robot should be about there by what was known before; then things that
+/// are not on the map may take their part.
+bool leaves_no_doubt(const Explanation& explanation, bool expected);
+
+/// True where the place is believed though nothing was known before.
+bool is_evident(const Evidence& evidence);
+
+/// True where the place is believed at once though the robot was somewhere else just before.
+bool is_certain(const Evidence& evidence);
+
+}  // namespace cornerd::core

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+#include "core/recognition/evidence.hpp"
+
+#include <gtest/gtest.h>
+
+#include "core/geometry/angle.hpp"
+
+namespace cornerd::core {
+namespace {
+
+constexpr double kAllRound_rad = radians(1);
+constexpr double kHalfCovered_rad = radians(180);
+
+Evidence evidence(std::size_t hits, std::size_t corners, double widest_gap_rad = kAllRound_rad,
+                  std::size_t through = 0) {
+  Evidence evidence;
+  evidence.explanation.rays = 800;
+  evidence.explanation.hits = hits;
+  evidence.explanation.through = through;
+  evidence.explanation.shorts = 800 - hits - through;
+  evidence.corners = corners;
+  evidence.widest_gap_rad = widest_gap_rad;
+  return evidence;
+}
+
+TEST(Evidence, NearlyAllRays_LeaveNoDoubt) {
+  EXPECT_TRUE(leaves_no_doubt(evidence(780, 0).explanation, false));
+  EXPECT_FALSE(leaves_no_doubt(evidence(770, 0).explanation, false));
+  EXPECT_TRUE(leaves_no_doubt(evidence(770, 0).explanation, true));
+}
+
+TEST(Evidence, FewRays_LeaveDoubtHoweverWellTheyFit) {
+  Explanation few;
+  few.rays = few.hits = 99;
+  EXPECT_FALSE(leaves_no_doubt(few, true));
+}
+
+TEST(Evidence, NearlyAllRaysOrManyAndThreeCorners_AreEvident) {
+  EXPECT_TRUE(is_evident(evidence(765, 0)));
+  EXPECT_FALSE(is_evident(evidence(755, 0)));
+  EXPECT_TRUE(is_evident(evidence(490, 3)));
+  EXPECT_FALSE(is_evident(evidence(470, 2, kAllRound_rad, 10)));
+}
+
+TEST(Evidence, ThingsInTheWay_NeedACornerAndNothingSeenThroughAWall) {
+  EXPECT_TRUE(is_evident(evidence(450, 1)));
+  EXPECT_FALSE(is_evident(evidence(450, 0)));
+  EXPECT_FALSE(is_evident(evidence(450, 1, kAllRound_rad, 9)));
+}
+
+TEST(Evidence, HalfATurn_IsBelievedByItsCornersAlone) {
+  EXPECT_FALSE(is_evident(evidence(790, 2, kHalfCovered_rad)));
+  EXPECT_TRUE(is_evident(evidence(790, 3, kHalfCovered_rad)));
+  EXPECT_FALSE(is_certain(evidence(790, 3, kHalfCovered_rad)));
+}
+
+TEST(Evidence, AJump_NeedsTwoCornersToBeCertain) {
+  EXPECT_TRUE(is_certain(evidence(780, 2)));
+  EXPECT_FALSE(is_certain(evidence(780, 1)));
+  EXPECT_FALSE(is_certain(evidence(770, 5)));
+}
+
+}  // namespace
+}  // namespace cornerd::core
