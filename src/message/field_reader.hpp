@@ -65,4 +65,19 @@ class FieldReader {
   std::optional<RequestError> error_;
 };
 
+/// A line whose "class" says what it is: `read` is called with that and the fields. A `Line` can be
+/// a RequestError.
+template <typename Line>
+Line parse_by_class(std::string_view line, std::size_t max_bytes, const auto& read) {
+  RequestError error;
+  const auto object = parse_object(line, max_bytes, error);
+  if (!object) return error;
+  FieldReader fields(*object);
+  const std::string_view name = fields.text("class");
+  if (fields.error()) return RequestError{"class", fields.error()->text};
+  Line result = read(name, fields);
+  if (fields.error()) return *fields.error();
+  return result;
+}
+
 }  // namespace cornerd::message

@@ -40,6 +40,12 @@ void JsonText::key(std::string_view name) {
   text_ += ':';
 }
 
+void JsonText::number(std::string_view name, double value, int decimals) {
+  if (!std::isfinite(value)) return;
+  key(name);
+  fixed(value, decimals);
+}
+
 void JsonText::string(std::string_view value) {
   separate();
   text_ += '"';

@@ -55,6 +55,24 @@ class JsonText {
   void seconds(core::TimeNs t_ns);
   void hex(std::span<const std::uint8_t> bytes);
 
+  // A key and its value.
+  void string(std::string_view name, std::string_view value) { key(name), string(value); }
+  void raw(std::string_view name, std::string_view json) { key(name), raw(json); }
+  void boolean(std::string_view name, bool value) { key(name), boolean(value); }
+  template <typename T>
+  void integer(std::string_view name, T value) {
+    key(name), integer(value);
+  }
+  void significant(std::string_view name, double value) { key(name), significant(value); }
+  void seconds(std::string_view name, core::TimeNs t_ns) { key(name), seconds(t_ns); }
+  void open_object(std::string_view name) { key(name), open_object(); }
+  void open_array(std::string_view name) { key(name), open_array(); }
+  /// Left out where it is empty, or no finite number.
+  void text(std::string_view name, std::string_view value) {
+    if (!value.empty()) string(name, value);
+  }
+  void number(std::string_view name, double value, int decimals);
+
  private:
   void open(char bracket) {
     separate();

@@ -99,12 +99,7 @@ class LineWriter {
  private:
   void begin(std::string_view message_class);
   std::string_view finish();
-  void loops(const StatusFields& status);
-  void odometry_summary(const core::OdometrySummary& odometry);
-  void odometry_sensors(const StatusFields& status);
-  void metres(std::string_view key, double value_m);
-  void angle(std::string_view key, double value_rad);
-  void place(const core::Pose2& T_map_base);
+  void id(std::string_view id_json);
 
   JsonText json_;
 };

@@ -54,15 +54,7 @@ RecordedLine read_line(std::string_view name, FieldReader& fields) {
 }  // namespace
 
 RecordedLine parse_recorded_line(std::string_view line) {
-  RequestError error;
-  const auto object = parse_object(line, kMaxRecordedBytes, error);
-  if (!object) return error;
-  FieldReader fields(*object);
-  const std::string_view name = fields.text("class");
-  if (fields.error()) return RequestError{"class", fields.error()->text};
-  RecordedLine recorded = read_line(name, fields);
-  if (fields.error()) return *fields.error();
-  return recorded;
+  return parse_by_class<RecordedLine>(line, kMaxRecordedBytes, read_line);
 }
 
 std::variant<RequestError, RecordedTruth> parse_truth_line(std::string_view line) {

@@ -169,15 +169,7 @@ std::uint64_t ToldStatus::counter(std::string_view name) const {
 }
 
 ToldLine parse_told_line(std::string_view line) {
-  RequestError error;
-  const auto object = parse_object(line, kMaxRecordedBytes, error);
-  if (!object) return error;
-  FieldReader fields(*object);
-  const std::string_view name = fields.text("class");
-  if (fields.error()) return RequestError{"class", fields.error()->text};
-  ToldLine told = read_told(name, fields);
-  if (fields.error()) return *fields.error();
-  return told;
+  return parse_by_class<ToldLine>(line, kMaxRecordedBytes, read_told);
 }
 
 }  // namespace cornerd::message

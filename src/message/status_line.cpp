@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: MIT
+// STATUS of LineWriter.
+#include "message/line.hpp"
+#include "message/place_text.hpp"
+
+namespace cornerd::message {
+namespace {
+
+void write_lidar(JsonText& json, const StatusFields& status) {
+  json.open_object("lidar");
+  json.text("state", status.lidar_state);
+  json.text("fault", status.lidar_fault);
+  json.text("detail", status.lidar_detail);
+  json.text("model", status.lidar_model);
+  json.text("firmware", status.lidar_firmware);
+  json.text("health", status.lidar_health);
+  json.text("mode", status.lidar_mode);
+  json.number("rate_hz", status.rate_hz, 3);
+  json.number("samples_hz", status.samples_hz, 1);
+  json.close_object();
+}
+
+void write_counters(JsonText& json, std::span<const StatusFields::Counter> counters) {
+  json.open_object("counters");
+  for (const StatusFields::Counter& counter : counters) json.integer(counter.name, counter.value);
+  json.close_object();
+}
+
+void write_learned(JsonText& json, const core::LearnedOdometry& values) {
+  json.number("gyro_bias", values.gyro_bias_rad_s, kTimeDecimals);
+  json.number("gyro_scale", values.gyro_scale, kTimeDecimals);
+  json.number("left_scale", values.left_scale, kTimeDecimals);
+  json.number("right_scale", values.right_scale, kTimeDecimals);
+  json.number("track_scale", values.track_scale, kTimeDecimals);
+}
+
+void write_summary(JsonText& json, const core::OdometrySummary& odometry) {
+  json.string("state", !odometry.present ? "absent" : odometry.trusted ? "running" : "distrusted");
+  write_learned(json, odometry.learned);
+  json.open_object("sigma");
+  write_learned(json, odometry.sigma);
+  json.close_object();
+  const core::OdometryCounters& refused = odometry.counters;
+  const StatusFields::Counter counters[] = {
+      {"readings", refused.readings}, {"past", refused.past},           {"future", refused.future},
+      {"jumps", refused.jumps},       {"bad_rates", refused.gyro},      {"frozen", refused.frozen},
+      {"holes", refused.holes},       {"restarts", refused.restarts},   {"slips", odometry.slips},
+      {"fixes", odometry.fixes},      {"strangers", odometry.strangers}};
+  write_counters(json, counters);
+}
+
+void write_sensors(JsonText& json, const StatusFields& status) {
+  if (status.odometry_sensors.empty()) return;
+  json.open_object("sensors");
+  for (const StatusFields::Sensor& sensor : status.odometry_sensors) {
+    json.open_object(sensor.name);
+    json.string("state", sensor.state);
+    json.text("detail", sensor.detail);
+    json.close_object();
+  }
+  write_counters(json, status.odometry_counters);
+  json.close_object();
+}
+
+void write_latency(JsonText& json, const StatusFields& status) {
+  if (!status.latency.valid) return;
+  json.open_object("latency");
+  json.number("p50", status.latency.p50_s, kTimeDecimals);
+  json.number("p95", status.latency.p95_s, kTimeDecimals);
+  json.number("p99", status.latency.p99_s, kTimeDecimals);
+  json.close_object();
+}
+
+void write_loop(JsonText& json, const StatusFields::Loop& loop) {
+  json.open_object(loop.name);
+  json.open_array("late");
+  for (const std::uint32_t count : loop.lateness->counts) json.integer(count);
+  json.close_array();
+  json.number("max", core::to_seconds(loop.lateness->max_ns), kTimeDecimals);
+  if (loop.page_faults) json.integer("page_faults", *loop.page_faults);
+  json.close_object();
+}
+
+void write_loops(JsonText& json, const StatusFields& status) {
+  if (status.loops.empty()) return;
+  json.open_object("realtime");
+  json.integer("priority", status.realtime_priority);
+  json.boolean("memory_locked", status.memory_is_locked);
+  json.open_array("edges");
+  for (const core::TimeNs edge_ns : core::Lateness::kEdgesNs) {
+    json.fixed(core::to_seconds(edge_ns), kTimeDecimals);
+  }
+  json.close_array();
+  for (const StatusFields::Loop& loop : status.loops) write_loop(json, loop);
+  json.close_object();
+}
+
+}  // namespace
+
+std::string_view LineWriter::status(const StatusFields& status) {
+  begin("STATUS");
+  json_.seconds("t", status.t_ns);
+  write_lidar(json_, status);
+  write_counters(json_, status.counters);
+  if (status.odometry != nullptr &&
+      (status.odometry->enabled || !status.odometry_sensors.empty())) {
+    json_.open_object("odometry");
+    write_summary(json_, *status.odometry);
+    write_sensors(json_, status);
+    json_.close_object();
+  }
+  write_latency(json_, status);
+  write_loops(json_, status);
+  return finish();
+}
+
+}  // namespace cornerd::message
