@@ -33,7 +33,7 @@ void print(const soak::SoakReport& report) {
               number(report.counters.skipped_bytes), number(report.read_bytes));
   std::printf("  resident memory %llu kB after a tenth, %llu kB at the end\n",
               number(report.warm_bytes / 1024), number(report.end_bytes / 1024));
-  std::printf("  longest time without progress of both loops: %.2f s\n",
+  std::printf("  longest without progress of both loops, computing or asleep: %.2f s\n",
               report.longest_without_progress_s);
 }
 

@@ -16,6 +16,7 @@
 #include "core/pipeline.hpp"
 #include "daemon/localization.hpp"
 #include "drivers/rplidar/rplidar_driver.hpp"
+#include "progress_watch.hpp"
 #include "replay/simulator/motion.hpp"
 #include "settings/map_file.hpp"
 #include "tests/sanitized.hpp"
@@ -106,7 +107,7 @@ SoakReport run(const SoakConfig& config) {
         driver, std::make_unique<core::Pipeline>(world.map, core::LocalizerConfig{}),
         daemon::SourceKind::kRecording);
     localization.start();
-    auto progressed = began;
+    ProgressWatch watch(Activity::now());
     pollfd readable{localization.event_fd(), POLLIN, 0};
     while (report.turns < config.turns) {
       ::poll(&readable, 1, 100);
@@ -118,12 +119,10 @@ SoakReport run(const SoakConfig& config) {
       if (report.warm_bytes == 0 && report.turns >= config.turns / 10) {
         report.warm_bytes = resident_bytes();
       }
-      const auto now = Clock::now();
-      const double still_s = duration<double>(now - progressed).count();
-      report.longest_without_progress_s = std::max(report.longest_without_progress_s, still_s);
-      if (localization.has_progressed()) progressed = now;
-      if (still_s > 10 * config.patience_s) break;
+      watch.look(Activity::now(), localization.has_progressed());
+      if (watch.still_s() > 2 * config.patience_s) break;
     }
+    report.longest_without_progress_s = watch.longest_s();
     report.end_bytes = resident_bytes();
   }
   report.real_s = duration<double>(Clock::now() - began).count();

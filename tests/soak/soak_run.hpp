@@ -15,7 +15,7 @@ namespace cornerd::soak {
 struct SoakConfig {
   std::uint64_t turns = 2000;
   std::uint64_t seed = 1;
-  /// Less than a watchdog of ten seconds allows.
+  /// Half of what a watchdog of ten seconds allows; see ProgressWatch.
   double patience_s = 5;
 };
 
