@@ -18,6 +18,19 @@ constexpr milliseconds kSlice{100};          // a stop that is asked for while n
 constexpr std::uint16_t kFirmwareWithConf = firmware_version(1, 24);
 constexpr std::uint16_t kFirmwareWithExpress = firmware_version(1, 17);
 constexpr std::uint32_t kMaxModes = 16;
+constexpr int kTriesToAgree = 4;
+
+/// What two answers on end say. No checksum guards them, and a period with one bit wrong makes
+/// every time stamp wrong that follows.
+auto confirmed(const auto& ask) {
+  auto before = ask();
+  for (int attempt = 1; attempt < kTriesToAgree && before; ++attempt) {
+    auto answer = ask();
+    if (answer == before) return answer;
+    before = answer;
+  }
+  return decltype(before)(std::nullopt);
+}
 
 }  // namespace
 
@@ -60,8 +73,11 @@ std::vector<ScanMode> Device::modes(const DeviceInfo& info) {
   }
   modes.push_back({.id = 0, .name = "Standard", .format = WireFormat::kStandard, .period_s = 0});
   if (info.firmware >= kFirmwareWithExpress) {
-    const auto answer = ask(Request(Command::kGetSampleRate), AnswerType::kSampleRate);
-    if (const auto rate = answer ? SampleRate::decode(*answer) : std::nullopt) {
+    const auto ask_rate = [this] {
+      const auto answer = ask(Request(Command::kGetSampleRate), AnswerType::kSampleRate);
+      return answer ? SampleRate::decode(*answer) : std::nullopt;
+    };
+    if (const auto rate = confirmed(ask_rate)) {
       modes.front().period_s = rate->standard_us * 1e-6;
       modes.push_back({.id = 0,
                        .name = "Express",
@@ -79,9 +95,11 @@ std::optional<ScanMode> Device::conf_mode(std::uint16_t id) {
   const auto format = type_byte ? wire_format(static_cast<AnswerType>(*type_byte)) : std::nullopt;
   if (!format) return std::nullopt;
   mode.format = *format;
-  if (const auto period = ask_conf(ConfType::kModePeriod, id)) {
-    mode.period_s = period->number(4).value_or(0) / 256.0 * 1e-6;
-  }
+  const auto ask_period = [this, id] {
+    const auto answer = ask_conf(ConfType::kModePeriod, id);
+    return answer ? answer->number(4) : std::nullopt;
+  };
+  mode.period_s = confirmed(ask_period).value_or(0) / 256.0 * 1e-6;
   if (const auto name = ask_conf(ConfType::kModeName, id)) mode.name = name->text();
   return mode;
 }

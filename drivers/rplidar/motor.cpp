@@ -52,8 +52,8 @@ class SysfsMotor : public Motor {
   bool write(const char* name, std::string_view value) {
     const std::filesystem::path file = folder_ / name;
     const drivers::FileDescriptor fd(::open(file.c_str(), O_WRONLY | O_TRUNC | O_CLOEXEC));
-    const bool written =
-        fd && ::write(fd.get(), value.data(), value.size()) == static_cast<ssize_t>(value.size());
+    const bool written = fd.is_open() && ::write(fd.get(), value.data(), value.size()) ==
+                                             static_cast<ssize_t>(value.size());
     if (!written) error_ = file.string() + ": " + std::strerror(errno);
     return written;
   }

@@ -31,6 +31,10 @@ double usual_period_s(WireFormat format) {
   return 508e-6;
 }
 
+/// Of any RPLidar's: one that is farther off has been misheard, and the clock does not find back
+/// from it.
+constexpr double kMostTimesUsual = 5;
+
 /// A packet of a format, as the clock needs it: its bytes, and how far the newest sample that has
 /// arrived is ahead of the first one that is being delivered.
 struct Packet {
@@ -136,7 +140,10 @@ class SampleStream::Implementation : private RawSampleSink {
   }
 
   double period_s(WireFormat format) const {
-    return config_.sample_period_s > 0 ? config_.sample_period_s : usual_period_s(format);
+    const double usual_s = usual_period_s(format);
+    const bool is_likely = config_.sample_period_s > usual_s / kMostTimesUsual &&
+                           config_.sample_period_s < usual_s * kMostTimesUsual;
+    return is_likely ? config_.sample_period_s : usual_s;
   }
 
   SampleStreamConfig config_;

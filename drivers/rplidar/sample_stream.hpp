@@ -15,7 +15,8 @@ namespace cornerd::rplidar {
 struct SampleStreamConfig {
   std::optional<WireFormat> format;  ///< of a stream without a descriptor; nullopt: find out
   bool inverted = false;             ///< mounted upside down: bearing = +angle instead of -angle
-  double sample_period_s = 0;        ///< what the device says; 0: the format's usual one
+  double sample_period_s =
+      0;  ///< what the device says; the format's usual one where that cannot be
   std::uint32_t baud = 115200;
 };
 

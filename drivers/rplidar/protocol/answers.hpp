@@ -58,6 +58,7 @@ struct SampleRate {
 
   std::array<std::uint8_t, kSize> encode() const;
   static std::optional<SampleRate> decode(std::span<const std::uint8_t> bytes);
+  bool operator==(const SampleRate&) const = default;
 };
 
 /// GET_LIDAR_CONF, firmware 1.24 and later.

@@ -64,6 +64,16 @@ TEST(SampleStream, BytesWithoutAClock_AreTimedByTheirNumber) {
   EXPECT_EQ(stability.all[600].t_ns, 600 * 201'000);
 }
 
+TEST(SampleStream, PeriodThatCannotBe_IsTheUsualOne) {
+  // 254 us with one bit wrong, as Q8 in 32 bits; and next to nothing.
+  for (const double period_s : {254e-6 + 0.262144, 1e-9, -1.0}) {
+    const auto express =
+        stream_untimed(join(express_capsules(20, 5)),
+                       {.format = {}, .inverted = false, .sample_period_s = period_s});
+    EXPECT_EQ(express.all[600].t_ns, 600 * 254'000) << period_s;
+  }
+}
+
 TEST(SampleStream, LostNode_LeavesItsTime) {
   Bytes bytes = nodes(400, 30);
   bytes.erase(bytes.begin() + 1002);

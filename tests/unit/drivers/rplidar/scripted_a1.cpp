@@ -115,7 +115,10 @@ void ScriptedA1::receive(const Request& request) {
       break;
     }
     case Command::kGetSampleRate:
-      if (info.firmware >= firmware_version(1, 17)) answer(0x15, {0xF4, 0x01, 0xFA, 0x00});
+      if (info.firmware >= firmware_version(1, 17)) {
+        answer(0x15,
+               {0xF4, 0x01, static_cast<std::uint8_t>(wrong_periods-- > 0 ? 0x7A : 0xFA), 0x00});
+      }
       break;
     case Command::kGetConf:
       answer_conf(request);
@@ -163,6 +166,7 @@ void ScriptedA1::answer_conf(const Request& request) {
       break;
     case ConfType::kModePeriod:
       add({0, kPeriodsUs[mode] & 0xFF, kPeriodsUs[mode] >> 8, 0});
+      if (mode == 1 && wrong_periods-- > 0) payload[5] ^= 0x20;
       break;
     case ConfType::kModeName:
       payload.insert(payload.end(), mode_names[mode].begin(), mode_names[mode].end());

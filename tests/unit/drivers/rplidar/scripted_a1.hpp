@@ -52,6 +52,7 @@ struct ScriptedA1 {
   bool measures = true;
   bool blind = false;      ///< nothing returns
   std::uint32_t baud = 0;  ///< at any other it hears and says nothing; 0: at each it does
+  int wrong_periods = 0;   ///< so many answers to how long an express sample takes have a bit wrong
   int lost_answers = 0;    ///< so many answers are lost on the way
   int resets_to_measure = 0;
   Bytes chatter;  ///< what the port has to say before it is asked
