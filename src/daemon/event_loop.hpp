@@ -31,8 +31,14 @@ class EventLoop {
   void stop() { running_ = false; }
 
  private:
+  struct Registration {
+    std::uint32_t number = 0;
+    std::shared_ptr<const Handler> handler;
+  };
+
   FileDescriptor epoll_;
-  std::unordered_map<int, std::shared_ptr<const Handler>> handlers_;
+  std::unordered_map<int, Registration> registrations_;
+  std::uint32_t newest_ = 0;
   bool running_ = false;
 };
 

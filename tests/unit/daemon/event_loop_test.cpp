@@ -56,6 +56,25 @@ TEST(EventLoop, HandlerRemovedInTheSameRound_IsNotCalled) {
   EXPECT_EQ(calls, 1);
 }
 
+TEST(EventLoop, DescriptorOfTheSameNumberInTheSameRound_GetsNoEventOfTheOneBefore) {
+  EventLoop loop;
+  const FileDescriptor first = readable_fd();
+  const FileDescriptor second = readable_fd();
+  int calls = 0;
+  // Whichever comes first has the other one's number given to a descriptor that is not readable.
+  const auto replace = [&](int other) {
+    ++calls;
+    loop.remove(other);
+    const FileDescriptor silent(::eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC));
+    ASSERT_EQ(::dup2(silent.get(), other), other);
+    loop.add(other, EPOLLIN, [&](std::uint32_t) { calls += 100; });
+  };
+  loop.add(first.get(), EPOLLIN, [&](std::uint32_t) { replace(second.get()); });
+  loop.add(second.get(), EPOLLIN, [&](std::uint32_t) { replace(first.get()); });
+  loop.run_once(0);
+  EXPECT_EQ(calls, 1);
+}
+
 TEST(EventLoop, Stop_EndsRun) {
   EventLoop loop;
   const FileDescriptor fd = readable_fd();
