@@ -14,18 +14,18 @@ namespace cornerd::drivers {
 int Attribute::open(const std::filesystem::path& file) {
   file_ = file.string();
   fd_ = FileDescriptor(::open(file_.c_str(), O_RDONLY | O_CLOEXEC));
-  return fd_ ? 0 : errno;
+  return fd_.is_open() ? 0 : errno;
 }
 
 bool Attribute::is_current() const {
   struct stat named {};
   struct stat opened {};
-  return fd_ && ::stat(file_.c_str(), &named) == 0 && ::fstat(fd_.get(), &opened) == 0 &&
+  return fd_.is_open() && ::stat(file_.c_str(), &named) == 0 && ::fstat(fd_.get(), &opened) == 0 &&
          named.st_ino == opened.st_ino && named.st_dev == opened.st_dev;
 }
 
 Attribute::Reading Attribute::read() {
-  if (!fd_) return {.error = ENODEV, .text = {}};
+  if (!fd_.is_open()) return {.error = ENODEV, .text = {}};
   const ssize_t bytes = ::pread(fd_.get(), text_.data(), text_.size(), 0);
   if (bytes < 0) return {.error = errno, .text = {}};
   return {.error = 0, .text = {text_.data(), static_cast<std::size_t>(bytes)}};

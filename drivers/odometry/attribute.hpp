@@ -17,7 +17,7 @@ class Attribute {
   /// 0, or the errno of a refusal; it is closed then.
   int open(const std::filesystem::path& file);
   void close() { fd_ = {}; }
-  bool is_open() const { return static_cast<bool>(fd_); }
+  bool is_open() const { return fd_.is_open(); }
   /// False where the name leads to another file by now, or to none: the device went and came back.
   bool is_current() const;
 

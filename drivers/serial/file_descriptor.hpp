@@ -23,7 +23,7 @@ class FileDescriptor {
   }
 
   int get() const { return fd_; }
-  explicit operator bool() const { return fd_ >= 0; }
+  bool is_open() const { return fd_ >= 0; }
 
  private:
   void reset() {

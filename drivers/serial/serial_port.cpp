@@ -54,7 +54,8 @@ class SerialPort : public ByteStream {
         continue;
       } else if (count < 0 && errno == EAGAIN) {
         pollfd entry{.fd = fd_.get(), .events = POLLOUT, .revents = 0};
-        if (::poll(&entry, 1, kWriteTimeoutMs) <= 0) return false;
+        const int ready = ::poll(&entry, 1, kWriteTimeoutMs);
+        if (ready == 0 || (ready < 0 && errno != EINTR)) return false;
       } else {
         return false;
       }
@@ -115,7 +116,7 @@ OpenResult open_serial_port(const std::string& path, std::uint32_t baud) {
     return failure(OpenError::kFailed, path, std::to_string(baud) + " baud is not supported");
   }
   FileDescriptor fd(::open(path.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC));
-  if (!fd) return explain_open_failure(path, errno);
+  if (!fd.is_open()) return explain_open_failure(path, errno);
   if (::isatty(fd.get()) == 0) return failure(OpenError::kFailed, path, "not a serial port");
   if (::flock(fd.get(), LOCK_EX | LOCK_NB) != 0) {
     if (errno != EWOULDBLOCK) return failure(OpenError::kFailed, path, std::strerror(errno));

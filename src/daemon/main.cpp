@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <csignal>
 #include <cstdio>
 #include <exception>
 #include <memory>
@@ -11,6 +12,7 @@
 #include "daemon/options.hpp"
 #include "daemon/realtime.hpp"
 #include "daemon/reloader.hpp"
+#include "drivers/serial/standard_streams.hpp"
 #include "settings/config.hpp"
 #include "settings/map_file.hpp"
 
@@ -55,6 +57,9 @@ int run(const daemon::Options& options) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  drivers::occupy_standard_streams();
+  // Whoever read the log is gone: no reason to follow.
+  std::signal(SIGPIPE, SIG_IGN);
   try {
     const std::span<const char* const> arguments(argv, static_cast<std::size_t>(argc));
     return run(daemon::parse_options(arguments.subspan(argc > 0 ? 1 : 0)));

@@ -56,9 +56,13 @@ DaemonProcess::DaemonProcess(const std::vector<std::string>& arguments,
   argv.push_back(nullptr);
   pid_ = ::fork();
   if (pid_ != 0) return;
-  const int fd = ::open(errors_.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
-  ::dup2(fd, STDOUT_FILENO);
-  ::dup2(fd, STDERR_FILENO);
+  if (errors_.empty()) {
+    for (const int fd : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) ::close(fd);
+  } else {
+    const int fd = ::open(errors_.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
+    ::dup2(fd, STDOUT_FILENO);
+    ::dup2(fd, STDERR_FILENO);
+  }
   for (const auto& [name, value] : environment) ::setenv(name.c_str(), value.c_str(), 1);
   if (!sockets.empty()) pass_on(sockets);
   ::execv(argv[0], argv.data());

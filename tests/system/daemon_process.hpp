@@ -23,6 +23,7 @@ using nlohmann::json;
 /// The built cornerd, running. Killed at the end where it still does.
 class DaemonProcess {
  public:
+  /// `errors`: where standard error and standard output go; empty: with all three streams closed.
   /// `sockets`: that listen, passed on as a service manager does.
   DaemonProcess(const std::vector<std::string>& arguments, const std::filesystem::path& errors,
                 const std::map<std::string, std::string>& environment = {},

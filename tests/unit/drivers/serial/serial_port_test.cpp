@@ -125,7 +125,7 @@ TEST(SerialPort, AfterClosing_IsFreeAgain) {
   open_serial_port(master.path, 115200);
   EXPECT_NE(open_serial_port(master.path, 115200).stream, nullptr);
   // Programs that know no flock get in as well.
-  EXPECT_TRUE(FileDescriptor(::open(master.path.c_str(), O_RDWR | O_NOCTTY | O_CLOEXEC)));
+  EXPECT_TRUE(FileDescriptor(::open(master.path.c_str(), O_RDWR | O_NOCTTY | O_CLOEXEC)).is_open());
 }
 
 TEST(SerialPort, MissingPort_IsNamed) {
