@@ -178,8 +178,12 @@ void Daemon::on_tick() {
   }
   publish_changes();
   const bool sensors_changed = odometry_ && odometry_->notice_changes(server_, now_ns());
-  if (ticks_++ % kTicksPerStatus == 0 || sensors_changed) {
+  const bool is_time = ticks_++ % kTicksPerStatus == 0;
+  if (is_time || sensors_changed) {
     status_.publish(lidar_->status(), turns_, localization_, health_, now_ns());
+  }
+  if (is_time) {
+    server_.restore_sockets([](const std::string& line) { spdlog::warn("{}", line); });
   }
 }
 

@@ -4,6 +4,7 @@
 #include <sys/epoll.h>
 #include <unistd.h>
 
+#include <exception>
 #include <iterator>
 #include <utility>
 #include <variant>
@@ -19,6 +20,8 @@ using message::MessageClass;
 /// file. Changing it takes membership in the daemon's group.
 constexpr mode_t kPoseMode = 0666;
 constexpr mode_t kControlMode = 0660;
+
+mode_t mode_of(SocketRole role) { return role == SocketRole::kPose ? kPoseMode : kControlMode; }
 
 /// What a client gets that has not said what it wants.
 message::ClassSet default_classes(SocketRole role) {
@@ -44,13 +47,13 @@ MessageServer::MessageServer(EventLoop& loop, std::string version, ControlAction
 
 MessageServer::~MessageServer() {
   for (Socket& socket : sockets_) {
-    loop_.remove(socket.listener.fd());
+    loop_.remove(socket.listener->fd());
     while (!socket.clients.empty()) remove(socket, socket.clients.begin());
   }
 }
 
 void MessageServer::listen(const std::filesystem::path& path, SocketRole role) {
-  sockets_.emplace_back(path, role == SocketRole::kPose ? kPoseMode : kControlMode, role);
+  sockets_.emplace_back(path, mode_of(role), role);
   serve(sockets_.back());
 }
 
@@ -60,24 +63,57 @@ void MessageServer::listen(InheritedSocket socket, SocketRole role) {
 }
 
 void MessageServer::serve(Socket& socket) {
-  loop_.add(socket.listener.fd(), EPOLLIN,
+  loop_.add(socket.listener->fd(), EPOLLIN,
             [this, &socket](std::uint32_t /*events*/) { accept_clients(socket); });
 }
 
+void MessageServer::restore_sockets(const std::function<void(const std::string& line)>& tell) {
+  for (Socket& socket : sockets_) {
+    if (socket.listener->is_there()) {
+      socket.is_given_up = false;
+      continue;
+    }
+    const std::filesystem::path path = socket.listener->path();
+    try {
+      auto listener = std::make_unique<UnixListener>(path, mode_of(socket.role));
+      loop_.remove(socket.listener->fd());
+      socket.listener = std::move(listener);
+      serve(socket);
+      tell(path.string() + ": was removed, and is there again");
+    } catch (const std::exception& error) {
+      if (!std::exchange(socket.is_given_up, true)) tell(error.what());
+    }
+  }
+}
+
 void MessageServer::accept_clients(Socket& socket) {
-  FileDescriptor fd = socket.listener.accept();
+  FileDescriptor fd = socket.listener->accept();
   if (!fd.is_open()) return;
   if (socket.role == SocketRole::kControl) {
     // The file's mode says the same, unless somebody has changed it.
     const std::optional<Peer> peer = peer_of(fd.get());
-    if (!peer || !belongs_to(*peer, socket.listener.group(), ::geteuid())) {
+    if (!peer || !belongs_to(*peer, socket.listener->group(), ::geteuid())) {
       return turn_away(std::move(fd), "forbidden", "this is for members of the socket's group");
     }
   }
-  if (socket.clients.size() >= kMaxClientsPerSocket) {
+  if (clients() >= kMaxClients && !make_room(socket)) {
     return turn_away(std::move(fd), "too-many-clients", "no more clients are served");
   }
   welcome(socket, std::move(fd));
+}
+
+bool MessageServer::make_room(const Socket& socket) {
+  if (socket.role != SocketRole::kControl || socket.clients.size() >= kSureOfControl) return false;
+  for (Socket& other : sockets_) {
+    if (other.role != SocketRole::kPose || other.clients.empty()) continue;
+    const ClientIterator newest = std::prev(other.clients.end());
+    newest->outbox().answer(
+        line_.error("too-many-clients", "the control socket needs the place", "", ""));
+    static_cast<void>(newest->send());
+    remove(other, newest);
+    return true;
+  }
+  return false;
 }
 
 void MessageServer::turn_away(FileDescriptor fd, std::string_view code, std::string_view reason) {

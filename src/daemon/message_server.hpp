@@ -35,7 +35,11 @@ struct ControlActions {
 /// of the loop, which must outlive it.
 class MessageServer {
  public:
-  static constexpr std::size_t kMaxClientsPerSocket = 32;
+  /// On both sockets together.
+  static constexpr std::size_t kMaxClients = 32;
+  /// So many find room on the control socket though others have taken it all: anybody may listen
+  /// for poses, and is not to keep the robot's own programs out.
+  static constexpr std::size_t kSureOfControl = 4;
 
   MessageServer(EventLoop& loop, std::string version, ControlActions actions);
   ~MessageServer();
@@ -46,6 +50,9 @@ class MessageServer {
   void listen(const std::filesystem::path& path, SocketRole role);
   /// On a socket that is there already.
   void listen(InheritedSocket socket, SocketRole role);
+
+  /// Makes those again whose file somebody has removed, and says so; what it cannot make, once.
+  void restore_sockets(const std::function<void(const std::string& line)>& tell);
 
   /// To all that watch the class. The newest of each class is kept for POLL and newcomers.
   void publish(message::MessageClass message_class, std::string_view line);
@@ -58,17 +65,20 @@ class MessageServer {
  private:
   struct Socket {
     Socket(const std::filesystem::path& path, mode_t mode, SocketRole its_role)
-        : listener(path, mode), role(its_role) {}
+        : listener(std::make_unique<UnixListener>(path, mode)), role(its_role) {}
     Socket(const std::filesystem::path& path, FileDescriptor inherited, SocketRole its_role)
-        : listener(path, std::move(inherited)), role(its_role) {}
-    UnixListener listener;
+        : listener(std::make_unique<UnixListener>(path, std::move(inherited))), role(its_role) {}
+    std::unique_ptr<UnixListener> listener;
     SocketRole role;
+    bool is_given_up = false;  ///< its file is gone, and cannot be made again
     std::list<Client> clients;
   };
   using ClientIterator = std::list<Client>::iterator;
 
   void serve(Socket& socket);
   void accept_clients(Socket& socket);
+  /// Sends the newest client of the pose socket away where one that comes may have its place.
+  bool make_room(const Socket& socket);
   void welcome(Socket& socket, FileDescriptor fd);
   /// Tells a client why, and no more.
   void turn_away(FileDescriptor fd, std::string_view code, std::string_view reason);

@@ -1,14 +1,18 @@
 // SPDX-License-Identifier: MIT
 #include "daemon/unix_listener.hpp"
 
+#include <fcntl.h>
+#include <sys/file.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
 #include <sys/un.h>
 
 #include <cerrno>
+#include <chrono>
 #include <cstring>
 #include <stdexcept>
 #include <string>
+#include <thread>
 #include <utility>
 
 namespace cornerd::daemon {
@@ -37,6 +41,21 @@ FileDescriptor make_socket() {
   return require_fd(::socket(AF_UNIX, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0), "socket");
 }
 
+/// Of those that start at the same time one after the other looks and makes its socket: one that
+/// has its name and does not listen yet would pass for stale. Whoever holds on to the folder for
+/// longer is no cornerd.
+FileDescriptor lock_folder(const std::filesystem::path& path) {
+  const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
+  FileDescriptor fd(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  for (int tries = 0; tries < 50 && fd.is_open() && ::flock(fd.get(), LOCK_EX | LOCK_NB) != 0;
+       ++tries) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
+  return fd;
+}
+
+FileDescriptor make_spare() { return FileDescriptor(::open("/dev/null", O_RDONLY | O_CLOEXEC)); }
+
 /// Only a connection refused tells that nobody listens: a full backlog is EAGAIN, and alive.
 void remove_stale(const std::filesystem::path& path, const sockaddr_un& address) {
   struct stat file {};
@@ -51,10 +70,12 @@ void remove_stale(const std::filesystem::path& path, const sockaddr_un& address)
 
 }  // namespace
 
-UnixListener::UnixListener(const std::filesystem::path& path, mode_t mode) : path_(path) {
+UnixListener::UnixListener(const std::filesystem::path& path, mode_t mode)
+    : path_(path), spare_(make_spare()) {
   const sockaddr_un address = address_of(path);
   std::error_code ignored;
   if (path.has_parent_path()) std::filesystem::create_directory(path.parent_path(), ignored);
+  const FileDescriptor lock = lock_folder(path);
   remove_stale(path, address);
   fd_ = make_socket();
   if (::bind(fd_.get(), generic(address), sizeof(address)) != 0) {
@@ -76,7 +97,7 @@ UnixListener::UnixListener(const std::filesystem::path& path, mode_t mode) : pat
 }
 
 UnixListener::UnixListener(const std::filesystem::path& path, FileDescriptor inherited)
-    : path_(path), fd_(std::move(inherited)) {
+    : path_(path), fd_(std::move(inherited)), spare_(make_spare()) {
   struct stat file {};
   if (::stat(path.c_str(), &file) == 0) group_ = file.st_gid;
 }
@@ -89,8 +110,22 @@ UnixListener::~UnixListener() {
   }
 }
 
-FileDescriptor UnixListener::accept() const {
-  return FileDescriptor(::accept4(fd_.get(), nullptr, nullptr, SOCK_NONBLOCK | SOCK_CLOEXEC));
+FileDescriptor UnixListener::accept() {
+  const auto take = [this] {
+    return FileDescriptor(::accept4(fd_.get(), nullptr, nullptr, SOCK_NONBLOCK | SOCK_CLOEXEC));
+  };
+  FileDescriptor client = take();
+  if (!client.is_open() && (errno == EMFILE || errno == ENFILE)) {
+    spare_ = FileDescriptor();
+    take();
+    spare_ = make_spare();
+  }
+  return client;
+}
+
+bool UnixListener::is_there() const {
+  struct stat file {};
+  return ::lstat(path_.c_str(), &file) == 0 || (errno != ENOENT && errno != ENOTDIR);
 }
 
 }  // namespace cornerd::daemon

@@ -23,14 +23,19 @@ class UnixListener {
   UnixListener& operator=(const UnixListener&) = delete;
 
   int fd() const { return fd_.get(); }
-  /// The next waiting client, non-blocking; not open where there is none.
-  FileDescriptor accept() const;
+  const std::filesystem::path& path() const { return path_; }
+  /// False once somebody has removed the file: no client finds the socket any more.
+  bool is_there() const;
+  /// The next waiting client, non-blocking; not open where there is none. One that there is no
+  /// descriptor left for is sent away: it would keep the loop busy.
+  FileDescriptor accept();
   /// The group of the file.
   gid_t group() const { return group_; }
 
  private:
   std::filesystem::path path_;
   FileDescriptor fd_;
+  FileDescriptor spare_;  ///< to be given up for such a client
   gid_t group_ = 0;
   dev_t device_ = 0;
   ino_t inode_ = 0;

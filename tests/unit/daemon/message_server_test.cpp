@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
+#include <fstream>
 #include <string>
 #include <vector>
 
@@ -269,17 +271,74 @@ TEST_F(MessageServerTest, ClientThatAsksWithoutReading_IsNoLongerListenedTo) {
   EXPECT_GT(last, 900);
 }
 
+TEST_F(MessageServerTest, SocketThatSomebodyRemoved_IsMadeAgain) {
+  TestClient before = greeted(pose_path_);
+  std::vector<std::string> told;
+  const auto restore = [&] {
+    server_.restore_sockets([&](const std::string& line) { told.push_back(line); });
+  };
+  restore();
+  EXPECT_TRUE(told.empty());
+  std::filesystem::remove(pose_path_);
+  restore();
+  ASSERT_EQ(told.size(), 1u);
+  EXPECT_THAT(told.front(), ::testing::StartsWith(pose_path_.string()));
+  TestClient after = greeted(pose_path_);
+  server_.publish(MessageClass::kPose, pose(1));
+  EXPECT_EQ(next(before)["class"], "POSE");
+  EXPECT_EQ(next(after)["class"], "POSE");
+}
+
+TEST_F(MessageServerTest, SocketThatCannotBeMadeAgain_IsToldOfOnce) {
+  std::vector<std::string> told;
+  const auto restore = [&] {
+    server_.restore_sockets([&](const std::string& line) { told.push_back(line); });
+  };
+  // A file in the place of their folder.
+  const std::filesystem::path aside = folder_.path().string() + ".aside";
+  std::filesystem::rename(folder_.path(), aside);
+  std::ofstream(folder_.path()) << "in the way";
+  restore();
+  restore();
+  EXPECT_EQ(told.size(), 2u) << "of each socket once";
+  std::filesystem::remove(folder_.path());
+  std::filesystem::rename(aside, folder_.path());
+  restore();
+  EXPECT_EQ(told.size(), 2u) << "they are there";
+  greeted(pose_path_);
+}
+
 TEST_F(MessageServerTest, MoreClientsThanAreServed_AreToldSo) {
+  TestClient controller = greeted(control_path_);
   std::vector<TestClient> clients;
-  for (std::size_t i = 0; i < MessageServer::kMaxClientsPerSocket; ++i) {
+  for (std::size_t i = 1; i < MessageServer::kMaxClients; ++i) {
     clients.push_back(greeted(pose_path_));
   }
   TestClient refused = connect(pose_path_);
   EXPECT_EQ(next(refused)["code"], "too-many-clients");
   EXPECT_EQ(refused.read_line(0), std::nullopt);
   EXPECT_TRUE(refused.has_ended());
-  TestClient controller = greeted(control_path_);
-  EXPECT_EQ(server_.clients(), MessageServer::kMaxClientsPerSocket + 1);
+  EXPECT_EQ(server_.clients(), MessageServer::kMaxClients);
+}
+
+TEST_F(MessageServerTest, ControlClient_FindsRoomWhereTheListenersHaveTakenIt) {
+  std::vector<TestClient> clients;
+  for (std::size_t i = 0; i < MessageServer::kMaxClients; ++i) {
+    clients.push_back(greeted(pose_path_));
+  }
+  std::vector<TestClient> controllers;
+  for (std::size_t i = 0; i < MessageServer::kSureOfControl; ++i) {
+    controllers.push_back(greeted(control_path_));
+    EXPECT_EQ(next(clients.back())["code"], "too-many-clients") << "the newest goes";
+    EXPECT_EQ(clients.back().read_line(0), std::nullopt);
+    EXPECT_TRUE(clients.back().has_ended());
+    clients.pop_back();
+  }
+  EXPECT_EQ(server_.clients(), MessageServer::kMaxClients);
+  TestClient refused = connect(control_path_);
+  EXPECT_EQ(next(refused)["code"], "too-many-clients");
+  server_.publish(MessageClass::kPose, pose(1));
+  for (TestClient& client : clients) EXPECT_EQ(next(client)["class"], "POSE");
 }
 
 }  // namespace

@@ -3,11 +3,16 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 
+#include <atomic>
 #include <fstream>
 #include <optional>
+#include <stdexcept>
 #include <string>
+#include <thread>
+#include <vector>
 
 #include "test_client.hpp"
 #include "tests/temporary_folder.hpp"
@@ -38,11 +43,59 @@ void leave_stale_socket(const std::filesystem::path& path) {
 
 TEST(UnixListener, Client_IsAccepted) {
   const test::TemporaryFolder folder;
-  const UnixListener listener(folder / "s", 0600);
+  UnixListener listener(folder / "s", 0600);
   EXPECT_FALSE(listener.accept().is_open());
   const TestClient client(folder / "s");
   EXPECT_TRUE(client.is_connected());
   EXPECT_TRUE(listener.accept().is_open());
+}
+
+TEST(UnixListener, ClientThatNoDescriptorIsLeftFor_IsSentAway) {
+  const test::TemporaryFolder folder;
+  UnixListener listener(folder / "s", 0600);
+  TestClient client(folder / "s");
+  rlimit limit{};
+  ASSERT_EQ(::getrlimit(RLIMIT_NOFILE, &limit), 0);
+  const FileDescriptor lowest(::dup(listener.fd()));
+  const rlimit full{static_cast<rlim_t>(lowest.get()), limit.rlim_max};
+  ASSERT_EQ(::setrlimit(RLIMIT_NOFILE, &full), 0);
+  EXPECT_FALSE(listener.accept().is_open());
+  EXPECT_EQ(client.read_line(0), std::nullopt);
+  EXPECT_TRUE(client.has_ended());
+  EXPECT_EQ(::setrlimit(RLIMIT_NOFILE, &limit), 0);
+  const TestClient next(folder / "s");
+  EXPECT_TRUE(listener.accept().is_open());
+}
+
+TEST(UnixListener, RemovedFile_IsNoticed) {
+  const test::TemporaryFolder folder;
+  const UnixListener listener(folder / "s", 0600);
+  EXPECT_TRUE(listener.is_there());
+  std::filesystem::remove(folder / "s");
+  EXPECT_FALSE(listener.is_there());
+}
+
+TEST(UnixListener, ThoseThatStartTogether_AreOne) {
+  const test::TemporaryFolder folder;
+  for (int round = 0; round < 20; ++round) {
+    leave_stale_socket(folder / "s");
+    std::atomic<int> refused{0};
+    std::vector<std::optional<UnixListener>> listeners(4);
+    {
+      std::vector<std::jthread> starters;
+      for (auto& listener : listeners) {
+        starters.emplace_back([&] {
+          try {
+            listener.emplace(folder / "s", 0600);
+          } catch (const std::runtime_error&) {
+            ++refused;
+          }
+        });
+      }
+    }
+    EXPECT_EQ(refused, 3);
+    EXPECT_TRUE(TestClient(folder / "s").is_connected());
+  }
 }
 
 TEST(UnixListener, Mode_IsTheOneAskedForWhateverTheUmask) {
