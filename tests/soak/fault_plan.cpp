@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "fault_plan.hpp"
 
+#include <cstdio>
+
 namespace cornerd::soak {
 namespace {
 
@@ -25,6 +27,10 @@ void FaultPlan::begin(core::TimeNs now_ns) {
   replay::StreamFaults& faults = device_.faults();
   const std::size_t kind = random_.bits() % kNames.size();
   ++counts_[kind];
+  {
+    const std::lock_guard lock(mutex_);
+    faults_[begun_++ % faults_.size()] = {kind, now_ns, 0};
+  }
   switch (kind) {
     case 0:
       faults.damaged_share = random_.chance(0.5) ? 0.001 : 0.05;
@@ -64,12 +70,33 @@ void FaultPlan::begin(core::TimeNs now_ns) {
 
 void FaultPlan::end(core::TimeNs now_ns) {
   is_on_ = false;
+  {
+    const std::lock_guard lock(mutex_);
+    faults_[(begun_ - 1) % faults_.size()].end_ns = now_ns;
+  }
   next_ns_ = now_ns + core::from_seconds(random_.uniform(0, 2 * kMeanPause_s));
   device_.faults().damaged_share = 0;
   device_.faults().to_lose = 0;
   device_.plug(true);
   device_.emulator().set_stalled(false, now_ns);
   scene_.cover(false);
+}
+
+std::string FaultPlan::at(core::TimeNs t_ns) const {
+  const std::lock_guard lock(mutex_);
+  for (std::uint64_t i = begun_; i > 0 && begun_ - i < faults_.size(); --i) {
+    const Fault& fault = faults_[(i - 1) % faults_.size()];
+    if (fault.begin_ns > t_ns) continue;
+    char text[96];
+    std::snprintf(text, sizeof(text), "%.2f s after \"%s\" began",
+                  core::to_seconds(t_ns - fault.begin_ns), kNames[fault.kind].data());
+    std::string said = text;
+    if (fault.end_ns == 0 || fault.end_ns > t_ns) return said;
+    std::snprintf(text, sizeof(text), ", %.2f s after its end",
+                  core::to_seconds(t_ns - fault.end_ns));
+    return said + text;
+  }
+  return "before the first fault";
 }
 
 }  // namespace cornerd::soak

@@ -3,6 +3,8 @@
 
 #include <array>
 #include <cstdint>
+#include <mutex>
+#include <string>
 #include <string_view>
 
 #include "replay/emulator/emulated_device.hpp"
@@ -27,7 +29,16 @@ class FaultPlan {
   /// How often each has happened so far.
   const std::array<std::uint64_t, kNames.size()>& counts() const { return counts_; }
 
+  /// The newest fault that had begun by then, and when; of any thread.
+  std::string at(core::TimeNs t_ns) const;
+
  private:
+  struct Fault {
+    std::size_t kind = kNames.size();
+    core::TimeNs begin_ns = 0;
+    core::TimeNs end_ns = 0;  ///< 0: it lasts
+  };
+
   void begin(core::TimeNs now_ns);
   void end(core::TimeNs now_ns);
 
@@ -36,6 +47,10 @@ class FaultPlan {
   replay::Random random_;
   core::TimeNs next_ns_ = 0;
   bool is_on_ = false;
+  mutable std::mutex mutex_;
+  /// The newest ones, in a ring: who asks is a second behind.
+  std::array<Fault, 64> faults_{};
+  std::uint64_t begun_ = 0;
   std::array<std::uint64_t, kNames.size()> counts_{};
 };
 

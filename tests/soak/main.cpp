@@ -3,6 +3,7 @@
 // time. Says what happened; 1 where something does not hold that must.
 #include <cstdio>
 #include <cstdlib>
+#include <string>
 #include <string_view>
 
 #include "core/geometry/angle.hpp"
@@ -52,6 +53,10 @@ int main(int argc, char** argv) {
       return 2;
     }
   }
+  config.on_wrong = [](const std::string& text) {
+    std::printf("wrong: %s\n", text.c_str());
+    std::fflush(stdout);
+  };
   const soak::SoakReport report = soak::run(config);
   print(report);
   const auto failures = report.failures(config);

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <memory>
@@ -16,6 +17,7 @@
 #include "core/pipeline.hpp"
 #include "daemon/localization.hpp"
 #include "drivers/rplidar/rplidar_driver.hpp"
+#include "message/state_names.hpp"
 #include "progress_watch.hpp"
 #include "replay/simulator/motion.hpp"
 #include "settings/map_file.hpp"
@@ -82,14 +84,29 @@ class World {
   }
 };
 
-void judge(const core::PoseEstimate& pose, const core::Pose2& truth, SoakReport& report) {
-  if (!core::names_a_place(pose.state)) return;
+std::string describe(const core::PoseEstimate& pose, const core::Pose2& truth, std::uint64_t turn,
+                     const FaultPlan& plan) {
+  const auto degrees = [](double angle_rad) { return core::degrees(angle_rad); };
+  char text[256];
+  std::snprintf(text, sizeof(text),
+                "turn %llu, %.3f s: %s at %.3f %.3f %.1f, truth %.3f %.3f %.1f; %d corners, "
+                "%d inliers, rmse %.4f m; ",
+                static_cast<unsigned long long>(turn), core::to_seconds(pose.t_ns),
+                message::to_string(pose.state).data(), pose.T_map_base.x_m, pose.T_map_base.y_m,
+                degrees(pose.T_map_base.theta_rad), truth.x_m, truth.y_m, degrees(truth.theta_rad),
+                static_cast<int>(pose.corners), static_cast<int>(pose.inliers), pose.rmse_m);
+  return text + plan.at(pose.t_ns);
+}
+
+/// True of a fix that is elsewhere.
+bool is_wrong(const core::PoseEstimate& pose, const core::Pose2& truth, SoakReport& report) {
+  if (!core::names_a_place(pose.state)) return false;
   const double error_m = (pose.T_map_base.translation() - truth.translation()).norm();
   const double error_rad =
       std::abs(core::angle_between(truth.theta_rad, pose.T_map_base.theta_rad));
   report.worst_error_m = std::max(report.worst_error_m, error_m);
   report.worst_error_rad = std::max(report.worst_error_rad, error_rad);
-  if (error_m > kWrong_m || error_rad > kWrong_rad) ++report.wrong;
+  return error_m > kWrong_m || error_rad > kWrong_rad;
 }
 
 }  // namespace
@@ -114,7 +131,13 @@ SoakReport run(const SoakConfig& config) {
       localization.take([&](const daemon::TurnReport& turn) {
         ++report.turns;
         ++report.poses[static_cast<std::size_t>(turn.result.pose.state)];
-        judge(turn.result.pose, world.motion(turn.result.pose.t_ns, 0), report);
+        const core::PoseEstimate& pose = turn.result.pose;
+        const core::Pose2 truth = world.motion(pose.t_ns, 0);
+        if (!is_wrong(pose, truth, report)) return;
+        ++report.wrong;
+        if (config.on_wrong) {
+          config.on_wrong(describe(pose, truth, report.turns, world.plan));
+        }
       });
       if (report.warm_bytes == 0 && report.turns >= config.turns / 10) {
         report.warm_bytes = resident_bytes();

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,8 @@ struct SoakConfig {
   std::uint64_t seed = 1;
   /// Half of what a watchdog of ten seconds allows; see ProgressWatch.
   double patience_s = 5;
+  /// Called with each wrong fix: turn, time, estimate and truth, and what had befallen the lidar.
+  std::function<void(const std::string& text)> on_wrong;
 };
 
 struct SoakReport {
