@@ -19,6 +19,12 @@ class StructureCheck {
  public:
   explicit StructureCheck(const std::filesystem::path& file) : file_(file) {}
 
+  /// Of a value that the parser could not make.
+  std::string pointer_of_next() {
+    begin_element();
+    return pointer();
+  }
+
   bool operator()(Json::parse_event_t event, const Json& parsed) {
     switch (event) {
       case Json::parse_event_t::key:
@@ -109,6 +115,8 @@ Json parse_document(std::string_view text, const std::filesystem::path& file) {
           return check(event, parsed);
         },
         /*allow_exceptions=*/true, /*ignore_comments=*/true);
+  } catch (const Json::out_of_range& error) {
+    throw SettingsError(file.string(), check.pointer_of_next(), strip_library_prefix(error.what()));
   } catch (const Json::exception& error) {
     throw SettingsError(file.string(), "", strip_library_prefix(error.what()));
   }

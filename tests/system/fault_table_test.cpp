@@ -4,7 +4,6 @@
 // With CORNERD_TIMES=1 it also holds the daemon to its times, on a machine that has nothing else to
 // do.
 #include <gtest/gtest.h>
-#include <signal.h>
 
 #include <chrono>
 #include <cstdio>
@@ -173,8 +172,9 @@ TEST_F(FaultTable, WrongSpeed) {
 
 TEST_F(FaultTable, StreamRunningAndKilled) {
   start_daemon();
-  daemon_->send_signal(SIGKILL);
   const auto began = Clock::now();
+  // Dead before the next one starts, as a service manager has it.
+  daemon_.reset();
   launch();
   wait_for_fix();
   const double back_s = seconds_since(began);

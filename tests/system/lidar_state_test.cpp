@@ -1,7 +1,13 @@
 // SPDX-License-Identifier: MIT
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <signal.h>
+#include <stdlib.h>
 
+#include <string>
+
+#include "daemon/file_descriptor.hpp"
 #include "daemon_process.hpp"
 
 namespace cornerd::system_test {
@@ -47,6 +53,24 @@ TEST_F(LidarState, RecordingAtItsEnd_IsReportedAndTheLastPoseStaysToBeAskedFor) 
   const json pose = next_of(client, "POSE");
   EXPECT_EQ(pose["class"], "POSE");
   EXPECT_TRUE(daemon.is_running());
+}
+
+/// A device that never says a word.
+TEST_F(LidarState, EndIsAskedForInWhateverStateTheLidarIs_ComesAtOnce) {
+  const daemon::FileDescriptor master(::posix_openpt(O_RDWR | O_NOCTTY | O_CLOEXEC));
+  ASSERT_EQ(::grantpt(master.get()) | ::unlockpt(master.get()), 0);
+  const std::string silent = ::ptsname(master.get());
+  const struct {
+    std::string device;
+    std::string state;
+  } cases[] = {{"/dev/no_such_lidar", "absent"}, {silent, "identifying"}, {silent, "backoff"}};
+  for (const auto& [device, state] : cases) {
+    DaemonProcess daemon = start({"/lidar/driver=rplidar", "/lidar/device=" + device});
+    TestClient client = connect();
+    EXPECT_TRUE(status_in(client, state).is_object()) << device;
+    daemon.send_signal(SIGTERM);
+    EXPECT_EQ(daemon.wait_for_exit(), 0) << device << ", " << state;
+  }
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 namespace cornerd::settings {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
@@ -31,8 +32,10 @@ TEST(Document, NoJson_IsNamedByLineAndColumn) {
   EXPECT_THAT(document_error("{\"a\": \"\xff\"}"), StartsWith("f.json: line 1, column"));
 }
 
-TEST(Document, NumberBeyondADouble_IsAnError) {
-  EXPECT_THAT(document_error("{\"a\": 1e999}"), HasSubstr("1e999"));
+TEST(Document, NumberBeyondADouble_IsNamedByItsPointer) {
+  EXPECT_THAT(document_error(R"({"a": {"b": 1, "c": 1e999}})"),
+              AllOf(StartsWith("f.json: /a/c: "), HasSubstr("1e999")));
+  EXPECT_THAT(document_error(R"({"w": [1, [2], 1e999]})"), StartsWith("f.json: /w/2: "));
 }
 
 TEST(Document, KeyTwice_IsNamedByItsPointer) {
