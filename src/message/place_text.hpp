@@ -5,7 +5,8 @@
 #include <cmath>
 #include <string_view>
 
-#include "core/types.hpp"
+#include "core/geometry/angle.hpp"
+#include "core/geometry/pose2.hpp"
 #include "message/json_text.hpp"
 
 namespace cornerd::message {
