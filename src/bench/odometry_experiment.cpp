@@ -19,15 +19,6 @@ struct Drive {
   std::vector<calibration::KnownPlace> places;
 };
 
-replay::DriveConfig gentle_drive() {
-  replay::DriveConfig drive;
-  drive.speed_m_s = 0.4;
-  drive.acceleration_m_s2 = 1;
-  drive.yaw_acceleration_rad_s2 = 6;
-  drive.loop = true;
-  return drive;
-}
-
 Drive drive_once(const OdometryRobot& robot, const replay::Scenario& scenario, std::uint64_t seed) {
   const replay::Motion motion = replay::drive_path(scenario.path, gentle_drive());
   const core::TimeNs end_ns =
@@ -66,6 +57,15 @@ ReckonedTrack reckon_by_fit(const Drive& drive, const core::LearnedOdometry& lea
 }
 
 }  // namespace
+
+replay::DriveConfig gentle_drive() {
+  replay::DriveConfig drive;
+  drive.speed_m_s = 0.4;
+  drive.acceleration_m_s2 = 1;
+  drive.yaw_acceleration_rad_s2 = 6;
+  drive.loop = true;
+  return drive;
+}
 
 std::vector<OdometryRobot> odometry_robots() {
   replay::RobotModel wrong;

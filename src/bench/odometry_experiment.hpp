@@ -12,6 +12,7 @@
 #include "calibration/odometry_fit.hpp"
 #include "core/geometry/pose2.hpp"
 #include "core/odometry/dead_reckoning.hpp"
+#include "replay/simulator/motion.hpp"
 #include "replay/simulator/robot_model.hpp"
 #include "replay/simulator/scenarios.hpp"
 
@@ -22,6 +23,9 @@ struct OdometryRobot {
   std::string_view name;  ///< in names of files
   replay::RobotModel model;
 };
+
+/// How the robots of these experiments drive: 0.4 m/s, and no wheel slips by its own doing.
+replay::DriveConfig gentle_drive();
 
 /// A Pioneer P3-DX and a robot of 16 cm, both as wrong: wheels 1.5 and 2.5 % larger than
 /// configured, the gyro 2 % and 0.01 rad/s off, a wheel that slips every 20 m.

@@ -203,9 +203,10 @@ void add_bench(CLI::App& program) {
       "instead: poses against the truth and the Cramer-Rao bound, with a biased lidar, few "
       "returns, things in the way, a displaced wall, a closed door, in motion, kidnapped; "
       "--positions: places for each, else 1,000");
-  command->add_flag(
-      "--odometry", options->odometry,
-      "instead: the paper's modes of odometry on its drives; --maps: with flat-7.json");
+  command->add_flag("--odometry", options->odometry,
+                    "instead: the paper's modes of odometry on its drives, and poses carried on "
+                    "without the lidar; "
+                    "--maps: with flat-7.json");
   command->add_flag("--survey", options->survey,
                     "instead: a drive of 100 m, surveyed by both methods, and a second one "
                     "localized in the maps");

@@ -10,6 +10,7 @@
 
 #include "bench/odometry_experiment.hpp"
 #include "settings/map_file.hpp"
+#include "tool/blind_report.hpp"
 #include "tool/contest_maps.hpp"
 #include "tool/failure.hpp"
 #include "tool/map_drawing.hpp"
@@ -24,6 +25,9 @@ namespace {
 using bench::OdometryResult;
 using bench::ReckonedTrack;
 using core::HeadingSource;
+
+/// Of each robot.
+constexpr std::size_t kBlindDrives = 4;
 
 struct RobotResults {
   bench::OdometryRobot robot;
@@ -86,7 +90,8 @@ std::string odometry_text(const std::vector<RobotResults>& robots) {
   return text;
 }
 
-std::string odometry_json(const std::vector<RobotResults>& robots, std::uint64_t seed) {
+std::string odometry_json(const std::vector<RobotResults>& robots,
+                          const std::vector<BlindRow>& blind, std::uint64_t seed) {
   nlohmann::ordered_json drives = nlohmann::ordered_json::array();
   for (const RobotResults& results : robots) {
     for (const OdometryResult& drive : results.drives) {
@@ -107,7 +112,10 @@ std::string odometry_json(const std::vector<RobotResults>& robots, std::uint64_t
                         {"tracks", std::move(tracks)}});
     }
   }
-  return nlohmann::ordered_json({{"seed", seed}, {"odometry", std::move(drives)}}).dump(2) + '\n';
+  return nlohmann::ordered_json(
+             {{"seed", seed}, {"odometry", std::move(drives)}, {"carried_on", blind_json(blind)}})
+             .dump(2) +
+         '\n';
 }
 
 /// The modes as they are, or with their factors and least squares.
@@ -143,18 +151,20 @@ void run_odometry_bench(const OdometryBenchOptions& options) {
   if (!options.json.empty() && !json) {
     json = std::make_unique<Output>(std::filesystem::path(options.json));
   }
-  std::shared_ptr<const core::WallMap> map;
+  const std::shared_ptr<const core::WallMap> map =
+      settings::load_map(contest_maps_folder(options.maps) / "flat-7.json");
   if (!options.plots.empty()) {
-    map = settings::load_map(contest_maps_folder(options.maps) / "flat-7.json");
     std::error_code error;
     std::filesystem::create_directories(options.plots, error);
     if (error) throw Failure(options.plots.string() + ": " + error.message());
   }
 
   std::vector<RobotResults> robots;
+  std::vector<BlindRow> blind;
   {
     const auto all = bench::odometry_robots();
-    ProgressBar bar("odometry", all.size() * replay::scenarios().size());
+    const auto cases = bench::blind_cases();
+    ProgressBar bar("odometry", all.size() * replay::scenarios().size() + cases.size());
     std::size_t done = 0;
     for (const bench::OdometryRobot& robot : all) {
       robots.push_back({robot, {}});
@@ -163,10 +173,14 @@ void run_odometry_bench(const OdometryBenchOptions& options) {
         bar.show(++done);
       }
     }
+    for (const bench::BlindCase& one : cases) {
+      blind.push_back({one.title, run_blind_case(map, one, options.seed, kBlindDrives)});
+      bar.show(++done);
+    }
   }
   for (const RobotResults& results : robots) {
     for (const OdometryResult& drive : results.drives) {
-      if (!map) break;
+      if (options.plots.empty()) break;
       const std::string name = std::string(results.robot.name) + '-' + std::string(drive.scenario);
       save_picture(options.plots / (name + ".svg"), draw_tracks(*map, results.robot, drive, false));
       save_picture(options.plots / (name + "-factors.svg"),
@@ -174,12 +188,12 @@ void run_odometry_bench(const OdometryBenchOptions& options) {
     }
   }
   if (json) {
-    json->write(odometry_json(robots, options.seed));
+    json->write(odometry_json(robots, blind, options.seed));
     json->flush();
   }
   if (options.json == "-") return;
   Output output;
-  output.write(odometry_text(robots));
+  output.write(odometry_text(robots) + '\n' + blind_text(blind));
   output.flush();
 }
 

@@ -23,14 +23,16 @@ constexpr double kUnknown_rad_s = 1.5;
 constexpr double kMostScale = 0.5;
 constexpr double kMostBias_rad_s = 0.5;
 /// A tyre is no line: where it touches the floor wanders with every turn on the spot.
-constexpr double kScrub_rad_per_sqrt_rad = 0.003;
+constexpr double kScrub_rad_per_sqrt_rad = 0.001;
+
+constexpr double kCountsAgain = 0.125;
 
 constexpr double squared(double value) { return value * value; }
 
 }  // namespace
 
 FusionFilter::FusionFilter(const OdometryConfig& config)
-    : geometry_(config.geometry), noise_(config.noise) {
+    : geometry_(config.geometry), noise_(config.noise), learning_(config.geometry) {
   state_[kBias] = config.start.gyro_bias_rad_s;
   state_[kLeft] = config.start.left_scale;
   state_[kRight] = config.start.right_scale;
@@ -65,22 +67,29 @@ void FusionFilter::predict(const MotionStep& step) {
   const double dt_s = step.duration_s();
   const Wheels moved = wheels(step);
   const double track_m = geometry_.track_m * (1 + state_[kTrack]);
-  const double resolution_m2 = squared(geometry_.metres_per_count()) / 12;
+  // A count stands for a stretch, at both ends of the way. The errors of the steps in between
+  // cancel, so all since the last fix have them once, and a little for what is not linear.
+  const double counts_m2 = 2 * squared(geometry_.metres_per_count()) / 12;
   const bool moves = step.left_m != 0 || step.right_m != 0;
-  const auto wheel_variance = [&](double way_m) {
-    return squared(noise_.wheel_m_per_sqrt_m) * std::abs(way_m) + (moves ? resolution_m2 : 0);
-  };
-  double left_m2 = wheel_variance(moved.left_m);
-  double right_m2 = wheel_variance(moved.right_m);
-  double turn_rad2 = (left_m2 + right_m2) / squared(track_m) +
-                     squared(kScrub_rad_per_sqrt_rad) * std::abs(moved.turn_rad);
+  const double charged_m2 = !moves ? 0 : (counts_are_charged_ ? kCountsAgain : 1) * counts_m2;
+  counts_are_charged_ = counts_are_charged_ || moves;
+  const double wheel_factor = learning_.wheel_factor();
+  const double wheel_m = squared(noise_.wheel_m_per_sqrt_m) * wheel_factor;
+  const double scrub_rad = squared(kScrub_rad_per_sqrt_rad) * wheel_factor;
+  double left_m2 = wheel_m * std::abs(moved.left_m) + charged_m2;
+  double right_m2 = wheel_m * std::abs(moved.right_m) + charged_m2;
+  double turn_rad2 = (left_m2 + right_m2) / squared(track_m) + scrub_rad * std::abs(moved.turn_rad);
+  const double told_rad2 = (turn_rad2 - 2 * charged_m2 / squared(track_m)) / wheel_factor;
+  // The gyro sees through them in every step, so each step's turn has its own.
+  if (step.has_gyro && moves) turn_rad2 += 2 * (counts_m2 - charged_m2) / squared(track_m);
 
   // What the gyro says beyond the wheels, and how much that may be.
   const double gyro_gain = 1 + state_[kGyro];
   const double bias_rad = state_[kBias] * dt_s;
   // When within the step the rate changed nobody knows: evenly between its two ends.
+  const double gyro_told_rad2 = squared(noise_.gyro_rad_s_per_sqrt_hz) * dt_s;
   const double gyro_rad2 =
-      squared(noise_.gyro_rad_s_per_sqrt_hz) * dt_s + squared(step.gyro_change_rad) / 3;
+      gyro_told_rad2 * learning_.gyro_factor() + squared(step.gyro_change_rad) / 3;
   Row turn_by = turn_slope(moved.way_m, moved.turn_rad);
   Row seen_by = seen_slope(turn_by, moved.turn_rad, dt_s);
   double surprise_rad = step.gyro_rad - gyro_gain * moved.turn_rad - bias_rad;
@@ -89,9 +98,9 @@ void FusionFilter::predict(const MotionStep& step) {
   // corrects it; a slip is too large for that, and the way is taken at what the gyro leaves of it.
   double course_rad = state_[kTheta] + moved.turn_rad / 2;
   double follows = 1;
+  bool slips = false;
   if (step.has_gyro) {
-    const bool slips =
-        squared(surprise_rad) > kSlip * (known_rad2 + squared(gyro_gain) * turn_rad2);
+    slips = squared(surprise_rad) > kSlip * (known_rad2 + squared(gyro_gain) * turn_rad2);
     if (slips) {
       // One of the wheels did not do what its counts say, most likely the one that says more; the
       // gyro does not slip. With that wheel in doubt, the gyro tells its way as well.
@@ -116,6 +125,7 @@ void FusionFilter::predict(const MotionStep& step) {
     seen_by = seen_slope(turn_by, both_rad, dt_s);
     known_rad2 = variance_along(seen_by) + gyro_rad2;
   }
+  learning_.drove(step, told_rad2, gyro_told_rad2, slips);
   Row way_by = Row::Zero();
   way_by[kLeft] = step.left_m / 2;
   way_by[kRight] = step.right_m / 2;
@@ -182,6 +192,7 @@ double FusionFilter::variance_along(const Row& slope) const {
 }
 
 void FusionFilter::predict_hole(const MotionStep& step) {
+  learning_.interrupt();
   const double dt_s = step.duration_s();
   const double moved_m2 = squared(kUnknown_m_s * dt_s);
   covariance_(kX, kX) += moved_m2;
@@ -194,14 +205,28 @@ void FusionFilter::set_pose(const Pose2& T_map_base, const Covariance3& covarian
   covariance_.topRows<3>().setZero();
   covariance_.leftCols<3>().setZero();
   covariance_.topLeftCorner<3, 3>() = covariance;
+  counts_are_charged_ = false;
+  learning_.interrupt();
+}
+
+Eigen::Vector3d FusionFilter::surprise_of(const Pose2& T_map_base) const {
+  return {T_map_base.x_m - state_[kX], T_map_base.y_m - state_[kY],
+          angle_between(state_[kTheta], T_map_base.theta_rad)};
+}
+
+bool FusionFilter::explains(const Pose2& T_map_base, const Covariance3& covariance) const {
+  const Eigen::Vector3d surprise = surprise_of(T_map_base);
+  const Eigen::LLT<Eigen::Matrix3d> root(pose_covariance() + covariance);
+  return root.info() == Eigen::Success && surprise.dot(root.solve(surprise)) < kStranger;
 }
 
 bool FusionFilter::correct(const Pose2& T_map_base, const Covariance3& covariance) {
-  const Eigen::Vector3d surprise(T_map_base.x_m - state_[kX], T_map_base.y_m - state_[kY],
-                                 angle_between(state_[kTheta], T_map_base.theta_rad));
+  if (!explains(T_map_base, covariance)) return false;
+  learning_.fixed(T_map_base.theta_rad, covariance(2, 2), learned(),
+                  covariance_.bottomRightCorner<5, 5>());
+  counts_are_charged_ = false;
+  const Eigen::Vector3d surprise = surprise_of(T_map_base);
   const Eigen::LLT<Eigen::Matrix3d> root(pose_covariance() + covariance);
-  if (root.info() != Eigen::Success) return false;
-  if (!(surprise.dot(root.solve(surprise)) < kStranger)) return false;
   const Eigen::Matrix<double, kSize, 3> with_pose = covariance_.leftCols<3>();
   const Eigen::Matrix<double, kSize, 3> gain = root.solve(with_pose.transpose()).transpose();
   state_ += gain * surprise;

@@ -6,6 +6,7 @@
 #include <Eigen/Core>
 
 #include "core/odometry/motion_step.hpp"
+#include "core/odometry/noise_learning.hpp"
 #include "core/odometry/odometry_config.hpp"
 
 namespace cornerd::core {
@@ -27,8 +28,11 @@ class FusionFilter {
   /// Forgets the pose alone, and takes this one; what was learned stays.
   void set_pose(const Pose2& T_map_base, const Covariance3& covariance);
 
-  /// A pose that the lidar gave for the time reached. False where it is too far off to belong to
-  /// the same drive; nothing is changed then. The covariance is taken as it is.
+  /// How far a pose that the lidar gave for the time reached is from the filter's: x, y, theta.
+  Eigen::Vector3d surprise_of(const Pose2& T_map_base) const;
+  /// False where it is too far off to belong to the same drive.
+  bool explains(const Pose2& T_map_base, const Covariance3& covariance) const;
+  /// Takes it in, the covariance as it is. False, and nothing changed, where it is not explained.
   bool correct(const Pose2& T_map_base, const Covariance3& covariance);
 
   Pose2 pose() const { return {state_[kX], state_[kY], state_[kTheta]}; }
@@ -42,6 +46,9 @@ class FusionFilter {
 
   /// Steps in which the wheels' turn could not be the gyro's: slip, or a frozen encoder.
   std::uint64_t slips() const { return slips_; }
+
+  /// How much more or less than told wheels and gyro wander, as learned from the fixes.
+  const NoiseLearning& noise() const { return learning_; }
 
  private:
   struct Wheels {
@@ -63,6 +70,8 @@ class FusionFilter {
   OdometryNoise noise_;
   Vector state_ = Vector::Zero();
   Matrix covariance_ = Matrix::Zero();
+  NoiseLearning learning_;
+  bool counts_are_charged_ = false;  ///< since the last fix
   std::uint64_t slips_ = 0;
 };
 

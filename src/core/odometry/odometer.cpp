@@ -14,10 +14,13 @@ constexpr double kMostSigma_m = 0.3;
 constexpr double kMostSigma_rad = radians(15);
 /// So many fixes in a row that the wheels cannot explain: they are not this robot's, or spin free.
 constexpr std::uint32_t kDistrusted = 3;
-/// The lidar's own errors are the same from turn to turn, those of its noise are not: what a
-/// covariance does not know of, measured on simulated rooms and by the peers' bias figures.
+/// What a fix may be off by that its covariance does not know of, a lidar's bias or a wall that was
+/// mapped wrong, until the fixes themselves tell how much it is; a fix that belongs to the same
+/// drive may be off by so much at any time.
 constexpr double kFixFloor_m = 0.002;
 constexpr double kFixFloor_rad = 0.001;
+/// A surprise within three sigma needs no other reason.
+constexpr double kUsual = 9;
 /// How far wheels and gyro mistake the motion of half a turn, as a share of it.
 constexpr double kMotionShare = 0.01;
 
@@ -45,11 +48,12 @@ MotionStep less_guess(const MotionStep& step, MotionStep& guessed) {
   return rest;
 }
 
-Covariance3 with_floor(const Covariance3& covariance) {
+/// `place`, `heading`: shares of the floors' variances.
+Covariance3 with_floor(const Covariance3& covariance, double place, double heading) {
   Covariance3 sum = covariance;
-  sum(0, 0) += kFixFloor_m * kFixFloor_m;
-  sum(1, 1) += kFixFloor_m * kFixFloor_m;
-  sum(2, 2) += kFixFloor_rad * kFixFloor_rad;
+  sum(0, 0) += place * kFixFloor_m * kFixFloor_m;
+  sum(1, 1) += place * kFixFloor_m * kFixFloor_m;
+  sum(2, 2) += heading * kFixFloor_rad * kFixFloor_rad;
   return sum;
 }
 
@@ -212,8 +216,9 @@ std::optional<PredictedPose> Odometer::prediction_of(const FusionFilter& filter,
 void Odometer::correct(const Pose2& T_map_base, const Covariance3& covariance) {
   if (!config_.enabled || !present_) return;
   ahead_is_stale_ = true;
-  const Covariance3 doubt = with_floor(covariance);
-  if (has_pose_ && filter_.correct(T_map_base, doubt)) {
+  const Covariance3 most = with_floor(covariance, 1, 1);
+  if (has_pose_ && filter_.explains(T_map_base, most)) {
+    filter_.correct(T_map_base, learned_doubt(T_map_base, covariance));
     strangers_in_a_row_ = 0;
     ++fixes_;
   } else {
@@ -221,10 +226,27 @@ void Odometer::correct(const Pose2& T_map_base, const Covariance3& covariance) {
       ++strangers_in_a_row_;
       ++strangers_;
     }
-    filter_.set_pose(T_map_base, doubt);
+    filter_.set_pose(T_map_base, most);
   }
   has_pose_ = true;
   fixed_ns_ = middle_ns_;
+}
+
+Covariance3 Odometer::learned_doubt(const Pose2& T_map_base, const Covariance3& covariance) {
+  const Eigen::Vector3d surprise = filter_.surprise_of(T_map_base);
+  const Covariance3 known = filter_.pose_covariance() + covariance;
+  const auto needed = [&](int i, double floor) {
+    const double floor2 = floor * floor;
+    return (surprise[i] * surprise[i] / kUsual - known(i, i)) / floor2;
+  };
+  const double place = std::clamp(std::max(needed(0, kFixFloor_m), needed(1, kFixFloor_m)),
+                                  place_floor_.factor(), 1.0);
+  const double heading = std::clamp(needed(2, kFixFloor_rad), heading_floor_.factor(), 1.0);
+  for (const int i : {0, 1}) {
+    place_floor_.add(surprise[i] * surprise[i], kFixFloor_m * kFixFloor_m, known(i, i));
+  }
+  heading_floor_.add(surprise[2] * surprise[2], kFixFloor_rad * kFixFloor_rad, known(2, 2));
+  return with_floor(covariance, place, heading);
 }
 
 void Odometer::set_pose(const Pose2& T_map_base, const Covariance3& covariance) {

@@ -24,10 +24,12 @@ struct OdometryLimits {
 };
 
 /// How far wheels and gyro may be off, as standard deviations. Those of the scales and of the bias
-/// say how well the numbers above are known before the lidar teaches better ones.
+/// say how well the numbers above are known before the lidar teaches better ones; the first two are
+/// a guess that the lidar's fixes correct (NoiseLearning).
 struct OdometryNoise {
-  double wheel_m_per_sqrt_m = 0.002;       ///< a wheel's way after a metre: its rolling, its slip
-  double gyro_rad_s_per_sqrt_hz = 0.0005;  ///< five times a MEMS gyro's data sheet: it vibrates
+  double wheel_m_per_sqrt_m = 0.0012;  ///< a wheel's way after a metre: its rolling, its slip
+  double gyro_rad_s_per_sqrt_hz =
+      0.00025;  ///< nearly three times a MEMS gyro's data sheet: it vibrates
   double wheel_scale = 0.03;
   double track_scale = 0.05;
   double gyro_scale = 0.03;

@@ -171,7 +171,9 @@ TEST(LocalizerWithOdometry, Summary_TellsWhatWasLearned) {
   EXPECT_TRUE(odometry.trusted);
   EXPECT_GT(odometry.fixes, 190U);
   // One circle tells the way, but neither wheel from wheel nor bias from scale.
-  EXPECT_NEAR((odometry.learned.left_scale + odometry.learned.right_scale) / 2, 0.005, 0.002);
+  // The wheels roll at 0.236 and 0.364 m/s.
+  EXPECT_NEAR((0.236 * odometry.learned.left_scale + 0.364 * odometry.learned.right_scale) / 0.6,
+              0.01 * 0.236 / 0.6, 0.001);
 }
 
 TEST(Localizer, AGivenPose_TellsTwinsApart) {

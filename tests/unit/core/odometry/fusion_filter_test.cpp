@@ -27,8 +27,8 @@ testing::RobotErrors usual_errors() {
   errors.right_scale = 0.025;
   errors.gyro_scale = 0.02;
   errors.gyro_bias_rad_s = 0.01;
-  errors.wheel_m_per_sqrt_m = 0.002;
-  errors.gyro_rad_s_per_sqrt_hz = 0.0005;
+  errors.wheel_m_per_sqrt_m = OdometryNoise{}.wheel_m_per_sqrt_m;
+  errors.gyro_rad_s_per_sqrt_hz = OdometryNoise{}.gyro_rad_s_per_sqrt_hz;
   return errors;
 }
 
@@ -108,7 +108,7 @@ TEST(FusionFilter, FiveSecondsBlindAfterThirty_StayWithinThreeCentimetres) {
 
 /// Normalised estimation error squared: 3 in the mean where the covariance is honest. The errors of
 /// each robot are drawn from what the filter is told of them.
-double mean_nees(double taught_s, double blind_s, bool with_gyro) {
+double mean_nees(double taught_s, double blind_s, bool with_gyro, double noisier = 1) {
   const OdometryConfig config = config_of_a_small_robot();
   double sum = 0;
   constexpr int kRobots = 100;
@@ -122,6 +122,8 @@ double mean_nees(double taught_s, double blind_s, bool with_gyro) {
     errors.track_scale = config.noise.track_scale * normal(random);
     errors.gyro_scale = config.noise.gyro_scale * normal(random);
     errors.gyro_bias_rad_s = config.noise.gyro_bias_rad_s * normal(random);
+    errors.wheel_m_per_sqrt_m *= noisier;
+    errors.gyro_rad_s_per_sqrt_hz *= noisier;
     Drive drive(config, errors, seed);
     drive.drive(taught_s, true, with_gyro);
     drive.drive(blind_s, false, with_gyro);
@@ -150,6 +152,30 @@ TEST(FusionFilter, PredictedCovariance_IsHonest) {
                      std::to_string(nees));
     }
   }
+}
+
+TEST(FusionFilter, WheelsAndGyroNoisierOrQuieterThanTold_AreFoundOutByTheFixes) {
+  // Taken as told, they would give 9 and 0.9.
+  for (const bool with_gyro : {true, false}) {
+    const double noisy = mean_nees(60, 5, with_gyro, std::sqrt(3.0));
+    EXPECT_LT(noisy, 4.2) << with_gyro;
+    EXPECT_GT(noisy, 2.2) << with_gyro;
+    const double quiet = mean_nees(60, 5, with_gyro, std::sqrt(0.3));
+    EXPECT_LT(quiet, 3.6) << with_gyro;
+    EXPECT_GT(quiet, 1.6) << with_gyro;
+    RecordProperty(with_gyro ? "nees_gyro" : "nees_wheels",
+                   std::to_string(noisy) + ", " + std::to_string(quiet));
+  }
+}
+
+TEST(FusionFilter, CoarseCounts_DoNotAddUpInTheDoubt) {
+  OdometryConfig config = config_of_a_small_robot();
+  config.geometry.counts_per_turn = 40;  // a count is 5 mm
+  Drive drive(config, usual_errors(), 8);
+  drive.drive(30, true);
+  drive.drive(10, false);
+  EXPECT_LT(drive.error().head<2>().norm(), 0.06);
+  EXPECT_LT(std::sqrt(drive.filter().pose_covariance()(0, 0)), 0.02);
 }
 
 TEST(FusionFilter, WithFixes_IsBetterThanTheFixes) {

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+// How far off poses are that wheels and gyro carry on without the lidar, and whether they know it.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string_view>
+#include <vector>
+
+#include "core/map/wall_map.hpp"
+#include "replay/simulator/robot_model.hpp"
+#include "replay/simulator/sensor_model.hpp"
+
+namespace cornerd::bench {
+
+/// A drive through the rooms of config/maps/flat-7.json, and when its lidar sees nothing.
+struct BlindCase {
+  std::string_view title;
+  replay::RobotModel robot;
+  replay::SensorModel lidar;
+  double first_s = 30;  ///< of driving until the lidar is covered for the first time
+  double again_s = 12;  ///< from then to the next time, and so on
+  double covered_s = 5;
+  double duration_s = 300;
+};
+
+/// Poses of one range of ages.
+struct BlindAges {
+  double from_s = 0;
+  double to_s = 0;
+  std::size_t poses = 0;
+  double mean_m = 0;
+  double worst_m = 0;
+  double worst_rad = 0;
+  double mean_nees = 0;     ///< error squared in units of the covariance: 3 is exact
+  double share_within = 0;  ///< of those whose NEES is under 7.815, 95 % of them if it is exact
+};
+
+/// Ages as the table has them: what lies between two turns, then the lidar covered.
+using BlindResult = std::array<BlindAges, 4>;
+
+/// Robots that are as wrong as in the table of the modes, one that slips, and others.
+std::vector<BlindCase> blind_cases();
+
+/// A pose is carried on for every reading of the wheels (OdometryConfig::publish). Same input, same
+/// result.
+BlindResult run_blind_case(std::shared_ptr<const core::WallMap> map, const BlindCase& blind,
+                           std::uint64_t seed, std::size_t drives);
+
+}  // namespace cornerd::bench

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+
+namespace cornerd::core {
+
+/// Learns how much larger or smaller a noise is than was told, from squared residuals that have
+/// other noise in them as well. Variances in any unit; the factor is one of variances.
+class NoiseMeter {
+ public:
+  /// What was told counts as so many observations of that noise alone.
+  NoiseMeter(double weight, double least, double most)
+      : weight_(weight), least_(least), most_(most) {}
+
+  /// `squared`: the residual's; `told`: its variance by the noise as told; `other`: by all else.
+  /// Observations in which the noise drowns among others weigh little.
+  void add(double squared, double told, double other) {
+    if (!(told > 0)) return;
+    const double expected = factor_ * told + other;
+    const double share =
+        std::max(factor_, kSeen) * told / (std::max(factor_, kSeen) * told + other);
+    const double weight = share * share;
+    if (!(weight > 0)) return;
+    const double surely = std::min(squared, kOutlier * expected);
+    weight_ = std::min(weight_ + weight, kMemory);
+    factor_ += weight / weight_ * ((surely - other) / told - factor_);
+    factor_ = std::clamp(factor_, least_, most_);
+  }
+
+  double factor() const { return factor_; }
+
+ private:
+  /// Older observations fade, as floors and tyres change.
+  static constexpr double kMemory = 150;
+  /// A residual beyond four sigma counts as one of four.
+  static constexpr double kOutlier = 16;
+  /// A noise that was found to be tiny is still looked for.
+  static constexpr double kSeen = 0.05;
+
+  double factor_ = 1;
+  double weight_;
+  double least_;
+  double most_;
+};
+
+}  // namespace cornerd::core

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+#include "core/odometry/noise_meter.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+namespace cornerd::core {
+namespace {
+
+/// Residuals of a noise that is `factor` times what was told (variance 1), among `other`.
+double learned(double factor, double other, int observations, double outlier = 0) {
+  std::mt19937_64 random(1);
+  std::normal_distribution<double> normal(0, std::sqrt(factor + other));
+  NoiseMeter meter(8, 0.01, 100);
+  for (int i = 0; i < observations; ++i) {
+    const double residual = i % 40 == 20 && outlier > 0 ? outlier : normal(random);
+    meter.add(residual * residual, 1, other);
+  }
+  return meter.factor();
+}
+
+TEST(NoiseMeter, Residuals_TellHowMuchLargerOrSmallerTheNoiseIs) {
+  EXPECT_NEAR(learned(4, 0.5, 400), 4, 1.2);
+  EXPECT_NEAR(learned(0.1, 0.02, 400), 0.1, 0.03);
+}
+
+TEST(NoiseMeter, NoiseThatDrowns_TeachesNothing) { EXPECT_NEAR(learned(4, 1000, 400), 1, 0.5); }
+
+TEST(NoiseMeter, FewResiduals_MoveItLittle) { EXPECT_NEAR(learned(0.1, 0, 2), 1, 0.25); }
+
+TEST(NoiseMeter, Outliers_CountAsFourSigma) { EXPECT_LT(learned(1, 0.1, 400, 1000), 2.5); }
+
+TEST(NoiseMeter, NothingTold_ChangesNothing) {
+  NoiseMeter meter(8, 0.01, 100);
+  meter.add(5, 0, 1);
+  EXPECT_EQ(meter.factor(), 1);
+}
+
+}  // namespace
+}  // namespace cornerd::core
