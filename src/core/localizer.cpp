@@ -9,6 +9,7 @@
 #include "core/breakpoint/detector.hpp"
 #include "core/catalog/catalog.hpp"
 #include "core/estimate/bias_estimator.hpp"
+#include "core/estimate/part_tracker.hpp"
 #include "core/estimate/pose_memory.hpp"
 #include "core/estimate/refinement.hpp"
 #include "core/recognition/decision.hpp"
@@ -58,6 +59,12 @@ Covariance3 doubt_of_bias() {
       .asDiagonal();
 }
 
+/// What a turn showed of the noise, where it is more than chance.
+double clamped_noise(double noise_scale) { return std::clamp(noise_scale, 0.5, 4.0); }
+
+/// Shorter, and two poses tell nothing of the motion between them.
+constexpr double kLeastTimeOfAMotion_s = 0.02;
+
 }  // namespace
 
 struct Localizer::Workspace {
@@ -70,6 +77,7 @@ struct Localizer::Workspace {
           refinement(config.max_range_m, config.noise),
           bias(config.max_range_m, config.noise, config.bias) {
       if (config.recognition == RecognitionMethod::kPaper) paper.emplace(map, catalog);
+      if (config.updates_per_turn > 1) parts.emplace(map, config);
     }
     Catalog catalog;
     Recognition recognition;
@@ -77,6 +85,7 @@ struct Localizer::Workspace {
     Verification verification;
     Refinement refinement;
     BiasEstimator bias;
+    std::optional<PartTracker> parts;  ///< where poses are asked for before a turn ends
   };
 
   Workspace(std::shared_ptr<const WallMap> the_map, const LocalizerConfig& the_config)
@@ -93,7 +102,7 @@ struct Localizer::Workspace {
   void look_for_the_motion(const Scan& scan, TimeNs t_ns);
   void look_everywhere(TimeNs t_ns);
   std::size_t corners_of(const Decision& decision) const;
-  PoseState believe(std::size_t corners, TimeNs t_ns);
+  PoseState believe(const Decision& decision, std::size_t corners, TimeNs t_ns);
   bool is_expected(const Pose2& T_map_lidar, TimeNs t_ns) const;
   bool in_doubt(TimeNs t_ns) const;
   bool is_smeared() const;
@@ -103,6 +112,7 @@ struct Localizer::Workspace {
   void report(const Decision& decision, std::size_t corners, TimeNs t_ns);
   void report_pose(const core::Place& found, std::size_t corners, TimeNs t_ns);
   void report_alternatives(std::span<const core::Place> rivals);
+  std::optional<Expectation> expectation(TimeNs t_ns);
   void predict(const PredictedPose& predicted, PoseEstimate& pose) const;
   bool contradicts(const PredictedPose& predicted) const;
 
@@ -120,7 +130,7 @@ struct Localizer::Workspace {
   Twist2 motion;                       ///< that `points` were moved back by
   std::optional<Pose2> T_map_doubted;  ///< a jump of the turn before that waits for a second
   TurnResult result;
-  PoseEstimate between;  ///< of a reading between two turns
+  PoseEstimate between;  ///< of a reading between two turns, or of a part of a turn
 };
 
 Localizer::Localizer(std::shared_ptr<const WallMap> map, const LocalizerConfig& config)
@@ -156,7 +166,7 @@ const TurnResult& Localizer::step(const Scan& turn) {
 
   // 5. What is less than evident, or far from where the robot just was, is not believed at once.
   const std::size_t corners = w.corners_of(decision);
-  if (decision.state == PoseState::kFix) decision.state = w.believe(corners, t_ns);
+  if (names_a_place(decision.state)) decision.state = w.believe(decision, corners, t_ns);
   w.report(decision, corners, t_ns);
 
   // 6. A turn whose place is known tells how the lidar errs always.
@@ -183,6 +193,33 @@ const PoseEstimate* Localizer::add(const OdometryReading& reading, std::optional
   w.predict(*ahead, w.between);
   w.between.age_s = w.memory.age_s(ahead->t_ns);
   return &w.between;
+}
+
+const PoseEstimate* Localizer::follow(const Sample& sample) {
+  Workspace& w = *workspace_;
+  if (!w.place || !w.place->parts || !w.place->parts->add(sample)) return nullptr;
+  PartTracker& parts = *w.place->parts;
+  const std::optional<Expectation> expected = w.expectation(parts.end_ns());
+  if (!expected) return nullptr;
+  const auto found = parts.localize(*expected, w.place->bias.bias(),
+                                    clamped_noise(w.result.detection.noise_scale));
+  if (!found) return nullptr;
+  const Pose2& T_map_lidar = found->refined.T_map_lidar;
+  PoseEstimate& pose = w.between;
+  pose.seq = ++w.result.pose.seq;
+  pose.t_ns = parts.end_ns();
+  pose.state = PoseState::kTracking;
+  pose.T_map_base = T_map_lidar * w.T_lidar_base;
+  pose.covariance = covariance_of_base(
+      found->refined.covariance + doubt_of_motion(expected->motion, expected->motion), T_map_lidar,
+      pose.T_map_base);
+  pose.room = w.map->room_at(pose.T_map_base.translation());
+  pose.corners =
+      static_cast<std::size_t>(w.place->recognition.recognised(parts.breakpoints(), T_map_lidar));
+  pose.inliers = found->explanation.hits;
+  pose.rmse_m = found->refined.rmse_m;
+  pose.age_s = w.memory.age_s(pose.t_ns);
+  return &pose;
 }
 
 void Localizer::set_pose(const Pose2& T_map_base) {
@@ -220,6 +257,26 @@ bool Localizer::Workspace::teaches(const Decision& decision) const {
   return memory.stands() && at.explanation.near_share() > kTeachingShare;
 }
 
+/// By odometry, where it knows; else the robot goes on as the last turns saw it move.
+std::optional<Expectation> Localizer::Workspace::expectation(TimeNs t_ns) {
+  if (!names_a_place(result.pose.state)) return std::nullopt;
+  const auto ahead = odometer.ahead();
+  const auto behind = odometer.prediction();
+  if (ahead && behind && to_seconds(ahead->t_ns - behind->t_ns) > kLeastTimeOfAMotion_s) {
+    const Pose2 T_map_ahead = ahead->T_map_base * config.T_base_lidar;
+    const Twist2 steady = motion_between(behind->T_map_base * config.T_base_lidar, T_map_ahead,
+                                         to_seconds(ahead->t_ns - behind->t_ns));
+    return Expectation{T_map_ahead * steady.over(to_seconds(t_ns - ahead->t_ns)),
+                       covariance_of_base(ahead->covariance, ahead->T_map_base, T_map_ahead),
+                       steady};
+  }
+  const std::optional<Pose2> prior = memory.prior(t_ns);
+  if (!prior || odometer.knows_motion()) return std::nullopt;
+  const Covariance3 of_lidar = covariance_of_base(result.pose.covariance, result.pose.T_map_base,
+                                                  result.pose.T_map_base * config.T_base_lidar);
+  return Expectation{*prior, later(of_lidar, to_seconds(t_ns - result.pose.t_ns)), memory.motion()};
+}
+
 const Scan& Localizer::Workspace::straightened(const Scan& turn, TimeNs t_ns) {
   odometer.advance(turn.start_ns(), t_ns, turn.end_ns());
   std::optional<Pose2> T_map_lidar;
@@ -243,15 +300,20 @@ bool Localizer::Workspace::is_expected(const Pose2& T_map_lidar, TimeNs t_ns) co
   return prior && same_place(*prior, T_map_lidar, kJump_m, kJump_rad);
 }
 
-PoseState Localizer::Workspace::believe(std::size_t corners, TimeNs t_ns) {
-  const core::Place& found = place->verification.places().front();
+PoseState Localizer::Workspace::believe(const Decision& decision, std::size_t corners,
+                                        TimeNs t_ns) {
+  const core::Place& found = place->verification.places()[decision.place];
   const Pose2& T_map_lidar = found.refined.T_map_lidar;
   const Evidence evidence{found.explanation, corners, points.widest_gap_rad()};
+  if (decision.state == PoseState::kTracking) {
+    return may_be_tracked(evidence) ? PoseState::kTracking : PoseState::kAmbiguous;
+  }
   const bool confirmed =
       T_map_doubted && same_place(*T_map_doubted, T_map_lidar, kJump_m, kJump_rad);
   T_map_doubted.reset();
   if (is_expected(T_map_lidar, t_ns)) {
-    return is_evident(evidence) ? PoseState::kFix : PoseState::kTracking;
+    if (is_evident(evidence)) return PoseState::kFix;
+    return may_be_tracked(evidence) ? PoseState::kTracking : PoseState::kLost;
   }
   if (!is_evident(evidence)) return PoseState::kLost;
   if (memory.prior(t_ns) && !confirmed && !is_certain(evidence)) {
@@ -273,7 +335,7 @@ void Localizer::Workspace::look(const Scan& scan, TimeNs t_ns, const Twist2& as_
 
   // The place where the robot should be by now, and those that pairs of corners point to.
   Verification& verification = place->verification;
-  verification.begin(points.points(), std::clamp(result.detection.noise_scale, 0.5, 4.0));
+  verification.begin(points.points(), clamped_noise(result.detection.noise_scale));
   if (const std::optional<Pose2> prior = memory.prior(t_ns)) {
     const Hypothesis carried_on{*prior, 0};
     verification.consider(std::span(&carried_on, 1), kPriorReach_m);

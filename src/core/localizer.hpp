@@ -75,6 +75,12 @@ class Localizer {
   /// state predicted, valid until the next call; else null.
   const PoseEstimate* add(const OdometryReading& reading, std::optional<TimeNs> now_ns);
 
+  /// The next sample of the turn in progress, after the turn that it ended. Where
+  /// updates_per_turn asks for poses before the turn's end, and this sample ends a part of it that
+  /// agrees with where the robot should be: where it is, at the time of the sample, in the state
+  /// tracking, valid until the next call; else null.
+  const PoseEstimate* follow(const Sample& sample);
+
   /// Somebody knows that the robot is about there, as of the last turn.
   void set_pose(const Pose2& T_map_base);
 

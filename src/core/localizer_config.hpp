@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 #include "core/detector_config.hpp"
@@ -25,6 +26,9 @@ struct LocalizerConfig {
   SensorBias bias;         ///< as far as it is known beforehand
   bool learn_bias = true;  ///< the rest, from the turns whose place is known
   OdometryConfig odometry;
+  /// Poses of a robot whose place is known: each turn gives its own at its end, and one for each
+  /// part before.
+  std::size_t updates_per_turn = 1;
 };
 
 }  // namespace cornerd::core

@@ -22,8 +22,13 @@ class Pipeline {
   /// until the next call.
   const TurnResult* add(const Sample& sample) {
     now_ns_ = sample.t_ns;
-    return assembler_.add(sample, turn_) ? &localizer_.step(turn_) : nullptr;
+    const TurnResult* result = assembler_.add(sample, turn_) ? &localizer_.step(turn_) : nullptr;
+    part_ = localizer_.follow(sample);
+    return result;
   }
+
+  /// What the last sample gave where it ended a part of a turn: see Localizer::follow().
+  const PoseEstimate* part() const { return part_; }
 
   /// What the robot's wheels and gyro say, in the order of time among the samples. Returns what
   /// Localizer::add() does. `now_ns`: by a clock, where the samples have one; else the newest
@@ -50,6 +55,7 @@ class Pipeline {
   TurnAssembler assembler_;
   Scan turn_;
   Localizer localizer_;
+  const PoseEstimate* part_ = nullptr;
 };
 
 }  // namespace cornerd::core

@@ -45,8 +45,14 @@ PolarPoint unbiased(const PolarPoint& point, const SensorBias& bias) {
 
 PolarPoint moved(const PolarPoint& point, const Twist2& motion) {
   const double dt_s = point.dt_s;
-  const Vec2 place = Vec2(motion.vx_m_s * dt_s, motion.vy_m_s * dt_s) +
-                     turned(point.place(), motion.omega_rad_s * dt_s);
+  const double turn_rad = motion.omega_rad_s * dt_s;
+  // Along an arc, as Twist2::over() has it, by series: turns are small.
+  const double along = 1 - turn_rad * turn_rad / 6;
+  const double aside = turn_rad / 2 * (1 - turn_rad * turn_rad / 12);
+  const Vec2 place = Vec2(along * motion.vx_m_s - aside * motion.vy_m_s,
+                          aside * motion.vx_m_s + along * motion.vy_m_s) *
+                         dt_s +
+                     turned(point.place(), turn_rad);
   const double range_m = std::max(place.norm(), 1e-6);
   const Vec2 ray = place * (1 / range_m);
   return {normalize_angle(point.bearing_rad + turn_between(point.ray(), place)),

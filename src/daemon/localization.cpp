@@ -112,6 +112,7 @@ void Localization::process(core::Pipeline& pipeline, const SampleChannel::Item& 
   const core::TurnResult* result =
       item.kind == SampleChannel::Kind::kGap ? pipeline.finish() : pipeline.add(item.sample);
   if (result != nullptr) report(pipeline, *result, item.arrival_ns);
+  if (item.kind == SampleChannel::Kind::kSample) report(pipeline.part());
 }
 
 void Localization::report(const core::Pipeline& pipeline, const core::TurnResult& result,

@@ -16,6 +16,8 @@ namespace cornerd::settings {
 namespace {
 
 constexpr std::size_t kMaxConfigBytes = 1 << 20;
+/// A part of a turn with fewer than a fiftieth of an A1's 800 samples tells nothing.
+constexpr int kMaxUpdatesPerTurn = 16;
 constexpr std::size_t kMaxModeBytes = 64;
 constexpr std::size_t kMaxDeviceNameBytes = 64;
 
@@ -194,8 +196,9 @@ void read_realtime(ObjectReader realtime, RealtimeConfig& config) {
   realtime.finish();
 }
 
-void read_localizer(ObjectReader localizer, core::RecognitionMethod& recognition) {
-  localizer.choice("recognition", recognition, kRecognitions);
+void read_localizer(ObjectReader localizer, LocalizationConfig& config) {
+  localizer.choice("recognition", config.recognition, kRecognitions);
+  localizer.integer("updates_per_turn", config.updates_per_turn, 1, kMaxUpdatesPerTurn);
   localizer.finish();
 }
 
@@ -206,7 +209,7 @@ Config read_config(ObjectReader root, bool require_map) {
     root.fail("map", "is missing; it is the one key without a default");
   }
   read_detector(root.object("detector"), config.detector);
-  read_localizer(root.object("localizer"), config.recognition);
+  read_localizer(root.object("localizer"), config.localization);
   read_odometry(root.object("odometry"), config.odometry);
   read_sockets(root.object("socket"), config.socket);
   read_realtime(root.object("realtime"), config.realtime);
@@ -223,7 +226,8 @@ core::LocalizerConfig Config::localizer() const {
   config.T_base_lidar = {lidar.mount.x_m, lidar.mount.y_m,
                          core::normalize_angle(lidar.mount.theta_rad)};
   config.detector = detector;
-  config.recognition = recognition;
+  config.recognition = localization.recognition;
+  config.updates_per_turn = static_cast<std::size_t>(localization.updates_per_turn);
   config.noise = lidar.noise.sensor;
   config.bias = lidar.bias;
   config.learn_bias = lidar.learn_bias;

@@ -92,6 +92,11 @@ struct OdometryConfig {
   core::OdometryConfig core;  ///< `enabled` where there is a source
 };
 
+struct LocalizationConfig {
+  core::RecognitionMethod recognition = core::RecognitionMethod::kPatterns;
+  int updates_per_turn = 1;
+};
+
 struct SocketConfig {
   std::filesystem::path pose = "/run/cornerd/pose.sock";
   std::filesystem::path control = "/run/cornerd/control.sock";
@@ -106,7 +111,7 @@ struct Config {
   LidarConfig lidar;
   std::filesystem::path map;  ///< absolute, or as given where the config came from no file
   core::DetectorConfig detector;
-  core::RecognitionMethod recognition = core::RecognitionMethod::kPatterns;
+  LocalizationConfig localization;
   OdometryConfig odometry;
   SocketConfig socket;
   RealtimeConfig realtime;

@@ -111,21 +111,14 @@ core::Twist2 TurnReader::motion(core::TimeNs) const {
   const std::size_t after = std::min(turn_ + 1, known.size() - 1);
   const double dt_s = core::to_seconds(drive_.middle_ns(after) - drive_.middle_ns(before));
   if (!(dt_s > 0) || dt_s > 1) return last_motion_;
-  const core::Pose2 way = known[before].inverse() * known[after];
-  const double half_rad = way.theta_rad / 2;
-  // Half-way through the turn the way points along the robot's own axes.
-  const double c = std::cos(half_rad);
-  const double s = std::sin(half_rad);
-  return {(c * way.x_m + s * way.y_m) / dt_s, (c * way.y_m - s * way.x_m) / dt_s,
-          way.theta_rad / dt_s};
+  return core::motion_between(known[before], known[after], dt_s);
 }
 
 void TurnReader::place(const core::Pose2& T_map_lidar, const core::Covariance3& covariance) {
   const core::TimeNs t_ns = drive_.middle_ns(turn_);
   const double dt_s = core::to_seconds(t_ns - last_ns_);
   if (turn_ > 0 && dt_s > 0 && dt_s < 1) {
-    const core::Pose2 way = last_T_map_lidar_.inverse() * T_map_lidar;
-    last_motion_ = {way.x_m / dt_s, way.y_m / dt_s, way.theta_rad / dt_s};
+    last_motion_ = core::motion_between(last_T_map_lidar_, T_map_lidar, dt_s);
   } else {
     last_motion_ = {};
   }

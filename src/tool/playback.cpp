@@ -15,6 +15,7 @@ class Playback::Sink : public replay::RecordingSink {
   void on_sample(const core::Sample& sample) override {
     playback_.play_readings_until(sample.t_ns);
     playback_.on_result(playback_.pipeline_.add(sample));
+    playback_.on_pose_between(playback_.pipeline_.part());
   }
   void on_gap() override { playback_.on_result(playback_.pipeline_.finish()); }
   void on_odometry(const message::OdometryReading& reading) override {
@@ -35,7 +36,10 @@ void Playback::play_readings_until(core::TimeNs t_ns) {
 }
 
 void Playback::add(const core::OdometryReading& reading) {
-  const core::PoseEstimate* pose = pipeline_.add(reading);
+  on_pose_between(pipeline_.add(reading));
+}
+
+void Playback::on_pose_between(const core::PoseEstimate* pose) {
   if (pose != nullptr && on_prediction_) on_prediction_(*pose);
 }
 

@@ -21,7 +21,7 @@ class Playback {
   /// Called after every piece of the recording, with the time and the counters so far.
   using OnPiece = std::function<void(core::TimeNs t_ns, const drivers::StreamCounters& counters)>;
 
-  /// Called for every pose between two turns (odometry.publish).
+  /// Called for every pose between two turns (odometry.publish, localizer.updates_per_turn).
   using OnPrediction = std::function<void(const core::PoseEstimate& pose)>;
 
   Playback(core::Pipeline& pipeline, OnTurn on_turn, OnPiece on_piece = {});
@@ -46,6 +46,7 @@ class Playback {
   class Sink;
 
   void on_result(const core::TurnResult* result);
+  void on_pose_between(const core::PoseEstimate* pose);
 
   core::Pipeline& pipeline_;
   OnTurn on_turn_;

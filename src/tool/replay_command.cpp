@@ -88,8 +88,7 @@ void replay(const ReplayOptions& options) {
   output.flush();
   if (truth) std::fputs(errors.report().c_str(), stderr);
   if (errors_between.turns() > 0) {
-    std::fprintf(stderr, "between the turns, by odometry\n%s",
-                 errors_between.report("poses").c_str());
+    std::fprintf(stderr, "between the turns\n%s", errors_between.report("poses").c_str());
   }
 }
 

@@ -29,6 +29,7 @@ struct Trial {
   double clutter = 0;          ///< share of the rays that things stop
   std::size_t turns_each = 1;  ///< at a place, or on a circle; each begins without a prior
   CircularMotion motion;
+  std::size_t updates_per_turn = 1;  ///< above 1, the poses of parts of a turn are judged alone
   bool odometry = false;
   core::TimeNs turn_ns = 137'000'000;
 };

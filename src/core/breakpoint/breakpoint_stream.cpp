@@ -9,13 +9,13 @@
 
 namespace cornerd::core {
 
-BreakpointStream::BreakpointStream(const DetectorConfig& config, const SensorNoise& noise,
-                                   Sweep sweep)
-    : tracker_(config, noise), chain_(config, noise), sweep_(sweep) {
+BreakpointStream::BreakpointStream(const DetectorConfig& config, const SensorNoise& noise)
+    : tracker_(config, noise), chain_(config, noise) {
   mirrored_.reserve(kMaxBreakpointsPerTurn);
 }
 
-void BreakpointStream::begin(double spacing_rad) {
+void BreakpointStream::begin(double spacing_rad, Sweep sweep) {
+  sweep_ = sweep;
   tracker_.begin();
   chain_.begin();
   scan_.begin(spacing_rad);

@@ -26,11 +26,11 @@ enum class Sweep : std::int8_t { kCounterClockwise = +1, kClockwise = -1 };
 /// construction.
 class BreakpointStream {
  public:
-  BreakpointStream(const DetectorConfig& config, const SensorNoise& noise, Sweep sweep);
+  BreakpointStream(const DetectorConfig& config, const SensorNoise& noise);
 
   /// A turn begins. `spacing_rad`: distance in bearing between two samples, as of the turn
   /// before.
-  void begin(double spacing_rad);
+  void begin(double spacing_rad, Sweep sweep);
 
   /// The next return, lidar frame. A bearing may step back by up to kMaxStepBack_rad, as those of
   /// an A1 do. Ranges that are none, returns beyond a whole circle, and more than
@@ -58,7 +58,7 @@ class BreakpointStream {
 
   Altbd tracker_;
   WallChain chain_;
-  Sweep sweep_;
+  Sweep sweep_ = Sweep::kClockwise;
   PolarScan scan_;
   Detection detection_;
   std::vector<Breakpoint> mirrored_;

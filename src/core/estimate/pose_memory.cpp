@@ -28,8 +28,7 @@ void PoseMemory::remember(const Pose2& T_map_lidar, TimeNs t_ns, const Twist2& m
   motion_ = straightened_ ? Twist2{} : motion;
   stands_ = false;
   if (last_T_map_lidar_ && dt_s > kMinMotionTime_s && dt_s < kMaxMotionTime_s) {
-    const Pose2 way = last_T_map_lidar_->inverse() * T_map_lidar;
-    const Twist2 seen{way.x_m / dt_s, way.y_m / dt_s, way.theta_rad / dt_s};
+    const Twist2 seen = motion_between(*last_T_map_lidar_, T_map_lidar, dt_s);
     const bool moves = seen.speed_m_s() > kRest_m_s || std::abs(seen.omega_rad_s) > kRest_rad_s;
     if (is_plausible(seen)) motion_ = moves ? seen : Twist2{};
     stands_ = seen.speed_m_s() < kStanding_m_s && std::abs(seen.omega_rad_s) < kStanding_rad_s;
@@ -60,7 +59,7 @@ bool is_plausible(const Twist2& motion) {
 
 Covariance3 doubt_of_motion(const Twist2& used, const Twist2& seen) {
   constexpr double kHalfTurn_s = 0.07;
-  constexpr double kSteadyShare = 0.02;
+  constexpr double kSteadyShare = 0.006;
   constexpr double kChangeShare = 0.25;
   const Twist2 change = seen + Twist2{-used.vx_m_s, -used.vy_m_s, -used.omega_rad_s};
   const auto variance = [](double steady, double changed) {
@@ -71,6 +70,18 @@ Covariance3 doubt_of_motion(const Twist2& used, const Twist2& seen) {
   return Eigen::Vector3d(place_m2, place_m2,
                          variance(std::abs(used.omega_rad_s), std::abs(change.omega_rad_s)))
       .asDiagonal();
+}
+
+Covariance3 later(const Covariance3& covariance, double dt_s) {
+  constexpr double kUsualTurn_s = 0.14;
+  constexpr double kAcceleration_m_s2 = 1;
+  constexpr double kAcceleration_rad_s2 = 4;
+  const double turns = dt_s / kUsualTurn_s;
+  const double way_m = kAcceleration_m_s2 * dt_s * dt_s / 2;
+  const double way_rad = kAcceleration_rad_s2 * dt_s * dt_s / 2;
+  Covariance3 grown = (1 + 2 * turns * turns) * covariance;
+  grown.diagonal() += Eigen::Vector3d(way_m * way_m, way_m * way_m, way_rad * way_rad);
+  return grown;
 }
 
 Covariance3 covariance_of_base(const Covariance3& of_lidar, const Pose2& T_map_lidar,

@@ -53,6 +53,10 @@ bool is_plausible(const Twist2& motion);
 /// says another motion, `seen`, it changed its speed in between.
 Covariance3 doubt_of_motion(const Twist2& used, const Twist2& seen);
 
+/// A pose's covariance `dt_s` later, where nothing but the robot's own inertia tells its way: the
+/// speed is known as well as two such poses, a usual turn apart, tell it.
+Covariance3 later(const Covariance3& covariance, double dt_s);
+
 /// A covariance of `lidar` becomes that of `base`: the offset between them turns with the heading.
 Covariance3 covariance_of_base(const Covariance3& of_lidar, const Pose2& T_map_lidar,
                                const Pose2& T_map_base);

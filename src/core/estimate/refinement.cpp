@@ -87,19 +87,19 @@ Refinement::Step Refinement::step(const WallMap& map, const Pose2& T_map_lidar,
 
 RefinedPose Refinement::refine(const WallMap& map, const Pose2& start, double reach_m,
                                std::span<const PolarPoint> thin, std::span<const PolarPoint> points,
-                               double noise_scale) {
-  return descend(map, start, reach_m, thin, points, noise_scale, kMaxSteps);
+                               double noise_scale, const PosePrior* prior) {
+  return descend(map, start, reach_m, thin, points, noise_scale, kMaxSteps, prior);
 }
 
 RefinedPose Refinement::approach(const WallMap& map, const Pose2& start, double reach_m,
                                  std::span<const PolarPoint> thin, double noise_scale) {
-  return descend(map, start, reach_m, thin, thin, noise_scale, 1);
+  return descend(map, start, reach_m, thin, thin, noise_scale, 1, nullptr);
 }
 
 RefinedPose Refinement::descend(const WallMap& map, const Pose2& start, double reach_m,
                                 std::span<const PolarPoint> thin,
                                 std::span<const PolarPoint> points, double noise_scale,
-                                int last_steps) {
+                                int last_steps, const PosePrior* prior) {
   RefinedPose refined;
   refined.T_map_lidar = start;
   double slack_m = reach_m;
@@ -111,6 +111,14 @@ RefinedPose Refinement::descend(const WallMap& map, const Pose2& start, double r
     const double step_slack_m = rough ? slack_m : 0;
     look(map, refined.T_map_lidar, rough ? thin : points, noise_scale, step_slack_m);
     sums = step(map, refined.T_map_lidar, step_slack_m);
+    if (prior != nullptr) {
+      const Pose2& at = refined.T_map_lidar;
+      sums.information += prior->information;
+      sums.gradient +=
+          prior->information *
+          Eigen::Vector3d(at.x_m - prior->T_map_lidar.x_m, at.y_m - prior->T_map_lidar.y_m,
+                          angle_between(prior->T_map_lidar.theta_rad, at.theta_rad));
+    }
     solver.compute(sums.information);
     const Eigen::Vector3d pivots = solver.vectorD();
     if (sums.inliers < kMinInliers || !(pivots.minCoeff() > kMinPivot * pivots.maxCoeff())) {

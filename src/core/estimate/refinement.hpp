@@ -20,6 +20,13 @@ struct RefinedPose {
   bool valid = false;  ///< false: the points do not determine the pose
 };
 
+/// What is known of the pose besides the points.
+struct PosePrior {
+  Pose2 T_map_lidar;
+  Eigen::Matrix3d information =
+      Eigen::Matrix3d::Zero();  ///< of x, y, theta; as a covariance's inverse
+};
+
 struct RefinedMotion {
   Pose2 T_map_lidar;
   Twist2 motion;  ///< in addition to the one that the points were moved back by
@@ -38,7 +45,7 @@ class Refinement {
   /// steps, which need no precision.
   RefinedPose refine(const WallMap& map, const Pose2& start, double reach_m,
                      std::span<const PolarPoint> thin, std::span<const PolarPoint> points,
-                     double noise_scale);
+                     double noise_scale, const PosePrior* prior = nullptr);
 
   /// The same by few points and no more steps than it takes to tell whether the place may be right.
   RefinedPose approach(const WallMap& map, const Pose2& start, double reach_m,
@@ -55,7 +62,7 @@ class Refinement {
   /// `last_steps`: at most so many on `points`.
   RefinedPose descend(const WallMap& map, const Pose2& start, double reach_m,
                       std::span<const PolarPoint> thin, std::span<const PolarPoint> points,
-                      double noise_scale, int last_steps);
+                      double noise_scale, int last_steps, const PosePrior* prior);
   /// Which face each of the points meets, seen from here.
   void look(const WallMap& map, const Pose2& T_map_lidar, std::span<const PolarPoint> points,
             double noise_scale, double slack_m);

@@ -50,10 +50,19 @@ struct Twist2 {
   double vy_m_s = 0;
   double omega_rad_s = 0;
 
-  /// The motion over a time so short that the way is straight.
+  /// Where a steady motion leads in a time: along an arc (the exponential map of SE(2)).
   Pose2 over(double dt_s) const {
-    return {vx_m_s * dt_s, vy_m_s * dt_s, normalize_angle(omega_rad_s * dt_s)};
+    const double turn_rad = omega_rad_s * dt_s;
+    double along = 1 - turn_rad * turn_rad / 6;  // sin(turn) / turn
+    double aside = turn_rad / 2;                 // (1 - cos(turn)) / turn
+    if (std::abs(turn_rad) > kNearlyStraight_rad) {
+      along = std::sin(turn_rad) / turn_rad;
+      aside = (1 - std::cos(turn_rad)) / turn_rad;
+    }
+    return {(along * vx_m_s - aside * vy_m_s) * dt_s, (aside * vx_m_s + along * vy_m_s) * dt_s,
+            normalize_angle(turn_rad)};
   }
+  static constexpr double kNearlyStraight_rad = 1e-3;
   double speed_m_s() const { return std::hypot(vx_m_s, vy_m_s); }
   Twist2 operator+(const Twist2& other) const {
     return {vx_m_s + other.vx_m_s, vy_m_s + other.vy_m_s, omega_rad_s + other.omega_rad_s};
@@ -61,6 +70,18 @@ struct Twist2 {
   bool operator==(const Twist2&) const = default;
   bool is_rest() const { return vx_m_s == 0 && vy_m_s == 0 && omega_rad_s == 0; }
 };
+
+/// The steady motion that leads from the one pose to the other in `dt_s`: what over() undoes. For
+/// turns of less than half a circle.
+inline Twist2 motion_between(const Pose2& from, const Pose2& to, double dt_s) {
+  const Pose2 way = from.inverse() * to;
+  const double half_rad = way.theta_rad / 2;
+  const double along = std::abs(half_rad) > Twist2::kNearlyStraight_rad
+                           ? half_rad / std::tan(half_rad)
+                           : 1 - half_rad * half_rad / 3;
+  return {(along * way.x_m + half_rad * way.y_m) / dt_s,
+          (along * way.y_m - half_rad * way.x_m) / dt_s, way.theta_rad / dt_s};
+}
 
 /// Of (x [m], y [m], theta [rad]) in the frame of the pose it belongs to; symmetric.
 using Covariance3 = Eigen::Matrix3d;

@@ -44,6 +44,10 @@ bool is_evident(const Evidence& evidence) {
           evidence.explanation.through_share() <= kThroughShareAmongThings);
 }
 
+bool may_be_tracked(const Evidence& evidence) {
+  return is_whole(evidence) || evidence.corners >= 1;
+}
+
 bool is_certain(const Evidence& evidence) {
   return is_whole(evidence) && leaves_no_doubt(evidence.explanation, /*expected=*/false) &&
          evidence.corners >= kCertainCorners;

@@ -22,6 +22,10 @@ bool leaves_no_doubt(const Explanation& explanation, bool expected);
 /// True where the place is believed though nothing was known before.
 bool is_evident(const Evidence& evidence);
 
+/// True where the place is believed if the robot was expected there. What a covered lidar still
+/// sees may be one wall, along which a place slides: then a corner has to hold it.
+bool may_be_tracked(const Evidence& evidence);
+
 /// True where the place is believed at once though the robot was somewhere else just before.
 bool is_certain(const Evidence& evidence);
 

@@ -99,11 +99,12 @@ TEST(Pipeline, FromSampleToPoseByEachMethod_AllocatesNothing) {
   }
 }
 
-TEST(Pipeline, WithOdometry_AllocatesNothing) {
+TEST(Pipeline, WithOdometryAndPartsOfTurns_AllocatesNothing) {
   const auto map = testing::make_map(testing::l_shaped_room());
   testing::TurnSource source(74);
   LocalizerConfig config;
   config.odometry.enabled = true;
+  config.updates_per_turn = 4;
   Pipeline pipeline(map, config);
   std::vector<Scan> turns;
   testing::TurnOptions covered;
@@ -114,6 +115,7 @@ TEST(Pipeline, WithOdometry_AllocatesNothing) {
     turns.push_back(source.take(*map, {1, 1, 0.5}, options));
   }
   int predicted = 0;
+  int parts = 0;
   const long before = allocations;
   for (const Scan& turn : turns) {
     for (TimeNs dt_ns = 0; dt_ns < 140'000'000; dt_ns += 20'000'000) {
@@ -122,22 +124,24 @@ TEST(Pipeline, WithOdometry_AllocatesNothing) {
     for (const Sample& sample : turn.samples()) {
       const TurnResult* result = pipeline.add(sample);
       predicted += result != nullptr && result->pose.state == PoseState::kPredicted;
+      parts += pipeline.part() != nullptr;
     }
   }
   EXPECT_EQ(allocations - before, 0);
   EXPECT_GT(predicted, 5);
+  EXPECT_GT(parts, 20);
 }
 
 TEST(BreakpointStream, FromReturnToBreakpoint_AllocatesNothing) {
   const auto map = testing::make_map(testing::l_shaped_room());
   testing::TurnSource source(73);
   for (const Sweep sweep : {Sweep::kCounterClockwise, Sweep::kClockwise}) {
-    BreakpointStream stream({}, {}, sweep);
+    BreakpointStream stream({}, {});
     std::size_t found = 0;
     for (int k = 0; k < 10; ++k) {
       const Scan turn = source.take(*map, source.place_in(0.4, 2.2, 0.4, 1.4));
       const long before = allocations;
-      stream.begin(kTwoPi / static_cast<double>(turn.size()));
+      stream.begin(kTwoPi / static_cast<double>(turn.size()), sweep);
       for (const Sample& sample : turn.samples()) {
         found += stream.add(sample.bearing_rad, sample.range_m).size();
       }

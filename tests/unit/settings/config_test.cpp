@@ -148,6 +148,16 @@ TEST(Config, OneCounterForBothWheels_IsRefused) {
               HasSubstr("/odometry/kernel/right: "));
 }
 
+TEST(Config, UpdatesPerTurn_ReachTheLocalizer) {
+  EXPECT_EQ(
+      parse(R"({"map": "/m", "localizer": {"updates_per_turn": 4}})").localizer().updates_per_turn,
+      4U);
+  EXPECT_THAT(config_error(R"({"map": "/m", "localizer": {"updates_per_turn": 0}})"),
+              HasSubstr("/localizer/updates_per_turn"));
+  EXPECT_THAT(config_error(R"({"map": "/m", "localizer": {"updates_per_turn": 17}})"),
+              HasSubstr("/localizer/updates_per_turn"));
+}
+
 TEST(Config, UnknownChoice_ListsWhatThereIs) {
   EXPECT_THAT(config_error(R"({"map": "/m", "localizer": {"recognition": "guess"}})"),
               HasSubstr("/localizer/recognition"));

@@ -44,7 +44,7 @@ TEST(BreakpointStream, ReturnByReturn_GivesTheBreakpointsOfTheWholeTurn) {
   const auto map = testing::make_map(testing::l_shaped_room());
   testing::TurnSource source(41);
   Detector detector({}, {});
-  BreakpointStream stream({}, {}, Sweep::kCounterClockwise);
+  BreakpointStream stream({}, {});
   for (int k = 0; k < 40; ++k) {
     // As the stream takes them: a whole turn's rays are computed from one another.
     PolarScan turn;
@@ -55,7 +55,7 @@ TEST(BreakpointStream, ReturnByReturn_GivesTheBreakpointsOfTheWholeTurn) {
     detector.detect(turn, whole);
 
     std::vector<Breakpoint> streamed;
-    stream.begin(turn.spacing_rad());
+    stream.begin(turn.spacing_rad(), Sweep::kCounterClockwise);
     for (const PolarPoint& point : turn.points()) {
       append(streamed, stream.add(point.bearing_rad, point.range_m));
     }
@@ -70,7 +70,7 @@ TEST(BreakpointStream, ClockwiseTurn_GivesThoseOfItsMirrorImage) {
   const auto map = testing::make_map(testing::l_shaped_room());
   testing::TurnSource source(42);
   Detector detector({}, {});
-  BreakpointStream stream({}, {}, Sweep::kClockwise);
+  BreakpointStream stream({}, {});
   for (int k = 0; k < 10; ++k) {
     const PolarScan turn = noisy_turn(source, *map, source.place_in(0.3, 3.7, 0.3, 1.5));
     PolarScan mirror;
@@ -82,7 +82,7 @@ TEST(BreakpointStream, ClockwiseTurn_GivesThoseOfItsMirrorImage) {
     for (Breakpoint& breakpoint : expected.breakpoints) breakpoint = mirrored(breakpoint);
 
     std::vector<Breakpoint> streamed;
-    stream.begin(turn.spacing_rad());
+    stream.begin(turn.spacing_rad(), Sweep::kClockwise);
     for (const PolarPoint& point : clockwise) {
       append(streamed, stream.add(point.bearing_rad, point.range_m));
     }
@@ -99,9 +99,9 @@ TEST(BreakpointStream, BackwardSteps_ChangeNothing) {
   for (std::size_t i = 0; i + 1 < shuffled.size(); i += 23) std::swap(shuffled[i], shuffled[i + 1]);
 
   const auto run = [&](std::span<const PolarPoint> points) {
-    BreakpointStream stream({}, {}, Sweep::kCounterClockwise);
+    BreakpointStream stream({}, {});
     std::vector<Breakpoint> streamed;
-    stream.begin(turn.spacing_rad());
+    stream.begin(turn.spacing_rad(), Sweep::kCounterClockwise);
     for (const PolarPoint& point : points) {
       append(streamed, stream.add(point.bearing_rad, point.range_m));
     }
@@ -115,8 +115,8 @@ TEST(BreakpointStream, Breakpoint_IsCertainLongBeforeTheTurnEnds) {
   const auto map = testing::make_map(testing::rectangular_room(3, 2));
   testing::TurnSource source(44);
   const PolarScan turn = testing::polar(source.take(*map, {1.5, 1, 0.3}));
-  BreakpointStream stream({}, {}, Sweep::kCounterClockwise);
-  stream.begin(turn.spacing_rad());
+  BreakpointStream stream({}, {});
+  stream.begin(turn.spacing_rad(), Sweep::kCounterClockwise);
   std::size_t early = 0;
   std::size_t all = 0;
   for (const PolarPoint& point : turn.points()) {
@@ -137,10 +137,10 @@ TEST(BreakpointStream, SeamAnywhere_IsNoBreakpoint) {
   const auto map = testing::make_map(testing::rectangular_room(3, 2));
   testing::TurnSource source(45);
   const PolarScan turn = testing::polar(source.take(*map, {1.3, 0.8, 0.1}));
-  BreakpointStream stream({}, {}, Sweep::kCounterClockwise);
+  BreakpointStream stream({}, {});
   for (std::size_t start = 0; start < turn.size(); start += 37) {
     std::vector<Breakpoint> streamed;
-    stream.begin(turn.spacing_rad());
+    stream.begin(turn.spacing_rad(), Sweep::kCounterClockwise);
     for (std::size_t i = 0; i < turn.size(); ++i) {
       const PolarPoint& point = turn[(start + i) % turn.size()];
       append(streamed, stream.add(point.bearing_rad, point.range_m));
@@ -154,8 +154,8 @@ TEST(BreakpointStream, ReturnsBeyondTheCircle_AreIgnored) {
   const auto map = testing::make_map(testing::rectangular_room(3, 2));
   testing::TurnSource source(46);
   const PolarScan turn = testing::polar(source.take(*map, {1.3, 0.8, 0.1}));
-  BreakpointStream stream({}, {}, Sweep::kCounterClockwise);
-  stream.begin(turn.spacing_rad());
+  BreakpointStream stream({}, {});
+  stream.begin(turn.spacing_rad(), Sweep::kCounterClockwise);
   std::vector<Breakpoint> streamed;
   for (int round = 0; round < 3; ++round) {
     for (const PolarPoint& point : turn.points()) {
@@ -173,9 +173,9 @@ TEST(BreakpointStream, RangesThatAreNone_AreIgnored) {
   const auto map = testing::make_map(testing::rectangular_room(3, 2));
   testing::TurnSource source(47);
   const PolarScan turn = testing::polar(source.take(*map, {1.3, 0.8, 0.1}));
-  BreakpointStream stream({}, {}, Sweep::kCounterClockwise);
+  BreakpointStream stream({}, {});
   for (int round = 0; round < 2; ++round) {
-    stream.begin(turn.spacing_rad());
+    stream.begin(turn.spacing_rad(), Sweep::kCounterClockwise);
     std::vector<Breakpoint> streamed;
     for (const PolarPoint& point : turn.points()) {
       for (const double none : {0.0, -1.0, std::nan(""), HUGE_VAL}) {

@@ -52,5 +52,24 @@ TEST(Pose2, QuarterTurn_TakesXToY) {
   EXPECT_NEAR(p.y(), 1, 1e-15);
 }
 
+TEST(Twist2, Over_FollowsTheArc) {
+  // A quarter of a circle of 1 m to the left.
+  const Pose2 quarter = Twist2{kPi / 2, 0, kPi / 2}.over(1);
+  EXPECT_NEAR(quarter.x_m, 1, 1e-12);
+  EXPECT_NEAR(quarter.y_m, 1, 1e-12);
+  EXPECT_NEAR(quarter.theta_rad, kPi / 2, 1e-12);
+}
+
+TEST(Twist2, MotionBetween_UndoesOver) {
+  const Pose2 from{0.3, -0.7, 2.9};
+  for (const double omega_rad_s : {0.0, 1e-4, 0.0099, 0.011, 1.5, -6.0}) {
+    const Twist2 motion{0.5, -0.2, omega_rad_s};
+    const Twist2 found = motion_between(from, from * motion.over(0.18), 0.18);
+    EXPECT_NEAR(found.vx_m_s, motion.vx_m_s, 1e-8) << omega_rad_s;
+    EXPECT_NEAR(found.vy_m_s, motion.vy_m_s, 1e-8) << omega_rad_s;
+    EXPECT_NEAR(found.omega_rad_s, motion.omega_rad_s, 1e-9) << omega_rad_s;
+  }
+}
+
 }  // namespace
 }  // namespace cornerd::core

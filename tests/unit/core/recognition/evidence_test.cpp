@@ -54,6 +54,12 @@ TEST(Evidence, HalfATurn_IsBelievedByItsCornersAlone) {
   EXPECT_FALSE(is_certain(evidence(790, 3, kHalfCovered_rad)));
 }
 
+TEST(Evidence, HalfATurnOfARobotThatIsExpected_NeedsACorner) {
+  EXPECT_TRUE(may_be_tracked(evidence(80, 0)));
+  EXPECT_TRUE(may_be_tracked(evidence(80, 1, kHalfCovered_rad)));
+  EXPECT_FALSE(may_be_tracked(evidence(80, 0, kHalfCovered_rad)));
+}
+
 TEST(Evidence, AJump_NeedsTwoCornersToBeCertain) {
   EXPECT_TRUE(is_certain(evidence(780, 2)));
   EXPECT_FALSE(is_certain(evidence(780, 1)));

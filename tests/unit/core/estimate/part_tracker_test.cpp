@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: MIT
+#include "core/estimate/part_tracker.hpp"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "../fixtures.hpp"
+#include "core/pipeline.hpp"
+
+namespace cornerd::core {
+namespace {
+
+constexpr double kPartTurn_s = 0.14;
+const Pose2 kStart{1.2, 1.0, 0.4};
+
+/// A robot that keeps its speed, and what the daemon's pipeline says of it.
+class FollowedRobot {
+ public:
+  explicit FollowedRobot(const Twist2& motion, std::size_t updates_per_turn = 4)
+      : motion_(motion), pipeline_(map_, config(updates_per_turn)) {}
+
+  struct Part {
+    PoseEstimate pose;
+    Pose2 truth;
+  };
+
+  /// The poses of the parts of this many turns. `from`: the building that is seen.
+  std::vector<Part> drive(int turns, const WallMap* seen = nullptr) {
+    std::vector<Part> parts;
+    for (int k = 0; k < turns; ++k, ++turn_) {
+      testing::TurnOptions options;
+      options.turn_s = kPartTurn_s;
+      options.start_ns = static_cast<TimeNs>(turn_ * kPartTurn_s * 1e9);
+      options.motion = motion_;
+      const Pose2 middle = truth(options.start_ns + static_cast<TimeNs>(kPartTurn_s / 2 * 1e9));
+      const Scan scan = source_.take(seen != nullptr ? *seen : *map_, middle, options);
+      for (const Sample& sample : scan.samples()) {
+        if (pipeline_.add(sample) != nullptr) ++whole_turns_;
+        if (const PoseEstimate* pose = pipeline_.part())
+          parts.push_back({*pose, truth(pose->t_ns)});
+      }
+    }
+    return parts;
+  }
+  int whole_turns() const { return whole_turns_; }
+
+ private:
+  static LocalizerConfig config(std::size_t updates_per_turn) {
+    LocalizerConfig config;
+    config.updates_per_turn = updates_per_turn;
+    return config;
+  }
+  Pose2 truth(TimeNs t_ns) const { return kStart * motion_.over(to_seconds(t_ns)); }
+
+  Twist2 motion_;
+  std::shared_ptr<const WallMap> map_ = testing::make_map(testing::l_shaped_room());
+  Pipeline pipeline_;
+  testing::TurnSource source_{31};
+  int turn_ = 0;
+  int whole_turns_ = 0;
+};
+
+double error_m(const FollowedRobot::Part& part) {
+  return (part.pose.T_map_base.translation() - part.truth.translation()).norm();
+}
+
+TEST(PartTracker, EveryQuarter_GivesAPoseOfItsOwnTime) {
+  FollowedRobot robot({0.2, 0, 0.5});
+  const auto parts = robot.drive(10);
+  // The first turn is not known to be whole, the second is, and its place is known at its end.
+  ASSERT_GE(parts.size(), 3U * 7);
+  ASSERT_LE(parts.size(), 3U * 9);
+  TimeNs before_ns = 0;
+  for (const auto& part : parts) {
+    EXPECT_EQ(part.pose.state, PoseState::kTracking);
+    EXPECT_GT(part.pose.t_ns, before_ns);
+    EXPECT_LT(error_m(part), 0.01);
+    const double x_error_m = part.pose.T_map_base.x_m - part.truth.x_m;
+    EXPECT_LT(x_error_m * x_error_m, 16 * part.pose.covariance(0, 0));
+    before_ns = part.pose.t_ns;
+  }
+}
+
+TEST(PartTracker, CornersOfThePart_AreRecognised) {
+  FollowedRobot robot({});
+  std::size_t corners = 0;
+  for (const auto& part : robot.drive(5)) corners += part.pose.corners;
+  EXPECT_GE(corners, 6U);
+}
+
+TEST(PartTracker, OneUpdateATurn_IsTheTurnsOwn) {
+  FollowedRobot robot({0.2, 0, 0.5}, 1);
+  EXPECT_TRUE(robot.drive(5).empty());
+  EXPECT_EQ(robot.whole_turns(), 4);
+}
+
+TEST(PartTracker, RobotThatWasCarriedAway_GetsNoPoseFromParts) {
+  FollowedRobot robot({});
+  ASSERT_FALSE(robot.drive(4).empty());
+  const auto elsewhere = testing::make_map(testing::rectangular_room(2.2, 1.7));
+  for (const auto& part : robot.drive(4, elsewhere.get())) {
+    EXPECT_LT(error_m(part), 0.03) << "a part of another building named a place";
+  }
+}
+
+}  // namespace
+}  // namespace cornerd::core
