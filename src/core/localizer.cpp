@@ -64,6 +64,9 @@ double clamped_noise(double noise_scale) { return std::clamp(noise_scale, 0.5, 4
 
 /// Shorter, and two poses tell nothing of the motion between them.
 constexpr double kLeastTimeOfAMotion_s = 0.02;
+/// Wheels tell the way itself; how unevenly it was driven is as if a motion were so much of the
+/// time old (the NEES of quarters of turns, drives in a flat that stop and turn often).
+constexpr double kUnevenShare = 0.15;
 
 }  // namespace
 
@@ -169,11 +172,17 @@ const TurnResult& Localizer::step(const Scan& turn) {
   if (names_a_place(decision.state)) decision.state = w.believe(decision, corners, t_ns);
   w.report(decision, corners, t_ns);
 
-  // 6. A turn whose place is known tells how the lidar errs always.
+  // 6. A turn whose place is known tells how the lidar errs always, if the robot stood to its end:
+  //    the turn after it tells that.
+  if (w.place) {
+    const bool still_stands = names_a_place(decision.state) && w.memory.stands();
+    if (still_stands) w.place->bias.confirm();
+    w.place->bias.dismiss();
+  }
   if (w.teaches(decision)) {
     const core::Place& at = w.place->verification.places()[decision.place];
-    w.place->bias.learn(*w.map, at.refined.T_map_lidar, w.points.points(),
-                        std::max(1.0, w.result.detection.noise_scale));
+    w.place->bias.consider(*w.map, at.refined.T_map_lidar, w.points.points(),
+                           std::max(1.0, w.result.detection.noise_scale));
   }
   return w.result;
 }
@@ -210,9 +219,10 @@ const PoseEstimate* Localizer::follow(const Sample& sample) {
   pose.t_ns = parts.end_ns();
   pose.state = PoseState::kTracking;
   pose.T_map_base = T_map_lidar * w.T_lidar_base;
-  pose.covariance = covariance_of_base(
-      found->refined.covariance + doubt_of_motion(expected->motion, expected->motion), T_map_lidar,
-      pose.T_map_base);
+  const Covariance3 of_lidar = found->refined.covariance +
+                               doubt_of_motion(expected->motion, expected->motion) +
+                               doubt_of_old_motion(expected->motion_age_s, parts.duration_s());
+  pose.covariance = covariance_of_base(of_lidar, T_map_lidar, pose.T_map_base);
   pose.room = w.map->room_at(pose.T_map_base.translation());
   pose.corners =
       static_cast<std::size_t>(w.place->recognition.recognised(parts.breakpoints(), T_map_lidar));
@@ -268,13 +278,14 @@ std::optional<Expectation> Localizer::Workspace::expectation(TimeNs t_ns) {
                                          to_seconds(ahead->t_ns - behind->t_ns));
     return Expectation{T_map_ahead * steady.over(to_seconds(t_ns - ahead->t_ns)),
                        covariance_of_base(ahead->covariance, ahead->T_map_base, T_map_ahead),
-                       steady};
+                       steady, kUnevenShare * to_seconds(ahead->t_ns - behind->t_ns)};
   }
   const std::optional<Pose2> prior = memory.prior(t_ns);
   if (!prior || odometer.knows_motion()) return std::nullopt;
   const Covariance3 of_lidar = covariance_of_base(result.pose.covariance, result.pose.T_map_base,
                                                   result.pose.T_map_base * config.T_base_lidar);
-  return Expectation{*prior, later(of_lidar, to_seconds(t_ns - result.pose.t_ns)), memory.motion()};
+  const double age_s = to_seconds(t_ns - result.pose.t_ns);
+  return Expectation{*prior, later(of_lidar, age_s), memory.motion(), age_s};
 }
 
 const Scan& Localizer::Workspace::straightened(const Scan& turn, TimeNs t_ns) {

@@ -143,7 +143,9 @@ void run_bench(const BenchOptions& options) {
   }
   if (options.odometry) {
     if (options.scale) throw UsageError("--odometry and --scale are two benchmarks");
-    run_odometry_bench({options.maps, options.plots, options.json, options.seed});
+    OdometryBenchOptions odometry{options.maps, options.plots, options.json, options.seed};
+    if (options.positions_given->count() > 0) odometry.drives = options.positions;
+    run_odometry_bench(odometry);
     return;
   }
   if (options.survey) {
@@ -216,7 +218,8 @@ void add_bench(CLI::App& program) {
       ->type_name("N,...");
   options->positions_given =
       command
-          ->add_option("--positions", options->positions, "random places; 0: the paper's 43 alone")
+          ->add_option("--positions", options->positions,
+                       "random places; 0: the paper's 43 alone (--odometry: drives of each robot)")
           ->check(CLI::Range(std::size_t{0}, std::size_t{10'000'000}))
           ->type_name("N")
           ->capture_default_str();

@@ -26,9 +26,6 @@ using bench::OdometryResult;
 using bench::ReckonedTrack;
 using core::HeadingSource;
 
-/// Of each robot.
-constexpr std::size_t kBlindDrives = 4;
-
 struct RobotResults {
   bench::OdometryRobot robot;
   std::vector<OdometryResult> drives;
@@ -174,7 +171,7 @@ void run_odometry_bench(const OdometryBenchOptions& options) {
       }
     }
     for (const bench::BlindCase& one : cases) {
-      blind.push_back({one.title, run_blind_case(map, one, options.seed, kBlindDrives)});
+      blind.push_back({one.title, run_blind_case(map, one, options.seed, options.drives)});
       bar.show(++done);
     }
   }

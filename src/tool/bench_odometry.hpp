@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <string>
@@ -12,6 +13,7 @@ struct OdometryBenchOptions {
   std::filesystem::path plots;  ///< folder; empty: no pictures
   std::string json;             ///< file, "-" or empty
   std::uint64_t seed = 1;
+  std::size_t drives = 4;  ///< of each robot whose lidar is covered now and then
 };
 
 /// cornerctl bench --odometry: the paper's modes of odometry on its drives, as a table, as JSON and

@@ -17,6 +17,15 @@ namespace {
 
 class Streams : public DaemonTest {
  protected:
+  /// The lidar's own events may come in between.
+  static bool tells_of_the_map(TestClient& client) {
+    constexpr int kMostEvents = 20;
+    for (int i = 0; i < kMostEvents; ++i) {
+      if (next_of(client, "EVENT")["what"] == "map loaded") return true;
+    }
+    return false;
+  }
+
   /// That it has poses, that a reload, which it logs, is survived, and that it ends well.
   void expect_service(DaemonProcess& daemon) {
     TestClient client = connect();
@@ -25,7 +34,7 @@ class Streams : public DaemonTest {
                 "\n");
     for (int i = 0; i < 3; ++i) {
       daemon.send_signal(SIGHUP);
-      EXPECT_EQ(next_of(client, "EVENT")["what"], "map loaded");
+      EXPECT_TRUE(tells_of_the_map(client));
     }
     EXPECT_EQ(next_of(client, "POSE")["class"], "POSE");
     daemon.send_signal(SIGTERM);

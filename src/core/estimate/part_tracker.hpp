@@ -21,7 +21,8 @@ namespace cornerd::core {
 struct Expectation {
   Pose2 T_map_lidar;
   Covariance3 covariance = Covariance3::Identity();
-  Twist2 motion;  ///< of the lidar, in its own axes
+  Twist2 motion;            ///< of the lidar, in its own axes
+  double motion_age_s = 0;  ///< how long ago it moved so
 };
 
 /// The pose of a part of a turn: of the time of its last sample.
@@ -43,6 +44,7 @@ class PartTracker {
   bool add(const Sample& sample);
 
   TimeNs end_ns() const { return part_.end_ns(); }
+  double duration_s() const { return to_seconds(part_.end_ns() - part_.start_ns()); }
 
   /// Of the part that has just ended. nullopt where it does not agree with what was expected: then
   /// the whole turn has to tell.

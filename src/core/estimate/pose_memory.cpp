@@ -84,6 +84,15 @@ Covariance3 later(const Covariance3& covariance, double dt_s) {
   return grown;
 }
 
+Covariance3 doubt_of_old_motion(double age_s, double duration_s) {
+  // Of drives that take up 1 m/s and 6 rad/s in a second, and keep their speed most of the time.
+  constexpr double kChange_m_s2 = 0.5;
+  constexpr double kChange_rad_s2 = 2;
+  const double place_m = kChange_m_s2 * age_s * duration_s / 2;
+  const double turn_rad = kChange_rad_s2 * age_s * duration_s / 2;
+  return Eigen::Vector3d(place_m * place_m, place_m * place_m, turn_rad * turn_rad).asDiagonal();
+}
+
 Covariance3 covariance_of_base(const Covariance3& of_lidar, const Pose2& T_map_lidar,
                                const Pose2& T_map_base) {
   Covariance3 slope = Covariance3::Identity();

@@ -57,6 +57,10 @@ Covariance3 doubt_of_motion(const Twist2& used, const Twist2& seen);
 /// speed is known as well as two such poses, a usual turn apart, tell it.
 Covariance3 later(const Covariance3& covariance, double dt_s);
 
+/// What samples of half of `duration_s` ago are off, seen from now, where the motion that they are
+/// moved by was that of `age_s` ago: robots speed up and slow down.
+Covariance3 doubt_of_old_motion(double age_s, double duration_s);
+
 /// A covariance of `lidar` becomes that of `base`: the offset between them turns with the heading.
 Covariance3 covariance_of_base(const Covariance3& of_lidar, const Pose2& T_map_lidar,
                                const Pose2& T_map_base);
