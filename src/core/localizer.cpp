@@ -172,17 +172,11 @@ const TurnResult& Localizer::step(const Scan& turn) {
   if (names_a_place(decision.state)) decision.state = w.believe(decision, corners, t_ns);
   w.report(decision, corners, t_ns);
 
-  // 6. A turn whose place is known tells how the lidar errs always, if the robot stood to its end:
-  //    the turn after it tells that.
-  if (w.place) {
-    const bool still_stands = names_a_place(decision.state) && w.memory.stands();
-    if (still_stands) w.place->bias.confirm();
-    w.place->bias.dismiss();
-  }
+  // 6. A turn whose place is known tells how the lidar errs always.
   if (w.teaches(decision)) {
     const core::Place& at = w.place->verification.places()[decision.place];
-    w.place->bias.consider(*w.map, at.refined.T_map_lidar, w.points.points(),
-                           std::max(1.0, w.result.detection.noise_scale));
+    w.place->bias.learn(*w.map, at.refined.T_map_lidar, w.points.points(),
+                        std::max(1.0, w.result.detection.noise_scale));
   }
   return w.result;
 }

@@ -36,12 +36,10 @@ void BiasEstimator::forget() {
   information_.setZero();
   evidence_.setZero();
   turns_ = 0;
-  dismiss();
 }
 
-void BiasEstimator::consider(const WallMap& map, const Pose2& T_map_lidar,
-                             std::span<const PolarPoint> points, double noise_scale) {
-  dismiss();
+void BiasEstimator::learn(const WallMap& map, const Pose2& T_map_lidar,
+                          std::span<const PolarPoint> points, double noise_scale) {
   const auto hits = prediction_.cast(map, T_map_lidar, points);
   const double c = std::cos(T_map_lidar.theta_rad);
   const double s = std::sin(T_map_lidar.theta_rad);
@@ -82,14 +80,8 @@ void BiasEstimator::consider(const WallMap& map, const Pose2& T_map_lidar,
   const Vector4 pull = gradient.tail<4>() - solved.transpose() * gradient.head<3>();
   if (!of_bias.allFinite() || !pull.allFinite()) return;
 
-  lesson_ = {kTurnShare * of_bias, kTurnShare * (of_bias * vector_of(bias_) + pull)};
-}
-
-void BiasEstimator::confirm() {
-  if (!lesson_) return;
-  information_ = (1 - kForgotten) * information_ + lesson_->information;
-  evidence_ = (1 - kForgotten) * evidence_ + lesson_->evidence;
-  dismiss();
+  information_ = (1 - kForgotten) * information_ + kTurnShare * of_bias;
+  evidence_ = (1 - kForgotten) * evidence_ + kTurnShare * (of_bias * vector_of(bias_) + pull);
   const Vector4 prior = kPriorSigma.cwiseAbs2().cwiseInverse();
   const Matrix4 sum = information_ + Matrix4(prior.asDiagonal());
   const Vector4 best = sum.ldlt().solve(evidence_ + prior.cwiseProduct(known_));

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <optional>
 #include <span>
 
 #include <Eigen/Core>
@@ -27,27 +26,16 @@ class BiasEstimator {
   /// Turns that it was learnt from.
   std::size_t turns() const { return turns_; }
 
-  /// The robot stood during the turn considered last.
-  void confirm();
-  /// It did not.
-  void dismiss() { lesson_.reset(); }
-
   /// Back to what was known at first.
   void forget();
 
-  /// `points`: of a turn that seems to be at rest, corrected by bias(), seen from `T_map_lidar`.
-  /// What it says is believed with confirm(), or forgotten with the next call of either.
-  void consider(const WallMap& map, const Pose2& T_map_lidar, std::span<const PolarPoint> points,
-                double noise_scale);
+  /// `points`: of a turn at rest, corrected by bias(), seen from `T_map_lidar`.
+  void learn(const WallMap& map, const Pose2& T_map_lidar, std::span<const PolarPoint> points,
+             double noise_scale);
 
  private:
   using Vector4 = Eigen::Vector4d;
   using Matrix4 = Eigen::Matrix4d;
-
-  struct Lesson {
-    Matrix4 information;
-    Vector4 evidence;  ///< information times the bias that it speaks for
-  };
 
   SensorNoise noise_;
   TurnPrediction prediction_;
@@ -56,7 +44,6 @@ class BiasEstimator {
   Matrix4 information_ = Matrix4::Zero();  ///< that turns gave, fading
   Vector4 evidence_ = Vector4::Zero();     ///< information times the bias that they speak for
   std::size_t turns_ = 0;
-  std::optional<Lesson> lesson_;  ///< of a turn that waits for its confirmation
 };
 
 }  // namespace cornerd::core

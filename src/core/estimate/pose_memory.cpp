@@ -59,7 +59,7 @@ bool is_plausible(const Twist2& motion) {
 
 Covariance3 doubt_of_motion(const Twist2& used, const Twist2& seen) {
   constexpr double kHalfTurn_s = 0.07;
-  constexpr double kSteadyShare = 0.006;
+  constexpr double kSteadyShare = 0.02;
   constexpr double kChangeShare = 0.25;
   const Twist2 change = seen + Twist2{-used.vx_m_s, -used.vy_m_s, -used.omega_rad_s};
   const auto variance = [](double steady, double changed) {

@@ -59,8 +59,7 @@ TEST(BiasEstimator, TurnsAtKnownPlaces_ShowTheBias) {
   for (int k = 0; k < 60; ++k) {
     const Pose2 T_map_lidar = source.place_in(0.4, 2.2, 0.4, 1.4);
     points.assign(biased(source.take(*map, T_map_lidar), kBias), 0.1, 12, 0, {}, estimator.bias());
-    estimator.consider(*map, T_map_lidar, points.points(), 1);
-    estimator.confirm();
+    estimator.learn(*map, T_map_lidar, points.points(), 1);
   }
   EXPECT_EQ(estimator.turns(), 60U);
   EXPECT_NEAR(estimator.bias().range_scale, kBias.range_scale, 0.0015);
@@ -77,8 +76,7 @@ TEST(BiasEstimator, SensorWithoutBias_IsLeftAsItIs) {
   for (int k = 0; k < 60; ++k) {
     const Pose2 T_map_lidar = source.place_in(0.4, 2.2, 0.4, 1.4);
     points.assign(source.take(*map, T_map_lidar), 0.1, 12, 0, {}, estimator.bias());
-    estimator.consider(*map, T_map_lidar, points.points(), 1);
-    estimator.confirm();
+    estimator.learn(*map, T_map_lidar, points.points(), 1);
   }
   EXPECT_NEAR(estimator.bias().range_scale, 0, 0.001);
   EXPECT_NEAR(estimator.bias().range_offset_m, 0, 0.001);
@@ -92,8 +90,8 @@ TEST(BiasEstimator, TurnOfFewPoints_TeachesNothing) {
   testing::TurnSource source(64);
   testing::TurnOptions sparse;
   sparse.samples = 30;
-  estimator.consider(*map, {1, 1, 0}, testing::polar(source.take(*map, {1, 1, 0}, sparse)).points(),
-                     1);
+  estimator.learn(*map, {1, 1, 0}, testing::polar(source.take(*map, {1, 1, 0}, sparse)).points(),
+                  1);
   EXPECT_EQ(estimator.turns(), 0U);
   EXPECT_TRUE(estimator.bias().is_none());
 }
