@@ -431,6 +431,7 @@ void Localizer::Workspace::report(const Decision& decision, std::size_t corners,
   pose.alternatives.clear();
   pose.covariance.setZero();
   pose.T_map_base = {};
+  pose.doubt = decision.doubt;
   if (names_a_place(decision.state)) {
     report_pose(place->verification.places()[decision.place], corners, t_ns);
   } else if (decision.state == PoseState::kAmbiguous) {

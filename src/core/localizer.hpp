@@ -40,11 +40,12 @@ struct PoseEstimate {
   PoseState state = PoseState::kLost;
   Pose2 T_map_base;
   Covariance3 covariance = Covariance3::Zero();
-  std::optional<std::size_t> room;        ///< index into the map's rooms
-  std::size_t corners = 0;                ///< breakpoints that were recognised
-  std::size_t inliers = 0;                ///< samples that lie on the map's walls
-  double rmse_m = 0;                      ///< of the inliers
-  double age_s = 0;                       ///< since the last turn that named a place
+  std::optional<std::size_t> room;  ///< index into the map's rooms
+  std::size_t corners = 0;          ///< breakpoints that were recognised
+  std::size_t inliers = 0;          ///< samples that lie on the map's walls
+  double rmse_m = 0;                ///< of the inliers
+  double age_s = 0;                 ///< since the last turn that named a place
+  double doubt = 0;  ///< the turn's belief that its likeliest place is not the right one
   std::vector<Alternative> alternatives;  ///< capacity kMaxAlternatives; best first
 };
 

@@ -10,6 +10,7 @@
 #include "bench/localization/cost.hpp"
 #include "bench/localization/kidnapping.hpp"
 #include "bench/localization/trials.hpp"
+#include "core/recognition/decision.hpp"
 #include "settings/map_file.hpp"
 #include "tool/callgrind.hpp"
 #include "tool/contest_maps.hpp"
@@ -39,6 +40,7 @@ struct CostResult {
 
 struct LocalizationReport {
   std::vector<TrialResult> trials;
+  bench::Reliability reliability;
   bench::KidnappingScore kidnapping;
   std::optional<CostResult> cost;
 };
@@ -84,6 +86,18 @@ std::string trials_text(const std::vector<TrialResult>& trials) {
          "below 7.8\n";
 }
 
+std::string reliability_text(const bench::Reliability& reliability) {
+  TextTable table;
+  table.add_row({"doubt of the likeliest place", "turns", "should be wrong", "wrong"});
+  for (const bench::Reliability::Bin& bin : reliability.bins()) {
+    table.add_row({bin.least_doubt > 0 ? formatted("from %g", bin.least_doubt)
+                                       : formatted("below %g (a fix)", core::kWrongFixRate),
+                   std::to_string(bin.turns), formatted("%.3g", bin.doubt),
+                   std::to_string(bin.wrong)});
+  }
+  return "\nKept promises, all trials\n\n" + table.text(/*numbers=*/true);
+}
+
 std::string kidnapping_text(const bench::KidnappingScore& score) {
   std::string text = "\nKidnapped " + std::to_string(score.jumps) + " times: right again with turn";
   for (std::size_t k = 0; k < score.recovered.size(); ++k) {
@@ -125,6 +139,12 @@ OrderedJson json_of(const TrialResult& trial) {
 std::string report_json(const LocalizationReport& report, const LocalizationBenchOptions& options) {
   OrderedJson document = {{"seed", options.seed}, {"samples", 800}};
   for (const TrialResult& trial : report.trials) document["trials"].push_back(json_of(trial));
+  for (const bench::Reliability::Bin& bin : report.reliability.bins()) {
+    document["reliability"].push_back({{"least_doubt", bin.least_doubt},
+                                       {"turns", bin.turns},
+                                       {"expected_wrong", bin.doubt},
+                                       {"wrong", bin.wrong}});
+  }
   const bench::KidnappingScore& kidnapping = report.kidnapping;
   document["kidnapping"] = {{"jumps", kidnapping.jumps},
                             {"recovered_with_turn", kidnapping.recovered},
@@ -172,14 +192,15 @@ void run_localization_bench(const LocalizationBenchOptions& options) {
   if (options.instructions) {
     report.cost = CostResult{count_turn(options, false), count_turn(options, true)};
   }
+  for (const TrialResult& trial : report.trials) report.reliability.add(trial.score.reliability());
   if (json) {
     json->write(report_json(report, options));
     json->flush();
   }
   if (options.json == "-") return;
   Output output;
-  output.write(trials_text(report.trials) + kidnapping_text(report.kidnapping) +
-               (report.cost ? cost_text(*report.cost) : ""));
+  output.write(trials_text(report.trials) + reliability_text(report.reliability) +
+               kidnapping_text(report.kidnapping) + (report.cost ? cost_text(*report.cost) : ""));
   output.flush();
 }
 

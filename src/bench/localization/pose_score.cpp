@@ -20,6 +20,7 @@ void PoseScore::add(const core::PoseEstimate& estimate, const core::Pose2& truth
                     const core::Covariance3& bound) {
   using core::PoseState;
   ++turns_;
+  reliability_.add(estimate, truth);
   const bool right = is_right(estimate.T_map_base, truth);
   switch (estimate.state) {
     case PoseState::kLost:

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "bench/localization/reliability.hpp"
 #include "core/localizer.hpp"
 
 namespace cornerd::bench {
@@ -38,6 +39,9 @@ class PoseScore {
   double mean_nees() const;
   double share_inside_95() const;
 
+  /// Of all turns, whether they named a place or doubted.
+  const Reliability& reliability() const { return reliability_; }
+
  private:
   double per_right(double sum) const;
 
@@ -54,6 +58,7 @@ class PoseScore {
   double heading_rad_ = 0;
   double nees_ = 0;
   std::size_t inside_95_ = 0;
+  Reliability reliability_;
 };
 
 }  // namespace cornerd::bench

@@ -14,6 +14,8 @@ namespace {
 const Eigen::Vector4d kPriorSigma(0.01, 0.005, radians(0.3), radians(0.3));
 /// Beyond these the map is wrong, not the sensor.
 const Eigen::Vector4d kLimit(0.03, 0.02, radians(1.5), radians(1.5));
+/// What a robot that seems to stand may move by, in its own axes: m/s and rad/s.
+const Eigen::Vector3d kMotionSigma(0.5, 0.5, 1);
 /// A turn's information counts for this share: walls are off their place in the map by more than a
 /// point's noise, and by the same in each turn at one place.
 constexpr double kTurnShare = 0.05;
@@ -43,8 +45,8 @@ void BiasEstimator::learn(const WallMap& map, const Pose2& T_map_lidar,
   const auto hits = prediction_.cast(map, T_map_lidar, points);
   const double c = std::cos(T_map_lidar.theta_rad);
   const double s = std::sin(T_map_lidar.theta_rad);
-  Eigen::Matrix<double, 7, 7> information = Eigen::Matrix<double, 7, 7>::Zero();
-  Eigen::Matrix<double, 7, 1> gradient = Eigen::Matrix<double, 7, 1>::Zero();
+  Eigen::Matrix<double, 10, 10> information = Eigen::Matrix<double, 10, 10>::Zero();
+  Eigen::Matrix<double, 10, 1> gradient = Eigen::Matrix<double, 10, 1>::Zero();
   std::size_t used = 0;
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (hits[i].face == PredictedHit::kNone) continue;
@@ -62,8 +64,9 @@ void BiasEstimator::learn(const WallMap& map, const Pose2& T_map_lidar,
         noise_.variance_across_m2(point.range_m, std::abs(along_ray)) * noise_scale * noise_scale;
     const double share = 1 - distance_m * distance_m / (kCut * kCut * (variance + 1e-4));
     if (share <= 0) continue;
-    Eigen::Matrix<double, 7, 1> slope;
-    slope << normal, point.range_m * across_ray, point.range_m * along_ray, along_ray,
+    Eigen::Matrix<double, 10, 1> slope;
+    const Eigen::Vector3d of_pose(normal.x(), normal.y(), point.range_m * across_ray);
+    slope << of_pose, point.dt_s * of_pose, point.range_m * along_ray, along_ray,
         point.range_m * across_ray * point.ray_y, point.range_m * across_ray * point.ray_x;
     const double weight = share * share / variance;
     information.noalias() += weight * slope * slope.transpose();
@@ -72,12 +75,13 @@ void BiasEstimator::learn(const WallMap& map, const Pose2& T_map_lidar,
   }
   if (used < kMinPoints) return;
 
-  const Eigen::LDLT<Eigen::Matrix3d> of_pose(information.topLeftCorner<3, 3>());
-  if (of_pose.info() != Eigen::Success || !of_pose.isPositive()) return;
-  const Eigen::Matrix<double, 3, 4> coupled = information.topRightCorner<3, 4>();
-  const Eigen::Matrix<double, 3, 4> solved = of_pose.solve(coupled);
+  information.diagonal().segment<3>(3) += kMotionSigma.cwiseAbs2().cwiseInverse();
+  const Eigen::LDLT<Eigen::Matrix<double, 6, 6>> of_turn(information.topLeftCorner<6, 6>());
+  if (of_turn.info() != Eigen::Success || !of_turn.isPositive()) return;
+  const Eigen::Matrix<double, 6, 4> coupled = information.topRightCorner<6, 4>();
+  const Eigen::Matrix<double, 6, 4> solved = of_turn.solve(coupled);
   const Matrix4 of_bias = information.bottomRightCorner<4, 4>() - coupled.transpose() * solved;
-  const Vector4 pull = gradient.tail<4>() - solved.transpose() * gradient.head<3>();
+  const Vector4 pull = gradient.tail<4>() - solved.transpose() * gradient.head<6>();
   if (!of_bias.allFinite() || !pull.allFinite()) return;
 
   information_ = (1 - kForgotten) * information_ + kTurnShare * of_bias;

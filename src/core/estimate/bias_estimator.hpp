@@ -14,9 +14,10 @@
 namespace cornerd::core {
 
 /// Learns a lidar's bias from the turns whose place is known: least squares of the points'
-/// distances to their walls over the pose of each turn and one bias for all of them. The poses are
-/// eliminated turn by turn (Schur complement), so that a turn leaves a 4 x 4 matrix behind,
-/// whatever its size. Allocates nothing.
+/// distances to their walls over the pose and the motion of each turn and one bias for all of them.
+/// Pose and motion are eliminated turn by turn (Schur complement), so that a turn leaves a 4 x 4
+/// matrix behind, whatever its size, and a robot that starts or stops within it teaches no bias
+/// that is none. Allocates nothing.
 class BiasEstimator {
  public:
   BiasEstimator(double max_range_m, const SensorNoise& noise, const SensorBias& known);
@@ -29,7 +30,8 @@ class BiasEstimator {
   /// Back to what was known at first.
   void forget();
 
-  /// `points`: of a turn at rest, corrected by bias(), seen from `T_map_lidar`.
+  /// `points`: of a turn of a robot at rest or nearly so, corrected by bias(), seen from
+  /// `T_map_lidar`.
   void learn(const WallMap& map, const Pose2& T_map_lidar, std::span<const PolarPoint> points,
              double noise_scale);
 

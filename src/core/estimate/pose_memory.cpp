@@ -18,8 +18,8 @@ constexpr double kMaxOmega_rad_s = 6;
 constexpr double kRest_m_s = 0.01;
 constexpr double kRest_rad_s = 0.01;
 /// Two poses of a robot that stands may differ by this, of a lidar whose bias is not known yet.
-constexpr double kStanding_m_s = 0.05;
-constexpr double kStanding_rad_s = 0.05;
+constexpr double kStanding_m_s = 0.03;
+constexpr double kStanding_rad_s = 0.03;
 
 }  // namespace
 

@@ -11,17 +11,24 @@
 
 namespace cornerd::core {
 
+/// A turn may name the wrong one of several places so often, by its own account: the places of an
+/// answer hold the truth but for this share of belief.
+inline constexpr double kWrongFixRate = 1e-5;
+
 struct Decision {
   PoseState state = PoseState::kLost;
   std::size_t place = 0;   ///< index of the chosen place, in the states fix and tracking
   std::size_t rivals = 0;  ///< how many of the first places hold all that are in doubt
+  double doubt = 0;        ///< belief that the likeliest place is not the right one
 };
 
-/// Names one place only where the turn does. `places`: the likeliest first. `prior`: where the
-/// robot should be by what was known before; it may choose among rivals, never against the turn.
+/// Names the fewest places, in the order of their likelihood, that leave out no more than
+/// kWrongFixRate of the turn's belief: one of them is a fix, several are ambiguous. `places`: the
+/// likeliest first. `prior`: where the robot should be by what was known before; it may choose
+/// among rivals, never against the turn.
 Decision decide(std::span<const Place> places, const std::optional<Pose2>& prior);
 
-/// How much a place is believed next to the likeliest one: 1 for that one itself.
+/// How much the turn believes in a place next to the likeliest one: 1 for that one itself.
 double relative_belief(const Place& place, const Place& likeliest);
 
 }  // namespace cornerd::core

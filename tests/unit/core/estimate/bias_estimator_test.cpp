@@ -84,6 +84,26 @@ TEST(BiasEstimator, SensorWithoutBias_IsLeftAsItIs) {
   EXPECT_NEAR(estimator.bias().bearing_cosine_rad, 0, radians(0.03));
 }
 
+TEST(BiasEstimator, RobotThatMovesWithinItsTurns_IsNoBias) {
+  const auto map = testing::make_map(testing::l_shaped_room());
+  BiasEstimator estimator(12, {}, {});
+  testing::TurnSource source(65);
+  testing::TurnOptions starts;
+  starts.motion = {0.04, 0, 0.05};
+  PolarScan points;
+  for (int k = 0; k < 60; ++k) {
+    const Pose2 T_map_lidar = source.place_in(0.4, 2.2, 0.4, 1.4);
+    const Scan turn = source.take(*map, T_map_lidar, starts);
+    const TimeNs middle_ns = turn.start_ns() + (turn.end_ns() - turn.start_ns()) / 2;
+    points.assign(turn, 0.1, 12, middle_ns, {}, estimator.bias());
+    estimator.learn(*map, T_map_lidar, points.points(), 1);
+  }
+  EXPECT_NEAR(estimator.bias().range_scale, 0, 0.001);
+  EXPECT_NEAR(estimator.bias().range_offset_m, 0, 0.001);
+  EXPECT_NEAR(estimator.bias().bearing_sine_rad, 0, radians(0.03));
+  EXPECT_NEAR(estimator.bias().bearing_cosine_rad, 0, radians(0.03));
+}
+
 TEST(BiasEstimator, TurnOfFewPoints_TeachesNothing) {
   const auto map = testing::make_map(testing::l_shaped_room());
   BiasEstimator estimator(12, {}, {});

@@ -39,6 +39,23 @@ TEST(Decide, TwoPlacesAlike_AreAmbiguous) {
   EXPECT_EQ(decision.rivals, 2U);
 }
 
+TEST(Decide, ManyThatAreUnlikelyEach_AreInDoubtTogether) {
+  std::vector<Place> places = {place_at(1, 1000, 1000), place_at(5, 984, 900)};
+  const Decision alone = decide(places, std::nullopt);
+  EXPECT_EQ(alone.state, PoseState::kFix);
+  EXPECT_LT(alone.doubt, kWrongFixRate);
+  EXPECT_GT(alone.doubt, 0.1 * kWrongFixRate);
+  for (int k = 0; k < 6; ++k) places.push_back(place_at(10 + k, 984, 900));
+  const Decision among_many = decide(places, std::nullopt);
+  EXPECT_EQ(among_many.state, PoseState::kAmbiguous);
+  EXPECT_NEAR(among_many.doubt, 7 * alone.doubt, 0.01 * kWrongFixRate);
+}
+
+TEST(Decide, PlacesAlike_ShareTheBelief) {
+  const std::vector<Place> places(4, place_at(1, 1000, 1000));
+  EXPECT_NEAR(decide(places, std::nullopt).doubt, 0.75, 1e-12);
+}
+
 TEST(Decide, RivalBehindByRaysOfOneThing_StaysInDoubt) {
   const std::vector<Place> places = {place_at(1, 1000, 1000), place_at(5, 700, 995)};
   EXPECT_EQ(decide(places, std::nullopt).state, PoseState::kAmbiguous);
