@@ -22,6 +22,7 @@
 
 #include "daemon_process.hpp"
 #include "emulated_lidar.hpp"
+#include "heartbeat.hpp"
 #include "tests/sanitized.hpp"
 
 namespace cornerd::system_test {
@@ -39,28 +40,6 @@ std::uint64_t poses_to_read() {
 }
 
 using Clock = std::chrono::steady_clock;
-
-/// Sees when this process gets no processor: then its lidar's bytes come all at once, turns with
-/// them, and a reader that has not run loses some, as it should.
-class Heartbeat {
- public:
-  bool stood_still_lately() const {
-    return Clock::now().time_since_epoch().count() < excused_until_.load();
-  }
-
- private:
-  void beat(const std::stop_token& stop) {
-    while (!stop.stop_requested()) {
-      const auto due = Clock::now() + std::chrono::milliseconds(10);
-      std::this_thread::sleep_until(due);
-      if (Clock::now() - due < std::chrono::milliseconds(150)) continue;
-      excused_until_ = (Clock::now() + std::chrono::seconds(3)).time_since_epoch().count();
-    }
-  }
-
-  std::atomic<Clock::rep> excused_until_{0};
-  std::jthread thread_{[this](const std::stop_token& stop) { beat(stop); }};
-};
 
 /// Reads poses without a break, and sees whether one is missing.
 struct Reader {

@@ -1,46 +1,17 @@
 // SPDX-License-Identifier: MIT
 // What a service manager relies on: the word that the daemon is ready, its watchdog, its end.
 #include <gtest/gtest.h>
-#include <poll.h>
 #include <signal.h>
-#include <sys/socket.h>
-#include <sys/un.h>
 
-#include <cstring>
 #include <fstream>
 #include <string>
 
-#include "daemon/file_descriptor.hpp"
 #include "daemon_process.hpp"
 #include "room_recording.hpp"
+#include "service_manager.hpp"
 
 namespace cornerd::system_test {
 namespace {
-
-/// The manager's end of $NOTIFY_SOCKET.
-class Manager {
- public:
-  explicit Manager(const std::string& path) : fd_(::socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC, 0)) {
-    sockaddr_un address{};
-    address.sun_family = AF_UNIX;
-    std::memcpy(address.sun_path, path.data(), path.size());
-    EXPECT_EQ(::bind(fd_.get(), reinterpret_cast<const sockaddr*>(&address), sizeof(address)), 0);
-  }
-
-  /// True once that word has come; others before it are passed over.
-  bool hears(const std::string& word) const {
-    while (true) {
-      pollfd readable{fd_.get(), POLLIN, 0};
-      if (::poll(&readable, 1, 60'000) <= 0) return false;
-      char text[512];
-      const ssize_t count = ::recv(fd_.get(), text, sizeof(text), 0);
-      if (count > 0 && std::string(text, static_cast<std::size_t>(count)) == word) return true;
-    }
-  }
-
- private:
-  daemon::FileDescriptor fd_;
-};
 
 class Service : public DaemonTest {
  protected:
@@ -54,7 +25,7 @@ class Service : public DaemonTest {
 
 TEST_F(Service, Ready_IsSaidWhenTheSocketsAccept) {
   const std::string path = (folder_ / "notify").string();
-  const Manager manager(path);
+  const ServiceManager manager(path);
   const DaemonProcess daemon = start({}, {{"NOTIFY_SOCKET", path}});
   ASSERT_TRUE(manager.hears("READY=1"));
   EXPECT_TRUE(TestClient(folder_ / "pose.sock").is_connected());
@@ -65,7 +36,7 @@ TEST_F(Service, Ready_IsSaidWhenTheSocketsAccept) {
 
 TEST_F(Service, Watchdog_IsFedWhileThereIsNoLidarToo) {
   const std::string path = (folder_ / "notify").string();
-  const Manager manager(path);
+  const ServiceManager manager(path);
   const DaemonProcess daemon = start({"/lidar/driver=rplidar", "/lidar/device=/dev/no_such_lidar"},
                                      {{"NOTIFY_SOCKET", path}, {"WATCHDOG_USEC", "100000"}});
   for (int i = 0; i < 3; ++i) EXPECT_TRUE(manager.hears("WATCHDOG=1"));
@@ -87,7 +58,7 @@ INSTANTIATE_TEST_SUITE_P(EachSignal, ServiceEnd, ::testing::Values(SIGTERM, SIGI
 
 TEST_F(Service, Hangup_LoadsTheMapAgainAndMissesNoTurn) {
   const std::string path = (folder_ / "notify").string();
-  const Manager manager(path);
+  const ServiceManager manager(path);
   const DaemonProcess daemon = start({}, {{"NOTIFY_SOCKET", path}});
   ASSERT_TRUE(manager.hears("READY=1"));
   TestClient client = connect();

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <stop_token>
+#include <thread>
+
+namespace cornerd::system_test {
+
+/// Sees when this process gets no processor: then its lidar's bytes come all at once, turns with
+/// them, and a reader that has not run loses some, as it should.
+class Heartbeat {
+  using Clock = std::chrono::steady_clock;
+
+ public:
+  bool stood_still_lately() const {
+    return Clock::now().time_since_epoch().count() < excused_until_.load();
+  }
+
+ private:
+  void beat(const std::stop_token& stop) {
+    while (!stop.stop_requested()) {
+      const auto due = Clock::now() + std::chrono::milliseconds(10);
+      std::this_thread::sleep_until(due);
+      if (Clock::now() - due < std::chrono::milliseconds(150)) continue;
+      excused_until_ = (Clock::now() + std::chrono::seconds(3)).time_since_epoch().count();
+    }
+  }
+
+  std::atomic<Clock::rep> excused_until_{0};
+  std::jthread thread_{[this](const std::stop_token& stop) { beat(stop); }};
+};
+
+}  // namespace cornerd::system_test
