@@ -137,4 +137,32 @@ core::FloorPlan equal_rooms(std::size_t rooms) {
   return plan;
 }
 
+core::FloorPlan ring_corridor() {
+  core::FloorPlan plan;
+  plan.name = "ring";
+  plan.thickness_m = kThickness_m;
+  const auto add = [&](double x1_m, double y1_m, double x2_m, double y2_m) {
+    plan.walls.push_back({{x1_m, y1_m}, {x2_m, y2_m}, kThickness_m});
+  };
+  const auto add_block = [&](double left_m, double low_m, double right_m, double high_m) {
+    add(left_m, low_m, right_m, low_m);
+    add(right_m, low_m, right_m, high_m);
+    add(right_m, high_m, left_m, high_m);
+    add(left_m, high_m, left_m, low_m);
+  };
+  add_block(0, 0, 20, 8);
+  add_block(1.6, 1.6, 18.4, 6.4);
+  // Pillars: of the upper side, of the left one, of the right one.
+  add(4, 8, 4, 7.6);
+  add(7.5, 6.4, 7.5, 6.9);
+  add(10, 8, 10, 7.5);
+  add(14.5, 8, 14.5, 7.7);
+  add(16, 6.4, 16, 6.7);
+  add(0, 3, 0.4, 3);
+  add(1.6, 5.2, 1.25, 5.2);
+  add(0, 6.2, 0.25, 6.2);
+  add(20, 5, 19.7, 5);
+  return plan;
+}
+
 }  // namespace cornerd::bench

@@ -17,4 +17,8 @@ core::FloorPlan office_building(std::size_t corners, std::uint64_t seed);
 /// A corridor with `rooms` rooms on one side that are equal to the millimetre.
 core::FloorPlan equal_rooms(std::size_t rooms);
 
+/// A corridor of 1.6 m around a block of 16.8 x 4.8 m. Its lower side is bare; pillars stand on the
+/// others.
+core::FloorPlan ring_corridor();
+
 }  // namespace cornerd::bench

@@ -28,9 +28,14 @@ struct AdjustmentResult {
 };
 
 /// Sparse least squares over all poses of a drive and all faces of the map at once: each
-/// observation ties a pose to a face, each link a pose to the one before. The first pose stays
-/// where it is. Observations that contradict all others lose their weight. Poses, lines and the
+/// observation ties a pose to a face, each link a pose to the one before, each of the drive's ties
+/// a pose to one long before. The first pose stays where it is. What contradicts all others loses
+/// its weight. Poses, lines and the
 /// lines' covariances are changed in place.
 AdjustmentResult adjust(MappedDrive& drive, std::span<const FaceBond> bonds = {});
+
+/// How well an adjusted drive knows the way from one turn to another: of (x [m], y [m],
+/// theta [rad]) in the frame of the first. Zero where nothing is known of it.
+core::Covariance3 covariance_of_way(const MappedDrive& drive, std::size_t from, std::size_t to);
 
 }  // namespace cornerd::survey

@@ -28,6 +28,15 @@ struct DriveLink {
   core::Covariance3 covariance = core::Covariance3::Identity();  ///< in the frame of the earlier
 };
 
+/// A later turn that was recognised at a place where an earlier one had been.
+struct PlaceTie {
+  std::uint32_t earlier = 0;  ///< turns
+  std::uint32_t later = 0;
+  core::Pose2 T_earlier_later;
+  double sigma_m = 0;
+  double sigma_rad = 0;
+};
+
 /// A return in the frame of the lidar in the middle of its turn.
 struct StraightPoint {
   float bearing_rad = 0;
@@ -38,12 +47,16 @@ struct StraightPoint {
 struct MappedDrive {
   std::vector<core::Pose2> T_map_lidar;  ///< of each turn
   std::vector<DriveLink> links;          ///< links[i]: from turn i - 1 to turn i; [0] is none
+  std::vector<PlaceTie> ties;            ///< of loops that were closed
   std::vector<MappedFace> faces;
   std::vector<Observation> observations;
   std::vector<std::size_t> strange_turns;  ///< whose walls did not tell where they are
   std::size_t forgotten_faces = 0;         ///< begun, but never seen again
   std::optional<core::LearnedOdometry> learned;
   bool has_odometry = false;
+
+  /// In the order of the turns, as all observations are.
+  std::span<const Observation> observations_of(std::size_t turn) const;
 
   /// Returns of all turns by bearing, one turn after another; turn i: [first_point[i],
   /// first_point[i + 1]).
@@ -53,6 +66,12 @@ struct MappedDrive {
     return std::span(points).subspan(first_point[turn], first_point[turn + 1] - first_point[turn]);
   }
 };
+
+/// What each face was seen of, anew: its extent, its number of sightings, its first and last turn.
+void measure_faces(MappedDrive& drive);
+
+/// The robot's way up to each turn.
+std::vector<double> ways_m(const MappedDrive& drive);
 
 /// Called with the turns done.
 using Progress = std::function<void(std::size_t)>;

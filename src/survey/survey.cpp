@@ -110,6 +110,10 @@ SurveyResult survey(const RecordedDrive& recorded, const SurveyConfig& config,
   adjust(first);
   result.merged_faces = merge_faces(first, {}, config.merging);
   adjust(first);
+  if (config.close_loops) {
+    result.loops =
+        close_loops(first, config.sensor, config.merging, config.walls, result.merged_faces);
+  }
   result.merged_faces += unite(first, config, part(progress, 0.35, 0.4, turns));
 
   // Second pass: the turns straightened by what was learned, and matched to the adjusted map.
@@ -123,18 +127,19 @@ SurveyResult survey(const RecordedDrive& recorded, const SurveyConfig& config,
 
   // From faces to walls: cut, join, pair, and once more all at once with what the pairs say.
   std::vector<Dropped> ignored;
-  std::vector<WallPiece> pieces = cut_pieces(drive, evidence, config.pieces, ignored);
-  std::vector<FaceBond> bonds = bonds_of(drive, pieces, pair_sides(drive, pieces, config.solids));
+  std::vector<WallPiece> pieces = cut_pieces(drive, evidence, config.walls.pieces, ignored);
+  std::vector<FaceBond> bonds =
+      bonds_of(drive, pieces, pair_sides(drive, pieces, config.walls.solids));
   if (config.manhattan) {
     const std::vector<FaceBond> square = right_angles(drive);
     bonds.insert(bonds.end(), square.begin(), square.end());
   }
   fit = adjust(drive, bonds);
-  pieces = cut_pieces(drive, evidence, config.pieces, result.dropped);
-  part_crossings(drive, config.pieces, pieces, result.dropped);
-  join_corners(drive, evidence, config.pieces, pieces);
-  drop_lonely(drive, config.pieces, pieces, result.dropped);
-  const std::vector<WallPair> pairs = pair_sides(drive, pieces, config.solids);
+  pieces = cut_pieces(drive, evidence, config.walls.pieces, result.dropped);
+  part_crossings(drive, config.walls.pieces, pieces, result.dropped);
+  join_corners(drive, evidence, config.walls.pieces, pieces);
+  drop_lonely(drive, config.walls.pieces, pieces, result.dropped);
+  const std::vector<WallPair> pairs = pair_sides(drive, pieces, config.walls.solids);
   result.plan.walls = build_walls(drive, pieces, pairs);
   if (result.plan.walls.empty()) {
     throw std::invalid_argument("no wall was seen well enough to be believed");

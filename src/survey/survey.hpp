@@ -11,17 +11,16 @@
 #include "core/localizer_config.hpp"
 #include "core/map/wall_map.hpp"
 #include "survey/face_merging.hpp"
+#include "survey/loop_closing.hpp"
 #include "survey/recorded_drive.hpp"
-#include "survey/wall_piece.hpp"
-#include "survey/wall_solids.hpp"
 
 namespace cornerd::survey {
 
 struct SurveyConfig {
   core::LocalizerConfig sensor;  ///< limits of the range, mount, noise, detector, odometry
   MergeLimits merging;
-  PieceLimits pieces;
-  SolidLimits solids;
+  WallLimits walls;
+  bool close_loops = true;
   bool manhattan = false;  ///< walls that are square to the others within their doubt become so
 };
 
@@ -39,6 +38,7 @@ struct SurveyResult {
   std::vector<ThinPlace> thin;
   std::vector<Dropped> dropped;
   std::vector<std::size_t> strange_turns;  ///< whose walls did not tell where they were
+  std::vector<LoopReport> loops;           ///< places that were recognised again
   std::size_t forgotten_faces = 0;
   std::size_t merged_faces = 0;
   std::size_t observations = 0;

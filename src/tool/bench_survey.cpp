@@ -5,6 +5,8 @@
 #include <system_error>
 #include <vector>
 
+#include "bench/building.hpp"
+#include "bench/loop_experiment.hpp"
 #include "bench/survey_experiment.hpp"
 #include "settings/map_file.hpp"
 #include "tool/contest_maps.hpp"
@@ -24,17 +26,25 @@ std::string describe_second(const std::optional<bench::LocalizationScore>& score
   return formatted("%.2f mm, %zu wrong", score->mean_error_m * kMillimetres, score->wrong);
 }
 
+std::string walls_text(const bench::SurveyScore& score) {
+  return formatted("%zu of %zu", score.walls_found, score.walls_seen);
+}
+std::string corners_text(const bench::SurveyScore& score) {
+  return formatted("%zu of %zu", score.corners_found, score.corners_seen);
+}
+std::string corner_errors_text(const bench::SurveyScore& score) {
+  return formatted("%.2f, %.2f mm", score.corner_median_m() * kMillimetres,
+                   score.corner_max_m() * kMillimetres);
+}
+
 std::string experiment_text(const bench::SurveyExperiment& experiment) {
   TextTable table;
   table.add_row({"method", "walls over 30 cm", "invented", "corners", "median, max error",
                  "second drive, mean error", "CPU"});
   for (const bench::SurveyCase& made : experiment.cases) {
     const bench::SurveyScore& score = made.score;
-    table.add_row({made.title, formatted("%zu of %zu", score.walls_found, score.walls_seen),
-                   formatted("%.2f m", score.invented_m),
-                   formatted("%zu of %zu", score.corners_found, score.corners_seen),
-                   formatted("%.2f, %.2f mm", score.corner_median_m() * kMillimetres,
-                             score.corner_max_m() * kMillimetres),
+    table.add_row({made.title, walls_text(score), formatted("%.2f m", score.invented_m),
+                   corners_text(score), corner_errors_text(score),
                    describe_second(made.second_drive), formatted("%.1f s", made.cpu_s)});
   }
   return formatted(
@@ -49,18 +59,40 @@ std::string experiment_text(const bench::SurveyExperiment& experiment) {
              experiment.in_true_map.turns, experiment.in_true_map.wrong);
 }
 
-void draw_experiment(const bench::SurveyExperiment& experiment,
-                     const std::filesystem::path& folder) {
+void write_drawing(const std::filesystem::path& folder, const char* name, const std::string& text) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error) throw Failure(folder.string() + ": " + error.message());
-  const auto write = [&](const char* name, const std::string& text) {
-    Output output(folder / name);
-    output.write(text);
-    output.flush();
-  };
-  write("survey-adjusted.svg", survey_drawing(experiment.cases.front().result));
-  write("survey-ransac.svg", ransac_canvas(experiment.cases.back().result));
+  Output output(folder / name);
+  output.write(text);
+  output.flush();
+}
+
+/// The walls and the way alone: returns on a drawing of this size hide them.
+std::string loop_drawing(survey::SurveyResult result, const core::Pose2& start) {
+  result.points.clear();
+  survey::move_frame(start, result);
+  return survey_drawing(result);
+}
+
+std::string loops_text(const SurveyBenchOptions& options) {
+  const core::WallMap ring(bench::ring_corridor());
+  const bench::SimulatedDrive drive = bench::ring_drive(options.seed);
+  const core::Pose2& start = drive.T_map_base.front();
+  TextTable table;
+  table.add_row({"loops", "walls over 30 cm", "invented", "corners", "median, max error",
+                 "farthest off the way"});
+  for (const bool closes : {false, true}) {
+    const bench::LoopCase made = bench::survey_loop(ring, drive, closes);
+    table.add_row({closes ? "closed" : "left open", walls_text(made.score),
+                   formatted("%.2f m", made.score.invented_m), corners_text(made.score),
+                   corner_errors_text(made.score), formatted("%.2f m", made.worst_m)});
+    if (options.plots.empty()) continue;
+    write_drawing(options.plots, closes ? "ring-closed.svg" : "ring-open.svg",
+                  loop_drawing(made.result, start));
+  }
+  return "Around a corridor, a wheel slipping three times in ten metres, a lidar that sees 4 m:\n" +
+         table.text();
 }
 
 }  // namespace
@@ -69,9 +101,15 @@ void run_survey_bench(const SurveyBenchOptions& options) {
   const auto map = settings::load_map(contest_maps_folder(options.maps) / "flat-7.json");
   const bench::SurveyExperiment experiment =
       bench::run_survey_experiment(map, bench::kSurveyTurns, options.seed);
-  if (!options.plots.empty()) draw_experiment(experiment, options.plots);
+  if (!options.plots.empty()) {
+    write_drawing(options.plots, "survey-adjusted.svg",
+                  survey_drawing(experiment.cases.front().result));
+    write_drawing(options.plots, "survey-ransac.svg",
+                  ransac_canvas(experiment.cases.back().result));
+  }
   Output output;
   output.write(experiment_text(experiment));
+  output.write(loops_text(options));
   output.flush();
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <string>
 
@@ -37,6 +38,18 @@ std::string describe_walls(const survey::SurveyResult& result) {
       result.plan.walls.size(), length_m, solids, result.plan.walls.size() - solids, thin_m);
 }
 
+std::string describe_loop(const survey::SurveyResult& result, const survey::LoopReport& loop) {
+  const auto time_s = [&](std::size_t turn) {
+    return core::to_seconds(result.t_ns[turn] - result.t_ns.front());
+  };
+  const std::string text = formatted(
+      "loop %s: after %.1f s where it was after %.1f s, by %zu turns; the way was %.2f m and %.1f "
+      "degrees off",
+      loop.closed() ? "closed" : "refused", time_s(loop.later), time_s(loop.earlier), loop.agreeing,
+      loop.off_m, core::degrees(std::abs(loop.off_rad)));
+  return text + (loop.closed() ? "\n" : ": " + loop.refused + "\n");
+}
+
 }  // namespace
 
 std::string survey_report(const survey::SurveyResult& result) {
@@ -55,6 +68,7 @@ std::string survey_report(const survey::SurveyResult& result) {
                   learned.left_scale, learned.right_scale, learned.track_scale, learned.gyro_scale,
                   learned.gyro_bias_rad_s);
   }
+  for (const survey::LoopReport& loop : result.loops) text += describe_loop(result, loop);
   if (result.merged_faces > 0) {
     text += formatted("%zu pieces were merged with others\n", result.merged_faces);
   }

@@ -76,6 +76,41 @@ TEST(Adjustment, Adjust_MoreSightings_LeaveLessDoubt) {
   EXPECT_NEAR(few.faces[0].variance_at(0) / many.faces[0].variance_at(0), 4, 0.01);
 }
 
+/// A straight way of 20 links, each with a sigma of 1 cm, and no walls.
+MappedDrive drive_without_walls() {
+  MappedDrive drive;
+  for (int i = 0; i <= 20; ++i) drive.T_map_lidar.push_back({0.1 * i, 0, 0});
+  drive.links.resize(1);
+  for (int i = 1; i <= 20; ++i) {
+    DriveLink link;
+    link.T_before_now = {0.1, 0, 0};
+    link.covariance = Eigen::Vector3d(1e-4, 1e-4, 1e-10).asDiagonal();
+    drive.links.push_back(link);
+  }
+  return drive;
+}
+
+TEST(Adjustment, CovarianceOfWay_GrowsFromLinkToLink) {
+  const MappedDrive drive = drive_without_walls();
+  EXPECT_NEAR(covariance_of_way(drive, 0, 16)(0, 0), 16e-4, 1e-6);
+  EXPECT_NEAR(covariance_of_way(drive, 7, 11)(1, 1), 4e-4, 1e-6);
+}
+
+TEST(Adjustment, Adjust_Tie_IsSpreadOverTheWay) {
+  MappedDrive drive = drive_without_walls();
+  drive.ties.push_back({0, 20, {2.1, 0, 0}, 0.001, 0.001});
+  adjust(drive);
+  EXPECT_NEAR(drive.T_map_lidar[20].x_m, 2.1, 1e-3);
+  EXPECT_NEAR(drive.T_map_lidar[10].x_m, 1.05, 1e-3);
+}
+
+TEST(Adjustment, Adjust_TieThatAllElseContradicts_LosesItsWeight) {
+  MappedDrive drive = mapped_drive(kRoom, kWay);
+  drive.ties.push_back({0, 3, {1.5, 0.6, 1.2}, 0.03, 0.01});
+  adjust(drive);
+  EXPECT_NEAR(drive.T_map_lidar[3].x_m, kWay[3].x_m, 2e-3);
+}
+
 TEST(Adjustment, Adjust_ASingleTurn_ChangesNothing) {
   MappedDrive drive = mapped_drive(kRoom, std::span(kWay).first(1));
   EXPECT_EQ(adjust(drive).steps, 0);

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: MIT
+#include "survey/linearization.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace cornerd::survey {
+namespace {
+
+/// Chi-square (two degrees of freedom) at which an observation counts half.
+constexpr double kHalfWeight = 9;
+/// A link that the walls contradict as much counts half: a slip of the wheels.
+constexpr double kHalfLink = 9;
+/// A place recognised again that all else contradicts as much counts half.
+constexpr double kHalfTie = 9;
+
+/// Of all unknowns: what nothing ties down stays where it is.
+constexpr double kHold = 1e-3;
+
+}  // namespace
+
+WayResidual::WayResidual(const core::Pose2& from, const core::Pose2& to,
+                         const core::Pose2& expected) {
+  const core::Pose2 way = from.inverse() * to;
+  const double c = std::cos(from.theta_rad);
+  const double s = std::sin(from.theta_rad);
+  off = {way.x_m - expected.x_m, way.y_m - expected.y_m,
+         core::angle_between(expected.theta_rad, way.theta_rad)};
+  slope = {{{-c, -s, way.y_m, c, s, 0}, {s, -c, -way.x_m, -s, c, 0}, {0, 0, -1, 0, 0, 1}}};
+}
+
+Linearization::Linearization(const MappedDrive& drive, std::span<const FaceBond> bonds,
+                             double leniency)
+    : drive_(drive),
+      leniency_(leniency),
+      first_face_(3 * (static_cast<int>(drive.T_map_lidar.size()) - 1)),
+      equations_(face_unknown(drive.faces.size())),
+      information_(drive.faces.size(), Eigen::Matrix2d::Zero()) {
+  for (const Observation& observation : drive_.observations) add(observation);
+  for (std::size_t turn = 1; turn < drive_.links.size(); ++turn) add_link(turn);
+  for (const PlaceTie& tie : drive_.ties) add_tie(tie);
+  for (const FaceBond& bond : bonds) add_bond(bond);
+  equations_.hold(kHold);
+}
+
+void Linearization::add(const Observation& observation) {
+  const core::Pose2& T_map_lidar = drive_.T_map_lidar[observation.turn];
+  const MappedFace& face = drive_.faces[observation.face];
+  const Sighting& seen = observation.seen;
+  const core::Vec2 arm = T_map_lidar * seen.centroid - T_map_lidar.translation();
+  const core::Vec2 centroid = T_map_lidar.translation() + arm;
+  const double angle_rad =
+      core::angle_between(face.normal_rad(), seen.normal_rad + T_map_lidar.theta_rad);
+  const double height_m = face.height_of(centroid);
+  const double angle_weight = 1 / (seen.sigma_angle_rad * seen.sigma_angle_rad);
+  const double height_weight = 1 / (seen.sigma_offset_m * seen.sigma_offset_m);
+  const double chi2 = angle_rad * angle_rad * angle_weight + height_m * height_m * height_weight;
+  const double weight = 1 / (1 + chi2 / (kHalfWeight * leniency_));
+  chi_square_ += std::min(chi2, kHalfWeight);
+  if (chi2 > kHalfWeight) ++outliers_;
+
+  const int pose = pose_unknown(observation.turn);
+  const int line = face_unknown(observation.face);
+  equations_.add<2>({or_fixed(pose, 2), line}, {1, -1}, angle_rad, weight * angle_weight);
+  const core::Vec2& normal = face.normal();
+  const double along_m = face.along_of(centroid);
+  equations_.add<5>({or_fixed(pose, 0), or_fixed(pose, 1), or_fixed(pose, 2), line, line + 1},
+                    {normal.x(), normal.y(), normal.dot(core::rotate_left(arm)), -along_m, -1},
+                    height_m, weight * height_weight);
+
+  Eigen::Matrix2d& known = information_[observation.face];
+  const Eigen::Vector2d slope(along_m, 1);
+  known += weight * height_weight * slope * slope.transpose();
+  known(0, 0) += weight * angle_weight;
+}
+
+void Linearization::add_link(std::size_t turn) {
+  const DriveLink& link = drive_.links[turn];
+  add_way(turn - 1, turn, link.T_before_now, link.covariance.diagonal(), kHalfLink);
+}
+
+void Linearization::add_tie(const PlaceTie& tie) {
+  const Eigen::Vector3d sigma(tie.sigma_m, tie.sigma_m, tie.sigma_rad);
+  add_way(tie.earlier, tie.later, tie.T_earlier_later, sigma.cwiseAbs2(), kHalfTie * leniency_);
+}
+
+void Linearization::add_way(std::size_t from, std::size_t to, const core::Pose2& expected,
+                            const Eigen::Vector3d& variance, double half) {
+  const WayResidual way(drive_.T_map_lidar[from], drive_.T_map_lidar[to], expected);
+  double chi2 = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    chi2 += way.off[i] * way.off[i] / variance[static_cast<int>(i)];
+  }
+  const double weight = 1 / (1 + chi2 / half);
+  const std::array<int, 6> unknowns = unknowns_of(from, to);
+  for (std::size_t i = 0; i < 3; ++i) {
+    equations_.add<6>(unknowns, way.slope[i], way.off[i], weight / variance[static_cast<int>(i)]);
+  }
+}
+
+std::array<int, 6> Linearization::unknowns_of(std::size_t from, std::size_t to) const {
+  const int a = pose_unknown(from);
+  const int b = pose_unknown(to);
+  return {or_fixed(a, 0), or_fixed(a, 1), or_fixed(a, 2),
+          or_fixed(b, 0), or_fixed(b, 1), or_fixed(b, 2)};
+}
+
+void Linearization::add_bond(const FaceBond& bond) {
+  const MappedFace& one = drive_.faces[bond.one];
+  const MappedFace& other = drive_.faces[bond.other];
+  const int a = face_unknown(bond.one);
+  const int b = face_unknown(bond.other);
+  const double turn_rad = core::angle_between(one.normal_rad() + bond.turn_rad, other.normal_rad());
+  const double angle_weight = 1 / (bond.sigma_rad * bond.sigma_rad);
+  equations_.add<2>({a, b}, {-1, 1}, turn_rad, angle_weight);
+  if (!bond.on_one_line) return;
+  // The middle of `other` lies on `one`: height of a point of the other's line over the first.
+  const double other_along_m = (other.begin_m() + other.end_m()) / 2;
+  const core::Vec2 middle = other.at(other_along_m);
+  equations_.add<4>({a, a + 1, b, b + 1}, {-one.along_of(middle), -1, other_along_m, 1},
+                    one.height_of(middle), 1 / (bond.sigma_m * bond.sigma_m));
+}
+
+}  // namespace cornerd::survey

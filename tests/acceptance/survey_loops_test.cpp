@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+// What a survey promises of drives that come back: the loop is closed, and no other.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "bench/building.hpp"
+#include "bench/loop_experiment.hpp"
+
+namespace cornerd {
+namespace {
+
+std::size_t closed_loops(const survey::SurveyResult& result) {
+  return static_cast<std::size_t>(
+      std::count_if(result.loops.begin(), result.loops.end(),
+                    [](const survey::LoopReport& loop) { return loop.closed(); }));
+}
+
+class SurveyOfARing : public testing::TestWithParam<std::uint64_t> {
+ protected:
+  const core::WallMap map_{bench::ring_corridor()};
+  const bench::SimulatedDrive drive_ = bench::ring_drive(GetParam());
+};
+
+TEST_P(SurveyOfARing, ComesBackOutOfTheMatchingsReach_IsClosedAndHasSingleWalls) {
+  const bench::LoopCase made = bench::survey_loop(map_, drive_, /*close_loops=*/true);
+  EXPECT_GE(closed_loops(made.result), 1U);
+  EXPECT_GT(made.result.loops.front().off_m, 0.15);
+  EXPECT_EQ(made.score.walls_found, made.score.walls_seen);
+  EXPECT_GT(made.score.walls_seen, 30U);
+  EXPECT_LT(made.score.invented_m, 0.05);
+  EXPECT_EQ(made.score.corners_found, made.score.corners_seen);
+  EXPECT_LT(made.score.corner_max_m(), 0.02);
+}
+
+TEST_P(SurveyOfARing, WithoutLoopClosing_HasDoubleWalls) {
+  const bench::LoopCase made = bench::survey_loop(map_, drive_, /*close_loops=*/false);
+  EXPECT_GT(made.score.invented_m, 2);
+}
+
+INSTANTIATE_TEST_SUITE_P(Seeds, SurveyOfARing, testing::Values(1, 2));
+
+TEST(SurveyOfEqualRooms, RoomsThatLookTheSame_AreRecognisedButNotClosed) {
+  const core::WallMap map(bench::equal_rooms(4));
+  const bench::SimulatedDrive drive = bench::equal_rooms_drive(5);
+  const bench::LoopCase made = bench::survey_loop(map, drive, /*close_loops=*/true);
+  EXPECT_FALSE(made.result.loops.empty());
+  EXPECT_EQ(closed_loops(made.result), 0U);
+  EXPECT_EQ(made.score.walls_found, made.score.walls_seen);
+  EXPECT_LT(made.score.invented_m, 0.05);
+}
+
+}  // namespace
+}  // namespace cornerd
