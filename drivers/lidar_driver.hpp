@@ -59,6 +59,7 @@ struct LidarStatus {
   ShortText detail;  ///< for a person: what is wrong, what to do
   ShortText model;
   ShortText firmware;
+  ShortText serial;  ///< number of the device, as its maker's tools print it
   ShortText health;
   ShortText mode;
   double rate_hz = 0;     ///< turns a second

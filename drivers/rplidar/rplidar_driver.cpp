@@ -159,7 +159,10 @@ RplidarDriver::Failure RplidarDriver::converse(Device& device, drivers::ByteStre
     }
     return {LidarState::kBackoff, LidarFault::kNoAnswer, std::to_string(config_.baud)};
   }
-  board_.set_device(info->model_name(), info->firmware_text());
+  // The answer has no checksum: a damaged number would make another lidar of this one.
+  const bool agrees = device.info() == info;
+  board_.set_device(info->model_name(), info->firmware_text(),
+                    agrees ? info->serial_text() : std::string());
 
   auto health = device.health();
   if (health && health->failed()) {

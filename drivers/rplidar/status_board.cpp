@@ -37,9 +37,11 @@ void StatusBoard::count_dialogue(std::uint64_t bytes, std::uint64_t used_bytes) 
   publish();
 }
 
-void StatusBoard::set_device(std::string_view model, std::string_view firmware) {
+void StatusBoard::set_device(std::string_view model, std::string_view firmware,
+                             std::string_view serial) {
   status_.model.set(model);
   status_.firmware.set(firmware);
+  status_.serial.set(serial);
   publish();
 }
 

@@ -17,7 +17,7 @@ class StatusBoard {
  public:
   /// Reader thread, as all that follow but the last two.
   void set_state(drivers::LidarState state, drivers::LidarFault fault, std::string_view detail);
-  void set_device(std::string_view model, std::string_view firmware);
+  void set_device(std::string_view model, std::string_view firmware, std::string_view serial);
   void set_health(std::string_view health);
   void set_mode(std::string_view mode);
 

@@ -178,6 +178,7 @@ const TurnResult& Localizer::step(const Scan& turn) {
     w.place->bias.learn(*w.map, at.refined.T_map_lidar, w.points.points(),
                         std::max(1.0, w.result.detection.noise_scale));
   }
+  w.result.bias = learned_bias();
   return w.result;
 }
 
@@ -250,8 +251,13 @@ void Localizer::forget() {
   if (workspace_->place) workspace_->place->bias.forget();
 }
 
-SensorBias Localizer::bias() const {
-  return workspace_->place ? workspace_->place->bias.bias() : workspace_->config.bias;
+LearnedBias Localizer::learned_bias() const {
+  if (workspace_->place) return workspace_->place->bias.learned();
+  return {.bias = workspace_->config.bias, .sigma = {}};
+}
+
+void Localizer::resume(const LearnedBias& learned) {
+  if (workspace_->place) workspace_->place->bias.resume(learned);
 }
 
 bool Localizer::Workspace::teaches(const Decision& decision) const {

@@ -55,6 +55,7 @@ struct TurnResult {
   PoseEstimate pose;
   Detection detection;
   OdometrySummary odometry;
+  LearnedBias bias;  ///< that the next turn will be corrected by
 };
 
 /// Finds the robot in a map, turn by turn. All memory is taken at construction: step() allocates
@@ -92,7 +93,9 @@ class Localizer {
   void forget();
 
   /// How the lidar errs always, as far as it is known by now.
-  SensorBias bias() const;
+  LearnedBias learned_bias() const;
+  /// What was learnt of this lidar before.
+  void resume(const LearnedBias& learned);
 
  private:
   struct Workspace;

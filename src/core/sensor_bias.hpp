@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
+
 #include "core/geometry/angle.hpp"
 
 namespace cornerd::core {
@@ -15,10 +17,8 @@ struct SensorBias {
   double bearing_sine_rad = 0;
   double bearing_cosine_rad = 0;
 
-  bool is_none() const {
-    return range_scale == 0 && range_offset_m == 0 && bearing_sine_rad == 0 &&
-           bearing_cosine_rad == 0;
-  }
+  bool operator==(const SensorBias&) const = default;
+  bool is_none() const { return *this == SensorBias(); }
   double true_range_m(double measured_m) const {
     return (measured_m - range_offset_m) / (1 + range_scale);
   }
@@ -26,6 +26,13 @@ struct SensorBias {
   double true_bearing_rad(double claimed_rad, double sine, double cosine) const {
     return normalize_angle(claimed_rad - bearing_sine_rad * sine - bearing_cosine_rad * cosine);
   }
+};
+
+/// A bias that turns taught, and how well they did.
+struct LearnedBias {
+  SensorBias bias;
+  SensorBias sigma;       ///< standard deviations
+  std::size_t turns = 0;  ///< 0: nothing is learnt, `bias` is what was known beforehand
 };
 
 }  // namespace cornerd::core

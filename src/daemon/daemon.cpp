@@ -24,6 +24,12 @@ using std::chrono::milliseconds;
 constexpr milliseconds kTick{100};
 constexpr int kTicksPerStatus = 10;
 
+std::unique_ptr<core::Pipeline> with_what_is_known(
+    std::unique_ptr<core::Pipeline> pipeline, const std::optional<core::LearnedBias>& learned) {
+  if (learned) pipeline->localizer().resume(*learned);
+  return pipeline;
+}
+
 SourceKind source_of(settings::DriverKind driver) {
   return driver == settings::DriverKind::kReplay ? SourceKind::kRecording : SourceKind::kDevice;
 }
@@ -39,8 +45,10 @@ Daemon::Daemon(Loaded loaded, Reloader::Load load, std::unique_ptr<drivers::Lida
       status_(server_, notifier_),
       tick_(kTick),
       reloader_(std::move(load)),
+      memory_(learned_file(config_.lidar), config_.lidar.bias),
       lidar_(std::move(lidar)),
-      localization_(*lidar_, std::move(loaded.pipeline), source_of(config_.lidar.driver)) {
+      localization_(*lidar_, with_what_is_known(std::move(loaded.pipeline), memory_.recall()),
+                    source_of(config_.lidar.driver)) {
   open_sockets();
   // Only who has the sockets is this robot's daemon, and may touch its port.
   if (config_.odometry.core.publish) localization_.publish_readings();
@@ -159,6 +167,10 @@ void Daemon::on_loaded() {
   }
   const std::string name =
       fmt::format("{}, {} walls", loaded.map->plan().name, loaded.map->plan().walls.size());
+  // The lidar is the same; a bias that the settings give anew is what they know better.
+  if (loaded.config.lidar.bias == config_.lidar.bias) {
+    loaded.pipeline->localizer().resume(turns_.bias());
+  }
   turns_.expect_map(localization_.replace(std::move(loaded.pipeline)), std::move(loaded.map));
   if (health_.memory_is_locked) health_.memory_is_locked = lock_memory() == 0;
   if (config_.realtime.lock_memory && !health_.memory_is_locked) touch_memory();
@@ -177,6 +189,7 @@ void Daemon::on_tick() {
     }
   }
   publish_changes();
+  notice_device();
   const bool sensors_changed = odometry_ && odometry_->notice_changes(server_, now_ns());
   const bool is_time = ticks_++ % kTicksPerStatus == 0;
   if (is_time || sensors_changed) {
@@ -185,6 +198,17 @@ void Daemon::on_tick() {
   if (is_time) {
     server_.restore_sockets([](const std::string& line) { spdlog::warn("{}", line); });
   }
+}
+
+void Daemon::notice_device() {
+  const drivers::LidarStatus lidar = lidar_->status();
+  if (!memory_.recognise(lidar.serial.view())) {
+    localization_.forget();
+    const std::string text = fmt::format("serial number {}", lidar.serial.view());
+    spdlog::info("another lidar, {}: what was learnt of the last one is forgotten", text);
+    server_.publish(message::MessageClass::kEvent, line_.event(now_ns(), "another lidar", text));
+  }
+  memory_.keep(turns_.bias());
 }
 
 void Daemon::publish_changes() {

@@ -8,6 +8,7 @@
 #include "core/map/wall_map.hpp"
 #include "daemon/clock_watch.hpp"
 #include "daemon/event_loop.hpp"
+#include "daemon/lidar_memory.hpp"
 #include "daemon/localization.hpp"
 #include "daemon/message_server.hpp"
 #include "daemon/notifier.hpp"
@@ -38,6 +39,7 @@ class Daemon {
   ControlActions control_actions(const settings::Config& config);
   void on_tick();
   void publish_changes();
+  void notice_device();
   void on_watchdog();
   void on_signal();
   void on_loaded();
@@ -61,6 +63,7 @@ class Daemon {
   int ticks_ = 0;
   DaemonHealth health_;
   Reloader reloader_;
+  LidarMemory memory_;
   std::unique_ptr<drivers::LidarDriver> lidar_;
   Localization localization_;               ///< before what is below: its threads end first
   std::optional<OdometrySource> odometry_;  ///< feeds it

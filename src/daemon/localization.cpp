@@ -105,6 +105,7 @@ void Localization::succeed(const SampleChannel::Item& item) {
 
 void Localization::process(core::Pipeline& pipeline, const SampleChannel::Item& item) {
   if (relocalize_.exchange(false, std::memory_order_relaxed)) pipeline.localizer().relocalize();
+  if (forget_.exchange(false, std::memory_order_relaxed)) pipeline.localizer().forget();
   core::Pose2 T_map_base;
   while (given_poses_.pop(T_map_base)) pipeline.localizer().set_pose(T_map_base);
   take_readings();

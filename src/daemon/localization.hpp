@@ -85,6 +85,8 @@ class Localization {
   std::uint32_t replace(std::unique_ptr<core::Pipeline> pipeline);
   /// The next turn is recognised without a prior.
   void relocalize() { relocalize_.store(true, std::memory_order_relaxed); }
+  /// Another lidar: what was learnt is another one's.
+  void forget() { forget_.store(true, std::memory_order_relaxed); }
 
   /// True where reader and localizer have both come round since this was last true. Asks the
   /// localizer to.
@@ -134,6 +136,7 @@ class Localization {
   LoopHealth own_health_;  ///< the localizer's thread's
   core::Latest<LoopHealth> health_;
   std::atomic<bool> relocalize_{false};
+  std::atomic<bool> forget_{false};
   std::atomic<std::uint32_t> lost_reports_{0};
   std::atomic<std::uint32_t> rounds_{0};
   std::atomic<bool> reader_has_ended_{false};

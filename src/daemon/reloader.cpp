@@ -52,6 +52,7 @@ std::string needs_restart(const settings::Config& before, const settings::Config
   compare("/lidar/device", a.device, b.device);
   compare("/lidar/baud", a.baud, b.baud);
   compare("/lidar/mode", a.mode, b.mode);
+  compare("/lidar/learned_file", a.learned_file, b.learned_file);
   compare("/lidar/mount/inverted", a.mount.inverted, b.mount.inverted);
   compare("/lidar/motor/kind", a.motor.kind, b.motor.kind);
   compare("/lidar/motor/path", a.motor.path, b.motor.path);

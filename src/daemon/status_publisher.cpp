@@ -95,10 +95,12 @@ void StatusPublisher::publish(const drivers::LidarStatus& lidar, const TurnPubli
   status.lidar_detail = lidar.detail.view();
   status.lidar_model = lidar.model.view();
   status.lidar_firmware = lidar.firmware.view();
+  status.lidar_serial = lidar.serial.view();
   status.lidar_health = lidar.health.view();
   status.lidar_mode = lidar.mode.view();
   status.rate_hz = lidar.rate_hz;
   status.samples_hz = lidar.samples_hz;
+  status.bias = &turns.bias();
   status.counters = counters;
   status.odometry = &turns.odometry();
   if (odometry_ != nullptr) odometry_->describe(status);

@@ -43,6 +43,7 @@ void TurnPublisher::publish(const TurnReport& report) {
   latencies_.add(core::to_seconds(report.latency_ns));
   ++poses_[static_cast<std::size_t>(pose.state)];
   odometry_ = report.result.odometry;
+  bias_ = report.result.bias;
   end_ns_ = report.turn.end_ns();
 
   server_.publish(MessageClass::kPose, line_.pose(pose, map_ ? &map_->plan() : nullptr));

@@ -32,6 +32,7 @@ class TurnPublisher {
   std::optional<core::PoseState> state() const { return state_; }
   /// What the newest turn knew of it.
   const core::OdometrySummary& odometry() const { return odometry_; }
+  const core::LearnedBias& bias() const { return bias_; }
   core::TimeNs end_of_newest_turn_ns() const { return end_ns_; }
   /// Poses so far, by state.
   const std::array<std::uint64_t, kStates>& poses() const { return poses_; }
@@ -53,6 +54,7 @@ class TurnPublisher {
   LatencyWindow latencies_;
   std::optional<core::PoseState> state_;
   core::OdometrySummary odometry_;
+  core::LearnedBias bias_;
   core::TimeNs end_ns_ = 0;
   std::array<std::uint64_t, kStates> poses_{};
 };

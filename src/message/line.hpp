@@ -25,10 +25,12 @@ struct StatusFields {
   std::string_view lidar_detail;
   std::string_view lidar_model;
   std::string_view lidar_firmware;
+  std::string_view lidar_serial;
   std::string_view lidar_health;
   std::string_view lidar_mode;
   double rate_hz = 0;
   double samples_hz = 0;
+  const core::LearnedBias* bias = nullptr;  ///< of the lidar; left out where nothing is learnt
   struct Counter {
     std::string_view name;
     std::uint64_t value = 0;

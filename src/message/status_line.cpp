@@ -6,6 +6,23 @@
 namespace cornerd::message {
 namespace {
 
+void write_bias(JsonText& json, const core::SensorBias& bias) {
+  json.number("range_scale", bias.range_scale, kTimeDecimals);
+  json.number("range_offset", bias.range_offset_m, kTimeDecimals);
+  json.number("bearing_sine", bias.bearing_sine_rad, kTimeDecimals);
+  json.number("bearing_cosine", bias.bearing_cosine_rad, kTimeDecimals);
+}
+
+void write_bias(JsonText& json, const core::LearnedBias& learned) {
+  json.open_object("bias");
+  write_bias(json, learned.bias);
+  json.open_object("sigma");
+  write_bias(json, learned.sigma);
+  json.close_object();
+  json.integer("turns", learned.turns);
+  json.close_object();
+}
+
 void write_lidar(JsonText& json, const StatusFields& status) {
   json.open_object("lidar");
   json.text("state", status.lidar_state);
@@ -13,10 +30,12 @@ void write_lidar(JsonText& json, const StatusFields& status) {
   json.text("detail", status.lidar_detail);
   json.text("model", status.lidar_model);
   json.text("firmware", status.lidar_firmware);
+  json.text("serial", status.lidar_serial);
   json.text("health", status.lidar_health);
   json.text("mode", status.lidar_mode);
   json.number("rate_hz", status.rate_hz, 3);
   json.number("samples_hz", status.samples_hz, 1);
+  if (status.bias != nullptr && status.bias->turns > 0) write_bias(json, *status.bias);
   json.close_object();
 }
 

@@ -11,6 +11,7 @@
 #include "settings/noise.hpp"
 #include "settings/object_reader.hpp"
 #include "settings/override.hpp"
+#include "settings/sensor_bias.hpp"
 
 namespace cornerd::settings {
 namespace {
@@ -47,14 +48,6 @@ void read_mount(ObjectReader mount, MountConfig& config) {
   mount.number("theta", config.theta_rad, {-6.2832, 6.2832});
   mount.boolean("inverted", config.inverted);
   mount.finish();
-}
-
-void read_bias(ObjectReader bias, core::SensorBias& config) {
-  bias.number("range_scale", config.range_scale, {-0.1, 0.1});
-  bias.number("range_offset", config.range_offset_m, {-0.1, 0.1});
-  bias.number("bearing_sine", config.bearing_sine_rad, {-0.1, 0.1});
-  bias.number("bearing_cosine", config.bearing_cosine_rad, {-0.1, 0.1});
-  bias.finish();
 }
 
 /// A name, or an object where the motor hangs on a line of its own.
@@ -94,6 +87,7 @@ void read_lidar(ObjectReader lidar, LidarConfig& config) {
   read_noise(lidar.object("noise"), config.noise);
   read_bias(lidar.object("bias"), config.bias);
   lidar.boolean("learn_bias", config.learn_bias);
+  lidar.path("learned_file", config.learned_file);
   read_mount(lidar.object("mount"), config.mount);
   read_motor(lidar, config.motor);
   lidar.path("file", config.file);

@@ -57,6 +57,9 @@ struct LidarConfig {
   NoiseConfig noise;
   core::SensorBias bias;
   bool learn_bias = true;
+  /// What was learnt is kept here from one run to the next; empty: where the service manager has a
+  /// folder for it, else nowhere.
+  std::filesystem::path learned_file;
   MountConfig mount;
   MotorConfig motor;
   std::filesystem::path file;  ///< replay: the recording

@@ -21,6 +21,7 @@
 #include "calibration/range_noise.hpp"
 #include "calibration/wall_fit.hpp"
 #include "replay/recording.hpp"
+#include "tool/calibrate_bias.hpp"
 #include "tool/calibrate_odometry.hpp"
 #include "tool/commands.hpp"
 #include "tool/failure.hpp"
@@ -223,6 +224,7 @@ void add_calibrate(CLI::App& program) {
   CLI::App* group = program.add_subcommand("calibrate", "measure what a config wants to know");
   group->require_subcommand(1);
   add_noise(*group);
+  add_calibrate_bias(*group);
   add_calibrate_odometry(*group);
 }
 

@@ -21,6 +21,8 @@ struct DeviceInfo {
   std::uint8_t hardware = 0;
   std::array<std::uint8_t, 16> serial{};
 
+  bool operator==(const DeviceInfo&) const = default;
+
   std::array<std::uint8_t, kSize> encode() const;
   /// nullopt where there are too few bytes. The same holds for the other answers.
   static std::optional<DeviceInfo> decode(std::span<const std::uint8_t> bytes);

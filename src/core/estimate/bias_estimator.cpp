@@ -28,16 +28,41 @@ Eigen::Vector4d vector_of(const SensorBias& bias) {
   return {bias.range_scale, bias.range_offset_m, bias.bearing_sine_rad, bias.bearing_cosine_rad};
 }
 
+SensorBias bias_of(const Eigen::Vector4d& vector) {
+  return {vector[0], vector[1], vector[2], vector[3]};
+}
+
+Eigen::Vector4d prior_information() { return kPriorSigma.cwiseAbs2().cwiseInverse(); }
+
 }  // namespace
 
 BiasEstimator::BiasEstimator(double max_range_m, const SensorNoise& noise, const SensorBias& known)
-    : noise_(noise), prediction_(max_range_m), bias_(known), known_(vector_of(known)) {}
+    : noise_(noise), prediction_(max_range_m), known_(vector_of(known)) {
+  learned_.bias = known;
+}
 
 void BiasEstimator::forget() {
-  bias_ = {known_[0], known_[1], known_[2], known_[3]};
+  learned_ = {};
+  learned_.bias = bias_of(known_);
   information_.setZero();
   evidence_.setZero();
-  turns_ = 0;
+}
+
+void BiasEstimator::resume(const LearnedBias& learned) {
+  forget();
+  const Vector4 sigma = vector_of(learned.sigma);
+  if (learned.turns == 0 || !(sigma.minCoeff() > 0)) return;
+  const Vector4 prior = prior_information();
+  const Vector4 taught = (sigma.cwiseAbs2().cwiseInverse() - prior).cwiseMax(0);
+  information_ = taught.asDiagonal();
+  evidence_ = (taught + prior).cwiseProduct(vector_of(learned.bias)) - prior.cwiseProduct(known_);
+  believe(vector_of(learned.bias), sigma.cwiseAbs2().asDiagonal());
+  learned_.turns = learned.turns;
+}
+
+void BiasEstimator::believe(const Vector4& bias, const Matrix4& covariance) {
+  learned_.bias = bias_of(bias.cwiseMax(-kLimit).cwiseMin(kLimit));
+  learned_.sigma = bias_of(covariance.diagonal().cwiseSqrt());
 }
 
 void BiasEstimator::learn(const WallMap& map, const Pose2& T_map_lidar,
@@ -85,14 +110,15 @@ void BiasEstimator::learn(const WallMap& map, const Pose2& T_map_lidar,
   if (!of_bias.allFinite() || !pull.allFinite()) return;
 
   information_ = (1 - kForgotten) * information_ + kTurnShare * of_bias;
-  evidence_ = (1 - kForgotten) * evidence_ + kTurnShare * (of_bias * vector_of(bias_) + pull);
-  const Vector4 prior = kPriorSigma.cwiseAbs2().cwiseInverse();
+  evidence_ =
+      (1 - kForgotten) * evidence_ + kTurnShare * (of_bias * vector_of(learned_.bias) + pull);
+  const Vector4 prior = prior_information();
   const Matrix4 sum = information_ + Matrix4(prior.asDiagonal());
-  const Vector4 best = sum.ldlt().solve(evidence_ + prior.cwiseProduct(known_));
-  if (!best.allFinite()) return;
-  const Vector4 limited = best.cwiseMax(-kLimit).cwiseMin(kLimit);
-  bias_ = {limited[0], limited[1], limited[2], limited[3]};
-  ++turns_;
+  const Matrix4 covariance = sum.ldlt().solve(Matrix4::Identity());
+  const Vector4 best = covariance * (evidence_ + prior.cwiseProduct(known_));
+  if (!best.allFinite() || !(covariance.diagonal().minCoeff() > 0)) return;
+  believe(best, covariance);
+  ++learned_.turns;
 }
 
 }  // namespace cornerd::core

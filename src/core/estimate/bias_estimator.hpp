@@ -23,9 +23,14 @@ class BiasEstimator {
   BiasEstimator(double max_range_m, const SensorNoise& noise, const SensorBias& known);
 
   /// What is believed so far; `known` at first.
-  const SensorBias& bias() const { return bias_; }
+  const SensorBias& bias() const { return learned_.bias; }
   /// Turns that it was learnt from.
-  std::size_t turns() const { return turns_; }
+  std::size_t turns() const { return learned_.turns; }
+  const LearnedBias& learned() const { return learned_; }
+
+  /// Goes on from what another one learnt of the same lidar. Of its doubt no more than the sigmas
+  /// is known: scale and offset may trade with each other again.
+  void resume(const LearnedBias& learned);
 
   /// Back to what was known at first.
   void forget();
@@ -39,13 +44,14 @@ class BiasEstimator {
   using Vector4 = Eigen::Vector4d;
   using Matrix4 = Eigen::Matrix4d;
 
+  void believe(const Vector4& bias, const Matrix4& covariance);
+
   SensorNoise noise_;
   TurnPrediction prediction_;
-  SensorBias bias_;
+  LearnedBias learned_;
   Vector4 known_;
   Matrix4 information_ = Matrix4::Zero();  ///< that turns gave, fading
   Vector4 evidence_ = Vector4::Zero();     ///< information times the bias that they speak for
-  std::size_t turns_ = 0;
 };
 
 }  // namespace cornerd::core

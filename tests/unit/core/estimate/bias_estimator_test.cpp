@@ -104,6 +104,46 @@ TEST(BiasEstimator, RobotThatMovesWithinItsTurns_IsNoBias) {
   EXPECT_NEAR(estimator.bias().bearing_cosine_rad, 0, radians(0.03));
 }
 
+TEST(BiasEstimator, ThatResumes_KnowsWhatWasLearntAndLearnsOn) {
+  const auto map = testing::make_map(testing::l_shaped_room());
+  const LearnedBias learned{
+      .bias = kBias, .sigma = {0.001, 0.001, radians(0.02), radians(0.02)}, .turns = 400};
+  BiasEstimator estimator(12, {}, {});
+  estimator.resume(learned);
+  EXPECT_EQ(estimator.turns(), 400U);
+  EXPECT_EQ(estimator.bias().range_offset_m, kBias.range_offset_m);
+  EXPECT_EQ(estimator.learned().sigma.range_scale, 0.001);
+  testing::TurnSource source(66);
+  PolarScan points;
+  for (int k = 0; k < 60; ++k) {
+    const Pose2 T_map_lidar = source.place_in(0.4, 2.2, 0.4, 1.4);
+    points.assign(biased(source.take(*map, T_map_lidar), kBias), 0.1, 12, 0, {}, estimator.bias());
+    estimator.learn(*map, T_map_lidar, points.points(), 1);
+    EXPECT_NEAR(estimator.bias().range_scale, kBias.range_scale, 0.0015);
+    EXPECT_NEAR(estimator.bias().range_offset_m, kBias.range_offset_m, 0.0015);
+  }
+  EXPECT_EQ(estimator.turns(), 460U);
+  estimator.forget();
+  EXPECT_TRUE(estimator.bias().is_none());
+  estimator.resume({});
+  EXPECT_EQ(estimator.turns(), 0U);
+}
+
+TEST(BiasEstimator, TurnsThatTeach_LeaveLessDoubt) {
+  const auto map = testing::make_map(testing::l_shaped_room());
+  BiasEstimator estimator(12, {}, {});
+  testing::TurnSource source(67);
+  PolarScan points;
+  double before = 1;
+  for (int k = 0; k < 20; ++k) {
+    const Pose2 T_map_lidar = source.place_in(0.4, 2.2, 0.4, 1.4);
+    points.assign(source.take(*map, T_map_lidar), 0.1, 12, 0, {}, estimator.bias());
+    estimator.learn(*map, T_map_lidar, points.points(), 1);
+    EXPECT_LT(estimator.learned().sigma.range_scale, before);
+    before = estimator.learned().sigma.range_scale;
+  }
+}
+
 TEST(BiasEstimator, TurnOfFewPoints_TeachesNothing) {
   const auto map = testing::make_map(testing::l_shaped_room());
   BiasEstimator estimator(12, {}, {});
@@ -126,10 +166,10 @@ TEST(Localizer, BiasedLidar_IsLearntWhileItRuns) {
   const double without_m = error_after_m(14, trusting, *map);
   EXPECT_LT(with_m, 0.0025);
   EXPECT_GT(without_m, 0.004);
-  EXPECT_NEAR(learning.bias().range_scale, kBias.range_scale, 0.004);
-  EXPECT_TRUE(trusting.bias().is_none());
+  EXPECT_NEAR(learning.learned_bias().bias.range_scale, kBias.range_scale, 0.004);
+  EXPECT_TRUE(trusting.learned_bias().bias.is_none());
   learning.forget();
-  EXPECT_TRUE(learning.bias().is_none());
+  EXPECT_TRUE(learning.learned_bias().bias.is_none());
 }
 
 TEST(Localizer, BiasThatIsKnown_IsTakenOffFromTheFirstTurn) {

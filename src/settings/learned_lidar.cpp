@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+#include "settings/learned_lidar.hpp"
+
+#include <cmath>
+#include <cstdint>
+
+#include <nlohmann/json.hpp>
+
+#include "settings/object_reader.hpp"
+#include "settings/sensor_bias.hpp"
+
+namespace cornerd::settings {
+namespace {
+
+constexpr std::string_view kFormat = "cornerd-lidar";
+constexpr std::size_t kMaxSerialBytes = 64;
+constexpr std::uint32_t kMostTurns = 4'000'000'000;
+
+bool is_positive(const core::SensorBias& sigma) {
+  return sigma.range_scale > 0 && sigma.range_offset_m > 0 && sigma.bearing_sine_rad > 0 &&
+         sigma.bearing_cosine_rad > 0;
+}
+
+}  // namespace
+
+LearnedLidar parse_learned_lidar(std::string_view text, const std::filesystem::path& file) {
+  const DocumentContext context{.file = file};
+  const Json document = parse_document(text, file);
+  ObjectReader root(context, document, "");
+  std::string format;
+  root.text("format", format, kFormat.size());
+  if (format != kFormat) root.fail("format", "must be \"" + std::string(kFormat) + "\"");
+  LearnedLidar lidar;
+  root.text("serial", lidar.serial, kMaxSerialBytes);
+  read_bias(root.object("configured"), lidar.configured);
+  read_bias(root.object("bias"), lidar.learned.bias);
+  read_bias(root.object("sigma"), lidar.learned.sigma);
+  if (!is_positive(lidar.learned.sigma)) root.fail("sigma", "must be above 0, all of it");
+  std::uint32_t turns = 0;
+  root.integer("turns", turns, std::uint32_t{1}, kMostTurns);
+  if (turns == 0) root.fail("turns", "is missing");
+  lidar.learned.turns = turns;
+  root.finish();
+  return lidar;
+}
+
+std::string text_of(const LearnedLidar& lidar) {
+  nlohmann::ordered_json document = {{"format", kFormat}};
+  if (!lidar.serial.empty()) document["serial"] = lidar.serial;
+  document["configured"] = json_of(lidar.configured);
+  document["bias"] = json_of(lidar.learned.bias);
+  document["sigma"] = json_of(lidar.learned.sigma);
+  document["turns"] = std::min<std::size_t>(lidar.learned.turns, kMostTurns);
+  return document.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
+}
+
+}  // namespace cornerd::settings
