@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "core/sensor_bias.hpp"
+#include "settings/config.hpp"
 
 namespace cornerd::settings {
 
