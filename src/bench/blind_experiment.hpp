@@ -24,6 +24,9 @@ struct BlindCase {
   double again_s = 12;  ///< from then to the next time, and so on
   double covered_s = 5;
   double duration_s = 300;
+  /// Each drive has a robot of its own, with errors drawn from core::OdometryNoise.
+  bool draws_errors = false;
+  std::size_t drives_for_one = 1;  ///< where they are short: so many instead of one
 };
 
 /// Poses of one range of ages.
@@ -35,7 +38,7 @@ struct BlindAges {
   double worst_m = 0;
   double worst_rad = 0;
   double mean_nees = 0;     ///< error squared in units of the covariance: 3 is exact
-  double share_within = 0;  ///< of those whose NEES is under 7.815, 95 % of them if it is exact
+  double share_within = 0;  ///< of those whose NEES is under kNees95, 95 % of them if it is exact
 };
 
 /// Ages as the table has them: what lies between two turns, then the lidar covered.

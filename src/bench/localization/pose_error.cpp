@@ -8,9 +8,14 @@
 
 namespace cornerd::bench {
 
+PoseError error_of(const core::Pose2& T_map_base, const core::Pose2& truth) {
+  return {(T_map_base.translation() - truth.translation()).norm(),
+          std::abs(core::angle_between(truth.theta_rad, T_map_base.theta_rad))};
+}
+
 bool is_right(const core::Pose2& T_map_base, const core::Pose2& truth) {
-  return (T_map_base.translation() - truth.translation()).norm() <= kWrong_m &&
-         std::abs(core::angle_between(T_map_base.theta_rad, truth.theta_rad)) <= kWrong_rad;
+  const PoseError error = error_of(T_map_base, truth);
+  return error.place_m <= kWrong_m && error.heading_rad <= kWrong_rad;
 }
 
 bool lists_truth(const core::PoseEstimate& estimate, const core::Pose2& truth) {

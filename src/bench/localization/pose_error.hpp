@@ -12,6 +12,15 @@ namespace cornerd::bench {
 inline constexpr double kWrong_m = 0.1;
 inline constexpr double kWrong_rad = core::radians(5);
 
+/// 95 % of a chi-square of three degrees of freedom.
+inline constexpr double kNees95 = 7.815;
+
+struct PoseError {
+  double place_m = 0;
+  double heading_rad = 0;  ///< without its sign
+};
+PoseError error_of(const core::Pose2& T_map_base, const core::Pose2& truth);
+
 bool is_right(const core::Pose2& T_map_base, const core::Pose2& truth);
 
 /// True where the true place is among the alternatives.

@@ -9,12 +9,6 @@
 #include "bench/statistics.hpp"
 
 namespace cornerd::bench {
-namespace {
-
-/// 95 % of a chi-square of three degrees of freedom.
-constexpr double kInside95 = 7.815;
-
-}  // namespace
 
 void PoseScore::add(const core::PoseEstimate& estimate, const core::Pose2& truth,
                     const core::Covariance3& bound) {
@@ -41,14 +35,14 @@ void PoseScore::add(const core::PoseEstimate& estimate, const core::Pose2& truth
   }
   if (const auto nees = normalised_error_squared(estimate, truth)) {
     nees_ += *nees;
-    inside_95_ += *nees < kInside95 ? 1 : 0;
+    inside_95_ += *nees < kNees95 ? 1 : 0;
   }
   if (!right) return;
-  const double error_m = (estimate.T_map_base.translation() - truth.translation()).norm();
-  errors_m_.push_back(error_m);
-  squares_m2_ += error_m * error_m;
+  const PoseError error = error_of(estimate.T_map_base, truth);
+  errors_m_.push_back(error.place_m);
+  squares_m2_ += error.place_m * error.place_m;
   bound_m2_ += bound.topLeftCorner<2, 2>().trace();
-  heading_rad_ += std::abs(core::angle_between(truth.theta_rad, estimate.T_map_base.theta_rad));
+  heading_rad_ += error.heading_rad;
 }
 
 double PoseScore::per_right(double sum) const {

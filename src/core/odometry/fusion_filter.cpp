@@ -25,7 +25,9 @@ constexpr double kMostBias_rad_s = 0.5;
 /// A tyre is no line: where it touches the floor wanders with every turn on the spot.
 constexpr double kScrub_rad_per_sqrt_rad = 0.001;
 
-constexpr double kCountsAgain = 0.125;
+/// A gyro that says more than this, squared and in units of what it may say at rest, while no count
+/// comes: the robot turns by less than a count.
+constexpr double kCreeps = 9;
 
 constexpr double squared(double value) { return value * value; }
 
@@ -43,6 +45,7 @@ FusionFilter::FusionFilter(const OdometryConfig& config)
   covariance_(kRight, kRight) = squared(noise_.wheel_scale);
   covariance_(kTrack, kTrack) = squared(noise_.track_scale);
   covariance_(kGyro, kGyro) = squared(noise_.gyro_scale);
+  covariance_(kLeftRest, kLeftRest) = covariance_(kRightRest, kRightRest) = geometry_.rest_m2();
 }
 
 FusionFilter::Wheels FusionFilter::wheels(const MotionStep& step) const {
@@ -65,32 +68,43 @@ Pose2 FusionFilter::motion_of(const MotionStep& step) const {
 void FusionFilter::predict(const MotionStep& step) {
   if (step.is_hole) return predict_hole(step);
   const double dt_s = step.duration_s();
-  const Wheels moved = wheels(step);
+  const double bias_rad = state_[kBias] * dt_s;
+  const double gyro_told_rad2 = squared(noise_.gyro_rad_s_per_sqrt_hz) * dt_s;
+  // When within the step the rate changed nobody knows: evenly between its two ends.
+  const double gyro_rad2 =
+      gyro_told_rad2 * learning_.gyro_factor() + squared(step.gyro_change_rad) / 3;
+  const bool creeps =
+      step.has_gyro && squared(step.gyro_rad - bias_rad) >
+                           kCreeps * (gyro_rad2 + covariance_(kBias, kBias) * squared(dt_s));
+  const bool rolls = step.left_m != 0 || step.right_m != 0 || creeps;
+
+  // A count stands for a stretch, and where in it a wheel has come to is new with every step: what
+  // one step leaves out the next one has too much, however many there are.
+  Wheels moved = wheels(step);
   const double track_m = geometry_.track_m * (1 + state_[kTrack]);
-  // A count stands for a stretch, at both ends of the way. The errors of the steps in between
-  // cancel, so all since the last fix have them once, and a little for what is not linear.
-  const double counts_m2 = 2 * squared(geometry_.metres_per_count()) / 12;
-  const bool moves = step.left_m != 0 || step.right_m != 0;
-  const double charged_m2 = !moves ? 0 : (counts_are_charged_ ? kCountsAgain : 1) * counts_m2;
-  counts_are_charged_ = counts_are_charged_ || moves;
+  const double rest_m2 = geometry_.rest_m2();
   const double wheel_factor = learning_.wheel_factor();
   const double wheel_m = squared(noise_.wheel_m_per_sqrt_m) * wheel_factor;
   const double scrub_rad = squared(kScrub_rad_per_sqrt_rad) * wheel_factor;
-  double left_m2 = wheel_m * std::abs(moved.left_m) + charged_m2;
-  double right_m2 = wheel_m * std::abs(moved.right_m) + charged_m2;
+  double left_m2 = wheel_m * std::abs(moved.left_m);
+  double right_m2 = wheel_m * std::abs(moved.right_m);
   double turn_rad2 = (left_m2 + right_m2) / squared(track_m) + scrub_rad * std::abs(moved.turn_rad);
-  const double told_rad2 = (turn_rad2 - 2 * charged_m2 / squared(track_m)) / wheel_factor;
-  // The gyro sees through them in every step, so each step's turn has its own.
-  if (step.has_gyro && moves) turn_rad2 += 2 * (counts_m2 - charged_m2) / squared(track_m);
+  const double told_rad2 = turn_rad2 / wheel_factor;
+  double old_rests_rad2 = 0;
+  if (rolls) {
+    left_m2 += rest_m2;
+    right_m2 += rest_m2;
+    turn_rad2 += 2 * rest_m2 / squared(track_m);
+    moved.way_m -= (state_[kLeftRest] + state_[kRightRest]) / 2;
+    moved.turn_rad -= (state_[kRightRest] - state_[kLeftRest]) / track_m;
+    old_rests_rad2 = (covariance_(kLeftRest, kLeftRest) + covariance_(kRightRest, kRightRest) -
+                      2 * covariance_(kLeftRest, kRightRest)) /
+                     squared(track_m);
+  }
 
   // What the gyro says beyond the wheels, and how much that may be.
   const double gyro_gain = 1 + state_[kGyro];
-  const double bias_rad = state_[kBias] * dt_s;
-  // When within the step the rate changed nobody knows: evenly between its two ends.
-  const double gyro_told_rad2 = squared(noise_.gyro_rad_s_per_sqrt_hz) * dt_s;
-  const double gyro_rad2 =
-      gyro_told_rad2 * learning_.gyro_factor() + squared(step.gyro_change_rad) / 3;
-  Row turn_by = turn_slope(moved.way_m, moved.turn_rad);
+  Row turn_by = turn_slope(moved.way_m, moved.turn_rad, rolls);
   Row seen_by = seen_slope(turn_by, moved.turn_rad, dt_s);
   double surprise_rad = step.gyro_rad - gyro_gain * moved.turn_rad - bias_rad;
   double known_rad2 = variance_along(seen_by) + gyro_rad2;
@@ -114,14 +128,14 @@ void FusionFilter::predict(const MotionStep& step) {
     // The slopes are those at what both together say: taken at the wheels' own turn, its noise
     // would be in the slope as well as in the surprise, and bias the scales (by 1 % in
     // tests/unit/core/odometry/fusion_filter_test.cpp).
-    const double both_rad = moved.turn_rad + gyro_gain * turn_rad2 /
+    const double both_rad = moved.turn_rad + gyro_gain * (turn_rad2 + old_rests_rad2) /
                                                  (known_rad2 + squared(gyro_gain) * turn_rad2) *
                                                  surprise_rad;
     if (slips) {
       course_rad = state_[kTheta] + both_rad / 2;
       follows = 0;
     }
-    turn_by = turn_slope(moved.way_m, both_rad);
+    turn_by = turn_slope(moved.way_m, both_rad, rolls);
     seen_by = seen_slope(turn_by, both_rad, dt_s);
     known_rad2 = variance_along(seen_by) + gyro_rad2;
   }
@@ -129,11 +143,12 @@ void FusionFilter::predict(const MotionStep& step) {
   Row way_by = Row::Zero();
   way_by[kLeft] = step.left_m / 2;
   way_by[kRight] = step.right_m / 2;
+  if (rolls) way_by[kLeftRest] = way_by[kRightRest] = -0.5;
 
-  // The pose moves on: F and G of the pose's three rows.
+  // The pose moves on: F and G of its three rows.
   const double c = std::cos(course_rad);
   const double s = std::sin(course_rad);
-  Matrix transition = Matrix::Identity();
+  Eigen::Matrix<double, 3, kSize> transition = Eigen::Matrix<double, 3, kSize>::Identity();
   transition(kX, kTheta) = -moved.way_m * s;
   transition(kY, kTheta) = moved.way_m * c;
   const double aside_m = follows * moved.way_m / 2;
@@ -146,15 +161,29 @@ void FusionFilter::predict(const MotionStep& step) {
   const double way_m2 = (left_m2 + right_m2) / 4;
   const double way_turn = (right_m2 - left_m2) / (2 * track_m);
 
-  // The covariance of the pose moved on with what the gyro sees: the wheels' noise is in both.
-  Vector with_seen = transition * (covariance_ * seen_by.transpose());
+  // The covariance of the state moved on with what the gyro sees: the wheels' noise is in both.
+  Vector with_seen = covariance_ * seen_by.transpose();
+  with_seen.head<3>() = (transition * with_seen).eval();
   with_seen.head<3>() += gyro_gain * (by_way * way_turn + by_turn * turn_rad2);
   const double seen_rad2 = known_rad2 + squared(gyro_gain) * turn_rad2;
 
-  covariance_ = (transition * covariance_ * transition.transpose()).eval();
-  covariance_.topLeftCorner<3, 3>() +=
+  const Eigen::Matrix<double, 3, kSize> with_pose = transition * covariance_;
+  const Covariance3 noise =
       by_way * by_way.transpose() * way_m2 + by_turn * by_turn.transpose() * turn_rad2 +
       (by_way * by_turn.transpose() + by_turn * by_way.transpose()) * way_turn;
+  covariance_.topRows<3>() = with_pose;
+  covariance_.leftCols<3>() = with_pose.transpose();
+  covariance_.topLeftCorner<3, 3>() = with_pose * transition.transpose() + noise;
+  if (rolls) {
+    Eigen::Matrix<double, kSize, 2> with_rests = Eigen::Matrix<double, kSize, 2>::Zero();
+    with_rests.topRows<3>() << by_way / 2 - by_turn / track_m, by_way / 2 + by_turn / track_m;
+    with_rests.bottomRows<2>().setIdentity();
+    with_rests *= rest_m2;
+    covariance_.rightCols<2>() = with_rests;
+    covariance_.bottomRows<2>() = with_rests.transpose();
+    const double seen_m2 = gyro_gain / track_m * rest_m2;
+    with_seen.tail<2>() << -seen_m2, seen_m2;
+  }
   covariance_(kBias, kBias) += squared(noise_.bias_rad_s_per_sqrt_s) * dt_s;
   for (const int scale : {kLeft, kRight, kTrack, kGyro}) {
     covariance_(scale, scale) += squared(noise_.scale_per_sqrt_s) * dt_s;
@@ -162,6 +191,7 @@ void FusionFilter::predict(const MotionStep& step) {
   state_[kX] += moved.way_m * c;
   state_[kY] += moved.way_m * s;
   state_[kTheta] += moved.turn_rad;
+  if (rolls) state_[kLeftRest] = state_[kRightRest] = 0;
 
   if (step.has_gyro && seen_rad2 > 0) {
     const Vector gain = with_seen / seen_rad2;
@@ -171,12 +201,16 @@ void FusionFilter::predict(const MotionStep& step) {
   keep_in_bounds();
 }
 
-FusionFilter::Row FusionFilter::turn_slope(double way_m, double turn_rad) const {
+FusionFilter::Row FusionFilter::turn_slope(double way_m, double turn_rad, bool rolls) const {
   const double track_m = geometry_.track_m * (1 + state_[kTrack]);
   Row slope = Row::Zero();
   slope[kLeft] = -(way_m - turn_rad * track_m / 2) / (track_m * (1 + state_[kLeft]));
   slope[kRight] = (way_m + turn_rad * track_m / 2) / (track_m * (1 + state_[kRight]));
   slope[kTrack] = -turn_rad / (1 + state_[kTrack]);
+  if (rolls) {
+    slope[kLeftRest] = 1 / track_m;
+    slope[kRightRest] = -1 / track_m;
+  }
   return slope;
 }
 
@@ -205,7 +239,6 @@ void FusionFilter::set_pose(const Pose2& T_map_base, const Covariance3& covarian
   covariance_.topRows<3>().setZero();
   covariance_.leftCols<3>().setZero();
   covariance_.topLeftCorner<3, 3>() = covariance;
-  counts_are_charged_ = false;
   learning_.interrupt();
 }
 
@@ -223,8 +256,7 @@ bool FusionFilter::explains(const Pose2& T_map_base, const Covariance3& covarian
 bool FusionFilter::correct(const Pose2& T_map_base, const Covariance3& covariance) {
   if (!explains(T_map_base, covariance)) return false;
   learning_.fixed(T_map_base.theta_rad, covariance(2, 2), learned(),
-                  covariance_.bottomRightCorner<5, 5>());
-  counts_are_charged_ = false;
+                  covariance_.block<5, 5>(kBias, kBias));
   const Eigen::Vector3d surprise = surprise_of(T_map_base);
   const Eigen::LLT<Eigen::Matrix3d> root(pose_covariance() + covariance);
   const Eigen::Matrix<double, kSize, 3> with_pose = covariance_.leftCols<3>();

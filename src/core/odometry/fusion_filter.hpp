@@ -16,7 +16,20 @@ namespace cornerd::core {
 /// allocation.
 class FusionFilter {
  public:
-  enum Index : std::uint8_t { kX, kY, kTheta, kBias, kLeft, kRight, kTrack, kGyro, kSize };
+  /// kLeftRest, kRightRest: metres that a wheel has rolled beyond the middle of its count.
+  enum Index : std::uint8_t {
+    kX,
+    kY,
+    kTheta,
+    kBias,
+    kLeft,
+    kRight,
+    kTrack,
+    kGyro,
+    kLeftRest,
+    kRightRest,
+    kSize
+  };
   using Vector = Eigen::Matrix<double, kSize, 1>;
   using Matrix = Eigen::Matrix<double, kSize, kSize>;
 
@@ -60,7 +73,7 @@ class FusionFilter {
   using Row = Eigen::RowVector<double, kSize>;
   Wheels wheels(const MotionStep& step) const;
   /// How the wheels' turn, and what the gyro says of it, change with the state.
-  Row turn_slope(double way_m, double turn_rad) const;
+  Row turn_slope(double way_m, double turn_rad, bool rolls) const;
   Row seen_slope(const Row& turn_by, double turn_rad, double dt_s) const;
   double variance_along(const Row& slope) const;
   void predict_hole(const MotionStep& step);
@@ -71,7 +84,6 @@ class FusionFilter {
   Vector state_ = Vector::Zero();
   Matrix covariance_ = Matrix::Zero();
   NoiseLearning learning_;
-  bool counts_are_charged_ = false;  ///< since the last fix
   std::uint64_t slips_ = 0;
 };
 

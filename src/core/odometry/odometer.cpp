@@ -178,7 +178,12 @@ Covariance3 Odometer::doubt_of_motion() const {
   const Pose2 way = path_.at(start_ns_).inverse() * path_.at(end_ns_);
   const double place_m = kMotionShare / 2 * way.translation().norm();
   const double turn_rad = kMotionShare / 2 * way.theta_rad;
-  return Eigen::Vector3d(place_m * place_m, place_m * place_m, turn_rad * turn_rad).asDiagonal();
+  // Where in its count each wheel is in the middle: what the rest of the turn is straightened to.
+  const DriveGeometry& geometry = config_.geometry;
+  const double place_m2 = place_m * place_m + geometry.rest_m2() / 2;
+  double turn_rad2 = turn_rad * turn_rad;
+  if (!last_.has_gyro) turn_rad2 += 2 * geometry.rest_m2() / (geometry.track_m * geometry.track_m);
+  return Eigen::Vector3d(place_m2, place_m2, turn_rad2).asDiagonal();
 }
 
 std::optional<PredictedPose> Odometer::prediction() const {

@@ -15,6 +15,8 @@ struct DriveGeometry {
   std::int64_t ceiling = 0xFFFFFFFF;  ///< the highest count; 0 follows. 0: counts never wrap
 
   double metres_per_count() const { return kTwoPi * wheel_radius_m / counts_per_turn; }
+  /// Variance of where in its count a wheel stands: any place is as likely as another.
+  double rest_m2() const { return metres_per_count() * metres_per_count() / 12; }
 };
 
 /// What no robot that needs an A1 does, so that a reading that says so is garbage.
