@@ -6,13 +6,13 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <memory>
 #include <utility>
 
+#include "bench/localization/pose_error.hpp"
 #include "core/geometry/angle.hpp"
 #include "core/pipeline.hpp"
 #include "daemon/localization.hpp"
@@ -29,10 +29,6 @@ namespace {
 using std::chrono::duration;
 using Clock = std::chrono::steady_clock;
 
-/// Farther off than this a place is another one. The robot turns by 8 degrees during a turn of the
-/// lidar: of one that saw nothing but its end, the pose's time and heading are off by that.
-constexpr double kWrong_m = 0.15;
-constexpr double kWrong_rad = core::radians(15);
 constexpr std::uint64_t kFlatBytes = 1 << 20;
 
 std::uint64_t resident_bytes() {
@@ -101,12 +97,10 @@ std::string describe(const core::PoseEstimate& pose, const core::Pose2& truth, s
 /// True of a fix that is elsewhere.
 bool is_wrong(const core::PoseEstimate& pose, const core::Pose2& truth, SoakReport& report) {
   if (!core::names_a_place(pose.state)) return false;
-  const double error_m = (pose.T_map_base.translation() - truth.translation()).norm();
-  const double error_rad =
-      std::abs(core::angle_between(truth.theta_rad, pose.T_map_base.theta_rad));
-  report.worst_error_m = std::max(report.worst_error_m, error_m);
-  report.worst_error_rad = std::max(report.worst_error_rad, error_rad);
-  return error_m > kWrong_m || error_rad > kWrong_rad;
+  const bench::PoseError error = bench::error_of(pose.T_map_base, truth);
+  report.worst_error_m = std::max(report.worst_error_m, error.place_m);
+  report.worst_error_rad = std::max(report.worst_error_rad, error.heading_rad);
+  return !bench::is_right(pose.T_map_base, truth);
 }
 
 }  // namespace
