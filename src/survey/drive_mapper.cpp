@@ -25,13 +25,14 @@ constexpr double kVague_m = 0.05;
 
 class Mapper {
  public:
-  Mapper(const RecordedDrive& drive, const core::LocalizerConfig& config, const MappedDrive* before)
-      : before_(before),
+  Mapper(const RecordedDrive& drive, const core::LocalizerConfig& config, const MappedDrive* before,
+         bool anew)
+      : before_(anew ? nullptr : before),
         reader_(drive, config, before ? before->learned : std::nullopt,
                 before && !before->has_odometry ? std::span<const core::Pose2>(before->T_map_lidar)
                                                 : std::span<const core::Pose2>()),
         extractor_(config.detector, config.noise) {
-    if (before) {
+    if (before_) {
       result_.faces = before->faces;
       result_.ties = before->ties;
     }
@@ -46,8 +47,7 @@ class Mapper {
 
   bool step() {
     if (!reader_.next()) return false;
-    sightings_.clear();
-    extractor_.extract(reader_.points(), sightings_);
+    extract();
     locate();
     take_in();
     keep_points();
@@ -62,6 +62,11 @@ class Mapper {
   }
 
  private:
+  void extract() {
+    sightings_.clear();
+    extractor_.extract(reader_.points(), sightings_);
+  }
+
   void locate() {
     TurnPrior prior = reader_.prior();
     const std::size_t turn = reader_.turn();
@@ -76,7 +81,11 @@ class Mapper {
     // Adjusted already, or the one that the map's frame is.
     const bool known = turn == 0 || (before_ && share > kEnoughShare);
     if (!known) {
-      const TurnMatch match = find(prior);
+      TurnMatch match = find(prior);
+      if (match.valid && reader_.straighten_again(match.T_map_lidar)) {
+        extract();
+        match = find(prior);
+      }
       share = match.matched_share;
       if (match.valid) {
         T_map_lidar = match.T_map_lidar;
@@ -235,8 +244,8 @@ std::vector<double> ways_m(const MappedDrive& drive) {
 }
 
 MappedDrive map_drive(const RecordedDrive& drive, const core::LocalizerConfig& config,
-                      const MappedDrive* before, const Progress& progress) {
-  Mapper mapper(drive, config, before);
+                      const MappedDrive* before, const Progress& progress, bool anew) {
+  Mapper mapper(drive, config, before, anew);
   for (std::size_t done = 0; mapper.step(); ++done) {
     if (progress) progress(done);
   }

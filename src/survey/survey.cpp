@@ -103,7 +103,15 @@ SurveyResult survey(const RecordedDrive& recorded, const SurveyConfig& config,
   SurveyResult result;
 
   // First pass: find the way, and learn the wheels and the gyro.
-  MappedDrive first = map_drive(recorded, config.sensor, nullptr, part(progress, 0, 0.3, turns));
+  const double half = recorded.readings().empty() ? 0.15 : 0.3;
+  MappedDrive first = map_drive(recorded, config.sensor, nullptr, part(progress, 0, half, turns));
+  if (!first.has_odometry) {
+    // Its turns were straightened by guesses. The way that they gave tells the motion of each; what
+    // was mapped with them is of no use any more.
+    adjust(first);
+    first = map_drive(recorded, config.sensor, &first, part(progress, half, 0.3, turns),
+                      /*anew=*/true);
+  }
   result.strange_turns = first.strange_turns;
   if (first.faces.empty()) throw std::invalid_argument("no walls were seen");
   refuse_without_overlap(recorded, first);

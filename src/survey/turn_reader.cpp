@@ -54,9 +54,11 @@ bool TurnReader::next() {
   const core::TimeNs t_ns = drive_.middle_ns(turn_);
   odometer_.advance(drive_.start_ns(turn_), t_ns, drive_.end_ns(turn_));
   predict(t_ns);
-  const bool straight = odometer_.straighten(scan_, config_.T_base_lidar, still_);
-  points_.assign(straight ? still_ : scan_, config_.min_range_m, config_.max_range_m, t_ns,
-                 straight ? core::Twist2{} : motion(t_ns), config_.bias);
+  if (odometer_.straighten(scan_, config_.T_base_lidar, still_)) {
+    points_.assign(still_, config_.min_range_m, config_.max_range_m, t_ns, {}, config_.bias);
+  } else {
+    straighten(expected_motion());
+  }
   begun_ = true;
   return true;
 }
@@ -95,7 +97,9 @@ void TurnReader::predict(core::TimeNs t_ns) {
     return;
   }
   const double dt_s = core::to_seconds(t_ns - last_ns_);
-  prior_.T_before_now = last_motion_.over(std::clamp(dt_s, 0.0, 1.0));
+  prior_.T_before_now = known_poses_.empty()
+                            ? last_motion_.over(std::clamp(dt_s, 0.0, 1.0))
+                            : known_poses_[turn_ - 1].inverse() * known_poses_[turn_];
   prior_.T_map_lidar = last_T_map_lidar_ * prior_.T_before_now;
   // Twice the time, twice the speed that it may have taken up.
   const double grown = std::clamp(dt_s / 0.15, 1.0, 10.0);
@@ -104,7 +108,7 @@ void TurnReader::predict(core::TimeNs t_ns) {
   prior_.covariance = diagonal(prior_.sigma_m, prior_.sigma_rad);
 }
 
-core::Twist2 TurnReader::motion(core::TimeNs) const {
+core::Twist2 TurnReader::expected_motion() const {
   const auto known = known_poses_;
   if (known.size() < 2) return last_motion_;
   const std::size_t before = turn_ > 0 ? turn_ - 1 : 0;
@@ -114,14 +118,27 @@ core::Twist2 TurnReader::motion(core::TimeNs) const {
   return core::motion_between(known[before], known[after], dt_s);
 }
 
+bool TurnReader::straighten_again(const core::Pose2& T_map_lidar) {
+  if (turn_ == 0 || !drive_.readings().empty() || !known_poses_.empty()) return false;
+  straighten(motion_to(T_map_lidar));
+  return true;
+}
+
+/// From the turn before; at rest after a pause.
+core::Twist2 TurnReader::motion_to(const core::Pose2& T_map_lidar) const {
+  const double dt_s = core::to_seconds(drive_.middle_ns(turn_) - last_ns_);
+  if (turn_ == 0 || !(dt_s > 0 && dt_s < 1)) return {};
+  return core::motion_between(last_T_map_lidar_, T_map_lidar, dt_s);
+}
+
+void TurnReader::straighten(const core::Twist2& motion) {
+  points_.assign(scan_, config_.min_range_m, config_.max_range_m, drive_.middle_ns(turn_), motion,
+                 config_.bias);
+}
+
 void TurnReader::place(const core::Pose2& T_map_lidar, const core::Covariance3& covariance) {
   const core::TimeNs t_ns = drive_.middle_ns(turn_);
-  const double dt_s = core::to_seconds(t_ns - last_ns_);
-  if (turn_ > 0 && dt_s > 0 && dt_s < 1) {
-    last_motion_ = core::motion_between(last_T_map_lidar_, T_map_lidar, dt_s);
-  } else {
-    last_motion_ = {};
-  }
+  last_motion_ = motion_to(T_map_lidar);
   last_ns_ = t_ns;
   last_T_map_lidar_ = T_map_lidar;
   const core::Pose2 T_map_base = T_map_lidar * T_lidar_base_;

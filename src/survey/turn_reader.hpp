@@ -41,6 +41,10 @@ class TurnReader {
   const core::PolarScan& points() const { return points_; }
   const TurnPrior& prior() const { return prior_; }
 
+  /// Where nothing but the lidar tells how it moved in this turn: straightens the turn by the way
+  /// from the one before to where this one seems to have been. Else does nothing, and says false.
+  bool straighten_again(const core::Pose2& T_map_lidar);
+
   /// Where the lidar was; to be said of each turn before the next one.
   void place(const core::Pose2& T_map_lidar, const core::Covariance3& covariance);
 
@@ -50,7 +54,9 @@ class TurnReader {
  private:
   void hear_readings();
   void predict(core::TimeNs t_ns);
-  core::Twist2 motion(core::TimeNs t_ns) const;
+  core::Twist2 expected_motion() const;
+  core::Twist2 motion_to(const core::Pose2& T_map_lidar) const;
+  void straighten(const core::Twist2& motion);
 
   const RecordedDrive& drive_;
   core::LocalizerConfig config_;

@@ -60,8 +60,10 @@ TEST_F(SurveyOfAFlat, SecondDrive_CostsAtMost3mmOverTheTrueMap) {
 
 TEST_F(SurveyOfAFlat, LidarAlone_FindsTheWallsToo) {
   const bench::SurveyScore& score = made("adjusted, lidar alone").score;
-  EXPECT_GE(score.walls_found + 2, score.walls_seen);
+  EXPECT_EQ(score.walls_found, score.walls_seen);
+  EXPECT_LT(score.invented_m, 0.05);
   EXPECT_LE(score.corner_median_m(), 0.005);
+  EXPECT_LE(score.corner_max_m(), 0.020);
 }
 
 TEST_F(SurveyOfAFlat, ThePapersWay_IsFarBehind) {
