@@ -2,6 +2,7 @@
 #include "survey/adjustment.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <Eigen/LU>
@@ -18,6 +19,7 @@ constexpr double kFirstLeniency = 256;
 constexpr double kLeniencyShare = 0.25;
 /// Steps smaller than this are the end.
 constexpr double kStill_m = 2e-6;
+
 /// Returns the largest way of a pose.
 double apply(const Linearization& equations, const Eigen::VectorXd& move, MappedDrive& drive) {
   double largest_m = 0;

@@ -70,7 +70,7 @@ struct MappedDrive {
 /// What each face was seen of, anew: its extent, its number of sightings, its first and last turn.
 void measure_faces(MappedDrive& drive);
 
-/// The robot's way up to each turn.
+/// The robot's way up to each turn, metres.
 std::vector<double> ways_m(const MappedDrive& drive);
 
 /// Called with the turns done.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "survey/face_splitting.hpp"
 
+#include <cstdint>
 #include <numeric>
 #include <vector>
 

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
+#include <utility>
 
 #include <Eigen/Cholesky>
 
@@ -45,8 +47,8 @@ bool are_tied(const MappedDrive& drive, std::span<const PlaceTie> ties) {
 }
 
 /// Why the loop is not to be closed; empty where it was.
-std::string close(MappedDrive& drive, const Loop& loop, const MergeLimits& merging,
-                  std::size_t& merged) {
+std::string try_to_close(MappedDrive& drive, const Loop& loop, const MergeLimits& merging,
+                         std::size_t& merged) {
   // What is seen since the robot came back may have been taken for other walls.
   MappedDrive trial = drive;
   const std::size_t back = loop.ties.front().later;
@@ -86,7 +88,7 @@ std::vector<LoopReport> close_loops(MappedDrive& drive, const core::LocalizerCon
     report.agreeing = loop->ties.size();
     report.off_m = loop->T_now_then.translation().norm();
     report.off_rad = loop->T_now_then.theta_rad;
-    report.refused = close(drive, *loop, merging, merged);
+    report.refused = try_to_close(drive, *loop, merging, merged);
     refused += report.closed() ? 0 : 1;
     reports.push_back(report);
   }

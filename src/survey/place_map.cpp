@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "survey/place_map.hpp"
 
-#include <algorithm>
+#include <utility>
 #include <vector>
 
 #include "survey/evidence.hpp"

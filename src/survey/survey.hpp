@@ -20,8 +20,8 @@ struct SurveyConfig {
   core::LocalizerConfig sensor;  ///< limits of the range, mount, noise, detector, odometry
   MergeLimits merging;
   WallLimits walls;
-  bool close_loops = true;
-  bool manhattan = false;  ///< walls that are square to the others within their doubt become so
+  bool close_loops = true;  ///< false: to see what that does
+  bool manhattan = false;   ///< walls that are square to the others within their doubt become so
 };
 
 /// Where the evidence for a wall is thin: of its length, the part that no ray ended on.
