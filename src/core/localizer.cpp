@@ -26,6 +26,9 @@ namespace {
 constexpr double kRecognisedReach_m = 0.10;
 constexpr double kPriorReach_m = 0.15;
 constexpr double kMotionReach_m = 0.08;
+/// Places with fewer votes of corners than this share of the best one's are looked at where those
+/// with more leave doubt: in large buildings they are many.
+constexpr double kLikelyShare = 0.7;
 /// A robot moves no farther than this between two turns. A place farther off was either wrong or
 /// the robot was carried: the next turn tells.
 constexpr double kJump_m = 0.5;
@@ -315,7 +318,8 @@ PoseState Localizer::Workspace::believe(const Decision& decision, std::size_t co
                                         TimeNs t_ns) {
   const core::Place& found = place->verification.places()[decision.place];
   const Pose2& T_map_lidar = found.refined.T_map_lidar;
-  const Evidence evidence{found.explanation, corners, points.widest_gap_rad()};
+  const Evidence evidence{found.explanation, corners, points.widest_gap_rad(),
+                          !place->paper && place->recognition.tries_all()};
   if (decision.state == PoseState::kTracking) {
     return may_be_tracked(evidence) ? PoseState::kTracking : PoseState::kAmbiguous;
   }
@@ -352,9 +356,15 @@ void Localizer::Workspace::look(const Scan& scan, TimeNs t_ns, const Twist2& as_
     verification.consider(std::span(&carried_on, 1), kPriorReach_m);
   }
   const Detection& seen = result.detection;
-  verification.consider(place->paper ? place->paper->places(seen.breakpoints, seen.segments)
-                                     : place->recognition.from_pairs(seen.breakpoints),
-                        kRecognisedReach_m);
+  if (place->paper) {
+    verification.consider(place->paper->places(seen.breakpoints, seen.segments),
+                          kRecognisedReach_m);
+    return;
+  }
+  const auto pairs = place->recognition.from_pairs(seen.breakpoints);
+  const std::size_t likely = count_likely(pairs, kLikelyShare);
+  verification.consider(pairs.first(likely), kRecognisedReach_m);
+  if (in_doubt(t_ns)) verification.consider(pairs.subspan(likely), kRecognisedReach_m);
 }
 
 bool Localizer::Workspace::in_doubt(TimeNs t_ns) const {

@@ -19,7 +19,8 @@ constexpr double kEvidentHitShare = 0.95;
 constexpr double kEvidentHitShareOfCorners = 0.6;
 constexpr std::size_t kEvidentCorners = 3;
 /// Or where a corner speaks for it and what it does not explain may be things in front of the
-/// walls, for nothing was seen through one.
+/// walls, for nothing was seen through one: unless the building is too large to try all its
+/// corridors, of which another one may need no things at all.
 constexpr double kEvidentHitShareAmongThings = 0.55;
 constexpr double kThroughShareAmongThings = 0.01;
 /// A turn that shows nothing over so much of the circle (the lidar was covered meanwhile) may be
@@ -40,7 +41,7 @@ bool is_evident(const Evidence& evidence) {
   if (hit_share >= kEvidentHitShareOfCorners && evidence.corners >= kEvidentCorners) return true;
   if (!is_whole(evidence)) return false;
   return hit_share >= kEvidentHitShare ||
-         (hit_share >= kEvidentHitShareAmongThings && evidence.corners >= 1 &&
+         (evidence.all_tried && hit_share >= kEvidentHitShareAmongThings && evidence.corners >= 1 &&
           evidence.explanation.through_share() <= kThroughShareAmongThings);
 }
 

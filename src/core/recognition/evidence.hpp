@@ -12,6 +12,7 @@ struct Evidence {
   Explanation explanation;
   std::size_t corners = 0;    ///< breakpoints that the map has there too
   double widest_gap_rad = 0;  ///< between two returns
+  bool all_tried = true;      ///< every other place that the turn's walls could have pointed to
 };
 
 /// True where no other place needs to be looked for: hardly a ray is left that another one could

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <span>
 
 #include "core/geometry/pose2.hpp"
 
@@ -21,6 +22,15 @@ inline bool is_better(const Hypothesis& a, const Hypothesis& b) {
   if (a.T_map_lidar.x_m != b.T_map_lidar.x_m) return a.T_map_lidar.x_m < b.T_map_lidar.x_m;
   if (a.T_map_lidar.y_m != b.T_map_lidar.y_m) return a.T_map_lidar.y_m < b.T_map_lidar.y_m;
   return a.T_map_lidar.theta_rad < b.T_map_lidar.theta_rad;
+}
+
+/// How many of them, best voted first, have at least `share` of the best one's votes.
+inline std::size_t count_likely(std::span<const Hypothesis> hypotheses, double share) {
+  std::size_t count = 0;
+  while (count < hypotheses.size() && hypotheses[count].votes >= share * hypotheses.front().votes) {
+    ++count;
+  }
+  return count;
 }
 
 /// True where the two are the same place for every purpose of recognition.

@@ -196,7 +196,7 @@ void Recognition::add_walls(const WallSegment& first, const WallSegment& second)
 std::span<const Hypothesis> Recognition::from_walls(std::span<const WallSegment> segments,
                                                     std::span<const Breakpoint> breakpoints) {
   begin(breakpoints);
-  if (map_.faces().size() > kMaxFacesForWalls) return {};
+  if (!tries_all()) return {};
   const WallSegment* first = nullptr;
   const WallSegment* second = nullptr;
   std::uint32_t best = 0;
@@ -226,6 +226,8 @@ bool Recognition::has_landmark(const Breakpoint& breakpoint, const Pose2& T_map_
   });
   return found;
 }
+
+bool Recognition::tries_all() const { return map_.faces().size() <= kMaxFacesForWalls; }
 
 int Recognition::recognised(std::span<const Breakpoint> breakpoints,
                             const Pose2& T_map_lidar) const {

@@ -35,6 +35,9 @@ class Recognition {
   std::span<const Hypothesis> from_walls(std::span<const WallSegment> segments,
                                          std::span<const Breakpoint> breakpoints);
 
+  /// True where no place is too far down the list to be tried: see from_walls().
+  bool tries_all() const;
+
   /// Breakpoints that have their landmark at this place.
   int recognised(std::span<const Breakpoint> breakpoints, const Pose2& T_map_lidar) const;
 

@@ -22,6 +22,13 @@ TEST(ScaleExperiment, BuildingOfAHundredRooms_IsKnownAtOnce) {
   EXPECT_GT(result.time_99_us, 0);
 }
 
+/// One of these turns shows a bare corridor, which another one with two people in it looks like.
+TEST(ScaleExperiment, CorridorThatIsNoneOfThoseTried_IsNotNamed) {
+  const ScaleResult result = run_scale_case(scale_cases({2000}, 1)[0], 10, 1);
+  EXPECT_EQ(result.score.wrong(), 0U);
+  EXPECT_GE(result.score.right(), 9U);
+}
+
 TEST(ScaleExperiment, EqualRooms_AreAmbiguousWithTheTruthAmongThem) {
   const auto cases = scale_cases({}, 1);
   const ScaleResult result = run_scale_case(cases[0], 60, 2);

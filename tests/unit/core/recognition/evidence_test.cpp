@@ -48,6 +48,15 @@ TEST(Evidence, ThingsInTheWay_NeedACornerAndNothingSeenThroughAWall) {
   EXPECT_FALSE(is_evident(evidence(450, 1, kAllRound_rad, 9)));
 }
 
+TEST(Evidence, ThingsInTheWay_AreNotBelievedWhereOtherPlacesWereNotTried) {
+  Evidence untried = evidence(450, 1);
+  untried.all_tried = false;
+  EXPECT_FALSE(is_evident(untried));
+  untried = evidence(490, 3);
+  untried.all_tried = false;
+  EXPECT_TRUE(is_evident(untried));
+}
+
 TEST(Evidence, HalfATurn_IsBelievedByItsCornersAlone) {
   EXPECT_FALSE(is_evident(evidence(790, 2, kHalfCovered_rad)));
   EXPECT_TRUE(is_evident(evidence(790, 3, kHalfCovered_rad)));
