@@ -42,7 +42,8 @@ constexpr std::array kGuesses_rad_s = {1.5, -1.5, 3.0, -3.0, 0.75, -0.75};
 constexpr std::size_t kGuessesATurn = 2;
 constexpr double kGuessedShare = 0.8;
 /// The lidar's bias is learnt from turns that the map explains nearly whole, of a robot that
-/// stands: a motion would pass for one.
+/// stands or whose wheels tell how it moves: what is steady in a motion passes for no bias, but
+/// what changes would.
 constexpr double kTeachingShare = 0.8;
 /// Turns within which a lidar's bias is learnt, and the share of the rays that a place explains at
 /// least roughly where a bias is all that is wrong.
@@ -267,7 +268,8 @@ bool Localizer::Workspace::teaches(const Decision& decision) const {
   if (!config.learn_bias) return false;
   if (!names_a_place(decision.state)) return false;
   const core::Place& at = place->verification.places()[decision.place];
-  return memory.stands() && at.explanation.near_share() > kTeachingShare;
+  return (memory.stands() || odometer.knows_motion()) &&
+         at.explanation.near_share() > kTeachingShare;
 }
 
 /// By odometry, where it knows; else the robot goes on as the last turns saw it move.

@@ -47,6 +47,14 @@ TEST(BlindExperiment, CoarseCounts_CostNoMoreThanACountAndAreToldHonestly) {
   }
 }
 
+TEST(BlindExperiment, LidarThatIsOff_IsLearntOnTheWay) {
+  for (const BlindAges& ages : run("a lidar off by 5 mm and 0.5 %", 1)) {
+    EXPECT_GT(ages.mean_nees, 1) << ages.from_s;
+    EXPECT_LT(ages.mean_nees, 4) << ages.from_s;
+    EXPECT_LT(ages.mean_m, 0.002) << ages.from_s;
+  }
+}
+
 TEST(BlindExperiment, RobotsAsWrongAsTold_AreHonestBeforeMuchIsLearned) {
   // The fixes' own doubt, which has yet to be learned, makes them cautious at first.
   const BlindResult result = run("after 3 s, robots drawn", 4);
