@@ -171,6 +171,8 @@ void Daemon::on_loaded() {
   if (loaded.config.lidar.bias == config_.lidar.bias) {
     loaded.pipeline->localizer().resume(turns_.bias());
   }
+  config_.lidar.bias = loaded.config.lidar.bias;
+  memory_.reconfigure(config_.lidar.bias);
   turns_.expect_map(localization_.replace(std::move(loaded.pipeline)), std::move(loaded.map));
   if (health_.memory_is_locked) health_.memory_is_locked = lock_memory() == 0;
   if (config_.realtime.lock_memory && !health_.memory_is_locked) touch_memory();

@@ -50,8 +50,11 @@ LidarMemory::LidarMemory(std::filesystem::path file, const core::SensorBias& con
 }
 
 std::optional<core::LearnedBias> LidarMemory::recall() {
-  std::error_code none;
-  if (file_.empty() || !std::filesystem::exists(file_, none)) return std::nullopt;
+  std::error_code error;
+  if (file_.empty() ||
+      std::filesystem::status(file_, error).type() == std::filesystem::file_type::not_found) {
+    return std::nullopt;
+  }
   try {
     const std::string text = settings::read_file(file_, settings::kMaxLearnedLidarBytes);
     settings::LearnedLidar found = settings::parse_learned_lidar(text, file_);
@@ -78,6 +81,13 @@ bool LidarMemory::recognise(std::string_view serial) {
   return false;
 }
 
+void LidarMemory::reconfigure(const core::SensorBias& configured) {
+  if (configured == kept_.configured) return;
+  kept_.configured = configured;
+  kept_.learned = {};
+  forgets_ = true;
+}
+
 bool LidarMemory::is_news(const core::LearnedBias& learned) const {
   if (kept_.learned.turns == 0) return true;
   for (const auto part : kParts) {
@@ -89,15 +99,15 @@ bool LidarMemory::is_news(const core::LearnedBias& learned) const {
 }
 
 void LidarMemory::keep(const core::LearnedBias& learned) {
-  // Until a turn comes that knows nothing yet, it is the other lidar's.
+  // Until a turn comes that knows nothing yet, it is of the lidar or the settings before.
   if (learned.turns < kLeastTurns) forgets_ = false;
   if (file_.empty() || forgets_ || learned.turns < kLeastTurns || !is_news(learned)) return;
   kept_.learned = learned;
   try {
     replace_file(file_, settings::text_of(kept_));
   } catch (const std::exception& error) {
-    spdlog::warn("what was learnt of the lidar is not kept: {}", error.what());
-    file_.clear();  // said once
+    if (!complained_) spdlog::warn("what was learnt of the lidar is not kept: {}", error.what());
+    complained_ = true;
   }
 }
 

@@ -29,6 +29,9 @@ class LidarMemory {
   /// The device has said its number. False where what is known is another one's.
   bool recognise(std::string_view serial);
 
+  /// The settings have another lidar.bias now, under which all is learnt anew.
+  void reconfigure(const core::SensorBias& configured);
+
   /// Writes it down where it says more than what is there already: a dozen times in the first
   /// minutes, hardly ever later.
   void keep(const core::LearnedBias& learned);
@@ -38,7 +41,8 @@ class LidarMemory {
 
   std::filesystem::path file_;
   settings::LearnedLidar kept_;  ///< no turns: nothing is kept
-  bool forgets_ = false;         ///< what comes may still be of the lidar before
+  bool forgets_ = false;         ///< what comes may still be of the lidar or settings before
+  bool complained_ = false;
 };
 
 }  // namespace cornerd::daemon

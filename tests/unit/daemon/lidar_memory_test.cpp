@@ -90,6 +90,20 @@ TEST_F(LidarMemoryTest, UnderOtherSettings_IsNotUsed) {
   EXPECT_TRUE(memory().recall());
 }
 
+TEST_F(LidarMemoryTest, SettingsThatChange_AreLearntUnderAnew) {
+  LidarMemory keeper = memory();
+  keeper.keep(kLearned);
+  core::SensorBias configured;
+  configured.range_scale = 0.01;
+  keeper.reconfigure(configured);
+  keeper.keep(kLearned);  // of a turn that was under way
+  EXPECT_TRUE(memory().recall());
+  keeper.keep({});
+  keeper.keep(kLearned);
+  EXPECT_FALSE(memory().recall());
+  EXPECT_TRUE(memory(configured).recall());
+}
+
 TEST_F(LidarMemoryTest, FileThatIsDamaged_IsNotUsedAndReplaced) {
   std::ofstream(file_) << "{\"format\": \"corn";
   LidarMemory keeper = memory();
