@@ -90,6 +90,8 @@ class Mapper {
       if (match.valid) {
         T_map_lidar = match.T_map_lidar;
         covariance = match.covariance;
+        // Along it the motion of the turns before was taken for this one's.
+        if (!prior.by_odometry && !match.by_walls()) result_.blind_turns.push_back(turn);
       } else {
         result_.strange_turns.push_back(turn);
         TurnMatcher::assign(sightings_, result_.faces, T_map_lidar, kExactReach, faces_of_);

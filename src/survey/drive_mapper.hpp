@@ -51,7 +51,9 @@ struct MappedDrive {
   std::vector<MappedFace> faces;
   std::vector<Observation> observations;
   std::vector<std::size_t> strange_turns;  ///< whose walls did not tell where they are
-  std::size_t forgotten_faces = 0;         ///< begun, but never seen again
+  /// Without odometry: whose walls told nothing of one direction, in which a guess stands.
+  std::vector<std::size_t> blind_turns;
+  std::size_t forgotten_faces = 0;  ///< begun, but never seen again
   std::optional<core::LearnedOdometry> learned;
   bool has_odometry = false;
 

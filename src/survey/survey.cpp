@@ -80,6 +80,27 @@ void refuse_without_overlap(const RecordedDrive& recorded, const MappedDrive& dr
       " s after the start; drive more slowly there, or record the odometry too");
 }
 
+/// Where walls along the way are all that is seen, the length of the way is a guess: only a place
+/// beyond that is recognised again can show that it was good enough.
+void refuse_unchecked_guesses(const RecordedDrive& recorded, const std::vector<std::size_t>& blind,
+                              const std::vector<LoopReport>& loops) {
+  constexpr double kMostBlind = 0.02;
+  if (static_cast<double>(blind.size()) <= kMostBlind * static_cast<double>(recorded.size())) {
+    return;
+  }
+  for (const LoopReport& loop : loops) {
+    const auto inside = std::upper_bound(blind.begin(), blind.end(), loop.earlier);
+    if (loop.closed() && inside != blind.end() && *inside < loop.later) return;
+  }
+  const double first_s = core::to_seconds(recorded.start_ns(blind.front()) - recorded.start_ns(0));
+  throw std::invalid_argument(
+      "without odometry, " + std::to_string(blind.size()) + " of " +
+      std::to_string(recorded.size()) +
+      " turns see walls that tell nothing of the way along them, the first " +
+      std::to_string(std::llround(first_s)) +
+      " s after the start, and no loop was closed that would tell it; record the odometry too");
+}
+
 /// Merges what the rays say is one wall, until nothing is left to merge.
 std::size_t unite(MappedDrive& drive, const SurveyConfig& config, const Progress& progress) {
   constexpr int kMostRounds = 3;
@@ -113,6 +134,7 @@ SurveyResult survey(const RecordedDrive& recorded, const SurveyConfig& config,
                       /*anew=*/true);
   }
   result.strange_turns = first.strange_turns;
+  result.blind_turns = first.blind_turns;
   if (first.faces.empty()) throw std::invalid_argument("no walls were seen");
   refuse_without_overlap(recorded, first);
   adjust(first);
@@ -122,6 +144,7 @@ SurveyResult survey(const RecordedDrive& recorded, const SurveyConfig& config,
     result.loops =
         close_loops(first, config.sensor, config.merging, config.walls, result.merged_faces);
   }
+  refuse_unchecked_guesses(recorded, result.blind_turns, result.loops);
   result.merged_faces += unite(first, config, part(progress, 0.35, 0.4, turns));
 
   // Second pass: the turns straightened by what was learned, and matched to the adjusted map.

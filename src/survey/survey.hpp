@@ -38,7 +38,9 @@ struct SurveyResult {
   std::vector<ThinPlace> thin;
   std::vector<Dropped> dropped;
   std::vector<std::size_t> strange_turns;  ///< whose walls did not tell where they were
-  std::vector<LoopReport> loops;           ///< places that were recognised again
+  /// Without odometry: whose walls told nothing of one direction, in which a guess stands.
+  std::vector<std::size_t> blind_turns;
+  std::vector<LoopReport> loops;  ///< places that were recognised again
   std::size_t forgotten_faces = 0;
   std::size_t merged_faces = 0;
   std::size_t observations = 0;

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 
 namespace cornerd::survey {
 namespace {
@@ -69,7 +70,19 @@ double weight_of(const Deviation& off) {
   return 1 / (1 + chi2 / 9);
 }
 
+/// Of the place, whatever the heading is, in the direction that is known least.
+double weakest_sigma_m(const Eigen::Matrix3d& information) {
+  if (!(information(2, 2) > 0)) return std::numeric_limits<double>::infinity();
+  const Eigen::Vector2d shared = information.block<2, 1>(0, 2);
+  const Eigen::Matrix2d place =
+      information.topLeftCorner<2, 2>() - shared * shared.transpose() / information(2, 2);
+  const double least = Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(place).eigenvalues()[0];
+  return least > 0 ? 1 / std::sqrt(least) : std::numeric_limits<double>::infinity();
+}
+
 }  // namespace
+
+bool TurnMatch::by_walls() const { return valid && own_sigma_m < kSureSigma_m; }
 
 double TurnMatcher::assign(std::span<const Sighting> sightings, std::span<const MappedFace> faces,
                            const core::Pose2& T_map_lidar, const Reach& reach,
@@ -125,6 +138,7 @@ TurnMatch TurnMatcher::match(std::span<const Sighting> sightings, std::span<cons
   result.matched_share = assign(sightings, faces, pose, kExactReach, faces_of);
   result.T_map_lidar = pose;
   result.covariance = information.inverse();
+  result.own_sigma_m = weakest_sigma_m(information - prior_information);
   const double worst_m2 = std::max(result.covariance(0, 0), result.covariance(1, 1));
   result.valid = result.matched_share > kLeastShare && worst_m2 < squared(kSureSigma_m);
   return result;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -15,6 +16,12 @@ struct TurnMatch {
   core::Covariance3 covariance = core::Covariance3::Zero();
   double matched_share = 0;  ///< of the samples on sighted walls: those on faces of the map
   bool valid = false;        ///< false: too little was matched to say more than the prior did
+  /// Of the place, in the direction that the walls tell least of, by what was seen alone; infinite
+  /// where they tell nothing of it.
+  double own_sigma_m = std::numeric_limits<double>::infinity();
+
+  /// The turn's own walls tell where it is, each way.
+  bool by_walls() const;
 };
 
 /// How far off a prediction may be.

@@ -61,6 +61,13 @@ std::string survey_report(const survey::SurveyResult& result) {
     text += formatted("%zu turns saw too little of the map to be placed by it\n",
                       result.strange_turns.size());
   }
+  if (!result.blind_turns.empty()) {
+    text += formatted(
+        "WARNING: %zu turns, the first %.1f s after the start, saw nothing of the way along the "
+        "walls, and no odometry tells it: the map may be too long or too short there\n",
+        result.blind_turns.size(),
+        core::to_seconds(result.t_ns[result.blind_turns.front()] - result.t_ns.front()));
+  }
   if (result.learned) {
     const core::LearnedOdometry& learned = *result.learned;
     text +=

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <stdexcept>
+#include <string>
 
 #include "bench/building.hpp"
 #include "bench/loop_experiment.hpp"
@@ -39,6 +41,32 @@ TEST_P(SurveyOfARing, WithoutLoopClosing_HasDoubleWalls) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Seeds, SurveyOfARing, testing::Values(1, 2));
+
+/// Nine metres of it tell nothing of the way along them.
+class SurveyOfARingByTheLidarAlone : public testing::TestWithParam<std::uint64_t> {};
+
+TEST_P(SurveyOfARingByTheLidarAlone, BareStretch_IsRefusedOrRightAndSaid) {
+  const core::WallMap map(bench::ring_corridor());
+  const bench::SimulatedDrive drive = bench::ring_drive(GetParam(), /*has_odometry=*/false);
+  try {
+    const bench::LoopCase made = bench::survey_loop(map, drive, /*close_loops=*/true);
+    EXPECT_EQ(made.score.walls_found, made.score.walls_seen);
+    EXPECT_LT(made.score.invented_m, 0.05);
+    EXPECT_GT(made.result.blind_turns.size(), 100U);
+  } catch (const std::invalid_argument& refused) {
+    EXPECT_NE(std::string(refused.what()).find("without odometry"), std::string::npos);
+  }
+}
+
+TEST(SurveyOfARingByTheLidarAloneLeftOpen, BareStretch_IsRefused) {
+  const bench::SimulatedDrive drive = bench::ring_drive(1, /*has_odometry=*/false);
+  survey::SurveyConfig config;
+  config.close_loops = false;
+  EXPECT_THROW(survey::survey(drive.drive, config), std::invalid_argument);
+}
+
+// Left without a check, 11 and 12 would give sixty metres of walls that are not there.
+INSTANTIATE_TEST_SUITE_P(Seeds, SurveyOfARingByTheLidarAlone, testing::Values(1, 11, 12));
 
 TEST(SurveyOfEqualRooms, RoomsThatLookTheSame_AreRecognisedButNotClosed) {
   const core::WallMap map(bench::equal_rooms(4));

@@ -85,6 +85,7 @@ TEST(Survey, WithoutOdometry_OverlappingTurnsAreEnough) {
   const bench::SimulatedDrive simulated = drive_through(/*has_odometry=*/false);
   const SurveyResult result = survey(simulated.drive, {});
   EXPECT_FALSE(result.has_odometry);
+  EXPECT_TRUE(result.blind_turns.empty());
   const core::WallMap found(result.plan);
   const auto score =
       bench::score_survey(*two_rooms(), simulated.T_map_base, found, simulated.T_map_base[0]);

@@ -73,6 +73,23 @@ TEST_F(TurnMatcherTest, Match_ParallelWallsAlone_KeepsThePriorAlongThem) {
   EXPECT_GT(match.covariance(0, 0), 20 * match.covariance(1, 1));
 }
 
+TEST_F(TurnMatcherTest, Match_ParallelWallsAlone_IsNotByTheWalls) {
+  const std::vector<Sighting> two = {seen_[0], seen_[2]};
+  const core::Covariance3 sure = Eigen::Vector3d(1e-6, 1e-6, 1e-6).asDiagonal();
+  const TurnMatch match = matcher_.match(two, faces_, pose_, sure, {0.1, 0.1}, faces_of_);
+  ASSERT_TRUE(match.valid);  // the prior tells the way along them
+  EXPECT_FALSE(match.by_walls());
+  EXPECT_GT(match.own_sigma_m, 1);
+}
+
+TEST_F(TurnMatcherTest, Match_ParallelWallsAndOneAcross_IsByTheWalls) {
+  const std::vector<Sighting> three = {seen_[0], seen_[1], seen_[2]};
+  const core::Covariance3 sure = Eigen::Vector3d(1e-6, 1e-6, 1e-6).asDiagonal();
+  const TurnMatch match = matcher_.match(three, faces_, pose_, sure, {0.1, 0.1}, faces_of_);
+  EXPECT_TRUE(match.by_walls());
+  EXPECT_LT(match.own_sigma_m, 0.01);
+}
+
 TEST_F(TurnMatcherTest, Match_NothingKnown_IsNotValid) {
   const TurnMatch match = matcher_.match(seen_, {}, pose_, vague_, {0.2, 0.2}, faces_of_);
   EXPECT_FALSE(match.valid);
