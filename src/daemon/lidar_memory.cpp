@@ -50,9 +50,9 @@ LidarMemory::LidarMemory(std::filesystem::path file, const core::SensorBias& con
 }
 
 std::optional<core::LearnedBias> LidarMemory::recall() {
-  std::error_code error;
+  std::error_code unread;
   if (file_.empty() ||
-      std::filesystem::status(file_, error).type() == std::filesystem::file_type::not_found) {
+      std::filesystem::status(file_, unread).type() == std::filesystem::file_type::not_found) {
     return std::nullopt;
   }
   try {
