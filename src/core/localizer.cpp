@@ -2,143 +2,31 @@
 #include "core/localizer.hpp"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <utility>
 
-#include "core/breakpoint/detector.hpp"
-#include "core/catalog/catalog.hpp"
-#include "core/estimate/bias_estimator.hpp"
-#include "core/estimate/part_tracker.hpp"
-#include "core/estimate/pose_memory.hpp"
-#include "core/estimate/refinement.hpp"
-#include "core/recognition/decision.hpp"
+#include "core/localizer_workspace.hpp"
 #include "core/recognition/evidence.hpp"
-#include "core/recognition/paper_recognition.hpp"
-#include "core/recognition/recognition.hpp"
-#include "core/recognition/verification.hpp"
 
 namespace cornerd::core {
 namespace {
 
-/// A place that recognition gave is off by up to this much; one that was carried on from the turn
-/// before, by what a robot drives meanwhile; one that a turn in motion gave, by the motion.
-constexpr double kRecognisedReach_m = 0.10;
-constexpr double kPriorReach_m = 0.15;
-constexpr double kMotionReach_m = 0.08;
-/// Places with fewer votes of corners than this share of the best one's are looked at where those
-/// with more leave doubt: in large buildings they are many.
-constexpr double kLikelyShare = 0.7;
-/// A robot moves no farther than this between two turns. A place farther off was either wrong or
-/// the robot was carried: the next turn tells.
-constexpr double kJump_m = 0.5;
-constexpr double kJump_rad = radians(60);
-/// A motion has to explain one ray in so many more than rest does: it fits things that are not on
-/// the map a little, always.
-constexpr std::size_t kRaysForAMotion = 50;
-/// Where nothing explains half of the rays, the robot may be turning: so many of these rates are
-/// tried, by turns. Places are found within some 0.8 rad/s of the true one.
-constexpr std::array kGuesses_rad_s = {1.5, -1.5, 3.0, -3.0, 0.75, -0.75};
-constexpr std::size_t kGuessesATurn = 2;
-constexpr double kGuessedShare = 0.8;
 /// The lidar's bias is learnt from turns that the map explains nearly whole, of a robot that
 /// stands or whose wheels tell how it moves: what is steady in a motion passes for no bias, but
 /// what changes would.
 constexpr double kTeachingShare = 0.8;
-/// Turns within which a lidar's bias is learnt, and the share of the rays that a place explains at
-/// least roughly where a bias is all that is wrong.
-constexpr std::size_t kTurnsOfANewLidar = 20;
-constexpr double kAllButExact = 0.95;
+
 /// How sure somebody is who says where the robot is.
 constexpr double kGivenSigma_m = 0.1;
 constexpr double kGivenSigma_rad = radians(5);
-/// Residuals this much beyond the turn's own noise are smeared by a motion.
-constexpr double kSmearedSpread = 1.4;
-
-/// What a bias of 1 % and 5 mm that is not learnt yet does to poses in rooms of a metre or two.
-Covariance3 doubt_of_bias() {
-  constexpr double kPlace_m = 0.006;
-  constexpr double kHeading_rad = radians(0.15);
-  return Eigen::Vector3d(kPlace_m * kPlace_m, kPlace_m * kPlace_m, kHeading_rad * kHeading_rad)
-      .asDiagonal();
-}
-
-/// What a turn showed of the noise, where it is more than chance.
-double clamped_noise(double noise_scale) { return std::clamp(noise_scale, 0.5, 4.0); }
 
 /// Shorter, and two poses tell nothing of the motion between them.
 constexpr double kLeastTimeOfAMotion_s = 0.02;
+
 /// Wheels tell the way itself; how unevenly it was driven is as if a motion were so much of the
 /// time old (the NEES of quarters of turns, drives in a flat that stop and turn often).
 constexpr double kUnevenShare = 0.15;
 
 }  // namespace
-
-struct Localizer::Workspace {
-  /// What needs a map.
-  struct Place {
-    Place(const WallMap& map, const LocalizerConfig& config)
-        : catalog(map, config.max_range_m),
-          recognition(map, catalog),
-          verification(map, config),
-          refinement(config.max_range_m, config.noise),
-          bias(config.max_range_m, config.noise, config.bias) {
-      if (config.recognition == RecognitionMethod::kPaper) paper.emplace(map, catalog);
-      if (config.updates_per_turn > 1) parts.emplace(map, config);
-    }
-    Catalog catalog;
-    Recognition recognition;
-    std::optional<PaperRecognition> paper;  ///< where it is asked for, instead
-    Verification verification;
-    Refinement refinement;
-    BiasEstimator bias;
-    std::optional<PartTracker> parts;  ///< where poses are asked for before a turn ends
-  };
-
-  Workspace(std::shared_ptr<const WallMap> the_map, const LocalizerConfig& the_config)
-      : config(the_config),
-        T_lidar_base(the_config.T_base_lidar.inverse()),
-        map(std::move(the_map)),
-        detector(the_config.detector, the_config.noise),
-        odometer(the_config.odometry) {
-    if (map) place.emplace(*map, config);
-  }
-
-  const Scan& straightened(const Scan& turn, TimeNs t_ns);
-  void look(const Scan& scan, TimeNs t_ns, const Twist2& as_if_moving);
-  void look_for_the_motion(const Scan& scan, TimeNs t_ns);
-  void look_everywhere(TimeNs t_ns);
-  std::size_t corners_of(const Decision& decision) const;
-  PoseState believe(const Decision& decision, std::size_t corners, TimeNs t_ns);
-  bool is_expected(const Pose2& T_map_lidar, TimeNs t_ns) const;
-  bool in_doubt(TimeNs t_ns) const;
-  bool is_smeared() const;
-  std::size_t best_hits() const;
-  bool may_be_biased() const;
-  bool teaches(const Decision& decision) const;
-  void report(const Decision& decision, std::size_t corners, TimeNs t_ns);
-  void report_pose(const core::Place& found, std::size_t corners, TimeNs t_ns);
-  void report_alternatives(std::span<const core::Place> rivals);
-  std::optional<Expectation> expectation(TimeNs t_ns);
-  void predict(const PredictedPose& predicted, PoseEstimate& pose) const;
-  bool contradicts(const PredictedPose& predicted) const;
-
-  LocalizerConfig config;
-  Pose2 T_lidar_base;
-  std::shared_ptr<const WallMap> map;
-  Detector detector;
-  std::optional<Place> place;
-
-  Odometer odometer;
-  Scan still;  ///< the turn as a lidar that stood still would have seen it
-  PoseMemory memory;
-  PolarScan points;
-  std::size_t guesses = 0;             ///< of the motion, so far
-  Twist2 motion;                       ///< that `points` were moved back by
-  std::optional<Pose2> T_map_doubted;  ///< a jump of the turn before that waits for a second
-  TurnResult result;
-  PoseEstimate between;  ///< of a reading between two turns, or of a part of a turn
-};
 
 Localizer::Localizer(std::shared_ptr<const WallMap> map, const LocalizerConfig& config)
     : workspace_(std::make_unique<Workspace>(std::move(map), config)) {}
@@ -209,8 +97,7 @@ const PoseEstimate* Localizer::follow(const Sample& sample) {
   PartTracker& parts = *w.place->parts;
   const std::optional<Expectation> expected = w.expectation(parts.end_ns());
   if (!expected) return nullptr;
-  const auto found = parts.localize(*expected, w.place->bias.bias(),
-                                    clamped_noise(w.result.detection.noise_scale));
+  const auto found = parts.localize(*expected, w.place->bias.bias(), w.noise_scale());
   if (!found) return nullptr;
   const Pose2& T_map_lidar = found->refined.T_map_lidar;
   PoseEstimate& pose = w.between;
@@ -251,6 +138,10 @@ void Localizer::relocalize() {
 void Localizer::forget() {
   relocalize();
   workspace_->odometer = Odometer(workspace_->config.odometry);
+  forget_lidar();
+}
+
+void Localizer::forget_lidar() {
   workspace_->detector.forget();
   if (workspace_->place) workspace_->place->bias.forget();
 }
@@ -338,174 +229,6 @@ PoseState Localizer::Workspace::believe(const Decision& decision, std::size_t co
     return PoseState::kLost;
   }
   return PoseState::kFix;
-}
-
-void Localizer::Workspace::look(const Scan& scan, TimeNs t_ns, const Twist2& as_if_moving) {
-  // The returns in the order of their bearing, as a lidar that stood still would have seen them.
-  motion = as_if_moving;
-  points.assign(scan, config.min_range_m, config.max_range_m, t_ns, motion,
-                place ? place->bias.bias() : config.bias);
-
-  // Walls, and the corners and ends of walls between them (ALTBD).
-  detector.detect(points, result.detection);
-  if (!place) return;
-
-  // The place where the robot should be by now, and those that pairs of corners point to.
-  Verification& verification = place->verification;
-  verification.begin(points.points(), clamped_noise(result.detection.noise_scale));
-  if (const std::optional<Pose2> prior = memory.prior(t_ns)) {
-    const Hypothesis carried_on{*prior, 0};
-    verification.consider(std::span(&carried_on, 1), kPriorReach_m);
-  }
-  const Detection& seen = result.detection;
-  if (place->paper) {
-    verification.consider(place->paper->places(seen.breakpoints, seen.segments),
-                          kRecognisedReach_m);
-    return;
-  }
-  const auto pairs = place->recognition.from_pairs(seen.breakpoints);
-  const std::size_t likely = count_likely(pairs, kLikelyShare);
-  verification.consider(pairs.first(likely), kRecognisedReach_m);
-  if (in_doubt(t_ns)) verification.consider(pairs.subspan(likely), kRecognisedReach_m);
-}
-
-bool Localizer::Workspace::in_doubt(TimeNs t_ns) const {
-  if (!place || place->verification.places().empty()) return true;
-  const core::Place& best = place->verification.places().front();
-  return !leaves_no_doubt(best.explanation, is_expected(best.refined.T_map_lidar, t_ns));
-}
-
-bool Localizer::Workspace::is_smeared() const {
-  return place && !place->verification.places().empty() &&
-         place->verification.places().front().refined.spread > kSmearedSpread;
-}
-
-/// A bias fits like a motion: walls are where they should be, but not exactly. While the lidar is
-/// new and the robot is seen to stand, it is the bias.
-bool Localizer::Workspace::may_be_biased() const {
-  if (!config.learn_bias || !place || place->verification.places().empty()) return false;
-  return place->bias.turns() < kTurnsOfANewLidar && memory.stands() &&
-         place->verification.places().front().explanation.near_share() > kAllButExact;
-}
-
-std::size_t Localizer::Workspace::best_hits() const {
-  const auto places = place->verification.places();
-  return places.empty() ? 0 : places.front().explanation.hits;
-}
-
-void Localizer::Workspace::look_for_the_motion(const Scan& scan, TimeNs t_ns) {
-  if (!place) return;
-  Twist2 best_motion = motion;
-  std::size_t best = best_hits();
-  const auto try_motion = [&](const Twist2& candidate) {
-    look(scan, t_ns, candidate);
-    if (best_hits() <= best + points.size() / kRaysForAMotion) return;
-    best = best_hits();
-    best_motion = motion;
-  };
-  if (!motion.is_rest()) try_motion({});
-  const auto refine = [&] {
-    for (int k = 0; k < 2 && (in_doubt(t_ns) || is_smeared()) && best_hits() > 0; ++k) {
-      const Pose2 start = place->verification.places().front().refined.T_map_lidar;
-      const RefinedMotion refined = place->refinement.refine_motion(
-          *map, start, kMotionReach_m, points.points(), result.detection.noise_scale);
-      if (!refined.valid || !is_plausible(refined.motion)) break;
-      try_motion(motion + refined.motion);
-    }
-  };
-  refine();
-  const bool is_known = odometer.knows_motion() || memory.prior(t_ns);
-  for (std::size_t k = 0; k < kGuessesATurn && !is_known && best_hits() < points.size() / 2; ++k) {
-    const Twist2 motion_before = best_motion;
-    const std::size_t best_before = best;
-    try_motion({0, 0, kGuesses_rad_s[guesses++ % kGuesses_rad_s.size()]});
-    refine();
-    // A guess that is right explains nearly all; any other explains a little more than rest does.
-    if (static_cast<double>(best) > kGuessedShare * static_cast<double>(points.size())) break;
-    best_motion = motion_before;
-    best = best_before;
-  }
-  if (motion != best_motion) look(scan, t_ns, best_motion);
-}
-
-void Localizer::Workspace::look_everywhere(TimeNs t_ns) {
-  if (!place || place->paper) return;
-  const std::span<const Breakpoint> breakpoints = result.detection.breakpoints;
-  Recognition& recognition = place->recognition;
-  place->verification.consider(recognition.from_single_corners(breakpoints), kRecognisedReach_m);
-  if (!in_doubt(t_ns)) return;
-  place->verification.consider(recognition.from_walls(result.detection.segments, breakpoints),
-                               kRecognisedReach_m);
-}
-
-void Localizer::Workspace::report(const Decision& decision, std::size_t corners, TimeNs t_ns) {
-  PoseEstimate& pose = result.pose;
-  pose.state = decision.state;
-  pose.t_ns = t_ns;
-  pose.room.reset();
-  pose.corners = 0;
-  pose.inliers = 0;
-  pose.rmse_m = 0;
-  pose.alternatives.clear();
-  pose.covariance.setZero();
-  pose.T_map_base = {};
-  pose.doubt = decision.doubt;
-  if (names_a_place(decision.state)) {
-    report_pose(place->verification.places()[decision.place], corners, t_ns);
-  } else if (decision.state == PoseState::kAmbiguous) {
-    report_alternatives(place->verification.places().first(decision.rivals));
-  }
-  if (pose.state == PoseState::kLost || pose.state == PoseState::kAmbiguous) {
-    const auto predicted = odometer.prediction();
-    if (predicted && !contradicts(*predicted)) predict(*predicted, result.pose);
-  }
-  pose.age_s = memory.age_s(t_ns);
-  result.odometry = odometer.summary();
-}
-
-bool Localizer::Workspace::contradicts(const PredictedPose& predicted) const {
-  if (result.pose.state == PoseState::kLost) return T_map_doubted.has_value();
-  const auto is_near = [&](const Alternative& other) {
-    return same_place(predicted.T_map_base, other.T_map_base, kJump_m, kJump_rad);
-  };
-  return std::none_of(result.pose.alternatives.begin(), result.pose.alternatives.end(), is_near);
-}
-
-void Localizer::Workspace::predict(const PredictedPose& predicted, PoseEstimate& pose) const {
-  pose.state = PoseState::kPredicted;
-  pose.alternatives.clear();
-  pose.T_map_base = predicted.T_map_base;
-  pose.covariance = predicted.covariance;
-  if (map) pose.room = map->room_at(pose.T_map_base.translation());
-}
-
-void Localizer::Workspace::report_pose(const core::Place& found, std::size_t corners, TimeNs t_ns) {
-  const Pose2& T_map_lidar = found.refined.T_map_lidar;
-  PoseEstimate& pose = result.pose;
-  pose.T_map_base = T_map_lidar * T_lidar_base;
-  memory.remember(T_map_lidar, t_ns, motion);
-  const Covariance3 of_lidar = found.refined.covariance +
-                               (odometer.knows_motion() ? odometer.doubt_of_motion()
-                                                        : doubt_of_motion(motion, memory.motion()));
-  pose.covariance = covariance_of_base(of_lidar, T_map_lidar, pose.T_map_base);
-  if (found.refined.spread > kSmearedSpread && place->bias.turns() < kTurnsOfANewLidar) {
-    pose.covariance += doubt_of_bias();
-  }
-  odometer.correct(pose.T_map_base, pose.covariance);
-  pose.room = map->room_at(pose.T_map_base.translation());
-  pose.corners = corners;
-  pose.inliers = found.explanation.hits;
-  pose.rmse_m = found.refined.rmse_m;
-}
-
-void Localizer::Workspace::report_alternatives(std::span<const core::Place> rivals) {
-  const std::size_t count = std::min(rivals.size(), kMaxAlternatives);
-  double sum = 0;
-  for (std::size_t i = 0; i < count; ++i) sum += relative_belief(rivals[i], rivals.front());
-  for (std::size_t i = 0; i < count; ++i) {
-    result.pose.alternatives.push_back({rivals[i].refined.T_map_lidar * T_lidar_base,
-                                        relative_belief(rivals[i], rivals.front()) / sum});
-  }
 }
 
 }  // namespace cornerd::core

@@ -45,7 +45,8 @@ struct PoseEstimate {
   std::size_t inliers = 0;          ///< samples that lie on the map's walls
   double rmse_m = 0;                ///< of the inliers
   double age_s = 0;                 ///< since the last turn that named a place
-  double doubt = 0;  ///< the turn's belief that its likeliest place is not the right one
+  /// The turn's belief that its likeliest place is not the right one: 0 to 1, Decision::doubt.
+  double doubt = 0;
   std::vector<Alternative> alternatives;  ///< capacity kMaxAlternatives; best first
 };
 
@@ -91,6 +92,9 @@ class Localizer {
 
   /// Forgets everything, what was learnt of the sensor included: as newly constructed.
   void forget();
+
+  /// Another lidar: forgets how the last one erred and how noisy it was, not where the robot is.
+  void forget_lidar();
 
   /// How the lidar errs always, as far as it is known by now.
   LearnedBias learned_bias() const;

@@ -23,8 +23,9 @@ struct LocalizerConfig {
   DetectorConfig detector;
   RecognitionMethod recognition = RecognitionMethod::kPatterns;
   SensorNoise noise;
-  SensorBias bias;         ///< as far as it is known beforehand
-  bool learn_bias = true;  ///< the rest, from the turns whose place is known
+  SensorBias bias;          ///< as far as it is known beforehand
+  bool learn_bias = true;   ///< the rest, from the turns whose place is known
+  bool forget_bias = true;  ///< slowly, as a lidar ages; false: all turns tell the same
   OdometryConfig odometry;
   /// Poses of a robot whose place is known: each turn gives its own at its end, and one for each
   /// part before.

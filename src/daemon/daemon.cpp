@@ -24,9 +24,10 @@ using std::chrono::milliseconds;
 constexpr milliseconds kTick{100};
 constexpr int kTicksPerStatus = 10;
 
-std::unique_ptr<core::Pipeline> with_what_is_known(
-    std::unique_ptr<core::Pipeline> pipeline, const std::optional<core::LearnedBias>& learned) {
-  if (learned) pipeline->localizer().resume(*learned);
+std::unique_ptr<core::Pipeline> resumed(std::unique_ptr<core::Pipeline> pipeline,
+                                        const settings::LidarConfig& config,
+                                        const LidarMemory& memory) {
+  if (config.learn_bias) pipeline->localizer().resume(memory.known());
   return pipeline;
 }
 
@@ -47,7 +48,7 @@ Daemon::Daemon(Loaded loaded, Reloader::Load load, std::unique_ptr<drivers::Lida
       reloader_(std::move(load)),
       memory_(learned_file(config_.lidar), config_.lidar.bias),
       lidar_(std::move(lidar)),
-      localization_(*lidar_, with_what_is_known(std::move(loaded.pipeline), memory_.recall()),
+      localization_(*lidar_, resumed(std::move(loaded.pipeline), config_.lidar, memory_),
                     source_of(config_.lidar.driver)) {
   open_sockets();
   // Only who has the sockets is this robot's daemon, and may touch its port.
@@ -167,13 +168,9 @@ void Daemon::on_loaded() {
   }
   const std::string name =
       fmt::format("{}, {} walls", loaded.map->plan().name, loaded.map->plan().walls.size());
-  // The lidar is the same; a bias that the settings give anew is what they know better.
-  if (loaded.config.lidar.bias == config_.lidar.bias) {
-    loaded.pipeline->localizer().resume(turns_.bias());
-  }
-  config_.lidar.bias = loaded.config.lidar.bias;
-  memory_.reconfigure(config_.lidar.bias);
-  turns_.expect_map(localization_.replace(std::move(loaded.pipeline)), std::move(loaded.map));
+  if (!memory_.reconfigure(loaded.config.lidar.bias)) localization_.forget_lidar();
+  auto pipeline = resumed(std::move(loaded.pipeline), loaded.config.lidar, memory_);
+  turns_.expect_map(localization_.replace(std::move(pipeline)), std::move(loaded.map));
   if (health_.memory_is_locked) health_.memory_is_locked = lock_memory() == 0;
   if (config_.realtime.lock_memory && !health_.memory_is_locked) touch_memory();
   spdlog::info("map loaded: {}", name);
@@ -205,12 +202,12 @@ void Daemon::on_tick() {
 void Daemon::notice_device() {
   const drivers::LidarStatus lidar = lidar_->status();
   if (!memory_.recognise(lidar.serial.view())) {
-    localization_.forget();
+    localization_.forget_lidar();
     const std::string text = fmt::format("serial number {}", lidar.serial.view());
     spdlog::info("another lidar, {}: what was learnt of the last one is forgotten", text);
     server_.publish(message::MessageClass::kEvent, line_.event(now_ns(), "another lidar", text));
   }
-  memory_.keep(turns_.bias());
+  if (turns_.lidar() == localization_.lidar()) memory_.keep(turns_.bias());
 }
 
 void Daemon::publish_changes() {

@@ -24,87 +24,108 @@ constexpr double core::SensorBias::*kParts[] = {
     &core::SensorBias::range_scale, &core::SensorBias::range_offset_m,
     &core::SensorBias::bearing_sine_rad, &core::SensorBias::bearing_cosine_rad};
 
-/// Either the old file or the new one is there, whenever the power fails.
+/// Whoever is killed in between leaves the old file.
 void replace_file(const std::filesystem::path& file, const std::string& text) {
   const std::filesystem::path fresh = file.string() + ".new";
   std::ofstream stream(fresh, std::ios::binary | std::ios::trunc);
-  stream << text << std::flush;
-  if (!stream) throw std::system_error(errno, std::generic_category(), fresh.string());
+  stream << text;
   stream.close();
+  if (!stream) {
+    const std::system_error error(errno, std::generic_category(), fresh.string());
+    std::error_code ignored;
+    std::filesystem::remove(fresh, ignored);
+    throw error;
+  }
   std::filesystem::rename(fresh, file);
+}
+
+/// True for a file of its kind, or what a failing disk left of one.
+bool is_own(std::string_view text) {
+  const std::string all = settings::text_of({});
+  const std::string_view begin = std::string_view(all).substr(0, all.find('\n', 2));
+  return text.substr(0, begin.size()) == begin.substr(0, text.size());
 }
 
 }  // namespace
 
 std::filesystem::path learned_file(const settings::LidarConfig& config) {
-  if (config.driver == settings::DriverKind::kReplay || !config.learn_bias) return {};
+  if (config.driver == settings::DriverKind::kReplay) return {};
   if (!config.learned_file.empty()) return config.learned_file;
   const char* const folder = std::getenv("STATE_DIRECTORY");
   if (folder == nullptr || *folder == '\0') return {};
   return std::filesystem::path(folder) / "lidar.json";
 }
 
-LidarMemory::LidarMemory(std::filesystem::path file, const core::SensorBias& configured)
-    : file_(std::move(file)) {
-  kept_.configured = configured;
+LidarMemory::LidarMemory(const std::filesystem::path& file, const core::SensorBias& configured) {
+  known_.configured = configured;
+  if (file.empty()) return;
+  // Where it is a link, what it leads to is replaced, not the link.
+  std::error_code unresolved;
+  file_ = std::filesystem::weakly_canonical(file, unresolved);
+  if (unresolved) file_ = file;
+  recall();
 }
 
-std::optional<core::LearnedBias> LidarMemory::recall() {
+void LidarMemory::recall() {
+  using std::filesystem::file_type;
   std::error_code unread;
-  if (file_.empty() ||
-      std::filesystem::status(file_, unread).type() == std::filesystem::file_type::not_found) {
-    return std::nullopt;
-  }
+  const file_type type = std::filesystem::status(file_, unread).type();
+  if (type == file_type::not_found) return;
+  const auto leave_alone = [this](std::string_view why) {
+    spdlog::warn("{}: {}; what is learnt of the lidar is not kept", file_.string(), why);
+    file_.clear();
+  };
+  if (type != file_type::regular) return leave_alone("is no ordinary file");
+  std::string text;
   try {
-    const std::string text = settings::read_file(file_, settings::kMaxLearnedLidarBytes);
+    text = settings::read_file(file_, settings::kMaxLearnedLidarBytes);
     settings::LearnedLidar found = settings::parse_learned_lidar(text, file_);
-    if (found.configured != kept_.configured) {
+    if (found.configured != known_.configured) {
       spdlog::info("{}: learnt under another /lidar/bias, and not used", file_.string());
-      return std::nullopt;
+      return;
     }
-    kept_ = std::move(found);
+    known_ = std::move(found);
+    written_ = known_.learned;
+    spdlog::info("the lidar's bias is known from {} turns before", written_.turns);
   } catch (const std::exception& error) {
+    if (text.empty() || !is_own(text)) return leave_alone(error.what());
     spdlog::warn("what was learnt of the lidar is not used: {}", error.what());
-    return std::nullopt;
   }
-  spdlog::info("the lidar's bias is known from {} turns before", kept_.learned.turns);
-  return kept_.learned;
 }
 
 bool LidarMemory::recognise(std::string_view serial) {
-  if (serial.empty() || serial == kept_.serial) return true;
-  const bool is_another = !kept_.serial.empty();
-  kept_.serial = serial;
-  if (!is_another) return true;
-  kept_.learned = {};
-  forgets_ = true;
+  if (serial.empty() || serial == known_.serial) return true;
+  const bool is_another = !known_.serial.empty();
+  known_.serial = serial;
+  if (is_another) known_.learned = written_ = {};
+  return !is_another;
+}
+
+bool LidarMemory::reconfigure(const core::SensorBias& configured) {
+  if (configured == known_.configured) return true;
+  known_.configured = configured;
+  known_.learned = written_ = {};
   return false;
 }
 
-void LidarMemory::reconfigure(const core::SensorBias& configured) {
-  if (configured == kept_.configured) return;
-  kept_.configured = configured;
-  kept_.learned = {};
-  forgets_ = true;
-}
-
-bool LidarMemory::is_news(const core::LearnedBias& learned) const {
-  if (kept_.learned.turns == 0) return true;
+bool LidarMemory::is_news() const {
+  if (written_.turns == 0) return true;
   for (const auto part : kParts) {
-    const double sigma = kept_.learned.sigma.*part;
-    if (std::abs(learned.bias.*part - kept_.learned.bias.*part) > kNewsSigmas * sigma) return true;
-    if (learned.sigma.*part < kNewsOfSigma * sigma) return true;
+    const double sigma = written_.sigma.*part;
+    if (std::abs(known_.learned.bias.*part - written_.bias.*part) > kNewsSigmas * sigma)
+      return true;
+    if (known_.learned.sigma.*part < kNewsOfSigma * sigma) return true;
   }
   return false;
 }
 
 void LidarMemory::keep(const core::LearnedBias& learned) {
-  // Until a turn comes that knows nothing yet, it is of the lidar or the settings before.
-  if (learned.turns < kLeastTurns) forgets_ = false;
-  if (file_.empty() || forgets_ || learned.turns < kLeastTurns || !is_news(learned)) return;
-  kept_.learned = learned;
+  if (learned.turns <= known_.learned.turns) return;
+  known_.learned = learned;
+  if (file_.empty() || learned.turns < kLeastTurns || !is_news()) return;
   try {
-    replace_file(file_, settings::text_of(kept_));
+    replace_file(file_, settings::text_of(known_));
+    written_ = learned;
   } catch (const std::exception& error) {
     if (!complained_) spdlog::warn("what was learnt of the lidar is not kept: {}", error.what());
     complained_ = true;

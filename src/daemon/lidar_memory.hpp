@@ -2,8 +2,6 @@
 #pragma once
 
 #include <filesystem>
-#include <optional>
-#include <string>
 #include <string_view>
 
 #include "core/sensor_bias.hpp"
@@ -13,35 +11,37 @@
 namespace cornerd::daemon {
 
 /// Where the settings, or else the service manager, want to have kept what was learnt of the lidar;
-/// empty: nowhere. A recording teaches nothing about a device, nor does who may not learn.
+/// empty: nowhere. A recording teaches nothing about a device.
 std::filesystem::path learned_file(const settings::LidarConfig& config);
 
-/// What was learnt of the lidar, from one run of the daemon to the next. What cannot be read or
+/// What is known of the lidar, from one run of the daemon to the next. What cannot be read or
 /// written is a line in the log, and costs nothing else. For the server's thread.
 class LidarMemory {
  public:
-  /// `file`: empty: nothing is kept. `configured`: lidar.bias of the settings.
-  LidarMemory(std::filesystem::path file, const core::SensorBias& configured);
+  /// Recalls what was kept under the same settings. `file`: empty: nothing is kept. What is there
+  /// and was not written by a LidarMemory is left alone. `configured`: lidar.bias of the settings.
+  LidarMemory(const std::filesystem::path& file, const core::SensorBias& configured);
 
-  /// What was kept, under the same settings; nullopt where there is none.
-  std::optional<core::LearnedBias> recall();
+  /// Of this lidar under these settings; no turns: nothing.
+  const core::LearnedBias& known() const { return known_.learned; }
 
-  /// The device has said its number. False where what is known is another one's.
+  /// The device has said its number. False where what was known is another one's: now nothing is.
   bool recognise(std::string_view serial);
 
-  /// The settings have another lidar.bias now, under which all is learnt anew.
-  void reconfigure(const core::SensorBias& configured);
+  /// The settings have this lidar.bias now. False where it is another one: now nothing is known.
+  bool reconfigure(const core::SensorBias& configured);
 
-  /// Writes it down where it says more than what is there already: a dozen times in the first
-  /// minutes, hardly ever later.
+  /// What the turns have taught by now, of this lidar under these settings. Writes it down where it
+  /// says more than what is there already: a dozen times in the first minutes, hardly ever later.
   void keep(const core::LearnedBias& learned);
 
  private:
-  bool is_news(const core::LearnedBias& learned) const;
+  void recall();
+  bool is_news() const;
 
   std::filesystem::path file_;
-  settings::LearnedLidar kept_;  ///< no turns: nothing is kept
-  bool forgets_ = false;         ///< what comes may still be of the lidar or settings before
+  settings::LearnedLidar known_;
+  core::LearnedBias written_;
   bool complained_ = false;
 };
 

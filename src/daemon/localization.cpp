@@ -28,7 +28,7 @@ Localization::Localization(drivers::LidarDriver& driver, std::unique_ptr<core::P
                            SourceKind source)
     : driver_(driver),
       source_(source),
-      current_(new Generation{std::move(pipeline), 0}),
+      current_(new Generation{std::move(pipeline)}),
       channel_(source == SourceKind::kDevice ? SampleChannel::WhenFull::kLose
                                              : SampleChannel::WhenFull::kWait),
       readings_(kReadingSlots),
@@ -81,7 +81,7 @@ void Localization::localize(const std::stop_token& stop) {
 std::uint32_t Localization::replace(std::unique_ptr<core::Pipeline> pipeline) {
   delete next_.exchange(nullptr);
   delete retired_.exchange(nullptr);
-  next_.store(new Generation{std::move(pipeline), ++newest_});
+  next_.store(new Generation{std::move(pipeline), ++newest_, lidar()});
   return newest_;
 }
 
@@ -105,7 +105,10 @@ void Localization::succeed(const SampleChannel::Item& item) {
 
 void Localization::process(core::Pipeline& pipeline, const SampleChannel::Item& item) {
   if (relocalize_.exchange(false, std::memory_order_relaxed)) pipeline.localizer().relocalize();
-  if (forget_.exchange(false, std::memory_order_relaxed)) pipeline.localizer().forget();
+  if (const std::uint32_t now = lidar(); current_->lidar != now) {
+    pipeline.localizer().forget_lidar();
+    current_->lidar = now;
+  }
   core::Pose2 T_map_base;
   while (given_poses_.pop(T_map_base)) pipeline.localizer().set_pose(T_map_base);
   take_readings();
@@ -133,6 +136,7 @@ void Localization::report(const core::Pipeline& pipeline, const core::TurnResult
     }
     report.latency_ns = monotonic_ns() - arrival_ns;
     report.generation = current_->number;
+    report.lidar = current_->lidar;
   });
   if (!handed_over) lost_reports_.fetch_add(1, std::memory_order_relaxed);
   ::eventfd_write(reported_.get(), 1);

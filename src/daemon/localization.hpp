@@ -30,6 +30,7 @@ struct TurnReport {
   std::int64_t latency_ns = 0;
   /// Of the pipeline that made it: grows with each that is put in another's place.
   std::uint32_t generation = 0;
+  std::uint32_t lidar = 0;  ///< that result.bias is of: Localization::lidar()
 };
 
 /// How a thread keeps its time.
@@ -85,8 +86,10 @@ class Localization {
   std::uint32_t replace(std::unique_ptr<core::Pipeline> pipeline);
   /// The next turn is recognised without a prior.
   void relocalize() { relocalize_.store(true, std::memory_order_relaxed); }
-  /// Another lidar: what was learnt is another one's.
-  void forget() { forget_.store(true, std::memory_order_relaxed); }
+  /// Another lidar, or one that is taken for another: what was learnt of the last one is forgotten.
+  /// The reports of turns that know nothing of it bear its new lidar().
+  void forget_lidar() { lidar_.fetch_add(1, std::memory_order_relaxed); }
+  std::uint32_t lidar() const { return lidar_.load(std::memory_order_relaxed); }
 
   /// True where reader and localizer have both come round since this was last true. Asks the
   /// localizer to.
@@ -103,6 +106,7 @@ class Localization {
   struct Generation {
     std::unique_ptr<core::Pipeline> pipeline;
     std::uint32_t number = 0;
+    std::uint32_t lidar = 0;  ///< that it learns of
   };
 
   void read(const std::stop_token& stop);
@@ -136,7 +140,7 @@ class Localization {
   LoopHealth own_health_;  ///< the localizer's thread's
   core::Latest<LoopHealth> health_;
   std::atomic<bool> relocalize_{false};
-  std::atomic<bool> forget_{false};
+  std::atomic<std::uint32_t> lidar_{0};  ///< counts them
   std::atomic<std::uint32_t> lost_reports_{0};
   std::atomic<std::uint32_t> rounds_{0};
   std::atomic<bool> reader_has_ended_{false};

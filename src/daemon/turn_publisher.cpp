@@ -44,6 +44,7 @@ void TurnPublisher::publish(const TurnReport& report) {
   ++poses_[static_cast<std::size_t>(pose.state)];
   odometry_ = report.result.odometry;
   bias_ = report.result.bias;
+  lidar_ = report.lidar;
   end_ns_ = report.turn.end_ns();
 
   server_.publish(MessageClass::kPose, line_.pose(pose, map_ ? &map_->plan() : nullptr));

@@ -33,6 +33,8 @@ class TurnPublisher {
   /// What the newest turn knew of it.
   const core::OdometrySummary& odometry() const { return odometry_; }
   const core::LearnedBias& bias() const { return bias_; }
+  /// That the bias is of: Localization::lidar().
+  std::uint32_t lidar() const { return lidar_; }
   core::TimeNs end_of_newest_turn_ns() const { return end_ns_; }
   /// Poses so far, by state.
   const std::array<std::uint64_t, kStates>& poses() const { return poses_; }
@@ -55,6 +57,7 @@ class TurnPublisher {
   std::optional<core::PoseState> state_;
   core::OdometrySummary odometry_;
   core::LearnedBias bias_;
+  std::uint32_t lidar_ = 0;
   core::TimeNs end_ns_ = 0;
   std::array<std::uint64_t, kStates> poses_{};
 };

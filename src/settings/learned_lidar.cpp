@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "settings/learned_lidar.hpp"
 
-#include <cmath>
+#include <algorithm>
 #include <cstdint>
 
 #include <nlohmann/json.hpp>
@@ -16,9 +16,12 @@ constexpr std::string_view kFormat = "cornerd-lidar";
 constexpr std::size_t kMaxSerialBytes = 64;
 constexpr std::uint32_t kMostTurns = 4'000'000'000;
 
-bool is_positive(const core::SensorBias& sigma) {
-  return sigma.range_scale > 0 && sigma.range_offset_m > 0 && sigma.bearing_sine_rad > 0 &&
-         sigma.bearing_cosine_rad > 0;
+/// No number of turns makes a bias known better than a micrometre, a millionth, a microradian.
+constexpr double kLeastSigma = 1e-6;
+
+bool is_possible(const core::SensorBias& sigma) {
+  return std::min({sigma.range_scale, sigma.range_offset_m, sigma.bearing_sine_rad,
+                   sigma.bearing_cosine_rad}) >= kLeastSigma;
 }
 
 }  // namespace
@@ -35,7 +38,7 @@ LearnedLidar parse_learned_lidar(std::string_view text, const std::filesystem::p
   read_bias(root.object("configured"), lidar.configured);
   read_bias(root.object("bias"), lidar.learned.bias);
   read_bias(root.object("sigma"), lidar.learned.sigma);
-  if (!is_positive(lidar.learned.sigma)) root.fail("sigma", "must be above 0, all of it");
+  if (!is_possible(lidar.learned.sigma)) root.fail("sigma", "must be 1e-6 at least, all of it");
   std::uint32_t turns = 0;
   root.integer("turns", turns, std::uint32_t{1}, kMostTurns);
   if (turns == 0) root.fail("turns", "is missing");

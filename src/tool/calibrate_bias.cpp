@@ -44,7 +44,10 @@ std::string describe_bias(const core::LearnedBias& learned) {
   row("bearing, sine, degrees", bias.bearing_sine_rad, sigma.bearing_sine_rad, core::degrees(1));
   row("bearing, cosine, degrees", bias.bearing_cosine_rad, sigma.bearing_cosine_rad,
       core::degrees(1));
-  return formatted("From %zu turns of a lidar that stood at places of the map:\n", learned.turns) +
+  return formatted(
+             "From %zu turns at places of the map, of a lidar that stood or that wheels tell the "
+             "motion of:\n",
+             learned.turns) +
          table.text();
 }
 
@@ -52,6 +55,7 @@ void calibrate_bias(const CalibrateBiasOptions& options) {
   const settings::Config config = options.settings.resolve(/*needs_map=*/true);
   core::LocalizerConfig localizer = config.localizer();
   localizer.learn_bias = true;
+  localizer.forget_bias = false;
   core::Pipeline pipeline(settings::load_map(config.map), localizer);
   Playback playback(pipeline, [](const core::Scan&, const core::TurnResult&) {});
   for (const std::filesystem::path& file : options.files) {
@@ -63,6 +67,9 @@ void calibrate_bias(const CalibrateBiasOptions& options) {
     throw Failure("only " + std::to_string(learned.turns) +
                   " turns were found in the map with the lidar at rest: record some seconds each "
                   "at several places, and see with replay whether they are found");
+  }
+  if (learned.is_limited) {
+    throw Failure("the lidar seems to be off by more than one can be: is the map to scale?");
   }
   Output report;
   report.write(describe_bias(learned));

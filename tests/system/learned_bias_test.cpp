@@ -4,6 +4,8 @@
 #include <signal.h>
 
 #include <filesystem>
+#include <fstream>
+#include <memory>
 #include <string>
 
 #include "daemon_process.hpp"
@@ -69,8 +71,57 @@ TEST_F(LearnedBias, SameLidar_IsKnownAtTheNextStartAndAnotherIsNot) {
   EXPECT_TRUE(event.is_object()) << daemon.output();
   const json fresh = status_after(1);
   ASSERT_TRUE(fresh.is_object());
+  EXPECT_LT(fresh["lidar"]["bias"]["turns"], 20u) << fresh;
   end(daemon);
   EXPECT_NE(daemon.output().find("another lidar"), std::string::npos) << daemon.output();
+}
+
+TEST_F(LearnedBias, ReloadBeforeTheFirstTurn_GoesOnWithWhatWasKept) {
+  std::ofstream(file_) << R"({"format": "cornerd-lidar", "turns": 400,
+      "bias": {"range_scale": 0.004, "range_offset": 0.001, "bearing_sine": 0, "bearing_cosine": 0},
+      "sigma": {"range_scale": 5e-4, "range_offset": 5e-4, "bearing_sine": 3e-4,
+                "bearing_cosine": 3e-4}})";
+  DaemonProcess daemon = start_on_lidar();
+  TestClient client = connect();
+  client.send(R"({"class":"WATCH","classes":["EVENT"]})"
+              "\n");
+  daemon.send_signal(SIGHUP);
+  json event = next_of(client, "EVENT");
+  while (event.is_object() && event["what"] != "map loaded") event = next_of(client, "EVENT");
+  ASSERT_TRUE(event.is_object()) << daemon.output();
+  const EmulatedLidar lidar(folder_ / "map.json", folder_ / "lidar");
+  const json status = status_after(1);
+  ASSERT_TRUE(status.is_object()) << daemon.output();
+  EXPECT_GE(status["lidar"]["bias"]["turns"], 400u) << status;
+  end(daemon);
+}
+
+TEST_F(LearnedBias, ReloadRightAfterAnotherLidar_DoesNotBringBackTheLastOnes) {
+  auto lidar = std::make_unique<EmulatedLidar>(folder_ / "map.json", folder_ / "lidar");
+  DaemonProcess daemon = start_on_lidar();
+  const json first = status_after(40);
+  ASSERT_TRUE(first.is_object()) << daemon.output();
+  TestClient client = connect();
+  client.send(R"({"class":"WATCH","classes":["EVENT"]})"
+              "\n");
+  lidar.reset();
+  replay::EmulatorConfig another;
+  another.serial[0] ^= 0xFF;
+  lidar = std::make_unique<EmulatedLidar>(folder_ / "map.json", folder_ / "lidar", another);
+  json event = next_of(client, "EVENT");
+  while (event.is_object() && event["what"] != "another lidar") event = next_of(client, "EVENT");
+  ASSERT_TRUE(event.is_object()) << daemon.output();
+  daemon.send_signal(SIGHUP);
+  while (event.is_object() && event["what"] != "map loaded") event = next_of(client, "EVENT");
+  ASSERT_TRUE(event.is_object()) << daemon.output();
+  TestClient later = connect();
+  json status;
+  do {
+    status = next_of(later, "STATUS");
+    ASSERT_TRUE(status.is_object()) << daemon.output();
+  } while (!status["lidar"].contains("bias") || status["lidar"]["bias"]["turns"] >= 40u);
+  EXPECT_NE(status["lidar"]["serial"], first["lidar"]["serial"]);
+  end(daemon);
 }
 
 }  // namespace

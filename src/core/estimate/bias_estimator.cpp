@@ -12,15 +12,13 @@ namespace {
 /// What an A1 may be off by before anything is known: standard deviations of scale, offset, and
 /// both parts of the bearing.
 const Eigen::Vector4d kPriorSigma(0.01, 0.005, radians(0.3), radians(0.3));
-/// Beyond these the map is wrong, not the sensor.
+/// Farther than this from what was known the map is wrong, not the sensor.
 const Eigen::Vector4d kLimit(0.03, 0.02, radians(1.5), radians(1.5));
 /// What a robot that seems to stand may move by, in its own axes: m/s and rad/s.
 const Eigen::Vector3d kMotionSigma(0.5, 0.5, 1);
 /// A turn's information counts for this share: walls are off their place in the map by more than a
 /// point's noise, and by the same in each turn at one place.
 constexpr double kTurnShare = 0.05;
-/// Of what was learnt, a turn forgets this share: a minute at 5.5 turns a second keeps a third.
-constexpr double kForgotten = 0.003;
 constexpr double kCut = 4;
 constexpr std::size_t kMinPoints = 60;
 
@@ -36,8 +34,12 @@ Eigen::Vector4d prior_information() { return kPriorSigma.cwiseAbs2().cwiseInvers
 
 }  // namespace
 
-BiasEstimator::BiasEstimator(double max_range_m, const SensorNoise& noise, const SensorBias& known)
-    : noise_(noise), prediction_(max_range_m), known_(vector_of(known)) {
+BiasEstimator::BiasEstimator(double max_range_m, const SensorNoise& noise, const SensorBias& known,
+                             double forgotten_share)
+    : noise_(noise),
+      kept_share_(1 - forgotten_share),
+      prediction_(max_range_m),
+      known_(vector_of(known)) {
   learned_.bias = known;
 }
 
@@ -55,13 +57,15 @@ void BiasEstimator::resume(const LearnedBias& learned) {
   const Vector4 prior = prior_information();
   const Vector4 taught = (sigma.cwiseAbs2().cwiseInverse() - prior).cwiseMax(0);
   information_ = taught.asDiagonal();
-  evidence_ = (taught + prior).cwiseProduct(vector_of(learned.bias)) - prior.cwiseProduct(known_);
   believe(vector_of(learned.bias), sigma.cwiseAbs2().asDiagonal());
+  evidence_ = (taught + prior).cwiseProduct(vector_of(learned_.bias)) - prior.cwiseProduct(known_);
   learned_.turns = learned.turns;
 }
 
 void BiasEstimator::believe(const Vector4& bias, const Matrix4& covariance) {
-  learned_.bias = bias_of(bias.cwiseMax(-kLimit).cwiseMin(kLimit));
+  const Vector4 limited = bias.cwiseMax(known_ - kLimit).cwiseMin(known_ + kLimit);
+  learned_.bias = bias_of(limited);
+  learned_.is_limited = limited != bias;
   learned_.sigma = bias_of(covariance.diagonal().cwiseSqrt());
 }
 
@@ -109,9 +113,8 @@ void BiasEstimator::learn(const WallMap& map, const Pose2& T_map_lidar,
   const Vector4 pull = gradient.tail<4>() - solved.transpose() * gradient.head<6>();
   if (!of_bias.allFinite() || !pull.allFinite()) return;
 
-  information_ = (1 - kForgotten) * information_ + kTurnShare * of_bias;
-  evidence_ =
-      (1 - kForgotten) * evidence_ + kTurnShare * (of_bias * vector_of(learned_.bias) + pull);
+  information_ = kept_share_ * information_ + kTurnShare * of_bias;
+  evidence_ = kept_share_ * evidence_ + kTurnShare * (of_bias * vector_of(learned_.bias) + pull);
   const Vector4 prior = prior_information();
   const Matrix4 sum = information_ + Matrix4(prior.asDiagonal());
   const Matrix4 covariance = sum.ldlt().solve(Matrix4::Identity());

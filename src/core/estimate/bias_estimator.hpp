@@ -20,7 +20,12 @@ namespace cornerd::core {
 /// that is none. Allocates nothing.
 class BiasEstimator {
  public:
-  BiasEstimator(double max_range_m, const SensorNoise& noise, const SensorBias& known);
+  /// `forgotten_share`: of what was learnt, with each turn: a lidar ages.
+  BiasEstimator(double max_range_m, const SensorNoise& noise, const SensorBias& known,
+                double forgotten_share = kForgottenShare);
+
+  /// A minute at 5.5 turns a second keeps a third.
+  static constexpr double kForgottenShare = 0.003;
 
   /// What is believed so far; `known` at first.
   const SensorBias& bias() const { return learned_.bias; }
@@ -47,6 +52,7 @@ class BiasEstimator {
   void believe(const Vector4& bias, const Matrix4& covariance);
 
   SensorNoise noise_;
+  double kept_share_;
   TurnPrediction prediction_;
   LearnedBias learned_;
   Vector4 known_;

@@ -26,7 +26,7 @@ TEST(ScaleExperiment, BuildingOfAHundredRooms_IsKnownAtOnce) {
 TEST(ScaleExperiment, CorridorThatIsNoneOfThoseTried_IsNotNamed) {
   const ScaleResult result = run_scale_case(scale_cases({2000}, 1)[0], 10, 1);
   EXPECT_EQ(result.score.wrong(), 0U);
-  EXPECT_GE(result.score.right(), 9U);
+  EXPECT_GE(result.score.right(), 8U);
 }
 
 TEST(ScaleExperiment, EqualRooms_AreAmbiguousWithTheTruthAmongThem) {

@@ -3,9 +3,11 @@
 
 #include <gtest/gtest.h>
 #include <stdlib.h>
+#include <sys/stat.h>
 
 #include <filesystem>
 #include <fstream>
+#include <string>
 
 #include "tests/temporary_folder.hpp"
 
@@ -18,61 +20,53 @@ constexpr core::LearnedBias kLearned{
 class LidarMemoryTest : public ::testing::Test {
  protected:
   LidarMemory memory(const core::SensorBias& configured = {}) const { return {file_, configured}; }
-  auto written() const { return std::filesystem::last_write_time(file_); }
-  void age() const { std::filesystem::last_write_time(file_, written() - std::chrono::hours(1)); }
-
   test::TemporaryFolder folder_;
   std::filesystem::path file_ = folder_ / "lidar.json";
 };
 
 TEST_F(LidarMemoryTest, WhatWasKept_IsThereForTheNextRun) {
   LidarMemory first = memory();
-  EXPECT_FALSE(first.recall());
+  EXPECT_EQ(first.known().turns, 0u);
   EXPECT_TRUE(first.recognise("A1"));
   first.keep(kLearned);
   LidarMemory second = memory();
-  const auto recalled = second.recall();
-  ASSERT_TRUE(recalled);
-  EXPECT_EQ(recalled->bias, kLearned.bias);
-  EXPECT_EQ(recalled->turns, kLearned.turns);
+  EXPECT_EQ(second.known().bias, kLearned.bias);
+  EXPECT_EQ(second.known().turns, kLearned.turns);
   EXPECT_TRUE(second.recognise(""));  // not identified yet
   EXPECT_TRUE(second.recognise("A1"));
+  second.keep({});  // before the first turn
+  EXPECT_EQ(second.known().turns, kLearned.turns);
 }
 
 TEST_F(LidarMemoryTest, AnotherDevice_KnowsNothingAndOverwritesOnlyWithItsOwn) {
   memory().keep(kLearned);
   LidarMemory first = memory();
-  EXPECT_TRUE(first.recall());
   EXPECT_TRUE(first.recognise("A1"));  // kept without a number: whoever says one first has it
   EXPECT_FALSE(first.recognise("B2"));
   EXPECT_TRUE(first.recognise("B2"));
-  age();
-  const auto before = written();
-  first.keep(kLearned);  // of a turn that was under way
-  EXPECT_EQ(written(), before);
-  first.keep({});
+  EXPECT_EQ(first.known().turns, 0u);
+  EXPECT_EQ(memory().known().turns, kLearned.turns);
   core::LearnedBias fresh = kLearned;
   fresh.turns = 25;
   first.keep(fresh);
-  EXPECT_NE(written(), before);
   LidarMemory third = memory();
-  ASSERT_TRUE(third.recall());
+  EXPECT_EQ(third.known().turns, 25u);
   EXPECT_FALSE(third.recognise("A1"));
 }
 
 TEST_F(LidarMemoryTest, NothingNew_IsNotWritten) {
   LidarMemory keeper = memory();
   keeper.keep(kLearned);
-  age();
-  const auto before = written();
   core::LearnedBias hardly = kLearned;
   hardly.bias.range_offset_m += 0.4 * hardly.sigma.range_offset_m;
   hardly.turns = 500;
   keeper.keep(hardly);
-  EXPECT_EQ(written(), before);
+  EXPECT_EQ(keeper.known().turns, 500u);
+  EXPECT_EQ(memory().known().turns, kLearned.turns);
   hardly.bias.range_offset_m += 0.2 * hardly.sigma.range_offset_m;
+  hardly.turns = 501;
   keeper.keep(hardly);
-  EXPECT_NE(written(), before);
+  EXPECT_EQ(memory().known().turns, 501u);
 }
 
 TEST_F(LidarMemoryTest, FewTurns_AreNotKept) {
@@ -82,41 +76,72 @@ TEST_F(LidarMemoryTest, FewTurns_AreNotKept) {
   EXPECT_FALSE(std::filesystem::exists(file_));
 }
 
-TEST_F(LidarMemoryTest, UnderOtherSettings_IsNotUsed) {
+TEST_F(LidarMemoryTest, OtherSettings_AreLearntUnderAnew) {
+  core::SensorBias configured;
+  configured.range_scale = 0.01;
+  LidarMemory keeper = memory();
+  keeper.keep(kLearned);
+  EXPECT_EQ(memory(configured).known().turns, 0u);
+  EXPECT_TRUE(keeper.reconfigure({}));
+  EXPECT_FALSE(keeper.reconfigure(configured));
+  EXPECT_EQ(keeper.known().turns, 0u);
+  keeper.keep(kLearned);
+  EXPECT_EQ(memory().known().turns, 0u);
+  EXPECT_EQ(memory(configured).known().turns, kLearned.turns);
+}
+
+TEST_F(LidarMemoryTest, FileThatWasCutShort_IsNotUsedAndReplaced) {
   memory().keep(kLearned);
-  core::SensorBias configured;
-  configured.range_scale = 0.01;
-  EXPECT_FALSE(memory(configured).recall());
-  EXPECT_TRUE(memory().recall());
+  for (const std::uintmax_t length : {200, 10, 1}) {
+    std::filesystem::resize_file(file_, length);
+    LidarMemory keeper = memory();
+    EXPECT_EQ(keeper.known().turns, 0u) << length;
+    keeper.keep(kLearned);
+    EXPECT_EQ(memory().known().turns, kLearned.turns) << length;
+  }
 }
 
-TEST_F(LidarMemoryTest, SettingsThatChange_AreLearntUnderAnew) {
+TEST_F(LidarMemoryTest, FileOfAnotherKind_IsLeftAlone) {
+  const std::string map = R"({"format": "cornerd-map", "version": 1, "walls": []})";
+  std::ofstream(file_) << map;
   LidarMemory keeper = memory();
   keeper.keep(kLearned);
-  core::SensorBias configured;
-  configured.range_scale = 0.01;
-  keeper.reconfigure(configured);
-  keeper.keep(kLearned);  // of a turn that was under way
-  EXPECT_TRUE(memory().recall());
-  keeper.keep({});
-  keeper.keep(kLearned);
-  EXPECT_FALSE(memory().recall());
-  EXPECT_TRUE(memory(configured).recall());
+  std::string text;
+  std::getline(std::ifstream(file_) >> std::ws, text);
+  EXPECT_EQ(text, map);
+  EXPECT_EQ(keeper.known().turns, kLearned.turns);  // for a reload
 }
 
-TEST_F(LidarMemoryTest, FileThatIsDamaged_IsNotUsedAndReplaced) {
-  std::ofstream(file_) << "{\"format\": \"corn";
-  LidarMemory keeper = memory();
-  EXPECT_FALSE(keeper.recall());
-  keeper.keep(kLearned);
-  EXPECT_TRUE(memory().recall());
+TEST_F(LidarMemoryTest, FileThatIsNone_IsLeftAloneWithoutAWait) {
+  ASSERT_EQ(::mkfifo(file_.c_str(), 0600), 0);
+  memory().keep(kLearned);
+  EXPECT_TRUE(std::filesystem::is_fifo(file_));
+  std::filesystem::remove(file_);
+  std::filesystem::create_directory(file_);
+  memory().keep(kLearned);
+  EXPECT_TRUE(std::filesystem::is_directory(file_));
 }
 
-TEST_F(LidarMemoryTest, FolderThatIsNotThere_CostsNothing) {
-  LidarMemory keeper(folder_ / "absent" / "lidar.json", {});
+TEST_F(LidarMemoryTest, Link_IsFollowed) {
+  core::LearnedBias before = kLearned;
+  before.turns = 30;
+  LidarMemory(folder_ / "elsewhere.json", {}).keep(before);
+  std::filesystem::create_symlink(folder_ / "elsewhere.json", file_);
+  core::LearnedBias better = kLearned;
+  better.sigma.range_scale *= 0.5;
+  memory().keep(better);
+  EXPECT_TRUE(std::filesystem::is_symlink(file_));
+  EXPECT_EQ(memory().known().turns, kLearned.turns);
+}
+
+TEST_F(LidarMemoryTest, FolderThatComesLater_IsWrittenInto) {
+  LidarMemory keeper(folder_ / "later" / "lidar.json", {});
   keeper.keep(kLearned);
-  keeper.keep(kLearned);
-  EXPECT_FALSE(keeper.recall());
+  std::filesystem::create_directory(folder_ / "later");
+  core::LearnedBias more = kLearned;
+  more.turns = 413;
+  keeper.keep(more);
+  EXPECT_EQ(LidarMemory(folder_ / "later" / "lidar.json", {}).known().turns, 413u);
 }
 
 TEST(LearnedFile, IsWhereTheSettingsOrTheServiceManagerSay) {
@@ -127,9 +152,6 @@ TEST(LearnedFile, IsWhereTheSettingsOrTheServiceManagerSay) {
   EXPECT_EQ(learned_file(config), "/var/lib/cornerd/lidar.json");
   config.learned_file = "/data/lidar.json";
   EXPECT_EQ(learned_file(config), "/data/lidar.json");
-  config.learn_bias = false;
-  EXPECT_TRUE(learned_file(config).empty());
-  config.learn_bias = true;
   config.driver = settings::DriverKind::kReplay;
   EXPECT_TRUE(learned_file(config).empty());
   ::unsetenv("STATE_DIRECTORY");

@@ -57,8 +57,10 @@ TEST(LearnedLidar, OfAnotherKindOrWithoutWhatItNeeds_IsAnError) {
   lidar.learned.bias.range_scale = 0.2;
   EXPECT_THAT(learned_error(text_of(lidar)), HasSubstr("/bias/range_scale"));
   lidar = usual_lidar();
-  lidar.learned.sigma.bearing_cosine_rad = -1e-4;
-  EXPECT_THAT(learned_error(text_of(lidar)), HasSubstr("/sigma"));
+  for (const double sigma : {-1e-4, 0.0, 1e-200}) {
+    lidar.learned.sigma.bearing_cosine_rad = sigma;
+    EXPECT_THAT(learned_error(text_of(lidar)), HasSubstr("/sigma")) << sigma;
+  }
 }
 
 }  // namespace

@@ -173,28 +173,35 @@ TEST_F(CalibrateNoise, WrongUsage_EndsWith2) {
   EXPECT_EQ(CommandRun({"calibrate", "noise", path("absent.bin")}).exit_code, kExitFailed);
 }
 
-/// A lidar that is off stands at places of a room of six corners.
+/// A lidar that is off stands at places of the arena.
 class CalibrateBias : public CalibrateNoise {
  protected:
-  std::string biased_recording(const std::string& places) const {
-    std::ofstream(path("l.json")) << R"({"format": "cornerd-map", "version": 1, "name": "l",
-        "walls": [{"from": [0, 0], "to": [4, 0]}, {"from": [4, 0], "to": [4, 1.5]},
-                  {"from": [4, 1.5], "to": [2.2, 1.5]}, {"from": [2.2, 1.5], "to": [2.2, 3]},
-                  {"from": [2.2, 3], "to": [0, 3]}, {"from": [0, 3], "to": [0, 0]}]})";
-    CommandRun({"simulate", "--map", path("l.json"), "--places", places, "--turns-each", "20",
-                "--range-scale", "1.008", "--range-offset", "0.004", "-o", path("places.ndjson")});
+  std::string biased_recording(const std::string& places,
+                               const std::string& scale = "1.008") const {
+    CommandRun({"simulate", "--map", map_, "--places", places, "--turns-each", "20",
+                "--range-scale", scale, "--range-offset", "0.004", "-o", path("places.ndjson")});
     return path("places.ndjson");
   }
+
+  const std::string map_ = CORNERD_SOURCE_DIR "/config/maps/krpai-2019-a.json";
 };
 
 TEST_F(CalibrateBias, LidarThatIsOff_IsSaidAndWritten) {
-  const CommandRun run({"calibrate", "bias", biased_recording("12"), "--map", path("l.json"), "-o",
-                        path("bias.json")});
+  const CommandRun run(
+      {"calibrate", "bias", biased_recording("12"), "--map", map_, "-o", path("bias.json")});
   ASSERT_EQ(run.exit_code, kExitDone) << run.err;
   EXPECT_THAT(run.out, HasSubstr("range offset, mm"));
   const auto bias = nlohmann::json::parse(text_of("bias.json"))["lidar"]["bias"];
   EXPECT_NEAR(bias["range_scale"], 0.008, 0.002);
   EXPECT_NEAR(bias["range_offset"], 0.004, 0.002);
+}
+
+TEST_F(CalibrateBias, MapThatIsNotToScale_IsAnErrorAndWritesNothing) {
+  const CommandRun run({"calibrate", "bias", biased_recording("12", "1.04"), "--map", map_, "-o",
+                        path("bias.json")});
+  EXPECT_EQ(run.exit_code, kExitFailed);
+  EXPECT_THAT(run.err, HasSubstr("to scale"));
+  EXPECT_FALSE(std::filesystem::exists(path("bias.json")));
 }
 
 TEST_F(CalibrateBias, TooFewTurns_AreAnError) {

@@ -129,6 +129,34 @@ TEST(BiasEstimator, ThatResumes_KnowsWhatWasLearntAndLearnsOn) {
   EXPECT_EQ(estimator.turns(), 0U);
 }
 
+TEST(BiasEstimator, ThatDoesNotForget_TakesAllTurnsAlike) {
+  const auto map = testing::make_map(testing::l_shaped_room());
+  BiasEstimator estimator(12, {}, {}, 0);
+  testing::TurnSource source(68);
+  PolarScan points;
+  for (int k = 0; k < 800; ++k) {
+    const Pose2 T_map_lidar = source.place_in(0.4, 2.2, 0.4, 1.4);
+    const SensorBias now{.range_scale = 0, .range_offset_m = k < 400 ? 0.004 : 0};
+    points.assign(biased(source.take(*map, T_map_lidar), now), 0.1, 12, 0, {}, estimator.bias());
+    estimator.learn(*map, T_map_lidar, points.points(), 1);
+  }
+  EXPECT_NEAR(estimator.bias().range_offset_m, 0.002, 0.0004);
+}
+
+TEST(BiasEstimator, FartherOffThanALidarMayBe_SaysSo) {
+  const auto map = testing::make_map(testing::l_shaped_room());
+  const SensorBias known{.range_offset_m = 0.03};
+  BiasEstimator estimator(12, {}, known);
+  estimator.resume({.bias = known, .sigma = {0.001, 0.001, 0.001, 0.001}, .turns = 50});
+  EXPECT_EQ(estimator.bias().range_offset_m, 0.03);
+  EXPECT_FALSE(estimator.learned().is_limited);
+  SensorBias far = known;
+  far.range_scale = 0.05;
+  estimator.resume({.bias = far, .sigma = {0.001, 0.001, 0.001, 0.001}, .turns = 50});
+  EXPECT_TRUE(estimator.learned().is_limited);
+  EXPECT_EQ(estimator.bias().range_scale, 0.03);
+}
+
 TEST(BiasEstimator, TurnsThatTeach_LeaveLessDoubt) {
   const auto map = testing::make_map(testing::l_shaped_room());
   BiasEstimator estimator(12, {}, {});

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+// From what was decided to what is told of it.
+#include <algorithm>
+
+#include "core/localizer_workspace.hpp"
+
+namespace cornerd::core {
+namespace {
+
+/// What a bias of 1 % and 5 mm that is not learnt yet does to poses in rooms of a metre or two.
+Covariance3 doubt_of_bias() {
+  constexpr double kPlace_m = 0.006;
+  constexpr double kHeading_rad = radians(0.15);
+  return Eigen::Vector3d(kPlace_m * kPlace_m, kPlace_m * kPlace_m, kHeading_rad * kHeading_rad)
+      .asDiagonal();
+}
+
+}  // namespace
+
+void Localizer::Workspace::report(const Decision& decision, std::size_t corners, TimeNs t_ns) {
+  PoseEstimate& pose = result.pose;
+  pose.state = decision.state;
+  pose.t_ns = t_ns;
+  pose.room.reset();
+  pose.corners = 0;
+  pose.inliers = 0;
+  pose.rmse_m = 0;
+  pose.alternatives.clear();
+  pose.covariance.setZero();
+  pose.T_map_base = {};
+  pose.doubt = decision.doubt;
+  if (names_a_place(decision.state)) {
+    report_pose(place->verification.places()[decision.place], corners, t_ns);
+  } else if (decision.state == PoseState::kAmbiguous) {
+    report_alternatives(place->verification.places().first(decision.rivals));
+  }
+  if (pose.state == PoseState::kLost || pose.state == PoseState::kAmbiguous) {
+    const auto predicted = odometer.prediction();
+    if (predicted && !contradicts(*predicted)) predict(*predicted, result.pose);
+  }
+  pose.age_s = memory.age_s(t_ns);
+  result.odometry = odometer.summary();
+}
+
+bool Localizer::Workspace::contradicts(const PredictedPose& predicted) const {
+  if (result.pose.state == PoseState::kLost) return T_map_doubted.has_value();
+  const auto is_near = [&](const Alternative& other) {
+    return same_place(predicted.T_map_base, other.T_map_base, kJump_m, kJump_rad);
+  };
+  return std::none_of(result.pose.alternatives.begin(), result.pose.alternatives.end(), is_near);
+}
+
+void Localizer::Workspace::predict(const PredictedPose& predicted, PoseEstimate& pose) const {
+  pose.state = PoseState::kPredicted;
+  pose.alternatives.clear();
+  pose.T_map_base = predicted.T_map_base;
+  pose.covariance = predicted.covariance;
+  if (map) pose.room = map->room_at(pose.T_map_base.translation());
+}
+
+void Localizer::Workspace::report_pose(const core::Place& found, std::size_t corners, TimeNs t_ns) {
+  const Pose2& T_map_lidar = found.refined.T_map_lidar;
+  PoseEstimate& pose = result.pose;
+  pose.T_map_base = T_map_lidar * T_lidar_base;
+  memory.remember(T_map_lidar, t_ns, motion);
+  const Covariance3 of_lidar = found.refined.covariance +
+                               (odometer.knows_motion() ? odometer.doubt_of_motion()
+                                                        : doubt_of_motion(motion, memory.motion()));
+  pose.covariance = covariance_of_base(of_lidar, T_map_lidar, pose.T_map_base);
+  if (found.refined.spread > kSmearedSpread && place->bias.turns() < kTurnsOfANewLidar) {
+    pose.covariance += doubt_of_bias();
+  }
+  odometer.correct(pose.T_map_base, pose.covariance);
+  pose.room = map->room_at(pose.T_map_base.translation());
+  pose.corners = corners;
+  pose.inliers = found.explanation.hits;
+  pose.rmse_m = found.refined.rmse_m;
+}
+
+void Localizer::Workspace::report_alternatives(std::span<const core::Place> rivals) {
+  const std::size_t count = std::min(rivals.size(), kMaxAlternatives);
+  double sum = 0;
+  for (std::size_t i = 0; i < count; ++i) sum += relative_belief(rivals[i], rivals.front());
+  for (std::size_t i = 0; i < count; ++i) {
+    result.pose.alternatives.push_back({rivals[i].refined.T_map_lidar * T_lidar_base,
+                                        relative_belief(rivals[i], rivals.front()) / sum});
+  }
+}
+
+}  // namespace cornerd::core

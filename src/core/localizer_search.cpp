@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: MIT
+// From a turn to the places where it may have been taken.
+#include <array>
+
+#include "core/localizer_workspace.hpp"
+#include "core/recognition/evidence.hpp"
+
+namespace cornerd::core {
+namespace {
+
+/// A place that recognition gave is off by up to this much; one that was carried on from the turn
+/// before, by what a robot drives meanwhile; one that a turn in motion gave, by the motion.
+constexpr double kRecognisedReach_m = 0.10;
+constexpr double kPriorReach_m = 0.15;
+constexpr double kMotionReach_m = 0.08;
+
+/// Places with fewer votes of corners than this share of the best one's are looked at where those
+/// with more leave doubt: in large buildings they are many.
+constexpr double kLikelyShare = 0.7;
+
+/// A motion has to explain one ray in so many more than rest does: it fits things that are not on
+/// the map a little, always.
+constexpr std::size_t kRaysForAMotion = 50;
+
+/// Where nothing explains half of the rays, the robot may be turning: so many of these rates are
+/// tried, by turns. Places are found within some 0.8 rad/s of the true one.
+constexpr std::array kGuesses_rad_s = {1.5, -1.5, 3.0, -3.0, 0.75, -0.75};
+constexpr std::size_t kGuessesATurn = 2;
+constexpr double kGuessedShare = 0.8;
+
+/// The share of the rays that a place explains at least roughly where a bias is all that is wrong.
+constexpr double kAllButExact = 0.95;
+
+}  // namespace
+
+void Localizer::Workspace::look(const Scan& scan, TimeNs t_ns, const Twist2& as_if_moving) {
+  // The returns in the order of their bearing, as a lidar that stood still would have seen them.
+  motion = as_if_moving;
+  points.assign(scan, config.min_range_m, config.max_range_m, t_ns, motion,
+                place ? place->bias.bias() : config.bias);
+
+  // Walls, and the corners and ends of walls between them (ALTBD).
+  detector.detect(points, result.detection);
+  if (!place) return;
+
+  // The place where the robot should be by now, and those that pairs of corners point to.
+  Verification& verification = place->verification;
+  verification.begin(points.points(), noise_scale());
+  if (const std::optional<Pose2> prior = memory.prior(t_ns)) {
+    const Hypothesis carried_on{*prior, 0};
+    verification.consider(std::span(&carried_on, 1), kPriorReach_m);
+  }
+  const Detection& seen = result.detection;
+  if (place->paper) {
+    verification.consider(place->paper->places(seen.breakpoints, seen.segments),
+                          kRecognisedReach_m);
+    return;
+  }
+  const auto pairs = place->recognition.from_pairs(seen.breakpoints);
+  const std::size_t likely = count_likely(pairs, kLikelyShare);
+  verification.consider(pairs.first(likely), kRecognisedReach_m);
+  if (in_doubt(t_ns)) verification.consider(pairs.subspan(likely), kRecognisedReach_m);
+}
+
+bool Localizer::Workspace::in_doubt(TimeNs t_ns) const {
+  if (!place || place->verification.places().empty()) return true;
+  const core::Place& best = place->verification.places().front();
+  return !leaves_no_doubt(best.explanation, is_expected(best.refined.T_map_lidar, t_ns));
+}
+
+bool Localizer::Workspace::is_smeared() const {
+  return place && !place->verification.places().empty() &&
+         place->verification.places().front().refined.spread > kSmearedSpread;
+}
+
+/// A bias fits like a motion: walls are where they should be, but not exactly. While the lidar is
+/// new and the robot is seen to stand, it is the bias.
+bool Localizer::Workspace::may_be_biased() const {
+  if (!config.learn_bias || !place || place->verification.places().empty()) return false;
+  return place->bias.turns() < kTurnsOfANewLidar && memory.stands() &&
+         place->verification.places().front().explanation.near_share() > kAllButExact;
+}
+
+std::size_t Localizer::Workspace::best_hits() const {
+  const auto places = place->verification.places();
+  return places.empty() ? 0 : places.front().explanation.hits;
+}
+
+void Localizer::Workspace::look_for_the_motion(const Scan& scan, TimeNs t_ns) {
+  if (!place) return;
+  Twist2 best_motion = motion;
+  std::size_t best = best_hits();
+  const auto try_motion = [&](const Twist2& candidate) {
+    look(scan, t_ns, candidate);
+    if (best_hits() <= best + points.size() / kRaysForAMotion) return;
+    best = best_hits();
+    best_motion = motion;
+  };
+  if (!motion.is_rest()) try_motion({});
+  const auto refine = [&] {
+    for (int k = 0; k < 2 && (in_doubt(t_ns) || is_smeared()) && best_hits() > 0; ++k) {
+      const Pose2 start = place->verification.places().front().refined.T_map_lidar;
+      const RefinedMotion refined = place->refinement.refine_motion(
+          *map, start, kMotionReach_m, points.points(), result.detection.noise_scale);
+      if (!refined.valid || !is_plausible(refined.motion)) break;
+      try_motion(motion + refined.motion);
+    }
+  };
+  refine();
+  const bool is_known = odometer.knows_motion() || memory.prior(t_ns);
+  for (std::size_t k = 0; k < kGuessesATurn && !is_known && best_hits() < points.size() / 2; ++k) {
+    const Twist2 motion_before = best_motion;
+    const std::size_t best_before = best;
+    try_motion({0, 0, kGuesses_rad_s[guesses++ % kGuesses_rad_s.size()]});
+    refine();
+    // A guess that is right explains nearly all; any other explains a little more than rest does.
+    if (static_cast<double>(best) > kGuessedShare * static_cast<double>(points.size())) break;
+    best_motion = motion_before;
+    best = best_before;
+  }
+  if (motion != best_motion) look(scan, t_ns, best_motion);
+}
+
+void Localizer::Workspace::look_everywhere(TimeNs t_ns) {
+  if (!place || place->paper) return;
+  const std::span<const Breakpoint> breakpoints = result.detection.breakpoints;
+  Recognition& recognition = place->recognition;
+  place->verification.consider(recognition.from_single_corners(breakpoints), kRecognisedReach_m);
+  if (!in_doubt(t_ns)) return;
+  place->verification.consider(recognition.from_walls(result.detection.segments, breakpoints),
+                               kRecognisedReach_m);
+}
+
+}  // namespace cornerd::core

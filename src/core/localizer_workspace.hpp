@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: MIT
+// What Localizer keeps between turns, and the steps that it takes. Private to localizer*.cpp.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <span>
+#include <utility>
+
+#include "core/breakpoint/detector.hpp"
+#include "core/catalog/catalog.hpp"
+#include "core/estimate/bias_estimator.hpp"
+#include "core/estimate/part_tracker.hpp"
+#include "core/estimate/pose_memory.hpp"
+#include "core/estimate/refinement.hpp"
+#include "core/localizer.hpp"
+#include "core/recognition/decision.hpp"
+#include "core/recognition/paper_recognition.hpp"
+#include "core/recognition/recognition.hpp"
+#include "core/recognition/verification.hpp"
+
+namespace cornerd::core {
+
+/// A robot moves no farther than this between two turns. A place farther off was either wrong or
+/// the robot was carried: the next turn tells.
+inline constexpr double kJump_m = 0.5;
+inline constexpr double kJump_rad = radians(60);
+
+/// Turns within which a lidar's bias is learnt.
+inline constexpr std::size_t kTurnsOfANewLidar = 20;
+
+/// Residuals this much beyond the turn's own noise are smeared by a motion.
+inline constexpr double kSmearedSpread = 1.4;
+
+struct Localizer::Workspace {
+  /// What needs a map.
+  struct Place {
+    Place(const WallMap& map, const LocalizerConfig& config)
+        : catalog(map, config.max_range_m),
+          recognition(map, catalog),
+          verification(map, config),
+          refinement(config.max_range_m, config.noise),
+          bias(config.max_range_m, config.noise, config.bias,
+               config.forget_bias ? BiasEstimator::kForgottenShare : 0) {
+      if (config.recognition == RecognitionMethod::kPaper) paper.emplace(map, catalog);
+      if (config.updates_per_turn > 1) parts.emplace(map, config);
+    }
+    Catalog catalog;
+    Recognition recognition;
+    std::optional<PaperRecognition> paper;  ///< where it is asked for, instead
+    Verification verification;
+    Refinement refinement;
+    BiasEstimator bias;
+    std::optional<PartTracker> parts;  ///< where poses are asked for before a turn ends
+  };
+
+  Workspace(std::shared_ptr<const WallMap> the_map, const LocalizerConfig& the_config)
+      : config(the_config),
+        T_lidar_base(the_config.T_base_lidar.inverse()),
+        map(std::move(the_map)),
+        detector(the_config.detector, the_config.noise),
+        odometer(the_config.odometry) {
+    if (map) place.emplace(*map, config);
+  }
+
+  const Scan& straightened(const Scan& turn, TimeNs t_ns);
+  void look(const Scan& scan, TimeNs t_ns, const Twist2& as_if_moving);
+  void look_for_the_motion(const Scan& scan, TimeNs t_ns);
+  void look_everywhere(TimeNs t_ns);
+  std::size_t corners_of(const Decision& decision) const;
+  PoseState believe(const Decision& decision, std::size_t corners, TimeNs t_ns);
+  bool is_expected(const Pose2& T_map_lidar, TimeNs t_ns) const;
+  bool in_doubt(TimeNs t_ns) const;
+  bool is_smeared() const;
+  std::size_t best_hits() const;
+  bool may_be_biased() const;
+  bool teaches(const Decision& decision) const;
+  void report(const Decision& decision, std::size_t corners, TimeNs t_ns);
+  void report_pose(const core::Place& found, std::size_t corners, TimeNs t_ns);
+  void report_alternatives(std::span<const core::Place> rivals);
+  std::optional<Expectation> expectation(TimeNs t_ns);
+  void predict(const PredictedPose& predicted, PoseEstimate& pose) const;
+  /// What a turn showed of the noise, where it is more than chance.
+  double noise_scale() const { return std::clamp(result.detection.noise_scale, 0.5, 4.0); }
+  bool contradicts(const PredictedPose& predicted) const;
+
+  LocalizerConfig config;
+  Pose2 T_lidar_base;
+  std::shared_ptr<const WallMap> map;
+  Detector detector;
+  std::optional<Place> place;
+
+  Odometer odometer;
+  Scan still;  ///< the turn as a lidar that stood still would have seen it
+  PoseMemory memory;
+  PolarScan points;
+  std::size_t guesses = 0;             ///< of the motion, so far
+  Twist2 motion;                       ///< that `points` were moved back by
+  std::optional<Pose2> T_map_doubted;  ///< a jump of the turn before that waits for a second
+  TurnResult result;
+  PoseEstimate between;  ///< of a reading between two turns, or of a part of a turn
+};
+
+}  // namespace cornerd::core
