@@ -6,6 +6,7 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -74,6 +75,11 @@ void run_survey(const SurveyOptions& options) {
         throw UsageError(file.string() + ": would be written over what is read");
       }
     }
+  }
+  for (const auto& [one, other] :
+       {std::pair(&options.output, &options.plot), std::pair(&options.output, &options.trajectory),
+        std::pair(&options.plot, &options.trajectory)}) {
+    if (is_same_file(*one, *other)) throw UsageError(one->string() + ": for two of the outputs");
   }
   const core::Pose2 start = options.start.empty() ? core::Pose2{} : parse_pose(options.start);
   const settings::Config config = options.settings.resolve(/*needs_map=*/false);

@@ -69,6 +69,7 @@ void ReadingGate::add_gyro(TimeNs t_ns, double rate_rad_s) {
   if (rate_rad_s != gyro_rad_s_) {
     same_rates_ = 0;
     turned_since_rad_ = 0;
+    gyro_is_stuck_ = false;
   } else {
     ++same_rates_;
   }
@@ -167,9 +168,12 @@ void ReadingGate::take_gyro(MotionStep& step) {
 
 bool ReadingGate::gyro_is_frozen(const MotionStep& step) {
   turned_since_rad_ += (step.right_m - step.left_m) / config_.geometry.track_m - step.gyro_rad;
-  if (same_rates_ < kFrozenRates || std::abs(turned_since_rad_) < kFrozen_rad) return false;
-  ++counters_.frozen;
-  return true;
+  // A robot that turns back comes near the stuck rate again: it stays stuck until it changes.
+  if (same_rates_ >= kFrozenRates && std::abs(turned_since_rad_) >= kFrozen_rad) {
+    gyro_is_stuck_ = true;
+  }
+  if (gyro_is_stuck_) ++counters_.frozen;
+  return gyro_is_stuck_;
 }
 
 }  // namespace cornerd::core

@@ -71,6 +71,7 @@ class ReadingGate {
   // How long the gyro has said the same.
   std::uint32_t same_rates_ = 0;
   double turned_since_rad_ = 0;  ///< by the wheels, less the gyro
+  bool gyro_is_stuck_ = false;   ///< until it says something else
 };
 
 }  // namespace cornerd::core

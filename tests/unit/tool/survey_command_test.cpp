@@ -70,6 +70,14 @@ TEST_F(SurveyCommandTest, OutputOverTheRecording_IsWrongUsage) {
   EXPECT_EQ(CommandRun({"survey", file("a.ndjson"), "-o", file("a.ndjson")}).exit_code, 2);
 }
 
+TEST_F(SurveyCommandTest, TwoOutputsOfOneName_AreWrongUsage) {
+  std::ofstream(file("a.ndjson")) << "";
+  const CommandRun run(
+      {"survey", file("a.ndjson"), "-o", file("m.json"), "--plot", file("m.json")});
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_NE(run.err.find("two of the outputs"), std::string::npos) << run.err;
+}
+
 TEST_F(SurveyCommandTest, StartThatIsNoPose_IsWrongUsage) {
   std::ofstream(file("a.ndjson")) << "";
   EXPECT_EQ(CommandRun({"survey", file("a.ndjson"), "-o", file("m.json"), "--start", "nan,0,0"})

@@ -142,6 +142,26 @@ TEST(ReadingGate, AGyroThatIsStuck_IsNoticedByTheWheels) {
   EXPECT_GT(gate.counters().frozen, 80U);
 }
 
+TEST(ReadingGate, AGyroThatIsStuck_IsNotBelievedAgainWhenTheRobotTurnsBack) {
+  const OdometryConfig config = small_robot();
+  testing::DrivenRobot robot(config.geometry, {});
+  ReadingGate gate(config);
+  int with_gyro = 0;
+  for (int i = 0; i < 400; ++i) {
+    OdometryReading reading = robot.drive(0.02, 0.2, i / 50 % 2 == 0 ? 1 : -1);
+    reading.gyro_rad_s = 0;
+    const auto step = gate.add(reading, std::nullopt);
+    with_gyro += step && step->has_gyro;
+  }
+  EXPECT_LT(with_gyro, 15);
+
+  OdometryReading alive = robot.drive(0.02, 0.2, 1);
+  alive.gyro_rad_s = 1;
+  const auto step = gate.add(alive, std::nullopt);
+  ASSERT_TRUE(step);
+  EXPECT_TRUE(step->has_gyro);
+}
+
 TEST(ReadingGate, CountsAndRatesInLinesOfTheirOwn_MeetInOneStep) {
   const OdometryConfig config = small_robot();
   testing::DrivenRobot robot(config.geometry, {});
