@@ -2,6 +2,7 @@
 #include "core/localizer.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "core/localizer_workspace.hpp"
@@ -18,6 +19,12 @@ constexpr double kTeachingShare = 0.8;
 /// How sure somebody is who says where the robot is.
 constexpr double kGivenSigma_m = 0.1;
 constexpr double kGivenSigma_rad = radians(5);
+
+/// What a prediction by odometry is off by at most: three sigma.
+constexpr double kSurely = 3;
+/// A prior that may be off by more than this says little about what half a turn shows.
+constexpr double kFresh_m = 0.2;
+constexpr double kFresh_rad = radians(15);
 
 /// Shorter, and two poses tell nothing of the motion between them.
 constexpr double kLeastTimeOfAMotion_s = 0.02;
@@ -61,7 +68,11 @@ const TurnResult& Localizer::step(const Scan& turn) {
 
   // 5. What is less than evident, or far from where the robot just was, is not believed at once.
   const std::size_t corners = w.corners_of(decision);
-  if (names_a_place(decision.state)) decision.state = w.believe(decision, corners, t_ns);
+  if (names_a_place(decision.state)) {
+    decision.state = w.believe(decision, corners, t_ns);
+  } else {
+    w.T_map_doubted.reset();
+  }
   w.report(decision, corners, t_ns);
 
   // 6. A turn whose place is known tells how the lidar errs always.
@@ -176,22 +187,25 @@ std::optional<Expectation> Localizer::Workspace::expectation(TimeNs t_ns) {
                        covariance_of_base(ahead->covariance, ahead->T_map_base, T_map_ahead),
                        steady, kUnevenShare * to_seconds(ahead->t_ns - behind->t_ns)};
   }
-  const std::optional<Pose2> prior = memory.prior(t_ns);
+  const std::optional<Prior> prior = memory.prior(t_ns);
   if (!prior || odometer.knows_motion()) return std::nullopt;
   const Covariance3 of_lidar = covariance_of_base(result.pose.covariance, result.pose.T_map_base,
                                                   result.pose.T_map_base * config.T_base_lidar);
   const double age_s = to_seconds(t_ns - result.pose.t_ns);
-  return Expectation{*prior, later(of_lidar, age_s), memory.motion(), age_s};
+  return Expectation{prior->T_map_lidar, later(of_lidar, age_s), memory.motion(), age_s};
 }
 
 const Scan& Localizer::Workspace::straightened(const Scan& turn, TimeNs t_ns) {
   odometer.advance(turn.start_ns(), t_ns, turn.end_ns());
-  std::optional<Pose2> T_map_lidar;
+  std::optional<Prior> prior;
   if (const auto predicted = odometer.prediction()) {
-    T_map_lidar = predicted->T_map_base * config.T_base_lidar;
+    const Covariance3& covariance = predicted->covariance;
+    prior = {predicted->T_map_base * config.T_base_lidar,
+             kSurely * std::sqrt(std::max(covariance(0, 0), covariance(1, 1))),
+             kSurely * std::sqrt(covariance(2, 2))};
   }
   const bool known = odometer.straighten(turn, config.T_base_lidar, still);
-  memory.expect(T_map_lidar, known);
+  memory.expect(prior, known);
   return known ? still : turn;
 }
 
@@ -203,8 +217,13 @@ std::size_t Localizer::Workspace::corners_of(const Decision& decision) const {
 }
 
 bool Localizer::Workspace::is_expected(const Pose2& T_map_lidar, TimeNs t_ns) const {
-  const std::optional<Pose2> prior = memory.prior(t_ns);
-  return prior && same_place(*prior, T_map_lidar, kJump_m, kJump_rad);
+  const std::optional<Prior> prior = memory.prior(t_ns);
+  return prior && same_place(prior->T_map_lidar, T_map_lidar, kJump_m, kJump_rad);
+}
+
+bool Localizer::Workspace::prior_is_fresh(TimeNs t_ns) const {
+  const std::optional<Prior> prior = memory.prior(t_ns);
+  return prior && prior->place_m < kFresh_m && prior->heading_rad < kFresh_rad;
 }
 
 PoseState Localizer::Workspace::believe(const Decision& decision, std::size_t corners,
@@ -212,19 +231,18 @@ PoseState Localizer::Workspace::believe(const Decision& decision, std::size_t co
   const core::Place& found = place->verification.places()[decision.place];
   const Pose2& T_map_lidar = found.refined.T_map_lidar;
   const Evidence evidence{found.explanation, corners, points.widest_gap_rad(),
-                          !place->paper && place->recognition.tries_all()};
+                          !place->paper && place->recognition.tries_all(), prior_is_fresh(t_ns)};
   if (decision.state == PoseState::kTracking) {
     return may_be_tracked(evidence) ? PoseState::kTracking : PoseState::kAmbiguous;
   }
   const bool confirmed =
       T_map_doubted && same_place(*T_map_doubted, T_map_lidar, kJump_m, kJump_rad);
   T_map_doubted.reset();
-  if (is_expected(T_map_lidar, t_ns)) {
-    if (is_evident(evidence)) return PoseState::kFix;
-    return may_be_tracked(evidence) ? PoseState::kTracking : PoseState::kLost;
+  const bool expected = is_expected(T_map_lidar, t_ns);
+  if (!is_evident(evidence)) {
+    return expected && may_be_tracked(evidence) ? PoseState::kTracking : PoseState::kLost;
   }
-  if (!is_evident(evidence)) return PoseState::kLost;
-  if (memory.prior(t_ns) && !confirmed && !is_certain(evidence)) {
+  if (!confirmed && needs_a_second(evidence, expected, memory.prior(t_ns).has_value())) {
     T_map_doubted = T_map_lidar;
     return PoseState::kLost;
   }

@@ -43,7 +43,10 @@ void Localizer::Workspace::report(const Decision& decision, std::size_t corners,
 }
 
 bool Localizer::Workspace::contradicts(const PredictedPose& predicted) const {
-  if (result.pose.state == PoseState::kLost) return T_map_doubted.has_value();
+  if (result.pose.state == PoseState::kLost) {
+    return T_map_doubted &&
+           !same_place(predicted.T_map_base, *T_map_doubted * T_lidar_base, kJump_m, kJump_rad);
+  }
   const auto is_near = [&](const Alternative& other) {
     return same_place(predicted.T_map_base, other.T_map_base, kJump_m, kJump_rad);
   };

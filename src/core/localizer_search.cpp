@@ -46,8 +46,8 @@ void Localizer::Workspace::look(const Scan& scan, TimeNs t_ns, const Twist2& as_
   // The place where the robot should be by now, and those that pairs of corners point to.
   Verification& verification = place->verification;
   verification.begin(points.points(), noise_scale());
-  if (const std::optional<Pose2> prior = memory.prior(t_ns)) {
-    const Hypothesis carried_on{*prior, 0};
+  if (const std::optional<Prior> prior = memory.prior(t_ns)) {
+    const Hypothesis carried_on{prior->T_map_lidar, 0};
     verification.consider(std::span(&carried_on, 1), kPriorReach_m);
   }
   const Detection& seen = result.detection;
@@ -65,7 +65,10 @@ void Localizer::Workspace::look(const Scan& scan, TimeNs t_ns, const Twist2& as_
 bool Localizer::Workspace::in_doubt(TimeNs t_ns) const {
   if (!place || place->verification.places().empty()) return true;
   const core::Place& best = place->verification.places().front();
-  return !leaves_no_doubt(best.explanation, is_expected(best.refined.T_map_lidar, t_ns));
+  const bool is_fresh = prior_is_fresh(t_ns);
+  const bool expected = is_fresh && is_expected(best.refined.T_map_lidar, t_ns);
+  return !leaves_no_doubt(best.explanation, expected) ||
+         !(is_fresh || is_whole(points.widest_gap_rad()));
 }
 
 bool Localizer::Workspace::is_smeared() const {

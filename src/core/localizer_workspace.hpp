@@ -72,6 +72,7 @@ struct Localizer::Workspace {
   std::size_t corners_of(const Decision& decision) const;
   PoseState believe(const Decision& decision, std::size_t corners, TimeNs t_ns);
   bool is_expected(const Pose2& T_map_lidar, TimeNs t_ns) const;
+  bool prior_is_fresh(TimeNs t_ns) const;
   bool in_doubt(TimeNs t_ns) const;
   bool is_smeared() const;
   std::size_t best_hits() const;

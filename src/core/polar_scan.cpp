@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "core/geometry/angle.hpp"
 #include "core/geometry/small_angle.hpp"
@@ -10,6 +11,10 @@
 namespace cornerd::core {
 
 namespace {
+
+/// A return is lonely where less than this share of the samples about it are returns.
+constexpr double kNeighbourhood_rad = radians(10);
+constexpr double kCompany = 0.25;
 
 PolarPoint point_at(double bearing_rad, double range_m, double dt_s, const Vec2& ray) {
   return {bearing_rad, range_m, ray.x(), ray.y(), range_m * ray.x(), range_m * ray.y(), dt_s};
@@ -97,12 +102,25 @@ void PolarScan::append(double bearing_rad, double range_m) {
 }
 
 double PolarScan::widest_gap_rad() const {
-  if (points_.size() < 2) return kTwoPi;
-  double widest_rad = points_.front().bearing_rad + kTwoPi - points_.back().bearing_rad;
-  for (std::size_t i = 1; i < points_.size(); ++i) {
-    widest_rad = std::max(widest_rad, points_[i].bearing_rad - points_[i - 1].bearing_rad);
+  const std::size_t size = points_.size();
+  // Of the returns without end, round and round.
+  const auto bearing_rad = [&](std::size_t i) {
+    return points_[i % size].bearing_rad + kTwoPi * static_cast<double>(i / size);
+  };
+  const double enough = std::max(2.0, kCompany * 2 * kNeighbourhood_rad / spacing_rad_);
+  std::optional<double> last_rad;
+  double widest_rad = 0;
+  std::size_t first = 0;
+  std::size_t end = 0;
+  for (std::size_t i = size; i <= 3 * size && size > 0; ++i) {
+    const double here_rad = bearing_rad(i);
+    while (bearing_rad(first) < here_rad - kNeighbourhood_rad) ++first;
+    while (end < first + size && bearing_rad(end) <= here_rad + kNeighbourhood_rad) ++end;
+    if (static_cast<double>(end - first) < enough) continue;
+    if (last_rad) widest_rad = std::max(widest_rad, here_rad - *last_rad);
+    last_rad = here_rad;
   }
-  return widest_rad;
+  return last_rad ? std::min(widest_rad, kTwoPi) : kTwoPi;
 }
 
 void PolarScan::sort() {

@@ -51,7 +51,8 @@ class PolarScan {
   /// Usual distance in bearing from one sample to the next, empty ones included.
   double spacing_rad() const { return spacing_rad_; }
 
-  /// Between two neighbouring returns; the whole circle where there are fewer than two.
+  /// Of bearing without returns, but for lonely ones: an outlier in the dark fills no gap. The
+  /// whole circle where there are none that have company.
   double widest_gap_rad() const;
 
  private:

@@ -4,17 +4,9 @@
 #include <cstdio>
 
 namespace cornerd::soak {
-namespace {
-
-/// Between two faults, seconds: long enough for poses to come back.
-constexpr double kMeanPause_s = 8;
-constexpr double kLongestFault_s = 6;
-
-}  // namespace
-
 FaultPlan::FaultPlan(replay::EmulatedDevice& device, replay::CoverableScene& scene,
-                     std::uint64_t seed)
-    : device_(device), scene_(scene), random_(seed) {}
+                     const FaultConfig& config, std::uint64_t seed)
+    : device_(device), scene_(scene), config_(config), random_(seed) {}
 
 void FaultPlan::advance(core::TimeNs now_ns) {
   if (now_ns < next_ns_) return;
@@ -23,9 +15,10 @@ void FaultPlan::advance(core::TimeNs now_ns) {
 
 void FaultPlan::begin(core::TimeNs now_ns) {
   is_on_ = true;
-  next_ns_ = now_ns + core::from_seconds(random_.uniform(0.001, kLongestFault_s));
+  next_ns_ = now_ns + core::from_seconds(random_.uniform(0.001, config_.longest_s));
   replay::StreamFaults& faults = device_.faults();
-  const std::size_t kind = random_.bits() % kNames.size();
+  const std::size_t any = random_.bits() % kNames.size();
+  const std::size_t kind = config_.only.value_or(any);
   ++counts_[kind];
   {
     const std::lock_guard lock(mutex_);
@@ -74,7 +67,7 @@ void FaultPlan::end(core::TimeNs now_ns) {
     const std::lock_guard lock(mutex_);
     faults_[(begun_ - 1) % faults_.size()].end_ns = now_ns;
   }
-  next_ns_ = now_ns + core::from_seconds(random_.uniform(0, 2 * kMeanPause_s));
+  next_ns_ = now_ns + core::from_seconds(random_.uniform(0, 2 * config_.mean_pause_s));
   device_.faults().damaged_share = 0;
   device_.faults().to_lose = 0;
   device_.plug(true);

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -11,6 +13,13 @@
 #include "replay/simulator/coverable_scene.hpp"
 
 namespace cornerd::soak {
+
+/// How often, and what.
+struct FaultConfig {
+  double mean_pause_s = 8;  ///< between two: long enough for poses to come back
+  double longest_s = 6;
+  std::optional<std::size_t> only;  ///< of FaultPlan::kNames; nullopt: any
+};
 
 /// Everything that may befall a lidar and its cable, at random times, one after the other, each for
 /// a random while.
@@ -22,7 +31,8 @@ class FaultPlan {
       "protection stop",   "laser covered", "supply breakdown",
       "stream held up",    "quiet"};
 
-  FaultPlan(replay::EmulatedDevice& device, replay::CoverableScene& scene, std::uint64_t seed);
+  FaultPlan(replay::EmulatedDevice& device, replay::CoverableScene& scene,
+            const FaultConfig& config, std::uint64_t seed);
 
   /// To be called with each new time.
   void advance(core::TimeNs now_ns);
@@ -44,6 +54,7 @@ class FaultPlan {
 
   replay::EmulatedDevice& device_;
   replay::CoverableScene& scene_;
+  FaultConfig config_;
   replay::Random random_;
   core::TimeNs next_ns_ = 0;
   bool is_on_ = false;

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
-// daemon_soak [--turns N] [--seed N]: the daemon's loops through every fault, at many times real
-// time. Says what happened; 1 where something does not hold that must.
+// daemon_soak [--turns N] [--seed N] [--only FAULT] [--pause S] [--longest S]: the daemon's loops
+// through every fault or one of them, at many times real time. Says what happened; 1 where
+// something does not hold that must.
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -13,6 +16,13 @@
 namespace {
 
 using namespace cornerd;
+
+std::optional<std::size_t> fault_of(std::string_view name) {
+  const auto& names = soak::FaultPlan::kNames;
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found == names.end()) return std::nullopt;
+  return found - names.begin();
+}
 
 void print(const soak::SoakReport& report) {
   const auto number = [](std::uint64_t value) { return static_cast<unsigned long long>(value); };
@@ -48,8 +58,15 @@ int main(int argc, char** argv) {
       config.turns = std::strtoull(argv[i + 1], nullptr, 10);
     } else if (name == "--seed") {
       config.seed = std::strtoull(argv[i + 1], nullptr, 10);
+    } else if (name == "--only" && fault_of(argv[i + 1])) {
+      config.faults.only = fault_of(argv[i + 1]);
+    } else if (name == "--pause") {
+      config.faults.mean_pause_s = std::strtod(argv[i + 1], nullptr);
+    } else if (name == "--longest") {
+      config.faults.longest_s = std::strtod(argv[i + 1], nullptr);
     } else {
-      std::fprintf(stderr, "daemon_soak [--turns N] [--seed N]\n");
+      std::fprintf(stderr,
+                   "daemon_soak [--turns N] [--seed N] [--only FAULT] [--pause S] [--longest S]\n");
       return 2;
     }
   }

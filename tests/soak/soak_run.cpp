@@ -58,7 +58,7 @@ class World {
                                    .yaw_acceleration_rad_s2 = 4,
                                    .loop = true})),
         device(emulator(config.seed), clock, config.seed + 1),
-        plan(device, *scene, config.seed + 2) {
+        plan(device, *scene, config.faults, config.seed + 2) {
     clock.set_on_advance([this](core::TimeNs now_ns) { plan.advance(now_ns); });
   }
 

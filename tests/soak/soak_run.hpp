@@ -16,6 +16,7 @@ namespace cornerd::soak {
 struct SoakConfig {
   std::uint64_t turns = 2000;
   std::uint64_t seed = 1;
+  FaultConfig faults;
   /// Half of what a watchdog of ten seconds allows; see ProgressWatch.
   double patience_s = 5;
   /// Called with each wrong fix: turn, time, estimate and truth, and what had befallen the lidar.

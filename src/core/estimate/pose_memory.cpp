@@ -17,6 +17,9 @@ constexpr double kMaxOmega_rad_s = 6;
 /// A motion below this is the noise of two poses, and moves no sample by what a lidar could tell.
 constexpr double kRest_m_s = 0.01;
 constexpr double kRest_rad_s = 0.01;
+/// Whatever it did before, it may have changed it by this since.
+constexpr double kAcceleration_m_s2 = 1;
+constexpr double kAcceleration_rad_s2 = 4;
 /// Two poses of a robot that stands may differ by this, of a lidar whose bias is not known yet.
 constexpr double kStanding_m_s = 0.03;
 constexpr double kStanding_rad_s = 0.03;
@@ -39,18 +42,19 @@ void PoseMemory::remember(const Pose2& T_map_lidar, TimeNs t_ns, const Twist2& m
 }
 
 void PoseMemory::forget() {
-  expected_T_map_lidar_.reset();
+  expected_.reset();
   last_T_map_lidar_.reset();
   motion_ = {};
   stands_ = false;
 }
 
-std::optional<Pose2> PoseMemory::prior(TimeNs t_ns) const {
-  if (expected_T_map_lidar_) return expected_T_map_lidar_;
+std::optional<Prior> PoseMemory::prior(TimeNs t_ns) const {
+  if (expected_) return expected_;
   if (!last_T_map_lidar_) return std::nullopt;
   const double age_s = to_seconds(t_ns - last_ns_);
   if (std::abs(age_s) > kMaxPriorAge_s) return std::nullopt;
-  return *last_T_map_lidar_ * motion_.over(age_s);
+  return Prior{*last_T_map_lidar_ * motion_.over(age_s), kAcceleration_m_s2 * age_s * age_s / 2,
+               kAcceleration_rad_s2 * age_s * age_s / 2};
 }
 
 bool is_plausible(const Twist2& motion) {
@@ -74,8 +78,6 @@ Covariance3 doubt_of_motion(const Twist2& used, const Twist2& seen) {
 
 Covariance3 later(const Covariance3& covariance, double dt_s) {
   constexpr double kUsualTurn_s = 0.14;
-  constexpr double kAcceleration_m_s2 = 1;
-  constexpr double kAcceleration_rad_s2 = 4;
   const double turns = dt_s / kUsualTurn_s;
   const double way_m = kAcceleration_m_s2 * dt_s * dt_s / 2;
   const double way_rad = kAcceleration_rad_s2 * dt_s * dt_s / 2;

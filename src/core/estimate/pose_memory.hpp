@@ -8,6 +8,13 @@
 
 namespace cornerd::core {
 
+/// Where the lidar should be, and how far from there it may have come meanwhile.
+struct Prior {
+  Pose2 T_map_lidar;
+  double place_m = 0;
+  double heading_rad = 0;
+};
+
 /// The last poses of the lidar, and what they say of the next turn.
 class PoseMemory {
  public:
@@ -17,13 +24,13 @@ class PoseMemory {
 
   /// What odometry knows of the turn to come goes before what the last poses say: where the lidar
   /// should be in its middle, and that its samples have been moved there already.
-  void expect(const std::optional<Pose2>& T_map_lidar, bool straightened) {
-    expected_T_map_lidar_ = T_map_lidar;
+  void expect(const std::optional<Prior>& prior, bool straightened) {
+    expected_ = prior;
     straightened_ = straightened;
   }
 
   /// Where the lidar should be by now; nullopt where nothing recent is known.
-  std::optional<Pose2> prior(TimeNs t_ns) const;
+  std::optional<Prior> prior(TimeNs t_ns) const;
 
   /// Of the lidar, in its own axes, from the last two poses; rest where they do not tell.
   Twist2 motion() const { return straightened_ ? Twist2{} : motion_; }
@@ -38,7 +45,7 @@ class PoseMemory {
   std::optional<Pose2> last_T_map_lidar_;
   TimeNs last_ns_ = 0;
   bool ever_ = false;
-  std::optional<Pose2> expected_T_map_lidar_;
+  std::optional<Prior> expected_;
   bool straightened_ = false;
   Twist2 motion_;
   bool stands_ = false;

@@ -26,7 +26,7 @@ constexpr double kMostThingsShare = 0.3;
 constexpr double kRaysForARival = 4;
 /// More, where things stand around: some stand near walls.
 constexpr double kRaysForARivalPerThing = 0.125;
-/// Where the prior is good enough to choose among rivals.
+/// How far from a prior that is exact a rival is out of reach.
 constexpr double kPriorRadius_m = 0.25;
 constexpr double kPriorAngle_rad = radians(20);
 
@@ -77,7 +77,7 @@ class Belief {
 
 }  // namespace
 
-Decision decide(std::span<const Place> places, const std::optional<Pose2>& prior) {
+Decision decide(std::span<const Place> places, const std::optional<Prior>& prior) {
   Decision decision;
   if (places.empty()) return decision;
   const Belief belief(places.front());
@@ -96,8 +96,10 @@ Decision decide(std::span<const Place> places, const std::optional<Pose2>& prior
   if (!prior) return decision;
   std::size_t near = 0;
   for (std::size_t i = 0; i < decision.rivals; ++i) {
-    if (!same_place(places[i].refined.T_map_lidar, *prior, kPriorRadius_m, kPriorAngle_rad))
+    if (!same_place(places[i].refined.T_map_lidar, prior->T_map_lidar,
+                    kPriorRadius_m + prior->place_m, kPriorAngle_rad + prior->heading_rad)) {
       continue;
+    }
     decision.place = i;
     ++near;
   }

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "core/estimate/pose_memory.hpp"
 #include "core/localizer.hpp"
 #include "core/recognition/verification.hpp"
 
@@ -25,8 +26,8 @@ struct Decision {
 /// Names the fewest places, in the order of their likelihood, that leave out no more than
 /// kWrongFixRate of the turn's belief: one of them is a fix, several are ambiguous. `places`: the
 /// likeliest first. `prior`: where the robot should be by what was known before; it may choose
-/// among rivals, never against the turn.
-Decision decide(std::span<const Place> places, const std::optional<Pose2>& prior);
+/// among rivals where the robot can have come to no other one, never against the turn.
+Decision decide(std::span<const Place> places, const std::optional<Prior>& prior);
 
 /// How much the turn believes in a place next to the likeliest one: 1 for that one itself.
 double relative_belief(const Place& place, const Place& likeliest);

@@ -27,9 +27,9 @@ constexpr double kThroughShareAmongThings = 0.01;
 /// that of many places: then only several corners make one evident.
 constexpr double kWidestGap_rad = radians(170);
 
-bool is_whole(const Evidence& evidence) { return evidence.widest_gap_rad < kWidestGap_rad; }
-
 }  // namespace
+
+bool is_whole(double widest_gap_rad) { return widest_gap_rad < kWidestGap_rad; }
 
 bool leaves_no_doubt(const Explanation& explanation, bool expected) {
   return explanation.hits >= kCertainHits &&
@@ -39,19 +39,21 @@ bool leaves_no_doubt(const Explanation& explanation, bool expected) {
 bool is_evident(const Evidence& evidence) {
   const double hit_share = evidence.explanation.hit_share();
   if (hit_share >= kEvidentHitShareOfCorners && evidence.corners >= kEvidentCorners) return true;
-  if (!is_whole(evidence)) return false;
+  if (!is_whole(evidence.widest_gap_rad)) return false;
   return hit_share >= kEvidentHitShare ||
          (evidence.all_tried && hit_share >= kEvidentHitShareAmongThings && evidence.corners >= 1 &&
           evidence.explanation.through_share() <= kThroughShareAmongThings);
 }
 
 bool may_be_tracked(const Evidence& evidence) {
-  return is_whole(evidence) || evidence.corners >= 1;
+  return is_whole(evidence.widest_gap_rad) || (evidence.corners >= 1 && evidence.prior_is_fresh);
 }
 
-bool is_certain(const Evidence& evidence) {
-  return is_whole(evidence) && leaves_no_doubt(evidence.explanation, /*expected=*/false) &&
-         evidence.corners >= kCertainCorners;
+bool needs_a_second(const Evidence& evidence, bool expected, bool has_prior) {
+  if (!is_whole(evidence.widest_gap_rad)) return !(expected && evidence.prior_is_fresh);
+  const bool is_certain = leaves_no_doubt(evidence.explanation, /*expected=*/false) &&
+                          evidence.corners >= kCertainCorners;
+  return has_prior && !expected && !is_certain;
 }
 
 }  // namespace cornerd::core

@@ -49,17 +49,38 @@ TEST(PolarScan, AnyOrderAtAll_IsSorted) {
   EXPECT_TRUE(is_sorted(points));
 }
 
+/// Returns all the way from one bearing to the other.
+void append(PolarScan& points, double from_rad, double to_rad) {
+  for (double bearing_rad = from_rad; bearing_rad <= to_rad; bearing_rad += points.spacing_rad()) {
+    points.append(bearing_rad, 1);
+  }
+}
+
 TEST(PolarScan, WidestGap_GoesAcrossTheSeamToo) {
   PolarScan points;
   EXPECT_EQ(points.widest_gap_rad(), kTwoPi);
   points.begin(0.01);
   points.append(-1, 1);
   EXPECT_EQ(points.widest_gap_rad(), kTwoPi);
-  points.append(0.5, 1);
-  points.append(1, 1);
-  EXPECT_NEAR(points.widest_gap_rad(), kTwoPi - 2, 1e-12);
-  points.append(3, 1);
-  EXPECT_NEAR(points.widest_gap_rad(), kTwoPi - 4, 1e-12);
+  append(points, 0.5, 1.0001);
+  EXPECT_NEAR(points.widest_gap_rad(), kTwoPi - 0.5, 1e-9);
+  append(points, 2.5, 3.1001);
+  EXPECT_NEAR(points.widest_gap_rad(), kTwoPi - 2.6, 1e-9);
+}
+
+TEST(PolarScan, OutliersInTheDark_FillNoGap) {
+  PolarScan points;
+  points.begin(0.01);
+  for (const double bearing_rad : {-3.0, -2.0, -1.99, -1.0}) points.append(bearing_rad, 1);
+  append(points, 0, 3.0001);
+  EXPECT_NEAR(points.widest_gap_rad(), kTwoPi - 3, 1e-9);
+}
+
+TEST(PolarScan, SparseReturns_LeaveNoGap) {
+  PolarScan points;
+  points.begin(0.01);
+  for (int i = 0; i < 200; ++i) points.append(-kPi + i * kTwoPi / 200, 1);
+  EXPECT_LT(points.widest_gap_rad(), 0.1);
 }
 
 TEST(PolarScan, ReturnsOutsideTheLimits_AreLeftOut) {

@@ -21,7 +21,7 @@ Place place_at(double x_m, double log_likelihood, double of_things) {
 
 TEST(Decide, NoPlace_IsLost) {
   EXPECT_EQ(decide({}, std::nullopt).state, PoseState::kLost);
-  EXPECT_EQ(decide({}, Pose2{}).state, PoseState::kLost);
+  EXPECT_EQ(decide({}, Prior{}).state, PoseState::kLost);
 }
 
 TEST(Decide, OnePlaceFarAhead_IsAFix) {
@@ -81,19 +81,25 @@ TEST(Decide, WallsLessExactThanTheModel_WidenTheMargin) {
 
 TEST(Decide, PriorAtOneRival_ChoosesIt) {
   const std::vector<Place> places = {place_at(1, 1000, 1000), place_at(5, 995, 995)};
-  const Decision decision = decide(places, Pose2{5.1, 0.05, 0.1});
+  const Decision decision = decide(places, Prior{{5.1, 0.05, 0.1}});
   EXPECT_EQ(decision.state, PoseState::kTracking);
   EXPECT_EQ(decision.place, 1U);
 }
 
+TEST(Decide, PriorThatMayHaveComeToBothRivals_ChoosesNone) {
+  const std::vector<Place> places = {place_at(1, 1000, 1000), place_at(1.3, 995, 995)};
+  EXPECT_EQ(decide(places, Prior{{1, 0, 0}}).state, PoseState::kTracking);
+  EXPECT_EQ(decide(places, Prior{{1, 0, 0}, 0.1}).state, PoseState::kAmbiguous);
+}
+
 TEST(Decide, PriorSomewhereElse_ChoosesNothing) {
   const std::vector<Place> places = {place_at(1, 1000, 1000), place_at(5, 995, 995)};
-  EXPECT_EQ(decide(places, Pose2{3, 0, 0}).state, PoseState::kAmbiguous);
+  EXPECT_EQ(decide(places, Prior{{3, 0, 0}}).state, PoseState::kAmbiguous);
 }
 
 TEST(Decide, PriorAgainstAClearTurn_IsOverruled) {
   const std::vector<Place> places = {place_at(1, 1000, 1000), place_at(5, 500, 500)};
-  const Decision decision = decide(places, Pose2{5, 0, 0});
+  const Decision decision = decide(places, Prior{{5, 0, 0}});
   EXPECT_EQ(decision.state, PoseState::kFix);
   EXPECT_EQ(decision.place, 0U);
 }

@@ -60,19 +60,33 @@ TEST(Evidence, ThingsInTheWay_AreNotBelievedWhereOtherPlacesWereNotTried) {
 TEST(Evidence, HalfATurn_IsBelievedByItsCornersAlone) {
   EXPECT_FALSE(is_evident(evidence(790, 2, kHalfCovered_rad)));
   EXPECT_TRUE(is_evident(evidence(790, 3, kHalfCovered_rad)));
-  EXPECT_FALSE(is_certain(evidence(790, 3, kHalfCovered_rad)));
 }
 
-TEST(Evidence, HalfATurnOfARobotThatIsExpected_NeedsACorner) {
+TEST(Evidence, HalfATurnOfARobotThatIsExpected_NeedsACornerAndAFreshPrior) {
   EXPECT_TRUE(may_be_tracked(evidence(80, 0)));
-  EXPECT_TRUE(may_be_tracked(evidence(80, 1, kHalfCovered_rad)));
-  EXPECT_FALSE(may_be_tracked(evidence(80, 0, kHalfCovered_rad)));
+  Evidence half = evidence(80, 1, kHalfCovered_rad);
+  EXPECT_FALSE(may_be_tracked(half));
+  half.prior_is_fresh = true;
+  EXPECT_TRUE(may_be_tracked(half));
+  half.corners = 0;
+  EXPECT_FALSE(may_be_tracked(half));
 }
 
-TEST(Evidence, AJump_NeedsTwoCornersToBeCertain) {
-  EXPECT_TRUE(is_certain(evidence(780, 2)));
-  EXPECT_FALSE(is_certain(evidence(780, 1)));
-  EXPECT_FALSE(is_certain(evidence(770, 5)));
+TEST(Evidence, AJump_NeedsASecondTurnUnlessItIsCertain) {
+  EXPECT_FALSE(needs_a_second(evidence(780, 2), false, true));
+  EXPECT_TRUE(needs_a_second(evidence(780, 1), false, true));
+  EXPECT_TRUE(needs_a_second(evidence(770, 5), false, true));
+  EXPECT_FALSE(needs_a_second(evidence(770, 5), true, true));
+  EXPECT_FALSE(needs_a_second(evidence(770, 5), false, false));
+}
+
+TEST(Evidence, HalfATurn_NeedsASecondUnlessItIsWhereItShouldBe) {
+  Evidence half = evidence(790, 5, kHalfCovered_rad);
+  EXPECT_TRUE(needs_a_second(half, false, false));
+  EXPECT_TRUE(needs_a_second(half, true, true));
+  half.prior_is_fresh = true;
+  EXPECT_FALSE(needs_a_second(half, true, true));
+  EXPECT_TRUE(needs_a_second(half, false, true));
 }
 
 }  // namespace
