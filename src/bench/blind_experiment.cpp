@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "bench/experiment_robot.hpp"
 #include "bench/localization/pose_error.hpp"
 #include "bench/odometry_experiment.hpp"
 #include "core/pipeline.hpp"
@@ -24,30 +25,38 @@ class BlindScore {
   explicit BlindScore(BlindResult& result) : result_(result) {}
 
   void add(const core::PoseEstimate& pose, const core::Pose2& truth) {
-    const auto ages = std::find_if(result_.begin(), result_.end(),
+    if (pose.state == core::PoseState::kFix) add_to(result_.fixes, pose, truth);
+    if (pose.state != core::PoseState::kPredicted) return;
+    const auto ages = std::find_if(result_.carried_on.begin(), result_.carried_on.end(),
                                    [&](const BlindAges& a) { return pose.age_s < a.to_s; });
-    if (pose.state != core::PoseState::kPredicted || ages == result_.end()) return;
-    const PoseError error = error_of(pose.T_map_base, truth);
-    const double nees =
-        normalised_error_squared(pose, truth).value_or(std::numeric_limits<double>::infinity());
-    ++ages->poses;
-    ages->mean_m += error.place_m;
-    ages->worst_m = std::max(ages->worst_m, error.place_m);
-    ages->worst_rad = std::max(ages->worst_rad, error.heading_rad);
-    ages->mean_nees += nees;
-    ages->share_within += nees < kNees95 ? 1 : 0;
+    if (ages != result_.carried_on.end()) add_to(*ages, pose, truth);
   }
 
   void finish() {
-    for (BlindAges& ages : result_) {
-      const auto poses = static_cast<double>(std::max<std::size_t>(ages.poses, 1));
-      ages.mean_m /= poses;
-      ages.mean_nees /= poses;
-      ages.share_within /= poses;
-    }
+    make_means(result_.fixes);
+    for (BlindAges& ages : result_.carried_on) make_means(ages);
   }
 
  private:
+  static void add_to(PoseHonesty& honesty, const core::PoseEstimate& pose,
+                     const core::Pose2& truth) {
+    const PoseError error = error_of(pose.T_map_base, truth);
+    const double nees =
+        normalised_error_squared(pose, truth).value_or(std::numeric_limits<double>::infinity());
+    ++honesty.poses;
+    honesty.mean_m += error.place_m;
+    honesty.worst_m = std::max(honesty.worst_m, error.place_m);
+    honesty.worst_rad = std::max(honesty.worst_rad, error.heading_rad);
+    honesty.mean_nees += nees;
+    honesty.share_within += nees < kNees95 ? 1 : 0;
+  }
+  static void make_means(PoseHonesty& honesty) {
+    const auto poses = static_cast<double>(std::max<std::size_t>(honesty.poses, 1));
+    honesty.mean_m /= poses;
+    honesty.mean_nees /= poses;
+    honesty.share_within /= poses;
+  }
+
   BlindResult& result_;
 };
 
@@ -55,6 +64,11 @@ bool is_covered(const BlindCase& blind, core::TimeNs t_ns) {
   const double since_s = core::to_seconds(t_ns) - blind.first_s;
   return since_s >= 0 && std::fmod(since_s, blind.again_s) < blind.covered_s;
 }
+
+/// Seeds of the lidar, of wheels and gyro and of the robot: no two drives share any of them.
+constexpr std::uint64_t kStreams = 3;
+enum Stream : std::uint8_t { kLidarStream, kOdometryStream, kRobotStream };
+std::uint64_t seed_of(Stream stream, std::uint64_t drive) { return kStreams * drive + stream; }
 
 /// A robot whose errors are drawn from what the filter is told of them.
 void draw_errors(replay::RobotModel& robot, std::uint64_t seed) {
@@ -73,14 +87,14 @@ void drive_blind(std::shared_ptr<const core::WallMap> map, const BlindCase& blin
       replay::drive_path(replay::find_scenario("exploration")->path, gentle_drive());
   replay::SimulatorConfig simulated;
   simulated.sensor = blind.lidar;
-  simulated.seed = seed;
+  simulated.seed = seed_of(kLidarStream, seed);
   auto scene =
       std::make_unique<replay::CoverableScene>(std::make_unique<replay::MapScene>(map, motion));
   replay::CoverableScene& world = *scene;
   replay::Simulator simulator(std::move(scene), simulated);
   replay::RobotModel robot = blind.robot;
-  if (blind.draws_errors) draw_errors(robot, seed + 2);
-  replay::SimulatedOdometry odometry(motion, robot, seed + 1);
+  if (blind.draws_errors) draw_errors(robot, seed_of(kRobotStream, seed));
+  replay::SimulatedOdometry odometry(motion, robot, seed_of(kOdometryStream, seed));
 
   core::LocalizerConfig config;
   config.odometry.enabled = true;
@@ -95,7 +109,9 @@ void drive_blind(std::shared_ptr<const core::WallMap> map, const BlindCase& blin
           score.add(*pose, motion(pose->t_ns, 0));
         }
       }
-      pipeline.add(replay::to_sample(sample));
+      if (const core::TurnResult* result = pipeline.add(replay::to_sample(sample))) {
+        score.add(result->pose, motion(result->pose.t_ns, 0));
+      }
       now_ns = sample.t_ns;
     }
   }
@@ -114,12 +130,26 @@ std::vector<BlindCase> blind_cases() {
     cases.back().title = title;
     differ(cases.back());
   };
-  add("twice the noise", [](BlindCase& blind) {
+  const auto twice_the_noise = [](BlindCase& blind) {
     blind.robot.wheel_m_per_sqrt_m = 0.002;
     blind.robot.gyro_rad_s_per_sqrt_hz = 0.0005;
+  };
+  const auto slips = [](BlindCase& blind) { blind.robot.slips_per_m = 0.3; };
+  const auto no_gyro = [](BlindCase& blind) { blind.robot.has_gyro = false; };
+  const auto pioneer = [](BlindCase& blind) {
+    blind.robot.geometry = odometry_robots().front().model.geometry;
+  };
+  add("twice the noise", twice_the_noise);
+  add("slips every 3 m", slips);
+  add("no gyro", no_gyro);
+  add("no gyro, twice the noise", [&](BlindCase& blind) {
+    no_gyro(blind);
+    twice_the_noise(blind);
   });
-  add("slips every 3 m", [](BlindCase& blind) { blind.robot.slips_per_m = 0.3; });
-  add("no gyro", [](BlindCase& blind) { blind.robot.has_gyro = false; });
+  add("no gyro, slips every 3 m", [&](BlindCase& blind) {
+    no_gyro(blind);
+    slips(blind);
+  });
   add("counts of 5 mm", [](BlindCase& blind) { blind.robot.geometry.counts_per_turn = 40; });
   add("after 3 s, robots drawn", [](BlindCase& blind) {
     blind.first_s = 3;
@@ -131,17 +161,26 @@ std::vector<BlindCase> blind_cases() {
     blind.lidar.range_offset_m = 0.005;
     blind.lidar.range_scale = 1.005;
   });
-  add("Pioneer P3-DX",
-      [](BlindCase& blind) { blind.robot.geometry = odometry_robots().front().model.geometry; });
+  add("Pioneer P3-DX", pioneer);
+  add("Pioneer, no gyro", [&](BlindCase& blind) {
+    pioneer(blind);
+    no_gyro(blind);
+  });
+  add("Pioneer, slips every 3 m", [&](BlindCase& blind) {
+    pioneer(blind);
+    slips(blind);
+  });
   return cases;
 }
 
 BlindResult run_blind_case(std::shared_ptr<const core::WallMap> map, const BlindCase& blind,
                            std::uint64_t seed, std::size_t drives) {
-  BlindResult result{{{.from_s = 0, .to_s = 0.25},
-                      {.from_s = 0.25, .to_s = 1},
-                      {.from_s = 1, .to_s = 2},
-                      {.from_s = 2, .to_s = 5}}};
+  BlindResult result;
+  constexpr double kAges_s[] = {0, 0.25, 1, 2, 5};
+  for (std::size_t i = 0; i < result.carried_on.size(); ++i) {
+    result.carried_on[i].from_s = kAges_s[i];
+    result.carried_on[i].to_s = kAges_s[i + 1];
+  }
   BlindScore score(result);
   drives *= blind.drives_for_one;
   for (std::size_t i = 0; i < drives; ++i) drive_blind(map, blind, seed + i, score);

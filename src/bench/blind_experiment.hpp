@@ -29,10 +29,8 @@ struct BlindCase {
   std::size_t drives_for_one = 1;  ///< where they are short: so many instead of one
 };
 
-/// Poses of one range of ages.
-struct BlindAges {
-  double from_s = 0;
-  double to_s = 0;
+/// Poses against the truth, and what they say of their doubt.
+struct PoseHonesty {
   std::size_t poses = 0;
   double mean_m = 0;
   double worst_m = 0;
@@ -41,8 +39,17 @@ struct BlindAges {
   double share_within = 0;  ///< of those whose NEES is under kNees95, 95 % of them if it is exact
 };
 
-/// Ages as the table has them: what lies between two turns, then the lidar covered.
-using BlindResult = std::array<BlindAges, 4>;
+/// Poses of one range of ages.
+struct BlindAges : PoseHonesty {
+  double from_s = 0;
+  double to_s = 0;
+};
+
+struct BlindResult {
+  PoseHonesty fixes;
+  /// What lies between two turns, then the lidar covered.
+  std::array<BlindAges, 4> carried_on;
+};
 
 /// Robots that are as wrong as in the table of the modes, one that slips, and others.
 std::vector<BlindCase> blind_cases();

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "bench/building.hpp"
-#include "replay/simulator/motion.hpp"
+#include "bench/experiment_robot.hpp"
 
 namespace cornerd::bench {
 namespace {
@@ -19,24 +19,16 @@ constexpr std::size_t kRoomsInARow = 4;
 
 SimulatedDrive slipping_drive(core::FloorPlan plan, const std::vector<Vec2>& path,
                               std::size_t turns, std::uint64_t seed, bool has_odometry) {
-  replay::DriveConfig drive;
-  drive.speed_m_s = 0.6;
-  drive.acceleration_m_s2 = 1;
-  drive.yaw_acceleration_rad_s2 = 6;
-  drive.loop = true;
   SimulatedDriveConfig config;
   config.turns = turns;
   config.has_odometry = has_odometry;
   config.simulator.seed = seed;
   config.simulator.sensor.max_range_m = kShortRange_m;
-  config.robot.left_scale = 0.015;
-  config.robot.right_scale = 0.025;
-  config.robot.gyro_scale = 0.02;
-  config.robot.gyro_bias_rad_s = 0.01;
+  config.robot = wrong_robot();
   config.robot.slips_per_m = 0.3;
   config.robot.slip_share = 10;
   return simulate_drive(std::make_shared<const core::WallMap>(std::move(plan)),
-                        replay::drive_path(path, drive), config);
+                        replay::drive_path(path, gentle_drive(0.6)), config);
 }
 
 }  // namespace

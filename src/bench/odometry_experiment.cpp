@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "bench/odometry_experiment.hpp"
 
+#include "bench/experiment_robot.hpp"
 #include "core/odometry/reading_gate.hpp"
 #include "replay/simulator/motion.hpp"
 #include "replay/simulator/simulated_odometry.hpp"
@@ -10,14 +11,35 @@ namespace {
 
 using core::HeadingSource;
 
-/// How often the truth is looked at, as often as a lidar turns.
-constexpr core::TimeNs kLook_ns = 140'000'000;
+/// How often the truth is looked at: at the ends of the paper's steps.
+constexpr core::TimeNs kLook_ns = kPaperStep_ns;
 
 struct Drive {
   core::DriveGeometry geometry;
   std::vector<core::MotionStep> steps;
+  std::vector<core::MotionStep> paper_steps;  ///< the same, joined
   std::vector<calibration::KnownPlace> places;
 };
+
+/// Steps that end where a paper's step ends.
+std::vector<core::MotionStep> joined(const std::vector<core::MotionStep>& steps) {
+  std::vector<core::MotionStep> joined;
+  bool goes_on = false;
+  for (const core::MotionStep& step : steps) {
+    if (goes_on) {
+      core::MotionStep& last = joined.back();
+      last.to_ns = step.to_ns;
+      last.left_m += step.left_m;
+      last.right_m += step.right_m;
+      last.gyro_rad += step.gyro_rad;
+      last.has_gyro = last.has_gyro && step.has_gyro;
+    } else {
+      joined.push_back(step);
+    }
+    goes_on = step.to_ns % kPaperStep_ns != 0;
+  }
+  return joined;
+}
 
 Drive drive_once(const OdometryRobot& robot, const replay::Scenario& scenario, std::uint64_t seed) {
   const replay::Motion motion = replay::drive_path(scenario.path, gentle_drive());
@@ -32,25 +54,33 @@ Drive drive_once(const OdometryRobot& robot, const replay::Scenario& scenario, s
   while (odometry.next_ns() <= end_ns) {
     if (const auto step = gate.add(odometry.next(), std::nullopt)) drive.steps.push_back(*step);
   }
+  drive.paper_steps = joined(drive.steps);
   for (core::TimeNs t_ns = 0; t_ns <= end_ns; t_ns += kLook_ns) {
     drive.places.push_back({t_ns, motion(t_ns, 0)});
   }
   return drive;
 }
 
-ReckonedTrack reckon_by_mode(const Drive& drive, HeadingSource source,
-                             const std::optional<core::PaperFactors>& factors) {
-  ReckonedTrack track{.source = source, .factors = factors, .error = {}, .points = {}};
-  const core::DeadReckoningConfig config{source, factors.value_or(core::PaperFactors{})};
-  track.error =
-      calibration::reckon(drive.steps, drive.places, drive.geometry, config, &track.points);
+ReckonedTrack reckon_by_mode(const Drive& drive, HeadingSource source, bool as_printed,
+                             bool with_factors) {
+  ReckonedTrack track;
+  track.source = source;
+  track.as_printed = as_printed;
+  const auto& steps = as_printed ? drive.paper_steps : drive.steps;
+  core::DeadReckoningConfig config{source, {}};
+  if (as_printed) config.factors.dead_band_rad = kPaperDeadBand_rad;
+  if (with_factors) {
+    track.factors = calibration::search_factors(steps, drive.places, drive.geometry, config);
+    config.factors = track.factors->factors;
+  }
+  track.error = calibration::reckon(steps, drive.places, drive.geometry, config, &track.points);
   return track;
 }
 
 /// The heading is the gyro's, its errors and the wheels' taken off.
 ReckonedTrack reckon_by_fit(const Drive& drive, const core::LearnedOdometry& learned) {
-  ReckonedTrack track{
-      .source = HeadingSource::kFilter, .factors = std::nullopt, .error = {}, .points = {}};
+  ReckonedTrack track;
+  track.source = HeadingSource::kFilter;
   track.error =
       calibration::reckon(drive.steps, drive.places, drive.geometry, learned, &track.points);
   return track;
@@ -58,21 +88,8 @@ ReckonedTrack reckon_by_fit(const Drive& drive, const core::LearnedOdometry& lea
 
 }  // namespace
 
-replay::DriveConfig gentle_drive() {
-  replay::DriveConfig drive;
-  drive.speed_m_s = 0.4;
-  drive.acceleration_m_s2 = 1;
-  drive.yaw_acceleration_rad_s2 = 6;
-  drive.loop = true;
-  return drive;
-}
-
 std::vector<OdometryRobot> odometry_robots() {
-  replay::RobotModel wrong;
-  wrong.left_scale = 0.015;
-  wrong.right_scale = 0.025;
-  wrong.gyro_scale = 0.02;
-  wrong.gyro_bias_rad_s = 0.01;
+  replay::RobotModel wrong = wrong_robot();
   wrong.slips_per_m = 0.05;
   OdometryRobot pioneer{"Pioneer P3-DX", "pioneer", wrong};
   pioneer.model.geometry = {.wheel_radius_m = 0.0975, .track_m = 0.331, .counts_per_turn = 76600};
@@ -93,17 +110,16 @@ OdometryResult run_odometry_case(const OdometryRobot& robot, const replay::Scena
   }
   constexpr HeadingSource kModes[] = {HeadingSource::kEncoder, HeadingSource::kGyro,
                                       HeadingSource::kMean, HeadingSource::kWeighted};
-  for (const HeadingSource mode : kModes) {
-    // Without factors the weighted mean is the mean.
-    if (mode != HeadingSource::kWeighted) {
-      result.tracks.push_back(reckon_by_mode(drive, mode, std::nullopt));
+  for (const bool as_printed : {true, false}) {
+    for (const HeadingSource mode : kModes) {
+      // Without factors the weighted mean is the mean.
+      if (mode == HeadingSource::kWeighted) continue;
+      result.tracks.push_back(reckon_by_mode(drive, mode, as_printed, /*with_factors=*/false));
     }
-  }
-  for (const HeadingSource mode : kModes) {
-    if (mode == HeadingSource::kMean) continue;
-    const core::PaperFactors factors =
-        calibration::search_factors(drive.steps, drive.places, drive.geometry, {mode, {}});
-    result.tracks.push_back(reckon_by_mode(drive, mode, factors));
+    for (const HeadingSource mode : kModes) {
+      if (mode == HeadingSource::kMean) continue;
+      result.tracks.push_back(reckon_by_mode(drive, mode, as_printed, /*with_factors=*/true));
+    }
   }
   if (const auto fit = calibration::fit_odometry(drive.steps, drive.places, drive.geometry)) {
     result.tracks.push_back(reckon_by_fit(drive, fit->learned));

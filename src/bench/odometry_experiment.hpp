@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "calibration/factor_search.hpp"
 #include "calibration/odometry_fit.hpp"
 #include "core/geometry/pose2.hpp"
 #include "core/odometry/dead_reckoning.hpp"
@@ -24,17 +25,19 @@ struct OdometryRobot {
   replay::RobotModel model;
 };
 
-/// How the robots of these experiments drive: 0.4 m/s, and no wheel slips by its own doing.
-replay::DriveConfig gentle_drive();
-
-/// A Pioneer P3-DX and a robot of 16 cm, both as wrong: wheels 1.5 and 2.5 % larger than
-/// configured, the gyro 2 % and 0.01 rad/s off, a wheel that slips every 20 m.
+/// A Pioneer P3-DX and a robot of 16 cm, both as wrong_robot(), a wheel slipping every 20 m.
 std::vector<OdometryRobot> odometry_robots();
+
+/// The paper's threshold tr, and how long its steps are that it holds for.
+inline constexpr double kPaperDeadBand_rad = 0.01;
+inline constexpr core::TimeNs kPaperStep_ns = core::kNsPerSecond / 10;
 
 /// A drive as one way of reckoning has it.
 struct ReckonedTrack {
   core::HeadingSource source = core::HeadingSource::kEncoder;  ///< kFilter: by least squares
-  std::optional<core::PaperFactors> factors;                   ///< found on this very drive
+  /// The paper's steps and dead band; else each reading is a step and nothing is left out.
+  bool as_printed = false;
+  std::optional<calibration::FoundFactors> factors;  ///< found on this very drive
   calibration::DriveError error;
   calibration::DrivePoints points;
 };
@@ -43,7 +46,8 @@ struct OdometryResult {
   std::string_view scenario;
   double length_m = 0;
   std::vector<core::Vec2> truth;
-  /// The modes without factors, then those that have any with them, then least squares.
+  /// The modes without factors, then those that have any with them; first as printed, then without
+  /// the dead band. Then least squares.
   std::vector<ReckonedTrack> tracks;
 };
 

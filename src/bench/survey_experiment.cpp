@@ -6,6 +6,7 @@
 #include <ctime>
 #include <utility>
 
+#include "bench/experiment_robot.hpp"
 #include "core/localizer.hpp"
 #include "replay/simulator/scenarios.hpp"
 #include "survey/ransac_survey.hpp"
@@ -14,21 +15,14 @@ namespace cornerd::bench {
 
 SimulatedDrive survey_drive(std::shared_ptr<const core::WallMap> map, std::size_t turns,
                             std::uint64_t seed, bool has_odometry) {
-  replay::DriveConfig drive;
-  drive.speed_m_s = 0.4;
-  drive.acceleration_m_s2 = 1;
-  drive.yaw_acceleration_rad_s2 = 6;
-  drive.loop = true;
   SimulatedDriveConfig config;
   config.turns = turns;
   config.simulator.seed = seed;
   config.has_odometry = has_odometry;
-  config.robot.left_scale = 0.015;
-  config.robot.right_scale = 0.025;
-  config.robot.gyro_scale = 0.02;
-  config.robot.gyro_bias_rad_s = 0.01;
+  config.robot = wrong_robot();
   const replay::Scenario* exploration = replay::find_scenario("exploration");
-  return simulate_drive(std::move(map), replay::drive_path(exploration->path, drive), config);
+  return simulate_drive(std::move(map), replay::drive_path(exploration->path, gentle_drive()),
+                        config);
 }
 
 LocalizationScore localize_drive(std::shared_ptr<const core::WallMap> map,

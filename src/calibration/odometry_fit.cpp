@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <vector>
 
 #include <Eigen/Cholesky>
@@ -58,10 +59,11 @@ Moved moved_by(const MotionStep& step, const core::DriveGeometry& geometry,
   return moved;
 }
 
-/// Walks through the steps, and looks at each known place where the robot has got to.
-template <typename Motion>
+/// Walks through the steps, and looks at each known place where the robot has got to. `prepare` has
+/// whole steps, `motion` those parts of them that lie between two places.
+template <typename Prepare, typename Motion>
 DriveError walk(std::span<const MotionStep> steps, std::span<const KnownPlace> places,
-                DrivePoints* points, const Motion& motion) {
+                DrivePoints* points, const Prepare& prepare, const Motion& motion) {
   DriveError error;
   std::size_t next = 0;
   while (next < places.size() && !steps.empty() && places[next].t_ns < steps.front().from_ns) {
@@ -73,7 +75,7 @@ DriveError walk(std::span<const MotionStep> steps, std::span<const KnownPlace> p
   ++next;
   for (const MotionStep& step : steps) {
     if (step.to_ns <= now_ns) continue;
-    MotionStep rest = step;
+    MotionStep rest = prepare(step);
     if (rest.from_ns < now_ns) rest.split(now_ns);
     while (next < places.size() && places[next].t_ns <= rest.to_ns) {
       if (places[next].t_ns > rest.from_ns && places[next].t_ns < rest.to_ns) {
@@ -163,46 +165,22 @@ Residuals residuals_of(const Window& window, const core::DriveGeometry& geometry
 DriveError reckon(std::span<const MotionStep> steps, std::span<const KnownPlace> places,
                   const core::DriveGeometry& geometry, const core::DeadReckoningConfig& config,
                   DrivePoints* points) {
-  return walk(steps, places, points, [&](const MotionStep& step) {
-    const MotionStep alone = core::by_wheels_alone(step, geometry, config);
-    return core::arc(alone.way_m(), (alone.right_m - alone.left_m) / geometry.track_m);
-  });
+  // A dead band is for whole steps: parts of them would stay under it.
+  return walk(
+      steps, places, points,
+      [&](const MotionStep& step) { return core::by_wheels_alone(step, geometry, config); },
+      [&](const MotionStep& alone) {
+        return core::arc(alone.way_m(), (alone.right_m - alone.left_m) / geometry.track_m);
+      });
 }
 
 DriveError reckon(std::span<const MotionStep> steps, std::span<const KnownPlace> places,
                   const core::DriveGeometry& geometry, const core::LearnedOdometry& learned,
                   DrivePoints* points) {
-  return walk(steps, places, points, [&](const MotionStep& step) {
+  return walk(steps, places, points, std::identity(), [&](const MotionStep& step) {
     const Moved moved = moved_by(step, geometry, learned);
     return core::arc(moved.way_m, moved.turn_rad);
   });
-}
-
-core::PaperFactors search_factors(std::span<const MotionStep> steps,
-                                  std::span<const KnownPlace> places,
-                                  const core::DriveGeometry& geometry,
-                                  const core::DeadReckoningConfig& start) {
-  const bool by_encoder = start.source != core::HeadingSource::kGyro;
-  const bool by_gyro = start.source != core::HeadingSource::kEncoder;
-  core::DeadReckoningConfig best = start;
-  double least_m = reckon(steps, places, geometry, best).mean_m;
-  const auto search = [&](int count, double step) {
-    const core::PaperFactors around = best.factors;
-    for (int i = by_encoder ? -count : 0; i <= (by_encoder ? count : 0); ++i) {
-      for (int k = by_gyro ? -count : 0; k <= (by_gyro ? count : 0); ++k) {
-        core::DeadReckoningConfig tried = best;
-        tried.factors.encoder_factor = around.encoder_factor + i * step;
-        tried.factors.gyro_factor = around.gyro_factor + k * step;
-        const double mean_m = reckon(steps, places, geometry, tried).mean_m;
-        if (mean_m >= least_m) continue;
-        least_m = mean_m;
-        best = tried;
-      }
-    }
-  };
-  search(20, 0.01);
-  search(9, 0.001);
-  return best.factors;
 }
 
 std::optional<OdometryFit> fit_odometry(std::span<const MotionStep> steps,
@@ -241,7 +219,7 @@ std::optional<OdometryFit> fit_odometry(std::span<const MotionStep> steps,
     }
     solver.compute(information);
     p -= solver.solve(gradient);
-    p = p.cwiseMax(-0.5).cwiseMin(0.5);
+    p = p.cwiseMax(-kMostFittedScale).cwiseMin(kMostFittedScale);
   }
   const Matrix covariance = solver.solve(Matrix::Identity());
   if (!p.allFinite() || !covariance.allFinite()) return std::nullopt;

@@ -39,12 +39,8 @@ DriveError reckon(std::span<const core::MotionStep> steps, std::span<const Known
                   const core::DriveGeometry& geometry, const core::LearnedOdometry& learned,
                   DrivePoints* points = nullptr);
 
-/// Bertocco et al.: the factors of a mode for which the mean error is least, by grid search from
-/// 0.8 to 1.2 in steps of 0.01, then of 0.001 around the best.
-core::PaperFactors search_factors(std::span<const core::MotionStep> steps,
-                                  std::span<const KnownPlace> places,
-                                  const core::DriveGeometry& geometry,
-                                  const core::DeadReckoningConfig& start);
+/// A scale is believed to be no larger: one that ends there means that the geometry is wrong.
+inline constexpr double kMostFittedScale = 0.5;
 
 struct OdometryFit {
   core::LearnedOdometry learned;

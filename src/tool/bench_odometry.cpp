@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "tool/bench_odometry.hpp"
 
+#include <algorithm>
 #include <memory>
 #include <string_view>
 #include <system_error>
@@ -12,6 +13,7 @@
 #include "settings/map_file.hpp"
 #include "tool/blind_report.hpp"
 #include "tool/contest_maps.hpp"
+#include "tool/factors_text.hpp"
 #include "tool/failure.hpp"
 #include "tool/map_drawing.hpp"
 #include "tool/output.hpp"
@@ -56,33 +58,64 @@ std::string title_of(const ReckonedTrack& track) {
 }
 
 std::string factors_text(const ReckonedTrack& track) {
-  if (!track.factors) return "-";
-  const core::PaperFactors& factors = *track.factors;
-  if (track.source == HeadingSource::kEncoder) return formatted("%.3f", factors.encoder_factor);
-  if (track.source == HeadingSource::kGyro) return formatted("%.3f", factors.gyro_factor);
-  return formatted("%.3f, %.3f", factors.encoder_factor, factors.gyro_factor);
+  return track.factors ? describe_factors(track.source, *track.factors) : "-";
+}
+
+/// The same mode without the dead band; itself where there is none.
+const ReckonedTrack& without_dead_band(const OdometryResult& drive, const ReckonedTrack& track) {
+  const auto other = std::find_if(drive.tracks.begin(), drive.tracks.end(), [&](const auto& one) {
+    return one.source == track.source && !one.as_printed &&
+           one.factors.has_value() == track.factors.has_value();
+  });
+  return other == drive.tracks.end() ? track : *other;
 }
 
 std::string table_of(const OdometryResult& drive) {
   TextTable table;
-  table.add_row({"heading from", "factors", "mean [m]", "end [m]"});
+  table.add_row(
+      {"heading from", "factors", "mean [m]", "end [m]", "factors", "mean [m]", "end [m]"});
   for (const ReckonedTrack& track : drive.tracks) {
-    table.add_row({title_of(track), factors_text(track), formatted("%.3f", track.error.mean_m),
-                   formatted("%.3f", track.error.end_m)});
+    if (!track.as_printed && track.source != HeadingSource::kFilter) continue;
+    std::vector<std::string> row = {title_of(track)};
+    const auto add = [&row](const ReckonedTrack& one) {
+      row.push_back(factors_text(one));
+      row.push_back(formatted("%.3f", one.error.mean_m));
+      row.push_back(formatted("%.3f", one.error.end_m));
+    };
+    if (track.as_printed) {
+      add(track);
+    } else {
+      row.insert(row.end(), 3, "-");
+    }
+    add(without_dead_band(drive, track));
+    table.add_row(row);
   }
   return formatted("%.*s, %.1f m\n", static_cast<int>(drive.scenario.size()), drive.scenario.data(),
                    drive.length_m) +
          table.text() + '\n';
 }
 
+bool has_factors_at_edge(const RobotResults& results) {
+  for (const OdometryResult& drive : results.drives) {
+    for (const ReckonedTrack& track : drive.tracks) {
+      if (track.factors && track.factors->at_edge()) return true;
+    }
+  }
+  return false;
+}
+
 std::string odometry_text(const std::vector<RobotResults>& robots) {
   std::string text =
       "Odometry alone: how far off it is, in the mean and at the end, once around. Factors are\n"
-      "found on the very drive.\n\n";
+      "found on the very drive. Left as printed: a step every 0.1 s, changes of an angle under\n"
+      "0.01 rad count as none. Right: every reading is a step, and none is left out.\n\n";
+  bool at_edge = false;
   for (const RobotResults& results : robots) {
     text.append(results.robot.title).append("\n\n");
     for (const OdometryResult& drive : results.drives) text.append(table_of(drive));
+    at_edge = at_edge || has_factors_at_edge(results);
   }
+  if (at_edge) return text.append(kEdgeText);
   text.pop_back();
   return text;
 }
@@ -95,9 +128,11 @@ std::string odometry_json(const std::vector<RobotResults>& robots,
       nlohmann::ordered_json tracks = nlohmann::ordered_json::array();
       for (const ReckonedTrack& track : drive.tracks) {
         nlohmann::ordered_json figures = {{"heading", name_of(track.source)}};
+        if (track.source != HeadingSource::kFilter) figures["as_printed"] = track.as_printed;
         if (track.factors) {
-          figures["encoder_factor"] = track.factors->encoder_factor;
-          figures["gyro_factor"] = track.factors->gyro_factor;
+          figures["encoder_factor"] = track.factors->factors.encoder_factor;
+          figures["gyro_factor"] = track.factors->factors.gyro_factor;
+          figures["at_edge"] = track.factors->at_edge();
         }
         figures["mean_error"] = track.error.mean_m;
         figures["end_error"] = track.error.end_m;
@@ -117,20 +152,22 @@ std::string odometry_json(const std::vector<RobotResults>& robots,
 
 /// The modes as they are, or with their factors and least squares.
 std::string draw_tracks(const core::WallMap& map, const bench::OdometryRobot& robot,
-                        const OdometryResult& drive, bool with_factors) {
+                        const OdometryResult& drive, bool with_factors, bool as_printed) {
   MapDrawing drawing(map);
   drawing.add_path(drive.truth, /*truth=*/true);
   drawing.add_legend("truth", "#2f3640");
   for (const ReckonedTrack& track : drive.tracks) {
-    const bool is_fitted = track.factors || track.source == HeadingSource::kFilter;
-    if (is_fitted != with_factors) continue;
+    const bool is_least_squares = track.source == HeadingSource::kFilter;
+    if ((track.factors || is_least_squares) != with_factors) continue;
+    if (track.as_printed != as_printed && !is_least_squares) continue;
     constexpr std::string_view kInks[] = {"#c2255c", "#2f6f9f", "#d9822b", "#d9822b", "#1b9e77"};
     const std::string_view ink = kInks[static_cast<std::size_t>(track.source)];
     drawing.add_track(track.points, ink);
     drawing.add_legend(title_of(track), ink);
   }
   return drawing.document(std::string(robot.title) + ", " + std::string(drive.scenario) +
-                          (with_factors ? ": odometry with factors" : ": odometry as it comes"));
+                          (with_factors ? ": odometry with factors" : ": odometry as it comes") +
+                          (as_printed ? "" : ", no dead band"));
 }
 
 void save_picture(const std::filesystem::path& file, const std::string& document) {
@@ -180,9 +217,14 @@ void run_odometry_bench(const OdometryBenchOptions& options) {
     for (const OdometryResult& drive : results.drives) {
       if (options.plots.empty()) break;
       const std::string name = std::string(results.robot.name) + '-' + std::string(drive.scenario);
-      save_picture(options.plots / (name + ".svg"), draw_tracks(*map, results.robot, drive, false));
-      save_picture(options.plots / (name + "-factors.svg"),
-                   draw_tracks(*map, results.robot, drive, true));
+      for (const bool with_factors : {false, true}) {
+        for (const bool as_printed : {true, false}) {
+          const std::string variant = std::string(with_factors ? "-factors" : "") +
+                                      (as_printed ? "" : "-no-dead-band") + ".svg";
+          save_picture(options.plots / (name + variant),
+                       draw_tracks(*map, results.robot, drive, with_factors, as_printed));
+        }
+      }
     }
   }
   if (json) {

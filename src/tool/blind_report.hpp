@@ -13,7 +13,7 @@ namespace cornerd::tool {
 
 struct BlindRow {
   std::string_view title;
-  bench::BlindResult ages;
+  bench::BlindResult result;
 };
 
 std::string blind_text(const std::vector<BlindRow>& rows);

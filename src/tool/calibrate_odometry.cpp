@@ -2,6 +2,7 @@
 // cornerctl calibrate odometry: what wheels and gyro are off by, from a recorded drive.
 #include "tool/calibrate_odometry.hpp"
 
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -12,6 +13,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "calibration/factor_search.hpp"
 #include "calibration/filtered_drive.hpp"
 #include "calibration/odometry_fit.hpp"
 #include "core/odometry/reading_gate.hpp"
@@ -19,6 +21,7 @@
 #include "replay/recording.hpp"
 #include "settings/map_file.hpp"
 #include "tool/drive_drawing.hpp"
+#include "tool/factors_text.hpp"
 #include "tool/failure.hpp"
 #include "tool/options.hpp"
 #include "tool/output.hpp"
@@ -110,16 +113,14 @@ std::vector<std::string> row(const char* name, const std::string& factors,
   return {name, factors, formatted("%.3f", error.mean_m), formatted("%.3f", error.end_m)};
 }
 
-std::string describe_factors(HeadingSource source, const core::PaperFactors& factors) {
-  if (source == HeadingSource::kEncoder) return formatted("%.3f", factors.encoder_factor);
-  if (source == HeadingSource::kGyro) return formatted("%.3f", factors.gyro_factor);
-  return formatted("%.3f, %.3f", factors.encoder_factor, factors.gyro_factor);
-}
-
 std::string describe_learned(const calibration::OdometryFit& fit) {
   TextTable table;
+  bool at_bound = false;
   const auto add = [&](const char* name, double value, double sigma) {
-    table.add_row({name, formatted("%+.5f", value), formatted("+- %.5f", sigma)});
+    const bool is_bound = std::abs(value) >= calibration::kMostFittedScale;
+    at_bound = at_bound || is_bound;
+    table.add_row(
+        {name, formatted("%+.5f", value) + (is_bound ? "*" : ""), formatted("+- %.5f", sigma)});
   };
   add("left wheel", fit.learned.left_scale, fit.sigma.left_scale);
   add("right wheel", fit.learned.right_scale, fit.sigma.right_scale);
@@ -128,7 +129,10 @@ std::string describe_learned(const calibration::OdometryFit& fit) {
     add("gyro scale", fit.learned.gyro_scale, fit.sigma.gyro_scale);
     add("gyro bias, rad/s", fit.learned.gyro_bias_rad_s, fit.sigma.gyro_bias_rad_s);
   }
-  return table.text();
+  constexpr const char* kBoundText =
+      "* as far off as is believed: correct odometry.track, wheel_radius or counts_per_turn "
+      "first\n";
+  return table.text() + (at_bound ? kBoundText : "");
 }
 
 std::string fragment(const calibration::OdometryFit& fit, const core::PaperFactors& factors) {
@@ -196,6 +200,7 @@ void calibrate_odometry(const CalibrateOdometryOptions& options) {
   table.add_row({"heading from", "factors", "mean error, m", "at the end, m"});
   const double dead_band_rad = config.odometry.core.paper.dead_band_rad;
   core::PaperFactors weighted;
+  bool at_edge = false;
   const std::pair<HeadingSource, const char*> modes[] = {{HeadingSource::kEncoder, "encoder"},
                                                          {HeadingSource::kGyro, "gyro"},
                                                          {HeadingSource::kMean, "mean"},
@@ -207,9 +212,11 @@ void calibrate_odometry(const CalibrateOdometryOptions& options) {
       table.add_row(row(name, "none", reckon(drive.steps, drive.places, geometry, reckoning)));
     }
     if (source == HeadingSource::kMean) continue;
-    reckoning.factors = search_factors(drive.steps, drive.places, geometry, reckoning);
+    const auto found = search_factors(drive.steps, drive.places, geometry, reckoning);
+    at_edge = at_edge || found.at_edge();
+    reckoning.factors = found.factors;
     if (source == HeadingSource::kWeighted) weighted = reckoning.factors;
-    table.add_row(row(name, describe_factors(source, reckoning.factors),
+    table.add_row(row(name, describe_factors(source, found),
                       reckon(drive.steps, drive.places, geometry, reckoning)));
   }
   table.add_row(
@@ -222,6 +229,7 @@ void calibrate_odometry(const CalibrateOdometryOptions& options) {
   report.write(formatted("The drive by wheels and gyro alone, against %zu known places:\n",
                          drive.places.size()));
   report.write(table.text());
+  if (at_edge) report.write(std::string(kEdgeText));
   report.write(
       formatted("\nLeast squares over %zu windows of a second, as shares:\n", fit->windows));
   report.write(describe_learned(*fit));

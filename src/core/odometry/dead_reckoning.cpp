@@ -22,7 +22,8 @@ double heading_change(const MotionStep& step, const DriveGeometry& geometry,
   const double radius_m = geometry.wheel_radius_m;
   const double left_m = counted(step.left_m, radius_m, config.factors.dead_band_rad);
   const double right_m = counted(step.right_m, radius_m, config.factors.dead_band_rad);
-  const double by_encoder = config.factors.encoder_factor * (right_m - left_m) / geometry.track_m;
+  const double encoder_rad = (right_m - left_m) / geometry.track_m;
+  const double by_encoder = config.factors.encoder_factor * encoder_rad;
   const double by_gyro = config.factors.gyro_factor * step.gyro_rad;
   double change_rad = by_encoder;
   if (step.has_gyro) {
@@ -33,7 +34,7 @@ double heading_change(const MotionStep& step, const DriveGeometry& geometry,
         change_rad = by_gyro;
         break;
       case HeadingSource::kMean:
-        change_rad = (by_encoder / config.factors.encoder_factor + step.gyro_rad) / 2;
+        change_rad = (encoder_rad + step.gyro_rad) / 2;
         break;
       case HeadingSource::kWeighted:
       case HeadingSource::kFilter:

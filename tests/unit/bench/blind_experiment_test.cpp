@@ -22,33 +22,72 @@ BlindResult run(std::string_view title, std::size_t drives) {
                         1, drives);
 }
 
-TEST(BlindExperiment, CarriedOnPoses_AreHonestBetweenTurnsAndFiveSecondsLater) {
-  // 3 is exact, and 95 %; three drives are a rough measure.
-  for (const BlindAges& ages : run("16 cm robot", 3)) {
-    EXPECT_GT(ages.poses, 2000u);
-    EXPECT_GT(ages.mean_nees, 1.4) << ages.from_s;
-    EXPECT_LT(ages.mean_nees, 4) << ages.from_s;
-    EXPECT_GT(ages.share_within, 0.9) << ages.from_s;
+/// 3 is exact. Two drives are a rough measure, and the filter reckons with a little more noise than
+/// these robots have; but a tenth of it would be as wrong as ten times as much.
+constexpr double kLeastNees = 1.4;
+constexpr double kMostNees = 4;
+
+struct RobotBounds {
+  const char* title;
+  double most_nees_of_fixes = kMostNees;
+  double most_nees = kMostNees;
+  double least_share = 0.9;  ///< of 95 %
+};
+
+void expect_honest(const PoseHonesty& poses, double most_nees, double least_share,
+                   const std::string& which) {
+  EXPECT_GT(poses.poses, 500u) << which;
+  EXPECT_GT(poses.mean_nees, kLeastNees) << which;
+  EXPECT_LT(poses.mean_nees, most_nees) << which;
+  EXPECT_GT(poses.share_within, least_share) << which;
+}
+
+class BlindRobot : public testing::TestWithParam<RobotBounds> {};
+
+TEST_P(BlindRobot, FixesAndCarriedOnPoses_AreHonest) {
+  const RobotBounds& bounds = GetParam();
+  const BlindResult result = run(bounds.title, 2);
+  // A fix that is bold, as those without a gyro, has fewer within.
+  const double least_share = bounds.most_nees_of_fixes > kMostNees ? 0.5 : bounds.least_share;
+  expect_honest(result.fixes, bounds.most_nees_of_fixes, least_share, "fixes");
+  for (const BlindAges& ages : result.carried_on) {
+    expect_honest(ages, bounds.most_nees, bounds.least_share, std::to_string(ages.from_s));
+  }
+}
+
+// Without a gyro they are bolder than honest (README.md of core/odometry): those bounds hold what
+// is.
+INSTANTIATE_TEST_SUITE_P(Robots, BlindRobot,
+                         testing::Values(RobotBounds{"16 cm robot"}, RobotBounds{"twice the noise"},
+                                         RobotBounds{"slips every 3 m"},
+                                         RobotBounds{"counts of 5 mm"},
+                                         RobotBounds{"Pioneer P3-DX"},
+                                         RobotBounds{"Pioneer, slips every 3 m"},
+                                         RobotBounds{"no gyro", 5.5, 5, 0.8},
+                                         RobotBounds{"no gyro, twice the noise", 13, 5, 0.8},
+                                         RobotBounds{"Pioneer, no gyro", 4.5, 5, 0.8}));
+
+TEST(BlindExperiment, SlipsThatNoGyroSees_LeaveTheFixesRight) {
+  const PoseHonesty fixes = run("no gyro, slips every 3 m", 2).fixes;
+  EXPECT_GT(fixes.poses, 2600u);
+  EXPECT_LT(fixes.mean_m, 0.0012);
+  EXPECT_GT(fixes.share_within, 0.75);
+}
+
+TEST(BlindExperiment, CarriedOnPoses_AreGoodForFiveSeconds) {
+  for (const BlindAges& ages : run("16 cm robot", 1).carried_on) {
     EXPECT_LT(ages.worst_m, 0.01) << ages.from_s;
   }
 }
 
-TEST(BlindExperiment, NoisierRobot_SaysSo) {
-  for (const BlindAges& ages : run("twice the noise", 2)) {
-    EXPECT_LT(ages.mean_nees, 4) << ages.from_s;
-  }
-}
-
-TEST(BlindExperiment, CoarseCounts_CostNoMoreThanACountAndAreToldHonestly) {
-  for (const BlindAges& ages : run("counts of 5 mm", 2)) {
-    EXPECT_GT(ages.mean_nees, 1.4) << ages.from_s;
-    EXPECT_LT(ages.mean_nees, 4) << ages.from_s;
+TEST(BlindExperiment, CoarseCounts_CostNoMoreThanACount) {
+  for (const BlindAges& ages : run("counts of 5 mm", 1).carried_on) {
     EXPECT_LT(ages.mean_m, 0.003) << ages.from_s;
   }
 }
 
 TEST(BlindExperiment, LidarThatIsOff_IsLearntOnTheWay) {
-  for (const BlindAges& ages : run("a lidar off by 5 mm and 0.5 %", 1)) {
+  for (const BlindAges& ages : run("a lidar off by 5 mm and 0.5 %", 1).carried_on) {
     EXPECT_GT(ages.mean_nees, 1) << ages.from_s;
     EXPECT_LT(ages.mean_nees, 4) << ages.from_s;
     EXPECT_LT(ages.mean_m, 0.002) << ages.from_s;
@@ -57,7 +96,7 @@ TEST(BlindExperiment, LidarThatIsOff_IsLearntOnTheWay) {
 
 TEST(BlindExperiment, RobotsAsWrongAsTold_AreHonestBeforeMuchIsLearned) {
   // The fixes' own doubt, which has yet to be learned, makes them cautious at first.
-  const BlindResult result = run("after 3 s, robots drawn", 4);
+  const auto result = run("after 3 s, robots drawn", 4).carried_on;
   for (const BlindAges& ages : result) EXPECT_LT(ages.mean_nees, 4) << ages.from_s;
   for (std::size_t i = 1; i < result.size(); ++i) {
     EXPECT_GT(result[i].mean_nees, 1.2) << result[i].from_s;
@@ -66,8 +105,8 @@ TEST(BlindExperiment, RobotsAsWrongAsTold_AreHonestBeforeMuchIsLearned) {
 }
 
 TEST(BlindExperiment, SameSeed_GivesTheSameFigures) {
-  const BlindResult one = run("after 3 s, robots drawn", 1);
-  const BlindResult again = run("after 3 s, robots drawn", 1);
+  const auto one = run("after 3 s, robots drawn", 1).carried_on;
+  const auto again = run("after 3 s, robots drawn", 1).carried_on;
   for (std::size_t i = 0; i < one.size(); ++i) {
     EXPECT_EQ(one[i].poses, again[i].poses);
     EXPECT_EQ(one[i].mean_nees, again[i].mean_nees);

@@ -10,9 +10,11 @@ namespace {
 
 using core::HeadingSource;
 
-const ReckonedTrack& track_of(const OdometryResult& result, HeadingSource source, bool factors) {
+const ReckonedTrack& track_of(const OdometryResult& result, HeadingSource source, bool factors,
+                              bool as_printed = true) {
   return *std::find_if(result.tracks.begin(), result.tracks.end(), [&](const ReckonedTrack& track) {
-    return track.source == source && track.factors.has_value() == factors;
+    return track.source == source && track.factors.has_value() == factors &&
+           track.as_printed == as_printed;
   });
 }
 
@@ -23,7 +25,7 @@ class OdometryExperiment : public ::testing::Test {
 };
 
 TEST_F(OdometryExperiment, AllModes_AreThereWithAndWithoutTheFactorsThatTheyHave) {
-  ASSERT_EQ(result_.tracks.size(), 7u);
+  ASSERT_EQ(result_.tracks.size(), 13u);  // six as printed, six without the dead band, ours
   EXPECT_NEAR(result_.length_m, 7.9, 0.1);
   for (const ReckonedTrack& track : result_.tracks) {
     EXPECT_GT(track.error.places, 100u);
@@ -33,8 +35,10 @@ TEST_F(OdometryExperiment, AllModes_AreThereWithAndWithoutTheFactorsThatTheyHave
 
 TEST_F(OdometryExperiment, Factors_MakeAModeBetterOnTheDriveThatTheyAreOf) {
   for (const HeadingSource mode : {HeadingSource::kEncoder, HeadingSource::kGyro}) {
-    EXPECT_LT(track_of(result_, mode, true).error.mean_m,
-              track_of(result_, mode, false).error.mean_m);
+    for (const bool as_printed : {true, false}) {
+      EXPECT_LT(track_of(result_, mode, true, as_printed).error.mean_m,
+                track_of(result_, mode, false, as_printed).error.mean_m);
+    }
   }
 }
 
@@ -42,6 +46,12 @@ TEST_F(OdometryExperiment, WeightedMean_IsBetterThanTheMeanAndTheWheels) {
   const double weighted_m = track_of(result_, HeadingSource::kWeighted, true).error.mean_m;
   EXPECT_LE(weighted_m, track_of(result_, HeadingSource::kEncoder, true).error.mean_m);
   EXPECT_LE(weighted_m, track_of(result_, HeadingSource::kMean, false).error.mean_m);
+}
+
+TEST_F(OdometryExperiment, DeadBand_HidesAGyrosBiasOnStraights) {
+  // 0.01 rad/s is a tenth of the dead band in a step of 0.1 s.
+  EXPECT_LT(track_of(result_, HeadingSource::kGyro, false, true).error.mean_m,
+            0.7 * track_of(result_, HeadingSource::kGyro, false, false).error.mean_m);
 }
 
 TEST_F(OdometryExperiment, DrawnTrack_EndsAsFarOffAsTheTableSays) {

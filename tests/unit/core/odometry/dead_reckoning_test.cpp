@@ -29,7 +29,9 @@ TEST(HeadingChange, EachMode_IsItsEquation) {
   EXPECT_DOUBLE_EQ(change(HeadingSource::kGyro, 1, 0.9), 0.18);
   EXPECT_DOUBLE_EQ(change(HeadingSource::kMean, 1, 1), 0.15);
   EXPECT_DOUBLE_EQ(change(HeadingSource::kMean, 2, 2), 0.15);
+  EXPECT_DOUBLE_EQ(change(HeadingSource::kMean, 0, 0), 0.15);
   EXPECT_DOUBLE_EQ(change(HeadingSource::kWeighted, 1.5, 0.9), (0.15 + 0.18) / 2);
+  EXPECT_DOUBLE_EQ(change(HeadingSource::kWeighted, 0, 2), 0.2);
 }
 
 TEST(HeadingChange, WithoutAGyro_TakesTheEncoders) {

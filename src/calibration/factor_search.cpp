@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: MIT
+#include "calibration/factor_search.hpp"
+
+#include <cmath>
+#include <optional>
+
+namespace cornerd::calibration {
+namespace {
+
+using core::HeadingSource;
+
+/// Factors as whole thousandths, so that none is looked at twice by rounding.
+constexpr int kThousand = 1000;
+constexpr int kLeast = static_cast<int>(kLeastFactor * kThousand);
+constexpr int kMost = static_cast<int>(kMostFactor * kThousand);
+
+struct FactorPair {
+  int encoder = kThousand;
+  int gyro = kThousand;
+};
+
+class GridSearch {
+ public:
+  GridSearch(std::span<const core::MotionStep> steps, std::span<const KnownPlace> places,
+             const core::DriveGeometry& geometry, const core::DeadReckoningConfig& start)
+      : steps_(steps), places_(places), geometry_(geometry), config_(start) {
+    try_candidate({});
+  }
+
+  bool by_encoder() const { return config_.source != HeadingSource::kGyro; }
+  bool by_gyro() const { return config_.source != HeadingSource::kEncoder; }
+
+  /// All candidates within `count` steps of the best so far; again around a better one that is
+  /// found at their rim.
+  void search(int step, int count) {
+    for (bool at_rim = true; at_rim;) {
+      const FactorPair around = best_;
+      for (int i = by_encoder() ? -count : 0; i <= (by_encoder() ? count : 0); ++i) {
+        for (int k = by_gyro() ? -count : 0; k <= (by_gyro() ? count : 0); ++k) {
+          try_candidate({around.encoder + i * step, around.gyro + k * step});
+        }
+      }
+      at_rim = std::abs(best_.encoder - around.encoder) == count * step ||
+               std::abs(best_.gyro - around.gyro) == count * step;
+    }
+  }
+
+  FoundFactors found() const {
+    FoundFactors found;
+    found.factors = factors_of(best_);
+    found.encoder_at_edge = by_encoder() && (best_.encoder == kLeast || best_.encoder == kMost);
+    found.gyro_at_edge = by_gyro() && (best_.gyro == kLeast || best_.gyro == kMost);
+    return found;
+  }
+
+ private:
+  core::PaperFactors factors_of(const FactorPair& candidate) const {
+    core::PaperFactors factors = config_.factors;
+    if (by_encoder()) factors.encoder_factor = candidate.encoder / double{kThousand};
+    if (by_gyro()) factors.gyro_factor = candidate.gyro / double{kThousand};
+    return factors;
+  }
+  static bool is_candidate(int thousandths) {
+    return thousandths >= kLeast && thousandths <= kMost;
+  }
+
+  void try_candidate(const FactorPair& candidate) {
+    if (!is_candidate(candidate.encoder) || !is_candidate(candidate.gyro)) return;
+    const double mean_m =
+        reckon(steps_, places_, geometry_, {config_.source, factors_of(candidate)}).mean_m;
+    if (least_m_ && mean_m >= *least_m_) return;
+    least_m_ = mean_m;
+    best_ = candidate;
+  }
+
+  std::span<const core::MotionStep> steps_;
+  std::span<const KnownPlace> places_;
+  const core::DriveGeometry& geometry_;
+  core::DeadReckoningConfig config_;
+  FactorPair best_;
+  std::optional<double> least_m_;
+};
+
+}  // namespace
+
+FoundFactors search_factors(std::span<const core::MotionStep> steps,
+                            std::span<const KnownPlace> places, const core::DriveGeometry& geometry,
+                            const core::DeadReckoningConfig& start) {
+  GridSearch grid(steps, places, geometry, start);
+  // Reaches over all candidates from wherever the best is.
+  grid.search(50, (kMost - kLeast) / 50);
+  grid.search(10, 6);
+  grid.search(1, 12);
+  return grid.found();
+}
+
+}  // namespace cornerd::calibration

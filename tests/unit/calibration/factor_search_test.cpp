@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: MIT
+#include "calibration/factor_search.hpp"
+
+#include <gtest/gtest.h>
+
+#include "known_drive.hpp"
+
+namespace cornerd::calibration {
+namespace {
+
+using core::HeadingSource;
+
+/// A drive whose wheels are of equal size and whose gyro has no bias, so that factors can mend it:
+/// the wheels tell `encoder` times too little of each turn, the gyro `gyro` times.
+KnownDrive mendable_drive(const core::DriveGeometry& geometry, double encoder, double gyro) {
+  KnownDrive drive = known_drive(geometry, 1);
+  for (core::MotionStep& step : drive.steps) {
+    const double left_m = step.left_m * (1 + kKnownErrors.left_scale);
+    const double right_m = step.right_m * (1 + kKnownErrors.right_scale);
+    const double half_m = (right_m - left_m) / 2 / (1 + kKnownErrors.track_scale) / encoder;
+    const double way_m = (left_m + right_m) / 2;
+    step.left_m = way_m - half_m;
+    step.right_m = way_m + half_m;
+    step.gyro_rad -= kKnownErrors.gyro_bias_rad_s * step.duration_s();
+    step.gyro_rad /= (1 + kKnownErrors.gyro_scale) * gyro;
+  }
+  return drive;
+}
+
+FoundFactors found(double encoder, double gyro, HeadingSource source) {
+  const core::DriveGeometry geometry;
+  const KnownDrive drive = mendable_drive(geometry, encoder, gyro);
+  return search_factors(drive.steps, drive.places, geometry, {source, {}});
+}
+
+TEST(SearchFactors, OneFactor_IsFoundWhereverItIs) {
+  for (const double factor : {0.5, 0.791, 0.99, 1.02, 1.5, 2.2}) {
+    const FoundFactors encoder = found(factor, 1, HeadingSource::kEncoder);
+    EXPECT_NEAR(encoder.factors.encoder_factor, factor, 0.0015);
+    EXPECT_EQ(encoder.factors.gyro_factor, 1);
+    EXPECT_FALSE(encoder.at_edge());
+    const FoundFactors gyro = found(1, factor, HeadingSource::kGyro);
+    EXPECT_NEAR(gyro.factors.gyro_factor, factor, 0.0015);
+    EXPECT_EQ(gyro.factors.encoder_factor, 1);
+    EXPECT_FALSE(gyro.at_edge());
+  }
+}
+
+TEST(SearchFactors, FactorBeyondTheSearch_IsSaidToBeAtItsEdge) {
+  const FoundFactors encoder = found(3, 1, HeadingSource::kEncoder);
+  EXPECT_EQ(encoder.factors.encoder_factor, kMostFactor);
+  EXPECT_TRUE(encoder.encoder_at_edge);
+  EXPECT_FALSE(encoder.gyro_at_edge);
+  EXPECT_TRUE(found(1, 3, HeadingSource::kGyro).gyro_at_edge);
+}
+
+TEST(SearchFactors, BothFactors_GiveTheTurnTogether) {
+  const FoundFactors both = found(1 / 0.99, 1 / 1.02, HeadingSource::kWeighted);
+  const core::PaperFactors& factors = both.factors;
+  EXPECT_NEAR((factors.encoder_factor * 0.99 + factors.gyro_factor * 1.02) / 2, 1, 0.002);
+}
+
+TEST(SearchFactors, SensorThatTellsNothing_IsLeftOutOfTheWeightedMean) {
+  const core::DriveGeometry geometry;
+  KnownDrive drive = mendable_drive(geometry, 1, 1);
+  for (std::size_t i = 0; i < drive.steps.size(); ++i) {
+    drive.steps[i].gyro_rad = i / 50 % 2 == 0 ? 0.03 : -0.02;
+  }
+  const FoundFactors both =
+      search_factors(drive.steps, drive.places, geometry, {HeadingSource::kWeighted, {}});
+  EXPECT_NEAR(both.factors.encoder_factor, 2, 0.01);
+  EXPECT_NEAR(both.factors.gyro_factor, 0, 0.01);
+  EXPECT_EQ(both.gyro_at_edge, both.factors.gyro_factor == 0);
+}
+
+TEST(SearchFactors, DeadBand_IsThatOfTheMode) {
+  const core::DriveGeometry geometry;
+  const KnownDrive drive = mendable_drive(geometry, 1, 1);
+  const auto with_band = [&](double dead_band_rad) {
+    return search_factors(drive.steps, drive.places, geometry,
+                          {HeadingSource::kGyro, {1, 1, dead_band_rad}});
+  };
+  EXPECT_NEAR(with_band(0).factors.gyro_factor, 1, 0.0015);
+  EXPECT_EQ(with_band(0.01).factors.dead_band_rad, 0.01);
+  // No step turns by more than 0.02 rad: no factor of the search brings it back.
+  const FoundFactors lost = with_band(0.2);
+  EXPECT_GT(
+      reckon(drive.steps, drive.places, geometry, {HeadingSource::kGyro, lost.factors}).mean_m, 1);
+}
+
+TEST(SearchFactors, NothingKnown_LeavesTheFactorsAlone) {
+  const FoundFactors nothing = search_factors({}, {}, {}, {HeadingSource::kWeighted, {}});
+  EXPECT_EQ(nothing.factors.encoder_factor, 1);
+  EXPECT_EQ(nothing.factors.gyro_factor, 1);
+}
+
+}  // namespace
+}  // namespace cornerd::calibration
