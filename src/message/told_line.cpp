@@ -106,9 +106,12 @@ void read_lidar(FieldReader& fields, ToldStatus& status) {
   if (lidar.error()) fields.fail("\"lidar\": " + lidar.error()->text);
 }
 
-void read_odometry_sensors(FieldReader& fields, ToldStatus& status) {
+void read_odometry(FieldReader& fields, ToldStatus& status) {
   FieldReader odometry(fields.optional_object("odometry"));
   status.odometry_state = odometry.optional_text("state");
+  FieldReader counters(odometry.optional_object("counters"));
+  status.odometry_readings = counters.optional_number("readings", kAnyNumber);
+  if (counters.error()) odometry.fail(counters.error()->text);
   for (const auto& [name, sensor] : odometry.optional_object("sensors").items()) {
     // Beside the sensors are the counters of them all.
     if (!sensor.is_object() || !sensor.contains("state")) continue;
@@ -131,7 +134,7 @@ ToldLine read_status(FieldReader& fields) {
       status.counters.emplace_back(name, value.get<std::uint64_t>());
     }
   }
-  read_odometry_sensors(fields, status);
+  read_odometry(fields, status);
   FieldReader latency(fields.optional_object("latency"));
   status.latency_p50_s = latency.optional_number("p50", kAnyNumber);
   status.latency_p99_s = latency.optional_number("p99", kAnyNumber);

@@ -2,6 +2,7 @@
 #include "tool/bench_odometry.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <memory>
 #include <string_view>
 #include <system_error>
@@ -18,6 +19,7 @@
 #include "tool/map_drawing.hpp"
 #include "tool/output.hpp"
 #include "tool/progress_bar.hpp"
+#include "tool/rate_report.hpp"
 #include "tool/text_table.hpp"
 
 namespace cornerd::tool {
@@ -27,6 +29,9 @@ namespace {
 using bench::OdometryResult;
 using bench::ReckonedTrack;
 using core::HeadingSource;
+
+/// Of a second table, for each drive that was asked for.
+constexpr std::size_t kTurnsOfADrive = 650;
 
 struct RobotResults {
   bench::OdometryRobot robot;
@@ -121,7 +126,8 @@ std::string odometry_text(const std::vector<RobotResults>& robots) {
 }
 
 std::string odometry_json(const std::vector<RobotResults>& robots,
-                          const std::vector<BlindRow>& blind, std::uint64_t seed) {
+                          const std::vector<BlindRow>& blind, const std::vector<RateRow>& rates,
+                          std::uint64_t seed) {
   nlohmann::ordered_json drives = nlohmann::ordered_json::array();
   for (const RobotResults& results : robots) {
     for (const OdometryResult& drive : results.drives) {
@@ -144,8 +150,10 @@ std::string odometry_json(const std::vector<RobotResults>& robots,
                         {"tracks", std::move(tracks)}});
     }
   }
-  return nlohmann::ordered_json(
-             {{"seed", seed}, {"odometry", std::move(drives)}, {"carried_on", blind_json(blind)}})
+  return nlohmann::ordered_json({{"seed", seed},
+                                 {"odometry", std::move(drives)},
+                                 {"carried_on", blind_json(blind)},
+                                 {"rates", rate_json(rates)}})
              .dump(2) +
          '\n';
 }
@@ -195,10 +203,12 @@ void run_odometry_bench(const OdometryBenchOptions& options) {
 
   std::vector<RobotResults> robots;
   std::vector<BlindRow> blind;
+  std::vector<RateRow> rates;
   {
     const auto all = bench::odometry_robots();
     const auto cases = bench::blind_cases();
-    ProgressBar bar("odometry", all.size() * replay::scenarios().size() + cases.size());
+    ProgressBar bar("odometry", all.size() * replay::scenarios().size() + cases.size() +
+                                    2 * std::size(bench::kReadingRates_hz));
     std::size_t done = 0;
     for (const bench::OdometryRobot& robot : all) {
       robots.push_back({robot, {}});
@@ -211,6 +221,15 @@ void run_odometry_bench(const OdometryBenchOptions& options) {
       if (options.drives == 0) break;
       blind.push_back({one.title, run_blind_case(map, one, options.seed, options.drives)});
       bar.show(++done);
+    }
+    for (const bool gently : {false, true}) {
+      for (const double rate_hz : bench::kReadingRates_hz) {
+        if (options.drives == 0) break;
+        const std::size_t turns = kTurnsOfADrive * options.drives;
+        rates.push_back(
+            {rate_hz, gently, bench::run_rate_case(map, rate_hz, gently, turns, options.seed)});
+        bar.show(++done);
+      }
     }
   }
   for (const RobotResults& results : robots) {
@@ -228,12 +247,13 @@ void run_odometry_bench(const OdometryBenchOptions& options) {
     }
   }
   if (json) {
-    json->write(odometry_json(robots, blind, options.seed));
+    json->write(odometry_json(robots, blind, rates, options.seed));
     json->flush();
   }
   if (options.json == "-") return;
   Output output;
-  output.write(odometry_text(robots) + '\n' + blind_text(blind));
+  output.write(odometry_text(robots));
+  if (options.drives > 0) output.write('\n' + blind_text(blind) + '\n' + rate_text(rates));
   output.flush();
 }
 

@@ -76,6 +76,34 @@ void add_line_quality(const message::ToldStatus& status, std::vector<Finding>& f
        {"a shorter or screened cable, away from motors; a steadier 5 V"}});
 }
 
+/// Turns in motion are straightened by what was read meanwhile: with fewer readings than the first,
+/// turns are lost and what is carried on may be wrong; with fewer than the second, fixes are worse
+/// than they say (core/odometry/README.md).
+constexpr double kFewestReadings_hz = 10;
+constexpr double kGoodReadings_hz = 20;
+
+void add_reading_rate(const Patient& patient, std::vector<Finding>& findings) {
+  const std::optional<double> hz = patient.daemon.odometry_hz;
+  if (!hz || *hz >= kGoodReadings_hz) return;
+  if (*hz <= 0) {
+    findings.push_back({Verdict::kNote,
+                        "odometry",
+                        "the config has it, and no reading comes",
+                        {"start what sends ODOMETRY to control.sock"}});
+    return;
+  }
+  const bool is_wrong = *hz < kFewestReadings_hz;
+  const std::string mend = patient.config.odometry.source == settings::OdometrySource::kKernel
+                               ? "odometry.kernel.rate: 50"
+                               : "send ODOMETRY 50 times a second, wheels and gyro in one line";
+  findings.push_back({is_wrong ? Verdict::kWrong : Verdict::kNote,
+                      "odometry",
+                      formatted("%.1f readings a second: ", *hz) +
+                          (is_wrong ? "too few, predicted poses of a robot in motion may be wrong"
+                                    : "fixes of a robot in motion are worse than they say"),
+                      {mend}});
+}
+
 }  // namespace
 
 std::vector<Finding> check_daemon(const Patient& patient) {
@@ -105,6 +133,7 @@ std::vector<Finding> check_daemon(const Patient& patient) {
          sensor.name + " is " + sensor.state + (sensor.detail.empty() ? "" : ": " + sensor.detail),
          {"drivers/odometry/README.md has pins, overlays and names"}});
   }
+  add_reading_rate(patient, findings);
   return findings;
 }
 

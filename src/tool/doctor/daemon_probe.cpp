@@ -4,6 +4,7 @@
 #include <poll.h>
 
 #include <numeric>
+#include <optional>
 #include <string_view>
 
 #include "tool/doctor/machine.hpp"
@@ -16,11 +17,42 @@ namespace {
 /// At an A1's pace a second and a half.
 constexpr std::uint64_t kEnoughPoses = 10;
 
-void note_line(std::string_view line, DaemonView& view) {
+/// Two STATUS are a second apart; one that a change of state caused may come at once.
+constexpr double kShortestSpan_s = 0.8;
+
+/// How often readings of wheels and gyro come, from one STATUS to another.
+class ReadingRate {
+ public:
+  void note(const message::ToldStatus& status) {
+    if (!status.odometry_readings) return;
+    const Seen seen{status.t_ns, *status.odometry_readings};
+    if (!first_ || seen.readings < first_->readings) first_ = seen;  // else it was restarted
+    last_ = seen;
+  }
+  /// False where the daemon tells of readings and has not done so for long enough.
+  bool is_settled() const { return !first_ || hz(); }
+  std::optional<double> hz() const {
+    if (!first_) return std::nullopt;
+    const double span_s = core::to_seconds(last_.t_ns - first_->t_ns);
+    if (span_s < kShortestSpan_s) return std::nullopt;
+    return (last_.readings - first_->readings) / span_s;
+  }
+
+ private:
+  struct Seen {
+    core::TimeNs t_ns = 0;
+    double readings = 0;
+  };
+  std::optional<Seen> first_;
+  Seen last_;
+};
+
+void note_line(std::string_view line, DaemonView& view, ReadingRate& rate) {
   message::ToldLine told = message::parse_told_line(line);
   if (const auto* version = std::get_if<message::ToldVersion>(&told)) {
     view.version = version->version;
   } else if (auto* status = std::get_if<message::ToldStatus>(&told)) {
+    rate.note(*status);
     view.status = std::move(*status);
   } else if (const auto* pose = std::get_if<message::ToldPose>(&told)) {
     ++view.poses[static_cast<std::size_t>(pose->state)];
@@ -42,16 +74,18 @@ DaemonView probe_daemon(const std::filesystem::path& socket, std::chrono::millis
     view.connect_errno = daemon.error_number();
     return view;
   }
+  ReadingRate rate;
   const Clock::time_point end = Clock::now() + at_most;
-  while (!has_heard_enough(view)) {
+  while (!has_heard_enough(view) || !rate.is_settled()) {
     const auto left = std::chrono::ceil<std::chrono::milliseconds>(end - Clock::now());
     if (left.count() <= 0) break;
     pollfd entry{.fd = daemon.fd(), .events = POLLIN, .revents = 0};
     if (::poll(&entry, 1, static_cast<int>(left.count())) <= 0) continue;
     const auto lines = daemon.take();
     if (!lines) break;
-    for (const std::string_view line : split_words(*lines, "\n")) note_line(line, view);
+    for (const std::string_view line : split_words(*lines, "\n")) note_line(line, view, rate);
   }
+  view.odometry_hz = rate.hz();
   return view;
 }
 

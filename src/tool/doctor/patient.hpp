@@ -16,9 +16,11 @@ namespace cornerd::tool {
 
 /// What the daemon said while it was listened to.
 struct DaemonView {
-  int connect_errno = 0;  ///< why nobody could be asked; 0: somebody answered
-  std::string version;    ///< empty: it said nothing at all
-  std::optional<message::ToldStatus> status;
+  int connect_errno = 0;                      ///< why nobody could be asked; 0: somebody answered
+  std::string version;                        ///< empty: it said nothing at all
+  std::optional<message::ToldStatus> status;  ///< the newest
+  /// Of readings of wheels and gyro; nullopt where it was not listened to for long enough.
+  std::optional<double> odometry_hz;
   /// Poses by state, in the order of core::PoseState.
   std::array<std::uint64_t, 5> poses{};
 };

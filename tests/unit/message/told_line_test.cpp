@@ -80,6 +80,7 @@ TEST(ToldLine, Status_IsWhatTheDaemonWrote) {
   LineWriter writer;
   core::OdometrySummary odometry;
   odometry.enabled = true;
+  odometry.counters.readings = 70;
   const StatusFields::Counter counters[] = {{"turns", 70}, {"bytes", 12000}};
   const StatusFields::Sensor sensors[] = {{"left", "absent", "no counter"},
                                           {"gyro", "running", ""}};
@@ -105,6 +106,7 @@ TEST(ToldLine, Status_IsWhatTheDaemonWrote) {
   EXPECT_EQ(status.counter("turns"), 70U);
   EXPECT_EQ(status.counter("nothing"), 0U);
   EXPECT_EQ(status.odometry_state, "absent");
+  EXPECT_EQ(status.odometry_readings, 70);
   ASSERT_EQ(status.odometry_sensors.size(), 2U);
   EXPECT_EQ(status.odometry_sensors[1].name, "left");
   EXPECT_EQ(status.odometry_sensors[1].detail, "no counter");

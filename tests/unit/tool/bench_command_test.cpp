@@ -146,8 +146,10 @@ TEST_F(BenchCommand, Odometry_GivesTheModesOnAllDrivesAndDrawsThem) {
   EXPECT_THAT(outcome.out, HasSubstr("weighted (eq. 5)"));
   const auto figures = nlohmann::json::parse(read(folder_.path() / "odometry.json"));
   ASSERT_EQ(figures["odometry"].size(), 6U);
-  for (const auto& drive : figures["odometry"]) EXPECT_EQ(drive["tracks"].size(), 7U);
-  for (const char* file : {"pioneer-circuit-1.svg", "contest-exploration-factors.svg"}) {
+  for (const auto& drive : figures["odometry"]) EXPECT_EQ(drive["tracks"].size(), 13U);
+  for (const char* file :
+       {"pioneer-circuit-1.svg", "contest-exploration-factors.svg",
+        "contest-circuit-2-no-dead-band.svg", "pioneer-exploration-factors-no-dead-band.svg"}) {
     EXPECT_EQ(find_xml_error(read(folder_.path() / "plots" / file)), "");
   }
 }

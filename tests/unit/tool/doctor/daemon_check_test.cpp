@@ -66,6 +66,25 @@ TEST_F(CheckDaemon, SensorsOfTheOdometry_AreNamed) {
               Finds(Verdict::kWrong, "odometry", "left is absent: no counter 48300180.counter"));
 }
 
+TEST_F(CheckDaemon, ReadingsThatComeTooSeldom_AreNamed) {
+  daemon().odometry_hz = 49.8;
+  EXPECT_THAT(check_daemon(stand_in_.patient), SizeIs(2));
+  daemon().odometry_hz = 12;
+  EXPECT_THAT(check_daemon(stand_in_.patient)[2],
+              Finds(Verdict::kNote, "odometry",
+                    "12.0 readings a second: fixes of a robot in motion "
+                    "are worse than they say"));
+  daemon().odometry_hz = 4.9;
+  const Finding few = check_daemon(stand_in_.patient)[2];
+  EXPECT_THAT(few, Finds(Verdict::kWrong, "odometry", "4.9 readings a second: too few"));
+  EXPECT_THAT(few.mends, ElementsAre(HasSubstr("send ODOMETRY 50 times a second")));
+  stand_in_.patient.config.odometry.source = settings::OdometrySource::kKernel;
+  EXPECT_THAT(check_daemon(stand_in_.patient)[2].mends, ElementsAre("odometry.kernel.rate: 50"));
+  daemon().odometry_hz = 0;
+  EXPECT_THAT(check_daemon(stand_in_.patient)[2],
+              Finds(Verdict::kNote, "odometry", "no reading comes"));
+}
+
 TEST_F(CheckDaemon, NobodyListens_IsExplained) {
   daemon() = {};
   daemon().connect_errno = ENOENT;

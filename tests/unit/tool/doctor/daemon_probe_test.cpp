@@ -31,7 +31,26 @@ TEST(ProbeDaemon, WhatItSays_IsCounted) {
   EXPECT_EQ(view.version, "1.2.3");
   ASSERT_TRUE(view.status);
   EXPECT_EQ(view.status->lidar_state, "running");
+  EXPECT_FALSE(view.odometry_hz);
   EXPECT_EQ(view.poses[static_cast<std::size_t>(core::PoseState::kLost)], 10U);
+}
+
+TEST(ProbeDaemon, ReadingsOfWheels_AreCountedFromStatusToStatus) {
+  const test::TemporaryFolder folder;
+  const ListeningSocket daemon(folder.path() / "pose.sock");
+  std::string said = kGreeting;
+  for (int i = 0; i < 10; ++i) said += "{\"class\":\"POSE\",\"t\":1,\"state\":\"lost\"}\n";
+  const auto status = [](const char* t_s, const char* readings) {
+    return std::string("{\"class\":\"STATUS\",\"t\":") + t_s +
+           ",\"lidar\":{\"state\":\"running\"},\"odometry\":{\"state\":\"running\",\"counters\":"
+           "{\"readings\":" +
+           readings + "}}}\n";
+  };
+  said += status("7", "100") + status("7.1", "101") + status("9", "150");
+  const std::jthread client([&] { daemon.accept_and_send(said); });
+  const DaemonView view = probe_daemon(folder.path() / "pose.sock", 60s);
+  ASSERT_TRUE(view.odometry_hz);
+  EXPECT_DOUBLE_EQ(*view.odometry_hz, 25);
 }
 
 TEST(ProbeDaemon, SilentDaemon_IsGivenUp) {

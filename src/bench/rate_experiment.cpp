@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+#include "bench/rate_experiment.hpp"
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+#include "bench/experiment_robot.hpp"
+#include "bench/localization/pose_error.hpp"
+#include "core/pipeline.hpp"
+#include "replay/simulator/scenarios.hpp"
+#include "replay/simulator/simulated_odometry.hpp"
+#include "replay/simulator/simulator.hpp"
+
+namespace cornerd::bench {
+namespace {
+
+constexpr double kSlowly_m_s = 0.25;
+
+void score_turn(const core::PoseEstimate& pose, const core::Pose2& truth, RateResult& result) {
+  ++result.turns;
+  const PoseError error = error_of(pose.T_map_base, truth);
+  if (pose.state == core::PoseState::kFix) {
+    result.fixes.add(pose, truth);
+    result.worst_fix_m = std::max(result.worst_fix_m, error.place_m);
+    result.worst_fix_rad = std::max(result.worst_fix_rad, error.heading_rad);
+  } else if (pose.state == core::PoseState::kPredicted) {
+    result.predicted.add(pose, truth);
+    result.worst_predicted_rad = std::max(result.worst_predicted_rad, error.heading_rad);
+  }
+}
+
+}  // namespace
+
+RateResult run_rate_case(std::shared_ptr<const core::WallMap> map, double rate_hz, bool gently,
+                         std::size_t turns, std::uint64_t seed) {
+  replay::DriveConfig drive = gentle_drive(kSlowly_m_s);
+  if (!gently) drive.acceleration_m_s2 = drive.yaw_acceleration_rad_s2 = 0;
+  const replay::Motion motion =
+      replay::drive_path(replay::find_scenario("exploration")->path, drive);
+  replay::SimulatorConfig simulated;
+  simulated.seed = seed;
+  replay::Simulator simulator(std::make_unique<replay::MapScene>(map, motion), simulated);
+  replay::RobotModel robot = wrong_robot();
+  std::optional<replay::SimulatedOdometry> odometry;
+  if (rate_hz > 0) {
+    robot.rate_hz = rate_hz;
+    odometry.emplace(motion, robot, seed + 1);
+  }
+  core::LocalizerConfig config;
+  config.odometry.enabled = odometry.has_value();
+  config.odometry.geometry = robot.geometry;
+  core::Pipeline pipeline(std::move(map), config);
+  RateResult result;
+  while (result.turns < turns) {
+    for (const replay::SimulatedSample& sample : simulator.next().samples) {
+      while (odometry && odometry->next_ns() <= sample.t_ns) {
+        pipeline.add(odometry->next(), sample.t_ns);
+      }
+      if (const core::TurnResult* turn = pipeline.add(replay::to_sample(sample))) {
+        score_turn(turn->pose, motion(turn->pose.t_ns, 0), result);
+      }
+    }
+  }
+  return result;
+}
+
+}  // namespace cornerd::bench
