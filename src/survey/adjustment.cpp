@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include <Eigen/LU>
 
@@ -77,6 +78,31 @@ core::Covariance3 covariance_of_way(const MappedDrive& drive, std::size_t from, 
   const Eigen::MatrixXd spread = now.equations().solve(slopes);
   if (spread.size() == 0) return core::Covariance3::Zero();
   return slopes.transpose() * spread;
+}
+
+std::vector<double> variances_of_turn(const MappedDrive& drive, std::uint32_t from,
+                                      std::span<const std::uint32_t> to) {
+  // So many right-hand sides at once, for the memory that they take.
+  constexpr std::size_t kAtOnce = 64;
+  std::vector<double> variances(to.size(), std::numeric_limits<double>::infinity());
+  const Linearization now(drive, {}, /*leniency=*/1);
+  for (std::size_t first = 0; first < to.size(); first += kAtOnce) {
+    const auto some = to.subspan(first, std::min(kAtOnce, to.size() - first));
+    Eigen::MatrixXd slopes = Eigen::MatrixXd::Zero(now.equations().pull().size(),
+                                                   static_cast<Eigen::Index>(some.size()));
+    for (std::size_t i = 0; i < some.size(); ++i) {
+      const auto column = static_cast<Eigen::Index>(i);
+      slopes(now.face_unknown(from), column) -= 1;
+      slopes(now.face_unknown(some[i]), column) += 1;
+    }
+    const Eigen::MatrixXd spread = now.equations().solve(slopes);
+    if (spread.size() == 0) return variances;
+    for (std::size_t i = 0; i < some.size(); ++i) {
+      const auto column = static_cast<Eigen::Index>(i);
+      variances[first + i] = slopes.col(column).dot(spread.col(column));
+    }
+  }
+  return variances;
 }
 
 }  // namespace cornerd::survey

@@ -38,4 +38,9 @@ AdjustmentResult adjust(MappedDrive& drive, std::span<const FaceBond> bonds = {}
 /// theta [rad]) in the frame of the first. Zero where nothing is known of it.
 core::Covariance3 covariance_of_way(const MappedDrive& drive, std::size_t from, std::size_t to);
 
+/// How well an adjusted drive knows the turn from the normal of one face to those of others: a
+/// variance (rad^2) for each of these, infinite where nothing is known of it.
+std::vector<double> variances_of_turn(const MappedDrive& drive, std::uint32_t from,
+                                      std::span<const std::uint32_t> to);
+
 }  // namespace cornerd::survey

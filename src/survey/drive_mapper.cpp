@@ -41,7 +41,7 @@ class Mapper {
       face.id = next_id_++;
     }
     known_faces_ = next_id_;
-    result_.has_odometry = !drive.readings().empty();
+    result_.has_odometry = drive.has_wheels();
     result_.first_point.push_back(0);
   }
 
@@ -99,6 +99,7 @@ class Mapper {
     }
     // Where nothing but the walls tells the way, a turn that fits badly has lost it.
     begins_faces_ = turn == 0 || prior.by_odometry || share > kLeastShareAlone;
+    if (reader_.is_contradicted()) ++result_.contradicted_turns;
     add_link(prior);
     result_.T_map_lidar.push_back(T_map_lidar);
     reader_.place(T_map_lidar, covariance);

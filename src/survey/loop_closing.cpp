@@ -74,10 +74,11 @@ std::string try_to_close(MappedDrive& drive, const Loop& loop, const MergeLimits
 
 std::vector<LoopReport> close_loops(MappedDrive& drive, const core::LocalizerConfig& sensor,
                                     const MergeLimits& merging, const WallLimits& walls,
-                                    std::size_t& merged) {
+                                    std::size_t& merged, const Progress& progress) {
   std::vector<LoopReport> reports;
   std::size_t refused = 0;
   for (std::size_t begin = 0; begin < drive.T_map_lidar.size(); begin += kStretchTurns) {
+    if (progress) progress(begin);
     if (reports.size() >= kMostLoops || refused >= kMostRefused) break;
     const auto loop = find_loop(drive, begin, sensor, walls);
     if (!loop) continue;

@@ -27,6 +27,6 @@ struct LoopReport {
 /// is adjusted again, and what is one wall then is merged; `merged` counts these.
 std::vector<LoopReport> close_loops(MappedDrive& drive, const core::LocalizerConfig& sensor,
                                     const MergeLimits& merging, const WallLimits& walls,
-                                    std::size_t& merged);
+                                    std::size_t& merged, const Progress& progress = {});
 
 }  // namespace cornerd::survey

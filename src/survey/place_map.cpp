@@ -7,6 +7,7 @@
 #include "survey/evidence.hpp"
 
 namespace cornerd::survey {
+
 MappedDrive part_of(const MappedDrive& drive, std::span<const std::uint32_t> turns) {
   MappedDrive part;
   part.has_odometry = drive.has_odometry;
@@ -40,12 +41,8 @@ std::shared_ptr<const core::WallMap> map_seen_by(const MappedDrive& drive,
   const MappedDrive part = part_of(drive, turns);
   const std::vector<FaceEvidence> evidence = gather_evidence(part, noise, {});
   std::vector<Dropped> dropped;
-  std::vector<WallPiece> pieces = cut_pieces(part, evidence, limits.pieces, dropped);
-  part_crossings(part, limits.pieces, pieces, dropped);
-  join_corners(part, evidence, limits.pieces, pieces);
-  drop_lonely(part, limits.pieces, pieces, dropped);
   core::FloorPlan plan;
-  plan.walls = build_walls(part, pieces, pair_sides(part, pieces, limits.solids));
+  plan.walls = build_walls_of(part, evidence, limits, dropped).walls;
   if (plan.walls.empty()) return nullptr;
   return std::make_shared<const core::WallMap>(std::move(plan));
 }

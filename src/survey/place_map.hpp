@@ -8,16 +8,9 @@
 #include "core/map/wall_map.hpp"
 #include "core/sensor_noise.hpp"
 #include "survey/drive_mapper.hpp"
-#include "survey/wall_piece.hpp"
-#include "survey/wall_solids.hpp"
+#include "survey/wall_building.hpp"
 
 namespace cornerd::survey {
-
-/// What a drive says of a wall is believed within these.
-struct WallLimits {
-  PieceLimits pieces;
-  SolidLimits solids;
-};
 
 /// The part of a drive that some of its turns are, numbered from 0 on, with the faces that they saw
 /// as far as they saw them. Without links. `turns`: ascending.

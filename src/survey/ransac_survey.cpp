@@ -131,7 +131,9 @@ SurveyResult ransac_survey(const RecordedDrive& drive, const core::LocalizerConf
   Ransac ransac(points, config);
   for (std::size_t i = 0; i < config.iterations; ++i) {
     ransac.iterate();
-    if (progress) progress(static_cast<double>(i + 1) / static_cast<double>(config.iterations));
+    if (progress)
+      progress("finding lines",
+               static_cast<double>(i + 1) / static_cast<double>(config.iterations));
   }
 
   SurveyResult result;
@@ -142,7 +144,8 @@ SurveyResult ransac_survey(const RecordedDrive& drive, const core::LocalizerConf
   result.T_map_base = std::move(reckoned.T_map_base);
   for (std::size_t i = 0; i < drive.size(); ++i) result.t_ns.push_back(drive.middle_ns(i));
   result.points = points;
-  result.has_odometry = true;
+  result.has_odometry = drive.has_wheels();
+  result.has_gyro = drive.has_gyro();
   return result;
 }
 

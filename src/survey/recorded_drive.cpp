@@ -23,11 +23,25 @@ void RecordedDrive::add(const core::Scan& turn) {
 
 void RecordedDrive::set_odometry(const std::vector<core::OdometryReading>& readings) {
   readings_.clear();
+  has_wheels_ = has_gyro_ = false;
   std::size_t turn = 0;
   for (const core::OdometryReading& reading : readings) {
     while (turn < turns_.size() && end_ns(turn) < reading.t_ns) ++turn;
-    readings_.push_back({reading, reading.t_ns, turn});
+    keep({reading, reading.t_ns, turn});
   }
+}
+
+void RecordedDrive::keep(const Reading& reading) {
+  has_wheels_ |= reading.reading.left && reading.reading.right;
+  has_gyro_ |= reading.reading.gyro_rad_s.has_value();
+  readings_.push_back(reading);
+}
+
+RecordedDrive RecordedDrive::without_odometry() const {
+  RecordedDrive drive;
+  drive.turns_ = turns_;
+  drive.samples_ = samples_;
+  return drive;
 }
 
 core::TimeNs RecordedDrive::end_ns(std::size_t turn) const {

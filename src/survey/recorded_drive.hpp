@@ -23,13 +23,18 @@ class RecordedDrive {
 
   void add(const core::Scan& turn);
   void add(const core::OdometryReading& reading, std::optional<core::TimeNs> now_ns) {
-    readings_.push_back({reading, now_ns, turns_.size()});
+    keep({reading, now_ns, turns_.size()});
   }
 
   /// Readings of another file, in place of those that came with the turns.
   void set_odometry(const std::vector<core::OdometryReading>& readings);
 
   std::size_t size() const { return turns_.size(); }
+  /// What its readings tell of: a gyro without wheels tells no way.
+  bool has_wheels() const { return has_wheels_; }
+  bool has_gyro() const { return has_gyro_; }
+  RecordedDrive without_odometry() const;
+
   /// In the order of their arrival.
   std::span<const Reading> readings() const { return readings_; }
 
@@ -55,6 +60,10 @@ class RecordedDrive {
     float range_m = 0;
   };
 
+  void keep(const Reading& reading);
+
+  bool has_wheels_ = false;
+  bool has_gyro_ = false;
   std::vector<Turn> turns_;
   std::vector<StoredSample> samples_;
   std::vector<Reading> readings_;

@@ -7,9 +7,12 @@
 namespace cornerd::survey {
 namespace {
 
-/// Builders are this exact, and what is known of a face may be off by so many sigmas.
+/// Builders are this exact: what is askew by more is so by intent. And what is known to be askew by
+/// this many sigmas is no error of the map.
 constexpr double kSquare_rad = core::radians(0.5);
 constexpr double kSquareSigmas = 3;
+/// What the sightings of a face err by together, however many there are: walls are a little wavy.
+constexpr double kWavy_rad = core::radians(0.03);
 /// A face that is less certain than this tells of no right angle.
 constexpr double kTellingSigma_rad = core::radians(1);
 constexpr double kBondSigma_rad = core::radians(0.003);
@@ -18,28 +21,36 @@ constexpr double kLeast_m = 0.1;
 
 }  // namespace
 
-std::vector<FaceBond> right_angles(const MappedDrive& drive) {
-  std::vector<FaceBond> bonds;
-  if (drive.faces.empty()) return bonds;
-  const auto longest = std::max_element(
-      drive.faces.begin(), drive.faces.end(),
-      [](const MappedFace& a, const MappedFace& b) { return a.length_m() < b.length_m(); });
-  const auto reference = static_cast<std::uint32_t>(longest - drive.faces.begin());
-  for (std::uint32_t i = 0; i < drive.faces.size(); ++i) {
-    const MappedFace& face = drive.faces[i];
-    const double sigma_rad = std::sqrt(face.covariance()(0, 0) + longest->covariance()(0, 0));
-    if (i == reference || face.length_m() < kLeast_m || sigma_rad > kTellingSigma_rad) continue;
-    const double turn_rad = core::angle_between(longest->normal_rad(), face.normal_rad());
+RightAngles right_angles(const MappedDrive& drive, std::span<const std::uint32_t> faces) {
+  RightAngles result;
+  if (faces.empty()) return result;
+  const std::uint32_t reference =
+      *std::max_element(faces.begin(), faces.end(), [&](std::uint32_t a, std::uint32_t b) {
+        return drive.faces[a].length_m() < drive.faces[b].length_m();
+      });
+  std::vector<std::uint32_t> others;
+  for (const std::uint32_t face : faces) {
+    if (face != reference && drive.faces[face].length_m() >= kLeast_m) others.push_back(face);
+  }
+  const std::vector<double> variances = variances_of_turn(drive, reference, others);
+  for (std::size_t i = 0; i < others.size(); ++i) {
+    const double sigma_rad = std::sqrt(variances[i] + 2 * squared(kWavy_rad));
+    const double tolerance_rad = std::min(kSquare_rad, kSquareSigmas * sigma_rad);
+    const double turn_rad = core::angle_between(drive.faces[reference].normal_rad(),
+                                                drive.faces[others[i]].normal_rad());
     const double square_rad = std::round(turn_rad / (core::kPi / 2)) * (core::kPi / 2);
-    if (std::abs(turn_rad - square_rad) > kSquare_rad + kSquareSigmas * sigma_rad) continue;
+    if (sigma_rad > kTellingSigma_rad || std::abs(turn_rad - square_rad) > tolerance_rad) {
+      ++result.askew;
+      continue;
+    }
     FaceBond bond;
     bond.one = reference;
-    bond.other = i;
+    bond.other = others[i];
     bond.turn_rad = square_rad;
     bond.sigma_rad = kBondSigma_rad;
-    bonds.push_back(bond);
+    result.bonds.push_back(bond);
   }
-  return bonds;
+  return result;
 }
 
 }  // namespace cornerd::survey

@@ -1,14 +1,22 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
+#include <span>
 #include <vector>
 
 #include "survey/adjustment.hpp"
 
 namespace cornerd::survey {
 
-/// Bonds that make walls square to the longest face: those that are so within what is known of them
-/// and half a degree. A wall that is not stays as it was seen.
-std::vector<FaceBond> right_angles(const MappedDrive& drive);
+struct RightAngles {
+  std::vector<FaceBond> bonds;  ///< that make faces square to the longest one
+  std::size_t askew = 0;        ///< faces that are left as they were seen
+};
+
+/// Makes faces of an adjusted drive square that are so within three sigmas of what the drive knows
+/// of their directions, and within half a degree. `faces`: those that are asked about.
+RightAngles right_angles(const MappedDrive& drive, std::span<const std::uint32_t> faces);
 
 }  // namespace cornerd::survey

@@ -9,21 +9,15 @@
 
 #include "survey/adjustment.hpp"
 #include "survey/evidence.hpp"
+#include "survey/refusals.hpp"
 #include "survey/right_angles.hpp"
+#include "survey/wall_building.hpp"
 
 namespace cornerd::survey {
 namespace {
 
 /// Points that are kept for pictures.
 constexpr std::size_t kPicturePoints = 60'000;
-
-/// Of one of the passes over all turns, as a share of the whole.
-Progress part(const SurveyProgress& progress, double begin, double end, std::size_t turns) {
-  if (!progress) return {};
-  return [=](std::size_t turn) {
-    progress(begin + (end - begin) * static_cast<double>(turn) / static_cast<double>(turns));
-  };
-}
 
 std::vector<core::Vec2> picture_points(const MappedDrive& drive) {
   std::vector<core::Vec2> points;
@@ -64,49 +58,15 @@ std::vector<ThinPlace> thin_places(const MappedDrive& drive,
   return thin;
 }
 
-/// Without odometry nothing else tells the way: a drive that lost it gives no map.
-void refuse_without_overlap(const RecordedDrive& recorded, const MappedDrive& drive) {
-  constexpr double kMostStrange = 0.02;
-  const double strange = static_cast<double>(drive.strange_turns.size());
-  if (drive.has_odometry || strange <= kMostStrange * static_cast<double>(recorded.size())) return;
-  const double first_s =
-      core::to_seconds(recorded.start_ns(drive.strange_turns.front()) - recorded.start_ns(0));
-  throw std::invalid_argument(
-      "without odometry, " + std::to_string(drive.strange_turns.size()) + " of " +
-      std::to_string(recorded.size()) +
-      " turns see too little of what was seen before them, the "
-      "first " +
-      std::to_string(std::llround(first_s)) +
-      " s after the start; drive more slowly there, or record the odometry too");
-}
-
-/// Where walls along the way are all that is seen, the length of the way is a guess: only a place
-/// beyond that is recognised again can show that it was good enough.
-void refuse_unchecked_guesses(const RecordedDrive& recorded, const std::vector<std::size_t>& blind,
-                              const std::vector<LoopReport>& loops) {
-  constexpr double kMostBlind = 0.02;
-  if (static_cast<double>(blind.size()) <= kMostBlind * static_cast<double>(recorded.size())) {
-    return;
-  }
-  for (const LoopReport& loop : loops) {
-    const auto inside = std::upper_bound(blind.begin(), blind.end(), loop.earlier);
-    if (loop.closed() && inside != blind.end() && *inside < loop.later) return;
-  }
-  const double first_s = core::to_seconds(recorded.start_ns(blind.front()) - recorded.start_ns(0));
-  throw std::invalid_argument(
-      "without odometry, " + std::to_string(blind.size()) + " of " +
-      std::to_string(recorded.size()) +
-      " turns see walls that tell nothing of the way along them, the first " +
-      std::to_string(std::llround(first_s)) +
-      " s after the start, and no loop was closed that would tell it; record the odometry too");
-}
-
 /// Merges what the rays say is one wall, until nothing is left to merge.
-std::size_t unite(MappedDrive& drive, const SurveyConfig& config, const Progress& progress) {
+std::size_t unite(MappedDrive& drive, const SurveyConfig& config, ProgressShares& shares,
+                  double begin, double end) {
   constexpr int kMostRounds = 3;
   std::size_t merged = 0;
   for (int round = 0; round < kMostRounds; ++round) {
-    const auto evidence = gather_evidence(drive, config.sensor.noise, progress);
+    const auto from = [&](int done) { return begin + (end - begin) * done / kMostRounds; };
+    const auto evidence = gather_evidence(
+        drive, config.sensor.noise, shares.pass("one wall or two", from(round), from(round + 1)));
     const std::size_t now = merge_faces(drive, evidence, config.merging);
     if (now == 0) break;
     merged += now;
@@ -115,23 +75,53 @@ std::size_t unite(MappedDrive& drive, const SurveyConfig& config, const Progress
   return merged;
 }
 
+/// The faces that some piece of wall is of, each once.
+std::vector<std::uint32_t> faces_of(const std::vector<WallPiece>& pieces) {
+  std::vector<std::uint32_t> faces;
+  for (const WallPiece& piece : pieces) faces.push_back(piece.face);
+  std::sort(faces.begin(), faces.end());
+  faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
+  return faces;
+}
+
+/// A drive whose wheels lie, by the lidar alone.
+SurveyResult survey_without_wheels(const RecordedDrive& recorded, std::size_t contradicted,
+                                   const SurveyConfig& config, const SurveyProgress& progress) {
+  try {
+    SurveyResult result = survey(recorded.without_odometry(), config, progress);
+    result.odometry_doubt =
+        doubt_of_wheels(recorded, contradicted, result.T_map_base, config.sensor.odometry);
+    return result;
+  } catch (const std::invalid_argument& refused) {
+    throw std::invalid_argument(
+        "the odometry contradicts the lidar in " + std::to_string(contradicted) + " of " +
+        std::to_string(recorded.size()) +
+        " turns (are the encoders and odometry.counts_per_turn right?); and " + refused.what());
+  }
+}
+
 }  // namespace
 
 SurveyResult survey(const RecordedDrive& recorded, const SurveyConfig& config,
                     const SurveyProgress& progress) {
-  if (recorded.size() == 0) throw std::invalid_argument("not one whole turn of a lidar in it");
+  refuse_too_few_turns(recorded, config.walls.pieces.sightings);
   const std::size_t turns = recorded.size();
+  ProgressShares shares(progress, turns);
   SurveyResult result;
 
   // First pass: find the way, and learn the wheels and the gyro.
-  const double half = recorded.readings().empty() ? 0.15 : 0.3;
-  MappedDrive first = map_drive(recorded, config.sensor, nullptr, part(progress, 0, half, turns));
+  const double half = recorded.has_wheels() ? 0.3 : 0.15;
+  MappedDrive first =
+      map_drive(recorded, config.sensor, nullptr, shares.pass("finding the way", 0, half));
   if (!first.has_odometry) {
     // Its turns were straightened by guesses. The way that they gave tells the motion of each; what
     // was mapped with them is of no use any more.
     adjust(first);
-    first = map_drive(recorded, config.sensor, &first, part(progress, half, 0.3, turns),
+    first = map_drive(recorded, config.sensor, &first, shares.pass("finding the way", half, 0.3),
                       /*anew=*/true);
+  }
+  if (is_too_often(first.contradicted_turns, turns)) {
+    return survey_without_wheels(recorded, first.contradicted_turns, config, shares.rest());
   }
   result.strange_turns = first.strange_turns;
   result.blind_turns = first.blind_turns;
@@ -141,42 +131,39 @@ SurveyResult survey(const RecordedDrive& recorded, const SurveyConfig& config,
   result.merged_faces = merge_faces(first, {}, config.merging);
   adjust(first);
   if (config.close_loops) {
-    result.loops =
-        close_loops(first, config.sensor, config.merging, config.walls, result.merged_faces);
+    result.loops = close_loops(first, config.sensor, config.merging, config.walls,
+                               result.merged_faces, shares.pass("closing loops", 0.3, 0.4));
   }
   refuse_unchecked_guesses(recorded, result.blind_turns, result.loops);
-  result.merged_faces += unite(first, config, part(progress, 0.35, 0.4, turns));
+  result.merged_faces += unite(first, config, shares, 0.4, 0.5);
 
   // Second pass: the turns straightened by what was learned, and matched to the adjusted map.
-  MappedDrive drive = map_drive(recorded, config.sensor, &first, part(progress, 0.45, 0.75, turns));
+  MappedDrive drive = map_drive(recorded, config.sensor, &first, shares.pass("mapping", 0.5, 0.75));
   first = {};
   result.merged_faces += merge_faces(drive, {}, config.merging);
   AdjustmentResult fit = adjust(drive);
-  result.merged_faces += unite(drive, config, part(progress, 0.8, 0.9, turns));
+  result.merged_faces += unite(drive, config, shares, 0.75, 0.9);
   std::vector<FaceEvidence> evidence =
-      gather_evidence(drive, config.sensor.noise, part(progress, 0.9, 1, turns));
+      gather_evidence(drive, config.sensor.noise, shares.pass("building walls", 0.9, 1));
 
-  // From faces to walls: cut, join, pair, and once more all at once with what the pairs say.
+  // From faces to walls, which first tell what pairs of sides say, all at once with the drive.
   std::vector<Dropped> ignored;
-  std::vector<WallPiece> pieces = cut_pieces(drive, evidence, config.walls.pieces, ignored);
+  const std::vector<WallPiece> pieces = cut_pieces(drive, evidence, config.walls.pieces, ignored);
   std::vector<FaceBond> bonds =
       bonds_of(drive, pieces, pair_sides(drive, pieces, config.walls.solids));
   if (config.manhattan) {
-    const std::vector<FaceBond> square = right_angles(drive);
-    bonds.insert(bonds.end(), square.begin(), square.end());
+    const RightAngles square = right_angles(drive, faces_of(pieces));
+    bonds.insert(bonds.end(), square.bonds.begin(), square.bonds.end());
+    result.squared = {square.bonds.size() + 1, square.askew};
   }
   fit = adjust(drive, bonds);
-  pieces = cut_pieces(drive, evidence, config.walls.pieces, result.dropped);
-  part_crossings(drive, config.walls.pieces, pieces, result.dropped);
-  join_corners(drive, evidence, config.walls.pieces, pieces);
-  drop_lonely(drive, config.walls.pieces, pieces, result.dropped);
-  const std::vector<WallPair> pairs = pair_sides(drive, pieces, config.walls.solids);
-  result.plan.walls = build_walls(drive, pieces, pairs);
+  BuiltWalls built = build_walls_of(drive, evidence, config.walls, result.dropped);
+  result.plan.walls = std::move(built.walls);
   if (result.plan.walls.empty()) {
     throw std::invalid_argument("no wall was seen well enough to be believed");
   }
 
-  result.thin = thin_places(drive, evidence, pieces);
+  result.thin = thin_places(drive, evidence, built.pieces);
   result.points = picture_points(drive);
   const core::Pose2 T_lidar_base = config.sensor.T_base_lidar.inverse();
   for (std::size_t turn = 0; turn < turns; ++turn) {
@@ -188,6 +175,7 @@ SurveyResult survey(const RecordedDrive& recorded, const SurveyConfig& config,
   result.outliers = fit.outliers;
   result.sigma = fit.sigma;
   result.has_odometry = drive.has_odometry;
+  result.has_gyro = drive.has_odometry && recorded.has_gyro();
   result.learned = drive.learned;
   return result;
 }

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cstddef>
-#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -12,7 +11,9 @@
 #include "core/map/wall_map.hpp"
 #include "survey/face_merging.hpp"
 #include "survey/loop_closing.hpp"
+#include "survey/odometry_doubt.hpp"
 #include "survey/recorded_drive.hpp"
+#include "survey/survey_progress.hpp"
 
 namespace cornerd::survey {
 
@@ -30,6 +31,12 @@ struct ThinPlace {
   core::Vec2 to;
 };
 
+/// Sides of walls, of which --manhattan made some square.
+struct SquaredSides {
+  std::size_t square = 0;
+  std::size_t askew = 0;  ///< left as they were seen
+};
+
 struct SurveyResult {
   core::FloorPlan plan;                 ///< frame: the robot in the middle of the first turn
   std::vector<core::Pose2> T_map_base;  ///< of each turn, at its middle
@@ -45,19 +52,21 @@ struct SurveyResult {
   std::size_t merged_faces = 0;
   std::size_t observations = 0;
   std::size_t outliers = 0;
-  double sigma = 0;  ///< of the residuals, in units of their doubts
-  bool has_odometry = false;
+  double sigma = 0;           ///< of the residuals, in units of their doubts
+  bool has_odometry = false;  ///< of wheels
+  bool has_gyro = false;
+  /// What the recorded odometry said, where it was not believed: the map is by the lidar alone.
+  std::optional<OdometryDoubt> odometry_doubt;
+  std::optional<SquaredSides> squared;
   std::optional<core::LearnedOdometry> learned;
 };
 
 /// The same map in another frame: `T_new_map` is where the robot was in the first turn.
 void move_frame(const core::Pose2& T_new_map, SurveyResult& result);
 
-/// Called with the share of the work that is done.
-using SurveyProgress = std::function<void(double)>;
-
-/// Throws std::invalid_argument, with the reason, where the drive gives no map: no walls, or turns
-/// that do not overlap.
+/// Odometry that contradicts the lidar in more turns than slips explain is left out. Throws
+/// std::invalid_argument, with the reason, where the drive gives no map: no walls, or turns that do
+/// not overlap.
 SurveyResult survey(const RecordedDrive& drive, const SurveyConfig& config,
                     const SurveyProgress& progress = {});
 

@@ -44,7 +44,7 @@ TurnReader::TurnReader(const RecordedDrive& drive, const core::LocalizerConfig& 
       config_(config),
       T_lidar_base_(config.T_base_lidar.inverse()),
       known_poses_(known_poses),
-      odometer_(patient(config.odometry, !drive.readings().empty(), learned)) {}
+      odometer_(patient(config.odometry, drive.has_wheels(), learned)) {}
 
 bool TurnReader::next() {
   if (begun_) ++turn_;
@@ -108,6 +108,11 @@ void TurnReader::predict(core::TimeNs t_ns) {
   prior_.covariance = diagonal(prior_.sigma_m, prior_.sigma_rad);
 }
 
+bool TurnReader::is_contradicted() const {
+  const core::OdometrySummary summary = odometer_.summary();
+  return summary.present && !summary.trusted;
+}
+
 core::Twist2 TurnReader::expected_motion() const {
   const auto known = known_poses_;
   if (known.size() < 2) return last_motion_;
@@ -119,7 +124,7 @@ core::Twist2 TurnReader::expected_motion() const {
 }
 
 bool TurnReader::straighten_again(const core::Pose2& T_map_lidar) {
-  if (turn_ == 0 || !drive_.readings().empty() || !known_poses_.empty()) return false;
+  if (turn_ == 0 || drive_.has_wheels() || !known_poses_.empty()) return false;
   straighten(motion_to(T_map_lidar));
   return true;
 }

@@ -49,6 +49,8 @@ class TurnReader {
   void place(const core::Pose2& T_map_lidar, const core::Covariance3& covariance);
 
   core::LearnedOdometry learned() const { return odometer_.summary().learned; }
+  /// Wheels and lidar have lately told different stories.
+  bool is_contradicted() const;
   core::OdometryCounters counters() const { return odometer_.summary().counters; }
 
  private:

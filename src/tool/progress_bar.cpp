@@ -15,14 +15,16 @@ ProgressBar::~ProgressBar() {
   if (on_terminal_ && shown_percent_ <= 100) std::fputs("\r\033[K", stderr);
 }
 
-void ProgressBar::show(std::size_t done) {
+void ProgressBar::show(std::size_t done, std::string_view phase) {
   if (!on_terminal_ || total_ == 0) return;
   const std::size_t percent = 100 * done / total_;
-  if (percent == shown_percent_) return;
+  if (percent == shown_percent_ && phase == shown_phase_) return;
   shown_percent_ = percent;
+  shown_phase_ = phase;
   constexpr std::size_t kWidth = 40;
   const std::string bar(kWidth * done / total_, '#');
-  std::fprintf(stderr, "\r%s [%-40s] %3zu %%", title_.c_str(), bar.c_str(), percent);
+  std::fprintf(stderr, "\r%s [%-40s] %3zu %% %s\033[K", title_.c_str(), bar.c_str(), percent,
+               shown_phase_.c_str());
 }
 
 }  // namespace cornerd::tool

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <string>
+#include <string_view>
 
 namespace cornerd::tool {
 
@@ -14,13 +15,15 @@ class ProgressBar {
   ProgressBar(const ProgressBar&) = delete;
   ProgressBar& operator=(const ProgressBar&) = delete;
 
-  void show(std::size_t done);
+  /// `phase`: what is being done.
+  void show(std::size_t done, std::string_view phase = {});
 
  private:
   std::string title_;
   std::size_t total_;
   bool on_terminal_;
   std::size_t shown_percent_ = 101;
+  std::string shown_phase_;
 };
 
 }  // namespace cornerd::tool

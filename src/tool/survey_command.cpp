@@ -6,6 +6,7 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -50,8 +51,8 @@ survey::SurveyResult make_map(const SurveyOptions& options, const core::Localize
                               const survey::RecordedDrive& drive) {
   constexpr std::size_t kSteps = 1000;
   ProgressBar bar("survey", kSteps);
-  const auto show = [&](double share) {
-    bar.show(static_cast<std::size_t>(share * static_cast<double>(kSteps)));
+  const auto show = [&](std::string_view phase, double share) {
+    bar.show(static_cast<std::size_t>(share * static_cast<double>(kSteps)), phase);
   };
   try {
     if (options.method == "ransac") {
@@ -105,7 +106,9 @@ void run_survey(const SurveyOptions& options) {
 void add_survey(CLI::App& program) {
   CLI::App* command = program.add_subcommand("survey", "a map of the walls from a recorded drive");
   const auto options = std::make_shared<SurveyOptions>();
-  command->add_option("files", options->files, "recordings of one drive, in their order")
+  command
+      ->add_option("files", options->files,
+                   "recordings of one drive, each goes on where the one before ended")
       ->required()
       ->type_name("FILE");
   command->add_option("-o,--output", options->output, "the map")->required()->type_name("MAP");
@@ -130,7 +133,7 @@ void add_survey(CLI::App& program) {
       ->check(CLI::Range(std::size_t{1}, std::size_t{1'000'000}))
       ->capture_default_str();
   command->add_flag("--manhattan", options->manhattan,
-                    "make walls square that are so within their doubt");
+                    "make walls square that are so within their doubt, half a degree at most");
   command
       ->add_option("--odometry", options->odometry,
                    "ODOMETRY lines of another file, in place of the recordings' own")

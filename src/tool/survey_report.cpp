@@ -13,6 +13,24 @@ namespace {
 
 double length_of(const core::Vec2& from, const core::Vec2& to) { return (to - from).norm(); }
 
+std::string sources_of(const survey::SurveyResult& result) {
+  if (!result.has_odometry) return "by the lidar alone";
+  const std::string wheels = result.has_gyro ? "wheels, gyro" : "wheels";
+  const bool is_papers = result.observations == 0;  // it places its turns by the odometry alone
+  if (is_papers) return result.has_gyro ? "by wheels and gyro" : "by wheels";
+  return "by " + wheels + " and lidar";
+}
+
+/// Tyres wear and are pumped up by a few hundredths: more is a wrong config.
+std::string describe_wheels(const core::LearnedOdometry& learned) {
+  constexpr double kMostScale = 0.15;
+  if (std::max(std::abs(learned.left_scale), std::abs(learned.right_scale)) < kMostScale) return "";
+  return formatted(
+      "WARNING: the wheels are %.0f and %.0f %% larger than the config says: check "
+      "odometry.counts_per_turn and odometry.wheel_radius\n",
+      100 * learned.left_scale, 100 * learned.right_scale);
+}
+
 std::string describe_drive(const survey::SurveyResult& result) {
   double way_m = 0;
   for (std::size_t i = 1; i < result.T_map_base.size(); ++i) {
@@ -20,7 +38,21 @@ std::string describe_drive(const survey::SurveyResult& result) {
   }
   const double duration_s = core::to_seconds(result.t_ns.back() - result.t_ns.front());
   return formatted("%zu turns, %.1f s, %.1f m %s\n", result.T_map_base.size(), duration_s, way_m,
-                   result.has_odometry ? "by wheels and lidar" : "by the lidar alone");
+                   sources_of(result).c_str());
+}
+
+std::string describe_doubt(const survey::OdometryDoubt& doubt) {
+  const auto wheel = [](const survey::WheelWay& way) {
+    return formatted("%.1f m by its counts and %.1f m by the lidar", way.counted_m, way.true_m);
+  };
+  return formatted(
+             "WARNING: the odometry contradicts the lidar in %zu turns and was left out, the map "
+             "is "
+             "by the lidar alone: ",
+             doubt.turns) +
+         "the left wheel went " + wheel(doubt.left) + ", the right one " + wheel(doubt.right) +
+         "; check that the encoders count, forward as more, odometry.counts_per_turn and "
+         "odometry.wheel_radius\n";
 }
 
 std::string describe_walls(const survey::SurveyResult& result) {
@@ -55,6 +87,7 @@ std::string describe_loop(const survey::SurveyResult& result, const survey::Loop
 std::string survey_report(const survey::SurveyResult& result) {
   std::string text = describe_drive(result) + describe_walls(result);
   if (result.observations == 0) return text;  // the paper's way
+  if (result.odometry_doubt) text += describe_doubt(*result.odometry_doubt);
   text += formatted("%zu sightings of walls, residuals %.2f of their doubt, %zu outliers\n",
                     result.observations, result.sigma, result.outliers);
   if (!result.strange_turns.empty()) {
@@ -68,12 +101,17 @@ std::string survey_report(const survey::SurveyResult& result) {
         result.blind_turns.size(),
         core::to_seconds(result.t_ns[result.blind_turns.front()] - result.t_ns.front()));
   }
+  if (result.squared) {
+    text += formatted("%zu sides of walls are square to each other, %zu were left askew\n",
+                      result.squared->square, result.squared->askew);
+  }
   if (result.learned) {
     const core::LearnedOdometry& learned = *result.learned;
     text +=
         formatted("odometry: left %+.4f, right %+.4f, track %+.4f, gyro %+.4f and %+.5f rad/s\n",
                   learned.left_scale, learned.right_scale, learned.track_scale, learned.gyro_scale,
                   learned.gyro_bias_rad_s);
+    text += describe_wheels(learned);
   }
   for (const survey::LoopReport& loop : result.loops) text += describe_loop(result, loop);
   if (result.merged_faces > 0) {

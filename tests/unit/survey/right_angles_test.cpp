@@ -3,38 +3,62 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+
 #include "mapped_scene.hpp"
 
 namespace cornerd::survey {
 namespace {
 
+constexpr std::array<std::uint32_t, 2> kBoth = {0, 1};
+
+/// Seen in 20 turns, so that the angle between them is known to a hundredth of a degree.
 MappedDrive two_walls(double askew_rad) {
-  MappedDrive drive;
-  drive.faces.push_back(face_between({-3, -1}, {3, -1}));
-  drive.faces.push_back(face_between({3, -1}, {3, 1}));
-  drive.faces[1].set_line(drive.faces[1].normal_rad() + askew_rad, 0);
-  for (MappedFace& face : drive.faces) {
-    face.set_covariance(Eigen::Vector2d(1e-8, 1e-8).asDiagonal());
+  const core::Vec2 corner(3, -1);
+  const std::vector<std::pair<core::Vec2, core::Vec2>> walls = {
+      {{-3, -1}, corner}, {corner, corner + 2 * core::unit_vector(core::kPi / 2 + askew_rad)}};
+  std::vector<core::Pose2> way;
+  for (int i = 0; i < 20; ++i) way.push_back({0.05 * i, 0, 0});
+  return mapped_drive(walls, way);
+}
+
+TEST(RightAngles, WallSquareWithinItsDoubt_GetsABond) {
+  const RightAngles found = right_angles(two_walls(core::radians(0.08)), kBoth);
+  ASSERT_EQ(found.bonds.size(), 1U);
+  EXPECT_EQ(found.bonds[0].one, 0U);
+  EXPECT_NEAR(found.bonds[0].turn_rad, core::kPi / 2, 1e-12);
+  EXPECT_EQ(found.askew, 0U);
+}
+
+TEST(RightAngles, WallKnownToBeAskewByLessThanHalfADegree_IsLeftAlone) {
+  const RightAngles found = right_angles(two_walls(core::radians(0.46)), kBoth);
+  EXPECT_TRUE(found.bonds.empty());
+  EXPECT_EQ(found.askew, 1U);
+}
+
+TEST(RightAngles, WallThatIsKnownBadly_IsSquareWithinHalfADegreeAndNoMore) {
+  for (const double askew_deg : {0.46, 0.6}) {
+    MappedDrive drive = two_walls(core::radians(askew_deg));
+    for (Observation& seen : drive.observations) {
+      if (seen.face == 1) seen.seen.sigma_angle_rad = core::radians(3);
+      if (seen.face == 1) seen.seen.sigma_offset_m = 0.1;
+    }
+    const RightAngles found = right_angles(drive, kBoth);
+    EXPECT_EQ(found.bonds.size(), askew_deg < 0.5 ? 1U : 0U) << askew_deg;
   }
-  return drive;
 }
-
-TEST(RightAngles, NearlySquareWall_GetsABond) {
-  const auto bonds = right_angles(two_walls(0.004));
-  ASSERT_EQ(bonds.size(), 1U);
-  EXPECT_EQ(bonds[0].one, 0U);
-  EXPECT_NEAR(bonds[0].turn_rad, core::kPi / 2, 1e-12);
-}
-
-TEST(RightAngles, SlantedWall_IsLeftAlone) { EXPECT_TRUE(right_angles(two_walls(0.03)).empty()); }
 
 TEST(RightAngles, UncertainWall_IsLeftAlone) {
   MappedDrive drive = two_walls(0);
-  drive.faces[1].set_covariance(Eigen::Vector2d(1e-2, 1e-2).asDiagonal());
-  EXPECT_TRUE(right_angles(drive).empty());
+  std::erase_if(drive.observations, [](const Observation& seen) { return seen.face == 1; });
+  EXPECT_TRUE(right_angles(drive, kBoth).bonds.empty());
 }
 
-TEST(RightAngles, NoWalls_NoBonds) { EXPECT_TRUE(right_angles({}).empty()); }
+TEST(RightAngles, FaceThatNobodyAsksAbout_GetsNoBond) {
+  EXPECT_TRUE(right_angles(two_walls(0), std::span(kBoth).first(1)).bonds.empty());
+}
+
+TEST(RightAngles, NoWalls_NoBonds) { EXPECT_TRUE(right_angles({}, {}).bonds.empty()); }
 
 }  // namespace
 }  // namespace cornerd::survey

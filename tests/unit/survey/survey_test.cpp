@@ -3,7 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <set>
 #include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
 
 #include "bench/simulated_drive.hpp"
 #include "bench/survey_scoring.hpp"
@@ -97,6 +101,8 @@ TEST(Survey, Manhattan_MakesWallsSquare) {
   SurveyConfig config;
   config.manhattan = true;
   const SurveyResult result = survey(drive_through(/*has_odometry=*/true).drive, config);
+  ASSERT_TRUE(result.squared.has_value());
+  EXPECT_GE(result.squared->square, 9U);
   const Vec2 first = result.plan.walls[0].to - result.plan.walls[0].from;
   for (const core::Wall& wall : result.plan.walls) {
     if ((wall.to - wall.from).norm() < 0.3) continue;
@@ -104,6 +110,84 @@ TEST(Survey, Manhattan_MakesWallsSquare) {
     const double square_rad = std::round(turn_rad / (core::kPi / 2)) * (core::kPi / 2);
     EXPECT_NEAR(turn_rad, square_rad, 1e-4);
   }
+}
+
+/// The same drive, with what a robot that lies makes of its readings.
+template <typename Lie>
+RecordedDrive with_lies(const RecordedDrive& told, const Lie& lie) {
+  RecordedDrive drive = told.without_odometry();
+  std::vector<core::OdometryReading> readings;
+  for (const RecordedDrive::Reading& reading : told.readings()) {
+    readings.push_back(reading.reading);
+    lie(readings.back());
+  }
+  drive.set_odometry(readings);
+  return drive;
+}
+
+void expect_right_by_the_lidar_alone(const bench::SimulatedDrive& simulated,
+                                     const SurveyResult& result) {
+  ASSERT_TRUE(result.odometry_doubt.has_value());
+  EXPECT_GT(result.odometry_doubt->turns, result.t_ns.size() / 10);
+  EXPECT_FALSE(result.has_odometry);
+  const auto score = bench::score_survey(*two_rooms(), simulated.T_map_base,
+                                         core::WallMap(result.plan), simulated.T_map_base[0]);
+  EXPECT_EQ(score.walls_found, score.walls_seen);
+  EXPECT_LT(score.invented_m, 0.05);
+  EXPECT_LT(score.corner_max_m(), 0.01);
+}
+
+TEST(Survey, DeadWheel_IsLeftOutAndSaid) {
+  const bench::SimulatedDrive simulated = drive_through(/*has_odometry=*/true);
+  const SurveyResult result = survey(
+      with_lies(simulated.drive, [](core::OdometryReading& reading) { reading.left = 7; }), {});
+  expect_right_by_the_lidar_alone(simulated, result);
+  EXPECT_NEAR(result.odometry_doubt->left.counted_m, 0, 1e-9);
+  EXPECT_NEAR(result.odometry_doubt->right.counted_m, result.odometry_doubt->right.true_m,
+              0.05 * result.odometry_doubt->right.true_m);
+}
+
+TEST(Survey, TwiceTheCounts_AreLeftOutAndSaid) {
+  const bench::SimulatedDrive simulated = drive_through(/*has_odometry=*/true);
+  const SurveyResult result = survey(with_lies(simulated.drive,
+                                               [](core::OdometryReading& reading) {
+                                                 reading.left = 2 * reading.left.value();
+                                                 reading.right = 2 * reading.right.value();
+                                                 reading.gyro_rad_s.reset();
+                                               }),
+                                     {});
+  expect_right_by_the_lidar_alone(simulated, result);
+  EXPECT_NEAR(result.odometry_doubt->left.counted_m / result.odometry_doubt->left.true_m, 2, 0.1);
+}
+
+TEST(Survey, HonestOdometry_IsNotDoubted) {
+  EXPECT_FALSE(survey(drive_through(/*has_odometry=*/true).drive, {}).odometry_doubt.has_value());
+}
+
+TEST(Survey, GyroWithoutWheels_IsTheLidarAlone) {
+  const bench::SimulatedDrive simulated = drive_through(/*has_odometry=*/true);
+  const SurveyResult result = survey(with_lies(simulated.drive,
+                                               [](core::OdometryReading& reading) {
+                                                 reading.left.reset();
+                                                 reading.right.reset();
+                                               }),
+                                     {});
+  EXPECT_FALSE(result.has_odometry);
+  EXPECT_FALSE(result.has_gyro);
+  EXPECT_FALSE(result.learned.has_value());
+}
+
+TEST(Survey, Progress_NamesItsPhaseAndNeverGoesBack) {
+  double last = 0;
+  std::set<std::string> phases;
+  survey(drive_through(/*has_odometry=*/true).drive, {}, [&](std::string_view phase, double share) {
+    EXPECT_GE(share, last);
+    last = share;
+    phases.emplace(phase);
+  });
+  EXPECT_GT(last, 0.99);
+  EXPECT_EQ(phases.count("closing loops"), 1U);
+  EXPECT_EQ(phases.size(), 5U);
 }
 
 TEST(Survey, SameDriveTwice_GivesTheSameMap) {

@@ -45,7 +45,7 @@ TEST_F(SurveyCommandTest, SimulatedDrive_GivesAMapToLocalizeIn) {
   const CommandRun run({"survey", file("one.ndjson"), "-o", file("map.json"), "--start", pose.str(),
                         "--plot", file("map.svg"), "--trajectory", file("way.ndjson")});
   ASSERT_EQ(run.exit_code, 0) << run.err;
-  EXPECT_NE(run.out.find("by wheels and lidar"), std::string::npos);
+  EXPECT_NE(run.out.find("by wheels, gyro and lidar"), std::string::npos);
 
   EXPECT_EQ(CommandRun({"map", "check", file("map.json"), "--places", "0"}).exit_code, 0);
   EXPECT_EQ(settings::load_map(file("map.json"))->plan().name, "map");
@@ -63,6 +63,56 @@ TEST_F(SurveyCommandTest, NoTurnInIt_Fails) {
   const CommandRun run({"survey", file("empty.ndjson"), "-o", file("map.json")});
   EXPECT_EQ(run.exit_code, 1);
   EXPECT_NE(run.err.find("not one whole turn"), std::string::npos);
+}
+
+TEST_F(SurveyCommandTest, WheelsThatLie_AreLeftOutAndTheReportSaysWhatToCheck) {
+  ASSERT_EQ(
+      CommandRun({"simulate", "--map", arena_, "--path", "0.9,0.9 0.9,1.5 1.15,1.15 0.9,0.9",
+                  "--loop", "--turns", "120", "--odometry", "--drive-speed", "0.3",
+                  "--acceleration", "1", "--turn-acceleration", "3", "-o", file("one.ndjson")})
+          .exit_code,
+      0);
+  std::ofstream(file("wrong.json"))
+      << R"({"odometry": {"source": "socket", "counts_per_turn": 300}})";
+  const CommandRun run({"survey", file("one.ndjson"), "-o", file("map.json"), "--config",
+                        file("wrong.json"), "--manhattan"});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_NE(run.out.find("by the lidar alone\n"), std::string::npos) << run.out;
+  EXPECT_NE(run.out.find("WARNING: the odometry contradicts the lidar"), std::string::npos);
+  EXPECT_NE(run.out.find("odometry.counts_per_turn"), std::string::npos);
+  EXPECT_NE(run.out.find("sides of walls are square to each other"), std::string::npos);
+}
+
+TEST_F(SurveyCommandTest, WheelsThatLieWhereTheLidarAloneIsLost_AreNamedInTheRefusal) {
+  simulate(file("one.ndjson"), file("one.truth"), "1");
+  std::ofstream(file("wrong.json"))
+      << R"({"odometry": {"source": "socket", "counts_per_turn": 300}})";
+  const CommandRun run(
+      {"survey", file("one.ndjson"), "-o", file("map.json"), "--config", file("wrong.json")});
+  EXPECT_EQ(run.exit_code, 1);
+  EXPECT_NE(run.err.find("the odometry contradicts the lidar"), std::string::npos) << run.err;
+  EXPECT_NE(run.err.find("drive more slowly"), std::string::npos) << run.err;
+}
+
+TEST_F(SurveyCommandTest, WheelsOfAnotherSize_AreLearnedAndSaid) {
+  simulate(file("one.ndjson"), file("one.truth"), "1");
+  std::ofstream(file("wrong.json"))
+      << R"({"odometry": {"source": "socket", "counts_per_turn": 1900}})";
+  const CommandRun run(
+      {"survey", file("one.ndjson"), "-o", file("map.json"), "--config", file("wrong.json")});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_NE(run.out.find("WARNING: the wheels are 3"), std::string::npos) << run.out;
+}
+
+TEST_F(SurveyCommandTest, TooFewTurns_SaysHowManyThereWere) {
+  ASSERT_EQ(CommandRun({"simulate", "--map", arena_, "--path", "0.9,0.9 0.9,1.5", "--turns", "4",
+                        "-o", file("a.ndjson")})
+                .exit_code,
+            0);
+  const CommandRun run({"survey", file("a.ndjson"), "-o", file("map.json")});
+  EXPECT_EQ(run.exit_code, 1);
+  EXPECT_NE(run.err.find("whole turns of a lidar in it: "), std::string::npos) << run.err;
+  EXPECT_NE(run.err.find("a wall has to be seen in 5"), std::string::npos) << run.err;
 }
 
 TEST_F(SurveyCommandTest, OutputOverTheRecording_IsWrongUsage) {

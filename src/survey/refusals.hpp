@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+// Drives that give no map, and why. All throw std::invalid_argument.
+#pragma once
+
+#include <cstddef>
+#include <span>
+
+#include "survey/drive_mapper.hpp"
+#include "survey/loop_closing.hpp"
+#include "survey/recorded_drive.hpp"
+
+namespace cornerd::survey {
+
+/// Where a wall has to be seen in `needed` turns to be believed.
+void refuse_too_few_turns(const RecordedDrive& recorded, std::size_t needed);
+
+/// Without odometry nothing else tells the way: a drive that lost it gives no map.
+void refuse_without_overlap(const RecordedDrive& recorded, const MappedDrive& drive);
+
+/// Where walls along the way are all that is seen, the length of the way is a guess: only a place
+/// beyond that is recognised again can show that it was good enough.
+void refuse_unchecked_guesses(const RecordedDrive& recorded, std::span<const std::size_t> blind,
+                              std::span<const LoopReport> loops);
+
+}  // namespace cornerd::survey

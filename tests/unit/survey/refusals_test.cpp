@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: MIT
+#include "survey/refusals.hpp"
+
+#include <gtest/gtest.h>
+
+#include <stdexcept>
+#include <string>
+
+namespace cornerd::survey {
+namespace {
+
+RecordedDrive drive_of(std::size_t turns) {
+  RecordedDrive drive;
+  for (std::size_t i = 0; i < turns; ++i) {
+    core::Scan scan;
+    core::Sample sample;
+    sample.t_ns = static_cast<core::TimeNs>(i) * 1'000'000'000;
+    scan.add(sample);
+    drive.add(scan);
+  }
+  return drive;
+}
+
+template <typename Check>
+std::string refusal(const Check& check) {
+  try {
+    check();
+  } catch (const std::invalid_argument& refused) {
+    return refused.what();
+  }
+  return {};
+}
+
+TEST(RefuseTooFewTurns, FewerThanAWallNeeds_SaysHowManyThereWere) {
+  EXPECT_EQ(refusal([] { refuse_too_few_turns(drive_of(4), 5); }),
+            "whole turns of a lidar in it: 4; a wall has to be seen in 5");
+  EXPECT_EQ(refusal([] { refuse_too_few_turns(drive_of(5), 5); }), "");
+  EXPECT_EQ(refusal([] { refuse_too_few_turns({}, 5); }), "not one whole turn of a lidar in it");
+}
+
+TEST(RefuseWithoutOverlap, MoreThanTwoOfAHundredTurns_SaysWhereTheFirstIs) {
+  MappedDrive drive;
+  drive.strange_turns = {20, 21};
+  EXPECT_EQ(refusal([&] { refuse_without_overlap(drive_of(100), drive); }), "");
+  drive.strange_turns.push_back(22);
+  EXPECT_EQ(refusal([&] { refuse_without_overlap(drive_of(100), drive); }),
+            "without odometry, 3 of 100 turns see too little of what was seen before them, the "
+            "first 20 s after the start; drive more slowly there, or record the odometry too");
+  drive.has_odometry = true;
+  EXPECT_EQ(refusal([&] { refuse_without_overlap(drive_of(100), drive); }), "");
+}
+
+TEST(RefuseUncheckedGuesses, LoopAcrossThem_IsEnough) {
+  const std::vector<std::size_t> blind = {40, 41, 42};
+  LoopReport loop;
+  loop.earlier = 10;
+  loop.later = 41;
+  const auto with = [&](const LoopReport& report) {
+    return refusal([&] { refuse_unchecked_guesses(drive_of(100), blind, {&report, 1}); });
+  };
+  EXPECT_EQ(with(loop), "");
+  loop.refused = "for a reason";
+  EXPECT_NE(with(loop).find("3 of 100 turns see walls that tell nothing"), std::string::npos);
+  loop.refused.clear();
+  loop.later = 40;
+  EXPECT_NE(with(loop), "");
+}
+
+}  // namespace
+}  // namespace cornerd::survey
