@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "tool/survey_files.hpp"
 
+#include <algorithm>
 #include <cstdio>
 #include <optional>
 #include <utility>
@@ -15,18 +16,34 @@ namespace cornerd::tool {
 
 namespace {
 
+/// A file whose clock begins anew goes on so long after the one before it.
+constexpr core::TimeNs kBetweenClocks_ns = core::kNsPerSecond;
+
 class SurveySink final : public replay::RecordingSink {
  public:
   SurveySink(survey::RecordedDrive& drive, bool takes_odometry)
       : drive_(drive), takes_odometry_(takes_odometry) {}
 
+  /// What comes now is of the next file.
+  void begin_file() {
+    is_first_ = true;
+    shift_ns_ = 0;
+    now_ns_.reset();
+  }
+  /// By which the file's clock was set on; 0 where it goes on from the file before.
+  core::TimeNs shift_ns() const { return shift_ns_; }
+
   void on_sample(const core::Sample& sample) override {
-    now_ns_ = sample.t_ns;
-    if (assembler_.add(sample, turn_)) drive_.add(turn_);
+    core::Sample shifted = sample;
+    shifted.t_ns = shifted_ns(sample.t_ns);
+    now_ns_ = shifted.t_ns;
+    if (assembler_.add(shifted, turn_)) drive_.add(turn_);
   }
   void on_gap() override { finish(); }
   void on_odometry(const message::OdometryReading& reading) override {
-    if (takes_odometry_) drive_.add(reading, now_ns_);
+    message::OdometryReading shifted = reading;
+    shifted.t_ns = shifted_ns(reading.t_ns);
+    if (takes_odometry_) drive_.add(shifted, now_ns_);
   }
   void finish() {
     if (assembler_.finish(turn_)) drive_.add(turn_);
@@ -34,11 +51,24 @@ class SurveySink final : public replay::RecordingSink {
   }
 
  private:
+  core::TimeNs shifted_ns(core::TimeNs t_ns) {
+    if (is_first_ && latest_ns_ && t_ns < *latest_ns_) {
+      shift_ns_ = *latest_ns_ + kBetweenClocks_ns - t_ns;
+    }
+    is_first_ = false;
+    t_ns += shift_ns_;
+    latest_ns_ = std::max(latest_ns_.value_or(t_ns), t_ns);
+    return t_ns;
+  }
+
   survey::RecordedDrive& drive_;
   bool takes_odometry_;
   core::TurnAssembler assembler_;
   core::Scan turn_;
   std::optional<core::TimeNs> now_ns_;
+  bool is_first_ = true;  ///< of the file: its clock is not known yet
+  core::TimeNs shift_ns_ = 0;
+  std::optional<core::TimeNs> latest_ns_;  ///< of all files so far
 };
 
 }  // namespace
@@ -49,7 +79,9 @@ survey::RecordedDrive load_drive(std::span<const std::filesystem::path> files,
   survey::RecordedDrive drive;
   SurveySink sink(drive, odometry.empty());
   for (const std::filesystem::path& file : files) {
+    const std::size_t turns_before = drive.size();
     replay::RecordingPlayer player(file, options);
+    sink.begin_file();
     while (player.step(sink)) {
     }
     sink.finish();
@@ -58,9 +90,20 @@ survey::RecordedDrive load_drive(std::span<const std::filesystem::path> files,
                    static_cast<unsigned long long>(player.bad_lines()),
                    player.first_problem().c_str());
     }
-  }
-  if (drive.size() == 0) {
-    throw Failure(files.front().string() + ": not one whole turn of a lidar in it");
+    if (drive.size() == turns_before) {
+      throw Failure(file.string() + ": not one whole turn of a lidar in it" +
+                    (files.size() > 1 ? "; for ODOMETRY of another file there is --odometry" : ""));
+    }
+    if (sink.shift_ns() == 0) continue;
+    if (!odometry.empty()) {
+      throw Failure(file.string() +
+                    ": its clock begins before the end of the recording before it, " + "so that " +
+                    odometry.string() + " does not tell which of them it is of");
+    }
+    std::fprintf(stderr,
+                 "%s: its clock begins before the end of the recording before it; taken as the "
+                 "drive's next part, its times %.3f s later\n",
+                 file.c_str(), core::to_seconds(sink.shift_ns()));
   }
   if (!odometry.empty()) drive.set_odometry(load_odometry(odometry));
   return drive;

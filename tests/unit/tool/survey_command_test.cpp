@@ -30,6 +30,27 @@ class SurveyCommandTest : public ::testing::Test {
                   .exit_code,
               0);
   }
+  /// What came before a time in one.ndjson, the rest in two.ndjson by a clock that begins anew, and
+  /// the first one's readings in one.odometry.
+  void split_in_two(const std::string& whole, double at_s) const {
+    std::ifstream lines(whole);
+    std::ofstream one(file("one.ndjson"));
+    std::ofstream two(file("two.ndjson"));
+    std::ofstream odometry(file("one.odometry"));
+    const std::string time = "\"t\":";
+    for (std::string line; std::getline(lines, line);) {
+      const std::size_t begin = line.find(time) + time.size();
+      const std::size_t end = line.find(',', begin);
+      const double t_s = std::stod(line.substr(begin, end - begin));
+      if (t_s < at_s) {
+        one << line << "\n";
+        if (line.find("ODOMETRY") != std::string::npos) odometry << line << "\n";
+        continue;
+      }
+      line.replace(begin, end - begin, std::to_string(t_s - at_s));
+      two << line << "\n";
+    }
+  }
 
   test::TemporaryFolder folder_;
   const std::string arena_ = CORNERD_SOURCE_DIR "/config/maps/krpai-2019-a.json";
@@ -113,6 +134,44 @@ TEST_F(SurveyCommandTest, TooFewTurns_SaysHowManyThereWere) {
   EXPECT_EQ(run.exit_code, 1);
   EXPECT_NE(run.err.find("whole turns of a lidar in it: "), std::string::npos) << run.err;
   EXPECT_NE(run.err.find("a wall has to be seen in 5"), std::string::npos) << run.err;
+}
+
+TEST_F(SurveyCommandTest, RecordingWhoseClockBeginsAnew_FollowsTheOneBefore) {
+  simulate(file("whole.ndjson"), file("truth"), "1");
+  split_in_two(file("whole.ndjson"), 8.2);
+  const CommandRun run({"survey", file("one.ndjson"), file("two.ndjson"), "-o", file("map.json"),
+                        "--trajectory", file("way.ndjson")});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_NE(run.err.find("two.ndjson: its clock begins before the end"), std::string::npos);
+  core::TimeNs last_ns = -1;
+  const Truth way = Truth::load(file("way.ndjson"));
+  for (const auto& point : way.points()) {
+    EXPECT_GT(point.t_ns, last_ns);
+    last_ns = point.t_ns;
+  }
+  const CommandRun whole({"survey", file("whole.ndjson"), "-o", file("other.json")});
+  EXPECT_EQ(settings::load_map(file("map.json"))->plan().walls.size(),
+            settings::load_map(file("other.json"))->plan().walls.size());
+}
+
+TEST_F(SurveyCommandTest, OdometryBesideClocksThatBeginAnew_NamesTheFiles) {
+  simulate(file("whole.ndjson"), file("truth"), "1");
+  split_in_two(file("whole.ndjson"), 8.2);
+  const CommandRun run({"survey", file("one.ndjson"), file("two.ndjson"), "-o", file("map.json"),
+                        "--odometry", file("one.odometry")});
+  EXPECT_EQ(run.exit_code, 1);
+  EXPECT_NE(run.err.find("two.ndjson: its clock begins"), std::string::npos) << run.err;
+  EXPECT_NE(run.err.find("one.odometry does not tell"), std::string::npos) << run.err;
+}
+
+TEST_F(SurveyCommandTest, RecordingWithoutATurnBesideOthers_IsNamed) {
+  simulate(file("one.ndjson"), file("truth"), "1");
+  std::ofstream(file("two.ndjson")) << R"({"class":"ODOMETRY","t":0.000000,"left":0,"right":0})"
+                                    << "\n";
+  const CommandRun run({"survey", file("one.ndjson"), file("two.ndjson"), "-o", file("map.json")});
+  EXPECT_EQ(run.exit_code, 1);
+  EXPECT_NE(run.err.find("two.ndjson: not one whole turn"), std::string::npos) << run.err;
+  EXPECT_NE(run.err.find("--odometry"), std::string::npos) << run.err;
 }
 
 TEST_F(SurveyCommandTest, OutputOverTheRecording_IsWrongUsage) {
