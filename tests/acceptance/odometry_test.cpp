@@ -24,7 +24,7 @@ namespace {
 using nlohmann::json;
 
 constexpr double kTaught_s = 30;
-constexpr double kSeesAgain_s = 35;
+constexpr double kUncovered_s = 35;
 
 /// Wheels 2 % off and 1 % apart, a gyro 2 % and 0.01 rad/s off.
 struct BadRobot {
@@ -124,7 +124,7 @@ TEST_P(DriveOf100m, BadWheelsAndGyro_AreLearntAndCarryFiveSecondsBlind) {
   for (const json& pose : poses_) {
     const Error error = error_of(pose);
     sum_m += error.place_m;
-    if (pose["t"] > kTaught_s && pose["t"] < kSeesAgain_s && pose["state"] == "predicted") {
+    if (pose["t"] > kTaught_s && pose["t"] < kUncovered_s && pose["state"] == "predicted") {
       ++predicted;
       last_blind = error;
     } else {

@@ -1,0 +1,293 @@
+// SPDX-License-Identifier: MIT
+// What comes from wheels and gyro is absent, wraps, jumps, freezes, is garbage or of another time:
+// from the line of a recording to the pose. None of it may make a pose wrong.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <functional>
+#include <map>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "core/geometry/angle.hpp"
+#include "tests/temporary_folder.hpp"
+#include "tests/unit/tool/command_run.hpp"
+#include "tool/truth.hpp"
+
+namespace cornerd::tool {
+namespace {
+
+using nlohmann::json;
+
+/// The lines in place of one ODOMETRY line; `index` counts them, 50 a second.
+using Fault = std::function<std::vector<json>(json line, int index)>;
+
+/// What a replay made of the drive.
+struct Replayed {
+  std::vector<std::string> poses;  ///< their lines
+  std::map<std::string, int> states;
+  std::size_t wrong = 0;  ///< of those that name a place: over 10 cm or 5 degrees off
+  double worst_fix_m = 0;
+  double worst_m = 0;
+  json odometry;  ///< of the last STATUS
+
+  int counter(const char* name) const { return odometry["counters"][name].get<int>(); }
+  int count(const char* state) const {
+    const auto found = states.find(state);
+    return found == states.end() ? 0 : found->second;
+  }
+};
+
+class OdometryFaults : public testing::Test {
+ protected:
+  /// 20 s around a circuit of a flat, the lidar covered for two of them.
+  OdometryFaults() {
+    const CommandRun run({"simulate", "--map", map_, "--scenario", "circuit-1", "--turns", "150",
+                          "--drive-speed", "0.4", "--odometry", "--covered", "15,17", "-o",
+                          recording_, "--truth", truth_});
+    if (run.exit_code != 0) throw std::runtime_error(run.err);
+  }
+
+  Replayed replay(const Fault& fault, const std::vector<std::string>& settings = {}) const {
+    const std::string faulty = folder_ / "faulty.ndjson";
+    {
+      std::ifstream from(recording_);
+      std::ofstream to(faulty);
+      int index = 0;
+      for (std::string text; std::getline(from, text);) {
+        if (text.find("ODOMETRY") == std::string::npos) {
+          to << text << '\n';
+        } else {
+          for (const json& line : fault(json::parse(text), index)) to << line.dump() << '\n';
+          ++index;
+        }
+      }
+    }
+    std::vector<std::string> words = {"replay", faulty,  "--map",
+                                      map_,     "--set", "/odometry/source=socket"};
+    for (const std::string& setting : settings) words.insert(words.end(), {"--set", setting});
+    const CommandRun run(words);
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    return judge(run.out);
+  }
+
+  Replayed judge(const std::string& messages) const {
+    const Truth truth = Truth::load(truth_);
+    Replayed replayed;
+    std::istringstream lines(messages);
+    for (std::string text; std::getline(lines, text);) {
+      const json line = json::parse(text);
+      if (line["class"] == "STATUS") replayed.odometry = line.value("odometry", json());
+      if (line["class"] != "POSE") continue;
+      replayed.poses.push_back(text);
+      ++replayed.states[line["state"]];
+      const auto at = truth.at(core::from_seconds(line["t"]));
+      if (!line.contains("x") || !at) continue;
+      const double off_m = (core::Vec2(line["x"], line["y"]) - at->translation()).norm();
+      const double off_rad = std::abs(core::angle_between(at->theta_rad, line["theta"]));
+      if (off_m > 0.1 || off_rad > core::radians(5)) ++replayed.wrong;
+      replayed.worst_m = std::max(replayed.worst_m, off_m);
+      if (line["state"] == "fix") replayed.worst_fix_m = std::max(replayed.worst_fix_m, off_m);
+    }
+    return replayed;
+  }
+
+  /// Right and as often as ever where the lidar sees, and carried on where it does not.
+  static void expect_unharmed(const Replayed& replayed) {
+    expect_right(replayed);
+    EXPECT_GE(replayed.count("fix"), 135);
+    EXPECT_GE(replayed.count("predicted"), 12);
+    EXPECT_LT(replayed.worst_m, 0.03);
+    EXPECT_EQ(replayed.odometry["state"], "running");
+  }
+  /// No pose that is wrong; there may be fewer.
+  static void expect_right(const Replayed& replayed) {
+    EXPECT_EQ(replayed.wrong, 0U);
+    EXPECT_EQ(replayed.poses.size(), 150U);
+    EXPECT_GE(replayed.count("fix"), 125);
+    EXPECT_LT(replayed.worst_fix_m, 0.025);
+  }
+
+  test::TemporaryFolder folder_;
+  const std::string map_ = CORNERD_SOURCE_DIR "/config/maps/flat-7.json";
+  const std::string recording_ = folder_ / "drive.ndjson";
+  const std::string truth_ = folder_ / "truth.ndjson";
+};
+
+/// Both counts differ by `offset`, and wrap.
+Fault wrapped(std::int64_t offset, std::int64_t ceiling) {
+  return [=](json line, int) -> std::vector<json> {
+    for (const char* wheel : {"left", "right"}) {
+      line[wheel] = (line[wheel].get<std::int64_t>() + offset) & ceiling;
+    }
+    return {std::move(line)};
+  };
+}
+
+/// No line from reading `first` on until `last`.
+Fault absent(int first, int last) {
+  return [=](json line, int index) -> std::vector<json> {
+    if (index >= first && index < last) return {};
+    return {std::move(line)};
+  };
+}
+
+/// From reading `first` on the line lacks that field.
+Fault without(const char* field, int first) {
+  return [=](json line, int index) -> std::vector<json> {
+    if (index >= first) line.erase(field);
+    return {std::move(line)};
+  };
+}
+
+/// From reading `first` on that field stays as it is then.
+Fault frozen(std::vector<const char*> fields, int first) {
+  return [=, held = json()](json line, int index) mutable -> std::vector<json> {
+    if (index == first) held = line;
+    for (const char* field : fields) {
+      if (index > first) line[field] = held[field];
+    }
+    return {std::move(line)};
+  };
+}
+
+/// After each tenth line the same one of another time.
+Fault another_time_beside(double by_s) {
+  return [=](json line, int index) -> std::vector<json> {
+    json other = line;
+    other["t"] = line["t"].get<double>() + by_s;
+    if (index % 10 != 0) return {std::move(line)};
+    return {std::move(line), std::move(other)};
+  };
+}
+
+const Fault kNone = [](json line, int) { return std::vector<json>{std::move(line)}; };
+
+TEST_F(OdometryFaults, None_IsTheDriveThatTheOthersAreMeasuredBy) {
+  const Replayed clean = replay(kNone);
+  expect_unharmed(clean);
+  for (const char* counter : {"past", "future", "jumps", "bad_rates", "frozen", "holes"}) {
+    EXPECT_EQ(clean.counter(counter), 0) << counter;
+  }
+}
+
+TEST_F(OdometryFaults, CountsThatWrap_AreTheSameDrive) {
+  const Replayed clean = replay(kNone);
+  EXPECT_EQ(replay(wrapped(65000, 0xFFFF), {"/odometry/ceiling=65535"}).poses, clean.poses);
+  EXPECT_EQ(replay(wrapped(0xFFFFF000, 0xFFFFFFFF)).poses, clean.poses);
+}
+
+TEST_F(OdometryFaults, CountsThatJumpOnce_CostThatReading) {
+  for (const int reading : {300, 800}) {  // seen, and covered
+    for (const int by : {30464, -30464, 5198147}) {
+      const Replayed replayed = replay([=](json line, int index) -> std::vector<json> {
+        if (index == reading) line["left"] = (line["left"].get<std::int64_t>() + by) & 0xFFFFFFFF;
+        return {std::move(line)};
+      });
+      expect_unharmed(replayed);
+      EXPECT_EQ(replayed.counter("jumps"), 1) << reading << ' ' << by;
+    }
+  }
+}
+
+TEST_F(OdometryFaults, ControllerThatIsRestarted_CountsOnFromThere) {
+  for (const int reading : {300, 800}) {
+    const Replayed replayed =
+        replay([=, at = json()](json line, int index) mutable -> std::vector<json> {
+          if (index == reading) at = line;
+          for (const char* wheel : {"left", "right"}) {
+            if (index < reading) continue;
+            line[wheel] =
+                (line[wheel].get<std::int64_t>() - at[wheel].get<std::int64_t>()) & 0xFFFFFFFF;
+          }
+          return {std::move(line)};
+        });
+    expect_unharmed(replayed);
+    EXPECT_EQ(replayed.counter("restarts"), 1) << reading;
+  }
+}
+
+TEST_F(OdometryFaults, RatesThatAreGarbage_CostThemselves) {
+  for (const double rate_rad_s : {5198147.0, -5198147.0, 99.0}) {
+    const Replayed replayed = replay([=](json line, int index) -> std::vector<json> {
+      if (index % 10 == 0) line["gyro"] = rate_rad_s;
+      return {std::move(line)};
+    });
+    expect_unharmed(replayed);
+    // What no gyro can say is no reading at all.
+    EXPECT_EQ(replayed.counter("bad_rates") + 1030 - replayed.counter("readings"), 103);
+  }
+}
+
+TEST_F(OdometryFaults, ReadingsThatAreAbsent_AreMissedAndNotMadeUp) {
+  expect_unharmed(replay(absent(250, 400)));
+  const Replayed blind = replay(absent(725, 850));  // while the lidar is covered, and before
+  expect_right(blind);
+  EXPECT_GE(blind.count("lost"), 12);
+}
+
+TEST_F(OdometryFaults, ASensorThatIsAbsent_LeavesTheOthers) {
+  expect_unharmed(replay(without("gyro", 0)));
+  expect_unharmed(replay(without("gyro", 400)));
+  for (const int first : {0, 400}) {
+    const Replayed one_wheel = replay(without("left", first));
+    expect_right(one_wheel);
+    EXPECT_EQ(one_wheel.count("predicted"), 0) << first;
+    EXPECT_EQ(one_wheel.odometry["state"], "absent") << first;
+  }
+}
+
+TEST_F(OdometryFaults, GyroThatIsFrozen_IsNoLongerBelieved) {
+  for (const int first : {100, 400, 600}) {
+    const Replayed replayed = replay(frozen({"gyro"}, first));
+    expect_unharmed(replayed);
+    EXPECT_GT(replayed.counter("frozen"), 200) << first;
+  }
+}
+
+TEST_F(OdometryFaults, WheelsThatAreFrozen_AreDistrusted) {
+  for (const int first : {100, 400, 600}) {
+    for (const auto& wheels : {std::vector{"left"}, std::vector{"left", "right"}}) {
+      const Replayed replayed = replay(frozen(wheels, first));
+      expect_right(replayed);
+      EXPECT_EQ(replayed.odometry["state"], "distrusted") << first;
+    }
+  }
+}
+
+TEST_F(OdometryFaults, ReadingsOfThePastBesideGoodOnes_CostNothing) {
+  const Replayed clean = replay(kNone);
+  for (const double by_s : {-0.05, -0.3}) {
+    const Replayed replayed = replay(another_time_beside(by_s));
+    EXPECT_EQ(replayed.poses, clean.poses) << by_s;
+    EXPECT_NEAR(replayed.counter("past"), 103, 2) << by_s;
+  }
+}
+
+TEST_F(OdometryFaults, ReadingsOfTheFutureBesideGoodOnes_CostNothing) {
+  for (const double by_s : {3.0, 3600.0}) {
+    const Replayed replayed = replay(another_time_beside(by_s));
+    expect_unharmed(replayed);
+    EXPECT_GE(replayed.counter("future"), 100) << by_s;
+  }
+}
+
+TEST_F(OdometryFaults, ClientOfAnotherTimeAltogether_LeavesTheLidarAlone) {
+  const Replayed replayed = replay([](json line, int) -> std::vector<json> {
+    line["t"] = line["t"].get<double>() + 3600;
+    return {std::move(line)};
+  });
+  expect_right(replayed);
+  EXPECT_EQ(replayed.count("predicted"), 0);
+  EXPECT_EQ(replayed.odometry["state"], "absent");
+  EXPECT_GT(replayed.counter("future"), 1000);
+}
+
+}  // namespace
+}  // namespace cornerd::tool
