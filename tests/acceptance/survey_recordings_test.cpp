@@ -1,18 +1,22 @@
 // SPDX-License-Identifier: MIT
-// A survey of a real room, where somebody has its recordings: $CORNERD_RECORDINGS/room. They were
-// recorded by others and are not part of the project.
+// Surveys of a real room and a real corridor, where somebody has their recordings:
+// $CORNERD_RECORDINGS/room and /drive. They were recorded by others and are not part of the
+// project.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/localizer.hpp"
 #include "survey/survey.hpp"
+#include "tests/temporary_folder.hpp"
 #include "tool/survey_files.hpp"
 
 namespace cornerd {
@@ -91,6 +95,106 @@ TEST_F(RealRoom, MapOfOnePlace_LocalizesTheOthersWithin3cm) {
       ASSERT_LT((found.translation() - known.translation()).norm(), 0.03) << "place " << place;
     }
   }
+}
+
+/// Walls along a corridor whose axis is nearly the map's x: those of a metre and more.
+struct CorridorSide {
+  core::Vec2 from;
+  core::Vec2 to;
+  double direction_rad = 0;
+};
+
+class RealCorridor : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    const char* folder = std::getenv("CORNERD_RECORDINGS");
+    if (folder == nullptr) return;
+    const fs::path packed = fs::path(folder) / "drive/drive.ndjson.gz";
+    if (!fs::exists(packed)) return;
+    const test::TemporaryFolder unpacked;
+    const fs::path recording = unpacked.path() / "drive.ndjson";
+    const std::string unpack = "gunzip -c '" + packed.string() + "' > '" + recording.string() + "'";
+    ASSERT_EQ(std::system(unpack.c_str()), 0);
+    survey::SurveyConfig config;
+    config.sensor.T_base_lidar = {-0.035, 0, 0};
+    config.sensor.noise.bearing_rad = 0.005;  // they are rounded to a degree
+    config.sensor.odometry.geometry = {0.0291, 0.19, 333.33, 65535};
+    const std::vector<fs::path> files = {recording};
+    result_ = std::make_unique<survey::SurveyResult>(
+        survey::survey(tool::load_drive(files, {}, {}), config));
+  }
+  static void TearDownTestSuite() { result_.reset(); }
+  void SetUp() override {
+    if (!result_) GTEST_SKIP() << "CORNERD_RECORDINGS names no folder with drive in it";
+  }
+
+  /// Each from left to right.
+  static std::vector<CorridorSide> sides(double least_y_m, double most_y_m) {
+    std::vector<CorridorSide> found;
+    for (const core::Wall& wall : result_->plan.walls) {
+      CorridorSide side{wall.from, wall.to};
+      if (side.from.x() > side.to.x()) std::swap(side.from, side.to);
+      side.direction_rad = core::angle_of(side.to - side.from);
+      const double y_m = (side.from.y() + side.to.y()) / 2;
+      if ((side.to - side.from).norm() < 1 || std::abs(side.direction_rad) > core::radians(10)) {
+        continue;
+      }
+      if (y_m > least_y_m && y_m < most_y_m) found.push_back(side);
+    }
+    return found;
+  }
+  static std::vector<CorridorSide> right_sides() { return sides(-0.8, -0.2); }
+  static std::vector<CorridorSide> left_sides() { return sides(0.1, 1.1); }
+
+  static std::unique_ptr<survey::SurveyResult> result_;
+};
+std::unique_ptr<survey::SurveyResult> RealCorridor::result_;
+
+TEST_F(RealCorridor, ItsWalls_AreStraightToHalfADegree) {
+  std::vector<CorridorSide> walls = right_sides();
+  for (const CorridorSide& side : left_sides()) walls.push_back(side);
+  ASSERT_GE(walls.size(), 5U);
+  const auto [least, most] = std::minmax_element(
+      walls.begin(), walls.end(), [](const CorridorSide& one, const CorridorSide& other) {
+        return one.direction_rad < other.direction_rad;
+      });
+  EXPECT_LT(most->direction_rad - least->direction_rad, core::radians(0.5));
+}
+
+TEST_F(RealCorridor, ItsRightSideBetweenDoors_IsOneLineTo2cm) {
+  const std::vector<CorridorSide> walls = right_sides();
+  core::Vec2 first = walls.front().from;
+  core::Vec2 last = walls.front().to;
+  for (const CorridorSide& side : walls) {
+    if (side.from.x() < first.x()) first = side.from;
+    if (side.to.x() > last.x()) last = side.to;
+  }
+  EXPECT_GT((last - first).norm(), 8.5);
+  const core::Vec2 across = core::rotate_left((last - first).normalized());
+  for (const CorridorSide& side : walls) {
+    EXPECT_LT(std::abs(across.dot(side.from - first)), 0.02);
+    EXPECT_LT(std::abs(across.dot(side.to - first)), 0.02);
+  }
+}
+
+TEST_F(RealCorridor, ItsWalls_AreSingle) {
+  for (const std::vector<CorridorSide>& walls : {right_sides(), left_sides()}) {
+    double length_m = 0;
+    for (std::size_t i = 0; i < walls.size(); ++i) {
+      length_m += (walls[i].to - walls[i].from).norm();
+      for (std::size_t j = 0; j < i; ++j) {
+        const double both_m = std::min(walls[i].to.x(), walls[j].to.x()) -
+                              std::max(walls[i].from.x(), walls[j].from.x());
+        EXPECT_LT(both_m, 0.05) << walls[i].from.x() << " and " << walls[j].from.x();
+      }
+    }
+    EXPECT_GT(length_m, 5);
+  }
+}
+
+TEST_F(RealCorridor, TracksThatSlip_AreBelieved) {
+  EXPECT_TRUE(result_->has_odometry);
+  EXPECT_FALSE(result_->odometry_doubt.has_value());
 }
 
 }  // namespace
