@@ -25,6 +25,11 @@ constexpr double kSurely = 3;
 /// A prior that may be off by more than this says little about what half a turn shows.
 constexpr double kFresh_m = 0.2;
 constexpr double kFresh_rad = radians(15);
+/// What is left of a turn while a lidar is being covered is believed near a prior that is almost
+/// sure, and is misread where it is farther from it than this beyond what that may be off by.
+constexpr double kAlmostSure_rad = radians(5);
+constexpr double kAtPrior_m = 0.03;
+constexpr double kAtPrior_rad = radians(3);
 
 /// Shorter, and two poses tell nothing of the motion between them.
 constexpr double kLeastTimeOfAMotion_s = 0.02;
@@ -226,12 +231,20 @@ bool Localizer::Workspace::prior_is_fresh(TimeNs t_ns) const {
   return prior && prior->place_m < kFresh_m && prior->heading_rad < kFresh_rad;
 }
 
+bool Localizer::Workspace::is_at_prior(const Pose2& T_map_lidar, TimeNs t_ns) const {
+  const std::optional<Prior> prior = memory.prior(t_ns);
+  return prior && prior->heading_rad < kAlmostSure_rad && prior->place_m < kFresh_m &&
+         same_place(prior->T_map_lidar, T_map_lidar, prior->place_m + kAtPrior_m,
+                    prior->heading_rad + kAtPrior_rad);
+}
+
 PoseState Localizer::Workspace::believe(const Decision& decision, std::size_t corners,
                                         TimeNs t_ns) {
   const core::Place& found = place->verification.places()[decision.place];
   const Pose2& T_map_lidar = found.refined.T_map_lidar;
   const Evidence evidence{found.explanation, corners, points.widest_gap_rad(),
-                          !place->paper && place->recognition.tries_all(), prior_is_fresh(t_ns)};
+                          !place->paper && place->recognition.tries_all(),
+                          is_at_prior(T_map_lidar, t_ns)};
   if (decision.state == PoseState::kTracking) {
     return may_be_tracked(evidence) ? PoseState::kTracking : PoseState::kAmbiguous;
   }

@@ -73,6 +73,7 @@ struct Localizer::Workspace {
   PoseState believe(const Decision& decision, std::size_t corners, TimeNs t_ns);
   bool is_expected(const Pose2& T_map_lidar, TimeNs t_ns) const;
   bool prior_is_fresh(TimeNs t_ns) const;
+  bool is_at_prior(const Pose2& T_map_lidar, TimeNs t_ns) const;
   bool in_doubt(TimeNs t_ns) const;
   bool is_smeared() const;
   std::size_t best_hits() const;

@@ -25,6 +25,9 @@ constexpr double kMostBias_rad_s = 0.5;
 /// A tyre is no line: where it touches the floor wanders with every turn on the spot.
 constexpr double kScrub_rad_per_sqrt_rad = 0.001;
 
+/// Two wheels, two ends of a step, and as much again.
+constexpr double kCountsForJitter = 8;
+
 /// A gyro that says more than this, squared and in units of what it may say at rest, while no count
 /// comes: the robot turns by less than a count.
 constexpr double kCreeps = 9;
@@ -71,8 +74,17 @@ void FusionFilter::predict(const MotionStep& step) {
   const double bias_rad = state_[kBias] * dt_s;
   const double gyro_told_rad2 = squared(noise_.gyro_rad_s_per_sqrt_hz) * dt_s;
   // When within the step the rate changed nobody knows: evenly between its two ends.
+  // Readings that come late or early count a rate for too long or too short; the wheels' counts do
+  // not mind. Unreckoned with, it looks like slip, and what is made of that drives the scales away.
+  const double rate_rad_s = dt_s > 0 ? step.gyro_rad / dt_s : 0;
+  const double rest_m2 = geometry_.rest_m2();
+  const double track_m = geometry_.track_m * (1 + state_[kTrack]);
+  // Counts change sides with every reading as well, by so much.
+  const double counts_rad2 = kCountsForJitter * rest_m2 / squared(track_m);
+  const double jitter_rad2 =
+      std::max(0.0, 2 * jitter_.variance_s2() * squared(rate_rad_s) - counts_rad2);
   const double gyro_rad2 =
-      gyro_told_rad2 * learning_.gyro_factor() + squared(step.gyro_change_rad) / 3;
+      gyro_told_rad2 * learning_.gyro_factor() + squared(step.gyro_change_rad) / 3 + jitter_rad2;
   const bool creeps =
       step.has_gyro && squared(step.gyro_rad - bias_rad) >
                            kCreeps * (gyro_rad2 + covariance_(kBias, kBias) * squared(dt_s));
@@ -81,8 +93,6 @@ void FusionFilter::predict(const MotionStep& step) {
   // A count stands for a stretch, and where in it a wheel has come to is new with every step: what
   // one step leaves out the next one has too much, however many there are.
   Wheels moved = wheels(step);
-  const double track_m = geometry_.track_m * (1 + state_[kTrack]);
-  const double rest_m2 = geometry_.rest_m2();
   const double wheel_factor = learning_.wheel_factor();
   const double wheel_m = squared(noise_.wheel_m_per_sqrt_m) * wheel_factor;
   const double scrub_rad = squared(kScrub_rad_per_sqrt_rad) * wheel_factor;
@@ -106,6 +116,7 @@ void FusionFilter::predict(const MotionStep& step) {
   const double gyro_gain = 1 + state_[kGyro];
   Row turn_by = turn_slope(moved.way_m, moved.turn_rad, rolls);
   Row seen_by = seen_slope(turn_by, moved.turn_rad, dt_s);
+  Row usual_by = seen_by;
   double surprise_rad = step.gyro_rad - gyro_gain * moved.turn_rad - bias_rad;
   double known_rad2 = variance_along(seen_by) + gyro_rad2;
   // The way is taken in the direction half-way through the wheels' turn, and follows it as the gyro
@@ -113,8 +124,12 @@ void FusionFilter::predict(const MotionStep& step) {
   double course_rad = state_[kTheta] + moved.turn_rad / 2;
   double follows = 1;
   bool slips = false;
-  if (step.has_gyro) {
-    slips = squared(surprise_rad) > kSlip * (known_rad2 + squared(gyro_gain) * turn_rad2);
+  if (step.has_gyro && dt_s > 0) {
+    const double expected_rad2 = known_rad2 + squared(gyro_gain) * turn_rad2;
+    jitter_.add(surprise_rad, rate_rad_s, expected_rad2 - jitter_rad2);
+    slips = squared(surprise_rad) > kSlip * expected_rad2;
+    const double turns_rad = std::max(std::abs(moved.turn_rad), std::abs(step.gyro_rad - bias_rad));
+    slip_watch_.add(squared(turns_rad) > kSlip * expected_rad2, slips, dt_s);
     if (slips) {
       // One of the wheels did not do what its counts say, most likely the one that says more; the
       // gyro does not slip. With that wheel in doubt, the gyro tells its way as well.
@@ -125,9 +140,10 @@ void FusionFilter::predict(const MotionStep& step) {
       right_m2 += kSlipOfOther * slip_m2;
       turn_rad2 += (1 + 2 * kSlipOfOther) * slip_m2 / squared(track_m);
     }
-    // The slopes are those at what both together say: taken at the wheels' own turn, its noise
-    // would be in the slope as well as in the surprise, and bias the scales (by 1 % in
-    // tests/unit/core/odometry/fusion_filter_test.cpp).
+    // What the scales do to the turn is taken at what wheels and gyro together say, and what they
+    // do to the surprise at the motion of the steps before: with a step's own noise in the slope as
+    // well as in the surprise the scales are biased (by 1 % in
+    // tests/unit/core/odometry/fusion_filter_test.cpp, and without end on a circle).
     const double both_rad = moved.turn_rad + gyro_gain * (turn_rad2 + old_rests_rad2) /
                                                  (known_rad2 + squared(gyro_gain) * turn_rad2) *
                                                  surprise_rad;
@@ -136,8 +152,12 @@ void FusionFilter::predict(const MotionStep& step) {
       follows = 0;
     }
     turn_by = turn_slope(moved.way_m, both_rad, rolls);
+    const Motion itself{moved.way_m, both_rad, dt_s};
+    const Motion before = usual_.of(itself);
+    usual_by = seen_slope(turn_slope(before.way_m, before.turn_rad, rolls), before.turn_rad, dt_s);
     seen_by = seen_slope(turn_by, both_rad, dt_s);
     known_rad2 = variance_along(seen_by) + gyro_rad2;
+    usual_.add(itself);
   }
   learning_.drove(step, told_rad2, gyro_told_rad2, slips);
   Row way_by = Row::Zero();
@@ -162,10 +182,17 @@ void FusionFilter::predict(const MotionStep& step) {
   const double way_turn = (right_m2 - left_m2) / (2 * track_m);
 
   // The covariance of the state moved on with what the gyro sees: the wheels' noise is in both.
-  Vector with_seen = covariance_ * seen_by.transpose();
-  with_seen.head<3>() = (transition * with_seen).eval();
-  with_seen.head<3>() += gyro_gain * (by_way * way_turn + by_turn * turn_rad2);
-  const double seen_rad2 = known_rad2 + squared(gyro_gain) * turn_rad2;
+  const auto moved_on = [&](const Row& slope) {
+    Vector with = covariance_ * slope.transpose();
+    with.head<3>() = (transition * with).eval();
+    with.head<3>() += gyro_gain * (by_way * way_turn + by_turn * turn_rad2);
+    return with;
+  };
+  Vector with_seen = moved_on(seen_by);
+  Vector with_usual = moved_on(usual_by);
+  const double noise_rad2 = gyro_rad2 + squared(gyro_gain) * turn_rad2;
+  const double seen_rad2 = variance_along(seen_by) + noise_rad2;
+  const double usual_rad2 = variance_along(usual_by) + noise_rad2;
 
   const Eigen::Matrix<double, 3, kSize> with_pose = transition * covariance_;
   const Covariance3 noise =
@@ -183,6 +210,7 @@ void FusionFilter::predict(const MotionStep& step) {
     covariance_.bottomRows<2>() = with_rests.transpose();
     const double seen_m2 = gyro_gain / track_m * rest_m2;
     with_seen.tail<2>() << -seen_m2, seen_m2;
+    with_usual.tail<2>() = with_seen.tail<2>();
   }
   covariance_(kBias, kBias) += squared(noise_.bias_rad_s_per_sqrt_s) * dt_s;
   for (const int scale : {kLeft, kRight, kTrack, kGyro}) {
@@ -193,10 +221,12 @@ void FusionFilter::predict(const MotionStep& step) {
   state_[kTheta] += moved.turn_rad;
   if (rolls) state_[kLeftRest] = state_[kRightRest] = 0;
 
-  if (step.has_gyro && seen_rad2 > 0) {
-    const Vector gain = with_seen / seen_rad2;
+  if (step.has_gyro && usual_rad2 > 0) {
+    // Not quite the best gain: the covariance is that of any.
+    const Vector gain = with_usual / usual_rad2;
     state_ += gain * surprise_rad;
-    covariance_ -= gain * with_seen.transpose();
+    const Matrix known = gain * with_seen.transpose();
+    covariance_ += seen_rad2 * gain * gain.transpose() - known - known.transpose();
   }
   keep_in_bounds();
 }
@@ -221,12 +251,36 @@ FusionFilter::Row FusionFilter::seen_slope(const Row& turn_by, double turn_rad, 
   return slope;
 }
 
+FusionFilter::Wander FusionFilter::wander_of(const Pose2& way, double duration_s,
+                                             bool has_gyro) const {
+  const double track_m = geometry_.track_m * (1 + state_[kTrack]);
+  const double way_m = way.translation().norm();
+  const double aside_m = std::abs(way.theta_rad) * track_m / 2;
+  const double rolled_m = std::abs(way_m - aside_m) + way_m + aside_m;  // by both wheels
+  const double wheel_m2 = squared(noise_.wheel_m_per_sqrt_m) * learning_.wheel_factor() * rolled_m;
+  Wander wander{wheel_m2 / 4, wheel_m2 / squared(track_m)};
+  if (has_gyro) {
+    wander.turn_rad2 =
+        squared(noise_.gyro_rad_s_per_sqrt_hz) * learning_.gyro_factor() * duration_s;
+  } else {
+    wander.turn_rad2 +=
+        squared(kScrub_rad_per_sqrt_rad) * learning_.wheel_factor() * std::abs(way.theta_rad);
+  }
+  if (duration_s > 0) {
+    const double late_share2 = jitter_.variance_s2() / squared(duration_s);
+    wander.place_m2 += late_share2 * squared(way_m);
+    wander.turn_rad2 += late_share2 * squared(way.theta_rad);
+  }
+  return wander;
+}
+
 double FusionFilter::variance_along(const Row& slope) const {
   return (slope * covariance_ * slope.transpose()).value();
 }
 
 void FusionFilter::predict_hole(const MotionStep& step) {
   learning_.interrupt();
+  usual_.forget();
   const double dt_s = step.duration_s();
   const double moved_m2 = squared(kUnknown_m_s * dt_s);
   covariance_(kX, kX) += moved_m2;

@@ -5,9 +5,12 @@
 
 #include <Eigen/Core>
 
+#include "core/odometry/jitter_meter.hpp"
 #include "core/odometry/motion_step.hpp"
 #include "core/odometry/noise_learning.hpp"
 #include "core/odometry/odometry_config.hpp"
+#include "core/odometry/slip_watch.hpp"
+#include "core/odometry/usual_motion.hpp"
 
 namespace cornerd::core {
 
@@ -60,6 +63,16 @@ class FusionFilter {
   /// Steps in which the wheels' turn could not be the gyro's: slip, or a frozen encoder.
   std::uint64_t slips() const { return slips_; }
 
+  /// True where wheels and gyro have lately contradicted each other most of the time.
+  bool is_contradictory() const { return slip_watch_.is_contradiction(); }
+
+  /// Variances of what wheels, or wheels and gyro, wander on such a way.
+  struct Wander {
+    double place_m2 = 0;
+    double turn_rad2 = 0;
+  };
+  Wander wander_of(const Pose2& way, double duration_s, bool has_gyro) const;
+
   /// How much more or less than told wheels and gyro wander, as learned from the fixes.
   const NoiseLearning& noise() const { return learning_; }
 
@@ -84,6 +97,9 @@ class FusionFilter {
   Vector state_ = Vector::Zero();
   Matrix covariance_ = Matrix::Zero();
   NoiseLearning learning_;
+  UsualMotion usual_;
+  JitterMeter jitter_;
+  SlipWatch slip_watch_;
   std::uint64_t slips_ = 0;
 };
 

@@ -2,6 +2,7 @@
 #include "core/odometry/motion_path.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/odometry/motion_step.hpp"
 
@@ -21,6 +22,24 @@ void MotionPath::add(TimeNs from_ns, TimeNs t_ns, const Pose2& motion) {
 
 bool MotionPath::covers(TimeNs from_ns, TimeNs to_ns) const {
   return size_ > 1 && from_ns >= point(size_ - 1).t_ns && to_ns <= point(0).t_ns + kLongestGuess_ns;
+}
+
+Pose2 MotionPath::greatest_change(TimeNs from_ns, TimeNs to_ns) const {
+  Pose2 greatest;
+  for (std::size_t age = 1; age + 1 < size_ && point(age - 1).t_ns > from_ns; ++age) {
+    if (point(age + 1).t_ns >= to_ns) continue;
+    const double before_s = to_seconds(point(age).t_ns - point(age + 1).t_ns);
+    const double after_s = to_seconds(point(age - 1).t_ns - point(age).t_ns);
+    const Pose2 before = point(age + 1).T_start_base.inverse() * point(age).T_start_base;
+    const Pose2 after = point(age).T_start_base.inverse() * point(age - 1).T_start_base;
+    const double longer_s = std::max(before_s, after_s);
+    const auto change = [&](double way, double way_after) {
+      return longer_s * std::abs(way_after / after_s - way / before_s);
+    };
+    greatest.x_m = std::max(greatest.x_m, change(before.x_m, after.x_m));
+    greatest.theta_rad = std::max(greatest.theta_rad, change(before.theta_rad, after.theta_rad));
+  }
+  return greatest;
 }
 
 Pose2 MotionPath::at(TimeNs t_ns) const {

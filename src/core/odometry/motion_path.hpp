@@ -25,6 +25,10 @@ class MotionPath {
   /// The pose at a time that is covered. Times that grow are found fastest.
   Pose2 at(TimeNs t_ns) const;
 
+  /// How unevenly it was driven: what the greatest change of speed between two readings would come
+  /// to in the time between them, x for the way and theta for the turn, no signs.
+  Pose2 greatest_change(TimeNs from_ns, TimeNs to_ns) const;
+
   /// The last motion is taken to go on for so long after the last reading.
   static constexpr TimeNs kLongestGuess_ns = kNsPerSecond / 4;
 

@@ -28,7 +28,7 @@ struct PredictedPose {
 struct OdometrySummary {
   bool enabled = false;
   bool present = false;  ///< readings come
-  bool trusted = false;  ///< and agree with the lidar
+  bool trusted = false;  ///< and agree with the lidar and each other
   LearnedOdometry learned;
   LearnedOdometry sigma;  ///< of the learned ones
   OdometryCounters counters;
@@ -80,11 +80,14 @@ class Odometer {
   /// More readings than come in half a turn of the slowest lidar, at 500 a second.
   static constexpr std::size_t kPending = 256;
 
+  void begin_anew(const MotionStep& hole);
   void consume(const MotionStep& step);
   /// The covariance of a fix with what it does not know of, as much as fixes lately showed and as
   /// this one needs.
   Covariance3 learned_doubt(const Pose2& T_map_base, const Covariance3& covariance);
   std::optional<PredictedPose> prediction_of(const FusionFilter& filter, TimeNs t_ns) const;
+  /// False where wheels, gyro and lidar have lately told different stories.
+  bool is_believed() const;
   void consume_until(TimeNs t_ns);
   void guess_until(TimeNs t_ns);
 

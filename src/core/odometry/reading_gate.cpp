@@ -13,8 +13,16 @@ namespace {
 /// is off by much more.
 constexpr TimeNs kMostAhead_ns = 2 * kNsPerSecond;
 constexpr TimeNs kMostBehind_ns = 5 * kNsPerSecond;
-/// So many refused readings in a row are no accident: the client's clock was set.
-constexpr std::uint32_t kClockWasSet = 20;
+/// So many readings in a row that are before the last one, and in order, are no accident: the
+/// client's clock was set.
+constexpr std::uint32_t kClockWasSet = 5;
+/// A reading so much later than usual is the next one after a pause where the ones that follow go
+/// on from it, and of the future where they come before it.
+constexpr double kUsualPauses = 3;
+constexpr double kShortestLeap_s = 0.06;
+constexpr std::uint32_t kWentOn = 3;
+/// How fast the usual time between readings is learned.
+constexpr double kUsualShare = 1.0 / 16;
 /// Counts that jumped and then go on evenly so often are a controller that was restarted.
 constexpr std::uint32_t kRestarted = 3;
 /// Counts farther apart say where the robot went, not how.
@@ -50,15 +58,39 @@ bool ReadingGate::is_in_time(TimeNs t_ns, std::optional<TimeNs> now_ns) {
   }
   if (last_ns_ && t_ns < *last_ns_) {
     ++counters_.past;
-    if (++refused_in_a_row_ < kClockWasSet) return false;
+    refused_in_a_row_ = refused_ns_ && t_ns < *refused_ns_ ? 1 : refused_in_a_row_ + 1;
+    refused_ns_ = t_ns;
+    if (refused_in_a_row_ < kClockWasSet) return false;
     ++counters_.restarts;
-    last_.reset();
-    doubted_.reset();
+    clock_was_set_back_ = true;
     gyro_ns_.reset();
+  } else if (leaps_ahead(t_ns)) {
+    return false;
   }
   refused_in_a_row_ = 0;
+  refused_ns_.reset();
   last_ns_ = t_ns;
   return true;
+}
+
+bool ReadingGate::leaps_ahead(TimeNs t_ns) {
+  if (!last_ns_) return false;
+  const double pause_s = to_seconds(t_ns - *last_ns_);
+  const double longest_s = std::max(kShortestLeap_s, kUsualPauses * usual_s_.value_or(pause_s));
+  if (pause_s > longest_s) {
+    const bool goes_on =
+        leapt_ns_ && t_ns >= *leapt_ns_ && to_seconds(t_ns - *leapt_ns_) <= longest_s;
+    counters_.future += goes_on ? 0 : leaps_;
+    leaps_ = goes_on ? leaps_ + 1 : 1;
+    leapt_ns_ = t_ns;
+    if (leaps_ < kWentOn) return true;
+  } else {
+    counters_.future += leaps_;
+    usual_s_ = usual_s_.value_or(pause_s) + kUsualShare * (pause_s - usual_s_.value_or(pause_s));
+  }
+  leaps_ = 0;
+  leapt_ns_.reset();
+  return false;
 }
 
 void ReadingGate::add_gyro(TimeNs t_ns, double rate_rad_s) {
@@ -102,6 +134,10 @@ std::optional<MotionStep> ReadingGate::add_counts(const Counts& counts) {
     MotionStep before;
     take_gyro(before);
     return std::nullopt;
+  }
+  if (clock_was_set_back_) {
+    clock_was_set_back_ = false;
+    return restart(counts);
   }
   if (counts.t_ns == last_->t_ns) {
     ++counters_.past;

@@ -14,7 +14,7 @@ namespace cornerd::core {
 struct OdometryCounters {
   std::uint64_t readings = 0;
   std::uint64_t past = 0;      ///< before the last one, or long before now
-  std::uint64_t future = 0;    ///< well after now
+  std::uint64_t future = 0;    ///< well after now, or ahead of the readings that followed
   std::uint64_t jumps = 0;     ///< more counts than a wheel can turn
   std::uint64_t gyro = 0;      ///< rates that are none
   std::uint64_t frozen = 0;    ///< rates that stay the same to the bit while the wheels turn
@@ -23,7 +23,8 @@ struct OdometryCounters {
 };
 
 /// Makes steps of readings, and refuses what cannot be. One bad reading costs itself alone; counts
-/// or times that stay elsewhere are a controller that was restarted, and are taken as a new start.
+/// or times that stay elsewhere are a controller that was restarted, and are taken as a new start:
+/// a step that is a hole, and ends before it begins where the clock was set back.
 /// Counts and rates may come in the same readings or in different ones. Allocates nothing.
 class ReadingGate {
  public:
@@ -43,6 +44,7 @@ class ReadingGate {
   };
 
   bool is_in_time(TimeNs t_ns, std::optional<TimeNs> now_ns);
+  bool leaps_ahead(TimeNs t_ns);
   void add_gyro(TimeNs t_ns, double rate_rad_s);
   std::optional<MotionStep> add_counts(const Counts& counts);
   std::optional<MotionStep> restart(const Counts& counts);
@@ -54,8 +56,13 @@ class ReadingGate {
 
   OdometryConfig config_;
   OdometryCounters counters_;
-  std::optional<TimeNs> last_ns_;  ///< of any reading that was taken
+  std::optional<TimeNs> last_ns_;     ///< of any reading that was taken
+  std::optional<TimeNs> refused_ns_;  ///< the newest reading that was before the last one
   std::uint32_t refused_in_a_row_ = 0;
+  std::optional<double> usual_s_;    ///< between two readings
+  std::optional<TimeNs> leapt_ns_;   ///< the newest reading that was ahead
+  std::uint32_t leaps_ = 0;          ///< how many in a row agree with each other
+  bool clock_was_set_back_ = false;  ///< and no counts have come since
 
   std::optional<Counts> last_;
   std::optional<Counts> doubted_;  ///< the newest counts that jumped

@@ -46,11 +46,11 @@ bool is_evident(const Evidence& evidence) {
 }
 
 bool may_be_tracked(const Evidence& evidence) {
-  return is_whole(evidence.widest_gap_rad) || (evidence.corners >= 1 && evidence.prior_is_fresh);
+  return is_whole(evidence.widest_gap_rad) || (evidence.corners >= 1 && evidence.at_prior);
 }
 
 bool needs_a_second(const Evidence& evidence, bool expected, bool has_prior) {
-  if (!is_whole(evidence.widest_gap_rad)) return !(expected && evidence.prior_is_fresh);
+  if (!is_whole(evidence.widest_gap_rad)) return !evidence.at_prior;
   const bool is_certain = leaves_no_doubt(evidence.explanation, /*expected=*/false) &&
                           evidence.corners >= kCertainCorners;
   return has_prior && !expected && !is_certain;

@@ -41,6 +41,17 @@ TEST(MotionPath, AHole_IsNotBridged) {
   EXPECT_TRUE(path.covers(150 * kMs, 200 * kMs));
 }
 
+TEST(MotionPath, AChangeOfSpeed_IsFoundWhereItWas) {
+  MotionPath path;
+  const auto drive = [&](int i, double way_m) {
+    path.add(i * kNsPerSecond / 10, (i + 1) * kNsPerSecond / 10, arc(way_m, 0));
+  };
+  for (int i = 0; i < 10; ++i) drive(i, 0.02);
+  for (int i = 10; i < 20; ++i) drive(i, 0.05);
+  EXPECT_NEAR(path.greatest_change(kNsPerSecond / 2, 3 * kNsPerSecond / 2).x_m, 0.03, 1e-9);
+  EXPECT_NEAR(path.greatest_change(3 * kNsPerSecond / 2, 2 * kNsPerSecond).x_m, 0, 1e-9);
+}
+
 TEST(MotionPath, LongDrive_KeepsTheLastTwoSeconds) {
   MotionPath path;
   for (int i = 0; i < 5000; ++i) path.add(i * 5 * kMs, (i + 1) * 5 * kMs, arc(0.001, 0));

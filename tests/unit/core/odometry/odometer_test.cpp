@@ -3,7 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <functional>
+#include <optional>
+#include <random>
+#include <vector>
 
 #include "../fixtures.hpp"
 #include "driven_robot.hpp"
@@ -40,11 +45,12 @@ class Ride {
     const TimeNs start_ns = robot_.now_ns();
     for (int i = 0; i < 14; ++i, ++ticks_) {
       const testing::Rates rates = testing::lively_drive(0.01 * ticks_);
-      const OdometryReading reading = robot_.drive(0.01, rates.speed_m_s, rates.rate_rad_s);
+      OdometryReading reading = robot_.drive(0.01, rates.speed_m_s, rates.rate_rad_s);
       if (i == 6) truth = robot_.truth();
+      if (spoil) spoil(spoiled_++, reading);
       waiting_.push_back(reading);
       if (waiting_.size() <= static_cast<std::size_t>(late_)) continue;
-      if (readings && ticks_ % every_ == 0) odometer.add(waiting_.front(), reading.t_ns);
+      if (readings && ticks_ % every_ == 0) odometer.add(waiting_.front(), robot_.now_ns());
       waiting_.erase(waiting_.begin());
     }
     odometer.advance(start_ns, start_ns + 70'000'000, robot_.now_ns());
@@ -65,12 +71,14 @@ class Ride {
 
   Odometer odometer;
   Pose2 truth;
+  std::function<void(int, OdometryReading&)> spoil;
 
  private:
   testing::DrivenRobot robot_;
   int late_;
   int every_;
   int ticks_ = 0;
+  int spoiled_ = 0;
   std::vector<OdometryReading> waiting_;
 };
 
@@ -200,6 +208,102 @@ TEST(Odometer, WheelsThatTellAnotherStory_AreNotBelieved) {
   EXPECT_FALSE(ride.odometer.prediction());
   EXPECT_FALSE(ride.odometer.summary().trusted);
   EXPECT_GT(ride.odometer.summary().strangers, 3U);
+}
+
+/// The worst that a bold prediction was off by, in its own sigmas, in 5 s without fixes, its
+/// readings spoiled: 0 where it never predicted.
+double worst_sigmas_while_blind(const std::function<void(int, OdometryReading&)>& spoil,
+                                int* predictions = nullptr) {
+  Ride ride(switched_on());
+  for (int k = 0; k < 100; ++k) {
+    ride.turn();
+    ride.odometer.correct(ride.truth, kFixCovariance);
+  }
+  ride.spoil = spoil;
+  double worst = 0;
+  for (int k = 0; k < 36; ++k) {
+    ride.turn();
+    const auto predicted = ride.odometer.prediction();
+    if (!predicted) continue;
+    if (predictions) ++*predictions;
+    const Covariance3& covariance = predicted->covariance;
+    worst =
+        std::max({worst, ride.error_m() / std::sqrt(std::max(covariance(0, 0), covariance(1, 1))),
+                  std::abs(angle_between(ride.truth.theta_rad, predicted->T_map_base.theta_rad)) /
+                      std::sqrt(covariance(2, 2))});
+  }
+  return worst;
+}
+
+TEST(Odometer, OneReadingAheadOfTheOthersWhileBlind_ChangesNothing) {
+  for (const double ahead_s : {0.1, 0.2, 0.5, 1.0, 1.5, 1.9}) {
+    int predictions = 0;
+    const auto leap = [&](int i, OdometryReading& reading) {
+      if (i == 140) reading.t_ns += from_seconds(ahead_s);
+    };
+    EXPECT_LT(worst_sigmas_while_blind(leap, &predictions), 5) << ahead_s;
+    EXPECT_EQ(predictions, 36) << ahead_s;
+  }
+}
+
+TEST(Odometer, AClockThatIsSetBackWhileBlind_EndsThePrediction) {
+  for (const double back_s : {0.2, 0.5, 1.0, 1.9}) {
+    const auto set_back = [&](int i, OdometryReading& reading) {
+      if (i >= 140) reading.t_ns -= from_seconds(back_s);
+    };
+    EXPECT_LT(worst_sigmas_while_blind(set_back), 5) << back_s;
+  }
+}
+
+TEST(Odometer, AGyroThatTurnsRoundOrIsOff_IsNotCarriedOn) {
+  const auto reversed = [](int, OdometryReading& reading) {
+    reading.gyro_rad_s = -*reading.gyro_rad_s;
+  };
+  const auto off = [](int, OdometryReading& reading) { *reading.gyro_rad_s += 1; };
+  for (const auto& spoil : {std::function(reversed), std::function(off)}) {
+    int predictions = 0;
+    worst_sigmas_while_blind(spoil, &predictions);
+    EXPECT_LT(predictions, 36 / 2);
+  }
+}
+
+TEST(Odometer, AWheelThatStandsStill_IsNotBelieved) {
+  Ride ride(switched_on());
+  for (int k = 0; k < 100; ++k) {
+    ride.turn();
+    ride.odometer.correct(ride.truth, kFixCovariance);
+  }
+  EXPECT_TRUE(ride.odometer.summary().trusted);
+  std::optional<std::int64_t> frozen;
+  ride.spoil = [&](int, OdometryReading& reading) {
+    if (!frozen) frozen = reading.left;
+    reading.left = frozen;
+  };
+  int trusted = 0;
+  for (int k = 0; k < 36; ++k) {
+    ride.turn();
+    ride.odometer.correct(ride.truth, kFixCovariance);
+    trusted += ride.odometer.summary().trusted;
+  }
+  EXPECT_LT(trusted, 12);
+  EXPECT_NEAR(ride.odometer.summary().learned.left_scale, 0.01, 0.005);
+}
+
+TEST(Odometer, TimesThatComeLateOrEarly_DoNotDriveTheScalesAway) {
+  Ride ride(switched_on());
+  std::mt19937_64 random(5);
+  std::normal_distribution<double> jitter_s(0, 0.002);
+  ride.spoil = [&](int, OdometryReading& reading) {
+    reading.t_ns += from_seconds(std::clamp(jitter_s(random), -0.004, 0.004));
+  };
+  for (int k = 0; k < 400; ++k) {
+    ride.turn();
+    ride.odometer.correct(ride.truth, kFixCovariance);
+  }
+  const LearnedOdometry learned = ride.odometer.summary().learned;
+  EXPECT_NEAR(learned.track_scale, 0, 0.02);
+  EXPECT_NEAR(learned.gyro_scale, 0, 0.02);
+  EXPECT_NEAR(learned.left_scale, 0.01, 0.01);
 }
 
 TEST(Odometer, Forgotten_NeedsAFix) {

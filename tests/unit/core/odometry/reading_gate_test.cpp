@@ -8,6 +8,7 @@
 #include <functional>
 #include <limits>
 #include <random>
+#include <vector>
 
 #include "driven_robot.hpp"
 
@@ -116,6 +117,54 @@ TEST(ReadingGate, AClockThatWasSetBack_IsFollowedAfterAWhile) {
   });
   EXPECT_EQ(outcome.counters.restarts, 1U);
   EXPECT_GT(outcome.left_m, 0.7 * kLeft_m);
+}
+
+TEST(ReadingGate, AClockThatWasSetBack_LeavesAHoleThatEndsBeforeItBegins) {
+  testing::DrivenRobot robot(small_robot().geometry, {});
+  ReadingGate gate(small_robot());
+  std::vector<MotionStep> back;
+  for (int i = 0; i < 150; ++i) {
+    OdometryReading reading = robot.drive(0.02, 0.3, 0.1);
+    if (i >= 50) reading.t_ns -= kNsPerSecond;
+    const auto step = gate.add(reading, robot.now_ns());
+    if (step && step->to_ns < step->from_ns) back.push_back(*step);
+  }
+  ASSERT_EQ(back.size(), 1U);
+  EXPECT_TRUE(back.front().is_hole);
+}
+
+TEST(ReadingGate, OneReadingAheadOfTheOthers_CostsItselfAlone) {
+  for (const int ahead_ms : {100, 200, 300, 1000, 1900}) {
+    const Outcome outcome = drive_with([&](int i, OdometryReading& reading) {
+      if (i == 60) reading.t_ns += ahead_ms * kMillisecond_ns;
+    });
+    EXPECT_EQ(outcome.counters.future, 1U) << ahead_ms;
+    EXPECT_EQ(outcome.counters.past, 0U) << ahead_ms;
+    EXPECT_EQ(outcome.holes, 0) << ahead_ms;
+    EXPECT_EQ(outcome.steps, 148) << ahead_ms;
+    EXPECT_NEAR(outcome.left_m, kLeft_m, 0.001) << ahead_ms;
+  }
+}
+
+TEST(ReadingGate, APause_IsOverWhenReadingsGoOn) {
+  const Outcome outcome = drive_with([](int i, OdometryReading& reading) {
+    if (i > 50 && i < 75) reading.t_ns -= 3600 * kNsPerSecond;
+  });
+  EXPECT_EQ(outcome.counters.future, 0U);
+  EXPECT_EQ(outcome.holes, 0);
+  EXPECT_EQ(outcome.steps, 149 - 24 - 2);
+  EXPECT_NEAR(outcome.left_m, kLeft_m, 0.001);
+}
+
+TEST(ReadingGate, SeldomReadings_AreNoLeaps) {
+  testing::DrivenRobot robot(small_robot().geometry, {});
+  ReadingGate gate(small_robot());
+  int steps = 0;
+  for (int i = 0; i < 20; ++i) {
+    steps += gate.add(robot.drive(i % 2 == 0 ? 0.4 : 0.6, 0.3, 0.1), robot.now_ns()).has_value();
+  }
+  EXPECT_EQ(steps, 19);
+  EXPECT_EQ(gate.counters().future, 0U);
 }
 
 TEST(ReadingGate, RatesThatAreNone_AreLeftOut) {

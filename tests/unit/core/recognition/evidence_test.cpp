@@ -62,11 +62,11 @@ TEST(Evidence, HalfATurn_IsBelievedByItsCornersAlone) {
   EXPECT_TRUE(is_evident(evidence(790, 3, kHalfCovered_rad)));
 }
 
-TEST(Evidence, HalfATurnOfARobotThatIsExpected_NeedsACornerAndAFreshPrior) {
+TEST(Evidence, HalfATurnOfARobotThatIsExpected_NeedsACornerAtThePrior) {
   EXPECT_TRUE(may_be_tracked(evidence(80, 0)));
   Evidence half = evidence(80, 1, kHalfCovered_rad);
   EXPECT_FALSE(may_be_tracked(half));
-  half.prior_is_fresh = true;
+  half.at_prior = true;
   EXPECT_TRUE(may_be_tracked(half));
   half.corners = 0;
   EXPECT_FALSE(may_be_tracked(half));
@@ -84,9 +84,8 @@ TEST(Evidence, HalfATurn_NeedsASecondUnlessItIsWhereItShouldBe) {
   Evidence half = evidence(790, 5, kHalfCovered_rad);
   EXPECT_TRUE(needs_a_second(half, false, false));
   EXPECT_TRUE(needs_a_second(half, true, true));
-  half.prior_is_fresh = true;
+  half.at_prior = true;
   EXPECT_FALSE(needs_a_second(half, true, true));
-  EXPECT_TRUE(needs_a_second(half, false, true));
 }
 
 }  // namespace
