@@ -271,10 +271,10 @@ TEST_F(OdometryFaults, ReadingsOfThePastBesideGoodOnes_CostNothing) {
 }
 
 TEST_F(OdometryFaults, ReadingsOfTheFutureBesideGoodOnes_CostNothing) {
-  for (const double by_s : {3.0, 3600.0}) {
+  for (const double by_s : {0.3, 1.5, 3.0, 3600.0}) {
     const Replayed replayed = replay(another_time_beside(by_s));
     expect_unharmed(replayed);
-    EXPECT_GE(replayed.counter("future"), 100) << by_s;
+    EXPECT_GE(replayed.counter("future"), 95) << by_s;
   }
 }
 

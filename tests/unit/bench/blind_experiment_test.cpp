@@ -47,31 +47,32 @@ class BlindRobot : public testing::TestWithParam<RobotBounds> {};
 TEST_P(BlindRobot, FixesAndCarriedOnPoses_AreHonest) {
   const RobotBounds& bounds = GetParam();
   const BlindResult result = run(bounds.title, 2);
-  // A fix that is bold, as those without a gyro, has fewer within.
-  const double least_share = bounds.most_nees_of_fixes > kMostNees ? 0.5 : bounds.least_share;
+  // Bold fixes have fewer within.
+  const double least_share = bounds.most_nees_of_fixes > kMostNees ? 0.7 : bounds.least_share;
   expect_honest(result.fixes, bounds.most_nees_of_fixes, least_share, "fixes");
   for (const BlindAges& ages : result.carried_on) {
     expect_honest(ages, bounds.most_nees, bounds.least_share, std::to_string(ages.from_s));
   }
 }
 
-// Without a gyro they are bolder than honest (README.md of core/odometry): those bounds hold what
-// is.
+// Without a gyro they are a little bolder than honest: those bounds hold what is (README.md of
+// core/odometry).
 INSTANTIATE_TEST_SUITE_P(Robots, BlindRobot,
                          testing::Values(RobotBounds{"16 cm robot"}, RobotBounds{"twice the noise"},
                                          RobotBounds{"slips every 3 m"},
                                          RobotBounds{"counts of 5 mm"},
                                          RobotBounds{"Pioneer P3-DX"},
                                          RobotBounds{"Pioneer, slips every 3 m"},
-                                         RobotBounds{"no gyro", 5.5, 5, 0.8},
-                                         RobotBounds{"no gyro, twice the noise", 13, 5, 0.8},
-                                         RobotBounds{"Pioneer, no gyro", 4.5, 5, 0.8}));
+                                         RobotBounds{"no gyro", kMostNees, 5, 0.8},
+                                         RobotBounds{"no gyro, twice the noise", 7, 5, 0.8},
+                                         RobotBounds{"Pioneer, no gyro", kMostNees, 5, 0.8}));
 
 TEST(BlindExperiment, SlipsThatNoGyroSees_LeaveTheFixesRight) {
   const PoseHonesty fixes = run("no gyro, slips every 3 m", 2).fixes;
   EXPECT_GT(fixes.poses, 2600u);
   EXPECT_LT(fixes.mean_m, 0.0012);
-  EXPECT_GT(fixes.share_within, 0.75);
+  EXPECT_LT(fixes.mean_nees, 5.5);
+  EXPECT_GT(fixes.share_within, 0.85);
 }
 
 TEST(BlindExperiment, CarriedOnPoses_AreGoodForFiveSeconds) {
