@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <ostream>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -34,6 +35,8 @@ struct BadRobot {
   double gyro_scale;
   double gyro_bias_rad_s;
 };
+
+void PrintTo(const BadRobot& robot, std::ostream* out) { *out << "seed " << robot.seed; }
 
 class DriveOf100m : public testing::TestWithParam<BadRobot> {
  protected:

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <ostream>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -33,6 +34,8 @@ struct RobotBounds {
   double most_nees = kMostNees;
   double least_share = 0.9;  ///< of 95 %
 };
+
+void PrintTo(const RobotBounds& bounds, std::ostream* out) { *out << bounds.title; }
 
 void expect_honest(const PoseHonesty& poses, double most_nees, double least_share,
                    const std::string& which) {
