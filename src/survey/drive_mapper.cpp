@@ -99,7 +99,9 @@ class Mapper {
     }
     // Where nothing but the walls tells the way, a turn that fits badly has lost it.
     begins_faces_ = turn == 0 || prior.by_odometry || share > kLeastShareAlone;
-    if (reader_.is_contradicted()) ++result_.contradicted_turns;
+    if (result_.has_odometry && turn > 0 && !prior.by_odometry) {
+      ++(reader_.is_contradicted() ? result_.contradicted_turns : result_.unled_turns);
+    }
     add_link(prior);
     result_.T_map_lidar.push_back(T_map_lidar);
     reader_.place(T_map_lidar, covariance);

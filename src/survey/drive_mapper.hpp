@@ -53,8 +53,11 @@ struct MappedDrive {
   std::vector<std::size_t> strange_turns;  ///< whose walls did not tell where they are
   /// Without odometry: whose walls told nothing of one direction, in which a guess stands.
   std::vector<std::size_t> blind_turns;
-  std::size_t contradicted_turns = 0;  ///< in which wheels and lidar told different stories
-  std::size_t forgotten_faces = 0;     ///< begun, but never seen again
+  /// Of a drive with odometry, turns that it did not lead to: as wheels and lidar had told
+  /// different stories, and as readings were missing.
+  std::size_t contradicted_turns = 0;
+  std::size_t unled_turns = 0;
+  std::size_t forgotten_faces = 0;  ///< begun, but never seen again
   std::optional<core::LearnedOdometry> learned;
   bool has_odometry = false;
 

@@ -11,7 +11,7 @@ namespace {
 
 /// A tracked robot that slips wherever it turns was contradicted in 6 % of its turns, robots whose
 /// wheels lie in 13 % and more.
-constexpr double kMostContradicted = 0.1;
+constexpr double kMostUnbelieved = 0.1;
 
 /// Between turns: what lies nearer together is the lidar's noise.
 constexpr double kLeastWay_m = 0.02;
@@ -46,15 +46,12 @@ double counted_m(const RecordedDrive& drive, const core::OdometryConfig& config,
 
 }  // namespace
 
-bool is_too_often(std::size_t contradicted, std::size_t turns) {
-  return static_cast<double>(contradicted) > kMostContradicted * static_cast<double>(turns);
+bool are_too_many(std::size_t unbelieved, std::size_t turns) {
+  return static_cast<double>(unbelieved) > kMostUnbelieved * static_cast<double>(turns);
 }
 
-OdometryDoubt doubt_of_wheels(const RecordedDrive& drive, std::size_t contradicted,
-                              std::span<const core::Pose2> T_map_base,
-                              const core::OdometryConfig& config) {
-  OdometryDoubt doubt;
-  doubt.turns = contradicted;
+void measure_wheels(const RecordedDrive& drive, std::span<const core::Pose2> T_map_base,
+                    const core::OdometryConfig& config, OdometryDoubt& doubt) {
   doubt.left.counted_m = counted_m(drive, config, &core::OdometryReading::left);
   doubt.right.counted_m = counted_m(drive, config, &core::OdometryReading::right);
   core::Pose2 from = T_map_base.empty() ? core::Pose2() : T_map_base.front();
@@ -68,7 +65,6 @@ OdometryDoubt doubt_of_wheels(const RecordedDrive& drive, std::size_t contradict
     doubt.right.true_m += right_m;
     from = to;
   }
-  return doubt;
 }
 
 }  // namespace cornerd::survey

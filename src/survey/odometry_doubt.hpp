@@ -16,19 +16,20 @@ struct WheelWay {
   double true_m = 0;     ///< by the lidar and the configured track
 };
 
-/// Wheels that told another story than the lidar.
+/// Wheels that told another story than the lidar, or none.
 struct OdometryDoubt {
-  std::size_t turns = 0;  ///< in which they were not believed
+  std::size_t contradicted_turns = 0;
+  std::size_t unled_turns = 0;  ///< for which there were no readings
   WheelWay left;
   WheelWay right;
 };
 
-/// More turns than wheels that slip now and then contradict the lidar in.
-bool is_too_often(std::size_t contradicted, std::size_t turns);
+/// More turns than those that wheels which slip now and then do not lead to.
+bool are_too_many(std::size_t unbelieved, std::size_t turns);
 
 /// `T_map_base`: of each turn of the drive, in its middle.
-OdometryDoubt doubt_of_wheels(const RecordedDrive& drive, std::size_t contradicted,
-                              std::span<const core::Pose2> T_map_base,
-                              const core::OdometryConfig& config);
+/// `doubt`: with its turns; gets its ways.
+void measure_wheels(const RecordedDrive& drive, std::span<const core::Pose2> T_map_base,
+                    const core::OdometryConfig& config, OdometryDoubt& doubt);
 
 }  // namespace cornerd::survey

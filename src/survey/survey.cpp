@@ -84,19 +84,20 @@ std::vector<std::uint32_t> faces_of(const std::vector<WallPiece>& pieces) {
   return faces;
 }
 
-/// A drive whose wheels lie, by the lidar alone.
-SurveyResult survey_without_wheels(const RecordedDrive& recorded, std::size_t contradicted,
+/// A drive whose wheels lie or say nothing, by the lidar alone.
+SurveyResult survey_without_wheels(const RecordedDrive& recorded, OdometryDoubt doubt,
                                    const SurveyConfig& config, const SurveyProgress& progress) {
   try {
     SurveyResult result = survey(recorded.without_odometry(), config, progress);
-    result.odometry_doubt =
-        doubt_of_wheels(recorded, contradicted, result.T_map_base, config.sensor.odometry);
+    measure_wheels(recorded, result.T_map_base, config.sensor.odometry, doubt);
+    result.odometry_doubt = doubt;
     return result;
   } catch (const std::invalid_argument& refused) {
     throw std::invalid_argument(
-        "the odometry contradicts the lidar in " + std::to_string(contradicted) + " of " +
-        std::to_string(recorded.size()) +
-        " turns (are the encoders and odometry.counts_per_turn right?); and " + refused.what());
+        "of " + std::to_string(recorded.size()) + " turns the odometry contradicts the lidar in " +
+        std::to_string(doubt.contradicted_turns) + " and is missing in " +
+        std::to_string(doubt.unled_turns) +
+        " (are the encoders and odometry.counts_per_turn right?); and " + refused.what());
   }
 }
 
@@ -120,8 +121,11 @@ SurveyResult survey(const RecordedDrive& recorded, const SurveyConfig& config,
     first = map_drive(recorded, config.sensor, &first, shares.pass("finding the way", half, 0.3),
                       /*anew=*/true);
   }
-  if (is_too_often(first.contradicted_turns, turns)) {
-    return survey_without_wheels(recorded, first.contradicted_turns, config, shares.rest());
+  if (are_too_many(first.contradicted_turns + first.unled_turns, turns)) {
+    OdometryDoubt doubt;
+    doubt.contradicted_turns = first.contradicted_turns;
+    doubt.unled_turns = first.unled_turns;
+    return survey_without_wheels(recorded, doubt, config, shares.rest());
   }
   result.strange_turns = first.strange_turns;
   result.blind_turns = first.blind_turns;

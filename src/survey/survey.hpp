@@ -64,9 +64,9 @@ struct SurveyResult {
 /// The same map in another frame: `T_new_map` is where the robot was in the first turn.
 void move_frame(const core::Pose2& T_new_map, SurveyResult& result);
 
-/// Odometry that contradicts the lidar in more turns than slips explain is left out. Throws
-/// std::invalid_argument, with the reason, where the drive gives no map: no walls, or turns that do
-/// not overlap.
+/// Odometry that is missing or contradicts the lidar in more turns than slips explain is left out.
+/// Throws std::invalid_argument, with the reason, where the drive gives no map: no walls, or turns
+/// that do not overlap.
 SurveyResult survey(const RecordedDrive& drive, const SurveyConfig& config,
                     const SurveyProgress& progress = {});
 

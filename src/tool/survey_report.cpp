@@ -26,7 +26,7 @@ std::string describe_wheels(const core::LearnedOdometry& learned) {
   constexpr double kMostScale = 0.15;
   if (std::max(std::abs(learned.left_scale), std::abs(learned.right_scale)) < kMostScale) return "";
   return formatted(
-      "WARNING: the wheels are %.0f and %.0f %% larger than the config says: check "
+      "WARNING: the left wheel is %+.0f %% off what the config says, the right one %+.0f %%: check "
       "odometry.counts_per_turn and odometry.wheel_radius\n",
       100 * learned.left_scale, 100 * learned.right_scale);
 }
@@ -46,10 +46,10 @@ std::string describe_doubt(const survey::OdometryDoubt& doubt) {
     return formatted("%.1f m by its counts and %.1f m by the lidar", way.counted_m, way.true_m);
   };
   return formatted(
-             "WARNING: the odometry contradicts the lidar in %zu turns and was left out, the map "
-             "is "
-             "by the lidar alone: ",
-             doubt.turns) +
+             "WARNING: the odometry contradicts the lidar in %zu turns and is missing in %zu; it "
+             "was "
+             "left out, the map is by the lidar alone: ",
+             doubt.contradicted_turns, doubt.unled_turns) +
          "the left wheel went " + wheel(doubt.left) + ", the right one " + wheel(doubt.right) +
          "; check that the encoders count, forward as more, odometry.counts_per_turn and "
          "odometry.wheel_radius\n";

@@ -7,7 +7,7 @@ namespace cornerd::survey {
 namespace {
 
 /// 2 m straight ahead in 20 turns of 0.1 s; 1 m by a count, the right wheel's wrap at 10.
-TEST(DoubtOfWheels, DeadWheel_IsToldByItsWay) {
+TEST(MeasureWheels, DeadWheel_IsToldByItsWay) {
   core::OdometryConfig config;
   config.geometry.wheel_radius_m = 1 / core::kTwoPi;
   config.geometry.counts_per_turn = 10;
@@ -22,26 +22,27 @@ TEST(DoubtOfWheels, DeadWheel_IsToldByItsWay) {
     drive.add(reading, reading.t_ns);
     way.push_back({0.1 * i, 0, 0});
   }
-  const OdometryDoubt doubt = doubt_of_wheels(drive, 7, way, config);
-  EXPECT_EQ(doubt.turns, 7U);
+  OdometryDoubt doubt;
+  measure_wheels(drive, way, config, doubt);
   EXPECT_NEAR(doubt.left.counted_m, 0, 1e-12);
   EXPECT_NEAR(doubt.right.counted_m, 2, 1e-9);
   EXPECT_NEAR(doubt.left.true_m, 2, 1e-9);
   EXPECT_NEAR(doubt.right.true_m, 2, 1e-9);
 }
 
-TEST(DoubtOfWheels, Turn_RollsThemByTheTrack) {
+TEST(MeasureWheels, Turn_RollsThemByTheTrack) {
   core::OdometryConfig config;
   config.geometry.track_m = 0.2;
   const std::vector<core::Pose2> way = {{}, {0, 0, 1}};
-  const OdometryDoubt doubt = doubt_of_wheels({}, 0, way, config);
+  OdometryDoubt doubt;
+  measure_wheels({}, way, config, doubt);
   EXPECT_NEAR(doubt.left.true_m, 0.1, 1e-12);
   EXPECT_NEAR(doubt.right.true_m, 0.1, 1e-12);
 }
 
-TEST(IsTooOften, TenthOfTheTurns_IsNot) {
-  EXPECT_FALSE(is_too_often(10, 100));
-  EXPECT_TRUE(is_too_often(11, 100));
+TEST(AreTooMany, TenthOfTheTurns_IsNot) {
+  EXPECT_FALSE(are_too_many(10, 100));
+  EXPECT_TRUE(are_too_many(11, 100));
 }
 
 }  // namespace

@@ -128,7 +128,6 @@ RecordedDrive with_lies(const RecordedDrive& told, const Lie& lie) {
 void expect_right_by_the_lidar_alone(const bench::SimulatedDrive& simulated,
                                      const SurveyResult& result) {
   ASSERT_TRUE(result.odometry_doubt.has_value());
-  EXPECT_GT(result.odometry_doubt->turns, result.t_ns.size() / 10);
   EXPECT_FALSE(result.has_odometry);
   const auto score = bench::score_survey(*two_rooms(), simulated.T_map_base,
                                          core::WallMap(result.plan), simulated.T_map_base[0]);
@@ -142,6 +141,7 @@ TEST(Survey, DeadWheel_IsLeftOutAndSaid) {
   const SurveyResult result = survey(
       with_lies(simulated.drive, [](core::OdometryReading& reading) { reading.left = 7; }), {});
   expect_right_by_the_lidar_alone(simulated, result);
+  EXPECT_GT(result.odometry_doubt->contradicted_turns, result.t_ns.size() / 10);
   EXPECT_NEAR(result.odometry_doubt->left.counted_m, 0, 1e-9);
   EXPECT_NEAR(result.odometry_doubt->right.counted_m, result.odometry_doubt->right.true_m,
               0.05 * result.odometry_doubt->right.true_m);
@@ -158,6 +158,21 @@ TEST(Survey, TwiceTheCounts_AreLeftOutAndSaid) {
                                      {});
   expect_right_by_the_lidar_alone(simulated, result);
   EXPECT_NEAR(result.odometry_doubt->left.counted_m / result.odometry_doubt->left.true_m, 2, 0.1);
+}
+
+TEST(Survey, OdometryThatBeginsInTheMiddle_IsLeftOutAndSaid) {
+  const bench::SimulatedDrive simulated = drive_through(/*has_odometry=*/true);
+  const auto readings = simulated.drive.readings();
+  std::vector<core::OdometryReading> rest;
+  for (std::size_t i = readings.size() / 2; i < readings.size(); ++i) {
+    rest.push_back(readings[i].reading);
+  }
+  RecordedDrive drive = simulated.drive.without_odometry();
+  drive.set_odometry(rest);
+  const SurveyResult result = survey(drive, {});
+  expect_right_by_the_lidar_alone(simulated, result);
+  EXPECT_NEAR(static_cast<double>(result.odometry_doubt->unled_turns),
+              static_cast<double>(drive.size()) / 2, 10);
 }
 
 TEST(Survey, HonestOdometry_IsNotDoubted) {
