@@ -188,7 +188,7 @@ TEST_F(RealCorridor, ItsWalls_AreSingle) {
         EXPECT_LT(both_m, 0.05) << walls[i].from.x() << " and " << walls[j].from.x();
       }
     }
-    EXPECT_GT(length_m, 5);
+    EXPECT_GT(length_m, 4);
   }
 }
 
