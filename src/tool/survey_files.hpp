@@ -12,8 +12,8 @@
 namespace cornerd::tool {
 
 /// Recordings, one after another, as one drive. The times of one whose clock begins before the end
-/// of the one before it are set on, so that it follows. `odometry`: of another file, or empty. What was
-/// passed over is said on standard error. Throws replay::RecordingError and Failure.
+/// of the one before it are set on, so that it follows. `odometry`: of another file, or empty. What
+/// was passed over is said on standard error. Throws replay::RecordingError and Failure.
 survey::RecordedDrive load_drive(std::span<const std::filesystem::path> files,
                                  const replay::RecordingOptions& options,
                                  const std::filesystem::path& odometry);
