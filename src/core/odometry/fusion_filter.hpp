@@ -77,6 +77,9 @@ class FusionFilter {
   const NoiseLearning& noise() const { return learning_; }
 
  private:
+  /// A tyre is no line: where it touches the floor wanders with every turn on the spot.
+  static constexpr double kScrub_rad_per_sqrt_rad = 0.001;
+
   struct Wheels {
     double left_m = 0;
     double right_m = 0;
@@ -84,7 +87,13 @@ class FusionFilter {
     double turn_rad = 0;
   };
   using Row = Eigen::RowVector<double, kSize>;
+  struct Prediction;
   Wheels wheels(const MotionStep& step) const;
+  // The steps of predict().
+  Prediction by_wheels(const MotionStep& step) const;
+  void expect_of_gyro(Prediction& p) const;
+  void compare_with_gyro(Prediction& p);
+  void move_on(const Prediction& p);
   /// How the wheels' turn, and what the gyro says of it, change with the state.
   Row turn_slope(double way_m, double turn_rad, bool rolls) const;
   Row seen_slope(const Row& turn_by, double turn_rad, double dt_s) const;

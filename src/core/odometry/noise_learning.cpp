@@ -2,6 +2,7 @@
 #include "core/odometry/noise_learning.hpp"
 
 #include "core/geometry/angle.hpp"
+#include "core/geometry/squared.hpp"
 
 namespace cornerd::core {
 namespace {
@@ -12,8 +13,6 @@ constexpr int kFewestFixes = 4;
 /// A window is as long as it takes for the noise to stand out among that of the fixes, or so long.
 constexpr double kStandsOut = 2;
 constexpr double kLongestWindow_s = 4;
-
-constexpr double square_of(double value) { return value * value; }
 
 }  // namespace
 
@@ -69,10 +68,10 @@ void NoiseLearning::close_wheels(double heading_rad, double variance_rad2) {
   Slope slope;
   slope << 0, -window.left_m / track_m, window.right_m / track_m,
       -turn_rad / (1 + learned.track_scale), 0;
-  const double counts_rad2 = 4 * square_of(geometry_.metres_per_count() / track_m) / 12;
+  const double counts_rad2 = 4 * squared(geometry_.metres_per_count() / track_m) / 12;
   const double residual_rad =
       normalize_angle(angle_between(window.heading_rad, heading_rad) - turn_rad);
-  wheel_factor_.add(square_of(residual_rad), window.told_rad2,
+  wheel_factor_.add(squared(residual_rad), window.told_rad2,
                     (slope * window.covariance * slope.transpose()).value() + counts_rad2 +
                         window.variance_rad2 + variance_rad2);
 }
@@ -86,7 +85,7 @@ void NoiseLearning::close_gyro(double heading_rad, double variance_rad2) {
   slope << -window.duration_s / gain, 0, 0, 0, -turn_rad / gain;
   const double residual_rad =
       normalize_angle(angle_between(window.heading_rad, heading_rad) - turn_rad);
-  gyro_factor_.add(square_of(residual_rad), window.told_rad2,
+  gyro_factor_.add(squared(residual_rad), window.told_rad2,
                    (slope * window.covariance * slope.transpose()).value() + window.variance_rad2 +
                        variance_rad2);
 }

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: MIT
+// What the lidar's fixes teach the filter, and what it says of itself.
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Cholesky>
+
+#include "core/geometry/squared.hpp"
+#include "core/odometry/fusion_filter.hpp"
+
+namespace cornerd::core {
+namespace {
+
+/// Chi-square with three degrees of freedom that one true fix in a million exceeds.
+constexpr double kStranger = 30.7;
+/// Nothing that is built is farther from what it was built to be.
+constexpr double kMostScale = 0.5;
+constexpr double kMostBias_rad_s = 0.5;
+
+}  // namespace
+
+Pose2 FusionFilter::motion_of(const MotionStep& step) const {
+  const Wheels moved = wheels(step);
+  const double turn_rad =
+      step.has_gyro ? (step.gyro_rad - state_[kBias] * step.duration_s()) / (1 + state_[kGyro])
+                    : moved.turn_rad;
+  return arc(moved.way_m, turn_rad);
+}
+
+FusionFilter::Wander FusionFilter::wander_of(const Pose2& way, double duration_s,
+                                             bool has_gyro) const {
+  const double track_m = geometry_.track_m * (1 + state_[kTrack]);
+  const double way_m = way.translation().norm();
+  const double aside_m = std::abs(way.theta_rad) * track_m / 2;
+  const double rolled_m = std::abs(way_m - aside_m) + way_m + aside_m;  // by both wheels
+  const double wheel_m2 = squared(noise_.wheel_m_per_sqrt_m) * learning_.wheel_factor() * rolled_m;
+  Wander wander{wheel_m2 / 4, wheel_m2 / squared(track_m)};
+  if (has_gyro) {
+    wander.turn_rad2 =
+        squared(noise_.gyro_rad_s_per_sqrt_hz) * learning_.gyro_factor() * duration_s;
+  } else {
+    wander.turn_rad2 +=
+        squared(kScrub_rad_per_sqrt_rad) * learning_.wheel_factor() * std::abs(way.theta_rad);
+  }
+  if (duration_s > 0) {
+    const double late_share2 = jitter_.variance_s2() / squared(duration_s);
+    wander.place_m2 += late_share2 * squared(way_m);
+    wander.turn_rad2 += late_share2 * squared(way.theta_rad);
+  }
+  return wander;
+}
+
+void FusionFilter::set_pose(const Pose2& T_map_base, const Covariance3& covariance) {
+  state_.head<3>() << T_map_base.x_m, T_map_base.y_m, T_map_base.theta_rad;
+  covariance_.topRows<3>().setZero();
+  covariance_.leftCols<3>().setZero();
+  covariance_.topLeftCorner<3, 3>() = covariance;
+  learning_.interrupt();
+}
+
+Eigen::Vector3d FusionFilter::surprise_of(const Pose2& T_map_base) const {
+  return {T_map_base.x_m - state_[kX], T_map_base.y_m - state_[kY],
+          angle_between(state_[kTheta], T_map_base.theta_rad)};
+}
+
+bool FusionFilter::explains(const Pose2& T_map_base, const Covariance3& covariance) const {
+  const Eigen::Vector3d surprise = surprise_of(T_map_base);
+  const Eigen::LLT<Eigen::Matrix3d> root(pose_covariance() + covariance);
+  return root.info() == Eigen::Success && surprise.dot(root.solve(surprise)) < kStranger;
+}
+
+bool FusionFilter::correct(const Pose2& T_map_base, const Covariance3& covariance) {
+  if (!explains(T_map_base, covariance)) return false;
+  learning_.fixed(T_map_base.theta_rad, covariance(2, 2), learned(),
+                  covariance_.block<5, 5>(kBias, kBias));
+  const Eigen::Vector3d surprise = surprise_of(T_map_base);
+  const Eigen::LLT<Eigen::Matrix3d> root(pose_covariance() + covariance);
+  const Eigen::Matrix<double, kSize, 3> with_pose = covariance_.leftCols<3>();
+  const Eigen::Matrix<double, kSize, 3> gain = root.solve(with_pose.transpose()).transpose();
+  state_ += gain * surprise;
+  covariance_ -= gain * with_pose.transpose();
+  keep_in_bounds();
+  return true;
+}
+
+LearnedOdometry FusionFilter::learned() const {
+  return {state_[kBias], state_[kLeft], state_[kRight], state_[kTrack], state_[kGyro]};
+}
+
+void FusionFilter::keep_in_bounds() {
+  state_[kTheta] = normalize_angle(state_[kTheta]);
+  state_[kBias] = std::clamp(state_[kBias], -kMostBias_rad_s, kMostBias_rad_s);
+  for (const int scale : {kLeft, kRight, kTrack, kGyro}) {
+    state_[scale] = std::clamp(state_[scale], -kMostScale, kMostScale);
+  }
+  // What rounding makes of a symmetric matrix is symmetric to the last bits alone.
+  covariance_ = ((covariance_ + covariance_.transpose()) / 2).eval();
+  for (int i = 0; i < kSize; ++i) covariance_(i, i) = std::max(covariance_(i, i), 1e-14);
+}
+
+}  // namespace cornerd::core
