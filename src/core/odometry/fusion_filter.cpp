@@ -57,7 +57,7 @@ struct FusionFilter::Prediction {
   double dt_s = 0;
   double track_m = 0;
   double gyro_gain = 1;
-  Wheels moved;
+  Wheels moved{};
   bool rolls = false;  ///< or stands: then no count has come
   bool slips = false;
 
@@ -74,9 +74,9 @@ struct FusionFilter::Prediction {
   // What the gyro says beyond the wheels, and how that and the turn change with the state.
   double bias_rad = 0;
   double surprise_rad = 0;
-  Row turn_by;
-  Row seen_by;
-  Row usual_by;  ///< seen_by as it was in the steps before
+  Row turn_by = Row::Zero();
+  Row seen_by = Row::Zero();
+  Row usual_by = Row::Zero();  ///< seen_by as it was in the steps before
 
   /// The way is taken in the direction half-way through the wheels' turn, and follows it as the
   /// gyro corrects it; a slip is too large for that, and the way is taken at what the gyro leaves
