@@ -52,7 +52,7 @@ Daemon::Daemon(Loaded loaded, Reloader::Load load, std::unique_ptr<drivers::Lida
                     source_of(config_.lidar.driver)) {
   open_sockets();
   // Only who has the sockets is this robot's daemon, and may touch its port.
-  if (config_.odometry.core.publish) localization_.publish_readings();
+  localization_.publish_readings(config_.odometry.core.publish);
   localization_.start();
   // A recording brings its own.
   auto odometry = is_live_ ? make_odometry(config_.odometry) : nullptr;
@@ -169,6 +169,7 @@ void Daemon::on_loaded() {
   const std::string name =
       fmt::format("{}, {} walls", loaded.map->plan().name, loaded.map->plan().walls.size());
   if (!memory_.reconfigure(loaded.config.lidar.bias)) localization_.forget_lidar();
+  localization_.publish_readings(loaded.config.odometry.core.publish);
   auto pipeline = resumed(std::move(loaded.pipeline), loaded.config.lidar, memory_);
   turns_.expect_map(localization_.replace(std::move(pipeline)), std::move(loaded.map));
   if (health_.memory_is_locked) health_.memory_is_locked = lock_memory() == 0;

@@ -72,7 +72,7 @@ void Localization::localize(const std::stop_token& stop) {
     const std::uint32_t seen = channel_.wakes();
     if (stop.stop_requested()) return;
     while (!stop.stop_requested() && channel_.pop(item)) process(item);
-    if (publishes_readings_) take_readings();
+    if (publishes_readings_.load(std::memory_order_relaxed)) take_readings();
     rounds_.fetch_add(1, std::memory_order_relaxed);
     channel_.wait(seen);
   }

@@ -76,10 +76,10 @@ class Localization {
   /// another. One that finds no room is lost; the next one's counts make up for it.
   void add(const core::OdometryReading& reading) {
     readings_.push(reading);
-    if (publishes_readings_) channel_.wake();
+    if (publishes_readings_.load(std::memory_order_relaxed)) channel_.wake();
   }
-  /// A pose for every reading: odometry.publish. Before start().
-  void publish_readings() { publishes_readings_ = true; }
+  /// A pose for every reading, be there turns or not: odometry.publish.
+  void publish_readings(bool every) { publishes_readings_.store(every, std::memory_order_relaxed); }
   /// The robot is about there.
   void set_pose(const core::Pose2& T_map_base) { given_poses_.push(T_map_base); }
   /// From the next turn on this one localizes; it knows nothing yet. Returns its generation.
@@ -135,7 +135,7 @@ class Localization {
   core::RingBuffer<core::Pose2> given_poses_;
   SlotExchange<TurnReport> reports_;
   SlotExchange<core::PoseEstimate> predictions_;
-  bool publishes_readings_ = false;
+  std::atomic<bool> publishes_readings_{false};
   FileDescriptor reported_;
   LoopHealth own_health_;  ///< the localizer's thread's
   core::Latest<LoopHealth> health_;
