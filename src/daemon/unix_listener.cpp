@@ -10,10 +10,13 @@
 #include <cerrno>
 #include <chrono>
 #include <cstring>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <thread>
 #include <utility>
+
+#include "daemon/listening_sockets.hpp"
 
 namespace cornerd::daemon {
 namespace {
@@ -56,16 +59,32 @@ FileDescriptor lock_folder(const std::filesystem::path& path) {
 
 FileDescriptor make_spare() { return FileDescriptor(::open("/dev/null", O_RDONLY | O_CLOEXEC)); }
 
-/// Only a connection refused tells that nobody listens: a full backlog is EAGAIN, and alive.
+/// Why the file is not to be removed; nothing: nobody listens there any more.
+std::optional<std::string> why_in_use(const std::filesystem::path& path,
+                                      const sockaddr_un& address) {
+  const FileDescriptor probe = make_socket();
+  const bool answers = ::connect(probe.get(), generic(address), sizeof(address)) == 0;
+  const int error = errno;
+  // A full backlog is alive.
+  if (answers || error == EAGAIN) return "another cornerd listens there";
+  if (error == ECONNREFUSED) return std::nullopt;
+  if (error != EACCES)
+    return std::string("cannot be told from one in use: ") + std::strerror(error);
+  // Another user's: whether anybody listens is for the kernel's list to say.
+  const std::optional<bool> listens = somebody_listens(path);
+  if (!listens) return "is another user's, and whether it is in use cannot be told";
+  if (*listens) return "another user's cornerd listens there";
+  return std::nullopt;
+}
+
 void remove_stale(const std::filesystem::path& path, const sockaddr_un& address) {
   struct stat file {};
   if (::lstat(path.c_str(), &file) != 0) return;
   if (!S_ISSOCK(file.st_mode)) fail(path, "is there already and is no socket");
-  const FileDescriptor probe = make_socket();
-  if (::connect(probe.get(), generic(address), sizeof(address)) == 0 || errno != ECONNREFUSED) {
-    fail(path, "another cornerd listens there");
+  if (const auto reason = why_in_use(path, address)) fail(path, *reason);
+  if (::unlink(path.c_str()) != 0 && errno != ENOENT) {
+    fail(path, std::string("is left over, and cannot be removed: ") + std::strerror(errno));
   }
-  ::unlink(path.c_str());
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include <atomic>
 #include <fstream>
@@ -136,6 +137,52 @@ TEST(UnixListener, SocketOfALiveInstance_IsLeftAlone) {
   const UnixListener first(folder / "s", 0600);
   EXPECT_EQ(error_of(folder / "s"), (folder / "s").string() + ": another cornerd listens there");
   EXPECT_TRUE(TestClient(folder / "s").is_connected());
+}
+
+/// Somebody whom a file's mode keeps out, as it does not root.
+class Unprivileged {
+ public:
+  explicit Unprivileged(const std::filesystem::path& folder) {
+    if (::geteuid() != 0) return;
+    static_cast<void>(::chown(folder.c_str(), kNobody, kNobody));
+    was_root_ = ::seteuid(kNobody) == 0;
+  }
+  ~Unprivileged() {
+    if (was_root_) static_cast<void>(::seteuid(0));
+  }
+  Unprivileged(const Unprivileged&) = delete;
+  Unprivileged& operator=(const Unprivileged&) = delete;
+
+ private:
+  static constexpr uid_t kNobody = 65534;
+  bool was_root_ = false;
+};
+
+TEST(UnixListener, StaleFileOfAnotherUser_IsReplaced) {
+  const test::TemporaryFolder folder;
+  leave_stale_socket(folder / "s");
+  ASSERT_EQ(::chmod((folder / "s").c_str(), 0), 0);
+  const Unprivileged user(folder.path());
+  const UnixListener listener(folder / "s", 0600);
+  EXPECT_TRUE(TestClient(folder / "s").is_connected());
+}
+
+TEST(UnixListener, SocketOfAnotherUsersLiveInstance_IsLeftAlone) {
+  const test::TemporaryFolder folder;
+  const UnixListener first(folder / "s", 0);
+  const Unprivileged user(folder.path());
+  EXPECT_EQ(error_of(folder / "s"),
+            (folder / "s").string() + ": another user's cornerd listens there");
+  EXPECT_TRUE(first.is_there());
+}
+
+TEST(UnixListener, StaleFileThatMayNotBeRemoved_IsNamedAsSuch) {
+  const test::TemporaryFolder folder;
+  leave_stale_socket(folder / "s");
+  const Unprivileged user(folder.path());
+  ASSERT_EQ(::chmod(folder.path().c_str(), 0500), 0);
+  EXPECT_THAT(error_of(folder / "s"), HasSubstr("is left over, and cannot be removed: "));
+  ASSERT_EQ(::chmod(folder.path().c_str(), 0700), 0);
 }
 
 TEST(UnixListener, FileThatIsNoSocket_IsLeftAlone) {
