@@ -5,10 +5,10 @@
 
 #include <cmath>
 #include <cstdlib>
-#include <fstream>
 #include <system_error>
 #include <utility>
 
+#include "daemon/replace_file.hpp"
 #include "settings/document.hpp"
 
 namespace cornerd::daemon {
@@ -24,26 +24,17 @@ constexpr double core::SensorBias::*kParts[] = {
     &core::SensorBias::range_scale, &core::SensorBias::range_offset_m,
     &core::SensorBias::bearing_sine_rad, &core::SensorBias::bearing_cosine_rad};
 
-/// Whoever is killed in between leaves the old file.
-void replace_file(const std::filesystem::path& file, const std::string& text) {
-  const std::filesystem::path fresh = file.string() + ".new";
-  std::ofstream stream(fresh, std::ios::binary | std::ios::trunc);
-  stream << text;
-  stream.close();
-  if (!stream) {
-    const std::system_error error(errno, std::generic_category(), fresh.string());
-    std::error_code ignored;
-    std::filesystem::remove(fresh, ignored);
-    throw error;
-  }
-  std::filesystem::rename(fresh, file);
-}
-
-/// True for a file of its kind, or what a failing disk left of one.
+/// True for a file of its kind, or what a power cut or a failing disk left of one: the beginning,
+/// nothing, or zeros.
 bool is_own(std::string_view text) {
+  if (text.find_first_not_of('\0') == std::string_view::npos) return true;
   const std::string all = settings::text_of({});
   const std::string_view begin = std::string_view(all).substr(0, all.find('\n', 2));
   return text.substr(0, begin.size()) == begin.substr(0, text.size());
+}
+
+bool is_json(std::string_view text) {
+  return settings::Json::accept(text, /*ignore_comments=*/true);
 }
 
 }  // namespace
@@ -72,13 +63,17 @@ void LidarMemory::recall() {
   const file_type type = std::filesystem::status(file_, unread).type();
   if (type == file_type::not_found) return;
   const auto leave_alone = [this](std::string_view why) {
-    spdlog::warn("{}: {}; what is learnt of the lidar is not kept", file_.string(), why);
+    spdlog::warn("{}; what is learnt of the lidar is not kept", why);
     file_.clear();
   };
-  if (type != file_type::regular) return leave_alone("is no ordinary file");
+  if (type != file_type::regular) return leave_alone(file_.string() + ": is no ordinary file");
   std::string text;
   try {
     text = settings::read_file(file_, settings::kMaxLearnedLidarBytes);
+  } catch (const std::exception& error) {
+    return leave_alone(error.what());
+  }
+  try {
     settings::LearnedLidar found = settings::parse_learned_lidar(text, file_);
     if (found.configured != known_.configured) {
       spdlog::info("{}: learnt under another /lidar/bias, and not used", file_.string());
@@ -88,7 +83,16 @@ void LidarMemory::recall() {
     written_ = known_.learned;
     spdlog::info("the lidar's bias is known from {} turns before", written_.turns);
   } catch (const std::exception& error) {
-    if (text.empty() || !is_own(text)) return leave_alone(error.what());
+    if (!is_own(text)) {
+      // Somebody's settings or map, given by mistake, stay where they are.
+      if (is_json(text)) return leave_alone(error.what());
+      const std::filesystem::path aside = file_.string() + ".bad";
+      std::error_code failed;
+      std::filesystem::rename(file_, aside, failed);
+      if (failed) return leave_alone(error.what());
+      return spdlog::warn("{}; it is {} now, and the lidar is learnt anew", error.what(),
+                          aside.string());
+    }
     spdlog::warn("what was learnt of the lidar is not used: {}", error.what());
   }
 }

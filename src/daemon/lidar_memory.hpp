@@ -18,8 +18,9 @@ std::filesystem::path learned_file(const settings::LidarConfig& config);
 /// written is a line in the log, and costs nothing else. For the server's thread.
 class LidarMemory {
  public:
-  /// Recalls what was kept under the same settings. `file`: empty: nothing is kept. What is there
-  /// and was not written by a LidarMemory is left alone. `configured`: lidar.bias of the settings.
+  /// Recalls what was kept under the same settings. `file`: empty: nothing is kept. JSON
+  /// that was not written by a LidarMemory is left alone, what is none renamed to *.bad.
+  /// `configured`: lidar.bias of the settings.
   LidarMemory(const std::filesystem::path& file, const core::SensorBias& configured);
 
   /// Of this lidar under these settings; no turns: nothing.

@@ -101,6 +101,26 @@ TEST_F(LidarMemoryTest, FileThatWasCutShort_IsNotUsedAndReplaced) {
   }
 }
 
+TEST_F(LidarMemoryTest, FileThatAPowerCutEmptied_IsReplaced) {
+  for (const std::string& left : {std::string(), std::string(400, '\0')}) {
+    std::ofstream(file_) << left;
+    LidarMemory keeper = memory();
+    EXPECT_EQ(keeper.known().turns, 0u) << left.size();
+    keeper.keep(kLearned);
+    EXPECT_EQ(memory().known().turns, kLearned.turns) << left.size();
+    EXPECT_FALSE(std::filesystem::exists(file_.string() + ".bad"));
+  }
+}
+
+TEST_F(LidarMemoryTest, FileThatIsNoJson_IsSetAside) {
+  std::ofstream(file_) << "precious";
+  memory().keep(kLearned);
+  EXPECT_EQ(memory().known().turns, kLearned.turns);
+  std::string text;
+  std::ifstream(file_.string() + ".bad") >> text;
+  EXPECT_EQ(text, "precious");
+}
+
 TEST_F(LidarMemoryTest, FileOfAnotherKind_IsLeftAlone) {
   const std::string map = R"({"format": "cornerd-map", "version": 1, "walls": []})";
   std::ofstream(file_) << map;
