@@ -16,7 +16,7 @@ namespace {
 constexpr int kSendBufferBytes = 1;
 
 /// Requests of a client that does not read their answers wait in its own send buffer.
-constexpr std::size_t kMaxWaitingAnswers = 64;
+constexpr std::size_t kMaxWaitingAnswers = 16;
 
 }  // namespace
 
@@ -35,7 +35,7 @@ bool Client::send() {
   return result != Outbox::Result::kBroken;
 }
 
-Client::Input Client::receive(const std::function<void(std::string_view line)>& handle) {
+Client::Input Client::receive(const Handle& handle) {
   // One block a round: a client that never stops sending delays nobody.
   std::array<char, 16 * 1024> block;
   const ssize_t count = ::recv(fd_.get(), block.data(), block.size(), MSG_DONTWAIT);
@@ -46,16 +46,22 @@ Client::Input Client::receive(const std::function<void(std::string_view line)>& 
     if (!rest.empty()) handle(rest);
     return Input::kOpen;
   }
-  const bool understood = input_.feed({block.data(), static_cast<std::size_t>(count)}, handle);
-  return understood ? Input::kOpen : Input::kTooLong;
+  input_.feed({block.data(), static_cast<std::size_t>(count)});
+  return handle_requests(handle);
 }
 
-bool Client::accepts_requests() const {
-  return !input_ended_ && outbox_.waiting_answers() < kMaxWaitingAnswers;
+Client::Input Client::handle_requests(const Handle& handle) {
+  while (outbox_.waiting_answers() < kMaxWaitingAnswers) {
+    const auto line = input_.next();
+    if (!line) break;
+    handle(*line);
+  }
+  return input_.is_too_long() ? Input::kTooLong : Input::kOpen;
 }
 
 std::uint32_t Client::wanted_events() const {
-  return (accepts_requests() ? EPOLLIN : 0u) | (blocked_ ? EPOLLOUT : 0u);
+  const bool listens = !input_ended_ && !has_requests();
+  return (listens ? EPOLLIN : 0u) | (blocked_ ? EPOLLOUT : 0u);
 }
 
 }  // namespace cornerd::daemon

@@ -29,14 +29,20 @@ class Client {
   /// False where the connection is at its end.
   [[nodiscard]] bool send();
   enum class Input : std::uint8_t { kOpen, kTooLong, kBroken };
-  [[nodiscard]] Input receive(const std::function<void(std::string_view line)>& handle);
+  using Handle = std::function<void(std::string_view line)>;
+  /// What the client has sent, as far as its answers find room.
+  [[nodiscard]] Input receive(const Handle& handle);
+  /// The rest of it, once there is room again.
+  [[nodiscard]] Input handle_requests(const Handle& handle);
+  /// It has sent more than was handled.
+  bool has_requests() const { return input_.has_line(); }
+  /// Its answers wait for it to read.
+  bool is_blocked() const { return blocked_; }
 
   /// What epoll has to watch for now.
   std::uint32_t wanted_events() const;
 
  private:
-  bool accepts_requests() const;
-
   FileDescriptor fd_;
   message::ClassSet watched_;
   LineSplitter input_;

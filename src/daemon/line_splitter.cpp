@@ -3,19 +3,41 @@
 
 namespace cornerd::daemon {
 
-bool LineSplitter::feed(std::string_view bytes,
-                        const std::function<void(std::string_view line)>& handle) {
-  while (true) {
-    const std::size_t newline = bytes.find('\n');
-    const std::string_view piece = bytes.substr(0, newline);
-    if (rest_.size() + piece.size() > max_bytes_) return false;
-    rest_ += piece;
-    if (newline == std::string_view::npos) return true;
-    bytes.remove_prefix(newline + 1);
-    std::string line = take_rest();
-    if (line.ends_with('\r')) line.pop_back();
-    if (!line.empty()) handle(line);
+void LineSplitter::feed(std::string_view bytes) {
+  bytes_.erase(0, begin_);
+  if (has_line()) newline_ -= begin_;
+  begin_ = 0;
+  const std::size_t fresh = bytes_.size();
+  bytes_ += bytes;
+  if (!has_line()) newline_ = bytes_.find('\n', fresh);
+  pass_over_empty();
+}
+
+void LineSplitter::pass_over_empty() {
+  while (has_line() && (size() == 0 || (size() == 1 && bytes_[begin_] == '\r'))) {
+    begin_ = newline_ + 1;
+    newline_ = bytes_.find('\n', begin_);
   }
+}
+
+std::optional<std::string_view> LineSplitter::next() {
+  if (!has_line() || is_too_long()) return std::nullopt;
+  std::string_view line = std::string_view(bytes_).substr(begin_, size());
+  if (line.ends_with('\r')) line.remove_suffix(1);
+  begin_ = newline_ + 1;
+  newline_ = bytes_.find('\n', begin_);
+  pass_over_empty();
+  return line;
+}
+
+bool LineSplitter::is_too_long() const { return size() > max_bytes_; }
+
+std::string LineSplitter::take_rest() {
+  std::string rest = bytes_.substr(begin_);
+  bytes_.clear();
+  begin_ = 0;
+  newline_ = std::string::npos;
+  return rest;
 }
 
 }  // namespace cornerd::daemon

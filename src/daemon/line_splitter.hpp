@@ -2,10 +2,9 @@
 #pragma once
 
 #include <cstddef>
-#include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
-#include <utility>
 
 namespace cornerd::daemon {
 
@@ -15,16 +14,27 @@ class LineSplitter {
  public:
   explicit LineSplitter(std::size_t max_bytes) : max_bytes_(max_bytes) {}
 
-  /// False where a line is longer than allowed: no more of the stream can be understood.
-  [[nodiscard]] bool feed(std::string_view bytes,
-                          const std::function<void(std::string_view line)>& handle);
+  void feed(std::string_view bytes);
+  /// The next line, until the next call of this or feed(). Nothing: no line is complete, or the
+  /// next one is longer than allowed.
+  std::optional<std::string_view> next();
+  /// There is a line that next() has not given yet.
+  bool has_line() const { return newline_ != std::string::npos; }
+  /// The next line is longer than allowed: no more of the stream can be understood.
+  bool is_too_long() const;
 
   /// What came after the last newline; the stream has ended.
-  std::string take_rest() { return std::exchange(rest_, {}); }
+  std::string take_rest();
 
  private:
+  /// Of the next line, or of the part of it that is there.
+  std::size_t size() const { return (has_line() ? newline_ : bytes_.size()) - begin_; }
+  void pass_over_empty();
+
   std::size_t max_bytes_;
-  std::string rest_;
+  std::string bytes_;
+  std::size_t begin_ = 0;  ///< of the next line
+  std::size_t newline_ = std::string::npos;
 };
 
 }  // namespace cornerd::daemon

@@ -137,18 +137,26 @@ void MessageServer::welcome(Socket& socket, FileDescriptor fd) {
 }
 
 void MessageServer::handle_events(Socket& socket, ClientIterator client, std::uint32_t events) {
+  const auto handle = [&](std::string_view line) { answer(*client, socket.role, line); };
   if (events & EPOLLIN) {
-    const Client::Input input =
-        client->receive([&](std::string_view line) { answer(*client, socket.role, line); });
-    if (input == Client::Input::kTooLong) {
-      client->outbox().answer(line_.error("too-long", "a line has at most 64 KiB", "", ""));
-      static_cast<void>(client->send());
-    }
-    if (input != Client::Input::kOpen) return remove(socket, client);
+    if (!go_on_with(socket, client, client->receive(handle))) return;
   } else if (events & (EPOLLHUP | EPOLLERR)) {
     return remove(socket, client);
   }
-  send_or_remove(socket, client);
+  // Answers that were sent make room for those to what was asked in the same breath.
+  while (send_or_remove(socket, client) && client->has_requests() && !client->is_blocked()) {
+    if (!go_on_with(socket, client, client->handle_requests(handle))) return;
+  }
+}
+
+bool MessageServer::go_on_with(Socket& socket, ClientIterator client, Client::Input input) {
+  if (input == Client::Input::kOpen) return true;
+  if (input == Client::Input::kTooLong) {
+    client->outbox().answer(line_.error("too-long", "a line has at most 64 KiB", "", ""));
+    static_cast<void>(client->send());
+  }
+  remove(socket, client);
+  return false;
 }
 
 bool MessageServer::send_or_remove(Socket& socket, ClientIterator client) {

@@ -83,6 +83,8 @@ class MessageServer {
   /// Tells a client why, and no more.
   void turn_away(FileDescriptor fd, std::string_view code, std::string_view reason);
   void handle_events(Socket& socket, ClientIterator client, std::uint32_t events);
+  /// False where the client had to be removed.
+  bool go_on_with(Socket& socket, ClientIterator client, Client::Input input);
   /// Sends what waits; removes the client where it is gone. False where it was.
   bool send_or_remove(Socket& socket, ClientIterator client);
   void remove(Socket& socket, ClientIterator client);

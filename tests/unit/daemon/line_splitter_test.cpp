@@ -16,7 +16,9 @@ using ::testing::IsEmpty;
 class LineSplitterTest : public ::testing::Test {
  protected:
   bool feed(std::string_view bytes) {
-    return splitter_.feed(bytes, [this](std::string_view line) { lines_.emplace_back(line); });
+    splitter_.feed(bytes);
+    while (const auto line = splitter_.next()) lines_.emplace_back(*line);
+    return !splitter_.is_too_long();
   }
 
   LineSplitter splitter_{8};
@@ -46,6 +48,17 @@ TEST_F(LineSplitterTest, LineBeyondTheLimit_IsRefusedBeforeItEnds) {
   EXPECT_TRUE(feed("1234"));
   EXPECT_FALSE(feed("56789"));
   EXPECT_THAT(lines_, IsEmpty());
+}
+
+TEST_F(LineSplitterTest, LinesThatAreNotTakenYet_StayWhileMoreCome) {
+  splitter_.feed("one\n\ntwo\nth");
+  EXPECT_EQ(splitter_.next(), "one");
+  EXPECT_TRUE(splitter_.has_line());
+  splitter_.feed("ree\n");
+  EXPECT_EQ(splitter_.next(), "two");
+  EXPECT_EQ(splitter_.next(), "three");
+  EXPECT_FALSE(splitter_.has_line());
+  EXPECT_EQ(splitter_.next(), std::nullopt);
 }
 
 TEST_F(LineSplitterTest, LinesBeforeTheOneTooLong_AreHandled) {

@@ -265,7 +265,10 @@ TEST_F(MessageServerTest, ClientThatAsksWithoutReading_IsNoLongerListenedTo) {
   int last = -1;
   for (int i = 0; i < 5000; ++i) {
     const json line = next(client);
-    if (line != "nothing") last = line["id"];
+    if (line != "nothing") {
+      EXPECT_EQ(line["id"], last + 1) << "in order, and none is lost";
+      last = line["id"];
+    }
     serve();
   }
   EXPECT_GT(last, 900);
