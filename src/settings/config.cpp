@@ -5,6 +5,7 @@
 
 #include <sys/un.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "settings/detector_settings.hpp"
@@ -77,10 +78,19 @@ void read_speed(ObjectReader& lidar, double& speed) {
   }
 }
 
+void read_baud(ObjectReader& lidar, std::uint32_t& baud) {
+  lidar.integer("baud", baud, kBaudRates.front(), kBaudRates.back());
+  if (std::find(kBaudRates.begin(), kBaudRates.end(), baud) != kBaudRates.end()) return;
+  std::string list;
+  for (const std::uint32_t rate : kBaudRates)
+    list += (list.empty() ? "" : ", ") + std::to_string(rate);
+  lidar.fail("baud", "must be one of " + list);
+}
+
 void read_lidar(ObjectReader lidar, LidarConfig& config) {
   lidar.choice("driver", config.driver, kDrivers);
   lidar.path("device", config.device);
-  lidar.integer("baud", config.baud, 9'600u, 4'000'000u);
+  read_baud(lidar, config.baud);
   lidar.text("mode", config.mode, kMaxModeBytes);
   lidar.number("min_range", config.min_range_m, {0, 40});
   lidar.number("max_range", config.max_range_m, {0.1, 40});

@@ -2,6 +2,7 @@
 // The config file: every key, its default, its limits.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <stdexcept>
@@ -26,6 +27,10 @@ inline constexpr int kExitConfig = 78;
 
 enum class DriverKind : std::uint8_t { kRplidar, kReplay };
 enum class MotorKind : std::uint8_t { kDtr, kGpio, kPwm, kNone };
+
+/// What a port can be set to.
+inline constexpr std::array<std::uint32_t, 9> kBaudRates = {
+    9'600, 19'200, 38'400, 57'600, 115'200, 230'400, 460'800, 921'600, 1'000'000};
 
 struct MountConfig {
   double x_m = 0;

@@ -35,7 +35,7 @@ TEST(Config, MapAlone_IsEnough) {
 TEST(Config, EveryKey_ReachesItsMember) {
   const Config config = parse(R"({
     // a comment
-    "lidar": {"driver": "replay", "device": "/dev/ttyS4", "baud": 256000, "mode": "Boost",
+    "lidar": {"driver": "replay", "device": "/dev/ttyS4", "baud": 460800, "mode": "Boost",
               "min_range": 0.2, "max_range": 6, "file": "/r.bin", "speed": 2.5, "loop": true,
               "mount": {"x": 0.1, "y": -0.2, "theta": 4, "inverted": true}, "motor": "none"},
     "map": "/m.json",
@@ -47,7 +47,7 @@ TEST(Config, EveryKey_ReachesItsMember) {
     "realtime": {"priority": 0, "lock_memory": false}})");
   EXPECT_EQ(config.lidar.driver, DriverKind::kReplay);
   EXPECT_EQ(config.lidar.device, "/dev/ttyS4");
-  EXPECT_EQ(config.lidar.baud, 256000u);
+  EXPECT_EQ(config.lidar.baud, 460800u);
   EXPECT_EQ(config.lidar.mode, "Boost");
   EXPECT_EQ(config.lidar.min_range_m, 0.2);
   EXPECT_EQ(config.lidar.max_range_m, 6);
@@ -96,6 +96,12 @@ TEST(Config, UnknownKey_NamesFilePointerAndTheLikelyOne) {
 TEST(Config, UnknownKeyLikeNoOther_ListsWhatThereIs) {
   EXPECT_THAT(config_error(R"({"map": "/m", "realtime": {"colour": 1}})"),
               EndsWith("known here: priority, lock_memory"));
+}
+
+TEST(Config, SpeedThatNoPortHas_IsRefusedWithThoseThatItHas) {
+  EXPECT_THAT(config_error(R"({"map": "/m", "lidar": {"baud": 115201}})"),
+              EndsWith("/lidar/baud: must be one of 9600, 19200, 38400, 57600, 115200, 230400, "
+                       "460800, 921600, 1000000"));
 }
 
 TEST(Config, WrongType_IsNamed) {
