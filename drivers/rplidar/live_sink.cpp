@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "drivers/rplidar/live_sink.hpp"
 
-#include <utility>
-
 namespace cornerd::rplidar {
 namespace {
 
@@ -13,14 +11,11 @@ constexpr std::size_t kMinReturnsPercent = 1;
 
 void LiveSink::on_sample(const core::Sample& sample) {
   if (sample.starts_turn) end_turn();
-  ++count_;
   ++turn_samples_;
   if (sample.range_m > 0) ++turn_returns_;
   board_.count(sample);
   next_.on_sample(sample);
 }
-
-std::size_t LiveSink::take_count() { return std::exchange(count_, 0); }
 
 bool LiveSink::blind() const { return blind_turns_ >= kBlindTurns; }
 

@@ -8,7 +8,7 @@
 
 namespace cornerd::rplidar {
 
-/// Between the stream and whoever wants its samples: counts them for the status, and watches
+/// Between the stream and whoever wants its samples: shows them to the status, and watches
 /// whether the laser sees anything at all.
 class LiveSink : public drivers::SampleSink {
  public:
@@ -17,8 +17,6 @@ class LiveSink : public drivers::SampleSink {
   void on_sample(const core::Sample& sample) override;
   void on_gap() override { next_.on_gap(); }
 
-  /// Samples since the last call.
-  std::size_t take_count();
   /// Many turns in a row without a return: a device can be healthy and blind.
   bool blind() const;
 
@@ -27,7 +25,6 @@ class LiveSink : public drivers::SampleSink {
 
   drivers::SampleSink& next_;
   StatusBoard& board_;
-  std::size_t count_ = 0;
   std::size_t turn_samples_ = 0;
   std::size_t turn_returns_ = 0;
   int blind_turns_ = 0;

@@ -209,9 +209,10 @@ RplidarDriver::Failure RplidarDriver::measure(drivers::ByteStream& port, const S
     const core::TimeNs now_ns = clock_.monotonic_ns();
     if (status == drivers::ByteStream::ReadStatus::kLost) break;
     const auto bytes = std::span(buffer).first(count);
-    stream.feed(bytes, now_ns, live, count < buffer.size());
+    const std::uint64_t samples = stream.samples();
+    stream.feed(bytes, now_ns, live);
     board_.update(stream.counters(), stream.lateness(), now_ns);
-    const bool measured = live.take_count() > 0;
+    const bool measured = stream.samples() > samples;
     has_run_ = has_run_ || measured;
     if (banner.add(bytes)) {
       failure.fault = LidarFault::kRestarted;

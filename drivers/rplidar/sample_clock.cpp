@@ -10,11 +10,11 @@ namespace {
 constexpr double kBlockNs = 125e6;
 constexpr std::size_t kBlocksForPace = 3;
 
-// A reader that was held up sees its backlog sooner than a device delivers it, so its lateness
-// melts away. Lateness that stays is a device that paused, or samples that were never counted.
+// A backlog's lateness melts away by all that the device needed for it, or by most of that where
+// the reader is slow; that of a pause stays.
 constexpr double kLateNs = 50e6;
-constexpr int kLateBlocks = 4;
-constexpr double kMelting = 0.9;
+constexpr double kDoubtNs = 100e6;
+constexpr double kMelting = 0.3;
 
 // Period against nominal: one mode's period may stand in for another's (201 us for 127).
 constexpr double kMinPace = 0.5;
@@ -23,8 +23,7 @@ constexpr double kMaxPace = 2.0;
 }  // namespace
 
 void SampleClock::reset(double period_s) {
-  if (anchored_) ++resets_;
-  anchored_ = false;
+  reanchor();
   nominal_ns_ = period_s * 1e9;
   period_ns_ = nominal_ns_;
 }
@@ -32,23 +31,22 @@ void SampleClock::reset(double period_s) {
 void SampleClock::reanchor() {
   if (anchored_) ++resets_;
   anchored_ = false;
+  in_doubt_ = false;
 }
 
-void SampleClock::observe(std::uint64_t index, core::TimeNs latest_ns, bool fresh) {
+void SampleClock::observe(std::uint64_t index, core::TimeNs latest_ns) {
   if (!anchored_) {
     origin_index_ = index;
     origin_ns_ = latest_ns;
+    anchored_from_ = index;
     anchor({0, 0});
   }
   const Point point{static_cast<double>(index - origin_index_),
                     static_cast<double>(latest_ns - origin_ns_)};
   offset_ns_ += std::min(0.0, lateness_ns(point));
-  if (fresh && lateness_ns(point) > kLateNs) {
-    // Too late an anchor, should it be one, is pulled back by the next observation.
-    ++resets_;
-    anchor(point);
-  }
+  doubt(point);
   last_lateness_ns_ = static_cast<core::TimeNs>(std::max(0.0, lateness_ns(point)));
+  if (in_doubt_) return;
 
   if (block_empty_ || lateness_ns(point) < lateness_ns(earliest_)) earliest_ = point;
   block_empty_ = false;
@@ -57,6 +55,28 @@ void SampleClock::observe(std::uint64_t index, core::TimeNs latest_ns, bool fres
     block_begin_ = point.x;
     block_empty_ = true;
   }
+}
+
+void SampleClock::doubt(const Point& point) {
+  if (lateness_ns(point) <= kLateNs) {
+    in_doubt_ = false;
+    return;
+  }
+  if (!in_doubt_) return begin_doubt(point);
+  if (lateness_ns(point) < lateness_ns(doubt_earliest_)) doubt_earliest_ = point;
+  const double lasted_ns = (point.x - doubt_begin_.x) * nominal_ns_;
+  if (lasted_ns < kDoubtNs) return;
+  if (lateness_ns(point) < lateness_ns(doubt_begin_) - kMelting * lasted_ns) {
+    return begin_doubt(point);
+  }
+  ++resets_;
+  anchored_from_ = origin_index_ + static_cast<std::uint64_t>(doubt_begin_.x);
+  anchor(doubt_earliest_);
+}
+
+void SampleClock::begin_doubt(const Point& point) {
+  in_doubt_ = true;
+  doubt_begin_ = doubt_earliest_ = point;
 }
 
 core::TimeNs SampleClock::time_of(std::uint64_t index) {
@@ -75,25 +95,12 @@ void SampleClock::anchor(const Point& point) {
   point_count_ = 0;
   block_begin_ = point.x;
   block_empty_ = true;
-  late_blocks_ = 0;
+  in_doubt_ = false;
 }
 
 void SampleClock::close_block() {
-  const double late_ns = lateness_ns(earliest_);
-  if (late_ns <= kLateNs) {
-    late_blocks_ = 0;
-    remember(earliest_);
-    if (point_count_ >= kBlocksForPace) fit();
-    return;
-  }
-  if (late_blocks_ == 0 || late_ns < kMelting * late_ns_) {
-    late_ns_ = late_ns;
-    late_blocks_ = 1;
-    return;
-  }
-  if (++late_blocks_ < kLateBlocks) return;
-  ++resets_;
-  anchor(earliest_);
+  remember(earliest_);
+  if (point_count_ >= kBlocksForPace) fit();
 }
 
 void SampleClock::remember(const Point& point) {

@@ -13,6 +13,10 @@ namespace cornerd::rplidar {
 /// nominal one; the arrivals of its bytes are that pace plus delays (USB frames, scheduling, a
 /// reader that was held up). A delay is never negative, so the line under all arrivals is the
 /// device's clock: the edge of their lower convex hull that spans the middle of the last seconds.
+///
+/// Samples that come far later than they should are a backlog, which is seen sooner than a device
+/// measures it, or they were measured later, after a pause or after others that nobody counted. A
+/// tenth of a second of them tells which; until then the clock is in doubt.
 class SampleClock {
  public:
   explicit SampleClock(double period_s) { reset(period_s); }
@@ -22,10 +26,13 @@ class SampleClock {
   /// The count of the samples has been broken: its pace still holds, its offset does not.
   void reanchor();
 
-  /// Sample `index` was measured at `latest_ns` or before. Indices never decrease. `fresh`: the
-  /// reader had caught up, so that nothing but the wire's own delay lies in between; where it is
-  /// far later than it should be all the same, samples were lost that nobody counted.
-  void observe(std::uint64_t index, core::TimeNs latest_ns, bool fresh = false);
+  /// Sample `index` was measured at `latest_ns` or before. Indices never decrease.
+  void observe(std::uint64_t index, core::TimeNs latest_ns);
+
+  /// True while nobody knows whether time_of() holds for the newest samples.
+  bool in_doubt() const { return in_doubt_; }
+  /// Where a doubt ended in another anchor: the first sample that it is good for.
+  std::uint64_t anchored_from() const { return anchored_from_; }
 
   /// Time of a sample. Called with growing indices it never goes back.
   core::TimeNs time_of(std::uint64_t index);
@@ -49,6 +56,8 @@ class SampleClock {
     return point.y - (offset_ns_ + period_ns_ * point.x);
   }
   void anchor(const Point& point);
+  void doubt(const Point& point);
+  void begin_doubt(const Point& point);
   void close_block();
   void remember(const Point& point);
   void fit();
@@ -66,8 +75,10 @@ class SampleClock {
   Point earliest_;  ///< of the block in progress
   double block_begin_ = 0;
   bool block_empty_ = true;
-  int late_blocks_ = 0;
-  double late_ns_ = 0;
+  bool in_doubt_ = false;
+  Point doubt_begin_;
+  Point doubt_earliest_;
+  std::uint64_t anchored_from_ = 0;
   core::TimeNs last_ns_ = 0;
   bool has_last_ = false;
   std::uint64_t resets_ = 0;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <vector>
 
 #include "drivers/rplidar/sample_clock.hpp"
 #include "drivers/rplidar/wire/capsule.hpp"
@@ -14,6 +15,9 @@ namespace {
 // wire is only so fast; in pieces of this size the decoder sees when.
 constexpr std::size_t kPiece = 8;
 constexpr int kBitsPerByte = 10;  // 8N1
+
+// Of what waits for its time: a second of the fastest mode.
+constexpr std::size_t kMostHeld = 8192;
 
 // From the middle of a measurement to the first bit of its packet (the vendor's SDK assumes as
 // much): half a period of measuring, one of computing.
@@ -60,12 +64,13 @@ float bearing_of(std::uint16_t angle_q6, bool inverted) {
 class SampleStream::Implementation : private RawSampleSink {
  public:
   explicit Implementation(const SampleStreamConfig& config)
-      : config_(config), decoder_(config.format), clock_(period_s(WireFormat::kStandard)) {}
+      : config_(config), decoder_(config.format), clock_(period_s(WireFormat::kStandard)) {
+    held_.reserve(kMostHeld);
+  }
 
-  void feed(std::span<const std::uint8_t> bytes, core::TimeNs arrival_ns, drivers::SampleSink& sink,
-            bool fresh) {
+  void feed(std::span<const std::uint8_t> bytes, core::TimeNs arrival_ns,
+            drivers::SampleSink& sink) {
     sink_ = &sink;
-    fresh_ = fresh;
     first_of_feed_ = true;
     const double byte_ns = 1e9 * kBitsPerByte / config_.baud;
     while (!bytes.empty()) {
@@ -92,6 +97,8 @@ class SampleStream::Implementation : private RawSampleSink {
 
   std::optional<WireFormat> format() const { return decoder_.format(); }
 
+  std::uint64_t samples() const { return samples_; }
+
   const core::Lateness& lateness() const { return lateness_; }
 
   const drivers::StreamCounters& counters() {
@@ -102,15 +109,45 @@ class SampleStream::Implementation : private RawSampleSink {
 
  private:
   void on_sample(const RawSample& raw) override {
+    ++samples_;
     const std::uint64_t resets = clock_.resets();
     const WireFormat format = *decoder_.format();
     if (format != clock_format_) {
       clock_format_ = format;
+      drop_held();
       clock_.reset(period_s(format));
     }
-    const core::TimeNs t_ns = time_of(raw, format);
+    if (timed_) observe(raw, format);
+    if (clock_.in_doubt()) return hold(raw);
     // Nobody knows how many samples are gone, and a turn of two halves is none.
-    if (clock_.resets() != resets) sink_->on_gap();
+    if (clock_.resets() != resets || has_dropped_) sink_->on_gap();
+    release(clock_.resets() != resets);
+    deliver(raw);
+  }
+
+  void hold(const RawSample& raw) {
+    if (held_.size() == kMostHeld) drop_held();
+    held_.push_back(raw);
+  }
+
+  /// After a pause, what was read before its end is of times that nobody knows.
+  void release(bool after_a_pause) {
+    for (const RawSample& held : held_) {
+      if (!after_a_pause || held.index >= clock_.anchored_from()) deliver(held);
+    }
+    held_.clear();
+    has_dropped_ = false;
+  }
+
+  void drop_held() {
+    has_dropped_ = has_dropped_ || !held_.empty();
+    held_.clear();
+  }
+
+  void deliver(const RawSample& raw) {
+    const core::TimeNs t_ns =
+        timed_ ? clock_.time_of(raw.index)
+               : core::from_seconds(static_cast<double>(raw.index) * period_s(*decoder_.format()));
     sink_->on_sample({.t_ns = t_ns,
                       .bearing_rad = bearing_of(raw.angle_q6, config_.inverted),
                       .range_m = static_cast<float>(raw.dist_q2) / 4000,
@@ -119,24 +156,22 @@ class SampleStream::Implementation : private RawSampleSink {
   }
 
   void on_gap() override {
+    drop_held();
     clock_.reanchor();
     sink_->on_gap();
   }
 
-  core::TimeNs time_of(const RawSample& raw, WireFormat format) {
-    if (!timed_) return core::from_seconds(static_cast<double>(raw.index) * period_s(format));
-    if (first_of_piece_ || !clock_.anchored()) {
-      const Packet packet = packet_of(format);
-      const double byte_ns = 1e9 * kBitsPerByte / config_.baud;
-      const double sent_ns =
-          byte_ns * static_cast<double>(packet.bytes) + kPeriodsToSend * clock_.period_s() * 1e9;
-      clock_.observe(raw.index + packet.samples_ahead,
-                     piece_arrival_ns_ - static_cast<core::TimeNs>(sent_ns), fresh_);
-      first_of_piece_ = false;
-      if (first_of_feed_) lateness_.add(clock_.last_lateness_ns());
-      first_of_feed_ = false;
-    }
-    return clock_.time_of(raw.index);
+  void observe(const RawSample& raw, WireFormat format) {
+    if (!first_of_piece_ && clock_.anchored()) return;
+    const Packet packet = packet_of(format);
+    const double byte_ns = 1e9 * kBitsPerByte / config_.baud;
+    const double sent_ns =
+        byte_ns * static_cast<double>(packet.bytes) + kPeriodsToSend * clock_.period_s() * 1e9;
+    clock_.observe(raw.index + packet.samples_ahead,
+                   piece_arrival_ns_ - static_cast<core::TimeNs>(sent_ns));
+    first_of_piece_ = false;
+    if (first_of_feed_) lateness_.add(clock_.last_lateness_ns());
+    first_of_feed_ = false;
   }
 
   double period_s(WireFormat format) const {
@@ -154,9 +189,11 @@ class SampleStream::Implementation : private RawSampleSink {
   core::TimeNs piece_arrival_ns_ = 0;
   bool first_of_piece_ = false;
   bool first_of_feed_ = false;
-  bool fresh_ = false;
   core::Lateness lateness_;
   bool timed_ = true;
+  std::uint64_t samples_ = 0;
+  std::vector<RawSample> held_;  ///< whose time is in doubt
+  bool has_dropped_ = false;     ///< some of them since the last that was delivered
   drivers::StreamCounters counters_;
 };
 
@@ -167,14 +204,15 @@ SampleStream::SampleStream(SampleStream&&) noexcept = default;
 SampleStream& SampleStream::operator=(SampleStream&&) noexcept = default;
 
 void SampleStream::feed(std::span<const std::uint8_t> bytes, core::TimeNs arrival_ns,
-                        drivers::SampleSink& sink, bool fresh) {
-  implementation_->feed(bytes, arrival_ns, sink, fresh);
+                        drivers::SampleSink& sink) {
+  implementation_->feed(bytes, arrival_ns, sink);
 }
 void SampleStream::feed_untimed(std::span<const std::uint8_t> bytes, drivers::SampleSink& sink) {
   implementation_->feed_untimed(bytes, sink);
 }
 void SampleStream::finish(drivers::SampleSink& sink) { implementation_->finish(sink); }
 std::optional<WireFormat> SampleStream::format() const { return implementation_->format(); }
+std::uint64_t SampleStream::samples() const { return implementation_->samples(); }
 const drivers::StreamCounters& SampleStream::counters() const {
   return implementation_->counters();
 }

@@ -28,15 +28,17 @@ class SampleStream {
   SampleStream(SampleStream&&) noexcept;
   SampleStream& operator=(SampleStream&&) noexcept;
 
-  /// `arrival_ns`: when the last of these bytes was read from the port. `fresh`: there were no
-  /// more.
-  void feed(std::span<const std::uint8_t> bytes, core::TimeNs arrival_ns, drivers::SampleSink& sink,
-            bool fresh = false);
+  /// `arrival_ns`: when the last of these bytes was read from the port. Samples whose time is in
+  /// doubt are given when it is known.
+  void feed(std::span<const std::uint8_t> bytes, core::TimeNs arrival_ns,
+            drivers::SampleSink& sink);
   /// Bytes that bear no clock: time runs from 0 as their transmission at `baud` would have it.
   void feed_untimed(std::span<const std::uint8_t> bytes, drivers::SampleSink& sink);
   void finish(drivers::SampleSink& sink);
 
   std::optional<WireFormat> format() const;
+  /// So far, those that wait for their time as well.
+  std::uint64_t samples() const;
   const drivers::StreamCounters& counters() const;
   /// Of each feed() that brought samples: how much later it came than could be.
   const core::Lateness& lateness() const;

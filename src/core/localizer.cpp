@@ -55,21 +55,14 @@ const TurnResult& Localizer::step(const Scan& turn) {
   //    be.
   const Scan& scan = w.straightened(turn, t_ns);
 
-  // 1. The turn's walls and corners, and the places whose corners form the same pattern, tested
-  //    against every ray.
-  w.look(scan, t_ns, w.memory.motion());
-
-  // 2. Where none is convincing, the robot may have changed its speed since the last turns.
-  if ((w.in_doubt(t_ns) || w.is_smeared()) && !w.may_be_biased()) {
-    w.look_for_the_motion(scan, t_ns);
+  // 1. to 4. The place where that turn was taken. One that fits nowhere may have been straightened
+  // by
+  //    wheels that lie: once more, as it came.
+  Decision decision = w.find(scan, t_ns);
+  if (decision.state == PoseState::kLost && &scan != &turn) {
+    w.disbelieve_motion();
+    decision = w.find(turn, t_ns);
   }
-
-  // 3. Where still none is, all places are tested that could have been overlooked.
-  if (w.in_doubt(t_ns)) w.look_everywhere(t_ns);
-
-  // 4. One place is a fix, several are ambiguous, none is lost.
-  Decision decision =
-      w.place ? decide(w.place->verification.places(), w.memory.prior(t_ns)) : Decision{};
 
   // 5. What is less than evident, or far from where the robot just was, is not believed at once.
   const std::size_t corners = w.corners_of(decision);
@@ -88,6 +81,21 @@ const TurnResult& Localizer::step(const Scan& turn) {
   }
   w.result.bias = learned_bias();
   return w.result;
+}
+
+Decision Localizer::Workspace::find(const Scan& scan, TimeNs t_ns) {
+  // 1. The turn's walls and corners, and the places whose corners form the same pattern, tested
+  //    against every ray.
+  look(scan, t_ns, memory.motion());
+
+  // 2. Where none is convincing, the robot may have changed its speed since the last turns.
+  if ((in_doubt(t_ns) || is_smeared()) && !may_be_biased()) look_for_the_motion(scan, t_ns);
+
+  // 3. Where still none is, all places are tested that could have been overlooked.
+  if (in_doubt(t_ns)) look_everywhere(t_ns);
+
+  // 4. One place is a fix, several are ambiguous, none is lost.
+  return place ? decide(place->verification.places(), memory.prior(t_ns)) : Decision{};
 }
 
 const PoseEstimate* Localizer::add(const OdometryReading& reading, std::optional<TimeNs> now_ns) {
@@ -198,6 +206,11 @@ std::optional<Expectation> Localizer::Workspace::expectation(TimeNs t_ns) {
                                                   result.pose.T_map_base * config.T_base_lidar);
   const double age_s = to_seconds(t_ns - result.pose.t_ns);
   return Expectation{prior->T_map_lidar, later(of_lidar, age_s), memory.motion(), age_s};
+}
+
+void Localizer::Workspace::disbelieve_motion() {
+  odometer.disbelieve_motion();
+  memory.expect(std::nullopt, false);
 }
 
 const Scan& Localizer::Workspace::straightened(const Scan& turn, TimeNs t_ns) {

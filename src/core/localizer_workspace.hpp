@@ -66,6 +66,8 @@ struct Localizer::Workspace {
   }
 
   const Scan& straightened(const Scan& turn, TimeNs t_ns);
+  void disbelieve_motion();
+  Decision find(const Scan& scan, TimeNs t_ns);
   void look(const Scan& scan, TimeNs t_ns, const Twist2& as_if_moving);
   void look_for_the_motion(const Scan& scan, TimeNs t_ns);
   void look_everywhere(TimeNs t_ns);

@@ -86,4 +86,10 @@ inline Twist2 motion_between(const Pose2& from, const Pose2& to, double dt_s) {
 /// Of (x [m], y [m], theta [rad]) in the frame of the pose it belongs to; symmetric.
 using Covariance3 = Eigen::Matrix3d;
 
+/// True where the two are the same place for every purpose of recognition.
+inline bool same_place(const Pose2& a, const Pose2& b, double distance_m, double angle_rad) {
+  return (a.translation() - b.translation()).squaredNorm() < distance_m * distance_m &&
+         std::abs(angle_between(a.theta_rad, b.theta_rad)) < angle_rad;
+}
+
 }  // namespace cornerd::core

@@ -176,6 +176,13 @@ void FusionFilter::compare_with_gyro(Prediction& p) {
     p.course_rad = state_[kTheta] + both_rad / 2;
     p.follows = 0;
   }
+  // Where no count has come there is nothing that a scale could have scaled, but noise.
+  const bool is_counted = p.step.left_m != 0 || p.step.right_m != 0;
+  if (!is_counted) {
+    p.turn_by = turn_slope(0, 0, p.rolls);
+    p.usual_by = p.seen_by = seen_slope(p.turn_by, 0, p.dt_s);
+    return;
+  }
   const Motion itself{p.moved.way_m, both_rad, p.dt_s};
   const Motion before = usual_.of(itself);
   p.turn_by = turn_slope(p.moved.way_m, both_rad, p.rolls);

@@ -14,6 +14,7 @@
 #include "core/odometry/odometry_config.hpp"
 #include "core/odometry/odometry_reading.hpp"
 #include "core/odometry/reading_gate.hpp"
+#include "core/odometry/trust.hpp"
 #include "core/scan.hpp"
 
 namespace cornerd::core {
@@ -57,6 +58,8 @@ class Odometer {
   bool straighten(const Scan& turn, const Pose2& T_base_lidar, Scan& still) const;
   /// True where straighten() can.
   bool knows_motion() const { return knows_motion_; }
+  /// What it said of this turn is not to be used: the turn shows another motion.
+  void disbelieve_motion();
   /// What is left of the motion within a straightened turn.
   Covariance3 doubt_of_motion() const;
 
@@ -118,7 +121,7 @@ class Odometer {
   /// Of the floors' variances. A twentieth stays: half a millimetre is the same from turn to turn.
   NoiseMeter place_floor_{10, 0.06, 1};
   NoiseMeter heading_floor_{5, 0.03, 1};
-  std::uint32_t strangers_in_a_row_ = 0;
+  Trust trust_;
   std::uint64_t fixes_ = 0;
   std::uint64_t strangers_ = 0;
 };

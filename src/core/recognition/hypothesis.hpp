@@ -33,10 +33,4 @@ inline std::size_t count_likely(std::span<const Hypothesis> hypotheses, double s
   return count;
 }
 
-/// True where the two are the same place for every purpose of recognition.
-inline bool same_place(const Pose2& a, const Pose2& b, double distance_m, double angle_rad) {
-  return (a.translation() - b.translation()).squaredNorm() < distance_m * distance_m &&
-         std::abs(angle_between(a.theta_rad, b.theta_rad)) < angle_rad;
-}
-
 }  // namespace cornerd::core

@@ -138,21 +138,5 @@ TEST_F(BenchCommand, MapsThatAreNotThere_AreWrongSettings) {
   EXPECT_THAT(outcome.err, HasSubstr("krpai-2019-a.json"));
 }
 
-TEST_F(BenchCommand, Odometry_GivesTheModesOnAllDrivesAndDrawsThem) {
-  const BenchOutcome outcome =
-      run({"--odometry", "--positions", "0", "--plots", (folder_.path() / "plots").string(),
-           "--json", (folder_.path() / "odometry.json").string()});
-  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-  EXPECT_THAT(outcome.out, HasSubstr("weighted (eq. 5)"));
-  const auto figures = nlohmann::json::parse(read(folder_.path() / "odometry.json"));
-  ASSERT_EQ(figures["odometry"].size(), 6U);
-  for (const auto& drive : figures["odometry"]) EXPECT_EQ(drive["tracks"].size(), 13U);
-  for (const char* file :
-       {"pioneer-circuit-1.svg", "contest-exploration-factors.svg",
-        "contest-circuit-2-no-dead-band.svg", "pioneer-exploration-factors-no-dead-band.svg"}) {
-    EXPECT_EQ(find_xml_error(read(folder_.path() / "plots" / file)), "");
-  }
-}
-
 }  // namespace
 }  // namespace cornerd::tool

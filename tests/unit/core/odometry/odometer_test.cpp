@@ -289,6 +289,49 @@ TEST(Odometer, AWheelThatStandsStill_IsNotBelieved) {
   EXPECT_NEAR(ride.odometer.summary().learned.left_scale, 0.01, 0.005);
 }
 
+TEST(Odometer, AWheelThatStandsStillWithoutAGyro_IsNotBelievedAgainForAStop) {
+  Ride ride(switched_on());
+  std::optional<std::int64_t> frozen;
+  int turns = 0;
+  ride.spoil = [&](int, OdometryReading& reading) {
+    reading.gyro_rad_s.reset();
+    if (turns < 100) return;
+    if (!frozen) frozen = reading.left;
+    reading.left = frozen;
+  };
+  int believed = 0;
+  for (; turns < 300; ++turns) {
+    ride.turn();
+    ride.odometer.correct(ride.truth, kFixCovariance);
+    believed += turns >= 110 && ride.odometer.summary().trusted;
+  }
+  EXPECT_EQ(believed, 0);
+}
+
+TEST(Odometer, ARobotThatStands_LearnsNothingOfItsWheels) {
+  Odometer odometer(switched_on());
+  std::mt19937_64 random(7);
+  std::normal_distribution<double> normal;
+  TimeNs now_ns = 0;
+  for (int turn = 0; turn < 400; ++turn) {
+    const TimeNs start_ns = now_ns;
+    for (int i = 0; i < 7; ++i) {
+      now_ns += 20'000'000;
+      // Four times the noise that is told.
+      odometer.add({now_ns, 0, 0, 0.01 + 0.007 * normal(random)}, now_ns);
+    }
+    odometer.advance(start_ns, start_ns + 70'000'000, now_ns);
+    odometer.correct(Pose2{1 + 3e-4 * normal(random), 2, 0.3 + 3e-4 * normal(random)},
+                     Covariance3::Identity() * 1e-7 + odometer.doubt_of_motion());
+  }
+  const LearnedOdometry learned = odometer.summary().learned;
+  EXPECT_NEAR(learned.left_scale, 0, 0.005);
+  EXPECT_NEAR(learned.right_scale, 0, 0.005);
+  EXPECT_NEAR(learned.track_scale, 0, 0.005);
+  EXPECT_NEAR(learned.gyro_scale, 0, 0.005);
+  EXPECT_NEAR(learned.gyro_bias_rad_s, 0.01, 0.002);
+}
+
 TEST(Odometer, TimesThatComeLateOrEarly_DoNotDriveTheScalesAway) {
   Ride ride(switched_on());
   std::mt19937_64 random(5);

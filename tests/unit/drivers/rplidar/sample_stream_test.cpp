@@ -3,8 +3,11 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
+#include <vector>
 
 #include "wire_fixture.hpp"
 
@@ -106,6 +109,71 @@ TEST(SampleStream, TimedBytes_GiveTheTimeOfMeasurement) {
     ASSERT_NEAR(core::to_seconds(samples.all[i].t_ns), true_s, 1e-3) << i;
   }
   EXPECT_EQ(stream.counters().clock_resets, 0U);
+}
+
+/// A lidar whose nodes are fed in pieces of 80 bytes, each with its own true time.
+class FedNodes {
+ public:
+  void run(int pieces, core::TimeNs late_ns = 0) {
+    for (int i = 0; i < pieces; ++i) {
+      Bytes bytes;
+      for (int k = 0; k < 16; ++k) {
+        truth_ns_ += kNodeNs;
+        const Bytes one = node(number_ % 360 == 0, 15, number_ % 360, 1000 + number_ % 1000);
+        ++number_;
+        bytes.insert(bytes.end(), one.begin(), one.end());
+        truths_.push_back(truth_ns_);
+      }
+      now_ns_ = std::max(now_ns_, truth_ns_ + late_ns);
+      stream_.feed(bytes, now_ns_, samples_);
+    }
+  }
+  /// Nothing is measured for so long.
+  void pause(core::TimeNs pause_ns) { truth_ns_ += pause_ns; }
+  /// The largest error of a sample's time. A range tells a sample from those within half a second.
+  core::TimeNs worst_error_ns() const {
+    core::TimeNs worst_ns = 0;
+    for (const core::Sample& sample : samples_.all) {
+      core::TimeNs least_ns = std::numeric_limits<core::TimeNs>::max();
+      const auto first = static_cast<std::size_t>(std::lround(1000 * sample.range_m)) - 1000;
+      for (std::size_t i = first; i < truths_.size(); i += 1000) {
+        least_ns = std::min(least_ns, std::abs(sample.t_ns - truths_[i] + kSentNs));
+      }
+      worst_ns = std::max(worst_ns, least_ns);
+    }
+    return worst_ns;
+  }
+  const StreamedSamples& samples() const { return samples_; }
+
+ private:
+  static constexpr core::TimeNs kNodeNs = 508'000;
+  static constexpr core::TimeNs kSentNs = 1'196'000;
+  SampleStream stream_{{.format = WireFormat::kStandard}};
+  StreamedSamples samples_;
+  core::TimeNs truth_ns_ = core::kNsPerSecond;
+  core::TimeNs now_ns_ = 0;
+  std::vector<core::TimeNs> truths_;
+  int number_ = 0;
+};
+
+TEST(SampleStream, AfterAPause_NoSampleBearsATimeOfThePause) {
+  FedNodes nodes;
+  nodes.run(100);
+  nodes.pause(300'000'000);
+  nodes.run(100);
+  EXPECT_LT(nodes.worst_error_ns(), 10'000'000);
+  EXPECT_EQ(nodes.samples().gaps, 1);
+  EXPECT_GT(nodes.samples().all.size(), 3100U);
+}
+
+TEST(SampleStream, AfterTheReaderWasHeldUp_AllSamplesBearTheirTimes) {
+  FedNodes nodes;
+  nodes.run(100);
+  nodes.run(1, 2 * core::kNsPerSecond);
+  nodes.run(400);
+  EXPECT_LT(nodes.worst_error_ns(), 10'000'000);
+  EXPECT_EQ(nodes.samples().gaps, 0);
+  EXPECT_GT(nodes.samples().all.size(), 7900U);
 }
 
 }  // namespace
