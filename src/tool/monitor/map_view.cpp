@@ -120,7 +120,7 @@ double draw_lidar_view(Frame& frame, const Region& region, const MonitorState& s
 }
 
 double draw_map_view(Frame& frame, const Region& region, const MonitorState& state,
-                     const Scene& scene, const ViewChoice& choice) {
+                     const Scene& scene, const ViewChoice& choice, core::TimeNs now_ns) {
   const core::WallMap& map = *scene.map;
   const std::optional<Pose2> robot = state.pose() ? state.pose()->T_map_base : std::nullopt;
   const Vec2 size_m = (map.upper_right() - map.lower_left()) / std::exp2(choice.zoom);
@@ -144,7 +144,8 @@ double draw_map_view(Frame& frame, const Region& region, const MonitorState& sta
   }
   if (robot) {
     projection.put(frame, robot->translation(),
-                   {arrow(robot->theta_rad, choice.unicode), Style::kRobot});
+                   {arrow(robot->theta_rad, choice.unicode),
+                    state.is_pose_stale(now_ns) ? Style::kDim : Style::kRobot});
   }
   return projection.metres_per_cell();
 }
@@ -152,12 +153,12 @@ double draw_map_view(Frame& frame, const Region& region, const MonitorState& sta
 }  // namespace
 
 double draw_map(Frame& frame, const Region& region, const MonitorState& state, const Scene& scene,
-                const ViewChoice& choice) {
+                const ViewChoice& choice, core::TimeNs now_ns) {
   if (region.columns == 0 || region.rows == 0) return 0;
   if (scene.map == nullptr || choice.lidar_view) {
     return draw_lidar_view(frame, region, state, scene, choice);
   }
-  return draw_map_view(frame, region, state, scene, choice);
+  return draw_map_view(frame, region, state, scene, choice, now_ns);
 }
 
 }  // namespace cornerd::tool

@@ -31,10 +31,10 @@ struct Region {
   std::size_t rows = 0;
 };
 
-/// Walls, the last turn's returns, its corners (o) and ends of walls (x), the robot as an arrow,
-/// and where it may be as well (?). Returns the width of a cell in metres; 0 where nothing is
-/// drawn.
+/// Walls, the last turn's returns, its corners (o) and ends of walls (x), the robot as an arrow
+/// (dim where its pose is stale), and where it may be as well (?). Returns the width of a cell in
+/// metres; 0 where nothing is drawn.
 double draw_map(Frame& frame, const Region& region, const MonitorState& state, const Scene& scene,
-                const ViewChoice& choice);
+                const ViewChoice& choice, core::TimeNs now_ns);
 
 }  // namespace cornerd::tool

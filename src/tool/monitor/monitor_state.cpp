@@ -12,6 +12,8 @@ constexpr std::size_t kMostEvents = 50;
 /// Three seconds of an A1.
 constexpr std::size_t kMostArrivals = 22;
 constexpr std::size_t kMostStates = 100;
+/// Seven turns of an A1.
+constexpr double kFreshPose_s = 1;
 constexpr core::TimeNs kLongestPause_ns = 2 * core::kNsPerSecond;
 
 template <typename Value>
@@ -79,6 +81,14 @@ void MonitorState::hear(std::string_view line, core::TimeNs now_ns) {
     events_.push_front(std::move(*event));
     if (events_.size() > kMostEvents) events_.pop_back();
   }
+}
+
+double MonitorState::pose_silence_s(core::TimeNs now_ns) const {
+  return pose_ && !arrivals_.empty() ? core::to_seconds(now_ns - arrivals_.back()) : 0;
+}
+
+bool MonitorState::is_pose_stale(core::TimeNs now_ns) const {
+  return pose_silence_s(now_ns) > kFreshPose_s;
 }
 
 std::optional<double> MonitorState::pose_rate_hz(core::TimeNs now_ns) const {

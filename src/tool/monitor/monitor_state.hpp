@@ -46,6 +46,10 @@ class MonitorState {
   /// What the daemon could not make sense of, or we not of it; empty: nothing.
   const std::string& complaint() const { return complaint_; }
 
+  /// Since the last pose came; 0 where there is none.
+  double pose_silence_s(core::TimeNs now_ns) const;
+  /// No pose has come for so long that the last one is no longer where the robot is.
+  bool is_pose_stale(core::TimeNs now_ns) const;
   /// Poses a second, of the last few; nullopt where too few came, or none of late.
   std::optional<double> pose_rate_hz(core::TimeNs now_ns) const;
   /// How many of the last (at most 100) poses were of a state, and how many there were.

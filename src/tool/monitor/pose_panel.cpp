@@ -56,7 +56,8 @@ void add_alternatives(const message::ToldPose& pose, std::vector<PanelLine>& lin
   }
 }
 
-void add_pose(const message::ToldPose& pose, std::vector<PanelLine>& lines) {
+/// `silence_s`: since it came.
+void add_pose(const message::ToldPose& pose, double silence_s, std::vector<PanelLine>& lines) {
   if (pose.T_map_base) {
     add_place(pose, lines);
   } else {
@@ -67,7 +68,7 @@ void add_pose(const message::ToldPose& pose, std::vector<PanelLine>& lines) {
                  static_cast<unsigned long long>(pose.inliers))});
   std::string fit;
   if (pose.rmse_m) fit = formatted("rmse %.1f mm  ", 1000 * *pose.rmse_m);
-  if (pose.age_s) fit += formatted("age %.1f s", *pose.age_s);
+  if (pose.age_s) fit += formatted("age %.1f s", *pose.age_s + silence_s);
   if (!fit.empty()) lines.push_back({fit});
 }
 
@@ -135,19 +136,24 @@ std::string age_text(double seconds) {
   return formatted("%.0f h", std::floor(seconds / 3600));
 }
 
-PanelLine state_line(const MonitorState& state) {
+PanelLine state_line(const MonitorState& state, core::TimeNs now_ns) {
   if (!state.pose()) return {state.is_connected() ? "no pose yet" : "no daemon", Style::kBad};
   const message::ToldPose& pose = *state.pose();
-  return {std::string(message::to_string(pose.state)) + (pose.room.empty() ? "" : "  " + pose.room),
-          style_of(pose.state)};
+  const std::string text =
+      std::string(message::to_string(pose.state)) + (pose.room.empty() ? "" : "  " + pose.room);
+  if (state.is_pose_stale(now_ns)) return {"stale " + text, Style::kDim};
+  return {text, style_of(pose.state)};
 }
 
 std::vector<PanelLine> panel_lines(const MonitorState& state, core::TimeNs now_ns) {
-  std::vector<PanelLine> lines = {state_line(state)};
+  std::vector<PanelLine> lines = {state_line(state, now_ns)};
   const auto gap = [&] {
     if (!lines.back().text.empty()) lines.push_back({});
   };
-  if (state.pose()) add_pose(*state.pose(), lines);
+  if (state.pose()) add_pose(*state.pose(), state.pose_silence_s(now_ns), lines);
+  if (state.is_pose_stale(now_ns)) {
+    for (PanelLine& line : lines) line.style = Style::kDim;
+  }
   gap();
   add_rates(state, now_ns, lines);
   gap();

@@ -22,7 +22,7 @@ constexpr std::size_t kRowsForAdvice = 20;
 constexpr std::size_t kAdviceRows = 3;
 constexpr std::size_t kMostAdviceRows = 5;
 
-void draw_title(Frame& frame, const MonitorState& state, const Scene& scene) {
+void draw_title(Frame& frame, const MonitorState& state, const Scene& scene, core::TimeNs now_ns) {
   for (std::size_t column = 0; column < frame.columns(); ++column) {
     frame.put(column, 0, {U' ', Style::kTitle});
   }
@@ -30,7 +30,7 @@ void draw_title(Frame& frame, const MonitorState& state, const Scene& scene) {
   title += scene.map == nullptr ? "  no map" : "  " + scene.map->plan().name;
   const std::size_t end = frame.write(1, 0, title, Style::kTitle);
   // Where there is no room for the figures, the state is here at least.
-  const std::string now = state_line(state).text;
+  const std::string now = state_line(state, now_ns).text;
   if (end + 2 + now.size() + 1 <= frame.columns()) {
     frame.write(frame.columns() - now.size() - 1, 0, now, Style::kTitle);
   }
@@ -54,13 +54,14 @@ double draw_body(Frame& frame, const Region& body, const MonitorState& state, co
     const std::size_t map_columns = body.columns - kPanelColumns - 1;
     const Region panel{body.column + map_columns + 1, body.row, kPanelColumns, body.rows};
     draw_panel(frame, panel, state, now_ns);
-    return draw_map(frame, {body.column, body.row, map_columns, body.rows}, state, scene, choice);
+    return draw_map(frame, {body.column, body.row, map_columns, body.rows}, state, scene, choice,
+                    now_ns);
   }
   const std::size_t panel_rows =
       body.rows >= kPanelRowsAbove + kFewestMapRows ? kPanelRowsAbove : body.rows;
   draw_panel(frame, {body.column, body.row, body.columns, panel_rows}, state, now_ns);
   return draw_map(frame, {body.column, body.row + panel_rows, body.columns, body.rows - panel_rows},
-                  state, scene, choice);
+                  state, scene, choice, now_ns);
 }
 
 std::vector<PanelLine> advice_lines(const Advice& advice, std::size_t columns) {
@@ -120,7 +121,7 @@ Frame draw_screen(const MonitorState& state, const Scene& scene, const ViewChoic
     frame.write(0, 1 + body_rows + i, advice[i].text, advice[i].style);
   }
   if (key_rows > 0) draw_keys(frame, all - 1, metres_per_cell);
-  draw_title(frame, state, scene);
+  draw_title(frame, state, scene, now_ns);
   return frame;
 }
 

@@ -31,7 +31,7 @@ TEST(PosePanel, Fix_IsToldWithItsDoubtAndItsSource) {
             "y         0.500 m   +- 0.10 mm\n"
             "theta      0.00 deg +- 0.06 deg\n"
             "corners 4, inliers 210\n"
-            "rmse 2.1 mm  age 0.0 s\n"
+            "rmse 2.1 mm  age 0.4 s\n"
             "\n"
             "poses 8.0/s  turns 7.1/s\n"
             "samples 1923/s\n"
@@ -44,6 +44,19 @@ TEST(PosePanel, Fix_IsToldWithItsDoubtAndItsSource) {
             "\n"
             "   0 s  lost -> fix\n"
             "   3 s  device found\n");
+}
+
+TEST(PosePanel, PoseThatNoneFollows_AgesAndIsStale) {
+  MonitorState state;
+  state.connect(0);
+  state.hear(kFixLine, 0);
+  EXPECT_EQ(panel_lines(state, core::kNsPerSecond)[0].style, Style::kGood);
+  const auto lines = panel_lines(state, 3 * core::kNsPerSecond);
+  EXPECT_EQ(lines[0].text, "stale fix  hall");
+  EXPECT_EQ(lines[5].text, "rmse 2.1 mm  age 3.0 s");
+  for (std::size_t i = 0; i < 6; ++i) EXPECT_EQ(lines[i].style, Style::kDim) << lines[i].text;
+  state.hear(kFixLine, 3 * core::kNsPerSecond);
+  EXPECT_EQ(panel_lines(state, 3 * core::kNsPerSecond)[0].text, "fix  hall");
 }
 
 TEST(PosePanel, AmbiguousPose_ListsItsPlaces) {
