@@ -28,8 +28,8 @@ bool is_console(const Machine& machine, const std::string& port) {
 
 std::vector<Finding> check_holders(const Patient& patient) {
   if (patient.config.lidar.driver == settings::DriverKind::kReplay) return {};
+  if (!has_port(patient)) return {};
   const std::filesystem::path port = port_of(patient);
-  if (!patient.machine.exists(port)) return {};
   const std::string name = port.filename().string();
 
   std::vector<Finding> findings;

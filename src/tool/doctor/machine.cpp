@@ -50,11 +50,17 @@ bool Machine::exists(const fs::path& file) const { return facts(file).has_value(
 std::optional<FileFacts> Machine::facts(const fs::path& file) const {
   // Not stat(): on a board of 32 bits that fails where a number of the file has more.
   struct statx found {};
-  if (::statx(AT_FDCWD, outside(resolve(file)).c_str(), 0, STATX_BASIC_STATS, &found) != 0) {
+  const fs::path target = resolve(file);
+  if (::statx(AT_FDCWD, outside(target).c_str(), 0, STATX_BASIC_STATS, &found) != 0) {
     return std::nullopt;
   }
-  return FileFacts{found.stx_uid,       found.stx_gid,       found.stx_mode,
-                   found.stx_dev_major, found.stx_dev_minor, found.stx_ino};
+  mode_t mode = found.stx_mode;
+  if (files_are_devices_ && S_ISREG(mode) && target.native().starts_with("/dev/")) {
+    mode = (mode & ~static_cast<mode_t>(S_IFMT)) | S_IFCHR;
+  }
+  return FileFacts{found.stx_uid,        found.stx_gid,       mode,
+                   found.stx_dev_major,  found.stx_dev_minor, found.stx_ino,
+                   found.stx_rdev_major, found.stx_rdev_minor};
 }
 
 std::optional<std::string> Machine::read(const fs::path& file) const {

@@ -16,17 +16,22 @@ namespace cornerd::tool {
 struct FileFacts {
   uid_t uid = 0;
   gid_t gid = 0;
-  mode_t mode = 0;            ///< its permissions are the last nine bits
+  mode_t mode = 0;            ///< its kind, and its permissions in the last nine bits
   unsigned device_major = 0;  ///< of the file system that it lies on
   unsigned device_minor = 0;
   std::uint64_t inode = 0;
+  unsigned own_major = 0;  ///< of a device: its number
+  unsigned own_minor = 0;
 };
 
 /// The files that tell how a machine is: /proc, /sys, /dev, /etc. A test brings a tree of its own;
 /// paths are absolute, and as seen from inside it.
 class Machine {
  public:
-  explicit Machine(std::filesystem::path root = "/") : root_(std::move(root)) {}
+  /// `files_are_devices`: ordinary files below /dev stand for devices, which not everybody can
+  /// make.
+  explicit Machine(std::filesystem::path root = "/", bool files_are_devices = false)
+      : root_(std::move(root)), files_are_devices_(files_are_devices) {}
 
   bool exists(const std::filesystem::path& file) const;
   /// Of what a link leads to; nullopt where there is nothing.
@@ -47,6 +52,7 @@ class Machine {
   std::filesystem::path outside(const std::filesystem::path& inside) const;
 
   std::filesystem::path root_;
+  bool files_are_devices_;
 };
 
 /// "one two\tthree" at any of the separators; empty words are left out.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "tool/doctor/patient.hpp"
 
+#include <sys/stat.h>
+
 namespace cornerd::tool {
 
 std::optional<Account> service_account(const Machine& machine) {
@@ -13,6 +15,37 @@ std::optional<Account> service_account(const Machine& machine) {
 
 std::filesystem::path port_of(const Patient& patient) {
   return patient.machine.resolve(patient.config.lidar.device);
+}
+
+std::string other_than_port(const Machine& machine, const FileFacts& file) {
+  // Pseudo-terminals, which sysfs does not have.
+  constexpr unsigned kFirstPtyMajor = 136;
+  constexpr unsigned kLastPtyMajor = 143;
+  switch (file.mode & S_IFMT) {
+    case S_IFCHR:
+      break;
+    case S_IFDIR:
+      return "a folder";
+    case S_IFIFO:
+      return "a named pipe";
+    case S_IFSOCK:
+      return "a socket";
+    case S_IFREG:
+      return "an ordinary file";
+    default:
+      return "another kind of device";
+  }
+  if (file.own_major >= kFirstPtyMajor && file.own_major <= kLastPtyMajor) return {};
+  const std::filesystem::path subsystem =
+      machine.read_link("/sys/dev/char/" + std::to_string(file.own_major) + ":" +
+                        std::to_string(file.own_minor) + "/subsystem");
+  if (subsystem.empty() || subsystem.filename() == "tty") return {};
+  return "a device of the kind \"" + subsystem.filename().string() + "\"";
+}
+
+bool has_port(const Patient& patient) {
+  const std::optional<FileFacts> file = patient.machine.facts(patient.config.lidar.device);
+  return file && other_than_port(patient.machine, *file).empty();
 }
 
 }  // namespace cornerd::tool

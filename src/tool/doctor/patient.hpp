@@ -40,4 +40,10 @@ std::optional<Account> service_account(const Machine& machine);
 /// Where lidar.device leads to in the end.
 std::filesystem::path port_of(const Patient& patient);
 
+/// What is there in a serial port's place, "a folder"; empty: a serial port, as far as can be told
+/// without opening it, which disturbs a lidar.
+std::string other_than_port(const Machine& machine, const FileFacts& file);
+/// There is something at lidar.device, and it is a serial port.
+bool has_port(const Patient& patient);
+
 }  // namespace cornerd::tool

@@ -28,9 +28,11 @@ std::vector<std::string> mends_without_adapter(const std::string& device) {
           "try another cable: some only charge and lack the wires for data"};
 }
 
-Finding absent_port(const Patient& patient, const std::vector<UsbAdapter>& adapters) {
+/// `why`: what is wrong with the one of the settings.
+Finding absent_port(const Patient& patient, const std::vector<UsbAdapter>& adapters,
+                    const std::string& why) {
   const std::string device = patient.config.lidar.device.string();
-  Finding finding{Verdict::kWrong, "port", device + ": no such port"};
+  Finding finding{Verdict::kWrong, "port", device + ": " + why};
   for (const UsbAdapter& adapter : adapters) {
     if (adapter.port.empty()) {
       finding.what += "; an adapter (" + adapter.describe() + ") is plugged in, without a driver";
@@ -52,6 +54,9 @@ Finding absent_port(const Patient& patient, const std::vector<UsbAdapter>& adapt
     finding.mends.front().erase(0, 3);
   }
   if (finding.mends.empty()) finding.mends = mends_without_adapter(device);
+  if (patient.machine.exists(device)) {
+    finding.mends.emplace_back("lidar.device must name a port, as /dev/rplidar or /dev/ttyS4 do");
+  }
   return finding;
 }
 
@@ -91,8 +96,11 @@ std::vector<Finding> check_port(const Patient& patient) {
              {"set lidar.file, or lidar.driver to \"rplidar\", in " + patient.config_name}}};
   }
   const std::vector<UsbAdapter> adapters = find_usb_adapters(patient.machine);
-  return {patient.machine.exists(lidar.device) ? found_port(patient, adapters)
-                                               : absent_port(patient, adapters)};
+  const std::optional<FileFacts> file = patient.machine.facts(lidar.device);
+  if (!file) return {absent_port(patient, adapters, "no such port")};
+  const std::string other = other_than_port(patient.machine, *file);
+  if (!other.empty()) return {absent_port(patient, adapters, "no serial port, but " + other)};
+  return {found_port(patient, adapters)};
 }
 
 }  // namespace cornerd::tool

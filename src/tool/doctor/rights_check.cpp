@@ -54,7 +54,7 @@ Finding judge_rights(const Patient& patient, const FileFacts& port) {
 std::vector<Finding> check_rights(const Patient& patient) {
   if (patient.config.lidar.driver == settings::DriverKind::kReplay) return {};
   const auto port = patient.machine.facts(patient.config.lidar.device);
-  if (!port) return {};
+  if (!port || !has_port(patient)) return {};
   return {judge_rights(patient, *port)};
 }
 

@@ -64,6 +64,12 @@ TEST_F(CheckHolders, Others_AreNamedWithTheirCure) {
   EXPECT_THAT(found[3].mends[0], HasSubstr("sudo kill 83"));
 }
 
+TEST_F(CheckHolders, WhoAsks_IsNoHolder) {
+  open_port(84, "cornerctl");
+  stand_in_.link("/proc/self", "84");
+  EXPECT_THAT(findings(), ElementsAre(Finds(Verdict::kGood, "holder", "nobody has")));
+}
+
 TEST_F(CheckHolders, HolderWithSecretFiles_IsBetrayedByItsLock) {
   stand_in_.run_process(90, "cornerd");
   stand_in_.write("/proc/locks", "1: POSIX  ADVISORY  WRITE 5 00:01:2 0 EOF\n" + lock_by(90));

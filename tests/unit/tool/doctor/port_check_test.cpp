@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include "doctor/stand_in.hpp"
 #include "tool/doctor/checks.hpp"
@@ -59,6 +60,35 @@ TEST(CheckPort, AdapterWithoutDriver_WantsTheDriver) {
   const auto findings = check_port(stand_in.patient);
   ASSERT_THAT(findings, ElementsAre(Finds(Verdict::kWrong, "port", "without a driver")));
   EXPECT_THAT(findings[0].mends, ElementsAre("sudo modprobe cp210x"));
+}
+
+TEST(CheckPort, WhatIsNoSerialPort_IsWrongAndHasNeitherRightsNorHolders) {
+  StandIn stand_in;
+  stand_in.plug_in();
+  const auto expect_wrong = [&](const char* device, const char* what) {
+    stand_in.patient.config.lidar.device = device;
+    const auto findings = check_port(stand_in.patient);
+    ASSERT_THAT(findings, ElementsAre(Finds(Verdict::kWrong, "port", what)));
+    EXPECT_THAT(findings[0].mends,
+                testing::Contains("set lidar.device to \"/dev/ttyUSB0\" in cornerd.json"));
+    EXPECT_TRUE(check_rights(stand_in.patient).empty());
+    EXPECT_TRUE(check_holders(stand_in.patient).empty());
+  };
+  stand_in.write("/tmp/file");
+  expect_wrong("/tmp/file", "/tmp/file: no serial port, but an ordinary file");
+  expect_wrong("/tmp", "/tmp: no serial port, but a folder");
+  ASSERT_EQ(::mkfifo(stand_in.outside("/tmp/pipe").c_str(), 0600), 0);
+  expect_wrong("/tmp/pipe", "/tmp/pipe: no serial port, but a named pipe");
+  stand_in.write("/dev/null");
+  stand_in.be_no_terminal();
+  expect_wrong("/dev/null", "/dev/null: no serial port, but a device of the kind \"mem\"");
+}
+
+TEST(CheckPort, TerminalOfThisMachine_IsAPort) {
+  const Machine machine;
+  const std::optional<FileFacts> terminal = machine.facts("/dev/tty");
+  if (!terminal) GTEST_SKIP() << "there is no /dev/tty";
+  EXPECT_EQ(other_than_port(machine, *terminal), "");
 }
 
 TEST(CheckPort, NothingPluggedIn_AsksForPlugAndCable) {

@@ -18,7 +18,7 @@ namespace cornerd::tool {
 class StandIn {
  public:
   StandIn() {
-    patient.machine = Machine(folder_.path());
+    patient.machine = Machine(folder_.path(), /*files_are_devices=*/true);
     patient.config.lidar.device = "/dev/rplidar";
     patient.config_name = "cornerd.json";
     patient.caller = {"ada", 1000, {1000}};
@@ -33,6 +33,11 @@ class StandIn {
     const std::filesystem::path place = folder_.path() / file.substr(1);
     std::filesystem::create_directories(place.parent_path());
     std::filesystem::create_symlink(target, place);
+  }
+  /// "/dev/null": the number of a file that stands for a device is 0:0.
+  void be_no_terminal() const { link("/sys/dev/char/0:0/subsystem", "../../../class/mem"); }
+  std::filesystem::path outside(const std::string& file) const {
+    return folder_.path() / file.substr(1);
   }
   void allow(const std::string& file, unsigned mode) const {
     std::filesystem::permissions(folder_.path() / file.substr(1),
