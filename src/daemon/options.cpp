@@ -3,6 +3,8 @@
 
 #include <optional>
 
+#include "settings/override.hpp"
+
 namespace cornerd::daemon {
 namespace {
 
@@ -69,6 +71,9 @@ Options parse_options(std::span<const char* const> arguments) {
       options.config = rest.value();
     } else if (rest.name() == "--set") {
       options.overrides.push_back(rest.value());
+      if (!settings::is_override(options.overrides.back())) {
+        throw UsageError("--set takes /POINTER=VALUE, not \"" + options.overrides.back() + "\"");
+      }
     } else if (rest.name() == "--check") {
       options.check = true;
     } else if (rest.name() == "--help" || rest.name() == "-h") {

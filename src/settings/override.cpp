@@ -23,10 +23,15 @@ std::string unescape(std::string_view token) {
 
 }  // namespace
 
+bool is_override(std::string_view text) {
+  const std::size_t equals = text.find('=');
+  return equals != std::string_view::npos && equals >= 2 && text.front() == '/';
+}
+
 std::string apply_override(Json& document, std::string_view text) {
   const std::size_t equals = text.find('=');
   const std::string pointer(text.substr(0, equals));
-  if (equals == std::string_view::npos || pointer.size() < 2 || pointer.front() != '/') {
+  if (!is_override(text)) {
     throw SettingsError("override \"" + std::string(text) + "\"", "",
                         "must be /json/pointer=value");
   }

@@ -3,6 +3,7 @@
 
 #include <cstdio>
 #include <exception>
+#include <string>
 
 #include <CLI/CLI.hpp>
 
@@ -41,6 +42,11 @@ int run_cornerctl(int argc, const char* const* argv) {
   add_bench(program);
 
   try {
+    const std::string first = argc > 1 ? argv[1] : "";
+    if (!first.empty() && first.front() != '-' &&
+        program.get_subcommands([&](CLI::App* one) { return one->get_name() == first; }).empty()) {
+      throw UsageError("there is no command \"" + first + "\"; cornerctl --help lists them");
+    }
     program.parse(argc, argv);
     return kExitDone;
   } catch (const CLI::ParseError& error) {

@@ -13,6 +13,7 @@
 
 #include "settings/document.hpp"
 #include "settings/object_reader.hpp"
+#include "settings/override.hpp"
 #include "tool/failure.hpp"
 
 namespace cornerd::tool {
@@ -46,6 +47,9 @@ void SettingsOptions::add_config(CLI::App& command) {
       ->type_name("FILE");
   command.add_option("--set", set_, "any config value: /json/pointer=value")
       ->type_name("/PTR=VALUE")
+      ->check([](const std::string& text) {
+        return settings::is_override(text) ? std::string() : "must be /json/pointer=value";
+      })
       ->allow_extra_args(false);
 }
 

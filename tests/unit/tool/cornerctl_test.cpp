@@ -86,6 +86,7 @@ TEST_F(Cornerctl, WrongUsage_EndsWith2AndSaysWhyOnStandardError) {
       {"replay"},
       {"replay", "x.bin"},
       {"replay", "x.bin", "--map", map_, "--nonsense"},
+      {"replay", "x.bin", "--map", map_, "--set", "x"},
       {"replay", "x.bin", "--map", map_, "--speed", "fast"},
       {"replay", "x.bin", "--map", map_, "--classes", "POSES"},
       {"replay", "x.bin", "--map", map_, "--wire", "dense"},
@@ -108,6 +109,10 @@ TEST_F(Cornerctl, WrongUsage_EndsWith2AndSaysWhyOnStandardError) {
     EXPECT_EQ(outcome.out, "");
     EXPECT_NE(outcome.err, "");
   }
+}
+
+TEST_F(Cornerctl, CommandThatThereIsNot_IsNamed) {
+  EXPECT_THAT(run({"dance"}).err, HasSubstr("there is no command \"dance\""));
 }
 
 TEST_F(Cornerctl, WrongMapOrConfig_EndsWith78AndOneLine) {
