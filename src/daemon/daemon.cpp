@@ -166,8 +166,8 @@ void Daemon::on_loaded() {
   if (const std::string list = needs_restart(config_, loaded.config); !list.empty()) {
     spdlog::warn("takes effect at the next start: {}", list);
   }
-  const std::string name =
-      fmt::format("{}, {} walls", loaded.map->plan().name, loaded.map->plan().walls.size());
+  const std::string name = fmt::format("{}, {} walls", settings::one_line(loaded.map->plan().name),
+                                       loaded.map->plan().walls.size());
   if (!memory_.reconfigure(loaded.config.lidar.bias)) localization_.forget_lidar();
   localization_.publish_readings(loaded.config.odometry.core.publish);
   auto pipeline = resumed(std::move(loaded.pipeline), loaded.config.lidar, memory_);

@@ -16,6 +16,9 @@
 
 namespace cornerd::settings {
 
+/// Anybody's text as one printable line: control characters become '?'.
+std::string one_line(std::string text);
+
 /// A config, map or override that is wrong. what() is one line: file, JSON pointer, reason.
 class SettingsError : public std::runtime_error {
  public:

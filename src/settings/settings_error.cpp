@@ -4,14 +4,14 @@
 #include "settings/config.hpp"
 
 namespace cornerd::settings {
-namespace {
 
-/// Keys and file names are anybody's text; the message stays one printable line.
 std::string one_line(std::string text) {
   std::replace_if(
       text.begin(), text.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; }, '?');
   return text;
 }
+
+namespace {
 
 std::string compose(const std::string& file, const std::string& pointer,
                     const std::string& reason) {
