@@ -98,6 +98,10 @@ TEST(Config, UnknownKeyLikeNoOther_ListsWhatThereIs) {
               EndsWith("known here: priority, lock_memory"));
 }
 
+TEST(OneLine, ControlCharacters_AreQuestionMarks) {
+  EXPECT_EQ(one_line("a\x1b[2J\nb\x7f"), "a?[2J?b?");
+}
+
 TEST(Config, SpeedThatNoPortHas_IsRefusedWithThoseThatItHas) {
   EXPECT_THAT(config_error(R"({"map": "/m", "lidar": {"baud": 115201}})"),
               EndsWith("/lidar/baud: must be one of 9600, 19200, 38400, 57600, 115200, 230400, "
