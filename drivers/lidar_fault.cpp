@@ -19,6 +19,8 @@ std::string_view to_string(LidarFault fault) {
       return "unplugged";
     case LidarFault::kStreamRunning:
       return "stream-running";
+    case LidarFault::kForeignTalk:
+      return "foreign-talk";
     case LidarFault::kBooting:
       return "booting";
     case LidarFault::kNoAnswer:

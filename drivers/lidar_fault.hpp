@@ -16,6 +16,7 @@ enum class LidarFault : std::uint8_t {
   kPortError,       ///< anything else that keeps it from being opened
   kUnplugged,       ///< it was open, and is gone
   kStreamRunning,   ///< still measuring for a program that never stopped it
+  kForeignTalk,     ///< bytes come unasked, and are no measurement
   kBooting,         ///< has just been switched on: prints its banner
   kNoAnswer,        ///< silent to every question
   kWrongBaud,       ///< noise instead of answers, or answers at another speed

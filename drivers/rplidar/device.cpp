@@ -11,6 +11,8 @@ using std::chrono::milliseconds;
 // Each limit and the failure that it answers.
 constexpr milliseconds kAnswerTimeout{500};  // a request lost on the way, or sent too early
 constexpr milliseconds kQuiet{20};           // a scan in flight, a banner: neither pauses so long
+constexpr milliseconds kPause{40};           // between two capsules, through a USB adapter
+constexpr milliseconds kListenLimit{100};    // a scan in flight: six capsules at least
 constexpr milliseconds kDrainLimit{500};     // a device that does not stop talking
 constexpr milliseconds kBootLimit{1500};     // a banner that never comes; real ones take 671 ms
 constexpr milliseconds kSlice{100};          // a stop that is asked for while nothing comes
@@ -33,6 +35,12 @@ auto confirmed(const auto& ask) {
 }
 
 }  // namespace
+
+void Device::listen(MeasurementSearch& search) {
+  search_ = &search;
+  read_until_quiet(kPause, kListenLimit, false);
+  search_ = nullptr;
+}
 
 bool Device::quiet() {
   if (!send(Request(Command::kStop))) return false;
@@ -169,7 +177,9 @@ drivers::ByteStream::ReadResult Device::read(Milliseconds timeout) {
   const auto result = port_.read(buffer_, timeout);
   lost_ = lost_ || result.status == drivers::ByteStream::ReadStatus::kLost;
   heard_bytes_ += result.count;
-  if (banner_.add(std::span(buffer_).first(result.count))) heard_banner_ = true;
+  const auto bytes = std::span(buffer_).first(result.count);
+  if (banner_.add(bytes)) heard_banner_ = true;
+  if (search_ != nullptr) search_->add(bytes);
   return result;
 }
 

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "drivers/clock.hpp"
+#include "drivers/rplidar/measurement_search.hpp"
 #include "drivers/rplidar/protocol/answers.hpp"
 #include "drivers/rplidar/protocol/banner_search.hpp"
 #include "drivers/rplidar/protocol/descriptor.hpp"
@@ -29,6 +30,8 @@ class Device {
   Device(drivers::ByteStream& port, drivers::Clock& clock, std::stop_token stop)
       : port_(port), clock_(clock), stop_(std::move(stop)) {}
 
+  /// What comes by itself, until there is nothing for 40 ms or it has been enough.
+  void listen(MeasurementSearch& search);
   /// STOP, and everything that was under way read away. False where the port is lost.
   bool quiet();
   /// RESET, and the boot banner read away.
@@ -69,6 +72,7 @@ class Device {
   bool booted_ = false;
   bool heard_banner_ = false;  ///< and nobody has taken notice yet
   BannerSearch banner_;
+  MeasurementSearch* search_ = nullptr;  ///< where what comes is to be searched
   std::uint64_t heard_bytes_ = 0;
   std::uint64_t used_bytes_ = 0;
   std::array<std::uint8_t, 256> buffer_{};

@@ -20,6 +20,10 @@ std::string_view pattern(LidarFault fault) {
       return "the port is gone; waiting for it. If nobody pulled the plug: check cable and supply";
     case LidarFault::kStreamRunning:
       return "was still measuring for a program that ended without stopping it; stopped it";
+    case LidarFault::kForeignTalk:
+      return "something talks on the port that is no lidar's measurement; another device, a "
+             "console, "
+             "a wrong lidar.baud?";
     case LidarFault::kBooting:
       return "has just been switched on; waiting until it has started";
     case LidarFault::kNoAnswer:

@@ -9,6 +9,7 @@
 
 #include "drivers/rplidar/hint.hpp"
 #include "drivers/rplidar/live_sink.hpp"
+#include "drivers/rplidar/measurement_search.hpp"
 #include "drivers/rplidar/protocol/banner_search.hpp"
 #include "drivers/rplidar/sample_stream.hpp"
 #include "drivers/serial/watched_byte_stream.hpp"
@@ -34,7 +35,7 @@ constexpr core::TimeNs kSpinUpLimitNs = 6 * core::kNsPerSecond;
 constexpr core::TimeNs kStallNs = core::kNsPerSecond;
 constexpr core::TimeNs kSilenceLimitNs = 3 * core::kNsPerSecond;
 // A device that was left quiet says nothing; a line that is switched on may give a byte or two.
-constexpr std::uint64_t kStreamBytes = 8;
+constexpr std::uint64_t kStrayBytes = 8;
 constexpr std::uint32_t kUsualBaud = 115200;
 
 struct PortFailure {
@@ -135,11 +136,15 @@ RplidarDriver::Failure RplidarDriver::converse(Device& device, drivers::ByteStre
                                                ScanMode& mode) {
   board_.set_state(LidarState::kIdentifying, LidarFault::kNone,
                    config_.device + ": asking who it is");
+  MeasurementSearch search;
+  device.listen(search);
   device.quiet();
   if (device.booted()) {
     say(LidarState::kIdentifying, LidarFault::kBooting);
-  } else if (device.heard_bytes() > kStreamBytes) {
+  } else if (search.found()) {
     say(LidarState::kIdentifying, LidarFault::kStreamRunning);
+  } else if (device.heard_bytes() > kStrayBytes) {
+    say(LidarState::kIdentifying, LidarFault::kForeignTalk);
   }
   if (std::exchange(reset_first_, false)) {
     const auto health = device.health();

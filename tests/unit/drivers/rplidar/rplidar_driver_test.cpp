@@ -167,6 +167,24 @@ TEST_F(RplidarDriverTest, DeviceThatWasLeftScanning_IsQuietedFirst) {
   EXPECT_EQ(a1.opened, 1);
 }
 
+TEST_F(RplidarDriverTest, DeviceThatWasLeftInAStandardScan_IsQuietedFirst) {
+  a1.chatter = nodes(100, 10);
+  run(seconds(1));
+  EXPECT_EQ(last.state, LidarState::kRunning);
+  EXPECT_THAT(faults, ElementsAre(LidarFault::kStreamRunning));
+}
+
+TEST_F(RplidarDriverTest, TalkThatIsNoMeasurement_IsNoStreamLeftRunning) {
+  const std::string sentence = "$GPRMC,081836,A,3751.65,S,14507.36,E,000.0,360.0,130998*62\r\n";
+  for (int i = 0; i < 5; ++i) {
+    a1.chatter.insert(a1.chatter.end(), sentence.begin(), sentence.end());
+  }
+  run(seconds(1));
+  EXPECT_EQ(last.state, LidarState::kRunning);
+  EXPECT_THAT(faults, ElementsAre(LidarFault::kForeignTalk));
+  EXPECT_THAT(hints[LidarFault::kForeignTalk], HasSubstr("no lidar's measurement"));
+}
+
 TEST_F(RplidarDriverTest, DeviceThatBoots_IsWaitedFor) {
   const std::string banner = "RP LIDAR System.\r\nFirmware Ver 1.29 - rtm\r\nModel: 18\r\n";
   a1.chatter.assign(banner.begin(), banner.end());
