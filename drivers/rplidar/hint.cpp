@@ -22,8 +22,7 @@ std::string_view pattern(LidarFault fault) {
       return "was still measuring for a program that ended without stopping it; stopped it";
     case LidarFault::kForeignTalk:
       return "something talks on the port that is no lidar's measurement; another device, a "
-             "console, "
-             "a wrong lidar.baud?";
+             "console, a wrong lidar.baud?";
     case LidarFault::kBooting:
       return "has just been switched on; waiting until it has started";
     case LidarFault::kNoAnswer:
