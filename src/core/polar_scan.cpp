@@ -105,7 +105,8 @@ double PolarScan::widest_gap_rad() const {
   const std::size_t size = points_.size();
   // Of the returns without end, round and round.
   const auto bearing_rad = [&](std::size_t i) {
-    return points_[i % size].bearing_rad + kTwoPi * static_cast<double>(i / size);
+    const std::size_t round = i / size;
+    return points_[i % size].bearing_rad + kTwoPi * static_cast<double>(round);
   };
   const double enough = std::max(2.0, kCompany * 2 * kNeighbourhood_rad / spacing_rad_);
   std::optional<double> last_rad;

@@ -12,6 +12,8 @@ namespace {
 /// A prediction that is less sure than this helps nobody to find the place again.
 constexpr double kMostSigma_m = 0.3;
 constexpr double kMostSigma_rad = radians(15);
+/// So many fixes in a row that the wheels cannot explain: they are not this robot's, or spin free.
+constexpr std::uint32_t kDistrusted = 3;
 /// What a fix may be off by that its covariance does not know of, a lidar's bias or a wall that was
 /// mapped wrong, until the fixes themselves tell how much it is; a fix that belongs to the same
 /// drive may be off by so much at any time.
@@ -257,11 +259,11 @@ void Odometer::correct(const Pose2& T_map_base, const Covariance3& covariance) {
     filter_.set_pose(T_map_base, most);
   } else if (has_pose_ && filter_.explains(T_map_base, most)) {
     filter_.correct(T_map_base, learned_doubt(T_map_base, covariance));
-    trust_.agreed(T_map_base);
+    strangers_in_a_row_ = 0;
     ++fixes_;
   } else {
     if (has_pose_) {
-      trust_.disagreed(T_map_base);
+      ++strangers_in_a_row_;
       ++strangers_;
     }
     filter_.set_pose(T_map_base, most);
@@ -296,9 +298,14 @@ void Odometer::set_pose(const Pose2& T_map_base, const Covariance3& covariance) 
   fixed_ns_ = middle_ns_;
 }
 
-bool Odometer::is_believed() const { return !trust_.is_lost() && !filter_.is_contradictory(); }
+bool Odometer::is_believed() const {
+  return strangers_in_a_row_ < kDistrusted && !filter_.is_contradictory();
+}
 
-void Odometer::forget() { has_pose_ = false; }
+void Odometer::forget() {
+  has_pose_ = false;
+  strangers_in_a_row_ = 0;
+}
 
 OdometrySummary Odometer::summary() const {
   OdometrySummary summary;

@@ -14,7 +14,6 @@
 #include "core/odometry/odometry_config.hpp"
 #include "core/odometry/odometry_reading.hpp"
 #include "core/odometry/reading_gate.hpp"
-#include "core/odometry/trust.hpp"
 #include "core/scan.hpp"
 
 namespace cornerd::core {
@@ -121,7 +120,7 @@ class Odometer {
   /// Of the floors' variances. A twentieth stays: half a millimetre is the same from turn to turn.
   NoiseMeter place_floor_{10, 0.06, 1};
   NoiseMeter heading_floor_{5, 0.03, 1};
-  Trust trust_;
+  std::uint32_t strangers_in_a_row_ = 0;
   std::uint64_t fixes_ = 0;
   std::uint64_t strangers_ = 0;
 };

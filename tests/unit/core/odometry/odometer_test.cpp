@@ -289,25 +289,6 @@ TEST(Odometer, AWheelThatStandsStill_IsNotBelieved) {
   EXPECT_NEAR(ride.odometer.summary().learned.left_scale, 0.01, 0.005);
 }
 
-TEST(Odometer, AWheelThatStandsStillWithoutAGyro_IsNotBelievedAgainForAStop) {
-  Ride ride(switched_on());
-  std::optional<std::int64_t> frozen;
-  int turns = 0;
-  ride.spoil = [&](int, OdometryReading& reading) {
-    reading.gyro_rad_s.reset();
-    if (turns < 100) return;
-    if (!frozen) frozen = reading.left;
-    reading.left = frozen;
-  };
-  int believed = 0;
-  for (; turns < 300; ++turns) {
-    ride.turn();
-    ride.odometer.correct(ride.truth, kFixCovariance);
-    believed += turns >= 110 && ride.odometer.summary().trusted;
-  }
-  EXPECT_EQ(believed, 0);
-}
-
 TEST(Odometer, ARobotThatStands_LearnsNothingOfItsWheels) {
   Odometer odometer(switched_on());
   std::mt19937_64 random(7);
