@@ -4,10 +4,11 @@
 #include <cstdint>
 
 #include "core/geometry/pose2.hpp"
+#include "core/geometry/squared.hpp"
 
 namespace cornerd::survey {
 
-constexpr double squared(double x) { return x * x; }
+using core::squared;
 
 /// The face of a wall as one turn saw it, in the frame that the lidar had in the middle of the
 /// turn. Its angle and its place across itself are independent at the centroid.

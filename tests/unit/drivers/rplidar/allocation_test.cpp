@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "../allocation_counter.hpp"
 #include "drivers/rplidar/sample_stream.hpp"
 #include "wire_fixture.hpp"
@@ -32,6 +34,30 @@ TEST(SampleStream, FromBytesToSamples_AllocatesNothing) {
   samples.finish(sink);
   EXPECT_EQ(cornerd::test::allocations() - before, 0U);
   EXPECT_GT(sink.samples, 14000U);
+}
+
+TEST(SampleStream, SamplesThatWaitForTheirTime_AllocateNothing) {
+  const Bytes stream = join({kStandardDescriptor, nodes(12000, 30)});
+  constexpr core::TimeNs kByteNs = 101'600;
+  SampleStream samples({});
+  CountingSink sink;
+  const std::size_t before = cornerd::test::allocations();
+  std::size_t waited = 0;
+  for (std::size_t i = 0; i < stream.size(); i += 60) {
+    const auto piece = std::span(stream).subspan(i, std::min<std::size_t>(60, stream.size() - i));
+    core::TimeNs now_ns = static_cast<core::TimeNs>(i) * kByteNs;
+    // The device pauses after a third, and the reader is held up after two.
+    if (i > stream.size() / 3) now_ns += 300'000'000;
+    if (i > 2 * stream.size() / 3) {
+      now_ns = std::max(now_ns,
+                        static_cast<core::TimeNs>(2 * stream.size() / 3) * kByteNs + 800'000'000);
+    }
+    samples.feed(piece, now_ns, sink);
+    waited = std::max(waited, static_cast<std::size_t>(samples.samples()) - sink.samples);
+  }
+  EXPECT_EQ(cornerd::test::allocations() - before, 0U);
+  EXPECT_GT(waited, 500U);
+  EXPECT_GT(sink.samples, 11900U);
 }
 
 }  // namespace
