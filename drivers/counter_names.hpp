@@ -28,6 +28,7 @@ inline constexpr std::array kCounterNames = {
     CounterName{"unpaired_capsules", &StreamCounters::unpaired_capsules},
     CounterName{"false_turn_marks", &StreamCounters::false_turn_marks},
     CounterName{"clock_resets", &StreamCounters::clock_resets},
+    CounterName{"untimed_samples", &StreamCounters::untimed_samples},
 };
 
 static_assert(sizeof(StreamCounters) == kCounterNames.size() * sizeof(std::uint64_t),

@@ -41,7 +41,7 @@ struct ShortText {
 struct StreamCounters {
   std::uint64_t bytes = 0;  ///< all that came; each ends up in used_bytes or in skipped_bytes
   std::uint64_t used_bytes = 0;
-  std::uint64_t samples = 0;
+  std::uint64_t samples = 0;  ///< all that were decoded
   std::uint64_t turns = 0;
   std::uint64_t skipped_bytes = 0;      ///< belonged to no packet: banner, stale or damaged bytes
   std::uint64_t bad_checksums = 0;      ///< capsules whose checksum is wrong
@@ -51,6 +51,7 @@ struct StreamCounters {
   std::uint64_t unpaired_capsules = 0;  ///< capsules without the next one that their angles need
   std::uint64_t false_turn_marks = 0;   ///< start flags in the middle of a turn
   std::uint64_t clock_resets = 0;       ///< times that the sample clock had to be fitted anew
+  std::uint64_t untimed_samples = 0;    ///< not delivered: when they were measured is not known (yet)
 };
 
 struct LidarStatus {

@@ -104,6 +104,7 @@ class SampleStream::Implementation : private RawSampleSink {
   const drivers::StreamCounters& counters() {
     counters_ = decoder_.counters();
     counters_.clock_resets = clock_.resets();
+    counters_.untimed_samples = dropped_ + held_.size();
     return counters_;
   }
 
@@ -120,7 +121,7 @@ class SampleStream::Implementation : private RawSampleSink {
     if (timed_) observe(raw, format);
     if (clock_.in_doubt()) return hold(raw);
     // Nobody knows how many samples are gone, and a turn of two halves is none.
-    if (clock_.resets() != resets || has_dropped_) sink_->on_gap();
+    if (clock_.resets() != resets || has_hole_) sink_->on_gap();
     release(clock_.resets() != resets);
     deliver(raw);
   }
@@ -133,14 +134,19 @@ class SampleStream::Implementation : private RawSampleSink {
   /// After a pause, what was read before its end is of times that nobody knows.
   void release(bool after_a_pause) {
     for (const RawSample& held : held_) {
-      if (!after_a_pause || held.index >= clock_.anchored_from()) deliver(held);
+      if (!after_a_pause || held.index >= clock_.anchored_from()) {
+        deliver(held);
+      } else {
+        ++dropped_;
+      }
     }
     held_.clear();
-    has_dropped_ = false;
+    has_hole_ = false;
   }
 
   void drop_held() {
-    has_dropped_ = has_dropped_ || !held_.empty();
+    has_hole_ = has_hole_ || !held_.empty();
+    dropped_ += held_.size();
     held_.clear();
   }
 
@@ -193,7 +199,8 @@ class SampleStream::Implementation : private RawSampleSink {
   bool timed_ = true;
   std::uint64_t samples_ = 0;
   std::vector<RawSample> held_;  ///< whose time is in doubt
-  bool has_dropped_ = false;     ///< some of them since the last that was delivered
+  std::uint64_t dropped_ = 0;    ///< of them
+  bool has_hole_ = false;        ///< some were dropped since the last that was delivered
   drivers::StreamCounters counters_;
 };
 

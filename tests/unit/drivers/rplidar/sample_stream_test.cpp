@@ -144,6 +144,7 @@ class FedNodes {
     return worst_ns;
   }
   const StreamedSamples& samples() const { return samples_; }
+  const drivers::StreamCounters& counters() const { return stream_.counters(); }
 
  private:
   static constexpr core::TimeNs kNodeNs = 508'000;
@@ -164,6 +165,24 @@ TEST(SampleStream, AfterAPause_NoSampleBearsATimeOfThePause) {
   EXPECT_LT(nodes.worst_error_ns(), 10'000'000);
   EXPECT_EQ(nodes.samples().gaps, 1);
   EXPECT_GT(nodes.samples().all.size(), 3100U);
+}
+
+TEST(SampleStream, UntimedSamples_AreTheOnesNotDelivered) {
+  FedNodes nodes;
+  const auto expect_all_counted = [&](std::uint64_t least_untimed) {
+    const drivers::StreamCounters& counters = nodes.counters();
+    EXPECT_EQ(counters.samples, nodes.samples().all.size() + counters.untimed_samples);
+    EXPECT_GE(counters.untimed_samples, least_untimed);
+  };
+  nodes.run(100);
+  expect_all_counted(0);
+  nodes.run(1, core::kNsPerSecond / 5);
+  expect_all_counted(16);
+  nodes.run(100);
+  expect_all_counted(0);
+  nodes.pause(300'000'000);
+  nodes.run(1);
+  expect_all_counted(16);
 }
 
 TEST(SampleStream, AfterTheReaderWasHeldUp_AllSamplesBearTheirTimes) {
