@@ -34,7 +34,7 @@ bool same(const core::Pose2& a, const core::Pose2& b) {
 }  // namespace
 
 RecordingWriter::RecordingWriter(const std::filesystem::path& file)
-    : file_(file), has_lines_(file.extension() == ".ndjson"), stream_(open_for_writing(file)) {}
+    : file_(file), has_lines_(has_lines(file)), stream_(open_for_writing(file)) {}
 
 void RecordingWriter::put(std::string_view text) { write(stream_, text, file_); }
 

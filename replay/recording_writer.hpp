@@ -29,6 +29,8 @@ class RecordingWriter {
   /// After this all that was written is in the file.
   void flush();
 
+  /// Whether a file of this name gets lines.
+  static bool has_lines(const std::filesystem::path& file) { return file.extension() == ".ndjson"; }
   bool has_lines() const { return has_lines_; }
 
  private:

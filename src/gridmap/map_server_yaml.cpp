@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <initializer_list>
 #include <map>
 #include <optional>
 
@@ -68,7 +69,7 @@ std::string read_scalar(std::string_view text, std::size_t line) {
 Value read_value(std::string_view text, std::size_t line) {
   text = trim(text);
   if (!text.starts_with('[')) return {.scalar = read_scalar(text, line), .items = {}};
-  if (!text.ends_with(']') || text.size() < 2) fail_at(line, "the list is not closed on its line");
+  if (!text.ends_with(']')) fail_at(line, "more than a list");
   text = trim(text.substr(1, text.size() - 2));
   Value value{.scalar = {}, .items = {}, .is_list = true};
   while (!text.empty()) {
@@ -79,30 +80,72 @@ Value read_value(std::string_view text, std::size_t line) {
   return value;
 }
 
+/// The lines of a text, without comments.
+class Lines {
+ public:
+  explicit Lines(std::string_view text) : rest_(text) {}
+
+  bool is_end() const { return rest_.empty(); }
+  std::string_view next() {
+    const std::size_t end = std::min(rest_.find('\n'), rest_.size());
+    const std::string_view line = without_comment(rest_.substr(0, end));
+    rest_.remove_prefix(std::min(end + 1, rest_.size()));
+    ++number_;
+    return line;
+  }
+  /// Of the line that came last, from 1 on.
+  std::size_t number() const { return number_; }
+
+ private:
+  std::string_view rest_;
+  std::size_t number_ = 0;
+};
+
+/// A value that begins on the line that came last, and goes on until its brackets are closed.
+Value read_value(std::string_view begin, Lines& lines) {
+  const std::size_t number = lines.number();
+  std::string text(trim(begin));
+  if (text.starts_with('[')) {
+    for (std::size_t searched = 0; text.find(']', searched) == std::string::npos;) {
+      if (lines.is_end()) fail_at(number, "the list is not closed");
+      searched = text.size();
+      text.append(" ").append(trim(lines.next()));
+    }
+  }
+  return read_value(text, number);
+}
+
 Keys read_keys(std::string_view text) {
+  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+  if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
   Keys keys;
   Value* open = nullptr;  // a key without a value yet: its list may follow
-  for (std::size_t number = 1; !text.empty(); ++number) {
-    const std::size_t end = std::min(text.find('\n'), text.size());
-    const std::string_view line = without_comment(text.substr(0, end));
-    text.remove_prefix(std::min(end + 1, text.size()));
+  for (Lines lines(text); !lines.is_end();) {
+    const std::string_view line = lines.next();
+    const std::size_t number = lines.number();
     const std::string_view content = trim(line);
     if (content.empty() || content == "---" || content.starts_with("%YAML")) continue;
     if (content == "...") break;
-    if (content.starts_with("- ")) {
+    const bool is_indented = line.front() == ' ' || line.front() == '\t';
+    if (is_indented && content.front() == '[' && open != nullptr && !open->is_list) {
+      *open = read_value(content, lines);
+      open = nullptr;
+      continue;
+    }
+    if (content.starts_with("- ") || content.starts_with("-\t")) {
       if (open == nullptr) fail_at(number, "a list that belongs to no key");
       open->is_list = true;
       open->items.push_back(read_scalar(content.substr(2), number));
       continue;
     }
-    if (line.front() == ' ' || line.front() == '\t') fail_at(number, "is indented");
+    if (is_indented) fail_at(number, "is indented");
     const std::size_t colon = content.find(':');
     if (colon == std::string_view::npos) fail_at(number, "is no `key: value`");
     if (colon + 1 < content.size() && content[colon + 1] != ' ' && content[colon + 1] != '\t') {
       fail_at(number, "no space after the colon");
     }
     std::string key = read_scalar(content.substr(0, colon), number);
-    const auto [place, is_new] = keys.emplace(key, read_value(content.substr(colon + 1), number));
+    const auto [place, is_new] = keys.emplace(key, read_value(content.substr(colon + 1), lines));
     if (!is_new) throw GridError("this key is there twice", "/" + key);
     const bool is_empty = !place->second.is_list && place->second.scalar.empty();
     open = is_empty ? &place->second : nullptr;
@@ -129,9 +172,17 @@ class KeyReader {
 
   bool flag(const std::string& key) {
     const std::string value = text(key);
-    if (value == "0" || value == "false") return false;
-    if (value == "1" || value == "true") return true;
-    throw GridError("must be 0 or 1", "/" + key);
+    const auto is_any = [&](std::initializer_list<std::string_view> words) {
+      return std::find(words.begin(), words.end(), value) != words.end();
+    };
+    // YAML 1.1's booleans, and the numbers that map_saver writes.
+    if (is_any({"0", "n", "N", "no", "No", "NO", "false", "False", "FALSE", "off", "Off", "OFF"})) {
+      return false;
+    }
+    if (is_any({"1", "y", "Y", "yes", "Yes", "YES", "true", "True", "TRUE", "on", "On", "ON"})) {
+      return true;
+    }
+    throw GridError("must be 0 or 1, or a boolean", "/" + key);
   }
 
   core::Pose2 pose(const std::string& key) {

@@ -26,8 +26,9 @@ struct MapServerYaml {
 };
 
 /// The little of YAML that these files are made of: one key a line with a plain or quoted scalar or
-/// a list of numbers, in brackets or a line each; comments; `---`. All else is refused, as is a key
-/// that is there twice. Throws GridError with the key.
+/// a list of numbers, in brackets (over any lines) or a line each; YAML 1.1's booleans; a byte
+/// order mark; comments; `---`. All else is refused, as is a key that is there twice. Throws
+/// GridError with the key.
 MapServerYaml parse_map_server_yaml(std::string_view text);
 
 }  // namespace cornerd::gridmap

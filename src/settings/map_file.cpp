@@ -17,7 +17,7 @@ constexpr std::size_t kMaxPolygonPoints = 10'000;
 constexpr std::size_t kMaxNameBytes = 128;
 constexpr int kVersion = 1;
 
-constexpr Interval kCoordinateM{-10'000, 10'000};
+constexpr Interval kCoordinateM{-kFarthestCoordinateM, kFarthestCoordinateM};
 constexpr Interval kThicknessM{0, 10};
 
 /// Nearer than that two points are one: a tenth of a millimetre, below any drawing's precision.
@@ -126,13 +126,18 @@ core::FloorPlan parse_floor_plan(std::string_view text, const std::filesystem::p
   return read_plan({context, document, ""}, file);
 }
 
-std::shared_ptr<const core::WallMap> load_map(const std::filesystem::path& file) {
-  core::FloorPlan plan = parse_floor_plan(read_file(file, kMaxMapBytes), file);
+std::shared_ptr<const core::WallMap> parse_map(std::string_view text,
+                                               const std::filesystem::path& file) {
+  core::FloorPlan plan = parse_floor_plan(text, file);
   try {
     return std::make_shared<const core::WallMap>(std::move(plan));
   } catch (const std::invalid_argument& error) {
     throw SettingsError(file.string(), "/walls", error.what());
   }
+}
+
+std::shared_ptr<const core::WallMap> load_map(const std::filesystem::path& file) {
+  return parse_map(read_file(file, kMaxMapBytes), file);
 }
 
 }  // namespace cornerd::settings

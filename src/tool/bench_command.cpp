@@ -22,6 +22,7 @@
 #include "tool/commands.hpp"
 #include "tool/contest_maps.hpp"
 #include "tool/failure.hpp"
+#include "tool/file_guard.hpp"
 #include "tool/output.hpp"
 #include "tool/progress_bar.hpp"
 
@@ -134,7 +135,20 @@ void run_localizer(const BenchOptions& options) {
   }
 }
 
+/// The maps that are read are those of a folder.
+void guard_maps(const BenchOptions& options) {
+  if (options.json.empty() || (options.scale && options.maps.empty())) return;
+  CommandFiles files{.read = {}, .written = {}, .output = options.json};
+  std::error_code ignored;  // a folder that cannot be read is told when its maps are
+  for (const auto& entry :
+       std::filesystem::directory_iterator(contest_maps_folder(options.maps), ignored)) {
+    files.read.push_back(entry.path());
+  }
+  guard_files(files);
+}
+
 void run_bench(const BenchOptions& options) {
+  guard_maps(options);
   if (options.localizer) {
     if (options.scale || options.survey)
       throw UsageError("--localizer excludes --scale and --survey");

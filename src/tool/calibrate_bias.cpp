@@ -14,6 +14,7 @@
 #include "settings/map_file.hpp"
 #include "settings/sensor_bias.hpp"
 #include "tool/failure.hpp"
+#include "tool/file_guard.hpp"
 #include "tool/options.hpp"
 #include "tool/output.hpp"
 #include "tool/playback.hpp"
@@ -53,6 +54,9 @@ std::string describe_bias(const core::LearnedBias& learned) {
 
 void calibrate_bias(const CalibrateBiasOptions& options) {
   const settings::Config config = options.settings.resolve(/*needs_map=*/true);
+  CommandFiles files{.read = options.files, .written = {}, .output = options.output};
+  files.read.insert(files.read.end(), {options.settings.config_file(), config.map});
+  guard_files(files);
   core::LocalizerConfig localizer = config.localizer();
   localizer.learn_bias = true;
   localizer.forget_bias = false;
@@ -71,7 +75,7 @@ void calibrate_bias(const CalibrateBiasOptions& options) {
   if (learned.is_limited) {
     throw Failure("the lidar seems to be off by more than one can be: is the map to scale?");
   }
-  Output report;
+  Output report = Output::report_beside(options.output);
   report.write(describe_bias(learned));
   report.flush();
   if (options.output.empty()) return;
@@ -95,7 +99,9 @@ void add_calibrate_bias(CLI::App& group) {
       ->type_name("FILE");
   options->settings.add_config(*command);
   options->settings.add_map(*command);
-  command->add_option("-o,--output", options->output, "the key lidar.bias, for a config")
+  command
+      ->add_option("-o,--output", options->output,
+                   "the key lidar.bias, for a config; -: on standard output")
       ->type_name("JSON");
   add_wire_option(*command, options->wire);
   command->callback([options] { calibrate_bias(*options); });

@@ -25,6 +25,7 @@
 #include "tool/calibrate_odometry.hpp"
 #include "tool/commands.hpp"
 #include "tool/failure.hpp"
+#include "tool/file_guard.hpp"
 #include "tool/noise_drawing.hpp"
 #include "tool/noise_report.hpp"
 #include "tool/options.hpp"
@@ -149,6 +150,10 @@ void write_file(const std::filesystem::path& path, const std::string& text) {
 }
 
 void calibrate_noise(const CalibrateNoiseOptions& options) {
+  CommandFiles files{
+      .read = {}, .written = {options.plot, options.wall_plot}, .output = options.output};
+  for (const std::string& text : options.files) files.read.push_back(parse_recording(text).file);
+  guard_files(files);
   Measured measured;
   for (const std::string& text : options.files) {
     measure(parse_recording(text), options.wire, measured);
@@ -170,7 +175,7 @@ void calibrate_noise(const CalibrateNoiseOptions& options) {
   if (walls.empty() && (options.model == "paper" || !options.wall_plot.empty())) {
     throw Failure("no straight wall up to 2.25 m away for the paper's model");
   }
-  Output report;
+  Output report = Output::report_beside(options.output);
   report.write(describe_noise(*noise));
   if (distances_known) report.write("\n" + describe_distances(sources));
   if (!walls.empty()) report.write("\n" + describe_wall_model(walls, distances_known));
@@ -206,8 +211,9 @@ void add_noise(CLI::App& group) {
       ->check(CLI::IsMember({"auto", "plain", "table", "paper"}))
       ->capture_default_str();
   command
-      ->add_option("-o,--output", options->output,
-                   "the key lidar.noise, for a config and for simulate --noise")
+      ->add_option(
+          "-o,--output", options->output,
+          "the key lidar.noise, for a config and for simulate --noise; -: on standard output")
       ->type_name("JSON");
   command->add_option("--plot", options->plot, "draw sigma over the range")->type_name("SVG");
   command

@@ -23,6 +23,7 @@
 #include "tool/drive_drawing.hpp"
 #include "tool/factors_text.hpp"
 #include "tool/failure.hpp"
+#include "tool/file_guard.hpp"
 #include "tool/options.hpp"
 #include "tool/output.hpp"
 #include "tool/text_table.hpp"
@@ -184,6 +185,9 @@ void calibrate_odometry(const CalibrateOdometryOptions& options) {
   std::optional<Truth> truth;
   if (!options.truth.empty()) truth = Truth::load(options.truth);
   const settings::Config config = options.settings.resolve(/*needs_map=*/!truth);
+  guard_files({.read = {options.file, options.truth, options.settings.config_file(), config.map},
+               .written = {options.plot},
+               .output = options.output});
   // Before the work: what cannot be written is said at once.
   std::unique_ptr<Output> plot;
   if (!options.plot.empty()) plot = std::make_unique<Output>(options.plot);
@@ -225,7 +229,7 @@ void calibrate_odometry(const CalibrateOdometryOptions& options) {
   const calibration::FilteredDrive filtered = filter_half(drive, config.odometry.core);
   table.add_row(row("filter, 2nd half", "learned in the 1st", filtered.alone));
 
-  Output report;
+  Output report = Output::report_beside(options.output);
   report.write(formatted("The drive by wheels and gyro alone, against %zu known places:\n",
                          drive.places.size()));
   report.write(table.text());
@@ -264,8 +268,9 @@ void add_calibrate_odometry(CLI::App& group) {
                    "where the robot really was, in place of the lidar's own fixes")
       ->type_name("FILE");
   command
-      ->add_option("-o,--output", options->output,
-                   "the keys odometry.start and odometry.factors, for a config")
+      ->add_option(
+          "-o,--output", options->output,
+          "the keys odometry.start and odometry.factors, for a config; -: on standard output")
       ->type_name("JSON");
   command
       ->add_option("--plot", options->plot,

@@ -10,6 +10,7 @@
 
 #include "tool/commands.hpp"
 #include "tool/failure.hpp"
+#include "tool/file_guard.hpp"
 #include "tool/message_printer.hpp"
 #include "tool/options.hpp"
 #include "tool/output.hpp"
@@ -52,6 +53,9 @@ void detect(DetectOptions& options) {
   if (classes.contains(message::MessageClass::kPose)) {
     throw UsageError("--classes: POSE needs a map; use replay");
   }
+  CommandFiles files{.read = options.files, .written = {options.plot}, .output = {}};
+  files.read.push_back(options.settings.config_file());
+  guard_files(files);
   const settings::Config config = options.settings.resolve(/*needs_map=*/false);
 
   Output output;

@@ -19,6 +19,7 @@
 #include "settings/map_file.hpp"
 #include "tool/commands.hpp"
 #include "tool/failure.hpp"
+#include "tool/file_guard.hpp"
 #include "tool/options.hpp"
 #include "tool/output.hpp"
 #include "tool/simulation_options.hpp"
@@ -63,6 +64,11 @@ void emulate(const EmulateOptions& options) {
   const replay::Firmware* firmware = replay::find_firmware(options.firmware);
   if (firmware == nullptr) throw UsageError("--firmware: there are 1.29, 1.24 and 1.17");
   const settings::Config config = options.settings.resolve(/*needs_map=*/options.recording.empty());
+  guard_files(
+      {.read = {options.recording, options.settings.config_file(), options.simulation.sensor.noise,
+                options.recording.empty() ? config.map : std::filesystem::path()},
+       .written = {options.truth, options.link},
+       .output = {}});
   World world = make_world(options, config);
 
   replay::EmulatorConfig device;

@@ -12,6 +12,7 @@
 
 #include "settings/map_file.hpp"
 #include "tool/commands.hpp"
+#include "tool/file_guard.hpp"
 #include "tool/look_alikes.hpp"
 #include "tool/map_commands.hpp"
 #include "tool/map_drawing.hpp"
@@ -35,6 +36,7 @@ struct CheckOptions {
 };
 
 void check(const CheckOptions& options) {
+  guard_files({.read = {options.map}, .written = {options.plot}, .output = {}});
   const auto map = settings::load_map(options.map);
   std::optional<Output> picture;
   if (!options.plot.empty()) picture.emplace(options.plot);

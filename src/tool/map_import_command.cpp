@@ -16,8 +16,8 @@
 #include "gridmap/image.hpp"
 #include "gridmap/map_server_yaml.hpp"
 #include "settings/document.hpp"
-#include "settings/map_file.hpp"
 #include "tool/failure.hpp"
+#include "tool/file_guard.hpp"
 #include "tool/map_commands.hpp"
 #include "tool/map_drawing.hpp"
 #include "tool/map_text.hpp"
@@ -55,8 +55,7 @@ gridmap::MapServerYaml read_yaml(const std::filesystem::path& file) {
   }
 }
 
-gridmap::Image read_image(const std::filesystem::path& yaml, const std::string& name) {
-  const std::filesystem::path file = yaml.parent_path() / name;
+gridmap::Image read_image(const std::filesystem::path& yaml, const std::filesystem::path& file) {
   if (!std::filesystem::is_regular_file(file)) {
     throw settings::SettingsError(yaml.string(), "/image", file.string() + " is no file");
   }
@@ -114,16 +113,14 @@ void draw(const MapImportOptions& options, const gridmap::ImportResult& result,
 }
 
 void import_map(MapImportOptions options) {
-  for (const auto& written : {options.output, options.plot}) {
-    if (is_same_file(options.yaml, written)) {
-      throw UsageError(options.yaml.string() + ": would be written over what is read");
-    }
-  }
   static const std::map<std::string, MadeBy> kMakers = {
       {"auto", MadeBy::kUnknown}, {"lidar", MadeBy::kLidar}, {"drawing", MadeBy::kDrawing}};
   options.grid.made_by = kMakers.at(options.made_by);
   const gridmap::MapServerYaml yaml = read_yaml(options.yaml);
-  const gridmap::Image image = read_image(options.yaml, yaml.image);
+  const std::filesystem::path picture = options.yaml.parent_path() / yaml.image;
+  guard_files(
+      {.read = {options.yaml, picture}, .written = {options.plot}, .output = options.output});
+  const gridmap::Image image = read_image(options.yaml, picture);
   gridmap::ImportResult result = gridmap::import_grid(
       gridmap::read_shades(image, yaml), yaml.resolution_m, yaml.T_map_picture, options.grid);
   if (result.plan.walls.empty()) {
@@ -131,17 +128,16 @@ void import_map(MapImportOptions options) {
                   ": no border between free and occupied cells; are negate, mode and the "
                   "thresholds right?");
   }
-  result.plan.name = options.name.empty() ? options.output.stem().string() : options.name;
+  result.plan.name = map_name(options.name, options.output);
 
   const std::string text = map_text(result.plan);
-  // What is written is what any reader of maps accepts.
-  const core::WallMap map(settings::parse_floor_plan(text, options.output));
+  const auto map = read_back(text, options.output);
   Output output(options.output);
   output.write(text);
   output.flush();
-  if (!options.plot.empty()) draw(options, result, map);
-  Output summary;
-  summary.write(report(yaml, image, result, map, options.grid.made_by == MadeBy::kUnknown));
+  if (!options.plot.empty()) draw(options, result, *map);
+  Output summary = Output::report_beside(options.output);
+  summary.write(report(yaml, image, result, *map, options.grid.made_by == MadeBy::kUnknown));
   summary.flush();
 }
 
@@ -154,7 +150,9 @@ void add_map_import(CLI::App& group) {
   command->add_option("yaml", options->yaml, "what map_server reads; it names the picture")
       ->required()
       ->type_name("YAML");
-  command->add_option("-o,--output", options->output, "the map")->required()->type_name("MAP");
+  command->add_option("-o,--output", options->output, "the map; -: on standard output")
+      ->required()
+      ->type_name("MAP");
   command->add_option("--name", options->name, "of the map; the file's without it")
       ->type_name("NAME");
   command

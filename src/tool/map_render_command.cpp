@@ -13,6 +13,7 @@
 #include "settings/map_file.hpp"
 #include "tool/drive_points.hpp"
 #include "tool/failure.hpp"
+#include "tool/file_guard.hpp"
 #include "tool/map_commands.hpp"
 #include "tool/map_drawing.hpp"
 #include "tool/options.hpp"
@@ -99,6 +100,10 @@ void render(const RenderOptions& options) {
   if (!options.trajectory.empty() && options.recording.empty()) {
     throw UsageError("--trajectory says where a recording was made; --recording names none");
   }
+  guard_files({.read = {options.map, options.recording, options.trajectory, options.truth,
+                        options.settings.config_file()},
+               .written = {},
+               .output = options.output});
   const settings::Config config = options.settings.resolve(/*needs_map=*/false);
   const core::Pose2 T_base_lidar = config.localizer().T_base_lidar;
   const auto map = settings::load_map(options.map);
@@ -145,7 +150,9 @@ void add_map_render(CLI::App& group) {
   CLI::App* command = group.add_subcommand("render", "draw a map, and a recording in it, as SVG");
   const auto options = std::make_shared<RenderOptions>();
   command->add_option("map", options->map, "the map")->required()->type_name("MAP");
-  command->add_option("-o,--output", options->output, "the picture")->required()->type_name("SVG");
+  command->add_option("-o,--output", options->output, "the picture; -: on standard output")
+      ->required()
+      ->type_name("SVG");
   command
       ->add_option("--recording", options->recording,
                    "draw its points, its way and its last turn, localized in the map")

@@ -4,6 +4,9 @@
 #include <string_view>
 
 #include "message/json_text.hpp"
+#include "settings/map_file.hpp"
+#include "tool/failure.hpp"
+#include "tool/file_guard.hpp"
 
 namespace cornerd::tool {
 
@@ -39,6 +42,20 @@ std::string map_text(const core::FloorPlan& plan) {
     text.append("    ").append(json.view()).append(i + 1 < plan.walls.size() ? ",\n" : "\n");
   }
   return text + "  ] }\n";
+}
+
+std::string map_name(const std::string& given, const std::filesystem::path& file) {
+  if (!given.empty()) return given;
+  return file == kStandardOutput ? "map" : file.stem().string();
+}
+
+std::shared_ptr<const core::WallMap> read_back(const std::string& text,
+                                               const std::filesystem::path& file) {
+  try {
+    return settings::parse_map(text, file);
+  } catch (const settings::SettingsError& error) {
+    throw Failure(std::string(error.what()) + "; nothing is written, as no program would read it");
+  }
 }
 
 }  // namespace cornerd::tool

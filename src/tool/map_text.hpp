@@ -1,13 +1,23 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <filesystem>
+#include <memory>
 #include <string>
 
 #include "core/map/wall_map.hpp"
 
 namespace cornerd::tool {
 
+/// The name that the user gave, else the file's.
+std::string map_name(const std::string& given, const std::filesystem::path& file);
+
 /// A map file of these walls; rooms are left out.
 std::string map_text(const core::FloorPlan& plan);
+
+/// To be asked before `text` is written: the map that it is to all that read maps. Throws Failure
+/// where they would refuse it.
+std::shared_ptr<const core::WallMap> read_back(const std::string& text,
+                                               const std::filesystem::path& file);
 
 }  // namespace cornerd::tool

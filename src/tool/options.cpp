@@ -96,14 +96,6 @@ message::ClassSet parse_classes(const std::vector<std::string>& names) {
   return classes;
 }
 
-bool is_same_file(const std::filesystem::path& one, const std::filesystem::path& other) {
-  if (one.empty() || other.empty()) return false;
-  std::error_code ignored;
-  const bool linked = std::filesystem::equivalent(one, other, ignored);
-  return linked || std::filesystem::weakly_canonical(one, ignored) ==
-                       std::filesystem::weakly_canonical(other, ignored);
-}
-
 CLI::Validator number_within(double low, double high) {
   const std::string limits = settings::to_text(low) + " to " + settings::to_text(high);
   return {[low, high, limits](std::string& text) {

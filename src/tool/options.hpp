@@ -52,9 +52,6 @@ std::optional<rplidar::WireFormat> parse_wire(const std::string& wire);
 /// "POSE,SCAN" as a set. Throws UsageError.
 message::ClassSet parse_classes(const std::vector<std::string>& names);
 
-/// True where both paths, neither of them empty, lead to one place, whether or not it exists yet.
-bool is_same_file(const std::filesystem::path& one, const std::filesystem::path& other);
-
 /// For numbers on the command line: a finite one from `low` to `high`. CLI11's own checks let "nan"
 /// pass, as it compares false with every limit.
 CLI::Validator number_within(double low, double high);

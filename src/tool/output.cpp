@@ -3,21 +3,31 @@
 
 #include <cerrno>
 #include <cstring>
+#include <utility>
 
 #include "tool/failure.hpp"
+#include "tool/file_guard.hpp"
 
 namespace cornerd::tool {
 
 void Output::Closer::operator()(std::FILE* file) const {
-  if (file != stdout) std::fclose(file);
+  if (file != stdout && file != stderr) std::fclose(file);
 }
 
-Output::Output(bool flush_each)
-    : file_(stdout), name_("standard output"), flush_each_(flush_each) {}
+Output::Output(std::FILE* stream, std::string name, bool flush_each)
+    : file_(stream), name_(std::move(name)), flush_each_(flush_each) {}
+
+Output::Output(bool flush_each) : Output(stdout, "standard output", flush_each) {}
 
 Output::Output(const std::filesystem::path& file)
-    : file_(std::fopen(file.c_str(), "wbe")), name_(file.string()) {
+    : Output(file == kStandardOutput ? stdout : std::fopen(file.c_str(), "wbe"), file.string(),
+             false) {
   if (!file_) fail();
+}
+
+Output Output::report_beside(const std::filesystem::path& data) {
+  if (data == kStandardOutput) return {stderr, "standard error", false};
+  return Output();
 }
 
 void Output::write(std::string_view bytes) {

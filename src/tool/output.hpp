@@ -14,8 +14,11 @@ class Output {
  public:
   /// Standard output; `flush_each`: for those who read along.
   explicit Output(bool flush_each = false);
-  /// A new file. Throws Failure.
+  /// A new file, or standard output where it is called "-". Throws Failure.
   explicit Output(const std::filesystem::path& file);
+
+  /// For people: standard output, or standard error where `data` is standard output.
+  static Output report_beside(const std::filesystem::path& data);
 
   /// Throws OutputClosed where the reader has gone, Failure where the disk is full.
   void write(std::string_view bytes);
@@ -24,6 +27,7 @@ class Output {
   void flush();
 
  private:
+  Output(std::FILE* stream, std::string name, bool flush_each);
   [[noreturn]] void fail() const;
 
   struct Closer {

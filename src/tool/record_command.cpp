@@ -21,6 +21,7 @@
 #include "tool/board_odometry.hpp"
 #include "tool/commands.hpp"
 #include "tool/failure.hpp"
+#include "tool/file_guard.hpp"
 #include "tool/options.hpp"
 #include "tool/stop_signal.hpp"
 
@@ -128,6 +129,9 @@ void say_when_changed(const drivers::LidarStatus& now, drivers::LidarStatus& sai
 void record(RecordOptions& options) {
   const settings::Config settings = options.settings.resolve(/*needs_map=*/false);
   const rplidar::RplidarDriverConfig config = driver_config(settings.lidar);
+  guard_files({.read = {config.device, options.settings.config_file()},
+               .written = {options.output},
+               .output = {}});
 
   // A driver waits for a port that is not there; a person who mistyped its name should not.
   drivers::OpenResult first = drivers::open_serial_port(config.device, config.baud);

@@ -14,6 +14,7 @@
 #include "settings/map_file.hpp"
 #include "tool/commands.hpp"
 #include "tool/failure.hpp"
+#include "tool/file_guard.hpp"
 #include "tool/odometry_options.hpp"
 #include "tool/options.hpp"
 #include "tool/simulation_options.hpp"
@@ -35,6 +36,10 @@ struct SimulateOptions {
 
 void simulate(const SimulateOptions& options) {
   const settings::Config settings = options.settings.resolve(/*needs_map=*/true);
+  guard_files(
+      {.read = {settings.map, options.settings.config_file(), options.simulation.sensor.noise},
+       .written = {options.output, options.truth},
+       .output = {}});
   const auto map = settings::load_map(settings.map);
   const SimulationOptions& simulation = options.simulation;
   const replay::Motion motion = simulation.motion(*map);
@@ -49,24 +54,19 @@ void simulate(const SimulateOptions& options) {
   config.covered_from_ns = covered.from_ns;
   config.covered_to_ns = covered.to_ns;
 
-  if (is_same_file(options.output, options.truth)) {
-    throw UsageError("--truth: the recording itself is already written there");
-  }
   if (config.robot && simulation.places > 0) {
     throw UsageError("--odometry: the robot has to drive or to stand, --places carries it");
   }
-  replay::RecordingWriter recording(options.output);
-  if (config.robot && !recording.has_lines()) {
+  const bool has_times = replay::RecordingWriter::has_lines(options.output);
+  if (config.robot && !has_times) {
     throw UsageError("--odometry needs a recording with times: -o FILE.ndjson");
   }
-  std::optional<replay::TruthWriter> truth;
-  if (!options.truth.empty()) {
-    if (!recording.has_lines() && !simulation.stands_still()) {
-      throw UsageError(
-          "--truth of a robot that moves needs a recording with times: -o FILE.ndjson");
-    }
-    truth.emplace(options.truth);
+  if (!options.truth.empty() && !has_times && !simulation.stands_still()) {
+    throw UsageError("--truth of a robot that moves needs a recording with times: -o FILE.ndjson");
   }
+  replay::RecordingWriter recording(options.output);
+  std::optional<replay::TruthWriter> truth;
+  if (!options.truth.empty()) truth.emplace(options.truth);
   const replay::SimulatedRecordingSummary summary =
       simulate_recording(map, motion, config, recording, truth ? &*truth : nullptr);
   std::fprintf(stderr, "%s: %lld turns in %.1f s, %llu samples, %.0f %% of them with a return\n",

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // cornerctl survey: from a recorded drive to a map that the robot can localize in.
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -12,10 +14,13 @@
 
 #include <CLI/CLI.hpp>
 
+#include "settings/map_file.hpp"
+#include "settings/object_reader.hpp"
 #include "survey/ransac_survey.hpp"
 #include "survey/survey.hpp"
 #include "tool/commands.hpp"
 #include "tool/failure.hpp"
+#include "tool/file_guard.hpp"
 #include "tool/map_text.hpp"
 #include "tool/options.hpp"
 #include "tool/output.hpp"
@@ -37,7 +42,7 @@ struct SurveyOptions {
   std::string name;
   std::string start;
   std::string method = "adjusted";
-  std::size_t iterations = survey::RansacConfig().iterations;
+  std::optional<std::size_t> iterations;
   bool manhattan = false;
 };
 
@@ -57,7 +62,7 @@ survey::SurveyResult make_map(const SurveyOptions& options, const core::Localize
   try {
     if (options.method == "ransac") {
       survey::RansacConfig config;
-      config.iterations = options.iterations;
+      config.iterations = options.iterations.value_or(config.iterations);
       return survey::ransac_survey(drive, sensor, config, show);
     }
     survey::SurveyConfig config;
@@ -69,34 +74,47 @@ survey::SurveyResult make_map(const SurveyOptions& options, const core::Localize
   }
 }
 
+core::Pose2 parse_start(const std::string& text) {
+  if (text.empty()) return {};
+  const core::Pose2 start = parse_pose(text);
+  if (std::max(std::abs(start.x_m), std::abs(start.y_m)) > settings::kFarthestCoordinateM) {
+    throw UsageError("--start: a map goes from " +
+                     settings::to_text(-settings::kFarthestCoordinateM) + " to " +
+                     settings::to_text(settings::kFarthestCoordinateM) + " m; shift the origin");
+  }
+  return start;
+}
+
+void check_usage(const SurveyOptions& options) {
+  CommandFiles files{.read = options.files,
+                     .written = {options.plot, options.trajectory},
+                     .output = options.output};
+  files.read.insert(files.read.end(), {options.odometry, options.settings.config_file()});
+  guard_files(files);
+  const bool is_ransac = options.method == "ransac";
+  if (is_ransac && options.manhattan) throw UsageError("--manhattan: not by --method ransac");
+  if (!is_ransac && options.iterations) throw UsageError("--iterations is for --method ransac");
+}
+
 void run_survey(const SurveyOptions& options) {
-  for (const std::filesystem::path& file : options.files) {
-    for (const auto& written : {options.output, options.plot, options.trajectory}) {
-      if (is_same_file(file, written)) {
-        throw UsageError(file.string() + ": would be written over what is read");
-      }
-    }
-  }
-  for (const auto& [one, other] :
-       {std::pair(&options.output, &options.plot), std::pair(&options.output, &options.trajectory),
-        std::pair(&options.plot, &options.trajectory)}) {
-    if (is_same_file(*one, *other)) throw UsageError(one->string() + ": for two of the outputs");
-  }
-  const core::Pose2 start = options.start.empty() ? core::Pose2{} : parse_pose(options.start);
+  check_usage(options);
+  const core::Pose2 start = parse_start(options.start);
   const settings::Config config = options.settings.resolve(/*needs_map=*/false);
   const survey::RecordedDrive drive = load_drive(
       options.files, {parse_wire(options.wire), config.lidar.mount.inverted}, options.odometry);
   survey::SurveyResult result = make_map(options, config.localizer(), drive);
   survey::move_frame(start, result);
-  result.plan.name = options.name.empty() ? options.output.stem().string() : options.name;
+  result.plan.name = map_name(options.name, options.output);
 
-  write_survey_file(options.output, map_text(result.plan));
+  const std::string text = map_text(result.plan);
+  read_back(text, options.output);
+  write_survey_file(options.output, text);
   if (!options.trajectory.empty()) write_survey_file(options.trajectory, trajectory_text(result));
   if (!options.plot.empty()) {
     write_survey_file(options.plot,
                       options.method == "ransac" ? ransac_canvas(result) : survey_drawing(result));
   }
-  Output report;
+  Output report = Output::report_beside(options.output);
   report.write(survey_report(result));
   report.flush();
 }
@@ -111,7 +129,9 @@ void add_survey(CLI::App& program) {
                    "recordings of one drive, each goes on where the one before ended")
       ->required()
       ->type_name("FILE");
-  command->add_option("-o,--output", options->output, "the map")->required()->type_name("MAP");
+  command->add_option("-o,--output", options->output, "the map; -: on standard output")
+      ->required()
+      ->type_name("MAP");
   command->add_option("--name", options->name, "of the map; the file's without it")
       ->type_name("NAME");
   command
@@ -131,7 +151,7 @@ void add_survey(CLI::App& program) {
       ->capture_default_str();
   command->add_option("--iterations", options->iterations, "of --method ransac")
       ->check(CLI::Range(std::size_t{1}, std::size_t{1'000'000}))
-      ->capture_default_str();
+      ->default_str(std::to_string(survey::RansacConfig().iterations));
   command->add_flag("--manhattan", options->manhattan,
                     "make walls square that are so within their doubt, half a degree at most");
   command

@@ -63,6 +63,45 @@ TEST(MapServerYaml, OtherWaysToWriteIt_AreRead) {
   EXPECT_THAT(yaml.unknown_keys, ElementsAre("author"));
 }
 
+TEST(MapServerYaml, Booleans_AreReadAsYamlHasThem) {
+  for (const char* word : {"0", "n", "no", "No", "NO", "false", "False", "FALSE", "off"}) {
+    EXPECT_FALSE(
+        parse_map_server_yaml(replaced("negate: 0", "negate: " + std::string(word))).negate);
+  }
+  for (const char* word : {"1", "Y", "yes", "Yes", "YES", "true", "True", "TRUE", "On"}) {
+    EXPECT_TRUE(
+        parse_map_server_yaml(replaced("negate: 0", "negate: " + std::string(word))).negate);
+  }
+  EXPECT_THAT(yaml_error(replaced("negate: 0", "negate: tRUE")), HasSubstr("/negate: must be"));
+}
+
+TEST(MapServerYaml, ByteOrderMark_IsPassedOver) {
+  EXPECT_EQ(parse_map_server_yaml("\xEF\xBB\xBF" + kWhole).image, "map.pgm");
+  EXPECT_THAT(yaml_error("\xEF\xBB" + kWhole), HasSubstr("/image: is missing"));
+}
+
+TEST(MapServerYaml, ListOfAnyShape_IsRead) {
+  const std::string bracketed = "[-10, -8.5, 0.1]";
+  for (const char* shape : {"[-10,\n         -8.5,  # y\n\n 0.1]", "\n  [-10, -8.5, 0.1]",
+                            "\n  [\n -10, -8.5,\n 0.1,\n]", "\n- -10\n- -8.5\n- 0.1",
+                            "\r\n  -  -10\r\n  -\t-8.5\r\n  - 0.1"}) {
+    const MapServerYaml yaml = parse_map_server_yaml(replaced(bracketed, shape));
+    EXPECT_EQ(yaml.T_map_picture.x_m, -10) << shape;
+    EXPECT_EQ(yaml.T_map_picture.y_m, -8.5) << shape;
+    EXPECT_EQ(yaml.T_map_picture.theta_rad, 0.1) << shape;
+    EXPECT_FALSE(yaml.negate);
+  }
+  EXPECT_THAT(yaml_error(replaced(bracketed, "[-10, -8.5, 0.1")), HasSubstr("line 3: the list is"));
+  EXPECT_THAT(yaml_error(replaced(bracketed, "[-10,\n-8.5, 0.1] m")),
+              HasSubstr("line 3: more than"));
+  EXPECT_THAT(yaml_error(replaced(bracketed, "[[-10,\n-8.5], 0.1]")),
+              HasSubstr("/origin/0: must be"));
+  EXPECT_THAT(yaml_error(replaced(bracketed, "[-10,\n- -8.5, 0.1]")),
+              HasSubstr("/origin/1: must be"));
+  EXPECT_THAT(yaml_error(replaced(bracketed, "\n- -10\n [1, 2]")),
+              HasSubstr("line 5: is indented"));
+}
+
 TEST(MapServerYaml, WrongValues_AreNamedByTheirKey) {
   EXPECT_THAT(yaml_error(kRest), HasSubstr("/image: is missing"));
   EXPECT_THAT(yaml_error(kWhole + "mode: sparse\n"), HasSubstr("/mode: must be"));
@@ -86,7 +125,7 @@ TEST(MapServerYaml, OtherYaml_IsRefusedByItsLine) {
   EXPECT_THAT(yaml_error("- 1\n"), HasSubstr("line 1: a list"));
   EXPECT_THAT(yaml_error("image map.pgm\n"), HasSubstr("line 1: is no"));
   EXPECT_THAT(yaml_error("image:map.pgm\n"), HasSubstr("line 1: no space"));
-  EXPECT_THAT(yaml_error("image: map.pgm\norigin: [1,\n2, 3]\n"), HasSubstr("line 2: the list"));
+  EXPECT_THAT(yaml_error("image: map.pgm\norigin: [1,\n2, 3\n"), HasSubstr("line 2: the list"));
 }
 
 }  // namespace

@@ -109,8 +109,21 @@ TEST_F(MapImport, WrongUsage_EndsWith2) {
     EXPECT_EQ(CommandRun(words).exit_code, kExitUsage) << more[0];
   }
   EXPECT_EQ(CommandRun({"map", "import", path("room.yaml")}).exit_code, kExitUsage);
-  EXPECT_EQ(CommandRun({"map", "import", path("room.yaml"), "-o", path("room.yaml")}).exit_code,
-            kExitUsage);
+}
+
+TEST_F(MapImport, MapThatNobodyWouldRead_IsNotWritten) {
+  const CommandRun run({"map", "import", path("room.yaml"), "-o", path("room.json"), "--name",
+                        std::string(200, 'x')});
+  EXPECT_EQ(run.exit_code, kExitFailed);
+  EXPECT_THAT(run.err, HasSubstr("/name: "));
+  EXPECT_FALSE(std::filesystem::exists(path("room.json")));
+}
+
+TEST_F(MapImport, MapOnStandardOutput_HasTheReportBesideIt) {
+  const CommandRun run({"map", "import", path("room.yaml"), "-o", "-"});
+  EXPECT_EQ(run.exit_code, kExitDone) << run.err;
+  EXPECT_EQ(settings::parse_map(run.out, "map.json")->plan().name, "map");
+  EXPECT_THAT(run.err, HasSubstr("taken as     drawn"));
 }
 
 }  // namespace

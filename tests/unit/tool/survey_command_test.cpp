@@ -174,24 +174,45 @@ TEST_F(SurveyCommandTest, RecordingWithoutATurnBesideOthers_IsNamed) {
   EXPECT_NE(run.err.find("--odometry"), std::string::npos) << run.err;
 }
 
-TEST_F(SurveyCommandTest, OutputOverTheRecording_IsWrongUsage) {
+TEST_F(SurveyCommandTest, WrongUsage_IsSaidBeforeTheWork) {
   std::ofstream(file("a.ndjson")) << "";
-  EXPECT_EQ(CommandRun({"survey", file("a.ndjson"), "-o", file("a.ndjson")}).exit_code, 2);
+  const auto expect = [&](const std::vector<std::string>& more, const std::string& said) {
+    std::vector<std::string> words = {"survey", file("a.ndjson"), "-o", file("m.json")};
+    words.insert(words.end(), more.begin(), more.end());
+    const CommandRun run(words);
+    EXPECT_EQ(run.exit_code, 2) << said;
+    EXPECT_NE(run.err.find(said), std::string::npos) << run.err;
+  };
+  expect({"--start", "nan,0,0"}, "is no pose");
+  expect({"--start", "500000,4000000,0.3"}, "--start: ");
+  expect({"--method", "ransac", "--manhattan"}, "--manhattan: ");
+  expect({"--iterations", "5"}, "--iterations is for --method ransac");
+  expect({"--plot", "-"}, "-: ");
 }
 
-TEST_F(SurveyCommandTest, TwoOutputsOfOneName_AreWrongUsage) {
-  std::ofstream(file("a.ndjson")) << "";
-  const CommandRun run(
-      {"survey", file("a.ndjson"), "-o", file("m.json"), "--plot", file("m.json")});
-  EXPECT_EQ(run.exit_code, 2);
-  EXPECT_NE(run.err.find("two of the outputs"), std::string::npos) << run.err;
+TEST_F(SurveyCommandTest, MapThatNobodyWouldRead_IsNotWritten) {
+  simulate(file("one.ndjson"), file("truth"), "1");
+  const auto expect = [&](const std::vector<std::string>& more, const std::string& said) {
+    std::vector<std::string> words = {"survey",         file("one.ndjson"), "-o",
+                                      file("map.json"), "--trajectory",     file("way.ndjson")};
+    words.insert(words.end(), more.begin(), more.end());
+    const CommandRun run(words);
+    EXPECT_EQ(run.exit_code, 1) << said;
+    EXPECT_NE(run.err.find(said), std::string::npos) << run.err;
+    EXPECT_FALSE(std::filesystem::exists(file("map.json")));
+    EXPECT_FALSE(std::filesystem::exists(file("way.ndjson")));
+  };
+  expect({"--start", "9999.9,0,0"}, "coordinates must be from -10000 to 10000; nothing is written");
+  expect({"--name", std::string(200, 'x')}, "/name: ");
 }
 
-TEST_F(SurveyCommandTest, StartThatIsNoPose_IsWrongUsage) {
-  std::ofstream(file("a.ndjson")) << "";
-  EXPECT_EQ(CommandRun({"survey", file("a.ndjson"), "-o", file("m.json"), "--start", "nan,0,0"})
-                .exit_code,
-            2);
+TEST_F(SurveyCommandTest, MapOnStandardOutput_HasTheReportBesideIt) {
+  simulate(file("one.ndjson"), file("truth"), "1");
+  const CommandRun run({"survey", file("one.ndjson"), "-o", "-"});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_EQ(settings::parse_map(run.out, "map.json")->plan().name, "map");
+  EXPECT_NE(run.err.find("by wheels, gyro and lidar"), std::string::npos) << run.err;
+  EXPECT_FALSE(std::filesystem::exists("-"));
 }
 
 }  // namespace
