@@ -166,8 +166,8 @@ void Daemon::on_loaded() {
   if (const std::string list = needs_restart(config_, loaded.config); !list.empty()) {
     spdlog::warn("takes effect at the next start: {}", list);
   }
-  const std::string name = fmt::format("{}, {} walls", settings::one_line(loaded.map->plan().name),
-                                       loaded.map->plan().walls.size());
+  const std::string name =
+      fmt::format("{}, {} walls", loaded.map->plan().name, loaded.map->plan().walls.size());
   if (!memory_.reconfigure(loaded.config.lidar.bias)) localization_.forget_lidar();
   localization_.publish_readings(loaded.config.odometry.core.publish);
   auto pipeline = resumed(std::move(loaded.pipeline), loaded.config.lidar, memory_);
@@ -184,9 +184,10 @@ void Daemon::on_tick() {
   if (is_live_) {
     if (const auto step_ns = clock_.step_ns(unix_ns(), monotonic_ns())) {
       const std::string text = fmt::format("{:+.3f} s", core::to_seconds(*step_ns));
-      spdlog::warn("clock step: {}", text);
+      clock_steps_.say(text, monotonic_ns());
       server_.publish(message::MessageClass::kEvent, line_.event(now_ns(), "clock step", text));
     }
+    clock_steps_.tick(monotonic_ns());
   }
   publish_changes();
   notice_device();

@@ -15,6 +15,7 @@
 #include "daemon/odometry_source.hpp"
 #include "daemon/periodic_timer.hpp"
 #include "daemon/reloader.hpp"
+#include "daemon/repeated_log.hpp"
 #include "daemon/signals.hpp"
 #include "daemon/status_publisher.hpp"
 #include "daemon/turn_publisher.hpp"
@@ -57,6 +58,7 @@ class Daemon {
   TurnPublisher turns_;
   StatusPublisher status_;
   ClockWatch clock_;
+  RepeatedLog clock_steps_{spdlog::level::warn, "clock step"};
   PeriodicTimer tick_;
   std::optional<PeriodicTimer> watchdog_;
   message::LineWriter line_;

@@ -69,7 +69,8 @@ void LidarMemory::recall() {
   if (type != file_type::regular) return leave_alone(file_.string() + ": is no ordinary file");
   std::string text;
   try {
-    text = settings::read_file(file_, settings::kMaxLearnedLidarBytes);
+    text =
+        settings::read_file(file_, settings::kMaxLearnedLidarBytes, settings::FileKind::kOrdinary);
   } catch (const std::exception& error) {
     return leave_alone(error.what());
   }

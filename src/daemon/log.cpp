@@ -1,15 +1,18 @@
 // SPDX-License-Identifier: MIT
 #include "daemon/log.hpp"
 
-#include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 
 #include <cstdlib>
+#include <memory>
+#include <utility>
+
+#include "daemon/log_sink.hpp"
 
 namespace cornerd::daemon {
 
 void set_up_log() {
-  auto log = spdlog::stderr_color_st("cornerd");
+  auto log = std::make_shared<spdlog::logger>("cornerd", std::make_shared<LogSink>());
   // sd-daemon(3): the service manager sets it where standard error is the journal.
   const bool is_journal = std::getenv("JOURNAL_STREAM") != nullptr;
   log->set_pattern(is_journal ? "%l: %v" : "%H:%M:%S.%e %^%l%$: %v");

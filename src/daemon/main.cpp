@@ -1,9 +1,16 @@
 // SPDX-License-Identifier: MIT
+#include <poll.h>
+#include <unistd.h>
+
+#include <cerrno>
 #include <csignal>
 #include <cstdio>
 #include <exception>
 #include <memory>
 #include <span>
+#include <string>
+#include <string_view>
+#include <system_error>
 #include <utility>
 
 #include "daemon/daemon.hpp"
@@ -12,6 +19,7 @@
 #include "daemon/options.hpp"
 #include "daemon/realtime.hpp"
 #include "daemon/reloader.hpp"
+#include "daemon/signals.hpp"
 #include "drivers/serial/standard_streams.hpp"
 #include "settings/config.hpp"
 #include "settings/map_file.hpp"
@@ -23,28 +31,44 @@ using namespace cornerd;
 constexpr int kExitFailed = 1;
 constexpr int kExitUsage = 2;
 
-void complain(const char* what) { std::fprintf(stderr, "cornerd: %s\n", what); }
+/// Nobody may read it: then it ends all the same.
+void complain(const std::string& what) {
+  constexpr int kPatienceMs = 1000;
+  pollfd stream{.fd = STDERR_FILENO, .events = POLLOUT, .revents = 0};
+  if (::poll(&stream, 1, kPatienceMs) > 0) std::fprintf(stderr, "cornerd: %s\n", what.c_str());
+}
+
+void print(std::string_view text) {
+  if (std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0) {
+    return;
+  }
+  // Whoever reads it has gone: he has seen enough.
+  if (errno == EPIPE) return;
+  throw std::system_error(errno, std::generic_category(), "standard output");
+}
 
 int run(const daemon::Options& options) {
+  // Read again on SIGHUP, when nobody may wait for them.
+  constexpr auto kKind = settings::FileKind::kOrdinary;
   if (options.help) {
-    std::fwrite(daemon::kHelp.data(), 1, daemon::kHelp.size(), stdout);
+    print(daemon::kHelp);
     return 0;
   }
   if (options.version) {
-    std::puts("cornerd " CORNERD_VERSION);
+    print("cornerd " CORNERD_VERSION "\n");
     return 0;
   }
   if (options.check) {
-    settings::load_map(settings::load_config(options.config, options.overrides).map);
-    std::puts("ok");
+    settings::load_map(settings::load_config(options.config, options.overrides, kKind).map, kKind);
+    print("ok\n");
     return 0;
   }
   daemon::set_up_log();
   daemon::use_small_stacks();
   const auto load = [&options] {
     daemon::Loaded loaded;
-    loaded.config = settings::load_config(options.config, options.overrides);
-    loaded.map = settings::load_map(loaded.config.map);
+    loaded.config = settings::load_config(options.config, options.overrides, kKind);
+    loaded.map = settings::load_map(loaded.config.map, kKind);
     loaded.pipeline = std::make_unique<core::Pipeline>(loaded.map, loaded.config.localizer());
     return loaded;
   };
@@ -57,6 +81,7 @@ int run(const daemon::Options& options) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  daemon::hold_reloads();
   drivers::occupy_standard_streams();
   // Whoever read the log is gone: no reason to follow.
   std::signal(SIGPIPE, SIG_IGN);
@@ -64,8 +89,7 @@ int main(int argc, char** argv) {
     const std::span<const char* const> arguments(argv, static_cast<std::size_t>(argc));
     return run(daemon::parse_options(arguments.subspan(argc > 0 ? 1 : 0)));
   } catch (const daemon::UsageError& error) {
-    complain(error.what());
-    std::fputs("cornerd --help says more\n", stderr);
+    complain(std::string(error.what()) + "\ncornerd --help says more");
     return kExitUsage;
   } catch (const settings::SettingsError& error) {
     complain(error.what());

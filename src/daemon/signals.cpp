@@ -6,21 +6,25 @@
 #include <sys/signalfd.h>
 #include <unistd.h>
 
+#include <initializer_list>
+
 namespace cornerd::daemon {
 namespace {
 
-sigset_t block_signals() {
+sigset_t block_signals(std::initializer_list<int> numbers) {
   sigset_t signals;
   ::sigemptyset(&signals);
-  for (const int signal : {SIGTERM, SIGINT, SIGHUP}) ::sigaddset(&signals, signal);
+  for (const int number : numbers) ::sigaddset(&signals, number);
   ::pthread_sigmask(SIG_BLOCK, &signals, nullptr);
   return signals;
 }
 
 }  // namespace
 
+void hold_reloads() { block_signals({SIGHUP}); }
+
 Signals::Signals() {
-  const sigset_t signals = block_signals();
+  const sigset_t signals = block_signals({SIGTERM, SIGINT, SIGHUP});
   fd_ = require_fd(::signalfd(-1, &signals, SFD_NONBLOCK | SFD_CLOEXEC), "signalfd");
 }
 

@@ -5,6 +5,9 @@
 
 namespace cornerd::daemon {
 
+/// From here on SIGHUP waits for a Signals to take it, and ends nothing.
+void hold_reloads();
+
 /// SIGTERM, SIGINT and SIGHUP as something to wait for. From its construction on none of them ends
 /// the program. Make it before any thread, since threads inherit that the signals are blocked.
 class Signals {

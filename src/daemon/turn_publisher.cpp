@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "core/geometry/angle.hpp"
+#include "daemon/clock.hpp"
 #include "message/state_names.hpp"
 
 namespace cornerd::daemon {
@@ -57,6 +58,7 @@ void TurnPublisher::publish(const TurnReport& report) {
   }
   if (pose.state != state_) publish_change(pose.state, pose.t_ns);
   publish_jump(pose, report.number);
+  jumps_.tick(monotonic_ns());
 }
 
 void TurnPublisher::publish_jump(const core::PoseEstimate& pose, std::uint64_t number) {
@@ -70,7 +72,7 @@ void TurnPublisher::publish_jump(const core::PoseEstimate& pose, std::uint64_t n
     if (way_m > kJump_m * turns || turned_rad > std::min(kJump_rad * turns, kJumpAtAll_rad)) {
       const std::string text =
           fmt::format("{:.3f} m, {:.1f} degrees", way_m, core::degrees(turned_rad));
-      spdlog::info("jump: {}", text);
+      jumps_.say(text, monotonic_ns());
       server_.publish(MessageClass::kEvent, line_.event(pose.t_ns, "jump", text));
     }
   }

@@ -10,6 +10,7 @@
 #include "daemon/latency_window.hpp"
 #include "daemon/localization.hpp"
 #include "daemon/message_server.hpp"
+#include "daemon/repeated_log.hpp"
 #include "message/line.hpp"
 
 namespace cornerd::daemon {
@@ -53,6 +54,7 @@ class TurnPublisher {
   };
   std::optional<Fix> last_fix_;
   message::LineWriter line_;
+  RepeatedLog jumps_{spdlog::level::info, "jump"};
   LatencyWindow latencies_;
   std::optional<core::PoseState> state_;
   core::OdometrySummary odometry_;

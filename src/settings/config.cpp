@@ -250,8 +250,9 @@ Config parse_config(std::string_view text, const std::filesystem::path& file,
   return read_config({context, document, ""}, require_map);
 }
 
-Config load_config(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
-  return parse_config(read_file(file, kMaxConfigBytes), file, overrides);
+Config load_config(const std::filesystem::path& file, const std::vector<std::string>& overrides,
+                   FileKind kind) {
+  return parse_config(read_file(file, kMaxConfigBytes, kind), file, overrides);
 }
 
 }  // namespace cornerd::settings

@@ -13,6 +13,7 @@
 #include "calibration/wall_model.hpp"
 #include "core/localizer.hpp"
 #include "core/odometry/odometry_config.hpp"
+#include "settings/file_kind.hpp"
 
 namespace cornerd::settings {
 
@@ -134,7 +135,7 @@ struct Config {
 /// `overrides`: "/json/pointer=value", applied before the checks; the value is JSON, or else taken
 /// as a string. Throws SettingsError.
 Config load_config(const std::filesystem::path& file,
-                   const std::vector<std::string>& overrides = {});
+                   const std::vector<std::string>& overrides = {}, FileKind kind = FileKind::kAny);
 
 /// The same from text. `file` names it in errors; `require_map`: a config without map is an error.
 Config parse_config(std::string_view text, const std::filesystem::path& file,

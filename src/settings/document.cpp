@@ -1,9 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include "settings/document.hpp"
 
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <array>
 #include <cerrno>
+#include <cstdio>
 #include <cstring>
-#include <fstream>
+#include <memory>
 #include <set>
 #include <vector>
 
@@ -86,23 +92,40 @@ std::string strip_library_prefix(std::string_view what) {
   return std::string(bracket == std::string_view::npos ? what : what.substr(bracket + 2));
 }
 
+struct FileCloser {
+  void operator()(std::FILE* stream) const { std::fclose(stream); }
+};
+using FileStream = std::unique_ptr<std::FILE, FileCloser>;
+
+/// Null, and errno says why, where it cannot be opened.
+FileStream open_to_read(const std::filesystem::path& file, FileKind kind) {
+  const int never_wait = kind == FileKind::kOrdinary ? O_NONBLOCK : 0;
+  const int fd = ::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NOCTTY | never_wait);
+  if (fd < 0) return nullptr;
+  FileStream stream(::fdopen(fd, "rb"));
+  if (!stream) ::close(fd);
+  return stream;
+}
+
 }  // namespace
 
-std::string read_file(const std::filesystem::path& file, std::size_t max_bytes) {
+std::string read_file(const std::filesystem::path& file, std::size_t max_bytes, FileKind kind) {
   const auto fail = [&file](const std::string& reason) {
     throw SettingsError(file.string(), "", reason);
   };
-  std::error_code ignored;
-  if (std::filesystem::is_directory(file, ignored)) fail("is a folder");
-  std::ifstream stream(file, std::ios::binary);
+  const FileStream stream = open_to_read(file, kind);
   if (!stream) fail(std::string("cannot be opened: ") + std::strerror(errno));
+  struct stat found {};
+  if (::fstat(::fileno(stream.get()), &found) != 0) fail(std::strerror(errno));
+  if (S_ISDIR(found.st_mode)) fail("is a folder");
+  if (kind == FileKind::kOrdinary && !S_ISREG(found.st_mode)) fail("is no ordinary file");
   std::string text;
   std::array<char, 64 * 1024> block;
-  while (stream.read(block.data(), block.size()) || stream.gcount() > 0) {
-    text.append(block.data(), static_cast<std::size_t>(stream.gcount()));
+  while (const std::size_t size = std::fread(block.data(), 1, block.size(), stream.get())) {
+    text.append(block.data(), size);
     if (text.size() > max_bytes) fail("longer than " + std::to_string(max_bytes) + " bytes");
   }
-  if (stream.bad()) fail(std::string("cannot be read: ") + std::strerror(errno));
+  if (std::ferror(stream.get()) != 0) fail(std::string("cannot be read: ") + std::strerror(errno));
   return text;
 }
 

@@ -9,12 +9,16 @@
 
 #include <nlohmann/json.hpp>
 
+#include "settings/file_kind.hpp"
+
 namespace cornerd::settings {
 
 using Json = nlohmann::json;
 
-/// The whole file. Throws SettingsError where it cannot be read or is longer than `max_bytes`.
-std::string read_file(const std::filesystem::path& file, std::size_t max_bytes);
+/// The whole file. Throws SettingsError where it cannot be read, is longer than `max_bytes` or of
+/// another kind.
+std::string read_file(const std::filesystem::path& file, std::size_t max_bytes,
+                      FileKind kind = FileKind::kAny);
 
 /// Throws SettingsError with line and column where the text is no JSON, and with the pointer where
 /// an object has a key twice or the nesting is deeper than any settings need.

@@ -70,9 +70,16 @@ core::Wall read_wall(ObjectReader object, double default_thickness_m) {
   return wall;
 }
 
+/// Names go to terminals.
+bool read_name(ObjectReader& object, std::string& name) {
+  if (!object.text("name", name, kMaxNameBytes)) return false;
+  if (one_line(name) != name) object.fail("name", "must not have control characters");
+  return true;
+}
+
 core::Room read_room(ObjectReader object) {
   core::Room room;
-  if (!object.text("name", room.name, kMaxNameBytes)) object.fail("name", "is missing");
+  if (!read_name(object, room.name)) object.fail("name", "is missing");
   const Json& polygon = require_array(object, "polygon", 3, kMaxPolygonPoints);
   room.polygon.reserve(polygon.size());
   for (std::size_t i = 0; i < polygon.size(); ++i) {
@@ -99,8 +106,8 @@ void check_format(ObjectReader& root) {
 core::FloorPlan read_plan(ObjectReader root, const std::filesystem::path& file) {
   core::FloorPlan plan;
   check_format(root);
-  plan.name = file.stem().string();
-  root.text("name", plan.name, kMaxNameBytes);
+  plan.name = one_line(file.stem().string());
+  read_name(root, plan.name);
   root.number("thickness", plan.thickness_m, kThicknessM);
   const Json& walls = require_array(root, "walls", 1, kMaxWalls);
   plan.walls.reserve(walls.size());
@@ -136,8 +143,8 @@ std::shared_ptr<const core::WallMap> parse_map(std::string_view text,
   }
 }
 
-std::shared_ptr<const core::WallMap> load_map(const std::filesystem::path& file) {
-  return parse_map(read_file(file, kMaxMapBytes), file);
+std::shared_ptr<const core::WallMap> load_map(const std::filesystem::path& file, FileKind kind) {
+  return parse_map(read_file(file, kMaxMapBytes, kind), file);
 }
 
 }  // namespace cornerd::settings

@@ -17,6 +17,7 @@ inline constexpr double kFarthestCoordinateM = 10'000;
 core::FloorPlan parse_floor_plan(std::string_view text, const std::filesystem::path& file);
 std::shared_ptr<const core::WallMap> parse_map(std::string_view text,
                                                const std::filesystem::path& file);
-std::shared_ptr<const core::WallMap> load_map(const std::filesystem::path& file);
+std::shared_ptr<const core::WallMap> load_map(const std::filesystem::path& file,
+                                              FileKind kind = FileKind::kAny);
 
 }  // namespace cornerd::settings

@@ -1,13 +1,29 @@
 // SPDX-License-Identifier: MIT
-#include <algorithm>
+#include <cstddef>
+#include <string_view>
 
 #include "settings/config.hpp"
 
 namespace cornerd::settings {
 
+namespace {
+
+/// Bytes of the control character that `text` begins with; 0 where it begins with none.
+std::size_t control_length(std::string_view text) {
+  const auto first = static_cast<unsigned char>(text[0]);
+  if (first < 0x20 || first == 0x7f) return 1;
+  // U+0080 to U+009F in UTF-8: one of them begins a terminal's commands, as ESC [ does.
+  const auto second = static_cast<unsigned char>(text.size() > 1 ? text[1] : 0);
+  return first == 0xc2 && second >= 0x80 && second < 0xa0 ? 2 : 0;
+}
+
+}  // namespace
+
 std::string one_line(std::string text) {
-  std::replace_if(
-      text.begin(), text.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; }, '?');
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const std::size_t length = control_length(std::string_view(text).substr(i));
+    if (length > 0) text.replace(i, length, "?");
+  }
   return text;
 }
 

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <algorithm>
 #include <fstream>
 #include <string>
+#include <vector>
 
 #include "daemon_process.hpp"
 
@@ -83,6 +85,22 @@ TEST_F(CommandLine, HelpAndVersion_AreData) {
   const Result version = run({"--version"});
   EXPECT_EQ(version.exit_code, 0);
   EXPECT_THAT(version.output, StartsWith("cornerd "));
+}
+
+TEST_F(CommandLine, OutputThatFails_IsAFailure) {
+  for (const auto& arguments : std::vector<std::vector<std::string>>{
+           {"--help"}, {"--version"}, {"--config", config(), "--check"}}) {
+    // The reason finds no room either.
+    DaemonProcess process(arguments, "/dev/full");
+    EXPECT_EQ(process.wait_for_exit(), 1) << arguments.front();
+  }
+}
+
+TEST_F(CommandLine, PipeInPlaceOfAFile_IsNotWaitedFor) {
+  const std::string pipe = (folder_ / "pipe").string();
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  expect_config_error({"--config", pipe}, pipe, "is no ordinary file");
+  expect_config_error({"--config", config(), "--set", "/map=" + pipe}, pipe, "is no ordinary file");
 }
 
 }  // namespace

@@ -63,6 +63,7 @@ DaemonProcess::DaemonProcess(const std::vector<std::string>& arguments,
     ::dup2(fd, STDOUT_FILENO);
     ::dup2(fd, STDERR_FILENO);
   }
+  ::signal(SIGPIPE, SIG_DFL);  // whatever started the tests
   for (const auto& [name, value] : environment) ::setenv(name.c_str(), value.c_str(), 1);
   if (!sockets.empty()) pass_on(sockets);
   ::execv(argv[0], argv.data());

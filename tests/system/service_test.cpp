@@ -2,9 +2,12 @@
 // What a service manager relies on: the word that the daemon is ready, its watchdog, its end.
 #include <gtest/gtest.h>
 #include <signal.h>
+#include <sys/stat.h>
 
+#include <filesystem>
 #include <fstream>
 #include <string>
+#include <thread>
 
 #include "daemon_process.hpp"
 #include "room_recording.hpp"
@@ -20,6 +23,26 @@ class Service : public DaemonTest {
       json event = next_of(client, "EVENT");
       if (!event.is_object() || event["what"] == what) return event;
     }
+  }
+
+  /// Among the first things that it does.
+  static bool ignores_broken_pipes(pid_t pid) {
+    std::ifstream status("/proc/" + std::to_string(pid) + "/status");
+    for (std::string line; std::getline(status, line);) {
+      if (!line.starts_with("SigIgn:")) continue;
+      return (std::stoull(line.substr(7), nullptr, 16) >> (SIGPIPE - 1) & 1) != 0;
+    }
+    return false;
+  }
+
+  /// That takes a while to read.
+  static void write_large_map(const std::filesystem::path& file) {
+    std::ofstream map(file);
+    map << R"({ "format": "cornerd-map", "version": 1, "walls": [ )";
+    for (int i = 0; i < 1000; ++i) {
+      map << (i > 0 ? "," : "") << "{\"from\": [" << i << ", 0], \"to\": [" << i << ", 1]}";
+    }
+    map << "] }";
   }
 };
 
@@ -100,6 +123,39 @@ TEST_F(Service, HangupWithABadFile_ChangesNothingAndSaysWhy) {
             std::string::npos);
   EXPECT_EQ(next_of(client, "POSE")["room"], "only");
   EXPECT_TRUE(daemon.is_running());
+}
+
+TEST_F(Service, HangupWithAPipeInPlaceOfTheMap_IsRefused) {
+  DaemonProcess daemon = start();
+  TestClient client = connect();
+  client.send(R"({"class":"WATCH","classes":["POSE","EVENT"]})"
+              "\n");
+  const std::filesystem::path map = folder_ / "map.json";
+  std::filesystem::remove(map);
+  ASSERT_EQ(::mkfifo(map.c_str(), 0600), 0);
+  daemon.send_signal(SIGHUP);
+  EXPECT_NE(
+      next_event(client, "reload refused")["detail"].get<std::string>().find("no ordinary file"),
+      std::string::npos);
+  std::filesystem::remove(map);
+  write_map(map, "after");
+  daemon.send_signal(SIGHUP);
+  EXPECT_TRUE(next_event(client, "map loaded").is_object());
+  daemon.send_signal(SIGTERM);
+  EXPECT_EQ(daemon.wait_for_exit(), 0);
+}
+
+TEST_F(Service, HangupWhileItStarts_WaitsForTheStart) {
+  write_large_map(folder_ / "map.json");
+  DaemonProcess daemon = start();
+  while (daemon.is_running() && !ignores_broken_pipes(daemon.pid())) std::this_thread::yield();
+  daemon.send_signal(SIGHUP);
+  while (daemon.is_running() && !TestClient(folder_ / "pose.sock").is_connected()) {
+    std::this_thread::yield();
+  }
+  daemon.send_signal(SIGTERM);
+  EXPECT_EQ(daemon.wait_for_exit(), 0);
+  EXPECT_NE(daemon.output().find("SIGHUP: reading"), std::string::npos) << daemon.output();
 }
 
 TEST_F(Service, KilledInstance_LeavesNothingThatHindersTheNext) {

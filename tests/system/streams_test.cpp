@@ -1,19 +1,26 @@
 // SPDX-License-Identifier: MIT
 // What the daemon's log goes to fails: the robot is told its place all the same.
 #include <fcntl.h>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <pty.h>
 #include <signal.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
+#include <array>
+#include <chrono>
 #include <filesystem>
 #include <string>
-#include <vector>
+#include <thread>
 
 #include "daemon/file_descriptor.hpp"
 #include "daemon_process.hpp"
 
 namespace cornerd::system_test {
 namespace {
+
+using ::testing::ContainsRegex;
 
 class Streams : public DaemonTest {
  protected:
@@ -26,19 +33,48 @@ class Streams : public DaemonTest {
     return false;
   }
 
-  /// That it has poses, that a reload, which it logs, is survived, and that it ends well.
-  void expect_service(DaemonProcess& daemon) {
+  /// A reload logs.
+  void reload(const DaemonProcess& daemon) {
     TestClient client = connect();
-    next_of(client, "POSE");
     client.send(R"({"class":"WATCH","classes":["POSE","EVENT"]})"
                 "\n");
-    for (int i = 0; i < 3; ++i) {
-      daemon.send_signal(SIGHUP);
-      EXPECT_TRUE(tells_of_the_map(client));
-    }
+    daemon.send_signal(SIGHUP);
+    EXPECT_TRUE(tells_of_the_map(client));
     EXPECT_EQ(next_of(client, "POSE")["class"], "POSE");
+  }
+
+  void serve(const DaemonProcess& daemon) {
+    TestClient client = connect();
+    next_of(client, "POSE");
+    for (int i = 0; i < 3; ++i) reload(daemon);
+  }
+
+  void expect_service(DaemonProcess& daemon) {
+    serve(daemon);
     daemon.send_signal(SIGTERM);
     EXPECT_EQ(daemon.wait_for_exit(), 0);
+  }
+
+  /// Writes until there is no room for one byte. Returns how many there was room for.
+  static std::size_t fill(int fd) {
+    std::array<char, 4096> block{};
+    std::size_t sum = 0;
+    for (std::size_t size = block.size(); size > 0;) {
+      const ssize_t written = ::write(fd, block.data(), size);
+      if (written > 0) sum += static_cast<std::size_t>(written);
+      if (written <= 0) size /= 2;
+    }
+    return sum;
+  }
+
+  /// What there is to read without waiting.
+  static std::string drain(int fd) {
+    std::string all;
+    std::array<char, 4096> block{};
+    for (ssize_t size = 0; (size = ::read(fd, block.data(), block.size())) > 0;) {
+      all.append(block.data(), static_cast<std::size_t>(size));
+    }
+    return all;
   }
 };
 
@@ -55,6 +91,39 @@ TEST_F(Streams, Closed_AreNotTakenByAnythingElse) {
 TEST_F(Streams, DiskThatIsFull_CostsTheLogAlone) {
   DaemonProcess daemon(with_config(), "/dev/full");
   expect_service(daemon);
+}
+
+TEST_F(Streams, ReaderOfTheLogThatStalls_IsNotWaitedFor) {
+  const std::filesystem::path pipe = folder_ / "pipe";
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  const daemon::FileDescriptor reader(::open(pipe.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC));
+  const daemon::FileDescriptor writer(::open(pipe.c_str(), O_WRONLY | O_NONBLOCK | O_CLOEXEC));
+  const std::size_t stuffed = fill(writer.get());
+  DaemonProcess daemon(with_config(), pipe);
+  serve(daemon);
+  const std::string rest = drain(reader.get()).substr(stuffed);
+  EXPECT_EQ(rest, "") << "there was room";
+  reload(daemon);
+  EXPECT_THAT(drain(reader.get()), ContainsRegex("warning: [0-9]+ messages found no room in this"));
+  fill(writer.get());
+  daemon.send_signal(SIGTERM);
+  EXPECT_EQ(daemon.wait_for_exit(), 0);
+}
+
+TEST_F(Streams, TerminalThatStalls_IsNotWaitedFor) {
+  int master = -1;
+  int slave = -1;
+  std::array<char, 64> name{};
+  ASSERT_EQ(::openpty(&master, &slave, name.data(), nullptr, nullptr), 0);
+  const daemon::FileDescriptor screen(master);
+  const daemon::FileDescriptor line(slave);
+  ::fcntl(line.get(), F_SETFL, O_NONBLOCK);
+  // The kernel carries it over to the master's side bit by bit.
+  while (fill(line.get()) > 0) std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  DaemonProcess daemon(with_config(), name.data());
+  serve(daemon);
+  daemon.send_signal(SIGTERM);
+  EXPECT_EQ(daemon.wait_for_exit(), 0);
 }
 
 TEST_F(Streams, ReaderOfTheLogThatLeaves_IsNotFollowed) {

@@ -13,10 +13,12 @@ namespace {
 constexpr std::size_t kMaxSettingsBytes = std::size_t{1} << 20;
 /// Fewer corners than a pattern has: there is nothing to recognise.
 constexpr std::size_t kFewestCorners = 3;
+constexpr auto kAsTheDaemon = settings::FileKind::kOrdinary;
 
 void check_config_file(const std::filesystem::path& file, const std::vector<std::string>& overrides,
                        SettingsCheck& check) {
-  const std::string text = file.empty() ? "{}" : settings::read_file(file, kMaxSettingsBytes);
+  const std::string text =
+      file.empty() ? "{}" : settings::read_file(file, kMaxSettingsBytes, kAsTheDaemon);
   check.config = settings::parse_config(text, file, overrides, /*require_map=*/false);
   if (file.empty()) {
     check.findings.push_back({Verdict::kNote,
@@ -38,7 +40,7 @@ void check_map_file(SettingsCheck& check) {
          {R"(draw one (README.md, "A map") and name it: "map": "/path/to/map.json")"}});
     return;
   }
-  const auto map = settings::load_map(file);
+  const auto map = settings::load_map(file, kAsTheDaemon);
   const core::Vec2 size = map->upper_right() - map->lower_left();
   Finding finding{
       Verdict::kGood, "map",

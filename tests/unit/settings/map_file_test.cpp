@@ -3,10 +3,12 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include <thread>
 
 #include "error_of.hpp"
 #include "tests/temporary_folder.hpp"
@@ -108,6 +110,24 @@ TEST(MapFile, WrongRoom_IsNamedByItsIndex) {
               HasSubstr("/rooms/0/polygon/2: must be a point"));
 }
 
+TEST(MapFile, NameThatWouldCommandATerminal_IsRefused) {
+  for (const char* name : {R"(a\u001b[2J)", R"(a\nb)", R"(\u007f)", R"(a\u009b2J)"}) {
+    const std::string text = "\"name\": \"" + std::string(name) + "\"";
+    EXPECT_THAT(map_error(map_of(std::string(kWall) + ", " + text)),
+                EndsWith("/name: must not have control characters"));
+    EXPECT_THAT(map_error(map_of(std::string(kWall) + ", \"rooms\": [{" + text +
+                                 ", \"polygon\": [[0, 0], [1, 0], [1, 1]]}]")),
+                EndsWith("/rooms/0/name: must not have control characters"));
+  }
+  EXPECT_EQ(
+      parse_floor_plan(map_of(std::string(kWall) + R"(, "name": "Küche 台所")"), "a.json").name,
+      "Küche 台所");
+}
+
+TEST(MapFile, FileNameThatWouldCommandATerminal_IsNoMapsName) {
+  EXPECT_EQ(parse_floor_plan(map_of(kWall), "a\x1b[2J\xc2\x9b.json").name, "a?[2J?");
+}
+
 TEST(MapFile, MoreWallsThanAnyBuilding_IsRefused) {
   std::string walls = "0";
   for (int i = 0; i < 100'000; ++i) walls += ",0";
@@ -127,6 +147,26 @@ TEST(LoadMap, FileOnDisk_BecomesAMap) {
 TEST(LoadMap, AbsentFile_IsNamed) {
   EXPECT_EQ(error_of([] { load_map("/nowhere/a.json"); }),
             "/nowhere/a.json: cannot be opened: No such file or directory");
+}
+
+TEST(LoadMap, WhatIsNoOrdinaryFile_IsNotWaitedFor) {
+  const test::TemporaryFolder folder;
+  const std::string pipe = folder / "pipe";
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  for (const std::string& file : {pipe, std::string("/dev/zero")}) {
+    EXPECT_EQ(error_of([&] { load_map(file, FileKind::kOrdinary); }),
+              file + ": is no ordinary file");
+  }
+  EXPECT_EQ(error_of([&] { load_map(folder.path(), FileKind::kOrdinary); }),
+            folder.path().string() + ": is a folder");
+}
+
+TEST(LoadMap, PipeThatSomebodyWrites_IsReadToItsEnd) {
+  const test::TemporaryFolder folder;
+  const std::string pipe = folder / "pipe";
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  const std::jthread writer([&pipe] { std::ofstream(pipe) << map_of(kWall); });
+  EXPECT_EQ(load_map(pipe)->plan().walls.size(), 1u);
 }
 
 }  // namespace
