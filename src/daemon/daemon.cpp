@@ -60,6 +60,10 @@ Daemon::Daemon(Loaded loaded, Reloader::Load load, std::unique_ptr<drivers::Lida
     odometry_.emplace(std::move(odometry), localization_);
     status_.set_odometry(&*odometry_);
   }
+  // A recording's lines come by no client.
+  if (is_live_ && config_.odometry.source == settings::OdometrySource::kSocket) {
+    status_.set_odometry(&odometry_clients_);
+  }
   ask_for_realtime();
 
   loop_.add(signals_.fd(), EPOLLIN, [this](std::uint32_t) { on_signal(); });
@@ -123,14 +127,18 @@ ControlActions Daemon::control_actions(const settings::Config& config) {
     localization_.set_pose(request.T_map_base);
   };
   if (config.odometry.source == settings::OdometrySource::kSocket) {
-    actions.add_odometry = [this](message::OdometryReading reading) {
+    actions.add_odometry = [this](message::OdometryReading reading, int connection) {
+      const bool is_admitted = odometry_clients_.admit(connection, monotonic_ns(), reading);
       if (is_live_) {
         reading.t_ns = reading.timed ? reading.t_ns - (unix_ns() - monotonic_ns()) : monotonic_ns();
       } else if (!reading.timed) {
         reading.t_ns = now_ns();
       }
-      localization_.add(reading);
+      const bool says = reading.left || reading.right || reading.gyro_rad_s;
+      if (is_admitted || says) localization_.add(reading);
+      return is_admitted;
     };
+    actions.forget = [this](int connection) { odometry_clients_.forget(connection); };
   }
   return actions;
 }

@@ -12,6 +12,7 @@
 #include "daemon/localization.hpp"
 #include "daemon/message_server.hpp"
 #include "daemon/notifier.hpp"
+#include "daemon/odometry_clients.hpp"
 #include "daemon/odometry_source.hpp"
 #include "daemon/periodic_timer.hpp"
 #include "daemon/reloader.hpp"
@@ -54,6 +55,7 @@ class Daemon {
   Signals signals_;  ///< before the threads
   EventLoop loop_;
   Notifier notifier_;
+  OdometryClients odometry_clients_;  ///< before the server, which tells it of the last to go
   MessageServer server_;
   TurnPublisher turns_;
   StatusPublisher status_;

@@ -170,6 +170,7 @@ bool MessageServer::send_or_remove(Socket& socket, ClientIterator client) {
 
 void MessageServer::remove(Socket& socket, ClientIterator client) {
   dropped_by_gone_ += client->outbox().dropped();
+  if (actions_.forget) actions_.forget(client->fd());
   loop_.remove(client->fd());
   socket.clients.erase(client);
 }
@@ -215,7 +216,10 @@ void MessageServer::answer(Client& client, SocketRole role, std::string_view tex
                      if (!actions_.add_odometry) {
                        return error("unsupported", "odometry.source of the config is not socket");
                      }
-                     actions_.add_odometry(reading);  // too many for an answer each
+                     // Too many for an answer each.
+                     if (actions_.add_odometry(reading, client.fd())) return;
+                     error("second-client",
+                           "another client sends the same: its odometry is taken while it goes on");
                    });
                  },
              },

@@ -28,7 +28,10 @@ enum class SocketRole : std::uint8_t { kPose, kControl };
 struct ControlActions {
   std::function<void()> relocalize;
   std::function<void(const message::SetPoseRequest&)> set_pose = {};
-  std::function<void(const message::OdometryReading&)> add_odometry = {};
+  /// False where it is refused, as another client's is taken. `connection`: that which it came by.
+  std::function<bool(const message::OdometryReading&, int connection)> add_odometry = {};
+  /// A connection has ended; optional.
+  std::function<void(int connection)> forget = {};
 };
 
 /// The clients of both sockets: sends them what they watch, answers what they ask. One thread, that

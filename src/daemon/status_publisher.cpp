@@ -104,6 +104,7 @@ void StatusPublisher::publish(const drivers::LidarStatus& lidar, const TurnPubli
   status.counters = counters;
   status.odometry = &turns.odometry();
   if (odometry_ != nullptr) odometry_->describe(status);
+  if (odometry_clients_ != nullptr) odometry_clients_->describe(status);
   const LatencyWindow& latencies = turns.latencies();
   status.latency = {latencies.percentile(0.5), latencies.percentile(0.95),
                     latencies.percentile(0.99), !latencies.empty()};

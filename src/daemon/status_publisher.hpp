@@ -8,6 +8,7 @@
 #include "daemon/localization.hpp"
 #include "daemon/message_server.hpp"
 #include "daemon/notifier.hpp"
+#include "daemon/odometry_clients.hpp"
 #include "daemon/odometry_source.hpp"
 #include "daemon/turn_publisher.hpp"
 #include "drivers/lidar_driver.hpp"
@@ -34,6 +35,8 @@ class StatusPublisher {
                Localization& localization, const DaemonHealth& health, core::TimeNs t_ns);
   /// Whose sensors to tell of; null: none of this program's.
   void set_odometry(OdometrySource* odometry) { odometry_ = odometry; }
+  /// The clients that odometry comes from; null: it comes otherwise.
+  void set_odometry(OdometryClients* clients) { odometry_clients_ = clients; }
 
  private:
   /// Between two tries a driver goes through the same states again and again: each is worth a line
@@ -42,6 +45,7 @@ class StatusPublisher {
 
   MessageServer& server_;
   OdometrySource* odometry_ = nullptr;
+  OdometryClients* odometry_clients_ = nullptr;
   Notifier& notifier_;
   message::LineWriter line_;
   std::optional<drivers::LidarChange> last_;

@@ -46,6 +46,9 @@ struct StatusFields {
   };
   std::span<const Sensor> odometry_sensors;
   std::span<const Counter> odometry_counters;  ///< of the devices
+  std::string_view odometry_hint;              ///< what is wrong with it; left out where empty
+  /// Lines that were refused as another client's come; left out where there are no clients.
+  std::optional<std::uint64_t> second_client;
   /// From a turn's last sample to its pose, over the last turns; left out where there are none.
   struct {
     double p50_s = 0;

@@ -39,9 +39,13 @@ void write_lidar(JsonText& json, const StatusFields& status) {
   json.close_object();
 }
 
+void write_each(JsonText& json, std::span<const StatusFields::Counter> counters) {
+  for (const StatusFields::Counter& counter : counters) json.integer(counter.name, counter.value);
+}
+
 void write_counters(JsonText& json, std::span<const StatusFields::Counter> counters) {
   json.open_object("counters");
-  for (const StatusFields::Counter& counter : counters) json.integer(counter.name, counter.value);
+  write_each(json, counters);
   json.close_object();
 }
 
@@ -53,8 +57,10 @@ void write_learned(JsonText& json, const core::LearnedOdometry& values) {
   json.number("track_scale", values.track_scale, kTimeDecimals);
 }
 
-void write_summary(JsonText& json, const core::OdometrySummary& odometry) {
+void write_summary(JsonText& json, const StatusFields& status) {
+  const core::OdometrySummary& odometry = *status.odometry;
   json.string("state", !odometry.present ? "absent" : odometry.trusted ? "running" : "distrusted");
+  json.text("hint", status.odometry_hint);
   write_learned(json, odometry.learned);
   json.open_object("sigma");
   write_learned(json, odometry.sigma);
@@ -65,7 +71,10 @@ void write_summary(JsonText& json, const core::OdometrySummary& odometry) {
       {"jumps", refused.jumps},       {"bad_rates", refused.gyro},      {"frozen", refused.frozen},
       {"holes", refused.holes},       {"restarts", refused.restarts},   {"slips", odometry.slips},
       {"fixes", odometry.fixes},      {"strangers", odometry.strangers}};
-  write_counters(json, counters);
+  json.open_object("counters");
+  write_each(json, counters);
+  if (status.second_client) json.integer("second_client", *status.second_client);
+  json.close_object();
 }
 
 void write_sensors(JsonText& json, const StatusFields& status) {
@@ -124,7 +133,7 @@ std::string_view LineWriter::status(const StatusFields& status) {
   if (status.odometry != nullptr &&
       (status.odometry->enabled || !status.odometry_sensors.empty())) {
     json_.open_object("odometry");
-    write_summary(json_, *status.odometry);
+    write_summary(json_, status);
     write_sensors(json_, status);
     json_.close_object();
   }

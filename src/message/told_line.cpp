@@ -109,6 +109,7 @@ void read_lidar(FieldReader& fields, ToldStatus& status) {
 void read_odometry(FieldReader& fields, ToldStatus& status) {
   FieldReader odometry(fields.optional_object("odometry"));
   status.odometry_state = odometry.optional_text("state");
+  status.odometry_hint = odometry.optional_text("hint");
   FieldReader counters(odometry.optional_object("counters"));
   status.odometry_readings = counters.optional_number("readings", kAnyNumber);
   if (counters.error()) odometry.fail(counters.error()->text);

@@ -60,6 +60,7 @@ struct ToldStatus {
   std::optional<double> samples_hz;
   std::vector<std::pair<std::string, std::uint64_t>> counters;
   std::string odometry_state;
+  std::string odometry_hint;                ///< what is wrong with it
   std::optional<double> odometry_readings;  ///< so far, the refused ones included
   struct Sensor {
     std::string name;

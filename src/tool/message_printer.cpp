@@ -33,6 +33,7 @@ void MessagePrinter::print_pose(const core::PoseEstimate& pose) {
 void MessagePrinter::begin_recording() {
   last_status_.reset();
   odometry_ = {};
+  odometry_lines_ = {};
 }
 
 void MessagePrinter::print_status_when_due(core::TimeNs t_ns,
@@ -57,6 +58,10 @@ void MessagePrinter::print_status(core::TimeNs t_ns, const drivers::StreamCounte
   status.lidar_state = drivers::to_string(state);
   status.counters = named;
   status.odometry = &odometry_;
+  status.odometry_hint = odometry_lines_.hint(odometry_, t_ns);
+  if (status.odometry_hint.empty() && plan_ == nullptr) {
+    status.odometry_hint = "without a map nothing is learnt: name one with --map";
+  }
   if (last_status_ && t_ns > last_status_->t_ns) {
     const double elapsed_s = core::to_seconds(t_ns - last_status_->t_ns);
     const auto rate = [&](std::uint64_t now, std::uint64_t then) {

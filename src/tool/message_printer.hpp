@@ -7,6 +7,7 @@
 #include "core/scan.hpp"
 #include "drivers/lidar_driver.hpp"
 #include "message/line.hpp"
+#include "message/odometry_lines.hpp"
 #include "message/request.hpp"
 #include "tool/output.hpp"
 
@@ -15,10 +16,13 @@ namespace cornerd::tool {
 /// The daemon's messages about a recording, as far as they were asked for.
 class MessagePrinter {
  public:
-  /// `plan`: names the rooms; may be null.
+  /// `plan`: names the rooms; null: there is no map.
   MessagePrinter(Output& output, message::ClassSet classes, const core::FloorPlan* plan);
 
   void print_turn(const core::Scan& turn, const core::TurnResult& result);
+
+  /// What odometry it had, for STATUS to say why there is none.
+  void note(const core::OdometryReading& reading) { odometry_lines_.add(reading); }
 
   /// A pose between two turns.
   void print_pose(const core::PoseEstimate& pose);
@@ -42,6 +46,7 @@ class MessagePrinter {
   message::LineWriter writer_;
   std::optional<Mark> last_status_;
   core::OdometrySummary odometry_;  ///< as of the last turn
+  message::OdometryLines odometry_lines_;
 };
 
 }  // namespace cornerd::tool

@@ -36,6 +36,7 @@ void Playback::play_readings_until(core::TimeNs t_ns) {
 }
 
 void Playback::add(const core::OdometryReading& reading) {
+  if (on_reading_) on_reading_(reading);
   on_pose_between(pipeline_.add(reading));
 }
 

@@ -26,6 +26,10 @@ class Playback {
 
   Playback(core::Pipeline& pipeline, OnTurn on_turn, OnPiece on_piece = {});
 
+  /// Called for every reading of wheels and gyro.
+  using OnReading = std::function<void(const core::OdometryReading& reading)>;
+
+  void set_on_reading(OnReading on_reading) { on_reading_ = std::move(on_reading); }
   void set_on_prediction(OnPrediction on_prediction) { on_prediction_ = std::move(on_prediction); }
 
   /// Forget everything between turns, as if each were the first.
@@ -52,6 +56,7 @@ class Playback {
   OnTurn on_turn_;
   OnPiece on_piece_;
   OnPrediction on_prediction_;
+  OnReading on_reading_;
   void add(const core::OdometryReading& reading);
   void play_readings_until(core::TimeNs t_ns);
 

@@ -44,7 +44,10 @@ void replay(const ReplayOptions& options) {
   const bool needs_map = classes.contains(MessageClass::kPose) || !options.truth.empty();
   settings::Config config = options.settings.resolve(needs_map);
   if (!options.odometry.empty()) config.odometry.core.enabled = true;
-  const auto map = needs_map ? settings::load_map(config.map) : nullptr;
+  // What odometry has learnt it has from poses.
+  const bool learns = classes.contains(MessageClass::kStatus) && config.odometry.core.enabled;
+  const bool uses_map = needs_map || (learns && !config.map.empty());
+  const auto map = uses_map ? settings::load_map(config.map) : nullptr;
   std::optional<Truth> truth;
   if (!options.truth.empty()) truth = Truth::load(options.truth);
 
@@ -77,6 +80,7 @@ void replay(const ReplayOptions& options) {
     if (!truth) return;
     if (const auto T_map_base = truth->at(pose.t_ns)) errors_between.add(pose, *T_map_base);
   });
+  playback.set_on_reading([&](const core::OdometryReading& reading) { printer.note(reading); });
   if (!options.odometry.empty()) playback.set_odometry(load_odometry(options.odometry));
   const replay::RecordingOptions recording{parse_wire(options.wire), config.lidar.mount.inverted};
   for (const std::filesystem::path& file : options.files) {

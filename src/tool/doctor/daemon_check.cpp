@@ -86,6 +86,7 @@ void add_reading_rate(const Patient& patient, std::vector<Finding>& findings) {
   const std::optional<double> hz = patient.daemon.odometry_hz;
   if (!hz || *hz >= kGoodReadings_hz) return;
   if (*hz <= 0) {
+    if (patient.daemon.status && !patient.daemon.status->odometry_hint.empty()) return;
     findings.push_back({Verdict::kNote,
                         "odometry",
                         "the config has it, and no reading comes",
@@ -102,6 +103,15 @@ void add_reading_rate(const Patient& patient, std::vector<Finding>& findings) {
                           (is_wrong ? "too few, predicted poses of a robot in motion may be wrong"
                                     : "fixes of a robot in motion are worse than they say"),
                       {mend}});
+}
+
+/// The daemon's own words say what to do.
+void add_hint(const message::ToldStatus& status, std::vector<Finding>& findings) {
+  if (status.odometry_hint.empty()) return;
+  findings.push_back({Verdict::kWrong,
+                      "odometry",
+                      status.odometry_state + ": " + status.odometry_hint,
+                      {"README.md, \"Odometry\", has what a line bears"}});
 }
 
 }  // namespace
@@ -133,6 +143,7 @@ std::vector<Finding> check_daemon(const Patient& patient) {
          sensor.name + " is " + sensor.state + (sensor.detail.empty() ? "" : ": " + sensor.detail),
          {"drivers/odometry/README.md has pins, overlays and names"}});
   }
+  add_hint(*daemon.status, findings);
   add_reading_rate(patient, findings);
   return findings;
 }

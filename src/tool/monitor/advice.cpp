@@ -88,6 +88,9 @@ std::optional<Advice> advise_on_quality(const MonitorState& state) {
     if (sensor.state == "running") continue;
     return Advice{Style::kDoubt, "odometry: " + sensor.name + " is " + sensor.state, sensor.detail};
   }
+  if (const std::string& hint = state.status()->odometry_hint; !hint.empty()) {
+    return Advice{Style::kDoubt, "odometry: " + hint, "cornerctl doctor says more"};
+  }
   const auto bytes = static_cast<double>(state.status()->counter("bytes"));
   const auto skipped = static_cast<double>(state.status()->counter("skipped_bytes"));
   if (skipped > kBadByteShare * bytes) {

@@ -67,12 +67,20 @@ class MessageServerTest : public ::testing::Test {
   int relocalizations_ = 0;
   std::vector<core::Pose2> given_;
   std::vector<message::OdometryReading> readings_;
+  int giver_ = -1;  ///< the connection whose readings are taken
   MessageServer server_{
       loop_,
       "1.2.3",
       {[this] { ++relocalizations_; },
        [this](const message::SetPoseRequest& request) { given_.push_back(request.T_map_base); },
-       [this](const message::OdometryReading& reading) { readings_.push_back(reading); }}};
+       [this](const message::OdometryReading& reading, int connection) {
+         readings_.push_back(reading);
+         if (giver_ < 0) giver_ = connection;
+         return giver_ == connection;
+       },
+       [this](int connection) {
+         if (giver_ == connection) giver_ = -1;
+       }}};
 };
 
 TEST_F(MessageServerTest, NewClient_GetsVersionThenPoseAndStatusAlone) {
@@ -180,6 +188,19 @@ TEST_F(MessageServerTest, Odometry_IsTakenWithoutAnAnswer) {
   EXPECT_EQ(readings_[0].right, 2);
   EXPECT_EQ(readings_[0].gyro_rad_s, 0.1);
   EXPECT_EQ(ask(controller, R"({"class":"ODOMETRY","left":"x"})")["code"], "field");
+}
+
+TEST_F(MessageServerTest, OdometryOfASecondClient_IsToldWhyUntilTheFirstHasGone) {
+  const std::string line = R"({"class":"ODOMETRY","left":1,"right":2})";
+  TestClient second = greeted(control_path_);
+  {
+    TestClient first = greeted(control_path_);
+    EXPECT_EQ(ask(first, line), "nothing");
+    EXPECT_EQ(ask(second, line)["code"], "second-client");
+    EXPECT_EQ(ask(first, line), "nothing");
+  }
+  serve();
+  EXPECT_EQ(ask(second, line), "nothing");
 }
 
 TEST_F(MessageServerTest, WhatNobodyTakes_IsRefusedClearly) {

@@ -262,6 +262,12 @@ TEST(StatusLine, Odometry_TellsWhatWasLearned) {
     "sigma":{"gyro_bias":0.0002,"left_scale":0.001,"right_scale":0.001,"track_scale":0.003},
     "counters":{"readings":100,"past":1,"future":2,"jumps":3,"bad_rates":4,"frozen":5,"holes":6,
                 "restarts":7,"slips":8,"fixes":9,"strangers":10}})"));
+
+  status.odometry_hint = "lines lack right";
+  status.second_client = 11;
+  const json line = read(writer.status(status))["odometry"];
+  EXPECT_EQ(line["hint"], "lines lack right");
+  EXPECT_EQ(line["counters"]["second_client"], 11);
 }
 
 TEST(AnswerLine, Id_IsRepeatedAsItWas) {

@@ -94,6 +94,7 @@ TEST(ToldLine, Status_IsWhatTheDaemonWrote) {
   fields.counters = counters;
   fields.odometry = &odometry;
   fields.odometry_sensors = sensors;
+  fields.odometry_hint = "lines lack left";
   fields.latency = {0.001, 0.002, 0.004, true};
   const auto status = told<ToldStatus>(writer.status(fields));
   EXPECT_EQ(status.t_ns, 2'000'000'000);
@@ -106,6 +107,7 @@ TEST(ToldLine, Status_IsWhatTheDaemonWrote) {
   EXPECT_EQ(status.counter("turns"), 70U);
   EXPECT_EQ(status.counter("nothing"), 0U);
   EXPECT_EQ(status.odometry_state, "absent");
+  EXPECT_EQ(status.odometry_hint, "lines lack left");
   EXPECT_EQ(status.odometry_readings, 70);
   ASSERT_EQ(status.odometry_sensors.size(), 2U);
   EXPECT_EQ(status.odometry_sensors[1].name, "left");

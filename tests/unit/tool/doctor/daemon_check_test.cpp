@@ -85,6 +85,15 @@ TEST_F(CheckDaemon, ReadingsThatComeTooSeldom_AreNamed) {
               Finds(Verdict::kNote, "odometry", "no reading comes"));
 }
 
+TEST_F(CheckDaemon, WhyThereIsNoOdometry_IsToldInTheDaemonsWordsOnce) {
+  daemon().status->odometry_state = "absent";
+  daemon().status->odometry_hint = "lines lack left and right";
+  daemon().odometry_hz = 0;
+  const auto found = check_daemon(stand_in_.patient);
+  EXPECT_THAT(found, SizeIs(3));
+  EXPECT_THAT(found[2], Finds(Verdict::kWrong, "odometry", "absent: lines lack left and right"));
+}
+
 TEST_F(CheckDaemon, NobodyListens_IsExplained) {
   daemon() = {};
   daemon().connect_errno = ENOENT;

@@ -87,6 +87,9 @@ TEST_F(AdviceTest, SensorsLineAndMessages_ComeLast) {
                    R"(,"odometry":{"state":"running","sensors":{"gyro":{"state":"running"},)"
                    R"("left":{"state":"frozen","detail":"does it turn?"}}})"));
   expect(Style::kDoubt, "odometry: left is frozen", "does it turn?");
+  hear(status_line(R"("state":"running")",
+                   R"(,"odometry":{"state":"absent","hint":"lines lack left"})"));
+  expect(Style::kDoubt, "odometry: lines lack left", "doctor");
   hear(status_line());
   hear("hello");
   EXPECT_THAT(advice().what, HasSubstr("makes no sense"));

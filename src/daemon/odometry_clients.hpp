@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+
+#include "message/line.hpp"
+#include "message/odometry_lines.hpp"
+#include "message/request.hpp"
+
+namespace cornerd::daemon {
+
+/// Whose wheels and whose gyro are taken where several clients send them. Two that send the same,
+/// a moment apart, make a motion of their own: the first one goes on, the other is refused until
+/// the first has gone or fallen silent. Counts and rates may come from different clients.
+class OdometryClients {
+ public:
+  /// Longer than any pause of a client that is worth its odometry.
+  static constexpr core::TimeNs kSilent_ns = core::kNsPerSecond;
+
+  /// Takes out of the reading what another client gives. False where that was anything; the rest,
+  /// if there is any, is to be taken. `connection`: any number that no other open one has.
+  bool admit(int connection, core::TimeNs now_ns, message::OdometryReading& reading);
+  /// The connection has ended; its number may be another's now.
+  void forget(int connection);
+
+  /// How many lines were refused, and what is wrong with those that come: for a STATUS whose
+  /// odometry and time are set. To be called for each.
+  void describe(message::StatusFields& status);
+
+ private:
+  struct Giver {
+    int connection = -1;
+    core::TimeNs last_ns = 0;
+
+    bool admits(int other, core::TimeNs now_ns);
+  };
+
+  Giver counts_;
+  Giver gyro_;
+  message::OdometryLines lines_;
+  std::uint64_t refused_ = 0;  ///< lines of which anything was
+  std::uint64_t told_ = 0;     ///< of them
+  int telling_ = 0;            ///< in so many STATUS more
+};
+
+}  // namespace cornerd::daemon

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string_view>
+
+#include "core/odometry/odometer.hpp"
+#include "core/odometry/odometry_reading.hpp"
+
+namespace cornerd::message {
+
+/// Watches what ODOMETRY lines bear, to say why there is no odometry though its source is there.
+/// Allocates nothing.
+class OdometryLines {
+ public:
+  void add(const core::OdometryReading& reading);
+
+  /// Why the summary's odometry is absent, of the lines of about the last second; empty where it is
+  /// not, or nothing is known. `t_ns`: now, by the clock of earlier calls.
+  std::string_view hint(const core::OdometrySummary& summary, core::TimeNs t_ns);
+
+ private:
+  struct Seen {
+    std::uint64_t lines = 0;
+    std::uint64_t whole = 0;  ///< with left and right
+    std::uint64_t left = 0;   ///< alone
+    std::uint64_t right = 0;  ///< alone
+    std::uint64_t gyro = 0;   ///< with neither of them
+  };
+  std::string_view judge(const core::OdometryCounters& counters) const;
+
+  Seen seen_;                        ///< since the last judgement
+  core::OdometryCounters counters_;  ///< at the last judgement
+  std::optional<core::TimeNs> judged_ns_;
+  std::string_view hint_;
+};
+
+}  // namespace cornerd::message

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+#include "daemon/odometry_clients.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+
+namespace cornerd::daemon {
+namespace {
+
+using message::OdometryReading;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+constexpr core::TimeNs kStep_ns = 20'000'000;
+
+class OdometryClientsTest : public ::testing::Test {
+ protected:
+  OdometryClientsTest() { summary_.enabled = summary_.present = true; }
+  static OdometryReading wheels() {
+    OdometryReading reading;
+    reading.left = reading.right = 1;
+    return reading;
+  }
+  static OdometryReading gyro() {
+    OdometryReading reading;
+    reading.gyro_rad_s = 0.1;
+    return reading;
+  }
+  bool admits(int connection, OdometryReading reading) {
+    now_ns_ += kStep_ns;
+    return clients_.admit(connection, now_ns_, reading);
+  }
+  message::StatusFields described() {
+    message::StatusFields status;
+    status.odometry = &summary_;
+    status.t_ns = now_ns_;
+    clients_.describe(status);
+    return status;
+  }
+
+  OdometryClients clients_;
+  core::OdometrySummary summary_;
+  core::TimeNs now_ns_ = 0;
+};
+
+TEST_F(OdometryClientsTest, OneClient_IsTaken) {
+  for (int i = 0; i < 100; ++i) EXPECT_TRUE(admits(7, wheels()));
+  EXPECT_EQ(described().second_client, 0U);
+  EXPECT_THAT(described().odometry_hint, IsEmpty());
+}
+
+TEST_F(OdometryClientsTest, ASecondOne_IsRefusedCountedAndTold) {
+  for (int i = 0; i < 50; ++i) {
+    EXPECT_TRUE(admits(7, wheels()));
+    EXPECT_FALSE(admits(8, wheels()));
+  }
+  EXPECT_EQ(described().second_client, 50U);
+  EXPECT_THAT(std::string(described().odometry_hint), HasSubstr("two clients"));
+  for (int i = 0; i < 5; ++i) static_cast<void>(described());
+  EXPECT_THAT(described().odometry_hint, IsEmpty()) << "long ago";
+}
+
+TEST_F(OdometryClientsTest, WheelsOfOneAndGyroOfAnother_AreBothTaken) {
+  for (int i = 0; i < 50; ++i) {
+    EXPECT_TRUE(admits(7, wheels()));
+    EXPECT_TRUE(admits(8, gyro()));
+  }
+  OdometryReading both = wheels();
+  both.gyro_rad_s = 0.2;
+  EXPECT_FALSE(clients_.admit(8, now_ns_, both));
+  EXPECT_FALSE(both.left || both.right);
+  EXPECT_EQ(both.gyro_rad_s, 0.2);
+}
+
+TEST_F(OdometryClientsTest, FirstOneThatGoesOrFallsSilent_LeavesItToTheNext) {
+  EXPECT_TRUE(admits(7, wheels()));
+  EXPECT_FALSE(admits(8, wheels()));
+  clients_.forget(7);
+  EXPECT_TRUE(admits(8, wheels()));
+  EXPECT_FALSE(admits(7, wheels())) << "another client, by the same number";
+  now_ns_ += OdometryClients::kSilent_ns;
+  EXPECT_TRUE(admits(7, wheels()));
+}
+
+TEST_F(OdometryClientsTest, WhatLinesLack_IsTold) {
+  summary_.present = false;
+  static_cast<void>(described());
+  for (int i = 0; i < 50; ++i) EXPECT_TRUE(admits(7, gyro()));
+  EXPECT_THAT(std::string(described().odometry_hint), HasSubstr("lack left and right"));
+}
+
+}  // namespace
+}  // namespace cornerd::daemon
