@@ -2,7 +2,6 @@
 #include "calibration/odometry_fit.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <functional>
 #include <vector>
@@ -15,9 +14,6 @@ namespace {
 
 using core::MotionStep;
 
-constexpr core::TimeNs kWindow_ns = core::kNsPerSecond;
-/// A window may miss its length by this much where a turn was lost.
-constexpr core::TimeNs kLongestWindow_ns = 3 * core::kNsPerSecond;
 constexpr std::size_t kFewestWindows = 10;
 constexpr int kRounds = 8;
 /// What two places and a second of wheels and gyro are off by.
@@ -96,53 +92,12 @@ DriveError walk(std::span<const MotionStep> steps, std::span<const KnownPlace> p
   return error;
 }
 
-/// The steps between two known places, cut to them.
-struct Window {
-  std::vector<MotionStep> steps;
-  core::Pose2 way;  ///< as it was
-  double turn_rad = 0;
-};
-
-std::vector<Window> cut(std::span<const MotionStep> steps, std::span<const KnownPlace> places) {
-  std::vector<Window> windows;
-  std::size_t first = 0;
-  for (std::size_t i = 0; i < places.size();) {
-    std::size_t j = i + 1;
-    double turn_rad = 0;
-    for (; j < places.size(); ++j) {
-      turn_rad +=
-          core::angle_between(places[j - 1].T_map_base.theta_rad, places[j].T_map_base.theta_rad);
-      if (places[j].t_ns - places[i].t_ns >= kWindow_ns) break;
-    }
-    if (j == places.size()) break;
-    const core::TimeNs from_ns = places[i].t_ns;
-    const core::TimeNs to_ns = places[j].t_ns;
-    Window window;
-    window.way = places[i].T_map_base.inverse() * places[j].T_map_base;
-    window.turn_rad = turn_rad;
-    while (first < steps.size() && steps[first].to_ns <= from_ns) ++first;
-    bool whole = first < steps.size() && steps[first].from_ns <= from_ns;
-    core::TimeNs reached_ns = from_ns;
-    for (std::size_t k = first; k < steps.size() && steps[k].from_ns < to_ns; ++k) {
-      MotionStep step = steps[k];
-      if (step.from_ns < from_ns) step.split(from_ns);
-      if (step.to_ns > to_ns) step = step.split(to_ns);
-      whole = whole && !step.is_hole && step.from_ns == reached_ns;
-      reached_ns = step.to_ns;
-      window.steps.push_back(step);
-    }
-    whole = whole && reached_ns == to_ns && to_ns - from_ns <= kLongestWindow_ns;
-    if (whole) windows.push_back(std::move(window));
-    i = j;
-  }
-  return windows;
-}
-
 constexpr int kResiduals = 4;
 using Residuals = Eigen::Matrix<double, kResiduals, 1>;
 
 /// In sigmas: the way's two parts, the turn by the wheels, the turn by the gyro.
-Residuals residuals_of(const Window& window, const core::DriveGeometry& geometry, const Vector& p) {
+Residuals residuals_of(const DriveWindow& window, const core::DriveGeometry& geometry,
+                       const Vector& p) {
   const core::LearnedOdometry learned = as_learned(p);
   core::Pose2 way;
   double wheel_turn_rad = 0;
@@ -186,12 +141,13 @@ DriveError reckon(std::span<const MotionStep> steps, std::span<const KnownPlace>
 std::optional<OdometryFit> fit_odometry(std::span<const MotionStep> steps,
                                         std::span<const KnownPlace> places,
                                         const core::DriveGeometry& geometry) {
-  const std::vector<Window> windows = cut(steps, places);
+  const std::vector<DriveWindow> windows = cut_windows(steps, places);
   if (windows.size() < kFewestWindows) return std::nullopt;
   OdometryFit fit;
   fit.windows = windows.size();
-  fit.has_gyro = std::any_of(windows.begin(), windows.end(),
-                             [](const Window& window) { return window.steps.front().has_gyro; });
+  fit.has_gyro = std::any_of(windows.begin(), windows.end(), [](const DriveWindow& window) {
+    return window.steps.front().has_gyro;
+  });
   Vector p = Vector::Zero();
   Matrix information;
   Eigen::LDLT<Matrix> solver;
@@ -203,7 +159,7 @@ std::optional<OdometryFit> fit_odometry(std::span<const MotionStep> steps,
       information(i, i) = 1 / (sigma * sigma);
       gradient[i] = p[i] / (sigma * sigma);
     }
-    for (const Window& window : windows) {
+    for (const DriveWindow& window : windows) {
       const Residuals now = residuals_of(window, geometry, p);
       Eigen::Matrix<double, kResiduals, kParameters> slope;
       constexpr double kNudge = 1e-5;

@@ -7,18 +7,13 @@
 #include <span>
 #include <vector>
 
+#include "calibration/drive_window.hpp"
 #include "core/geometry/pose2.hpp"
 #include "core/odometry/dead_reckoning.hpp"
 #include "core/odometry/fusion_filter.hpp"
 #include "core/odometry/motion_step.hpp"
 
 namespace cornerd::calibration {
-
-/// Where the robot was, by the lidar or by a truth.
-struct KnownPlace {
-  core::TimeNs t_ns = 0;
-  core::Pose2 T_map_base;
-};
 
 /// A drive by wheels and gyro alone, from its first known place on.
 struct DriveError {

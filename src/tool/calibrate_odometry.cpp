@@ -15,17 +15,17 @@
 
 #include "calibration/factor_search.hpp"
 #include "calibration/filtered_drive.hpp"
+#include "calibration/gross_faults.hpp"
 #include "calibration/odometry_fit.hpp"
-#include "core/odometry/reading_gate.hpp"
-#include "core/pipeline.hpp"
-#include "replay/recording.hpp"
 #include "settings/map_file.hpp"
 #include "tool/drive_drawing.hpp"
 #include "tool/factors_text.hpp"
 #include "tool/failure.hpp"
 #include "tool/file_guard.hpp"
+#include "tool/gross_fault_text.hpp"
 #include "tool/options.hpp"
 #include "tool/output.hpp"
+#include "tool/recorded_drive.hpp"
 #include "tool/text_table.hpp"
 #include "tool/truth.hpp"
 
@@ -45,68 +45,45 @@ struct CalibrateOdometryOptions {
   std::filesystem::path plot;
 };
 
-struct RecordedDrive {
-  std::vector<core::MotionStep> steps;
-  std::vector<calibration::KnownPlace> places;
-};
+/// Where more of the readings than this are refused, it is not now and then one that is garbage.
+constexpr double kMostRefused = 0.1;
 
-/// The steps of the drive, and what the lidar makes of its turns.
-class DriveSink final : public replay::RecordingSink {
- public:
-  DriveSink(core::Pipeline& pipeline, const core::OdometryConfig& odometry, const Truth* truth)
-      : pipeline_(pipeline), gate_(odometry), truth_(truth) {}
+std::string faults_of(const RecordedDrive& drive, const settings::OdometryConfig& config) {
+  const core::OdometryCounters& counters = drive.counters;
+  const bool is_wide = static_cast<double>(counters.jumps + counters.gyro) >
+                       kMostRefused * static_cast<double>(counters.readings);
+  const auto windows =
+      calibration::cut_windows(is_wide ? drive.wide_steps : drive.steps, drive.places);
+  return describe_faults(calibration::find_gross_faults(windows, config.core.geometry), config);
+}
 
-  void on_sample(const core::Sample& sample) override {
-    now_ns_ = sample.t_ns;
-    take(pipeline_.add(sample));
+/// What no scale makes up for is said before any is looked for.
+std::pair<RecordedDrive, calibration::OdometryFit> fitted_drive(
+    const CalibrateOdometryOptions& options, const settings::Config& config, const Truth* truth) {
+  const std::string name = options.file.string() + ": ";
+  const auto play = [&](bool straightened) {
+    return play_drive(options.file, parse_wire(options.wire), config, truth, straightened);
+  };
+  RecordedDrive drive = play(/*straightened=*/true);
+  if (drive.steps.empty() && drive.wide_steps.empty()) {
+    throw Failure(name + (drive.counters.readings == 0
+                              ? "no odometry in it"
+                              : "none of its ODOMETRY lines has both left and right"));
   }
-  void on_gap() override { take(pipeline_.finish()); }
-  void on_odometry(const message::OdometryReading& reading) override {
-    pipeline_.add(reading);
-    if (const auto step = gate_.add(reading, now_ns_)) drive_.steps.push_back(*step);
+  std::string faults = faults_of(drive, config.odometry);
+  const auto fit =
+      calibration::fit_odometry(drive.steps, drive.places, config.odometry.core.geometry);
+  if (faults.empty() && fit) return {std::move(drive), *fit};
+  if (faults.empty() && truth == nullptr) {
+    // Wheels that are far off may cost the turns that would show it.
+    const RecordedDrive plain = play(/*straightened=*/false);
+    if (plain.places.size() < 2) throw Failure(name + "the robot was not found in the map");
+    faults = faults_of(plain, config.odometry);
   }
-  RecordedDrive finish() {
-    take(pipeline_.finish());
-    return std::move(drive_);
-  }
-
- private:
-  void take(const core::TurnResult* result) {
-    if (result == nullptr) return;
-    const core::PoseEstimate& pose = result->pose;
-    if (!drive_.places.empty() && pose.t_ns <= drive_.places.back().t_ns) return;
-    if (truth_ != nullptr) {
-      if (const auto T_map_base = truth_->at(pose.t_ns)) {
-        drive_.places.push_back({pose.t_ns, *T_map_base});
-      }
-    } else if (pose.state == core::PoseState::kFix) {
-      drive_.places.push_back({pose.t_ns, pose.T_map_base});
-    }
-  }
-
-  core::Pipeline& pipeline_;
-  core::ReadingGate gate_;
-  const Truth* truth_;
-  std::optional<core::TimeNs> now_ns_;
-  RecordedDrive drive_;
-};
-
-RecordedDrive play(const CalibrateOdometryOptions& options, const settings::Config& config,
-                   const Truth* truth) {
-  core::LocalizerConfig localizer = config.localizer();
-  localizer.odometry.enabled = true;  // straightened turns give better places
-  core::Pipeline pipeline(truth != nullptr ? nullptr : settings::load_map(config.map), localizer);
-  DriveSink sink(pipeline, config.odometry.core, truth);
-  replay::RecordingPlayer player(options.file,
-                                 {parse_wire(options.wire), config.lidar.mount.inverted});
-  while (player.step(sink)) {
-  }
-  RecordedDrive drive = sink.finish();
-  if (drive.steps.empty()) throw Failure(options.file.string() + ": no odometry in it");
-  if (drive.places.size() < 2) {
-    throw Failure(options.file.string() + ": the robot was not found in the map");
-  }
-  return drive;
+  if (!faults.empty()) throw Failure(name + faults);
+  throw Failure(name +
+                "too little to tell wheels and gyro from: drive half a minute or more, with "
+                "straights and turns both ways");
 }
 
 std::vector<std::string> row(const char* name, const std::string& factors,
@@ -191,14 +168,8 @@ void calibrate_odometry(const CalibrateOdometryOptions& options) {
   // Before the work: what cannot be written is said at once.
   std::unique_ptr<Output> plot;
   if (!options.plot.empty()) plot = std::make_unique<Output>(options.plot);
-  const RecordedDrive drive = play(options, config, truth ? &*truth : nullptr);
+  const auto [drive, fit] = fitted_drive(options, config, truth ? &*truth : nullptr);
   const core::DriveGeometry& geometry = config.odometry.core.geometry;
-  const auto fit = calibration::fit_odometry(drive.steps, drive.places, geometry);
-  if (!fit) {
-    throw Failure(options.file.string() +
-                  ": too little to tell wheels and gyro from: drive half a minute or more, with "
-                  "straights and turns both ways");
-  }
 
   TextTable table;
   table.add_row({"heading from", "factors", "mean error, m", "at the end, m"});
@@ -210,7 +181,7 @@ void calibrate_odometry(const CalibrateOdometryOptions& options) {
                                                          {HeadingSource::kMean, "mean"},
                                                          {HeadingSource::kWeighted, "weighted"}};
   for (const auto& [source, name] : modes) {
-    if (source != HeadingSource::kEncoder && !fit->has_gyro) continue;
+    if (source != HeadingSource::kEncoder && !fit.has_gyro) continue;
     core::DeadReckoningConfig reckoning{source, {1, 1, dead_band_rad}};
     if (source != HeadingSource::kWeighted) {
       table.add_row(row(name, "none", reckon(drive.steps, drive.places, geometry, reckoning)));
@@ -224,7 +195,7 @@ void calibrate_odometry(const CalibrateOdometryOptions& options) {
                       reckon(drive.steps, drive.places, geometry, reckoning)));
   }
   table.add_row(
-      row("least squares", "below", reckon(drive.steps, drive.places, geometry, fit->learned)));
+      row("least squares", "below", reckon(drive.steps, drive.places, geometry, fit.learned)));
 
   const calibration::FilteredDrive filtered = filter_half(drive, config.odometry.core);
   table.add_row(row("filter, 2nd half", "learned in the 1st", filtered.alone));
@@ -235,16 +206,21 @@ void calibrate_odometry(const CalibrateOdometryOptions& options) {
   report.write(table.text());
   if (at_edge) report.write(std::string(kEdgeText));
   report.write(
-      formatted("\nLeast squares over %zu windows of a second, as shares:\n", fit->windows));
-  report.write(describe_learned(*fit));
+      formatted("\nLeast squares over %zu windows of a second, as shares:\n", fit.windows));
+  report.write(describe_learned(fit));
+  if (std::abs(fit.learned.track_scale) >= calibration::kMostFittedScale) {
+    const auto track_m =
+        calibration::apparent_track_m(calibration::cut_windows(drive.steps, drive.places));
+    if (track_m) report.write(formatted("  its turns are those of a track of %.3g m\n", *track_m));
+  }
   report.flush();
   if (plot) {
-    plot->write(draw_reckonings(drive, config, *fit, filtered));
+    plot->write(draw_reckonings(drive, config, fit, filtered));
     plot->flush();
   }
   if (!options.output.empty()) {
     Output file(options.output);
-    file.write(fragment(*fit, weighted));
+    file.write(fragment(fit, weighted));
     file.flush();
   }
 }

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Simulated drives with wheels and a gyro, from the recording to the pose.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <fstream>
-#include <sstream>
+#include <functional>
+#include <utility>
 
 #include <nlohmann/json.hpp>
 
@@ -14,6 +17,7 @@ namespace cornerd::tool {
 namespace {
 
 using nlohmann::json;
+using testing::HasSubstr;
 
 class OdometryCommandTest : public ::testing::Test {
  protected:
@@ -28,6 +32,16 @@ class OdometryCommandTest : public ::testing::Test {
     std::vector<std::string> words = {"replay", recording_, "--map", map_, "--truth", truth_};
     words.insert(words.end(), more.begin(), more.end());
     return CommandRun(words);
+  }
+  /// The recording with each ODOMETRY line changed.
+  void rewrite(const std::string& file, const std::function<void(json& line)>& change) const {
+    std::ifstream from(recording_);
+    std::ofstream to(file);
+    for (std::string text; std::getline(from, text);) {
+      json line = json::parse(text);
+      if (line["class"] == "ODOMETRY") change(line);
+      to << line.dump() << '\n';
+    }
   }
   static std::size_t count(const std::string& text, const std::string& what) {
     std::size_t found = 0;
@@ -53,6 +67,32 @@ TEST_F(OdometryCommandTest, CoveredLidar_IsBridgedByTheRecordedOdometry) {
   EXPECT_EQ(count(with.out, "\"state\":\"lost\""), 0U);
   EXPECT_NE(with.err.find("wrong            0"), std::string::npos) << with.err;
   EXPECT_NE(with.out.find("\"odometry\":{\"state\":\"running\""), std::string::npos);
+}
+
+TEST_F(OdometryCommandTest, StatusAlone_SaysWhatWasLearnt) {
+  ASSERT_EQ(simulate({"--wheel-errors", "0.015,0.025"}).exit_code, 0);
+  const std::vector<std::string> words = {"replay", recording_, "--set", "/odometry/source=socket",
+                                          "--classes"};
+  const auto odometry_of = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> all = words;
+    all.insert(all.end(), more.begin(), more.end());
+    const std::string out = CommandRun(all).out;
+    const std::size_t last = out.rfind("{\"class\":\"STATUS\"");
+    return last == std::string::npos ? json() : json::parse(out.substr(last))["odometry"];
+  };
+  const json alone = odometry_of({"STATUS", "--map", map_});
+  EXPECT_NEAR(alone["left_scale"].get<double>(), 0.015, 0.004);
+  EXPECT_EQ(alone, odometry_of({"POSE,STATUS", "--map", map_}));
+  EXPECT_FALSE(alone.contains("hint"));
+  EXPECT_THAT(odometry_of({"STATUS"})["hint"].get<std::string>(), HasSubstr("--map"));
+}
+
+TEST_F(OdometryCommandTest, LinesThatLackAWheel_AreHintedAt) {
+  ASSERT_EQ(simulate({}).exit_code, 0);
+  const std::string wrong = folder_ / "wrong.ndjson";
+  rewrite(wrong, [](json& line) { line.erase("left"); });
+  const CommandRun run({"replay", wrong, "--map", map_, "--set", "/odometry/source=socket"});
+  EXPECT_THAT(run.out, HasSubstr(R"("odometry":{"state":"absent","hint":"lines lack left: )"));
 }
 
 TEST_F(OdometryCommandTest, AnotherFile_GoesBeforeTheRecordingsOwn) {
@@ -112,6 +152,38 @@ TEST_F(OdometryCommandTest, Calibrate_WritesWhatAReplayReads) {
   const CommandRun by_truth({"calibrate", "odometry", recording_, "--truth", truth_, "-o", output});
   EXPECT_EQ(by_truth.exit_code, 0) << by_truth.err;
   EXPECT_EQ(CommandRun({"replay", recording_, "--config", output, "--map", map_}).exit_code, 0);
+}
+
+TEST_F(OdometryCommandTest, CalibrateOfARobotThatIsFarOff_NamesWhatToChange) {
+  ASSERT_EQ(simulate({"--wheel-errors", "0.015,0.025", "--gyro-bias", "0.01"}, "300").exit_code, 0);
+  const std::string wrong = folder_ / "wrong.ndjson";
+  const std::string output = folder_ / "odometry.json";
+  const auto calibrate = [&](const std::function<void(json & line)>& change) {
+    rewrite(wrong, change);
+    const CommandRun run({"calibrate", "odometry", wrong, "--map", map_, "-o", output});
+    EXPECT_EQ(run.exit_code, 1) << run.err;
+    EXPECT_FALSE(std::filesystem::exists(output));
+    return run.err;
+  };
+  const auto scale = [](json& line, int factor) {
+    for (const char* wheel : {"left", "right"}) line[wheel] = line[wheel].get<int>() * factor;
+  };
+  EXPECT_THAT(calibrate([&](json& line) { scale(line, 4); }),
+              HasSubstr("odometry.counts_per_turn to 5760"));
+  EXPECT_THAT(calibrate([&](json& line) { scale(line, 2); }),
+              HasSubstr("odometry.counts_per_turn to 2880"));
+  // Faster than a wheel can turn: all of it is refused by the daemon.
+  EXPECT_THAT(calibrate([&](json& line) { scale(line, 16); }),
+              HasSubstr("odometry.counts_per_turn to 23040"));
+  EXPECT_THAT(calibrate([&](json& line) { std::swap(line["left"], line["right"]); }),
+              HasSubstr("left and right are exchanged: swap"));
+  EXPECT_THAT(calibrate([&](json& line) { scale(line, -1); }), HasSubstr("both wheels count back"));
+  EXPECT_THAT(calibrate([](json& line) { line["gyro"] = line["gyro"].get<double>() * 57.3; }),
+              HasSubstr("degrees a second"));
+  EXPECT_THAT(calibrate([](json& line) { line["gyro"] = line["gyro"].get<double>() + 0.6; }),
+              HasSubstr("+0.61 rad/s while the robot stands"));
+  EXPECT_THAT(calibrate([](json& line) { line.erase("right"); }),
+              HasSubstr("none of its ODOMETRY lines has both left and right"));
 }
 
 TEST_F(OdometryCommandTest, CalibrateWithoutOdometry_Fails) {

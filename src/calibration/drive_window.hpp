@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "core/geometry/pose2.hpp"
+#include "core/odometry/motion_step.hpp"
+
+namespace cornerd::calibration {
+
+/// Where the robot was, by the lidar or by a truth.
+struct KnownPlace {
+  core::TimeNs t_ns = 0;
+  core::Pose2 T_map_base;
+};
+
+/// The steps between two known places, cut to them.
+struct DriveWindow {
+  std::vector<core::MotionStep> steps;
+  core::Pose2 way;      ///< as it was, from the first place to the second
+  double turn_rad = 0;  ///< as it was; may be more than half a turn
+  double way_m = 0;     ///< along the arcs between the places meanwhile; backward is negative
+};
+
+/// Windows of about a second, one after another; those that holes or lost turns are in are left
+/// out. Steps and places in the order of time.
+std::vector<DriveWindow> cut_windows(std::span<const core::MotionStep> steps,
+                                     std::span<const KnownPlace> places);
+
+}  // namespace cornerd::calibration

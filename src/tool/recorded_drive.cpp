@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+#include "tool/recorded_drive.hpp"
+
+#include <utility>
+
+#include "core/pipeline.hpp"
+#include "replay/recording.hpp"
+#include "settings/map_file.hpp"
+
+namespace cornerd::tool {
+
+namespace {
+
+/// Beyond any unit that is wrong.
+constexpr double kWide = 100;
+core::OdometryConfig widened(core::OdometryConfig config) {
+  config.limits.wheel_speed_m_s *= kWide;
+  config.limits.gyro_rad_s *= kWide;
+  return config;
+}
+
+/// The steps of the drive, and what the lidar makes of its turns.
+class DriveSink final : public replay::RecordingSink {
+ public:
+  DriveSink(core::Pipeline& pipeline, const core::OdometryConfig& odometry, const Truth* truth)
+      : pipeline_(pipeline), gate_(odometry), wide_gate_(widened(odometry)), truth_(truth) {}
+
+  void on_sample(const core::Sample& sample) override {
+    now_ns_ = sample.t_ns;
+    take(pipeline_.add(sample));
+  }
+  void on_gap() override { take(pipeline_.finish()); }
+  void on_odometry(const message::OdometryReading& reading) override {
+    pipeline_.add(reading);
+    if (const auto step = gate_.add(reading, now_ns_)) drive_.steps.push_back(*step);
+    if (const auto step = wide_gate_.add(reading, now_ns_)) drive_.wide_steps.push_back(*step);
+  }
+  RecordedDrive finish() {
+    take(pipeline_.finish());
+    drive_.counters = gate_.counters();
+    return std::move(drive_);
+  }
+
+ private:
+  void take(const core::TurnResult* result) {
+    if (result == nullptr) return;
+    const core::PoseEstimate& pose = result->pose;
+    if (!drive_.places.empty() && pose.t_ns <= drive_.places.back().t_ns) return;
+    if (truth_ != nullptr) {
+      if (const auto T_map_base = truth_->at(pose.t_ns)) {
+        drive_.places.push_back({pose.t_ns, *T_map_base});
+      }
+    } else if (pose.state == core::PoseState::kFix) {
+      drive_.places.push_back({pose.t_ns, pose.T_map_base});
+    }
+  }
+
+  core::Pipeline& pipeline_;
+  core::ReadingGate gate_;
+  core::ReadingGate wide_gate_;
+  const Truth* truth_;
+  std::optional<core::TimeNs> now_ns_;
+  RecordedDrive drive_;
+};
+
+}  // namespace
+
+RecordedDrive play_drive(const std::filesystem::path& file, std::optional<rplidar::WireFormat> wire,
+                         const settings::Config& config, const Truth* truth, bool straightened) {
+  core::LocalizerConfig localizer = config.localizer();
+  localizer.odometry.enabled = straightened;
+  core::Pipeline pipeline(truth != nullptr ? nullptr : settings::load_map(config.map), localizer);
+  DriveSink sink(pipeline, config.odometry.core, truth);
+  replay::RecordingPlayer player(file, {wire, config.lidar.mount.inverted});
+  while (player.step(sink)) {
+  }
+  return sink.finish();
+}
+
+}  // namespace cornerd::tool
