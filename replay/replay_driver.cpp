@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <chrono>
 #include <exception>
+#include <filesystem>
+#include <stdexcept>
 #include <string>
 #include <thread>
 #include <utility>
@@ -140,6 +142,10 @@ void ReplayDriver::publish(const RecordingPlayer& player, const Pacer& pacer) {
 }
 
 void ReplayDriver::play(const std::stop_token& stop, Pacer& pacer) {
+  // Opening a pipe that nobody writes does not return, whoever asks for the end.
+  if (std::filesystem::is_other(config_.file)) {
+    throw std::runtime_error(config_.file.string() + ": is no ordinary file");
+  }
   status_.state = drivers::LidarState::kRunning;
   bool again = true;
   while (again && !stop.stop_requested()) {

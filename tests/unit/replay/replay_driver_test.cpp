@@ -2,6 +2,7 @@
 #include "replay/replay_driver.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <atomic>
 #include <chrono>
@@ -129,6 +130,17 @@ TEST(ReplayDriver, UnreadableFile_IsAFaultThatIsNamed) {
   const drivers::LidarStatus status = driver.status();
   EXPECT_EQ(status.state, LidarState::kFaulty);
   EXPECT_NE(status.detail.view().find("/nonexistent/a.bin"), std::string::npos);
+}
+
+TEST(ReplayDriver, PipeThatNobodyWrites_IsAFaultThatIsNamed) {
+  const test::TemporaryFolder folder;
+  const std::filesystem::path pipe = folder / "pipe";
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  ReplayDriver driver({pipe, 1, false, {}});
+  PlayedSamples sink;
+  driver.run({}, sink);
+  EXPECT_EQ(driver.status().state, LidarState::kFaulty);
+  EXPECT_EQ(driver.status().detail.view(), pipe.string() + ": is no ordinary file");
 }
 
 TEST(ReplayDriver, LoopOverNothing_Ends) {
