@@ -128,15 +128,16 @@ ControlActions Daemon::control_actions(const settings::Config& config) {
   };
   if (config.odometry.source == settings::OdometrySource::kSocket) {
     actions.add_odometry = [this](message::OdometryReading reading, int connection) {
-      const bool is_admitted = odometry_clients_.admit(connection, monotonic_ns(), reading);
+      using Verdict = OdometryClients::Verdict;
+      const Verdict verdict = odometry_clients_.admit(connection, monotonic_ns(), reading);
       if (is_live_) {
         reading.t_ns = reading.timed ? reading.t_ns - (unix_ns() - monotonic_ns()) : monotonic_ns();
       } else if (!reading.timed) {
         reading.t_ns = now_ns();
       }
       const bool says = reading.left || reading.right || reading.gyro_rad_s;
-      if (is_admitted || says) localization_.add(reading);
-      return is_admitted;
+      if (verdict == Verdict::kTaken || says) localization_.add(reading);
+      return verdict != Verdict::kRefusedAnew;
     };
     actions.forget = [this](int connection) { odometry_clients_.forget(connection); };
   }

@@ -28,7 +28,8 @@ enum class SocketRole : std::uint8_t { kPose, kControl };
 struct ControlActions {
   std::function<void()> relocalize;
   std::function<void(const message::SetPoseRequest&)> set_pose = {};
-  /// False where it is refused, as another client's is taken. `connection`: that which it came by.
+  /// False where the client is to be told that another's is taken: once, as one that does not read
+  /// is no longer heard when its answers fill its queue. `connection`: that which it came by.
   std::function<bool(const message::OdometryReading&, int connection)> add_odometry = {};
   /// A connection has ended; optional.
   std::function<void(int connection)> forget = {};

@@ -6,6 +6,8 @@ namespace {
 
 /// A second client is told of in so many STATUS after its last line.
 constexpr int kTold = 5;
+/// A controller that is started again may be heard before its old connection is seen to have ended.
+constexpr std::uint64_t kHandOver = 5;
 
 }  // namespace
 
@@ -16,8 +18,8 @@ bool OdometryClients::Giver::admits(int other, core::TimeNs now_ns) {
   return true;
 }
 
-bool OdometryClients::admit(int connection, core::TimeNs now_ns,
-                            message::OdometryReading& reading) {
+OdometryClients::Verdict OdometryClients::admit(int connection, core::TimeNs now_ns,
+                                                message::OdometryReading& reading) {
   const bool is_empty = !reading.left && !reading.right && !reading.gyro_rad_s;
   bool all = true;
   if ((reading.left || reading.right) && !counts_.admits(connection, now_ns)) {
@@ -29,18 +31,20 @@ bool OdometryClients::admit(int connection, core::TimeNs now_ns,
     reading.gyro_rad_s.reset();
     all = false;
   }
-  if (!all) ++refused_;
   if (is_empty || reading.left || reading.right || reading.gyro_rad_s) lines_.add(reading);
-  return all;
+  if (all) return Verdict::kTaken;
+  ++refused_;
+  return refused_connections_.insert(connection).second ? Verdict::kRefusedAnew : Verdict::kRefused;
 }
 
 void OdometryClients::forget(int connection) {
   if (counts_.connection == connection) counts_ = {};
   if (gyro_.connection == connection) gyro_ = {};
+  refused_connections_.erase(connection);
 }
 
 void OdometryClients::describe(message::StatusFields& status) {
-  if (refused_ > told_) telling_ = kTold;
+  if (refused_ - told_ > kHandOver) telling_ = kTold;
   told_ = refused_;
   status.second_client = refused_;
   const std::string_view why_absent = lines_.hint(*status.odometry, status.t_ns);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <set>
 
 #include "message/line.hpp"
 #include "message/odometry_lines.hpp"
@@ -17,9 +18,14 @@ class OdometryClients {
   /// Longer than any pause of a client that is worth its odometry.
   static constexpr core::TimeNs kSilent_ns = core::kNsPerSecond;
 
-  /// Takes out of the reading what another client gives. False where that was anything; the rest,
-  /// if there is any, is to be taken. `connection`: any number that no other open one has.
-  bool admit(int connection, core::TimeNs now_ns, message::OdometryReading& reading);
+  enum class Verdict : std::uint8_t {
+    kTaken,
+    kRefused,      ///< all of it, or a part
+    kRefusedAnew,  ///< the first time of this connection: it should be told
+  };
+  /// Takes out of the reading what another client gives; the rest, if there is any, is to be taken.
+  /// `connection`: any number that no other open one has.
+  Verdict admit(int connection, core::TimeNs now_ns, message::OdometryReading& reading);
   /// The connection has ended; its number may be another's now.
   void forget(int connection);
 
@@ -37,6 +43,7 @@ class OdometryClients {
 
   Giver counts_;
   Giver gyro_;
+  std::set<int> refused_connections_;  ///< open ones
   message::OdometryLines lines_;
   std::uint64_t refused_ = 0;  ///< lines of which anything was
   std::uint64_t told_ = 0;     ///< of them

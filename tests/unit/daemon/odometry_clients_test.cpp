@@ -10,6 +10,7 @@ namespace cornerd::daemon {
 namespace {
 
 using message::OdometryReading;
+using Verdict = OdometryClients::Verdict;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
@@ -30,7 +31,8 @@ class OdometryClientsTest : public ::testing::Test {
   }
   bool admits(int connection, OdometryReading reading) {
     now_ns_ += kStep_ns;
-    return clients_.admit(connection, now_ns_, reading);
+    verdict_ = clients_.admit(connection, now_ns_, reading);
+    return verdict_ == Verdict::kTaken;
   }
   message::StatusFields described() {
     message::StatusFields status;
@@ -41,6 +43,7 @@ class OdometryClientsTest : public ::testing::Test {
   }
 
   OdometryClients clients_;
+  Verdict verdict_ = Verdict::kTaken;  ///< the last one
   core::OdometrySummary summary_;
   core::TimeNs now_ns_ = 0;
 };
@@ -69,7 +72,7 @@ TEST_F(OdometryClientsTest, WheelsOfOneAndGyroOfAnother_AreBothTaken) {
   }
   OdometryReading both = wheels();
   both.gyro_rad_s = 0.2;
-  EXPECT_FALSE(clients_.admit(8, now_ns_, both));
+  EXPECT_EQ(clients_.admit(8, now_ns_, both), Verdict::kRefusedAnew);
   EXPECT_FALSE(both.left || both.right);
   EXPECT_EQ(both.gyro_rad_s, 0.2);
 }
@@ -79,9 +82,21 @@ TEST_F(OdometryClientsTest, FirstOneThatGoesOrFallsSilent_LeavesItToTheNext) {
   EXPECT_FALSE(admits(8, wheels()));
   clients_.forget(7);
   EXPECT_TRUE(admits(8, wheels()));
+  EXPECT_THAT(described().odometry_hint, IsEmpty()) << "it was handed over";
   EXPECT_FALSE(admits(7, wheels())) << "another client, by the same number";
   now_ns_ += OdometryClients::kSilent_ns;
   EXPECT_TRUE(admits(7, wheels()));
+}
+
+TEST_F(OdometryClientsTest, ARefusedClient_IsToldOnceForEachConnection) {
+  EXPECT_TRUE(admits(7, wheels()));
+  EXPECT_FALSE(admits(8, wheels()));
+  EXPECT_EQ(verdict_, Verdict::kRefusedAnew);
+  EXPECT_FALSE(admits(8, wheels()));
+  EXPECT_EQ(verdict_, Verdict::kRefused);
+  clients_.forget(8);
+  EXPECT_FALSE(admits(8, wheels()));
+  EXPECT_EQ(verdict_, Verdict::kRefusedAnew);
 }
 
 TEST_F(OdometryClientsTest, WhatLinesLack_IsTold) {
