@@ -22,6 +22,17 @@ constexpr double kLeastShareAlone = 0.4;
 /// How far off such another heading is, and what is not known of the place then.
 constexpr double kVague_rad = core::radians(6);
 constexpr double kVague_m = 0.05;
+/// Of what a robot may do from one turn to the next, to any place that walls tell.
+constexpr double kMostWaySigmas = 3;
+constexpr double kMostTurnSigmas = 4;
+/// Who turned so far from what was foreseen has to see more of what he knows.
+constexpr double kSurprise_rad = core::radians(9);
+/// So many turns in a row may be guessed; then the way is lost, and is not found again by chance.
+constexpr std::size_t kMostGuesses = 3;
+/// Of the samples on walls, in the turn that ends them.
+constexpr double kFoundAgainShare = 0.6;
+/// Each tells the turn's motion better, and that bends the turn less.
+constexpr int kStraightenings = 2;
 
 class Mapper {
  public:
@@ -80,20 +91,20 @@ class Mapper {
         TurnMatcher::assign(sightings_, result_.faces, T_map_lidar, kExactReach, faces_of_);
     // Adjusted already, or the one that the map's frame is.
     const bool known = turn == 0 || (before_ && share > kEnoughShare);
+    bool is_placed = known;
     if (!known) {
-      TurnMatch match = find(prior);
-      if (match.valid && reader_.straighten_again(match.T_map_lidar)) {
-        extract();
-        match = find(prior);
-      }
+      const TurnMatch match = guesses_ > kMostGuesses ? TurnMatch() : find(prior);
       share = match.matched_share;
+      is_placed = match.valid;
       if (match.valid) {
         T_map_lidar = match.T_map_lidar;
         covariance = match.covariance;
         // Along it the motion of the turns before was taken for this one's.
-        if (!prior.by_odometry && !match.by_walls()) result_.blind_turns.push_back(turn);
+        is_blind_ = !prior.by_odometry && !match.by_walls();
+        if (is_blind_) result_.blind_turns.push_back(turn);
       } else {
         result_.strange_turns.push_back(turn);
+        if (reader_.straighten_again(T_map_lidar)) extract();
         TurnMatcher::assign(sightings_, result_.faces, T_map_lidar, kExactReach, faces_of_);
       }
     }
@@ -104,27 +115,65 @@ class Mapper {
     }
     add_link(prior);
     result_.T_map_lidar.push_back(T_map_lidar);
-    reader_.place(T_map_lidar, covariance);
+    // A guess is no place to guess on from: without odometry it is the doubt that grows.
+    guesses_ = result_.has_odometry || is_placed ? 0 : guesses_ + 1;
+    if (guesses_ == 0) reader_.place(T_map_lidar, covariance);
   }
 
   TurnMatch find(const TurnPrior& prior) {
+    TurnMatch found = search(prior);
+    for (int again = 0; again < kStraightenings && found.valid; ++again) {
+      if (!reader_.straighten_again(found.T_map_lidar)) break;
+      extract();
+      found = match(found.T_map_lidar, prior.covariance, faces_of_);
+      found.valid = is_believable(prior, found);
+    }
+    return found;
+  }
+
+  /// Without odometry the turn is left straightened by some motion that was tried.
+  TurnMatch search(const TurnPrior& prior) {
     TurnMatch best = match(prior.T_map_lidar, prior.covariance, faces_of_);
+    best.valid = is_believable(prior, best);
     const double enough = prior.by_odometry ? kEnoughShare : kGoodShare;
     if (best.valid && best.matched_share > enough) return best;
     // The heading is what is off most: a robot spins up within a turn, its wheels slip.
-    const core::Covariance3 vague =
-        prior.covariance +
-        core::Covariance3(Eigen::Vector3d(squared(kVague_m), squared(kVague_m), squared(kVague_rad))
-                              .asDiagonal());
     for (const double away : {-2.0, -1.0, 0.0, 1.0, 2.0}) {
       core::Pose2 start = prior.T_map_lidar;
       start.theta_rad = core::normalize_angle(start.theta_rad + away * 1.5 * kVague_rad);
-      const TurnMatch other = match(start, vague, other_faces_of_);
-      if (!other.valid || other.matched_share <= best.matched_share) continue;
+      // A turn that is bent by another motion than its own fits nowhere.
+      if (reader_.straighten_again(start)) extract();
+      const TurnMatch other = match(start, vague(prior), other_faces_of_);
+      if (!is_believable(prior, other)) continue;
+      if (best.valid && other.matched_share <= best.matched_share) continue;
       best = other;
       faces_of_.swap(other_faces_of_);
     }
     return best;
+  }
+
+  static core::Covariance3 vague(const TurnPrior& prior) {
+    return prior.covariance +
+           core::Covariance3(
+               Eigen::Vector3d(squared(kVague_m), squared(kVague_m), squared(kVague_rad))
+                   .asDiagonal());
+  }
+
+  /// Where nothing but the walls tells the way, they must not tell what no robot does: walls that
+  /// look alike are beside each other, and at right angles.
+  bool is_believable(const TurnPrior& prior, const TurnMatch& match) const {
+    if (!match.valid || result_.has_odometry) return match.valid;
+    const core::Pose2 off = prior.T_map_lidar.inverse() * match.T_map_lidar;
+    // After blind turns the place is off by what was guessed of all of them.
+    return (is_blind_ || off.translation().norm() < kMostWaySigmas * prior.sigma_m) &&
+           std::abs(off.theta_rad) < kMostTurnSigmas * prior.sigma_rad &&
+           match.matched_share > least_share(std::abs(off.theta_rad));
+  }
+
+  /// Of a match that is so far from the heading that was foreseen.
+  double least_share(double turned_rad) const {
+    if (guesses_ > 0) return kFoundAgainShare;
+    return turned_rad > kSurprise_rad ? kLeastShareAlone : 0;
   }
 
   TurnMatch match(const core::Pose2& start, const core::Covariance3& covariance,
@@ -138,7 +187,10 @@ class Mapper {
 
   void add_link(const TurnPrior& prior) {
     DriveLink link;
-    link.T_before_now = prior.T_before_now;
+    // A turn that was not placed stands where it was guessed to be.
+    link.T_before_now = prior.by_odometry || result_.T_map_lidar.empty()
+                            ? prior.T_before_now
+                            : result_.T_map_lidar.back().inverse() * prior.T_map_lidar;
     link.covariance =
         Eigen::Vector3d(squared(prior.sigma_m), squared(prior.sigma_m), squared(prior.sigma_rad))
             .asDiagonal();
@@ -206,6 +258,8 @@ class Mapper {
   std::vector<Sighting> sightings_;
   std::vector<std::uint32_t> faces_of_;
   std::vector<std::uint32_t> other_faces_of_;
+  bool is_blind_ = false;     ///< the last turn that was placed
+  std::size_t guesses_ = 0;   ///< turns in a row that only their motion before tells
   bool begins_faces_ = true;  ///< with what the turn saw beyond them
   std::uint32_t next_id_ = 0;
   std::uint32_t known_faces_ = 0;  ///< ids below this are of the earlier pass

@@ -99,7 +99,7 @@ void TurnReader::predict(core::TimeNs t_ns) {
   const double dt_s = core::to_seconds(t_ns - last_ns_);
   prior_.T_before_now = known_poses_.empty()
                             ? last_motion_.over(std::clamp(dt_s, 0.0, 1.0))
-                            : known_poses_[turn_ - 1].inverse() * known_poses_[turn_];
+                            : known_poses_[last_turn_].inverse() * known_poses_[turn_];
   prior_.T_map_lidar = last_T_map_lidar_ * prior_.T_before_now;
   // Twice the time, twice the speed that it may have taken up.
   const double grown = std::clamp(dt_s / 0.15, 1.0, 10.0);
@@ -145,6 +145,7 @@ void TurnReader::place(const core::Pose2& T_map_lidar, const core::Covariance3& 
   const core::TimeNs t_ns = drive_.middle_ns(turn_);
   last_motion_ = motion_to(T_map_lidar);
   last_ns_ = t_ns;
+  last_turn_ = turn_;
   last_T_map_lidar_ = T_map_lidar;
   const core::Pose2 T_map_base = T_map_lidar * T_lidar_base_;
   odometer_.correct(T_map_base, core::covariance_of_base(covariance, T_map_lidar, T_map_base));

@@ -45,7 +45,8 @@ class TurnReader {
   /// from the one before to where this one seems to have been. Else does nothing, and says false.
   bool straighten_again(const core::Pose2& T_map_lidar);
 
-  /// Where the lidar was; to be said of each turn before the next one.
+  /// Where the lidar was; to be said before the next turn. Of a turn without odometry that is not
+  /// known it may stay unsaid: the next ones are then foreseen from the last that was.
   void place(const core::Pose2& T_map_lidar, const core::Covariance3& covariance);
 
   core::LearnedOdometry learned() const { return odometer_.summary().learned; }
@@ -76,7 +77,8 @@ class TurnReader {
   core::PolarScan points_;
   TurnPrior prior_;
 
-  core::TimeNs last_ns_ = 0;
+  core::TimeNs last_ns_ = 0;  ///< of the last turn that was placed
+  std::size_t last_turn_ = 0;
   core::Pose2 last_T_map_lidar_;
   core::Twist2 last_motion_;
   core::Pose2 filtered_T_map_lidar_;  ///< what the odometer made of it
