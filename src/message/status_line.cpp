@@ -50,6 +50,7 @@ void write_counters(JsonText& json, std::span<const StatusFields::Counter> count
 }
 
 void write_learned(JsonText& json, const core::LearnedOdometry& values) {
+  json.number("delay", values.delay_s, kTimeDecimals);
   json.number("gyro_bias", values.gyro_bias_rad_s, kTimeDecimals);
   json.number("gyro_scale", values.gyro_scale, kTimeDecimals);
   json.number("left_scale", values.left_scale, kTimeDecimals);

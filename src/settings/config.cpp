@@ -119,6 +119,8 @@ void read_odometry_noise(ObjectReader noise, core::OdometryNoise& config) {
   noise.number("track_scale", config.track_scale, {0, 0.5});
   noise.number("gyro_scale", config.gyro_scale, {0, 0.5});
   noise.number("gyro_bias", config.gyro_bias_rad_s, {0, 1});
+  noise.number("gyro_bias_walk", config.bias_rad_s_per_sqrt_s, {0, 0.1});
+  noise.number("delay", config.delay_s, {0, 0.1});
   noise.finish();
 }
 
@@ -168,6 +170,7 @@ void read_odometry(ObjectReader odometry, OdometryConfig& config) {
   start.number("track_scale", config.core.start.track_scale, {-0.5, 0.5});
   start.number("gyro_scale", config.core.start.gyro_scale, {-0.5, 0.5});
   start.number("gyro_bias", config.core.start.gyro_bias_rad_s, {-0.5, 0.5});
+  start.number("delay", config.core.start.delay_s, {-0.2, 0.2});
   start.finish();
   odometry.number("max_speed", config.core.limits.wheel_speed_m_s, {0.01, 100});
   odometry.number("bridge", config.core.bridge_s, {0, 3600});

@@ -34,11 +34,13 @@ FusionFilter::FusionFilter(const OdometryConfig& config)
   state_[kRight] = config.start.right_scale;
   state_[kTrack] = config.start.track_scale;
   state_[kGyro] = config.start.gyro_scale;
+  state_[kDelay] = config.start.delay_s;
   covariance_(kBias, kBias) = squared(noise_.gyro_bias_rad_s);
   covariance_(kLeft, kLeft) = squared(noise_.wheel_scale);
   covariance_(kRight, kRight) = squared(noise_.wheel_scale);
   covariance_(kTrack, kTrack) = squared(noise_.track_scale);
   covariance_(kGyro, kGyro) = squared(noise_.gyro_scale);
+  covariance_(kDelay, kDelay) = squared(noise_.delay_s);
   covariance_(kLeftRest, kLeftRest) = covariance_(kRightRest, kRightRest) = geometry_.rest_m2();
 }
 
@@ -248,6 +250,7 @@ void FusionFilter::move_on(const Prediction& p) {
     with_usual.tail<2>() = with_seen.tail<2>();
   }
   covariance_(kBias, kBias) += squared(noise_.bias_rad_s_per_sqrt_s) * p.dt_s;
+  covariance_(kDelay, kDelay) += squared(noise_.delay_s_per_sqrt_s) * p.dt_s;
   for (const int scale : {kLeft, kRight, kTrack, kGyro}) {
     covariance_(scale, scale) += squared(noise_.scale_per_sqrt_s) * p.dt_s;
   }
@@ -293,6 +296,7 @@ double FusionFilter::variance_along(const Row& slope) const {
 void FusionFilter::predict_hole(const MotionStep& step) {
   learning_.interrupt();
   usual_.forget();
+  doubt_times();
   const double dt_s = step.duration_s();
   const double moved_m2 = squared(kUnknown_m_s * dt_s);
   covariance_(kX, kX) += moved_m2;

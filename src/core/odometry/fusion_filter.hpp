@@ -15,7 +15,9 @@
 namespace cornerd::core {
 
 /// An extended Kalman filter over the pose of `base` in `map` and LearnedOdometry. Wheels move it,
-/// the gyro corrects the turn of each step, the lidar's fixes correct all of it. Fixed size, no
+/// the gyro corrects the turn of each step, the lidar's fixes correct all of it. The pose is that
+/// of a reading's time; a fix is of the lidar's, which is the same less the delay, and what the
+/// delay is off by shows in fixes as the way that the robot makes meanwhile. Fixed size, no
 /// allocation.
 class FusionFilter {
  public:
@@ -29,6 +31,7 @@ class FusionFilter {
     kRight,
     kTrack,
     kGyro,
+    kDelay,
     kLeftRest,
     kRightRest,
     kSize
@@ -41,6 +44,12 @@ class FusionFilter {
   /// Moves the pose on by what wheels and gyro did.
   void predict(const MotionStep& step);
 
+  /// How fast `base` moves now: what makes an unknown delay an unknown place.
+  void set_velocity(double speed_m_s, double rate_rad_s);
+
+  /// The readings' times are those of another clock from now on.
+  void doubt_times();
+
   /// Forgets the pose alone, and takes this one; what was learned stays.
   void set_pose(const Pose2& T_map_base, const Covariance3& covariance);
 
@@ -52,7 +61,8 @@ class FusionFilter {
   bool correct(const Pose2& T_map_base, const Covariance3& covariance);
 
   Pose2 pose() const { return {state_[kX], state_[kY], state_[kTheta]}; }
-  Covariance3 pose_covariance() const { return covariance_.topLeftCorner<3, 3>(); }
+  /// Of the pose as the lidar sees it: with what the delay is off by.
+  Covariance3 pose_covariance() const;
   LearnedOdometry learned() const;
   const Vector& state() const { return state_; }
   const Matrix& covariance() const { return covariance_; }
@@ -98,6 +108,10 @@ class FusionFilter {
   Row turn_slope(double way_m, double turn_rad, bool rolls) const;
   Row seen_slope(const Row& turn_by, double turn_rad, double dt_s) const;
   double variance_along(const Row& slope) const;
+  /// x, y, theta a second.
+  Eigen::Vector3d velocity() const;
+  /// The covariance of the pose as the lidar sees it with the state.
+  Eigen::Matrix<double, 3, kSize> seen_with_state() const;
   void predict_hole(const MotionStep& step);
   void keep_in_bounds();
 
@@ -109,6 +123,8 @@ class FusionFilter {
   UsualMotion usual_;
   JitterMeter jitter_;
   SlipWatch slip_watch_;
+  double speed_m_s_ = 0;
+  double rate_rad_s_ = 0;
   std::uint64_t slips_ = 0;
 };
 

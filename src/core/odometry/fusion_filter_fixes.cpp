@@ -16,6 +16,7 @@ constexpr double kStranger = 30.7;
 /// Nothing that is built is farther from what it was built to be.
 constexpr double kMostScale = 0.5;
 constexpr double kMostBias_rad_s = 0.5;
+constexpr double kMostDelay_s = 0.2;
 
 }  // namespace
 
@@ -50,11 +51,38 @@ FusionFilter::Wander FusionFilter::wander_of(const Pose2& way, double duration_s
   return wander;
 }
 
+void FusionFilter::set_velocity(double speed_m_s, double rate_rad_s) {
+  speed_m_s_ = speed_m_s;
+  rate_rad_s_ = rate_rad_s;
+}
+
+void FusionFilter::doubt_times() { covariance_(kDelay, kDelay) += squared(noise_.delay_s); }
+
+Eigen::Vector3d FusionFilter::velocity() const {
+  return {speed_m_s_ * std::cos(state_[kTheta]), speed_m_s_ * std::sin(state_[kTheta]),
+          rate_rad_s_};
+}
+
+Eigen::Matrix<double, 3, FusionFilter::kSize> FusionFilter::seen_with_state() const {
+  return covariance_.topRows<3>() + velocity() * covariance_.row(kDelay);
+}
+
+Covariance3 FusionFilter::pose_covariance() const {
+  const Eigen::Matrix<double, 3, kSize> with = seen_with_state();
+  return with.leftCols<3>() + with.col(kDelay) * velocity().transpose();
+}
+
 void FusionFilter::set_pose(const Pose2& T_map_base, const Covariance3& covariance) {
   state_.head<3>() << T_map_base.x_m, T_map_base.y_m, T_map_base.theta_rad;
   covariance_.topRows<3>().setZero();
   covariance_.leftCols<3>().setZero();
-  covariance_.topLeftCorner<3, 3>() = covariance;
+  // The place at the reading's time is the one that was seen, less the way of what the delay is
+  // off.
+  const Eigen::Matrix<double, 3, kSize> with_state = -velocity() * covariance_.row(kDelay);
+  covariance_.topRows<3>() = with_state;
+  covariance_.leftCols<3>() = with_state.transpose();
+  covariance_.topLeftCorner<3, 3>() =
+      covariance + covariance_(kDelay, kDelay) * velocity() * velocity().transpose();
   learning_.interrupt();
 }
 
@@ -75,7 +103,7 @@ bool FusionFilter::correct(const Pose2& T_map_base, const Covariance3& covarianc
                   covariance_.block<5, 5>(kBias, kBias));
   const Eigen::Vector3d surprise = surprise_of(T_map_base);
   const Eigen::LLT<Eigen::Matrix3d> root(pose_covariance() + covariance);
-  const Eigen::Matrix<double, kSize, 3> with_pose = covariance_.leftCols<3>();
+  const Eigen::Matrix<double, kSize, 3> with_pose = seen_with_state().transpose();
   const Eigen::Matrix<double, kSize, 3> gain = root.solve(with_pose.transpose()).transpose();
   state_ += gain * surprise;
   covariance_ -= gain * with_pose.transpose();
@@ -84,12 +112,14 @@ bool FusionFilter::correct(const Pose2& T_map_base, const Covariance3& covarianc
 }
 
 LearnedOdometry FusionFilter::learned() const {
-  return {state_[kBias], state_[kLeft], state_[kRight], state_[kTrack], state_[kGyro]};
+  return {state_[kBias],  state_[kLeft], state_[kRight],
+          state_[kTrack], state_[kGyro], state_[kDelay]};
 }
 
 void FusionFilter::keep_in_bounds() {
   state_[kTheta] = normalize_angle(state_[kTheta]);
   state_[kBias] = std::clamp(state_[kBias], -kMostBias_rad_s, kMostBias_rad_s);
+  state_[kDelay] = std::clamp(state_[kDelay], -kMostDelay_s, kMostDelay_s);
   for (const int scale : {kLeft, kRight, kTrack, kGyro}) {
     state_[scale] = std::clamp(state_[scale], -kMostScale, kMostScale);
   }

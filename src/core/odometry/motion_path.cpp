@@ -42,6 +42,12 @@ Pose2 MotionPath::greatest_change(TimeNs from_ns, TimeNs to_ns) const {
   return greatest;
 }
 
+std::optional<Pose2> MotionPath::way_around(TimeNs t_ns) const {
+  const TimeNs half_ns = from_seconds(kAround_s / 2);
+  if (!covers(t_ns - half_ns, t_ns + half_ns)) return std::nullopt;
+  return at(t_ns - half_ns).inverse() * at(t_ns + half_ns);
+}
+
 Pose2 MotionPath::at(TimeNs t_ns) const {
   std::size_t age = 1;  // of the older end of the piece that holds t_ns
   while (age + 1 < size_ && point(age).t_ns > t_ns) ++age;

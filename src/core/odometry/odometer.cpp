@@ -39,6 +39,7 @@ OdometryConfig as_configured(OdometryConfig config) {
     OdometryNoise& noise = config.noise;
     noise.wheel_scale = noise.track_scale = noise.gyro_scale = noise.gyro_bias_rad_s = 0;
     noise.scale_per_sqrt_s = noise.bias_rad_s_per_sqrt_s = 0;
+    noise.delay_s = noise.delay_s_per_sqrt_s = 0;
   }
   return config;
 }
@@ -107,6 +108,7 @@ void Odometer::begin_anew(const MotionStep& hole) {
   reached_ns_ = hole.to_ns;
   ahead_is_stale_ = true;
   has_pose_ = false;
+  filter_.doubt_times();
 }
 
 void Odometer::consume(const MotionStep& step) {
@@ -159,13 +161,22 @@ void Odometer::advance(TimeNs start_ns, TimeNs middle_ns, TimeNs end_ns) {
   end_ns_ = end_ns;
   if (!config_.enabled) return;
   ahead_is_stale_ = true;
-  consume_until(middle_ns);
-  guess_until(middle_ns);
+  delay_ns_ = from_seconds(filter_.learned().delay_s);
+  consume_until(middle_ns + delay_ns_);
+  guess_until(middle_ns + delay_ns_);
+  tell_velocity(filter_, middle_ns + delay_ns_);
   if (filter_.is_contradictory()) has_pose_ = false;
-  knows_motion_ = is_believed() && path_.covers(start_ns, end_ns);
+  knows_motion_ = is_believed() && path_.covers(start_ns + delay_ns_, end_ns + delay_ns_);
   const TimeNs behind_ns = middle_ns - last_.to_ns;
   present_ = behind_ns >= -kNsPerSecond && behind_ns <= MotionPath::kLongestGuess_ns;
   if (!present_) has_pose_ = false;
+}
+
+/// Before and after alike, so that a change of speed is not seen late.
+void Odometer::tell_velocity(FusionFilter& filter, TimeNs t_ns) const {
+  const auto way = path_.way_around(t_ns);
+  filter.set_velocity(way ? way->x_m / MotionPath::kAround_s : 0,
+                      way ? way->theta_rad / MotionPath::kAround_s : 0);
 }
 
 bool Odometer::straighten(const Scan& turn, const Pose2& T_base_lidar, Scan& still) const {
@@ -173,11 +184,11 @@ bool Odometer::straighten(const Scan& turn, const Pose2& T_base_lidar, Scan& sti
   // The way from one of these to the next, 2 ms, is straight enough.
   constexpr std::size_t kPieces = 64;
   std::array<Pose2, kPieces + 1> T_middle_then;
-  const Pose2 T_middle_start = (path_.at(middle_ns_) * T_base_lidar).inverse();
+  const Pose2 T_middle_start = (path_.at(middle_ns_ + delay_ns_) * T_base_lidar).inverse();
   const double piece_ns = static_cast<double>(end_ns_ - start_ns_) / kPieces;
   for (std::size_t i = 0; i <= kPieces; ++i) {
     const TimeNs t_ns = start_ns_ + static_cast<TimeNs>(static_cast<double>(i) * piece_ns);
-    T_middle_then[i] = T_middle_start * path_.at(t_ns) * T_base_lidar;
+    T_middle_then[i] = T_middle_start * path_.at(t_ns + delay_ns_) * T_base_lidar;
   }
   still.clear();
   for (const Sample& sample : turn.samples()) {
@@ -200,13 +211,15 @@ bool Odometer::straighten(const Scan& turn, const Pose2& T_base_lidar, Scan& sti
 }
 
 Covariance3 Odometer::doubt_of_motion() const {
-  const Pose2 way = path_.at(start_ns_).inverse() * path_.at(end_ns_);
+  const TimeNs from_ns = start_ns_ + delay_ns_;
+  const TimeNs to_ns = end_ns_ + delay_ns_;
+  const Pose2 way = path_.at(from_ns).inverse() * path_.at(to_ns);
   const double place_m = kMotionShare / 2 * way.translation().norm();
   const double turn_rad = kMotionShare / 2 * way.theta_rad;
   const FusionFilter::Wander wander =
       filter_.wander_of(way, to_seconds(end_ns_ - start_ns_), last_.has_gyro);
   // When between two readings the robot changed its speed nobody knows.
-  const Pose2 uneven = path_.greatest_change(start_ns_, end_ns_);
+  const Pose2 uneven = path_.greatest_change(from_ns, to_ns);
   const double uneven_m = kUnevenShare * uneven.x_m;
   const double uneven_rad = kUnevenShare * uneven.theta_rad;
   // Where in its count each wheel is in the middle: what the rest of the turn is straightened to.
@@ -234,8 +247,10 @@ std::optional<PredictedPose> Odometer::ahead() {
     const MotionStep& step = pending_[(first_ + ahead_by_) % kPending];
     if (step.to_ns > step.from_ns) ahead_.predict(less_guess(step, ahead_guessed_));
   }
-  return size_ > 0 ? prediction_of(ahead_, pending_[(first_ + size_ - 1) % kPending].to_ns)
-                   : std::nullopt;
+  if (size_ == 0) return std::nullopt;
+  const TimeNs t_ns = pending_[(first_ + size_ - 1) % kPending].to_ns;
+  tell_velocity(ahead_, t_ns);
+  return prediction_of(ahead_, t_ns - delay_ns_);
 }
 
 std::optional<PredictedPose> Odometer::prediction_of(const FusionFilter& filter,
@@ -314,9 +329,9 @@ OdometrySummary Odometer::summary() const {
   summary.trusted = present_ && is_believed();
   summary.learned = filter_.learned();
   const auto sigma = [&](FusionFilter::Index i) { return std::sqrt(filter_.covariance()(i, i)); };
-  summary.sigma = {sigma(FusionFilter::kBias), sigma(FusionFilter::kLeft),
+  summary.sigma = {sigma(FusionFilter::kBias),  sigma(FusionFilter::kLeft),
                    sigma(FusionFilter::kRight), sigma(FusionFilter::kTrack),
-                   sigma(FusionFilter::kGyro)};
+                   sigma(FusionFilter::kGyro),  sigma(FusionFilter::kDelay)};
   summary.counters = gate_.counters();
   summary.slips = filter_.slips();
   summary.fixes = fixes_;

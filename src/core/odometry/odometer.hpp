@@ -90,6 +90,7 @@ class Odometer {
   std::optional<PredictedPose> prediction_of(const FusionFilter& filter, TimeNs t_ns) const;
   /// False where wheels, gyro and lidar have lately told different stories.
   bool is_believed() const;
+  void tell_velocity(FusionFilter& filter, TimeNs t_ns) const;
   void consume_until(TimeNs t_ns);
   void guess_until(TimeNs t_ns);
 
@@ -101,7 +102,7 @@ class Odometer {
   std::array<MotionStep, kPending> pending_;  ///< not yet in the filter; a ring
   std::size_t first_ = 0;
   std::size_t size_ = 0;
-  TimeNs reached_ns_ = 0;  ///< the filter stands here
+  TimeNs reached_ns_ = 0;  ///< the filter stands here, by the readings' times
   MotionStep last_;        ///< the newest whole step in the filter, for a guess
   MotionStep guessed_;     ///< what the filter has taken beyond the newest reading
 
@@ -113,6 +114,7 @@ class Odometer {
   TimeNs start_ns_ = 0;  ///< of the turn
   TimeNs middle_ns_ = 0;
   TimeNs end_ns_ = 0;
+  TimeNs delay_ns_ = 0;  ///< of the readings, as it was learned before the turn
   bool knows_motion_ = false;
   bool has_pose_ = false;
   bool present_ = false;

@@ -36,9 +36,11 @@ struct OdometryNoise {
   double track_scale = 0.05;
   double gyro_scale = 0.03;
   double gyro_bias_rad_s = 0.02;
+  double delay_s = 0.01;
   /// How the learned ones walk away: tyres wear, a gyro warms up.
   double scale_per_sqrt_s = 2e-5;
   double bias_rad_s_per_sqrt_s = 5e-5;
+  double delay_s_per_sqrt_s = 2e-5;
 };
 
 /// Where a change of heading comes from. The first four are those of Bertocco et al. (2019).
@@ -54,13 +56,15 @@ struct PaperFactors {
 
 /// What is known of the robot itself. A scale is a relative error: the wheel's true way is 1 +
 /// scale times what its counts say, the true track 1 + scale times the configured one, and a gyro
-/// reads 1 + scale times the true rate, plus the bias.
+/// reads 1 + scale times the true rate, plus the bias. What a reading says was true `delay_s`
+/// before the time that it bears, by the clock of the lidar's samples.
 struct LearnedOdometry {
   double gyro_bias_rad_s = 0;
   double left_scale = 0;
   double right_scale = 0;
   double track_scale = 0;
   double gyro_scale = 0;
+  double delay_s = 0;
 };
 
 struct OdometryConfig {

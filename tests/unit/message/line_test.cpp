@@ -251,15 +251,15 @@ TEST(StatusLine, Odometry_TellsWhatWasLearned) {
   odometry.present = true;
   EXPECT_EQ(read(writer.status(status))["odometry"]["state"], "distrusted");
   odometry.trusted = true;
-  odometry.learned = {0.01, 0.015, 0.025, -0.002, 0.02};
-  odometry.sigma = {0.0002, 0.001, 0.001, 0.003, std::nan("")};
+  odometry.learned = {0.01, 0.015, 0.025, -0.002, 0.02, 0.004};
+  odometry.sigma = {0.0002, 0.001, 0.001, 0.003, std::nan(""), 0.0001};
   odometry.counters = {100, 1, 2, 3, 4, 5, 6, 7};
   odometry.slips = 8;
   odometry.fixes = 9;
   odometry.strangers = 10;
   EXPECT_EQ(read(writer.status(status))["odometry"], json::parse(R"({"state":"running",
-    "gyro_bias":0.01,"gyro_scale":0.02,"left_scale":0.015,"right_scale":0.025,"track_scale":-0.002,
-    "sigma":{"gyro_bias":0.0002,"left_scale":0.001,"right_scale":0.001,"track_scale":0.003},
+    "delay":0.004,"gyro_bias":0.01,"gyro_scale":0.02,"left_scale":0.015,"right_scale":0.025,"track_scale":-0.002,
+    "sigma":{"delay":0.0001,"gyro_bias":0.0002,"left_scale":0.001,"right_scale":0.001,"track_scale":0.003},
     "counters":{"readings":100,"past":1,"future":2,"jumps":3,"bad_rates":4,"frozen":5,"holes":6,
                 "restarts":7,"slips":8,"fixes":9,"strangers":10}})"));
 

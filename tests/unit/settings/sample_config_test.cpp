@@ -124,6 +124,8 @@ void expect_default_odometry(const OdometryConfig& sample, const OdometryConfig&
   EXPECT_EQ(noise.track_scale, defaults.core.noise.track_scale);
   EXPECT_EQ(noise.gyro_scale, defaults.core.noise.gyro_scale);
   EXPECT_EQ(noise.gyro_bias_rad_s, defaults.core.noise.gyro_bias_rad_s);
+  EXPECT_EQ(noise.bias_rad_s_per_sqrt_s, defaults.core.noise.bias_rad_s_per_sqrt_s);
+  EXPECT_EQ(noise.delay_s, defaults.core.noise.delay_s);
   EXPECT_EQ(sample.core.limits.wheel_speed_m_s, defaults.core.limits.wheel_speed_m_s);
   const core::LearnedOdometry& start = sample.core.start;
   EXPECT_EQ(start.left_scale, defaults.core.start.left_scale);
@@ -131,6 +133,7 @@ void expect_default_odometry(const OdometryConfig& sample, const OdometryConfig&
   EXPECT_EQ(start.track_scale, defaults.core.start.track_scale);
   EXPECT_EQ(start.gyro_scale, defaults.core.start.gyro_scale);
   EXPECT_EQ(start.gyro_bias_rad_s, defaults.core.start.gyro_bias_rad_s);
+  EXPECT_EQ(start.delay_s, defaults.core.start.delay_s);
   EXPECT_EQ(sample.core.bridge_s, defaults.core.bridge_s);
 }
 

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: MIT
+// Readings whose times are late or early by the same all the time.
+#include <gtest/gtest.h>
+
+#include <Eigen/LU>
+
+#include "core/odometry/odometer.hpp"
+#include "tests/unit/core/odometry/driven_robot.hpp"
+
+namespace cornerd::core {
+namespace {
+
+/// A minute with fixes teaches; then five seconds without any, and five with, in turn.
+class LateRide {
+ public:
+  explicit LateRide(double delay_s, const OdometryConfig& config)
+      : odometer(config), robot_(config.geometry, errors(), 5), delay_ns_(from_seconds(delay_s)) {}
+
+  void teach() {
+    for (int k = 0; k < 430; ++k) turn(true);
+  }
+  /// The mean of the normalized squared error of what is predicted, 3 if it is as good as it says.
+  double blind_nees() {
+    constexpr int kTurns = 35;
+    double sum = 0;
+    int count = 0;
+    for (int k = 0; k < 20 * kTurns; ++k) {
+      const bool blind = k / kTurns % 2 == 0;
+      turn(!blind);
+      const auto predicted = odometer.prediction();
+      EXPECT_TRUE(predicted) << k;
+      if (!blind || !predicted) continue;
+      sum += nees(*predicted);
+      ++count;
+    }
+    return sum / count;
+  }
+
+  Odometer odometer;
+
+ private:
+  static testing::RobotErrors errors() {
+    testing::RobotErrors errors;
+    errors.left_scale = 0.015;
+    errors.right_scale = 0.025;
+    errors.gyro_scale = 0.02;
+    errors.gyro_bias_rad_s = 0.01;
+    errors.wheel_m_per_sqrt_m = 0.0012;
+    errors.gyro_rad_s_per_sqrt_hz = 0.00025;
+    return errors;
+  }
+
+  void turn(bool with_fix) {
+    constexpr double kReading_s = 0.02;
+    const TimeNs start_ns = robot_.now_ns();
+    TimeNs middle_ns = 0;
+    for (int i = 0; i < 7; ++i, ++readings_) {
+      const testing::Rates rates = testing::lively_drive(kReading_s * readings_);
+      OdometryReading reading = robot_.drive(kReading_s, rates.speed_m_s, rates.rate_rad_s);
+      reading.t_ns += delay_ns_;
+      odometer.add(reading, robot_.now_ns());
+      if (i != 2) continue;
+      middle_ns = robot_.now_ns();
+      truth_ = robot_.truth();
+    }
+    odometer.advance(start_ns, middle_ns, robot_.now_ns());
+    constexpr double kSigma = 5e-4;
+    if (!with_fix) return;
+    odometer.correct({truth_.x_m + kSigma * robot_.normal(), truth_.y_m + kSigma * robot_.normal(),
+                      truth_.theta_rad + kSigma * robot_.normal()},
+                     Covariance3::Identity() * kSigma * kSigma);
+  }
+
+  double nees(const PredictedPose& predicted) const {
+    const Pose2& pose = predicted.T_map_base;
+    const Eigen::Vector3d error(pose.x_m - truth_.x_m, pose.y_m - truth_.y_m,
+                                angle_between(truth_.theta_rad, pose.theta_rad));
+    return error.dot(predicted.covariance.inverse() * error);
+  }
+
+  testing::DrivenRobot robot_;
+  TimeNs delay_ns_;
+  Pose2 truth_;
+  int readings_ = 0;
+};
+
+OdometryConfig switched_on() {
+  OdometryConfig config;
+  config.enabled = true;
+  return config;
+}
+
+TEST(OdometerDelay, LateOrEarlyReadings_AreFoundOutAndReckonedWith) {
+  for (const double delay_s : {0.0, 0.005, 0.02, -0.03, 0.08}) {
+    LateRide ride(delay_s, switched_on());
+    ride.teach();
+    EXPECT_NEAR(ride.odometer.summary().learned.delay_s, delay_s, 5e-4);
+    EXPECT_LT(ride.odometer.summary().sigma.delay_s, 4e-4) << delay_s;
+    const double nees = ride.blind_nees();
+    EXPECT_LT(nees, 5) << delay_s;
+    EXPECT_GT(nees, 0.5) << delay_s;
+  }
+}
+
+/// What the test above has its figures from: without a doubt in the times nothing is learned.
+TEST(OdometerDelay, TimesThatAreNotDoubted_ArePutDownToTheWheels) {
+  OdometryConfig config = switched_on();
+  config.noise.delay_s = config.noise.delay_s_per_sqrt_s = 0;
+  LateRide ride(0.01, config);
+  ride.teach();
+  EXPECT_NEAR(ride.odometer.summary().learned.delay_s, 0, 1e-4);
+  EXPECT_GT(ride.blind_nees(), 10);
+}
+
+TEST(OdometerDelay, AKnownDelay_IsStartedFrom) {
+  OdometryConfig config = switched_on();
+  config.noise.delay_s = config.noise.delay_s_per_sqrt_s = 0;
+  config.start.delay_s = 0.02;
+  LateRide ride(0.02, config);
+  ride.teach();
+  EXPECT_LT(ride.blind_nees(), 5);
+}
+
+TEST(OdometerDelay, BeforeItIsLearned_TheCovarianceHoldsWhatItMayBe) {
+  OdometryConfig sure = switched_on();
+  sure.noise.delay_s = 0;
+  FusionFilter doubting(switched_on());
+  FusionFilter certain(sure);
+  for (FusionFilter* const filter : {&doubting, &certain}) {
+    filter->set_velocity(0.5, 1);
+    filter->set_pose({}, Covariance3::Identity() * 1e-6);
+    // Seen just now: what the delay is off by is in no place that was seen.
+    EXPECT_NEAR(filter->pose_covariance()(0, 0), 1e-6, 1e-9);
+    filter->set_velocity(0, 0);
+  }
+  const Covariance3 more = doubting.pose_covariance() - certain.pose_covariance();
+  EXPECT_NEAR(more(0, 0), 0.005 * 0.005, 1e-9);
+  EXPECT_NEAR(more(2, 2), 0.01 * 0.01, 1e-9);
+}
+
+}  // namespace
+}  // namespace cornerd::core
