@@ -241,13 +241,13 @@ void FusionFilter::move_on(const Prediction& p) {
     const double rest_m2 = geometry_.rest_m2();
     Eigen::Matrix<double, kSize, 2> with_rests = Eigen::Matrix<double, kSize, 2>::Zero();
     with_rests.topRows<3>() << by_way / 2 - by_turn / p.track_m, by_way / 2 + by_turn / p.track_m;
-    with_rests.bottomRows<2>().setIdentity();
+    with_rests.middleRows<2>(kLeftRest).setIdentity();
     with_rests *= rest_m2;
-    covariance_.rightCols<2>() = with_rests;
-    covariance_.bottomRows<2>() = with_rests.transpose();
+    covariance_.middleCols<2>(kLeftRest) = with_rests;
+    covariance_.middleRows<2>(kLeftRest) = with_rests.transpose();
     const double seen_m2 = p.gyro_gain / p.track_m * rest_m2;
-    with_seen.tail<2>() << -seen_m2, seen_m2;
-    with_usual.tail<2>() = with_seen.tail<2>();
+    with_seen.segment<2>(kLeftRest) << -seen_m2, seen_m2;
+    with_usual.segment<2>(kLeftRest) = with_seen.segment<2>(kLeftRest);
   }
   covariance_(kBias, kBias) += squared(noise_.bias_rad_s_per_sqrt_s) * p.dt_s;
   covariance_(kDelay, kDelay) += squared(noise_.delay_s_per_sqrt_s) * p.dt_s;

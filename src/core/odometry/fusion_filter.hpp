@@ -31,9 +31,9 @@ class FusionFilter {
     kRight,
     kTrack,
     kGyro,
-    kDelay,
     kLeftRest,
     kRightRest,
+    kDelay,
     kSize
   };
   using Vector = Eigen::Matrix<double, kSize, 1>;

@@ -125,7 +125,8 @@ void FusionFilter::keep_in_bounds() {
   }
   // What rounding makes of a symmetric matrix is symmetric to the last bits alone.
   covariance_ = ((covariance_ + covariance_.transpose()) / 2).eval();
-  for (int i = 0; i < kSize; ++i) covariance_(i, i) = std::max(covariance_(i, i), 1e-14);
+  for (int i = 0; i < kDelay; ++i) covariance_(i, i) = std::max(covariance_(i, i), 1e-14);
+  covariance_(kDelay, kDelay) = std::max(covariance_(kDelay, kDelay), 0.0);
 }
 
 }  // namespace cornerd::core

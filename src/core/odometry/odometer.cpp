@@ -250,7 +250,7 @@ std::optional<PredictedPose> Odometer::ahead() {
   if (size_ == 0) return std::nullopt;
   const TimeNs t_ns = pending_[(first_ + size_ - 1) % kPending].to_ns;
   tell_velocity(ahead_, t_ns);
-  return prediction_of(ahead_, t_ns - delay_ns_);
+  return prediction_of(ahead_, t_ns - from_seconds(filter_.learned().delay_s));
 }
 
 std::optional<PredictedPose> Odometer::prediction_of(const FusionFilter& filter,
