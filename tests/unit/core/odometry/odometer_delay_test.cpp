@@ -84,7 +84,7 @@ class LateRide {
   int readings_ = 0;
 };
 
-OdometryConfig switched_on() {
+OdometryConfig config_of_late_ride() {
   OdometryConfig config;
   config.enabled = true;
   return config;
@@ -92,7 +92,7 @@ OdometryConfig switched_on() {
 
 TEST(OdometerDelay, LateOrEarlyReadings_AreFoundOutAndReckonedWith) {
   for (const double delay_s : {0.0, 0.005, 0.02, -0.03, 0.08}) {
-    LateRide ride(delay_s, switched_on());
+    LateRide ride(delay_s, config_of_late_ride());
     ride.teach();
     EXPECT_NEAR(ride.odometer.summary().learned.delay_s, delay_s, 5e-4);
     EXPECT_LT(ride.odometer.summary().sigma.delay_s, 4e-4) << delay_s;
@@ -104,7 +104,7 @@ TEST(OdometerDelay, LateOrEarlyReadings_AreFoundOutAndReckonedWith) {
 
 /// What the test above has its figures from: without a doubt in the times nothing is learned.
 TEST(OdometerDelay, TimesThatAreNotDoubted_ArePutDownToTheWheels) {
-  OdometryConfig config = switched_on();
+  OdometryConfig config = config_of_late_ride();
   config.noise.delay_s = config.noise.delay_s_per_sqrt_s = 0;
   LateRide ride(0.01, config);
   ride.teach();
@@ -113,7 +113,7 @@ TEST(OdometerDelay, TimesThatAreNotDoubted_ArePutDownToTheWheels) {
 }
 
 TEST(OdometerDelay, AKnownDelay_IsStartedFrom) {
-  OdometryConfig config = switched_on();
+  OdometryConfig config = config_of_late_ride();
   config.noise.delay_s = config.noise.delay_s_per_sqrt_s = 0;
   config.start.delay_s = 0.02;
   LateRide ride(0.02, config);
@@ -122,9 +122,9 @@ TEST(OdometerDelay, AKnownDelay_IsStartedFrom) {
 }
 
 TEST(OdometerDelay, BeforeItIsLearned_TheCovarianceHoldsWhatItMayBe) {
-  OdometryConfig sure = switched_on();
+  OdometryConfig sure = config_of_late_ride();
   sure.noise.delay_s = 0;
-  FusionFilter doubting(switched_on());
+  FusionFilter doubting(config_of_late_ride());
   FusionFilter certain(sure);
   for (FusionFilter* const filter : {&doubting, &certain}) {
     filter->set_velocity(0.5, 1);
