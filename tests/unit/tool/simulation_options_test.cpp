@@ -56,7 +56,7 @@ TEST_F(SimulationOptionsTest, TruthInTheRecordingsPlace_IsWrongUsage) {
   for (const std::string& same : {path("x.bin"), path("./x.bin"), path("a/../x.bin")}) {
     const CommandRun run = simulate({"--truth", same});
     EXPECT_EQ(run.exit_code, kExitUsage) << same;
-    EXPECT_THAT(run.err, HasSubstr("--truth"));
+    EXPECT_THAT(run.err, HasSubstr("two of the outputs"));
     EXPECT_FALSE(std::filesystem::exists(path("x.bin")));
   }
   EXPECT_EQ(simulate({"--truth", path("truth")}).exit_code, kExitDone);
