@@ -215,7 +215,7 @@ RplidarDriver::Failure RplidarDriver::measure(drivers::ByteStream& port, const S
     if (status == drivers::ByteStream::ReadStatus::kLost) break;
     const auto bytes = std::span(buffer).first(count);
     const std::uint64_t samples = stream.samples();
-    stream.feed(bytes, now_ns, live);
+    stream.feed(bytes, now_ns, live, /*more_waits=*/count == buffer.size());
     board_.update(stream.counters(), stream.lateness(), now_ns);
     const bool measured = stream.samples() > samples;
     has_run_ = has_run_ || measured;

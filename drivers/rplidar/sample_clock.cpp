@@ -34,7 +34,7 @@ void SampleClock::reanchor() {
   in_doubt_ = false;
 }
 
-void SampleClock::observe(std::uint64_t index, core::TimeNs latest_ns) {
+void SampleClock::observe(std::uint64_t index, core::TimeNs latest_ns, bool more_waits) {
   if (!anchored_) {
     origin_index_ = index;
     origin_ns_ = latest_ns;
@@ -44,7 +44,7 @@ void SampleClock::observe(std::uint64_t index, core::TimeNs latest_ns) {
   const Point point{static_cast<double>(index - origin_index_),
                     static_cast<double>(latest_ns - origin_ns_)};
   offset_ns_ += std::min(0.0, lateness_ns(point));
-  doubt(point);
+  doubt(point, more_waits);
   last_lateness_ns_ = static_cast<core::TimeNs>(std::max(0.0, lateness_ns(point)));
   if (in_doubt_) return;
 
@@ -57,12 +57,12 @@ void SampleClock::observe(std::uint64_t index, core::TimeNs latest_ns) {
   }
 }
 
-void SampleClock::doubt(const Point& point) {
+void SampleClock::doubt(const Point& point, bool more_waits) {
   if (lateness_ns(point) <= kLateNs) {
     in_doubt_ = false;
     return;
   }
-  if (!in_doubt_) return begin_doubt(point);
+  if (!in_doubt_ || more_waits) return begin_doubt(point);
   if (lateness_ns(point) < lateness_ns(doubt_earliest_)) doubt_earliest_ = point;
   const double lasted_ns = (point.x - doubt_begin_.x) * nominal_ns_;
   if (lasted_ns < kDoubtNs) return;

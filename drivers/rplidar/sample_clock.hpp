@@ -16,7 +16,8 @@ namespace cornerd::rplidar {
 ///
 /// Samples that come far later than they should are a backlog, which is seen sooner than a device
 /// measures it, or they were measured later, after a pause or after others that nobody counted. A
-/// tenth of a second of them tells which; until then the clock is in doubt.
+/// tenth of a second of them tells which; until then the clock is in doubt. What a read leaves
+/// behind is a backlog, however slowly it is read.
 class SampleClock {
  public:
   explicit SampleClock(double period_s) { reset(period_s); }
@@ -26,8 +27,9 @@ class SampleClock {
   /// The count of the samples has been broken: its pace still holds, its offset does not.
   void reanchor();
 
-  /// Sample `index` was measured at `latest_ns` or before. Indices never decrease.
-  void observe(std::uint64_t index, core::TimeNs latest_ns);
+  /// Sample `index` was measured at `latest_ns` or before. Indices never decrease. `more_waits`: it
+  /// was read while others were waiting.
+  void observe(std::uint64_t index, core::TimeNs latest_ns, bool more_waits = false);
 
   /// True while nobody knows whether time_of() holds for the newest samples.
   bool in_doubt() const { return in_doubt_; }
@@ -56,7 +58,7 @@ class SampleClock {
     return point.y - (offset_ns_ + period_ns_ * point.x);
   }
   void anchor(const Point& point);
-  void doubt(const Point& point);
+  void doubt(const Point& point, bool more_waits);
   void begin_doubt(const Point& point);
   void close_block();
   void remember(const Point& point);

@@ -68,9 +68,10 @@ class SampleStream::Implementation : private RawSampleSink {
     held_.reserve(kMostHeld);
   }
 
-  void feed(std::span<const std::uint8_t> bytes, core::TimeNs arrival_ns,
-            drivers::SampleSink& sink) {
+  void feed(std::span<const std::uint8_t> bytes, core::TimeNs arrival_ns, drivers::SampleSink& sink,
+            bool more_waits) {
     sink_ = &sink;
+    more_waits_ = more_waits;
     first_of_feed_ = true;
     const double byte_ns = 1e9 * kBitsPerByte / config_.baud;
     while (!bytes.empty()) {
@@ -174,7 +175,7 @@ class SampleStream::Implementation : private RawSampleSink {
     const double sent_ns =
         byte_ns * static_cast<double>(packet.bytes) + kPeriodsToSend * clock_.period_s() * 1e9;
     clock_.observe(raw.index + packet.samples_ahead,
-                   piece_arrival_ns_ - static_cast<core::TimeNs>(sent_ns));
+                   piece_arrival_ns_ - static_cast<core::TimeNs>(sent_ns), more_waits_);
     first_of_piece_ = false;
     if (first_of_feed_) lateness_.add(clock_.last_lateness_ns());
     first_of_feed_ = false;
@@ -193,6 +194,7 @@ class SampleStream::Implementation : private RawSampleSink {
   std::optional<WireFormat> clock_format_;
   drivers::SampleSink* sink_ = nullptr;
   core::TimeNs piece_arrival_ns_ = 0;
+  bool more_waits_ = false;
   bool first_of_piece_ = false;
   bool first_of_feed_ = false;
   core::Lateness lateness_;
@@ -211,8 +213,8 @@ SampleStream::SampleStream(SampleStream&&) noexcept = default;
 SampleStream& SampleStream::operator=(SampleStream&&) noexcept = default;
 
 void SampleStream::feed(std::span<const std::uint8_t> bytes, core::TimeNs arrival_ns,
-                        drivers::SampleSink& sink) {
-  implementation_->feed(bytes, arrival_ns, sink);
+                        drivers::SampleSink& sink, bool more_waits) {
+  implementation_->feed(bytes, arrival_ns, sink, more_waits);
 }
 void SampleStream::feed_untimed(std::span<const std::uint8_t> bytes, drivers::SampleSink& sink) {
   implementation_->feed_untimed(bytes, sink);

@@ -29,9 +29,9 @@ class SampleStream {
   SampleStream& operator=(SampleStream&&) noexcept;
 
   /// `arrival_ns`: when the last of these bytes was read from the port. Samples whose time is in
-  /// doubt are given when it is known.
-  void feed(std::span<const std::uint8_t> bytes, core::TimeNs arrival_ns,
-            drivers::SampleSink& sink);
+  /// doubt are given when it is known. `more_waits`: the port had more than these.
+  void feed(std::span<const std::uint8_t> bytes, core::TimeNs arrival_ns, drivers::SampleSink& sink,
+            bool more_waits = false);
   /// Bytes that bear no clock: time runs from 0 as their transmission at `baud` would have it.
   void feed_untimed(std::span<const std::uint8_t> bytes, drivers::SampleSink& sink);
   void finish(drivers::SampleSink& sink);

@@ -99,6 +99,25 @@ TEST(SampleClock, ReaderThatIsHeldUp_IsInDoubtUntilItHasCaughtUp) {
   EXPECT_EQ(clock.resets(), 0U);
 }
 
+TEST(SampleClock, BacklogThatIsReadSlowly_IsNoPause) {
+  SampleClock clock(kPeriodS);
+  constexpr std::uint64_t kBefore = 16'000;
+  constexpr std::uint64_t kBacklog = 8'000;
+  const auto at = [](double index, double late_s) {
+    return core::from_seconds(kStartS + index * kPeriodS + late_s);
+  };
+  std::uint64_t index = 0;
+  for (; index < kBefore; index += 32) clock.observe(index, at(static_cast<double>(index), 0));
+  // As fast as the device goes on measuring: its lateness stays, as a pause's does.
+  for (; index < kBefore + kBacklog; index += 32) {
+    clock.observe(index, at(static_cast<double>(index), 2), /*more_waits=*/true);
+    ASSERT_TRUE(clock.in_doubt()) << index;
+  }
+  clock.observe(index, at(static_cast<double>(index), 0.01));
+  EXPECT_FALSE(clock.in_doubt());
+  EXPECT_NEAR(static_cast<double>(clock.time_of(kBefore) - at(kBefore, 0)), 0, 2e6);
+}
+
 TEST(SampleClock, DeviceThatPauses_IsFollowedWithinATenthOfASecond) {
   SampleClock clock(kPeriodS);
   SimulatedArrivals arrivals;
