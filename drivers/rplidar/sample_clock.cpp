@@ -13,7 +13,7 @@ constexpr std::size_t kBlocksForPace = 3;
 // A backlog's lateness melts away by all that the device needed for it, or by most of that where
 // the reader is slow; that of a pause stays.
 constexpr double kLateNs = 50e6;
-constexpr double kDoubtNs = 100e6;
+constexpr double kDoubtNs = 300e6;
 constexpr double kMelting = 0.3;
 
 // Period against nominal: one mode's period may stand in for another's (201 us for 127).

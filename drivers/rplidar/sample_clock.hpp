@@ -16,7 +16,7 @@ namespace cornerd::rplidar {
 ///
 /// Samples that come far later than they should are a backlog, which is seen sooner than a device
 /// measures it, or they were measured later, after a pause or after others that nobody counted. A
-/// tenth of a second of them tells which; until then the clock is in doubt. What a read leaves
+/// third of a second of them tells which; until then the clock is in doubt. What a read leaves
 /// behind is a backlog, however slowly it is read.
 class SampleClock {
  public:

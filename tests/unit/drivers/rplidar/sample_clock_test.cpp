@@ -118,14 +118,14 @@ TEST(SampleClock, BacklogThatIsReadSlowly_IsNoPause) {
   EXPECT_NEAR(static_cast<double>(clock.time_of(kBefore) - at(kBefore, 0)), 0, 2e6);
 }
 
-TEST(SampleClock, DeviceThatPauses_IsFollowedWithinATenthOfASecond) {
+TEST(SampleClock, DeviceThatPauses_IsFollowedWithinThreeTenthsOfASecond) {
   SampleClock clock(kPeriodS);
   SimulatedArrivals arrivals;
   arrivals.run(clock, 20000);
   arrivals.pause(0.8);
   arrivals.run(clock, 32);
   EXPECT_TRUE(clock.in_doubt());
-  arrivals.run(clock, 448);
+  arrivals.run(clock, 1248);
   EXPECT_FALSE(clock.in_doubt());
   EXPECT_EQ(clock.anchored_from(), 20000U);
   EXPECT_LT(arrivals.run(clock, 20000), 5e-3);
