@@ -51,7 +51,7 @@ struct StreamCounters {
   std::uint64_t unpaired_capsules = 0;  ///< capsules without the next one that their angles need
   std::uint64_t false_turn_marks = 0;   ///< start flags in the middle of a turn
   std::uint64_t clock_resets = 0;       ///< times that the sample clock had to be fitted anew
-  std::uint64_t untimed_samples = 0;    ///< not delivered: when they were measured is not known (yet)
+  std::uint64_t untimed_samples = 0;  ///< not delivered: when they were measured is not known (yet)
 };
 
 struct LidarStatus {
