@@ -28,6 +28,11 @@ constexpr double kMotionShare = 0.01;
 /// hangs on by something between (NEES of fixes, `cornerctl bench --odometry`).
 constexpr double kWanderShare = 0.3;
 
+/// A robot that is slower stands, or might as well: its gyro's noise is no motion, and what that
+/// noise makes of the place would be taken for a delay.
+constexpr double kLeastSpeed_m_s = 0.03;
+constexpr double kLeastRate_rad_s = 0.1;
+
 /// A change of speed between two readings moves what is between them by a quarter of what it comes
 /// to at most, and a turn's samples are only in part there (NEES of fixes with few readings a
 /// second, `cornerctl bench --odometry`).
@@ -175,8 +180,10 @@ void Odometer::advance(TimeNs start_ns, TimeNs middle_ns, TimeNs end_ns) {
 /// Before and after alike, so that a change of speed is not seen late.
 void Odometer::tell_velocity(FusionFilter& filter, TimeNs t_ns) const {
   const auto way = path_.way_around(t_ns);
-  filter.set_velocity(way ? way->x_m / MotionPath::kAround_s : 0,
-                      way ? way->theta_rad / MotionPath::kAround_s : 0);
+  const bool drives = way && (std::abs(way->x_m) > kLeastSpeed_m_s * MotionPath::kAround_s ||
+                              std::abs(way->theta_rad) > kLeastRate_rad_s * MotionPath::kAround_s);
+  filter.set_velocity(drives ? way->x_m / MotionPath::kAround_s : 0,
+                      drives ? way->theta_rad / MotionPath::kAround_s : 0);
 }
 
 bool Odometer::straighten(const Scan& turn, const Pose2& T_base_lidar, Scan& still) const {
@@ -250,7 +257,8 @@ std::optional<PredictedPose> Odometer::ahead() {
   if (size_ == 0) return std::nullopt;
   const TimeNs t_ns = pending_[(first_ + size_ - 1) % kPending].to_ns;
   tell_velocity(ahead_, t_ns);
-  return prediction_of(ahead_, t_ns - from_seconds(filter_.learned().delay_s));
+  const TimeNs then_ns = t_ns - from_seconds(filter_.learned().delay_s);
+  return then_ns > middle_ns_ ? prediction_of(ahead_, then_ns) : std::nullopt;
 }
 
 std::optional<PredictedPose> Odometer::prediction_of(const FusionFilter& filter,

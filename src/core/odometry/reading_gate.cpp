@@ -21,6 +21,7 @@ constexpr std::uint32_t kClockWasSet = 5;
 constexpr double kUsualPauses = 3;
 constexpr double kShortestLeap_s = 0.06;
 constexpr std::uint32_t kWentOn = 3;
+constexpr double kSlower = 1.5;
 /// How fast the usual time between readings is learned.
 constexpr double kUsualShare = 1.0 / 16;
 /// Counts that jumped and then go on evenly so often are a controller that was restarted.
@@ -78,12 +79,17 @@ bool ReadingGate::leaps_ahead(TimeNs t_ns) {
   const double pause_s = to_seconds(t_ns - *last_ns_);
   const double longest_s = std::max(kShortestLeap_s, kUsualPauses * usual_s_.value_or(pause_s));
   if (pause_s > longest_s) {
+    // Or as slowly as after the pause: a client that has less to do.
     const bool goes_on =
-        leapt_ns_ && t_ns >= *leapt_ns_ && to_seconds(t_ns - *leapt_ns_) <= longest_s;
+        leapt_ns_ && t_ns >= *leapt_ns_ &&
+        to_seconds(t_ns - *leapt_ns_) <=
+            std::max(longest_s, kSlower * to_seconds(*leapt_ns_ - *last_ns_) / leaps_);
     counters_.future += goes_on ? 0 : leaps_;
+    const double followed_s = goes_on ? to_seconds(t_ns - *leapt_ns_) : 0;
     leaps_ = goes_on ? leaps_ + 1 : 1;
     leapt_ns_ = t_ns;
     if (leaps_ < kWentOn) return true;
+    usual_s_ = followed_s;
   } else {
     counters_.future += leaps_;
     usual_s_ = usual_s_.value_or(pause_s) + kUsualShare * (pause_s - usual_s_.value_or(pause_s));

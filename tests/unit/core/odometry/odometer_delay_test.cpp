@@ -36,20 +36,6 @@ class LateRide {
     return sum / count;
   }
 
-  Odometer odometer;
-
- private:
-  static testing::RobotErrors errors() {
-    testing::RobotErrors errors;
-    errors.left_scale = 0.015;
-    errors.right_scale = 0.025;
-    errors.gyro_scale = 0.02;
-    errors.gyro_bias_rad_s = 0.01;
-    errors.wheel_m_per_sqrt_m = 0.0012;
-    errors.gyro_rad_s_per_sqrt_hz = 0.00025;
-    return errors;
-  }
-
   void turn(bool with_fix) {
     constexpr double kReading_s = 0.02;
     const TimeNs start_ns = robot_.now_ns();
@@ -69,6 +55,20 @@ class LateRide {
     odometer.correct({truth_.x_m + kSigma * robot_.normal(), truth_.y_m + kSigma * robot_.normal(),
                       truth_.theta_rad + kSigma * robot_.normal()},
                      Covariance3::Identity() * kSigma * kSigma);
+  }
+
+  Odometer odometer;
+
+ private:
+  static testing::RobotErrors errors() {
+    testing::RobotErrors errors;
+    errors.left_scale = 0.015;
+    errors.right_scale = 0.025;
+    errors.gyro_scale = 0.02;
+    errors.gyro_bias_rad_s = 0.01;
+    errors.wheel_m_per_sqrt_m = 0.0012;
+    errors.gyro_rad_s_per_sqrt_hz = 0.00025;
+    return errors;
   }
 
   double nees(const PredictedPose& predicted) const {
@@ -102,7 +102,38 @@ TEST(OdometerDelay, LateOrEarlyReadings_AreFoundOutAndReckonedWith) {
   }
 }
 
-/// What the test above has its figures from: without a doubt in the times nothing is learned.
+TEST(OdometerDelay, ARobotThatStands_LearnsNone) {
+  const OdometryConfig config = config_of_late_ride();
+  Odometer odometer(config);
+  testing::RobotErrors errors;
+  errors.gyro_bias_rad_s = 0.01;
+  errors.gyro_rad_s_per_sqrt_hz = 0.001;
+  testing::DrivenRobot robot(config.geometry, errors, 5);
+  for (int k = 0; k < 2000; ++k) {
+    const TimeNs start_ns = robot.now_ns();
+    for (int i = 0; i < 7; ++i) odometer.add(robot.drive(0.02, 0, 0), robot.now_ns());
+    odometer.advance(start_ns, start_ns + 60'000'000, robot.now_ns());
+    constexpr double kSigma = 1e-4;
+    odometer.correct({kSigma * robot.normal(), kSigma * robot.normal(), kSigma * robot.normal()},
+                     Covariance3::Identity() * kSigma * kSigma);
+  }
+  EXPECT_EQ(odometer.summary().learned.delay_s, 0);
+  EXPECT_GE(odometer.summary().sigma.delay_s, config.noise.delay_s);
+}
+
+TEST(OdometerDelay, WhatIsAhead_IsAfterTheTurn) {
+  LateRide ride(0.08, config_of_late_ride());
+  ride.teach();
+  for (int k = 0; k < 100; ++k) {
+    ride.turn(true);
+    const auto turn = ride.odometer.prediction();
+    const auto ahead = ride.odometer.ahead();
+    ASSERT_TRUE(turn);
+    EXPECT_TRUE(!ahead || ahead->t_ns > turn->t_ns) << k;
+  }
+}
+
+/// What is reckoned with in the first test: without a doubt in the times nothing is learned.
 TEST(OdometerDelay, TimesThatAreNotDoubted_ArePutDownToTheWheels) {
   OdometryConfig config = config_of_late_ride();
   config.noise.delay_s = config.noise.delay_s_per_sqrt_s = 0;

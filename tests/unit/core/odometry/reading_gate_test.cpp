@@ -167,6 +167,21 @@ TEST(ReadingGate, SeldomReadings_AreNoLeaps) {
   EXPECT_EQ(gate.counters().future, 0U);
 }
 
+TEST(ReadingGate, AClientThatGoesOnMoreSlowly_IsFollowed) {
+  for (const double slow_s : {0.1, 0.2, 0.5}) {
+    testing::DrivenRobot robot(small_robot().geometry, {});
+    ReadingGate gate(small_robot());
+    const auto add = [&](double dt_s) {
+      return gate.add(robot.drive(dt_s, 0.3, 0.1), robot.now_ns()).has_value();
+    };
+    for (int i = 0; i < 100; ++i) add(0.02);
+    int steps = 0;
+    for (int i = 0; i < 20; ++i) steps += add(slow_s);
+    EXPECT_EQ(steps, 18) << slow_s;
+    EXPECT_EQ(gate.counters().future, 0U) << slow_s;
+  }
+}
+
 TEST(ReadingGate, RatesThatAreNone_AreLeftOut) {
   const Outcome outcome = drive_with([](int i, OdometryReading& reading) {
     if (i == 30) reading.gyro_rad_s = std::nan("");
