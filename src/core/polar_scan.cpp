@@ -48,6 +48,24 @@ PolarPoint unbiased(const PolarPoint& point, const SensorBias& bias) {
                   turned(point.ray(), angle_between(point.bearing_rad, bearing_rad)));
 }
 
+/// Goes through the returns of a turn in the order of their bearing, round and round.
+class Cursor {
+ public:
+  Cursor(std::span<const PolarPoint> points, double round_rad)
+      : points_(points), round_rad_(round_rad) {}
+  double bearing_rad() const { return points_[i_].bearing_rad + round_rad_; }
+  void go_on() {
+    if (++i_ < points_.size()) return;
+    i_ = 0;
+    round_rad_ += kTwoPi;
+  }
+
+ private:
+  std::span<const PolarPoint> points_;
+  double round_rad_;
+  std::size_t i_ = 0;
+};
+
 PolarPoint moved(const PolarPoint& point, const Twist2& motion) {
   const double dt_s = point.dt_s;
   const double turn_rad = motion.omega_rad_s * dt_s;
@@ -102,26 +120,37 @@ void PolarScan::append(double bearing_rad, double range_m) {
 }
 
 double PolarScan::widest_gap_rad() const {
-  const std::size_t size = points_.size();
-  // Of the returns without end, round and round.
-  const auto bearing_rad = [&](std::size_t i) {
-    const std::size_t round = i / size;
-    return points_[i % size].bearing_rad + kTwoPi * static_cast<double>(round);
-  };
   const double enough = std::max(2.0, kCompany * 2 * kNeighbourhood_rad / spacing_rad_);
-  std::optional<double> last_rad;
-  double widest_rad = 0;
-  std::size_t first = 0;
-  std::size_t end = 0;
-  for (std::size_t i = size; i <= 3 * size && size > 0; ++i) {
-    const double here_rad = bearing_rad(i);
-    while (bearing_rad(first) < here_rad - kNeighbourhood_rad) ++first;
-    while (end < first + size && bearing_rad(end) <= here_rad + kNeighbourhood_rad) ++end;
-    if (static_cast<double>(end - first) < enough) continue;
-    if (last_rad) widest_rad = std::max(widest_rad, here_rad - *last_rad);
-    last_rad = here_rad;
+  // Those about a return: from `first` to before `end`, begun in the round before.
+  Cursor first(points_, -kTwoPi);
+  while (!points_.empty() &&
+         first.bearing_rad() < points_.front().bearing_rad - kNeighbourhood_rad) {
+    first.go_on();
   }
-  return last_rad ? std::min(widest_rad, kTwoPi) : kTwoPi;
+  Cursor end = first;
+  std::size_t company = 0;
+  std::optional<double> first_rad;
+  double last_rad = 0;
+  double widest_rad = 0;
+  for (const PolarPoint& point : points_) {
+    for (; company > 0 && first.bearing_rad() < point.bearing_rad - kNeighbourhood_rad; --company) {
+      first.go_on();
+    }
+    if (company == 0) {
+      while (first.bearing_rad() < point.bearing_rad - kNeighbourhood_rad) first.go_on();
+      end = first;
+    }
+    while (company < points_.size() &&
+           end.bearing_rad() <= point.bearing_rad + kNeighbourhood_rad) {
+      end.go_on();
+      ++company;
+    }
+    if (static_cast<double>(company) < enough) continue;
+    if (first_rad) widest_rad = std::max(widest_rad, point.bearing_rad - last_rad);
+    if (!first_rad) first_rad = point.bearing_rad;
+    last_rad = point.bearing_rad;
+  }
+  return first_rad ? std::max(widest_rad, *first_rad + kTwoPi - last_rad) : kTwoPi;
 }
 
 void PolarScan::sort() {
