@@ -213,10 +213,10 @@ void find_gyro_faults(const std::vector<Told>& sums, GrossFaults& faults) {
     return;
   }
   if (!gyro->is_sure(0)) return;
-  const double factor = 1 / std::abs(gyro->share[0]);
+  const double share = std::abs(gyro->share[0]);
   faults.gyro_is_reversed = gyro->share[0] < 0;
-  if (is_far(1 / factor)) {
-    faults.gyro_factor = factor;
+  if (is_far(share)) {
+    faults.gyro_factor = 1 / share;
   } else if (const double bias_rad_s = -gyro->share[1] / gyro->share[0];
              std::abs(bias_rad_s) > kMostBias_rad_s && gyro->is_sure(1)) {
     faults.gyro_bias_rad_s = bias_rad_s;

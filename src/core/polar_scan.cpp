@@ -123,22 +123,19 @@ double PolarScan::widest_gap_rad() const {
   const double enough = std::max(2.0, kCompany * 2 * kNeighbourhood_rad / spacing_rad_);
   // Those about a return: from `first` to before `end`, begun in the round before.
   Cursor first(points_, -kTwoPi);
-  while (!points_.empty() &&
-         first.bearing_rad() < points_.front().bearing_rad - kNeighbourhood_rad) {
-    first.go_on();
-  }
   Cursor end = first;
   std::size_t company = 0;
   std::optional<double> first_rad;
   double last_rad = 0;
   double widest_rad = 0;
   for (const PolarPoint& point : points_) {
-    for (; company > 0 && first.bearing_rad() < point.bearing_rad - kNeighbourhood_rad; --company) {
+    while (first.bearing_rad() < point.bearing_rad - kNeighbourhood_rad) {
       first.go_on();
-    }
-    if (company == 0) {
-      while (first.bearing_rad() < point.bearing_rad - kNeighbourhood_rad) first.go_on();
-      end = first;
+      if (company > 0) {
+        --company;
+      } else {
+        end = first;
+      }
     }
     while (company < points_.size() &&
            end.bearing_rad() <= point.bearing_rad + kNeighbourhood_rad) {

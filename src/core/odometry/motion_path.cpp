@@ -42,10 +42,12 @@ Pose2 MotionPath::greatest_change(TimeNs from_ns, TimeNs to_ns) const {
   return greatest;
 }
 
-std::optional<Pose2> MotionPath::way_around(TimeNs t_ns) const {
+Twist2 MotionPath::velocity_at(TimeNs t_ns) const {
+  constexpr double kAround_s = 0.06;
   const TimeNs half_ns = from_seconds(kAround_s / 2);
-  if (!covers(t_ns - half_ns, t_ns + half_ns)) return std::nullopt;
-  return at(t_ns - half_ns).inverse() * at(t_ns + half_ns);
+  if (!covers(t_ns - half_ns, t_ns + half_ns)) return {};
+  const Pose2 way = at(t_ns - half_ns).inverse() * at(t_ns + half_ns);
+  return {way.x_m / kAround_s, way.y_m / kAround_s, way.theta_rad / kAround_s};
 }
 
 Pose2 MotionPath::at(TimeNs t_ns) const {

@@ -25,9 +25,9 @@ class MotionPath {
   /// The pose at a time that is covered. Times that grow are found fastest.
   Pose2 at(TimeNs t_ns) const;
 
-  /// The way of `base` in the kAround_s around a time; nullopt where too little is known.
-  std::optional<Pose2> way_around(TimeNs t_ns) const;
-  static constexpr double kAround_s = 0.06;
+  /// How fast `base` moved, from a little before that time to as much after it, so that a change of
+  /// speed is not seen late; none where too little is known.
+  Twist2 velocity_at(TimeNs t_ns) const;
 
   /// How unevenly it was driven: what the greatest change of speed between two readings would come
   /// to in the time between them, x for the way and theta for the turn, no signs.

@@ -167,9 +167,10 @@ void Odometer::advance(TimeNs start_ns, TimeNs middle_ns, TimeNs end_ns) {
   if (!config_.enabled) return;
   ahead_is_stale_ = true;
   delay_ns_ = from_seconds(filter_.learned().delay_s);
-  consume_until(middle_ns + delay_ns_);
-  guess_until(middle_ns + delay_ns_);
-  tell_velocity(filter_, middle_ns + delay_ns_);
+  const TimeNs reading_ns = middle_ns + delay_ns_;
+  consume_until(reading_ns);
+  guess_until(reading_ns);
+  tell_velocity(filter_, reading_ns);
   if (filter_.is_contradictory()) has_pose_ = false;
   knows_motion_ = is_believed() && path_.covers(start_ns + delay_ns_, end_ns + delay_ns_);
   const TimeNs behind_ns = middle_ns - last_.to_ns;
@@ -177,13 +178,11 @@ void Odometer::advance(TimeNs start_ns, TimeNs middle_ns, TimeNs end_ns) {
   if (!present_) has_pose_ = false;
 }
 
-/// Before and after alike, so that a change of speed is not seen late.
 void Odometer::tell_velocity(FusionFilter& filter, TimeNs t_ns) const {
-  const auto way = path_.way_around(t_ns);
-  const bool drives = way && (std::abs(way->x_m) > kLeastSpeed_m_s * MotionPath::kAround_s ||
-                              std::abs(way->theta_rad) > kLeastRate_rad_s * MotionPath::kAround_s);
-  filter.set_velocity(drives ? way->x_m / MotionPath::kAround_s : 0,
-                      drives ? way->theta_rad / MotionPath::kAround_s : 0);
+  const Twist2 velocity = path_.velocity_at(t_ns);
+  const bool drives = std::abs(velocity.vx_m_s) > kLeastSpeed_m_s ||
+                      std::abs(velocity.omega_rad_s) > kLeastRate_rad_s;
+  filter.set_velocity(drives ? velocity.vx_m_s : 0, drives ? velocity.omega_rad_s : 0);
 }
 
 bool Odometer::straighten(const Scan& turn, const Pose2& T_base_lidar, Scan& still) const {
