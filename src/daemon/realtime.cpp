@@ -15,8 +15,13 @@
 namespace cornerd::daemon {
 namespace {
 
+#ifdef __SANITIZE_THREAD__
+/// The sanitizer's own data of a thread lie in its stack: under 800 kB no thread can be made.
+constexpr std::size_t kStackBytes = 8 * 1024 * 1024;
+#else
 /// The deepest are the settings' reader, whose nesting is limited, and the localizer: 60 kB.
 constexpr std::size_t kStackBytes = 512 * 1024;
+#endif
 
 struct Mapping {
   void* begin = nullptr;
