@@ -7,6 +7,9 @@
 namespace cornerd::core {
 namespace {
 
+/// A turn without a wider gap than this has seen all around.
+constexpr double kSeesAround_rad = radians(90);
+
 /// What a bias of 1 % and 5 mm that is not learnt yet does to poses in rooms of a metre or two.
 Covariance3 doubt_of_bias() {
   constexpr double kPlace_m = 0.006;
@@ -36,7 +39,7 @@ void Localizer::Workspace::report(const Decision& decision, std::size_t corners,
   }
   if (pose.state == PoseState::kLost || pose.state == PoseState::kAmbiguous) {
     const auto predicted = odometer.prediction();
-    if (predicted && !contradicts(*predicted)) predict(*predicted, result.pose);
+    if (predicted && !contradicts(*predicted) && !may_set_out()) predict(*predicted, result.pose);
   }
   pose.age_s = memory.age_s(t_ns);
   result.odometry = odometer.summary();
@@ -51,6 +54,12 @@ bool Localizer::Workspace::contradicts(const PredictedPose& predicted) const {
     return same_place(predicted.T_map_base, other.T_map_base, kJump_m, kJump_rad);
   };
   return std::none_of(result.pose.alternatives.begin(), result.pose.alternatives.end(), is_near);
+}
+
+/// A turn that sees all around and shows no place was most likely taken in motion, and readings of
+/// an unknown delay may not have seen that motion yet.
+bool Localizer::Workspace::may_set_out() const {
+  return odometer.doubts_delay() && points.widest_gap_rad() < kSeesAround_rad;
 }
 
 void Localizer::Workspace::predict(const PredictedPose& predicted, PoseEstimate& pose) const {

@@ -89,6 +89,7 @@ struct Localizer::Workspace {
   /// What a turn showed of the noise, where it is more than chance.
   double noise_scale() const { return std::clamp(result.detection.noise_scale, 0.5, 4.0); }
   bool contradicts(const PredictedPose& predicted) const;
+  bool may_set_out() const;
 
   LocalizerConfig config;
   Pose2 T_lidar_base;

@@ -29,12 +29,18 @@ constexpr double kCreeps = 9;
 
 FusionFilter::FusionFilter(const OdometryConfig& config)
     : geometry_(config.geometry), noise_(config.noise), learning_(config.geometry) {
-  state_[kBias] = config.start.gyro_bias_rad_s;
-  state_[kLeft] = config.start.left_scale;
-  state_[kRight] = config.start.right_scale;
-  state_[kTrack] = config.start.track_scale;
-  state_[kGyro] = config.start.gyro_scale;
-  state_[kDelay] = config.start.delay_s;
+  start_from(config.start);
+}
+
+void FusionFilter::start_from(const LearnedOdometry& start) {
+  state_.setZero();
+  state_[kBias] = start.gyro_bias_rad_s;
+  state_[kLeft] = start.left_scale;
+  state_[kRight] = start.right_scale;
+  state_[kTrack] = start.track_scale;
+  state_[kGyro] = start.gyro_scale;
+  state_[kDelay] = start.delay_s;
+  covariance_.setZero();
   covariance_(kBias, kBias) = squared(noise_.gyro_bias_rad_s);
   covariance_(kLeft, kLeft) = squared(noise_.wheel_scale);
   covariance_(kRight, kRight) = squared(noise_.wheel_scale);
@@ -42,6 +48,8 @@ FusionFilter::FusionFilter(const OdometryConfig& config)
   covariance_(kGyro, kGyro) = squared(noise_.gyro_scale);
   covariance_(kDelay, kDelay) = squared(noise_.delay_s);
   covariance_(kLeftRest, kLeftRest) = covariance_(kRightRest, kRightRest) = geometry_.rest_m2();
+  learning_ = NoiseLearning(geometry_);
+  usual_.forget();
 }
 
 FusionFilter::Wheels FusionFilter::wheels(const MotionStep& step) const {

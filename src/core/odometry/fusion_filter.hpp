@@ -50,6 +50,9 @@ class FusionFilter {
   /// The readings' times are those of another clock from now on.
   void doubt_times();
 
+  /// Forgets what was learned, and the pose: begins with these as at first.
+  void start_from(const LearnedOdometry& start);
+
   /// Forgets the pose alone, and takes this one; what was learned stays.
   void set_pose(const Pose2& T_map_base, const Covariance3& covariance);
 
@@ -61,8 +64,9 @@ class FusionFilter {
   bool correct(const Pose2& T_map_base, const Covariance3& covariance);
 
   Pose2 pose() const { return {state_[kX], state_[kY], state_[kTheta]}; }
-  /// Of the pose as the lidar sees it: with what the delay is off by.
-  Covariance3 pose_covariance() const;
+  /// Of the pose as the lidar sees it: with what the delay is off by, and more of that than the
+  /// filter knows of.
+  Covariance3 pose_covariance(double more_delay_s2 = 0) const;
   LearnedOdometry learned() const;
   const Vector& state() const { return state_; }
   const Matrix& covariance() const { return covariance_; }

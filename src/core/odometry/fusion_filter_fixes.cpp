@@ -67,9 +67,14 @@ Eigen::Matrix<double, 3, FusionFilter::kSize> FusionFilter::seen_with_state() co
   return covariance_.topRows<3>() + velocity() * covariance_.row(kDelay);
 }
 
-Covariance3 FusionFilter::pose_covariance() const {
+Covariance3 FusionFilter::pose_covariance(double more_delay_s2) const {
   const Eigen::Matrix<double, 3, kSize> with = seen_with_state();
-  return with.leftCols<3>() + with.col(kDelay) * velocity().transpose();
+  Covariance3 covariance = with.leftCols<3>() + with.col(kDelay) * velocity().transpose();
+  if (more_delay_s2 > 0 && covariance_(kDelay, kDelay) > 0) {
+    const Eigen::Vector3d by_delay = with.col(kDelay) / covariance_(kDelay, kDelay);
+    covariance += more_delay_s2 * by_delay * by_delay.transpose();
+  }
+  return covariance;
 }
 
 void FusionFilter::set_pose(const Pose2& T_map_base, const Covariance3& covariance) {

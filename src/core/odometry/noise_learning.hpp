@@ -37,7 +37,7 @@ class NoiseLearning {
     double heading_rad = 0;
     double variance_rad2 = 0;
     LearnedOdometry learned;
-    Covariance covariance;
+    Covariance covariance = Covariance::Zero();
     int fixes = 0;
     double left_m = 0;
     double right_m = 0;

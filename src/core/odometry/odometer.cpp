@@ -9,34 +9,15 @@
 namespace cornerd::core {
 namespace {
 
-/// A prediction that is less sure than this helps nobody to find the place again.
-constexpr double kMostSigma_m = 0.3;
-constexpr double kMostSigma_rad = radians(15);
 /// So many fixes in a row that the wheels cannot explain: they are not this robot's, or spin free.
 constexpr std::uint32_t kDistrusted = 3;
-/// What a fix may be off by that its covariance does not know of, a lidar's bias or a wall that was
-/// mapped wrong, until the fixes themselves tell how much it is; a fix that belongs to the same
-/// drive may be off by so much at any time.
-constexpr double kFixFloor_m = 0.002;
-constexpr double kFixFloor_rad = 0.001;
-/// A surprise within three sigma needs no other reason.
-constexpr double kUsual = 9;
-/// How far wheels and gyro mistake the motion of half a turn, as a share of it.
-constexpr double kMotionShare = 0.01;
-/// What a turn's fix is off by of what wheels and gyro wander in it: a sample between its middle
-/// and its end by a quarter of that, all of them together by a twelfth, and those that a coordinate
-/// hangs on by something between (NEES of fixes, `cornerctl bench --odometry`).
-constexpr double kWanderShare = 0.3;
-
 /// A robot that is slower stands, or might as well: its gyro's noise is no motion, and what that
 /// noise makes of the place would be taken for a delay.
 constexpr double kLeastSpeed_m_s = 0.03;
 constexpr double kLeastRate_rad_s = 0.1;
 
-/// A change of speed between two readings moves what is between them by a quarter of what it comes
-/// to at most, and a turn's samples are only in part there (NEES of fixes with few readings a
-/// second, `cornerctl bench --odometry`).
-constexpr double kUnevenShare = 0.2;
+/// The delay that is learned wavers by less.
+constexpr TimeNs kMostWavering_ns = 20'000'000;
 
 /// The paper's modes learn nothing: for them all is as it was configured.
 OdometryConfig as_configured(OdometryConfig config) {
@@ -63,15 +44,6 @@ MotionStep less_guess(const MotionStep& step, MotionStep& guessed) {
   return rest;
 }
 
-/// `place`, `heading`: shares of the floors' variances.
-Covariance3 with_floor(const Covariance3& covariance, double place, double heading) {
-  Covariance3 sum = covariance;
-  sum(0, 0) += place * kFixFloor_m * kFixFloor_m;
-  sum(1, 1) += place * kFixFloor_m * kFixFloor_m;
-  sum(2, 2) += heading * kFixFloor_rad * kFixFloor_rad;
-  return sum;
-}
-
 }  // namespace
 
 Odometer::Odometer(const OdometryConfig& config)
@@ -90,6 +62,7 @@ bool Odometer::add(const OdometryReading& reading, std::optional<TimeNs> now_ns)
   }
   if (step->is_hole) {
     path_.clear();
+    delays_.interrupt();
   } else {
     path_.add(step->from_ns, step->to_ns, filter_.motion_of(*step));
   }
@@ -106,6 +79,7 @@ bool Odometer::add(const OdometryReading& reading, std::optional<TimeNs> now_ns)
 /// What waits is of times that never were, and how far the robot went meanwhile nobody knows.
 void Odometer::begin_anew(const MotionStep& hole) {
   path_.clear();
+  delays_.interrupt();
   first_ = 0;
   size_ = 0;
   guessed_ = {};
@@ -171,6 +145,8 @@ void Odometer::advance(TimeNs start_ns, TimeNs middle_ns, TimeNs end_ns) {
   consume_until(reading_ns);
   guess_until(reading_ns);
   tell_velocity(filter_, reading_ns);
+  // The readings were taken to be earlier until now: the filter is ahead.
+  if (reached_ns_ > reading_ns + kMostWavering_ns) has_pose_ = false;
   if (filter_.is_contradictory()) has_pose_ = false;
   knows_motion_ = is_believed() && path_.covers(start_ns + delay_ns_, end_ns + delay_ns_);
   const TimeNs behind_ns = middle_ns - last_.to_ns;
@@ -183,63 +159,6 @@ void Odometer::tell_velocity(FusionFilter& filter, TimeNs t_ns) const {
   const bool drives = std::abs(velocity.vx_m_s) > kLeastSpeed_m_s ||
                       std::abs(velocity.omega_rad_s) > kLeastRate_rad_s;
   filter.set_velocity(drives ? velocity.vx_m_s : 0, drives ? velocity.omega_rad_s : 0);
-}
-
-bool Odometer::straighten(const Scan& turn, const Pose2& T_base_lidar, Scan& still) const {
-  if (!knows_motion_) return false;
-  // The way from one of these to the next, 2 ms, is straight enough.
-  constexpr std::size_t kPieces = 64;
-  std::array<Pose2, kPieces + 1> T_middle_then;
-  const Pose2 T_middle_start = (path_.at(middle_ns_ + delay_ns_) * T_base_lidar).inverse();
-  const double piece_ns = static_cast<double>(end_ns_ - start_ns_) / kPieces;
-  for (std::size_t i = 0; i <= kPieces; ++i) {
-    const TimeNs t_ns = start_ns_ + static_cast<TimeNs>(static_cast<double>(i) * piece_ns);
-    T_middle_then[i] = T_middle_start * path_.at(t_ns + delay_ns_) * T_base_lidar;
-  }
-  still.clear();
-  for (const Sample& sample : turn.samples()) {
-    Sample moved = sample;
-    if (sample.range_m > 0) {
-      const double piece = static_cast<double>(sample.t_ns - start_ns_) / std::max(piece_ns, 1.0);
-      const auto i = static_cast<std::size_t>(std::clamp(piece, 0.0, kPieces - 1.0));
-      const double share = piece - static_cast<double>(i);
-      const Pose2& from = T_middle_then[i];
-      const Pose2& to = T_middle_then[i + 1];
-      const double turn_rad = from.theta_rad + share * angle_between(from.theta_rad, to.theta_rad);
-      const Vec2 place = from.translation() + share * (to.translation() - from.translation()) +
-                         sample.range_m * unit_vector(turn_rad + sample.bearing_rad);
-      moved.bearing_rad = static_cast<float>(std::atan2(place.y(), place.x()));
-      moved.range_m = static_cast<float>(place.norm());
-    }
-    still.add(moved);
-  }
-  return true;
-}
-
-Covariance3 Odometer::doubt_of_motion() const {
-  const TimeNs from_ns = start_ns_ + delay_ns_;
-  const TimeNs to_ns = end_ns_ + delay_ns_;
-  const Pose2 way = path_.at(from_ns).inverse() * path_.at(to_ns);
-  const double place_m = kMotionShare / 2 * way.translation().norm();
-  const double turn_rad = kMotionShare / 2 * way.theta_rad;
-  const FusionFilter::Wander wander =
-      filter_.wander_of(way, to_seconds(end_ns_ - start_ns_), last_.has_gyro);
-  // When between two readings the robot changed its speed nobody knows.
-  const Pose2 uneven = path_.greatest_change(from_ns, to_ns);
-  const double uneven_m = kUnevenShare * uneven.x_m;
-  const double uneven_rad = kUnevenShare * uneven.theta_rad;
-  // Where in its count each wheel is in the middle: what the rest of the turn is straightened to.
-  const DriveGeometry& geometry = config_.geometry;
-  const double place_m2 = place_m * place_m + uneven_m * uneven_m + geometry.rest_m2() / 2 +
-                          kWanderShare * wander.place_m2;
-  double turn_rad2 =
-      turn_rad * turn_rad + uneven_rad * uneven_rad + kWanderShare * wander.turn_rad2;
-  if (!last_.has_gyro) turn_rad2 += 2 * geometry.rest_m2() / (geometry.track_m * geometry.track_m);
-  return Eigen::Vector3d(place_m2, place_m2, turn_rad2).asDiagonal();
-}
-
-std::optional<PredictedPose> Odometer::prediction() const {
-  return prediction_of(filter_, middle_ns_);
 }
 
 std::optional<PredictedPose> Odometer::ahead() {
@@ -258,66 +177,6 @@ std::optional<PredictedPose> Odometer::ahead() {
   tell_velocity(ahead_, t_ns);
   const TimeNs then_ns = t_ns - from_seconds(filter_.learned().delay_s);
   return then_ns > middle_ns_ ? prediction_of(ahead_, then_ns) : std::nullopt;
-}
-
-std::optional<PredictedPose> Odometer::prediction_of(const FusionFilter& filter,
-                                                     TimeNs t_ns) const {
-  if (!has_pose_ || !present_ || !is_believed() || filter.is_contradictory()) return std::nullopt;
-  if (to_seconds(t_ns - fixed_ns_) > config_.bridge_s) return std::nullopt;
-  const Covariance3 covariance = filter.pose_covariance();
-  const double place_m2 = std::max(covariance(0, 0), covariance(1, 1));
-  if (!(place_m2 < kMostSigma_m * kMostSigma_m) ||
-      !(covariance(2, 2) < kMostSigma_rad * kMostSigma_rad)) {
-    return std::nullopt;
-  }
-  return PredictedPose{t_ns, filter.pose(), covariance};
-}
-
-void Odometer::correct(const Pose2& T_map_base, const Covariance3& covariance) {
-  if (!config_.enabled || !present_) return;
-  ahead_is_stale_ = true;
-  const Covariance3 most = with_floor(covariance, 1, 1);
-  if (filter_.is_contradictory()) {
-    filter_.set_pose(T_map_base, most);
-  } else if (has_pose_ && filter_.explains(T_map_base, most)) {
-    filter_.correct(T_map_base, learned_doubt(T_map_base, covariance));
-    strangers_in_a_row_ = 0;
-    ++fixes_;
-  } else {
-    if (has_pose_) {
-      ++strangers_in_a_row_;
-      ++strangers_;
-    }
-    filter_.set_pose(T_map_base, most);
-  }
-  has_pose_ = !filter_.is_contradictory();
-  fixed_ns_ = middle_ns_;
-}
-
-Covariance3 Odometer::learned_doubt(const Pose2& T_map_base, const Covariance3& covariance) {
-  const Eigen::Vector3d surprise = filter_.surprise_of(T_map_base);
-  const Covariance3 known = filter_.pose_covariance() + covariance;
-  const auto needed = [&](int i, double floor) {
-    const double floor2 = floor * floor;
-    return (surprise[i] * surprise[i] / kUsual - known(i, i)) / floor2;
-  };
-  const double place = std::clamp(std::max(needed(0, kFixFloor_m), needed(1, kFixFloor_m)),
-                                  place_floor_.factor(), 1.0);
-  const double heading = std::clamp(needed(2, kFixFloor_rad), heading_floor_.factor(), 1.0);
-  for (const int i : {0, 1}) {
-    place_floor_.add(surprise[i] * surprise[i], kFixFloor_m * kFixFloor_m, known(i, i));
-  }
-  heading_floor_.add(surprise[2] * surprise[2], kFixFloor_rad * kFixFloor_rad, known(2, 2));
-  return with_floor(covariance, place, heading);
-}
-
-void Odometer::disbelieve_motion() { knows_motion_ = false; }
-
-void Odometer::set_pose(const Pose2& T_map_base, const Covariance3& covariance) {
-  ahead_is_stale_ = true;
-  filter_.set_pose(T_map_base, covariance);
-  has_pose_ = true;
-  fixed_ns_ = middle_ns_;
 }
 
 bool Odometer::is_believed() const {
@@ -339,6 +198,8 @@ OdometrySummary Odometer::summary() const {
   summary.sigma = {sigma(FusionFilter::kBias),  sigma(FusionFilter::kLeft),
                    sigma(FusionFilter::kRight), sigma(FusionFilter::kTrack),
                    sigma(FusionFilter::kGyro),  sigma(FusionFilter::kDelay)};
+  summary.sigma.delay_s =
+      std::hypot(summary.sigma.delay_s, std::sqrt(delay_doubt_s2(summary.learned.delay_s)));
   summary.counters = gate_.counters();
   summary.slips = filter_.slips();
   summary.fixes = fixes_;

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "core/geometry/pose2.hpp"
+#include "core/odometry/delay_finder.hpp"
 #include "core/odometry/fusion_filter.hpp"
 #include "core/odometry/motion_path.hpp"
 #include "core/odometry/noise_meter.hpp"
@@ -66,6 +67,9 @@ class Odometer {
   /// wheels and lidar have lately told different stories.
   std::optional<PredictedPose> prediction() const;
 
+  /// How late the readings are is as good as unknown: no change of speed has shown it yet.
+  bool doubts_delay() const;
+
   /// The same at the time of the newest reading, for OdometryConfig::publish.
   std::optional<PredictedPose> ahead();
 
@@ -83,6 +87,10 @@ class Odometer {
   static constexpr std::size_t kPending = 256;
 
   void begin_anew(const MotionStep& hole);
+  /// All that was learned with another delay was learned wrong.
+  void learn_anew(double delay_s);
+  bool learns_delay() const;
+  double delay_doubt_s2(double delay_s) const;
   void consume(const MotionStep& step);
   /// The covariance of a fix with what it does not know of, as much as fixes lately showed and as
   /// this one needs.
@@ -98,6 +106,7 @@ class Odometer {
   ReadingGate gate_;
   FusionFilter filter_;
   MotionPath path_;
+  DelayFinder delays_;
 
   std::array<MotionStep, kPending> pending_;  ///< not yet in the filter; a ring
   std::size_t first_ = 0;

@@ -57,6 +57,8 @@ class LateRide {
                      Covariance3::Identity() * kSigma * kSigma);
   }
 
+  void delay_by(double delay_s) { delay_ns_ = from_seconds(delay_s); }
+
   /// The lidar is ahead of the readings by so much.
   void advance_beyond(double ahead_s) {
     const TimeNs middle_ns = robot_.now_ns() + from_seconds(ahead_s);
@@ -98,7 +100,7 @@ OdometryConfig config_of_late_ride() {
 }
 
 TEST(OdometerDelay, LateOrEarlyReadings_AreFoundOutAndReckonedWith) {
-  for (const double delay_s : {0.0, 0.005, 0.02, -0.03, 0.08}) {
+  for (const double delay_s : {0.0, 0.005, 0.02, -0.03, 0.08, -0.12, 0.17}) {
     LateRide ride(delay_s, config_of_late_ride());
     ride.teach();
     EXPECT_NEAR(ride.odometer.summary().learned.delay_s, delay_s, 5e-4);
@@ -106,6 +108,17 @@ TEST(OdometerDelay, LateOrEarlyReadings_AreFoundOutAndReckonedWith) {
     const double nees = ride.blind_nees();
     EXPECT_LT(nees, 5) << delay_s;
     EXPECT_GT(nees, 0.5) << delay_s;
+  }
+}
+
+TEST(OdometerDelay, ADelayThatJumps_IsFollowed) {
+  for (const double jump_s : {-0.1, 0.05, 0.12}) {
+    LateRide ride(0.01, config_of_late_ride());
+    ride.teach();
+    ride.delay_by(jump_s);
+    ride.teach();
+    EXPECT_NEAR(ride.odometer.summary().learned.delay_s, jump_s, 1e-3);
+    EXPECT_LT(ride.blind_nees(), 5) << jump_s;
   }
 }
 

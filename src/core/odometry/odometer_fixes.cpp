@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: MIT
+// What odometry foretells, and what the lidar's fixes make of it.
+#include <algorithm>
+#include <cmath>
+
+#include "core/odometry/odometer.hpp"
+
+namespace cornerd::core {
+namespace {
+
+/// A prediction that is less sure than this helps nobody to find the place again.
+constexpr double kMostSigma_m = 0.3;
+constexpr double kMostSigma_rad = radians(15);
+/// What a fix may be off by that its covariance does not know of, a lidar's bias or a wall that was
+/// mapped wrong, until the fixes themselves tell how much it is; a fix that belongs to the same
+/// drive may be off by so much at any time.
+constexpr double kFixFloor_m = 0.002;
+constexpr double kFixFloor_rad = 0.001;
+/// A surprise within three sigma needs no other reason.
+constexpr double kUsual = 9;
+/// A delay that the filter need not find out by itself may be so much larger than it is told.
+constexpr double kUsualDelay = 3;
+/// Readings of an unknown delay may not have seen yet that a robot sets out, as fast as this.
+constexpr double kSetsOut_m_s = 0.5;
+constexpr double kSetsOut_rad_s = 1.5;
+/// What the filter may have to find out by itself is no more than this.
+constexpr double kUnknownDelay_s = 0.02;
+
+/// `place`, `heading`: shares of the floors' variances.
+Covariance3 with_floor(const Covariance3& covariance, double place, double heading) {
+  Covariance3 sum = covariance;
+  sum(0, 0) += place * kFixFloor_m * kFixFloor_m;
+  sum(1, 1) += place * kFixFloor_m * kFixFloor_m;
+  sum(2, 2) += heading * kFixFloor_rad * kFixFloor_rad;
+  return sum;
+}
+
+}  // namespace
+
+std::optional<PredictedPose> Odometer::prediction() const {
+  return prediction_of(filter_, middle_ns_);
+}
+
+std::optional<PredictedPose> Odometer::prediction_of(const FusionFilter& filter,
+                                                     TimeNs t_ns) const {
+  if (!has_pose_ || !present_ || !is_believed() || filter.is_contradictory()) return std::nullopt;
+  if (to_seconds(t_ns - fixed_ns_) > config_.bridge_s) return std::nullopt;
+  const double more_s2 = delay_doubt_s2(filter.learned().delay_s);
+  Covariance3 covariance = filter.pose_covariance(more_s2);
+  const Eigen::Vector3d sets_out(kSetsOut_m_s, kSetsOut_m_s, kSetsOut_rad_s);
+  covariance.diagonal() += more_s2 * sets_out.cwiseAbs2();
+  const double place_m2 = std::max(covariance(0, 0), covariance(1, 1));
+  if (!(place_m2 < kMostSigma_m * kMostSigma_m) ||
+      !(covariance(2, 2) < kMostSigma_rad * kMostSigma_rad)) {
+    return std::nullopt;
+  }
+  return PredictedPose{t_ns, filter.pose(), covariance};
+}
+
+void Odometer::correct(const Pose2& T_map_base, const Covariance3& covariance) {
+  if (!config_.enabled || !present_) return;
+  ahead_is_stale_ = true;
+  const Covariance3 most = with_floor(covariance, 1, 1);
+  if (filter_.is_contradictory()) {
+    filter_.set_pose(T_map_base, most);
+  } else if (has_pose_ && filter_.explains(T_map_base, most)) {
+    filter_.correct(T_map_base, learned_doubt(T_map_base, covariance));
+    strangers_in_a_row_ = 0;
+    ++fixes_;
+  } else {
+    if (has_pose_) {
+      ++strangers_in_a_row_;
+      ++strangers_;
+    }
+    filter_.set_pose(T_map_base, most);
+  }
+  has_pose_ = !filter_.is_contradictory();
+  fixed_ns_ = middle_ns_;
+  if (!learns_delay() || filter_.is_contradictory()) return;
+  delays_.fixed(middle_ns_, T_map_base, covariance, path_);
+  if (const auto delay_s = delays_.instead_of(filter_.learned().delay_s)) learn_anew(*delay_s);
+}
+
+double Odometer::delay_doubt_s2(double delay_s) const {
+  if (!learns_delay()) return 0;
+  return delays_.doubt_about(delay_s, config_.start.delay_s, kUsualDelay * config_.noise.delay_s);
+}
+
+bool Odometer::doubts_delay() const {
+  return delay_doubt_s2(filter_.learned().delay_s) > kUnknownDelay_s * kUnknownDelay_s;
+}
+
+bool Odometer::learns_delay() const {
+  return config_.mode == HeadingSource::kFilter && config_.noise.delay_s > 0;
+}
+
+void Odometer::learn_anew(double delay_s) {
+  LearnedOdometry start = config_.start;
+  start.delay_s = delay_s;
+  filter_.start_from(start);
+  strangers_in_a_row_ = 0;
+  has_pose_ = false;
+}
+
+Covariance3 Odometer::learned_doubt(const Pose2& T_map_base, const Covariance3& covariance) {
+  const Eigen::Vector3d surprise = filter_.surprise_of(T_map_base);
+  const Covariance3 known = filter_.pose_covariance() + covariance;
+  const auto needed = [&](int i, double floor) {
+    const double floor2 = floor * floor;
+    return (surprise[i] * surprise[i] / kUsual - known(i, i)) / floor2;
+  };
+  const double place = std::clamp(std::max(needed(0, kFixFloor_m), needed(1, kFixFloor_m)),
+                                  place_floor_.factor(), 1.0);
+  const double heading = std::clamp(needed(2, kFixFloor_rad), heading_floor_.factor(), 1.0);
+  for (const int i : {0, 1}) {
+    place_floor_.add(surprise[i] * surprise[i], kFixFloor_m * kFixFloor_m, known(i, i));
+  }
+  heading_floor_.add(surprise[2] * surprise[2], kFixFloor_rad * kFixFloor_rad, known(2, 2));
+  return with_floor(covariance, place, heading);
+}
+
+void Odometer::set_pose(const Pose2& T_map_base, const Covariance3& covariance) {
+  ahead_is_stale_ = true;
+  filter_.set_pose(T_map_base, covariance);
+  has_pose_ = true;
+  fixed_ns_ = middle_ns_;
+}
+
+}  // namespace cornerd::core

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+// How the robot moved during a turn.
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "core/odometry/odometer.hpp"
+
+namespace cornerd::core {
+namespace {
+
+/// How far wheels and gyro mistake the motion of half a turn, as a share of it.
+constexpr double kMotionShare = 0.01;
+/// What a turn's fix is off by of what wheels and gyro wander in it: a sample between its middle
+/// and its end by a quarter of that, all of them together by a twelfth, and those that a coordinate
+/// hangs on by something between (NEES of fixes, `cornerctl bench --odometry`).
+constexpr double kWanderShare = 0.3;
+/// A change of speed between two readings moves what is between them by a quarter of what it comes
+/// to at most, and a turn's samples are only in part there (NEES of fixes with few readings a
+/// second, `cornerctl bench --odometry`).
+constexpr double kUnevenShare = 0.2;
+
+}  // namespace
+
+bool Odometer::straighten(const Scan& turn, const Pose2& T_base_lidar, Scan& still) const {
+  if (!knows_motion_) return false;
+  // The way from one of these to the next, 2 ms, is straight enough.
+  constexpr std::size_t kPieces = 64;
+  std::array<Pose2, kPieces + 1> T_middle_then;
+  const Pose2 T_middle_start = (path_.at(middle_ns_ + delay_ns_) * T_base_lidar).inverse();
+  const double piece_ns = static_cast<double>(end_ns_ - start_ns_) / kPieces;
+  for (std::size_t i = 0; i <= kPieces; ++i) {
+    const TimeNs t_ns = start_ns_ + static_cast<TimeNs>(static_cast<double>(i) * piece_ns);
+    T_middle_then[i] = T_middle_start * path_.at(t_ns + delay_ns_) * T_base_lidar;
+  }
+  still.clear();
+  for (const Sample& sample : turn.samples()) {
+    Sample moved = sample;
+    if (sample.range_m > 0) {
+      const double piece = static_cast<double>(sample.t_ns - start_ns_) / std::max(piece_ns, 1.0);
+      const auto i = static_cast<std::size_t>(std::clamp(piece, 0.0, kPieces - 1.0));
+      const double share = piece - static_cast<double>(i);
+      const Pose2& from = T_middle_then[i];
+      const Pose2& to = T_middle_then[i + 1];
+      const double turn_rad = from.theta_rad + share * angle_between(from.theta_rad, to.theta_rad);
+      const Vec2 place = from.translation() + share * (to.translation() - from.translation()) +
+                         sample.range_m * unit_vector(turn_rad + sample.bearing_rad);
+      moved.bearing_rad = static_cast<float>(std::atan2(place.y(), place.x()));
+      moved.range_m = static_cast<float>(place.norm());
+    }
+    still.add(moved);
+  }
+  return true;
+}
+
+Covariance3 Odometer::doubt_of_motion() const {
+  const TimeNs from_ns = start_ns_ + delay_ns_;
+  const TimeNs to_ns = end_ns_ + delay_ns_;
+  const Pose2 way = path_.at(from_ns).inverse() * path_.at(to_ns);
+  const double place_m = kMotionShare / 2 * way.translation().norm();
+  const double turn_rad = kMotionShare / 2 * way.theta_rad;
+  const FusionFilter::Wander wander =
+      filter_.wander_of(way, to_seconds(end_ns_ - start_ns_), last_.has_gyro);
+  // When between two readings the robot changed its speed nobody knows.
+  const Pose2 uneven = path_.greatest_change(from_ns, to_ns);
+  const double uneven_m = kUnevenShare * uneven.x_m;
+  const double uneven_rad = kUnevenShare * uneven.theta_rad;
+  // Where in its count each wheel is in the middle: what the rest of the turn is straightened to.
+  const DriveGeometry& geometry = config_.geometry;
+  const double place_m2 = place_m * place_m + uneven_m * uneven_m + geometry.rest_m2() / 2 +
+                          kWanderShare * wander.place_m2;
+  double turn_rad2 =
+      turn_rad * turn_rad + uneven_rad * uneven_rad + kWanderShare * wander.turn_rad2;
+  if (!last_.has_gyro) turn_rad2 += 2 * geometry.rest_m2() / (geometry.track_m * geometry.track_m);
+  return Eigen::Vector3d(place_m2, place_m2, turn_rad2).asDiagonal();
+}
+
+void Odometer::disbelieve_motion() { knows_motion_ = false; }
+
+}  // namespace cornerd::core
