@@ -41,7 +41,9 @@ class Mapper {
       : before_(anew ? nullptr : before),
         reader_(drive, config, before ? before->learned : std::nullopt,
                 before && !before->has_odometry ? std::span<const core::Pose2>(before->T_map_lidar)
-                                                : std::span<const core::Pose2>()),
+                                                : std::span<const core::Pose2>(),
+                anew ? std::span<const std::size_t>(before->strange_turns)
+                     : std::span<const std::size_t>()),
         extractor_(config.detector, config.noise) {
     if (before_) {
       result_.faces = before->faces;
@@ -109,7 +111,7 @@ class Mapper {
       }
     }
     // Where nothing but the walls tells the way, a turn that fits badly has lost it.
-    begins_faces_ = turn == 0 || prior.by_odometry || share > kLeastShareAlone;
+    begins_faces_ = turn == 0 || prior.by_odometry || (is_placed && share > kLeastShareAlone);
     if (result_.has_odometry && turn > 0 && !prior.by_odometry) {
       ++(reader_.is_contradicted() ? result_.contradicted_turns : result_.unled_turns);
     }
@@ -121,7 +123,14 @@ class Mapper {
   }
 
   TurnMatch find(const TurnPrior& prior) {
+    // A wall that begins beside one that is known is not yet its next piece: where it was taken for
+    // that, the end of a wall 0.1 m away told the place.
+    matcher_.set_cautious(!result_.has_odometry);
     TurnMatch found = search(prior);
+    if (!found.valid && !result_.has_odometry) {
+      matcher_.set_cautious(false);
+      found = search(prior);
+    }
     for (int again = 0; again < kStraightenings && found.valid; ++again) {
       if (!reader_.straighten_again(found.T_map_lidar)) break;
       extract();

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <span>
 
+#include "core/map/wall_map.hpp"
 #include "survey/drive_mapper.hpp"
 #include "survey/loop_closing.hpp"
 #include "survey/recorded_drive.hpp"
@@ -21,5 +22,11 @@ void refuse_without_overlap(const RecordedDrive& recorded, const MappedDrive& dr
 /// beyond that is recognised again can show that it was good enough.
 void refuse_unchecked_guesses(const RecordedDrive& recorded, std::span<const std::size_t> blind,
                               std::span<const LoopReport> loops);
+
+/// Whether so many metres that lie behind other walls are more than what moved explains.
+bool are_walls_doubled(double doubled_m, std::span<const core::Wall> walls);
+
+/// Without odometry, where walls are mapped twice, turns were placed beside where they were.
+void refuse_doubled_walls(double doubled_m, std::span<const core::Wall> walls);
 
 }  // namespace cornerd::survey

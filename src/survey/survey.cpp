@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "survey/adjustment.hpp"
+#include "survey/doubled_walls.hpp"
 #include "survey/evidence.hpp"
 #include "survey/refusals.hpp"
 #include "survey/right_angles.hpp"
@@ -162,10 +163,12 @@ SurveyResult survey(const RecordedDrive& recorded, const SurveyConfig& config,
   }
   fit = adjust(drive, bonds);
   BuiltWalls built = build_walls_of(drive, evidence, config.walls, result.dropped);
+  result.doubled_m = doubled_walls_m(drive, evidence, built.pieces);
   result.plan.walls = std::move(built.walls);
   if (result.plan.walls.empty()) {
     throw std::invalid_argument("no wall was seen well enough to be believed");
   }
+  if (!drive.has_odometry) refuse_doubled_walls(result.doubled_m, result.plan.walls);
 
   result.thin = thin_places(drive, evidence, built.pieces);
   result.points = picture_points(drive);

@@ -48,6 +48,7 @@ struct SurveyResult {
   /// Without odometry: whose walls told nothing of one direction, in which a guess stands.
   std::vector<std::size_t> blind_turns;
   std::vector<LoopReport> loops;  ///< places that were recognised again
+  double doubled_m = 0;           ///< of walls, behind others that would have hidden them
   std::size_t forgotten_faces = 0;
   std::size_t merged_faces = 0;
   std::size_t observations = 0;

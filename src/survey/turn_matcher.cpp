@@ -100,7 +100,7 @@ double TurnMatcher::assign(std::span<const Sighting> sightings, std::span<const 
 
 TurnMatch TurnMatcher::match(std::span<const Sighting> sightings, std::span<const MappedFace> faces,
                              const core::Pose2& prior, const core::Covariance3& covariance,
-                             const Reach& reach, std::vector<std::uint32_t>& faces_of) {
+                             const Reach& reach, std::vector<std::uint32_t>& faces_of) const {
   TurnMatch result;
   core::Pose2 pose = prior;
   const Eigen::Matrix3d prior_information = covariance.inverse();
@@ -117,6 +117,7 @@ TurnMatch TurnMatcher::match(std::span<const Sighting> sightings, std::span<cons
       if (faces_of[i] == kNoFace) continue;
       const MappedFace& face = faces[faces_of[i]];
       const PlacedSighting placed(sightings[i], pose);
+      if (cautious_ && overlap_of(placed, face) < 0) continue;
       const Deviation off = deviation_of(sightings[i], placed, face);
       const double weight = rough ? 1 : weight_of(off);
       const core::Vec2 arm = core::rotate_left(placed.centroid - pose.translation());

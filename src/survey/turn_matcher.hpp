@@ -34,16 +34,22 @@ struct Reach {
 /// same way, lies on the same line and overlaps it.
 class TurnMatcher {
  public:
+  /// A sighting beside a face, which may be its next piece, then tells nothing of the place.
+  void set_cautious(bool cautious) { cautious_ = cautious; }
+
   /// `faces_of`: for each sighting the face that it is of, or kNoFace.
   TurnMatch match(std::span<const Sighting> sightings, std::span<const MappedFace> faces,
                   const core::Pose2& prior, const core::Covariance3& covariance, const Reach& reach,
-                  std::vector<std::uint32_t>& faces_of);
+                  std::vector<std::uint32_t>& faces_of) const;
 
   /// The faces alone, for a pose that is known.
   /// Returns the share of the samples that are on faces.
   static double assign(std::span<const Sighting> sightings, std::span<const MappedFace> faces,
                        const core::Pose2& T_map_lidar, const Reach& reach,
                        std::vector<std::uint32_t>& faces_of);
+
+ private:
+  bool cautious_ = false;
 };
 
 /// A pose that is known but for what is left after an adjustment.

@@ -41,11 +41,13 @@ core::Covariance3 diagonal(double place_m, double heading_rad) {
 
 TurnReader::TurnReader(const RecordedDrive& drive, const core::LocalizerConfig& config,
                        const std::optional<core::LearnedOdometry>& learned,
-                       std::span<const core::Pose2> known_poses)
+                       std::span<const core::Pose2> known_poses,
+                       std::span<const std::size_t> guessed)
     : drive_(drive),
       config_(config),
       T_lidar_base_(config.T_base_lidar.inverse()),
       known_poses_(known_poses),
+      guessed_(guessed),
       odometer_(patient(config.odometry, drive.has_wheels(), learned)) {}
 
 bool TurnReader::next() {
@@ -99,9 +101,9 @@ void TurnReader::predict(core::TimeNs t_ns) {
     return;
   }
   const double dt_s = core::to_seconds(t_ns - last_ns_);
-  prior_.T_before_now = known_poses_.empty()
-                            ? last_motion_.over(std::clamp(dt_s, 0.0, 1.0))
-                            : known_poses_[last_turn_].inverse() * known_poses_[turn_];
+  prior_.T_before_now = is_known(last_turn_) && is_known(turn_)
+                            ? known_poses_[last_turn_].inverse() * known_poses_[turn_]
+                            : last_motion_.over(std::clamp(dt_s, 0.0, 1.0));
   prior_.T_map_lidar = last_T_map_lidar_ * prior_.T_before_now;
   // Twice the time, twice the speed that it may have taken up.
   const double grown = std::clamp(dt_s / 0.15, 1.0, 10.0);
@@ -115,18 +117,24 @@ bool TurnReader::is_contradicted() const {
   return summary.present && !summary.trusted;
 }
 
+/// By the earlier pass.
+bool TurnReader::is_known(std::size_t turn) const {
+  return turn < known_poses_.size() && !std::binary_search(guessed_.begin(), guessed_.end(), turn);
+}
+
 core::Twist2 TurnReader::expected_motion() const {
   const auto known = known_poses_;
   if (known.size() < 2) return last_motion_;
   const std::size_t before = turn_ > 0 ? turn_ - 1 : 0;
   const std::size_t after = std::min(turn_ + 1, known.size() - 1);
+  if (!is_known(before) || !is_known(after)) return last_motion_;
   const double dt_s = core::to_seconds(drive_.middle_ns(after) - drive_.middle_ns(before));
   if (!(dt_s > 0) || dt_s > 1) return last_motion_;
   return core::motion_between(known[before], known[after], dt_s);
 }
 
 bool TurnReader::straighten_again(const core::Pose2& T_map_lidar) {
-  if (turn_ == 0 || drive_.has_wheels() || !known_poses_.empty()) return false;
+  if (turn_ == 0 || drive_.has_wheels() || is_known(turn_)) return false;
   straighten(motion_to(T_map_lidar));
   return true;
 }

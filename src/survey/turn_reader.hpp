@@ -30,10 +30,11 @@ struct TurnPrior {
 class TurnReader {
  public:
   /// `learned`: of wheels and gyro, by a reader that went before.
-  /// `known`: poses of all turns by an earlier pass, for a drive without odometry; may be empty.
+  /// `known_poses`: of all turns by an earlier pass, for a drive without odometry; may be empty.
+  /// `guessed`: the turns whose pose that pass did not find, in their order.
   TurnReader(const RecordedDrive& drive, const core::LocalizerConfig& config,
              const std::optional<core::LearnedOdometry>& learned,
-             std::span<const core::Pose2> known_poses);
+             std::span<const core::Pose2> known_poses, std::span<const std::size_t> guessed);
 
   /// Goes on to the next turn; false after the last one.
   bool next();
@@ -57,6 +58,7 @@ class TurnReader {
  private:
   void hear_readings();
   void predict(core::TimeNs t_ns);
+  bool is_known(std::size_t turn) const;
   core::Twist2 expected_motion() const;
   core::Twist2 motion_to(const core::Pose2& T_map_lidar) const;
   void straighten(const core::Twist2& motion);
@@ -65,6 +67,7 @@ class TurnReader {
   core::LocalizerConfig config_;
   core::Pose2 T_lidar_base_;
   std::span<const core::Pose2> known_poses_;
+  std::span<const std::size_t> guessed_;
   core::Odometer odometer_;
   std::size_t next_reading_ = 0;
   bool has_gyro_ = false;

@@ -4,6 +4,7 @@
 #include <map>
 #include <string>
 
+#include "survey/refusals.hpp"
 #include "tool/survey_files.hpp"
 #include "tool/text_table.hpp"
 
@@ -100,6 +101,13 @@ std::string survey_report(const survey::SurveyResult& result) {
         "walls, and no odometry tells it: the map may be too long or too short there\n",
         result.blind_turns.size(),
         core::to_seconds(result.t_ns[result.blind_turns.front()] - result.t_ns.front()));
+  }
+  if (survey::are_walls_doubled(result.doubled_m, result.plan.walls)) {
+    text += formatted(
+        "WARNING: %.1f m of walls lie behind others that would have hidden them: things moved, or "
+        "the "
+        "way was off there\n",
+        result.doubled_m);
   }
   if (result.squared) {
     text += formatted("%zu sides of walls are square to each other, %zu were left askew\n",

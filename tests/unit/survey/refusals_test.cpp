@@ -66,5 +66,16 @@ TEST(RefuseUncheckedGuesses, LoopAcrossThem_IsEnough) {
   EXPECT_NE(with(loop), "");
 }
 
+TEST(RefuseDoubledWalls, MoreThanWhatMoved_SaysHowMuch) {
+  const std::vector<core::Wall> small = {{{0, 0}, {10, 0}, 0}};
+  const std::vector<core::Wall> large = {{{0, 0}, {100, 0}, 0}};
+  EXPECT_EQ(refusal([&] { refuse_doubled_walls(0.49, small); }), "");
+  EXPECT_EQ(refusal([&] { refuse_doubled_walls(1.19, large); }), "");
+  EXPECT_NE(refusal([&] { refuse_doubled_walls(0.51, small); }).find("0.5 m of walls"),
+            std::string::npos);
+  EXPECT_NE(refusal([&] { refuse_doubled_walls(1.21, large); }).find("do not overlap enough"),
+            std::string::npos);
+}
+
 }  // namespace
 }  // namespace cornerd::survey

@@ -90,6 +90,21 @@ TEST_F(TurnMatcherTest, Match_ParallelWallsAndOneAcross_IsByTheWalls) {
   EXPECT_LT(match.own_sigma_m, 0.01);
 }
 
+TEST_F(TurnMatcherTest, MatchCautiously_WallBesideAFace_TellsNothingOfThePlace) {
+  // The end of another wall, 0.1 m before the line of the right wall and beside its end.
+  faces_[1] = face_between({3, -1}, {3, 1});
+  const std::vector<Sighting> seen = {seen_[0], sighting_of({2.9, 1.1}, {2.9, 1.4}, pose_),
+                                      seen_[2]};
+  const core::Covariance3 sure = Eigen::Vector3d(1e-3, 1e-3, 1e-3).asDiagonal();
+  const TurnMatch bold = matcher_.match(seen, faces_, pose_, sure, {0.15, 0.1}, faces_of_);
+  EXPECT_GT(bold.T_map_lidar.x_m, pose_.x_m + 0.05);
+  matcher_.set_cautious(true);
+  const TurnMatch match = matcher_.match(seen, faces_, pose_, sure, {0.15, 0.1}, faces_of_);
+  ASSERT_TRUE(match.valid);
+  EXPECT_NEAR(match.T_map_lidar.x_m, pose_.x_m, 1e-3);
+  EXPECT_FALSE(match.by_walls());
+}
+
 TEST_F(TurnMatcherTest, Match_NothingKnown_IsNotValid) {
   const TurnMatch match = matcher_.match(seen_, {}, pose_, vague_, {0.2, 0.2}, faces_of_);
   EXPECT_FALSE(match.valid);
