@@ -9,8 +9,6 @@
 namespace cornerd::core {
 namespace {
 
-/// So many fixes in a row that the wheels cannot explain: they are not this robot's, or spin free.
-constexpr std::uint32_t kDistrusted = 3;
 /// A robot that is slower stands, or might as well: its gyro's noise is no motion, and what that
 /// noise makes of the place would be taken for a delay.
 constexpr double kLeastSpeed_m_s = 0.03;
@@ -180,12 +178,14 @@ std::optional<PredictedPose> Odometer::ahead() {
 }
 
 bool Odometer::is_believed() const {
-  return strangers_in_a_row_ < kDistrusted && !filter_.is_contradictory();
+  const bool lies =
+      config_.remember_lies ? !fix_watch_.is_believed() : fix_watch_.is_contradicted();
+  return !lies && !filter_.is_contradictory();
 }
 
 void Odometer::forget() {
   has_pose_ = false;
-  strangers_in_a_row_ = 0;
+  fix_watch_.interrupt();
 }
 
 OdometrySummary Odometer::summary() const {

@@ -9,6 +9,7 @@
 
 #include "core/geometry/pose2.hpp"
 #include "core/odometry/delay_finder.hpp"
+#include "core/odometry/fix_watch.hpp"
 #include "core/odometry/fusion_filter.hpp"
 #include "core/odometry/motion_path.hpp"
 #include "core/odometry/noise_meter.hpp"
@@ -92,6 +93,7 @@ class Odometer {
   bool learns_delay() const;
   double delay_doubt_s2(double delay_s) const;
   void consume(const MotionStep& step);
+  void add_stranger(const Pose2& T_map_base, const Covariance3& covariance);
   /// The covariance of a fix with what it does not know of, as much as fixes lately showed and as
   /// this one needs.
   Covariance3 learned_doubt(const Pose2& T_map_base, const Covariance3& covariance);
@@ -128,10 +130,11 @@ class Odometer {
   bool has_pose_ = false;
   bool present_ = false;
   TimeNs fixed_ns_ = 0;
+  double fixed_heading_rad_ = 0;
+  FixWatch fix_watch_;
   /// Of the floors' variances. A twentieth stays: half a millimetre is the same from turn to turn.
   NoiseMeter place_floor_{10, 0.06, 1};
   NoiseMeter heading_floor_{5, 0.03, 1};
-  std::uint32_t strangers_in_a_row_ = 0;
   std::uint64_t fixes_ = 0;
   std::uint64_t strangers_ = 0;
 };

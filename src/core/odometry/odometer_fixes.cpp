@@ -65,17 +65,15 @@ void Odometer::correct(const Pose2& T_map_base, const Covariance3& covariance) {
     filter_.set_pose(T_map_base, most);
   } else if (has_pose_ && filter_.explains(T_map_base, most)) {
     filter_.correct(T_map_base, learned_doubt(T_map_base, covariance));
-    strangers_in_a_row_ = 0;
+    fix_watch_.add_explained(angle_between(fixed_heading_rad_, T_map_base.theta_rad));
     ++fixes_;
   } else {
-    if (has_pose_) {
-      ++strangers_in_a_row_;
-      ++strangers_;
-    }
+    if (has_pose_) add_stranger(T_map_base, most);
     filter_.set_pose(T_map_base, most);
   }
   has_pose_ = !filter_.is_contradictory();
   fixed_ns_ = middle_ns_;
+  fixed_heading_rad_ = T_map_base.theta_rad;
   if (!learns_delay() || filter_.is_contradictory()) return;
   delays_.fixed(middle_ns_, T_map_base, covariance, path_);
   if (const auto delay_s = delays_.instead_of(filter_.learned().delay_s)) learn_anew(*delay_s);
@@ -98,8 +96,15 @@ void Odometer::learn_anew(double delay_s) {
   LearnedOdometry start = config_.start;
   start.delay_s = delay_s;
   filter_.start_from(start);
-  strangers_in_a_row_ = 0;
+  fix_watch_ = {};
   has_pose_ = false;
+}
+
+void Odometer::add_stranger(const Pose2& T_map_base, const Covariance3& covariance) {
+  ++strangers_;
+  const double surprise_rad = filter_.surprise_of(T_map_base)[2];
+  const double known_rad2 = filter_.pose_covariance()(2, 2) + covariance(2, 2);
+  fix_watch_.add_stranger(surprise_rad * surprise_rad > kUsual * known_rad2);
 }
 
 Covariance3 Odometer::learned_doubt(const Pose2& T_map_base, const Covariance3& covariance) {

@@ -168,7 +168,7 @@ TEST(OdometerDelay, ReadingsThatArriveAfterTheTurn_ArePublishedWhereTheyAreAfter
 TEST(OdometerDelay, TimesThatAreNotDoubted_ArePutDownToTheWheels) {
   OdometryConfig config = config_of_late_ride();
   config.noise.delay_s = config.noise.delay_s_per_sqrt_s = 0;
-  LateRide ride(0.01, config);
+  LateRide ride(0.005, config);
   ride.teach();
   EXPECT_NEAR(ride.odometer.summary().learned.delay_s, 0, 1e-4);
   EXPECT_GT(ride.blind_nees(), 10);

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+#include "core/odometry/fix_watch.hpp"
+
+#include <gtest/gtest.h>
+
+namespace cornerd::core {
+namespace {
+
+constexpr double kTurn_rad = 0.2;
+
+FixWatch doubting() {
+  FixWatch watch;
+  for (int k = 0; k < 3; ++k) {
+    EXPECT_TRUE(watch.is_believed()) << k;
+    watch.add_stranger(true);
+    watch.add_explained(0);
+  }
+  return watch;
+}
+
+TEST(FixWatch, StrangersBetweenStraights_AreNotForgottenOnThem) {
+  FixWatch watch = doubting();
+  EXPECT_FALSE(watch.is_believed());
+  for (int k = 0; k < 100; ++k) watch.add_explained(0.01);
+  EXPECT_FALSE(watch.is_believed());
+  EXPECT_FALSE(watch.is_contradicted());
+}
+
+TEST(FixWatch, TurnsThatAreForetold_ProveItRight) {
+  FixWatch watch = doubting();
+  for (int k = 0; k < 5; ++k) {
+    EXPECT_FALSE(watch.is_believed()) << k;
+    watch.add_explained(k % 2 == 0 ? kTurn_rad : -kTurn_rad);
+  }
+  EXPECT_TRUE(watch.is_believed());
+}
+
+TEST(FixWatch, StrangersNowAndThen_AreSlips) {
+  FixWatch watch;
+  for (int k = 0; k < 20; ++k) {
+    watch.add_stranger(true);
+    EXPECT_TRUE(watch.is_believed()) << k;
+    for (int turns = 0; turns < 3; ++turns) watch.add_explained(kTurn_rad);
+  }
+}
+
+TEST(FixWatch, StrangersThatAreNotAboutTurning_CountInARow) {
+  FixWatch watch;
+  for (int k = 0; k < 20; ++k) {
+    watch.add_stranger(false);
+    watch.add_stranger(false);
+    watch.add_explained(0);
+  }
+  EXPECT_TRUE(watch.is_believed());
+  for (int k = 0; k < 3; ++k) {
+    EXPECT_TRUE(watch.is_believed()) << k;
+    watch.add_stranger(false);
+  }
+  EXPECT_TRUE(watch.is_contradicted());
+  EXPECT_FALSE(watch.is_believed());
+  watch.interrupt();
+  EXPECT_TRUE(watch.is_believed()) << "it was carried, and is looked for anew";
+}
+
+}  // namespace
+}  // namespace cornerd::core
