@@ -19,7 +19,7 @@ constexpr double kFixFloor_rad = 0.001;
 /// A surprise within three sigma needs no other reason.
 constexpr double kUsual = 9;
 /// A delay that the filter need not find out by itself may be so much larger than it is told.
-constexpr double kUsualDelay = 3;
+constexpr double kUsualDelay = 2;
 /// Readings of an unknown delay may not have seen yet that a robot sets out, as fast as this.
 constexpr double kSetsOut_m_s = 0.5;
 constexpr double kSetsOut_rad_s = 1.5;
