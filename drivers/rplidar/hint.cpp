@@ -13,9 +13,11 @@ std::string_view pattern(LidarFault fault) {
       return "{}";
     case LidarFault::kNoPort:
     case LidarFault::kNoPermission:
-    case LidarFault::kPortHeld:
-    case LidarFault::kPortError:
       return "{}; waiting for it";
+    case LidarFault::kPortHeld:
+      return "{}; waiting for it. `sudo cornerctl doctor` says by whom";
+    case LidarFault::kPortError:
+      return "{}; trying again. `sudo cornerctl doctor` says more";
     case LidarFault::kUnplugged:
       return "the port is gone; waiting for it. If nobody pulled the plug: check cable and supply";
     case LidarFault::kStreamRunning:

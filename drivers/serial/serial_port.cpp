@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <filesystem>
 #include <limits>
 #include <utility>
 
@@ -78,14 +79,27 @@ OpenResult failure(OpenError error, const std::string& path, const std::string& 
   return {.stream = nullptr, .error = error, .message = path + ": " + reason};
 }
 
+/// Of a device's node open() says EPERM where the control group may not have that kind of device.
+std::string forbidden_kind(const std::string& path) {
+  std::error_code error;
+  const auto port = std::filesystem::canonical(path, error);
+  // As the kernel names it in /proc/devices.
+  std::string kind = (error ? std::filesystem::path(path) : port).filename().string();
+  kind.erase(kind.find_last_not_of("0123456789") + 1);
+  return "the service's unit does not allow it; `sudo systemctl edit cornerd`, write [Service] and "
+         "below it DeviceAllow=char-" +
+         kind + " rw";
+}
+
 OpenResult explain_open_failure(const std::string& path, int error) {
   switch (error) {
     case ENOENT:
     case ENODEV:
     case ENXIO:
       return failure(OpenError::kAbsent, path, "no such port");
-    case EACCES:
     case EPERM:
+      return failure(OpenError::kDenied, path, forbidden_kind(path));
+    case EACCES:
       return failure(OpenError::kDenied, path,
                      "no permission to open it; is the user in the group dialout?");
     case EBUSY:

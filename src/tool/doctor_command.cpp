@@ -40,6 +40,7 @@ void diagnose(SettingsOptions& options) {
   SettingsCheck settings = check_settings(options.config_file(), options.set());
   Patient patient;
   patient.config = settings.config;
+  patient.config_file = options.config_file();
   if (!options.config_file().empty()) patient.config_name = options.config_file().string();
   patient.caller = caller_account(patient.machine);
   patient.daemon = probe_daemon(patient.config.socket.pose, kListenFor);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "tool/doctor/accounts.hpp"
 
+#include <sys/stat.h>
+
 #include <charconv>
 #include <functional>
 #include <sstream>
@@ -85,11 +87,25 @@ std::string group_name(const Machine& machine, gid_t gid) {
   return entry.empty() ? std::to_string(gid) : entry[0];
 }
 
-bool may_read_and_write(const Account& account, const FileFacts& file) {
+bool may_access(const Account& account, const FileFacts& file, mode_t rights) {
   if (account.uid == 0) return true;
   // The first class that fits decides, even where a later one would allow more.
   const unsigned shift = account.uid == file.uid ? 6 : account.gids.contains(file.gid) ? 3 : 0;
-  return (file.mode >> shift & 06U) == 06U;
+  return (file.mode >> shift & rights) == rights;
+}
+
+bool may_read_and_write(const Account& account, const FileFacts& file) {
+  return may_access(account, file, 06);
+}
+
+std::string describe_rights(const Machine& machine, const FileFacts& file) {
+  std::string text = S_ISDIR(file.mode) ? "d" : S_ISREG(file.mode) ? "-" : "c";
+  for (int bit = 8; bit >= 0; --bit) {
+    text += file.mode >> static_cast<unsigned>(bit) & 1U ? "xwr"[bit % 3] : '-';
+  }
+  const auto owner = find_account(machine, file.uid);
+  return text + ' ' + (owner ? owner->name : std::to_string(file.uid)) + ' ' +
+         group_name(machine, file.gid);
 }
 
 }  // namespace cornerd::tool

@@ -12,6 +12,8 @@
 
 namespace cornerd::tool {
 
+/// May the service's user read what the settings are in and what they name, wherever it lies?
+std::vector<Finding> check_reading(const Patient& patient);
 /// Is there a port where the settings say, and if not, where is it?
 std::vector<Finding> check_port(const Patient& patient);
 /// May whoever runs the daemon open it?

@@ -60,9 +60,12 @@ void check_gpsd(const Machine& machine, const std::filesystem::path& port, bool 
 void check_modem_manager(const Machine& machine, const std::string& name, bool is_usb,
                          std::vector<Finding>& findings) {
   if (!is_usb || !find_process(machine, "ModemManager")) return;
-  const std::string notes = udev_notes(machine, name).value_or("");
-  if (notes.find("E:ID_MM_PORT_IGNORE=1") != std::string::npos ||
-      notes.find("E:ID_MM_DEVICE_IGNORE=1") != std::string::npos) {
+  const std::optional<std::string> notes = udev_notes(machine, name);
+  // Of what is not there the rules will tell it.
+  const bool is_told = notes ? notes->find("E:ID_MM_PORT_IGNORE=1") != std::string::npos ||
+                                   notes->find("E:ID_MM_DEVICE_IGNORE=1") != std::string::npos
+                             : !machine.exists("/dev/" + name) && has_udev_rules(machine);
+  if (is_told) {
     findings.push_back({Verdict::kGood, "modems", "ModemManager runs and leaves the port alone"});
     return;
   }
@@ -74,25 +77,49 @@ void check_modem_manager(const Machine& machine, const std::string& name, bool i
         "or, where there is no modem: sudo systemctl mask --now ModemManager"}});
 }
 
+/// The port behind USB that is the lidar's, or would be if it were there; empty: it is none.
+std::string usb_port_name(const Patient& patient, const std::vector<UsbAdapter>& adapters) {
+  const std::string name = port_of(patient).filename().string();
+  const auto has_name = [&](const UsbAdapter& one) { return one.port == name; };
+  if (std::any_of(adapters.begin(), adapters.end(), has_name)) return name;
+  const bool is_uart =
+      name.starts_with("tty") && !name.starts_with("ttyUSB") && !name.starts_with("ttyACM");
+  if (is_uart || has_port(patient)) return {};
+  const auto under_another_name =
+      std::find_if(adapters.begin(), adapters.end(),
+                   [](const UsbAdapter& one) { return one.is_cp2102() && !one.port.empty(); });
+  return under_another_name == adapters.end() ? name : under_another_name->port;
+}
+
+void check_brltty(const Machine& machine, const std::vector<UsbAdapter>& adapters,
+                  std::vector<Finding>& findings) {
+  if (!find_process(machine, "brltty")) return;
+  Finding finding{Verdict::kWrong,
+                  "brltty",
+                  "takes CP2102s for Braille displays",
+                  {"sudo apt remove brltty, unless somebody reads by it"}};
+  const auto taken = std::find_if(adapters.begin(), adapters.end(),
+                                  [](const UsbAdapter& one) { return one.port.empty(); });
+  if (taken != adapters.end()) {
+    finding.what += ", and has this one, it seems: it is plugged in and there is no port";
+    finding.mends.emplace_back("then plug the lidar in again");
+  }
+  findings.push_back(finding);
+}
+
 }  // namespace
 
 std::vector<Finding> check_claimers(const Patient& patient) {
   if (patient.config.lidar.driver == settings::DriverKind::kReplay) return {};
   const Machine& machine = patient.machine;
-  const std::filesystem::path port = port_of(patient);
-  const std::string name = port.filename().string();
   const std::vector<UsbAdapter> adapters = find_usb_adapters(machine);
-  const bool is_usb = std::any_of(adapters.begin(), adapters.end(),
-                                  [&](const UsbAdapter& one) { return one.port == name; });
+  const std::string usb_name = usb_port_name(patient, adapters);
+  const bool is_usb = !usb_name.empty();
   std::vector<Finding> findings;
+  const std::filesystem::path port = is_usb ? "/dev/" + usb_name : port_of(patient).string();
   check_gpsd(machine, port, is_usb, findings);
-  check_modem_manager(machine, name, is_usb, findings);
-  if (is_usb && find_process(machine, "brltty")) {
-    findings.push_back({Verdict::kWrong,
-                        "brltty",
-                        "takes CP2102s for Braille displays",
-                        {"sudo apt remove brltty, unless somebody reads by it"}});
-  }
+  check_modem_manager(machine, usb_name, is_usb, findings);
+  if (is_usb) check_brltty(machine, adapters, findings);
   if (findings.empty()) {
     findings.push_back(
         {Verdict::kGood, "claimers", "neither gpsd, ModemManager nor brltty is after the port"});

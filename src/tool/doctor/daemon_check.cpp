@@ -4,6 +4,7 @@
 
 #include "tool/doctor/checks.hpp"
 #include "tool/doctor/process_table.hpp"
+#include "tool/doctor/service_unit.hpp"
 #include "tool/formatted.hpp"
 
 namespace cornerd::tool {
@@ -12,6 +13,7 @@ namespace {
 
 /// More damaged bytes than line noise explains.
 constexpr double kBadShare = 0.01;
+constexpr std::string_view kSeeDoctor = ". `sudo cornerctl doctor`";
 
 std::vector<Finding> unreachable(const Patient& patient) {
   const std::string socket = patient.config.socket.pose.string();
@@ -30,12 +32,9 @@ std::vector<Finding> unreachable(const Patient& patient) {
                  "), but not with the socket " + socket,
              {"name the config that it runs with: cornerctl doctor --config FILE"}}};
   }
-  const bool is_installed = patient.machine.exists("/lib/systemd/system/cornerd.service") ||
-                            patient.machine.exists("/usr/lib/systemd/system/cornerd.service") ||
-                            patient.machine.exists("/etc/systemd/system/cornerd.service");
   Finding finding{Verdict::kWrong, "daemon",
                   "does not run (" + socket + ": " + std::strerror(error) + ")"};
-  if (is_installed) {
+  if (has_service_unit(patient.machine)) {
     finding.mends = {"sudo systemctl start cornerd", "why it ended: journalctl -u cornerd -n 20"};
   } else {
     finding.mends = {"cornerd --config FILE, or install the package"};
@@ -47,7 +46,10 @@ std::vector<Finding> unreachable(const Patient& patient) {
 std::string describe_lidar(const message::ToldStatus& status) {
   std::string text = status.lidar_state;
   if (!status.lidar_fault.empty()) text += ", " + status.lidar_fault;
-  if (!status.lidar_detail.empty()) return text + ": " + status.lidar_detail;
+  if (!status.lidar_detail.empty()) {
+    // Whoever reads this has just done what the end of some advises.
+    return text + ": " + status.lidar_detail.substr(0, status.lidar_detail.find(kSeeDoctor));
+  }
   if (!status.lidar_model.empty()) text += ", " + status.lidar_model;
   if (!status.lidar_firmware.empty()) text += " firmware " + status.lidar_firmware;
   if (!status.lidar_health.empty()) text += ", health " + status.lidar_health;

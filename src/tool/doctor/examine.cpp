@@ -7,8 +7,9 @@
 namespace cornerd::tool {
 
 std::vector<Finding> examine(const Patient& patient) {
-  constexpr std::array kChecks = {check_port,  check_rights, check_holders, check_claimers,
-                                  check_power, check_daemon, check_control, check_poses};
+  constexpr std::array kChecks = {check_reading, check_port,     check_rights,
+                                  check_holders, check_claimers, check_power,
+                                  check_daemon,  check_control,  check_poses};
   std::vector<Finding> findings;
   for (const auto check : kChecks) {
     std::vector<Finding> found = check(patient);

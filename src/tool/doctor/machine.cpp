@@ -21,7 +21,15 @@ constexpr int kMostLinks = 32;
 
 fs::path Machine::outside(const fs::path& inside) const { return root_ / inside.relative_path(); }
 
-fs::path Machine::resolve(const fs::path& file) const {
+fs::path Machine::resolve(const fs::path& file) const { return follow(file, nullptr); }
+
+std::vector<fs::path> Machine::steps(const fs::path& file) const {
+  std::vector<fs::path> steps;
+  follow(file, &steps);
+  return steps;
+}
+
+fs::path Machine::follow(const fs::path& file, std::vector<fs::path>* steps) const {
   fs::path done = "/";
   fs::path rest = file.relative_path();
   for (int links = 0; !rest.empty();) {
@@ -34,6 +42,7 @@ fs::path Machine::resolve(const fs::path& file) const {
       continue;
     }
     if (part == "." || part.empty()) continue;
+    if (steps != nullptr) steps->push_back(done / part);
     const std::string target = read_link(done / part);
     if (target.empty() || ++links > kMostLinks) {
       done /= part;

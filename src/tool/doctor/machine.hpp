@@ -47,8 +47,13 @@ class Machine {
   bool may_list(const std::filesystem::path& folder) const;
   /// The path with every link on its way followed.
   std::filesystem::path resolve(const std::filesystem::path& file) const;
+  /// All that is looked up on the way to a file, in this order: every folder, every link and what
+  /// each leads to, and the file.
+  std::vector<std::filesystem::path> steps(const std::filesystem::path& file) const;
 
  private:
+  std::filesystem::path follow(const std::filesystem::path& file,
+                               std::vector<std::filesystem::path>* steps) const;
   std::filesystem::path outside(const std::filesystem::path& inside) const;
 
   std::filesystem::path root_;

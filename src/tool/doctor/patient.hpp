@@ -29,6 +29,7 @@ struct DaemonView {
 struct Patient {
   Machine machine;
   settings::Config config;
+  std::filesystem::path config_file;       ///< empty where there is none
   std::string config_name = "the config";  ///< as advice calls it
   Account caller;                          ///< who asks; its groups are those of its session
   DaemonView daemon;

@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "tool/doctor/checks.hpp"
+#include "tool/doctor/process_table.hpp"
 #include "tool/doctor/udev_notes.hpp"
 #include "tool/doctor/usb_adapters.hpp"
 
@@ -36,7 +37,9 @@ Finding absent_port(const Patient& patient, const std::vector<UsbAdapter>& adapt
   for (const UsbAdapter& adapter : adapters) {
     if (adapter.port.empty()) {
       finding.what += "; an adapter (" + adapter.describe() + ") is plugged in, without a driver";
-      finding.mends.emplace_back("sudo modprobe cp210x");
+      finding.mends.emplace_back(find_process(patient.machine, "brltty")
+                                     ? "take it from brltty, see below"
+                                     : "sudo modprobe cp210x");
       continue;
     }
     finding.what += "; there is /dev/" + adapter.port + " (" + adapter.describe() + ")";

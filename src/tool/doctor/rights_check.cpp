@@ -1,20 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "tool/doctor/checks.hpp"
+#include "tool/doctor/service_unit.hpp"
 
 namespace cornerd::tool {
 
 namespace {
-
-/// "crw-rw---- root dialout"
-std::string describe_rights(const Machine& machine, const FileFacts& file) {
-  std::string text = "c";
-  for (int bit = 8; bit >= 0; --bit) {
-    text += file.mode >> static_cast<unsigned>(bit) & 1U ? "xwr"[bit % 3] : '-';
-  }
-  const auto owner = find_account(machine, file.uid);
-  return text + ' ' + (owner ? owner->name : std::to_string(file.uid)) + ' ' +
-         group_name(machine, file.gid);
-}
 
 std::vector<std::string> mends_for(const Patient& patient, const Account& who, bool is_service,
                                    const FileFacts& port, const std::string& name) {
@@ -55,7 +45,19 @@ std::vector<Finding> check_rights(const Patient& patient) {
   if (patient.config.lidar.driver == settings::DriverKind::kReplay) return {};
   const auto port = patient.machine.facts(patient.config.lidar.device);
   if (!port || !has_port(patient)) return {};
-  return {judge_rights(patient, *port)};
+  std::vector<Finding> findings = {judge_rights(patient, *port)};
+  const std::filesystem::path name = port_of(patient);
+  if (service_account(patient.machine) && !service_unit_allows(patient.machine, name)) {
+    findings.push_back({Verdict::kWrong,
+                        "rights",
+                        "the service's unit does not let it have " + name.string() +
+                            ": its DeviceAllow= has no " + port_kind(name),
+                        {"sudo systemctl edit cornerd, and write there: [Service], and below it "
+                         "DeviceAllow=char-" +
+                             port_kind(name) + " rw",
+                         "then: sudo systemctl restart cornerd"}});
+  }
+  return findings;
 }
 
 }  // namespace cornerd::tool

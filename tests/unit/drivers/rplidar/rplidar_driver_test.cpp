@@ -265,7 +265,9 @@ TEST_F(RplidarDriverTest, PortOfAnotherProcess_IsWaitedForByName) {
   run(seconds(1));
   EXPECT_EQ(last.state, LidarState::kOpening);
   EXPECT_EQ(last.fault, LidarFault::kPortHeld);
-  EXPECT_EQ(last.detail.view(), "/dev/lidar: held by another process; waiting for it");
+  EXPECT_EQ(last.detail.view(),
+            "/dev/lidar: held by another process; waiting for it. `sudo cornerctl doctor` says by "
+            "whom");
 }
 
 TEST_F(RplidarDriverTest, SilentDevice_IsReportedAndTriedAgain) {

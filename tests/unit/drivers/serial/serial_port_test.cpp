@@ -3,20 +3,28 @@
 
 #include <fcntl.h>
 #include <gmock/gmock.h>
+#include <linux/filter.h>
+#include <linux/seccomp.h>
 #include <stdlib.h>
+#include <sys/prctl.h>
+#include <sys/syscall.h>
 #include <sys/wait.h>
 #include <termios.h>
 #include <unistd.h>
 
 #include <array>
+#include <cerrno>
 #include <chrono>
+#include <cstddef>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <vector>
 
 #include "drivers/serial/baud_rate.hpp"
 #include "drivers/serial/file_descriptor.hpp"
 #include "drivers/serial/recording_byte_stream.hpp"
+#include "tests/temporary_folder.hpp"
 
 namespace cornerd::drivers {
 namespace {
@@ -158,6 +166,40 @@ TEST(SerialPort, MissingRights_AreSaid) {
   }
   int status = -1;
   ::waitpid(child, &status, 0);
+  EXPECT_EQ(status, 0);
+}
+
+/// From now on open() says EPERM, as where a control group forbids a device. False: cannot be had.
+bool forbid_opening() {
+  sock_filter steps[] = {
+      BPF_STMT(BPF_LD | BPF_W | BPF_ABS, offsetof(seccomp_data, nr)),
+      BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, __NR_openat, 0, 1),
+      BPF_STMT(BPF_RET | BPF_K, SECCOMP_RET_ERRNO | EPERM),
+      BPF_STMT(BPF_RET | BPF_K, SECCOMP_RET_ALLOW),
+  };
+  const sock_fprog filter{.len = static_cast<unsigned short>(std::size(steps)), .filter = steps};
+  return ::prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) == 0 &&
+         ::prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, &filter) == 0;
+}
+
+TEST(SerialPort, KindThatTheUnitForbids_IsNamed) {
+  const test::TemporaryFolder folder;
+  const std::filesystem::path port = folder.path() / "ttyXY12";
+  std::ofstream(port) << "";
+  const std::filesystem::path link = folder.path() / "rplidar";
+  std::filesystem::create_symlink(port, link);
+  const pid_t child = ::fork();
+  if (child == 0) {
+    if (!forbid_opening()) ::_exit(77);
+    const auto opened = open_serial_port(link.string(), 115200);
+    const bool is_told = opened.error == OpenError::kDenied &&
+                         opened.message.find("DeviceAllow=char-ttyXY rw") != std::string::npos &&
+                         opened.message.find("dialout") == std::string::npos;
+    ::_exit(is_told ? 0 : 1);
+  }
+  int status = -1;
+  ::waitpid(child, &status, 0);
+  if (WIFEXITED(status) && WEXITSTATUS(status) == 77) GTEST_SKIP() << "no seccomp here";
   EXPECT_EQ(status, 0);
 }
 

@@ -57,5 +57,14 @@ TEST(MayReadAndWrite, FirstClassThatFits_Decides) {
   EXPECT_TRUE(may_read_and_write({"root", 0, {0}}, file(5, 5, 0)));
 }
 
+TEST(MayAccess, AllOfTheRights_AreNeeded) {
+  const Account ada{"ada", 1000, {1000}};
+  FileFacts folder;
+  folder.mode = 0751;
+  EXPECT_TRUE(may_access(ada, folder, 01));
+  EXPECT_FALSE(may_access(ada, folder, 04));
+  EXPECT_FALSE(may_access(ada, folder, 05));
+}
+
 }  // namespace
 }  // namespace cornerd::tool

@@ -10,6 +10,7 @@ namespace {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::Not;
 
 class CheckClaimers : public testing::Test {
  protected:
@@ -67,6 +68,55 @@ TEST_F(CheckClaimers, ModemManager_GoesByWhatUdevNoted) {
 TEST_F(CheckClaimers, Brltty_TakesCp2102s) {
   stand_in_.run_process(9, "brltty");
   EXPECT_THAT(findings(), ElementsAre(Finds(Verdict::kWrong, "brltty", "Braille")));
+  EXPECT_THAT(findings()[0].what, Not(HasSubstr("has this one")));
+}
+
+TEST_F(CheckClaimers, BrlttyThatHasTaken_IsNamed) {
+  // The driver is off it: neither port nor link are left.
+  for (const char* file : {"/dev/rplidar", "/dev/ttyUSB0", "/sys/class/tty/ttyUSB0"}) {
+    std::filesystem::remove(stand_in_.outside(file));
+  }
+  stand_in_.run_process(9, "brltty");
+  const auto found = findings();
+  ASSERT_THAT(found, ElementsAre(Finds(Verdict::kWrong, "brltty", "has this one")));
+  EXPECT_THAT(found[0].mends, ElementsAre(HasSubstr("apt remove brltty"), HasSubstr("plug")));
+}
+
+TEST(CheckClaimersOfNothing, NothingPluggedIn_AllAreAskedAllTheSame) {
+  const StandIn stand_in;
+  EXPECT_THAT(check_claimers(stand_in.patient),
+              ElementsAre(Finds(Verdict::kGood, "claimers", "neither")));
+  stand_in.run_process(8, "ModemManager");
+  stand_in.run_process(9, "brltty");
+  stand_in.write("/etc/default/gpsd", "USBAUTO=\"true\"\n");
+  EXPECT_THAT(check_claimers(stand_in.patient),
+              ElementsAre(Finds(Verdict::kWrong, "gpsd", "every CP2102"),
+                          Finds(Verdict::kWrong, "modems", "ModemManager talks"),
+                          Finds(Verdict::kWrong, "brltty", "Braille")));
+  stand_in.write("/etc/udev/rules.d/61-cornerd.rules");
+  EXPECT_THAT(check_claimers(stand_in.patient),
+              ElementsAre(Finds(Verdict::kGood, "gpsd", "leaves the port alone"),
+                          Finds(Verdict::kGood, "modems", "leaves the port alone"),
+                          Finds(Verdict::kWrong, "brltty", "Braille")));
+}
+
+TEST(CheckClaimersOfNothing, AbsentUartOfTheBoard_IsNobodys) {
+  StandIn stand_in;
+  stand_in.patient.config.lidar.device = "/dev/ttyS4";
+  stand_in.run_process(8, "ModemManager");
+  stand_in.run_process(9, "brltty");
+  EXPECT_THAT(check_claimers(stand_in.patient),
+              ElementsAre(Finds(Verdict::kGood, "claimers", "neither")));
+}
+
+TEST(CheckClaimersOfNothing, PortUnderAnotherName_GoesByItsNotes) {
+  const StandIn stand_in;
+  stand_in.plug_in_without_rules();
+  stand_in.write("/etc/udev/rules.d/61-cornerd.rules");
+  stand_in.run_process(8, "ModemManager");
+  stand_in.write("/run/udev/data/c188:0", "E:ID_MODEL=CP2102\n");
+  EXPECT_THAT(check_claimers(stand_in.patient),
+              ElementsAre(Finds(Verdict::kWrong, "modems", "ModemManager talks")));
 }
 
 }  // namespace

@@ -52,6 +52,13 @@ TEST_F(CheckDaemon, FaultOfTheLidar_IsToldInTheDaemonsWords) {
   EXPECT_THAT(check_poses(stand_in_.patient), IsEmpty());
 }
 
+TEST_F(CheckDaemon, AdviceToAskDoctor_IsLeftOut) {
+  message::ToldStatus& status = *daemon().status;
+  status.lidar_state = "opening";
+  status.lidar_detail = "/dev/rplidar: held; waiting for it. `sudo cornerctl doctor` says by whom";
+  EXPECT_EQ(check_daemon(stand_in_.patient)[1].what, "opening: /dev/rplidar: held; waiting for it");
+}
+
 TEST_F(CheckDaemon, DamagedBytes_AreNotedAboveTheNoise) {
   daemon().status->counters = {{"bytes", 1000}, {"skipped_bytes", 10}};
   EXPECT_THAT(check_daemon(stand_in_.patient), SizeIs(2));

@@ -26,6 +26,14 @@ TEST(Machine, Links_AreFollowedInsideTheRoot) {
   EXPECT_EQ(machine.read_line("/sys/class/x/name"), "Y");
 }
 
+TEST(Machine, Steps_AreAllThatIsLookedUp) {
+  const StandIn stand_in;
+  stand_in.write("/data/maps/a.json");
+  stand_in.link("/etc/maps", "../data/maps");
+  EXPECT_THAT(stand_in.patient.machine.steps("/etc/maps/a.json"),
+              ElementsAre("/etc", "/etc/maps", "/data", "/data/maps", "/data/maps/a.json"));
+}
+
 TEST(Machine, LinkToItself_Ends) {
   const StandIn stand_in;
   stand_in.link("/dev/loop", "loop");

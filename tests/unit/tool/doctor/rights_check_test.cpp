@@ -62,5 +62,19 @@ TEST_F(CheckRights, WithoutPort_SaysNothing) {
   EXPECT_THAT(check_rights(stand_in_.patient), IsEmpty());
 }
 
+TEST_F(CheckRights, KindThatTheUnitLeavesOut_IsToBeAdded) {
+  stand_in_.write("/etc/passwd", "cornerd:x:990:990::/:/bin/false\n");
+  stand_in_.write("/lib/systemd/system/cornerd.service",
+                  "DevicePolicy=closed\nDeviceAllow=char-ttyUSB rw\n");
+  EXPECT_EQ(check_rights(stand_in_.patient).size(), 1U);
+  stand_in_.patient.config.lidar.device = "/dev/ttyXY3";
+  stand_in_.write("/dev/ttyXY3");
+  const auto found = check_rights(stand_in_.patient);
+  ASSERT_EQ(found.size(), 2U);
+  EXPECT_THAT(found[1], Finds(Verdict::kWrong, "rights", "DeviceAllow= has no ttyXY"));
+  EXPECT_THAT(found[1].mends, ElementsAre(HasSubstr("DeviceAllow=char-ttyXY rw"),
+                                          HasSubstr("systemctl restart cornerd")));
+}
+
 }  // namespace
 }  // namespace cornerd::tool
