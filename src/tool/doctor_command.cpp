@@ -48,6 +48,7 @@ void diagnose(SettingsOptions& options) {
   std::vector<Finding> findings = std::move(settings.findings);
   std::vector<Finding> found = examine(patient);
   std::move(found.begin(), found.end(), std::back_inserter(findings));
+  drop_overruled(findings);
   Output output;
   output.write(findings_text(findings));
   output.flush();

@@ -2,6 +2,7 @@
 #include "tool/doctor/finding.hpp"
 
 #include <algorithm>
+#include <set>
 
 namespace cornerd::tool {
 
@@ -28,6 +29,16 @@ const char* verdict_word(Verdict verdict) {
 }
 
 }  // namespace
+
+void drop_overruled(std::vector<Finding>& findings) {
+  std::set<std::string> wrong;
+  for (const Finding& finding : findings) {
+    if (finding.verdict == Verdict::kWrong) wrong.insert(finding.subject);
+  }
+  std::erase_if(findings, [&](const Finding& finding) {
+    return finding.verdict == Verdict::kGood && wrong.contains(finding.subject);
+  });
+}
 
 std::string findings_text(std::span<const Finding> findings) {
   std::string text;

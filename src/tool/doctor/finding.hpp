@@ -21,6 +21,10 @@ struct Finding {
   std::vector<std::string> mends{};  ///< what to do about it, a line each
 };
 
+/// Leaves out the good findings of subjects that another finding has wrong: a map that its reader
+/// may read is not "ok" where the service may not.
+void drop_overruled(std::vector<Finding>& findings);
+
 /// A line for each finding and for each way to mend it.
 std::string findings_text(std::span<const Finding> findings);
 

@@ -22,8 +22,13 @@ bool is_within(const fs::path& file, const fs::path& folder) {
          folder.end();
 }
 
-/// The folders that the unit keeps from the service, each after the key that does.
-std::vector<std::pair<std::string, fs::path>> hidden_folders(const Machine& machine) {
+/// What the unit keeps from the service, and by which key.
+struct HiddenFolder {
+  std::string key;
+  fs::path folder;
+};
+
+std::vector<HiddenFolder> hidden_folders(const Machine& machine) {
   // What is bound is there again.
   if (!service_unit_values(machine, "BindPaths").empty() ||
       !service_unit_values(machine, "BindReadOnlyPaths").empty()) {
@@ -34,9 +39,9 @@ std::vector<std::pair<std::string, fs::path>> hidden_folders(const Machine& mach
     const auto values = service_unit_values(machine, key);
     return !values.empty() && std::find(kOn.begin(), kOn.end(), values.back()) != kOn.end();
   };
-  std::vector<std::pair<std::string, fs::path>> folders;
+  std::vector<HiddenFolder> folders;
   const auto add = [&](const char* key, const auto&... names) {
-    if (is_on(key)) (folders.emplace_back(std::string(key) + "=yes", names), ...);
+    if (is_on(key)) (folders.push_back({std::string(key) + "=yes", names}), ...);
   };
   add("ProtectHome", "/home", "/root", "/run/user");
   add("PrivateTmp", "/tmp", "/var/tmp");
@@ -66,14 +71,14 @@ std::vector<Finding> judge_reading(const Patient& patient, const Account& servic
   const fs::path file = fs::absolute(named).lexically_normal();
   if (!machine.exists(file)) return {};  // said elsewhere
   const std::vector<fs::path> steps = machine.steps(file);
-  for (const auto& [key, folder] : hidden_folders(machine)) {
+  for (const HiddenFolder& hidden : hidden_folders(machine)) {
     const bool is_hidden = std::any_of(steps.begin(), steps.end(), [&](const fs::path& step) {
-      return is_within(step, folder) || is_within(step, machine.resolve(folder));
+      return is_within(step, hidden.folder) || is_within(step, machine.resolve(hidden.folder));
     });
     if (!is_hidden) continue;
     return {{Verdict::kWrong, subject,
-             file.string() + ": the service sees nothing of " + folder.string() + " (" + key +
-                 " in its unit)",
+             file.string() + ": the service sees nothing of " + hidden.folder.string() + " (" +
+                 hidden.key + " in its unit)",
              mends_by_moving(patient, subject, file)}};
   }
   for (const fs::path& step : steps) {

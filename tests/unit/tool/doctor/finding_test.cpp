@@ -19,5 +19,15 @@ TEST(Finding, Text_HasALineForEachAndForEachMend) {
   EXPECT_EQ(count_wrong(findings), 1U);
 }
 
+TEST(Finding, GoodOneOfAWrongSubject_IsLeftOut) {
+  std::vector<Finding> findings = {{Verdict::kGood, "config", "a"},
+                                   {Verdict::kGood, "map", "b"},
+                                   {Verdict::kNote, "map", "c"},
+                                   {Verdict::kWrong, "map", "d"}};
+  drop_overruled(findings);
+  EXPECT_EQ(findings_text(findings),
+            "ok     config    a\nnote   map       c\nWRONG  map       d\n");
+}
+
 }  // namespace
 }  // namespace cornerd::tool
