@@ -56,10 +56,10 @@ bool Localizer::Workspace::contradicts(const PredictedPose& predicted) const {
   return std::none_of(result.pose.alternatives.begin(), result.pose.alternatives.end(), is_near);
 }
 
-/// A turn that sees all around and shows no place was most likely taken in motion, and readings of
-/// an unknown delay may not have seen that motion yet.
+/// A turn that sees all around and shows no place was most likely taken in motion, of which
+/// readings that are late or missing may not tell.
 bool Localizer::Workspace::may_set_out() const {
-  return odometer.doubts_delay() && points.widest_gap_rad() < kSeesAround_rad;
+  return odometer.may_miss_motion() && points.widest_gap_rad() < kSeesAround_rad;
 }
 
 void Localizer::Workspace::predict(const PredictedPose& predicted, PoseEstimate& pose) const {

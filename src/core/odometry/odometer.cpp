@@ -174,7 +174,7 @@ std::optional<PredictedPose> Odometer::ahead() {
   const TimeNs t_ns = pending_[(first_ + size_ - 1) % kPending].to_ns;
   tell_velocity(ahead_, t_ns);
   const TimeNs then_ns = t_ns - from_seconds(filter_.learned().delay_s);
-  return then_ns > middle_ns_ ? prediction_of(ahead_, then_ns) : std::nullopt;
+  return then_ns > middle_ns_ ? prediction_of(ahead_, then_ns, 0) : std::nullopt;
 }
 
 bool Odometer::is_believed() const {

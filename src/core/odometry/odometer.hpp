@@ -68,8 +68,9 @@ class Odometer {
   /// wheels and lidar have lately told different stories.
   std::optional<PredictedPose> prediction() const;
 
-  /// How late the readings are is as good as unknown: no change of speed has shown it yet.
-  bool doubts_delay() const;
+  /// That the robot sets out or turns, the readings may not know yet: how late they are no change
+  /// of speed has shown, or they pause.
+  bool may_miss_motion() const;
 
   /// The same at the time of the newest reading, for OdometryConfig::publish.
   std::optional<PredictedPose> ahead();
@@ -84,6 +85,10 @@ class Odometer {
   OdometrySummary summary() const;
 
  private:
+  /// By as much a robot may have changed its speed in a time of which no reading tells.
+  static constexpr double kChange_m_s = 0.5;
+  static constexpr double kChange_rad_s = 1.5;
+
   /// More readings than come in half a turn of the slowest lidar, at 500 a second.
   static constexpr std::size_t kPending = 256;
 
@@ -97,7 +102,13 @@ class Odometer {
   /// The covariance of a fix with what it does not know of, as much as fixes lately showed and as
   /// this one needs.
   Covariance3 learned_doubt(const Pose2& T_map_base, const Covariance3& covariance);
-  std::optional<PredictedPose> prediction_of(const FusionFilter& filter, TimeNs t_ns) const;
+  std::optional<PredictedPose> prediction_of(const FusionFilter& filter, TimeNs t_ns,
+                                             TimeNs guessed_ns) const;
+  /// What a robot makes of a time, its variance in s^2, of which no reading tells.
+  static Covariance3 doubt_of_change(double unread_s2);
+  static Covariance3 doubt_of_guess(TimeNs guessed_ns);
+  /// What the filter has moved on beyond the newest reading.
+  TimeNs guessed_ns() const { return guessed_.to_ns - guessed_.from_ns; }
   /// False where wheels, gyro and lidar have lately told different stories.
   bool is_believed() const;
   void tell_velocity(FusionFilter& filter, TimeNs t_ns) const;

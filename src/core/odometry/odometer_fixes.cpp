@@ -20,11 +20,10 @@ constexpr double kFixFloor_rad = 0.001;
 constexpr double kUsual = 9;
 /// A delay that the filter need not find out by itself may be so much larger than it is told.
 constexpr double kUsualDelay = 2;
-/// Readings of an unknown delay may not have seen yet that a robot sets out, as fast as this.
-constexpr double kSetsOut_m_s = 0.5;
-constexpr double kSetsOut_rad_s = 1.5;
 /// What the filter may have to find out by itself is no more than this.
 constexpr double kUnknownDelay_s = 0.02;
+/// Readings that are missing for longer than this may have had something to tell.
+constexpr TimeNs kPause_ns = 40'000'000;
 
 /// `place`, `heading`: shares of the floors' variances.
 Covariance3 with_floor(const Covariance3& covariance, double place, double heading) {
@@ -37,18 +36,27 @@ Covariance3 with_floor(const Covariance3& covariance, double place, double headi
 
 }  // namespace
 
-std::optional<PredictedPose> Odometer::prediction() const {
-  return prediction_of(filter_, middle_ns_);
+Covariance3 Odometer::doubt_of_change(double unread_s2) {
+  const Eigen::Vector3d change(kChange_m_s, kChange_m_s, kChange_rad_s);
+  return (unread_s2 * change.cwiseAbs2()).asDiagonal();
 }
 
-std::optional<PredictedPose> Odometer::prediction_of(const FusionFilter& filter,
-                                                     TimeNs t_ns) const {
+Covariance3 Odometer::doubt_of_guess(TimeNs guessed_ns) {
+  const double guessed_s = to_seconds(guessed_ns);
+  return doubt_of_change(guessed_s * guessed_s);
+}
+
+std::optional<PredictedPose> Odometer::prediction() const {
+  return prediction_of(filter_, middle_ns_, guessed_ns());
+}
+
+std::optional<PredictedPose> Odometer::prediction_of(const FusionFilter& filter, TimeNs t_ns,
+                                                     TimeNs guessed_ns) const {
   if (!has_pose_ || !present_ || !is_believed() || filter.is_contradictory()) return std::nullopt;
   if (to_seconds(t_ns - fixed_ns_) > config_.bridge_s) return std::nullopt;
   const double more_s2 = delay_doubt_s2(filter.learned().delay_s);
   Covariance3 covariance = filter.pose_covariance(more_s2);
-  const Eigen::Vector3d sets_out(kSetsOut_m_s, kSetsOut_m_s, kSetsOut_rad_s);
-  covariance.diagonal() += more_s2 * sets_out.cwiseAbs2();
+  covariance += doubt_of_change(more_s2) + doubt_of_guess(guessed_ns);
   const double place_m2 = std::max(covariance(0, 0), covariance(1, 1));
   if (!(place_m2 < kMostSigma_m * kMostSigma_m) ||
       !(covariance(2, 2) < kMostSigma_rad * kMostSigma_rad)) {
@@ -60,11 +68,13 @@ std::optional<PredictedPose> Odometer::prediction_of(const FusionFilter& filter,
 void Odometer::correct(const Pose2& T_map_base, const Covariance3& covariance) {
   if (!config_.enabled || !present_) return;
   ahead_is_stale_ = true;
-  const Covariance3 most = with_floor(covariance, 1, 1);
+  // What was guessed wrong the readings that are to come put right, not the fix.
+  const Covariance3 of_guess = covariance + doubt_of_guess(guessed_ns());
+  const Covariance3 most = with_floor(of_guess, 1, 1);
   if (filter_.is_contradictory()) {
     filter_.set_pose(T_map_base, most);
   } else if (has_pose_ && filter_.explains(T_map_base, most)) {
-    filter_.correct(T_map_base, learned_doubt(T_map_base, covariance));
+    filter_.correct(T_map_base, learned_doubt(T_map_base, of_guess));
     fix_watch_.add_explained(angle_between(fixed_heading_rad_, T_map_base.theta_rad));
     ++fixes_;
   } else {
@@ -84,8 +94,9 @@ double Odometer::delay_doubt_s2(double delay_s) const {
   return delays_.doubt_about(delay_s, config_.start.delay_s, kUsualDelay * config_.noise.delay_s);
 }
 
-bool Odometer::doubts_delay() const {
-  return delay_doubt_s2(filter_.learned().delay_s) > kUnknownDelay_s * kUnknownDelay_s;
+bool Odometer::may_miss_motion() const {
+  return guessed_ns() > kPause_ns ||
+         delay_doubt_s2(filter_.learned().delay_s) > kUnknownDelay_s * kUnknownDelay_s;
 }
 
 bool Odometer::learns_delay() const {

@@ -20,6 +20,11 @@ constexpr double kWanderShare = 0.3;
 /// second, `cornerctl bench --odometry`).
 constexpr double kUnevenShare = 0.2;
 
+/// The end of a turn that no reading tells of: of a change of speed in it, so much is in the pose.
+/// That the last reading is a little older than the turn is usual, and nothing.
+constexpr double kUnreadShare = 0.3;
+constexpr TimeNs kSoon_ns = 50'000'000;
+
 }  // namespace
 
 bool Odometer::straighten(const Scan& turn, const Pose2& T_base_lidar, Scan& still) const {
@@ -65,6 +70,10 @@ Covariance3 Odometer::doubt_of_motion() const {
   const Pose2 uneven = path_.greatest_change(from_ns, to_ns);
   const double uneven_m = kUnevenShare * uneven.x_m;
   const double uneven_rad = kUnevenShare * uneven.theta_rad;
+  // What the turn's end is guessed to be, nobody has read.
+  const double unread_s = to_seconds(std::max<TimeNs>(0, to_ns - path_.newest_ns() - kSoon_ns));
+  const double unread_by_s =
+      kUnreadShare * unread_s * unread_s / to_seconds(std::max<TimeNs>(1, end_ns_ - start_ns_));
   // Where in its count each wheel is in the middle: what the rest of the turn is straightened to.
   const DriveGeometry& geometry = config_.geometry;
   const double place_m2 = place_m * place_m + uneven_m * uneven_m + geometry.rest_m2() / 2 +
@@ -72,7 +81,9 @@ Covariance3 Odometer::doubt_of_motion() const {
   double turn_rad2 =
       turn_rad * turn_rad + uneven_rad * uneven_rad + kWanderShare * wander.turn_rad2;
   if (!last_.has_gyro) turn_rad2 += 2 * geometry.rest_m2() / (geometry.track_m * geometry.track_m);
-  return Eigen::Vector3d(place_m2, place_m2, turn_rad2).asDiagonal();
+  Covariance3 doubt = doubt_of_change(unread_by_s * unread_by_s);
+  doubt.diagonal() += Eigen::Vector3d(place_m2, place_m2, turn_rad2);
+  return doubt;
 }
 
 void Odometer::disbelieve_motion() { knows_motion_ = false; }

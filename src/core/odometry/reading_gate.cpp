@@ -34,6 +34,9 @@ constexpr double kGyroCoverage = 0.8;
 /// A gyro that has said the same so often while wheels and it came this far apart is stuck.
 constexpr std::uint32_t kFrozenRates = 10;
 constexpr double kFrozen_rad = 0.15;
+/// A wheel that spins up at once, and what it gains in a longer time: more is a wrong count.
+constexpr double kMostChange_m_s = 1;
+constexpr double kMostChange_m_s2 = 10;
 /// Two encoders that tick between the same two readings.
 constexpr double kSlackCounts = 2;
 
@@ -134,6 +137,21 @@ bool ReadingGate::is_possible(const Counts& from, const Counts& to) const {
   return to.t_ns > from.t_ns && within(from.left, to.left) && within(from.right, to.right);
 }
 
+bool ReadingGate::is_sudden(const Counts& before, const Counts& from, const Counts& to) const {
+  const DriveGeometry& geometry = config_.geometry;
+  const double before_s = to_seconds(from.t_ns - before.t_ns);
+  const double dt_s = to_seconds(to.t_ns - from.t_ns);
+  if (!(before_s > 0) || !(dt_s > 0)) return false;
+  const double slack_m = 2 * kSlackCounts * geometry.metres_per_count();
+  const double most_m = slack_m + dt_s * (kMostChange_m_s + kMostChange_m_s2 * dt_s);
+  const auto changes = [&](std::int64_t a, std::int64_t b, std::int64_t c) {
+    const auto earlier = static_cast<double>(count_difference(a, b, geometry.ceiling));
+    const auto later = static_cast<double>(count_difference(b, c, geometry.ceiling));
+    return std::abs(later - earlier * dt_s / before_s) * geometry.metres_per_count() > most_m;
+  };
+  return changes(before.left, from.left, to.left) || changes(before.right, from.right, to.right);
+}
+
 std::optional<MotionStep> ReadingGate::add_counts(const Counts& counts) {
   if (!last_) {
     last_ = counts;
@@ -149,17 +167,24 @@ std::optional<MotionStep> ReadingGate::add_counts(const Counts& counts) {
     ++counters_.past;
     return std::nullopt;
   }
-  if (!is_possible(*last_, counts)) {
+  const bool is_jump = !is_possible(*last_, counts);
+  const bool agrees = doubted_ && is_possible(*doubted_, counts);
+  const bool is_glitch = before_last_ && is_sudden(*before_last_, *last_, counts) &&
+                         !(agrees && !is_sudden(*last_, *doubted_, counts));
+  if (is_jump || is_glitch) {
     ++counters_.jumps;
-    doubts_ = doubted_ && is_possible(*doubted_, counts) ? doubts_ + 1 : 1;
+    doubts_ = agrees ? doubts_ + 1 : 1;
     doubted_ = counts;
     if (doubts_ < kRestarted) return std::nullopt;
-    ++counters_.restarts;
-    return restart(counts);
+    if (is_jump) {
+      ++counters_.restarts;
+      return restart(counts);
+    }
   }
   doubted_.reset();
   if (counts.t_ns - last_->t_ns > kLongestStep_ns) return restart(counts);
 
+  before_last_ = last_;
   MotionStep step = step_between(*last_, counts);
   last_ = counts;
   return step;
@@ -173,6 +198,7 @@ std::optional<MotionStep> ReadingGate::restart(const Counts& counts) {
   hole.is_hole = true;
   take_gyro(hole);
   last_ = counts;
+  before_last_.reset();
   doubted_.reset();
   doubts_ = 0;
   return hole;

@@ -49,6 +49,8 @@ class ReadingGate {
   std::optional<MotionStep> add_counts(const Counts& counts);
   std::optional<MotionStep> restart(const Counts& counts);
   bool is_possible(const Counts& from, const Counts& to) const;
+  /// No wheel changes its speed as much between two readings.
+  bool is_sudden(const Counts& before, const Counts& from, const Counts& to) const;
   MotionStep step_between(const Counts& from, const Counts& to);
   /// Moves what the gyro said since the last counts into the step.
   void take_gyro(MotionStep& step);
@@ -65,8 +67,9 @@ class ReadingGate {
   bool clock_was_set_back_ = false;  ///< and no counts have come since
 
   std::optional<Counts> last_;
-  std::optional<Counts> doubted_;  ///< the newest counts that jumped
-  std::uint32_t doubts_ = 0;       ///< how many in a row agree with each other
+  std::optional<Counts> before_last_;  ///< where the robot came on from there to it
+  std::optional<Counts> doubted_;      ///< the newest counts that jumped
+  std::uint32_t doubts_ = 0;           ///< how many in a row agree with each other
 
   // The gyro since the last counts.
   std::optional<TimeNs> gyro_ns_;

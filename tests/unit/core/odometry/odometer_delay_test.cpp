@@ -164,6 +164,17 @@ TEST(OdometerDelay, ReadingsThatArriveAfterTheTurn_ArePublishedWhereTheyAreAfter
   EXPECT_GT(after, 10);
 }
 
+TEST(OdometerDelay, WhatIsGuessedBeyondTheReadings_IsDoubted) {
+  LateRide ride(0, config_of_late_ride());
+  ride.teach();
+  const Covariance3 read = ride.odometer.prediction().value().covariance;
+  ride.advance_beyond(0.1);
+  const Covariance3 guessed = ride.odometer.prediction().value().covariance;
+  EXPECT_GT(guessed(2, 2) - read(2, 2), 0.1 * 0.1);
+  EXPECT_GT(guessed(0, 0) - read(0, 0), 0.03 * 0.03);
+  EXPECT_TRUE(ride.odometer.may_miss_motion());
+}
+
 /// What is reckoned with in the first test: without a doubt in the times nothing is learned.
 TEST(OdometerDelay, TimesThatAreNotDoubted_ArePutDownToTheWheels) {
   OdometryConfig config = config_of_late_ride();

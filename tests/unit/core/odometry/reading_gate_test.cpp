@@ -73,6 +73,29 @@ TEST(ReadingGate, SpeedsThatNobodyDrives_CostTheirReadingAlone) {
   }
 }
 
+TEST(ReadingGate, ASpikeThatAWheelMightRoll_CostsItsReadingAlone) {
+  for (const int counts : {200, 300, 420, -250}) {
+    const Outcome outcome = drive_with([&](int i, OdometryReading& reading) {
+      if (i == 70) reading.left = *reading.left + counts;
+    });
+    EXPECT_EQ(outcome.counters.jumps, 1U) << counts;
+    EXPECT_EQ(outcome.steps, 148);
+    EXPECT_NEAR(outcome.left_m, kLeft_m, 0.001);
+  }
+}
+
+TEST(ReadingGate, AWheelThatSpinsUpAtOnce_IsFollowed) {
+  const DriveGeometry geometry = small_robot().geometry;
+  const auto spun = [&](int i) { return i < 70 ? 0 : (i - 69) * 2 * 0.02; };
+  const Outcome outcome = drive_with([&](int i, OdometryReading& reading) {
+    reading.left = *reading.left + std::llround(spun(i) / geometry.metres_per_count());
+  });
+  EXPECT_EQ(outcome.counters.jumps, 1U);
+  EXPECT_EQ(outcome.steps, 148);
+  EXPECT_EQ(outcome.holes, 0);
+  EXPECT_NEAR(outcome.left_m, kLeft_m + spun(149), 0.001);
+}
+
 TEST(ReadingGate, CountsThatStayElsewhere_AreARestart) {
   const Outcome outcome = drive_with([](int i, OdometryReading& reading) {
     if (i >= 70) reading.left = *reading.left + 30464;
