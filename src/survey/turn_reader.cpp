@@ -28,7 +28,7 @@ core::OdometryConfig patient(core::OdometryConfig config, bool has_readings,
   config.bridge_s = kAlways_s;
   // The place of a turn in a map that grows is too unsure to time readings by.
   config.noise.delay_s = config.noise.delay_s_per_sqrt_s = 0;
-  config.remember_lies = false;
+  config.wary = false;
   if (learned) config.start = *learned;
   return config;
 }

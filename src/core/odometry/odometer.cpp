@@ -178,8 +178,7 @@ std::optional<PredictedPose> Odometer::ahead() {
 }
 
 bool Odometer::is_believed() const {
-  const bool lies =
-      config_.remember_lies ? !fix_watch_.is_believed() : fix_watch_.is_contradicted();
+  const bool lies = config_.wary ? !fix_watch_.is_believed() : fix_watch_.is_contradicted();
   return !lies && !filter_.is_contradictory();
 }
 

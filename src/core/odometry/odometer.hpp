@@ -108,7 +108,7 @@ class Odometer {
   static Covariance3 doubt_of_change(double unread_s2);
   static Covariance3 doubt_of_guess(TimeNs guessed_ns);
   /// What the filter has moved on beyond the newest reading.
-  TimeNs guessed_ns() const { return guessed_.to_ns - guessed_.from_ns; }
+  TimeNs guessed_ns() const { return config_.wary ? guessed_.to_ns - guessed_.from_ns : 0; }
   /// False where wheels, gyro and lidar have lately told different stories.
   bool is_believed() const;
   void tell_velocity(FusionFilter& filter, TimeNs t_ns) const;

@@ -71,7 +71,8 @@ Covariance3 Odometer::doubt_of_motion() const {
   const double uneven_m = kUnevenShare * uneven.x_m;
   const double uneven_rad = kUnevenShare * uneven.theta_rad;
   // What the turn's end is guessed to be, nobody has read.
-  const double unread_s = to_seconds(std::max<TimeNs>(0, to_ns - path_.newest_ns() - kSoon_ns));
+  const TimeNs unread_ns = config_.wary ? to_ns - path_.newest_ns() - kSoon_ns : 0;
+  const double unread_s = to_seconds(std::max<TimeNs>(0, unread_ns));
   const double unread_by_s =
       kUnreadShare * unread_s * unread_s / to_seconds(std::max<TimeNs>(1, end_ns_ - start_ns_));
   // Where in its count each wheel is in the middle: what the rest of the turn is straightened to.

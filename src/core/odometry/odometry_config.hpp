@@ -77,9 +77,10 @@ struct OdometryConfig {
       HeadingSource::kFilter;  ///< the paper's are for comparison: they learn nothing
   PaperFactors paper;
   double bridge_s = 10;  ///< a pose is carried on without the lidar for so long
-  /// Turns that were foretold wrong are remembered until others were foretold right. A survey,
-  /// which tells slips from lies by the whole drive, does without.
-  bool remember_lies = true;
+  /// Turns that were foretold wrong are remembered until others were foretold right, sudden counts
+  /// wait for the next, and what is guessed is doubted. A survey, which judges the drive as a
+  /// whole, does without.
+  bool wary = true;
   bool publish = false;  ///< a pose for every reading, carried on from the last turn
 };
 

@@ -169,7 +169,7 @@ std::optional<MotionStep> ReadingGate::add_counts(const Counts& counts) {
   }
   const bool is_jump = !is_possible(*last_, counts);
   const bool agrees = doubted_ && is_possible(*doubted_, counts);
-  const bool is_glitch = before_last_ && is_sudden(*before_last_, *last_, counts) &&
+  const bool is_glitch = config_.wary && before_last_ && is_sudden(*before_last_, *last_, counts) &&
                          !(agrees && !is_sudden(*last_, *doubted_, counts));
   if (is_jump || is_glitch) {
     ++counters_.jumps;
