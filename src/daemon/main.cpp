@@ -47,6 +47,16 @@ void print(std::string_view text) {
   throw std::system_error(errno, std::generic_category(), "standard output");
 }
 
+core::LocalizerConfig localizer_config(const settings::Config& config) {
+  core::LocalizerConfig localizer = config.localizer();
+  // A client's clock and ours may differ by a little; what is stamped by the same one does not.
+  constexpr double kClocks_s = 0.25;
+  if (config.lidar.driver != settings::DriverKind::kReplay) {
+    localizer.odometry.limits.ahead_s = kClocks_s;
+  }
+  return localizer;
+}
+
 int run(const daemon::Options& options) {
   // Read again on SIGHUP, when nobody may wait for them.
   constexpr auto kKind = settings::FileKind::kOrdinary;
@@ -69,7 +79,7 @@ int run(const daemon::Options& options) {
     daemon::Loaded loaded;
     loaded.config = settings::load_config(options.config, options.overrides, kKind);
     loaded.map = settings::load_map(loaded.config.map, kKind);
-    loaded.pipeline = std::make_unique<core::Pipeline>(loaded.map, loaded.config.localizer());
+    loaded.pipeline = std::make_unique<core::Pipeline>(loaded.map, localizer_config(loaded.config));
     return loaded;
   };
   daemon::Loaded loaded = load();

@@ -47,6 +47,9 @@ class FusionFilter {
   /// How fast `base` moves now: what makes an unknown delay an unknown place.
   void set_velocity(double speed_m_s, double rate_rad_s);
 
+  /// Whether the gyro is known to be right, so that what differs from it is a wheel that slips.
+  void believe_gyro(bool believed) { gyro_is_believed_ = believed; }
+
   /// The readings' times are those of another clock from now on.
   void doubt_times();
 
@@ -62,6 +65,17 @@ class FusionFilter {
   bool explains(const Pose2& T_map_base, const Covariance3& covariance) const;
   /// Takes it in, the covariance as it is. False, and nothing changed, where it is not explained.
   bool correct(const Pose2& T_map_base, const Covariance3& covariance);
+
+  /// What was driven since the last fix.
+  struct Stretch {
+    double rolled_m = 0;  ///< by each wheel, the mean of both
+    double turned_rad = 0;
+    double duration_s = 0;
+    Vec2 start = Vec2::Zero();
+  };
+  const Stretch& since_fix() const { return since_fix_; }
+  /// Makes the pose less sure.
+  void doubt_pose(const Covariance3& more) { covariance_.topLeftCorner<3, 3>() += more; }
 
   Pose2 pose() const { return {state_[kX], state_[kY], state_[kTheta]}; }
   /// Of the pose as the lidar sees it: with what the delay is off by, and more of that than the
@@ -125,8 +139,10 @@ class FusionFilter {
   Matrix covariance_ = Matrix::Zero();
   NoiseLearning learning_;
   UsualMotion usual_;
+  Stretch since_fix_;
   JitterMeter jitter_;
   SlipWatch slip_watch_;
+  bool gyro_is_believed_ = true;
   double speed_m_s_ = 0;
   double rate_rad_s_ = 0;
   std::uint64_t slips_ = 0;

@@ -69,7 +69,8 @@ Eigen::Matrix<double, 3, FusionFilter::kSize> FusionFilter::seen_with_state() co
 
 Covariance3 FusionFilter::pose_covariance(double more_delay_s2) const {
   const Eigen::Matrix<double, 3, kSize> with = seen_with_state();
-  Covariance3 covariance = with.leftCols<3>() + with.col(kDelay) * velocity().transpose();
+  Covariance3 covariance = with.leftCols<3>() + with.col(kDelay) * velocity().transpose() +
+                           jitter_.variance_s2() * velocity() * velocity().transpose();
   if (more_delay_s2 > 0 && covariance_(kDelay, kDelay) > 0) {
     const Eigen::Vector3d by_delay = with.col(kDelay) / covariance_(kDelay, kDelay);
     covariance += more_delay_s2 * by_delay * by_delay.transpose();
@@ -89,6 +90,7 @@ void FusionFilter::set_pose(const Pose2& T_map_base, const Covariance3& covarian
   covariance_.topLeftCorner<3, 3>() =
       covariance + covariance_(kDelay, kDelay) * velocity() * velocity().transpose();
   learning_.interrupt();
+  since_fix_ = {.start = T_map_base.translation()};
 }
 
 Eigen::Vector3d FusionFilter::surprise_of(const Pose2& T_map_base) const {
@@ -113,6 +115,7 @@ bool FusionFilter::correct(const Pose2& T_map_base, const Covariance3& covarianc
   state_ += gain * surprise;
   covariance_ -= gain * with_pose.transpose();
   keep_in_bounds();
+  since_fix_ = {.start = T_map_base.translation()};
   return true;
 }
 

@@ -17,6 +17,7 @@ struct MotionStep {
   double gyro_rad = 0;         ///< the gyro's rate, integrated
   double gyro_change_rad = 0;  ///< what the rate's change within the step may add to it or take
   bool has_gyro = false;
+  bool gyro_may_be_stuck = false;  ///< it says the same again and again
   bool is_hole = false;  ///< nothing is known of this time: readings were missing or garbage
 
   double duration_s() const { return to_seconds(to_ns - from_ns); }

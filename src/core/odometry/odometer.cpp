@@ -45,7 +45,9 @@ MotionStep less_guess(const MotionStep& step, MotionStep& guessed) {
 }  // namespace
 
 Odometer::Odometer(const OdometryConfig& config)
-    : config_(config), gate_(config), filter_(as_configured(config)), ahead_(filter_) {}
+    : config_(config), gate_(config), filter_(as_configured(config)), ahead_(filter_) {
+  filter_.believe_gyro(!config.wary);
+}
 
 bool Odometer::add(const OdometryReading& reading, std::optional<TimeNs> now_ns) {
   if (!config_.enabled) return false;
@@ -78,6 +80,7 @@ bool Odometer::add(const OdometryReading& reading, std::optional<TimeNs> now_ns)
 void Odometer::begin_anew(const MotionStep& hole) {
   path_.clear();
   delays_.interrupt();
+  gyro_proof_.interrupt();
   first_ = 0;
   size_ = 0;
   guessed_ = {};
@@ -91,7 +94,9 @@ void Odometer::begin_anew(const MotionStep& hole) {
 void Odometer::consume(const MotionStep& step) {
   // The lidar is well ahead of the readings.
   if (step.to_ns <= step.from_ns) return;
-  filter_.predict(less_guess(step, guessed_));
+  const MotionStep rest = less_guess(step, guessed_);
+  filter_.predict(rest);
+  gyro_proof_.drove(rest);
   last_ = step;
   reached_ns_ = step.to_ns;
 }
@@ -123,6 +128,7 @@ void Odometer::guess_until(TimeNs t_ns) {
   guess.gyro_rad *= share;
   guess.gyro_change_rad = 0;
   filter_.predict(guess);
+  gyro_proof_.drove(guess);
   if (guessed_.to_ns == guessed_.from_ns) guessed_.from_ns = reached_ns_;
   guessed_.to_ns = t_ns;
   guessed_.left_m += guess.left_m;
@@ -185,6 +191,7 @@ bool Odometer::is_believed() const {
 void Odometer::forget() {
   has_pose_ = false;
   fix_watch_.interrupt();
+  gyro_proof_.interrupt();
 }
 
 OdometrySummary Odometer::summary() const {

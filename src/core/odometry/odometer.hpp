@@ -11,11 +11,13 @@
 #include "core/odometry/delay_finder.hpp"
 #include "core/odometry/fix_watch.hpp"
 #include "core/odometry/fusion_filter.hpp"
+#include "core/odometry/gyro_proof.hpp"
 #include "core/odometry/motion_path.hpp"
 #include "core/odometry/noise_meter.hpp"
 #include "core/odometry/odometry_config.hpp"
 #include "core/odometry/odometry_reading.hpp"
 #include "core/odometry/reading_gate.hpp"
+#include "core/odometry/turn_slips.hpp"
 #include "core/scan.hpp"
 
 namespace cornerd::core {
@@ -104,6 +106,11 @@ class Odometer {
   Covariance3 learned_doubt(const Pose2& T_map_base, const Covariance3& covariance);
   std::optional<PredictedPose> prediction_of(const FusionFilter& filter, TimeNs t_ns,
                                              TimeNs guessed_ns) const;
+  /// Of what was driven since the last fix: what a mode that learns nothing may be off by, as it
+  /// was configured; and slips that no gyro shows.
+  Covariance3 doubt_of_mode(const FusionFilter& filter) const;
+  Covariance3 doubt_of_slips(const FusionFilter& filter) const;
+  void watch_for_slips(const Pose2& T_map_base, const Covariance3& covariance);
   /// What a robot makes of a time, its variance in s^2, of which no reading tells.
   static Covariance3 doubt_of_change(double unread_s2);
   static Covariance3 doubt_of_guess(TimeNs guessed_ns);
@@ -143,6 +150,8 @@ class Odometer {
   TimeNs fixed_ns_ = 0;
   double fixed_heading_rad_ = 0;
   FixWatch fix_watch_;
+  GyroProof gyro_proof_;
+  TurnSlips turn_slips_;
   /// Of the floors' variances. A twentieth stays: half a millimetre is the same from turn to turn.
   NoiseMeter place_floor_{10, 0.06, 1};
   NoiseMeter heading_floor_{5, 0.03, 1};

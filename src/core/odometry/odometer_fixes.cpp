@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/geometry/squared.hpp"
 #include "core/odometry/odometer.hpp"
 
 namespace cornerd::core {
@@ -34,6 +35,13 @@ Covariance3 with_floor(const Covariance3& covariance, double place, double headi
   return sum;
 }
 
+/// A wrong turn anywhere on the way since the last fix, and `place_m2` beside it.
+Covariance3 doubt_of_turn(const FusionFilter& filter, double turn_rad2, double place_m2) {
+  const double way_m2 = (filter.pose().translation() - filter.since_fix().start).squaredNorm();
+  const double aside_m2 = place_m2 + turn_rad2 * way_m2 / 3;
+  return Eigen::Vector3d(aside_m2, aside_m2, turn_rad2).asDiagonal();
+}
+
 }  // namespace
 
 Covariance3 Odometer::doubt_of_change(double unread_s2) {
@@ -44,6 +52,34 @@ Covariance3 Odometer::doubt_of_change(double unread_s2) {
 Covariance3 Odometer::doubt_of_guess(TimeNs guessed_ns) {
   const double guessed_s = to_seconds(guessed_ns);
   return doubt_of_change(guessed_s * guessed_s);
+}
+
+Covariance3 Odometer::doubt_of_mode(const FusionFilter& filter) const {
+  if (config_.mode == HeadingSource::kFilter) return Covariance3::Zero();
+  const OdometryNoise& noise = config_.noise;
+  const FusionFilter::Stretch& since = filter.since_fix();
+  const double apart_m = noise.wheel_scale * since.rolled_m;
+  const double by_wheels_rad2 = 2 * squared(apart_m / config_.geometry.track_m) +
+                                squared(noise.track_scale * since.turned_rad);
+  const double by_gyro_rad2 = squared(noise.gyro_scale * since.turned_rad) +
+                              squared(noise.gyro_bias_rad_s * since.duration_s);
+  double turn_rad2 = (by_wheels_rad2 + by_gyro_rad2) / 4;
+  if (config_.mode == HeadingSource::kEncoder) turn_rad2 = by_wheels_rad2;
+  if (config_.mode == HeadingSource::kGyro) turn_rad2 = by_gyro_rad2;
+  return doubt_of_turn(filter, turn_rad2, squared(apart_m));
+}
+
+Covariance3 Odometer::doubt_of_slips(const FusionFilter& filter) const {
+  if (config_.mode != HeadingSource::kFilter || last_.has_gyro) return Covariance3::Zero();
+  const double turn_rad2 = turn_slips_.rad2_per_m() * filter.since_fix().rolled_m;
+  return doubt_of_turn(filter, turn_rad2, turn_rad2 * squared(config_.geometry.track_m / 2));
+}
+
+void Odometer::watch_for_slips(const Pose2& T_map_base, const Covariance3& covariance) {
+  if (!has_pose_ || last_.has_gyro || config_.mode != HeadingSource::kFilter) return;
+  turn_slips_.add(squared(filter_.surprise_of(T_map_base)[2]),
+                  filter_.pose_covariance()(2, 2) + covariance(2, 2) + squared(kFixFloor_rad),
+                  filter_.since_fix().rolled_m);
 }
 
 std::optional<PredictedPose> Odometer::prediction() const {
@@ -57,6 +93,7 @@ std::optional<PredictedPose> Odometer::prediction_of(const FusionFilter& filter,
   const double more_s2 = delay_doubt_s2(filter.learned().delay_s);
   Covariance3 covariance = filter.pose_covariance(more_s2);
   covariance += doubt_of_change(more_s2) + doubt_of_guess(guessed_ns);
+  covariance += doubt_of_mode(filter) + doubt_of_slips(filter);
   const double place_m2 = std::max(covariance(0, 0), covariance(1, 1));
   if (!(place_m2 < kMostSigma_m * kMostSigma_m) ||
       !(covariance(2, 2) < kMostSigma_rad * kMostSigma_rad)) {
@@ -68,6 +105,8 @@ std::optional<PredictedPose> Odometer::prediction_of(const FusionFilter& filter,
 void Odometer::correct(const Pose2& T_map_base, const Covariance3& covariance) {
   if (!config_.enabled || !present_) return;
   ahead_is_stale_ = true;
+  filter_.doubt_pose(doubt_of_mode(filter_));
+  watch_for_slips(T_map_base, covariance);
   // What was guessed wrong the readings that are to come put right, not the fix.
   const Covariance3 of_guess = covariance + doubt_of_guess(guessed_ns());
   const Covariance3 most = with_floor(of_guess, 1, 1);
@@ -84,6 +123,8 @@ void Odometer::correct(const Pose2& T_map_base, const Covariance3& covariance) {
   has_pose_ = !filter_.is_contradictory();
   fixed_ns_ = middle_ns_;
   fixed_heading_rad_ = T_map_base.theta_rad;
+  gyro_proof_.fixed(T_map_base.theta_rad);
+  filter_.believe_gyro(!config_.wary || gyro_proof_.holds());
   if (!learns_delay() || filter_.is_contradictory()) return;
   delays_.fixed(middle_ns_, T_map_base, covariance, path_);
   if (const auto delay_s = delays_.instead_of(filter_.learned().delay_s)) learn_anew(*delay_s);
@@ -138,6 +179,7 @@ Covariance3 Odometer::learned_doubt(const Pose2& T_map_base, const Covariance3& 
 void Odometer::set_pose(const Pose2& T_map_base, const Covariance3& covariance) {
   ahead_is_stale_ = true;
   filter_.set_pose(T_map_base, covariance);
+  gyro_proof_.interrupt();
   has_pose_ = true;
   fixed_ns_ = middle_ns_;
 }

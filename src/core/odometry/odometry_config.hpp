@@ -23,6 +23,9 @@ struct DriveGeometry {
 struct OdometryLimits {
   double wheel_speed_m_s = 3;
   double gyro_rad_s = 35;  ///< the range of the usual chips, 2,000 degrees a second
+  /// A reading that is farther ahead of the time when it came is one of a wrong clock. Where that
+  /// time is the lidar's newest sample, which may be a slow turn old, it is off by more than this.
+  double ahead_s = 2;
 };
 
 /// How far wheels and gyro may be off, as standard deviations. Those of the scales and of the bias

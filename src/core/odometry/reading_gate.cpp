@@ -9,9 +9,7 @@
 namespace cornerd::core {
 namespace {
 
-/// Beside the lidar's clock, which is that of a turn ago: a slow turn takes a second, a wrong clock
-/// is off by much more.
-constexpr TimeNs kMostAhead_ns = 2 * kNsPerSecond;
+/// What is so old is of a wrong clock.
 constexpr TimeNs kMostBehind_ns = 5 * kNsPerSecond;
 /// So many readings in a row that are before the last one, and in order, are no accident: the
 /// client's clock was set.
@@ -22,6 +20,10 @@ constexpr double kUsualPauses = 3;
 constexpr double kShortestLeap_s = 0.06;
 constexpr std::uint32_t kWentOn = 3;
 constexpr double kSlower = 1.5;
+/// What comes so much faster than usual was held back, and bears the time when it was let go.
+constexpr double kBunched = 0.34;
+/// A leap that is longer by this than the time that the lidar saw go by is one of the clock.
+constexpr TimeNs kClockLeap_ns = kNsPerSecond / 4;
 /// How fast the usual time between readings is learned.
 constexpr double kUsualShare = 1.0 / 16;
 /// Counts that jumped and then go on evenly so often are a controller that was restarted.
@@ -31,6 +33,8 @@ constexpr TimeNs kLongestStep_ns = kNsPerSecond;
 /// Between two rates of a gyro that is there.
 constexpr double kLongestGyroGap_s = 0.2;
 constexpr double kGyroCoverage = 0.8;
+/// A gyro that has said the same so often may be stuck, or at rest while a wheel slips.
+constexpr std::uint32_t kSuspiciousRates = 3;
 /// A gyro that has said the same so often while wheels and it came this far apart is stuck.
 constexpr std::uint32_t kFrozenRates = 10;
 constexpr double kFrozen_rad = 0.15;
@@ -52,7 +56,7 @@ std::optional<MotionStep> ReadingGate::add(const OdometryReading& reading,
 }
 
 bool ReadingGate::is_in_time(TimeNs t_ns, std::optional<TimeNs> now_ns) {
-  if (now_ns && t_ns > *now_ns + kMostAhead_ns) {
+  if (now_ns && t_ns > *now_ns + from_seconds(config_.limits.ahead_s)) {
     ++counters_.future;
     return false;
   }
@@ -68,13 +72,22 @@ bool ReadingGate::is_in_time(TimeNs t_ns, std::optional<TimeNs> now_ns) {
     ++counters_.restarts;
     clock_was_set_back_ = true;
     gyro_ns_.reset();
+  } else if (clock_leapt(t_ns, now_ns)) {
+    ++counters_.future;
+    return false;
   } else if (leaps_ahead(t_ns)) {
     return false;
   }
   refused_in_a_row_ = 0;
   refused_ns_.reset();
   last_ns_ = t_ns;
+  then_ns_ = now_ns;
   return true;
+}
+
+bool ReadingGate::clock_leapt(TimeNs t_ns, std::optional<TimeNs> now_ns) const {
+  if (!last_ns_ || !then_ns_ || !now_ns || t_ns < *now_ns + kClockLeap_ns) return false;
+  return (t_ns - *last_ns_) - (*now_ns - *then_ns_) > kClockLeap_ns;
 }
 
 bool ReadingGate::leaps_ahead(TimeNs t_ns) {
@@ -87,6 +100,10 @@ bool ReadingGate::leaps_ahead(TimeNs t_ns) {
         leapt_ns_ && t_ns >= *leapt_ns_ &&
         to_seconds(t_ns - *leapt_ns_) <=
             std::max(longest_s, kSlower * to_seconds(*leapt_ns_ - *last_ns_) / leaps_);
+    if (goes_on && usual_s_ && to_seconds(t_ns - *leapt_ns_) < kBunched * *usual_s_) {
+      ++counters_.past;
+      return true;
+    }
     counters_.future += goes_on ? 0 : leaps_;
     const double followed_s = goes_on ? to_seconds(t_ns - *leapt_ns_) : 0;
     leaps_ = goes_on ? leaps_ + 1 : 1;
@@ -216,6 +233,7 @@ MotionStep ReadingGate::step_between(const Counts& from, const Counts& to) {
   step.left_m = way_m(from.left, to.left);
   step.right_m = way_m(from.right, to.right);
   take_gyro(step);
+  step.gyro_may_be_stuck = same_rates_ >= kSuspiciousRates;
   if (step.has_gyro && gyro_is_frozen(step)) step.has_gyro = false;
   return step;
 }

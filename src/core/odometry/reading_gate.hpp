@@ -13,7 +13,7 @@ namespace cornerd::core {
 /// What was refused, by cause.
 struct OdometryCounters {
   std::uint64_t readings = 0;
-  std::uint64_t past = 0;      ///< before the last one, or long before now
+  std::uint64_t past = 0;      ///< before the last one, long before now, or held back
   std::uint64_t future = 0;    ///< well after now, or ahead of the readings that followed
   std::uint64_t jumps = 0;     ///< more counts than a wheel can turn
   std::uint64_t gyro = 0;      ///< rates that are none
@@ -44,6 +44,7 @@ class ReadingGate {
   };
 
   bool is_in_time(TimeNs t_ns, std::optional<TimeNs> now_ns);
+  bool clock_leapt(TimeNs t_ns, std::optional<TimeNs> now_ns) const;
   bool leaps_ahead(TimeNs t_ns);
   void add_gyro(TimeNs t_ns, double rate_rad_s);
   std::optional<MotionStep> add_counts(const Counts& counts);
@@ -59,6 +60,7 @@ class ReadingGate {
   OdometryConfig config_;
   OdometryCounters counters_;
   std::optional<TimeNs> last_ns_;     ///< of any reading that was taken
+  std::optional<TimeNs> then_ns_;     ///< when that came
   std::optional<TimeNs> refused_ns_;  ///< the newest reading that was before the last one
   std::uint32_t refused_in_a_row_ = 0;
   std::optional<double> usual_s_;    ///< between two readings

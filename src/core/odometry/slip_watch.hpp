@@ -16,6 +16,12 @@ class SlipWatch {
     share_ += std::min(kMostOfAStep, dt_s / memory_s) * (slipping - share_);
   }
 
+  /// A step in which there is but one of them.
+  void add_single(double dt_s) { share_ -= std::min(1.0, dt_s / kTurning_s) * share_; }
+
+  /// Which of them is wrong nobody can tell: as if it had been so for long.
+  void contradict() { share_ = 1; }
+
   /// True where they have said different things for most of the last third of a second of turning.
   bool is_contradiction() const { return share_ > 0.5; }
 

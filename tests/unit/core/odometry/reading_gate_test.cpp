@@ -179,6 +179,47 @@ TEST(ReadingGate, APause_IsOverWhenReadingsGoOn) {
   EXPECT_NEAR(outcome.left_m, kLeft_m, 0.001);
 }
 
+TEST(ReadingGate, AClockThatLeapsAheadOfTheLidars_IsRefusedUntilItComesBack) {
+  for (const int ahead_ms : {300, 600, 1500, 5000}) {
+    const Outcome outcome = drive_with([&](int i, OdometryReading& reading) {
+      if (i >= 50 && i < 80) reading.t_ns += ahead_ms * kMillisecond_ns;
+    });
+    EXPECT_EQ(outcome.counters.future, 30U) << ahead_ms;
+    EXPECT_EQ(outcome.counters.restarts, 0U) << ahead_ms;
+    EXPECT_NEAR(outcome.left_m, kLeft_m, 0.001) << ahead_ms;
+  }
+}
+
+TEST(ReadingGate, MoreAheadThanTheLimit_IsRefused) {
+  OdometryConfig config = small_robot();
+  config.limits.ahead_s = 0.25;
+  ReadingGate gate(config);
+  testing::DrivenRobot robot(config.geometry, {});
+  for (const int ahead_ms : {240, 260}) {
+    const OdometryReading reading = robot.drive(0.02, 0.3, 0.1);
+    gate.add(reading, reading.t_ns - ahead_ms * kMillisecond_ns);
+  }
+  EXPECT_EQ(gate.counters().future, 1U);
+}
+
+TEST(ReadingGate, ReadingsThatWereHeldBack_AreNotOfTheTimeWhenTheyCame) {
+  // Ten of them wait, and come within 2 ms, as stamped on arrival.
+  const TimeNs let_go_ns = [] {
+    testing::DrivenRobot robot(small_robot().geometry, {});
+    TimeNs t_ns = 0;
+    for (int i = 0; i <= 60; ++i) t_ns = robot.drive(0.02, 0.3, 0.1).t_ns;
+    return t_ns;
+  }();
+  const Outcome outcome = drive_with([&](int i, OdometryReading& reading) {
+    if (i >= 50 && i < 60) reading.t_ns = let_go_ns - (60 - i) * kMillisecond_ns / 5;
+  });
+  EXPECT_EQ(outcome.counters.jumps, 0U);
+  EXPECT_EQ(outcome.counters.restarts, 0U);
+  EXPECT_EQ(outcome.holes, 0);
+  EXPECT_GE(outcome.counters.past, 8U);
+  EXPECT_NEAR(outcome.left_m, kLeft_m, 0.001);
+}
+
 TEST(ReadingGate, SeldomReadings_AreNoLeaps) {
   testing::DrivenRobot robot(small_robot().geometry, {});
   ReadingGate gate(small_robot());
@@ -195,7 +236,8 @@ TEST(ReadingGate, AClientThatGoesOnMoreSlowly_IsFollowed) {
     testing::DrivenRobot robot(small_robot().geometry, {});
     ReadingGate gate(small_robot());
     const auto add = [&](double dt_s) {
-      return gate.add(robot.drive(dt_s, 0.3, 0.1), robot.now_ns()).has_value();
+      const OdometryReading reading = robot.drive(dt_s, 0.3, 0.1);
+      return gate.add(reading, reading.t_ns).has_value();
     };
     for (int i = 0; i < 100; ++i) add(0.02);
     int steps = 0;

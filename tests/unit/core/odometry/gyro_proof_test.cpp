@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+#include "core/odometry/gyro_proof.hpp"
+
+#include <gtest/gtest.h>
+
+namespace cornerd::core {
+namespace {
+
+/// Turns of 0.14 s at 1 rad/s, of which the gyro says `gain` times as much.
+void turn(GyroProof& proof, double& heading_rad, double gain, int turns = 1) {
+  for (int i = 0; i < turns; ++i) {
+    heading_rad = normalize_angle(heading_rad + 0.14);
+    MotionStep step;
+    step.to_ns = 140'000'000;
+    step.gyro_rad = gain * 0.14;
+    step.has_gyro = true;
+    proof.drove(step);
+    proof.fixed(heading_rad);
+  }
+}
+
+TEST(GyroProof, TurnsThatTheLidarSees_ProveIt) {
+  GyroProof proof;
+  double heading_rad = 0;
+  EXPECT_FALSE(proof.holds());
+  turn(proof, heading_rad, 1.03, 4);
+  EXPECT_TRUE(proof.holds());
+  turn(proof, heading_rad, -1, 4);
+  EXPECT_FALSE(proof.holds());
+}
+
+TEST(GyroProof, StraightsProveNothing) {
+  GyroProof proof;
+  double heading_rad = 0;
+  for (int i = 0; i < 100; ++i) {
+    MotionStep step;
+    step.to_ns = 140'000'000;
+    step.has_gyro = true;
+    proof.drove(step);
+    proof.fixed(heading_rad);
+  }
+  EXPECT_FALSE(proof.holds());
+}
+
+TEST(GyroProof, AStretchWithoutAGyro_IsNotComparedWith) {
+  GyroProof proof;
+  double heading_rad = 0;
+  turn(proof, heading_rad, 1, 4);
+  MotionStep blind;
+  blind.to_ns = 140'000'000;
+  for (int i = 0; i < 20; ++i) {
+    proof.drove(blind);
+    heading_rad = normalize_angle(heading_rad + 1);
+    proof.fixed(heading_rad);
+  }
+  EXPECT_TRUE(proof.holds());
+}
+
+}  // namespace
+}  // namespace cornerd::core

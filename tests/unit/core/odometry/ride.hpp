@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+// A robot that drives while an odometer listens.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <vector>
+
+#include "core/odometry/odometer.hpp"
+#include "driven_robot.hpp"
+
+namespace cornerd::core::testing {
+
+inline const Covariance3 kFixCovariance = Covariance3::Identity() * 1e-6;
+
+inline OdometryConfig switched_on() {
+  OdometryConfig config;
+  config.enabled = true;
+  return config;
+}
+
+/// Readings at 50 Hz, a turn of the lidar every 7 of them; each reading comes `late` readings late.
+class Ride {
+ public:
+  explicit Ride(const OdometryConfig& config, int late = 0, int every = 1)
+      : odometer(config), robot_(config.geometry, errors(), 3), late_(late), every_(every) {}
+
+  static RobotErrors errors() {
+    RobotErrors errors;
+    errors.left_scale = 0.01;
+    errors.gyro_bias_rad_s = 0.01;
+    errors.wheel_m_per_sqrt_m = 0.001;
+    errors.gyro_rad_s_per_sqrt_hz = 0.0003;
+    return errors;
+  }
+
+  /// To the end of the next turn; `truth` is then the pose in its middle.
+  void turn(bool readings = true) {
+    const TimeNs start_ns = robot_.now_ns();
+    for (int i = 0; i < 14; ++i, ++ticks_) {
+      const Rates rates = lively_drive(0.01 * ticks_);
+      OdometryReading reading = robot_.drive(0.01, rates.speed_m_s, rates.rate_rad_s);
+      if (i == 6) truth = robot_.truth();
+      if (spoil) spoil(spoiled_++, reading);
+      waiting_.push_back(reading);
+      if (waiting_.size() <= static_cast<std::size_t>(late_)) continue;
+      if (readings && ticks_ % every_ == 0) odometer.add(waiting_.front(), robot_.now_ns());
+      waiting_.erase(waiting_.begin());
+    }
+    odometer.advance(start_ns, start_ns + 70'000'000, robot_.now_ns());
+  }
+  double error_m() const {
+    const auto predicted = odometer.prediction();
+    if (!predicted) return 1e9;
+    return (predicted->T_map_base.translation() - truth.translation()).norm();
+  }
+
+  /// One reading more, and where the robot is then.
+  Pose2 go_on() {
+    const Rates rates = lively_drive(0.01 * ticks_++);
+    const OdometryReading reading = robot_.drive(0.01, rates.speed_m_s, rates.rate_rad_s);
+    odometer.add(reading, reading.t_ns);
+    return robot_.truth();
+  }
+
+  Odometer odometer;
+  Pose2 truth;
+  std::function<void(int, OdometryReading&)> spoil;
+
+ private:
+  DrivenRobot robot_;
+  int late_;
+  int every_;
+  int ticks_ = 0;
+  int spoiled_ = 0;
+  std::vector<OdometryReading> waiting_;
+};
+
+}  // namespace cornerd::core::testing
