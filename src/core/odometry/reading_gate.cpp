@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/odometry/wrapping_counter.hpp"
 
@@ -22,8 +23,11 @@ constexpr std::uint32_t kWentOn = 3;
 constexpr double kSlower = 1.5;
 /// What comes so much faster than usual was held back, and bears the time when it was let go.
 constexpr double kBunched = 0.34;
-/// A leap that is longer by this than the time that the lidar saw go by is one of the clock.
-constexpr TimeNs kClockLeap_ns = kNsPerSecond / 4;
+/// A leap that is longer by this than the time that the lidar saw go by is one of the clock, and a
+/// clock that is always so far ahead is a wrong one.
+constexpr TimeNs kClockAhead_ns = kNsPerSecond / 4;
+/// A recorded turn may come as a whole: how far ahead of it readings are shows when it has come.
+constexpr TimeNs kSlowTurn_ns = kNsPerSecond * 5 / 4;
 /// How fast the usual time between readings is learned.
 constexpr double kUsualShare = 1.0 / 16;
 /// Counts that jumped and then go on evenly so often are a controller that was restarted.
@@ -72,7 +76,7 @@ bool ReadingGate::is_in_time(TimeNs t_ns, std::optional<TimeNs> now_ns) {
     ++counters_.restarts;
     clock_was_set_back_ = true;
     gyro_ns_.reset();
-  } else if (clock_leapt(t_ns, now_ns)) {
+  } else if (now_ns && (is_always_ahead(t_ns, *now_ns) || clock_leapt(t_ns, *now_ns))) {
     ++counters_.future;
     return false;
   } else if (leaps_ahead(t_ns)) {
@@ -85,9 +89,19 @@ bool ReadingGate::is_in_time(TimeNs t_ns, std::optional<TimeNs> now_ns) {
   return true;
 }
 
-bool ReadingGate::clock_leapt(TimeNs t_ns, std::optional<TimeNs> now_ns) const {
-  if (!last_ns_ || !then_ns_ || !now_ns || t_ns < *now_ns + kClockLeap_ns) return false;
-  return (t_ns - *last_ns_) - (*now_ns - *then_ns_) > kClockLeap_ns;
+bool ReadingGate::is_always_ahead(TimeNs t_ns, TimeNs now_ns) {
+  const TimeNs ahead_ns = t_ns - now_ns;
+  if (!compared_since_ns_ || t_ns - *compared_since_ns_ > kSlowTurn_ns) {
+    least_ahead_before_ns_ = std::exchange(least_ahead_ns_, ahead_ns);
+    compared_since_ns_ = t_ns;
+  }
+  least_ahead_ns_ = std::min(least_ahead_ns_, ahead_ns);
+  return std::min(least_ahead_ns_, least_ahead_before_ns_) > kClockAhead_ns;
+}
+
+bool ReadingGate::clock_leapt(TimeNs t_ns, TimeNs now_ns) const {
+  if (!last_ns_ || !then_ns_ || t_ns < now_ns + kClockAhead_ns) return false;
+  return (t_ns - *last_ns_) - (now_ns - *then_ns_) > kClockAhead_ns;
 }
 
 bool ReadingGate::leaps_ahead(TimeNs t_ns) {

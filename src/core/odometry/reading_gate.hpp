@@ -44,7 +44,8 @@ class ReadingGate {
   };
 
   bool is_in_time(TimeNs t_ns, std::optional<TimeNs> now_ns);
-  bool clock_leapt(TimeNs t_ns, std::optional<TimeNs> now_ns) const;
+  bool is_always_ahead(TimeNs t_ns, TimeNs now_ns);
+  bool clock_leapt(TimeNs t_ns, TimeNs now_ns) const;
   bool leaps_ahead(TimeNs t_ns);
   void add_gyro(TimeNs t_ns, double rate_rad_s);
   std::optional<MotionStep> add_counts(const Counts& counts);
@@ -63,6 +64,10 @@ class ReadingGate {
   std::optional<TimeNs> then_ns_;     ///< when that came
   std::optional<TimeNs> refused_ns_;  ///< the newest reading that was before the last one
   std::uint32_t refused_in_a_row_ = 0;
+  // Of the last second or two.
+  std::optional<TimeNs> compared_since_ns_;
+  TimeNs least_ahead_ns_ = 0;
+  TimeNs least_ahead_before_ns_ = 0;
   std::optional<double> usual_s_;    ///< between two readings
   std::optional<TimeNs> leapt_ns_;   ///< the newest reading that was ahead
   std::uint32_t leaps_ = 0;          ///< how many in a row agree with each other

@@ -190,6 +190,25 @@ TEST(ReadingGate, AClockThatLeapsAheadOfTheLidars_IsRefusedUntilItComesBack) {
   }
 }
 
+TEST(ReadingGate, AClockThatWasAlwaysAhead_IsRefusedAfterAWhile) {
+  const Outcome outcome =
+      drive_with([](int, OdometryReading& reading) { reading.t_ns += kNsPerSecond; });
+  EXPECT_GT(outcome.counters.future, 50U);
+  EXPECT_LT(outcome.steps, 100);
+}
+
+TEST(ReadingGate, TurnsThatComeAsAWhole_MakeNoFuture) {
+  testing::DrivenRobot robot(small_robot().geometry, {});
+  ReadingGate gate(small_robot());
+  TimeNs newest_sample_ns = 0;
+  for (int i = 0; i < 500; ++i) {
+    const OdometryReading reading = robot.drive(0.02, 0.3, 0.1);
+    gate.add(reading, newest_sample_ns);
+    if (i % 50 == 49) newest_sample_ns = reading.t_ns;
+  }
+  EXPECT_EQ(gate.counters().future, 0U);
+}
+
 TEST(ReadingGate, MoreAheadThanTheLimit_IsRefused) {
   OdometryConfig config = small_robot();
   config.limits.ahead_s = 0.25;
@@ -225,7 +244,8 @@ TEST(ReadingGate, SeldomReadings_AreNoLeaps) {
   ReadingGate gate(small_robot());
   int steps = 0;
   for (int i = 0; i < 20; ++i) {
-    steps += gate.add(robot.drive(i % 2 == 0 ? 0.4 : 0.6, 0.3, 0.1), robot.now_ns()).has_value();
+    const OdometryReading reading = robot.drive(i % 2 == 0 ? 0.4 : 0.6, 0.3, 0.1);
+    steps += gate.add(reading, reading.t_ns).has_value();
   }
   EXPECT_EQ(steps, 19);
   EXPECT_EQ(gate.counters().future, 0U);
