@@ -133,7 +133,8 @@ ControlActions Daemon::control_actions(const settings::Config& config) {
       if (is_live_) {
         reading.t_ns = reading.timed ? reading.t_ns - (unix_ns() - monotonic_ns()) : monotonic_ns();
       } else if (!reading.timed) {
-        reading.t_ns = now_ns();
+        // Of the recording's time, as everything else here; that of a turn would stand for a turn.
+        reading.t_ns = localization_.newest_sample_ns();
       }
       const bool says = reading.left || reading.right || reading.gyro_rad_s;
       if (verdict == Verdict::kTaken || says) localization_.add(reading);

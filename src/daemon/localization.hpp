@@ -78,6 +78,8 @@ class Localization {
     readings_.push(reading);
     if (publishes_readings_.load(std::memory_order_relaxed)) channel_.wake();
   }
+  /// Now by the clock of the samples: the newest one's time, whose turn may still be going on.
+  core::TimeNs newest_sample_ns() const { return channel_.newest_ns(); }
   /// A pose for every reading, be there turns or not: odometry.publish.
   void publish_readings(bool every) { publishes_readings_.store(every, std::memory_order_relaxed); }
   /// The robot is about there.

@@ -32,6 +32,7 @@ bool SampleChannel::push(const Item& item) {
 
 void SampleChannel::on_sample(const core::Sample& sample) {
   if (owes_gap_) on_gap();
+  newest_ns_.store(sample.t_ns, std::memory_order_relaxed);
   const bool may_complete_turn = sample.starts_turn || sample.ends_turn;
   const std::int64_t arrival_ns = may_complete_turn ? monotonic_ns() : 0;
   const Item item{.sample = sample, .reading = {}, .arrival_ns = arrival_ns, .kind = Kind::kSample};

@@ -45,6 +45,8 @@ class SampleChannel final : public drivers::SampleSink {
   void wake();
   /// Ends all waiting of the producer; what it still brings is lost.
   void close();
+  /// The time of the newest sample that the producer brought; 0 before the first one.
+  core::TimeNs newest_ns() const { return newest_ns_.load(std::memory_order_relaxed); }
   std::uint64_t lost() const { return lost_.load(std::memory_order_relaxed); }
   /// Of the producer's thread, as of the last turn's beginning.
   std::uint64_t producer_page_faults() const {
@@ -59,6 +61,7 @@ class SampleChannel final : public drivers::SampleSink {
   std::uint32_t since_wake_ = 0;
   bool owes_gap_ = false;  ///< samples were lost, and the consumer does not know yet
   std::atomic<std::uint32_t> wakes_{0};
+  std::atomic<core::TimeNs> newest_ns_{0};
   std::atomic<std::uint32_t> lost_{0};
   std::atomic<std::uint32_t> page_faults_{0};
   std::atomic<bool> closed_{false};

@@ -31,6 +31,15 @@ TEST(SampleChannel, SamplesAndGaps_KeepTheirOrder) {
   EXPECT_FALSE(channel.pop(item));
 }
 
+TEST(SampleChannel, NewestTime_IsThatOfTheLastSampleThoughNobodyHasTakenIt) {
+  SampleChannel channel(WhenFull::kLose);
+  EXPECT_EQ(channel.newest_ns(), 0);
+  channel.on_sample(sample(5, true));
+  channel.on_sample(sample(8));
+  channel.on_gap();
+  EXPECT_EQ(channel.newest_ns(), 8);
+}
+
 TEST(SampleChannel, SampleThatMayCompleteATurn_WakesTheConsumer) {
   SampleChannel channel(WhenFull::kLose);
   const std::uint32_t before = channel.wakes();
