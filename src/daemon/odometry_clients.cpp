@@ -11,8 +11,15 @@ constexpr std::uint64_t kHandOver = 5;
 
 }  // namespace
 
-bool OdometryClients::Giver::admits(int other, core::TimeNs now_ns) {
-  if (connection >= 0 && connection != other && now_ns - last_ns <= kSilent_ns) return false;
+/// `is_useful`: what comes is all that is needed. `is_refused`: what this gives is, of late.
+bool OdometryClients::Giver::admits(int other, core::TimeNs now_ns, bool is_useful,
+                                    bool is_refused) {
+  if (connection >= 0 && connection != other) {
+    const bool is_silent = now_ns - last_ns > kSilent_ns;
+    const bool is_useless = is_useful && now_ns - useful_ns > kUseless_ns;
+    if (!is_silent && !is_useless) return false;
+  }
+  if (connection != other || (is_useful && !is_refused)) useful_ns = now_ns;
   connection = other;
   last_ns = now_ns;
   return true;
@@ -21,13 +28,16 @@ bool OdometryClients::Giver::admits(int other, core::TimeNs now_ns) {
 OdometryClients::Verdict OdometryClients::admit(int connection, core::TimeNs now_ns,
                                                 message::OdometryReading& reading) {
   const bool is_empty = !reading.left && !reading.right && !reading.gyro_rad_s;
+  const bool is_whole = reading.left && reading.right;
+  const message::OdometryLines::Refused refused = lines_.refused();
   bool all = true;
-  if ((reading.left || reading.right) && !counts_.admits(connection, now_ns)) {
+  if ((reading.left || reading.right) &&
+      !counts_.admits(connection, now_ns, is_whole, refused.counts)) {
     reading.left.reset();
     reading.right.reset();
     all = false;
   }
-  if (reading.gyro_rad_s && !gyro_.admits(connection, now_ns)) {
+  if (reading.gyro_rad_s && !gyro_.admits(connection, now_ns, /*is_useful=*/true, refused.gyro)) {
     reading.gyro_rad_s.reset();
     all = false;
   }
@@ -50,8 +60,7 @@ void OdometryClients::describe(message::StatusFields& status) {
   const std::string_view why_absent = lines_.hint(*status.odometry, status.t_ns);
   const bool tells = telling_ > 0 && telling_-- > 0;
   status.odometry_hint =
-      tells ? "two clients send ODOMETRY: the first one's is taken, the other's refused"
-            : why_absent;
+      tells ? "two clients send ODOMETRY: one's is taken, the other's refused" : why_absent;
 }
 
 }  // namespace cornerd::daemon

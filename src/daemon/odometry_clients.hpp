@@ -12,11 +12,15 @@ namespace cornerd::daemon {
 
 /// Whose wheels and whose gyro are taken where several clients send them. Two that send the same,
 /// a moment apart, make a motion of their own: the first one goes on, the other is refused until
-/// the first has gone or fallen silent. Counts and rates may come from different clients.
+/// the first has gone or fallen silent, or nothing that it gives has been of use for a while: the
+/// count of one wheel alone, lines that are all refused. Counts and rates may come from different
+/// clients.
 class OdometryClients {
  public:
   /// Longer than any pause of a client that is worth its odometry.
   static constexpr core::TimeNs kSilent_ns = core::kNsPerSecond;
+  /// Longer than the robot's clock or the lidar may trouble the lines of a good one.
+  static constexpr core::TimeNs kUseless_ns = 4 * core::kNsPerSecond;
 
   enum class Verdict : std::uint8_t {
     kTaken,
@@ -37,8 +41,9 @@ class OdometryClients {
   struct Giver {
     int connection = -1;
     core::TimeNs last_ns = 0;
+    core::TimeNs useful_ns = 0;  ///< when it last gave what is of use, or took the place
 
-    bool admits(int other, core::TimeNs now_ns);
+    bool admits(int other, core::TimeNs now_ns, bool is_useful, bool is_refused);
   };
 
   Giver counts_;

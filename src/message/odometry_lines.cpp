@@ -11,6 +11,7 @@ constexpr core::TimeNs kShortestLook_ns = core::kNsPerSecond * 9 / 10;
 
 void OdometryLines::add(const core::OdometryReading& reading) {
   ++seen_.lines;
+  seen_.rates += reading.gyro_rad_s ? 1 : 0;
   if (reading.left && reading.right) {
     ++seen_.whole;
   } else if (reading.left) {
@@ -26,6 +27,7 @@ std::string_view OdometryLines::hint(const core::OdometrySummary& summary, core:
   if (!judged_ns_ || t_ns < *judged_ns_) judged_ns_ = t_ns;
   if (t_ns - *judged_ns_ >= kShortestLook_ns) {
     hint_ = judge(summary.counters);
+    refused_ = judge_refusals(summary.counters);
     judged_ns_ = t_ns;
     counters_ = summary.counters;
     seen_ = {};
@@ -55,6 +57,21 @@ std::string_view OdometryLines::judge(const core::OdometryCounters& counters) co
     return "counts leap by more than odometry.max_speed lets a wheel turn";
   }
   return {};
+}
+
+OdometryLines::Refused OdometryLines::judge_refusals(const core::OdometryCounters& counters) const {
+  // As differences: a pipeline that takes another's place counts anew.
+  const auto since = [&](auto member) {
+    return counters.*member < counters_.*member ? 0 : counters.*member - counters_.*member;
+  };
+  const std::uint64_t untimely =
+      since(&core::OdometryCounters::past) + since(&core::OdometryCounters::future);
+  const auto most = [](std::uint64_t refused, std::uint64_t lines) {
+    return lines > 0 && refused > lines / 2;
+  };
+  const bool all = most(untimely, seen_.lines);
+  return {.counts = all || most(since(&core::OdometryCounters::jumps), seen_.whole),
+          .gyro = all || most(since(&core::OdometryCounters::gyro), seen_.rates)};
 }
 
 }  // namespace cornerd::message

@@ -99,6 +99,77 @@ TEST_F(OdometryClientsTest, ARefusedClient_IsToldOnceForEachConnection) {
   EXPECT_EQ(verdict_, Verdict::kRefusedAnew);
 }
 
+TEST_F(OdometryClientsTest, FirstOneThatSendsOneWheelAlone_LosesItsPlaceToAWholeOne) {
+  OdometryReading left;
+  left.left = 1;
+  EXPECT_TRUE(admits(7, left));
+  core::TimeNs taken_ns = 0;
+  for (int i = 0; i < 500 && taken_ns == 0; ++i) {
+    EXPECT_TRUE(admits(7, left));
+    if (admits(8, wheels())) taken_ns = now_ns_;
+  }
+  EXPECT_NEAR(core::to_seconds(taken_ns), core::to_seconds(OdometryClients::kUseless_ns), 0.1);
+  for (int i = 0; i < 500; ++i) {
+    EXPECT_FALSE(admits(7, left));
+    EXPECT_TRUE(admits(8, wheels()));
+  }
+}
+
+TEST_F(OdometryClientsTest, TwoThatSendOneWheelEach_DoNotPushEachOtherOut) {
+  OdometryReading left;
+  left.left = 1;
+  OdometryReading right;
+  right.right = 1;
+  for (int i = 0; i < 500; ++i) {
+    EXPECT_TRUE(admits(7, left));
+    EXPECT_FALSE(admits(8, right));
+  }
+}
+
+TEST_F(OdometryClientsTest, FirstOneThatIsRefusedAllTheTime_LosesItsPlace) {
+  static_cast<void>(described());
+  int taken = 0;
+  for (int i = 0; i < 400; ++i) {
+    EXPECT_TRUE(admits(7, wheels()));
+    ++summary_.counters.past;
+    if (i % 50 == 49) static_cast<void>(described());
+    taken += admits(8, wheels()) ? 1 : 0;
+    if (taken > 0) break;
+  }
+  EXPECT_EQ(taken, 1);
+  // And the good one that has it now keeps it.
+  for (int i = 0; i < 1000; ++i) {
+    EXPECT_TRUE(admits(8, wheels()));
+    EXPECT_FALSE(admits(7, wheels()));
+    if (i % 50 == 49) static_cast<void>(described());
+  }
+}
+
+TEST_F(OdometryClientsTest, FirstOneThatIsRefusedForAMoment_KeepsItsPlace) {
+  static_cast<void>(described());
+  for (int i = 0; i < 1000; ++i) {
+    EXPECT_TRUE(admits(7, wheels()));
+    if (i >= 200 && i < 250) ++summary_.counters.past;
+    EXPECT_FALSE(admits(8, wheels()));
+    if (i % 25 == 24) static_cast<void>(described());
+  }
+}
+
+TEST_F(OdometryClientsTest, GyroThatIsRefusedAllTheTime_LosesItsPlaceAndTheWheelsKeepTheirs) {
+  static_cast<void>(described());
+  bool is_taken = false;
+  for (int i = 0; i < 400 && !is_taken; ++i) {
+    OdometryReading both = wheels();
+    both.gyro_rad_s = 100;
+    EXPECT_TRUE(admits(7, both));
+    ++summary_.counters.gyro;
+    if (i % 50 == 49) static_cast<void>(described());
+    is_taken = admits(8, gyro());
+  }
+  EXPECT_TRUE(is_taken);
+  EXPECT_TRUE(admits(7, wheels()));
+}
+
 TEST_F(OdometryClientsTest, WhatLinesLack_IsTold) {
   summary_.present = false;
   static_cast<void>(described());

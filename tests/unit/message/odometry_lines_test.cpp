@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <string>
+#include <utility>
 
 namespace cornerd::message {
 namespace {
@@ -59,6 +60,25 @@ TEST_F(OdometryLinesTest, WholeLinesThatAreRefused_AreExplained) {
   hear({0, 1, 1, {}});
   summary_.counters.jumps += 40;
   EXPECT_THAT(hint(), HasSubstr("odometry.max_speed"));
+}
+
+TEST_F(OdometryLinesTest, WhatIsRefusedOfMostLines_IsKnown) {
+  const auto counts_and_gyro = [&](int past, int jumps, int gyro) {
+    hear({0, 1, 1, 0.1});
+    summary_.counters.past += past;
+    summary_.counters.jumps += jumps;
+    summary_.counters.gyro += gyro;
+    static_cast<void>(hint());
+    return std::pair(lines_.refused().counts, lines_.refused().gyro);
+  };
+  EXPECT_EQ(counts_and_gyro(20, 20, 20), std::pair(false, false));
+  EXPECT_EQ(counts_and_gyro(40, 0, 0), std::pair(true, true));
+  EXPECT_EQ(counts_and_gyro(0, 40, 0), std::pair(true, false));
+  EXPECT_EQ(counts_and_gyro(0, 0, 40), std::pair(false, true));
+  static_cast<void>(hint());
+  EXPECT_FALSE(lines_.refused().counts) << "nobody sends any";
+  summary_.counters = {};
+  EXPECT_EQ(counts_and_gyro(0, 0, 0), std::pair(false, false)) << "counted anew";
 }
 
 TEST_F(OdometryLinesTest, OdometryThatIsThere_HasNoHint) {
