@@ -21,6 +21,17 @@ void go_on(DriveWindow& window, const core::Pose2& from, const core::Pose2& to) 
 
 }  // namespace
 
+std::vector<core::MotionStep> at_true_times(std::span<const core::MotionStep> steps,
+                                            double delay_s) {
+  std::vector<core::MotionStep> moved(steps.begin(), steps.end());
+  const core::TimeNs delay_ns = core::from_seconds(delay_s);
+  for (core::MotionStep& step : moved) {
+    step.from_ns -= delay_ns;
+    step.to_ns -= delay_ns;
+  }
+  return moved;
+}
+
 std::vector<DriveWindow> cut_windows(std::span<const core::MotionStep> steps,
                                      std::span<const KnownPlace> places) {
   std::vector<DriveWindow> windows;

@@ -23,6 +23,10 @@ struct DriveWindow {
   double way_m = 0;     ///< along the arcs between the places meanwhile; backward is negative
 };
 
+/// The steps at the times when they were true, of readings that bear times `delay_s` later.
+std::vector<core::MotionStep> at_true_times(std::span<const core::MotionStep> steps,
+                                            double delay_s);
+
 /// Windows of about a second, one after another; those that holes or lost turns are in are left
 /// out. Steps and places in the order of time.
 std::vector<DriveWindow> cut_windows(std::span<const core::MotionStep> steps,

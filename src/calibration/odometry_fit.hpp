@@ -29,7 +29,8 @@ using DrivePoints = std::vector<core::Vec2>;
 DriveError reckon(std::span<const core::MotionStep> steps, std::span<const KnownPlace> places,
                   const core::DriveGeometry& geometry, const core::DeadReckoningConfig& config,
                   DrivePoints* points = nullptr);
-/// The same with what was learned; the heading is the gyro's where there is one.
+/// The same with what was learned, the delay included; the heading is the gyro's where there is
+/// one.
 DriveError reckon(std::span<const core::MotionStep> steps, std::span<const KnownPlace> places,
                   const core::DriveGeometry& geometry, const core::LearnedOdometry& learned,
                   DrivePoints* points = nullptr);
@@ -42,13 +43,17 @@ struct OdometryFit {
   core::LearnedOdometry sigma;
   std::size_t windows = 0;
   bool has_gyro = false;
+  /// The drive tells the delay, else `learned` has the one that was given, and `sigma` how little
+  /// is known of it.
+  bool has_delay = false;
 };
 
 /// Least squares over windows of about a second from known place to known place: the way by the
-/// wheels, the turn by wheels and gyro. Windows that fit badly (a slip) count less. Nullopt where
-/// the drive does not tell them all: too short, without turns or without straights.
+/// wheels, the turn by wheels and gyro, and how late both are, which is looked for near `delay_s`.
+/// Windows that fit badly (a slip) count less. The sigmas are those of the residuals themselves.
+/// Nullopt where the drive does not tell them all: too short, without turns or without straights.
 std::optional<OdometryFit> fit_odometry(std::span<const core::MotionStep> steps,
                                         std::span<const KnownPlace> places,
-                                        const core::DriveGeometry& geometry);
+                                        const core::DriveGeometry& geometry, double delay_s = 0);
 
 }  // namespace cornerd::calibration

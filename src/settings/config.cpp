@@ -170,7 +170,7 @@ void read_odometry(ObjectReader odometry, OdometryConfig& config) {
   start.number("track_scale", config.core.start.track_scale, {-0.5, 0.5});
   start.number("gyro_scale", config.core.start.gyro_scale, {-0.5, 0.5});
   start.number("gyro_bias", config.core.start.gyro_bias_rad_s, {-0.5, 0.5});
-  start.number("delay", config.core.start.delay_s, {-0.2, 0.2});
+  start.number("delay", config.core.start.delay_s, {-kMostStartDelay_s, kMostStartDelay_s});
   start.finish();
   odometry.number("max_speed", config.core.limits.wheel_speed_m_s, {0.01, 100});
   odometry.number("bridge", config.core.bridge_s, {0, 3600});

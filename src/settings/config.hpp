@@ -98,6 +98,9 @@ struct KernelOdometryConfig {
   std::filesystem::path sysfs = "/sys";
 };
 
+/// As far as the running filter looks for one.
+inline constexpr double kMostStartDelay_s = 0.2;
+
 struct OdometryConfig {
   OdometrySource source = OdometrySource::kNone;
   KernelOdometryConfig kernel;

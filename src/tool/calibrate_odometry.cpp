@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -19,10 +20,10 @@
 #include "calibration/odometry_fit.hpp"
 #include "settings/map_file.hpp"
 #include "tool/drive_drawing.hpp"
+#include "tool/drive_fit.hpp"
 #include "tool/factors_text.hpp"
 #include "tool/failure.hpp"
 #include "tool/file_guard.hpp"
-#include "tool/gross_fault_text.hpp"
 #include "tool/options.hpp"
 #include "tool/output.hpp"
 #include "tool/recorded_drive.hpp"
@@ -45,47 +46,6 @@ struct CalibrateOdometryOptions {
   std::filesystem::path plot;
 };
 
-/// Where more of the readings than this are refused, it is not now and then one that is garbage.
-constexpr double kMostRefused = 0.1;
-
-std::string faults_of(const RecordedDrive& drive, const settings::OdometryConfig& config) {
-  const core::OdometryCounters& counters = drive.counters;
-  const bool is_wide = static_cast<double>(counters.jumps + counters.gyro) >
-                       kMostRefused * static_cast<double>(counters.readings);
-  const auto windows =
-      calibration::cut_windows(is_wide ? drive.wide_steps : drive.steps, drive.places);
-  return describe_faults(calibration::find_gross_faults(windows, config.core.geometry), config);
-}
-
-/// What no scale makes up for is said before any is looked for.
-std::pair<RecordedDrive, calibration::OdometryFit> fitted_drive(
-    const CalibrateOdometryOptions& options, const settings::Config& config, const Truth* truth) {
-  const std::string name = options.file.string() + ": ";
-  const auto play = [&](bool straightened) {
-    return play_drive(options.file, parse_wire(options.wire), config, truth, straightened);
-  };
-  RecordedDrive drive = play(/*straightened=*/true);
-  if (drive.steps.empty() && drive.wide_steps.empty()) {
-    throw Failure(name + (drive.counters.readings == 0
-                              ? "no odometry in it"
-                              : "none of its ODOMETRY lines has both left and right"));
-  }
-  std::string faults = faults_of(drive, config.odometry);
-  const auto fit =
-      calibration::fit_odometry(drive.steps, drive.places, config.odometry.core.geometry);
-  if (faults.empty() && fit) return {std::move(drive), *fit};
-  if (faults.empty() && truth == nullptr) {
-    // Wheels that are far off may cost the turns that would show it.
-    const RecordedDrive plain = play(/*straightened=*/false);
-    if (plain.places.size() < 2) throw Failure(name + "the robot was not found in the map");
-    faults = faults_of(plain, config.odometry);
-  }
-  if (!faults.empty()) throw Failure(name + faults);
-  throw Failure(name +
-                "too little to tell wheels and gyro from: drive half a minute or more, with "
-                "straights and turns both ways");
-}
-
 std::vector<std::string> row(const char* name, const std::string& factors,
                              const DriveError& error) {
   return {name, factors, formatted("%.3f", error.mean_m), formatted("%.3f", error.end_m)};
@@ -107,34 +67,72 @@ std::string describe_learned(const calibration::OdometryFit& fit) {
     add("gyro scale", fit.learned.gyro_scale, fit.sigma.gyro_scale);
     add("gyro bias, rad/s", fit.learned.gyro_bias_rad_s, fit.sigma.gyro_bias_rad_s);
   }
+  table.add_row({"delay, s", formatted("%+.5f", fit.learned.delay_s),
+                 formatted("+- %.5f", fit.sigma.delay_s),
+                 fit.has_delay ? "" : "as configured: the drive does not tell"});
   constexpr const char* kBoundText =
       "* as far off as is believed: correct odometry.track, wheel_radius or counts_per_turn "
       "first\n";
   return table.text() + (at_bound ? kBoundText : "");
 }
 
-std::string fragment(const calibration::OdometryFit& fit, const core::PaperFactors& factors) {
-  const core::LearnedOdometry& learned = fit.learned;
-  return formatted(
-      "{\n  \"odometry\": {\n    \"start\": {\n      \"left_scale\": %.6f,\n      "
-      "\"right_scale\": %.6f,\n      \"track_scale\": %.6f,\n      \"gyro_scale\": %.6f,\n      "
-      "\"gyro_bias\": %.6f\n    },\n    \"factors\": { \"encoder\": %.3f, \"gyro\": %.3f }\n  "
-      "}\n}\n",
-      learned.left_scale, learned.right_scale, learned.track_scale, learned.gyro_scale,
-      learned.gyro_bias_rad_s, factors.encoder_factor, factors.gyro_factor);
+/// More sigmas from the configured one than this, and another delay is worth writing.
+constexpr double kSureDelaySigmas = 3;
+
+/// The delay for the config: the one that was found where it is sure, else the configured one.
+double written_delay_s(const calibration::OdometryFit& fit, double configured_s) {
+  const double change_s = fit.learned.delay_s - configured_s;
+  const bool is_sure = fit.has_delay && std::abs(change_s) > kSureDelaySigmas * fit.sigma.delay_s;
+  const bool is_allowed = std::abs(fit.learned.delay_s) <= settings::kMostStartDelay_s;
+  return is_sure && is_allowed ? fit.learned.delay_s : configured_s;
 }
 
-/// A drive's first half teaches the filter, in the second one it is alone.
-calibration::FilteredDrive filter_half(const RecordedDrive& drive, core::OdometryConfig config) {
+std::string fragment(const calibration::OdometryFit& fit, const core::PaperFactors& factors,
+                     double delay_s) {
+  const core::LearnedOdometry& learned = fit.learned;
+  std::string text = "{\n  \"odometry\": {\n    \"start\": {";
+  const auto add = [&text](const char* key, double value) {
+    text += formatted("%s\n      \"%s\": %.6f", text.back() == '{' ? "" : ",", key, value);
+  };
+  add("left_scale", learned.left_scale);
+  add("right_scale", learned.right_scale);
+  add("track_scale", learned.track_scale);
+  add("gyro_scale", learned.gyro_scale);
+  add("gyro_bias", learned.gyro_bias_rad_s);
+  if (delay_s != 0) add("delay", delay_s);
+  return text +
+         formatted("\n    },\n    \"factors\": { \"encoder\": %.3f, \"gyro\": %.3f }\n  }\n}\n",
+                   factors.encoder_factor, factors.gyro_factor);
+}
+
+/// Readings that are farther off than the daemon can make up for.
+std::string describe_delay(const calibration::OdometryFit& fit) {
+  if (std::abs(fit.learned.delay_s) <= settings::kMostStartDelay_s) return {};
+  return formatted(
+      "The readings are %.2f s %s, by more than odometry.start.delay may be (%.1f s) and the "
+      "daemon "
+      "finds: have each bear the time when it was true. The values above are those of readings "
+      "that "
+      "do.\n",
+      std::abs(fit.learned.delay_s), fit.learned.delay_s > 0 ? "late" : "early",
+      settings::kMostStartDelay_s);
+}
+
+/// A drive's first half teaches the filter, in the second one it is alone. `steps`: the drive's, at
+/// the times when they were true.
+calibration::FilteredDrive filter_half(const RecordedDrive& drive,
+                                       std::span<const core::MotionStep> steps,
+                                       core::OdometryConfig config) {
   config.enabled = true;
+  config.start.delay_s = 0;
   const core::TimeNs first_ns = drive.places.front().t_ns;
   const core::TimeNs last_ns = drive.places.back().t_ns;
-  return calibration::filter_drive(drive.steps, drive.places, config,
+  return calibration::filter_drive(steps, drive.places, config,
                                    first_ns + (last_ns - first_ns) / 2);
 }
 
-std::string draw_reckonings(const RecordedDrive& drive, const settings::Config& config,
-                            const calibration::OdometryFit& fit,
+std::string draw_reckonings(const RecordedDrive& drive, std::span<const core::MotionStep> steps,
+                            const settings::Config& config, const calibration::OdometryFit& fit,
                             const calibration::FilteredDrive& filtered) {
   const core::DriveGeometry& geometry = config.odometry.core.geometry;
   calibration::DrivePoints known;
@@ -142,7 +140,7 @@ std::string draw_reckonings(const RecordedDrive& drive, const settings::Config& 
     known.push_back(place.T_map_base.translation());
   }
   calibration::DrivePoints raw;
-  reckon(drive.steps, drive.places, geometry, core::DeadReckoningConfig{}, &raw);
+  reckon(steps, drive.places, geometry, core::DeadReckoningConfig{}, &raw);
   calibration::DrivePoints fitted;
   reckon(drive.steps, drive.places, geometry, fit.learned, &fitted);
   const std::span<const core::Vec2> points(filtered.points);
@@ -168,7 +166,9 @@ void calibrate_odometry(const CalibrateOdometryOptions& options) {
   // Before the work: what cannot be written is said at once.
   std::unique_ptr<Output> plot;
   if (!options.plot.empty()) plot = std::make_unique<Output>(options.plot);
-  const auto [drive, fit] = fitted_drive(options, config, truth ? &*truth : nullptr);
+  const auto [drive, fit] =
+      fit_drive(options.file, parse_wire(options.wire), config, truth ? &*truth : nullptr);
+  const auto steps = calibration::at_true_times(drive.steps, fit.learned.delay_s);
   const core::DriveGeometry& geometry = config.odometry.core.geometry;
 
   TextTable table;
@@ -184,20 +184,20 @@ void calibrate_odometry(const CalibrateOdometryOptions& options) {
     if (source != HeadingSource::kEncoder && !fit.has_gyro) continue;
     core::DeadReckoningConfig reckoning{source, {1, 1, dead_band_rad}};
     if (source != HeadingSource::kWeighted) {
-      table.add_row(row(name, "none", reckon(drive.steps, drive.places, geometry, reckoning)));
+      table.add_row(row(name, "none", reckon(steps, drive.places, geometry, reckoning)));
     }
     if (source == HeadingSource::kMean) continue;
-    const auto found = search_factors(drive.steps, drive.places, geometry, reckoning);
+    const auto found = search_factors(steps, drive.places, geometry, reckoning);
     at_edge = at_edge || found.at_edge();
     reckoning.factors = found.factors;
     if (source == HeadingSource::kWeighted) weighted = reckoning.factors;
     table.add_row(row(name, describe_factors(source, found),
-                      reckon(drive.steps, drive.places, geometry, reckoning)));
+                      reckon(steps, drive.places, geometry, reckoning)));
   }
   table.add_row(
       row("least squares", "below", reckon(drive.steps, drive.places, geometry, fit.learned)));
 
-  const calibration::FilteredDrive filtered = filter_half(drive, config.odometry.core);
+  const calibration::FilteredDrive filtered = filter_half(drive, steps, config.odometry.core);
   table.add_row(row("filter, 2nd half", "learned in the 1st", filtered.alone));
 
   Output report = Output::report_beside(options.output);
@@ -208,19 +208,20 @@ void calibrate_odometry(const CalibrateOdometryOptions& options) {
   report.write(
       formatted("\nLeast squares over %zu windows of a second, as shares:\n", fit.windows));
   report.write(describe_learned(fit));
+  report.write(describe_delay(fit));
   if (std::abs(fit.learned.track_scale) >= calibration::kMostFittedScale) {
     const auto track_m =
-        calibration::apparent_track_m(calibration::cut_windows(drive.steps, drive.places));
+        calibration::apparent_track_m(calibration::cut_windows(steps, drive.places));
     if (track_m) report.write(formatted("  its turns are those of a track of %.3g m\n", *track_m));
   }
   report.flush();
   if (plot) {
-    plot->write(draw_reckonings(drive, config, fit, filtered));
+    plot->write(draw_reckonings(drive, steps, config, fit, filtered));
     plot->flush();
   }
   if (!options.output.empty()) {
     Output file(options.output);
-    file.write(fragment(fit, weighted));
+    file.write(fragment(fit, weighted, written_delay_s(fit, config.odometry.core.start.delay_s)));
     file.flush();
   }
 }
@@ -229,7 +230,8 @@ void calibrate_odometry(const CalibrateOdometryOptions& options) {
 
 void add_calibrate_odometry(CLI::App& group) {
   CLI::App* command = group.add_subcommand(
-      "odometry", "what wheels and gyro are off by, from a recorded drive in a known map");
+      "odometry",
+      "what wheels, gyro and their times are off by, from a recorded drive in a known map");
   const auto options = std::make_shared<CalibrateOdometryOptions>();
   command
       ->add_option("file", options->file,

@@ -13,6 +13,8 @@ namespace {
 
 /// Beyond any unit that is wrong.
 constexpr double kWide = 100;
+constexpr core::TimeNs kFarAhead_ns = 10 * core::kNsPerSecond;
+
 core::OdometryConfig widened(core::OdometryConfig config) {
   config.limits.wheel_speed_m_s *= kWide;
   config.limits.gyro_rad_s *= kWide;
@@ -31,6 +33,7 @@ class DriveSink final : public replay::RecordingSink {
   }
   void on_gap() override { take(pipeline_.finish()); }
   void on_odometry(const message::OdometryReading& reading) override {
+    drive_.readings.push_back(reading);
     pipeline_.add(reading);
     if (const auto step = gate_.add(reading, now_ns_)) drive_.steps.push_back(*step);
     if (const auto step = wide_gate_.add(reading, now_ns_)) drive_.wide_steps.push_back(*step);
@@ -63,6 +66,42 @@ class DriveSink final : public replay::RecordingSink {
   RecordedDrive drive_;
 };
 
+/// Each reading before the samples that are later, wherever in the recording it stands.
+class PlaceSink final : public replay::RecordingSink {
+ public:
+  PlaceSink(core::Pipeline& pipeline, std::vector<core::OdometryReading> readings)
+      : pipeline_(pipeline), readings_(std::move(readings)) {}
+
+  void on_sample(const core::Sample& sample) override {
+    for (; next_ < readings_.size(); ++next_) {
+      const core::TimeNs ahead_ns = readings_[next_].t_ns - sample.t_ns;
+      // One of the far future is to be refused now, not to keep others waiting.
+      if (ahead_ns > 0 && ahead_ns < kFarAhead_ns) break;
+      pipeline_.add(readings_[next_], sample.t_ns);
+    }
+    take(pipeline_.add(sample));
+  }
+  void on_gap() override { take(pipeline_.finish()); }
+  void on_odometry(const message::OdometryReading& /*reading*/) override {}
+  std::vector<calibration::KnownPlace> finish() {
+    take(pipeline_.finish());
+    return std::move(places_);
+  }
+
+ private:
+  void take(const core::TurnResult* result) {
+    if (result == nullptr || result->pose.state != core::PoseState::kFix) return;
+    const core::PoseEstimate& pose = result->pose;
+    if (!places_.empty() && pose.t_ns <= places_.back().t_ns) return;
+    places_.push_back({pose.t_ns, pose.T_map_base});
+  }
+
+  core::Pipeline& pipeline_;
+  std::vector<core::OdometryReading> readings_;
+  std::size_t next_ = 0;
+  std::vector<calibration::KnownPlace> places_;
+};
+
 }  // namespace
 
 RecordedDrive play_drive(const std::filesystem::path& file, std::optional<rplidar::WireFormat> wire,
@@ -71,6 +110,23 @@ RecordedDrive play_drive(const std::filesystem::path& file, std::optional<rplida
   localizer.odometry.enabled = straightened;
   core::Pipeline pipeline(truth != nullptr ? nullptr : settings::load_map(config.map), localizer);
   DriveSink sink(pipeline, config.odometry.core, truth);
+  replay::RecordingPlayer player(file, {wire, config.lidar.mount.inverted});
+  while (player.step(sink)) {
+  }
+  return sink.finish();
+}
+
+std::vector<calibration::KnownPlace> play_places(const std::filesystem::path& file,
+                                                 std::optional<rplidar::WireFormat> wire,
+                                                 const settings::Config& config,
+                                                 std::vector<core::OdometryReading> readings,
+                                                 double delay_s) {
+  for (core::OdometryReading& reading : readings) reading.t_ns -= core::from_seconds(delay_s);
+  core::LocalizerConfig localizer = config.localizer();
+  localizer.odometry.enabled = true;
+  localizer.odometry.start.delay_s = 0;
+  core::Pipeline pipeline(settings::load_map(config.map), localizer);
+  PlaceSink sink(pipeline, std::move(readings));
   replay::RecordingPlayer player(file, {wire, config.lidar.mount.inverted});
   while (player.step(sink)) {
   }

@@ -20,6 +20,7 @@ struct RecordedDrive {
   std::vector<core::MotionStep> wide_steps;  ///< with whatever wheels and gyro say believed
   core::OdometryCounters counters;           ///< of `steps`
   std::vector<calibration::KnownPlace> places;
+  std::vector<core::OdometryReading> readings;  ///< all of them, as they came
 };
 
 /// Places are the truth's, or the lidar's fixes where it is null. `straightened`: turns by what
@@ -27,5 +28,13 @@ struct RecordedDrive {
 /// replay::RecordingError and settings::SettingsError.
 RecordedDrive play_drive(const std::filesystem::path& file, std::optional<rplidar::WireFormat> wire,
                          const settings::Config& config, const Truth* truth, bool straightened);
+
+/// The lidar's fixes once more, its turns straightened by readings whose times are earlier by
+/// `delay_s` than they say. Throws as play_drive().
+std::vector<calibration::KnownPlace> play_places(const std::filesystem::path& file,
+                                                 std::optional<rplidar::WireFormat> wire,
+                                                 const settings::Config& config,
+                                                 std::vector<core::OdometryReading> readings,
+                                                 double delay_s);
 
 }  // namespace cornerd::tool

@@ -154,6 +154,39 @@ TEST_F(OdometryCommandTest, Calibrate_WritesWhatAReplayReads) {
   EXPECT_EQ(CommandRun({"replay", recording_, "--config", output, "--map", map_}).exit_code, 0);
 }
 
+TEST_F(OdometryCommandTest, CalibrateOfReadingsThatAreLate_FindsByHowMuch) {
+  ASSERT_EQ(simulate({"--wheel-errors", "0.015,0.025", "--gyro-error", "0.02", "--acceleration",
+                      "1", "--turn-acceleration", "6"},
+                     "300")
+                .exit_code,
+            0);
+  const std::string late = folder_ / "late.ndjson";
+  const std::string output = folder_ / "odometry.json";
+  const auto calibrate = [&](double late_s) {
+    std::filesystem::remove(output);
+    rewrite(late, [&](json& line) { line["t"] = line["t"].get<double>() + late_s; });
+    return CommandRun({"calibrate", "odometry", late, "--map", map_, "-o", output});
+  };
+  const auto start = [&] { return json::parse(std::ifstream(output))["odometry"]["start"]; };
+  ASSERT_EQ(calibrate(0).exit_code, 0);
+  EXPECT_FALSE(start().contains("delay"));
+  for (const double late_s : {-0.1, 0.02}) {
+    const CommandRun run = calibrate(late_s);
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+    EXPECT_NEAR(start()["delay"].get<double>(), late_s, 0.003);
+    EXPECT_NEAR(start()["gyro_scale"].get<double>(), 0.02, 0.003) << run.out;
+    EXPECT_EQ(CommandRun({"replay", late, "--config", output, "--map", map_}).exit_code, 0);
+  }
+  const CommandRun beyond = calibrate(0.4);
+  EXPECT_THAT(beyond.out, HasSubstr("The readings are 0.40 s late, by more than"));
+  EXPECT_FALSE(start().contains("delay"));
+  EXPECT_NEAR(start()["gyro_scale"].get<double>(), 0.02, 0.003) << "of the right times";
+  const CommandRun edge = calibrate(0.8);
+  EXPECT_EQ(edge.exit_code, 1);
+  EXPECT_THAT(edge.err, HasSubstr("0.6 s late or more, the most that is looked for"));
+  EXPECT_FALSE(std::filesystem::exists(output));
+}
+
 TEST_F(OdometryCommandTest, CalibrateOfARobotThatIsFarOff_NamesWhatToChange) {
   ASSERT_EQ(simulate({"--wheel-errors", "0.015,0.025", "--gyro-bias", "0.01"}, "300").exit_code, 0);
   const std::string wrong = folder_ / "wrong.ndjson";

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: MIT
+#include "calibration/delay_search.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <optional>
+#include <vector>
+
+#include <Eigen/Core>
+#include <Eigen/LU>
+
+#include "calibration/drive_noise.hpp"
+
+namespace cornerd::calibration {
+namespace {
+
+constexpr double kDelayStep_s = 0.02;
+constexpr int kDelaySteps = 30;  ///< to either side
+static_assert(kDelaySteps * kDelayStep_s == kMostDelay_s);
+constexpr std::size_t kFewestCompared = 10;
+constexpr int kDelayRounds = 6;
+/// Squared surprises that must speak against the configured delay, and against others that are
+/// no neighbours: less may be chance.
+constexpr double kAgainst = 40;
+constexpr double kAgainstOthers = 25;
+
+/// One of many: y = share . x, in sigmas.
+struct Comparison {
+  Eigen::Vector2d x;
+  double y = 0;
+};
+
+/// The sum of the squared surprises, tamed as those of the fit, with the shares that make it least.
+double cost_of(const std::vector<Comparison>& all) {
+  Eigen::Vector2d share = Eigen::Vector2d::Zero();
+  double cost = 0;
+  for (int round = 0; round <= kDelayRounds; ++round) {
+    Eigen::Matrix2d information = 1e-9 * Eigen::Matrix2d::Identity();
+    Eigen::Vector2d right = Eigen::Vector2d::Zero();
+    cost = 0;
+    for (const Comparison& told : all) {
+      const double r = told.y - told.x.dot(share);
+      const double weight = round == 0 ? 1 : tamed_weight(r);
+      information += weight * told.x * told.x.transpose();
+      right += weight * told.y * told.x;
+      cost += tamed_square(r);
+    }
+    if (round < kDelayRounds) share = information.inverse() * right;
+  }
+  return cost;
+}
+
+/// Per window; nullopt where too few are whole.
+std::optional<double> surprise_of(std::span<const core::MotionStep> steps,
+                                  std::span<const KnownPlace> places, double delay_s) {
+  const auto windows = cut_windows(at_true_times(steps, delay_s), places);
+  if (windows.size() < kFewestCompared) return std::nullopt;
+  std::vector<Comparison> ways;
+  std::vector<Comparison> wheel_turns;
+  std::vector<Comparison> gyro_turns;
+  for (const DriveWindow& window : windows) {
+    Eigen::Vector2d wheels = Eigen::Vector2d::Zero();
+    Eigen::Vector2d gyro = Eigen::Vector2d::Zero();
+    bool has_gyro = true;
+    for (const core::MotionStep& step : window.steps) {
+      wheels += Eigen::Vector2d(step.left_m, step.right_m);
+      gyro += Eigen::Vector2d(step.gyro_rad, step.duration_s());
+      has_gyro = has_gyro && step.has_gyro;
+    }
+    ways.push_back({wheels / kPlaceSigma_m, window.way_m / kPlaceSigma_m});
+    wheel_turns.push_back({wheels / kWheelTurnSigma_rad, window.turn_rad / kWheelTurnSigma_rad});
+    if (has_gyro) {
+      gyro_turns.push_back({gyro / kGyroTurnSigma_rad, window.turn_rad / kGyroTurnSigma_rad});
+    }
+  }
+  const double cost = cost_of(ways) + cost_of(wheel_turns) + cost_of(gyro_turns);
+  return cost / static_cast<double>(windows.size());
+}
+
+}  // namespace
+
+DelaySearch search_delay(std::span<const core::MotionStep> steps,
+                         std::span<const KnownPlace> places, double configured_s) {
+  DelaySearch search{.delay_s = configured_s};
+  std::vector<double> costs;
+  const auto as_configured = surprise_of(steps, places, configured_s);
+  if (!as_configured) return search;
+  for (int i = -kDelaySteps; i <= kDelaySteps; ++i) {
+    const auto cost = surprise_of(steps, places, kDelayStep_s * i);
+    if (!cost) return search;
+    costs.push_back(*cost);
+  }
+  const auto best = static_cast<int>(std::ranges::min_element(costs) - costs.begin());
+  const double least = costs[best];
+  const auto windows = static_cast<double>(cut_windows(steps, places).size());
+  // What is noisier than it should be says less.
+  const double unit = std::max(1.0, least / 3) / std::max(1.0, windows);
+  if (*as_configured < least + kAgainst * unit) return search;
+  const int last = 2 * kDelaySteps;
+  for (int i = 0; i <= last; ++i) {
+    const bool is_least_here =
+        (i == 0 || costs[i - 1] >= costs[i]) && (i == last || costs[i + 1] >= costs[i]);
+    if (std::abs(i - best) > 2 && is_least_here && costs[i] < least + kAgainstOthers * unit) {
+      return search;
+    }
+  }
+  search.is_told = true;
+  search.at_edge = best == 0 || best == last;
+  search.delay_s = kDelayStep_s * (best - kDelaySteps);
+  if (search.at_edge) return search;
+  // Between two neighbours as the parabola through the three has it.
+  const double before = costs[best - 1] - least;
+  const double after = costs[best + 1] - least;
+  if (before + after > 0) search.delay_s += kDelayStep_s / 2 * (before - after) / (before + after);
+  return search;
+}
+
+}  // namespace cornerd::calibration
