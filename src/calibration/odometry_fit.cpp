@@ -7,6 +7,7 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
+#include <Eigen/LU>
 
 #include "calibration/delay_search.hpp"
 #include "calibration/drive_noise.hpp"

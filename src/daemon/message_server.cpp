@@ -218,8 +218,9 @@ void MessageServer::answer(Client& client, SocketRole role, std::string_view tex
                      }
                      // Too many for an answer each.
                      if (actions_.add_odometry(reading, client.fd())) return;
-                     error("second-client",
-                           "another client sends the same: its odometry is taken while it is of use");
+                     error(
+                         "second-client",
+                         "another client sends the same: its odometry is taken while it is of use");
                    });
                  },
              },
