@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "survey/drive_mapper.hpp"
+#include "survey/mapped_drive.hpp"
 #include "survey/mapped_face.hpp"
 
 namespace cornerd::survey {

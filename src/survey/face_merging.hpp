@@ -4,8 +4,8 @@
 #include <cstddef>
 #include <vector>
 
-#include "survey/drive_mapper.hpp"
 #include "survey/evidence.hpp"
+#include "survey/mapped_drive.hpp"
 
 namespace cornerd::survey {
 

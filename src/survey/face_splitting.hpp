@@ -3,7 +3,7 @@
 
 #include <cstddef>
 
-#include "survey/drive_mapper.hpp"
+#include "survey/mapped_drive.hpp"
 
 namespace cornerd::survey {
 

@@ -9,7 +9,7 @@
 #include <Eigen/Core>
 
 #include "survey/adjustment.hpp"
-#include "survey/drive_mapper.hpp"
+#include "survey/mapped_drive.hpp"
 #include "survey/normal_equations.hpp"
 
 namespace cornerd::survey {
