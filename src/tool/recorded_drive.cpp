@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "tool/recorded_drive.hpp"
 
+#include <cstdlib>
 #include <utility>
 
 #include "core/pipeline.hpp"
@@ -13,6 +14,7 @@ namespace {
 
 /// Beyond any unit that is wrong.
 constexpr double kWide = 100;
+constexpr core::TimeNs kNearTimes_ns = 2 * core::kNsPerSecond;
 constexpr core::TimeNs kFarAhead_ns = 10 * core::kNsPerSecond;
 
 core::OdometryConfig widened(core::OdometryConfig config) {
@@ -35,8 +37,9 @@ class DriveSink final : public replay::RecordingSink {
   void on_odometry(const message::OdometryReading& reading) override {
     drive_.readings.push_back(reading);
     pipeline_.add(reading);
-    if (const auto step = gate_.add(reading, now_ns_)) drive_.steps.push_back(*step);
-    if (const auto step = wide_gate_.add(reading, now_ns_)) drive_.wide_steps.push_back(*step);
+    const auto now_ns = came_at(reading.t_ns);
+    if (const auto step = gate_.add(reading, now_ns)) drive_.steps.push_back(*step);
+    if (const auto step = wide_gate_.add(reading, now_ns)) drive_.wide_steps.push_back(*step);
   }
   RecordedDrive finish() {
     take(pipeline_.finish());
@@ -45,6 +48,12 @@ class DriveSink final : public replay::RecordingSink {
   }
 
  private:
+  /// By the lidar's newest sample; a clock that is off by so little is to be found out.
+  std::optional<core::TimeNs> came_at(core::TimeNs t_ns) const {
+    const bool is_near = now_ns_ && std::abs(t_ns - *now_ns_) < kNearTimes_ns;
+    return is_near ? t_ns : now_ns_;
+  }
+
   void take(const core::TurnResult* result) {
     if (result == nullptr) return;
     const core::PoseEstimate& pose = result->pose;

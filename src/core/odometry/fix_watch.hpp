@@ -18,20 +18,30 @@ class FixWatch {
   void add_stranger(bool about_turning) {
     ++in_a_row_;
     if (!about_turning) return;
+    turns_are_proven_ = false;
     doubt_ = std::min(doubt_ + kLie, kMost);
     if (doubt_ >= kTooMuch) is_believed_ = false;
   }
 
-  /// A fix that is explained, and how far the robot has turned since the one before.
-  void add_explained(double turn_rad) {
+  /// A fix that is explained, and how far the robot has come and turned since the one before.
+  void add_explained(double way_m, double turn_rad) {
     in_a_row_ = 0;
+    if (way_m > kDrives_m) way_is_proven_ = true;
     if (std::abs(turn_rad) < kTurns_rad) return;
+    turns_are_proven_ = true;
     doubt_ = std::max(doubt_ - 1, 0);
     if (doubt_ <= kLittle) is_believed_ = true;
   }
 
   /// The next fix may be anywhere.
   void interrupt() { in_a_row_ = 0; }
+
+  /// Whether such a way and turn since the last fix are to be carried on. The first ones of a drive
+  /// the lidar has to have seen; and after a stranger, anything.
+  bool carries(double way_m, double turn_rad) const {
+    return in_a_row_ == 0 && (way_is_proven_ || way_m < kUnproven_m) &&
+           (turns_are_proven_ || std::abs(turn_rad) < kTurns_rad);
+  }
 
   bool is_believed() const { return !is_contradicted() && is_believed_; }
   /// By the last fixes, whatever was before.
@@ -40,6 +50,8 @@ class FixWatch {
  private:
   static constexpr int kInARow = 3;
   static constexpr double kTurns_rad = radians(3);
+  static constexpr double kDrives_m = 0.02;
+  static constexpr double kUnproven_m = 0.04;
   /// In turns that were foretold, each of which makes up for a part of a lie.
   static constexpr int kLie = 3;
   static constexpr int kTooMuch = 7;
@@ -49,6 +61,8 @@ class FixWatch {
   int in_a_row_ = 0;
   int doubt_ = 0;
   bool is_believed_ = true;
+  bool way_is_proven_ = false;
+  bool turns_are_proven_ = false;
 };
 
 }  // namespace cornerd::core

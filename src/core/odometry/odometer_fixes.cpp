@@ -90,6 +90,9 @@ std::optional<PredictedPose> Odometer::prediction_of(const FusionFilter& filter,
                                                      TimeNs guessed_ns) const {
   if (!has_pose_ || !present_ || !is_believed() || filter.is_contradictory()) return std::nullopt;
   if (to_seconds(t_ns - fixed_ns_) > config_.bridge_s) return std::nullopt;
+  const FusionFilter::Stretch& since = filter.since_fix();
+  const double way_m = (filter.pose().translation() - since.start).norm();
+  if (config_.wary && !fix_watch_.carries(way_m, since.turned_rad)) return std::nullopt;
   const double more_s2 = delay_doubt_s2(filter.learned().delay_s);
   Covariance3 covariance = filter.pose_covariance(more_s2);
   covariance += doubt_of_change(more_s2) + doubt_of_guess(guessed_ns);
@@ -113,8 +116,9 @@ void Odometer::correct(const Pose2& T_map_base, const Covariance3& covariance) {
   if (filter_.is_contradictory()) {
     filter_.set_pose(T_map_base, most);
   } else if (has_pose_ && filter_.explains(T_map_base, most)) {
+    const double way_m = (T_map_base.translation() - filter_.since_fix().start).norm();
     filter_.correct(T_map_base, learned_doubt(T_map_base, of_guess));
-    fix_watch_.add_explained(angle_between(fixed_heading_rad_, T_map_base.theta_rad));
+    fix_watch_.add_explained(way_m, angle_between(fixed_heading_rad_, T_map_base.theta_rad));
     ++fixes_;
   } else {
     if (has_pose_) add_stranger(T_map_base, most);

@@ -15,6 +15,9 @@ constexpr double kMotionShare = 0.01;
 /// and its end by a quarter of that, all of them together by a twelfth, and those that a coordinate
 /// hangs on by something between (NEES of fixes, `cornerctl bench --odometry`).
 constexpr double kWanderShare = 0.3;
+/// A turn whose pieces are turned against each other seems to be elsewhere as well: by so much of
+/// that angle, in rooms (NEES of fixes without a gyro, the same).
+constexpr double kLever_m = 0.3;
 /// A change of speed between two readings moves what is between them by a quarter of what it comes
 /// to at most, and a turn's samples are only in part there (NEES of fixes with few readings a
 /// second, `cornerctl bench --odometry`).
@@ -78,7 +81,7 @@ Covariance3 Odometer::doubt_of_motion() const {
   // Where in its count each wheel is in the middle: what the rest of the turn is straightened to.
   const DriveGeometry& geometry = config_.geometry;
   const double place_m2 = place_m * place_m + uneven_m * uneven_m + geometry.rest_m2() / 2 +
-                          kWanderShare * wander.place_m2;
+                          kWanderShare * (wander.place_m2 + kLever_m * kLever_m * wander.turn_rad2);
   double turn_rad2 =
       turn_rad * turn_rad + uneven_rad * uneven_rad + kWanderShare * wander.turn_rad2;
   if (!last_.has_gyro) {

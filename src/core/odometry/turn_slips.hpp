@@ -28,7 +28,7 @@ class TurnSlips {
   static constexpr double kMost_rad2 = 0.25;
   static constexpr double kMemory_m = 100;
 
-  double slips_rad2_ = 0.001;
+  double slips_rad2_ = 0.0003;
   double rolled_m_ = 10;
 };
 

@@ -13,7 +13,7 @@ FixWatch doubting() {
   for (int k = 0; k < 3; ++k) {
     EXPECT_TRUE(watch.is_believed()) << k;
     watch.add_stranger(true);
-    watch.add_explained(0);
+    watch.add_explained(0.05, 0);
   }
   return watch;
 }
@@ -21,7 +21,7 @@ FixWatch doubting() {
 TEST(FixWatch, StrangersBetweenStraights_AreNotForgottenOnThem) {
   FixWatch watch = doubting();
   EXPECT_FALSE(watch.is_believed());
-  for (int k = 0; k < 100; ++k) watch.add_explained(0.01);
+  for (int k = 0; k < 100; ++k) watch.add_explained(0.05, 0.01);
   EXPECT_FALSE(watch.is_believed());
   EXPECT_FALSE(watch.is_contradicted());
 }
@@ -30,7 +30,7 @@ TEST(FixWatch, TurnsThatAreForetold_ProveItRight) {
   FixWatch watch = doubting();
   for (int k = 0; k < 5; ++k) {
     EXPECT_FALSE(watch.is_believed()) << k;
-    watch.add_explained(k % 2 == 0 ? kTurn_rad : -kTurn_rad);
+    watch.add_explained(0.05, k % 2 == 0 ? kTurn_rad : -kTurn_rad);
   }
   EXPECT_TRUE(watch.is_believed());
 }
@@ -40,7 +40,7 @@ TEST(FixWatch, StrangersNowAndThen_AreSlips) {
   for (int k = 0; k < 20; ++k) {
     watch.add_stranger(true);
     EXPECT_TRUE(watch.is_believed()) << k;
-    for (int turns = 0; turns < 3; ++turns) watch.add_explained(kTurn_rad);
+    for (int turns = 0; turns < 3; ++turns) watch.add_explained(0.05, kTurn_rad);
   }
 }
 
@@ -49,7 +49,7 @@ TEST(FixWatch, StrangersThatAreNotAboutTurning_CountInARow) {
   for (int k = 0; k < 20; ++k) {
     watch.add_stranger(false);
     watch.add_stranger(false);
-    watch.add_explained(0);
+    watch.add_explained(0.05, 0);
   }
   EXPECT_TRUE(watch.is_believed());
   for (int k = 0; k < 3; ++k) {
@@ -60,6 +60,29 @@ TEST(FixWatch, StrangersThatAreNotAboutTurning_CountInARow) {
   EXPECT_FALSE(watch.is_believed());
   watch.interrupt();
   EXPECT_TRUE(watch.is_believed()) << "it was carried, and is looked for anew";
+}
+
+TEST(FixWatch, TheFirstWayAndTurn_TheLidarHasToHaveSeen) {
+  FixWatch watch;
+  EXPECT_TRUE(watch.carries(0.01, 0.01)) << "it stands";
+  EXPECT_FALSE(watch.carries(0.1, 0));
+  watch.add_explained(0.05, 0);
+  EXPECT_TRUE(watch.carries(0.1, 0.01));
+  EXPECT_FALSE(watch.carries(0.1, kTurn_rad));
+  watch.add_explained(0.05, kTurn_rad);
+  EXPECT_TRUE(watch.carries(10, 10));
+}
+
+TEST(FixWatch, AfterAStranger_NothingIsCarriedOnUntilAFixIsExplained) {
+  FixWatch watch;
+  watch.add_explained(0.05, kTurn_rad);
+  watch.add_stranger(true);
+  EXPECT_FALSE(watch.carries(0, 0));
+  watch.add_explained(0.05, 0);
+  EXPECT_TRUE(watch.carries(1, 0));
+  EXPECT_FALSE(watch.carries(1, kTurn_rad)) << "it was about turning";
+  watch.add_explained(0.05, kTurn_rad);
+  EXPECT_TRUE(watch.carries(1, kTurn_rad));
 }
 
 }  // namespace
