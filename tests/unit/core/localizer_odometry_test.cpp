@@ -107,9 +107,10 @@ TEST(LocalizerWithOdometry, CarriedRobot_IsPredictedFromWhereItIsNow) {
   ASSERT_EQ(pose.state, PoseState::kFix);
   EXPECT_LT((pose.T_map_base.translation() - elsewhere.translation()).norm(), 0.02);
   const std::size_t before = drive.between().size();
-  drive.turn(false, elsewhere);
-  EXPECT_EQ(drive.between().size(), before) << "until the lidar has seen that wheels and it agree";
-  drive.turn(false, elsewhere);
+  const Pose2 a_turn_later = elsewhere * arc(0.4 * kTurnOfDrive_s, 0.8 * kTurnOfDrive_s);
+  drive.turn(false, a_turn_later);
+  EXPECT_EQ(drive.between().size(), before) << "until the lidar and the wheels agree again";
+  drive.turn(false, a_turn_later);
   ASSERT_GT(drive.between().size(), before);
   for (std::size_t i = before; i < drive.between().size(); ++i) {
     const Pose2& predicted = drive.between()[i].pose.T_map_base;
