@@ -76,10 +76,10 @@ bool ReadingGate::is_in_time(TimeNs t_ns, std::optional<TimeNs> now_ns) {
     ++counters_.restarts;
     clock_was_set_back_ = true;
     gyro_ns_.reset();
-  } else if (now_ns && (is_always_ahead(t_ns, *now_ns) || clock_leapt(t_ns, *now_ns))) {
+  } else if (now_ns && is_always_ahead(t_ns, *now_ns)) {
     ++counters_.future;
     return false;
-  } else if (leaps_ahead(t_ns)) {
+  } else if (leaps_ahead(t_ns, now_ns)) {
     return false;
   }
   refused_in_a_row_ = 0;
@@ -104,7 +104,7 @@ bool ReadingGate::clock_leapt(TimeNs t_ns, TimeNs now_ns) const {
   return (t_ns - *last_ns_) - (now_ns - *then_ns_) > kClockAhead_ns;
 }
 
-bool ReadingGate::leaps_ahead(TimeNs t_ns) {
+bool ReadingGate::leaps_ahead(TimeNs t_ns, std::optional<TimeNs> now_ns) {
   if (!last_ns_) return false;
   const double pause_s = to_seconds(t_ns - *last_ns_);
   const double longest_s = std::max(kShortestLeap_s, kUsualPauses * usual_s_.value_or(pause_s));
@@ -123,6 +123,11 @@ bool ReadingGate::leaps_ahead(TimeNs t_ns) {
     leaps_ = goes_on ? leaps_ + 1 : 1;
     leapt_ns_ = t_ns;
     if (leaps_ < kWentOn) return true;
+    if (now_ns && clock_leapt(t_ns, *now_ns)) {
+      ++counters_.future;
+      leaps_ = kWentOn - 1;
+      return true;
+    }
     usual_s_ = followed_s;
   } else {
     counters_.future += leaps_;

@@ -209,6 +209,19 @@ TEST(ReadingGate, TurnsThatComeAsAWhole_MakeNoFuture) {
   EXPECT_EQ(gate.counters().future, 0U);
 }
 
+TEST(ReadingGate, APauseOfReadingsAndTurnsThatComeAsAWhole_IsNoLeapOfTheClock) {
+  testing::DrivenRobot robot(small_robot().geometry, {});
+  ReadingGate gate(small_robot());
+  TimeNs newest_sample_ns = 0;
+  for (int i = 0; i < 60; ++i) {
+    const OdometryReading reading = robot.drive(i % 10 == 9 ? 0.5 : 0.18, 0.3, 0.1);
+    gate.add(reading, newest_sample_ns);
+    newest_sample_ns = reading.t_ns;
+  }
+  EXPECT_EQ(gate.counters().future, 0U);
+  EXPECT_EQ(gate.counters().holes, 0U);
+}
+
 TEST(ReadingGate, MoreAheadThanTheLimit_IsRefused) {
   OdometryConfig config = small_robot();
   config.limits.ahead_s = 0.25;
