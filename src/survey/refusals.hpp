@@ -9,6 +9,7 @@
 #include "survey/drive_mapper.hpp"
 #include "survey/loop_closing.hpp"
 #include "survey/recorded_drive.hpp"
+#include "survey/seen_through.hpp"
 
 namespace cornerd::survey {
 
@@ -28,5 +29,12 @@ bool are_walls_doubled(double doubled_m, std::span<const core::Wall> walls);
 
 /// Without odometry, where walls are mapped twice, turns were placed beside where they were.
 void refuse_doubled_walls(double doubled_m, std::span<const core::Wall> walls);
+
+/// Whether rays went through more of the walls than the noise of the poses explains.
+bool are_walls_seen_through(const SeenThrough& through);
+
+/// Where rays went through more than what moves explains, at more than one place, the map is of
+/// places laid over each other.
+void refuse_seen_through(const SeenThrough& through);
 
 }  // namespace cornerd::survey

@@ -169,6 +169,8 @@ SurveyResult survey(const RecordedDrive& recorded, const SurveyConfig& config,
     throw std::invalid_argument("no wall was seen well enough to be believed");
   }
   if (!drive.has_odometry) refuse_doubled_walls(result.doubled_m, result.plan.walls);
+  result.through = seen_through(evidence, built.pieces);
+  refuse_seen_through(result.through);
 
   result.thin = thin_places(drive, evidence, built.pieces);
   result.points = picture_points(drive);

@@ -13,6 +13,7 @@
 #include "survey/loop_closing.hpp"
 #include "survey/odometry_doubt.hpp"
 #include "survey/recorded_drive.hpp"
+#include "survey/seen_through.hpp"
 #include "survey/survey_progress.hpp"
 
 namespace cornerd::survey {
@@ -49,6 +50,7 @@ struct SurveyResult {
   std::vector<std::size_t> blind_turns;
   std::vector<LoopReport> loops;  ///< places that were recognised again
   double doubled_m = 0;           ///< of walls, behind others that would have hidden them
+  SeenThrough through;            ///< what rays ended on and others went through
   std::size_t forgotten_faces = 0;
   std::size_t merged_faces = 0;
   std::size_t observations = 0;

@@ -109,6 +109,12 @@ std::string survey_report(const survey::SurveyResult& result) {
         "way was off there\n",
         result.doubled_m);
   }
+  if (survey::are_walls_seen_through(result.through)) {
+    text += formatted(
+        "WARNING: rays went through %.1f m of the sides of walls, at %zu places: things moved, or "
+        "the drive does not fit together there\n",
+        result.through.length_m, result.through.places);
+  }
   if (result.squared) {
     text += formatted("%zu sides of walls are square to each other, %zu were left askew\n",
                       result.squared->square, result.squared->askew);

@@ -77,5 +77,22 @@ TEST(RefuseDoubledWalls, MoreThanWhatMoved_SaysHowMuch) {
             std::string::npos);
 }
 
+TEST(RefuseSeenThrough, MoreThanADoorThatMoved_SaysWhatShare) {
+  const auto with = [](double length_m, std::size_t places, double of_m) {
+    return refusal([&] { refuse_seen_through({length_m, places, of_m}); });
+  };
+  EXPECT_EQ(with(1.4, 2, 100), "");
+  EXPECT_NE(with(1.6, 2, 100).find("went through 1.6 of 100.0 m of the walls' sides (1.6 %)"),
+            std::string::npos);
+  EXPECT_EQ(with(1.6, 1, 100), "");
+  EXPECT_EQ(with(0.5, 2, 10), "");
+  EXPECT_EQ(with(0, 0, 0), "");
+}
+
+TEST(AreWallsSeenThrough, MoreThanNoise_IsSaid) {
+  EXPECT_FALSE(are_walls_seen_through({0.3, 1, 100}));
+  EXPECT_TRUE(are_walls_seen_through({0.5, 1, 100}));
+}
+
 }  // namespace
 }  // namespace cornerd::survey

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: MIT
+// Drives of which one part begins elsewhere than the one before ended: places laid over each other
+// are no map.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <filesystem>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "bench/simulated_drive.hpp"
+#include "replay/simulator/motion.hpp"
+#include "replay/simulator/scenarios.hpp"
+#include "settings/map_file.hpp"
+#include "survey/survey.hpp"
+
+namespace cornerd {
+namespace {
+
+/// Two minutes of the exploration of the flat.
+survey::RecordedDrive exploration(bool has_odometry) {
+  const auto map =
+      settings::load_map(std::filesystem::path(CORNERD_SOURCE_DIR) / "config/maps/flat-7.json");
+  bench::SimulatedDriveConfig config;
+  config.has_odometry = has_odometry;
+  config.turns = 876;
+  return bench::simulate_drive(
+             map, replay::drive_path(replay::find_scenario("exploration")->path, {}), config)
+      .drive;
+}
+
+/// Adds turns [first, last) and what the odometry told in them to what a drive has: as if the robot
+/// had been carried from its last place to that of the first turn, its wheels in the air.
+void append(const survey::RecordedDrive& from, std::size_t first, std::size_t last,
+            survey::RecordedDrive& to) {
+  core::TimeNs later_ns = 0;
+  if (to.size() > 0)
+    later_ns = to.end_ns(to.size() - 1) + core::kNsPerSecond - from.start_ns(first);
+  std::pair<std::int64_t, std::int64_t> counts;
+  bool is_first = true;
+  std::size_t done = first;
+  core::Scan scan;
+  const auto add_turns = [&](std::size_t until) {
+    for (; done < std::min(until, last); ++done) {
+      from.load(done, scan);
+      scan.shift(later_ns);
+      to.add(scan);
+    }
+  };
+  for (survey::RecordedDrive::Reading said : from.readings()) {
+    if (said.turn < first || said.turn >= last) continue;
+    add_turns(said.turn);
+    core::OdometryReading reading = said.reading;
+    if (is_first && !to.readings().empty()) {
+      const core::OdometryReading& before = to.readings().back().reading;
+      counts = {*before.left - *reading.left, *before.right - *reading.right};
+    }
+    is_first = false;
+    reading.t_ns += later_ns;
+    *reading.left += counts.first;
+    *reading.right += counts.second;
+    if (said.now_ns) *said.now_ns += later_ns;
+    to.add(reading, said.now_ns);
+  }
+  add_turns(last);
+}
+
+std::string refusal(const survey::RecordedDrive& drive) {
+  try {
+    survey::survey(drive, {});
+  } catch (const std::invalid_argument& refused) {
+    return refused.what();
+  }
+  return "none";
+}
+
+class SurveyOfPartsThatDoNotJoin : public testing::TestWithParam<std::pair<int, int>> {};
+
+TEST_P(SurveyOfPartsThatDoNotJoin, WithOdometry_IsRefused) {
+  const survey::RecordedDrive once = exploration(/*has_odometry=*/true);
+  survey::RecordedDrive parts;
+  append(once, 0, static_cast<std::size_t>(GetParam().first), parts);
+  append(once, static_cast<std::size_t>(GetParam().second), once.size(), parts);
+  EXPECT_NE(refusal(parts).find("does not fit together"), std::string::npos) << refusal(parts);
+}
+
+// The same drive once more; and the robot carried on, from one room to another.
+INSTANTIATE_TEST_SUITE_P(CutAt, SurveyOfPartsThatDoNotJoin,
+                         testing::Values(std::pair(876, 0), std::pair(145, 365)));
+
+TEST(SurveyOfPartsThatJoin, WithOdometry_IsTheMapOfTheWhole) {
+  const survey::RecordedDrive once = exploration(/*has_odometry=*/true);
+  survey::RecordedDrive parts;
+  append(once, 0, 400, parts);
+  append(once, 400, once.size(), parts);
+  const survey::SurveyResult result = survey::survey(parts, {});
+  EXPECT_EQ(result.through.length_m, 0);
+  EXPECT_EQ(result.plan.walls.size(), survey::survey(once, {}).plan.walls.size());
+}
+
+}  // namespace
+}  // namespace cornerd
