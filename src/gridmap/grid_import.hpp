@@ -34,7 +34,8 @@ struct Remark {
 };
 
 struct ImportResult {
-  core::FloorPlan plan;  ///< without a name; no walls where the picture has no border
+  /// Without a name; no walls where the picture has no border. The two-sided walls come first.
+  core::FloorPlan plan;
   MadeBy made_by = MadeBy::kUnknown;
   std::size_t two_sided = 0;  ///< of the walls: those both of whose faces were seen
   std::vector<Remark> specks;

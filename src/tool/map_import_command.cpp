@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -86,9 +87,17 @@ std::string report(const gridmap::MapServerYaml& yaml, const gridmap::Image& ima
                         ? "drawn: surfaces on the sides of the occupied cells"
                         : "mapped by a lidar: surfaces in the middle of the occupied cells",
                     guessed ? " (--made-by says otherwise)" : "");
-  text += formatted("%-12s %s: %zu with both sides, %zu seen from one side\n", "walls",
-                    describe_map(map).c_str(), result.two_sided,
-                    result.plan.walls.size() - result.two_sided);
+  const auto one_sided = std::span(result.plan.walls).subspan(result.two_sided);
+  const auto lines = std::count_if(one_sided.begin(), one_sided.end(),
+                                   [](const core::Wall& wall) { return wall.thickness_m == 0; });
+  text += formatted("%-12s %s: %zu with both sides, %zu seen from one side", "walls",
+                    describe_map(map).c_str(), result.two_sided, one_sided.size());
+  if (!one_sided.empty()) {
+    text += formatted(" (%zu as thick as is occupied behind it, %zu lines)",
+                      one_sided.size() - static_cast<std::size_t>(lines),
+                      static_cast<std::size_t>(lines));
+  }
+  text += "\n";
   text += describe(result.specks, "left out", "specks of occupied cells");
   text += describe(result.pockets, "left out", "shut-in patches of free cells");
   text += describe(result.short_pieces, "left out", "pieces of border too short for a wall");
