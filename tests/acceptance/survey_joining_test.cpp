@@ -36,8 +36,10 @@ survey::RecordedDrive exploration(bool has_odometry) {
 void append(const survey::RecordedDrive& from, std::size_t first, std::size_t last,
             survey::RecordedDrive& to) {
   core::TimeNs later_ns = 0;
-  if (to.size() > 0)
-    later_ns = to.end_ns(to.size() - 1) + core::kNsPerSecond - from.start_ns(first);
+  if (to.size() > 0) {
+    // No pause: a gyro that turned at its beginning would be taken to have turned all along it.
+    later_ns = to.end_ns(to.size() - 1) + core::kNsPerSecond / 1000 - from.start_ns(first);
+  }
   std::pair<std::int64_t, std::int64_t> counts;
   bool is_first = true;
   std::size_t done = first;
