@@ -110,6 +110,9 @@ class Odometer {
   /// was configured; and slips that no gyro shows.
   Covariance3 doubt_of_mode(const FusionFilter& filter) const;
   Covariance3 doubt_of_slips(const FusionFilter& filter) const;
+  bool doubts_slips() const {
+    return config_.wary && config_.mode == HeadingSource::kFilter && !last_.has_gyro;
+  }
   void watch_for_slips(const Pose2& T_map_base, const Covariance3& covariance);
   /// What a robot makes of a time, its variance in s^2, of which no reading tells.
   static Covariance3 doubt_of_change(double unread_s2);

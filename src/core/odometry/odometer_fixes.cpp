@@ -70,13 +70,13 @@ Covariance3 Odometer::doubt_of_mode(const FusionFilter& filter) const {
 }
 
 Covariance3 Odometer::doubt_of_slips(const FusionFilter& filter) const {
-  if (config_.mode != HeadingSource::kFilter || last_.has_gyro) return Covariance3::Zero();
+  if (!doubts_slips()) return Covariance3::Zero();
   const double turn_rad2 = turn_slips_.rad2_per_m() * filter.since_fix().rolled_m;
   return doubt_of_turn(filter, turn_rad2, turn_rad2 * squared(config_.geometry.track_m / 2));
 }
 
 void Odometer::watch_for_slips(const Pose2& T_map_base, const Covariance3& covariance) {
-  if (!has_pose_ || last_.has_gyro || config_.mode != HeadingSource::kFilter) return;
+  if (!has_pose_ || !doubts_slips()) return;
   turn_slips_.add(squared(filter_.surprise_of(T_map_base)[2]),
                   filter_.pose_covariance()(2, 2) + covariance(2, 2) + squared(kFixFloor_rad),
                   filter_.since_fix().rolled_m);

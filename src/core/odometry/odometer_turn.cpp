@@ -80,15 +80,16 @@ Covariance3 Odometer::doubt_of_motion() const {
       kUnreadShare * unread_s * unread_s / to_seconds(std::max<TimeNs>(1, end_ns_ - start_ns_));
   // Where in its count each wheel is in the middle: what the rest of the turn is straightened to.
   const DriveGeometry& geometry = config_.geometry;
+  const double lever_m2 = config_.wary ? kLever_m * kLever_m : 0;
   const double place_m2 = place_m * place_m + uneven_m * uneven_m + geometry.rest_m2() / 2 +
-                          kWanderShare * (wander.place_m2 + kLever_m * kLever_m * wander.turn_rad2);
+                          kWanderShare * (wander.place_m2 + lever_m2 * wander.turn_rad2);
   double turn_rad2 =
       turn_rad * turn_rad + uneven_rad * uneven_rad + kWanderShare * wander.turn_rad2;
   if (!last_.has_gyro) {
     turn_rad2 += 2 * geometry.rest_m2() / (geometry.track_m * geometry.track_m);
     const double rolled_m =
         std::max(way.translation().norm(), std::abs(way.theta_rad) * geometry.track_m / 2);
-    turn_rad2 += kWanderShare * turn_slips_.rad2_per_m() * rolled_m;
+    if (doubts_slips()) turn_rad2 += kWanderShare * turn_slips_.rad2_per_m() * rolled_m;
   }
   Covariance3 doubt = doubt_of_change(unread_by_s * unread_by_s);
   doubt.diagonal() += Eigen::Vector3d(place_m2, place_m2, turn_rad2);

@@ -76,7 +76,7 @@ bool ReadingGate::is_in_time(TimeNs t_ns, std::optional<TimeNs> now_ns) {
     ++counters_.restarts;
     clock_was_set_back_ = true;
     gyro_ns_.reset();
-  } else if (now_ns && is_always_ahead(t_ns, *now_ns)) {
+  } else if (config_.wary && now_ns && is_always_ahead(t_ns, *now_ns)) {
     ++counters_.future;
     return false;
   } else if (leaps_ahead(t_ns, now_ns)) {
@@ -114,7 +114,8 @@ bool ReadingGate::leaps_ahead(TimeNs t_ns, std::optional<TimeNs> now_ns) {
         leapt_ns_ && t_ns >= *leapt_ns_ &&
         to_seconds(t_ns - *leapt_ns_) <=
             std::max(longest_s, kSlower * to_seconds(*leapt_ns_ - *last_ns_) / leaps_);
-    if (goes_on && usual_s_ && to_seconds(t_ns - *leapt_ns_) < kBunched * *usual_s_) {
+    if (config_.wary && goes_on && usual_s_ &&
+        to_seconds(t_ns - *leapt_ns_) < kBunched * *usual_s_) {
       ++counters_.past;
       return true;
     }
@@ -123,7 +124,7 @@ bool ReadingGate::leaps_ahead(TimeNs t_ns, std::optional<TimeNs> now_ns) {
     leaps_ = goes_on ? leaps_ + 1 : 1;
     leapt_ns_ = t_ns;
     if (leaps_ < kWentOn) return true;
-    if (now_ns && clock_leapt(t_ns, *now_ns)) {
+    if (config_.wary && now_ns && clock_leapt(t_ns, *now_ns)) {
       ++counters_.future;
       leaps_ = kWentOn - 1;
       return true;

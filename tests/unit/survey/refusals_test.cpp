@@ -81,10 +81,10 @@ TEST(RefuseSeenThrough, MoreThanADoorThatMoved_SaysWhatShare) {
   const auto with = [](double length_m, std::size_t places, double of_m) {
     return refusal([&] { refuse_seen_through({length_m, places, of_m}); });
   };
-  EXPECT_EQ(with(1.4, 2, 100), "");
-  EXPECT_NE(with(1.6, 2, 100).find("went through 1.6 of 100.0 m of the walls' sides (1.6 %)"),
+  EXPECT_EQ(with(5.9, 2, 100), "");
+  EXPECT_NE(with(6.1, 2, 100).find("went through 6.1 of 100.0 m of the walls' sides (6.1 %)"),
             std::string::npos);
-  EXPECT_EQ(with(1.6, 1, 100), "");
+  EXPECT_EQ(with(6.1, 1, 100), "");
   EXPECT_EQ(with(0.5, 2, 10), "");
   EXPECT_EQ(with(0, 0, 0), "");
 }
