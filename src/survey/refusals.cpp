@@ -17,9 +17,9 @@ constexpr double kMostGuessed = 0.02;
 /// chair legs, in those that were torn from 0.014 on.
 constexpr double kMostDoubled = 0.012;
 constexpr double kFewDoubled_m = 0.5;
-/// Of the sides of all walls: in maps that are right 0 in simulation, and 0.033 in a house that a
-/// robot with slipping tracks drove through; in those of drives that do not fit together from 0.023
-/// on, and from 0.07 on where the robot was carried.
+/// Of the sides of all walls: in maps that are right 0 in simulation, and 0.02 to 0.033 in a house
+/// that a robot with slipping tracks drove through; in those of drives that do not fit together
+/// from 0.023 on, and from 0.07 on where the robot was carried.
 constexpr double kNothingThrough = 0.004;
 constexpr double kMostThrough = 0.06;
 constexpr double kFewThrough_m = 0.6;
