@@ -2,7 +2,10 @@
 // What an odometer says where wheels, gyro and clock may be wrong: nothing, or with as much doubt.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <optional>
 #include <random>
 
 #include "core/odometry/odometer.hpp"
