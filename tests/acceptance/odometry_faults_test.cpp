@@ -99,9 +99,9 @@ class OdometryFaults : public testing::Test {
   }
 
   /// Right and as often as ever where the lidar sees, and carried on where it does not.
-  static void expect_unharmed(const Replayed& replayed) {
+  static void expect_unharmed(const Replayed& replayed, int fewest_fixes = 135) {
     expect_right(replayed);
-    EXPECT_GE(replayed.count("fix"), 133);
+    EXPECT_GE(replayed.count("fix"), fewest_fixes);
     EXPECT_GE(replayed.count("predicted"), 12);
     EXPECT_LT(replayed.worst_m, 0.03);
     EXPECT_EQ(replayed.odometry["state"], "running");
@@ -246,7 +246,7 @@ TEST_F(OdometryFaults, ASensorThatIsAbsent_LeavesTheOthers) {
 TEST_F(OdometryFaults, GyroThatIsFrozen_IsNoLongerBelieved) {
   for (const int first : {100, 400, 600}) {
     const Replayed replayed = replay(frozen({"gyro"}, first));
-    expect_unharmed(replayed);
+    expect_unharmed(replayed, 134);  // one is doubted while the gyro still is believed
     EXPECT_GT(replayed.counter("frozen"), 200) << first;
   }
 }

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <optional>
+
+#include <Eigen/Cholesky>
+
+#include "core/odometry/fusion_filter.hpp"
+#include "core/odometry/reading_gate.hpp"
+#include "driven_robot.hpp"
+
+namespace cornerd::core::testing {
+
+inline OdometryConfig config_of_a_small_robot() {
+  OdometryConfig config;
+  config.enabled = true;
+  return config;
+}
+
+inline RobotErrors usual_errors() {
+  RobotErrors errors;
+  errors.left_scale = 0.015;
+  errors.right_scale = 0.025;
+  errors.gyro_scale = 0.02;
+  errors.gyro_bias_rad_s = 0.01;
+  errors.wheel_m_per_sqrt_m = OdometryNoise{}.wheel_m_per_sqrt_m;
+  errors.gyro_rad_s_per_sqrt_hz = OdometryNoise{}.gyro_rad_s_per_sqrt_hz;
+  return errors;
+}
+
+inline constexpr double kFixSigma_m = 0.002;
+inline constexpr double kFixSigma_rad = 0.001;
+
+/// A robot, its filter, and a lidar that says where it is every 0.14 s.
+class TaughtRobot {
+ public:
+  TaughtRobot(const OdometryConfig& config, const RobotErrors& errors, std::uint64_t seed)
+      : robot_(config.geometry, errors, seed), gate_(config), filter_(config) {
+    fix_covariance_ = Eigen::Vector3d(kFixSigma_m * kFixSigma_m, kFixSigma_m * kFixSigma_m,
+                                      kFixSigma_rad * kFixSigma_rad)
+                          .asDiagonal();
+    filter_.set_pose(measured(), fix_covariance_);
+  }
+
+  void drive(double duration_s, bool with_fixes, bool with_gyro = true) {
+    for (int i = 0; i < std::lround(duration_s * 50); ++i, ++ticks_) {
+      const Rates rates = lively_drive(0.02 * ticks_);
+      OdometryReading reading = robot_.drive(0.02, rates.speed_m_s, rates.rate_rad_s);
+      if (!with_gyro) reading.gyro_rad_s.reset();
+      if (const auto step = gate_.add(reading, std::nullopt)) filter_.predict(*step);
+      if (with_fixes && ticks_ % 7 == 0) correct();
+    }
+  }
+  bool correct() { return filter_.correct(measured(), fix_covariance_); }
+
+  Pose2 measured() {
+    const Pose2& truth = robot_.truth();
+    return {truth.x_m + kFixSigma_m * robot_.normal(), truth.y_m + kFixSigma_m * robot_.normal(),
+            normalize_angle(truth.theta_rad + kFixSigma_rad * robot_.normal())};
+  }
+  Eigen::Vector3d error() const {
+    const Pose2 pose = filter_.pose();
+    const Pose2& truth = robot_.truth();
+    return {pose.x_m - truth.x_m, pose.y_m - truth.y_m,
+            angle_between(truth.theta_rad, pose.theta_rad)};
+  }
+  double nees() const {
+    return error().dot(Eigen::LLT<Eigen::Matrix3d>(filter_.pose_covariance()).solve(error()));
+  }
+  FusionFilter& filter() { return filter_; }
+  DrivenRobot& robot() { return robot_; }
+
+ private:
+  DrivenRobot robot_;
+  ReadingGate gate_;
+  FusionFilter filter_;
+  Covariance3 fix_covariance_;
+  int ticks_ = 0;
+};
+
+inline OdometryConfig config_with_counts_of_5_mm() {
+  OdometryConfig config = config_of_a_small_robot();
+  config.geometry.counts_per_turn = 40;
+  return config;
+}
+
+}  // namespace cornerd::core::testing
