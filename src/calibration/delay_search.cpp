@@ -11,6 +11,7 @@
 #include <Eigen/LU>
 
 #include "calibration/drive_noise.hpp"
+#include "core/geometry/parabola.hpp"
 
 namespace cornerd::calibration {
 namespace {
@@ -109,10 +110,8 @@ DelaySearch search_delay(std::span<const core::MotionStep> steps,
   search.at_edge = best == 0 || best == last;
   search.delay_s = kDelayStep_s * (best - kDelaySteps);
   if (search.at_edge) return search;
-  // Between two neighbours as the parabola through the three has it.
-  const double before = costs[best - 1] - least;
-  const double after = costs[best + 1] - least;
-  if (before + after > 0) search.delay_s += kDelayStep_s / 2 * (before - after) / (before + after);
+  search.delay_s +=
+      kDelayStep_s * core::least_of_parabola(costs[best - 1] - least, costs[best + 1] - least);
   return search;
 }
 

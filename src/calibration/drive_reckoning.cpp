@@ -2,8 +2,8 @@
 #include <cstddef>
 #include <functional>
 
-#include "calibration/learned_motion.hpp"
 #include "calibration/odometry_fit.hpp"
+#include "core/odometry/learned_motion.hpp"
 
 namespace cornerd::calibration {
 namespace {
@@ -66,7 +66,7 @@ DriveError reckon(std::span<const MotionStep> steps, std::span<const KnownPlace>
                   DrivePoints* points) {
   return walk(at_true_times(steps, learned.delay_s), places, points, std::identity(),
               [&](const MotionStep& step) {
-                const Moved moved = moved_by(step, geometry, learned);
+                const core::LearnedMotion moved = core::learned_motion(step, geometry, learned);
                 return core::arc(moved.way_m, moved.turn_rad);
               });
 }

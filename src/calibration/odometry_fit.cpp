@@ -11,9 +11,9 @@
 
 #include "calibration/delay_search.hpp"
 #include "calibration/drive_noise.hpp"
-#include "calibration/learned_motion.hpp"
 #include "calibration/median.hpp"
 #include "core/geometry/squared.hpp"
+#include "core/odometry/learned_motion.hpp"
 
 namespace cornerd::calibration {
 namespace {
@@ -66,7 +66,7 @@ Residuals residuals_of(const DriveWindow& window, const core::DriveGeometry& geo
   double turn_rad = 0;
   bool has_gyro = true;
   for (const MotionStep& step : window.steps) {
-    const Moved moved = moved_by(step, geometry, learned);
+    const core::LearnedMotion moved = core::learned_motion(step, geometry, learned);
     way = way * core::arc(moved.way_m, moved.turn_rad);
     wheel_turn_rad += moved.wheel_turn_rad;
     turn_rad += moved.turn_rad;

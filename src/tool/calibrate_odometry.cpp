@@ -109,11 +109,9 @@ std::string fragment(const calibration::OdometryFit& fit, const core::PaperFacto
 std::string describe_delay(const calibration::OdometryFit& fit) {
   if (std::abs(fit.learned.delay_s) <= settings::kMostStartDelay_s) return {};
   return formatted(
-      "The readings are %.2f s %s, by more than odometry.start.delay may be (%.1f s) and the "
-      "daemon "
-      "finds: have each bear the time when it was true. The values above are those of readings "
-      "that "
-      "do.\n",
+      "The readings are %.2f s %s, by more than odometry.start.delay may be (%.1f s) and "
+      "the daemon finds: have each bear the time when it was true. The values above are "
+      "those of readings that do.\n",
       std::abs(fit.learned.delay_s), fit.learned.delay_s > 0 ? "late" : "early",
       settings::kMostStartDelay_s);
 }

@@ -23,6 +23,16 @@ core::OdometryConfig widened(core::OdometryConfig config) {
   return config;
 }
 
+/// In the order of time.
+void add_place(const calibration::KnownPlace& place, std::vector<calibration::KnownPlace>& places) {
+  if (places.empty() || place.t_ns > places.back().t_ns) places.push_back(place);
+}
+
+void add_fix(const core::TurnResult& result, std::vector<calibration::KnownPlace>& places) {
+  const core::PoseEstimate& pose = result.pose;
+  if (pose.state == core::PoseState::kFix) add_place({pose.t_ns, pose.T_map_base}, places);
+}
+
 /// The steps of the drive, and what the lidar makes of its turns.
 class DriveSink final : public replay::RecordingSink {
  public:
@@ -56,15 +66,9 @@ class DriveSink final : public replay::RecordingSink {
 
   void take(const core::TurnResult* result) {
     if (result == nullptr) return;
-    const core::PoseEstimate& pose = result->pose;
-    if (!drive_.places.empty() && pose.t_ns <= drive_.places.back().t_ns) return;
-    if (truth_ != nullptr) {
-      if (const auto T_map_base = truth_->at(pose.t_ns)) {
-        drive_.places.push_back({pose.t_ns, *T_map_base});
-      }
-    } else if (pose.state == core::PoseState::kFix) {
-      drive_.places.push_back({pose.t_ns, pose.T_map_base});
-    }
+    if (truth_ == nullptr) return add_fix(*result, drive_.places);
+    const core::TimeNs t_ns = result->pose.t_ns;
+    if (const auto T_map_base = truth_->at(t_ns)) add_place({t_ns, *T_map_base}, drive_.places);
   }
 
   core::Pipeline& pipeline_;
@@ -99,10 +103,7 @@ class PlaceSink final : public replay::RecordingSink {
 
  private:
   void take(const core::TurnResult* result) {
-    if (result == nullptr || result->pose.state != core::PoseState::kFix) return;
-    const core::PoseEstimate& pose = result->pose;
-    if (!places_.empty() && pose.t_ns <= places_.back().t_ns) return;
-    places_.push_back({pose.t_ns, pose.T_map_base});
+    if (result != nullptr) add_fix(*result, places_);
   }
 
   core::Pipeline& pipeline_;

@@ -111,9 +111,8 @@ std::string survey_report(const survey::SurveyResult& result) {
   }
   if (survey::are_walls_seen_through(result.through)) {
     text += formatted(
-        "WARNING: rays went through %.1f m of the sides of walls (stretches: %zu): things moved, "
-        "or "
-        "the drive does not fit together there\n",
+        "WARNING: rays went through %.1f m of the sides of walls (stretches: %zu): things "
+        "moved, or the drive does not fit together there\n",
         result.through.length_m, result.through.places);
   }
   if (result.squared) {

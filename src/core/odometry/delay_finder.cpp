@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "core/geometry/angle.hpp"
+#include "core/geometry/parabola.hpp"
 #include "core/geometry/squared.hpp"
 
 namespace cornerd::core {
@@ -99,11 +100,8 @@ std::optional<double> DelayFinder::instead_of(double late_s) const {
   const double least = cost_[best];
   if (pairs_ < kFewestPairs || least > kUnexplained * pairs_) return std::nullopt;
   if (best == 0 || best == kDelays - 1) return std::nullopt;
-  // Between two neighbours as the parabola through the three has it.
-  const double before = cost_[best - 1] - least;
-  const double after = cost_[best + 1] - least;
   const double found_s =
-      delay_s(best) + (before + after > 0 ? kStep_s / 2 * (before - after) / (before + after) : 0);
+      delay_s(best) + kStep_s * least_of_parabola(cost_[best - 1] - least, cost_[best + 1] - least);
   if (std::abs(found_s - late_s) < kStep_s || cost_of(late_s) < least + kAgainst) {
     return std::nullopt;
   }

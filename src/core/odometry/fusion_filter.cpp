@@ -7,6 +7,7 @@
 
 #include "core/geometry/squared.hpp"
 #include "core/odometry/fusion_prediction.hpp"
+#include "core/odometry/learned_motion.hpp"
 
 namespace cornerd::core {
 namespace {
@@ -47,12 +48,8 @@ void FusionFilter::start_from(const LearnedOdometry& start) {
 }
 
 FusionFilter::Wheels FusionFilter::wheels(const MotionStep& step) const {
-  Wheels wheels;
-  wheels.left_m = step.left_m * (1 + state_[kLeft]);
-  wheels.right_m = step.right_m * (1 + state_[kRight]);
-  wheels.way_m = (wheels.left_m + wheels.right_m) / 2;
-  wheels.turn_rad = (wheels.right_m - wheels.left_m) / (geometry_.track_m * (1 + state_[kTrack]));
-  return wheels;
+  const LearnedMotion motion = learned_motion(step, geometry_, learned());
+  return {motion.left_m, motion.right_m, motion.way_m, motion.wheel_turn_rad};
 }
 
 void FusionFilter::predict(const MotionStep& step) {

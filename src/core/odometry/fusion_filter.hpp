@@ -74,6 +74,8 @@ class FusionFilter {
     Vec2 start = Vec2::Zero();
   };
   const Stretch& since_fix() const { return since_fix_; }
+  /// How far from the last fix the robot is; metres.
+  double way_since_fix_m() const { return (pose().translation() - since_fix_.start).norm(); }
   /// Makes the pose less sure.
   void doubt_pose(const Covariance3& more) { covariance_.topLeftCorner<3, 3>() += more; }
 

@@ -7,6 +7,7 @@
 
 #include "core/geometry/squared.hpp"
 #include "core/odometry/fusion_filter.hpp"
+#include "core/odometry/learned_motion.hpp"
 
 namespace cornerd::core {
 namespace {
@@ -21,11 +22,8 @@ constexpr double kMostDelay_s = 0.2;
 }  // namespace
 
 Pose2 FusionFilter::motion_of(const MotionStep& step) const {
-  const Wheels moved = wheels(step);
-  const double turn_rad =
-      step.has_gyro ? (step.gyro_rad - state_[kBias] * step.duration_s()) / (1 + state_[kGyro])
-                    : moved.turn_rad;
-  return arc(moved.way_m, turn_rad);
+  const LearnedMotion motion = learned_motion(step, geometry_, learned());
+  return arc(motion.way_m, motion.turn_rad);
 }
 
 FusionFilter::Wander FusionFilter::wander_of(const Pose2& way, double duration_s,

@@ -37,8 +37,7 @@ Covariance3 with_floor(const Covariance3& covariance, double place, double headi
 
 /// A wrong turn anywhere on the way since the last fix, and `place_m2` beside it.
 Covariance3 doubt_of_turn(const FusionFilter& filter, double turn_rad2, double place_m2) {
-  const double way_m2 = (filter.pose().translation() - filter.since_fix().start).squaredNorm();
-  const double aside_m2 = place_m2 + turn_rad2 * way_m2 / 3;
+  const double aside_m2 = place_m2 + turn_rad2 * squared(filter.way_since_fix_m()) / 3;
   return Eigen::Vector3d(aside_m2, aside_m2, turn_rad2).asDiagonal();
 }
 
@@ -90,9 +89,10 @@ std::optional<PredictedPose> Odometer::prediction_of(const FusionFilter& filter,
                                                      TimeNs guessed_ns) const {
   if (!has_pose_ || !present_ || !is_believed() || filter.is_contradictory()) return std::nullopt;
   if (to_seconds(t_ns - fixed_ns_) > config_.bridge_s) return std::nullopt;
-  const FusionFilter::Stretch& since = filter.since_fix();
-  const double way_m = (filter.pose().translation() - since.start).norm();
-  if (config_.wary && !fix_watch_.carries(way_m, since.turned_rad)) return std::nullopt;
+  if (config_.wary &&
+      !fix_watch_.carries(filter.way_since_fix_m(), filter.since_fix().turned_rad)) {
+    return std::nullopt;
+  }
   const double more_s2 = delay_doubt_s2(filter.learned().delay_s);
   Covariance3 covariance = filter.pose_covariance(more_s2);
   covariance += doubt_of_change(more_s2) + doubt_of_guess(guessed_ns);

@@ -85,11 +85,11 @@ Covariance3 Odometer::doubt_of_motion() const {
                           kWanderShare * (wander.place_m2 + lever_m2 * wander.turn_rad2);
   double turn_rad2 =
       turn_rad * turn_rad + uneven_rad * uneven_rad + kWanderShare * wander.turn_rad2;
-  if (!last_.has_gyro) {
-    turn_rad2 += 2 * geometry.rest_m2() / (geometry.track_m * geometry.track_m);
+  if (!last_.has_gyro) turn_rad2 += 2 * geometry.rest_m2() / (geometry.track_m * geometry.track_m);
+  if (doubts_slips()) {
     const double rolled_m =
         std::max(way.translation().norm(), std::abs(way.theta_rad) * geometry.track_m / 2);
-    if (doubts_slips()) turn_rad2 += kWanderShare * turn_slips_.rad2_per_m() * rolled_m;
+    turn_rad2 += kWanderShare * turn_slips_.rad2_per_m() * rolled_m;
   }
   Covariance3 doubt = doubt_of_change(unread_by_s * unread_by_s);
   doubt.diagonal() += Eigen::Vector3d(place_m2, place_m2, turn_rad2);

@@ -68,6 +68,7 @@ bool ReadingGate::is_in_time(TimeNs t_ns, std::optional<TimeNs> now_ns) {
     ++counters_.past;
     return false;
   }
+  const std::optional<TimeNs> clock_ns = config_.wary ? now_ns : std::nullopt;
   if (last_ns_ && t_ns < *last_ns_) {
     ++counters_.past;
     refused_in_a_row_ = refused_ns_ && t_ns < *refused_ns_ ? 1 : refused_in_a_row_ + 1;
@@ -76,10 +77,10 @@ bool ReadingGate::is_in_time(TimeNs t_ns, std::optional<TimeNs> now_ns) {
     ++counters_.restarts;
     clock_was_set_back_ = true;
     gyro_ns_.reset();
-  } else if (config_.wary && now_ns && is_always_ahead(t_ns, *now_ns)) {
+  } else if (clock_ns && is_always_ahead(t_ns, *clock_ns)) {
     ++counters_.future;
     return false;
-  } else if (leaps_ahead(t_ns, now_ns)) {
+  } else if (leaps_ahead(t_ns, clock_ns)) {
     return false;
   }
   refused_in_a_row_ = 0;
@@ -104,7 +105,7 @@ bool ReadingGate::clock_leapt(TimeNs t_ns, TimeNs now_ns) const {
   return (t_ns - *last_ns_) - (now_ns - *then_ns_) > kClockAhead_ns;
 }
 
-bool ReadingGate::leaps_ahead(TimeNs t_ns, std::optional<TimeNs> now_ns) {
+bool ReadingGate::leaps_ahead(TimeNs t_ns, std::optional<TimeNs> clock_ns) {
   if (!last_ns_) return false;
   const double pause_s = to_seconds(t_ns - *last_ns_);
   const double longest_s = std::max(kShortestLeap_s, kUsualPauses * usual_s_.value_or(pause_s));
@@ -124,7 +125,7 @@ bool ReadingGate::leaps_ahead(TimeNs t_ns, std::optional<TimeNs> now_ns) {
     leaps_ = goes_on ? leaps_ + 1 : 1;
     leapt_ns_ = t_ns;
     if (leaps_ < kWentOn) return true;
-    if (config_.wary && now_ns && clock_leapt(t_ns, *now_ns)) {
+    if (clock_ns && clock_leapt(t_ns, *clock_ns)) {
       ++counters_.future;
       leaps_ = kWentOn - 1;
       return true;

@@ -46,7 +46,8 @@ class ReadingGate {
   bool is_in_time(TimeNs t_ns, std::optional<TimeNs> now_ns);
   bool is_always_ahead(TimeNs t_ns, TimeNs now_ns);
   bool clock_leapt(TimeNs t_ns, TimeNs now_ns) const;
-  bool leaps_ahead(TimeNs t_ns, std::optional<TimeNs> now_ns);
+  /// `clock_ns`: now, where the lidar's clock is to be compared with.
+  bool leaps_ahead(TimeNs t_ns, std::optional<TimeNs> clock_ns);
   void add_gyro(TimeNs t_ns, double rate_rad_s);
   std::optional<MotionStep> add_counts(const Counts& counts);
   std::optional<MotionStep> restart(const Counts& counts);
