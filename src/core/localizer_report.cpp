@@ -21,8 +21,9 @@ Covariance3 doubt_of_bias() { return doubt_of(0.006, radians(0.15)); }
 
 /// Residuals beyond the noise are no noise that many points average out: a motion that is not known
 /// moves them together, and the pose with them. More so where the pose rests on the last one, as
-/// such a turn showed too little to tell by itself. The shares are those of simulated robots that
-/// start and turn at once.
+/// such a turn showed too little to tell by itself. The shares are those of robots that start and
+/// turn at once, simulated in flat-7 without odometry, with a bias of 1 % and 5 mm and without: the
+/// NEES of `tracking` turns, by how smeared they are, is 1 to 6 in five drives (up to 195 without).
 Covariance3 doubt_of_smear(const RefinedPose& refined, PoseState state) {
   const double smear_m = refined.rmse_m * std::sqrt(1 - 1 / refined.spread);
   return state == PoseState::kTracking ? doubt_of(smear_m, 1.2 * smear_m)

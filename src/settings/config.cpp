@@ -157,6 +157,11 @@ void read_odometry(ObjectReader odometry, OdometryConfig& config) {
   odometry.number("track", geometry.track_m, {0.001, 10});
   odometry.number("counts_per_turn", geometry.counts_per_turn, {1, 1e7});
   odometry.integer("ceiling", geometry.ceiling, std::int64_t{0}, std::int64_t{1} << 53);
+  if (geometry.ceiling == 1 || geometry.ceiling == 2) {
+    odometry.fail("ceiling",
+                  "must be 0 (never wraps) or at least 3: of fewer counts forward and "
+                  "back are the same");
+  }
   odometry.choice("mode", config.core.mode, kOdometryModes);
   ObjectReader factors = odometry.object("factors");
   factors.number("encoder", config.core.paper.encoder_factor, {0, 10});

@@ -28,6 +28,7 @@ FusionFilter::FusionFilter(const OdometryConfig& config)
 }
 
 void FusionFilter::start_from(const LearnedOdometry& start) {
+  pulls_ = {};
   state_.setZero();
   state_[kBias] = start.gyro_bias_rad_s;
   state_[kLeft] = start.left_scale;

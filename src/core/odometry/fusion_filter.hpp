@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <cstdint>
 
+#include <Eigen/Cholesky>
 #include <Eigen/Core>
 
 #include "core/odometry/jitter_meter.hpp"
 #include "core/odometry/motion_step.hpp"
 #include "core/odometry/noise_learning.hpp"
 #include "core/odometry/odometry_config.hpp"
+#include "core/odometry/pull_watch.hpp"
 #include "core/odometry/slip_watch.hpp"
 #include "core/odometry/usual_motion.hpp"
 
@@ -133,6 +136,8 @@ class FusionFilter {
   /// The covariance of the pose as the lidar sees it with the state.
   Eigen::Matrix<double, 3, kSize> seen_with_state() const;
   void predict_hole(const MotionStep& step);
+  /// Doubts anew what the fixes pull to one side. `root`: of the surprise's covariance.
+  void watch_pulls(const Eigen::LLT<Eigen::Matrix3d>& root, const Eigen::Vector3d& surprise);
   void keep_in_bounds();
 
   DriveGeometry geometry_;
@@ -144,6 +149,7 @@ class FusionFilter {
   Stretch since_fix_;
   JitterMeter jitter_;
   SlipWatch slip_watch_;
+  std::array<PullWatch, kSize> pulls_;
   bool gyro_is_believed_ = true;
   double speed_m_s_ = 0;
   double rate_rad_s_ = 0;

@@ -178,6 +178,8 @@ TEST(Config, UnknownChoice_ListsWhatThereIs) {
 }
 
 TEST(Config, ValuesThatContradict_AreNamed) {
+  EXPECT_THAT(config_error(R"({"map": "/m", "odometry": {"ceiling": 2}})"),
+              HasSubstr("/odometry/ceiling: must be 0 (never wraps) or at least 3"));
   EXPECT_THAT(config_error(R"({"map": "/m", "lidar": {"min_range": 5, "max_range": 5}})"),
               HasSubstr("/lidar/max_range: must be more than min_range, 5"));
   EXPECT_THAT(config_error(R"({"map": "/m", "lidar": {"driver": "replay"}})"),

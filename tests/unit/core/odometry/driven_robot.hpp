@@ -31,6 +31,9 @@ class DrivenRobot {
   /// the controller says at the end.
   OdometryReading drive(double dt_s, double speed_m_s, double rate_rad_s);
 
+  /// Another floor, a load, a gyro that got warm.
+  void change(const RobotErrors& errors) { errors_ = errors; }
+
   const Pose2& truth() const { return T_map_base_; }
   TimeNs now_ns() const { return now_ns_; }
   double normal() { return normal_(random_); }

@@ -40,6 +40,36 @@ TEST(FusionFilter, FiveSecondsBlindAfterThirty_StayWithinThreeCentimetres) {
   }
 }
 
+TEST(FusionFilter, WhatChangesInADrive_IsLearntAnew) {
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    testing::RobotErrors errors = usual_errors();
+    Drive drive(config_of_a_small_robot(), errors, seed);
+    drive.drive(60, true);
+    errors.left_scale += 0.02;
+    errors.right_scale += 0.02;
+    errors.gyro_bias_rad_s -= 0.01;
+    drive.robot().change(errors);
+    drive.drive(20, true);
+    const LearnedOdometry learned = drive.filter().learned();
+    EXPECT_NEAR(learned.left_scale, errors.left_scale, 0.005) << seed;
+    EXPECT_NEAR(learned.right_scale, errors.right_scale, 0.005) << seed;
+    EXPECT_NEAR(learned.gyro_bias_rad_s, errors.gyro_bias_rad_s, 0.001) << seed;
+  }
+}
+
+TEST(FusionFilter, WhatStaysAsItIs_IsNotDoubtedAnew) {
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    Drive drive(config_of_a_small_robot(), usual_errors(), seed);
+    drive.drive(60, true);
+    const FusionFilter::Vector before = drive.filter().covariance().diagonal();
+    drive.drive(60, true);
+    const FusionFilter::Vector after = drive.filter().covariance().diagonal();
+    for (const int index : {FusionFilter::kBias, FusionFilter::kLeft, FusionFilter::kRight}) {
+      EXPECT_LT(after[index], 1.5 * before[index]) << seed << ' ' << index;
+    }
+  }
+}
+
 TEST(FusionFilter, CoarseCounts_DoNotAddUp) {
   // The way from count to count is off by 1.4 mm at each end, however many lie in between.
   const OdometryConfig config = config_with_counts_of_5_mm();

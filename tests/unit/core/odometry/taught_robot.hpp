@@ -50,7 +50,9 @@ class TaughtRobot {
       OdometryReading reading = robot_.drive(0.02, rates.speed_m_s, rates.rate_rad_s);
       if (!with_gyro) reading.gyro_rad_s.reset();
       if (const auto step = gate_.add(reading, std::nullopt)) filter_.predict(*step);
-      if (with_fixes && ticks_ % 7 == 0) correct();
+      // As the odometer does.
+      if (with_fixes && ticks_ % 7 == 0 && !correct())
+        filter_.set_pose(measured(), fix_covariance_);
     }
   }
   bool correct() { return filter_.correct(measured(), fix_covariance_); }
