@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/geometry/angle.hpp"
+#include "core/geometry/pose2.hpp"
 
 namespace cornerd::core {
 
@@ -17,24 +18,47 @@ class FixWatch {
   /// A fix that cannot be explained; `about_turning`: its heading cannot.
   void add_stranger(bool about_turning) {
     ++in_a_row_;
+    seen_ = foretold_ = {};
     if (!about_turning) return;
     turns_are_proven_ = false;
     doubt_ = std::min(doubt_ + kLie, kMost);
     if (doubt_ >= kTooMuch) is_believed_ = false;
   }
 
-  /// A fix that is explained, and how far the robot has come and turned since the one before.
-  void add_explained(double way_m, double turn_rad) {
+  /// From the fix before to this one, in the map.
+  struct Way {
+    Vec2 translation = Vec2::Zero();
+    double turn_rad = 0;
+  };
+
+  /// A fix that is explained: the way that the lidar saw, and the one that odometry had foretold.
+  void add_explained(const Way& seen, const Way& foretold) {
     in_a_row_ = 0;
-    if (way_m > kDrives_m) way_is_proven_ = true;
-    if (std::abs(turn_rad) < kTurns_rad) return;
-    turns_are_proven_ = true;
-    doubt_ = std::max(doubt_ - 1, 0);
-    if (doubt_ <= kLittle) is_believed_ = true;
+    seen_.translation += seen.translation;
+    foretold_.translation += foretold.translation;
+    seen_.turn_rad += seen.turn_rad;
+    foretold_.turn_rad += foretold.turn_rad;
+    if (seen.translation.norm() > kDrives_m) {
+      way_is_proven_ = true;
+    } else if (const double way_m = seen_.translation.norm(); way_m > kDrives_m) {
+      const Vec2 off = foretold_.translation - seen_.translation;
+      way_is_proven_ = way_is_proven_ || off.norm() < kAgrees * way_m;
+      seen_.translation = foretold_.translation = Vec2::Zero();
+    }
+    if (std::abs(seen.turn_rad) >= kTurns_rad) {
+      prove_turns();
+    } else if (const double turn_rad = std::abs(seen_.turn_rad); turn_rad >= kTurns_rad) {
+      // Slow turns are explained one by one, whatever wheels make of them.
+      if (std::abs(foretold_.turn_rad - seen_.turn_rad) < kAgrees * turn_rad) prove_turns();
+      seen_.turn_rad = foretold_.turn_rad = 0;
+    }
   }
 
   /// The next fix may be anywhere.
-  void interrupt() { in_a_row_ = 0; }
+  void interrupt() {
+    in_a_row_ = 0;
+    seen_ = foretold_ = {};
+  }
 
   /// Whether such a way and turn since the last fix are to be carried on. The first ones of a drive
   /// the lidar has to have seen; and after a stranger, anything.
@@ -48,16 +72,28 @@ class FixWatch {
   bool is_contradicted() const { return in_a_row_ >= kInARow; }
 
  private:
+  void prove_turns() {
+    seen_.turn_rad = foretold_.turn_rad = 0;
+    turns_are_proven_ = true;
+    doubt_ = std::max(doubt_ - 1, 0);
+    if (doubt_ <= kLittle) is_believed_ = true;
+  }
+
   static constexpr int kInARow = 3;
   static constexpr double kTurns_rad = radians(3);
   static constexpr double kDrives_m = 0.02;
   static constexpr double kUnproven_m = 0.04;
+  /// What a slow robot did over many fixes was foretold to this share.
+  static constexpr double kAgrees = 0.3;
   /// In turns that were foretold, each of which makes up for a part of a lie.
   static constexpr int kLie = 3;
   static constexpr int kTooMuch = 7;
   static constexpr int kLittle = 4;
   static constexpr int kMost = 9;
 
+  /// Since the last way or turn that was long enough to tell.
+  Way seen_;
+  Way foretold_;
   int in_a_row_ = 0;
   int doubt_ = 0;
   bool is_believed_ = true;

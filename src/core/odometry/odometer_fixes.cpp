@@ -116,9 +116,12 @@ void Odometer::correct(const Pose2& T_map_base, const Covariance3& covariance) {
   if (filter_.is_contradictory()) {
     filter_.set_pose(T_map_base, most);
   } else if (has_pose_ && filter_.explains(T_map_base, most)) {
-    const double way_m = (T_map_base.translation() - filter_.since_fix().start).norm();
+    const auto way_to = [&](const Pose2& pose) -> FixWatch::Way {
+      return {pose.translation() - filter_.since_fix().start,
+              angle_between(fixed_heading_rad_, pose.theta_rad)};
+    };
+    fix_watch_.add_explained(way_to(T_map_base), way_to(filter_.pose()));
     filter_.correct(T_map_base, learned_doubt(T_map_base, of_guess));
-    fix_watch_.add_explained(way_m, angle_between(fixed_heading_rad_, T_map_base.theta_rad));
     ++fixes_;
   } else {
     if (has_pose_) add_stranger(T_map_base, most);

@@ -8,12 +8,18 @@ namespace {
 
 constexpr double kTurn_rad = 0.2;
 
+/// A fix that is where it was foretold.
+void explain(FixWatch& watch, double way_m, double turn_rad) {
+  const FixWatch::Way way{Vec2(way_m, 0), turn_rad};
+  watch.add_explained(way, way);
+}
+
 FixWatch doubting() {
   FixWatch watch;
   for (int k = 0; k < 3; ++k) {
     EXPECT_TRUE(watch.is_believed()) << k;
     watch.add_stranger(true);
-    watch.add_explained(0.05, 0);
+    explain(watch, 0.05, 0);
   }
   return watch;
 }
@@ -21,7 +27,7 @@ FixWatch doubting() {
 TEST(FixWatch, StrangersBetweenStraights_AreNotForgottenOnThem) {
   FixWatch watch = doubting();
   EXPECT_FALSE(watch.is_believed());
-  for (int k = 0; k < 100; ++k) watch.add_explained(0.05, 0.01);
+  for (int k = 0; k < 100; ++k) explain(watch, 0.05, k % 2 == 0 ? 0.01 : -0.01);
   EXPECT_FALSE(watch.is_believed());
   EXPECT_FALSE(watch.is_contradicted());
 }
@@ -30,7 +36,7 @@ TEST(FixWatch, TurnsThatAreForetold_ProveItRight) {
   FixWatch watch = doubting();
   for (int k = 0; k < 5; ++k) {
     EXPECT_FALSE(watch.is_believed()) << k;
-    watch.add_explained(0.05, k % 2 == 0 ? kTurn_rad : -kTurn_rad);
+    explain(watch, 0.05, k % 2 == 0 ? kTurn_rad : -kTurn_rad);
   }
   EXPECT_TRUE(watch.is_believed());
 }
@@ -40,7 +46,7 @@ TEST(FixWatch, StrangersNowAndThen_AreSlips) {
   for (int k = 0; k < 20; ++k) {
     watch.add_stranger(true);
     EXPECT_TRUE(watch.is_believed()) << k;
-    for (int turns = 0; turns < 3; ++turns) watch.add_explained(0.05, kTurn_rad);
+    for (int turns = 0; turns < 3; ++turns) explain(watch, 0.05, kTurn_rad);
   }
 }
 
@@ -49,7 +55,7 @@ TEST(FixWatch, StrangersThatAreNotAboutTurning_CountInARow) {
   for (int k = 0; k < 20; ++k) {
     watch.add_stranger(false);
     watch.add_stranger(false);
-    watch.add_explained(0.05, 0);
+    explain(watch, 0.05, 0);
   }
   EXPECT_TRUE(watch.is_believed());
   for (int k = 0; k < 3; ++k) {
@@ -66,22 +72,43 @@ TEST(FixWatch, TheFirstWayAndTurn_TheLidarHasToHaveSeen) {
   FixWatch watch;
   EXPECT_TRUE(watch.carries(0.01, 0.01)) << "it stands";
   EXPECT_FALSE(watch.carries(0.1, 0));
-  watch.add_explained(0.05, 0);
+  explain(watch, 0.05, 0);
   EXPECT_TRUE(watch.carries(0.1, 0.01));
   EXPECT_FALSE(watch.carries(0.1, kTurn_rad));
-  watch.add_explained(0.05, kTurn_rad);
+  explain(watch, 0.05, kTurn_rad);
   EXPECT_TRUE(watch.carries(10, 10));
+}
+
+TEST(FixWatch, ASlowRobot_ProvesItOverManyFixes) {
+  FixWatch watch;
+  for (int k = 0; k < 8; ++k) explain(watch, 0.003, 0.01);
+  EXPECT_TRUE(watch.carries(10, 10));
+}
+
+TEST(FixWatch, ASlowRobotWhoseOdometryLies_ProvesNothing) {
+  FixWatch watch;
+  for (int k = 0; k < 100; ++k) {
+    watch.add_explained({Vec2(0.003, 0), 0.01}, {Vec2(-0.003, 0), -0.01});
+  }
+  EXPECT_FALSE(watch.carries(0.1, 0));
+  EXPECT_FALSE(watch.carries(0, kTurn_rad));
+}
+
+TEST(FixWatch, ARobotThatStands_ProvesNothing) {
+  FixWatch watch;
+  for (int k = 0; k < 1000; ++k) explain(watch, k % 2 == 0 ? 0.002 : -0.002, 0);
+  EXPECT_FALSE(watch.carries(0.1, 0));
 }
 
 TEST(FixWatch, AfterAStranger_NothingIsCarriedOnUntilAFixIsExplained) {
   FixWatch watch;
-  watch.add_explained(0.05, kTurn_rad);
+  explain(watch, 0.05, kTurn_rad);
   watch.add_stranger(true);
   EXPECT_FALSE(watch.carries(0, 0));
-  watch.add_explained(0.05, 0);
+  explain(watch, 0.05, 0);
   EXPECT_TRUE(watch.carries(1, 0));
   EXPECT_FALSE(watch.carries(1, kTurn_rad)) << "it was about turning";
-  watch.add_explained(0.05, kTurn_rad);
+  explain(watch, 0.05, kTurn_rad);
   EXPECT_TRUE(watch.carries(1, kTurn_rad));
 }
 
