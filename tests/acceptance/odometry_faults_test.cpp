@@ -246,7 +246,7 @@ TEST_F(OdometryFaults, ASensorThatIsAbsent_LeavesTheOthers) {
 TEST_F(OdometryFaults, GyroThatIsFrozen_IsNoLongerBelieved) {
   for (const int first : {100, 400, 600}) {
     const Replayed replayed = replay(frozen({"gyro"}, first));
-    expect_unharmed(replayed, 134);  // one is doubted while the gyro still is believed
+    expect_unharmed(replayed, 134);  // one fix fewer than with the others
     EXPECT_GT(replayed.counter("frozen"), 200) << first;
   }
 }

@@ -48,8 +48,10 @@ TEST_F(OdometryControllers, LinesWithoutATimeOfAReplay_AreOfTheRecordingsTime) {
   json odometry;
   for (int i = 0; i < 40; ++i) {
     odometry = next_of(client, "STATUS")["odometry"];
-    if (odometry["counters"]["readings"].get<int>() >= 100) break;
+    const bool runs = odometry["state"] == "running";
+    if (runs && odometry["counters"]["readings"].get<int>() >= 100) break;
   }
+  EXPECT_EQ(odometry["state"], "running") << odometry;
   const json counters = odometry["counters"];
   EXPECT_GE(counters["readings"].get<int>(), 100) << odometry;
   EXPECT_LT(counters["past"].get<int>() + counters["future"].get<int>(),

@@ -42,7 +42,7 @@ class FixWatch {
       way_is_proven_ = true;
     } else if (const double way_m = seen_.translation.norm(); way_m > kDrives_m) {
       const Vec2 off = foretold_.translation - seen_.translation;
-      way_is_proven_ = way_is_proven_ || off.norm() < kAgrees * way_m;
+      if (off.norm() < kAgrees * way_m) way_is_proven_ = true;
       seen_.translation = foretold_.translation = Vec2::Zero();
     }
     if (std::abs(seen.turn_rad) >= kTurns_rad) {

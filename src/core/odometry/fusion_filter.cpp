@@ -48,11 +48,6 @@ void FusionFilter::start_from(const LearnedOdometry& start) {
   usual_.forget();
 }
 
-FusionFilter::Wheels FusionFilter::wheels(const MotionStep& step) const {
-  const LearnedMotion motion = learned_motion(step, geometry_, learned());
-  return {motion.left_m, motion.right_m, motion.way_m, motion.wheel_turn_rad};
-}
-
 void FusionFilter::predict(const MotionStep& step) {
   if (step.is_hole) return predict_hole(step);
   Prediction p = by_wheels(step);
@@ -79,7 +74,7 @@ FusionFilter::Prediction FusionFilter::by_wheels(const MotionStep& step) const {
 
   // A count stands for a stretch, and where in it a wheel has come to is new with every step: what
   // one step leaves out the next one has too much, however many there are.
-  p.moved = wheels(step);
+  p.moved = learned_motion(step, geometry_, learned());
   const double rest_m2 = geometry_.rest_m2();
   const double wheel_factor = learning_.wheel_factor();
   const double wheel_m = squared(noise_.wheel_m_per_sqrt_m) * wheel_factor;
@@ -87,22 +82,22 @@ FusionFilter::Prediction FusionFilter::by_wheels(const MotionStep& step) const {
   p.left_m2 = wheel_m * std::abs(p.moved.left_m);
   p.right_m2 = wheel_m * std::abs(p.moved.right_m);
   p.turn_rad2 =
-      (p.left_m2 + p.right_m2) / squared(p.track_m) + scrub_rad * std::abs(p.moved.turn_rad);
+      (p.left_m2 + p.right_m2) / squared(p.track_m) + scrub_rad * std::abs(p.moved.wheel_turn_rad);
   p.told_rad2 = p.turn_rad2 / wheel_factor;
   if (p.rolls) {
     p.left_m2 += rest_m2;
     p.right_m2 += rest_m2;
     p.turn_rad2 += 2 * rest_m2 / squared(p.track_m);
     p.moved.way_m -= (state_[kLeftRest] + state_[kRightRest]) / 2;
-    p.moved.turn_rad -= (state_[kRightRest] - state_[kLeftRest]) / p.track_m;
+    p.moved.wheel_turn_rad -= (state_[kRightRest] - state_[kLeftRest]) / p.track_m;
     p.old_rests_rad2 = (covariance_(kLeftRest, kLeftRest) + covariance_(kRightRest, kRightRest) -
                         2 * covariance_(kLeftRest, kRightRest)) /
                        squared(p.track_m);
   }
-  p.turn_by = turn_slope(p.moved.way_m, p.moved.turn_rad, p.rolls);
-  p.usual_by = p.seen_by = seen_slope(p.turn_by, p.moved.turn_rad, p.dt_s);
-  p.surprise_rad = step.gyro_rad - p.gyro_gain * p.moved.turn_rad - p.bias_rad;
-  p.course_rad = state_[kTheta] + p.moved.turn_rad / 2;
+  p.turn_by = turn_slope(p.moved.way_m, p.moved.wheel_turn_rad, p.rolls);
+  p.usual_by = p.seen_by = seen_slope(p.turn_by, p.moved.wheel_turn_rad, p.dt_s);
+  p.surprise_rad = step.gyro_rad - p.gyro_gain * p.moved.wheel_turn_rad - p.bias_rad;
+  p.course_rad = state_[kTheta] + p.moved.wheel_turn_rad / 2;
   return p;
 }
 
@@ -168,9 +163,9 @@ void FusionFilter::move_on(const Prediction& p) {
   }
   state_[kX] += p.moved.way_m * c;
   state_[kY] += p.moved.way_m * s;
-  state_[kTheta] += p.moved.turn_rad;
+  state_[kTheta] += p.moved.wheel_turn_rad;
   since_fix_.rolled_m += (std::abs(p.moved.left_m) + std::abs(p.moved.right_m)) / 2;
-  since_fix_.turned_rad += std::abs(p.moved.turn_rad);
+  since_fix_.turned_rad += std::abs(p.moved.wheel_turn_rad);
   since_fix_.duration_s += p.dt_s;
   if (p.rolls) state_[kLeftRest] = state_[kRightRest] = 0;
 

@@ -113,15 +113,8 @@ class FusionFilter {
   /// A tyre is no line: where it touches the floor wanders with every turn on the spot.
   static constexpr double kScrub_rad_per_sqrt_rad = 0.001;
 
-  struct Wheels {
-    double left_m = 0;
-    double right_m = 0;
-    double way_m = 0;
-    double turn_rad = 0;
-  };
   using Row = Eigen::RowVector<double, kSize>;
   struct Prediction;
-  Wheels wheels(const MotionStep& step) const;
   // The steps of predict().
   Prediction by_wheels(const MotionStep& step) const;
   void expect_of_gyro(Prediction& p) const;

@@ -40,7 +40,7 @@ void FusionFilter::compare_with_gyro(Prediction& p) {
   jitter_.add(p.surprise_rad, p.step.gyro_rad / p.dt_s, expected_rad2 - p.jitter_rad2);
   p.slips = squared(p.surprise_rad) > kSlip * expected_rad2;
   const double turns_rad =
-      std::max(std::abs(p.moved.turn_rad), std::abs(p.step.gyro_rad - p.bias_rad));
+      std::max(std::abs(p.moved.wheel_turn_rad), std::abs(p.step.gyro_rad - p.bias_rad));
   slip_watch_.add(squared(turns_rad) > kSlip * expected_rad2, p.slips, p.dt_s);
   const bool is_gross = p.slips && std::abs(p.surprise_rad) > kGross * turns_rad;
   if (is_gross && (!gyro_is_believed_ || p.step.gyro_may_be_stuck)) slip_watch_.contradict();
@@ -58,9 +58,9 @@ void FusionFilter::compare_with_gyro(Prediction& p) {
   // to the surprise at the motion of the steps before: with a step's own noise in the slope as well
   // as in the surprise the scales are biased (by 1 % in
   // tests/unit/core/odometry/fusion_filter_test.cpp, and without end on a circle).
-  const double both_rad = p.moved.turn_rad + p.gyro_gain * (p.turn_rad2 + p.old_rests_rad2) /
-                                                 (known_rad2 + squared(p.gyro_gain) * p.turn_rad2) *
-                                                 p.surprise_rad;
+  const double both_rad = p.moved.wheel_turn_rad +
+                          p.gyro_gain * (p.turn_rad2 + p.old_rests_rad2) /
+                              (known_rad2 + squared(p.gyro_gain) * p.turn_rad2) * p.surprise_rad;
   if (p.slips) {
     p.course_rad = state_[kTheta] + both_rad / 2;
     p.follows = 0;

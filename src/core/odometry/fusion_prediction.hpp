@@ -3,6 +3,7 @@
 #pragma once
 
 #include "core/odometry/fusion_filter.hpp"
+#include "core/odometry/learned_motion.hpp"
 
 namespace cornerd::core {
 
@@ -12,7 +13,7 @@ struct FusionFilter::Prediction {
   double dt_s = 0;
   double track_m = 0;
   double gyro_gain = 1;
-  Wheels moved{};
+  LearnedMotion moved{};
   bool rolls = false;  ///< or stands: then no count has come
   bool slips = false;
 

@@ -11,6 +11,13 @@
 
 namespace cornerd::core::testing {
 
+/// The small robot of the defaults.
+inline OdometryConfig switched_on() {
+  OdometryConfig config;
+  config.enabled = true;
+  return config;
+}
+
 /// As LearnedOdometry has it, plus noise.
 struct RobotErrors {
   double left_scale = 0;

@@ -10,16 +10,16 @@
 namespace cornerd::core {
 namespace {
 
-using testing::config_of_a_small_robot;
 using testing::config_with_counts_of_5_mm;
 using testing::kFixSigma_m;
+using testing::switched_on;
 using testing::usual_errors;
 using Drive = testing::TaughtRobot;
 
 TEST(FusionFilter, ThirtySecondsWithFixes_TeachScalesAndBias) {
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     const testing::RobotErrors errors = usual_errors();
-    Drive drive(config_of_a_small_robot(), errors, seed);
+    Drive drive(switched_on(), errors, seed);
     drive.drive(30, true);
     const LearnedOdometry learned = drive.filter().learned();
     EXPECT_NEAR(learned.left_scale, errors.left_scale, 0.003) << seed;
@@ -32,7 +32,7 @@ TEST(FusionFilter, ThirtySecondsWithFixes_TeachScalesAndBias) {
 
 TEST(FusionFilter, FiveSecondsBlindAfterThirty_StayWithinThreeCentimetres) {
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
-    Drive drive(config_of_a_small_robot(), usual_errors(), seed);
+    Drive drive(switched_on(), usual_errors(), seed);
     drive.drive(30, true);
     drive.drive(5, false);
     EXPECT_LT(drive.error().head<2>().norm(), 0.03) << seed;
@@ -43,7 +43,7 @@ TEST(FusionFilter, FiveSecondsBlindAfterThirty_StayWithinThreeCentimetres) {
 TEST(FusionFilter, WhatChangesInADrive_IsLearntAnew) {
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
     testing::RobotErrors errors = usual_errors();
-    Drive drive(config_of_a_small_robot(), errors, seed);
+    Drive drive(switched_on(), errors, seed);
     drive.drive(60, true);
     errors.left_scale += 0.02;
     errors.right_scale += 0.02;
@@ -59,7 +59,7 @@ TEST(FusionFilter, WhatChangesInADrive_IsLearntAnew) {
 
 TEST(FusionFilter, WhatStaysAsItIs_IsNotDoubtedAnew) {
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
-    Drive drive(config_of_a_small_robot(), usual_errors(), seed);
+    Drive drive(switched_on(), usual_errors(), seed);
     drive.drive(60, true);
     const FusionFilter::Vector before = drive.filter().covariance().diagonal();
     drive.drive(60, true);
@@ -87,7 +87,7 @@ TEST(FusionFilter, CoarseCounts_DoNotAddUp) {
 TEST(FusionFilter, WithFixes_IsBetterThanTheFixes) {
   double squares_m2 = 0;
   int count = 0;
-  Drive drive(config_of_a_small_robot(), usual_errors(), 3);
+  Drive drive(switched_on(), usual_errors(), 3);
   drive.drive(20, true);
   for (int i = 0; i < 300; ++i, ++count) {
     drive.drive(0.14, true);
@@ -97,7 +97,7 @@ TEST(FusionFilter, WithFixes_IsBetterThanTheFixes) {
 }
 
 TEST(FusionFilter, AWheelThatSpinsFree_DoesNotTurnTheRobot) {
-  const OdometryConfig config = config_of_a_small_robot();
+  const OdometryConfig config = switched_on();
   Drive drive(config, usual_errors(), 4);
   drive.drive(30, true);
   const LearnedOdometry before = drive.filter().learned();
@@ -118,7 +118,7 @@ TEST(FusionFilter, AWheelThatSpinsFree_DoesNotTurnTheRobot) {
 }
 
 TEST(FusionFilter, AFixFromElsewhere_IsRefusedAndChangesNothing) {
-  Drive drive(config_of_a_small_robot(), usual_errors(), 5);
+  Drive drive(switched_on(), usual_errors(), 5);
   drive.drive(10, true);
   const FusionFilter before = drive.filter();
   Pose2 elsewhere = drive.robot().truth();
@@ -129,7 +129,7 @@ TEST(FusionFilter, AFixFromElsewhere_IsRefusedAndChangesNothing) {
 }
 
 TEST(FusionFilter, AHole_LetsTheDoubtGrowAndTheLearnedStay) {
-  Drive drive(config_of_a_small_robot(), usual_errors(), 6);
+  Drive drive(switched_on(), usual_errors(), 6);
   drive.drive(30, true);
   const LearnedOdometry before = drive.filter().learned();
   MotionStep hole;

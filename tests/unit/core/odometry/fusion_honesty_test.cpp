@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What takes many robots to tell.
+// What takes many robots or steps to tell, minutes of them in an emulator.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -15,15 +15,15 @@
 namespace cornerd::core {
 namespace {
 
-using testing::config_of_a_small_robot;
 using testing::config_with_counts_of_5_mm;
+using testing::switched_on;
 using testing::usual_errors;
 using Drive = testing::TaughtRobot;
 
 /// Normalised estimation error squared: 3 in the mean where the covariance is honest. The errors of
 /// each robot are drawn from what the filter is told of them.
 double mean_nees(double taught_s, double blind_s, bool with_gyro, double noisier = 1,
-                 const OdometryConfig& config = config_of_a_small_robot()) {
+                 const OdometryConfig& config = switched_on()) {
   double sum = 0;
   constexpr int kRobots = 100;
   for (std::uint64_t seed = 1; seed <= kRobots; ++seed) {
@@ -94,7 +94,7 @@ TEST(FusionFilter, CoarseCounts_LeaveTheCovarianceHonest) {
 TEST(FusionFilter, AnyMotion_KeepsTheCovarianceOne) {
   std::mt19937_64 random(7);
   std::normal_distribution<double> normal;
-  FusionFilter filter(config_of_a_small_robot());
+  FusionFilter filter(switched_on());
   filter.set_pose({}, Covariance3::Identity() * 1e-6);
   for (int i = 0; i < 20000; ++i) {
     MotionStep step;

@@ -13,12 +13,6 @@ namespace cornerd::core::testing {
 
 inline const Covariance3 kFixCovariance = Covariance3::Identity() * 1e-6;
 
-inline OdometryConfig switched_on() {
-  OdometryConfig config;
-  config.enabled = true;
-  return config;
-}
-
 /// Readings at 50 Hz, a turn of the lidar every 7 of them; each reading comes `late` readings late.
 class Ride {
  public:

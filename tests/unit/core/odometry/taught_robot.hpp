@@ -13,12 +13,6 @@
 
 namespace cornerd::core::testing {
 
-inline OdometryConfig config_of_a_small_robot() {
-  OdometryConfig config;
-  config.enabled = true;
-  return config;
-}
-
 inline RobotErrors usual_errors() {
   RobotErrors errors;
   errors.left_scale = 0.015;
@@ -83,7 +77,7 @@ class TaughtRobot {
 };
 
 inline OdometryConfig config_with_counts_of_5_mm() {
-  OdometryConfig config = config_of_a_small_robot();
+  OdometryConfig config = switched_on();
   config.geometry.counts_per_turn = 40;
   return config;
 }
