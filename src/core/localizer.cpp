@@ -130,6 +130,7 @@ const PoseEstimate* Localizer::follow(const Sample& sample) {
   pose.state = PoseState::kTracking;
   pose.T_map_base = T_map_lidar * w.T_lidar_base;
   const Covariance3 of_lidar = found->refined.covariance +
+                               w.place->wall_doubt.doubt_of(found->refined.walls) +
                                doubt_of_motion(expected->motion, expected->motion) +
                                doubt_of_old_motion(expected->motion_age_s, parts.duration_s());
   pose.covariance = covariance_of_base(of_lidar, T_map_lidar, pose.T_map_base);
@@ -167,7 +168,9 @@ void Localizer::forget() {
 
 void Localizer::forget_lidar() {
   workspace_->detector.forget();
-  if (workspace_->place) workspace_->place->bias.forget();
+  if (!workspace_->place) return;
+  workspace_->place->bias.forget();
+  workspace_->place->wall_doubt.forget();
 }
 
 LearnedBias Localizer::learned_bias() const {

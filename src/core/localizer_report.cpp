@@ -87,7 +87,9 @@ void Localizer::Workspace::report_pose(const core::Place& found, std::size_t cor
   PoseEstimate& pose = result.pose;
   pose.T_map_base = T_map_lidar * T_lidar_base;
   memory.remember(T_map_lidar, t_ns, motion);
+  place->wall_doubt.add(found.refined.walls);
   const Covariance3 of_lidar = found.refined.covariance +
+                               place->wall_doubt.doubt_of(found.refined.walls) +
                                (odometer.knows_motion() ? odometer.doubt_of_motion()
                                                         : doubt_of_motion(motion, memory.motion()));
   pose.covariance = covariance_of_base(of_lidar, T_map_lidar, pose.T_map_base);

@@ -53,6 +53,7 @@ struct Localizer::Workspace {
     Verification verification;
     Refinement refinement;
     BiasEstimator bias;
+    WallDoubt wall_doubt;
     std::optional<PartTracker> parts;  ///< where poses are asked for before a turn ends
   };
 

@@ -24,6 +24,8 @@ constexpr double kSameSightShare = 0.25;
 /// Relative pivot below which the walls in sight do not fix the pose: a lone wall, a bare corridor.
 constexpr double kMinPivot = 1e-7;
 constexpr std::size_t kMinInliers = 8;
+/// Rays go from one face to the next so often in a turn; what comes beyond is not remembered.
+constexpr std::size_t kMostPulls = 1024;
 constexpr int kMotionSteps = 8;
 /// How fast a robot of this size may be, as a standard deviation.
 constexpr double kMotionSigma_m_s = 0.5;
@@ -40,7 +42,9 @@ struct Refinement::Step {
 };
 
 Refinement::Refinement(double max_range_m, const SensorNoise& noise)
-    : noise_(noise), prediction_(max_range_m) {}
+    : noise_(noise), prediction_(max_range_m) {
+  pulls_.reserve(kMostPulls);
+}
 
 void Refinement::look(const WallMap& map, const Pose2& T_map_lidar,
                       std::span<const PolarPoint> points, double noise_scale, double slack_m) {
@@ -54,11 +58,11 @@ void Refinement::look(const WallMap& map, const Pose2& T_map_lidar,
   T_map_seen_ = T_map_lidar;
 }
 
-Refinement::Step Refinement::step(const WallMap& map, const Pose2& T_map_lidar,
-                                  double slack_m) const {
+Refinement::Step Refinement::step(const WallMap& map, const Pose2& T_map_lidar, double slack_m) {
   const double c = std::cos(T_map_lidar.theta_rad);
   const double s = std::sin(T_map_lidar.theta_rad);
   Step sums;
+  pulls_.clear();
   // Rays side by side mostly meet the same face: what the face has to say is said once for all.
   for (std::size_t begin = 0, end = 0; begin < hits_.size(); begin = end) {
     const std::uint32_t met = hits_[begin].face;
@@ -70,6 +74,9 @@ Refinement::Step Refinement::step(const WallMap& map, const Pose2& T_map_lidar,
     const double height_m = nx * T_map_lidar.x_m + ny * T_map_lidar.y_m - face.offset_m;
     const FaceSums sum =
         lanes_.sum(begin, end, {c * nx + s * ny, c * ny - s * nx}, height_m, slack_m);
+    if (pulls_.size() < kMostPulls) {
+      pulls_.push_back({met, face.normal, sum.weight, sum.lever, sum.distance});
+    }
     sums.information(0, 0) += sum.weight * nx * nx;
     sums.information(0, 1) += sum.weight * nx * ny;
     sums.information(1, 1) += sum.weight * ny * ny;
@@ -88,7 +95,11 @@ Refinement::Step Refinement::step(const WallMap& map, const Pose2& T_map_lidar,
 RefinedPose Refinement::refine(const WallMap& map, const Pose2& start, double reach_m,
                                std::span<const PolarPoint> thin, std::span<const PolarPoint> points,
                                double noise_scale, const PosePrior* prior) {
-  return descend(map, start, reach_m, thin, points, noise_scale, kMaxSteps, prior);
+  RefinedPose refined = descend(map, start, reach_m, thin, points, noise_scale, kMaxSteps, prior);
+  if (refined.valid) {
+    refined.walls = residuals_of_walls(pulls_, refined.covariance / std::max(1.0, refined.spread));
+  }
+  return refined;
 }
 
 RefinedPose Refinement::approach(const WallMap& map, const Pose2& start, double reach_m,

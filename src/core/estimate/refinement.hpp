@@ -2,8 +2,10 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
 #include "core/estimate/point_lanes.hpp"
+#include "core/estimate/wall_doubt.hpp"
 #include "core/map/turn_prediction.hpp"
 #include "core/map/wall_map.hpp"
 #include "core/polar_scan.hpp"
@@ -15,8 +17,9 @@ struct RefinedPose {
   Pose2 T_map_lidar;
   Covariance3 covariance = Covariance3::Zero();  ///< x, y in the map frame, theta
   std::size_t inliers = 0;
-  double rmse_m = 0;   ///< of the inliers' distances to their walls
-  double spread = 0;   ///< of the same in units of the noise: 1 where the model is right
+  double rmse_m = 0;  ///< of the inliers' distances to their walls
+  double spread = 0;  ///< of the same in units of the noise: 1 where the model is right
+  WallResiduals walls;
   bool valid = false;  ///< false: the points do not determine the pose
 };
 
@@ -67,14 +70,15 @@ class Refinement {
   void look(const WallMap& map, const Pose2& T_map_lidar, std::span<const PolarPoint> points,
             double noise_scale, double slack_m);
   /// Of what was looked at last.
-  Step step(const WallMap& map, const Pose2& T_map_lidar, double slack_m) const;
+  Step step(const WallMap& map, const Pose2& T_map_lidar, double slack_m);
 
   SensorNoise noise_;
   TurnPrediction prediction_;
   PointLanes lanes_;
   std::span<const PolarPoint> seen_;  ///< the points in the lanes, and that `hits_` belong to
   std::span<const PredictedHit> hits_;
-  Pose2 T_map_seen_;  ///< where `hits_` were predicted from
+  std::vector<FacePull> pulls_;  ///< of the last step
+  Pose2 T_map_seen_;             ///< where `hits_` were predicted from
 };
 
 }  // namespace cornerd::core
