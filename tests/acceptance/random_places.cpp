@@ -13,7 +13,8 @@ namespace cornerd {
 
 tool::ErrorStatistics localize_random_places(std::shared_ptr<const core::WallMap> building,
                                              std::shared_ptr<const core::WallMap> map,
-                                             const replay::SimulatedRecordingConfig& config) {
+                                             const replay::SimulatedRecordingConfig& config,
+                                             std::size_t turns_each) {
   const test::TemporaryFolder folder;
   const auto recording_file = folder / "recording.ndjson";
   const auto truth_file = folder / "truth.ndjson";
@@ -21,9 +22,9 @@ tool::ErrorStatistics localize_random_places(std::shared_ptr<const core::WallMap
     replay::RecordingWriter recording(recording_file);
     replay::TruthWriter truth(truth_file);
     const auto places =
-        replay::random_places(*building, config.turns, 0.2, config.simulator.seed + 1);
-    replay::simulate_recording(building, replay::visit_places(places, 1), config, recording,
-                               &truth);
+        replay::random_places(*building, config.turns / turns_each, 0.2, config.simulator.seed + 1);
+    replay::simulate_recording(building, replay::visit_places(places, static_cast<int>(turns_each)),
+                               config, recording, &truth);
   }
   const tool::Truth truth = tool::Truth::load(truth_file);
   tool::ErrorStatistics statistics;
@@ -32,7 +33,7 @@ tool::ErrorStatistics localize_random_places(std::shared_ptr<const core::WallMap
     const auto T_map_base = truth.at(result.pose.t_ns);
     if (T_map_base) statistics.add(result.pose, *T_map_base);
   });
-  playback.set_independent(true);
+  playback.set_independent(turns_each == 1);
   playback.play(recording_file, {});
   return statistics;
 }

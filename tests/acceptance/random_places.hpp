@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
 #include <memory>
 
 #include "core/map/wall_map.hpp"
@@ -9,10 +10,11 @@
 
 namespace cornerd {
 
-/// As many turns as `config` has, one at each of that many random places of `building`, through a
-/// recording's bytes, each localized in `map` without a prior.
+/// As many turns as `config` has, so many at each random place of `building`, through a recording's
+/// bytes, localized in `map`: where there is one at each, without a prior.
 tool::ErrorStatistics localize_random_places(std::shared_ptr<const core::WallMap> building,
                                              std::shared_ptr<const core::WallMap> map,
-                                             const replay::SimulatedRecordingConfig& config);
+                                             const replay::SimulatedRecordingConfig& config,
+                                             std::size_t turns_each = 1);
 
 }  // namespace cornerd

@@ -5,6 +5,8 @@
 
 #include <cmath>
 
+#include "core/odometry/motion_step.hpp"
+
 namespace cornerd::core {
 namespace {
 

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+// Who measures walls with a tape is off by a centimetre. Poses in such a map are off as well, and
+// have to say so.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <random>
+#include <utility>
+
+#include "random_places.hpp"
+#include "settings/map_file.hpp"
+
+namespace cornerd {
+namespace {
+
+/// The building, each line of whose walls is off the map by this standard deviation.
+core::FloorPlan moved(core::FloorPlan plan, double sigma_m, std::uint64_t seed) {
+  std::mt19937_64 random(seed);
+  std::normal_distribution<double> off_m(0, sigma_m);
+  std::map<std::pair<int, long>, double> lines;  // along an axis, at so many millimetres
+  const auto off_of = [&](int axis, double at_m) {
+    const auto [line, is_new] = lines.try_emplace({axis, std::lround(1000 * at_m)}, 0);
+    if (is_new) line->second = off_m(random);
+    return line->second;
+  };
+  for (core::Wall& wall : plan.walls) {
+    for (core::Vec2* end : {&wall.from, &wall.to}) {
+      *end += core::Vec2(off_of(0, end->x()), off_of(1, end->y()));
+    }
+  }
+  plan.rooms.clear();
+  return plan;
+}
+
+TEST(InexactMap, PosesInIt_SayHowFarOffItIs) {
+  const auto map =
+      settings::load_map(std::filesystem::path(CORNERD_SOURCE_DIR) / "config/maps/flat-7.json");
+  constexpr int kBuildings = 5;
+  for (const double sigma_m : {0.001, 0.003, 0.01}) {
+    double nees = 0;
+    double error_m = 0;
+    for (std::uint64_t seed = 1; seed <= kBuildings; ++seed) {
+      const auto building =
+          std::make_shared<const core::WallMap>(moved(map->plan(), sigma_m, seed));
+      replay::SimulatedRecordingConfig config;
+      config.simulator.seed = seed;
+      config.turns = 300;
+      const auto statistics = localize_random_places(building, map, config, /*turns_each=*/10);
+      SCOPED_TRACE(statistics.report());
+      EXPECT_EQ(statistics.wrong(), 0U);
+      EXPECT_GE(statistics.count(core::PoseState::kFix), 250U);
+      nees += statistics.mean_nees() / kBuildings;
+      error_m += statistics.mean_error_m() / kBuildings;
+    }
+    EXPECT_GT(error_m, sigma_m / 3);
+    EXPECT_LT(nees, 6) << sigma_m;  // 20 to 500 by the noise of the points alone
+    EXPECT_GT(nees, 2) << sigma_m;
+    RecordProperty("nees_" + std::to_string(std::lround(1000 * sigma_m)) + "_mm",
+                   std::to_string(nees));
+  }
+}
+
+}  // namespace
+}  // namespace cornerd
