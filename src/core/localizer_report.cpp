@@ -16,6 +16,12 @@ Covariance3 doubt_of(double place_m, double heading_rad) {
   return Eigen::Vector3d(squared(place_m), squared(place_m), squared(heading_rad)).asDiagonal();
 }
 
+/// A motion that is not known moves walls against each other, and so do walls that are not where
+/// the map has them: told once, by what says more. A radian counts as a metre.
+Covariance3 larger(const Covariance3& one, const Covariance3& other) {
+  return one.trace() > other.trace() ? one : other;
+}
+
 /// What a bias of 1 % and 5 mm that is not learnt yet does to poses in rooms of a metre or two.
 Covariance3 doubt_of_bias() { return doubt_of(0.006, radians(0.15)); }
 
@@ -88,10 +94,11 @@ void Localizer::Workspace::report_pose(const core::Place& found, std::size_t cor
   pose.T_map_base = T_map_lidar * T_lidar_base;
   memory.remember(T_map_lidar, t_ns, motion);
   place->wall_doubt.add(found.refined.walls);
-  const Covariance3 of_lidar = found.refined.covariance +
-                               place->wall_doubt.doubt_of(found.refined.walls) +
-                               (odometer.knows_motion() ? odometer.doubt_of_motion()
-                                                        : doubt_of_motion(motion, memory.motion()));
+  const Covariance3 of_lidar =
+      found.refined.covariance + larger(place->wall_doubt.doubt_of(found.refined.walls),
+                                        odometer.knows_motion()
+                                            ? odometer.doubt_of_motion()
+                                            : doubt_of_motion(motion, memory.motion()));
   pose.covariance = covariance_of_base(of_lidar, T_map_lidar, pose.T_map_base);
   if (found.refined.spread > kSmearedSpread) {
     pose.covariance += doubt_of_smear(found.refined, pose.state);
