@@ -2,6 +2,7 @@
 #include "core/estimate/wall_doubt.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/geometry/squared.hpp"
 
@@ -37,7 +38,9 @@ WallResiduals residuals_of_walls(std::span<FacePull> pulls, const Covariance3& c
     const Eigen::Vector3d pull(sum.weight * sum.normal.x(), sum.weight * sum.normal.y(), sum.lever);
     // The pose has followed the face by this share, and left so much less of its distance.
     const double followed = pull.dot(covariance * pull) / sum.weight;
-    walls.excess += squared(sum.distance) / sum.weight - kNoiseShare * (1 - followed);
+    const double noise = kNoiseShare * (1 - followed);
+    walls.excess += squared(sum.distance) / sum.weight - noise;
+    walls.chance += 2 * squared(noise);
     walls.per_m2 += squared(kShiftShare) * sum.weight * (1 - followed);
     per_m2 += pull * pull.transpose();
   }
@@ -47,10 +50,15 @@ WallResiduals residuals_of_walls(std::span<FacePull> pulls, const Covariance3& c
 
 void WallDoubt::add(const WallResiduals& seen) {
   excess_ = kKept * excess_ + seen.excess;
+  chance_ = squared(kKept) * chance_ + seen.chance;
   per_m2_ = kKept * per_m2_ + seen.per_m2;
 }
 
-double WallDoubt::variance_m2() const { return excess_ > 0 && per_m2_ > 0 ? excess_ / per_m2_ : 0; }
+double WallDoubt::variance_m2() const {
+  // Half of all turns have some excess by chance.
+  const double excess = excess_ - std::sqrt(chance_);
+  return excess > 0 && per_m2_ > 0 ? excess / per_m2_ : 0;
+}
 
 Covariance3 WallDoubt::doubt_of(const WallResiduals& seen) const {
   return variance_m2() * seen.covariance_per_m2;

@@ -22,7 +22,8 @@ struct FacePull {
 /// range's bias that is not learnt, a turn smeared by its motion.
 struct WallResiduals {
   double excess = 0;  ///< of the faces' mean distances, beyond what the points' noise explains
-  double per_m2 = 0;  ///< what faces off by a variance of 1 m^2 would add to that
+  double chance = 0;  ///< variance of the excess where no face is off
+  double per_m2 = 0;  ///< what faces off by a variance of 1 m^2 would add to it
   /// What such faces add to the covariance of the pose (x, y, theta).
   Covariance3 covariance_per_m2 = Covariance3::Zero();
 };
@@ -42,6 +43,7 @@ class WallDoubt {
 
  private:
   double excess_ = 0;  ///< of the turns so far, fading
+  double chance_ = 0;
   double per_m2_ = 0;
 };
 
