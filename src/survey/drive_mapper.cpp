@@ -35,6 +35,8 @@ constexpr double kSurprise_rad = core::radians(9);
 constexpr std::size_t kMostGuesses = 3;
 /// Of the samples on walls, in the turn that ends them.
 constexpr double kFoundAgainShare = 0.6;
+/// And in the first one after a pause in which the robot may have gone anywhere: it has not.
+constexpr double kUnmovedShare = 0.8;
 /// Each tells the turn's motion better, and that bends the turn less.
 constexpr int kStraightenings = 2;
 
@@ -98,8 +100,9 @@ class Mapper {
     // Adjusted already, or the one that the map's frame is.
     const bool known = turn == 0 || (before_ && share > kEnoughShare);
     bool is_placed = known;
+    TurnMatch match;
     if (!known) {
-      const TurnMatch match = guesses_ > kMostGuesses ? TurnMatch() : find(prior);
+      if (guesses_ <= kMostGuesses) match = find(prior);
       share = match.matched_share;
       is_placed = match.valid;
       if (match.valid) {
@@ -114,6 +117,7 @@ class Mapper {
         TurnMatcher::assign(sightings_, result_.faces, T_map_lidar, kExactReach, faces_of_);
       }
     }
+    if (prior.after_pause && !known && !has_stayed(match)) result_.lost_turns.push_back(turn);
     // Where nothing but the walls tells the way, a turn that fits badly has lost it.
     begins_faces_ = turn == 0 || prior.by_odometry || (is_placed && share > kLeastShareAlone);
     if (result_.has_odometry && turn > 0 && !prior.by_odometry) {
@@ -124,6 +128,10 @@ class Mapper {
     // A guess is no place to guess on from: without odometry it is the doubt that grows.
     guesses_ = result_.has_odometry || is_placed ? 0 : guesses_ + 1;
     if (guesses_ == 0) reader_.place(T_map_lidar, covariance);
+  }
+
+  static bool has_stayed(const TurnMatch& match) {
+    return match.valid && match.matched_share > kUnmovedShare && match.by_walls();
   }
 
   TurnMatch find(const TurnPrior& prior) {

@@ -50,6 +50,9 @@ struct MappedDrive {
   std::vector<MappedFace> faces;
   std::vector<Observation> observations;
   std::vector<std::size_t> strange_turns;  ///< whose walls did not tell where they are
+  /// The first ones after a pause of turns and readings, which show another place than the last
+  /// ones before it.
+  std::vector<std::size_t> lost_turns;
   /// Without odometry: whose walls told nothing of one direction, in which a guess stands.
   std::vector<std::size_t> blind_turns;
   /// Of a drive with odometry, turns that it did not lead to: as wheels and lidar had told

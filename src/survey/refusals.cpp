@@ -52,6 +52,22 @@ void refuse_without_overlap(const RecordedDrive& recorded, const MappedDrive& dr
                "; drive more slowly there, or record the odometry too");
 }
 
+void refuse_pauses(const RecordedDrive& recorded, const MappedDrive& drive) {
+  if (drive.lost_turns.empty()) return;
+  const std::size_t turn = drive.lost_turns.front();
+  const auto after_start = [&](core::TimeNs t_ns) {
+    std::array<char, 32> text{};
+    std::snprintf(text.data(), text.size(), "%.1f", core::to_seconds(t_ns - recorded.start_ns(0)));
+    return std::string(text.data());
+  };
+  throw std::invalid_argument("no turn of the lidar from " +
+                              after_start(recorded.end_ns(turn - 1)) + " to " +
+                              after_start(recorded.start_ns(turn)) +
+                              " s after the start, no odometry that tells how the robot moved "
+                              "meanwhile, and it sees another place then; survey the parts one by "
+                              "one, or record anew");
+}
+
 void refuse_unchecked_guesses(const RecordedDrive& recorded, std::span<const std::size_t> blind,
                               std::span<const LoopReport> loops) {
   if (are_few(blind, recorded)) return;

@@ -19,6 +19,9 @@ void refuse_too_few_turns(const RecordedDrive& recorded, std::size_t needed);
 /// Without odometry nothing else tells the way: a drive that lost it gives no map.
 void refuse_without_overlap(const RecordedDrive& recorded, const MappedDrive& drive);
 
+/// Where the robot went while neither turns nor readings came, nobody knows.
+void refuse_pauses(const RecordedDrive& recorded, const MappedDrive& drive);
+
 /// Where walls along the way are all that is seen, the length of the way is a guess: only a place
 /// beyond that is recognised again can show that it was good enough.
 void refuse_unchecked_guesses(const RecordedDrive& recorded, std::span<const std::size_t> blind,

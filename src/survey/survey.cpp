@@ -115,6 +115,7 @@ SurveyResult survey(const RecordedDrive& recorded, const SurveyConfig& config,
   const double half = recorded.has_wheels() ? 0.3 : 0.15;
   MappedDrive first =
       map_drive(recorded, config.sensor, nullptr, shares.pass("finding the way", 0, half));
+  refuse_pauses(recorded, first);
   if (!first.has_odometry) {
     // Its turns were straightened by guesses. The way that they gave tells the motion of each; what
     // was mapped with them is of no use any more.

@@ -21,6 +21,9 @@ constexpr double kWayShare = 0.05;
 constexpr double kTurnShare = 0.03;
 constexpr double kTurnShareOfWheels = 0.2;
 
+/// Turns that are missing for so long leave the robot time to go elsewhere.
+constexpr core::TimeNs kPause_ns = core::kNsPerSecond * 3 / 4;
+
 core::OdometryConfig patient(core::OdometryConfig config, bool has_readings,
                              const std::optional<core::LearnedOdometry>& learned) {
   constexpr double kAlways_s = 1e9;
@@ -91,7 +94,10 @@ void TurnReader::predict(core::TimeNs t_ns) {
     prior_.covariance = diagonal(1e-6, 1e-7);
     return;
   }
-  if (const auto predicted = odometer_.prediction()) {
+  prior_.after_pause = is_after_pause(t_ns);
+  holes_ = odometer_.summary().counters.holes;
+  const auto predicted = odometer_.prediction();
+  if (predicted && !prior_.after_pause) {
     prior_.T_map_lidar = predicted->T_map_base * config_.T_base_lidar;
     prior_.T_before_now = filtered_T_map_lidar_.inverse() * prior_.T_map_lidar;
     const double turn_share = has_gyro_ ? kTurnShare : kTurnShareOfWheels;
@@ -111,6 +117,11 @@ void TurnReader::predict(core::TimeNs t_ns) {
   prior_.sigma_m = kUnknownMotion_m * grown;
   prior_.sigma_rad = kUnknownMotion_rad * grown;
   prior_.covariance = diagonal(prior_.sigma_m, prior_.sigma_rad);
+}
+
+bool TurnReader::is_after_pause(core::TimeNs t_ns) const {
+  if (t_ns - last_ns_ < kPause_ns) return false;
+  return !odometer_.prediction() || odometer_.summary().counters.holes > holes_;
 }
 
 bool TurnReader::is_contradicted() const {

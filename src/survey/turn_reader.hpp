@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <optional>
 #include <span>
@@ -22,6 +23,8 @@ struct TurnPrior {
   double sigma_m = 0;        ///< of that way
   double sigma_rad = 0;
   bool by_odometry = false;
+  /// After a pause in which neither turns nor readings say how the robot moved.
+  bool after_pause = false;
 };
 
 /// Goes through a drive turn by turn: each as a lidar that stood still in its middle would have
@@ -58,6 +61,7 @@ class TurnReader {
  private:
   void hear_readings();
   void predict(core::TimeNs t_ns);
+  bool is_after_pause(core::TimeNs t_ns) const;
   bool is_known(std::size_t turn) const;
   core::Twist2 expected_motion() const;
   core::Twist2 motion_to(const core::Pose2& T_map_lidar) const;
@@ -71,6 +75,7 @@ class TurnReader {
   core::Odometer odometer_;
   std::size_t next_reading_ = 0;
   bool has_gyro_ = false;
+  std::uint64_t holes_ = 0;  ///< in the odometry, up to the turn before
   core::TimeNs heard_ns_ = std::numeric_limits<core::TimeNs>::min();
 
   bool begun_ = false;

@@ -16,7 +16,8 @@ bool is_same_file(const fs::path& one, const fs::path& other) {
   if (one.empty() || other.empty()) return false;
   std::error_code ignored;
   return fs::equivalent(one, other, ignored) ||
-         fs::weakly_canonical(one, ignored) == fs::weakly_canonical(other, ignored);
+         fs::weakly_canonical(fs::absolute(one, ignored), ignored) ==
+             fs::weakly_canonical(fs::absolute(other, ignored), ignored);
 }
 
 /// As /dev/null, which keeps nothing that could be written over.
