@@ -94,7 +94,7 @@ void TurnReader::predict(core::TimeNs t_ns) {
     prior_.covariance = diagonal(1e-6, 1e-7);
     return;
   }
-  prior_.after_pause = is_after_pause(t_ns);
+  prior_.after_pause = is_after_pause();
   holes_ = odometer_.summary().counters.holes;
   const auto predicted = odometer_.prediction();
   if (predicted && !prior_.after_pause) {
@@ -119,8 +119,8 @@ void TurnReader::predict(core::TimeNs t_ns) {
   prior_.covariance = diagonal(prior_.sigma_m, prior_.sigma_rad);
 }
 
-bool TurnReader::is_after_pause(core::TimeNs t_ns) const {
-  if (t_ns - last_ns_ < kPause_ns) return false;
+bool TurnReader::is_after_pause() const {
+  if (drive_.start_ns(turn_) - drive_.end_ns(turn_ - 1) < kPause_ns) return false;
   return !odometer_.prediction() || odometer_.summary().counters.holes > holes_;
 }
 

@@ -61,7 +61,7 @@ class TurnReader {
  private:
   void hear_readings();
   void predict(core::TimeNs t_ns);
-  bool is_after_pause(core::TimeNs t_ns) const;
+  bool is_after_pause() const;
   bool is_known(std::size_t turn) const;
   core::Twist2 expected_motion() const;
   core::Twist2 motion_to(const core::Pose2& T_map_lidar) const;

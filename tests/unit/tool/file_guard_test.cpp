@@ -54,6 +54,9 @@ TEST_F(FileGuard, TwoOutputsOfOneName_AreWrongUsage) {
   EXPECT_THROW(guard_files({.read = {}, .written = {path("a"), path("./a")}, .output = {}}),
                UsageError);
   EXPECT_THROW(guard_files({.read = {}, .written = {path("a")}, .output = path("a")}), UsageError);
+  // Of the folder that one is in, neither of them there yet.
+  EXPECT_THROW(guard_files({.read = {}, .written = {"./absent.json"}, .output = "absent.json"}),
+               UsageError);
 }
 
 TEST_F(FileGuard, TwoOutputsThatNobodyKeeps_AreLetThrough) {

@@ -2,8 +2,14 @@
 // A drive is simulated, surveyed, and localized in what came of it.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <sstream>
+#include <string>
+
+#include <nlohmann/json.hpp>
 
 #include "command_run.hpp"
 #include "settings/map_file.hpp"
@@ -52,6 +58,18 @@ class SurveyCommandTest : public ::testing::Test {
     }
   }
 
+  /// gap.ndjson: without what the lidar said from 5 to 9 s, in which the robot went on, and perhaps
+  /// what the odometry did.
+  void silence_lidar(const std::string& whole, bool keeps_odometry) const {
+    std::ifstream lines(whole);
+    std::ofstream gap(file("gap.ndjson"));
+    for (std::string line; std::getline(lines, line);) {
+      const double t_s = nlohmann::json::parse(line)["t"];
+      const bool is_odometry = line.find("ODOMETRY") != std::string::npos;
+      if (t_s < 5 || t_s > 9 || (is_odometry && keeps_odometry)) gap << line << "\n";
+    }
+  }
+
   test::TemporaryFolder folder_;
   const std::string arena_ = CORNERD_SOURCE_DIR "/config/maps/krpai-2019-a.json";
 };
@@ -77,6 +95,33 @@ TEST_F(SurveyCommandTest, SimulatedDrive_GivesAMapToLocalizeIn) {
   const CommandRun replay({"replay", file("two.ndjson"), "--map", file("map.json"), "--truth",
                            file("two.truth"), "--classes", "STATUS"});
   EXPECT_NE(replay.err.find("wrong            0"), std::string::npos) << replay.err;
+}
+
+TEST_F(SurveyCommandTest, LidarThatIsSilent_IsBridgedByTheWheels) {
+  simulate(file("one.ndjson"), file("one.truth"), "1");
+  silence_lidar(file("one.ndjson"), /*keeps_odometry=*/true);
+  const CommandRun run(
+      {"survey", file("gap.ndjson"), "-o", file("map.json"), "--trajectory", file("way.ndjson")});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const Truth truth = Truth::load(file("one.truth"));
+  const auto way = Truth::load(file("way.ndjson")).points();
+  const auto is_later = [](const auto& point) { return point.t_ns > 9 * core::kNsPerSecond; };
+  const auto after = std::find_if(way.begin(), way.end(), is_later);
+  ASSERT_NE(after, way.end());
+  const core::Pose2 seen = way.front().T_map_base.inverse() * after->T_map_base;
+  const core::Pose2 driven = truth.at(way.front().t_ns)->inverse() * truth.at(after->t_ns).value();
+  EXPECT_GT(driven.translation().norm() + std::abs(driven.theta_rad), 0.3);
+  EXPECT_LT((seen.translation() - driven.translation()).norm(), 0.01);
+  EXPECT_NEAR(core::angle_between(seen.theta_rad, driven.theta_rad), 0, core::radians(0.5));
+}
+
+TEST_F(SurveyCommandTest, LidarAndWheelsThatAreSilentWhileTheRobotGoesOn_AreRefused) {
+  simulate(file("one.ndjson"), file("one.truth"), "1");
+  silence_lidar(file("one.ndjson"), /*keeps_odometry=*/false);
+  const CommandRun run({"survey", file("gap.ndjson"), "-o", file("map.json")});
+  EXPECT_EQ(run.exit_code, 1) << run.out;
+  EXPECT_NE(run.err.find("no turn of the lidar from 4."), std::string::npos) << run.err;
+  EXPECT_FALSE(std::filesystem::exists(file("map.json")));
 }
 
 TEST_F(SurveyCommandTest, NoTurnInIt_Fails) {
