@@ -113,7 +113,7 @@ void refuse_seen_through(const SeenThrough& through) {
       "the recording does not fit together: " + std::string(text.data()) +
       ", so that places would have been laid over each other; record anew, in one go, without "
       "carrying the robot or moving doors and furniture, and begin each further recording where "
-      "the one before ended");
+      "the one before ended; or measure lidar.noise, where the lidar is much worse than it says");
 }
 
 }  // namespace cornerd::survey
