@@ -99,12 +99,10 @@ class Mapper {
         TurnMatcher::assign(sightings_, result_.faces, T_map_lidar, kExactReach, faces_of_);
     // Adjusted already, or the one that the map's frame is.
     const bool known = turn == 0 || (before_ && share > kEnoughShare);
-    bool is_placed = known;
     TurnMatch match;
     if (!known) {
       if (guesses_ <= kMostGuesses) match = find(prior);
       share = match.matched_share;
-      is_placed = match.valid;
       if (match.valid) {
         T_map_lidar = match.T_map_lidar;
         covariance = match.covariance;
@@ -117,6 +115,7 @@ class Mapper {
         TurnMatcher::assign(sightings_, result_.faces, T_map_lidar, kExactReach, faces_of_);
       }
     }
+    const bool is_placed = known || match.valid;
     if (prior.after_pause && !known && !has_stayed(match)) result_.lost_turns.push_back(turn);
     // Where nothing but the walls tells the way, a turn that fits badly has lost it.
     begins_faces_ = turn == 0 || prior.by_odometry || (is_placed && share > kLeastShareAlone);

@@ -28,6 +28,12 @@ bool are_few(std::span<const std::size_t> turns, const RecordedDrive& recorded) 
   return static_cast<double>(turns.size()) <= kMostGuessed * static_cast<double>(recorded.size());
 }
 
+std::string with_a_tenth(double value) {
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%.1f", value);
+  return text.data();
+}
+
 [[noreturn]] void refuse_turns(const RecordedDrive& recorded, std::span<const std::size_t> turns,
                                const std::string& what, const std::string& advice) {
   const double first_s = core::to_seconds(recorded.start_ns(turns.front()) - recorded.start_ns(0));
@@ -56,9 +62,7 @@ void refuse_pauses(const RecordedDrive& recorded, const MappedDrive& drive) {
   if (drive.lost_turns.empty()) return;
   const std::size_t turn = drive.lost_turns.front();
   const auto after_start = [&](core::TimeNs t_ns) {
-    std::array<char, 32> text{};
-    std::snprintf(text.data(), text.size(), "%.1f", core::to_seconds(t_ns - recorded.start_ns(0)));
-    return std::string(text.data());
+    return with_a_tenth(core::to_seconds(t_ns - recorded.start_ns(0)));
   };
   throw std::invalid_argument("no turn of the lidar from " +
                               after_start(recorded.end_ns(turn - 1)) + " to " +
@@ -87,10 +91,8 @@ bool are_walls_doubled(double doubled_m, std::span<const core::Wall> walls) {
 
 void refuse_doubled_walls(double doubled_m, std::span<const core::Wall> walls) {
   if (!are_walls_doubled(doubled_m, walls)) return;
-  std::array<char, 16> metres{};
-  std::snprintf(metres.data(), metres.size(), "%.1f", doubled_m);
   throw std::invalid_argument(
-      "without odometry, turns do not overlap enough: " + std::string(metres.data()) +
+      "without odometry, turns do not overlap enough: " + with_a_tenth(doubled_m) +
       " m of walls would have been mapped twice, one behind the other; drive more slowly, or "
       "record "
       "the odometry too");

@@ -95,7 +95,7 @@ void TurnReader::predict(core::TimeNs t_ns) {
     return;
   }
   prior_.after_pause = is_after_pause();
-  holes_ = odometer_.summary().counters.holes;
+  holes_ = counters().holes;
   const auto predicted = odometer_.prediction();
   if (predicted && !prior_.after_pause) {
     prior_.T_map_lidar = predicted->T_map_base * config_.T_base_lidar;
@@ -121,7 +121,7 @@ void TurnReader::predict(core::TimeNs t_ns) {
 
 bool TurnReader::is_after_pause() const {
   if (drive_.start_ns(turn_) - drive_.end_ns(turn_ - 1) < kPause_ns) return false;
-  return !odometer_.prediction() || odometer_.summary().counters.holes > holes_;
+  return !odometer_.prediction() || counters().holes > holes_;
 }
 
 bool TurnReader::is_contradicted() const {
