@@ -42,14 +42,14 @@ struct StreamCounters {
   std::uint64_t bytes = 0;  ///< all that came; each ends up in used_bytes or in skipped_bytes
   std::uint64_t used_bytes = 0;
   std::uint64_t samples = 0;  ///< all that were decoded
-  std::uint64_t turns = 0;
+  std::uint64_t scans = 0;
   std::uint64_t skipped_bytes = 0;      ///< belonged to no packet: banner, stale or damaged bytes
   std::uint64_t bad_checksums = 0;      ///< capsules whose checksum is wrong
   std::uint64_t lost_capsules = 0;      ///< holes seen in the capsules' start angles
   std::uint64_t bad_nodes = 0;          ///< standard nodes whose check bits are wrong
   std::uint64_t resyncs = 0;            ///< times that the packet boundary had to be found anew
   std::uint64_t unpaired_capsules = 0;  ///< capsules without the next one that their angles need
-  std::uint64_t false_turn_marks = 0;   ///< start flags in the middle of a turn
+  std::uint64_t false_scan_starts = 0;  ///< start flags in the middle of a turn
   std::uint64_t clock_resets = 0;       ///< times that the sample clock had to be fitted anew
   std::uint64_t untimed_samples = 0;  ///< not delivered: when they were measured is not known (yet)
 };

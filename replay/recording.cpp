@@ -142,12 +142,12 @@ class RecordingPlayer::Implementation {
 
   void play(message::RecordedScan& scan, RecordingSink& sink) {
     if (!is_input(Input::kScans) || scan.samples.empty()) return;
-    scan.samples.front().starts_turn = true;
-    scan.samples.back().ends_turn = true;
+    scan.samples.front().starts_scan = true;
+    scan.samples.back().ends_scan = true;
     for (const core::Sample& sample : scan.samples) sink.on_sample(sample);
     time_ns_ = scan.samples.back().t_ns;
     scan_counters_.samples += scan.samples.size();
-    ++scan_counters_.turns;
+    ++scan_counters_.scans;
   }
 
   void play(const message::RecordedBytes& bytes, RecordingSink& sink) {

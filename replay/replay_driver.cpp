@@ -87,15 +87,15 @@ class ReplayDriver::Pacer : public RecordingSink {
   }
 
   void measure_rates(const core::Sample& sample) {
-    if (!sample.starts_turn) return;
-    const double turn_s = core::to_seconds(sample.t_ns - turn_start_ns_);
-    if (turn_begun_ && turn_s > 0) {
-      rate_hz_ = 1 / turn_s;
-      samples_hz_ = static_cast<double>(samples_ - turn_start_samples_) / turn_s;
+    if (!sample.starts_scan) return;
+    const double scan_s = core::to_seconds(sample.t_ns - scan_start_ns_);
+    if (scan_begun_ && scan_s > 0) {
+      rate_hz_ = 1 / scan_s;
+      samples_hz_ = static_cast<double>(samples_ - scan_start_samples_) / scan_s;
     }
-    turn_begun_ = true;
-    turn_start_ns_ = sample.t_ns;
-    turn_start_samples_ = samples_;
+    scan_begun_ = true;
+    scan_start_ns_ = sample.t_ns;
+    scan_start_samples_ = samples_;
   }
 
   ReplayDriver& driver_;
@@ -110,9 +110,9 @@ class ReplayDriver::Pacer : public RecordingSink {
   std::uint64_t samples_ = 0;
   std::uint64_t samples_of_pass_ = 0;
   bool first_of_pass_ = true;
-  bool turn_begun_ = false;
-  core::TimeNs turn_start_ns_ = 0;
-  std::uint64_t turn_start_samples_ = 0;
+  bool scan_begun_ = false;
+  core::TimeNs scan_start_ns_ = 0;
+  std::uint64_t scan_start_samples_ = 0;
   double rate_hz_ = 0;
   double samples_hz_ = 0;
 };

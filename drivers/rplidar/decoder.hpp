@@ -20,7 +20,7 @@ struct RawSample {
   std::uint16_t angle_q6 = 0;  ///< degrees * 64, below 360 * 64
   std::uint32_t dist_q2 = 0;   ///< millimetres * 4; 0: nothing returned
   std::uint8_t quality = 0;    ///< 0..63; express and ultra carry none: 47 with a return, else 0
-  bool starts_turn = false;    ///< decided by the angle; the device's own flag only supports it
+  bool starts_scan = false;    ///< decided by the angle; the device's own flag only supports it
 };
 
 class RawSampleSink {

@@ -4,25 +4,25 @@
 namespace cornerd::rplidar {
 namespace {
 
-constexpr int kBlindTurns = 20;
+constexpr int kEmptyScans = 20;
 constexpr std::size_t kMinReturnsPercent = 1;
 
 }  // namespace
 
 void LiveSink::on_sample(const core::Sample& sample) {
-  if (sample.starts_turn) end_turn();
-  ++turn_samples_;
+  if (sample.starts_scan) end_scan();
+  ++scan_samples_;
   if (sample.range_m > 0) ++turn_returns_;
   board_.count(sample);
   next_.on_sample(sample);
 }
 
-bool LiveSink::blind() const { return blind_turns_ >= kBlindTurns; }
+bool LiveSink::blind() const { return empty_scans_ >= kEmptyScans; }
 
-void LiveSink::end_turn() {
-  const bool sees = turn_returns_ * 100 >= turn_samples_ * kMinReturnsPercent;
-  blind_turns_ = sees ? 0 : blind_turns_ + 1;
-  turn_samples_ = 0;
+void LiveSink::end_scan() {
+  const bool sees = turn_returns_ * 100 >= scan_samples_ * kMinReturnsPercent;
+  empty_scans_ = sees ? 0 : empty_scans_ + 1;
+  scan_samples_ = 0;
   turn_returns_ = 0;
 }
 

@@ -21,13 +21,13 @@ class LiveSink : public drivers::SampleSink {
   bool blind() const;
 
  private:
-  void end_turn();
+  void end_scan();
 
   drivers::SampleSink& next_;
   StatusBoard& board_;
-  std::size_t turn_samples_ = 0;
+  std::size_t scan_samples_ = 0;
   std::size_t turn_returns_ = 0;
-  int blind_turns_ = 0;
+  int empty_scans_ = 0;
 };
 
 }  // namespace cornerd::rplidar

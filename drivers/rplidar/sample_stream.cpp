@@ -54,7 +54,7 @@ Packet packet_of(WireFormat format) {
 float bearing_of(std::uint16_t angle_q6, bool inverted) {
   constexpr float kRadian = 3.14159265358979F / 180 / 64;
   constexpr float kLargest = 3.1415925F;  // the last float below pi
-  const int angle = angle_q6 <= kFullTurnQ6 / 2 ? angle_q6 : angle_q6 - kFullTurnQ6;
+  const int angle = angle_q6 <= kFullRevolutionQ6 / 2 ? angle_q6 : angle_q6 - kFullRevolutionQ6;
   const float bearing = static_cast<float>(inverted ? angle : -angle) * kRadian;
   return std::clamp(bearing, -kLargest, kLargest);
 }
@@ -159,7 +159,7 @@ class SampleStream::Implementation : private RawSampleSink {
                       .bearing_rad = bearing_of(raw.angle_q6, config_.inverted),
                       .range_m = static_cast<float>(raw.dist_q2) / 4000,
                       .quality = raw.quality,
-                      .starts_turn = raw.starts_turn});
+                      .starts_scan = raw.starts_scan});
   }
 
   void on_gap() override {

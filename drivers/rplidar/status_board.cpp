@@ -60,7 +60,7 @@ void StatusBoard::begin_stream() {
   status_.rate_hz = 0;
   status_.samples_hz = 0;
   samples_ = 0;
-  turns_ = 0;
+  scans_ = 0;
 }
 
 void StatusBoard::end_stream(drivers::StreamCounters of_stream) {
@@ -74,9 +74,9 @@ void StatusBoard::end_stream(drivers::StreamCounters of_stream) {
 void StatusBoard::count(const core::Sample& sample) {
   if (samples_++ == 0) first_ns_ = sample.t_ns;
   last_ns_ = sample.t_ns;
-  if (!sample.starts_turn) return;
-  if (turns_++ == 0) first_turn_ns_ = sample.t_ns;
-  last_turn_ns_ = sample.t_ns;
+  if (!sample.starts_scan) return;
+  if (scans_++ == 0) first_scan_ns_ = sample.t_ns;
+  last_scan_ns_ = sample.t_ns;
 }
 
 void StatusBoard::update(const drivers::StreamCounters& of_stream, const core::Lateness& lateness,
@@ -98,10 +98,10 @@ void StatusBoard::measure_rates() {
   }
   status_.samples_hz = rate_hz(samples_ - 1, last_ns_ - first_ns_);
   samples_ = 0;
-  if (turns_ < 2) return;
-  status_.rate_hz = rate_hz(turns_ - 1, last_turn_ns_ - first_turn_ns_);
-  turns_ = 1;
-  first_turn_ns_ = last_turn_ns_;
+  if (scans_ < 2) return;
+  status_.rate_hz = rate_hz(scans_ - 1, last_scan_ns_ - first_scan_ns_);
+  scans_ = 1;
+  first_scan_ns_ = last_scan_ns_;
 }
 
 }  // namespace cornerd::rplidar

@@ -52,9 +52,9 @@ class StatusBoard {
   std::uint64_t samples_ = 0;  ///< since first_ns_
   core::TimeNs first_ns_ = 0;
   core::TimeNs last_ns_ = 0;
-  std::uint64_t turns_ = 0;  ///< turn marks since first_turn_ns_, that one included
-  core::TimeNs first_turn_ns_ = 0;
-  core::TimeNs last_turn_ns_ = 0;
+  std::uint64_t scans_ = 0;  ///< turn marks since first_scan_ns_, that one included
+  core::TimeNs first_scan_ns_ = 0;
+  core::TimeNs last_scan_ns_ = 0;
 
   core::Latest<drivers::LidarStatus> latest_;
   /// A dozen of tries; whoever reads them comes by more often than that.

@@ -15,60 +15,60 @@ constexpr double kFarthestSampleRad = core::radians(1.0);
 }  // namespace
 
 /// Cuts the samples into turns and keeps those that a step of the player has completed.
-class RecordedScene::TurnCollector : public RecordingSink {
+class RecordedScene::ScanCollector : public RecordingSink {
  public:
   void on_sample(const core::Sample& sample) override {
-    if (assembler_.add(sample, turn_)) keep();
+    if (assembler_.add(sample, scan_)) keep();
   }
   void on_gap() override { finish(); }
   void on_odometry(const message::OdometryReading&) override {}
 
   void finish() {
-    if (assembler_.finish(turn_)) keep();
+    if (assembler_.finish(scan_)) keep();
   }
 
-  std::deque<std::vector<Return>> turns;
+  std::deque<std::vector<Return>> scans;
 
  private:
   void keep() {
-    std::vector<Return>& returns = turns.emplace_back();
-    returns.reserve(turn_.size());
-    for (const core::Sample& sample : turn_.samples()) {
+    std::vector<Return>& returns = scans.emplace_back();
+    returns.reserve(scan_.size());
+    for (const core::Sample& sample : scan_.samples()) {
       returns.push_back({sample.bearing_rad, sample.range_m});
     }
     std::sort(returns.begin(), returns.end(),
               [](const Return& a, const Return& b) { return a.bearing_rad < b.bearing_rad; });
   }
 
-  core::TurnAssembler assembler_;
-  core::Scan turn_;
+  core::ScanAssembler assembler_;
+  core::Scan scan_;
 };
 
 RecordedScene::RecordedScene(std::filesystem::path file, const RecordingOptions& options)
     : file_(std::move(file)), options_(options) {
   open();
-  load_next_turn();
+  load_next_scan();
 }
 
 RecordedScene::~RecordedScene() = default;
 
 void RecordedScene::open() {
   player_ = std::make_unique<RecordingPlayer>(file_, options_);
-  turns_ = std::make_unique<TurnCollector>();
+  scans_ = std::make_unique<ScanCollector>();
 }
 
-void RecordedScene::load_next_turn() {
+void RecordedScene::load_next_scan() {
   bool began_anew = false;
-  while (turns_->turns.empty()) {
-    if (player_->step(*turns_)) continue;
-    turns_->finish();
-    if (!turns_->turns.empty()) break;
+  while (scans_->scans.empty()) {
+    if (player_->step(*scans_)) continue;
+    scans_->finish();
+    if (!scans_->scans.empty()) break;
     if (began_anew) throw RecordingError(file_.string() + ": holds no whole turn of a lidar");
     began_anew = true;
     open();
   }
-  returns_ = std::move(turns_->turns.front());
-  turns_->turns.pop_front();
+  returns_ = std::move(scans_->scans.front());
+  scans_->scans.pop_front();
 }
 
 double RecordedScene::nearest_range(double bearing_rad) const {
@@ -84,11 +84,11 @@ double RecordedScene::nearest_range(double bearing_rad) const {
   return to_next < to_previous ? next.range_m : previous.range_m;
 }
 
-double RecordedScene::range_along(core::TimeNs, std::int64_t turn, const core::Vec2& origin,
+double RecordedScene::range_along(core::TimeNs, std::int64_t scan, const core::Vec2& origin,
                                   double bearing_rad) {
-  if (turn > turn_) {
-    turn_ = turn;
-    load_next_turn();
+  if (scan > scan_) {
+    scan_ = scan;
+    load_next_scan();
   }
   // A ray that passes the axis at a distance meets each circle around it at another bearing.
   const double left_m = core::cross(core::unit_vector(bearing_rad), origin);

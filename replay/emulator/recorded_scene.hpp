@@ -21,25 +21,25 @@ class RecordedScene : public Scene {
   RecordedScene(std::filesystem::path file, const RecordingOptions& options);
   ~RecordedScene() override;
 
-  double range_along(core::TimeNs t_ns, std::int64_t turn, const core::Vec2& origin,
+  double range_along(core::TimeNs t_ns, std::int64_t scan, const core::Vec2& origin,
                      double bearing_rad) override;
 
  private:
-  class TurnCollector;
+  class ScanCollector;
   struct Return {
     double bearing_rad = 0;
     double range_m = 0;
   };
 
   void open();
-  void load_next_turn();
+  void load_next_scan();
   double nearest_range(double bearing_rad) const;
 
   std::filesystem::path file_;
   RecordingOptions options_;
   std::unique_ptr<RecordingPlayer> player_;
-  std::unique_ptr<TurnCollector> turns_;
-  std::int64_t turn_ = 0;
+  std::unique_ptr<ScanCollector> scans_;
+  std::int64_t scan_ = 0;
   std::vector<Return> returns_;  ///< of the turn in force, by bearing, empty ones too
 };
 

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "core/map/turn_prediction.hpp"
+#include "core/map/ray_caster.hpp"
 #include "core/map/wall_map.hpp"
 #include "core/polar_scan.hpp"
 
@@ -79,7 +79,7 @@ class CornerTruth {
   void find_shadow_ends(std::span<const core::PolarPoint> points);
 
   const core::WallMap& map_;
-  core::TurnPrediction prediction_;
+  core::RayCaster prediction_;
   std::vector<Sides> sides_;  ///< as the map's corners
   std::vector<Met> met_;
   std::vector<SeenCorner> corners_;

@@ -17,9 +17,9 @@ class CoverableScene : public Scene {
 
   void cover(bool covered) { covered_.store(covered, std::memory_order_relaxed); }
 
-  double range_along(core::TimeNs t_ns, std::int64_t turn, const core::Vec2& origin,
+  double range_along(core::TimeNs t_ns, std::int64_t scan, const core::Vec2& origin,
                      double bearing_rad) override {
-    const double range_m = scene_->range_along(t_ns, turn, origin, bearing_rad);
+    const double range_m = scene_->range_along(t_ns, scan, origin, bearing_rad);
     return covered_.load(std::memory_order_relaxed) ? 0 : range_m;
   }
 

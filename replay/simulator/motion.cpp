@@ -43,7 +43,7 @@ struct Leg {
   double start_s = 0;
   core::Pose2 from;
   core::Vec2 way_m = core::Vec2::Zero();
-  double turn_rad = 0;
+  double rotation_rad = 0;
   Profile profile;
 };
 
@@ -67,7 +67,7 @@ class Drive {
     for (std::size_t i = 1; i < stops.size(); ++i) go_to(stops[i]);
     if (config.loop) {
       go_to(stops[0]);
-      turn_to(first_heading_rad);
+      rotate_to(first_heading_rad);
     }
   }
 
@@ -80,7 +80,7 @@ class Drive {
     const Leg& leg = after == legs_.begin() ? legs_.front() : *(after - 1);
     const double share = leg.profile.share(t_s - leg.start_s);
     return {leg.from.x_m + leg.way_m.x() * share, leg.from.y_m + leg.way_m.y() * share,
-            core::normalize_angle(leg.from.theta_rad + leg.turn_rad * share)};
+            core::normalize_angle(leg.from.theta_rad + leg.rotation_rad * share)};
   }
 
  private:
@@ -88,18 +88,18 @@ class Drive {
     return std::atan2(to.y() - from.y(), to.x() - from.x());
   }
 
-  void turn_to(double heading_rad) {
-    const double turn_rad = core::angle_between(end_.theta_rad, heading_rad);
-    if (turn_rad == 0) return;
-    const Profile profile(std::abs(turn_rad), config_.yaw_rate_rad_s,
+  void rotate_to(double heading_rad) {
+    const double rotation_rad = core::angle_between(end_.theta_rad, heading_rad);
+    if (rotation_rad == 0) return;
+    const Profile profile(std::abs(rotation_rad), config_.yaw_rate_rad_s,
                           config_.yaw_acceleration_rad_s2);
-    legs_.push_back({length_s_, end_, core::Vec2::Zero(), turn_rad, profile});
+    legs_.push_back({length_s_, end_, core::Vec2::Zero(), rotation_rad, profile});
     end_.theta_rad = heading_rad;
     length_s_ += profile.duration_s();
   }
 
   void go_to(const core::Vec2& point) {
-    turn_to(heading(end_.translation(), point));
+    rotate_to(heading(end_.translation(), point));
     const core::Vec2 way = point - end_.translation();
     const Profile profile(way.norm(), config_.speed_m_s, config_.acceleration_m_s2);
     legs_.push_back({length_s_, end_, way, 0, profile});
@@ -119,12 +119,12 @@ Motion stand_still(const core::Pose2& T_map_base) {
   return [T_map_base](core::TimeNs, std::int64_t) { return T_map_base; };
 }
 
-Motion visit_places(std::vector<core::Pose2> places, std::int64_t turns_each) {
+Motion visit_places(std::vector<core::Pose2> places, std::int64_t scans_each) {
   if (places.empty()) throw std::invalid_argument("there is no place to visit");
-  if (turns_each < 1) throw std::invalid_argument("a visit takes at least one turn");
-  return [places = std::move(places), turns_each](core::TimeNs, std::int64_t turn) {
+  if (scans_each < 1) throw std::invalid_argument("a visit takes at least one turn");
+  return [places = std::move(places), scans_each](core::TimeNs, std::int64_t scan) {
     const auto last = static_cast<std::int64_t>(places.size()) - 1;
-    const std::int64_t index = std::clamp<std::int64_t>(turn / turns_each, 0, last);
+    const std::int64_t index = std::clamp<std::int64_t>(scan / scans_each, 0, last);
     return places[static_cast<std::size_t>(index)];
   };
 }

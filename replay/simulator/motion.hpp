@@ -13,13 +13,13 @@ namespace cornerd::replay {
 
 /// The pose of `base` in `map`, at a time since the start and in a turn of the sensor. Turn 0 is
 /// the first whole one; what comes before it is turn -1.
-using Motion = std::function<core::Pose2(core::TimeNs t_ns, std::int64_t turn)>;
+using Motion = std::function<core::Pose2(core::TimeNs t_ns, std::int64_t scan)>;
 
 Motion stand_still(const core::Pose2& T_map_base);
 
 /// Stands at each place for some turns of the sensor, then is at the next one at once; stays at the
-/// last. Throws std::invalid_argument where `places` is empty or `turns_each` is not positive.
-Motion visit_places(std::vector<core::Pose2> places, std::int64_t turns_each);
+/// last. Throws std::invalid_argument where `places` is empty or `scans_each` is not positive.
+Motion visit_places(std::vector<core::Pose2> places, std::int64_t scans_each);
 
 struct DriveConfig {
   double speed_m_s = 0.2;

@@ -37,10 +37,10 @@ class RotatingHead {
 
   Position next() {
     const Position position = now_;
-    const double turn = std::floor(now_.angle_deg / 360);
+    const double scan = std::floor(now_.angle_deg / 360);
     now_.t_ns += period_ns_;
     now_.angle_deg += step_deg();
-    if (std::floor(now_.angle_deg / 360) > turn) draw_rate();
+    if (std::floor(now_.angle_deg / 360) > scan) draw_rate();
     return position;
   }
 

@@ -15,9 +15,9 @@ MapScene::MapScene(std::shared_ptr<const core::WallMap> map, Motion motion,
                    const core::Pose2& T_base_lidar)
     : map_(std::move(map)), motion_(std::move(motion)), T_base_lidar_(T_base_lidar) {}
 
-double MapScene::range_along(core::TimeNs t_ns, std::int64_t turn, const core::Vec2& origin,
+double MapScene::range_along(core::TimeNs t_ns, std::int64_t scan, const core::Vec2& origin,
                              double bearing_rad) {
-  const core::Pose2 T_map_lidar = motion_(t_ns, turn) * T_base_lidar_;
+  const core::Pose2 T_map_lidar = motion_(t_ns, scan) * T_base_lidar_;
   return map_->range_along(T_map_lidar * origin, T_map_lidar.theta_rad + bearing_rad, kSightM);
 }
 

@@ -18,7 +18,7 @@ class Scene {
 
   /// Distance along a ray in the lidar's frame; 0: nothing there. Times and turns of successive
   /// calls do not decrease.
-  virtual double range_along(core::TimeNs t_ns, std::int64_t turn, const core::Vec2& origin,
+  virtual double range_along(core::TimeNs t_ns, std::int64_t scan, const core::Vec2& origin,
                              double bearing_rad) = 0;
 };
 
@@ -28,11 +28,11 @@ class MapScene : public Scene {
   MapScene(std::shared_ptr<const core::WallMap> map, Motion motion,
            const core::Pose2& T_base_lidar = {});
 
-  double range_along(core::TimeNs t_ns, std::int64_t turn, const core::Vec2& origin,
+  double range_along(core::TimeNs t_ns, std::int64_t scan, const core::Vec2& origin,
                      double bearing_rad) override;
 
   /// The truth: the pose of `base`.
-  core::Pose2 T_map_base(core::TimeNs t_ns, std::int64_t turn) const { return motion_(t_ns, turn); }
+  core::Pose2 T_map_base(core::TimeNs t_ns, std::int64_t scan) const { return motion_(t_ns, scan); }
 
  private:
   std::shared_ptr<const core::WallMap> map_;

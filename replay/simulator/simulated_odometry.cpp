@@ -62,9 +62,9 @@ void SimulatedOdometry::roll(core::TimeNs to_ns) {
   const core::Pose2 T_map_next = motion_(to_ns, 0);
   const core::Pose2 way = T_map_base_.inverse() * T_map_next;
   const double dt_s = core::to_seconds(to_ns - now_ns_);
-  const double turn_rad = way.theta_rad;
-  const double way_m = way.x_m * std::cos(turn_rad / 2) + way.y_m * std::sin(turn_rad / 2);
-  const double half_m = turn_rad * model_.geometry.track_m * (1 + model_.track_scale) / 2;
+  const double rotation_rad = way.theta_rad;
+  const double way_m = way.x_m * std::cos(rotation_rad / 2) + way.y_m * std::sin(rotation_rad / 2);
+  const double half_m = rotation_rad * model_.geometry.track_m * (1 + model_.track_scale) / 2;
   double left_m = rolled(way_m - half_m, model_.left_scale);
   double right_m = rolled(way_m + half_m, model_.right_scale);
 
@@ -78,7 +78,7 @@ void SimulatedOdometry::roll(core::TimeNs to_ns) {
 
   left_m_ += left_m;
   right_m_ += right_m;
-  rate_rad_s_ = turn_rad / dt_s;
+  rate_rad_s_ = rotation_rad / dt_s;
   T_map_base_ = T_map_next;
   now_ns_ = to_ns;
 }

@@ -32,9 +32,9 @@ class TruthSampler {
 
   void add(const SimulatedSample& sample) {
     if (writer_ == nullptr) return;
-    const bool new_turn = sample.turn != last_.turn;
-    if (new_turn && has_last_) write(last_);
-    if (new_turn || !has_last_ || sample.t_ns >= written_ns_ + kTruthPeriodNs) write(sample);
+    const bool new_scan = sample.scan != last_.scan;
+    if (new_scan && has_last_) write(last_);
+    if (new_scan || !has_last_ || sample.t_ns >= written_ns_ + kTruthPeriodNs) write(sample);
     last_ = sample;
     has_last_ = true;
   }
@@ -48,7 +48,7 @@ class TruthSampler {
  private:
   void write(const SimulatedSample& sample) {
     if (sample.t_ns == written_ns_) return;
-    writer_->add(sample.t_ns, motion_(sample.t_ns, sample.turn));
+    writer_->add(sample.t_ns, motion_(sample.t_ns, sample.scan));
     written_ns_ = sample.t_ns;
   }
 
@@ -68,10 +68,10 @@ class CoveredScene final : public MapScene {
         from_ns_(config.covered_from_ns),
         to_ns_(config.covered_to_ns) {}
 
-  double range_along(core::TimeNs t_ns, std::int64_t turn, const core::Vec2& origin,
+  double range_along(core::TimeNs t_ns, std::int64_t scan, const core::Vec2& origin,
                      double bearing_rad) override {
     if (t_ns >= from_ns_ && t_ns < to_ns_) return 0;
-    return MapScene::range_along(t_ns, turn, origin, bearing_rad);
+    return MapScene::range_along(t_ns, scan, origin, bearing_rad);
   }
 
  private:
@@ -150,7 +150,7 @@ SimulatedRecordingSummary simulate_recording(std::shared_ptr<const core::WallMap
                                              const Motion& motion,
                                              const SimulatedRecordingConfig& config,
                                              RecordingWriter& recording, TruthWriter* truth) {
-  if (config.turns < 1) throw std::invalid_argument("a recording takes at least one turn");
+  if (config.scans < 1) throw std::invalid_argument("a recording takes at least one turn");
   if (!(config.byte_fault_share >= 0 && config.byte_fault_share < 1)) {
     throw std::invalid_argument("the share of bad bytes must be in [0, 1)");
   }
@@ -174,7 +174,7 @@ SimulatedRecordingSummary simulate_recording(std::shared_ptr<const core::WallMap
     for (const SimulatedSample& sample : packet.samples) {
       truth_sampler.add(sample);
       summary.returns += sample.dist_q2 != 0;
-      if (end_ns == 0 && sample.turn >= config.turns) end_ns = sample.t_ns + lead_out_ns;
+      if (end_ns == 0 && sample.scan >= config.scans) end_ns = sample.t_ns + lead_out_ns;
       summary.duration_s = core::to_seconds(sample.t_ns);
     }
     summary.samples += packet.samples.size();

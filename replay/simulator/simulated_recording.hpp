@@ -16,7 +16,7 @@ namespace cornerd::replay {
 struct SimulatedRecordingConfig {
   SimulatorConfig simulator;
   core::Pose2 T_base_lidar;
-  std::int64_t turns = 10;          ///< whole turns in the recording
+  std::int64_t scans = 10;          ///< whole turns in the recording
   double byte_fault_share = 0;      ///< bytes lost or damaged on the way (ByteFaults)
   double arrival_jitter_s = 1e-3;   ///< a read is late by up to this, evenly
   bool with_descriptor = true;      ///< begin with the response descriptor

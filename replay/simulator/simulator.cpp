@@ -34,11 +34,11 @@ std::uint16_t within_turn_q6(std::int64_t angle_q6) {
 }
 
 /// The turn that a sample belongs to: the last one before the mark already starts the next turn.
-std::int64_t turn_of(double angle_deg, double step_deg) {
+std::int64_t revolution_of(double angle_deg, double step_deg) {
   return static_cast<std::int64_t>(std::floor((angle_deg + step_deg) / 360));
 }
 bool is_last_before_mark(double angle_deg, double step_deg) {
-  return turn_of(angle_deg, step_deg) > turn_of(angle_deg, 0);
+  return revolution_of(angle_deg, step_deg) > revolution_of(angle_deg, 0);
 }
 
 std::uint32_t to_units(double range_m, double units_per_m, std::uint32_t most) {
@@ -67,7 +67,7 @@ core::Sample to_sample(const SimulatedSample& simulated, bool inverted) {
   sample.bearing_rad = static_cast<float>(core::normalize_angle(bearing_rad));
   sample.range_m = static_cast<float>(simulated.dist_q2) / 4000.0f;
   sample.quality = simulated.dist_q2 != 0 ? kQuality : 0;
-  sample.starts_turn = simulated.starts_turn;
+  sample.starts_scan = simulated.starts_scan;
   return sample;
 }
 
@@ -93,7 +93,7 @@ void Simulator::start(core::TimeNs t_ns, rplidar::WireFormat wire, core::TimeNs 
   swapped_ = false;
   next_first_ = head_.next();
   if (wire == rplidar::WireFormat::kUltra) {
-    next_first_mm_ = measured_for_ultra(next_first_, turn_of(next_first_.angle_deg, 0));
+    next_first_mm_ = measured_for_ultra(next_first_, revolution_of(next_first_.angle_deg, 0));
   }
 }
 
@@ -109,29 +109,29 @@ WirePacket Simulator::next() {
   return next_ultra();
 }
 
-double Simulator::range_at(const Head& head, std::int64_t turn, double device_angle_deg) {
+double Simulator::range_at(const Head& head, std::int64_t scan, double device_angle_deg) {
   const double sign = config_.inverted ? 1 : -1;
-  return scene_->range_along(head.t_ns, turn, core::Vec2::Zero(),
+  return scene_->range_along(head.t_ns, scan, core::Vec2::Zero(),
                              sign * core::radians(device_angle_deg));
 }
 
-Simulator::Sight Simulator::triangulate(const Head& head, std::int64_t turn, double error_deg) {
+Simulator::Sight Simulator::triangulate(const Head& head, std::int64_t scan, double error_deg) {
   const double sign = config_.inverted ? 1 : -1;
   const double bearing_rad = sign * core::radians(head.angle_deg - kLaserAngleDeg + error_deg);
   const core::Vec2 laser = sign * kLaserOffsetM * core::rotate_left(core::unit_vector(bearing_rad));
-  const double along_m = scene_->range_along(head.t_ns, turn, laser, bearing_rad);
+  const double along_m = scene_->range_along(head.t_ns, scan, laser, bearing_rad);
   if (along_m <= 0) return {kNearOffsetDeg, 0};
   const double range_m = std::hypot(along_m, kLaserOffsetM);
   return {optical_offset_deg(range_m), range_m};
 }
 
-std::optional<double> Simulator::ray_at(const Head& head, std::int64_t turn,
+std::optional<double> Simulator::ray_at(const Head& head, std::int64_t scan,
                                         double device_angle_deg, double range_m) {
   if (!errors_.wants_rays() || range_m <= 0) return std::nullopt;
   constexpr double kAsideDeg = 0.05;
   constexpr double kGrazing = 20;  // growth of the range per radian, in ranges: 87 degrees
-  const double before_m = range_at(head, turn, device_angle_deg - kAsideDeg);
-  const double after_m = range_at(head, turn, device_angle_deg + kAsideDeg);
+  const double before_m = range_at(head, scan, device_angle_deg - kAsideDeg);
+  const double after_m = range_at(head, scan, device_angle_deg + kAsideDeg);
   if (before_m <= 0 || after_m <= 0) return std::nullopt;
   const double growth = (after_m - before_m) / (2 * core::radians(kAsideDeg) * range_m);
   const bool straight = std::abs(before_m + after_m - 2 * range_m) < 1e-3 * range_m;
@@ -139,27 +139,27 @@ std::optional<double> Simulator::ray_at(const Head& head, std::int64_t turn,
   return (config_.inverted ? 1 : -1) * std::atan(growth);
 }
 
-double Simulator::measured_at(const Head& head, std::int64_t turn, double device_angle_deg) {
+double Simulator::measured_at(const Head& head, std::int64_t scan, double device_angle_deg) {
   const double error_rad = errors_.direction_error(core::radians(device_angle_deg));
   const double angle_deg = device_angle_deg + core::degrees(error_rad);
   const double half_beam_deg = core::degrees(config_.sensor.beam_width_rad) / 2;
   const double range_m = half_beam_deg <= 0
-                             ? range_at(head, turn, angle_deg)
-                             : errors_.mixed(range_at(head, turn, angle_deg - half_beam_deg),
-                                             range_at(head, turn, angle_deg + half_beam_deg));
-  return errors_.measured(range_m, ray_at(head, turn, angle_deg, range_m));
+                             ? range_at(head, scan, angle_deg)
+                             : errors_.mixed(range_at(head, scan, angle_deg - half_beam_deg),
+                                             range_at(head, scan, angle_deg + half_beam_deg));
+  return errors_.measured(range_m, ray_at(head, scan, angle_deg, range_m));
 }
 
-std::uint32_t Simulator::measured_for_ultra(const Head& head, std::int64_t turn) {
+std::uint32_t Simulator::measured_for_ultra(const Head& head, std::int64_t scan) {
   const double error_deg =
       core::degrees(errors_.direction_error(core::radians(head.angle_deg - kLaserAngleDeg)));
   const double half_beam_deg = core::degrees(config_.sensor.beam_width_rad) / 2;
-  double range_m = triangulate(head, turn, error_deg - half_beam_deg).range_m;
+  double range_m = triangulate(head, scan, error_deg - half_beam_deg).range_m;
   if (half_beam_deg > 0) {
-    range_m = errors_.mixed(range_m, triangulate(head, turn, error_deg + half_beam_deg).range_m);
+    range_m = errors_.mixed(range_m, triangulate(head, scan, error_deg + half_beam_deg).range_m);
   }
   const double angle_deg = head.angle_deg + error_deg - optical_offset_deg(range_m);
-  return to_units(errors_.measured(range_m, ray_at(head, turn, angle_deg, range_m)), 1e3, 28'656);
+  return to_units(errors_.measured(range_m, ray_at(head, scan, angle_deg, range_m)), 1e3, 28'656);
 }
 
 double Simulator::sweep(std::size_t count) {
@@ -172,7 +172,7 @@ double Simulator::sweep(std::size_t count) {
   // From here on the angles are those that the capsule's two start angles tell of.
   for (std::size_t k = 0; k < count; ++k) {
     heads_[k].angle_deg = static_cast<double>(start_q6) / 64.0 + static_cast<double>(k) * step_deg;
-    samples_[k] = {heads_[k].t_ns, turn_of(heads_[k].angle_deg, step_deg),
+    samples_[k] = {heads_[k].t_ns, revolution_of(heads_[k].angle_deg, step_deg),
                    is_last_before_mark(heads_[k].angle_deg, step_deg), 0, 0};
   }
   return step_deg;
@@ -188,8 +188,9 @@ Simulator::Head Simulator::take_node() {
   Head head = next_first_;
   next_first_ = head_.next();
   // The mark of a turn stays where it is.
-  const bool same_turn = turn_of(head.angle_deg, 0) == turn_of(next_first_.angle_deg, step_deg);
-  swapped_ = !swapped_ && same_turn && errors_.swaps_nodes();
+  const bool same_scan =
+      revolution_of(head.angle_deg, 0) == revolution_of(next_first_.angle_deg, step_deg);
+  swapped_ = !swapped_ && same_scan && errors_.swaps_nodes();
   if (swapped_) std::swap(head.angle_deg, next_first_.angle_deg);
   return head;
 }
@@ -198,17 +199,17 @@ WirePacket Simulator::next_node() {
   const double step_deg = head_.step_deg();
   const Head head = take_node();
   SimulatedSample& sample = samples_[0];
-  sample = {head.t_ns, turn_of(head.angle_deg, step_deg),
+  sample = {head.t_ns, revolution_of(head.angle_deg, step_deg),
             is_last_before_mark(head.angle_deg, step_deg), 0, 0};
 
-  const double offset_deg = triangulate(head, sample.turn, 0).offset_deg;
+  const double offset_deg = triangulate(head, sample.scan, 0).offset_deg;
   std::uint16_t angle_q6 = within_turn_q6(to_q6(head.angle_deg - offset_deg));
-  sample.dist_q2 = to_units(measured_at(head, sample.turn, angle_q6 / 64.0), 4e3, 0xFFFF);
+  sample.dist_q2 = to_units(measured_at(head, sample.scan, angle_q6 / 64.0), 4e3, 0xFFFF);
   // A node without a return has nothing to be corrected by.
   if (sample.dist_q2 == 0) angle_q6 = within_turn_q6(to_q6(head.angle_deg));
   sample.device_angle_deg = angle_q6 / 64.0;
 
-  const NodeBytes node = encode_node(sample.starts_turn, sample.dist_q2 != 0 ? kQuality : 0,
+  const NodeBytes node = encode_node(sample.starts_scan, sample.dist_q2 != 0 ? kQuality : 0,
                                      angle_q6, static_cast<std::uint16_t>(sample.dist_q2));
   std::copy(node.begin(), node.end(), bytes_.begin());
   return packet(node.size(), 1, head.t_ns + head_.period_ns());
@@ -220,9 +221,9 @@ WirePacket Simulator::next_express() {
   for (std::size_t k = 0; k < kExpressSamples; ++k) {
     const Head& head = heads_[k];
     SimulatedSample& sample = samples_[k];
-    const double offset_deg = triangulate(head, sample.turn, 0).offset_deg;
+    const double offset_deg = triangulate(head, sample.scan, 0).offset_deg;
     std::uint32_t offset_q3 = to_units(offset_deg, 8, 63);
-    const double range_m = measured_at(head, sample.turn, head.angle_deg - offset_q3 / 8.0);
+    const double range_m = measured_at(head, sample.scan, head.angle_deg - offset_q3 / 8.0);
     const std::uint32_t dist_mm = to_units(range_m, 1e3, 0x3FFF);
     if (dist_mm == 0) offset_q3 = 0;
     wire[k] = {static_cast<std::uint16_t>(dist_mm), static_cast<std::uint8_t>(offset_q3)};
@@ -241,9 +242,9 @@ WirePacket Simulator::next_ultra() {
   std::array<std::uint32_t, kUltraSamples + 1> dist_mm{};
   dist_mm[0] = next_first_mm_;
   for (std::size_t k = 1; k < kUltraSamples; ++k) {
-    dist_mm[k] = measured_for_ultra(heads_[k], samples_[k].turn);
+    dist_mm[k] = measured_for_ultra(heads_[k], samples_[k].scan);
   }
-  next_first_mm_ = measured_for_ultra(next_first_, turn_of(next_first_.angle_deg, step_deg));
+  next_first_mm_ = measured_for_ultra(next_first_, revolution_of(next_first_.angle_deg, step_deg));
   dist_mm[kUltraSamples] = next_first_mm_;
 
   const std::uint16_t start_q6 = within_turn_q6(to_q6(heads_[0].angle_deg));

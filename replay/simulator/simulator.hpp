@@ -38,8 +38,8 @@ struct SimulatorConfig {
 /// A sample as the wire carries it, with what the wire does not carry.
 struct SimulatedSample {
   core::TimeNs t_ns = 0;
-  std::int64_t turn = 0;
-  bool starts_turn = false;
+  std::int64_t scan = 0;
+  bool starts_scan = false;
   double device_angle_deg = 0;  ///< what the wire claims, clockwise, in [0, 360)
   std::uint32_t dist_q2 = 0;    ///< what the wire claims, millimetres * 4; 0: nothing returned
 };
@@ -89,13 +89,13 @@ class Simulator {
     double range_m = 0;     ///< from the axis; 0: no wall
   };
 
-  double range_at(const Head& head, std::int64_t turn, double device_angle_deg);
-  Sight triangulate(const Head& head, std::int64_t turn, double error_deg);
+  double range_at(const Head& head, std::int64_t scan, double device_angle_deg);
+  Sight triangulate(const Head& head, std::int64_t scan, double error_deg);
   /// Of a ray to the normal of the wall that it meets; nullopt at an edge, or where nobody asks.
-  std::optional<double> ray_at(const Head& head, std::int64_t turn, double device_angle_deg,
+  std::optional<double> ray_at(const Head& head, std::int64_t scan, double device_angle_deg,
                                double range_m);
-  double measured_at(const Head& head, std::int64_t turn, double device_angle_deg);
-  std::uint32_t measured_for_ultra(const Head& head, std::int64_t turn);
+  double measured_at(const Head& head, std::int64_t scan, double device_angle_deg);
+  std::uint32_t measured_for_ultra(const Head& head, std::int64_t scan);
 
   WirePacket next_node();
   /// The head's position that the next node tells of; moves the head on.

@@ -72,10 +72,10 @@ DescriptorBytes scan_descriptor(rplidar::WireFormat format) {
   return {0xA5, 0x5A, 0x84, 0x00, 0x00, 0x40, 0x84};
 }
 
-NodeBytes encode_node(bool starts_turn, std::uint8_t quality, std::uint16_t angle_q6,
+NodeBytes encode_node(bool starts_scan, std::uint8_t quality, std::uint16_t angle_q6,
                       std::uint16_t dist_q2) {
   const std::uint32_t angle = static_cast<std::uint32_t>(angle_q6) << 1 | 1u;
-  return {low_byte((starts_turn ? 1u : 2u) | static_cast<std::uint32_t>(quality) << 2),
+  return {low_byte((starts_scan ? 1u : 2u) | static_cast<std::uint32_t>(quality) << 2),
           low_byte(angle), low_byte(angle >> 8), low_byte(dist_q2), low_byte(dist_q2 >> 8u)};
 }
 

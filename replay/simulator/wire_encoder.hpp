@@ -23,7 +23,7 @@ using DescriptorBytes = std::array<std::uint8_t, 7>;
 DescriptorBytes scan_descriptor(rplidar::WireFormat format);
 
 /// `angle_q6`: degrees * 64, at most 15 bits; `dist_q2`: millimetres * 4, 0 where nothing returned.
-NodeBytes encode_node(bool starts_turn, std::uint8_t quality, std::uint16_t angle_q6,
+NodeBytes encode_node(bool starts_scan, std::uint8_t quality, std::uint16_t angle_q6,
                       std::uint16_t dist_q2);
 
 struct ExpressSample {

@@ -109,7 +109,7 @@ void drive_blind(std::shared_ptr<const core::WallMap> map, const BlindCase& blin
           score.add(*pose, motion(pose->t_ns, 0));
         }
       }
-      if (const core::TurnResult* result = pipeline.add(replay::to_sample(sample))) {
+      if (const core::ScanResult* result = pipeline.add(replay::to_sample(sample))) {
         score.add(result->pose, motion(result->pose.t_ns, 0));
       }
       now_ns = sample.t_ns;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "bench/corner_experiment.hpp"
 
-#include "bench/simulated_turn.hpp"
+#include "bench/simulated_scan.hpp"
 #include "core/breakpoint/detector.hpp"
 #include "replay/simulator/places.hpp"
 
@@ -36,7 +36,7 @@ std::vector<MethodScore> score_methods(std::span<const std::shared_ptr<const cor
     detectors.emplace_back(method.config, config.noise);
   }
 
-  TurnSimulator simulator(sensor, samples, seed);
+  ScanSimulator simulator(sensor, samples, seed);
   core::PolarScan points;
   core::Detection detection;
   std::size_t done = 0;

@@ -13,14 +13,14 @@ namespace {
 using core::Vec2;
 
 constexpr double kShortRange_m = 4;
-constexpr std::size_t kRingTurns = 850;
-constexpr std::size_t kRoomsTurns = 750;
+constexpr std::size_t kRingScans = 850;
+constexpr std::size_t kRoomsScans = 750;
 constexpr std::size_t kRoomsInARow = 4;
 
 SimulatedDrive slipping_drive(core::FloorPlan plan, const std::vector<Vec2>& path,
-                              std::size_t turns, std::uint64_t seed, bool has_odometry) {
+                              std::size_t scans, std::uint64_t seed, bool has_odometry) {
   SimulatedDriveConfig config;
-  config.turns = turns;
+  config.scans = scans;
   config.has_odometry = has_odometry;
   config.simulator.seed = seed;
   config.simulator.sensor.max_range_m = kShortRange_m;
@@ -35,7 +35,7 @@ SimulatedDrive slipping_drive(core::FloorPlan plan, const std::vector<Vec2>& pat
 
 SimulatedDrive ring_drive(std::uint64_t seed, bool has_odometry) {
   const std::vector<Vec2> around = {{0.8, 2}, {0.8, 0.8}, {19.2, 0.8}, {19.2, 7.2}, {0.8, 7.2}};
-  return slipping_drive(ring_corridor(), around, kRingTurns, seed, has_odometry);
+  return slipping_drive(ring_corridor(), around, kRingScans, seed, has_odometry);
 }
 
 SimulatedDrive equal_rooms_drive(std::uint64_t seed) {
@@ -48,7 +48,7 @@ SimulatedDrive equal_rooms_drive(std::uint64_t seed) {
       path.push_back(left + point);
     }
   }
-  return slipping_drive(equal_rooms(kRoomsInARow), path, kRoomsTurns, seed, /*has_odometry=*/true);
+  return slipping_drive(equal_rooms(kRoomsInARow), path, kRoomsScans, seed, /*has_odometry=*/true);
 }
 
 LoopCase survey_loop(const core::WallMap& map, const SimulatedDrive& drive, bool close_loops) {

@@ -18,12 +18,12 @@
 namespace cornerd::bench {
 
 /// One turn at each place, the same for all methods.
-struct PaperTurns {
+struct PaperScans {
   std::vector<std::shared_ptr<const core::WallMap>> maps;
   std::vector<PaperPlace> places;
-  std::vector<core::Scan> turns;
+  std::vector<core::Scan> scans;
 };
-PaperTurns simulate_paper_turns(std::span<const std::shared_ptr<const core::WallMap>> maps,
+PaperScans simulate_paper_scans(std::span<const std::shared_ptr<const core::WallMap>> maps,
                                 const replay::SensorModel& sensor, std::size_t samples,
                                 std::uint64_t seed);
 
@@ -42,15 +42,15 @@ struct PlaceResult {
 
 struct PaperResult {
   NamedMethod method;
-  std::vector<PlaceResult> places;  ///< as PaperTurns::places
+  std::vector<PlaceResult> places;  ///< as PaperScans::places
 };
 
 /// `timing_repeats`: of every turn; the median counts. 0: nothing is timed.
-std::vector<PaperResult> run_paper_experiment(const PaperTurns& turns,
+std::vector<PaperResult> run_paper_experiment(const PaperScans& scans,
                                               std::span<const NamedMethod> methods,
                                               std::size_t timing_repeats);
 
 /// How many corners whose walls both give 5 returns each turn shows.
-std::vector<std::size_t> supported_corners(const PaperTurns& turns);
+std::vector<std::size_t> supported_corners(const PaperScans& scans);
 
 }  // namespace cornerd::bench

@@ -17,8 +17,8 @@ namespace {
 
 constexpr double kSlowly_m_s = 0.25;
 
-void score_turn(const core::PoseEstimate& pose, const core::Pose2& truth, RateResult& result) {
-  ++result.turns;
+void score_scan(const core::PoseEstimate& pose, const core::Pose2& truth, RateResult& result) {
+  ++result.scans;
   const PoseError error = error_of(pose.T_map_base, truth);
   if (pose.state == core::PoseState::kFix) {
     result.fixes.add(pose, truth);
@@ -33,7 +33,7 @@ void score_turn(const core::PoseEstimate& pose, const core::Pose2& truth, RateRe
 }  // namespace
 
 RateResult run_rate_case(std::shared_ptr<const core::WallMap> map, double rate_hz, bool gently,
-                         std::size_t turns, std::uint64_t seed) {
+                         std::size_t scans, std::uint64_t seed) {
   replay::DriveConfig drive = gentle_drive(kSlowly_m_s);
   if (!gently) drive.acceleration_m_s2 = drive.yaw_acceleration_rad_s2 = 0;
   const replay::Motion motion =
@@ -52,13 +52,13 @@ RateResult run_rate_case(std::shared_ptr<const core::WallMap> map, double rate_h
   config.odometry.geometry = robot.geometry;
   core::Pipeline pipeline(std::move(map), config);
   RateResult result;
-  while (result.turns < turns) {
+  while (result.scans < scans) {
     for (const replay::SimulatedSample& sample : simulator.next().samples) {
       while (odometry && odometry->next_ns() <= sample.t_ns) {
         pipeline.add(odometry->next(), sample.t_ns);
       }
-      if (const core::TurnResult* turn = pipeline.add(replay::to_sample(sample))) {
-        score_turn(turn->pose, motion(turn->pose.t_ns, 0), result);
+      if (const core::ScanResult* scan = pipeline.add(replay::to_sample(sample))) {
+        score_scan(scan->pose, motion(scan->pose.t_ns, 0), result);
       }
     }
   }

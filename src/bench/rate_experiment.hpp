@@ -20,12 +20,12 @@ struct RateResult {
   double worst_fix_m = 0;
   double worst_fix_rad = 0;
   double worst_predicted_rad = 0;
-  std::size_t turns = 0;
+  std::size_t scans = 0;
 };
 
 /// wrong_robot() through the rooms of config/maps/flat-7.json at 0.25 m/s, with turns on the spot
 /// at 1.5 rad/s; it starts and stops `gently` (gentle_drive) or at once. Same input, same result.
 RateResult run_rate_case(std::shared_ptr<const core::WallMap> map, double rate_hz, bool gently,
-                         std::size_t turns, std::uint64_t seed);
+                         std::size_t scans, std::uint64_t seed);
 
 }  // namespace cornerd::bench

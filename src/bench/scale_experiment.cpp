@@ -7,7 +7,7 @@
 
 #include "bench/building.hpp"
 #include "bench/instruction_counter.hpp"
-#include "bench/simulated_turn.hpp"
+#include "bench/simulated_scan.hpp"
 #include "bench/statistics.hpp"
 #include "core/catalog/catalog.hpp"
 #include "replay/simulator/places.hpp"
@@ -36,23 +36,23 @@ std::vector<ScaleCase> scale_cases(const std::vector<std::size_t>& corners, std:
   return cases;
 }
 
-ScaleTurns::ScaleTurns(std::shared_ptr<const core::WallMap> map, std::size_t turns,
+ScaleScans::ScaleScans(std::shared_ptr<const core::WallMap> map, std::size_t scans,
                        std::uint64_t seed)
-    : places_(replay::random_places(*map, turns, kScaleClearance_m, seed)) {
-  TurnSimulator simulator({}, kScaleSamples, seed + 1);
-  for (const core::Pose2& place : places_) turns_.push_back(simulator.take(*map, place));
+    : places_(replay::random_places(*map, scans, kScaleClearance_m, seed)) {
+  ScanSimulator simulator({}, kScaleSamples, seed + 1);
+  for (const core::Pose2& place : places_) scans_.push_back(simulator.take(*map, place));
 }
 
-void ScaleTurns::localize(
+void ScaleScans::localize(
     core::Localizer& localizer,
-    const std::function<void(std::size_t turn, const core::PoseEstimate&)>& done) const {
-  for (std::size_t i = 0; i < turns_.size(); ++i) {
+    const std::function<void(std::size_t scan, const core::PoseEstimate&)>& done) const {
+  for (std::size_t i = 0; i < scans_.size(); ++i) {
     localizer.relocalize();
-    done(i, localizer.step(turns_[i]).pose);
+    done(i, localizer.step(scans_[i]).pose);
   }
 }
 
-ScaleResult run_scale_case(const ScaleCase& building, std::size_t turns, std::uint64_t seed) {
+ScaleResult run_scale_case(const ScaleCase& building, std::size_t scans, std::uint64_t seed) {
   ScaleResult result;
   result.title = building.title;
   result.rooms = building.plan.rooms.size();
@@ -69,13 +69,13 @@ ScaleResult run_scale_case(const ScaleCase& building, std::size_t turns, std::ui
   }
   result.corners = map->corners().size();
 
-  const ScaleTurns simulated(map, turns, seed);
+  const ScaleScans simulated(map, scans, seed);
   core::Localizer localizer(map, config);
   std::vector<double> times_us;
   double before_s = thread_time_s();
-  simulated.localize(localizer, [&](std::size_t turn, const core::PoseEstimate& pose) {
+  simulated.localize(localizer, [&](std::size_t scan, const core::PoseEstimate& pose) {
     times_us.push_back((thread_time_s() - before_s) * 1e6);
-    result.score.add(pose, simulated.places()[turn]);
+    result.score.add(pose, simulated.places()[scan]);
     before_s = thread_time_s();
   });
   result.time_us = mean_and_spread(times_us).mean;
@@ -85,8 +85,8 @@ ScaleResult run_scale_case(const ScaleCase& building, std::size_t turns, std::ui
   InstructionCounter counter;
   const auto count = counter.count(
       [&] { simulated.localize(localizer, [](std::size_t, const core::PoseEstimate&) {}); });
-  if (count && turns > 0) {
-    result.instructions = static_cast<double>(*count) / static_cast<double>(turns);
+  if (count && scans > 0) {
+    result.instructions = static_cast<double>(*count) / static_cast<double>(scans);
   }
   return result;
 }

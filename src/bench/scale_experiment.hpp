@@ -40,22 +40,22 @@ struct ScaleResult {
 };
 
 /// Turns at random places of one building.
-class ScaleTurns {
+class ScaleScans {
  public:
-  ScaleTurns(std::shared_ptr<const core::WallMap> map, std::size_t turns, std::uint64_t seed);
+  ScaleScans(std::shared_ptr<const core::WallMap> map, std::size_t scans, std::uint64_t seed);
 
   const std::vector<core::Pose2>& places() const { return places_; }
-  const std::vector<core::Scan>& turns() const { return turns_; }
+  const std::vector<core::Scan>& scans() const { return scans_; }
 
   /// Localizes in every turn, each time as if nothing had been known.
   void localize(core::Localizer& localizer,
-                const std::function<void(std::size_t turn, const core::PoseEstimate&)>& done) const;
+                const std::function<void(std::size_t scan, const core::PoseEstimate&)>& done) const;
 
  private:
   std::vector<core::Pose2> places_;
-  std::vector<core::Scan> turns_;
+  std::vector<core::Scan> scans_;
 };
 
-ScaleResult run_scale_case(const ScaleCase& building, std::size_t turns, std::uint64_t seed);
+ScaleResult run_scale_case(const ScaleCase& building, std::size_t scans, std::uint64_t seed);
 
 }  // namespace cornerd::bench

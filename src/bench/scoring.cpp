@@ -49,7 +49,7 @@ std::span<const Verdict> CornerScore::add(std::span<const core::Breakpoint> brea
                                           const replay::CornerTruth& truth) {
   const auto corners = truth.corners();
   const auto shadows = truth.shadow_ends();
-  ++turns_;
+  ++scans_;
   for (const SeenCorner& corner : corners) {
     supported_ += corner.view == CornerView::kSupported ? 1 : 0;
     visible_ += shows_both_walls(corner) ? 1 : 0;
@@ -82,7 +82,7 @@ std::span<const Verdict> CornerScore::add(std::span<const core::Breakpoint> brea
 }
 
 void CornerScore::merge(const CornerScore& other) {
-  turns_ += other.turns_;
+  scans_ += other.scans_;
   for (std::size_t kind = 0; kind < counts_.size(); ++kind) {
     for (std::size_t i = 0; i < counts_[kind].size(); ++i) {
       counts_[kind][i] += other.counts_[kind][i];

@@ -33,7 +33,7 @@ class CornerScore {
                                const replay::CornerTruth& truth);
   void merge(const CornerScore& other);
 
-  std::size_t turns() const { return turns_; }
+  std::size_t scans() const { return scans_; }
   std::size_t detections(core::BreakpointKind kind, Verdict verdict) const {
     return counts_[index(kind)][static_cast<std::size_t>(verdict)];
   }
@@ -65,7 +65,7 @@ class CornerScore {
   void match(std::span<const core::Breakpoint> breakpoints, std::size_t candidates,
              Eligible&& eligible, Position&& position, Take&& take);
 
-  std::size_t turns_ = 0;
+  std::size_t scans_ = 0;
   std::array<std::array<std::size_t, 4>, 2> counts_{};
   std::size_t supported_ = 0;
   std::size_t visible_ = 0;

@@ -16,14 +16,14 @@ SimulatedDrive simulate_drive(std::shared_ptr<const core::WallMap> map,
   if (config.has_odometry) odometry.emplace(motion, config.robot, config.simulator.seed + 1);
 
   SimulatedDrive simulated;
-  core::TurnAssembler assembler;
-  core::Scan turn;
-  while (simulated.drive.size() < config.turns) {
+  core::ScanAssembler assembler;
+  core::Scan scan;
+  while (simulated.drive.size() < config.scans) {
     for (const replay::SimulatedSample& sample : simulator.next().samples) {
       while (odometry && odometry->next_ns() <= sample.t_ns) {
         simulated.drive.add(odometry->next(), sample.t_ns);
       }
-      if (assembler.add(replay::to_sample(sample), turn)) simulated.drive.add(turn);
+      if (assembler.add(replay::to_sample(sample), scan)) simulated.drive.add(scan);
     }
   }
   for (std::size_t i = 0; i < simulated.drive.size(); ++i) {

@@ -24,7 +24,7 @@ struct SimulatedDriveConfig {
   replay::SimulatorConfig simulator;
   replay::RobotModel robot;
   bool has_odometry = true;
-  std::size_t turns = 100;
+  std::size_t scans = 100;
 };
 
 SimulatedDrive simulate_drive(std::shared_ptr<const core::WallMap> map,

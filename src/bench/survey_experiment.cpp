@@ -13,10 +13,10 @@
 
 namespace cornerd::bench {
 
-SimulatedDrive survey_drive(std::shared_ptr<const core::WallMap> map, std::size_t turns,
+SimulatedDrive survey_drive(std::shared_ptr<const core::WallMap> map, std::size_t scans,
                             std::uint64_t seed, bool has_odometry) {
   SimulatedDriveConfig config;
-  config.turns = turns;
+  config.scans = scans;
   config.simulator.seed = seed;
   config.has_odometry = has_odometry;
   config.robot = wrong_robot();
@@ -30,11 +30,11 @@ LocalizationScore localize_drive(std::shared_ptr<const core::WallMap> map,
   core::Localizer localizer(std::move(map), {});
   LocalizationScore score;
   std::vector<double> errors_m;
-  core::Scan turn;
+  core::Scan scan;
   for (std::size_t i = 0; i < drive.drive.size(); ++i) {
-    drive.drive.load(i, turn);
-    const core::PoseEstimate& pose = localizer.step(turn).pose;
-    ++score.turns;
+    drive.drive.load(i, scan);
+    const core::PoseEstimate& pose = localizer.step(scan).pose;
+    ++score.scans;
     if (pose.state == core::PoseState::kLost || pose.state == core::PoseState::kAmbiguous) continue;
     ++score.named;
     const core::Pose2 off = drive.T_map_base[i].inverse() * (T_true_map * pose.T_map_base);
@@ -55,17 +55,17 @@ namespace {
 /// More corners than this in a flat are noise, and no map: nobody waits for a localizer in them.
 constexpr std::size_t kMostCorners = 2000;
 /// Turns of the second drive: once through all rooms.
-constexpr std::size_t kSecondTurns = 1200;
+constexpr std::size_t kSecondScans = 1200;
 
 double cpu_now_s() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
 }  // namespace
 
-SurveyExperiment run_survey_experiment(std::shared_ptr<const core::WallMap> map, std::size_t turns,
+SurveyExperiment run_survey_experiment(std::shared_ptr<const core::WallMap> map, std::size_t scans,
                                        std::uint64_t seed) {
-  const SimulatedDrive drive = survey_drive(map, turns, seed);
-  const SimulatedDrive alone = survey_drive(map, turns, seed, /*has_odometry=*/false);
-  const SimulatedDrive second = survey_drive(map, std::min(turns, kSecondTurns), seed + 1);
+  const SimulatedDrive drive = survey_drive(map, scans, seed);
+  const SimulatedDrive alone = survey_drive(map, scans, seed, /*has_odometry=*/false);
+  const SimulatedDrive second = survey_drive(map, std::min(scans, kSecondScans), seed + 1);
   SurveyExperiment experiment;
   experiment.in_true_map = localize_drive(map, second, {});
   for (std::size_t i = 1; i < drive.T_map_base.size(); ++i) {

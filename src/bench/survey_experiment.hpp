@@ -16,14 +16,14 @@ namespace cornerd::bench {
 
 /// The drive that the odometry was measured on: all rooms of config/maps/flat-7.json, wheels 1.5
 /// and 2.5 % larger than configured, the gyro 2 % and 0.01 rad/s off, 0.4 m/s.
-SimulatedDrive survey_drive(std::shared_ptr<const core::WallMap> map, std::size_t turns,
+SimulatedDrive survey_drive(std::shared_ptr<const core::WallMap> map, std::size_t scans,
                             std::uint64_t seed, bool has_odometry = true);
 
 /// Turns of that drive that are 100 m.
-inline constexpr std::size_t kSurveyTurns = 2600;
+inline constexpr std::size_t kSurveyScans = 2600;
 
 struct LocalizationScore {
-  std::size_t turns = 0;
+  std::size_t scans = 0;
   std::size_t named = 0;  ///< a place
   std::size_t wrong = 0;  ///< over 10 cm or 5 degrees off
   double mean_error_m = 0;
@@ -50,7 +50,7 @@ struct SurveyExperiment {
 
 /// Ours with odometry and without, and the paper's way: with the odometry as it is, and with what
 /// ours learned of it.
-SurveyExperiment run_survey_experiment(std::shared_ptr<const core::WallMap> map, std::size_t turns,
+SurveyExperiment run_survey_experiment(std::shared_ptr<const core::WallMap> map, std::size_t scans,
                                        std::uint64_t seed);
 
 }  // namespace cornerd::bench

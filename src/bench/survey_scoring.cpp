@@ -6,7 +6,7 @@
 #include <limits>
 #include <utility>
 
-#include "core/map/turn_prediction.hpp"
+#include "core/map/ray_caster.hpp"
 
 namespace cornerd::bench {
 namespace {
@@ -37,7 +37,7 @@ class SeenWalls {
     core::PolarScan scan;
     scan.begin(core::kTwoPi / kRays);
     for (int i = 0; i < kRays; ++i) scan.append(-core::kPi + (i + 0.5) * core::kTwoPi / kRays, 1);
-    core::TurnPrediction prediction(kReach_m);
+    core::RayCaster prediction(kReach_m);
     for (const core::Pose2& place : places) {
       const auto hits = prediction.cast(map, place, scan.points());
       for (std::size_t i = 0; i < hits.size(); ++i) count(place, scan[i], hits[i]);
@@ -94,9 +94,9 @@ std::vector<Pair> pair_corners(std::span<const core::Corner> truth, const core::
     const core::Corner* best = nullptr;
     for (const core::Corner& other : found.corners()) {
       if (other.is_convex() != corner.is_convex()) continue;
-      const double turned_rad =
+      const double rotated_rad =
           core::angle_between(corner.bisector_rad(), other.bisector_rad() + T_true_map.theta_rad);
-      if (std::abs(turned_rad) > core::radians(25)) continue;
+      if (std::abs(rotated_rad) > core::radians(25)) continue;
       const double off_m = (T_true_map * other.position - corner.position).norm();
       if (off_m < least_m) {
         least_m = off_m;

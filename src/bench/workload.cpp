@@ -36,32 +36,32 @@ std::vector<double> median_times_us(std::size_t count, std::size_t repeats, Task
   return medians_us;
 }
 
-void prepare(const core::Scan& turn, core::PolarScan& points) {
+void prepare(const core::Scan& scan, core::PolarScan& points) {
   const core::LocalizerConfig limits;
-  points.assign(turn, limits.min_range_m, limits.max_range_m);
+  points.assign(scan, limits.min_range_m, limits.max_range_m);
 }
 
 }  // namespace
 
-Workload::Workload(const NamedMethod& method, std::span<const core::Scan> turns)
-    : detector_(method.config, core::LocalizerConfig{}.noise), points_(turns.size()) {
-  for (std::size_t i = 0; i < turns.size(); ++i) prepare(turns[i], points_[i]);
+Workload::Workload(const NamedMethod& method, std::span<const core::Scan> scans)
+    : detector_(method.config, core::LocalizerConfig{}.noise), points_(scans.size()) {
+  for (std::size_t i = 0; i < scans.size(); ++i) prepare(scans[i], points_[i]);
 }
 
-void Workload::run(std::size_t turn) { detector_.detect(points_[turn], detection_); }
+void Workload::run(std::size_t scan) { detector_.detect(points_[scan], detection_); }
 
 void Workload::run_all() {
-  for (std::size_t i = 0; i < turns(); ++i) run(i);
+  for (std::size_t i = 0; i < scans(); ++i) run(i);
 }
 
-std::vector<double> time_turns_us(Workload& workload, std::size_t repeats) {
-  return median_times_us(workload.turns(), repeats, [&](std::size_t i) { workload.run(i); });
+std::vector<double> time_scans_us(Workload& workload, std::size_t repeats) {
+  return median_times_us(workload.scans(), repeats, [&](std::size_t i) { workload.run(i); });
 }
 
-double time_preparation_us(std::span<const core::Scan> turns, std::size_t repeats) {
+double time_preparation_us(std::span<const core::Scan> scans, std::size_t repeats) {
   core::PolarScan points;
-  return mean_and_spread(median_times_us(turns.size(), repeats,
-                                         [&](std::size_t i) { prepare(turns[i], points); }))
+  return mean_and_spread(median_times_us(scans.size(), repeats,
+                                         [&](std::size_t i) { prepare(scans[i], points); }))
       .mean;
 }
 

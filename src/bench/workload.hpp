@@ -15,12 +15,12 @@ namespace cornerd::bench {
 /// is the same for every method.
 class Workload {
  public:
-  Workload(const NamedMethod& method, std::span<const core::Scan> turns);
+  Workload(const NamedMethod& method, std::span<const core::Scan> scans);
 
-  std::size_t turns() const { return points_.size(); }
+  std::size_t scans() const { return points_.size(); }
 
   /// Detects in one turn.
-  void run(std::size_t turn);
+  void run(std::size_t scan);
   void run_all();
 
   const core::Detection& detection() const { return detection_; }
@@ -32,10 +32,10 @@ class Workload {
 };
 
 /// CPU time of this thread that each turn takes, the median of `repeats` rounds, in microseconds.
-std::vector<double> time_turns_us(Workload& workload, std::size_t repeats);
+std::vector<double> time_scans_us(Workload& workload, std::size_t repeats);
 
 /// CPU time of this thread that putting a turn in order takes, in microseconds: the mean over the
 /// turns.
-double time_preparation_us(std::span<const core::Scan> turns, std::size_t repeats);
+double time_preparation_us(std::span<const core::Scan> scans, std::size_t repeats);
 
 }  // namespace cornerd::bench

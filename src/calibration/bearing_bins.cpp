@@ -133,8 +133,8 @@ BearingBins::BearingBins() : bins_(kBins) {}
 
 void BearingBins::add(double bearing_rad, double range_m) {
   if (!(range_m > 0) || !std::isfinite(bearing_rad)) return;
-  const double turn = core::normalize_angle(bearing_rad) / core::kTwoPi + 0.5;
-  const auto bin = std::min(static_cast<std::size_t>(turn * kBins), kBins - 1);
+  const double scan = core::normalize_angle(bearing_rad) / core::kTwoPi + 0.5;
+  const auto bin = std::min(static_cast<std::size_t>(scan * kBins), kBins - 1);
   if (bins_[bin].size() >= kMostReturnsPerBin) return;
   bins_[bin].push_back(
       {static_cast<float>(core::normalize_angle(bearing_rad)), static_cast<float>(range_m)});

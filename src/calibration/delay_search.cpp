@@ -58,8 +58,8 @@ std::optional<double> surprise_of(std::span<const core::MotionStep> steps,
   const auto windows = cut_windows(at_true_times(steps, delay_s), places);
   if (windows.size() < kFewestCompared) return std::nullopt;
   std::vector<Comparison> ways;
-  std::vector<Comparison> wheel_turns;
-  std::vector<Comparison> gyro_turns;
+  std::vector<Comparison> wheel_rotations;
+  std::vector<Comparison> gyro_rotations;
   for (const DriveWindow& window : windows) {
     Eigen::Vector2d wheels = Eigen::Vector2d::Zero();
     Eigen::Vector2d gyro = Eigen::Vector2d::Zero();
@@ -70,12 +70,14 @@ std::optional<double> surprise_of(std::span<const core::MotionStep> steps,
       has_gyro = has_gyro && step.has_gyro;
     }
     ways.push_back({wheels / kPlaceSigma_m, window.way_m / kPlaceSigma_m});
-    wheel_turns.push_back({wheels / kWheelTurnSigma_rad, window.turn_rad / kWheelTurnSigma_rad});
+    wheel_rotations.push_back(
+        {wheels / kWheelRotationSigma_rad, window.rotation_rad / kWheelRotationSigma_rad});
     if (has_gyro) {
-      gyro_turns.push_back({gyro / kGyroTurnSigma_rad, window.turn_rad / kGyroTurnSigma_rad});
+      gyro_rotations.push_back(
+          {gyro / kGyroRotationSigma_rad, window.rotation_rad / kGyroRotationSigma_rad});
     }
   }
-  const double cost = cost_of(ways) + cost_of(wheel_turns) + cost_of(gyro_turns);
+  const double cost = cost_of(ways) + cost_of(wheel_rotations) + cost_of(gyro_rotations);
   return cost / static_cast<double>(windows.size());
 }
 

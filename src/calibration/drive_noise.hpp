@@ -8,8 +8,8 @@ namespace cornerd::calibration {
 
 /// What two places and a second of wheels and gyro are off by.
 inline constexpr double kPlaceSigma_m = 0.004;
-inline constexpr double kWheelTurnSigma_rad = 0.015;
-inline constexpr double kGyroTurnSigma_rad = 0.003;
+inline constexpr double kWheelRotationSigma_rad = 0.015;
+inline constexpr double kGyroRotationSigma_rad = 0.003;
 /// Cauchy: a residual of so many sigmas counts half; one of a slip hardly at all.
 inline constexpr double kHalfWeightSigmas = 2;
 

@@ -67,7 +67,7 @@ DriveError reckon(std::span<const MotionStep> steps, std::span<const KnownPlace>
   return walk(at_true_times(steps, learned.delay_s), places, points, std::identity(),
               [&](const MotionStep& step) {
                 const core::LearnedMotion moved = core::learned_motion(step, geometry, learned);
-                return core::arc(moved.way_m, moved.turn_rad);
+                return core::arc(moved.way_m, moved.rotation_rad);
               });
 }
 

@@ -13,10 +13,10 @@ constexpr core::TimeNs kWindow_ns = core::kNsPerSecond;
 constexpr core::TimeNs kLongestWindow_ns = 3 * core::kNsPerSecond;
 
 void go_on(DriveWindow& window, const core::Pose2& from, const core::Pose2& to) {
-  const double turn_rad = core::angle_between(from.theta_rad, to.theta_rad);
+  const double rotation_rad = core::angle_between(from.theta_rad, to.theta_rad);
   const core::Pose2 way = from.inverse() * to;
-  window.turn_rad += turn_rad;
-  window.way_m += way.x_m * std::cos(turn_rad / 2) + way.y_m * std::sin(turn_rad / 2);
+  window.rotation_rad += rotation_rad;
+  window.way_m += way.x_m * std::cos(rotation_rad / 2) + way.y_m * std::sin(rotation_rad / 2);
 }
 
 }  // namespace

@@ -18,9 +18,9 @@ struct KnownPlace {
 /// The steps between two known places, cut to them.
 struct DriveWindow {
   std::vector<core::MotionStep> steps;
-  core::Pose2 way;      ///< as it was, from the first place to the second
-  double turn_rad = 0;  ///< as it was; may be more than half a turn
-  double way_m = 0;     ///< along the arcs between the places meanwhile; backward is negative
+  core::Pose2 way;          ///< as it was, from the first place to the second
+  double rotation_rad = 0;  ///< as it was; may be more than half a turn
+  double way_m = 0;         ///< along the arcs between the places meanwhile; backward is negative
 };
 
 /// The steps at the times when they were true, of readings that bear times `delay_s` later.

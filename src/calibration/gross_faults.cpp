@@ -33,7 +33,7 @@ constexpr double kStandingShare = 0.01;
 constexpr double kStraights_m = 0.5;
 /// A gyro that has less to do with turns as fast as this is that of another axis.
 constexpr double kUnrelated = 0.2;
-constexpr double kTurns_rad_s = 0.15;
+constexpr double kMinRotationRate_rad_s = 0.15;
 
 /// What wheels and gyro say of a window, and what it was.
 struct Told {
@@ -43,7 +43,7 @@ struct Told {
   double duration_s = 0;
   bool has_gyro = true;
   double way_m = 0;
-  double turn_rad = 0;
+  double rotation_rad = 0;
 };
 
 std::vector<Told> sums_of(std::span<const DriveWindow> windows) {
@@ -52,7 +52,7 @@ std::vector<Told> sums_of(std::span<const DriveWindow> windows) {
   for (const DriveWindow& window : windows) {
     Told told;
     told.way_m = window.way_m;
-    told.turn_rad = window.turn_rad;
+    told.rotation_rad = window.rotation_rad;
     for (const core::MotionStep& step : window.steps) {
       told.left_m += step.left_m;
       told.right_m += step.right_m;
@@ -115,24 +115,24 @@ std::optional<Shares> solve(const std::vector<Equation>& equations) {
 /// The shares of left and right in the way, and in the turn.
 struct WheelShares {
   Shares way;
-  Shares turn;
+  Shares scan;
 };
 
 std::optional<WheelShares> wheel_shares(const std::vector<Told>& sums) {
   std::vector<Equation> ways;
-  std::vector<Equation> turns;
+  std::vector<Equation> scans;
   for (const Told& told : sums) {
     ways.push_back({{told.left_m, told.right_m}, told.way_m});
-    turns.push_back({{told.left_m, told.right_m}, told.turn_rad});
+    scans.push_back({{told.left_m, told.right_m}, told.rotation_rad});
   }
   const auto way = solve(ways);
-  const auto turn = solve(turns);
-  if (!way || !turn || !way->are_sure() || !turn->are_sure()) return std::nullopt;
-  return WheelShares{*way, *turn};
+  const auto scan = solve(scans);
+  if (!way || !scan || !way->are_sure() || !scan->are_sure()) return std::nullopt;
+  return WheelShares{*way, *scan};
 }
 
 double track_of(const WheelShares& wheels) {
-  return 2 * wheels.way.share.cwiseAbs().sum() / wheels.turn.share.cwiseAbs().sum();
+  return 2 * wheels.way.share.cwiseAbs().sum() / wheels.scan.share.cwiseAbs().sum();
 }
 
 bool is_far(double factor) { return factor < kLeastScale || factor > kMostScale; }
@@ -144,7 +144,7 @@ void find_standing(const std::vector<Told>& sums, const core::DriveGeometry& geo
   double right_m = 0;
   for (const Told& told : sums) {
     // On a curve one of them may stand.
-    if (std::abs(told.turn_rad) * geometry.track_m > std::abs(told.way_m) / 4) continue;
+    if (std::abs(told.rotation_rad) * geometry.track_m > std::abs(told.way_m) / 4) continue;
     way_m += std::abs(told.way_m);
     left_m += std::abs(told.left_m);
     right_m += std::abs(told.right_m);
@@ -158,8 +158,8 @@ void find_wheel_faults(const WheelShares& wheels, const core::DriveGeometry& geo
                        GrossFaults& faults) {
   const int left = wheels.way.sign(0);
   const int right = wheels.way.sign(1);
-  const bool as_named = wheels.turn.sign(0) == -left && wheels.turn.sign(1) == right;
-  const bool exchanged = wheels.turn.sign(0) == left && wheels.turn.sign(1) == -right;
+  const bool as_named = wheels.scan.sign(0) == -left && wheels.scan.sign(1) == right;
+  const bool exchanged = wheels.scan.sign(0) == left && wheels.scan.sign(1) == -right;
   // Neither: a lidar's mount that is wrong gives such shares, no wheel does.
   if (!as_named && !exchanged) return;
   faults.are_exchanged = exchanged;
@@ -170,7 +170,7 @@ void find_wheel_faults(const WheelShares& wheels, const core::DriveGeometry& geo
   // other's: what both say is right of the sum, and unlike are wheels that are so in the turn, too.
   const double sum = wheels.way.share.cwiseAbs().sum();
   const double by_way = std::abs(wheels.way.share[0] / wheels.way.share[1]);
-  const double by_turn = std::abs(wheels.turn.share[0] / wheels.turn.share[1]);
+  const double by_turn = std::abs(wheels.scan.share[0] / wheels.scan.share[1]);
   const bool are_unlike =
       std::min(by_way, by_turn) > kMostUnlike || std::max(by_way, by_turn) < 1 / kMostUnlike;
   const double unlike = are_unlike ? by_turn : 1;
@@ -186,29 +186,29 @@ void find_wheel_faults(const WheelShares& wheels, const core::DriveGeometry& geo
 }
 
 /// By the correlation of the rates.
-bool is_unrelated(const std::vector<Equation>& turns) {
-  const auto count = static_cast<double>(turns.size());
+bool is_unrelated(const std::vector<Equation>& scans) {
+  const auto count = static_cast<double>(scans.size());
   Eigen::Vector2d mean = Eigen::Vector2d::Zero();  // of the gyro, of the robot
   Eigen::Matrix2d square = Eigen::Matrix2d::Zero();
-  for (const Equation& turn : turns) {
-    const Eigen::Vector2d rates = Eigen::Vector2d(turn.x[0], turn.y) / turn.x[1];
+  for (const Equation& scan : scans) {
+    const Eigen::Vector2d rates = Eigen::Vector2d(scan.x[0], scan.y) / scan.x[1];
     mean += rates / count;
     square += rates * rates.transpose() / count;
   }
   const Eigen::Matrix2d covariance = square - mean * mean.transpose();
-  if (covariance(1, 1) < kTurns_rad_s * kTurns_rad_s) return false;
+  if (covariance(1, 1) < kMinRotationRate_rad_s * kMinRotationRate_rad_s) return false;
   return covariance(0, 1) * covariance(0, 1) <
          kUnrelated * kUnrelated * covariance(0, 0) * covariance(1, 1);
 }
 
 void find_gyro_faults(const std::vector<Told>& sums, GrossFaults& faults) {
-  std::vector<Equation> turns;
+  std::vector<Equation> scans;
   for (const Told& told : sums) {
-    if (told.has_gyro) turns.push_back({{told.gyro_rad, told.duration_s}, told.turn_rad});
+    if (told.has_gyro) scans.push_back({{told.gyro_rad, told.duration_s}, told.rotation_rad});
   }
-  const auto gyro = solve(turns);
+  const auto gyro = solve(scans);
   if (!gyro) return;
-  if (is_unrelated(turns)) {
+  if (is_unrelated(scans)) {
     faults.gyro_is_unrelated = true;
     return;
   }

@@ -33,8 +33,8 @@ double gate_m(double distance_m) { return kGateM + kGateShare * distance_m; }
 double most_voted_direction(std::span<const Return> returns, double distance_m) {
   std::array<double, kDirections> votes{};
   const auto vote = [&votes](double bearing_rad) {
-    const double turn = core::normalize_angle(bearing_rad) / core::kTwoPi + 0.5;
-    votes[static_cast<std::size_t>(turn * kDirections) % kDirections] += 1;
+    const double scan = core::normalize_angle(bearing_rad) / core::kTwoPi + 0.5;
+    votes[static_cast<std::size_t>(scan * kDirections) % kDirections] += 1;
   };
   for (const Return& each : returns) {
     const double cosine = distance_m / each.range_m;

@@ -62,21 +62,21 @@ Residuals residuals_of(const DriveWindow& window, const core::DriveGeometry& geo
                        const Vector& p) {
   const core::LearnedOdometry learned = as_learned(p);
   core::Pose2 way;
-  double wheel_turn_rad = 0;
-  double turn_rad = 0;
+  double wheel_rotation_rad = 0;
+  double rotation_rad = 0;
   bool has_gyro = true;
   for (const MotionStep& step : window.steps) {
     const core::LearnedMotion moved = core::learned_motion(step, geometry, learned);
-    way = way * core::arc(moved.way_m, moved.turn_rad);
-    wheel_turn_rad += moved.wheel_turn_rad;
-    turn_rad += moved.turn_rad;
+    way = way * core::arc(moved.way_m, moved.rotation_rad);
+    wheel_rotation_rad += moved.wheel_rotation_rad;
+    rotation_rad += moved.rotation_rad;
     has_gyro = has_gyro && step.has_gyro;
   }
   // Not by the track that is looked for: a wider one would make all that wheels wander smaller.
   const double track = 1 + learned.track_scale;
   return {(way.x_m - window.way.x_m) / kPlaceSigma_m, (way.y_m - window.way.y_m) / kPlaceSigma_m,
-          track * (wheel_turn_rad - window.turn_rad) / kWheelTurnSigma_rad,
-          has_gyro ? (turn_rad - window.turn_rad) / kGyroTurnSigma_rad : 0};
+          track * (wheel_rotation_rad - window.rotation_rad) / kWheelRotationSigma_rad,
+          has_gyro ? (rotation_rad - window.rotation_rad) / kGyroRotationSigma_rad : 0};
 }
 
 /// In sigmas, what a gyro's rate that changes between two readings may make of the window: a robot
@@ -88,7 +88,7 @@ Residuals unevenness_of(const DriveWindow& window) {
   }
   const double change_rad = std::sqrt(change_rad2);
   const double aside_m = change_rad * std::abs(window.way_m) / 2;
-  return {aside_m / kPlaceSigma_m, aside_m / kPlaceSigma_m, 0, change_rad / kGyroTurnSigma_rad};
+  return {aside_m / kPlaceSigma_m, aside_m / kPlaceSigma_m, 0, change_rad / kGyroRotationSigma_rad};
 }
 
 /// The drive at the delay that is tried, and what is asked of it.

@@ -46,7 +46,7 @@ Localizer::~Localizer() = default;
 Localizer::Localizer(Localizer&&) noexcept = default;
 Localizer& Localizer::operator=(Localizer&&) noexcept = default;
 
-const TurnResult& Localizer::step(const Scan& turn) {
+const ScanResult& Localizer::step(const Scan& turn) {
   Workspace& w = *workspace_;
   const TimeNs t_ns = turn.start_ns() + (turn.end_ns() - turn.start_ns()) / 2;
   ++w.result.pose.seq;

@@ -51,8 +51,8 @@ struct PoseEstimate {
 };
 
 /// Everything that one turn gave. Reused from turn to turn.
-struct TurnResult {
-  TurnResult() { pose.alternatives.reserve(kMaxAlternatives); }
+struct ScanResult {
+  ScanResult() { pose.alternatives.reserve(kMaxAlternatives); }
   PoseEstimate pose;
   Detection detection;
   OdometrySummary odometry;
@@ -71,7 +71,7 @@ class Localizer {
   Localizer& operator=(Localizer&&) noexcept;
 
   /// Localizes in one complete turn. The result is valid until the next call.
-  const TurnResult& step(const Scan& scan);
+  const ScanResult& step(const Scan& scan);
 
   /// What wheels and gyro say; before the turn that it belongs to. `now_ns`: see ReadingGate. Where
   /// odometry.publish is on and the last turn named a place: where the robot is by now, in the
@@ -79,7 +79,7 @@ class Localizer {
   const PoseEstimate* add(const OdometryReading& reading, std::optional<TimeNs> now_ns);
 
   /// The next sample of the turn in progress, after the turn that it ended. Where
-  /// updates_per_turn asks for poses before the turn's end, and this sample ends a part of it that
+  /// updates_per_scan asks for poses before the turn's end, and this sample ends a part of it that
   /// agrees with where the robot should be: where it is, at the time of the sample, in the state
   /// tracking, valid until the next call; else null.
   const PoseEstimate* follow(const Sample& sample);

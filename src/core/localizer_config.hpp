@@ -29,7 +29,7 @@ struct LocalizerConfig {
   OdometryConfig odometry;
   /// Poses of a robot whose place is known: each turn gives its own at its end, and one for each
   /// part before.
-  std::size_t updates_per_turn = 1;
+  std::size_t updates_per_scan = 1;
 };
 
 }  // namespace cornerd::core

@@ -102,7 +102,7 @@ void Localizer::Workspace::report_pose(const core::Place& found, std::size_t cor
   pose.covariance = covariance_of_base(of_lidar, T_map_lidar, pose.T_map_base);
   if (found.refined.spread > kSmearedSpread) {
     pose.covariance += doubt_of_smear(found.refined, pose.state);
-    if (place->bias.turns() < kTurnsOfANewLidar) pose.covariance += doubt_of_bias();
+    if (place->bias.scans() < kTurnsOfANewLidar) pose.covariance += doubt_of_bias();
   }
   odometer.correct(pose.T_map_base, pose.covariance);
   pose.room = map->room_at(pose.T_map_base.translation());

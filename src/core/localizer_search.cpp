@@ -80,7 +80,7 @@ bool Localizer::Workspace::is_smeared() const {
 /// new and the robot is seen to stand, it is the bias.
 bool Localizer::Workspace::may_be_biased() const {
   if (!config.learn_bias || !place || place->verification.places().empty()) return false;
-  return place->bias.turns() < kTurnsOfANewLidar && memory.stands() &&
+  return place->bias.scans() < kTurnsOfANewLidar && memory.stands() &&
          place->verification.places().front().explanation.near_share() > kAllButExact;
 }
 

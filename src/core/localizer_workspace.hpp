@@ -45,7 +45,7 @@ struct Localizer::Workspace {
           bias(config.max_range_m, config.noise, config.bias,
                config.forget_bias ? BiasEstimator::kForgottenShare : 0) {
       if (config.recognition == RecognitionMethod::kPaper) paper.emplace(map, catalog);
-      if (config.updates_per_turn > 1) parts.emplace(map, config);
+      if (config.updates_per_scan > 1) parts.emplace(map, config);
     }
     Catalog catalog;
     Recognition recognition;
@@ -105,7 +105,7 @@ struct Localizer::Workspace {
   std::size_t guesses = 0;             ///< of the motion, so far
   Twist2 motion;                       ///< that `points` were moved back by
   std::optional<Pose2> T_map_doubted;  ///< a jump of the turn before that waits for a second
-  TurnResult result;
+  ScanResult result;
   PoseEstimate between;  ///< of a reading between two turns, or of a part of a turn
 };
 

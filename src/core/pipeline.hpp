@@ -20,9 +20,9 @@ class Pipeline {
 
   /// What a turn gave, where this sample is the first after it; else null. Valid, like turn(),
   /// until the next call.
-  const TurnResult* add(const Sample& sample) {
+  const ScanResult* add(const Sample& sample) {
     now_ns_ = sample.t_ns;
-    const TurnResult* result = assembler_.add(sample, turn_) ? &localizer_.step(turn_) : nullptr;
+    const ScanResult* result = assembler_.add(sample, scan_) ? &localizer_.step(scan_) : nullptr;
     part_ = localizer_.follow(sample);
     return result;
   }
@@ -38,22 +38,22 @@ class Pipeline {
   }
 
   /// The stream ends, or goes on somewhere else: what the turn in progress gave, where it is whole.
-  const TurnResult* finish() {
-    const bool whole = assembler_.finish(turn_);
+  const ScanResult* finish() {
+    const bool whole = assembler_.finish(scan_);
     assembler_.reset();
-    return whole ? &localizer_.step(turn_) : nullptr;
+    return whole ? &localizer_.step(scan_) : nullptr;
   }
 
   /// The turn that the last result is of.
-  const Scan& turn() const { return turn_; }
+  const Scan& scan() const { return scan_; }
 
   Localizer& localizer() { return localizer_; }
-  const TurnAssembler& assembler() const { return assembler_; }
+  const ScanAssembler& assembler() const { return assembler_; }
 
  private:
   std::optional<TimeNs> now_ns_;  ///< of the newest sample
-  TurnAssembler assembler_;
-  Scan turn_;
+  ScanAssembler assembler_;
+  Scan scan_;
   Localizer localizer_;
   const PoseEstimate* part_ = nullptr;
 };

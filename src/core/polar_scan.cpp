@@ -68,17 +68,17 @@ class Cursor {
 
 PolarPoint moved(const PolarPoint& point, const Twist2& motion) {
   const double dt_s = point.dt_s;
-  const double turn_rad = motion.omega_rad_s * dt_s;
+  const double rotation_rad = motion.omega_rad_s * dt_s;
   // Along an arc, as Twist2::over() has it, by series: turns are small.
-  const double along = 1 - turn_rad * turn_rad / 6;
-  const double aside = turn_rad / 2 * (1 - turn_rad * turn_rad / 12);
+  const double along = 1 - rotation_rad * rotation_rad / 6;
+  const double aside = rotation_rad / 2 * (1 - rotation_rad * rotation_rad / 12);
   const Vec2 place = Vec2(along * motion.vx_m_s - aside * motion.vy_m_s,
                           aside * motion.vx_m_s + along * motion.vy_m_s) *
                          dt_s +
-                     turned(point.place(), turn_rad);
+                     turned(point.place(), rotation_rad);
   const double range_m = std::max(place.norm(), 1e-6);
   const Vec2 ray = place * (1 / range_m);
-  return {normalize_angle(point.bearing_rad + turn_between(point.ray(), place)),
+  return {normalize_angle(point.bearing_rad + rotation_between(point.ray(), place)),
           range_m,
           ray.x(),
           ray.y(),
@@ -89,7 +89,7 @@ PolarPoint moved(const PolarPoint& point, const Twist2& motion) {
 
 }  // namespace
 
-PolarScan::PolarScan() { points_.reserve(kMaxSamplesPerTurn); }
+PolarScan::PolarScan() { points_.reserve(kMaxSamplesPerScan); }
 
 void PolarScan::assign(const Scan& scan, double min_range_m, double max_range_m, TimeNs at_ns,
                        const Twist2& motion, const SensorBias& bias) {
@@ -115,7 +115,7 @@ void PolarScan::begin(double spacing_rad) {
 }
 
 void PolarScan::append(double bearing_rad, double range_m) {
-  if (points_.size() < kMaxSamplesPerTurn)
+  if (points_.size() < kMaxSamplesPerScan)
     points_.push_back(point_at(bearing_rad, range_m, 0, unit_vector(bearing_rad)));
 }
 

@@ -20,17 +20,17 @@ double swept_rad(std::span<const Sample> samples) {
 
 }  // namespace
 
-bool TurnAssembler::add(const Sample& sample, Scan& turn) {
+bool ScanAssembler::add(const Sample& sample, Scan& scan) {
   bool completed = false;
-  if (sample.starts_turn) {
+  if (sample.starts_scan) {
     completed = collects_ && !collecting_.empty();
-    if (completed) std::swap(collecting_, turn);
+    if (completed) std::swap(collecting_, scan);
     collecting_.clear();
     collects_ = true;
   }
   if (!collects_ || !collecting_.add(sample)) ++dropped_;
-  if (sample.ends_turn && collects_ && !completed) {
-    std::swap(collecting_, turn);
+  if (sample.ends_scan && collects_ && !completed) {
+    std::swap(collecting_, scan);
     collecting_.clear();
     collects_ = false;
     completed = true;
@@ -38,11 +38,11 @@ bool TurnAssembler::add(const Sample& sample, Scan& turn) {
   return completed;
 }
 
-bool TurnAssembler::finish(Scan& turn) {
-  constexpr double kWholeTurnRad = radians(350);
-  const bool whole = collects_ && swept_rad(collecting_.samples()) >= kWholeTurnRad;
+bool ScanAssembler::finish(Scan& scan) {
+  constexpr double kFullRevolution_rad = radians(350);
+  const bool whole = collects_ && swept_rad(collecting_.samples()) >= kFullRevolution_rad;
   if (whole) {
-    std::swap(collecting_, turn);
+    std::swap(collecting_, scan);
   } else {
     dropped_ += collecting_.size();
   }
@@ -51,7 +51,7 @@ bool TurnAssembler::finish(Scan& turn) {
   return whole;
 }
 
-void TurnAssembler::reset() {
+void ScanAssembler::reset() {
   dropped_ += collecting_.size();
   collecting_.clear();
   collects_ = false;

@@ -12,19 +12,19 @@ namespace cornerd::core {
 
 /// An A1 at its slowest (1 Hz) and its fastest mode (127 us a sample) gives 7,874 samples a turn;
 /// `cornerctl bench` goes up to 10,000.
-inline constexpr std::size_t kMaxSamplesPerTurn = 10240;
+inline constexpr std::size_t kMaxSamplesPerScan = 10240;
 
-/// The samples of one turn in the order of their arrival. Room for kMaxSamplesPerTurn is taken at
+/// The samples of one turn in the order of their arrival. Room for kMaxSamplesPerScan is taken at
 /// construction, so that filling and reusing one allocates nothing.
 class Scan {
  public:
-  Scan() { samples_.reserve(kMaxSamplesPerTurn); }
+  Scan() { samples_.reserve(kMaxSamplesPerScan); }
 
   void clear() { samples_.clear(); }
 
   /// False, and nothing added, where the turn is full.
   bool add(const Sample& sample) {
-    if (samples_.size() >= kMaxSamplesPerTurn) return false;
+    if (samples_.size() >= kMaxSamplesPerScan) return false;
     samples_.push_back(sample);
     return true;
   }
@@ -50,20 +50,20 @@ class Scan {
 /// Collects samples until a revolution is complete: the next one starts, or the source says that it
 /// ends. A stream joined in the middle of a turn gives its first scan at the end of the first whole
 /// one.
-class TurnAssembler {
+class ScanAssembler {
  public:
   /// True when `sample` completed a turn, which `turn` now holds. It is swapped in, never copied;
   /// nothing is allocated.
-  bool add(const Sample& sample, Scan& turn);
+  bool add(const Sample& sample, Scan& scan);
 
   /// The end of a recording: hands out the turn in progress where it has gone round all but 10
   /// degrees. True where `turn` was filled.
-  bool finish(Scan& turn);
+  bool finish(Scan& scan);
 
   /// Forgets the turn in progress: the device was reopened, the stream has a hole.
   void reset();
 
-  /// Samples beyond kMaxSamplesPerTurn, and those of turns that were begun but never ended.
+  /// Samples beyond kMaxSamplesPerScan, and those of turns that were begun but never ended.
   std::size_t dropped() const { return dropped_; }
 
  private:

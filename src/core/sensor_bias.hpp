@@ -32,7 +32,7 @@ struct SensorBias {
 struct LearnedBias {
   SensorBias bias;
   SensorBias sigma;         ///< standard deviations, each in the unit of what it is of
-  std::size_t turns = 0;    ///< 0: nothing is learnt, `bias` is what was known beforehand
+  std::size_t scans = 0;    ///< 0: nothing is learnt, `bias` is what was known beforehand
   bool is_limited = false;  ///< farther from what was known than a lidar may be: the map is wrong
 };
 

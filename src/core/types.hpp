@@ -23,8 +23,8 @@ struct Sample {
   float bearing_rad = 0;  ///< in [-pi, pi]
   float range_m = 0;      ///< 0: nothing returned
   std::uint8_t quality = 0;
-  bool starts_turn = false;  ///< the first sample of a revolution
-  bool ends_turn = false;    ///< the last one, where the source knows: a recorded SCAN does
+  bool starts_scan = false;  ///< the first sample of a revolution
+  bool ends_scan = false;    ///< the last one, where the source knows: a recorded SCAN does
 };
 
 }  // namespace cornerd::core

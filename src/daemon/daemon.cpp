@@ -42,7 +42,7 @@ Daemon::Daemon(Loaded loaded, Reloader::Load load, std::unique_ptr<drivers::Lida
     : config_(std::move(loaded.config)),
       is_live_(config_.lidar.driver != settings::DriverKind::kReplay),
       server_(loop_, std::move(version), control_actions(config_)),
-      turns_(server_, std::move(loaded.map)),
+      scans_(server_, std::move(loaded.map)),
       status_(server_, notifier_),
       tick_(kTick),
       reloader_(std::move(load)),
@@ -70,9 +70,9 @@ Daemon::Daemon(Loaded loaded, Reloader::Load load, std::unique_ptr<drivers::Lida
   loop_.add(tick_.fd(), EPOLLIN, [this](std::uint32_t) { on_tick(); });
   loop_.add(reloader_.event_fd(), EPOLLIN, [this](std::uint32_t) { on_loaded(); });
   loop_.add(localization_.event_fd(), EPOLLIN, [this](std::uint32_t) {
-    localization_.take([this](const TurnReport& report) { turns_.publish(report); });
+    localization_.take([this](const ScanReport& report) { scans_.publish(report); });
     localization_.take_predictions(
-        [this](const core::PoseEstimate& pose) { turns_.publish(pose); });
+        [this](const core::PoseEstimate& pose) { scans_.publish(pose); });
   });
   if (const auto period_us = notifier_.watchdog_period_us()) {
     watchdog_.emplace(microseconds(*period_us));
@@ -181,7 +181,7 @@ void Daemon::on_loaded() {
   if (!memory_.reconfigure(loaded.config.lidar.bias)) localization_.forget_lidar();
   localization_.publish_readings(loaded.config.odometry.core.publish);
   auto pipeline = resumed(std::move(loaded.pipeline), loaded.config.lidar, memory_);
-  turns_.expect_map(localization_.replace(std::move(pipeline)), std::move(loaded.map));
+  scans_.expect_map(localization_.replace(std::move(pipeline)), std::move(loaded.map));
   if (health_.memory_is_locked) health_.memory_is_locked = lock_memory() == 0;
   if (config_.realtime.lock_memory && !health_.memory_is_locked) touch_memory();
   spdlog::info("map loaded: {}", name);
@@ -204,7 +204,7 @@ void Daemon::on_tick() {
   const bool sensors_changed = odometry_ && odometry_->notice_changes(server_, now_ns());
   const bool is_time = ticks_++ % kTicksPerStatus == 0;
   if (is_time || sensors_changed) {
-    status_.publish(lidar_->status(), turns_, localization_, health_, now_ns());
+    status_.publish(lidar_->status(), scans_, localization_, health_, now_ns());
   }
   if (is_time) {
     server_.restore_sockets([](const std::string& line) { spdlog::warn("{}", line); });
@@ -219,7 +219,7 @@ void Daemon::notice_device() {
     spdlog::info("another lidar, {}: what was learnt of the last one is forgotten", text);
     server_.publish(message::MessageClass::kEvent, line_.event(now_ns(), "another lidar", text));
   }
-  if (turns_.lidar() == localization_.lidar()) memory_.keep(turns_.bias());
+  if (scans_.lidar() == localization_.lidar()) memory_.keep(scans_.bias());
 }
 
 void Daemon::publish_changes() {
@@ -231,7 +231,7 @@ void Daemon::publish_changes() {
     then.state = change.state;
     then.fault = change.fault;
     then.detail = change.detail;
-    status_.publish(then, turns_, localization_, health_, now_ns());
+    status_.publish(then, scans_, localization_, health_, now_ns());
   }
 }
 
@@ -243,7 +243,7 @@ void Daemon::on_watchdog() {
 }
 
 core::TimeNs Daemon::now_ns() const {
-  return is_live_ ? unix_ns() : turns_.end_of_newest_turn_ns();
+  return is_live_ ? unix_ns() : scans_.end_of_newest_scan_ns();
 }
 
 }  // namespace cornerd::daemon

@@ -17,9 +17,9 @@
 #include "daemon/periodic_timer.hpp"
 #include "daemon/reloader.hpp"
 #include "daemon/repeated_log.hpp"
+#include "daemon/scan_publisher.hpp"
 #include "daemon/signals.hpp"
 #include "daemon/status_publisher.hpp"
-#include "daemon/turn_publisher.hpp"
 #include "drivers/lidar_driver.hpp"
 #include "settings/config.hpp"
 
@@ -57,7 +57,7 @@ class Daemon {
   Notifier notifier_;
   OdometryClients odometry_clients_;  ///< before the server, which tells it of the last to go
   MessageServer server_;
-  TurnPublisher turns_;
+  ScanPublisher scans_;
   StatusPublisher status_;
   ClockWatch clock_;
   RepeatedLog clock_steps_{spdlog::level::warn, "clock step"};

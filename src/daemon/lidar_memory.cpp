@@ -15,7 +15,7 @@ namespace cornerd::daemon {
 namespace {
 
 /// Fewer turns tell less than what an A1 may be off by.
-constexpr std::size_t kLeastTurns = 20;
+constexpr std::size_t kMinScans = 20;
 /// News is what differs by this share of its sigma, or is so much better known.
 constexpr double kNewsSigmas = 0.5;
 constexpr double kNewsOfSigma = 0.7;
@@ -82,7 +82,7 @@ void LidarMemory::recall() {
     }
     known_ = std::move(found);
     written_ = known_.learned;
-    spdlog::info("the lidar's bias is known from {} turns before", written_.turns);
+    spdlog::info("the lidar's bias is known from {} turns before", written_.scans);
   } catch (const std::exception& error) {
     if (!is_own(text)) {
       // Somebody's settings or map, given by mistake, stay where they are.
@@ -114,7 +114,7 @@ bool LidarMemory::reconfigure(const core::SensorBias& configured) {
 }
 
 bool LidarMemory::is_news() const {
-  if (written_.turns == 0) return true;
+  if (written_.scans == 0) return true;
   for (const auto part : kParts) {
     const double sigma = written_.sigma.*part;
     if (std::abs(known_.learned.bias.*part - written_.bias.*part) > kNewsSigmas * sigma)
@@ -125,9 +125,9 @@ bool LidarMemory::is_news() const {
 }
 
 void LidarMemory::keep(const core::LearnedBias& learned) {
-  if (learned.turns <= known_.learned.turns) return;
+  if (learned.scans <= known_.learned.scans) return;
   known_.learned = learned;
-  if (file_.empty() || learned.turns < kLeastTurns || !is_news()) return;
+  if (file_.empty() || learned.scans < kMinScans || !is_news()) return;
   try {
     replace_file(file_, settings::text_of(known_));
     written_ = learned;

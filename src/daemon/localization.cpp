@@ -99,7 +99,7 @@ void Localization::succeed(const SampleChannel::Item& item) {
   retired_.store(current_.release());
   current_.reset(next);
   // The sample that ended the last turn is the next one's first.
-  const bool begins = item.kind == SampleChannel::Kind::kSample && item.sample.starts_turn;
+  const bool begins = item.kind == SampleChannel::Kind::kSample && item.sample.starts_scan;
   if (begins) next->pipeline->add(item.sample);
 }
 
@@ -113,26 +113,26 @@ void Localization::process(core::Pipeline& pipeline, const SampleChannel::Item& 
   while (given_poses_.pop(T_map_base)) pipeline.localizer().set_pose(T_map_base);
   take_readings();
   if (item.kind == SampleChannel::Kind::kReading) return report(pipeline.add(item.reading));
-  const core::TurnResult* result =
+  const core::ScanResult* result =
       item.kind == SampleChannel::Kind::kGap ? pipeline.finish() : pipeline.add(item.sample);
   if (result != nullptr) report(pipeline, *result, item.arrival_ns);
   if (item.kind == SampleChannel::Kind::kSample) report(pipeline.part());
 }
 
-void Localization::report(const core::Pipeline& pipeline, const core::TurnResult& result,
+void Localization::report(const core::Pipeline& pipeline, const core::ScanResult& result,
                           std::int64_t arrival_ns) {
   rounds_.fetch_add(1, std::memory_order_relaxed);
-  ++turns_;
+  ++scans_;
   ++poses_;
-  const bool handed_over = reports_.put([&](TurnReport& report) {
+  const bool handed_over = reports_.put([&](ScanReport& report) {
     report.result = result;
-    report.turn = pipeline.turn();
-    report.number = turns_;
+    report.scan = pipeline.scan();
+    report.number = scans_;
     report.result.pose.seq = poses_;  // goes on from pipeline to pipeline
     if (source_ == SourceKind::kDevice) {
       const core::TimeNs to_unix_ns = unix_ns() - monotonic_ns();
       report.result.pose.t_ns += to_unix_ns;
-      report.turn.shift(to_unix_ns);
+      report.scan.shift(to_unix_ns);
     }
     report.latency_ns = monotonic_ns() - arrival_ns;
     report.generation = current_->number;

@@ -22,9 +22,9 @@ namespace cornerd::daemon {
 enum class SourceKind : std::uint8_t { kDevice, kRecording };
 
 /// What one turn gave, for the server's thread. Its times are UNIX time, or the recording's own.
-struct TurnReport {
-  core::TurnResult result;
-  core::Scan turn;
+struct ScanReport {
+  core::ScanResult result;
+  core::Scan scan;
   std::uint64_t number = 0;  ///< of the turn; POSE.seq counts poses between turns as well
   /// From when the turn's end was handed over by the driver to when the pose was there.
   std::int64_t latency_ns = 0;
@@ -60,7 +60,7 @@ class Localization {
 
   /// Readable when there are reports.
   int event_fd() const { return reported_.get(); }
-  /// Calls `use` with every TurnReport there is, oldest first.
+  /// Calls `use` with every ScanReport there is, oldest first.
   void take(const auto& use) {
     clear_event();
     delete retired_.exchange(nullptr);
@@ -115,7 +115,7 @@ class Localization {
   void localize(const std::stop_token& stop);
   void process(const SampleChannel::Item& item);
   void process(core::Pipeline& pipeline, const SampleChannel::Item& item);
-  void report(const core::Pipeline& pipeline, const core::TurnResult& result,
+  void report(const core::Pipeline& pipeline, const core::ScanResult& result,
               std::int64_t arrival_ns);
   /// Puts the next pipeline, where there is one, in the place of this, between two turns.
   void succeed(const SampleChannel::Item& item);
@@ -126,7 +126,7 @@ class Localization {
   drivers::LidarDriver& driver_;
   const SourceKind source_;
   std::unique_ptr<Generation> current_;  ///< the localizer's thread's, as is the next
-  std::uint64_t turns_ = 0;
+  std::uint64_t scans_ = 0;
   std::uint64_t poses_ = 0;  ///< those between the turns included
   /// To that thread and back: it takes no memory and gives none away.
   std::atomic<Generation*> next_{nullptr};
@@ -135,7 +135,7 @@ class Localization {
   SampleChannel channel_;
   core::RingBuffer<core::OdometryReading> readings_;
   core::RingBuffer<core::Pose2> given_poses_;
-  SlotExchange<TurnReport> reports_;
+  SlotExchange<ScanReport> reports_;
   SlotExchange<core::PoseEstimate> predictions_;
   std::atomic<bool> publishes_readings_{false};
   FileDescriptor reported_;

@@ -33,14 +33,14 @@ bool SampleChannel::push(const Item& item) {
 void SampleChannel::on_sample(const core::Sample& sample) {
   if (owes_gap_) on_gap();
   newest_ns_.store(sample.t_ns, std::memory_order_relaxed);
-  const bool may_complete_turn = sample.starts_turn || sample.ends_turn;
-  const std::int64_t arrival_ns = may_complete_turn ? monotonic_ns() : 0;
+  const bool may_complete_scan = sample.starts_scan || sample.ends_scan;
+  const std::int64_t arrival_ns = may_complete_scan ? monotonic_ns() : 0;
   const Item item{.sample = sample, .reading = {}, .arrival_ns = arrival_ns, .kind = Kind::kSample};
   if (owes_gap_ || !push(item)) {
     owes_gap_ = true;
     lost_.fetch_add(1, std::memory_order_relaxed);
   }
-  if (may_complete_turn || ++since_wake_ >= kWakeInterval) {
+  if (may_complete_scan || ++since_wake_ >= kWakeInterval) {
     since_wake_ = 0;
     page_faults_.store(static_cast<std::uint32_t>(page_faults_of_thread()),
                        std::memory_order_relaxed);

@@ -19,7 +19,7 @@ using message::MessageClass;
 using Counter = message::StatusFields::Counter;
 
 /// In the order of core::PoseState.
-constexpr std::array<std::string_view, TurnPublisher::kStates> kPoseCounterNames = {
+constexpr std::array<std::string_view, ScanPublisher::kStates> kPoseCounterNames = {
     "poses_fix", "poses_tracking", "poses_predicted", "poses_ambiguous", "poses_lost"};
 
 /// A driver has fewer different things to say.
@@ -72,7 +72,7 @@ void StatusPublisher::log_once(const drivers::LidarChange& change, const std::st
   spdlog::log(is_trouble(change) ? spdlog::level::warn : spdlog::level::info, "lidar {}", text);
 }
 
-void StatusPublisher::publish(const drivers::LidarStatus& lidar, const TurnPublisher& turns,
+void StatusPublisher::publish(const drivers::LidarStatus& lidar, const ScanPublisher& scans,
                               Localization& localization, const DaemonHealth& health,
                               core::TimeNs t_ns) {
   std::array<Counter, drivers::kCounterNames.size() + kPoseCounterNames.size() + 4> counters;
@@ -81,7 +81,7 @@ void StatusPublisher::publish(const drivers::LidarStatus& lidar, const TurnPubli
     *next++ = {name, lidar.counters.*member};
   }
   for (std::size_t i = 0; i < kPoseCounterNames.size(); ++i) {
-    *next++ = {kPoseCounterNames[i], turns.poses()[i]};
+    *next++ = {kPoseCounterNames[i], scans.poses()[i]};
   }
   *next++ = {"lost_samples", localization.lost_samples()};
   *next++ = {"lost_turns", localization.lost_reports()};
@@ -100,12 +100,12 @@ void StatusPublisher::publish(const drivers::LidarStatus& lidar, const TurnPubli
   status.lidar_mode = lidar.mode.view();
   status.rate_hz = lidar.rate_hz;
   status.samples_hz = lidar.samples_hz;
-  status.bias = &turns.bias();
+  status.bias = &scans.bias();
   status.counters = counters;
-  status.odometry = &turns.odometry();
+  status.odometry = &scans.odometry();
   if (odometry_ != nullptr) odometry_->describe(status);
   if (odometry_clients_ != nullptr) odometry_clients_->describe(status);
-  const LatencyWindow& latencies = turns.latencies();
+  const LatencyWindow& latencies = scans.latencies();
   status.latency = {latencies.percentile(0.5), latencies.percentile(0.95),
                     latencies.percentile(0.99), !latencies.empty()};
   const LoopHealth localizer = localization.localizer_health();
@@ -120,8 +120,8 @@ void StatusPublisher::publish(const drivers::LidarStatus& lidar, const TurnPubli
   server_.publish(MessageClass::kStatus, line_.status(status));
 
   std::string summary = "lidar " + describe(lidar.state, lidar.fault, lidar.detail.view());
-  if (lidar.state == LidarState::kRunning && turns.state()) {
-    summary.append("; pose ").append(message::to_string(*turns.state()));
+  if (lidar.state == LidarState::kRunning && scans.state()) {
+    summary.append("; pose ").append(message::to_string(*scans.state()));
   }
   notifier_.status(summary);
 }

@@ -10,7 +10,7 @@
 #include "daemon/notifier.hpp"
 #include "daemon/odometry_clients.hpp"
 #include "daemon/odometry_source.hpp"
-#include "daemon/turn_publisher.hpp"
+#include "daemon/scan_publisher.hpp"
 #include "drivers/lidar_driver.hpp"
 #include "message/line.hpp"
 
@@ -31,7 +31,7 @@ class StatusPublisher {
 
   /// For each state that the lidar came to. True where it is a change: time for a STATUS.
   bool notice(const drivers::LidarChange& change, core::TimeNs t_ns);
-  void publish(const drivers::LidarStatus& lidar, const TurnPublisher& turns,
+  void publish(const drivers::LidarStatus& lidar, const ScanPublisher& scans,
                Localization& localization, const DaemonHealth& health, core::TimeNs t_ns);
   /// Whose sensors to tell of; null: none of this program's.
   void set_odometry(OdometrySource* odometry) { odometry_ = odometry; }

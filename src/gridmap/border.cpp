@@ -43,15 +43,15 @@ class Tracer {
 
   /// The way on after a side that ends here; 4 where there is none.
   unsigned way_on(const Point& at, unsigned way) const {
-    for (const unsigned turn : {1U, 0U, 3U}) {
-      if (is_side(at, (way + turn) % 4)) return (way + turn) % 4;
+    for (const unsigned scan : {1U, 0U, 3U}) {
+      if (is_side(at, (way + scan) % 4)) return (way + scan) % 4;
     }
     return 4;
   }
 
   bool has_side_before(const Point& at, unsigned way) const {
-    for (const unsigned turn : {0U, 1U, 3U}) {
-      const unsigned before = (way + turn) % 4;
+    for (const unsigned scan : {0U, 1U, 3U}) {
+      const unsigned before = (way + scan) % 4;
       const Point from{at.x - kWays[before].x, at.y - kWays[before].y};
       if (is_side(from, before) && way_on(at, before) == way) return true;
     }

@@ -117,13 +117,13 @@ class FaceBuilder {
         is_inner_[one.next] = core::cross(one.run.way, next.run.way) > 0;
         continue;
       }
-      Vec2 turn = one.end;
+      Vec2 scan = one.end;
       if (one.run.way.dot(next.run.way) < kWallEndCosine) {
-        turn = farthest_around(borders_[border_of_[i]], one.run, next.run) -
+        scan = farthest_around(borders_[border_of_[i]], one.run, next.run) -
                options_.inset * one.run.way;
       }
-      to_[i] = on_line(one.run, turn);
-      from_[one.next] = on_line(next.run, turn);
+      to_[i] = on_line(one.run, scan);
+      from_[one.next] = on_line(next.run, scan);
     }
   }
 

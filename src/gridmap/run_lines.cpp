@@ -23,7 +23,7 @@ double from_axis(const Run& run, double frame_rad) {
   return std::remainder(core::angle_of(run.way) - frame_rad, core::kPi / 2);
 }
 
-double allowed_turn(const Run& run) { return 2 * kSquareMove / std::max(run.extent, 1.0); }
+double allowed_rotation(const Run& run) { return 2 * kSquareMove / std::max(run.extent, 1.0); }
 
 /// The direction that most of the walls' length agrees with: of the longest run, then of all that
 /// are square to it, each by the weight of what is known of its direction.
@@ -37,17 +37,18 @@ double main_direction(const std::vector<LinkedRun>& runs) {
     double sum = 0;
     double weights = 0;
     for (const LinkedRun& linked : runs) {
-      const double turn_rad = from_axis(linked.run, frame_rad);
-      if (std::abs(turn_rad) > allowed_turn(linked.run)) continue;
+      const double rotation_rad = from_axis(linked.run, frame_rad);
+      if (std::abs(rotation_rad) > allowed_rotation(linked.run)) continue;
       const double weight = std::pow(linked.run.extent, 3);
-      sum += weight * turn_rad;
+      sum += weight * rotation_rad;
       weights += weight;
     }
     if (weights > 0) frame_rad += sum / weights;
   }
   // Most pictures are drawn along the building's walls.
   const double raster_rad = std::remainder(frame_rad, core::kPi / 2);
-  return std::abs(raster_rad) < allowed_turn(longest->run) / 4 ? frame_rad - raster_rad : frame_rad;
+  return std::abs(raster_rad) < allowed_rotation(longest->run) / 4 ? frame_rad - raster_rad
+                                                                   : frame_rad;
 }
 
 double gap_between(const Run& one, const LinkedRun& first, const LinkedRun& second) {
@@ -141,7 +142,7 @@ void square_up(std::vector<LinkedRun>& runs) {
   const double frame_rad = main_direction(runs);
   for (LinkedRun& linked : runs) {
     Run& run = linked.run;
-    if (std::abs(from_axis(run, frame_rad)) > allowed_turn(run)) continue;
+    if (std::abs(from_axis(run, frame_rad)) > allowed_rotation(run)) continue;
     // The four axes from one, so that opposite ones are opposite to the last bit.
     const Vec2 axis = core::unit_vector(frame_rad);
     const double quarters = (core::angle_of(run.way) - frame_rad) / (core::kPi / 2);

@@ -21,7 +21,7 @@ double read_range(FieldReader& fields, const Json& ranges, std::size_t index) {
 /// The array, or nullptr where there is none; of another length it is an error.
 const Json* optional_array(FieldReader& fields, const char* name, std::size_t size) {
   if (!fields.has(name)) return nullptr;
-  const Json& array = fields.array(name, core::kMaxSamplesPerTurn);
+  const Json& array = fields.array(name, core::kMaxSamplesPerScan);
   if (array.size() != size) {
     fields.fail("\"" + std::string(name) + "\" must be as long as \"angles\"");
     return nullptr;
@@ -36,8 +36,8 @@ RecordedScan read_scan(FieldReader& fields) {
   scan.t_ns = fields.time("t");
   const double duration_s = fields.optional_number("duration", kDurationLimitsS).value_or(0);
   scan.duration_ns = core::from_seconds(duration_s);
-  const Json& angles = fields.array("angles", core::kMaxSamplesPerTurn);
-  const Json& ranges = fields.array("ranges", core::kMaxSamplesPerTurn);
+  const Json& angles = fields.array("angles", core::kMaxSamplesPerScan);
+  const Json& ranges = fields.array("ranges", core::kMaxSamplesPerScan);
   const std::size_t count = angles.size();
   if (ranges.size() != count) fields.fail("\"angles\" and \"ranges\" must be equally long");
   const Json* quality = optional_array(fields, "quality", count);
@@ -56,8 +56,8 @@ RecordedScan read_scan(FieldReader& fields) {
     if (quality != nullptr) {
       sample.quality = static_cast<std::uint8_t>(fields.element("quality", *quality, i, {0, 255}));
     }
-    sample.starts_turn = i == 0;
-    sample.ends_turn = i + 1 == count;
+    sample.starts_scan = i == 0;
+    sample.ends_scan = i + 1 == count;
   }
   return scan;
 }

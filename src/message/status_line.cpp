@@ -19,7 +19,7 @@ void write_bias(JsonText& json, const core::LearnedBias& learned) {
   json.open_object("sigma");
   write_bias(json, learned.sigma);
   json.close_object();
-  json.integer("turns", learned.turns);
+  json.integer("turns", learned.scans);
   json.close_object();
 }
 
@@ -35,7 +35,7 @@ void write_lidar(JsonText& json, const StatusFields& status) {
   json.text("mode", status.lidar_mode);
   json.number("rate_hz", status.rate_hz, 3);
   json.number("samples_hz", status.samples_hz, 1);
-  if (status.bias != nullptr && status.bias->turns > 0) write_bias(json, *status.bias);
+  if (status.bias != nullptr && status.bias->scans > 0) write_bias(json, *status.bias);
   json.close_object();
 }
 

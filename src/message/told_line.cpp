@@ -78,7 +78,7 @@ ToldLine read_pose(FieldReader& fields) {
 ToldLine read_breakpoints(FieldReader& fields) {
   ToldBreakpoints told;
   told.t_ns = fields.time("t");
-  for (const Json& point : fields.array("points", core::kMaxSamplesPerTurn)) {
+  for (const Json& point : fields.array("points", core::kMaxSamplesPerScan)) {
     FieldReader entries(point);
     const double x_m = entries.number("x", kCoordinateLimitsM);
     const double y_m = entries.number("y", kCoordinateLimitsM);

@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::size_t kMaxConfigBytes = 1 << 20;
 /// A part of a turn with fewer than a fiftieth of an A1's 800 samples tells nothing.
-constexpr int kMaxUpdatesPerTurn = 16;
+constexpr int kMaxUpdatesPerScan = 16;
 constexpr std::size_t kMaxModeBytes = 64;
 constexpr std::size_t kMaxDeviceNameBytes = 64;
 
@@ -210,7 +210,7 @@ void read_realtime(ObjectReader realtime, RealtimeConfig& config) {
 
 void read_localizer(ObjectReader localizer, LocalizationConfig& config) {
   localizer.choice("recognition", config.recognition, kRecognitions);
-  localizer.integer("updates_per_turn", config.updates_per_turn, 1, kMaxUpdatesPerTurn);
+  localizer.integer("updates_per_turn", config.updates_per_scan, 1, kMaxUpdatesPerScan);
   localizer.finish();
 }
 
@@ -239,7 +239,7 @@ core::LocalizerConfig Config::localizer() const {
                          core::normalize_angle(lidar.mount.theta_rad)};
   config.detector = detector;
   config.recognition = localization.recognition;
-  config.updates_per_turn = static_cast<std::size_t>(localization.updates_per_turn);
+  config.updates_per_scan = static_cast<std::size_t>(localization.updates_per_scan);
   config.noise = lidar.noise.sensor;
   config.bias = lidar.bias;
   config.learn_bias = lidar.learn_bias;

@@ -109,7 +109,7 @@ struct OdometryConfig {
 
 struct LocalizationConfig {
   core::RecognitionMethod recognition = core::RecognitionMethod::kPatterns;
-  int updates_per_turn = 1;
+  int updates_per_scan = 1;
 };
 
 struct SocketConfig {

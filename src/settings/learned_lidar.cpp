@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::string_view kFormat = "cornerd-lidar";
 constexpr std::size_t kMaxSerialBytes = 64;
-constexpr std::uint32_t kMostTurns = 4'000'000'000;
+constexpr std::uint32_t kMaxScans = 4'000'000'000;
 
 /// No number of turns makes a bias known better than a micrometre, a millionth, a microradian.
 constexpr double kLeastSigma = 1e-6;
@@ -39,10 +39,10 @@ LearnedLidar parse_learned_lidar(std::string_view text, const std::filesystem::p
   read_bias(root.object("bias"), lidar.learned.bias);
   read_bias(root.object("sigma"), lidar.learned.sigma);
   if (!is_possible(lidar.learned.sigma)) root.fail("sigma", "must be 1e-6 at least, all of it");
-  std::uint32_t turns = 0;
-  root.integer("turns", turns, std::uint32_t{1}, kMostTurns);
-  if (turns == 0) root.fail("turns", "is missing");
-  lidar.learned.turns = turns;
+  std::uint32_t scans = 0;
+  root.integer("turns", scans, std::uint32_t{1}, kMaxScans);
+  if (scans == 0) root.fail("turns", "is missing");
+  lidar.learned.scans = scans;
   root.finish();
   return lidar;
 }
@@ -53,7 +53,7 @@ std::string text_of(const LearnedLidar& lidar) {
   document["configured"] = json_of(lidar.configured);
   document["bias"] = json_of(lidar.learned.bias);
   document["sigma"] = json_of(lidar.learned.sigma);
-  document["turns"] = std::min<std::size_t>(lidar.learned.turns, kMostTurns);
+  document["turns"] = std::min<std::size_t>(lidar.learned.scans, kMaxScans);
   return document.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
 }
 

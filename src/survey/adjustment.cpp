@@ -24,9 +24,9 @@ constexpr double kStill_m = 2e-6;
 /// Returns the largest way of a pose.
 double apply(const Linearization& equations, const Eigen::VectorXd& move, MappedDrive& drive) {
   double largest_m = 0;
-  for (std::size_t turn = 1; turn < drive.T_map_lidar.size(); ++turn) {
-    const Eigen::Vector3d step = move.segment<3>(equations.pose_unknown(turn));
-    core::Pose2& pose = drive.T_map_lidar[turn];
+  for (std::size_t scan = 1; scan < drive.T_map_lidar.size(); ++scan) {
+    const Eigen::Vector3d step = move.segment<3>(equations.pose_unknown(scan));
+    core::Pose2& pose = drive.T_map_lidar[scan];
     pose = {pose.x_m + step.x(), pose.y_m + step.y(),
             core::normalize_angle(pose.theta_rad + step.z())};
     largest_m = std::max(largest_m, step.head<2>().norm());
@@ -80,8 +80,8 @@ core::Covariance3 covariance_of_way(const MappedDrive& drive, std::size_t from, 
   return slopes.transpose() * spread;
 }
 
-std::vector<double> variances_of_turn(const MappedDrive& drive, std::uint32_t from,
-                                      std::span<const std::uint32_t> to) {
+std::vector<double> rotation_variances(const MappedDrive& drive, std::uint32_t from,
+                                       std::span<const std::uint32_t> to) {
   // So many right-hand sides at once, for the memory that they take.
   constexpr std::size_t kAtOnce = 64;
   std::vector<double> variances(to.size(), std::numeric_limits<double>::infinity());

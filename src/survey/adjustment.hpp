@@ -15,7 +15,7 @@ namespace cornerd::survey {
 struct FaceBond {
   std::uint32_t one = 0;
   std::uint32_t other = 0;
-  double turn_rad = 0;       ///< from the normal of `one` to that of `other`
+  double rotation_rad = 0;   ///< from the normal of `one` to that of `other`
   bool on_one_line = false;  ///< and they lie on one line
   double sigma_rad = 0.0001;
   double sigma_m = 0.0001;
@@ -40,7 +40,7 @@ core::Covariance3 covariance_of_way(const MappedDrive& drive, std::size_t from, 
 
 /// How well an adjusted drive knows the turn from the normal of one face to those of others: a
 /// variance (rad^2) for each of these, infinite where nothing is known of it.
-std::vector<double> variances_of_turn(const MappedDrive& drive, std::uint32_t from,
-                                      std::span<const std::uint32_t> to);
+std::vector<double> rotation_variances(const MappedDrive& drive, std::uint32_t from,
+                                       std::span<const std::uint32_t> to);
 
 }  // namespace cornerd::survey

@@ -11,7 +11,7 @@ namespace {
 /// What is nearer may be one wall that the sensor sees now here, now there.
 constexpr double kLeastApart_m = 0.07;
 constexpr double kMostApart_m = 0.5;
-constexpr double kMostTurned_rad = core::radians(12);
+constexpr double kMaxRotation_rad = core::radians(12);
 /// What is so near to the end of the front one, as a multiple of how far it is behind it, was seen
 /// past that end.
 constexpr double kPastTheEnd = 2;
@@ -22,7 +22,7 @@ double hidden_m(const MappedDrive& drive, const std::vector<FaceEvidence>& evide
                 const WallPiece& front, const WallPiece& back) {
   const MappedFace& before = drive.faces[front.face];
   const MappedFace& behind = drive.faces[back.face];
-  if (std::abs(core::angle_between(before.normal_rad(), behind.normal_rad())) > kMostTurned_rad) {
+  if (std::abs(core::angle_between(before.normal_rad(), behind.normal_rad())) > kMaxRotation_rad) {
     return 0;
   }
   const FaceEvidence& seen = evidence[back.face];

@@ -7,9 +7,9 @@
 #include <utility>
 #include <vector>
 
+#include "survey/scan_matcher.hpp"
+#include "survey/scan_reader.hpp"
 #include "survey/sighting_extractor.hpp"
-#include "survey/turn_matcher.hpp"
-#include "survey/turn_reader.hpp"
 
 namespace cornerd::survey {
 namespace {
@@ -28,7 +28,7 @@ constexpr double kVague_rad = core::radians(6);
 constexpr double kVague_m = 0.05;
 /// Of what a robot may do from one turn to the next, to any place that walls tell.
 constexpr double kMostWaySigmas = 3;
-constexpr double kMostTurnSigmas = 4;
+constexpr double kMaxRotationSigmas = 4;
 /// Who turned so far from what was foreseen has to see more of what he knows.
 constexpr double kSurprise_rad = core::radians(9);
 /// So many turns in a row may be guessed; then the way is lost, and is not found again by chance.
@@ -48,7 +48,7 @@ class Mapper {
         reader_(drive, config, before ? before->learned : std::nullopt,
                 before && !before->has_odometry ? std::span<const core::Pose2>(before->T_map_lidar)
                                                 : std::span<const core::Pose2>(),
-                anew ? std::span<const std::size_t>(before->strange_turns)
+                anew ? std::span<const std::size_t>(before->unmatched_scans)
                      : std::span<const std::size_t>()),
         extractor_(config.detector, config.noise) {
     if (before_) {
@@ -87,19 +87,19 @@ class Mapper {
   }
 
   void locate() {
-    TurnPrior prior = reader_.prior();
-    const std::size_t turn = reader_.turn();
+    ScanPrior prior = reader_.prior();
+    const std::size_t scan = reader_.scan();
     if (before_) {
-      prior.T_map_lidar = before_->T_map_lidar[turn];
+      prior.T_map_lidar = before_->T_map_lidar[scan];
       prior.covariance = Eigen::Vector3d(1e-5, 1e-5, 1e-6).asDiagonal();
     }
     core::Pose2 T_map_lidar = prior.T_map_lidar;
     core::Covariance3 covariance = prior.covariance;
     double share =
-        TurnMatcher::assign(sightings_, result_.faces, T_map_lidar, kExactReach, faces_of_);
+        ScanMatcher::assign(sightings_, result_.faces, T_map_lidar, kExactReach, faces_of_);
     // Adjusted already, or the one that the map's frame is.
-    const bool known = turn == 0 || (before_ && share > kEnoughShare);
-    TurnMatch match;
+    const bool known = scan == 0 || (before_ && share > kEnoughShare);
+    ScanMatch match;
     if (!known) {
       if (guesses_ <= kMostGuesses) match = find(prior);
       share = match.matched_share;
@@ -108,19 +108,19 @@ class Mapper {
         covariance = match.covariance;
         // Along it the motion of the turns before was taken for this one's.
         is_blind_ = !prior.by_odometry && !match.by_walls();
-        if (is_blind_) result_.blind_turns.push_back(turn);
+        if (is_blind_) result_.degenerate_scans.push_back(scan);
       } else {
-        result_.strange_turns.push_back(turn);
+        result_.unmatched_scans.push_back(scan);
         if (reader_.straighten_again(T_map_lidar)) extract();
-        TurnMatcher::assign(sightings_, result_.faces, T_map_lidar, kExactReach, faces_of_);
+        ScanMatcher::assign(sightings_, result_.faces, T_map_lidar, kExactReach, faces_of_);
       }
     }
     const bool is_placed = known || match.valid;
-    if (prior.after_pause && !known && !has_stayed(match)) result_.lost_turns.push_back(turn);
+    if (prior.after_pause && !known && !has_stayed(match)) result_.lost_scans.push_back(scan);
     // Where nothing but the walls tells the way, a turn that fits badly has lost it.
-    begins_faces_ = turn == 0 || prior.by_odometry || (is_placed && share > kLeastShareAlone);
-    if (result_.has_odometry && turn > 0 && !prior.by_odometry) {
-      ++(reader_.is_contradicted() ? result_.contradicted_turns : result_.unled_turns);
+    begins_faces_ = scan == 0 || prior.by_odometry || (is_placed && share > kLeastShareAlone);
+    if (result_.has_odometry && scan > 0 && !prior.by_odometry) {
+      ++(reader_.is_contradicted() ? result_.contradicted_scans : result_.scans_without_odometry);
     }
     add_link(prior);
     result_.T_map_lidar.push_back(T_map_lidar);
@@ -129,15 +129,15 @@ class Mapper {
     if (guesses_ == 0) reader_.place(T_map_lidar, covariance);
   }
 
-  static bool has_stayed(const TurnMatch& match) {
+  static bool has_stayed(const ScanMatch& match) {
     return match.valid && match.matched_share > kUnmovedShare && match.by_walls();
   }
 
-  TurnMatch find(const TurnPrior& prior) {
+  ScanMatch find(const ScanPrior& prior) {
     // A wall that begins beside one that is known is not yet its next piece: where it was taken for
     // that, the end of a wall 0.1 m away told the place.
     matcher_.set_cautious(!result_.has_odometry);
-    TurnMatch found = search(prior);
+    ScanMatch found = search(prior);
     if (!found.valid && !result_.has_odometry) {
       matcher_.set_cautious(false);
       found = search(prior);
@@ -152,8 +152,8 @@ class Mapper {
   }
 
   /// Without odometry the turn is left straightened by some motion that was tried.
-  TurnMatch search(const TurnPrior& prior) {
-    TurnMatch best = match(prior.T_map_lidar, prior.covariance, faces_of_);
+  ScanMatch search(const ScanPrior& prior) {
+    ScanMatch best = match(prior.T_map_lidar, prior.covariance, faces_of_);
     best.valid = is_believable(prior, best);
     const double enough = prior.by_odometry ? kEnoughShare : kGoodShare;
     if (best.valid && best.matched_share > enough) return best;
@@ -163,7 +163,7 @@ class Mapper {
       start.theta_rad = core::normalize_angle(start.theta_rad + away * 1.5 * kVague_rad);
       // A turn that is bent by another motion than its own fits nowhere.
       if (reader_.straighten_again(start)) extract();
-      const TurnMatch other = match(start, vague(prior), other_faces_of_);
+      const ScanMatch other = match(start, vague(prior), other_faces_of_);
       if (!is_believable(prior, other)) continue;
       if (best.valid && other.matched_share <= best.matched_share) continue;
       best = other;
@@ -172,7 +172,7 @@ class Mapper {
     return best;
   }
 
-  static core::Covariance3 vague(const TurnPrior& prior) {
+  static core::Covariance3 vague(const ScanPrior& prior) {
     return prior.covariance +
            core::Covariance3(
                Eigen::Vector3d(squared(kVague_m), squared(kVague_m), squared(kVague_rad))
@@ -181,22 +181,22 @@ class Mapper {
 
   /// Where nothing but the walls tells the way, they must not tell what no robot does: walls that
   /// look alike are beside each other, and at right angles.
-  bool is_believable(const TurnPrior& prior, const TurnMatch& match) const {
+  bool is_believable(const ScanPrior& prior, const ScanMatch& match) const {
     if (!match.valid || result_.has_odometry) return match.valid;
     const core::Pose2 off = prior.T_map_lidar.inverse() * match.T_map_lidar;
     // After blind turns the place is off by what was guessed of all of them.
     return (is_blind_ || off.translation().norm() < kMostWaySigmas * prior.sigma_m) &&
-           std::abs(off.theta_rad) < kMostTurnSigmas * prior.sigma_rad &&
+           std::abs(off.theta_rad) < kMaxRotationSigmas * prior.sigma_rad &&
            match.matched_share > least_share(std::abs(off.theta_rad));
   }
 
   /// Of a match that is so far from the heading that was foreseen.
-  double least_share(double turned_rad) const {
+  double least_share(double rotated_rad) const {
     if (guesses_ > 0) return kFoundAgainShare;
-    return turned_rad > kSurprise_rad ? kLeastShareAlone : 0;
+    return rotated_rad > kSurprise_rad ? kLeastShareAlone : 0;
   }
 
-  TurnMatch match(const core::Pose2& start, const core::Covariance3& covariance,
+  ScanMatch match(const core::Pose2& start, const core::Covariance3& covariance,
                   std::vector<std::uint32_t>& faces_of) {
     const double place_m = std::sqrt(std::max(covariance(0, 0), covariance(1, 1)));
     const double heading_rad = std::sqrt(covariance(2, 2));
@@ -205,7 +205,7 @@ class Mapper {
     return matcher_.match(sightings_, result_.faces, start, covariance, reach, faces_of);
   }
 
-  void add_link(const TurnPrior& prior) {
+  void add_link(const ScanPrior& prior) {
     DriveLink link;
     // A turn that was not placed stands where it was guessed to be.
     link.T_before_now = prior.by_odometry || result_.T_map_lidar.empty()
@@ -218,27 +218,27 @@ class Mapper {
   }
 
   void take_in() {
-    const auto turn = static_cast<std::uint32_t>(reader_.turn());
+    const auto scan = static_cast<std::uint32_t>(reader_.scan());
     const core::Pose2& T_map_lidar = result_.T_map_lidar.back();
     for (std::size_t i = 0; i < sightings_.size(); ++i) {
       const Sighting& seen = sightings_[i];
       if (faces_of_[i] == kNoFace) {
         if (seen.sigma_angle_rad > kNewFaceSigma_rad || !begins_faces_) continue;
-        result_.faces.emplace_back(seen, T_map_lidar, turn);
+        result_.faces.emplace_back(seen, T_map_lidar, scan);
         result_.faces.back().id = next_id_++;
-        result_.observations.push_back({turn, result_.faces.back().id, seen});
+        result_.observations.push_back({scan, result_.faces.back().id, seen});
         continue;
       }
       MappedFace& face = result_.faces[faces_of_[i]];
       if (face.id < known_faces_) {
         // Adjusted already, and to be adjusted again: only what was seen of it counts.
-        face.see(seen, T_map_lidar, turn);
+        face.see(seen, T_map_lidar, scan);
       } else {
-        face.update(seen, T_map_lidar, turn);
+        face.update(seen, T_map_lidar, scan);
       }
-      result_.observations.push_back({turn, face.id, seen});
+      result_.observations.push_back({scan, face.id, seen});
     }
-    if (turn % kForgottenAfter == 0) forget(/*all=*/false);
+    if (scan % kForgottenAfter == 0) forget(/*all=*/false);
   }
 
   /// Takes out the faces that were never seen again.
@@ -246,7 +246,7 @@ class Mapper {
     const std::size_t before = result_.faces.size();
     std::erase_if(result_.faces, [&](const MappedFace& face) {
       if (face.sightings >= kSeldom) return false;
-      return all || (face.id >= known_faces_ && face.last_turn + kForgottenAfter < reader_.turn());
+      return all || (face.id >= known_faces_ && face.last_scan + kForgottenAfter < reader_.scan());
     });
     result_.forgotten_faces += before - result_.faces.size();
   }
@@ -272,9 +272,9 @@ class Mapper {
   }
 
   const MappedDrive* before_;
-  TurnReader reader_;
+  ScanReader reader_;
   SightingExtractor extractor_;
-  TurnMatcher matcher_;
+  ScanMatcher matcher_;
   std::vector<Sighting> sightings_;
   std::vector<std::uint32_t> faces_of_;
   std::vector<std::uint32_t> other_faces_of_;

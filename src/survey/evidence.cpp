@@ -37,13 +37,13 @@ class RayCounter {
     const double foot_rad = core::normalize_angle(normal_rad + core::kPi);
     const double from_rad = foot_rad + std::atan2(evidence.begin_m() - own_m, height_m);
     const double to_rad = foot_rad + std::atan2(evidence.end_m() - own_m, height_m);
-    for (const double turn_rad : {-core::kTwoPi, 0.0, core::kTwoPi}) {
+    for (const double rotation_rad : {-core::kTwoPi, 0.0, core::kTwoPi}) {
       const auto first = std::partition_point(
           points_.begin(), points_.end(),
-          [&](const StraightPoint& point) { return point.bearing_rad < from_rad + turn_rad; });
+          [&](const StraightPoint& point) { return point.bearing_rad < from_rad + rotation_rad; });
       for (auto i = static_cast<std::size_t>(first - points_.begin()); i < points_.size(); ++i) {
-        if (points_[i].bearing_rad > to_rad + turn_rad) break;
-        count(i, points_[i].bearing_rad - turn_rad - foot_rad, height_m, own_m, evidence);
+        if (points_[i].bearing_rad > to_rad + rotation_rad) break;
+        count(i, points_[i].bearing_rad - rotation_rad - foot_rad, height_m, own_m, evidence);
       }
     }
   }
@@ -121,12 +121,12 @@ std::vector<FaceEvidence> gather_evidence(const MappedDrive& drive, const core::
     return drive.faces[a].sightings > drive.faces[b].sightings;
   });
   RayCounter rays(noise);
-  for (std::size_t turn = 0; turn < drive.T_map_lidar.size(); ++turn) {
-    rays.begin(drive.points_of(turn));
+  for (std::size_t scan = 0; scan < drive.T_map_lidar.size(); ++scan) {
+    rays.begin(drive.points_of(scan));
     for (const std::uint32_t i : order) {
-      rays.count(drive.faces[i], drive.T_map_lidar[turn], evidence[i]);
+      rays.count(drive.faces[i], drive.T_map_lidar[scan], evidence[i]);
     }
-    if (progress) progress(turn);
+    if (progress) progress(scan);
   }
   return evidence;
 }

@@ -28,11 +28,11 @@ bool gap_is_closed(const MappedFace& face, const FaceEvidence& evidence, const M
 
 bool lie_on_one_line(const MappedFace& longer, const MappedFace& shorter,
                      const MergeLimits& limits) {
-  const double turn_rad = core::angle_between(longer.normal_rad(), shorter.normal_rad());
+  const double rotation_rad = core::angle_between(longer.normal_rad(), shorter.normal_rad());
   const double angle_sigma_rad = std::sqrt(longer.covariance()(0, 0) + shorter.covariance()(0, 0));
   const double allowed_rad =
       std::min(kMaxDoubt_rad, limits.heading_rad + kMergeSigmas * angle_sigma_rad);
-  if (std::abs(turn_rad) > allowed_rad) return false;
+  if (std::abs(rotation_rad) > allowed_rad) return false;
   // Compared where the two are nearest to each other.
   const auto [begin_m, end_m] = extent_on(longer, shorter);
   const double middle_m = (begin_m + end_m) / 2;
@@ -67,8 +67,8 @@ double shared_cells(const MappedFace& one, const FaceEvidence& on_one, const Map
 bool are_doubles(const MappedFace& one, const FaceEvidence& on_one, const MappedFace& other,
                  const FaceEvidence& on_other, const MergeLimits& limits) {
   constexpr double kMostlyShared = 0.5;
-  const double turn_rad = core::angle_between(one.normal_rad(), other.normal_rad());
-  if (std::abs(turn_rad) > limits.double_rad) return false;
+  const double rotation_rad = core::angle_between(one.normal_rad(), other.normal_rad());
+  if (std::abs(rotation_rad) > limits.double_rad) return false;
   const MappedFace& shorter = other.length_m() < one.length_m() ? other : one;
   const MappedFace& longer = other.length_m() < one.length_m() ? one : other;
   const core::Vec2 middle = shorter.at((shorter.begin_m() + shorter.end_m()) / 2);
@@ -118,8 +118,8 @@ std::size_t merge_faces(MappedDrive& drive, const std::vector<FaceEvidence>& evi
       face.extend(guest.first());
       face.extend(guest.last());
       face.sightings += guest.sightings;
-      face.first_turn = std::min(face.first_turn, guest.first_turn);
-      face.last_turn = std::max(face.last_turn, guest.last_turn);
+      face.first_scan = std::min(face.first_scan, guest.first_scan);
+      face.last_scan = std::max(face.last_scan, guest.last_scan);
       ++merged;
       break;
     }

@@ -7,7 +7,7 @@
 
 namespace cornerd::survey {
 
-std::size_t split_revisited(MappedDrive& drive, std::size_t from_turn, double way_m) {
+std::size_t split_revisited(MappedDrive& drive, std::size_t from_scan, double way_m) {
   const std::vector<double> ways = ways_m(drive);
   const std::size_t known = drive.faces.size();
   std::vector<std::uint32_t> now_of(known);  // what a face is called by now
@@ -16,9 +16,9 @@ std::size_t split_revisited(MappedDrive& drive, std::size_t from_turn, double wa
   for (Observation& observation : drive.observations) {
     const std::uint32_t face = observation.face;
     const std::uint32_t last = last_seen[face];
-    last_seen[face] = observation.turn;
-    if (last != kNoFace && observation.turn >= from_turn &&
-        ways[observation.turn] - ways[last] > way_m) {
+    last_seen[face] = observation.scan;
+    if (last != kNoFace && observation.scan >= from_scan &&
+        ways[observation.scan] - ways[last] > way_m) {
       now_of[face] = static_cast<std::uint32_t>(drive.faces.size());
       drive.faces.push_back(drive.faces[face]);
     }

@@ -37,14 +37,14 @@ Linearization::Linearization(const MappedDrive& drive, std::span<const FaceBond>
       equations_(face_unknown(drive.faces.size())),
       information_(drive.faces.size(), Eigen::Matrix2d::Zero()) {
   for (const Observation& observation : drive_.observations) add(observation);
-  for (std::size_t turn = 1; turn < drive_.links.size(); ++turn) add_link(turn);
+  for (std::size_t scan = 1; scan < drive_.links.size(); ++scan) add_link(scan);
   for (const PlaceTie& tie : drive_.ties) add_tie(tie);
   for (const FaceBond& bond : bonds) add_bond(bond);
   equations_.hold(kHold);
 }
 
 void Linearization::add(const Observation& observation) {
-  const core::Pose2& T_map_lidar = drive_.T_map_lidar[observation.turn];
+  const core::Pose2& T_map_lidar = drive_.T_map_lidar[observation.scan];
   const MappedFace& face = drive_.faces[observation.face];
   const Sighting& seen = observation.seen;
   const core::Vec2 arm = T_map_lidar * seen.centroid - T_map_lidar.translation();
@@ -59,7 +59,7 @@ void Linearization::add(const Observation& observation) {
   chi_square_ += std::min(chi2, kHalfWeight);
   if (chi2 > kHalfWeight) ++outliers_;
 
-  const int pose = pose_unknown(observation.turn);
+  const int pose = pose_unknown(observation.scan);
   const int line = face_unknown(observation.face);
   equations_.add<2>({or_fixed(pose, 2), line}, {1, -1}, angle_rad, weight * angle_weight);
   const core::Vec2& normal = face.normal();
@@ -74,9 +74,9 @@ void Linearization::add(const Observation& observation) {
   known(0, 0) += weight * angle_weight;
 }
 
-void Linearization::add_link(std::size_t turn) {
-  const DriveLink& link = drive_.links[turn];
-  add_way(turn - 1, turn, link.T_before_now, link.covariance.diagonal(), kHalfLink);
+void Linearization::add_link(std::size_t scan) {
+  const DriveLink& link = drive_.links[scan];
+  add_way(scan - 1, scan, link.T_before_now, link.covariance.diagonal(), kHalfLink);
 }
 
 void Linearization::add_tie(const PlaceTie& tie) {
@@ -110,9 +110,10 @@ void Linearization::add_bond(const FaceBond& bond) {
   const MappedFace& other = drive_.faces[bond.other];
   const int a = face_unknown(bond.one);
   const int b = face_unknown(bond.other);
-  const double turn_rad = core::angle_between(one.normal_rad() + bond.turn_rad, other.normal_rad());
+  const double rotation_rad =
+      core::angle_between(one.normal_rad() + bond.rotation_rad, other.normal_rad());
   const double angle_weight = 1 / (bond.sigma_rad * bond.sigma_rad);
-  equations_.add<2>({a, b}, {-1, 1}, turn_rad, angle_weight);
+  equations_.add<2>({a, b}, {-1, 1}, rotation_rad, angle_weight);
   if (!bond.on_one_line) return;
   // The middle of `other` lies on `one`: height of a point of the other's line over the first.
   const double other_along_m = (other.begin_m() + other.end_m()) / 2;

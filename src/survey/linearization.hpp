@@ -39,7 +39,7 @@ class Linearization {
   const Eigen::Matrix2d& information_of(std::size_t face) const { return information_[face]; }
 
   /// The first of its unknowns; -3 for the first turn, which is fixed.
-  int pose_unknown(std::size_t turn) const { return 3 * (static_cast<int>(turn) - 1); }
+  int pose_unknown(std::size_t scan) const { return 3 * (static_cast<int>(scan) - 1); }
   int face_unknown(std::size_t face) const { return first_face_ + 2 * static_cast<int>(face); }
 
   std::array<int, 6> unknowns_of(std::size_t from, std::size_t to) const;
@@ -47,7 +47,7 @@ class Linearization {
  private:
   static int or_fixed(int unknown, int part) { return unknown < 0 ? -1 : unknown + part; }
   void add(const Observation& observation);
-  void add_link(std::size_t turn);
+  void add_link(std::size_t scan);
   void add_tie(const PlaceTie& tie);
   void add_way(std::size_t from, std::size_t to, const core::Pose2& expected,
                const Eigen::Vector3d& variance, double half);

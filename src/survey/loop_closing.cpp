@@ -77,7 +77,7 @@ std::vector<LoopReport> close_loops(MappedDrive& drive, const core::LocalizerCon
                                     std::size_t& merged, const Progress& progress) {
   std::vector<LoopReport> reports;
   std::size_t refused = 0;
-  for (std::size_t begin = 0; begin < drive.T_map_lidar.size(); begin += kStretchTurns) {
+  for (std::size_t begin = 0; begin < drive.T_map_lidar.size(); begin += kStretchScans) {
     if (progress) progress(begin);
     if (reports.size() >= kMostLoops || refused >= kMostRefused) break;
     const auto loop = find_loop(drive, begin, sensor, walls);

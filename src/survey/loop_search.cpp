@@ -18,10 +18,10 @@ constexpr double kDriftShare = 0.1;
 constexpr std::size_t kMostEarlier = 240;
 /// Of the samples on walls: what has to be on walls that were not seen before.
 constexpr double kNewShare = 0.03;
-/// Of a stretch every so many a turn is asked; without any answer from the first of them no more.
+/// Of a stretch every so many a index is asked; without any answer from the first of them no more.
 constexpr std::size_t kAskEach = 5;
 constexpr std::size_t kPatience = 4;
-/// What places a turn beyond doubt: so many of its corners, and so much of its returns.
+/// What places a index beyond doubt: so many of its corners, and so much of its returns.
 constexpr std::size_t kLeastCorners = 3;
 constexpr double kLeastExplained = 0.6;
 /// Turns that have to agree, their share of all that were recognised, and the way between them.
@@ -38,8 +38,8 @@ constexpr double kClosed_rad = core::radians(0.5);
 constexpr double kTieSigma_m = 0.03;
 constexpr double kTieSigma_rad = core::radians(0.4);
 
-struct RecognisedTurn {
-  std::uint32_t turn = 0;
+struct RecognisedScan {
+  std::uint32_t index = 0;
   core::Pose2 T_map_lidar;
 };
 
@@ -48,36 +48,36 @@ std::vector<std::uint32_t> neighbours_of(const MappedDrive& drive, std::size_t b
                                          std::size_t end) {
   const std::vector<double> ways = ways_m(drive);
   const core::Vec2 middle = drive.T_map_lidar[(begin + end) / 2].translation();
-  std::vector<std::uint32_t> turns;
-  for (std::size_t turn = 0; turn < begin && ways[begin] - ways[turn] > kLeastLoop_m; ++turn) {
-    const double reach_m = kNeighbourhood_m + kDriftShare * (ways[begin] - ways[turn]);
-    if ((drive.T_map_lidar[turn].translation() - middle).norm() > reach_m) continue;
-    turns.push_back(static_cast<std::uint32_t>(turn));
+  std::vector<std::uint32_t> scans;
+  for (std::size_t index = 0; index < begin && ways[begin] - ways[index] > kLeastLoop_m; ++index) {
+    const double reach_m = kNeighbourhood_m + kDriftShare * (ways[begin] - ways[index]);
+    if ((drive.T_map_lidar[index].translation() - middle).norm() > reach_m) continue;
+    scans.push_back(static_cast<std::uint32_t>(index));
   }
-  if (turns.size() <= kMostEarlier) return turns;
+  if (scans.size() <= kMostEarlier) return scans;
   std::vector<std::uint32_t> some;
   for (std::size_t i = 0; i < kMostEarlier; ++i) {
-    some.push_back(turns[i * turns.size() / kMostEarlier]);
+    some.push_back(scans[i * scans.size() / kMostEarlier]);
   }
   return some;
 }
 
-/// Of the samples that a stretch has on walls: those on walls that nobody had seen up to a turn.
+/// Of the samples that a stretch has on walls: those on walls that nobody had seen up to a index.
 double new_share(const MappedDrive& drive, std::size_t begin, std::size_t end,
                  std::size_t known_until) {
   double all = 0;
   double on_new = 0;
-  for (std::size_t turn = begin; turn < end; ++turn) {
-    for (const Observation& observation : drive.observations_of(turn)) {
+  for (std::size_t index = begin; index < end; ++index) {
+    for (const Observation& observation : drive.observations_of(index)) {
       all += observation.seen.support;
-      if (drive.faces[observation.face].first_turn > known_until)
+      if (drive.faces[observation.face].first_scan > known_until)
         on_new += observation.seen.support;
     }
   }
   return all > 0 ? on_new / all : 0;
 }
 
-/// The turn as a lidar saw it that stood still.
+/// The index as a lidar saw it that stood still.
 void fill_scan(std::span<const StraightPoint> points, core::Scan& scan) {
   scan.clear();
   for (const StraightPoint& point : points) {
@@ -94,7 +94,7 @@ core::LocalizerConfig config_of_recogniser(const core::LocalizerConfig& sensor) 
   config.bias = {};  // was taken off
   config.learn_bias = false;
   config.odometry.enabled = false;
-  config.updates_per_turn = 1;
+  config.updates_per_scan = 1;
   return config;
 }
 
@@ -104,8 +104,8 @@ class Recogniser {
              const core::LocalizerConfig& sensor)
       : drive_(drive), localizer_(std::move(map), config_of_recogniser(sensor)) {}
 
-  std::optional<RecognisedTurn> ask(std::size_t turn) {
-    const auto points = drive_.points_of(turn);
+  std::optional<RecognisedScan> ask(std::size_t index) {
+    const auto points = drive_.points_of(index);
     fill_scan(points, scan_);
     localizer_.relocalize();
     const core::PoseEstimate& pose = localizer_.step(scan_).pose;
@@ -113,7 +113,7 @@ class Recogniser {
     if (static_cast<double>(pose.inliers) < kLeastExplained * static_cast<double>(points.size())) {
       return std::nullopt;
     }
-    return RecognisedTurn{static_cast<std::uint32_t>(turn), pose.T_map_base};
+    return RecognisedScan{static_cast<std::uint32_t>(index), pose.T_map_base};
   }
 
  private:
@@ -123,14 +123,14 @@ class Recogniser {
 };
 
 /// The most turns that agree on where the stretch is.
-std::vector<RecognisedTurn> agreeing(const MappedDrive& drive,
-                                     std::span<const RecognisedTurn> turns) {
-  std::vector<RecognisedTurn> best;
-  for (const RecognisedTurn& one : turns) {
-    const core::Pose2 T_then_now = one.T_map_lidar * drive.T_map_lidar[one.turn].inverse();
-    std::vector<RecognisedTurn> same;
-    for (const RecognisedTurn& other : turns) {
-      const core::Pose2 expected = T_then_now * drive.T_map_lidar[other.turn];
+std::vector<RecognisedScan> agreeing(const MappedDrive& drive,
+                                     std::span<const RecognisedScan> scans) {
+  std::vector<RecognisedScan> best;
+  for (const RecognisedScan& one : scans) {
+    const core::Pose2 T_then_now = one.T_map_lidar * drive.T_map_lidar[one.index].inverse();
+    std::vector<RecognisedScan> same;
+    for (const RecognisedScan& other : scans) {
+      const core::Pose2 expected = T_then_now * drive.T_map_lidar[other.index];
       if (core::same_place(expected, other.T_map_lidar, kAgreement_m, kAgreement_rad)) {
         same.push_back(other);
       }
@@ -140,31 +140,31 @@ std::vector<RecognisedTurn> agreeing(const MappedDrive& drive,
   return best;
 }
 
-bool is_enough(const MappedDrive& drive, std::span<const RecognisedTurn> agreed,
+bool is_enough(const MappedDrive& drive, std::span<const RecognisedScan> agreed,
                std::size_t recognised) {
   if (agreed.size() < kLeastAgreeing) return false;
   if (static_cast<double>(agreed.size()) < kLeastAgreeingShare * static_cast<double>(recognised)) {
     return false;
   }
   double farthest_m = 0;
-  const core::Vec2 first = drive.T_map_lidar[agreed.front().turn].translation();
-  for (const RecognisedTurn& one : agreed) {
-    farthest_m = std::max(farthest_m, (drive.T_map_lidar[one.turn].translation() - first).norm());
+  const core::Vec2 first = drive.T_map_lidar[agreed.front().index].translation();
+  for (const RecognisedScan& one : agreed) {
+    farthest_m = std::max(farthest_m, (drive.T_map_lidar[one.index].translation() - first).norm());
   }
   return farthest_m > kLeastWayAgreed_m;
 }
 
 PlaceTie tie_of(const MappedDrive& drive, std::span<const std::uint32_t> earlier,
-                const RecognisedTurn& recognised) {
+                const RecognisedScan& recognised) {
   const core::Vec2 place = recognised.T_map_lidar.translation();
-  const auto distance = [&](std::uint32_t turn) {
-    return (drive.T_map_lidar[turn].translation() - place).squaredNorm();
+  const auto distance = [&](std::uint32_t index) {
+    return (drive.T_map_lidar[index].translation() - place).squaredNorm();
   };
   PlaceTie tie;
   tie.earlier = *std::min_element(
       earlier.begin(), earlier.end(),
       [&](std::uint32_t a, std::uint32_t b) { return distance(a) < distance(b); });
-  tie.later = recognised.turn;
+  tie.later = recognised.index;
   tie.T_earlier_later = drive.T_map_lidar[tie.earlier].inverse() * recognised.T_map_lidar;
   tie.sigma_m = kTieSigma_m;
   tie.sigma_rad = kTieSigma_rad;
@@ -175,7 +175,7 @@ PlaceTie tie_of(const MappedDrive& drive, std::span<const std::uint32_t> earlier
 
 std::optional<Loop> find_loop(const MappedDrive& drive, std::size_t begin,
                               const core::LocalizerConfig& sensor, const WallLimits& limits) {
-  const std::size_t end = std::min(begin + kStretchTurns, drive.T_map_lidar.size());
+  const std::size_t end = std::min(begin + kStretchScans, drive.T_map_lidar.size());
   const std::vector<std::uint32_t> earlier = neighbours_of(drive, begin, end);
   if (earlier.empty() || new_share(drive, begin, end, earlier.back()) < kNewShare) {
     return std::nullopt;
@@ -185,19 +185,19 @@ std::optional<Loop> find_loop(const MappedDrive& drive, std::size_t begin,
 
   Loop loop;
   Recogniser recogniser(drive, map, sensor);
-  std::vector<RecognisedTurn> recognised;
-  for (std::size_t turn = begin; turn < end; turn += kAskEach) {
+  std::vector<RecognisedScan> recognised;
+  for (std::size_t index = begin; index < end; index += kAskEach) {
     if (loop.asked == kPatience && recognised.empty()) return std::nullopt;
     ++loop.asked;
-    if (const auto found = recogniser.ask(turn)) recognised.push_back(*found);
+    if (const auto found = recogniser.ask(index)) recognised.push_back(*found);
   }
   loop.recognised = recognised.size();
-  const std::vector<RecognisedTurn> agreed = agreeing(drive, recognised);
+  const std::vector<RecognisedScan> agreed = agreeing(drive, recognised);
   if (!is_enough(drive, agreed, recognised.size())) return std::nullopt;
-  const RecognisedTurn& middle = agreed[agreed.size() / 2];
-  loop.T_now_then = drive.T_map_lidar[middle.turn].inverse() * middle.T_map_lidar;
+  const RecognisedScan& middle = agreed[agreed.size() / 2];
+  loop.T_now_then = drive.T_map_lidar[middle.index].inverse() * middle.T_map_lidar;
   if (core::same_place({}, loop.T_now_then, kClosed_m, kClosed_rad)) return std::nullopt;
-  for (const RecognisedTurn& one : agreed) loop.ties.push_back(tie_of(drive, earlier, one));
+  for (const RecognisedScan& one : agreed) loop.ties.push_back(tie_of(drive, earlier, one));
   return loop;
 }
 

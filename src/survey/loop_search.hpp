@@ -21,7 +21,7 @@ struct Loop {
 };
 
 /// Turns in a row that are looked at together.
-inline constexpr std::size_t kStretchTurns = 60;
+inline constexpr std::size_t kStretchScans = 60;
 
 /// A shorter way is no loop: the walls on it are in view all along.
 inline constexpr double kLeastLoop_m = 5;

@@ -5,13 +5,13 @@
 
 namespace cornerd::survey {
 
-std::span<const Observation> MappedDrive::observations_of(std::size_t turn) const {
+std::span<const Observation> MappedDrive::observations_of(std::size_t scan) const {
   const auto first =
       std::partition_point(observations.begin(), observations.end(),
-                           [&](const Observation& observation) { return observation.turn < turn; });
+                           [&](const Observation& observation) { return observation.scan < scan; });
   const auto last = std::partition_point(
       first, observations.end(),
-      [&](const Observation& observation) { return observation.turn == turn; });
+      [&](const Observation& observation) { return observation.scan == scan; });
   return {first, last};
 }
 
@@ -19,22 +19,22 @@ void measure_faces(MappedDrive& drive) {
   for (MappedFace& face : drive.faces) face.sightings = 0;
   for (const Observation& observation : drive.observations) {
     MappedFace& face = drive.faces[observation.face];
-    const core::Pose2& T_map_lidar = drive.T_map_lidar[observation.turn];
+    const core::Pose2& T_map_lidar = drive.T_map_lidar[observation.scan];
     if (face.sightings == 0) {
       const PlacedSighting placed(observation.seen, T_map_lidar);
       face.set_extent(face.along_of(placed.first), face.along_of(placed.last));
-      face.first_turn = observation.turn;
+      face.first_scan = observation.scan;
     }
-    face.see(observation.seen, T_map_lidar, observation.turn);
+    face.see(observation.seen, T_map_lidar, observation.scan);
   }
 }
 
 std::vector<double> ways_m(const MappedDrive& drive) {
   std::vector<double> ways(drive.T_map_lidar.size(), 0);
-  for (std::size_t turn = 1; turn < ways.size(); ++turn) {
-    ways[turn] =
-        ways[turn - 1] +
-        (drive.T_map_lidar[turn].translation() - drive.T_map_lidar[turn - 1].translation()).norm();
+  for (std::size_t scan = 1; scan < ways.size(); ++scan) {
+    ways[scan] =
+        ways[scan - 1] +
+        (drive.T_map_lidar[scan].translation() - drive.T_map_lidar[scan - 1].translation()).norm();
   }
   return ways;
 }

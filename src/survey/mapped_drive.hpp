@@ -16,7 +16,7 @@ namespace cornerd::survey {
 
 /// One wall of one turn, and the face that it was taken for.
 struct Observation {
-  std::uint32_t turn = 0;
+  std::uint32_t scan = 0;
   std::uint32_t face = kNoFace;
   Sighting seen;
 };
@@ -49,29 +49,29 @@ struct MappedDrive {
   std::vector<PlaceTie> ties;            ///< of loops that were closed
   std::vector<MappedFace> faces;
   std::vector<Observation> observations;
-  std::vector<std::size_t> strange_turns;  ///< whose walls did not tell where they are
+  std::vector<std::size_t> unmatched_scans;  ///< whose walls did not tell where they are
   /// The first ones after a pause of turns and readings, which show another place than the last
   /// ones before it.
-  std::vector<std::size_t> lost_turns;
+  std::vector<std::size_t> lost_scans;
   /// Without odometry: whose walls told nothing of one direction, in which a guess stands.
-  std::vector<std::size_t> blind_turns;
+  std::vector<std::size_t> degenerate_scans;
   /// Of a drive with odometry, turns that it did not lead to: as wheels and lidar had told
   /// different stories, and as readings were missing.
-  std::size_t contradicted_turns = 0;
-  std::size_t unled_turns = 0;
+  std::size_t contradicted_scans = 0;
+  std::size_t scans_without_odometry = 0;
   std::size_t forgotten_faces = 0;  ///< begun, but never seen again
   std::optional<core::LearnedOdometry> learned;
   bool has_odometry = false;
 
   /// In the order of the turns, as all observations are.
-  std::span<const Observation> observations_of(std::size_t turn) const;
+  std::span<const Observation> observations_of(std::size_t scan) const;
 
   /// Returns of all turns by bearing, one turn after another; turn i: [first_point[i],
   /// first_point[i + 1]).
   std::vector<StraightPoint> points;
   std::vector<std::size_t> first_point;
-  std::span<const StraightPoint> points_of(std::size_t turn) const {
-    return std::span(points).subspan(first_point[turn], first_point[turn + 1] - first_point[turn]);
+  std::span<const StraightPoint> points_of(std::size_t scan) const {
+    return std::span(points).subspan(first_point[scan], first_point[scan + 1] - first_point[scan]);
   }
 };
 

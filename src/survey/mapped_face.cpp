@@ -13,10 +13,10 @@ PlacedSighting::PlacedSighting(const Sighting& seen, const core::Pose2& T_map_li
   last = centroid + seen.end_m * direction;
 }
 
-MappedFace::MappedFace(const Sighting& seen, const core::Pose2& T_map_lidar, std::size_t turn)
+MappedFace::MappedFace(const Sighting& seen, const core::Pose2& T_map_lidar, std::size_t scan)
     : sightings(1),
-      first_turn(turn),
-      last_turn(turn),
+      first_scan(scan),
+      last_scan(scan),
       anchor_(T_map_lidar * seen.centroid),
       normal_rad_(core::normalize_angle(seen.normal_rad + T_map_lidar.theta_rad)),
       normal_(core::unit_vector(normal_rad_)),
@@ -38,7 +38,7 @@ void MappedFace::extend(const core::Vec2& point) {
   end_m_ = std::max(end_m_, along_m);
 }
 
-void MappedFace::update(const Sighting& seen, const core::Pose2& T_map_lidar, std::size_t turn) {
+void MappedFace::update(const Sighting& seen, const core::Pose2& T_map_lidar, std::size_t scan) {
   const PlacedSighting placed(seen, T_map_lidar);
   const double along_m = along_of(placed.centroid);
   // A line turned by `a` about the anchor and moved by `o` lies a * along + o farther out there.
@@ -55,15 +55,15 @@ void MappedFace::update(const Sighting& seen, const core::Pose2& T_map_lidar, st
   covariance_ = (Eigen::Matrix2d::Identity() - gain * design) * covariance_;
   covariance_ = (covariance_ + covariance_.transpose().eval()) / 2;
   set_line(normal_rad_ + correction[0], offset_m_ + correction[1]);
-  see(seen, T_map_lidar, turn);
+  see(seen, T_map_lidar, scan);
 }
 
-void MappedFace::see(const Sighting& seen, const core::Pose2& T_map_lidar, std::size_t turn) {
+void MappedFace::see(const Sighting& seen, const core::Pose2& T_map_lidar, std::size_t scan) {
   const PlacedSighting placed(seen, T_map_lidar);
   extend(placed.first);
   extend(placed.last);
   ++sightings;
-  last_turn = turn;
+  last_scan = scan;
 }
 
 }  // namespace cornerd::survey

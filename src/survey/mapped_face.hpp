@@ -27,7 +27,7 @@ struct PlacedSighting {
 /// from begin_m to end_m, counted along it from the anchor, was seen.
 class MappedFace {
  public:
-  MappedFace(const Sighting& seen, const core::Pose2& T_map_lidar, std::size_t turn);
+  MappedFace(const Sighting& seen, const core::Pose2& T_map_lidar, std::size_t scan);
 
   double normal_rad() const { return normal_rad_; }
   const core::Vec2& normal() const { return normal_; }
@@ -57,9 +57,9 @@ class MappedFace {
   }
 
   /// Takes a sighting in, from a pose that is taken to be exact.
-  void update(const Sighting& seen, const core::Pose2& T_map_lidar, std::size_t turn);
+  void update(const Sighting& seen, const core::Pose2& T_map_lidar, std::size_t scan);
   /// Notes a sighting of a line that is known better by other means.
-  void see(const Sighting& seen, const core::Pose2& T_map_lidar, std::size_t turn);
+  void see(const Sighting& seen, const core::Pose2& T_map_lidar, std::size_t scan);
   /// Takes what an adjustment found.
   void set_line(double normal_rad, double offset_m);
   void set_covariance(const Eigen::Matrix2d& covariance) { covariance_ = covariance; }
@@ -71,8 +71,8 @@ class MappedFace {
 
   std::uint32_t id = 0;  ///< that a mapper knows it by
   std::size_t sightings = 0;
-  std::size_t first_turn = 0;
-  std::size_t last_turn = 0;
+  std::size_t first_scan = 0;
+  std::size_t last_scan = 0;
 
  private:
   core::Vec2 anchor_;

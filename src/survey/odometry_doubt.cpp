@@ -46,8 +46,8 @@ double counted_m(const RecordedDrive& drive, const core::OdometryConfig& config,
 
 }  // namespace
 
-bool are_too_many(std::size_t unbelieved, std::size_t turns) {
-  return static_cast<double>(unbelieved) > kMostUnbelieved * static_cast<double>(turns);
+bool are_too_many(std::size_t unbelieved, std::size_t scans) {
+  return static_cast<double>(unbelieved) > kMostUnbelieved * static_cast<double>(scans);
 }
 
 void measure_wheels(const RecordedDrive& drive, std::span<const core::Pose2> T_map_base,
@@ -57,9 +57,9 @@ void measure_wheels(const RecordedDrive& drive, std::span<const core::Pose2> T_m
   core::Pose2 from = T_map_base.empty() ? core::Pose2() : T_map_base.front();
   for (const core::Pose2& to : T_map_base) {
     const core::Pose2 way = from.inverse() * to;
-    const double half_turn_m = way.theta_rad * config.geometry.track_m / 2;
-    const double left_m = std::abs(way.x_m - half_turn_m);
-    const double right_m = std::abs(way.x_m + half_turn_m);
+    const double half_rotation_m = way.theta_rad * config.geometry.track_m / 2;
+    const double left_m = std::abs(way.x_m - half_rotation_m);
+    const double right_m = std::abs(way.x_m + half_rotation_m);
     if (std::max(left_m, right_m) < kLeastWay_m) continue;
     doubt.left.true_m += left_m;
     doubt.right.true_m += right_m;

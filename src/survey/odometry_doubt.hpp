@@ -18,14 +18,14 @@ struct WheelWay {
 
 /// Wheels that told another story than the lidar, or none.
 struct OdometryDoubt {
-  std::size_t contradicted_turns = 0;
-  std::size_t unled_turns = 0;  ///< for which there were no readings
+  std::size_t contradicted_scans = 0;
+  std::size_t scans_without_odometry = 0;  ///< for which there were no readings
   WheelWay left;
   WheelWay right;
 };
 
 /// More turns than those that wheels which slip now and then do not lead to.
-bool are_too_many(std::size_t unbelieved, std::size_t turns);
+bool are_too_many(std::size_t unbelieved, std::size_t scans);
 
 /// `T_map_base`: of each turn of the drive, in its middle.
 /// `doubt`: with its turns; gets its ways.

@@ -8,24 +8,24 @@
 
 namespace cornerd::survey {
 
-MappedDrive part_of(const MappedDrive& drive, std::span<const std::uint32_t> turns) {
+MappedDrive part_of(const MappedDrive& drive, std::span<const std::uint32_t> scans) {
   MappedDrive part;
   part.has_odometry = drive.has_odometry;
   part.first_point.push_back(0);
   std::vector<std::uint32_t> place_of(drive.faces.size(), kNoFace);
-  for (const std::uint32_t turn : turns) {
+  for (const std::uint32_t scan : scans) {
     const auto number = static_cast<std::uint32_t>(part.T_map_lidar.size());
-    part.T_map_lidar.push_back(drive.T_map_lidar[turn]);
-    const auto points = drive.points_of(turn);
+    part.T_map_lidar.push_back(drive.T_map_lidar[scan]);
+    const auto points = drive.points_of(scan);
     part.points.insert(part.points.end(), points.begin(), points.end());
     part.first_point.push_back(part.points.size());
-    for (Observation observation : drive.observations_of(turn)) {
+    for (Observation observation : drive.observations_of(scan)) {
       std::uint32_t& place = place_of[observation.face];
       if (place == kNoFace) {
         place = static_cast<std::uint32_t>(part.faces.size());
         part.faces.push_back(drive.faces[observation.face]);
       }
-      observation.turn = number;
+      observation.scan = number;
       observation.face = place;
       part.observations.push_back(observation);
     }
@@ -35,10 +35,10 @@ MappedDrive part_of(const MappedDrive& drive, std::span<const std::uint32_t> tur
 }
 
 std::shared_ptr<const core::WallMap> map_seen_by(const MappedDrive& drive,
-                                                 std::span<const std::uint32_t> turns,
+                                                 std::span<const std::uint32_t> scans,
                                                  const core::SensorNoise& noise,
                                                  const WallLimits& limits) {
-  const MappedDrive part = part_of(drive, turns);
+  const MappedDrive part = part_of(drive, scans);
   const std::vector<FaceEvidence> evidence = gather_evidence(part, noise, {});
   std::vector<Dropped> dropped;
   core::FloorPlan plan;

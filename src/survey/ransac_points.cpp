@@ -67,14 +67,14 @@ ReckonedDrive reckon_drive(const RecordedDrive& drive, const core::LocalizerConf
   const Track track(drive, sensor.odometry);
   const core::Pose2 T_start_map = track.at(drive.middle_ns(0)).inverse();
   ReckonedDrive reckoned;
-  core::Scan turn;
+  core::Scan scan;
   for (std::size_t i = 0; i < drive.size(); ++i) {
     reckoned.T_map_base.push_back(T_start_map * track.at(drive.middle_ns(i)));
-    drive.load(i, turn);
+    drive.load(i, scan);
     const std::size_t step =
-        std::max<std::size_t>(1, turn.size() / std::max<std::size_t>(1, returns));
-    for (std::size_t k = 0; k < turn.size(); k += step) {
-      const core::Sample& sample = turn.samples()[k];
+        std::max<std::size_t>(1, scan.size() / std::max<std::size_t>(1, returns));
+    for (std::size_t k = 0; k < scan.size(); k += step) {
+      const core::Sample& sample = scan.samples()[k];
       const double range_m = sample.range_m;
       if (!(range_m >= sensor.min_range_m && range_m <= sensor.max_range_m)) continue;
       const core::Pose2 T_map_lidar = T_start_map * track.at(sample.t_ns) * sensor.T_base_lidar;

@@ -11,10 +11,10 @@ constexpr core::TimeNs kNsPerUs = 1000;
 
 }  // namespace
 
-void RecordedDrive::add(const core::Scan& turn) {
-  turns_.push_back({turn.start_ns(), samples_.size(), turn.size()});
-  for (const core::Sample& sample : turn.samples()) {
-    const core::TimeNs after_us = (sample.t_ns - turn.start_ns()) / kNsPerUs;
+void RecordedDrive::add(const core::Scan& scan) {
+  scans_.push_back({scan.start_ns(), samples_.size(), scan.size()});
+  for (const core::Sample& sample : scan.samples()) {
+    const core::TimeNs after_us = (sample.t_ns - scan.start_ns()) / kNsPerUs;
     constexpr core::TimeNs kMost = std::numeric_limits<std::int32_t>::max();
     samples_.push_back({static_cast<std::int32_t>(std::clamp(after_us, -kMost, kMost)),
                         sample.bearing_rad, sample.range_m});
@@ -24,10 +24,10 @@ void RecordedDrive::add(const core::Scan& turn) {
 void RecordedDrive::set_odometry(const std::vector<core::OdometryReading>& readings) {
   readings_.clear();
   has_wheels_ = has_gyro_ = false;
-  std::size_t turn = 0;
+  std::size_t index = 0;
   for (const core::OdometryReading& reading : readings) {
-    while (turn < turns_.size() && end_ns(turn) < reading.t_ns) ++turn;
-    keep({reading, reading.t_ns, turn});
+    while (index < scans_.size() && end_ns(index) < reading.t_ns) ++index;
+    keep({reading, reading.t_ns, index});
   }
 }
 
@@ -39,28 +39,28 @@ void RecordedDrive::keep(const Reading& reading) {
 
 RecordedDrive RecordedDrive::without_odometry() const {
   RecordedDrive drive;
-  drive.turns_ = turns_;
+  drive.scans_ = scans_;
   drive.samples_ = samples_;
   return drive;
 }
 
-core::TimeNs RecordedDrive::end_ns(std::size_t turn) const {
-  const Turn& stored = turns_[turn];
+core::TimeNs RecordedDrive::end_ns(std::size_t index) const {
+  const StoredScan& stored = scans_[index];
   if (stored.size == 0) return stored.start_ns;
   return stored.start_ns + samples_[stored.first + stored.size - 1].after_us * kNsPerUs;
 }
 
-void RecordedDrive::load(std::size_t turn, core::Scan& scan) const {
+void RecordedDrive::load(std::size_t index, core::Scan& scan) const {
   scan.clear();
-  const Turn& stored = turns_[turn];
+  const StoredScan& stored = scans_[index];
   for (std::size_t i = 0; i < stored.size; ++i) {
     const StoredSample& from = samples_[stored.first + i];
     core::Sample sample;
     sample.t_ns = stored.start_ns + from.after_us * kNsPerUs;
     sample.bearing_rad = from.bearing_rad;
     sample.range_m = from.range_m;
-    sample.starts_turn = i == 0;
-    sample.ends_turn = i + 1 == stored.size;
+    sample.starts_scan = i == 0;
+    sample.ends_scan = i + 1 == stored.size;
     scan.add(sample);
   }
 }

@@ -24,8 +24,8 @@ constexpr double kNothingThrough = 0.004;
 constexpr double kMostThrough = 0.06;
 constexpr double kFewThrough_m = 0.6;
 
-bool are_few(std::span<const std::size_t> turns, const RecordedDrive& recorded) {
-  return static_cast<double>(turns.size()) <= kMostGuessed * static_cast<double>(recorded.size());
+bool are_few(std::span<const std::size_t> scans, const RecordedDrive& recorded) {
+  return static_cast<double>(scans.size()) <= kMostGuessed * static_cast<double>(recorded.size());
 }
 
 std::string with_a_tenth(double value) {
@@ -34,10 +34,10 @@ std::string with_a_tenth(double value) {
   return text.data();
 }
 
-[[noreturn]] void refuse_turns(const RecordedDrive& recorded, std::span<const std::size_t> turns,
+[[noreturn]] void refuse_scans(const RecordedDrive& recorded, std::span<const std::size_t> scans,
                                const std::string& what, const std::string& advice) {
-  const double first_s = core::to_seconds(recorded.start_ns(turns.front()) - recorded.start_ns(0));
-  throw std::invalid_argument("without odometry, " + std::to_string(turns.size()) + " of " +
+  const double first_s = core::to_seconds(recorded.start_ns(scans.front()) - recorded.start_ns(0));
+  throw std::invalid_argument("without odometry, " + std::to_string(scans.size()) + " of " +
                               std::to_string(recorded.size()) + " turns see " + what +
                               ", the first " + std::to_string(std::llround(first_s)) +
                               " s after the start" + advice);
@@ -45,7 +45,7 @@ std::string with_a_tenth(double value) {
 
 }  // namespace
 
-void refuse_too_few_turns(const RecordedDrive& recorded, std::size_t needed) {
+void refuse_too_few_scans(const RecordedDrive& recorded, std::size_t needed) {
   if (recorded.size() >= needed) return;
   if (recorded.size() == 0) throw std::invalid_argument("not one whole turn of a lidar in it");
   throw std::invalid_argument("whole turns of a lidar in it: " + std::to_string(recorded.size()) +
@@ -53,20 +53,20 @@ void refuse_too_few_turns(const RecordedDrive& recorded, std::size_t needed) {
 }
 
 void refuse_without_overlap(const RecordedDrive& recorded, const MappedDrive& drive) {
-  if (drive.has_odometry || are_few(drive.strange_turns, recorded)) return;
-  refuse_turns(recorded, drive.strange_turns, "too little of what was seen before them",
+  if (drive.has_odometry || are_few(drive.unmatched_scans, recorded)) return;
+  refuse_scans(recorded, drive.unmatched_scans, "too little of what was seen before them",
                "; drive more slowly there, or record the odometry too");
 }
 
 void refuse_pauses(const RecordedDrive& recorded, const MappedDrive& drive) {
-  if (drive.lost_turns.empty()) return;
-  const std::size_t turn = drive.lost_turns.front();
+  if (drive.lost_scans.empty()) return;
+  const std::size_t scan = drive.lost_scans.front();
   const auto after_start = [&](core::TimeNs t_ns) {
     return with_a_tenth(core::to_seconds(t_ns - recorded.start_ns(0)));
   };
   throw std::invalid_argument("no turn of the lidar from " +
-                              after_start(recorded.end_ns(turn - 1)) + " to " +
-                              after_start(recorded.start_ns(turn)) +
+                              after_start(recorded.end_ns(scan - 1)) + " to " +
+                              after_start(recorded.start_ns(scan)) +
                               " s after the start, no odometry that tells how the robot moved "
                               "meanwhile, and it sees another place then; survey the parts one by "
                               "one, or record anew");
@@ -79,7 +79,7 @@ void refuse_unchecked_guesses(const RecordedDrive& recorded, std::span<const std
     const auto inside = std::upper_bound(blind.begin(), blind.end(), loop.earlier);
     if (loop.closed() && inside != blind.end() && *inside < loop.later) return;
   }
-  refuse_turns(recorded, blind, "walls that tell nothing of the way along them",
+  refuse_scans(recorded, blind, "walls that tell nothing of the way along them",
                ", and no loop was closed that would tell it; record the odometry too");
 }
 

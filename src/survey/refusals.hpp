@@ -14,7 +14,7 @@
 namespace cornerd::survey {
 
 /// Where a wall has to be seen in `needed` turns to be believed.
-void refuse_too_few_turns(const RecordedDrive& recorded, std::size_t needed);
+void refuse_too_few_scans(const RecordedDrive& recorded, std::size_t needed);
 
 /// Without odometry nothing else tells the way: a drive that lost it gives no map.
 void refuse_without_overlap(const RecordedDrive& recorded, const MappedDrive& drive);

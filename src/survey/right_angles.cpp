@@ -32,21 +32,21 @@ RightAngles right_angles(const MappedDrive& drive, std::span<const std::uint32_t
   for (const std::uint32_t face : faces) {
     if (face != reference && drive.faces[face].length_m() >= kLeast_m) others.push_back(face);
   }
-  const std::vector<double> variances = variances_of_turn(drive, reference, others);
+  const std::vector<double> variances = rotation_variances(drive, reference, others);
   for (std::size_t i = 0; i < others.size(); ++i) {
     const double sigma_rad = std::sqrt(variances[i] + 2 * squared(kWavy_rad));
     const double tolerance_rad = std::min(kSquare_rad, kSquareSigmas * sigma_rad);
-    const double turn_rad = core::angle_between(drive.faces[reference].normal_rad(),
-                                                drive.faces[others[i]].normal_rad());
-    const double square_rad = std::round(turn_rad / (core::kPi / 2)) * (core::kPi / 2);
-    if (sigma_rad > kTellingSigma_rad || std::abs(turn_rad - square_rad) > tolerance_rad) {
+    const double rotation_rad = core::angle_between(drive.faces[reference].normal_rad(),
+                                                    drive.faces[others[i]].normal_rad());
+    const double square_rad = std::round(rotation_rad / (core::kPi / 2)) * (core::kPi / 2);
+    if (sigma_rad > kTellingSigma_rad || std::abs(rotation_rad - square_rad) > tolerance_rad) {
       ++result.askew;
       continue;
     }
     FaceBond bond;
     bond.one = reference;
     bond.other = others[i];
-    bond.turn_rad = square_rad;
+    bond.rotation_rad = square_rad;
     bond.sigma_rad = kBondSigma_rad;
     result.bonds.push_back(bond);
   }

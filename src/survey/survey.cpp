@@ -23,11 +23,11 @@ constexpr std::size_t kPicturePoints = 60'000;
 std::vector<core::Vec2> picture_points(const MappedDrive& drive) {
   std::vector<core::Vec2> points;
   const std::size_t step = drive.points.size() / kPicturePoints + 1;
-  for (std::size_t turn = 0; turn < drive.T_map_lidar.size(); ++turn) {
-    for (std::size_t i = drive.first_point[turn]; i < drive.first_point[turn + 1]; ++i) {
+  for (std::size_t scan = 0; scan < drive.T_map_lidar.size(); ++scan) {
+    for (std::size_t i = drive.first_point[scan]; i < drive.first_point[scan + 1]; ++i) {
       if (i % step != 0) continue;
       const StraightPoint& point = drive.points[i];
-      points.push_back(drive.T_map_lidar[turn] *
+      points.push_back(drive.T_map_lidar[scan] *
                        core::Vec2(point.range_m * core::unit_vector(point.bearing_rad)));
     }
   }
@@ -96,8 +96,8 @@ SurveyResult survey_without_wheels(const RecordedDrive& recorded, OdometryDoubt 
   } catch (const std::invalid_argument& refused) {
     throw std::invalid_argument(
         "of " + std::to_string(recorded.size()) + " turns the odometry contradicts the lidar in " +
-        std::to_string(doubt.contradicted_turns) + " and is missing in " +
-        std::to_string(doubt.unled_turns) +
+        std::to_string(doubt.contradicted_scans) + " and is missing in " +
+        std::to_string(doubt.scans_without_odometry) +
         " (are the encoders and odometry.counts_per_turn right?); and " + refused.what());
   }
 }
@@ -106,9 +106,9 @@ SurveyResult survey_without_wheels(const RecordedDrive& recorded, OdometryDoubt 
 
 SurveyResult survey(const RecordedDrive& recorded, const SurveyConfig& config,
                     const SurveyProgress& progress) {
-  refuse_too_few_turns(recorded, config.walls.pieces.sightings);
-  const std::size_t turns = recorded.size();
-  ProgressShares shares(progress, turns);
+  refuse_too_few_scans(recorded, config.walls.pieces.sightings);
+  const std::size_t scans = recorded.size();
+  ProgressShares shares(progress, scans);
   SurveyResult result;
 
   // First pass: find the way, and learn the wheels and the gyro.
@@ -123,14 +123,14 @@ SurveyResult survey(const RecordedDrive& recorded, const SurveyConfig& config,
     first = map_drive(recorded, config.sensor, &first, shares.pass("finding the way", half, 0.3),
                       /*anew=*/true);
   }
-  if (are_too_many(first.contradicted_turns + first.unled_turns, turns)) {
+  if (are_too_many(first.contradicted_scans + first.scans_without_odometry, scans)) {
     OdometryDoubt doubt;
-    doubt.contradicted_turns = first.contradicted_turns;
-    doubt.unled_turns = first.unled_turns;
+    doubt.contradicted_scans = first.contradicted_scans;
+    doubt.scans_without_odometry = first.scans_without_odometry;
     return survey_without_wheels(recorded, doubt, config, shares.rest());
   }
-  result.strange_turns = first.strange_turns;
-  result.blind_turns = first.blind_turns;
+  result.unmatched_scans = first.unmatched_scans;
+  result.degenerate_scans = first.degenerate_scans;
   if (first.faces.empty()) throw std::invalid_argument("no walls were seen");
   refuse_without_overlap(recorded, first);
   adjust(first);
@@ -140,7 +140,7 @@ SurveyResult survey(const RecordedDrive& recorded, const SurveyConfig& config,
     result.loops = close_loops(first, config.sensor, config.merging, config.walls,
                                result.merged_faces, shares.pass("closing loops", 0.3, 0.4));
   }
-  refuse_unchecked_guesses(recorded, result.blind_turns, result.loops);
+  refuse_unchecked_guesses(recorded, result.degenerate_scans, result.loops);
   result.merged_faces += unite(first, config, shares, 0.4, 0.5);
 
   // Second pass: the turns straightened by what was learned, and matched to the adjusted map.
@@ -176,9 +176,9 @@ SurveyResult survey(const RecordedDrive& recorded, const SurveyConfig& config,
   result.thin = thin_places(drive, evidence, built.pieces);
   result.points = picture_points(drive);
   const core::Pose2 T_lidar_base = config.sensor.T_base_lidar.inverse();
-  for (std::size_t turn = 0; turn < turns; ++turn) {
-    result.T_map_base.push_back(drive.T_map_lidar[turn] * T_lidar_base);
-    result.t_ns.push_back(recorded.middle_ns(turn));
+  for (std::size_t scan = 0; scan < scans; ++scan) {
+    result.T_map_base.push_back(drive.T_map_lidar[scan] * T_lidar_base);
+    result.t_ns.push_back(recorded.middle_ns(scan));
   }
   result.forgotten_faces = drive.forgotten_faces;
   result.observations = drive.observations.size();

@@ -45,9 +45,9 @@ struct SurveyResult {
   std::vector<core::Vec2> points;  ///< some of the returns, on the map
   std::vector<ThinPlace> thin;
   std::vector<Dropped> dropped;
-  std::vector<std::size_t> strange_turns;  ///< whose walls did not tell where they were
+  std::vector<std::size_t> unmatched_scans;  ///< whose walls did not tell where they were
   /// Without odometry: whose walls told nothing of one direction, in which a guess stands.
-  std::vector<std::size_t> blind_turns;
+  std::vector<std::size_t> degenerate_scans;
   std::vector<LoopReport> loops;  ///< places that were recognised again
   double doubled_m = 0;           ///< of walls, behind others that would have hidden them
   SeenThrough through;            ///< what rays ended on and others went through

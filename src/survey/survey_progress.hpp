@@ -17,15 +17,15 @@ using SurveyProgress = std::function<void(std::string_view phase, double share)>
 /// Shares the bar among the passes through a drive.
 class ProgressShares {
  public:
-  ProgressShares(SurveyProgress progress, std::size_t turns)
-      : progress_(std::move(progress)), turns_(std::max<std::size_t>(turns, 1)) {}
+  ProgressShares(SurveyProgress progress, std::size_t scans)
+      : progress_(std::move(progress)), scans_(std::max<std::size_t>(scans, 1)) {}
 
   /// Of a pass over all turns, from one share of the whole to another. `phase` must outlive it.
   Progress pass(std::string_view phase, double begin, double end) {
     if (!progress_) return {};
-    return [this, phase, begin, end](std::size_t turn) {
+    return [this, phase, begin, end](std::size_t scan) {
       const double share =
-          begin + (end - begin) * static_cast<double>(turn) / static_cast<double>(turns_);
+          begin + (end - begin) * static_cast<double>(scan) / static_cast<double>(scans_);
       most_ = std::max(most_, std::min(share, end));
       progress_(phase, most_);
     };
@@ -41,7 +41,7 @@ class ProgressShares {
 
  private:
   SurveyProgress progress_;
-  std::size_t turns_;
+  std::size_t scans_;
   double most_ = 0;
 };
 

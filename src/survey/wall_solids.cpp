@@ -74,9 +74,9 @@ class Builder {
     const MappedFace& front = face_of(pair.one);
     const MappedFace& back = face_of(pair.other);
     // The axis: half-way between both sides, in the mean of their directions.
-    const double turn_rad =
+    const double rotation_rad =
         core::angle_between(front.normal_rad(), back.normal_rad() + core::kPi) / 2;
-    const core::Vec2 normal = core::unit_vector(front.normal_rad() + turn_rad);
+    const core::Vec2 normal = core::unit_vector(front.normal_rad() + rotation_rad);
     const core::Vec2 direction = along(normal);
     const core::Vec2 centre = front.at((pair.begin_m + pair.end_m) / 2);
     const core::Vec2 opposite = back.at(back.along_of(centre));
@@ -172,7 +172,7 @@ class Builder {
 std::vector<WallPair> pair_sides(const MappedDrive& drive, std::span<const WallPiece> pieces,
                                  const SolidLimits& limits) {
   std::vector<WallPair> candidates;
-  const double least_cosine = std::cos(limits.turn_rad);
+  const double least_cosine = std::cos(limits.rotation_rad);
   for (std::uint32_t a = 0; a < pieces.size(); ++a) {
     for (std::uint32_t b = a + 1; b < pieces.size(); ++b) {
       const MappedFace& one = drive.faces[pieces[a].face];
@@ -222,13 +222,14 @@ std::vector<FaceBond> bonds_of(const MappedDrive& drive, std::span<const WallPie
     FaceBond bond;
     bond.one = pieces[pair.one].face;
     bond.other = pieces[pair.other].face;
-    bond.turn_rad = core::kPi;
+    bond.rotation_rad = core::kPi;
     bond.sigma_rad = kBondSigma_rad;
     const MappedFace& one = drive.faces[bond.one];
     const MappedFace& other = drive.faces[bond.other];
-    const double turn_rad = core::angle_between(one.normal_rad() + core::kPi, other.normal_rad());
+    const double rotation_rad =
+        core::angle_between(one.normal_rad() + core::kPi, other.normal_rad());
     const double sigma_rad = std::sqrt(one.covariance()(0, 0) + other.covariance()(0, 0));
-    if (std::abs(turn_rad) < kParallel_rad + kGateSigmas * sigma_rad) bonds.push_back(bond);
+    if (std::abs(rotation_rad) < kParallel_rad + kGateSigmas * sigma_rad) bonds.push_back(bond);
   }
   return bonds;
 }

@@ -21,7 +21,7 @@ struct WallPair {
 
 struct SolidLimits {
   double thickness_m = 0.6;  ///< what is thicker is no wall, but a room that nobody entered
-  double turn_rad = core::radians(2);  ///< between both sides
+  double rotation_rad = core::radians(2);  ///< between both sides
 };
 
 /// Sides that stand back to back, the thinnest walls first.

@@ -73,9 +73,9 @@ replay::SensorModel usual_sensor() { return bench::usual_circumstances().front()
 /// What a counter of instructions is started on: it does nothing else.
 void only_detect(const BenchOptions& options) {
   const auto maps = load_contest_maps(options.maps);
-  const auto turns =
-      bench::simulate_paper_turns(maps, usual_sensor(), options.samples, options.seed);
-  bench::Workload workload(chosen_methods(options).front(), turns.turns);
+  const auto scans =
+      bench::simulate_paper_scans(maps, usual_sensor(), options.samples, options.seed);
+  bench::Workload workload(chosen_methods(options).front(), scans.scans);
   for (std::size_t i = 0; i < options.detections; ++i) workload.run_all();
 }
 
@@ -88,10 +88,10 @@ BenchReport measure(const BenchOptions& options) {
   report.samples = options.samples;
   report.positions = options.positions;
   report.seed = options.seed;
-  report.turns = bench::simulate_paper_turns(maps, usual_sensor(), options.samples, options.seed);
-  report.supported_corners = bench::supported_corners(report.turns);
-  report.preparation_us = bench::time_preparation_us(report.turns.turns, kTimingRepeats);
-  report.paper = bench::run_paper_experiment(report.turns, methods, kTimingRepeats);
+  report.scans = bench::simulate_paper_scans(maps, usual_sensor(), options.samples, options.seed);
+  report.supported_corners = bench::supported_corners(report.scans);
+  report.preparation_us = bench::time_preparation_us(report.scans.scans, kTimingRepeats);
+  report.paper = bench::run_paper_experiment(report.scans, methods, kTimingRepeats);
   if (options.instructions) {
     count_instructions({maps, folder, usual_sensor(), options.seed}, methods, report);
   }
@@ -109,7 +109,7 @@ BenchReport measure(const BenchOptions& options) {
 void run_scale(const BenchOptions& options) {
   ScaleBenchOptions scale;
   if (!options.corners.empty()) scale.corners = options.corners;
-  if (options.positions_given->count() > 0) scale.turns = options.positions;
+  if (options.positions_given->count() > 0) scale.scans = options.positions;
   scale.seed = options.seed;
   scale.instructions = options.instructions;
   scale.plots = options.plots;
@@ -238,7 +238,7 @@ void add_bench(CLI::App& program) {
           ->type_name("N")
           ->capture_default_str();
   command->add_option("--samples", options->samples, "a turn")
-      ->check(CLI::Range(std::size_t{1}, core::kMaxSamplesPerTurn))
+      ->check(CLI::Range(std::size_t{1}, core::kMaxSamplesPerScan))
       ->type_name("N")
       ->capture_default_str();
   command->add_option("--seed", options->seed, "of all randomness")

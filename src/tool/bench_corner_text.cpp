@@ -19,7 +19,7 @@ std::string corner_tables(const BenchReport& report) {
       const bench::CornerScore& score = line.score;
       std::vector<double> errors_m = score.errors_m();
       std::sort(errors_m.begin(), errors_m.end());
-      const auto turns = static_cast<double>(std::max<std::size_t>(score.turns(), 1));
+      const auto scans = static_cast<double>(std::max<std::size_t>(score.scans(), 1));
       const auto false_count = static_cast<double>(score.detections(bench::Verdict::kFalse));
       table.add_row({std::string(line.method.title), formatted("%.4f", score.precision()),
                      formatted("%.4f", score.precision(true)),
@@ -29,7 +29,7 @@ std::string corner_tables(const BenchReport& report) {
                      formatted("%.4f", score.recall_of_visible()),
                      formatted("%.2f", kMm * bench::quantile(errors_m, 0.5)),
                      formatted("%.2f", kMm * bench::quantile(errors_m, 0.95)),
-                     formatted("%.3f", false_count / turns)});
+                     formatted("%.3f", false_count / scans)});
     }
     out += circumstances.circumstances + '\n' + table.text(true) + '\n';
   }

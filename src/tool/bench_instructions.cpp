@@ -20,22 +20,22 @@ const std::set<std::size_t> kCountedSizes = {400, 800, 1450, 2900, 5800, 10'000}
 
 /// One detection in each of the turns.
 std::optional<double> count_by_processor(bench::InstructionCounter& counter,
-                                         const CountedTurns& turns,
+                                         const CountedScans& scans,
                                          const bench::NamedMethod& method, std::size_t samples) {
-  const auto simulated = bench::simulate_paper_turns(turns.maps, turns.sensor, samples, turns.seed);
-  bench::Workload workload(method, simulated.turns);
+  const auto simulated = bench::simulate_paper_scans(scans.maps, scans.sensor, samples, scans.seed);
+  bench::Workload workload(method, simulated.scans);
   workload.run_all();
   const auto count = counter.count([&] { workload.run_all(); });
   if (!count) return std::nullopt;
-  return static_cast<double>(*count) / static_cast<double>(workload.turns());
+  return static_cast<double>(*count) / static_cast<double>(workload.scans());
 }
 
-std::optional<double> count_by_valgrind(const CountedTurns& turns, const bench::NamedMethod& method,
+std::optional<double> count_by_valgrind(const CountedScans& scans, const bench::NamedMethod& method,
                                         std::size_t samples, std::size_t places) {
   const auto count = [&](int times) {
-    return count_by_callgrind({"bench", "--maps", turns.folder.string(), "--methods",
+    return count_by_callgrind({"bench", "--maps", scans.folder.string(), "--methods",
                                std::string(method.name), "--samples", std::to_string(samples),
-                               "--seed", std::to_string(turns.seed), "--only-detect",
+                               "--seed", std::to_string(scans.seed), "--only-detect",
                                std::to_string(times)});
   };
   const auto once = count(1);
@@ -46,7 +46,7 @@ std::optional<double> count_by_valgrind(const CountedTurns& turns, const bench::
 
 }  // namespace
 
-void count_instructions(const CountedTurns& turns, std::span<const bench::NamedMethod> methods,
+void count_instructions(const CountedScans& scans, std::span<const bench::NamedMethod> methods,
                         BenchReport& report) {
   bench::InstructionCounter counter;
   std::set<std::size_t> sizes = kCountedSizes;
@@ -57,8 +57,8 @@ void count_instructions(const CountedTurns& turns, std::span<const bench::NamedM
     for (const bench::NamedMethod& method : methods) {
       const auto count =
           counter.is_available()
-              ? count_by_processor(counter, turns, method, samples)
-              : count_by_valgrind(turns, method, samples, report.turns.places.size());
+              ? count_by_processor(counter, scans, method, samples)
+              : count_by_valgrind(scans, method, samples, report.scans.places.size());
       if (!count) {
         std::fprintf(stderr,
                      "cornerctl: instructions cannot be counted here: no performance counter for "

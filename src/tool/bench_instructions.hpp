@@ -14,7 +14,7 @@
 namespace cornerd::tool {
 
 /// What the turns are made of.
-struct CountedTurns {
+struct CountedScans {
   std::vector<std::shared_ptr<const core::WallMap>> maps;
   std::filesystem::path folder;  ///< of the maps
   replay::SensorModel sensor;
@@ -24,7 +24,7 @@ struct CountedTurns {
 /// Fills in the instructions that each method takes for a turn, for several numbers of samples: by
 /// the processor's counter, else by valgrind as the difference between detecting once and twice,
 /// so that nothing but the detection counts. Where there is neither, says so on standard error.
-void count_instructions(const CountedTurns& turns, std::span<const bench::NamedMethod> methods,
+void count_instructions(const CountedScans& scans, std::span<const bench::NamedMethod> methods,
                         BenchReport& report);
 
 }  // namespace cornerd::tool

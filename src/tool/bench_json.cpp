@@ -16,9 +16,9 @@ namespace {
 using Figures = nlohmann::ordered_json;
 
 Figures json_of(const bench::PlaceResult& result, const bench::PaperPlace& place,
-                const bench::PaperTurns& turns) {
+                const bench::PaperScans& scans) {
   Figures figures = {{"location", bench::kPaperLocations[place.location].title},
-                     {"map", turns.maps[place.map]->plan().name},
+                     {"map", scans.maps[place.map]->plan().name},
                      {"x", place.T_map_lidar.x_m},
                      {"y", place.T_map_lidar.y_m},
                      {"theta", place.T_map_lidar.theta_rad},
@@ -33,10 +33,10 @@ Figures json_of(const bench::PlaceResult& result, const bench::PaperPlace& place
   return figures;
 }
 
-Figures json_of(const bench::PaperResult& result, const bench::PaperTurns& turns) {
+Figures json_of(const bench::PaperResult& result, const bench::PaperScans& scans) {
   Figures places = Figures::array();
   for (std::size_t i = 0; i < result.places.size(); ++i) {
-    places.push_back(json_of(result.places[i], turns.places[i], turns));
+    places.push_back(json_of(result.places[i], scans.places[i], scans));
   }
   return {{"method", result.method.name}, {"places", places}};
 }
@@ -46,7 +46,7 @@ Figures json_of(const bench::MethodScore& line) {
   std::vector<double> errors_m = score.errors_m();
   std::sort(errors_m.begin(), errors_m.end());
   return {{"method", line.method.name},
-          {"turns", score.turns()},
+          {"turns", score.scans()},
           {"supported_corners", score.supported()},
           {"visible_corners", score.visible()},
           {"detections",
@@ -69,7 +69,7 @@ Figures json_of(const bench::MethodScore& line) {
 std::string bench_json(const BenchReport& report) {
   Figures paper = Figures::array();
   for (const bench::PaperResult& result : report.paper) {
-    paper.push_back(json_of(result, report.turns));
+    paper.push_back(json_of(result, report.scans));
   }
   Figures corners = Figures::array();
   for (const CornerReport& table : report.corners) {
@@ -85,7 +85,7 @@ std::string bench_json(const BenchReport& report) {
     for (const InstructionFigure& figure : report.instructions) {
       figures.push_back({{"method", figure.method},
                          {"samples", figure.samples},
-                         {"instructions", figure.per_turn}});
+                         {"instructions", figure.per_scan}});
     }
     document["instructions"] = {{"counted_by", report.counter}, {"figures", figures}};
   }

@@ -25,8 +25,8 @@ using OrderedJson = nlohmann::ordered_json;
 
 constexpr double kMetresToMillimetres = 1e3;
 /// Turns by whose cost the others' is told from the program's own.
-constexpr std::size_t kFewTurns = 20;
-constexpr std::size_t kManyTurns = bench::kMostCountedTurns;
+constexpr std::size_t kFewScans = 20;
+constexpr std::size_t kManyScans = bench::kMaxCountedScans;
 
 struct TrialResult {
   std::string title;
@@ -45,17 +45,17 @@ struct LocalizationReport {
   std::optional<CostResult> cost;
 };
 
-std::optional<double> count_turn(const LocalizationBenchOptions& options, bool tracking) {
-  const auto count = [&](std::size_t turns) {
+std::optional<double> count_scan(const LocalizationBenchOptions& options, bool tracking) {
+  const auto count = [&](std::size_t scans) {
     return count_by_callgrind({"bench", "--localizer", "--maps",
                                contest_maps_folder(options.maps).string(), "--only-localize",
                                tracking ? "tracking" : "first", "--only-detect",
-                               std::to_string(turns)});
+                               std::to_string(scans)});
   };
-  const auto few = count(kFewTurns);
-  const auto many = few ? count(kManyTurns) : std::nullopt;
+  const auto few = count(kFewScans);
+  const auto many = few ? count(kManyScans) : std::nullopt;
   if (!many || *many < *few) return std::nullopt;
-  return static_cast<double>(*many - *few) / (kManyTurns - kFewTurns);
+  return static_cast<double>(*many - *few) / (kManyScans - kFewScans);
 }
 
 double percent(std::size_t part, std::size_t whole) {
@@ -67,8 +67,8 @@ std::string trials_text(const std::vector<TrialResult>& trials) {
   table.add_row({"trial", "turns", "named %", "wrong", "ambiguous", "of these true", "lost",
                  "mean mm", "median", "rms", "of bound", "mean deg", "NEES", "< 7.8 %"});
   for (const auto& [title, score] : trials) {
-    table.add_row({title, std::to_string(score.turns()),
-                   formatted("%.2f", percent(score.named(), score.turns())),
+    table.add_row({title, std::to_string(score.scans()),
+                   formatted("%.2f", percent(score.named(), score.scans())),
                    std::to_string(score.wrong()), std::to_string(score.ambiguous()),
                    std::to_string(score.ambiguous_with_truth()), std::to_string(score.lost()),
                    formatted("%.3f", kMetresToMillimetres * score.mean_error_m()),
@@ -92,7 +92,7 @@ std::string reliability_text(const bench::Reliability& reliability) {
   for (const bench::Reliability::Bin& bin : reliability.bins()) {
     table.add_row({bin.least_doubt > 0 ? formatted("from %g", bin.least_doubt)
                                        : formatted("below %g (a fix)", core::kWrongFixRate),
-                   std::to_string(bin.turns), formatted("%.3g", bin.doubt),
+                   std::to_string(bin.scans), formatted("%.3g", bin.doubt),
                    std::to_string(bin.wrong)});
   }
   return "\nKept promises, all trials\n\n" + table.text(/*numbers=*/true);
@@ -119,7 +119,7 @@ std::string cost_text(const CostResult& cost) {
 OrderedJson json_of(const TrialResult& trial) {
   const bench::PoseScore& score = trial.score;
   return {{"trial", trial.title},
-          {"turns", score.turns()},
+          {"turns", score.scans()},
           {"named", score.named()},
           {"wrong", score.wrong()},
           {"predicted", score.predicted()},
@@ -141,7 +141,7 @@ std::string report_json(const LocalizationReport& report, const LocalizationBenc
   for (const TrialResult& trial : report.trials) document["trials"].push_back(json_of(trial));
   for (const bench::Reliability::Bin& bin : report.reliability.bins()) {
     document["reliability"].push_back({{"least_doubt", bin.least_doubt},
-                                       {"turns", bin.turns},
+                                       {"turns", bin.scans},
                                        {"expected_wrong", bin.doubt},
                                        {"wrong", bin.wrong}});
   }
@@ -162,9 +162,9 @@ std::string report_json(const LocalizationReport& report, const LocalizationBenc
 
 }  // namespace
 
-void only_localize_in_arena(const LocalizationBenchOptions& options, std::size_t turns,
+void only_localize_in_arena(const LocalizationBenchOptions& options, std::size_t scans,
                             bool tracking) {
-  bench::localize_turns(load_contest_maps(contest_maps_folder(options.maps)).front(), turns,
+  bench::localize_scans(load_contest_maps(contest_maps_folder(options.maps)).front(), scans,
                         tracking);
 }
 
@@ -190,7 +190,7 @@ void run_localization_bench(const LocalizationBenchOptions& options) {
                                               [&](std::size_t n) { bar.show(n); });
   }
   if (options.instructions) {
-    report.cost = CostResult{count_turn(options, false), count_turn(options, true)};
+    report.cost = CostResult{count_scan(options, false), count_scan(options, true)};
   }
   for (const TrialResult& trial : report.trials) report.reliability.add(trial.score.reliability());
   if (json) {

@@ -21,7 +21,7 @@ void run_localization_bench(const LocalizationBenchOptions& options);
 
 /// What valgrind is started on: localizes in `turns` turns and says nothing. `tracking`: with what
 /// the turns before told, else each without.
-void only_localize_in_arena(const LocalizationBenchOptions& options, std::size_t turns,
+void only_localize_in_arena(const LocalizationBenchOptions& options, std::size_t scans,
                             bool tracking);
 
 }  // namespace cornerd::tool

@@ -31,7 +31,7 @@ using bench::ReckonedTrack;
 using core::HeadingSource;
 
 /// Of a second table, for each drive that was asked for.
-constexpr std::size_t kTurnsOfADrive = 650;
+constexpr std::size_t kScansPerDrive = 650;
 
 struct RobotResults {
   bench::OdometryRobot robot;
@@ -225,9 +225,9 @@ void run_odometry_bench(const OdometryBenchOptions& options) {
     for (const bool gently : {false, true}) {
       for (const double rate_hz : bench::kReadingRates_hz) {
         if (options.drives == 0) break;
-        const std::size_t turns = kTurnsOfADrive * options.drives;
+        const std::size_t scans = kScansPerDrive * options.drives;
         rates.push_back(
-            {rate_hz, gently, bench::run_rate_case(map, rate_hz, gently, turns, options.seed)});
+            {rate_hz, gently, bench::run_rate_case(map, rate_hz, gently, scans, options.seed)});
         bar.show(++done);
       }
     }

@@ -31,7 +31,7 @@ std::string draw_times(const BenchReport& report) {
     series.push_back(std::move(times));
   }
   return draw_boxplots(
-      {"Time a turn", std::to_string(report.turns.places.size()) + " places", "microseconds"},
+      {"Time a turn", std::to_string(report.scans.places.size()) + " places", "microseconds"},
       series);
 }
 
@@ -59,17 +59,17 @@ std::string draw_positions(const BenchReport& report) {
 }
 
 /// The turn that shows most corners.
-std::size_t richest_turn(const BenchReport& report) {
+std::size_t richest_scan(const BenchReport& report) {
   const auto& counts = report.supported_corners;
   return static_cast<std::size_t>(std::max_element(counts.begin(), counts.end()) - counts.begin());
 }
 
-std::string draw_bench_turn(const BenchReport& report, const bench::PaperResult& result,
-                            std::size_t turn) {
-  const bench::PaperPlace& place = report.turns.places[turn];
-  const bench::PlaceResult& found = result.places[turn];
-  MapDrawing drawing(*report.turns.maps[place.map]);
-  drawing.add_scan(report.turns.turns[turn], place.T_map_lidar);
+std::string draw_bench_scan(const BenchReport& report, const bench::PaperResult& result,
+                            std::size_t scan) {
+  const bench::PaperPlace& place = report.scans.places[scan];
+  const bench::PlaceResult& found = result.places[scan];
+  MapDrawing drawing(*report.scans.maps[place.map]);
+  drawing.add_scan(report.scans.scans[scan], place.T_map_lidar);
   drawing.add_breakpoints(found.breakpoints, place.T_map_lidar);
   drawing.add_pose(place.T_map_lidar);
   return drawing.document(std::string(result.method.title) + ": " +
@@ -86,11 +86,11 @@ void draw_bench(const BenchReport& report, const std::filesystem::path& folder) 
   if (error) throw Failure(folder.string() + ": " + error.message());
   save(folder / "times.svg", draw_times(report));
   save(folder / "positions.svg", draw_positions(report));
-  if (report.turns.turns.empty()) return;
-  const std::size_t turn = richest_turn(report);
+  if (report.scans.scans.empty()) return;
+  const std::size_t scan = richest_scan(report);
   for (const bench::PaperResult& result : report.paper) {
     save(folder / ("turn-" + std::string(result.method.name) + ".svg"),
-         draw_bench_turn(report, result, turn));
+         draw_bench_scan(report, result, scan));
   }
 }
 

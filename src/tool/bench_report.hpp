@@ -23,7 +23,7 @@ struct CornerReport {
 struct InstructionFigure {
   std::string method;  ///< its title
   std::size_t samples = 0;
-  double per_turn = 0;
+  double per_scan = 0;
 };
 
 /// All that cornerctl bench measured.
@@ -32,7 +32,7 @@ struct BenchReport {
   std::size_t positions = 0;
   std::uint64_t seed = 0;
 
-  bench::PaperTurns turns;
+  bench::PaperScans scans;
   std::vector<bench::PaperResult> paper;
   std::vector<std::size_t> supported_corners;  ///< of each of the turns
   double preparation_us = 0;
@@ -41,9 +41,10 @@ struct BenchReport {
   std::vector<InstructionFigure> instructions;
   std::vector<CornerReport> corners;
 
-  std::optional<double> instructions_of(std::string_view method, std::size_t samples_a_turn) const {
+  std::optional<double> instructions_of(std::string_view method,
+                                        std::size_t samples_per_scan) const {
     for (const InstructionFigure& figure : instructions) {
-      if (figure.method == method && figure.samples == samples_a_turn) return figure.per_turn;
+      if (figure.method == method && figure.samples == samples_per_scan) return figure.per_scan;
     }
     return std::nullopt;
   }

@@ -29,19 +29,19 @@ constexpr double kMicroToMilli = 1e-3;
 constexpr std::size_t kCountedByValgrind = 50;
 
 /// A building as valgrind is told: its corners, or 0 for the equal rooms, which come last.
-std::optional<double> count_turn_by_valgrind(const ScaleBenchOptions& options,
+std::optional<double> count_scan_by_valgrind(const ScaleBenchOptions& options,
                                              std::size_t corners) {
-  const std::size_t turns = std::min(options.turns, kCountedByValgrind);
+  const std::size_t scans = std::min(options.scans, kCountedByValgrind);
   const auto count = [&](int times) {
     return count_by_callgrind({"bench", "--scale", "--corners", std::to_string(corners),
-                               "--positions", std::to_string(turns), "--seed",
+                               "--positions", std::to_string(scans), "--seed",
                                std::to_string(options.seed), "--only-detect",
                                std::to_string(times)});
   };
   const auto once = count(1);
   const auto twice = once ? count(2) : std::nullopt;
-  if (!twice || *twice < *once || turns == 0) return std::nullopt;
-  return static_cast<double>(*twice - *once) / static_cast<double>(turns);
+  if (!twice || *twice < *once || scans == 0) return std::nullopt;
+  return static_cast<double>(*twice - *once) / static_cast<double>(scans);
 }
 
 std::string scale_text(const std::vector<bench::ScaleResult>& results) {
@@ -49,11 +49,11 @@ std::string scale_text(const std::vector<bench::ScaleResult>& results) {
   table.add_row({"building", "corners", "rooms", "load s", "MiB", "fix %", "wrong", "ambiguous",
                  "of these true", "lost", "error mm", "time ms", "99 %", "10^6 instr."});
   for (const bench::ScaleResult& r : results) {
-    const double turns = static_cast<double>(std::max<std::size_t>(1, r.score.turns()));
+    const double scans = static_cast<double>(std::max<std::size_t>(1, r.score.scans()));
     table.add_row({r.title, std::to_string(r.corners), std::to_string(r.rooms),
                    formatted("%.3f", r.map_s + r.catalog_s),
                    formatted("%.2f", static_cast<double>(r.memory_bytes) / kMebibyte),
-                   formatted("%.1f", 100 * static_cast<double>(r.score.right()) / turns),
+                   formatted("%.1f", 100 * static_cast<double>(r.score.right()) / scans),
                    std::to_string(r.score.wrong()), std::to_string(r.score.ambiguous()),
                    std::to_string(r.score.ambiguous_with_truth()), std::to_string(r.score.lost()),
                    formatted("%.2f", kMillimetre * r.score.mean_error_m()),
@@ -76,7 +76,7 @@ std::string scale_json(const std::vector<bench::ScaleResult>& results,
                                       {"map_s", r.map_s},
                                       {"catalog_s", r.catalog_s},
                                       {"memory_bytes", r.memory_bytes},
-                                      {"turns", r.score.turns()},
+                                      {"turns", r.score.scans()},
                                       {"fixed", r.score.right()},
                                       {"wrong", r.score.wrong()},
                                       {"ambiguous", r.score.ambiguous()},
@@ -126,10 +126,10 @@ void only_localize(const ScaleBenchOptions& options, std::size_t times) {
   const auto cases = bench::scale_cases(options.corners, options.seed);
   const bench::ScaleCase& building = options.corners.front() == 0 ? cases.back() : cases.front();
   const auto map = std::make_shared<const core::WallMap>(building.plan);
-  const bench::ScaleTurns turns(map, options.turns, options.seed);
+  const bench::ScaleScans scans(map, options.scans, options.seed);
   core::Localizer localizer(map, {});
   for (std::size_t i = 0; i < times; ++i) {
-    turns.localize(localizer, [](std::size_t, const core::PoseEstimate&) {});
+    scans.localize(localizer, [](std::size_t, const core::PoseEstimate&) {});
   }
 }
 
@@ -152,12 +152,12 @@ void run_scale_bench(const ScaleBenchOptions& options) {
   {
     ProgressBar bar("scale", cases.size());
     for (std::size_t i = 0; i < cases.size(); ++i) {
-      results.push_back(bench::run_scale_case(cases[i], options.turns, options.seed));
+      results.push_back(bench::run_scale_case(cases[i], options.scans, options.seed));
       if (!options.instructions) {
         results.back().instructions.reset();
       } else if (!results.back().instructions) {
         results.back().instructions =
-            count_turn_by_valgrind(options, i < options.corners.size() ? options.corners[i] : 0);
+            count_scan_by_valgrind(options, i < options.corners.size() ? options.corners[i] : 0);
       }
       bar.show(i + 1);
     }

@@ -11,7 +11,7 @@ namespace cornerd::tool {
 
 struct ScaleBenchOptions {
   std::vector<std::size_t> corners = {20, 200, 2000, 20'000};
-  std::size_t turns = 200;
+  std::size_t scans = 200;
   std::uint64_t seed = 1;
   bool instructions = false;
   std::filesystem::path plots;  ///< folder; empty: no picture

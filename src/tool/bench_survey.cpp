@@ -56,7 +56,7 @@ std::string experiment_text(const bench::SurveyExperiment& experiment) {
              "A second drive in the true map: mean error %.2f mm, %zu of %zu turns named a "
              "place, %zu wrong.\n",
              experiment.in_true_map.mean_error_m * kMillimetres, experiment.in_true_map.named,
-             experiment.in_true_map.turns, experiment.in_true_map.wrong);
+             experiment.in_true_map.scans, experiment.in_true_map.wrong);
 }
 
 void write_drawing(const std::filesystem::path& folder, const char* name, const std::string& text) {
@@ -100,7 +100,7 @@ std::string loops_text(const SurveyBenchOptions& options) {
 void run_survey_bench(const SurveyBenchOptions& options) {
   const auto map = settings::load_map(contest_maps_folder(options.maps) / "flat-7.json");
   const bench::SurveyExperiment experiment =
-      bench::run_survey_experiment(map, bench::kSurveyTurns, options.seed);
+      bench::run_survey_experiment(map, bench::kSurveyScans, options.seed);
   if (!options.plots.empty()) {
     write_drawing(options.plots, "survey-adjusted.svg",
                   survey_drawing(experiment.cases.front().result));

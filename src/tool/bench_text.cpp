@@ -41,7 +41,7 @@ Places all_places(const PaperResult& result) {
 Places places_at(const BenchReport& report, const PaperResult& result, std::size_t location) {
   Places places;
   for (std::size_t i = 0; i < result.places.size(); ++i) {
-    if (report.turns.places[i].location == location) places.push_back(&result.places[i]);
+    if (report.scans.places[i].location == location) places.push_back(&result.places[i]);
   }
   return places;
 }
@@ -146,7 +146,7 @@ std::string time_table(const BenchReport& report) {
                   });
   }
   double reference_us = 0;
-  table.add_row("all", std::to_string(report.turns.places.size()), [&](const PaperResult& result) {
+  table.add_row("all", std::to_string(report.scans.places.size()), [&](const PaperResult& result) {
     const bench::MeanAndSpread time = time_of(all_places(result));
     const auto index = paper_index(result.method);
     if (index == kReference) reference_us = time.mean;
@@ -186,7 +186,7 @@ std::string true_false_table(const BenchReport& report) {
           return text;
         });
   }
-  table.add_row("all", std::to_string(report.turns.places.size()), [&](const PaperResult& result) {
+  table.add_row("all", std::to_string(report.scans.places.size()), [&](const PaperResult& result) {
     const TrueAndFalse counts = count_corners(all_places(result));
     std::string text = formatted("%zu / %zu", counts.true_corners, counts.false_corners);
     if (const auto index = paper_index(result.method)) {

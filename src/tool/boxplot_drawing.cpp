@@ -57,7 +57,7 @@ class BoxplotPage {
       svg_.line({0, y}, {width_px_, y}, {.stroke = kBoxGrid});
       svg_.text({0, y}, boxplot_tick(i * step), {.fill = kBoxLabel, .anchor = "end"}, -10, 4);
     }
-    svg_.text({0, kHeightPx / 2}, name, {.fill = kBoxInk, .size = 13, .turn_deg = 90}, -52);
+    svg_.text({0, kHeightPx / 2}, name, {.fill = kBoxInk, .size = 13, .rotation_deg = 90}, -52);
   }
 
   void box(std::size_t slot, const BoxplotSeries& series) {

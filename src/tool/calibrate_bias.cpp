@@ -24,7 +24,7 @@ namespace cornerd::tool {
 namespace {
 
 /// As many as it takes until a lidar's bias shows in each turn (the bench's "biased lidar").
-constexpr std::size_t kLeastTeachingTurns = 20;
+constexpr std::size_t kMinTeachingScans = 20;
 
 struct CalibrateBiasOptions {
   std::vector<std::filesystem::path> files;
@@ -48,7 +48,7 @@ std::string describe_bias(const core::LearnedBias& learned) {
   return formatted(
              "From %zu turns at places of the map, of a lidar that stood or that wheels tell the "
              "motion of:\n",
-             learned.turns) +
+             learned.scans) +
          table.text();
 }
 
@@ -61,14 +61,14 @@ void calibrate_bias(const CalibrateBiasOptions& options) {
   localizer.learn_bias = true;
   localizer.forget_bias = false;
   core::Pipeline pipeline(settings::load_map(config.map), localizer);
-  Playback playback(pipeline, [](const core::Scan&, const core::TurnResult&) {});
+  Playback playback(pipeline, [](const core::Scan&, const core::ScanResult&) {});
   for (const std::filesystem::path& file : options.files) {
     pipeline.localizer().relocalize();
     playback.play(file, {parse_wire(options.wire), config.lidar.mount.inverted});
   }
   const core::LearnedBias learned = pipeline.localizer().learned_bias();
-  if (learned.turns < kLeastTeachingTurns) {
-    throw Failure("only " + std::to_string(learned.turns) +
+  if (learned.scans < kMinTeachingScans) {
+    throw Failure("only " + std::to_string(learned.scans) +
                   " turns were found in the map with the lidar at rest: record some seconds each "
                   "at several places, and see with replay whether they are found");
   }

@@ -56,17 +56,17 @@ class BinsSink : public replay::RecordingSink {
   explicit BinsSink(calibration::BearingBins& bins) : bins_(bins) {}
 
   void on_sample(const core::Sample& sample) override {
-    turns_ += sample.starts_turn;
+    scans_ += sample.starts_scan;
     bins_.add(sample.bearing_rad, sample.range_m);
   }
   void on_gap() override {}
   void on_odometry(const message::OdometryReading&) override {}
 
-  std::size_t turns() const { return turns_; }
+  std::size_t scans() const { return scans_; }
 
  private:
   calibration::BearingBins& bins_;
-  std::size_t turns_ = 0;
+  std::size_t scans_ = 0;
 };
 
 void warn_if_moved(const std::string& file, const std::vector<calibration::BinSpread>& spreads) {
@@ -117,7 +117,7 @@ void measure(const RecordingOfWall& recording, const std::string& wire, Measured
   }
   const std::vector<calibration::BinSpread> spreads = bins.spreads();
   std::fprintf(stderr, "%s: %zu turns, %zu returns, %zu directions with a spread\n", file.c_str(),
-               sink.turns(), bins.returns(), spreads.size());
+               sink.scans(), bins.returns(), spreads.size());
   warn_if_moved(file, spreads);
   measured.spreads.insert(measured.spreads.end(), spreads.begin(), spreads.end());
   if (!recording.distance_m) {

@@ -15,7 +15,7 @@
 #include "tool/options.hpp"
 #include "tool/output.hpp"
 #include "tool/playback.hpp"
-#include "tool/turn_drawing.hpp"
+#include "tool/scan_drawing.hpp"
 
 namespace cornerd::tool {
 
@@ -28,18 +28,18 @@ struct DetectOptions {
   std::vector<std::string> classes = {"BREAKPOINTS"};
   std::string wire = "auto";
   std::filesystem::path plot;
-  std::size_t plotted_turn = 1;
+  std::size_t plotted_scan = 1;
 };
 
-void save_plot(const DetectOptions& options, const core::Scan& turn,
+void save_plot(const DetectOptions& options, const core::Scan& scan,
                const core::Detection& detection) {
   Output picture(options.plot);
   const std::size_t corners =
       std::count_if(detection.breakpoints.begin(), detection.breakpoints.end(),
                     [](const auto& b) { return b.kind == core::BreakpointKind::kCorner; });
-  picture.write(draw_turn(
-      turn, detection,
-      std::to_string(turn.size()) + " samples, " + std::to_string(detection.segments.size()) +
+  picture.write(draw_scan(
+      scan, detection,
+      std::to_string(scan.size()) + " samples, " + std::to_string(detection.segments.size()) +
           " walls, " + std::to_string(corners) + " corners (rings), " +
           std::to_string(detection.breakpoints.size() - corners) + " ends (squares)"));
   picture.flush();
@@ -61,20 +61,20 @@ void detect(DetectOptions& options) {
   Output output;
   MessagePrinter printer(output, classes, nullptr);
   core::Pipeline pipeline(nullptr, config.localizer());
-  std::size_t turns = 0;
-  Playback playback(pipeline, [&](const core::Scan& turn, const core::TurnResult& result) {
-    printer.print_turn(turn, result);
-    if (++turns == options.plotted_turn && !options.plot.empty()) {
-      save_plot(options, turn, result.detection);
+  std::size_t scans = 0;
+  Playback playback(pipeline, [&](const core::Scan& scan, const core::ScanResult& result) {
+    printer.print_scan(scan, result);
+    if (++scans == options.plotted_scan && !options.plot.empty()) {
+      save_plot(options, scan, result.detection);
     }
   });
   for (const std::filesystem::path& file : options.files) {
     playback.play(file, {parse_wire(options.wire), config.lidar.mount.inverted});
   }
   output.flush();
-  if (!options.plot.empty() && turns < options.plotted_turn) {
-    throw Failure("--turn " + std::to_string(options.plotted_turn) + ": there are " +
-                  std::to_string(turns) + " turns");
+  if (!options.plot.empty() && scans < options.plotted_scan) {
+    throw Failure("--turn " + std::to_string(options.plotted_scan) + ": there are " +
+                  std::to_string(scans) + " turns");
   }
 }
 
@@ -97,7 +97,7 @@ void add_detect(CLI::App& program) {
   add_wire_option(*command, options->wire);
   command->add_option("--plot", options->plot, "draw a turn with its walls and breakpoints, as SVG")
       ->type_name("FILE");
-  command->add_option("--turn", options->plotted_turn, "which turn --plot draws, from 1 on")
+  command->add_option("--turn", options->plotted_scan, "which turn --plot draws, from 1 on")
       ->capture_default_str()
       ->check(CLI::Range(1, 100'000'000));
   command->callback([options] { detect(*options); });

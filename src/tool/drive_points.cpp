@@ -19,24 +19,24 @@ core::Vec2 return_of(const core::Sample& sample) {
 
 }  // namespace
 
-void DrivePoints::add(const core::Scan& turn, const std::optional<core::Pose2>& T_map_base) {
+void DrivePoints::add(const core::Scan& scan, const std::optional<core::Pose2>& T_map_base) {
   Turn kept;
   kept.T_map_base = T_map_base;
-  const auto samples = turn.samples();
+  const auto samples = scan.samples();
   if (!samples.empty()) {
     kept.middle_ns = samples.front().t_ns + (samples.back().t_ns - samples.front().t_ns) / 2;
   }
   for (const core::Sample& sample : samples) {
     if (sample.range_m > 0) kept.returns.push_back(sample);
   }
-  turns_.push_back(std::move(kept));
+  scans_.push_back(std::move(kept));
 }
 
-core::Pose2 DrivePoints::pose_at(std::size_t turn, core::TimeNs t_ns) const {
-  const Turn& own = turns_[turn];
+core::Pose2 DrivePoints::pose_at(std::size_t scan, core::TimeNs t_ns) const {
+  const Turn& own = scans_[scan];
   const bool before = t_ns < own.middle_ns;
-  if (before ? turn == 0 : turn + 1 == turns_.size()) return *own.T_map_base;
-  const Turn& other = turns_[before ? turn - 1 : turn + 1];
+  if (before ? scan == 0 : scan + 1 == scans_.size()) return *own.T_map_base;
+  const Turn& other = scans_[before ? scan - 1 : scan + 1];
   const core::TimeNs apart_ns = std::abs(other.middle_ns - own.middle_ns);
   if (!other.T_map_base || apart_ns == 0 || apart_ns > kNeighbourNs) return *own.T_map_base;
   const double share =
@@ -46,9 +46,9 @@ core::Pose2 DrivePoints::pose_at(std::size_t turn, core::TimeNs t_ns) const {
 
 std::vector<core::Vec2> DrivePoints::place(const core::Pose2& T_base_lidar) const {
   std::vector<core::Vec2> points;
-  for (std::size_t i = 0; i < turns_.size(); ++i) {
-    if (!turns_[i].T_map_base) continue;
-    for (const core::Sample& sample : turns_[i].returns) {
+  for (std::size_t i = 0; i < scans_.size(); ++i) {
+    if (!scans_[i].T_map_base) continue;
+    for (const core::Sample& sample : scans_[i].returns) {
       points.push_back(pose_at(i, sample.t_ns) * (T_base_lidar * return_of(sample)));
     }
   }
@@ -58,8 +58,8 @@ std::vector<core::Vec2> DrivePoints::place(const core::Pose2& T_base_lidar) cons
 std::vector<core::Vec2> DrivePoints::place(const core::Pose2& T_base_lidar,
                                            const Truth& way) const {
   std::vector<core::Vec2> points;
-  for (const Turn& turn : turns_) {
-    for (const core::Sample& sample : turn.returns) {
+  for (const Turn& scan : scans_) {
+    for (const core::Sample& sample : scan.returns) {
       const auto T_map_base = way.at(sample.t_ns);
       if (T_map_base) points.push_back(*T_map_base * (T_base_lidar * return_of(sample)));
     }

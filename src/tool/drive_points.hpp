@@ -14,7 +14,7 @@ namespace cornerd::tool {
 class DrivePoints {
  public:
   /// `T_map_base`: in the middle of the turn, where that is known.
-  void add(const core::Scan& turn, const std::optional<core::Pose2>& T_map_base);
+  void add(const core::Scan& scan, const std::optional<core::Pose2>& T_map_base);
 
   /// Of the turns whose place is known, in the map: each return from where the robot was between
   /// this turn and the next to it, unless that one is long ago.
@@ -30,9 +30,9 @@ class DrivePoints {
     std::vector<core::Sample> returns;
   };
   /// Where the robot was at a time of a turn whose place is known.
-  core::Pose2 pose_at(std::size_t turn, core::TimeNs t_ns) const;
+  core::Pose2 pose_at(std::size_t scan, core::TimeNs t_ns) const;
 
-  std::vector<Turn> turns_;
+  std::vector<Turn> scans_;
 };
 
 /// One of the points that share a square of `cell_m`, of those within the two corners.

@@ -21,7 +21,7 @@ double distance(const core::Pose2& a, const core::Pose2& b) {
   return (a.translation() - b.translation()).norm();
 }
 
-double turn(const core::Pose2& a, const core::Pose2& b) {
+double scan(const core::Pose2& a, const core::Pose2& b) {
   return std::abs(core::angle_between(a.theta_rad, b.theta_rad));
 }
 
@@ -62,7 +62,7 @@ void append_spread(std::string& out, const char* name, std::vector<double> value
 }  // namespace
 
 void ErrorStatistics::add(const core::PoseEstimate& estimate, const core::Pose2& truth) {
-  ++turns_;
+  ++scans_;
   ++states_[index(estimate.state)];
   switch (estimate.state) {
     case core::PoseState::kFix:
@@ -81,7 +81,7 @@ void ErrorStatistics::add(const core::PoseEstimate& estimate, const core::Pose2&
 void ErrorStatistics::add_pose(const core::PoseEstimate& estimate, const core::Pose2& truth) {
   const core::Pose2& pose = estimate.T_map_base;
   distances_m_.push_back(distance(pose, truth));
-  angles_rad_.push_back(turn(pose, truth));
+  angles_rad_.push_back(scan(pose, truth));
   wrong_ += bench::is_right(pose, truth) ? 0 : 1;
   if (const auto nees = bench::normalised_error_squared(estimate, truth)) {
     nees_sum_ += *nees;
@@ -101,13 +101,13 @@ double ErrorStatistics::mean_nees() const {
 
 std::string ErrorStatistics::report(std::string_view counted) const {
   std::string out;
-  append(out, "%-10.*s %7zu\n", static_cast<int>(counted.size()), counted.data(), turns_);
+  append(out, "%-10.*s %7zu\n", static_cast<int>(counted.size()), counted.data(), scans_);
   for (std::size_t i = 0; i < kStates; ++i) {
     if (states_[i] > 0 || i == index(core::PoseState::kFix)) {
-      append_share(out, message::to_string(static_cast<core::PoseState>(i)), states_[i], turns_);
+      append_share(out, message::to_string(static_cast<core::PoseState>(i)), states_[i], scans_);
     }
   }
-  append_share(out, "wrong", wrong_, turns_);
+  append_share(out, "wrong", wrong_, scans_);
   out.insert(out.size() - 1, "  (over 100 mm or 5 degrees)");
   if (!distances_m_.empty()) {
     append_spread(out, "position", distances_m_, kMm, "mm");

@@ -18,7 +18,7 @@ class ErrorStatistics {
   /// A turn that the truth says nothing about.
   void add_unknown() { ++unknown_; }
 
-  std::size_t turns() const { return turns_; }
+  std::size_t scans() const { return scans_; }
   std::size_t count(core::PoseState state) const { return states_[index(state)]; }
   std::size_t wrong() const { return wrong_; }
   /// Ambiguous turns, one of whose alternatives is the true place.
@@ -37,7 +37,7 @@ class ErrorStatistics {
 
   void add_pose(const core::PoseEstimate& estimate, const core::Pose2& truth);
 
-  std::size_t turns_ = 0;
+  std::size_t scans_ = 0;
   std::size_t unknown_ = 0;
   std::array<std::size_t, kStates> states_{};
   std::size_t wrong_ = 0;

@@ -6,7 +6,7 @@
 #include <map>
 #include <utility>
 
-#include "bench/simulated_turn.hpp"
+#include "bench/simulated_scan.hpp"
 #include "core/localizer.hpp"
 #include "replay/simulator/places.hpp"
 #include "tool/text_table.hpp"
@@ -17,7 +17,7 @@ namespace {
 
 using core::Vec2;
 
-constexpr std::size_t kSamplesOfATurn = 800;
+constexpr std::size_t kSamplesPerScan = 800;
 constexpr std::uint64_t kNoiseSeed = 1;
 /// No robot's lidar comes nearer to a wall.
 constexpr double kRobot_m = 0.15;
@@ -40,7 +40,7 @@ std::string name_of(const core::WallMap& map, const core::Pose2& place) {
 
 struct Likeness {
   std::size_t places = 0;
-  double turn_deg = 0;  ///< of one of them: what is alike may be turned
+  double rotation_deg = 0;  ///< of one of them: what is alike may be turned
 };
 
 }  // namespace
@@ -51,7 +51,7 @@ std::vector<ExaminedPlace> examine_places(const std::shared_ptr<const core::Wall
   const double step_m = std::max(
       kLeastStep_m,
       std::sqrt(size.x() * size.y() / static_cast<double>(std::max<std::size_t>(1, count))));
-  bench::TurnSimulator lidar({}, kSamplesOfATurn, kNoiseSeed);
+  bench::ScanSimulator lidar({}, kSamplesPerScan, kNoiseSeed);
   core::Localizer localizer(map, {});
   std::vector<ExaminedPlace> examined;
   for (double y = step_m / 2; y < size.y(); y += step_m) {
@@ -91,10 +91,10 @@ std::string describe_look_alikes(const core::WallMap& map,
       others.emplace(name_of(map, other),
                      core::angle_between(place.place.theta_rad, other.theta_rad));
     }
-    for (const auto& [other, turn_rad] : others) {
+    for (const auto& [other, rotation_rad] : others) {
       Likeness& likeness = likenesses[{name, other}];
       ++likeness.places;
-      likeness.turn_deg = turn_rad * 180 / core::kPi;
+      likeness.rotation_deg = rotation_rad * 180 / core::kPi;
     }
   }
 
@@ -109,7 +109,7 @@ std::string describe_look_alikes(const core::WallMap& map,
     text += formatted("         %s like %s, turned by %.0f degrees: %zu of %zu places\n",
                       names.first.c_str(),
                       names.first == names.second ? "itself" : names.second.c_str(),
-                      std::abs(likeness.turn_deg), likeness.places, places_of[names.first]);
+                      std::abs(likeness.rotation_deg), likeness.places, places_of[names.first]);
   }
   if (lines.size() > kMostLines) {
     text += formatted("         and %zu more\n", lines.size() - kMostLines);

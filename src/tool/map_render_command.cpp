@@ -41,11 +41,11 @@ struct RenderOptions {
 struct RecordedView {
   std::vector<core::Vec2> path;
   DrivePoints points;
-  core::Scan turn;
+  core::Scan scan;
   core::PoseEstimate pose;                ///< of that turn, as far as it was localized
   std::optional<core::Pose2> T_map_base;  ///< of that turn
   std::vector<core::Breakpoint> breakpoints;
-  std::size_t turns = 0;
+  std::size_t scans = 0;
 };
 
 bool names_place(const core::PoseEstimate& pose) {
@@ -57,19 +57,19 @@ RecordedView view_recording(const RenderOptions& options, const settings::Config
                             std::shared_ptr<const core::WallMap> map, const Truth* way) {
   RecordedView view;
   core::Pipeline pipeline(way == nullptr ? std::move(map) : nullptr, config.localizer());
-  Playback playback(pipeline, [&](const core::Scan& turn, const core::TurnResult& result) {
-    ++view.turns;
+  Playback playback(pipeline, [&](const core::Scan& scan, const core::ScanResult& result) {
+    ++view.scans;
     std::optional<core::Pose2> T_map_base;
     if (way != nullptr) {
-      T_map_base = way->at(turn.start_ns() + (turn.end_ns() - turn.start_ns()) / 2);
+      T_map_base = way->at(scan.start_ns() + (scan.end_ns() - scan.start_ns()) / 2);
     } else if (names_place(result.pose)) {
       T_map_base = result.pose.T_map_base;
     }
-    view.points.add(turn, T_map_base);
+    view.points.add(scan, T_map_base);
     if (T_map_base) view.path.push_back(T_map_base->translation());
     // A turn without a place is shown only where there is none with one.
     if (!T_map_base && !view.path.empty()) return;
-    view.turn = turn;
+    view.scan = scan;
     view.pose = result.pose;
     view.T_map_base = T_map_base;
     const auto found = result.detection.breakpoints;
@@ -128,13 +128,13 @@ void render(const RenderOptions& options) {
     }
     if (T_map_base) {
       const core::Pose2 T_map_lidar = *T_map_base * T_base_lidar;
-      drawing.add_scan(view.turn, T_map_lidar);
+      drawing.add_scan(view.scan, T_map_lidar);
       drawing.add_breakpoints(view.breakpoints, T_map_lidar);
     } else {
       std::fprintf(stderr, "cornerctl: no turn of %s names a place; the map is drawn alone\n",
                    options.recording.c_str());
     }
-    subtitle += formatted("; %zu of %zu turns ", view.path.size(), view.turns);
+    subtitle += formatted("; %zu of %zu turns ", view.path.size(), view.scans);
     subtitle += way ? "placed by " + options.trajectory.filename().string() : "found their place";
   }
   if (T_map_base) drawing.add_pose(*T_map_base);

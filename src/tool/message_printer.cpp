@@ -17,11 +17,11 @@ MessagePrinter::MessagePrinter(Output& output, message::ClassSet classes,
   }
 }
 
-void MessagePrinter::print_turn(const core::Scan& turn, const core::TurnResult& result) {
+void MessagePrinter::print_scan(const core::Scan& scan, const core::ScanResult& result) {
   odometry_ = result.odometry;
-  if (classes_.contains(MessageClass::kScan)) output_.write(writer_.scan(turn));
+  if (classes_.contains(MessageClass::kScan)) output_.write(writer_.scan(scan));
   if (classes_.contains(MessageClass::kBreakpoints)) {
-    output_.write(writer_.breakpoints(turn.start_ns(), result.detection));
+    output_.write(writer_.breakpoints(scan.start_ns(), result.detection));
   }
   print_pose(result.pose);
 }
@@ -67,7 +67,7 @@ void MessagePrinter::print_status(core::TimeNs t_ns, const drivers::StreamCounte
     const auto rate = [&](std::uint64_t now, std::uint64_t then) {
       return static_cast<double>(now - then) / elapsed_s;
     };
-    status.rate_hz = rate(counters.turns, last_status_->counters.turns);
+    status.rate_hz = rate(counters.scans, last_status_->counters.scans);
     status.samples_hz = rate(counters.samples, last_status_->counters.samples);
   }
   output_.write(writer_.status(status));

@@ -19,7 +19,7 @@ class MessagePrinter {
   /// `plan`: names the rooms; null: there is no map.
   MessagePrinter(Output& output, message::ClassSet classes, const core::FloorPlan* plan);
 
-  void print_turn(const core::Scan& turn, const core::TurnResult& result);
+  void print_scan(const core::Scan& scan, const core::ScanResult& result);
 
   /// What odometry it had, for STATUS to say why there is none.
   void note(const core::OdometryReading& reading) { odometry_lines_.add(reading); }

@@ -26,8 +26,8 @@ class Playback::Sink : public replay::RecordingSink {
   Playback& playback_;
 };
 
-Playback::Playback(core::Pipeline& pipeline, OnTurn on_turn, OnPiece on_piece)
-    : pipeline_(pipeline), on_turn_(std::move(on_turn)), on_piece_(std::move(on_piece)) {}
+Playback::Playback(core::Pipeline& pipeline, OnScan on_scan, OnPiece on_piece)
+    : pipeline_(pipeline), on_scan_(std::move(on_scan)), on_piece_(std::move(on_piece)) {}
 
 void Playback::play_readings_until(core::TimeNs t_ns) {
   while (next_reading_ < readings_.size() && readings_[next_reading_].t_ns <= t_ns) {
@@ -44,17 +44,17 @@ void Playback::on_pose_between(const core::PoseEstimate* pose) {
   if (pose != nullptr && on_prediction_) on_prediction_(*pose);
 }
 
-void Playback::on_result(const core::TurnResult* result) {
+void Playback::on_result(const core::ScanResult* result) {
   if (result == nullptr) return;
-  ++turns_;
-  on_turn_(pipeline_.turn(), *result);
+  ++scans_;
+  on_scan_(pipeline_.scan(), *result);
   if (independent_) pipeline_.localizer().forget();
 }
 
 void Playback::play(const std::filesystem::path& file, const replay::RecordingOptions& options) {
   replay::RecordingPlayer player(file, options);
   Sink sink(*this);
-  turns_ = 0;
+  scans_ = 0;
   next_reading_ = 0;
   pipeline_.localizer().relocalize();
   while (player.step(sink)) {
@@ -68,7 +68,7 @@ void Playback::play(const std::filesystem::path& file, const replay::RecordingOp
                  static_cast<unsigned long long>(player.bad_lines()),
                  player.first_problem().c_str());
   }
-  if (turns_ == 0) throw Failure(file.string() + ": not one whole turn of a lidar in it");
+  if (scans_ == 0) throw Failure(file.string() + ": not one whole turn of a lidar in it");
 }
 
 }  // namespace cornerd::tool

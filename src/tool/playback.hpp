@@ -17,14 +17,14 @@ namespace cornerd::tool {
 class Playback {
  public:
   /// Called for every turn; both arguments are valid during the call alone.
-  using OnTurn = std::function<void(const core::Scan& turn, const core::TurnResult& result)>;
+  using OnScan = std::function<void(const core::Scan& scan, const core::ScanResult& result)>;
   /// Called after every piece of the recording, with the time and the counters so far.
   using OnPiece = std::function<void(core::TimeNs t_ns, const drivers::StreamCounters& counters)>;
 
-  /// Called for every pose between two turns (odometry.publish, localizer.updates_per_turn).
+  /// Called for every pose between two turns (odometry.publish, localizer.updates_per_scan).
   using OnPrediction = std::function<void(const core::PoseEstimate& pose)>;
 
-  Playback(core::Pipeline& pipeline, OnTurn on_turn, OnPiece on_piece = {});
+  Playback(core::Pipeline& pipeline, OnScan on_scan, OnPiece on_piece = {});
 
   /// Called for every reading of wheels and gyro.
   using OnReading = std::function<void(const core::OdometryReading& reading)>;
@@ -49,11 +49,11 @@ class Playback {
  private:
   class Sink;
 
-  void on_result(const core::TurnResult* result);
+  void on_result(const core::ScanResult* result);
   void on_pose_between(const core::PoseEstimate* pose);
 
   core::Pipeline& pipeline_;
-  OnTurn on_turn_;
+  OnScan on_scan_;
   OnPiece on_piece_;
   OnPrediction on_prediction_;
   OnReading on_reading_;
@@ -64,7 +64,7 @@ class Playback {
   bool has_readings_ = false;
   std::vector<core::OdometryReading> readings_;
   std::size_t next_reading_ = 0;
-  std::size_t turns_ = 0;
+  std::size_t scans_ = 0;
 };
 
 }  // namespace cornerd::tool

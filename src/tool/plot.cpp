@@ -62,7 +62,7 @@ void Plot::draw_axes() {
   const TextStyle label{.fill = kAxisInk, .size = 13};
   svg_.text(place((x_.low + x_.high) / 2, y_.low), x_.label, label, 0, 42);
   svg_.text(place(x_.low, (y_.low + y_.high) / 2), y_.label,
-            {.fill = kAxisInk, .size = 13, .turn_deg = 90}, -40, 0);
+            {.fill = kAxisInk, .size = 13, .rotation_deg = 90}, -40, 0);
   svg_.text(place((x_.low + x_.high) / 2, y_.high), title_,
             {.fill = kAxisInk, .size = 15, .bold = true}, 0, -24);
   svg_.end_group();

@@ -18,11 +18,11 @@ std::string rate_text(const std::vector<RateRow>& rows) {
     table.add_row(
         {row.gently ? "gently" : "at once",
          row.rate_hz > 0 ? formatted("%.0f", row.rate_hz) : "lidar alone",
-         formatted("%.1f %%", 100.0 * static_cast<double>(result.fixes.turns()) /
-                                  static_cast<double>(result.turns)),
+         formatted("%.1f %%", 100.0 * static_cast<double>(result.fixes.scans()) /
+                                  static_cast<double>(result.scans)),
          formatted("%.2f, %.1f", 1e3 * result.fixes.mean_error_m(), 1e3 * result.worst_fix_m),
          formatted("%.2f", core::degrees(result.worst_fix_rad)),
-         formatted("%.1f", result.fixes.mean_nees()), formatted("%zu", result.predicted.turns()),
+         formatted("%.1f", result.fixes.mean_nees()), formatted("%zu", result.predicted.scans()),
          formatted("%zu", result.fixes.wrong() + result.predicted.wrong()),
          formatted("%.2f", core::degrees(result.worst_predicted_rad))});
   }
@@ -37,14 +37,14 @@ nlohmann::ordered_json rate_json(const std::vector<RateRow>& rows) {
     const bench::RateResult& result = row.result;
     rates.push_back({{"readings_hz", row.rate_hz},
                      {"gently", row.gently},
-                     {"turns", result.turns},
-                     {"fixes", result.fixes.turns()},
+                     {"turns", result.scans},
+                     {"fixes", result.fixes.scans()},
                      {"wrong_fixes", result.fixes.wrong()},
                      {"mean_error", result.fixes.mean_error_m()},
                      {"max_error", result.worst_fix_m},
                      {"max_heading_error", result.worst_fix_rad},
                      {"nees", result.fixes.mean_nees()},
-                     {"predicted", result.predicted.turns()},
+                     {"predicted", result.predicted.scans()},
                      {"wrong_predicted", result.predicted.wrong()},
                      {"predicted_max_heading_error", result.worst_predicted_rad}});
   }

@@ -176,7 +176,7 @@ void record(RecordOptions& options) {
   if (counters.samples == 0) throw Failure(config.device + ": sent not a single sample");
   std::fprintf(stderr, "%s: %llu bytes, %llu turns\n", options.output.c_str(),
                static_cast<unsigned long long>(counters.bytes),
-               static_cast<unsigned long long>(counters.turns));
+               static_cast<unsigned long long>(counters.scans));
   if (readings) {
     std::fprintf(stderr, "%s: %llu readings of wheels and gyro\n", options.output.c_str(),
                  static_cast<unsigned long long>(*readings));

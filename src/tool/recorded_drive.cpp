@@ -28,7 +28,7 @@ void add_place(const calibration::KnownPlace& place, std::vector<calibration::Kn
   if (places.empty() || place.t_ns > places.back().t_ns) places.push_back(place);
 }
 
-void add_fix(const core::TurnResult& result, std::vector<calibration::KnownPlace>& places) {
+void add_fix(const core::ScanResult& result, std::vector<calibration::KnownPlace>& places) {
   const core::PoseEstimate& pose = result.pose;
   if (pose.state == core::PoseState::kFix) add_place({pose.t_ns, pose.T_map_base}, places);
 }
@@ -64,7 +64,7 @@ class DriveSink final : public replay::RecordingSink {
     return is_near ? t_ns : now_ns_;
   }
 
-  void take(const core::TurnResult* result) {
+  void take(const core::ScanResult* result) {
     if (result == nullptr) return;
     if (truth_ == nullptr) return add_fix(*result, drive_.places);
     const core::TimeNs t_ns = result->pose.t_ns;
@@ -102,7 +102,7 @@ class PlaceSink final : public replay::RecordingSink {
   }
 
  private:
-  void take(const core::TurnResult* result) {
+  void take(const core::ScanResult* result) {
     if (result != nullptr) add_fix(*result, places_);
   }
 

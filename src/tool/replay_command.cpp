@@ -58,8 +58,8 @@ void replay(const ReplayOptions& options) {
   ErrorStatistics errors_between;
   std::optional<Pace> pace;
 
-  const auto on_turn = [&](const core::Scan& turn, const core::TurnResult& result) {
-    printer.print_turn(turn, result);
+  const auto on_scan = [&](const core::Scan& scan, const core::ScanResult& result) {
+    printer.print_scan(scan, result);
     if (!truth) return;
     const std::optional<core::Pose2> T_map_base = truth->at(result.pose.t_ns);
     T_map_base ? errors.add(result.pose, *T_map_base) : errors.add_unknown();
@@ -73,7 +73,7 @@ void replay(const ReplayOptions& options) {
     printer.print_status_when_due(t_ns, counters);
   };
 
-  Playback playback(pipeline, on_turn, on_piece);
+  Playback playback(pipeline, on_scan, on_piece);
   playback.set_independent(options.independent);
   playback.set_on_prediction([&](const core::PoseEstimate& pose) {
     printer.print_pose(pose);
@@ -91,7 +91,7 @@ void replay(const ReplayOptions& options) {
   }
   output.flush();
   if (truth) std::fputs(errors.report().c_str(), stderr);
-  if (errors_between.turns() > 0) {
+  if (errors_between.scans() > 0) {
     std::fprintf(stderr, "between the turns\n%s", errors_between.report("poses").c_str());
   }
 }

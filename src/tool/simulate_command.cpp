@@ -27,7 +27,7 @@ struct SimulateOptions {
   SettingsOptions settings;
   SimulationOptions simulation;
   OdometryOptions odometry;
-  std::int64_t turns = 0;
+  std::int64_t scans = 0;
   std::string wire = "express";
   double byte_faults = 0;
   std::filesystem::path output;
@@ -47,7 +47,7 @@ void simulate(const SimulateOptions& options) {
   replay::SimulatedRecordingConfig config;
   config.simulator = simulation.simulator(*parse_wire(options.wire), settings.lidar);
   config.T_base_lidar = settings.localizer().T_base_lidar;
-  config.turns = options.turns > 0 ? options.turns : simulation.usual_turns();
+  config.scans = options.scans > 0 ? options.scans : simulation.default_scans();
   config.byte_fault_share = options.byte_faults;
   config.robot = options.odometry.robot(settings.odometry);
   const OdometryOptions::Times covered = options.odometry.covered_times();
@@ -70,7 +70,7 @@ void simulate(const SimulateOptions& options) {
   const replay::SimulatedRecordingSummary summary =
       simulate_recording(map, motion, config, recording, truth ? &*truth : nullptr);
   std::fprintf(stderr, "%s: %lld turns in %.1f s, %llu samples, %.0f %% of them with a return\n",
-               options.output.c_str(), static_cast<long long>(config.turns), summary.duration_s,
+               options.output.c_str(), static_cast<long long>(config.scans), summary.duration_s,
                static_cast<unsigned long long>(summary.samples),
                100.0 * static_cast<double>(summary.returns) / static_cast<double>(summary.samples));
 }
@@ -87,7 +87,7 @@ void add_simulate(CLI::App& program) {
   options->odometry.add_to(*command);
   command
       ->add_option(
-          "--turns", options->turns,
+          "--turns", options->scans,
           "whole turns of the lidar; else as many as the places, once through the scenario, or 10")
       ->check(CLI::PositiveNumber)
       ->type_name("N");

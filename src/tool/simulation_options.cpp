@@ -40,7 +40,7 @@ void SimulationOptions::add_to(CLI::App& command) {
                   "it drives there, in config/maps/flat-7.json: circuit-1, circuit-2, exploration")
       ->check(CLI::IsMember({"circuit-1", "circuit-2", "exploration"}));
   command.add_flag("--loop", loop, "and from the last point back to the first, for ever");
-  command.add_option("--turns-each", turns_each, "turns of the lidar at each of the places")
+  command.add_option("--turns-each", scans_each, "turns of the lidar at each of the places")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
   command.add_option("--drive-speed", speed_m_s, "metres a second along the path")
@@ -74,7 +74,7 @@ replay::Motion SimulationOptions::motion(const core::WallMap& map) const {
     return replay::stand_still(T_map_base);
   }
   if (places > 0) {
-    return replay::visit_places(replay::random_places(map, places, kClearanceM, seed), turns_each);
+    return replay::visit_places(replay::random_places(map, places, kClearanceM, seed), scans_each);
   }
   const std::vector<core::Vec2> points =
       scenario.empty() ? parse_points(path) : replay::find_scenario(scenario)->path;
@@ -92,13 +92,13 @@ replay::DriveConfig SimulationOptions::drive() const {
   return drive;
 }
 
-std::int64_t SimulationOptions::usual_turns() const {
+std::int64_t SimulationOptions::default_scans() const {
   constexpr std::int64_t kShortRecording = 10;
   if (!scenario.empty()) {
     const double once_s = replay::drive_duration_s(replay::find_scenario(scenario)->path, drive());
     return std::llround(once_s * motor_hz);
   }
-  return places > 0 ? static_cast<std::int64_t>(places) * turns_each : kShortRecording;
+  return places > 0 ? static_cast<std::int64_t>(places) * scans_each : kShortRecording;
 }
 
 replay::SimulatorConfig SimulationOptions::simulator(rplidar::WireFormat wire,

@@ -26,7 +26,7 @@ struct SimulationOptions {
   std::string path;        ///< "x,y x,y ...": drives along
   std::string scenario;    ///< a drive that has a name, through flat-7
   bool loop = false;       ///< drives the path again and again
-  std::int64_t turns_each = 1;
+  std::int64_t scans_each = 1;
   double speed_m_s = 0.2;
   double yaw_rate_rad_s = 1.5;
   double acceleration_m_s2 = 0;
@@ -39,7 +39,7 @@ struct SimulationOptions {
 
   bool stands_still() const { return !pose.empty(); }
   /// Turns of the sensor in a recording of which nobody says how long it is.
-  std::int64_t usual_turns() const;
+  std::int64_t default_scans() const;
   /// Throws UsageError unless exactly one of pose, places, path and scenario is given. Says on
   /// standard error where the robot would stand in a wall or outside the building.
   replay::Motion motion(const core::WallMap& map) const;

@@ -39,7 +39,7 @@ class SurveySink final : public replay::RecordingSink {
     core::Sample shifted = sample;
     shifted.t_ns = shifted_ns(sample.t_ns);
     now_ns_ = shifted.t_ns;
-    if (assembler_.add(shifted, turn_)) drive_.add(turn_);
+    if (assembler_.add(shifted, scan_)) drive_.add(scan_);
   }
   void on_gap() override { finish(); }
   void on_odometry(const message::OdometryReading& reading) override {
@@ -52,7 +52,7 @@ class SurveySink final : public replay::RecordingSink {
     if (takes_odometry_) drive_.add(shifted, now_ns_);
   }
   void finish() {
-    if (assembler_.finish(turn_)) drive_.add(turn_);
+    if (assembler_.finish(scan_)) drive_.add(scan_);
     assembler_.reset();
   }
 
@@ -69,8 +69,8 @@ class SurveySink final : public replay::RecordingSink {
 
   survey::RecordedDrive& drive_;
   bool takes_odometry_;
-  core::TurnAssembler assembler_;
-  core::Scan turn_;
+  core::ScanAssembler assembler_;
+  core::Scan scan_;
   std::optional<core::TimeNs> now_ns_;
   bool is_first_ = true;  ///< of the file: its clock is not known yet
   core::TimeNs shift_ns_ = 0;
@@ -85,7 +85,7 @@ survey::RecordedDrive load_drive(std::span<const std::filesystem::path> files,
   survey::RecordedDrive drive;
   SurveySink sink(drive, odometry.empty());
   for (const std::filesystem::path& file : files) {
-    const std::size_t turns_before = drive.size();
+    const std::size_t scans_before = drive.size();
     replay::RecordingPlayer player(file, options);
     sink.begin_file();
     while (player.step(sink)) {
@@ -96,7 +96,7 @@ survey::RecordedDrive load_drive(std::span<const std::filesystem::path> files,
                    static_cast<unsigned long long>(player.bad_lines()),
                    player.first_problem().c_str());
     }
-    if (drive.size() == turns_before) {
+    if (drive.size() == scans_before) {
       throw Failure(file.string() + ": not one whole turn of a lidar in it" +
                     (files.size() > 1 ? "; for ODOMETRY of another file there is --odometry" : ""));
     }

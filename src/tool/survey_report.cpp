@@ -50,7 +50,7 @@ std::string describe_doubt(const survey::OdometryDoubt& doubt) {
              "WARNING: the odometry contradicts the lidar in %zu turns and is missing in %zu; it "
              "was "
              "left out, the map is by the lidar alone: ",
-             doubt.contradicted_turns, doubt.unled_turns) +
+             doubt.contradicted_scans, doubt.scans_without_odometry) +
          "the left wheel went " + wheel(doubt.left) + ", the right one " + wheel(doubt.right) +
          "; check that the encoders count, forward as more, odometry.counts_per_turn and "
          "odometry.wheel_radius\n";
@@ -72,8 +72,8 @@ std::string describe_walls(const survey::SurveyResult& result) {
 }
 
 std::string describe_loop(const survey::SurveyResult& result, const survey::LoopReport& loop) {
-  const auto time_s = [&](std::size_t turn) {
-    return core::to_seconds(result.t_ns[turn] - result.t_ns.front());
+  const auto time_s = [&](std::size_t scan) {
+    return core::to_seconds(result.t_ns[scan] - result.t_ns.front());
   };
   const std::string text = formatted(
       "loop %s: after %.1f s where it was after %.1f s, by %zu turns; the way was %.2f m and %.1f "
@@ -91,16 +91,16 @@ std::string survey_report(const survey::SurveyResult& result) {
   if (result.odometry_doubt) text += describe_doubt(*result.odometry_doubt);
   text += formatted("%zu sightings of walls, residuals %.2f of their doubt, %zu outliers\n",
                     result.observations, result.sigma, result.outliers);
-  if (!result.strange_turns.empty()) {
+  if (!result.unmatched_scans.empty()) {
     text += formatted("%zu turns saw too little of the map to be placed by it\n",
-                      result.strange_turns.size());
+                      result.unmatched_scans.size());
   }
-  if (!result.blind_turns.empty()) {
+  if (!result.degenerate_scans.empty()) {
     text += formatted(
         "WARNING: %zu turns, the first %.1f s after the start, saw nothing of the way along the "
         "walls, and no odometry tells it: the map may be too long or too short there\n",
-        result.blind_turns.size(),
-        core::to_seconds(result.t_ns[result.blind_turns.front()] - result.t_ns.front()));
+        result.degenerate_scans.size(),
+        core::to_seconds(result.t_ns[result.degenerate_scans.front()] - result.t_ns.front()));
   }
   if (survey::are_walls_doubled(result.doubled_m, result.plan.walls)) {
     text += formatted(

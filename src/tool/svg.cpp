@@ -132,7 +132,7 @@ void Svg::dot(const core::Vec2& center, double radius_px, const Paint& style) {
   body_ += "/>\n";
 }
 
-void Svg::ellipse(const core::Vec2& center, double first_m, double second_m, double turn_rad,
+void Svg::ellipse(const core::Vec2& center, double first_m, double second_m, double rotation_rad,
                   const Paint& style) {
   const core::Vec2 at = to_pixels(center);
   body_ += "<ellipse";
@@ -143,7 +143,7 @@ void Svg::ellipse(const core::Vec2& center, double first_m, double second_m, dou
   body_ += ' ';
   number(at.y());
   body_ += ") rotate(";
-  number(-core::degrees(turn_rad));
+  number(-core::degrees(rotation_rad));
   body_ += ")\"";
   paint(style);
   body_ += "/>\n";
@@ -159,9 +159,9 @@ void Svg::text(const core::Vec2& at_m, std::string_view content, const TextStyle
   attribute("font-size", style.size);
   append_attribute(body_, "text-anchor", style.anchor);
   if (style.bold) body_ += " font-weight=\"bold\"";
-  if (style.turn_deg != 0) {
+  if (style.rotation_deg != 0) {
     body_ += " transform=\"rotate(";
-    number(-style.turn_deg);
+    number(-style.rotation_deg);
     body_ += ' ';
     number(at.x());
     body_ += ' ';

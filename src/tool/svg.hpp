@@ -23,7 +23,7 @@ struct TextStyle {
   double size = 12;                    ///< pixels
   std::string_view anchor = "middle";  ///< or start, end
   bool bold = false;
-  double turn_deg = 0;  ///< counter-clockwise
+  double rotation_deg = 0;  ///< counter-clockwise
 };
 
 /// An SVG picture of a piece of the plane: shapes are given in metres with y upwards, strokes and
@@ -38,8 +38,8 @@ class Svg {
   void polyline(std::span<const core::Vec2> points, const Paint& paint);
   void line(const core::Vec2& from, const core::Vec2& to, const Paint& paint);
   void dot(const core::Vec2& center, double radius_px, const Paint& paint);
-  /// Half axes in metres; `turn_rad`: of the first axis, counter-clockwise from x.
-  void ellipse(const core::Vec2& center, double first_m, double second_m, double turn_rad,
+  /// Half axes in metres; `rotation_rad`: of the first axis, counter-clockwise from x.
+  void ellipse(const core::Vec2& center, double first_m, double second_m, double rotation_rad,
                const Paint& paint);
   void text(const core::Vec2& at, std::string_view text, const TextStyle& style,
             double right_px = 0, double down_px = 0);

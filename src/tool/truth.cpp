@@ -20,8 +20,8 @@ constexpr core::TimeNs kHoldNs = core::kNsPerSecond / 5;
 
 core::Pose2 interpolate(const core::Pose2& from, const core::Pose2& to, double share) {
   const core::Vec2 at = from.translation() + share * (to.translation() - from.translation());
-  const double turn_rad = core::angle_between(from.theta_rad, to.theta_rad);
-  return {at.x(), at.y(), core::normalize_angle(from.theta_rad + share * turn_rad)};
+  const double rotation_rad = core::angle_between(from.theta_rad, to.theta_rad);
+  return {at.x(), at.y(), core::normalize_angle(from.theta_rad + share * rotation_rad)};
 }
 
 Truth Truth::load(const std::filesystem::path& file) {

@@ -34,20 +34,20 @@ class Arena : public testing::TestWithParam<std::tuple<const char*, WireFormat>>
     config.simulator.wire = circumstances.wire;
     config.simulator.sensor.missing = circumstances.missing_share;
     config.simulator.seed = 20191;
-    config.turns = kPlaces;
+    config.scans = kPlaces;
     config.byte_fault_share = circumstances.byte_fault_share;
     return localize_random_places(map, map, config);
   }
 
   static double share(const tool::ErrorStatistics& statistics, PoseState state) {
-    return static_cast<double>(statistics.count(state)) / static_cast<double>(statistics.turns());
+    return static_cast<double>(statistics.count(state)) / static_cast<double>(statistics.scans());
   }
 };
 
 TEST_P(Arena, ClearTurns_AreFixedToTheMillimetre) {
   const auto statistics = localize({.wire = std::get<1>(GetParam())});
   SCOPED_TRACE(statistics.report());
-  EXPECT_GE(statistics.turns(), kPlaces - 1);
+  EXPECT_GE(statistics.scans(), kPlaces - 1);
   EXPECT_GE(share(statistics, PoseState::kFix), 0.99);
   EXPECT_EQ(statistics.wrong(), 0U);
   EXPECT_LT(statistics.mean_error_m(), 0.0005);
@@ -66,7 +66,7 @@ TEST_P(Arena, SixtyPercentMissing_AreStillFixed) {
 TEST_P(Arena, OneByteInTenThousandBad_CostsNoWrongPose) {
   const auto statistics = localize({.wire = std::get<1>(GetParam()), .byte_fault_share = 1e-4});
   SCOPED_TRACE(statistics.report());
-  EXPECT_GE(statistics.turns(), kPlaces * 95 / 100);
+  EXPECT_GE(statistics.scans(), kPlaces * 95 / 100);
   EXPECT_GE(share(statistics, PoseState::kFix), 0.95);
   EXPECT_EQ(statistics.wrong(), 0U);
 }

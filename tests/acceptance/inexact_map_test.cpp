@@ -48,8 +48,8 @@ TEST(InexactMap, PosesInIt_SayHowFarOffItIs) {
           std::make_shared<const core::WallMap>(moved(map->plan(), sigma_m, seed));
       replay::SimulatedRecordingConfig config;
       config.simulator.seed = seed;
-      config.turns = 300;
-      const auto statistics = localize_random_places(building, map, config, /*turns_each=*/10);
+      config.scans = 300;
+      const auto statistics = localize_random_places(building, map, config, /*scans_each=*/10);
       SCOPED_TRACE(statistics.report());
       EXPECT_EQ(statistics.wrong(), 0U);
       EXPECT_GE(statistics.count(core::PoseState::kFix), 250U);

@@ -134,7 +134,7 @@ class KernelDrive : public drivers::Clock, public drivers::OdometrySink {
     }
   }
 
-  void judge(const core::TurnResult& result) {
+  void judge(const core::ScanResult& result) {
     driven_.odometry = result.odometry;
     const bool is_fix = result.pose.state == core::PoseState::kFix;
     const bool is_predicted = result.pose.state == core::PoseState::kPredicted;

@@ -14,7 +14,7 @@ namespace cornerd {
 tool::ErrorStatistics localize_random_places(std::shared_ptr<const core::WallMap> building,
                                              std::shared_ptr<const core::WallMap> map,
                                              const replay::SimulatedRecordingConfig& config,
-                                             std::size_t turns_each) {
+                                             std::size_t scans_each) {
   const test::TemporaryFolder folder;
   const auto recording_file = folder / "recording.ndjson";
   const auto truth_file = folder / "truth.ndjson";
@@ -22,18 +22,18 @@ tool::ErrorStatistics localize_random_places(std::shared_ptr<const core::WallMap
     replay::RecordingWriter recording(recording_file);
     replay::TruthWriter truth(truth_file);
     const auto places =
-        replay::random_places(*building, config.turns / turns_each, 0.2, config.simulator.seed + 1);
-    replay::simulate_recording(building, replay::visit_places(places, static_cast<int>(turns_each)),
+        replay::random_places(*building, config.scans / scans_each, 0.2, config.simulator.seed + 1);
+    replay::simulate_recording(building, replay::visit_places(places, static_cast<int>(scans_each)),
                                config, recording, &truth);
   }
   const tool::Truth truth = tool::Truth::load(truth_file);
   tool::ErrorStatistics statistics;
   core::Pipeline pipeline(std::move(map), {});
-  tool::Playback playback(pipeline, [&](const core::Scan&, const core::TurnResult& result) {
+  tool::Playback playback(pipeline, [&](const core::Scan&, const core::ScanResult& result) {
     const auto T_map_base = truth.at(result.pose.t_ns);
     if (T_map_base) statistics.add(result.pose, *T_map_base);
   });
-  playback.set_independent(turns_each == 1);
+  playback.set_independent(scans_each == 1);
   playback.play(recording_file, {});
   return statistics;
 }

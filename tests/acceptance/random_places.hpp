@@ -15,6 +15,6 @@ namespace cornerd {
 tool::ErrorStatistics localize_random_places(std::shared_ptr<const core::WallMap> building,
                                              std::shared_ptr<const core::WallMap> map,
                                              const replay::SimulatedRecordingConfig& config,
-                                             std::size_t turns_each = 1);
+                                             std::size_t scans_each = 1);
 
 }  // namespace cornerd

@@ -26,7 +26,7 @@ survey::RecordedDrive exploration(bool has_odometry) {
       settings::load_map(std::filesystem::path(CORNERD_SOURCE_DIR) / "config/maps/flat-7.json");
   bench::SimulatedDriveConfig config;
   config.has_odometry = has_odometry;
-  config.turns = 876;
+  config.scans = 876;
   return bench::simulate_drive(
              map, replay::drive_path(replay::find_scenario("exploration")->path, {}), config)
       .drive;
@@ -45,7 +45,7 @@ void append(const survey::RecordedDrive& from, std::size_t first, std::size_t la
   bool is_first = true;
   std::size_t done = first;
   core::Scan scan;
-  const auto add_turns = [&](std::size_t until) {
+  const auto add_scans = [&](std::size_t until) {
     for (; done < std::min(until, last); ++done) {
       from.load(done, scan);
       scan.shift(later_ns);
@@ -54,7 +54,7 @@ void append(const survey::RecordedDrive& from, std::size_t first, std::size_t la
   };
   for (survey::RecordedDrive::Reading said : from.readings()) {
     if (said.turn < first || said.turn >= last) continue;
-    add_turns(said.turn);
+    add_scans(said.turn);
     core::OdometryReading reading = said.reading;
     if (is_first && !to.readings().empty()) {
       const core::OdometryReading& before = to.readings().back().reading;
@@ -67,7 +67,7 @@ void append(const survey::RecordedDrive& from, std::size_t first, std::size_t la
     if (said.now_ns) *said.now_ns += later_ns;
     to.add(reading, said.now_ns);
   }
-  add_turns(last);
+  add_scans(last);
 }
 
 enum class Verdict { kGood, kWarned, kRefused };

@@ -52,10 +52,10 @@ class RealRoom : public testing::Test {
                                            const survey::RecordedDrive& drive) {
     core::Localizer localizer(map, {});
     std::vector<core::Pose2> poses;
-    core::Scan turn;
+    core::Scan scan;
     for (std::size_t i = 0; i < drive.size(); ++i) {
-      drive.load(i, turn);
-      const core::PoseEstimate& pose = localizer.step(turn).pose;
+      drive.load(i, scan);
+      const core::PoseEstimate& pose = localizer.step(scan).pose;
       if (core::names_a_place(pose.state)) {
         poses.push_back(pose.T_map_base);
       }
@@ -86,9 +86,9 @@ TEST_F(RealRoom, MapOfOnePlace_LocalizesTheOthersWithin3cm) {
   ASSERT_FALSE(own.empty());
   const core::Pose2 T_place_map = median(own).inverse();
   for (int place = 1; place <= 4; ++place) {
-    const survey::RecordedDrive turns = load(place);
-    const auto poses = localize(map, turns);
-    EXPECT_GE(poses.size(), turns.size() * 98 / 100) << "place " << place;
+    const survey::RecordedDrive scans = load(place);
+    const auto poses = localize(map, scans);
+    EXPECT_GE(poses.size(), scans.size() * 98 / 100) << "place " << place;
     for (const core::Pose2& pose : poses) {
       const core::Pose2 found = T_place_map * pose;
       const core::Pose2& known = kRegisteredPlaces[static_cast<std::size_t>(place - 1)];

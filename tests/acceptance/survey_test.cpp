@@ -24,7 +24,7 @@ class SurveyOfAFlat : public testing::Test {
     const auto map =
         settings::load_map(std::filesystem::path(CORNERD_SOURCE_DIR) / "config/maps/flat-7.json");
     experiment_ = std::make_unique<bench::SurveyExperiment>(
-        bench::run_survey_experiment(map, bench::kSurveyTurns, /*seed=*/20196));
+        bench::run_survey_experiment(map, bench::kSurveyScans, /*seed=*/20196));
   }
   static void TearDownTestSuite() { experiment_.reset(); }
 
@@ -58,7 +58,7 @@ TEST_F(SurveyOfAFlat, SecondDrive_CostsAtMost3mmOverTheTrueMap) {
   const auto& second = made("adjusted").second_drive;
   ASSERT_TRUE(second.has_value());
   EXPECT_EQ(second->wrong, 0U);
-  EXPECT_GE(second->named + second->turns / 50, experiment_->in_true_map.named);
+  EXPECT_GE(second->named + second->scans / 50, experiment_->in_true_map.named);
   EXPECT_LE(second->mean_error_m, experiment_->in_true_map.mean_error_m + 0.003);
 }
 
@@ -93,7 +93,7 @@ TEST(SurveyByTheLidarAlone, RobotThatStartsAndStopsAtOnce_GetsTheRightMap) {
     bench::SimulatedDriveConfig config;
     config.simulator.seed = seed;
     config.has_odometry = false;
-    config.turns = speed_m_s > 0.35 ? 1260 : 1600;
+    config.scans = speed_m_s > 0.35 ? 1260 : 1600;
     const bench::SimulatedDrive driven =
         bench::simulate_drive(map, replay::drive_path(exploration->path, how), config);
     const survey::SurveyResult result = survey::survey(driven.drive, {});

@@ -22,7 +22,7 @@ class CheckingSink : public RawSampleSink {
  public:
   void on_sample(const RawSample& sample) override {
     constexpr std::uint32_t kFarthestQ2 = (28656 + (510 << 4)) * 4;  // ultra: major and prediction
-    require(sample.angle_q6 < kFullTurnQ6);
+    require(sample.angle_q6 < kFullRevolutionQ6);
     require(sample.dist_q2 <= kFarthestQ2);
     require(sample.quality < 64);
     require(!any_ || sample.index > last_index_);
@@ -30,8 +30,8 @@ class CheckingSink : public RawSampleSink {
     any_ = true;
     ++samples_;
     // Half a turn at 20 turns a second is 49 nodes; a gap may cut a turn short.
-    if (sample.starts_turn && since_start_ >= 0) require(since_start_ >= 2);
-    if (sample.starts_turn) since_start_ = 0;
+    if (sample.starts_scan && since_start_ >= 0) require(since_start_ >= 2);
+    if (sample.starts_scan) since_start_ = 0;
     if (since_start_ >= 0) ++since_start_;
   }
 
@@ -79,6 +79,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   require(counters.bytes == size - 1);
   require(counters.samples == sink.samples());
   require(counters.used_bytes + counters.skipped_bytes == counters.bytes);
-  require(counters.turns <= counters.samples);
+  require(counters.scans <= counters.samples);
   return 0;
 }

@@ -14,7 +14,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::string_view input(reinterpret_cast<const char*>(data), size);
   try {
     const LearnedLidar lidar = parse_learned_lidar(input, "l.json");
-    if (lidar.learned.turns == 0 || !(lidar.learned.sigma.range_scale > 0)) std::abort();
+    if (lidar.learned.scans == 0 || !(lidar.learned.sigma.range_scale > 0)) std::abort();
     const LearnedLidar again = parse_learned_lidar(text_of(lidar), "l.json");
     if (again.learned.bias != lidar.learned.bias || again.serial != lidar.serial) std::abort();
   } catch (const SettingsError& error) {

@@ -37,7 +37,7 @@ std::string rounded(double value, double step, int decimals) {
   return fmt::format("{:.{}f}", std::round(value / step) * step + 0.0, decimals);
 }
 
-std::string turn_text(const core::TurnResult& result, const core::FloorPlan& plan) {
+std::string scan_text(const core::ScanResult& result, const core::FloorPlan& plan) {
   const core::PoseEstimate& pose = result.pose;
   std::string text = fmt::format("{:3} {:9} corners {:2} ends and corners seen {:2}", pose.seq,
                                  message::to_string(pose.state), pose.corners,
@@ -63,8 +63,8 @@ std::string replay_text(const Golden& golden) {
   drivers::StreamCounters counters;
   tool::Playback playback(
       pipeline,
-      [&](const core::Scan&, const core::TurnResult& result) {
-        text += turn_text(result, map->plan());
+      [&](const core::Scan&, const core::ScanResult& result) {
+        text += scan_text(result, map->plan());
       },
       [&](core::TimeNs, const drivers::StreamCounters& so_far) { counters = so_far; });
   playback.set_independent(golden.independent);

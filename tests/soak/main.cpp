@@ -26,7 +26,7 @@ std::optional<std::size_t> fault_of(std::string_view name) {
 
 void print(const soak::SoakReport& report) {
   const auto number = [](std::uint64_t value) { return static_cast<unsigned long long>(value); };
-  std::printf("%llu turns, %.1f h, in %.0f s: %.0f times real time\n", number(report.turns),
+  std::printf("%llu turns, %.1f h, in %.0f s: %.0f times real time\n", number(report.scans),
               report.simulated_s / 3600, report.real_s, report.simulated_s / report.real_s);
   for (std::size_t i = 0; i < report.poses.size(); ++i) {
     const auto name = message::to_string(static_cast<core::PoseState>(i));
@@ -55,7 +55,7 @@ int main(int argc, char** argv) {
   for (int i = 1; i + 1 < argc; i += 2) {
     const std::string_view name = argv[i];
     if (name == "--turns") {
-      config.turns = std::strtoull(argv[i + 1], nullptr, 10);
+      config.scans = std::strtoull(argv[i + 1], nullptr, 10);
     } else if (name == "--seed") {
       config.seed = std::strtoull(argv[i + 1], nullptr, 10);
     } else if (name == "--only" && fault_of(argv[i + 1])) {

@@ -80,14 +80,14 @@ class World {
   }
 };
 
-std::string describe(const core::PoseEstimate& pose, const core::Pose2& truth, std::uint64_t turn,
+std::string describe(const core::PoseEstimate& pose, const core::Pose2& truth, std::uint64_t scan,
                      const FaultPlan& plan) {
   const auto degrees = [](double angle_rad) { return core::degrees(angle_rad); };
   char text[256];
   std::snprintf(text, sizeof(text),
                 "turn %llu, %.3f s: %s at %.3f %.3f %.1f, truth %.3f %.3f %.1f; %d corners, "
                 "%d inliers, rmse %.4f m; ",
-                static_cast<unsigned long long>(turn), core::to_seconds(pose.t_ns),
+                static_cast<unsigned long long>(scan), core::to_seconds(pose.t_ns),
                 message::to_string(pose.state).data(), pose.T_map_base.x_m, pose.T_map_base.y_m,
                 degrees(pose.T_map_base.theta_rad), truth.x_m, truth.y_m, degrees(truth.theta_rad),
                 static_cast<int>(pose.corners), static_cast<int>(pose.inliers), pose.rmse_m);
@@ -120,20 +120,20 @@ SoakReport run(const SoakConfig& config) {
     localization.start();
     ProgressWatch watch(Activity::now());
     pollfd readable{localization.event_fd(), POLLIN, 0};
-    while (report.turns < config.turns) {
+    while (report.scans < config.scans) {
       ::poll(&readable, 1, 100);
-      localization.take([&](const daemon::TurnReport& turn) {
-        ++report.turns;
-        ++report.poses[static_cast<std::size_t>(turn.result.pose.state)];
-        const core::PoseEstimate& pose = turn.result.pose;
+      localization.take([&](const daemon::ScanReport& scan) {
+        ++report.scans;
+        ++report.poses[static_cast<std::size_t>(scan.result.pose.state)];
+        const core::PoseEstimate& pose = scan.result.pose;
         const core::Pose2 truth = world.motion(pose.t_ns, 0);
         if (!is_wrong(pose, truth, report)) return;
         ++report.wrong;
         if (config.on_wrong) {
-          config.on_wrong(describe(pose, truth, report.turns, world.plan));
+          config.on_wrong(describe(pose, truth, report.scans, world.plan));
         }
       });
-      if (report.warm_bytes == 0 && report.turns >= config.turns / 10) {
+      if (report.warm_bytes == 0 && report.scans >= config.scans / 10) {
         report.warm_bytes = resident_bytes();
       }
       watch.look(Activity::now(), localization.has_progressed());
@@ -155,7 +155,7 @@ std::vector<std::string> SoakReport::failures(const SoakConfig& config) const {
   const auto require = [&failures](bool holds, const char* what) {
     if (!holds) failures.emplace_back(what);
   };
-  require(turns >= config.turns, "it came to a standstill");
+  require(scans >= config.scans, "it came to a standstill");
   require(wrong == 0, "there were wrong fixes");
   require(counters.bytes == read_bytes, "bytes came that are not counted");
   require(counters.used_bytes + counters.skipped_bytes == counters.bytes,

@@ -7,14 +7,14 @@
 #include <string>
 #include <vector>
 
-#include "daemon/turn_publisher.hpp"
+#include "daemon/scan_publisher.hpp"
 #include "drivers/lidar_driver.hpp"
 #include "fault_plan.hpp"
 
 namespace cornerd::soak {
 
 struct SoakConfig {
-  std::uint64_t turns = 2000;
+  std::uint64_t scans = 2000;
   std::uint64_t seed = 1;
   FaultConfig faults;
   /// Half of what a watchdog of ten seconds allows; see ProgressWatch.
@@ -24,8 +24,8 @@ struct SoakConfig {
 };
 
 struct SoakReport {
-  std::uint64_t turns = 0;
-  std::array<std::uint64_t, daemon::TurnPublisher::kStates> poses{};
+  std::uint64_t scans = 0;
+  std::array<std::uint64_t, daemon::ScanPublisher::kStates> poses{};
   std::uint64_t wrong = 0;  ///< fixes that are elsewhere
   double worst_error_m = 0;
   double worst_error_rad = 0;

@@ -22,13 +22,13 @@ class LearnedBias : public DaemonTest {
   }
 
   /// The first STATUS that tells of at least so many turns that taught.
-  json status_after(std::uint64_t turns) {
+  json status_after(std::uint64_t scans) {
     TestClient client = connect();
     while (true) {
       json status = next_of(client, "STATUS");
       if (!status.is_object()) return {};
       const json& lidar = status["lidar"];
-      if (lidar.contains("bias") && lidar["bias"]["turns"] >= turns) return status;
+      if (lidar.contains("bias") && lidar["bias"]["turns"] >= scans) return status;
     }
   }
 

@@ -20,8 +20,8 @@ constexpr const char* kMap = R"({
              { "from": [0, 1.2], "to": [0.4, 1.2] } ],
   "rooms": [ { "name": "only", "polygon": [[0, 0], [2.4, 0], [2.4, 1.7], [0, 1.7]] } ] })";
 
-constexpr int kSamplesPerTurn = 720;
-constexpr core::TimeNs kTurnNs = core::kNsPerSecond / 10;
+constexpr int kSamplesPerScan = 720;
+constexpr core::TimeNs kScanNs = core::kNsPerSecond / 10;
 
 }  // namespace
 
@@ -32,18 +32,18 @@ void write_map(const std::filesystem::path& file, const std::string& room) {
   std::ofstream(file) << text;
 }
 
-void write_recording(const std::filesystem::path& file, int turns) {
+void write_recording(const std::filesystem::path& file, int scans) {
   const core::WallMap map(settings::parse_floor_plan(kMap, file));
   core::Scan turn;
   message::LineWriter line;
   std::ofstream stream(file);
-  for (int i = 0; i < turns; ++i) {
+  for (int i = 0; i < scans; ++i) {
     turn.clear();
-    for (int k = 0; k < kSamplesPerTurn; ++k) {
+    for (int k = 0; k < kSamplesPerScan; ++k) {
       // Clockwise, as an RPLidar turns.
-      const double bearing_rad = core::kPi - core::kTwoPi * k / kSamplesPerTurn;
+      const double bearing_rad = core::kPi - core::kTwoPi * k / kSamplesPerScan;
       const double range_m = map.range_along({kTrueX, kTrueY}, kTrueTheta + bearing_rad, 12);
-      turn.add({.t_ns = i * kTurnNs + k * kTurnNs / kSamplesPerTurn,
+      turn.add({.t_ns = i * kScanNs + k * kScanNs / kSamplesPerScan,
                 .bearing_rad = static_cast<float>(bearing_rad),
                 .range_m = static_cast<float>(range_m),
                 .quality = 47});

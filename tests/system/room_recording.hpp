@@ -15,6 +15,6 @@ inline constexpr double kTrueTheta = 0.5;
 void write_map(const std::filesystem::path& file, const std::string& room = "only");
 
 /// `turns` turns of a lidar at rest in that room, ten a second.
-void write_recording(const std::filesystem::path& file, int turns);
+void write_recording(const std::filesystem::path& file, int scans);
 
 }  // namespace cornerd::system_test

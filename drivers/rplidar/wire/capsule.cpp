@@ -16,7 +16,7 @@ bool has_right_checksum(std::span<const std::uint8_t> capsule) {
 }
 
 int start_angle_q6(std::span<const std::uint8_t> capsule) {
-  return ((capsule[2] | capsule[3] << 8) & 0x7FFF) % kFullTurnQ6;
+  return ((capsule[2] | capsule[3] << 8) & 0x7FFF) % kFullRevolutionQ6;
 }
 
 bool begins_stream(std::span<const std::uint8_t> capsule) { return (capsule[3] & 0x80) != 0; }

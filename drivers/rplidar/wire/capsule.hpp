@@ -48,7 +48,7 @@ struct Sweep {
 struct SweepSample {
   std::uint16_t angle_q6 = 0;
   std::uint32_t dist_q2 = 0;
-  bool starts_turn = false;
+  bool starts_scan = false;
 };
 
 /// Q16 arithmetic over a sweep, exactly as the vendor's SDK does it: truncation included.
@@ -59,15 +59,16 @@ class SweepCursor {
 
   int raw_q16() const { return raw_q16_; }
   /// The uncompensated angle passes zero after this sample: it is the first of a turn.
-  bool starts_turn() const { return (raw_q16_ + inc_q16_) % kTurnQ16 < inc_q16_; }
+  bool starts_scan() const { return (raw_q16_ + inc_q16_) % kRevolutionQ16 < inc_q16_; }
   void advance() { raw_q16_ += inc_q16_; }
 
   static std::uint16_t wrap_q6(int angle_q6) {
-    return static_cast<std::uint16_t>((angle_q6 % kFullTurnQ6 + kFullTurnQ6) % kFullTurnQ6);
+    return static_cast<std::uint16_t>((angle_q6 % kFullRevolutionQ6 + kFullRevolutionQ6) %
+                                      kFullRevolutionQ6);
   }
 
  private:
-  static constexpr int kTurnQ16 = 360 << 16;
+  static constexpr int kRevolutionQ16 = 360 << 16;
   int raw_q16_;
   int inc_q16_;
 };

@@ -21,7 +21,7 @@ constexpr float kSpeedGain = 0.25F;
 
 // A hole whose angle is a whole number of capsules, and safely less than a turn, tells that number.
 constexpr float kWholeTolerance = 0.35F;
-constexpr int kMaxHoleQ6 = kFullTurnQ6 / 2;
+constexpr int kMaxHoleQ6 = kFullRevolutionQ6 / 2;
 
 // So many alike in a row are a new speed, not holes; fewer where there was none before, as with an
 // early head, whose express capsules take 16 ms.

@@ -22,7 +22,7 @@ void CapsuleDecoder::lock(WireFormat format, bool same_stream) {
   has_waiting_ = false;
   followed_at_once_ = true;
   damaged_ = 0;
-  turn_began_in_hole_ = false;
+  scan_began_in_gap_ = false;
   cadence_.reset(format);
 }
 
@@ -51,7 +51,7 @@ void CapsuleDecoder::pair(std::span<const std::uint8_t> next, std::uint64_t& ind
     sink.on_gap();
   } else if (has_waiting_) {
     const int start_q6 = start_angle_q6(waiting_);
-    const int diff_q6 = (start_angle_q6(next) - start_q6 + kFullTurnQ6) % kFullTurnQ6;
+    const int diff_q6 = (start_angle_q6(next) - start_q6 + kFullRevolutionQ6) % kFullRevolutionQ6;
     const auto [judgement, missing] = cadence_.judge(diff_q6, damaged_);
     if (judgement == CapsuleCadence::Judgement::kNeighbours && followed_at_once_) {
       decode_waiting(next, diff_q6, index, sink);
@@ -71,12 +71,13 @@ void CapsuleDecoder::pair(std::span<const std::uint8_t> next, std::uint64_t& ind
       if (judgement == CapsuleCadence::Judgement::kUnknown) {
         counters_->lost_capsules += static_cast<std::uint64_t>(missing);
         sink.on_gap();
-        turn_began_in_hole_ = false;
+        scan_began_in_gap_ = false;
       } else {
         counters_->lost_capsules += static_cast<std::uint64_t>(std::max(0, missing - damaged));
         index += static_cast<std::uint64_t>(missing) * capsule_samples(format_);
-        const bool wraps = hole_from_q6 < kFullTurnQ6 && start_q6 + diff_q6 >= kFullTurnQ6;
-        turn_began_in_hole_ = turn_began_in_hole_ || wraps;
+        const bool wraps =
+            hole_from_q6 < kFullRevolutionQ6 && start_q6 + diff_q6 >= kFullRevolutionQ6;
+        scan_began_in_gap_ = scan_began_in_gap_ || wraps;
       }
     }
   }
@@ -110,15 +111,15 @@ void CapsuleDecoder::decode_waiting(std::span<const std::uint8_t> next, int diff
     }
   }
   for (const SweepSample& sample : decoded.first(capsule_samples(format_))) {
-    const bool starts_turn = sample.starts_turn || turn_began_in_hole_;
-    turn_began_in_hole_ = false;
+    const bool starts_scan = sample.starts_scan || scan_began_in_gap_;
+    scan_began_in_gap_ = false;
     ++counters_->samples;
-    if (starts_turn) ++counters_->turns;
+    if (starts_scan) ++counters_->scans;
     sink.on_sample({.index = index++,
                     .angle_q6 = sample.angle_q6,
                     .dist_q2 = sample.dist_q2,
                     .quality = sample.dist_q2 > 0 ? kUnknownQuality : std::uint8_t{0},
-                    .starts_turn = starts_turn});
+                    .starts_scan = starts_scan});
   }
 }
 

@@ -41,7 +41,7 @@ class CapsuleDecoder {
   bool has_waiting_ = false;
   bool followed_at_once_ = true;  ///< no byte was skipped since the waiting capsule
   int damaged_ = 0;               ///< capsules with a bad checksum since then
-  bool turn_began_in_hole_ = false;
+  bool scan_began_in_gap_ = false;
 };
 
 }  // namespace cornerd::rplidar

@@ -13,7 +13,7 @@ SweepSample decode_sample(const SweepCursor& cursor, int distance_word, int corr
   const int correction_q3 = correction_low | (distance_word & 3) << 4;
   return {.angle_q6 = SweepCursor::wrap_q6((cursor.raw_q16() - (correction_q3 << 13)) >> 10),
           .dist_q2 = static_cast<std::uint32_t>(distance_word & 0xFFFC),
-          .starts_turn = cursor.starts_turn()};
+          .starts_scan = cursor.starts_scan()};
 }
 
 }  // namespace

@@ -41,9 +41,9 @@ ChainMatch match_node_chain(std::span<const std::uint8_t> bytes, const NodeTrack
     }
     alone = alone && flag_is_believable(*node);
     on_track = on_track && track->explains(*node, periods + count);
-    const bool turns = advance_q6 >= count * kMinAdvancePerNode;
-    if (on_track && turns && count + 1 >= kNodesOnTrack) return {Verdict::kYes, true};
-    if (alone && turns && count + 1 >= kNodesAlone) return {Verdict::kYes, false};
+    const bool scans = advance_q6 >= count * kMinAdvancePerNode;
+    if (on_track && scans && count + 1 >= kNodesOnTrack) return {Verdict::kYes, true};
+    if (alone && scans && count + 1 >= kNodesAlone) return {Verdict::kYes, false};
     if (count + 1 >= kMostNodes) break;
     previous_q6 = node->angle_q6;
     bytes = bytes.subspan(kNodeSize);

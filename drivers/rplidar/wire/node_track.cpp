@@ -8,7 +8,7 @@ namespace cornerd::rplidar {
 namespace {
 
 constexpr float kTrackDegree = 64;
-constexpr float kTurn = kFullTurnQ6;
+constexpr float kTurn = kFullRevolutionQ6;
 
 // 508 us a sample: 1 degree at 5.5 turns a second; 0.18 at 1, 3.7 at 20.
 constexpr float kUsualStep = 1.2F * kTrackDegree;

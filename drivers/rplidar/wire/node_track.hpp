@@ -9,8 +9,9 @@ namespace cornerd::rplidar {
 
 /// `to - from` by the shorter way, in [-180, 180) degrees (q6).
 constexpr int angle_step_q6(int from_q6, int to_q6) {
-  constexpr int kHalf = kFullTurnQ6 / 2;
-  return ((to_q6 - from_q6) % kFullTurnQ6 + kFullTurnQ6 + kHalf) % kFullTurnQ6 - kHalf;
+  constexpr int kHalf = kFullRevolutionQ6 / 2;
+  return ((to_q6 - from_q6) % kFullRevolutionQ6 + kFullRevolutionQ6 + kHalf) % kFullRevolutionQ6 -
+         kHalf;
 }
 
 /// Where the head points, smoothed over the nodes' angles: an alpha-beta filter. It is needed

@@ -18,7 +18,7 @@ void StandardDecoder::lock() {
   has_front_ = false;
   confirmed_ = 0;
   search_offset_ = 0;
-  turns_.forget();
+  scans_.forget();
 }
 
 Step StandardDecoder::step(ByteWindow& window, std::uint64_t& index, bool final,
@@ -48,8 +48,8 @@ Step StandardDecoder::begin(ByteWindow& window) {
   if (!node) return Step::kLost;
   front_ = *node;
   track_.begin(front_);
-  front_starts_turn_ = turns_.advance(front_.start_flag, track_);
-  counters_->false_turn_marks = turns_.false_marks();
+  front_starts_scan_ = scans_.advance(front_.start_flag, track_);
+  counters_->false_scan_starts = scans_.false_marks();
   has_front_ = true;
   return Step::kProgress;
 }
@@ -86,7 +86,7 @@ Step StandardDecoder::relock(ByteWindow& window, std::uint64_t& index, bool fina
     const bool aligned = offset % kNodeSize == 0;
     // The first node after a descriptor is a stale one, of any angle, on every real A1.
     const bool fresh = confirmed_ == 0;
-    if (fresh && !chain.continues_track) front_starts_turn_ = false;
+    if (fresh && !chain.continues_track) front_starts_scan_ = false;
     std::size_t to_skip = offset;
     if (aligned && (chain.continues_track || fresh)) {
       deliver_front(window, index, sink);
@@ -105,7 +105,7 @@ Step StandardDecoder::relock(ByteWindow& window, std::uint64_t& index, bool fina
       return Step::kProgress;
     }
     if (!fresh) sink.on_gap();
-    turns_.forget();
+    scans_.forget();
     has_front_ = false;
     return Step::kProgress;
   }
@@ -136,8 +136,8 @@ Step StandardDecoder::end(ByteWindow& window, std::uint64_t& index, RawSampleSin
 void StandardDecoder::advance(const StandardNode& node, int periods) {
   track_.advance(node, periods);
   front_ = node;
-  front_starts_turn_ = turns_.advance(node.start_flag, track_);
-  counters_->false_turn_marks = turns_.false_marks();
+  front_starts_scan_ = scans_.advance(node.start_flag, track_);
+  counters_->false_scan_starts = scans_.false_marks();
   ++confirmed_;
 }
 
@@ -145,12 +145,12 @@ void StandardDecoder::deliver_front(ByteWindow& window, std::uint64_t index, Raw
   window.consume(kNodeSize);
   counters_->used_bytes += kNodeSize;
   ++counters_->samples;
-  if (front_starts_turn_) ++counters_->turns;
+  if (front_starts_scan_) ++counters_->scans;
   sink.on_sample({.index = index,
                   .angle_q6 = front_.angle_q6,
                   .dist_q2 = front_.dist_q2,
                   .quality = front_.quality,
-                  .starts_turn = front_starts_turn_});
+                  .starts_scan = front_starts_scan_});
 }
 
 void StandardDecoder::skip(ByteWindow& window, std::size_t count) {

@@ -6,8 +6,8 @@
 
 #include "drivers/rplidar/decoder.hpp"
 #include "drivers/rplidar/wire/byte_window.hpp"
+#include "drivers/rplidar/wire/node_revolutions.hpp"
 #include "drivers/rplidar/wire/node_track.hpp"
-#include "drivers/rplidar/wire/node_turns.hpp"
 
 namespace cornerd::rplidar {
 
@@ -39,9 +39,9 @@ class StandardDecoder {
 
   drivers::StreamCounters* counters_;
   NodeTrack track_;
-  NodeTurns turns_;
+  NodeRevolutions scans_;
   StandardNode front_;  ///< of the window; part of the track already
-  bool front_starts_turn_ = false;
+  bool front_starts_scan_ = false;
   std::size_t confirmed_ = 0;      ///< nodes since the lock
   bool has_front_ = false;         ///< else the first node after the lock is still to come
   std::size_t search_offset_ = 0;  ///< of a relock in progress; 0: none

@@ -17,7 +17,7 @@ std::optional<StandardNode> parse_standard_node(std::span<const std::uint8_t> by
   if (start == not_start || !check || raw_angle_q6 > kMaxRawAngleQ6) return std::nullopt;
   return StandardNode{.start_flag = start,
                       .quality = static_cast<std::uint8_t>(bytes[0] >> 2),
-                      .angle_q6 = static_cast<std::uint16_t>(raw_angle_q6 % kFullTurnQ6),
+                      .angle_q6 = static_cast<std::uint16_t>(raw_angle_q6 % kFullRevolutionQ6),
                       .dist_q2 = static_cast<std::uint16_t>(bytes[3] | bytes[4] << 8)};
 }
 

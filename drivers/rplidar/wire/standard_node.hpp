@@ -9,7 +9,7 @@
 namespace cornerd::rplidar {
 
 inline constexpr std::size_t kNodeSize = 5;
-inline constexpr int kFullTurnQ6 = 360 * 64;
+inline constexpr int kFullRevolutionQ6 = 360 * 64;
 
 /// One measurement of the standard scan (A1 protocol, answer type 0x81).
 struct StandardNode {

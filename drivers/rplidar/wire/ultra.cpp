@@ -82,7 +82,7 @@ void decode_ultra(std::span<const std::uint8_t, kUltraSize> capsule, int next_ma
       const int angle_q6 = (cursor.raw_q16() - optical_correction_q16_degrees(dist_q2)) >> 10;
       samples[3 * cabin + part] = {.angle_q6 = SweepCursor::wrap_q6(angle_q6),
                                    .dist_q2 = static_cast<std::uint32_t>(dist_q2),
-                                   .starts_turn = cursor.starts_turn()};
+                                   .starts_scan = cursor.starts_scan()};
       cursor.advance();
     }
   }

@@ -30,11 +30,11 @@ bool is_clear(const core::WallMap& world, const core::Vec2& centre, double radiu
 replay::Motion circling(const core::Pose2& start, const CircularMotion& motion) {
   if (motion.yaw_rate_rad_s == 0) return replay::stand_still(start);
   return [start, motion](core::TimeNs t_ns, std::int64_t) {
-    const double turned_rad = motion.yaw_rate_rad_s * static_cast<double>(t_ns) * 1e-9;
+    const double rotated_rad = motion.yaw_rate_rad_s * static_cast<double>(t_ns) * 1e-9;
     const double radius_m = motion.speed_m_s / motion.yaw_rate_rad_s;
-    return start * core::Pose2{radius_m * std::sin(turned_rad),
-                               radius_m * (1 - std::cos(turned_rad)),
-                               core::normalize_angle(turned_rad)};
+    return start * core::Pose2{radius_m * std::sin(rotated_rad),
+                               radius_m * (1 - std::cos(rotated_rad)),
+                               core::normalize_angle(rotated_rad)};
   };
 }
 

@@ -2,7 +2,7 @@
 #include "bench/localization/cost.hpp"
 
 #include "bench/localization/circle.hpp"
-#include "bench/simulated_turn.hpp"
+#include "bench/simulated_scan.hpp"
 #include "core/localizer.hpp"
 
 namespace cornerd::bench {
@@ -13,18 +13,18 @@ constexpr std::uint64_t kCostSeed = 1;
 
 }  // namespace
 
-void localize_turns(const std::shared_ptr<const core::WallMap>& map, std::size_t turns,
+void localize_scans(const std::shared_ptr<const core::WallMap>& map, std::size_t scans,
                     bool tracking) {
   const CircularMotion motion = tracking ? CircularMotion{0.2, 1.5} : CircularMotion{};
-  const auto places = random_circles(*map, motion, tracking ? 1 : kMostCountedTurns, kCostSeed);
-  TurnSimulator lidar({}, kCostSamples, kCostSeed);
+  const auto places = random_circles(*map, motion, tracking ? 1 : kMaxCountedScans, kCostSeed);
+  ScanSimulator lidar({}, kCostSamples, kCostSeed);
   core::Localizer localizer(map, {});
   core::TimeNs t_ns = 0;
-  for (std::size_t i = 0; i < kMostCountedTurns; ++i, t_ns += lidar.turn_ns()) {
-    const core::Scan& turn = lidar.take(*map, t_ns, circling(places[tracking ? 0 : i], motion));
-    if (i >= turns) continue;
+  for (std::size_t i = 0; i < kMaxCountedScans; ++i, t_ns += lidar.scan_ns()) {
+    const core::Scan& scan = lidar.take(*map, t_ns, circling(places[tracking ? 0 : i], motion));
+    if (i >= scans) continue;
     if (!tracking) localizer.relocalize();
-    localizer.step(turn);
+    localizer.step(scan);
   }
 }
 

@@ -14,18 +14,18 @@ constexpr double kOfTheWall = 6;
 }  // namespace
 
 core::Covariance3 CramerRao::bound(const core::WallMap& map, const core::Pose2& T_map_lidar,
-                                   const core::PolarScan& turn) {
+                                   const core::PolarScan& scan) {
   Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
-  const auto hits = prediction_.cast(map, T_map_lidar, turn.points());
+  const auto hits = prediction_.cast(map, T_map_lidar, scan.points());
   for (std::size_t i = 0; i < hits.size(); ++i) {
     if (hits[i].face == core::PredictedHit::kNone) continue;
     const core::Face& face = map.faces()[hits[i].face];
     const double range_m = hits[i].range_m;
-    const double angle_rad = T_map_lidar.theta_rad + turn[i].bearing_rad;
+    const double angle_rad = T_map_lidar.theta_rad + scan[i].bearing_rad;
     const core::Vec2 ray(std::cos(angle_rad), std::sin(angle_rad));
     const double sine = std::abs(face.normal.dot(ray));
     const double variance_m2 = noise_.variance_across_m2(range_m, sine);
-    const double across_m = (turn[i].range_m - range_m) * sine;
+    const double across_m = (scan[i].range_m - range_m) * sine;
     if (across_m * across_m > kOfTheWall * kOfTheWall * variance_m2) continue;
     const core::Vec2 arm = range_m * ray;
     const Eigen::Vector3d slope(face.normal.x(), face.normal.y(),

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "core/map/turn_prediction.hpp"
+#include "core/map/ray_caster.hpp"
 #include "core/map/wall_map.hpp"
 #include "core/polar_scan.hpp"
 #include "core/sensor_noise.hpp"
@@ -19,11 +19,11 @@ class CramerRao {
   /// Of x, y in metres in the map frame, and heading in radians. Zero where the turn's walls do
   /// not fix the pose.
   core::Covariance3 bound(const core::WallMap& map, const core::Pose2& T_map_lidar,
-                          const core::PolarScan& turn);
+                          const core::PolarScan& scan);
 
  private:
   core::SensorNoise noise_;
-  core::TurnPrediction prediction_;
+  core::RayCaster prediction_;
 };
 
 }  // namespace cornerd::bench

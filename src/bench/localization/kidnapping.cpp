@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "bench/localization/pose_error.hpp"
-#include "bench/simulated_turn.hpp"
+#include "bench/simulated_scan.hpp"
 #include "replay/simulator/places.hpp"
 
 namespace cornerd::bench {
@@ -22,17 +22,17 @@ KidnappingScore run_kidnapping(const std::vector<std::shared_ptr<const core::Wal
   for (std::size_t m = 0; m < maps.size(); ++m) {
     const core::WallMap& map = *maps[m];
     const std::size_t share = jumps * (m + 1) / maps.size() - jumps * m / maps.size();
-    TurnSimulator lidar({}, kKidnappingSamples, seed + m);
+    ScanSimulator lidar({}, kKidnappingSamples, seed + m);
     core::Localizer localizer(maps[m], {});
     core::TimeNs t_ns = 0;
     const auto places = replay::random_places(map, share + 1, kKidnappingClearance_m, seed + m);
     for (std::size_t i = 0; i < places.size(); ++i) {
       const core::Pose2& place = places[i];
-      std::size_t recovered = KidnappingScore::kTurns;
-      for (std::size_t k = 0; k < KidnappingScore::kTurns; ++k) {
-        const core::Scan& turn = lidar.take(map, t_ns, replay::stand_still(place));
-        t_ns += lidar.turn_ns();
-        const core::PoseEstimate& pose = localizer.step(turn).pose;
+      std::size_t recovered = KidnappingScore::kScans;
+      for (std::size_t k = 0; k < KidnappingScore::kScans; ++k) {
+        const core::Scan& scan = lidar.take(map, t_ns, replay::stand_still(place));
+        t_ns += lidar.scan_ns();
+        const core::PoseEstimate& pose = localizer.step(scan).pose;
         if (i == 0 || !core::names_a_place(pose.state)) continue;
         if (is_right(pose.T_map_base, place)) {
           recovered = std::min(recovered, k);
@@ -42,7 +42,7 @@ KidnappingScore run_kidnapping(const std::vector<std::shared_ptr<const core::Wal
       }
       if (i == 0) continue;  // where the robot is taken from
       ++score.jumps;
-      if (recovered < KidnappingScore::kTurns) {
+      if (recovered < KidnappingScore::kScans) {
         ++score.recovered[recovered];
       } else {
         ++score.never;

@@ -14,12 +14,12 @@ namespace cornerd::bench {
 
 /// What became of a robot that was picked up and put elsewhere, again and again.
 struct KidnappingScore {
-  static constexpr std::size_t kTurns = 6;  ///< at each place
+  static constexpr std::size_t kScans = 6;  ///< at each place
 
   std::size_t jumps = 0;
   /// Jumps after which the first right fix came with the first turn, the second, ...
-  std::array<std::size_t, kTurns> recovered{};
-  std::size_t never = 0;        ///< not within kTurns
+  std::array<std::size_t, kScans> recovered{};
+  std::size_t never = 0;        ///< not within kScans
   std::size_t wrong_first = 0;  ///< turns right after a jump that named a wrong place
   std::size_t wrong_later = 0;  ///< later turns that did
 };

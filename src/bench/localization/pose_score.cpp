@@ -13,7 +13,7 @@ namespace cornerd::bench {
 void PoseScore::add(const core::PoseEstimate& estimate, const core::Pose2& truth,
                     const core::Covariance3& bound) {
   using core::PoseState;
-  ++turns_;
+  ++scans_;
   reliability_.add(estimate, truth);
   const bool right = is_right(estimate.T_map_base, truth);
   switch (estimate.state) {

@@ -16,7 +16,7 @@ class PoseScore {
   void add(const core::PoseEstimate& estimate, const core::Pose2& truth,
            const core::Covariance3& bound = core::Covariance3::Zero());
 
-  std::size_t turns() const { return turns_; }
+  std::size_t scans() const { return scans_; }
   std::size_t named() const { return named_; }            ///< fix and tracking, right or wrong
   std::size_t right() const { return errors_m_.size(); }  ///< of these
   std::size_t wrong() const { return wrong_; }            ///< of these, and of the predicted
@@ -45,7 +45,7 @@ class PoseScore {
  private:
   double per_right(double sum) const;
 
-  std::size_t turns_ = 0;
+  std::size_t scans_ = 0;
   std::size_t named_ = 0;
   std::size_t wrong_ = 0;
   std::size_t predicted_ = 0;

@@ -14,14 +14,14 @@ void Reliability::add(const core::PoseEstimate& estimate, const core::Pose2& tru
   for (Bin& each : bins_) {
     if (estimate.doubt >= each.least_doubt) bin = &each;
   }
-  ++bin->turns;
+  ++bin->scans;
   bin->wrong += is_right(first, truth) ? 0 : 1;
   bin->doubt += estimate.doubt;
 }
 
 void Reliability::add(const Reliability& other) {
   for (std::size_t k = 0; k < bins_.size(); ++k) {
-    bins_[k].turns += other.bins_[k].turns;
+    bins_[k].scans += other.bins_[k].scans;
     bins_[k].wrong += other.bins_[k].wrong;
     bins_[k].doubt += other.bins_[k].doubt;
   }

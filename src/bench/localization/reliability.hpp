@@ -14,7 +14,7 @@ class Reliability {
  public:
   struct Bin {
     double least_doubt = 0;
-    std::size_t turns = 0;
+    std::size_t scans = 0;
     std::size_t wrong = 0;  ///< turns whose likeliest place was not the true one
     double doubt = 0;       ///< of these turns, summed: how many should be wrong
   };

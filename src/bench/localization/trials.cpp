@@ -10,7 +10,7 @@
 #include "bench/localization/circle.hpp"
 #include "bench/localization/cramer_rao.hpp"
 #include "bench/localization/world.hpp"
-#include "bench/simulated_turn.hpp"
+#include "bench/simulated_scan.hpp"
 #include "replay/simulator/simulated_odometry.hpp"
 
 namespace cornerd::bench {
@@ -49,7 +49,7 @@ class Robot {
         map_(std::move(map)),
         seed_(seed),
         random_(seed),
-        lidar_(trial.sensor, kTrialSamples, seed, trial.turn_ns),
+        lidar_(trial.sensor, kTrialSamples, seed, trial.scan_ns),
         localizer_(map_, config(trial)),
         bound_(trial.sensor.noise, core::LocalizerConfig().max_range_m) {}
 
@@ -66,34 +66,34 @@ class Robot {
     if (trial_.clutter > 0) {
       things = clutter_around(world, start.translation(), trial_.clutter, random_);
     }
-    for (std::size_t k = 0; k < trial_.turns_each; ++k) {
-      const auto start_ns = static_cast<core::TimeNs>(k) * trial_.turn_ns;
-      const core::Scan& turn = lidar_.take(start_ns, [&](core::TimeNs t_ns, double bearing_rad) {
+    for (std::size_t k = 0; k < trial_.scans_each; ++k) {
+      const auto start_ns = static_cast<core::TimeNs>(k) * trial_.scan_ns;
+      const core::Scan& scan = lidar_.take(start_ns, [&](core::TimeNs t_ns, double bearing_rad) {
         const core::Pose2 at = motion(t_ns, 0);
         const double angle_rad = at.theta_rad + bearing_rad;
         return range_with(things, at.translation(), angle_rad,
-                          world.range_along(at.translation(), angle_rad, TurnSimulator::kSight_m));
+                          world.range_along(at.translation(), angle_rad, ScanSimulator::kSight_m));
       });
-      if (trial_.updates_per_turn > 1) {
-        follow(turn, motion, odometry, score);
-        localizer_.step(turn);
+      if (trial_.updates_per_scan > 1) {
+        follow(scan, motion, odometry, score);
+        localizer_.step(scan);
         continue;
       }
-      while (trial_.odometry && odometry.next_ns() <= turn.end_ns()) {
+      while (trial_.odometry && odometry.next_ns() <= scan.end_ns()) {
         localizer_.add(odometry.next(), std::nullopt);
       }
-      const core::PoseEstimate& pose = localizer_.step(turn).pose;
+      const core::PoseEstimate& pose = localizer_.step(scan).pose;
       const core::Pose2 truth = motion(pose.t_ns, 0);
-      points_.assign(turn, core::LocalizerConfig().min_range_m,
+      points_.assign(scan, core::LocalizerConfig().min_range_m,
                      core::LocalizerConfig().max_range_m);
       score.add(pose, truth, bound_.bound(*map_, truth, points_));
     }
   }
 
  private:
-  void follow(const core::Scan& turn, const replay::Motion& motion,
+  void follow(const core::Scan& scan, const replay::Motion& motion,
               replay::SimulatedOdometry& odometry, PoseScore& score) {
-    for (const core::Sample& sample : turn.samples()) {
+    for (const core::Sample& sample : scan.samples()) {
       while (trial_.odometry && odometry.next_ns() <= sample.t_ns) {
         localizer_.add(odometry.next(), std::nullopt);
       }
@@ -104,7 +104,7 @@ class Robot {
   static core::LocalizerConfig config(const Trial& trial) {
     core::LocalizerConfig config;
     config.odometry.enabled = trial.odometry;
-    config.updates_per_turn = trial.updates_per_turn;
+    config.updates_per_scan = trial.updates_per_scan;
     return config;
   }
 
@@ -112,7 +112,7 @@ class Robot {
   std::shared_ptr<const core::WallMap> map_;
   std::uint64_t seed_;
   replay::Random random_;
-  TurnSimulator lidar_;
+  ScanSimulator lidar_;
   core::Localizer localizer_;
   CramerRao bound_;
   core::PolarScan points_;
@@ -156,7 +156,7 @@ std::vector<Trial> usual_trials(const Maps& arenas,
   add("12 equal rooms", std::vector{as_mapped(rooms)});
   Trial& bias = add("biased lidar, 20 turns each", arena);
   bias.sensor = biased;
-  bias.turns_each = 20;
+  bias.scans_each = 20;
   add("60 % missing", arena).sensor = sparse;
   add("30 % of the rays stopped", arena).clutter = 0.3;
   add("a wall displaced by 3 cm", displaced);
@@ -167,10 +167,10 @@ std::vector<Trial> usual_trials(const Maps& arenas,
                               (updates > 1 ? ", quarters of a turn" : ""),
                           home);
       moving.motion = brisk;
-      moving.turns_each = 30;
-      moving.turn_ns = kSlowTurn_ns;
+      moving.scans_each = 30;
+      moving.scan_ns = kSlowTurn_ns;
       moving.odometry = odometry;
-      moving.updates_per_turn = updates;
+      moving.updates_per_scan = updates;
     }
   }
   return trials;

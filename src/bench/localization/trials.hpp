@@ -27,11 +27,11 @@ struct Trial {
   std::vector<MappedBuilding> buildings;
   replay::SensorModel sensor;
   double clutter = 0;          ///< share of the rays that things stop
-  std::size_t turns_each = 1;  ///< at a place, or on a circle; each begins without a prior
+  std::size_t scans_each = 1;  ///< at a place, or on a circle; each begins without a prior
   CircularMotion motion;
-  std::size_t updates_per_turn = 1;  ///< above 1, the poses of parts of a turn are judged alone
+  std::size_t updates_per_scan = 1;  ///< above 1, the poses of parts of a turn are judged alone
   bool odometry = false;
-  core::TimeNs turn_ns = 137'000'000;
+  core::TimeNs scan_ns = 137'000'000;
 };
 
 /// Those of the bench: precision, bias, adversity and motion, in these layouts of the arena and,

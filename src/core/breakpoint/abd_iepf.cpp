@@ -74,7 +74,7 @@ double abd_threshold_m(const AbdIepfConfig& config, const PolarPoint& before,
 
 AbdIepf::AbdIepf(const DetectorConfig& config, const SensorNoise& noise)
     : noise_(noise), config_(config.abd_iepf), min_support_(config.min_support) {
-  ends_.reserve(kMaxSamplesPerTurn);  // they are different samples: no turn has more of them
+  ends_.reserve(kMaxSamplesPerScan);  // they are different samples: no turn has more of them
 }
 
 SegmentTrack AbdIepf::fit(const PolarScan& scan, std::size_t first, std::size_t last) const {

@@ -44,15 +44,15 @@ struct Breakpoint {
   std::uint32_t left_support = 0;
 };
 
-inline constexpr std::size_t kMaxSegmentsPerTurn = 256;
-inline constexpr std::size_t kMaxBreakpointsPerTurn = 256;
+inline constexpr std::size_t kMaxSegmentsPerScan = 256;
+inline constexpr std::size_t kMaxBreakpointsPerScan = 256;
 
 /// The breakpoints and walls of one turn, counter-clockwise from bearing -pi. Room is taken at
 /// construction; what does not fit is dropped and counted.
 struct Detection {
   Detection() {
-    breakpoints.reserve(kMaxBreakpointsPerTurn);
-    segments.reserve(kMaxSegmentsPerTurn);
+    breakpoints.reserve(kMaxBreakpointsPerScan);
+    segments.reserve(kMaxSegmentsPerScan);
   }
   void clear() {
     breakpoints.clear();

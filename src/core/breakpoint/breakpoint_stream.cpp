@@ -11,7 +11,7 @@ namespace cornerd::core {
 
 BreakpointStream::BreakpointStream(const DetectorConfig& config, const SensorNoise& noise)
     : tracker_(config, noise), chain_(config, noise) {
-  mirrored_.reserve(kMaxBreakpointsPerTurn);
+  mirrored_.reserve(kMaxBreakpointsPerScan);
 }
 
 void BreakpointStream::begin(double spacing_rad, Sweep sweep) {

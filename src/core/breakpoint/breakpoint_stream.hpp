@@ -34,7 +34,7 @@ class BreakpointStream {
 
   /// The next return, lidar frame. A bearing may step back by up to kMaxStepBack_rad, as those of
   /// an A1 do. Ranges that are none, returns beyond a whole circle, and more than
-  /// kMaxSamplesPerTurn are ignored. The breakpoints that this return made certain; valid until the
+  /// kMaxSamplesPerScan are ignored. The breakpoints that this return made certain; valid until the
   /// next call.
   std::span<const Breakpoint> add(double bearing_rad, double range_m);
 

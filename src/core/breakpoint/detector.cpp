@@ -21,7 +21,7 @@ Detector::Tracker Detector::make_tracker(const DetectorConfig& config, const Sen
 
 Detector::Detector(const DetectorConfig& config, const SensorNoise& noise)
     : tracker_(make_tracker(config, noise)), chain_(config, noise) {
-  tracks_.reserve(kMaxSegmentsPerTurn);
+  tracks_.reserve(kMaxSegmentsPerScan);
 }
 
 void Detector::detect(const PolarScan& scan, Detection& detection) {

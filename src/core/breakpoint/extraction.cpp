@@ -180,7 +180,7 @@ void extract_border(const PolarScan& scan, const SegmentTrack& right, const Segm
                     double corner_tolerance_m, const Judgement& by, Detection& detection) {
   const auto add = [&](const std::optional<Breakpoint>& breakpoint) {
     if (!breakpoint) return;
-    if (detection.breakpoints.size() < kMaxBreakpointsPerTurn) {
+    if (detection.breakpoints.size() < kMaxBreakpointsPerScan) {
       detection.breakpoints.push_back(*breakpoint);
     } else {
       ++detection.overflowed;

@@ -58,7 +58,7 @@ struct SegmentTrack {
   std::uint32_t support = 0;
 };
 
-/// The walls of a turn, counter-clockwise. Reserved for kMaxSegmentsPerTurn at construction.
+/// The walls of a turn, counter-clockwise. Reserved for kMaxSegmentsPerScan at construction.
 using SegmentTracks = std::vector<SegmentTrack>;
 
 /// False where it does not fit in `tracks`.

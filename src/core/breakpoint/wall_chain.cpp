@@ -18,7 +18,7 @@ constexpr std::uint32_t kKeptSamples = 4;
 
 WallChain::WallChain(const DetectorConfig& config, const SensorNoise& noise)
     : config_(config), angles_(config.extraction), noise_(noise) {
-  walls_.reserve(kMaxSegmentsPerTurn);
+  walls_.reserve(kMaxSegmentsPerScan);
 }
 
 void WallChain::begin() {

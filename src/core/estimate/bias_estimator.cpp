@@ -53,13 +53,13 @@ void BiasEstimator::forget() {
 void BiasEstimator::resume(const LearnedBias& learned) {
   forget();
   const Vector4 sigma = vector_of(learned.sigma);
-  if (learned.turns == 0 || !(sigma.minCoeff() > 0)) return;
+  if (learned.scans == 0 || !(sigma.minCoeff() > 0)) return;
   const Vector4 prior = prior_information();
   const Vector4 taught = (sigma.cwiseAbs2().cwiseInverse() - prior).cwiseMax(0);
   information_ = taught.asDiagonal();
   believe(vector_of(learned.bias), sigma.cwiseAbs2().asDiagonal());
   evidence_ = (taught + prior).cwiseProduct(vector_of(learned_.bias)) - prior.cwiseProduct(known_);
-  learned_.turns = learned.turns;
+  learned_.scans = learned.scans;
 }
 
 void BiasEstimator::believe(const Vector4& bias, const Matrix4& covariance) {
@@ -121,7 +121,7 @@ void BiasEstimator::learn(const WallMap& map, const Pose2& T_map_lidar,
   const Vector4 best = covariance * (evidence_ + prior.cwiseProduct(known_));
   if (!best.allFinite() || !(covariance.diagonal().minCoeff() > 0)) return;
   believe(best, covariance);
-  ++learned_.turns;
+  ++learned_.scans;
 }
 
 }  // namespace cornerd::core

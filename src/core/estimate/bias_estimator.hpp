@@ -5,7 +5,7 @@
 
 #include <Eigen/Core>
 
-#include "core/map/turn_prediction.hpp"
+#include "core/map/ray_caster.hpp"
 #include "core/map/wall_map.hpp"
 #include "core/polar_scan.hpp"
 #include "core/sensor_bias.hpp"
@@ -30,7 +30,7 @@ class BiasEstimator {
   /// What is believed so far; `known` at first.
   const SensorBias& bias() const { return learned_.bias; }
   /// Turns that it was learnt from.
-  std::size_t turns() const { return learned_.turns; }
+  std::size_t scans() const { return learned_.scans; }
   const LearnedBias& learned() const { return learned_; }
 
   /// Goes on from what another one learnt of the same lidar. Of its doubt no more than the sigmas
@@ -53,7 +53,7 @@ class BiasEstimator {
 
   SensorNoise noise_;
   double kept_share_;
-  TurnPrediction prediction_;
+  RayCaster prediction_;
   LearnedBias learned_;
   Vector4 known_;
   Matrix4 information_ = Matrix4::Zero();  ///< that turns gave, fading

@@ -26,14 +26,14 @@ PartTracker::PartTracker(const WallMap& map, const LocalizerConfig& config)
       min_range_m_(config.min_range_m),
       max_range_m_(config.max_range_m),
       noise_(config.noise),
-      parts_(config.updates_per_turn),
+      parts_(config.updates_per_scan),
       prediction_(config.max_range_m),
       refinement_(config.max_range_m, config.noise),
       stream_(config.detector, config.noise) {
-  breakpoints_.reserve(kMaxBreakpointsPerTurn);
+  breakpoints_.reserve(kMaxBreakpointsPerScan);
 }
 
-void PartTracker::begin_turn() {
+void PartTracker::begin_scan() {
   usual_ = whole_ ? samples_ : 0;
   const Sweep sweep = swept_rad_ > 0 ? Sweep::kCounterClockwise : Sweep::kClockwise;
   if (usual_ > 0) stream_.begin(kTwoPi / static_cast<double>(usual_), sweep);
@@ -45,7 +45,7 @@ void PartTracker::begin_turn() {
 }
 
 bool PartTracker::add(const Sample& sample) {
-  if (sample.starts_turn) begin_turn();
+  if (sample.starts_scan) begin_scan();
   if (part_has_ended_) {
     part_.clear();
     breakpoints_.clear();
@@ -57,7 +57,7 @@ bool PartTracker::add(const Sample& sample) {
   const double range_m = sample.range_m;
   if (range_m >= min_range_m_ && range_m <= max_range_m_) {
     for (const Breakpoint& found : stream_.add(sample.bearing_rad, range_m)) {
-      if (breakpoints_.size() < kMaxBreakpointsPerTurn) breakpoints_.push_back(found);
+      if (breakpoints_.size() < kMaxBreakpointsPerScan) breakpoints_.push_back(found);
     }
   }
   if (ended_ + 1 >= parts_ || samples_ < (ended_ + 1) * usual_ / parts_) return false;

@@ -9,7 +9,7 @@
 #include "core/breakpoint/breakpoint_stream.hpp"
 #include "core/estimate/refinement.hpp"
 #include "core/localizer_config.hpp"
-#include "core/map/turn_prediction.hpp"
+#include "core/map/ray_caster.hpp"
 #include "core/map/wall_map.hpp"
 #include "core/polar_scan.hpp"
 #include "core/recognition/explanation.hpp"
@@ -55,14 +55,14 @@ class PartTracker {
   std::span<const Breakpoint> breakpoints() const { return breakpoints_; }
 
  private:
-  void begin_turn();
+  void begin_scan();
 
   const WallMap& map_;
   double min_range_m_;
   double max_range_m_;
   SensorNoise noise_;
   std::size_t parts_;
-  TurnPrediction prediction_;
+  RayCaster prediction_;
   Refinement refinement_;
   BreakpointStream stream_;
   std::vector<Breakpoint> breakpoints_;

@@ -28,13 +28,13 @@ Eigen::Map<Lanes> lanes(std::vector<float>& values, std::size_t at) {
 
 PointLanes::PointLanes() {
   for (auto* values : {&x_m_, &y_m_, &inverse_range_, &across_m2_, &along_m2_}) {
-    values->reserve(kMaxSamplesPerTurn + kLanes);
+    values->reserve(kMaxSamplesPerScan + kLanes);
   }
 }
 
 void PointLanes::assign(std::span<const PolarPoint> points, const SensorNoise& noise,
                         double noise_scale) {
-  const std::size_t size = std::min(points.size(), kMaxSamplesPerTurn) + kLanes;
+  const std::size_t size = std::min(points.size(), kMaxSamplesPerScan) + kLanes;
   for (auto* values : {&x_m_, &y_m_, &inverse_range_, &across_m2_, &along_m2_}) {
     values->assign(size, 1);
   }

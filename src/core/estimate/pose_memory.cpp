@@ -77,11 +77,11 @@ Covariance3 doubt_of_motion(const Twist2& used, const Twist2& seen) {
 }
 
 Covariance3 later(const Covariance3& covariance, double dt_s) {
-  constexpr double kUsualTurn_s = 0.14;
-  const double turns = dt_s / kUsualTurn_s;
+  constexpr double kNominalScan_s = 0.14;
+  const double scans = dt_s / kNominalScan_s;
   const double way_m = kAcceleration_m_s2 * dt_s * dt_s / 2;
   const double way_rad = kAcceleration_rad_s2 * dt_s * dt_s / 2;
-  Covariance3 grown = (1 + 2 * turns * turns) * covariance;
+  Covariance3 grown = (1 + 2 * scans * scans) * covariance;
   grown.diagonal() += Eigen::Vector3d(way_m * way_m, way_m * way_m, way_rad * way_rad);
   return grown;
 }
@@ -91,8 +91,9 @@ Covariance3 doubt_of_old_motion(double age_s, double duration_s) {
   constexpr double kChange_m_s2 = 0.5;
   constexpr double kChange_rad_s2 = 2;
   const double place_m = kChange_m_s2 * age_s * duration_s / 2;
-  const double turn_rad = kChange_rad_s2 * age_s * duration_s / 2;
-  return Eigen::Vector3d(place_m * place_m, place_m * place_m, turn_rad * turn_rad).asDiagonal();
+  const double rotation_rad = kChange_rad_s2 * age_s * duration_s / 2;
+  return Eigen::Vector3d(place_m * place_m, place_m * place_m, rotation_rad * rotation_rad)
+      .asDiagonal();
 }
 
 Covariance3 covariance_of_base(const Covariance3& of_lidar, const Pose2& T_map_lidar,

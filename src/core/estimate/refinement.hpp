@@ -6,7 +6,7 @@
 
 #include "core/estimate/point_lanes.hpp"
 #include "core/estimate/wall_doubt.hpp"
-#include "core/map/turn_prediction.hpp"
+#include "core/map/ray_caster.hpp"
 #include "core/map/wall_map.hpp"
 #include "core/polar_scan.hpp"
 #include "core/sensor_noise.hpp"
@@ -73,7 +73,7 @@ class Refinement {
   Step step(const WallMap& map, const Pose2& T_map_lidar, double slack_m);
 
   SensorNoise noise_;
-  TurnPrediction prediction_;
+  RayCaster prediction_;
   PointLanes lanes_;
   std::span<const PolarPoint> seen_;  ///< the points in the lanes, and that `hits_` belong to
   std::span<const PredictedHit> hits_;

@@ -52,15 +52,15 @@ struct Twist2 {
 
   /// Where a steady motion leads in a time: along an arc (the exponential map of SE(2)).
   Pose2 over(double dt_s) const {
-    const double turn_rad = omega_rad_s * dt_s;
-    double along = 1 - turn_rad * turn_rad / 6;  // sin(turn) / turn
-    double aside = turn_rad / 2;                 // (1 - cos(turn)) / turn
-    if (std::abs(turn_rad) > kNearlyStraight_rad) {
-      along = std::sin(turn_rad) / turn_rad;
-      aside = (1 - std::cos(turn_rad)) / turn_rad;
+    const double rotation_rad = omega_rad_s * dt_s;
+    double along = 1 - rotation_rad * rotation_rad / 6;  // sin(turn) / turn
+    double aside = rotation_rad / 2;                     // (1 - cos(turn)) / turn
+    if (std::abs(rotation_rad) > kNearlyStraight_rad) {
+      along = std::sin(rotation_rad) / rotation_rad;
+      aside = (1 - std::cos(rotation_rad)) / rotation_rad;
     }
     return {(along * vx_m_s - aside * vy_m_s) * dt_s, (aside * vx_m_s + along * vy_m_s) * dt_s,
-            normalize_angle(turn_rad)};
+            normalize_angle(rotation_rad)};
   }
   static constexpr double kNearlyStraight_rad = 1e-3;
   double speed_m_s() const { return std::hypot(vx_m_s, vy_m_s); }

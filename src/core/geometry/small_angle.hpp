@@ -27,7 +27,7 @@ inline Vec2 turned(const Vec2& way, double angle_rad) {
 }
 
 /// From the one direction to the other, counter-clockwise, in [-pi, pi]; off by 1e-12 at most.
-inline double turn_between(const Vec2& from, const Vec2& to) {
+inline double rotation_between(const Vec2& from, const Vec2& to) {
   const double across = cross(from, to);
   const double along = from.dot(to);
   if (!(std::abs(across) < kSmallAngle_rad * along)) return std::atan2(across, along);

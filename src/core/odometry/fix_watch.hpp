@@ -28,7 +28,7 @@ class FixWatch {
   /// From the fix before to this one, in the map.
   struct Way {
     Vec2 translation = Vec2::Zero();
-    double turn_rad = 0;
+    double rotation_rad = 0;
   };
 
   /// A fix that is explained: the way that the lidar saw, and the one that odometry had foretold.
@@ -36,8 +36,8 @@ class FixWatch {
     in_a_row_ = 0;
     seen_.translation += seen.translation;
     foretold_.translation += foretold.translation;
-    seen_.turn_rad += seen.turn_rad;
-    foretold_.turn_rad += foretold.turn_rad;
+    seen_.rotation_rad += seen.rotation_rad;
+    foretold_.rotation_rad += foretold.rotation_rad;
     if (seen.translation.norm() > kDrives_m) {
       way_is_proven_ = true;
     } else if (const double way_m = seen_.translation.norm(); way_m > kDrives_m) {
@@ -45,12 +45,14 @@ class FixWatch {
       if (off.norm() < kAgrees * way_m) way_is_proven_ = true;
       seen_.translation = foretold_.translation = Vec2::Zero();
     }
-    if (std::abs(seen.turn_rad) >= kTurns_rad) {
+    if (std::abs(seen.rotation_rad) >= kTurns_rad) {
       prove_turns();
-    } else if (const double turn_rad = std::abs(seen_.turn_rad); turn_rad >= kTurns_rad) {
+    } else if (const double rotation_rad = std::abs(seen_.rotation_rad);
+               rotation_rad >= kTurns_rad) {
       // Slow turns are explained one by one, whatever wheels make of them.
-      if (std::abs(foretold_.turn_rad - seen_.turn_rad) < kAgrees * turn_rad) prove_turns();
-      seen_.turn_rad = foretold_.turn_rad = 0;
+      if (std::abs(foretold_.rotation_rad - seen_.rotation_rad) < kAgrees * rotation_rad)
+        prove_turns();
+      seen_.rotation_rad = foretold_.rotation_rad = 0;
     }
   }
 
@@ -62,9 +64,9 @@ class FixWatch {
 
   /// Whether such a way and turn since the last fix are to be carried on. The first ones of a drive
   /// the lidar has to have seen; and after a stranger, anything.
-  bool carries(double way_m, double turn_rad) const {
+  bool carries(double way_m, double rotation_rad) const {
     return in_a_row_ == 0 && (way_is_proven_ || way_m < kUnproven_m) &&
-           (turns_are_proven_ || std::abs(turn_rad) < kTurns_rad);
+           (turns_are_proven_ || std::abs(rotation_rad) < kTurns_rad);
   }
 
   bool is_believed() const { return !is_contradicted() && is_believed_; }
@@ -73,7 +75,7 @@ class FixWatch {
 
  private:
   void prove_turns() {
-    seen_.turn_rad = foretold_.turn_rad = 0;
+    seen_.rotation_rad = foretold_.rotation_rad = 0;
     turns_are_proven_ = true;
     doubt_ = std::max(doubt_ - 1, 0);
     if (doubt_ <= kLittle) is_believed_ = true;

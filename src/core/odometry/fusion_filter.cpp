@@ -81,23 +81,23 @@ FusionFilter::Prediction FusionFilter::by_wheels(const MotionStep& step) const {
   const double scrub_rad = squared(kScrub_rad_per_sqrt_rad) * wheel_factor;
   p.left_m2 = wheel_m * std::abs(p.moved.left_m);
   p.right_m2 = wheel_m * std::abs(p.moved.right_m);
-  p.turn_rad2 =
-      (p.left_m2 + p.right_m2) / squared(p.track_m) + scrub_rad * std::abs(p.moved.wheel_turn_rad);
-  p.told_rad2 = p.turn_rad2 / wheel_factor;
+  p.rotation_variance = (p.left_m2 + p.right_m2) / squared(p.track_m) +
+                        scrub_rad * std::abs(p.moved.wheel_rotation_rad);
+  p.told_rad2 = p.rotation_variance / wheel_factor;
   if (p.rolls) {
     p.left_m2 += rest_m2;
     p.right_m2 += rest_m2;
-    p.turn_rad2 += 2 * rest_m2 / squared(p.track_m);
+    p.rotation_variance += 2 * rest_m2 / squared(p.track_m);
     p.moved.way_m -= (state_[kLeftRest] + state_[kRightRest]) / 2;
-    p.moved.wheel_turn_rad -= (state_[kRightRest] - state_[kLeftRest]) / p.track_m;
+    p.moved.wheel_rotation_rad -= (state_[kRightRest] - state_[kLeftRest]) / p.track_m;
     p.old_rests_rad2 = (covariance_(kLeftRest, kLeftRest) + covariance_(kRightRest, kRightRest) -
                         2 * covariance_(kLeftRest, kRightRest)) /
                        squared(p.track_m);
   }
-  p.turn_by = turn_slope(p.moved.way_m, p.moved.wheel_turn_rad, p.rolls);
-  p.usual_by = p.seen_by = seen_slope(p.turn_by, p.moved.wheel_turn_rad, p.dt_s);
-  p.surprise_rad = step.gyro_rad - p.gyro_gain * p.moved.wheel_turn_rad - p.bias_rad;
-  p.course_rad = state_[kTheta] + p.moved.wheel_turn_rad / 2;
+  p.turn_by = turn_slope(p.moved.way_m, p.moved.wheel_rotation_rad, p.rolls);
+  p.usual_by = p.seen_by = seen_slope(p.turn_by, p.moved.wheel_rotation_rad, p.dt_s);
+  p.surprise_rad = step.gyro_rad - p.gyro_gain * p.moved.wheel_rotation_rad - p.bias_rad;
+  p.course_rad = state_[kTheta] + p.moved.wheel_rotation_rad / 2;
   return p;
 }
 
@@ -128,18 +128,18 @@ void FusionFilter::move_on(const Prediction& p) {
   const auto moved_on = [&](const Row& slope) {
     Vector with = covariance_ * slope.transpose();
     with.head<3>() = (transition * with).eval();
-    with.head<3>() += p.gyro_gain * (by_way * way_turn + by_turn * p.turn_rad2);
+    with.head<3>() += p.gyro_gain * (by_way * way_turn + by_turn * p.rotation_variance);
     return with;
   };
   Vector with_seen = moved_on(p.seen_by);
   Vector with_usual = moved_on(p.usual_by);
-  const double noise_rad2 = p.gyro_rad2 + squared(p.gyro_gain) * p.turn_rad2;
+  const double noise_rad2 = p.gyro_rad2 + squared(p.gyro_gain) * p.rotation_variance;
   const double seen_rad2 = variance_along(p.seen_by) + noise_rad2;
   const double usual_rad2 = variance_along(p.usual_by) + noise_rad2;
 
   const Eigen::Matrix<double, 3, kSize> with_pose = transition * covariance_;
   const Covariance3 noise =
-      by_way * by_way.transpose() * way_m2 + by_turn * by_turn.transpose() * p.turn_rad2 +
+      by_way * by_way.transpose() * way_m2 + by_turn * by_turn.transpose() * p.rotation_variance +
       (by_way * by_turn.transpose() + by_turn * by_way.transpose()) * way_turn;
   covariance_.topRows<3>() = with_pose;
   covariance_.leftCols<3>() = with_pose.transpose();
@@ -163,9 +163,9 @@ void FusionFilter::move_on(const Prediction& p) {
   }
   state_[kX] += p.moved.way_m * c;
   state_[kY] += p.moved.way_m * s;
-  state_[kTheta] += p.moved.wheel_turn_rad;
+  state_[kTheta] += p.moved.wheel_rotation_rad;
   since_fix_.rolled_m += (std::abs(p.moved.left_m) + std::abs(p.moved.right_m)) / 2;
-  since_fix_.turned_rad += std::abs(p.moved.wheel_turn_rad);
+  since_fix_.rotated_rad += std::abs(p.moved.wheel_rotation_rad);
   since_fix_.duration_s += p.dt_s;
   if (p.rolls) state_[kLeftRest] = state_[kRightRest] = 0;
 
@@ -179,12 +179,12 @@ void FusionFilter::move_on(const Prediction& p) {
   keep_in_bounds();
 }
 
-FusionFilter::Row FusionFilter::turn_slope(double way_m, double turn_rad, bool rolls) const {
+FusionFilter::Row FusionFilter::turn_slope(double way_m, double rotation_rad, bool rolls) const {
   const double track_m = geometry_.track_m * (1 + state_[kTrack]);
   Row slope = Row::Zero();
-  slope[kLeft] = -(way_m - turn_rad * track_m / 2) / (track_m * (1 + state_[kLeft]));
-  slope[kRight] = (way_m + turn_rad * track_m / 2) / (track_m * (1 + state_[kRight]));
-  slope[kTrack] = -turn_rad / (1 + state_[kTrack]);
+  slope[kLeft] = -(way_m - rotation_rad * track_m / 2) / (track_m * (1 + state_[kLeft]));
+  slope[kRight] = (way_m + rotation_rad * track_m / 2) / (track_m * (1 + state_[kRight]));
+  slope[kTrack] = -rotation_rad / (1 + state_[kTrack]);
   if (rolls) {
     slope[kLeftRest] = 1 / track_m;
     slope[kRightRest] = -1 / track_m;

@@ -72,7 +72,7 @@ class FusionFilter {
   /// What was driven since the last fix.
   struct Stretch {
     double rolled_m = 0;  ///< by each wheel, the mean of both
-    double turned_rad = 0;
+    double rotated_rad = 0;
     double duration_s = 0;
     Vec2 start = Vec2::Zero();
   };
@@ -102,7 +102,7 @@ class FusionFilter {
   /// Variances of what wheels, or wheels and gyro, wander on such a way.
   struct Wander {
     double place_m2 = 0;
-    double turn_rad2 = 0;
+    double rotation_variance = 0;
   };
   Wander wander_of(const Pose2& way, double duration_s, bool has_gyro) const;
 
@@ -121,8 +121,8 @@ class FusionFilter {
   void compare_with_gyro(Prediction& p);
   void move_on(const Prediction& p);
   /// How the wheels' turn, and what the gyro says of it, change with the state.
-  Row turn_slope(double way_m, double turn_rad, bool rolls) const;
-  Row seen_slope(const Row& turn_by, double turn_rad, double dt_s) const;
+  Row turn_slope(double way_m, double rotation_rad, bool rolls) const;
+  Row seen_slope(const Row& turn_by, double rotation_rad, double dt_s) const;
   double variance_along(const Row& slope) const;
   /// x, y, theta a second.
   Eigen::Vector3d velocity() const;

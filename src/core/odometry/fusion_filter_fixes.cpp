@@ -30,7 +30,7 @@ constexpr double kDelayDoubtedAnew = 0.1;
 
 Pose2 FusionFilter::motion_of(const MotionStep& step) const {
   const LearnedMotion motion = learned_motion(step, geometry_, learned());
-  return arc(motion.way_m, motion.turn_rad);
+  return arc(motion.way_m, motion.rotation_rad);
 }
 
 FusionFilter::Wander FusionFilter::wander_of(const Pose2& way, double duration_s,
@@ -42,16 +42,16 @@ FusionFilter::Wander FusionFilter::wander_of(const Pose2& way, double duration_s
   const double wheel_m2 = squared(noise_.wheel_m_per_sqrt_m) * learning_.wheel_factor() * rolled_m;
   Wander wander{wheel_m2 / 4, wheel_m2 / squared(track_m)};
   if (has_gyro) {
-    wander.turn_rad2 =
+    wander.rotation_variance =
         squared(noise_.gyro_rad_s_per_sqrt_hz) * learning_.gyro_factor() * duration_s;
   } else {
-    wander.turn_rad2 +=
+    wander.rotation_variance +=
         squared(kScrub_rad_per_sqrt_rad) * learning_.wheel_factor() * std::abs(way.theta_rad);
   }
   if (duration_s > 0) {
     const double late_share2 = jitter_.variance_s2() / squared(duration_s);
     wander.place_m2 += late_share2 * squared(way_m);
-    wander.turn_rad2 += late_share2 * squared(way.theta_rad);
+    wander.rotation_variance += late_share2 * squared(way.theta_rad);
   }
   return wander;
 }

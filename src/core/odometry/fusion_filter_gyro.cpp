@@ -36,13 +36,13 @@ void FusionFilter::expect_of_gyro(Prediction& p) const {
 
 void FusionFilter::compare_with_gyro(Prediction& p) {
   const double known_rad2 = variance_along(p.seen_by) + p.gyro_rad2;
-  const double expected_rad2 = known_rad2 + squared(p.gyro_gain) * p.turn_rad2;
+  const double expected_rad2 = known_rad2 + squared(p.gyro_gain) * p.rotation_variance;
   jitter_.add(p.surprise_rad, p.step.gyro_rad / p.dt_s, expected_rad2 - p.jitter_rad2);
   p.slips = squared(p.surprise_rad) > kSlip * expected_rad2;
-  const double turns_rad =
-      std::max(std::abs(p.moved.wheel_turn_rad), std::abs(p.step.gyro_rad - p.bias_rad));
-  slip_watch_.add(squared(turns_rad) > kSlip * expected_rad2, p.slips, p.dt_s);
-  const bool is_gross = p.slips && std::abs(p.surprise_rad) > kGross * turns_rad;
+  const double rotations_rad =
+      std::max(std::abs(p.moved.wheel_rotation_rad), std::abs(p.step.gyro_rad - p.bias_rad));
+  slip_watch_.add(squared(rotations_rad) > kSlip * expected_rad2, p.slips, p.dt_s);
+  const bool is_gross = p.slips && std::abs(p.surprise_rad) > kGross * rotations_rad;
   if (is_gross && (!gyro_is_believed_ || p.step.gyro_may_be_stuck)) slip_watch_.contradict();
   if (p.slips) {
     // One of the wheels did not do what its counts say, most likely the one that says more; the
@@ -52,15 +52,16 @@ void FusionFilter::compare_with_gyro(Prediction& p) {
     (std::abs(p.moved.left_m) > std::abs(p.moved.right_m) ? p.left_m2 : p.right_m2) += slip_m2;
     p.left_m2 += kSlipOfOther * slip_m2;
     p.right_m2 += kSlipOfOther * slip_m2;
-    p.turn_rad2 += (1 + 2 * kSlipOfOther) * slip_m2 / squared(p.track_m);
+    p.rotation_variance += (1 + 2 * kSlipOfOther) * slip_m2 / squared(p.track_m);
   }
   // What the scales do to the turn is taken at what wheels and gyro together say, and what they do
   // to the surprise at the motion of the steps before: with a step's own noise in the slope as well
   // as in the surprise the scales are biased (by 1 % in
   // tests/unit/core/odometry/fusion_filter_test.cpp, and without end on a circle).
-  const double both_rad = p.moved.wheel_turn_rad +
-                          p.gyro_gain * (p.turn_rad2 + p.old_rests_rad2) /
-                              (known_rad2 + squared(p.gyro_gain) * p.turn_rad2) * p.surprise_rad;
+  const double both_rad =
+      p.moved.wheel_rotation_rad + p.gyro_gain * (p.rotation_variance + p.old_rests_rad2) /
+                                       (known_rad2 + squared(p.gyro_gain) * p.rotation_variance) *
+                                       p.surprise_rad;
   if (p.slips) {
     p.course_rad = state_[kTheta] + both_rad / 2;
     p.follows = 0;
@@ -76,15 +77,16 @@ void FusionFilter::compare_with_gyro(Prediction& p) {
   const Motion before = usual_.of(itself);
   p.turn_by = turn_slope(p.moved.way_m, both_rad, p.rolls);
   p.seen_by = seen_slope(p.turn_by, both_rad, p.dt_s);
-  p.usual_by =
-      seen_slope(turn_slope(before.way_m, before.turn_rad, p.rolls), before.turn_rad, p.dt_s);
+  p.usual_by = seen_slope(turn_slope(before.way_m, before.rotation_rad, p.rolls),
+                          before.rotation_rad, p.dt_s);
   usual_.add(itself);
 }
 
-FusionFilter::Row FusionFilter::seen_slope(const Row& turn_by, double turn_rad, double dt_s) const {
+FusionFilter::Row FusionFilter::seen_slope(const Row& turn_by, double rotation_rad,
+                                           double dt_s) const {
   Row slope = (1 + state_[kGyro]) * turn_by;
   slope[kBias] += dt_s;
-  slope[kGyro] += turn_rad;
+  slope[kGyro] += rotation_rad;
   return slope;
 }
 

@@ -20,8 +20,8 @@ struct FusionFilter::Prediction {
   // What wheels and gyro may be off by, and what was told of it; variances.
   double left_m2 = 0;
   double right_m2 = 0;
-  double turn_rad2 = 0;       ///< of the wheels' turn
-  double old_rests_rad2 = 0;  ///< of the part of it that stood in the counts before
+  double rotation_variance = 0;  ///< of the wheels' turn
+  double old_rests_rad2 = 0;     ///< of the part of it that stood in the counts before
   double told_rad2 = 0;
   double gyro_rad2 = 0;
   double jitter_rad2 = 0;  ///< the part of it that is of the times

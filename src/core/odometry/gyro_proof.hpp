@@ -23,11 +23,11 @@ class GyroProof {
   /// A fix for the time that was reached.
   void fixed(double heading_rad) {
     const double seen_rad = angle_between(from_rad_, heading_rad);
-    const double turn_rad = std::max(std::abs(seen_rad), std::abs(told_rad_));
-    if (is_open_ && turn_rad < kTurn_rad && duration_s_ < kLongest_s) return;
-    if (is_open_ && turn_rad >= kTurn_rad && duration_s_ < kLongest_s) {
+    const double rotation_rad = std::max(std::abs(seen_rad), std::abs(told_rad_));
+    if (is_open_ && rotation_rad < kTurn_rad && duration_s_ < kLongest_s) return;
+    if (is_open_ && rotation_rad >= kTurn_rad && duration_s_ < kLongest_s) {
       const double off_rad = std::abs(normalize_angle(told_rad_ - seen_rad));
-      const bool agrees = off_rad < kSlack_rad + kSlackShare * turn_rad;
+      const bool agrees = off_rad < kSlack_rad + kSlackShare * rotation_rad;
       turns_ = std::clamp(turns_ + (agrees ? 1 : -1), 0, kMost);
     }
     from_rad_ = heading_rad;

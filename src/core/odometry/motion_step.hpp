@@ -41,9 +41,9 @@ struct MotionStep {
 };
 
 /// Bertocco et al., equation 3: the way is taken in the direction half-way through the turn.
-inline Pose2 arc(double way_m, double turn_rad) {
-  return {way_m * std::cos(turn_rad / 2), way_m * std::sin(turn_rad / 2),
-          normalize_angle(turn_rad)};
+inline Pose2 arc(double way_m, double rotation_rad) {
+  return {way_m * std::cos(rotation_rad / 2), way_m * std::sin(rotation_rad / 2),
+          normalize_angle(rotation_rad)};
 }
 
 }  // namespace cornerd::core

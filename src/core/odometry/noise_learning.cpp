@@ -64,13 +64,13 @@ void NoiseLearning::close_wheels(double heading_rad, double variance_rad2) {
   const double track_m = geometry_.track_m * (1 + learned.track_scale);
   const double left_m = window.left_m * (1 + learned.left_scale);
   const double right_m = window.right_m * (1 + learned.right_scale);
-  const double turn_rad = (right_m - left_m) / track_m;
+  const double rotation_rad = (right_m - left_m) / track_m;
   Slope slope;
   slope << 0, -window.left_m / track_m, window.right_m / track_m,
-      -turn_rad / (1 + learned.track_scale), 0;
+      -rotation_rad / (1 + learned.track_scale), 0;
   const double counts_rad2 = 4 * squared(geometry_.metres_per_count() / track_m) / 12;
   const double residual_rad =
-      normalize_angle(angle_between(window.heading_rad, heading_rad) - turn_rad);
+      normalize_angle(angle_between(window.heading_rad, heading_rad) - rotation_rad);
   wheel_factor_.add(squared(residual_rad), window.told_rad2,
                     (slope * window.covariance * slope.transpose()).value() + counts_rad2 +
                         window.variance_rad2 + variance_rad2);
@@ -80,11 +80,12 @@ void NoiseLearning::close_gyro(double heading_rad, double variance_rad2) {
   const Window& window = by_gyro_;
   const LearnedOdometry& learned = window.learned;
   const double gain = 1 + learned.gyro_scale;
-  const double turn_rad = (window.gyro_rad - learned.gyro_bias_rad_s * window.duration_s) / gain;
+  const double rotation_rad =
+      (window.gyro_rad - learned.gyro_bias_rad_s * window.duration_s) / gain;
   Slope slope;
-  slope << -window.duration_s / gain, 0, 0, 0, -turn_rad / gain;
+  slope << -window.duration_s / gain, 0, 0, 0, -rotation_rad / gain;
   const double residual_rad =
-      normalize_angle(angle_between(window.heading_rad, heading_rad) - turn_rad);
+      normalize_angle(angle_between(window.heading_rad, heading_rad) - rotation_rad);
   gyro_factor_.add(squared(residual_rad), window.told_rad2,
                    (slope * window.covariance * slope.transpose()).value() + window.variance_rad2 +
                        variance_rad2);

@@ -36,9 +36,9 @@ Covariance3 with_floor(const Covariance3& covariance, double place, double headi
 }
 
 /// A wrong turn anywhere on the way since the last fix, and `place_m2` beside it.
-Covariance3 doubt_of_turn(const FusionFilter& filter, double turn_rad2, double place_m2) {
-  const double aside_m2 = place_m2 + turn_rad2 * squared(filter.way_since_fix_m()) / 3;
-  return Eigen::Vector3d(aside_m2, aside_m2, turn_rad2).asDiagonal();
+Covariance3 doubt_of_turn(const FusionFilter& filter, double rotation_variance, double place_m2) {
+  const double aside_m2 = place_m2 + rotation_variance * squared(filter.way_since_fix_m()) / 3;
+  return Eigen::Vector3d(aside_m2, aside_m2, rotation_variance).asDiagonal();
 }
 
 }  // namespace
@@ -59,19 +59,20 @@ Covariance3 Odometer::doubt_of_mode(const FusionFilter& filter) const {
   const FusionFilter::Stretch& since = filter.since_fix();
   const double apart_m = noise.wheel_scale * since.rolled_m;
   const double by_wheels_rad2 = 2 * squared(apart_m / config_.geometry.track_m) +
-                                squared(noise.track_scale * since.turned_rad);
-  const double by_gyro_rad2 = squared(noise.gyro_scale * since.turned_rad) +
+                                squared(noise.track_scale * since.rotated_rad);
+  const double by_gyro_rad2 = squared(noise.gyro_scale * since.rotated_rad) +
                               squared(noise.gyro_bias_rad_s * since.duration_s);
-  double turn_rad2 = (by_wheels_rad2 + by_gyro_rad2) / 4;
-  if (config_.mode == HeadingSource::kEncoder) turn_rad2 = by_wheels_rad2;
-  if (config_.mode == HeadingSource::kGyro) turn_rad2 = by_gyro_rad2;
-  return doubt_of_turn(filter, turn_rad2, squared(apart_m));
+  double rotation_variance = (by_wheels_rad2 + by_gyro_rad2) / 4;
+  if (config_.mode == HeadingSource::kEncoder) rotation_variance = by_wheels_rad2;
+  if (config_.mode == HeadingSource::kGyro) rotation_variance = by_gyro_rad2;
+  return doubt_of_turn(filter, rotation_variance, squared(apart_m));
 }
 
 Covariance3 Odometer::doubt_of_slips(const FusionFilter& filter) const {
   if (!doubts_slips()) return Covariance3::Zero();
-  const double turn_rad2 = turn_slips_.rad2_per_m() * filter.since_fix().rolled_m;
-  return doubt_of_turn(filter, turn_rad2, turn_rad2 * squared(config_.geometry.track_m / 2));
+  const double rotation_variance = turn_slips_.rad2_per_m() * filter.since_fix().rolled_m;
+  return doubt_of_turn(filter, rotation_variance,
+                       rotation_variance * squared(config_.geometry.track_m / 2));
 }
 
 void Odometer::watch_for_slips(const Pose2& T_map_base, const Covariance3& covariance) {
@@ -90,7 +91,7 @@ std::optional<PredictedPose> Odometer::prediction_of(const FusionFilter& filter,
   if (!has_pose_ || !present_ || !is_believed() || filter.is_contradictory()) return std::nullopt;
   if (to_seconds(t_ns - fixed_ns_) > config_.bridge_s) return std::nullopt;
   if (config_.wary &&
-      !fix_watch_.carries(filter.way_since_fix_m(), filter.since_fix().turned_rad)) {
+      !fix_watch_.carries(filter.way_since_fix_m(), filter.since_fix().rotated_rad)) {
     return std::nullopt;
   }
   const double more_s2 = delay_doubt_s2(filter.learned().delay_s);

@@ -50,9 +50,10 @@ bool Odometer::straighten(const Scan& turn, const Pose2& T_base_lidar, Scan& sti
       const double share = piece - static_cast<double>(i);
       const Pose2& from = T_middle_then[i];
       const Pose2& to = T_middle_then[i + 1];
-      const double turn_rad = from.theta_rad + share * angle_between(from.theta_rad, to.theta_rad);
+      const double rotation_rad =
+          from.theta_rad + share * angle_between(from.theta_rad, to.theta_rad);
       const Vec2 place = from.translation() + share * (to.translation() - from.translation()) +
-                         sample.range_m * unit_vector(turn_rad + sample.bearing_rad);
+                         sample.range_m * unit_vector(rotation_rad + sample.bearing_rad);
       moved.bearing_rad = static_cast<float>(std::atan2(place.y(), place.x()));
       moved.range_m = static_cast<float>(place.norm());
     }
@@ -66,7 +67,7 @@ Covariance3 Odometer::doubt_of_motion() const {
   const TimeNs to_ns = end_ns_ + delay_ns_;
   const Pose2 way = path_.at(from_ns).inverse() * path_.at(to_ns);
   const double place_m = kMotionShare / 2 * way.translation().norm();
-  const double turn_rad = kMotionShare / 2 * way.theta_rad;
+  const double rotation_rad = kMotionShare / 2 * way.theta_rad;
   const FusionFilter::Wander wander =
       filter_.wander_of(way, to_seconds(end_ns_ - start_ns_), last_.has_gyro);
   // When between two readings the robot changed its speed nobody knows.
@@ -82,17 +83,18 @@ Covariance3 Odometer::doubt_of_motion() const {
   const DriveGeometry& geometry = config_.geometry;
   const double lever_m2 = config_.wary ? kLever_m * kLever_m : 0;
   const double place_m2 = place_m * place_m + uneven_m * uneven_m + geometry.rest_m2() / 2 +
-                          kWanderShare * (wander.place_m2 + lever_m2 * wander.turn_rad2);
-  double turn_rad2 =
-      turn_rad * turn_rad + uneven_rad * uneven_rad + kWanderShare * wander.turn_rad2;
-  if (!last_.has_gyro) turn_rad2 += 2 * geometry.rest_m2() / (geometry.track_m * geometry.track_m);
+                          kWanderShare * (wander.place_m2 + lever_m2 * wander.rotation_variance);
+  double rotation_variance = rotation_rad * rotation_rad + uneven_rad * uneven_rad +
+                             kWanderShare * wander.rotation_variance;
+  if (!last_.has_gyro)
+    rotation_variance += 2 * geometry.rest_m2() / (geometry.track_m * geometry.track_m);
   if (doubts_slips()) {
     const double rolled_m =
         std::max(way.translation().norm(), std::abs(way.theta_rad) * geometry.track_m / 2);
-    turn_rad2 += kWanderShare * turn_slips_.rad2_per_m() * rolled_m;
+    rotation_variance += kWanderShare * turn_slips_.rad2_per_m() * rolled_m;
   }
   Covariance3 doubt = doubt_of_change(unread_by_s * unread_by_s);
-  doubt.diagonal() += Eigen::Vector3d(place_m2, place_m2, turn_rad2);
+  doubt.diagonal() += Eigen::Vector3d(place_m2, place_m2, rotation_variance);
   return doubt;
 }
 

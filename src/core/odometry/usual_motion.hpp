@@ -8,7 +8,7 @@ namespace cornerd::core {
 /// What a robot did in a step.
 struct Motion {
   double way_m = 0;
-  double turn_rad = 0;
+  double rotation_rad = 0;
   double duration_s = 0;
 };
 
@@ -23,7 +23,7 @@ class UsualMotion {
     }
     const double share = std::min(1.0, step.duration_s / kLately_s);
     usual_.way_m += share * (step.way_m - usual_.way_m);
-    usual_.turn_rad += share * (step.turn_rad - usual_.turn_rad);
+    usual_.rotation_rad += share * (step.rotation_rad - usual_.rotation_rad);
     usual_.duration_s += share * (step.duration_s - usual_.duration_s);
   }
   void forget() { usual_ = {}; }

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <span>
 
-#include "core/map/turn_prediction.hpp"
+#include "core/map/ray_caster.hpp"
 #include "core/polar_scan.hpp"
 #include "core/sensor_noise.hpp"
 

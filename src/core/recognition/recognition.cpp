@@ -67,7 +67,7 @@ bool looks_like(const Breakpoint& breakpoint, const Corner& landmark, double hea
 
 Recognition::Recognition(const WallMap& map, const Catalog& catalog)
     : map_(map), catalog_(catalog), places_(kMaxHypotheses) {
-  selected_.reserve(kMaxBreakpointsPerTurn);
+  selected_.reserve(kMaxBreakpointsPerScan);
   pairs_.reserve(kMaxSelected * (kMaxSelected - 1) / 2);
 }
 
@@ -174,14 +174,14 @@ std::span<const Hypothesis> Recognition::from_single_corners(
 
 void Recognition::add_walls(const WallSegment& first, const WallSegment& second) {
   const double first_rad = std::atan2(first.normal.y(), first.normal.x());
-  const double turn_rad =
+  const double rotation_rad =
       angle_between(first_rad, std::atan2(second.normal.y(), second.normal.x()));
   for (const Face& a : map_.faces()) {
     const double heading_rad = normalize_angle(std::atan2(a.normal.y(), a.normal.x()) - first_rad);
     for (const Face& b : map_.faces()) {
       const double sine = cross(a.normal, b.normal);
       if (std::abs(sine) < kMinWallSine) continue;
-      if (!agree(std::atan2(sine, a.normal.dot(b.normal)), turn_rad)) continue;
+      if (!agree(std::atan2(sine, a.normal.dot(b.normal)), rotation_rad)) continue;
       // Where the sensor is as far from both faces as it saw the walls.
       const double height_a = a.offset_m - first.offset_m;
       const double height_b = b.offset_m - second.offset_m;

@@ -65,7 +65,7 @@ class Verification {
 
   const WallMap& map_;
   SensorNoise noise_;
-  TurnPrediction prediction_;
+  RayCaster prediction_;
   Refinement refinement_;
   std::span<const PolarPoint> points_;
   double noise_scale_ = 1;

@@ -17,8 +17,8 @@ constexpr double kLongestSilence_s = 3.5;
 /// More damaged bytes than line noise explains.
 constexpr double kBadByteShare = 0.01;
 /// Below that share of turns that name a place, people ask why.
-constexpr double kGoodTurnShare = 0.8;
-constexpr std::size_t kEnoughTurns = 20;
+constexpr double kGoodScanShare = 0.8;
+constexpr std::size_t kMinScans = 20;
 
 std::string seconds_text(double seconds) { return formatted("%.0f s", std::floor(seconds)); }
 
@@ -77,11 +77,11 @@ std::optional<Advice> advise_on_pose(const MonitorState& state, core::TimeNs now
 
 std::optional<Advice> advise_on_quality(const MonitorState& state) {
   const std::size_t named = state.recent(PoseState::kFix) + state.recent(PoseState::kTracking);
-  const std::size_t turns = state.recent();
-  if (turns >= kEnoughTurns &&
-      static_cast<double>(named) < kGoodTurnShare * static_cast<double>(turns)) {
+  const std::size_t scans = state.recent();
+  if (scans >= kMinScans &&
+      static_cast<double>(named) < kGoodScanShare * static_cast<double>(scans)) {
     return Advice{Style::kDoubt,
-                  formatted("%zu of the last %zu turns named no place", turns - named, turns),
+                  formatted("%zu of the last %zu turns named no place", scans - named, scans),
                   "things that are not on the map hide its walls, or its walls are elsewhere"};
   }
   for (const message::ToldStatus::Sensor& sensor : state.status()->odometry_sensors) {

@@ -66,15 +66,15 @@ char32_t arrow(double direction_rad, bool unicode) {
   constexpr std::u32string_view kAsciiArrows = U">^<v";
   const std::u32string_view arrows = unicode ? kArrows : kAsciiArrows;
   const auto count = static_cast<double>(arrows.size());
-  const double turns = direction_rad / (2 * core::kPi);
-  const double index = std::round((turns - std::floor(turns)) * count);
+  const double revolutions = direction_rad / (2 * core::kPi);
+  const double index = std::round((revolutions - std::floor(revolutions)) * count);
   return arrows[static_cast<std::size_t>(index) % arrows.size()];
 }
 
 /// How far the lidar's view is to reach, of the steps that there are.
-double sight_of(const SeenTurn& turn) {
+double sight_of(const ReceivedScan& received) {
   double farthest_m = 0;
-  for (const core::Sample& sample : turn.scan.samples) {
+  for (const core::Sample& sample : received.scan.samples) {
     farthest_m = std::max(farthest_m, double{sample.range_m});
   }
   const auto* const sight = std::lower_bound(kSights_m.begin(), kSights_m.end(), farthest_m);
@@ -87,9 +87,9 @@ void draw_walls(DotCanvas& canvas, const Projection& projection, const core::Wal
   }
 }
 
-void draw_returns(DotCanvas& canvas, const Projection& projection, const SeenTurn& turn,
+void draw_returns(DotCanvas& canvas, const Projection& projection, const ReceivedScan& received,
                   const Pose2& T_view_lidar) {
-  for (const core::Sample& sample : turn.scan.samples) {
+  for (const core::Sample& sample : received.scan.samples) {
     if (sample.range_m <= 0) continue;
     const Vec2 point = core::unit_vector(sample.bearing_rad) * double{sample.range_m};
     const Vec2 at = projection.dot(T_view_lidar * point);
@@ -107,12 +107,12 @@ void draw_breakpoints(Frame& frame, const Projection& projection,
 
 double draw_lidar_view(Frame& frame, const Region& region, const MonitorState& state,
                        const Scene& scene, const ViewChoice& choice) {
-  if (!state.turn()) return 0;
-  const double size_m = 2 * sight_of(*state.turn()) / std::exp2(choice.zoom);
+  if (!state.scan()) return 0;
+  const double size_m = 2 * sight_of(*state.scan()) / std::exp2(choice.zoom);
   DotCanvas canvas(region.columns, region.rows, choice.unicode);
   const Pose2& T_base_lidar = scene.T_base_lidar;
   const Projection projection(canvas, region, T_base_lidar.translation(), {size_m, size_m});
-  draw_returns(canvas, projection, *state.turn(), T_base_lidar);
+  draw_returns(canvas, projection, *state.scan(), T_base_lidar);
   canvas.draw_on(frame, region.column, region.row);
   draw_breakpoints(frame, projection, state.breakpoints(), T_base_lidar);
   projection.put(frame, Vec2::Zero(), {arrow(0, choice.unicode), Style::kRobot});
@@ -131,10 +131,10 @@ double draw_map_view(Frame& frame, const Region& region, const MonitorState& sta
   const Projection projection(canvas, region, middle, size_m);
 
   draw_walls(canvas, projection, map);
-  const bool is_placed = state.turn() && state.turn()->T_map_base;
+  const bool is_placed = state.scan() && state.scan()->T_map_base;
   const Pose2 T_map_lidar =
-      is_placed ? *state.turn()->T_map_base * scene.T_base_lidar : scene.T_base_lidar;
-  if (is_placed) draw_returns(canvas, projection, *state.turn(), T_map_lidar);
+      is_placed ? *state.scan()->T_map_base * scene.T_base_lidar : scene.T_base_lidar;
+  if (is_placed) draw_returns(canvas, projection, *state.scan(), T_map_lidar);
   canvas.draw_on(frame, region.column, region.row);
   if (is_placed) draw_breakpoints(frame, projection, state.breakpoints(), T_map_lidar);
   if (state.pose()) {

@@ -31,7 +31,7 @@ void MonitorState::lose(std::string_view reason, core::TimeNs now_ns) {
   // What it said last is no longer so.
   pose_.reset();
   status_.reset();
-  turn_.reset();
+  scan_.reset();
   breakpoints_ = {};
   arrivals_.clear();
   states_.clear();
@@ -71,7 +71,7 @@ void MonitorState::hear(std::string_view line, core::TimeNs now_ns) {
     note(std::move(*pose), now_ns);
   } else if (auto* scan = std::get_if<message::RecordedScan>(&told)) {
     // POSE comes first, then SCAN and BREAKPOINTS of the same turn.
-    turn_ = {std::move(*scan), pose_ ? pose_->T_map_base : std::nullopt};
+    scan_ = {std::move(*scan), pose_ ? pose_->T_map_base : std::nullopt};
     breakpoints_ = {};
   } else if (auto* points = std::get_if<message::ToldBreakpoints>(&told)) {
     breakpoints_ = std::move(*points);

@@ -13,7 +13,7 @@
 namespace cornerd::tool {
 
 /// A turn of the lidar, and where the pose that came with it says that it was taken.
-struct SeenTurn {
+struct ReceivedScan {
   message::RecordedScan scan;
   std::optional<core::Pose2> T_map_base;
 };
@@ -38,7 +38,7 @@ class MonitorState {
   const std::string& version() const { return version_; }
   const std::optional<message::ToldPose>& pose() const { return pose_; }
   const std::optional<message::ToldStatus>& status() const { return status_; }
-  const std::optional<SeenTurn>& turn() const { return turn_; }
+  const std::optional<ReceivedScan>& scan() const { return scan_; }
   /// Of the same turn.
   const message::ToldBreakpoints& breakpoints() const { return breakpoints_; }
   /// The newest first.
@@ -66,7 +66,7 @@ class MonitorState {
   std::string version_;
   std::optional<message::ToldPose> pose_;
   std::optional<message::ToldStatus> status_;
-  std::optional<SeenTurn> turn_;
+  std::optional<ReceivedScan> scan_;
   message::ToldBreakpoints breakpoints_;
   std::deque<message::ToldEvent> events_;
   std::deque<core::TimeNs> arrivals_;

@@ -74,11 +74,11 @@ void add_pose(const message::ToldPose& pose, double silence_s, std::vector<Panel
 
 void add_rates(const MonitorState& state, core::TimeNs now_ns, std::vector<PanelLine>& lines) {
   const auto& status = state.status();
-  std::string turns;
+  std::string scans;
   if (const auto rate_hz = state.pose_rate_hz(now_ns))
-    turns = formatted("poses %.1f/s  ", *rate_hz);
-  if (status && status->rate_hz) turns += formatted("turns %.1f/s", *status->rate_hz);
-  if (!turns.empty()) lines.push_back({turns});
+    scans = formatted("poses %.1f/s  ", *rate_hz);
+  if (status && status->rate_hz) scans += formatted("turns %.1f/s", *status->rate_hz);
+  if (!scans.empty()) lines.push_back({scans});
   if (status && status->samples_hz) {
     lines.push_back({formatted("samples %.0f/s", *status->samples_hz)});
   }

@@ -23,15 +23,15 @@ TEST(ScoreMethods, EmptyRoom_IsFoundWhole) {
   ASSERT_EQ(scores.size(), 3u);
   EXPECT_EQ(told, 20u);
   EXPECT_EQ(scores[0].method.name, "altbd");
-  EXPECT_EQ(scores[0].score.turns(), 20u);
+  EXPECT_EQ(scores[0].score.scans(), 20u);
   EXPECT_EQ(scores[0].score.supported(), 80u);
   EXPECT_GT(scores[0].score.recall_of_supported(), 0.95);
   EXPECT_GT(scores[0].score.precision(), 0.98);
 }
 
 TEST(ScoreMethods, Positions_AreSharedByTheMaps) {
-  EXPECT_EQ(score_rooms(5, 1)[0].score.turns(), 5u);
-  EXPECT_EQ(score_rooms(1, 1)[0].score.turns(), 1u);
+  EXPECT_EQ(score_rooms(5, 1)[0].score.scans(), 5u);
+  EXPECT_EQ(score_rooms(1, 1)[0].score.scans(), 1u);
 }
 
 TEST(ScoreMethods, Seed_DecidesAlone) {

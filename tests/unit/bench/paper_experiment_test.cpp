@@ -32,10 +32,10 @@ TEST(PaperFigures, Sums_AreThoseOfTheText) {
 }
 
 TEST(PaperExperiment, EveryMethodAtEveryPlace_HasItsFigures) {
-  const auto turns = simulate_paper_turns(contest_maps(), {}, 800, 1);
-  ASSERT_EQ(turns.turns.size(), 43u);
-  const auto results = run_paper_experiment(turns, paper_methods(), 1);
-  const auto supported = supported_corners(turns);
+  const auto scans = simulate_paper_scans(contest_maps(), {}, 800, 1);
+  ASSERT_EQ(scans.scans.size(), 43u);
+  const auto results = run_paper_experiment(scans, paper_methods(), 1);
+  const auto supported = supported_corners(scans);
   ASSERT_EQ(results.size(), 3u);
   ASSERT_EQ(supported.size(), 43u);
   const PaperResult& altbd = results.front();
@@ -54,8 +54,8 @@ TEST(PaperExperiment, EveryMethodAtEveryPlace_HasItsFigures) {
 }
 
 TEST(PaperExperiment, WithoutRepeats_NothingIsTimed) {
-  const auto turns = simulate_paper_turns(contest_maps(), {}, 400, 1);
-  const auto results = run_paper_experiment(turns, paper_methods().first(1), 0);
+  const auto scans = simulate_paper_scans(contest_maps(), {}, 400, 1);
+  const auto results = run_paper_experiment(scans, paper_methods().first(1), 0);
   EXPECT_EQ(results[0].places[0].time_us, 0);
 }
 

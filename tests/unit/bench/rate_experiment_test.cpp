@@ -15,12 +15,12 @@ RateResult run_at(double rate_hz, bool gently = false) {
 
 TEST(RateExperiment, TenReadingsASecond_AreBetterThanTheLidarAlone) {
   const RateResult alone = run_at(0);
-  EXPECT_EQ(alone.predicted.turns(), 0u);
+  EXPECT_EQ(alone.predicted.scans(), 0u);
   for (const double rate_hz : {10.0, 20.0, 50.0}) {
     const RateResult with = run_at(rate_hz);
-    EXPECT_EQ(with.turns, 1500u);
+    EXPECT_EQ(with.scans, 1500u);
     EXPECT_EQ(with.fixes.wrong() + with.predicted.wrong(), 0u) << rate_hz;
-    EXPECT_GT(with.fixes.turns(), alone.fixes.turns()) << rate_hz;
+    EXPECT_GT(with.fixes.scans(), alone.fixes.scans()) << rate_hz;
     EXPECT_LT(with.fixes.mean_error_m(), alone.fixes.mean_error_m()) << rate_hz;
     // Of a turn in which it sets out before it is known how late the readings are.
     EXPECT_LT(with.worst_fix_m, alone.worst_fix_m + 0.001) << rate_hz;

@@ -10,7 +10,7 @@ TEST(ScaleExperiment, BuildingOfAHundredRooms_IsKnownAtOnce) {
   const auto cases = scale_cases({1200}, 1);
   ASSERT_EQ(cases.size(), 2U);
   const ScaleResult result = run_scale_case(cases[0], 40, 1);
-  EXPECT_EQ(result.score.turns(), 40U);
+  EXPECT_EQ(result.score.scans(), 40U);
   EXPECT_EQ(
       result.score.right() + result.score.wrong() + result.score.ambiguous() + result.score.lost(),
       40U);

@@ -6,7 +6,7 @@
 
 #include <vector>
 
-#include "bench/simulated_turn.hpp"
+#include "bench/simulated_scan.hpp"
 #include "tests/unit/replay/test_maps.hpp"
 
 namespace cornerd::bench {
@@ -30,7 +30,7 @@ Breakpoint detection(double x_m, double y_m, BreakpointKind kind = BreakpointKin
 class CornerScoring : public testing::Test {
  protected:
   CornerScoring() : map_(plan()), truth_(map_, 12) {
-    TurnSimulator simulator(replay::SensorModel::perfect(), 2000, 1);
+    ScanSimulator simulator(replay::SensorModel::perfect(), 2000, 1);
     core::PolarScan points;
     points.assign(simulator.take(map_, kPlace), 0.15, 12);
     truth_.look(kPlace, points.points());
@@ -89,7 +89,7 @@ TEST_F(CornerScoring, Shares_CountWhatTheySay) {
   EXPECT_EQ(supported, 0u);
   judge({detection(1, 2), detection(1, -1, BreakpointKind::kTerminal), detection(0.5, 0.5),
          detection(0.2, 1, BreakpointKind::kTerminal)});
-  EXPECT_EQ(score_.turns(), 1u);
+  EXPECT_EQ(score_.scans(), 1u);
   EXPECT_EQ(score_.detections(BreakpointKind::kTerminal, Verdict::kTrue), 1u);
   EXPECT_EQ(score_.detections(Verdict::kTrue), 2u);
   EXPECT_GE(score_.visible(), score_.supported());
@@ -109,7 +109,7 @@ TEST_F(CornerScoring, Merge_AddsUp) {
   judge({detection(1, 2), detection(0.5, 0.5)});
   other.merge(score_);
   other.merge(score_);
-  EXPECT_EQ(other.turns(), 2u);
+  EXPECT_EQ(other.scans(), 2u);
   EXPECT_EQ(other.visible(), 2 * score_.visible());
   EXPECT_EQ(other.errors_m().size(), 2u);
   EXPECT_DOUBLE_EQ(other.precision(), 0.5);

@@ -6,22 +6,22 @@
 #include <vector>
 
 #include "bench/instruction_counter.hpp"
-#include "bench/simulated_turn.hpp"
+#include "bench/simulated_scan.hpp"
 #include "tests/unit/replay/test_maps.hpp"
 
 namespace cornerd::bench {
 namespace {
 
-std::vector<core::Scan> room_turns(std::size_t samples) {
-  TurnSimulator simulator({}, samples, 1);
+std::vector<core::Scan> room_scans(std::size_t samples) {
+  ScanSimulator simulator({}, samples, 1);
   return {simulator.take(*replay::make_room(), {1, 1, 0}),
           simulator.take(*replay::make_room(), {1.5, 2, 1})};
 }
 
 TEST(Workload, Run_DetectsInThatTurn) {
-  const auto turns = room_turns(800);
-  Workload workload(paper_methods().front(), turns);
-  ASSERT_EQ(workload.turns(), 2u);
+  const auto scans = room_scans(800);
+  Workload workload(paper_methods().front(), scans);
+  ASSERT_EQ(workload.scans(), 2u);
   workload.run(1);
   ASSERT_EQ(workload.detection().breakpoints.size(), 4u);
   const core::Vec2 second = workload.detection().breakpoints.front().position;
@@ -30,12 +30,12 @@ TEST(Workload, Run_DetectsInThatTurn) {
 }
 
 TEST(Workload, EachTurn_IsTimed) {
-  const auto turns = room_turns(400);
-  Workload workload(paper_methods().front(), turns);
-  const auto times_us = time_turns_us(workload, 9);
+  const auto scans = room_scans(400);
+  Workload workload(paper_methods().front(), scans);
+  const auto times_us = time_scans_us(workload, 9);
   ASSERT_EQ(times_us.size(), 2u);
   for (const double time_us : times_us) EXPECT_GT(time_us, 0);
-  EXPECT_GT(time_preparation_us(turns, 3), 0);
+  EXPECT_GT(time_preparation_us(scans, 3), 0);
 }
 
 TEST(InstructionCounter, WhereThereIsOne_CountsWork) {

@@ -50,15 +50,15 @@ TEST(BearingBins, Slope_IsThatOfTheWall) {
 TEST(BearingBins, FewTurns_TakeWiderBinsOrNone) {
   StaticRoom room;
   room.sigma_m = [](double) { return 0.002; };
-  room.turns = 15;
+  room.scans = 15;
   const std::size_t wide = room.record().spreads().size();
   EXPECT_GT(wide, 250u);
   EXPECT_LE(wide, 360u);
-  room.turns = 5;
+  room.scans = 5;
   const BearingBins five = room.record();
   EXPECT_GT(five.spreads().size(), 60u);
   EXPECT_NEAR(median_sigma_m(five), 0.002, 0.0004);
-  room.turns = 2;
+  room.scans = 2;
   EXPECT_TRUE(room.record().spreads().empty());
 }
 

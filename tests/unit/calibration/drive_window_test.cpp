@@ -15,7 +15,7 @@ TEST(DriveWindow, AWholeDrive_IsCutIntoSecondsThatKnowTheirWayAndTurn) {
   for (const DriveWindow& window : windows) {
     EXPECT_EQ(window.steps.back().to_ns - window.steps.front().from_ns, 1'120'000'000);
     EXPECT_NEAR(window.way_m, 0.4 * 1.12, 0.001);
-    EXPECT_NEAR(core::angle_between(window.turn_rad, window.way.theta_rad), 0, 1e-9);
+    EXPECT_NEAR(core::angle_between(window.rotation_rad, window.way.theta_rad), 0, 1e-9);
   }
 }
 

@@ -18,10 +18,10 @@ class FilteredDriveTest : public ::testing::Test {
     for (int i = 0; i < 3000; ++i) {
       if (i % 7 == 0) places_.push_back({i * kStep_ns, T_map_base});
       const int part = i / 100 % 3;
-      const double turn_rad = (part == 0 ? 0.0 : part == 1 ? 0.9 : -0.7) * 0.02;
+      const double rotation_rad = (part == 0 ? 0.0 : part == 1 ? 0.9 : -0.7) * 0.02;
       const double way_m = 0.4 * 0.02;
-      T_map_base = T_map_base * core::arc(way_m, turn_rad);
-      const double half_m = turn_rad * config_.geometry.track_m / 2;
+      T_map_base = T_map_base * core::arc(way_m, rotation_rad);
+      const double half_m = rotation_rad * config_.geometry.track_m / 2;
       core::MotionStep step;
       step.from_ns = i * kStep_ns;
       step.to_ns = step.from_ns + kStep_ns;

@@ -15,9 +15,9 @@ namespace {
 using core::MotionStep;
 
 /// A known drive, each step of which is told wrong.
-GrossFaults faults_of(const std::function<void(MotionStep&)>& wrong, double turns = 1,
+GrossFaults faults_of(const std::function<void(MotionStep&)>& wrong, double scans = 1,
                       const core::DriveGeometry& geometry = {}) {
-  KnownDrive known = known_drive({}, turns);
+  KnownDrive known = known_drive({}, scans);
   for (MotionStep& step : known.steps) wrong(step);
   return find_gross_faults(cut_windows(known.steps, known.places), geometry);
 }

@@ -16,6 +16,6 @@ struct KnownDrive {
 };
 
 /// Straights and turns for a minute at 50 steps a second, known every 0.14 s; `turns`: 0 for none.
-KnownDrive known_drive(const core::DriveGeometry& geometry, double turns, bool with_gyro = true);
+KnownDrive known_drive(const core::DriveGeometry& geometry, double scans, bool with_gyro = true);
 
 }  // namespace cornerd::calibration

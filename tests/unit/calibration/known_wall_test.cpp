@@ -12,9 +12,9 @@ namespace cornerd::calibration {
 namespace {
 
 // The walls of the room stand 0.4, 2, 5.6 and 7 m away.
-StaticRoom noisy_room(int turns) {
+StaticRoom noisy_room(int scans) {
   StaticRoom room;
-  room.turns = turns;
+  room.scans = scans;
   room.sigma_m = [](double) { return 0.003; };
   return room;
 }

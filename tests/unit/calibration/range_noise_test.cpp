@@ -15,7 +15,7 @@ namespace {
 TEST(RangeNoise, FloorAndShare_AreFoundAgain) {
   for (const auto& [floor_m, share] : {std::pair{0.004, 0.005}, {0.006, 0.0025}, {0.008, 0.01}}) {
     StaticRoom room;
-    room.turns = 100;
+    room.scans = 100;
     room.sigma_m = [f = floor_m, s = share](double range_m) { return std::max(f, s * range_m); };
     const auto noise = fit_range_noise(room.record().spreads());
     ASSERT_TRUE(noise.has_value());
@@ -27,7 +27,7 @@ TEST(RangeNoise, FloorAndShare_AreFoundAgain) {
 
 TEST(RangeNoise, BearingNoise_IsToldFromThatOfTheRange) {
   StaticRoom room;
-  room.turns = 100;
+  room.scans = 100;
   room.bearing_rad = core::radians(0.2);
   room.sigma_m = [](double range_m) { return std::max(0.0015, 0.002 * range_m); };
   const auto noise = fit_range_noise(room.record().spreads());
@@ -40,7 +40,7 @@ TEST(RangeNoise, BearingNoise_IsToldFromThatOfTheRange) {
 
 TEST(RangeNoise, NoiseOfNoSimpleShape_IsInTheTable) {
   StaticRoom room;
-  room.turns = 100;
+  room.scans = 100;
   const auto sigma_m = [](double range_m) { return range_m < 3 ? 0.004 : 0.0015; };
   room.sigma_m = sigma_m;
   const auto noise = fit_range_noise(room.record().spreads());

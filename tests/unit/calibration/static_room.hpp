@@ -10,8 +10,8 @@ namespace cornerd::calibration {
 
 /// A lidar that stands still in a rectangle of 9 x 6 m, 0.4 m from one wall and 2 m from another.
 struct StaticRoom {
-  int turns = 60;
-  int samples_per_turn = 300;
+  int scans = 60;
+  int samples_per_scan = 300;
   std::function<double(double)> sigma_m = [](double) { return 0.0; };  ///< by the range
   double bearing_rad = 0;
   double outliers = 0;

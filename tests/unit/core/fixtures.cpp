@@ -56,34 +56,34 @@ std::shared_ptr<const WallMap> make_map(FloorPlan plan) {
   return std::make_shared<const WallMap>(std::move(plan));
 }
 
-double TurnSource::uniform(double low, double high) {
+double ScanSource::uniform(double low, double high) {
   return low + (high - low) * static_cast<double>(random_() >> 11) * 0x1p-53;
 }
 
-double TurnSource::normal() {
+double ScanSource::normal() {
   return std::sqrt(-2 * std::log(1 - uniform(0, 1))) * std::cos(uniform(0, kTwoPi));
 }
 
-Pose2 TurnSource::place_in(double low_x_m, double high_x_m, double low_y_m, double high_y_m) {
+Pose2 ScanSource::place_in(double low_x_m, double high_x_m, double low_y_m, double high_y_m) {
   return {uniform(low_x_m, high_x_m), uniform(low_y_m, high_y_m), uniform(-kPi, kPi)};
 }
 
-Scan TurnSource::take(const WallMap& map, const Pose2& T_map_lidar, const TurnOptions& options) {
+Scan ScanSource::take(const WallMap& map, const Pose2& T_map_lidar, const ScanOptions& options) {
   Scan scan;
   for (int i = 0; i < options.samples; ++i) {
     const double share = static_cast<double>(i) / options.samples;
     const double bearing = options.first_bearing_rad - kTwoPi * share;
-    const Pose2 T_map_now = T_map_lidar * options.motion.over((share - 0.5) * options.turn_s);
+    const Pose2 T_map_now = T_map_lidar * options.motion.over((share - 0.5) * options.scan_s);
     const double aside = options.with_noise ? options.noise.bearing_rad * normal() : 0;
     double range =
         map.range_along(T_map_now.translation(), T_map_now.theta_rad + bearing + aside, 12);
     if (options.with_noise) range += options.noise.sigma_range_m(range) * normal();
     if (uniform(0, 1) < options.missing_share) range = 0;
     Sample sample;
-    sample.t_ns = options.start_ns + from_seconds(share * options.turn_s);
+    sample.t_ns = options.start_ns + from_seconds(share * options.scan_s);
     sample.bearing_rad = static_cast<float>(normalize_angle(bearing));
     sample.range_m = static_cast<float>(range);
-    sample.starts_turn = i == 0;
+    sample.starts_scan = i == 0;
     scan.add(sample);
   }
   return scan;

@@ -24,23 +24,23 @@ FloorPlan two_equal_rooms();
 
 std::shared_ptr<const WallMap> make_map(FloorPlan plan);
 
-struct TurnOptions {
+struct ScanOptions {
   int samples = 540;
   double missing_share = 0;
   bool with_noise = true;
   SensorNoise noise;
   double first_bearing_rad = 3.0;  ///< the turn goes clockwise from here
   Twist2 motion;                   ///< of the lidar, around the middle of the turn
-  double turn_s = 0.137;
+  double scan_s = 0.137;
   TimeNs start_ns = 0;
 };
 
 /// Simulated turns, equal on every run.
-class TurnSource {
+class ScanSource {
  public:
-  explicit TurnSource(std::uint64_t seed = 1) : random_(seed) {}
+  explicit ScanSource(std::uint64_t seed = 1) : random_(seed) {}
 
-  Scan take(const WallMap& map, const Pose2& T_map_lidar, const TurnOptions& options = {});
+  Scan take(const WallMap& map, const Pose2& T_map_lidar, const ScanOptions& options = {});
   Pose2 place_in(double low_x_m, double high_x_m, double low_y_m, double high_y_m);
 
  private:

@@ -41,24 +41,24 @@ namespace {
 TEST(Pipeline, FromSampleToPose_AllocatesNothing) {
   const auto map = testing::make_map(testing::l_shaped_room());
   const auto symmetric = testing::make_map(testing::rectangular_room(3, 2));
-  testing::TurnSource source(71);
-  std::vector<Scan> turns;
-  testing::TurnOptions sparse;
+  testing::ScanSource source(71);
+  std::vector<Scan> scans;
+  testing::ScanOptions sparse;
   sparse.missing_share = 0.8;
-  turns.emplace_back();
-  turns.back().add({0, 0, 1, 15, true, true});
+  scans.emplace_back();
+  scans.back().add({0, 0, 1, 15, true, true});
   for (int k = 0; k < 20; ++k) {
-    turns.push_back(source.take(*map, source.place_in(0.4, 2.2, 0.4, 1.4)));
-    turns.push_back(source.take(*map, source.place_in(0.4, 2.2, 0.4, 1.4), sparse));
-    turns.push_back(source.take(*symmetric, source.place_in(0.4, 2.2, 0.4, 1.4)));
+    scans.push_back(source.take(*map, source.place_in(0.4, 2.2, 0.4, 1.4)));
+    scans.push_back(source.take(*map, source.place_in(0.4, 2.2, 0.4, 1.4), sparse));
+    scans.push_back(source.take(*symmetric, source.place_in(0.4, 2.2, 0.4, 1.4)));
   }
   for (const auto& building : {map, symmetric}) {
     Pipeline pipeline(building, {});
     int states[5] = {};
     const long before = allocations;
-    for (const Scan& turn : turns) {
-      for (const Sample& sample : turn.samples()) {
-        const TurnResult* result = pipeline.add(sample);
+    for (const Scan& scan : scans) {
+      for (const Sample& sample : scan.samples()) {
+        const ScanResult* result = pipeline.add(sample);
         if (result != nullptr) ++states[static_cast<int>(result->pose.state)];
       }
     }
@@ -79,18 +79,18 @@ TEST(Pipeline, FromSampleToPoseByEachMethod_AllocatesNothing) {
     LocalizerConfig config;
     config.detector.method = method;
     Pipeline pipeline(map, config);
-    testing::TurnSource source(72);
-    testing::TurnOptions noisy;
+    testing::ScanSource source(72);
+    testing::ScanOptions noisy;
     noisy.noise = {0.01, 0.03, radians(0.5)};
     noisy.missing_share = 0.3;
     noisy.samples = 2000;
     std::size_t segments = 0;
     for (int k = 0; k < 10; ++k) {
       const Pose2 T_map_lidar = source.place_in(0.4, 2.2, 0.4, 1.4);
-      const Scan turn = source.take(*map, T_map_lidar, k % 2 == 0 ? testing::TurnOptions{} : noisy);
+      const Scan scan = source.take(*map, T_map_lidar, k % 2 == 0 ? testing::ScanOptions{} : noisy);
       const long before = allocations;
-      for (const Sample& sample : turn.samples()) {
-        const TurnResult* result = pipeline.add(sample);
+      for (const Sample& sample : scan.samples()) {
+        const ScanResult* result = pipeline.add(sample);
         if (result != nullptr) segments += result->detection.segments.size();
       }
       EXPECT_EQ(allocations - before, 0) << static_cast<int>(method);
@@ -101,28 +101,28 @@ TEST(Pipeline, FromSampleToPoseByEachMethod_AllocatesNothing) {
 
 TEST(Pipeline, WithOdometryAndPartsOfTurns_AllocatesNothing) {
   const auto map = testing::make_map(testing::l_shaped_room());
-  testing::TurnSource source(74);
+  testing::ScanSource source(74);
   LocalizerConfig config;
   config.odometry.enabled = true;
-  config.updates_per_turn = 4;
+  config.updates_per_scan = 4;
   Pipeline pipeline(map, config);
-  std::vector<Scan> turns;
-  testing::TurnOptions covered;
+  std::vector<Scan> scans;
+  testing::ScanOptions covered;
   covered.missing_share = 1;
   for (int k = 0; k < 30; ++k) {
-    testing::TurnOptions options = k < 20 ? testing::TurnOptions{} : covered;
+    testing::ScanOptions options = k < 20 ? testing::ScanOptions{} : covered;
     options.start_ns = TimeNs{k} * 140'000'000;
-    turns.push_back(source.take(*map, {1, 1, 0.5}, options));
+    scans.push_back(source.take(*map, {1, 1, 0.5}, options));
   }
   int predicted = 0;
   int parts = 0;
   const long before = allocations;
-  for (const Scan& turn : turns) {
+  for (const Scan& scan : scans) {
     for (TimeNs dt_ns = 0; dt_ns < 140'000'000; dt_ns += 20'000'000) {
-      pipeline.add(OdometryReading{turn.start_ns() + dt_ns, 5, 7, 0.001});
+      pipeline.add(OdometryReading{scan.start_ns() + dt_ns, 5, 7, 0.001});
     }
-    for (const Sample& sample : turn.samples()) {
-      const TurnResult* result = pipeline.add(sample);
+    for (const Sample& sample : scan.samples()) {
+      const ScanResult* result = pipeline.add(sample);
       predicted += result != nullptr && result->pose.state == PoseState::kPredicted;
       parts += pipeline.part() != nullptr;
     }
@@ -134,15 +134,15 @@ TEST(Pipeline, WithOdometryAndPartsOfTurns_AllocatesNothing) {
 
 TEST(BreakpointStream, FromReturnToBreakpoint_AllocatesNothing) {
   const auto map = testing::make_map(testing::l_shaped_room());
-  testing::TurnSource source(73);
+  testing::ScanSource source(73);
   for (const Sweep sweep : {Sweep::kCounterClockwise, Sweep::kClockwise}) {
     BreakpointStream stream({}, {});
     std::size_t found = 0;
     for (int k = 0; k < 10; ++k) {
-      const Scan turn = source.take(*map, source.place_in(0.4, 2.2, 0.4, 1.4));
+      const Scan scan = source.take(*map, source.place_in(0.4, 2.2, 0.4, 1.4));
       const long before = allocations;
-      stream.begin(kTwoPi / static_cast<double>(turn.size()), sweep);
-      for (const Sample& sample : turn.samples()) {
+      stream.begin(kTwoPi / static_cast<double>(scan.size()), sweep);
+      for (const Sample& sample : scan.samples()) {
         found += stream.add(sample.bearing_rad, sample.range_m).size();
       }
       found += stream.finish().size();

@@ -26,8 +26,8 @@ class CircleDrive {
         rate_rad_s_(rate_rad_s) {}
 
   const PoseEstimate& turn(bool covered = false, const std::optional<Pose2>& elsewhere = {}) {
-    testing::TurnOptions options;
-    options.turn_s = kTurnOfDrive_s;
+    testing::ScanOptions options;
+    options.scan_s = kTurnOfDrive_s;
     options.start_ns = robot_.now_ns();
     options.motion = {speed_m_s_, 0, rate_rad_s_};
     options.missing_share = covered ? 1 : 0;
@@ -38,7 +38,7 @@ class CircleDrive {
       if (i == 6) truth_ = Pose2{1.2, 0.9, 0.3} * robot_.truth();
     }
     const Scan scan = source_.take(*map_, elsewhere.value_or(truth_), options);
-    const TurnResult& result = localizer_.step(scan);
+    const ScanResult& result = localizer_.step(scan);
     odometry_ = result.odometry;
     return result.pose;
   }
@@ -70,7 +70,7 @@ class CircleDrive {
   std::shared_ptr<const WallMap> map_;
   Localizer localizer_;
   testing::DrivenRobot robot_;
-  testing::TurnSource source_{91};
+  testing::ScanSource source_{91};
   double speed_m_s_;
   double rate_rad_s_;
   Pose2 truth_;
@@ -107,10 +107,10 @@ TEST(LocalizerWithOdometry, CarriedRobot_IsPredictedFromWhereItIsNow) {
   ASSERT_EQ(pose.state, PoseState::kFix);
   EXPECT_LT((pose.T_map_base.translation() - elsewhere.translation()).norm(), 0.02);
   const std::size_t before = drive.between().size();
-  const Pose2 a_turn_later = elsewhere * arc(0.4 * kTurnOfDrive_s, 0.8 * kTurnOfDrive_s);
-  drive.turn(false, a_turn_later);
+  const Pose2 one_scan_later = elsewhere * arc(0.4 * kTurnOfDrive_s, 0.8 * kTurnOfDrive_s);
+  drive.turn(false, one_scan_later);
   EXPECT_EQ(drive.between().size(), before) << "until the lidar and the wheels agree again";
-  drive.turn(false, a_turn_later);
+  drive.turn(false, one_scan_later);
   ASSERT_GT(drive.between().size(), before);
   for (std::size_t i = before; i < drive.between().size(); ++i) {
     const Pose2& predicted = drive.between()[i].pose.T_map_base;
@@ -181,9 +181,9 @@ TEST(LocalizerWithOdometry, Summary_TellsWhatWasLearned) {
 
 TEST(Localizer, AGivenPose_TellsTwinsApart) {
   const auto map = testing::make_map(testing::two_equal_rooms());
-  testing::TurnSource source(92);
+  testing::ScanSource source(92);
   Localizer localizer(map, {});
-  testing::TurnOptions options;
+  testing::ScanOptions options;
   ASSERT_EQ(localizer.step(source.take(*map, {6.8, 1.2, 0.3}, options)).pose.state,
             PoseState::kAmbiguous);
   localizer.set_pose({6.75, 1.25, 0.25});

@@ -12,7 +12,7 @@ namespace {
 
 TEST(Localizer, UniqueRoom_IsFixedFromOneTurn) {
   const auto map = testing::make_map(testing::l_shaped_room());
-  testing::TurnSource source(61);
+  testing::ScanSource source(61);
   for (int k = 0; k < 100; ++k) {
     Localizer localizer(map, {});
     const Pose2 T_map_base = source.place_in(0.4, 2.2, 0.4, 2.6);
@@ -29,7 +29,7 @@ TEST(Localizer, UniqueRoom_IsFixedFromOneTurn) {
 
 TEST(Localizer, PlainRectangle_IsAmbiguousAndItsAlternativesHoldTheTruth) {
   const auto map = testing::make_map(testing::rectangular_room(3, 2));
-  testing::TurnSource source(62);
+  testing::ScanSource source(62);
   for (int k = 0; k < 50; ++k) {
     Localizer localizer(map, {});
     const Pose2 T_map_base = source.place_in(0.4, 2.6, 0.4, 1.6);
@@ -52,7 +52,7 @@ TEST(Localizer, PlainRectangle_IsAmbiguousAndItsAlternativesHoldTheTruth) {
 
 TEST(Localizer, TwoEqualRooms_AreAmbiguousUntilAPriorTells) {
   const auto map = testing::make_map(testing::two_equal_rooms());
-  testing::TurnSource source(63);
+  testing::ScanSource source(63);
   Localizer localizer(map, {});
   const PoseEstimate& pose = localizer.step(source.take(*map, {6.8, 1.2, 0.3})).pose;
   ASSERT_EQ(pose.state, PoseState::kAmbiguous);
@@ -62,7 +62,7 @@ TEST(Localizer, TwoEqualRooms_AreAmbiguousUntilAPriorTells) {
 TEST(Localizer, OtherBuilding_IsLost) {
   const auto map = testing::make_map(testing::l_shaped_room());
   const auto elsewhere = testing::make_map(testing::rectangular_room(7, 6.3));
-  testing::TurnSource source(64);
+  testing::ScanSource source(64);
   for (int k = 0; k < 50; ++k) {
     Localizer localizer(map, {});
     const Pose2 T_map_base = source.place_in(1, 6, 1, 5);
@@ -74,12 +74,12 @@ TEST(Localizer, OtherBuilding_IsLost) {
 
 TEST(Localizer, LidarCoveredForMostOfTheTurn_NamesNoPlaceByAWallAndACorner) {
   const auto map = testing::make_map(testing::l_shaped_room());
-  testing::TurnSource source(65);
+  testing::ScanSource source(65);
   for (int k = 0; k < 50; ++k) {
     Localizer localizer(map, {});
     Scan covered;
-    const Scan turn = source.take(*map, source.place_in(0.4, 2.2, 0.4, 2.6));
-    for (Sample sample : turn.samples()) {
+    const Scan scan = source.take(*map, source.place_in(0.4, 2.2, 0.4, 2.6));
+    for (Sample sample : scan.samples()) {
       if (std::abs(sample.bearing_rad) > radians(60)) sample.range_m = 0;
       covered.add(sample);
     }
@@ -97,16 +97,16 @@ TEST(Localizer, EmptyTurn_IsLost) {
 
 TEST(Localizer, NoMap_DetectsAndIsLost) {
   const auto map = testing::make_map(testing::l_shaped_room());
-  testing::TurnSource source(65);
+  testing::ScanSource source(65);
   Localizer localizer(nullptr, {});
-  const TurnResult& result = localizer.step(source.take(*map, {1, 1, 0}));
+  const ScanResult& result = localizer.step(source.take(*map, {1, 1, 0}));
   EXPECT_EQ(result.pose.state, PoseState::kLost);
   EXPECT_GE(result.detection.breakpoints.size(), 4U);
 }
 
 TEST(Localizer, LidarOffTheCentre_GivesThePoseOfTheBase) {
   const auto map = testing::make_map(testing::l_shaped_room());
-  testing::TurnSource source(66);
+  testing::ScanSource source(66);
   LocalizerConfig config;
   config.T_base_lidar = {0.1, -0.05, 2.0};
   Localizer localizer(map, config);
@@ -120,24 +120,24 @@ TEST(Localizer, LidarOffTheCentre_GivesThePoseOfTheBase) {
 
 TEST(Localizer, RobotThatDrives_IsFollowed) {
   const auto map = testing::make_map(testing::l_shaped_room());
-  testing::TurnSource source(67);
+  testing::ScanSource source(67);
   Localizer localizer(map, {});
-  testing::TurnOptions options;
+  testing::ScanOptions options;
   options.motion = {0.3, 0, 0.5};
   Pose2 T_map_base{0.6, 0.6, 0};
-  for (int turn = 0; turn < 12; ++turn) {
+  for (int scan = 0; scan < 12; ++scan) {
     const PoseEstimate& pose = localizer.step(source.take(*map, T_map_base, options)).pose;
-    ASSERT_TRUE(names_a_place(pose.state)) << turn;
+    ASSERT_TRUE(names_a_place(pose.state)) << scan;
     EXPECT_LT((pose.T_map_base.translation() - T_map_base.translation()).norm(),
-              turn < 4 ? 0.03 : 0.006);
-    T_map_base = T_map_base * options.motion.over(options.turn_s);
-    options.start_ns += from_seconds(options.turn_s);
+              scan < 4 ? 0.03 : 0.006);
+    T_map_base = T_map_base * options.motion.over(options.scan_s);
+    options.start_ns += from_seconds(options.scan_s);
   }
 }
 
 TEST(Localizer, Room_IsNamed) {
   const auto map = testing::make_map(testing::l_shaped_room());
-  testing::TurnSource source(68);
+  testing::ScanSource source(68);
   Localizer localizer(map, {});
   const PoseEstimate& pose = localizer.step(source.take(*map, {1, 2.4, 0})).pose;
   ASSERT_TRUE(pose.room);
@@ -147,7 +147,7 @@ TEST(Localizer, Room_IsNamed) {
 TEST(Localizer, SameTurns_GiveTheSamePosesToTheLastBit) {
   const auto map = testing::make_map(testing::l_shaped_room());
   const auto run = [&] {
-    testing::TurnSource source(69);
+    testing::ScanSource source(69);
     Localizer localizer(map, {});
     std::vector<double> values;
     for (int k = 0; k < 10; ++k) {

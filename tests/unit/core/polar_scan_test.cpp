@@ -38,14 +38,14 @@ TEST(PolarScan, ClockwiseTurnWithBackwardSteps_IsSorted) {
 TEST(PolarScan, AnyOrderAtAll_IsSorted) {
   std::mt19937 random(5);
   Scan scan;
-  for (std::size_t i = 0; i < kMaxSamplesPerTurn; ++i) {
+  for (std::size_t i = 0; i < kMaxSamplesPerScan; ++i) {
     Sample sample;
     sample.bearing_rad = static_cast<float>(static_cast<double>(random()) / 4294967296.0 * 6 - 3);
     sample.range_m = 1;
     scan.add(sample);
   }
   const PolarScan points = testing::polar(scan);
-  EXPECT_EQ(points.size(), kMaxSamplesPerTurn);
+  EXPECT_EQ(points.size(), kMaxSamplesPerScan);
   EXPECT_TRUE(is_sorted(points));
 }
 
@@ -100,13 +100,13 @@ TEST(PolarScan, ReturnsOutsideTheLimits_AreLeftOut) {
 TEST(PolarScan, TurnTakenInMotion_LooksAsIfTakenAtRest) {
   const auto map = testing::make_map(testing::rectangular_room(3, 2));
   const Pose2 T_map_lidar{1.3, 0.8, 0.4};
-  testing::TurnSource source;
-  testing::TurnOptions options;
+  testing::ScanSource source;
+  testing::ScanOptions options;
   options.with_noise = false;
   options.motion = {0.4, -0.2, 0.8};
   const Scan scan = source.take(*map, T_map_lidar, options);
   PolarScan points;
-  points.assign(scan, 0.15, 12, from_seconds(options.turn_s / 2), options.motion);
+  points.assign(scan, 0.15, 12, from_seconds(options.scan_s / 2), options.motion);
   ASSERT_TRUE(is_sorted(points));
   for (const PolarPoint& point : points.points()) {
     const Vec2 place = T_map_lidar * Vec2(point.x_m, point.y_m);

@@ -8,73 +8,73 @@
 namespace cornerd::core {
 namespace {
 
-Sample sample_at(double bearing_rad, bool starts_turn = false) {
+Sample sample_at(double bearing_rad, bool starts_scan = false) {
   Sample sample;
   sample.bearing_rad = static_cast<float>(normalize_angle(bearing_rad));
   sample.range_m = 1;
-  sample.starts_turn = starts_turn;
+  sample.starts_scan = starts_scan;
   return sample;
 }
 
-TEST(TurnAssembler, StreamJoinedInMidTurn_GivesOnlyWholeTurns) {
-  TurnAssembler assembler;
-  Scan turn;
-  int turns = 0;
+TEST(ScanAssembler, StreamJoinedInMidTurn_GivesOnlyWholeTurns) {
+  ScanAssembler assembler;
+  Scan scan;
+  int scans = 0;
   for (int i = 37; i < 500; ++i) {
-    if (!assembler.add(sample_at(-kTwoPi * i / 100, i % 100 == 0), turn)) continue;
-    ++turns;
-    EXPECT_EQ(turn.size(), 100U);
-    EXPECT_TRUE(turn.samples().front().starts_turn);
+    if (!assembler.add(sample_at(-kTwoPi * i / 100, i % 100 == 0), scan)) continue;
+    ++scans;
+    EXPECT_EQ(scan.size(), 100U);
+    EXPECT_TRUE(scan.samples().front().starts_scan);
   }
-  EXPECT_EQ(turns, 3);
+  EXPECT_EQ(scans, 3);
   EXPECT_EQ(assembler.dropped(), 63U);
 }
 
-TEST(TurnAssembler, Finish_HandsOutATurnThatWentRound) {
-  TurnAssembler assembler;
-  Scan turn;
-  for (int i = 0; i < 99; ++i) assembler.add(sample_at(-kTwoPi * i / 100, i == 0), turn);
-  EXPECT_TRUE(assembler.finish(turn));
-  EXPECT_EQ(turn.size(), 99U);
-  EXPECT_FALSE(assembler.finish(turn));
+TEST(ScanAssembler, Finish_HandsOutATurnThatWentRound) {
+  ScanAssembler assembler;
+  Scan scan;
+  for (int i = 0; i < 99; ++i) assembler.add(sample_at(-kTwoPi * i / 100, i == 0), scan);
+  EXPECT_TRUE(assembler.finish(scan));
+  EXPECT_EQ(scan.size(), 99U);
+  EXPECT_FALSE(assembler.finish(scan));
 }
 
-TEST(TurnAssembler, Finish_KeepsBackAPieceOfATurn) {
-  TurnAssembler assembler;
-  Scan turn;
-  for (int i = 0; i < 60; ++i) assembler.add(sample_at(-kTwoPi * i / 100, i == 0), turn);
-  EXPECT_FALSE(assembler.finish(turn));
+TEST(ScanAssembler, Finish_KeepsBackAPieceOfATurn) {
+  ScanAssembler assembler;
+  Scan scan;
+  for (int i = 0; i < 60; ++i) assembler.add(sample_at(-kTwoPi * i / 100, i == 0), scan);
+  EXPECT_FALSE(assembler.finish(scan));
   EXPECT_EQ(assembler.dropped(), 60U);
 }
 
-TEST(TurnAssembler, SampleThatEndsTheTurn_CompletesItAtOnce) {
-  TurnAssembler assembler;
-  Scan turn;
-  EXPECT_FALSE(assembler.add(sample_at(0, true), turn));
-  EXPECT_FALSE(assembler.add(sample_at(1), turn));
+TEST(ScanAssembler, SampleThatEndsTheTurn_CompletesItAtOnce) {
+  ScanAssembler assembler;
+  Scan scan;
+  EXPECT_FALSE(assembler.add(sample_at(0, true), scan));
+  EXPECT_FALSE(assembler.add(sample_at(1), scan));
   Sample last = sample_at(2);
-  last.ends_turn = true;
-  EXPECT_TRUE(assembler.add(last, turn));
-  EXPECT_EQ(turn.size(), 3U);
-  EXPECT_FALSE(assembler.add(sample_at(0, true), turn)) << "nothing was collected in between";
+  last.ends_scan = true;
+  EXPECT_TRUE(assembler.add(last, scan));
+  EXPECT_EQ(scan.size(), 3U);
+  EXPECT_FALSE(assembler.add(sample_at(0, true), scan)) << "nothing was collected in between";
 }
 
-TEST(TurnAssembler, EndlessTurn_IsCutAtTheCapacityAndCounted) {
-  TurnAssembler assembler;
-  Scan turn;
-  assembler.add(sample_at(0, true), turn);
-  for (std::size_t i = 1; i < kMaxSamplesPerTurn + 100; ++i) assembler.add(sample_at(0.1), turn);
+TEST(ScanAssembler, EndlessTurn_IsCutAtTheCapacityAndCounted) {
+  ScanAssembler assembler;
+  Scan scan;
+  assembler.add(sample_at(0, true), scan);
+  for (std::size_t i = 1; i < kMaxSamplesPerScan + 100; ++i) assembler.add(sample_at(0.1), scan);
   EXPECT_EQ(assembler.dropped(), 100U);
-  ASSERT_TRUE(assembler.add(sample_at(0, true), turn));
-  EXPECT_EQ(turn.size(), kMaxSamplesPerTurn);
+  ASSERT_TRUE(assembler.add(sample_at(0, true), scan));
+  EXPECT_EQ(scan.size(), kMaxSamplesPerScan);
 }
 
-TEST(TurnAssembler, Reset_ForgetsTheTurnInProgress) {
-  TurnAssembler assembler;
-  Scan turn;
-  for (int i = 0; i < 99; ++i) assembler.add(sample_at(-kTwoPi * i / 100, i == 0), turn);
+TEST(ScanAssembler, Reset_ForgetsTheTurnInProgress) {
+  ScanAssembler assembler;
+  Scan scan;
+  for (int i = 0; i < 99; ++i) assembler.add(sample_at(-kTwoPi * i / 100, i == 0), scan);
   assembler.reset();
-  EXPECT_FALSE(assembler.add(sample_at(0, true), turn));
+  EXPECT_FALSE(assembler.add(sample_at(0, true), scan));
 }
 
 }  // namespace

@@ -26,16 +26,16 @@ class LidarMemoryTest : public ::testing::Test {
 
 TEST_F(LidarMemoryTest, WhatWasKept_IsThereForTheNextRun) {
   LidarMemory first = memory();
-  EXPECT_EQ(first.known().turns, 0u);
+  EXPECT_EQ(first.known().scans, 0u);
   EXPECT_TRUE(first.recognise("A1"));
   first.keep(kLearned);
   LidarMemory second = memory();
   EXPECT_EQ(second.known().bias, kLearned.bias);
-  EXPECT_EQ(second.known().turns, kLearned.turns);
+  EXPECT_EQ(second.known().scans, kLearned.scans);
   EXPECT_TRUE(second.recognise(""));  // not identified yet
   EXPECT_TRUE(second.recognise("A1"));
   second.keep({});  // before the first turn
-  EXPECT_EQ(second.known().turns, kLearned.turns);
+  EXPECT_EQ(second.known().scans, kLearned.scans);
 }
 
 TEST_F(LidarMemoryTest, AnotherDevice_KnowsNothingAndOverwritesOnlyWithItsOwn) {
@@ -44,13 +44,13 @@ TEST_F(LidarMemoryTest, AnotherDevice_KnowsNothingAndOverwritesOnlyWithItsOwn) {
   EXPECT_TRUE(first.recognise("A1"));  // kept without a number: whoever says one first has it
   EXPECT_FALSE(first.recognise("B2"));
   EXPECT_TRUE(first.recognise("B2"));
-  EXPECT_EQ(first.known().turns, 0u);
-  EXPECT_EQ(memory().known().turns, kLearned.turns);
+  EXPECT_EQ(first.known().scans, 0u);
+  EXPECT_EQ(memory().known().scans, kLearned.scans);
   core::LearnedBias fresh = kLearned;
-  fresh.turns = 25;
+  fresh.scans = 25;
   first.keep(fresh);
   LidarMemory third = memory();
-  EXPECT_EQ(third.known().turns, 25u);
+  EXPECT_EQ(third.known().scans, 25u);
   EXPECT_FALSE(third.recognise("A1"));
 }
 
@@ -59,19 +59,19 @@ TEST_F(LidarMemoryTest, NothingNew_IsNotWritten) {
   keeper.keep(kLearned);
   core::LearnedBias hardly = kLearned;
   hardly.bias.range_offset_m += 0.4 * hardly.sigma.range_offset_m;
-  hardly.turns = 500;
+  hardly.scans = 500;
   keeper.keep(hardly);
-  EXPECT_EQ(keeper.known().turns, 500u);
-  EXPECT_EQ(memory().known().turns, kLearned.turns);
+  EXPECT_EQ(keeper.known().scans, 500u);
+  EXPECT_EQ(memory().known().scans, kLearned.scans);
   hardly.bias.range_offset_m += 0.2 * hardly.sigma.range_offset_m;
-  hardly.turns = 501;
+  hardly.scans = 501;
   keeper.keep(hardly);
-  EXPECT_EQ(memory().known().turns, 501u);
+  EXPECT_EQ(memory().known().scans, 501u);
 }
 
 TEST_F(LidarMemoryTest, FewTurns_AreNotKept) {
   core::LearnedBias few = kLearned;
-  few.turns = 5;
+  few.scans = 5;
   memory().keep(few);
   EXPECT_FALSE(std::filesystem::exists(file_));
 }
@@ -81,13 +81,13 @@ TEST_F(LidarMemoryTest, OtherSettings_AreLearntUnderAnew) {
   configured.range_scale = 0.01;
   LidarMemory keeper = memory();
   keeper.keep(kLearned);
-  EXPECT_EQ(memory(configured).known().turns, 0u);
+  EXPECT_EQ(memory(configured).known().scans, 0u);
   EXPECT_TRUE(keeper.reconfigure({}));
   EXPECT_FALSE(keeper.reconfigure(configured));
-  EXPECT_EQ(keeper.known().turns, 0u);
+  EXPECT_EQ(keeper.known().scans, 0u);
   keeper.keep(kLearned);
-  EXPECT_EQ(memory().known().turns, 0u);
-  EXPECT_EQ(memory(configured).known().turns, kLearned.turns);
+  EXPECT_EQ(memory().known().scans, 0u);
+  EXPECT_EQ(memory(configured).known().scans, kLearned.scans);
 }
 
 TEST_F(LidarMemoryTest, FileThatWasCutShort_IsNotUsedAndReplaced) {
@@ -95,9 +95,9 @@ TEST_F(LidarMemoryTest, FileThatWasCutShort_IsNotUsedAndReplaced) {
   for (const std::uintmax_t length : {200, 10, 1}) {
     std::filesystem::resize_file(file_, length);
     LidarMemory keeper = memory();
-    EXPECT_EQ(keeper.known().turns, 0u) << length;
+    EXPECT_EQ(keeper.known().scans, 0u) << length;
     keeper.keep(kLearned);
-    EXPECT_EQ(memory().known().turns, kLearned.turns) << length;
+    EXPECT_EQ(memory().known().scans, kLearned.scans) << length;
   }
 }
 
@@ -105,9 +105,9 @@ TEST_F(LidarMemoryTest, FileThatAPowerCutEmptied_IsReplaced) {
   for (const std::string& left : {std::string(), std::string(400, '\0')}) {
     std::ofstream(file_) << left;
     LidarMemory keeper = memory();
-    EXPECT_EQ(keeper.known().turns, 0u) << left.size();
+    EXPECT_EQ(keeper.known().scans, 0u) << left.size();
     keeper.keep(kLearned);
-    EXPECT_EQ(memory().known().turns, kLearned.turns) << left.size();
+    EXPECT_EQ(memory().known().scans, kLearned.scans) << left.size();
     EXPECT_FALSE(std::filesystem::exists(file_.string() + ".bad"));
   }
 }
@@ -115,7 +115,7 @@ TEST_F(LidarMemoryTest, FileThatAPowerCutEmptied_IsReplaced) {
 TEST_F(LidarMemoryTest, FileThatIsNoJson_IsSetAside) {
   std::ofstream(file_) << "precious";
   memory().keep(kLearned);
-  EXPECT_EQ(memory().known().turns, kLearned.turns);
+  EXPECT_EQ(memory().known().scans, kLearned.scans);
   std::string text;
   std::ifstream(file_.string() + ".bad") >> text;
   EXPECT_EQ(text, "precious");
@@ -129,7 +129,7 @@ TEST_F(LidarMemoryTest, FileOfAnotherKind_IsLeftAlone) {
   std::string text;
   std::getline(std::ifstream(file_) >> std::ws, text);
   EXPECT_EQ(text, map);
-  EXPECT_EQ(keeper.known().turns, kLearned.turns);  // for a reload
+  EXPECT_EQ(keeper.known().scans, kLearned.scans);  // for a reload
 }
 
 TEST_F(LidarMemoryTest, FileThatIsNone_IsLeftAloneWithoutAWait) {
@@ -144,14 +144,14 @@ TEST_F(LidarMemoryTest, FileThatIsNone_IsLeftAloneWithoutAWait) {
 
 TEST_F(LidarMemoryTest, Link_IsFollowed) {
   core::LearnedBias before = kLearned;
-  before.turns = 30;
+  before.scans = 30;
   LidarMemory(folder_ / "elsewhere.json", {}).keep(before);
   std::filesystem::create_symlink(folder_ / "elsewhere.json", file_);
   core::LearnedBias better = kLearned;
   better.sigma.range_scale *= 0.5;
   memory().keep(better);
   EXPECT_TRUE(std::filesystem::is_symlink(file_));
-  EXPECT_EQ(memory().known().turns, kLearned.turns);
+  EXPECT_EQ(memory().known().scans, kLearned.scans);
 }
 
 TEST_F(LidarMemoryTest, FolderThatComesLater_IsWrittenInto) {
@@ -159,9 +159,9 @@ TEST_F(LidarMemoryTest, FolderThatComesLater_IsWrittenInto) {
   keeper.keep(kLearned);
   std::filesystem::create_directory(folder_ / "later");
   core::LearnedBias more = kLearned;
-  more.turns = 413;
+  more.scans = 413;
   keeper.keep(more);
-  EXPECT_EQ(LidarMemory(folder_ / "later" / "lidar.json", {}).known().turns, 413u);
+  EXPECT_EQ(LidarMemory(folder_ / "later" / "lidar.json", {}).known().scans, 413u);
 }
 
 TEST(LearnedFile, IsWhereTheSettingsOrTheServiceManagerSay) {

@@ -19,17 +19,17 @@ namespace {
 /// does, or ends as a recording does.
 class FakeLidar final : public drivers::LidarDriver {
  public:
-  FakeLidar(int turns, bool ends) : turns_(turns), ends_(ends) {}
+  FakeLidar(int scans, bool ends) : scans_(scans), ends_(ends) {}
 
   void run(std::stop_token stop, drivers::SampleSink& sink) override {
     constexpr int kSamples = 360;
-    for (int turn = 0; turn < turns_ && !stop.stop_requested(); ++turn) {
+    for (int scan = 0; scan < scans_ && !stop.stop_requested(); ++scan) {
       for (int i = 0; i < kSamples; ++i) {
         const double bearing_rad = core::kPi - core::kTwoPi * i / kSamples;
-        sink.on_sample({.t_ns = std::int64_t{turn} * 1000 + i,
+        sink.on_sample({.t_ns = std::int64_t{scan} * 1000 + i,
                         .bearing_rad = static_cast<float>(bearing_rad),
                         .range_m = 1,
-                        .starts_turn = i == 0});
+                        .starts_scan = i == 0});
       }
     }
     while (!ends_ && !stop.stop_requested()) {
@@ -45,7 +45,7 @@ class FakeLidar final : public drivers::LidarDriver {
   bool has_stopped() const { return stopped_; }
 
  private:
-  const int turns_;
+  const int scans_;
   const bool ends_;
   std::atomic<bool> stopped_{false};
   std::atomic<bool> is_stuck_{false};
@@ -60,11 +60,11 @@ std::vector<core::TimeNs> collect(Localization& localization, std::size_t count)
   std::vector<core::TimeNs> starts;
   pollfd readable{localization.event_fd(), POLLIN, 0};
   while (starts.size() < count && ::poll(&readable, 1, 30'000) == 1) {
-    localization.take([&starts](const TurnReport& report) {
-      EXPECT_EQ(report.turn.size(), 360u);
+    localization.take([&starts](const ScanReport& report) {
+      EXPECT_EQ(report.scan.size(), 360u);
       EXPECT_GT(report.latency_ns, 0);
       EXPECT_EQ(report.result.pose.state, core::PoseState::kLost) << "there is no map";
-      starts.push_back(report.turn.start_ns());
+      starts.push_back(report.scan.start_ns());
     });
   }
   return starts;
@@ -72,23 +72,23 @@ std::vector<core::TimeNs> collect(Localization& localization, std::size_t count)
 
 TEST(Localization, EveryTurnOfARecording_IsReportedInOrder) {
   // As many as there are slots, so that none is lost however late this thread is.
-  constexpr std::size_t kTurns = 16;
-  FakeLidar lidar(kTurns, /*ends=*/true);
+  constexpr std::size_t kScans = 16;
+  FakeLidar lidar(kScans, /*ends=*/true);
   Localization localization(lidar, pipeline_without_map(), SourceKind::kRecording);
   localization.start();
-  const auto starts = collect(localization, kTurns);
-  ASSERT_EQ(starts.size(), kTurns) << "the last one too, although no other turn follows it";
-  for (std::size_t i = 0; i < kTurns; ++i)
+  const auto starts = collect(localization, kScans);
+  ASSERT_EQ(starts.size(), kScans) << "the last one too, although no other turn follows it";
+  for (std::size_t i = 0; i < kScans; ++i)
     EXPECT_EQ(starts[i], static_cast<core::TimeNs>(i) * 1000);
   EXPECT_EQ(localization.lost_reports(), 0u);
 }
 
 TEST(Localization, ServerThatIsBusy_LosesNewTurnsAndKnowsIt) {
-  constexpr int kTurns = 100;
-  FakeLidar lidar(kTurns, /*ends=*/true);
+  constexpr int kScans = 100;
+  FakeLidar lidar(kScans, /*ends=*/true);
   Localization localization(lidar, pipeline_without_map(), SourceKind::kRecording);
   localization.start();
-  while (localization.lost_reports() + 16 < kTurns) std::this_thread::yield();
+  while (localization.lost_reports() + 16 < kScans) std::this_thread::yield();
   const auto starts = collect(localization, 16);
   EXPECT_EQ(starts.size(), 16u);
   EXPECT_EQ(starts.front(), 0);
@@ -120,9 +120,9 @@ TEST(Localization, ReplacedPipeline_TakesOverBetweenTwoTurnsAndMissesNone) {
   std::vector<core::TimeNs> starts;
   pollfd readable{localization.event_fd(), POLLIN, 0};
   while (starts.size() < 16 && ::poll(&readable, 1, 30'000) == 1) {
-    localization.take([&](const TurnReport& report) {
+    localization.take([&](const ScanReport& report) {
       generations.push_back(report.generation);
-      starts.push_back(report.turn.start_ns());
+      starts.push_back(report.scan.start_ns());
     });
   }
   for (std::size_t i = 0; i < starts.size(); ++i) {

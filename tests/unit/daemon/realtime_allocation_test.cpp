@@ -44,11 +44,11 @@ namespace cornerd::daemon {
 namespace {
 
 #ifdef __arm__
-constexpr std::uint64_t kTurns = 200;  // in an emulator
+constexpr std::uint64_t kScans = 200;  // in an emulator
 #else
-constexpr std::uint64_t kTurns = test::kSanitized ? 200 : 10'000;
+constexpr std::uint64_t kScans = test::kSanitized ? 200 : 10'000;
 #endif
-constexpr std::uint64_t kWarmUpTurns = 100;
+constexpr std::uint64_t kWarmUpScans = 100;
 
 /// Express capsules, one a read; then nothing more, and time stands still.
 class Wire : public drivers::ByteStream {
@@ -113,17 +113,17 @@ class Wire : public drivers::ByteStream {
 };
 
 std::vector<std::uint8_t> capsules_of(std::shared_ptr<const core::WallMap> map,
-                                      std::uint64_t turns) {
+                                      std::uint64_t scans) {
   const auto motion =
       replay::drive_path({{0.36, 1.1}, {0.36, 0.24}, {0.95, 0.24}, {0.95, 1.15}, {0.95, 0.24}},
                          {.speed_m_s = 0.2, .loop = true});
   replay::Simulator simulator(std::make_unique<replay::MapScene>(map, motion), {});
   simulator.start(0, rplidar::WireFormat::kExpress, 254'000);
   std::vector<std::uint8_t> bytes;
-  for (std::uint64_t turn = 0; turn < turns;) {
+  for (std::uint64_t scan = 0; scan < scans;) {
     const replay::WirePacket packet = simulator.next();
     bytes.insert(bytes.end(), packet.bytes.begin(), packet.bytes.end());
-    for (const auto& sample : packet.samples) turn += sample.starts_turn ? 1 : 0;
+    for (const auto& sample : packet.samples) scan += sample.starts_scan ? 1 : 0;
   }
   return bytes;
 }
@@ -137,7 +137,7 @@ constexpr bool kEmulated = false;
 TEST(Realtime, ReaderAndLocalizer_NeitherAllocateNorFaultAfterTheWarmUp) {
   is_excused = true;
   const auto map = settings::load_map(CORNERD_SOURCE_DIR "/config/maps/krpai-2019-a.json");
-  const auto capsules = capsules_of(map, kTurns + 10);
+  const auto capsules = capsules_of(map, kScans + 10);
   replay::VirtualClock clock;
   rplidar::RplidarDriver driver(
       {.device = "wire", .motor = {}},
@@ -150,7 +150,7 @@ TEST(Realtime, ReaderAndLocalizer_NeitherAllocateNorFaultAfterTheWarmUp) {
   localization.start();
   // A sanitizer maps more than any machine has.
   const bool is_touched = !test::kSanitized && touch_memory();
-  std::uint64_t turns = 0;
+  std::uint64_t scans = 0;
   std::uint64_t reported = 0;
   std::size_t allocations = 0;
   std::uint64_t faults = 0;
@@ -158,19 +158,19 @@ TEST(Realtime, ReaderAndLocalizer_NeitherAllocateNorFaultAfterTheWarmUp) {
     return localization.localizer_health().page_faults + localization.reader_page_faults();
   };
   pollfd readable{localization.event_fd(), POLLIN, 0};
-  while (turns < kTurns && ::poll(&readable, 1, 60'000) == 1) {
-    localization.take([&](const TurnReport&) { ++reported; });
-    turns = reported + localization.lost_reports();
-    if (allocations == 0 && turns >= kWarmUpTurns) {
+  while (scans < kScans && ::poll(&readable, 1, 60'000) == 1) {
+    localization.take([&](const ScanReport&) { ++reported; });
+    scans = reported + localization.lost_reports();
+    if (allocations == 0 && scans >= kWarmUpScans) {
       allocations = allocations_of_loops;
       faults = faults_so_far();
     }
   }
-  EXPECT_EQ(allocations_of_loops - allocations, 0U) << "in " << kTurns << " turns";
+  EXPECT_EQ(allocations_of_loops - allocations, 0U) << "in " << kScans << " turns";
   if (!test::kSanitized && !kEmulated && is_touched) {
-    EXPECT_EQ(faults_so_far() - faults, 0U) << "in " << kTurns << " turns";
+    EXPECT_EQ(faults_so_far() - faults, 0U) << "in " << kScans << " turns";
   }
-  EXPECT_GE(turns, kTurns);
+  EXPECT_GE(scans, kScans);
 }
 
 }  // namespace

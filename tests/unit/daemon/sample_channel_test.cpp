@@ -11,8 +11,8 @@ namespace {
 using Kind = SampleChannel::Kind;
 using WhenFull = SampleChannel::WhenFull;
 
-core::Sample sample(core::TimeNs t_ns, bool starts_turn = false) {
-  return {.t_ns = t_ns, .starts_turn = starts_turn};
+core::Sample sample(core::TimeNs t_ns, bool starts_scan = false) {
+  return {.t_ns = t_ns, .starts_scan = starts_scan};
 }
 
 TEST(SampleChannel, SamplesAndGaps_KeepTheirOrder) {
@@ -47,7 +47,7 @@ TEST(SampleChannel, SampleThatMayCompleteATurn_WakesTheConsumer) {
   EXPECT_EQ(channel.wakes(), before);
   channel.on_sample(sample(2, true));
   EXPECT_EQ(channel.wakes(), before + 1);
-  channel.on_sample({.t_ns = 3, .ends_turn = true});
+  channel.on_sample({.t_ns = 3, .ends_scan = true});
   EXPECT_EQ(channel.wakes(), before + 2);
   channel.on_gap();
   EXPECT_EQ(channel.wakes(), before + 3);

@@ -86,10 +86,10 @@ TEST_F(StatusPublisherTest, Status_HasTheDriversCountersAndTheDaemonsOwn) {
   Localization localization(idle,
                             std::make_unique<core::Pipeline>(nullptr, core::LocalizerConfig{}),
                             SourceKind::kDevice);
-  TurnPublisher turns(server_, nullptr);
-  TurnReport report;
+  ScanPublisher scans(server_, nullptr);
+  ScanReport report;
   report.latency_ns = 2'000'000;
-  turns.publish(report);
+  scans.publish(report);
   EXPECT_EQ(next()["what"], "state change");
 
   drivers::LidarStatus status;
@@ -100,7 +100,7 @@ TEST_F(StatusPublisherTest, Status_HasTheDriversCountersAndTheDaemonsOwn) {
   status.lateness.add(300'000);
   DaemonHealth health{.priority = 20, .memory_is_locked = true, .server = {}};
   health.server.add(2'000'000'000);
-  publisher_.publish(status, turns, localization, health, 5'000'000'000);
+  publisher_.publish(status, scans, localization, health, 5'000'000'000);
   const json line = next();
   EXPECT_EQ(line["t"], 5);
   EXPECT_EQ(line["lidar"]["state"], "faulty");

@@ -18,18 +18,18 @@ constexpr double kMarginCells = 8;
 DrawnMap blank(const core::WallMap& map, double resolution_m, double yaw_rad) {
   const Vec2 low = map.lower_left();
   const Vec2 high = map.upper_right();
-  const core::Pose2 turn{0, 0, yaw_rad};
+  const core::Pose2 scan{0, 0, yaw_rad};
   Vec2 near = Vec2::Constant(1e9);
   Vec2 far = -near;
   for (const Vec2& corner : {low, high, Vec2(low.x(), high.y()), Vec2(high.x(), low.y())}) {
-    const Vec2 turned = turn.inverse() * corner;
+    const Vec2 turned = scan.inverse() * corner;
     near = near.cwiseMin(turned);
     far = far.cwiseMax(turned);
   }
   // Off the raster by what nobody chose.
   const Vec2 margin = Vec2(kMarginCells + 0.37, kMarginCells + 0.21) * resolution_m;
   const Vec2 size = (far - near + 2 * margin) / resolution_m;
-  const Vec2 origin = turn * Vec2(near - margin);
+  const Vec2 origin = scan * Vec2(near - margin);
   return {OccupancyGrid(static_cast<std::size_t>(size.x()), static_cast<std::size_t>(size.y())),
           resolution_m,
           {origin.x(), origin.y(), yaw_rad}};

@@ -32,7 +32,7 @@ namespace {
 TEST(LineWriter, WorstLines_AllocateNothing) {
   LineWriter writer;
   core::Scan scan;
-  for (std::size_t i = 0; i < core::kMaxSamplesPerTurn; ++i) {
+  for (std::size_t i = 0; i < core::kMaxSamplesPerScan; ++i) {
     // Irregular times, and every field at its longest.
     scan.add({.t_ns = static_cast<core::TimeNs>(i * i * 100),
               .bearing_rad = -3.1234567f,
@@ -40,7 +40,7 @@ TEST(LineWriter, WorstLines_AllocateNothing) {
               .quality = 255});
   }
   core::Detection detection;
-  detection.breakpoints.resize(core::kMaxBreakpointsPerTurn);
+  detection.breakpoints.resize(core::kMaxBreakpointsPerScan);
   core::PoseEstimate pose;
   pose.alternatives.resize(core::kMaxAlternatives);
   const std::array<StatusFields::Counter, 1> counters = {{{"bytes", 7}}};
@@ -58,7 +58,7 @@ TEST(LineWriter, WorstLines_AllocateNothing) {
   written += writer.serial(0, LineWriter::Direction::kRx, bytes).size();
   counting = false;
 
-  EXPECT_GT(written, core::kMaxSamplesPerTurn * 20) << "the scan was not at its longest";
+  EXPECT_GT(written, core::kMaxSamplesPerScan * 20) << "the scan was not at its longest";
   EXPECT_EQ(allocations, 0);
 }
 

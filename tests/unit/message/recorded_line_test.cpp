@@ -36,10 +36,10 @@ TEST(RecordedScan, Samples_AreSpreadOverTheDuration) {
   EXPECT_EQ(scan.duration_ns, 400'000'000);
   EXPECT_EQ(scan.samples[0].t_ns, 2'000'000'000);
   EXPECT_EQ(scan.samples[3].t_ns, 2'300'000'000);
-  EXPECT_TRUE(scan.samples[0].starts_turn);
-  EXPECT_FALSE(scan.samples[1].starts_turn);
-  EXPECT_FALSE(scan.samples[2].ends_turn);
-  EXPECT_TRUE(scan.samples[3].ends_turn);
+  EXPECT_TRUE(scan.samples[0].starts_scan);
+  EXPECT_FALSE(scan.samples[1].starts_scan);
+  EXPECT_FALSE(scan.samples[2].ends_scan);
+  EXPECT_TRUE(scan.samples[3].ends_scan);
   EXPECT_EQ(scan.samples[1].bearing_rad, -1);
   EXPECT_EQ(scan.samples[1].range_m, 2);
 }
@@ -101,8 +101,8 @@ TEST(RecordedScan, MoreThanATurn_IsRefused) {
     for (std::size_t i = 1; i < count; ++i) zeros += ",0";
     return R"({"class":"SCAN","t":1,"angles":[)" + zeros + R"(],"ranges":[)" + zeros + "]}";
   };
-  EXPECT_EQ(scan_of(line_of(core::kMaxSamplesPerTurn)).samples.size(), core::kMaxSamplesPerTurn);
-  EXPECT_THAT(error_of(line_of(core::kMaxSamplesPerTurn + 1)), HasSubstr("10240"));
+  EXPECT_EQ(scan_of(line_of(core::kMaxSamplesPerScan)).samples.size(), core::kMaxSamplesPerScan);
+  EXPECT_THAT(error_of(line_of(core::kMaxSamplesPerScan + 1)), HasSubstr("10240"));
 }
 
 TEST(RecordedSerial, Bytes_AreRead) {

@@ -19,17 +19,17 @@ namespace {
 struct Played : RecordingSink {
   void on_sample(const core::Sample& sample) override {
     samples.push_back(sample);
-    core::Scan turn;
-    if (assembler.add(sample, turn)) turn_sizes.push_back(turn.size());
+    core::Scan scan;
+    if (assembler.add(sample, scan)) scan_sizes.push_back(scan.size());
   }
   void on_gap() override { ++gaps; }
   void on_odometry(const message::OdometryReading& reading) override {
     odometry.push_back(reading);
   }
   std::vector<core::Sample> samples;
-  std::vector<std::size_t> turn_sizes;
+  std::vector<std::size_t> scan_sizes;
   std::vector<message::OdometryReading> odometry;
-  core::TurnAssembler assembler;
+  core::ScanAssembler assembler;
   int gaps = 0;
 };
 
@@ -57,7 +57,7 @@ std::string scan_line(double t_s, const std::string& angles = "[1,0.5,0,-0.5]") 
 
 void simulate(const std::filesystem::path& file, double byte_faults = 0) {
   SimulatedRecordingConfig config;
-  config.turns = 5;
+  config.scans = 5;
   config.byte_fault_share = byte_faults;
   RecordingWriter writer(file);
   simulate_recording(make_room(), stand_still({1, 1, 0}), config, writer, nullptr);
@@ -65,12 +65,12 @@ void simulate(const std::filesystem::path& file, double byte_faults = 0) {
 
 TEST(RecordingPlayer, Scans_AreOneTurnEachWithoutAGapBetween) {
   const Played played = play_lines(scan_line(10) + scan_line(10.1) + scan_line(10.2));
-  EXPECT_EQ(played.turn_sizes, (std::vector<std::size_t>{4, 4, 4}));
+  EXPECT_EQ(played.scan_sizes, (std::vector<std::size_t>{4, 4, 4}));
   EXPECT_EQ(played.gaps, 0);
   ASSERT_EQ(played.samples.size(), 12u);
-  EXPECT_TRUE(played.samples[4].starts_turn);
-  EXPECT_TRUE(played.samples[7].ends_turn);
-  EXPECT_FALSE(played.samples[5].starts_turn);
+  EXPECT_TRUE(played.samples[4].starts_scan);
+  EXPECT_TRUE(played.samples[7].ends_scan);
+  EXPECT_FALSE(played.samples[5].starts_scan);
   EXPECT_EQ(played.samples[1].range_m, 0);
   EXPECT_NEAR(core::to_seconds(played.samples[5].t_ns), 10.125, 1e-9);
 }
@@ -87,7 +87,7 @@ TEST(RecordingPlayer, LinesThatAreNoInput_ArePassedOver) {
                                        scan_line(2),
                                    &bad_lines);
   EXPECT_EQ(bad_lines, 0u);
-  EXPECT_EQ(played.turn_sizes.size(), 2u);
+  EXPECT_EQ(played.scan_sizes.size(), 2u);
   ASSERT_EQ(played.odometry.size(), 1u);
   EXPECT_EQ(played.odometry[0].left, -7);
 }
@@ -101,16 +101,16 @@ TEST(RecordingPlayer, DamagedLines_AreCountedNamedAndCostOnlyThemselves) {
       &bad_lines, &problem);
   EXPECT_EQ(bad_lines, 2u);
   EXPECT_NE(problem.find("line 2:"), std::string::npos) << problem;
-  EXPECT_EQ(played.turn_sizes.size(), 3u);
+  EXPECT_EQ(played.scan_sizes.size(), 3u);
 }
 
 TEST(RecordingPlayer, TornLastLine_IsNoProblem) {
   std::uint64_t bad_lines = 0;
   const std::string whole = scan_line(2);
-  EXPECT_EQ(play_lines(scan_line(1) + whole.substr(0, 40), &bad_lines).turn_sizes.size(), 1u);
+  EXPECT_EQ(play_lines(scan_line(1) + whole.substr(0, 40), &bad_lines).scan_sizes.size(), 1u);
   EXPECT_EQ(bad_lines, 0u);
   // One that only lacks its newline has lost nothing.
-  EXPECT_EQ(play_lines(scan_line(1) + whole.substr(0, whole.size() - 1)).turn_sizes.size(), 2u);
+  EXPECT_EQ(play_lines(scan_line(1) + whole.substr(0, whole.size() - 1)).scan_sizes.size(), 2u);
 }
 
 TEST(RecordingPlayer, BytesAndLines_GiveTheSameSamples) {
@@ -126,8 +126,8 @@ TEST(RecordingPlayer, BytesAndLines_GiveTheSameSamples) {
     EXPECT_EQ(from_bytes.samples[i].bearing_rad, from_lines.samples[i].bearing_rad);
     EXPECT_EQ(from_bytes.samples[i].range_m, from_lines.samples[i].range_m);
   }
-  EXPECT_EQ(from_bytes.turn_sizes.size(), 5u);
-  EXPECT_EQ(bytes.counters().turns, 6u);  // the last one was begun
+  EXPECT_EQ(from_bytes.scan_sizes.size(), 5u);
+  EXPECT_EQ(bytes.counters().scans, 6u);  // the last one was begun
   EXPECT_NEAR(core::to_seconds(bytes.time_ns()), 5.5 / 7.3, 0.08);
   EXPECT_NEAR(core::to_seconds(lines.time_ns()), 5.5 / 7.3, 0.08);
 }

@@ -54,7 +54,7 @@ TEST(ReplayDriver, Recording_IsDeliveredInItsOwnTimeAndEnds) {
   const drivers::LidarStatus status = driver.status();
   EXPECT_EQ(status.state, LidarState::kEnded);
   EXPECT_EQ(status.counters.samples, 8u);
-  EXPECT_EQ(status.counters.turns, 2u);
+  EXPECT_EQ(status.counters.scans, 2u);
   EXPECT_NEAR(status.rate_hz, 10, 1e-6);
   EXPECT_NEAR(status.samples_hz, 40, 1e-6);
 }
@@ -70,7 +70,7 @@ TEST(ReplayDriver, Loop_LetsTimeGoOnGrowingEvenly) {
   for (std::size_t i = 1; i < sink.samples.size(); ++i) {
     EXPECT_EQ(sink.samples[i].t_ns - sink.samples[i - 1].t_ns, 25'000'000) << i;
   }
-  EXPECT_EQ(driver.status().counters.turns, 7u);
+  EXPECT_EQ(driver.status().counters.scans, 7u);
 }
 
 TEST(ReplayDriver, Speed_PacesTheSamples) {

@@ -160,7 +160,7 @@ TEST(Config, OneCounterForBothWheels_IsRefused) {
 
 TEST(Config, UpdatesPerTurn_ReachTheLocalizer) {
   EXPECT_EQ(
-      parse(R"({"map": "/m", "localizer": {"updates_per_turn": 4}})").localizer().updates_per_turn,
+      parse(R"({"map": "/m", "localizer": {"updates_per_turn": 4}})").localizer().updates_per_scan,
       4U);
   EXPECT_THAT(config_error(R"({"map": "/m", "localizer": {"updates_per_turn": 0}})"),
               HasSubstr("/localizer/updates_per_turn"));

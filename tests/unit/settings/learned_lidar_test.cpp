@@ -30,7 +30,7 @@ TEST(LearnedLidar, Written_ReadsTheSame) {
   EXPECT_EQ(again.configured, lidar.configured);
   EXPECT_EQ(again.learned.bias, lidar.learned.bias);
   EXPECT_EQ(again.learned.sigma, lidar.learned.sigma);
-  EXPECT_EQ(again.learned.turns, 412u);
+  EXPECT_EQ(again.learned.scans, 412u);
 }
 
 TEST(LearnedLidar, WithoutANumber_ReadsTheSame) {
@@ -51,7 +51,7 @@ TEST(LearnedLidar, OfAnotherKindOrWithoutWhatItNeeds_IsAnError) {
   EXPECT_THAT(learned_error(R"({"format":"cornerd-map"})"), HasSubstr("/format"));
   EXPECT_THAT(learned_error(R"({"format":"cornerd-lidar","turns":3})"), HasSubstr("/sigma"));
   LearnedLidar lidar = usual_lidar();
-  lidar.learned.turns = 0;
+  lidar.learned.scans = 0;
   EXPECT_THAT(learned_error(text_of(lidar)), HasSubstr("/turns"));
   lidar = usual_lidar();
   lidar.learned.bias.range_scale = 0.2;

@@ -45,7 +45,7 @@ TEST(Adjustment, Adjust_OneFalseObservation_LosesItsWeight) {
   for (int i = 0; i < 20; ++i) way.push_back({0.05 * i, 0, 0});
   MappedDrive drive = mapped_drive(kRoom, way);
   for (Observation& observation : drive.observations) {
-    if (observation.turn == 10 && observation.face == 1) observation.seen.centroid.x() += 0.1;
+    if (observation.scan == 10 && observation.face == 1) observation.seen.centroid.x() += 0.1;
   }
   const AdjustmentResult result = adjust(drive);
   EXPECT_EQ(result.outliers, 1U);
@@ -60,7 +60,7 @@ TEST(Adjustment, Adjust_Bond_MakesBothSidesParallel) {
   FaceBond bond;
   bond.one = 0;
   bond.other = 2;
-  bond.turn_rad = core::kPi;
+  bond.rotation_rad = core::kPi;
   bond.sigma_rad = 1e-6;
   adjust(drive, std::span(&bond, 1));
   EXPECT_NEAR(

@@ -42,8 +42,8 @@ TEST(FaceMerging, Merge_MappedTwice6cmApart_IsOneByItsRays) {
   // The same wall, seen by half of the turns 6 cm farther off: the poses were wrong by that.
   MappedDrive drive = with_walls({{{3, 2}, {-1, 2}}});
   drive.faces.push_back(face_between({2.5, 2.06}, {-0.5, 2.06}));
-  for (std::size_t turn = 5; turn < 10; ++turn) {
-    for (std::size_t i = drive.first_point[turn]; i < drive.first_point[turn + 1]; ++i) {
+  for (std::size_t scan = 5; scan < 10; ++scan) {
+    for (std::size_t i = drive.first_point[scan]; i < drive.first_point[scan + 1]; ++i) {
       StraightPoint& point = drive.points[i];
       point.range_m *= 2.06F / 2.0F;
     }

@@ -16,7 +16,7 @@ MappedDrive drive_along_a_wall() {
   for (int i = 0; i <= 10; ++i) way.push_back({1.0 * i, 0, 0});
   MappedDrive drive = mapped_drive(walls, way);
   std::erase_if(drive.observations, [](const Observation& observation) {
-    return observation.face == 1 && observation.turn > 1 && observation.turn < 9;
+    return observation.face == 1 && observation.scan > 1 && observation.scan < 9;
   });
   return drive;
 }
@@ -27,11 +27,11 @@ TEST(SplitRevisited, WallThatWasOutOfSight_IsTwo) {
   ASSERT_EQ(drive.faces.size(), 3U);
   EXPECT_EQ(drive.faces[0].sightings, 11U);
   EXPECT_EQ(drive.faces[1].sightings, 2U);
-  EXPECT_EQ(drive.faces[1].last_turn, 1U);
+  EXPECT_EQ(drive.faces[1].last_scan, 1U);
   EXPECT_EQ(drive.faces[2].sightings, 2U);
-  EXPECT_EQ(drive.faces[2].first_turn, 9U);
+  EXPECT_EQ(drive.faces[2].first_scan, 9U);
   for (const Observation& observation : drive.observations) {
-    EXPECT_EQ(observation.face == 2, observation.turn >= 9 && observation.face != 0);
+    EXPECT_EQ(observation.face == 2, observation.scan >= 9 && observation.face != 0);
   }
 }
 

@@ -42,11 +42,11 @@ MappedDrive drive_that_comes_back(double off_m, double link_sigma_m) {
   add_returns(drive);
   const auto known = static_cast<std::uint32_t>(drive.faces.size());
   std::erase_if(drive.observations, [](const Observation& observation) {
-    return observation.turn >= kInTheRoom && observation.turn < kBackFrom;
+    return observation.scan >= kInTheRoom && observation.scan < kBackFrom;
   });
   for (std::size_t i = 0; i < known; ++i) drive.faces.push_back(drive.faces[i]);
   for (Observation& observation : drive.observations) {
-    if (observation.turn >= kBackFrom) observation.face += known;
+    if (observation.scan >= kBackFrom) observation.face += known;
   }
   for (std::size_t i = kInTheRoom; i < way.size(); ++i) {
     const double share = std::min(1.0, static_cast<double>(i - kInTheRoom) / kOutside);

@@ -33,16 +33,16 @@ MappedDrive mapped_drive(std::span<const std::pair<core::Vec2, core::Vec2>> wall
   MappedDrive drive;
   for (const auto& [from, to] : walls) drive.faces.push_back(face_between(from, to));
   drive.first_point.push_back(0);
-  for (std::size_t turn = 0; turn < poses.size(); ++turn) {
-    drive.T_map_lidar.push_back(poses[turn]);
+  for (std::size_t scan = 0; scan < poses.size(); ++scan) {
+    drive.T_map_lidar.push_back(poses[scan]);
     DriveLink link;
-    if (turn > 0) link.T_before_now = poses[turn - 1].inverse() * poses[turn];
+    if (scan > 0) link.T_before_now = poses[scan - 1].inverse() * poses[scan];
     link.covariance *= 1e-4;
     drive.links.push_back(link);
     for (std::uint32_t i = 0; i < drive.faces.size(); ++i) {
-      if (drive.faces[i].height_of(poses[turn].translation()) <= 0) continue;
-      drive.observations.push_back({static_cast<std::uint32_t>(turn), i,
-                                    sighting_of(walls[i].first, walls[i].second, poses[turn])});
+      if (drive.faces[i].height_of(poses[scan].translation()) <= 0) continue;
+      drive.observations.push_back({static_cast<std::uint32_t>(scan), i,
+                                    sighting_of(walls[i].first, walls[i].second, poses[scan])});
     }
     drive.first_point.push_back(0);
   }

@@ -22,8 +22,8 @@ MappedDrive drive_in_a_room() {
 
 TEST(PartOf, Turns_KeepWhatTheySaw) {
   const MappedDrive drive = drive_in_a_room();
-  const std::array<std::uint32_t, 2> turns = {4, 11};
-  const MappedDrive part = part_of(drive, turns);
+  const std::array<std::uint32_t, 2> scans = {4, 11};
+  const MappedDrive part = part_of(drive, scans);
   ASSERT_EQ(part.T_map_lidar.size(), 2U);
   EXPECT_EQ(part.T_map_lidar[1].x_m, drive.T_map_lidar[11].x_m);
   EXPECT_EQ(part.points_of(1).size(), drive.points_of(11).size());
@@ -36,16 +36,16 @@ TEST(PartOf, Turns_KeepWhatTheySaw) {
 TEST(PartOf, FaceThatNoneOfTheTurnsSaw_IsLeftOut) {
   MappedDrive drive = drive_in_a_room();
   std::erase_if(drive.observations, [](const Observation& observation) {
-    return observation.face == 2 && observation.turn < 10;
+    return observation.face == 2 && observation.scan < 10;
   });
-  const std::array<std::uint32_t, 2> turns = {3, 5};
-  EXPECT_EQ(part_of(drive, turns).faces.size(), 3U);
+  const std::array<std::uint32_t, 2> scans = {3, 5};
+  EXPECT_EQ(part_of(drive, scans).faces.size(), 3U);
 }
 
 TEST(MapSeenBy, TurnsInARoom_HasItsWallsAndCorners) {
   const MappedDrive drive = drive_in_a_room();
-  const std::array<std::uint32_t, 8> turns = {0, 2, 4, 6, 8, 10, 12, 14};
-  const auto map = map_seen_by(drive, turns, {}, {});
+  const std::array<std::uint32_t, 8> scans = {0, 2, 4, 6, 8, 10, 12, 14};
+  const auto map = map_seen_by(drive, scans, {}, {});
   ASSERT_NE(map, nullptr);
   EXPECT_EQ(map->plan().walls.size(), 4U);
   EXPECT_NEAR(map->range_along({0, 0}, 0, 12), 3, 0.01);
@@ -53,8 +53,8 @@ TEST(MapSeenBy, TurnsInARoom_HasItsWallsAndCorners) {
 }
 
 TEST(MapSeenBy, TooFewTurnsToBelieveAWall_IsNone) {
-  const std::array<std::uint32_t, 2> turns = {0, 1};
-  EXPECT_EQ(map_seen_by(drive_in_a_room(), turns, {}, {}), nullptr);
+  const std::array<std::uint32_t, 2> scans = {0, 1};
+  EXPECT_EQ(map_seen_by(drive_in_a_room(), scans, {}, {}), nullptr);
 }
 
 }  // namespace

@@ -16,11 +16,11 @@ namespace {
 using core::Vec2;
 
 /// A room of 4 x 3 m, driven through by a robot whose wheels are as configured.
-RecordedDrive drive_in_a_room(std::size_t turns, bool has_odometry) {
+RecordedDrive drive_in_a_room(std::size_t scans, bool has_odometry) {
   core::FloorPlan plan;
   plan.walls = {{{0, 0}, {4, 0}, 0}, {{4, 0}, {4, 3}, 0}, {{4, 3}, {0, 3}, 0}, {{0, 3}, {0, 0}, 0}};
   bench::SimulatedDriveConfig config;
-  config.turns = turns;
+  config.scans = scans;
   config.has_odometry = has_odometry;
   replay::DriveConfig drive;
   drive.loop = true;

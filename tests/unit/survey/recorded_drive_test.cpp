@@ -6,7 +6,7 @@
 namespace cornerd::survey {
 namespace {
 
-core::Scan turn_at(core::TimeNs start_ns, float range_m) {
+core::Scan scan_at(core::TimeNs start_ns, float range_m) {
   core::Scan scan;
   for (int i = 0; i < 4; ++i) {
     core::Sample sample;
@@ -20,8 +20,8 @@ core::Scan turn_at(core::TimeNs start_ns, float range_m) {
 
 TEST(RecordedDrive, Load_AfterAdd_GivesTheSamplesBack) {
   RecordedDrive drive;
-  drive.add(turn_at(5'000'000'000, 1));
-  drive.add(turn_at(6'000'000'000, 2));
+  drive.add(scan_at(5'000'000'000, 1));
+  drive.add(scan_at(6'000'000'000, 2));
   core::Scan scan;
   drive.load(1, scan);
   ASSERT_EQ(scan.size(), 4U);
@@ -33,15 +33,15 @@ TEST(RecordedDrive, Load_AfterAdd_GivesTheSamplesBack) {
 
 TEST(RecordedDrive, Add_Reading_RemembersTheTurnThatWasGoingOn) {
   RecordedDrive drive;
-  drive.add(turn_at(0, 1));
+  drive.add(scan_at(0, 1));
   drive.add(core::OdometryReading{}, std::nullopt);
   EXPECT_EQ(drive.readings().front().turn, 1U);
 }
 
 TEST(RecordedDrive, SetOdometry_OfAnotherFile_FindsTheTurnsByTime) {
   RecordedDrive drive;
-  drive.add(turn_at(0, 1));
-  drive.add(turn_at(100'000'000, 1));
+  drive.add(scan_at(0, 1));
+  drive.add(scan_at(100'000'000, 1));
   drive.set_odometry({{.t_ns = 1'000'000, .left = {}, .right = {}, .gyro_rad_s = {}},
                       {.t_ns = 100'500'000, .left = {}, .right = {}, .gyro_rad_s = {}}});
   ASSERT_EQ(drive.readings().size(), 2U);

@@ -9,9 +9,9 @@
 namespace cornerd::survey {
 namespace {
 
-RecordedDrive drive_of(std::size_t turns) {
+RecordedDrive drive_of(std::size_t scans) {
   RecordedDrive drive;
-  for (std::size_t i = 0; i < turns; ++i) {
+  for (std::size_t i = 0; i < scans; ++i) {
     core::Scan scan;
     core::Sample sample;
     sample.t_ns = static_cast<core::TimeNs>(i) * 1'000'000'000;
@@ -31,18 +31,18 @@ std::string refusal(const Check& check) {
   return {};
 }
 
-TEST(RefuseTooFewTurns, FewerThanAWallNeeds_SaysHowManyThereWere) {
-  EXPECT_EQ(refusal([] { refuse_too_few_turns(drive_of(4), 5); }),
+TEST(RefuseTooFewScans, FewerThanAWallNeeds_SaysHowManyThereWere) {
+  EXPECT_EQ(refusal([] { refuse_too_few_scans(drive_of(4), 5); }),
             "whole turns of a lidar in it: 4; a wall has to be seen in 5");
-  EXPECT_EQ(refusal([] { refuse_too_few_turns(drive_of(5), 5); }), "");
-  EXPECT_EQ(refusal([] { refuse_too_few_turns({}, 5); }), "not one whole turn of a lidar in it");
+  EXPECT_EQ(refusal([] { refuse_too_few_scans(drive_of(5), 5); }), "");
+  EXPECT_EQ(refusal([] { refuse_too_few_scans({}, 5); }), "not one whole turn of a lidar in it");
 }
 
 TEST(RefuseWithoutOverlap, MoreThanTwoOfAHundredTurns_SaysWhereTheFirstIs) {
   MappedDrive drive;
-  drive.strange_turns = {20, 21};
+  drive.unmatched_scans = {20, 21};
   EXPECT_EQ(refusal([&] { refuse_without_overlap(drive_of(100), drive); }), "");
-  drive.strange_turns.push_back(22);
+  drive.unmatched_scans.push_back(22);
   EXPECT_EQ(refusal([&] { refuse_without_overlap(drive_of(100), drive); }),
             "without odometry, 3 of 100 turns see too little of what was seen before them, the "
             "first 20 s after the start; drive more slowly there, or record the odometry too");

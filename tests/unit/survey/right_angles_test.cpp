@@ -26,7 +26,7 @@ TEST(RightAngles, WallSquareWithinItsDoubt_GetsABond) {
   const RightAngles found = right_angles(two_walls(core::radians(0.08)), kBoth);
   ASSERT_EQ(found.bonds.size(), 1U);
   EXPECT_EQ(found.bonds[0].one, 0U);
-  EXPECT_NEAR(found.bonds[0].turn_rad, core::kPi / 2, 1e-12);
+  EXPECT_NEAR(found.bonds[0].rotation_rad, core::kPi / 2, 1e-12);
   EXPECT_EQ(found.askew, 0U);
 }
 

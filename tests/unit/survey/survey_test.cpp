@@ -29,7 +29,7 @@ std::shared_ptr<const core::WallMap> two_rooms() {
 
 bench::SimulatedDrive drive_through(bool has_odometry) {
   bench::SimulatedDriveConfig config;
-  config.turns = 230;
+  config.scans = 230;
   config.has_odometry = has_odometry;
   config.robot.left_scale = 0.015;
   config.robot.right_scale = 0.025;
@@ -89,7 +89,7 @@ TEST(Survey, WithoutOdometry_OverlappingTurnsAreEnough) {
   const bench::SimulatedDrive simulated = drive_through(/*has_odometry=*/false);
   const SurveyResult result = survey(simulated.drive, {});
   EXPECT_FALSE(result.has_odometry);
-  EXPECT_TRUE(result.blind_turns.empty());
+  EXPECT_TRUE(result.degenerate_scans.empty());
   const core::WallMap found(result.plan);
   const auto score =
       bench::score_survey(*two_rooms(), simulated.T_map_base, found, simulated.T_map_base[0]);
@@ -106,9 +106,9 @@ TEST(Survey, Manhattan_MakesWallsSquare) {
   const Vec2 first = result.plan.walls[0].to - result.plan.walls[0].from;
   for (const core::Wall& wall : result.plan.walls) {
     if ((wall.to - wall.from).norm() < 0.3) continue;
-    const double turn_rad = core::angle_of(wall.to - wall.from) - core::angle_of(first);
-    const double square_rad = std::round(turn_rad / (core::kPi / 2)) * (core::kPi / 2);
-    EXPECT_NEAR(turn_rad, square_rad, 1e-4);
+    const double rotation_rad = core::angle_of(wall.to - wall.from) - core::angle_of(first);
+    const double square_rad = std::round(rotation_rad / (core::kPi / 2)) * (core::kPi / 2);
+    EXPECT_NEAR(rotation_rad, square_rad, 1e-4);
   }
 }
 
@@ -141,7 +141,7 @@ TEST(Survey, DeadWheel_IsLeftOutAndSaid) {
   const SurveyResult result = survey(
       with_lies(simulated.drive, [](core::OdometryReading& reading) { reading.left = 7; }), {});
   expect_right_by_the_lidar_alone(simulated, result);
-  EXPECT_GT(result.odometry_doubt->contradicted_turns, result.t_ns.size() / 10);
+  EXPECT_GT(result.odometry_doubt->contradicted_scans, result.t_ns.size() / 10);
   EXPECT_NEAR(result.odometry_doubt->left.counted_m, 0, 1e-9);
   EXPECT_NEAR(result.odometry_doubt->right.counted_m, result.odometry_doubt->right.true_m,
               0.05 * result.odometry_doubt->right.true_m);
@@ -171,7 +171,7 @@ TEST(Survey, OdometryThatBeginsInTheMiddle_IsLeftOutAndSaid) {
   drive.set_odometry(rest);
   const SurveyResult result = survey(drive, {});
   expect_right_by_the_lidar_alone(simulated, result);
-  EXPECT_NEAR(static_cast<double>(result.odometry_doubt->unled_turns),
+  EXPECT_NEAR(static_cast<double>(result.odometry_doubt->scans_without_odometry),
               static_cast<double>(drive.size()) / 2, 10);
 }
 

@@ -31,12 +31,12 @@ class CalibrateNoise : public testing::Test {
     return text.str();
   }
   /// A lidar with known noise stands still in a hall.
-  std::string recording(const std::string& floor, const std::string& turns = "100") const {
+  std::string recording(const std::string& floor, const std::string& scans = "100") const {
     std::ofstream(path("hall.json")) << R"({"format": "cornerd-map", "version": 1, "name": "hall",
         "walls": [{"from": [0, 0], "to": [6, 0]}, {"from": [6, 0], "to": [6, 4]},
                   {"from": [6, 4], "to": [0, 4]}, {"from": [0, 4], "to": [0, 0]}]})";
     CommandRun({"simulate", "--map", path("hall.json"), "--wire", "standard", "--pose", "2,0.6,0.3",
-                "--turns", turns, "--sigma-floor", floor, "--sigma-share", "0.002",
+                "--turns", scans, "--sigma-floor", floor, "--sigma-share", "0.002",
                 "--bearing-noise", "0.15", "-o", path("still.bin")});
     return path("still.bin");
   }

@@ -6,24 +6,24 @@
 namespace cornerd::tool {
 namespace {
 
-constexpr core::TimeNs kTurnNs = core::kNsPerSecond / 5;
+constexpr core::TimeNs kScanNs = core::kNsPerSecond / 5;
 
 /// Three samples ahead, at its beginning, middle and end; the second without a return.
-core::Scan turn_at(core::TimeNs start_ns) {
-  core::Scan turn;
+core::Scan scan_at(core::TimeNs start_ns) {
+  core::Scan scan;
   for (int i = 0; i < 3; ++i) {
     core::Sample sample;
-    sample.t_ns = start_ns + i * kTurnNs / 2;
+    sample.t_ns = start_ns + i * kScanNs / 2;
     sample.range_m = i == 1 ? 0.0F : 2.0F;
-    turn.add(sample);
+    scan.add(sample);
   }
-  return turn;
+  return scan;
 }
 
 TEST(DrivePoints, ReturnsBetweenTwoTurns_AreFromBetweenTheirPlaces) {
   DrivePoints drive;
-  drive.add(turn_at(0), core::Pose2{0, 0, 0});
-  drive.add(turn_at(kTurnNs), core::Pose2{1, 0, 0});
+  drive.add(scan_at(0), core::Pose2{0, 0, 0});
+  drive.add(scan_at(kScanNs), core::Pose2{1, 0, 0});
   const auto points = drive.place({0.5, 0, 0});
   ASSERT_EQ(points.size(), 4U);
   EXPECT_NEAR(points[0].x(), 2.5, 1e-9);  // nothing is known of before
@@ -34,9 +34,9 @@ TEST(DrivePoints, ReturnsBetweenTwoTurns_AreFromBetweenTheirPlaces) {
 
 TEST(DrivePoints, TurnsLongAgoOrLost_SayNothingOfTheWay) {
   DrivePoints drive;
-  drive.add(turn_at(0), core::Pose2{0, 0, 0});
-  drive.add(turn_at(10 * kTurnNs), core::Pose2{1, 0, 0});
-  drive.add(turn_at(11 * kTurnNs), std::nullopt);
+  drive.add(scan_at(0), core::Pose2{0, 0, 0});
+  drive.add(scan_at(10 * kScanNs), core::Pose2{1, 0, 0});
+  drive.add(scan_at(11 * kScanNs), std::nullopt);
   const auto points = drive.place({});
   ASSERT_EQ(points.size(), 4U);
   EXPECT_NEAR(points[1].x(), 2, 1e-9);
@@ -46,11 +46,11 @@ TEST(DrivePoints, TurnsLongAgoOrLost_SayNothingOfTheWay) {
 
 TEST(DrivePoints, GivenWay_PlacesEveryReturnThatItKnows) {
   DrivePoints drive;
-  drive.add(turn_at(0), std::nullopt);
+  drive.add(scan_at(0), std::nullopt);
   message::RecordedTruth begin;
-  begin.t_ns = kTurnNs / 2;
+  begin.t_ns = kScanNs / 2;
   message::RecordedTruth end;
-  end.t_ns = kTurnNs;
+  end.t_ns = kScanNs;
   end.T_map_base = {0, 1, 0};
   const auto points = drive.place({}, Truth({begin, end}));
   ASSERT_EQ(points.size(), 1U);

@@ -32,7 +32,7 @@ TEST(ErrorStatistics, Distances_AreThoseOfPythagoras) {
   statistics.add(estimate(PoseState::kTracking, 1, 2.001, 0), {1, 2, 0});
   EXPECT_NEAR(statistics.mean_error_m(), 0.003, 1e-12);
   EXPECT_NEAR(statistics.max_error_m(), 0.005, 1e-12);
-  EXPECT_EQ(statistics.turns(), 2U);
+  EXPECT_EQ(statistics.scans(), 2U);
   EXPECT_EQ(statistics.count(PoseState::kFix), 1U);
   EXPECT_EQ(statistics.wrong(), 0U);
 }

@@ -18,9 +18,9 @@ namespace cornerd::tool {
 /// Records a drive with wheels and a gyro through the flat.
 class OdometryCommandTest : public ::testing::Test {
  protected:
-  CommandRun simulate(std::vector<std::string> more, const std::string& turns = "150") {
+  CommandRun simulate(std::vector<std::string> more, const std::string& scans = "150") {
     std::vector<std::string> words = {
-        "simulate", "--map",    map_,      "--scenario", "circuit-1",  "--turns",       turns,
+        "simulate", "--map",    map_,      "--scenario", "circuit-1",  "--turns",       scans,
         "-o",       recording_, "--truth", truth_,       "--odometry", "--drive-speed", "0.4"};
     words.insert(words.end(), more.begin(), more.end());
     return CommandRun(words);

@@ -77,8 +77,8 @@ class SurveyCommandTest : public ::testing::Test {
 TEST_F(SurveyCommandTest, SimulatedDrive_GivesAMapToLocalizeIn) {
   simulate(file("one.ndjson"), file("one.truth"), "1");
   const Truth truth = Truth::load(file("one.truth"));
-  constexpr core::TimeNs kMiddleOfTheFirstTurn = 91'000'000;
-  const core::Pose2 start = truth.at(kMiddleOfTheFirstTurn).value();
+  constexpr core::TimeNs kMiddleOfTheFirstScan = 91'000'000;
+  const core::Pose2 start = truth.at(kMiddleOfTheFirstScan).value();
   std::ostringstream pose;
   pose << start.x_m << "," << start.y_m << "," << start.theta_rad;
   const CommandRun run({"survey", file("one.ndjson"), "-o", file("map.json"), "--start", pose.str(),

@@ -7,14 +7,14 @@
 
 #include <Eigen/LU>
 
-#include "bench/simulated_turn.hpp"
+#include "bench/simulated_scan.hpp"
 #include "tests/unit/replay/test_maps.hpp"
 
 namespace cornerd::bench {
 namespace {
 
-core::PolarScan turn_at(const core::WallMap& map, const core::Pose2& place, std::size_t samples) {
-  TurnSimulator lidar(replay::SensorModel::perfect(), samples, 1);
+core::PolarScan scan_at(const core::WallMap& map, const core::Pose2& place, std::size_t samples) {
+  ScanSimulator lidar(replay::SensorModel::perfect(), samples, 1);
   core::PolarScan points;
   points.assign(lidar.take(map, place), 0.1, 12);
   return points;
@@ -24,8 +24,8 @@ TEST(CramerRao, FourTimesTheSamples_HalveTheBound) {
   const auto map = replay::make_room();
   const core::Pose2 place{1.2, 1.1, 0.4};
   CramerRao cramer_rao({}, 12);
-  const core::Covariance3 few = cramer_rao.bound(*map, place, turn_at(*map, place, 400));
-  const core::Covariance3 many = cramer_rao.bound(*map, place, turn_at(*map, place, 1600));
+  const core::Covariance3 few = cramer_rao.bound(*map, place, scan_at(*map, place, 400));
+  const core::Covariance3 many = cramer_rao.bound(*map, place, scan_at(*map, place, 1600));
   for (int i = 0; i < 3; ++i) EXPECT_NEAR(std::sqrt(few(i, i) / many(i, i)), 2, 0.1);
 }
 
@@ -38,13 +38,13 @@ TEST(CramerRao, NoiseOfTheRangeAlone_GivesTheTextbooksFigure) {
   noise.floor_m = 0.01;
   noise.share = 0;
   noise.bearing_rad = 0;
-  const core::PolarScan turn = turn_at(*map, place, 3600);
-  const core::Covariance3 bound = CramerRao(noise, 12).bound(*map, place, turn);
+  const core::PolarScan scan = scan_at(*map, place, 3600);
+  const core::Covariance3 bound = CramerRao(noise, 12).bound(*map, place, scan);
   const core::Covariance3 information = bound.inverse();
   // Two by two, the walls share the rays: together x and y get one each.
   const double rays = information(0, 0) + information(1, 1);
   double expected = 0;
-  for (const core::PolarPoint& point : turn.points()) {
+  for (const core::PolarPoint& point : scan.points()) {
     const double x_m = place.x_m + point.x_m;
     const double y_m = place.y_m + point.y_m;
     double sine = 0;
@@ -61,7 +61,7 @@ TEST(CramerRao, ALoneWall_BoundsNothing) {
   core::FloorPlan plan;
   plan.walls = {{{-50, 1}, {50, 1}, 0}};
   const core::WallMap map(plan);
-  EXPECT_TRUE(CramerRao({}, 12).bound(map, {}, turn_at(map, {}, 400)).isZero());
+  EXPECT_TRUE(CramerRao({}, 12).bound(map, {}, scan_at(map, {}, 400)).isZero());
 }
 
 }  // namespace

@@ -50,7 +50,7 @@ TEST(PoseScore, AmbiguousTurns_AreAskedForTheTruthAmongTheirAlternatives) {
   EXPECT_EQ(score.ambiguous(), 2u);
   EXPECT_EQ(score.ambiguous_with_truth(), 1u);
   EXPECT_EQ(score.lost(), 1u);
-  EXPECT_EQ(score.turns(), 3u);
+  EXPECT_EQ(score.scans(), 3u);
 }
 
 TEST(PoseScore, Bound_IsWhatTheErrorsAreMeasuredBy) {

@@ -26,9 +26,9 @@ TEST(Reliability, Answers_AreSortedByTheirDoubt) {
   reliability.add(answer(core::PoseState::kAmbiguous, 0.3), {5, 2, 0});
   reliability.add(answer(core::PoseState::kLost, 0.5), {5, 2, 0});
   const auto& bins = reliability.bins();
-  EXPECT_EQ(bins.front().turns, 2u);
+  EXPECT_EQ(bins.front().scans, 2u);
   EXPECT_EQ(bins.front().wrong, 1u);
-  EXPECT_EQ(bins.back().turns, 2u);
+  EXPECT_EQ(bins.back().scans, 2u);
   EXPECT_EQ(bins.back().wrong, 1u);
   EXPECT_NEAR(bins.back().doubt, 0.7, 1e-12);
 }
@@ -38,7 +38,7 @@ TEST(Reliability, SumOfTwo_CountsBoth) {
   one.add(answer(core::PoseState::kAmbiguous, 0.002), {5, 2, 0});
   Reliability sum = one;
   sum.add(one);
-  EXPECT_EQ(sum.bins()[3].turns, 2u);
+  EXPECT_EQ(sum.bins()[3].scans, 2u);
   EXPECT_EQ(sum.bins()[3].wrong, 2u);
 }
 

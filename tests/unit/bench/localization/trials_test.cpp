@@ -30,7 +30,7 @@ Trial in_a_room() {
 
 TEST(Trials, StandingRobot_IsMeasuredAgainstTheBound) {
   const PoseScore score = run_trial(in_a_room(), 20, 1);
-  EXPECT_EQ(score.turns(), 20u);
+  EXPECT_EQ(score.scans(), 20u);
   EXPECT_EQ(score.wrong(), 0u);
   ASSERT_GT(score.named(), 15u);
   EXPECT_GT(score.of_bound(), 0.5);
@@ -51,10 +51,10 @@ TEST(Trials, WorldThatIsNotTheMap_IsWhatTheLidarSees) {
 TEST(Trials, MovingRobot_IsFollowedRoundItsCircle) {
   Trial trial = in_a_room();
   trial.motion = {0.1, 1};
-  trial.turns_each = 8;
+  trial.scans_each = 8;
   trial.odometry = true;
   const PoseScore score = run_trial(trial, 3, 1);
-  EXPECT_EQ(score.turns(), 24u);
+  EXPECT_EQ(score.scans(), 24u);
   EXPECT_GT(score.named(), 20u);
   EXPECT_EQ(score.wrong(), 0u);
 }

@@ -21,7 +21,7 @@ DetectorConfig with(const AbdIepfConfig& abd_iepf) {
 
 SegmentTracks track(const PolarScan& points, const AbdIepfConfig& options = {}) {
   SegmentTracks tracks;
-  tracks.reserve(kMaxSegmentsPerTurn);
+  tracks.reserve(kMaxSegmentsPerScan);
   EXPECT_EQ(AbdIepf(with(options), {}).track(points, tracks), 0U);
   return tracks;
 }
@@ -83,8 +83,8 @@ TEST(AbdThreshold, SamplesLambdaOrMoreApart_AreNeverNeighbours) {
 
 TEST(AbdIepf, RectangularRoom_HasFourWallsAndTheCuts) {
   const auto map = testing::make_map(testing::rectangular_room(3, 2));
-  testing::TurnSource source(41);
-  testing::TurnOptions exact;
+  testing::ScanSource source(41);
+  testing::ScanOptions exact;
   exact.with_noise = false;
   for (const AbdThreshold threshold : kThresholds) {
     for (int k = 0; k < 20; ++k) {
@@ -108,8 +108,8 @@ TEST(AbdIepf, RectangularRoom_HasFourWallsAndTheCuts) {
 
 TEST(AbdIepf, Walls_AreRunsWithinTheLimitOfTheirChords) {
   const auto map = testing::make_map(testing::l_shaped_room());
-  testing::TurnSource source(42);
-  testing::TurnOptions noisy;
+  testing::ScanSource source(42);
+  testing::ScanOptions noisy;
   noisy.noise = {0.01, 0.02, radians(0.1)};
   for (int k = 0; k < 20; ++k) {
     const Pose2 T_map_lidar = source.place_in(0.5, 2.2, 0.4, 1.5);
@@ -131,8 +131,8 @@ TEST(AbdIepf, Walls_AreRunsWithinTheLimitOfTheirChords) {
 
 TEST(AbdIepf, GapInTheReturns_EndsAWallFromLambdaOn) {
   const auto map = testing::make_map(testing::rectangular_room(3, 2));
-  testing::TurnSource source(43);
-  testing::TurnOptions exact;
+  testing::ScanSource source(43);
+  testing::ScanOptions exact;
   exact.samples = 720;
   exact.with_noise = false;
   exact.first_bearing_rad = radians(179.9);
@@ -150,7 +150,7 @@ TEST(AbdIepf, GapInTheReturns_EndsAWallFromLambdaOn) {
 
 TEST(AbdIepf, PrintedLimit_RunsOverTheCornersOfASmallRoom) {
   const auto map = testing::make_map(testing::rectangular_room(0.7, 0.5));
-  testing::TurnSource source(44);
+  testing::ScanSource source(44);
   for (int k = 0; k < 20; ++k) {
     const PolarScan points =
         testing::polar(source.take(*map, source.place_in(0.25, 0.45, 0.2, 0.3)));
@@ -165,8 +165,8 @@ TEST(AbdIepf, EndsAtOnePlace_AreSplitAtTheFarthestSample) {
   // The seam is in the middle of a wall, and that place is seen from both of its sides. A line
   // through both would lie along the wall: the whole opposite one were at the same distance.
   const auto map = testing::make_map(testing::rectangular_room(3, 2));
-  testing::TurnSource source(45);
-  testing::TurnOptions exact;
+  testing::ScanSource source(45);
+  testing::ScanOptions exact;
   exact.with_noise = false;
   exact.samples = 720;
   exact.first_bearing_rad = kPi;
@@ -192,23 +192,23 @@ TEST(AbdIepf, FewerThanFivePoints_AreNoWall) {
 TEST(AbdIepf, FullTurnOfNoise_EndsWithinTheRoomThatWasTaken) {
   // Whatever the ranges are, each split is at a sample of its own.
   const auto map = testing::make_map(testing::rectangular_room(3, 2));
-  testing::TurnSource source(46);
-  testing::TurnOptions noise;
-  noise.samples = static_cast<int>(kMaxSamplesPerTurn);
+  testing::ScanSource source(46);
+  testing::ScanOptions noise;
+  noise.samples = static_cast<int>(kMaxSamplesPerScan);
   noise.noise = {0.3, 0.3, radians(0.1)};
   const PolarScan points = testing::polar(source.take(*map, {1.5, 1, 0}, noise));
   for (const AbdThreshold threshold : kThresholds) {
     SegmentTracks tracks;
-    tracks.reserve(kMaxSegmentsPerTurn);
+    tracks.reserve(kMaxSegmentsPerScan);
     AbdIepf(with({.threshold = threshold, .split_limit_m = 1e-6}), {}).track(points, tracks);
-    EXPECT_LE(tracks.size(), kMaxSegmentsPerTurn);
+    EXPECT_LE(tracks.size(), kMaxSegmentsPerScan);
     for (const SegmentTrack& wall : tracks) EXPECT_LT(wall.last, points.size());
   }
 }
 
 TEST(AbdIepf, MoreWallsThanFit_AreDroppedAndCounted) {
   const auto map = testing::make_map(testing::rectangular_room(3, 2));
-  testing::TurnSource source(47);
+  testing::ScanSource source(47);
   const PolarScan points = testing::polar(source.take(*map, {1.5, 1, 0.3}));
   const std::size_t all = track(points).size();
   SegmentTracks tracks;

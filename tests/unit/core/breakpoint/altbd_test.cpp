@@ -29,7 +29,7 @@ Tracked altbd_walls(const PolarScan& points, const SensorNoise& believed = {}) {
 
 TEST(Altbd, RectangularRoom_HasFourWallsAndTheSeam) {
   const auto map = testing::make_map(testing::rectangular_room(3, 2));
-  testing::TurnSource source(11);
+  testing::ScanSource source(11);
   for (int k = 0; k < 20; ++k) {
     const Pose2 T_map_lidar = source.place_in(0.5, 2.5, 0.5, 1.5);
     const PolarScan points = testing::polar(source.take(*map, T_map_lidar));
@@ -45,7 +45,7 @@ TEST(Altbd, RectangularRoom_HasFourWallsAndTheSeam) {
 
 TEST(Altbd, OutliersAlone_BreakNoWall) {
   const auto map = testing::make_map(testing::rectangular_room(3, 2));
-  testing::TurnSource source(12);
+  testing::ScanSource source(12);
   const Scan clean = source.take(*map, {1.5, 1, 0.3});
   Scan scan;
   int index = 0;
@@ -58,8 +58,8 @@ TEST(Altbd, OutliersAlone_BreakNoWall) {
 
 TEST(Altbd, NoiseTwiceTheModel_IsNoticedAndBreaksLittle) {
   const auto map = testing::make_map(testing::rectangular_room(3, 2));
-  testing::TurnSource source(13);
-  testing::TurnOptions options;
+  testing::ScanSource source(13);
+  testing::ScanOptions options;
   options.noise = {.floor_m = 0.003, .share = 0.01, .bearing_rad = 2 * SensorNoise{}.bearing_rad};
   const Tracked tracked = altbd_walls(testing::polar(source.take(*map, {1.5, 1, 0.3}, options)));
   EXPECT_LE(tracked.tracks.size(), 7U);  // one may break before enough of the noise was seen
@@ -80,8 +80,8 @@ TEST(Altbd, TooFewPoints_AreNoWall) {
 
 TEST(Altbd, NoiseOfTheTurnBefore_IsRemembered) {
   const auto map = testing::make_map(testing::rectangular_room(3, 2));
-  testing::TurnSource source(14);
-  testing::TurnOptions options;
+  testing::ScanSource source(14);
+  testing::ScanOptions options;
   options.noise = {.floor_m = 0.003, .share = 0.01, .bearing_rad = 2 * SensorNoise{}.bearing_rad};
   const PolarScan points = testing::polar(source.take(*map, {1.5, 1, 0.3}, options));
   Altbd altbd({}, {});
@@ -98,8 +98,8 @@ TEST(Altbd, NoiseOfTheTurnBefore_IsRemembered) {
 
 TEST(Altbd, TurnsWithoutNoise_LeaveNoGateThatOthersCannotPass) {
   const auto map = testing::make_map(testing::rectangular_room(3, 2));
-  testing::TurnSource source(16);
-  testing::TurnOptions exact;
+  testing::ScanSource source(16);
+  testing::ScanOptions exact;
   exact.with_noise = false;
   const PolarScan clean = testing::polar(source.take(*map, {1.5, 1, 0.3}, exact));
   const PolarScan noisy = testing::polar(source.take(*map, {1.5, 1, 0.3}));
@@ -121,7 +121,7 @@ TEST(Altbd, TurnsWithoutNoise_LeaveNoGateThatOthersCannotPass) {
 
 TEST(Altbd, WallThatGrows_IsAnnouncedAndEnds) {
   const auto map = testing::make_map(testing::rectangular_room(3, 2));
-  testing::TurnSource source(15);
+  testing::ScanSource source(15);
   const PolarScan whole = testing::polar(source.take(*map, {1.5, 1, 0.3}));
   PolarScan growing;
   growing.begin(whole.spacing_rad());

@@ -34,29 +34,29 @@ void append(std::vector<Breakpoint>& all, std::span<const Breakpoint> some) {
   all.insert(all.end(), some.begin(), some.end());
 }
 
-PolarScan noisy_turn(testing::TurnSource& source, const WallMap& map, const Pose2& T_map_lidar) {
-  testing::TurnOptions options;
+PolarScan noisy_scan(testing::ScanSource& source, const WallMap& map, const Pose2& T_map_lidar) {
+  testing::ScanOptions options;
   options.missing_share = 0.3;
   return testing::polar(source.take(map, T_map_lidar, options));
 }
 
 TEST(BreakpointStream, ReturnByReturn_GivesTheBreakpointsOfTheWholeTurn) {
   const auto map = testing::make_map(testing::l_shaped_room());
-  testing::TurnSource source(41);
+  testing::ScanSource source(41);
   Detector detector({}, {});
   BreakpointStream stream({}, {});
   for (int k = 0; k < 40; ++k) {
     // As the stream takes them: a whole turn's rays are computed from one another.
-    PolarScan turn;
-    const PolarScan taken = noisy_turn(source, *map, source.place_in(0.3, 3.7, 0.3, 1.5));
-    turn.begin(taken.spacing_rad());
-    for (const PolarPoint& point : taken.points()) turn.append(point.bearing_rad, point.range_m);
+    PolarScan scan;
+    const PolarScan taken = noisy_scan(source, *map, source.place_in(0.3, 3.7, 0.3, 1.5));
+    scan.begin(taken.spacing_rad());
+    for (const PolarPoint& point : taken.points()) scan.append(point.bearing_rad, point.range_m);
     Detection whole;
-    detector.detect(turn, whole);
+    detector.detect(scan, whole);
 
     std::vector<Breakpoint> streamed;
-    stream.begin(turn.spacing_rad(), Sweep::kCounterClockwise);
-    for (const PolarPoint& point : turn.points()) {
+    stream.begin(scan.spacing_rad(), Sweep::kCounterClockwise);
+    for (const PolarPoint& point : scan.points()) {
       append(streamed, stream.add(point.bearing_rad, point.range_m));
     }
     append(streamed, stream.finish());
@@ -68,21 +68,21 @@ TEST(BreakpointStream, ReturnByReturn_GivesTheBreakpointsOfTheWholeTurn) {
 
 TEST(BreakpointStream, ClockwiseTurn_GivesThoseOfItsMirrorImage) {
   const auto map = testing::make_map(testing::l_shaped_room());
-  testing::TurnSource source(42);
+  testing::ScanSource source(42);
   Detector detector({}, {});
   BreakpointStream stream({}, {});
   for (int k = 0; k < 10; ++k) {
-    const PolarScan turn = noisy_turn(source, *map, source.place_in(0.3, 3.7, 0.3, 1.5));
+    const PolarScan scan = noisy_scan(source, *map, source.place_in(0.3, 3.7, 0.3, 1.5));
     PolarScan mirror;
-    mirror.begin(turn.spacing_rad());
-    const std::vector<PolarPoint> clockwise(turn.points().rbegin(), turn.points().rend());
+    mirror.begin(scan.spacing_rad());
+    const std::vector<PolarPoint> clockwise(scan.points().rbegin(), scan.points().rend());
     for (const PolarPoint& point : clockwise) mirror.append(-point.bearing_rad, point.range_m);
     Detection expected;
     detector.detect(mirror, expected);
     for (Breakpoint& breakpoint : expected.breakpoints) breakpoint = mirrored(breakpoint);
 
     std::vector<Breakpoint> streamed;
-    stream.begin(turn.spacing_rad(), Sweep::kClockwise);
+    stream.begin(scan.spacing_rad(), Sweep::kClockwise);
     for (const PolarPoint& point : clockwise) {
       append(streamed, stream.add(point.bearing_rad, point.range_m));
     }
@@ -93,33 +93,33 @@ TEST(BreakpointStream, ClockwiseTurn_GivesThoseOfItsMirrorImage) {
 
 TEST(BreakpointStream, BackwardSteps_ChangeNothing) {
   const auto map = testing::make_map(testing::l_shaped_room());
-  testing::TurnSource source(43);
-  const PolarScan turn = noisy_turn(source, *map, {1.1, 0.9, 0.4});
-  std::vector<PolarPoint> shuffled(turn.points().begin(), turn.points().end());
+  testing::ScanSource source(43);
+  const PolarScan scan = noisy_scan(source, *map, {1.1, 0.9, 0.4});
+  std::vector<PolarPoint> shuffled(scan.points().begin(), scan.points().end());
   for (std::size_t i = 0; i + 1 < shuffled.size(); i += 23) std::swap(shuffled[i], shuffled[i + 1]);
 
   const auto run = [&](std::span<const PolarPoint> points) {
     BreakpointStream stream({}, {});
     std::vector<Breakpoint> streamed;
-    stream.begin(turn.spacing_rad(), Sweep::kCounterClockwise);
+    stream.begin(scan.spacing_rad(), Sweep::kCounterClockwise);
     for (const PolarPoint& point : points) {
       append(streamed, stream.add(point.bearing_rad, point.range_m));
     }
     append(streamed, stream.finish());
     return streamed;
   };
-  expect_same(run(shuffled), run(turn.points()));
+  expect_same(run(shuffled), run(scan.points()));
 }
 
 TEST(BreakpointStream, Breakpoint_IsCertainLongBeforeTheTurnEnds) {
   const auto map = testing::make_map(testing::rectangular_room(3, 2));
-  testing::TurnSource source(44);
-  const PolarScan turn = testing::polar(source.take(*map, {1.5, 1, 0.3}));
+  testing::ScanSource source(44);
+  const PolarScan scan = testing::polar(source.take(*map, {1.5, 1, 0.3}));
   BreakpointStream stream({}, {});
-  stream.begin(turn.spacing_rad(), Sweep::kCounterClockwise);
+  stream.begin(scan.spacing_rad(), Sweep::kCounterClockwise);
   std::size_t early = 0;
   std::size_t all = 0;
-  for (const PolarPoint& point : turn.points()) {
+  for (const PolarPoint& point : scan.points()) {
     for (const Breakpoint& breakpoint : stream.add(point.bearing_rad, point.range_m)) {
       const double seen_rad = std::atan2(breakpoint.position.y(), breakpoint.position.x());
       EXPECT_GT(point.bearing_rad, seen_rad);
@@ -135,30 +135,30 @@ TEST(BreakpointStream, Breakpoint_IsCertainLongBeforeTheTurnEnds) {
 
 TEST(BreakpointStream, SeamAnywhere_IsNoBreakpoint) {
   const auto map = testing::make_map(testing::rectangular_room(3, 2));
-  testing::TurnSource source(45);
-  const PolarScan turn = testing::polar(source.take(*map, {1.3, 0.8, 0.1}));
+  testing::ScanSource source(45);
+  const PolarScan scan = testing::polar(source.take(*map, {1.3, 0.8, 0.1}));
   BreakpointStream stream({}, {});
-  for (std::size_t start = 0; start < turn.size(); start += 37) {
+  for (std::size_t start = 0; start < scan.size(); start += 37) {
     std::vector<Breakpoint> streamed;
-    stream.begin(turn.spacing_rad(), Sweep::kCounterClockwise);
-    for (std::size_t i = 0; i < turn.size(); ++i) {
-      const PolarPoint& point = turn[(start + i) % turn.size()];
+    stream.begin(scan.spacing_rad(), Sweep::kCounterClockwise);
+    for (std::size_t i = 0; i < scan.size(); ++i) {
+      const PolarPoint& point = scan[(start + i) % scan.size()];
       append(streamed, stream.add(point.bearing_rad, point.range_m));
     }
     append(streamed, stream.finish());
-    EXPECT_EQ(streamed.size(), 4U) << "begun at " << turn[start].bearing_rad;
+    EXPECT_EQ(streamed.size(), 4U) << "begun at " << scan[start].bearing_rad;
   }
 }
 
 TEST(BreakpointStream, ReturnsBeyondTheCircle_AreIgnored) {
   const auto map = testing::make_map(testing::rectangular_room(3, 2));
-  testing::TurnSource source(46);
-  const PolarScan turn = testing::polar(source.take(*map, {1.3, 0.8, 0.1}));
+  testing::ScanSource source(46);
+  const PolarScan scan = testing::polar(source.take(*map, {1.3, 0.8, 0.1}));
   BreakpointStream stream({}, {});
-  stream.begin(turn.spacing_rad(), Sweep::kCounterClockwise);
+  stream.begin(scan.spacing_rad(), Sweep::kCounterClockwise);
   std::vector<Breakpoint> streamed;
   for (int round = 0; round < 3; ++round) {
-    for (const PolarPoint& point : turn.points()) {
+    for (const PolarPoint& point : scan.points()) {
       append(streamed, stream.add(point.bearing_rad, point.range_m));
     }
   }
@@ -171,13 +171,13 @@ TEST(BreakpointStream, ReturnsBeyondTheCircle_AreIgnored) {
 
 TEST(BreakpointStream, RangesThatAreNone_AreIgnored) {
   const auto map = testing::make_map(testing::rectangular_room(3, 2));
-  testing::TurnSource source(47);
-  const PolarScan turn = testing::polar(source.take(*map, {1.3, 0.8, 0.1}));
+  testing::ScanSource source(47);
+  const PolarScan scan = testing::polar(source.take(*map, {1.3, 0.8, 0.1}));
   BreakpointStream stream({}, {});
   for (int round = 0; round < 2; ++round) {
-    stream.begin(turn.spacing_rad(), Sweep::kCounterClockwise);
+    stream.begin(scan.spacing_rad(), Sweep::kCounterClockwise);
     std::vector<Breakpoint> streamed;
-    for (const PolarPoint& point : turn.points()) {
+    for (const PolarPoint& point : scan.points()) {
       for (const double none : {0.0, -1.0, std::nan(""), HUGE_VAL}) {
         EXPECT_TRUE(stream.add(point.bearing_rad, none).empty());
       }

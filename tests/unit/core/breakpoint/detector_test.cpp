@@ -31,7 +31,7 @@ const Breakpoint* nearest(const Detection& detection, const Pose2& T_map_lidar, 
 
 TEST(Detector, LShapedRoom_ShowsFiveInnerCornersAndTheEdge) {
   const auto map = testing::make_map(testing::l_shaped_room());
-  testing::TurnSource source(21);
+  testing::ScanSource source(21);
   for (int k = 0; k < 20; ++k) {
     const Pose2 T_map_lidar = source.place_in(0.5, 2.2, 0.4, 1.5);
     const Detection detection = detect(source.take(*map, T_map_lidar));
@@ -50,7 +50,7 @@ TEST(Detector, LShapedRoom_ShowsFiveInnerCornersAndTheEdge) {
 
 TEST(Detector, CornerWalls_PointTheWayTheyGoOnTheMap) {
   const auto map = testing::make_map(testing::rectangular_room(3, 2));
-  testing::TurnSource source(22);
+  testing::ScanSource source(22);
   const Pose2 T_map_lidar{1.2, 0.9, 2.0};
   const Detection detection = detect(source.take(*map, T_map_lidar));
   ASSERT_EQ(detection.breakpoints.size(), 4U);
@@ -68,7 +68,7 @@ TEST(Detector, WallInFrontOfAnother_EndsInATerminalNotInItsShadow) {
   FloorPlan plan = testing::rectangular_room(4, 3);
   plan.walls.push_back({{0, 1.5}, {1.2, 1.5}, 0.01});
   const WallMap map(plan);
-  testing::TurnSource source(23);
+  testing::ScanSource source(23);
   const Pose2 T_map_lidar{0.7, 0.6, 0};
   const Detection detection = detect(source.take(map, T_map_lidar));
   const Breakpoint* end = nearest(detection, T_map_lidar, {1.205, 1.495});
@@ -85,7 +85,7 @@ TEST(Detector, WallInFrontOfAnother_EndsInATerminalNotInItsShadow) {
 
 TEST(Detector, CornerCovariance_IsHonest) {
   const auto map = testing::make_map(testing::rectangular_room(3, 2));
-  testing::TurnSource source(24);
+  testing::ScanSource source(24);
   double nees = 0;
   int count = 0;
   for (int k = 0; k < 300; ++k) {
@@ -118,8 +118,8 @@ TEST(Detector, EachMethod_SeesWhatItsOwnLimitsTell) {
   // A step below the 30 mm that the baselines allow, but above the noise that ALTBD knows.
   FloorPlan plan = testing::rectangular_room(3, 2);
   plan.walls.push_back({{1.5, 0.0125}, {3, 0.0125}, 0.025});
-  testing::TurnSource source(26);
-  testing::TurnOptions exact;
+  testing::ScanSource source(26);
+  testing::ScanOptions exact;
   exact.with_noise = false;
   const Scan stepped = source.take(WallMap(plan), {1.2, 1, 0}, exact);
   EXPECT_EQ(count_walls(Method::kAltbd, stepped), 5U);
@@ -145,7 +145,7 @@ TEST(Detector, LShapedRoom_ShowsItsInnerCornersByEachMethod) {
     config.method = method;
     Detector detector(config, {});
     Detection detection;
-    testing::TurnSource source(27);
+    testing::ScanSource source(27);
     int found = 0;
     for (int k = 0; k < 20; ++k) {
       const Pose2 T_map_lidar = source.place_in(0.5, 2.2, 0.4, 1.5);
@@ -161,7 +161,7 @@ TEST(Detector, LShapedRoom_ShowsItsInnerCornersByEachMethod) {
 TEST(Detector, TurnRoundTheSeam_FindsTheSameCorners) {
   const auto map = testing::make_map(testing::rectangular_room(3, 2));
   for (int k = 0; k < 36; ++k) {
-    testing::TurnSource source(25);
+    testing::ScanSource source(25);
     const Pose2 T_map_lidar{1.2, 0.9, radians(10 * k)};
     EXPECT_EQ(detect(source.take(*map, T_map_lidar)).breakpoints.size(), 4U) << k;
   }

@@ -12,7 +12,7 @@ namespace {
 
 SegmentTracks lines_of(const PolarScan& points) {
   SegmentTracks tracks;
-  tracks.reserve(kMaxSegmentsPerTurn);
+  tracks.reserve(kMaxSegmentsPerScan);
   EXPECT_EQ(LineTracking({}, {}).track(points, tracks), 0U);
   return tracks;
 }
@@ -29,8 +29,8 @@ double distance_m(const Line& line, const PolarPoint& point) {
 
 TEST(LineTracking, RectangularRoom_HasFourWallsAndTheSeam) {
   const auto map = testing::make_map(testing::rectangular_room(3, 2));
-  testing::TurnSource source(31);
-  testing::TurnOptions exact;
+  testing::ScanSource source(31);
+  testing::ScanOptions exact;
   exact.with_noise = false;
   for (int k = 0; k < 20; ++k) {
     const Pose2 T_map_lidar = source.place_in(0.5, 2.5, 0.5, 1.5);
@@ -46,7 +46,7 @@ TEST(LineTracking, RectangularRoom_HasFourWallsAndTheSeam) {
 
 TEST(LineTracking, Walls_AreRunsThatFollowEachOther) {
   const auto map = testing::make_map(testing::l_shaped_room());
-  testing::TurnSource source(32);
+  testing::ScanSource source(32);
   for (int k = 0; k < 20; ++k) {
     const Pose2 T_map_lidar = source.place_in(0.5, 2.2, 0.4, 1.5);
     const PolarScan points = testing::polar(source.take(*map, T_map_lidar));
@@ -62,7 +62,7 @@ TEST(LineTracking, Walls_AreRunsThatFollowEachOther) {
 
 TEST(LineTracking, AWall_EndsWhereTheNextSampleIsFartherThanTheLimit) {
   const auto map = testing::make_map(testing::l_shaped_room());
-  testing::TurnSource source(33);
+  testing::ScanSource source(33);
   for (int k = 0; k < 20; ++k) {
     const Pose2 T_map_lidar = source.place_in(0.5, 2.2, 0.4, 1.5);
     const PolarScan points = testing::polar(source.take(*map, T_map_lidar));
@@ -109,7 +109,7 @@ TEST(LineTracking, FewerThanFivePoints_AreNoWall) {
 
 TEST(LineTracking, MoreWallsThanFit_AreDroppedAndCounted) {
   const auto map = testing::make_map(testing::rectangular_room(3, 2));
-  testing::TurnSource source(34);
+  testing::ScanSource source(34);
   const PolarScan points = testing::polar(source.take(*map, {1.5, 1, 0.3}));
   const std::size_t all = lines_of(points).size();
   SegmentTracks tracks;

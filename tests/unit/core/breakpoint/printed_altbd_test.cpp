@@ -14,41 +14,41 @@ SegmentTracks printed_walls(const PolarScan& points, const PrintedAltbdConfig& r
   DetectorConfig config;
   config.printed_altbd = reading;
   SegmentTracks tracks;
-  tracks.reserve(kMaxSegmentsPerTurn);
+  tracks.reserve(kMaxSegmentsPerScan);
   PrintedAltbd(config, {}).track(points, tracks);
   return tracks;
 }
 
-PolarScan turn_in_room(const testing::TurnOptions& options) {
+PolarScan scan_in_room(const testing::ScanOptions& options) {
   const auto map = testing::make_map(testing::rectangular_room(3, 2));
-  testing::TurnSource source(51);
+  testing::ScanSource source(51);
   return testing::polar(source.take(*map, {1.5, 1, 0.3}, options));
 }
 
-testing::TurnOptions dense() {
-  testing::TurnOptions options;
+testing::ScanOptions dense() {
+  testing::ScanOptions options;
   options.samples = 800;
   return options;
 }
 
 TEST(PrintedAltbd, ExactTurn_HasTheWallsInTheDimensionallySoundReading) {
-  testing::TurnOptions exact;
+  testing::ScanOptions exact;
   exact.with_noise = false;
   const SegmentTracks walls = printed_walls(
-      turn_in_room(exact), {.axes = EllipseAxes::kSquared, .minor = MinorAxis::kShareOfRange});
+      scan_in_room(exact), {.axes = EllipseAxes::kSquared, .minor = MinorAxis::kShareOfRange});
   // The seam cuts one wall in two.
   EXPECT_GE(walls.size(), 4U);
   EXPECT_LE(walls.size(), 5U);
 }
 
 TEST(PrintedAltbd, NoiseAtTheDensityOfAnA1_BreaksTheWallsOfThreePointLines) {
-  const PolarScan noisy = turn_in_room(dense());
+  const PolarScan noisy = scan_in_room(dense());
   const PrintedAltbdConfig first_three{.axes = EllipseAxes::kSquared};
   EXPECT_GT(printed_walls(noisy, first_three).size(), 15U);  // of four
 }
 
 TEST(PrintedAltbd, EachReading_EndsWithinTheRoomThatWasTaken) {
-  const PolarScan noisy = turn_in_room(dense());
+  const PolarScan noisy = scan_in_room(dense());
   for (const EllipseAxes axes : {EllipseAxes::kPrinted, EllipseAxes::kSquared}) {
     for (const MinorAxis minor : {MinorAxis::kMetres, MinorAxis::kShareOfRange}) {
       for (const TrackedLine line :

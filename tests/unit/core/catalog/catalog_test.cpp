@@ -35,7 +35,7 @@ TEST(Catalog, Pairs_AreThoseThatSeeEachOther) {
 }
 
 TEST(Catalog, Neighbours_AreAllThatARayReaches) {
-  testing::TurnSource source(32);
+  testing::ScanSource source(32);
   FloorPlan plan;
   for (int i = 0; i < 60; ++i) {
     const Pose2 place = source.place_in(0, 9, 0, 9);
@@ -85,7 +85,7 @@ TEST(Catalog, HallOfColumns_KeepsTheNearestOfManyNeighbours) {
 TEST(Catalog, VisitNear_MissesNoLandmarkWithinItsRadius) {
   const WallMap map(testing::l_shaped_room());
   const Catalog catalog(map, 12);
-  testing::TurnSource source(31);
+  testing::ScanSource source(31);
   for (int k = 0; k < 2000; ++k) {
     const Vec2 point = source.place_in(-1, 5, -1, 4).translation();
     std::vector<std::uint32_t> visited;

@@ -10,9 +10,9 @@ namespace cornerd::core {
 namespace {
 
 /// The same turn as a lidar with this bias gives it.
-Scan biased(const Scan& turn, const SensorBias& bias) {
+Scan biased(const Scan& scan, const SensorBias& bias) {
   Scan result;
-  for (Sample sample : turn.samples()) {
+  for (Sample sample : scan.samples()) {
     if (sample.range_m > 0) {
       sample.range_m =
           static_cast<float>((1 + bias.range_scale) * sample.range_m + bias.range_offset_m);
@@ -30,8 +30,8 @@ constexpr SensorBias kBias{0.01, 0.005, radians(0.2), radians(-0.2)};
 
 /// Mean position error at the last five of `places` places, ten turns at each.
 double error_after_m(int places, Localizer& localizer, const WallMap& map) {
-  testing::TurnSource source(61);
-  testing::TurnOptions options;
+  testing::ScanSource source(61);
+  testing::ScanOptions options;
   double error_m = 0;
   int fixes = 0;
   for (int place = 0; place < places; ++place) {
@@ -39,8 +39,8 @@ double error_after_m(int places, Localizer& localizer, const WallMap& map) {
     localizer.relocalize();
     for (int k = 0; k < 10; ++k) {
       options.start_ns += from_seconds(0.137);
-      const Scan turn = biased(source.take(map, T_map_lidar, options), kBias);
-      const PoseEstimate& pose = localizer.step(turn).pose;
+      const Scan scan = biased(source.take(map, T_map_lidar, options), kBias);
+      const PoseEstimate& pose = localizer.step(scan).pose;
       const bool named = names_a_place(pose.state);
       if (!named || place < places - 5) continue;
       error_m += (pose.T_map_base.translation() - T_map_lidar.translation()).norm();
@@ -54,14 +54,14 @@ double error_after_m(int places, Localizer& localizer, const WallMap& map) {
 TEST(BiasEstimator, TurnsAtKnownPlaces_ShowTheBias) {
   const auto map = testing::make_map(testing::l_shaped_room());
   BiasEstimator estimator(12, {}, {});
-  testing::TurnSource source(62);
+  testing::ScanSource source(62);
   PolarScan points;
   for (int k = 0; k < 60; ++k) {
     const Pose2 T_map_lidar = source.place_in(0.4, 2.2, 0.4, 1.4);
     points.assign(biased(source.take(*map, T_map_lidar), kBias), 0.1, 12, 0, {}, estimator.bias());
     estimator.learn(*map, T_map_lidar, points.points(), 1);
   }
-  EXPECT_EQ(estimator.turns(), 60U);
+  EXPECT_EQ(estimator.scans(), 60U);
   EXPECT_NEAR(estimator.bias().range_scale, kBias.range_scale, 0.0015);
   EXPECT_NEAR(estimator.bias().range_offset_m, kBias.range_offset_m, 0.0015);
   EXPECT_NEAR(estimator.bias().bearing_sine_rad, kBias.bearing_sine_rad, radians(0.03));
@@ -71,7 +71,7 @@ TEST(BiasEstimator, TurnsAtKnownPlaces_ShowTheBias) {
 TEST(BiasEstimator, SensorWithoutBias_IsLeftAsItIs) {
   const auto map = testing::make_map(testing::l_shaped_room());
   BiasEstimator estimator(12, {}, {});
-  testing::TurnSource source(63);
+  testing::ScanSource source(63);
   PolarScan points;
   for (int k = 0; k < 60; ++k) {
     const Pose2 T_map_lidar = source.place_in(0.4, 2.2, 0.4, 1.4);
@@ -87,15 +87,15 @@ TEST(BiasEstimator, SensorWithoutBias_IsLeftAsItIs) {
 TEST(BiasEstimator, RobotThatMovesWithinItsTurns_IsNoBias) {
   const auto map = testing::make_map(testing::l_shaped_room());
   BiasEstimator estimator(12, {}, {});
-  testing::TurnSource source(65);
-  testing::TurnOptions starts;
+  testing::ScanSource source(65);
+  testing::ScanOptions starts;
   starts.motion = {0.04, 0, 0.05};
   PolarScan points;
   for (int k = 0; k < 60; ++k) {
     const Pose2 T_map_lidar = source.place_in(0.4, 2.2, 0.4, 1.4);
-    const Scan turn = source.take(*map, T_map_lidar, starts);
-    const TimeNs middle_ns = turn.start_ns() + (turn.end_ns() - turn.start_ns()) / 2;
-    points.assign(turn, 0.1, 12, middle_ns, {}, estimator.bias());
+    const Scan scan = source.take(*map, T_map_lidar, starts);
+    const TimeNs middle_ns = scan.start_ns() + (scan.end_ns() - scan.start_ns()) / 2;
+    points.assign(scan, 0.1, 12, middle_ns, {}, estimator.bias());
     estimator.learn(*map, T_map_lidar, points.points(), 1);
   }
   EXPECT_NEAR(estimator.bias().range_scale, 0, 0.001);
@@ -107,13 +107,13 @@ TEST(BiasEstimator, RobotThatMovesWithinItsTurns_IsNoBias) {
 TEST(BiasEstimator, ThatResumes_KnowsWhatWasLearntAndLearnsOn) {
   const auto map = testing::make_map(testing::l_shaped_room());
   const LearnedBias learned{
-      .bias = kBias, .sigma = {0.001, 0.001, radians(0.02), radians(0.02)}, .turns = 400};
+      .bias = kBias, .sigma = {0.001, 0.001, radians(0.02), radians(0.02)}, .scans = 400};
   BiasEstimator estimator(12, {}, {});
   estimator.resume(learned);
-  EXPECT_EQ(estimator.turns(), 400U);
+  EXPECT_EQ(estimator.scans(), 400U);
   EXPECT_EQ(estimator.bias().range_offset_m, kBias.range_offset_m);
   EXPECT_EQ(estimator.learned().sigma.range_scale, 0.001);
-  testing::TurnSource source(66);
+  testing::ScanSource source(66);
   PolarScan points;
   for (int k = 0; k < 60; ++k) {
     const Pose2 T_map_lidar = source.place_in(0.4, 2.2, 0.4, 1.4);
@@ -122,17 +122,17 @@ TEST(BiasEstimator, ThatResumes_KnowsWhatWasLearntAndLearnsOn) {
     EXPECT_NEAR(estimator.bias().range_scale, kBias.range_scale, 0.0015);
     EXPECT_NEAR(estimator.bias().range_offset_m, kBias.range_offset_m, 0.0015);
   }
-  EXPECT_EQ(estimator.turns(), 460U);
+  EXPECT_EQ(estimator.scans(), 460U);
   estimator.forget();
   EXPECT_TRUE(estimator.bias().is_none());
   estimator.resume({});
-  EXPECT_EQ(estimator.turns(), 0U);
+  EXPECT_EQ(estimator.scans(), 0U);
 }
 
 TEST(BiasEstimator, ThatDoesNotForget_TakesAllTurnsAlike) {
   const auto map = testing::make_map(testing::l_shaped_room());
   BiasEstimator estimator(12, {}, {}, 0);
-  testing::TurnSource source(68);
+  testing::ScanSource source(68);
   PolarScan points;
   for (int k = 0; k < 800; ++k) {
     const Pose2 T_map_lidar = source.place_in(0.4, 2.2, 0.4, 1.4);
@@ -147,12 +147,12 @@ TEST(BiasEstimator, FartherOffThanALidarMayBe_SaysSo) {
   const auto map = testing::make_map(testing::l_shaped_room());
   const SensorBias known{.range_offset_m = 0.03};
   BiasEstimator estimator(12, {}, known);
-  estimator.resume({.bias = known, .sigma = {0.001, 0.001, 0.001, 0.001}, .turns = 50});
+  estimator.resume({.bias = known, .sigma = {0.001, 0.001, 0.001, 0.001}, .scans = 50});
   EXPECT_EQ(estimator.bias().range_offset_m, 0.03);
   EXPECT_FALSE(estimator.learned().is_limited);
   SensorBias far = known;
   far.range_scale = 0.05;
-  estimator.resume({.bias = far, .sigma = {0.001, 0.001, 0.001, 0.001}, .turns = 50});
+  estimator.resume({.bias = far, .sigma = {0.001, 0.001, 0.001, 0.001}, .scans = 50});
   EXPECT_TRUE(estimator.learned().is_limited);
   EXPECT_EQ(estimator.bias().range_scale, 0.03);
 }
@@ -160,7 +160,7 @@ TEST(BiasEstimator, FartherOffThanALidarMayBe_SaysSo) {
 TEST(BiasEstimator, TurnsThatTeach_LeaveLessDoubt) {
   const auto map = testing::make_map(testing::l_shaped_room());
   BiasEstimator estimator(12, {}, {});
-  testing::TurnSource source(67);
+  testing::ScanSource source(67);
   PolarScan points;
   double before = 1;
   for (int k = 0; k < 20; ++k) {
@@ -175,12 +175,12 @@ TEST(BiasEstimator, TurnsThatTeach_LeaveLessDoubt) {
 TEST(BiasEstimator, TurnOfFewPoints_TeachesNothing) {
   const auto map = testing::make_map(testing::l_shaped_room());
   BiasEstimator estimator(12, {}, {});
-  testing::TurnSource source(64);
-  testing::TurnOptions sparse;
+  testing::ScanSource source(64);
+  testing::ScanOptions sparse;
   sparse.samples = 30;
   estimator.learn(*map, {1, 1, 0}, testing::polar(source.take(*map, {1, 1, 0}, sparse)).points(),
                   1);
-  EXPECT_EQ(estimator.turns(), 0U);
+  EXPECT_EQ(estimator.scans(), 0U);
   EXPECT_TRUE(estimator.bias().is_none());
 }
 

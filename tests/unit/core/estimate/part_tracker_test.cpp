@@ -11,14 +11,14 @@
 namespace cornerd::core {
 namespace {
 
-constexpr double kPartTurn_s = 0.14;
+constexpr double kPartScan_s = 0.14;
 const Pose2 kStart{1.2, 1.0, 0.4};
 
 /// A robot that keeps its speed, and what the daemon's pipeline says of it.
 class FollowedRobot {
  public:
-  explicit FollowedRobot(const Twist2& motion, std::size_t updates_per_turn = 4)
-      : motion_(motion), pipeline_(map_, config(updates_per_turn)) {}
+  explicit FollowedRobot(const Twist2& motion, std::size_t updates_per_scan = 4)
+      : motion_(motion), pipeline_(map_, config(updates_per_scan)) {}
 
   struct Part {
     PoseEstimate pose;
@@ -26,29 +26,29 @@ class FollowedRobot {
   };
 
   /// The poses of the parts of this many turns. `from`: the building that is seen.
-  std::vector<Part> drive(int turns, const WallMap* seen = nullptr) {
+  std::vector<Part> drive(int scans, const WallMap* seen = nullptr) {
     std::vector<Part> parts;
-    for (int k = 0; k < turns; ++k, ++turn_) {
-      testing::TurnOptions options;
-      options.turn_s = kPartTurn_s;
-      options.start_ns = static_cast<TimeNs>(turn_ * kPartTurn_s * 1e9);
+    for (int k = 0; k < scans; ++k, ++scan_) {
+      testing::ScanOptions options;
+      options.scan_s = kPartScan_s;
+      options.start_ns = static_cast<TimeNs>(scan_ * kPartScan_s * 1e9);
       options.motion = motion_;
-      const Pose2 middle = truth(options.start_ns + static_cast<TimeNs>(kPartTurn_s / 2 * 1e9));
+      const Pose2 middle = truth(options.start_ns + static_cast<TimeNs>(kPartScan_s / 2 * 1e9));
       const Scan scan = source_.take(seen != nullptr ? *seen : *map_, middle, options);
       for (const Sample& sample : scan.samples()) {
-        if (pipeline_.add(sample) != nullptr) ++whole_turns_;
+        if (pipeline_.add(sample) != nullptr) ++complete_scans_;
         if (const PoseEstimate* pose = pipeline_.part())
           parts.push_back({*pose, truth(pose->t_ns)});
       }
     }
     return parts;
   }
-  int whole_turns() const { return whole_turns_; }
+  int complete_scans() const { return complete_scans_; }
 
  private:
-  static LocalizerConfig config(std::size_t updates_per_turn) {
+  static LocalizerConfig config(std::size_t updates_per_scan) {
     LocalizerConfig config;
-    config.updates_per_turn = updates_per_turn;
+    config.updates_per_scan = updates_per_scan;
     return config;
   }
   Pose2 truth(TimeNs t_ns) const { return kStart * motion_.over(to_seconds(t_ns)); }
@@ -56,9 +56,9 @@ class FollowedRobot {
   Twist2 motion_;
   std::shared_ptr<const WallMap> map_ = testing::make_map(testing::l_shaped_room());
   Pipeline pipeline_;
-  testing::TurnSource source_{31};
-  int turn_ = 0;
-  int whole_turns_ = 0;
+  testing::ScanSource source_{31};
+  int scan_ = 0;
+  int complete_scans_ = 0;
 };
 
 double error_m(const FollowedRobot::Part& part) {
@@ -92,7 +92,7 @@ TEST(PartTracker, CornersOfThePart_AreRecognised) {
 TEST(PartTracker, OneUpdateATurn_IsTheTurnsOwn) {
   FollowedRobot robot({0.2, 0, 0.5}, 1);
   EXPECT_TRUE(robot.drive(5).empty());
-  EXPECT_EQ(robot.whole_turns(), 4);
+  EXPECT_EQ(robot.complete_scans(), 4);
 }
 
 TEST(PartTracker, RobotThatWasCarriedAway_GetsNoPoseFromParts) {

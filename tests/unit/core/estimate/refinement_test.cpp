@@ -21,11 +21,11 @@ class RefinementTest : public ::testing::Test {
 
   std::shared_ptr<const WallMap> map_ = testing::make_map(testing::l_shaped_room());
   Refinement refinement_{12, {}};
-  testing::TurnSource source_{51};
+  testing::ScanSource source_{51};
 };
 
 TEST_F(RefinementTest, ExactTurn_IsFoundExactly) {
-  testing::TurnOptions options;
+  testing::ScanOptions options;
   options.with_noise = false;
   const Pose2 T_map_lidar{1.2, 0.9, 0.7};
   const RefinedPose refined = refine(source_.take(*map_, T_map_lidar, options), {1.25, 0.85, 0.75});

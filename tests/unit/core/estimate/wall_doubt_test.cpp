@@ -27,7 +27,7 @@ class WallDoubtTest : public ::testing::Test {
       wall.to += across;
     }
     const auto building = testing::make_map(plan);
-    for (int turn = 0; turn < kTurns; ++turn) {
+    for (int scan = 0; scan < kScans; ++scan) {
       const Pose2 T_map_lidar = source_.place_in(0.5, 2.2, 0.4, 1.5);
       const PolarScan points = testing::polar(source_.take(*building, T_map_lidar));
       const RefinedPose refined =
@@ -47,10 +47,10 @@ class WallDoubtTest : public ::testing::Test {
   }
   double sigma_m() const { return std::sqrt(variance_m2_ / count_); }
 
-  static constexpr int kTurns = 40;
+  static constexpr int kScans = 40;
   std::shared_ptr<const WallMap> map_ = testing::make_map(testing::l_shaped_room());
   Refinement refinement_{12, {}};
-  testing::TurnSource source_{8};
+  testing::ScanSource source_{8};
   WallDoubt doubt_;
   double nees_with_ = 0;
   double nees_without_ = 0;

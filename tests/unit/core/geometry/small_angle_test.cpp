@@ -25,13 +25,13 @@ TEST(SmallAngle, TurnBetween_IsTheAngleThatOneWasTurnedBy) {
     for (const double angle_rad : {size_rad, -size_rad}) {
       const Vec2 to(3 * (std::cos(angle_rad) * from.x() - std::sin(angle_rad) * from.y()),
                     3 * (std::sin(angle_rad) * from.x() + std::cos(angle_rad) * from.y()));
-      EXPECT_NEAR(turn_between(from, to), angle_rad, 2e-12);
+      EXPECT_NEAR(rotation_between(from, to), angle_rad, 2e-12);
     }
   }
 }
 
 TEST(SmallAngle, TurnBetweenOppositeWays_IsHalfATurn) {
-  EXPECT_DOUBLE_EQ(std::abs(turn_between({1, 0}, {-2, 0})), kPi);
+  EXPECT_DOUBLE_EQ(std::abs(rotation_between({1, 0}, {-2, 0})), kPi);
 }
 
 }  // namespace

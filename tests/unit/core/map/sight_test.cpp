@@ -35,7 +35,7 @@ std::pair<std::size_t, double> nearest_face(const WallMap& map, const Vec2& orig
 }
 
 /// Many short walls in any direction, of any thickness.
-FloorPlan thicket(testing::TurnSource& source, int walls, double size_m) {
+FloorPlan thicket(testing::ScanSource& source, int walls, double size_m) {
   FloorPlan plan;
   for (int i = 0; i < walls; ++i) {
     const Pose2 place = source.place_in(0, size_m, 0, size_m);
@@ -62,7 +62,7 @@ void expect_all_seen_faces(const WallMap& map, const Vec2& origin, double reach_
 }
 
 TEST(Sight, FaceThatAnyRayMeets_IsVisited) {
-  testing::TurnSource source(41);
+  testing::ScanSource source(41);
   for (const int walls : {3, 30, 300, 900}) {
     const double size_m = walls < 100 ? 4 : 15;
     const WallMap map(thicket(source, walls, size_m));

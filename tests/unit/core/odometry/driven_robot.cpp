@@ -13,11 +13,11 @@ OdometryReading DrivenRobot::drive(double dt_s, double speed_m_s, double rate_ra
   rate_rad_s_ = rate_rad_s;
   for (int i = 0; i < kParts; ++i) {
     const double share = (i + 0.5) / kParts;
-    const double turn_rad =
+    const double rotation_rad =
         (rate_before_rad_s + share * (rate_rad_s - rate_before_rad_s)) * dt_s / kParts;
     const double way_m = speed_m_s * dt_s / kParts;
-    T_map_base_ = T_map_base_ *
-                  Pose2{way_m * std::cos(turn_rad / 2), way_m * std::sin(turn_rad / 2), turn_rad};
+    T_map_base_ = T_map_base_ * Pose2{way_m * std::cos(rotation_rad / 2),
+                                      way_m * std::sin(rotation_rad / 2), rotation_rad};
   }
   const double half_m = (rate_before_rad_s + rate_rad_s) / 2 * dt_s * geometry_.track_m *
                         (1 + errors_.track_scale) / 2;

@@ -9,8 +9,8 @@ namespace {
 constexpr double kTurn_rad = 0.2;
 
 /// A fix that is where it was foretold.
-void explain(FixWatch& watch, double way_m, double turn_rad) {
-  const FixWatch::Way way{Vec2(way_m, 0), turn_rad};
+void explain(FixWatch& watch, double way_m, double rotation_rad) {
+  const FixWatch::Way way{Vec2(way_m, 0), rotation_rad};
   watch.add_explained(way, way);
 }
 

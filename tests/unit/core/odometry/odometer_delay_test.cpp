@@ -21,11 +21,11 @@ class LateRide {
   }
   /// The mean of the normalized squared error of what is predicted, 3 if it is as good as it says.
   double blind_nees() {
-    constexpr int kTurns = 35;
+    constexpr int kScans = 35;
     double sum = 0;
     int count = 0;
-    for (int k = 0; k < 20 * kTurns; ++k) {
-      const bool blind = k / kTurns % 2 == 0;
+    for (int k = 0; k < 20 * kScans; ++k) {
+      const bool blind = k / kScans % 2 == 0;
       turn(!blind);
       const auto predicted = odometer.prediction();
       EXPECT_TRUE(predicted) << k;
@@ -144,10 +144,10 @@ TEST(OdometerDelay, ARobotThatStands_LearnsNone) {
 TEST(OdometerDelay, ReadingsThatArriveAfterTheTurn_ArePublishedWhereTheyAreAfterIt) {
   LateRide ride(0, config_of_late_ride());
   ride.teach();
-  const TimeNs turn_ns = ride.odometer.prediction().value().t_ns;
+  const TimeNs scan_ns = ride.odometer.prediction().value().t_ns;
   ride.advance_beyond(0.1);
   ASSERT_TRUE(ride.odometer.prediction());
-  EXPECT_GT(ride.odometer.prediction()->t_ns, turn_ns);
+  EXPECT_GT(ride.odometer.prediction()->t_ns, scan_ns);
   int before = 0;
   int after = 0;
   for (int i = 0; i < 20; ++i) {

@@ -17,7 +17,7 @@
 namespace cornerd::core {
 namespace {
 
-constexpr double kTurn_s = 0.14;
+constexpr double kScan_s = 0.14;
 using testing::kFixCovariance;
 using testing::Ride;
 using testing::switched_on;
@@ -109,8 +109,8 @@ TEST(Odometer, Blind_GoesOnForAsLongAsItIsAllowed) {
   }
   for (int k = 1; k <= 40; ++k) {
     ride.turn();
-    ASSERT_EQ(ride.odometer.prediction().has_value(), k * kTurn_s <= 3) << k;
-    if (k * kTurn_s <= 3) {
+    ASSERT_EQ(ride.odometer.prediction().has_value(), k * kScan_s <= 3) << k;
+    if (k * kScan_s <= 3) {
       EXPECT_LT(ride.error_m(), 0.02);
     }
   }
@@ -301,9 +301,9 @@ TEST(Odometer, ATurnTakenInMotion_IsStraightened) {
   // Each ray from where the robot is at its time, the middle of the turn at (1, 1) in the room.
   const TimeNs start_ns = 15'000'000;
   const auto pose_at = [&](double t_s) {
-    const double turn_rad = kRate_rad_s * (t_s - 0.075);
-    const double chord_m = 2 * kSpeed_m_s / kRate_rad_s * std::sin(turn_rad / 2);
-    return Pose2{1, 1, 0.7} * arc(chord_m, turn_rad);
+    const double rotation_rad = kRate_rad_s * (t_s - 0.075);
+    const double chord_m = 2 * kSpeed_m_s / kRate_rad_s * std::sin(rotation_rad / 2);
+    return Pose2{1, 1, 0.7} * arc(chord_m, rotation_rad);
   };
   Scan turn;
   for (int i = 0; i < 400; ++i) {

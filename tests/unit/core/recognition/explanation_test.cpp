@@ -19,8 +19,8 @@ class ExplanationTest : public ::testing::Test {
   }
 
   std::shared_ptr<const WallMap> map_ = testing::make_map(testing::l_shaped_room());
-  TurnPrediction prediction_{12};
-  testing::TurnSource source_{41};
+  RayCaster prediction_{12};
+  testing::ScanSource source_{41};
 };
 
 TEST_F(ExplanationTest, TruePlaceOfAClearTurn_HitsNearlyEveryRay) {

@@ -22,7 +22,7 @@ class PaperRecognitionTest : public ::testing::Test {
   std::shared_ptr<const WallMap> map_ = testing::make_map(testing::l_shaped_room());
   Catalog catalog_{*map_, 12};
   PaperRecognition recognition_{*map_, catalog_};
-  testing::TurnSource source_{51};
+  testing::ScanSource source_{51};
   Detector detector_{{}, {}};
   Detection detection_;
 };

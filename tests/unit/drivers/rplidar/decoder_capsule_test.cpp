@@ -66,7 +66,7 @@ TEST(DecoderExpress, KnownCapsule_IsReadAsTheSdkReadsIt) {
   EXPECT_NEAR(angle_deg(sink.samples[15]), 355.625, 0.006);
   EXPECT_NEAR(angle_deg(sink.samples[31]), 1.625, 0.006);
   EXPECT_EQ(sink.samples[31].dist_q2, 1031U * 4);
-  for (std::size_t k = 0; k < 32; ++k) EXPECT_EQ(sink.samples[k].starts_turn, k == 15) << k;
+  for (std::size_t k = 0; k < 32; ++k) EXPECT_EQ(sink.samples[k].starts_scan, k == 15) << k;
   EXPECT_EQ(sink.samples[0].quality, 47);
 }
 
@@ -84,7 +84,7 @@ TEST(DecoderExpress, WholeStream_EachSampleInItsPlace) {
   const auto sink = decode(join(ExpressRun().capsules));
   EXPECT_THAT(sink.samples, SizeIs(59 * 32));
   expect_right_place(sink);
-  EXPECT_EQ(sink.turns(), 3U);
+  EXPECT_EQ(sink.scans(), 3U);
   EXPECT_THAT(sink.gaps, IsEmpty());
 }
 
@@ -102,7 +102,7 @@ TEST(DecoderExpress, CapsuleLostAcrossZero_StillBeginsATurn) {
   // Capsule 16 begins at 347.4 degrees and sweeps through zero.
   for (const std::size_t lost : {15U, 16U, 17U}) {
     const auto sink = decode(join(ExpressRun().remove(lost, 1).capsules));
-    EXPECT_EQ(sink.turns(), 3U) << lost;
+    EXPECT_EQ(sink.scans(), 3U) << lost;
     expect_right_place(sink);
   }
 }
@@ -125,7 +125,7 @@ TEST(DecoderExpress, BadChecksum_CostsThatCapsuleAlone) {
   const auto sink = decode(join(ExpressRun().damage(20).capsules), decoder);
   EXPECT_THAT(sink.samples, SizeIs(58 * 32));
   expect_right_place(sink);
-  EXPECT_EQ(sink.turns(), 3U);
+  EXPECT_EQ(sink.scans(), 3U);
   EXPECT_EQ(decoder.counters().bad_checksums, 1U);
   EXPECT_EQ(decoder.counters().lost_capsules, 0U);
   EXPECT_EQ(decoder.counters().resyncs, 0U);
@@ -134,7 +134,7 @@ TEST(DecoderExpress, BadChecksum_CostsThatCapsuleAlone) {
 
 TEST(DecoderExpress, BadChecksumAcrossZero_MergesNoTurns) {
   const auto sink = decode(join(ExpressRun().damage(16).capsules));
-  EXPECT_EQ(sink.turns(), 3U);
+  EXPECT_EQ(sink.scans(), 3U);
   expect_right_place(sink);
 }
 
@@ -200,7 +200,7 @@ TEST(DecoderExpress, OneByteInTenThousandLost_FalsifiesNothing) {
     const auto sink = decode(stream);
     expect_right_place(sink);
     EXPECT_GE(sink.samples.size(), 430U * 32);
-    EXPECT_EQ(sink.turns(), 27U);
+    EXPECT_EQ(sink.scans(), 27U);
   }
 }
 

@@ -42,7 +42,7 @@ TEST(DecoderStandard, AngleBeyondAFullTurn_IsReduced) {
   const auto sink =
       decode(join({kStandardDescriptor, from_hex("3d01003412"), from_hex("3e03b4e803")}));
   ASSERT_THAT(sink.samples, SizeIs(2));
-  EXPECT_TRUE(sink.samples[0].starts_turn);
+  EXPECT_TRUE(sink.samples[0].starts_scan);
   EXPECT_EQ(sink.samples[0].angle_q6, 0);
   EXPECT_EQ(sink.samples[0].dist_q2, 1165U * 4);
   EXPECT_EQ(sink.samples[1].angle_q6, 1);
@@ -146,7 +146,7 @@ TEST(DecoderStandard, OneByteInTenThousandDamaged_FalsifiesNoTurn) {
     }
     const auto sink = decode(stream);
     EXPECT_GE(sink.samples.size(), kNodes - 30U);
-    EXPECT_EQ(sink.turns(), 30U);
+    EXPECT_EQ(sink.scans(), 30U);
     EXPECT_THAT(sink.gaps, IsEmpty());
     foreign += foreign_distances(sink, kNodes).size();
   }
@@ -158,7 +158,7 @@ TEST(DecoderStandard, TurnMarks_AreTheDevices) {
   const auto sink = decode(nodes(1000, 30));
   std::vector<std::uint64_t> starts;
   for (const RawSample& sample : sink.samples) {
-    if (sample.starts_turn) starts.push_back(sample.index);
+    if (sample.starts_scan) starts.push_back(sample.index);
   }
   EXPECT_THAT(starts, ElementsAre(290, 606, 922));
 }
@@ -171,7 +171,7 @@ TEST(DecoderStandard, MissingTurnMark_IsReplacedByTheAngle) {
   const auto sink = decode(stream);
   std::vector<std::uint64_t> starts;
   for (const RawSample& sample : sink.samples) {
-    if (sample.starts_turn) starts.push_back(sample.index);
+    if (sample.starts_scan) starts.push_back(sample.index);
   }
   ASSERT_THAT(starts, SizeIs(4));
   EXPECT_GT(starts[1], 606U);
@@ -185,32 +185,32 @@ TEST(DecoderStandard, TurnMarkInTheMiddleOfATurn_IsIgnoredAndCounted) {
   Decoder decoder;
   const auto sink = decode(stream, decoder);
   EXPECT_THAT(sink.samples, SizeIs(1000));
-  EXPECT_EQ(sink.turns(), 3U);
-  EXPECT_EQ(decoder.counters().turns, 3U);
-  EXPECT_EQ(decoder.counters().false_turn_marks, 1U);
+  EXPECT_EQ(sink.scans(), 3U);
+  EXPECT_EQ(decoder.counters().scans, 3U);
+  EXPECT_EQ(decoder.counters().false_scan_starts, 1U);
 }
 
 TEST(DecoderStandard, SlowAndFastHeads_AreBothFollowed) {
-  for (const double turns_hz : {1.0, 5.5, 10.0, 13.0}) {
-    const double step_deg = 360 * turns_hz * 508e-6;
+  for (const double scan_rate_hz : {1.0, 5.5, 10.0, 13.0}) {
+    const double step_deg = 360 * scan_rate_hz * 508e-6;
     const int count = static_cast<int>(std::lround(4 * 360 / step_deg));
     const auto sink = decode(nodes(count, 180, step_deg));
-    EXPECT_EQ(sink.samples.size(), static_cast<std::size_t>(count)) << turns_hz << " Hz";
-    EXPECT_EQ(sink.turns(), 4U) << turns_hz << " Hz";
+    EXPECT_EQ(sink.samples.size(), static_cast<std::size_t>(count)) << scan_rate_hz << " Hz";
+    EXPECT_EQ(sink.scans(), 4U) << scan_rate_hz << " Hz";
   }
 }
 
 TEST(DecoderStandard, StaleFirstNode_IsDeliveredAndDisturbsNothing) {
   const auto sink = decode(join({kStandardDescriptor, node(false, 15, 174.8, 0), nodes(400, 344)}));
   EXPECT_THAT(sink.samples, SizeIs(401));
-  EXPECT_EQ(sink.turns(), 2U);
+  EXPECT_EQ(sink.scans(), 2U);
 }
 
 TEST(DecoderStandard, StaleFirstNodeWithAStartFlag_BeginsNoTurn) {
   const auto sink = decode(join({kStandardDescriptor, node(true, 15, 10, 0), nodes(40, 340)}));
   EXPECT_THAT(sink.samples, SizeIs(41));
-  EXPECT_FALSE(sink.samples[0].starts_turn);
-  EXPECT_EQ(sink.turns(), 1U);
+  EXPECT_FALSE(sink.samples[0].starts_scan);
+  EXPECT_EQ(sink.scans(), 1U);
 }
 
 }  // namespace

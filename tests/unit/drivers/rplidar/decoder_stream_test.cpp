@@ -155,7 +155,7 @@ TEST_P(Cut, InPieces_GivesTheSameSamples) {
     const RawSample& a = pieces.samples[i];
     const RawSample& b = whole.samples[i];
     ASSERT_TRUE(a.index == b.index && a.angle_q6 == b.angle_q6 && a.dist_q2 == b.dist_q2 &&
-                a.quality == b.quality && a.starts_turn == b.starts_turn)
+                a.quality == b.quality && a.starts_scan == b.starts_scan)
         << i;
   }
 }

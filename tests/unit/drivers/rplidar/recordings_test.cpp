@@ -73,9 +73,9 @@ TEST_F(Recordings, LongestOne_NodeByNodeAndTurnByTurn) {
   const auto sink = decode(read_bytes(wire_ / "sample_data_pyserial_1.bin"));
   ASSERT_EQ(rows.size(), 10435U);
   expect_equal(sink.samples, rows);
-  EXPECT_EQ(sink.turns(), 33U);
+  EXPECT_EQ(sink.scans(), 33U);
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    ASSERT_EQ(sink.samples[i].starts_turn, rows[i].start == 1) << "row " << i;
+    ASSERT_EQ(sink.samples[i].starts_scan, rows[i].start == 1) << "row " << i;
   }
 }
 
@@ -107,25 +107,25 @@ TEST_F(Recordings, EveryFile_HasTurnsOfOneTurnAndDistancesOfTheWire) {
       on_wire.insert({bytes[i + 1], bytes[i + 2], bytes[i + 3], bytes[i + 4]});
     }
     std::size_t in_turn = 0;
-    bool turn_is_whole = false;
+    bool scan_is_complete = false;
     auto gap = sink.gaps.begin();
     for (std::size_t i = 0; i < sink.samples.size(); ++i) {
       const RawSample& sample = sink.samples[i];
       if (gap != sink.gaps.end() && *gap == i) {
-        turn_is_whole = false;
+        scan_is_complete = false;
         ++gap;
       }
-      if (sample.starts_turn) {
+      if (sample.starts_scan) {
         // The recorder's units turned at 6.1 to 6.6 Hz.
-        if (turn_is_whole) {
+        if (scan_is_complete) {
           EXPECT_GE(in_turn, 285U);
           EXPECT_LE(in_turn, 325U);
         }
-        turn_is_whole = true;
+        scan_is_complete = true;
         in_turn = 0;
       }
       ++in_turn;
-      EXPECT_LE(in_turn, 325U + (turn_is_whole ? 0 : 325));
+      EXPECT_LE(in_turn, 325U + (scan_is_complete ? 0 : 325));
       const unsigned angle = sample.angle_q6 * 2U + 1;
       const unsigned beyond = angle + 360 * 128;
       const auto node_of = [&](unsigned word) {

@@ -91,7 +91,7 @@ TEST_F(RplidarDriverTest, HealthyDevice_RunsInExpressAndIsLeftQuiet) {
   EXPECT_EQ(last.mode.view(), "Express");
   EXPECT_NEAR(last.rate_hz, 21.4 / 360 / (32 * 254e-6), 0.1);
   EXPECT_NEAR(last.samples_hz, 1 / 254e-6, 10);
-  EXPECT_GT(last.counters.turns, 15U);
+  EXPECT_GT(last.counters.scans, 15U);
   EXPECT_GT(samples.all.size(), 8000U);
 
   const auto sent = names(a1.requests);
@@ -101,7 +101,7 @@ TEST_F(RplidarDriverTest, HealthyDevice_RunsInExpressAndIsLeftQuiet) {
   EXPECT_EQ(sent[3], "HEALTH");
   EXPECT_EQ(sent[sent.size() - 2], "EXPRESS 1");
   EXPECT_EQ(sent.back(), "STOP");
-  EXPECT_FALSE(a1.motor_turns);
+  EXPECT_FALSE(a1.motor_runs);
 }
 
 TEST_F(RplidarDriverTest, Samples_BearTheTimeThatNobodySets) {

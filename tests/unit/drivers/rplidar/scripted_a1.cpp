@@ -57,13 +57,13 @@ class ScriptedPort : public drivers::ByteStream {
   void discard_input() override { device_.output.clear(); }
 
   bool set_dtr(bool asserted) override {
-    device_.motor_turns = !asserted;
+    device_.motor_runs = !asserted;
     return true;
   }
 
  private:
   void send_capsule() {
-    if (!device_.measures || !device_.motor_turns) return;
+    if (!device_.measures || !device_.motor_runs) return;
     device_.output_from_ns = std::max(device_.output_from_ns, device_.clock.now_ns) + kCapsuleNs;
     const int c = device_.capsule++;
     Bytes capsule = express_capsules(c + 1, 5, 21.4).back();
@@ -84,7 +84,7 @@ drivers::OpenResult ScriptedA1::open(std::uint32_t at_baud) {
   if (open_error != drivers::OpenError::kNone) {
     return {nullptr, open_error, "/dev/lidar: held by another process"};
   }
-  motor_turns = false;  // the kernel asserts DTR on open
+  motor_runs = false;  // the kernel asserts DTR on open
   output.insert(output.end(), chatter.begin(), chatter.end());
   return {std::make_unique<ScriptedPort>(*this), drivers::OpenError::kNone, {}};
 }

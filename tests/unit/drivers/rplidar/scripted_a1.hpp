@@ -60,7 +60,7 @@ struct ScriptedA1 {
   std::optional<core::TimeNs> unplugged_at_ns;
 
   std::vector<Request> requests;
-  bool motor_turns = false;
+  bool motor_runs = false;
   bool scanning = false;
   int resets = 0;
   int opened = 0;

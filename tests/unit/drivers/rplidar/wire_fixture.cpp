@@ -135,9 +135,9 @@ std::vector<std::uint32_t> CollectingSink::distances() const {
   return distances;
 }
 
-std::size_t CollectingSink::turns() const {
+std::size_t CollectingSink::scans() const {
   return static_cast<std::size_t>(std::count_if(
-      samples.begin(), samples.end(), [](const RawSample& sample) { return sample.starts_turn; }));
+      samples.begin(), samples.end(), [](const RawSample& sample) { return sample.starts_scan; }));
 }
 
 CollectingSink decode(std::span<const std::uint8_t> bytes, Decoder& decoder) {

@@ -58,7 +58,7 @@ class CollectingSink : public RawSampleSink {
   void on_gap() override { gaps.push_back(samples.size()); }
 
   std::vector<std::uint32_t> distances() const;
-  std::size_t turns() const;
+  std::size_t scans() const;
 
   std::vector<RawSample> samples;
   std::vector<std::size_t> gaps;  ///< number of samples before each

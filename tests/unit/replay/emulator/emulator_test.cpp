@@ -60,12 +60,12 @@ struct Samples : rplidar::RawSampleSink {
   void on_sample(const rplidar::RawSample& sample) override {
     ++count;
     valid += sample.dist_q2 != 0;
-    turns += sample.starts_turn;
+    scans += sample.starts_scan;
   }
   void on_gap() override { ++gaps; }
   int count = 0;
   int valid = 0;
-  int turns = 0;
+  int scans = 0;
   int gaps = 0;
 };
 
@@ -142,7 +142,7 @@ TEST(Emulator, VendorsExpressStart_IsAnsweredStepByStep) {
   }
   EXPECT_EQ(host.ask_for_scan("a58205030000000021"), "a55a8400004084");
   const Samples samples = decode(host.receive_for(core::kNsPerSecond));
-  EXPECT_GE(samples.turns, 6);
+  EXPECT_GE(samples.scans, 6);
   host.send("a525");
   host.receive_for(20 * kMs);
   EXPECT_EQ(to_hex(host.receive_for(100 * kMs)), "");
@@ -159,7 +159,7 @@ TEST(Emulator, VendorsOldStart_IsAnsweredStepByStep) {
     EXPECT_EQ(host.ask(request).substr(0, 4), "a55a") << request;
   }
   EXPECT_EQ(host.ask_for_scan("a58205000000000022"), "a55a5400004082");
-  EXPECT_GE(decode(host.receive_for(core::kNsPerSecond)).turns, 6);
+  EXPECT_GE(decode(host.receive_for(core::kNsPerSecond)).scans, 6);
 }
 
 struct ModeCase {
@@ -189,7 +189,7 @@ TEST_P(EmulatorModes, Stream_HasTheModesFormatAndRate) {
   EXPECT_GT(samples.valid, samples.count * 9 / 10);
   // The capsules of Stability stand so far apart that a decoder believes in them at the fourth.
   EXPECT_LE(samples.gaps, 3);
-  EXPECT_NEAR(samples.turns, 4 * 7.3, 1.5);
+  EXPECT_NEAR(samples.scans, 4 * 7.3, 1.5);
 }
 
 TEST(Emulator, Bytes_TakeTheirTimeOnTheLine) {

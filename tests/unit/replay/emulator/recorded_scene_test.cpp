@@ -16,7 +16,7 @@ class RecordedRoom : public ::testing::Test {
  protected:
   RecordedRoom() {
     SimulatedRecordingConfig config;
-    config.turns = 2;
+    config.scans = 2;
     config.simulator.sensor = SensorModel::perfect();
     RecordingWriter writer(file_);
     simulate_recording(make_room(), visit_places({kFirst, kSecond}, 1), config, writer, nullptr);
@@ -34,12 +34,12 @@ class RecordedRoom : public ::testing::Test {
 
 TEST_F(RecordedRoom, Turns_ComeOneAfterTheOtherForEver) {
   RecordedScene scene(file_, {});
-  for (std::int64_t turn = -1; turn < 6; ++turn) {
-    const core::Pose2& pose = turn <= 0 || turn % 2 == 0 ? kFirst : kSecond;
+  for (std::int64_t scan = -1; scan < 6; ++scan) {
+    const core::Pose2& pose = scan <= 0 || scan % 2 == 0 ? kFirst : kSecond;
     for (const double bearing_rad : {0.1, 1.6, -1.5, 3.1}) {
-      EXPECT_NEAR(scene.range_along(0, turn, core::Vec2::Zero(), bearing_rad),
+      EXPECT_NEAR(scene.range_along(0, scan, core::Vec2::Zero(), bearing_rad),
                   true_range(pose, bearing_rad), 0.02)
-          << turn << " " << bearing_rad;
+          << scan << " " << bearing_rad;
     }
   }
 }
@@ -61,7 +61,7 @@ TEST_F(RecordedRoom, Emulated_GivesTheRecordedRangesInAnyFormat) {
     int checked = 0;
     while (checked < 200) {
       for (const SimulatedSample& sample : simulator.next().samples) {
-        if (sample.turn != 0) continue;
+        if (sample.scan != 0) continue;
         ++checked;
         const double bearing_rad = -core::radians(sample.device_angle_deg);
         EXPECT_NEAR(sample.dist_q2 / 4000.0, true_range(kFirst, bearing_rad), 0.04);

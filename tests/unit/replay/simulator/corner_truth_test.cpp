@@ -19,7 +19,7 @@ using core::WallMap;
 constexpr double kFarthest_m = 12;
 
 /// What a sensor without errors returns: `count` rays, from bearing -pi on.
-core::PolarScan perfect_turn(const WallMap& map, const Pose2& place, int count,
+core::PolarScan perfect_scan(const WallMap& map, const Pose2& place, int count,
                              const std::function<double(double, double)>& change = {}) {
   core::Scan scan;
   for (int i = 0; i < count; ++i) {
@@ -60,7 +60,7 @@ WallMap room_with(const std::vector<core::Wall>& walls) {
 TEST(CornerTruth, SquareRoom_ShowsFourCornersWithAllReturnsOnTheirWalls) {
   const auto map = make_room();
   const Pose2 place{0.9, 1.2, 0.7};
-  const auto turn = perfect_turn(*map, place, 400);
+  const auto turn = perfect_scan(*map, place, 400);
   CornerTruth truth(*map, kFarthest_m);
   truth.look(place, turn.points());
 
@@ -85,7 +85,7 @@ TEST(CornerTruth, Returns_AreThoseThatThisTurnHas) {
   const Pose2 place{1, 1.5, 0};
   const auto only = [&](int rays_below, int rays_above) {
     // Of the 360 rays those nearest to the corner at (2, 3), seen at atan2(1.5, 1) = 56.3 degrees.
-    return perfect_turn(*map, place, 360, [=](double bearing_rad, double range_m) {
+    return perfect_scan(*map, place, 360, [=](double bearing_rad, double range_m) {
       const double from_corner = core::degrees(bearing_rad) - 56.31;
       return from_corner > -rays_below && from_corner < rays_above ? range_m : 0;
     });
@@ -115,7 +115,7 @@ TEST(CornerTruth, Returns_AreThoseThatThisTurnHas) {
 TEST(CornerTruth, WrongReturns_AreOfNoWall) {
   const auto map = make_room();
   const Pose2 place{1, 1.5, 0};
-  const auto turn = perfect_turn(*map, place, 400, [](double bearing_rad, double range_m) {
+  const auto turn = perfect_scan(*map, place, 400, [](double bearing_rad, double range_m) {
     return bearing_rad > 0 ? range_m : range_m / 2;  // all that lies to the right is something else
   });
   CornerTruth truth(*map, kFarthest_m);
@@ -135,9 +135,9 @@ TEST(CornerTruth, FarCorner_MayHaveTooFewReturns) {
   const WallMap map(plan);
   const Pose2 place{0.5, 0.5, 0};
   CornerTruth truth(map, kFarthest_m);
-  truth.look(place, perfect_turn(map, place, 400).points());  // its end: 7.6 degrees, 8.5 rays
+  truth.look(place, perfect_scan(map, place, 400).points());  // its end: 7.6 degrees, 8.5 rays
   EXPECT_EQ(count(truth, CornerView::kSupported), 4u);
-  truth.look(place, perfect_turn(map, place, 100).points());
+  truth.look(place, perfect_scan(map, place, 100).points());
   EXPECT_EQ(count(truth, CornerView::kSupported), 2u);
   EXPECT_EQ(count(truth, CornerView::kVisible), 2u);
 }
@@ -146,7 +146,7 @@ TEST(CornerTruth, WallOutOfReach_GivesNothing) {
   const auto map = make_room();
   const Pose2 place{0.5, 0.5, 0};
   CornerTruth truth(*map, 1.9);  // reaches the corner (2, 0), but not the one at (2, 3)
-  truth.look(place, perfect_turn(*map, place, 400).points());
+  truth.look(place, perfect_scan(*map, place, 400).points());
   EXPECT_NE(corner_at(truth, place, {2, 0}), nullptr);
   const SeenCorner* far_corner = corner_at(truth, place, {2, 3});
   EXPECT_TRUE(far_corner == nullptr || far_corner->view != CornerView::kSupported);
@@ -156,7 +156,7 @@ TEST(CornerTruth, EndOfAThickWall_HasOneCornerOfTwoSidesAndOneOfOneSide) {
   const WallMap map = room_with({{{1, 0}, {1, 0.991}, 0.018}});  // stands up to y = 1
   const Pose2 place{0.4, 1.3, -2};
   CornerTruth truth(map, kFarthest_m);
-  truth.look(place, perfect_turn(map, place, 1600).points());
+  truth.look(place, perfect_scan(map, place, 1600).points());
 
   const SeenCorner* near_corner = corner_at(truth, place, {0.991, 1});
   const SeenCorner* far_corner = corner_at(truth, place, {1.009, 1});
@@ -173,7 +173,7 @@ TEST(CornerTruth, EndSeenHeadOn_HasNoCornerOfTwoSides) {
   const WallMap map = room_with({{{1, 0}, {1, 0.991}, 0.018}});
   const Pose2 place{1, 1.3, 0};
   CornerTruth truth(map, kFarthest_m);
-  truth.look(place, perfect_turn(map, place, 1600).points());
+  truth.look(place, perfect_scan(map, place, 1600).points());
   for (const double x : {0.991, 1.009}) {
     const SeenCorner* corner = corner_at(truth, place, {x, 1});
     ASSERT_NE(corner, nullptr);
@@ -185,7 +185,7 @@ TEST(CornerTruth, CornerBehindAWall_IsHiddenThoughBothItsWallsAreSeen) {
   const WallMap map = room_with({{{1.6, 2.4}, {1.4, 2.6}, 0}});  // before the corner at (2, 3)
   const Pose2 place{1, 2, 0};
   CornerTruth truth(map, kFarthest_m);
-  truth.look(place, perfect_turn(map, place, 800).points());
+  truth.look(place, perfect_scan(map, place, 800).points());
   const SeenCorner* corner = corner_at(truth, place, {2, 3});
   ASSERT_NE(corner, nullptr);
   EXPECT_GE(std::min(corner->left_returns, corner->right_returns), kSupportReturns);
@@ -199,7 +199,7 @@ TEST(CornerTruth, RoomBehindAWall_IsNotThere) {
   const WallMap map(plan);
   const Pose2 place{1, 1, 0};
   CornerTruth truth(map, kFarthest_m);
-  truth.look(place, perfect_turn(map, place, 800).points());
+  truth.look(place, perfect_scan(map, place, 800).points());
   EXPECT_EQ(corner_at(truth, place, {5, 3}), nullptr);
   EXPECT_EQ(truth.corners().size(), 4u);
 }
@@ -208,7 +208,7 @@ TEST(CornerTruth, WallThatHidesAnother_CastsAShadowOnIt) {
   const WallMap map = room_with({{{0.8, 2}, {1.2, 2}, 0}});
   const Pose2 place{1, 1, 0.3};
   CornerTruth truth(map, kFarthest_m);
-  truth.look(place, perfect_turn(map, place, 3600).points());
+  truth.look(place, perfect_scan(map, place, 3600).points());
   // Seen from (1, 1) the piece at y = 2 hides x = 0.6 to 1.4 of the wall at y = 3.
   ASSERT_EQ(truth.shadow_ends().size(), 2u);
   std::vector<double> ends;
@@ -227,7 +227,7 @@ TEST(CornerTruth, WallThatMeetsAnotherInItsMiddle_SplitsItsReturns) {
   const WallMap map = room_with({{{1, 3}, {1, 2}, 0}});
   const Pose2 place{0.5, 2.5, 0};
   CornerTruth truth(map, kFarthest_m);
-  truth.look(place, perfect_turn(map, place, 720).points());
+  truth.look(place, perfect_scan(map, place, 720).points());
   const SeenCorner* corner = corner_at(truth, place, {1, 3});
   ASSERT_NE(corner, nullptr);
   EXPECT_EQ(corner->view, CornerView::kSupported);

@@ -85,7 +85,7 @@ TEST_P(RoundTrip, EverySample_ComesBackAsItWasSent) {
 
 TEST_P(RoundTrip, Turns_AreSplitAtTheSameSample) {
   for (std::size_t i = 1; i < received_.size(); ++i) {
-    ASSERT_EQ(received_[i].starts_turn, sent_[i].starts_turn) << i;
+    ASSERT_EQ(received_[i].starts_scan, sent_[i].starts_scan) << i;
   }
 }
 
@@ -96,7 +96,7 @@ TEST_P(RoundTrip, CleanStream_CountsNothingAsThrownAway) {
   EXPECT_EQ(counters_.lost_capsules, 0u);
   EXPECT_EQ(counters_.bad_nodes, 0u);
   EXPECT_EQ(counters_.resyncs, 0u);
-  EXPECT_EQ(counters_.false_turn_marks, 0u);
+  EXPECT_EQ(counters_.false_scan_starts, 0u);
 }
 
 TEST_P(RoundTrip, SampleTimes_AreThoseOfTheMeasurement) {
@@ -115,7 +115,7 @@ TEST_P(RoundTrip, ToSample_SaysWhatTheStreamDelivers) {
     const core::Sample expected = to_sample(sent_[i]);
     ASSERT_NEAR(core::angle_between(expected.bearing_rad, timed_[i].bearing_rad), 0, 0.0015);
     ASSERT_FLOAT_EQ(expected.range_m, timed_[i].range_m);
-    ASSERT_EQ(expected.starts_turn, timed_[i].starts_turn);
+    ASSERT_EQ(expected.starts_scan, timed_[i].starts_scan);
   }
 }
 

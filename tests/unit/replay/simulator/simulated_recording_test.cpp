@@ -25,7 +25,7 @@ std::vector<std::string> lines_of(const std::filesystem::path& file) {
 TEST(SimulateRecording, Files_CarryTheSameBytesInBothKinds) {
   const test::TemporaryFolder folder;
   SimulatedRecordingConfig config;
-  config.turns = 2;
+  config.scans = 2;
   config.byte_fault_share = 1e-3;
   SimulatedRecordingSummary summary;
   for (const char* name : {"a.bin", "a.ndjson"}) {
@@ -54,7 +54,7 @@ TEST(SimulateRecording, Files_CarryTheSameBytesInBothKinds) {
 TEST(SimulateRecording, TruthOfPlaces_HasTheTimeOfEachArrivalAndDeparture) {
   const test::TemporaryFolder folder;
   SimulatedRecordingConfig config;
-  config.turns = 6;
+  config.scans = 6;
   {
     RecordingWriter writer(folder.path() / "a.bin");
     TruthWriter truth(folder.path() / "truth.ndjson");

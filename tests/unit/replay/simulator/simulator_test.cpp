@@ -55,15 +55,15 @@ TEST_P(SimulatorOfEveryFormat, WithoutErrors_CarriesTheRangeInTheDirectionThatTh
 
 TEST_P(SimulatorOfEveryFormat, Turns_StartOnceEachAtTheEndOfTheTurnBefore) {
   Simulator simulator(standing_scene(), config_for(GetParam()));
-  std::int64_t turn = -1;
+  std::int64_t scan = -1;
   core::TimeNs last_start_ns = 0;
-  while (turn < 20) {
+  while (scan < 20) {
     for (const SimulatedSample& sample : simulator.next().samples) {
-      ASSERT_EQ(sample.turn, sample.starts_turn ? turn + 1 : turn);
-      if (!sample.starts_turn) continue;
-      turn = sample.turn;
+      ASSERT_EQ(sample.scan, sample.starts_scan ? scan + 1 : scan);
+      if (!sample.starts_scan) continue;
+      scan = sample.scan;
       EXPECT_GT(sample.device_angle_deg, 351);
-      if (turn > 0) {
+      if (scan > 0) {
         const double period_s = core::to_seconds(sample.t_ns - last_start_ns);
         EXPECT_NEAR(period_s, 1 / 7.3, 3 * 0.007 / 7.3 + 0.001);
       }
@@ -131,7 +131,7 @@ TEST(Simulator, StandardNodes_StepBackAsOftenAsAsked) {
         core::angle_between(core::radians(last_deg), core::radians(sample.device_angle_deg)) < 0;
     last_deg = sample.device_angle_deg;
     ASSERT_NEAR(sample.dist_q2 / 4000.0, true_range_m(sample.device_angle_deg), 0.000126);
-    if (sample.starts_turn) {
+    if (sample.starts_scan) {
       ASSERT_GT(sample.device_angle_deg, 351);
     }
   }

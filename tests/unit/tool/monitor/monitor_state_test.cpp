@@ -42,13 +42,13 @@ TEST(MonitorState, Turn_BelongsToThePoseBeforeIt) {
   state.hear(kFixLine, 1);
   state.hear(R"({"class":"SCAN","t":100.4,"duration":0.1,"angles":[0],"ranges":[1]})", 1);
   state.hear(R"({"class":"BREAKPOINTS","t":100.4,"points":[{"x":1,"y":0,"kind":"corner"}]})", 1);
-  ASSERT_TRUE(state.turn());
-  ASSERT_TRUE(state.turn()->T_map_base);
-  EXPECT_EQ(state.turn()->T_map_base->y_m, 0.5);
+  ASSERT_TRUE(state.scan());
+  ASSERT_TRUE(state.scan()->T_map_base);
+  EXPECT_EQ(state.scan()->T_map_base->y_m, 0.5);
   EXPECT_EQ(state.breakpoints().points.size(), 1U);
   state.hear(kLostLine, 2);
   state.hear(R"({"class":"SCAN","t":100.5,"duration":0.1,"angles":[0],"ranges":[1]})", 2);
-  EXPECT_FALSE(state.turn()->T_map_base);
+  EXPECT_FALSE(state.scan()->T_map_base);
   EXPECT_TRUE(state.breakpoints().points.empty());
 }
 

@@ -31,7 +31,7 @@ class Screen : public testing::Test {
     choice_.unicode = false;
   }
   /// One turn that sees the walls ahead and behind, and a corner.
-  void hear_turn(const std::string& pose) {
+  void receive_scan(const std::string& pose) {
     state_.hear(pose, 0);
     state_.hear(
         R"({"class":"SCAN","t":100.4,"duration":0.1,"angles":[0,3.14159],"ranges":[0.5,0.5]})", 0);
@@ -50,7 +50,7 @@ class Screen : public testing::Test {
 };
 
 TEST_F(Screen, Fix_IsDrawnInItsMap) {
-  hear_turn(kFixLine);
+  receive_scan(kFixLine);
   EXPECT_EQ("\n" + shown(64, 14), R"(
  cornerd 1.2.3  hall                                  fix  hall
                                 fix  hall
@@ -71,7 +71,7 @@ q quit  + - zoom  l lidar's view  a ASCII         |------| 0.5 m
 
 TEST_F(Screen, Braille_IsFiner) {
   choice_.unicode = true;
-  hear_turn(kFixLine);
+  receive_scan(kFixLine);
   EXPECT_EQ("\n" + shown(64, 14), R"(
  cornerd 1.2.3  hall                                  fix  hall
                                 fix  hall
@@ -91,7 +91,7 @@ q quit  + - zoom  l lidar's view  a ASCII         |------| 0.5 m
 }
 
 TEST_F(Screen, NarrowOne_HasTheFiguresAboveTheMap) {
-  hear_turn(kFixLine);
+  receive_scan(kFixLine);
   EXPECT_EQ("\n" + shown(30, 20), R"(
  cornerd 1.2.3  hall
 fix  hall
@@ -117,7 +117,7 @@ q quit  + - zoom  l lidar's vi
 }
 
 TEST_F(Screen, LidarView_IsAroundTheLidar) {
-  hear_turn(kLostLine);
+  receive_scan(kLostLine);
   choice_.lidar_view = true;
   EXPECT_EQ("\n" + shown(64, 12), R"(
  cornerd 1.2.3  hall                                       lost
@@ -136,7 +136,7 @@ q quit  + - zoom  l lidar's view  a ASCII         |------| 0.5 m
 }
 
 TEST_F(Screen, AnySize_IsFilledExactly) {
-  hear_turn(kFixLine);
+  receive_scan(kFixLine);
   for (std::size_t columns = 1; columns < 140; columns += 7) {
     for (std::size_t rows = 1; rows < 60; ++rows) {
       const Frame frame = draw_screen(state_, scene_, choice_, columns, rows, 0);
@@ -147,7 +147,7 @@ TEST_F(Screen, AnySize_IsFilledExactly) {
 }
 
 TEST_F(Screen, AmbiguousPose_MarksItsPlaces) {
-  hear_turn(kAmbiguousLine);
+  receive_scan(kAmbiguousLine);
   const std::string text = shown(80, 24);
   const std::size_t map_marks = static_cast<std::size_t>(std::count(text.begin(), text.end(), '?'));
   EXPECT_EQ(map_marks, 4U);  // two on the map, two beside it

@@ -16,13 +16,13 @@
 namespace cornerd::daemon {
 
 /// Makes messages of what the turns gave.
-class TurnPublisher {
+class ScanPublisher {
  public:
   static constexpr std::size_t kStates = static_cast<std::size_t>(core::PoseState::kLost) + 1;
 
-  TurnPublisher(MessageServer& server, std::shared_ptr<const core::WallMap> map);
+  ScanPublisher(MessageServer& server, std::shared_ptr<const core::WallMap> map);
 
-  void publish(const TurnReport& report);
+  void publish(const ScanReport& report);
   /// The map of the turns from that generation on.
   void expect_map(std::uint32_t generation, std::shared_ptr<const core::WallMap> map);
   /// A pose between two turns. It is no turn's, and changes no state.
@@ -36,7 +36,7 @@ class TurnPublisher {
   const core::LearnedBias& bias() const { return bias_; }
   /// That the bias is of: Localization::lidar().
   std::uint32_t lidar() const { return lidar_; }
-  core::TimeNs end_of_newest_turn_ns() const { return end_ns_; }
+  core::TimeNs end_of_newest_scan_ns() const { return end_ns_; }
   /// Poses so far, by state.
   const std::array<std::uint64_t, kStates>& poses() const { return poses_; }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "bench/simulated_turn.hpp"
+#include "bench/simulated_scan.hpp"
 
 #include <gtest/gtest.h>
 
@@ -13,15 +13,15 @@ namespace {
 
 using core::Sample;
 
-TEST(TurnSimulator, PerfectSensor_ReturnsTheWallsInEvenSteps) {
+TEST(ScanSimulator, PerfectSensor_ReturnsTheWallsInEvenSteps) {
   const auto map = replay::make_room();
-  TurnSimulator simulator(replay::SensorModel::perfect(), 360, 1);
+  ScanSimulator simulator(replay::SensorModel::perfect(), 360, 1);
   const core::Pose2 place{1.2, 1.1, 0.4};
-  const core::Scan& turn = simulator.take(*map, place);
-  ASSERT_EQ(turn.size(), 360u);
-  EXPECT_TRUE(turn.samples().front().starts_turn);
-  for (std::size_t i = 0; i < turn.size(); ++i) {
-    const Sample& sample = turn.samples()[i];
+  const core::Scan& scan = simulator.take(*map, place);
+  ASSERT_EQ(scan.size(), 360u);
+  EXPECT_TRUE(scan.samples().front().starts_scan);
+  for (std::size_t i = 0; i < scan.size(); ++i) {
+    const Sample& sample = scan.samples()[i];
     EXPECT_NEAR(sample.bearing_rad, core::kPi - core::radians(1) * (static_cast<double>(i) + 0.5),
                 1e-6);
     EXPECT_NEAR(sample.range_m,
@@ -30,28 +30,28 @@ TEST(TurnSimulator, PerfectSensor_ReturnsTheWallsInEvenSteps) {
   }
 }
 
-TEST(TurnSimulator, Missing_AreAsManyAsTheModelSays) {
+TEST(ScanSimulator, Missing_AreAsManyAsTheModelSays) {
   const auto map = replay::make_room();
   replay::SensorModel sensor;
   sensor.missing = 1.0 / 3;
-  TurnSimulator simulator(sensor, 8000, 1);
+  ScanSimulator simulator(sensor, 8000, 1);
   const auto samples = simulator.take(*map, {1, 1, 0}).samples();
   const auto missing = std::count_if(samples.begin(), samples.end(),
                                      [](const Sample& sample) { return sample.range_m == 0; });
   EXPECT_NEAR(static_cast<double>(missing), 8000.0 / 3, 150);
 }
 
-TEST(TurnSimulator, SuccessiveTurns_DifferButTheSeedDecidesThem) {
+TEST(ScanSimulator, SuccessiveTurns_DifferButTheSeedDecidesThem) {
   const auto map = replay::make_room();
-  const auto ranges = [&](TurnSimulator& simulator) {
+  const auto ranges = [&](ScanSimulator& simulator) {
     std::vector<float> result;
     for (const Sample& sample : simulator.take(*map, {1, 1, 0}).samples()) {
       result.push_back(sample.range_m);
     }
     return result;
   };
-  TurnSimulator one({}, 100, 5);
-  TurnSimulator same({}, 100, 5);
+  ScanSimulator one({}, 100, 5);
+  ScanSimulator same({}, 100, 5);
   const auto first = ranges(one);
   EXPECT_EQ(first, ranges(same));
   EXPECT_NE(first, ranges(one));

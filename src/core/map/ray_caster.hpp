@@ -21,9 +21,9 @@ struct PredictedHit {
 /// Predicts all rays of a turn at once: every face that the place may see covers an interval of
 /// bearings, and only the rays in it are intersected with its line. Memory is taken at
 /// construction.
-class TurnPrediction {
+class RayCaster {
  public:
-  explicit TurnPrediction(double max_range_m);
+  explicit RayCaster(double max_range_m);
 
   /// `points` by rising bearing. The result is valid until the next call.
   std::span<const PredictedHit> cast(const WallMap& map, const Pose2& T_map_lidar,

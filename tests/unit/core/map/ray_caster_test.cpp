@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/map/turn_prediction.hpp"
+#include "core/map/ray_caster.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,10 +8,10 @@
 namespace cornerd::core {
 namespace {
 
-TEST(TurnPrediction, EveryRay_MeetsWhatASingleRayMeets) {
+TEST(RayCaster, EveryRay_MeetsWhatASingleRayMeets) {
   const auto map = testing::make_map(testing::l_shaped_room());
-  testing::TurnSource source(3);
-  TurnPrediction prediction(12);
+  testing::ScanSource source(3);
+  RayCaster prediction(12);
   for (int k = 0; k < 50; ++k) {
     const Pose2 T_map_lidar = source.place_in(0.2, 2.3, 0.2, 2.8);
     const PolarScan points = testing::polar(source.take(*map, T_map_lidar));
@@ -25,7 +25,7 @@ TEST(TurnPrediction, EveryRay_MeetsWhatASingleRayMeets) {
   }
 }
 
-TEST(TurnPrediction, RayIntoTheOpen_MeetsNothing) {
+TEST(RayCaster, RayIntoTheOpen_MeetsNothing) {
   FloorPlan plan;
   plan.walls.push_back({{1, -1}, {1, 1}, 0.1});
   const WallMap map(plan);
@@ -37,7 +37,7 @@ TEST(TurnPrediction, RayIntoTheOpen_MeetsNothing) {
     scan.add(sample);
   }
   const PolarScan points = testing::polar(scan);
-  TurnPrediction prediction(12);
+  RayCaster prediction(12);
   const auto hits = prediction.cast(map, {}, points.points());
   EXPECT_EQ(hits[0].face, PredictedHit::kNone);
   EXPECT_NEAR(hits[1].range_m, 0.95, 1e-9);

@@ -16,7 +16,7 @@
 namespace cornerd::survey {
 
 /// Where the lidar should be in a turn by what was known before it.
-struct TurnPrior {
+struct ScanPrior {
   core::Pose2 T_map_lidar;
   core::Covariance3 covariance = core::Covariance3::Zero();
   core::Pose2 T_before_now;  ///< the way from the turn before, as far as it was foreseen
@@ -30,20 +30,20 @@ struct TurnPrior {
 /// Goes through a drive turn by turn: each as a lidar that stood still in its middle would have
 /// seen it, with a prediction of where that was. Wheels and gyro tell both where there are any, and
 /// learn from the poses that the survey finds; else the way from pose to pose does.
-class TurnReader {
+class ScanReader {
  public:
   /// `learned`: of wheels and gyro, by a reader that went before.
   /// `known_poses`: of all turns by an earlier pass, for a drive without odometry; may be empty.
   /// `guessed`: the turns whose pose that pass did not find, in their order.
-  TurnReader(const RecordedDrive& drive, const core::LocalizerConfig& config,
+  ScanReader(const RecordedDrive& drive, const core::LocalizerConfig& config,
              const std::optional<core::LearnedOdometry>& learned,
              std::span<const core::Pose2> known_poses, std::span<const std::size_t> guessed);
 
   /// Goes on to the next turn; false after the last one.
   bool next();
-  std::size_t turn() const { return turn_; }
+  std::size_t scan() const { return index_; }
   const core::PolarScan& points() const { return points_; }
-  const TurnPrior& prior() const { return prior_; }
+  const ScanPrior& prior() const { return prior_; }
 
   /// Where nothing but the lidar tells how it moved in this turn: straightens the turn by the way
   /// from the one before to where this one seems to have been. Else does nothing, and says false.
@@ -62,7 +62,7 @@ class TurnReader {
   void hear_readings();
   void predict(core::TimeNs t_ns);
   bool is_after_pause() const;
-  bool is_known(std::size_t turn) const;
+  bool is_known(std::size_t scan) const;
   core::Twist2 expected_motion() const;
   core::Twist2 motion_to(const core::Pose2& T_map_lidar) const;
   void straighten(const core::Twist2& motion);
@@ -79,14 +79,14 @@ class TurnReader {
   core::TimeNs heard_ns_ = std::numeric_limits<core::TimeNs>::min();
 
   bool begun_ = false;
-  std::size_t turn_ = 0;
+  std::size_t index_ = 0;
   core::Scan scan_;
   core::Scan still_;
   core::PolarScan points_;
-  TurnPrior prior_;
+  ScanPrior prior_;
 
   core::TimeNs last_ns_ = 0;  ///< of the last turn that was placed
-  std::size_t last_turn_ = 0;
+  std::size_t last_scan_ = 0;
   core::Pose2 last_T_map_lidar_;
   core::Twist2 last_motion_;
   core::Pose2 filtered_T_map_lidar_;  ///< what the odometer made of it

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The way from a lidar's bytes to a published pose, stage by stage, for the counter beside this:
 //
-//   turn_cost MAP SAMPLES
+//   scan_cost MAP SAMPLES
 //
 // drives a simulated A1 of that many samples a turn, ten turns a second at most, through a contest
 // arena at 0.2 m/s. Everything runs in one thread, with the daemon's own parts; what it prints is
@@ -31,14 +31,14 @@
 #include "daemon/event_loop.hpp"
 #include "daemon/message_server.hpp"
 #include "daemon/sample_channel.hpp"
-#include "daemon/turn_publisher.hpp"
+#include "daemon/scan_publisher.hpp"
 #include "drivers/rplidar/sample_stream.hpp"
 #include "markers.hpp"
 #include "message/state_names.hpp"
 #include "replay/simulator/simulator.hpp"
 #include "settings/map_file.hpp"
 
-CORNERD_COST_STAGE(turn)
+CORNERD_COST_STAGE(scan)
 CORNERD_COST_STAGE(decode)
 CORNERD_COST_STAGE(localize)
 CORNERD_COST_STAGE(publish)
@@ -53,8 +53,8 @@ namespace {
 
 constexpr double kSpeed_m_s = 0.2;
 /// Turns until the localizer has learnt what it learns at first, and those that are counted.
-constexpr int kTurnsBefore = 25;
-constexpr int kTurns = 20;
+constexpr int kScansBefore = 25;
+constexpr int kScans = 20;
 
 /// As fast as the format is, and no more than ten turns a second.
 replay::SimulatorConfig lidar_of(std::size_t samples) {
@@ -67,8 +67,8 @@ replay::SimulatorConfig lidar_of(std::size_t samples) {
 }
 
 /// Stands while the localizer learns, then drives along the street of the contest arena.
-replay::Motion drive(double turns_hz) {
-  return [begins_s = kTurnsBefore / turns_hz](core::TimeNs t_ns, std::int64_t) {
+replay::Motion drive(double scan_rate_hz) {
+  return [begins_s = kScansBefore / scan_rate_hz](core::TimeNs t_ns, std::int64_t) {
     const double way_m = kSpeed_m_s * std::max(0.0, core::to_seconds(t_ns) - begins_s);
     return core::Pose2{0.95, 0.25 + way_m, core::kPi / 2};
   };
@@ -111,9 +111,9 @@ class Parts {
         prediction_(config_.max_range_m),
         fresh_(map_, config_) {}
 
-  void count(const core::Scan& turn, const core::TurnResult& result) {
+  void count(const core::Scan& scan, const core::ScanResult& result) {
     cost_begin_detect();
-    points_.assign(turn, config_.min_range_m, config_.max_range_m, result.pose.t_ns);
+    points_.assign(scan, config_.min_range_m, config_.max_range_m, result.pose.t_ns);
     detector_.detect(points_, detection_);
     cost_end_detect();
 
@@ -139,7 +139,7 @@ class Parts {
 
     fresh_.relocalize();
     cost_begin_first_fix();
-    static_cast<void>(fresh_.step(turn));
+    static_cast<void>(fresh_.step(scan));
     cost_end_first_fix();
   }
 
@@ -150,7 +150,7 @@ class Parts {
   core::Recognition recognition_;
   core::Detector detector_;
   core::Refinement refinement_;
-  core::TurnPrediction prediction_;
+  core::RayCaster prediction_;
   core::Localizer fresh_;
   core::PolarScan points_;
   std::vector<core::PolarPoint> thin_;
@@ -169,10 +169,10 @@ class Daemon {
   }
 
   /// From where the last turn began to where the next one does.
-  void turn(replay::Simulator& lidar, bool counts) {
+  void scan(replay::Simulator& lidar, bool counts) {
     decode(lidar, counts);
     if (counts) cost_begin_localize();
-    const core::TurnResult* result = localize();
+    const core::ScanResult* result = localize();
     if (counts) cost_end_localize();
     if (result == nullptr) return;
     if (counts) cost_begin_publish();
@@ -185,8 +185,8 @@ class Daemon {
     if (!counts) return;
     std::printf("%-10s %zu samples %zu bytes\n",
                 std::string(message::to_string(result->pose.state)).c_str(),
-                pipeline_.turn().size(), bytes);
-    parts_.count(pipeline_.turn(), *result);
+                pipeline_.scan().size(), bytes);
+    parts_.count(pipeline_.scan(), *result);
   }
 
  private:
@@ -197,7 +197,7 @@ class Daemon {
     while (!begins) {
       const replay::WirePacket packet = lidar.next();
       packets_.push_back({{packet.bytes.begin(), packet.bytes.end()}, packet.ready_ns});
-      for (const auto& sample : packet.samples) begins |= sample.starts_turn;
+      for (const auto& sample : packet.samples) begins |= sample.starts_scan;
     }
     if (counts) cost_begin_turn();
     if (counts) cost_begin_decode();
@@ -205,15 +205,15 @@ class Daemon {
     if (counts) cost_end_decode();
   }
 
-  const core::TurnResult* localize() {
-    const core::TurnResult* last = nullptr;
+  const core::ScanResult* localize() {
+    const core::ScanResult* last = nullptr;
     daemon::SampleChannel::Item item;
     while (channel_.pop(item)) {
-      const core::TurnResult* result = pipeline_.add(item.sample);
+      const core::ScanResult* result = pipeline_.add(item.sample);
       if (result == nullptr) continue;
       last = result;
       report_.result = *result;
-      report_.turn = pipeline_.turn();
+      report_.scan = pipeline_.scan();
     }
     return last;
   }
@@ -229,8 +229,8 @@ class Daemon {
   Parts parts_;
   daemon::EventLoop loop_;
   daemon::MessageServer server_;
-  daemon::TurnPublisher publisher_;
-  daemon::TurnReport report_;
+  daemon::ScanPublisher publisher_;
+  daemon::ScanReport report_;
   std::optional<Reader> client_;
   std::vector<Packet> packets_;
 };
@@ -243,7 +243,7 @@ int run(const std::filesystem::path& map_file, std::size_t samples) {
   const std::filesystem::path socket =
       std::filesystem::temp_directory_path() / ("cornerd-cost-" + std::to_string(::getpid()));
   Daemon daemon(std::move(map), socket);
-  for (int i = 0; i < kTurnsBefore + kTurns; ++i) daemon.turn(lidar, i >= kTurnsBefore);
+  for (int i = 0; i < kScansBefore + kScans; ++i) daemon.scan(lidar, i >= kScansBefore);
   return 0;
 }
 
@@ -252,13 +252,13 @@ int run(const std::filesystem::path& map_file, std::size_t samples) {
 
 int main(int argc, char** argv) {
   if (argc != 3) {
-    std::fputs("usage: turn_cost MAP SAMPLES\n", stderr);
+    std::fputs("usage: scan_cost MAP SAMPLES\n", stderr);
     return 2;
   }
   try {
     return cornerd::run(argv[1], std::strtoul(argv[2], nullptr, 10));
   } catch (const std::exception& error) {
-    std::fprintf(stderr, "turn_cost: %s\n", error.what());
+    std::fprintf(stderr, "scan_cost: %s\n", error.what());
     return 1;
   }
 }

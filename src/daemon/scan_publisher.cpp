@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "daemon/turn_publisher.hpp"
+#include "daemon/scan_publisher.hpp"
 
 #include <spdlog/spdlog.h>
 
@@ -26,15 +26,15 @@ constexpr double kJumpAtAll_rad = core::radians(179);
 
 }  // namespace
 
-TurnPublisher::TurnPublisher(MessageServer& server, std::shared_ptr<const core::WallMap> map)
+ScanPublisher::ScanPublisher(MessageServer& server, std::shared_ptr<const core::WallMap> map)
     : server_(server), map_(std::move(map)) {}
 
-void TurnPublisher::expect_map(std::uint32_t generation, std::shared_ptr<const core::WallMap> map) {
+void ScanPublisher::expect_map(std::uint32_t generation, std::shared_ptr<const core::WallMap> map) {
   next_generation_ = generation;
   next_map_ = std::move(map);
 }
 
-void TurnPublisher::publish(const TurnReport& report) {
+void ScanPublisher::publish(const ScanReport& report) {
   const core::PoseEstimate& pose = report.result.pose;
   if (next_map_ && report.generation == next_generation_) {
     map_ = std::move(next_map_);
@@ -46,32 +46,32 @@ void TurnPublisher::publish(const TurnReport& report) {
   odometry_ = report.result.odometry;
   bias_ = report.result.bias;
   lidar_ = report.lidar;
-  end_ns_ = report.turn.end_ns();
+  end_ns_ = report.scan.end_ns();
 
   server_.publish(MessageClass::kPose, line_.pose(pose, map_ ? &map_->plan() : nullptr));
   if (server_.is_watched(MessageClass::kScan)) {
-    server_.publish(MessageClass::kScan, line_.scan(report.turn));
+    server_.publish(MessageClass::kScan, line_.scan(report.scan));
   }
   if (server_.is_watched(MessageClass::kBreakpoints)) {
     server_.publish(MessageClass::kBreakpoints,
-                    line_.breakpoints(report.turn.start_ns(), report.result.detection));
+                    line_.breakpoints(report.scan.start_ns(), report.result.detection));
   }
   if (pose.state != state_) publish_change(pose.state, pose.t_ns);
   publish_jump(pose, report.number);
   jumps_.tick(monotonic_ns());
 }
 
-void TurnPublisher::publish_jump(const core::PoseEstimate& pose, std::uint64_t number) {
+void ScanPublisher::publish_jump(const core::PoseEstimate& pose, std::uint64_t number) {
   if (!core::names_a_place(pose.state)) return;
   if (last_fix_) {
-    const auto turns = static_cast<double>(number - last_fix_->number);
+    const auto scans = static_cast<double>(number - last_fix_->number);
     const double way_m =
         (pose.T_map_base.translation() - last_fix_->T_map_base.translation()).norm();
-    const double turned_rad =
+    const double rotated_rad =
         std::abs(core::angle_between(last_fix_->T_map_base.theta_rad, pose.T_map_base.theta_rad));
-    if (way_m > kJump_m * turns || turned_rad > std::min(kJump_rad * turns, kJumpAtAll_rad)) {
+    if (way_m > kJump_m * scans || rotated_rad > std::min(kJump_rad * scans, kJumpAtAll_rad)) {
       const std::string text =
-          fmt::format("{:.3f} m, {:.1f} degrees", way_m, core::degrees(turned_rad));
+          fmt::format("{:.3f} m, {:.1f} degrees", way_m, core::degrees(rotated_rad));
       jumps_.say(text, monotonic_ns());
       server_.publish(MessageClass::kEvent, line_.event(pose.t_ns, "jump", text));
     }
@@ -79,11 +79,11 @@ void TurnPublisher::publish_jump(const core::PoseEstimate& pose, std::uint64_t n
   last_fix_ = {number, pose.T_map_base};
 }
 
-void TurnPublisher::publish(const core::PoseEstimate& pose) {
+void ScanPublisher::publish(const core::PoseEstimate& pose) {
   server_.publish(MessageClass::kPose, line_.pose(pose, map_ ? &map_->plan() : nullptr));
 }
 
-void TurnPublisher::publish_change(core::PoseState to, core::TimeNs t_ns) {
+void ScanPublisher::publish_change(core::PoseState to, core::TimeNs t_ns) {
   using message::to_string;
   std::string change(state_ ? to_string(*state_) : "none");
   change.append(" -> ").append(to_string(to));

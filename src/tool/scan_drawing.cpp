@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "tool/turn_drawing.hpp"
+#include "tool/scan_drawing.hpp"
 
 #include <algorithm>
 #include <array>
@@ -21,9 +21,9 @@ constexpr Paint kEndSquare{.stroke = "#d68910", .stroke_width = 2};
 constexpr Paint kLidarCross{.stroke = "#000000", .stroke_width = 1.5};
 constexpr Paint kGridLine{.stroke = "#dcdde1", .stroke_width = 0.8};
 
-std::vector<core::Vec2> places_of(const core::Scan& turn) {
+std::vector<core::Vec2> places_of(const core::Scan& scan) {
   std::vector<core::Vec2> places;
-  for (const core::Sample& sample : turn.samples()) {
+  for (const core::Sample& sample : scan.samples()) {
     if (sample.range_m <= 0) continue;
     const double bearing_rad = sample.bearing_rad;
     places.emplace_back(sample.range_m * std::cos(bearing_rad),
@@ -43,9 +43,9 @@ void draw_metres(Svg& svg, const core::Vec2& low, const core::Vec2& high) {
 
 }  // namespace
 
-std::string draw_turn(const core::Scan& turn, const core::Detection& detection,
+std::string draw_scan(const core::Scan& scan, const core::Detection& detection,
                       const std::string& subtitle) {
-  const std::vector<core::Vec2> places = places_of(turn);
+  const std::vector<core::Vec2> places = places_of(scan);
   core::Vec2 low(-0.5, -0.5);
   core::Vec2 high(0.5, 0.5);
   for (const core::Vec2& place : places) {

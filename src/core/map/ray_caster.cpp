@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/map/turn_prediction.hpp"
+#include "core/map/ray_caster.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -20,12 +20,12 @@ std::size_t first_at(std::span<const PolarPoint> points, double bearing_rad) {
 
 }  // namespace
 
-TurnPrediction::TurnPrediction(double max_range_m) : max_range_m_(max_range_m) {
-  hits_.reserve(kMaxSamplesPerTurn);
+RayCaster::RayCaster(double max_range_m) : max_range_m_(max_range_m) {
+  hits_.reserve(kMaxSamplesPerScan);
 }
 
-void TurnPrediction::cover(std::uint32_t face, const Vec2& normal_lidar, double height_m,
-                           std::size_t begin, std::size_t end, std::span<const PolarPoint> points) {
+void RayCaster::cover(std::uint32_t face, const Vec2& normal_lidar, double height_m,
+                      std::size_t begin, std::size_t end, std::span<const PolarPoint> points) {
   for (std::size_t i = begin; i < end; ++i) {
     const double approach =
         -(normal_lidar.x() * points[i].ray_x + normal_lidar.y() * points[i].ray_y);
@@ -37,22 +37,20 @@ void TurnPrediction::cover(std::uint32_t face, const Vec2& normal_lidar, double 
   }
 }
 
-std::span<const PredictedHit> TurnPrediction::cast(const WallMap& map, const Pose2& T_map_lidar,
-                                                   std::span<const PolarPoint> points) {
+std::span<const PredictedHit> RayCaster::cast(const WallMap& map, const Pose2& T_map_lidar,
+                                              std::span<const PolarPoint> points) {
   return cast(map, T_map_lidar, points, max_range_m_);
 }
 
-std::span<const PredictedHit> TurnPrediction::cast_near(const WallMap& map,
-                                                        const Pose2& T_map_lidar,
-                                                        std::span<const PolarPoint> points) {
+std::span<const PredictedHit> RayCaster::cast_near(const WallMap& map, const Pose2& T_map_lidar,
+                                                   std::span<const PolarPoint> points) {
   double farthest_m = 0;
   for (const PolarPoint& point : points) farthest_m = std::max(farthest_m, point.range_m);
   return cast(map, T_map_lidar, points, std::min(max_range_m_, farthest_m + kBeyond_m));
 }
 
-std::span<const PredictedHit> TurnPrediction::cast(const WallMap& map, const Pose2& T_map_lidar,
-                                                   std::span<const PolarPoint> points,
-                                                   double reach_m) {
+std::span<const PredictedHit> RayCaster::cast(const WallMap& map, const Pose2& T_map_lidar,
+                                              std::span<const PolarPoint> points, double reach_m) {
   hits_.assign(points.size(), {reach_m, PredictedHit::kNone});
   const double c = std::cos(T_map_lidar.theta_rad);
   const double s = std::sin(T_map_lidar.theta_rad);

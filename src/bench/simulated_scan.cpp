@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: MIT
-#include "bench/simulated_turn.hpp"
+#include "bench/simulated_scan.hpp"
 
 namespace cornerd::bench {
 
-TurnSimulator::TurnSimulator(const replay::SensorModel& sensor, std::size_t samples,
-                             std::uint64_t seed, core::TimeNs turn_ns)
-    : turn_ns_(turn_ns), errors_(sensor, seed), samples_(samples) {}
+ScanSimulator::ScanSimulator(const replay::SensorModel& sensor, std::size_t samples,
+                             std::uint64_t seed, core::TimeNs scan_ns)
+    : scan_ns_(scan_ns), errors_(sensor, seed), samples_(samples) {}
 
-const core::Scan& TurnSimulator::take(const core::WallMap& map, const core::Pose2& T_map_lidar) {
+const core::Scan& ScanSimulator::take(const core::WallMap& map, const core::Pose2& T_map_lidar) {
   return take(map, 0, replay::stand_still(T_map_lidar));
 }
 
-const core::Scan& TurnSimulator::take(const core::WallMap& map, core::TimeNs start_ns,
+const core::Scan& ScanSimulator::take(const core::WallMap& map, core::TimeNs start_ns,
                                       const replay::Motion& T_map_lidar) {
   return take(start_ns, [&](core::TimeNs t_ns, double bearing_rad) {
     const core::Pose2 at = T_map_lidar(t_ns, 0);
@@ -19,21 +19,21 @@ const core::Scan& TurnSimulator::take(const core::WallMap& map, core::TimeNs sta
   });
 }
 
-const core::Scan& TurnSimulator::take(core::TimeNs start_ns, const Sight& range_along) {
-  turn_.clear();
+const core::Scan& ScanSimulator::take(core::TimeNs start_ns, const Sight& range_along) {
+  scan_.clear();
   for (std::size_t i = 0; i < samples_; ++i) {
     const double share = (static_cast<double>(i) + 0.5) / static_cast<double>(samples_);
     const double bearing_rad = core::kPi - core::kTwoPi * share;
     core::Sample sample;
-    sample.t_ns = start_ns + static_cast<core::TimeNs>(share * static_cast<double>(turn_ns_));
+    sample.t_ns = start_ns + static_cast<core::TimeNs>(share * static_cast<double>(scan_ns_));
     const double looks_rad = bearing_rad - errors_.direction_error(-bearing_rad);
     const double range_m = range_along(sample.t_ns, looks_rad);
     sample.bearing_rad = static_cast<float>(bearing_rad);
     sample.range_m = static_cast<float>(errors_.measured(range_m));
-    sample.starts_turn = i == 0;
-    turn_.add(sample);
+    sample.starts_scan = i == 0;
+    scan_.add(sample);
   }
-  return turn_;
+  return scan_;
 }
 
 }  // namespace cornerd::bench

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "survey/turn_matcher.hpp"
+#include "survey/scan_matcher.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -82,9 +82,9 @@ double weakest_sigma_m(const Eigen::Matrix3d& information) {
 
 }  // namespace
 
-bool TurnMatch::by_walls() const { return valid && own_sigma_m < kSureSigma_m; }
+bool ScanMatch::by_walls() const { return valid && own_sigma_m < kSureSigma_m; }
 
-double TurnMatcher::assign(std::span<const Sighting> sightings, std::span<const MappedFace> faces,
+double ScanMatcher::assign(std::span<const Sighting> sightings, std::span<const MappedFace> faces,
                            const core::Pose2& T_map_lidar, const Reach& reach,
                            std::vector<std::uint32_t>& faces_of) {
   faces_of.clear();
@@ -98,10 +98,10 @@ double TurnMatcher::assign(std::span<const Sighting> sightings, std::span<const 
   return all > 0 ? matched / all : 0;
 }
 
-TurnMatch TurnMatcher::match(std::span<const Sighting> sightings, std::span<const MappedFace> faces,
+ScanMatch ScanMatcher::match(std::span<const Sighting> sightings, std::span<const MappedFace> faces,
                              const core::Pose2& prior, const core::Covariance3& covariance,
                              const Reach& reach, std::vector<std::uint32_t>& faces_of) const {
-  TurnMatch result;
+  ScanMatch result;
   core::Pose2 pose = prior;
   const Eigen::Matrix3d prior_information = covariance.inverse();
   Eigen::Matrix3d information = prior_information;

@@ -11,7 +11,7 @@
 namespace cornerd::survey {
 
 /// Where the lidar was in a turn, by the faces that the map has already.
-struct TurnMatch {
+struct ScanMatch {
   core::Pose2 T_map_lidar;
   core::Covariance3 covariance = core::Covariance3::Zero();
   double matched_share = 0;  ///< of the samples on sighted walls: those on faces of the map
@@ -32,13 +32,13 @@ struct Reach {
 
 /// Matches the walls of one turn to the faces of the map: a wall belongs to a face that looks the
 /// same way, lies on the same line and overlaps it.
-class TurnMatcher {
+class ScanMatcher {
  public:
   /// A sighting beside a face, which may be its next piece, then tells nothing of the place.
   void set_cautious(bool cautious) { cautious_ = cautious; }
 
   /// `faces_of`: for each sighting the face that it is of, or kNoFace.
-  TurnMatch match(std::span<const Sighting> sightings, std::span<const MappedFace> faces,
+  ScanMatch match(std::span<const Sighting> sightings, std::span<const MappedFace> faces,
                   const core::Pose2& prior, const core::Covariance3& covariance, const Reach& reach,
                   std::vector<std::uint32_t>& faces_of) const;
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "daemon/turn_publisher.hpp"
+#include "daemon/scan_publisher.hpp"
 
 #include <gtest/gtest.h>
 
@@ -17,9 +17,9 @@ namespace {
 
 using nlohmann::json;
 
-class TurnPublisherTest : public ::testing::Test {
+class ScanPublisherTest : public ::testing::Test {
  protected:
-  TurnPublisherTest() {
+  ScanPublisherTest() {
     server_.listen(folder_ / "s", SocketRole::kPose);
     client_.emplace(folder_ / "s");
     loop_.run_once(1000);
@@ -48,12 +48,12 @@ class TurnPublisherTest : public ::testing::Test {
   test::TemporaryFolder folder_;
   EventLoop loop_;
   MessageServer server_{loop_, "1", {[] {}}};
-  TurnPublisher publisher_{server_, nullptr};
-  TurnReport report_;
+  ScanPublisher publisher_{server_, nullptr};
+  ScanReport report_;
   std::optional<TestClient> client_;
 };
 
-TEST_F(TurnPublisherTest, JumpsAtEachTurn_AreEventsAndOneLineInTheLog) {
+TEST_F(ScanPublisherTest, JumpsAtEachTurn_AreEventsAndOneLineInTheLog) {
   const CapturedLog log;
   constexpr int kJumps = 5;
   for (int i = 0; i <= kJumps; ++i) publish_fix_at(i % 2 == 0 ? 0 : 1);

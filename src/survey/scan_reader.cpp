@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "survey/turn_reader.hpp"
+#include "survey/scan_reader.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -19,7 +19,7 @@ constexpr double kOdometryFloor_rad = core::radians(0.1);
 /// And what it errs by, as a share of the motion: wheels, tracks above all, slip where they turn.
 constexpr double kWayShare = 0.05;
 constexpr double kTurnShare = 0.03;
-constexpr double kTurnShareOfWheels = 0.2;
+constexpr double kWheelRotationShare = 0.2;
 
 /// Turns that are missing for so long leave the robot time to go elsewhere.
 constexpr core::TimeNs kPause_ns = core::kNsPerSecond * 3 / 4;
@@ -43,7 +43,7 @@ core::Covariance3 diagonal(double place_m, double heading_rad) {
 
 }  // namespace
 
-TurnReader::TurnReader(const RecordedDrive& drive, const core::LocalizerConfig& config,
+ScanReader::ScanReader(const RecordedDrive& drive, const core::LocalizerConfig& config,
                        const std::optional<core::LearnedOdometry>& learned,
                        std::span<const core::Pose2> known_poses,
                        std::span<const std::size_t> guessed)
@@ -54,13 +54,13 @@ TurnReader::TurnReader(const RecordedDrive& drive, const core::LocalizerConfig& 
       guessed_(guessed),
       odometer_(patient(config.odometry, drive.has_wheels(), learned)) {}
 
-bool TurnReader::next() {
-  if (begun_) ++turn_;
-  if (turn_ >= drive_.size()) return false;
+bool ScanReader::next() {
+  if (begun_) ++index_;
+  if (index_ >= drive_.size()) return false;
   hear_readings();
-  drive_.load(turn_, scan_);
-  const core::TimeNs t_ns = drive_.middle_ns(turn_);
-  odometer_.advance(drive_.start_ns(turn_), t_ns, drive_.end_ns(turn_));
+  drive_.load(index_, scan_);
+  const core::TimeNs t_ns = drive_.middle_ns(index_);
+  odometer_.advance(drive_.start_ns(index_), t_ns, drive_.end_ns(index_));
   predict(t_ns);
   if (odometer_.straighten(scan_, config_.T_base_lidar, still_)) {
     points_.assign(still_, config_.min_range_m, config_.max_range_m, t_ns, {}, config_.bias);
@@ -71,22 +71,22 @@ bool TurnReader::next() {
   return true;
 }
 
-void TurnReader::hear_readings() {
+void ScanReader::hear_readings() {
   // One past the turn's end, so that nothing of its motion is guessed.
-  constexpr std::size_t kTurnsAhead = 2;
-  const core::TimeNs end_ns = drive_.end_ns(turn_);
+  constexpr std::size_t kScansAhead = 2;
+  const core::TimeNs end_ns = drive_.end_ns(index_);
   const auto readings = drive_.readings();
   for (; next_reading_ < readings.size(); ++next_reading_) {
     const RecordedDrive::Reading& next = readings[next_reading_];
-    const bool ahead = heard_ns_ < end_ns && next.turn <= turn_ + kTurnsAhead;
-    if (next.turn > turn_ && !ahead) return;
+    const bool ahead = heard_ns_ < end_ns && next.scan <= index_ + kScansAhead;
+    if (next.scan > index_ && !ahead) return;
     has_gyro_ |= next.reading.gyro_rad_s.has_value();
     odometer_.add(next.reading, next.now_ns);
     heard_ns_ = next.reading.t_ns;
   }
 }
 
-void TurnReader::predict(core::TimeNs t_ns) {
+void ScanReader::predict(core::TimeNs t_ns) {
   prior_ = {};
   if (!begun_) {
     // The map's frame is the robot's own in the first turn.
@@ -100,16 +100,17 @@ void TurnReader::predict(core::TimeNs t_ns) {
   if (predicted && !prior_.after_pause) {
     prior_.T_map_lidar = predicted->T_map_base * config_.T_base_lidar;
     prior_.T_before_now = filtered_T_map_lidar_.inverse() * prior_.T_map_lidar;
-    const double turn_share = has_gyro_ ? kTurnShare : kTurnShareOfWheels;
+    const double rotation_share = has_gyro_ ? kTurnShare : kWheelRotationShare;
     prior_.sigma_m = kOdometryFloor_m + kWayShare * prior_.T_before_now.translation().norm();
-    prior_.sigma_rad = kOdometryFloor_rad + turn_share * std::abs(prior_.T_before_now.theta_rad);
+    prior_.sigma_rad =
+        kOdometryFloor_rad + rotation_share * std::abs(prior_.T_before_now.theta_rad);
     prior_.covariance = predicted->covariance + diagonal(prior_.sigma_m, prior_.sigma_rad);
     prior_.by_odometry = true;
     return;
   }
   const double dt_s = core::to_seconds(t_ns - last_ns_);
-  prior_.T_before_now = is_known(last_turn_) && is_known(turn_)
-                            ? known_poses_[last_turn_].inverse() * known_poses_[turn_]
+  prior_.T_before_now = is_known(last_scan_) && is_known(index_)
+                            ? known_poses_[last_scan_].inverse() * known_poses_[index_]
                             : last_motion_.over(std::clamp(dt_s, 0.0, 1.0));
   prior_.T_map_lidar = last_T_map_lidar_ * prior_.T_before_now;
   // Twice the time, twice the speed that it may have taken up.
@@ -119,55 +120,55 @@ void TurnReader::predict(core::TimeNs t_ns) {
   prior_.covariance = diagonal(prior_.sigma_m, prior_.sigma_rad);
 }
 
-bool TurnReader::is_after_pause() const {
-  if (drive_.start_ns(turn_) - drive_.end_ns(turn_ - 1) < kPause_ns) return false;
+bool ScanReader::is_after_pause() const {
+  if (drive_.start_ns(index_) - drive_.end_ns(index_ - 1) < kPause_ns) return false;
   return !odometer_.prediction() || counters().holes > holes_;
 }
 
-bool TurnReader::is_contradicted() const {
+bool ScanReader::is_contradicted() const {
   const core::OdometrySummary summary = odometer_.summary();
   return summary.present && !summary.trusted;
 }
 
 /// By the earlier pass.
-bool TurnReader::is_known(std::size_t turn) const {
-  return turn < known_poses_.size() && !std::binary_search(guessed_.begin(), guessed_.end(), turn);
+bool ScanReader::is_known(std::size_t scan) const {
+  return scan < known_poses_.size() && !std::binary_search(guessed_.begin(), guessed_.end(), scan);
 }
 
-core::Twist2 TurnReader::expected_motion() const {
+core::Twist2 ScanReader::expected_motion() const {
   const auto known = known_poses_;
   if (known.size() < 2) return last_motion_;
-  const std::size_t before = turn_ > 0 ? turn_ - 1 : 0;
-  const std::size_t after = std::min(turn_ + 1, known.size() - 1);
+  const std::size_t before = index_ > 0 ? index_ - 1 : 0;
+  const std::size_t after = std::min(index_ + 1, known.size() - 1);
   if (!is_known(before) || !is_known(after)) return last_motion_;
   const double dt_s = core::to_seconds(drive_.middle_ns(after) - drive_.middle_ns(before));
   if (!(dt_s > 0) || dt_s > 1) return last_motion_;
   return core::motion_between(known[before], known[after], dt_s);
 }
 
-bool TurnReader::straighten_again(const core::Pose2& T_map_lidar) {
-  if (turn_ == 0 || drive_.has_wheels() || is_known(turn_)) return false;
+bool ScanReader::straighten_again(const core::Pose2& T_map_lidar) {
+  if (index_ == 0 || drive_.has_wheels() || is_known(index_)) return false;
   straighten(motion_to(T_map_lidar));
   return true;
 }
 
 /// From the turn before; at rest after a pause.
-core::Twist2 TurnReader::motion_to(const core::Pose2& T_map_lidar) const {
-  const double dt_s = core::to_seconds(drive_.middle_ns(turn_) - last_ns_);
-  if (turn_ == 0 || !(dt_s > 0 && dt_s < 1)) return {};
+core::Twist2 ScanReader::motion_to(const core::Pose2& T_map_lidar) const {
+  const double dt_s = core::to_seconds(drive_.middle_ns(index_) - last_ns_);
+  if (index_ == 0 || !(dt_s > 0 && dt_s < 1)) return {};
   return core::motion_between(last_T_map_lidar_, T_map_lidar, dt_s);
 }
 
-void TurnReader::straighten(const core::Twist2& motion) {
-  points_.assign(scan_, config_.min_range_m, config_.max_range_m, drive_.middle_ns(turn_), motion,
+void ScanReader::straighten(const core::Twist2& motion) {
+  points_.assign(scan_, config_.min_range_m, config_.max_range_m, drive_.middle_ns(index_), motion,
                  config_.bias);
 }
 
-void TurnReader::place(const core::Pose2& T_map_lidar, const core::Covariance3& covariance) {
-  const core::TimeNs t_ns = drive_.middle_ns(turn_);
+void ScanReader::place(const core::Pose2& T_map_lidar, const core::Covariance3& covariance) {
+  const core::TimeNs t_ns = drive_.middle_ns(index_);
   last_motion_ = motion_to(T_map_lidar);
   last_ns_ = t_ns;
-  last_turn_ = turn_;
+  last_scan_ = index_;
   last_T_map_lidar_ = T_map_lidar;
   const core::Pose2 T_map_base = T_map_lidar * T_lidar_base_;
   odometer_.correct(T_map_base, core::covariance_of_base(covariance, T_map_lidar, T_map_base));

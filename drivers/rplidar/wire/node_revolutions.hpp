@@ -9,7 +9,7 @@ namespace cornerd::rplidar {
 
 /// Splits standard nodes into turns by the smoothed angle. The device's start flag says exactly
 /// where, if it comes near zero; where it was lost the turn ends a few degrees later.
-class NodeTurns {
+class NodeRevolutions {
  public:
   /// Whether the node with which `track` has just been advanced begins a turn.
   bool advance(bool start_flag, const NodeTrack& track);
@@ -20,10 +20,10 @@ class NodeTurns {
   std::uint64_t false_marks() const { return false_marks_; }
 
  private:
-  static constexpr float kWholeTurn = kFullTurnQ6;
+  static constexpr float kFullRevolution = kFullRevolutionQ6;
 
-  float travelled_q6_ = kWholeTurn;  ///< since the last start
-  bool before_zero_ = false;         ///< the last half of the turn has been entered
+  float travelled_q6_ = kFullRevolution;  ///< since the last start
+  bool before_zero_ = false;              ///< the last half of the turn has been entered
   std::uint64_t false_marks_ = 0;
 };
 

@@ -13,15 +13,16 @@
 
 namespace cornerd::bench {
 
-inline constexpr core::TimeNs kFreeTurn_ns = 137'000'000;  ///< an A1 that runs free on 5 V
+inline constexpr core::TimeNs kDefaultScanDuration_ns =
+    137'000'000;  ///< an A1 that runs free on 5 V
 
 /// Turns of a lidar: `samples` rays evenly spread over the circle, clockwise as an A1 turns, with
 /// the errors of the simulator's sensor. There is no wire in between: ranges and bearings are not
 /// rounded, and start at the lidar's back.
-class TurnSimulator {
+class ScanSimulator {
  public:
-  TurnSimulator(const replay::SensorModel& sensor, std::size_t samples, std::uint64_t seed,
-                core::TimeNs turn_ns = kFreeTurn_ns);
+  ScanSimulator(const replay::SensorModel& sensor, std::size_t samples, std::uint64_t seed,
+                core::TimeNs scan_ns = kDefaultScanDuration_ns);
 
   /// Of a lidar that stands still. The result is valid until the next call. Takes the next numbers
   /// of the random sequence.
@@ -37,13 +38,13 @@ class TurnSimulator {
   using Sight = std::function<double(core::TimeNs t_ns, double bearing_rad)>;
   const core::Scan& take(core::TimeNs start_ns, const Sight& range_along);
 
-  core::TimeNs turn_ns() const { return turn_ns_; }
+  core::TimeNs scan_ns() const { return scan_ns_; }
 
  private:
-  core::TimeNs turn_ns_;
+  core::TimeNs scan_ns_;
   replay::SensorErrors errors_;
   std::size_t samples_;
-  core::Scan turn_;
+  core::Scan scan_;
 };
 
 }  // namespace cornerd::bench
