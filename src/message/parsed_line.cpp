@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "message/told_line.hpp"
+#include "message/parsed_line.hpp"
 
 #include <algorithm>
 #include <limits>
 
 #include "message/field_reader.hpp"
-#include "message/scan_fields.hpp"
-#include "message/state_names.hpp"
+#include "message/input_fields.hpp"
+#include "message/line_writer.hpp"
 
 namespace cornerd::message {
 namespace {
@@ -14,14 +14,14 @@ namespace {
 constexpr Limits kCountLimits{0, 9007199254740992.0};
 constexpr Limits kAnyNumber{std::numeric_limits<double>::lowest(),
                             std::numeric_limits<double>::max()};
-/// More of anything than the daemon has.
-constexpr std::size_t kMostEntries = 1024;
+/// Bounds the memory that a hostile STATUS takes.
+constexpr std::size_t kMaxEntries = 1024;
 
 std::uint64_t read_count(FieldReader& fields, const char* name) {
   return static_cast<std::uint64_t>(fields.optional_number(name, kCountLimits).value_or(0));
 }
 
-core::Pose2 read_place(FieldReader& fields) {
+core::Pose2 read_pose2(FieldReader& fields) {
   return {fields.number("x", kCoordinateLimitsM), fields.number("y", kCoordinateLimitsM),
           core::normalize_angle(fields.number("theta", kAngleLimitsRad))};
 }
@@ -33,7 +33,7 @@ core::PoseState read_pose_state(FieldReader& fields) {
                                 PoseState::kAmbiguous, PoseState::kLost}) {
     if (to_string(state) == name) return state;
   }
-  fields.fail("\"state\" is none that is known");
+  fields.fail("\"state\" is unknown");
   return PoseState::kLost;
 }
 
@@ -48,12 +48,12 @@ core::Covariance3 read_covariance(FieldReader& fields, const Json& object) {
   return covariance;
 }
 
-ToldLine read_pose(FieldReader& fields) {
-  ToldPose pose;
+ParsedLine read_pose(FieldReader& fields) {
+  ParsedPose pose;
   pose.seq = read_count(fields, "seq");
   pose.t_ns = fields.time("t");
   pose.state = read_pose_state(fields);
-  if (fields.has("x")) pose.T_map_base = read_place(fields);
+  if (fields.has("x")) pose.T_map_base = read_pose2(fields);
   if (fields.has("cov")) pose.covariance = read_covariance(fields, fields.optional_object("cov"));
   pose.room = fields.optional_text("room");
   pose.corners = read_count(fields, "corners");
@@ -61,9 +61,9 @@ ToldLine read_pose(FieldReader& fields) {
   pose.rmse_m = fields.optional_number("rmse", kAnyNumber);
   pose.age_s = fields.optional_number("age", kAnyNumber);
   if (fields.has("alternatives")) {
-    for (const Json& place : fields.array("alternatives", core::kMaxAlternatives)) {
-      FieldReader entries(place);
-      const core::Pose2 T_map_base = read_place(entries);
+    for (const Json& alternative : fields.array("alternatives", core::kMaxAlternatives)) {
+      FieldReader entries(alternative);
+      const core::Pose2 T_map_base = read_pose2(entries);
       const double score = entries.optional_number("score", kAnyNumber).value_or(0);
       if (entries.error()) {
         fields.fail("\"alternatives\": " + entries.error()->text);
@@ -75,9 +75,9 @@ ToldLine read_pose(FieldReader& fields) {
   return pose;
 }
 
-ToldLine read_breakpoints(FieldReader& fields) {
-  ToldBreakpoints told;
-  told.t_ns = fields.time("t");
+ParsedLine read_breakpoints(FieldReader& fields) {
+  ParsedBreakpoints breakpoints;
+  breakpoints.t_ns = fields.time("t");
   for (const Json& point : fields.array("points", core::kMaxSamplesPerScan)) {
     FieldReader entries(point);
     const double x_m = entries.number("x", kCoordinateLimitsM);
@@ -87,12 +87,12 @@ ToldLine read_breakpoints(FieldReader& fields) {
       fields.fail("\"points\": " + entries.error()->text);
       break;
     }
-    told.points.push_back({{x_m, y_m}, is_corner});
+    breakpoints.points.push_back({{x_m, y_m}, is_corner});
   }
-  return told;
+  return breakpoints;
 }
 
-void read_lidar(FieldReader& fields, ToldStatus& status) {
+void read_lidar(FieldReader& fields, ParsedStatus& status) {
   FieldReader lidar(fields.optional_object("lidar"));
   status.lidar_state = lidar.text("state");
   status.lidar_fault = lidar.optional_text("fault");
@@ -106,7 +106,7 @@ void read_lidar(FieldReader& fields, ToldStatus& status) {
   if (lidar.error()) fields.fail("\"lidar\": " + lidar.error()->text);
 }
 
-void read_odometry(FieldReader& fields, ToldStatus& status) {
+void read_odometry(FieldReader& fields, ParsedStatus& status) {
   FieldReader odometry(fields.optional_object("odometry"));
   status.odometry_state = odometry.optional_text("state");
   status.odometry_hint = odometry.optional_text("hint");
@@ -114,9 +114,9 @@ void read_odometry(FieldReader& fields, ToldStatus& status) {
   status.odometry_readings = counters.optional_number("readings", kAnyNumber);
   if (counters.error()) odometry.fail(counters.error()->text);
   for (const auto& [name, sensor] : odometry.optional_object("sensors").items()) {
-    // Beside the sensors are the counters of them all.
+    // "counters" is an object beside the sensors.
     if (!sensor.is_object() || !sensor.contains("state")) continue;
-    if (status.odometry_sensors.size() == kMostEntries) break;
+    if (status.odometry_sensors.size() == kMaxEntries) break;
     FieldReader entries(sensor);
     status.odometry_sensors.push_back(
         {name, std::string(entries.text("state")), std::string(entries.optional_text("detail"))});
@@ -125,12 +125,12 @@ void read_odometry(FieldReader& fields, ToldStatus& status) {
   if (odometry.error()) fields.fail("\"odometry\": " + odometry.error()->text);
 }
 
-ToldLine read_status(FieldReader& fields) {
-  ToldStatus status;
+ParsedLine read_status(FieldReader& fields) {
+  ParsedStatus status;
   status.t_ns = fields.time("t");
   read_lidar(fields, status);
   for (const auto& [name, value] : fields.optional_object("counters").items()) {
-    if (status.counters.size() == kMostEntries) break;
+    if (status.counters.size() == kMaxEntries) break;
     if (value.is_number_unsigned()) {
       status.counters.emplace_back(name, value.get<std::uint64_t>());
     }
@@ -143,14 +143,14 @@ ToldLine read_status(FieldReader& fields) {
   return status;
 }
 
-ToldLine read_event(FieldReader& fields) {
-  return ToldEvent{fields.time("t"), std::string(fields.text("what")),
-                   std::string(fields.optional_text("detail"))};
+ParsedLine read_event(FieldReader& fields) {
+  return ParsedEvent{fields.time("t"), std::string(fields.text("what")),
+                     std::string(fields.optional_text("detail"))};
 }
 
-ToldLine read_told(std::string_view name, FieldReader& fields) {
+ParsedLine read_line(std::string_view name, FieldReader& fields) {
   if (name == "VERSION") {
-    return ToldVersion{std::string(fields.text("program")), std::string(fields.text("version"))};
+    return ParsedVersion{std::string(fields.text("program")), std::string(fields.text("version"))};
   }
   if (name == "POSE") return read_pose(fields);
   if (name == "SCAN") return read_scan(fields);
@@ -158,22 +158,22 @@ ToldLine read_told(std::string_view name, FieldReader& fields) {
   if (name == "STATUS") return read_status(fields);
   if (name == "EVENT") return read_event(fields);
   if (name == "ERROR") {
-    return ToldError{std::string(fields.text("code")),
-                     std::string(fields.optional_text("message"))};
+    return ParsedError{std::string(fields.text("code")),
+                       std::string(fields.optional_text("message"))};
   }
   return OtherLine{std::string(name)};
 }
 
 }  // namespace
 
-std::uint64_t ToldStatus::counter(std::string_view name) const {
+std::uint64_t ParsedStatus::counter(std::string_view name) const {
   const auto found = std::find_if(counters.begin(), counters.end(),
                                   [&](const auto& entry) { return entry.first == name; });
   return found == counters.end() ? 0 : found->second;
 }
 
-ToldLine parse_told_line(std::string_view line) {
-  return parse_by_class<ToldLine>(line, kMaxRecordedBytes, read_told);
+ParsedLine parse_line(std::string_view line) {
+  return parse_by_class<ParsedLine>(line, kMaxRecordedBytes, read_line);
 }
 
 }  // namespace cornerd::message

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "message/line.hpp"
+#include "message/line_writer.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -20,7 +20,7 @@ using nlohmann::json;
 using ::testing::EndsWith;
 using ::testing::HasSubstr;
 
-/// What a client would read; that the line is one line is checked on the way.
+/// Parses a line as a client does and checks that it is one line.
 json read(std::string_view line) {
   EXPECT_EQ(line.find('\n'), line.size() - 1) << line;
   return json::parse(line);
@@ -62,14 +62,14 @@ core::Scan scan_of(std::initializer_list<core::TimeNs> times_ns) {
   return scan;
 }
 
-TEST(VersionLine, Always_NamesProgramVersionAndSchema) {
+TEST(VersionLine, Always_HasProgramVersionAndSchema) {
   LineWriter writer;
   EXPECT_EQ(
       read(writer.version("cornerd", "1.2.3")),
-      json({{"class", "VERSION"}, {"program", "cornerd"}, {"version", "1.2.3"}, {"schema", 1}}));
+      json({{"class", "VERSION"}, {"program", "cornerd"}, {"version", "1.2.3"}, {"schema", 2}}));
 }
 
-TEST(PoseLine, Fix_HasEveryField) {
+TEST(PoseLine, FixWithRoom_HasEveryField) {
   LineWriter writer;
   const core::FloorPlan plan = two_rooms();
   EXPECT_EQ(
@@ -80,7 +80,7 @@ TEST(PoseLine, Fix_HasEveryField) {
       "\n");
 }
 
-TEST(PoseLine, EachState_HasItsName) {
+TEST(PoseLine, EachState_Named) {
   LineWriter writer;
   const std::array<std::pair<core::PoseState, const char*>, 5> names = {
       {{core::PoseState::kFix, "fix"},
@@ -93,7 +93,7 @@ TEST(PoseLine, EachState_HasItsName) {
   }
 }
 
-TEST(PoseLine, AmbiguousOrLost_SaysNothingThatOneCouldDriveBy) {
+TEST(PoseLine, AmbiguousOrLost_HasNoPose) {
   LineWriter writer;
   const core::FloorPlan plan = two_rooms();
   for (const auto state : {core::PoseState::kAmbiguous, core::PoseState::kLost}) {
@@ -105,7 +105,7 @@ TEST(PoseLine, AmbiguousOrLost_SaysNothingThatOneCouldDriveBy) {
   }
 }
 
-TEST(PoseLine, Alternatives_KeepTheirOrder) {
+TEST(PoseLine, Alternatives_Written_KeepOrder) {
   LineWriter writer;
   core::PoseEstimate pose = some_pose(core::PoseState::kAmbiguous);
   pose.alternatives = {{{1, 2, 0.5}, 1.0}, {{-1, 0, -0.5}, 0.87654321}};
@@ -114,7 +114,7 @@ TEST(PoseLine, Alternatives_KeepTheirOrder) {
                             {"x":-1,"y":0,"theta":-0.5,"score":0.8765}])"));
 }
 
-TEST(PoseLine, RoomOutsideThePlan_IsLeftOut) {
+TEST(PoseLine, RoomOutsidePlan_LeftOut) {
   LineWriter writer;
   core::PoseEstimate pose = some_pose(core::PoseState::kFix);
   const core::FloorPlan no_rooms;
@@ -122,7 +122,7 @@ TEST(PoseLine, RoomOutsideThePlan_IsLeftOut) {
   EXPECT_FALSE(read(writer.pose(pose, nullptr)).contains("room"));
 }
 
-TEST(PoseLine, NumbersThatAreNotFinite_AreLeftOut) {
+TEST(PoseLine, NonFiniteNumbers_LeftOut) {
   LineWriter writer;
   core::PoseEstimate pose = some_pose(core::PoseState::kFix);
   pose.T_map_base.x_m = std::numeric_limits<double>::quiet_NaN();
@@ -135,7 +135,7 @@ TEST(PoseLine, NumbersThatAreNotFinite_AreLeftOut) {
                                                              "corners", "inliers"));
 }
 
-TEST(ScanLine, EvenlySpacedSamples_NeedNoTimes) {
+TEST(ScanLine, EvenlySpacedSamples_NoTimes) {
   LineWriter writer;
   EXPECT_EQ(writer.scan(scan_of({1'000'000'000, 1'100'000'000, 1'200'000'000})),
             R"({"class":"SCAN","t":1.000000,"duration":0.3,"angles":[3,2,1],)"
@@ -143,26 +143,26 @@ TEST(ScanLine, EvenlySpacedSamples_NeedNoTimes) {
             "\n");
 }
 
-TEST(ScanLine, HoleInTheSamples_IsTold) {
+TEST(ScanLine, GapInSamples_TimesWritten) {
   LineWriter writer;
   const json line = read(writer.scan(scan_of({0, 1'000'000, 2'000'000, 8'000'000, 9'000'000})));
   EXPECT_EQ(line["times"], json::parse("[0,0.001,0.002,0.008,0.009]"));
 }
 
-TEST(ScanLine, EmptyOrSingleSample_IsAValidLine) {
+TEST(ScanLine, EmptyOrSingleSample_ValidLine) {
   LineWriter writer;
   EXPECT_EQ(read(writer.scan(core::Scan{}))["angles"], json::array());
   EXPECT_EQ(read(writer.scan(scan_of({5})))["duration"], 0);
 }
 
-TEST(ScanLine, SampleThatIsNotFinite_IsOneWithoutReturn) {
+TEST(ScanLine, NonFiniteSample_NoReturn) {
   LineWriter writer;
   core::Scan scan;
   scan.add({.bearing_rad = 1, .range_m = std::numeric_limits<float>::quiet_NaN()});
   EXPECT_EQ(read(writer.scan(scan))["ranges"], json::parse("[0]"));
 }
 
-/// The tolerances are the places that the line has.
+/// The tolerances are the resolution of the line.
 void expect_same_after_reading(const core::Scan& scan) {
   LineWriter writer;
   const auto parsed = parse_recorded_line(writer.scan(scan));
@@ -178,12 +178,12 @@ void expect_same_after_reading(const core::Scan& scan) {
   }
 }
 
-TEST(ScanLine, ReadBack_IsTheSameScan) {
+TEST(ScanLine, ReadBack_SameScan) {
   expect_same_after_reading(scan_of({1'000'000'000, 1'000'500'000, 1'001'000'000}));
   expect_same_after_reading(scan_of({1'000'000'000, 1'000'500'000, 1'009'000'000}));
 }
 
-TEST(BreakpointsLine, CornerAndTerminal_HaveWhatEachOfThemHas) {
+TEST(BreakpointsLine, CornerAndTerminal_HaveTheirFields) {
   LineWriter writer;
   core::Detection detection;
   core::Breakpoint corner;
@@ -207,7 +207,7 @@ TEST(BreakpointsLine, CornerAndTerminal_HaveWhatEachOfThemHas) {
   EXPECT_FALSE(points[1].contains("left_wall"));
 }
 
-TEST(StatusLine, EmptyTextsAndNoLatency_AreLeftOut) {
+TEST(StatusLine, EmptyTextsAndNoLatency_LeftOut) {
   LineWriter writer;
   StatusFields status;
   status.lidar_state = "absent";
@@ -216,9 +216,9 @@ TEST(StatusLine, EmptyTextsAndNoLatency_AreLeftOut) {
   EXPECT_FALSE(line.contains("latency"));
 }
 
-TEST(StatusLine, Everything_IsWritten) {
+TEST(StatusLine, AllFields_Written) {
   LineWriter writer;
-  const std::array<StatusFields::Counter, 2> counters = {{{"bytes", 7}, {"turns", 2}}};
+  const std::array<StatusFields::Counter, 2> counters = {{{"bytes", 7}, {"scans", 2}}};
   StatusFields status;
   status.t_ns = 1'000'000;
   status.lidar_state = "running";
@@ -234,11 +234,11 @@ TEST(StatusLine, Everything_IsWritten) {
   EXPECT_EQ(read(writer.status(status)), json::parse(R"({"class":"STATUS","t":0.001,
     "lidar":{"state":"running","detail":"a\"b","model":"A1M8","firmware":"1.29","health":"good",
              "mode":"Express","rate_hz":5.512,"samples_hz":3953},
-    "counters":{"bytes":7,"turns":2},
+    "counters":{"bytes":7,"scans":2},
     "latency":{"p50":0.001,"p95":0.002,"p99":0.003}})"));
 }
 
-TEST(StatusLine, Odometry_TellsWhatWasLearned) {
+TEST(StatusLine, Odometry_WritesParametersAndCounters) {
   LineWriter writer;
   core::OdometrySummary odometry;
   StatusFields status;
@@ -249,19 +249,19 @@ TEST(StatusLine, Odometry_TellsWhatWasLearned) {
   odometry.enabled = true;
   EXPECT_EQ(read(writer.status(status))["odometry"]["state"], "absent");
   odometry.present = true;
-  EXPECT_EQ(read(writer.status(status))["odometry"]["state"], "distrusted");
-  odometry.trusted = true;
-  odometry.learned = {0.01, 0.015, 0.025, -0.002, 0.02, 0.004};
+  EXPECT_EQ(read(writer.status(status))["odometry"]["state"], "unhealthy");
+  odometry.healthy = true;
+  odometry.parameters = {0.01, 0.015, 0.025, -0.002, 0.02, 0.004};
   odometry.sigma = {0.0002, 0.001, 0.001, 0.003, std::nan(""), 0.0001};
   odometry.counters = {100, 1, 2, 3, 4, 5, 6, 7};
   odometry.slips = 8;
   odometry.fixes = 9;
-  odometry.strangers = 10;
+  odometry.rejected_fixes = 10;
   EXPECT_EQ(read(writer.status(status))["odometry"], json::parse(R"({"state":"running",
     "delay":0.004,"gyro_bias":0.01,"gyro_scale":0.02,"left_scale":0.015,"right_scale":0.025,"track_scale":-0.002,
     "sigma":{"delay":0.0001,"gyro_bias":0.0002,"left_scale":0.001,"right_scale":0.001,"track_scale":0.003},
-    "counters":{"readings":100,"past":1,"future":2,"jumps":3,"bad_rates":4,"frozen":5,"holes":6,
-                "restarts":7,"slips":8,"fixes":9,"strangers":10}})"));
+    "counters":{"readings":100,"past":1,"future":2,"jumps":3,"invalid_rates":4,"stuck":5,"gaps":6,
+                "restarts":7,"slips":8,"fixes":9,"rejected_fixes":10}})"));
 
   status.odometry_hint = "lines lack right";
   status.second_client = 11;
@@ -270,7 +270,7 @@ TEST(StatusLine, Odometry_TellsWhatWasLearned) {
   EXPECT_EQ(line["counters"]["second_client"], 11);
 }
 
-TEST(AnswerLine, Id_IsRepeatedAsItWas) {
+TEST(AnswerLine, Id_Given_RepeatedUnchanged) {
   LineWriter writer;
   EXPECT_EQ(read(writer.ok("WATCH", "\"a\"")),
             json({{"class", "OK"}, {"request", "WATCH"}, {"id", "a"}}));
@@ -282,14 +282,14 @@ TEST(AnswerLine, Id_IsRepeatedAsItWas) {
                   {"id", 12}}));
 }
 
-TEST(EventLine, EmptyDetail_IsLeftOut) {
+TEST(EventLine, EmptyDetail_LeftOut) {
   LineWriter writer;
   EXPECT_EQ(writer.event(0, "map loaded", ""),
             "{\"class\":\"EVENT\",\"t\":0.000000,\"what\":\"map loaded\"}\n");
   EXPECT_THAT(std::string(writer.event(0, "x", "y\nz")), HasSubstr(R"("detail":"y\nz")"));
 }
 
-TEST(SerialLine, Bytes_ReadBack) {
+TEST(SerialLine, AnyBytes_ReadBack) {
   LineWriter writer;
   const std::array<std::uint8_t, 3> bytes = {0xa5, 0x00, 0xff};
   const std::string line(writer.serial(2'000'000, LineWriter::Direction::kTx, bytes));
@@ -300,7 +300,7 @@ TEST(SerialLine, Bytes_ReadBack) {
   EXPECT_THAT(parsed.bytes, ::testing::ElementsAreArray(bytes));
 }
 
-TEST(OdometryLine, WhatIsAbsent_IsLeftOut) {
+TEST(OdometryLine, AbsentFields_LeftOut) {
   LineWriter writer;
   EXPECT_EQ(writer.odometry({.t_ns = 1'000'000'000, .has_gyro = true, .gyro_rad_s = -0.25}),
             "{\"class\":\"ODOMETRY\",\"t\":1.000000,\"gyro\":-0.25}\n");
@@ -311,7 +311,7 @@ TEST(OdometryLine, WhatIsAbsent_IsLeftOut) {
   EXPECT_EQ(parsed.gyro_rad_s, std::nullopt);
 }
 
-TEST(TruthLine, Pose_ReadsBack) {
+TEST(TruthLine, AnyPose_ReadBack) {
   LineWriter writer;
   const auto truth = std::get<RecordedTruth>(parse_truth_line(writer.truth(5'000, {1, -2, 0.5})));
   EXPECT_EQ(truth.t_ns, 5'000);

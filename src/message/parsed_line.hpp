@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the daemon tells, as a client reads it: one line in, one checked value out. Fields that a
-// newer daemon adds are passed over.
+// Parses the daemon's messages for clients. Unknown fields are ignored.
 #pragma once
 
 #include <cstdint>
@@ -16,18 +15,18 @@
 
 namespace cornerd::message {
 
-struct ToldVersion {
+struct ParsedVersion {
   std::string program;
   std::string version;
 };
 
-struct ToldPose {
+struct ParsedPose {
   std::uint64_t seq = 0;
   core::TimeNs t_ns = 0;
   core::PoseState state = core::PoseState::kLost;
-  std::optional<core::Pose2> T_map_base;  ///< of the states that name a place
+  std::optional<core::Pose2> T_map_base;  ///< absent if ambiguous or lost
   std::optional<core::Covariance3> covariance;
-  std::string room;  ///< empty: none
+  std::string room;  ///< empty if none
   std::uint64_t corners = 0;
   std::uint64_t inliers = 0;
   std::optional<double> rmse_m;
@@ -35,19 +34,19 @@ struct ToldPose {
   std::vector<core::Alternative> alternatives;  ///< best first
 };
 
-/// x, y in metres in the lidar's frame.
-struct ToldBreakpoint {
+/// Position in metres in the lidar frame.
+struct ParsedBreakpoint {
   core::Vec2 position = core::Vec2::Zero();
   bool is_corner = false;  ///< else a terminal
 };
 
-struct ToldBreakpoints {
+struct ParsedBreakpoints {
   core::TimeNs t_ns = 0;
-  std::vector<ToldBreakpoint> points;
+  std::vector<ParsedBreakpoint> points;
 };
 
-/// Texts are empty and numbers absent where STATUS left them out.
-struct ToldStatus {
+/// Texts are empty and numbers absent if STATUS leaves them out.
+struct ParsedStatus {
   core::TimeNs t_ns = 0;
   std::string lidar_state;
   std::string lidar_fault;
@@ -60,8 +59,8 @@ struct ToldStatus {
   std::optional<double> samples_hz;
   std::vector<std::pair<std::string, std::uint64_t>> counters;
   std::string odometry_state;
-  std::string odometry_hint;                ///< what is wrong with it
-  std::optional<double> odometry_readings;  ///< so far, the refused ones included
+  std::string odometry_hint;
+  std::optional<double> odometry_readings;  ///< since the start, including rejected ones
   struct Sensor {
     std::string name;
     std::string state;
@@ -71,25 +70,26 @@ struct ToldStatus {
   std::optional<double> latency_p50_s;
   std::optional<double> latency_p99_s;
 
-  /// 0 where there is no such counter.
+  /// 0 if there is no such counter.
   std::uint64_t counter(std::string_view name) const;
 };
 
-struct ToldEvent {
+struct ParsedEvent {
   core::TimeNs t_ns = 0;
   std::string what;
   std::string detail;
 };
 
-struct ToldError {
+struct ParsedError {
   std::string code;
   std::string text;
 };
 
-using ToldLine = std::variant<RequestError, ToldVersion, ToldPose, RecordedScan, ToldBreakpoints,
-                              ToldStatus, ToldEvent, ToldError, OtherLine>;
+using ParsedLine =
+    std::variant<RequestError, ParsedVersion, ParsedPose, RecordedScan, ParsedBreakpoints,
+                 ParsedStatus, ParsedEvent, ParsedError, OtherLine>;
 
-/// Never throws; RequestError where the line is none of the daemon's.
-ToldLine parse_told_line(std::string_view line);
+/// Never throws. RequestError if the line is not a message of the daemon.
+ParsedLine parse_line(std::string_view line);
 
 }  // namespace cornerd::message

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "message/scan_fields.hpp"
+#include "message/input_fields.hpp"
 
 #include <algorithm>
 #include <string>
@@ -12,13 +12,13 @@ namespace {
 constexpr Limits kDurationLimitsS{0, 60};
 constexpr Limits kRangeLimitsM{-1000, 1000};
 
-/// Null is how some writers put the infinity that stands for no return elsewhere (REP 117).
+/// null stands for no return: some writers convert the infinity of REP 117 to it.
 double read_range(FieldReader& fields, const Json& ranges, std::size_t index) {
   if (ranges[index].is_null()) return 0;
   return std::max(0.0, fields.element("ranges", ranges, index, kRangeLimitsM));
 }
 
-/// The array, or nullptr where there is none; of another length it is an error.
+/// nullptr if the array is absent. Another length than `size` is an error.
 const Json* optional_array(FieldReader& fields, const char* name, std::size_t size) {
   if (!fields.has(name)) return nullptr;
   const Json& array = fields.array(name, core::kMaxSamplesPerScan);
@@ -60,6 +60,17 @@ RecordedScan read_scan(FieldReader& fields) {
     sample.ends_scan = i + 1 == count;
   }
   return scan;
+}
+
+OdometryReading read_odometry(FieldReader& fields) {
+  constexpr Limits kGyroLimitsRadS{-1000, 1000};
+  OdometryReading reading;
+  reading.timed = fields.has("t");
+  if (reading.timed) reading.t_ns = fields.time("t");
+  reading.left = fields.optional_integer("left");
+  reading.right = fields.optional_integer("right");
+  reading.gyro_rad_s = fields.optional_number("gyro", kGyroLimitsRadS);
+  return reading;
 }
 
 }  // namespace cornerd::message

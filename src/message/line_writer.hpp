@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The messages of CONTRACT as lines of JSON: written by hand, without a heap allocation.
+// Writes the protocol's messages (README.md) as lines of JSON, without a heap allocation.
 #pragma once
 
 #include <cstddef>
@@ -8,20 +8,21 @@
 #include <span>
 #include <string_view>
 
-#include "core/lateness.hpp"
+#include "core/breakpoint/breakpoint.hpp"
+#include "core/latency_histogram.hpp"
 #include "core/localizer.hpp"
 #include "message/json_text.hpp"
 
 namespace cornerd::message {
 
-/// Version of the messages themselves: grows only where a field would change its meaning.
-inline constexpr int kSchema = 1;
+/// Version of the protocol. It grows when a field is renamed or changes its meaning.
+inline constexpr int kSchema = 2;
 
-/// What STATUS says. Texts must outlive the call that writes them.
+/// The contents of STATUS. Texts must outlive LineWriter::status(). Empty texts are left out.
 struct StatusFields {
   core::TimeNs t_ns = 0;
   std::string_view lidar_state;
-  std::string_view lidar_fault;  ///< this and those below: left out where empty
+  std::string_view lidar_fault;
   std::string_view lidar_detail;
   std::string_view lidar_model;
   std::string_view lidar_firmware;
@@ -30,59 +31,58 @@ struct StatusFields {
   std::string_view lidar_mode;
   double rate_hz = 0;
   double samples_hz = 0;
-  const core::LearnedBias* bias = nullptr;  ///< of the lidar; left out where nothing is learnt
+  const core::EstimatedBias* bias = nullptr;  ///< of the lidar; left out before its first scan
   struct Counter {
     std::string_view name;
     std::uint64_t value = 0;
   };
   std::span<const Counter> counters;
-  const core::OdometrySummary* odometry =
-      nullptr;  ///< left out where it is switched off and has no sensors, too
-  /// The devices that odometry comes from; empty where they are not this program's.
+  /// Left out if odometry is disabled and there are no sensors.
+  const core::OdometrySummary* odometry = nullptr;
+  /// A device of /odometry/source "kernel".
   struct Sensor {
     std::string_view name;
     std::string_view state;
-    std::string_view detail;  ///< left out where empty
+    std::string_view detail;
   };
   std::span<const Sensor> odometry_sensors;
-  std::span<const Counter> odometry_counters;  ///< of the devices
-  std::string_view odometry_hint;              ///< what is wrong with it; left out where empty
-  /// Lines that were refused as another client's come; left out where there are no clients.
+  std::span<const Counter> odometry_counters;  ///< of the sensors
+  std::string_view odometry_hint;
+  /// ODOMETRY lines rejected because another client publishes the same quantity.
   std::optional<std::uint64_t> second_client;
-  /// From a turn's last sample to its pose, over the last turns; left out where there are none.
+  /// From a scan's last sample to its pose, seconds.
   struct {
     double p50_s = 0;
     double p95_s = 0;
     double p99_s = 0;
     bool valid = false;
   } latency;
-  /// A loop of the program, and how late it came to its work.
+  /// One thread of the program.
   struct Loop {
     std::string_view name;
-    const core::Lateness* lateness = nullptr;
+    const core::LatencyHistogram* latency = nullptr;
     std::optional<std::uint64_t> page_faults;
   };
-  std::span<const Loop> loops;  ///< with the two below left out where empty
+  std::span<const Loop> loops;  ///< if empty, "realtime" is left out
   int realtime_priority = 0;
   bool memory_is_locked = false;
 };
 
-/// One line under construction. Memory for the longest SCAN is taken at construction; writing
-/// allocates nothing (texts of reasonable length taken as given) and ends every message with a
-/// newline. What is returned is valid until the next message. Values that are not finite are left
-/// out. Not safe for concurrent calls.
+/// Writes one line at a time. The constructor reserves memory for the longest SCAN, so writing
+/// allocates nothing (tests/unit/message/line_allocation_test.cpp). Every line ends with a newline
+/// and is valid until the next call. Non-finite values are left out. Not thread-safe.
 class LineWriter {
  public:
   LineWriter();
 
   std::string_view version(std::string_view program, std::string_view version);
-  /// `plan` names the room; may be null.
+  /// `plan`: gives the room its name; may be null.
   std::string_view pose(const core::PoseEstimate& pose, const core::FloorPlan* plan);
   std::string_view scan(const core::Scan& scan);
   std::string_view breakpoints(core::TimeNs t_ns, const core::Detection& detection);
   std::string_view status(const StatusFields& status);
   std::string_view event(core::TimeNs t_ns, std::string_view what, std::string_view detail);
-  /// `id_json`: the request's id as JSON text; empty: it had none.
+  /// `id_json`: the request's id as JSON text; empty if it had none.
   std::string_view ok(std::string_view request, std::string_view id_json);
   std::string_view error(std::string_view code, std::string_view text, std::string_view request,
                          std::string_view id_json);
@@ -108,5 +108,8 @@ class LineWriter {
 
   JsonText json_;
 };
+
+std::string_view to_string(core::PoseState state);
+std::string_view to_string(core::BreakpointKind kind);
 
 }  // namespace cornerd::message

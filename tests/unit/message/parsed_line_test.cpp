@@ -1,27 +1,27 @@
 // SPDX-License-Identifier: MIT
-#include "message/told_line.hpp"
+#include "message/parsed_line.hpp"
 
 #include <gtest/gtest.h>
 
 #include <string>
 
-#include "message/line.hpp"
+#include "message/line_writer.hpp"
 
 namespace cornerd::message {
 namespace {
 
-template <typename Told>
-Told told(std::string_view line) {
-  ToldLine read = parse_told_line(line);
+template <typename Parsed>
+Parsed parse(std::string_view line) {
+  ParsedLine read = parse_line(line);
   if (const auto* error = std::get_if<RequestError>(&read)) {
     ADD_FAILURE() << error->text << " in " << line;
     return {};
   }
-  return std::get<Told>(read);
+  return std::get<Parsed>(read);
 }
 
-std::string told_error(std::string_view line) {
-  const ToldLine read = parse_told_line(line);
+std::string parse_error(std::string_view line) {
+  const ParsedLine read = parse_line(line);
   const auto* error = std::get_if<RequestError>(&read);
   return error == nullptr ? "none" : error->text;
 }
@@ -41,11 +41,11 @@ core::PoseEstimate fix() {
   return pose;
 }
 
-TEST(ToldLine, Pose_IsWhatTheDaemonWrote) {
+TEST(ParsedLine, Pose_WrittenByLineWriter_ReadBack) {
   LineWriter writer;
   core::FloorPlan plan;
   plan.rooms.push_back({"hall", {}});
-  const auto pose = told<ToldPose>(writer.pose(fix(), &plan));
+  const auto pose = parse<ParsedPose>(writer.pose(fix(), &plan));
   EXPECT_EQ(pose.seq, 7U);
   EXPECT_EQ(pose.t_ns, 1'500'000'000);
   EXPECT_EQ(pose.state, core::PoseState::kFix);
@@ -62,12 +62,12 @@ TEST(ToldLine, Pose_IsWhatTheDaemonWrote) {
   EXPECT_EQ(pose.age_s, 0);
 }
 
-TEST(ToldLine, AmbiguousPose_HasAlternativesAndNoPlace) {
+TEST(ParsedLine, AmbiguousPose_AlternativesAndNoPose) {
   LineWriter writer;
   core::PoseEstimate ambiguous = fix();
   ambiguous.state = core::PoseState::kAmbiguous;
   ambiguous.alternatives.push_back({{1, 2, 3}, 0.75});
-  const auto pose = told<ToldPose>(writer.pose(ambiguous, nullptr));
+  const auto pose = parse<ParsedPose>(writer.pose(ambiguous, nullptr));
   EXPECT_EQ(pose.state, core::PoseState::kAmbiguous);
   EXPECT_FALSE(pose.T_map_base);
   EXPECT_FALSE(pose.covariance);
@@ -76,12 +76,12 @@ TEST(ToldLine, AmbiguousPose_HasAlternativesAndNoPlace) {
   EXPECT_EQ(pose.alternatives[0].score, 0.75);
 }
 
-TEST(ToldLine, Status_IsWhatTheDaemonWrote) {
+TEST(ParsedLine, Status_WrittenByLineWriter_ReadBack) {
   LineWriter writer;
   core::OdometrySummary odometry;
   odometry.enabled = true;
   odometry.counters.readings = 70;
-  const StatusFields::Counter counters[] = {{"turns", 70}, {"bytes", 12000}};
+  const StatusFields::Counter counters[] = {{"scans", 70}, {"bytes", 12000}};
   const StatusFields::Sensor sensors[] = {{"left", "absent", "no counter"},
                                           {"gyro", "running", ""}};
   StatusFields fields;
@@ -96,7 +96,7 @@ TEST(ToldLine, Status_IsWhatTheDaemonWrote) {
   fields.odometry_sensors = sensors;
   fields.odometry_hint = "lines lack left";
   fields.latency = {0.001, 0.002, 0.004, true};
-  const auto status = told<ToldStatus>(writer.status(fields));
+  const auto status = parse<ParsedStatus>(writer.status(fields));
   EXPECT_EQ(status.t_ns, 2'000'000'000);
   EXPECT_EQ(status.lidar_state, "faulty");
   EXPECT_EQ(status.lidar_fault, "dead-laser");
@@ -104,7 +104,7 @@ TEST(ToldLine, Status_IsWhatTheDaemonWrote) {
   EXPECT_EQ(status.lidar_model, "A1");
   EXPECT_EQ(status.lidar_firmware, "");
   EXPECT_EQ(status.rate_hz, 7.125);
-  EXPECT_EQ(status.counter("turns"), 70U);
+  EXPECT_EQ(status.counter("scans"), 70U);
   EXPECT_EQ(status.counter("nothing"), 0U);
   EXPECT_EQ(status.odometry_state, "absent");
   EXPECT_EQ(status.odometry_hint, "lines lack left");
@@ -115,14 +115,14 @@ TEST(ToldLine, Status_IsWhatTheDaemonWrote) {
   EXPECT_EQ(status.latency_p99_s, 0.004);
 }
 
-TEST(ToldLine, Breakpoints_KeepPlaceAndKind) {
+TEST(ParsedLine, Breakpoints_WrittenByLineWriter_ReadBack) {
   LineWriter writer;
   core::Detection detection;
   detection.breakpoints.resize(2);
   detection.breakpoints[0].position = {1.5, -0.5};
   detection.breakpoints[0].kind = core::BreakpointKind::kCorner;
   detection.breakpoints[1].kind = core::BreakpointKind::kTerminal;
-  const auto read = told<ToldBreakpoints>(writer.breakpoints(3'000'000'000, detection));
+  const auto read = parse<ParsedBreakpoints>(writer.breakpoints(3'000'000'000, detection));
   EXPECT_EQ(read.t_ns, 3'000'000'000);
   ASSERT_EQ(read.points.size(), 2U);
   EXPECT_EQ(read.points[0].position, core::Vec2(1.5, -0.5));
@@ -130,34 +130,33 @@ TEST(ToldLine, Breakpoints_KeepPlaceAndKind) {
   EXPECT_FALSE(read.points[1].is_corner);
 }
 
-TEST(ToldLine, ScanEventVersionAndError_AreTold) {
+TEST(ParsedLine, OtherClasses_WrittenByLineWriter_ReadBack) {
   LineWriter writer;
   core::Scan scan;
   core::Sample sample;
   sample.range_m = 2.5F;
   ASSERT_TRUE(scan.add(sample));
-  EXPECT_EQ(told<RecordedScan>(writer.scan(scan)).samples.at(0).range_m, 2.5F);
-  const auto event = told<ToldEvent>(writer.event(1, "device lost", "absent"));
+  EXPECT_EQ(parse<RecordedScan>(writer.scan(scan)).samples.at(0).range_m, 2.5F);
+  const auto event = parse<ParsedEvent>(writer.event(1, "device lost", "absent"));
   EXPECT_EQ(event.what + "/" + event.detail, "device lost/absent");
-  EXPECT_EQ(told<ToldVersion>(writer.version("cornerd", "1.2.3")).version, "1.2.3");
-  EXPECT_EQ(told<ToldError>(writer.error("too-long", "cut it", "", "")).code, "too-long");
-  EXPECT_EQ(told<OtherLine>(writer.ok("WATCH", "")).name, "OK");
+  EXPECT_EQ(parse<ParsedVersion>(writer.version("cornerd", "1.2.3")).version, "1.2.3");
+  EXPECT_EQ(parse<ParsedError>(writer.error("too-long", "cut it", "", "")).code, "too-long");
+  EXPECT_EQ(parse<OtherLine>(writer.ok("WATCH", "")).name, "OK");
 }
 
-TEST(ToldLine, WhatIsWrong_IsNamed) {
-  EXPECT_NE(told_error("hello"), "none");
-  EXPECT_EQ(told_error("{}"), "\"class\" is missing");
-  EXPECT_EQ(told_error(R"({"class":"POSE","t":1})"), "\"state\" is missing");
-  EXPECT_EQ(told_error(R"({"class":"POSE","t":1,"state":"happy"})"),
-            "\"state\" is none that is known");
-  EXPECT_EQ(told_error(R"({"class":"POSE","t":1,"state":"fix","x":1,"y":2})"),
+TEST(ParsedLine, WrongField_NamedInError) {
+  EXPECT_NE(parse_error("hello"), "none");
+  EXPECT_EQ(parse_error("{}"), "\"class\" is missing");
+  EXPECT_EQ(parse_error(R"({"class":"POSE","t":1})"), "\"state\" is missing");
+  EXPECT_EQ(parse_error(R"({"class":"POSE","t":1,"state":"happy"})"), "\"state\" is unknown");
+  EXPECT_EQ(parse_error(R"({"class":"POSE","t":1,"state":"fix","x":1,"y":2})"),
             "\"theta\" is missing");
-  EXPECT_EQ(told_error(R"({"class":"POSE","t":1,"state":"lost","alternatives":[7]})"),
+  EXPECT_EQ(parse_error(R"({"class":"POSE","t":1,"state":"lost","alternatives":[7]})"),
             "\"alternatives\": \"x\" is missing");
-  EXPECT_EQ(told_error(R"({"class":"STATUS","t":1})"), "\"lidar\": \"state\" is missing");
-  EXPECT_EQ(told_error(R"({"class":"STATUS","t":1,"lidar":{"state":"x"},"latency":[]})"),
+  EXPECT_EQ(parse_error(R"({"class":"STATUS","t":1})"), "\"lidar\": \"state\" is missing");
+  EXPECT_EQ(parse_error(R"({"class":"STATUS","t":1,"lidar":{"state":"x"},"latency":[]})"),
             "\"latency\" must be an object");
-  EXPECT_EQ(told_error(R"({"class":"BREAKPOINTS","t":1,"points":[{"x":1,"y":1}]})"),
+  EXPECT_EQ(parse_error(R"({"class":"BREAKPOINTS","t":1,"points":[{"x":1,"y":1}]})"),
             "\"points\": \"kind\" is missing");
 }
 
