@@ -6,15 +6,10 @@
 #include <optional>
 #include <string>
 
+#include "drivers/config/kernel_odometry_config.hpp"
 #include "drivers/odometry/sensor.hpp"
 
 namespace cornerd::drivers {
-
-struct EncoderConfig {
-  std::string counter;    ///< its name: "48300180.counter"
-  int count = 0;          ///< which of its counts
-  bool reversed = false;  ///< it counts down when the robot rolls forward
-};
 
 /// A wheel's encoder by the kernel's counter subsystem.
 class Encoder : public Sensor {

@@ -5,15 +5,10 @@
 #include <optional>
 #include <string>
 
+#include "drivers/config/kernel_odometry_config.hpp"
 #include "drivers/odometry/sensor.hpp"
 
 namespace cornerd::drivers {
-
-struct GyroConfig {
-  std::string device;     ///< its name or label: "mpu6050"; empty: there is none
-  char axis = 'z';        ///< the one that looks up or down
-  bool reversed = false;  ///< it looks down
-};
 
 /// A gyro by the kernel's industrial I/O subsystem.
 class Gyro : public Sensor {

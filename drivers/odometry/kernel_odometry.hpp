@@ -1,26 +1,15 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <filesystem>
-
 #include "core/latest.hpp"
-#include "core/odometry/odometry_config.hpp"
 #include "drivers/clock.hpp"
+#include "drivers/config/kernel_odometry_config.hpp"
 #include "drivers/odometry/encoder.hpp"
 #include "drivers/odometry/freeze_watch.hpp"
 #include "drivers/odometry/gyro.hpp"
 #include "drivers/odometry/odometry_driver.hpp"
 
 namespace cornerd::drivers {
-
-struct KernelOdometryConfig {
-  std::filesystem::path sysfs = "/sys";
-  EncoderConfig left;
-  EncoderConfig right;
-  GyroConfig gyro;
-  double rate_hz = 50;
-  core::DriveGeometry geometry;  ///< to tell a sensor that froze from a robot that stands
-};
 
 /// Wheels and gyro by the kernel's own drivers (README.md beside this file). It polls: the eQEP
 /// driver of Debian 12's kernel has no events, and a gyro's buffer takes rights that its attributes

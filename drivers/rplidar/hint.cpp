@@ -24,14 +24,14 @@ std::string_view pattern(LidarFault fault) {
       return "was still measuring for a program that ended without stopping it; stopped it";
     case LidarFault::kForeignTalk:
       return "something talks on the port that is no lidar's measurement; another device, a "
-             "console, a wrong lidar.baud?";
+             "console, a wrong advanced.lidar.baud?";
     case LidarFault::kBooting:
       return "has just been switched on; waiting until it has started";
     case LidarFault::kNoAnswer:
       return "no answer; is it an RPLidar with {} baud, are its RX and TX the right way round, has "
              "it 5 V enough?";
     case LidarFault::kWrongBaud:
-      return "no answer at the speed of the settings, but {}; set lidar.baud";
+      return "no answer at the speed of the settings, but {}; set advanced.lidar.baud";
     case LidarFault::kProtectionStop:
       return "has stopped to protect itself, {}; resetting it";
     case LidarFault::kHealthError:
@@ -42,7 +42,8 @@ std::string_view pattern(LidarFault fault) {
     case LidarFault::kMotorControl:
       return "motor: {}";
     case LidarFault::kNoData:
-      return "never began to measure; does its motor turn (belt, lidar.motor, 5 V)? Starting anew";
+      return "never began to measure; does its motor turn (belt, advanced.lidar.motor, 5 V)? "
+             "Starting anew";
     case LidarFault::kMotorStalled:
       return "stopped measuring; is its head blocked, has its motor lost the belt or its 5 V?";
     case LidarFault::kRestarted:

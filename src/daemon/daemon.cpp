@@ -27,7 +27,7 @@ constexpr int kTicksPerStatus = 10;
 std::unique_ptr<core::Pipeline> resumed(std::unique_ptr<core::Pipeline> pipeline,
                                         const settings::LidarConfig& config,
                                         const LidarMemory& memory) {
-  if (config.learn_bias) pipeline->localizer().resume(memory.known());
+  if (config.calibrate_online) pipeline->localizer().resume(memory.known());
   return pipeline;
 }
 
@@ -46,7 +46,7 @@ Daemon::Daemon(Loaded loaded, Reloader::Load load, std::unique_ptr<drivers::Lida
       status_(server_, notifier_),
       tick_(kTick),
       reloader_(std::move(load)),
-      memory_(learned_file(config_.lidar), config_.lidar.bias),
+      memory_(calibration_file(config_.lidar), config_.lidar.bias),
       lidar_(std::move(lidar)),
       localization_(*lidar_, resumed(std::move(loaded.pipeline), config_.lidar, memory_),
                     source_of(config_.lidar.driver)) {
@@ -173,7 +173,7 @@ void Daemon::on_loaded() {
     return notifier_.ready();
   }
   Loaded& loaded = outcome.loaded;
-  if (const std::string list = needs_restart(config_, loaded.config); !list.empty()) {
+  if (const std::string list = settings::needs_restart(config_, loaded.config); !list.empty()) {
     spdlog::warn("takes effect at the next start: {}", list);
   }
   const std::string name =

@@ -6,7 +6,7 @@
 #include <memory>
 #include <unordered_map>
 
-#include "daemon/file_descriptor.hpp"
+#include "daemon/require_fd.hpp"
 
 namespace cornerd::daemon {
 

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "daemon/file_descriptor.hpp"
+#include "daemon/require_fd.hpp"
 
 namespace cornerd::daemon {
 

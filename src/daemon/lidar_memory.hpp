@@ -6,13 +6,13 @@
 
 #include "core/sensor_bias.hpp"
 #include "settings/config.hpp"
-#include "settings/learned_lidar.hpp"
+#include "settings/lidar_calibration.hpp"
 
 namespace cornerd::daemon {
 
 /// Where the settings, or else the service manager, want to have kept what was learnt of the lidar;
 /// empty: nowhere. A recording teaches nothing about a device.
-std::filesystem::path learned_file(const settings::LidarConfig& config);
+std::filesystem::path calibration_file(const settings::LidarConfig& config);
 
 /// What is known of the lidar, from one run of the daemon to the next. What cannot be read or
 /// written is a line in the log, and costs nothing else. For the server's thread.
@@ -41,7 +41,7 @@ class LidarMemory {
   bool is_news() const;
 
   std::filesystem::path file_;
-  settings::LearnedLidar known_;
+  settings::LidarCalibration known_;
   core::LearnedBias written_;
   bool complained_ = false;
 };

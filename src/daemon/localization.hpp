@@ -10,7 +10,7 @@
 #include "core/latest.hpp"
 #include "core/pipeline.hpp"
 #include "core/ring_buffer.hpp"
-#include "daemon/file_descriptor.hpp"
+#include "daemon/require_fd.hpp"
 #include "daemon/sample_channel.hpp"
 #include "daemon/slot_exchange.hpp"
 #include "drivers/lidar_driver.hpp"

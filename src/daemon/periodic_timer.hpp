@@ -3,7 +3,7 @@
 
 #include <chrono>
 
-#include "daemon/file_descriptor.hpp"
+#include "daemon/require_fd.hpp"
 
 namespace cornerd::daemon {
 

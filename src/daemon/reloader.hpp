@@ -8,7 +8,7 @@
 
 #include "core/map/wall_map.hpp"
 #include "core/pipeline.hpp"
-#include "daemon/file_descriptor.hpp"
+#include "daemon/require_fd.hpp"
 #include "settings/config.hpp"
 
 namespace cornerd::daemon {
@@ -53,9 +53,5 @@ class Reloader {
   Outcome outcome_;  ///< the thread's, until done_ says otherwise
   std::jthread thread_;
 };
-
-/// What differs between two settings and takes effect at the next start alone, as the pointers of
-/// the settings, separated by ", "; empty: nothing does.
-std::string needs_restart(const settings::Config& before, const settings::Config& now);
 
 }  // namespace cornerd::daemon

@@ -5,7 +5,7 @@
 
 #include <filesystem>
 
-#include "daemon/file_descriptor.hpp"
+#include "daemon/require_fd.hpp"
 
 namespace cornerd::daemon {
 

@@ -54,7 +54,7 @@ std::string_view OdometryLines::judge(const core::OdometryCounters& counters) co
     return "t of the lines is behind the lidar's: it is UNIX time in seconds, or left out";
   }
   if (counters.jumps - counters_.jumps > half) {
-    return "counts leap by more than odometry.max_speed lets a wheel turn";
+    return "counts leap by more than advanced.odometry.max_speed lets a wheel turn";
   }
   return {};
 }

@@ -11,16 +11,9 @@ namespace cornerd::tool {
 namespace {
 
 drivers::KernelOdometryConfig kernel_config(const settings::OdometryConfig& config) {
-  const settings::KernelOdometryConfig& kernel = config.kernel;
-  const auto encoder = [](const settings::KernelOdometryConfig::Encoder& wheel) {
-    return drivers::EncoderConfig{wheel.counter, wheel.count, wheel.reversed};
-  };
-  return {.sysfs = kernel.sysfs,
-          .left = encoder(kernel.left),
-          .right = encoder(kernel.right),
-          .gyro = {kernel.gyro.device, kernel.gyro.axis, kernel.gyro.reversed},
-          .rate_hz = kernel.rate_hz,
-          .geometry = config.core.geometry};
+  drivers::KernelOdometryConfig kernel = config.kernel;
+  kernel.geometry = config.core.geometry;
+  return kernel;
 }
 
 }  // namespace

@@ -11,8 +11,8 @@
 #include <nlohmann/json.hpp>
 
 #include "core/pipeline.hpp"
+#include "settings/lidar_calibration.hpp"
 #include "settings/map_file.hpp"
-#include "settings/sensor_bias.hpp"
 #include "tool/failure.hpp"
 #include "tool/file_guard.hpp"
 #include "tool/options.hpp"
@@ -79,7 +79,8 @@ void calibrate_bias(const CalibrateBiasOptions& options) {
   report.write(describe_bias(learned));
   report.flush();
   if (options.output.empty()) return;
-  const nlohmann::ordered_json fragment = {{"lidar", {{"bias", settings::json_of(learned.bias)}}}};
+  const nlohmann::ordered_json fragment = {
+      {"advanced", {{"lidar", {{"bias", settings::json_of(learned.bias)}}}}}};
   Output file(options.output);
   file.write(fragment.dump(2) + '\n');
   file.flush();
@@ -101,7 +102,7 @@ void add_calibrate_bias(CLI::App& group) {
   options->settings.add_map(*command);
   command
       ->add_option("-o,--output", options->output,
-                   "the key lidar.bias, for a config; -: on standard output")
+                   "the key advanced.lidar.bias, for a config; -: on standard output")
       ->type_name("JSON");
   add_wire_option(*command, options->wire);
   command->callback([options] { calibrate_bias(*options); });

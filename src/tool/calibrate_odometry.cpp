@@ -83,16 +83,15 @@ constexpr double kSureDelaySigmas = 3;
 double written_delay_s(const calibration::OdometryFit& fit, double configured_s) {
   const double change_s = fit.learned.delay_s - configured_s;
   const bool is_sure = fit.has_delay && std::abs(change_s) > kSureDelaySigmas * fit.sigma.delay_s;
-  const bool is_allowed = std::abs(fit.learned.delay_s) <= settings::kMostStartDelay_s;
+  const bool is_allowed = std::abs(fit.learned.delay_s) <= settings::kMaxInitialDelay_s;
   return is_sure && is_allowed ? fit.learned.delay_s : configured_s;
 }
 
-std::string fragment(const calibration::OdometryFit& fit, const core::PaperFactors& factors,
-                     double delay_s) {
+std::string fragment(const calibration::OdometryFit& fit, double delay_s) {
   const core::LearnedOdometry& learned = fit.learned;
-  std::string text = "{\n  \"odometry\": {\n    \"start\": {";
+  std::string text = "{\n  \"advanced\": {\n    \"odometry\": {\n      \"initial\": {";
   const auto add = [&text](const char* key, double value) {
-    text += formatted("%s\n      \"%s\": %.6f", text.back() == '{' ? "" : ",", key, value);
+    text += formatted("%s\n        \"%s\": %.6f", text.back() == '{' ? "" : ",", key, value);
   };
   add("left_scale", learned.left_scale);
   add("right_scale", learned.right_scale);
@@ -100,20 +99,19 @@ std::string fragment(const calibration::OdometryFit& fit, const core::PaperFacto
   add("gyro_scale", learned.gyro_scale);
   add("gyro_bias", learned.gyro_bias_rad_s);
   if (delay_s != 0) add("delay", delay_s);
-  return text +
-         formatted("\n    },\n    \"factors\": { \"encoder\": %.3f, \"gyro\": %.3f }\n  }\n}\n",
-                   factors.encoder_factor, factors.gyro_factor);
+  return text + "\n      }\n    }\n  }\n}\n";
 }
 
 /// Readings that are farther off than the daemon can make up for.
 std::string describe_delay(const calibration::OdometryFit& fit) {
-  if (std::abs(fit.learned.delay_s) <= settings::kMostStartDelay_s) return {};
+  if (std::abs(fit.learned.delay_s) <= settings::kMaxInitialDelay_s) return {};
   return formatted(
-      "The readings are %.2f s %s, by more than odometry.start.delay may be (%.1f s) and "
+      "The readings are %.2f s %s, by more than advanced.odometry.initial.delay may be (%.1f s) "
+      "and "
       "the daemon finds: have each bear the time when it was true. The values above are "
       "those of readings that do.\n",
       std::abs(fit.learned.delay_s), fit.learned.delay_s > 0 ? "late" : "early",
-      settings::kMostStartDelay_s);
+      settings::kMaxInitialDelay_s);
 }
 
 /// A drive's first half teaches the filter, in the second one it is alone. `steps`: the drive's, at
@@ -172,7 +170,6 @@ void calibrate_odometry(const CalibrateOdometryOptions& options) {
   TextTable table;
   table.add_row({"heading from", "factors", "mean error, m", "at the end, m"});
   const double dead_band_rad = config.odometry.core.paper.dead_band_rad;
-  core::PaperFactors weighted;
   bool at_edge = false;
   const std::pair<HeadingSource, const char*> modes[] = {{HeadingSource::kEncoder, "encoder"},
                                                          {HeadingSource::kGyro, "gyro"},
@@ -188,7 +185,6 @@ void calibrate_odometry(const CalibrateOdometryOptions& options) {
     const auto found = search_factors(steps, drive.places, geometry, reckoning);
     at_edge = at_edge || found.at_edge();
     reckoning.factors = found.factors;
-    if (source == HeadingSource::kWeighted) weighted = reckoning.factors;
     table.add_row(row(name, describe_factors(source, found),
                       reckon(steps, drive.places, geometry, reckoning)));
   }
@@ -219,7 +215,7 @@ void calibrate_odometry(const CalibrateOdometryOptions& options) {
   }
   if (!options.output.empty()) {
     Output file(options.output);
-    file.write(fragment(fit, weighted, written_delay_s(fit, config.odometry.core.start.delay_s)));
+    file.write(fragment(fit, written_delay_s(fit, config.odometry.core.start.delay_s)));
     file.flush();
   }
 }
@@ -244,9 +240,8 @@ void add_calibrate_odometry(CLI::App& group) {
                    "where the robot really was, in place of the lidar's own fixes")
       ->type_name("FILE");
   command
-      ->add_option(
-          "-o,--output", options->output,
-          "the keys odometry.start and odometry.factors, for a config; -: on standard output")
+      ->add_option("-o,--output", options->output,
+                   "the key advanced.odometry.initial, for a config; -: on standard output")
       ->type_name("JSON");
   command
       ->add_option("--plot", options->plot,

@@ -4,6 +4,8 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -45,10 +47,20 @@ void save_plot(const DetectOptions& options, const core::Scan& scan,
   picture.flush();
 }
 
-void detect(DetectOptions& options) {
-  if (!options.method.empty()) {
-    options.settings.add_override("/detector/method=" + options.method);
+constexpr std::pair<std::string_view, core::Method> kMethods[] = {
+    {"altbd", core::Method::kAltbd},
+    {"altbd-printed", core::Method::kPrintedAltbd},
+    {"abd-iepf", core::Method::kAbdIepf},
+    {"lt", core::Method::kLineTracking}};
+
+core::Method parse_method(const std::string& name) {
+  for (const auto& [known, method] : kMethods) {
+    if (name == known) return method;
   }
+  return core::Method::kAltbd;
+}
+
+void detect(DetectOptions& options) {
   const message::ClassSet classes = parse_classes(options.classes);
   if (classes.contains(message::MessageClass::kPose)) {
     throw UsageError("--classes: POSE needs a map; use replay");
@@ -56,7 +68,8 @@ void detect(DetectOptions& options) {
   CommandFiles files{.read = options.files, .written = {options.plot}, .output = {}};
   files.read.push_back(options.settings.config_file());
   guard_files(files);
-  const settings::Config config = options.settings.resolve(/*needs_map=*/false);
+  settings::Config config = options.settings.resolve(/*needs_map=*/false);
+  config.detector.method = parse_method(options.method);
 
   Output output;
   MessagePrinter printer(output, classes, nullptr);
@@ -86,9 +99,7 @@ void add_detect(CLI::App& program) {
   command->add_option("files", options->files, "recordings (.bin, .ndjson), one after another")
       ->required()
       ->type_name("FILE");
-  command
-      ->add_option("--method", options->method,
-                   "how walls are found; without it, as the configuration says")
+  command->add_option("--method", options->method, "how walls are found; without it, altbd")
       ->check(CLI::IsMember({"altbd", "altbd-printed", "abd-iepf", "lt"}));
   options->settings.add_config(*command);
   command->add_option("--classes", options->classes, "messages to print: BREAKPOINTS, SCAN")

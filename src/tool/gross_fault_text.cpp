@@ -56,8 +56,8 @@ class FaultText {
           "turn, or left and right are exchanged and both count backward");
     }
     if (faults_.are_exchanged) {
-      add(is_kernel() ? "left and right are exchanged: swap odometry.kernel.left and "
-                        "odometry.kernel.right"
+      add(is_kernel() ? "left and right are exchanged: swap advanced.odometry.kernel.left and "
+                        "advanced.odometry.kernel.right"
                       : "left and right are exchanged: swap left and right in the ODOMETRY lines");
     }
     if (both) {
@@ -71,11 +71,12 @@ class FaultText {
   /// What to do with a wheel, or the gyro, whose sign is wrong.
   std::string reverse(std::string_view name) const {
     if (!is_kernel()) return "negate " + std::string(name) + " in the ODOMETRY lines";
-    const settings::KernelOdometryConfig& kernel = config_.kernel;
+    const drivers::KernelOdometryConfig& kernel = config_.kernel;
     const bool was = name == "left"    ? kernel.left.reversed
                      : name == "right" ? kernel.right.reversed
                                        : kernel.gyro.reversed;
-    return "set odometry.kernel." + std::string(name) + ".reversed to " + (was ? "false" : "true");
+    return "set advanced.odometry.kernel." + std::string(name) + ".reversed to " +
+           (was ? "false" : "true");
   }
 
   void add_factors() {
@@ -114,7 +115,8 @@ class FaultText {
 
   void add_gyro() {
     if (faults_.gyro_is_unrelated) {
-      add(is_kernel() ? "the gyro says nothing of the robot's turns: set odometry.kernel.gyro.axis "
+      add(is_kernel() ? "the gyro says nothing of the robot's turns: set "
+                        "advanced.odometry.kernel.gyro.axis "
                         "to the one that points up"
                       : "the gyro says nothing of the robot's turns: send the rate about the axis "
                         "that points up");

@@ -92,28 +92,13 @@ class NoSink : public drivers::SampleSink {
   void on_gap() override {}
 };
 
-rplidar::MotorKind motor_kind(settings::MotorKind kind) {
-  switch (kind) {
-    case settings::MotorKind::kDtr:
-      return rplidar::MotorKind::kDtr;
-    case settings::MotorKind::kGpio:
-      return rplidar::MotorKind::kGpio;
-    case settings::MotorKind::kPwm:
-      return rplidar::MotorKind::kPwm;
-    case settings::MotorKind::kNone:
-      break;
-  }
-  return rplidar::MotorKind::kNone;
-}
-
 rplidar::RplidarDriverConfig driver_config(const settings::LidarConfig& lidar) {
   rplidar::RplidarDriverConfig config;
   config.device = lidar.device.string();
   config.baud = lidar.baud;
   config.mode = lidar.mode;
   config.inverted = lidar.mount.inverted;
-  config.motor = {motor_kind(lidar.motor.kind), lidar.motor.path, lidar.motor.duty,
-                  lidar.motor.period_s};
+  config.motor = lidar.motor;
   return config;
 }
 
@@ -195,8 +180,9 @@ void add_record(CLI::App& program) {
   };
   command->add_option_function<std::string>("--device", override_with("/lidar/device"), "its port")
       ->type_name("DEV");
-  command->add_option_function<std::string>("--baud", override_with("/lidar/baud"), "its speed");
-  command->add_option_function<std::string>("--mode", override_with("/lidar/mode"),
+  command->add_option_function<std::string>("--baud", override_with("/advanced/lidar/baud"),
+                                            "its speed");
+  command->add_option_function<std::string>("--mode", override_with("/advanced/lidar/mode"),
                                             "auto, or a scan mode by name");
   options->settings.add_config(*command);
   command

@@ -4,7 +4,6 @@
 #include <CLI/CLI.hpp>
 
 #include "core/geometry/angle.hpp"
-#include "settings/noise.hpp"
 #include "tool/options.hpp"
 
 namespace cornerd::tool {

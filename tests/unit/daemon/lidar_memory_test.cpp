@@ -167,13 +167,13 @@ TEST_F(LidarMemoryTest, FolderThatComesLater_IsWrittenInto) {
 TEST(LearnedFile, IsWhereTheSettingsOrTheServiceManagerSay) {
   settings::LidarConfig config;
   ::unsetenv("STATE_DIRECTORY");
-  EXPECT_TRUE(learned_file(config).empty());
+  EXPECT_TRUE(calibration_file(config).empty());
   ::setenv("STATE_DIRECTORY", "/var/lib/cornerd", 1);
-  EXPECT_EQ(learned_file(config), "/var/lib/cornerd/lidar.json");
-  config.learned_file = "/data/lidar.json";
-  EXPECT_EQ(learned_file(config), "/data/lidar.json");
+  EXPECT_EQ(calibration_file(config), "/var/lib/cornerd/lidar.json");
+  config.calibration_file = "/data/lidar.json";
+  EXPECT_EQ(calibration_file(config), "/data/lidar.json");
   config.driver = settings::DriverKind::kReplay;
-  EXPECT_TRUE(learned_file(config).empty());
+  EXPECT_TRUE(calibration_file(config).empty());
   ::unsetenv("STATE_DIRECTORY");
 }
 

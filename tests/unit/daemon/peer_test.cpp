@@ -7,7 +7,7 @@
 
 #include <array>
 
-#include "daemon/file_descriptor.hpp"
+#include "daemon/require_fd.hpp"
 
 namespace cornerd::daemon {
 namespace {

@@ -59,7 +59,7 @@ TEST_F(OdometryLinesTest, WholeLinesThatAreRefused_AreExplained) {
   EXPECT_THAT(hint(), HasSubstr("behind the lidar's"));
   hear({0, 1, 1, {}});
   summary_.counters.jumps += 40;
-  EXPECT_THAT(hint(), HasSubstr("odometry.max_speed"));
+  EXPECT_THAT(hint(), HasSubstr("advanced.odometry.max_speed"));
 }
 
 TEST_F(OdometryLinesTest, WhatIsRefusedOfMostLines_IsKnown) {

@@ -12,7 +12,6 @@
 #include <nlohmann/json.hpp>
 
 #include "command_run.hpp"
-#include "settings/noise.hpp"
 #include "tests/temporary_folder.hpp"
 #include "tool/failure.hpp"
 #include "xml_check.hpp"
@@ -191,7 +190,7 @@ TEST_F(CalibrateBias, LidarThatIsOff_IsSaidAndWritten) {
       {"calibrate", "bias", biased_recording("12"), "--map", map_, "-o", path("bias.json")});
   ASSERT_EQ(run.exit_code, kExitDone) << run.err;
   EXPECT_THAT(run.out, HasSubstr("range offset, mm"));
-  const auto bias = nlohmann::json::parse(text_of("bias.json"))["lidar"]["bias"];
+  const auto bias = nlohmann::json::parse(text_of("bias.json"))["advanced"]["lidar"]["bias"];
   EXPECT_NEAR(bias["range_scale"], 0.008, 0.002);
   EXPECT_NEAR(bias["range_offset"], 0.004, 0.002);
 }

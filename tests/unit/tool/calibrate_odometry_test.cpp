@@ -31,7 +31,7 @@ TEST_F(CalibrateOdometry, GoodDrive_WritesWhatAReplayReads) {
   EXPECT_NE(run.out.find("least squares"), std::string::npos);
   EXPECT_NE(run.out.find("weighted"), std::string::npos);
   std::ifstream stream(output);
-  const json start = json::parse(stream)["odometry"]["start"];
+  const json start = json::parse(stream)["advanced"]["odometry"]["initial"];
   EXPECT_NEAR(start["left_scale"].get<double>(), 0.015, 0.003);
   EXPECT_NEAR(start["right_scale"].get<double>(), 0.025, 0.003);
   EXPECT_NEAR(start["gyro_scale"].get<double>(), 0.02, 0.006);  // turns one way alone
@@ -55,7 +55,9 @@ TEST_F(CalibrateOdometry, ReadingsThatAreLate_FindsByHowMuch) {
     rewrite(late, [&](json& line) { line["t"] = line["t"].get<double>() + late_s; });
     return CommandRun({"calibrate", "odometry", late, "--map", map_, "-o", output});
   };
-  const auto start = [&] { return json::parse(std::ifstream(output))["odometry"]["start"]; };
+  const auto start = [&] {
+    return json::parse(std::ifstream(output))["advanced"]["odometry"]["initial"];
+  };
   ASSERT_EQ(calibrate(0).exit_code, 0);
   EXPECT_FALSE(start().contains("delay"));
   for (const double late_s : {-0.1, 0.02}) {

@@ -123,7 +123,7 @@ TEST_F(Cornerctl, WrongMapOrConfig_EndsWith78AndOneLine) {
       {"map", "check", path("absent.json")},
       {"replay", "x.bin", "--map", path("no-map.json")},
       {"replay", "x.bin", "--map", map_, "--config", path("typo.json")},
-      {"replay", "x.bin", "--map", map_, "--set", "/lidar/baud=fast"},
+      {"replay", "x.bin", "--map", map_, "--set", "/advanced/lidar/baud=fast"},
       {"doctor", "--config", path("typo.json")},
   };
   for (const auto& words : wrong) {

@@ -41,8 +41,9 @@ TEST(GrossFaultText, WhereReadingsComeFrom_DecidesWhatToChange) {
   EXPECT_THAT(described(faults), HasSubstr("swap left and right in the ODOMETRY lines; "));
   EXPECT_THAT(described(faults), HasSubstr("negate gyro in the ODOMETRY lines"));
   const std::string kernel = described(faults, settings::OdometrySource::kKernel);
-  EXPECT_THAT(kernel, HasSubstr("swap odometry.kernel.left and odometry.kernel.right"));
-  EXPECT_THAT(kernel, HasSubstr("set odometry.kernel.gyro.reversed to true"));
+  EXPECT_THAT(kernel,
+              HasSubstr("swap advanced.odometry.kernel.left and advanced.odometry.kernel.right"));
+  EXPECT_THAT(kernel, HasSubstr("set advanced.odometry.kernel.gyro.reversed to true"));
 }
 
 TEST(GrossFaultText, AllTurnedAround_MayBeTheMount) {

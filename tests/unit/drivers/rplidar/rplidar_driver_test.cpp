@@ -214,7 +214,7 @@ TEST_F(RplidarDriverTest, WrongSpeed_IsFoundOutAndNamed) {
   EXPECT_THAT(faults, Contains(LidarFault::kWrongBaud));
   EXPECT_EQ(hints[LidarFault::kWrongBaud],
             "/dev/lidar: no answer at the speed of the settings, but one at 115200 baud; set "
-            "lidar.baud");
+            "advanced.lidar.baud");
 }
 
 TEST_F(RplidarDriverTest, NoiseInsteadOfAnswers_IsAWrongSpeed) {

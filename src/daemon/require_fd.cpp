@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "daemon/file_descriptor.hpp"
+#include "daemon/require_fd.hpp"
 
 #include <cerrno>
 #include <system_error>
