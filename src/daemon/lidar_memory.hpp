@@ -20,7 +20,7 @@ class LidarMemory {
  public:
   /// Recalls what was kept under the same settings. `file`: empty: nothing is kept. JSON
   /// that was not written by a LidarMemory is left alone, what is none renamed to *.bad.
-  /// `configured`: lidar.bias of the settings.
+  /// `configured`: advanced.lidar.bias of the settings.
   LidarMemory(const std::filesystem::path& file, const core::SensorBias& configured);
 
   /// Of this lidar under these settings; no turns: nothing.
@@ -29,7 +29,8 @@ class LidarMemory {
   /// The device has said its number. False where what was known is another one's: now nothing is.
   bool recognise(std::string_view serial);
 
-  /// The settings have this lidar.bias now. False where it is another one: now nothing is known.
+  /// The settings have this advanced.lidar.bias now. False where it is another one, which discards
+  /// the estimate.
   bool reconfigure(const core::SensorBias& configured);
 
   /// What the turns have taught by now, of this lidar under these settings. Writes it down where it

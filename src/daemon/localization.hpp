@@ -80,7 +80,7 @@ class Localization {
   }
   /// Now by the clock of the samples: the newest one's time, whose turn may still be going on.
   core::TimeNs newest_sample_ns() const { return channel_.newest_ns(); }
-  /// A pose for every reading, be there turns or not: odometry.publish.
+  /// A pose for every reading, with or without scans: advanced.odometry.publish_predictions.
   void publish_readings(bool every) { publishes_readings_.store(every, std::memory_order_relaxed); }
   /// The robot is about there.
   void set_pose(const core::Pose2& T_map_base) { given_poses_.push(T_map_base); }
