@@ -5,7 +5,7 @@
 #include "tool/doctor/checks.hpp"
 #include "tool/doctor/process_table.hpp"
 #include "tool/doctor/service_unit.hpp"
-#include "tool/formatted.hpp"
+#include "tool/drawing/formatted.hpp"
 
 namespace cornerd::tool {
 

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "message/state_names.hpp"
-#include "tool/formatted.hpp"
+#include "tool/drawing/formatted.hpp"
 
 namespace cornerd::tool {
 

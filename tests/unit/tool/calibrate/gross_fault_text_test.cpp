@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+#include "tool/calibrate/gross_fault_text.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace cornerd::tool {
+namespace {
+
+using calibration::GrossFaults;
+using testing::HasSubstr;
+using testing::Not;
+
+std::string described(const GrossFaults& faults, settings::OdometrySource source = {}) {
+  settings::OdometryConfig config;
+  config.source = source;
+  return describe_faults(faults, config);
+}
+
+TEST(GrossFaultText, NoFault_IsNoText) { EXPECT_EQ(described({}), ""); }
+
+TEST(GrossFaultText, APlainFactor_GivesTheCorrectedValue) {
+  const auto by = [](double factor) {
+    GrossFaults faults;
+    faults.left_factor = faults.right_factor = factor;
+    return described(faults);
+  };
+  EXPECT_EQ(by(4.08),
+            "the wheels turn 4.08 times as far as the counts say: set odometry.counts_per_turn to "
+            "360");
+  EXPECT_THAT(by(0.26), HasSubstr("odometry.counts_per_turn to 5760"));
+  EXPECT_THAT(by(0.51), HasSubstr("odometry.counts_per_turn to 2880 or odometry.wheel_radius to "
+                                  "0.01625"));
+  EXPECT_THAT(by(1.6), HasSubstr("odometry.counts_per_turn to 900 or odometry.wheel_radius to "
+                                 "0.052"));
+}
+
+TEST(GrossFaultText, WhereReadingsComeFrom_DecidesWhatToChange) {
+  GrossFaults faults;
+  faults.are_exchanged = faults.gyro_is_reversed = true;
+  EXPECT_THAT(described(faults), HasSubstr("swap left and right in the ODOMETRY lines; "));
+  EXPECT_THAT(described(faults), HasSubstr("negate gyro in the ODOMETRY lines"));
+  const std::string kernel = described(faults, settings::OdometrySource::kKernel);
+  EXPECT_THAT(kernel, HasSubstr("swap odometry.kernel.left and odometry.kernel.right"));
+  EXPECT_THAT(kernel, HasSubstr("set odometry.kernel.gyro.reversed to true"));
+}
+
+TEST(GrossFaultText, AllTurnedAround_MayBeTheMount) {
+  GrossFaults faults;
+  faults.are_exchanged = faults.left_is_reversed = faults.right_is_reversed = true;
+  EXPECT_THAT(described(faults), HasSubstr("lidar.mount.theta"));
+  faults.are_exchanged = false;
+  EXPECT_THAT(described(faults), HasSubstr("both wheels count backward"));
+  EXPECT_THAT(described(faults), Not(HasSubstr("mount")));
+}
+
+TEST(GrossFaultText, Degrees_AreNamed) {
+  GrossFaults faults;
+  faults.gyro_factor = 58.4;
+  EXPECT_THAT(described(faults), HasSubstr("degrees a second"));
+  faults.gyro_factor = 3;
+  EXPECT_THAT(described(faults), Not(HasSubstr("degrees")));
+}
+
+}  // namespace
+}  // namespace cornerd::tool
