@@ -5,9 +5,9 @@
 #include <functional>
 #include <string_view>
 
-#include "daemon/require_fd.hpp"
 #include "daemon/line_splitter.hpp"
 #include "daemon/outbox.hpp"
+#include "daemon/require_fd.hpp"
 #include "message/request.hpp"
 
 namespace cornerd::daemon {

@@ -150,7 +150,8 @@ void MessageServer::handle_events(Socket& socket, ClientIterator client, std::ui
   }
 }
 
-bool MessageServer::handle_input_result(Socket& socket, ClientIterator client, Client::Input input) {
+bool MessageServer::handle_input_result(Socket& socket, ClientIterator client,
+                                        Client::Input input) {
   if (input == Client::Input::kOpen) return true;
   if (input == Client::Input::kTooLong) {
     client->outbox().answer(line_.error("too-long", "a line has at most 64 KiB", "", ""));

@@ -55,7 +55,8 @@ std::vector<InheritedSocket> take_inherited_sockets() {
   const auto pid = number_in_environment("LISTEN_PID");
   const auto count = number_in_environment("LISTEN_FDS");
   for (const char* name : {"LISTEN_PID", "LISTEN_FDS", "LISTEN_FDNAMES"}) ::unsetenv(name);
-  if (pid != static_cast<std::uint64_t>(::getpid()) || !count || *count > kMaxSockets) return sockets;
+  if (pid != static_cast<std::uint64_t>(::getpid()) || !count || *count > kMaxSockets)
+    return sockets;
   for (int fd = kFirstSocket; fd < kFirstSocket + static_cast<int>(*count); ++fd) {
     FileDescriptor owned(fd);
     ::fcntl(fd, F_SETFD, FD_CLOEXEC);

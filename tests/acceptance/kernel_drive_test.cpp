@@ -11,9 +11,9 @@
 #include <string>
 
 #include "bench/experiment_robot.hpp"
-#include "bench/localization/pose_error.hpp"
 #include "core/pipeline.hpp"
 #include "drivers/odometry/kernel_odometry.hpp"
+#include "replay/pose_error.hpp"
 #include "replay/simulator/motion.hpp"
 #include "replay/simulator/scene.hpp"
 #include "replay/simulator/simulated_odometry.hpp"
@@ -141,9 +141,9 @@ class KernelDrive : public drivers::Clock, public drivers::OdometrySink {
     if (!is_fix && !is_predicted) return;
     ++(is_fix ? driven_.fixes : driven_.predicted);
     const core::Pose2 truth = motion_(result.pose.t_ns, 0);
-    if (!bench::is_right(result.pose.T_map_base, truth)) ++driven_.wrong;
+    if (!replay::is_right(result.pose.T_map_base, truth)) ++driven_.wrong;
     driven_.worst_m =
-        std::max(driven_.worst_m, bench::error_of(result.pose.T_map_base, truth).place_m);
+        std::max(driven_.worst_m, replay::error_of(result.pose.T_map_base, truth).place_m);
   }
 
   std::shared_ptr<const core::WallMap> map_;

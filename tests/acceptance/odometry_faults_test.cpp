@@ -18,7 +18,7 @@
 #include "core/geometry/angle.hpp"
 #include "tests/temporary_folder.hpp"
 #include "tests/unit/tool/command_run.hpp"
-#include "tool/truth.hpp"
+#include "tool/replay/truth.hpp"
 
 namespace cornerd::tool {
 namespace {
@@ -179,7 +179,8 @@ TEST_F(OdometryFaults, None_IsTheDriveThatTheOthersAreMeasuredBy) {
 
 TEST_F(OdometryFaults, CountsThatWrap_AreTheSameDrive) {
   const Replayed clean = replay(kNone);
-  EXPECT_EQ(replay(wrapped(65000, 0xFFFF), {"/odometry/ceiling=65535"}).poses, clean.poses);
+  EXPECT_EQ(replay(wrapped(65000, 0xFFFF), {"/advanced/odometry/counter_max=65535"}).poses,
+            clean.poses);
   EXPECT_EQ(replay(wrapped(0xFFFFF000, 0xFFFFFFFF)).poses, clean.poses);
 }
 

@@ -17,7 +17,7 @@
 #include "core/geometry/angle.hpp"
 #include "tests/temporary_folder.hpp"
 #include "tests/unit/tool/command_run.hpp"
-#include "tool/truth.hpp"
+#include "tool/replay/truth.hpp"
 
 namespace cornerd {
 namespace {

@@ -17,7 +17,7 @@
 #include "core/localizer.hpp"
 #include "survey/survey.hpp"
 #include "tests/temporary_folder.hpp"
-#include "tool/survey_files.hpp"
+#include "tool/survey/survey_files.hpp"
 
 namespace cornerd {
 namespace {

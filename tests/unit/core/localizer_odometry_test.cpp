@@ -18,7 +18,8 @@ constexpr double kTurnOfDrive_s = 0.14;
 /// A robot on a circle in the L-shaped room, seen by its lidar and by its wheels.
 class CircleDrive {
  public:
-  CircleDrive(double speed_m_s, double rate_rad_s, double max_extrapolation_s = 10, bool publish = false)
+  CircleDrive(double speed_m_s, double rate_rad_s, double max_extrapolation_s = 10,
+              bool publish = false)
       : map_(testing::make_map(testing::l_shaped_room())),
         localizer_(map_, config(max_extrapolation_s, publish)),
         robot_({}, errors(), 5),
@@ -175,8 +176,9 @@ TEST(LocalizerWithOdometry, Summary_TellsWhatWasLearned) {
   EXPECT_GT(odometry.fixes, 190U);
   // One circle tells the way, but neither wheel from wheel nor bias from scale.
   // The wheels roll at 0.236 and 0.364 m/s.
-  EXPECT_NEAR((0.236 * odometry.parameters.left_scale + 0.364 * odometry.parameters.right_scale) / 0.6,
-              0.01 * 0.236 / 0.6, 0.001);
+  EXPECT_NEAR(
+      (0.236 * odometry.parameters.left_scale + 0.364 * odometry.parameters.right_scale) / 0.6,
+      0.01 * 0.236 / 0.6, 0.001);
 }
 
 TEST(Localizer, AGivenPose_TellsTwinsApart) {

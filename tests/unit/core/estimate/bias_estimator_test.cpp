@@ -179,7 +179,7 @@ TEST(BiasEstimator, TurnOfFewPoints_TeachesNothing) {
   testing::ScanOptions sparse;
   sparse.samples = 30;
   estimator.update(*map, {1, 1, 0}, testing::polar(source.take(*map, {1, 1, 0}, sparse)).points(),
-                  1);
+                   1);
   EXPECT_EQ(estimator.scans(), 0U);
   EXPECT_TRUE(estimator.bias().is_none());
 }

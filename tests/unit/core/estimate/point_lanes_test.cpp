@@ -29,7 +29,8 @@ PolarScan noisy_wall() {
 }
 
 /// Point by point, in double precision.
-FaceSums exact_sum(std::span<const PolarPoint> points, const SensorNoise& noise, double extra_sigma_m) {
+FaceSums exact_sum(std::span<const PolarPoint> points, const SensorNoise& noise,
+                   double extra_sigma_m) {
   const Vec2 normal = unit_vector(kWallAngle_rad);
   FaceSums sum;
   for (const PolarPoint& point : points) {
@@ -79,8 +80,9 @@ TEST(PointLanes, PointsOfAWall_AddUpAsInDoublePrecision) {
       // Every number of points that fours can leave over.
       for (std::size_t begin = 0; begin < 5; ++begin) {
         const auto part = scan.points().subspan(begin);
-        expect_near(lanes.sum(begin, scan.size(), unit_vector(kWallAngle_rad), kHeight_m, extra_sigma_m),
-                    exact_sum(part, noise, extra_sigma_m));
+        expect_near(
+            lanes.sum(begin, scan.size(), unit_vector(kWallAngle_rad), kHeight_m, extra_sigma_m),
+            exact_sum(part, noise, extra_sigma_m));
       }
     }
   }

@@ -49,7 +49,7 @@ void expect_all_seen_faces(const WallMap& map, const Vec2& origin, double max_ra
   VisibleFaces visible_faces;
   std::set<std::size_t> visited;
   visible_faces.find(map, origin, max_range_m,
-             [&](std::uint32_t face, const VisibleFace&) { visited.insert(face); });
+                     [&](std::uint32_t face, const VisibleFace&) { visited.insert(face); });
   for (int i = 0; i < 90; ++i) {
     const double angle_rad = radians(0.25 + 4 * i);
     const auto [face, range_m] = nearest_face(map, origin, angle_rad, max_range_m);
@@ -106,8 +106,9 @@ TEST(VisibleFaces, PlaceFarOutside_SeesNothingAndAnswersAtOnce) {
   const WallMap map(testing::l_shaped_room());
   VisibleFaces visible_faces;
   for (const Vec2& place : {Vec2(1e9, 0), Vec2(-40, 2), Vec2(std::nan(""), 0)}) {
-    visible_faces.find(map, place, 12,
-               [](std::uint32_t, const VisibleFace&) { ADD_FAILURE() << "seen from afar"; });
+    visible_faces.find(map, place, 12, [](std::uint32_t, const VisibleFace&) {
+      ADD_FAILURE() << "seen from afar";
+    });
   }
 }
 

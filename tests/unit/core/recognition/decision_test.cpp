@@ -33,7 +33,7 @@ TEST(Decide, OnePlaceFarAhead_IsAFix) {
 
 TEST(Decide, TwoPlacesAlike_AreAmbiguous) {
   const std::vector<VerifiedHypothesis> places = {place_at(1, 1000, 1000), place_at(5, 995, 995),
-                                     place_at(9, 800, 800)};
+                                                  place_at(9, 800, 800)};
   const Decision decision = decide(places, std::nullopt);
   EXPECT_EQ(decision.state, PoseState::kAmbiguous);
   EXPECT_EQ(decision.rivals, 2U);

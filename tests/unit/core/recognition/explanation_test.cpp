@@ -33,8 +33,9 @@ TEST_F(ExplanationTest, TruePlaceOfAClearTurn_HitsNearlyEveryRay) {
 
 TEST_F(ExplanationTest, EveryRay_IsCountedOnce) {
   const BeamLikelihood likelihood = at({1.4, 1.2, 2.5}, source_.take(*map_, {1, 1, 0.5}));
-  EXPECT_EQ(likelihood.hits + likelihood.near_hits + likelihood.shorts + likelihood.free_space_violations,
-            likelihood.rays);
+  EXPECT_EQ(
+      likelihood.hits + likelihood.near_hits + likelihood.shorts + likelihood.free_space_violations,
+      likelihood.rays);
 }
 
 TEST_F(ExplanationTest, WrongPlace_IsLessLikelyAndLooksThroughWalls) {
