@@ -7,7 +7,6 @@
 #include <utility>
 
 namespace cornerd::replay {
-
 namespace {
 
 /// Along a piece of a drive of some length (or angle), up to a rate and down again.

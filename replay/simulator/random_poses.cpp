@@ -8,7 +8,6 @@
 #include "replay/simulator/random.hpp"
 
 namespace cornerd::replay {
-
 namespace {
 
 /// Looks in this many directions; one that leaves the map without meeting a wall means outside.

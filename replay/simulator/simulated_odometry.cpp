@@ -8,7 +8,6 @@
 #include <utility>
 
 namespace cornerd::replay {
-
 namespace {
 
 /// The drive is looked at this often; a gyro's own low pass is about as slow.

@@ -64,8 +64,8 @@ class Belief {
   }
   /// Less exact, but nothing stands in its way: the sensor may be biased, or a wall displaced.
   bool explains_more(const BeamLikelihood& other) const {
-    return static_cast<double>(other.hits + other.near) >
-           static_cast<double>(likeliest_.hits + likeliest_.near) + kRaysForARival +
+    return static_cast<double>(other.hits + other.near_hits) >
+           static_cast<double>(likeliest_.hits + likeliest_.near_hits) + kRaysForARival +
                kRaysForARivalPerThing * shorts_;
   }
 

@@ -68,7 +68,7 @@ void expect_near(const FaceSums& one, const FaceSums& other) {
   EXPECT_EQ(one.points, other.points);
 }
 
-TEST(PointLanes, PointsOfAWall_AddUpAsInDoublePrecision) {
+TEST(PointLanes, PointsOfWall_SumsMatchDoublePrecision) {
   const PolarScan scan = noisy_wall();
   SensorNoise by_table;
   const SigmaTable::Point measured[] = {{1, 0.002}, {3, 0.009}};
@@ -88,13 +88,13 @@ TEST(PointLanes, PointsOfAWall_AddUpAsInDoublePrecision) {
   }
 }
 
-TEST(PointLanes, NoPoints_AddNothing) {
+TEST(PointLanes, NoPoints_SumsAreZero) {
   PointLanes lanes;
   lanes.assign({}, {}, 1);
   EXPECT_EQ(lanes.sum(0, 0, {1, 0}, 1, 0).points, 0);
 }
 
-TEST(PointLanes, PointsOnTheWallWithoutNoise_HaveAWeight) {
+TEST(PointLanes, NoiselessPointsOnWall_WeightIsFinite) {
   PolarScan scan;
   scan.begin(0.1);
   scan.append(kPi, 2);
