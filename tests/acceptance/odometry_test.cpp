@@ -96,19 +96,20 @@ class DriveOf100m : public testing::TestWithParam<BadRobot> {
             std::abs(core::angle_between(truth->theta_rad, pose["theta"]))};
   }
   /// Estimates after 30 s of driving.
-  json learned() const {
+  json estimates() const {
     const auto after = std::find_if(statuses_.begin(), statuses_.end(),
                                     [](const json& status) { return status["t"] > kTaught_s; });
     if (after == statuses_.end() || (*after)["t"] > kTaught_s + 1.5) return {};
     return (*after)["odometry"];
   }
-  double way_m() const {
-    double way_m = 0;
+  double distance_m() const {
+    double distance_m = 0;
     const auto& points = truth_->points();
     for (std::size_t i = 1; i < points.size(); ++i) {
-      way_m += (points[i].T_map_base.translation() - points[i - 1].T_map_base.translation()).norm();
+      distance_m +=
+          (points[i].T_map_base.translation() - points[i - 1].T_map_base.translation()).norm();
     }
-    return way_m;
+    return distance_m;
   }
 
   test::TemporaryFolder folder_;
@@ -119,7 +120,7 @@ class DriveOf100m : public testing::TestWithParam<BadRobot> {
 
 // One test, since each test would drive the 100 m again.
 TEST_P(DriveOf100m, WheelAndGyroErrors_AreEstimatedAndBridgeFiveSeconds) {
-  EXPECT_GE(way_m(), 100);
+  EXPECT_GE(distance_m(), 100);
   double sum_m = 0;
   std::size_t predicted = 0;
   Error last_blind{HUGE_VAL, HUGE_VAL};
@@ -136,7 +137,7 @@ TEST_P(DriveOf100m, WheelAndGyroErrors_AreEstimatedAndBridgeFiveSeconds) {
   const double mean_m = sum_m / static_cast<double>(poses_.size());
   EXPECT_LE(mean_m, 0.005);
 
-  const json now = learned();
+  const json now = estimates();
   ASSERT_TRUE(now.is_object());
   EXPECT_NEAR(now["left_scale"], GetParam().left_scale, 0.003);
   EXPECT_NEAR(now["right_scale"], GetParam().right_scale, 0.003);
