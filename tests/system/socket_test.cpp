@@ -93,7 +93,7 @@ TEST_F(Socket, SecondInstance_IsRefusedAndHarmsNothing) {
   TestClient client = connect();
   const Result second = run({"--config", config()});
   EXPECT_EQ(second.exit_code, 1);
-  EXPECT_NE(second.output.find("another cornerd listens there"), std::string::npos)
+  EXPECT_NE(second.output.find("another cornerd listens on this socket"), std::string::npos)
       << second.output;
   EXPECT_EQ(next_of(client, "POSE")["class"], "POSE");
   EXPECT_TRUE(connect().is_connected());

@@ -104,7 +104,7 @@ TEST_F(Streams, ReaderOfTheLogThatStalls_IsNotWaitedFor) {
   const std::string rest = drain(reader.get()).substr(stuffed);
   EXPECT_EQ(rest, "") << "there was room";
   reload(daemon);
-  EXPECT_THAT(drain(reader.get()), ContainsRegex("warning: [0-9]+ messages found no room in this"));
+  EXPECT_THAT(drain(reader.get()), ContainsRegex("warning: [0-9]+ log messages were dropped"));
   fill(writer.get());
   daemon.send_signal(SIGTERM);
   EXPECT_EQ(daemon.wait_for_exit(), 0);

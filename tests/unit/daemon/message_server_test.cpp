@@ -27,7 +27,7 @@ class MessageServerTest : public ::testing::Test {
     server_.listen(control_path_, SocketRole::kControl);
   }
 
-  /// Until nothing is left to do.
+  /// Runs the loop until it is idle.
   void serve() {
     for (int i = 0; i < 20; ++i) loop_.run_once(0);
   }
@@ -38,7 +38,7 @@ class MessageServerTest : public ::testing::Test {
     return client;
   }
 
-  /// A connection that has read its VERSION.
+  /// A connected client that has read VERSION.
   TestClient greeted(const std::filesystem::path& path) {
     TestClient client = connect(path);
     EXPECT_EQ(next(client)["class"], "VERSION");
@@ -67,7 +67,7 @@ class MessageServerTest : public ::testing::Test {
   int relocalizations_ = 0;
   std::vector<core::Pose2> given_;
   std::vector<message::OdometryReading> readings_;
-  int publisher_ = -1;  ///< the connection whose readings are taken
+  int publisher_ = -1;  ///< the connection whose readings are used
   MessageServer server_{
       loop_,
       "1.2.3",
@@ -83,7 +83,7 @@ class MessageServerTest : public ::testing::Test {
        }}};
 };
 
-TEST_F(MessageServerTest, NewClient_GetsVersionThenPoseAndStatusAlone) {
+TEST_F(MessageServerTest, NewClient_VersionThenPoseAndStatusOnly) {
   TestClient client = greeted(pose_path_);
   server_.publish(MessageClass::kScan, "{\"class\":\"SCAN\"}\n");
   server_.publish(MessageClass::kPose, pose(1));
@@ -93,7 +93,7 @@ TEST_F(MessageServerTest, NewClient_GetsVersionThenPoseAndStatusAlone) {
   EXPECT_EQ(next(client), "nothing");
 }
 
-TEST_F(MessageServerTest, Newcomer_GetsTheNewestStatusButNoOldPose) {
+TEST_F(MessageServerTest, NewClient_NewestStatusAndNoOldPose) {
   server_.publish(MessageClass::kStatus, "{\"class\":\"STATUS\",\"n\":1}\n");
   server_.publish(MessageClass::kPose, pose(1));
   TestClient client = greeted(pose_path_);
@@ -101,7 +101,7 @@ TEST_F(MessageServerTest, Newcomer_GetsTheNewestStatusButNoOldPose) {
   EXPECT_EQ(next(client), "nothing");
 }
 
-TEST_F(MessageServerTest, Watch_ChoosesTheClasses) {
+TEST_F(MessageServerTest, Watch_Request_SelectsClasses) {
   TestClient client = greeted(pose_path_);
   EXPECT_EQ(ask(client, R"({"class":"WATCH","classes":["SCAN"],"id":5})"),
             json({{"class", "OK"}, {"request", "WATCH"}, {"id", 5}}));
@@ -112,7 +112,7 @@ TEST_F(MessageServerTest, Watch_ChoosesTheClasses) {
   EXPECT_EQ(next(client)["class"], "SCAN");
 }
 
-TEST_F(MessageServerTest, WatchOfOneClient_IsItsOwn) {
+TEST_F(MessageServerTest, Watch_OneClient_OthersUnaffected) {
   TestClient first = greeted(pose_path_);
   TestClient second = greeted(pose_path_);
   ask(first, R"({"class":"WATCH","classes":[]})");
@@ -121,7 +121,7 @@ TEST_F(MessageServerTest, WatchOfOneClient_IsItsOwn) {
   EXPECT_EQ(next(second)["class"], "POSE");
 }
 
-TEST_F(MessageServerTest, BadLine_GetsAnErrorAndCostsNothingElse) {
+TEST_F(MessageServerTest, MalformedLine_ErrorAndConnectionStays) {
   TestClient client = greeted(pose_path_);
   EXPECT_EQ(ask(client, "what?")["code"], "json");
   const json unknown = ask(client, R"({"class":"FLY","id":"a"})");
@@ -131,10 +131,10 @@ TEST_F(MessageServerTest, BadLine_GetsAnErrorAndCostsNothingElse) {
   EXPECT_EQ(next(client)["class"], "POSE");
 }
 
-TEST_F(MessageServerTest, LineTooLong_ClosesThatClientAlone) {
+TEST_F(MessageServerTest, TooLongLine_OnlyThatClientClosed) {
   TestClient client = greeted(pose_path_);
   TestClient other = greeted(pose_path_);
-  // In pieces that the socket takes without a reader.
+  // In pieces that fit the socket's buffer.
   for (int i = 0; i < 5; ++i) {
     client.send(std::string(16 * 1024, 'x'));
     serve();
@@ -146,7 +146,7 @@ TEST_F(MessageServerTest, LineTooLong_ClosesThatClientAlone) {
   EXPECT_EQ(next(other)["class"], "POSE");
 }
 
-TEST_F(MessageServerTest, Poll_GetsTheNewestPoseAndStatusOnEitherSocket) {
+TEST_F(MessageServerTest, Poll_EitherSocket_NewestPoseAndStatus) {
   for (const auto& path : {pose_path_, control_path_}) {
     server_.publish(MessageClass::kPose, pose(7));
     TestClient client = greeted(path);
@@ -156,7 +156,7 @@ TEST_F(MessageServerTest, Poll_GetsTheNewestPoseAndStatusOnEitherSocket) {
   }
 }
 
-TEST_F(MessageServerTest, Relocalize_IsForTheControlSocket) {
+TEST_F(MessageServerTest, Relocalize_PoseSocket_Refused) {
   TestClient reader = greeted(pose_path_);
   EXPECT_EQ(ask(reader, R"({"class":"RELOCALIZE"})")["code"], "read-only");
   EXPECT_EQ(relocalizations_, 0);
@@ -165,7 +165,7 @@ TEST_F(MessageServerTest, Relocalize_IsForTheControlSocket) {
   EXPECT_EQ(relocalizations_, 1);
 }
 
-TEST_F(MessageServerTest, SetPose_IsForTheControlSocket) {
+TEST_F(MessageServerTest, SetPose_PoseSocket_Refused) {
   TestClient reader = greeted(pose_path_);
   const char* request = R"({"class":"SET_POSE","x":1,"y":2,"theta":0.5,"id":7})";
   EXPECT_EQ(ask(reader, request)["code"], "read-only");
@@ -176,12 +176,12 @@ TEST_F(MessageServerTest, SetPose_IsForTheControlSocket) {
   EXPECT_EQ(given_[0].y_m, 2);
 }
 
-TEST_F(MessageServerTest, Odometry_IsTakenWithoutAnAnswer) {
+TEST_F(MessageServerTest, Odometry_ControlSocket_AcceptedWithoutAnswer) {
   TestClient reader = greeted(pose_path_);
   EXPECT_EQ(ask(reader, R"({"class":"ODOMETRY","left":1,"right":2})")["code"], "read-only");
   TestClient controller = greeted(control_path_);
   controller.send("{\"class\":\"ODOMETRY\",\"t\":5,\"left\":1,\"right\":2,\"gyro\":0.1}\n");
-  // The next answer is that of the next request.
+  // ODOMETRY has no answer, so the next line answers the next request.
   EXPECT_EQ(ask(controller, R"({"class":"RELOCALIZE"})")["request"], "RELOCALIZE");
   ASSERT_EQ(readings_.size(), 1U);
   EXPECT_EQ(readings_[0].t_ns, 5 * core::kNsPerSecond);
@@ -190,7 +190,7 @@ TEST_F(MessageServerTest, Odometry_IsTakenWithoutAnAnswer) {
   EXPECT_EQ(ask(controller, R"({"class":"ODOMETRY","left":"x"})")["code"], "field");
 }
 
-TEST_F(MessageServerTest, OdometryOfASecondClient_IsToldWhyUntilTheFirstHasGone) {
+TEST_F(MessageServerTest, Odometry_SecondClient_ErrorUntilFirstDisconnects) {
   const std::string line = R"({"class":"ODOMETRY","left":1,"right":2})";
   TestClient second = greeted(control_path_);
   {
@@ -203,7 +203,7 @@ TEST_F(MessageServerTest, OdometryOfASecondClient_IsToldWhyUntilTheFirstHasGone)
   EXPECT_EQ(ask(second, line), "nothing");
 }
 
-TEST_F(MessageServerTest, WhatNobodyTakes_IsRefusedClearly) {
+TEST_F(MessageServerTest, RequestWithoutHandler_Unsupported) {
   const std::filesystem::path path = folder_ / "other.sock";
   MessageServer server{loop_, "1.2.3", {[] {}}};
   server.listen(path, SocketRole::kControl);
@@ -212,7 +212,7 @@ TEST_F(MessageServerTest, WhatNobodyTakes_IsRefusedClearly) {
   EXPECT_EQ(ask(client, R"({"class":"ODOMETRY","left":0,"right":0})")["code"], "unsupported");
 }
 
-TEST_F(MessageServerTest, ClientThatOnlyAsks_GetsItsAnswerAfterItsLastWord) {
+TEST_F(MessageServerTest, ClientClosesSendingSide_StillAnswered) {
   server_.publish(MessageClass::kPose, pose(3));
   TestClient client = greeted(pose_path_);
   client.send(R"({"class":"POLL"})");  // no newline
@@ -221,10 +221,10 @@ TEST_F(MessageServerTest, ClientThatOnlyAsks_GetsItsAnswerAfterItsLastWord) {
   EXPECT_EQ(next(client)["seq"], 3);
   EXPECT_EQ(next(client)["class"], "OK");
   server_.publish(MessageClass::kPose, pose(4));
-  EXPECT_EQ(next(client)["seq"], 4) << "it may go on reading";
+  EXPECT_EQ(next(client)["seq"], 4) << "it may still read";
 }
 
-TEST_F(MessageServerTest, ClientThatLeaves_IsForgotten) {
+TEST_F(MessageServerTest, ClientDisconnects_Removed) {
   {
     TestClient client = greeted(pose_path_);
     EXPECT_EQ(server_.clients(), 1u);
@@ -233,15 +233,15 @@ TEST_F(MessageServerTest, ClientThatLeaves_IsForgotten) {
   EXPECT_EQ(server_.clients(), 0u);
 }
 
-TEST_F(MessageServerTest, ClientThatDoesNotRead_GetsTheNewestAndIsToldWhatItLost) {
+TEST_F(MessageServerTest, SlowClient_NewestLineAndNumberDropped) {
   TestClient sleeper = greeted(pose_path_);
   TestClient reader = greeted(pose_path_);
   constexpr int kPoses = 200;
-  const std::string padding(400, ' ');  // as long as a real one
+  const std::string padding(400, ' ');  // as long as a real line
   for (int i = 1; i <= kPoses; ++i) {
     server_.publish(MessageClass::kPose,
                     "{\"class\":\"POSE\"," + padding + "\"seq\":" + std::to_string(i) + "}\n");
-    EXPECT_EQ(next(reader)["seq"], i) << "the reader is delayed by nobody";
+    EXPECT_EQ(next(reader)["seq"], i) << "the slow client must not delay the reader";
   }
   std::vector<int> seen;
   int dropped = 0;
@@ -251,12 +251,12 @@ TEST_F(MessageServerTest, ClientThatDoesNotRead_GetsTheNewestAndIsToldWhatItLost
     serve();
   }
   EXPECT_EQ(seen.back(), kPoses);
-  EXPECT_EQ(static_cast<int>(seen.size()) + dropped, kPoses) << "every loss is told";
+  EXPECT_EQ(static_cast<int>(seen.size()) + dropped, kPoses) << "every lost message is counted";
   EXPECT_LE(seen.size(), 8u) << "more would be seconds of stale poses";
   EXPECT_EQ(server_.dropped(), static_cast<std::uint64_t>(dropped));
 }
 
-TEST_F(MessageServerTest, LineLongerThanTheSocketTakes_ArrivesWhole) {
+TEST_F(MessageServerTest, LineLongerThanSocketBuffer_ArrivesWhole) {
   TestClient client = greeted(pose_path_);
   ask(client, R"({"class":"WATCH","classes":["SCAN"]})");
   const std::string text(100'000, 'r');
@@ -264,7 +264,7 @@ TEST_F(MessageServerTest, LineLongerThanTheSocketTakes_ArrivesWhole) {
   server_.publish(MessageClass::kScan, "{\"class\":\"SCAN\",\"text\":\"2\"}\n");
   server_.publish(MessageClass::kScan, "{\"class\":\"SCAN\",\"text\":\"3\"}\n");
   json line = "nothing";
-  // One line takes many turns of reading here and writing there.
+  // One line takes many rounds of reading and writing.
   for (int i = 0; i < 1000 && line == "nothing"; ++i) {
     line = next(client);
     serve();
@@ -275,19 +275,19 @@ TEST_F(MessageServerTest, LineLongerThanTheSocketTakes_ArrivesWhole) {
   EXPECT_EQ(line["dropped"], 1);
 }
 
-TEST_F(MessageServerTest, ClientThatAsksWithoutReading_IsNoLongerListenedTo) {
+TEST_F(MessageServerTest, ClientRequestsWithoutReading_InputPaused) {
   TestClient client = greeted(pose_path_);
   std::string requests;
   for (int i = 0; i < 1000; ++i)
     requests += "{\"class\":\"POLL\",\"id\":" + std::to_string(i) + "}\n";
   client.send(requests.substr(0, 30'000));
   serve();
-  // It gets all its answers once it reads.
+  // It gets all answers once it reads.
   int last = -1;
   for (int i = 0; i < 5000; ++i) {
     const json line = next(client);
     if (line != "nothing") {
-      EXPECT_EQ(line["id"], last + 1) << "in order, and none is lost";
+      EXPECT_EQ(line["id"], last + 1) << "in order, none lost";
       last = line["id"];
     }
     serve();
@@ -295,44 +295,44 @@ TEST_F(MessageServerTest, ClientThatAsksWithoutReading_IsNoLongerListenedTo) {
   EXPECT_GT(last, 900);
 }
 
-TEST_F(MessageServerTest, SocketThatSomebodyRemoved_IsMadeAgain) {
+TEST_F(MessageServerTest, RemovedSocket_Restored) {
   TestClient before = greeted(pose_path_);
-  std::vector<std::string> told;
+  std::vector<std::string> logged;
   const auto restore = [&] {
-    server_.restore_sockets([&](const std::string& line) { told.push_back(line); });
+    server_.restore_sockets([&](const std::string& line) { logged.push_back(line); });
   };
   restore();
-  EXPECT_TRUE(told.empty());
+  EXPECT_TRUE(logged.empty());
   std::filesystem::remove(pose_path_);
   restore();
-  ASSERT_EQ(told.size(), 1u);
-  EXPECT_THAT(told.front(), ::testing::StartsWith(pose_path_.string()));
+  ASSERT_EQ(logged.size(), 1u);
+  EXPECT_THAT(logged.front(), ::testing::StartsWith(pose_path_.string()));
   TestClient after = greeted(pose_path_);
   server_.publish(MessageClass::kPose, pose(1));
   EXPECT_EQ(next(before)["class"], "POSE");
   EXPECT_EQ(next(after)["class"], "POSE");
 }
 
-TEST_F(MessageServerTest, SocketThatCannotBeMadeAgain_IsToldOfOnce) {
-  std::vector<std::string> told;
+TEST_F(MessageServerTest, UnrestorableSocket_LoggedOnce) {
+  std::vector<std::string> logged;
   const auto restore = [&] {
-    server_.restore_sockets([&](const std::string& line) { told.push_back(line); });
+    server_.restore_sockets([&](const std::string& line) { logged.push_back(line); });
   };
-  // A file in the place of their folder.
+  // A file replaces the sockets' folder.
   const std::filesystem::path aside = folder_.path().string() + ".aside";
   std::filesystem::rename(folder_.path(), aside);
   std::ofstream(folder_.path()) << "in the way";
   restore();
   restore();
-  EXPECT_EQ(told.size(), 2u) << "of each socket once";
+  EXPECT_EQ(logged.size(), 2u) << "once per socket";
   std::filesystem::remove(folder_.path());
   std::filesystem::rename(aside, folder_.path());
   restore();
-  EXPECT_EQ(told.size(), 2u) << "they are there";
+  EXPECT_EQ(logged.size(), 2u) << "the sockets exist";
   greeted(pose_path_);
 }
 
-TEST_F(MessageServerTest, MoreClientsThanAreServed_AreToldSo) {
+TEST_F(MessageServerTest, TooManyClients_Refused) {
   TestClient controller = greeted(control_path_);
   std::vector<TestClient> clients;
   for (std::size_t i = 1; i < MessageServer::kMaxClients; ++i) {
@@ -345,7 +345,7 @@ TEST_F(MessageServerTest, MoreClientsThanAreServed_AreToldSo) {
   EXPECT_EQ(server_.clients(), MessageServer::kMaxClients);
 }
 
-TEST_F(MessageServerTest, ControlClient_FindsRoomWhereTheListenersHaveTakenIt) {
+TEST_F(MessageServerTest, ControlClient_PoseClientsFull_NewestPoseClientEvicted) {
   std::vector<TestClient> clients;
   for (std::size_t i = 0; i < MessageServer::kMaxClients; ++i) {
     clients.push_back(greeted(pose_path_));
@@ -353,7 +353,8 @@ TEST_F(MessageServerTest, ControlClient_FindsRoomWhereTheListenersHaveTakenIt) {
   std::vector<TestClient> controllers;
   for (std::size_t i = 0; i < MessageServer::kReservedControlClients; ++i) {
     controllers.push_back(greeted(control_path_));
-    EXPECT_EQ(next(clients.back())["code"], "too-many-clients") << "the newest goes";
+    EXPECT_EQ(next(clients.back())["code"], "too-many-clients")
+        << "the newest pose client is disconnected";
     EXPECT_EQ(clients.back().read_line(0), std::nullopt);
     EXPECT_TRUE(clients.back().has_ended());
     clients.pop_back();
