@@ -12,15 +12,15 @@
 namespace cornerd::gridmap {
 namespace {
 
-/// A mapper's walls are a cell or two thick, with few exceptions where it erred.
+/// Mapped walls are one or two cells thick.
 constexpr double kDrawnBuriedShare = 0.25;
-/// Specks of two cells are noise at any resolution.
+/// Patches of two cells are noise at any resolution.
 constexpr double kSpeckCells = 2.5;
-/// What the raster makes of a straight line, and what mappers make of one.
+/// Deviation of a straight line's border in a drawing, and in a mapped picture, in cells.
 constexpr double kDrawnTolerance = 0.75;
 constexpr double kMappedTolerance = 1.25;
 constexpr double kBlock_m = 2;
-/// So far a wall goes into another one, that no ray slips through the joint.
+/// Overlap of walls that meet, so that no ray passes through the joint.
 constexpr double kInto_m = 0.001;
 
 class Placer {

@@ -143,7 +143,7 @@ class KernelDrive : public drivers::Clock, public drivers::OdometrySink {
     const core::Pose2 truth = motion_(result.pose.t_ns, 0);
     if (!replay::is_right(result.pose.T_map_base, truth)) ++driven_.wrong;
     driven_.worst_m =
-        std::max(driven_.worst_m, replay::error_of(result.pose.T_map_base, truth).place_m);
+        std::max(driven_.worst_m, replay::error_of(result.pose.T_map_base, truth).position_m);
   }
 
   std::shared_ptr<const core::WallMap> map_;

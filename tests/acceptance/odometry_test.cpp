@@ -86,7 +86,7 @@ class DriveOf100m : public testing::TestWithParam<BadRobot> {
   }
 
   struct Error {
-    double place_m;
+    double position_m;
     double heading_rad;
   };
   Error error_of(const json& pose) const {
@@ -126,7 +126,7 @@ TEST_P(DriveOf100m, WheelAndGyroErrors_AreEstimatedAndBridgeFiveSeconds) {
   Error last_blind{HUGE_VAL, HUGE_VAL};
   for (const json& pose : poses_) {
     const Error error = error_of(pose);
-    sum_m += error.place_m;
+    sum_m += error.position_m;
     if (pose["t"] > kTaught_s && pose["t"] < kUncovered_s && pose["state"] == "predicted") {
       ++predicted;
       last_blind = error;
@@ -146,10 +146,10 @@ TEST_P(DriveOf100m, WheelAndGyroErrors_AreEstimatedAndBridgeFiveSeconds) {
   EXPECT_NEAR(now["gyro_bias"], GetParam().gyro_bias_rad_s, 0.001);
 
   EXPECT_GE(predicted, 34U);  // 7.3 scans a second
-  EXPECT_LE(last_blind.place_m, 0.03);
+  EXPECT_LE(last_blind.position_m, 0.03);
   EXPECT_LE(last_blind.heading_rad, core::radians(1));
   RecordProperty("mean_mm", std::to_string(1e3 * mean_m));
-  RecordProperty("blind_mm", std::to_string(1e3 * last_blind.place_m));
+  RecordProperty("blind_mm", std::to_string(1e3 * last_blind.position_m));
   RecordProperty("blind_degrees", std::to_string(core::degrees(last_blind.heading_rad)));
 }
 

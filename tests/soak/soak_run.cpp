@@ -98,7 +98,7 @@ std::string describe(const core::PoseEstimate& pose, const core::Pose2& truth, s
 bool is_wrong(const core::PoseEstimate& pose, const core::Pose2& truth, SoakReport& report) {
   if (!core::has_pose(pose.state)) return false;
   const replay::PoseError error = replay::error_of(pose.T_map_base, truth);
-  report.worst_error_m = std::max(report.worst_error_m, error.place_m);
+  report.worst_error_m = std::max(report.worst_error_m, error.position_m);
   report.worst_error_rad = std::max(report.worst_error_rad, error.heading_rad);
   return !replay::is_right(pose.T_map_base, truth);
 }

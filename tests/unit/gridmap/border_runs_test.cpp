@@ -31,7 +31,7 @@ TEST(BorderRuns, SlantedWall_IsOneLineToATenthOfACell) {
     ASSERT_EQ(borders.size(), 1U) << slope;
     const auto runs = straight_runs(borders[0], 0.75);
     ASSERT_EQ(runs.size(), 1U) << slope;
-    EXPECT_NEAR(runs[0].way.y() / runs[0].way.x(), slope, 0.004) << slope;
+    EXPECT_NEAR(runs[0].direction.y() / runs[0].direction.x(), slope, 0.004) << slope;
     EXPECT_NEAR(runs[0].at.y() - slope * runs[0].at.x(), 10.3, 0.15) << slope;
   }
 }
@@ -50,7 +50,7 @@ TEST(BorderRuns, Rectangle_HasFourRuns) {
   const auto runs = straight_runs(borders[0], 0.75);
   ASSERT_EQ(runs.size(), 4U);
   for (const auto& run : runs) {
-    EXPECT_NEAR(std::abs(run.way.x()) + std::abs(run.way.y()), 1, 1e-9);
+    EXPECT_NEAR(std::abs(run.direction.x()) + std::abs(run.direction.y()), 1, 1e-9);
   }
 }
 
@@ -72,7 +72,7 @@ TEST(BorderRuns, StepOfThreeCells_IsOne) {
   auto borders = trace_borders(grid);
   const auto runs = straight_runs(borders[0], 0.75);
   ASSERT_EQ(runs.size(), 3U);
-  EXPECT_NEAR(std::abs(runs[1].way.y()), 1, 1e-9);
+  EXPECT_NEAR(std::abs(runs[1].direction.y()), 1, 1e-9);
   EXPECT_NEAR(runs[1].at.x(), 20, 1e-9);
 }
 
@@ -80,7 +80,7 @@ TEST(BorderRuns, BothFacesOfAWallOfOneCell_AreTwoRuns) {
   auto borders = trace_borders(sketch({"............", "..#########.", "............"}));
   const auto runs = straight_runs(borders[0], 0.75);
   ASSERT_EQ(runs.size(), 2U);
-  EXPECT_LT(runs[0].way.dot(runs[1].way), -0.99);
+  EXPECT_LT(runs[0].direction.dot(runs[1].direction), -0.99);
 }
 
 }  // namespace

@@ -116,10 +116,10 @@ DrawnMap draw_map(const core::WallMap& map, double resolution_m, double yaw_rad)
     drawn.grid.set(column, row, map.is_solid(middle) ? Cell::kOccupied : Cell::kFree);
   });
   for (const core::Wall& wall : map.plan().walls) {
-    const Vec2 way = wall.to - wall.from;
-    const double steps = std::ceil(way.norm() / resolution_m * 10);
+    const Vec2 direction = wall.to - wall.from;
+    const double steps = std::ceil(direction.norm() / resolution_m * 10);
     for (double i = 0; i <= steps; ++i) {
-      const auto cell = cell_of(drawn, wall.from + i / steps * way);
+      const auto cell = cell_of(drawn, wall.from + i / steps * direction);
       drawn.grid.set(cell[0], cell[1], Cell::kOccupied);
     }
   }

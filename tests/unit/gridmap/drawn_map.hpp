@@ -45,7 +45,7 @@ struct ImportScore {
   std::vector<double> corner_errors_m;  ///< ascending, of those found
   std::size_t invented_corners = 0;
   double faces_m = 0;     ///< of the building's surfaces before free cells, longer than a few cells
-  double missed_m = 0;    ///< of that: no imported surface within 1.5 cells that looks the same way
+  double missed_m = 0;    ///< of that: no imported surface within 1.5 cells that looks the same direction
   double invented_m = 0;  ///< of imported surfaces before free cells
 
   double median_m() const {

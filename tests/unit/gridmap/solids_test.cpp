@@ -19,7 +19,7 @@ TEST(Uncovered, IsWhatIsLeft) {
 }
 
 TEST(Covered, WallBeforeAFace_CoversNothingOfIt) {
-  const GridFace face{.from = {0, 0}, .to = {10, 0}, .way = {1, 0}};
+  const GridFace face{.from = {0, 0}, .to = {10, 0}, .direction = {1, 0}};
   const core::WallBox behind(core::Wall{{2, -1}, {6, -1}, 2});
   const core::WallBox before(core::Wall{{4, 1.5}, {4, 8}, 3});
   const Stretch part = covered(face, behind, 0.5);

@@ -20,7 +20,7 @@ namespace cornerd::replay {
 namespace {
 
 /// Longer than any answer takes; reached only if the test fails.
-constexpr int kPatienceMs = 20'000;
+constexpr int kTimeoutMs = 20'000;
 
 /// A program with the port open.
 class Client {
@@ -41,7 +41,7 @@ class Client {
     std::string received;
     pollfd readable{port_, POLLIN, 0};
     while (received.find(hex) == std::string::npos) {
-      if (::poll(&readable, 1, kPatienceMs) <= 0) return false;
+      if (::poll(&readable, 1, kTimeoutMs) <= 0) return false;
       std::uint8_t buffer[256];
       const ssize_t count = ::read(port_, buffer, sizeof buffer);
       if (count <= 0) return false;
