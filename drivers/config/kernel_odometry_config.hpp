@@ -10,9 +10,9 @@
 namespace cornerd::drivers {
 
 struct EncoderConfig {
-  std::string counter;    ///< its name: "48300180.counter"
-  int count = 0;          ///< which of its counts
-  bool reversed = false;  ///< it counts down when the robot rolls forward
+  std::string counter;    ///< the device's name, e.g. "48300180.counter"
+  int count = 0;          ///< index of the count within the device
+  bool reversed = false;  ///< counts down when the robot rolls forward
 };
 
 struct GyroConfig {
@@ -27,7 +27,7 @@ struct KernelOdometryConfig {
   EncoderConfig right;
   GyroConfig gyro;
   double rate_hz = 50;
-  core::DriveGeometry geometry{};  ///< to tell a frozen sensor from a robot that stands still
+  core::DriveGeometry geometry{};  ///< for StuckDetector
 };
 
 }  // namespace cornerd::drivers

@@ -7,10 +7,10 @@
 namespace cornerd::rplidar {
 
 enum class MotorKind : std::uint8_t {
-  kDtr,   ///< the DTR line, as the A1's USB adapter wires it
+  kDtr,   ///< the DTR line, of the A1's USB adapter
   kGpio,  ///< MOTOCTL on a GPIO line
   kPwm,   ///< MOTOCTL on a PWM channel
-  kNone,  ///< the motor has a supply of its own
+  kNone,  ///< not controlled by the daemon
 };
 
 struct MotorConfig {

@@ -9,11 +9,11 @@
 
 namespace cornerd::rplidar {
 
-/// What turns the head. Does not throw.
+/// Switches the motor of the head. Does not throw.
 class Motor {
  public:
   virtual ~Motor() = default;
-  /// Both false where it could not be done; error() then says why.
+  /// Both return false on failure, and set error().
   virtual bool start(drivers::ByteStream& port) = 0;
   virtual bool stop(drivers::ByteStream& port) = 0;
   /// Reason of the last failure, one line.

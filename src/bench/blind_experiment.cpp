@@ -7,13 +7,12 @@
 #include <utility>
 
 #include "bench/experiment_robot.hpp"
-#include "bench/localization/pose_error.hpp"
 #include "bench/odometry_experiment.hpp"
 #include "core/pipeline.hpp"
-#include "replay/simulator/coverable_scene.hpp"
+#include "replay/pose_error.hpp"
 #include "replay/simulator/motion.hpp"
 #include "replay/simulator/random.hpp"
-#include "replay/simulator/scenarios.hpp"
+#include "replay/simulator/scene.hpp"
 #include "replay/simulator/simulated_odometry.hpp"
 #include "replay/simulator/simulator.hpp"
 
@@ -40,15 +39,15 @@ class BlindScore {
  private:
   static void add_to(PoseHonesty& honesty, const core::PoseEstimate& pose,
                      const core::Pose2& truth) {
-    const PoseError error = error_of(pose.T_map_base, truth);
-    const double nees =
-        normalised_error_squared(pose, truth).value_or(std::numeric_limits<double>::infinity());
+    const replay::PoseError error = replay::error_of(pose.T_map_base, truth);
+    const double nees = replay::normalised_error_squared(pose, truth)
+                            .value_or(std::numeric_limits<double>::infinity());
     ++honesty.poses;
     honesty.mean_m += error.place_m;
     honesty.worst_m = std::max(honesty.worst_m, error.place_m);
     honesty.worst_rad = std::max(honesty.worst_rad, error.heading_rad);
     honesty.mean_nees += nees;
-    honesty.share_within += nees < kNees95 ? 1 : 0;
+    honesty.share_within += nees < replay::kNees95 ? 1 : 0;
   }
   static void make_means(PoseHonesty& honesty) {
     const auto poses = static_cast<double>(std::max<std::size_t>(honesty.poses, 1));
@@ -98,7 +97,7 @@ void drive_blind(std::shared_ptr<const core::WallMap> map, const BlindCase& blin
 
   core::LocalizerConfig config;
   config.odometry.enabled = true;
-  config.odometry.publish = true;
+  config.odometry.publish_predictions = true;
   config.odometry.geometry = robot.geometry;
   core::Pipeline pipeline(std::move(map), config);
   for (core::TimeNs now_ns = 0; core::to_seconds(now_ns) < blind.duration_s;) {

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <ctime>
+#include <optional>
 
 #include "core/types.hpp"
 
@@ -17,5 +18,16 @@ inline std::int64_t clock_ns(clockid_t clock) {
 
 inline std::int64_t monotonic_ns() { return clock_ns(CLOCK_MONOTONIC); }
 inline core::TimeNs unix_ns() { return clock_ns(CLOCK_REALTIME); }
+
+/// Detects steps of UNIX time. Boards without a battery-backed clock start with a wrong time.
+class ClockStepDetector {
+ public:
+  /// The change of UNIX time relative to the monotonic clock since the last call; nullopt if it is
+  /// small enough for the slewing of a time daemon.
+  std::optional<std::int64_t> step_ns(std::int64_t unix_ns, std::int64_t monotonic_ns);
+
+ private:
+  std::optional<std::int64_t> offset_ns_;
+};
 
 }  // namespace cornerd::daemon

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -10,23 +11,23 @@
 
 namespace cornerd::daemon {
 
-/// Calls whoever waits for a descriptor: epoll, level-triggered. One thread.
+/// Dispatches events of file descriptors: epoll, level-triggered, one thread.
 class EventLoop {
  public:
-  /// `events`: those of epoll(7). A handler may add and remove any descriptor, its own too.
+  /// `events`: see epoll_ctl(2). A handler may add and remove any descriptor, including its own.
   using Handler = std::function<void(std::uint32_t events)>;
 
-  /// Throws std::system_error, as does add().
+  /// Throws std::system_error, like add().
   EventLoop();
 
-  /// The descriptor stays its owner's, who removes it before closing it.
+  /// Does not take ownership of `fd`. Call remove() before closing it.
   void add(int fd, std::uint32_t events, Handler handler);
   void change(int fd, std::uint32_t events);
   void remove(int fd);
 
-  /// One round: waits for events at most `timeout_ms` (-1: for ever), and handles them.
+  /// Waits at most `timeout_ms` for events (-1: no limit) and handles them.
   void run_once(int timeout_ms);
-  /// Rounds until stop().
+  /// Handles events until stop().
   void run();
   void stop() { running_ = false; }
 
@@ -40,6 +41,41 @@ class EventLoop {
   std::unordered_map<int, Registration> registrations_;
   std::uint32_t newest_ = 0;
   bool running_ = false;
+};
+
+/// A file descriptor that becomes readable once per period.
+class PeriodicTimer {
+ public:
+  /// Throws std::system_error.
+  explicit PeriodicTimer(std::chrono::nanoseconds period);
+
+  int fd() const { return fd_.get(); }
+  /// Makes the descriptor unreadable until the next period. Returns the delay of this call.
+  std::chrono::nanoseconds acknowledge();
+
+ private:
+  std::chrono::nanoseconds period_;
+  FileDescriptor fd_;
+  std::chrono::nanoseconds due_;  ///< on the monotonic clock
+};
+
+/// Blocks SIGHUP until a Signals takes it, so that an early reload request does not end the
+/// program.
+void block_reloads();
+
+/// SIGTERM, SIGINT and SIGHUP as a file descriptor. Construct it before any thread: threads inherit
+/// the signal mask.
+class Signals {
+ public:
+  /// Throws std::system_error.
+  Signals();
+
+  int fd() const { return fd_.get(); }
+  /// The number of the next pending signal; 0 if there is none.
+  int take() const;
+
+ private:
+  FileDescriptor fd_;
 };
 
 }  // namespace cornerd::daemon

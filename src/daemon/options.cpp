@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "settings/document.hpp"
+#include "settings/override.hpp"
 
 namespace cornerd::daemon {
 namespace {

@@ -48,8 +48,8 @@ class Reloader {
 
   Load load_;
   FileDescriptor done_;
-  bool loads_ = false;
-  bool once_more_ = false;
+  bool is_loading_ = false;
+  bool reload_pending_ = false;
   Outcome outcome_;  ///< the thread's, until done_ says otherwise
   std::jthread thread_;
 };

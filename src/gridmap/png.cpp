@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include "gridmap/png.hpp"
-
 #include <algorithm>
 #include <cstring>
 
-#include "gridmap/grid_error.hpp"
+#include "gridmap/image.hpp"
 
 #ifdef CORNERD_HAS_PNG
 #include <png.h>

@@ -4,7 +4,7 @@
 #include <set>
 
 #include "settings/config_table.hpp"
-#include "settings/document.hpp"
+#include "settings/override.hpp"
 
 namespace cornerd::settings {
 namespace {
@@ -138,7 +138,7 @@ core::LocalizerConfig Config::localizer() const {
   config.updates_per_scan = updates_per_scan;
   config.noise = lidar.noise.sensor;
   config.bias = lidar.bias;
-  config.learn_bias = lidar.calibrate_online;
+  config.calibrate_online = lidar.calibrate_online;
   config.odometry = odometry.core;
   return config;
 }

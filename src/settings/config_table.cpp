@@ -114,7 +114,7 @@ void add_advanced_odometry_keys(std::vector<Key>& table, OdometryConfig& odometr
        Applies::kOnReload, "/odometry/ceiling"});
   add({"/advanced/odometry/max_speed", number(odometry.core.limits.wheel_speed_m_s, 0.01, 100),
        "Of a wheel, m/s. Faster counts are rejected as invalid."});
-  add({"/advanced/odometry/max_extrapolation", number(odometry.core.bridge_s, 0, 3600),
+  add({"/advanced/odometry/max_extrapolation", number(odometry.core.max_extrapolation_s, 0, 3600),
        "How long a pose is dead reckoned without the lidar (POSE.state \"predicted\"), seconds.",
        Applies::kOnReload, "/odometry/bridge"});
   add({"/advanced/odometry/publish_predictions", boolean(odometry.core.publish),
@@ -138,7 +138,7 @@ void add_advanced_odometry_keys(std::vector<Key>& table, OdometryConfig& odometr
        "Initial calibration of the filter, which estimates all of it. `cornerctl calibrate "
        "odometry "
        "-o` writes it."});
-  core::LearnedOdometry& initial = odometry.core.start;
+  core::OdometryParameters& initial = odometry.core.start;
   const auto scale = [](double& member) { return number(member, -0.5, 0.5); };
   const auto add_initial = [&add](const std::string& name, Value value, const char* text) {
     add({"/advanced/odometry/initial/" + name, std::move(value), text, Applies::kOnReload,

@@ -16,7 +16,7 @@ namespace cornerd::settings {
 struct LidarCalibration {
   std::string serial;           ///< of the device; empty where it has none
   core::SensorBias configured;  ///< /advanced/lidar/bias at the time of the estimate
-  core::LearnedBias learned;
+  core::EstimatedBias learned;
 };
 
 inline constexpr std::size_t kMaxLidarCalibrationBytes = 4096;

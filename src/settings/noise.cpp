@@ -10,7 +10,7 @@ namespace cornerd::settings {
 namespace {
 
 constexpr std::size_t kMaxNoiseBytes = 1 << 20;
-constexpr double kMaxCoefficient = 1e6;
+constexpr double kMostCoefficient = 1e6;
 
 core::SigmaTable::Point read_sigma(ObjectReader point) {
   core::SigmaTable::Point read;
@@ -54,10 +54,10 @@ void read_coefficients(ObjectReader& piece, calibration::WallPiece& read) {
                      " numbers, one for each power of the distance");
     }
     for (std::size_t j = 0; j < row.size(); ++j) {
-      if (!row[j].is_number() || !(std::abs(row[j].get<double>()) <= kMaxCoefficient)) {
+      if (!row[j].is_number() || !(std::abs(row[j].get<double>()) <= kMostCoefficient)) {
         piece.fail(key, i,
-                   "must hold numbers from -" + to_text(kMaxCoefficient) + " to " +
-                       to_text(kMaxCoefficient));
+                   "must hold numbers from -" + to_text(kMostCoefficient) + " to " +
+                       to_text(kMostCoefficient));
       }
       target[j] = row[j].get<double>();
     }
@@ -80,8 +80,8 @@ void read_wall_model(ObjectReader& noise, std::string_view key, calibration::Wal
   const Json* array = noise.find(key);
   if (array == nullptr) return;
   if (!array->is_array()) noise.fail(key, "must be a list of { \"from\", \"to\", ... }");
-  if (array->size() > calibration::kMostWallPieces) {
-    noise.fail(key, "has more than " + std::to_string(calibration::kMostWallPieces) + " entries");
+  if (array->size() > calibration::kMaxWallPieces) {
+    noise.fail(key, "has more than " + std::to_string(calibration::kMaxWallPieces) + " entries");
   }
   std::vector<calibration::WallPiece> pieces;
   for (std::size_t i = 0; i < array->size(); ++i) {
@@ -105,7 +105,7 @@ Value wall_model(calibration::WallModel& model) {
   return {
       [&model](ObjectReader& noise, std::string_view key) { read_wall_model(noise, key, model); },
       [] { return nlohmann::ordered_json::array(); },
-      "at most " + std::to_string(calibration::kMostWallPieces) + " entries"};
+      "at most " + std::to_string(calibration::kMaxWallPieces) + " entries"};
 }
 
 NoiseConfig load_noise(const std::filesystem::path& file) {

@@ -22,8 +22,8 @@ class PaperRecognition {
   PaperRecognition(const WallMap& map, const Catalog& catalog);
 
   /// The places that stages 2 and 3 like best, several where they are level.
-  std::span<const Hypothesis> places(std::span<const Breakpoint> breakpoints,
-                                     std::span<const WallSegment> segments);
+  std::span<const PoseHypothesis> places(std::span<const Breakpoint> breakpoints,
+                                         std::span<const WallSegment> segments);
 
  private:
   using Triple = std::array<const Breakpoint*, 3>;

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "daemon/peer.hpp"
-
 #include <gtest/gtest.h>
 #include <sys/socket.h>
 #include <unistd.h>
@@ -8,6 +6,7 @@
 #include <array>
 
 #include "daemon/require_fd.hpp"
+#include "daemon/unix_listener.hpp"
 
 namespace cornerd::daemon {
 namespace {

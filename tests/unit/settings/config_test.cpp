@@ -76,12 +76,12 @@ TEST(Config, Keys_SetTheirMembers) {
   EXPECT_EQ(localizer.T_base_lidar.y_m, -0.2);
   EXPECT_NEAR(localizer.T_base_lidar.theta_rad, 4 - core::kTwoPi, 1e-12);
   EXPECT_EQ(localizer.bias.range_offset_m, 0.01);
-  EXPECT_FALSE(localizer.learn_bias);
+  EXPECT_FALSE(localizer.calibrate_online);
   EXPECT_EQ(localizer.updates_per_scan, 4U);
   EXPECT_EQ(localizer.detector.sigma_offset, 0.05);
   EXPECT_EQ(localizer.detector.corner_tolerance_m, 0.3);
   EXPECT_EQ(localizer.detector.altbd.seed_samples, 4U);
-  EXPECT_EQ(localizer.detector.extraction.look_beyond, 5U);
+  EXPECT_EQ(localizer.detector.extraction.samples_beyond, 5U);
   const core::OdometryConfig& odometry = localizer.odometry;
   EXPECT_TRUE(odometry.enabled);
   EXPECT_EQ(odometry.geometry.wheel_radius_m, 0.03);
@@ -92,7 +92,7 @@ TEST(Config, Keys_SetTheirMembers) {
   EXPECT_EQ(odometry.noise.gyro_bias_rad_s, 0.1);
   EXPECT_EQ(odometry.start.left_scale, 0.02);
   EXPECT_EQ(odometry.start.delay_s, -0.1);
-  EXPECT_EQ(odometry.bridge_s, 3);
+  EXPECT_EQ(odometry.max_extrapolation_s, 3);
   EXPECT_TRUE(odometry.publish);
 }
 
@@ -133,7 +133,7 @@ TEST(Config, KernelOdometry_NamesItsDevicesAndReadsTheirMaxima) {
   EXPECT_EQ(kernel.rate_hz, 100);
   EXPECT_EQ(kernel.sysfs, "/t");
   EXPECT_TRUE(config.localizer().odometry.enabled);
-  EXPECT_EQ(config.localizer().odometry.geometry.ceiling, 0);
+  EXPECT_EQ(config.localizer().odometry.geometry.counter_max, 0);
 }
 
 TEST(Config, MotorOnALineOfTheBoard_IsAnObject) {

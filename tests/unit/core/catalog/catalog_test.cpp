@@ -11,7 +11,7 @@
 namespace cornerd::core {
 namespace {
 
-TEST(Catalog, Pairs_AreThoseThatSeeEachOther) {
+TEST(Catalog, Pairs_AreMutuallyVisible) {
   const WallMap map(testing::two_equal_rooms());
   const Catalog catalog(map, 12);
   EXPECT_GT(catalog.pairs().size(), 0U);
@@ -34,7 +34,7 @@ TEST(Catalog, Pairs_AreThoseThatSeeEachOther) {
   EXPECT_EQ(listed, 2 * catalog.pairs().size());
 }
 
-TEST(Catalog, Neighbours_AreAllThatARayReaches) {
+TEST(Catalog, Neighbours_MatchRayCasting) {
   testing::ScanSource source(32);
   FloorPlan plan;
   for (int i = 0; i < 60; ++i) {
@@ -42,8 +42,8 @@ TEST(Catalog, Neighbours_AreAllThatARayReaches) {
     plan.walls.push_back({place.translation(), place * Vec2(0.4, 0), 0.1});
   }
   const WallMap map(plan);
-  const double reach_m = 2.5;
-  const Catalog catalog(map, reach_m);
+  const double max_distance_m = 2.5;
+  const Catalog catalog(map, max_distance_m);
   const auto free_place = [](const Corner& corner) {
     return Vec2(corner.position + 1e-3 * unit_vector(corner.bisector_rad()));
   };
@@ -54,21 +54,21 @@ TEST(Catalog, Neighbours_AreAllThatARayReaches) {
       const Vec2 way = free_place(catalog.landmarks()[j]) - from;
       const double distance_m =
           (catalog.landmarks()[j].position - catalog.landmarks()[i].position).norm();
-      if (i == j || std::abs(distance_m - reach_m) < 0.01) continue;
-      const bool sees = distance_m < reach_m &&
+      if (i == j || std::abs(distance_m - max_distance_m) < 0.01) continue;
+      const bool sees = distance_m < max_distance_m &&
                         map.range_along(from, std::atan2(way.y(), way.x()), way.norm()) == 0;
       const bool listed = std::any_of(neighbours.begin(), neighbours.end(),
                                       [&](const LandmarkPair& pair) { return pair.to == j; });
       if (sees) {
         EXPECT_TRUE(listed) << i << " and " << j;
-      } else if (distance_m > reach_m) {
+      } else if (distance_m > max_distance_m) {
         EXPECT_FALSE(listed) << i << " and " << j;
       }
     }
   }
 }
 
-TEST(Catalog, HallOfColumns_KeepsTheNearestOfManyNeighbours) {
+TEST(Catalog, HallOfColumns_KeepsNearestNeighbours) {
   FloorPlan plan;
   for (int i = 0; i < 12; ++i) {
     for (int j = 0; j < 12; ++j) plan.walls.push_back({{i, j}, {i, j}, 0.02});
@@ -82,7 +82,7 @@ TEST(Catalog, HallOfColumns_KeepsTheNearestOfManyNeighbours) {
   }
 }
 
-TEST(Catalog, VisitNear_MissesNoLandmarkWithinItsRadius) {
+TEST(Catalog, VisitNear_VisitsAllWithinRadius) {
   const WallMap map(testing::l_shaped_room());
   const Catalog catalog(map, 12);
   testing::ScanSource source(31);

@@ -41,7 +41,7 @@ double error_after_m(int places, Localizer& localizer, const WallMap& map) {
       options.start_ns += from_seconds(0.137);
       const Scan scan = biased(source.take(map, T_map_lidar, options), kBias);
       const PoseEstimate& pose = localizer.step(scan).pose;
-      const bool named = names_a_place(pose.state);
+      const bool named = has_pose(pose.state);
       if (!named || place < places - 5) continue;
       error_m += (pose.T_map_base.translation() - T_map_lidar.translation()).norm();
       ++fixes;
@@ -51,7 +51,7 @@ double error_after_m(int places, Localizer& localizer, const WallMap& map) {
   return error_m / fixes;
 }
 
-TEST(BiasEstimator, TurnsAtKnownPlaces_ShowTheBias) {
+TEST(BiasEstimator, ScansAtKnownPoses_BiasIsEstimated) {
   const auto map = testing::make_map(testing::l_shaped_room());
   BiasEstimator estimator(12, {}, {});
   testing::ScanSource source(62);
@@ -59,7 +59,7 @@ TEST(BiasEstimator, TurnsAtKnownPlaces_ShowTheBias) {
   for (int k = 0; k < 60; ++k) {
     const Pose2 T_map_lidar = source.place_in(0.4, 2.2, 0.4, 1.4);
     points.assign(biased(source.take(*map, T_map_lidar), kBias), 0.1, 12, 0, {}, estimator.bias());
-    estimator.learn(*map, T_map_lidar, points.points(), 1);
+    estimator.update(*map, T_map_lidar, points.points(), 1);
   }
   EXPECT_EQ(estimator.scans(), 60U);
   EXPECT_NEAR(estimator.bias().range_scale, kBias.range_scale, 0.0015);
@@ -68,7 +68,7 @@ TEST(BiasEstimator, TurnsAtKnownPlaces_ShowTheBias) {
   EXPECT_NEAR(estimator.bias().bearing_cosine_rad, kBias.bearing_cosine_rad, radians(0.03));
 }
 
-TEST(BiasEstimator, SensorWithoutBias_IsLeftAsItIs) {
+TEST(BiasEstimator, UnbiasedSensor_EstimateStaysZero) {
   const auto map = testing::make_map(testing::l_shaped_room());
   BiasEstimator estimator(12, {}, {});
   testing::ScanSource source(63);
@@ -76,7 +76,7 @@ TEST(BiasEstimator, SensorWithoutBias_IsLeftAsItIs) {
   for (int k = 0; k < 60; ++k) {
     const Pose2 T_map_lidar = source.place_in(0.4, 2.2, 0.4, 1.4);
     points.assign(source.take(*map, T_map_lidar), 0.1, 12, 0, {}, estimator.bias());
-    estimator.learn(*map, T_map_lidar, points.points(), 1);
+    estimator.update(*map, T_map_lidar, points.points(), 1);
   }
   EXPECT_NEAR(estimator.bias().range_scale, 0, 0.001);
   EXPECT_NEAR(estimator.bias().range_offset_m, 0, 0.001);
@@ -84,7 +84,7 @@ TEST(BiasEstimator, SensorWithoutBias_IsLeftAsItIs) {
   EXPECT_NEAR(estimator.bias().bearing_cosine_rad, 0, radians(0.03));
 }
 
-TEST(BiasEstimator, RobotThatMovesWithinItsTurns_IsNoBias) {
+TEST(BiasEstimator, MotionWithinScans_IsNotTakenForBias) {
   const auto map = testing::make_map(testing::l_shaped_room());
   BiasEstimator estimator(12, {}, {});
   testing::ScanSource source(65);
@@ -96,7 +96,7 @@ TEST(BiasEstimator, RobotThatMovesWithinItsTurns_IsNoBias) {
     const Scan scan = source.take(*map, T_map_lidar, starts);
     const TimeNs middle_ns = scan.start_ns() + (scan.end_ns() - scan.start_ns()) / 2;
     points.assign(scan, 0.1, 12, middle_ns, {}, estimator.bias());
-    estimator.learn(*map, T_map_lidar, points.points(), 1);
+    estimator.update(*map, T_map_lidar, points.points(), 1);
   }
   EXPECT_NEAR(estimator.bias().range_scale, 0, 0.001);
   EXPECT_NEAR(estimator.bias().range_offset_m, 0, 0.001);
@@ -104,9 +104,9 @@ TEST(BiasEstimator, RobotThatMovesWithinItsTurns_IsNoBias) {
   EXPECT_NEAR(estimator.bias().bearing_cosine_rad, 0, radians(0.03));
 }
 
-TEST(BiasEstimator, ThatResumes_KnowsWhatWasLearntAndLearnsOn) {
+TEST(BiasEstimator, Resumed_ContinuesFromStoredEstimate) {
   const auto map = testing::make_map(testing::l_shaped_room());
-  const LearnedBias learned{
+  const EstimatedBias learned{
       .bias = kBias, .sigma = {0.001, 0.001, radians(0.02), radians(0.02)}, .scans = 400};
   BiasEstimator estimator(12, {}, {});
   estimator.resume(learned);
@@ -118,7 +118,7 @@ TEST(BiasEstimator, ThatResumes_KnowsWhatWasLearntAndLearnsOn) {
   for (int k = 0; k < 60; ++k) {
     const Pose2 T_map_lidar = source.place_in(0.4, 2.2, 0.4, 1.4);
     points.assign(biased(source.take(*map, T_map_lidar), kBias), 0.1, 12, 0, {}, estimator.bias());
-    estimator.learn(*map, T_map_lidar, points.points(), 1);
+    estimator.update(*map, T_map_lidar, points.points(), 1);
     EXPECT_NEAR(estimator.bias().range_scale, kBias.range_scale, 0.0015);
     EXPECT_NEAR(estimator.bias().range_offset_m, kBias.range_offset_m, 0.0015);
   }
@@ -129,7 +129,7 @@ TEST(BiasEstimator, ThatResumes_KnowsWhatWasLearntAndLearnsOn) {
   EXPECT_EQ(estimator.scans(), 0U);
 }
 
-TEST(BiasEstimator, ThatDoesNotForget_TakesAllTurnsAlike) {
+TEST(BiasEstimator, NoForgetting_AllScansCountEqually) {
   const auto map = testing::make_map(testing::l_shaped_room());
   BiasEstimator estimator(12, {}, {}, 0);
   testing::ScanSource source(68);
@@ -138,12 +138,12 @@ TEST(BiasEstimator, ThatDoesNotForget_TakesAllTurnsAlike) {
     const Pose2 T_map_lidar = source.place_in(0.4, 2.2, 0.4, 1.4);
     const SensorBias now{.range_scale = 0, .range_offset_m = k < 400 ? 0.004 : 0};
     points.assign(biased(source.take(*map, T_map_lidar), now), 0.1, 12, 0, {}, estimator.bias());
-    estimator.learn(*map, T_map_lidar, points.points(), 1);
+    estimator.update(*map, T_map_lidar, points.points(), 1);
   }
   EXPECT_NEAR(estimator.bias().range_offset_m, 0.002, 0.0004);
 }
 
-TEST(BiasEstimator, FartherOffThanALidarMayBe_SaysSo) {
+TEST(BiasEstimator, BiasBeyondLimit_IsReported) {
   const auto map = testing::make_map(testing::l_shaped_room());
   const SensorBias known{.range_offset_m = 0.03};
   BiasEstimator estimator(12, {}, known);
@@ -157,7 +157,7 @@ TEST(BiasEstimator, FartherOffThanALidarMayBe_SaysSo) {
   EXPECT_EQ(estimator.bias().range_scale, 0.03);
 }
 
-TEST(BiasEstimator, TurnsThatTeach_LeaveLessDoubt) {
+TEST(BiasEstimator, MoreScans_SigmaDecreases) {
   const auto map = testing::make_map(testing::l_shaped_room());
   BiasEstimator estimator(12, {}, {});
   testing::ScanSource source(67);
@@ -166,45 +166,45 @@ TEST(BiasEstimator, TurnsThatTeach_LeaveLessDoubt) {
   for (int k = 0; k < 20; ++k) {
     const Pose2 T_map_lidar = source.place_in(0.4, 2.2, 0.4, 1.4);
     points.assign(source.take(*map, T_map_lidar), 0.1, 12, 0, {}, estimator.bias());
-    estimator.learn(*map, T_map_lidar, points.points(), 1);
+    estimator.update(*map, T_map_lidar, points.points(), 1);
     EXPECT_LT(estimator.learned().sigma.range_scale, before);
     before = estimator.learned().sigma.range_scale;
   }
 }
 
-TEST(BiasEstimator, TurnOfFewPoints_TeachesNothing) {
+TEST(BiasEstimator, FewPoints_EstimateIsUnchanged) {
   const auto map = testing::make_map(testing::l_shaped_room());
   BiasEstimator estimator(12, {}, {});
   testing::ScanSource source(64);
   testing::ScanOptions sparse;
   sparse.samples = 30;
-  estimator.learn(*map, {1, 1, 0}, testing::polar(source.take(*map, {1, 1, 0}, sparse)).points(),
-                  1);
+  estimator.update(*map, {1, 1, 0}, testing::polar(source.take(*map, {1, 1, 0}, sparse)).points(),
+                   1);
   EXPECT_EQ(estimator.scans(), 0U);
   EXPECT_TRUE(estimator.bias().is_none());
 }
 
-TEST(Localizer, BiasedLidar_IsLearntWhileItRuns) {
+TEST(Localizer, BiasedLidar_BiasIsEstimatedOnline) {
   const auto map = testing::make_map(testing::l_shaped_room());
   Localizer learning(map, {});
   LocalizerConfig config;
-  config.learn_bias = false;
+  config.calibrate_online = false;
   Localizer trusting(map, config);
   const double with_m = error_after_m(14, learning, *map);
   const double without_m = error_after_m(14, trusting, *map);
   EXPECT_LT(with_m, 0.0025);
   EXPECT_GT(without_m, 0.004);
-  EXPECT_NEAR(learning.learned_bias().bias.range_scale, kBias.range_scale, 0.004);
-  EXPECT_TRUE(trusting.learned_bias().bias.is_none());
+  EXPECT_NEAR(learning.estimated_bias().bias.range_scale, kBias.range_scale, 0.004);
+  EXPECT_TRUE(trusting.estimated_bias().bias.is_none());
   learning.forget();
-  EXPECT_TRUE(learning.learned_bias().bias.is_none());
+  EXPECT_TRUE(learning.estimated_bias().bias.is_none());
 }
 
-TEST(Localizer, BiasThatIsKnown_IsTakenOffFromTheFirstTurn) {
+TEST(Localizer, ConfiguredBias_IsRemovedFromFirstScan) {
   const auto map = testing::make_map(testing::l_shaped_room());
   LocalizerConfig config;
   config.bias = kBias;
-  config.learn_bias = false;
+  config.calibrate_online = false;
   Localizer localizer(map, config);
   EXPECT_LT(error_after_m(5, localizer, *map), 0.001);
 }

@@ -9,7 +9,7 @@ namespace {
 constexpr double kTurn_rad = 0.2;
 
 /// A fix that is where it was foretold.
-void explain(FixWatch& watch, double way_m, double rotation_rad) {
+void beam_likelihood(FixWatch& watch, double way_m, double rotation_rad) {
   const FixWatch::Way way{Vec2(way_m, 0), rotation_rad};
   watch.add_explained(way, way);
 }
@@ -19,43 +19,43 @@ FixWatch doubting() {
   for (int k = 0; k < 3; ++k) {
     EXPECT_TRUE(watch.is_believed()) << k;
     watch.add_stranger(true);
-    explain(watch, 0.05, 0);
+    beam_likelihood(watch, 0.05, 0);
   }
   return watch;
 }
 
-TEST(FixWatch, StrangersBetweenStraights_AreNotForgottenOnThem) {
+TEST(FixWatch, RejectedFixesBetweenStraights_StayCounted) {
   FixWatch watch = doubting();
   EXPECT_FALSE(watch.is_believed());
-  for (int k = 0; k < 100; ++k) explain(watch, 0.05, k % 2 == 0 ? 0.01 : -0.01);
+  for (int k = 0; k < 100; ++k) beam_likelihood(watch, 0.05, k % 2 == 0 ? 0.01 : -0.01);
   EXPECT_FALSE(watch.is_believed());
   EXPECT_FALSE(watch.is_contradicted());
 }
 
-TEST(FixWatch, TurnsThatAreForetold_ProveItRight) {
+TEST(FixWatch, PredictedRotations_Validate) {
   FixWatch watch = doubting();
   for (int k = 0; k < 5; ++k) {
     EXPECT_FALSE(watch.is_believed()) << k;
-    explain(watch, 0.05, k % 2 == 0 ? kTurn_rad : -kTurn_rad);
+    beam_likelihood(watch, 0.05, k % 2 == 0 ? kTurn_rad : -kTurn_rad);
   }
   EXPECT_TRUE(watch.is_believed());
 }
 
-TEST(FixWatch, StrangersNowAndThen_AreSlips) {
+TEST(FixWatch, OccasionalRejectedFixes_AreSlips) {
   FixWatch watch;
   for (int k = 0; k < 20; ++k) {
     watch.add_stranger(true);
     EXPECT_TRUE(watch.is_believed()) << k;
-    for (int turns = 0; turns < 3; ++turns) explain(watch, 0.05, kTurn_rad);
+    for (int turns = 0; turns < 3; ++turns) beam_likelihood(watch, 0.05, kTurn_rad);
   }
 }
 
-TEST(FixWatch, StrangersThatAreNotAboutTurning_CountInARow) {
+TEST(FixWatch, RejectedFixesOfTranslation_CountConsecutively) {
   FixWatch watch;
   for (int k = 0; k < 20; ++k) {
     watch.add_stranger(false);
     watch.add_stranger(false);
-    explain(watch, 0.05, 0);
+    beam_likelihood(watch, 0.05, 0);
   }
   EXPECT_TRUE(watch.is_believed());
   for (int k = 0; k < 3; ++k) {
@@ -68,24 +68,24 @@ TEST(FixWatch, StrangersThatAreNotAboutTurning_CountInARow) {
   EXPECT_TRUE(watch.is_believed()) << "it was carried, and is looked for anew";
 }
 
-TEST(FixWatch, TheFirstWayAndTurn_TheLidarHasToHaveSeen) {
+TEST(FixWatch, FirstMotion_NeedsConfirmationByLidar) {
   FixWatch watch;
   EXPECT_TRUE(watch.carries(0.01, 0.01)) << "it stands";
   EXPECT_FALSE(watch.carries(0.1, 0));
-  explain(watch, 0.05, 0);
+  beam_likelihood(watch, 0.05, 0);
   EXPECT_TRUE(watch.carries(0.1, 0.01));
   EXPECT_FALSE(watch.carries(0.1, kTurn_rad));
-  explain(watch, 0.05, kTurn_rad);
+  beam_likelihood(watch, 0.05, kTurn_rad);
   EXPECT_TRUE(watch.carries(10, 10));
 }
 
-TEST(FixWatch, ASlowRobot_ProvesItOverManyFixes) {
+TEST(FixWatch, SlowRobot_IsValidatedOverManyFixes) {
   FixWatch watch;
-  for (int k = 0; k < 8; ++k) explain(watch, 0.003, 0.01);
+  for (int k = 0; k < 8; ++k) beam_likelihood(watch, 0.003, 0.01);
   EXPECT_TRUE(watch.carries(10, 10));
 }
 
-TEST(FixWatch, ASlowRobotWhoseOdometryLies_ProvesNothing) {
+TEST(FixWatch, SlowRobotWrongOdometry_IsNotValidated) {
   FixWatch watch;
   for (int k = 0; k < 100; ++k) {
     watch.add_explained({Vec2(0.003, 0), 0.01}, {Vec2(-0.003, 0), -0.01});
@@ -94,21 +94,21 @@ TEST(FixWatch, ASlowRobotWhoseOdometryLies_ProvesNothing) {
   EXPECT_FALSE(watch.carries(0, kTurn_rad));
 }
 
-TEST(FixWatch, ARobotThatStands_ProvesNothing) {
+TEST(FixWatch, StationaryRobot_IsNotValidated) {
   FixWatch watch;
-  for (int k = 0; k < 1000; ++k) explain(watch, k % 2 == 0 ? 0.002 : -0.002, 0);
+  for (int k = 0; k < 1000; ++k) beam_likelihood(watch, k % 2 == 0 ? 0.002 : -0.002, 0);
   EXPECT_FALSE(watch.carries(0.1, 0));
 }
 
-TEST(FixWatch, AfterAStranger_NothingIsCarriedOnUntilAFixIsExplained) {
+TEST(FixWatch, AfterRejectedFix_NoPredictionUntilAcceptedFix) {
   FixWatch watch;
-  explain(watch, 0.05, kTurn_rad);
+  beam_likelihood(watch, 0.05, kTurn_rad);
   watch.add_stranger(true);
   EXPECT_FALSE(watch.carries(0, 0));
-  explain(watch, 0.05, 0);
+  beam_likelihood(watch, 0.05, 0);
   EXPECT_TRUE(watch.carries(1, 0));
   EXPECT_FALSE(watch.carries(1, kTurn_rad)) << "it was about turning";
-  explain(watch, 0.05, kTurn_rad);
+  beam_likelihood(watch, 0.05, kTurn_rad);
   EXPECT_TRUE(watch.carries(1, kTurn_rad));
 }
 

@@ -16,12 +16,12 @@ using testing::switched_on;
 using testing::usual_errors;
 using Drive = testing::TaughtRobot;
 
-TEST(FusionFilter, ThirtySecondsWithFixes_TeachScalesAndBias) {
+TEST(FusionFilter, ThirtySecondsOfFixes_ScalesAndBiasAreEstimated) {
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     const testing::RobotErrors errors = usual_errors();
     Drive drive(switched_on(), errors, seed);
     drive.drive(30, true);
-    const LearnedOdometry learned = drive.filter().learned();
+    const OdometryParameters learned = drive.filter().learned();
     EXPECT_NEAR(learned.left_scale, errors.left_scale, 0.003) << seed;
     EXPECT_NEAR(learned.right_scale, errors.right_scale, 0.003) << seed;
     EXPECT_NEAR(learned.gyro_scale, errors.gyro_scale, 0.003) << seed;
@@ -30,7 +30,7 @@ TEST(FusionFilter, ThirtySecondsWithFixes_TeachScalesAndBias) {
   }
 }
 
-TEST(FusionFilter, FiveSecondsBlindAfterThirty_StayWithinThreeCentimetres) {
+TEST(FusionFilter, FiveSecondsWithoutFixes_ErrorBelow3cm) {
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     Drive drive(switched_on(), usual_errors(), seed);
     drive.drive(30, true);
@@ -40,7 +40,7 @@ TEST(FusionFilter, FiveSecondsBlindAfterThirty_StayWithinThreeCentimetres) {
   }
 }
 
-TEST(FusionFilter, WhatChangesInADrive_IsLearntAnew) {
+TEST(FusionFilter, ParametersChange_AreEstimatedAgain) {
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
     testing::RobotErrors errors = usual_errors();
     Drive drive(switched_on(), errors, seed);
@@ -50,14 +50,14 @@ TEST(FusionFilter, WhatChangesInADrive_IsLearntAnew) {
     errors.gyro_bias_rad_s -= 0.01;
     drive.robot().change(errors);
     drive.drive(20, true);
-    const LearnedOdometry learned = drive.filter().learned();
+    const OdometryParameters learned = drive.filter().learned();
     EXPECT_NEAR(learned.left_scale, errors.left_scale, 0.005) << seed;
     EXPECT_NEAR(learned.right_scale, errors.right_scale, 0.005) << seed;
     EXPECT_NEAR(learned.gyro_bias_rad_s, errors.gyro_bias_rad_s, 0.001) << seed;
   }
 }
 
-TEST(FusionFilter, WhatStaysAsItIs_IsNotDoubtedAnew) {
+TEST(FusionFilter, ParametersConstant_CovarianceIsNotInflated) {
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     Drive drive(switched_on(), usual_errors(), seed);
     drive.drive(60, true);
@@ -70,7 +70,7 @@ TEST(FusionFilter, WhatStaysAsItIs_IsNotDoubtedAnew) {
   }
 }
 
-TEST(FusionFilter, CoarseCounts_DoNotAddUp) {
+TEST(FusionFilter, CoarseCounts_QuantizationDoesNotAccumulate) {
   // The way from count to count is off by 1.4 mm at each end, however many lie in between.
   const OdometryConfig config = config_with_counts_of_5_mm();
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
@@ -84,7 +84,7 @@ TEST(FusionFilter, CoarseCounts_DoNotAddUp) {
   }
 }
 
-TEST(FusionFilter, WithFixes_IsBetterThanTheFixes) {
+TEST(FusionFilter, WithFixes_ErrorBelowFixNoise) {
   double squares_m2 = 0;
   int count = 0;
   Drive drive(switched_on(), usual_errors(), 3);
@@ -96,14 +96,14 @@ TEST(FusionFilter, WithFixes_IsBetterThanTheFixes) {
   EXPECT_LT(std::sqrt(squares_m2 / count), kFixSigma_m * std::sqrt(2.0));
 }
 
-TEST(FusionFilter, AWheelThatSpinsFree_DoesNotTurnTheRobot) {
+TEST(FusionFilter, WheelSpinsFree_HeadingIsUnchanged) {
   const OdometryConfig config = switched_on();
   Drive drive(config, usual_errors(), 4);
   drive.drive(30, true);
-  const LearnedOdometry before = drive.filter().learned();
+  const OdometryParameters before = drive.filter().learned();
   const Pose2 start = drive.filter().pose();
   const std::uint64_t slips = drive.filter().slips();
-  MotionStep slip;
+  OdometryIncrement slip;
   slip.to_ns = kNsPerSecond / 50;
   slip.right_m = 0.02;
   slip.has_gyro = true;
@@ -117,7 +117,7 @@ TEST(FusionFilter, AWheelThatSpinsFree_DoesNotTurnTheRobot) {
   EXPECT_TRUE(drive.correct());  // half a metre of spinning makes it doubt enough
 }
 
-TEST(FusionFilter, AFixFromElsewhere_IsRefusedAndChangesNothing) {
+TEST(FusionFilter, NisAboveGate_FixIsRejected) {
   Drive drive(switched_on(), usual_errors(), 5);
   drive.drive(10, true);
   const FusionFilter before = drive.filter();
@@ -128,13 +128,13 @@ TEST(FusionFilter, AFixFromElsewhere_IsRefusedAndChangesNothing) {
   EXPECT_EQ(drive.filter().covariance(), before.covariance());
 }
 
-TEST(FusionFilter, AHole_LetsTheDoubtGrowAndTheLearnedStay) {
+TEST(FusionFilter, Gap_CovarianceGrowsAndParametersStay) {
   Drive drive(switched_on(), usual_errors(), 6);
   drive.drive(30, true);
-  const LearnedOdometry before = drive.filter().learned();
-  MotionStep hole;
+  const OdometryParameters before = drive.filter().learned();
+  OdometryIncrement hole;
   hole.to_ns = 2 * kNsPerSecond;
-  hole.is_hole = true;
+  hole.is_gap = true;
   drive.filter().predict(hole);
   EXPECT_GT(drive.filter().pose_covariance()(0, 0), 0.25);
   EXPECT_EQ(drive.filter().learned().left_scale, before.left_scale);

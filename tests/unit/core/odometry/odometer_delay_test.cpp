@@ -99,11 +99,11 @@ OdometryConfig config_of_late_ride() {
   return config;
 }
 
-TEST(OdometerDelay, LateOrEarlyReadings_AreFoundOutAndReckonedWith) {
+TEST(OdometerDelay, DelayedReadings_DelayIsEstimatedAndUsed) {
   for (const double delay_s : {0.0, 0.005, 0.02, -0.03, 0.08, -0.12, 0.17}) {
     LateRide ride(delay_s, config_of_late_ride());
     ride.teach();
-    EXPECT_NEAR(ride.odometer.summary().learned.delay_s, delay_s, 5e-4);
+    EXPECT_NEAR(ride.odometer.summary().parameters.delay_s, delay_s, 5e-4);
     EXPECT_LT(ride.odometer.summary().sigma.delay_s, 4e-4) << delay_s;
     const double nees = ride.blind_nees();
     EXPECT_LT(nees, 5) << delay_s;
@@ -111,18 +111,18 @@ TEST(OdometerDelay, LateOrEarlyReadings_AreFoundOutAndReckonedWith) {
   }
 }
 
-TEST(OdometerDelay, ADelayThatJumps_IsFollowed) {
+TEST(OdometerDelay, DelayJumps_IsTracked) {
   for (const double jump_s : {-0.1, 0.05, 0.12}) {
     LateRide ride(0.01, config_of_late_ride());
     ride.teach();
     ride.delay_by(jump_s);
     ride.teach();
-    EXPECT_NEAR(ride.odometer.summary().learned.delay_s, jump_s, 1e-3);
+    EXPECT_NEAR(ride.odometer.summary().parameters.delay_s, jump_s, 1e-3);
     EXPECT_LT(ride.blind_nees(), 5) << jump_s;
   }
 }
 
-TEST(OdometerDelay, ARobotThatStands_LearnsNone) {
+TEST(OdometerDelay, StationaryRobot_DelayIsNotEstimated) {
   const OdometryConfig config = config_of_late_ride();
   Odometer odometer(config);
   testing::RobotErrors errors;
@@ -137,11 +137,11 @@ TEST(OdometerDelay, ARobotThatStands_LearnsNone) {
     odometer.correct({kSigma * robot.normal(), kSigma * robot.normal(), kSigma * robot.normal()},
                      Covariance3::Identity() * kSigma * kSigma);
   }
-  EXPECT_EQ(odometer.summary().learned.delay_s, 0);
+  EXPECT_EQ(odometer.summary().parameters.delay_s, 0);
   EXPECT_GE(odometer.summary().sigma.delay_s, config.noise.delay_s);
 }
 
-TEST(OdometerDelay, ReadingsThatArriveAfterTheTurn_ArePublishedWhereTheyAreAfterIt) {
+TEST(OdometerDelay, ReadingsAfterScan_PredictionsFollowScan) {
   LateRide ride(0, config_of_late_ride());
   ride.teach();
   const TimeNs scan_ns = ride.odometer.prediction().value().t_ns;
@@ -152,7 +152,7 @@ TEST(OdometerDelay, ReadingsThatArriveAfterTheTurn_ArePublishedWhereTheyAreAfter
   int after = 0;
   for (int i = 0; i < 20; ++i) {
     ride.read();
-    const auto ahead = ride.odometer.ahead();
+    const auto ahead = ride.odometer.predict_latest();
     if (!ahead) {
       ++before;
       continue;
@@ -164,7 +164,7 @@ TEST(OdometerDelay, ReadingsThatArriveAfterTheTurn_ArePublishedWhereTheyAreAfter
   EXPECT_GT(after, 10);
 }
 
-TEST(OdometerDelay, WhatIsGuessedBeyondTheReadings_IsDoubted) {
+TEST(OdometerDelay, ExtrapolationBeyondReadings_CovarianceGrows) {
   LateRide ride(0, config_of_late_ride());
   ride.teach();
   const Covariance3 read = ride.odometer.prediction().value().covariance;
@@ -176,25 +176,25 @@ TEST(OdometerDelay, WhatIsGuessedBeyondTheReadings_IsDoubted) {
 }
 
 /// What is reckoned with in the first test: without a doubt in the times nothing is learned.
-TEST(OdometerDelay, TimesThatAreNotDoubted_ArePutDownToTheWheels) {
+TEST(OdometerDelay, DelayFixed_ErrorsGoToWheels) {
   OdometryConfig config = config_of_late_ride();
   config.noise.delay_s = config.noise.delay_s_per_sqrt_s = 0;
   LateRide ride(0.005, config);
   ride.teach();
-  EXPECT_NEAR(ride.odometer.summary().learned.delay_s, 0, 1e-4);
+  EXPECT_NEAR(ride.odometer.summary().parameters.delay_s, 0, 1e-4);
   EXPECT_GT(ride.blind_nees(), 10);
 }
 
-TEST(OdometerDelay, AKnownDelay_IsStartedFrom) {
+TEST(OdometerDelay, ConfiguredDelay_IsInitial) {
   OdometryConfig config = config_of_late_ride();
   config.noise.delay_s = config.noise.delay_s_per_sqrt_s = 0;
-  config.start.delay_s = 0.02;
+  config.initial.delay_s = 0.02;
   LateRide ride(0.02, config);
   ride.teach();
   EXPECT_LT(ride.blind_nees(), 5);
 }
 
-TEST(OdometerDelay, BeforeItIsLearned_TheCovarianceHoldsWhatItMayBe) {
+TEST(OdometerDelay, DelayUnknown_CovarianceContainsItsPrior) {
   OdometryConfig sure = config_of_late_ride();
   sure.noise.delay_s = 0;
   FusionFilter doubting(config_of_late_ride());

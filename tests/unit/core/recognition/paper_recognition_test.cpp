@@ -14,7 +14,7 @@ namespace {
 
 class PaperRecognitionTest : public ::testing::Test {
  protected:
-  std::span<const Hypothesis> places_of(const Pose2& T_map_lidar) {
+  std::span<const PoseHypothesis> places_of(const Pose2& T_map_lidar) {
     detector_.detect(testing::polar(source_.take(*map_, T_map_lidar)), detection_);
     return recognition_.places(detection_.breakpoints, detection_.segments);
   }
@@ -27,26 +27,26 @@ class PaperRecognitionTest : public ::testing::Test {
   Detection detection_;
 };
 
-TEST_F(PaperRecognitionTest, RoomWithoutSymmetry_IsRecognised) {
+TEST_F(PaperRecognitionTest, AsymmetricRoom_IsRecognised) {
   int found = 0;
   for (int k = 0; k < 40; ++k) {
     const Pose2 T_map_lidar = source_.place_in(0.4, 2.2, 0.4, 1.4);
     const auto places = places_of(T_map_lidar);
-    found += std::any_of(places.begin(), places.end(), [&](const Hypothesis& place) {
+    found += std::any_of(places.begin(), places.end(), [&](const PoseHypothesis& place) {
       return same_place(place.T_map_lidar, T_map_lidar, 0.1, radians(5));
     });
   }
   EXPECT_GE(found, 36);
 }
 
-TEST_F(PaperRecognitionTest, FewerThanThreeCorners_NameNoPlace) {
+TEST_F(PaperRecognitionTest, FewerThanThreeCorners_NoHypothesis) {
   places_of({1, 1, 0});
   detection_.breakpoints.resize(2);
   EXPECT_TRUE(recognition_.places(detection_.breakpoints, detection_.segments).empty());
   EXPECT_TRUE(recognition_.places({}, {}).empty());
 }
 
-TEST_F(PaperRecognitionTest, LocalizerThatIsAskedTo_UsesIt) {
+TEST_F(PaperRecognitionTest, MethodPaper_LocalizerUsesIt) {
   LocalizerConfig config;
   config.recognition = RecognitionMethod::kPaper;
   Localizer localizer(map_, config);
