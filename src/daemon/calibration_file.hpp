@@ -20,7 +20,7 @@ class CalibrationFile {
  public:
   /// Recalls what was kept under the same settings. `file`: empty: nothing is kept. JSON
   /// that was not written by a CalibrationFile is left alone, what is none renamed to *.bad.
-  /// `configured`: lidar.bias of the settings.
+  /// `configured`: advanced.lidar.bias of the settings.
   CalibrationFile(const std::filesystem::path& file, const core::SensorBias& configured);
 
   /// Of this lidar under these settings; no turns: nothing.
@@ -30,7 +30,8 @@ class CalibrationFile {
   /// is.
   bool identify(std::string_view serial);
 
-  /// The settings have this lidar.bias now. False where it is another one: now nothing is estimate.
+  /// The settings have this advanced.lidar.bias now. False where it is another one, which discards
+  /// the estimate.
   bool reconfigure(const core::SensorBias& configured);
 
   /// What the turns have taught by now, of this lidar under these settings. Writes it down where it

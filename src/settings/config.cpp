@@ -4,7 +4,7 @@
 #include <set>
 
 #include "settings/config_table.hpp"
-#include "settings/override.hpp"
+#include "settings/document.hpp"
 
 namespace cornerd::settings {
 namespace {
