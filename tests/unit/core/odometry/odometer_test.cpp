@@ -48,7 +48,7 @@ TEST(Odometer, PredictLatest_IsCurrentPose) {
 }
 
 TEST(Odometer, PredictLatest_IsStartOfNextScan) {
-  // What was carried on reading by reading and what the turn consumes are the same counts.
+  // Counts predicted reading by reading equal those that the scan consumes.
   Ride ride(switched_on());
   for (int k = 0; k < 20; ++k) {
     ride.turn();
@@ -93,7 +93,8 @@ TEST(Odometer, LateOrSparseReadings_CountOnce) {
       ride.turn();
       if (k < 60) ride.odometer.correct(ride.truth, kFixCovariance);
     }
-    // Six seconds blind. The last reading is up to 0.25 s old: what the rates did since is a guess.
+    // Six seconds without fixes. The last reading is up to 0.25 s old, and motion since then is
+    // extrapolated.
     EXPECT_LT(ride.error_m(), 0.12) << late << ' ' << every;
     EXPECT_EQ(ride.odometer.summary().counters.jumps, 0U);
   }
@@ -139,7 +140,7 @@ TEST(Odometer, InconsistentWheels_AreRejected) {
     ride.turn();
     ride.odometer.correct(ride.truth, kFixCovariance);
   }
-  // The robot hangs in the air: the wheels go on, the lidar sees the same place.
+  // The robot is lifted: wheels move, the lidar's pose does not.
   const Pose2 hanging = ride.truth;
   for (int k = 0; k < 15; ++k) {
     ride.turn();
@@ -150,8 +151,8 @@ TEST(Odometer, InconsistentWheels_AreRejected) {
   EXPECT_GT(ride.odometer.summary().rejected_fixes, 3U);
 }
 
-/// The worst that a bold prediction was off by, in its own sigmas, in 5 s without fixes, its
-/// readings spoiled: 0 where it never predicted.
+/// Largest error of an overconfident prediction in its own sigmas, in 5 s without fixes and with
+/// corrupted readings; 0 without a prediction.
 double worst_sigmas_while_blind(const std::function<void(int, OdometryReading&)>& spoil,
                                 int* predictions = nullptr) {
   Ride ride(switched_on());
@@ -238,7 +239,7 @@ TEST(Odometer, StationaryRobot_WheelScalesAreUnchanged) {
     const TimeNs start_ns = now_ns;
     for (int i = 0; i < 7; ++i) {
       now_ns += 20'000'000;
-      // Four times the noise that is told.
+      // Four times the configured noise.
       odometer.add({now_ns, 0, 0, 0.01 + 0.007 * normal(random)}, now_ns);
     }
     odometer.advance(start_ns, start_ns + 70'000'000, now_ns);
@@ -298,7 +299,7 @@ TEST(Odometer, ScanTakenInMotion_IsDeskewed) {
   constexpr double kRate_rad_s = 2;
   for (int i = 0; i < 15; ++i) odometer.add(robot.drive(0.01, kSpeed_m_s, kRate_rad_s), {});
 
-  // Each ray from where the robot is at its time, the middle of the turn at (1, 1) in the room.
+  // Each ray from the robot's pose at its time; the middle of the scan is at (1, 1) in the room.
   const TimeNs start_ns = 15'000'000;
   const auto pose_at = [&](double t_s) {
     const double rotation_rad = kRate_rad_s * (t_s - 0.075);

@@ -24,7 +24,7 @@ OdometryConfig small_robot() {
   return config;
 }
 
-/// What the gate makes of a steady drive of 3 s with one reading replaced.
+/// The gate's output for a steady drive of 3 s with one reading replaced.
 struct Outcome {
   double left_m = 0;
   double gyro_rad = 0;
@@ -235,7 +235,7 @@ TEST(ReadingGate, AheadOfLimit_IsRejected) {
 }
 
 TEST(ReadingGate, ReadingsHeldBack_ArrivalTimesAreRejected) {
-  // Ten of them wait, and come within 2 ms, as stamped on arrival.
+  // Ten readings are held back and arrive within 2 ms, stamped on arrival.
   const TimeNs let_go_ns = [] {
     testing::DrivenRobot robot(small_robot().geometry, {});
     TimeNs t_ns = 0;
