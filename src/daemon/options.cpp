@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "settings/override.hpp"
+#include "settings/document.hpp"
 
 namespace cornerd::daemon {
 namespace {
