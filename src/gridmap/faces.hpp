@@ -21,8 +21,7 @@ struct FaceOptions {
 struct GridFace {
   core::Vec2 from = core::Vec2::Zero();
   core::Vec2 to = core::Vec2::Zero();
-  core::Vec2 direction =
-      core::Vec2::Zero();    ///< unit vector; of its line, which both points are on
+  core::Vec2 direction = core::Vec2::Zero();  ///< unit vector
   bool is_joint = false;     ///< closes a step or an end too short for a line of its own
   bool enters_from = false;  ///< another face comes out of the same solid there: a room's corner
   bool enters_to = false;

@@ -52,7 +52,7 @@ std::optional<Candidate> match(const GridFace& front, const GridFace& back,
   const double top = -front.height_of(middle) * front.normal().dot(normal);
   const double bottom = -back.height_of(middle) * back.normal().dot(normal);
   candidate.thickness = top - bottom;
-  if (candidate.thickness < -limits.slack || candidate.thickness > limits.block) {
+  if (candidate.thickness < -limits.tolerance || candidate.thickness > limits.block) {
     return std::nullopt;
   }
   candidate.thickness = std::max(candidate.thickness, 0.0);
@@ -162,7 +162,8 @@ class SolidFinder {
     const Stretch reach{grow(candidate, false, occupied_alone),
                         grow(candidate, true, occupied_alone)};
     core::Wall wall;
-    wall.thickness_m = candidate.thickness < limits_.least ? limits_.thin : candidate.thickness;
+    wall.thickness_m =
+        candidate.thickness < limits_.min_thickness ? limits_.thin : candidate.thickness;
     const double half = wall.thickness_m / 2;
     if (reach.length() >= wall.thickness_m) {
       wall.from = candidate.origin + (reach.begin + half) * candidate.direction;
@@ -177,7 +178,7 @@ class SolidFinder {
     }
     const core::WallBox box(wall);
     for (std::size_t i = 0; i < faces_.size(); ++i) {
-      const Stretch part = covered(faces_[i], box, limits_.slack);
+      const Stretch part = covered(faces_[i], box, limits_.tolerance);
       if (part.length() > 0) covered_[i].push_back(part);
     }
     walls_.push_back(wall);
@@ -204,13 +205,13 @@ void clip(double start, double slope, double limit, Stretch& stretch) {
 
 }  // namespace
 
-Stretch covered(const GridFace& face, const core::WallBox& wall, double slack) {
+Stretch covered(const GridFace& face, const core::WallBox& wall, double tolerance) {
   const Vec2 start = wall.to_local(face.from);
   const Vec2 slope = wall.to_local(face.from + face.direction) - start;
   Stretch stretch{0, face.length()};
-  if (face.height_of(wall.centre) > slack) return {0, 0};
-  clip(start.x(), slope.x(), wall.half_length_m + slack, stretch);
-  clip(start.y(), slope.y(), wall.half_width_m + slack, stretch);
+  if (face.height_of(wall.centre) > tolerance) return {0, 0};
+  clip(start.x(), slope.x(), wall.half_length_m + tolerance, stretch);
+  clip(start.y(), slope.y(), wall.half_width_m + tolerance, stretch);
   return stretch;
 }
 

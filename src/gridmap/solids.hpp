@@ -31,7 +31,7 @@ struct Stretch {
 };
 
 /// The part of a face within `tolerance` cells of a wall; none where the wall is in front of it.
-Stretch covered(const GridFace& face, const core::WallBox& wall, double slack);
+Stretch covered(const GridFace& face, const core::WallBox& wall, double tolerance);
 
 /// The rest of [0, length] without the given intervals, which may overlap.
 std::vector<Stretch> uncovered(double length, std::vector<Stretch> covered);

@@ -41,7 +41,7 @@ class LineFinder {
     const double length = face.length();
     std::vector<Stretch> hidden;
     for (const core::WallBox& box : boxes_) {
-      const Stretch part = covered(face, box, limits_.slack);
+      const Stretch part = covered(face, box, limits_.tolerance);
       if (part.length() > 0) hidden.push_back(part);
     }
     for (Stretch open : uncovered(length, std::move(hidden))) {
@@ -61,7 +61,7 @@ class LineFinder {
     }
   }
 
-  std::vector<core::Wall> take(double least, std::vector<LeftOut>& left_out) {
+  std::vector<core::Wall> take(double min_size, std::vector<LeftOut>& left_out) {
     const std::vector<std::size_t> groups = group();
     std::vector<core::Wall> kept;
     for (std::size_t i = 0; i < lines_.size(); ++i) {
@@ -75,7 +75,7 @@ class LineFinder {
         high = high.cwiseMax(lines_[j].from).cwiseMax(lines_[j].to);
         touches = touches || lines_[j].touches;
       }
-      if (!touches && (high - low).norm() < least) {
+      if (!touches && (high - low).norm() < min_size) {
         left_out.push_back({(low + high) / 2, (high - low).norm()});
         continue;
       }
@@ -132,7 +132,7 @@ class LineFinder {
 
   /// A wall behind a line, with its front on the line.
   core::Wall thicken(const Line& line) const {
-    if (line.depth < limits_.least) return {line.from, line.to, 0};
+    if (line.depth < limits_.min_thickness) return {line.from, line.to, 0};
     const double half = line.depth / 2;
     const Vec2 direction = (line.to - line.from).normalized();
     const Vec2 middle = half * core::rotate_left(direction);
@@ -184,11 +184,11 @@ class LineFinder {
 
 std::vector<core::Wall> find_one_sided(const OccupancyGrid& grid, std::span<const GridFace> faces,
                                        std::span<const core::Wall> solids,
-                                       const SolidLimits& limits, double least,
+                                       const SolidLimits& limits, double min_size,
                                        std::vector<LeftOut>& left_out) {
   LineFinder finder(grid, solids, limits);
   for (const GridFace& face : faces) finder.add(face);
-  return finder.take(least, left_out);
+  return finder.take(min_size, left_out);
 }
 
 }  // namespace cornerd::gridmap

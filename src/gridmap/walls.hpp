@@ -20,7 +20,7 @@ struct LeftOut {
 /// Connected groups shorter than `min_size` that touch no solid go to `left_out`. All in cells.
 std::vector<core::Wall> find_one_sided(const OccupancyGrid& grid, std::span<const GridFace> faces,
                                        std::span<const core::Wall> solids,
-                                       const SolidLimits& limits, double least,
+                                       const SolidLimits& limits, double min_size,
                                        std::vector<LeftOut>& left_out);
 
 }  // namespace cornerd::gridmap

@@ -15,8 +15,9 @@ struct KnownDrive {
   std::vector<KnownPose> places;
 };
 
-/// Straights and rotations for a minute at 50 Hz, with known poses every 0.14 s. `rotations`: factor
-/// on the yaw rates.
-KnownDrive known_drive(const core::DriveGeometry& geometry, double rotations, bool with_gyro = true);
+/// Straights and rotations for a minute at 50 Hz, with known poses every 0.14 s. `rotations`:
+/// factor on the yaw rates.
+KnownDrive known_drive(const core::DriveGeometry& geometry, double rotations,
+                       bool with_gyro = true);
 
 }  // namespace cornerd::calibration

@@ -15,9 +15,9 @@ namespace {
 using core::OdometryIncrement;
 
 /// A known drive, each step of which is told wrong.
-WiringFaults faults_of(const std::function<void(OdometryIncrement&)>& wrong, double scans = 1,
+WiringFaults faults_of(const std::function<void(OdometryIncrement&)>& wrong, double rotations = 1,
                        const core::DriveGeometry& geometry = {}) {
-  KnownDrive known = known_drive({}, scans);
+  KnownDrive known = known_drive({}, rotations);
   for (OdometryIncrement& step : known.steps) wrong(step);
   return find_wiring_faults(cut_windows(known.steps, known.places), geometry);
 }
