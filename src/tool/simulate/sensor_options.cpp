@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "tool/simulate/sensor_options.hpp"
 
-#include <CLI/CLI.hpp>
-
 #include "core/geometry/angle.hpp"
 #include "settings/noise.hpp"
+#include "tool/command_line/command.hpp"
 #include "tool/command_line/options.hpp"
 
 namespace cornerd::tool {
@@ -26,50 +25,47 @@ void err_as_real_ones(replay::SensorModel& model) {
 
 }  // namespace
 
-void SensorOptions::add_to(CLI::App& command) {
+void SensorOptions::add_to(Command& command) {
   command.add_flag("--real", real,
                    "lose samples in stretches and step back in angle as recorded A1s do, with some "
                    "mixed pixels and outliers; further options refine that");
   command
       .add_option("--noise", noise,
                   "the lidar's noise, as calibrate noise writes it; else the config's lidar.noise")
-      ->type_name("FILE");
+      .type_name("FILE");
   command.add_option("--sigma-floor", floor_m, "standard deviation of a range: the larger of this")
-      ->check(number_within(0, 1));
-  command
-      .add_option("--sigma-share", share, "(m) and this share of the range; in place of --noise")
-      ->check(number_within(0, 1));
+      .within(0, 1);
+  command.add_option("--sigma-share", share, "(m) and this share of the range; in place of --noise")
+      .within(0, 1);
   command.add_option("--bearing-noise", bearing_deg, "standard deviation of a bearing (degrees)")
-      ->check(number_within(0, 5));
-  command.add_option("--missing", missing, "share of samples without a return")
-      ->check(number_within(0, 1));
+      .within(0, 5);
+  command.add_option("--missing", missing, "share of samples without a return").within(0, 1);
   command
       .add_option(
           "--missing-run", missing_run,
           "mean number of samples until one's fate is drawn anew: more lose whole stretches")
-      ->check(number_within(1, 1e6));
-  command.add_option("--outliers", outliers, "share of samples that are wrong")
-      ->check(number_within(0, 1));
+      .within(1, 1e6);
+  command.add_option("--outliers", outliers, "share of samples that are wrong").within(0, 1);
   command
       .add_option("--beam", beam_deg,
                   "width of the beam (degrees): at an edge a sample lies between its two sides")
-      ->check(number_within(0, 10));
+      .within(0, 10);
   command
       .add_option("--backward", backward,
                   "share of standard nodes that arrive behind the next one: their angle steps back")
-      ->check(number_within(0, 0.4));
+      .within(0, 0.4);
   command.add_option("--range-scale", range_scale, "bias: what is measured of a metre (m)")
-      ->check(number_within(0.9, 1.1));
+      .within(0.9, 1.1);
   command.add_option("--range-offset", range_offset_m, "bias: added to every range (m)")
-      ->check(number_within(-0.1, 0.1));
+      .within(-0.1, 0.1);
   command
       .add_option("--eccentricity", eccentricity_deg,
                   "bias: of the angle disc, largest error of a direction (degrees)")
-      ->check(number_within(0, 3));
+      .within(0, 3);
   command
       .add_option("--eccentricity-phase", eccentricity_phase_deg,
                   "device angle at which that error is zero and growing (degrees)")
-      ->check(number_within(-360, 360));
+      .within(-360, 360);
 }
 
 replay::SensorModel SensorOptions::model(const settings::NoiseConfig& configured) const {

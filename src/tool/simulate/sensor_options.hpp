@@ -7,11 +7,9 @@
 #include "replay/simulator/sensor_model.hpp"
 #include "settings/config.hpp"
 
-namespace CLI {
-class App;
-}
-
 namespace cornerd::tool {
+
+class Command;
 
 /// How a simulated lidar errs: options over the defaults of the sensor model.
 struct SensorOptions {
@@ -30,7 +28,7 @@ struct SensorOptions {
   std::optional<double> eccentricity_deg;
   std::optional<double> eccentricity_phase_deg;
 
-  void add_to(CLI::App& command);
+  void add_to(Command& command);
 
   /// `configured`: the noise that the config names; --noise goes before it, floor and share before
   /// any table and the wall model's own sigmas.

@@ -5,11 +5,10 @@
 #include <cstdio>
 #include <vector>
 
-#include <CLI/CLI.hpp>
-
 #include "replay/simulator/motion.hpp"
 #include "replay/simulator/places.hpp"
 #include "replay/simulator/scenarios.hpp"
+#include "tool/command_line/command.hpp"
 #include "tool/command_line/failure.hpp"
 #include "tool/command_line/options.hpp"
 
@@ -28,40 +27,40 @@ void warn_unless_indoors(const core::WallMap& map, const core::Vec2& point) {
 
 }  // namespace
 
-void SimulationOptions::add_to(CLI::App& command) {
-  command.add_option("--pose", pose, "the robot stands there (m, m, rad)")->type_name("X,Y,THETA");
+void SimulationOptions::add_to(Command& command) {
+  command.add_option("--pose", pose, "the robot stands there (m, m, rad)").type_name("X,Y,THETA");
   command.add_option("--places", places, "it visits so many random places")
-      ->check(number_within(1, 1e6))
-      ->type_name("N");
+      .within(1, 1e6)
+      .type_name("N");
   command.add_option("--path", path, "it drives from point to point (m)")
-      ->type_name("\"X,Y X,Y ...\"");
+      .type_name("\"X,Y X,Y ...\"");
   command
       .add_option("--scenario", scenario,
                   "it drives there, in config/maps/flat-7.json: circuit-1, circuit-2, exploration")
-      ->check(CLI::IsMember({"circuit-1", "circuit-2", "exploration"}));
+      .choices({"circuit-1", "circuit-2", "exploration"});
   command.add_flag("--loop", loop, "and from the last point back to the first, for ever");
   command.add_option("--turns-each", scans_each, "turns of the lidar at each of the places")
-      ->check(CLI::PositiveNumber)
-      ->capture_default_str();
+      .positive()
+      .capture_default_str();
   command.add_option("--drive-speed", speed_m_s, "metres a second along the path")
-      ->check(number_within(1e-3, 100))
-      ->capture_default_str();
+      .within(1e-3, 100)
+      .capture_default_str();
   command.add_option("--turn-speed", yaw_rate_rad_s, "radians a second on the spot")
-      ->check(number_within(1e-3, 100))
-      ->capture_default_str();
+      .within(1e-3, 100)
+      .capture_default_str();
   command
       .add_option("--acceleration", acceleration_m_s2,
                   "metres a second squared at both ends of a way; 0: at once")
-      ->check(number_within(0, 100));
+      .within(0, 100);
   command
       .add_option("--turn-acceleration", yaw_acceleration_rad_s2,
                   "radians a second squared at both ends of a turn; 0: at once")
-      ->check(number_within(0, 1000));
+      .within(0, 1000);
   command.add_option("--motor", motor_hz, "turns of the lidar a second")
-      ->check(number_within(1, 15))
-      ->capture_default_str();
+      .within(1, 15)
+      .capture_default_str();
   sensor.add_to(command);
-  command.add_option("--seed", seed, "of all randomness")->capture_default_str();
+  command.add_option("--seed", seed, "of all randomness").capture_default_str();
 }
 
 replay::Motion SimulationOptions::motion(const core::WallMap& map) const {

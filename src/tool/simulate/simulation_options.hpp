@@ -13,11 +13,9 @@
 #include "settings/config.hpp"
 #include "tool/simulate/sensor_options.hpp"
 
-namespace CLI {
-class App;
-}
-
 namespace cornerd::tool {
+
+class Command;
 
 /// Where a simulated robot is and how its lidar errs: what simulate and emulate have in common.
 struct SimulationOptions {
@@ -35,7 +33,7 @@ struct SimulationOptions {
   SensorOptions sensor;
   std::uint64_t seed = 1;
 
-  void add_to(CLI::App& command);
+  void add_to(Command& command);
 
   bool stands_still() const { return !pose.empty(); }
   /// Turns of the sensor in a recording of which nobody says how long it is.
