@@ -13,7 +13,7 @@ namespace cornerd::core {
 enum class Method : std::uint8_t { kAltbd, kPrintedAltbd, kAbdIepf, kLineTracking };
 
 /// ALTBD as cornerd runs it. The defaults without a source of their own are what
-/// `cornerctl bench` likes best.
+/// `cornerd-bench` likes best.
 struct AltbdConfig {
   /// Half axes of the ellipse in standard deviations of the residual: one normal sample in 2,000
   /// lies outside.
@@ -71,7 +71,7 @@ struct LineTrackingConfig {
 };
 
 /// What becomes of the walls, whatever the method found them: joining, corners, ends. All defaults
-/// are what `cornerctl bench` likes best.
+/// are what `cornerd-bench` likes best.
 struct ExtractionConfig {
   /// Deviation in standard deviations that is still noise: one in 2,000 of a normal one is beyond.
   double gate_sigmas = 3.5;

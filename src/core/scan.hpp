@@ -11,7 +11,7 @@
 namespace cornerd::core {
 
 /// An A1 at its slowest (1 Hz) and its fastest mode (127 us a sample) gives 7,874 samples a turn;
-/// `cornerctl bench` goes up to 10,000.
+/// `cornerd-bench` goes up to 10,000.
 inline constexpr std::size_t kMaxSamplesPerScan = 10240;
 
 /// The samples of one turn in the order of their arrival. Room for kMaxSamplesPerScan is taken at

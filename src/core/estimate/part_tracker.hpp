@@ -33,7 +33,7 @@ struct PartPose {
 
 /// Follows a robot whose place is known through a turn that is still going on. Part by part: what
 /// was expected and the part's wall points together give a pose long before the turn ends
-/// (part_tracker_test.cpp; `cornerctl bench --localizer`, "quarters of a turn"). All memory is
+/// (part_tracker_test.cpp; `cornerd-bench --localizer`, "quarters of a turn"). All memory is
 /// taken at construction.
 class PartTracker {
  public:

@@ -9,7 +9,7 @@ namespace {
 
 /// Log-likelihoods count every ray as if it were independent. A displaced wall or a person moves
 /// many rays at once: so many nats of a turn are worth one nat of belief. What they promise is
-/// measured (`cornerctl bench --localizer`, "kept promises").
+/// measured (`cornerd-bench --localizer`, "kept promises").
 constexpr double kNatsPerNat = 1.3;
 /// Each ray that even the likeliest place does not explain says that the map or the model is off by
 /// something.
