@@ -6,7 +6,7 @@
 #include <limits>
 #include <utility>
 
-#include "bench/experiment_robot.hpp"
+#include "bench/simulated_drive.hpp"
 #include "bench/odometry_experiment.hpp"
 #include "core/pipeline.hpp"
 #include "replay/pose_error.hpp"

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "bench/localization/circle.hpp"
+#include "bench/localization/world.hpp"
 #include "bench/localization/pose_score.hpp"
 #include "core/map/wall_map.hpp"
 #include "replay/simulator/sensor_model.hpp"

@@ -9,20 +9,13 @@
 #include <string>
 #include <vector>
 
+#include "bench/program/benches.hpp"
 #include "bench/program/contest_maps.hpp"
-#include "bench/program/instruction_report.hpp"
-#include "bench/program/localization_bench.hpp"
-#include "bench/program/odometry_bench.hpp"
-#include "bench/program/report_json.hpp"
-#include "bench/program/report_plots.hpp"
-#include "bench/program/report_text.hpp"
-#include "bench/program/scale_bench.hpp"
-#include "bench/program/survey_bench.hpp"
+#include "bench/program/report.hpp"
 #include "bench/workload.hpp"
 #include "core/scan.hpp"
 #include "tool/command_line/command.hpp"
 #include "tool/command_line/failure.hpp"
-#include "tool/command_line/file_guard.hpp"
 #include "tool/command_line/output.hpp"
 #include "tool/command_line/progress_bar.hpp"
 

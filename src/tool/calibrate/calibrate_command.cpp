@@ -22,7 +22,6 @@
 #include "tool/calibrate/noise_report.hpp"
 #include "tool/command_line/command.hpp"
 #include "tool/command_line/failure.hpp"
-#include "tool/command_line/file_guard.hpp"
 #include "tool/command_line/options.hpp"
 #include "tool/command_line/output.hpp"
 #include "tool/commands.hpp"

@@ -10,7 +10,6 @@
 
 #include "settings/map_file.hpp"
 #include "tool/command_line/command.hpp"
-#include "tool/command_line/file_guard.hpp"
 #include "tool/command_line/output.hpp"
 #include "tool/commands.hpp"
 #include "tool/drawing/map_drawing.hpp"

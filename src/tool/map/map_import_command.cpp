@@ -17,7 +17,6 @@
 #include "settings/document.hpp"
 #include "tool/command_line/command.hpp"
 #include "tool/command_line/failure.hpp"
-#include "tool/command_line/file_guard.hpp"
 #include "tool/command_line/options.hpp"
 #include "tool/command_line/output.hpp"
 #include "tool/commands.hpp"

@@ -6,8 +6,8 @@
 #include "message/json_text.hpp"
 #include "settings/map_file.hpp"
 #include "tool/command_line/failure.hpp"
-#include "tool/command_line/file_guard.hpp"
-#include "tool/drawing/formatted.hpp"
+#include "tool/command_line/output.hpp"
+#include "tool/drawing/text_table.hpp"
 
 namespace cornerd::tool {
 

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "message/state_names.hpp"
-#include "tool/drawing/formatted.hpp"
+#include "tool/drawing/text_table.hpp"
 
 namespace cornerd::tool {
 

@@ -18,7 +18,7 @@
 #include "replay/recording_writer.hpp"
 #include "tool/command_line/command.hpp"
 #include "tool/command_line/failure.hpp"
-#include "tool/command_line/file_guard.hpp"
+#include "tool/command_line/output.hpp"
 #include "tool/command_line/options.hpp"
 #include "tool/command_line/stop_signal.hpp"
 #include "tool/commands.hpp"

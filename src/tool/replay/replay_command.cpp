@@ -15,8 +15,6 @@
 #include "tool/commands.hpp"
 #include "tool/replay/error_statistics.hpp"
 #include "tool/replay/message_printer.hpp"
-#include "tool/replay/odometry_file.hpp"
-#include "tool/replay/pace.hpp"
 #include "tool/replay/playback.hpp"
 #include "tool/replay/truth.hpp"
 

@@ -18,7 +18,6 @@
 #include "survey/survey.hpp"
 #include "tool/command_line/command.hpp"
 #include "tool/command_line/failure.hpp"
-#include "tool/command_line/file_guard.hpp"
 #include "tool/command_line/options.hpp"
 #include "tool/command_line/output.hpp"
 #include "tool/command_line/progress_bar.hpp"

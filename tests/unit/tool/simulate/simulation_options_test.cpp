@@ -11,7 +11,7 @@
 #include "command_run.hpp"
 #include "tests/temporary_folder.hpp"
 #include "tool/command_line/failure.hpp"
-#include "tool/simulate/sensor_options.hpp"
+#include "tool/simulate/simulation_options.hpp"
 
 namespace cornerd::tool {
 namespace {
