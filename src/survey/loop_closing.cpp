@@ -6,8 +6,7 @@
 #include <span>
 #include <utility>
 
-#include <Eigen/Cholesky>
-
+#include "core/geometry/linear_solve.hpp"
 #include "survey/adjustment.hpp"
 #include "survey/face_splitting.hpp"
 #include "survey/linearization.hpp"
@@ -35,7 +34,7 @@ double sigmas_off(const MappedDrive& drive, const PlaceTie& tie) {
   const WayResidual way(drive.T_map_lidar[tie.earlier], drive.T_map_lidar[tie.later],
                         tie.T_earlier_later);
   const Eigen::Vector3d off(way.off[0], way.off[1], way.off[2]);
-  return std::sqrt(off.dot(covariance.ldlt().solve(off)));
+  return std::sqrt(off.dot(core::SymmetricSolver<3>(covariance).solve(off)));
 }
 
 bool are_tied(const MappedDrive& drive, std::span<const PlaceTie> ties) {

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "core/geometry/linear_solve.hpp"
+
 namespace cornerd::survey {
 
 PlacedSighting::PlacedSighting(const Sighting& seen, const core::Pose2& T_map_lidar)
@@ -50,7 +52,7 @@ void MappedFace::update(const Sighting& seen, const core::Pose2& T_map_lidar, st
                                  seen.sigma_offset_m * seen.sigma_offset_m);
   Eigen::Matrix2d spread = design * covariance_ * design.transpose();
   spread.diagonal() += variance;
-  const Eigen::Matrix2d gain = covariance_ * design.transpose() * spread.inverse();
+  const Eigen::Matrix2d gain = covariance_ * design.transpose() * core::inverse(spread);
   const Eigen::Vector2d correction = gain * surprise;
   covariance_ = (Eigen::Matrix2d::Identity() - gain * design) * covariance_;
   covariance_ = (covariance_ + covariance_.transpose().eval()) / 2;

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/estimate/part_tracker.hpp"
 
-#include <Eigen/LU>
-
+#include "core/geometry/linear_solve.hpp"
 #include "core/recognition/hypothesis.hpp"
 
 namespace cornerd::core {
@@ -69,7 +68,7 @@ bool PartTracker::add(const Sample& sample) {
 std::optional<PartPose> PartTracker::localize(const Expectation& expected, const SensorBias& bias,
                                               double noise_scale) {
   points_.assign(part_, min_range_m_, max_range_m_, end_ns(), expected.motion, bias);
-  const PosePrior prior{expected.T_map_lidar, expected.covariance.inverse()};
+  const PosePrior prior{expected.T_map_lidar, inverse(expected.covariance)};
   PartPose pose;
   pose.refined = refinement_.refine(map_, expected.T_map_lidar, kPartReach_m, points_.points(),
                                     points_.points(), noise_scale, &prior);

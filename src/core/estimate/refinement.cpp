@@ -4,8 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/Cholesky>
-
+#include "core/geometry/linear_solve.hpp"
 #include "core/recognition/hypothesis.hpp"
 
 namespace cornerd::core {
@@ -114,7 +113,7 @@ RefinedPose Refinement::descend(const WallMap& map, const Pose2& start, double r
   RefinedPose refined;
   refined.T_map_lidar = start;
   double slack_m = reach_m;
-  Eigen::LDLT<Eigen::Matrix3d> solver;
+  SymmetricSolver<3> solver;
   Step sums;
   seen_ = {};
   for (int k = 0; k < kMaxSteps; ++k) {
@@ -131,7 +130,7 @@ RefinedPose Refinement::descend(const WallMap& map, const Pose2& start, double r
                           angle_between(prior->T_map_lidar.theta_rad, at.theta_rad));
     }
     solver.compute(sums.information);
-    const Eigen::Vector3d pivots = solver.vectorD();
+    const Eigen::Vector3d pivots = solver.pivots();
     if (sums.inliers < kMinInliers || !(pivots.minCoeff() > kMinPivot * pivots.maxCoeff())) {
       return refined;
     }
@@ -146,7 +145,7 @@ RefinedPose Refinement::descend(const WallMap& map, const Pose2& start, double r
   }
   const auto inliers = static_cast<double>(sums.inliers);
   refined.spread = sums.chi_square / std::max(1.0, inliers - 3);
-  refined.covariance = solver.solve(Eigen::Matrix3d::Identity()) * std::max(1.0, refined.spread);
+  refined.covariance = solver.inverse() * std::max(1.0, refined.spread);
   refined.inliers = sums.inliers;
   refined.rmse_m = std::sqrt(sums.squares_m2 / std::max(1.0, inliers));
   refined.valid = refined.covariance.allFinite();
@@ -199,8 +198,8 @@ RefinedMotion Refinement::refine_motion(const WallMap& map, const Pose2& start, 
       gradient.noalias() += weight * distance_m * slopes;
       ++inliers;
     }
-    const Eigen::LDLT<Matrix6> solver(information);
-    if (inliers < kMinInliers || solver.info() != Eigen::Success) return refined;
+    const SymmetricSolver<6> solver(information);
+    if (inliers < kMinInliers || !solver.succeeded()) return refined;
     const Vector6 move = solver.solve(gradient);
     if (!move.allFinite()) return refined;
     refined.T_map_lidar = T_map_lidar * Pose2{-move[0], -move[1], -move[2]};
