@@ -2,16 +2,18 @@
 #include "daemon/daemon.hpp"
 
 #include <signal.h>
-#include <spdlog/spdlog.h>
 #include <sys/epoll.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
+#include <cstdio>
 #include <cstring>
 #include <utility>
 #include <vector>
 
 #include "daemon/clock.hpp"
+#include "daemon/log.hpp"
 #include "daemon/realtime.hpp"
 
 namespace cornerd::daemon {
@@ -92,8 +94,9 @@ void Daemon::open_sockets() {
   open(config_.socket.pose, SocketRole::kPose);
   open(config_.socket.control, SocketRole::kControl);
   for (const InheritedSocket& socket : inherited) {
-    spdlog::warn("{}: the service manager listens there, and the settings name another path",
-                 socket.path.string());
+    log(LogLevel::kWarning,
+        socket.path.string() +
+            ": the service manager listens there, and the settings name another path");
   }
 }
 
@@ -102,11 +105,13 @@ void Daemon::ask_for_realtime() {
   const settings::RealtimeConfig& config = config_.realtime;
   if (config.priority > 0) {
     if (const int error = localization_.prioritize_reader(config.priority)) {
-      spdlog::warn("priority {} is refused: {}; the unit's real-time drop-in allows it",
-                   config.priority, std::strerror(error));
+      log(LogLevel::kWarning, "priority " + std::to_string(config.priority) +
+                                  " is refused: " + std::strerror(error) +
+                                  "; the unit's real-time drop-in allows it");
     } else {
       health_.priority = config.priority;
-      spdlog::info("the port is read with priority {} (SCHED_FIFO)", config.priority);
+      log(LogLevel::kInfo,
+          "the port is read with priority " + std::to_string(config.priority) + " (SCHED_FIFO)");
     }
   }
   if (config.lock_memory) {
@@ -114,8 +119,8 @@ void Daemon::ask_for_realtime() {
     health_.memory_is_locked = error == 0;
     if (error != 0) {
       touch_memory();
-      spdlog::warn("memory is not locked: {}; the unit's real-time drop-in allows it",
-                   std::strerror(error));
+      log(LogLevel::kWarning, std::string("memory is not locked: ") + std::strerror(error) +
+                                  "; the unit's real-time drop-in allows it");
     }
   }
 }
@@ -155,11 +160,11 @@ void Daemon::run() {
 void Daemon::on_signal() {
   const int signal = signals_.take();
   if (signal == SIGHUP) {
-    spdlog::info("SIGHUP: reading settings and map again");
+    log(LogLevel::kInfo, "SIGHUP: reading settings and map again");
     notifier_.reloading();
     reloader_.start();
   } else if (signal != 0) {
-    spdlog::info("{}: ending", signal == SIGTERM ? "SIGTERM" : "SIGINT");
+    log(LogLevel::kInfo, signal == SIGTERM ? "SIGTERM: ending" : "SIGINT: ending");
     loop_.stop();
   }
 }
@@ -167,24 +172,24 @@ void Daemon::on_signal() {
 void Daemon::on_loaded() {
   Reloader::Outcome outcome = reloader_.take();
   if (!outcome.error.empty()) {
-    spdlog::error("nothing is changed: {}", outcome.error);
+    log(LogLevel::kError, "nothing is changed: " + outcome.error);
     server_.publish(message::MessageClass::kEvent,
                     line_.event(now_ns(), "reload refused", outcome.error));
     return notifier_.ready();
   }
   Loaded& loaded = outcome.loaded;
   if (const std::string list = needs_restart(config_, loaded.config); !list.empty()) {
-    spdlog::warn("takes effect at the next start: {}", list);
+    log(LogLevel::kWarning, "takes effect at the next start: " + list);
   }
   const std::string name =
-      fmt::format("{}, {} walls", loaded.map->plan().name, loaded.map->plan().walls.size());
+      loaded.map->plan().name + ", " + std::to_string(loaded.map->plan().walls.size()) + " walls";
   if (!memory_.reconfigure(loaded.config.lidar.bias)) localization_.forget_lidar();
   localization_.publish_readings(loaded.config.odometry.core.publish);
   auto pipeline = resumed(std::move(loaded.pipeline), loaded.config.lidar, memory_);
   scans_.expect_map(localization_.replace(std::move(pipeline)), std::move(loaded.map));
   if (health_.memory_is_locked) health_.memory_is_locked = lock_memory() == 0;
   if (config_.realtime.lock_memory && !health_.memory_is_locked) touch_memory();
-  spdlog::info("map loaded: {}", name);
+  log(LogLevel::kInfo, "map loaded: " + name);
   server_.publish(message::MessageClass::kEvent, line_.event(now_ns(), "map loaded", name));
   notifier_.ready();
 }
@@ -193,9 +198,11 @@ void Daemon::on_tick() {
   health_.server.add(tick_.acknowledge().count());
   if (is_live_) {
     if (const auto step_ns = clock_.step_ns(unix_ns(), monotonic_ns())) {
-      const std::string text = fmt::format("{:+.3f} s", core::to_seconds(*step_ns));
-      clock_steps_.say(text, monotonic_ns());
-      server_.publish(message::MessageClass::kEvent, line_.event(now_ns(), "clock step", text));
+      std::array<char, 64> text{};
+      std::snprintf(text.data(), text.size(), "%+.3f s", core::to_seconds(*step_ns));
+      clock_steps_.say(text.data(), monotonic_ns());
+      server_.publish(message::MessageClass::kEvent,
+                      line_.event(now_ns(), "clock step", text.data()));
     }
     clock_steps_.tick(monotonic_ns());
   }
@@ -207,7 +214,7 @@ void Daemon::on_tick() {
     status_.publish(lidar_->status(), scans_, localization_, health_, now_ns());
   }
   if (is_time) {
-    server_.restore_sockets([](const std::string& line) { spdlog::warn("{}", line); });
+    server_.restore_sockets([](const std::string& line) { log(LogLevel::kWarning, line); });
   }
 }
 
@@ -215,8 +222,9 @@ void Daemon::notice_device() {
   const drivers::LidarStatus lidar = lidar_->status();
   if (!memory_.recognise(lidar.serial.view())) {
     localization_.forget_lidar();
-    const std::string text = fmt::format("serial number {}", lidar.serial.view());
-    spdlog::info("another lidar, {}: what was learnt of the last one is forgotten", text);
+    const std::string text = "serial number " + std::string(lidar.serial.view());
+    log(LogLevel::kInfo,
+        "another lidar, " + text + ": what was learnt of the last one is forgotten");
     server_.publish(message::MessageClass::kEvent, line_.event(now_ns(), "another lidar", text));
   }
   if (scans_.lidar() == localization_.lidar()) memory_.keep(scans_.bias());

@@ -60,7 +60,7 @@ class Daemon {
   ScanPublisher scans_;
   StatusPublisher status_;
   ClockWatch clock_;
-  RepeatedLog clock_steps_{spdlog::level::warn, "clock step"};
+  RepeatedLog clock_steps_{LogLevel::kWarning, "clock step"};
   PeriodicTimer tick_;
   std::optional<PeriodicTimer> watchdog_;
   message::LineWriter line_;

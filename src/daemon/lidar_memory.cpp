@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "daemon/lidar_memory.hpp"
 
-#include <spdlog/spdlog.h>
-
 #include <cmath>
 #include <cstdlib>
 #include <system_error>
 #include <utility>
 
+#include "daemon/log.hpp"
 #include "daemon/replace_file.hpp"
 #include "settings/document.hpp"
 
@@ -63,7 +62,7 @@ void LidarMemory::recall() {
   const file_type type = std::filesystem::status(file_, unread).type();
   if (type == file_type::not_found) return;
   const auto leave_alone = [this](std::string_view why) {
-    spdlog::warn("{}; what is learnt of the lidar is not kept", why);
+    log(LogLevel::kWarning, std::string(why) + "; what is learnt of the lidar is not kept");
     file_.clear();
   };
   if (type != file_type::regular) return leave_alone(file_.string() + ": is no ordinary file");
@@ -77,12 +76,13 @@ void LidarMemory::recall() {
   try {
     settings::LearnedLidar found = settings::parse_learned_lidar(text, file_);
     if (found.configured != known_.configured) {
-      spdlog::info("{}: learnt under another /lidar/bias, and not used", file_.string());
+      log(LogLevel::kInfo, file_.string() + ": learnt under another /lidar/bias, and not used");
       return;
     }
     known_ = std::move(found);
     written_ = known_.learned;
-    spdlog::info("the lidar's bias is known from {} turns before", written_.scans);
+    log(LogLevel::kInfo,
+        "the lidar's bias is known from " + std::to_string(written_.scans) + " turns before");
   } catch (const std::exception& error) {
     if (!is_own(text)) {
       // Somebody's settings or map, given by mistake, stay where they are.
@@ -91,10 +91,11 @@ void LidarMemory::recall() {
       std::error_code failed;
       std::filesystem::rename(file_, aside, failed);
       if (failed) return leave_alone(error.what());
-      return spdlog::warn("{}; it is {} now, and the lidar is learnt anew", error.what(),
-                          aside.string());
+      return log(LogLevel::kWarning, std::string(error.what()) + "; it is " + aside.string() +
+                                         " now, and the lidar is learnt anew");
     }
-    spdlog::warn("what was learnt of the lidar is not used: {}", error.what());
+    log(LogLevel::kWarning,
+        std::string("what was learnt of the lidar is not used: ") + error.what());
   }
 }
 
@@ -132,7 +133,10 @@ void LidarMemory::keep(const core::LearnedBias& learned) {
     replace_file(file_, settings::text_of(known_));
     written_ = learned;
   } catch (const std::exception& error) {
-    if (!complained_) spdlog::warn("what was learnt of the lidar is not kept: {}", error.what());
+    if (!complained_) {
+      log(LogLevel::kWarning,
+          std::string("what was learnt of the lidar is not kept: ") + error.what());
+    }
     complained_ = true;
   }
 }

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "daemon/odometry_source.hpp"
 
-#include <spdlog/spdlog.h>
-
 #include <string>
 #include <utility>
 
+#include "daemon/log.hpp"
 #include "drivers/odometry/kernel_odometry.hpp"
 
 namespace cornerd::daemon {
@@ -72,7 +71,7 @@ bool OdometrySource::notice_changes(MessageServer& server, core::TimeNs t_ns) {
 void OdometrySource::log_once(SensorState state, const std::string& text) {
   if (logged_.size() >= kMostTexts) logged_.clear();
   if (!logged_.insert(text).second) return;
-  spdlog::log(runs(state) ? spdlog::level::info : spdlog::level::warn, "odometry {}", text);
+  log(runs(state) ? LogLevel::kInfo : LogLevel::kWarning, "odometry " + text);
 }
 
 void OdometrySource::describe(message::StatusFields& status) {

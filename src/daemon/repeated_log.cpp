@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "daemon/repeated_log.hpp"
 
-#include <spdlog/spdlog.h>
-
 #include "core/types.hpp"
 
 namespace cornerd::daemon {
@@ -20,13 +18,13 @@ void RepeatedLog::say(const std::string& text, std::int64_t now_ns) {
     return;
   }
   said_ns_ = now_ns;
-  spdlog::log(level_, "{}: {}", what_, text);
+  log(level_, std::string(what_) + ": " + text);
 }
 
 void RepeatedLog::tick(std::int64_t now_ns) {
   if (held_back_ == 0 || now_ns - *said_ns_ < kPeriodNs) return;
   said_ns_ = now_ns;
-  spdlog::log(level_, "{}: {} more, the last {}", what_, held_back_, last_);
+  log(level_, std::string(what_) + ": " + std::to_string(held_back_) + " more, the last " + last_);
   held_back_ = 0;
 }
 

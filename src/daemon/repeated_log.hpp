@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <spdlog/common.h>
-
 #include <cstdint>
 #include <optional>
 #include <string>
+
+#include "daemon/log.hpp"
 
 namespace cornerd::daemon {
 
@@ -14,7 +14,7 @@ namespace cornerd::daemon {
 class RepeatedLog {
  public:
   /// `what`: a literal, before the colon.
-  RepeatedLog(spdlog::level::level_enum level, const char* what) : level_(level), what_(what) {}
+  RepeatedLog(LogLevel level, const char* what) : level_(level), what_(what) {}
 
   /// `now_ns`: monotonic, as below.
   void say(const std::string& text, std::int64_t now_ns);
@@ -22,7 +22,7 @@ class RepeatedLog {
   void tick(std::int64_t now_ns);
 
  private:
-  spdlog::level::level_enum level_;
+  LogLevel level_;
   const char* what_;
   std::optional<std::int64_t> said_ns_;
   std::uint64_t held_back_ = 0;

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "daemon/status_publisher.hpp"
 
-#include <spdlog/spdlog.h>
-
 #include <algorithm>
 #include <array>
 #include <string_view>
 
+#include "daemon/log.hpp"
 #include "drivers/counter_names.hpp"
 #include "message/state_names.hpp"
 
@@ -69,7 +68,7 @@ void StatusPublisher::log_once(const drivers::LidarChange& change, const std::st
   if (change.state == LidarState::kRunning) said_.clear();
   if (said_.size() == kMostWords) said_.clear();
   if (!said_.insert(text).second) return;
-  spdlog::log(is_trouble(change) ? spdlog::level::warn : spdlog::level::info, "lidar {}", text);
+  log(is_trouble(change) ? LogLevel::kWarning : LogLevel::kInfo, "lidar " + text);
 }
 
 void StatusPublisher::publish(const drivers::LidarStatus& lidar, const ScanPublisher& scans,

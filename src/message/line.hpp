@@ -9,8 +9,16 @@
 #include <string_view>
 
 #include "core/lateness.hpp"
-#include "core/localizer.hpp"
+#include "core/odometry/odometry_summary.hpp"
+#include "core/pose_estimate.hpp"
 #include "message/json_text.hpp"
+
+namespace cornerd::core {
+struct Detection;
+struct FloorPlan;
+struct LearnedBias;
+class Scan;
+}  // namespace cornerd::core
 
 namespace cornerd::message {
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // POSE of LineWriter.
+#include "core/map/wall_map.hpp"
 #include "message/line.hpp"
 #include "message/place_text.hpp"
 #include "message/state_names.hpp"

@@ -2,6 +2,8 @@
 // What one turn showed: SCAN and BREAKPOINTS of LineWriter.
 #include <cmath>
 
+#include "core/breakpoint/breakpoint.hpp"
+#include "core/scan.hpp"
 #include "message/line.hpp"
 #include "message/place_text.hpp"
 #include "message/state_names.hpp"

@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include "core/breakpoint/breakpoint.hpp"
-#include "core/localizer.hpp"
+#include "core/pose_estimate.hpp"
 
 namespace cornerd::message {
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // STATUS of LineWriter.
+#include "core/sensor_bias.hpp"
 #include "message/line.hpp"
 #include "message/place_text.hpp"
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "core/scan.hpp"
 #include "message/field_reader.hpp"
 #include "message/scan_fields.hpp"
 #include "message/state_names.hpp"

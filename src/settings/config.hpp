@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "calibration/wall_model.hpp"
-#include "core/localizer.hpp"
+#include "core/localizer_config.hpp"
 #include "core/odometry/odometry_config.hpp"
 #include "settings/file_kind.hpp"
 

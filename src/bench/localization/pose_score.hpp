@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "bench/localization/reliability.hpp"
-#include "core/localizer.hpp"
+#include "core/pose_estimate.hpp"
 
 namespace cornerd::bench {
 

@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "core/geometry/linear_solve.hpp"
-#include "core/recognition/hypothesis.hpp"
 
 namespace cornerd::core {
 namespace {

@@ -16,6 +16,7 @@
 #include "core/odometry/noise_meter.hpp"
 #include "core/odometry/odometry_config.hpp"
 #include "core/odometry/odometry_reading.hpp"
+#include "core/odometry/odometry_summary.hpp"
 #include "core/odometry/reading_gate.hpp"
 #include "core/odometry/turn_slips.hpp"
 #include "core/scan.hpp"
@@ -26,19 +27,6 @@ struct PredictedPose {
   TimeNs t_ns = 0;
   Pose2 T_map_base;
   Covariance3 covariance = Covariance3::Zero();
-};
-
-/// For STATUS: what comes in, and what has been learned of the robot.
-struct OdometrySummary {
-  bool enabled = false;
-  bool present = false;  ///< readings come
-  bool trusted = false;  ///< and agree with the lidar and each other
-  LearnedOdometry learned;
-  LearnedOdometry sigma;  ///< of the learned ones
-  OdometryCounters counters;
-  std::uint64_t slips = 0;
-  std::uint64_t fixes = 0;      ///< of the lidar that taught
-  std::uint64_t strangers = 0;  ///< that no motion of the wheels could explain
 };
 
 /// Readings in, at any rate and of any quality; predictions out. The filter follows the lidar: it

@@ -7,20 +7,9 @@
 #include "core/odometry/motion_step.hpp"
 #include "core/odometry/odometry_config.hpp"
 #include "core/odometry/odometry_reading.hpp"
+#include "core/odometry/odometry_summary.hpp"
 
 namespace cornerd::core {
-
-/// What was refused, by cause.
-struct OdometryCounters {
-  std::uint64_t readings = 0;
-  std::uint64_t past = 0;      ///< before the last one, long before now, or held back
-  std::uint64_t future = 0;    ///< well after now, or ahead of the readings that followed
-  std::uint64_t jumps = 0;     ///< more counts than a wheel can turn
-  std::uint64_t gyro = 0;      ///< rates that are none
-  std::uint64_t frozen = 0;    ///< rates that stay the same to the bit while the wheels turn
-  std::uint64_t holes = 0;     ///< times of which nothing is known
-  std::uint64_t restarts = 0;  ///< counts or times that went on somewhere else
-};
 
 /// Makes steps of readings, and refuses what cannot be. One bad reading costs itself alone; counts
 /// or times that stay elsewhere are a controller that was restarted, and are taken as a new start:

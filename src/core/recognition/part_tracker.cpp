@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "core/estimate/part_tracker.hpp"
+#include "core/recognition/part_tracker.hpp"
 
 #include "core/geometry/linear_solve.hpp"
-#include "core/recognition/hypothesis.hpp"
 
 namespace cornerd::core {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/estimate/part_tracker.hpp"
+#include "core/recognition/part_tracker.hpp"
 
 #include <gtest/gtest.h>
 
