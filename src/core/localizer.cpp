@@ -259,8 +259,7 @@ PoseState Localizer::Workspace::believe(const Decision& decision, std::size_t co
   const core::Place& found = place->verification.places()[decision.place];
   const Pose2& T_map_lidar = found.refined.T_map_lidar;
   const Evidence evidence{found.explanation, corners, points.widest_gap_rad(),
-                          !place->paper && place->recognition.tries_all(),
-                          is_at_prior(T_map_lidar, t_ns)};
+                          place->recognition.tries_all(), is_at_prior(T_map_lidar, t_ns)};
   if (decision.state == PoseState::kTracking) {
     return may_be_tracked(evidence) ? PoseState::kTracking : PoseState::kAmbiguous;
   }

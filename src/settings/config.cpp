@@ -33,16 +33,6 @@ constexpr Choice<OdometrySource> kOdometrySources[] = {{"none", OdometrySource::
                                                        {"socket", OdometrySource::kSocket},
                                                        {"kernel", OdometrySource::kKernel}};
 constexpr Choice<char> kGyroAxes[] = {{"x", 'x'}, {"y", 'y'}, {"z", 'z'}};
-constexpr Choice<core::HeadingSource> kOdometryModes[] = {
-    {"filter", core::HeadingSource::kFilter},
-    {"encoder", core::HeadingSource::kEncoder},
-    {"gyro", core::HeadingSource::kGyro},
-    {"mean", core::HeadingSource::kMean},
-    {"weighted", core::HeadingSource::kWeighted}};
-
-constexpr Choice<core::RecognitionMethod> kRecognitions[] = {
-    {"patterns", core::RecognitionMethod::kPatterns}, {"paper", core::RecognitionMethod::kPaper}};
-
 void read_mount(ObjectReader mount, MountConfig& config) {
   mount.number("x", config.x_m, {-10, 10});
   mount.number("y", config.y_m, {-10, 10});
@@ -162,12 +152,6 @@ void read_odometry(ObjectReader odometry, OdometryConfig& config) {
                   "must be 0 (never wraps) or at least 3: of fewer counts forward and "
                   "back are the same");
   }
-  odometry.choice("mode", config.core.mode, kOdometryModes);
-  ObjectReader factors = odometry.object("factors");
-  factors.number("encoder", config.core.paper.encoder_factor, {0, 10});
-  factors.number("gyro", config.core.paper.gyro_factor, {0, 10});
-  factors.finish();
-  odometry.number("dead_band", config.core.paper.dead_band_rad, {0, 1});
   read_odometry_noise(odometry.object("noise"), config.core.noise);
   ObjectReader start = odometry.object("start");
   start.number("left_scale", config.core.start.left_scale, {-0.5, 0.5});
@@ -209,7 +193,6 @@ void read_realtime(ObjectReader realtime, RealtimeConfig& config) {
 }
 
 void read_localizer(ObjectReader localizer, LocalizationConfig& config) {
-  localizer.choice("recognition", config.recognition, kRecognitions);
   localizer.integer("updates_per_turn", config.updates_per_scan, 1, kMaxUpdatesPerScan);
   localizer.finish();
 }
@@ -238,7 +221,6 @@ core::LocalizerConfig Config::localizer() const {
   config.T_base_lidar = {lidar.mount.x_m, lidar.mount.y_m,
                          core::normalize_angle(lidar.mount.theta_rad)};
   config.detector = detector;
-  config.recognition = localization.recognition;
   config.updates_per_scan = static_cast<std::size_t>(localization.updates_per_scan);
   config.noise = lidar.noise.sensor;
   config.bias = lidar.bias;

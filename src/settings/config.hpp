@@ -108,7 +108,6 @@ struct OdometryConfig {
 };
 
 struct LocalizationConfig {
-  core::RecognitionMethod recognition = core::RecognitionMethod::kPatterns;
   int updates_per_scan = 1;
 };
 

@@ -4,23 +4,6 @@
 namespace cornerd::settings {
 namespace {
 
-constexpr Choice<core::Method> kMethods[] = {{"altbd", core::Method::kAltbd},
-                                             {"altbd-printed", core::Method::kPrintedAltbd},
-                                             {"abd-iepf", core::Method::kAbdIepf},
-                                             {"lt", core::Method::kLineTracking}};
-constexpr Choice<core::EllipseAxes> kAxes[] = {{"printed", core::EllipseAxes::kPrinted},
-                                               {"squared", core::EllipseAxes::kSquared}};
-constexpr Choice<core::MinorAxis> kMinorAxes[] = {{"metres", core::MinorAxis::kMetres},
-                                                  {"share", core::MinorAxis::kShareOfRange}};
-constexpr Choice<core::TrackedLine> kLines[] = {{"first-three", core::TrackedLine::kFirstThree},
-                                                {"last-three", core::TrackedLine::kLastThree},
-                                                {"all", core::TrackedLine::kAll}};
-constexpr Choice<core::ErrorMean> kMeans[] = {{"last-three", core::ErrorMean::kLastThree},
-                                              {"all", core::ErrorMean::kAll}};
-constexpr Choice<core::AbdThreshold> kThresholds[] = {
-    {"borges-aldon", core::AbdThreshold::kBorgesAldon},
-    {"weerakoon", core::AbdThreshold::kWeerakoon}};
-
 /// More samples than a turn has make no wall.
 constexpr std::uint32_t kMaxCount = 1000;
 
@@ -32,22 +15,6 @@ void read_altbd(ObjectReader altbd, core::AltbdConfig& config) {
   altbd.number("max_gap", config.max_gap_m, {0.001, 10});
   altbd.number("prior_residuals", config.prior_residuals, {1, 1e6});
   altbd.finish();
-}
-
-void read_printed_altbd(ObjectReader printed, core::PrintedAltbdConfig& config) {
-  printed.choice("axes", config.axes, kAxes);
-  printed.choice("minor_axis", config.minor, kMinorAxes);
-  printed.choice("line", config.line, kLines);
-  printed.choice("mean", config.mean, kMeans);
-  printed.finish();
-}
-
-void read_abd_iepf(ObjectReader abd_iepf, core::AbdIepfConfig& config) {
-  abd_iepf.choice("threshold", config.threshold, kThresholds);
-  abd_iepf.number("sigma_r", config.sigma_r, {0, 0.3});
-  abd_iepf.number("lambda", config.lambda_rad, {0.001, 1.5});
-  abd_iepf.number("split_limit", config.split_limit_m, {0.0001, 10});
-  abd_iepf.finish();
 }
 
 void read_extraction(ObjectReader extraction, core::ExtractionConfig& config) {
@@ -76,16 +43,10 @@ void read_extraction(ObjectReader extraction, core::ExtractionConfig& config) {
 }  // namespace
 
 void read_detector(ObjectReader detector, core::DetectorConfig& config) {
-  detector.choice("method", config.method, kMethods);
   detector.number("sigma_offset", config.sigma_offset, {0.001, 1});
   detector.number("corner_tolerance", config.corner_tolerance_m, {0.001, 10});
   detector.integer("min_support", config.min_support, 3U, kMaxCount);
   read_altbd(detector.object("altbd"), config.altbd);
-  read_printed_altbd(detector.object("printed_altbd"), config.printed_altbd);
-  read_abd_iepf(detector.object("abd_iepf"), config.abd_iepf);
-  ObjectReader lt = detector.object("lt");
-  lt.number("max_distance", config.lt.max_distance_m, {0.0001, 10});
-  lt.finish();
   read_extraction(detector.object("extraction"), config.extraction);
   detector.finish();
 }

@@ -87,8 +87,7 @@ double written_delay_s(const calibration::OdometryFit& fit, double configured_s)
   return is_sure && is_allowed ? fit.learned.delay_s : configured_s;
 }
 
-std::string fragment(const calibration::OdometryFit& fit, const core::PaperFactors& factors,
-                     double delay_s) {
+std::string fragment(const calibration::OdometryFit& fit, double delay_s) {
   const core::LearnedOdometry& learned = fit.learned;
   std::string text = "{\n  \"odometry\": {\n    \"start\": {";
   const auto add = [&text](const char* key, double value) {
@@ -100,9 +99,7 @@ std::string fragment(const calibration::OdometryFit& fit, const core::PaperFacto
   add("gyro_scale", learned.gyro_scale);
   add("gyro_bias", learned.gyro_bias_rad_s);
   if (delay_s != 0) add("delay", delay_s);
-  return text +
-         formatted("\n    },\n    \"factors\": { \"encoder\": %.3f, \"gyro\": %.3f }\n  }\n}\n",
-                   factors.encoder_factor, factors.gyro_factor);
+  return text + "\n    }\n  }\n}\n";
 }
 
 /// Readings that are farther off than the daemon can make up for.
@@ -171,8 +168,6 @@ void calibrate_odometry(const CalibrateOdometryOptions& options) {
 
   TextTable table;
   table.add_row({"heading from", "factors", "mean error, m", "at the end, m"});
-  const double dead_band_rad = config.odometry.core.paper.dead_band_rad;
-  core::PaperFactors weighted;
   bool at_edge = false;
   const std::pair<HeadingSource, const char*> modes[] = {{HeadingSource::kEncoder, "encoder"},
                                                          {HeadingSource::kGyro, "gyro"},
@@ -180,7 +175,7 @@ void calibrate_odometry(const CalibrateOdometryOptions& options) {
                                                          {HeadingSource::kWeighted, "weighted"}};
   for (const auto& [source, name] : modes) {
     if (source != HeadingSource::kEncoder && !fit.has_gyro) continue;
-    core::DeadReckoningConfig reckoning{source, {1, 1, dead_band_rad}};
+    core::DeadReckoningConfig reckoning{source, {}};
     if (source != HeadingSource::kWeighted) {
       table.add_row(row(name, "none", reckon(steps, drive.places, geometry, reckoning)));
     }
@@ -188,7 +183,6 @@ void calibrate_odometry(const CalibrateOdometryOptions& options) {
     const auto found = search_factors(steps, drive.places, geometry, reckoning);
     at_edge = at_edge || found.at_edge();
     reckoning.factors = found.factors;
-    if (source == HeadingSource::kWeighted) weighted = reckoning.factors;
     table.add_row(row(name, describe_factors(source, found),
                       reckon(steps, drive.places, geometry, reckoning)));
   }
@@ -219,7 +213,7 @@ void calibrate_odometry(const CalibrateOdometryOptions& options) {
   }
   if (!options.output.empty()) {
     Output file(options.output);
-    file.write(fragment(fit, weighted, written_delay_s(fit, config.odometry.core.start.delay_s)));
+    file.write(fragment(fit, written_delay_s(fit, config.odometry.core.start.delay_s)));
     file.flush();
   }
 }
@@ -244,9 +238,8 @@ void add_calibrate_odometry(CLI::App& group) {
                    "where the robot really was, in place of the lidar's own fixes")
       ->type_name("FILE");
   command
-      ->add_option(
-          "-o,--output", options->output,
-          "the keys odometry.start and odometry.factors, for a config; -: on standard output")
+      ->add_option("-o,--output", options->output,
+                   "the key odometry.start, for a config; -: on standard output")
       ->type_name("JSON");
   command
       ->add_option("--plot", options->plot,

@@ -8,6 +8,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "baseline/wall_finders.hpp"
 #include "tool/commands.hpp"
 #include "tool/failure.hpp"
 #include "tool/file_guard.hpp"
@@ -46,9 +47,6 @@ void save_plot(const DetectOptions& options, const core::Scan& scan,
 }
 
 void detect(DetectOptions& options) {
-  if (!options.method.empty()) {
-    options.settings.add_override("/detector/method=" + options.method);
-  }
   const message::ClassSet classes = parse_classes(options.classes);
   if (classes.contains(message::MessageClass::kPose)) {
     throw UsageError("--classes: POSE needs a map; use replay");
@@ -56,7 +54,8 @@ void detect(DetectOptions& options) {
   CommandFiles files{.read = options.files, .written = {options.plot}, .output = {}};
   files.read.push_back(options.settings.config_file());
   guard_files(files);
-  const settings::Config config = options.settings.resolve(/*needs_map=*/false);
+  settings::Config config = options.settings.resolve(/*needs_map=*/false);
+  config.detector.finder = baseline::wall_finder(options.method);
 
   Output output;
   MessagePrinter printer(output, classes, nullptr);
@@ -86,9 +85,7 @@ void add_detect(CLI::App& program) {
   command->add_option("files", options->files, "recordings (.bin, .ndjson), one after another")
       ->required()
       ->type_name("FILE");
-  command
-      ->add_option("--method", options->method,
-                   "how walls are found; without it, as the configuration says")
+  command->add_option("--method", options->method, "how walls are found; without it, by altbd")
       ->check(CLI::IsMember({"altbd", "altbd-printed", "abd-iepf", "lt"}));
   options->settings.add_config(*command);
   command->add_option("--classes", options->classes, "messages to print: BREAKPOINTS, SCAN")

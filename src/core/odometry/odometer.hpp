@@ -94,13 +94,9 @@ class Odometer {
   Covariance3 learned_doubt(const Pose2& T_map_base, const Covariance3& covariance);
   std::optional<PredictedPose> prediction_of(const FusionFilter& filter, TimeNs t_ns,
                                              TimeNs guessed_ns) const;
-  /// Of what was driven since the last fix: what a mode that learns nothing may be off by, as it
-  /// was configured; and slips that no gyro shows.
-  Covariance3 doubt_of_mode(const FusionFilter& filter) const;
+  /// Of what was driven since the last fix: slips that no gyro shows.
   Covariance3 doubt_of_slips(const FusionFilter& filter) const;
-  bool doubts_slips() const {
-    return config_.wary && config_.mode == HeadingSource::kFilter && !last_.has_gyro;
-  }
+  bool doubts_slips() const { return config_.wary && !last_.has_gyro; }
   void watch_for_slips(const Pose2& T_map_base, const Covariance3& covariance);
   /// What a robot makes of a time, its variance in s^2, of which no reading tells.
   static Covariance3 doubt_of_change(double unread_s2);

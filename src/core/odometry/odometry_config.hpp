@@ -46,17 +46,6 @@ struct OdometryNoise {
   double delay_s_per_sqrt_s = 2e-5;
 };
 
-/// Where a change of heading comes from. The first four are those of Bertocco et al. (2019).
-enum class HeadingSource : std::uint8_t { kEncoder, kGyro, kMean, kWeighted, kFilter };
-
-/// What the paper's modes multiply and leave out.
-struct PaperFactors {
-  double encoder_factor = 1;  ///< c_enco
-  double gyro_factor = 1;     ///< c_gyro
-  /// tr: smaller changes of a wheel's angle or of the heading count as none; the paper has 0.01.
-  double dead_band_rad = 0;
-};
-
 /// What is known of the robot itself. A scale is a relative error: the wheel's true way is 1 +
 /// scale times what its counts say, the true track 1 + scale times the configured one, and a gyro
 /// reads 1 + scale times the true rate, plus the bias. What a reading says was true `delay_s`
@@ -76,10 +65,7 @@ struct OdometryConfig {
   OdometryLimits limits;
   OdometryNoise noise;
   LearnedOdometry start;  ///< what learning starts from
-  HeadingSource mode =
-      HeadingSource::kFilter;  ///< the paper's are for comparison: they learn nothing
-  PaperFactors paper;
-  double bridge_s = 10;  ///< a pose is carried on without the lidar for so long
+  double bridge_s = 10;   ///< a pose is carried on without the lidar for so long
   /// Turns that were foretold wrong are remembered until others were foretold right, sudden counts
   /// wait for the next, and what is guessed is doubted. A survey, which judges the drive as a
   /// whole, does without.

@@ -39,10 +39,9 @@ TEST(Config, EveryKey_ReachesItsMember) {
               "min_range": 0.2, "max_range": 6, "file": "/r.bin", "speed": 2.5, "loop": true,
               "mount": {"x": 0.1, "y": -0.2, "theta": 4, "inverted": true}, "motor": "none"},
     "map": "/m.json",
-    "detector": {"method": "lt", "sigma_offset": 0.05, "corner_tolerance": 0.3},
+    "detector": {"sigma_offset": 0.05, "corner_tolerance": 0.3},
     "odometry": {"source": "socket", "wheel_radius": 0.03, "track": 0.2, "counts_per_turn": 48,
-                 "ceiling": 65535, "mode": "weighted", "factors": {"encoder": 1.1, "gyro": 0.9},
-                 "dead_band": 0.01, "noise": {"wheel": 0.01, "gyro_bias": 0.1}, "bridge": 3},
+                 "ceiling": 65535, "noise": {"wheel": 0.01, "gyro_bias": 0.1}, "bridge": 3},
     "socket": {"pose": "/p.sock", "control": "/c.sock"},
     "realtime": {"priority": 0, "lock_memory": false}})");
   EXPECT_EQ(config.lidar.driver, DriverKind::kReplay);
@@ -58,7 +57,6 @@ TEST(Config, EveryKey_ReachesItsMember) {
   EXPECT_EQ(config.lidar.mount.y_m, -0.2);
   EXPECT_TRUE(config.lidar.mount.inverted);
   EXPECT_EQ(config.lidar.motor.kind, MotorKind::kNone);
-  EXPECT_EQ(config.detector.method, core::Method::kLineTracking);
   EXPECT_EQ(config.detector.sigma_offset, 0.05);
   EXPECT_EQ(config.detector.corner_tolerance_m, 0.3);
   EXPECT_EQ(config.odometry.core.geometry.wheel_radius_m, 0.03);
@@ -66,10 +64,6 @@ TEST(Config, EveryKey_ReachesItsMember) {
   EXPECT_EQ(config.odometry.core.geometry.counts_per_turn, 48);
   EXPECT_TRUE(config.localizer().odometry.enabled);
   EXPECT_EQ(config.odometry.core.geometry.ceiling, 65535);
-  EXPECT_EQ(config.odometry.core.mode, core::HeadingSource::kWeighted);
-  EXPECT_EQ(config.odometry.core.paper.encoder_factor, 1.1);
-  EXPECT_EQ(config.odometry.core.paper.gyro_factor, 0.9);
-  EXPECT_EQ(config.odometry.core.paper.dead_band_rad, 0.01);
   EXPECT_EQ(config.odometry.core.noise.wheel_m_per_sqrt_m, 0.01);
   EXPECT_EQ(config.odometry.core.noise.gyro_bias_rad_s, 0.1);
   EXPECT_EQ(config.odometry.core.bridge_s, 3);
@@ -83,7 +77,6 @@ TEST(Config, EveryKey_ReachesItsMember) {
   EXPECT_EQ(localizer.max_range_m, 6);
   EXPECT_EQ(localizer.T_base_lidar.x_m, 0.1);
   EXPECT_NEAR(localizer.T_base_lidar.theta_rad, 4 - core::kTwoPi, 1e-12);
-  EXPECT_EQ(localizer.detector.method, core::Method::kLineTracking);
 }
 
 TEST(Config, UnknownKey_NamesFilePointerAndTheLikelyOne) {
@@ -169,10 +162,6 @@ TEST(Config, UpdatesPerTurn_ReachTheLocalizer) {
 }
 
 TEST(Config, UnknownChoice_ListsWhatThereIs) {
-  EXPECT_THAT(config_error(R"({"map": "/m", "localizer": {"recognition": "guess"}})"),
-              HasSubstr("/localizer/recognition"));
-  EXPECT_THAT(config_error(R"({"map": "/m", "detector": {"method": "magic"}})"),
-              EndsWith(R"(must be one of "altbd", "altbd-printed", "abd-iepf", "lt")"));
   EXPECT_THAT(config_error(R"({"map": "/m", "odometry": {"source": "wheels"}})"),
               EndsWith(R"(must be one of "none", "socket", "kernel")"));
 }

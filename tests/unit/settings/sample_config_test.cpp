@@ -51,7 +51,7 @@ TEST(FullSample, EveryKeyTheProgramKnows_IsThere) {
   expect_all_known_keys_in(sample["lidar"]["mount"], "/lidar/mount", text);
   expect_all_known_keys_in(sample["lidar"]["noise"], "/lidar/noise", text);
   expect_all_known_keys_in(sample["lidar"]["bias"], "/lidar/bias", text);
-  for (const char* section : {"altbd", "printed_altbd", "abd_iepf", "lt", "extraction"}) {
+  for (const char* section : {"altbd", "extraction"}) {
     expect_all_known_keys_in(sample["detector"][section], std::string("/detector/") + section,
                              text);
   }
@@ -60,7 +60,6 @@ TEST(FullSample, EveryKeyTheProgramKnows_IsThere) {
 void expect_default_detector(const core::DetectorConfig& sample) {
   const core::DetectorConfig defaults;
   constexpr double kRounding = 1e-5;  // of angles, in the file
-  EXPECT_EQ(sample.method, defaults.method);
   EXPECT_EQ(sample.sigma_offset, defaults.sigma_offset);
   EXPECT_EQ(sample.corner_tolerance_m, defaults.corner_tolerance_m);
   EXPECT_EQ(sample.min_support, defaults.min_support);
@@ -70,15 +69,6 @@ void expect_default_detector(const core::DetectorConfig& sample) {
   EXPECT_NEAR(sample.altbd.max_gap_rad, defaults.altbd.max_gap_rad, kRounding);
   EXPECT_EQ(sample.altbd.max_gap_m, defaults.altbd.max_gap_m);
   EXPECT_EQ(sample.altbd.prior_residuals, defaults.altbd.prior_residuals);
-  EXPECT_EQ(sample.printed_altbd.axes, defaults.printed_altbd.axes);
-  EXPECT_EQ(sample.printed_altbd.minor, defaults.printed_altbd.minor);
-  EXPECT_EQ(sample.printed_altbd.line, defaults.printed_altbd.line);
-  EXPECT_EQ(sample.printed_altbd.mean, defaults.printed_altbd.mean);
-  EXPECT_EQ(sample.abd_iepf.threshold, defaults.abd_iepf.threshold);
-  EXPECT_EQ(sample.abd_iepf.sigma_r, defaults.abd_iepf.sigma_r);
-  EXPECT_NEAR(sample.abd_iepf.lambda_rad, defaults.abd_iepf.lambda_rad, kRounding);
-  EXPECT_EQ(sample.abd_iepf.split_limit_m, defaults.abd_iepf.split_limit_m);
-  EXPECT_EQ(sample.lt.max_distance_m, defaults.lt.max_distance_m);
   EXPECT_EQ(sample.extraction.gate_sigmas, defaults.extraction.gate_sigmas);
   EXPECT_EQ(sample.extraction.max_interruption, defaults.extraction.max_interruption);
   EXPECT_EQ(sample.extraction.max_piece_gap_m, defaults.extraction.max_piece_gap_m);
@@ -113,10 +103,6 @@ void expect_default_odometry(const OdometryConfig& sample, const OdometryConfig&
   EXPECT_EQ(geometry.track_m, defaults.core.geometry.track_m);
   EXPECT_EQ(geometry.counts_per_turn, defaults.core.geometry.counts_per_turn);
   EXPECT_EQ(geometry.ceiling, defaults.core.geometry.ceiling);
-  EXPECT_EQ(sample.core.mode, defaults.core.mode);
-  EXPECT_EQ(sample.core.paper.encoder_factor, defaults.core.paper.encoder_factor);
-  EXPECT_EQ(sample.core.paper.gyro_factor, defaults.core.paper.gyro_factor);
-  EXPECT_EQ(sample.core.paper.dead_band_rad, defaults.core.paper.dead_band_rad);
   const core::OdometryNoise& noise = sample.core.noise;
   EXPECT_EQ(noise.wheel_m_per_sqrt_m, defaults.core.noise.wheel_m_per_sqrt_m);
   EXPECT_EQ(noise.gyro_rad_s_per_sqrt_hz, defaults.core.noise.gyro_rad_s_per_sqrt_hz);

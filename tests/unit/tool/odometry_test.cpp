@@ -75,15 +75,6 @@ TEST_F(OdometryCommandTest, AnotherFile_GoesBeforeTheRecordingsOwn) {
   EXPECT_EQ(replay({"--odometry", nothing}).exit_code, 1);
 }
 
-TEST_F(OdometryCommandTest, PapersModes_BridgeToo) {
-  ASSERT_EQ(simulate({"--covered", "15,16"}).exit_code, 0);
-  for (const char* mode : {"encoder", "gyro", "mean", "weighted"}) {
-    const CommandRun run = replay({"--set", "/odometry/source=socket", "--set",
-                                   std::string("/odometry/mode=\"") + mode + "\""});
-    EXPECT_GT(count(run.out, "\"state\":\"predicted\""), 4U) << mode << run.err;
-  }
-}
-
 TEST_F(OdometryCommandTest, Readings_AreInTheOrderOfTime) {
   ASSERT_EQ(simulate({"--no-gyro", "--odometry-rate", "100"}).exit_code, 0);
   std::ifstream stream(recording_);

@@ -67,18 +67,6 @@ TEST(OdometerDoubt, AGyroThatSticksInADrive_IsNotCarriedOnInTurns) {
   EXPECT_GT(carried.predictions, 60) << "the wheels alone go on";
 }
 
-TEST(OdometerDoubt, AModeThatLearnsNothing_TellsWhatItMayBeOffBy) {
-  for (const HeadingSource mode : {HeadingSource::kEncoder, HeadingSource::kGyro,
-                                   HeadingSource::kMean, HeadingSource::kWeighted}) {
-    OdometryConfig config = switched_on();
-    config.mode = mode;
-    Ride ride(config);
-    const Carried carried = carried_on(ride, 2, 7, 60);
-    EXPECT_GT(carried.predictions, 200) << static_cast<int>(mode);
-    EXPECT_LT(carried.mean_error_squared, 4) << static_cast<int>(mode);
-  }
-}
-
 TEST(OdometerDoubt, WheelsThatSlipWithoutAGyro_AreToldWithThatDoubt) {
   Ride ride(switched_on());
   std::mt19937_64 random(5);
