@@ -127,7 +127,7 @@ std::span<const core::Hypothesis> PaperRecognition::places(
     place.votes = kVotesPerCorner * recognised(breakpoints, place.T_map_lidar) +
                   lines_on_walls(segments, place.T_map_lidar);
   }
-  std::sort(places.begin(), places.end(), is_better);
+  std::sort(places.begin(), places.end(), core::is_better);
   std::size_t level = 0;
   while (level < std::min(places.size(), kMaxLevel) && places[level].votes == places[0].votes) {
     ++level;

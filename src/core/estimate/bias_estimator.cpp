@@ -108,7 +108,7 @@ void BiasEstimator::learn(const WallMap& map, const Pose2& T_map_lidar,
   const SymmetricSolver<6> of_turn(information.topLeftCorner<6, 6>());
   if (!of_turn.succeeded() || !of_turn.is_positive()) return;
   const Eigen::Matrix<double, 6, 4> coupled = information.topRightCorner<6, 4>();
-  const Eigen::Matrix<double, 6, 4> solved = of_turn.solve(coupled);
+  const Eigen::Matrix<double, 6, 4> solved = of_turn.solve_columns(coupled);
   const Matrix4 of_bias = information.bottomRightCorner<4, 4>() - coupled.transpose() * solved;
   const Vector4 pull = gradient.tail<4>() - solved.transpose() * gradient.head<6>();
   if (!of_bias.allFinite() || !pull.allFinite()) return;

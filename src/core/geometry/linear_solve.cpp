@@ -20,7 +20,7 @@ typename SymmetricSolver<N>::Vector SymmetricSolver<N>::solve(const Vector& righ
 
 template <int N>
 template <int Columns>
-Eigen::Matrix<double, N, Columns> SymmetricSolver<N>::solve(
+Eigen::Matrix<double, N, Columns> SymmetricSolver<N>::solve_columns(
     const Eigen::Matrix<double, N, Columns>& right) const {
   return factors_.solve(right);
 }
@@ -37,7 +37,7 @@ Eigen::Vector3d Cholesky3::solve(const Eigen::Vector3d& right) const {
 }
 
 template <int Columns>
-Eigen::Matrix<double, 3, Columns> Cholesky3::solve(
+Eigen::Matrix<double, 3, Columns> Cholesky3::solve_columns(
     const Eigen::Matrix<double, 3, Columns>& right) const {
   return factors_.solve(right);
 }
@@ -54,8 +54,9 @@ template void SymmetricSolver<4>::compute(const Matrix&);
 template Eigen::Matrix4d SymmetricSolver<4>::inverse() const;
 template void SymmetricSolver<6>::compute(const Matrix&);
 template SymmetricSolver<6>::Vector SymmetricSolver<6>::solve(const Vector&) const;
-template Eigen::Matrix<double, 6, 4> SymmetricSolver<6>::solve(
+template Eigen::Matrix<double, 6, 4> SymmetricSolver<6>::solve_columns(
     const Eigen::Matrix<double, 6, 4>&) const;
-template Eigen::Matrix<double, 3, 11> Cholesky3::solve(const Eigen::Matrix<double, 3, 11>&) const;
+template Eigen::Matrix<double, 3, 11> Cholesky3::solve_columns(
+    const Eigen::Matrix<double, 3, 11>&) const;
 
 }  // namespace cornerd::core

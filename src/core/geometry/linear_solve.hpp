@@ -34,7 +34,8 @@ class SymmetricSolver {
   Vector pivots() const { return factors_.vectorD(); }
   Vector solve(const Vector& right) const;
   template <int Columns>
-  Eigen::Matrix<double, N, Columns> solve(const Eigen::Matrix<double, N, Columns>& right) const;
+  Eigen::Matrix<double, N, Columns> solve_columns(
+      const Eigen::Matrix<double, N, Columns>& right) const;
   Matrix inverse() const;
 
  private:
@@ -50,7 +51,8 @@ class Cholesky3 {
   bool succeeded() const { return factors_.info() == Eigen::Success; }
   Eigen::Vector3d solve(const Eigen::Vector3d& right) const;
   template <int Columns>
-  Eigen::Matrix<double, 3, Columns> solve(const Eigen::Matrix<double, 3, Columns>& right) const;
+  Eigen::Matrix<double, 3, Columns> solve_columns(
+      const Eigen::Matrix<double, 3, Columns>& right) const;
   /// L^-1 * right: of unit covariance where `matrix` is the covariance of `right`.
   Eigen::Vector3d whiten(const Eigen::Vector3d& right) const;
 

@@ -116,7 +116,7 @@ bool FusionFilter::correct(const Pose2& T_map_base, const Covariance3& covarianc
   const Cholesky3 root(pose_covariance() + covariance);
   watch_pulls(root, surprise);
   const Eigen::Matrix<double, 3, kSize> with_state = seen_with_state();
-  const Eigen::Matrix<double, kSize, 3> gain = root.solve(with_state).transpose();
+  const Eigen::Matrix<double, kSize, 3> gain = root.solve_columns(with_state).transpose();
   state_ += gain * surprise;
   covariance_ -= gain * with_state;
   keep_in_bounds();
