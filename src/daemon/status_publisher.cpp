@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "daemon/status_publisher.hpp"
 
-#include <spdlog/spdlog.h>
-
 #include <algorithm>
 #include <array>
 #include <string_view>
 
+#include "daemon/log.hpp"
 #include "drivers/lidar_status.hpp"
 #include "message/line_writer.hpp"
 
@@ -69,7 +68,7 @@ void StatusPublisher::log_once(const drivers::LidarChange& change, const std::st
   if (change.state == LidarState::kRunning) logged_texts_.clear();
   if (logged_texts_.size() == kMaxTexts) logged_texts_.clear();
   if (!logged_texts_.insert(text).second) return;
-  spdlog::log(is_fault(change) ? spdlog::level::warn : spdlog::level::info, "lidar {}", text);
+  log(is_fault(change) ? LogLevel::kWarning : LogLevel::kInfo, "lidar " + text);
 }
 
 void StatusPublisher::publish(const drivers::LidarStatus& lidar, const ScanPublisher& scans,

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "core/scan.hpp"
 #include "message/field_reader.hpp"
 #include "message/input_fields.hpp"
 #include "message/line_writer.hpp"

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "core/estimate/partial_scan_tracker.hpp"
+#include "core/recognition/partial_scan_tracker.hpp"
 
-#include <Eigen/LU>
+#include <Eigen/Core>
 
+#include "core/geometry/linear_solve.hpp"
 #include "core/recognition/hypothesis.hpp"
 
 namespace cornerd::core {
@@ -72,7 +73,7 @@ std::optional<PartialScanPose> PartialScanTracker::localize(const PredictedState
                                                             const SensorBias& bias,
                                                             double noise_scale) {
   points_.assign(part_, min_range_m_, max_range_m_, end_ns(), predicted.motion, bias);
-  const PosePrior prior{predicted.T_map_lidar, predicted.covariance.inverse()};
+  const PosePrior prior{predicted.T_map_lidar, inverse(predicted.covariance)};
   PartialScanPose pose;
   pose.refined = refinement_.refine(map_, predicted.T_map_lidar, kSearchRadius_m, points_.points(),
                                     points_.points(), noise_scale, &prior);
