@@ -14,7 +14,7 @@ using drivers::SensorState;
 
 bool is_running(SensorState state) { return state == SensorState::kRunning; }
 /// More than the different texts of the sensors.
-constexpr std::size_t kMaxTexts = 64;
+constexpr std::size_t kMaxSensorTexts = 64;
 
 /// A single bad value or failed read does not mean that the device was lost.
 bool is_transient(SensorState state) {
@@ -58,7 +58,7 @@ bool OdometryReader::publish_changes(MessageServer& server, core::TimeNs t_ns) {
 }
 
 void OdometryReader::log_once(SensorState state, const std::string& text) {
-  if (logged_.size() >= kMaxTexts) logged_.clear();
+  if (logged_.size() >= kMaxSensorTexts) logged_.clear();
   if (!logged_.insert(text).second) return;
   log(is_running(state) ? LogLevel::kInfo : LogLevel::kWarning, "odometry " + text);
 }

@@ -149,7 +149,7 @@ ParsedLine read_event(FieldReader& fields) {
                      std::string(fields.optional_text("detail"))};
 }
 
-ParsedLine read_line(std::string_view name, FieldReader& fields) {
+ParsedLine read_message(std::string_view name, FieldReader& fields) {
   if (name == "VERSION") {
     return ParsedVersion{std::string(fields.text("program")), std::string(fields.text("version"))};
   }
@@ -174,7 +174,7 @@ std::uint64_t ParsedStatus::counter(std::string_view name) const {
 }
 
 ParsedLine parse_line(std::string_view line) {
-  return parse_by_class<ParsedLine>(line, kMaxRecordedBytes, read_line);
+  return parse_by_class<ParsedLine>(line, kMaxRecordedBytes, read_message);
 }
 
 }  // namespace cornerd::message
