@@ -17,7 +17,7 @@ constexpr double kMaxInnovation_rad = radians(15);
 /// A partial scan has few rays on few walls: most must hit the predicted walls, and hardly any may
 /// pass through one.
 constexpr std::size_t kMinHits = 25;
-constexpr double kMinHitShare = 0.8;
+constexpr double kMinPartialHitShare = 0.8;
 constexpr double kMaxViolationShare = 0.05;
 
 }  // namespace
@@ -84,7 +84,7 @@ std::optional<PartialScanPose> PartialScanTracker::localize(const PredictedState
   const auto hits = ray_caster_.cast(map_, pose.refined.T_map_lidar, points_.points());
   pose.likelihood = beam_likelihood(map_, points_.points(), hits, pose.refined.T_map_lidar, noise_,
                                     noise_scale, 0);
-  if (pose.likelihood.hits < kMinHits || pose.likelihood.hit_share() < kMinHitShare ||
+  if (pose.likelihood.hits < kMinHits || pose.likelihood.hit_share() < kMinPartialHitShare ||
       pose.likelihood.violation_share() > kMaxViolationShare) {
     return std::nullopt;
   }
