@@ -122,7 +122,7 @@ std::span<const core::PoseHypothesis> PaperRecognition::places(
   found_.clear();
   if (!find_nearest(breakpoints)) return {};
   match_nearest();
-  const std::span<core::PoseHypothesis> places = found_.most_named(kMaxFound);
+  const std::span<core::PoseHypothesis> places = found_.most_voted(kMaxFound);
   for (core::PoseHypothesis& place : places) {
     place.votes = kVotesPerCorner * recognised(breakpoints, place.T_map_lidar) +
                   lines_on_walls(segments, place.T_map_lidar);

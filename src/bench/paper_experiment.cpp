@@ -28,7 +28,7 @@ class ScanTruths {
   const replay::CornerTruth& at(std::size_t scan) {
     const PaperPlace& place = scans_.places[scan];
     points_.assign(scans_.scans[scan], limits_.min_range_m, limits_.max_range_m);
-    truths_[place.map].look(place.T_map_lidar, points_.points());
+    truths_[place.map].observe(place.T_map_lidar, points_.points());
     return truths_[place.map];
   }
 

@@ -10,7 +10,6 @@
 #include <utility>
 
 #include "core/breakpoint/line_fit.hpp"
-#include "core/odometry/dead_reckoning.hpp"
 #include "core/odometry/fusion_filter.hpp"
 #include "core/odometry/reading_gate.hpp"
 
@@ -23,14 +22,12 @@ class Track {
   Track(const RecordedDrive& drive, const core::OdometryConfig& config) {
     core::ReadingGate gate(config);
     core::FusionFilter filter(config);
-    core::DeadReckoning reckoning(config.geometry, {config.mode, config.paper});
     core::Pose2 pose;
     for (const RecordedDrive::Reading& reading : drive.readings()) {
       const auto step = gate.add(reading.reading, reading.now_ns);
       if (!step || step->is_gap || step->to_ns <= step->from_ns) continue;
       if (points_.empty()) points_.push_back({step->from_ns, pose});
-      pose = config.mode == core::HeadingSource::kFilter ? pose * filter.motion_of(*step)
-                                                         : reckoning.add(*step);
+      pose = pose * filter.motion_of(*step);
       if (step->to_ns > points_.back().t_ns) points_.push_back({step->to_ns, pose});
     }
     if (points_.size() < 2) {

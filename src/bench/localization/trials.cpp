@@ -72,7 +72,7 @@ class Robot {
         const double angle_rad = at.theta_rad + bearing_rad;
         return range_with(
             things, at.translation(), angle_rad,
-            world.range_along(at.translation(), angle_rad, replay::ScanSimulator::kSight_m));
+            world.range_along(at.translation(), angle_rad, replay::ScanSimulator::kMaxRange_m));
       });
       if (trial_.updates_per_scan > 1) {
         follow(scan, motion, odometry, score);

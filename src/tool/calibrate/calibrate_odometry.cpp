@@ -212,7 +212,7 @@ void calibrate_odometry(const CalibrateOdometryOptions& options) {
   }
   if (!options.output.empty()) {
     Output file(options.output);
-    file.write(fragment(fit, written_delay_s(fit, config.odometry.core.start.delay_s)));
+    file.write(fragment(fit, written_delay_s(fit, config.odometry.core.initial.delay_s)));
     file.flush();
   }
 }

@@ -35,13 +35,13 @@ KnownDrive slow_drive(double late_s, unsigned seed) {
   known.places.clear();
   known.steps.clear();
   core::Pose2 T_map_base;
-  constexpr core::TimeNs kStep_ns = 20'000'000;
+  constexpr core::TimeNs kInterval_ns = 20'000'000;
   for (int i = 0; i < 6000; ++i) {
-    if (i % 7 == 0) known.places.push_back({i * kStep_ns, T_map_base});
+    if (i % 7 == 0) known.places.push_back({i * kInterval_ns, T_map_base});
     const double rotation_rad = 0.02 * 0.1 * std::sin(core::kTwoPi * i / 6000);
     const double way_m = 0.02 * 0.4;
     T_map_base = T_map_base * core::arc(way_m, rotation_rad);
-    core::OdometryIncrement step{.from_ns = i * kStep_ns, .to_ns = (i + 1) * kStep_ns};
+    core::OdometryIncrement step{.from_ns = i * kInterval_ns, .to_ns = (i + 1) * kInterval_ns};
     step.left_m = way_m - rotation_rad * core::DriveGeometry{}.track_m / 2;
     step.right_m = way_m + rotation_rad * core::DriveGeometry{}.track_m / 2;
     step.gyro_rad = rotation_rad;
