@@ -8,19 +8,18 @@
 
 namespace cornerd::drivers {
 
-/// The time as a driver sees it; a test brings its own. Safe for concurrent calls.
+/// The drivers' clock; tests replace it. Safe for concurrent calls.
 class Clock {
  public:
   virtual ~Clock() = default;
-  /// Never steps: what intervals are measured with.
+  /// Never steps: for intervals.
   virtual core::TimeNs monotonic_ns() = 0;
-  /// UNIX time less monotonic time, now. Steps when somebody sets the clock.
+  /// UNIX time minus monotonic time. Steps when the system clock is set.
   virtual core::TimeNs unix_offset_ns() = 0;
-  /// Returns early when a stop is asked for.
+  /// Returns early if a stop is requested.
   virtual void wait(std::chrono::milliseconds duration, const std::stop_token& stop) = 0;
 };
 
-/// The system's.
 Clock& system_clock();
 
 }  // namespace cornerd::drivers

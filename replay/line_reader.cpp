@@ -16,7 +16,7 @@ LineReader::Result LineReader::next() {
       return too_long ? Result::kTooLong : Result::kLine;
     }
     if (too_long) continue;
-    if (line_.size() == most_chars_) {
+    if (line_.size() == max_chars_) {
       too_long = true;
       line_.clear();
       continue;

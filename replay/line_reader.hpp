@@ -19,8 +19,8 @@ class LineReader {
     kEnd,
   };
 
-  LineReader(std::istream& stream, std::size_t most_chars)
-      : stream_(stream), most_chars_(most_chars) {}
+  LineReader(std::istream& stream, std::size_t max_chars)
+      : stream_(stream), max_chars_(max_chars) {}
 
   Result next();
 
@@ -31,7 +31,7 @@ class LineReader {
 
  private:
   std::istream& stream_;
-  std::size_t most_chars_;
+  std::size_t max_chars_;
   std::string line_;
   std::uint64_t number_ = 0;
 };

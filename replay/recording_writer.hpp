@@ -10,7 +10,7 @@
 #include <string_view>
 
 #include "core/geometry/pose2.hpp"
-#include "message/line.hpp"
+#include "message/line_writer.hpp"
 #include "replay/recording.hpp"
 
 namespace cornerd::replay {

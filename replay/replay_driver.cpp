@@ -10,7 +10,7 @@
 #include <thread>
 #include <utility>
 
-#include "drivers/counter_names.hpp"
+#include "drivers/lidar_status.hpp"
 
 namespace cornerd::replay {
 namespace {
@@ -18,17 +18,11 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 /// A stop is honoured within this time.
-constexpr std::chrono::milliseconds kLongestSleep{50};
+constexpr std::chrono::milliseconds kMaxSleep{50};
 /// How long the consumer is left alone where it has no room.
 constexpr std::chrono::microseconds kRoomSleep{500};
 /// A step of the recorded time beyond this is a clock that was set, or a pause nobody waits for.
-constexpr core::TimeNs kLongestPauseNs = 10 * core::kNsPerSecond;
-
-void add(drivers::StreamCounters& sum, const drivers::StreamCounters& more) {
-  for (const drivers::CounterName& counter : drivers::kCounterNames) {
-    sum.*counter.member += more.*counter.member;
-  }
-}
+constexpr core::TimeNs kMaxPauseNs = 10 * core::kNsPerSecond;
 
 }  // namespace
 
@@ -54,7 +48,7 @@ class ReplayDriver::Pacer : public RecordingSink {
     if (speed_ > 0) wait_until(sample.t_ns);
     while (speed_ <= 0 && !sink_.ready() && !stop_.stop_requested()) {
       std::this_thread::sleep_for(kRoomSleep);
-      driver_.come_round();
+      driver_.count_progress();
     }
     if (stop_.stop_requested()) return;
     measure_rates(sample);
@@ -74,15 +68,15 @@ class ReplayDriver::Pacer : public RecordingSink {
  private:
   void wait_until(core::TimeNs t_ns) {
     const core::TimeNs step_ns = t_ns - last_ns_;
-    if (samples_ == 0 || step_ns < 0 || step_ns > kLongestPauseNs) {
+    if (samples_ == 0 || step_ns < 0 || step_ns > kMaxPauseNs) {
       anchor_ = Clock::now();
       anchor_ns_ = t_ns;
     }
     const auto due = anchor_ + std::chrono::nanoseconds(static_cast<std::int64_t>(
                                    static_cast<double>(t_ns - anchor_ns_) / speed_));
     for (auto now = Clock::now(); now < due && !stop_.stop_requested(); now = Clock::now()) {
-      std::this_thread::sleep_for(std::min<Clock::duration>(due - now, kLongestSleep));
-      driver_.come_round();
+      std::this_thread::sleep_for(std::min<Clock::duration>(due - now, kMaxSleep));
+      driver_.count_progress();
     }
   }
 
@@ -126,7 +120,7 @@ ReplayDriver::ReplayDriver(ReplayDriverConfig config) : config_(std::move(config
 
 void ReplayDriver::publish(const drivers::LidarStatus& now) {
   published_.publish(now);
-  come_round();
+  count_progress();
   if (now.state == last_change_.state && now.detail.view() == last_change_.detail.view()) return;
   last_change_ = {now.state, now.fault, now.detail};
   changes_.push(last_change_);
@@ -134,7 +128,7 @@ void ReplayDriver::publish(const drivers::LidarStatus& now) {
 
 void ReplayDriver::publish(const RecordingPlayer& player, const Pacer& pacer) {
   drivers::LidarStatus now = status_;
-  add(now.counters, player.counters());
+  now.counters += player.counters();
   now.rate_hz = pacer.rate_hz();
   now.samples_hz = pacer.samples_hz();
   if (player.bad_lines() > 0) now.detail.set(player.first_problem());
@@ -155,7 +149,7 @@ void ReplayDriver::play(const std::stop_token& stop, Pacer& pacer) {
     again = config_.loop && pacer.samples_of_pass() > 0;
     if (!again) status_.state = drivers::LidarState::kEnded;
     publish(player, pacer);
-    add(status_.counters, player.counters());
+    status_.counters += player.counters();
   }
 }
 

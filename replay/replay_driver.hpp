@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <stop_token>
 
-#include "core/latest.hpp"
+#include "core/triple_buffer.hpp"
 #include "core/ring_buffer.hpp"
 #include "drivers/lidar_driver.hpp"
 #include "replay/recording.hpp"
@@ -38,7 +38,7 @@ class ReplayDriver : public drivers::LidarDriver {
 
   ReplayDriverConfig config_;
   drivers::LidarStatus status_;  ///< run()'s own copy
-  core::Latest<drivers::LidarStatus> published_;
+  core::TripleBuffer<drivers::LidarStatus> published_;
   static constexpr std::size_t kChanges = 16;  ///< a recording goes through four
   core::RingBuffer<drivers::LidarChange> changes_{kChanges};
   drivers::LidarChange last_change_;

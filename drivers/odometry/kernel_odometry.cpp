@@ -7,11 +7,10 @@
 namespace cornerd::drivers {
 namespace {
 
-/// How often missing devices are looked for, and those at hand checked for being set up.
-constexpr core::TimeNs kLook_ns = core::kNsPerSecond;
-/// Two counts that were read farther apart say more about the scheduler than about the robot: at
-/// 1 m/s a wheel rolls 5 mm meanwhile.
-constexpr core::TimeNs kTogether_ns = 5'000'000;
+/// Period of searching for missing devices and of checking the others.
+constexpr core::TimeNs kRefresh_ns = core::kNsPerSecond;
+/// Counts read farther apart are not a pair: at 1 m/s a wheel rolls 5 mm meanwhile.
+constexpr core::TimeNs kMaxPairSpread_ns = 5'000'000;
 constexpr core::TimeNs kNsPerMs = 1'000'000;
 
 }  // namespace
@@ -22,22 +21,22 @@ KernelOdometry::KernelOdometry(const KernelOdometryConfig& config, Clock& clock)
       left_(config.sysfs, config.left),
       right_(config.sysfs, config.right),
       gyro_(config.sysfs, config.gyro),
-      freeze_(config.geometry) {
+      stuck_(config.geometry) {
   publish();
 }
 
 void KernelOdometry::run(std::stop_token stop, OdometrySink& sink) {
   core::TimeNs next_ns = clock_.monotonic_ns();
-  core::TimeNs look_ns = next_ns;
+  core::TimeNs refresh_ns = next_ns;
   while (!stop.stop_requested()) {
     const core::TimeNs now_ns = clock_.monotonic_ns();
-    if (now_ns >= look_ns) {
-      look();
-      look_ns = now_ns + kLook_ns;
+    if (now_ns >= refresh_ns) {
+      refresh();
+      refresh_ns = now_ns + kRefresh_ns;
     }
     poll(sink);
     publish();
-    // After a pause it goes on at its pace; it does not make up for what it missed.
+    // Missed polls are not made up for.
     next_ns = std::max(next_ns + period_ns_, now_ns);
     const core::TimeNs rest_ns = next_ns - clock_.monotonic_ns();
     if (rest_ns > 0) {
@@ -46,31 +45,30 @@ void KernelOdometry::run(std::stop_token stop, OdometrySink& sink) {
   }
 }
 
-void KernelOdometry::look() {
-  left_.look();
-  right_.look();
-  gyro_.look();
+void KernelOdometry::refresh() {
+  left_.refresh();
+  right_.refresh();
+  gyro_.refresh();
 }
 
 void KernelOdometry::poll(OdometrySink& sink) {
   core::OdometryReading reading;
-  // The gyro first: its bus takes a millisecond, the counts none, and the time is that of the
-  // counts.
+  // The gyro comes first: its bus takes 1 ms, and the reading's time is that of the counts.
   reading.gyro_rad_s = gyro_.read();
   const core::TimeNs before_ns = clock_.monotonic_ns();
   reading.left = left_.read();
   reading.right = right_.read();
   const core::TimeNs after_ns = clock_.monotonic_ns();
-  if (reading.left && reading.right && after_ns - before_ns > kTogether_ns) {
+  if (reading.left && reading.right && after_ns - before_ns > kMaxPairSpread_ns) {
     ++late_;
     reading.left.reset();
     reading.right.reset();
   }
   if (!reading.left && !reading.right && !reading.gyro_rad_s) return;
-  freeze_.add(reading);
-  left_.set_frozen(freeze_.left_is_frozen());
-  right_.set_frozen(freeze_.right_is_frozen());
-  gyro_.set_frozen(freeze_.gyro_is_frozen());
+  stuck_.add(reading);
+  left_.set_stuck(stuck_.left_is_stuck());
+  right_.set_stuck(stuck_.right_is_stuck());
+  gyro_.set_stuck(stuck_.gyro_is_stuck());
   reading.t_ns = before_ns + (after_ns - before_ns) / 2;
   ++readings_;
   sink.on_reading(reading);
@@ -84,7 +82,8 @@ void KernelOdometry::publish() {
   status.counters.readings = readings_;
   status.counters.failed_reads =
       left_.failed_reads() + right_.failed_reads() + gyro_.failed_reads();
-  status.counters.garbage = left_.garbage() + right_.garbage() + gyro_.garbage();
+  status.counters.invalid_values =
+      left_.invalid_values() + right_.invalid_values() + gyro_.invalid_values();
   status.counters.wraps = left_.wraps() + right_.wraps();
   status.counters.late = late_;
   latest_.publish(status);

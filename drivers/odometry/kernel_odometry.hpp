@@ -3,13 +3,12 @@
 
 #include <filesystem>
 
-#include "core/latest.hpp"
 #include "core/odometry/odometry_config.hpp"
+#include "core/triple_buffer.hpp"
 #include "drivers/clock.hpp"
-#include "drivers/odometry/encoder.hpp"
-#include "drivers/odometry/freeze_watch.hpp"
-#include "drivers/odometry/gyro.hpp"
+#include "drivers/odometry/kernel_sensors.hpp"
 #include "drivers/odometry/odometry_driver.hpp"
+#include "drivers/odometry/stuck_detector.hpp"
 
 namespace cornerd::drivers {
 
@@ -19,12 +18,12 @@ struct KernelOdometryConfig {
   EncoderConfig right;
   GyroConfig gyro;
   double rate_hz = 50;
-  core::DriveGeometry geometry;  ///< to tell a sensor that froze from a robot that stands
+  core::DriveGeometry geometry;  ///< for StuckDetector
 };
 
-/// Wheels and gyro by the kernel's own drivers (README.md beside this file). It polls: the eQEP
-/// driver of Debian 12's kernel has no events, and a gyro's buffer takes rights that its attributes
-/// do not.
+/// Polls wheel encoders and a gyro through the kernel's drivers; see README.md beside this file. It
+/// polls because Debian 12's eQEP driver has no events, and IIO buffers need more rights than
+/// attributes.
 class KernelOdometry : public OdometryDriver {
  public:
   explicit KernelOdometry(const KernelOdometryConfig& config, Clock& clock = system_clock());
@@ -33,7 +32,7 @@ class KernelOdometry : public OdometryDriver {
   OdometryStatus status() override { return latest_.read(); }
 
  private:
-  void look();
+  void refresh();
   void poll(OdometrySink& sink);
   void publish();
 
@@ -42,10 +41,10 @@ class KernelOdometry : public OdometryDriver {
   Encoder left_;
   Encoder right_;
   Gyro gyro_;
-  FreezeWatch freeze_;
+  StuckDetector stuck_;
   std::uint64_t readings_ = 0;
   std::uint64_t late_ = 0;
-  core::Latest<OdometryStatus> latest_;
+  core::TripleBuffer<OdometryStatus> latest_;
 };
 
 }  // namespace cornerd::drivers

@@ -13,10 +13,10 @@ std::string_view to_string(SensorState state) {
       return "unreadable";
     case SensorState::kDisabled:
       return "disabled";
-    case SensorState::kGarbage:
-      return "garbage";
-    case SensorState::kFrozen:
-      return "frozen";
+    case SensorState::kInvalid:
+      return "invalid";
+    case SensorState::kStuck:
+      return "stuck";
     case SensorState::kRunning:
       return "running";
   }

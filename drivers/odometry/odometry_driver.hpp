@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the daemon asks of wheels and gyro that hang on the board itself.
+// The interface of odometry sensors on the board itself.
 #pragma once
 
 #include <cstdint>
@@ -7,17 +7,17 @@
 #include <string_view>
 
 #include "core/odometry/odometry_reading.hpp"
-#include "drivers/lidar_driver.hpp"
+#include "drivers/lidar_status.hpp"
 
 namespace cornerd::drivers {
 
 enum class SensorState : std::uint8_t {
   kNone,        ///< not configured
-  kAbsent,      ///< no device of that name, or it was taken away
-  kUnreadable,  ///< it is there, and reading it fails: rights, a bus error, another reader
-  kDisabled,    ///< it is there, and set up so that it does not count
-  kGarbage,     ///< what it says is no number
-  kFrozen,      ///< it says the same while the others say that the robot moves
+  kAbsent,      ///< no device of that name
+  kUnreadable,  ///< reading fails: rights, a bus error, another reader
+  kDisabled,    ///< not set up to count
+  kInvalid,     ///< the attribute holds no number
+  kStuck,       ///< constant although the other sensors report motion
   kRunning,
 };
 
@@ -25,15 +25,15 @@ std::string_view to_string(SensorState state);
 
 struct SensorStatus {
   SensorState state = SensorState::kNone;
-  ShortText detail;  ///< for a person: what is wrong, what to do
+  ShortText detail;  ///< for a person: what is wrong, where, what to do
 };
 
 struct OdometryCounters {
-  std::uint64_t readings = 0;      ///< handed over
-  std::uint64_t failed_reads = 0;  ///< of an attribute
-  std::uint64_t garbage = 0;       ///< attributes that held no number
-  std::uint64_t wraps = 0;         ///< counts that went over their ceiling or below zero
-  std::uint64_t late = 0;          ///< pairs of counts read too far apart to belong together
+  std::uint64_t readings = 0;        ///< delivered
+  std::uint64_t failed_reads = 0;    ///< of an attribute
+  std::uint64_t invalid_values = 0;  ///< attributes that held no number
+  std::uint64_t wraps = 0;           ///< of counts at their ceiling or zero
+  std::uint64_t late = 0;            ///< pairs of counts read too far apart
 };
 
 struct OdometryStatus {
@@ -43,7 +43,7 @@ struct OdometryStatus {
   OdometryCounters counters;
 };
 
-/// Where readings go. One driver, one sink, one thread.
+/// Receives readings on the driver's thread.
 class OdometrySink {
  public:
   virtual ~OdometrySink() = default;
@@ -54,11 +54,11 @@ class OdometryDriver {
  public:
   virtual ~OdometryDriver() = default;
 
-  /// Delivers readings, their times monotonic, until a stop is asked for. Never throws; faults of
-  /// the devices are states, and what is missing is looked for again.
+  /// Delivers readings with monotonic times until a stop is requested. Never throws; device faults
+  /// are states, and missing devices are searched for again.
   virtual void run(std::stop_token stop, OdometrySink& sink) = 0;
 
-  /// The newest status. One reading thread at a time; never blocks run().
+  /// The newest status. For one thread; never blocks run().
   virtual OdometryStatus status() = 0;
 };
 

@@ -5,21 +5,20 @@
 
 #include "drivers/rplidar/wire/byte_window.hpp"
 #include "drivers/rplidar/wire/capsule_decoder.hpp"
-#include "drivers/rplidar/wire/node_chain.hpp"
-#include "drivers/rplidar/wire/scan_descriptor.hpp"
 #include "drivers/rplidar/wire/standard_decoder.hpp"
+#include "drivers/rplidar/wire/standard_node.hpp"
 
 namespace cornerd::rplidar {
 namespace {
 
-// Where so many bytes make no sense in a format, the belief in the format was wrong: its descriptor
-// was damaged, or the caller mistaken.
-constexpr std::size_t kDoubtFormatAfter = 4096;
+// After this many undecodable bytes the format is wrong: a damaged descriptor, or the caller's
+// error.
+constexpr std::size_t kForgetFormatAfter = 4096;
 
 }  // namespace
 
-/// A window over the bytes, and two states: locked, where one of the formats' decoders takes packet
-/// after packet, and searching, where byte after byte is skipped until a packet is found.
+/// Locked: the format's decoder takes packet after packet. Searching: byte after byte is skipped
+/// until a packet is found.
 class Decoder::Implementation {
  public:
   explicit Implementation(std::optional<WireFormat> format) : format_(format) {}
@@ -38,7 +37,7 @@ class Decoder::Implementation {
     }
     counters_.skipped_bytes += window_.unread().size();
     window_.consume(window_.unread().size());
-    capsules_.drop_waiting(index_);
+    capsules_.drop_pending(index_);
     state_ = State::kSearching;
     has_history_ = false;
   }
@@ -50,10 +49,10 @@ class Decoder::Implementation {
   enum class State : std::uint8_t {
     kSearching,
     kLocked,
-    kForeign,  ///< in a stream that no A1 sends: nothing but a descriptor ends it
+    kUnsupported,  ///< a format that no A1 sends; only a descriptor ends it
   };
 
-  /// True where something was taken out of the window.
+  /// True if bytes were consumed.
   bool step(bool final, RawSampleSink& sink) {
     if (state_ != State::kLocked) return search(final, sink);
     const Step result = *format_ == WireFormat::kStandard
@@ -76,7 +75,7 @@ class Decoder::Implementation {
       begin_stream(descriptor.format, sink);
       return true;
     }
-    if (state_ != State::kForeign) {
+    if (state_ != State::kUnsupported) {
       for (const WireFormat format :
            {WireFormat::kExpress, WireFormat::kUltra, WireFormat::kStandard}) {
         if (format_ && *format_ != format) continue;
@@ -89,7 +88,8 @@ class Decoder::Implementation {
     }
     window_.consume(1);
     ++counters_.skipped_bytes;
-    if (++skipped_since_lock_ == kDoubtFormatAfter && state_ != State::kForeign) format_.reset();
+    if (++skipped_since_lock_ == kForgetFormatAfter && state_ != State::kUnsupported)
+      format_.reset();
     return true;
   }
 
@@ -99,10 +99,10 @@ class Decoder::Implementation {
   }
 
   void begin_stream(std::optional<WireFormat> format, RawSampleSink& sink) {
-    capsules_.drop_waiting(index_);
+    capsules_.drop_pending(index_);
     if (counters_.samples > 0) sink.on_gap();
     format_ = format;
-    state_ = format ? State::kLocked : State::kForeign;
+    state_ = format ? State::kLocked : State::kUnsupported;
     if (format) lock(*format, false);
   }
 
@@ -110,9 +110,9 @@ class Decoder::Implementation {
     const bool same_stream = has_history_ && format_ == format;
     const std::size_t packet = format == WireFormat::kStandard ? kNodeSize : capsule_size(format);
     if (same_stream && skipped_since_lock_ % packet != 0) ++counters_.resyncs;
-    // Capsules tell by their angles how many of them are gone, if not many are; nodes do not.
-    const bool tells = same_stream && format != WireFormat::kStandard;
-    if (!tells && counters_.samples > 0) sink.on_gap();
+    // A short gap has a known length in capsules, by their angles, but not in nodes.
+    const bool knows_length = same_stream && format != WireFormat::kStandard;
+    if (!knows_length && counters_.samples > 0) sink.on_gap();
     format_ = format;
     state_ = State::kLocked;
     lock(format, same_stream);

@@ -4,30 +4,31 @@
 #include <algorithm>
 
 namespace cornerd::rplidar {
+
 namespace {
 
 using std::chrono::milliseconds;
 
-// Each limit and the failure that it answers.
-constexpr milliseconds kAnswerTimeout{500};  // a request lost on the way, or sent too early
-constexpr milliseconds kQuiet{20};           // a scan in flight, a banner: neither pauses so long
-constexpr milliseconds kPause{40};           // between two capsules, through a USB adapter
-constexpr milliseconds kListenLimit{100};    // a scan in flight: six capsules at least
-constexpr milliseconds kDrainLimit{500};     // a device that does not stop talking
-constexpr milliseconds kBootLimit{1500};     // a banner that never comes; real ones take 671 ms
-constexpr milliseconds kSlice{100};          // a stop that is asked for while nothing comes
+// Each limit, and the failure it bounds.
+constexpr milliseconds kAnswerTimeout{500};  // a request that was lost, or sent too early
+constexpr milliseconds kIdle{20};            // pauses within a scan or a banner are shorter
+constexpr milliseconds kPause{40};           // longest pause between capsules through a USB adapter
+constexpr milliseconds kListenLimit{100};    // at least six capsules of a running scan
+constexpr milliseconds kDrainLimit{500};     // a device that never stops sending
+constexpr milliseconds kBootLimit{1500};     // no banner; a real one takes 671 ms
+constexpr milliseconds kSlice{100};          // delay of a requested stop
 
 constexpr std::uint16_t kFirmwareWithConf = firmware_version(1, 24);
 constexpr std::uint16_t kFirmwareWithExpress = firmware_version(1, 17);
 constexpr std::uint32_t kMaxModes = 16;
-constexpr int kTriesToAgree = 4;
+constexpr int kMaxConfirmations = 4;
 
-/// What two answers on end say. No checksum guards them, and a period with one bit wrong makes
-/// every time stamp wrong that follows.
-auto confirmed(const auto& ask) {
-  auto before = ask();
-  for (int attempt = 1; attempt < kTriesToAgree && before; ++attempt) {
-    auto answer = ask();
+/// The value of two successive equal answers. Answers have no checksum, and one wrong bit in a
+/// period falsifies every later time stamp.
+auto confirmed(const auto& query) {
+  auto before = query();
+  for (int attempt = 1; attempt < kMaxConfirmations && before; ++attempt) {
+    auto answer = query();
     if (answer == before) return answer;
     before = answer;
   }
@@ -38,41 +39,41 @@ auto confirmed(const auto& ask) {
 
 void Device::listen(MeasurementSearch& search) {
   search_ = &search;
-  read_until_quiet(kPause, kListenLimit, false);
+  read_until_idle(kPause, kListenLimit, false);
   search_ = nullptr;
 }
 
-bool Device::quiet() {
+bool Device::stop_scan() {
   if (!send(Request(Command::kStop))) return false;
-  read_until_quiet(kQuiet, kDrainLimit, false);
-  if (heard_banner_) wait_while_it_boots();
+  read_until_idle(kIdle, kDrainLimit, false);
+  if (saw_banner_) wait_for_boot();
   return !lost_;
 }
 
 bool Device::reset() {
   if (!send(Request(Command::kReset))) return false;
-  read_until_quiet(kQuiet, kBootLimit, true);
-  heard_banner_ = false;
+  read_until_idle(kIdle, kBootLimit, true);
+  saw_banner_ = false;
   return !lost_;
 }
 
 std::optional<DeviceInfo> Device::info(int tries) {
   for (int attempt = 0; attempt < tries && !lost_; ++attempt) {
-    const auto answer = ask(Request(Command::kGetInfo), AnswerType::kInfo);
+    const auto answer = query(Request(Command::kGetInfo), AnswerType::kInfo);
     if (answer) return DeviceInfo::decode(*answer);
   }
   return std::nullopt;
 }
 
 std::optional<Health> Device::health() {
-  const auto answer = ask(Request(Command::kGetHealth), AnswerType::kHealth);
+  const auto answer = query(Request(Command::kGetHealth), AnswerType::kHealth);
   return answer ? Health::decode(*answer) : std::nullopt;
 }
 
 std::vector<ScanMode> Device::modes(const DeviceInfo& info) {
   std::vector<ScanMode> modes;
   if (info.firmware >= kFirmwareWithConf) {
-    const auto count = ask_conf(ConfType::kModeCount);
+    const auto count = query_conf(ConfType::kModeCount);
     const std::uint32_t number = count ? count->number(2).value_or(0) : 0;
     for (std::uint32_t id = 0; id < std::min(number, kMaxModes) && !lost_; ++id) {
       if (auto mode = conf_mode(static_cast<std::uint16_t>(id))) modes.push_back(std::move(*mode));
@@ -81,11 +82,11 @@ std::vector<ScanMode> Device::modes(const DeviceInfo& info) {
   }
   modes.push_back({.id = 0, .name = "Standard", .format = WireFormat::kStandard, .period_s = 0});
   if (info.firmware >= kFirmwareWithExpress) {
-    const auto ask_rate = [this] {
-      const auto answer = ask(Request(Command::kGetSampleRate), AnswerType::kSampleRate);
+    const auto query_rate = [this] {
+      const auto answer = query(Request(Command::kGetSampleRate), AnswerType::kSampleRate);
       return answer ? SampleRate::decode(*answer) : std::nullopt;
     };
-    if (const auto rate = confirmed(ask_rate)) {
+    if (const auto rate = confirmed(query_rate)) {
       modes.front().period_s = rate->standard_us * 1e-6;
       modes.push_back({.id = 0,
                        .name = "Express",
@@ -98,28 +99,28 @@ std::vector<ScanMode> Device::modes(const DeviceInfo& info) {
 
 std::optional<ScanMode> Device::conf_mode(std::uint16_t id) {
   ScanMode mode{.id = id, .name = {}, .format = WireFormat::kStandard, .period_s = 0};
-  const auto type = ask_conf(ConfType::kAnswerType, id);
+  const auto type = query_conf(ConfType::kAnswerType, id);
   const auto type_byte = type ? type->number(1) : std::nullopt;
   const auto format = type_byte ? wire_format(static_cast<AnswerType>(*type_byte)) : std::nullopt;
   if (!format) return std::nullopt;
   mode.format = *format;
-  const auto ask_period = [this, id] {
-    const auto answer = ask_conf(ConfType::kModePeriod, id);
+  const auto query_period = [this, id] {
+    const auto answer = query_conf(ConfType::kModePeriod, id);
     return answer ? answer->number(4) : std::nullopt;
   };
-  mode.period_s = confirmed(ask_period).value_or(0) / 256.0 * 1e-6;
-  if (const auto name = ask_conf(ConfType::kModeName, id)) mode.name = name->text();
+  mode.period_s = confirmed(query_period).value_or(0) / 256.0 * 1e-6;
+  if (const auto name = query_conf(ConfType::kModeName, id)) mode.name = name->text();
   return mode;
 }
 
-std::optional<ConfAnswer> Device::ask_conf(ConfType type, std::optional<std::uint16_t> mode) {
+std::optional<ConfAnswer> Device::query_conf(ConfType type, std::optional<std::uint16_t> mode) {
   const auto answer =
-      ask(Request::get_conf(static_cast<std::uint32_t>(type), mode), AnswerType::kGetConf);
+      query(Request::get_conf(static_cast<std::uint32_t>(type), mode), AnswerType::kGetConf);
   const auto conf = answer ? ConfAnswer::decode(*answer) : std::nullopt;
   return conf && conf->is(type) ? conf : std::nullopt;
 }
 
-std::optional<Device::Answer> Device::ask(const Request& request, AnswerType type) {
+std::optional<Device::Answer> Device::query(const Request& request, AnswerType type) {
   if (!send(request)) return std::nullopt;
   const core::TimeNs deadline_ns =
       clock_.monotonic_ns() + std::chrono::nanoseconds(kAnswerTimeout).count();
@@ -129,9 +130,9 @@ std::optional<Device::Answer> Device::ask(const Request& request, AnswerType typ
   while (!stop_.stop_requested() && clock_.monotonic_ns() < deadline_ns) {
     const auto result = read(kSlice);
     if (lost_) return std::nullopt;
-    if (heard_banner_) {
-      // What was asked before it had started was not heard.
-      wait_while_it_boots();
+    if (saw_banner_) {
+      // A booting device ignored the request.
+      wait_for_boot();
       return std::nullopt;
     }
     for (const std::uint8_t byte : std::span(buffer_).first(result.count)) {
@@ -151,10 +152,10 @@ std::optional<Device::Answer> Device::ask(const Request& request, AnswerType typ
   return std::nullopt;
 }
 
-void Device::wait_while_it_boots() {
-  heard_banner_ = false;
+void Device::wait_for_boot() {
+  saw_banner_ = false;
   booted_ = true;
-  read_until_quiet(kQuiet, kDrainLimit, false);
+  read_until_idle(kIdle, kDrainLimit, false);
 }
 
 bool Device::send(const Request& request) {
@@ -162,11 +163,11 @@ bool Device::send(const Request& request) {
   return !lost_;
 }
 
-void Device::read_until_quiet(Milliseconds quiet, Milliseconds limit, bool wait_for_first) {
+void Device::read_until_idle(Milliseconds idle, Milliseconds limit, bool wait_for_first) {
   const core::TimeNs deadline_ns = clock_.monotonic_ns() + std::chrono::nanoseconds(limit).count();
   bool any = !wait_for_first;
   while (!stop_.stop_requested() && clock_.monotonic_ns() < deadline_ns) {
-    const auto result = read(any ? quiet : kSlice);
+    const auto result = read(any ? idle : kSlice);
     if (lost_) return;
     if (result.count > 0) any = true;
     if (any && result.count == 0) return;
@@ -176,9 +177,9 @@ void Device::read_until_quiet(Milliseconds quiet, Milliseconds limit, bool wait_
 drivers::ByteStream::ReadResult Device::read(Milliseconds timeout) {
   const auto result = port_.read(buffer_, timeout);
   lost_ = lost_ || result.status == drivers::ByteStream::ReadStatus::kLost;
-  heard_bytes_ += result.count;
+  received_bytes_ += result.count;
   const auto bytes = std::span(buffer_).first(result.count);
-  if (banner_.add(bytes)) heard_banner_ = true;
+  if (banner_.add(bytes)) saw_banner_ = true;
   if (search_ != nullptr) search_->add(bytes);
   return result;
 }

@@ -6,7 +6,7 @@ namespace {
 
 using drivers::LidarFault;
 
-/// {} stands for what the fault is about.
+/// {} stands for `extra`.
 std::string_view pattern(LidarFault fault) {
   switch (fault) {
     case LidarFault::kNone:
@@ -14,41 +14,43 @@ std::string_view pattern(LidarFault fault) {
     case LidarFault::kNoPort:
     case LidarFault::kNoPermission:
       return "{}; waiting for it";
-    case LidarFault::kPortHeld:
-      return "{}; waiting for it. `sudo cornerctl doctor` says by whom";
+    case LidarFault::kPortBusy:
+      return "{}; waiting for it. `sudo cornerctl doctor` names the process";
     case LidarFault::kPortError:
-      return "{}; trying again. `sudo cornerctl doctor` says more";
+      return "{}; trying again. `sudo cornerctl doctor` finds the cause";
     case LidarFault::kUnplugged:
-      return "the port is gone; waiting for it. If nobody pulled the plug: check cable and supply";
+      return "the port vanished; waiting for it. If nobody unplugged it, check cable and supply";
     case LidarFault::kStreamRunning:
-      return "was still measuring for a program that ended without stopping it; stopped it";
-    case LidarFault::kForeignTalk:
-      return "something talks on the port that is no lidar's measurement; another device, a "
-             "console, a wrong lidar.baud?";
+      return "still measuring for a program that ended without stopping it; stopped it";
+    case LidarFault::kUnexpectedData:
+      return "unexpected bytes that are no lidar's measurement; is it another device, a console, "
+             "or a wrong baud?";
     case LidarFault::kBooting:
-      return "has just been switched on; waiting until it has started";
+      return "just switched on; waiting until it has started";
     case LidarFault::kNoAnswer:
-      return "no answer; is it an RPLidar with {} baud, are its RX and TX the right way round, has "
-             "it 5 V enough?";
+      return "no answer; check that it is an RPLidar at {} baud, that RX and TX are not swapped, "
+             "and that it gets 5 V";
     case LidarFault::kWrongBaud:
-      return "no answer at the speed of the settings, but {}; set lidar.baud";
+      return "no answer at the configured speed, but {}; correct the baud in the config";
     case LidarFault::kProtectionStop:
-      return "has stopped to protect itself, {}; resetting it";
+      return "protection stop, {}; resetting it";
     case LidarFault::kHealthError:
-      return "reports a hardware fault that a reset does not mend, {}; check that its head turns "
-             "freely and its supply holds 5 V";
+      return "hardware fault that a reset does not clear, {}; check that its head turns freely and "
+             "its supply holds 5 V";
     case LidarFault::kNoSuchMode:
-      return "has no mode {}";
+      return "no scan mode {}";
     case LidarFault::kMotorControl:
-      return "motor: {}";
+      return "motor cannot be switched, {}; check the motor settings";
     case LidarFault::kNoData:
-      return "never began to measure; does its motor turn (belt, lidar.motor, 5 V)? Starting anew";
+      return "never began to measure; check that its motor turns (belt, motor settings, 5 V). "
+             "Retrying";
     case LidarFault::kMotorStalled:
-      return "stopped measuring; is its head blocked, has its motor lost the belt or its 5 V?";
+      return "stopped measuring; check that its head turns freely, its belt and its 5 V";
     case LidarFault::kRestarted:
-      return "restarted by itself; its supply drops below 4.9 V: a stronger one, a shorter cable";
+      return "restarted by itself, as its supply drops below 4.9 V; use a stronger supply or a "
+             "shorter cable";
     case LidarFault::kDeadLaser:
-      return "its head turns, but nothing returns; is the laser covered, or dead?";
+      return "its head turns, but nothing returns; check whether the laser is covered or dead";
   }
   return "{}";
 }
@@ -57,13 +59,13 @@ std::string_view pattern(LidarFault fault) {
 
 std::string hint(LidarFault fault, std::string_view device, std::string_view extra) {
   const std::string_view text = pattern(fault);
-  // The port's own errors name it.
+  // The text of a port error names the port already.
   const bool is_named = fault >= LidarFault::kNoPort && fault <= LidarFault::kPortError;
   std::string line;
   if (!is_named) line.append(device).append(": ");
-  const std::size_t place = text.find("{}");
-  line.append(text.substr(0, place));
-  if (place != std::string_view::npos) line.append(extra).append(text.substr(place + 2));
+  const std::size_t position = text.find("{}");
+  line.append(text.substr(0, position));
+  if (position != std::string_view::npos) line.append(extra).append(text.substr(position + 2));
   return line;
 }
 

@@ -4,12 +4,12 @@
 #include <string>
 #include <string_view>
 
-#include "drivers/lidar_fault.hpp"
+#include "drivers/lidar_status.hpp"
 
 namespace cornerd::rplidar {
 
-/// What is wrong and what to do about it, in one line for a person. `device`: the port; `extra`:
-/// what the fault is about, as the health's text, a list of modes, or a speed; it may be empty.
+/// One line for a person: where, what is wrong, what to do. `device`: the port. `extra`: a detail
+/// of the fault, such as the health's text, a list of modes or a speed; may be empty.
 std::string hint(drivers::LidarFault fault, std::string_view device, std::string_view extra = {});
 
 }  // namespace cornerd::rplidar

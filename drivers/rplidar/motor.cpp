@@ -25,8 +25,8 @@ class NoMotor : public Motor {
   std::string none_;
 };
 
-// The adapter inverts: DTR asserted stops the motor. Linux asserts it on open. A port without the
-// line, as an emulator's, has no motor to care about.
+// DTR asserted stops the motor; Linux asserts it on open. A port without DTR (an emulator's) has no
+// motor.
 class DtrMotor : public Motor {
  public:
   bool start(drivers::ByteStream& port) override {
@@ -78,14 +78,14 @@ class PwmMotor : public SysfsMotor {
         duty_ns_(std::llround(config.period_s * 1e9 * std::clamp(config.duty, 0.0, 1.0))) {}
 
   bool start(drivers::ByteStream&) override {
-    // The kernel refuses a period below the duty cycle in force, and, on a channel that was never
-    // used, any duty cycle before the period: this first one may fail.
+    // The kernel refuses a period below the current duty cycle; on an unused channel it refuses any
+    // duty cycle before the period, so this first write may fail.
     write("duty_cycle", "0");
     return write("period", std::to_string(period_ns_)) &&
            write("duty_cycle", std::to_string(duty_ns_)) && write("enable", "1");
   }
   bool stop(drivers::ByteStream&) override {
-    // A channel that is off may leave its pin high: no duty first.
+    // A disabled channel may leave its pin high, so the duty cycle goes to 0 first.
     return write("duty_cycle", "0") && write("enable", "0");
   }
 

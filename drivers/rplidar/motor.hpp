@@ -12,10 +12,10 @@
 namespace cornerd::rplidar {
 
 enum class MotorKind : std::uint8_t {
-  kDtr,   ///< the A1's USB adapter
+  kDtr,   ///< the DTR line of the A1's USB adapter
   kGpio,  ///< MOTOCTL on a GPIO line
   kPwm,   ///< MOTOCTL on a PWM channel
-  kNone,  ///< somebody else's business
+  kNone,  ///< not controlled by the daemon
 };
 
 struct MotorConfig {
@@ -25,11 +25,11 @@ struct MotorConfig {
   double period_s = 4e-5;      ///< of a PWM channel
 };
 
-/// What turns the head. Does not throw.
+/// Switches the motor of the head. Does not throw.
 class Motor {
  public:
   virtual ~Motor() = default;
-  /// Both false where it could not be done; error() then says why.
+  /// Both return false on failure, and set error().
   virtual bool start(drivers::ByteStream& port) = 0;
   virtual bool stop(drivers::ByteStream& port) = 0;
   /// Reason of the last failure, one line.

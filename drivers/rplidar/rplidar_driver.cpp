@@ -7,12 +7,12 @@
 #include <optional>
 #include <utility>
 
+#include "drivers/rplidar/device.hpp"
 #include "drivers/rplidar/hint.hpp"
-#include "drivers/rplidar/live_sink.hpp"
-#include "drivers/rplidar/measurement_search.hpp"
-#include "drivers/rplidar/protocol/banner_search.hpp"
+#include "drivers/rplidar/protocol/framing.hpp"
 #include "drivers/rplidar/sample_stream.hpp"
-#include "drivers/serial/watched_byte_stream.hpp"
+#include "drivers/rplidar/status_board.hpp"
+#include "drivers/serial/byte_stream.hpp"
 
 namespace cornerd::rplidar {
 namespace {
@@ -21,22 +21,20 @@ using drivers::LidarFault;
 using drivers::LidarState;
 using std::chrono::milliseconds;
 
-// Between two looks at a port that is not there, or not yet this user's: a look costs nothing, and
-// a lidar that is plugged in again is to be found at once.
+// Retry of a port that is absent or busy: cheap, and finds a lidar at once when it is plugged in.
 constexpr milliseconds kPortInterval{200};
-// Between two tries of a device that answers but does not work: each of them disturbs it.
+// Retry of a device that answers but does not work: each try disturbs it.
 constexpr milliseconds kFirstBackoff{100};
-constexpr milliseconds kLongestBackoff{2000};
-constexpr milliseconds kReadSlice{100};  // how long a stop, or whoever watches, has to wait
-// A head that spins up sends nothing before it turns evenly.
+constexpr milliseconds kMaxBackoff{2000};
+constexpr milliseconds kReadSlice{100};  // longest delay of a stop, and between progress counts
+// A head that spins up sends nothing before its speed is stable.
 constexpr core::TimeNs kSpinUpLimitNs = 6 * core::kNsPerSecond;
-// A head that was held up goes on by itself when it is let go: that is said first, and only then it
-// is started anew.
+// A blocked head resumes by itself when it is released, so a stall is reported before a restart.
 constexpr core::TimeNs kStallNs = core::kNsPerSecond;
 constexpr core::TimeNs kSilenceLimitNs = 3 * core::kNsPerSecond;
-// A device that was left quiet says nothing; a line that is switched on may give a byte or two.
+// A line that is switched on may give a byte or two; more bytes are a sender.
 constexpr std::uint64_t kStrayBytes = 8;
-constexpr std::uint32_t kUsualBaud = 115200;
+constexpr std::uint32_t kDefaultBaud = 115200;
 
 struct PortFailure {
   LidarState state;
@@ -50,7 +48,7 @@ PortFailure failure_of(drivers::OpenError error) {
     case drivers::OpenError::kDenied:
       return {LidarState::kOpening, LidarFault::kNoPermission};
     case drivers::OpenError::kBusy:
-      return {LidarState::kOpening, LidarFault::kPortHeld};
+      return {LidarState::kOpening, LidarFault::kPortBusy};
     case drivers::OpenError::kNone:
     case drivers::OpenError::kFailed:
       break;
@@ -58,7 +56,7 @@ PortFailure failure_of(drivers::OpenError error) {
   return {LidarState::kOpening, LidarFault::kPortError};
 }
 
-/// However a session ends, the device is left quiet and its motor off.
+/// Stops the device and its motor however a session ends.
 class Shutdown {
  public:
   Shutdown(drivers::ByteStream& port, Motor& motor) : port_(port), motor_(motor) {}
@@ -92,10 +90,10 @@ void RplidarDriver::run(std::stop_token stop, drivers::SampleSink& sink) {
   milliseconds backoff = kFirstBackoff;
   while (!stop.stop_requested()) {
     drivers::OpenResult opened = open_port_(config_.baud);
-    come_round();
+    count_progress();
     if (!opened.stream) {
       const auto [state, fault] = failure_of(opened.error);
-      say(state, fault, opened.message);
+      report(state, fault, opened.message);
       wait(kPortInterval, stop);
       continue;
     }
@@ -107,13 +105,13 @@ void RplidarDriver::run(std::stop_token stop, drivers::SampleSink& sink) {
       sink.on_gap();
     }
     if (stop.stop_requested()) break;
-    if (failure.fault == LidarFault::kNoAnswer && answers_at_usual_speed(stop)) {
+    if (failure.fault == LidarFault::kNoAnswer && answers_at_default_baud(stop)) {
       failure.fault = LidarFault::kWrongBaud;
-      failure.extra = "one at " + std::to_string(kUsualBaud) + " baud";
+      failure.extra = "one at " + std::to_string(kDefaultBaud) + " baud";
     }
-    say(failure.state, failure.fault, failure.extra);
+    report(failure.state, failure.fault, failure.extra);
     wait(backoff, stop);
-    backoff = std::min(2 * backoff, kLongestBackoff);
+    backoff = std::min(2 * backoff, kMaxBackoff);
   }
   board_.set_state(LidarState::kAbsent, LidarFault::kNone, config_.device + ": closed");
 }
@@ -121,57 +119,57 @@ void RplidarDriver::run(std::stop_token stop, drivers::SampleSink& sink) {
 RplidarDriver::Failure RplidarDriver::session(drivers::ByteStream& opened,
                                               const std::stop_token& stop,
                                               drivers::SampleSink& sink) {
-  drivers::WatchedByteStream port(opened, [this] { come_round(); });
+  drivers::MonitoredByteStream port(opened, [this] { count_progress(); });
   const Shutdown shutdown(port, *motor_);
   Device device(port, clock_, stop);
   ScanMode mode;
-  const Failure failure = converse(device, port, mode);
-  board_.count_dialogue(device.heard_bytes(), device.used_bytes());
+  const Failure failure = identify(device, port, mode);
+  board_.count_answers(device.received_bytes(), device.used_bytes());
   if (device.lost()) return {};
   if (failure.fault != LidarFault::kNone) return failure;
   return measure(port, mode, stop, sink);
 }
 
-RplidarDriver::Failure RplidarDriver::converse(Device& device, drivers::ByteStream& port,
+RplidarDriver::Failure RplidarDriver::identify(Device& device, drivers::ByteStream& port,
                                                ScanMode& mode) {
   board_.set_state(LidarState::kIdentifying, LidarFault::kNone,
-                   config_.device + ": asking who it is");
+                   config_.device + ": asking for its model and health");
   MeasurementSearch search;
   device.listen(search);
-  device.quiet();
+  device.stop_scan();
   if (device.booted()) {
-    say(LidarState::kIdentifying, LidarFault::kBooting);
+    report(LidarState::kIdentifying, LidarFault::kBooting);
   } else if (search.found()) {
-    say(LidarState::kIdentifying, LidarFault::kStreamRunning);
-  } else if (device.heard_bytes() > kStrayBytes) {
-    say(LidarState::kIdentifying, LidarFault::kForeignTalk);
+    report(LidarState::kIdentifying, LidarFault::kStreamRunning);
+  } else if (device.received_bytes() > kStrayBytes) {
+    report(LidarState::kIdentifying, LidarFault::kUnexpectedData);
   }
   if (std::exchange(reset_first_, false)) {
     const auto health = device.health();
     if (health && health->failed()) {
-      say(LidarState::kFaulty, LidarFault::kProtectionStop, health->text());
+      report(LidarState::kFaulty, LidarFault::kProtectionStop, health->text());
     }
     device.reset();
   }
 
-  const std::uint64_t heard_before = device.heard_bytes();
+  const std::uint64_t received_before = device.received_bytes();
   const bool had_booted = device.booted();
   const auto info = device.info();
-  if (device.booted() && !had_booted) say(LidarState::kIdentifying, LidarFault::kBooting);
+  if (device.booted() && !had_booted) report(LidarState::kIdentifying, LidarFault::kBooting);
   if (!info) {
-    if (device.heard_bytes() > heard_before) {
+    if (device.received_bytes() > received_before) {
       return {LidarState::kBackoff, LidarFault::kWrongBaud, "noise"};
     }
     return {LidarState::kBackoff, LidarFault::kNoAnswer, std::to_string(config_.baud)};
   }
-  // The answer has no checksum: a damaged number would make another lidar of this one.
+  // The answer has no checksum; a damaged serial number would name another lidar.
   const bool agrees = device.info() == info;
   board_.set_device(info->model_name(), info->firmware_text(),
                     agrees ? info->serial_text() : std::string());
 
   auto health = device.health();
   if (health && health->failed()) {
-    say(LidarState::kFaulty, LidarFault::kProtectionStop, health->text());
+    report(LidarState::kFaulty, LidarFault::kProtectionStop, health->text());
     device.reset();
     health = device.health();
   }
@@ -183,12 +181,12 @@ RplidarDriver::Failure RplidarDriver::converse(Device& device, drivers::ByteStre
   const ScanMode* const chosen = choose_mode(modes, config_.mode);
   if (chosen == nullptr) {
     return {LidarState::kFaulty, LidarFault::kNoSuchMode,
-            "\"" + config_.mode + "\", but " + list_names(modes)};
+            "\"" + config_.mode + "\"; set lidar.mode to one of " + list_names(modes)};
   }
   mode = *chosen;
   board_.set_mode(mode.name);
   board_.set_state(LidarState::kStarting, LidarFault::kNone,
-                   config_.device + ": waiting for its head to turn");
+                   config_.device + ": waiting for the motor");
   if (!motor_->start(port)) {
     return {LidarState::kFaulty, LidarFault::kMotorControl, motor_->error()};
   }
@@ -203,41 +201,42 @@ RplidarDriver::Failure RplidarDriver::measure(drivers::ByteStream& port, const S
                        .inverted = config_.inverted,
                        .sample_period_s = mode.period_s,
                        .baud = config_.baud});
-  LiveSink live(sink, board_);
+  SampleMonitor monitor(sink, board_);
   BannerSearch banner;
   board_.begin_stream();
   Failure failure;
   std::array<std::uint8_t, 512> buffer;
-  core::TimeNs heard_ns = clock_.monotonic_ns();
+  core::TimeNs last_sample_ns = clock_.monotonic_ns();
   while (!stop.stop_requested()) {
     const auto [status, count] = port.read(buffer, kReadSlice);
     const core::TimeNs now_ns = clock_.monotonic_ns();
     if (status == drivers::ByteStream::ReadStatus::kLost) break;
     const auto bytes = std::span(buffer).first(count);
     const std::uint64_t samples = stream.samples();
-    stream.feed(bytes, now_ns, live, /*more_waits=*/count == buffer.size());
-    board_.update(stream.counters(), stream.lateness(), now_ns);
+    stream.feed(bytes, now_ns, monitor, /*more_pending=*/count == buffer.size());
+    board_.update(stream.counters(), stream.latency(), now_ns);
     const bool measured = stream.samples() > samples;
     has_run_ = has_run_ || measured;
     if (banner.add(bytes)) {
       failure.fault = LidarFault::kRestarted;
       break;
     }
-    const core::TimeNs silent_ns = now_ns - heard_ns;
+    const core::TimeNs silent_ns = now_ns - last_sample_ns;
     if (measured) {
-      heard_ns = now_ns;
-      const LidarState state = live.blind() ? LidarState::kFaulty : LidarState::kRunning;
+      last_sample_ns = now_ns;
+      const LidarState state =
+          monitor.has_no_returns() ? LidarState::kFaulty : LidarState::kRunning;
       if (board_.state() != state || board_.fault() == LidarFault::kMotorStalled) {
-        live.blind() ? say(state, LidarFault::kDeadLaser)
-                     : board_.set_state(state, LidarFault::kNone, "");
+        monitor.has_no_returns() ? report(state, LidarFault::kDeadLaser)
+                                 : board_.set_state(state, LidarFault::kNone, "");
       }
     } else if (silent_ns > (has_run_ ? kSilenceLimitNs : kSpinUpLimitNs)) {
       reset_first_ = true;
       failure.fault = has_run_ ? LidarFault::kMotorStalled : LidarFault::kNoData;
       break;
     } else if (has_run_ && silent_ns > kStallNs && board_.fault() != LidarFault::kMotorStalled) {
-      say(LidarState::kFaulty, LidarFault::kMotorStalled);
-      const auto health = health_of_silent(port, mode, stop);
+      report(LidarState::kFaulty, LidarFault::kMotorStalled);
+      const auto health = query_health_after_silence(port, mode, stop);
       if (!health || !health->failed()) continue;
       failure = {LidarState::kFaulty, LidarFault::kProtectionStop, health->text()};
       break;
@@ -247,37 +246,37 @@ RplidarDriver::Failure RplidarDriver::measure(drivers::ByteStream& port, const S
   return failure;
 }
 
-std::optional<Health> RplidarDriver::health_of_silent(drivers::ByteStream& port,
-                                                      const ScanMode& mode,
-                                                      const std::stop_token& stop) {
+std::optional<Health> RplidarDriver::query_health_after_silence(drivers::ByteStream& port,
+                                                                const ScanMode& mode,
+                                                                const std::stop_token& stop) {
   Device device(port, clock_, stop);
-  device.quiet();
+  device.stop_scan();
   const auto health = device.health();
-  // The question has ended the scan.
+  // The request ended the scan.
   device.start(mode);
-  board_.count_dialogue(device.heard_bytes(), device.used_bytes());
+  board_.count_answers(device.received_bytes(), device.used_bytes());
   return health;
 }
 
-bool RplidarDriver::answers_at_usual_speed(const std::stop_token& stop) {
-  if (config_.baud == kUsualBaud) return false;
-  const drivers::OpenResult opened = open_port_(kUsualBaud);
+bool RplidarDriver::answers_at_default_baud(const std::stop_token& stop) {
+  if (config_.baud == kDefaultBaud) return false;
+  const drivers::OpenResult opened = open_port_(kDefaultBaud);
   if (!opened.stream) return false;
-  drivers::WatchedByteStream port(*opened.stream, [this] { come_round(); });
+  drivers::MonitoredByteStream port(*opened.stream, [this] { count_progress(); });
   Device device(port, clock_, stop);
-  const bool answers = device.quiet() && device.info(1).has_value();
-  board_.count_dialogue(device.heard_bytes(), device.used_bytes());
+  const bool answers = device.stop_scan() && device.info(1).has_value();
+  board_.count_answers(device.received_bytes(), device.used_bytes());
   return answers;
 }
 
 void RplidarDriver::wait(milliseconds duration, const std::stop_token& stop) {
   for (; duration.count() > 0 && !stop.stop_requested(); duration -= kReadSlice) {
     clock_.wait(std::min(duration, kReadSlice), stop);
-    come_round();
+    count_progress();
   }
 }
 
-void RplidarDriver::say(LidarState state, LidarFault fault, std::string_view extra) {
+void RplidarDriver::report(LidarState state, LidarFault fault, std::string_view extra) {
   const std::string text = hint(fault, config_.device, extra);
   if (board_.state() == state && board_.fault() == fault && board_.detail() == text) return;
   board_.set_state(state, fault, text);

@@ -20,18 +20,19 @@ namespace cornerd::rplidar {
 struct RplidarDriverConfig {
   std::string device = "/dev/ttyUSB0";
   std::uint32_t baud = 115200;
-  std::string mode = "auto";  ///< or a mode's name as the device gives it
+  std::string mode = "auto";  ///< or the name of a mode of the device
   bool inverted = false;      ///< mounted upside down
   MotorConfig motor;
 };
 
-/// An A1 on a serial port: opens it, asks who it is, starts it, delivers its samples on the clock's
-/// monotonic time, and begins again after every failure. Leaves it stopped, motor off.
+/// An A1 on a serial port. Opens the port, identifies and starts the device, delivers samples in
+/// the clock's monotonic time, and retries after every failure. Leaves the device stopped, motor
+/// off.
 class RplidarDriver : public drivers::LidarDriver {
  public:
   using PortOpener = std::function<drivers::OpenResult(std::uint32_t baud)>;
 
-  /// `open_port`: instead of the config's device, for tests and recorders.
+  /// `open_port`: replaces the config's device, for tests and recorders.
   explicit RplidarDriver(RplidarDriverConfig config, PortOpener open_port = nullptr,
                          drivers::Clock& clock = drivers::system_clock());
 
@@ -40,7 +41,7 @@ class RplidarDriver : public drivers::LidarDriver {
   bool take_change(drivers::LidarChange& change) override { return board_.take_change(change); }
 
  private:
-  /// Why a session ended, and what the driver is until the next one.
+  /// Why a session ended, and the driver's state until the next one.
   struct Failure {
     drivers::LidarState state = drivers::LidarState::kBackoff;
     drivers::LidarFault fault = drivers::LidarFault::kUnplugged;
@@ -49,23 +50,23 @@ class RplidarDriver : public drivers::LidarDriver {
 
   Failure session(drivers::ByteStream& port, const std::stop_token& stop,
                   drivers::SampleSink& sink);
-  Failure converse(Device& device, drivers::ByteStream& port, ScanMode& mode);
+  Failure identify(Device& device, drivers::ByteStream& port, ScanMode& mode);
   Failure measure(drivers::ByteStream& port, const ScanMode& mode, const std::stop_token& stop,
                   drivers::SampleSink& sink);
-  /// Of a device that stopped measuring: it may have stopped to protect itself. nullopt: no answer.
-  std::optional<Health> health_of_silent(drivers::ByteStream& port, const ScanMode& mode,
-                                         const std::stop_token& stop);
-  /// Whether it answers at the speed that every A1 has, where the settings say another.
-  bool answers_at_usual_speed(const std::stop_token& stop);
+  /// For a device that stopped measuring, perhaps by a protection stop. nullopt: no answer.
+  std::optional<Health> query_health_after_silence(drivers::ByteStream& port, const ScanMode& mode,
+                                                   const std::stop_token& stop);
+  /// False if the configured speed is the default one.
+  bool answers_at_default_baud(const std::stop_token& stop);
   void wait(std::chrono::milliseconds duration, const std::stop_token& stop);
-  void say(drivers::LidarState state, drivers::LidarFault fault, std::string_view extra = {});
+  void report(drivers::LidarState state, drivers::LidarFault fault, std::string_view extra = {});
 
   RplidarDriverConfig config_;
   PortOpener open_port_;
   drivers::Clock& clock_;
   std::unique_ptr<Motor> motor_;
   StatusBoard board_;
-  bool reset_first_ = false;  ///< the last session ended in silence
+  bool reset_first_ = false;  ///< the last session ended without data
   bool has_run_ = false;      ///< the last session delivered samples
 };
 

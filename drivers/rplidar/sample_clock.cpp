@@ -8,15 +8,15 @@ namespace cornerd::rplidar {
 namespace {
 
 constexpr double kBlockNs = 125e6;
-constexpr std::size_t kBlocksForPace = 3;
+constexpr std::size_t kMinBlocks = 3;
 
-// A backlog's lateness melts away by all that the device needed for it, or by most of that where
-// the reader is slow; that of a pause stays.
-constexpr double kLateNs = 50e6;
-constexpr double kDoubtNs = 300e6;
-constexpr double kMelting = 0.3;
+// The delay of a backlog shrinks by the time its samples took, or by most of it if the reader is
+// slow; the delay after a pause stays.
+constexpr double kMaxDelayNs = 50e6;
+constexpr double kDecisionNs = 300e6;
+constexpr double kMinCatchUpRate = 0.3;
 
-// Period against nominal: one mode's period may stand in for another's (201 us for 127).
+// Period relative to the nominal one, which may be another mode's (201 us for 127).
 constexpr double kMinPace = 0.5;
 constexpr double kMaxPace = 2.0;
 
@@ -31,10 +31,10 @@ void SampleClock::reset(double period_s) {
 void SampleClock::reanchor() {
   if (anchored_) ++resets_;
   anchored_ = false;
-  in_doubt_ = false;
+  uncertain_ = false;
 }
 
-void SampleClock::observe(std::uint64_t index, core::TimeNs latest_ns, bool more_waits) {
+void SampleClock::observe(std::uint64_t index, core::TimeNs latest_ns, bool more_pending) {
   if (!anchored_) {
     origin_index_ = index;
     origin_ns_ = latest_ns;
@@ -43,12 +43,12 @@ void SampleClock::observe(std::uint64_t index, core::TimeNs latest_ns, bool more
   }
   const Point point{static_cast<double>(index - origin_index_),
                     static_cast<double>(latest_ns - origin_ns_)};
-  offset_ns_ += std::min(0.0, lateness_ns(point));
-  doubt(point, more_waits);
-  last_lateness_ns_ = static_cast<core::TimeNs>(std::max(0.0, lateness_ns(point)));
-  if (in_doubt_) return;
+  offset_ns_ += std::min(0.0, delay_ns(point));
+  check_delay(point, more_pending);
+  last_delay_ns_ = static_cast<core::TimeNs>(std::max(0.0, delay_ns(point)));
+  if (uncertain_) return;
 
-  if (block_empty_ || lateness_ns(point) < lateness_ns(earliest_)) earliest_ = point;
+  if (block_empty_ || delay_ns(point) < delay_ns(earliest_)) earliest_ = point;
   block_empty_ = false;
   if ((point.x - block_begin_) * nominal_ns_ >= kBlockNs) {
     close_block();
@@ -57,32 +57,32 @@ void SampleClock::observe(std::uint64_t index, core::TimeNs latest_ns, bool more
   }
 }
 
-void SampleClock::doubt(const Point& point, bool more_waits) {
-  if (lateness_ns(point) <= kLateNs) {
-    in_doubt_ = false;
+void SampleClock::check_delay(const Point& point, bool more_pending) {
+  if (delay_ns(point) <= kMaxDelayNs) {
+    uncertain_ = false;
     return;
   }
-  if (!in_doubt_ || more_waits) return begin_doubt(point);
-  if (lateness_ns(point) < lateness_ns(doubt_earliest_)) doubt_earliest_ = point;
-  const double lasted_ns = (point.x - doubt_begin_.x) * nominal_ns_;
-  if (lasted_ns < kDoubtNs) return;
-  if (lateness_ns(point) < lateness_ns(doubt_begin_) - kMelting * lasted_ns) {
-    return begin_doubt(point);
+  if (!uncertain_ || more_pending) return begin_uncertainty(point);
+  if (delay_ns(point) < delay_ns(uncertain_earliest_)) uncertain_earliest_ = point;
+  const double lasted_ns = (point.x - uncertain_from_.x) * nominal_ns_;
+  if (lasted_ns < kDecisionNs) return;
+  if (delay_ns(point) < delay_ns(uncertain_from_) - kMinCatchUpRate * lasted_ns) {
+    return begin_uncertainty(point);
   }
   ++resets_;
-  anchored_from_ = origin_index_ + static_cast<std::uint64_t>(doubt_begin_.x);
-  anchor(doubt_earliest_);
+  anchored_from_ = origin_index_ + static_cast<std::uint64_t>(uncertain_from_.x);
+  anchor(uncertain_earliest_);
 }
 
-void SampleClock::begin_doubt(const Point& point) {
-  in_doubt_ = true;
-  doubt_begin_ = doubt_earliest_ = point;
+void SampleClock::begin_uncertainty(const Point& point) {
+  uncertain_ = true;
+  uncertain_from_ = uncertain_earliest_ = point;
 }
 
 core::TimeNs SampleClock::time_of(std::uint64_t index) {
   const double x = static_cast<double>(static_cast<std::int64_t>(index - origin_index_));
   core::TimeNs t_ns = origin_ns_ + static_cast<core::TimeNs>(offset_ns_ + period_ns_ * x);
-  // A fit that moved back is caught up with at half pace, so that no two samples swap.
+  // If the fit moved back, times advance at half a period until it catches up.
   if (has_last_) t_ns = std::max(t_ns, last_ns_ + static_cast<core::TimeNs>(period_ns_ / 2));
   last_ns_ = t_ns;
   has_last_ = true;
@@ -95,12 +95,12 @@ void SampleClock::anchor(const Point& point) {
   point_count_ = 0;
   block_begin_ = point.x;
   block_empty_ = true;
-  in_doubt_ = false;
+  uncertain_ = false;
 }
 
 void SampleClock::close_block() {
   remember(earliest_);
-  if (point_count_ >= kBlocksForPace) fit();
+  if (point_count_ >= kMinBlocks) fit();
 }
 
 void SampleClock::remember(const Point& point) {
@@ -111,9 +111,9 @@ void SampleClock::remember(const Point& point) {
   points_[point_count_++] = point;
 }
 
-// Of all lines that no point lies below, the one with the least sum of distances: it runs along the
-// edge of the lower hull above the mean of x (Moon, Skelly, Towsley: Estimation and removal of
-// clock skew from network delay measurements).
+// The line below all points with the least sum of distances is the lower hull's edge above the mean
+// of x (Moon, Skelly, Towsley 1999, Estimation and removal of clock skew from network delay
+// measurements).
 void SampleClock::fit() {
   std::array<Point, kBlocks> hull;
   std::size_t size = 0;

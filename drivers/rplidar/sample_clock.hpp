@@ -9,42 +9,41 @@
 
 namespace cornerd::rplidar {
 
-/// When was sample number i measured? The device counts at an even pace, which is not quite the
-/// nominal one; the arrivals of its bytes are that pace plus delays (USB frames, scheduling, a
-/// reader that was held up). A delay is never negative, so the line under all arrivals is the
-/// device's clock: the edge of their lower convex hull that spans the middle of the last seconds.
+/// Estimates the measurement time of sample i. Model: t(i) = offset + period * i, arrival(i) = t(i)
+/// + delay with delay >= 0 (USB frames, scheduling). The line is therefore an edge of the lower
+/// convex hull of the last 4 s of arrivals: the one above the mean index (Moon, Skelly, Towsley
+/// 1999).
 ///
-/// Samples that come far later than they should are a backlog, which is seen sooner than a device
-/// measures it, or they were measured later, after a pause or after others that nobody counted. A
-/// third of a second of them tells which; until then the clock is in doubt. What a read leaves
-/// behind is a backlog, however slowly it is read.
+/// Samples more than 50 ms late are either a backlog of the reader, whose delay shrinks as it is
+/// read, or follow a pause of the device, whose delay stays. The clock is uncertain for 0.3 s until
+/// that is decided. Bytes read while more were pending are a backlog.
 class SampleClock {
  public:
   explicit SampleClock(double period_s) { reset(period_s); }
 
-  /// Another stream: forgets everything.
+  /// Starts another stream.
   void reset(double period_s);
-  /// The count of the samples has been broken: its pace still holds, its offset does not.
+  /// The sample count is broken: keeps the period and forgets the offset.
   void reanchor();
 
-  /// Sample `index` was measured at `latest_ns` or before. Indices never decrease. `more_waits`: it
-  /// was read while others were waiting.
-  void observe(std::uint64_t index, core::TimeNs latest_ns, bool more_waits = false);
+  /// Sample `index` was measured at `latest_ns` or before. Indices never decrease. `more_pending`:
+  /// the read left bytes behind.
+  void observe(std::uint64_t index, core::TimeNs latest_ns, bool more_pending = false);
 
-  /// True while nobody knows whether time_of() holds for the newest samples.
-  bool in_doubt() const { return in_doubt_; }
-  /// Where a doubt ended in another anchor: the first sample that it is good for.
+  /// True while time_of() may be wrong for the newest samples.
+  bool is_uncertain() const { return uncertain_; }
+  /// First sample of the current line, after a pause.
   std::uint64_t anchored_from() const { return anchored_from_; }
 
-  /// Time of a sample. Called with growing indices it never goes back.
+  /// Non-decreasing for growing indices.
   core::TimeNs time_of(std::uint64_t index);
 
-  /// How much later than could be the newest observation was made.
-  core::TimeNs last_lateness_ns() const { return last_lateness_ns_; }
+  /// Delay of the newest observation, at least 0.
+  core::TimeNs last_delay_ns() const { return last_delay_ns_; }
 
   bool anchored() const { return anchored_; }
   double period_s() const { return period_ns_ * 1e-9; }
-  /// Times that the fit had to be given up after it had begun.
+  /// Times that a fit was discarded.
   std::uint64_t resets() const { return resets_; }
 
  private:
@@ -54,12 +53,12 @@ class SampleClock {
     double y = 0;
   };
 
-  double lateness_ns(const Point& point) const {
+  double delay_ns(const Point& point) const {
     return point.y - (offset_ns_ + period_ns_ * point.x);
   }
   void anchor(const Point& point);
-  void doubt(const Point& point, bool more_waits);
-  void begin_doubt(const Point& point);
+  void check_delay(const Point& point, bool more_pending);
+  void begin_uncertainty(const Point& point);
   void close_block();
   void remember(const Point& point);
   void fit();
@@ -77,14 +76,14 @@ class SampleClock {
   Point earliest_;  ///< of the block in progress
   double block_begin_ = 0;
   bool block_empty_ = true;
-  bool in_doubt_ = false;
-  Point doubt_begin_;
-  Point doubt_earliest_;
+  bool uncertain_ = false;
+  Point uncertain_from_;
+  Point uncertain_earliest_;
   std::uint64_t anchored_from_ = 0;
   core::TimeNs last_ns_ = 0;
   bool has_last_ = false;
   std::uint64_t resets_ = 0;
-  core::TimeNs last_lateness_ns_ = 0;
+  core::TimeNs last_delay_ns_ = 0;
 };
 
 }  // namespace cornerd::rplidar

@@ -11,19 +11,19 @@
 namespace cornerd::rplidar {
 namespace {
 
-// A read may bring a whole buffer. What stands before its end arrived that much earlier, as the
-// wire is only so fast; in pieces of this size the decoder sees when.
-constexpr std::size_t kPiece = 8;
+// Earlier bytes of a buffer arrived earlier, by the speed of the wire. Each piece of this size gets
+// its own arrival time.
+constexpr std::size_t kPieceBytes = 8;
 constexpr int kBitsPerByte = 10;  // 8N1
 
-// Of what waits for its time: a second of the fastest mode.
-constexpr std::size_t kMostHeld = 8192;
+// Samples held for their time: a second of the fastest mode.
+constexpr std::size_t kMaxHeld = 8192;
 
-// From the middle of a measurement to the first bit of its packet (the vendor's SDK assumes as
-// much): half a period of measuring, one of computing.
+// From the middle of a measurement to the first bit of its packet: half a period of measuring, one
+// of computing, as the vendor's SDK assumes.
 constexpr double kPeriodsToSend = 1.5;
 
-double usual_period_s(WireFormat format) {
+double nominal_period_s(WireFormat format) {
   switch (format) {
     case WireFormat::kStandard:
       return 508e-6;
@@ -35,12 +35,10 @@ double usual_period_s(WireFormat format) {
   return 508e-6;
 }
 
-/// Of any RPLidar's: one that is farther off has been misheard, and the clock does not find back
-/// from it.
-constexpr double kMostTimesUsual = 5;
+/// A reported period beyond this ratio is damaged; the clock would not recover from it.
+constexpr double kMaxPeriodRatio = 5;
 
-/// A packet of a format, as the clock needs it: its bytes, and how far the newest sample that has
-/// arrived is ahead of the first one that is being delivered.
+/// A packet's size, and how far its newest sample is ahead of the first one delivered.
 struct Packet {
   std::size_t bytes;
   std::size_t samples_ahead;
@@ -65,17 +63,17 @@ class SampleStream::Implementation : private RawSampleSink {
  public:
   explicit Implementation(const SampleStreamConfig& config)
       : config_(config), decoder_(config.format), clock_(period_s(WireFormat::kStandard)) {
-    held_.reserve(kMostHeld);
+    held_.reserve(kMaxHeld);
   }
 
   void feed(std::span<const std::uint8_t> bytes, core::TimeNs arrival_ns, drivers::SampleSink& sink,
-            bool more_waits) {
+            bool more_pending) {
     sink_ = &sink;
-    more_waits_ = more_waits;
+    more_pending_ = more_pending;
     first_of_feed_ = true;
     const double byte_ns = 1e9 * kBitsPerByte / config_.baud;
     while (!bytes.empty()) {
-      const auto piece = bytes.first(std::min(kPiece, bytes.size()));
+      const auto piece = bytes.first(std::min(kPieceBytes, bytes.size()));
       bytes = bytes.subspan(piece.size());
       piece_arrival_ns_ =
           arrival_ns - static_cast<core::TimeNs>(byte_ns * static_cast<double>(bytes.size()));
@@ -100,7 +98,7 @@ class SampleStream::Implementation : private RawSampleSink {
 
   std::uint64_t samples() const { return samples_; }
 
-  const core::Lateness& lateness() const { return lateness_; }
+  const core::LatencyHistogram& latency() const { return latency_; }
 
   const drivers::StreamCounters& counters() {
     counters_ = decoder_.counters();
@@ -120,33 +118,33 @@ class SampleStream::Implementation : private RawSampleSink {
       clock_.reset(period_s(format));
     }
     if (timed_) observe(raw, format);
-    if (clock_.in_doubt()) return hold(raw);
-    // Nobody knows how many samples are gone, and a turn of two halves is none.
-    if (clock_.resets() != resets || has_hole_) sink_->on_gap();
+    if (clock_.is_uncertain()) return hold(raw);
+    // The number of lost samples is unknown, and two halves make no scan.
+    if (clock_.resets() != resets || has_gap_) sink_->on_gap();
     release(clock_.resets() != resets);
     deliver(raw);
   }
 
   void hold(const RawSample& raw) {
-    if (held_.size() == kMostHeld) drop_held();
+    if (held_.size() == kMaxHeld) drop_held();
     held_.push_back(raw);
   }
 
-  /// After a pause, what was read before its end is of times that nobody knows.
-  void release(bool after_a_pause) {
+  /// Samples read before the end of a pause have unknown times.
+  void release(bool after_pause) {
     for (const RawSample& held : held_) {
-      if (!after_a_pause || held.index >= clock_.anchored_from()) {
+      if (!after_pause || held.index >= clock_.anchored_from()) {
         deliver(held);
       } else {
         ++dropped_;
       }
     }
     held_.clear();
-    has_hole_ = false;
+    has_gap_ = false;
   }
 
   void drop_held() {
-    has_hole_ = has_hole_ || !held_.empty();
+    has_gap_ = has_gap_ || !held_.empty();
     dropped_ += held_.size();
     held_.clear();
   }
@@ -175,17 +173,17 @@ class SampleStream::Implementation : private RawSampleSink {
     const double sent_ns =
         byte_ns * static_cast<double>(packet.bytes) + kPeriodsToSend * clock_.period_s() * 1e9;
     clock_.observe(raw.index + packet.samples_ahead,
-                   piece_arrival_ns_ - static_cast<core::TimeNs>(sent_ns), more_waits_);
+                   piece_arrival_ns_ - static_cast<core::TimeNs>(sent_ns), more_pending_);
     first_of_piece_ = false;
-    if (first_of_feed_) lateness_.add(clock_.last_lateness_ns());
+    if (first_of_feed_) latency_.add(clock_.last_delay_ns());
     first_of_feed_ = false;
   }
 
   double period_s(WireFormat format) const {
-    const double usual_s = usual_period_s(format);
-    const bool is_likely = config_.sample_period_s > usual_s / kMostTimesUsual &&
-                           config_.sample_period_s < usual_s * kMostTimesUsual;
-    return is_likely ? config_.sample_period_s : usual_s;
+    const double nominal_s = nominal_period_s(format);
+    const bool is_plausible = config_.sample_period_s > nominal_s / kMaxPeriodRatio &&
+                              config_.sample_period_s < nominal_s * kMaxPeriodRatio;
+    return is_plausible ? config_.sample_period_s : nominal_s;
   }
 
   SampleStreamConfig config_;
@@ -194,15 +192,15 @@ class SampleStream::Implementation : private RawSampleSink {
   std::optional<WireFormat> clock_format_;
   drivers::SampleSink* sink_ = nullptr;
   core::TimeNs piece_arrival_ns_ = 0;
-  bool more_waits_ = false;
+  bool more_pending_ = false;
   bool first_of_piece_ = false;
   bool first_of_feed_ = false;
-  core::Lateness lateness_;
+  core::LatencyHistogram latency_;
   bool timed_ = true;
   std::uint64_t samples_ = 0;
-  std::vector<RawSample> held_;  ///< whose time is in doubt
-  std::uint64_t dropped_ = 0;    ///< of them
-  bool has_hole_ = false;        ///< some were dropped since the last that was delivered
+  std::vector<RawSample> held_;  ///< their time is uncertain
+  std::uint64_t dropped_ = 0;    ///< of held_
+  bool has_gap_ = false;         ///< samples were dropped since the last delivered one
   drivers::StreamCounters counters_;
 };
 
@@ -213,8 +211,8 @@ SampleStream::SampleStream(SampleStream&&) noexcept = default;
 SampleStream& SampleStream::operator=(SampleStream&&) noexcept = default;
 
 void SampleStream::feed(std::span<const std::uint8_t> bytes, core::TimeNs arrival_ns,
-                        drivers::SampleSink& sink, bool more_waits) {
-  implementation_->feed(bytes, arrival_ns, sink, more_waits);
+                        drivers::SampleSink& sink, bool more_pending) {
+  implementation_->feed(bytes, arrival_ns, sink, more_pending);
 }
 void SampleStream::feed_untimed(std::span<const std::uint8_t> bytes, drivers::SampleSink& sink) {
   implementation_->feed_untimed(bytes, sink);
@@ -225,6 +223,6 @@ std::uint64_t SampleStream::samples() const { return implementation_->samples();
 const drivers::StreamCounters& SampleStream::counters() const {
   return implementation_->counters();
 }
-const core::Lateness& SampleStream::lateness() const { return implementation_->lateness(); }
+const core::LatencyHistogram& SampleStream::latency() const { return implementation_->latency(); }
 
 }  // namespace cornerd::rplidar

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Bytes with the time of their arrival become samples with the time of their measurement.
+// Turns bytes with arrival times into samples with measurement times.
 #pragma once
 
 #include <cstdint>
@@ -13,14 +13,13 @@
 namespace cornerd::rplidar {
 
 struct SampleStreamConfig {
-  std::optional<WireFormat> format;  ///< of a stream without a descriptor; nullopt: find out
+  std::optional<WireFormat> format;  ///< of a stream without a descriptor; nullopt: detect
   bool inverted = false;             ///< mounted upside down: bearing = +angle instead of -angle
-  double sample_period_s =
-      0;  ///< what the device says; the format's usual one where that cannot be
+  double sample_period_s = 0;  ///< as the device reports; implausible: the format's nominal one
   std::uint32_t baud = 115200;
 };
 
-/// Decoder and sample clock in one. Allocates nothing after construction.
+/// Decoder plus sample clock. Allocates nothing after construction.
 class SampleStream {
  public:
   explicit SampleStream(const SampleStreamConfig& config);
@@ -28,20 +27,20 @@ class SampleStream {
   SampleStream(SampleStream&&) noexcept;
   SampleStream& operator=(SampleStream&&) noexcept;
 
-  /// `arrival_ns`: when the last of these bytes was read from the port. Samples whose time is in
-  /// doubt are given when it is known. `more_waits`: the port had more than these.
+  /// `arrival_ns`: read time of the last byte. `more_pending`: the read left bytes behind. Samples
+  /// of uncertain time are held until it is known.
   void feed(std::span<const std::uint8_t> bytes, core::TimeNs arrival_ns, drivers::SampleSink& sink,
-            bool more_waits = false);
-  /// Bytes that bear no clock: time runs from 0 as their transmission at `baud` would have it.
+            bool more_pending = false);
+  /// Bytes without arrival times: sample i has time i * period.
   void feed_untimed(std::span<const std::uint8_t> bytes, drivers::SampleSink& sink);
   void finish(drivers::SampleSink& sink);
 
   std::optional<WireFormat> format() const;
-  /// So far, those that wait for their time as well.
+  /// Decoded so far, those with a pending time included.
   std::uint64_t samples() const;
   const drivers::StreamCounters& counters() const;
-  /// Of each feed() that brought samples: how much later it came than could be.
-  const core::Lateness& lateness() const;
+  /// Delay of each feed() that brought samples.
+  const core::LatencyHistogram& latency() const;
 
  private:
   class Implementation;

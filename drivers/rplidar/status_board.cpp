@@ -1,17 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "drivers/rplidar/status_board.hpp"
 
-#include "drivers/counter_names.hpp"
-
 namespace cornerd::rplidar {
+
 namespace {
 
 constexpr core::TimeNs kUpdateNs = core::kNsPerSecond / 2;
-
-drivers::StreamCounters sum(drivers::StreamCounters a, const drivers::StreamCounters& b) {
-  for (const auto& counter : drivers::kCounterNames) a.*counter.member += b.*counter.member;
-  return a;
-}
 
 double rate_hz(std::uint64_t intervals, core::TimeNs duration_ns) {
   return duration_ns > 0 ? static_cast<double>(intervals) / core::to_seconds(duration_ns) : 0;
@@ -28,7 +22,7 @@ void StatusBoard::set_state(drivers::LidarState state, drivers::LidarFault fault
   changes_.push({state, fault, status_.detail});
 }
 
-void StatusBoard::count_dialogue(std::uint64_t bytes, std::uint64_t used_bytes) {
+void StatusBoard::count_answers(std::uint64_t bytes, std::uint64_t used_bytes) {
   for (drivers::StreamCounters* const counters : {&status_.counters, &before_}) {
     counters->bytes += bytes;
     counters->used_bytes += used_bytes;
@@ -65,7 +59,8 @@ void StatusBoard::begin_stream() {
 
 void StatusBoard::end_stream(drivers::StreamCounters of_stream) {
   of_stream.skipped_bytes = of_stream.bytes - of_stream.used_bytes;
-  status_.counters = sum(before_, of_stream);
+  status_.counters = before_;
+  status_.counters += of_stream;
   status_.rate_hz = 0;
   status_.samples_hz = 0;
   publish();
@@ -79,17 +74,18 @@ void StatusBoard::count(const core::Sample& sample) {
   last_scan_ns_ = sample.t_ns;
 }
 
-void StatusBoard::update(const drivers::StreamCounters& of_stream, const core::Lateness& lateness,
-                         core::TimeNs now_ns) {
+void StatusBoard::update(const drivers::StreamCounters& of_stream,
+                         const core::LatencyHistogram& latency, core::TimeNs now_ns) {
   if (now_ns - updated_ns_ < kUpdateNs) return;
   updated_ns_ = now_ns;
-  status_.counters = sum(before_, of_stream);
-  status_.lateness = lateness;
+  status_.counters = before_;
+  status_.counters += of_stream;
+  status_.latency = latency;
   measure_rates();
   publish();
 }
 
-// Turns are counted from mark to mark, so that the slow ones of 1 Hz get a rate too.
+// Counted from start to start, so that a head of 1 Hz gets a rate too.
 void StatusBoard::measure_rates() {
   if (samples_ == 0) {
     status_.samples_hz = 0;
@@ -102,6 +98,30 @@ void StatusBoard::measure_rates() {
   status_.rate_hz = rate_hz(scans_ - 1, last_scan_ns_ - first_scan_ns_);
   scans_ = 1;
   first_scan_ns_ = last_scan_ns_;
+}
+
+namespace {
+
+constexpr int kMaxEmptyScans = 20;
+constexpr std::size_t kMinReturnsPercent = 1;
+
+}  // namespace
+
+void SampleMonitor::on_sample(const core::Sample& sample) {
+  if (sample.starts_scan) end_scan();
+  ++scan_samples_;
+  if (sample.range_m > 0) ++scan_returns_;
+  board_.count(sample);
+  next_.on_sample(sample);
+}
+
+bool SampleMonitor::has_no_returns() const { return empty_scans_ >= kMaxEmptyScans; }
+
+void SampleMonitor::end_scan() {
+  const bool sees = scan_returns_ * 100 >= scan_samples_ * kMinReturnsPercent;
+  empty_scans_ = sees ? 0 : empty_scans_ + 1;
+  scan_samples_ = 0;
+  scan_returns_ = 0;
 }
 
 }  // namespace cornerd::rplidar

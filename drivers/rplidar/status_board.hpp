@@ -1,21 +1,22 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string_view>
 
-#include "core/latest.hpp"
 #include "core/ring_buffer.hpp"
+#include "core/triple_buffer.hpp"
 #include "core/types.hpp"
 #include "drivers/lidar_driver.hpp"
 
 namespace cornerd::rplidar {
 
-/// What a driver knows about its device, written by the reader thread, read by another one. Neither
-/// ever waits, and nothing is allocated.
+/// The status of a device, written by the reader thread and read by another one. Wait-free, without
+/// allocation.
 class StatusBoard {
  public:
-  /// Reader thread, as all that follow but the last two.
+  /// Reader thread: all methods up to update().
   void set_state(drivers::LidarState state, drivers::LidarFault fault, std::string_view detail);
   void set_device(std::string_view model, std::string_view firmware, std::string_view serial);
   void set_health(std::string_view health);
@@ -25,16 +26,16 @@ class StatusBoard {
   drivers::LidarFault fault() const { return status_.fault; }
   std::string_view detail() const { return status_.detail.view(); }
 
-  /// Bytes that came as answers, and beside them.
-  void count_dialogue(std::uint64_t bytes, std::uint64_t used_bytes);
+  /// Adds bytes received outside a stream; `used_bytes` of them were answers.
+  void count_answers(std::uint64_t bytes, std::uint64_t used_bytes);
 
-  /// Another stream begins; its counters go on top of those before.
+  /// Counters of the new stream add to those before.
   void begin_stream();
-  /// A stream has ended: what is left of it is no packet any more.
+  /// Counts the bytes left undecoded as skipped.
   void end_stream(drivers::StreamCounters of_stream);
   void count(const core::Sample& sample);
   /// Publishes counters and rates, twice a second at most.
-  void update(const drivers::StreamCounters& of_stream, const core::Lateness& lateness,
+  void update(const drivers::StreamCounters& of_stream, const core::LatencyHistogram& latency,
               core::TimeNs now_ns);
 
   /// The other thread.
@@ -52,14 +53,35 @@ class StatusBoard {
   std::uint64_t samples_ = 0;  ///< since first_ns_
   core::TimeNs first_ns_ = 0;
   core::TimeNs last_ns_ = 0;
-  std::uint64_t scans_ = 0;  ///< turn marks since first_scan_ns_, that one included
+  std::uint64_t scans_ = 0;  ///< scan starts since first_scan_ns_, inclusive
   core::TimeNs first_scan_ns_ = 0;
   core::TimeNs last_scan_ns_ = 0;
 
-  core::Latest<drivers::LidarStatus> latest_;
-  /// A dozen of tries; whoever reads them comes by more often than that.
+  core::TripleBuffer<drivers::LidarStatus> latest_;
+  /// About a dozen retries; the reader polls more often.
   static constexpr std::size_t kChanges = 64;
   core::RingBuffer<drivers::LidarChange> changes_{kChanges};
+};
+
+/// Passes samples on, counts them for the status, and detects scans without returns.
+class SampleMonitor : public drivers::SampleSink {
+ public:
+  SampleMonitor(drivers::SampleSink& next, StatusBoard& board) : next_(next), board_(board) {}
+
+  void on_sample(const core::Sample& sample) override;
+  void on_gap() override { next_.on_gap(); }
+
+  /// 20 scans in a row had returns for less than 1 % of their samples.
+  bool has_no_returns() const;
+
+ private:
+  void end_scan();
+
+  drivers::SampleSink& next_;
+  StatusBoard& board_;
+  std::size_t scan_samples_ = 0;
+  std::size_t scan_returns_ = 0;
+  int empty_scans_ = 0;
 };
 
 }  // namespace cornerd::rplidar

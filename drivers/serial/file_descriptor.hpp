@@ -34,4 +34,8 @@ class FileDescriptor {
   int fd_ = -1;
 };
 
+/// Opens /dev/null as descriptors 0 to 2 if they are closed. Otherwise a port or socket could get
+/// one of these numbers and receive the log.
+void occupy_standard_streams();
+
 }  // namespace cornerd::drivers

@@ -15,10 +15,10 @@
 #include <limits>
 #include <utility>
 
-#include "drivers/serial/baud_rate.hpp"
 #include "drivers/serial/file_descriptor.hpp"
 
 namespace cornerd::drivers {
+
 namespace {
 
 constexpr int kWriteTimeoutMs = 500;
@@ -26,7 +26,7 @@ constexpr int kWriteTimeoutMs = 500;
 class SerialPort : public ByteStream {
  public:
   explicit SerialPort(FileDescriptor fd) : fd_(std::move(fd)) {}
-  // A terminal outlives its last close where its other end is open, and would stay exclusive.
+  // A pseudo-terminal whose other end is open outlives the close, and would stay exclusive.
   ~SerialPort() override { ::ioctl(fd_.get(), TIOCNXCL); }
   SerialPort(const SerialPort&) = delete;
   SerialPort& operator=(const SerialPort&) = delete;
@@ -38,7 +38,7 @@ class SerialPort : public ByteStream {
     const int ready = ::poll(&entry, 1, timeout_ms);
     if (ready < 0) return {errno == EINTR ? ReadStatus::kTimeout : ReadStatus::kLost, 0};
     if (ready == 0) return {};
-    // What arrived before a hang-up is still there to be read.
+    // Bytes received before a hang-up can still be read.
     const ssize_t count = ::read(fd_.get(), buffer.data(), buffer.size());
     if (count > 0) return {ReadStatus::kData, static_cast<std::size_t>(count)};
     const bool nothing_yet = count == 0 ? (entry.revents & (POLLHUP | POLLERR | POLLNVAL)) == 0
@@ -79,14 +79,14 @@ OpenResult failure(OpenError error, const std::string& path, const std::string& 
   return {.stream = nullptr, .error = error, .message = path + ": " + reason};
 }
 
-/// Of a device's node open() says EPERM where the control group may not have that kind of device.
+/// open() fails with EPERM if the service's control group forbids this kind of device.
 std::string forbidden_kind(const std::string& path) {
   std::error_code error;
   const auto port = std::filesystem::canonical(path, error);
-  // As the kernel names it in /proc/devices.
+  // The kernel's name for the kind, as in /proc/devices.
   std::string kind = (error ? std::filesystem::path(path) : port).filename().string();
   kind.erase(kind.find_last_not_of("0123456789") + 1);
-  return "the service's unit does not allow it; `sudo systemctl edit cornerd`, write [Service] and "
+  return "the service's unit forbids it; run `sudo systemctl edit cornerd` and write [Service] and "
          "below it DeviceAllow=char-" +
          kind + " rw";
 }
@@ -101,7 +101,7 @@ OpenResult explain_open_failure(const std::string& path, int error) {
       return failure(OpenError::kDenied, path, forbidden_kind(path));
     case EACCES:
       return failure(OpenError::kDenied, path,
-                     "no permission to open it; is the user in the group dialout?");
+                     "no permission to open it; add the user to the group dialout");
     case EBUSY:
       return failure(OpenError::kBusy, path, "held by another process");
     default:
@@ -127,7 +127,9 @@ bool make_raw(int fd, speed_t speed) {
 OpenResult open_serial_port(const std::string& path, std::uint32_t baud) {
   const auto speed = termios_speed(baud);
   if (!speed) {
-    return failure(OpenError::kFailed, path, std::to_string(baud) + " baud is not supported");
+    return failure(
+        OpenError::kFailed, path,
+        std::to_string(baud) + " baud is not supported; use a standard rate such as 115200");
   }
   FileDescriptor fd(::open(path.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC));
   if (!fd.is_open()) return explain_open_failure(path, errno);
@@ -143,6 +145,31 @@ OpenResult open_serial_port(const std::string& path, std::uint32_t baud) {
   return {.stream = std::make_unique<SerialPort>(std::move(fd)),
           .error = OpenError::kNone,
           .message = {}};
+}
+
+std::optional<speed_t> termios_speed(std::uint32_t baud) {
+  switch (baud) {
+    case 9600:
+      return B9600;
+    case 19200:
+      return B19200;
+    case 38400:
+      return B38400;
+    case 57600:
+      return B57600;
+    case 115200:
+      return B115200;
+    case 230400:
+      return B230400;
+    case 460800:
+      return B460800;
+    case 921600:
+      return B921600;
+    case 1000000:
+      return B1000000;
+    default:
+      return std::nullopt;
+  }
 }
 
 }  // namespace cornerd::drivers

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <termios.h>
+
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "drivers/serial/byte_stream.hpp"
@@ -11,22 +14,24 @@ namespace cornerd::drivers {
 
 enum class OpenError : std::uint8_t {
   kNone,
-  kAbsent,  ///< no such port
+  kAbsent,  ///< the port does not exist
   kDenied,  ///< no rights
   kBusy,    ///< another process holds it
-  kFailed,  ///< anything else: no terminal, a speed that is not supported
+  kFailed,  ///< any other error: no terminal, unsupported speed
 };
 
 struct OpenResult {
-  std::unique_ptr<ByteStream> stream;  ///< null where it failed
+  std::unique_ptr<ByteStream> stream;  ///< null on failure
   OpenError error = OpenError::kNone;
-  std::string message;  ///< for a person, naming the port
+  std::string message;  ///< for a person, with the port's path
 };
 
-/// Opens a serial port (or pseudo-terminal) raw, 8N1, without flow control, for this process alone:
-/// by TIOCEXCL, which the kernel enforces on everyone but root, and by flock, which well-behaved
-/// programs ask for. The DTR line is cleared on close by nobody (no HUPCL).
-/// `baud`: one of the standard rates.
+/// Opens a serial port (or pseudo-terminal) raw, 8N1, without flow control, exclusively: by
+/// TIOCEXCL, which binds everyone but root, and by flock, which binds programs that use it. DTR
+/// keeps its state on close (no HUPCL). `baud`: a standard rate.
 OpenResult open_serial_port(const std::string& path, std::uint32_t baud);
+
+/// The termios constant of a standard rate; nullopt for others.
+std::optional<speed_t> termios_speed(std::uint32_t baud);
 
 }  // namespace cornerd::drivers

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "replay/emulator/configuration.hpp"
+#include "replay/emulator/firmware.hpp"
 
 namespace cornerd::replay {
 namespace {
@@ -21,9 +21,9 @@ constexpr core::TimeNs kAnswerDelayNs = 1'000'000;
 /// From RESET to the banner, and from there to the first request that is heard: as measured on an
 /// A1M8 of firmware 1.29.
 constexpr core::TimeNs kBootNs = 671'000'000;
-constexpr core::TimeNs kDeafAfterBannerNs = 4'000'000;
+constexpr core::TimeNs kIgnoreAfterBannerNs = 4'000'000;
 /// Whoever drives the emulator was held up for longer than this: the scan begins anew.
-constexpr core::TimeNs kLongestHoldUpNs = core::kNsPerSecond;
+constexpr core::TimeNs kMaxStallNs = core::kNsPerSecond;
 
 }  // namespace
 
@@ -36,7 +36,7 @@ Emulator::Emulator(const EmulatorConfig& config, std::unique_ptr<Simulator> simu
 void Emulator::receive(std::span<const std::uint8_t> bytes, core::TimeNs now_ns) {
   measure_until(now_ns);
   for (const std::uint8_t byte : bytes) {
-    if (now_ns < deaf_until_ns_) {
+    if (now_ns < ignores_until_ns_) {
       parser_.reset();
       continue;
     }
@@ -115,7 +115,7 @@ void Emulator::start_scan(const FirmwareScanMode& mode, bool force, core::TimeNs
 void Emulator::stop_scan(core::TimeNs now_ns) {
   if (!scanning_) return;
   scanning_ = false;
-  transmitter_.drop_waiting(now_ns);
+  transmitter_.drop_unsent(now_ns);
 }
 
 void Emulator::set_stalled(bool stalled, core::TimeNs now_ns) {
@@ -138,12 +138,12 @@ void Emulator::reset(core::TimeNs now_ns) {
   scanning_ = false;
   parser_.reset();
   transmitter_.clear(now_ns);
-  if (config_.reset_heals) health_ = {};
+  if (config_.reset_restores_health) health_ = {};
   const std::string_view banner = config_.firmware->banner;
   const std::vector<std::uint8_t> bytes(banner.begin(), banner.end());
   transmitter_.queue(now_ns + kBootNs, bytes);
-  deaf_until_ns_ =
-      now_ns + kBootNs + SerialLine(config_.baud).duration_ns(bytes.size()) + kDeafAfterBannerNs;
+  ignores_until_ns_ =
+      now_ns + kBootNs + SerialLine(config_.baud).duration_ns(bytes.size()) + kIgnoreAfterBannerNs;
 }
 
 void Emulator::prepare_packet() {
@@ -154,7 +154,7 @@ void Emulator::prepare_packet() {
 
 void Emulator::measure_until(core::TimeNs now_ns) {
   if (stalled_) return;
-  if (scanning_ && now_ns - packet_ready_ns_ > kLongestHoldUpNs) begin_stream(now_ns);
+  if (scanning_ && now_ns - packet_ready_ns_ > kMaxStallNs) begin_stream(now_ns);
   while (scanning_ && packet_ready_ns_ <= now_ns) {
     transmitter_.queue(packet_ready_ns_, packet_);
     prepare_packet();

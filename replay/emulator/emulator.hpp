@@ -11,8 +11,7 @@
 
 #include "core/types.hpp"
 #include "drivers/rplidar/protocol/answers.hpp"
-#include "drivers/rplidar/protocol/descriptor.hpp"
-#include "drivers/rplidar/protocol/request.hpp"
+#include "drivers/rplidar/protocol/framing.hpp"
 #include "replay/emulator/firmware.hpp"
 #include "replay/emulator/transmitter.hpp"
 #include "replay/simulator/simulator.hpp"
@@ -22,7 +21,7 @@ namespace cornerd::replay {
 struct EmulatorConfig {
   const Firmware* firmware = find_firmware("1.29");
   rplidar::Health health;
-  bool reset_heals = true;  ///< RESET makes the health good; else it stays as it was
+  bool reset_restores_health = true;  ///< RESET makes the health good; else it stays as it was
   double spin_up_s = 0;     ///< from a scan request to the first data, but for FORCE_SCAN
   /// Whether configuration type 0x01 (desired rotation) is answered. Vendor software waits 2 s for
   /// an answer to it in vain where it is not.
@@ -78,7 +77,7 @@ class Emulator {
   core::TimeNs request_begun_ns_ = 0;
   Transmitter transmitter_;
   rplidar::Health health_;
-  core::TimeNs deaf_until_ns_ = 0;
+  core::TimeNs ignores_until_ns_ = 0;
 
   bool scanning_ = false;
   bool stalled_ = false;

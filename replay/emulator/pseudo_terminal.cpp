@@ -15,7 +15,7 @@
 #include <system_error>
 #include <thread>
 
-#include "drivers/serial/baud_rate.hpp"
+#include "drivers/serial/serial_port.hpp"
 
 namespace cornerd::replay {
 namespace {

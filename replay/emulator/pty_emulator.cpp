@@ -12,14 +12,14 @@ namespace {
 using std::chrono::duration_cast;
 using std::chrono::nanoseconds;
 
-constexpr int kLongestWaitMs = 10;
+constexpr int kMaxWaitMs = 10;
 constexpr core::TimeNs kOnTimePeriodNs = 10'000'000;
 
 /// A byte takes 87 us; waking up for each would be noise. USB adapters hand over every 1 ms too.
 int wait_ms(std::optional<core::TimeNs> next_ns, core::TimeNs now_ns) {
-  if (!next_ns) return kLongestWaitMs;
+  if (!next_ns) return kMaxWaitMs;
   return static_cast<int>(
-      std::clamp<core::TimeNs>((*next_ns - now_ns) / 1'000'000, 1, kLongestWaitMs));
+      std::clamp<core::TimeNs>((*next_ns - now_ns) / 1'000'000, 1, kMaxWaitMs));
 }
 
 }  // namespace
@@ -35,15 +35,15 @@ void PtyEmulator::run(const std::stop_token& stop) {
     return core::TimeNs{
         duration_cast<nanoseconds>(std::chrono::steady_clock::now() - start).count()};
   };
-  core::TimeNs told_ns = -kOnTimePeriodNs;
+  core::TimeNs reported_ns = -kOnTimePeriodNs;
   while (!stop.stop_requested()) {
     core::TimeNs now_ns = elapsed_ns();
     const bool has_client = terminal_.wait(wait_ms(emulator_.next_ns(), now_ns));
     now_ns = elapsed_ns();
     exchange(now_ns, has_client);
-    if (on_time_ && now_ns - told_ns >= kOnTimePeriodNs) {
+    if (on_time_ && now_ns - reported_ns >= kOnTimePeriodNs) {
       on_time_(now_ns, start_unix_ns + now_ns);
-      told_ns = now_ns;
+      reported_ns = now_ns;
     }
   }
 }

@@ -10,7 +10,7 @@ namespace {
 
 /// Half of the widest step between two samples of an A1 (2 kHz at 10 Hz: 1.8 degrees). Farther from
 /// every sample there was a hole.
-constexpr double kFarthestSampleRad = core::radians(1.0);
+constexpr double kMaxSampleDistanceRad = core::radians(1.0);
 
 }  // namespace
 
@@ -58,13 +58,13 @@ void RecordedScene::open() {
 }
 
 void RecordedScene::load_next_scan() {
-  bool began_anew = false;
+  bool restarted = false;
   while (scans_->scans.empty()) {
     if (player_->step(*scans_)) continue;
     scans_->finish();
     if (!scans_->scans.empty()) break;
-    if (began_anew) throw RecordingError(file_.string() + ": holds no whole turn of a lidar");
-    began_anew = true;
+    if (restarted) throw RecordingError(file_.string() + ": holds no whole turn of a lidar");
+    restarted = true;
     open();
   }
   returns_ = std::move(scans_->scans.front());
@@ -80,7 +80,7 @@ double RecordedScene::nearest_range(double bearing_rad) const {
   const Return& previous = after == returns_.begin() ? returns_.back() : *(after - 1);
   const double to_next = std::abs(core::angle_between(bearing, next.bearing_rad));
   const double to_previous = std::abs(core::angle_between(bearing, previous.bearing_rad));
-  if (std::min(to_next, to_previous) > kFarthestSampleRad) return 0;
+  if (std::min(to_next, to_previous) > kMaxSampleDistanceRad) return 0;
   return to_next < to_previous ? next.range_m : previous.range_m;
 }
 

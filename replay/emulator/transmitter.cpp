@@ -9,7 +9,7 @@ void Transmitter::queue(core::TimeNs ready_ns, std::span<const std::uint8_t> byt
   chunks_.push_back({end_ns - line_.duration_ns(bytes.size()), {bytes.begin(), bytes.end()}, 0});
 }
 
-void Transmitter::drop_waiting(core::TimeNs now_ns) {
+void Transmitter::drop_unsent(core::TimeNs now_ns) {
   while (!chunks_.empty() && chunks_.back().start_ns > now_ns) chunks_.pop_back();
   line_.free_from(chunks_.empty()
                       ? now_ns

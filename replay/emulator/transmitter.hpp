@@ -21,7 +21,7 @@ class Transmitter {
   void queue(core::TimeNs ready_ns, std::span<const std::uint8_t> bytes);
 
   /// Drops what has not begun to be sent by `now_ns`. What has begun is sent to its end.
-  void drop_waiting(core::TimeNs now_ns);
+  void drop_unsent(core::TimeNs now_ns);
   /// The device falls silent in the middle of a byte.
   void clear(core::TimeNs now_ns);
 

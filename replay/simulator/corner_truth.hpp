@@ -26,7 +26,7 @@ enum class CornerView : std::uint8_t {
 /// Fewer returns than these make no wall (El Amin et al., section V.B: "more than four points").
 inline constexpr std::uint32_t kSupportReturns = 5;
 
-struct SeenCorner {
+struct CornerObservation {
   std::uint32_t corner = 0;                  ///< index into WallMap::corners()
   core::Vec2 position = core::Vec2::Zero();  ///< lidar frame
   CornerView view = CornerView::kHidden;
@@ -42,16 +42,16 @@ class CornerTruth {
   /// `map` has to outlive this.
   CornerTruth(const core::WallMap& map, double max_range_m);
 
-  void look(const core::Pose2& T_map_lidar, std::span<const core::PolarPoint> points);
+  void observe(const core::Pose2& T_map_lidar, std::span<const core::PolarPoint> points);
 
   /// Of the last turn: all corners of which at least one wall gave a return and that are in sight,
   /// and the hidden ones of which both did.
-  std::span<const SeenCorner> corners() const { return corners_; }
+  std::span<const CornerObservation> corners() const { return corners_; }
 
   /// Where the turn's view of a wall ends because a nearer wall hides how it goes on: the last
   /// return before that, lidar frame. Such a place is no corner, though it is where a line of
   /// returns ends.
-  std::span<const core::Vec2> shadow_ends() const { return shadow_ends_; }
+  std::span<const core::Vec2> occlusion_edges() const { return occlusion_edges_; }
 
  private:
   /// The part of a face that one side of a corner is.
@@ -65,7 +65,7 @@ class CornerTruth {
     Side right;
   };
   /// A return, as the map explains it.
-  struct Met {
+  struct WallHit {
     std::uint32_t face = core::PredictedHit::kNone;
     double along_m = 0;
     double range_m = 0;
@@ -73,17 +73,17 @@ class CornerTruth {
   };
 
   Side side_of(const core::Vec2& position, double direction_rad, bool left) const;
-  bool is_in_sight(const core::Vec2& origin, const core::Vec2& corner) const;
+  bool has_line_of_sight(const core::Vec2& origin, const core::Vec2& corner) const;
   std::uint32_t returns_of(const Side& side) const;
   bool are_neighbours(std::uint32_t face, std::uint32_t other) const;
-  void find_shadow_ends(std::span<const core::PolarPoint> points);
+  void find_occlusion_edges(std::span<const core::PolarPoint> points);
 
   const core::WallMap& map_;
-  core::RayCaster prediction_;
+  core::RayCaster ray_caster_;
   std::vector<Sides> sides_;  ///< as the map's corners
-  std::vector<Met> met_;
-  std::vector<SeenCorner> corners_;
-  std::vector<core::Vec2> shadow_ends_;
+  std::vector<WallHit> hits_;
+  std::vector<CornerObservation> corners_;
+  std::vector<core::Vec2> occlusion_edges_;
 };
 
 }  // namespace cornerd::replay

@@ -7,6 +7,7 @@
 #include <utility>
 
 namespace cornerd::replay {
+
 namespace {
 
 /// Along a piece of a drive of some length (or angle), up to a rate and down again.
@@ -42,7 +43,7 @@ class Profile {
 struct Leg {
   double start_s = 0;
   core::Pose2 from;
-  core::Vec2 way_m = core::Vec2::Zero();
+  core::Vec2 translation_m = core::Vec2::Zero();
   double rotation_rad = 0;
   Profile profile;
 };
@@ -79,7 +80,7 @@ class Drive {
                                         [](double t, const Leg& leg) { return t < leg.start_s; });
     const Leg& leg = after == legs_.begin() ? legs_.front() : *(after - 1);
     const double share = leg.profile.share(t_s - leg.start_s);
-    return {leg.from.x_m + leg.way_m.x() * share, leg.from.y_m + leg.way_m.y() * share,
+    return {leg.from.x_m + leg.translation_m.x() * share, leg.from.y_m + leg.translation_m.y() * share,
             core::normalize_angle(leg.from.theta_rad + leg.rotation_rad * share)};
   }
 
@@ -100,9 +101,9 @@ class Drive {
 
   void go_to(const core::Vec2& point) {
     rotate_to(heading(end_.translation(), point));
-    const core::Vec2 way = point - end_.translation();
-    const Profile profile(way.norm(), config_.speed_m_s, config_.acceleration_m_s2);
-    legs_.push_back({length_s_, end_, way, 0, profile});
+    const core::Vec2 translation = point - end_.translation();
+    const Profile profile(translation.norm(), config_.speed_m_s, config_.acceleration_m_s2);
+    legs_.push_back({length_s_, end_, translation, 0, profile});
     end_ = {point.x(), point.y(), end_.theta_rad};
     length_s_ += profile.duration_s();
   }
@@ -119,7 +120,7 @@ Motion stand_still(const core::Pose2& T_map_base) {
   return [T_map_base](core::TimeNs, std::int64_t) { return T_map_base; };
 }
 
-Motion visit_places(std::vector<core::Pose2> places, std::int64_t scans_each) {
+Motion visit_poses(std::vector<core::Pose2> places, std::int64_t scans_each) {
   if (places.empty()) throw std::invalid_argument("there is no place to visit");
   if (scans_each < 1) throw std::invalid_argument("a visit takes at least one turn");
   return [places = std::move(places), scans_each](core::TimeNs, std::int64_t scan) {
@@ -137,6 +138,36 @@ Motion drive_path(const std::vector<core::Vec2>& points, const DriveConfig& conf
   return [drive = Drive(points, config)](core::TimeNs t_ns, std::int64_t) {
     return drive.pose_at(core::to_seconds(t_ns));
   };
+}
+
+std::span<const Scenario> scenarios() {
+  static const std::vector<Scenario> kScenarios = {
+      {"circuit-1", {{1.65, 2.7}, {1.0, 2.7}, {1.3, 0.8}, {3.3, 0.8}, {3.3, 2.4}}},
+      {"circuit-2",
+       {{1.65, 4.0},
+        {1.65, 1.5},
+        {5.75, 1.5},
+        {5.75, 4.0},
+        {8.85, 4.0},
+        {8.85, 6.6},
+        {7.4, 6.6},
+        {7.4, 5.4},
+        {8.85, 5.4},
+        {8.85, 4.0}}},
+      {"exploration", {{0.7, 4.0}, {1.65, 4.0}, {1.65, 2.6}, {1.2, 0.9},  {3.3, 0.9},  {3.3, 1.5},
+                       {5.2, 1.5}, {5.9, 0.7},  {5.75, 2.6}, {5.75, 4.0}, {8.05, 4.0}, {8.05, 2.6},
+                       {9.2, 1.0}, {7.8, 1.0},  {8.05, 2.6}, {8.05, 4.0}, {8.85, 4.0}, {8.85, 5.4},
+                       {9.2, 7.2}, {7.2, 6.9},  {8.85, 5.4}, {8.85, 4.0}, {4.75, 4.0}, {4.75, 5.4},
+                       {5.3, 7.2}, {4.3, 7.2},  {4.75, 5.4}, {4.75, 4.0}, {2.65, 4.0}, {2.65, 5.4},
+                       {1.2, 5.6}, {1.2, 7.2},  {1.6, 6.6},  {2.65, 5.4}, {2.65, 4.0}}}};
+  return kScenarios;
+}
+
+const Scenario* find_scenario(std::string_view name) {
+  const auto all = scenarios();
+  const auto found = std::find_if(all.begin(), all.end(),
+                                  [&](const Scenario& scenario) { return scenario.name == name; });
+  return found == all.end() ? nullptr : &*found;
 }
 
 }  // namespace cornerd::replay

@@ -4,6 +4,8 @@
 
 #include <cstdint>
 #include <functional>
+#include <span>
+#include <string_view>
 #include <vector>
 
 #include "core/geometry/pose2.hpp"
@@ -19,7 +21,7 @@ Motion stand_still(const core::Pose2& T_map_base);
 
 /// Stands at each place for some turns of the sensor, then is at the next one at once; stays at the
 /// last. Throws std::invalid_argument where `places` is empty or `scans_each` is not positive.
-Motion visit_places(std::vector<core::Pose2> places, std::int64_t scans_each);
+Motion visit_poses(std::vector<core::Pose2> places, std::int64_t scans_each);
 
 struct DriveConfig {
   double speed_m_s = 0.2;
@@ -37,5 +39,17 @@ Motion drive_path(const std::vector<core::Vec2>& points, const DriveConfig& conf
 
 /// How long that takes, once around where it loops.
 double drive_duration_s(const std::vector<core::Vec2>& points, const DriveConfig& config);
+
+/// A drive through config/maps/flat-7.json that has a name.
+struct Scenario {
+  std::string_view name;
+  std::vector<core::Vec2> path;  ///< from point to point, and back to the first
+};
+
+/// After Bertocco et al. (2019), whose flat and paths are known by small pictures alone: a short
+/// circuit with two sharp turns, a longer one of right angles, and a full exploration.
+std::span<const Scenario> scenarios();
+/// nullptr where there is none of this name.
+const Scenario* find_scenario(std::string_view name);
 
 }  // namespace cornerd::replay

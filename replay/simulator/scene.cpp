@@ -4,10 +4,11 @@
 #include <utility>
 
 namespace cornerd::replay {
+
 namespace {
 
 /// Beyond any lidar of this family; its own limits are the sensor model's affair.
-constexpr double kSightM = 100;
+constexpr double kMaxRangeM = 100;
 
 }  // namespace
 
@@ -18,7 +19,7 @@ MapScene::MapScene(std::shared_ptr<const core::WallMap> map, Motion motion,
 double MapScene::range_along(core::TimeNs t_ns, std::int64_t scan, const core::Vec2& origin,
                              double bearing_rad) {
   const core::Pose2 T_map_lidar = motion_(t_ns, scan) * T_base_lidar_;
-  return map_->range_along(T_map_lidar * origin, T_map_lidar.theta_rad + bearing_rad, kSightM);
+  return map_->range_along(T_map_lidar * origin, T_map_lidar.theta_rad + bearing_rad, kMaxRangeM);
 }
 
 }  // namespace cornerd::replay

@@ -30,7 +30,7 @@ bool SensorErrors::is_missing() {
   return missing_now_;
 }
 
-double SensorErrors::measured(double range_m, std::optional<double> ray_rad) {
+double SensorErrors::measured(double range_m, std::optional<double> incidence_rad) {
   if (is_missing()) return 0;
   if (random_.chance(model_.outliers)) {
     const double farthest_m =
@@ -40,10 +40,10 @@ double SensorErrors::measured(double range_m, std::optional<double> ray_rad) {
   if (range_m < model_.min_range_m || range_m > model_.max_range_m) return 0;
   double sigma_m = model_.noise.sigma_range_m(range_m);
   double bias_m = model_.range_offset_m;
-  if (ray_rad) {
-    const double distance_m = range_m * std::cos(*ray_rad);
+  if (incidence_rad) {
+    const double distance_m = range_m * std::cos(*incidence_rad);
     if (model_.wall.covers(distance_m)) sigma_m = model_.wall.sigma_m(distance_m);
-    bias_m += model_.wall.error_m(distance_m, *ray_rad);
+    bias_m += model_.wall.error_m(distance_m, *incidence_rad);
   }
   const double noise_m = sigma_m > 0 ? sigma_m * random_.normal() : 0;
   return std::max(0.0, model_.range_scale * range_m + bias_m + noise_m);

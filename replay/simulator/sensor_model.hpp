@@ -60,10 +60,10 @@ class SensorErrors {
   /// Where a sample that claims `device_angle_rad` really looks, less what it claims.
   double direction_error(double device_angle_rad);
 
-  /// What is measured of a wall at `range_m` (0: no wall); 0: nothing. `ray_rad`: from the wall's
-  /// normal, counter-clockwise, where it is known and wants_rays().
-  double measured(double range_m, std::optional<double> ray_rad = std::nullopt);
-  bool wants_rays() const { return !model_.wall.empty(); }
+  /// What is measured of a wall at `range_m` (0: no wall); 0: nothing. `incidence_rad`: from the wall's
+  /// normal, counter-clockwise, where it is known and needs_incidence().
+  double measured(double range_m, std::optional<double> incidence_rad = std::nullopt);
+  bool needs_incidence() const { return !model_.wall.empty(); }
 
   /// What is measured where the two sides of the beam see different ranges.
   double mixed(double one_m, double other_m);

@@ -8,10 +8,11 @@
 #include <utility>
 
 namespace cornerd::replay {
+
 namespace {
 
 /// The drive is looked at this often; a gyro's own low pass is about as slow.
-constexpr core::TimeNs kLookNs = 2'000'000;
+constexpr core::TimeNs kStepNs = 2'000'000;
 constexpr core::TimeNs kSlipNs = core::kNsPerSecond / 5;
 
 double metres_to_next(Random& random, double per_m) {
@@ -34,15 +35,15 @@ SimulatedOdometry::SimulatedOdometry(Motion motion, const RobotModel& model, std
 }
 
 core::OdometryReading SimulatedOdometry::next() {
-  while (now_ns_ < next_ns_) roll(std::min(next_ns_, now_ns_ + kLookNs));
+  while (now_ns_ < next_ns_) advance(std::min(next_ns_, now_ns_ + kStepNs));
   core::OdometryReading reading;
   reading.t_ns = next_ns_;
   next_ns_ += period_ns_;
   const core::DriveGeometry& geometry = model_.geometry;
-  const auto counts = [&](double way_m) {
-    const auto count = static_cast<std::int64_t>(std::floor(way_m / geometry.metres_per_count()));
-    if (geometry.ceiling <= 0) return count;
-    const std::int64_t span = geometry.ceiling + 1;
+  const auto counts = [&](double distance_m) {
+    const auto count = static_cast<std::int64_t>(std::floor(distance_m / geometry.metres_per_count()));
+    if (geometry.counter_max <= 0) return count;
+    const std::int64_t span = geometry.counter_max + 1;
     return (count % span + span) % span;
   };
   reading.left = counts(left_m_);
@@ -58,17 +59,17 @@ core::OdometryReading SimulatedOdometry::next() {
   return reading;
 }
 
-void SimulatedOdometry::roll(core::TimeNs to_ns) {
+void SimulatedOdometry::advance(core::TimeNs to_ns) {
   const core::Pose2 T_map_next = motion_(to_ns, 0);
   const core::Pose2 way = T_map_base_.inverse() * T_map_next;
   const double dt_s = core::to_seconds(to_ns - now_ns_);
   const double rotation_rad = way.theta_rad;
-  const double way_m = way.x_m * std::cos(rotation_rad / 2) + way.y_m * std::sin(rotation_rad / 2);
+  const double distance_m = way.x_m * std::cos(rotation_rad / 2) + way.y_m * std::sin(rotation_rad / 2);
   const double half_m = rotation_rad * model_.geometry.track_m * (1 + model_.track_scale) / 2;
-  double left_m = rolled(way_m - half_m, model_.left_scale);
-  double right_m = rolled(way_m + half_m, model_.right_scale);
+  double left_m = wheel_travel(distance_m - half_m, model_.left_scale);
+  double right_m = wheel_travel(distance_m + half_m, model_.right_scale);
 
-  until_slip_m_ -= std::abs(way_m) + std::abs(half_m);
+  until_slip_m_ -= std::abs(distance_m) + std::abs(half_m);
   if (until_slip_m_ <= 0) {
     until_slip_m_ = metres_to_next(random_, model_.slips_per_m);
     slips_until_ns_ = now_ns_ + kSlipNs;
@@ -83,9 +84,9 @@ void SimulatedOdometry::roll(core::TimeNs to_ns) {
   now_ns_ = to_ns;
 }
 
-double SimulatedOdometry::rolled(double way_m, double radius_scale) {
-  const double wander_m = model_.wheel_m_per_sqrt_m * std::sqrt(std::abs(way_m)) * random_.normal();
-  return (way_m + wander_m) / (1 + radius_scale);
+double SimulatedOdometry::wheel_travel(double distance_m, double radius_scale) {
+  const double noise_m = model_.wheel_m_per_sqrt_m * std::sqrt(std::abs(distance_m)) * random_.normal();
+  return (distance_m + noise_m) / (1 + radius_scale);
 }
 
 }  // namespace cornerd::replay

@@ -7,7 +7,6 @@
 #include <utility>
 #include <vector>
 
-#include "replay/simulator/byte_faults.hpp"
 #include "replay/simulator/serial_line.hpp"
 #include "replay/simulator/simulated_odometry.hpp"
 
@@ -80,9 +79,9 @@ class CoveredScene final : public MapScene {
 };
 
 /// What the robot's controller sends meanwhile, in the order of time.
-class OdometryLines {
+class OdometryInputMonitor {
  public:
-  OdometryLines(const SimulatedRecordingConfig& config, const Motion& motion,
+  OdometryInputMonitor(const SimulatedRecordingConfig& config, const Motion& motion,
                 RecordingWriter& recording)
       : recording_(recording) {
     if (config.robot) {
@@ -106,7 +105,7 @@ class OdometryLines {
 /// What a reader gets of the bytes: portions, some damaged, each a little late.
 class Reads {
  public:
-  Reads(const SimulatedRecordingConfig& config, RecordingWriter& recording, OdometryLines& odometry)
+  Reads(const SimulatedRecordingConfig& config, RecordingWriter& recording, OdometryInputMonitor& odometry)
       : faults_(config.byte_fault_share, config.simulator.seed ^ kFaultSeed),
         random_(config.simulator.seed ^ kJitterSeed),
         jitter_s_(config.arrival_jitter_s),
@@ -138,7 +137,7 @@ class Reads {
   Random random_;
   double jitter_s_;
   RecordingWriter& recording_;
-  OdometryLines& odometry_;
+  OdometryInputMonitor& odometry_;
   std::vector<std::uint8_t> portion_;
   core::TimeNs arrival_ns_ = 0;
   std::uint64_t bytes_ = 0;
@@ -157,7 +156,7 @@ SimulatedRecordingSummary simulate_recording(std::shared_ptr<const core::WallMap
   Simulator simulator(std::make_unique<CoveredScene>(std::move(map), motion, config),
                       config.simulator);
   TruthSampler truth_sampler(motion, truth);
-  OdometryLines odometry(config, motion, recording);
+  OdometryInputMonitor odometry(config, motion, recording);
   Reads reads(config, recording, odometry);
   if (config.with_descriptor) {
     const DescriptorBytes descriptor = simulator.descriptor();

@@ -8,7 +8,7 @@
 #include "core/map/wall_map.hpp"
 #include "replay/recording_writer.hpp"
 #include "replay/simulator/motion.hpp"
-#include "replay/simulator/robot_model.hpp"
+#include "replay/simulator/simulated_odometry.hpp"
 #include "replay/simulator/simulator.hpp"
 
 namespace cornerd::replay {

@@ -12,7 +12,7 @@ namespace {
 /// The A1's optics, as the vendor's decoder of ultra capsules corrects for them.
 constexpr double kLaserOffsetM = 0.024;
 constexpr double kLaserAngleDeg = 8.0;
-constexpr double kNearestCorrectedM = 0.050;
+constexpr double kMinCorrectedM = 0.050;
 constexpr double kNearOffsetDeg = 7.5;  ///< nearer than that, and for empty samples
 
 /// What an A1 reports with a return: standard nodes carry 15 with one, 0 without.
@@ -21,34 +21,34 @@ constexpr std::uint8_t kQuality = 15;
 constexpr std::uint64_t kHeadSeed = 0x9E3779B97F4A7C15u;  ///< keeps head and noise independent
 
 double optical_offset_deg(double range_m) {
-  if (range_m < kNearestCorrectedM) return kNearOffsetDeg;
+  if (range_m < kMinCorrectedM) return kNearOffsetDeg;
   return kLaserAngleDeg - core::degrees(std::asin(kLaserOffsetM / range_m));
 }
 
-double within_turn(double angle_deg) { return angle_deg - 360 * std::floor(angle_deg / 360); }
+double wrap_degrees(double angle_deg) { return angle_deg - 360 * std::floor(angle_deg / 360); }
 
 std::int64_t to_q6(double angle_deg) { return std::llround(angle_deg * 64); }
-std::uint16_t within_turn_q6(std::int64_t angle_q6) {
-  constexpr std::int64_t kTurn = 360 * 64;
-  return static_cast<std::uint16_t>(((angle_q6 % kTurn) + kTurn) % kTurn);
+std::uint16_t wrap_q6(std::int64_t angle_q6) {
+  constexpr std::int64_t kRevolution = 360 * 64;
+  return static_cast<std::uint16_t>(((angle_q6 % kRevolution) + kRevolution) % kRevolution);
 }
 
 /// The turn that a sample belongs to: the last one before the mark already starts the next turn.
-std::int64_t revolution_of(double angle_deg, double step_deg) {
+std::int64_t scan_of(double angle_deg, double step_deg) {
   return static_cast<std::int64_t>(std::floor((angle_deg + step_deg) / 360));
 }
 bool is_last_before_mark(double angle_deg, double step_deg) {
-  return revolution_of(angle_deg, step_deg) > revolution_of(angle_deg, 0);
+  return scan_of(angle_deg, step_deg) > scan_of(angle_deg, 0);
 }
 
-std::uint32_t to_units(double range_m, double units_per_m, std::uint32_t most) {
+std::uint32_t to_units(double range_m, double units_per_m, std::uint32_t max_value) {
   return static_cast<std::uint32_t>(
-      std::clamp(std::round(range_m * units_per_m), 0.0, static_cast<double>(most)));
+      std::clamp(std::round(range_m * units_per_m), 0.0, static_cast<double>(max_value)));
 }
 
 }  // namespace
 
-core::TimeNs usual_sample_period_ns(rplidar::WireFormat format) {
+core::TimeNs nominal_sample_period_ns(rplidar::WireFormat format) {
   switch (format) {
     case rplidar::WireFormat::kStandard:
       return 508'000;
@@ -76,7 +76,7 @@ Simulator::Simulator(std::unique_ptr<Scene> scene, const SimulatorConfig& config
       config_(config),
       wire_(config.wire),
       errors_(config.sensor, config.seed),
-      head_(config.motor_hz, config.motor_jitter, usual_sample_period_ns(config.wire),
+      head_(config.motor_hz, config.motor_jitter, nominal_sample_period_ns(config.wire),
             config.seed ^ kHeadSeed) {
   if (!(config.motor_hz >= 1 && config.motor_hz <= 15) ||
       !(config.motor_jitter >= 0 && config.motor_jitter <= 0.1)) {
@@ -88,12 +88,12 @@ Simulator::Simulator(std::unique_ptr<Scene> scene, const SimulatorConfig& config
 
 void Simulator::start(core::TimeNs t_ns, rplidar::WireFormat wire, core::TimeNs sample_period_ns) {
   wire_ = wire;
-  head_.resume(t_ns, sample_period_ns > 0 ? sample_period_ns : usual_sample_period_ns(wire));
+  head_.resume(t_ns, sample_period_ns > 0 ? sample_period_ns : nominal_sample_period_ns(wire));
   restart_ = true;
   swapped_ = false;
   next_first_ = head_.next();
   if (wire == rplidar::WireFormat::kUltra) {
-    next_first_mm_ = measured_for_ultra(next_first_, revolution_of(next_first_.angle_deg, 0));
+    next_first_mm_ = measured_for_ultra(next_first_, scan_of(next_first_.angle_deg, 0));
   }
 }
 
@@ -115,7 +115,7 @@ double Simulator::range_at(const Head& head, std::int64_t scan, double device_an
                              sign * core::radians(device_angle_deg));
 }
 
-Simulator::Sight Simulator::triangulate(const Head& head, std::int64_t scan, double error_deg) {
+Simulator::Triangulation Simulator::triangulate(const Head& head, std::int64_t scan, double error_deg) {
   const double sign = config_.inverted ? 1 : -1;
   const double bearing_rad = sign * core::radians(head.angle_deg - kLaserAngleDeg + error_deg);
   const core::Vec2 laser = sign * kLaserOffsetM * core::rotate_left(core::unit_vector(bearing_rad));
@@ -125,9 +125,9 @@ Simulator::Sight Simulator::triangulate(const Head& head, std::int64_t scan, dou
   return {optical_offset_deg(range_m), range_m};
 }
 
-std::optional<double> Simulator::ray_at(const Head& head, std::int64_t scan,
+std::optional<double> Simulator::incidence_at(const Head& head, std::int64_t scan,
                                         double device_angle_deg, double range_m) {
-  if (!errors_.wants_rays() || range_m <= 0) return std::nullopt;
+  if (!errors_.needs_incidence() || range_m <= 0) return std::nullopt;
   constexpr double kAsideDeg = 0.05;
   constexpr double kGrazing = 20;  // growth of the range per radian, in ranges: 87 degrees
   const double before_m = range_at(head, scan, device_angle_deg - kAsideDeg);
@@ -147,7 +147,7 @@ double Simulator::measured_at(const Head& head, std::int64_t scan, double device
                              ? range_at(head, scan, angle_deg)
                              : errors_.mixed(range_at(head, scan, angle_deg - half_beam_deg),
                                              range_at(head, scan, angle_deg + half_beam_deg));
-  return errors_.measured(range_m, ray_at(head, scan, angle_deg, range_m));
+  return errors_.measured(range_m, incidence_at(head, scan, angle_deg, range_m));
 }
 
 std::uint32_t Simulator::measured_for_ultra(const Head& head, std::int64_t scan) {
@@ -159,7 +159,7 @@ std::uint32_t Simulator::measured_for_ultra(const Head& head, std::int64_t scan)
     range_m = errors_.mixed(range_m, triangulate(head, scan, error_deg + half_beam_deg).range_m);
   }
   const double angle_deg = head.angle_deg + error_deg - optical_offset_deg(range_m);
-  return to_units(errors_.measured(range_m, ray_at(head, scan, angle_deg, range_m)), 1e3, 28'656);
+  return to_units(errors_.measured(range_m, incidence_at(head, scan, angle_deg, range_m)), 1e3, 28'656);
 }
 
 double Simulator::sweep(std::size_t count) {
@@ -172,7 +172,7 @@ double Simulator::sweep(std::size_t count) {
   // From here on the angles are those that the capsule's two start angles tell of.
   for (std::size_t k = 0; k < count; ++k) {
     heads_[k].angle_deg = static_cast<double>(start_q6) / 64.0 + static_cast<double>(k) * step_deg;
-    samples_[k] = {heads_[k].t_ns, revolution_of(heads_[k].angle_deg, step_deg),
+    samples_[k] = {heads_[k].t_ns, scan_of(heads_[k].angle_deg, step_deg),
                    is_last_before_mark(heads_[k].angle_deg, step_deg), 0, 0};
   }
   return step_deg;
@@ -189,7 +189,7 @@ Simulator::Head Simulator::take_node() {
   next_first_ = head_.next();
   // The mark of a turn stays where it is.
   const bool same_scan =
-      revolution_of(head.angle_deg, 0) == revolution_of(next_first_.angle_deg, step_deg);
+      scan_of(head.angle_deg, 0) == scan_of(next_first_.angle_deg, step_deg);
   swapped_ = !swapped_ && same_scan && errors_.swaps_nodes();
   if (swapped_) std::swap(head.angle_deg, next_first_.angle_deg);
   return head;
@@ -199,14 +199,14 @@ WirePacket Simulator::next_node() {
   const double step_deg = head_.step_deg();
   const Head head = take_node();
   SimulatedSample& sample = samples_[0];
-  sample = {head.t_ns, revolution_of(head.angle_deg, step_deg),
+  sample = {head.t_ns, scan_of(head.angle_deg, step_deg),
             is_last_before_mark(head.angle_deg, step_deg), 0, 0};
 
   const double offset_deg = triangulate(head, sample.scan, 0).offset_deg;
-  std::uint16_t angle_q6 = within_turn_q6(to_q6(head.angle_deg - offset_deg));
+  std::uint16_t angle_q6 = wrap_q6(to_q6(head.angle_deg - offset_deg));
   sample.dist_q2 = to_units(measured_at(head, sample.scan, angle_q6 / 64.0), 4e3, 0xFFFF);
   // A node without a return has nothing to be corrected by.
-  if (sample.dist_q2 == 0) angle_q6 = within_turn_q6(to_q6(head.angle_deg));
+  if (sample.dist_q2 == 0) angle_q6 = wrap_q6(to_q6(head.angle_deg));
   sample.device_angle_deg = angle_q6 / 64.0;
 
   const NodeBytes node = encode_node(sample.starts_scan, sample.dist_q2 != 0 ? kQuality : 0,
@@ -227,10 +227,10 @@ WirePacket Simulator::next_express() {
     const std::uint32_t dist_mm = to_units(range_m, 1e3, 0x3FFF);
     if (dist_mm == 0) offset_q3 = 0;
     wire[k] = {static_cast<std::uint16_t>(dist_mm), static_cast<std::uint8_t>(offset_q3)};
-    sample.device_angle_deg = within_turn(head.angle_deg - offset_q3 / 8.0);
+    sample.device_angle_deg = wrap_degrees(head.angle_deg - offset_q3 / 8.0);
     sample.dist_q2 = 4 * dist_mm;
   }
-  const std::uint16_t start_q6 = within_turn_q6(to_q6(heads_[0].angle_deg));
+  const std::uint16_t start_q6 = wrap_q6(to_q6(heads_[0].angle_deg));
   const ExpressBytes capsule = encode_express(start_q6, restart_, wire);
   std::copy(capsule.begin(), capsule.end(), bytes_.begin());
   return packet(capsule.size(), kExpressSamples,
@@ -244,14 +244,14 @@ WirePacket Simulator::next_ultra() {
   for (std::size_t k = 1; k < kUltraSamples; ++k) {
     dist_mm[k] = measured_for_ultra(heads_[k], samples_[k].scan);
   }
-  next_first_mm_ = measured_for_ultra(next_first_, revolution_of(next_first_.angle_deg, step_deg));
+  next_first_mm_ = measured_for_ultra(next_first_, scan_of(next_first_.angle_deg, step_deg));
   dist_mm[kUltraSamples] = next_first_mm_;
 
-  const std::uint16_t start_q6 = within_turn_q6(to_q6(heads_[0].angle_deg));
+  const std::uint16_t start_q6 = wrap_q6(to_q6(heads_[0].angle_deg));
   const UltraCapsule capsule = encode_ultra(start_q6, restart_, dist_mm);
   for (std::size_t k = 0; k < kUltraSamples; ++k) {
     const double offset_deg = optical_offset_deg(capsule.carried_mm[k] * 1e-3);
-    samples_[k].device_angle_deg = within_turn(heads_[k].angle_deg - offset_deg);
+    samples_[k].device_angle_deg = wrap_degrees(heads_[k].angle_deg - offset_deg);
     samples_[k].dist_q2 = 4 * capsule.carried_mm[k];
   }
   std::copy(capsule.bytes.begin(), capsule.bytes.end(), bytes_.begin());

@@ -21,7 +21,7 @@ namespace cornerd::replay {
 
 /// Sample period of an A1 of firmware 1.29 in the mode that is usual for a format: Standard 508,
 /// Express 254, Boost and Sensitivity 127 us.
-core::TimeNs usual_sample_period_ns(rplidar::WireFormat format);
+core::TimeNs nominal_sample_period_ns(rplidar::WireFormat format);
 
 struct SimulatorConfig {
   SensorModel sensor;
@@ -84,15 +84,15 @@ class Simulator {
   using Head = RotatingHead::Position;
 
   /// Where a triangulating sensor sees the wall.
-  struct Sight {
+  struct Triangulation {
     double offset_deg = 0;  ///< from the head's own angle back to the wall's direction
     double range_m = 0;     ///< from the axis; 0: no wall
   };
 
   double range_at(const Head& head, std::int64_t scan, double device_angle_deg);
-  Sight triangulate(const Head& head, std::int64_t scan, double error_deg);
+  Triangulation triangulate(const Head& head, std::int64_t scan, double error_deg);
   /// Of a ray to the normal of the wall that it meets; nullopt at an edge, or where nobody asks.
-  std::optional<double> ray_at(const Head& head, std::int64_t scan, double device_angle_deg,
+  std::optional<double> incidence_at(const Head& head, std::int64_t scan, double device_angle_deg,
                                double range_m);
   double measured_at(const Head& head, std::int64_t scan, double device_angle_deg);
   std::uint32_t measured_for_ultra(const Head& head, std::int64_t scan);

@@ -10,10 +10,9 @@
 #include "bench/localization/pose_error.hpp"
 #include "bench/odometry_experiment.hpp"
 #include "core/pipeline.hpp"
-#include "replay/simulator/coverable_scene.hpp"
 #include "replay/simulator/motion.hpp"
 #include "replay/simulator/random.hpp"
-#include "replay/simulator/scenarios.hpp"
+#include "replay/simulator/scene.hpp"
 #include "replay/simulator/simulated_odometry.hpp"
 #include "replay/simulator/simulator.hpp"
 
@@ -98,7 +97,7 @@ void drive_blind(std::shared_ptr<const core::WallMap> map, const BlindCase& blin
 
   core::LocalizerConfig config;
   config.odometry.enabled = true;
-  config.odometry.publish = true;
+  config.odometry.publish_predictions = true;
   config.odometry.geometry = robot.geometry;
   core::Pipeline pipeline(std::move(map), config);
   for (core::TimeNs now_ns = 0; core::to_seconds(now_ns) < blind.duration_s;) {

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "core/map/wall_map.hpp"
-#include "replay/simulator/robot_model.hpp"
 #include "replay/simulator/sensor_model.hpp"
+#include "replay/simulator/simulated_odometry.hpp"
 
 namespace cornerd::bench {
 

@@ -3,7 +3,7 @@
 
 #include "bench/simulated_scan.hpp"
 #include "core/breakpoint/detector.hpp"
-#include "replay/simulator/places.hpp"
+#include "replay/simulator/random_poses.hpp"
 
 namespace cornerd::bench {
 
@@ -44,9 +44,9 @@ std::vector<MethodScore> score_methods(std::span<const std::shared_ptr<const cor
     const core::WallMap& map = *maps[m];
     const std::size_t share = positions * (m + 1) / maps.size() - positions * m / maps.size();
     replay::CornerTruth truth(map, config.max_range_m);
-    for (const core::Pose2& place : replay::random_places(map, share, kClearance_m, seed + m)) {
+    for (const core::Pose2& place : replay::random_poses(map, share, kClearance_m, seed + m)) {
       points.assign(simulator.take(map, place), config.min_range_m, config.max_range_m);
-      truth.look(place, points.points());
+      truth.observe(place, points.points());
       for (std::size_t i = 0; i < detectors.size(); ++i) {
         detectors[i].detect(points, detection);
         scores[i].score.add(detection.breakpoints, truth);

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "replay/simulator/motion.hpp"
-#include "replay/simulator/robot_model.hpp"
+#include "replay/simulator/simulated_odometry.hpp"
 
 namespace cornerd::bench {
 

@@ -16,18 +16,18 @@ constexpr core::TimeNs kLook_ns = kPaperStep_ns;
 
 struct Drive {
   core::DriveGeometry geometry;
-  std::vector<core::MotionStep> steps;
-  std::vector<core::MotionStep> paper_steps;  ///< the same, joined
-  std::vector<calibration::KnownPlace> places;
+  std::vector<core::OdometryIncrement> steps;
+  std::vector<core::OdometryIncrement> paper_steps;  ///< the same, joined
+  std::vector<calibration::KnownPose> places;
 };
 
 /// Steps that end where a paper's step ends.
-std::vector<core::MotionStep> joined(const std::vector<core::MotionStep>& steps) {
-  std::vector<core::MotionStep> joined;
+std::vector<core::OdometryIncrement> joined(const std::vector<core::OdometryIncrement>& steps) {
+  std::vector<core::OdometryIncrement> joined;
   bool goes_on = false;
-  for (const core::MotionStep& step : steps) {
+  for (const core::OdometryIncrement& step : steps) {
     if (goes_on) {
-      core::MotionStep& last = joined.back();
+      core::OdometryIncrement& last = joined.back();
       last.to_ns = step.to_ns;
       last.left_m += step.left_m;
       last.right_m += step.right_m;
@@ -78,7 +78,7 @@ ReckonedTrack reckon_by_mode(const Drive& drive, HeadingSource source, bool as_p
 }
 
 /// The heading is the gyro's, its errors and the wheels' taken off.
-ReckonedTrack reckon_by_fit(const Drive& drive, const core::LearnedOdometry& learned) {
+ReckonedTrack reckon_by_fit(const Drive& drive, const core::OdometryParameters& learned) {
   ReckonedTrack track;
   track.source = HeadingSource::kFilter;
   track.error =
@@ -103,7 +103,7 @@ OdometryResult run_odometry_case(const OdometryRobot& robot, const replay::Scena
   const Drive drive = drive_once(robot, scenario, seed);
   OdometryResult result;
   result.scenario = scenario.name;
-  for (const calibration::KnownPlace& place : drive.places) {
+  for (const calibration::KnownPose& place : drive.places) {
     const core::Vec2 point = place.T_map_base.translation();
     if (!result.truth.empty()) result.length_m += (point - result.truth.back()).norm();
     result.truth.push_back(point);

@@ -14,8 +14,7 @@
 #include "core/geometry/pose2.hpp"
 #include "core/odometry/dead_reckoning.hpp"
 #include "replay/simulator/motion.hpp"
-#include "replay/simulator/robot_model.hpp"
-#include "replay/simulator/scenarios.hpp"
+#include "replay/simulator/simulated_odometry.hpp"
 
 namespace cornerd::bench {
 

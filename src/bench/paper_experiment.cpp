@@ -114,7 +114,7 @@ std::vector<std::size_t> supported_corners(const PaperScans& scans) {
   for (std::size_t i = 0; i < scans.scans.size(); ++i) {
     const auto corners = truth.at(i).corners();
     counts.push_back(static_cast<std::size_t>(
-        std::count_if(corners.begin(), corners.end(), [](const replay::SeenCorner& corner) {
+        std::count_if(corners.begin(), corners.end(), [](const replay::CornerObservation& corner) {
           return corner.view == replay::CornerView::kSupported;
         })));
   }

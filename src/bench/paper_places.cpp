@@ -7,7 +7,7 @@
 
 #include "bench/corner_experiment.hpp"
 #include "bench/paper_figures.hpp"
-#include "replay/simulator/places.hpp"
+#include "replay/simulator/random_poses.hpp"
 
 namespace cornerd::bench {
 namespace {

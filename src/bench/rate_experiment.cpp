@@ -8,7 +8,7 @@
 #include "bench/experiment_robot.hpp"
 #include "bench/localization/pose_error.hpp"
 #include "core/pipeline.hpp"
-#include "replay/simulator/scenarios.hpp"
+#include "replay/simulator/motion.hpp"
 #include "replay/simulator/simulated_odometry.hpp"
 #include "replay/simulator/simulator.hpp"
 

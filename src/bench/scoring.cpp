@@ -8,13 +8,13 @@ namespace {
 
 using core::BreakpointKind;
 using replay::CornerView;
-using replay::SeenCorner;
+using replay::CornerObservation;
 
 double share(std::size_t part, std::size_t whole) {
   return whole == 0 ? 1 : static_cast<double>(part) / static_cast<double>(whole);
 }
 
-bool shows_both_walls(const SeenCorner& corner) {
+bool shows_both_walls(const CornerObservation& corner) {
   return corner.view == CornerView::kSupported || corner.view == CornerView::kVisible;
 }
 
@@ -48,9 +48,9 @@ void CornerScore::match(std::span<const core::Breakpoint> breakpoints, std::size
 std::span<const Verdict> CornerScore::add(std::span<const core::Breakpoint> breakpoints,
                                           const replay::CornerTruth& truth) {
   const auto corners = truth.corners();
-  const auto shadows = truth.shadow_ends();
+  const auto shadows = truth.occlusion_edges();
   ++scans_;
-  for (const SeenCorner& corner : corners) {
+  for (const CornerObservation& corner : corners) {
     supported_ += corner.view == CornerView::kSupported ? 1 : 0;
     visible_ += shows_both_walls(corner) ? 1 : 0;
   }

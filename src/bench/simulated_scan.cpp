@@ -19,7 +19,7 @@ const core::Scan& ScanSimulator::take(const core::WallMap& map, core::TimeNs sta
   });
 }
 
-const core::Scan& ScanSimulator::take(core::TimeNs start_ns, const Sight& range_along) {
+const core::Scan& ScanSimulator::take(core::TimeNs start_ns, const VisibleFaces& range_along) {
   scan_.clear();
   for (std::size_t i = 0; i < samples_; ++i) {
     const double share = (static_cast<double>(i) + 0.5) / static_cast<double>(samples_);

@@ -35,8 +35,8 @@ class ScanSimulator {
   static constexpr double kSight_m = 100;
 
   /// How far one sees at a time, in a direction in the lidar's frame then; 0: no wall.
-  using Sight = std::function<double(core::TimeNs t_ns, double bearing_rad)>;
-  const core::Scan& take(core::TimeNs start_ns, const Sight& range_along);
+  using VisibleFaces = std::function<double(core::TimeNs t_ns, double bearing_rad)>;
+  const core::Scan& take(core::TimeNs start_ns, const VisibleFaces& range_along);
 
   core::TimeNs scan_ns() const { return scan_ns_; }
 

@@ -8,7 +8,7 @@
 
 #include "bench/experiment_robot.hpp"
 #include "core/localizer.hpp"
-#include "replay/simulator/scenarios.hpp"
+#include "replay/simulator/motion.hpp"
 #include "survey/ransac_survey.hpp"
 
 namespace cornerd::bench {
@@ -89,7 +89,7 @@ SurveyExperiment run_survey_experiment(std::shared_ptr<const core::WallMap> map,
   };
   add("adjusted", drive, [&] { return survey::survey(drive.drive, {}); });
   core::LocalizerConfig taught;
-  taught.odometry.start = experiment.cases.front().result.learned.value_or(core::LearnedOdometry());
+  taught.odometry.initial = experiment.cases.front().result.learned.value_or(core::OdometryParameters());
   add("adjusted, lidar alone", alone, [&] { return survey::survey(alone.drive, {}); });
   add("ransac", drive, [&] { return survey::ransac_survey(drive.drive, {}, {}); });
   add("ransac, odometry taught", drive,

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <optional>
 
-#include "calibration/median.hpp"
+#include "calibration/robust_statistics.hpp"
 #include "core/geometry/angle.hpp"
 
 namespace cornerd::calibration {
@@ -13,9 +13,9 @@ namespace {
 
 constexpr std::size_t kBins = 720;
 constexpr std::size_t kWidest = 8;                ///< of them in one
-constexpr std::size_t kMostReturnsPerBin = 4000;  ///< ten minutes of an A1
+constexpr std::size_t kMaxReturnsPerBin = 4000;  ///< ten minutes of an A1
 /// A spread of ten samples is good to a quarter of itself; the fits take many of them together.
-constexpr std::size_t kLeastReturns = 10;
+constexpr std::size_t kMinReturns = 10;
 /// Share of the bins that must be told before wider ones are not worth their blur.
 constexpr double kEnoughBins = 0.5;
 
@@ -82,11 +82,11 @@ std::vector<Return> near_median(const std::vector<Return>& all) {
 }
 
 std::optional<BinSpread> spread_of(const std::vector<Return>& all) {
-  if (all.size() < kLeastReturns) return std::nullopt;
+  if (all.size() < kMinReturns) return std::nullopt;
   std::vector<Return> kept = near_median(all);
   StraightLine line;
   for (int round = 0; round < kGateRounds; ++round) {
-    if (kept.size() < kLeastReturns) return std::nullopt;
+    if (kept.size() < kMinReturns) return std::nullopt;
     line = fit_line(kept);
     std::vector<double> off_m;
     for (const Return& point : kept) off_m.push_back(std::abs(line.residual(point)));
@@ -96,7 +96,7 @@ std::optional<BinSpread> spread_of(const std::vector<Return>& all) {
       if (std::abs(line.residual(point)) <= gate_m) kept.push_back(point);
     }
   }
-  if (kept.size() < kLeastReturns) return std::nullopt;
+  if (kept.size() < kMinReturns) return std::nullopt;
   line = fit_line(kept);
   double squares = 0;
   for (const Return& point : kept) squares += std::pow(line.residual(point), 2);
@@ -135,7 +135,7 @@ void BearingBins::add(double bearing_rad, double range_m) {
   if (!(range_m > 0) || !std::isfinite(bearing_rad)) return;
   const double scan = core::normalize_angle(bearing_rad) / core::kTwoPi + 0.5;
   const auto bin = std::min(static_cast<std::size_t>(scan * kBins), kBins - 1);
-  if (bins_[bin].size() >= kMostReturnsPerBin) return;
+  if (bins_[bin].size() >= kMaxReturnsPerBin) return;
   bins_[bin].push_back(
       {static_cast<float>(core::normalize_angle(bearing_rad)), static_cast<float>(range_m)});
   ++returns_;

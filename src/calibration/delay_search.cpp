@@ -10,7 +10,7 @@
 #include <Eigen/Core>
 #include <Eigen/LU>
 
-#include "calibration/drive_noise.hpp"
+#include "calibration/robust_statistics.hpp"
 #include "core/geometry/parabola.hpp"
 
 namespace cornerd::calibration {
@@ -18,7 +18,7 @@ namespace {
 
 constexpr double kDelayStep_s = 0.02;
 constexpr int kDelaySteps = 30;  ///< to either side
-static_assert(kDelaySteps * kDelayStep_s == kMostDelay_s);
+static_assert(kDelaySteps * kDelayStep_s == kMaxDelay_s);
 constexpr std::size_t kFewestCompared = 10;
 constexpr int kDelayRounds = 6;
 /// Squared surprises that must speak against the configured delay, and against others that are
@@ -42,10 +42,10 @@ double cost_of(const std::vector<Comparison>& all) {
     cost = 0;
     for (const Comparison& told : all) {
       const double r = told.y - told.x.dot(share);
-      const double weight = round == 0 ? 1 : tamed_weight(r);
+      const double weight = round == 0 ? 1 : cauchy_weight(r);
       information += weight * told.x * told.x.transpose();
       right += weight * told.y * told.x;
-      cost += tamed_square(r);
+      cost += cauchy_cost(r);
     }
     if (round < kDelayRounds) share = information.inverse() * right;
   }
@@ -53,8 +53,8 @@ double cost_of(const std::vector<Comparison>& all) {
 }
 
 /// Per window; nullopt where too few are whole.
-std::optional<double> surprise_of(std::span<const core::MotionStep> steps,
-                                  std::span<const KnownPlace> places, double delay_s) {
+std::optional<double> surprise_of(std::span<const core::OdometryIncrement> steps,
+                                  std::span<const KnownPose> places, double delay_s) {
   const auto windows = cut_windows(at_true_times(steps, delay_s), places);
   if (windows.size() < kFewestCompared) return std::nullopt;
   std::vector<Comparison> ways;
@@ -64,7 +64,7 @@ std::optional<double> surprise_of(std::span<const core::MotionStep> steps,
     Eigen::Vector2d wheels = Eigen::Vector2d::Zero();
     Eigen::Vector2d gyro = Eigen::Vector2d::Zero();
     bool has_gyro = true;
-    for (const core::MotionStep& step : window.steps) {
+    for (const core::OdometryIncrement& step : window.steps) {
       wheels += Eigen::Vector2d(step.left_m, step.right_m);
       gyro += Eigen::Vector2d(step.gyro_rad, step.duration_s());
       has_gyro = has_gyro && step.has_gyro;
@@ -83,8 +83,8 @@ std::optional<double> surprise_of(std::span<const core::MotionStep> steps,
 
 }  // namespace
 
-DelaySearch search_delay(std::span<const core::MotionStep> steps,
-                         std::span<const KnownPlace> places, double configured_s) {
+DelaySearch search_delay(std::span<const core::OdometryIncrement> steps,
+                         std::span<const KnownPose> places, double configured_s) {
   DelaySearch search{.delay_s = configured_s};
   std::vector<double> costs;
   const auto as_configured = surprise_of(steps, places, configured_s);
@@ -113,7 +113,7 @@ DelaySearch search_delay(std::span<const core::MotionStep> steps,
   search.delay_s = kDelayStep_s * (best - kDelaySteps);
   if (search.at_edge) return search;
   search.delay_s +=
-      kDelayStep_s * core::least_of_parabola(costs[best - 1] - least, costs[best + 1] - least);
+      kDelayStep_s * core::parabola_minimum(costs[best - 1] - least, costs[best + 1] - least);
   return search;
 }
 

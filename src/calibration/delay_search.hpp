@@ -9,7 +9,7 @@
 namespace cornerd::calibration {
 
 /// Readings later or earlier than this are not looked for.
-inline constexpr double kMostDelay_s = 0.6;
+inline constexpr double kMaxDelay_s = 0.6;
 
 struct DelaySearch {
   double delay_s = 0;    ///< to a hundredth of a second, or the configured one
@@ -21,7 +21,7 @@ struct DelaySearch {
 /// turns explain them best, whatever those shares are: wheels and gyro may be off by anything.
 /// Where nothing tells (constant speed, no turns) it is `configured_s`. Steps and places in the
 /// order of time.
-DelaySearch search_delay(std::span<const core::MotionStep> steps,
-                         std::span<const KnownPlace> places, double configured_s);
+DelaySearch search_delay(std::span<const core::OdometryIncrement> steps,
+                         std::span<const KnownPose> places, double configured_s);
 
 }  // namespace cornerd::calibration

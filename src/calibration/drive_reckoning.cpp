@@ -1,19 +1,22 @@
 // SPDX-License-Identifier: MIT
+#include "calibration/drive_reckoning.hpp"
+
 #include <cstddef>
 #include <functional>
 
 #include "calibration/odometry_fit.hpp"
-#include "core/odometry/learned_motion.hpp"
+#include "core/odometry/corrected_increment.hpp"
+#include "core/odometry/fusion_filter.hpp"
 
 namespace cornerd::calibration {
 namespace {
 
-using core::MotionStep;
+using core::OdometryIncrement;
 
 /// Walks through the steps, and looks at each known place where the robot has got to. `prepare` has
 /// whole steps, `motion` those parts of them that lie between two places.
 template <typename Prepare, typename Motion>
-DriveError walk(std::span<const MotionStep> steps, std::span<const KnownPlace> places,
+DriveError walk(std::span<const OdometryIncrement> steps, std::span<const KnownPose> places,
                 DrivePoints* points, const Prepare& prepare, const Motion& motion) {
   DriveError error;
   std::size_t next = 0;
@@ -24,9 +27,9 @@ DriveError walk(std::span<const MotionStep> steps, std::span<const KnownPlace> p
   core::Pose2 T_map_base = places[next].T_map_base;
   core::TimeNs now_ns = places[next].t_ns;
   ++next;
-  for (const MotionStep& step : steps) {
+  for (const OdometryIncrement& step : steps) {
     if (step.to_ns <= now_ns) continue;
-    MotionStep rest = prepare(step);
+    OdometryIncrement rest = prepare(step);
     if (rest.from_ns < now_ns) rest.split(now_ns);
     while (next < places.size() && places[next].t_ns <= rest.to_ns) {
       if (places[next].t_ns > rest.from_ns && places[next].t_ns < rest.to_ns) {
@@ -47,28 +50,86 @@ DriveError walk(std::span<const MotionStep> steps, std::span<const KnownPlace> p
   return error;
 }
 
+/// What a known place is off by, the lidar's own errors included.
+constexpr double kKnownSigma_m = 0.01;
+constexpr double kKnownSigma_rad = 0.005;
+
+core::Covariance3 known_covariance() {
+  return Eigen::Vector3d(kKnownSigma_m * kKnownSigma_m, kKnownSigma_m * kKnownSigma_m,
+                         kKnownSigma_rad * kKnownSigma_rad)
+      .asDiagonal();
+}
+
 }  // namespace
 
-DriveError reckon(std::span<const MotionStep> steps, std::span<const KnownPlace> places,
+DriveError reckon(std::span<const OdometryIncrement> steps, std::span<const KnownPose> places,
                   const core::DriveGeometry& geometry, const core::DeadReckoningConfig& config,
                   DrivePoints* points) {
   // A dead band is for whole steps: parts of them would stay under it.
   return walk(
       steps, places, points,
-      [&](const MotionStep& step) { return core::by_wheels_alone(step, geometry, config); },
-      [&](const MotionStep& alone) {
-        return core::arc(alone.way_m(), (alone.right_m - alone.left_m) / geometry.track_m);
+      [&](const OdometryIncrement& step) { return core::by_wheels_alone(step, geometry, config); },
+      [&](const OdometryIncrement& alone) {
+        return core::arc(alone.translation_m(), (alone.right_m - alone.left_m) / geometry.track_m);
       });
 }
 
-DriveError reckon(std::span<const MotionStep> steps, std::span<const KnownPlace> places,
-                  const core::DriveGeometry& geometry, const core::LearnedOdometry& learned,
+DriveError reckon(std::span<const OdometryIncrement> steps, std::span<const KnownPose> places,
+                  const core::DriveGeometry& geometry, const core::OdometryParameters& learned,
                   DrivePoints* points) {
   return walk(at_true_times(steps, learned.delay_s), places, points, std::identity(),
-              [&](const MotionStep& step) {
-                const core::LearnedMotion moved = core::learned_motion(step, geometry, learned);
-                return core::arc(moved.way_m, moved.rotation_rad);
+              [&](const OdometryIncrement& step) {
+                const core::CorrectedIncrement moved = core::corrected_increment(step, geometry, learned);
+                return core::arc(moved.translation_m, moved.rotation_rad);
               });
+}
+
+FilteredDrive filter_drive(std::span<const core::OdometryIncrement> steps,
+                           std::span<const KnownPose> places, const core::OdometryConfig& config,
+                           core::TimeNs taught_until_ns) {
+  FilteredDrive drive;
+  core::FusionFilter filter(config);
+  const core::Covariance3 doubt = known_covariance();
+  std::size_t next = 0;
+  while (next < places.size() && !steps.empty() && places[next].t_ns < steps.front().from_ns) {
+    ++next;
+  }
+  bool begun = false;
+  const auto arrive = [&](const KnownPose& place) {
+    if (!begun) {
+      filter.set_pose(place.T_map_base, doubt);
+      begun = true;
+      return;
+    }
+    const core::Vec2 here = filter.pose().translation();
+    drive.points.push_back(here);
+    if (place.t_ns <= taught_until_ns) {
+      // One that does not fit is taken all the same: the wheels slipped, the place is known.
+      if (!filter.correct(place.T_map_base, doubt)) filter.set_pose(place.T_map_base, doubt);
+      return;
+    }
+    drive.alone.end_m = (here - place.T_map_base.translation()).norm();
+    drive.alone.mean_m += drive.alone.end_m;
+    ++drive.alone.places;
+  };
+  for (const core::OdometryIncrement& step : steps) {
+    core::OdometryIncrement rest = step;
+    for (; next < places.size() && places[next].t_ns <= step.to_ns; ++next) {
+      const core::TimeNs t_ns = places[next].t_ns;
+      if (t_ns > rest.from_ns && t_ns < rest.to_ns) {
+        const core::OdometryIncrement before = rest.split(t_ns);
+        if (begun) filter.predict(before);
+      } else if (t_ns == rest.to_ns) {
+        break;
+      }
+      arrive(places[next]);
+    }
+    if (begun) filter.predict(rest);
+  }
+  if (drive.alone.places > 0) drive.alone.mean_m /= static_cast<double>(drive.alone.places);
+  drive.learned = filter.learned();
+  drive.slips = filter.slips();
+  return drive;
 }
 
 }  // namespace cornerd::calibration

@@ -21,19 +21,19 @@ void go_on(DriveWindow& window, const core::Pose2& from, const core::Pose2& to) 
 
 }  // namespace
 
-std::vector<core::MotionStep> at_true_times(std::span<const core::MotionStep> steps,
+std::vector<core::OdometryIncrement> at_true_times(std::span<const core::OdometryIncrement> steps,
                                             double delay_s) {
-  std::vector<core::MotionStep> moved(steps.begin(), steps.end());
+  std::vector<core::OdometryIncrement> moved(steps.begin(), steps.end());
   const core::TimeNs delay_ns = core::from_seconds(delay_s);
-  for (core::MotionStep& step : moved) {
+  for (core::OdometryIncrement& step : moved) {
     step.from_ns -= delay_ns;
     step.to_ns -= delay_ns;
   }
   return moved;
 }
 
-std::vector<DriveWindow> cut_windows(std::span<const core::MotionStep> steps,
-                                     std::span<const KnownPlace> places) {
+std::vector<DriveWindow> cut_windows(std::span<const core::OdometryIncrement> steps,
+                                     std::span<const KnownPose> places) {
   std::vector<DriveWindow> windows;
   std::size_t first = 0;
   for (std::size_t i = 0; i < places.size();) {
@@ -51,10 +51,10 @@ std::vector<DriveWindow> cut_windows(std::span<const core::MotionStep> steps,
     bool whole = first < steps.size() && steps[first].from_ns <= from_ns;
     core::TimeNs reached_ns = from_ns;
     for (std::size_t k = first; k < steps.size() && steps[k].from_ns < to_ns; ++k) {
-      core::MotionStep step = steps[k];
+      core::OdometryIncrement step = steps[k];
       if (step.from_ns < from_ns) step.split(from_ns);
       if (step.to_ns > to_ns) step = step.split(to_ns);
-      whole = whole && !step.is_hole && step.from_ns == reached_ns;
+      whole = whole && !step.is_gap && step.from_ns == reached_ns;
       reached_ns = step.to_ns;
       window.steps.push_back(step);
     }

@@ -11,8 +11,8 @@ using core::HeadingSource;
 
 /// Factors as whole thousandths, so that none is looked at twice by rounding.
 constexpr int kThousand = 1000;
-constexpr int kLeast = static_cast<int>(kLeastFactor * kThousand);
-constexpr int kMost = static_cast<int>(kMostFactor * kThousand);
+constexpr int kLeast = static_cast<int>(kMinFactor * kThousand);
+constexpr int kMost = static_cast<int>(kMaxFactor * kThousand);
 
 struct FactorPair {
   int encoder = kThousand;
@@ -21,7 +21,7 @@ struct FactorPair {
 
 class GridSearch {
  public:
-  GridSearch(std::span<const core::MotionStep> steps, std::span<const KnownPlace> places,
+  GridSearch(std::span<const core::OdometryIncrement> steps, std::span<const KnownPose> places,
              const core::DriveGeometry& geometry, const core::DeadReckoningConfig& start)
       : steps_(steps), places_(places), geometry_(geometry), config_(start) {
     try_candidate({});
@@ -73,8 +73,8 @@ class GridSearch {
     best_ = candidate;
   }
 
-  std::span<const core::MotionStep> steps_;
-  std::span<const KnownPlace> places_;
+  std::span<const core::OdometryIncrement> steps_;
+  std::span<const KnownPose> places_;
   const core::DriveGeometry& geometry_;
   core::DeadReckoningConfig config_;
   FactorPair best_;
@@ -83,8 +83,8 @@ class GridSearch {
 
 }  // namespace
 
-FoundFactors search_factors(std::span<const core::MotionStep> steps,
-                            std::span<const KnownPlace> places, const core::DriveGeometry& geometry,
+FoundFactors search_factors(std::span<const core::OdometryIncrement> steps,
+                            std::span<const KnownPose> places, const core::DriveGeometry& geometry,
                             const core::DeadReckoningConfig& start) {
   GridSearch grid(steps, places, geometry, start);
   // Reaches over all candidates from wherever the best is.

@@ -11,8 +11,8 @@ namespace cornerd::calibration {
 
 /// What a factor may be. Of a weighted mean (equation 5), 0 leaves a sensor out, and 2 takes the
 /// other one as it is.
-inline constexpr double kLeastFactor = 0;
-inline constexpr double kMostFactor = 2.5;
+inline constexpr double kMinFactor = 0;
+inline constexpr double kMaxFactor = 2.5;
 
 struct FoundFactors {
   core::PaperFactors factors;
@@ -26,8 +26,8 @@ struct FoundFactors {
 /// The factors of a mode for which the mean error over the known places is least, to 0.001. The
 /// dead band of `start` holds throughout. A grid over all candidates, then finer ones around its
 /// best, each of which follows the best until that is inside.
-FoundFactors search_factors(std::span<const core::MotionStep> steps,
-                            std::span<const KnownPlace> places, const core::DriveGeometry& geometry,
+FoundFactors search_factors(std::span<const core::OdometryIncrement> steps,
+                            std::span<const KnownPose> places, const core::DriveGeometry& geometry,
                             const core::DeadReckoningConfig& start);
 
 }  // namespace cornerd::calibration

@@ -10,15 +10,14 @@
 #include <Eigen/LU>
 
 #include "calibration/delay_search.hpp"
-#include "calibration/drive_noise.hpp"
-#include "calibration/median.hpp"
+#include "calibration/robust_statistics.hpp"
 #include "core/geometry/squared.hpp"
-#include "core/odometry/learned_motion.hpp"
+#include "core/odometry/corrected_increment.hpp"
 
 namespace cornerd::calibration {
 namespace {
 
-using core::MotionStep;
+using core::OdometryIncrement;
 
 constexpr std::size_t kFewestWindows = 10;
 constexpr int kRounds = 10;
@@ -27,9 +26,9 @@ constexpr double kPriorScale = 0.3;
 constexpr double kPriorBias_rad_s = 0.3;
 constexpr double kPriorDelay_s = 0.3;
 /// A drive tells a scale when it is left this unsure.
-constexpr double kMostSigma = 0.05;
+constexpr double kMaxSigma = 0.05;
 /// The same of the delay: a tenth of a turn of the lidar.
-constexpr double kMostDelaySigma_s = 0.015;
+constexpr double kMaxDelaySigma_s = 0.015;
 /// Neighbours share a place, and a slip or a place that is off may last.
 constexpr std::size_t kTogether = 4;
 /// To either side, for the slope: about a reading.
@@ -42,15 +41,15 @@ constexpr double kUntoldDelay_s = 4e-4;
 /// Rounds after which residuals are told in what they are, and no longer in what they should be;
 /// and bounds of that.
 constexpr int kRoughRounds = 3;
-constexpr double kLeastUnit = 0.1;
+constexpr double kMinUnit = 0.1;
 /// Of what the windows tell of anything, so much has to weigh.
-constexpr double kLeastKept = 0.5;
+constexpr double kMinKept = 0.5;
 
 enum Parameter : std::uint8_t { kBias, kLeft, kRight, kTrack, kGyro, kDelay, kParameters };
 using Vector = Eigen::Matrix<double, kParameters, 1>;
 using Matrix = Eigen::Matrix<double, kParameters, kParameters>;
 
-core::LearnedOdometry as_learned(const Vector& p) {
+core::OdometryParameters as_learned(const Vector& p) {
   return {p[kBias], p[kLeft], p[kRight], p[kTrack], p[kGyro], p[kDelay]};
 }
 
@@ -60,14 +59,14 @@ using Residuals = Eigen::Matrix<double, kResiduals, 1>;
 /// In sigmas: the way's two parts, the turn by the wheels, the turn by the gyro.
 Residuals residuals_of(const DriveWindow& window, const core::DriveGeometry& geometry,
                        const Vector& p) {
-  const core::LearnedOdometry learned = as_learned(p);
+  const core::OdometryParameters learned = as_learned(p);
   core::Pose2 way;
   double wheel_rotation_rad = 0;
   double rotation_rad = 0;
   bool has_gyro = true;
-  for (const MotionStep& step : window.steps) {
-    const core::LearnedMotion moved = core::learned_motion(step, geometry, learned);
-    way = way * core::arc(moved.way_m, moved.rotation_rad);
+  for (const OdometryIncrement& step : window.steps) {
+    const core::CorrectedIncrement moved = core::corrected_increment(step, geometry, learned);
+    way = way * core::arc(moved.translation_m, moved.rotation_rad);
     wheel_rotation_rad += moved.wheel_rotation_rad;
     rotation_rad += moved.rotation_rad;
     has_gyro = has_gyro && step.has_gyro;
@@ -83,7 +82,7 @@ Residuals residuals_of(const DriveWindow& window, const core::DriveGeometry& geo
 /// that starts to turn at once did so at any time between them.
 Residuals unevenness_of(const DriveWindow& window) {
   double change_rad2 = 0;
-  for (const MotionStep& step : window.steps) {
+  for (const OdometryIncrement& step : window.steps) {
     change_rad2 += core::squared(step.gyro_change_rad) / 3;
   }
   const double change_rad = std::sqrt(change_rad2);
@@ -94,7 +93,7 @@ Residuals unevenness_of(const DriveWindow& window) {
 /// The drive at the delay that is tried, and what is asked of it.
 class Fit {
  public:
-  Fit(std::span<const MotionStep> steps, std::span<const KnownPlace> places,
+  Fit(std::span<const OdometryIncrement> steps, std::span<const KnownPose> places,
       const core::DriveGeometry& geometry, double delay_s)
       : steps_(steps), places_(places), geometry_(geometry), start_s_(delay_s) {
     p_[kDelay] = delay_s;
@@ -152,8 +151,8 @@ class Fit {
       if (sharpens && (round == kRoughRounds || round == 2 * kRoughRounds)) measure();
       p_ -= information_.ldlt().solve(gradient_);
       const double delay_s = with_delay_ ? p_[kDelay] : start_s_;
-      p_ = p_.cwiseMax(-kMostFittedScale).cwiseMin(kMostFittedScale);
-      p_[kDelay] = std::clamp(delay_s, -kMostDelay_s, kMostDelay_s);
+      p_ = p_.cwiseMax(-kMaxFittedScale).cwiseMin(kMaxFittedScale);
+      p_[kDelay] = std::clamp(delay_s, -kMaxDelay_s, kMaxDelay_s);
     }
     return linearize() && p_.allFinite();
   }
@@ -162,7 +161,7 @@ class Fit {
   /// their turns would not tell of turns at all.
   bool tells_enough() const {
     const Vector kept = information_.diagonal() - prior_;
-    return (kept.array() >= kLeastKept * unweighted_.array()).all();
+    return (kept.array() >= kMinKept * unweighted_.array()).all();
   }
 
   bool linearize() {
@@ -197,7 +196,7 @@ class Fit {
     for (int kind = 0; kind < kResiduals; ++kind) {
       std::vector<double> sizes;
       for (const Residuals& residuals : residuals_) sizes.push_back(std::abs(residuals[kind]));
-      unit_[kind] = std::max(kMedianToSigma * median(std::move(sizes)), kLeastUnit);
+      unit_[kind] = std::max(kMedianToSigma * median(std::move(sizes)), kMinUnit);
     }
   }
 
@@ -226,9 +225,9 @@ class Fit {
     }
     slope.col(kDelay) = (residuals(later, p_) - residuals(earlier, p_)) / (2 * kDelayNudge_s);
     const Residuals weight =
-        now.unaryExpr([&](double r) { return is_sharp_ ? sharp_weight(r) : tamed_weight(r); });
+        now.unaryExpr([&](double r) { return is_sharp_ ? tukey_weight(r) : cauchy_weight(r); });
     const Residuals curve =
-        now.unaryExpr([&](double r) { return is_sharp_ ? sharp_slope(r) : tamed_slope(r); });
+        now.unaryExpr([&](double r) { return is_sharp_ ? tukey_curvature(r) : cauchy_curvature(r); });
     unweighted_ += slope.cwiseAbs2().colwise().sum().transpose();
     information_ += slope.transpose() * weight.asDiagonal() * slope;
     curvature_ += slope.transpose() * curve.asDiagonal() * slope;
@@ -237,8 +236,8 @@ class Fit {
     has_gyro_ = has_gyro_ || window.steps.front().has_gyro;
   }
 
-  std::span<const MotionStep> steps_;
-  std::span<const KnownPlace> places_;
+  std::span<const OdometryIncrement> steps_;
+  std::span<const KnownPose> places_;
   core::DriveGeometry geometry_;
   double start_s_;
   bool with_delay_ = true;
@@ -257,14 +256,14 @@ class Fit {
 
 }  // namespace
 
-std::optional<OdometryFit> fit_odometry(std::span<const MotionStep> steps,
-                                        std::span<const KnownPlace> places,
+std::optional<OdometryFit> fit_odometry(std::span<const OdometryIncrement> steps,
+                                        std::span<const KnownPose> places,
                                         const core::DriveGeometry& geometry, double delay_s) {
   Fit fit(steps, places, geometry, delay_s);
   if (!fit.run(/*with_delay=*/true)) return std::nullopt;
   OdometryFit found;
   Vector sigma = fit.sigma();
-  found.has_delay = sigma[kDelay] < kMostDelaySigma_s;
+  found.has_delay = sigma[kDelay] < kMaxDelaySigma_s;
   if (!found.has_delay) {
     const double delay_sigma_s = sigma[kDelay];
     if (!fit.run(/*with_delay=*/false)) return std::nullopt;
@@ -276,9 +275,9 @@ std::optional<OdometryFit> fit_odometry(std::span<const MotionStep> steps,
   found.windows = fit.windows();
   found.has_gyro = fit.has_gyro();
   for (const int i : {kLeft, kRight, kTrack}) {
-    if (least[i] > kMostSigma) return std::nullopt;
+    if (least[i] > kMaxSigma) return std::nullopt;
   }
-  if (found.has_gyro && least[kGyro] > kMostSigma) return std::nullopt;
+  if (found.has_gyro && least[kGyro] > kMaxSigma) return std::nullopt;
   found.learned = as_learned(fit.parameters());
   found.sigma = as_learned(sigma);
   return found;

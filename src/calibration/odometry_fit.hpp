@@ -11,7 +11,7 @@
 #include "core/geometry/pose2.hpp"
 #include "core/odometry/dead_reckoning.hpp"
 #include "core/odometry/fusion_filter.hpp"
-#include "core/odometry/motion_step.hpp"
+#include "core/odometry/odometry_increment.hpp"
 
 namespace cornerd::calibration {
 
@@ -26,21 +26,21 @@ struct DriveError {
 using DrivePoints = std::vector<core::Vec2>;
 
 /// Steps and places in the order of time, as everywhere here.
-DriveError reckon(std::span<const core::MotionStep> steps, std::span<const KnownPlace> places,
+DriveError reckon(std::span<const core::OdometryIncrement> steps, std::span<const KnownPose> places,
                   const core::DriveGeometry& geometry, const core::DeadReckoningConfig& config,
                   DrivePoints* points = nullptr);
 /// The same with what was learned, the delay included; the heading is the gyro's where there is
 /// one.
-DriveError reckon(std::span<const core::MotionStep> steps, std::span<const KnownPlace> places,
-                  const core::DriveGeometry& geometry, const core::LearnedOdometry& learned,
+DriveError reckon(std::span<const core::OdometryIncrement> steps, std::span<const KnownPose> places,
+                  const core::DriveGeometry& geometry, const core::OdometryParameters& learned,
                   DrivePoints* points = nullptr);
 
 /// A scale is believed to be no larger: one that ends there means that the geometry is wrong.
-inline constexpr double kMostFittedScale = 0.5;
+inline constexpr double kMaxFittedScale = 0.5;
 
 struct OdometryFit {
-  core::LearnedOdometry learned;
-  core::LearnedOdometry sigma;
+  core::OdometryParameters learned;
+  core::OdometryParameters sigma;
   std::size_t windows = 0;
   bool has_gyro = false;
   /// The drive tells the delay, else `learned` has the one that was given, and `sigma` how little
@@ -52,8 +52,8 @@ struct OdometryFit {
 /// wheels, the turn by wheels and gyro, and how late both are, which is looked for near `delay_s`.
 /// Windows that fit badly (a slip) count less. The sigmas are those of the residuals themselves.
 /// Nullopt where the drive does not tell them all: too short, without turns or without straights.
-std::optional<OdometryFit> fit_odometry(std::span<const core::MotionStep> steps,
-                                        std::span<const KnownPlace> places,
+std::optional<OdometryFit> fit_odometry(std::span<const core::OdometryIncrement> steps,
+                                        std::span<const KnownPose> places,
                                         const core::DriveGeometry& geometry, double delay_s = 0);
 
 }  // namespace cornerd::calibration

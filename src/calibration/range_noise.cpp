@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-#include "calibration/median.hpp"
+#include "calibration/robust_statistics.hpp"
 
 namespace cornerd::calibration {
 namespace {
@@ -14,16 +14,16 @@ namespace {
 constexpr std::array kEdgesM = {0.0, 0.3, 0.45, 0.6, 0.8, 1.0, 1.25, 1.5, 2.0,
                                 2.5, 3.0, 4.0,  5.0, 6.0, 8.0, 10.0, 12.5};
 constexpr double kNearestM = 0.15;  ///< an A1 sees nothing before
-constexpr std::size_t kLeastBinsPerCell = 12;
+constexpr std::size_t kMinBinsPerCell = 12;
 constexpr double kFlat = 0.577;     ///< tangent of 30 degrees
 constexpr double kSteep = 0.839;    ///< of 40 degrees
 constexpr double kTooSteep = 2.75;  ///< of 70 degrees: the footprint of the beam counts there
-constexpr std::size_t kLeastSteepBins = 12;
+constexpr std::size_t kMinSteepBins = 12;
 /// Half a step of a standard node's distance: no wire carries less noise than that.
-constexpr double kLeastSigmaM = 0.000125;
+constexpr double kMinSigmaM = 0.000125;
 /// The table's sigma between its points is good to a tenth.
 constexpr double kDoubtOfRangeVariance = 0.2;
-constexpr double kMostBearingRad = 0.05;
+constexpr double kMaxBearingRad = 0.05;
 constexpr int kFitRounds = 20;
 
 bool is_flat(const BinSpread& bin) { return std::abs(bin.steepness()) < kFlat; }
@@ -36,7 +36,7 @@ bool is_steep(const BinSpread& bin) {
 double without_bearing(const BinSpread& bin, double bearing_rad) {
   const double aside_m = bin.slope_m * bearing_rad;
   const double all = bin.sigma_m * bin.sigma_m;
-  return std::max(std::sqrt(std::max(all - aside_m * aside_m, all / 4)), kLeastSigmaM);
+  return std::max(std::sqrt(std::max(all - aside_m * aside_m, all / 4)), kMinSigmaM);
 }
 
 RangeCell make_cell(std::span<const BinSpread> bins, double from_m, double to_m,
@@ -69,7 +69,7 @@ std::vector<RangeCell> make_cells(std::span<const BinSpread> bins, double bearin
     const double limit_m = 2 * std::max(kEdgesM[first], kNearestM);
     for (std::size_t last = first + 1; last < kEdgesM.size(); ++last) {
       const RangeCell cell = make_cell(bins, kEdgesM[first], kEdgesM[last], bearing_rad);
-      if (cell.bins >= kLeastBinsPerCell) {
+      if (cell.bins >= kMinBinsPerCell) {
         cells.push_back(cell);
         first = last - 1;
         break;
@@ -103,8 +103,8 @@ std::optional<double> bearing_noise(std::span<const BinSpread> bins,
                                     kDoubtOfRangeVariance * along);
     squares.push_back({(all - along) / slope, slope / doubt});
   }
-  if (squares.size() < kLeastSteepBins) return std::nullopt;
-  return std::min(std::sqrt(std::max(weighted_median(squares), 0.0)), kMostBearingRad);
+  if (squares.size() < kMinSteepBins) return std::nullopt;
+  return std::min(std::sqrt(std::max(weighted_median(squares), 0.0)), kMaxBearingRad);
 }
 
 /// Sum over the cells of |log(measured / model)|: a cell that is off by half counts as one that is
@@ -126,7 +126,7 @@ void fit_floor_and_share(std::span<const RangeCell> cells, RangeNoise& fit) {
   constexpr int kSteps = 40;
   double floor_m = 0.0016;  // geometric middles of 0.1 mm .. 25 mm and 0.0002 .. 0.1
   double share = 0.0045;
-  fit.plain_misfit = misfit(cells, floor_m, share);
+  fit.plain_residual = misfit(cells, floor_m, share);
   double reach = std::log(25.0);
   for (int round = 0; round < 3; ++round) {
     const double middle_floor_m = floor_m;
@@ -136,8 +136,8 @@ void fit_floor_and_share(std::span<const RangeCell> cells, RangeNoise& fit) {
         const double try_floor_m = middle_floor_m * std::exp(reach * i / kSteps);
         const double try_share = middle_share * std::exp(reach * j / kSteps);
         const double found = misfit(cells, try_floor_m, try_share);
-        if (found >= fit.plain_misfit) continue;
-        fit.plain_misfit = found;
+        if (found >= fit.plain_residual) continue;
+        fit.plain_residual = found;
         floor_m = try_floor_m;
         share = try_share;
       }
@@ -153,9 +153,9 @@ void fit_floor_and_share(std::span<const RangeCell> cells, RangeNoise& fit) {
 }  // namespace
 
 bool RangeNoise::is_of_walls() const {
-  constexpr double kMostShare = 0.1;
+  constexpr double kMaxShare = 0.1;
   return std::all_of(cells.begin(), cells.end(), [](const RangeCell& cell) {
-    return cell.sigma_m <= kMostShare * cell.range_m;
+    return cell.sigma_m <= kMaxShare * cell.range_m;
   });
 }
 

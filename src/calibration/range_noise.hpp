@@ -21,7 +21,7 @@ struct RangeCell {
   double low_m = 0;    ///< quarter of the bins with less
   double high_m = 0;   ///< quarter with more
   /// Median of all bins, those that meet their wall at a slant among them.
-  double as_met_m = 0;
+  double sigma_all_m = 0;
   std::size_t bins = 0;  ///< that tell sigma_m
 };
 
@@ -30,7 +30,7 @@ struct RangeNoise {
   std::vector<RangeCell> cells;   ///< those in which enough was measured
   bool bearing_measured = false;  ///< else plain.bearing_rad is the default
   /// Mean departure of the cells' sigmas from floor and share, as a factor less 1.
-  double plain_misfit = 0;
+  double plain_residual = 0;
 
   /// False where what returned can be no wall: a lidar is not off by a tenth of the range.
   bool is_of_walls() const;

@@ -2,10 +2,129 @@
 #include "calibration/wall_model.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
+#include <limits>
+#include <set>
 #include <utility>
 
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
+
+#include "calibration/robust_statistics.hpp"
+
 namespace cornerd::calibration {
+namespace {
+
+struct PaperPiece {
+  double from_m;
+  double to_m;
+  std::size_t ray_order;
+  std::size_t distance_order;
+};
+constexpr PaperPiece kPaper[] = {{0, 0.6, 6, 3}, {0.6, 1.0, 2, 3}, {1.0, 2.25, 2, 1}};
+
+/// A polynomial of order 6 needs more than its seven coefficients.
+constexpr std::size_t kMinPieceReturns = 100;
+constexpr double kGate = 4;
+constexpr int kRejectRounds = 4;
+/// Distances nearer to each other are one: nobody places a wall better.
+constexpr double kSameDistanceM = 0.002;
+
+std::vector<WallReturn> within(std::span<const WallReturn> returns, const PaperPiece& paper) {
+  std::vector<WallReturn> inside;
+  // Those at a border belong to both sides, which keeps the pieces together.
+  std::copy_if(returns.begin(), returns.end(), std::back_inserter(inside), [&](const auto& each) {
+    return each.distance_m >= paper.from_m - kSameDistanceM &&
+           each.distance_m <= paper.to_m + kSameDistanceM;
+  });
+  return inside;
+}
+
+std::size_t count_distances(std::span<const WallReturn> returns) {
+  std::set<long> distances;
+  for (const WallReturn& each : returns) {
+    distances.insert(std::lround(each.distance_m / kSameDistanceM));
+  }
+  return distances.size();
+}
+
+/// Sums of products of the scaled powers, whatever the number of returns.
+class NormalEquations {
+ public:
+  NormalEquations(const WallPieceFit& fit)
+      : fit_(fit),
+        columns_(static_cast<Eigen::Index>((fit.ray_order + 1) * (fit.distance_order + 1))),
+        matrix_(Eigen::MatrixXd::Zero(columns_, columns_)),
+        right_(Eigen::VectorXd::Zero(columns_)),
+        row_(columns_) {}
+
+  void add(const WallReturn& each) {
+    Eigen::Index column = 0;
+    double ray_power = 1;
+    for (std::size_t i = 0; i <= fit_.ray_order; ++i) {
+      double power = ray_power;
+      for (std::size_t j = 0; j <= fit_.distance_order; ++j) {
+        row_[column++] = power;
+        power *= each.distance_m / fit_.piece.to_m;
+      }
+      ray_power *= each.ray_rad / fit_.piece.ray_rad;
+    }
+    matrix_.selfadjointView<Eigen::Lower>().rankUpdate(row_);
+    right_ += each.error_m * row_;
+  }
+
+  void solve(WallPiece& piece) const {
+    const Eigen::VectorXd scaled = matrix_.selfadjointView<Eigen::Lower>().ldlt().solve(right_);
+    Eigen::Index column = 0;
+    for (std::size_t i = 0; i <= fit_.ray_order; ++i) {
+      for (std::size_t j = 0; j <= fit_.distance_order; ++j) {
+        const double scale = std::pow(piece.ray_rad, i) * std::pow(piece.to_m, j);
+        piece.coefficients[i][j] = scaled[column++] / scale;
+      }
+    }
+  }
+
+ private:
+  const WallPieceFit& fit_;
+  Eigen::Index columns_;
+  Eigen::MatrixXd matrix_;
+  Eigen::VectorXd right_;
+  Eigen::VectorXd row_;
+};
+
+void fit_piece(std::span<const WallReturn> returns, WallPieceFit& fit) {
+  double gate_m = std::numeric_limits<double>::infinity();
+  for (int round = 0; round < kRejectRounds; ++round) {
+    NormalEquations equations(fit);
+    const WallModel last({fit.piece});
+    for (const WallReturn& each : returns) {
+      const double rest_m = each.error_m - last.error_m(each.distance_m, each.ray_rad);
+      if (std::abs(rest_m) <= gate_m) equations.add(each);
+    }
+    equations.solve(fit.piece);
+
+    const WallModel model({fit.piece});
+    std::vector<double> rests;
+    for (const WallReturn& each : returns) {
+      rests.push_back(std::abs(each.error_m - model.error_m(each.distance_m, each.ray_rad)));
+    }
+    gate_m = kGate * kMedianToSigma * median(rests);
+    double squares = 0;
+    std::size_t kept = 0;
+    for (const double rest : rests) {
+      if (rest > gate_m) continue;
+      squares += rest * rest;
+      ++kept;
+    }
+    fit.piece.sigma_m = std::sqrt(squares / static_cast<double>(std::max<std::size_t>(kept, 1)));
+    const auto beyond = std::count_if(rests.begin(), rests.end(),
+                                      [&](double rest) { return rest > 3 * fit.piece.sigma_m; });
+    fit.beyond_3_sigma = static_cast<double>(beyond) / static_cast<double>(rests.size());
+  }
+}
+
+}  // namespace
 
 WallModel::WallModel(std::vector<WallPiece> pieces) : pieces_(std::move(pieces)) {}
 
@@ -41,6 +160,36 @@ double WallModel::error_m(double distance_m, double ray_rad) const {
 
 double WallModel::sigma_m(double distance_m) const {
   return empty() ? 0 : piece_at(distance_m).sigma_m;
+}
+
+std::vector<WallPieceFit> fit_wall_model(std::span<const WallReturn> returns) {
+  std::vector<WallPieceFit> fits;
+  for (const PaperPiece& paper : kPaper) {
+    const std::vector<WallReturn> inside = within(returns, paper);
+    if (inside.size() < kMinPieceReturns) continue;
+    WallPieceFit fit;
+    fit.returns = inside.size();
+    fit.distances = count_distances(inside);
+    fit.ray_order = paper.ray_order;
+    fit.distance_order = std::min(paper.distance_order, fit.distances - 1);
+    const auto [nearest, farthest] = std::minmax_element(
+        inside.begin(), inside.end(),
+        [](const auto& a, const auto& b) { return a.distance_m < b.distance_m; });
+    fit.piece.from_m = nearest->distance_m;
+    fit.piece.to_m = farthest->distance_m;
+    double squares = 0;
+    for (const WallReturn& each : inside) {
+      fit.piece.ray_rad = std::max(fit.piece.ray_rad, std::abs(each.ray_rad));
+      squares += each.error_m * each.error_m;
+    }
+    // A wall at a border alone is told by the piece before it.
+    const bool new_distances = fits.empty() || fit.piece.to_m > fits.back().piece.to_m;
+    if (fit.piece.ray_rad <= 0 || !new_distances) continue;
+    fit.rms_m = std::sqrt(squares / static_cast<double>(inside.size()));
+    fit_piece(inside, fit);
+    fits.push_back(fit);
+  }
+  return fits;
 }
 
 }  // namespace cornerd::calibration

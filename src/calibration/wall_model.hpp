@@ -6,13 +6,14 @@
 
 #include <array>
 #include <cstddef>
+#include <span>
 #include <vector>
 
 namespace cornerd::calibration {
 
-inline constexpr std::size_t kMostRayOrder = 6;
-inline constexpr std::size_t kMostDistanceOrder = 3;
-inline constexpr std::size_t kMostWallPieces = 8;
+inline constexpr std::size_t kMaxRayOrder = 6;
+inline constexpr std::size_t kMaxDistanceOrder = 3;
+inline constexpr std::size_t kMaxWallPieces = 8;
 
 /// What holds for walls between two distances.
 struct WallPiece {
@@ -21,7 +22,7 @@ struct WallPiece {
   double ray_rad = 0;  ///< farthest ray from the wall's normal that was measured
   double sigma_m = 0;  ///< of the rest
   /// [i][j]: of ray^i * distance^j, in radians and metres.
-  std::array<std::array<double, kMostDistanceOrder + 1>, kMostRayOrder + 1> coefficients{};
+  std::array<std::array<double, kMaxDistanceOrder + 1>, kMaxRayOrder + 1> coefficients{};
 };
 
 /// Pieces in the order of their distance. Beyond the measured rays and distances the nearest that
@@ -45,5 +46,28 @@ class WallModel {
 
   std::vector<WallPiece> pieces_;
 };
+
+/// A return of a wall whose distance is known.
+struct WallReturn {
+  double distance_m = 0;  ///< of the wall: along its normal
+  double ray_rad = 0;     ///< from the wall's normal, counter-clockwise
+  double error_m = 0;     ///< measured less true range
+};
+
+/// One piece of the model, and how well it was told.
+struct WallPieceFit {
+  WallPiece piece;
+  std::size_t ray_order = 0;
+  std::size_t distance_order = 0;  ///< lower than the paper's where too few distances were measured
+  std::size_t distances = 0;
+  std::size_t returns = 0;
+  double rms_m = 0;           ///< of the errors, before anything is fitted
+  double beyond_3_sigma = 0;  ///< share of the rest; 0.0027 of a normal distribution
+};
+
+/// The three pieces of the paper, less those without measurements: to 0.6 m of order 6 in the ray
+/// and 3 in the distance, to 1 m of orders 2 and 3, to 2.25 m of orders 2 and 1. Least squares over
+/// all returns of a piece at once; what lies off by more than four sigmas is left out.
+std::vector<WallPieceFit> fit_wall_model(std::span<const WallReturn> returns);
 
 }  // namespace cornerd::calibration

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Every parameter of every detector, with its unit, its default and where that comes from. "Paper"
-// is El Amin, Priandana and Hardhienata; section and step are those of its print.
+// Every parameter of every detector with its unit, default and source. "Paper" is El Amin,
+// Priandana and Hardhienata; section and step are those of its print.
 #pragma once
 
 #include <cstddef>
@@ -12,21 +12,20 @@ namespace cornerd::core {
 
 enum class Method : std::uint8_t { kAltbd, kPrintedAltbd, kAbdIepf, kLineTracking };
 
-/// ALTBD as cornerd runs it. The defaults without a source of their own are what
-/// `cornerctl bench` likes best.
+/// ALTBD as cornerd runs it. Defaults without a source are tuned by `cornerd-bench`.
 struct AltbdConfig {
   /// Half axes of the ellipse in standard deviations of the residual: one normal sample in 2,000
   /// lies outside.
   double gate_sigmas = 3.5;
   /// Samples that start a line: step 1.
   std::uint32_t seed_samples = 3;
-  /// Misses in a row that end a wall: outliers come alone, mixed pixels in twos.
+  /// Consecutive misses that end a wall: outliers come alone, mixed pixels in pairs.
   std::uint32_t misses_to_break = 3;
-  /// Step between two bearings over which no wall is followed: a door at a usual distance.
+  /// Largest step in bearing within a wall: a door at a usual distance.
   double max_gap_rad = radians(25);
-  /// Step along a wall from one sample to the next over which it is not followed: less than a door.
+  /// Largest step along a wall between two samples: less than a door.
   double max_gap_m = 0.3;
-  /// The noise model counts like this many residuals when the turn's own noise is judged.
+  /// Weight of the noise model in the estimate of the scan's noise, in residuals.
   double prior_residuals = 20;
 };
 
@@ -70,48 +69,48 @@ struct LineTrackingConfig {
   double max_distance_m = 0.03;
 };
 
-/// What becomes of the walls, whatever the method found them: joining, corners, ends. All defaults
-/// are what `cornerctl bench` likes best.
+/// Post-processing of the walls, whatever the method: merging, corners, ends. Defaults are tuned by
+/// `cornerd-bench`.
 struct ExtractionConfig {
-  /// Deviation in standard deviations that is still noise: one in 2,000 of a normal one is beyond.
+  /// Gate in standard deviations: one normal residual in 2,000 is beyond.
   double gate_sigmas = 3.5;
-  /// Samples that may lie between two pieces of one wall: a table leg, a run of outliers.
+  /// Samples between two pieces of one wall: a table leg, a run of outliers.
   std::size_t max_interruption = 4;
-  /// What the pieces may be apart, so that no door becomes a wall.
+  /// Largest gap between the pieces: below a door's width.
   double max_piece_gap_m = 0.3;
-  /// Between the pieces: a wall that turns by more does not go on.
+  /// Largest angle between the pieces.
   double max_piece_angle_rad = radians(60);
-  /// Chi-square that one line instead of two may cost. Normal noise reaches 15 once in 2,000 times;
-  /// a tracker that stops at the worst noise reaches more.
+  /// Largest increase of chi-square when two lines become one. Normal noise reaches 15 once in
+  /// 2,000 times; a tracker that stops at the worst sample reaches more.
   double joined_chi_square = 40;
-  /// A wall of no more samples than this, or whose direction is less certain, may be noise about
-  /// its neighbours, and is tested for it.
-  std::uint32_t doubtful_samples = 12;
-  double doubtful_sigma_rad = radians(3);
-  /// Between the walls of a corner.
+  /// A wall of at most this many samples, or with a less certain direction, may be noise of its
+  /// neighbours and is tested for it.
+  std::uint32_t short_wall_samples = 12;
+  double short_wall_sigma_rad = radians(3);
+  /// Smallest angle between the walls of a corner.
   double min_corner_angle_rad = radians(15);
-  /// Rays that may give nothing between a wall that they graze and its corner.
+  /// Rays without a return between a wall at grazing incidence and its corner.
   double grazing_rays = 4;
-  /// What such rays may leave open, in units of Dth_corner.
+  /// Gap that such rays may leave, in units of Dth_corner.
   double grazing_reach = 2;
-  /// One sample behind the place where two walls meet is an outlier where more than so many lie
-  /// between them, or where they are nearer than this: nothing could be seen through the gap.
+  /// A single sample behind a corner is an outlier where more than this many samples lie between
+  /// its walls, or where their gap is smaller than this.
   std::size_t see_through_samples = 3;
   double see_through_gap_m = 0.06;
-  /// Depth of the face of a wall's end, which is too short for a wall of its own.
+  /// Largest depth of the face at a wall's end, which is too short for a wall of its own.
   double max_face_m = 0.1;
-  /// Samples on it that make it a corner: one alone may be a mixed pixel.
+  /// Samples on that face that make a corner: a single one may be a mixed pixel.
   std::size_t min_face_samples = 2;
-  /// Between a wall's last sample and where the next ray would have met it: a wall that ends
-  /// somewhere in more than this has no place to end at.
+  /// Largest distance between a wall's last sample and the next ray's intersection: a terminal is
+  /// not localized better than this.
   double max_end_span_m = 0.12;
-  /// Samples beyond the end that are asked whether the wall hides them; two have to say so.
-  std::size_t look_beyond = 3;
-  /// Uncertainty of the direction of two to four samples that count as the rest of a wall.
+  /// Samples beyond the end that are tested for occlusion; two have to pass.
+  std::size_t samples_beyond = 3;
+  /// Largest direction uncertainty of two to four samples that count as the rest of a wall.
   double max_rest_sigma_rad = radians(9);
-  /// Samples closer to a ray than this lie between an edge and what is behind it, on nothing.
+  /// Smallest angle between that rest and the rays: smaller angles are mixed pixels at an edge.
   double min_rest_angle_rad = radians(3.5);
-  /// A corner that they make is none where its place is less certain than this.
+  /// Largest standard deviation of a corner made with such a rest.
   double max_rest_corner_sigma_m = 0.02;
 };
 
@@ -119,8 +118,8 @@ struct DetectorConfig {
   Method method = Method::kAltbd;
   double sigma_offset = 0.04;        ///< share of the range (paper, step 5 and section V.C)
   double corner_tolerance_m = 0.23;  ///< Dth_corner: half a door of 46 cm (step 13, section V.C)
-  /// Samples that make a wall, whatever the method. The paper has "more than four points" (section
-  /// V.B): all methods find more of the corners with four (breakpoint/README.md).
+  /// Samples that make a wall. The paper has "more than four points" (section V.B); all methods
+  /// find more corners with four (core/breakpoint/README.md).
   std::uint32_t min_support = 4;
   AltbdConfig altbd;
   PrintedAltbdConfig printed_altbd;

@@ -53,20 +53,20 @@ const ScanResult& Localizer::step(const Scan& turn) {
 
   // 0. Odometry, where there is any, says how the robot moved during the turn and where it should
   //    be.
-  const Scan& scan = w.straightened(turn, t_ns);
+  const Scan& scan = w.deskewed(turn, t_ns);
 
-  // 1. to 4. The place where that turn was taken. One that fits nowhere may have been straightened
+  // 1. to 4. The place where that turn was taken. One that fits nowhere may have been deskewed
   // by
   //    wheels that lie: once more, as it came.
   Decision decision = w.find(scan, t_ns);
   if (decision.state == PoseState::kLost && &scan != &turn) {
-    w.disbelieve_motion();
+    w.reject_motion();
     decision = w.find(turn, t_ns);
   }
 
   // 5. What is less than evident, or far from where the robot just was, is not believed at once.
   const std::size_t corners = w.corners_of(decision);
-  if (names_a_place(decision.state)) {
+  if (has_pose(decision.state)) {
     decision.state = w.believe(decision, corners, t_ns);
   } else {
     w.T_map_doubted.reset();
@@ -75,11 +75,11 @@ const ScanResult& Localizer::step(const Scan& turn) {
 
   // 6. A turn whose place is known tells how the lidar errs always.
   if (w.teaches(decision)) {
-    const core::Place& at = w.place->verification.places()[decision.place];
-    w.place->bias.learn(*w.map, at.refined.T_map_lidar, w.points.points(),
-                        std::max(1.0, w.result.detection.noise_scale));
+    const core::VerifiedHypothesis& at = w.place->verification.hypotheses()[decision.place];
+    w.place->bias.update(*w.map, at.refined.T_map_lidar, w.points.points(),
+                         std::max(1.0, w.result.detection.noise_scale));
   }
-  w.result.bias = learned_bias();
+  w.result.bias = estimated_bias();
   return w.result;
 }
 
@@ -95,18 +95,18 @@ Decision Localizer::Workspace::find(const Scan& scan, TimeNs t_ns) {
   if (in_doubt(t_ns)) look_everywhere(t_ns);
 
   // 4. One place is a fix, several are ambiguous, none is lost.
-  return place ? decide(place->verification.places(), memory.prior(t_ns)) : Decision{};
+  return place ? decide(place->verification.hypotheses(), memory.prior(t_ns)) : Decision{};
 }
 
 const PoseEstimate* Localizer::add(const OdometryReading& reading, std::optional<TimeNs> now_ns) {
   Workspace& w = *workspace_;
   const bool moved = w.odometer.add(reading, now_ns);
   const PoseState last = w.result.pose.state;
-  if (!moved || !w.config.odometry.publish || last == PoseState::kAmbiguous ||
+  if (!moved || !w.config.odometry.publish_predictions || last == PoseState::kAmbiguous ||
       last == PoseState::kLost) {
     return nullptr;
   }
-  const std::optional<PredictedPose> ahead = w.odometer.ahead();
+  const std::optional<PredictedPose> ahead = w.odometer.predict_latest();
   if (!ahead) return nullptr;
   w.between.seq = ++w.result.pose.seq;
   w.between.t_ns = ahead->t_ns;
@@ -118,8 +118,8 @@ const PoseEstimate* Localizer::add(const OdometryReading& reading, std::optional
 const PoseEstimate* Localizer::follow(const Sample& sample) {
   Workspace& w = *workspace_;
   if (!w.place || !w.place->parts || !w.place->parts->add(sample)) return nullptr;
-  PartTracker& parts = *w.place->parts;
-  const std::optional<Expectation> expected = w.expectation(parts.end_ns());
+  PartialScanTracker& parts = *w.place->parts;
+  const std::optional<PredictedState> expected = w.expectation(parts.end_ns());
   if (!expected) return nullptr;
   const auto found = parts.localize(*expected, w.place->bias.bias(), w.noise_scale());
   if (!found) return nullptr;
@@ -129,15 +129,16 @@ const PoseEstimate* Localizer::follow(const Sample& sample) {
   pose.t_ns = parts.end_ns();
   pose.state = PoseState::kTracking;
   pose.T_map_base = T_map_lidar * w.T_lidar_base;
-  const Covariance3 of_lidar = found->refined.covariance +
-                               w.place->wall_doubt.doubt_of(found->refined.walls) +
-                               doubt_of_motion(expected->motion, expected->motion) +
-                               doubt_of_old_motion(expected->motion_age_s, parts.duration_s());
+  const Covariance3 of_lidar =
+      found->refined.covariance +
+      w.place->map_error.pose_covariance(found->refined.face_residuals) +
+      deskew_covariance(expected->motion, expected->motion) +
+      outdated_motion_covariance(expected->motion_age_s, parts.duration_s());
   pose.covariance = covariance_of_base(of_lidar, T_map_lidar, pose.T_map_base);
   pose.room = w.map->room_at(pose.T_map_base.translation());
   pose.corners =
       static_cast<std::size_t>(w.place->recognition.recognised(parts.breakpoints(), T_map_lidar));
-  pose.inliers = found->explanation.hits;
+  pose.inliers = found->likelihood.hits;
   pose.rmse_m = found->refined.rmse_m;
   pose.age_s = w.memory.age_s(pose.t_ns);
   return &pose;
@@ -150,7 +151,7 @@ void Localizer::set_pose(const Pose2& T_map_base) {
       Eigen::Vector3d(kGivenSigma_m * kGivenSigma_m, kGivenSigma_m * kGivenSigma_m,
                       kGivenSigma_rad * kGivenSigma_rad)
           .asDiagonal();
-  w.memory.remember(T_map_base * w.config.T_base_lidar, w.result.pose.t_ns, {});
+  w.memory.update(T_map_base * w.config.T_base_lidar, w.result.pose.t_ns, {});
   w.odometer.set_pose(T_map_base, doubt);
 }
 
@@ -170,53 +171,54 @@ void Localizer::forget_lidar() {
   workspace_->detector.forget();
   if (!workspace_->place) return;
   workspace_->place->bias.forget();
-  workspace_->place->wall_doubt.forget();
+  workspace_->place->map_error.forget();
 }
 
-LearnedBias Localizer::learned_bias() const {
-  if (workspace_->place) return workspace_->place->bias.learned();
+EstimatedBias Localizer::estimated_bias() const {
+  if (workspace_->place) return workspace_->place->bias.estimate();
   return {.bias = workspace_->config.bias, .sigma = {}};
 }
 
-void Localizer::resume(const LearnedBias& learned) {
+void Localizer::resume(const EstimatedBias& learned) {
   if (workspace_->place) workspace_->place->bias.resume(learned);
 }
 
 bool Localizer::Workspace::teaches(const Decision& decision) const {
-  if (!config.learn_bias) return false;
-  if (!names_a_place(decision.state)) return false;
-  const core::Place& at = place->verification.places()[decision.place];
-  return (memory.stands() || odometer.knows_motion()) &&
-         at.explanation.near_share() > kTeachingShare;
+  if (!config.calibrate_online) return false;
+  if (!has_pose(decision.state)) return false;
+  const core::VerifiedHypothesis& at = place->verification.hypotheses()[decision.place];
+  return (memory.is_stationary() || odometer.has_motion()) &&
+         at.likelihood.near_hit_share() > kTeachingShare;
 }
 
 /// By odometry, where it knows; else the robot goes on as the last turns saw it move.
-std::optional<Expectation> Localizer::Workspace::expectation(TimeNs t_ns) {
-  if (!names_a_place(result.pose.state)) return std::nullopt;
-  const auto ahead = odometer.ahead();
+std::optional<PredictedState> Localizer::Workspace::expectation(TimeNs t_ns) {
+  if (!has_pose(result.pose.state)) return std::nullopt;
+  const auto ahead = odometer.predict_latest();
   const auto behind = odometer.prediction();
   if (ahead && behind && to_seconds(ahead->t_ns - behind->t_ns) > kLeastTimeOfAMotion_s) {
     const Pose2 T_map_ahead = ahead->T_map_base * config.T_base_lidar;
     const Twist2 steady = motion_between(behind->T_map_base * config.T_base_lidar, T_map_ahead,
                                          to_seconds(ahead->t_ns - behind->t_ns));
-    return Expectation{T_map_ahead * steady.over(to_seconds(t_ns - ahead->t_ns)),
-                       covariance_of_base(ahead->covariance, ahead->T_map_base, T_map_ahead),
-                       steady, kUnevenShare * to_seconds(ahead->t_ns - behind->t_ns)};
+    return PredictedState{T_map_ahead * steady.over(to_seconds(t_ns - ahead->t_ns)),
+                          covariance_of_base(ahead->covariance, ahead->T_map_base, T_map_ahead),
+                          steady, kUnevenShare * to_seconds(ahead->t_ns - behind->t_ns)};
   }
   const std::optional<Prior> prior = memory.prior(t_ns);
-  if (!prior || odometer.knows_motion()) return std::nullopt;
+  if (!prior || odometer.has_motion()) return std::nullopt;
   const Covariance3 of_lidar = covariance_of_base(result.pose.covariance, result.pose.T_map_base,
                                                   result.pose.T_map_base * config.T_base_lidar);
   const double age_s = to_seconds(t_ns - result.pose.t_ns);
-  return Expectation{prior->T_map_lidar, later(of_lidar, age_s), memory.motion(), age_s};
+  return PredictedState{prior->T_map_lidar, extrapolated_covariance(of_lidar, age_s),
+                        memory.motion(), age_s};
 }
 
-void Localizer::Workspace::disbelieve_motion() {
-  odometer.disbelieve_motion();
-  memory.expect(std::nullopt, false);
+void Localizer::Workspace::reject_motion() {
+  odometer.reject_motion();
+  memory.set_prediction(std::nullopt, false);
 }
 
-const Scan& Localizer::Workspace::straightened(const Scan& turn, TimeNs t_ns) {
+const Scan& Localizer::Workspace::deskewed(const Scan& turn, TimeNs t_ns) {
   odometer.advance(turn.start_ns(), t_ns, turn.end_ns());
   std::optional<Prior> prior;
   if (const auto predicted = odometer.prediction()) {
@@ -225,14 +227,14 @@ const Scan& Localizer::Workspace::straightened(const Scan& turn, TimeNs t_ns) {
              kSurely * std::sqrt(std::max(covariance(0, 0), covariance(1, 1))),
              kSurely * std::sqrt(covariance(2, 2))};
   }
-  const bool known = odometer.straighten(turn, config.T_base_lidar, still);
-  memory.expect(prior, known);
+  const bool known = odometer.deskew(turn, config.T_base_lidar, still);
+  memory.set_prediction(prior, known);
   return known ? still : turn;
 }
 
 std::size_t Localizer::Workspace::corners_of(const Decision& decision) const {
-  if (!names_a_place(decision.state)) return 0;
-  const core::Place& found = place->verification.places()[decision.place];
+  if (!has_pose(decision.state)) return 0;
+  const core::VerifiedHypothesis& found = place->verification.hypotheses()[decision.place];
   return static_cast<std::size_t>(
       place->recognition.recognised(result.detection.breakpoints, found.refined.T_map_lidar));
 }
@@ -244,22 +246,23 @@ bool Localizer::Workspace::is_expected(const Pose2& T_map_lidar, TimeNs t_ns) co
 
 bool Localizer::Workspace::prior_is_fresh(TimeNs t_ns) const {
   const std::optional<Prior> prior = memory.prior(t_ns);
-  return prior && prior->place_m < kFresh_m && prior->heading_rad < kFresh_rad;
+  return prior && prior->position_error_m < kFresh_m && prior->heading_error_rad < kFresh_rad;
 }
 
 bool Localizer::Workspace::is_at_prior(const Pose2& T_map_lidar, TimeNs t_ns) const {
   const std::optional<Prior> prior = memory.prior(t_ns);
-  return prior && prior->heading_rad < kAlmostSure_rad && prior->place_m < kFresh_m &&
-         same_place(prior->T_map_lidar, T_map_lidar, prior->place_m + kAtPrior_m,
-                    prior->heading_rad + kAtPrior_rad);
+  return prior && prior->heading_error_rad < kAlmostSure_rad &&
+         prior->position_error_m < kFresh_m &&
+         same_place(prior->T_map_lidar, T_map_lidar, prior->position_error_m + kAtPrior_m,
+                    prior->heading_error_rad + kAtPrior_rad);
 }
 
 PoseState Localizer::Workspace::believe(const Decision& decision, std::size_t corners,
                                         TimeNs t_ns) {
-  const core::Place& found = place->verification.places()[decision.place];
+  const core::VerifiedHypothesis& found = place->verification.hypotheses()[decision.place];
   const Pose2& T_map_lidar = found.refined.T_map_lidar;
-  const Evidence evidence{found.explanation, corners, points.widest_gap_rad(),
-                          !place->paper && place->recognition.tries_all(),
+  const Evidence evidence{found.likelihood, corners, points.largest_gap_rad(),
+                          !place->paper && place->recognition.is_exhaustive(),
                           is_at_prior(T_map_lidar, t_ns)};
   if (decision.state == PoseState::kTracking) {
     return may_be_tracked(evidence) ? PoseState::kTracking : PoseState::kAmbiguous;
@@ -268,10 +271,10 @@ PoseState Localizer::Workspace::believe(const Decision& decision, std::size_t co
       T_map_doubted && same_place(*T_map_doubted, T_map_lidar, kJump_m, kJump_rad);
   T_map_doubted.reset();
   const bool expected = is_expected(T_map_lidar, t_ns);
-  if (!is_evident(evidence)) {
+  if (!is_unambiguous_fix(evidence)) {
     return expected && may_be_tracked(evidence) ? PoseState::kTracking : PoseState::kLost;
   }
-  if (!confirmed && needs_a_second(evidence, expected, memory.prior(t_ns).has_value())) {
+  if (!confirmed && needs_confirmation(evidence, expected, memory.prior(t_ns).has_value())) {
     T_map_doubted = T_map_lidar;
     return PoseState::kLost;
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// THE FILE TO READ FIRST, with localizer.cpp: one turn of the lidar in, one pose out.
+// Start here, with localizer.cpp: one scan in, one pose out.
 #pragma once
 
 #include <cstddef>
@@ -20,7 +20,7 @@ namespace cornerd::core {
 enum class PoseState : std::uint8_t { kFix, kTracking, kPredicted, kAmbiguous, kLost };
 
 /// True where a turn itself says where the robot is.
-constexpr bool names_a_place(PoseState state) {
+constexpr bool has_pose(PoseState state) {
   return state == PoseState::kFix || state == PoseState::kTracking;
 }
 
@@ -50,56 +50,56 @@ struct PoseEstimate {
   std::vector<Alternative> alternatives;  ///< capacity kMaxAlternatives; best first
 };
 
-/// Everything that one turn gave. Reused from turn to turn.
+/// Result of one scan. Reused from scan to scan.
 struct ScanResult {
   ScanResult() { pose.alternatives.reserve(kMaxAlternatives); }
   PoseEstimate pose;
   Detection detection;
   OdometrySummary odometry;
-  LearnedBias bias;  ///< that the next turn will be corrected by
+  EstimatedBias bias;  ///< that the next scan will be corrected by
 };
 
-/// Finds the robot in a map, turn by turn. All memory is taken at construction: step() allocates
-/// nothing, takes no lock, does no I/O (tests/unit/core/localizer_allocation_test.cpp counts).
-/// Not safe for concurrent calls.
+/// Localizes a lidar in a map, scan by scan. All memory is taken at construction: step() allocates
+/// nothing, takes no lock and does no I/O (tests/unit/core/localizer_allocation_test.cpp). Not safe
+/// for concurrent calls.
 class Localizer {
  public:
-  /// Without a map it detects breakpoints and is always lost.
+  /// `map` may be null: breakpoints are detected and the state is always lost.
   Localizer(std::shared_ptr<const WallMap> map, const LocalizerConfig& config);
   ~Localizer();
   Localizer(Localizer&&) noexcept;
   Localizer& operator=(Localizer&&) noexcept;
 
-  /// Localizes in one complete turn. The result is valid until the next call.
+  /// Localizes by one complete scan. The result is valid until the next call.
   const ScanResult& step(const Scan& scan);
 
-  /// What wheels and gyro say; before the turn that it belongs to. `now_ns`: see ReadingGate. Where
-  /// odometry.publish is on and the last turn named a place: where the robot is by now, in the
-  /// state predicted, valid until the next call; else null.
+  /// Adds a reading of wheels and gyro, before the scan that it belongs to. `now_ns`: see
+  /// ReadingGate. Returns the pose at the reading's time, state predicted, where
+  /// odometry.publish_predictions is on and the last scan gave a pose; else null. Valid until the
+  /// next call.
   const PoseEstimate* add(const OdometryReading& reading, std::optional<TimeNs> now_ns);
 
-  /// The next sample of the turn in progress, after the turn that it ended. Where
-  /// updates_per_scan asks for poses before the turn's end, and this sample ends a part of it that
-  /// agrees with where the robot should be: where it is, at the time of the sample, in the state
-  /// tracking, valid until the next call; else null.
+  /// Adds the next sample of the scan in progress. Returns the pose at the sample's time, state
+  /// tracking, where the sample ends a partial scan (updates_per_scan) that is consistent with the
+  /// predicted state; else null. Valid until the next call.
   const PoseEstimate* follow(const Sample& sample);
 
-  /// Somebody knows that the robot is about there, as of the last turn.
+  /// Sets the initial pose, as of the last scan.
   void set_pose(const Pose2& T_map_base);
 
-  /// Forgets where the robot was: the next turn is recognised without a prior.
+  /// Forgets the pose: the next scan is localized globally.
   void relocalize();
 
-  /// Forgets everything, what was learnt of the sensor included: as newly constructed.
+  /// Back to the state after construction, estimates of the sensor included.
   void forget();
 
-  /// Another lidar: forgets how the last one erred and how noisy it was, not where the robot is.
+  /// For another lidar: forgets the estimated bias and noise, not the pose.
   void forget_lidar();
 
-  /// How the lidar errs always, as far as it is known by now.
-  LearnedBias learned_bias() const;
-  /// What was learnt of this lidar before.
-  void resume(const LearnedBias& learned);
+  /// The current estimate of the lidar's bias.
+  EstimatedBias estimated_bias() const;
+  /// Continues from a stored estimate of this lidar's bias.
+  void resume(const EstimatedBias& learned);
 
  private:
   struct Workspace;

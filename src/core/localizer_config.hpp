@@ -23,12 +23,12 @@ struct LocalizerConfig {
   DetectorConfig detector;
   RecognitionMethod recognition = RecognitionMethod::kPatterns;
   SensorNoise noise;
-  SensorBias bias;          ///< as far as it is known beforehand
-  bool learn_bias = true;   ///< the rest, from the turns whose place is known
-  bool forget_bias = true;  ///< slowly, as a lidar ages; false: all turns tell the same
+  SensorBias bias;               ///< prior, from the config
+  bool calibrate_online = true;  ///< estimate the bias from scans at known poses
+  bool forget_bias = true;       ///< exponential forgetting, since a lidar ages
   OdometryConfig odometry;
-  /// Poses of a robot whose place is known: each turn gives its own at its end, and one for each
-  /// part before.
+  /// Poses per scan of a robot whose pose is known: one at the scan's end, one per partial scan
+  /// before.
   std::size_t updates_per_scan = 1;
 };
 

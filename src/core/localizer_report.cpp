@@ -31,7 +31,7 @@ Covariance3 doubt_of_bias() { return doubt_of(0.006, radians(0.15)); }
 /// turn at once, simulated in flat-7 without odometry, with a bias of 1 % and 5 mm and without: the
 /// NEES of `tracking` turns, by how smeared they are, is 1 to 6 in five drives (up to 195 without).
 Covariance3 doubt_of_smear(const RefinedPose& refined, PoseState state) {
-  const double smear_m = refined.rmse_m * std::sqrt(1 - 1 / refined.spread);
+  const double smear_m = refined.rmse_m * std::sqrt(1 - 1 / refined.reduced_chi_square);
   return state == PoseState::kTracking ? doubt_of(smear_m, 1.2 * smear_m)
                                        : doubt_of(smear_m / 2, 0.2 * smear_m);
 }
@@ -50,10 +50,10 @@ void Localizer::Workspace::report(const Decision& decision, std::size_t corners,
   pose.covariance.setZero();
   pose.T_map_base = {};
   pose.doubt = decision.doubt;
-  if (names_a_place(decision.state)) {
-    report_pose(place->verification.places()[decision.place], corners, t_ns);
+  if (has_pose(decision.state)) {
+    report_pose(place->verification.hypotheses()[decision.place], corners, t_ns);
   } else if (decision.state == PoseState::kAmbiguous) {
-    report_alternatives(place->verification.places().first(decision.rivals));
+    report_alternatives(place->verification.hypotheses().first(decision.rivals));
   }
   if (pose.state == PoseState::kLost || pose.state == PoseState::kAmbiguous) {
     const auto predicted = odometer.prediction();
@@ -77,7 +77,7 @@ bool Localizer::Workspace::contradicts(const PredictedPose& predicted) const {
 /// A turn that sees all around and shows no place was most likely taken in motion, of which
 /// readings that are late or missing may not tell.
 bool Localizer::Workspace::may_set_out() const {
-  return odometer.may_miss_motion() && points.widest_gap_rad() < kSeesAround_rad;
+  return odometer.may_miss_motion() && points.largest_gap_rad() < kSeesAround_rad;
 }
 
 void Localizer::Workspace::predict(const PredictedPose& predicted, PoseEstimate& pose) const {
@@ -88,30 +88,31 @@ void Localizer::Workspace::predict(const PredictedPose& predicted, PoseEstimate&
   if (map) pose.room = map->room_at(pose.T_map_base.translation());
 }
 
-void Localizer::Workspace::report_pose(const core::Place& found, std::size_t corners, TimeNs t_ns) {
+void Localizer::Workspace::report_pose(const core::VerifiedHypothesis& found, std::size_t corners,
+                                       TimeNs t_ns) {
   const Pose2& T_map_lidar = found.refined.T_map_lidar;
   PoseEstimate& pose = result.pose;
   pose.T_map_base = T_map_lidar * T_lidar_base;
-  memory.remember(T_map_lidar, t_ns, motion);
-  place->wall_doubt.add(found.refined.walls);
+  memory.update(T_map_lidar, t_ns, motion);
+  place->map_error.add(found.refined.face_residuals);
   const Covariance3 of_lidar =
-      found.refined.covariance + larger(place->wall_doubt.doubt_of(found.refined.walls),
-                                        odometer.knows_motion()
-                                            ? odometer.doubt_of_motion()
-                                            : doubt_of_motion(motion, memory.motion()));
+      found.refined.covariance +
+      larger(place->map_error.pose_covariance(found.refined.face_residuals),
+             odometer.has_motion() ? odometer.deskew_covariance()
+                                   : deskew_covariance(motion, memory.motion()));
   pose.covariance = covariance_of_base(of_lidar, T_map_lidar, pose.T_map_base);
-  if (found.refined.spread > kSmearedSpread) {
+  if (found.refined.reduced_chi_square > kSmearedSpread) {
     pose.covariance += doubt_of_smear(found.refined, pose.state);
     if (place->bias.scans() < kTurnsOfANewLidar) pose.covariance += doubt_of_bias();
   }
   odometer.correct(pose.T_map_base, pose.covariance);
   pose.room = map->room_at(pose.T_map_base.translation());
   pose.corners = corners;
-  pose.inliers = found.explanation.hits;
+  pose.inliers = found.likelihood.hits;
   pose.rmse_m = found.refined.rmse_m;
 }
 
-void Localizer::Workspace::report_alternatives(std::span<const core::Place> rivals) {
+void Localizer::Workspace::report_alternatives(std::span<const core::VerifiedHypothesis> rivals) {
   const std::size_t count = std::min(rivals.size(), kMaxAlternatives);
   double sum = 0;
   for (std::size_t i = 0; i < count; ++i) sum += relative_belief(rivals[i], rivals.front());

@@ -47,7 +47,7 @@ void Localizer::Workspace::look(const Scan& scan, TimeNs t_ns, const Twist2& as_
   Verification& verification = place->verification;
   verification.begin(points.points(), noise_scale());
   if (const std::optional<Prior> prior = memory.prior(t_ns)) {
-    const Hypothesis carried_on{prior->T_map_lidar, 0};
+    const PoseHypothesis carried_on{prior->T_map_lidar, 0};
     verification.consider(std::span(&carried_on, 1), kPriorReach_m);
   }
   const Detection& seen = result.detection;
@@ -63,30 +63,30 @@ void Localizer::Workspace::look(const Scan& scan, TimeNs t_ns, const Twist2& as_
 }
 
 bool Localizer::Workspace::in_doubt(TimeNs t_ns) const {
-  if (!place || place->verification.places().empty()) return true;
-  const core::Place& best = place->verification.places().front();
+  if (!place || place->verification.hypotheses().empty()) return true;
+  const core::VerifiedHypothesis& best = place->verification.hypotheses().front();
   const bool is_fresh = prior_is_fresh(t_ns);
   const bool expected = is_fresh && is_expected(best.refined.T_map_lidar, t_ns);
-  return !leaves_no_doubt(best.explanation, expected) ||
-         !(is_fresh || is_whole(points.widest_gap_rad()));
+  return !is_conclusive(best.likelihood, expected) ||
+         !(is_fresh || has_full_coverage(points.largest_gap_rad()));
 }
 
 bool Localizer::Workspace::is_smeared() const {
-  return place && !place->verification.places().empty() &&
-         place->verification.places().front().refined.spread > kSmearedSpread;
+  return place && !place->verification.hypotheses().empty() &&
+         place->verification.hypotheses().front().refined.reduced_chi_square > kSmearedSpread;
 }
 
 /// A bias fits like a motion: walls are where they should be, but not exactly. While the lidar is
 /// new and the robot is seen to stand, it is the bias.
 bool Localizer::Workspace::may_be_biased() const {
-  if (!config.learn_bias || !place || place->verification.places().empty()) return false;
-  return place->bias.scans() < kTurnsOfANewLidar && memory.stands() &&
-         place->verification.places().front().explanation.near_share() > kAllButExact;
+  if (!config.calibrate_online || !place || place->verification.hypotheses().empty()) return false;
+  return place->bias.scans() < kTurnsOfANewLidar && memory.is_stationary() &&
+         place->verification.hypotheses().front().likelihood.near_hit_share() > kAllButExact;
 }
 
 std::size_t Localizer::Workspace::best_hits() const {
-  const auto places = place->verification.places();
-  return places.empty() ? 0 : places.front().explanation.hits;
+  const auto places = place->verification.hypotheses();
+  return places.empty() ? 0 : places.front().likelihood.hits;
 }
 
 void Localizer::Workspace::look_for_the_motion(const Scan& scan, TimeNs t_ns) {
@@ -102,7 +102,7 @@ void Localizer::Workspace::look_for_the_motion(const Scan& scan, TimeNs t_ns) {
   if (!motion.is_rest()) try_motion({});
   const auto refine = [&] {
     for (int k = 0; k < 2 && (in_doubt(t_ns) || is_smeared()) && best_hits() > 0; ++k) {
-      const Pose2 start = place->verification.places().front().refined.T_map_lidar;
+      const Pose2 start = place->verification.hypotheses().front().refined.T_map_lidar;
       const RefinedMotion refined = place->refinement.refine_motion(
           *map, start, kMotionReach_m, points.points(), result.detection.noise_scale);
       if (!refined.valid || !is_plausible(refined.motion)) break;
@@ -110,7 +110,7 @@ void Localizer::Workspace::look_for_the_motion(const Scan& scan, TimeNs t_ns) {
     }
   };
   refine();
-  const bool is_known = odometer.knows_motion() || memory.prior(t_ns);
+  const bool is_known = odometer.has_motion() || memory.prior(t_ns);
   for (std::size_t k = 0; k < kGuessesATurn && !is_known && best_hits() < points.size() / 2; ++k) {
     const Twist2 motion_before = best_motion;
     const std::size_t best_before = best;

@@ -12,8 +12,8 @@
 #include "core/breakpoint/detector.hpp"
 #include "core/catalog/catalog.hpp"
 #include "core/estimate/bias_estimator.hpp"
-#include "core/estimate/part_tracker.hpp"
-#include "core/estimate/pose_memory.hpp"
+#include "core/estimate/constant_velocity_model.hpp"
+#include "core/estimate/partial_scan_tracker.hpp"
 #include "core/estimate/refinement.hpp"
 #include "core/localizer.hpp"
 #include "core/recognition/decision.hpp"
@@ -43,7 +43,7 @@ struct Localizer::Workspace {
           verification(map, config),
           refinement(config.max_range_m, config.noise),
           bias(config.max_range_m, config.noise, config.bias,
-               config.forget_bias ? BiasEstimator::kForgottenShare : 0) {
+               config.forget_bias ? BiasEstimator::kForgettingRate : 0) {
       if (config.recognition == RecognitionMethod::kPaper) paper.emplace(map, catalog);
       if (config.updates_per_scan > 1) parts.emplace(map, config);
     }
@@ -53,8 +53,8 @@ struct Localizer::Workspace {
     Verification verification;
     Refinement refinement;
     BiasEstimator bias;
-    WallDoubt wall_doubt;
-    std::optional<PartTracker> parts;  ///< where poses are asked for before a turn ends
+    MapErrorModel map_error;
+    std::optional<PartialScanTracker> parts;  ///< where poses are asked for before a turn ends
   };
 
   Workspace(std::shared_ptr<const WallMap> the_map, const LocalizerConfig& the_config)
@@ -66,8 +66,8 @@ struct Localizer::Workspace {
     if (map) place.emplace(*map, config);
   }
 
-  const Scan& straightened(const Scan& turn, TimeNs t_ns);
-  void disbelieve_motion();
+  const Scan& deskewed(const Scan& turn, TimeNs t_ns);
+  void reject_motion();
   Decision find(const Scan& scan, TimeNs t_ns);
   void look(const Scan& scan, TimeNs t_ns, const Twist2& as_if_moving);
   void look_for_the_motion(const Scan& scan, TimeNs t_ns);
@@ -83,9 +83,9 @@ struct Localizer::Workspace {
   bool may_be_biased() const;
   bool teaches(const Decision& decision) const;
   void report(const Decision& decision, std::size_t corners, TimeNs t_ns);
-  void report_pose(const core::Place& found, std::size_t corners, TimeNs t_ns);
-  void report_alternatives(std::span<const core::Place> rivals);
-  std::optional<Expectation> expectation(TimeNs t_ns);
+  void report_pose(const core::VerifiedHypothesis& found, std::size_t corners, TimeNs t_ns);
+  void report_alternatives(std::span<const core::VerifiedHypothesis> rivals);
+  std::optional<PredictedState> expectation(TimeNs t_ns);
   void predict(const PredictedPose& predicted, PoseEstimate& pose) const;
   /// What a turn showed of the noise, where it is more than chance.
   double noise_scale() const { return std::clamp(result.detection.noise_scale, 0.5, 4.0); }
@@ -100,7 +100,7 @@ struct Localizer::Workspace {
 
   Odometer odometer;
   Scan still;  ///< the turn as a lidar that stood still would have seen it
-  PoseMemory memory;
+  ConstantVelocityModel memory;
   PolarScan points;
   std::size_t guesses = 0;             ///< of the motion, so far
   Twist2 motion;                       ///< that `points` were moved back by

@@ -9,7 +9,7 @@
 namespace cornerd::core {
 namespace {
 
-/// How far the head has turned from the first to the last sample, either way round.
+/// Rotation of the head from the first to the last sample, in either direction.
 double swept_rad(std::span<const Sample> samples) {
   double swept = 0;
   for (std::size_t i = 1; i < samples.size(); ++i) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// One turn of the sensor, and what cuts the stream of samples into turns.
+// One revolution's samples, and the segmentation of the sample stream into scans.
 #pragma once
 
 #include <cstddef>
@@ -10,26 +10,26 @@
 
 namespace cornerd::core {
 
-/// An A1 at its slowest (1 Hz) and its fastest mode (127 us a sample) gives 7,874 samples a turn;
-/// `cornerctl bench` goes up to 10,000.
+/// An A1 at its slowest (1 Hz) in its fastest mode (127 us a sample) gives 7,874 samples a scan;
+/// `cornerd-bench` goes up to 10,000.
 inline constexpr std::size_t kMaxSamplesPerScan = 10240;
 
-/// The samples of one turn in the order of their arrival. Room for kMaxSamplesPerScan is taken at
-/// construction, so that filling and reusing one allocates nothing.
+/// The samples of one scan in the order of arrival. Takes room for kMaxSamplesPerScan at
+/// construction: filling and reusing a scan allocates nothing.
 class Scan {
  public:
   Scan() { samples_.reserve(kMaxSamplesPerScan); }
 
   void clear() { samples_.clear(); }
 
-  /// False, and nothing added, where the turn is full.
+  /// False, with nothing added, where the scan is full.
   bool add(const Sample& sample) {
     if (samples_.size() >= kMaxSamplesPerScan) return false;
     samples_.push_back(sample);
     return true;
   }
 
-  /// Sets all times to another clock, `by_ns` ahead.
+  /// Moves all times to another clock that is `by_ns` ahead.
   void shift(TimeNs by_ns) {
     for (Sample& sample : samples_) sample.t_ns += by_ns;
   }
@@ -47,28 +47,26 @@ class Scan {
   std::vector<Sample> samples_;
 };
 
-/// Collects samples until a revolution is complete: the next one starts, or the source says that it
-/// ends. A stream joined in the middle of a turn gives its first scan at the end of the first whole
-/// one.
+/// Segments the sample stream into scans: a scan ends where the next revolution starts or the
+/// source marks its end. The first scan of a stream is its first complete revolution.
 class ScanAssembler {
  public:
-  /// True when `sample` completed a turn, which `turn` now holds. It is swapped in, never copied;
-  /// nothing is allocated.
+  /// True where `sample` completes a scan; `scan` then holds it (swapped, not copied).
   bool add(const Sample& sample, Scan& scan);
 
-  /// The end of a recording: hands out the turn in progress where it has gone round all but 10
-  /// degrees. True where `turn` was filled.
+  /// At the end of a recording: hands out the scan in progress where it covers at least 350
+  /// degrees. True where `scan` was filled.
   bool finish(Scan& scan);
 
-  /// Forgets the turn in progress: the device was reopened, the stream has a hole.
+  /// Drops the scan in progress: the device was reopened, or the stream has a gap.
   void reset();
 
-  /// Samples beyond kMaxSamplesPerScan, and those of turns that were begun but never ended.
+  /// Samples beyond kMaxSamplesPerScan, and those of incomplete scans.
   std::size_t dropped() const { return dropped_; }
 
  private:
   Scan collecting_;
-  bool collects_ = false;  ///< a turn has begun that was seen from its start
+  bool collects_ = false;  ///< the scan in progress was received from its start
   std::size_t dropped_ = 0;
 };
 

@@ -8,9 +8,9 @@
 
 namespace cornerd::core {
 
-/// Standard deviation of a range by the range, as a calibration measured it. Straight lines join
-/// the points; nearer than the first its sigma holds, farther than the last one its share of the
-/// range does. Looked up for every return: a grid of 5 cm, no search, no allocation.
+/// Standard deviation of a range as a function of the range, from a calibration. Linear between the
+/// points; constant before the first; a constant share of the range after the last. Tabulated on a
+/// grid of 5 cm.
 class SigmaTable {
  public:
   struct Point {
@@ -20,12 +20,12 @@ class SigmaTable {
   static constexpr std::size_t kMaxPoints = 64;
 
   SigmaTable() = default;
-  /// `points`: in the order of growing ranges above 0; none: an empty table.
+  /// `points`: by ascending range above 0; empty: an empty table.
   explicit SigmaTable(std::span<const Point> points);
 
   bool empty() const { return end_m_ == 0; }
 
-  /// Of a table that is not empty.
+  /// Requires a table that is not empty.
   double sigma_m(double range_m) const {
     const double cell = std::max(range_m, 0.0) / kCellM;
     if (!(cell < kCells)) return share_beyond_ * range_m;
@@ -36,7 +36,7 @@ class SigmaTable {
 
  private:
   static constexpr double kCellM = 0.05;
-  static constexpr std::size_t kCells = 256;  ///< to 12.8 m: beyond the reach of an A1
+  static constexpr std::size_t kCells = 256;  ///< to 12.8 m: beyond an A1's range
 
   std::array<float, kCells + 1> sigma_m_{};
   double share_beyond_ = 0;

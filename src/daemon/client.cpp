@@ -42,7 +42,7 @@ Client::Input Client::receive(const Handle& handle) {
   if (count < 0) return errno == EAGAIN || errno == EINTR ? Input::kOpen : Input::kBroken;
   if (count == 0) {
     input_ended_ = true;
-    const std::string rest = input_.take_rest();
+    const std::string rest = input_.take_remainder();
     if (!rest.empty()) handle(rest);
     return Input::kOpen;
   }

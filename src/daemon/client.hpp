@@ -5,7 +5,7 @@
 #include <functional>
 #include <string_view>
 
-#include "daemon/file_descriptor.hpp"
+#include "daemon/require_fd.hpp"
 #include "daemon/line_splitter.hpp"
 #include "daemon/outbox.hpp"
 #include "message/request.hpp"

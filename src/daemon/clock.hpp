@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <ctime>
+#include <optional>
 
 #include "core/types.hpp"
 
@@ -17,5 +18,17 @@ inline std::int64_t clock_ns(clockid_t clock) {
 
 inline std::int64_t monotonic_ns() { return clock_ns(CLOCK_MONOTONIC); }
 inline core::TimeNs unix_ns() { return clock_ns(CLOCK_REALTIME); }
+
+/// Notices that somebody set the time of day: samples bear UNIX time, and a board without a battery
+/// begins with a wrong one.
+class ClockStepDetector {
+ public:
+  /// How far UNIX time has moved against the monotonic clock since the last call, where that is a
+  /// step and not the slewing of a time daemon.
+  std::optional<std::int64_t> step_ns(std::int64_t unix_ns, std::int64_t monotonic_ns);
+
+ private:
+  std::optional<std::int64_t> offset_ns_;
+};
 
 }  // namespace cornerd::daemon

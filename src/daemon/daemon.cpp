@@ -24,10 +24,10 @@ using std::chrono::milliseconds;
 constexpr milliseconds kTick{100};
 constexpr int kTicksPerStatus = 10;
 
-std::unique_ptr<core::Pipeline> resumed(std::unique_ptr<core::Pipeline> pipeline,
+std::unique_ptr<core::Pipeline> with_calibration(std::unique_ptr<core::Pipeline> pipeline,
                                         const settings::LidarConfig& config,
-                                        const LidarMemory& memory) {
-  if (config.learn_bias) pipeline->localizer().resume(memory.known());
+                                        const CalibrationFile& calibration) {
+  if (config.calibrate_online) pipeline->localizer().resume(calibration.estimate());
   return pipeline;
 }
 
@@ -46,13 +46,13 @@ Daemon::Daemon(Loaded loaded, Reloader::Load load, std::unique_ptr<drivers::Lida
       status_(server_, notifier_),
       tick_(kTick),
       reloader_(std::move(load)),
-      memory_(learned_file(config_.lidar), config_.lidar.bias),
+      calibration_(calibration_file_path(config_.lidar), config_.lidar.bias),
       lidar_(std::move(lidar)),
-      localization_(*lidar_, resumed(std::move(loaded.pipeline), config_.lidar, memory_),
+      localization_(*lidar_, with_calibration(std::move(loaded.pipeline), config_.lidar, calibration_),
                     source_of(config_.lidar.driver)) {
   open_sockets();
   // Only who has the sockets is this robot's daemon, and may touch its port.
-  localization_.publish_readings(config_.odometry.core.publish);
+  localization_.publish_predictions(config_.odometry.core.publish_predictions);
   localization_.start();
   // A recording brings its own.
   auto odometry = is_live_ ? make_odometry(config_.odometry) : nullptr;
@@ -64,7 +64,7 @@ Daemon::Daemon(Loaded loaded, Reloader::Load load, std::unique_ptr<drivers::Lida
   if (is_live_ && config_.odometry.source == settings::OdometrySource::kSocket) {
     status_.set_odometry(&odometry_clients_);
   }
-  ask_for_realtime();
+  set_up_realtime();
 
   loop_.add(signals_.fd(), EPOLLIN, [this](std::uint32_t) { on_signal(); });
   loop_.add(tick_.fd(), EPOLLIN, [this](std::uint32_t) { on_tick(); });
@@ -97,8 +97,8 @@ void Daemon::open_sockets() {
   }
 }
 
-/// Asked for and refused is worth a line, and costs nothing else.
-void Daemon::ask_for_realtime() {
+/// Asked for and rejected is worth a line, and costs nothing else.
+void Daemon::set_up_realtime() {
   const settings::RealtimeConfig& config = config_.realtime;
   if (config.priority > 0) {
     if (const int error = localization_.prioritize_reader(config.priority)) {
@@ -113,7 +113,7 @@ void Daemon::ask_for_realtime() {
     const int error = lock_memory();
     health_.memory_is_locked = error == 0;
     if (error != 0) {
-      touch_memory();
+      prefault_memory();
       spdlog::warn("memory is not locked: {}; the unit's real-time drop-in allows it",
                    std::strerror(error));
     }
@@ -124,12 +124,12 @@ ControlActions Daemon::control_actions(const settings::Config& config) {
   ControlActions actions;
   actions.relocalize = [this] { localization_.relocalize(); };
   actions.set_pose = [this](const message::SetPoseRequest& request) {
-    localization_.set_pose(request.T_map_base);
+    localization_.set_initial_pose(request.T_map_base);
   };
   if (config.odometry.source == settings::OdometrySource::kSocket) {
     actions.add_odometry = [this](message::OdometryReading reading, int connection) {
       using Verdict = OdometryClients::Verdict;
-      const Verdict verdict = odometry_clients_.admit(connection, monotonic_ns(), reading);
+      const Verdict verdict = odometry_clients_.accept(connection, monotonic_ns(), reading);
       if (is_live_) {
         reading.t_ns = reading.timed ? reading.t_ns - (unix_ns() - monotonic_ns()) : monotonic_ns();
       } else if (!reading.timed) {
@@ -137,10 +137,10 @@ ControlActions Daemon::control_actions(const settings::Config& config) {
         reading.t_ns = localization_.newest_sample_ns();
       }
       const bool says = reading.left || reading.right || reading.gyro_rad_s;
-      if (verdict == Verdict::kTaken || says) localization_.add(reading);
-      return verdict != Verdict::kRefusedAnew;
+      if (verdict == Verdict::kAccepted || says) localization_.add(reading);
+      return verdict != Verdict::kFirstRejection;
     };
-    actions.forget = [this](int connection) { odometry_clients_.forget(connection); };
+    actions.disconnect = [this](int connection) { odometry_clients_.disconnect(connection); };
   }
   return actions;
 }
@@ -178,12 +178,12 @@ void Daemon::on_loaded() {
   }
   const std::string name =
       fmt::format("{}, {} walls", loaded.map->plan().name, loaded.map->plan().walls.size());
-  if (!memory_.reconfigure(loaded.config.lidar.bias)) localization_.forget_lidar();
-  localization_.publish_readings(loaded.config.odometry.core.publish);
-  auto pipeline = resumed(std::move(loaded.pipeline), loaded.config.lidar, memory_);
-  scans_.expect_map(localization_.replace(std::move(pipeline)), std::move(loaded.map));
+  if (!calibration_.reconfigure(loaded.config.lidar.bias)) localization_.forget_lidar();
+  localization_.publish_predictions(loaded.config.odometry.core.publish_predictions);
+  auto pipeline = with_calibration(std::move(loaded.pipeline), loaded.config.lidar, calibration_);
+  scans_.set_next_map(localization_.replace_pipeline(std::move(pipeline)), std::move(loaded.map));
   if (health_.memory_is_locked) health_.memory_is_locked = lock_memory() == 0;
-  if (config_.realtime.lock_memory && !health_.memory_is_locked) touch_memory();
+  if (config_.realtime.lock_memory && !health_.memory_is_locked) prefault_memory();
   spdlog::info("map loaded: {}", name);
   server_.publish(message::MessageClass::kEvent, line_.event(now_ns(), "map loaded", name));
   notifier_.ready();
@@ -194,14 +194,14 @@ void Daemon::on_tick() {
   if (is_live_) {
     if (const auto step_ns = clock_.step_ns(unix_ns(), monotonic_ns())) {
       const std::string text = fmt::format("{:+.3f} s", core::to_seconds(*step_ns));
-      clock_steps_.say(text, monotonic_ns());
+      clock_steps_.add(text, monotonic_ns());
       server_.publish(message::MessageClass::kEvent, line_.event(now_ns(), "clock step", text));
     }
-    clock_steps_.tick(monotonic_ns());
+    clock_steps_.flush(monotonic_ns());
   }
   publish_changes();
-  notice_device();
-  const bool sensors_changed = odometry_ && odometry_->notice_changes(server_, now_ns());
+  update_calibration_file();
+  const bool sensors_changed = odometry_ && odometry_->publish_changes(server_, now_ns());
   const bool is_time = ticks_++ % kTicksPerStatus == 0;
   if (is_time || sensors_changed) {
     status_.publish(lidar_->status(), scans_, localization_, health_, now_ns());
@@ -211,21 +211,21 @@ void Daemon::on_tick() {
   }
 }
 
-void Daemon::notice_device() {
+void Daemon::update_calibration_file() {
   const drivers::LidarStatus lidar = lidar_->status();
-  if (!memory_.recognise(lidar.serial.view())) {
+  if (!calibration_.identify(lidar.serial.view())) {
     localization_.forget_lidar();
     const std::string text = fmt::format("serial number {}", lidar.serial.view());
     spdlog::info("another lidar, {}: what was learnt of the last one is forgotten", text);
     server_.publish(message::MessageClass::kEvent, line_.event(now_ns(), "another lidar", text));
   }
-  if (scans_.lidar() == localization_.lidar()) memory_.keep(scans_.bias());
+  if (scans_.lidar() == localization_.lidar()) calibration_.update(scans_.bias());
 }
 
 void Daemon::publish_changes() {
   drivers::LidarChange change;
   while (lidar_->take_change(change)) {
-    if (!status_.notice(change, now_ns())) continue;
+    if (!status_.update(change, now_ns())) continue;
     // Some states last for milliseconds: each is told all the same.
     drivers::LidarStatus then = lidar_->status();
     then.state = change.state;

@@ -6,20 +6,18 @@
 #include <string>
 
 #include "core/map/wall_map.hpp"
-#include "daemon/clock_watch.hpp"
+#include "daemon/calibration_file.hpp"
+#include "daemon/clock.hpp"
 #include "daemon/event_loop.hpp"
-#include "daemon/lidar_memory.hpp"
 #include "daemon/localization.hpp"
 #include "daemon/message_server.hpp"
-#include "daemon/notifier.hpp"
 #include "daemon/odometry_clients.hpp"
-#include "daemon/odometry_source.hpp"
-#include "daemon/periodic_timer.hpp"
+#include "daemon/odometry_reader.hpp"
+#include "daemon/rate_limited_log.hpp"
 #include "daemon/reloader.hpp"
-#include "daemon/repeated_log.hpp"
 #include "daemon/scan_publisher.hpp"
-#include "daemon/signals.hpp"
 #include "daemon/status_publisher.hpp"
+#include "daemon/systemd.hpp"
 #include "drivers/lidar_driver.hpp"
 #include "settings/config.hpp"
 
@@ -41,12 +39,12 @@ class Daemon {
   ControlActions control_actions(const settings::Config& config);
   void on_tick();
   void publish_changes();
-  void notice_device();
+  void update_calibration_file();
   void on_watchdog();
   void on_signal();
   void on_loaded();
   void open_sockets();
-  void ask_for_realtime();
+  void set_up_realtime();
   /// On the clock of the samples: UNIX time live, the recording's own in a replay.
   core::TimeNs now_ns() const;
 
@@ -59,18 +57,18 @@ class Daemon {
   MessageServer server_;
   ScanPublisher scans_;
   StatusPublisher status_;
-  ClockWatch clock_;
-  RepeatedLog clock_steps_{spdlog::level::warn, "clock step"};
+  ClockStepDetector clock_;
+  RateLimitedLog clock_steps_{spdlog::level::warn, "clock step"};
   PeriodicTimer tick_;
   std::optional<PeriodicTimer> watchdog_;
   message::LineWriter line_;
   int ticks_ = 0;
   DaemonHealth health_;
   Reloader reloader_;
-  LidarMemory memory_;
+  CalibrationFile calibration_;
   std::unique_ptr<drivers::LidarDriver> lidar_;
   Localization localization_;               ///< before what is below: its threads end first
-  std::optional<OdometrySource> odometry_;  ///< feeds it
+  std::optional<OdometryReader> odometry_;  ///< feeds it
 };
 
 }  // namespace cornerd::daemon

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <functional>
 #include <memory>
 #include <unordered_map>
 
-#include "daemon/file_descriptor.hpp"
+#include "daemon/require_fd.hpp"
 
 namespace cornerd::daemon {
 
@@ -40,6 +41,40 @@ class EventLoop {
   std::unordered_map<int, Registration> registrations_;
   std::uint32_t newest_ = 0;
   bool running_ = false;
+};
+
+/// A descriptor that becomes readable once a period.
+class PeriodicTimer {
+ public:
+  /// Throws std::system_error.
+  explicit PeriodicTimer(std::chrono::nanoseconds period);
+
+  int fd() const { return fd_.get(); }
+  /// No longer readable until the next period. Returns by how much this one is late.
+  std::chrono::nanoseconds acknowledge();
+
+ private:
+  std::chrono::nanoseconds period_;
+  FileDescriptor fd_;
+  std::chrono::nanoseconds due_;  ///< on the monotonic clock
+};
+
+/// From here on SIGHUP waits for a Signals to take it, and ends nothing.
+void block_reloads();
+
+/// SIGTERM, SIGINT and SIGHUP as something to wait for. From its construction on none of them ends
+/// the program. Make it before any thread, since threads inherit that the signals are blocked.
+class Signals {
+ public:
+  /// Throws std::system_error.
+  Signals();
+
+  int fd() const { return fd_.get(); }
+  /// The number of the signal that came; 0 where none did.
+  int take() const;
+
+ private:
+  FileDescriptor fd_;
 };
 
 }  // namespace cornerd::daemon

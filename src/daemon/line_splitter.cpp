@@ -10,10 +10,10 @@ void LineSplitter::feed(std::string_view bytes) {
   const std::size_t fresh = bytes_.size();
   bytes_ += bytes;
   if (!has_line()) newline_ = bytes_.find('\n', fresh);
-  pass_over_empty();
+  skip_empty();
 }
 
-void LineSplitter::pass_over_empty() {
+void LineSplitter::skip_empty() {
   while (has_line() && (size() == 0 || (size() == 1 && bytes_[begin_] == '\r'))) {
     begin_ = newline_ + 1;
     newline_ = bytes_.find('\n', begin_);
@@ -26,13 +26,13 @@ std::optional<std::string_view> LineSplitter::next() {
   if (line.ends_with('\r')) line.remove_suffix(1);
   begin_ = newline_ + 1;
   newline_ = bytes_.find('\n', begin_);
-  pass_over_empty();
+  skip_empty();
   return line;
 }
 
 bool LineSplitter::is_too_long() const { return size() > max_bytes_; }
 
-std::string LineSplitter::take_rest() {
+std::string LineSplitter::take_remainder() {
   std::string rest = bytes_.substr(begin_);
   bytes_.clear();
   begin_ = 0;

@@ -24,12 +24,12 @@ class LineSplitter {
   bool is_too_long() const;
 
   /// What came after the last newline; the stream has ended.
-  std::string take_rest();
+  std::string take_remainder();
 
  private:
   /// Of the next line, or of the part of it that is there.
   std::size_t size() const { return (has_line() ? newline_ : bytes_.size()) - begin_; }
-  void pass_over_empty();
+  void skip_empty();
 
   std::size_t max_bytes_;
   std::string bytes_;

@@ -18,7 +18,7 @@ namespace {
 constexpr std::size_t kReportSlots = 16;
 /// Two seconds of a controller that sends 500 a second: a turn takes one at most.
 constexpr std::size_t kReadingSlots = 1024;
-constexpr std::size_t kGivenPoseSlots = 4;
+constexpr std::size_t kInitialPoseSlots = 4;
 /// More than a tenth of a second of readings.
 constexpr std::size_t kPredictionSlots = 64;
 
@@ -32,7 +32,7 @@ Localization::Localization(drivers::LidarDriver& driver, std::unique_ptr<core::P
       channel_(source == SourceKind::kDevice ? SampleChannel::WhenFull::kLose
                                              : SampleChannel::WhenFull::kWait),
       readings_(kReadingSlots),
-      given_poses_(kGivenPoseSlots),
+      initial_poses_(kInitialPoseSlots),
       reports_(kReportSlots),
       predictions_(kPredictionSlots),
       reported_(require_fd(::eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC), "eventfd")) {}
@@ -72,13 +72,13 @@ void Localization::localize(const std::stop_token& stop) {
     const std::uint32_t seen = channel_.wakes();
     if (stop.stop_requested()) return;
     while (!stop.stop_requested() && channel_.pop(item)) process(item);
-    if (publishes_readings_.load(std::memory_order_relaxed)) take_readings();
+    if (publishes_predictions_.load(std::memory_order_relaxed)) take_readings();
     rounds_.fetch_add(1, std::memory_order_relaxed);
     channel_.wait(seen);
   }
 }
 
-std::uint32_t Localization::replace(std::unique_ptr<core::Pipeline> pipeline) {
+std::uint32_t Localization::replace_pipeline(std::unique_ptr<core::Pipeline> pipeline) {
   delete next_.exchange(nullptr);
   delete retired_.exchange(nullptr);
   next_.store(new Generation{std::move(pipeline), ++newest_, lidar()});
@@ -86,12 +86,12 @@ std::uint32_t Localization::replace(std::unique_ptr<core::Pipeline> pipeline) {
 }
 
 void Localization::process(const SampleChannel::Item& item) {
-  if (item.arrival_ns != 0) own_health_.lateness.add(monotonic_ns() - item.arrival_ns);
+  if (item.arrival_ns != 0) own_health_.latency.add(monotonic_ns() - item.arrival_ns);
   process(*current_->pipeline, item);
-  if (item.arrival_ns != 0) succeed(item);
+  if (item.arrival_ns != 0) swap_pipeline(item);
 }
 
-void Localization::succeed(const SampleChannel::Item& item) {
+void Localization::swap_pipeline(const SampleChannel::Item& item) {
   // The one before has yet to be fetched by whoever frees it.
   if (next_.load() == nullptr || retired_.load() != nullptr) return;
   Generation* const next = next_.exchange(nullptr);
@@ -110,7 +110,7 @@ void Localization::process(core::Pipeline& pipeline, const SampleChannel::Item& 
     current_->lidar = now;
   }
   core::Pose2 T_map_base;
-  while (given_poses_.pop(T_map_base)) pipeline.localizer().set_pose(T_map_base);
+  while (initial_poses_.pop(T_map_base)) pipeline.localizer().set_pose(T_map_base);
   take_readings();
   if (item.kind == SampleChannel::Kind::kReading) return report(pipeline.add(item.reading));
   const core::ScanResult* result =
@@ -171,13 +171,13 @@ void Localization::clear_event() const {
 }
 
 bool Localization::has_progressed() {
-  const std::uint32_t rounds = rounds_.load(std::memory_order_relaxed);
-  const std::uint32_t driver_rounds = driver_.rounds();
+  const std::uint32_t progress_count = rounds_.load(std::memory_order_relaxed);
+  const std::uint32_t driver_rounds = driver_.progress_count();
   const bool reader_lives =
       driver_rounds != driver_rounds_seen_ || reader_has_ended_.load(std::memory_order_relaxed);
   channel_.wake();
-  if (rounds == rounds_seen_ || !reader_lives) return false;
-  rounds_seen_ = rounds;
+  if (progress_count == rounds_seen_ || !reader_lives) return false;
+  rounds_seen_ = progress_count;
   driver_rounds_seen_ = driver_rounds;
   return true;
 }

@@ -6,11 +6,11 @@
 #include <memory>
 #include <thread>
 
-#include "core/lateness.hpp"
-#include "core/latest.hpp"
+#include "core/latency_histogram.hpp"
+#include "core/triple_buffer.hpp"
 #include "core/pipeline.hpp"
 #include "core/ring_buffer.hpp"
-#include "daemon/file_descriptor.hpp"
+#include "daemon/require_fd.hpp"
 #include "daemon/sample_channel.hpp"
 #include "daemon/slot_exchange.hpp"
 #include "drivers/lidar_driver.hpp"
@@ -35,7 +35,7 @@ struct ScanReport {
 
 /// How a thread keeps its time.
 struct LoopHealth {
-  core::Lateness lateness;
+  core::LatencyHistogram latency;
   std::uint64_t page_faults = 0;
 };
 
@@ -76,16 +76,16 @@ class Localization {
   /// another. One that finds no room is lost; the next one's counts make up for it.
   void add(const core::OdometryReading& reading) {
     readings_.push(reading);
-    if (publishes_readings_.load(std::memory_order_relaxed)) channel_.wake();
+    if (publishes_predictions_.load(std::memory_order_relaxed)) channel_.wake();
   }
   /// Now by the clock of the samples: the newest one's time, whose turn may still be going on.
   core::TimeNs newest_sample_ns() const { return channel_.newest_ns(); }
-  /// A pose for every reading, be there turns or not: odometry.publish.
-  void publish_readings(bool every) { publishes_readings_.store(every, std::memory_order_relaxed); }
+  /// A pose for every reading, be there turns or not: odometry.publish_predictions.
+  void publish_predictions(bool every) { publishes_predictions_.store(every, std::memory_order_relaxed); }
   /// The robot is about there.
-  void set_pose(const core::Pose2& T_map_base) { given_poses_.push(T_map_base); }
+  void set_initial_pose(const core::Pose2& T_map_base) { initial_poses_.push(T_map_base); }
   /// From the next turn on this one localizes; it knows nothing yet. Returns its generation.
-  std::uint32_t replace(std::unique_ptr<core::Pipeline> pipeline);
+  std::uint32_t replace_pipeline(std::unique_ptr<core::Pipeline> pipeline);
   /// The next turn is recognised without a prior.
   void relocalize() { relocalize_.store(true, std::memory_order_relaxed); }
   /// Another lidar, or one that is taken for another: what was learnt of the last one is forgotten.
@@ -97,7 +97,7 @@ class Localization {
   /// localizer to.
   bool has_progressed();
 
-  /// Lateness: from when a turn's last sample was handed over to when the localizer looks at it.
+  /// LatencyHistogram: from when a turn's last sample was handed over to when the localizer looks at it.
   LoopHealth localizer_health() { return health_.read(); }
   std::uint64_t reader_page_faults() const { return channel_.producer_page_faults(); }
 
@@ -118,7 +118,7 @@ class Localization {
   void report(const core::Pipeline& pipeline, const core::ScanResult& result,
               std::int64_t arrival_ns);
   /// Puts the next pipeline, where there is one, in the place of this, between two turns.
-  void succeed(const SampleChannel::Item& item);
+  void swap_pipeline(const SampleChannel::Item& item);
   void take_readings();
   void report(const core::PoseEstimate* prediction);
   void clear_event() const;
@@ -134,13 +134,13 @@ class Localization {
   std::uint32_t newest_ = 0;  ///< number of the last one that was handed over
   SampleChannel channel_;
   core::RingBuffer<core::OdometryReading> readings_;
-  core::RingBuffer<core::Pose2> given_poses_;
+  core::RingBuffer<core::Pose2> initial_poses_;
   SlotExchange<ScanReport> reports_;
   SlotExchange<core::PoseEstimate> predictions_;
-  std::atomic<bool> publishes_readings_{false};
+  std::atomic<bool> publishes_predictions_{false};
   FileDescriptor reported_;
   LoopHealth own_health_;  ///< the localizer's thread's
-  core::Latest<LoopHealth> health_;
+  core::TripleBuffer<LoopHealth> health_;
   std::atomic<bool> relocalize_{false};
   std::atomic<std::uint32_t> lidar_{0};  ///< counts them
   std::atomic<std::uint32_t> lost_reports_{0};

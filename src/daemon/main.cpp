@@ -14,13 +14,13 @@
 #include <utility>
 
 #include "daemon/daemon.hpp"
+#include "daemon/event_loop.hpp"
 #include "daemon/lidar_factory.hpp"
 #include "daemon/log.hpp"
 #include "daemon/options.hpp"
 #include "daemon/realtime.hpp"
 #include "daemon/reloader.hpp"
-#include "daemon/signals.hpp"
-#include "drivers/serial/standard_streams.hpp"
+#include "drivers/serial/file_descriptor.hpp"
 #include "settings/config.hpp"
 #include "settings/map_file.hpp"
 
@@ -32,10 +32,10 @@ constexpr int kExitFailed = 1;
 constexpr int kExitUsage = 2;
 
 /// Nobody may read it: then it ends all the same.
-void complain(const std::string& what) {
-  constexpr int kPatienceMs = 1000;
+void print_error(const std::string& what) {
+  constexpr int kTimeoutMs = 1000;
   pollfd stream{.fd = STDERR_FILENO, .events = POLLOUT, .revents = 0};
-  if (::poll(&stream, 1, kPatienceMs) > 0) std::fprintf(stderr, "cornerd: %s\n", what.c_str());
+  if (::poll(&stream, 1, kTimeoutMs) > 0) std::fprintf(stderr, "cornerd: %s\n", what.c_str());
 }
 
 void print(std::string_view text) {
@@ -91,7 +91,7 @@ int run(const daemon::Options& options) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  daemon::hold_reloads();
+  daemon::block_reloads();
   drivers::occupy_standard_streams();
   // Whoever read the log is gone: no reason to follow.
   std::signal(SIGPIPE, SIG_IGN);
@@ -99,13 +99,13 @@ int main(int argc, char** argv) {
     const std::span<const char* const> arguments(argv, static_cast<std::size_t>(argc));
     return run(daemon::parse_options(arguments.subspan(argc > 0 ? 1 : 0)));
   } catch (const daemon::UsageError& error) {
-    complain(std::string(error.what()) + "\ncornerd --help says more");
+    print_error(std::string(error.what()) + "\ncornerd --help says more");
     return kExitUsage;
   } catch (const settings::SettingsError& error) {
-    complain(error.what());
+    print_error(error.what());
     return settings::kExitConfig;
   } catch (const std::exception& error) {
-    complain(error.what());
+    print_error(error.what());
     return kExitFailed;
   }
 }

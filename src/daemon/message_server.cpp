@@ -9,7 +9,7 @@
 #include <utility>
 #include <variant>
 
-#include "daemon/peer.hpp"
+#include "daemon/unix_listener.hpp"
 
 namespace cornerd::daemon {
 namespace {
@@ -69,8 +69,8 @@ void MessageServer::serve(Socket& socket) {
 
 void MessageServer::restore_sockets(const std::function<void(const std::string& line)>& tell) {
   for (Socket& socket : sockets_) {
-    if (socket.listener->is_there()) {
-      socket.is_given_up = false;
+    if (socket.listener->file_exists()) {
+      socket.restore_failed = false;
       continue;
     }
     const std::filesystem::path path = socket.listener->path();
@@ -81,7 +81,7 @@ void MessageServer::restore_sockets(const std::function<void(const std::string& 
       serve(socket);
       tell(path.string() + ": was removed, and is there again");
     } catch (const std::exception& error) {
-      if (!std::exchange(socket.is_given_up, true)) tell(error.what());
+      if (!std::exchange(socket.restore_failed, true)) tell(error.what());
     }
   }
 }
@@ -93,17 +93,18 @@ void MessageServer::accept_clients(Socket& socket) {
     // The file's mode says the same, unless somebody has changed it.
     const std::optional<Peer> peer = peer_of(fd.get());
     if (!peer || !belongs_to(*peer, socket.listener->group(), ::geteuid())) {
-      return turn_away(std::move(fd), "forbidden", "this is for members of the socket's group");
+      return reject(std::move(fd), "forbidden", "this is for members of the socket's group");
     }
   }
-  if (clients() >= kMaxClients && !make_room(socket)) {
-    return turn_away(std::move(fd), "too-many-clients", "no more clients are served");
+  if (clients() >= kMaxClients && !evict_pose_client(socket)) {
+    return reject(std::move(fd), "too-many-clients", "no more clients are served");
   }
-  welcome(socket, std::move(fd));
+  add_client(socket, std::move(fd));
 }
 
-bool MessageServer::make_room(const Socket& socket) {
-  if (socket.role != SocketRole::kControl || socket.clients.size() >= kSureOfControl) return false;
+bool MessageServer::evict_pose_client(const Socket& socket) {
+  if (socket.role != SocketRole::kControl || socket.clients.size() >= kReservedControlClients)
+    return false;
   for (Socket& other : sockets_) {
     if (other.role != SocketRole::kPose || other.clients.empty()) continue;
     const ClientIterator newest = std::prev(other.clients.end());
@@ -116,13 +117,13 @@ bool MessageServer::make_room(const Socket& socket) {
   return false;
 }
 
-void MessageServer::turn_away(FileDescriptor fd, std::string_view code, std::string_view reason) {
+void MessageServer::reject(FileDescriptor fd, std::string_view code, std::string_view reason) {
   Client client(std::move(fd), {});
   client.outbox().answer(line_.error(code, reason, "", ""));
   static_cast<void>(client.send());
 }
 
-void MessageServer::welcome(Socket& socket, FileDescriptor fd) {
+void MessageServer::add_client(Socket& socket, FileDescriptor fd) {
   const ClientIterator client =
       socket.clients.emplace(socket.clients.end(), std::move(fd), default_classes(socket.role));
   client->outbox().answer(line_.version("cornerd", version_));
@@ -139,17 +140,17 @@ void MessageServer::welcome(Socket& socket, FileDescriptor fd) {
 void MessageServer::handle_events(Socket& socket, ClientIterator client, std::uint32_t events) {
   const auto handle = [&](std::string_view line) { answer(*client, socket.role, line); };
   if (events & EPOLLIN) {
-    if (!go_on_with(socket, client, client->receive(handle))) return;
+    if (!handle_input_result(socket, client, client->receive(handle))) return;
   } else if (events & (EPOLLHUP | EPOLLERR)) {
     return remove(socket, client);
   }
   // Answers that were sent make room for those to what was asked in the same breath.
   while (send_or_remove(socket, client) && client->has_requests() && !client->is_blocked()) {
-    if (!go_on_with(socket, client, client->handle_requests(handle))) return;
+    if (!handle_input_result(socket, client, client->handle_requests(handle))) return;
   }
 }
 
-bool MessageServer::go_on_with(Socket& socket, ClientIterator client, Client::Input input) {
+bool MessageServer::handle_input_result(Socket& socket, ClientIterator client, Client::Input input) {
   if (input == Client::Input::kOpen) return true;
   if (input == Client::Input::kTooLong) {
     client->outbox().answer(line_.error("too-long", "a line has at most 64 KiB", "", ""));
@@ -169,8 +170,8 @@ bool MessageServer::send_or_remove(Socket& socket, ClientIterator client) {
 }
 
 void MessageServer::remove(Socket& socket, ClientIterator client) {
-  dropped_by_gone_ += client->outbox().dropped();
-  if (actions_.forget) actions_.forget(client->fd());
+  dropped_by_closed_ += client->outbox().dropped();
+  if (actions_.disconnect) actions_.disconnect(client->fd());
   loop_.remove(client->fd());
   socket.clients.erase(client);
 }
@@ -262,7 +263,7 @@ std::size_t MessageServer::clients() const {
 }
 
 std::uint64_t MessageServer::dropped() const {
-  std::uint64_t count = dropped_by_gone_;
+  std::uint64_t count = dropped_by_closed_;
   for (const Socket& socket : sockets_) {
     for (const Client& client : socket.clients) count += client.outbox().dropped();
   }

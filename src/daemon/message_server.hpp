@@ -13,9 +13,9 @@
 
 #include "daemon/client.hpp"
 #include "daemon/event_loop.hpp"
-#include "daemon/inherited_sockets.hpp"
+#include "daemon/systemd.hpp"
 #include "daemon/unix_listener.hpp"
-#include "message/line.hpp"
+#include "message/line_writer.hpp"
 #include "message/request.hpp"
 
 namespace cornerd::daemon {
@@ -32,7 +32,7 @@ struct ControlActions {
   /// is no longer heard when its answers fill its queue. `connection`: that which it came by.
   std::function<bool(const message::OdometryReading&, int connection)> add_odometry = {};
   /// A connection has ended; optional.
-  std::function<void(int connection)> forget = {};
+  std::function<void(int connection)> disconnect = {};
 };
 
 /// The clients of both sockets: sends them what they watch, answers what they ask. One thread, that
@@ -43,7 +43,7 @@ class MessageServer {
   static constexpr std::size_t kMaxClients = 32;
   /// So many find room on the control socket though others have taken it all: anybody may listen
   /// for poses, and is not to keep the robot's own programs out.
-  static constexpr std::size_t kSureOfControl = 4;
+  static constexpr std::size_t kReservedControlClients = 4;
 
   MessageServer(EventLoop& loop, std::string version, ControlActions actions);
   ~MessageServer();
@@ -74,7 +74,7 @@ class MessageServer {
         : listener(std::make_unique<UnixListener>(path, std::move(inherited))), role(its_role) {}
     std::unique_ptr<UnixListener> listener;
     SocketRole role;
-    bool is_given_up = false;  ///< its file is gone, and cannot be made again
+    bool restore_failed = false;  ///< its file is gone, and cannot be made again
     std::list<Client> clients;
   };
   using ClientIterator = std::list<Client>::iterator;
@@ -82,13 +82,13 @@ class MessageServer {
   void serve(Socket& socket);
   void accept_clients(Socket& socket);
   /// Sends the newest client of the pose socket away where one that comes may have its place.
-  bool make_room(const Socket& socket);
-  void welcome(Socket& socket, FileDescriptor fd);
+  bool evict_pose_client(const Socket& socket);
+  void add_client(Socket& socket, FileDescriptor fd);
   /// Tells a client why, and no more.
-  void turn_away(FileDescriptor fd, std::string_view code, std::string_view reason);
+  void reject(FileDescriptor fd, std::string_view code, std::string_view reason);
   void handle_events(Socket& socket, ClientIterator client, std::uint32_t events);
   /// False where the client had to be removed.
-  bool go_on_with(Socket& socket, ClientIterator client, Client::Input input);
+  bool handle_input_result(Socket& socket, ClientIterator client, Client::Input input);
   /// Sends what waits; removes the client where it is gone. False where it was.
   bool send_or_remove(Socket& socket, ClientIterator client);
   void remove(Socket& socket, ClientIterator client);
@@ -101,7 +101,7 @@ class MessageServer {
   message::LineWriter line_;
   std::list<Socket> sockets_;
   std::array<std::string, 8> newest_;  ///< by class
-  std::uint64_t dropped_by_gone_ = 0;
+  std::uint64_t dropped_by_closed_ = 0;
 };
 
 }  // namespace cornerd::daemon

@@ -37,15 +37,15 @@ Outbox::Result Outbox::write_line(std::string_view line, const Write& write) {
   const std::ptrdiff_t written = write(line);
   if (written < 0) return Result::kBroken;
   if (written == 0) return Result::kBlocked;
-  torn_ = std::string(line.substr(static_cast<std::size_t>(written)));
+  partial_ = std::string(line.substr(static_cast<std::size_t>(written)));
   return Result::kEmpty;
 }
 
 Outbox::Result Outbox::flush(const Write& write) {
   while (true) {
     Result result = Result::kEmpty;
-    if (!torn_.empty()) {
-      result = write_line(std::string(torn_), write);
+    if (!partial_.empty()) {
+      result = write_line(std::string(partial_), write);
     } else if (!answers_.empty()) {
       result = write_line(answers_.front(), write);
       if (result == Result::kEmpty) answers_.pop_front();

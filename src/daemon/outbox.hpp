@@ -49,7 +49,7 @@ class Outbox {
   Slot* oldest();
   Result write_line(std::string_view line, const Write& write);
 
-  std::string torn_;  ///< rest of a line that was begun
+  std::string partial_;  ///< rest of a line that was begun
   std::deque<std::string> answers_;
   std::array<Slot, kClasses> slots_;
   std::uint64_t order_ = 0;

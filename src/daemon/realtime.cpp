@@ -58,7 +58,7 @@ void use_small_stacks() {
 
 int lock_memory() { return ::mlockall(MCL_CURRENT) == 0 ? 0 : errno; }
 
-bool touch_memory() {
+bool prefault_memory() {
   bool is_known = true;
   for (const Mapping& mapping : mappings()) {
     const int result = ::madvise(mapping.begin, mapping.size,

@@ -16,7 +16,7 @@ int lock_memory();
 
 /// Gives every page that is mapped now its memory, so that nobody waits for one later; it may still
 /// be swapped. For where locking is refused. False on kernels that cannot, those before 5.14.
-bool touch_memory();
+bool prefault_memory();
 
 /// Page faults of the calling thread so far, those that took no I/O included.
 std::uint64_t page_faults_of_thread();

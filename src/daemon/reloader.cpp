@@ -14,9 +14,9 @@ Reloader::Reloader(Load load)
       done_(require_fd(::eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC), "eventfd")) {}
 
 void Reloader::start() {
-  once_more_ = loads_;
-  if (loads_) return;
-  loads_ = true;
+  reload_pending_ = is_loading_;
+  if (is_loading_) return;
+  is_loading_ = true;
   thread_ = std::jthread([this] { run(); });
 }
 
@@ -33,9 +33,9 @@ Reloader::Outcome Reloader::take() {
   eventfd_t count = 0;
   ::eventfd_read(done_.get(), &count);
   thread_.join();
-  loads_ = false;
+  is_loading_ = false;
   Outcome outcome = std::exchange(outcome_, {});
-  if (std::exchange(once_more_, false)) start();
+  if (std::exchange(reload_pending_, false)) start();
   return outcome;
 }
 

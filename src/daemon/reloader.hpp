@@ -8,7 +8,7 @@
 
 #include "core/map/wall_map.hpp"
 #include "core/pipeline.hpp"
-#include "daemon/file_descriptor.hpp"
+#include "daemon/require_fd.hpp"
 #include "settings/config.hpp"
 
 namespace cornerd::daemon {
@@ -48,8 +48,8 @@ class Reloader {
 
   Load load_;
   FileDescriptor done_;
-  bool loads_ = false;
-  bool once_more_ = false;
+  bool is_loading_ = false;
+  bool reload_pending_ = false;
   Outcome outcome_;  ///< the thread's, until done_ says otherwise
   std::jthread thread_;
 };

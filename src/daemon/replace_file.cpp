@@ -8,7 +8,7 @@
 #include <string>
 #include <system_error>
 
-#include "daemon/file_descriptor.hpp"
+#include "daemon/require_fd.hpp"
 
 namespace cornerd::daemon {
 namespace {

@@ -31,13 +31,13 @@ bool SampleChannel::push(const Item& item) {
 }
 
 void SampleChannel::on_sample(const core::Sample& sample) {
-  if (owes_gap_) on_gap();
+  if (gap_pending_) on_gap();
   newest_ns_.store(sample.t_ns, std::memory_order_relaxed);
   const bool may_complete_scan = sample.starts_scan || sample.ends_scan;
   const std::int64_t arrival_ns = may_complete_scan ? monotonic_ns() : 0;
   const Item item{.sample = sample, .reading = {}, .arrival_ns = arrival_ns, .kind = Kind::kSample};
-  if (owes_gap_ || !push(item)) {
-    owes_gap_ = true;
+  if (gap_pending_ || !push(item)) {
+    gap_pending_ = true;
     lost_.fetch_add(1, std::memory_order_relaxed);
   }
   if (may_complete_scan || ++since_wake_ >= kWakeInterval) {
@@ -49,7 +49,7 @@ void SampleChannel::on_sample(const core::Sample& sample) {
 }
 
 void SampleChannel::on_gap() {
-  owes_gap_ =
+  gap_pending_ =
       !push({.sample = {}, .reading = {}, .arrival_ns = monotonic_ns(), .kind = Kind::kGap});
   wake();
 }

@@ -59,7 +59,7 @@ class SampleChannel final : public drivers::SampleSink {
   const WhenFull when_full_;
   core::RingBuffer<Item> ring_;
   std::uint32_t since_wake_ = 0;
-  bool owes_gap_ = false;  ///< samples were lost, and the consumer does not know yet
+  bool gap_pending_ = false;  ///< samples were lost, and the consumer does not know yet
   std::atomic<std::uint32_t> wakes_{0};
   std::atomic<core::TimeNs> newest_ns_{0};
   std::atomic<std::uint32_t> lost_{0};

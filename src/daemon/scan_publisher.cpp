@@ -10,7 +10,7 @@
 
 #include "core/geometry/angle.hpp"
 #include "daemon/clock.hpp"
-#include "message/state_names.hpp"
+#include "message/line_writer.hpp"
 
 namespace cornerd::daemon {
 
@@ -22,14 +22,14 @@ namespace {
 constexpr double kJump_m = 0.5;
 constexpr double kJump_rad = core::radians(60);
 /// No robot is told that it turned round because turns were missing.
-constexpr double kJumpAtAll_rad = core::radians(179);
+constexpr double kMaxJump_rad = core::radians(179);
 
 }  // namespace
 
 ScanPublisher::ScanPublisher(MessageServer& server, std::shared_ptr<const core::WallMap> map)
     : server_(server), map_(std::move(map)) {}
 
-void ScanPublisher::expect_map(std::uint32_t generation, std::shared_ptr<const core::WallMap> map) {
+void ScanPublisher::set_next_map(std::uint32_t generation, std::shared_ptr<const core::WallMap> map) {
   next_generation_ = generation;
   next_map_ = std::move(map);
 }
@@ -39,7 +39,7 @@ void ScanPublisher::publish(const ScanReport& report) {
   if (next_map_ && report.generation == next_generation_) {
     map_ = std::move(next_map_);
     next_map_.reset();
-    last_fix_.reset();  // places of one map say nothing about another's
+    last_fix_.reset();  // places of one map add nothing about another's
   }
   latencies_.add(core::to_seconds(report.latency_ns));
   ++poses_[static_cast<std::size_t>(pose.state)];
@@ -58,21 +58,21 @@ void ScanPublisher::publish(const ScanReport& report) {
   }
   if (pose.state != state_) publish_change(pose.state, pose.t_ns);
   publish_jump(pose, report.number);
-  jumps_.tick(monotonic_ns());
+  jumps_.flush(monotonic_ns());
 }
 
 void ScanPublisher::publish_jump(const core::PoseEstimate& pose, std::uint64_t number) {
-  if (!core::names_a_place(pose.state)) return;
+  if (!core::has_pose(pose.state)) return;
   if (last_fix_) {
     const auto scans = static_cast<double>(number - last_fix_->number);
     const double way_m =
         (pose.T_map_base.translation() - last_fix_->T_map_base.translation()).norm();
     const double rotated_rad =
         std::abs(core::angle_between(last_fix_->T_map_base.theta_rad, pose.T_map_base.theta_rad));
-    if (way_m > kJump_m * scans || rotated_rad > std::min(kJump_rad * scans, kJumpAtAll_rad)) {
+    if (way_m > kJump_m * scans || rotated_rad > std::min(kJump_rad * scans, kMaxJump_rad)) {
       const std::string text =
           fmt::format("{:.3f} m, {:.1f} degrees", way_m, core::degrees(rotated_rad));
-      jumps_.say(text, monotonic_ns());
+      jumps_.add(text, monotonic_ns());
       server_.publish(MessageClass::kEvent, line_.event(pose.t_ns, "jump", text));
     }
   }

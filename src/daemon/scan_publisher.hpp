@@ -10,8 +10,8 @@
 #include "daemon/latency_window.hpp"
 #include "daemon/localization.hpp"
 #include "daemon/message_server.hpp"
-#include "daemon/repeated_log.hpp"
-#include "message/line.hpp"
+#include "daemon/rate_limited_log.hpp"
+#include "message/line_writer.hpp"
 
 namespace cornerd::daemon {
 
@@ -24,7 +24,7 @@ class ScanPublisher {
 
   void publish(const ScanReport& report);
   /// The map of the turns from that generation on.
-  void expect_map(std::uint32_t generation, std::shared_ptr<const core::WallMap> map);
+  void set_next_map(std::uint32_t generation, std::shared_ptr<const core::WallMap> map);
   /// A pose between two turns. It is no turn's, and changes no state.
   void publish(const core::PoseEstimate& pose);
 
@@ -33,7 +33,7 @@ class ScanPublisher {
   std::optional<core::PoseState> state() const { return state_; }
   /// What the newest turn knew of it.
   const core::OdometrySummary& odometry() const { return odometry_; }
-  const core::LearnedBias& bias() const { return bias_; }
+  const core::EstimatedBias& bias() const { return bias_; }
   /// That the bias is of: Localization::lidar().
   std::uint32_t lidar() const { return lidar_; }
   core::TimeNs end_of_newest_scan_ns() const { return end_ns_; }
@@ -54,11 +54,11 @@ class ScanPublisher {
   };
   std::optional<Fix> last_fix_;
   message::LineWriter line_;
-  RepeatedLog jumps_{spdlog::level::info, "jump"};
+  RateLimitedLog jumps_{spdlog::level::info, "jump"};
   LatencyWindow latencies_;
   std::optional<core::PoseState> state_;
   core::OdometrySummary odometry_;
-  core::LearnedBias bias_;
+  core::EstimatedBias bias_;
   std::uint32_t lidar_ = 0;
   core::TimeNs end_ns_ = 0;
   std::array<std::uint64_t, kStates> poses_{};

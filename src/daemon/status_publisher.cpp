@@ -7,8 +7,8 @@
 #include <array>
 #include <string_view>
 
-#include "drivers/counter_names.hpp"
-#include "message/state_names.hpp"
+#include "drivers/lidar_status.hpp"
+#include "message/line_writer.hpp"
 
 namespace cornerd::daemon {
 namespace {
@@ -23,9 +23,9 @@ constexpr std::array<std::string_view, ScanPublisher::kStates> kPoseCounterNames
     "poses_fix", "poses_tracking", "poses_predicted", "poses_ambiguous", "poses_lost"};
 
 /// A driver has fewer different things to say.
-constexpr std::size_t kMostWords = 64;
+constexpr std::size_t kMaxTexts = 64;
 
-bool is_trouble(const drivers::LidarChange& change) {
+bool is_fault(const drivers::LidarChange& change) {
   return change.fault != LidarFault::kNone || change.state == LidarState::kFaulty ||
          change.state == LidarState::kAbsent || change.state == LidarState::kBackoff;
 }
@@ -52,7 +52,7 @@ std::string_view name_of(const std::optional<drivers::LidarChange>& from,
 StatusPublisher::StatusPublisher(MessageServer& server, Notifier& notifier)
     : server_(server), notifier_(notifier) {}
 
-bool StatusPublisher::notice(const drivers::LidarChange& change, core::TimeNs t_ns) {
+bool StatusPublisher::update(const drivers::LidarChange& change, core::TimeNs t_ns) {
   const std::string text = describe(change.state, change.fault, change.detail.view());
   if (text == text_) return false;
   text_ = text;
@@ -66,10 +66,10 @@ bool StatusPublisher::notice(const drivers::LidarChange& change, core::TimeNs t_
 }
 
 void StatusPublisher::log_once(const drivers::LidarChange& change, const std::string& text) {
-  if (change.state == LidarState::kRunning) said_.clear();
-  if (said_.size() == kMostWords) said_.clear();
-  if (!said_.insert(text).second) return;
-  spdlog::log(is_trouble(change) ? spdlog::level::warn : spdlog::level::info, "lidar {}", text);
+  if (change.state == LidarState::kRunning) logged_texts_.clear();
+  if (logged_texts_.size() == kMaxTexts) logged_texts_.clear();
+  if (!logged_texts_.insert(text).second) return;
+  spdlog::log(is_fault(change) ? spdlog::level::warn : spdlog::level::info, "lidar {}", text);
 }
 
 void StatusPublisher::publish(const drivers::LidarStatus& lidar, const ScanPublisher& scans,
@@ -84,7 +84,7 @@ void StatusPublisher::publish(const drivers::LidarStatus& lidar, const ScanPubli
     *next++ = {kPoseCounterNames[i], scans.poses()[i]};
   }
   *next++ = {"lost_samples", localization.lost_samples()};
-  *next++ = {"lost_turns", localization.lost_reports()};
+  *next++ = {"lost_scans", localization.lost_reports()};
   *next++ = {"clients", server_.clients()};
   *next++ = {"dropped_messages", server_.dropped()};
 
@@ -110,8 +110,8 @@ void StatusPublisher::publish(const drivers::LidarStatus& lidar, const ScanPubli
                     latencies.percentile(0.99), !latencies.empty()};
   const LoopHealth localizer = localization.localizer_health();
   const std::array<message::StatusFields::Loop, 3> loops = {{
-      {"reader", &lidar.lateness, localization.reader_page_faults()},
-      {"localizer", &localizer.lateness, localizer.page_faults},
+      {"reader", &lidar.latency, localization.reader_page_faults()},
+      {"localizer", &localizer.latency, localizer.page_faults},
       {"server", &health.server, std::nullopt},
   }};
   status.realtime_priority = health.priority;

@@ -7,16 +7,17 @@
 #include <sys/stat.h>
 #include <sys/un.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <chrono>
 #include <cstring>
+#include <fstream>
 #include <optional>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <thread>
 #include <utility>
-
-#include "daemon/listening_sockets.hpp"
 
 namespace cornerd::daemon {
 namespace {
@@ -71,7 +72,7 @@ std::optional<std::string> why_in_use(const std::filesystem::path& path,
   if (error != EACCES)
     return std::string("cannot be told from one in use: ") + std::strerror(error);
   // Another user's: whether anybody listens is for the kernel's list to say.
-  const std::optional<bool> listens = somebody_listens(path);
+  const std::optional<bool> listens = is_listening(path);
   if (!listens) return "is another user's, and whether it is in use cannot be told";
   if (*listens) return "another user's cornerd listens there";
   return std::nullopt;
@@ -85,6 +86,33 @@ void remove_stale(const std::filesystem::path& path, const sockaddr_un& address)
   if (::unlink(path.c_str()) != 0 && errno != ENOENT) {
     fail(path, std::string("is left over, and cannot be removed: ") + std::strerror(errno));
   }
+}
+
+/// __SO_ACCEPTCON of linux/net.h, in the column of flags.
+constexpr unsigned long kListens = 0x10000;
+
+bool is_same(const std::filesystem::path& file, const std::filesystem::path& listed) {
+  if (listed.is_relative()) return listed.filename() == file.filename();
+  if (listed == file) return true;
+  struct stat one {};
+  struct stat other {};
+  return ::stat(listed.c_str(), &one) == 0 && ::stat(file.c_str(), &other) == 0 &&
+         one.st_dev == other.st_dev && one.st_ino == other.st_ino;
+}
+
+constexpr std::size_t kUsualGroups = 32;
+
+/// Nothing where the kernel (before 4.13) cannot tell.
+std::vector<gid_t> groups_of(int fd) {
+  std::vector<gid_t> groups(kUsualGroups);
+  socklen_t size = kUsualGroups * sizeof(gid_t);
+  int result = ::getsockopt(fd, SOL_SOCKET, SO_PEERGROUPS, groups.data(), &size);
+  if (result != 0 && errno == ERANGE) {
+    groups.resize(size / sizeof(gid_t));
+    result = ::getsockopt(fd, SOL_SOCKET, SO_PEERGROUPS, groups.data(), &size);
+  }
+  groups.resize(result == 0 ? size / sizeof(gid_t) : 0);
+  return groups;
 }
 
 }  // namespace
@@ -142,9 +170,42 @@ FileDescriptor UnixListener::accept() {
   return client;
 }
 
-bool UnixListener::is_there() const {
+bool UnixListener::file_exists() const {
   struct stat file {};
   return ::lstat(path_.c_str(), &file) == 0 || (errno != ENOENT && errno != ENOTDIR);
+}
+
+std::optional<bool> is_listening(const std::filesystem::path& file) {
+  std::ifstream list("/proc/self/net/unix");
+  std::string heading;
+  if (!std::getline(list, heading)) return std::nullopt;
+  return is_listening(file, list);
+}
+
+bool is_listening(const std::filesystem::path& file, std::istream& list) {
+  for (std::string line; std::getline(list, line);) {
+    // Num RefCount Protocol Flags Type St Inode Path
+    std::istringstream words(line);
+    std::string word;
+    unsigned long flags = 0;
+    words >> word >> word >> word >> std::hex >> flags >> word >> word >> word >> std::ws;
+    std::string path;
+    if (std::getline(words, path) && (flags & kListens) != 0 && is_same(file, path)) return true;
+  }
+  return false;
+}
+
+std::optional<Peer> peer_of(int fd) {
+  ucred credentials{};
+  socklen_t size = sizeof(credentials);
+  if (::getsockopt(fd, SOL_SOCKET, SO_PEERCRED, &credentials, &size) != 0) return std::nullopt;
+  return Peer{credentials.uid, credentials.gid, groups_of(fd)};
+}
+
+bool belongs_to(const Peer& peer, gid_t group, uid_t owner) {
+  return peer.user == 0 || peer.user == owner || peer.group == group ||
+         std::find(peer.other_groups.begin(), peer.other_groups.end(), group) !=
+             peer.other_groups.end();
 }
 
 }  // namespace cornerd::daemon

@@ -16,13 +16,13 @@ using core::Vec2;
 /// As far from where its border turns a corner may lie, in cells, beside what the runs are off by.
 constexpr double kCornerReach = 2.5;
 /// Below this two lines have no corner, but a step between them.
-constexpr double kLeastSine = 0.05;
+constexpr double kMinSine = 0.05;
 /// Two runs turned against each other more than this are the two faces of a wall that ends.
 constexpr double kWallEndCosine = -0.8;
 /// Cells around a wall's end that its farthest point is looked for in.
 constexpr std::size_t kEndSides = 6;
 /// A joint shorter than this is none.
-constexpr double kLeastJoint = 0.05;
+constexpr double kMinJoint = 0.05;
 
 std::vector<LinkedRun> link_runs(const Border& border, std::vector<Run> runs, std::size_t first) {
   std::vector<LinkedRun> linked;
@@ -95,7 +95,7 @@ class FaceBuilder {
 
   std::optional<Vec2> corner(const LinkedRun& one, const LinkedRun& next) const {
     const double sine = core::cross(one.run.way, next.run.way);
-    if (std::abs(sine) < kLeastSine) return std::nullopt;
+    if (std::abs(sine) < kMinSine) return std::nullopt;
     const double along = core::cross(next.run.at - one.run.at, next.run.way) / sine;
     const Vec2 meet = one.run.at + along * one.run.way;
     const double reach = kCornerReach + options_.tolerance + 1.5 * options_.inset;
@@ -134,7 +134,7 @@ class FaceBuilder {
     GridFace face{from_[first], to_[last], runs_[first].run.way};
     face.enters_from = is_inner_[first];
     face.enters_to = runs_[last].next != kNoRun && is_inner_[runs_[last].next];
-    if (face.length() < kLeastJoint) {
+    if (face.length() < kMinJoint) {
       add_joint(face.from, face.to, faces);
     } else {
       faces.push_back(face);
@@ -143,7 +143,7 @@ class FaceBuilder {
 
   static void add_joint(const Vec2& from, const Vec2& to, std::vector<GridFace>& faces) {
     const double length = (to - from).norm();
-    if (length < kLeastJoint) return;
+    if (length < kMinJoint) return;
     faces.push_back({from, to, (to - from) / length, true});
   }
 

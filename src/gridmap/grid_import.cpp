@@ -45,7 +45,7 @@ class Placer {
 
 }  // namespace
 
-MadeBy guess_maker(const OccupancyGrid& grid) {
+MadeBy detect_maker(const OccupancyGrid& grid) {
   if (grid.count(Cell::kUnknown) == 0) return MadeBy::kDrawing;
   return buried_share(grid) > kDrawnBuriedShare ? MadeBy::kDrawing : MadeBy::kLidar;
 }
@@ -56,7 +56,7 @@ ImportResult import_grid(OccupancyGrid grid, double resolution_m, const core::Po
   const auto cells = [&](double length_m) { return length_m / resolution_m; };
 
   ImportResult result;
-  result.made_by = options.made_by == MadeBy::kUnknown ? guess_maker(grid) : options.made_by;
+  result.made_by = options.made_by == MadeBy::kUnknown ? detect_maker(grid) : options.made_by;
   const double least = std::max(kSpeckCells, cells(options.speck_m));
   for (const Patch& patch : drop_specks(grid, least)) {
     result.specks.push_back(placer.remark(patch.centre, patch.size));

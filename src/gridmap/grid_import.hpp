@@ -17,7 +17,7 @@ namespace cornerd::gridmap {
 enum class MadeBy : std::uint8_t { kUnknown, kLidar, kDrawing };
 
 struct ImportOptions {
-  MadeBy made_by = MadeBy::kUnknown;  ///< unknown: see guess_maker()
+  MadeBy made_by = MadeBy::kUnknown;  ///< unknown: see detect_maker()
   double speck_m = 0.1;               ///< smaller than this, or than 2.5 cells, nothing is a wall
   double pocket_m2 = 0.05;            ///< smaller than this no free space is a room
   double join_gap_m = 0.3;            ///< unknown stretch of a wall that goes on behind it
@@ -45,7 +45,7 @@ struct ImportResult {
 };
 
 /// Drawn, where nothing is unknown, or much is occupied that no beam could have reached.
-MadeBy guess_maker(const OccupancyGrid& grid);
+MadeBy detect_maker(const OccupancyGrid& grid);
 
 /// Walls along the borders between free and occupied cells. Never fails; a picture without a border
 /// gives no walls.

@@ -8,7 +8,7 @@
 #include <map>
 #include <optional>
 
-#include "gridmap/grid_error.hpp"
+#include "gridmap/image.hpp"
 
 namespace cornerd::gridmap {
 namespace {

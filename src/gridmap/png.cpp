@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "gridmap/png.hpp"
+#include "gridmap/image.hpp"
 
 #include <algorithm>
 #include <cstring>
 
-#include "gridmap/grid_error.hpp"
 
 #ifdef CORNERD_HAS_PNG
 #include <png.h>

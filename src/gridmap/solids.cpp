@@ -14,7 +14,7 @@ using core::Vec2;
 
 constexpr double kLookStep = 0.5;  ///< between two looks along a wall
 constexpr double kMargin = 1;      ///< from a face: what the raster may be off by
-constexpr double kLeastOverlap = 1;
+constexpr double kMinOverlap = 1;
 /// Both faces of a wall deviate from parallel by at most this over their length.
 constexpr double kWedge = 1;
 /// A face that is covered by so much of its length by walls found before needs no other.
@@ -43,7 +43,7 @@ std::optional<Candidate> match(const GridFace& front, const GridFace& back,
   candidate.both = {std::max(a.begin, b.begin), std::min(a.end, b.end)};
   candidate.all = {std::min(a.begin, b.begin), std::max(a.end, b.end)};
   const double overlap = candidate.both.length();
-  if (overlap < kLeastOverlap) return std::nullopt;
+  if (overlap < kMinOverlap) return std::nullopt;
   if (std::abs(core::cross(front.way, back.way)) * overlap > kWedge) return std::nullopt;
   // Heights of both faces in the middle of what they share.
   const Vec2 middle = front.from + (candidate.both.begin + candidate.both.end) / 2 * candidate.way;

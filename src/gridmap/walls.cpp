@@ -13,11 +13,11 @@ namespace {
 using core::Vec2;
 
 /// What is left of a face beside solids is a line of its own from this length on.
-constexpr double kLeastRest = 1;
+constexpr double kMinRest = 1;
 /// A line that ends this near to a solid ends on it.
 constexpr double kReach = 1.5;
 constexpr double kSamePoint = 1e-3;
-constexpr double kLeastLine = 0.05;
+constexpr double kMinLine = 0.05;
 
 /// A piece of face beside all solids.
 struct Line {
@@ -46,10 +46,10 @@ class LineFinder {
     }
     for (Stretch open : uncovered(length, std::move(hidden))) {
       const bool is_whole = open.length() >= length;
-      if (!is_whole && open.length() < kLeastRest) continue;
+      if (!is_whole && open.length() < kMinRest) continue;
       bool touches = extend(face, open, false);
       touches = extend(face, open, true) || touches;
-      if (open.length() < kLeastLine) continue;
+      if (open.length() < kMinLine) continue;
       Line line;
       line.from = face.from + open.begin * face.way;
       line.to = face.from + open.end * face.way;

@@ -10,7 +10,7 @@
 namespace cornerd::message {
 namespace {
 
-/// No message nests deeper than three; the bound keeps a line of brackets from costing memory.
+/// The messages nest at most three levels. The limit bounds the memory that parsing takes.
 constexpr int kMaxDepth = 8;
 
 bool nests_deeper(std::string_view text, int max_depth) {
@@ -104,7 +104,7 @@ std::optional<std::int64_t> FieldReader::optional_integer(const char* name) {
     return std::nullopt;
   }
   if (value.is_number_integer()) return value.get<std::int64_t>();
-  // Languages without integers write 12.0 or 1e6; beyond 2^53 such a number has lost digits.
+  // JavaScript and Lua may write 12.0 or 1e6. Above 2^53 a double is not exact.
   constexpr double kLargestExact = 9007199254740992.0;
   const double number = check(in_quotes(name), value, {-kLargestExact, kLargestExact});
   if (number != std::floor(number)) fail(in_quotes(name) + " must be a whole number");

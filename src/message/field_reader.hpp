@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Reads a JSON object that somebody else wrote. Inside this layer alone.
+// Reads untrusted JSON objects. Internal to src/message.
 #pragma once
 
 #include <cstddef>
@@ -22,18 +22,17 @@ struct Limits {
   double high = 0;
 };
 
-/// UNIX time or time since a start, either sign; the nanoseconds fit 64 bits with room to spare.
+/// UNIX time or time since the start of a recording; in nanoseconds it fits 64 bits.
 inline constexpr Limits kTimeLimitsS{-9e9, 9e9};
 inline constexpr Limits kCoordinateLimitsM{-1e5, 1e5};
-/// A turn and a little: degrees by mistake are noticed.
+/// Slightly more than 2 pi, so that most angles in degrees are refused.
 inline constexpr Limits kAngleLimitsRad{-6.3, 6.3};
 
-/// The object of one line; nullopt with `error` set where the line is too long, too deep, or no
-/// JSON object.
+/// Parses one line. Returns nullopt and sets `error` if the line is too long, nested too deeply, or
+/// not a JSON object.
 std::optional<Json> parse_object(std::string_view line, std::size_t max_bytes, RequestError& error);
 
-/// Takes fields out of an object. The first wrong one is kept as the error, named; what is read
-/// after it may be anything.
+/// Reads fields of an object. Keeps the first error; values read after it are unspecified.
 class FieldReader {
  public:
   explicit FieldReader(const Json& object) : object_(object) {}
@@ -44,14 +43,14 @@ class FieldReader {
   std::optional<std::int64_t> optional_integer(const char* name);
   core::TimeNs time(const char* name) { return core::from_seconds(number(name, kTimeLimitsS)); }
   std::string_view text(const char* name);
-  /// Empty where there is none.
+  /// Empty if absent.
   std::string_view optional_text(const char* name);
-  /// An empty object where there is none or the field is wrong.
+  /// An empty object if absent or wrong.
   const Json& optional_object(const char* name);
-  /// An empty array where the field is wrong.
+  /// An empty array if wrong.
   const Json& array(const char* name, std::size_t max_size);
 
-  /// A finite number within limits, as an element of an array.
+  /// array[index], a finite number within limits.
   double element(const char* name, const Json& array, std::size_t index, Limits limits);
 
   void fail(const std::string& reason);
@@ -65,8 +64,7 @@ class FieldReader {
   std::optional<RequestError> error_;
 };
 
-/// A line whose "class" says what it is: `read` is called with that and the fields. A `Line` can be
-/// a RequestError.
+/// Parses one line and calls `read(class, fields)`. `Line`: a variant with RequestError.
 template <typename Line>
 Line parse_by_class(std::string_view line, std::size_t max_bytes, const auto& read) {
   RequestError error;

@@ -5,8 +5,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-
-#include "message/utf8.hpp"
+#include <cstdint>
 
 namespace cornerd::message {
 namespace {
@@ -15,16 +14,20 @@ constexpr std::array<std::int64_t, 10> kPowersOfTen = {
     1, 10, 100, 1'000, 10'000, 100'000, 1'000'000, 10'000'000, 100'000'000, 1'000'000'000};
 constexpr std::string_view kHexDigits = "0123456789abcdef";
 
-/// Above this a double has no more places after the point than an integer of 64 bits could carry.
+/// Largest scaled value: the next power of ten exceeds a double's 53 bits of mantissa.
 constexpr double kLargestScaled = 9e15;
 
-/// The largest number of microradians below pi.
+/// pi in microradians, rounded down.
 constexpr std::int64_t kPiInMicroradians = 3'141'592;
 
 template <typename Value, typename... Format>
 void append_digits(std::string& text, Value value, Format... format) {
   std::array<char, 32> digits;
   text.append(digits.data(), std::to_chars(digits.begin(), digits.end(), value, format...).ptr);
+}
+
+bool is_within(std::uint8_t byte, std::uint8_t low, std::uint8_t high) {
+  return byte >= low && byte <= high;
 }
 
 }  // namespace
@@ -140,6 +143,35 @@ void JsonText::hex(std::span<const std::uint8_t> bytes) {
     text_ += kHexDigits[byte & 0xf];
   }
   text_ += '"';
+}
+
+std::size_t utf8_length(std::string_view text) {
+  if (text.empty()) return 0;
+  const auto byte = [text](std::size_t i) { return static_cast<std::uint8_t>(text[i]); };
+  const std::uint8_t first = byte(0);
+  if (first < 0x80) return 1;
+
+  // RFC 3629, section 4: the limits of the second byte exclude overlong forms, surrogates and code
+  // points above U+10FFFF.
+  std::size_t length = 0;
+  std::uint8_t low = 0x80;
+  std::uint8_t high = 0xbf;
+  if (is_within(first, 0xc2, 0xdf)) {
+    length = 2;
+  } else if (is_within(first, 0xe0, 0xef)) {
+    length = 3;
+    if (first == 0xe0) low = 0xa0;
+    if (first == 0xed) high = 0x9f;
+  } else if (is_within(first, 0xf0, 0xf4)) {
+    length = 4;
+    if (first == 0xf0) low = 0x90;
+    if (first == 0xf4) high = 0x8f;
+  }
+  if (length == 0 || text.size() < length || !is_within(byte(1), low, high)) return 0;
+  for (std::size_t i = 2; i < length; ++i) {
+    if (!is_within(byte(i), 0x80, 0xbf)) return 0;
+  }
+  return length;
 }
 
 }  // namespace cornerd::message

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Compact JSON, written from left to right into memory that was taken beforehand.
+// Writes compact JSON into preallocated memory.
 #pragma once
 
 #include <cstddef>
@@ -13,8 +13,10 @@
 
 namespace cornerd::message {
 
-/// Commas place themselves: a value follows either an opening bracket, a key or another value.
-/// Allocates only where the text outgrows `capacity`.
+/// Decimal places of seconds, and of values without a unit.
+inline constexpr int kTimeDecimals = 6;
+
+/// Inserts commas itself. Allocates only if the text outgrows `capacity` bytes.
 class JsonText {
  public:
   explicit JsonText(std::size_t capacity) { text_.reserve(capacity); }
@@ -30,9 +32,9 @@ class JsonText {
 
   void key(std::string_view name);
 
-  /// Quoted and escaped; bytes that are no UTF-8 become U+FFFD.
+  /// Quoted and escaped; bytes that are not UTF-8 become U+FFFD.
   void string(std::string_view value);
-  /// Text that is JSON already.
+  /// `json`: valid JSON.
   void raw(std::string_view json);
   void boolean(bool value) { raw(value ? "true" : "false"); }
   template <typename T>
@@ -44,14 +46,14 @@ class JsonText {
       append_integer(static_cast<std::uint64_t>(value));
     }
   }
-  /// At most `decimals` (<= 9) places, without trailing zeros. Finite values only.
+  /// At most `decimals` (<= 9) decimal places, without trailing zeros. Finite values only.
   void fixed(double value, int decimals);
   /// Six significant digits. Finite values only.
   void significant(double value);
-  /// An angle in (-pi, pi], to a microradian: rounded towards zero at the ends of that interval, so
-  /// that what is read back lies in it too.
+  /// An angle in (-pi, pi], to 1e-6 rad. Near the ends it is rounded towards zero, so that the
+  /// value read back is in the interval too.
   void angle(double value_rad);
-  /// Seconds with six places: what a double keeps of UNIX time.
+  /// Seconds with six decimal places, the resolution of UNIX time in a double.
   void seconds(core::TimeNs t_ns);
   void hex(std::span<const std::uint8_t> bytes);
 
@@ -67,7 +69,7 @@ class JsonText {
   void seconds(std::string_view name, core::TimeNs t_ns) { key(name), seconds(t_ns); }
   void open_object(std::string_view name) { key(name), open_object(); }
   void open_array(std::string_view name) { key(name), open_array(); }
-  /// Left out where it is empty, or no finite number.
+  // Written only if not empty, or finite.
   void text(std::string_view name, std::string_view value) {
     if (!value.empty()) string(name, value);
   }
@@ -85,5 +87,8 @@ class JsonText {
 
   std::string text_;
 };
+
+/// Length in bytes of the UTF-8 character at the start of `text` (RFC 3629); 0 if there is none.
+std::size_t utf8_length(std::string_view text);
 
 }  // namespace cornerd::message

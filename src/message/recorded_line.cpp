@@ -3,9 +3,8 @@
 #include <utility>
 
 #include "message/field_reader.hpp"
-#include "message/odometry_fields.hpp"
+#include "message/input_fields.hpp"
 #include "message/request.hpp"
-#include "message/scan_fields.hpp"
 
 namespace cornerd::message {
 namespace {

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "message/request.hpp"
 
+#include <algorithm>
+#include <array>
 #include <utility>
 
 #include "message/field_reader.hpp"
-#include "message/odometry_fields.hpp"
+#include "message/input_fields.hpp"
 
 namespace cornerd::message {
 namespace {
@@ -14,7 +16,7 @@ using Body = decltype(Request::body);
 constexpr std::size_t kMaxIdBytes = 256;
 constexpr std::size_t kMaxWatchedClasses = 64;
 
-/// An id is any scalar; it comes back as it was written.
+/// An id is any JSON scalar. The answer repeats it unchanged.
 std::string read_id(const Json& object, FieldReader& fields) {
   const auto id = object.find("id");
   if (id == object.end()) return {};
@@ -65,6 +67,11 @@ Body read_body(const std::string& name, FieldReader& fields) {
   return RequestError{"class", "no request of this class: " + name.substr(0, 64)};
 }
 
+/// In the order of MessageClass.
+constexpr std::array<std::string_view, 8> kNames = {"VERSION",  "POSE",   "SCAN",   "BREAKPOINTS",
+                                                    "ODOMETRY", "STATUS", "SERIAL", "EVENT"};
+static_assert(kNames.size() == static_cast<std::size_t>(MessageClass::kEvent) + 1);
+
 }  // namespace
 
 Request parse_request(std::string_view line) {
@@ -85,6 +92,16 @@ Request parse_request(std::string_view line) {
   if (!fields.error()) request.body = read_body(request.name, fields);
   if (fields.error()) request.body = *fields.error();
   return request;
+}
+
+std::string_view to_string(MessageClass message_class) {
+  return kNames[static_cast<std::size_t>(message_class)];
+}
+
+std::optional<MessageClass> message_class_from(std::string_view name) {
+  const auto found = std::find(kNames.begin(), kNames.end(), name);
+  if (found == kNames.end()) return std::nullopt;
+  return static_cast<MessageClass>(found - kNames.begin());
 }
 
 }  // namespace cornerd::message

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a client may send, and what a recording holds: one line in, one checked value out.
+// Parses requests of clients and lines of recordings into checked values.
 #pragma once
 
 #include <cstddef>
@@ -29,7 +29,7 @@ enum class MessageClass : std::uint8_t {
 std::string_view to_string(MessageClass message_class);
 std::optional<MessageClass> message_class_from(std::string_view name);
 
-/// A set of classes, as WATCH and --classes choose it.
+/// The classes that WATCH and --classes select.
 class ClassSet {
  public:
   void insert(MessageClass c) { bits_ |= 1u << static_cast<unsigned>(c); }
@@ -48,7 +48,7 @@ struct RelocalizeRequest {};
 struct SetPoseRequest {
   core::Pose2 T_map_base;
 };
-/// A request without t is one of now: `timed` is false and t_ns 0. A recorded one always has it.
+/// Without "t", `timed` is false and t_ns is 0. A recorded reading always has "t".
 struct OdometryReading : core::OdometryReading {
   bool timed = true;
 };
@@ -62,20 +62,19 @@ struct Request {
   std::variant<RequestError, WatchRequest, PollRequest, RelocalizeRequest, SetPoseRequest,
                OdometryReading>
       body;
-  std::string name;     ///< the class as sent; may be empty
-  std::string id_json;  ///< JSON text; empty: none was sent
+  std::string name;     ///< the class as received; may be empty
+  std::string id_json;  ///< JSON text; empty if absent
 };
 
-/// A longer line closes the connection of the client that sends it.
+/// A client that sends a longer line is disconnected.
 inline constexpr std::size_t kMaxRequestBytes = 64 * 1024;
-/// Fits the longest SCAN, written with all the places that a double has.
+/// Fits the longest SCAN with all digits of its doubles.
 inline constexpr std::size_t kMaxRecordedBytes = 2 * 1024 * 1024;
 
-/// Never throws; any bytes give a Request, a bad line one that holds RequestError.
+/// Never throws. A malformed line gives a Request that holds RequestError.
 Request parse_request(std::string_view line);
 
-/// The lines of a recording that are inputs; the rest is none of these.
-/// A whole turn: its first sample starts it, its last one ends it.
+/// A SCAN: its first sample starts the scan, its last sample ends it.
 struct RecordedScan {
   core::TimeNs t_ns = 0;
   core::TimeNs duration_ns = 0;
@@ -90,6 +89,7 @@ struct RecordedTruth {
   core::TimeNs t_ns = 0;
   core::Pose2 T_map_base;
 };
+/// A message of another class; replay skips it.
 struct OtherLine {
   std::string name;
 };

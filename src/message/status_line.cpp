@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // STATUS of LineWriter.
-#include "message/line.hpp"
-#include "message/place_text.hpp"
+#include "message/line_writer.hpp"
 
 namespace cornerd::message {
 namespace {
@@ -13,13 +12,13 @@ void write_bias(JsonText& json, const core::SensorBias& bias) {
   json.number("bearing_cosine", bias.bearing_cosine_rad, kTimeDecimals);
 }
 
-void write_bias(JsonText& json, const core::LearnedBias& learned) {
+void write_bias(JsonText& json, const core::EstimatedBias& estimated) {
   json.open_object("bias");
-  write_bias(json, learned.bias);
+  write_bias(json, estimated.bias);
   json.open_object("sigma");
-  write_bias(json, learned.sigma);
+  write_bias(json, estimated.sigma);
   json.close_object();
-  json.integer("turns", learned.scans);
+  json.integer("scans", estimated.scans);
   json.close_object();
 }
 
@@ -49,7 +48,7 @@ void write_counters(JsonText& json, std::span<const StatusFields::Counter> count
   json.close_object();
 }
 
-void write_learned(JsonText& json, const core::LearnedOdometry& values) {
+void write_parameters(JsonText& json, const core::OdometryParameters& values) {
   json.number("delay", values.delay_s, kTimeDecimals);
   json.number("gyro_bias", values.gyro_bias_rad_s, kTimeDecimals);
   json.number("gyro_scale", values.gyro_scale, kTimeDecimals);
@@ -60,18 +59,24 @@ void write_learned(JsonText& json, const core::LearnedOdometry& values) {
 
 void write_summary(JsonText& json, const StatusFields& status) {
   const core::OdometrySummary& odometry = *status.odometry;
-  json.string("state", !odometry.present ? "absent" : odometry.trusted ? "running" : "distrusted");
+  json.string("state", !odometry.present ? "absent" : odometry.healthy ? "running" : "unhealthy");
   json.text("hint", status.odometry_hint);
-  write_learned(json, odometry.learned);
+  write_parameters(json, odometry.parameters);
   json.open_object("sigma");
-  write_learned(json, odometry.sigma);
+  write_parameters(json, odometry.sigma);
   json.close_object();
-  const core::OdometryCounters& refused = odometry.counters;
-  const StatusFields::Counter counters[] = {
-      {"readings", refused.readings}, {"past", refused.past},           {"future", refused.future},
-      {"jumps", refused.jumps},       {"bad_rates", refused.gyro},      {"frozen", refused.frozen},
-      {"holes", refused.holes},       {"restarts", refused.restarts},   {"slips", odometry.slips},
-      {"fixes", odometry.fixes},      {"strangers", odometry.strangers}};
+  const core::OdometryCounters& count = odometry.counters;
+  const StatusFields::Counter counters[] = {{"readings", count.readings},
+                                            {"past", count.past},
+                                            {"future", count.future},
+                                            {"jumps", count.jumps},
+                                            {"invalid_rates", count.invalid_rates},
+                                            {"stuck", count.stuck},
+                                            {"gaps", count.gaps},
+                                            {"restarts", count.restarts},
+                                            {"slips", odometry.slips},
+                                            {"fixes", odometry.fixes},
+                                            {"rejected_fixes", odometry.rejected_fixes}};
   json.open_object("counters");
   write_each(json, counters);
   if (status.second_client) json.integer("second_client", *status.second_client);
@@ -102,10 +107,10 @@ void write_latency(JsonText& json, const StatusFields& status) {
 
 void write_loop(JsonText& json, const StatusFields::Loop& loop) {
   json.open_object(loop.name);
-  json.open_array("late");
-  for (const std::uint32_t count : loop.lateness->counts) json.integer(count);
+  json.open_array("counts");
+  for (const std::uint32_t count : loop.latency->counts) json.integer(count);
   json.close_array();
-  json.number("max", core::to_seconds(loop.lateness->max_ns), kTimeDecimals);
+  json.number("max", core::to_seconds(loop.latency->max_ns), kTimeDecimals);
   if (loop.page_faults) json.integer("page_faults", *loop.page_faults);
   json.close_object();
 }
@@ -116,7 +121,7 @@ void write_loops(JsonText& json, const StatusFields& status) {
   json.integer("priority", status.realtime_priority);
   json.boolean("memory_locked", status.memory_is_locked);
   json.open_array("edges");
-  for (const core::TimeNs edge_ns : core::Lateness::kEdgesNs) {
+  for (const core::TimeNs edge_ns : core::LatencyHistogram::kEdgesNs) {
     json.fixed(core::to_seconds(edge_ns), kTimeDecimals);
   }
   json.close_array();

@@ -96,7 +96,7 @@ void read_lidar(ObjectReader lidar, LidarConfig& config) {
   lidar.number("max_range", config.max_range_m, {0.1, 40});
   read_noise(lidar.object("noise"), config.noise);
   read_bias(lidar.object("bias"), config.bias);
-  lidar.boolean("learn_bias", config.learn_bias);
+  lidar.boolean("learn_bias", config.calibrate_online);
   lidar.path("learned_file", config.learned_file);
   read_mount(lidar.object("mount"), config.mount);
   read_motor(lidar, config.motor);
@@ -156,8 +156,8 @@ void read_odometry(ObjectReader odometry, OdometryConfig& config) {
   odometry.number("wheel_radius", geometry.wheel_radius_m, {0.001, 10});
   odometry.number("track", geometry.track_m, {0.001, 10});
   odometry.number("counts_per_turn", geometry.counts_per_turn, {1, 1e7});
-  odometry.integer("ceiling", geometry.ceiling, std::int64_t{0}, std::int64_t{1} << 53);
-  if (geometry.ceiling == 1 || geometry.ceiling == 2) {
+  odometry.integer("ceiling", geometry.counter_max, std::int64_t{0}, std::int64_t{1} << 53);
+  if (geometry.counter_max == 1 || geometry.counter_max == 2) {
     odometry.fail("ceiling",
                   "must be 0 (never wraps) or at least 3: of fewer counts forward and "
                   "back are the same");
@@ -170,20 +170,20 @@ void read_odometry(ObjectReader odometry, OdometryConfig& config) {
   odometry.number("dead_band", config.core.paper.dead_band_rad, {0, 1});
   read_odometry_noise(odometry.object("noise"), config.core.noise);
   ObjectReader start = odometry.object("start");
-  start.number("left_scale", config.core.start.left_scale, {-0.5, 0.5});
-  start.number("right_scale", config.core.start.right_scale, {-0.5, 0.5});
-  start.number("track_scale", config.core.start.track_scale, {-0.5, 0.5});
-  start.number("gyro_scale", config.core.start.gyro_scale, {-0.5, 0.5});
-  start.number("gyro_bias", config.core.start.gyro_bias_rad_s, {-0.5, 0.5});
-  start.number("delay", config.core.start.delay_s, {-kMostStartDelay_s, kMostStartDelay_s});
+  start.number("left_scale", config.core.initial.left_scale, {-0.5, 0.5});
+  start.number("right_scale", config.core.initial.right_scale, {-0.5, 0.5});
+  start.number("track_scale", config.core.initial.track_scale, {-0.5, 0.5});
+  start.number("gyro_scale", config.core.initial.gyro_scale, {-0.5, 0.5});
+  start.number("gyro_bias", config.core.initial.gyro_bias_rad_s, {-0.5, 0.5});
+  start.number("delay", config.core.initial.delay_s, {-kMostStartDelay_s, kMostStartDelay_s});
   start.finish();
   odometry.number("max_speed", config.core.limits.wheel_speed_m_s, {0.01, 100});
-  odometry.number("bridge", config.core.bridge_s, {0, 3600});
-  odometry.boolean("publish", config.core.publish);
+  odometry.number("bridge", config.core.max_extrapolation_s, {0, 3600});
+  odometry.boolean("publish", config.core.publish_predictions);
   odometry.finish();
   config.core.enabled = config.source != OdometrySource::kNone;
   // The driver goes by each counter's own ceiling.
-  if (config.source == OdometrySource::kKernel) geometry.ceiling = 0;
+  if (config.source == OdometrySource::kKernel) geometry.counter_max = 0;
 }
 
 void read_socket_path(ObjectReader& socket, std::string_view key, std::filesystem::path& member) {
@@ -242,7 +242,7 @@ core::LocalizerConfig Config::localizer() const {
   config.updates_per_scan = static_cast<std::size_t>(localization.updates_per_scan);
   config.noise = lidar.noise.sensor;
   config.bias = lidar.bias;
-  config.learn_bias = lidar.learn_bias;
+  config.calibrate_online = lidar.calibrate_online;
   config.odometry = odometry.core;
   return config;
 }

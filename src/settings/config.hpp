@@ -65,7 +65,7 @@ struct LidarConfig {
   double max_range_m = 12.0;
   NoiseConfig noise;
   core::SensorBias bias;
-  bool learn_bias = true;
+  bool calibrate_online = true;
   /// What was learnt is kept here from one run to the next; empty: where the service manager has a
   /// folder for it, else nowhere.
   std::filesystem::path learned_file;

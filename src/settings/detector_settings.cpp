@@ -56,8 +56,8 @@ void read_extraction(ObjectReader extraction, core::ExtractionConfig& config) {
   extraction.number("max_piece_gap", config.max_piece_gap_m, {0, 10});
   extraction.number("max_piece_angle", config.max_piece_angle_rad, {0.01, 1.57});
   extraction.number("joined_chi_square", config.joined_chi_square, {0, 1e6});
-  extraction.integer("doubtful_samples", config.doubtful_samples, 3U, kMaxCount);
-  extraction.number("doubtful_sigma", config.doubtful_sigma_rad, {0.001, 1.5});
+  extraction.integer("doubtful_samples", config.short_wall_samples, 3U, kMaxCount);
+  extraction.number("doubtful_sigma", config.short_wall_sigma_rad, {0.001, 1.5});
   extraction.number("min_corner_angle", config.min_corner_angle_rad, {0.01, 1.5});
   extraction.number("grazing_rays", config.grazing_rays, {0, 100});
   extraction.number("grazing_reach", config.grazing_reach, {1, 100});
@@ -66,7 +66,7 @@ void read_extraction(ObjectReader extraction, core::ExtractionConfig& config) {
   extraction.number("max_face", config.max_face_m, {0, 1});
   extraction.integer<std::size_t>("min_face_samples", config.min_face_samples, 1, kMaxCount);
   extraction.number("max_end_span", config.max_end_span_m, {0, 1});
-  extraction.integer<std::size_t>("look_beyond", config.look_beyond, 2, 100);
+  extraction.integer<std::size_t>("look_beyond", config.samples_beyond, 2, 100);
   extraction.number("max_rest_sigma", config.max_rest_sigma_rad, {0, 1.5});
   extraction.number("min_rest_angle", config.min_rest_angle_rad, {0, 1.5});
   extraction.number("max_rest_corner_sigma", config.max_rest_corner_sigma_m, {0, 1});

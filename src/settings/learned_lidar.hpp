@@ -14,7 +14,7 @@ namespace cornerd::settings {
 struct LearnedLidar {
   std::string serial;           ///< of the device; empty where it does not say
   core::SensorBias configured;  ///< lidar.bias of the settings that it was learnt under
-  core::LearnedBias learned;
+  core::EstimatedBias learned;
 };
 
 inline constexpr std::size_t kMaxLearnedLidarBytes = 4096;

@@ -85,8 +85,8 @@ void read_wall_model(ObjectReader& noise, calibration::WallModel& model) {
   const Json* array = noise.find(kKey);
   if (array == nullptr) return;
   if (!array->is_array()) noise.fail(kKey, "must be a list of { \"from\", \"to\", ... }");
-  if (array->size() > calibration::kMostWallPieces) {
-    noise.fail(kKey, "has more than " + std::to_string(calibration::kMostWallPieces) + " entries");
+  if (array->size() > calibration::kMaxWallPieces) {
+    noise.fail(kKey, "has more than " + std::to_string(calibration::kMaxWallPieces) + " entries");
   }
   std::vector<calibration::WallPiece> pieces;
   for (std::size_t i = 0; i < array->size(); ++i) {

@@ -14,14 +14,14 @@ namespace cornerd::survey {
 namespace {
 
 constexpr int kMaxSteps = 15;
-/// The first steps let what is far off pull as well: walls that were mapped twice and are one now
-/// bring the poses together. From step to step that is less.
-constexpr double kFirstLeniency = 256;
-constexpr double kLeniencyShare = 0.25;
-/// Steps smaller than this are the end.
-constexpr double kStill_m = 2e-6;
+/// The first steps let what is far off right_hand_side as well: walls that were mapped twice and
+/// are one now bring the poses together. From step to step that is less.
+constexpr double kFirstGncScale = 256;
+constexpr double kGncDecay = 0.25;
+/// Largest step of a pose at convergence.
+constexpr double kConverged_m = 2e-6;
 
-/// Returns the largest way of a pose.
+/// Returns the largest translation of a pose.
 double apply(const Linearization& equations, const Eigen::VectorXd& move, MappedDrive& drive) {
   double largest_m = 0;
   for (std::size_t scan = 1; scan < drive.T_map_lidar.size(); ++scan) {
@@ -33,7 +33,7 @@ double apply(const Linearization& equations, const Eigen::VectorXd& move, Mapped
   }
   for (std::size_t i = 0; i < drive.faces.size(); ++i) {
     const Eigen::Vector2d step = move.segment<2>(equations.face_unknown(i));
-    MappedFace& face = drive.faces[i];
+    LineLandmark& face = drive.faces[i];
     face.set_line(face.normal_rad() + step[0], face.offset_m() + step[1]);
   }
   return largest_m;
@@ -41,15 +41,15 @@ double apply(const Linearization& equations, const Eigen::VectorXd& move, Mapped
 
 }  // namespace
 
-AdjustmentResult adjust(MappedDrive& drive, std::span<const FaceBond> bonds) {
+AdjustmentResult adjust(MappedDrive& drive, std::span<const FaceConstraint> constraints) {
   if (drive.T_map_lidar.size() < 2) return {};
   AdjustmentResult result;
   for (result.steps = 1; result.steps <= kMaxSteps; ++result.steps) {
-    const double leniency =
-        std::max(1.0, kFirstLeniency * std::pow(kLeniencyShare, result.steps - 1));
-    const Linearization now(drive, bonds, leniency);
-    const Eigen::VectorXd move = now.equations().solve(now.equations().pull());
-    const bool still = move.size() == 0 || (apply(now, move, drive) < kStill_m && leniency <= 1);
+    const double gnc_scale = std::max(1.0, kFirstGncScale * std::pow(kGncDecay, result.steps - 1));
+    const Linearization now(drive, constraints, gnc_scale);
+    const Eigen::VectorXd move = now.equations().solve(now.equations().right_hand_side());
+    const bool still =
+        move.size() == 0 || (apply(now, move, drive) < kConverged_m && gnc_scale <= 1);
     if (!still && result.steps < kMaxSteps) continue;
     result.outliers = now.outliers();
     if (!drive.observations.empty()) {
@@ -65,41 +65,43 @@ AdjustmentResult adjust(MappedDrive& drive, std::span<const FaceBond> bonds) {
   return result;
 }
 
-core::Covariance3 covariance_of_way(const MappedDrive& drive, std::size_t from, std::size_t to) {
-  const Linearization now(drive, {}, /*leniency=*/1);
-  const WayResidual way(drive.T_map_lidar[from], drive.T_map_lidar[to], {});
+core::Covariance3 relative_pose_covariance(const MappedDrive& drive, std::size_t from,
+                                           std::size_t to) {
+  const Linearization now(drive, {}, /*gnc_scale=*/1);
+  const RelativePoseResidual residual(drive.T_map_lidar[from], drive.T_map_lidar[to], {});
   const std::array<int, 6> unknowns = now.unknowns_of(from, to);
-  Eigen::MatrixXd slopes = Eigen::MatrixXd::Zero(now.equations().pull().size(), 3);
+  Eigen::MatrixXd jacobians = Eigen::MatrixXd::Zero(now.equations().right_hand_side().size(), 3);
   for (int row = 0; row < 3; ++row) {
     for (std::size_t i = 0; i < unknowns.size(); ++i) {
-      if (unknowns[i] >= 0) slopes(unknowns[i], row) = way.slope[static_cast<std::size_t>(row)][i];
+      if (unknowns[i] >= 0)
+        jacobians(unknowns[i], row) = residual.jacobian[static_cast<std::size_t>(row)][i];
     }
   }
-  const Eigen::MatrixXd spread = now.equations().solve(slopes);
+  const Eigen::MatrixXd spread = now.equations().solve(jacobians);
   if (spread.size() == 0) return core::Covariance3::Zero();
-  return slopes.transpose() * spread;
+  return jacobians.transpose() * spread;
 }
 
 std::vector<double> rotation_variances(const MappedDrive& drive, std::uint32_t from,
                                        std::span<const std::uint32_t> to) {
-  // So many right-hand sides at once, for the memory that they take.
+  // Right-hand sides per solve, to bound memory.
   constexpr std::size_t kAtOnce = 64;
   std::vector<double> variances(to.size(), std::numeric_limits<double>::infinity());
-  const Linearization now(drive, {}, /*leniency=*/1);
+  const Linearization now(drive, {}, /*gnc_scale=*/1);
   for (std::size_t first = 0; first < to.size(); first += kAtOnce) {
     const auto some = to.subspan(first, std::min(kAtOnce, to.size() - first));
-    Eigen::MatrixXd slopes = Eigen::MatrixXd::Zero(now.equations().pull().size(),
-                                                   static_cast<Eigen::Index>(some.size()));
+    Eigen::MatrixXd jacobians = Eigen::MatrixXd::Zero(now.equations().right_hand_side().size(),
+                                                      static_cast<Eigen::Index>(some.size()));
     for (std::size_t i = 0; i < some.size(); ++i) {
       const auto column = static_cast<Eigen::Index>(i);
-      slopes(now.face_unknown(from), column) -= 1;
-      slopes(now.face_unknown(some[i]), column) += 1;
+      jacobians(now.face_unknown(from), column) -= 1;
+      jacobians(now.face_unknown(some[i]), column) += 1;
     }
-    const Eigen::MatrixXd spread = now.equations().solve(slopes);
+    const Eigen::MatrixXd spread = now.equations().solve(jacobians);
     if (spread.size() == 0) return variances;
     for (std::size_t i = 0; i < some.size(); ++i) {
       const auto column = static_cast<Eigen::Index>(i);
-      variances[first + i] = slopes.col(column).dot(spread.col(column));
+      variances[first + i] = jacobians.col(column).dot(spread.col(column));
     }
   }
   return variances;

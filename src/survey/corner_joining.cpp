@@ -8,21 +8,21 @@
 namespace cornerd::survey {
 namespace {
 
-/// What meets at less than this is one wall that bends, and has no certain corner.
+/// A smaller angle gives no certain corner.
 const double kMinSine = std::sin(core::radians(15));
-/// A corner may lie so far before the last thing that was seen of a wall: its cells are 2 cm, and a
-/// few rays at the next wall lie on this one's line as well.
+/// A corner may lie this far before the last hit: cells are 2 cm long, and some returns of the next
+/// wall lie on this line.
 constexpr double kBack_m = 0.08;
-/// So much of the way to a corner may have been seen through: the cell at the end of the wall.
+/// Open length allowed between a piece and its corner: the cell at the wall's end.
 constexpr double kOpen_m = 0.03;
-/// The side of a wall is a worse end than a corner with its end.
+/// Penalty that prefers a corner with an end to one with a side.
 constexpr double kSidePenalty_m = 0.06;
 
 struct Join {
   double cost_m = 0;
-  std::uint32_t from = 0;  ///< whose end (or, at a side, either end)
-  std::uint32_t to = 0;    ///< whose begin, or whose side
-  bool at_end = true;      ///< of `from`; false: at its begin, which only sides may have
+  std::uint32_t from = 0;  ///< piece that ends here
+  std::uint32_t to = 0;    ///< piece that begins here, or whose side is met
+  bool at_end = true;      ///< at the end of `from`; at its begin only where `at_side`
   bool at_side = false;
   core::Vec2 point = core::Vec2::Zero();
   double from_unseen_m = 0;
@@ -47,18 +47,20 @@ class CornerJoiner {
   }
 
  private:
-  const MappedFace& face_of(std::uint32_t piece) const { return drive_.faces[pieces_[piece].face]; }
+  const LineLandmark& face_of(std::uint32_t piece) const {
+    return drive_.faces[pieces_[piece].face];
+  }
 
-  std::optional<core::Vec2> meeting_point(const MappedFace& a, const MappedFace& b) const {
+  std::optional<core::Vec2> meeting_point(const LineLandmark& a, const LineLandmark& b) const {
     const double sine = core::cross(a.direction(), b.direction());
     if (std::abs(sine) < kMinSine) return std::nullopt;
     const double along_m = core::cross(b.at(0) - a.at(0), b.direction()) / sine;
     return a.at(along_m);
   }
 
-  /// How far beyond a piece's end the point lies; negative: before it. Nullopt where the piece
-  /// cannot reach it.
-  std::optional<double> way_to(std::uint32_t piece, double along_m, bool at_end) const {
+  /// Extension of a piece to the point; negative where it has to be shortened. Nullopt where the
+  /// piece cannot reach it.
+  std::optional<double> extension_to(std::uint32_t piece, double along_m, bool at_end) const {
     const WallPiece& wall = pieces_[piece];
     const double beyond_m = at_end ? along_m - wall.end_m : wall.begin_m - along_m;
     if (beyond_m > limits_.corner_m || beyond_m < -std::min(kBack_m, wall.length_m() / 2)) {
@@ -72,14 +74,14 @@ class CornerJoiner {
   }
 
   void consider(std::uint32_t a, std::uint32_t b) {
-    const MappedFace& one = face_of(a);
-    const MappedFace& other = face_of(b);
+    const LineLandmark& one = face_of(a);
+    const LineLandmark& other = face_of(b);
     const auto point = meeting_point(one, other);
     if (!point) return;
     const double along_one_m = one.along_of(*point);
     const double along_other_m = other.along_of(*point);
-    const auto to_end = way_to(a, along_one_m, /*at_end=*/true);
-    const auto to_begin = way_to(b, along_other_m, /*at_end=*/false);
+    const auto to_end = extension_to(a, along_one_m, /*at_end=*/true);
+    const auto to_begin = extension_to(b, along_other_m, /*at_end=*/false);
     if (to_end && to_begin) {
       joins_.push_back({std::abs(*to_end) + std::abs(*to_begin), a, b, true, false, *point,
                         std::max(*to_end, 0.0), std::max(*to_begin, 0.0)});
@@ -87,9 +89,9 @@ class CornerJoiner {
     const WallPiece& side = pieces_[b];
     if (along_other_m < side.begin_m || along_other_m > side.end_m) return;
     for (const bool at_end : {true, false}) {
-      const auto to_side = way_to(a, along_one_m, at_end);
+      const auto to_side = extension_to(a, along_one_m, at_end);
       if (!to_side) continue;
-      // A wall comes to another one's side from its free side alone.
+      // A wall meets another face from its free side only.
       const double far_m = at_end ? pieces_[a].begin_m : pieces_[a].end_m;
       if (other.height_of(one.at(far_m)) < 0) continue;
       joins_.push_back({std::abs(*to_side) + kSidePenalty_m, a, b, at_end, true, *point,

@@ -10,14 +10,13 @@
 
 namespace cornerd::survey {
 
-/// Called with the turns done.
+/// Called with the number of scans done.
 using Progress = std::function<void(std::size_t)>;
 
-/// Goes through a drive and maps it as it goes: each turn is placed by the faces mapped so far, and
-/// what it saw beyond them begins new ones. `before`: an earlier, adjusted pass, whose faces are
-/// known from the start, whose poses are better than any prediction, and whose odometry has
-/// learned. `anew`: of that pass the way from turn to turn alone is believed, and nothing of its
-/// map.
+/// Maps a drive scan by scan: each scan is matched to the faces mapped so far, and its unmatched
+/// observations begin new faces. `before`: an earlier, adjusted pass that gives the initial faces,
+/// the predicted poses and the odometry's calibration. `anew`: only the motion from scan to scan is
+/// taken from that pass, not its map.
 MappedDrive map_drive(const RecordedDrive& drive, const core::LocalizerConfig& config,
                       const MappedDrive* before, const Progress& progress, bool anew = false);
 

@@ -8,39 +8,39 @@
 namespace cornerd::survey {
 namespace {
 
-/// Nearer to the line than this, and than so many sigmas, a return is of the face.
+/// A return within this distance, plus this many sigmas, is on the face.
 constexpr double kOnFace_m = 0.01;
 constexpr double kRaySigmas = 3;
-/// A ray went through a face where it ended so far behind it.
+/// A ray that ends this far behind a face went through it.
 constexpr double kBehind_m = 0.06;
-/// Rays that graze a face tell nothing of where they meet it.
+/// Cosine of the incidence angle; grazing rays are not counted.
 constexpr double kMinApproach = 0.1;
-/// Fewer rays than this are outliers and mixed pixels.
+/// Fewer rays are outliers and mixed pixels.
 constexpr std::uint32_t kFewRays = 3;
 
 class RayCounter {
  public:
   explicit RayCounter(const core::SensorNoise& noise) : noise_(noise) {}
 
-  void begin(std::span<const StraightPoint> points) {
+  void begin(std::span<const DeskewedPoint> points) {
     points_ = points;
     taken_.assign(points.size(), false);
   }
 
-  void count(const MappedFace& face, const core::Pose2& T_map_lidar, FaceEvidence& evidence) {
+  void count(const LineLandmark& face, const core::Pose2& T_map_lidar, FaceEvidence& evidence) {
     face_ = &face;
     const double height_m = face.height_of(T_map_lidar.translation());
     if (height_m <= kOnFace_m || points_.empty()) return;
     const double own_m = face.along_of(T_map_lidar.translation());
     const double normal_rad = face.normal_rad() - T_map_lidar.theta_rad;
-    // Bearing of the foot of the perpendicular; along the face it grows counter-clockwise.
+    // Bearing of the perpendicular's foot; bearings along the face grow counter-clockwise.
     const double foot_rad = core::normalize_angle(normal_rad + core::kPi);
     const double from_rad = foot_rad + std::atan2(evidence.begin_m() - own_m, height_m);
     const double to_rad = foot_rad + std::atan2(evidence.end_m() - own_m, height_m);
     for (const double rotation_rad : {-core::kTwoPi, 0.0, core::kTwoPi}) {
       const auto first = std::partition_point(
           points_.begin(), points_.end(),
-          [&](const StraightPoint& point) { return point.bearing_rad < from_rad + rotation_rad; });
+          [&](const DeskewedPoint& point) { return point.bearing_rad < from_rad + rotation_rad; });
       for (auto i = static_cast<std::size_t>(first - points_.begin()); i < points_.size(); ++i) {
         if (points_[i].bearing_rad > to_rad + rotation_rad) break;
         count(i, points_[i].bearing_rad - rotation_rad - foot_rad, height_m, own_m, evidence);
@@ -51,7 +51,7 @@ class RayCounter {
  private:
   void count(std::size_t index, double aside_rad, double height_m, double own_m,
              FaceEvidence& evidence) {
-    const StraightPoint& point = points_[index];
+    const DeskewedPoint& point = points_[index];
     const double approach = std::cos(aside_rad);
     if (approach < kMinApproach) return;
     const double across_m = point.range_m * approach - height_m;  // positive behind the face
@@ -68,14 +68,14 @@ class RayCounter {
   }
 
   const core::SensorNoise& noise_;
-  std::span<const StraightPoint> points_;
-  std::vector<bool> taken_;  ///< by a face that was seen more
-  const MappedFace* face_ = nullptr;
+  std::span<const DeskewedPoint> points_;
+  std::vector<bool> taken_;  ///< by a face with more observations
+  const LineLandmark* face_ = nullptr;
 };
 
 }  // namespace
 
-FaceEvidence::FaceEvidence(const MappedFace& face)
+FaceEvidence::FaceEvidence(const LineLandmark& face)
     : begin_m_(face.begin_m() - kBeyond_m),
       cells_(static_cast<std::size_t>(std::ceil((face.length_m() + 2 * kBeyond_m) / kCell_m))) {}
 
@@ -114,11 +114,11 @@ double FaceEvidence::open_between(double from_m, double to_m) const {
 std::vector<FaceEvidence> gather_evidence(const MappedDrive& drive, const core::SensorNoise& noise,
                                           const Progress& progress) {
   std::vector<FaceEvidence> evidence(drive.faces.begin(), drive.faces.end());
-  // A return speaks for one face alone: for that which was seen most.
+  // A return counts as a hit of one face only: the one with the most observations.
   std::vector<std::uint32_t> order(drive.faces.size());
   std::iota(order.begin(), order.end(), 0);
   std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-    return drive.faces[a].sightings > drive.faces[b].sightings;
+    return drive.faces[a].observations > drive.faces[b].observations;
   });
   RayCounter rays(noise);
   for (std::size_t scan = 0; scan < drive.T_map_lidar.size(); ++scan) {

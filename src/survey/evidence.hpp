@@ -10,20 +10,20 @@
 
 namespace cornerd::survey {
 
-/// What the rays of a whole drive say of the line of one face, in cells along it: how many ended on
-/// it, and how many went through.
+/// Ray counts of a whole drive in cells along the line of one face: hits (rays that ended on it)
+/// and passes (rays that went through it).
 class FaceEvidence {
  public:
   static constexpr double kCell_m = 0.02;
-  /// The line is looked at beyond both ends of what was sighted.
+  /// The cells extend beyond both ends of the observed face.
   static constexpr double kBeyond_m = 0.4;
 
-  explicit FaceEvidence(const MappedFace& face);
+  explicit FaceEvidence(const LineLandmark& face);
 
   double begin_m() const { return begin_m_; }
   double end_m() const { return begin_m_ + kCell_m * static_cast<double>(cells_.size()); }
   std::size_t size() const { return cells_.size(); }
-  /// Place of a cell's beginning along the face.
+  /// Begin of a cell along the face.
   double along_of(std::size_t cell) const { return begin_m_ + kCell_m * static_cast<double>(cell); }
 
   void add_hit(double along_m) { add(along_m, &Cell::hits); }
@@ -31,11 +31,11 @@ class FaceEvidence {
 
   std::uint32_t hits(std::size_t cell) const { return cells_[cell].hits; }
   std::uint32_t passes(std::size_t cell) const { return cells_[cell].passes; }
-  /// Of the cell at a place along the face; 0 beyond the ends.
+  /// Of the cell at a coordinate along the face; 0 beyond the ends.
   std::uint32_t hits_at(double along_m) const;
   bool is_wall(std::size_t cell) const;
   bool is_open(std::size_t cell) const;
-  /// Metres between two places that rays went through.
+  /// Length between two coordinates that rays went through, metres.
   double open_between(double from_m, double to_m) const;
 
  private:
@@ -49,7 +49,7 @@ class FaceEvidence {
   std::vector<Cell> cells_;
 };
 
-/// Sends all rays of the drive through all faces. Linear in the rays.
+/// Casts all rays of the drive through all faces. Linear in the number of rays.
 std::vector<FaceEvidence> gather_evidence(const MappedDrive& drive, const core::SensorNoise& noise,
                                           const Progress& progress);
 

@@ -3,37 +3,40 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <numeric>
+#include <vector>
 
 namespace cornerd::survey {
 namespace {
 
 constexpr double kMergeSigmas = 3.5;
-/// A short face says little of its direction: no reason to merge it with all that it crosses.
-constexpr double kMaxDoubt_rad = core::radians(8);
+/// Limit for short faces, whose direction is uncertain: they must not merge with all they cross.
+constexpr double kMaxMergeAngle_rad = core::radians(8);
 
 /// Begin and end of `other` along `face`, begin first.
-std::pair<double, double> extent_on(const MappedFace& face, const MappedFace& other) {
+std::pair<double, double> extent_on(const LineLandmark& face, const LineLandmark& other) {
   const double a = face.along_of(other.first());
   const double b = face.along_of(other.last());
   return {std::min(a, b), std::max(a, b)};
 }
 
-bool gap_is_closed(const MappedFace& face, const FaceEvidence& evidence, const MappedFace& other) {
+bool gap_is_closed(const LineLandmark& face, const FaceEvidence& evidence,
+                   const LineLandmark& other) {
   const auto [begin_m, end_m] = extent_on(face, other);
   if (begin_m > face.end_m()) return evidence.open_between(face.end_m(), begin_m) == 0;
   if (end_m < face.begin_m()) return evidence.open_between(end_m, face.begin_m()) == 0;
   return true;
 }
 
-bool lie_on_one_line(const MappedFace& longer, const MappedFace& shorter,
+bool lie_on_one_line(const LineLandmark& longer, const LineLandmark& shorter,
                      const MergeLimits& limits) {
   const double rotation_rad = core::angle_between(longer.normal_rad(), shorter.normal_rad());
   const double angle_sigma_rad = std::sqrt(longer.covariance()(0, 0) + shorter.covariance()(0, 0));
   const double allowed_rad =
-      std::min(kMaxDoubt_rad, limits.heading_rad + kMergeSigmas * angle_sigma_rad);
+      std::min(kMaxMergeAngle_rad, limits.heading_rad + kMergeSigmas * angle_sigma_rad);
   if (std::abs(rotation_rad) > allowed_rad) return false;
-  // Compared where the two are nearest to each other.
+  // Compared where the two faces are nearest to each other.
   const auto [begin_m, end_m] = extent_on(longer, shorter);
   const double middle_m = (begin_m + end_m) / 2;
   const double nearest_m = std::clamp(middle_m, longer.begin_m(), longer.end_m());
@@ -44,14 +47,14 @@ bool lie_on_one_line(const MappedFace& longer, const MappedFace& shorter,
   return std::abs(apart_m) < limits.place_m + kMergeSigmas * std::min(sigma_m, limits.place_m);
 }
 
-/// Share of the shorter one's cells at which rays ended on both.
-double shared_cells(const MappedFace& one, const FaceEvidence& on_one, const MappedFace& other,
+/// Share of the shorter face's cells at which rays ended on both.
+double shared_cells(const LineLandmark& one, const FaceEvidence& on_one, const LineLandmark& other,
                     const FaceEvidence& on_other) {
   const bool other_shorter = other.length_m() < one.length_m();
   const FaceEvidence& shorter = other_shorter ? on_other : on_one;
   const FaceEvidence& longer = other_shorter ? on_one : on_other;
-  const MappedFace& from = other_shorter ? other : one;
-  const MappedFace& to = other_shorter ? one : other;
+  const LineLandmark& from = other_shorter ? other : one;
+  const LineLandmark& to = other_shorter ? one : other;
   std::size_t hit = 0;
   std::size_t both = 0;
   for (std::size_t cell = 0; cell < shorter.size(); ++cell) {
@@ -63,28 +66,29 @@ double shared_cells(const MappedFace& one, const FaceEvidence& on_one, const Map
   return hit > 0 ? static_cast<double>(both) / static_cast<double>(hit) : 0;
 }
 
-/// One wall that was mapped twice, since the way or the sensor was off in between.
-bool are_doubles(const MappedFace& one, const FaceEvidence& on_one, const MappedFace& other,
-                 const FaceEvidence& on_other, const MergeLimits& limits) {
+/// One wall that was mapped twice, since the trajectory drifted in between.
+bool are_duplicates(const LineLandmark& one, const FaceEvidence& on_one, const LineLandmark& other,
+                    const FaceEvidence& on_other, const MergeLimits& limits) {
   constexpr double kMostlyShared = 0.5;
   const double rotation_rad = core::angle_between(one.normal_rad(), other.normal_rad());
-  if (std::abs(rotation_rad) > limits.double_rad) return false;
-  const MappedFace& shorter = other.length_m() < one.length_m() ? other : one;
-  const MappedFace& longer = other.length_m() < one.length_m() ? one : other;
+  if (std::abs(rotation_rad) > limits.duplicate_rad) return false;
+  const LineLandmark& shorter = other.length_m() < one.length_m() ? other : one;
+  const LineLandmark& longer = other.length_m() < one.length_m() ? one : other;
   const core::Vec2 middle = shorter.at((shorter.begin_m() + shorter.end_m()) / 2);
-  if (std::abs(longer.height_of(middle)) > limits.double_m) return false;
+  if (std::abs(longer.height_of(middle)) > limits.duplicate_m) return false;
   return shared_cells(one, on_one, other, on_other) > kMostlyShared;
 }
 
 bool are_one(const MappedDrive& drive, const std::vector<FaceEvidence>& evidence, std::size_t a,
              std::size_t b, const MergeLimits& limits) {
-  const MappedFace& one = drive.faces[a];
-  const MappedFace& other = drive.faces[b];
+  const LineLandmark& one = drive.faces[a];
+  const LineLandmark& other = drive.faces[b];
   if (one.normal().dot(other.normal()) < 0.9) return false;
   const auto [begin_m, end_m] = extent_on(one, other);
   const double gap_m = std::max(begin_m - one.end_m(), one.begin_m() - end_m);
   if (gap_m > (evidence.empty() ? 0.0 : limits.gap_m)) return false;
-  if (!evidence.empty() && gap_m < 0 && are_doubles(one, evidence[a], other, evidence[b], limits)) {
+  if (!evidence.empty() && gap_m < 0 &&
+      are_duplicates(one, evidence[a], other, evidence[b], limits)) {
     return true;
   }
   const bool first_longer = one.length_m() >= other.length_m();
@@ -99,11 +103,11 @@ bool are_one(const MappedDrive& drive, const std::vector<FaceEvidence>& evidence
 
 std::size_t merge_faces(MappedDrive& drive, const std::vector<FaceEvidence>& evidence,
                         const MergeLimits& limits) {
-  // The faces that were seen most take the others in.
+  // Faces with fewer observations are merged into those with more.
   std::vector<std::uint32_t> order(drive.faces.size());
   std::iota(order.begin(), order.end(), 0);
   std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-    return drive.faces[a].sightings > drive.faces[b].sightings;
+    return drive.faces[a].observations > drive.faces[b].observations;
   });
   std::vector<std::uint32_t> into(drive.faces.size());
   std::iota(into.begin(), into.end(), 0);
@@ -113,11 +117,11 @@ std::size_t merge_faces(MappedDrive& drive, const std::vector<FaceEvidence>& evi
       const std::uint32_t host = order[k];
       if (into[host] != host || !are_one(drive, evidence, host, order[i], limits)) continue;
       into[order[i]] = host;
-      const MappedFace& guest = drive.faces[order[i]];
-      MappedFace& face = drive.faces[host];
+      const LineLandmark& guest = drive.faces[order[i]];
+      LineLandmark& face = drive.faces[host];
       face.extend(guest.first());
       face.extend(guest.last());
-      face.sightings += guest.sightings;
+      face.observations += guest.observations;
       face.first_scan = std::min(face.first_scan, guest.first_scan);
       face.last_scan = std::max(face.last_scan, guest.last_scan);
       ++merged;
@@ -127,17 +131,38 @@ std::size_t merge_faces(MappedDrive& drive, const std::vector<FaceEvidence>& evi
   if (merged == 0) return 0;
 
   std::vector<std::uint32_t> place(drive.faces.size(), kNoFace);
-  std::vector<MappedFace> kept;
+  std::vector<LineLandmark> kept;
   for (std::size_t i = 0; i < drive.faces.size(); ++i) {
     if (into[i] != i) continue;
     place[i] = static_cast<std::uint32_t>(kept.size());
     kept.push_back(drive.faces[i]);
   }
-  for (Observation& observation : drive.observations) {
+  for (MatchedObservation& observation : drive.observations) {
     observation.face = place[into[observation.face]];
   }
   drive.faces = std::move(kept);
   return merged;
+}
+
+std::size_t split_revisited(MappedDrive& drive, std::size_t from_scan, double distance_m) {
+  const std::vector<double> travelled = travelled_m(drive);
+  const std::size_t known = drive.faces.size();
+  std::vector<std::uint32_t> now_of(known);  // current index of each face
+  std::iota(now_of.begin(), now_of.end(), 0);
+  std::vector<std::uint32_t> last_seen(known, kNoFace);
+  for (MatchedObservation& observation : drive.observations) {
+    const std::uint32_t face = observation.face;
+    const std::uint32_t last = last_seen[face];
+    last_seen[face] = observation.scan;
+    if (last != kNoFace && observation.scan >= from_scan &&
+        travelled[observation.scan] - travelled[last] > distance_m) {
+      now_of[face] = static_cast<std::uint32_t>(drive.faces.size());
+      drive.faces.push_back(drive.faces[face]);
+    }
+    observation.face = now_of[face];
+  }
+  if (drive.faces.size() > known) measure_faces(drive);
+  return drive.faces.size() - known;
 }
 
 }  // namespace cornerd::survey

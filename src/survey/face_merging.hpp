@@ -9,23 +9,27 @@
 
 namespace cornerd::survey {
 
-/// How far two faces may deviate that are one: a wall that was seen twice, from two ends of a
-/// drive.
+/// Limits within which two faces are one wall face that was mapped twice.
 struct MergeLimits {
   double place_m = 0.02;
   double heading_rad = core::radians(1.5);
-  /// Along the wall, where no ray went through.
+  /// Largest gap along the wall, where no ray went through.
   double gap_m = 0.3;
-  /// Across the wall, where rays ended on both at the same places: the one in front would have
-  /// hidden the other, so that they are one that was mapped twice.
-  double double_m = 0.1;
-  double double_rad = core::radians(5);
+  /// Largest offset and angle of duplicate walls: rays ended on both at the same coordinates,
+  /// although the front face would have hidden the one behind.
+  double duplicate_m = 0.1;
+  double duplicate_rad = core::radians(5);
 };
 
-/// Makes one face of those that are: they look the same way, lie on one line within what is known
-/// of both and the limits, and overlap, or leave a gap that nothing was seen through. `evidence`:
-/// of the faces, or empty for those that overlap alone. Returns how many were merged into others.
+/// Merges faces with the same normal that lie on one line within their covariances and the limits,
+/// and overlap or leave a gap that no ray went through. `evidence`: of the faces; where it is empty
+/// only faces that overlap are merged. Returns the number of faces merged into others.
 std::size_t merge_faces(MappedDrive& drive, const std::vector<FaceEvidence>& evidence,
                         const MergeLimits& limits);
+
+/// Splits each face that was out of sight while the robot travelled more than `distance_m` and was
+/// observed again in `from_scan` or later: the scan matching may have taken another wall for it.
+/// merge_faces() merges correct matches again. Returns the number of faces split.
+std::size_t split_revisited(MappedDrive& drive, std::size_t from_scan, double distance_m);
 
 }  // namespace cornerd::survey

@@ -9,44 +9,45 @@ namespace {
 
 /// Chi-square (two degrees of freedom) at which an observation counts half.
 constexpr double kHalfWeight = 9;
-/// A link that the walls contradict as much counts half: a slip of the wheels.
-constexpr double kHalfLink = 9;
-/// A place recognised again that all else contradicts as much counts half.
-constexpr double kHalfTie = 9;
+/// The same for an odometry edge (three degrees of freedom): a wheel slip.
+constexpr double kHalfWeightEdge = 9;
+/// The same for a loop constraint.
+constexpr double kHalfWeightLoop = 9;
 
-/// Of all unknowns: what nothing ties down stays where it is.
-constexpr double kHold = 1e-3;
+/// Damping of all unknowns; keeps unobservable ones at their value.
+constexpr double kDamping = 1e-3;
 
 }  // namespace
 
-WayResidual::WayResidual(const core::Pose2& from, const core::Pose2& to,
-                         const core::Pose2& expected) {
-  const core::Pose2 way = from.inverse() * to;
+RelativePoseResidual::RelativePoseResidual(const core::Pose2& from, const core::Pose2& to,
+                                           const core::Pose2& expected) {
+  const core::Pose2 relative = from.inverse() * to;
   const double c = std::cos(from.theta_rad);
   const double s = std::sin(from.theta_rad);
-  off = {way.x_m - expected.x_m, way.y_m - expected.y_m,
-         core::angle_between(expected.theta_rad, way.theta_rad)};
-  slope = {{{-c, -s, way.y_m, c, s, 0}, {s, -c, -way.x_m, -s, c, 0}, {0, 0, -1, 0, 0, 1}}};
+  off = {relative.x_m - expected.x_m, relative.y_m - expected.y_m,
+         core::angle_between(expected.theta_rad, relative.theta_rad)};
+  jacobian = {
+      {{-c, -s, relative.y_m, c, s, 0}, {s, -c, -relative.x_m, -s, c, 0}, {0, 0, -1, 0, 0, 1}}};
 }
 
-Linearization::Linearization(const MappedDrive& drive, std::span<const FaceBond> bonds,
-                             double leniency)
+Linearization::Linearization(const MappedDrive& drive, std::span<const FaceConstraint> constraints,
+                             double gnc_scale)
     : drive_(drive),
-      leniency_(leniency),
+      leniency_(gnc_scale),
       first_face_(3 * (static_cast<int>(drive.T_map_lidar.size()) - 1)),
       equations_(face_unknown(drive.faces.size())),
       information_(drive.faces.size(), Eigen::Matrix2d::Zero()) {
-  for (const Observation& observation : drive_.observations) add(observation);
-  for (std::size_t scan = 1; scan < drive_.links.size(); ++scan) add_link(scan);
-  for (const PlaceTie& tie : drive_.ties) add_tie(tie);
-  for (const FaceBond& bond : bonds) add_bond(bond);
-  equations_.hold(kHold);
+  for (const MatchedObservation& observation : drive_.observations) add(observation);
+  for (std::size_t scan = 1; scan < drive_.odometry_edges.size(); ++scan) add_odometry_edge(scan);
+  for (const LoopConstraint& constraint : drive_.loop_constraints) add_loop_constraint(constraint);
+  for (const FaceConstraint& constraint : constraints) add_face_constraint(constraint);
+  equations_.add_damping(kDamping);
 }
 
-void Linearization::add(const Observation& observation) {
+void Linearization::add(const MatchedObservation& observation) {
   const core::Pose2& T_map_lidar = drive_.T_map_lidar[observation.scan];
-  const MappedFace& face = drive_.faces[observation.face];
-  const Sighting& seen = observation.seen;
+  const LineLandmark& face = drive_.faces[observation.face];
+  const LineObservation& seen = observation.seen;
   const core::Vec2 arm = T_map_lidar * seen.centroid - T_map_lidar.translation();
   const core::Vec2 centroid = T_map_lidar.translation() + arm;
   const double angle_rad =
@@ -69,32 +70,34 @@ void Linearization::add(const Observation& observation) {
                     height_m, weight * height_weight);
 
   Eigen::Matrix2d& known = information_[observation.face];
-  const Eigen::Vector2d slope(along_m, 1);
-  known += weight * height_weight * slope * slope.transpose();
+  const Eigen::Vector2d jacobian(along_m, 1);
+  known += weight * height_weight * jacobian * jacobian.transpose();
   known(0, 0) += weight * angle_weight;
 }
 
-void Linearization::add_link(std::size_t scan) {
-  const DriveLink& link = drive_.links[scan];
-  add_way(scan - 1, scan, link.T_before_now, link.covariance.diagonal(), kHalfLink);
+void Linearization::add_odometry_edge(std::size_t scan) {
+  const OdometryEdge& link = drive_.odometry_edges[scan];
+  add_relative_pose(scan - 1, scan, link.T_before_now, link.covariance.diagonal(), kHalfWeightEdge);
 }
 
-void Linearization::add_tie(const PlaceTie& tie) {
-  const Eigen::Vector3d sigma(tie.sigma_m, tie.sigma_m, tie.sigma_rad);
-  add_way(tie.earlier, tie.later, tie.T_earlier_later, sigma.cwiseAbs2(), kHalfTie * leniency_);
+void Linearization::add_loop_constraint(const LoopConstraint& constraint) {
+  const Eigen::Vector3d sigma(constraint.sigma_m, constraint.sigma_m, constraint.sigma_rad);
+  add_relative_pose(constraint.earlier, constraint.later, constraint.T_earlier_later,
+                    sigma.cwiseAbs2(), kHalfWeightLoop * leniency_);
 }
 
-void Linearization::add_way(std::size_t from, std::size_t to, const core::Pose2& expected,
-                            const Eigen::Vector3d& variance, double half) {
-  const WayResidual way(drive_.T_map_lidar[from], drive_.T_map_lidar[to], expected);
+void Linearization::add_relative_pose(std::size_t from, std::size_t to, const core::Pose2& expected,
+                                      const Eigen::Vector3d& variance, double half) {
+  const RelativePoseResidual residual(drive_.T_map_lidar[from], drive_.T_map_lidar[to], expected);
   double chi2 = 0;
   for (std::size_t i = 0; i < 3; ++i) {
-    chi2 += way.off[i] * way.off[i] / variance[static_cast<int>(i)];
+    chi2 += residual.off[i] * residual.off[i] / variance[static_cast<int>(i)];
   }
   const double weight = 1 / (1 + chi2 / half);
   const std::array<int, 6> unknowns = unknowns_of(from, to);
   for (std::size_t i = 0; i < 3; ++i) {
-    equations_.add<6>(unknowns, way.slope[i], way.off[i], weight / variance[static_cast<int>(i)]);
+    equations_.add<6>(unknowns, residual.jacobian[i], residual.off[i],
+                      weight / variance[static_cast<int>(i)]);
   }
 }
 
@@ -105,21 +108,21 @@ std::array<int, 6> Linearization::unknowns_of(std::size_t from, std::size_t to) 
           or_fixed(b, 0), or_fixed(b, 1), or_fixed(b, 2)};
 }
 
-void Linearization::add_bond(const FaceBond& bond) {
-  const MappedFace& one = drive_.faces[bond.one];
-  const MappedFace& other = drive_.faces[bond.other];
-  const int a = face_unknown(bond.one);
-  const int b = face_unknown(bond.other);
+void Linearization::add_face_constraint(const FaceConstraint& constraint) {
+  const LineLandmark& one = drive_.faces[constraint.one];
+  const LineLandmark& other = drive_.faces[constraint.other];
+  const int a = face_unknown(constraint.one);
+  const int b = face_unknown(constraint.other);
   const double rotation_rad =
-      core::angle_between(one.normal_rad() + bond.rotation_rad, other.normal_rad());
-  const double angle_weight = 1 / (bond.sigma_rad * bond.sigma_rad);
+      core::angle_between(one.normal_rad() + constraint.rotation_rad, other.normal_rad());
+  const double angle_weight = 1 / (constraint.sigma_rad * constraint.sigma_rad);
   equations_.add<2>({a, b}, {-1, 1}, rotation_rad, angle_weight);
-  if (!bond.on_one_line) return;
-  // The middle of `other` lies on `one`: height of a point of the other's line over the first.
+  if (!constraint.on_one_line) return;
+  // The middle of `other` lies on `one`.
   const double other_along_m = (other.begin_m() + other.end_m()) / 2;
   const core::Vec2 middle = other.at(other_along_m);
   equations_.add<4>({a, a + 1, b, b + 1}, {-one.along_of(middle), -1, other_along_m, 1},
-                    one.height_of(middle), 1 / (bond.sigma_m * bond.sigma_m));
+                    one.height_of(middle), 1 / (constraint.sigma_m * constraint.sigma_m));
 }
 
 }  // namespace cornerd::survey

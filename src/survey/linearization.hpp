@@ -14,31 +14,31 @@
 
 namespace cornerd::survey {
 
-/// What the way from one pose to another deviates from `expected` by, in the frame of the first,
-/// and how that changes with (x, y, theta) of both.
-struct WayResidual {
-  WayResidual(const core::Pose2& from, const core::Pose2& to, const core::Pose2& expected);
+/// Relative pose of `to` in the frame of `from`, minus `expected`, and its Jacobian (3 x 6) with
+/// respect to (x, y, theta) of both.
+struct RelativePoseResidual {
+  RelativePoseResidual(const core::Pose2& from, const core::Pose2& to, const core::Pose2& expected);
   std::array<double, 3> off{};
-  std::array<std::array<double, 6>, 3> slope{};
+  std::array<std::array<double, 6>, 3> jacobian{};
 };
 
-/// All that is known of a drive, as equations about small changes of its poses (three unknowns
-/// each, but for the first) and of its faces (two each). What contradicts all else has lost its
-/// weight.
+/// The linearised residuals of a drive. Unknowns: three for each pose but the first, two for each
+/// face. Residuals have Cauchy weights.
 class Linearization {
  public:
-  /// `leniency`: by how much later things lose their weight than they do in the end.
-  Linearization(const MappedDrive& drive, std::span<const FaceBond> bonds, double leniency);
+  /// `gnc_scale`: factor on the kernel widths (squared) of observations and loop constraints.
+  Linearization(const MappedDrive& drive, std::span<const FaceConstraint> constraints,
+                double gnc_scale);
 
   const NormalEquations& equations() const { return equations_; }
-  /// Of the observations, capped where they lose their weight.
+  /// Sum over the observations, each capped at the kernel width.
   double chi_square() const { return chi_square_; }
-  /// Observations that lost more than half of their weight.
+  /// Observations with less than half of their weight.
   std::size_t outliers() const { return outliers_; }
-  /// Of a face's line (angle, offset at the anchor), if all poses were known.
+  /// Information of a face's (angle, offset at the anchor), given all poses.
   const Eigen::Matrix2d& information_of(std::size_t face) const { return information_[face]; }
 
-  /// The first of its unknowns; -3 for the first turn, which is fixed.
+  /// Index of the first unknown; -3 for the first scan, which is fixed.
   int pose_unknown(std::size_t scan) const { return 3 * (static_cast<int>(scan) - 1); }
   int face_unknown(std::size_t face) const { return first_face_ + 2 * static_cast<int>(face); }
 
@@ -46,12 +46,12 @@ class Linearization {
 
  private:
   static int or_fixed(int unknown, int part) { return unknown < 0 ? -1 : unknown + part; }
-  void add(const Observation& observation);
-  void add_link(std::size_t scan);
-  void add_tie(const PlaceTie& tie);
-  void add_way(std::size_t from, std::size_t to, const core::Pose2& expected,
-               const Eigen::Vector3d& variance, double half);
-  void add_bond(const FaceBond& bond);
+  void add(const MatchedObservation& observation);
+  void add_odometry_edge(std::size_t scan);
+  void add_loop_constraint(const LoopConstraint& constraint);
+  void add_relative_pose(std::size_t from, std::size_t to, const core::Pose2& expected,
+                         const Eigen::Vector3d& variance, double half);
+  void add_face_constraint(const FaceConstraint& constraint);
 
   const MappedDrive& drive_;
   double leniency_;

@@ -6,7 +6,7 @@
 namespace cornerd::survey {
 
 Eigen::MatrixXd NormalEquations::solve(const Eigen::MatrixXd& right) const {
-  Eigen::SparseMatrix<double> matrix(pull_.size(), pull_.size());
+  Eigen::SparseMatrix<double> matrix(right_hand_side_.size(), right_hand_side_.size());
   matrix.setFromTriplets(entries_.begin(), entries_.end());
   const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>, Eigen::Lower> solver(matrix);
   if (solver.info() != Eigen::Success) return {};

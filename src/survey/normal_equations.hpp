@@ -10,38 +10,38 @@
 
 namespace cornerd::survey {
 
-/// The normal equations of least squares, sparse. The lower triangle is kept.
+/// Sparse normal equations of least squares. Stores the lower triangle.
 class NormalEquations {
  public:
-  explicit NormalEquations(int size) : pull_(Eigen::VectorXd::Zero(size)) {}
+  explicit NormalEquations(int size) : right_hand_side_(Eigen::VectorXd::Zero(size)) {}
 
-  /// One residual, with the unknowns that it depends on. Unknown -1 is fixed.
+  /// Adds a residual and its Jacobian row over `unknowns`; -1 is fixed.
   template <std::size_t N>
-  void add(const std::array<int, N>& unknowns, const std::array<double, N>& slope, double residual,
-           double weight) {
+  void add(const std::array<int, N>& unknowns, const std::array<double, N>& jacobian,
+           double residual, double weight) {
     for (std::size_t i = 0; i < N; ++i) {
       if (unknowns[i] < 0) continue;
-      pull_[unknowns[i]] -= weight * slope[i] * residual;
+      right_hand_side_[unknowns[i]] -= weight * jacobian[i] * residual;
       for (std::size_t j = 0; j < N; ++j) {
         if (unknowns[j] < 0 || unknowns[j] > unknowns[i]) continue;
-        entries_.emplace_back(unknowns[i], unknowns[j], weight * slope[i] * slope[j]);
+        entries_.emplace_back(unknowns[i], unknowns[j], weight * jacobian[i] * jacobian[j]);
       }
     }
   }
 
-  /// A little stiffness for what nothing ties down.
-  void hold(double weight) {
-    for (int i = 0; i < pull_.size(); ++i) entries_.emplace_back(i, i, weight);
+  /// Adds `weight` to the diagonal; keeps unobservable unknowns at their value.
+  void add_damping(double weight) {
+    for (int i = 0; i < right_hand_side_.size(); ++i) entries_.emplace_back(i, i, weight);
   }
 
-  /// What the residuals pull the unknowns to.
-  const Eigen::VectorXd& pull() const { return pull_; }
+  /// The negative gradient.
+  const Eigen::VectorXd& right_hand_side() const { return right_hand_side_; }
 
-  /// Solves for any right-hand sides, a column each; empty where that cannot be done.
+  /// Solves for the columns of `right`. Empty where the factorisation fails.
   Eigen::MatrixXd solve(const Eigen::MatrixXd& right) const;
 
  private:
-  Eigen::VectorXd pull_;
+  Eigen::VectorXd right_hand_side_;
   std::vector<Eigen::Triplet<double>> entries_;
 };
 

@@ -15,8 +15,8 @@ void RecordedDrive::add(const core::Scan& scan) {
   scans_.push_back({scan.start_ns(), samples_.size(), scan.size()});
   for (const core::Sample& sample : scan.samples()) {
     const core::TimeNs after_us = (sample.t_ns - scan.start_ns()) / kNsPerUs;
-    constexpr core::TimeNs kMost = std::numeric_limits<std::int32_t>::max();
-    samples_.push_back({static_cast<std::int32_t>(std::clamp(after_us, -kMost, kMost)),
+    constexpr core::TimeNs kMax = std::numeric_limits<std::int32_t>::max();
+    samples_.push_back({static_cast<std::int32_t>(std::clamp(after_us, -kMax, kMax)),
                         sample.bearing_rad, sample.range_m});
   }
 }

@@ -12,13 +12,13 @@
 
 namespace cornerd::survey {
 
-/// A whole drive in memory, 12 bytes a sample: it is gone through more than once.
+/// A whole drive in memory, 12 bytes a sample, for several passes.
 class RecordedDrive {
  public:
   struct Reading {
     core::OdometryReading reading;
-    std::optional<core::TimeNs> now_ns;  ///< of the lidar's newest sample when it came
-    std::size_t scan = 0;                ///< that was going on
+    std::optional<core::TimeNs> now_ns;  ///< time of the newest lidar sample when it arrived
+    std::size_t scan = 0;                ///< index of the scan that was being received
   };
 
   void add(const core::Scan& scan);
@@ -26,11 +26,11 @@ class RecordedDrive {
     keep({reading, now_ns, scans_.size()});
   }
 
-  /// Readings of another file, in place of those that came with the turns.
+  /// Replaces the readings by those of another file.
   void set_odometry(const std::vector<core::OdometryReading>& readings);
 
   std::size_t size() const { return scans_.size(); }
-  /// What its readings tell of: a gyro without wheels tells no way.
+  /// Whether any reading has both wheel counts, and whether any has a gyro rate.
   bool has_wheels() const { return has_wheels_; }
   bool has_gyro() const { return has_gyro_; }
   RecordedDrive without_odometry() const;
@@ -38,14 +38,14 @@ class RecordedDrive {
   /// In the order of their arrival.
   std::span<const Reading> readings() const { return readings_; }
 
-  /// Times of a turn: its first sample, and its last one.
+  /// Times of a scan's first and last sample, and their middle.
   core::TimeNs start_ns(std::size_t index) const { return scans_[index].start_ns; }
   core::TimeNs end_ns(std::size_t index) const;
   core::TimeNs middle_ns(std::size_t index) const {
     return start_ns(index) + (end_ns(index) - start_ns(index)) / 2;
   }
 
-  /// The turn as it came, without the samples' quality.
+  /// The scan as received, without the samples' quality.
   void load(std::size_t index, core::Scan& scan) const;
 
  private:
@@ -55,7 +55,7 @@ class RecordedDrive {
     std::size_t size = 0;
   };
   struct StoredSample {
-    std::int32_t after_us = 0;  ///< the turn's start
+    std::int32_t after_us = 0;  ///< since the scan's start
     float bearing_rad = 0;
     float range_m = 0;
   };

@@ -7,17 +7,16 @@
 namespace cornerd::survey {
 namespace {
 
-/// Builders are this exact: what is askew by more is so by intent. And what is known to be askew by
-/// this many sigmas is no error of the map.
+/// Building tolerance: a larger angle is intended. An angle beyond kSquareSigmas is no map error.
 constexpr double kSquare_rad = core::radians(0.5);
 constexpr double kSquareSigmas = 3;
-/// What the sightings of a face err by together, however many there are: walls are a little wavy.
+/// Angle error that all observations of a face share: walls are not perfectly straight.
 constexpr double kWavy_rad = core::radians(0.03);
-/// A face that is less certain than this tells of no right angle.
-constexpr double kTellingSigma_rad = core::radians(1);
+/// Largest angle sigma of a face that gets a constraint.
+constexpr double kMaxFaceSigma_rad = core::radians(1);
 constexpr double kBondSigma_rad = core::radians(0.003);
-/// Shorter ones are pieces of furniture as often as walls.
-constexpr double kLeast_m = 0.1;
+/// Shorter faces are furniture as often as walls.
+constexpr double kMin_m = 0.1;
 
 }  // namespace
 
@@ -30,7 +29,7 @@ RightAngles right_angles(const MappedDrive& drive, std::span<const std::uint32_t
       });
   std::vector<std::uint32_t> others;
   for (const std::uint32_t face : faces) {
-    if (face != reference && drive.faces[face].length_m() >= kLeast_m) others.push_back(face);
+    if (face != reference && drive.faces[face].length_m() >= kMin_m) others.push_back(face);
   }
   const std::vector<double> variances = rotation_variances(drive, reference, others);
   for (std::size_t i = 0; i < others.size(); ++i) {
@@ -39,16 +38,16 @@ RightAngles right_angles(const MappedDrive& drive, std::span<const std::uint32_t
     const double rotation_rad = core::angle_between(drive.faces[reference].normal_rad(),
                                                     drive.faces[others[i]].normal_rad());
     const double square_rad = std::round(rotation_rad / (core::kPi / 2)) * (core::kPi / 2);
-    if (sigma_rad > kTellingSigma_rad || std::abs(rotation_rad - square_rad) > tolerance_rad) {
+    if (sigma_rad > kMaxFaceSigma_rad || std::abs(rotation_rad - square_rad) > tolerance_rad) {
       ++result.askew;
       continue;
     }
-    FaceBond bond;
-    bond.one = reference;
-    bond.other = others[i];
-    bond.rotation_rad = square_rad;
-    bond.sigma_rad = kBondSigma_rad;
-    result.bonds.push_back(bond);
+    FaceConstraint constraint;
+    constraint.one = reference;
+    constraint.other = others[i];
+    constraint.rotation_rad = square_rad;
+    constraint.sigma_rad = kBondSigma_rad;
+    result.constraints.push_back(constraint);
   }
   return result;
 }

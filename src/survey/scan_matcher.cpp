@@ -10,16 +10,16 @@
 namespace cornerd::survey {
 namespace {
 
-/// A piece of a wall that begins so near to what is known of a face may be its next piece.
+/// An observation may continue a face across a gap of this length.
 constexpr double kMaxGap_m = 0.15;
-/// Deviations beyond this many sigmas are of another face, whatever the reach.
+/// Association gate, beside the search radius.
 constexpr double kMatchSigmas = 4;
-/// What matched walls are never sure of more than: faces are a little wavy, and the map is young.
+/// Added to the sigmas: walls are not perfectly straight, and the map is still incomplete.
 constexpr double kSlack_m = 0.001;
 constexpr double kSlack_rad = core::radians(0.03);
 constexpr int kSteps = 8;
-/// Share of the samples on walls that must be on known faces.
-constexpr double kLeastShare = 0.25;
+/// Share of the samples on lines that must be on known faces.
+constexpr double kMinShare = 0.25;
 constexpr double kSureSigma_m = 0.05;
 
 struct Deviation {
@@ -29,7 +29,8 @@ struct Deviation {
   double height_variance;
 };
 
-Deviation deviation_of(const Sighting& seen, const PlacedSighting& placed, const MappedFace& face) {
+Deviation deviation_of(const LineObservation& seen, const PlacedObservation& placed,
+                       const LineLandmark& face) {
   const double along_m = face.along_of(placed.centroid);
   return {core::angle_between(face.normal_rad(), placed.normal_rad),
           face.height_of(placed.centroid),
@@ -37,23 +38,23 @@ Deviation deviation_of(const Sighting& seen, const PlacedSighting& placed, const
           squared(seen.sigma_offset_m) + face.variance_at(along_m) + squared(kSlack_m)};
 }
 
-double overlap_of(const PlacedSighting& placed, const MappedFace& face) {
+double overlap_of(const PlacedObservation& placed, const LineLandmark& face) {
   const double begin_m = face.along_of(placed.first);
   const double end_m = face.along_of(placed.last);
   return std::min(end_m, face.end_m()) - std::max(begin_m, face.begin_m());
 }
 
-std::uint32_t best_face(const Sighting& seen, const PlacedSighting& placed,
-                        std::span<const MappedFace> faces, const Reach& reach) {
+std::uint32_t best_face(const LineObservation& seen, const PlacedObservation& placed,
+                        std::span<const LineLandmark> faces, const SearchRadius& radius) {
   std::uint32_t best = kNoFace;
   double least = 1;
   for (std::size_t i = 0; i < faces.size(); ++i) {
-    const MappedFace& face = faces[i];
+    const LineLandmark& face = faces[i];
     if (face.normal().dot(core::unit_vector(placed.normal_rad)) < 0.7) continue;
-    if (overlap_of(placed, face) < -kMaxGap_m - reach.place_m) continue;
+    if (overlap_of(placed, face) < -kMaxGap_m - radius.place_m) continue;
     const Deviation off = deviation_of(seen, placed, face);
-    const double gate_rad = reach.heading_rad + kMatchSigmas * std::sqrt(off.angle_variance);
-    const double gate_m = reach.place_m + kMatchSigmas * std::sqrt(off.height_variance);
+    const double gate_rad = radius.heading_rad + kMatchSigmas * std::sqrt(off.angle_variance);
+    const double gate_m = radius.place_m + kMatchSigmas * std::sqrt(off.height_variance);
     const double cost = squared(off.angle_rad / gate_rad) + squared(off.height_m / gate_m);
     if (cost < least) {
       least = cost;
@@ -63,14 +64,14 @@ std::uint32_t best_face(const Sighting& seen, const PlacedSighting& placed,
   return best;
 }
 
-/// Doubt that grows with the deviation takes the weight of what is of another face after all.
+/// Cauchy weight: a wrong association loses its influence.
 double weight_of(const Deviation& off) {
   const double chi2 =
       squared(off.angle_rad) / off.angle_variance + squared(off.height_m) / off.height_variance;
   return 1 / (1 + chi2 / 9);
 }
 
-/// Of the place, whatever the heading is, in the direction that is known least.
+/// Position sigma in the weakest direction, with the heading marginalised out.
 double weakest_sigma_m(const Eigen::Matrix3d& information) {
   if (!(information(2, 2) > 0)) return std::numeric_limits<double>::infinity();
   const Eigen::Vector2d shared = information.block<2, 1>(0, 2);
@@ -82,66 +83,67 @@ double weakest_sigma_m(const Eigen::Matrix3d& information) {
 
 }  // namespace
 
-bool ScanMatch::by_walls() const { return valid && own_sigma_m < kSureSigma_m; }
+bool ScanMatch::is_constrained() const { return valid && weakest_sigma_m < kSureSigma_m; }
 
-double ScanMatcher::assign(std::span<const Sighting> sightings, std::span<const MappedFace> faces,
-                           const core::Pose2& T_map_lidar, const Reach& reach,
-                           std::vector<std::uint32_t>& faces_of) {
+double ScanMatcher::assign(std::span<const LineObservation> observations,
+                           std::span<const LineLandmark> faces, const core::Pose2& T_map_lidar,
+                           const SearchRadius& radius, std::vector<std::uint32_t>& faces_of) {
   faces_of.clear();
   double matched = 0;
   double all = 0;
-  for (const Sighting& seen : sightings) {
-    faces_of.push_back(best_face(seen, PlacedSighting(seen, T_map_lidar), faces, reach));
+  for (const LineObservation& seen : observations) {
+    faces_of.push_back(best_face(seen, PlacedObservation(seen, T_map_lidar), faces, radius));
     all += seen.support;
     if (faces_of.back() != kNoFace) matched += seen.support;
   }
   return all > 0 ? matched / all : 0;
 }
 
-ScanMatch ScanMatcher::match(std::span<const Sighting> sightings, std::span<const MappedFace> faces,
-                             const core::Pose2& prior, const core::Covariance3& covariance,
-                             const Reach& reach, std::vector<std::uint32_t>& faces_of) const {
+ScanMatch ScanMatcher::match(std::span<const LineObservation> observations,
+                             std::span<const LineLandmark> faces, const core::Pose2& prior,
+                             const core::Covariance3& covariance, const SearchRadius& radius,
+                             std::vector<std::uint32_t>& faces_of) const {
   ScanMatch result;
   core::Pose2 pose = prior;
   const Eigen::Matrix3d prior_information = covariance.inverse();
   Eigen::Matrix3d information = prior_information;
-  Reach gate = reach;
+  SearchRadius gate = radius;
   for (int step = 0; step < kSteps; ++step) {
-    assign(sightings, faces, pose, gate, faces_of);
-    const bool rough = gate.place_m > 2 * kExactReach.place_m;
+    assign(observations, faces, pose, gate, faces_of);
+    const bool rough = gate.place_m > 2 * kExactRadius.place_m;
     information = prior_information;
     const Eigen::Vector3d from_prior(pose.x_m - prior.x_m, pose.y_m - prior.y_m,
                                      core::angle_between(prior.theta_rad, pose.theta_rad));
-    Eigen::Vector3d pull = -prior_information * from_prior;
-    for (std::size_t i = 0; i < sightings.size(); ++i) {
+    Eigen::Vector3d right_hand_side = -prior_information * from_prior;
+    for (std::size_t i = 0; i < observations.size(); ++i) {
       if (faces_of[i] == kNoFace) continue;
-      const MappedFace& face = faces[faces_of[i]];
-      const PlacedSighting placed(sightings[i], pose);
-      if (cautious_ && overlap_of(placed, face) < 0) continue;
-      const Deviation off = deviation_of(sightings[i], placed, face);
+      const LineLandmark& face = faces[faces_of[i]];
+      const PlacedObservation placed(observations[i], pose);
+      if (requires_overlap_ && overlap_of(placed, face) < 0) continue;
+      const Deviation off = deviation_of(observations[i], placed, face);
       const double weight = rough ? 1 : weight_of(off);
       const core::Vec2 arm = core::rotate_left(placed.centroid - pose.translation());
-      const Eigen::Vector3d slope(face.normal().x(), face.normal().y(), face.normal().dot(arm));
-      information += weight / off.height_variance * slope * slope.transpose();
-      pull -= weight / off.height_variance * off.height_m * slope;
+      const Eigen::Vector3d jacobian(face.normal().x(), face.normal().y(), face.normal().dot(arm));
+      information += weight / off.height_variance * jacobian * jacobian.transpose();
+      right_hand_side -= weight / off.height_variance * off.height_m * jacobian;
       information(2, 2) += weight / off.angle_variance;
-      pull[2] -= weight / off.angle_variance * off.angle_rad;
+      right_hand_side[2] -= weight / off.angle_variance * off.angle_rad;
     }
-    const Eigen::Vector3d move = information.ldlt().solve(pull);
+    const Eigen::Vector3d move = information.ldlt().solve(right_hand_side);
     if (!move.allFinite()) return result;
     pose = {pose.x_m + move.x(), pose.y_m + move.y(),
             core::normalize_angle(pose.theta_rad + move.z())};
-    gate.place_m = std::max(gate.place_m * 0.5, kExactReach.place_m);
-    gate.heading_rad = std::max(gate.heading_rad * 0.5, kExactReach.heading_rad);
+    gate.place_m = std::max(gate.place_m * 0.5, kExactRadius.place_m);
+    gate.heading_rad = std::max(gate.heading_rad * 0.5, kExactRadius.heading_rad);
     if (!rough && move.head<2>().norm() < 1e-5 && std::abs(move.z()) < 1e-6) break;
   }
 
-  result.matched_share = assign(sightings, faces, pose, kExactReach, faces_of);
+  result.matched_share = assign(observations, faces, pose, kExactRadius, faces_of);
   result.T_map_lidar = pose;
   result.covariance = information.inverse();
-  result.own_sigma_m = weakest_sigma_m(information - prior_information);
+  result.weakest_sigma_m = weakest_sigma_m(information - prior_information);
   const double worst_m2 = std::max(result.covariance(0, 0), result.covariance(1, 1));
-  result.valid = result.matched_share > kLeastShare && worst_m2 < squared(kSureSigma_m);
+  result.valid = result.matched_share > kMinShare && worst_m2 < squared(kSureSigma_m);
   return result;
 }
 

@@ -6,53 +6,53 @@
 #include <span>
 #include <vector>
 
-#include "survey/mapped_face.hpp"
+#include "survey/line_landmark.hpp"
 
 namespace cornerd::survey {
 
-/// Where the lidar was in a turn, by the faces that the map has already.
+/// Pose of a scan from the faces that are in the map already.
 struct ScanMatch {
   core::Pose2 T_map_lidar;
   core::Covariance3 covariance = core::Covariance3::Zero();
-  double matched_share = 0;  ///< of the samples on sighted walls: those on faces of the map
-  bool valid = false;        ///< false: too little was matched to say more than the prior did
-  /// Of the place, in the direction that the walls tell least of, by what was seen alone; infinite
-  /// where they tell nothing of it.
-  double own_sigma_m = std::numeric_limits<double>::infinity();
+  double matched_share = 0;  ///< of the samples on observed lines: those on faces of the map
+  bool valid = false;        ///< false: too little was matched to improve on the prior
+  /// Position sigma in the least observable direction, from this scan alone; infinite where that
+  /// direction is unobservable.
+  double weakest_sigma_m = std::numeric_limits<double>::infinity();
 
-  /// The turn's own walls tell where it is, each way.
-  bool by_walls() const;
+  /// The scan's own walls determine its position in each direction.
+  bool is_constrained() const;
 };
 
 /// How far off a prediction may be.
-struct Reach {
+struct SearchRadius {
   double place_m = 0.1;
   double heading_rad = core::radians(8);
 };
 
-/// Matches the walls of one turn to the faces of the map: a wall belongs to a face that looks the
-/// same way, lies on the same line and overlaps it.
+/// Matches the line observations of a scan to the faces of the map. An observation matches a face
+/// with the same normal and line that it overlaps.
 class ScanMatcher {
  public:
-  /// A sighting beside a face, which may be its next piece, then tells nothing of the place.
-  void set_cautious(bool cautious) { cautious_ = cautious; }
+  /// Observations that lie beside a face without overlap then do not constrain the pose.
+  void set_requires_overlap(bool cautious) { requires_overlap_ = cautious; }
 
-  /// `faces_of`: for each sighting the face that it is of, or kNoFace.
-  ScanMatch match(std::span<const Sighting> sightings, std::span<const MappedFace> faces,
-                  const core::Pose2& prior, const core::Covariance3& covariance, const Reach& reach,
+  /// `faces_of`: for each observation the face that it matches, or kNoFace.
+  ScanMatch match(std::span<const LineObservation> observations,
+                  std::span<const LineLandmark> faces, const core::Pose2& prior,
+                  const core::Covariance3& covariance, const SearchRadius& radius,
                   std::vector<std::uint32_t>& faces_of) const;
 
-  /// The faces alone, for a pose that is known.
-  /// Returns the share of the samples that are on faces.
-  static double assign(std::span<const Sighting> sightings, std::span<const MappedFace> faces,
-                       const core::Pose2& T_map_lidar, const Reach& reach,
-                       std::vector<std::uint32_t>& faces_of);
+  /// Data association at a known pose. Returns the share of the samples that are on faces.
+  static double assign(std::span<const LineObservation> observations,
+                       std::span<const LineLandmark> faces, const core::Pose2& T_map_lidar,
+                       const SearchRadius& radius, std::vector<std::uint32_t>& faces_of);
 
  private:
-  bool cautious_ = false;
+  bool requires_overlap_ = false;
 };
 
-/// A pose that is known but for what is left after an adjustment.
-inline constexpr Reach kExactReach{0.02, core::radians(1)};
+/// For a pose that is known up to the residuals of an adjustment.
+inline constexpr SearchRadius kExactRadius{0.02, core::radians(1)};
 
 }  // namespace cornerd::survey

@@ -4,35 +4,34 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/estimate/pose_memory.hpp"
+#include "core/estimate/constant_velocity_model.hpp"
 
 namespace cornerd::survey {
 namespace {
 
-/// How far a robot without odometry may be from where its last motion leads: what it speeds up in
-/// the seventh of a second from turn to turn.
+/// Sigma of the constant-velocity model over one scan (a seventh of a second).
 constexpr double kUnknownMotion_m = 0.05;
 constexpr double kUnknownMotion_rad = core::radians(6);
-/// What a prediction by odometry is never sure of more than.
+/// Sigma floor of a prediction by odometry.
 constexpr double kOdometryFloor_m = 0.002;
 constexpr double kOdometryFloor_rad = core::radians(0.1);
-/// And what it errs by, as a share of the motion: wheels, tracks above all, slip where they turn.
-constexpr double kWayShare = 0.05;
-constexpr double kTurnShare = 0.03;
+/// Sigma as a share of the motion: wheels, and tracks above all, slip where they turn.
+constexpr double kTranslationShare = 0.05;
+constexpr double kGyroRotationShare = 0.03;
 constexpr double kWheelRotationShare = 0.2;
 
-/// Turns that are missing for so long leave the robot time to go elsewhere.
+/// A gap in the scans of this length leaves the robot time to go elsewhere.
 constexpr core::TimeNs kPause_ns = core::kNsPerSecond * 3 / 4;
 
-core::OdometryConfig patient(core::OdometryConfig config, bool has_readings,
-                             const std::optional<core::LearnedOdometry>& learned) {
+core::OdometryConfig config_of_odometer(core::OdometryConfig config, bool has_readings,
+                                        const std::optional<core::OdometryParameters>& learned) {
   constexpr double kAlways_s = 1e9;
   config.enabled = has_readings;
-  config.bridge_s = kAlways_s;
-  // The place of a turn in a map that grows is too unsure to time readings by.
+  config.max_extrapolation_s = kAlways_s;
+  // Poses in a growing map are too uncertain to estimate the readings' delay from.
   config.noise.delay_s = config.noise.delay_s_per_sqrt_s = 0;
-  config.wary = false;
-  if (learned) config.start = *learned;
+  config.conservative = false;
+  if (learned) config.initial = *learned;
   return config;
 }
 
@@ -44,64 +43,65 @@ core::Covariance3 diagonal(double place_m, double heading_rad) {
 }  // namespace
 
 ScanReader::ScanReader(const RecordedDrive& drive, const core::LocalizerConfig& config,
-                       const std::optional<core::LearnedOdometry>& learned,
-                       std::span<const core::Pose2> known_poses,
-                       std::span<const std::size_t> guessed)
+                       const std::optional<core::OdometryParameters>& learned,
+                       std::span<const core::Pose2> earlier_poses,
+                       std::span<const std::size_t> unmatched)
     : drive_(drive),
       config_(config),
       T_lidar_base_(config.T_base_lidar.inverse()),
-      known_poses_(known_poses),
-      guessed_(guessed),
-      odometer_(patient(config.odometry, drive.has_wheels(), learned)) {}
+      earlier_poses_(earlier_poses),
+      unmatched_(unmatched),
+      odometer_(config_of_odometer(config.odometry, drive.has_wheels(), learned)) {}
 
 bool ScanReader::next() {
-  if (begun_) ++index_;
+  if (started_) ++index_;
   if (index_ >= drive_.size()) return false;
-  hear_readings();
+  add_readings();
   drive_.load(index_, scan_);
   const core::TimeNs t_ns = drive_.middle_ns(index_);
   odometer_.advance(drive_.start_ns(index_), t_ns, drive_.end_ns(index_));
   predict(t_ns);
-  if (odometer_.straighten(scan_, config_.T_base_lidar, still_)) {
+  if (odometer_.deskew(scan_, config_.T_base_lidar, still_)) {
     points_.assign(still_, config_.min_range_m, config_.max_range_m, t_ns, {}, config_.bias);
   } else {
     straighten(expected_motion());
   }
-  begun_ = true;
+  started_ = true;
   return true;
 }
 
-void ScanReader::hear_readings() {
-  // One past the turn's end, so that nothing of its motion is guessed.
+void ScanReader::add_readings() {
+  // Up to the first reading after the scan's end, so that no motion is extrapolated.
   constexpr std::size_t kScansAhead = 2;
   const core::TimeNs end_ns = drive_.end_ns(index_);
   const auto readings = drive_.readings();
   for (; next_reading_ < readings.size(); ++next_reading_) {
     const RecordedDrive::Reading& next = readings[next_reading_];
-    const bool ahead = heard_ns_ < end_ns && next.scan <= index_ + kScansAhead;
+    const bool ahead = last_reading_ns_ < end_ns && next.scan <= index_ + kScansAhead;
     if (next.scan > index_ && !ahead) return;
     has_gyro_ |= next.reading.gyro_rad_s.has_value();
     odometer_.add(next.reading, next.now_ns);
-    heard_ns_ = next.reading.t_ns;
+    last_reading_ns_ = next.reading.t_ns;
   }
 }
 
 void ScanReader::predict(core::TimeNs t_ns) {
   prior_ = {};
-  if (!begun_) {
-    // The map's frame is the robot's own in the first turn.
+  if (!started_) {
+    // The first scan defines the map frame.
     prior_.T_map_lidar = config_.T_base_lidar;
     prior_.covariance = diagonal(1e-6, 1e-7);
     return;
   }
   prior_.after_pause = is_after_pause();
-  holes_ = counters().holes;
+  gaps_ = counters().gaps;
   const auto predicted = odometer_.prediction();
   if (predicted && !prior_.after_pause) {
     prior_.T_map_lidar = predicted->T_map_base * config_.T_base_lidar;
     prior_.T_before_now = filtered_T_map_lidar_.inverse() * prior_.T_map_lidar;
-    const double rotation_share = has_gyro_ ? kTurnShare : kWheelRotationShare;
-    prior_.sigma_m = kOdometryFloor_m + kWayShare * prior_.T_before_now.translation().norm();
+    const double rotation_share = has_gyro_ ? kGyroRotationShare : kWheelRotationShare;
+    prior_.sigma_m =
+        kOdometryFloor_m + kTranslationShare * prior_.T_before_now.translation().norm();
     prior_.sigma_rad =
         kOdometryFloor_rad + rotation_share * std::abs(prior_.T_before_now.theta_rad);
     prior_.covariance = predicted->covariance + diagonal(prior_.sigma_m, prior_.sigma_rad);
@@ -110,10 +110,10 @@ void ScanReader::predict(core::TimeNs t_ns) {
   }
   const double dt_s = core::to_seconds(t_ns - last_ns_);
   prior_.T_before_now = is_known(last_scan_) && is_known(index_)
-                            ? known_poses_[last_scan_].inverse() * known_poses_[index_]
+                            ? earlier_poses_[last_scan_].inverse() * earlier_poses_[index_]
                             : last_motion_.over(std::clamp(dt_s, 0.0, 1.0));
   prior_.T_map_lidar = last_T_map_lidar_ * prior_.T_before_now;
-  // Twice the time, twice the speed that it may have taken up.
+  // The speed's change grows with time.
   const double grown = std::clamp(dt_s / 0.15, 1.0, 10.0);
   prior_.sigma_m = kUnknownMotion_m * grown;
   prior_.sigma_rad = kUnknownMotion_rad * grown;
@@ -122,21 +122,22 @@ void ScanReader::predict(core::TimeNs t_ns) {
 
 bool ScanReader::is_after_pause() const {
   if (drive_.start_ns(index_) - drive_.end_ns(index_ - 1) < kPause_ns) return false;
-  return !odometer_.prediction() || counters().holes > holes_;
+  return !odometer_.prediction() || counters().gaps > gaps_;
 }
 
 bool ScanReader::is_contradicted() const {
   const core::OdometrySummary summary = odometer_.summary();
-  return summary.present && !summary.trusted;
+  return summary.present && !summary.healthy;
 }
 
-/// By the earlier pass.
+/// In the earlier pass.
 bool ScanReader::is_known(std::size_t scan) const {
-  return scan < known_poses_.size() && !std::binary_search(guessed_.begin(), guessed_.end(), scan);
+  return scan < earlier_poses_.size() &&
+         !std::binary_search(unmatched_.begin(), unmatched_.end(), scan);
 }
 
 core::Twist2 ScanReader::expected_motion() const {
-  const auto known = known_poses_;
+  const auto known = earlier_poses_;
   if (known.size() < 2) return last_motion_;
   const std::size_t before = index_ > 0 ? index_ - 1 : 0;
   const std::size_t after = std::min(index_ + 1, known.size() - 1);
@@ -146,13 +147,13 @@ core::Twist2 ScanReader::expected_motion() const {
   return core::motion_between(known[before], known[after], dt_s);
 }
 
-bool ScanReader::straighten_again(const core::Pose2& T_map_lidar) {
+bool ScanReader::deskew_again(const core::Pose2& T_map_lidar) {
   if (index_ == 0 || drive_.has_wheels() || is_known(index_)) return false;
   straighten(motion_to(T_map_lidar));
   return true;
 }
 
-/// From the turn before; at rest after a pause.
+/// Mean velocity since the last scan with a pose; zero after a pause.
 core::Twist2 ScanReader::motion_to(const core::Pose2& T_map_lidar) const {
   const double dt_s = core::to_seconds(drive_.middle_ns(index_) - last_ns_);
   if (index_ == 0 || !(dt_s > 0 && dt_s < 1)) return {};

@@ -15,51 +15,51 @@
 
 namespace cornerd::survey {
 
-/// Where the lidar should be in a turn by what was known before it.
+/// Predicted pose of a scan.
 struct ScanPrior {
   core::Pose2 T_map_lidar;
   core::Covariance3 covariance = core::Covariance3::Zero();
-  core::Pose2 T_before_now;  ///< the way from the turn before, as far as it was foreseen
-  double sigma_m = 0;        ///< of that way
+  core::Pose2 T_before_now;  ///< predicted motion since the scan before
+  double sigma_m = 0;        ///< of that motion
   double sigma_rad = 0;
   bool by_odometry = false;
-  /// After a pause in which neither turns nor readings say how the robot moved.
+  /// After a pause without scans and without odometry.
   bool after_pause = false;
 };
 
-/// Goes through a drive turn by turn: each as a lidar that stood still in its middle would have
-/// seen it, with a prediction of where that was. Wheels and gyro tell both where there are any, and
-/// learn from the poses that the survey finds; else the way from pose to pose does.
+/// Reads a drive scan by scan: each deskewed to its middle, with a predicted pose. Odometry gives
+/// both where it is recorded, and is calibrated by the poses that the survey finds. Otherwise the
+/// motion between the poses of earlier scans does.
 class ScanReader {
  public:
-  /// `learned`: of wheels and gyro, by a reader that went before.
-  /// `known_poses`: of all turns by an earlier pass, for a drive without odometry; may be empty.
-  /// `guessed`: the turns whose pose that pass did not find, in their order.
+  /// `learned`: the odometry's calibration by an earlier pass.
+  /// `earlier_poses`: of all scans by an earlier pass, for a drive without odometry; may be empty.
+  /// `unmatched`: indices of the scans that the earlier pass did not match, ascending.
   ScanReader(const RecordedDrive& drive, const core::LocalizerConfig& config,
-             const std::optional<core::LearnedOdometry>& learned,
-             std::span<const core::Pose2> known_poses, std::span<const std::size_t> guessed);
+             const std::optional<core::OdometryParameters>& learned,
+             std::span<const core::Pose2> earlier_poses, std::span<const std::size_t> unmatched);
 
-  /// Goes on to the next turn; false after the last one.
+  /// Advances to the next scan; false after the last one.
   bool next();
   std::size_t scan() const { return index_; }
   const core::PolarScan& points() const { return points_; }
   const ScanPrior& prior() const { return prior_; }
 
-  /// Where nothing but the lidar tells how it moved in this turn: straightens the turn by the way
-  /// from the one before to where this one seems to have been. Else does nothing, and says false.
-  bool straighten_again(const core::Pose2& T_map_lidar);
+  /// Without odometry: deskews the scan by the motion from the scan before to `T_map_lidar`.
+  /// Returns false, without effect, where odometry or an earlier pass gives the motion.
+  bool deskew_again(const core::Pose2& T_map_lidar);
 
-  /// Where the lidar was; to be said before the next turn. Of a turn without odometry that is not
-  /// known it may stay unsaid: the next ones are then foreseen from the last that was.
+  /// Sets the pose of the current scan, before next(). Unmatched scans without odometry may be left
+  /// out; the next ones are then predicted from the last known pose.
   void place(const core::Pose2& T_map_lidar, const core::Covariance3& covariance);
 
-  core::LearnedOdometry learned() const { return odometer_.summary().learned; }
-  /// Wheels and lidar have lately told different stories.
+  core::OdometryParameters learned() const { return odometer_.summary().parameters; }
+  /// The odometry has lately been inconsistent with the lidar.
   bool is_contradicted() const;
   core::OdometryCounters counters() const { return odometer_.summary().counters; }
 
  private:
-  void hear_readings();
+  void add_readings();
   void predict(core::TimeNs t_ns);
   bool is_after_pause() const;
   bool is_known(std::size_t scan) const;
@@ -70,26 +70,26 @@ class ScanReader {
   const RecordedDrive& drive_;
   core::LocalizerConfig config_;
   core::Pose2 T_lidar_base_;
-  std::span<const core::Pose2> known_poses_;
-  std::span<const std::size_t> guessed_;
+  std::span<const core::Pose2> earlier_poses_;
+  std::span<const std::size_t> unmatched_;
   core::Odometer odometer_;
   std::size_t next_reading_ = 0;
   bool has_gyro_ = false;
-  std::uint64_t holes_ = 0;  ///< in the odometry, up to the turn before
-  core::TimeNs heard_ns_ = std::numeric_limits<core::TimeNs>::min();
+  std::uint64_t gaps_ = 0;  ///< in the odometry, up to the scan before
+  core::TimeNs last_reading_ns_ = std::numeric_limits<core::TimeNs>::min();
 
-  bool begun_ = false;
+  bool started_ = false;
   std::size_t index_ = 0;
   core::Scan scan_;
   core::Scan still_;
   core::PolarScan points_;
   ScanPrior prior_;
 
-  core::TimeNs last_ns_ = 0;  ///< of the last turn that was placed
+  core::TimeNs last_ns_ = 0;  ///< of the last scan with a pose
   std::size_t last_scan_ = 0;
   core::Pose2 last_T_map_lidar_;
   core::Twist2 last_motion_;
-  core::Pose2 filtered_T_map_lidar_;  ///< what the odometer made of it
+  core::Pose2 filtered_T_map_lidar_;  ///< the odometer's estimate of that pose
 };
 
 }  // namespace cornerd::survey

@@ -11,16 +11,16 @@
 
 namespace cornerd::survey {
 
-/// Called with what is being done, and the share of the whole that is done; which never shrinks.
+/// Called with the current phase and the share of the whole that is done, which never decreases.
 using SurveyProgress = std::function<void(std::string_view phase, double share)>;
 
-/// Shares the bar among the passes through a drive.
+/// Divides the progress bar among the passes through a drive.
 class ProgressShares {
  public:
   ProgressShares(SurveyProgress progress, std::size_t scans)
       : progress_(std::move(progress)), scans_(std::max<std::size_t>(scans, 1)) {}
 
-  /// Of a pass over all turns, from one share of the whole to another. `phase` must outlive it.
+  /// For a pass over all scans, from one share of the whole to another. `phase` must outlive it.
   Progress pass(std::string_view phase, double begin, double end) {
     if (!progress_) return {};
     return [this, phase, begin, end](std::size_t scan) {
@@ -31,7 +31,7 @@ class ProgressShares {
     };
   }
 
-  /// What is left of the bar, for another survey that begins where this one ends.
+  /// The rest of the bar, for another survey that replaces this one.
   SurveyProgress rest() const {
     if (!progress_) return {};
     return [progress = progress_, done = most_](std::string_view phase, double share) {

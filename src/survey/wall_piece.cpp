@@ -9,7 +9,7 @@
 namespace cornerd::survey {
 namespace {
 
-/// Cells in a row that rays went through make a hole: one alone is the noise of the poses.
+/// Open cells in a row that make an opening; a single one is pose noise.
 constexpr std::size_t kHoleCells = 2;
 
 std::string text_of(std::size_t count, const char* what) {
@@ -19,7 +19,8 @@ std::string text_of(std::size_t count, const char* what) {
 class Cutter {
  public:
   Cutter(const MappedDrive& drive, std::uint32_t face, const FaceEvidence& evidence,
-         const PieceLimits& limits, std::vector<WallPiece>& pieces, std::vector<Dropped>& dropped)
+         const PieceLimits& limits, std::vector<WallPiece>& pieces,
+         std::vector<DroppedPiece>& dropped)
       : face_(drive.faces[face]),
         index_(face),
         evidence_(evidence),
@@ -28,12 +29,12 @@ class Cutter {
         dropped_(dropped) {}
 
   void cut() {
-    if (face_.sightings < limits_.sightings) {
-      drop(face_.begin_m(), face_.end_m(), "seen in " + text_of(face_.sightings, "turns"));
+    if (face_.observations < limits_.observations) {
+      drop(face_.begin_m(), face_.end_m(), "observed in " + text_of(face_.observations, "scans"));
       return;
     }
     std::size_t holes = 0;
-    std::size_t through = 0;
+    std::size_t open_cells = 0;
     for (std::size_t i = 0; i < evidence_.size(); ++i) {
       const bool within =
           evidence_.along_of(i) + FaceEvidence::kCell_m > face_.begin_m() - kSlack_m &&
@@ -42,15 +43,15 @@ class Cutter {
         take(i);
         holes = 0;
       } else if (evidence_.is_open(i)) {
-        through += within ? 1 : 0;
+        open_cells += within ? 1 : 0;
         if (++holes >= kHoleCells) close();
       }
     }
     close();
     if (found_ == 0) {
       drop(face_.begin_m(), face_.end_m(),
-           through > 0 ? "rays went through it: it moved, or it was open at times"
-                       : "too few rays ended on it");
+           open_cells > 0 ? "rays went through it: it moved, or a door was open at times"
+                          : "too few rays ended on it");
     }
   }
 
@@ -73,11 +74,11 @@ class Cutter {
   void close() {
     if (!current_) return;
     WallPiece piece = *std::exchange(current_, std::nullopt);
-    // A cell at either end is there as soon as a few rays meet its beginning.
+    // A cell at either end counts as wall as soon as a few rays hit a part of it.
     piece.begin_m = std::max(piece.begin_m, face_.begin_m());
     piece.end_m = std::min(piece.end_m, face_.end_m());
     ++found_;
-    const std::string reason = doubt_of(piece);
+    const std::string reason = reason_to_drop(piece);
     if (!reason.empty()) {
       if (piece.length_m() > 0) drop(piece.begin_m, piece.end_m, reason);
       return;
@@ -87,11 +88,11 @@ class Cutter {
     pieces_.push_back(piece);
   }
 
-  /// Why it is no wall; empty where it is one.
-  std::string doubt_of(const WallPiece& piece) const {
+  /// Why the piece is no wall; empty where it is one.
+  std::string reason_to_drop(const WallPiece& piece) const {
     if (piece.hits < limits_.hits) return "hit by " + text_of(piece.hits, "rays");
     if (piece.length_m() < limits_.least_m) return "too short";
-    if (piece.seen_m < limits_.seen_share * piece.length_m()) return "seen here and there alone";
+    if (piece.seen_m < limits_.seen_share * piece.length_m()) return "most of it has no returns";
     return {};
   }
 
@@ -99,12 +100,12 @@ class Cutter {
     dropped_.push_back({face_.at(begin_m), face_.at(end_m), std::move(why)});
   }
 
-  const MappedFace& face_;
+  const LineLandmark& face_;
   std::uint32_t index_;
   const FaceEvidence& evidence_;
   const PieceLimits& limits_;
   std::vector<WallPiece>& pieces_;
-  std::vector<Dropped>& dropped_;
+  std::vector<DroppedPiece>& dropped_;
   std::optional<WallPiece> current_;
   std::size_t found_ = 0;
 };
@@ -113,7 +114,7 @@ class Cutter {
 
 std::vector<WallPiece> cut_pieces(const MappedDrive& drive,
                                   const std::vector<FaceEvidence>& evidence,
-                                  const PieceLimits& limits, std::vector<Dropped>& dropped) {
+                                  const PieceLimits& limits, std::vector<DroppedPiece>& dropped) {
   std::vector<WallPiece> pieces;
   for (std::size_t i = 0; i < drive.faces.size(); ++i) {
     Cutter(drive, static_cast<std::uint32_t>(i), evidence[i], limits, pieces, dropped).cut();
@@ -121,39 +122,39 @@ std::vector<WallPiece> cut_pieces(const MappedDrive& drive,
   return pieces;
 }
 
-void part_crossings(const MappedDrive& drive, const PieceLimits& limits,
-                    std::vector<WallPiece>& pieces, std::vector<Dropped>& dropped) {
+void trim_crossings(const MappedDrive& drive, const PieceLimits& limits,
+                    std::vector<WallPiece>& pieces, std::vector<DroppedPiece>& dropped) {
   const double small_sine = std::sin(core::radians(30));
-  // The pieces that most rays ended on stay as they are.
+  // Pieces with more hits stay unchanged.
   std::stable_sort(pieces.begin(), pieces.end(),
                    [](const WallPiece& a, const WallPiece& b) { return a.hits > b.hits; });
   std::vector<WallPiece> kept;
   for (WallPiece& piece : pieces) {
-    const MappedFace& face = drive.faces[piece.face];
+    const LineLandmark& face = drive.faces[piece.face];
     const double whole_m = piece.length_m();
     bool mistaken = false;
     for (const WallPiece& better : kept) {
-      const MappedFace& other = drive.faces[better.face];
+      const LineLandmark& other = drive.faces[better.face];
       const double sine = core::cross(face.direction(), other.direction());
       if (std::abs(sine) < 1e-6) continue;
       const double along_m = core::cross(other.at(0) - face.at(0), other.direction()) / sine;
       const double along_other_m = other.along_of(face.at(along_m));
-      // Not the corner that they make: there both end, to within their cells.
+      // Excludes corners, where both end within their cells.
       constexpr double kInside_m = 0.06;
-      const bool through =
+      const bool crosses =
           along_m > piece.begin_m + kInside_m && along_m < piece.end_m - kInside_m &&
           along_other_m > better.begin_m + kInside_m && along_other_m < better.end_m - kInside_m;
-      if (!through) continue;
+      if (!crosses) continue;
       if (std::abs(sine) < small_sine) {
         mistaken = true;
       } else {
-        // Its begin is behind the other where the way leads up to its front, and else its end.
+        // Cut the end that lies behind the other face.
         (sine < 0 ? piece.begin_m : piece.end_m) = along_m;
       }
     }
     if (mistaken || piece.length_m() < limits.least_m) {
       dropped.push_back({face.at(piece.begin_m), face.at(piece.end_m),
-                         mistaken ? "a mistaken line along a wall" : "behind a wall"});
+                         mistaken ? "a wrong line along a wall" : "behind a wall"});
       continue;
     }
     if (piece.length_m() < whole_m) {
@@ -165,16 +166,16 @@ void part_crossings(const MappedDrive& drive, const PieceLimits& limits,
   pieces = std::move(kept);
 }
 
-void drop_lonely(const MappedDrive& drive, const PieceLimits& limits,
-                 std::vector<WallPiece>& pieces, std::vector<Dropped>& dropped) {
+void drop_isolated(const MappedDrive& drive, const PieceLimits& limits,
+                   std::vector<WallPiece>& pieces, std::vector<DroppedPiece>& dropped) {
   std::vector<std::uint32_t> place(pieces.size(), kNoPiece);
   std::size_t kept = 0;
   for (std::size_t i = 0; i < pieces.size(); ++i) {
     const WallPiece& piece = pieces[i];
     const bool adjoined = piece.begin.neighbour != kNoPiece || piece.end.neighbour != kNoPiece;
-    if (!adjoined && piece.length_m() < limits.lonely_m) {
-      const MappedFace& face = drive.faces[piece.face];
-      dropped.push_back({face.at(piece.begin_m), face.at(piece.end_m), "short, and stands alone"});
+    if (!adjoined && piece.length_m() < limits.isolated_m) {
+      const LineLandmark& face = drive.faces[piece.face];
+      dropped.push_back({face.at(piece.begin_m), face.at(piece.end_m), "short and isolated"});
       continue;
     }
     place[i] = static_cast<std::uint32_t>(kept);

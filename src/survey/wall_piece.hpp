@@ -16,66 +16,66 @@ inline constexpr std::uint32_t kNoPiece = 0xffffffff;
 /// One end of a piece of wall.
 struct PieceEnd {
   core::Vec2 point = core::Vec2::Zero();
-  std::uint32_t neighbour = kNoPiece;  ///< that it meets in a corner
-  bool is_concave = false;             ///< the free space opens by less than pi
-  bool within = false;                 ///< of the neighbour's length: no end of its own
-  double unseen_m = 0;                 ///< from the last thing seen to the corner
+  std::uint32_t neighbour = kNoPiece;  ///< meets this piece in a corner
+  bool is_concave = false;             ///< the free space's opening angle is less than pi
+  bool within = false;                 ///< meets the neighbour's side, not its end
+  double unseen_m = 0;                 ///< from the last hit to the corner
 };
 
-/// A stretch of one side of a wall without a hole. Free space is on the left of the way from
+/// A part of a wall face without an opening. Free space is on the left of the direction from
 /// `begin` to `end`.
 struct WallPiece {
   std::uint32_t face = 0;
   double begin_m = 0;  ///< along the face
   double end_m = 0;
-  double seen_m = 0;  ///< of its length
+  double seen_m = 0;  ///< length with hits
   std::size_t hits = 0;
   PieceEnd begin;
   PieceEnd end;
   double length_m() const { return end_m - begin_m; }
 };
 
-/// What did not become a wall, and why.
-struct Dropped {
+/// A part of a face that became no wall, and the reason.
+struct DroppedPiece {
   core::Vec2 from;
   core::Vec2 to;
   std::string why;
 };
 
 struct PieceLimits {
-  /// What may lie unseen between two stretches of one wall: a cupboard's side, the joint of another
-  /// wall. No ray may have gone through.
+  /// Largest part without hits inside a piece (a cupboard, the joint of another wall). No ray may
+  /// have gone through it.
   double gap_m = 0.3;
-  /// Shorter than this no wall's direction is known.
+  /// Shortest piece: the direction of a shorter one is unknown.
   double least_m = 0.05;
-  /// A wall that nothing adjoins has to be longer, or seen better.
-  double lonely_m = 0.2;
-  /// Rays that have to have ended on it, and turns that saw it.
+  /// Shortest piece without a neighbour.
+  double isolated_m = 0.2;
+  /// Smallest number of rays that ended on it, and of scans that observed it.
   std::size_t hits = 30;
-  std::size_t sightings = 5;
-  /// Of a piece's length, what has to have been seen.
+  std::size_t observations = 5;
+  /// Smallest share of its length with hits.
   double seen_share = 0.6;
-  /// From what was seen of a wall to the corner that it makes with the next one.
+  /// Largest extension from the last hit to a corner.
   double corner_m = 0.3;
 };
 
-/// Cuts the faces where rays went through, and drops what was not seen well enough.
+/// Cuts the faces where rays went through, and drops pieces beyond the limits.
 std::vector<WallPiece> cut_pieces(const MappedDrive& drive,
                                   const std::vector<FaceEvidence>& evidence,
-                                  const PieceLimits& limits, std::vector<Dropped>& dropped);
+                                  const PieceLimits& limits, std::vector<DroppedPiece>& dropped);
 
-/// Where one piece runs through another, the part behind the one that more rays ended on was never
-/// seen; and one that runs through another at a small angle is a mistaken line along it.
-void part_crossings(const MappedDrive& drive, const PieceLimits& limits,
-                    std::vector<WallPiece>& pieces, std::vector<Dropped>& dropped);
+/// Of two pieces that cross, the one with fewer hits ends at the front of the other. At a small
+/// angle it is a wrong line along the other, and is dropped.
+void trim_crossings(const MappedDrive& drive, const PieceLimits& limits,
+                    std::vector<WallPiece>& pieces, std::vector<DroppedPiece>& dropped);
 
-/// Lets pieces end where they meet: in the corner of two, or on the side of a third. Nothing is
-/// prolonged through what rays went through.
+/// Extends or shortens pieces to the corner of two, or to the side of another. No piece is extended
+/// where rays went through.
 void join_corners(const MappedDrive& drive, const std::vector<FaceEvidence>& evidence,
                   const PieceLimits& limits, std::vector<WallPiece>& pieces);
 
-/// Takes out what after joining stands alone and is too short to be believed.
-void drop_lonely(const MappedDrive& drive, const PieceLimits& limits,
-                 std::vector<WallPiece>& pieces, std::vector<Dropped>& dropped);
+/// Drops pieces without a neighbour that are too short.
+void drop_isolated(const MappedDrive& drive, const PieceLimits& limits,
+                   std::vector<WallPiece>& pieces, std::vector<DroppedPiece>& dropped);
 
 }  // namespace cornerd::survey

@@ -33,7 +33,7 @@ struct CalibrateBiasOptions {
   std::filesystem::path output;
 };
 
-std::string describe_bias(const core::LearnedBias& learned) {
+std::string describe_bias(const core::EstimatedBias& learned) {
   TextTable table;
   const core::SensorBias& bias = learned.bias;
   const core::SensorBias& sigma = learned.sigma;
@@ -58,7 +58,7 @@ void calibrate_bias(const CalibrateBiasOptions& options) {
   files.read.insert(files.read.end(), {options.settings.config_file(), config.map});
   guard_files(files);
   core::LocalizerConfig localizer = config.localizer();
-  localizer.learn_bias = true;
+  localizer.calibrate_online = true;
   localizer.forget_bias = false;
   core::Pipeline pipeline(settings::load_map(config.map), localizer);
   Playback playback(pipeline, [](const core::Scan&, const core::ScanResult&) {});
@@ -66,7 +66,7 @@ void calibrate_bias(const CalibrateBiasOptions& options) {
     pipeline.localizer().relocalize();
     playback.play(file, {parse_wire(options.wire), config.lidar.mount.inverted});
   }
-  const core::LearnedBias learned = pipeline.localizer().learned_bias();
+  const core::EstimatedBias learned = pipeline.localizer().estimated_bias();
   if (learned.scans < kMinTeachingScans) {
     throw Failure("only " + std::to_string(learned.scans) +
                   " turns were found in the map with the lidar at rest: record some seconds each "

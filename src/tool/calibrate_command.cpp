@@ -15,11 +15,10 @@
 #include <CLI/CLI.hpp>
 
 #include "calibration/bearing_bins.hpp"
-#include "calibration/found_walls.hpp"
-#include "calibration/known_wall.hpp"
-#include "calibration/median.hpp"
+#include "calibration/wall_search.hpp"
+#include "calibration/robust_statistics.hpp"
 #include "calibration/range_noise.hpp"
-#include "calibration/wall_fit.hpp"
+#include "calibration/wall_model.hpp"
 #include "replay/recording.hpp"
 #include "tool/calibrate_bias.hpp"
 #include "tool/calibrate_odometry.hpp"
@@ -181,7 +180,7 @@ void calibrate_noise(const CalibrateNoiseOptions& options) {
   if (!walls.empty()) report.write("\n" + describe_wall_model(walls, distances_known));
   report.flush();
   const bool with_table = options.model == "table" ||
-                          (options.model != "plain" && noise->plain_misfit > kMisfitForTable);
+                          (options.model != "plain" && noise->plain_residual > kMisfitForTable);
   if (!options.output.empty()) {
     const bool with_walls = distances_known || options.model == "paper";
     write_file(options.output,

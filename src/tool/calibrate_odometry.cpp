@@ -15,8 +15,8 @@
 #include <CLI/CLI.hpp>
 
 #include "calibration/factor_search.hpp"
-#include "calibration/filtered_drive.hpp"
-#include "calibration/gross_faults.hpp"
+#include "calibration/drive_reckoning.hpp"
+#include "calibration/wiring_faults.hpp"
 #include "calibration/odometry_fit.hpp"
 #include "settings/map_file.hpp"
 #include "tool/drive_drawing.hpp"
@@ -55,7 +55,7 @@ std::string describe_learned(const calibration::OdometryFit& fit) {
   TextTable table;
   bool at_bound = false;
   const auto add = [&](const char* name, double value, double sigma) {
-    const bool is_bound = std::abs(value) >= calibration::kMostFittedScale;
+    const bool is_bound = std::abs(value) >= calibration::kMaxFittedScale;
     at_bound = at_bound || is_bound;
     table.add_row(
         {name, formatted("%+.5f", value) + (is_bound ? "*" : ""), formatted("+- %.5f", sigma)});
@@ -89,7 +89,7 @@ double written_delay_s(const calibration::OdometryFit& fit, double configured_s)
 
 std::string fragment(const calibration::OdometryFit& fit, const core::PaperFactors& factors,
                      double delay_s) {
-  const core::LearnedOdometry& learned = fit.learned;
+  const core::OdometryParameters& learned = fit.learned;
   std::string text = "{\n  \"odometry\": {\n    \"start\": {";
   const auto add = [&text](const char* key, double value) {
     text += formatted("%s\n      \"%s\": %.6f", text.back() == '{' ? "" : ",", key, value);
@@ -119,22 +119,22 @@ std::string describe_delay(const calibration::OdometryFit& fit) {
 /// A drive's first half teaches the filter, in the second one it is alone. `steps`: the drive's, at
 /// the times when they were true.
 calibration::FilteredDrive filter_half(const RecordedDrive& drive,
-                                       std::span<const core::MotionStep> steps,
+                                       std::span<const core::OdometryIncrement> steps,
                                        core::OdometryConfig config) {
   config.enabled = true;
-  config.start.delay_s = 0;
+  config.initial.delay_s = 0;
   const core::TimeNs first_ns = drive.places.front().t_ns;
   const core::TimeNs last_ns = drive.places.back().t_ns;
   return calibration::filter_drive(steps, drive.places, config,
                                    first_ns + (last_ns - first_ns) / 2);
 }
 
-std::string draw_reckonings(const RecordedDrive& drive, std::span<const core::MotionStep> steps,
+std::string draw_reckonings(const RecordedDrive& drive, std::span<const core::OdometryIncrement> steps,
                             const settings::Config& config, const calibration::OdometryFit& fit,
                             const calibration::FilteredDrive& filtered) {
   const core::DriveGeometry& geometry = config.odometry.core.geometry;
   calibration::DrivePoints known;
-  for (const calibration::KnownPlace& place : drive.places) {
+  for (const calibration::KnownPose& place : drive.places) {
     known.push_back(place.T_map_base.translation());
   }
   calibration::DrivePoints raw;
@@ -207,7 +207,7 @@ void calibrate_odometry(const CalibrateOdometryOptions& options) {
       formatted("\nLeast squares over %zu windows of a second, as shares:\n", fit.windows));
   report.write(describe_learned(fit));
   report.write(describe_delay(fit));
-  if (std::abs(fit.learned.track_scale) >= calibration::kMostFittedScale) {
+  if (std::abs(fit.learned.track_scale) >= calibration::kMaxFittedScale) {
     const auto track_m =
         calibration::apparent_track_m(calibration::cut_windows(steps, drive.places));
     if (track_m) report.write(formatted("  its turns are those of a track of %.3g m\n", *track_m));
@@ -219,7 +219,7 @@ void calibrate_odometry(const CalibrateOdometryOptions& options) {
   }
   if (!options.output.empty()) {
     Output file(options.output);
-    file.write(fragment(fit, weighted, written_delay_s(fit, config.odometry.core.start.delay_s)));
+    file.write(fragment(fit, weighted, written_delay_s(fit, config.odometry.core.initial.delay_s)));
     file.flush();
   }
 }

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "calibration/delay_search.hpp"
-#include "calibration/gross_faults.hpp"
+#include "calibration/wiring_faults.hpp"
 #include "tool/failure.hpp"
 #include "tool/formatted.hpp"
 #include "tool/gross_fault_text.hpp"
@@ -58,7 +58,7 @@ class DriveFitter {
     throw Failure(file_.string() + ": " + why);
   }
 
-  double configured_s() const { return config_.odometry.core.start.delay_s; }
+  double configured_s() const { return config_.odometry.core.initial.delay_s; }
 
   RecordedDrive play(bool straightened) const {
     return play_drive(file_, wire_, config_, truth_, straightened);
@@ -66,7 +66,7 @@ class DriveFitter {
 
   static bool is_wide(const RecordedDrive& drive) {
     const core::OdometryCounters& counters = drive.counters;
-    return static_cast<double>(counters.jumps + counters.gyro) >
+    return static_cast<double>(counters.jumps + counters.invalid_rates) >
            kMostRefused * static_cast<double>(counters.readings);
   }
 
@@ -78,13 +78,13 @@ class DriveFitter {
       fail(
           formatted("the readings are %.1f s %s or more, the most that is looked for: have each "
                     "bear the time when it was true",
-                    calibration::kMostDelay_s, search_.delay_s > 0 ? "late" : "early"));
+                    calibration::kMaxDelay_s, search_.delay_s > 0 ? "late" : "early"));
     }
     straighten(drive, search_.delay_s);
     const auto windows =
         calibration::cut_windows(calibration::at_true_times(steps, search_.delay_s), drive.places);
     const core::DriveGeometry& geometry = config_.odometry.core.geometry;
-    return describe_faults(calibration::find_gross_faults(windows, geometry), config_.odometry);
+    return describe_faults(calibration::find_wiring_faults(windows, geometry), config_.odometry);
   }
 
   /// Finds the places anew where the turns were straightened by what was read at other times.

@@ -9,7 +9,7 @@
 #include <string_view>
 
 #include "bench/localization/pose_error.hpp"
-#include "message/state_names.hpp"
+#include "message/line_writer.hpp"
 
 namespace cornerd::tool {
 

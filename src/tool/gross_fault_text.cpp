@@ -11,14 +11,14 @@ namespace cornerd::tool {
 
 namespace {
 
-using calibration::GrossFaults;
+using calibration::WiringFaults;
 
 /// Nearer to a whole factor than this a factor is that one: wheels are no farther off.
 constexpr double kWholeShare = 0.1;
 
 class FaultText {
  public:
-  FaultText(const GrossFaults& faults, const settings::OdometryConfig& config)
+  FaultText(const WiringFaults& faults, const settings::OdometryConfig& config)
       : faults_(faults), config_(config) {}
 
   std::string text() {
@@ -38,24 +38,24 @@ class FaultText {
   void add(std::string sentence) { sentences_.push_back(std::move(sentence)); }
 
   void add_standing() {
-    if (faults_.left_stands && faults_.right_stands) {
+    if (faults_.left_is_stuck && faults_.right_is_stuck) {
       add("neither wheel's counts change while the robot drives");
-    } else if (faults_.left_stands || faults_.right_stands) {
+    } else if (faults_.left_is_stuck || faults_.right_is_stuck) {
       add(
           formatted("the %s counts do not change while the robot drives: look at that encoder and "
                     "its wires",
-                    faults_.left_stands ? "left" : "right"));
+                    faults_.left_is_stuck ? "left" : "right"));
     }
   }
 
   void add_directions() {
     const bool both = faults_.left_is_reversed && faults_.right_is_reversed;
-    if (both && faults_.are_exchanged) {
+    if (both && faults_.are_swapped) {
       return add(
           "wheels and lidar see the robot drive opposite ways: lidar.mount.theta is off by half a "
           "turn, or left and right are exchanged and both count backward");
     }
-    if (faults_.are_exchanged) {
+    if (faults_.are_swapped) {
       add(is_kernel() ? "left and right are exchanged: swap odometry.kernel.left and "
                         "odometry.kernel.right"
                       : "left and right are exchanged: swap left and right in the ODOMETRY lines");
@@ -137,14 +137,14 @@ class FaultText {
     }
   }
 
-  const GrossFaults& faults_;
+  const WiringFaults& faults_;
   const settings::OdometryConfig& config_;
   std::vector<std::string> sentences_;
 };
 
 }  // namespace
 
-std::string describe_faults(const GrossFaults& faults, const settings::OdometryConfig& config) {
+std::string describe_faults(const WiringFaults& faults, const settings::OdometryConfig& config) {
   return FaultText(faults, config).text();
 }
 

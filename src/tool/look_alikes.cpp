@@ -8,7 +8,7 @@
 
 #include "bench/simulated_scan.hpp"
 #include "core/localizer.hpp"
-#include "replay/simulator/places.hpp"
+#include "replay/simulator/random_poses.hpp"
 #include "tool/text_table.hpp"
 
 namespace cornerd::tool {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <csignal>
 
-#include "drivers/serial/standard_streams.hpp"
+#include "drivers/serial/file_descriptor.hpp"
 #include "tool/cornerctl.hpp"
 
 int main(int argc, char** argv) {

@@ -12,9 +12,8 @@
 
 #include <CLI/CLI.hpp>
 
-#include "gridmap/grid_error.hpp"
-#include "gridmap/grid_import.hpp"
 #include "gridmap/image.hpp"
+#include "gridmap/grid_import.hpp"
 #include "gridmap/map_server_yaml.hpp"
 #include "settings/document.hpp"
 #include "tool/failure.hpp"

@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "drivers/counter_names.hpp"
+#include "drivers/lidar_status.hpp"
 
 namespace cornerd::tool {
 

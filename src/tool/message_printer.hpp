@@ -6,8 +6,8 @@
 #include "core/localizer.hpp"
 #include "core/scan.hpp"
 #include "drivers/lidar_driver.hpp"
-#include "message/line.hpp"
-#include "message/odometry_lines.hpp"
+#include "message/line_writer.hpp"
+#include "message/odometry_input_monitor.hpp"
 #include "message/request.hpp"
 #include "tool/output.hpp"
 
@@ -46,7 +46,7 @@ class MessagePrinter {
   message::LineWriter writer_;
   std::optional<Mark> last_status_;
   core::OdometrySummary odometry_;  ///< as of the last turn
-  message::OdometryLines odometry_lines_;
+  message::OdometryInputMonitor odometry_lines_;
 };
 
 }  // namespace cornerd::tool

@@ -5,9 +5,9 @@
 #include <string>
 
 #include "calibration/bearing_bins.hpp"
-#include "calibration/known_wall.hpp"
+#include "calibration/wall_search.hpp"
 #include "calibration/range_noise.hpp"
-#include "calibration/wall_fit.hpp"
+#include "calibration/wall_model.hpp"
 
 namespace cornerd::tool {
 

@@ -50,7 +50,7 @@ void append_cells(std::string& out, const RangeNoise& noise) {
                   kMmPerM * cell.high_m);
     append_line(out, "%.2f - %-6.2f %10zu %10.2f %14s %10.2f %+8.0f%% %16.2f", cell.from_m,
                 cell.to_m, cell.bins, kMmPerM * cell.sigma_m, quartiles, kMmPerM * model_m,
-                100 * (cell.sigma_m / model_m - 1), kMmPerM * cell.as_met_m);
+                100 * (cell.sigma_m / model_m - 1), kMmPerM * cell.sigma_all_m);
   }
 }
 
@@ -90,7 +90,7 @@ std::string describe_noise(const RangeNoise& noise) {
   out += '\n';
   append_line(
       out, "model    sigma = max(%.2f mm, %.2f %% of the range); residual %.0f %% in the mean",
-      kMmPerM * noise.plain.floor_m, 100 * noise.plain.share, 100 * std::expm1(noise.plain_misfit));
+      kMmPerM * noise.plain.floor_m, 100 * noise.plain.share, 100 * std::expm1(noise.plain_residual));
   if (noise.bearing_measured) {
     append_line(out, "bearing  %.3f degrees, from directions that meet their wall at a slant",
                 core::degrees(noise.plain.bearing_rad));

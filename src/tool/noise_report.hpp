@@ -4,9 +4,9 @@
 #include <span>
 #include <string>
 
-#include "calibration/known_wall.hpp"
+#include "calibration/wall_search.hpp"
 #include "calibration/range_noise.hpp"
-#include "calibration/wall_fit.hpp"
+#include "calibration/wall_model.hpp"
 
 namespace cornerd::tool {
 

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "core/types.hpp"
-#include "replay/simulator/robot_model.hpp"
+#include "replay/simulator/simulated_odometry.hpp"
 #include "settings/config.hpp"
 
 namespace CLI {

@@ -21,7 +21,7 @@ class Playback {
   /// Called after every piece of the recording, with the time and the counters so far.
   using OnPiece = std::function<void(core::TimeNs t_ns, const drivers::StreamCounters& counters)>;
 
-  /// Called for every pose between two turns (odometry.publish, localizer.updates_per_scan).
+  /// Called for every pose between two turns (odometry.publish_predictions, localizer.updates_per_scan).
   using OnPrediction = std::function<void(const core::PoseEstimate& pose)>;
 
   Playback(core::Pipeline& pipeline, OnScan on_scan, OnPiece on_piece = {});

@@ -15,7 +15,7 @@
 
 #include "drivers/clock.hpp"
 #include "drivers/rplidar/rplidar_driver.hpp"
-#include "drivers/serial/recording_byte_stream.hpp"
+#include "drivers/serial/byte_stream.hpp"
 #include "drivers/serial/serial_port.hpp"
 #include "replay/recording_writer.hpp"
 #include "tool/board_odometry.hpp"

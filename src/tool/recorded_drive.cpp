@@ -24,11 +24,11 @@ core::OdometryConfig widened(core::OdometryConfig config) {
 }
 
 /// In the order of time.
-void add_place(const calibration::KnownPlace& place, std::vector<calibration::KnownPlace>& places) {
+void add_place(const calibration::KnownPose& place, std::vector<calibration::KnownPose>& places) {
   if (places.empty() || place.t_ns > places.back().t_ns) places.push_back(place);
 }
 
-void add_fix(const core::ScanResult& result, std::vector<calibration::KnownPlace>& places) {
+void add_fix(const core::ScanResult& result, std::vector<calibration::KnownPose>& places) {
   const core::PoseEstimate& pose = result.pose;
   if (pose.state == core::PoseState::kFix) add_place({pose.t_ns, pose.T_map_base}, places);
 }
@@ -96,7 +96,7 @@ class PlaceSink final : public replay::RecordingSink {
   }
   void on_gap() override { take(pipeline_.finish()); }
   void on_odometry(const message::OdometryReading& /*reading*/) override {}
-  std::vector<calibration::KnownPlace> finish() {
+  std::vector<calibration::KnownPose> finish() {
     take(pipeline_.finish());
     return std::move(places_);
   }
@@ -109,7 +109,7 @@ class PlaceSink final : public replay::RecordingSink {
   core::Pipeline& pipeline_;
   std::vector<core::OdometryReading> readings_;
   std::size_t next_ = 0;
-  std::vector<calibration::KnownPlace> places_;
+  std::vector<calibration::KnownPose> places_;
 };
 
 }  // namespace
@@ -126,7 +126,7 @@ RecordedDrive play_drive(const std::filesystem::path& file, std::optional<rplida
   return sink.finish();
 }
 
-std::vector<calibration::KnownPlace> play_places(const std::filesystem::path& file,
+std::vector<calibration::KnownPose> play_places(const std::filesystem::path& file,
                                                  std::optional<rplidar::WireFormat> wire,
                                                  const settings::Config& config,
                                                  std::vector<core::OdometryReading> readings,
@@ -134,7 +134,7 @@ std::vector<calibration::KnownPlace> play_places(const std::filesystem::path& fi
   for (core::OdometryReading& reading : readings) reading.t_ns -= core::from_seconds(delay_s);
   core::LocalizerConfig localizer = config.localizer();
   localizer.odometry.enabled = true;
-  localizer.odometry.start.delay_s = 0;
+  localizer.odometry.initial.delay_s = 0;
   core::Pipeline pipeline(settings::load_map(config.map), localizer);
   PlaceSink sink(pipeline, std::move(readings));
   replay::RecordingPlayer player(file, {wire, config.lidar.mount.inverted});

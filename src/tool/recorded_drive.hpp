@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "calibration/drive_window.hpp"
-#include "core/odometry/motion_step.hpp"
+#include "core/odometry/odometry_increment.hpp"
 #include "core/odometry/reading_gate.hpp"
 #include "drivers/rplidar/decoder.hpp"
 #include "settings/config.hpp"
@@ -16,10 +16,10 @@ namespace cornerd::tool {
 
 /// A drive by wheels and gyro, and where the robot was meanwhile.
 struct RecordedDrive {
-  std::vector<core::MotionStep> steps;
-  std::vector<core::MotionStep> wide_steps;  ///< with whatever wheels and gyro say believed
+  std::vector<core::OdometryIncrement> steps;
+  std::vector<core::OdometryIncrement> wide_steps;  ///< with whatever wheels and gyro say believed
   core::OdometryCounters counters;           ///< of `steps`
-  std::vector<calibration::KnownPlace> places;
+  std::vector<calibration::KnownPose> places;
   std::vector<core::OdometryReading> readings;  ///< all of them, as they came
 };
 
@@ -31,7 +31,7 @@ RecordedDrive play_drive(const std::filesystem::path& file, std::optional<rplida
 
 /// The lidar's fixes once more, its turns straightened by readings whose times are earlier by
 /// `delay_s` than they say. Throws as play_drive().
-std::vector<calibration::KnownPlace> play_places(const std::filesystem::path& file,
+std::vector<calibration::KnownPose> play_places(const std::filesystem::path& file,
                                                  std::optional<rplidar::WireFormat> wire,
                                                  const settings::Config& config,
                                                  std::vector<core::OdometryReading> readings,

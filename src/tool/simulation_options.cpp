@@ -8,8 +8,7 @@
 #include <CLI/CLI.hpp>
 
 #include "replay/simulator/motion.hpp"
-#include "replay/simulator/places.hpp"
-#include "replay/simulator/scenarios.hpp"
+#include "replay/simulator/random_poses.hpp"
 #include "tool/failure.hpp"
 #include "tool/options.hpp"
 
@@ -74,7 +73,7 @@ replay::Motion SimulationOptions::motion(const core::WallMap& map) const {
     return replay::stand_still(T_map_base);
   }
   if (places > 0) {
-    return replay::visit_places(replay::random_places(map, places, kClearanceM, seed), scans_each);
+    return replay::visit_poses(replay::random_poses(map, places, kClearanceM, seed), scans_each);
   }
   const std::vector<core::Vec2> points =
       scenario.empty() ? parse_points(path) : replay::find_scenario(scenario)->path;

@@ -4,7 +4,7 @@
 #include <map>
 #include <string>
 
-#include "survey/refusals.hpp"
+#include "survey/validity_checks.hpp"
 #include "tool/survey_files.hpp"
 #include "tool/text_table.hpp"
 
@@ -23,7 +23,7 @@ std::string sources_of(const survey::SurveyResult& result) {
 }
 
 /// Tyres wear and are pumped up by a few hundredths: more is a wrong config.
-std::string describe_wheels(const core::LearnedOdometry& learned) {
+std::string describe_wheels(const core::OdometryParameters& learned) {
   constexpr double kMostScale = 0.15;
   if (std::max(std::abs(learned.left_scale), std::abs(learned.right_scale)) < kMostScale) return "";
   return formatted(
@@ -42,9 +42,9 @@ std::string describe_drive(const survey::SurveyResult& result) {
                    sources_of(result).c_str());
 }
 
-std::string describe_doubt(const survey::OdometryDoubt& doubt) {
-  const auto wheel = [](const survey::WheelWay& way) {
-    return formatted("%.1f m by its counts and %.1f m by the lidar", way.counted_m, way.true_m);
+std::string describe_doubt(const survey::RejectedOdometry& doubt) {
+  const auto wheel = [](const survey::WheelDistance& way) {
+    return formatted("%.1f m by its counts and %.1f m by the lidar", way.counted_m, way.lidar_m);
   };
   return formatted(
              "WARNING: the odometry contradicts the lidar in %zu turns and is missing in %zu; it "
@@ -88,7 +88,7 @@ std::string describe_loop(const survey::SurveyResult& result, const survey::Loop
 std::string survey_report(const survey::SurveyResult& result) {
   std::string text = describe_drive(result) + describe_walls(result);
   if (result.observations == 0) return text;  // the paper's way
-  if (result.odometry_doubt) text += describe_doubt(*result.odometry_doubt);
+  if (result.rejected_odometry) text += describe_doubt(*result.rejected_odometry);
   text += formatted("%zu sightings of walls, residuals %.2f of their doubt, %zu outliers\n",
                     result.observations, result.sigma, result.outliers);
   if (!result.unmatched_scans.empty()) {
@@ -102,25 +102,25 @@ std::string survey_report(const survey::SurveyResult& result) {
         result.degenerate_scans.size(),
         core::to_seconds(result.t_ns[result.degenerate_scans.front()] - result.t_ns.front()));
   }
-  if (survey::are_walls_doubled(result.doubled_m, result.plan.walls)) {
+  if (survey::has_duplicate_walls(result.duplicate_m, result.plan.walls)) {
     text += formatted(
         "WARNING: %.1f m of walls lie behind others that would have hidden them: things moved, or "
         "the "
         "way was off there\n",
-        result.doubled_m);
+        result.duplicate_m);
   }
-  if (survey::are_walls_seen_through(result.through)) {
+  if (survey::has_free_space_conflicts(result.free_space_conflicts)) {
     text += formatted(
         "WARNING: rays went through %.1f m of the sides of walls (stretches: %zu): things "
         "moved, or the drive does not fit together there\n",
-        result.through.length_m, result.through.places);
+        result.free_space_conflicts.length_m, result.free_space_conflicts.places);
   }
   if (result.squared) {
     text += formatted("%zu sides of walls are square to each other, %zu were left askew\n",
                       result.squared->square, result.squared->askew);
   }
   if (result.learned) {
-    const core::LearnedOdometry& learned = *result.learned;
+    const core::OdometryParameters& learned = *result.learned;
     text +=
         formatted("odometry: left %+.4f, right %+.4f, track %+.4f, gyro %+.4f and %+.5f rad/s\n",
                   learned.left_scale, learned.right_scale, learned.track_scale, learned.gyro_scale,
@@ -131,16 +131,16 @@ std::string survey_report(const survey::SurveyResult& result) {
   if (result.merged_faces > 0) {
     text += formatted("%zu pieces were merged with others\n", result.merged_faces);
   }
-  if (result.forgotten_faces + result.dropped.size() == 0) return text;
+  if (result.discarded_faces + result.dropped.size() == 0) return text;
   text += "dropped:\n";
-  if (result.forgotten_faces > 0) {
-    text += formatted("  %zu that were seen once or twice\n", result.forgotten_faces);
+  if (result.discarded_faces > 0) {
+    text += formatted("  %zu that were seen once or twice\n", result.discarded_faces);
   }
-  std::vector<survey::Dropped> dropped = result.dropped;
+  std::vector<survey::DroppedPiece> dropped = result.dropped;
   std::stable_sort(dropped.begin(), dropped.end(), [](const auto& one, const auto& other) {
     return length_of(one.from, one.to) > length_of(other.from, other.to);
   });
-  for (const survey::Dropped& piece : dropped) {
+  for (const survey::DroppedPiece& piece : dropped) {
     text +=
         formatted("  %.2f m from %.2f,%.2f to %.2f,%.2f: %s\n", length_of(piece.from, piece.to),
                   piece.from.x(), piece.from.y(), piece.to.x(), piece.to.y(), piece.why.c_str());

@@ -14,8 +14,8 @@
 #include "bench/localization/pose_error.hpp"
 #include "core/pipeline.hpp"
 #include "drivers/odometry/kernel_odometry.hpp"
-#include "replay/simulator/coverable_scene.hpp"
-#include "replay/simulator/scenarios.hpp"
+#include "replay/simulator/motion.hpp"
+#include "replay/simulator/scene.hpp"
 #include "replay/simulator/simulated_odometry.hpp"
 #include "replay/simulator/simulator.hpp"
 #include "settings/map_file.hpp"
@@ -58,9 +58,9 @@ class KernelDrive : public drivers::Clock, public drivers::OdometrySink {
         mischief_(std::move(mischief)),
         ceiling_(ceiling),
         first_count_(first_count) {
-    robot_.geometry.ceiling = 0;
+    robot_.geometry.counter_max = 0;
     config_.odometry.enabled = true;
-    config_.odometry.geometry.ceiling = ceiling;
+    config_.odometry.geometry.counter_max = ceiling;
   }
 
   Driven drive() {
@@ -177,7 +177,7 @@ void expect_unharmed(const Driven& driven) {
   EXPECT_GE(driven.fixes, 125U);
   EXPECT_GE(driven.predicted, 12U);
   EXPECT_LT(driven.worst_m, 0.03);
-  EXPECT_TRUE(driven.odometry.trusted);
+  EXPECT_TRUE(driven.odometry.healthy);
 }
 
 TEST(DriveByKernelSensors, Clean_IsCarriedOnWhileTheLidarIsCovered) {
@@ -208,7 +208,7 @@ TEST(DriveByKernelSensors, GarbageAndJumps_CostThemselves) {
   });
   expect_unharmed(driven);
   EXPECT_GE(driven.odometry.counters.jumps, 30U);
-  EXPECT_GE(driven.sensors.counters.garbage, 30U);
+  EXPECT_GE(driven.sensors.counters.invalid_values, 30U);
 }
 
 TEST(DriveByKernelSensors, SensorThatGoesAndComesBackUnderAnotherNumber_IsFoundAgain) {
@@ -236,7 +236,7 @@ TEST(DriveByKernelSensors, GyroThatFreezes_IsNoLongerBelieved) {
     texts.rate = held;
   });
   expect_unharmed(driven);
-  EXPECT_GT(driven.odometry.counters.frozen, 100U);
+  EXPECT_GT(driven.odometry.counters.stuck, 100U);
 }
 
 TEST(DriveByKernelSensors, EncoderThatFreezes_IsSaidAndDistrusted) {
@@ -247,7 +247,7 @@ TEST(DriveByKernelSensors, EncoderThatFreezes_IsSaidAndDistrusted) {
   });
   EXPECT_EQ(driven.wrong, 0U);
   EXPECT_GE(driven.fixes, 120U);
-  EXPECT_EQ(driven.sensors.left.state, drivers::SensorState::kFrozen);
+  EXPECT_EQ(driven.sensors.left.state, drivers::SensorState::kStuck);
 }
 
 TEST(DriveByKernelSensors, EncodersThatAreAbsentForAWhile_AreMissedAndNotMadeUp) {

@@ -172,7 +172,7 @@ const Fault kNone = [](json line, int) { return std::vector<json>{std::move(line
 TEST_F(OdometryFaults, None_IsTheDriveThatTheOthersAreMeasuredBy) {
   const Replayed clean = replay(kNone);
   expect_unharmed(clean);
-  for (const char* counter : {"past", "future", "jumps", "bad_rates", "frozen", "holes"}) {
+  for (const char* counter : {"past", "future", "jumps", "invalid_rates", "stuck", "gaps"}) {
     EXPECT_EQ(clean.counter(counter), 0) << counter;
   }
 }
@@ -221,7 +221,7 @@ TEST_F(OdometryFaults, RatesThatAreGarbage_CostThemselves) {
     });
     expect_unharmed(replayed);
     // What no gyro can say is no reading at all.
-    EXPECT_EQ(replayed.counter("bad_rates") + 1030 - replayed.counter("readings"), 103);
+    EXPECT_EQ(replayed.counter("invalid_rates") + 1030 - replayed.counter("readings"), 103);
   }
 }
 
@@ -247,7 +247,7 @@ TEST_F(OdometryFaults, GyroThatIsFrozen_IsNoLongerBelieved) {
   for (const int first : {100, 400, 600}) {
     const Replayed replayed = replay(frozen({"gyro"}, first));
     expect_unharmed(replayed, 134);  // one fix fewer than with the others
-    EXPECT_GT(replayed.counter("frozen"), 200) << first;
+    EXPECT_GT(replayed.counter("stuck"), 200) << first;
   }
 }
 
@@ -256,7 +256,7 @@ TEST_F(OdometryFaults, WheelsThatAreFrozen_AreDistrusted) {
     for (const auto& wheels : {std::vector{"left"}, std::vector{"left", "right"}}) {
       const Replayed replayed = replay(frozen(wheels, first));
       expect_right(replayed);
-      EXPECT_EQ(replayed.odometry["state"], "distrusted") << first;
+      EXPECT_EQ(replayed.odometry["state"], "unhealthy") << first;
     }
   }
 }

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "core/pipeline.hpp"
-#include "replay/simulator/places.hpp"
+#include "replay/simulator/random_poses.hpp"
 #include "tests/temporary_folder.hpp"
 #include "tool/playback.hpp"
 #include "tool/truth.hpp"
@@ -22,8 +22,8 @@ tool::ErrorStatistics localize_random_places(std::shared_ptr<const core::WallMap
     replay::RecordingWriter recording(recording_file);
     replay::TruthWriter truth(truth_file);
     const auto places =
-        replay::random_places(*building, config.scans / scans_each, 0.2, config.simulator.seed + 1);
-    replay::simulate_recording(building, replay::visit_places(places, static_cast<int>(scans_each)),
+        replay::random_poses(*building, config.scans / scans_each, 0.2, config.simulator.seed + 1);
+    replay::simulate_recording(building, replay::visit_poses(places, static_cast<int>(scans_each)),
                                config, recording, &truth);
   }
   const tool::Truth truth = tool::Truth::load(truth_file);

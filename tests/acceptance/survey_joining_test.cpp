@@ -12,10 +12,9 @@
 
 #include "bench/simulated_drive.hpp"
 #include "replay/simulator/motion.hpp"
-#include "replay/simulator/scenarios.hpp"
 #include "settings/map_file.hpp"
-#include "survey/refusals.hpp"
 #include "survey/survey.hpp"
+#include "survey/validity_checks.hpp"
 
 namespace cornerd {
 namespace {
@@ -75,9 +74,11 @@ enum class Verdict { kGood, kWarned, kRefused };
 Verdict judged(const survey::RecordedDrive& drive) {
   try {
     const survey::SurveyResult result = survey::survey(drive, {});
-    return survey::are_walls_seen_through(result.through) ? Verdict::kWarned : Verdict::kGood;
+    return survey::has_free_space_conflicts(result.free_space_conflicts) ? Verdict::kWarned
+                                                                         : Verdict::kGood;
   } catch (const std::invalid_argument& refused) {
-    EXPECT_NE(std::string(refused.what()).find("does not fit together"), std::string::npos);
+    EXPECT_NE(std::string(refused.what()).find("maps several places over each other"),
+              std::string::npos);
     return Verdict::kRefused;
   }
 }
@@ -108,7 +109,7 @@ TEST(SurveyOfPartsThatJoin, WithOdometry_IsTheMapOfTheWhole) {
   append(once, 0, 400, parts);
   append(once, 400, once.size(), parts);
   const survey::SurveyResult result = survey::survey(parts, {});
-  EXPECT_EQ(result.through.length_m, 0);
+  EXPECT_EQ(result.free_space_conflicts.length_m, 0);
   EXPECT_EQ(result.plan.walls.size(), survey::survey(once, {}).plan.walls.size());
 }
 

@@ -64,7 +64,7 @@ TEST(SurveyOfARingByTheLidarAloneLeftOpen, BareStretch_IsRefused) {
     survey::survey(drive.drive, config);
     FAIL() << "a map";
   } catch (const std::invalid_argument& refused) {
-    EXPECT_THAT(refused.what(), testing::HasSubstr("tell nothing of the way along them"));
+    EXPECT_THAT(refused.what(), testing::HasSubstr("show only walls along one direction"));
   }
 }
 

@@ -56,7 +56,7 @@ class RealRoom : public testing::Test {
     for (std::size_t i = 0; i < drive.size(); ++i) {
       drive.load(i, scan);
       const core::PoseEstimate& pose = localizer.step(scan).pose;
-      if (core::names_a_place(pose.state)) {
+      if (core::has_pose(pose.state)) {
         poses.push_back(pose.T_map_base);
       }
     }
@@ -194,7 +194,7 @@ TEST_F(RealCorridor, ItsWalls_AreSingle) {
 
 TEST_F(RealCorridor, TracksThatSlip_AreBelieved) {
   EXPECT_TRUE(result_->has_odometry);
-  EXPECT_FALSE(result_->odometry_doubt.has_value());
+  EXPECT_FALSE(result_->rejected_odometry.has_value());
 }
 
 }  // namespace

@@ -12,7 +12,6 @@
 #include "bench/survey_experiment.hpp"
 #include "bench/survey_scoring.hpp"
 #include "replay/simulator/motion.hpp"
-#include "replay/simulator/scenarios.hpp"
 #include "settings/map_file.hpp"
 
 namespace cornerd {

@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-#include "drivers/odometry/attribute_text.hpp"
+#include "drivers/odometry/sysfs.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace cornerd::drivers;

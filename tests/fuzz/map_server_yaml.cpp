@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <cstdlib>
 
-#include "gridmap/grid_error.hpp"
+#include "gridmap/image.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace cornerd::gridmap;

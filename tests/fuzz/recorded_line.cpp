@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/scan.hpp"
-#include "message/line.hpp"
+#include "message/line_writer.hpp"
 #include "message/request.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -10,7 +10,7 @@
 #include <stop_token>
 #include <utility>
 
-#include "drivers/rplidar/protocol/request.hpp"
+#include "drivers/rplidar/protocol/framing.hpp"
 #include "drivers/rplidar/rplidar_driver.hpp"
 #include "replay/emulator/virtual_clock.hpp"
 

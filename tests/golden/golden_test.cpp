@@ -11,8 +11,8 @@
 
 #include "core/geometry/angle.hpp"
 #include "core/pipeline.hpp"
-#include "drivers/counter_names.hpp"
-#include "message/state_names.hpp"
+#include "drivers/lidar_status.hpp"
+#include "message/line_writer.hpp"
 #include "settings/config.hpp"
 #include "settings/map_file.hpp"
 #include "tool/playback.hpp"

@@ -15,7 +15,7 @@ void FaultPlan::advance(core::TimeNs now_ns) {
 
 void FaultPlan::begin(core::TimeNs now_ns) {
   is_on_ = true;
-  next_ns_ = now_ns + core::from_seconds(random_.uniform(0.001, config_.longest_s));
+  next_ns_ = now_ns + core::from_seconds(random_.uniform(0.001, config_.max_duration_s));
   replay::StreamFaults& faults = device_.faults();
   const std::size_t any = random_.bits() % kNames.size();
   const std::size_t kind = config_.only.value_or(any);
@@ -35,7 +35,7 @@ void FaultPlan::begin(core::TimeNs now_ns) {
       faults.to_repeat = 1 + random_.bits() % 300;
       break;
     case 3:
-      faults.to_invent = 1 + random_.bits() % 3000;
+      faults.to_insert = 1 + random_.bits() % 3000;
       break;
     case 4:
       device_.plug(false);

@@ -10,14 +10,14 @@
 #include <string_view>
 
 #include "replay/emulator/emulated_device.hpp"
-#include "replay/simulator/coverable_scene.hpp"
+#include "replay/simulator/scene.hpp"
 
 namespace cornerd::soak {
 
 /// How often, and what.
 struct FaultConfig {
   double mean_pause_s = 8;  ///< between two: long enough for poses to come back
-  double longest_s = 6;
+  double max_duration_s = 6;
   std::optional<std::size_t> only;  ///< of FaultPlan::kNames; nullopt: any
 };
 

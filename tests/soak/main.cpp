@@ -10,7 +10,7 @@
 #include <string_view>
 
 #include "core/geometry/angle.hpp"
-#include "message/state_names.hpp"
+#include "message/line_writer.hpp"
 #include "soak_run.hpp"
 
 namespace {
@@ -45,7 +45,7 @@ void print(const soak::SoakReport& report) {
   std::printf("  resident memory %llu kB after a tenth, %llu kB at the end\n",
               number(report.warm_bytes / 1024), number(report.end_bytes / 1024));
   std::printf("  longest without progress of both loops, computing or asleep: %.2f s\n",
-              report.longest_without_progress_s);
+              report.max_without_progress_s);
 }
 
 }  // namespace
@@ -63,7 +63,7 @@ int main(int argc, char** argv) {
     } else if (name == "--pause") {
       config.faults.mean_pause_s = std::strtod(argv[i + 1], nullptr);
     } else if (name == "--longest") {
-      config.faults.longest_s = std::strtod(argv[i + 1], nullptr);
+      config.faults.max_duration_s = std::strtod(argv[i + 1], nullptr);
     } else {
       std::fprintf(stderr,
                    "daemon_soak [--turns N] [--seed N] [--only FAULT] [--pause S] [--longest S]\n");

@@ -17,8 +17,8 @@
 #include "core/pipeline.hpp"
 #include "daemon/localization.hpp"
 #include "drivers/rplidar/rplidar_driver.hpp"
-#include "message/state_names.hpp"
-#include "progress_watch.hpp"
+#include "message/line_writer.hpp"
+#include "progress_monitor.hpp"
 #include "replay/simulator/motion.hpp"
 #include "settings/map_file.hpp"
 #include "tests/sanitized.hpp"
@@ -29,7 +29,7 @@ namespace {
 using std::chrono::duration;
 using Clock = std::chrono::steady_clock;
 
-constexpr std::uint64_t kFlatBytes = 1 << 20;
+constexpr std::uint64_t kMaxGrowthBytes = 1 << 20;
 
 std::uint64_t resident_bytes() {
   std::uint64_t size = 0;
@@ -96,7 +96,7 @@ std::string describe(const core::PoseEstimate& pose, const core::Pose2& truth, s
 
 /// True of a fix that is elsewhere.
 bool is_wrong(const core::PoseEstimate& pose, const core::Pose2& truth, SoakReport& report) {
-  if (!core::names_a_place(pose.state)) return false;
+  if (!core::has_pose(pose.state)) return false;
   const bench::PoseError error = bench::error_of(pose.T_map_base, truth);
   report.worst_error_m = std::max(report.worst_error_m, error.place_m);
   report.worst_error_rad = std::max(report.worst_error_rad, error.heading_rad);
@@ -118,7 +118,7 @@ SoakReport run(const SoakConfig& config) {
         driver, std::make_unique<core::Pipeline>(world.map, core::LocalizerConfig{}),
         daemon::SourceKind::kRecording);
     localization.start();
-    ProgressWatch watch(Activity::now());
+    ProgressMonitor watch(Activity::now());
     pollfd readable{localization.event_fd(), POLLIN, 0};
     while (report.scans < config.scans) {
       ::poll(&readable, 1, 100);
@@ -136,10 +136,10 @@ SoakReport run(const SoakConfig& config) {
       if (report.warm_bytes == 0 && report.scans >= config.scans / 10) {
         report.warm_bytes = resident_bytes();
       }
-      watch.look(Activity::now(), localization.has_progressed());
-      if (watch.still_s() > 2 * config.patience_s) break;
+      watch.update(Activity::now(), localization.has_progressed());
+      if (watch.stalled_s() > 2 * config.max_stall_s) break;
     }
-    report.longest_without_progress_s = watch.longest_s();
+    report.max_without_progress_s = watch.max_stalled_s();
     report.end_bytes = resident_bytes();
   }
   report.real_s = duration<double>(Clock::now() - began).count();
@@ -160,8 +160,8 @@ std::vector<std::string> SoakReport::failures(const SoakConfig& config) const {
   require(counters.bytes == read_bytes, "bytes came that are not counted");
   require(counters.used_bytes + counters.skipped_bytes == counters.bytes,
           "bytes are neither used nor skipped");
-  require(longest_without_progress_s < config.patience_s, "a watchdog would have bitten");
-  require(test::kSanitized || end_bytes < warm_bytes + kFlatBytes, "memory grew");
+  require(max_without_progress_s < config.max_stall_s, "a watchdog would have bitten");
+  require(test::kSanitized || end_bytes < warm_bytes + kMaxGrowthBytes, "memory grew");
   return failures;
 }
 

@@ -17,8 +17,8 @@ struct SoakConfig {
   std::uint64_t scans = 2000;
   std::uint64_t seed = 1;
   FaultConfig faults;
-  /// Half of what a watchdog of ten seconds allows; see ProgressWatch.
-  double patience_s = 5;
+  /// Half of what a watchdog of ten seconds allows; see ProgressMonitor.
+  double max_stall_s = 5;
   /// Called with each wrong fix: turn, time, estimate and truth, and what had befallen the lidar.
   std::function<void(const std::string& text)> on_wrong;
 };
@@ -34,7 +34,7 @@ struct SoakReport {
   std::uint64_t read_bytes = 0;  ///< as the port counts them
   double simulated_s = 0;
   double real_s = 0;
-  double longest_without_progress_s = 0;  ///< of both loops, as the watchdog sees it
+  double max_without_progress_s = 0;  ///< of both loops, as the watchdog sees it
   std::uint64_t warm_bytes = 0;           ///< of resident memory, after a tenth of the turns
   std::uint64_t end_bytes = 0;
 

@@ -155,9 +155,9 @@ class Clients : public DaemonTest {
   /// How late each loop was between two STATUS.
   static void print(const char* when, const json& from, const json& to) {
     for (const char* loop : {"reader", "localizer", "server"}) {
-      std::vector<std::uint64_t> counts = to[loop]["late"];
+      std::vector<std::uint64_t> counts = to[loop]["counts"];
       if (from.contains(loop)) {
-        const std::vector<std::uint64_t> before = from[loop]["late"];
+        const std::vector<std::uint64_t> before = from[loop]["counts"];
         for (std::size_t i = 0; i < counts.size(); ++i) counts[i] -= before[i];
       }
       std::printf("| %-9s | %-7s | %6s s | %6s s | %6s s |\n", loop, when,

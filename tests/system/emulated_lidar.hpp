@@ -9,7 +9,7 @@
 #include <thread>
 
 #include "replay/emulator/pty_emulator.hpp"
-#include "replay/simulator/coverable_scene.hpp"
+#include "replay/simulator/scene.hpp"
 
 namespace cornerd::system_test {
 

@@ -147,7 +147,7 @@ TEST_F(FaultTable, ProtectionStop) {
 TEST_F(FaultTable, HealthError) {
   replay::EmulatorConfig config;
   config.health = {.status = 2, .code = 0x8001};
-  config.reset_heals = false;
+  config.reset_restores_health = false;
   plug_in(config);
   launch();
   expect(

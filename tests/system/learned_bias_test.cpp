@@ -14,7 +14,7 @@
 namespace cornerd::system_test {
 namespace {
 
-class LearnedBias : public DaemonTest {
+class EstimatedBias : public DaemonTest {
  protected:
   DaemonProcess start_on_lidar() {
     return start({"/lidar/driver=rplidar", "/lidar/device=" + (folder_ / "lidar").string(),
@@ -28,7 +28,7 @@ class LearnedBias : public DaemonTest {
       json status = next_of(client, "STATUS");
       if (!status.is_object()) return {};
       const json& lidar = status["lidar"];
-      if (lidar.contains("bias") && lidar["bias"]["turns"] >= scans) return status;
+      if (lidar.contains("bias") && lidar["bias"]["scans"] >= scans) return status;
     }
   }
 
@@ -40,7 +40,7 @@ class LearnedBias : public DaemonTest {
   std::filesystem::path file_ = folder_ / "learned.json";
 };
 
-TEST_F(LearnedBias, SameLidar_IsKnownAtTheNextStartAndAnotherIsNot) {
+TEST_F(EstimatedBias, SameLidar_IsKnownAtTheNextStartAndAnotherIsNot) {
   {
     const EmulatedLidar lidar(folder_ / "map.json", folder_ / "lidar");
     DaemonProcess daemon = start_on_lidar();
@@ -56,7 +56,7 @@ TEST_F(LearnedBias, SameLidar_IsKnownAtTheNextStartAndAnotherIsNot) {
     DaemonProcess again = start_on_lidar();
     const json known = status_after(1);
     ASSERT_TRUE(known.is_object());
-    EXPECT_GE(known["lidar"]["bias"]["turns"], 20u) << known;
+    EXPECT_GE(known["lidar"]["bias"]["scans"], 20u) << known;
     end(again);
   }
   replay::EmulatorConfig another;
@@ -71,12 +71,12 @@ TEST_F(LearnedBias, SameLidar_IsKnownAtTheNextStartAndAnotherIsNot) {
   EXPECT_TRUE(event.is_object()) << daemon.output();
   const json fresh = status_after(1);
   ASSERT_TRUE(fresh.is_object());
-  EXPECT_LT(fresh["lidar"]["bias"]["turns"], 20u) << fresh;
+  EXPECT_LT(fresh["lidar"]["bias"]["scans"], 20u) << fresh;
   end(daemon);
   EXPECT_NE(daemon.output().find("another lidar"), std::string::npos) << daemon.output();
 }
 
-TEST_F(LearnedBias, ReloadBeforeTheFirstTurn_GoesOnWithWhatWasKept) {
+TEST_F(EstimatedBias, ReloadBeforeTheFirstTurn_GoesOnWithWhatWasKept) {
   std::ofstream(file_) << R"({"format": "cornerd-lidar", "turns": 400,
       "bias": {"range_scale": 0.004, "range_offset": 0.001, "bearing_sine": 0, "bearing_cosine": 0},
       "sigma": {"range_scale": 5e-4, "range_offset": 5e-4, "bearing_sine": 3e-4,
@@ -92,11 +92,11 @@ TEST_F(LearnedBias, ReloadBeforeTheFirstTurn_GoesOnWithWhatWasKept) {
   const EmulatedLidar lidar(folder_ / "map.json", folder_ / "lidar");
   const json status = status_after(1);
   ASSERT_TRUE(status.is_object()) << daemon.output();
-  EXPECT_GE(status["lidar"]["bias"]["turns"], 400u) << status;
+  EXPECT_GE(status["lidar"]["bias"]["scans"], 400u) << status;
   end(daemon);
 }
 
-TEST_F(LearnedBias, ReloadRightAfterAnotherLidar_DoesNotBringBackTheLastOnes) {
+TEST_F(EstimatedBias, ReloadRightAfterAnotherLidar_DoesNotBringBackTheLastOnes) {
   auto lidar = std::make_unique<EmulatedLidar>(folder_ / "map.json", folder_ / "lidar");
   DaemonProcess daemon = start_on_lidar();
   const json first = status_after(40);
@@ -119,7 +119,7 @@ TEST_F(LearnedBias, ReloadRightAfterAnotherLidar_DoesNotBringBackTheLastOnes) {
   do {
     status = next_of(later, "STATUS");
     ASSERT_TRUE(status.is_object()) << daemon.output();
-  } while (!status["lidar"].contains("bias") || status["lidar"]["bias"]["turns"] >= 40u);
+  } while (!status["lidar"].contains("bias") || status["lidar"]["bias"]["scans"] >= 40u);
   EXPECT_NE(status["lidar"]["serial"], first["lidar"]["serial"]);
   end(daemon);
 }

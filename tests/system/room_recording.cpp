@@ -6,7 +6,7 @@
 
 #include "core/geometry/angle.hpp"
 #include "core/scan.hpp"
-#include "message/line.hpp"
+#include "message/line_writer.hpp"
 #include "settings/map_file.hpp"
 
 namespace cornerd::system_test {

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string>
 
-#include "daemon/file_descriptor.hpp"
+#include "daemon/require_fd.hpp"
 
 namespace cornerd::system_test {
 

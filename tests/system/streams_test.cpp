@@ -14,7 +14,7 @@
 #include <string>
 #include <thread>
 
-#include "daemon/file_descriptor.hpp"
+#include "daemon/require_fd.hpp"
 #include "daemon_process.hpp"
 
 namespace cornerd::system_test {

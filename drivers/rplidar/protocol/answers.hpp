@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The payloads of an A1's single answers, in both directions.
+// Payloads of an A1's single answers, to encode and to decode.
 #pragma once
 
 #include <array>
@@ -24,10 +24,10 @@ struct DeviceInfo {
   bool operator==(const DeviceInfo&) const = default;
 
   std::array<std::uint8_t, kSize> encode() const;
-  /// nullopt where there are too few bytes. The same holds for the other answers.
+  /// nullopt if there are too few bytes, as for the other answers.
   static std::optional<DeviceInfo> decode(std::span<const std::uint8_t> bytes);
 
-  std::string model_name() const;     ///< "A1M8", or the byte where it is not known
+  std::string model_name() const;     ///< "A1M8", or the byte if unknown
   std::string firmware_text() const;  ///< "1.29"
   std::string serial_text() const;    ///< hexadecimal, in the order of the vendor's SDK
 };
@@ -43,7 +43,7 @@ struct Health {
   static constexpr std::size_t kSize = 3;
 
   std::uint8_t status = 0;  ///< HealthStatus
-  std::uint16_t code = 0;   ///< undocumented; worth reporting as it is
+  std::uint16_t code = 0;   ///< undocumented
 
   bool failed() const { return status >= static_cast<std::uint8_t>(HealthStatus::kError); }
   std::array<std::uint8_t, kSize> encode() const;
@@ -51,7 +51,7 @@ struct Health {
   std::string text() const;  ///< "good", "warning (code 0x0102)", "error (code 0x8001)"
 };
 
-/// GET_SAMPLERATE: microseconds a sample, firmware 1.17 and later.
+/// GET_SAMPLERATE: microseconds per sample, firmware 1.17 and later.
 struct SampleRate {
   static constexpr std::size_t kSize = 4;
 
@@ -67,7 +67,7 @@ struct SampleRate {
 enum class ConfType : std::uint32_t {
   kDesiredRotation = 0x01,
   kModeCount = 0x70,    ///< u16
-  kModePeriod = 0x71,   ///< u32, microseconds a sample in Q8
+  kModePeriod = 0x71,   ///< u32, microseconds per sample in Q8
   kMaxDistance = 0x74,  ///< u32, metres in Q8
   kAnswerType = 0x75,   ///< u8
   kTypicalMode = 0x7C,  ///< u16
@@ -81,13 +81,13 @@ struct ConfAnswer {
 
   static std::optional<ConfAnswer> decode(std::span<const std::uint8_t> bytes);
   bool is(ConfType wanted) const { return type == static_cast<std::uint32_t>(wanted); }
-  /// The value as a little-endian number of up to 4 bytes; nullopt where it has fewer than `size`.
+  /// The value's first `size` bytes (at most 4), little-endian; nullopt if it has fewer.
   std::optional<std::uint32_t> number(std::size_t size) const;
-  /// The value as text up to its first zero.
+  /// Up to the first zero.
   std::string_view text() const;
 };
 
-/// The request's side, for the emulator.
+/// The request's payload, for the emulator.
 struct ConfQuery {
   std::uint32_t type = 0;
   std::optional<std::uint16_t> mode;

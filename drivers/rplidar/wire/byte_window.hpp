@@ -5,15 +5,19 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
+
+#include "drivers/rplidar/decoder.hpp"
+#include "drivers/rplidar/protocol/framing.hpp"
 
 namespace cornerd::rplidar {
 
-/// The bytes that have arrived and are not yet accounted for. Whoever looks at them takes them out
-/// only when sure, so that a false packet boundary can be searched through again.
+/// Received bytes that are not yet decoded or skipped. A decoder consumes them only when it is
+/// sure, so that a false packet boundary can be searched again.
 class ByteWindow {
  public:
-  /// Takes as many as there is room for, and says how many.
+  /// Returns how many bytes there was room for.
   std::size_t append(std::span<const std::uint8_t> bytes) {
     if (end_ + bytes.size() > bytes_.size()) close_up();
     const std::size_t count = std::min(bytes.size(), bytes_.size() - end_);
@@ -34,16 +38,32 @@ class ByteWindow {
     begin_ = 0;
   }
 
-  std::array<std::uint8_t, 1024> bytes_;  ///< no decision needs to see more than 150 of them
+  std::array<std::uint8_t, 1024> bytes_;  ///< no decision needs more than 150
   std::size_t begin_ = 0;
   std::size_t end_ = 0;
 };
 
-/// What a look at the next bytes has found.
+/// Whether the next bytes are a packet.
 enum class Verdict : std::uint8_t {
   kNo,
   kYes,
-  kMore,  ///< cannot be told before more bytes are there
+  kMore,  ///< undecided: needs more bytes
 };
+
+/// What a format's decoder made of the next bytes.
+enum class Step : std::uint8_t {
+  kMore,      ///< needs more bytes
+  kProgress,  ///< consumed bytes
+  kLost,      ///< no packet of the format follows: search for one
+};
+
+struct DescriptorMatch {
+  Verdict verdict = Verdict::kNo;
+  /// nullopt: a format that no A1 sends (dense, HQ), whose packets resemble capsules.
+  std::optional<WireFormat> format;
+};
+
+/// Whether `bytes` begin with the response descriptor of a scan, all 7 bytes of it.
+DescriptorMatch match_scan_descriptor(std::span<const std::uint8_t> bytes);
 
 }  // namespace cornerd::rplidar

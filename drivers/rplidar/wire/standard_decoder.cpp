@@ -3,14 +3,14 @@
 
 #include <algorithm>
 
-#include "drivers/rplidar/wire/node_chain.hpp"
-#include "drivers/rplidar/wire/scan_descriptor.hpp"
+#include "drivers/rplidar/wire/byte_window.hpp"
+#include "drivers/rplidar/wire/standard_node.hpp"
 
 namespace cornerd::rplidar {
 namespace {
 
-// A relock that takes longer than this many bytes (6 ms) no longer knows how many nodes are gone.
-constexpr std::size_t kRelockReach = 64;
+// After more bytes (6 ms) the number of lost nodes is unknown.
+constexpr std::size_t kMaxRelockBytes = 64;
 
 }  // namespace
 
@@ -30,7 +30,7 @@ Step StandardDecoder::step(ByteWindow& window, std::uint64_t& index, bool final,
 
   const auto next = parse_standard_node(bytes.subspan(kNodeSize));
   const bool plausible =
-      next && track_.explains(*next, 1) && !(next->start_flag && !track_.near_zero());
+      next && track_.is_consistent(*next, 1) && !(next->start_flag && !track_.near_zero());
   if (!plausible) {
     search_offset_ = 1;
     return relock(window, index, final, sink);
@@ -49,17 +49,16 @@ Step StandardDecoder::begin(ByteWindow& window) {
   front_ = *node;
   track_.begin(front_);
   front_starts_scan_ = scans_.advance(front_.start_flag, track_);
-  counters_->false_scan_starts = scans_.false_marks();
+  counters_->false_scan_starts = scans_.false_starts();
   has_front_ = true;
   return Step::kProgress;
 }
 
-// The node after the front is not what was expected. Either it is damaged in itself, or the
-// boundary has moved, and then it moved inside the front's own bytes or after them: every place
-// from there on is tried.
+// The node after the front is inconsistent: it is damaged, or the boundary has moved within the
+// front or after it. Every offset from there on is tried.
 Step StandardDecoder::relock(ByteWindow& window, std::uint64_t& index, bool final,
                              RawSampleSink& sink) {
-  for (; search_offset_ <= kRelockReach; ++search_offset_) {
+  for (; search_offset_ <= kMaxRelockBytes; ++search_offset_) {
     const std::size_t offset = search_offset_;
     const auto bytes = window.unread();
     if (bytes.size() < offset + kNodeSize && final) return end(window, index, sink);
@@ -84,7 +83,7 @@ Step StandardDecoder::relock(ByteWindow& window, std::uint64_t& index, bool fina
     if (chain.verdict == Verdict::kNo) continue;
 
     const bool aligned = offset % kNodeSize == 0;
-    // The first node after a descriptor is a stale one, of any angle, on every real A1.
+    // On every real A1 the first node after a descriptor is stale, with any angle.
     const bool fresh = confirmed_ == 0;
     if (fresh && !chain.continues_track) front_starts_scan_ = false;
     std::size_t to_skip = offset;
@@ -115,8 +114,7 @@ Step StandardDecoder::relock(ByteWindow& window, std::uint64_t& index, bool fina
   return Step::kLost;
 }
 
-// What is left when a recording ends can no longer be confirmed. It gets the benefit of the doubt
-// as far as one node beyond the last sure one.
+// The end of a recording cannot be confirmed; one node beyond the last confirmed one is accepted.
 Step StandardDecoder::end(ByteWindow& window, std::uint64_t& index, RawSampleSink& sink) {
   deliver_front(window, index, sink);
   ++index;
@@ -137,7 +135,7 @@ void StandardDecoder::advance(const StandardNode& node, int periods) {
   track_.advance(node, periods);
   front_ = node;
   front_starts_scan_ = scans_.advance(node.start_flag, track_);
-  counters_->false_scan_starts = scans_.false_marks();
+  counters_->false_scan_starts = scans_.false_starts();
   ++confirmed_;
 }
 

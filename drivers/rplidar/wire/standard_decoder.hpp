@@ -6,26 +6,17 @@
 
 #include "drivers/rplidar/decoder.hpp"
 #include "drivers/rplidar/wire/byte_window.hpp"
-#include "drivers/rplidar/wire/node_revolutions.hpp"
-#include "drivers/rplidar/wire/node_track.hpp"
+#include "drivers/rplidar/wire/standard_node.hpp"
 
 namespace cornerd::rplidar {
 
-/// What a format's decoder made of the next bytes.
-enum class Step : std::uint8_t {
-  kMore,      ///< needs more bytes
-  kProgress,  ///< took something out of the window
-  kLost,      ///< no packet of the format follows: search
-};
-
-/// Standard nodes, once their boundary is known. A node stays at the front of the window until the
-/// next one has confirmed it: a lost byte gives its node a piece of the successor as distance, and
-/// only the successor shows it.
+/// Decodes standard nodes of known boundary. A node is delivered when its successor confirms it:
+/// after a lost byte its distance holds bytes of the successor.
 class StandardDecoder {
  public:
   explicit StandardDecoder(drivers::StreamCounters& counters) : counters_(&counters) {}
 
-  /// The window's front is where a node begins: a descriptor ended there, or a chain was found.
+  /// A node begins at the window's front.
   void lock();
   Step step(ByteWindow& window, std::uint64_t& index, bool final, RawSampleSink& sink);
 
@@ -38,12 +29,12 @@ class StandardDecoder {
   void skip(ByteWindow& window, std::size_t count);
 
   drivers::StreamCounters* counters_;
-  NodeTrack track_;
-  NodeRevolutions scans_;
-  StandardNode front_;  ///< of the window; part of the track already
+  HeadAngleFilter track_;
+  ScanSplitter scans_;
+  StandardNode front_;  ///< of the window; track_ includes it
   bool front_starts_scan_ = false;
   std::size_t confirmed_ = 0;      ///< nodes since the lock
-  bool has_front_ = false;         ///< else the first node after the lock is still to come
+  bool has_front_ = false;         ///< false until the first node after the lock
   std::size_t search_offset_ = 0;  ///< of a relock in progress; 0: none
 };
 

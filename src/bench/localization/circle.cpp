@@ -4,7 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "replay/simulator/places.hpp"
+#include "replay/simulator/random_poses.hpp"
 
 namespace cornerd::bench {
 namespace {
@@ -41,14 +41,14 @@ replay::Motion circling(const core::Pose2& start, const CircularMotion& motion) 
 std::vector<core::Pose2> random_circles(const core::WallMap& world, const CircularMotion& motion,
                                         std::size_t count, std::uint64_t seed) {
   if (motion.yaw_rate_rad_s == 0) {
-    return replay::random_places(world, count, kCircleClearance_m, seed);
+    return replay::random_poses(world, count, kCircleClearance_m, seed);
   }
   std::vector<core::Pose2> starts;
   const double radius_m = motion.speed_m_s / motion.yaw_rate_rad_s;
   for (std::size_t tries = 0; starts.size() < count; ++tries) {
     if (tries == kMostCircleTries) throw std::runtime_error("no room for a circle of that size");
     for (const core::Pose2& place :
-         replay::random_places(world, kPlacesAtOnce, kCircleClearance_m, seed + tries)) {
+         replay::random_poses(world, kPlacesAtOnce, kCircleClearance_m, seed + tries)) {
       if (starts.size() == count) break;
       if (is_clear(world, place * core::Vec2(0, radius_m), radius_m)) starts.push_back(place);
     }

@@ -5,7 +5,7 @@
 
 #include "bench/localization/pose_error.hpp"
 #include "bench/simulated_scan.hpp"
-#include "replay/simulator/places.hpp"
+#include "replay/simulator/random_poses.hpp"
 
 namespace cornerd::bench {
 namespace {
@@ -25,7 +25,7 @@ KidnappingScore run_kidnapping(const std::vector<std::shared_ptr<const core::Wal
     ScanSimulator lidar({}, kKidnappingSamples, seed + m);
     core::Localizer localizer(maps[m], {});
     core::TimeNs t_ns = 0;
-    const auto places = replay::random_places(map, share + 1, kKidnappingClearance_m, seed + m);
+    const auto places = replay::random_poses(map, share + 1, kKidnappingClearance_m, seed + m);
     for (std::size_t i = 0; i < places.size(); ++i) {
       const core::Pose2& place = places[i];
       std::size_t recovered = KidnappingScore::kScans;
@@ -33,7 +33,7 @@ KidnappingScore run_kidnapping(const std::vector<std::shared_ptr<const core::Wal
         const core::Scan& scan = lidar.take(map, t_ns, replay::stand_still(place));
         t_ns += lidar.scan_ns();
         const core::PoseEstimate& pose = localizer.step(scan).pose;
-        if (i == 0 || !core::names_a_place(pose.state)) continue;
+        if (i == 0 || !core::has_pose(pose.state)) continue;
         if (is_right(pose.T_map_base, place)) {
           recovered = std::min(recovered, k);
         } else {

@@ -33,7 +33,7 @@ struct Abd {
   /// Eq. 1.
   bool are_apart(const PolarPoint& before, const PolarPoint& after) const {
     const double limit = limit_m(before, after);
-    return (after.place() - before.place()).squaredNorm() > limit * limit;
+    return (after.position() - before.position()).squaredNorm() > limit * limit;
   }
 
   AbdThreshold threshold;
@@ -50,14 +50,14 @@ struct Farthest {
 
 /// Of the samples strictly between the ends.
 Farthest farthest_from_chord(const PolarScan& scan, std::size_t first, std::size_t last) {
-  const Vec2 begin = scan[first].place();
-  const Vec2 chord = scan[last].place() - begin;
+  const Vec2 begin = scan[first].position();
+  const Vec2 chord = scan[last].position() - begin;
   const double length_m = chord.norm();
   const bool closed = length_m <= kMinChord_m;
   const Vec2 direction = closed ? Vec2::Zero() : Vec2(chord / length_m);
   Farthest farthest;
   for (std::size_t i = first + 1; i < last; ++i) {
-    const Vec2 offset = scan[i].place() - begin;
+    const Vec2 offset = scan[i].position() - begin;
     const double height_m = cross(direction, offset);
     const double height_m2 = closed ? offset.squaredNorm() : height_m * height_m;
     if (height_m2 > farthest.height_m2) farthest = {i, height_m2};

@@ -9,38 +9,38 @@
 namespace cornerd::core {
 namespace {
 
-/// A ray closer to the wall's direction than this tells nothing of where it meets the wall.
+/// A ray closer to the wall's direction has no usable intersection with it.
 constexpr double kMinSine = 0.03;
-/// Three samples closer to a ray than this are a step between two walls more often than one.
+/// Three samples closer to a ray's direction are a step between two walls more often than one wall.
 constexpr double kMinSeedSine = 0.06;
-/// A line is fitted anew when its wall has grown by a half, an older one when it has doubled: each
-/// sample counts, and the ellipse knows the line's uncertainty in between.
-constexpr std::uint32_t kYoung = 16;
-constexpr std::uint32_t kYoungShare = 2;
-/// Samples of a seed that needs no ellipses.
+/// A line is refitted when its wall has grown by a half, a longer one when it has doubled; in
+/// between the ellipse contains the line's uncertainty.
+constexpr std::uint32_t kShortWall = 16;
+constexpr std::uint32_t kShortWallShare = 2;
+/// Samples of a seed that needs no ellipse tests.
 constexpr std::uint32_t kLongSeed = 8;
-/// What the noise may be found to be, of the model's variance: ranges in whole millimetres are not
-/// free of noise, and beyond ten times the model's sigma there are no walls.
+/// Limits of the estimated noise variance over the model's: ranges are quantized to millimetres,
+/// and beyond ten times the model's sigma there are no walls.
 constexpr double kMinVarianceScale = 0.1;
 constexpr double kMaxVarianceScale = 100;
-/// Samples that follow() gives one weight: their ranges differ little.
+/// Samples to which track_block() gives one weight: their ranges differ little.
 constexpr std::size_t kBlock = 32;
-/// Share of the gate's square within which a sample is near: j^2 / minor^2 is below it, and
-/// k^2 / major^2 below half of it. The rest is room for the ranges of a block.
+/// Share of the squared gate that makes a sample near: j^2 / minor^2 is below it, and k^2 / major^2
+/// below half of it. The rest is margin for the ranges within a block.
 constexpr double kNear = 0.6;
 
 constexpr double square(double x) { return x * x; }
 
-/// What a sample near a line is.
+/// Bounds of a sample near a line.
 struct Near {
   Vec2 approach;     ///< the line's normal, away from the sensor
   double height_m;   ///< the line's distance from the sensor
   double max_gap_m;  ///< along the line
-  double limit_m;    ///< across the line, for a ray that meets it squarely; less by the sine
+  double limit_m;    ///< across the line at normal incidence; scales with the sine of incidence
 };
 
-/// Sums up the samples of a block up to the first that is not near. A function of its own: its
-/// values then stay in registers.
+/// Sums over a block's samples up to the first that is not near. Not inlined, so that its values
+/// stay in registers.
 [[gnu::noinline]] const PolarPoint* sum_near(const PolarPoint* point, const PolarPoint* end,
                                              double bearing_rad, const Near& near,
                                              PointSums& result) {
@@ -74,8 +74,8 @@ void Altbd::begin() {
   tracking_ = false;
   begun_ = false;
   index_ = 0;
-  // The noise is the sensor's: where the last turn showed more than the model, this one begins with
-  // it. Never with less: a turn without noise would leave a gate that no other turn passes.
+  // The noise belongs to the sensor: an estimate above the model carries over to the next scan. One
+  // below does not: a noiseless scan would leave a gate that no other scan passes.
   residual_sum_ =
       config_.prior_residuals * std::clamp(noise_variance_scale(), 1.0, kMaxVarianceScale);
   residual_count_ = config_.prior_residuals;
@@ -89,7 +89,7 @@ double Altbd::noise_variance_scale() const {
 
 double Altbd::noise_scale() const { return std::sqrt(noise_variance_scale()); }
 
-/// Steps 1-4: a line through the first samples, of one weight since they are neighbours.
+/// Steps 1-4: a line through the first samples, with one weight since they are neighbours.
 bool Altbd::start(const PolarScan& scan, std::size_t index, std::uint32_t samples) {
   if (index + samples > scan.size()) return false;
   const PolarPoint& first = scan[index];
@@ -105,18 +105,18 @@ bool Altbd::start(const PolarScan& scan, std::size_t index, std::uint32_t sample
   current_.support = samples;
   refit();
 
-  // A seed across the step from a near wall to a far one is a line along the rays.
+  // A seed across the step from a near wall to a far one runs along the rays.
   const Vec2& normal = current_.line.normal;
   const double sine = -(normal.x() * middle.ray_x + normal.y() * middle.ray_y);
   if (sine < kMinSeedSine) return false;
-  // The weights know the noise along the rays; what counts here is the noise across the line.
+  // The weights contain the noise along the rays; the test needs the noise across the line.
   const double variance = noise_.variance_across_m2(middle.range_m, sine);
   const double spare = samples - 2;
   return current_.fit.chi_square() * sigma2 / variance < gate2_ * std::sqrt(spare);
 }
 
-/// A long seed saves the ellipses of a young wall, where nothing is in doubt: no gap, no outlier.
-bool Altbd::start_any(const PolarScan& scan, std::size_t index) {
+/// A long seed without gap or outlier saves the ellipse tests of a short wall.
+bool Altbd::start_wall(const PolarScan& scan, std::size_t index) {
   constexpr double kMaxSeed_m = 0.2;
   if (index + kLongSeed <= scan.size()) {
     const PolarPoint& first = scan[index];
@@ -127,9 +127,9 @@ bool Altbd::start_any(const PolarScan& scan, std::size_t index) {
   return start(scan, index, config_.seed_samples);
 }
 
-/// Steps 6-12. The next ray meets the line at the predicted point p'; the sample misses it by
-/// `k_m` along the line and `j_m` across it. No root is taken: axes and residuals are compared
-/// squared, and the ellipse's equation is multiplied by both axes.
+/// Steps 6-12. The next ray meets the line at the predicted point p'; the sample misses p' by k
+/// along the line and j across it. Axes and residuals are compared squared and the ellipse's
+/// equation is multiplied by both axes, so that no root is needed.
 bool Altbd::is_hit(const PolarScan& scan, std::size_t index) {
   const PolarPoint& point = scan[index];
   const PolarPoint& before = scan[current_.last];
@@ -145,7 +145,7 @@ bool Altbd::is_hit(const PolarScan& scan, std::size_t index) {
   if (j2 > limit2) return false;
   const Vec2 direction = line.direction();
   const double cosine = direction.x() * point.ray_x + direction.y() * point.ray_y;
-  const double along_m = range_m * cosine;  // place of p' on the line, from the sensor's foot
+  const double along_m = range_m * cosine;  // position of p' on the line, from the sensor's foot
   const double to_centroid_m =
       along_m - direction.x() * line.centroid.x() - direction.y() * line.centroid.y();
   const double step_m = along_m - direction.x() * before.x_m - direction.y() * before.y_m;
@@ -158,7 +158,7 @@ bool Altbd::is_hit(const PolarScan& scan, std::size_t index) {
   const double minor2 = std::min(gate2_ * variance, limit2);
   const double major2 = square(step_m) + 4 * gate2_ * sigma2 * cosine * cosine;
   if (j2 > minor2) return false;
-  // k = j cos / sin: j^2 / minor^2 + k^2 / major^2 <= 1, without its fractions.
+  // k = j cos / sin: j^2 / minor^2 + k^2 / major^2 <= 1, without fractions.
   const double sine2 = sine * sine;
   return j2 * (sine2 * major2 + cosine * cosine * minor2) <= sine2 * minor2 * major2;
 }
@@ -171,27 +171,26 @@ void Altbd::extend(const PolarScan& scan, std::size_t index) {
 
 void Altbd::refit() {
   current_.line = current_.fit.line();
-  const std::uint32_t share = current_.support < kYoung ? kYoungShare : 1;
+  const std::uint32_t share = current_.support < kShortWall ? kShortWallShare : 1;
   refit_at_ = current_.support + std::max<std::uint32_t>(1, current_.support / share);
   gate2_ = square(config_.gate_sigmas) * noise_variance_scale();
 }
 
-/// Samples that follow() looks at: a block, or what is left to the next refit.
-std::size_t Altbd::to_follow() const {
+/// A block, or the samples up to the next refit.
+std::size_t Altbd::block_size() const {
   return std::min<std::size_t>(kBlock, refit_at_ - current_.support);
 }
 
-/// The next samples of a block that are so near to the line that they are inside the
-/// ellipse whatever its exact size. Returns how many there are. Most samples of a turn go this way,
-/// in a third of the instructions of is_hit().
-std::size_t Altbd::follow(const PolarScan& scan) {
+/// Adds the next samples of a block that are inside the ellipse whatever its exact size. Returns
+/// their number. Most samples take this path, at a third of the instructions of is_hit().
+std::size_t Altbd::track_block(const PolarScan& scan) {
   const std::size_t begin = next_;
-  std::size_t block_end = std::min(scan.size(), begin + to_follow());
+  std::size_t block_end = std::min(scan.size(), begin + block_size());
   const Line& line = current_.line;
   Near near{-line.normal, -line.offset_m, config_.max_gap_m, 0};
-  // The wall goes away from its centroid: its uncertainty here is the least of what is to come.
+  // The wall extends away from its centroid: the line's uncertainty here is a lower bound.
   const PolarPoint& last = scan[current_.last];
-  const double along_m = (last.place() - line.centroid).norm();
+  const double along_m = (last.position() - line.centroid).norm();
   const double variance_line = line.variance_at(along_m);
   const double bearing_rad = last.bearing_rad;
   if (scan[block_end - 1].bearing_rad - bearing_rad > config_.max_gap_rad) {
@@ -216,23 +215,23 @@ std::size_t Altbd::follow(const PolarScan& scan) {
   return count;
 }
 
-/// What the wall's samples tell of the noise: their distances to the line, less what the line took.
-void Altbd::learn_noise() {
-  constexpr std::uint32_t kTellingSamples = 8;
-  if (current_.support < kTellingSamples) return;
+/// The wall's residuals estimate the noise, with the line's two degrees of freedom removed.
+void Altbd::update_noise() {
+  constexpr std::uint32_t kMinSamples = 8;
+  if (current_.support < kMinSamples) return;
   residual_sum_ += current_.fit.chi_square() * across_factor(noise_, current_.line);
   residual_count_ += current_.support - 2;
 }
 
-/// A sample of what is behind that lies on the wall's line by chance, after the wall's end.
-void Altbd::give_back_lone_hit(const PolarScan& scan) {
+/// A single sample of the background that lies on the wall's line beyond the wall's end.
+void Altbd::return_isolated_hit(const PolarScan& scan) {
   if (hits_ != 1) return;
-  current_.take_back(scan, current_.last, noise_);
-  current_.last = before_misses_;
+  current_.remove(scan, current_.last, noise_);
+  current_.last = last_before_misses_;
 }
 
-bool Altbd::announces(SegmentTrack& wall) {
-  if (begun_ || is_doubtful(current_, extraction_, noise_scale())) return false;
+bool Altbd::reports_begin(SegmentTrack& wall) {
+  if (begun_ || is_short(current_, extraction_, noise_scale())) return false;
   begun_ = true;
   wall = current_;
   return true;
@@ -245,7 +244,7 @@ Altbd::Event Altbd::next(const PolarScan& scan, bool ended, SegmentTrack& wall) 
           scan.size()) {
         return Event::kNone;
       }
-      if (!start_any(scan, index_)) {
+      if (!start_wall(scan, index_)) {
         ++index_;
         continue;
       }
@@ -257,11 +256,11 @@ Altbd::Event Altbd::next(const PolarScan& scan, bool ended, SegmentTrack& wall) 
     }
     while (next_ < scan.size() && misses_ < config_.misses_to_break) {
       if (misses_ == 0) {
-        // Whole blocks alone, so that the walls are the same however the returns come.
-        if (!ended && next_ + to_follow() > scan.size()) return Event::kNone;
-        const std::size_t followed = follow(scan);
+        // Only whole blocks, so that the walls do not depend on how the returns arrive.
+        if (!ended && next_ + block_size() > scan.size()) return Event::kNone;
+        const std::size_t followed = track_block(scan);
         hits_ += static_cast<std::uint32_t>(followed);
-        if (followed > 0 && announces(wall)) return Event::kWallBegun;
+        if (followed > 0 && reports_begin(wall)) return Event::kWallBegun;
         if (followed > 0) continue;
       }
       if (!is_hit(scan, next_)) {
@@ -269,23 +268,23 @@ Altbd::Event Altbd::next(const PolarScan& scan, bool ended, SegmentTrack& wall) 
         ++next_;
         continue;
       }
-      if (misses_ > 0) before_misses_ = current_.last;
+      if (misses_ > 0) last_before_misses_ = current_.last;
       hits_ = misses_ > 0 ? 1 : hits_ + 1;
       extend(scan, next_);
       misses_ = 0;
       ++next_;
-      if (announces(wall)) return Event::kWallBegun;
+      if (reports_begin(wall)) return Event::kWallBegun;
     }
     if (misses_ < config_.misses_to_break && !ended) return Event::kNone;
 
     tracking_ = false;
-    give_back_lone_hit(scan);
+    return_isolated_hit(scan);
     const bool is_wall = current_.support >= min_support_;
-    // What is no wall gives back all but its first sample: another line may start within it.
+    // A track too short for a wall returns all but its first sample: another line may start in it.
     index_ = is_wall ? current_.last + 1U : index_ + 1;
     if (!is_wall) continue;
     current_.line = current_.fit.line();
-    learn_noise();
+    update_noise();
     wall = current_;
     return begun_ ? Event::kWallEnded : Event::kShortWall;
   }

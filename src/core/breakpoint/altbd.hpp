@@ -14,53 +14,54 @@
 
 namespace cornerd::core {
 
-/// Tracks the walls of a turn, sample by sample: a line through the samples so far predicts where
-/// the next ray will meet the wall, and an ellipse around that point decides whether it did.
+/// Tracks the walls of a scan sample by sample: a line through the samples so far predicts where
+/// the next ray meets the wall, and an ellipse around that point is the gate.
 ///
-/// Three things differ from the paper's print (printed_altbd.hpp), because at an A1's density
-/// (neighbours are 3-8 mm apart, noise is 2-10 mm) the printed form breaks at noise:
+/// Three things differ from the paper's print (printed_altbd.hpp), which breaks at noise at an A1's
+/// density (neighbours 3-8 mm apart, noise 2-10 mm):
 ///  - the line is fitted to the whole segment (running sums, step 1 with every sample), not to
-///    three points;
+///     three points;
 ///  - the ellipse's axes follow the sensor's noise, the angle of incidence and the line's own
-///    uncertainty; both terms of step 12 are squared, so that it is an ellipse. sigma_offset
-///    remains as the bound of the minor axis, as a share of the range;
-///  - a wall ends after three misses in a row, at the first of them: a single one is an outlier.
+///     uncertainty, and both terms of step 12 are squared. sigma_offset remains as the bound of the
+///     minor axis, as a share of the range;
+///  - a wall ends after three consecutive misses, at the first of them: a single miss is an
+///     outlier.
 ///
-/// It takes the samples as they come: next() goes on where it stopped for want of more.
+/// Incremental: next() continues where it ran out of samples.
 class Altbd {
  public:
   Altbd(const DetectorConfig& config, const SensorNoise& noise);
 
-  /// Forgets the turn before, but for its noise.
+  /// Starts a scan; keeps the noise estimate.
   void begin();
 
   enum class Event : std::uint8_t {
-    kNone,       ///< the scan is at its end; where it has not `ended`, it may go on
-    kShortWall,  ///< a wall, begun and ended, of at most doubtful_samples
-    kWallBegun,  ///< a wall has more than doubtful_samples now, and goes on
-    kWallEnded,  ///< the wall that was begun
+    kNone,       ///< no more samples; continue later unless `ended`
+    kShortWall,  ///< a complete wall of at most short_wall_samples
+    kWallBegun,  ///< a wall has more than short_wall_samples and goes on
+    kWallEnded,  ///< the wall of kWallBegun is complete
   };
 
-  /// Forgets what the turns showed of the noise: the model is believed again.
+  /// Forgets the noise estimate.
   void forget();
 
-  /// Tracks on through the scan, which may have grown since the last call, to the next event;
-  /// `wall` is what it happened to. Walls have at least min_support samples.
+  /// Tracks through the scan, which may have grown since the last call, to the next event. `wall`:
+  /// the wall of the event, with at least min_support samples.
   Event next(const PolarScan& scan, bool ended, SegmentTrack& wall);
 
-  /// How much larger the residuals were than the noise model says, of late.
+  /// Ratio of the recent residuals' standard deviation to the noise model's.
   double noise_scale() const;
 
  private:
-  bool start_any(const PolarScan& scan, std::size_t index);
+  bool start_wall(const PolarScan& scan, std::size_t index);
   bool start(const PolarScan& scan, std::size_t index, std::uint32_t samples);
   bool is_hit(const PolarScan& scan, std::size_t index);
-  bool announces(SegmentTrack& wall);
-  std::size_t to_follow() const;
-  std::size_t follow(const PolarScan& scan);
+  bool reports_begin(SegmentTrack& wall);
+  std::size_t block_size() const;
+  std::size_t track_block(const PolarScan& scan);
   void refit();
-  void learn_noise();
-  void give_back_lone_hit(const PolarScan& scan);
+  void update_noise();
+  void return_isolated_hit(const PolarScan& scan);
   void extend(const PolarScan& scan, std::size_t index);
   double noise_variance_scale() const;
 
@@ -72,15 +73,16 @@ class Altbd {
 
   SegmentTrack current_;
   bool tracking_ = false;
-  bool begun_ = false;     ///< kWallBegun was said of the current wall
+  bool begun_ = false;     ///< kWallBegun was reported of the current wall
   std::size_t index_ = 0;  ///< of the wall's first sample, or of the next one to try
   std::size_t next_ = 0;
   std::uint32_t misses_ = 0;
-  std::uint32_t hits_ = 0;           ///< in a row, up to the wall's last sample
-  std::uint32_t before_misses_ = 0;  ///< its last sample before the misses before those hits
-  std::uint32_t refit_at_ = 0;       ///< support at which the line is fitted anew
-  double gate2_ = 0;                 ///< squared, in units of the noise that is believed
-  double residual_sum_;              ///< of squared, normalised residuals
+  std::uint32_t hits_ = 0;  ///< consecutive, up to the wall's last sample
+  std::uint32_t last_before_misses_ =
+      0;  ///< the wall's last sample before the misses that precede those hits
+  std::uint32_t refit_at_ = 0;  ///< support at which the line is refitted
+  double gate2_ = 0;            ///< squared, in units of the estimated noise
+  double residual_sum_;         ///< of squared, normalized residuals
   double residual_count_;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What every detector of corners answers with, whatever its method.
+// The result of every corner detector.
 #pragma once
 
 #include <array>
@@ -12,14 +12,16 @@
 
 namespace cornerd::core {
 
-/// Corner: two walls that meet, both seen. Terminal: the end of a wall in front of what is behind.
+/// Corner: two visible walls meet. Terminal (the paper's term): the end of a wall in front of
+/// something farther.
 enum class BreakpointKind : std::uint8_t { kCorner, kTerminal };
 
 /// A line through wall points, in the lidar frame: normal.dot(p) = offset_m.
 struct WallSegment {
   Vec2 normal = Vec2::Zero();  ///< unit vector from the wall towards the sensor
-  double offset_m = 0;         ///< negative: the sensor is on the side that the normal points to
-  Vec2 first = Vec2::Zero();   ///< foot of the first sample on the line (counter-clockwise order)
+  double offset_m = 0;         ///< negative: the normal points to the sensor
+  Vec2 first =
+      Vec2::Zero();  ///< projection of the first sample on the line (counter-clockwise order)
   Vec2 last = Vec2::Zero();
   double sigma_offset_m = 0;  ///< of the line at the centroid of its samples
   double sigma_angle_rad = 0;
@@ -28,14 +30,14 @@ struct WallSegment {
   std::uint32_t support = 0;       ///< samples on the line
 };
 
-/// One breakpoint in the lidar frame. "Right" is clockwise of it as the sensor sees it, "left"
-/// counter-clockwise. A terminal has one wall; its directions to the other side are not set.
+/// A breakpoint in the lidar frame. "Right" is clockwise of it seen from the sensor, "left"
+/// counter-clockwise. A terminal has one wall; the fields of its other side are not set.
 struct Breakpoint {
   Vec2 position = Vec2::Zero();
   Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();
   BreakpointKind kind = BreakpointKind::kCorner;
   bool convex = false;        ///< the free space opens by more than pi
-  bool wall_on_right = true;  ///< a wall is seen on that side
+  bool wall_on_right = true;  ///< a wall is visible on that side
   bool wall_on_left = true;
   double right_wall_rad = 0;  ///< direction along that wall, away from the breakpoint
   double left_wall_rad = 0;
@@ -47,7 +49,7 @@ struct Breakpoint {
 inline constexpr std::size_t kMaxSegmentsPerScan = 256;
 inline constexpr std::size_t kMaxBreakpointsPerScan = 256;
 
-/// The breakpoints and walls of one turn, counter-clockwise from bearing -pi. Room is taken at
+/// The breakpoints and walls of one scan, counter-clockwise from bearing -pi. Room is taken at
 /// construction; what does not fit is dropped and counted.
 struct Detection {
   Detection() {
@@ -63,7 +65,7 @@ struct Detection {
   std::vector<Breakpoint> breakpoints;
   std::vector<WallSegment> segments;
   std::size_t overflowed = 0;
-  double noise_scale = 1;  ///< residuals of the walls' samples against the sensor's noise model
+  double noise_scale = 1;  ///< standard deviation of the residuals over the noise model's
 };
 
 }  // namespace cornerd::core

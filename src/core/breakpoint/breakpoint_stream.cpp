@@ -10,79 +10,82 @@
 namespace cornerd::core {
 
 BreakpointStream::BreakpointStream(const DetectorConfig& config, const SensorNoise& noise)
-    : tracker_(config, noise), chain_(config, noise) {
+    : tracker_(config, noise), polyline_(config, noise) {
   mirrored_.reserve(kMaxBreakpointsPerScan);
 }
 
 void BreakpointStream::begin(double spacing_rad, Sweep sweep) {
   sweep_ = sweep;
   tracker_.begin();
-  chain_.begin();
+  polyline_.begin();
   scan_.begin(spacing_rad);
   detection_.clear();
-  waiting_count_ = 0;
-  begun_ = false;
+  buffered_ = 0;
+  started_ = false;
   finished_ = false;
 }
 
 std::span<const Breakpoint> BreakpointStream::add(double bearing_rad, double range_m) {
-  const std::size_t known = detection_.breakpoints.size();
+  const std::size_t known_count = detection_.breakpoints.size();
   if (finished_ || !(range_m > 0) || !std::isfinite(range_m) || !std::isfinite(bearing_rad)) {
-    return news(known);
+    return new_breakpoints(known_count);
   }
   const double angle_rad = static_cast<int>(sweep_) * bearing_rad;
-  if (!begun_) {
-    begun_ = true;
-    begin_rad_ = reached_rad_ = angle_rad;
+  if (!started_) {
+    started_ = true;
+    begin_rad_ = max_sweep_rad_ = angle_rad;
   }
-  // The sweep goes on from where it was: bearings wrap, it does not.
-  const Return item{reached_rad_ + angle_between(reached_rad_, angle_rad), range_m};
-  reached_rad_ = std::max(reached_rad_, item.sweep_rad);
+  // Bearings wrap, the sweep angle does not.
+  const Return item{max_sweep_rad_ + angle_between(max_sweep_rad_, angle_rad), range_m};
+  max_sweep_rad_ = std::max(max_sweep_rad_, item.sweep_rad);
   if (item.sweep_rad >= begin_rad_ + kTwoPi || item.sweep_rad < begin_rad_ - kMaxStepBack_rad) {
-    return news(known);
+    return new_breakpoints(known_count);
   }
 
-  if (waiting_count_ == waiting_.size()) {
-    take(waiting_[0]);
-    std::move(waiting_.begin() + 1, waiting_.begin() + waiting_count_, waiting_.begin());
-    --waiting_count_;
+  if (buffered_ == reorder_buffer_.size()) {
+    take(reorder_buffer_[0]);
+    std::move(reorder_buffer_.begin() + 1, reorder_buffer_.begin() + buffered_,
+              reorder_buffer_.begin());
+    --buffered_;
   }
-  std::size_t place = waiting_count_++;
-  for (; place > 0 && waiting_[place - 1].sweep_rad > item.sweep_rad; --place) {
-    waiting_[place] = waiting_[place - 1];
+  std::size_t place = buffered_++;
+  for (; place > 0 && reorder_buffer_[place - 1].sweep_rad > item.sweep_rad; --place) {
+    reorder_buffer_[place] = reorder_buffer_[place - 1];
   }
-  waiting_[place] = item;
+  reorder_buffer_[place] = item;
 
   std::size_t taken = 0;
-  while (taken < waiting_count_ && waiting_[taken].sweep_rad < reached_rad_ - kMaxStepBack_rad) {
-    take(waiting_[taken++]);
+  while (taken < buffered_ &&
+         reorder_buffer_[taken].sweep_rad < max_sweep_rad_ - kMaxStepBack_rad) {
+    take(reorder_buffer_[taken++]);
   }
-  std::move(waiting_.begin() + taken, waiting_.begin() + waiting_count_, waiting_.begin());
-  waiting_count_ -= taken;
-  if (taken > 0) feed(tracker_, chain_, scan_, /*ended=*/false, detection_);
-  return news(known);
+  std::move(reorder_buffer_.begin() + taken, reorder_buffer_.begin() + buffered_,
+            reorder_buffer_.begin());
+  buffered_ -= taken;
+  if (taken > 0) feed(tracker_, polyline_, scan_, /*ended=*/false, detection_);
+  return new_breakpoints(known_count);
 }
 
 void BreakpointStream::take(const Return& item) {
-  // One that comes later than it may is lost: what was tracked stays as it is.
+  // A sample later than the reorder buffer allows is dropped: tracked walls stay as they are.
   if (scan_.size() > 0 && item.sweep_rad < scan_[scan_.size() - 1].bearing_rad) return;
   scan_.append(item.sweep_rad, item.range_m);
 }
 
 std::span<const Breakpoint> BreakpointStream::finish() {
-  const std::size_t known = detection_.breakpoints.size();
-  if (finished_) return news(known);
+  const std::size_t known_count = detection_.breakpoints.size();
+  if (finished_) return new_breakpoints(known_count);
   finished_ = true;
-  for (std::size_t i = 0; i < waiting_count_; ++i) take(waiting_[i]);
-  waiting_count_ = 0;
-  feed(tracker_, chain_, scan_, /*ended=*/true, detection_);
+  for (std::size_t i = 0; i < buffered_; ++i) take(reorder_buffer_[i]);
+  buffered_ = 0;
+  feed(tracker_, polyline_, scan_, /*ended=*/true, detection_);
   detection_.noise_scale = tracker_.noise_scale();
-  chain_.finish(scan_, detection_.noise_scale, detection_);
-  return news(known);
+  polyline_.finish(scan_, detection_.noise_scale, detection_);
+  return new_breakpoints(known_count);
 }
 
-std::span<const Breakpoint> BreakpointStream::news(std::size_t known) {
-  const std::span<const Breakpoint> found = std::span(detection_.breakpoints).subspan(known);
+std::span<const Breakpoint> BreakpointStream::new_breakpoints(std::size_t known_count) {
+  const std::span<const Breakpoint> found = std::span(detection_.breakpoints).subspan(known_count);
   if (sweep_ == Sweep::kCounterClockwise) return found;
   mirrored_.clear();
   for (const Breakpoint& breakpoint : found) mirrored_.push_back(mirrored(breakpoint));

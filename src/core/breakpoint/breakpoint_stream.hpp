@@ -7,70 +7,68 @@
 
 #include "core/breakpoint/altbd.hpp"
 #include "core/breakpoint/breakpoint.hpp"
-#include "core/breakpoint/wall_chain.hpp"
+#include "core/breakpoint/wall_polyline.hpp"
 #include "core/detector_config.hpp"
 #include "core/polar_scan.hpp"
 #include "core/sensor_noise.hpp"
 
 namespace cornerd::core {
 
-/// Which way the head turns, seen from above. An A1 on its feet turns clockwise.
+/// Rotation of the head seen from above. An upright A1 rotates clockwise.
 enum class Sweep : std::int8_t { kCounterClockwise = +1, kClockwise = -1 };
 
-/// ALTBD while the turn goes on: fed return by return, it says what each breakpoint is as soon as
-/// nothing that follows can change it: when the wall after it has shown itself and the wall before
-/// it has ended. Those at the seam, where the turn began, come at its end.
+/// ALTBD on a scan in progress: reports each breakpoint as soon as no later return can change it,
+/// which is when the wall after it has begun and the wall before it is complete. Breakpoints at the
+/// seam, where the scan began, come at its end.
 ///
-/// The breakpoints are exactly those that a Detector finds in the whole turn, if that begins at the
-/// same bearing and is taken in the same sense (breakpoint_stream_test.cpp). All memory is taken at
+/// The result equals that of a Detector on the complete scan, if that begins at the same bearing
+/// and is taken in the same sense (breakpoint_stream_test.cpp). Allocates nothing after
 /// construction.
 class BreakpointStream {
  public:
   BreakpointStream(const DetectorConfig& config, const SensorNoise& noise);
 
-  /// A turn begins. `spacing_rad`: distance in bearing between two samples, as of the turn
-  /// before.
+  /// Starts a scan. `spacing_rad`: distance in bearing between two samples, from the previous scan.
   void begin(double spacing_rad, Sweep sweep);
 
-  /// The next return, lidar frame. A bearing may step back by up to kMaxStepBack_rad, as those of
-  /// an A1 do. Ranges that are none, returns beyond a whole circle, and more than
-  /// kMaxSamplesPerScan are ignored. The breakpoints that this return made certain; valid until the
-  /// next call.
+  /// Adds a return, lidar frame. Bearings may step back by up to kMaxStepBack_rad. Invalid ranges,
+  /// returns beyond 2 pi and more than kMaxSamplesPerScan are ignored. Returns the breakpoints that
+  /// became final; valid until the next call.
   std::span<const Breakpoint> add(double bearing_rad, double range_m);
 
-  /// The turn is at its end: the rest of its breakpoints.
+  /// Ends the scan: returns the remaining breakpoints.
   std::span<const Breakpoint> finish();
 
-  /// All breakpoints so far, and at the end of the turn its walls. Taken in the sweep's sense: a
-  /// clockwise turn is seen in a mirror here.
+  /// All breakpoints so far and, after finish(), the walls. In the sense of the sweep: a clockwise
+  /// scan is mirrored here.
   const Detection& detection() const { return detection_; }
 
-  /// 2.5 degrees: an A1 corrects bearings by the range, which differs at an edge.
+  /// An A1 corrects bearings by the range, which steps at an edge.
   static constexpr double kMaxStepBack_rad = radians(2.5);
 
  private:
   struct Return {
-    double sweep_rad = 0;  ///< how far the head has turned
+    double sweep_rad = 0;  ///< rotation of the head
     double range_m = 0;
   };
   void take(const Return& item);
-  std::span<const Breakpoint> news(std::size_t known);
+  std::span<const Breakpoint> new_breakpoints(std::size_t known_count);
 
   Altbd tracker_;
-  WallChain chain_;
+  WallPolyline polyline_;
   Sweep sweep_ = Sweep::kClockwise;
   PolarScan scan_;
   Detection detection_;
   std::vector<Breakpoint> mirrored_;
-  std::array<Return, 96> waiting_;  ///< by rising sweep: what a later return may still precede
-  std::size_t waiting_count_ = 0;
-  double reached_rad_ = 0;
+  std::array<Return, 96> reorder_buffer_;  ///< returns that a later one may precede, sorted
+  std::size_t buffered_ = 0;
+  double max_sweep_rad_ = 0;
   double begin_rad_ = 0;
-  bool begun_ = false;
+  bool started_ = false;
   bool finished_ = true;
 };
 
-/// The same breakpoint in a mirror along the x axis: what was on its left is on its right.
+/// The breakpoint mirrored at the x axis: left and right are exchanged.
 Breakpoint mirrored(const Breakpoint& breakpoint);
 
 }  // namespace cornerd::core

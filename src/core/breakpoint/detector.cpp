@@ -20,33 +20,33 @@ Detector::Tracker Detector::make_tracker(const DetectorConfig& config, const Sen
 }
 
 Detector::Detector(const DetectorConfig& config, const SensorNoise& noise)
-    : tracker_(make_tracker(config, noise)), chain_(config, noise) {
+    : tracker_(make_tracker(config, noise)), polyline_(config, noise) {
   tracks_.reserve(kMaxSegmentsPerScan);
 }
 
 void Detector::detect(const PolarScan& scan, Detection& detection) {
   detection.clear();
-  chain_.begin();
+  polyline_.begin();
   std::visit(
       [&](auto& tracker) {
         if constexpr (std::is_same_v<std::decay_t<decltype(tracker)>, Altbd>) {
           tracker.begin();
-          feed(tracker, chain_, scan, /*ended=*/true, detection);
+          feed(tracker, polyline_, scan, /*ended=*/true, detection);
           detection.noise_scale = tracker.noise_scale();
         } else {
           detection.overflowed = tracker.track(scan, tracks_);
-          for (const SegmentTrack& wall : tracks_) chain_.add(scan, wall, 1, detection);
+          for (const SegmentTrack& wall : tracks_) polyline_.add(scan, wall, 1, detection);
         }
       },
       tracker_);
-  chain_.finish(scan, detection.noise_scale, detection);
+  polyline_.finish(scan, detection.noise_scale, detection);
 }
 
 void Detector::forget() {
   if (auto* altbd = std::get_if<Altbd>(&tracker_)) altbd->forget();
 }
 
-void feed(Altbd& tracker, WallChain& chain, const PolarScan& scan, bool ended,
+void feed(Altbd& tracker, WallPolyline& polyline, const PolarScan& scan, bool ended,
           Detection& detection) {
   SegmentTrack wall;
   for (;;) {
@@ -55,10 +55,10 @@ void feed(Altbd& tracker, WallChain& chain, const PolarScan& scan, bool ended,
         return;
       case Altbd::Event::kShortWall:
       case Altbd::Event::kWallBegun:
-        chain.add(scan, wall, tracker.noise_scale(), detection);
+        polyline.add(scan, wall, tracker.noise_scale(), detection);
         break;
       case Altbd::Event::kWallEnded:
-        chain.grow(wall);
+        polyline.extend_last(wall);
         break;
     }
   }

@@ -9,21 +9,21 @@
 #include "core/breakpoint/line_tracking.hpp"
 #include "core/breakpoint/printed_altbd.hpp"
 #include "core/breakpoint/segment_track.hpp"
-#include "core/breakpoint/wall_chain.hpp"
+#include "core/breakpoint/wall_polyline.hpp"
 #include "core/detector_config.hpp"
 #include "core/polar_scan.hpp"
 
 namespace cornerd::core {
 
-/// From a turn's returns to its walls and breakpoints. The configured method finds the walls; what
-/// becomes of them is the same for all. All memory is taken at construction.
+/// From a scan's returns to its walls and breakpoints. The configured method tracks the walls;
+/// post-processing is common. Allocates nothing after construction.
 class Detector {
  public:
   Detector(const DetectorConfig& config, const SensorNoise& noise);
 
   void detect(const PolarScan& scan, Detection& detection);
 
-  /// Forgets what the turns showed of the noise.
+  /// Forgets the noise estimate.
   void forget();
 
  private:
@@ -32,11 +32,11 @@ class Detector {
 
   Tracker tracker_;
   SegmentTracks tracks_;
-  WallChain chain_;
+  WallPolyline polyline_;
 };
 
-/// Hands the walls that ALTBD finds, from where it stopped to the scan's end, to the chain.
-void feed(Altbd& tracker, WallChain& chain, const PolarScan& scan, bool ended,
+/// Passes ALTBD's walls, from where it stopped to the scan's end, to the polyline.
+void feed(Altbd& tracker, WallPolyline& polyline, const PolarScan& scan, bool ended,
           Detection& detection);
 
 }  // namespace cornerd::core

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Breakpoint extraction (El Amin et al., section IV.B.4a): what the ends of the tracked walls are.
+// Breakpoint extraction (El Amin et al., section IV.B.4a).
 #pragma once
 
 #include "core/breakpoint/breakpoint.hpp"
@@ -9,13 +9,13 @@
 
 namespace cornerd::core {
 
-/// Looks at the border of two neighbouring walls and adds what it shows to `detection`. Where their
-/// lines meet between them there is a corner, placed at the intersection: the paper's own point
-/// (step 14) is off by up to a sample's spacing. Where a wall ends in front of something farther
-/// there is an edge: a corner where the face of its end gave returns, too, else a terminal. Where
-/// something nearer hides how the wall goes on there is nothing.
+/// Adds the breakpoints at the border of two neighbouring walls to `detection`. A corner, where
+/// their lines meet between them, is the lines' intersection; the paper's own point (step 14) is
+/// off by up to a sample's spacing. An edge, where a wall ends in front of something farther, is a
+/// corner if its end face gave returns, else a terminal. An occluded end gives nothing.
 void extract_border(const PolarScan& scan, const SegmentTrack& right, const SegmentTrack& left,
-                    double corner_tolerance_m, const Judgement& by, Detection& detection);
+                    double corner_tolerance_m, const ExtractionContext& context,
+                    Detection& detection);
 
 WallSegment describe_wall(const PolarScan& scan, const SegmentTrack& wall, double noise_scale);
 

@@ -65,7 +65,7 @@ Line LineFit::line() const {
     line.offset_m = -line.offset_m;
   }
   line.weight = w_;
-  line.spread_m2 = std::max((m.xx + m.yy + h) / 2, 1e-12);
+  line.variance_along = std::max((m.xx + m.yy + h) / 2, 1e-12);
   return line;
 }
 

@@ -9,20 +9,23 @@
 
 namespace cornerd::core {
 
-/// normal.dot(p) = offset_m, with what is known of its accuracy.
+/// normal.dot(p) = offset_m, with its accuracy.
 struct Line {
   Vec2 normal = Vec2::Zero();
   double offset_m = 0;
   Vec2 centroid = Vec2::Zero();
-  double weight = 0;     ///< sum of the points' 1 / sigma^2: variance of the offset at the centroid
-  double spread_m2 = 0;  ///< weighted variance of the points along the line
+  double weight =
+      0;  ///< sum of the points' 1 / sigma^2: inverse variance of the offset at the centroid
+  double variance_along = 0;  ///< weighted variance of the points along the line, m^2
   Vec2 direction() const { return {normal.y(), -normal.x()}; }  ///< rotate_left(direction) = normal
 
-  /// Variance of the line's place across itself, `along_m` from its centroid.
-  double variance_at(double along_m) const { return (1 + along_m * along_m / spread_m2) / weight; }
+  /// Variance of the line's position across itself, `along_m` from its centroid, m^2.
+  double variance_at(double along_m) const {
+    return (1 + along_m * along_m / variance_along) / weight;
+  }
 };
 
-/// Plain sums over a few points.
+/// Unweighted sums over a few points.
 struct PointSums {
   void add(double x_m, double y_m) {
     x += x_m;
@@ -38,29 +41,29 @@ struct PointSums {
   double yy = 0;
 };
 
-/// Running sums of weighted points: adding one, taking one back and fitting the line with the least
-/// squared distance to all of them are each a handful of operations, however many there are.
+/// Running sums of weighted points. Adding a point, removing one and fitting the total least
+/// squares line each take constant time.
 class LineFit {
  public:
-  /// Sums are kept relative to `origin`, near the points, so that nothing cancels.
+  /// Sums are relative to `origin`, near the points, against cancellation.
   explicit LineFit(const Vec2& origin = Vec2::Zero()) : origin_(origin) {}
 
   void add(double x_m, double y_m, double weight) { accumulate(x_m, y_m, weight, 1); }
   void remove(double x_m, double y_m, double weight) { accumulate(x_m, y_m, -weight, -1); }
 
   void add(const LineFit& other);
-  /// `count` points of one weight.
+  /// Adds `count` points of one weight.
   void add(const PointSums& sums, int count, double weight);
 
-  /// What this fit has beyond `part`, which was it when it held fewer points.
+  /// The points added since this fit was equal to `part`.
   LineFit without(const LineFit& part) const;
 
   int count() const { return count_; }
 
-  /// Needs two points or more. The normal points towards the sensor at (0, 0).
+  /// Requires two points. The normal points towards the sensor at (0, 0).
   Line line() const;
 
-  /// Sum of the squared weighted distances of all points to the best line.
+  /// Weighted sum of the points' squared distances to the best line.
   double chi_square() const;
 
  private:

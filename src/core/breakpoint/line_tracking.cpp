@@ -10,7 +10,7 @@ namespace {
 constexpr std::size_t kLineSeed = 2;
 
 double distance_m(const Line& line, const PolarPoint& point) {
-  return std::abs(line.normal.dot(point.place()) - line.offset_m);
+  return std::abs(line.normal.dot(point.position()) - line.offset_m);
 }
 
 }  // namespace

@@ -16,7 +16,7 @@ Line line_through(const PolarScan& scan, std::size_t first) {
 }
 
 double relative_error(const Line& line, const PolarPoint& point) {
-  const double j_m = line.normal.dot(point.place()) - line.offset_m;
+  const double j_m = line.normal.dot(point.position()) - line.offset_m;
   return std::abs(j_m) / point.range_m;
 }
 
@@ -61,10 +61,10 @@ PrintedAltbd::Miss PrintedAltbd::measure(const PolarScan& scan, std::size_t inde
   if (approach * predictor_.offset_m <= 0) return miss;
   miss.meets = true;
   const Vec2 predicted = predictor_.offset_m / approach * ray;
-  const Vec2 offset = point.place() - predicted;
+  const Vec2 offset = point.position() - predicted;
   miss.k_m = predictor_.direction().dot(offset);
   miss.j_m = predictor_.normal.dot(offset);
-  miss.q_max_m = std::abs(predictor_.direction().dot(predicted - before.place()));
+  miss.q_max_m = std::abs(predictor_.direction().dot(predicted - before.position()));
   const double h_max = mean_error() + config_.sigma_offset;
   miss.h_max = config_.printed_altbd.minor == MinorAxis::kMetres ? h_max : h_max * point.range_m;
   miss.error = std::abs(miss.j_m) / point.range_m;

@@ -12,9 +12,9 @@
 
 namespace cornerd::core {
 
-/// A wall as a detector works on it: which samples, and the line through them.
+/// A wall under construction: its samples and the line through them.
 struct SegmentTrack {
-  /// A wall that is to begin with the sample at `index`, and holds none yet.
+  /// An empty wall whose first sample will be `index`.
   static SegmentTrack starting_at(const PolarScan& scan, std::size_t index) {
     SegmentTrack track;
     track.fit = LineFit({scan[index].x_m, scan[index].y_m});
@@ -22,8 +22,7 @@ struct SegmentTrack {
     return track;
   }
 
-  /// Takes the sample at `index` as the last one so far, weighted by its range's noise. The line
-  /// stays as it was.
+  /// Adds the sample at `index` at the end, weighted by its range's noise. Does not refit the line.
   void add(const PolarScan& scan, std::size_t index, const SensorNoise& noise) {
     const PolarPoint& point = scan[index];
     fit.add(point.x_m, point.y_m, weight_of(point, noise));
@@ -31,7 +30,7 @@ struct SegmentTrack {
     ++support;
   }
 
-  /// The same at the other end.
+  /// The same at the beginning.
   void add_in_front(const PolarScan& scan, std::size_t index, const SensorNoise& noise) {
     const PolarPoint& point = scan[index];
     fit.add(point.x_m, point.y_m, weight_of(point, noise));
@@ -39,8 +38,8 @@ struct SegmentTrack {
     ++support;
   }
 
-  /// Gives up a sample that it holds. The ends stay as they were.
-  void take_back(const PolarScan& scan, std::size_t index, const SensorNoise& noise) {
+  /// Removes a sample. The ends stay as they were.
+  void remove(const PolarScan& scan, std::size_t index, const SensorNoise& noise) {
     const PolarPoint& point = scan[index];
     fit.remove(point.x_m, point.y_m, weight_of(point, noise));
     --support;
@@ -58,10 +57,10 @@ struct SegmentTrack {
   std::uint32_t support = 0;
 };
 
-/// The walls of a turn, counter-clockwise. Reserved for kMaxSegmentsPerScan at construction.
+/// The walls of a scan, counter-clockwise, with room for kMaxSegmentsPerScan.
 using SegmentTracks = std::vector<SegmentTrack>;
 
-/// False where it does not fit in `tracks`.
+/// False where `tracks` is full.
 inline bool keep_wall(const SegmentTrack& track, SegmentTracks& tracks) {
   if (tracks.size() == tracks.capacity()) return false;
   tracks.push_back(track);

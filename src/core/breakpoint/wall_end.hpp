@@ -11,49 +11,49 @@
 
 namespace cornerd::core {
 
-/// Which side of a breakpoint its wall is on, as the sensor sees it.
+/// Side of a breakpoint on which its wall is, seen from the sensor.
 enum class WallSide : int { kRight = +1, kLeft = -1 };
 
-/// The end of a wall where it meets no other: an edge, behind which the turn goes on.
+/// The end of a wall that meets no other: an edge with farther samples beyond.
 class WallEnd {
  public:
-  /// `free_samples`: beyond the end, on no wall.
+  /// `free_samples`: number of samples beyond the end that are on no wall.
   WallEnd(const PolarScan& scan, const SegmentTrack& wall, WallSide side, std::size_t free_samples,
-          const Judgement& by);
+          const ExtractionContext& context);
 
-  /// A corner where samples lie on the face of the wall's end, square to it and too short for a
-  /// wall of its own: their mean tells where the wall ends.
+  /// A corner where samples lie on the wall's end face, which is perpendicular and too short for a
+  /// wall of its own; their mean is its position along the wall.
   std::optional<Breakpoint> corner() const;
 
-  /// A terminal where what is seen beyond the end lies behind the wall: where the face of the end
-  /// begins if a sample shows it, else between the last sample and where the next ray would have
-  /// met the wall. None where that is too far to mean a place.
+  /// A terminal where the samples beyond lie behind the wall: at the end face if a sample shows it,
+  /// else between the last sample and the next ray's intersection. None where that interval is too
+  /// long.
   std::optional<Breakpoint> terminal() const;
 
  private:
   struct Beyond;
-  /// The samples beyond the end that may lie on a face square to the wall.
+  /// Samples beyond the end that may lie on a face perpendicular to the wall.
   struct Face {
     std::size_t count = 0;
-    double along_m = 0;  ///< means of theirs, as in Beyond
+    double along_m = 0;  ///< means, in the frame of Beyond
     double height_m = 0;
     double variance_along_m2 = 0;
-    double variance_height_m2 = 0;  ///< with that of the line
+    double variance_height_m2 = 0;  ///< including the line's
   };
-  Beyond look(std::size_t nth) const;
-  Face look_at_face() const;
-  bool goes_on_behind(std::size_t skip) const;
-  Breakpoint place(double along_m, double variance_along_m2) const;
+  Beyond sample_beyond(std::size_t nth) const;
+  Face find_face() const;
+  bool is_occluding(std::size_t skip) const;
+  Breakpoint breakpoint_at(double along_m, double variance_along_m2) const;
 
   const PolarScan& scan_;
   const SegmentTrack& wall_;
   WallSide side_;
   std::size_t free_samples_;
-  Judgement by_;
-  std::size_t last_;   ///< the wall's sample at this end
-  Vec2 outward_;       ///< along the wall, beyond its end
-  Vec2 foot_;          ///< of the last sample on the line
-  double span_m_ = 0;  ///< from there to where the next ray would meet the line
+  ExtractionContext context_;
+  std::size_t last_;   ///< index of the wall's sample at this end
+  Vec2 outward_;       ///< unit vector along the wall, beyond its end
+  Vec2 foot_;          ///< projection of the last sample on the line
+  double span_m_ = 0;  ///< from there to the next ray's intersection with the line
   Face face_;
 };
 

@@ -17,30 +17,30 @@ std::size_t samples_between(const PolarScan& scan, const SegmentTrack& right,
   return (left.first + scan.size() - right.last - 1) % scan.size();
 }
 
-double misfit(const SensorNoise& noise, const Line& line, const PolarPoint& point) {
-  const double across_m = line.normal.dot(point.place()) - line.offset_m;
+double mahalanobis_squared(const SensorNoise& noise, const Line& line, const PolarPoint& point) {
+  const double across_m = line.normal.dot(point.position()) - line.offset_m;
   const double sine = std::abs(line.normal.dot(point.ray()));
   return across_m * across_m / noise.variance_across_m2(point.range_m, sine);
 }
 
-bool is_doubtful(const SegmentTrack& wall, const ExtractionConfig& limits, double noise_scale) {
-  const double limit = limits.doubtful_sigma_rad / noise_scale;
-  return wall.support <= limits.doubtful_samples ||
-         wall.line.weight * wall.line.spread_m2 * limit * limit < 1;
+bool is_short(const SegmentTrack& wall, const ExtractionConfig& limits, double noise_scale) {
+  const double limit = limits.short_wall_sigma_rad / noise_scale;
+  return wall.support <= limits.short_wall_samples ||
+         wall.line.weight * wall.line.variance_along * limit * limit < 1;
 }
 
-bool is_one_wall(const PolarScan& scan, const Judgement& by, const SegmentTrack& right,
+bool is_one_wall(const PolarScan& scan, const ExtractionContext& context, const SegmentTrack& right,
                  const SegmentTrack& left) {
-  if (samples_between(scan, right, left) > by.limits.max_interruption) return false;
-  const Vec2 gap = scan[left.first].place() - scan[right.last].place();
-  if (gap.norm() > by.limits.max_piece_gap_m) return false;
-  if (right.line.normal.dot(left.line.normal) < by.angles.min_piece_cosine) return false;
+  if (samples_between(scan, right, left) > context.limits.max_interruption) return false;
+  const Vec2 gap = scan[left.first].position() - scan[right.last].position();
+  if (gap.norm() > context.limits.max_piece_gap_m) return false;
+  if (right.line.normal.dot(left.line.normal) < context.angles.min_piece_cosine) return false;
 
   LineFit both = right.fit;
   both.add(left.fit);
   const double cost = both.chi_square() - right.fit.chi_square() - left.fit.chi_square();
-  const double limit = by.limits.joined_chi_square * by.noise_scale * by.noise_scale;
-  return cost * across_factor(by.noise, both.line()) < limit;
+  const double limit = context.limits.joined_chi_square * context.noise_scale * context.noise_scale;
+  return cost * across_factor(context.noise, both.line()) < limit;
 }
 
 void append(SegmentTrack& right, const SegmentTrack& left) {
@@ -50,34 +50,36 @@ void append(SegmentTrack& right, const SegmentTrack& left) {
   right.support += left.support;
 }
 
-std::size_t split_between(const PolarScan& scan, const Judgement& by, const SegmentTrack& right,
-                          const SegmentTrack& wall, const SegmentTrack& left) {
-  if (samples_between(scan, right, wall) > by.limits.max_interruption) return kNoSplit;
-  if (samples_between(scan, wall, left) > by.limits.max_interruption) return kNoSplit;
+std::size_t split_between(const PolarScan& scan, const ExtractionContext& context,
+                          const SegmentTrack& right, const SegmentTrack& wall,
+                          const SegmentTrack& left) {
+  if (samples_between(scan, right, wall) > context.limits.max_interruption) return kNoSplit;
+  if (samples_between(scan, wall, left) > context.limits.max_interruption) return kNoSplit;
   const std::size_t n = scan.size();
   const std::size_t count = (wall.last + n - wall.first) % n + 1;
-  const double gate = by.gate2();
-  // The best place to change from one line to the other; a sample beyond the gate costs the gate.
+  const double gate = context.gate2();
+  // The best index to change from one line to the other; an outlier costs the gate.
   double all_left = 0;
   for (std::size_t k = 0; k < count; ++k) {
-    all_left += std::min(gate, misfit(by.noise, left.line, scan[(wall.first + k) % n]));
+    all_left +=
+        std::min(gate, mahalanobis_squared(context.noise, left.line, scan[(wall.first + k) % n]));
   }
   double cost = all_left;
   double best = all_left;
   std::size_t split = 0;
   for (std::size_t k = 0; k < count; ++k) {
     const PolarPoint& point = scan[(wall.first + k) % n];
-    cost += std::min(gate, misfit(by.noise, right.line, point)) -
-            std::min(gate, misfit(by.noise, left.line, point));
+    cost += std::min(gate, mahalanobis_squared(context.noise, right.line, point)) -
+            std::min(gate, mahalanobis_squared(context.noise, left.line, point));
     if (cost < best) {
       best = cost;
       split = k + 1;
     }
   }
-  // Mean of a chi-square and three and a half of its standard deviations.
+  // Mean plus three and a half standard deviations of a chi-square.
   const double samples = static_cast<double>(count);
-  const double limit = samples + by.limits.gate_sigmas * std::sqrt(2 * samples);
-  return best < limit * by.noise_scale * by.noise_scale ? split : kNoSplit;
+  const double limit = samples + context.limits.gate_sigmas * std::sqrt(2 * samples);
+  return best < limit * context.noise_scale * context.noise_scale ? split : kNoSplit;
 }
 
 }  // namespace cornerd::core

@@ -6,40 +6,40 @@
 #include <numeric>
 #include <utility>
 
-#include "core/map/sight.hpp"
+#include "core/map/visible_faces.hpp"
 
 namespace cornerd::core {
 namespace {
 
 constexpr double kOffWall_m = 1e-3;
 
-/// A landmark's place, pulled a little into its opening, off the walls that it belongs to.
+/// The landmark's position, moved into its opening, off its own walls.
 Vec2 off_wall(const Corner& landmark) {
   return landmark.position + kOffWall_m * unit_vector(landmark.bisector_rad());
 }
 
-/// True where nothing stands between two landmarks.
-bool in_sight(const WallMap& map, const Corner& a, const Corner& b) {
+/// True where no wall stands between two landmarks.
+bool is_visible(const WallMap& map, const Corner& a, const Corner& b) {
   const Vec2 from = off_wall(a);
-  const Vec2 way = off_wall(b) - from;
-  const double distance_m = way.norm();
+  const Vec2 displacement = off_wall(b) - from;
+  const double distance_m = displacement.norm();
   if (distance_m < kOffWall_m) return false;
-  const double range_m =
-      map.range_along(from, std::atan2(way.y(), way.x()), distance_m + kOffWall_m);
+  const double range_m = map.range_along(from, std::atan2(displacement.y(), displacement.x()),
+                                         distance_m + kOffWall_m);
   return range_m == 0 || range_m > distance_m - kOffWall_m;
 }
 
 }  // namespace
 
-Catalog::Catalog(const WallMap& map, double reach_m)
+Catalog::Catalog(const WallMap& map, double max_distance_m)
     : landmarks_(map.corners().begin(), map.corners().end()) {
-  index_places(map);
-  const std::vector<LandmarkPair> pairs = pairs_in_sight(map, reach_m);
+  index_landmarks(map);
+  const std::vector<LandmarkPair> pairs = visible_pairs(map, max_distance_m);
   pairs_ = PairIndex(landmarks_, pairs);
   list_neighbours(pairs);
 }
 
-void Catalog::index_places(const WallMap& map) {
+void Catalog::index_landmarks(const WallMap& map) {
   constexpr double kUsualCell_m = 0.25;
   constexpr double kMaxCells = 1e6;
   lower_left_ = map.lower_left();
@@ -61,40 +61,43 @@ void Catalog::index_places(const WallMap& map) {
   std::partial_sum(first_in_cell_.begin(), first_in_cell_.end(), first_in_cell_.begin());
 }
 
-std::vector<LandmarkPair> Catalog::pairs_in_sight(const WallMap& map, double reach_m) const {
-  struct Other {
+std::vector<LandmarkPair> Catalog::visible_pairs(const WallMap& map, double max_distance_m) const {
+  struct Candidate {
     double distance_m;
     std::uint32_t index;
   };
-  const std::size_t most = std::clamp<std::size_t>(
+  const std::size_t max_pairs = std::clamp<std::size_t>(
       kMaxPairs / std::max<std::size_t>(1, landmarks_.size()), 4, kMaxNeighbours);
-  Sight sight;
-  std::vector<Other> others;
+  VisibleFaces visible_faces;
+  std::vector<Candidate> candidates;
   std::vector<LandmarkPair> pairs;
   for (std::uint32_t i = 0; i < landmarks_.size(); ++i) {
     const Corner& landmark = landmarks_[i];
-    sight.look(map, off_wall(landmark), reach_m + kOffWall_m,
-               [](std::uint32_t, const FaceInSight&) {});
-    others.clear();
-    const double farthest_m = std::min(reach_m, sight.horizon().farthest_m() + 2 * kOffWall_m);
-    visit_within(landmark.position, farthest_m, [&](std::uint32_t j) {
-      const Vec2 way = landmarks_[j].position - landmark.position;
-      const double distance_m = way.norm();
-      if (j == i || distance_m > reach_m || !sight.horizon().may_see(way, 3 * kOffWall_m)) return;
-      others.push_back({distance_m, j});
+    visible_faces.find(map, off_wall(landmark), max_distance_m + kOffWall_m,
+                       [](std::uint32_t, const VisibleFace&) {});
+    candidates.clear();
+    const double max_range_m =
+        std::min(max_distance_m, visible_faces.occlusion().max_range_m() + 2 * kOffWall_m);
+    visit_within(landmark.position, max_range_m, [&](std::uint32_t j) {
+      const Vec2 displacement = landmarks_[j].position - landmark.position;
+      const double distance_m = displacement.norm();
+      if (j == i || distance_m > max_distance_m ||
+          !visible_faces.occlusion().may_be_visible(displacement, 3 * kOffWall_m))
+        return;
+      candidates.push_back({distance_m, j});
     });
-    std::sort(others.begin(), others.end(), [](const Other& a, const Other& b) {
+    std::sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
       return a.distance_m != b.distance_m ? a.distance_m < b.distance_m : a.index < b.index;
     });
     std::size_t found = 0;
-    for (const Other& other : others) {
-      if (!in_sight(map, landmark, landmarks_[other.index])) continue;
-      pairs.push_back({std::min(i, other.index), std::max(i, other.index),
-                       static_cast<float>(other.distance_m)});
-      if (++found == most) break;
+    for (const Candidate& candidate : candidates) {
+      if (!is_visible(map, landmark, landmarks_[candidate.index])) continue;
+      pairs.push_back({std::min(i, candidate.index), std::max(i, candidate.index),
+                       static_cast<float>(candidate.distance_m)});
+      if (++found == max_pairs) break;
     }
   }
-  // Most were found from both ends.
+  // Most pairs are found from both ends: keep each once.
   const auto ends = [](const LandmarkPair& pair) { return std::pair(pair.from, pair.to); };
   std::sort(pairs.begin(), pairs.end(),
             [&](const LandmarkPair& a, const LandmarkPair& b) { return ends(a) < ends(b); });

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The star catalogue of a building: its corners, and the distances between those that see each
-// other (El Amin et al., section IV.B.4b: main catalogue and sub-catalogues).
+// The star catalogue of a building: its corners and the distances between those in line of sight
+// (El Amin et al., section IV.B.4b: main catalogue and sub-catalogues).
 #pragma once
 
 #include <cstddef>
@@ -13,18 +13,19 @@
 
 namespace cornerd::core {
 
-/// Made once from the map. Immutable; const methods may be called from any thread.
+/// Built once from the map. Immutable; const methods are safe from any thread.
 class Catalog {
  public:
-  /// `reach_m`: pairs farther apart than this are not kept.
-  Catalog(const WallMap& map, double reach_m);
+  /// Pairs farther apart than `max_distance_m` are left out.
+  Catalog(const WallMap& map, double max_distance_m);
 
   std::span<const Corner> landmarks() const { return landmarks_; }
 
-  /// The pairs of landmarks in line of sight. Of a landmark that sees very many others, those with
-  /// the nearest: kMaxNeighbours of them, fewer in a map of more than kMaxPairs / kMaxNeighbours.
+  /// The pairs of landmarks in line of sight. A landmark with very many visible others keeps the
+  /// nearest: kMaxNeighbours, fewer where the map has more than kMaxPairs / kMaxNeighbours
+  /// landmarks.
   const PairIndex& pairs() const { return pairs_; }
-  /// The sub-catalogue of one landmark: its pairs, the nearest first.
+  /// The sub-catalogue of one landmark: its pairs, nearest first.
   std::span<const LandmarkPair> neighbours(std::uint32_t landmark) const {
     return std::span(neighbours_)
         .subspan(first_neighbour_[landmark],
@@ -44,7 +45,7 @@ class Catalog {
   static constexpr std::size_t kMaxPairs = 800'000;
 
  private:
-  /// Cells outside the map are those at its border.
+  /// Points outside the map fall into the cells at its border.
   std::size_t column_of(double x_m) const { return cell_of(x_m - lower_left_.x(), columns_); }
   std::size_t row_of(double y_m) const { return cell_of(y_m - lower_left_.y(), rows_); }
   std::size_t cell_of(double distance_m, std::size_t count) const {
@@ -63,8 +64,8 @@ class Catalog {
       for (std::uint32_t i = begin; i < end; ++i) visit(in_cells_[i]);
     }
   }
-  void index_places(const WallMap& map);
-  std::vector<LandmarkPair> pairs_in_sight(const WallMap& map, double reach_m) const;
+  void index_landmarks(const WallMap& map);
+  std::vector<LandmarkPair> visible_pairs(const WallMap& map, double max_distance_m) const;
   void list_neighbours(std::span<const LandmarkPair> pairs);
 
   std::vector<Corner> landmarks_;
@@ -72,7 +73,7 @@ class Catalog {
   std::vector<LandmarkPair> neighbours_;
   std::vector<std::uint32_t> first_neighbour_;
 
-  // A grid over the map: the landmarks of cell i are in_cells_[first_in_cell_[i]] and following.
+  // A grid over the map. The landmarks of cell i start at in_cells_[first_in_cell_[i]].
   Vec2 lower_left_ = Vec2::Zero();
   double cell_m_ = 0;
   std::size_t columns_ = 1;

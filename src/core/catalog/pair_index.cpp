@@ -8,9 +8,9 @@ namespace cornerd::core {
 
 std::size_t PairIndex::address(const Corner& from, const Corner& to, double distance_m,
                                FaceSide side) const {
-  const Vec2 way = to.position - from.position;
+  const Vec2 displacement = to.position - from.position;
   const double wall_rad = side == FaceSide::kLeft ? from.left_face_rad : from.right_face_rad;
-  const double angle_rad = angle_between(std::atan2(way.y(), way.x()), wall_rad);
+  const double angle_rad = angle_between(std::atan2(displacement.y(), displacement.x()), wall_rad);
   const auto direction =
       static_cast<std::size_t>(std::floor(angle_rad / kDirection_rad) + kDirections) % kDirections;
   return row(side, from.is_convex(), direction) + bin_of(distance_m);

@@ -20,34 +20,34 @@ struct LandmarkPair {
   float distance_m = 0;
 };
 
-/// Which of a corner's two walls, as one sees it.
+/// Which of a corner's two walls, seen from its opening.
 enum class FaceSide : std::uint8_t { kLeft, kRight };
 
-/// What is known of a pair of breakpoints whose landmarks are looked for.
+/// A pair of breakpoints, as a query for pairs of landmarks.
 struct PairQuery {
-  double low_m = 0;  ///< the distance lies between these
+  double low_m = 0;  ///< lower and upper bound of the distance
   double high_m = 0;
-  bool convex = false;  ///< the first landmark
+  bool convex = false;  ///< kind of the first landmark
   FaceSide side = FaceSide::kLeft;
-  double wall_rad = 0;  ///< direction of that wall of the first, from the way to the second
+  double wall_rad =
+      0;  ///< direction of that wall of the first, relative to the direction to the second
   double tolerance_rad = 0;
 };
 
-/// All pairs, both ways, by what a turn tells of one: the distance, the first corner's kind, and
-/// how one of its walls lies to the way from it to the second. All of these are turned into an
-/// address (the k-vector of star trackers, in more dimensions): no search, however large the
-/// catalogue.
+/// All pairs in both directions, indexed by distance, kind of the first corner and direction of one
+/// of its walls relative to the pair's direction. The index is an address (the k-vector of star
+/// trackers, in three dimensions), so that a look-up needs no search.
 class PairIndex {
  public:
   PairIndex() = default;
-  /// `pairs`: each one once.
+  /// `pairs`: each pair once.
   PairIndex(std::span<const Corner> landmarks, std::span<const LandmarkPair> pairs);
 
-  /// Pairs, each counted once.
+  /// Number of pairs.
   std::size_t size() const { return entries_.size() / 4; }
 
-  /// Calls visit(LandmarkPair) for all pairs that answer the query, as to their walls within the
-  /// tolerance and one step of kDirections.
+  /// Calls visit(LandmarkPair) for all pairs that match the query. Wall directions match within the
+  /// tolerance plus one bin (2 pi / kDirections).
   template <typename Visitor>
   void visit(const PairQuery& query, Visitor&& visit) const {
     for_each_run(query, [&](std::size_t begin, std::size_t end) {
@@ -58,7 +58,7 @@ class PairIndex {
     });
   }
 
-  /// How many pairs visit() has to look at.
+  /// Number of entries that visit() reads.
   std::size_t cost(const PairQuery& query) const {
     std::size_t sum = 0;
     for_each_run(query, [&](std::size_t begin, std::size_t end) { sum += end - begin; });
@@ -75,7 +75,7 @@ class PairIndex {
   static constexpr double kBin_m = 0.02;
   static constexpr double kDirection_rad = kTwoPi / kDirections;
 
-  /// Where the entries of a kind and a direction begin in first_.
+  /// Index in first_ of the first distance bin of a kind and a direction.
   std::size_t row(FaceSide side, bool convex, std::size_t direction) const {
     const std::size_t kind = (side == FaceSide::kRight ? 2 : 0) + (convex ? 1 : 0);
     return (kind * kDirections + direction) * bins_;
@@ -103,7 +103,7 @@ class PairIndex {
 
   std::size_t bins_ = 1;
   std::vector<LandmarkPair> entries_;
-  std::vector<std::uint32_t> first_;  ///< for each address: the first entry
+  std::vector<std::uint32_t> first_;  ///< for each address: its first entry
 };
 
 }  // namespace cornerd::core

@@ -9,16 +9,15 @@
 namespace cornerd::core {
 namespace {
 
-/// What an A1 may be off by before anything is known: standard deviations of scale, offset, and
-/// both parts of the bearing.
+/// Prior standard deviations of an A1's bias: scale, offset [m], both parts of the bearing [rad].
 const Eigen::Vector4d kPriorSigma(0.01, 0.005, radians(0.3), radians(0.3));
-/// Farther than this from what was known the map is wrong, not the sensor.
+/// Larger deviations from the prior mean a wrong map, not a wrong sensor.
 const Eigen::Vector4d kLimit(0.03, 0.02, radians(1.5), radians(1.5));
-/// What a robot that seems to stand may move by, in its own axes: m/s and rad/s.
+/// Prior standard deviations of the motion of a robot that seems to stand, own axes: m/s, rad/s.
 const Eigen::Vector3d kMotionSigma(0.5, 0.5, 1);
-/// A turn's information counts for this share: walls are off their place in the map by more than a
-/// point's noise, and by the same in each turn at one place.
-constexpr double kTurnShare = 0.05;
+/// Share of a scan's information that counts: map errors exceed the point noise and repeat in every
+/// scan from one place.
+constexpr double kScanShare = 0.05;
 constexpr double kCut = 4;
 constexpr std::size_t kMinPoints = 60;
 
@@ -34,44 +33,45 @@ Eigen::Vector4d prior_information() { return kPriorSigma.cwiseAbs2().cwiseInvers
 
 }  // namespace
 
-BiasEstimator::BiasEstimator(double max_range_m, const SensorNoise& noise, const SensorBias& known,
-                             double forgotten_share)
+BiasEstimator::BiasEstimator(double max_range_m, const SensorNoise& noise, const SensorBias& prior,
+                             double forgetting_rate)
     : noise_(noise),
-      kept_share_(1 - forgotten_share),
-      prediction_(max_range_m),
-      known_(vector_of(known)) {
-  learned_.bias = known;
+      retained_share_(1 - forgetting_rate),
+      ray_caster_(max_range_m),
+      prior_(vector_of(prior)) {
+  estimate_.bias = prior;
 }
 
 void BiasEstimator::forget() {
-  learned_ = {};
-  learned_.bias = bias_of(known_);
+  estimate_ = {};
+  estimate_.bias = bias_of(prior_);
   information_.setZero();
   evidence_.setZero();
 }
 
-void BiasEstimator::resume(const LearnedBias& learned) {
+void BiasEstimator::resume(const EstimatedBias& estimate) {
   forget();
-  const Vector4 sigma = vector_of(learned.sigma);
-  if (learned.scans == 0 || !(sigma.minCoeff() > 0)) return;
+  const Vector4 sigma = vector_of(estimate.sigma);
+  if (estimate.scans == 0 || !(sigma.minCoeff() > 0)) return;
   const Vector4 prior = prior_information();
-  const Vector4 taught = (sigma.cwiseAbs2().cwiseInverse() - prior).cwiseMax(0);
-  information_ = taught.asDiagonal();
-  believe(vector_of(learned.bias), sigma.cwiseAbs2().asDiagonal());
-  evidence_ = (taught + prior).cwiseProduct(vector_of(learned_.bias)) - prior.cwiseProduct(known_);
-  learned_.scans = learned.scans;
+  const Vector4 observed = (sigma.cwiseAbs2().cwiseInverse() - prior).cwiseMax(0);
+  information_ = observed.asDiagonal();
+  set_estimate(vector_of(estimate.bias), sigma.cwiseAbs2().asDiagonal());
+  evidence_ =
+      (observed + prior).cwiseProduct(vector_of(estimate_.bias)) - prior.cwiseProduct(prior_);
+  estimate_.scans = estimate.scans;
 }
 
-void BiasEstimator::believe(const Vector4& bias, const Matrix4& covariance) {
-  const Vector4 limited = bias.cwiseMax(known_ - kLimit).cwiseMin(known_ + kLimit);
-  learned_.bias = bias_of(limited);
-  learned_.is_limited = limited != bias;
-  learned_.sigma = bias_of(covariance.diagonal().cwiseSqrt());
+void BiasEstimator::set_estimate(const Vector4& bias, const Matrix4& covariance) {
+  const Vector4 limited = bias.cwiseMax(prior_ - kLimit).cwiseMin(prior_ + kLimit);
+  estimate_.bias = bias_of(limited);
+  estimate_.is_limited = limited != bias;
+  estimate_.sigma = bias_of(covariance.diagonal().cwiseSqrt());
 }
 
-void BiasEstimator::learn(const WallMap& map, const Pose2& T_map_lidar,
-                          std::span<const PolarPoint> points, double noise_scale) {
-  const auto hits = prediction_.cast(map, T_map_lidar, points);
+void BiasEstimator::update(const WallMap& map, const Pose2& T_map_lidar,
+                           std::span<const PolarPoint> points, double noise_scale) {
+  const auto hits = ray_caster_.cast(map, T_map_lidar, points);
   const double c = std::cos(T_map_lidar.theta_rad);
   const double s = std::sin(T_map_lidar.theta_rad);
   Eigen::Matrix<double, 10, 10> information = Eigen::Matrix<double, 10, 10>::Zero();
@@ -88,18 +88,18 @@ void BiasEstimator::learn(const WallMap& map, const Pose2& T_map_lidar,
     const double distance_m = normal.x() * point.x_m + normal.y() * point.y_m + height_m;
     const double along_ray = normal.x() * point.ray_x + normal.y() * point.ray_y;
     const double across_ray = normal.y() * point.ray_x - normal.x() * point.ray_y;
-    // Wider than the noise: the bias is still in the residuals.
+    // The gate is wider than the noise: residuals still contain the bias.
     const double variance =
         noise_.variance_across_m2(point.range_m, std::abs(along_ray)) * noise_scale * noise_scale;
     const double share = 1 - distance_m * distance_m / (kCut * kCut * (variance + 1e-4));
     if (share <= 0) continue;
-    Eigen::Matrix<double, 10, 1> slope;
+    Eigen::Matrix<double, 10, 1> jacobian;
     const Eigen::Vector3d of_pose(normal.x(), normal.y(), point.range_m * across_ray);
-    slope << of_pose, point.dt_s * of_pose, point.range_m * along_ray, along_ray,
+    jacobian << of_pose, point.dt_s * of_pose, point.range_m * along_ray, along_ray,
         point.range_m * across_ray * point.ray_y, point.range_m * across_ray * point.ray_x;
     const double weight = share * share / variance;
-    information.noalias() += weight * slope * slope.transpose();
-    gradient.noalias() += weight * distance_m * slope;
+    information.noalias() += weight * jacobian * jacobian.transpose();
+    gradient.noalias() += weight * distance_m * jacobian;
     ++used;
   }
   if (used < kMinPoints) return;
@@ -110,18 +110,19 @@ void BiasEstimator::learn(const WallMap& map, const Pose2& T_map_lidar,
   const Eigen::Matrix<double, 6, 4> coupled = information.topRightCorner<6, 4>();
   const Eigen::Matrix<double, 6, 4> solved = of_turn.solve(coupled);
   const Matrix4 of_bias = information.bottomRightCorner<4, 4>() - coupled.transpose() * solved;
-  const Vector4 pull = gradient.tail<4>() - solved.transpose() * gradient.head<6>();
-  if (!of_bias.allFinite() || !pull.allFinite()) return;
+  const Vector4 reduced_gradient = gradient.tail<4>() - solved.transpose() * gradient.head<6>();
+  if (!of_bias.allFinite() || !reduced_gradient.allFinite()) return;
 
-  information_ = kept_share_ * information_ + kTurnShare * of_bias;
-  evidence_ = kept_share_ * evidence_ + kTurnShare * (of_bias * vector_of(learned_.bias) + pull);
+  information_ = retained_share_ * information_ + kScanShare * of_bias;
+  evidence_ = retained_share_ * evidence_ +
+              kScanShare * (of_bias * vector_of(estimate_.bias) + reduced_gradient);
   const Vector4 prior = prior_information();
   const Matrix4 sum = information_ + Matrix4(prior.asDiagonal());
   const Matrix4 covariance = sum.ldlt().solve(Matrix4::Identity());
-  const Vector4 best = covariance * (evidence_ + prior.cwiseProduct(known_));
+  const Vector4 best = covariance * (evidence_ + prior.cwiseProduct(prior_));
   if (!best.allFinite() || !(covariance.diagonal().minCoeff() > 0)) return;
-  believe(best, covariance);
-  ++learned_.scans;
+  set_estimate(best, covariance);
+  ++estimate_.scans;
 }
 
 }  // namespace cornerd::core

@@ -13,51 +13,50 @@
 
 namespace cornerd::core {
 
-/// Learns a lidar's bias from the turns whose place is known: least squares of the points'
-/// distances to their walls over the pose and the motion of each turn and one bias for all of them.
-/// Pose and motion are eliminated turn by turn (Schur complement), so that a turn leaves a 4 x 4
-/// matrix behind, whatever its size, and a robot that starts or stops within it teaches no bias
-/// that is none. Allocates nothing.
+/// Estimates a lidar's bias online from scans at known poses: least squares of point-to-face
+/// distances over each scan's pose and motion and one common bias. Pose and motion are eliminated
+/// scan by scan (Schur complement), so that a scan leaves a 4 x 4 information matrix and
+/// accelerations within a scan do not pass for bias. Allocates nothing.
 class BiasEstimator {
  public:
-  /// `forgotten_share`: of what was learnt, with each turn: a lidar ages.
-  BiasEstimator(double max_range_m, const SensorNoise& noise, const SensorBias& known,
-                double forgotten_share = kForgottenShare);
+  /// `forgetting_rate`: share of the information dropped with each scan, since a lidar ages.
+  BiasEstimator(double max_range_m, const SensorNoise& noise, const SensorBias& prior,
+                double forgetting_rate = kForgettingRate);
 
-  /// A minute at 5.5 turns a second keeps a third.
-  static constexpr double kForgottenShare = 0.003;
+  /// At 5.5 scans a second a third of the information is left after a minute.
+  static constexpr double kForgettingRate = 0.003;
 
-  /// What is believed so far; `known` at first.
-  const SensorBias& bias() const { return learned_.bias; }
-  /// Turns that it was learnt from.
-  std::size_t scans() const { return learned_.scans; }
-  const LearnedBias& learned() const { return learned_; }
+  /// The current estimate; the prior at first.
+  const SensorBias& bias() const { return estimate_.bias; }
+  /// Number of scans used.
+  std::size_t scans() const { return estimate_.scans; }
+  const EstimatedBias& estimate() const { return estimate_; }
 
-  /// Goes on from what another one learnt of the same lidar. Of its doubt no more than the sigmas
-  /// is known: scale and offset may trade with each other again.
-  void resume(const LearnedBias& learned);
+  /// Continues from a stored estimate of the same lidar. Only its sigmas are stored, so that scale
+  /// and offset are uncorrelated again.
+  void resume(const EstimatedBias& estimate);
 
-  /// Back to what was known at first.
+  /// Resets to the prior.
   void forget();
 
-  /// `points`: of a turn of a robot at rest or nearly so, corrected by bias(), seen from
+  /// `points`: of a scan of a robot at rest or nearly so, corrected by bias(), taken at
   /// `T_map_lidar`.
-  void learn(const WallMap& map, const Pose2& T_map_lidar, std::span<const PolarPoint> points,
-             double noise_scale);
+  void update(const WallMap& map, const Pose2& T_map_lidar, std::span<const PolarPoint> points,
+              double noise_scale);
 
  private:
   using Vector4 = Eigen::Vector4d;
   using Matrix4 = Eigen::Matrix4d;
 
-  void believe(const Vector4& bias, const Matrix4& covariance);
+  void set_estimate(const Vector4& bias, const Matrix4& covariance);
 
   SensorNoise noise_;
-  double kept_share_;
-  RayCaster prediction_;
-  LearnedBias learned_;
-  Vector4 known_;
-  Matrix4 information_ = Matrix4::Zero();  ///< that turns gave, fading
-  Vector4 evidence_ = Vector4::Zero();     ///< information times the bias that they speak for
+  double retained_share_;
+  RayCaster ray_caster_;
+  EstimatedBias estimate_;
+  Vector4 prior_;
+  Matrix4 information_ = Matrix4::Zero();  ///< of the scans, with exponential forgetting
+  Vector4 evidence_ = Vector4::Zero();     ///< information times the bias it indicates
 };
 
 }  // namespace cornerd::core

@@ -11,10 +11,10 @@ namespace {
 constexpr std::size_t kLanes = 4;
 using Lanes = Eigen::Array<float, kLanes, 1>;
 
-/// So that a point on its wall has a weight, whatever noise is claimed: a micrometre, squared.
-constexpr float kLeastVariance_m2 = 1e-12F;
+/// A micrometre squared, so that a point exactly on its wall has a finite weight.
+constexpr float kMinVariance = 1e-12F;
 
-/// The lanes that count where only so many points are left.
+/// Masks for a last group of fewer than four points.
 constexpr float kFirst[kLanes][kLanes] = {{0, 0, 0, 0}, {1, 0, 0, 0}, {1, 1, 0, 0}, {1, 1, 1, 0}};
 
 Eigen::Map<const Lanes> lanes(const std::vector<float>& values, std::size_t at) {
@@ -27,7 +27,7 @@ Eigen::Map<Lanes> lanes(std::vector<float>& values, std::size_t at) {
 }  // namespace
 
 PointLanes::PointLanes() {
-  for (auto* values : {&x_m_, &y_m_, &inverse_range_, &across_m2_, &along_m2_}) {
+  for (auto* values : {&x_m_, &y_m_, &inverse_range_, &across_variance_, &along_variance_}) {
     values->reserve(kMaxSamplesPerScan + kLanes);
   }
 }
@@ -35,7 +35,7 @@ PointLanes::PointLanes() {
 void PointLanes::assign(std::span<const PolarPoint> points, const SensorNoise& noise,
                         double noise_scale) {
   const std::size_t size = std::min(points.size(), kMaxSamplesPerScan) + kLanes;
-  for (auto* values : {&x_m_, &y_m_, &inverse_range_, &across_m2_, &along_m2_}) {
+  for (auto* values : {&x_m_, &y_m_, &inverse_range_, &across_variance_, &along_variance_}) {
     values->assign(size, 1);
   }
   for (std::size_t i = 0; i + kLanes < size; ++i) {
@@ -43,7 +43,7 @@ void PointLanes::assign(std::span<const PolarPoint> points, const SensorNoise& n
     y_m_[i] = static_cast<float>(points[i].y_m);
     inverse_range_[i] = static_cast<float>(points[i].range_m);
     if (!noise.table.empty()) {
-      along_m2_[i] = static_cast<float>(noise.table.sigma_m(points[i].range_m));
+      along_variance_[i] = static_cast<float>(noise.table.sigma_m(points[i].range_m));
     }
   }
   const auto floor_m = static_cast<float>(noise.floor_m);
@@ -52,32 +52,32 @@ void PointLanes::assign(std::span<const PolarPoint> points, const SensorNoise& n
   const auto scale = static_cast<float>(noise_scale);
   for (std::size_t i = 0; i + kLanes <= size; i += kLanes) {
     const Lanes range_m = lanes(inverse_range_, i);
-    Lanes sigma_m = lanes(along_m2_, i);
+    Lanes sigma_m = lanes(along_variance_, i);
     if (noise.table.empty()) sigma_m = (share * range_m).max(floor_m);
     const Lanes along_m = scale * sigma_m;
     const Lanes across_m = scale * bearing_rad * range_m;
-    lanes(across_m2_, i) = across_m * across_m;
-    lanes(along_m2_, i) = along_m * along_m - across_m * across_m;
+    lanes(across_variance_, i) = across_m * across_m;
+    lanes(along_variance_, i) = along_m * along_m - across_m * across_m;
     lanes(inverse_range_, i) = Lanes::Ones() / range_m;
   }
 }
 
 FaceSums PointLanes::sum(std::size_t begin, std::size_t end, const Vec2& normal, double height_m,
-                         double slack_m) const {
+                         double extra_sigma_m) const {
   constexpr auto kPerCut = static_cast<float>(1 / (kCutSigmas * kCutSigmas));
-  // What is above 0 at all, as 1.
+  // Turns any positive share into 1.
   constexpr float kHuge = 1e30F;
   const auto nx = static_cast<float>(normal.x());
   const auto ny = static_cast<float>(normal.y());
   const auto height = static_cast<float>(height_m);
-  const auto least_m2 = static_cast<float>(slack_m * slack_m) + kLeastVariance_m2;
+  const auto extra_variance = static_cast<float>(extra_sigma_m * extra_sigma_m) + kMinVariance;
   Lanes weights = Lanes::Zero();
   Lanes levers = weights;
   Lanes levers_squared = weights;
   Lanes distances = weights;
   Lanes distances_levers = weights;
   Lanes z_squares = weights;
-  Lanes squares_m2 = weights;
+  Lanes squared_distances = weights;
   Lanes inside = weights;
   for (std::size_t i = begin; i < end; i += kLanes) {
     const Lanes x = lanes(x_m_, i);
@@ -86,8 +86,9 @@ FaceSums PointLanes::sum(std::size_t begin, std::size_t end, const Vec2& normal,
     const Lanes distance_m = towards_m + height;
     const Lanes lever_m = ny * x - nx * y;
     const Lanes sine = towards_m * lanes(inverse_range_, i);
-    const Lanes variance_m2 = lanes(along_m2_, i) * sine * sine + lanes(across_m2_, i) + least_m2;
-    const Lanes information = Lanes::Ones() / variance_m2;
+    const Lanes variance =
+        lanes(along_variance_, i) * sine * sine + lanes(across_variance_, i) + extra_variance;
+    const Lanes information = Lanes::Ones() / variance;
     const Lanes z_squared = distance_m * distance_m * information;
     Lanes share = (1 - z_squared * kPerCut).max(0.0F);
     if (end - i < kLanes) share *= Eigen::Map<const Lanes>(kFirst[end - i]);
@@ -99,11 +100,11 @@ FaceSums PointLanes::sum(std::size_t begin, std::size_t end, const Vec2& normal,
     distances += weight * distance_m;
     distances_levers += weight * distance_m * lever_m;
     z_squares += is_inside * z_squared;
-    squares_m2 += is_inside * distance_m * distance_m;
+    squared_distances += is_inside * distance_m * distance_m;
     inside += is_inside;
   }
-  return {weights.sum(),          levers.sum(),    levers_squared.sum(), distances.sum(),
-          distances_levers.sum(), z_squares.sum(), squares_m2.sum(),     inside.sum()};
+  return {weights.sum(),          levers.sum(),    levers_squared.sum(),    distances.sum(),
+          distances_levers.sum(), z_squares.sum(), squared_distances.sum(), inside.sum()};
 }
 
 }  // namespace cornerd::core

@@ -15,19 +15,19 @@ constexpr double kCutSigmas = PointLanes::kCutSigmas;
 constexpr int kMaxSteps = 12;
 constexpr double kConverged_m = 2e-5;
 constexpr double kConverged_rad = 1e-5;
-/// A move that is smaller than this leaves each ray at the face that it met before; where it does
-/// not, at a face's end, one ray of hundreds is off by as little.
-constexpr double kSameSight_m = 2e-3;
-constexpr double kSameSight_rad = 1e-3;
-/// The same while all that is looked for is known to `slack` only: this share of it.
-constexpr double kSameSightShare = 0.25;
-/// Relative pivot below which the walls in sight do not fix the pose: a lone wall, a bare corridor.
+/// A smaller step leaves each ray on the face that it hit before, except near a face's end.
+constexpr double kSameHits_m = 2e-3;
+constexpr double kSameHits_rad = 1e-3;
+/// The same, as a share of the extra sigma while that is large.
+constexpr double kSameHitsShare = 0.25;
+/// Relative pivot below which the visible walls do not determine the pose: a single wall, a bare
+/// corridor.
 constexpr double kMinPivot = 1e-7;
 constexpr std::size_t kMinInliers = 8;
-/// Rays go from one face to the next so often in a turn; what comes beyond is not remembered.
-constexpr std::size_t kMostPulls = 1024;
+/// Runs of neighbouring rays on one face in a scan; more are left out of the map error model.
+constexpr std::size_t kMaxResiduals = 1024;
 constexpr int kMotionSteps = 8;
-/// How fast a robot of this size may be, as a standard deviation.
+/// Prior standard deviations of the robot's velocity.
 constexpr double kMotionSigma_m_s = 0.5;
 constexpr double kMotionSigma_rad_s = 2;
 
@@ -37,33 +37,35 @@ struct Refinement::Step {
   Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
   Eigen::Vector3d gradient = Eigen::Vector3d::Zero();
   double chi_square = 0;
-  double squares_m2 = 0;
+  double squared_distances = 0;
   std::size_t inliers = 0;
 };
 
 Refinement::Refinement(double max_range_m, const SensorNoise& noise)
-    : noise_(noise), prediction_(max_range_m) {
-  pulls_.reserve(kMostPulls);
+    : noise_(noise), ray_caster_(max_range_m) {
+  residuals_.reserve(kMaxResiduals);
 }
 
-void Refinement::look(const WallMap& map, const Pose2& T_map_lidar,
-                      std::span<const PolarPoint> points, double noise_scale, double slack_m) {
-  const double same_m = std::max(kSameSight_m, kSameSightShare * slack_m);
-  const double same_rad = kSameSight_rad / kSameSight_m * same_m;
-  const bool same_points = points.data() == seen_.data() && points.size() == seen_.size();
-  if (same_points && same_place(T_map_lidar, T_map_seen_, same_m, same_rad)) return;
+void Refinement::find_hits(const WallMap& map, const Pose2& T_map_lidar,
+                           std::span<const PolarPoint> points, double noise_scale,
+                           double extra_sigma_m) {
+  const double same_m = std::max(kSameHits_m, kSameHitsShare * extra_sigma_m);
+  const double same_rad = kSameHits_rad / kSameHits_m * same_m;
+  const bool same_points = points.data() == points_.data() && points.size() == points_.size();
+  if (same_points && same_place(T_map_lidar, T_map_hits_, same_m, same_rad)) return;
   if (!same_points) lanes_.assign(points, noise_, noise_scale);
-  hits_ = prediction_.cast_near(map, T_map_lidar, points);
-  seen_ = points;
-  T_map_seen_ = T_map_lidar;
+  hits_ = ray_caster_.cast_near(map, T_map_lidar, points);
+  points_ = points;
+  T_map_hits_ = T_map_lidar;
 }
 
-Refinement::Step Refinement::step(const WallMap& map, const Pose2& T_map_lidar, double slack_m) {
+Refinement::Step Refinement::step(const WallMap& map, const Pose2& T_map_lidar,
+                                  double extra_sigma_m) {
   const double c = std::cos(T_map_lidar.theta_rad);
   const double s = std::sin(T_map_lidar.theta_rad);
   Step sums;
-  pulls_.clear();
-  // Rays side by side mostly meet the same face: what the face has to say is said once for all.
+  residuals_.clear();
+  // Neighbouring rays mostly hit the same face: each run is summed at once.
   for (std::size_t begin = 0, end = 0; begin < hits_.size(); begin = end) {
     const std::uint32_t met = hits_[begin].face;
     while (end < hits_.size() && hits_[end].face == met) ++end;
@@ -73,9 +75,9 @@ Refinement::Step Refinement::step(const WallMap& map, const Pose2& T_map_lidar, 
     const double ny = face.normal.y();
     const double height_m = nx * T_map_lidar.x_m + ny * T_map_lidar.y_m - face.offset_m;
     const FaceSums sum =
-        lanes_.sum(begin, end, {c * nx + s * ny, c * ny - s * nx}, height_m, slack_m);
-    if (pulls_.size() < kMostPulls) {
-      pulls_.push_back({met, face.normal, sum.weight, sum.lever, sum.distance});
+        lanes_.sum(begin, end, {c * nx + s * ny, c * ny - s * nx}, height_m, extra_sigma_m);
+    if (residuals_.size() < kMaxResiduals) {
+      residuals_.push_back({met, face.normal, sum.weight, sum.lever, sum.distance});
     }
     sums.information(0, 0) += sum.weight * nx * nx;
     sums.information(0, 1) += sum.weight * nx * ny;
@@ -85,43 +87,47 @@ Refinement::Step Refinement::step(const WallMap& map, const Pose2& T_map_lidar, 
     sums.information(2, 2) += sum.lever_squared;
     sums.gradient += Eigen::Vector3d(sum.distance * nx, sum.distance * ny, sum.distance_lever);
     sums.chi_square += sum.z_squared;
-    sums.squares_m2 += sum.squared_m2;
+    sums.squared_distances += sum.squared_distances;
     sums.inliers += static_cast<std::size_t>(sum.points);
   }
   sums.information.triangularView<Eigen::StrictlyLower>() = sums.information.transpose();
   return sums;
 }
 
-RefinedPose Refinement::refine(const WallMap& map, const Pose2& start, double reach_m,
-                               std::span<const PolarPoint> thin, std::span<const PolarPoint> points,
-                               double noise_scale, const PosePrior* prior) {
-  RefinedPose refined = descend(map, start, reach_m, thin, points, noise_scale, kMaxSteps, prior);
+RefinedPose Refinement::refine(const WallMap& map, const Pose2& start, double search_radius_m,
+                               std::span<const PolarPoint> subset,
+                               std::span<const PolarPoint> points, double noise_scale,
+                               const PosePrior* prior) {
+  RefinedPose refined =
+      gauss_newton(map, start, search_radius_m, subset, points, noise_scale, kMaxSteps, prior);
   if (refined.valid) {
-    refined.walls = residuals_of_walls(pulls_, refined.covariance / std::max(1.0, refined.spread));
+    refined.face_residuals = face_residual_statistics(
+        residuals_, refined.covariance / std::max(1.0, refined.reduced_chi_square));
   }
   return refined;
 }
 
-RefinedPose Refinement::approach(const WallMap& map, const Pose2& start, double reach_m,
-                                 std::span<const PolarPoint> thin, double noise_scale) {
-  return descend(map, start, reach_m, thin, thin, noise_scale, 1, nullptr);
+RefinedPose Refinement::refine_roughly(const WallMap& map, const Pose2& start,
+                                       double search_radius_m, std::span<const PolarPoint> subset,
+                                       double noise_scale) {
+  return gauss_newton(map, start, search_radius_m, subset, subset, noise_scale, 1, nullptr);
 }
 
-RefinedPose Refinement::descend(const WallMap& map, const Pose2& start, double reach_m,
-                                std::span<const PolarPoint> thin,
-                                std::span<const PolarPoint> points, double noise_scale,
-                                int last_steps, const PosePrior* prior) {
+RefinedPose Refinement::gauss_newton(const WallMap& map, const Pose2& start, double search_radius_m,
+                                     std::span<const PolarPoint> subset,
+                                     std::span<const PolarPoint> points, double noise_scale,
+                                     int max_final_steps, const PosePrior* prior) {
   RefinedPose refined;
   refined.T_map_lidar = start;
-  double slack_m = reach_m;
+  double extra_sigma_m = search_radius_m;
   Eigen::LDLT<Eigen::Matrix3d> solver;
   Step sums;
-  seen_ = {};
+  points_ = {};
   for (int k = 0; k < kMaxSteps; ++k) {
-    const bool rough = slack_m > 0.004;
-    const double step_slack_m = rough ? slack_m : 0;
-    look(map, refined.T_map_lidar, rough ? thin : points, noise_scale, step_slack_m);
-    sums = step(map, refined.T_map_lidar, step_slack_m);
+    const bool rough = extra_sigma_m > 0.004;
+    const double step_extra_sigma_m = rough ? extra_sigma_m : 0;
+    find_hits(map, refined.T_map_lidar, rough ? subset : points, noise_scale, step_extra_sigma_m);
+    sums = step(map, refined.T_map_lidar, step_extra_sigma_m);
     if (prior != nullptr) {
       const Pose2& at = refined.T_map_lidar;
       sums.information += prior->information;
@@ -141,44 +147,46 @@ RefinedPose Refinement::descend(const WallMap& map, const Pose2& start, double r
     refined.T_map_lidar.theta_rad = normalize_angle(refined.T_map_lidar.theta_rad - move.z());
     const bool converged =
         move.head<2>().norm() < kConverged_m && std::abs(move.z()) < kConverged_rad;
-    if (!rough && (converged || --last_steps == 0)) break;
-    slack_m *= 0.4;
+    if (!rough && (converged || --max_final_steps == 0)) break;
+    extra_sigma_m *= 0.4;
   }
   const auto inliers = static_cast<double>(sums.inliers);
-  refined.spread = sums.chi_square / std::max(1.0, inliers - 3);
-  refined.covariance = solver.solve(Eigen::Matrix3d::Identity()) * std::max(1.0, refined.spread);
+  refined.reduced_chi_square = sums.chi_square / std::max(1.0, inliers - 3);
+  refined.covariance =
+      solver.solve(Eigen::Matrix3d::Identity()) * std::max(1.0, refined.reduced_chi_square);
   refined.inliers = sums.inliers;
-  refined.rmse_m = std::sqrt(sums.squares_m2 / std::max(1.0, inliers));
+  refined.rmse_m = std::sqrt(sums.squared_distances / std::max(1.0, inliers));
   refined.valid = refined.covariance.allFinite();
   return refined;
 }
 
-RefinedMotion Refinement::refine_motion(const WallMap& map, const Pose2& start, double reach_m,
-                                        std::span<const PolarPoint> points, double noise_scale) {
+RefinedMotion Refinement::refine_motion(const WallMap& map, const Pose2& start,
+                                        double search_radius_m, std::span<const PolarPoint> points,
+                                        double noise_scale) {
   using Vector6 = Eigen::Matrix<double, 6, 1>;
   using Matrix6 = Eigen::Matrix<double, 6, 6>;
-  const Vector6 belief =
+  const Vector6 prior_information =
       (Vector6() << 0, 0, 0, 1 / (kMotionSigma_m_s * kMotionSigma_m_s),
        1 / (kMotionSigma_m_s * kMotionSigma_m_s), 1 / (kMotionSigma_rad_s * kMotionSigma_rad_s))
           .finished();
   RefinedMotion refined;
   refined.T_map_lidar = start;
   Eigen::Vector3d twist = Eigen::Vector3d::Zero();
-  double slack_m = reach_m;
+  double extra_sigma_m = search_radius_m;
   for (int k = 0; k < kMotionSteps; ++k) {
     const Pose2& T_map_lidar = refined.T_map_lidar;
-    const auto hits = prediction_.cast_near(map, T_map_lidar, points);
+    const auto hits = ray_caster_.cast_near(map, T_map_lidar, points);
     const double c = std::cos(T_map_lidar.theta_rad);
     const double s = std::sin(T_map_lidar.theta_rad);
-    Matrix6 information = belief.asDiagonal();
+    Matrix6 information = prior_information.asDiagonal();
     Vector6 gradient = Vector6::Zero();
-    gradient.tail<3>() = belief.tail<3>().cwiseProduct(twist);
+    gradient.tail<3>() = prior_information.tail<3>().cwiseProduct(twist);
     std::size_t inliers = 0;
     for (std::size_t i = 0; i < points.size(); ++i) {
       if (hits[i].face == PredictedHit::kNone) continue;
       const PolarPoint& point = points[i];
       const Face& face = map.faces()[hits[i].face];
-      // All in the lidar's frame: the wall's normal, and the point where the motion so far puts it.
+      // In the lidar's frame: the wall's normal, and the point deskewed by the motion so far.
       const Vec2 normal(c * face.normal.x() + s * face.normal.y(),
                         c * face.normal.y() - s * face.normal.x());
       const double x_m = point.x_m + point.dt_s * (twist.x() - twist.z() * point.y_m);
@@ -188,15 +196,15 @@ RefinedMotion Refinement::refine_motion(const WallMap& map, const Pose2& start, 
       const double sine = std::abs(normal.x() * point.ray_x + normal.y() * point.ray_y);
       const double variance =
           noise_.variance_across_m2(point.range_m, sine) * noise_scale * noise_scale +
-          slack_m * slack_m;
+          extra_sigma_m * extra_sigma_m;
       const double share = 1 - distance_m * distance_m / (variance * kCutSigmas * kCutSigmas);
       if (share <= 0) continue;
       const double weight = share * share / variance;
-      const Eigen::Vector3d slope(normal.x(), normal.y(), normal.y() * x_m - normal.x() * y_m);
-      Vector6 slopes;
-      slopes << slope, point.dt_s * slope;
-      information.noalias() += weight * slopes * slopes.transpose();
-      gradient.noalias() += weight * distance_m * slopes;
+      const Eigen::Vector3d jacobian(normal.x(), normal.y(), normal.y() * x_m - normal.x() * y_m);
+      Vector6 jacobians;
+      jacobians << jacobian, point.dt_s * jacobian;
+      information.noalias() += weight * jacobians * jacobians.transpose();
+      gradient.noalias() += weight * distance_m * jacobians;
       ++inliers;
     }
     const Eigen::LDLT<Matrix6> solver(information);
@@ -205,7 +213,7 @@ RefinedMotion Refinement::refine_motion(const WallMap& map, const Pose2& start, 
     if (!move.allFinite()) return refined;
     refined.T_map_lidar = T_map_lidar * Pose2{-move[0], -move[1], -move[2]};
     twist -= move.tail<3>();
-    slack_m = std::max(0.4 * slack_m, 1e-3);
+    extra_sigma_m = std::max(0.4 * extra_sigma_m, 1e-3);
   }
   refined.motion = {twist.x(), twist.y(), twist.z()};
   refined.valid = true;

@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
+#include "core/estimate/map_error_model.hpp"
 #include "core/estimate/point_lanes.hpp"
-#include "core/estimate/wall_doubt.hpp"
 #include "core/map/ray_caster.hpp"
 #include "core/map/wall_map.hpp"
 #include "core/polar_scan.hpp"
@@ -17,68 +17,66 @@ struct RefinedPose {
   Pose2 T_map_lidar;
   Covariance3 covariance = Covariance3::Zero();  ///< x, y in the map frame, theta
   std::size_t inliers = 0;
-  double rmse_m = 0;  ///< of the inliers' distances to their walls
-  double spread = 0;  ///< of the same in units of the noise: 1 where the model is right
-  WallResiduals walls;
+  double rmse_m = 0;              ///< of the inliers' distances to their walls
+  double reduced_chi_square = 0;  ///< of the inliers; 1 where the model is right
+  FaceResidualStatistics face_residuals;
   bool valid = false;  ///< false: the points do not determine the pose
 };
 
-/// What is known of the pose besides the points.
+/// Gaussian prior of the pose.
 struct PosePrior {
   Pose2 T_map_lidar;
   Eigen::Matrix3d information =
-      Eigen::Matrix3d::Zero();  ///< of x, y, theta; as a covariance's inverse
+      Eigen::Matrix3d::Zero();  ///< of x, y, theta: the inverse covariance
 };
 
 struct RefinedMotion {
   Pose2 T_map_lidar;
-  Twist2 motion;  ///< in addition to the one that the points were moved back by
+  Twist2 motion;  ///< in addition to the one that the points were deskewed by
   bool valid = false;
 };
 
-/// Maximum likelihood fit of all wall points to the faces that the place can see, by Gauss-Newton
-/// on point-to-face distances with a redescending loss. After each step that moves the lidar it is
-/// predicted anew which face a ray meets, so that the far side of a thin wall never attracts a
-/// point of the near one.
+/// Robust maximum likelihood fit of all wall points to the visible faces: Gauss-Newton on
+/// point-to-face distances with Tukey's biweight. Ray casting assigns the faces anew after each
+/// step, so that the far side of a thin wall never attracts points of the near side.
 class Refinement {
  public:
   Refinement(double max_range_m, const SensorNoise& noise);
 
-  /// From a place that is off by up to `reach_m`. `thin`: a selection of `points` for the first
-  /// steps, which need no precision.
-  RefinedPose refine(const WallMap& map, const Pose2& start, double reach_m,
-                     std::span<const PolarPoint> thin, std::span<const PolarPoint> points,
+  /// `start` may be off by `search_radius_m`. `subset`: some of `points`, for the first steps,
+  /// which need no precision.
+  RefinedPose refine(const WallMap& map, const Pose2& start, double search_radius_m,
+                     std::span<const PolarPoint> subset, std::span<const PolarPoint> points,
                      double noise_scale, const PosePrior* prior = nullptr);
 
-  /// The same by few points and no more steps than it takes to tell whether the place may be right.
-  RefinedPose approach(const WallMap& map, const Pose2& start, double reach_m,
-                       std::span<const PolarPoint> thin, double noise_scale);
+  /// The same on few points, with only the steps that a rejection test needs.
+  RefinedPose refine_roughly(const WallMap& map, const Pose2& start, double search_radius_m,
+                             std::span<const PolarPoint> subset, double noise_scale);
 
-  /// The same for a robot whose motion within the turn is not known: estimates it along with the
-  /// pose. A turn has far more points than the six unknowns; a weak belief in rest keeps a
-  /// direction in which no wall is seen from running away.
-  RefinedMotion refine_motion(const WallMap& map, const Pose2& start, double reach_m,
+  /// The same for an unknown motion within the scan: estimates pose and velocity (six unknowns). A
+  /// weak prior at rest bounds directions in which no wall is seen.
+  RefinedMotion refine_motion(const WallMap& map, const Pose2& start, double search_radius_m,
                               std::span<const PolarPoint> points, double noise_scale);
 
  private:
   struct Step;
-  /// `last_steps`: at most so many on `points`.
-  RefinedPose descend(const WallMap& map, const Pose2& start, double reach_m,
-                      std::span<const PolarPoint> thin, std::span<const PolarPoint> points,
-                      double noise_scale, int last_steps, const PosePrior* prior);
-  /// Which face each of the points meets, seen from here.
-  void look(const WallMap& map, const Pose2& T_map_lidar, std::span<const PolarPoint> points,
-            double noise_scale, double slack_m);
-  /// Of what was looked at last.
-  Step step(const WallMap& map, const Pose2& T_map_lidar, double slack_m);
+  /// `max_final_steps`: limit of the steps on all `points`.
+  RefinedPose gauss_newton(const WallMap& map, const Pose2& start, double search_radius_m,
+                           std::span<const PolarPoint> subset, std::span<const PolarPoint> points,
+                           double noise_scale, int max_final_steps, const PosePrior* prior);
+  /// The face that each point's ray hits from this pose.
+  void find_hits(const WallMap& map, const Pose2& T_map_lidar, std::span<const PolarPoint> points,
+                 double noise_scale, double extra_sigma_m);
+  /// Normal equations of the last hits.
+  Step step(const WallMap& map, const Pose2& T_map_lidar, double extra_sigma_m);
 
   SensorNoise noise_;
-  RayCaster prediction_;
+  RayCaster ray_caster_;
   PointLanes lanes_;
-  std::span<const PolarPoint> seen_;  ///< the points in the lanes, and that `hits_` belong to
+  std::span<const PolarPoint> points_;  ///< that `lanes_` and `hits_` are of
   std::span<const PredictedHit> hits_;
-  std::vector<FacePull> pulls_;  ///< of the last step
-  Pose2 T_map_seen_;             ///< where `hits_` were predicted from
+  std::vector<FaceResidual> residuals_;  ///< of the last step
+  Pose2 T_map_hits_;                     ///< where `hits_` were cast from
 };
 
 }  // namespace cornerd::core

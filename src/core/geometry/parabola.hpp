@@ -3,9 +3,9 @@
 
 namespace cornerd::core {
 
-/// Where a parabola is least, as a share of the step from one value to the next: it is `before` and
-/// `after` higher at its neighbours than at the least of the three.
-constexpr double least_of_parabola(double before, double after) {
+/// Offset of a parabola's minimum from its lowest sample, in units of the step: `before` and
+/// `after` are its neighbours' excess over the lowest sample.
+constexpr double parabola_minimum(double before, double after) {
   return before + after > 0 ? (before - after) / (2 * (before + after)) : 0;
 }
 

@@ -15,10 +15,13 @@ using Vec2 = Eigen::Vector2d;
 inline double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
 inline Vec2 rotate_left(const Vec2& v) { return {-v.y(), v.x()}; }
 inline Vec2 unit_vector(double angle_rad) { return {std::cos(angle_rad), std::sin(angle_rad)}; }
-/// Of a direction, counter-clockwise from x, in [-pi, pi].
-inline double angle_of(const Vec2& way) { return std::atan2(way.y(), way.x()); }
+/// Counter-clockwise from x, in [-pi, pi].
+inline double angle_of(const Vec2& direction) {
+  return std::atan2(direction.y(), direction.x());
+}
 
-/// A rigid motion of the plane: `T_a_b * p_b` is the point p_b of frame b, seen from frame a.
+/// A rigid transform of the plane, element of SE(2): `T_a_b * p_b` is the point p_b of frame b in
+/// frame a.
 struct Pose2 {
   double x_m = 0;
   double y_m = 0;
@@ -44,17 +47,17 @@ struct Pose2 {
   }
 };
 
-/// How a frame moves, in its own axes.
+/// Velocity of a frame in its own axes.
 struct Twist2 {
   double vx_m_s = 0;
   double vy_m_s = 0;
   double omega_rad_s = 0;
 
-  /// Where a steady motion leads in a time: along an arc (the exponential map of SE(2)).
+  /// Displacement at constant velocity: an arc, the exponential map of SE(2).
   Pose2 over(double dt_s) const {
     const double rotation_rad = omega_rad_s * dt_s;
-    double along = 1 - rotation_rad * rotation_rad / 6;  // sin(turn) / turn
-    double aside = rotation_rad / 2;                     // (1 - cos(turn)) / turn
+    double along = 1 - rotation_rad * rotation_rad / 6;  // sin(rotation) / rotation
+    double aside = rotation_rad / 2;                     // (1 - cos(rotation)) / rotation
     if (std::abs(rotation_rad) > kNearlyStraight_rad) {
       along = std::sin(rotation_rad) / rotation_rad;
       aside = (1 - std::cos(rotation_rad)) / rotation_rad;
@@ -71,22 +74,23 @@ struct Twist2 {
   bool is_rest() const { return vx_m_s == 0 && vy_m_s == 0 && omega_rad_s == 0; }
 };
 
-/// The steady motion that leads from the one pose to the other in `dt_s`: what over() undoes. For
-/// turns of less than half a circle.
+/// The constant velocity that leads from one pose to the other in `dt_s`: the inverse of over(),
+/// for rotations below pi.
 inline Twist2 motion_between(const Pose2& from, const Pose2& to, double dt_s) {
-  const Pose2 way = from.inverse() * to;
-  const double half_rad = way.theta_rad / 2;
+  const Pose2 displacement = from.inverse() * to;
+  const double half_rad = displacement.theta_rad / 2;
   const double along = std::abs(half_rad) > Twist2::kNearlyStraight_rad
                            ? half_rad / std::tan(half_rad)
                            : 1 - half_rad * half_rad / 3;
-  return {(along * way.x_m + half_rad * way.y_m) / dt_s,
-          (along * way.y_m - half_rad * way.x_m) / dt_s, way.theta_rad / dt_s};
+  return {(along * displacement.x_m + half_rad * displacement.y_m) / dt_s,
+          (along * displacement.y_m - half_rad * displacement.x_m) / dt_s,
+          displacement.theta_rad / dt_s};
 }
 
-/// Of (x [m], y [m], theta [rad]) in the frame of the pose it belongs to; symmetric.
+/// Of (x [m], y [m], theta [rad]) in the frame of the pose; symmetric.
 using Covariance3 = Eigen::Matrix3d;
 
-/// True where the two are the same place for every purpose of recognition.
+/// True where both poses agree within the given distance and angle.
 inline bool same_place(const Pose2& a, const Pose2& b, double distance_m, double angle_rad) {
   return (a.translation() - b.translation()).squaredNorm() < distance_m * distance_m &&
          std::abs(angle_between(a.theta_rad, b.theta_rad)) < angle_rad;

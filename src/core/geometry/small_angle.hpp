@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Series for small angles. A Cortex-A8 takes 800 cycles for the library's sine and cosine, 600 for
-// its arc tangent (tests/arm/cost), and a turn asks for each of them hundreds of times.
+// Series for small angles. On a Cortex-A8 the library's sine and cosine take 800 cycles, its arc
+// tangent 600 (tests/arm/cost), and each scan needs hundreds of them.
 #pragma once
 
 #include <cmath>
@@ -11,8 +11,8 @@ namespace cornerd::core {
 
 inline constexpr double kSmallAngle_rad = 0.1;
 
-/// A direction turned counter-clockwise; off by 2e-11 at most.
-inline Vec2 turned(const Vec2& way, double angle_rad) {
+/// A direction rotated counter-clockwise; error at most 2e-11.
+inline Vec2 rotated(const Vec2& direction, double angle_rad) {
   double c = 0;
   double s = 0;
   if (std::abs(angle_rad) < kSmallAngle_rad) {
@@ -23,10 +23,10 @@ inline Vec2 turned(const Vec2& way, double angle_rad) {
     c = std::cos(angle_rad);
     s = std::sin(angle_rad);
   }
-  return {c * way.x() - s * way.y(), s * way.x() + c * way.y()};
+  return {c * direction.x() - s * direction.y(), s * direction.x() + c * direction.y()};
 }
 
-/// From the one direction to the other, counter-clockwise, in [-pi, pi]; off by 1e-12 at most.
+/// Angle between two directions, counter-clockwise, in [-pi, pi]; error at most 1e-12.
 inline double rotation_between(const Vec2& from, const Vec2& to) {
   const double across = cross(from, to);
   const double along = from.dot(to);

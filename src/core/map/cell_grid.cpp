@@ -7,10 +7,10 @@
 namespace cornerd::core {
 namespace {
 
-/// Things are put into every cell that they come this near to, so that rounding loses none.
+/// Margin against rounding: an item is entered into every cell this near to it.
 constexpr double kCellSlack_m = 1e-5;
-constexpr double kLeastCell_m = 0.1;
-/// Cells, and entries in all of them, for each thing.
+constexpr double kMinCell_m = 0.1;
+/// Limits of the grid's size: cells, and entries in all cells, per item.
 constexpr std::size_t kCellsPerItem = 4;
 constexpr std::size_t kEntriesPerItem = 16;
 constexpr std::size_t kFewItems = 16;
@@ -22,9 +22,9 @@ Extent Extent::of_segment(const Vec2& from, const Vec2& to, double half_width_m)
   const Vec2 margin = Vec2::Constant(half_width_m);
   extent.low = from.cwiseMin(to) - margin;
   extent.high = from.cwiseMax(to) + margin;
-  const Vec2 way = to - from;
-  if (const double length_m = way.norm(); length_m > 0) {
-    extent.normal = rotate_left(way) / length_m;
+  const Vec2 displacement = to - from;
+  if (const double length_m = displacement.norm(); length_m > 0) {
+    extent.normal = rotate_left(displacement) / length_m;
     extent.offset_m = extent.normal.dot(from);
     extent.half_width_m = half_width_m;
   }
@@ -43,7 +43,7 @@ CellGrid::CellGrid(std::span<const Extent> extents) {
   const Vec2 size = high - lower_left_ + Vec2::Constant(2 * kCellSlack_m);
   const std::size_t items = extents.size() + kFewItems;
   cell_m_ =
-      std::max(kLeastCell_m, std::sqrt(size.x() * size.y() / static_cast<double>(extents.size())));
+      std::max(kMinCell_m, std::sqrt(size.x() * size.y() / static_cast<double>(extents.size())));
   while (true) {
     const Vec2 cells = (size / cell_m_).array().floor() + 1;
     if (cells.x() * cells.y() <= static_cast<double>(kCellsPerItem * items)) {
@@ -116,14 +116,14 @@ void CellGrid::collect(const Extent& extent, std::vector<std::uint32_t>& found) 
   found.erase(std::unique(found.begin(), found.end()), found.end());
 }
 
-CellGrid::Walk CellGrid::begin_walk(const Vec2& origin, const Vec2& ray, double reach_m) const {
+CellGrid::Walk CellGrid::begin_walk(const Vec2& origin, const Vec2& ray, double max_range_m) const {
   constexpr double kNever = std::numeric_limits<double>::infinity();
   Walk w;
   if (columns_ == 0) return w;
   const Vec2 start = origin - lower_left_;
   const Vec2 size(static_cast<double>(columns_) * cell_m_, static_cast<double>(rows_) * cell_m_);
   double enter_m = 0;
-  double leave_m = reach_m;
+  double leave_m = max_range_m;
   for (int axis = 0; axis < 2; ++axis) {
     if (ray[axis] == 0) {
       if (start[axis] < 0 || start[axis] >= size[axis]) return w;
@@ -150,8 +150,8 @@ CellGrid::Walk CellGrid::begin_walk(const Vec2& origin, const Vec2& ray, double 
   return w;
 }
 
-void CellGrid::step(Walk& w, double reach_m) const {
-  if (std::min(w.next_x_m, w.next_y_m) > reach_m) {
+void CellGrid::step(Walk& w, double max_range_m) const {
+  if (std::min(w.next_x_m, w.next_y_m) > max_range_m) {
     w.inside = false;
   } else if (w.next_x_m < w.next_y_m) {
     w.next_x_m += w.column_m;

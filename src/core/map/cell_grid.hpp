@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What lies where, without asking everything: a uniform grid over the plane.
+// A uniform grid over the plane, as a spatial index.
 #pragma once
 
 #include <algorithm>
@@ -13,8 +13,8 @@
 
 namespace cornerd::core {
 
-/// The part of the plane that a thing takes up: a box along the axes, and of that only the strip
-/// within `half_width_m` of the line normal.dot(p) = offset_m. Without a normal: the whole box.
+/// Extent of an item: an axis-aligned box, and within it only the strip within `half_width_m` of
+/// the line normal.dot(p) = offset_m. A zero normal means the whole box.
 struct Extent {
   Vec2 low = Vec2::Zero();
   Vec2 high = Vec2::Zero();
@@ -25,9 +25,8 @@ struct Extent {
   static Extent of_segment(const Vec2& from, const Vec2& to, double half_width_m);
 };
 
-/// Square cells, each with the numbers of the things that may touch it, ascending. Size and time
-/// are near-linear in the number of things, however large they are and wherever they lie.
-/// Immutable.
+/// Square cells, each with the indices of the items that may touch it, ascending. Memory and time
+/// are near-linear in the number of items. Immutable.
 class CellGrid {
  public:
   CellGrid() = default;
@@ -44,7 +43,7 @@ class CellGrid {
     return std::span(items_).subspan(first_[cell], first_[cell + 1] - first_[cell]);
   }
 
-  /// The things in the cell of a point; none where it lies outside.
+  /// Items of the cell that holds the point; none outside the grid.
   std::span<const std::uint32_t> at(const Vec2& point) const {
     const double x = (point.x() - lower_left_.x()) / cell_m_;
     const double y = (point.y() - lower_left_.y()) / cell_m_;
@@ -53,17 +52,17 @@ class CellGrid {
     return in_cell(static_cast<std::size_t>(x), static_cast<std::size_t>(y));
   }
 
-  /// Fills `found` with the things that may touch this one, ascending, each once.
+  /// Fills `found` with the items that may touch `extent`, ascending, each once.
   void collect(const Extent& extent, std::vector<std::uint32_t>& found) const;
 
-  /// Calls visit(things of the cell, way to where the ray leaves it) for one cell after another
-  /// along a ray, until that returns false or the ray is `reach_m` long.
+  /// Calls visit(items of the cell, distance at which the ray leaves it) for the cells along a ray,
+  /// until visit returns false or the ray is `max_range_m` long.
   template <typename Visitor>
-  void walk(const Vec2& origin, const Vec2& ray, double reach_m, Visitor&& visit) const {
-    Walk w = begin_walk(origin, ray, reach_m);
+  void walk(const Vec2& origin, const Vec2& ray, double max_range_m, Visitor&& visit) const {
+    Walk w = begin_walk(origin, ray, max_range_m);
     while (w.inside) {
       if (!visit(in_cell(w.column, w.row), std::min(w.next_x_m, w.next_y_m))) return;
-      step(w, reach_m);
+      step(w, max_range_m);
     }
   }
 
@@ -74,14 +73,14 @@ class CellGrid {
     std::size_t row = 0;
     int step_x = 0;
     int step_y = 0;
-    double next_x_m = 0;  ///< way to the next border between columns
+    double next_x_m = 0;  ///< distance along the ray to the next column border
     double next_y_m = 0;
-    double column_m = 0;  ///< way from one such border to the next
+    double column_m = 0;  ///< distance along the ray between column borders
     double row_m = 0;
   };
-  Walk begin_walk(const Vec2& origin, const Vec2& ray, double reach_m) const;
-  void step(Walk& w, double reach_m) const;
-  /// False where the things would take more room than `limit`.
+  Walk begin_walk(const Vec2& origin, const Vec2& ray, double max_range_m) const;
+  void step(Walk& w, double max_range_m) const;
+  /// False where the entries would exceed `limit`.
   bool fill(std::span<const Extent> extents, std::size_t limit);
 
   std::size_t column_of(double x_m) const { return index_of(x_m - lower_left_.x(), columns_); }
@@ -98,7 +97,7 @@ class CellGrid {
   double cell_m_ = 1;
   std::size_t columns_ = 0;
   std::size_t rows_ = 0;
-  std::vector<std::uint32_t> first_;  ///< of each cell: where its things begin in items_
+  std::vector<std::uint32_t> first_;  ///< of each cell: its first entry in items_
   std::vector<std::uint32_t> items_;
 };
 

@@ -9,17 +9,17 @@
 namespace cornerd::core {
 namespace {
 
-/// Ends of faces that came from clipping agree to a few rounding errors; this holds them together.
+/// Ends of clipped faces agree to a few rounding errors.
 constexpr double kSamePoint_m = 5e-6;
 constexpr double kStraight_rad = radians(1);
 
-/// A face that leaves a vertex, and on which side of it the space is free.
+/// A face that leaves a vertex, and the side of its free space.
 struct Arm {
   double angle_rad = 0;
   bool free_on_left = false;
 };
 
-/// Cells of a grid over the plane, for finding what is near without comparing all with all.
+/// A hash grid for finding neighbours of a point.
 class Grid {
  public:
   explicit Grid(double cell_m) : cell_m_(cell_m) {}
@@ -47,8 +47,8 @@ class Grid {
   std::unordered_map<std::uint64_t, std::vector<std::size_t>> cells_;
 };
 
-/// The ends of all faces and the crossings of line walls, each place once.
-std::vector<Vec2> vertices_of(std::span<const Face> faces, const CellGrid& faces_by_place) {
+/// The ends of all faces and the crossings of line walls, each point once.
+std::vector<Vec2> vertices_of(std::span<const Face> faces, const CellGrid& grid_of_faces) {
   std::vector<Vec2> vertices;
   Grid grid(1e-3);
   const auto add = [&](const Vec2& point) {
@@ -67,7 +67,7 @@ std::vector<Vec2> vertices_of(std::span<const Face> faces, const CellGrid& faces
   std::vector<std::uint32_t> near;
   for (std::uint32_t i = 0; i < faces.size(); ++i) {
     const Face& a = faces[i];
-    faces_by_place.collect(Extent::of_segment(a.from, a.to, 0), near);
+    grid_of_faces.collect(Extent::of_segment(a.from, a.to, 0), near);
     for (const std::uint32_t j : near) {
       if (j <= i) continue;
       const Face& b = faces[j];
@@ -92,8 +92,8 @@ void add_arms(const Face& face, const Vec2& vertex, std::vector<Arm>& arms) {
   if (along > kSamePoint_m) arms.push_back({normalize_angle(angle + kPi), false});
 }
 
-/// Every stretch of free space around the vertex, counter-clockwise from the arm where it begins to
-/// the arm where it ends.
+/// One corner per sector of free space around the vertex, counter-clockwise from the arm where it
+/// begins to the arm where it ends.
 void add_corners(const Vec2& vertex, std::span<const Arm> arms, std::vector<Corner>& corners) {
   for (const Arm& begin : arms) {
     if (!begin.free_on_left) continue;

@@ -9,7 +9,7 @@
 namespace cornerd::core {
 namespace {
 
-/// A piece of an edge, as shares of its length.
+/// Part of an edge, as shares of its length.
 struct Interval {
   double begin = 0;
   double end = 1;
@@ -40,11 +40,13 @@ std::vector<Edge> edges_of(const WallBox& box, std::size_t index) {
   const Vec2 c = box.centre + u + v;
   const Vec2 d = box.centre - u + v;
   if (box.is_line()) return {{a, b, index}, {b, a, index}};
-  return {
-      {b, a, index}, {c, b, index}, {d, c, index}, {a, d, index}};  // clockwise: free on the left
+  return {{b, a, index},
+          {c, b, index},
+          {d, c, index},
+          {a, d, index}};  // clockwise: free space on the left
 }
 
-/// Cuts [begin, end] down to where start + t * slope lies in [-limit, limit].
+/// Clips [begin, end] to where start + t * slope lies in [-limit, limit].
 bool clip(double start, double slope, double limit, Interval& interval) {
   if (std::abs(slope) < kGeometryEpsilon_m) return std::abs(start) <= limit;
   double t0 = (-limit - start) / slope;
@@ -61,7 +63,7 @@ bool runs_along(double start, double slope, double half_extent) {
          std::abs(std::abs(start) - half_extent) < kGeometryEpsilon_m;
 }
 
-/// The part of `edge` that cannot be seen because of `other`; empty where begin >= end.
+/// The part of `edge` that `other` covers; empty where begin >= end.
 Interval hidden_by(const Edge& edge, const WallBox& own, const WallBox& other,
                    std::size_t other_index) {
   constexpr Interval kNothing{0, 0};
@@ -80,8 +82,8 @@ Interval hidden_by(const Edge& edge, const WallBox& own, const WallBox& other,
   const bool along_length = runs_along(a.y(), d.y(), other.half_width_m);
   const bool along_width = runs_along(a.x(), d.x(), other.half_length_m);
   if (along_length || along_width) {
-    // On the other's surface. Turned the same way it is one surface, kept once; turned against each
-    // other the two walls touch and nothing can be seen between them.
+    // On the other's surface. With equal normals it is one surface, kept once; with opposite
+    // normals the two walls touch and nothing is visible between them.
     const Vec2 normal = rotate_left(d);
     const bool same_way = along_length ? normal.y() * a.y() > 0 : normal.x() * a.x() > 0;
     return same_way && other_index > edge.box ? kNothing : inside;
@@ -89,7 +91,7 @@ Interval hidden_by(const Edge& edge, const WallBox& own, const WallBox& other,
   return inside;
 }
 
-/// What is left of [0, 1] without the given pieces, which may overlap.
+/// [0, 1] without the given intervals, which may overlap.
 std::vector<Interval> remaining(std::vector<Interval> hidden) {
   std::sort(hidden.begin(), hidden.end(),
             [](const Interval& a, const Interval& b) { return a.begin < b.begin; });
@@ -103,13 +105,13 @@ std::vector<Interval> remaining(std::vector<Interval> hidden) {
   return left;
 }
 
-/// Cheap, and true for a few that do not touch.
+/// A cheap bounding-circle test: no false negatives.
 bool may_touch(const WallBox& a, const WallBox& b) {
   const double reach = a.half_length_m + a.half_width_m + b.half_length_m + b.half_width_m;
   return (a.centre - b.centre).squaredNorm() <= (reach + 1e-3) * (reach + 1e-3);
 }
 
-/// Joins faces that continue each other straight, so that a wall drawn in pieces is one wall.
+/// Joins collinear faces that continue each other: a wall drawn in pieces is one wall.
 std::vector<Face> join_straight(std::vector<Face> faces) {
   const auto line_order = [](const Face& a, const Face& b) {
     const auto key = [](const Face& f) {
@@ -143,10 +145,10 @@ std::vector<Face> join_straight(std::vector<Face> faces) {
 }  // namespace
 
 WallBox::WallBox(const Wall& wall) {
-  const Vec2 way = wall.to - wall.from;
-  const double length = way.norm();
+  const Vec2 displacement = wall.to - wall.from;
+  const double length = displacement.norm();
   centre = (wall.from + wall.to) / 2;
-  if (length > 0) along = way / length;
+  if (length > 0) along = displacement / length;
   half_width_m = wall.thickness_m / 2;
   half_length_m = length / 2 + half_width_m;
 }

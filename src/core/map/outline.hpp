@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// From walls as people draw them to the surfaces that a lidar sees.
+// From drawn walls to the surfaces that a lidar sees.
 #pragma once
 
 #include <span>
@@ -9,11 +9,11 @@
 
 namespace cornerd::core {
 
-/// Points closer than this are one point, lines closer than this are one line. Far below what a
-/// lidar can tell, far above the rounding of coordinates of a kilometre.
+/// Tolerance for equal points and lines: far below a lidar's resolution, far above the rounding of
+/// coordinates of a kilometre.
 inline constexpr double kGeometryEpsilon_m = 1e-6;
 
-/// Where one wall stands: a box around its centre line. half_width_m is 0 for a line wall.
+/// Footprint of a wall: a box around its centre line. half_width_m is 0 for a line wall.
 struct WallBox {
   Vec2 centre = Vec2::Zero();
   Vec2 along = Vec2::UnitX();  ///< unit vector
@@ -26,11 +26,11 @@ struct WallBox {
   Extent extent() const;
 };
 
-/// The surface of the union of all walls: what lies inside another wall is left out, what two walls
-/// share is there once, what continues straight is one face.
+/// The surface of the union of all walls. Parts inside another wall are removed, shared parts kept
+/// once, collinear parts joined.
 std::vector<Face> outline_of(std::span<const WallBox> boxes);
 
-/// Every place where the free space opens by another angle than pi.
+/// Every vertex where the free space opens by another angle than pi.
 std::vector<Corner> corners_of(std::span<const Face> faces);
 
 }  // namespace cornerd::core

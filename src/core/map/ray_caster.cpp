@@ -7,7 +7,7 @@
 namespace cornerd::core {
 namespace {
 
-/// More than any error of a range, and than a place may be off.
+/// Larger than any range error and any pose error of a hypothesis.
 constexpr double kBeyond_m = 1;
 
 /// First ray at or after the bearing.
@@ -30,7 +30,7 @@ void RayCaster::cover(std::uint32_t face, const Vec2& normal_lidar, double heigh
     const double approach =
         -(normal_lidar.x() * points[i].ray_x + normal_lidar.y() * points[i].ray_y);
     PredictedHit& hit = hits_[i];
-    // height / approach < range, without the division where the face is not the nearest.
+    // height / approach < range, without a division where the face is not the nearest.
     if (approach <= 0 || height_m > hit.range_m * approach) continue;
     hit.range_m = height_m / approach;
     hit.face = face;
@@ -50,29 +50,30 @@ std::span<const PredictedHit> RayCaster::cast_near(const WallMap& map, const Pos
 }
 
 std::span<const PredictedHit> RayCaster::cast(const WallMap& map, const Pose2& T_map_lidar,
-                                              std::span<const PolarPoint> points, double reach_m) {
-  hits_.assign(points.size(), {reach_m, PredictedHit::kNone});
+                                              std::span<const PolarPoint> points,
+                                              double max_range_m) {
+  hits_.assign(points.size(), {max_range_m, PredictedHit::kNone});
   const double c = std::cos(T_map_lidar.theta_rad);
   const double s = std::sin(T_map_lidar.theta_rad);
   const Vec2 origin = T_map_lidar.translation();
   const auto to_lidar = [&](const Vec2& v) {
     return Vec2(c * v.x() + s * v.y(), -s * v.x() + c * v.y());
   };
-  sight_.look(map, origin, reach_m, [&](std::uint32_t i, const FaceInSight& seen) {
-    const Vec2 from = to_lidar(seen.from);
-    const Vec2 to = to_lidar(seen.to);
+  visible_faces_.find(map, origin, max_range_m, [&](std::uint32_t i, const VisibleFace& visible) {
+    const Vec2 from = to_lidar(visible.from);
+    const Vec2 to = to_lidar(visible.to);
     const Vec2 normal = to_lidar(map.faces()[i].normal);
-    // Seen from its free side a face runs counter-clockwise from `from` to `to`, over less than pi:
-    // where the bearing falls on the way, it crosses the seam.
+    // Seen from its free side a face runs counter-clockwise from `from` to `to`, over less than pi.
+    // A falling bearing means that it crosses the seam.
     const double from_rad = std::atan2(from.y(), from.x());
     const double to_rad = std::atan2(to.y(), to.x());
     const std::size_t begin = first_at(points, from_rad);
     const std::size_t end = first_at(points, to_rad);
     if (from_rad <= to_rad) {
-      cover(i, normal, seen.height_m, begin, end, points);
+      cover(i, normal, visible.height_m, begin, end, points);
     } else {
-      cover(i, normal, seen.height_m, begin, points.size(), points);
-      cover(i, normal, seen.height_m, 0, end, points);
+      cover(i, normal, visible.height_m, begin, points.size(), points);
+      cover(i, normal, visible.height_m, 0, end, points);
     }
   });
   for (PredictedHit& hit : hits_) {

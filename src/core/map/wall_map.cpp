@@ -24,7 +24,7 @@ void check(const Wall& wall, std::size_t index) {
   }
 }
 
-/// Even-odd rule: counts the polygon's sides that cross the way from the point to the right.
+/// Even-odd rule: counts the sides that a ray to the right crosses.
 bool contains(const std::vector<Vec2>& polygon, const Vec2& point) {
   bool inside = false;
   for (std::size_t i = 0, j = polygon.size() - 1; i < polygon.size(); j = i++) {

@@ -17,7 +17,7 @@ double counted(double way_m, double radius_m, double dead_band_rad) {
 
 }  // namespace
 
-double heading_change(const MotionStep& step, const DriveGeometry& geometry,
+double heading_change(const OdometryIncrement& step, const DriveGeometry& geometry,
                       const DeadReckoningConfig& config) {
   const double radius_m = geometry.wheel_radius_m;
   const double left_m = counted(step.left_m, radius_m, config.factors.dead_band_rad);
@@ -45,7 +45,7 @@ double heading_change(const MotionStep& step, const DriveGeometry& geometry,
   return unless_small(change_rad, config.factors.dead_band_rad);
 }
 
-MotionStep by_wheels_alone(const MotionStep& step, const DriveGeometry& geometry,
+OdometryIncrement by_wheels_alone(const OdometryIncrement& step, const DriveGeometry& geometry,
                            const DeadReckoningConfig& config) {
   const double radius_m = geometry.wheel_radius_m;
   const double dead_band_rad = config.factors.dead_band_rad;
@@ -53,17 +53,17 @@ MotionStep by_wheels_alone(const MotionStep& step, const DriveGeometry& geometry
                         counted(step.right_m, radius_m, dead_band_rad)) /
                        2;
   const double half_m = heading_change(step, geometry, config) * geometry.track_m / 2;
-  MotionStep alone = step;
+  OdometryIncrement alone = step;
   alone.left_m = way_m - half_m;
   alone.right_m = way_m + half_m;
   alone.has_gyro = false;
   return alone;
 }
 
-const Pose2& DeadReckoning::add(const MotionStep& step) {
-  const MotionStep alone = by_wheels_alone(step, geometry_, config_);
+const Pose2& DeadReckoning::add(const OdometryIncrement& step) {
+  const OdometryIncrement alone = by_wheels_alone(step, geometry_, config_);
   T_start_base_ =
-      T_start_base_ * arc(alone.way_m(), (alone.right_m - alone.left_m) / geometry_.track_m);
+      T_start_base_ * arc(alone.translation_m(), (alone.right_m - alone.left_m) / geometry_.track_m);
   return T_start_base_;
 }
 

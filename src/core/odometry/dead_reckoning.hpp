@@ -2,7 +2,7 @@
 // Bertocco, Oliveira, Santos: Odometry and Feature Extraction (2019), section III.
 #pragma once
 
-#include "core/odometry/motion_step.hpp"
+#include "core/odometry/odometry_increment.hpp"
 #include "core/odometry/odometry_config.hpp"
 
 namespace cornerd::core {
@@ -14,12 +14,12 @@ struct DeadReckoningConfig {
 
 /// The change of heading in a step, by the paper's modes: encoders alone, gyro alone, equation 4,
 /// equation 5. Without a gyro all of them take the encoders.
-double heading_change(const MotionStep& step, const DriveGeometry& geometry,
+double heading_change(const OdometryIncrement& step, const DriveGeometry& geometry,
                       const DeadReckoningConfig& config);
 
 /// The same step as wheels without a gyro would have to tell it: the filter's way to use a mode of
 /// the paper.
-MotionStep by_wheels_alone(const MotionStep& step, const DriveGeometry& geometry,
+OdometryIncrement by_wheels_alone(const OdometryIncrement& step, const DriveGeometry& geometry,
                            const DeadReckoningConfig& config);
 
 /// Adds up steps from a known start. Nothing corrects it.
@@ -29,7 +29,7 @@ class DeadReckoning {
                 const Pose2& start = {})
       : geometry_(geometry), config_(config), T_start_base_(start) {}
 
-  const Pose2& add(const MotionStep& step);
+  const Pose2& add(const OdometryIncrement& step);
   const Pose2& pose() const { return T_start_base_; }
 
  private:

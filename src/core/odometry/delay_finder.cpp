@@ -12,7 +12,7 @@
 namespace cornerd::core {
 namespace {
 
-/// A turn that was straightened by readings of another time is off by more than it says.
+/// A turn that was deskewed by readings of another time is off by more than it says.
 constexpr double kFix_m = 0.005;
 constexpr double kFix_rad = 0.008;
 /// Scales that have yet to be learned.
@@ -101,7 +101,7 @@ std::optional<double> DelayFinder::instead_of(double late_s) const {
   if (pairs_ < kFewestPairs || least > kUnexplained * pairs_) return std::nullopt;
   if (best == 0 || best == kDelays - 1) return std::nullopt;
   const double found_s =
-      delay_s(best) + kStep_s * least_of_parabola(cost_[best - 1] - least, cost_[best + 1] - least);
+      delay_s(best) + kStep_s * parabola_minimum(cost_[best - 1] - least, cost_[best + 1] - least);
   if (std::abs(found_s - late_s) < kStep_s || cost_of(late_s) < least + kAgainst) {
     return std::nullopt;
   }

@@ -7,7 +7,7 @@
 
 #include "core/geometry/squared.hpp"
 #include "core/odometry/fusion_prediction.hpp"
-#include "core/odometry/learned_motion.hpp"
+#include "core/odometry/corrected_increment.hpp"
 
 namespace cornerd::core {
 namespace {
@@ -24,10 +24,10 @@ constexpr double kCreeps = 9;
 
 FusionFilter::FusionFilter(const OdometryConfig& config)
     : geometry_(config.geometry), noise_(config.noise), learning_(config.geometry) {
-  start_from(config.start);
+  start_from(config.initial);
 }
 
-void FusionFilter::start_from(const LearnedOdometry& start) {
+void FusionFilter::start_from(const OdometryParameters& start) {
   pulls_ = {};
   state_.setZero();
   state_[kBias] = start.gyro_bias_rad_s;
@@ -43,13 +43,13 @@ void FusionFilter::start_from(const LearnedOdometry& start) {
   covariance_(kTrack, kTrack) = squared(noise_.track_scale);
   covariance_(kGyro, kGyro) = squared(noise_.gyro_scale);
   covariance_(kDelay, kDelay) = squared(noise_.delay_s);
-  covariance_(kLeftRest, kLeftRest) = covariance_(kRightRest, kRightRest) = geometry_.rest_m2();
+  covariance_(kLeftRest, kLeftRest) = covariance_(kRightRest, kRightRest) = geometry_.quantization_variance();
   learning_ = NoiseLearning(geometry_);
   usual_.forget();
 }
 
-void FusionFilter::predict(const MotionStep& step) {
-  if (step.is_hole) return predict_hole(step);
+void FusionFilter::predict(const OdometryIncrement& step) {
+  if (step.is_gap) return predict_hole(step);
   Prediction p = by_wheels(step);
   if (step.has_gyro && p.dt_s > 0) {
     compare_with_gyro(p);
@@ -60,7 +60,7 @@ void FusionFilter::predict(const MotionStep& step) {
   move_on(p);
 }
 
-FusionFilter::Prediction FusionFilter::by_wheels(const MotionStep& step) const {
+FusionFilter::Prediction FusionFilter::by_wheels(const OdometryIncrement& step) const {
   Prediction p{.step = step};
   p.dt_s = step.duration_s();
   p.track_m = geometry_.track_m * (1 + state_[kTrack]);
@@ -74,8 +74,8 @@ FusionFilter::Prediction FusionFilter::by_wheels(const MotionStep& step) const {
 
   // A count stands for a stretch, and where in it a wheel has come to is new with every step: what
   // one step leaves out the next one has too much, however many there are.
-  p.moved = learned_motion(step, geometry_, learned());
-  const double rest_m2 = geometry_.rest_m2();
+  p.moved = corrected_increment(step, geometry_, learned());
+  const double quantization_variance = geometry_.quantization_variance();
   const double wheel_factor = learning_.wheel_factor();
   const double wheel_m = squared(noise_.wheel_m_per_sqrt_m) * wheel_factor;
   const double scrub_rad = squared(kScrub_rad_per_sqrt_rad) * wheel_factor;
@@ -85,16 +85,16 @@ FusionFilter::Prediction FusionFilter::by_wheels(const MotionStep& step) const {
                         scrub_rad * std::abs(p.moved.wheel_rotation_rad);
   p.told_rad2 = p.rotation_variance / wheel_factor;
   if (p.rolls) {
-    p.left_m2 += rest_m2;
-    p.right_m2 += rest_m2;
-    p.rotation_variance += 2 * rest_m2 / squared(p.track_m);
-    p.moved.way_m -= (state_[kLeftRest] + state_[kRightRest]) / 2;
+    p.left_m2 += quantization_variance;
+    p.right_m2 += quantization_variance;
+    p.rotation_variance += 2 * quantization_variance / squared(p.track_m);
+    p.moved.translation_m -= (state_[kLeftRest] + state_[kRightRest]) / 2;
     p.moved.wheel_rotation_rad -= (state_[kRightRest] - state_[kLeftRest]) / p.track_m;
     p.old_rests_rad2 = (covariance_(kLeftRest, kLeftRest) + covariance_(kRightRest, kRightRest) -
                         2 * covariance_(kLeftRest, kRightRest)) /
                        squared(p.track_m);
   }
-  p.turn_by = turn_slope(p.moved.way_m, p.moved.wheel_rotation_rad, p.rolls);
+  p.turn_by = turn_slope(p.moved.translation_m, p.moved.wheel_rotation_rad, p.rolls);
   p.usual_by = p.seen_by = seen_slope(p.turn_by, p.moved.wheel_rotation_rad, p.dt_s);
   p.surprise_rad = step.gyro_rad - p.gyro_gain * p.moved.wheel_rotation_rad - p.bias_rad;
   p.course_rad = state_[kTheta] + p.moved.wheel_rotation_rad / 2;
@@ -102,7 +102,7 @@ FusionFilter::Prediction FusionFilter::by_wheels(const MotionStep& step) const {
 }
 
 void FusionFilter::move_on(const Prediction& p) {
-  const MotionStep& step = p.step;
+  const OdometryIncrement& step = p.step;
   Row way_by = Row::Zero();
   way_by[kLeft] = step.left_m / 2;
   way_by[kRight] = step.right_m / 2;
@@ -112,9 +112,9 @@ void FusionFilter::move_on(const Prediction& p) {
   const double c = std::cos(p.course_rad);
   const double s = std::sin(p.course_rad);
   Eigen::Matrix<double, 3, kSize> transition = Eigen::Matrix<double, 3, kSize>::Identity();
-  transition(kX, kTheta) = -p.moved.way_m * s;
-  transition(kY, kTheta) = p.moved.way_m * c;
-  const double aside_m = p.follows * p.moved.way_m / 2;
+  transition(kX, kTheta) = -p.moved.translation_m * s;
+  transition(kY, kTheta) = p.moved.translation_m * c;
+  const double aside_m = p.follows * p.moved.translation_m / 2;
   transition.row(kX) += c * way_by - aside_m * s * p.turn_by;
   transition.row(kY) += s * way_by + aside_m * c * p.turn_by;
   transition.row(kTheta) += p.turn_by;
@@ -145,14 +145,14 @@ void FusionFilter::move_on(const Prediction& p) {
   covariance_.leftCols<3>() = with_pose.transpose();
   covariance_.topLeftCorner<3, 3>() = with_pose * transition.transpose() + noise;
   if (p.rolls) {
-    const double rest_m2 = geometry_.rest_m2();
+    const double quantization_variance = geometry_.quantization_variance();
     Eigen::Matrix<double, kSize, 2> with_rests = Eigen::Matrix<double, kSize, 2>::Zero();
     with_rests.topRows<3>() << by_way / 2 - by_turn / p.track_m, by_way / 2 + by_turn / p.track_m;
     with_rests.middleRows<2>(kLeftRest).setIdentity();
-    with_rests *= rest_m2;
+    with_rests *= quantization_variance;
     covariance_.middleCols<2>(kLeftRest) = with_rests;
     covariance_.middleRows<2>(kLeftRest) = with_rests.transpose();
-    const double seen_m2 = p.gyro_gain / p.track_m * rest_m2;
+    const double seen_m2 = p.gyro_gain / p.track_m * quantization_variance;
     with_seen.segment<2>(kLeftRest) << -seen_m2, seen_m2;
     with_usual.segment<2>(kLeftRest) = with_seen.segment<2>(kLeftRest);
   }
@@ -161,8 +161,8 @@ void FusionFilter::move_on(const Prediction& p) {
   for (const int scale : {kLeft, kRight, kTrack, kGyro}) {
     covariance_(scale, scale) += squared(noise_.scale_per_sqrt_s) * p.dt_s;
   }
-  state_[kX] += p.moved.way_m * c;
-  state_[kY] += p.moved.way_m * s;
+  state_[kX] += p.moved.translation_m * c;
+  state_[kY] += p.moved.translation_m * s;
   state_[kTheta] += p.moved.wheel_rotation_rad;
   since_fix_.rolled_m += (std::abs(p.moved.left_m) + std::abs(p.moved.right_m)) / 2;
   since_fix_.rotated_rad += std::abs(p.moved.wheel_rotation_rad);
@@ -196,7 +196,7 @@ double FusionFilter::variance_along(const Row& slope) const {
   return (slope * covariance_ * slope.transpose()).value();
 }
 
-void FusionFilter::predict_hole(const MotionStep& step) {
+void FusionFilter::predict_hole(const OdometryIncrement& step) {
   learning_.interrupt();
   usual_.forget();
   doubt_times();

@@ -8,7 +8,7 @@
 #include <Eigen/Core>
 
 #include "core/odometry/jitter_meter.hpp"
-#include "core/odometry/motion_step.hpp"
+#include "core/odometry/odometry_increment.hpp"
 #include "core/odometry/noise_learning.hpp"
 #include "core/odometry/odometry_config.hpp"
 #include "core/odometry/pull_watch.hpp"
@@ -17,7 +17,7 @@
 
 namespace cornerd::core {
 
-/// An extended Kalman filter over the pose of `base` in `map` and LearnedOdometry. Wheels move it,
+/// An extended Kalman filter over the pose of `base` in `map` and OdometryParameters. Wheels move it,
 /// the gyro corrects the turn of each step, the lidar's fixes correct all of it. The pose is that
 /// of a reading's time; a fix is of the lidar's, which is the same less the delay, and what the
 /// delay is off by shows in fixes as the way that the robot makes meanwhile. Fixed size, no
@@ -45,7 +45,7 @@ class FusionFilter {
   explicit FusionFilter(const OdometryConfig& config);
 
   /// Moves the pose on by what wheels and gyro did.
-  void predict(const MotionStep& step);
+  void predict(const OdometryIncrement& step);
 
   /// How fast `base` moves now: what makes an unknown delay an unknown place.
   void set_velocity(double speed_m_s, double rate_rad_s);
@@ -57,7 +57,7 @@ class FusionFilter {
   void doubt_times();
 
   /// Forgets what was learned, and the pose: begins with these as at first.
-  void start_from(const LearnedOdometry& start);
+  void start_from(const OdometryParameters& start);
 
   /// Forgets the pose alone, and takes this one; what was learned stays.
   void set_pose(const Pose2& T_map_base, const Covariance3& covariance);
@@ -86,12 +86,12 @@ class FusionFilter {
   /// Of the pose as the lidar sees it: with what the delay is off by, and more of that than the
   /// filter knows of.
   Covariance3 pose_covariance(double more_delay_s2 = 0) const;
-  LearnedOdometry learned() const;
+  OdometryParameters learned() const;
   const Vector& state() const { return state_; }
   const Matrix& covariance() const { return covariance_; }
 
   /// The turn of `base` in a step by what is known now, and the way.
-  Pose2 motion_of(const MotionStep& step) const;
+  Pose2 motion_of(const OdometryIncrement& step) const;
 
   /// Steps in which the wheels' turn could not be the gyro's: slip, or a frozen encoder.
   std::uint64_t slips() const { return slips_; }
@@ -116,7 +116,7 @@ class FusionFilter {
   using Row = Eigen::RowVector<double, kSize>;
   struct Prediction;
   // The steps of predict().
-  Prediction by_wheels(const MotionStep& step) const;
+  Prediction by_wheels(const OdometryIncrement& step) const;
   void expect_of_gyro(Prediction& p) const;
   void compare_with_gyro(Prediction& p);
   void move_on(const Prediction& p);
@@ -128,7 +128,7 @@ class FusionFilter {
   Eigen::Vector3d velocity() const;
   /// The covariance of the pose as the lidar sees it with the state.
   Eigen::Matrix<double, 3, kSize> seen_with_state() const;
-  void predict_hole(const MotionStep& step);
+  void predict_hole(const OdometryIncrement& step);
   /// Doubts anew what the fixes pull to one side. `root`: of the surprise's covariance.
   void watch_pulls(const Eigen::LLT<Eigen::Matrix3d>& root, const Eigen::Vector3d& surprise);
   void keep_in_bounds();

@@ -9,7 +9,7 @@
 
 #include "core/geometry/squared.hpp"
 #include "core/odometry/fusion_filter.hpp"
-#include "core/odometry/learned_motion.hpp"
+#include "core/odometry/corrected_increment.hpp"
 
 namespace cornerd::core {
 namespace {
@@ -19,7 +19,7 @@ constexpr double kStranger = 30.7;
 /// Nothing that is built is farther from what it was built to be.
 constexpr double kMostScale = 0.5;
 constexpr double kMostBias_rad_s = 0.5;
-constexpr double kMostDelay_s = 0.2;
+constexpr double kMaxDelay_s = 0.2;
 /// What changed in a drive is doubted by this share of what it was at first; where that is not
 /// enough, again. A delay by less: with much doubt it takes for its own what scales do, and by a
 /// clock that drifts by 100 ppm poses were off by 3 degrees.
@@ -28,9 +28,9 @@ constexpr double kDelayDoubtedAnew = 0.1;
 
 }  // namespace
 
-Pose2 FusionFilter::motion_of(const MotionStep& step) const {
-  const LearnedMotion motion = learned_motion(step, geometry_, learned());
-  return arc(motion.way_m, motion.rotation_rad);
+Pose2 FusionFilter::motion_of(const OdometryIncrement& step) const {
+  const CorrectedIncrement motion = corrected_increment(step, geometry_, learned());
+  return arc(motion.translation_m, motion.rotation_rad);
 }
 
 FusionFilter::Wander FusionFilter::wander_of(const Pose2& way, double duration_s,
@@ -145,7 +145,7 @@ void FusionFilter::watch_pulls(const Eigen::LLT<Eigen::Matrix3d>& root,
   }
 }
 
-LearnedOdometry FusionFilter::learned() const {
+OdometryParameters FusionFilter::learned() const {
   return {state_[kBias],  state_[kLeft], state_[kRight],
           state_[kTrack], state_[kGyro], state_[kDelay]};
 }
@@ -153,7 +153,7 @@ LearnedOdometry FusionFilter::learned() const {
 void FusionFilter::keep_in_bounds() {
   state_[kTheta] = normalize_angle(state_[kTheta]);
   state_[kBias] = std::clamp(state_[kBias], -kMostBias_rad_s, kMostBias_rad_s);
-  state_[kDelay] = std::clamp(state_[kDelay], -kMostDelay_s, kMostDelay_s);
+  state_[kDelay] = std::clamp(state_[kDelay], -kMaxDelay_s, kMaxDelay_s);
   for (const int scale : {kLeft, kRight, kTrack, kGyro}) {
     state_[scale] = std::clamp(state_[scale], -kMostScale, kMostScale);
   }

@@ -3,17 +3,17 @@
 #pragma once
 
 #include "core/odometry/fusion_filter.hpp"
-#include "core/odometry/learned_motion.hpp"
+#include "core/odometry/corrected_increment.hpp"
 
 namespace cornerd::core {
 
 /// What one step goes through.
 struct FusionFilter::Prediction {
-  const MotionStep& step;
+  const OdometryIncrement& step;
   double dt_s = 0;
   double track_m = 0;
   double gyro_gain = 1;
-  LearnedMotion moved{};
+  CorrectedIncrement moved{};
   bool rolls = false;  ///< or stands: then no count has come
   bool slips = false;
 

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "core/geometry/angle.hpp"
-#include "core/odometry/motion_step.hpp"
+#include "core/odometry/odometry_increment.hpp"
 
 namespace cornerd::core {
 
@@ -14,8 +14,8 @@ namespace cornerd::core {
 /// upside down.
 class GyroProof {
  public:
-  void drove(const MotionStep& step) {
-    if (step.is_hole || !step.has_gyro) interrupt();
+  void drove(const OdometryIncrement& step) {
+    if (step.is_gap || !step.has_gyro) interrupt();
     told_rad_ += step.gyro_rad;
     duration_s_ += step.duration_s();
   }

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/odometry/motion_step.hpp"
+#include "core/odometry/odometry_increment.hpp"
 
 namespace cornerd::core {
 

@@ -7,7 +7,7 @@
 namespace cornerd::core {
 namespace {
 
-/// A turn is straightened by the same wheels that its fix is compared with: their noise within the
+/// A turn is deskewed by the same wheels that its fix is compared with: their noise within the
 /// turns at both ends is missing. So many of them make that a small part.
 constexpr int kFewestFixes = 4;
 /// A window is as long as it takes for the noise to stand out among that of the fixes, or so long.
@@ -16,8 +16,8 @@ constexpr double kLongestWindow_s = 4;
 
 }  // namespace
 
-void NoiseLearning::drove(const MotionStep& step, double wheel_rad2, double gyro_rad2, bool slips) {
-  if (step.is_hole) return interrupt();
+void NoiseLearning::drove(const OdometryIncrement& step, double wheel_rad2, double gyro_rad2, bool slips) {
+  if (step.is_gap) return interrupt();
   if (slips) by_wheels_.is_open = false;
   if (!step.has_gyro) by_gyro_.is_open = false;
   for (Window* window : {&by_wheels_, &by_gyro_}) {
@@ -30,7 +30,7 @@ void NoiseLearning::drove(const MotionStep& step, double wheel_rad2, double gyro
   by_gyro_.told_rad2 += gyro_rad2;
 }
 
-void NoiseLearning::fixed(double heading_rad, double variance_rad2, const LearnedOdometry& learned,
+void NoiseLearning::fixed(double heading_rad, double variance_rad2, const OdometryParameters& learned,
                           const Covariance& covariance) {
   const auto is_due = [&](Window& window, double factor) {
     if (++window.fixes < kFewestFixes) return false;
@@ -60,7 +60,7 @@ void NoiseLearning::interrupt() { by_wheels_.is_open = by_gyro_.is_open = false;
 
 void NoiseLearning::close_wheels(double heading_rad, double variance_rad2) {
   const Window& window = by_wheels_;
-  const LearnedOdometry& learned = window.learned;
+  const OdometryParameters& learned = window.learned;
   const double track_m = geometry_.track_m * (1 + learned.track_scale);
   const double left_m = window.left_m * (1 + learned.left_scale);
   const double right_m = window.right_m * (1 + learned.right_scale);
@@ -78,7 +78,7 @@ void NoiseLearning::close_wheels(double heading_rad, double variance_rad2) {
 
 void NoiseLearning::close_gyro(double heading_rad, double variance_rad2) {
   const Window& window = by_gyro_;
-  const LearnedOdometry& learned = window.learned;
+  const OdometryParameters& learned = window.learned;
   const double gain = 1 + learned.gyro_scale;
   const double rotation_rad =
       (window.gyro_rad - learned.gyro_bias_rad_s * window.duration_s) / gain;

@@ -3,7 +3,7 @@
 
 #include <Eigen/Core>
 
-#include "core/odometry/motion_step.hpp"
+#include "core/odometry/odometry_increment.hpp"
 #include "core/odometry/noise_meter.hpp"
 #include "core/odometry/odometry_config.hpp"
 
@@ -13,15 +13,15 @@ namespace cornerd::core {
 /// compared with that of the fixes, as long as slips, holes or a lost place do not come between.
 class NoiseLearning {
  public:
-  /// Of the learned ones, in the order of LearnedOdometry's members.
+  /// Of the learned ones, in the order of OdometryParameters's members.
   using Covariance = Eigen::Matrix<double, 5, 5>;
 
   explicit NoiseLearning(const DriveGeometry& geometry) : geometry_(geometry) {}
 
   /// `wheel_rad2`, `gyro_rad2`: variance of the turn by each as it was told.
-  void drove(const MotionStep& step, double wheel_rad2, double gyro_rad2, bool slips);
+  void drove(const OdometryIncrement& step, double wheel_rad2, double gyro_rad2, bool slips);
   /// The lidar's heading, its variance, and what was known of the robot just before it.
-  void fixed(double heading_rad, double variance_rad2, const LearnedOdometry& learned,
+  void fixed(double heading_rad, double variance_rad2, const OdometryParameters& learned,
              const Covariance& covariance);
   /// The next fix has nothing to do with the last one.
   void interrupt();
@@ -36,7 +36,7 @@ class NoiseLearning {
     bool is_open = false;
     double heading_rad = 0;
     double variance_rad2 = 0;
-    LearnedOdometry learned;
+    OdometryParameters learned;
     Covariance covariance = Covariance::Zero();
     int fixes = 0;
     double left_m = 0;

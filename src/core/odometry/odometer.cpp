@@ -29,8 +29,8 @@ OdometryConfig as_configured(OdometryConfig config) {
 }
 
 /// What of the step is left after what was guessed of it: all counts count once.
-MotionStep less_guess(const MotionStep& step, MotionStep& guessed) {
-  MotionStep rest = step;
+OdometryIncrement less_guess(const OdometryIncrement& step, OdometryIncrement& guessed) {
+  OdometryIncrement rest = step;
   rest.left_m -= guessed.left_m;
   rest.right_m -= guessed.right_m;
   rest.gyro_rad -= guessed.gyro_rad;
@@ -46,21 +46,21 @@ MotionStep less_guess(const MotionStep& step, MotionStep& guessed) {
 
 Odometer::Odometer(const OdometryConfig& config)
     : config_(config), gate_(config), filter_(as_configured(config)), ahead_(filter_) {
-  filter_.believe_gyro(!config.wary);
+  filter_.believe_gyro(!config.conservative);
 }
 
 bool Odometer::add(const OdometryReading& reading, std::optional<TimeNs> now_ns) {
   if (!config_.enabled) return false;
-  std::optional<MotionStep> step = gate_.add(reading, now_ns);
+  std::optional<OdometryIncrement> step = gate_.add(reading, now_ns);
   if (!step) return false;
   if (step->to_ns < step->from_ns) {
     begin_anew(*step);
     return false;
   }
-  if (config_.mode != HeadingSource::kFilter && !step->is_hole) {
+  if (config_.mode != HeadingSource::kFilter && !step->is_gap) {
     *step = by_wheels_alone(*step, config_.geometry, {config_.mode, config_.paper});
   }
-  if (step->is_hole) {
+  if (step->is_gap) {
     path_.clear();
     delays_.interrupt();
   } else {
@@ -77,7 +77,7 @@ bool Odometer::add(const OdometryReading& reading, std::optional<TimeNs> now_ns)
 }
 
 /// What waits is of times that never were, and how far the robot went meanwhile nobody knows.
-void Odometer::begin_anew(const MotionStep& hole) {
+void Odometer::begin_anew(const OdometryIncrement& hole) {
   path_.clear();
   delays_.interrupt();
   gyro_proof_.interrupt();
@@ -91,10 +91,10 @@ void Odometer::begin_anew(const MotionStep& hole) {
   filter_.doubt_times();
 }
 
-void Odometer::consume(const MotionStep& step) {
+void Odometer::consume(const OdometryIncrement& step) {
   // The lidar is well ahead of the readings.
   if (step.to_ns <= step.from_ns) return;
-  const MotionStep rest = less_guess(step, guessed_);
+  const OdometryIncrement rest = less_guess(step, guessed_);
   filter_.predict(rest);
   gyro_proof_.drove(rest);
   last_ = step;
@@ -103,7 +103,7 @@ void Odometer::consume(const MotionStep& step) {
 
 void Odometer::consume_until(TimeNs t_ns) {
   while (size_ > 0) {
-    MotionStep& next = pending_[first_];
+    OdometryIncrement& next = pending_[first_];
     if (next.from_ns >= t_ns) return;
     if (next.to_ns > t_ns) {
       consume(next.split(t_ns));
@@ -118,9 +118,9 @@ void Odometer::consume_until(TimeNs t_ns) {
 void Odometer::guess_until(TimeNs t_ns) {
   const TimeNs longest_ns = MotionPath::kLongestGuess_ns;
   if (size_ > 0 || t_ns <= reached_ns_ || t_ns > last_.to_ns + longest_ns) return;
-  if (last_.is_hole || last_.to_ns <= last_.from_ns) return;
+  if (last_.is_gap || last_.to_ns <= last_.from_ns) return;
   const double share = to_seconds(t_ns - reached_ns_) / last_.duration_s();
-  MotionStep guess = last_;
+  OdometryIncrement guess = last_;
   guess.from_ns = reached_ns_;
   guess.to_ns = t_ns;
   guess.left_m *= share;
@@ -165,7 +165,7 @@ void Odometer::tell_velocity(FusionFilter& filter, TimeNs t_ns) const {
   filter.set_velocity(drives ? velocity.vx_m_s : 0, drives ? velocity.omega_rad_s : 0);
 }
 
-std::optional<PredictedPose> Odometer::ahead() {
+std::optional<PredictedPose> Odometer::predict_latest() {
   if (ahead_is_stale_) {
     ahead_ = filter_;
     ahead_guessed_ = guessed_;
@@ -173,7 +173,7 @@ std::optional<PredictedPose> Odometer::ahead() {
     ahead_is_stale_ = false;
   }
   for (; ahead_by_ < size_; ++ahead_by_) {
-    const MotionStep& step = pending_[(first_ + ahead_by_) % kPending];
+    const OdometryIncrement& step = pending_[(first_ + ahead_by_) % kPending];
     if (step.to_ns > step.from_ns) ahead_.predict(less_guess(step, ahead_guessed_));
   }
   if (size_ == 0) return std::nullopt;
@@ -184,7 +184,7 @@ std::optional<PredictedPose> Odometer::ahead() {
 }
 
 bool Odometer::is_believed() const {
-  const bool lies = config_.wary ? !fix_watch_.is_believed() : fix_watch_.is_contradicted();
+  const bool lies = config_.conservative ? !fix_watch_.is_believed() : fix_watch_.is_contradicted();
   return !lies && !filter_.is_contradictory();
 }
 
@@ -198,18 +198,18 @@ OdometrySummary Odometer::summary() const {
   OdometrySummary summary;
   summary.enabled = config_.enabled;
   summary.present = present_;
-  summary.trusted = present_ && is_believed();
-  summary.learned = filter_.learned();
+  summary.healthy = present_ && is_believed();
+  summary.parameters = filter_.learned();
   const auto sigma = [&](FusionFilter::Index i) { return std::sqrt(filter_.covariance()(i, i)); };
   summary.sigma = {sigma(FusionFilter::kBias),  sigma(FusionFilter::kLeft),
                    sigma(FusionFilter::kRight), sigma(FusionFilter::kTrack),
                    sigma(FusionFilter::kGyro),  sigma(FusionFilter::kDelay)};
   summary.sigma.delay_s =
-      std::hypot(summary.sigma.delay_s, std::sqrt(delay_doubt_s2(summary.learned.delay_s)));
+      std::hypot(summary.sigma.delay_s, std::sqrt(delay_doubt_s2(summary.parameters.delay_s)));
   summary.counters = gate_.counters();
   summary.slips = filter_.slips();
   summary.fixes = fixes_;
-  summary.strangers = strangers_;
+  summary.rejected_fixes = strangers_;
   return summary;
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a localizer asks of odometry: where the robot is by now, and how it moved during a turn.
+// Interface of odometry to the localizer: predicted poses, and deskewing of scans.
 #pragma once
 
 #include <array>
@@ -28,60 +28,61 @@ struct PredictedPose {
   Covariance3 covariance = Covariance3::Zero();
 };
 
-/// For STATUS: what comes in, and what has been learned of the robot.
+/// For STATUS: state of the readings and estimated parameters.
 struct OdometrySummary {
   bool enabled = false;
-  bool present = false;  ///< readings come
-  bool trusted = false;  ///< and agree with the lidar and each other
-  LearnedOdometry learned;
-  LearnedOdometry sigma;  ///< of the learned ones
+  bool present = false;  ///< readings arrive
+  bool healthy = false;  ///< readings are consistent with the lidar and each other
+  OdometryParameters parameters;
+  OdometryParameters sigma;  ///< of `parameters`
   OdometryCounters counters;
   std::uint64_t slips = 0;
-  std::uint64_t fixes = 0;      ///< of the lidar that taught
-  std::uint64_t strangers = 0;  ///< that no motion of the wheels could explain
+  std::uint64_t fixes = 0;           ///< used by the filter
+  std::uint64_t rejected_fixes = 0;  ///< inconsistent with the wheels
 };
 
-/// Readings in, at any rate and of any quality; predictions out. The filter follows the lidar: it
-/// stands at the time of the newest turn, and what came after waits. Allocates nothing after
-/// construction. Not safe for concurrent calls.
+/// Takes readings at any rate and of any quality and predicts poses. The filter stands at the time
+/// of the newest scan; later readings wait. Allocates nothing after construction. Not safe for
+/// concurrent calls.
 class Odometer {
  public:
   explicit Odometer(const OdometryConfig& config);
 
   bool enabled() const { return config_.enabled; }
 
-  /// `now_ns`: see ReadingGate. True where it moved the robot on: ahead() is of its time then.
+  /// `now_ns`: see ReadingGate. True where the reading gave an increment: predict_latest() then
+  /// holds for its time.
   bool add(const OdometryReading& reading, std::optional<TimeNs> now_ns);
 
-  /// Goes on to the middle of a turn that ends at `end_ns`. All that follows is about that time.
+  /// Advances to the middle of a scan that ends at `end_ns`. The calls that follow hold for that
+  /// time.
   void advance(TimeNs start_ns, TimeNs middle_ns, TimeNs end_ns);
 
-  /// The samples of the turn as a lidar that stood still in its middle would have seen them; false
-  /// where the motion is not known, and `still` is not touched.
-  bool straighten(const Scan& turn, const Pose2& T_base_lidar, Scan& still) const;
-  /// True where straighten() can.
-  bool knows_motion() const { return knows_motion_; }
-  /// What it said of this turn is not to be used: the turn shows another motion.
-  void disbelieve_motion();
-  /// What is left of the motion within a straightened turn.
-  Covariance3 doubt_of_motion() const;
+  /// Deskews the scan to the lidar's pose at its middle. False where the motion is unknown; `still`
+  /// is then unchanged.
+  bool deskew(const Scan& turn, const Pose2& T_base_lidar, Scan& still) const;
+  /// True where deskew() succeeds.
+  bool has_motion() const { return knows_motion_; }
+  /// The scan shows another motion than the readings: discard it.
+  void reject_motion();
+  /// Covariance from the motion left in a deskewed scan.
+  Covariance3 deskew_covariance() const;
 
-  /// Where the robot should be; nullopt before the first fix, long after the last one, and where
-  /// wheels and lidar have lately told different stories.
+  /// Predicted pose; nullopt before the first fix, max_extrapolation_s after the last one, and
+  /// while wheels and lidar are inconsistent.
   std::optional<PredictedPose> prediction() const;
 
-  /// That the robot sets out or turns, the readings may not know yet: how late they are no change
-  /// of speed has shown, or they pause.
+  /// True where the readings may miss a motion: their delay is not yet observable, or they pause.
   bool may_miss_motion() const;
 
-  /// The same at the time of the newest reading, for OdometryConfig::publish.
-  std::optional<PredictedPose> ahead();
+  /// The same at the time of the newest reading, for OdometryConfig::publish_predictions.
+  std::optional<PredictedPose> predict_latest();
 
-  /// The lidar's pose for the time reached; teaches.
+  /// Updates the filter by a fix of the lidar at the time reached.
   void correct(const Pose2& T_map_base, const Covariance3& covariance);
-  /// From somebody else, for the time reached; teaches nothing.
+  /// Sets the pose at the time reached; does not update the parameters.
   void set_pose(const Pose2& T_map_base, const Covariance3& covariance);
-  /// Where the robot is is no longer known; what was learned stays.
+  /// Forgets the pose; the parameters stay.
   void forget();
 
   OdometrySummary summary() const;
@@ -94,12 +95,12 @@ class Odometer {
   /// More readings than come in half a turn of the slowest lidar, at 500 a second.
   static constexpr std::size_t kPending = 256;
 
-  void begin_anew(const MotionStep& hole);
+  void begin_anew(const OdometryIncrement& hole);
   /// All that was learned with another delay was learned wrong.
   void learn_anew(double delay_s);
   bool learns_delay() const;
   double delay_doubt_s2(double delay_s) const;
-  void consume(const MotionStep& step);
+  void consume(const OdometryIncrement& step);
   void add_stranger(const Pose2& T_map_base, const Covariance3& covariance);
   /// The covariance of a fix with what it does not know of, as much as fixes lately showed and as
   /// this one needs.
@@ -111,14 +112,14 @@ class Odometer {
   Covariance3 doubt_of_mode(const FusionFilter& filter) const;
   Covariance3 doubt_of_slips(const FusionFilter& filter) const;
   bool doubts_slips() const {
-    return config_.wary && config_.mode == HeadingSource::kFilter && !last_.has_gyro;
+    return config_.conservative && config_.mode == HeadingSource::kFilter && !last_.has_gyro;
   }
   void watch_for_slips(const Pose2& T_map_base, const Covariance3& covariance);
   /// What a robot makes of a time, its variance in s^2, of which no reading tells.
   static Covariance3 doubt_of_change(double unread_s2);
   static Covariance3 doubt_of_guess(TimeNs guessed_ns);
   /// What the filter has moved on beyond the newest reading.
-  TimeNs guessed_ns() const { return config_.wary ? guessed_.to_ns - guessed_.from_ns : 0; }
+  TimeNs guessed_ns() const { return config_.conservative ? guessed_.to_ns - guessed_.from_ns : 0; }
   /// False where wheels, gyro and lidar have lately told different stories.
   bool is_believed() const;
   void tell_velocity(FusionFilter& filter, TimeNs t_ns) const;
@@ -131,17 +132,17 @@ class Odometer {
   MotionPath path_;
   DelayFinder delays_;
 
-  std::array<MotionStep, kPending> pending_;  ///< not yet in the filter; a ring
+  std::array<OdometryIncrement, kPending> pending_;  ///< not yet in the filter; a ring
   std::size_t first_ = 0;
   std::size_t size_ = 0;
-  TimeNs reached_ns_ = 0;  ///< the filter stands here, by the readings' times
-  MotionStep last_;        ///< the newest whole step in the filter, for a guess
-  MotionStep guessed_;     ///< what the filter has taken beyond the newest reading
+  TimeNs reached_ns_ = 0;      ///< the filter stands here, by the readings' times
+  OdometryIncrement last_;     ///< the newest whole step in the filter, for a guess
+  OdometryIncrement guessed_;  ///< what the filter has taken beyond the newest reading
 
-  FusionFilter ahead_;          ///< with what is pending
-  std::size_t ahead_by_ = 0;    ///< steps of what is pending; where it is stale, none
-  MotionStep ahead_guessed_;    ///< as guessed_
-  bool ahead_is_stale_ = true;  ///< the filter has moved since
+  FusionFilter ahead_;               ///< with what is pending
+  std::size_t ahead_by_ = 0;         ///< steps of what is pending; where it is stale, none
+  OdometryIncrement ahead_guessed_;  ///< as guessed_
+  bool ahead_is_stale_ = true;       ///< the filter has moved since
 
   TimeNs start_ns_ = 0;  ///< of the turn
   TimeNs middle_ns_ = 0;

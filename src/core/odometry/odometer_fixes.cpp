@@ -89,8 +89,8 @@ std::optional<PredictedPose> Odometer::prediction() const {
 std::optional<PredictedPose> Odometer::prediction_of(const FusionFilter& filter, TimeNs t_ns,
                                                      TimeNs guessed_ns) const {
   if (!has_pose_ || !present_ || !is_believed() || filter.is_contradictory()) return std::nullopt;
-  if (to_seconds(t_ns - fixed_ns_) > config_.bridge_s) return std::nullopt;
-  if (config_.wary &&
+  if (to_seconds(t_ns - fixed_ns_) > config_.max_extrapolation_s) return std::nullopt;
+  if (config_.conservative &&
       !fix_watch_.carries(filter.way_since_fix_m(), filter.since_fix().rotated_rad)) {
     return std::nullopt;
   }
@@ -132,7 +132,7 @@ void Odometer::correct(const Pose2& T_map_base, const Covariance3& covariance) {
   fixed_ns_ = middle_ns_;
   fixed_heading_rad_ = T_map_base.theta_rad;
   gyro_proof_.fixed(T_map_base.theta_rad);
-  filter_.believe_gyro(!config_.wary || gyro_proof_.holds());
+  filter_.believe_gyro(!config_.conservative || gyro_proof_.holds());
   if (!learns_delay() || filter_.is_contradictory()) return;
   delays_.fixed(middle_ns_, T_map_base, covariance, path_);
   if (const auto delay_s = delays_.instead_of(filter_.learned().delay_s)) learn_anew(*delay_s);
@@ -140,7 +140,7 @@ void Odometer::correct(const Pose2& T_map_base, const Covariance3& covariance) {
 
 double Odometer::delay_doubt_s2(double delay_s) const {
   if (!learns_delay()) return 0;
-  return delays_.doubt_about(delay_s, config_.start.delay_s, kUsualDelay * config_.noise.delay_s);
+  return delays_.doubt_about(delay_s, config_.initial.delay_s, kUsualDelay * config_.noise.delay_s);
 }
 
 bool Odometer::may_miss_motion() const {
@@ -153,7 +153,7 @@ bool Odometer::learns_delay() const {
 }
 
 void Odometer::learn_anew(double delay_s) {
-  LearnedOdometry start = config_.start;
+  OdometryParameters start = config_.initial;
   start.delay_s = delay_s;
   filter_.start_from(start);
   fix_watch_ = {};

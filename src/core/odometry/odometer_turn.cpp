@@ -30,7 +30,7 @@ constexpr TimeNs kSoon_ns = 50'000'000;
 
 }  // namespace
 
-bool Odometer::straighten(const Scan& turn, const Pose2& T_base_lidar, Scan& still) const {
+bool Odometer::deskew(const Scan& turn, const Pose2& T_base_lidar, Scan& still) const {
   if (!knows_motion_) return false;
   // The way from one of these to the next, 2 ms, is straight enough.
   constexpr std::size_t kPieces = 64;
@@ -62,7 +62,7 @@ bool Odometer::straighten(const Scan& turn, const Pose2& T_base_lidar, Scan& sti
   return true;
 }
 
-Covariance3 Odometer::doubt_of_motion() const {
+Covariance3 Odometer::deskew_covariance() const {
   const TimeNs from_ns = start_ns_ + delay_ns_;
   const TimeNs to_ns = end_ns_ + delay_ns_;
   const Pose2 way = path_.at(from_ns).inverse() * path_.at(to_ns);
@@ -75,19 +75,19 @@ Covariance3 Odometer::doubt_of_motion() const {
   const double uneven_m = kUnevenShare * uneven.x_m;
   const double uneven_rad = kUnevenShare * uneven.theta_rad;
   // What the turn's end is guessed to be, nobody has read.
-  const TimeNs unread_ns = config_.wary ? to_ns - path_.newest_ns() - kSoon_ns : 0;
+  const TimeNs unread_ns = config_.conservative ? to_ns - path_.newest_ns() - kSoon_ns : 0;
   const double unread_s = to_seconds(std::max<TimeNs>(0, unread_ns));
   const double unread_by_s =
       kUnreadShare * unread_s * unread_s / to_seconds(std::max<TimeNs>(1, end_ns_ - start_ns_));
-  // Where in its count each wheel is in the middle: what the rest of the turn is straightened to.
+  // Where in its count each wheel is in the middle: what the rest of the turn is deskewed to.
   const DriveGeometry& geometry = config_.geometry;
-  const double lever_m2 = config_.wary ? kLever_m * kLever_m : 0;
-  const double place_m2 = place_m * place_m + uneven_m * uneven_m + geometry.rest_m2() / 2 +
+  const double lever_m2 = config_.conservative ? kLever_m * kLever_m : 0;
+  const double place_m2 = place_m * place_m + uneven_m * uneven_m + geometry.quantization_variance() / 2 +
                           kWanderShare * (wander.place_m2 + lever_m2 * wander.rotation_variance);
   double rotation_variance = rotation_rad * rotation_rad + uneven_rad * uneven_rad +
                              kWanderShare * wander.rotation_variance;
   if (!last_.has_gyro)
-    rotation_variance += 2 * geometry.rest_m2() / (geometry.track_m * geometry.track_m);
+    rotation_variance += 2 * geometry.quantization_variance() / (geometry.track_m * geometry.track_m);
   if (doubts_slips()) {
     const double rolled_m =
         std::max(way.translation().norm(), std::abs(way.theta_rad) * geometry.track_m / 2);
@@ -98,6 +98,6 @@ Covariance3 Odometer::doubt_of_motion() const {
   return doubt;
 }
 
-void Odometer::disbelieve_motion() { knows_motion_ = false; }
+void Odometer::reject_motion() { knows_motion_ = false; }
 
 }  // namespace cornerd::core

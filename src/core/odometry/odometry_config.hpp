@@ -7,61 +7,61 @@
 
 namespace cornerd::core {
 
-/// A robot with two driven wheels, as it was built.
+/// Geometry of a differential drive.
 struct DriveGeometry {
   double wheel_radius_m = 0.0325;
-  double track_m = 0.16;              ///< between the wheels
-  double counts_per_turn = 1440;      ///< of a wheel
-  std::int64_t ceiling = 0xFFFFFFFF;  ///< the highest count; 0 follows. 0: counts never wrap
+  double track_m = 0.16;                  ///< between the wheels
+  double counts_per_turn = 1440;          ///< of a wheel
+  std::int64_t counter_max = 0xFFFFFFFF;  ///< highest count, followed by 0; 0: counts never wrap
 
   double metres_per_count() const { return kTwoPi * wheel_radius_m / counts_per_turn; }
-  /// Variance of where in its count a wheel stands: any place is as likely as another.
-  double rest_m2() const { return metres_per_count() * metres_per_count() / 12; }
+  /// Variance of a wheel's position within a count, m^2: uniform.
+  double quantization_variance() const { return metres_per_count() * metres_per_count() / 12; }
 };
 
-/// What no robot that needs an A1 does, so that a reading that says so is garbage.
+/// Physical limits: a reading beyond them is invalid.
 struct OdometryLimits {
   double wheel_speed_m_s = 3;
-  double gyro_rad_s = 35;  ///< the range of the usual chips, 2,000 degrees a second
-  /// A reading that is farther ahead of the time when it came is one of a wrong clock. Where that
-  /// time is the lidar's newest sample, which may be a slow turn old, it is off by more than this.
+  double gyro_rad_s = 35;  ///< range of common MEMS gyros, 2,000 degrees a second
+  /// Largest lead of a reading's time over its arrival; more means a wrong clock. Where the arrival
+  /// time is that of the lidar's newest sample, it may be a slow revolution old.
   double ahead_s = 2;
 };
 
-/// How far wheels and gyro may be off, as standard deviations. Those of the scales and of the bias
-/// say how well the numbers above are known before the lidar teaches better ones; the first two are
-/// a guess that the lidar's fixes correct (NoiseLearning).
+/// Standard deviations of wheels and gyro. Those of scales and bias are priors of
+/// OdometryParameters; the first two are initial values that the lidar's fixes correct
+/// (NoiseLearning).
 struct OdometryNoise {
-  double wheel_m_per_sqrt_m = 0.0012;  ///< a wheel's way after a metre: its rolling, its slip
+  double wheel_m_per_sqrt_m = 0.0012;  ///< of a wheel's travel after a metre
   double gyro_rad_s_per_sqrt_hz =
-      0.00025;  ///< nearly three times a MEMS gyro's data sheet: it vibrates
+      0.00025;  ///< nearly three times a MEMS gyro's data sheet: the robot vibrates
   double wheel_scale = 0.03;
   double track_scale = 0.05;
   double gyro_scale = 0.03;
   double gyro_bias_rad_s = 0.02;
   double delay_s = 0.01;
-  /// How the learned ones walk away: tyres wear, a gyro warms up.
+  /// Random walks of the parameters: tyres wear, a gyro warms up.
   double scale_per_sqrt_s = 2e-5;
   double bias_rad_s_per_sqrt_s = 5e-5;
   double delay_s_per_sqrt_s = 2e-5;
 };
 
-/// Where a change of heading comes from. The first four are those of Bertocco et al. (2019).
+/// Source of heading changes. The first four are modes of Bertocco et al. (2019).
 enum class HeadingSource : std::uint8_t { kEncoder, kGyro, kMean, kWeighted, kFilter };
 
-/// What the paper's modes multiply and leave out.
+/// Factors of the paper's modes.
 struct PaperFactors {
   double encoder_factor = 1;  ///< c_enco
   double gyro_factor = 1;     ///< c_gyro
-  /// tr: smaller changes of a wheel's angle or of the heading count as none; the paper has 0.01.
+  /// tr: smaller changes of a wheel's angle or of the heading are taken as zero; 0.01 in the paper.
   double dead_band_rad = 0;
 };
 
-/// What is known of the robot itself. A scale is a relative error: the wheel's true way is 1 +
-/// scale times what its counts say, the true track 1 + scale times the configured one, and a gyro
-/// reads 1 + scale times the true rate, plus the bias. What a reading says was true `delay_s`
-/// before the time that it bears, by the clock of the lidar's samples.
-struct LearnedOdometry {
+/// Parameters of the robot. A scale is a relative error: a wheel's true travel is (1 + scale) times
+/// its counts' travel, the true track (1 + scale) times the configured one, and a gyro reads (1 +
+/// scale) times the true rate plus the bias. A reading was true `delay_s` before its time stamp, on
+/// the clock of the lidar's samples.
+struct OdometryParameters {
   double gyro_bias_rad_s = 0;
   double left_scale = 0;
   double right_scale = 0;
@@ -75,16 +75,15 @@ struct OdometryConfig {
   DriveGeometry geometry;
   OdometryLimits limits;
   OdometryNoise noise;
-  LearnedOdometry start;  ///< what learning starts from
+  OdometryParameters initial;  ///< initial estimates
   HeadingSource mode =
-      HeadingSource::kFilter;  ///< the paper's are for comparison: they learn nothing
+      HeadingSource::kFilter;  ///< the paper's modes are for comparison and estimate nothing
   PaperFactors paper;
-  double bridge_s = 10;  ///< a pose is carried on without the lidar for so long
-  /// Turns that were foretold wrong are remembered until others were foretold right, sudden counts
-  /// wait for the next, and what is guessed is doubted. A survey, which judges the drive as a
-  /// whole, does without.
-  bool wary = true;
-  bool publish = false;  ///< a pose for every reading, carried on from the last turn
+  double max_extrapolation_s = 10;  ///< longest time of dead reckoning without the lidar
+  /// Reject predictions after repeated wrong ones, hold back sudden counts, and add uncertainty to
+  /// extrapolation. A survey, which adjusts the drive as a whole, switches this off.
+  bool conservative = true;
+  bool publish_predictions = false;  ///< a predicted pose for every reading
 };
 
 }  // namespace cornerd::core

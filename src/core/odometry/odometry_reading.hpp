@@ -8,8 +8,8 @@
 
 namespace cornerd::core {
 
-/// What the robot's controller says at one time; any of it may be absent. Counts grow when the
-/// robot rolls forward, the rate when it turns to the left.
+/// Sensor values of the robot's controller at one time; any may be absent. Counts grow when the
+/// robot moves forward, the rate is positive to the left.
 struct OdometryReading {
   TimeNs t_ns = 0;
   std::optional<std::int64_t> left;   ///< encoder counts

@@ -50,7 +50,7 @@ constexpr double kSlackCounts = 2;
 
 }  // namespace
 
-std::optional<MotionStep> ReadingGate::add(const OdometryReading& reading,
+std::optional<OdometryIncrement> ReadingGate::add(const OdometryReading& reading,
                                            std::optional<TimeNs> now_ns) {
   ++counters_.readings;
   if (!is_in_time(reading.t_ns, now_ns)) return std::nullopt;
@@ -68,7 +68,7 @@ bool ReadingGate::is_in_time(TimeNs t_ns, std::optional<TimeNs> now_ns) {
     ++counters_.past;
     return false;
   }
-  const std::optional<TimeNs> clock_ns = config_.wary ? now_ns : std::nullopt;
+  const std::optional<TimeNs> clock_ns = config_.conservative ? now_ns : std::nullopt;
   if (last_ns_ && t_ns < *last_ns_) {
     ++counters_.past;
     refused_in_a_row_ = refused_ns_ && t_ns < *refused_ns_ ? 1 : refused_in_a_row_ + 1;
@@ -115,7 +115,7 @@ bool ReadingGate::leaps_ahead(TimeNs t_ns, std::optional<TimeNs> clock_ns) {
         leapt_ns_ && t_ns >= *leapt_ns_ &&
         to_seconds(t_ns - *leapt_ns_) <=
             std::max(longest_s, kSlower * to_seconds(*leapt_ns_ - *last_ns_) / leaps_);
-    if (config_.wary && goes_on && usual_s_ &&
+    if (config_.conservative && goes_on && usual_s_ &&
         to_seconds(t_ns - *leapt_ns_) < kBunched * *usual_s_) {
       ++counters_.past;
       return true;
@@ -142,7 +142,7 @@ bool ReadingGate::leaps_ahead(TimeNs t_ns, std::optional<TimeNs> clock_ns) {
 
 void ReadingGate::add_gyro(TimeNs t_ns, double rate_rad_s) {
   if (!(std::abs(rate_rad_s) <= config_.limits.gyro_rad_s)) {
-    ++counters_.gyro;
+    ++counters_.invalid_rates;
     return;
   }
   if (rate_rad_s != gyro_rad_s_) {
@@ -170,7 +170,7 @@ bool ReadingGate::is_possible(const Counts& from, const Counts& to) const {
                                          to_seconds(to.t_ns - from.t_ns) /
                                          geometry.metres_per_count();
   const auto within = [&](std::int64_t a, std::int64_t b) {
-    return std::abs(static_cast<double>(count_difference(a, b, geometry.ceiling))) <= most;
+    return std::abs(static_cast<double>(count_difference(a, b, geometry.counter_max))) <= most;
   };
   return to.t_ns > from.t_ns && within(from.left, to.left) && within(from.right, to.right);
 }
@@ -183,17 +183,17 @@ bool ReadingGate::is_sudden(const Counts& before, const Counts& from, const Coun
   const double slack_m = 2 * kSlackCounts * geometry.metres_per_count();
   const double most_m = slack_m + dt_s * (kMostChange_m_s + kMostChange_m_s2 * dt_s);
   const auto changes = [&](std::int64_t a, std::int64_t b, std::int64_t c) {
-    const auto earlier = static_cast<double>(count_difference(a, b, geometry.ceiling));
-    const auto later = static_cast<double>(count_difference(b, c, geometry.ceiling));
+    const auto earlier = static_cast<double>(count_difference(a, b, geometry.counter_max));
+    const auto later = static_cast<double>(count_difference(b, c, geometry.counter_max));
     return std::abs(later - earlier * dt_s / before_s) * geometry.metres_per_count() > most_m;
   };
   return changes(before.left, from.left, to.left) || changes(before.right, from.right, to.right);
 }
 
-std::optional<MotionStep> ReadingGate::add_counts(const Counts& counts) {
+std::optional<OdometryIncrement> ReadingGate::add_counts(const Counts& counts) {
   if (!last_) {
     last_ = counts;
-    MotionStep before;
+    OdometryIncrement before;
     take_gyro(before);
     return std::nullopt;
   }
@@ -207,7 +207,7 @@ std::optional<MotionStep> ReadingGate::add_counts(const Counts& counts) {
   }
   const bool is_jump = !is_possible(*last_, counts);
   const bool agrees = doubted_ && is_possible(*doubted_, counts);
-  const bool is_glitch = config_.wary && before_last_ && is_sudden(*before_last_, *last_, counts) &&
+  const bool is_glitch = config_.conservative && before_last_ && is_sudden(*before_last_, *last_, counts) &&
                          !(agrees && !is_sudden(*last_, *doubted_, counts));
   if (is_jump || is_glitch) {
     ++counters_.jumps;
@@ -223,17 +223,17 @@ std::optional<MotionStep> ReadingGate::add_counts(const Counts& counts) {
   if (counts.t_ns - last_->t_ns > kLongestStep_ns) return restart(counts);
 
   before_last_ = last_;
-  MotionStep step = step_between(*last_, counts);
+  OdometryIncrement step = step_between(*last_, counts);
   last_ = counts;
   return step;
 }
 
-std::optional<MotionStep> ReadingGate::restart(const Counts& counts) {
-  ++counters_.holes;
-  MotionStep hole;
+std::optional<OdometryIncrement> ReadingGate::restart(const Counts& counts) {
+  ++counters_.gaps;
+  OdometryIncrement hole;
   hole.from_ns = last_->t_ns;
   hole.to_ns = counts.t_ns;
-  hole.is_hole = true;
+  hole.is_gap = true;
   take_gyro(hole);
   last_ = counts;
   before_last_.reset();
@@ -242,24 +242,24 @@ std::optional<MotionStep> ReadingGate::restart(const Counts& counts) {
   return hole;
 }
 
-MotionStep ReadingGate::step_between(const Counts& from, const Counts& to) {
+OdometryIncrement ReadingGate::step_between(const Counts& from, const Counts& to) {
   const DriveGeometry& geometry = config_.geometry;
   const auto way_m = [&](std::int64_t a, std::int64_t b) {
-    return static_cast<double>(count_difference(a, b, geometry.ceiling)) *
+    return static_cast<double>(count_difference(a, b, geometry.counter_max)) *
            geometry.metres_per_count();
   };
-  MotionStep step;
+  OdometryIncrement step;
   step.from_ns = from.t_ns;
   step.to_ns = to.t_ns;
   step.left_m = way_m(from.left, to.left);
   step.right_m = way_m(from.right, to.right);
   take_gyro(step);
   step.gyro_may_be_stuck = same_rates_ >= kSuspiciousRates;
-  if (step.has_gyro && gyro_is_frozen(step)) step.has_gyro = false;
+  if (step.has_gyro && gyro_is_stuck(step)) step.has_gyro = false;
   return step;
 }
 
-void ReadingGate::take_gyro(MotionStep& step) {
+void ReadingGate::take_gyro(OdometryIncrement& step) {
   const double duration_s = step.duration_s();
   // What is not covered is a small part, or the rate holds on.
   if (gyro_covered_s_ > 0 && gyro_covered_s_ >= kGyroCoverage * duration_s) {
@@ -273,13 +273,13 @@ void ReadingGate::take_gyro(MotionStep& step) {
   gyro_covered_s_ = 0;
 }
 
-bool ReadingGate::gyro_is_frozen(const MotionStep& step) {
+bool ReadingGate::gyro_is_stuck(const OdometryIncrement& step) {
   turned_since_rad_ += (step.right_m - step.left_m) / config_.geometry.track_m - step.gyro_rad;
   // A robot that turns back comes near the stuck rate again: it stays stuck until it changes.
   if (same_rates_ >= kFrozenRates && std::abs(turned_since_rad_) >= kFrozen_rad) {
     gyro_is_stuck_ = true;
   }
-  if (gyro_is_stuck_) ++counters_.frozen;
+  if (gyro_is_stuck_) ++counters_.stuck;
   return gyro_is_stuck_;
 }
 

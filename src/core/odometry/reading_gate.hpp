@@ -4,35 +4,36 @@
 #include <cstdint>
 #include <optional>
 
-#include "core/odometry/motion_step.hpp"
 #include "core/odometry/odometry_config.hpp"
+#include "core/odometry/odometry_increment.hpp"
 #include "core/odometry/odometry_reading.hpp"
 
 namespace cornerd::core {
 
-/// What was refused, by cause.
+/// Rejected readings by cause.
 struct OdometryCounters {
   std::uint64_t readings = 0;
-  std::uint64_t past = 0;      ///< before the last one, long before now, or held back
-  std::uint64_t future = 0;    ///< well after now, or ahead of the readings that followed
-  std::uint64_t jumps = 0;     ///< more counts than a wheel can turn
-  std::uint64_t gyro = 0;      ///< rates that are none
-  std::uint64_t frozen = 0;    ///< rates that stay the same to the bit while the wheels turn
-  std::uint64_t holes = 0;     ///< times of which nothing is known
-  std::uint64_t restarts = 0;  ///< counts or times that went on somewhere else
+  std::uint64_t past = 0;           ///< not after the last reading, long before now, or held back
+  std::uint64_t future = 0;         ///< well after now, or ahead of the readings that followed
+  std::uint64_t jumps = 0;          ///< more counts than a wheel can turn
+  std::uint64_t invalid_rates = 0;  ///< rates that are none
+  std::uint64_t stuck = 0;          ///< rates that stay the same to the bit while the wheels turn
+  std::uint64_t gaps = 0;           ///< times of which nothing is known
+  std::uint64_t restarts = 0;       ///< counts or times that went on somewhere else
 };
 
-/// Makes steps of readings, and refuses what cannot be. One bad reading costs itself alone; counts
-/// or times that stay elsewhere are a controller that was restarted, and are taken as a new start:
-/// a step that is a hole, and ends before it begins where the clock was set back.
-/// Counts and rates may come in the same readings or in different ones. Allocates nothing.
+/// Validates readings and makes odometry increments of them. A bad reading is dropped alone. Counts
+/// or times that stay elsewhere mean a restarted controller: a new start after an increment that is
+/// a gap, which ends before it begins where the clock was set back. Counts and rates may come in
+/// separate readings. Allocates nothing.
 class ReadingGate {
  public:
   explicit ReadingGate(const OdometryConfig& config) : config_(config) {}
 
-  /// The step that ends with this reading, where it ends one. `now_ns`: the time of the newest
-  /// sample of the lidar, to tell the future by; nullopt where there is none yet.
-  std::optional<MotionStep> add(const OdometryReading& reading, std::optional<TimeNs> now_ns);
+  /// The increment that ends with this reading, if one does. `now_ns`: time of the lidar's newest
+  /// sample, to detect readings of the future; nullopt before the first.
+  std::optional<OdometryIncrement> add(const OdometryReading& reading,
+                                       std::optional<TimeNs> now_ns);
 
   const OdometryCounters& counters() const { return counters_; }
 
@@ -49,15 +50,15 @@ class ReadingGate {
   /// `clock_ns`: now, where the lidar's clock is to be compared with.
   bool leaps_ahead(TimeNs t_ns, std::optional<TimeNs> clock_ns);
   void add_gyro(TimeNs t_ns, double rate_rad_s);
-  std::optional<MotionStep> add_counts(const Counts& counts);
-  std::optional<MotionStep> restart(const Counts& counts);
+  std::optional<OdometryIncrement> add_counts(const Counts& counts);
+  std::optional<OdometryIncrement> restart(const Counts& counts);
   bool is_possible(const Counts& from, const Counts& to) const;
   /// No wheel changes its speed as much between two readings.
   bool is_sudden(const Counts& before, const Counts& from, const Counts& to) const;
-  MotionStep step_between(const Counts& from, const Counts& to);
+  OdometryIncrement step_between(const Counts& from, const Counts& to);
   /// Moves what the gyro said since the last counts into the step.
-  void take_gyro(MotionStep& step);
-  bool gyro_is_frozen(const MotionStep& step);
+  void take_gyro(OdometryIncrement& step);
+  bool gyro_is_stuck(const OdometryIncrement& step);
 
   OdometryConfig config_;
   OdometryCounters counters_;

@@ -11,7 +11,7 @@ namespace {
 /// many rays at once: so many nats of a turn are worth one nat of belief. What they promise is
 /// measured (`cornerctl bench --localizer`, "kept promises").
 constexpr double kNatsPerNat = 1.3;
-/// Each ray that even the likeliest place does not explain says that the map or the model is off by
+/// Each ray that even the likeliest place does not beam_likelihood says that the map or the model is off by
 /// something.
 constexpr double kNatsPerNatPerStranger = 0.0217;
 /// The same where things are counted instead of rays: so many for the turn, and for each ray.
@@ -34,41 +34,41 @@ constexpr double kPriorAngle_rad = radians(20);
 /// what a map does not know makes the most of it.
 class Belief {
  public:
-  explicit Belief(const Place& likeliest)
-      : likeliest_(likeliest.explanation),
+  explicit Belief(const VerifiedHypothesis& likeliest)
+      : likeliest_(likeliest.likelihood),
         rays_(static_cast<double>(likeliest_.rays)),
         shorts_(static_cast<double>(likeliest_.shorts)),
         // Where not even the likeliest place's walls are as exact as the model, its likelihood is
         // not.
-        worth_(std::max(1.0, likeliest.refined.spread) *
+        worth_(std::max(1.0, likeliest.refined.reduced_chi_square) *
                (kNatsPerNat +
                 kNatsPerNatPerStranger * static_cast<double>(likeliest_.rays - likeliest_.hits))),
         worth_of_things_(kNatsPerNatOfThings + kNatsPerNatOfThingsPerRay * rays_) {}
 
   /// 1 for the likeliest place itself.
-  double in(const Place& place) const {
-    const Explanation& other = place.explanation;
+  double in(const VerifiedHypothesis& place) const {
+    const BeamLikelihood& other = place.likelihood;
     if (explains_more(other)) return 1;
     const double by_rays = (other.log_likelihood - likeliest_.log_likelihood) / worth_;
     if (!is_few_things(other)) return std::exp(by_rays);
     const double by_things =
-        (other.log_likelihood_of_things - likeliest_.log_likelihood_of_things) / worth_of_things_;
+        (other.log_likelihood_of_obstacles - likeliest_.log_likelihood_of_obstacles) / worth_of_things_;
     return std::exp(std::min(0.0, std::max(by_rays, by_things)));
   }
 
  private:
-  bool is_few_things(const Explanation& other) const {
+  bool is_few_things(const BeamLikelihood& other) const {
     return static_cast<double>(other.shorts) <
            std::min(shorts_ + kOneThingShare * rays_, kMostThingsShare * rays_);
   }
   /// Less exact, but nothing stands in its way: the sensor may be biased, or a wall displaced.
-  bool explains_more(const Explanation& other) const {
+  bool explains_more(const BeamLikelihood& other) const {
     return static_cast<double>(other.hits + other.near) >
            static_cast<double>(likeliest_.hits + likeliest_.near) + kRaysForARival +
                kRaysForARivalPerThing * shorts_;
   }
 
-  const Explanation& likeliest_;
+  const BeamLikelihood& likeliest_;
   double rays_;
   double shorts_;
   double worth_;
@@ -77,7 +77,7 @@ class Belief {
 
 }  // namespace
 
-Decision decide(std::span<const Place> places, const std::optional<Prior>& prior) {
+Decision decide(std::span<const VerifiedHypothesis> places, const std::optional<Prior>& prior) {
   Decision decision;
   if (places.empty()) return decision;
   const Belief belief(places.front());
@@ -97,7 +97,7 @@ Decision decide(std::span<const Place> places, const std::optional<Prior>& prior
   std::size_t near = 0;
   for (std::size_t i = 0; i < decision.rivals; ++i) {
     if (!same_place(places[i].refined.T_map_lidar, prior->T_map_lidar,
-                    kPriorRadius_m + prior->place_m, kPriorAngle_rad + prior->heading_rad)) {
+                    kPriorRadius_m + prior->position_error_m, kPriorAngle_rad + prior->heading_error_rad)) {
       continue;
     }
     decision.place = i;
@@ -107,7 +107,7 @@ Decision decide(std::span<const Place> places, const std::optional<Prior>& prior
   return decision;
 }
 
-double relative_belief(const Place& place, const Place& likeliest) {
+double relative_belief(const VerifiedHypothesis& place, const VerifiedHypothesis& likeliest) {
   return Belief(likeliest).in(place);
 }
 

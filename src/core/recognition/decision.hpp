@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "core/estimate/pose_memory.hpp"
+#include "core/estimate/constant_velocity_model.hpp"
 #include "core/localizer.hpp"
 #include "core/recognition/verification.hpp"
 
@@ -27,9 +27,9 @@ struct Decision {
 /// kWrongFixRate of the turn's belief: one of them is a fix, several are ambiguous. `places`: the
 /// likeliest first. `prior`: where the robot should be by what was known before; it may choose
 /// among rivals where the robot can have come to no other one, never against the turn.
-Decision decide(std::span<const Place> places, const std::optional<Prior>& prior);
+Decision decide(std::span<const VerifiedHypothesis> places, const std::optional<Prior>& prior);
 
 /// How much the turn believes in a place next to the likeliest one: 1 for that one itself.
-double relative_belief(const Place& place, const Place& likeliest);
+double relative_belief(const VerifiedHypothesis& place, const VerifiedHypothesis& likeliest);
 
 }  // namespace cornerd::core

@@ -60,32 +60,32 @@ class SumOfLogarithms {
 
 }  // namespace
 
-Explanation explain(const WallMap& map, std::span<const PolarPoint> points,
+BeamLikelihood beam_likelihood(const WallMap& map, std::span<const PolarPoint> points,
                     std::span<const PredictedHit> hits, const Pose2& T_map_lidar,
-                    const SensorNoise& noise, double noise_scale, double slack_m) {
+                    const SensorNoise& noise, double noise_scale, double extra_sigma_m) {
   const double c = std::cos(T_map_lidar.theta_rad);
   const double s = std::sin(T_map_lidar.theta_rad);
   std::size_t hidden_in_a_row = 0;
   SumOfLogarithms variances;  // of hits and near ones
   SumOfLogarithms sigmas;     // of hits that things were in the way of
-  Explanation result;
+  BeamLikelihood result;
   result.rays = points.size();
   for (std::size_t i = 0; i < points.size(); ++i) {
     const PolarPoint& point = points[i];
     const auto add = [&](double log_density) {
       result.log_likelihood += log_density;
-      result.log_likelihood_of_things += log_density;
+      result.log_likelihood_of_obstacles += log_density;
     };
     const auto add_hidden = [&](double log_density) {
       ++result.shorts;
       result.log_likelihood += log_density;
       if (++hidden_in_a_row <= kFreshRays) {
-        result.log_likelihood_of_things += log_density;
+        result.log_likelihood_of_obstacles += log_density;
         return;
       }
       // What a ray of this range would have given at a wall, but for the logarithm of its sigma.
       const double usual = kLogHitShare - kLogRootTwoPi - 0.5;
-      result.log_likelihood_of_things += usual + kStaleShare * (log_density - usual);
+      result.log_likelihood_of_obstacles += usual + kStaleShare * (log_density - usual);
       sigmas.add(noise.sigma_range_m(point.range_m));
     };
     if (hits[i].face == PredictedHit::kNone) {
@@ -99,19 +99,19 @@ Explanation explain(const WallMap& map, std::span<const PolarPoint> points,
                                              normal.y() * (s * point.ray_x + c * point.ray_y)));
     const double variance = noise.variance_across_m2(hits[i].range_m, sine) / (sine * sine) *
                                 noise_scale * noise_scale +
-                            kMapSigma_m * kMapSigma_m + slack_m * slack_m;
+                            kMapSigma_m * kMapSigma_m + extra_sigma_m * extra_sigma_m;
     const double error_m = point.range_m - hits[i].range_m;
     const double z_square = error_m * error_m / variance;
     const double near_variance = kNearSigma_m * kNearSigma_m + variance;
     if (z_square < kHitSigmas * kHitSigmas) {
       ++result.hits;
     } else if (error_m * error_m < kNearSigmas * kNearSigmas * near_variance) {
-      ++result.near;
+      ++result.near_hits;
     } else if (error_m < 0) {
       add_hidden(kLogShort);
       continue;
     } else {
-      ++result.through;
+      ++result.free_space_violations;
       add(kLogOther);
       continue;
     }
@@ -127,7 +127,7 @@ Explanation explain(const WallMap& map, std::span<const PolarPoint> points,
     }
   }
   result.log_likelihood -= variances.value() / 2;
-  result.log_likelihood_of_things -= variances.value() / 2 + (1 - kStaleShare) * sigmas.value();
+  result.log_likelihood_of_obstacles -= variances.value() / 2 + (1 - kStaleShare) * sigmas.value();
   return result;
 }
 

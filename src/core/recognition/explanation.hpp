@@ -10,20 +10,21 @@
 
 namespace cornerd::core {
 
-/// How well a place explains a turn, ray by ray.
-struct Explanation {
+/// Likelihood of a scan under a hypothesis by the beam model (Thrun, Burgard and Fox, Probabilistic
+/// Robotics, section 6.3).
+struct BeamLikelihood {
   std::size_t rays = 0;
-  std::size_t hits = 0;  ///< met the wall that the map has there
-  std::size_t near = 0;  ///< met something close to it: a wall that is not quite where it should be
-  std::size_t shorts = 0;   ///< something that the map does not have stood in front of the wall
-  std::size_t through = 0;  ///< went through a wall of the map
+  std::size_t hits = 0;                   ///< at the predicted range
+  std::size_t near_hits = 0;              ///< close to it: a wall slightly displaced
+  std::size_t shorts = 0;                 ///< short of the wall: an unmapped obstacle
+  std::size_t free_space_violations = 0;  ///< beyond the wall
   double log_likelihood = 0;
-  /// The same, but what hides many rays in a row counts once: it is one thing, near or large.
-  double log_likelihood_of_things = 0;
+  /// The same with consecutive short rays counted as one obstacle.
+  double log_likelihood_of_obstacles = 0;
 
   double hit_share() const { return share(hits); }
-  double near_share() const { return share(hits + near); }
-  double through_share() const { return share(through); }
+  double near_hit_share() const { return share(hits + near_hits); }
+  double violation_share() const { return share(free_space_violations); }
 
  private:
   double share(std::size_t count) const {
@@ -31,9 +32,9 @@ struct Explanation {
   }
 };
 
-/// `slack_m`: what a predicted range may be off because the place is not known exactly yet.
-Explanation explain(const WallMap& map, std::span<const PolarPoint> points,
-                    std::span<const PredictedHit> hits, const Pose2& T_map_lidar,
-                    const SensorNoise& noise, double noise_scale, double slack_m);
+/// `extra_sigma_m`: uncertainty of the predicted range from the hypothesis' own error.
+BeamLikelihood beam_likelihood(const WallMap& map, std::span<const PolarPoint> points,
+                               std::span<const PredictedHit> hits, const Pose2& T_map_lidar,
+                               const SensorNoise& noise, double noise_scale, double extra_sigma_m);
 
 }  // namespace cornerd::core

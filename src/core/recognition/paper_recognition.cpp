@@ -116,13 +116,13 @@ int PaperRecognition::lines_on_walls(std::span<const WallSegment> segments,
   return count;
 }
 
-std::span<const Hypothesis> PaperRecognition::places(std::span<const Breakpoint> breakpoints,
+std::span<const PoseHypothesis> PaperRecognition::places(std::span<const Breakpoint> breakpoints,
                                                      std::span<const WallSegment> segments) {
   found_.clear();
   if (!find_nearest(breakpoints)) return {};
   match_nearest();
-  const std::span<Hypothesis> places = found_.most_named(kMaxFound);
-  for (Hypothesis& place : places) {
+  const std::span<PoseHypothesis> places = found_.most_voted(kMaxFound);
+  for (PoseHypothesis& place : places) {
     place.votes = kVotesPerCorner * recognised(breakpoints, place.T_map_lidar) +
                   lines_on_walls(segments, place.T_map_lidar);
   }

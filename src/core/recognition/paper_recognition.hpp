@@ -22,7 +22,7 @@ class PaperRecognition {
   PaperRecognition(const WallMap& map, const Catalog& catalog);
 
   /// The places that stages 2 and 3 like best, several where they are level.
-  std::span<const Hypothesis> places(std::span<const Breakpoint> breakpoints,
+  std::span<const PoseHypothesis> places(std::span<const Breakpoint> breakpoints,
                                      std::span<const WallSegment> segments);
 
  private:

@@ -10,26 +10,26 @@
 
 namespace cornerd::core {
 
-/// Gathers the places that a turn's patterns point to and counts how often each is named. Places
-/// are told apart by cells of a few centimetres and degrees, so that one that lies at their border
-/// is there more than once. All memory is taken at construction.
+/// Counts how often each pose is proposed. Poses are binned in cells of a few centimetres and
+/// degrees; a pose near a cell's border may appear more than once. Allocates nothing after
+/// construction.
 class PoseTable {
  public:
-  /// What is more than `capacity` is dropped.
+  /// Poses beyond `capacity` are dropped.
   explicit PoseTable(std::size_t capacity);
 
   void clear();
   void add(const Pose2& T_map_lidar);
 
-  /// The places that were named most, at most `count`, in no particular order; `votes` says how
-  /// often. May be changed in place; valid until the next call.
-  std::span<Hypothesis> most_named(std::size_t count);
+  /// The most proposed poses, at most `count`, unordered, with their counts as `votes`. May be
+  /// changed in place; valid until the next call.
+  std::span<PoseHypothesis> most_voted(std::size_t count);
 
  private:
   std::size_t capacity_;
-  std::vector<Hypothesis> places_;
-  std::vector<std::uint64_t> keys_;   ///< the cell of each of the places
-  std::vector<std::uint16_t> slots_;  ///< hashed by cell: a place's number and one, or 0
+  std::vector<PoseHypothesis> poses_;
+  std::vector<std::uint64_t> keys_;   ///< cell of each pose
+  std::vector<std::uint16_t> slots_;  ///< hash table: index of a pose plus one, or 0
 };
 
 }  // namespace cornerd::core

@@ -7,31 +7,28 @@
 namespace cornerd::core {
 namespace {
 
-/// Breakpoints that form pairs: those that more would only confirm.
+/// Breakpoints that form pairs; more would only confirm.
 constexpr std::size_t kMaxSelected = 7;
-/// Entries of the catalogue that a turn's pairs look at. So many pairs are looked up whatever that
-/// costs: one or two may be no pairs at all.
+/// Limit of the catalogue entries read per scan. kMinPairs pairs are looked up whatever they cost,
+/// since a pair may be false.
 constexpr std::size_t kMaxEntries = 8192;
-constexpr std::size_t kLeastPairs = 4;
-/// Places that all breakpoints vote on: those that most pairs point to.
+constexpr std::size_t kMinPairs = 4;
+/// Hypotheses that all breakpoints vote on: the most proposed ones.
 constexpr std::size_t kMaxVotedOn = 512;
-/// A place with fewer votes than this share of the best one's is not where the turn was taken: what
-/// is seen there, the map does not have. (Where the best is none either, all others are looked
-/// for.)
-constexpr double kLeastVoteShare = 0.5;
+/// Hypotheses with a smaller share of the best one's votes are dropped.
+constexpr double kMinVoteShare = 0.5;
 constexpr double kMinBaseline_m = 0.15;
-/// Least tolerance of a distance between two breakpoints: what a map may be off.
+/// Smallest tolerance of a distance between two breakpoints: map errors.
 constexpr double kDistanceFloor_m = 0.01;
 constexpr double kPatternGateSigmas = 3.5;
 constexpr double kDirectionTolerance_rad = radians(15);
-/// Two walls meet at an angle that fixes a place only when they are far from parallel.
+/// Two walls determine a pose only where they are far from parallel.
 constexpr double kMinWallSine = 0.5;
-/// What a wall may seem to go on past its end: the heading of a short wall is known to a few
-/// degrees.
+/// Overshoot of a wall's end: the heading of a short wall is uncertain by a few degrees.
 constexpr double kWallEndTolerance_m = 0.10;
-/// What a breakpoint may be off at a place that only a pair or a single corner gave.
+/// Error of a breakpoint's position under a hypothesis of one pair or one corner.
 constexpr double kVoteRadius_m = Catalog::kVisitRadius_m;
-/// Places closer than this lead to the same place when they are refined.
+/// Closer hypotheses converge to the same pose.
 constexpr double kSamePlace_m = 0.08;
 constexpr double kSameHeading_rad = radians(8);
 
@@ -41,20 +38,20 @@ bool agree(double a_rad, double b_rad) {
 
 double sigma_of(const Breakpoint& breakpoint) { return std::sqrt(breakpoint.covariance.trace()); }
 
-/// True where the seen piece of wall, at this place, lies on the face.
-bool holds(const Face& face, const WallSegment& seen, const Pose2& T_map_lidar) {
+/// True where the measured segment lies on the face under this hypothesis.
+bool contains(const Face& face, const WallSegment& measured, const Pose2& T_map_lidar) {
   const auto along_m = [&](const Vec2& point) {
     return face.direction.dot(T_map_lidar * point - face.from);
   };
-  const double low_m = along_m(seen.first);
-  const double high_m = along_m(seen.last);
+  const double low_m = along_m(measured.first);
+  const double high_m = along_m(measured.last);
   return std::min(low_m, high_m) > -kWallEndTolerance_m &&
          std::max(low_m, high_m) < face.length_m + kWallEndTolerance_m;
 }
 
 }  // namespace
 
-bool looks_like(const Breakpoint& breakpoint, const Corner& landmark, double heading_rad) {
+bool matches(const Breakpoint& breakpoint, const Corner& landmark, double heading_rad) {
   if (breakpoint.kind == BreakpointKind::kCorner && breakpoint.convex != landmark.is_convex()) {
     return false;
   }
@@ -66,28 +63,28 @@ bool looks_like(const Breakpoint& breakpoint, const Corner& landmark, double hea
 }
 
 Recognition::Recognition(const WallMap& map, const Catalog& catalog)
-    : map_(map), catalog_(catalog), places_(kMaxHypotheses) {
+    : map_(map), catalog_(catalog), hypotheses_(kMaxHypotheses) {
   selected_.reserve(kMaxBreakpointsPerScan);
   pairs_.reserve(kMaxSelected * (kMaxSelected - 1) / 2);
 }
 
 void Recognition::begin(std::span<const Breakpoint> breakpoints) {
-  places_.clear();
+  hypotheses_.clear();
   selected_.clear();
   for (const Breakpoint& breakpoint : breakpoints) selected_.push_back(&breakpoint);
-  // The best known first: those whose place is sharp, corners before terminals.
+  // Most certain first: corners before terminals, then by position sigma.
   std::sort(selected_.begin(), selected_.end(), [](const Breakpoint* a, const Breakpoint* b) {
     if (a->kind != b->kind) return a->kind < b->kind;
     return sigma_of(*a) < sigma_of(*b);
   });
 }
 
-void Recognition::add(const Pose2& T_map_lidar) { places_.add(T_map_lidar); }
+void Recognition::add(const Pose2& T_map_lidar) { hypotheses_.add(T_map_lidar); }
 
 void Recognition::select_pair(const Breakpoint& one, const Breakpoint& other) {
   const double distance_m = (other.position - one.position).norm();
   if (distance_m < kMinBaseline_m) return;
-  // The longest wall of the two has the sharpest direction.
+  // The longer wall has the more certain direction.
   const auto support = [](const Breakpoint& b) {
     return std::max(b.left_support, b.right_support);
   };
@@ -97,7 +94,7 @@ void Recognition::select_pair(const Breakpoint& one, const Breakpoint& other) {
   const bool by_left =
       pair.first->wall_on_left &&
       (!pair.first->wall_on_right || pair.first->left_support >= pair.first->right_support);
-  const Vec2 way = pair.second->position - pair.first->position;
+  const Vec2 displacement = pair.second->position - pair.first->position;
   const double tolerance_m =
       kDistanceFloor_m + kPatternGateSigmas * std::hypot(sigma_of(one), sigma_of(other));
   pair.query.low_m = distance_m - tolerance_m;
@@ -105,7 +102,7 @@ void Recognition::select_pair(const Breakpoint& one, const Breakpoint& other) {
   pair.query.convex = pair.first->kind == BreakpointKind::kTerminal || pair.first->convex;
   pair.query.side = by_left ? FaceSide::kLeft : FaceSide::kRight;
   pair.query.wall_rad =
-      angle_between(std::atan2(way.y(), way.x()),
+      angle_between(std::atan2(displacement.y(), displacement.x()),
                     by_left ? pair.first->left_wall_rad : pair.first->right_wall_rad);
   pair.query.tolerance_rad = kDirectionTolerance_rad;
   pair.cost = catalog_.pairs().cost(pair.query);
@@ -115,23 +112,23 @@ void Recognition::select_pair(const Breakpoint& one, const Breakpoint& other) {
 void Recognition::add_pair(const SelectedPair& pair) {
   const Breakpoint& first = *pair.first;
   const Breakpoint& second = *pair.second;
-  const Vec2 seen = second.position - first.position;
-  const double seen_rad = std::atan2(seen.y(), seen.x());
-  const Vec2 seen_middle = (first.position + second.position) / 2;
+  const Vec2 measured = second.position - first.position;
+  const double measured_rad = std::atan2(measured.y(), measured.x());
+  const Vec2 measured_middle = (first.position + second.position) / 2;
   const auto landmarks = catalog_.landmarks();
   catalog_.pairs().visit(pair.query, [&](const LandmarkPair& candidate) {
     const Corner& a = landmarks[candidate.from];
     const Corner& b = landmarks[candidate.to];
-    const Vec2 drawn = b.position - a.position;
-    const double heading_rad = normalize_angle(std::atan2(drawn.y(), drawn.x()) - seen_rad);
-    if (!looks_like(first, a, heading_rad) || !looks_like(second, b, heading_rad)) return;
+    const Vec2 mapped = b.position - a.position;
+    const double heading_rad = normalize_angle(std::atan2(mapped.y(), mapped.x()) - measured_rad);
+    if (!matches(first, a, heading_rad) || !matches(second, b, heading_rad)) return;
     const Vec2 middle = (a.position + b.position) / 2;
-    const Vec2 origin = middle - Pose2{0, 0, heading_rad} * seen_middle;
+    const Vec2 origin = middle - Pose2{0, 0, heading_rad} * measured_middle;
     add({origin.x(), origin.y(), heading_rad});
   });
 }
 
-std::span<const Hypothesis> Recognition::from_pairs(std::span<const Breakpoint> breakpoints) {
+std::span<const PoseHypothesis> Recognition::from_pairs(std::span<const Breakpoint> breakpoints) {
   begin(breakpoints);
   pairs_.clear();
   const std::size_t count = std::min(selected_.size(), kMaxSelected);
@@ -145,13 +142,13 @@ std::span<const Hypothesis> Recognition::from_pairs(std::span<const Breakpoint> 
   std::size_t entries = 0;
   for (std::size_t i = 0; i < pairs_.size(); ++i) {
     entries += pairs_[i].cost;
-    if (entries > kMaxEntries && i >= kLeastPairs) break;
+    if (entries > kMaxEntries && i >= kMinPairs) break;
     add_pair(pairs_[i]);
   }
   return ranked();
 }
 
-std::span<const Hypothesis> Recognition::from_single_corners(
+std::span<const PoseHypothesis> Recognition::from_single_corners(
     std::span<const Breakpoint> breakpoints) {
   begin(breakpoints);
   std::size_t compared = 0;
@@ -159,12 +156,12 @@ std::span<const Hypothesis> Recognition::from_single_corners(
     compared += catalog_.landmarks().size();
     if (compared > kMaxSingles) break;
     for (const Corner& landmark : catalog_.landmarks()) {
-      // The wall with more samples gives the heading; the other has to agree with it.
+      // The wall with more samples gives the heading; the other has to agree.
       const bool by_left = breakpoint->left_support >= breakpoint->right_support;
       const double heading_rad =
           by_left ? normalize_angle(landmark.left_face_rad - breakpoint->left_wall_rad)
                   : normalize_angle(landmark.right_face_rad - breakpoint->right_wall_rad);
-      if (!looks_like(*breakpoint, landmark, heading_rad)) continue;
+      if (!matches(*breakpoint, landmark, heading_rad)) continue;
       const Vec2 origin = landmark.position - Pose2{0, 0, heading_rad} * breakpoint->position;
       add({origin.x(), origin.y(), heading_rad});
     }
@@ -182,21 +179,21 @@ void Recognition::add_walls(const WallSegment& first, const WallSegment& second)
       const double sine = cross(a.normal, b.normal);
       if (std::abs(sine) < kMinWallSine) continue;
       if (!agree(std::atan2(sine, a.normal.dot(b.normal)), rotation_rad)) continue;
-      // Where the sensor is as far from both faces as it saw the walls.
+      // The position at the measured distances from both faces.
       const double height_a = a.offset_m - first.offset_m;
       const double height_b = b.offset_m - second.offset_m;
       const Pose2 T_map_lidar{(height_a * b.normal.y() - height_b * a.normal.y()) / sine,
                               (height_b * a.normal.x() - height_a * b.normal.x()) / sine,
                               heading_rad};
-      if (holds(a, first, T_map_lidar) && holds(b, second, T_map_lidar)) add(T_map_lidar);
+      if (contains(a, first, T_map_lidar) && contains(b, second, T_map_lidar)) add(T_map_lidar);
     }
   }
 }
 
-std::span<const Hypothesis> Recognition::from_walls(std::span<const WallSegment> segments,
-                                                    std::span<const Breakpoint> breakpoints) {
+std::span<const PoseHypothesis> Recognition::from_walls(std::span<const WallSegment> segments,
+                                                        std::span<const Breakpoint> breakpoints) {
   begin(breakpoints);
-  if (!tries_all()) return {};
+  if (!is_exhaustive()) return {};
   const WallSegment* first = nullptr;
   const WallSegment* second = nullptr;
   std::uint32_t best = 0;
@@ -222,12 +219,12 @@ bool Recognition::has_landmark(const Breakpoint& breakpoint, const Pose2& T_map_
   catalog_.visit_near(point, [&](std::uint32_t index) {
     const Corner& landmark = catalog_.landmarks()[index];
     found = found || ((landmark.position - point).squaredNorm() < kVoteRadius_m * kVoteRadius_m &&
-                      looks_like(breakpoint, landmark, T_map_lidar.theta_rad));
+                      matches(breakpoint, landmark, T_map_lidar.theta_rad));
   });
   return found;
 }
 
-bool Recognition::tries_all() const { return map_.faces().size() <= kMaxFacesForWalls; }
+bool Recognition::is_exhaustive() const { return map_.faces().size() <= kMaxFacesForWalls; }
 
 int Recognition::recognised(std::span<const Breakpoint> breakpoints,
                             const Pose2& T_map_lidar) const {
@@ -251,15 +248,15 @@ int Recognition::votes(const Pose2& T_map_lidar) const {
   return votes;
 }
 
-std::span<const Hypothesis> Recognition::ranked() {
-  const std::span<Hypothesis> hypotheses = places_.most_named(kMaxVotedOn);
-  for (Hypothesis& hypothesis : hypotheses) hypothesis.votes = votes(hypothesis.T_map_lidar);
+std::span<const PoseHypothesis> Recognition::ranked() {
+  const std::span<PoseHypothesis> hypotheses = hypotheses_.most_voted(kMaxVotedOn);
+  for (PoseHypothesis& hypothesis : hypotheses) hypothesis.votes = votes(hypothesis.T_map_lidar);
   std::sort(hypotheses.begin(), hypotheses.end(), is_better);
-  const double least = hypotheses.empty() ? 0 : kLeastVoteShare * hypotheses.front().votes;
+  const double least = hypotheses.empty() ? 0 : kMinVoteShare * hypotheses.front().votes;
   std::size_t kept = 0;
-  for (const Hypothesis& hypothesis : hypotheses) {
+  for (const PoseHypothesis& hypothesis : hypotheses) {
     if (hypothesis.votes < least) break;
-    const auto is_same = [&](const Hypothesis& other) {
+    const auto is_same = [&](const PoseHypothesis& other) {
       return same_place(other.T_map_lidar, hypothesis.T_map_lidar, kSamePlace_m, kSameHeading_rad);
     };
     const auto end = hypotheses.begin() + static_cast<std::ptrdiff_t>(kept);

@@ -10,30 +10,30 @@
 namespace cornerd::core {
 namespace {
 
-/// Rays of the rough test: enough that no room passes for another by chance.
-constexpr std::size_t kThinRays = 90;
-/// Refined at most: look-alikes of one building are few, the rest is waste.
+/// Rays of the rough test: enough to tell rooms apart.
+constexpr std::size_t kSubsetRays = 90;
+/// Limit of refined hypotheses: one building has few look-alikes.
 constexpr std::size_t kMaxExamined = 24;
 
-constexpr double kMinRoughHits = 0.4;
-constexpr double kMaxRoughThrough = 0.35;
-/// After it was refined on few rays, a place this far behind the best one is no rival, neither by
-/// rays nor by things. Places that all rays left in doubt were behind by up to 27 with clear turns,
-/// and by 74 where most rays were missing and many others belonged to nothing on the map.
+constexpr double kMinRoughHitShare = 0.4;
+constexpr double kMaxRoughViolations = 0.35;
+/// Margin of log-likelihood behind the best hypothesis after refinement on the subset of rays, by
+/// rays and by obstacles. Hypotheses that stayed ambiguous on all rays were behind by up to 27 in
+/// clear scans, and by 74 where most rays were missing or hit unmapped obstacles.
 constexpr double kRoughMargin = 60;
-constexpr double kRoughMarginPerStranger = 2;
-/// The same before it was refined: up to 68, and 169.
+constexpr double kRoughMarginPerUnmatchedRay = 2;
+/// The same before refinement: 68 and 169 observed.
 constexpr double kUnrefinedMargin = 150;
-/// What is left to refine then.
+/// Remaining error after the rough refinement.
 constexpr double kRefinedReach_m = 0.01;
 
-// A right place: at least half of the rays end on the map's walls (the rest may be people and
-// chairs), and hardly any goes through a wall. The two walls of one corner fit to any other corner,
-// so that a turn of few rays needs more than half.
+// A verified pose: at least half of the rays hit the map's walls (the rest may be people and
+// chairs), with hardly any free-space violation. The two walls of one corner fit any other corner,
+// so that scans of few rays need more than half.
 constexpr std::size_t kMinSurplus = 30;
 constexpr double kMinHitShare = 0.25;
-constexpr double kMaxThrough = 0.08;
-/// A pose that is known no better than this is no pose: a lone wall, a bare corridor.
+constexpr double kMaxViolations = 0.08;
+/// A less certain pose is rejected: a single wall, a bare corridor.
 constexpr double kMaxPoseSigma_m = 0.05;
 constexpr double kMaxSigma_rad = radians(3);
 
@@ -42,46 +42,48 @@ constexpr double kMaxSigma_rad = radians(3);
 Verification::Verification(const WallMap& map, const LocalizerConfig& config)
     : map_(map),
       noise_(config.noise),
-      prediction_(config.max_range_m),
+      ray_caster_(config.max_range_m),
       refinement_(config.max_range_m, config.noise) {
-  thin_.reserve(2 * kThinRays);
+  subset_.reserve(2 * kSubsetRays);
   candidates_.reserve(Recognition::kMaxHypotheses);
-  places_.reserve(kMaxPlaces);
+  hypotheses_.reserve(kMaxVerified);
 }
 
 void Verification::begin(std::span<const PolarPoint> points, double noise_scale) {
   points_ = points;
   noise_scale_ = noise_scale;
-  places_.clear();
+  hypotheses_.clear();
   best_ = {};
-  thin_.clear();
-  const std::size_t stride = std::max<std::size_t>(1, points.size() / kThinRays);
-  for (std::size_t i = 0; i < points.size(); i += stride) thin_.push_back(points[i]);
+  subset_.clear();
+  const std::size_t stride = std::max<std::size_t>(1, points.size() / kSubsetRays);
+  for (std::size_t i = 0; i < points.size(); i += stride) subset_.push_back(points[i]);
 }
 
-void Verification::consider(std::span<const Hypothesis> hypotheses, double reach_m) {
-  shortlist(hypotheses, reach_m);
-  refine_roughly(reach_m);
+void Verification::consider(std::span<const PoseHypothesis> hypotheses, double search_radius_m) {
+  shortlist(hypotheses, search_radius_m);
+  refine_roughly(search_radius_m);
   for (const Candidate& candidate : candidates_) examine(candidate.T_map_lidar);
-  // Not stable_sort, which takes memory; ties are broken by the place.
-  std::sort(places_.begin(), places_.end(), [](const Place& a, const Place& b) {
-    if (a.explanation.log_likelihood != b.explanation.log_likelihood) {
-      return a.explanation.log_likelihood > b.explanation.log_likelihood;
-    }
-    return a.refined.T_map_lidar.x_m < b.refined.T_map_lidar.x_m;
-  });
+  // std::stable_sort would allocate; ties are broken by position.
+  std::sort(hypotheses_.begin(), hypotheses_.end(),
+            [](const VerifiedHypothesis& a, const VerifiedHypothesis& b) {
+              if (a.likelihood.log_likelihood != b.likelihood.log_likelihood) {
+                return a.likelihood.log_likelihood > b.likelihood.log_likelihood;
+              }
+              return a.refined.T_map_lidar.x_m < b.refined.T_map_lidar.x_m;
+            });
 }
 
-void Verification::shortlist(std::span<const Hypothesis> hypotheses, double reach_m) {
+void Verification::shortlist(std::span<const PoseHypothesis> hypotheses, double search_radius_m) {
   candidates_.clear();
-  for (const Hypothesis& hypothesis : hypotheses) {
-    const auto hits = prediction_.cast_near(map_, hypothesis.T_map_lidar, thin_);
-    const Explanation rough =
-        explain(map_, thin_, hits, hypothesis.T_map_lidar, noise_, noise_scale_, reach_m / 2);
-    if (rough.hit_share() < kMinRoughHits || rough.through_share() > kMaxRoughThrough) continue;
+  for (const PoseHypothesis& hypothesis : hypotheses) {
+    const auto hits = ray_caster_.cast_near(map_, hypothesis.T_map_lidar, subset_);
+    const BeamLikelihood rough = beam_likelihood(map_, subset_, hits, hypothesis.T_map_lidar,
+                                                 noise_, noise_scale_, search_radius_m / 2);
+    if (rough.hit_share() < kMinRoughHitShare || rough.violation_share() > kMaxRoughViolations)
+      continue;
     if (candidates_.size() < candidates_.capacity()) {
       candidates_.push_back({hypothesis.T_map_lidar, rough.log_likelihood,
-                             rough.log_likelihood_of_things, rough.hits + rough.near});
+                             rough.log_likelihood_of_obstacles, rough.hits + rough.near_hits});
     }
   }
   std::sort(candidates_.begin(), candidates_.end(), [](const Candidate& a, const Candidate& b) {
@@ -90,74 +92,77 @@ void Verification::shortlist(std::span<const Hypothesis> hypotheses, double reac
   });
 }
 
-void Verification::refine_roughly(double reach_m) {
+void Verification::refine_roughly(double search_radius_m) {
   candidates_.resize(std::min(candidates_.size(), kMaxExamined));
   const double unrefined_best = candidates_.empty() ? 0 : candidates_.front().log_likelihood;
   std::size_t kept = 0;
   for (const Candidate& candidate : candidates_) {
-    if (candidate.log_likelihood < unrefined_best - kUnrefinedMargin - margin_of_strangers()) break;
-    if (is_settled(candidate.T_map_lidar)) continue;
-    const RefinedPose refined =
-        refinement_.approach(map_, candidate.T_map_lidar, reach_m, thin_, noise_scale_);
+    if (candidate.log_likelihood < unrefined_best - kUnrefinedMargin - unmatched_margin()) break;
+    if (is_unambiguous(candidate.T_map_lidar)) continue;
+    const RefinedPose refined = refinement_.refine_roughly(map_, candidate.T_map_lidar,
+                                                           search_radius_m, subset_, noise_scale_);
     if (!refined.valid) continue;
-    const auto hits = prediction_.cast_near(map_, refined.T_map_lidar, thin_);
-    const Explanation rough =
-        explain(map_, thin_, hits, refined.T_map_lidar, noise_, noise_scale_, 0);
+    const auto hits = ray_caster_.cast_near(map_, refined.T_map_lidar, subset_);
+    const BeamLikelihood rough =
+        beam_likelihood(map_, subset_, hits, refined.T_map_lidar, noise_, noise_scale_, 0);
     if (rough.log_likelihood > best_.log_likelihood) {
       best_.log_likelihood = rough.log_likelihood;
-      best_.explained = rough.hits + rough.near;
-      best_.strangers = rough.rays - rough.hits;
+      best_.on_walls = rough.hits + rough.near_hits;
+      best_.unmatched = rough.rays - rough.hits;
     }
-    best_.log_likelihood_of_things =
-        std::max(best_.log_likelihood_of_things, rough.log_likelihood_of_things);
+    best_.log_likelihood_of_obstacles =
+        std::max(best_.log_likelihood_of_obstacles, rough.log_likelihood_of_obstacles);
     candidates_[kept++] = {refined.T_map_lidar, rough.log_likelihood,
-                           rough.log_likelihood_of_things, rough.hits + rough.near};
+                           rough.log_likelihood_of_obstacles, rough.hits + rough.near_hits};
   }
   candidates_.resize(kept);
-  const double margin = kRoughMargin + margin_of_strangers();
-  // One that explains more rays, however roughly, is a rival to the end: the lidar may be biased.
+  const double margin = kRoughMargin + unmatched_margin();
+  // A hypothesis with more rays on walls stays, however roughly they fit: the lidar may be biased.
   std::erase_if(candidates_, [&](const Candidate& candidate) {
-    return candidate.explained <= best_.explained &&
+    return candidate.on_walls <= best_.on_walls &&
            candidate.log_likelihood < best_.log_likelihood - margin &&
-           candidate.log_likelihood_of_things < best_.log_likelihood_of_things - margin;
+           candidate.log_likelihood_of_obstacles < best_.log_likelihood_of_obstacles - margin;
   });
 }
 
-double Verification::margin_of_strangers() const {
-  return kRoughMarginPerStranger * static_cast<double>(best_.strangers);
+double Verification::unmatched_margin() const {
+  return kRoughMarginPerUnmatchedRay * static_cast<double>(best_.unmatched);
 }
 
-bool Verification::is_settled(const Pose2& T_map_lidar) const {
-  return std::any_of(places_.begin(), places_.end(), [&](const Place& place) {
-    return same_place(place.refined.T_map_lidar, T_map_lidar, kDistinct_m, kDistinct_rad) &&
-           leaves_no_doubt(place.explanation, /*expected=*/false);
-  });
+bool Verification::is_unambiguous(const Pose2& T_map_lidar) const {
+  return std::any_of(hypotheses_.begin(), hypotheses_.end(),
+                     [&](const VerifiedHypothesis& hypothesis) {
+                       return same_place(hypothesis.refined.T_map_lidar, T_map_lidar, kDistinct_m,
+                                         kDistinct_rad) &&
+                              is_conclusive(hypothesis.likelihood, /*expected=*/false);
+                     });
 }
 
 void Verification::examine(const Pose2& T_map_lidar) {
-  if (is_known(T_map_lidar)) return;
-  Place place;
-  place.refined =
-      refinement_.refine(map_, T_map_lidar, kRefinedReach_m, thin_, points_, noise_scale_);
-  if (!place.refined.valid || is_known(place.refined.T_map_lidar)) return;
-  const auto hits = prediction_.cast(map_, place.refined.T_map_lidar, points_);
-  place.explanation =
-      explain(map_, points_, hits, place.refined.T_map_lidar, noise_, noise_scale_, 0);
-  if (passes(place) && places_.size() < kMaxPlaces) places_.push_back(place);
+  if (is_duplicate(T_map_lidar)) return;
+  VerifiedHypothesis hypothesis;
+  hypothesis.refined =
+      refinement_.refine(map_, T_map_lidar, kRefinedReach_m, subset_, points_, noise_scale_);
+  if (!hypothesis.refined.valid || is_duplicate(hypothesis.refined.T_map_lidar)) return;
+  const auto hits = ray_caster_.cast(map_, hypothesis.refined.T_map_lidar, points_);
+  hypothesis.likelihood =
+      beam_likelihood(map_, points_, hits, hypothesis.refined.T_map_lidar, noise_, noise_scale_, 0);
+  if (passes(hypothesis) && hypotheses_.size() < kMaxVerified) hypotheses_.push_back(hypothesis);
 }
 
-bool Verification::is_known(const Pose2& T_map_lidar) const {
-  return std::any_of(places_.begin(), places_.end(), [&](const Place& place) {
-    return same_place(place.refined.T_map_lidar, T_map_lidar, kDistinct_m, kDistinct_rad);
-  });
+bool Verification::is_duplicate(const Pose2& T_map_lidar) const {
+  return std::any_of(
+      hypotheses_.begin(), hypotheses_.end(), [&](const VerifiedHypothesis& hypothesis) {
+        return same_place(hypothesis.refined.T_map_lidar, T_map_lidar, kDistinct_m, kDistinct_rad);
+      });
 }
 
-bool Verification::passes(const Place& place) const {
-  const Covariance3& covariance = place.refined.covariance;
-  const Explanation& explanation = place.explanation;
-  const std::size_t explained = explanation.hits + explanation.near;
-  return explained >= explanation.rays - explained + kMinSurplus &&
-         explanation.hit_share() >= kMinHitShare && explanation.through_share() <= kMaxThrough &&
+bool Verification::passes(const VerifiedHypothesis& hypothesis) const {
+  const Covariance3& covariance = hypothesis.refined.covariance;
+  const BeamLikelihood& likelihood = hypothesis.likelihood;
+  const std::size_t on_walls = likelihood.hits + likelihood.near_hits;
+  return on_walls >= likelihood.rays - on_walls + kMinSurplus &&
+         likelihood.hit_share() >= kMinHitShare && likelihood.violation_share() <= kMaxViolations &&
          covariance(0, 0) + covariance(1, 1) < kMaxPoseSigma_m * kMaxPoseSigma_m &&
          covariance(2, 2) < kMaxSigma_rad * kMaxSigma_rad;
 }

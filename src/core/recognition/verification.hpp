@@ -13,66 +13,66 @@
 
 namespace cornerd::core {
 
-/// A place that the whole turn agrees with.
-struct Place {
+/// A hypothesis that passed the test on all rays.
+struct VerifiedHypothesis {
   RefinedPose refined;
-  Explanation explanation;
+  BeamLikelihood likelihood;
 };
 
-/// Tests hypotheses against the whole turn: first roughly, on a few rays; those that pass are
-/// refined on these, and those that could then be the best or its rival on all rays. All memory is
-/// taken at construction.
+/// Tests hypotheses against the whole scan: first on a subset of rays; hypotheses that pass are
+/// refined on the subset, and those that may still be the best or compete with it are tested on all
+/// rays. Allocates nothing after construction.
 class Verification {
  public:
   Verification(const WallMap& map, const LocalizerConfig& config);
 
-  /// Begins a turn. `points` must outlive the calls for this turn.
+  /// Starts a scan. `points` must outlive the calls for this scan.
   void begin(std::span<const PolarPoint> points, double noise_scale);
 
-  /// Tests these too. `reach_m`: how far off the hypotheses may be.
-  void consider(std::span<const Hypothesis> hypotheses, double reach_m);
+  /// Adds hypotheses that may be off by `search_radius_m`.
+  void consider(std::span<const PoseHypothesis> hypotheses, double search_radius_m);
 
-  /// Distinct places that passed, the likeliest first.
-  std::span<const Place> places() const { return places_; }
+  /// Distinct hypotheses that passed, most likely first.
+  std::span<const VerifiedHypothesis> hypotheses() const { return hypotheses_; }
 
-  /// How far apart places must be to count as two.
+  /// Distance between distinct hypotheses.
   static constexpr double kDistinct_m = 0.06;
   static constexpr double kDistinct_rad = radians(4);
-  static constexpr std::size_t kMaxPlaces = 32;
+  static constexpr std::size_t kMaxVerified = 32;
 
  private:
   struct Candidate {
     Pose2 T_map_lidar;
     double log_likelihood = 0;
-    double log_likelihood_of_things = 0;
-    std::size_t explained = 0;  ///< rays, at least roughly
+    double log_likelihood_of_obstacles = 0;
+    std::size_t on_walls = 0;  ///< rays that hit a wall or nearly
   };
-  /// Of the turn so far: what is far behind is no rival.
+  /// The best of this scan on the subset of rays, for the margins.
   struct BestByFewRays {
     double log_likelihood = -std::numeric_limits<double>::infinity();
-    double log_likelihood_of_things = -std::numeric_limits<double>::infinity();
-    std::size_t explained = 0;
-    std::size_t strangers = 0;  ///< rays that it does not hit
+    double log_likelihood_of_obstacles = -std::numeric_limits<double>::infinity();
+    std::size_t on_walls = 0;
+    std::size_t unmatched = 0;  ///< rays without a hit
   };
-  void shortlist(std::span<const Hypothesis> hypotheses, double reach_m);
-  void refine_roughly(double reach_m);
-  double margin_of_strangers() const;
-  /// True where this leads to a place that is known and leaves no doubt.
-  bool is_settled(const Pose2& T_map_lidar) const;
+  void shortlist(std::span<const PoseHypothesis> hypotheses, double search_radius_m);
+  void refine_roughly(double search_radius_m);
+  double unmatched_margin() const;
+  /// True where this leads to a conclusive hypothesis that is already verified.
+  bool is_unambiguous(const Pose2& T_map_lidar) const;
   void examine(const Pose2& T_map_lidar);
-  bool is_known(const Pose2& T_map_lidar) const;
-  bool passes(const Place& place) const;
+  bool is_duplicate(const Pose2& T_map_lidar) const;
+  bool passes(const VerifiedHypothesis& hypothesis) const;
 
   const WallMap& map_;
   SensorNoise noise_;
-  RayCaster prediction_;
+  RayCaster ray_caster_;
   Refinement refinement_;
   std::span<const PolarPoint> points_;
   double noise_scale_ = 1;
-  std::vector<PolarPoint> thin_;
+  std::vector<PolarPoint> subset_;
   std::vector<Candidate> candidates_;
   BestByFewRays best_;
-  std::vector<Place> places_;
+  std::vector<VerifiedHypothesis> hypotheses_;
 };
 
 }  // namespace cornerd::core

@@ -43,7 +43,7 @@ std::vector<Finding> unreachable(const Patient& patient) {
 }
 
 /// "running, A1M8 firmware 1.29, health good, 7.1 turns/s"
-std::string describe_lidar(const message::ToldStatus& status) {
+std::string describe_lidar(const message::ParsedStatus& status) {
   std::string text = status.lidar_state;
   if (!status.lidar_fault.empty()) text += ", " + status.lidar_fault;
   if (!status.lidar_detail.empty()) {
@@ -57,7 +57,7 @@ std::string describe_lidar(const message::ToldStatus& status) {
   return text;
 }
 
-Finding lidar_finding(const message::ToldStatus& status) {
+Finding lidar_finding(const message::ParsedStatus& status) {
   const bool runs = status.lidar_state == "running" && status.lidar_fault.empty();
   Finding finding{runs ? Verdict::kGood : Verdict::kWrong, "lidar", describe_lidar(status)};
   // The daemon's own text says what to do about the rest.
@@ -67,7 +67,7 @@ Finding lidar_finding(const message::ToldStatus& status) {
   return finding;
 }
 
-void add_line_quality(const message::ToldStatus& status, std::vector<Finding>& findings) {
+void add_line_quality(const message::ParsedStatus& status, std::vector<Finding>& findings) {
   const auto bytes = static_cast<double>(status.counter("bytes"));
   const double share = bytes > 0 ? static_cast<double>(status.counter("skipped_bytes")) / bytes : 0;
   if (share <= kBadShare) return;
@@ -108,7 +108,7 @@ void add_reading_rate(const Patient& patient, std::vector<Finding>& findings) {
 }
 
 /// The daemon's own words say what to do.
-void add_hint(const message::ToldStatus& status, std::vector<Finding>& findings) {
+void add_hint(const message::ParsedStatus& status, std::vector<Finding>& findings) {
   if (status.odometry_hint.empty()) return;
   findings.push_back({Verdict::kWrong,
                       "odometry",
@@ -137,7 +137,7 @@ std::vector<Finding> check_daemon(const Patient& patient) {
   if (!daemon.status) return findings;
   findings.push_back(lidar_finding(*daemon.status));
   add_line_quality(*daemon.status, findings);
-  for (const message::ToldStatus::Sensor& sensor : daemon.status->odometry_sensors) {
+  for (const message::ParsedStatus::Sensor& sensor : daemon.status->odometry_sensors) {
     if (sensor.state == "running") continue;
     findings.push_back(
         {Verdict::kWrong,

@@ -23,7 +23,7 @@ constexpr double kShortestSpan_s = 0.8;
 /// How often readings of wheels and gyro come, from one STATUS to another.
 class ReadingRate {
  public:
-  void note(const message::ToldStatus& status) {
+  void note(const message::ParsedStatus& status) {
     if (!status.odometry_readings) return;
     const Seen seen{status.t_ns, *status.odometry_readings};
     if (!first_ || seen.readings < first_->readings) first_ = seen;  // else it was restarted
@@ -48,13 +48,13 @@ class ReadingRate {
 };
 
 void note_line(std::string_view line, DaemonView& view, ReadingRate& rate) {
-  message::ToldLine told = message::parse_told_line(line);
-  if (const auto* version = std::get_if<message::ToldVersion>(&told)) {
+  message::ParsedLine told = message::parse_line(line);
+  if (const auto* version = std::get_if<message::ParsedVersion>(&told)) {
     view.version = version->version;
-  } else if (auto* status = std::get_if<message::ToldStatus>(&told)) {
+  } else if (auto* status = std::get_if<message::ParsedStatus>(&told)) {
     rate.note(*status);
     view.status = std::move(*status);
-  } else if (const auto* pose = std::get_if<message::ToldPose>(&told)) {
+  } else if (const auto* pose = std::get_if<message::ParsedPose>(&told)) {
     ++view.poses[static_cast<std::size_t>(pose->state)];
   }
 }

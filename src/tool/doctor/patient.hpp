@@ -7,7 +7,7 @@
 #include <optional>
 #include <string>
 
-#include "message/told_line.hpp"
+#include "message/parsed_line.hpp"
 #include "settings/config.hpp"
 #include "tool/doctor/accounts.hpp"
 #include "tool/doctor/machine.hpp"
@@ -18,7 +18,7 @@ namespace cornerd::tool {
 struct DaemonView {
   int connect_errno = 0;                      ///< why nobody could be asked; 0: somebody answered
   std::string version;                        ///< empty: it said nothing at all
-  std::optional<message::ToldStatus> status;  ///< the newest
+  std::optional<message::ParsedStatus> status;  ///< the newest
   /// Of readings of wheels and gyro; nullopt where it was not listened to for long enough.
   std::optional<double> odometry_hz;
   /// Poses by state, in the order of core::PoseState.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <numeric>
 
-#include "message/state_names.hpp"
+#include "message/line_writer.hpp"
 #include "tool/doctor/checks.hpp"
 
 namespace cornerd::tool {

@@ -37,7 +37,7 @@ std::optional<Advice> advise_on_connection(const MonitorState& state, core::Time
   return std::nullopt;
 }
 
-std::optional<Advice> advise_on_lidar(const message::ToldStatus& status) {
+std::optional<Advice> advise_on_lidar(const message::ParsedStatus& status) {
   if (status.lidar_state == "running" && status.lidar_fault.empty()) return std::nullopt;
   const bool is_coming = status.lidar_fault.empty() &&
                          (status.lidar_state == "identifying" || status.lidar_state == "starting" ||
@@ -50,7 +50,7 @@ std::optional<Advice> advise_on_lidar(const message::ToldStatus& status) {
 
 std::optional<Advice> advise_on_pose(const MonitorState& state, core::TimeNs now_ns) {
   if (!state.pose()) return Advice{Style::kDoubt, "the lidar runs, and no turn is over yet", ""};
-  const message::ToldPose& pose = *state.pose();
+  const message::ParsedPose& pose = *state.pose();
   if (state.recent() > 1 && !state.pose_rate_hz(now_ns)) {
     return Advice{Style::kBad, "the lidar runs, and no turns come", "cornerctl doctor"};
   }
@@ -84,7 +84,7 @@ std::optional<Advice> advise_on_quality(const MonitorState& state) {
                   formatted("%zu of the last %zu turns named no place", scans - named, scans),
                   "things that are not on the map hide its walls, or its walls are elsewhere"};
   }
-  for (const message::ToldStatus::Sensor& sensor : state.status()->odometry_sensors) {
+  for (const message::ParsedStatus::Sensor& sensor : state.status()->odometry_sensors) {
     if (sensor.state == "running") continue;
     return Advice{Style::kDoubt, "odometry: " + sensor.name + " is " + sensor.state, sensor.detail};
   }

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "message/utf8.hpp"
+#include "message/json_text.hpp"
 
 namespace cornerd::tool {
 

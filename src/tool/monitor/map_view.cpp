@@ -98,8 +98,8 @@ void draw_returns(DotCanvas& canvas, const Projection& projection, const Receive
 }
 
 void draw_breakpoints(Frame& frame, const Projection& projection,
-                      const message::ToldBreakpoints& breakpoints, const Pose2& T_view_lidar) {
-  for (const message::ToldBreakpoint& point : breakpoints.points) {
+                      const message::ParsedBreakpoints& breakpoints, const Pose2& T_view_lidar) {
+  for (const message::ParsedBreakpoint& point : breakpoints.points) {
     projection.put(frame, T_view_lidar * point.position,
                    {point.is_corner ? U'o' : U'x', Style::kMark});
   }

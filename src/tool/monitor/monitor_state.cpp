@@ -52,7 +52,7 @@ double MonitorState::silence_s(core::TimeNs now_ns) const {
   return core::to_seconds(now_ns - heard_ns_);
 }
 
-void MonitorState::note(message::ToldPose pose, core::TimeNs now_ns) {
+void MonitorState::note(message::ParsedPose pose, core::TimeNs now_ns) {
   push_limited(states_, pose.state, kMostStates);
   push_limited(arrivals_, now_ns, kMostArrivals);
   pose_ = std::move(pose);
@@ -60,24 +60,24 @@ void MonitorState::note(message::ToldPose pose, core::TimeNs now_ns) {
 
 void MonitorState::hear(std::string_view line, core::TimeNs now_ns) {
   heard_ns_ = now_ns;
-  message::ToldLine told = message::parse_told_line(line);
+  message::ParsedLine told = message::parse_line(line);
   if (const auto* error = std::get_if<message::RequestError>(&told)) {
     complaint_ = "a message that makes no sense: " + error->text;
-  } else if (const auto* refused = std::get_if<message::ToldError>(&told)) {
+  } else if (const auto* refused = std::get_if<message::ParsedError>(&told)) {
     complaint_ = refused->code + ": " + refused->text;
-  } else if (auto* version = std::get_if<message::ToldVersion>(&told)) {
+  } else if (auto* version = std::get_if<message::ParsedVersion>(&told)) {
     version_ = std::move(version->version);
-  } else if (auto* pose = std::get_if<message::ToldPose>(&told)) {
+  } else if (auto* pose = std::get_if<message::ParsedPose>(&told)) {
     note(std::move(*pose), now_ns);
   } else if (auto* scan = std::get_if<message::RecordedScan>(&told)) {
     // POSE comes first, then SCAN and BREAKPOINTS of the same turn.
     scan_ = {std::move(*scan), pose_ ? pose_->T_map_base : std::nullopt};
     breakpoints_ = {};
-  } else if (auto* points = std::get_if<message::ToldBreakpoints>(&told)) {
+  } else if (auto* points = std::get_if<message::ParsedBreakpoints>(&told)) {
     breakpoints_ = std::move(*points);
-  } else if (auto* status = std::get_if<message::ToldStatus>(&told)) {
+  } else if (auto* status = std::get_if<message::ParsedStatus>(&told)) {
     status_ = std::move(*status);
-  } else if (auto* event = std::get_if<message::ToldEvent>(&told)) {
+  } else if (auto* event = std::get_if<message::ParsedEvent>(&told)) {
     events_.push_front(std::move(*event));
     if (events_.size() > kMostEvents) events_.pop_back();
   }

@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-#include "message/told_line.hpp"
+#include "message/parsed_line.hpp"
 
 namespace cornerd::tool {
 
@@ -36,13 +36,13 @@ class MonitorState {
   double silence_s(core::TimeNs now_ns) const;
 
   const std::string& version() const { return version_; }
-  const std::optional<message::ToldPose>& pose() const { return pose_; }
-  const std::optional<message::ToldStatus>& status() const { return status_; }
+  const std::optional<message::ParsedPose>& pose() const { return pose_; }
+  const std::optional<message::ParsedStatus>& status() const { return status_; }
   const std::optional<ReceivedScan>& scan() const { return scan_; }
   /// Of the same turn.
-  const message::ToldBreakpoints& breakpoints() const { return breakpoints_; }
+  const message::ParsedBreakpoints& breakpoints() const { return breakpoints_; }
   /// The newest first.
-  const std::deque<message::ToldEvent>& events() const { return events_; }
+  const std::deque<message::ParsedEvent>& events() const { return events_; }
   /// What the daemon could not make sense of, or we not of it; empty: nothing.
   const std::string& complaint() const { return complaint_; }
 
@@ -57,18 +57,18 @@ class MonitorState {
   std::size_t recent() const { return states_.size(); }
 
  private:
-  void note(message::ToldPose pose, core::TimeNs now_ns);
+  void note(message::ParsedPose pose, core::TimeNs now_ns);
 
   bool connected_ = false;
   std::string reason_;
   std::optional<core::TimeNs> since_ns_;
   core::TimeNs heard_ns_ = 0;
   std::string version_;
-  std::optional<message::ToldPose> pose_;
-  std::optional<message::ToldStatus> status_;
+  std::optional<message::ParsedPose> pose_;
+  std::optional<message::ParsedStatus> status_;
   std::optional<ReceivedScan> scan_;
-  message::ToldBreakpoints breakpoints_;
-  std::deque<message::ToldEvent> events_;
+  message::ParsedBreakpoints breakpoints_;
+  std::deque<message::ParsedEvent> events_;
   std::deque<core::TimeNs> arrivals_;
   std::deque<core::PoseState> states_;
   std::string complaint_;

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "message/state_names.hpp"
+#include "message/line_writer.hpp"
 #include "tool/formatted.hpp"
 
 namespace cornerd::tool {
@@ -30,7 +30,7 @@ Style style_of(PoseState state) {
   return Style::kPlain;
 }
 
-void add_place(const message::ToldPose& pose, std::vector<PanelLine>& lines) {
+void add_place(const message::ParsedPose& pose, std::vector<PanelLine>& lines) {
   const auto sigma = [&](int row) {
     return pose.covariance ? std::sqrt(std::max(0.0, (*pose.covariance)(row, row))) : NAN;
   };
@@ -46,7 +46,7 @@ void add_place(const message::ToldPose& pose, std::vector<PanelLine>& lines) {
        "deg");
 }
 
-void add_alternatives(const message::ToldPose& pose, std::vector<PanelLine>& lines) {
+void add_alternatives(const message::ParsedPose& pose, std::vector<PanelLine>& lines) {
   for (std::size_t i = 0; i < std::min(pose.alternatives.size(), kMostAlternatives); ++i) {
     const core::Alternative& place = pose.alternatives[i];
     lines.push_back(
@@ -57,7 +57,7 @@ void add_alternatives(const message::ToldPose& pose, std::vector<PanelLine>& lin
 }
 
 /// `silence_s`: since it came.
-void add_pose(const message::ToldPose& pose, double silence_s, std::vector<PanelLine>& lines) {
+void add_pose(const message::ParsedPose& pose, double silence_s, std::vector<PanelLine>& lines) {
   if (pose.T_map_base) {
     add_place(pose, lines);
   } else {
@@ -96,7 +96,7 @@ void add_rates(const MonitorState& state, core::TimeNs now_ns, std::vector<Panel
   if (!shares.empty()) lines.push_back({formatted("last %zu:", state.recent()) + shares});
 }
 
-void add_devices(const message::ToldStatus& status, std::vector<PanelLine>& lines) {
+void add_devices(const message::ParsedStatus& status, std::vector<PanelLine>& lines) {
   const bool runs = status.lidar_state == "running" && status.lidar_fault.empty();
   lines.push_back({"lidar " + status.lidar_state, runs ? Style::kGood : Style::kBad});
   std::string about;
@@ -118,7 +118,7 @@ double daemon_time_s(const MonitorState& state) {
 
 void add_events(const MonitorState& state, std::vector<PanelLine>& lines) {
   const double now_s = daemon_time_s(state);
-  for (const message::ToldEvent& event : state.events()) {
+  for (const message::ParsedEvent& event : state.events()) {
     const double age_s = now_s - core::to_seconds(event.t_ns);
     lines.push_back(
         {formatted("%6s  ", age_text(std::isfinite(age_s) ? std::max(0.0, age_s) : NAN).c_str()) +
@@ -138,7 +138,7 @@ std::string age_text(double seconds) {
 
 PanelLine state_line(const MonitorState& state, core::TimeNs now_ns) {
   if (!state.pose()) return {state.is_connected() ? "no pose yet" : "no daemon", Style::kBad};
-  const message::ToldPose& pose = *state.pose();
+  const message::ParsedPose& pose = *state.pose();
   const std::string text =
       std::string(message::to_string(pose.state)) + (pose.room.empty() ? "" : "  " + pose.room);
   if (state.is_pose_stale(now_ns)) return {"stale " + text, Style::kDim};

@@ -34,7 +34,7 @@
 #include "daemon/scan_publisher.hpp"
 #include "drivers/rplidar/sample_stream.hpp"
 #include "markers.hpp"
-#include "message/state_names.hpp"
+#include "message/line_writer.hpp"
 #include "replay/simulator/simulator.hpp"
 #include "settings/map_file.hpp"
 
@@ -45,7 +45,7 @@ CORNERD_COST_STAGE(publish)
 CORNERD_COST_STAGE(detect)
 CORNERD_COST_STAGE(recognize)
 CORNERD_COST_STAGE(refine)
-CORNERD_COST_STAGE(explain)
+CORNERD_COST_STAGE(beam_likelihood)
 CORNERD_COST_STAGE(first_fix)
 
 namespace cornerd {
@@ -60,7 +60,7 @@ constexpr int kScans = 20;
 replay::SimulatorConfig lidar_of(std::size_t samples) {
   replay::SimulatorConfig config;
   config.wire = samples > 540 ? rplidar::WireFormat::kUltra : rplidar::WireFormat::kExpress;
-  const double period_s = core::to_seconds(replay::usual_sample_period_ns(config.wire));
+  const double period_s = core::to_seconds(replay::nominal_sample_period_ns(config.wire));
   config.motor_hz = 1 / (period_s * static_cast<double>(samples));
   config.motor_jitter = 0;
   return config;
@@ -133,8 +133,8 @@ class Parts {
 
     cost_begin_explain();
     const auto hits = prediction_.cast(*map_, refined.T_map_lidar, points_.points());
-    static_cast<void>(
-        core::explain(*map_, points_.points(), hits, refined.T_map_lidar, config_.noise, 1, 0));
+    static_cast<void>(core::beam_likelihood(*map_, points_.points(), hits, refined.T_map_lidar,
+                                            config_.noise, 1, 0));
     cost_end_explain();
 
     fresh_.relocalize();

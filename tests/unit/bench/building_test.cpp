@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "replay/simulator/places.hpp"
+#include "replay/simulator/random_poses.hpp"
 
 namespace cornerd::bench {
 namespace {
@@ -21,7 +21,7 @@ TEST(OfficeBuilding, HasAboutTheCornersThatAreAskedFor) {
 TEST(OfficeBuilding, EachRoom_OpensToAFreePlaceIndoors) {
   const core::WallMap map(office_building(300, 2));
   EXPECT_GT(map.plan().rooms.size(), 20U);
-  for (const core::Pose2& place : replay::random_places(map, 50, 0.3, 3)) {
+  for (const core::Pose2& place : replay::random_poses(map, 50, 0.3, 3)) {
     EXPECT_TRUE(map.room_at(place.translation()));
   }
 }

@@ -8,7 +8,7 @@
 
 #include "bench/corner_experiment.hpp"
 #include "bench/paper_figures.hpp"
-#include "replay/simulator/places.hpp"
+#include "replay/simulator/random_poses.hpp"
 #include "tests/unit/bench/contest_maps.hpp"
 #include "tests/unit/replay/test_maps.hpp"
 

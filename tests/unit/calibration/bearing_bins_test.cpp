@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "calibration/median.hpp"
+#include "calibration/robust_statistics.hpp"
 #include "core/geometry/angle.hpp"
 #include "static_room.hpp"
 

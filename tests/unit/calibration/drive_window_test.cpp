@@ -21,7 +21,7 @@ TEST(DriveWindow, AWholeDrive_IsCutIntoSecondsThatKnowTheirWayAndTurn) {
 
 TEST(DriveWindow, DrivenBackward_HasANegativeWay) {
   KnownDrive known = known_drive({}, 0);
-  for (KnownPlace& place : known.places) {
+  for (KnownPose& place : known.places) {
     place.T_map_base = core::Pose2{-0.4 * core::to_seconds(place.t_ns), 0, 0};
   }
   const auto windows = cut_windows(known.steps, known.places);
@@ -32,7 +32,7 @@ TEST(DriveWindow, DrivenBackward_HasANegativeWay) {
 TEST(DriveWindow, AHoleOrAMissingPlace_CostsItsWindow) {
   KnownDrive known = known_drive({}, 1);
   const std::size_t whole = cut_windows(known.steps, known.places).size();
-  known.steps[70].is_hole = true;
+  known.steps[70].is_gap = true;
   EXPECT_EQ(cut_windows(known.steps, known.places).size(), whole - 1);
   known.places.erase(known.places.begin() + 100, known.places.begin() + 130);
   EXPECT_EQ(cut_windows(known.steps, known.places).size(), whole - 1 - 4);

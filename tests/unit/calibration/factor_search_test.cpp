@@ -14,7 +14,7 @@ using core::HeadingSource;
 /// the wheels tell `encoder` times too little of each turn, the gyro `gyro` times.
 KnownDrive mendable_drive(const core::DriveGeometry& geometry, double encoder, double gyro) {
   KnownDrive drive = known_drive(geometry, 1);
-  for (core::MotionStep& step : drive.steps) {
+  for (core::OdometryIncrement& step : drive.steps) {
     const double left_m = step.left_m * (1 + kKnownErrors.left_scale);
     const double right_m = step.right_m * (1 + kKnownErrors.right_scale);
     const double half_m = (right_m - left_m) / 2 / (1 + kKnownErrors.track_scale) / encoder;
@@ -48,7 +48,7 @@ TEST(SearchFactors, OneFactor_IsFoundWhereverItIs) {
 
 TEST(SearchFactors, FactorBeyondTheSearch_IsSaidToBeAtItsEdge) {
   const FoundFactors encoder = found(3, 1, HeadingSource::kEncoder);
-  EXPECT_EQ(encoder.factors.encoder_factor, kMostFactor);
+  EXPECT_EQ(encoder.factors.encoder_factor, kMaxFactor);
   EXPECT_TRUE(encoder.encoder_at_edge);
   EXPECT_FALSE(encoder.gyro_at_edge);
   EXPECT_TRUE(found(1, 3, HeadingSource::kGyro).gyro_at_edge);

@@ -13,7 +13,7 @@ KnownDrive known_drive(const core::DriveGeometry& geometry, double scans, bool w
     const double rotation_rad = rate_rad_s * 0.02;
     T_map_base = T_map_base * core::arc(way_m, rotation_rad);
     const double half_m = rotation_rad * geometry.track_m * (1 + kKnownErrors.track_scale) / 2;
-    core::MotionStep step;
+    core::OdometryIncrement step;
     step.from_ns = i * core::TimeNs{20'000'000};
     step.to_ns = step.from_ns + 20'000'000;
     step.left_m = (way_m - half_m) / (1 + kKnownErrors.left_scale);

@@ -8,11 +8,11 @@
 namespace cornerd::calibration {
 
 /// What the wheels and the gyro of a known drive are off by.
-inline const core::LearnedOdometry kKnownErrors{0.01, 0.015, 0.025, -0.01, 0.02};
+inline const core::OdometryParameters kKnownErrors{0.01, 0.015, 0.025, -0.01, 0.02};
 
 struct KnownDrive {
-  std::vector<core::MotionStep> steps;
-  std::vector<KnownPlace> places;
+  std::vector<core::OdometryIncrement> steps;
+  std::vector<KnownPose> places;
 };
 
 /// Straights and turns for a minute at 50 steps a second, known every 0.14 s; `turns`: 0 for none.

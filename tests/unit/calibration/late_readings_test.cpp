@@ -12,10 +12,10 @@ namespace cornerd::calibration {
 namespace {
 
 /// The places as a lidar has them.
-void blur(std::vector<KnownPlace>& places, unsigned seed, double sigma = 0.001) {
+void blur(std::vector<KnownPose>& places, unsigned seed, double sigma = 0.001) {
   std::mt19937 random(seed);
   std::normal_distribution<double> normal;
-  for (KnownPlace& place : places) {
+  for (KnownPose& place : places) {
     place.T_map_base.x_m += sigma * normal(random);
     place.T_map_base.y_m += sigma * normal(random);
     place.T_map_base.theta_rad += sigma * normal(random);
@@ -41,7 +41,7 @@ KnownDrive slow_drive(double late_s, unsigned seed) {
     const double rotation_rad = 0.02 * 0.1 * std::sin(core::kTwoPi * i / 6000);
     const double way_m = 0.02 * 0.4;
     T_map_base = T_map_base * core::arc(way_m, rotation_rad);
-    core::MotionStep step{.from_ns = i * kStep_ns, .to_ns = (i + 1) * kStep_ns};
+    core::OdometryIncrement step{.from_ns = i * kStep_ns, .to_ns = (i + 1) * kStep_ns};
     step.left_m = way_m - rotation_rad * core::DriveGeometry{}.track_m / 2;
     step.right_m = way_m + rotation_rad * core::DriveGeometry{}.track_m / 2;
     step.gyro_rad = rotation_rad;
@@ -90,7 +90,7 @@ TEST(DelaySearch, BeyondItsEnds_SaysSo) {
 
 TEST(DelaySearch, WheelsAndGyroThatAreFarOff_AreNoHindrance) {
   KnownDrive known = late_drive(0.3, 1);
-  for (core::MotionStep& step : known.steps) {
+  for (core::OdometryIncrement& step : known.steps) {
     std::swap(step.left_m, step.right_m);
     step.left_m *= 4;
     step.gyro_rad *= -57.3;
@@ -125,16 +125,16 @@ TEST(OdometryFit, Sigmas_AreWhatItIsOffBy) {
     const KnownDrive known = late_drive(0.04, static_cast<unsigned>(seed));
     const auto fit = fit_odometry(known.steps, known.places, {}, 0.03);
     ASSERT_TRUE(fit);
-    const auto add = [&](int i, double core::LearnedOdometry::*value, double truth) {
+    const auto add = [&](int i, double core::OdometryParameters::*value, double truth) {
       const double z = (fit->learned.*value - truth) / fit->sigma.*value;
       squares[i] += z * z / kDrives;
     };
-    add(0, &core::LearnedOdometry::gyro_bias_rad_s, kKnownErrors.gyro_bias_rad_s);
-    add(1, &core::LearnedOdometry::left_scale, kKnownErrors.left_scale);
-    add(2, &core::LearnedOdometry::right_scale, kKnownErrors.right_scale);
-    add(3, &core::LearnedOdometry::track_scale, kKnownErrors.track_scale);
-    add(4, &core::LearnedOdometry::gyro_scale, kKnownErrors.gyro_scale);
-    add(5, &core::LearnedOdometry::delay_s, 0.04);
+    add(0, &core::OdometryParameters::gyro_bias_rad_s, kKnownErrors.gyro_bias_rad_s);
+    add(1, &core::OdometryParameters::left_scale, kKnownErrors.left_scale);
+    add(2, &core::OdometryParameters::right_scale, kKnownErrors.right_scale);
+    add(3, &core::OdometryParameters::track_scale, kKnownErrors.track_scale);
+    add(4, &core::OdometryParameters::gyro_scale, kKnownErrors.gyro_scale);
+    add(5, &core::OdometryParameters::delay_s, 0.04);
   }
   // A mean of twenty squares of what is normal lies between these but once in thousands.
   for (const double square : squares) {

@@ -21,7 +21,7 @@ TEST(OdometryFit, ExactDrive_IsGivenBack) {
   EXPECT_NEAR(fit->learned.gyro_scale, kKnownErrors.gyro_scale, 2e-4);
   EXPECT_NEAR(fit->learned.gyro_bias_rad_s, kKnownErrors.gyro_bias_rad_s, 1e-4);
   EXPECT_LT(reckon(known.steps, known.places, geometry, fit->learned).end_m, 0.05);
-  EXPECT_GT(reckon(known.steps, known.places, geometry, core::LearnedOdometry{}).end_m, 0.3);
+  EXPECT_GT(reckon(known.steps, known.places, geometry, core::OdometryParameters{}).end_m, 0.3);
 }
 
 TEST(OdometryFit, WithoutAGyro_TellsTheWheels) {
@@ -58,7 +58,7 @@ TEST(OdometryFit, Holes_AreLeftOut) {
   const core::DriveGeometry geometry;
   KnownDrive known = known_drive(geometry, 1);
   for (std::size_t i = 500; i < 510; ++i) {
-    known.steps[i].is_hole = true;
+    known.steps[i].is_gap = true;
     known.steps[i].left_m = known.steps[i].right_m = known.steps[i].gyro_rad = 0;
   }
   const auto fit = fit_odometry(known.steps, known.places, geometry);
@@ -69,10 +69,10 @@ TEST(OdometryFit, Holes_AreLeftOut) {
 TEST(Reckon, DeadBand_IsForWholeSteps) {
   // The robot is looked at in the middle of a step: half of it must not stay under the dead band.
   const core::DriveGeometry geometry;
-  core::MotionStep step;
+  core::OdometryIncrement step;
   step.to_ns = 100'000'000;
   step.left_m = step.right_m = 1.5 * 0.01 * geometry.wheel_radius_m;
-  const std::vector<KnownPlace> places = {
+  const std::vector<KnownPose> places = {
       {0, {}}, {50'000'000, {step.left_m / 2, 0, 0}}, {100'000'000, {step.left_m, 0, 0}}};
   const core::DeadReckoningConfig with_dead_band{core::HeadingSource::kEncoder, {1, 1, 0.01}};
   const DriveError error = reckon(std::vector{step}, places, geometry, with_dead_band);
@@ -81,7 +81,7 @@ TEST(Reckon, DeadBand_IsForWholeSteps) {
 }
 
 TEST(Reckon, NothingKnown_IsNoError) {
-  EXPECT_EQ(reckon({}, {}, {}, core::LearnedOdometry{}).places, 0U);
+  EXPECT_EQ(reckon({}, {}, {}, core::OdometryParameters{}).places, 0U);
 }
 
 }  // namespace

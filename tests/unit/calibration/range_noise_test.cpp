@@ -21,7 +21,7 @@ TEST(RangeNoise, FloorAndShare_AreFoundAgain) {
     ASSERT_TRUE(noise.has_value());
     EXPECT_NEAR(noise->plain.floor_m, floor_m, 0.15 * floor_m);
     EXPECT_NEAR(noise->plain.share, share, 0.1 * share);
-    EXPECT_LT(noise->plain_misfit, 0.08);
+    EXPECT_LT(noise->plain_residual, 0.08);
   }
 }
 
@@ -45,7 +45,7 @@ TEST(RangeNoise, NoiseOfNoSimpleShape_IsInTheTable) {
   room.sigma_m = sigma_m;
   const auto noise = fit_range_noise(room.record().spreads());
   ASSERT_TRUE(noise.has_value());
-  EXPECT_GT(noise->plain_misfit, 0.2);
+  EXPECT_GT(noise->plain_residual, 0.2);
   ASSERT_GE(noise->table().size(), 3u);
   for (const auto& point : noise->table()) {
     EXPECT_NEAR(point.sigma_m, sigma_m(point.range_m), 0.15 * sigma_m(point.range_m))

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The localizer with wheels and a gyro: straightened turns, and poses without the lidar.
+// The localizer with wheels and a gyro: deskewed turns, and poses without the lidar.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -18,9 +18,9 @@ constexpr double kTurnOfDrive_s = 0.14;
 /// A robot on a circle in the L-shaped room, seen by its lidar and by its wheels.
 class CircleDrive {
  public:
-  CircleDrive(double speed_m_s, double rate_rad_s, double bridge_s = 10, bool publish = false)
+  CircleDrive(double speed_m_s, double rate_rad_s, double max_extrapolation_s = 10, bool publish = false)
       : map_(testing::make_map(testing::l_shaped_room())),
-        localizer_(map_, config(bridge_s, publish)),
+        localizer_(map_, config(max_extrapolation_s, publish)),
         robot_({}, errors(), 5),
         speed_m_s_(speed_m_s),
         rate_rad_s_(rate_rad_s) {}
@@ -53,11 +53,11 @@ class CircleDrive {
   const std::vector<Between>& between() const { return between_; }
 
  private:
-  static LocalizerConfig config(double bridge_s, bool publish) {
+  static LocalizerConfig config(double max_extrapolation_s, bool publish) {
     LocalizerConfig config;
     config.odometry.enabled = true;
-    config.odometry.bridge_s = bridge_s;
-    config.odometry.publish = publish;
+    config.odometry.max_extrapolation_s = max_extrapolation_s;
+    config.odometry.publish_predictions = publish;
     return config;
   }
   static testing::RobotErrors errors() {
@@ -146,7 +146,7 @@ TEST(LocalizerWithOdometry, CoveredLidar_IsBridgedAndItsDoubtGrows) {
 }
 
 TEST(LocalizerWithOdometry, AfterTheBridge_IsLost) {
-  CircleDrive drive(0.3, 0.8, /*bridge_s=*/1);
+  CircleDrive drive(0.3, 0.8, /*max_extrapolation_s=*/1);
   for (int k = 0; k < 20; ++k) drive.turn();
   for (int k = 1; k <= 12; ++k) {
     EXPECT_EQ(drive.turn(/*covered=*/true).state,
@@ -171,11 +171,11 @@ TEST(LocalizerWithOdometry, Summary_TellsWhatWasLearned) {
   for (int k = 0; k < 200; ++k) drive.turn();
   const OdometrySummary& odometry = drive.odometry();
   EXPECT_TRUE(odometry.enabled);
-  EXPECT_TRUE(odometry.trusted);
+  EXPECT_TRUE(odometry.healthy);
   EXPECT_GT(odometry.fixes, 190U);
   // One circle tells the way, but neither wheel from wheel nor bias from scale.
   // The wheels roll at 0.236 and 0.364 m/s.
-  EXPECT_NEAR((0.236 * odometry.learned.left_scale + 0.364 * odometry.learned.right_scale) / 0.6,
+  EXPECT_NEAR((0.236 * odometry.parameters.left_scale + 0.364 * odometry.parameters.right_scale) / 0.6,
               0.01 * 0.236 / 0.6, 0.001);
 }
 

@@ -58,14 +58,14 @@ void append(PolarScan& points, double from_rad, double to_rad) {
 
 TEST(PolarScan, WidestGap_GoesAcrossTheSeamToo) {
   PolarScan points;
-  EXPECT_EQ(points.widest_gap_rad(), kTwoPi);
+  EXPECT_EQ(points.largest_gap_rad(), kTwoPi);
   points.begin(0.01);
   points.append(-1, 1);
-  EXPECT_EQ(points.widest_gap_rad(), kTwoPi);
+  EXPECT_EQ(points.largest_gap_rad(), kTwoPi);
   append(points, 0.5, 1.0001);
-  EXPECT_NEAR(points.widest_gap_rad(), kTwoPi - 0.5, 1e-9);
+  EXPECT_NEAR(points.largest_gap_rad(), kTwoPi - 0.5, 1e-9);
   append(points, 2.5, 3.1001);
-  EXPECT_NEAR(points.widest_gap_rad(), kTwoPi - 2.6, 1e-9);
+  EXPECT_NEAR(points.largest_gap_rad(), kTwoPi - 2.6, 1e-9);
 }
 
 TEST(PolarScan, OutliersInTheDark_FillNoGap) {
@@ -73,14 +73,14 @@ TEST(PolarScan, OutliersInTheDark_FillNoGap) {
   points.begin(0.01);
   for (const double bearing_rad : {-3.0, -2.0, -1.99, -1.0}) points.append(bearing_rad, 1);
   append(points, 0, 3.0001);
-  EXPECT_NEAR(points.widest_gap_rad(), kTwoPi - 3, 1e-9);
+  EXPECT_NEAR(points.largest_gap_rad(), kTwoPi - 3, 1e-9);
 }
 
 TEST(PolarScan, SparseReturns_LeaveNoGap) {
   PolarScan points;
   points.begin(0.01);
   for (int i = 0; i < 200; ++i) points.append(-kPi + i * kTwoPi / 200, 1);
-  EXPECT_LT(points.widest_gap_rad(), 0.1);
+  EXPECT_LT(points.largest_gap_rad(), 0.1);
 }
 
 TEST(PolarScan, ReturnsOutsideTheLimits_AreLeftOut) {

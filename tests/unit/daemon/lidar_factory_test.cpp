@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "drivers/serial/baud_rate.hpp"
+#include "drivers/serial/serial_port.hpp"
 #include "settings/config.hpp"
 
 namespace cornerd::daemon {

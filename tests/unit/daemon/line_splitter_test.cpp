@@ -35,8 +35,8 @@ TEST_F(LineSplitterTest, LinesInAnyPortions_AreTheSame) {
 TEST_F(LineSplitterTest, RestWithoutNewline_IsKeptForTheEnd) {
   EXPECT_TRUE(feed("a\nrest"));
   EXPECT_THAT(lines_, ElementsAre("a"));
-  EXPECT_EQ(splitter_.take_rest(), "rest");
-  EXPECT_EQ(splitter_.take_rest(), "");
+  EXPECT_EQ(splitter_.take_remainder(), "rest");
+  EXPECT_EQ(splitter_.take_remainder(), "");
 }
 
 TEST_F(LineSplitterTest, LineAtTheLimit_IsTaken) {

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "daemon/listening_sockets.hpp"
-
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -16,7 +14,7 @@ namespace {
 
 bool is_listed(const std::string& file, const std::string& list) {
   std::istringstream lines(list);
-  return somebody_listens(file, lines);
+  return is_listening(file, lines);
 }
 
 TEST(SomebodyListens, ListOfTheKernel_IsReadByFlagsAndPath) {
@@ -37,10 +35,10 @@ TEST(SomebodyListens, LiveSocketByAnotherName_IsFound) {
   std::filesystem::create_directory_symlink(folder / "real", folder / "link");
   {
     const UnixListener listener(folder / "real" / "s", 0600);
-    EXPECT_EQ(somebody_listens(by_link), true);
+    EXPECT_EQ(is_listening(by_link), true);
   }
   std::ofstream(by_link) << "";
-  EXPECT_EQ(somebody_listens(by_link), false);
+  EXPECT_EQ(is_listening(by_link), false);
 }
 
 }  // namespace

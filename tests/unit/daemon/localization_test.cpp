@@ -33,7 +33,7 @@ class FakeLidar final : public drivers::LidarDriver {
       }
     }
     while (!ends_ && !stop.stop_requested()) {
-      if (!is_stuck_) come_round();
+      if (!is_stuck_) count_progress();
       std::this_thread::yield();
     }
     stopped_ = true;
@@ -113,8 +113,8 @@ TEST(Localization, EndBeforeTheStart_IsQuiet) {
 TEST(Localization, ReplacedPipeline_TakesOverBetweenTwoTurnsAndMissesNone) {
   FakeLidar lidar(16, /*ends=*/true);
   Localization localization(lidar, pipeline_without_map(), SourceKind::kRecording);
-  EXPECT_EQ(localization.replace(pipeline_without_map()), 1u);
-  EXPECT_EQ(localization.replace(pipeline_without_map()), 2u) << "one that was never used";
+  EXPECT_EQ(localization.replace_pipeline(pipeline_without_map()), 1u);
+  EXPECT_EQ(localization.replace_pipeline(pipeline_without_map()), 2u) << "one that was never used";
   localization.start();
   std::vector<std::uint32_t> generations;
   std::vector<core::TimeNs> starts;
@@ -130,7 +130,7 @@ TEST(Localization, ReplacedPipeline_TakesOverBetweenTwoTurnsAndMissesNone) {
     EXPECT_EQ(generations[i], 2u);
   }
   EXPECT_EQ(starts.size(), 16u);
-  localization.replace(pipeline_without_map());
+  localization.replace_pipeline(pipeline_without_map());
 }
 
 TEST(Localization, IdleLocalizer_StillProvesThatItLives) {

@@ -11,7 +11,7 @@
 #include <memory>
 #include <string>
 
-#include "daemon/file_descriptor.hpp"
+#include "daemon/require_fd.hpp"
 
 namespace cornerd::daemon {
 namespace {

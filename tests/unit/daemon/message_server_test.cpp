@@ -67,7 +67,7 @@ class MessageServerTest : public ::testing::Test {
   int relocalizations_ = 0;
   std::vector<core::Pose2> given_;
   std::vector<message::OdometryReading> readings_;
-  int giver_ = -1;  ///< the connection whose readings are taken
+  int publisher_ = -1;  ///< the connection whose readings are taken
   MessageServer server_{
       loop_,
       "1.2.3",
@@ -75,11 +75,11 @@ class MessageServerTest : public ::testing::Test {
        [this](const message::SetPoseRequest& request) { given_.push_back(request.T_map_base); },
        [this](const message::OdometryReading& reading, int connection) {
          readings_.push_back(reading);
-         if (giver_ < 0) giver_ = connection;
-         return giver_ == connection;
+         if (publisher_ < 0) publisher_ = connection;
+         return publisher_ == connection;
        },
        [this](int connection) {
-         if (giver_ == connection) giver_ = -1;
+         if (publisher_ == connection) publisher_ = -1;
        }}};
 };
 
@@ -351,7 +351,7 @@ TEST_F(MessageServerTest, ControlClient_FindsRoomWhereTheListenersHaveTakenIt) {
     clients.push_back(greeted(pose_path_));
   }
   std::vector<TestClient> controllers;
-  for (std::size_t i = 0; i < MessageServer::kSureOfControl; ++i) {
+  for (std::size_t i = 0; i < MessageServer::kReservedControlClients; ++i) {
     controllers.push_back(greeted(control_path_));
     EXPECT_EQ(next(clients.back())["code"], "too-many-clients") << "the newest goes";
     EXPECT_EQ(clients.back().read_line(0), std::nullopt);

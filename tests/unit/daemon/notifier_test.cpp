@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "daemon/notifier.hpp"
-
 #include <gtest/gtest.h>
 #include <sys/socket.h>
 #include <sys/un.h>
@@ -10,6 +8,7 @@
 #include <cstring>
 #include <string>
 
+#include "daemon/systemd.hpp"
 #include "tests/temporary_folder.hpp"
 
 namespace cornerd::daemon {

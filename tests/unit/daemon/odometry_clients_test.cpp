@@ -29,10 +29,10 @@ class OdometryClientsTest : public ::testing::Test {
     reading.gyro_rad_s = 0.1;
     return reading;
   }
-  bool admits(int connection, OdometryReading reading) {
+  bool accepts(int connection, OdometryReading reading) {
     now_ns_ += kStep_ns;
-    verdict_ = clients_.admit(connection, now_ns_, reading);
-    return verdict_ == Verdict::kTaken;
+    verdict_ = clients_.accept(connection, now_ns_, reading);
+    return verdict_ == Verdict::kAccepted;
   }
   message::StatusFields described() {
     message::StatusFields status;
@@ -43,21 +43,21 @@ class OdometryClientsTest : public ::testing::Test {
   }
 
   OdometryClients clients_;
-  Verdict verdict_ = Verdict::kTaken;  ///< the last one
+  Verdict verdict_ = Verdict::kAccepted;  ///< the last one
   core::OdometrySummary summary_;
   core::TimeNs now_ns_ = 0;
 };
 
 TEST_F(OdometryClientsTest, OneClient_IsTaken) {
-  for (int i = 0; i < 100; ++i) EXPECT_TRUE(admits(7, wheels()));
+  for (int i = 0; i < 100; ++i) EXPECT_TRUE(accepts(7, wheels()));
   EXPECT_EQ(described().second_client, 0U);
   EXPECT_THAT(described().odometry_hint, IsEmpty());
 }
 
 TEST_F(OdometryClientsTest, ASecondOne_IsRefusedCountedAndTold) {
   for (int i = 0; i < 50; ++i) {
-    EXPECT_TRUE(admits(7, wheels()));
-    EXPECT_FALSE(admits(8, wheels()));
+    EXPECT_TRUE(accepts(7, wheels()));
+    EXPECT_FALSE(accepts(8, wheels()));
   }
   EXPECT_EQ(described().second_client, 50U);
   EXPECT_THAT(std::string(described().odometry_hint), HasSubstr("two clients"));
@@ -67,51 +67,51 @@ TEST_F(OdometryClientsTest, ASecondOne_IsRefusedCountedAndTold) {
 
 TEST_F(OdometryClientsTest, WheelsOfOneAndGyroOfAnother_AreBothTaken) {
   for (int i = 0; i < 50; ++i) {
-    EXPECT_TRUE(admits(7, wheels()));
-    EXPECT_TRUE(admits(8, gyro()));
+    EXPECT_TRUE(accepts(7, wheels()));
+    EXPECT_TRUE(accepts(8, gyro()));
   }
   OdometryReading both = wheels();
   both.gyro_rad_s = 0.2;
-  EXPECT_EQ(clients_.admit(8, now_ns_, both), Verdict::kRefusedAnew);
+  EXPECT_EQ(clients_.accept(8, now_ns_, both), Verdict::kFirstRejection);
   EXPECT_FALSE(both.left || both.right);
   EXPECT_EQ(both.gyro_rad_s, 0.2);
 }
 
 TEST_F(OdometryClientsTest, FirstOneThatGoesOrFallsSilent_LeavesItToTheNext) {
-  EXPECT_TRUE(admits(7, wheels()));
-  EXPECT_FALSE(admits(8, wheels()));
-  clients_.forget(7);
-  EXPECT_TRUE(admits(8, wheels()));
+  EXPECT_TRUE(accepts(7, wheels()));
+  EXPECT_FALSE(accepts(8, wheels()));
+  clients_.disconnect(7);
+  EXPECT_TRUE(accepts(8, wheels()));
   EXPECT_THAT(described().odometry_hint, IsEmpty()) << "it was handed over";
-  EXPECT_FALSE(admits(7, wheels())) << "another client, by the same number";
-  now_ns_ += OdometryClients::kSilent_ns;
-  EXPECT_TRUE(admits(7, wheels()));
+  EXPECT_FALSE(accepts(7, wheels())) << "another client, by the same number";
+  now_ns_ += OdometryClients::kSilenceTimeout_ns;
+  EXPECT_TRUE(accepts(7, wheels()));
 }
 
 TEST_F(OdometryClientsTest, ARefusedClient_IsToldOnceForEachConnection) {
-  EXPECT_TRUE(admits(7, wheels()));
-  EXPECT_FALSE(admits(8, wheels()));
-  EXPECT_EQ(verdict_, Verdict::kRefusedAnew);
-  EXPECT_FALSE(admits(8, wheels()));
-  EXPECT_EQ(verdict_, Verdict::kRefused);
-  clients_.forget(8);
-  EXPECT_FALSE(admits(8, wheels()));
-  EXPECT_EQ(verdict_, Verdict::kRefusedAnew);
+  EXPECT_TRUE(accepts(7, wheels()));
+  EXPECT_FALSE(accepts(8, wheels()));
+  EXPECT_EQ(verdict_, Verdict::kFirstRejection);
+  EXPECT_FALSE(accepts(8, wheels()));
+  EXPECT_EQ(verdict_, Verdict::kRejected);
+  clients_.disconnect(8);
+  EXPECT_FALSE(accepts(8, wheels()));
+  EXPECT_EQ(verdict_, Verdict::kFirstRejection);
 }
 
 TEST_F(OdometryClientsTest, FirstOneThatSendsOneWheelAlone_LosesItsPlaceToAWholeOne) {
   OdometryReading left;
   left.left = 1;
-  EXPECT_TRUE(admits(7, left));
+  EXPECT_TRUE(accepts(7, left));
   core::TimeNs taken_ns = 0;
   for (int i = 0; i < 500 && taken_ns == 0; ++i) {
-    EXPECT_TRUE(admits(7, left));
-    if (admits(8, wheels())) taken_ns = now_ns_;
+    EXPECT_TRUE(accepts(7, left));
+    if (accepts(8, wheels())) taken_ns = now_ns_;
   }
-  EXPECT_NEAR(core::to_seconds(taken_ns), core::to_seconds(OdometryClients::kUseless_ns), 0.1);
+  EXPECT_NEAR(core::to_seconds(taken_ns), core::to_seconds(OdometryClients::kUselessTimeout_ns), 0.1);
   for (int i = 0; i < 500; ++i) {
-    EXPECT_FALSE(admits(7, left));
-    EXPECT_TRUE(admits(8, wheels()));
+    EXPECT_FALSE(accepts(7, left));
+    EXPECT_TRUE(accepts(8, wheels()));
   }
 }
 
@@ -121,8 +121,8 @@ TEST_F(OdometryClientsTest, TwoThatSendOneWheelEach_DoNotPushEachOtherOut) {
   OdometryReading right;
   right.right = 1;
   for (int i = 0; i < 500; ++i) {
-    EXPECT_TRUE(admits(7, left));
-    EXPECT_FALSE(admits(8, right));
+    EXPECT_TRUE(accepts(7, left));
+    EXPECT_FALSE(accepts(8, right));
   }
 }
 
@@ -130,17 +130,17 @@ TEST_F(OdometryClientsTest, FirstOneThatIsRefusedAllTheTime_LosesItsPlace) {
   static_cast<void>(described());
   int taken = 0;
   for (int i = 0; i < 400; ++i) {
-    EXPECT_TRUE(admits(7, wheels()));
+    EXPECT_TRUE(accepts(7, wheels()));
     ++summary_.counters.past;
     if (i % 50 == 49) static_cast<void>(described());
-    taken += admits(8, wheels()) ? 1 : 0;
+    taken += accepts(8, wheels()) ? 1 : 0;
     if (taken > 0) break;
   }
   EXPECT_EQ(taken, 1);
   // And the good one that has it now keeps it.
   for (int i = 0; i < 1000; ++i) {
-    EXPECT_TRUE(admits(8, wheels()));
-    EXPECT_FALSE(admits(7, wheels()));
+    EXPECT_TRUE(accepts(8, wheels()));
+    EXPECT_FALSE(accepts(7, wheels()));
     if (i % 50 == 49) static_cast<void>(described());
   }
 }
@@ -148,9 +148,9 @@ TEST_F(OdometryClientsTest, FirstOneThatIsRefusedAllTheTime_LosesItsPlace) {
 TEST_F(OdometryClientsTest, FirstOneThatIsRefusedForAMoment_KeepsItsPlace) {
   static_cast<void>(described());
   for (int i = 0; i < 1000; ++i) {
-    EXPECT_TRUE(admits(7, wheels()));
+    EXPECT_TRUE(accepts(7, wheels()));
     if (i >= 200 && i < 250) ++summary_.counters.past;
-    EXPECT_FALSE(admits(8, wheels()));
+    EXPECT_FALSE(accepts(8, wheels()));
     if (i % 25 == 24) static_cast<void>(described());
   }
 }
@@ -161,19 +161,19 @@ TEST_F(OdometryClientsTest, GyroThatIsRefusedAllTheTime_LosesItsPlaceAndTheWheel
   for (int i = 0; i < 400 && !is_taken; ++i) {
     OdometryReading both = wheels();
     both.gyro_rad_s = 100;
-    EXPECT_TRUE(admits(7, both));
-    ++summary_.counters.gyro;
+    EXPECT_TRUE(accepts(7, both));
+    ++summary_.counters.invalid_rates;
     if (i % 50 == 49) static_cast<void>(described());
-    is_taken = admits(8, gyro());
+    is_taken = accepts(8, gyro());
   }
   EXPECT_TRUE(is_taken);
-  EXPECT_TRUE(admits(7, wheels()));
+  EXPECT_TRUE(accepts(7, wheels()));
 }
 
 TEST_F(OdometryClientsTest, WhatLinesLack_IsTold) {
   summary_.present = false;
   static_cast<void>(described());
-  for (int i = 0; i < 50; ++i) EXPECT_TRUE(admits(7, gyro()));
+  for (int i = 0; i < 50; ++i) EXPECT_TRUE(accepts(7, gyro()));
   EXPECT_THAT(std::string(described().odometry_hint), HasSubstr("lack left and right"));
 }
 

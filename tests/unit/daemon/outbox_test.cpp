@@ -26,7 +26,7 @@ class Pipe {
       return static_cast<std::ptrdiff_t>(taken);
     };
   }
-  void make_room(std::size_t bytes) { room_ += bytes; }
+  void evict_pose_client(std::size_t bytes) { room_ += bytes; }
   void break_off() { broken_ = true; }
   const std::string& received() const { return received_; }
 
@@ -55,7 +55,7 @@ TEST(Outbox, ClientThatDoesNotRead_GetsTheNewestAndIsToldWhatItLost) {
     EXPECT_EQ(outbox.flush(pipe.writer()), Result::kBlocked);
   }
   outbox.put(MessageClass::kStatus, "{\"s\":1}\n");
-  pipe.make_room(1000);
+  pipe.evict_pose_client(1000);
   EXPECT_EQ(outbox.flush(pipe.writer()), Result::kEmpty);
   EXPECT_EQ(pipe.received(), "{\"p\":3,\"dropped\":2}\n{\"s\":1}\n");
   EXPECT_EQ(outbox.dropped(), 2u);
@@ -66,7 +66,7 @@ TEST(Outbox, AfterTheLossWasTold_TheCountBeginsAnew) {
   Pipe pipe(0);
   outbox.put(MessageClass::kPose, "{\"p\":1}\n");
   outbox.put(MessageClass::kPose, "{\"p\":2}\n");
-  pipe.make_room(1000);
+  pipe.evict_pose_client(1000);
   ASSERT_EQ(outbox.flush(pipe.writer()), Result::kEmpty);
   outbox.put(MessageClass::kPose, "{\"p\":3}\n");
   ASSERT_EQ(outbox.flush(pipe.writer()), Result::kEmpty);
@@ -81,7 +81,7 @@ TEST(Outbox, TornLine_IsFinishedBeforeAnyOther) {
   outbox.answer("{\"a\":1}\n");
   outbox.put(MessageClass::kPose, "{\"p\":2}\n");
   outbox.put(MessageClass::kPose, "{\"p\":3}\n");
-  while (outbox.flush(pipe.writer()) == Result::kBlocked) pipe.make_room(1);
+  while (outbox.flush(pipe.writer()) == Result::kBlocked) pipe.evict_pose_client(1);
   EXPECT_EQ(pipe.received(), "{\"p\":1}\n{\"a\":1}\n{\"p\":3,\"dropped\":1}\n");
 }
 
@@ -96,7 +96,7 @@ TEST(Outbox, AnswersAreNeverLost) {
     EXPECT_EQ(outbox.flush(pipe.writer()), Result::kBlocked);
   }
   EXPECT_EQ(outbox.waiting_answers(), 100u);
-  pipe.make_room(100'000);
+  pipe.evict_pose_client(100'000);
   EXPECT_EQ(outbox.flush(pipe.writer()), Result::kEmpty);
   EXPECT_EQ(pipe.received(), all);
 }

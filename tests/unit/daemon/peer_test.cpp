@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "daemon/peer.hpp"
-
 #include <gtest/gtest.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
 #include <array>
 
-#include "daemon/file_descriptor.hpp"
+#include "daemon/require_fd.hpp"
+#include "daemon/unix_listener.hpp"
 
 namespace cornerd::daemon {
 namespace {

@@ -16,7 +16,7 @@
 #include "daemon/localization.hpp"
 #include "daemon/realtime.hpp"
 #include "drivers/rplidar/protocol/answers.hpp"
-#include "drivers/rplidar/protocol/descriptor.hpp"
+#include "drivers/rplidar/protocol/framing.hpp"
 #include "drivers/rplidar/rplidar_driver.hpp"
 #include "replay/emulator/virtual_clock.hpp"
 #include "replay/simulator/motion.hpp"
@@ -149,7 +149,7 @@ TEST(Realtime, ReaderAndLocalizer_NeitherAllocateNorFaultAfterTheWarmUp) {
                             SourceKind::kRecording);
   localization.start();
   // A sanitizer maps more than any machine has.
-  const bool is_touched = !test::kSanitized && touch_memory();
+  const bool is_touched = !test::kSanitized && prefault_memory();
   std::uint64_t scans = 0;
   std::uint64_t reported = 0;
   std::size_t allocations = 0;

@@ -23,8 +23,8 @@ TEST(NeedsRestart, WhatAReloadTakes_IsNotNamed) {
   const settings::Config before;
   settings::Config now;
   now.map = "/another.json";
-  now.odometry.core.publish = true;
-  now.odometry.core.bridge_s = 3;
+  now.odometry.core.publish_predictions = true;
+  now.odometry.core.max_extrapolation_s = 3;
   EXPECT_EQ(needs_restart(before, now), "");
 }
 

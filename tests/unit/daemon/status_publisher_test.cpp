@@ -56,18 +56,18 @@ class StatusPublisherTest : public ::testing::Test {
 
 TEST_F(StatusPublisherTest, SameStateAndReason_IsNoChange) {
   const auto absent = change(LidarState::kAbsent, LidarFault::kNoPort, "no port");
-  EXPECT_TRUE(publisher_.notice(absent, 0));
+  EXPECT_TRUE(publisher_.update(absent, 0));
   EXPECT_EQ(next(), json::parse(R"({"class":"EVENT","t":0,"what":"device fault",
                                     "detail":"absent, no-port: no port"})"));
-  EXPECT_FALSE(publisher_.notice(absent, 0));
-  EXPECT_TRUE(publisher_.notice(change(LidarState::kAbsent, LidarFault::kNoPort, "still none"), 0));
+  EXPECT_FALSE(publisher_.update(absent, 0));
+  EXPECT_TRUE(publisher_.update(change(LidarState::kAbsent, LidarFault::kNoPort, "still none"), 0));
   EXPECT_EQ(next(), "nothing") << "an event is for states and faults, not for words";
 }
 
 TEST_F(StatusPublisherTest, EachStateAndFault_IsAnEvent) {
   const auto expect = [this](const drivers::LidarChange& change, const char* what,
                              const char* detail) {
-    publisher_.notice(change, 1'000'000'000);
+    publisher_.update(change, 1'000'000'000);
     const json event = next();
     EXPECT_EQ(event["what"], what);
     EXPECT_EQ(event["detail"], detail);
@@ -97,7 +97,7 @@ TEST_F(StatusPublisherTest, Status_HasTheDriversCountersAndTheDaemonsOwn) {
   status.fault = LidarFault::kMotorStalled;
   status.detail.set("fine");
   status.counters.bad_checksums = 7;
-  status.lateness.add(300'000);
+  status.latency.add(300'000);
   DaemonHealth health{.priority = 20, .memory_is_locked = true, .server = {}};
   health.server.add(2'000'000'000);
   publisher_.publish(status, scans, localization, health, 5'000'000'000);
@@ -115,10 +115,10 @@ TEST_F(StatusPublisherTest, Status_HasTheDriversCountersAndTheDaemonsOwn) {
   EXPECT_EQ(realtime["priority"], 20);
   EXPECT_EQ(realtime["memory_locked"], true);
   EXPECT_EQ(realtime["edges"][2], 0.0005);
-  EXPECT_EQ(realtime["reader"]["late"][2], 1);
+  EXPECT_EQ(realtime["reader"]["counts"][2], 1);
   EXPECT_EQ(realtime["reader"]["max"], 0.0003);
-  EXPECT_EQ(realtime["server"]["late"].back(), 1) << "beyond the last edge";
-  EXPECT_EQ(realtime["server"]["late"].size(), realtime["edges"].size() + 1);
+  EXPECT_EQ(realtime["server"]["counts"].back(), 1) << "beyond the last edge";
+  EXPECT_EQ(realtime["server"]["counts"].size(), realtime["edges"].size() + 1);
   EXPECT_TRUE(realtime["localizer"].contains("page_faults"));
 }
 

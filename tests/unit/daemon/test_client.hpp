@@ -11,7 +11,7 @@
 #include <string>
 #include <string_view>
 
-#include "daemon/file_descriptor.hpp"
+#include "daemon/require_fd.hpp"
 
 namespace cornerd::daemon {
 

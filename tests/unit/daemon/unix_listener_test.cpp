@@ -71,9 +71,9 @@ TEST(UnixListener, ClientThatNoDescriptorIsLeftFor_IsSentAway) {
 TEST(UnixListener, RemovedFile_IsNoticed) {
   const test::TemporaryFolder folder;
   const UnixListener listener(folder / "s", 0600);
-  EXPECT_TRUE(listener.is_there());
+  EXPECT_TRUE(listener.file_exists());
   std::filesystem::remove(folder / "s");
-  EXPECT_FALSE(listener.is_there());
+  EXPECT_FALSE(listener.file_exists());
 }
 
 TEST(UnixListener, ThoseThatStartTogether_AreOne) {
@@ -173,7 +173,7 @@ TEST(UnixListener, SocketOfAnotherUsersLiveInstance_IsLeftAlone) {
   const Unprivileged user(folder.path());
   EXPECT_EQ(error_of(folder / "s"),
             (folder / "s").string() + ": another user's cornerd listens there");
-  EXPECT_TRUE(first.is_there());
+  EXPECT_TRUE(first.file_exists());
 }
 
 TEST(UnixListener, StaleFileThatMayNotBeRemoved_IsNamedAsSuch) {

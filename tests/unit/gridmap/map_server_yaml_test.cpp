@@ -6,7 +6,7 @@
 
 #include <string>
 
-#include "gridmap/grid_error.hpp"
+#include "gridmap/image.hpp"
 
 namespace cornerd::gridmap {
 namespace {

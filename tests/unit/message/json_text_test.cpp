@@ -33,7 +33,7 @@ std::string in_quotes(std::string_view value) {
   return std::string(text.view());
 }
 
-TEST(JsonText, Fixed_RoundsToItsPlacesAndDropsTrailingZeros) {
+TEST(JsonText, Fixed_FiniteValue_RoundedWithoutTrailingZeros) {
   EXPECT_EQ(fixed(1.23456789, 5), "1.23457");
   EXPECT_EQ(fixed(-1.23456789, 5), "-1.23457");
   EXPECT_EQ(fixed(0.5, 5), "0.5");
@@ -43,17 +43,17 @@ TEST(JsonText, Fixed_RoundsToItsPlacesAndDropsTrailingZeros) {
   EXPECT_EQ(fixed(0.999999999, 5), "1");
 }
 
-TEST(JsonText, FixedTooSmallForItsPlaces_IsZeroWithoutSign) {
+TEST(JsonText, Fixed_ValueBelowResolution_ZeroWithoutSign) {
   EXPECT_EQ(fixed(-1e-9, 5), "0");
   EXPECT_EQ(fixed(-0.0, 5), "0");
 }
 
-TEST(JsonText, FixedTooLargeForItsPlaces_StaysANumber) {
+TEST(JsonText, Fixed_HugeValue_WrittenWithSignificantDigits) {
   EXPECT_EQ(nlohmann::json::parse(fixed(1e300, 5)).get<double>(), 1e300);
   EXPECT_EQ(nlohmann::json::parse(fixed(-1e18, 9)).get<double>(), -1e18);
 }
 
-TEST(JsonText, Significant_KeepsSixDigitsOfAnySize) {
+TEST(JsonText, Significant_AnyMagnitude_SixDigits) {
   const auto significant = [](double value) {
     JsonText text(64);
     text.significant(value);
@@ -64,7 +64,7 @@ TEST(JsonText, Significant_KeepsSixDigitsOfAnySize) {
   EXPECT_EQ(significant(0.25), "0.25");
 }
 
-TEST(JsonText, Seconds_KeepTheMicrosecondsOfUnixTime) {
+TEST(JsonText, Seconds_UnixTime_KeepsMicroseconds) {
   EXPECT_EQ(seconds(1'700'000'000'123'456'789), "1700000000.123457");
   EXPECT_EQ(seconds(0), "0.000000");
   EXPECT_EQ(seconds(1'499), "0.000001");
@@ -73,12 +73,12 @@ TEST(JsonText, Seconds_KeepTheMicrosecondsOfUnixTime) {
   EXPECT_EQ(seconds(999'999'500), "1.000000");
 }
 
-TEST(JsonText, SecondsAtTheEndsOfTheirType_AreWritten) {
+TEST(JsonText, Seconds_LimitsOfType_Written) {
   EXPECT_EQ(seconds(std::numeric_limits<core::TimeNs>::max()), "9223372036.854776");
   EXPECT_EQ(seconds(std::numeric_limits<core::TimeNs>::min()), "-9223372036.854776");
 }
 
-TEST(JsonText, Angle_StaysWithinPiWhenReadBack) {
+TEST(JsonText, Angle_NearPi_ReadBackWithinInterval) {
   for (const double angle_rad :
        {core::kPi, -core::kPi, std::nextafter(-core::kPi, 0.0), 3.1415925}) {
     JsonText text(64);
@@ -90,13 +90,13 @@ TEST(JsonText, Angle_StaysWithinPiWhenReadBack) {
   }
 }
 
-TEST(JsonText, String_EscapesWhatJsonDoesNotAllow) {
+TEST(JsonText, String_SpecialCharacters_Escaped) {
   EXPECT_EQ(in_quotes("plain"), "\"plain\"");
   EXPECT_EQ(in_quotes("a\"b\\c\n\x01"), R"("a\"b\\c\n\u0001")");
   EXPECT_EQ(in_quotes("T\xc3\xbcr"), "\"T\xc3\xbcr\"");
 }
 
-TEST(JsonText, StringOfAnyBytes_ReadsBackAsJson) {
+TEST(JsonText, String_AnyBytes_ParsesAsJson) {
   std::string all;
   for (int c = 0; c < 256; ++c) all += static_cast<char>(c);
   const auto parsed = nlohmann::json::parse(in_quotes(all));
@@ -104,7 +104,7 @@ TEST(JsonText, StringOfAnyBytes_ReadsBackAsJson) {
   EXPECT_EQ(parsed.get<std::string>().substr(128, 3), "\xef\xbf\xbd");
 }
 
-TEST(JsonText, NestedValues_AreSeparatedByCommas) {
+TEST(JsonText, Commas_NestedValues_Separated) {
   JsonText text(256);
   text.open_object();
   text.key("a");
@@ -120,7 +120,7 @@ TEST(JsonText, NestedValues_AreSeparatedByCommas) {
   EXPECT_EQ(text.view(), R"({"a":[1,18446744073709551615,{}],"b":false})");
 }
 
-TEST(JsonText, StringEndingInABracket_StillGetsItsComma) {
+TEST(JsonText, Commas_StringEndingInBracket_Separated) {
   JsonText text(64);
   text.open_array();
   text.string("[");

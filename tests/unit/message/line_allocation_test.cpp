@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Counts what writing the messages takes from the heap: nothing.
+// Counts heap allocations while messages are written.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -7,7 +7,7 @@
 #include <cstdlib>
 #include <new>
 
-#include "message/line.hpp"
+#include "message/line_writer.hpp"
 
 namespace {
 
@@ -29,11 +29,11 @@ std::atomic<int> allocations{0};
 namespace cornerd::message {
 namespace {
 
-TEST(LineWriter, WorstLines_AllocateNothing) {
+TEST(LineWriter, LongestLines_AllocateNothing) {
   LineWriter writer;
   core::Scan scan;
   for (std::size_t i = 0; i < core::kMaxSamplesPerScan; ++i) {
-    // Irregular times, and every field at its longest.
+    // Irregular times add "times"; every field has its maximum length.
     scan.add({.t_ns = static_cast<core::TimeNs>(i * i * 100),
               .bearing_rad = -3.1234567f,
               .range_m = 39.12345f,
@@ -58,7 +58,7 @@ TEST(LineWriter, WorstLines_AllocateNothing) {
   written += writer.serial(0, LineWriter::Direction::kRx, bytes).size();
   counting = false;
 
-  EXPECT_GT(written, core::kMaxSamplesPerScan * 20) << "the scan was not at its longest";
+  EXPECT_GT(written, core::kMaxSamplesPerScan * 20) << "the scan must have its maximum length";
   EXPECT_EQ(allocations, 0);
 }
 

@@ -18,7 +18,7 @@ RequestError request_error(std::string_view line) {
   return error != nullptr ? *error : RequestError{};
 }
 
-TEST(ParseRequest, Watch_TakesTheNamedClasses) {
+TEST(ParseRequest, WatchWithClasses_ClassesSelected) {
   const Request request = parse_request(R"({"class":"WATCH","classes":["POSE","SCAN"],"id":7})");
   const auto& classes = std::get<WatchRequest>(request.body).classes;
   EXPECT_TRUE(classes.contains(MessageClass::kPose));
@@ -28,31 +28,31 @@ TEST(ParseRequest, Watch_TakesTheNamedClasses) {
   EXPECT_EQ(request.id_json, "7");
 }
 
-TEST(ParseRequest, WatchOfNothing_IsAnEmptySet) {
+TEST(ParseRequest, WatchWithoutNames_EmptySet) {
   const Request request = parse_request(R"({"class":"WATCH","classes":[]})");
   EXPECT_TRUE(std::get<WatchRequest>(request.body).classes.empty());
 }
 
-TEST(ParseRequest, WatchOfAnUnknownClass_IsNamed) {
+TEST(ParseRequest, WatchOfUnknownClass_NamedInError) {
   const RequestError error = request_error(R"({"class":"WATCH","classes":["POSE","pose"]})");
   EXPECT_EQ(error.code, "field");
   EXPECT_THAT(error.text, HasSubstr("pose"));
 }
 
-TEST(ParseRequest, WatchWithoutGoodClasses_IsAnError) {
+TEST(ParseRequest, WatchWithInvalidClasses_Error) {
   for (const char* line : {R"({"class":"WATCH"})", R"({"class":"WATCH","classes":"POSE"})",
                            R"({"class":"WATCH","classes":[1]})"}) {
     EXPECT_THAT(request_error(line).text, HasSubstr("\"classes\"")) << line;
   }
 }
 
-TEST(ParseRequest, RequestsWithoutFields_AreTaken) {
+TEST(ParseRequest, RequestsWithoutFields_Accepted) {
   EXPECT_TRUE(std::holds_alternative<PollRequest>(parse_request(R"({"class":"POLL"})").body));
   EXPECT_TRUE(std::holds_alternative<RelocalizeRequest>(
       parse_request(R"({"class":"RELOCALIZE","later":"field"})").body));
 }
 
-TEST(ParseRequest, SetPose_IsBroughtIntoOneTurn) {
+TEST(ParseRequest, SetPose_ThetaNormalized) {
   const Request request = parse_request(R"({"class":"SET_POSE","x":1,"y":-2.5,"theta":4})");
   const auto& pose = std::get<SetPoseRequest>(request.body).T_map_base;
   EXPECT_EQ(pose.x_m, 1);
@@ -60,18 +60,18 @@ TEST(ParseRequest, SetPose_IsBroughtIntoOneTurn) {
   EXPECT_NEAR(pose.theta_rad, 4 - core::kTwoPi, 1e-12);
 }
 
-TEST(ParseRequest, SetPoseInDegrees_IsRefused) {
+TEST(ParseRequest, SetPoseInDegrees_Refused) {
   EXPECT_THAT(request_error(R"({"class":"SET_POSE","x":1,"y":0,"theta":90})").text,
               HasSubstr("\"theta\" must be from -6.3 to 6.3"));
 }
 
-TEST(ParseRequest, SetPoseWithoutAField_NamesIt) {
+TEST(ParseRequest, SetPoseWithoutField_NamedInError) {
   EXPECT_EQ(request_error(R"({"class":"SET_POSE","x":1,"theta":0})").text, "\"y\" is missing");
   EXPECT_EQ(request_error(R"({"class":"SET_POSE","x":"1","y":0,"theta":0})").text,
             "\"x\" must be a number");
 }
 
-TEST(ParseRequest, Odometry_MayLackAnyField) {
+TEST(ParseRequest, OdometryWithoutFields_Accepted) {
   const auto bare = std::get<OdometryReading>(parse_request(R"({"class":"ODOMETRY"})").body);
   EXPECT_FALSE(bare.timed);
   EXPECT_EQ(bare.left, std::nullopt);
@@ -84,7 +84,7 @@ TEST(ParseRequest, Odometry_MayLackAnyField) {
   EXPECT_EQ(full.gyro_rad_s, 0.1);
 }
 
-TEST(ParseRequest, OdometryCountsThatAreNoCounts_AreRefused) {
+TEST(ParseRequest, OdometryWithInvalidCounts_Refused) {
   EXPECT_THAT(request_error(R"({"class":"ODOMETRY","left":1.5})").text, HasSubstr("whole number"));
   EXPECT_THAT(request_error(R"({"class":"ODOMETRY","left":18446744073709551615})").text,
               HasSubstr("64 bits"));
@@ -92,7 +92,7 @@ TEST(ParseRequest, OdometryCountsThatAreNoCounts_AreRefused) {
   EXPECT_THAT(request_error(R"({"class":"ODOMETRY","t":1e10})").text, HasSubstr("\"t\""));
 }
 
-TEST(ParseRequest, IdOfAnyScalarType_IsRepeated) {
+TEST(ParseRequest, IdOfAnyScalarType_Repeated) {
   const auto id_of = [](const std::string& id) {
     return parse_request(R"({"class":"POLL","id":)" + id + "}").id_json;
   };
@@ -103,45 +103,45 @@ TEST(ParseRequest, IdOfAnyScalarType_IsRepeated) {
   EXPECT_EQ(parse_request(R"({"class":"POLL"})").id_json, "");
 }
 
-TEST(ParseRequest, IdThatIsNoScalarOrTooLong_IsAnError) {
+TEST(ParseRequest, IdNotScalarOrTooLong_Error) {
   EXPECT_THAT(request_error(R"({"class":"POLL","id":[1]})").text, HasSubstr("\"id\""));
   EXPECT_THAT(request_error(R"({"class":"POLL","id":")" + std::string(300, 'x') + "\"}").text,
               HasSubstr("\"id\""));
 }
 
-TEST(ParseRequest, ErrorOfAnotherField_StillBearsTheId) {
+TEST(ParseRequest, ErrorInOtherField_KeepsId) {
   const Request request = parse_request(R"({"class":"WATCH","id":"mine"})");
   EXPECT_TRUE(std::holds_alternative<RequestError>(request.body));
   EXPECT_EQ(request.id_json, "\"mine\"");
   EXPECT_EQ(request.name, "WATCH");
 }
 
-TEST(ParseRequest, UnknownOrMissingClass_HasItsOwnCode) {
+TEST(ParseRequest, UnknownOrMissingClass_OwnErrorCode) {
   EXPECT_EQ(request_error(R"({"class":"FLY"})").code, "class");
   EXPECT_THAT(request_error(R"({"class":"FLY"})").text, HasSubstr("FLY"));
   EXPECT_EQ(request_error("{}").code, "class");
   EXPECT_EQ(request_error(R"({"class":3})").code, "field");
 }
 
-TEST(ParseRequest, WhatIsNoObject_IsAJsonError) {
+TEST(ParseRequest, NotAnObject_JsonError) {
   for (const char* line : {"", " ", "hello", "[]", "1", "{\"class\":\"POLL\"", "{}{}", "\xff",
                            "{\"class\":\"\xff\"}", "{\"class\":\"POLL\",\"n\":1e999}", "null"}) {
     EXPECT_EQ(request_error(line).code, "json") << line;
   }
 }
 
-TEST(ParseRequest, TooLongOrTooDeep_IsRefusedBeforeItIsRead) {
+TEST(ParseRequest, TooLongOrTooDeep_RefusedBeforeParsing) {
   EXPECT_EQ(request_error(std::string(kMaxRequestBytes + 1, ' ')).code, "too-long");
   EXPECT_EQ(request_error(std::string(kMaxRequestBytes, '[')).code, "json");
   EXPECT_THAT(request_error(R"({"a":[[[[[[[[1]]]]]]]]})").text, HasSubstr("nested"));
 }
 
-TEST(ParseRequest, BracketsInsideAString_AreNoDepth) {
+TEST(ParseRequest, BracketsInString_NotCountedAsDepth) {
   const Request request = parse_request(R"({"class":"POLL","id":"[[[[[[[[[[\"[[[["})");
   EXPECT_TRUE(std::holds_alternative<PollRequest>(request.body));
 }
 
-TEST(MessageClass, EveryName_LeadsBackToItsClass) {
+TEST(MessageClass, EveryName_ConvertsBackToItsClass) {
   for (int i = 0; i <= static_cast<int>(MessageClass::kEvent); ++i) {
     const auto message_class = static_cast<MessageClass>(i);
     EXPECT_EQ(message_class_from(to_string(message_class)), message_class);

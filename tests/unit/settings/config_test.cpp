@@ -65,14 +65,14 @@ TEST(Config, EveryKey_ReachesItsMember) {
   EXPECT_EQ(config.odometry.core.geometry.track_m, 0.2);
   EXPECT_EQ(config.odometry.core.geometry.counts_per_turn, 48);
   EXPECT_TRUE(config.localizer().odometry.enabled);
-  EXPECT_EQ(config.odometry.core.geometry.ceiling, 65535);
+  EXPECT_EQ(config.odometry.core.geometry.counter_max, 65535);
   EXPECT_EQ(config.odometry.core.mode, core::HeadingSource::kWeighted);
   EXPECT_EQ(config.odometry.core.paper.encoder_factor, 1.1);
   EXPECT_EQ(config.odometry.core.paper.gyro_factor, 0.9);
   EXPECT_EQ(config.odometry.core.paper.dead_band_rad, 0.01);
   EXPECT_EQ(config.odometry.core.noise.wheel_m_per_sqrt_m, 0.01);
   EXPECT_EQ(config.odometry.core.noise.gyro_bias_rad_s, 0.1);
-  EXPECT_EQ(config.odometry.core.bridge_s, 3);
+  EXPECT_EQ(config.odometry.core.max_extrapolation_s, 3);
   EXPECT_EQ(config.socket.pose, "/p.sock");
   EXPECT_EQ(config.socket.control, "/c.sock");
   EXPECT_EQ(config.realtime.priority, 0);
@@ -149,7 +149,7 @@ TEST(Config, KernelOdometry_NamesItsDevicesAndGoesByTheirCeilings) {
   EXPECT_EQ(kernel.rate_hz, 100);
   EXPECT_EQ(kernel.sysfs, "/tree");
   EXPECT_TRUE(config.localizer().odometry.enabled);
-  EXPECT_EQ(config.localizer().odometry.geometry.ceiling, 0);
+  EXPECT_EQ(config.localizer().odometry.geometry.counter_max, 0);
 }
 
 TEST(Config, OneCounterForBothWheels_IsRefused) {

@@ -85,8 +85,8 @@ void expect_default_detector(const core::DetectorConfig& sample) {
   EXPECT_NEAR(sample.extraction.max_piece_angle_rad, defaults.extraction.max_piece_angle_rad,
               kRounding);
   EXPECT_EQ(sample.extraction.joined_chi_square, defaults.extraction.joined_chi_square);
-  EXPECT_EQ(sample.extraction.doubtful_samples, defaults.extraction.doubtful_samples);
-  EXPECT_NEAR(sample.extraction.doubtful_sigma_rad, defaults.extraction.doubtful_sigma_rad,
+  EXPECT_EQ(sample.extraction.short_wall_samples, defaults.extraction.short_wall_samples);
+  EXPECT_NEAR(sample.extraction.short_wall_sigma_rad, defaults.extraction.short_wall_sigma_rad,
               kRounding);
   EXPECT_NEAR(sample.extraction.min_corner_angle_rad, defaults.extraction.min_corner_angle_rad,
               kRounding);
@@ -96,7 +96,7 @@ void expect_default_detector(const core::DetectorConfig& sample) {
   EXPECT_EQ(sample.extraction.see_through_gap_m, defaults.extraction.see_through_gap_m);
   EXPECT_EQ(sample.extraction.max_face_m, defaults.extraction.max_face_m);
   EXPECT_EQ(sample.extraction.min_face_samples, defaults.extraction.min_face_samples);
-  EXPECT_EQ(sample.extraction.look_beyond, defaults.extraction.look_beyond);
+  EXPECT_EQ(sample.extraction.samples_beyond, defaults.extraction.samples_beyond);
   EXPECT_EQ(sample.extraction.max_end_span_m, defaults.extraction.max_end_span_m);
   EXPECT_NEAR(sample.extraction.max_rest_sigma_rad, defaults.extraction.max_rest_sigma_rad,
               kRounding);
@@ -112,7 +112,7 @@ void expect_default_odometry(const OdometryConfig& sample, const OdometryConfig&
   EXPECT_EQ(geometry.wheel_radius_m, defaults.core.geometry.wheel_radius_m);
   EXPECT_EQ(geometry.track_m, defaults.core.geometry.track_m);
   EXPECT_EQ(geometry.counts_per_turn, defaults.core.geometry.counts_per_turn);
-  EXPECT_EQ(geometry.ceiling, defaults.core.geometry.ceiling);
+  EXPECT_EQ(geometry.counter_max, defaults.core.geometry.counter_max);
   EXPECT_EQ(sample.core.mode, defaults.core.mode);
   EXPECT_EQ(sample.core.paper.encoder_factor, defaults.core.paper.encoder_factor);
   EXPECT_EQ(sample.core.paper.gyro_factor, defaults.core.paper.gyro_factor);
@@ -127,14 +127,14 @@ void expect_default_odometry(const OdometryConfig& sample, const OdometryConfig&
   EXPECT_EQ(noise.bias_rad_s_per_sqrt_s, defaults.core.noise.bias_rad_s_per_sqrt_s);
   EXPECT_EQ(noise.delay_s, defaults.core.noise.delay_s);
   EXPECT_EQ(sample.core.limits.wheel_speed_m_s, defaults.core.limits.wheel_speed_m_s);
-  const core::LearnedOdometry& start = sample.core.start;
-  EXPECT_EQ(start.left_scale, defaults.core.start.left_scale);
-  EXPECT_EQ(start.right_scale, defaults.core.start.right_scale);
-  EXPECT_EQ(start.track_scale, defaults.core.start.track_scale);
-  EXPECT_EQ(start.gyro_scale, defaults.core.start.gyro_scale);
-  EXPECT_EQ(start.gyro_bias_rad_s, defaults.core.start.gyro_bias_rad_s);
-  EXPECT_EQ(start.delay_s, defaults.core.start.delay_s);
-  EXPECT_EQ(sample.core.bridge_s, defaults.core.bridge_s);
+  const core::OdometryParameters& start = sample.core.initial;
+  EXPECT_EQ(start.left_scale, defaults.core.initial.left_scale);
+  EXPECT_EQ(start.right_scale, defaults.core.initial.right_scale);
+  EXPECT_EQ(start.track_scale, defaults.core.initial.track_scale);
+  EXPECT_EQ(start.gyro_scale, defaults.core.initial.gyro_scale);
+  EXPECT_EQ(start.gyro_bias_rad_s, defaults.core.initial.gyro_bias_rad_s);
+  EXPECT_EQ(start.delay_s, defaults.core.initial.delay_s);
+  EXPECT_EQ(sample.core.max_extrapolation_s, defaults.core.max_extrapolation_s);
 }
 
 TEST(FullSample, EveryValue_IsTheDefault) {
@@ -152,7 +152,7 @@ TEST(FullSample, EveryValue_IsTheDefault) {
   EXPECT_TRUE(sample.lidar.noise.sensor.table.empty());
   EXPECT_TRUE(sample.lidar.noise.wall.empty());
   EXPECT_TRUE(sample.lidar.bias.is_none());
-  EXPECT_EQ(sample.lidar.learn_bias, defaults.lidar.learn_bias);
+  EXPECT_EQ(sample.lidar.calibrate_online, defaults.lidar.calibrate_online);
   EXPECT_EQ(sample.lidar.mount.x_m, defaults.lidar.mount.x_m);
   EXPECT_EQ(sample.lidar.mount.y_m, defaults.lidar.mount.y_m);
   EXPECT_EQ(sample.lidar.mount.theta_rad, defaults.lidar.mount.theta_rad);

@@ -14,14 +14,14 @@ using core::Vec2;
 MappedDrive doorway() {
   const std::vector<std::pair<Vec2, Vec2>> walls = {
       {{3, 2}, {2, 2}}, {{1, 2}, {-1, 2}}, {{5, 4}, {-3, 4}}};
-  std::vector<core::Pose2> way;
-  for (int i = 0; i < 10; ++i) way.push_back({0.5 + 0.2 * i, 0, 0});
-  MappedDrive drive = mapped_drive(walls, way);
+  std::vector<core::Pose2> trajectory;
+  for (int i = 0; i < 10; ++i) trajectory.push_back({0.5 + 0.2 * i, 0, 0});
+  MappedDrive drive = mapped_drive(walls, trajectory);
   add_returns(drive);
   return drive;
 }
 
-TEST(Evidence, Gather_Wall_IsHitWhereItIs) {
+TEST(Evidence, Gather_WallWithDoorway_HasHitsAndPasses) {
   const MappedDrive drive = doorway();
   const auto evidence = gather_evidence(drive, {}, {});
   const FaceEvidence& wall = evidence[0];
@@ -35,18 +35,18 @@ TEST(Evidence, Gather_Wall_IsHitWhereItIs) {
   }
 }
 
-TEST(Evidence, OpenBetween_TwoPiecesOfAWall_IsTheDoorway) {
+TEST(Evidence, OpenBetween_AcrossDoorway_IsItsWidth) {
   const MappedDrive drive = doorway();
   const auto evidence = gather_evidence(drive, {}, {});
-  const MappedFace& wall = drive.faces[0];
+  const LineLandmark& wall = drive.faces[0];
   EXPECT_NEAR(evidence[0].open_between(wall.end_m(), wall.end_m() + 0.3), 0.3, 0.045);
   EXPECT_EQ(evidence[0].open_between(wall.begin_m() + 0.1, wall.end_m() - 0.1), 0);
 }
 
-TEST(Evidence, Gather_TwoFacesOnOneLine_ShareNoReturn) {
+TEST(Evidence, Gather_TwoFacesOnOneLine_CountEachReturnOnce) {
   MappedDrive drive = doorway();
-  MappedFace ghost = drive.faces[0];
-  ghost.sightings = 3;
+  LineLandmark ghost = drive.faces[0];
+  ghost.observations = 3;
   ghost.set_line(ghost.normal_rad() + 0.01, 0.002);
   drive.faces.push_back(ghost);
   const auto evidence = gather_evidence(drive, {}, {});
@@ -55,8 +55,8 @@ TEST(Evidence, Gather_TwoFacesOnOneLine_ShareNoReturn) {
   EXPECT_EQ(hits, 0U);
 }
 
-TEST(Evidence, Gather_FromBehind_TellsNothing) {
-  const std::vector<std::pair<Vec2, Vec2>> walls = {{{-1, 2}, {1, 2}}};  // looks the other way
+TEST(Evidence, Gather_FromBehindFace_CountsNothing) {
+  const std::vector<std::pair<Vec2, Vec2>> walls = {{{-1, 2}, {1, 2}}};  // faces away
   MappedDrive drive = mapped_drive(walls, std::vector<core::Pose2>(5));
   add_returns(drive);
   const auto evidence = gather_evidence(drive, {}, {});

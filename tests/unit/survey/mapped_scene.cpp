@@ -7,11 +7,12 @@
 
 namespace cornerd::survey {
 
-Sighting sighting_of(const core::Vec2& from, const core::Vec2& to, const core::Pose2& T_map_lidar) {
+LineObservation observation_of(const core::Vec2& from, const core::Vec2& to,
+                               const core::Pose2& T_map_lidar) {
   const core::Pose2 T_lidar_map = T_map_lidar.inverse();
   const core::Vec2 first = T_lidar_map * from;
   const core::Vec2 last = T_lidar_map * to;
-  Sighting seen;
+  LineObservation seen;
   seen.normal_rad = core::angle_of(core::rotate_left(last - first));
   seen.centroid = (first + last) / 2;
   seen.begin_m = -(last - first).norm() / 2;
@@ -22,9 +23,9 @@ Sighting sighting_of(const core::Vec2& from, const core::Vec2& to, const core::P
   return seen;
 }
 
-MappedFace face_between(const core::Vec2& from, const core::Vec2& to) {
-  MappedFace face(sighting_of(from, to, {}), {}, 0);
-  face.sightings = 20;
+LineLandmark face_between(const core::Vec2& from, const core::Vec2& to) {
+  LineLandmark face(observation_of(from, to, {}), {}, 0);
+  face.observations = 20;
   return face;
 }
 
@@ -35,14 +36,14 @@ MappedDrive mapped_drive(std::span<const std::pair<core::Vec2, core::Vec2>> wall
   drive.first_point.push_back(0);
   for (std::size_t scan = 0; scan < poses.size(); ++scan) {
     drive.T_map_lidar.push_back(poses[scan]);
-    DriveLink link;
+    OdometryEdge link;
     if (scan > 0) link.T_before_now = poses[scan - 1].inverse() * poses[scan];
     link.covariance *= 1e-4;
-    drive.links.push_back(link);
+    drive.odometry_edges.push_back(link);
     for (std::uint32_t i = 0; i < drive.faces.size(); ++i) {
       if (drive.faces[i].height_of(poses[scan].translation()) <= 0) continue;
       drive.observations.push_back({static_cast<std::uint32_t>(scan), i,
-                                    sighting_of(walls[i].first, walls[i].second, poses[scan])});
+                                    observation_of(walls[i].first, walls[i].second, poses[scan])});
     }
     drive.first_point.push_back(0);
   }
@@ -51,7 +52,7 @@ MappedDrive mapped_drive(std::span<const std::pair<core::Vec2, core::Vec2>> wall
 
 void add_returns(MappedDrive& drive) {
   core::FloorPlan plan;
-  for (const MappedFace& face : drive.faces) plan.walls.push_back({face.first(), face.last(), 0});
+  for (const LineLandmark& face : drive.faces) plan.walls.push_back({face.first(), face.last(), 0});
   const core::WallMap map(plan);
   drive.points.clear();
   drive.first_point.assign(1, 0);

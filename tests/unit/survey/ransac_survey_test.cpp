@@ -8,14 +8,13 @@
 #include <stdexcept>
 
 #include "bench/simulated_drive.hpp"
-#include "survey/ransac_points.hpp"
 
 namespace cornerd::survey {
 namespace {
 
 using core::Vec2;
 
-/// A room of 4 x 3 m, driven through by a robot whose wheels are as configured.
+/// A room of 4 x 3 m, driven through with wheels as configured.
 RecordedDrive drive_in_a_room(std::size_t scans, bool has_odometry) {
   core::FloorPlan plan;
   plan.walls = {{{0, 0}, {4, 0}, 0}, {{4, 0}, {4, 3}, 0}, {{4, 3}, {0, 3}, 0}, {{0, 3}, {0, 0}, 0}};
@@ -29,7 +28,7 @@ RecordedDrive drive_in_a_room(std::size_t scans, bool has_odometry) {
       .drive;
 }
 
-TEST(RansacSurvey, Room_HasItsFourWalls) {
+TEST(RansacSurvey, Room_GivesFourWalls) {
   const SurveyResult result = ransac_survey(drive_in_a_room(120, true), {}, {});
   std::size_t longest = 0;
   for (const core::Wall& wall : result.plan.walls) {
@@ -40,18 +39,18 @@ TEST(RansacSurvey, Room_HasItsFourWalls) {
   EXPECT_EQ(result.T_map_base.size(), 120U);
 }
 
-TEST(RansacSurvey, LongerRecording_HasAboutAsManyPoints) {
+TEST(RansacSurvey, LongerRecording_GivesSimilarNumberOfPoints) {
   const SurveyResult once = ransac_survey(drive_in_a_room(100, true), {}, {});
   const SurveyResult thrice = ransac_survey(drive_in_a_room(300, true), {}, {});
   EXPECT_NEAR(static_cast<double>(thrice.points.size()), static_cast<double>(once.points.size()),
               0.5 * static_cast<double>(once.points.size()));
 }
 
-TEST(RansacSurvey, WithoutOdometry_SaysSo) {
+TEST(RansacSurvey, WithoutOdometry_Throws) {
   EXPECT_THROW(ransac_survey(drive_in_a_room(20, false), {}, {}), std::invalid_argument);
 }
 
-TEST(RansacSurvey, SameSeed_SameLines) {
+TEST(RansacSurvey, SameSeed_GivesSameLines) {
   const RecordedDrive drive = drive_in_a_room(60, true);
   const SurveyResult one = ransac_survey(drive, {}, {});
   const SurveyResult other = ransac_survey(drive, {}, {});
@@ -59,7 +58,7 @@ TEST(RansacSurvey, SameSeed_SameLines) {
   EXPECT_EQ(one.plan.walls.front().from, other.plan.walls.front().from);
 }
 
-TEST(ThinOut, ManyPointsInACell_BecomeTheirMean) {
+TEST(ThinOut, PointsInOneCell_BecomeTheirMean) {
   const auto thin = thin_out({{0.101, 0.101}, {0.103, 0.105}, {1.001, 0.101}}, 0.02);
   ASSERT_EQ(thin.size(), 2U);
   EXPECT_NEAR(thin[0].x(), 0.102, 1e-12);

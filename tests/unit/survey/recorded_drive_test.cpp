@@ -18,7 +18,7 @@ core::Scan scan_at(core::TimeNs start_ns, float range_m) {
   return scan;
 }
 
-TEST(RecordedDrive, Load_AfterAdd_GivesTheSamplesBack) {
+TEST(RecordedDrive, Load_AfterAdd_ReturnsTheSamples) {
   RecordedDrive drive;
   drive.add(scan_at(5'000'000'000, 1));
   drive.add(scan_at(6'000'000'000, 2));
@@ -31,25 +31,25 @@ TEST(RecordedDrive, Load_AfterAdd_GivesTheSamplesBack) {
   EXPECT_EQ(drive.middle_ns(1), 6'001'500'000);
 }
 
-TEST(RecordedDrive, Add_Reading_RemembersTheTurnThatWasGoingOn) {
+TEST(RecordedDrive, Add_Reading_StoresCurrentScan) {
   RecordedDrive drive;
   drive.add(scan_at(0, 1));
   drive.add(core::OdometryReading{}, std::nullopt);
-  EXPECT_EQ(drive.readings().front().turn, 1U);
+  EXPECT_EQ(drive.readings().front().scan, 1U);
 }
 
-TEST(RecordedDrive, SetOdometry_OfAnotherFile_FindsTheTurnsByTime) {
+TEST(RecordedDrive, SetOdometry_OtherFile_AssignsScansByTime) {
   RecordedDrive drive;
   drive.add(scan_at(0, 1));
   drive.add(scan_at(100'000'000, 1));
   drive.set_odometry({{.t_ns = 1'000'000, .left = {}, .right = {}, .gyro_rad_s = {}},
                       {.t_ns = 100'500'000, .left = {}, .right = {}, .gyro_rad_s = {}}});
   ASSERT_EQ(drive.readings().size(), 2U);
-  EXPECT_EQ(drive.readings()[0].turn, 0U);
-  EXPECT_EQ(drive.readings()[1].turn, 1U);
+  EXPECT_EQ(drive.readings()[0].scan, 0U);
+  EXPECT_EQ(drive.readings()[1].scan, 1U);
 }
 
-TEST(RecordedDrive, EndNs_OfAnEmptyTurn_IsItsStart) {
+TEST(RecordedDrive, EndNs_EmptyScan_IsItsStart) {
   RecordedDrive drive;
   drive.add(core::Scan());
   EXPECT_EQ(drive.end_ns(0), drive.start_ns(0));

@@ -8,14 +8,14 @@
 namespace cornerd::survey {
 namespace {
 
-TEST(ProgressShares, PassThatIsMadeTwice_DoesNotGoBack) {
+TEST(ProgressShares, RepeatedPass_NeverDecreases) {
   std::string shown;
   ProgressShares shares(
       [&](std::string_view phase, double share) {
         shown +=
             std::string(phase) + " " + std::to_string(static_cast<int>(share * 100 + 0.5)) + ", ";
       },
-      /*turns=*/4);
+      /*scans=*/4);
   const Progress pass = shares.pass("one", 0.2, 0.6);
   pass(0);
   pass(3);
@@ -25,7 +25,7 @@ TEST(ProgressShares, PassThatIsMadeTwice_DoesNotGoBack) {
   EXPECT_EQ(shown, "one 20, one 50, one 50, two 90, alone 95, ");
 }
 
-TEST(ProgressShares, NobodyWhoLooks_GetsNoPass) {
+TEST(ProgressShares, NoCallback_GivesNoPass) {
   ProgressShares shares({}, 4);
   EXPECT_FALSE(shares.pass("one", 0, 1));
   EXPECT_FALSE(shares.rest());

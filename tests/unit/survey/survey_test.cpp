@@ -44,7 +44,7 @@ bench::SimulatedDrive drive_through(bool has_odometry) {
   return bench::simulate_drive(two_rooms(), replay::drive_path(path, drive), config);
 }
 
-TEST(Survey, TwoRooms_AreFoundToMillimetres) {
+TEST(Survey, TwoRooms_AreMappedToMillimetres) {
   const bench::SimulatedDrive simulated = drive_through(/*has_odometry=*/true);
   const SurveyResult result = survey(simulated.drive, {});
   const core::WallMap found(result.plan);
@@ -60,7 +60,7 @@ TEST(Survey, TwoRooms_AreFoundToMillimetres) {
   EXPECT_NEAR(result.learned->gyro_scale, 0.02, 0.004);
 }
 
-TEST(Survey, Frame_IsThatOfTheFirstTurn) {
+TEST(Survey, Frame_IsThatOfFirstScan) {
   const bench::SimulatedDrive simulated = drive_through(/*has_odometry=*/true);
   SurveyConfig config;
   const SurveyResult result = survey(simulated.drive, config);
@@ -85,7 +85,7 @@ TEST(Survey, InnerWall_HasItsThickness) {
   EXPECT_EQ(solids, 2);
 }
 
-TEST(Survey, WithoutOdometry_OverlappingTurnsAreEnough) {
+TEST(Survey, WithoutOdometry_OverlappingScans_GiveTheMap) {
   const bench::SimulatedDrive simulated = drive_through(/*has_odometry=*/false);
   const SurveyResult result = survey(simulated.drive, {});
   EXPECT_FALSE(result.has_odometry);
@@ -112,22 +112,22 @@ TEST(Survey, Manhattan_MakesWallsSquare) {
   }
 }
 
-/// The same drive, with what a robot that lies makes of its readings.
-template <typename Lie>
-RecordedDrive with_lies(const RecordedDrive& told, const Lie& lie) {
-  RecordedDrive drive = told.without_odometry();
+/// The same drive with changed readings.
+template <typename Change>
+RecordedDrive with_changed_readings(const RecordedDrive& recorded, const Change& change) {
+  RecordedDrive drive = recorded.without_odometry();
   std::vector<core::OdometryReading> readings;
-  for (const RecordedDrive::Reading& reading : told.readings()) {
+  for (const RecordedDrive::Reading& reading : recorded.readings()) {
     readings.push_back(reading.reading);
-    lie(readings.back());
+    change(readings.back());
   }
   drive.set_odometry(readings);
   return drive;
 }
 
-void expect_right_by_the_lidar_alone(const bench::SimulatedDrive& simulated,
+void expect_correct_without_odometry(const bench::SimulatedDrive& simulated,
                                      const SurveyResult& result) {
-  ASSERT_TRUE(result.odometry_doubt.has_value());
+  ASSERT_TRUE(result.rejected_odometry.has_value());
   EXPECT_FALSE(result.has_odometry);
   const auto score = bench::score_survey(*two_rooms(), simulated.T_map_base,
                                          core::WallMap(result.plan), simulated.T_map_base[0]);
@@ -136,31 +136,35 @@ void expect_right_by_the_lidar_alone(const bench::SimulatedDrive& simulated,
   EXPECT_LT(score.corner_max_m(), 0.01);
 }
 
-TEST(Survey, DeadWheel_IsLeftOutAndSaid) {
+TEST(Survey, StuckWheelCounter_RejectsOdometry) {
   const bench::SimulatedDrive simulated = drive_through(/*has_odometry=*/true);
-  const SurveyResult result = survey(
-      with_lies(simulated.drive, [](core::OdometryReading& reading) { reading.left = 7; }), {});
-  expect_right_by_the_lidar_alone(simulated, result);
-  EXPECT_GT(result.odometry_doubt->contradicted_scans, result.t_ns.size() / 10);
-  EXPECT_NEAR(result.odometry_doubt->left.counted_m, 0, 1e-9);
-  EXPECT_NEAR(result.odometry_doubt->right.counted_m, result.odometry_doubt->right.true_m,
-              0.05 * result.odometry_doubt->right.true_m);
+  const SurveyResult result =
+      survey(with_changed_readings(simulated.drive,
+                                   [](core::OdometryReading& reading) { reading.left = 7; }),
+             {});
+  expect_correct_without_odometry(simulated, result);
+  EXPECT_GT(result.rejected_odometry->contradicted_scans, result.t_ns.size() / 10);
+  EXPECT_NEAR(result.rejected_odometry->left.counted_m, 0, 1e-9);
+  EXPECT_NEAR(result.rejected_odometry->right.counted_m, result.rejected_odometry->right.lidar_m,
+              0.05 * result.rejected_odometry->right.lidar_m);
 }
 
-TEST(Survey, TwiceTheCounts_AreLeftOutAndSaid) {
+TEST(Survey, DoubledCounts_RejectOdometry) {
   const bench::SimulatedDrive simulated = drive_through(/*has_odometry=*/true);
-  const SurveyResult result = survey(with_lies(simulated.drive,
-                                               [](core::OdometryReading& reading) {
-                                                 reading.left = 2 * reading.left.value();
-                                                 reading.right = 2 * reading.right.value();
-                                                 reading.gyro_rad_s.reset();
-                                               }),
-                                     {});
-  expect_right_by_the_lidar_alone(simulated, result);
-  EXPECT_NEAR(result.odometry_doubt->left.counted_m / result.odometry_doubt->left.true_m, 2, 0.1);
+  const SurveyResult result =
+      survey(with_changed_readings(simulated.drive,
+                                   [](core::OdometryReading& reading) {
+                                     reading.left = 2 * reading.left.value();
+                                     reading.right = 2 * reading.right.value();
+                                     reading.gyro_rad_s.reset();
+                                   }),
+             {});
+  expect_correct_without_odometry(simulated, result);
+  EXPECT_NEAR(result.rejected_odometry->left.counted_m / result.rejected_odometry->left.lidar_m, 2,
+              0.1);
 }
 
-TEST(Survey, OdometryThatBeginsInTheMiddle_IsLeftOutAndSaid) {
+TEST(Survey, OdometryMissingInFirstHalf_IsRejected) {
   const bench::SimulatedDrive simulated = drive_through(/*has_odometry=*/true);
   const auto readings = simulated.drive.readings();
   std::vector<core::OdometryReading> rest;
@@ -170,29 +174,30 @@ TEST(Survey, OdometryThatBeginsInTheMiddle_IsLeftOutAndSaid) {
   RecordedDrive drive = simulated.drive.without_odometry();
   drive.set_odometry(rest);
   const SurveyResult result = survey(drive, {});
-  expect_right_by_the_lidar_alone(simulated, result);
-  EXPECT_NEAR(static_cast<double>(result.odometry_doubt->scans_without_odometry),
+  expect_correct_without_odometry(simulated, result);
+  EXPECT_NEAR(static_cast<double>(result.rejected_odometry->scans_without_odometry),
               static_cast<double>(drive.size()) / 2, 10);
 }
 
-TEST(Survey, HonestOdometry_IsNotDoubted) {
-  EXPECT_FALSE(survey(drive_through(/*has_odometry=*/true).drive, {}).odometry_doubt.has_value());
+TEST(Survey, ConsistentOdometry_IsNotRejected) {
+  EXPECT_FALSE(
+      survey(drive_through(/*has_odometry=*/true).drive, {}).rejected_odometry.has_value());
 }
 
-TEST(Survey, GyroWithoutWheels_IsTheLidarAlone) {
+TEST(Survey, GyroWithoutWheels_SurveysByLidarAlone) {
   const bench::SimulatedDrive simulated = drive_through(/*has_odometry=*/true);
-  const SurveyResult result = survey(with_lies(simulated.drive,
-                                               [](core::OdometryReading& reading) {
-                                                 reading.left.reset();
-                                                 reading.right.reset();
-                                               }),
+  const SurveyResult result = survey(with_changed_readings(simulated.drive,
+                                                           [](core::OdometryReading& reading) {
+                                                             reading.left.reset();
+                                                             reading.right.reset();
+                                                           }),
                                      {});
   EXPECT_FALSE(result.has_odometry);
   EXPECT_FALSE(result.has_gyro);
   EXPECT_FALSE(result.learned.has_value());
 }
 
-TEST(Survey, Progress_NamesItsPhaseAndNeverGoesBack) {
+TEST(Survey, Progress_NamesPhasesAndNeverDecreases) {
   double last = 0;
   std::set<std::string> phases;
   survey(drive_through(/*has_odometry=*/true).drive, {}, [&](std::string_view phase, double share) {
@@ -215,9 +220,9 @@ TEST(Survey, SameDriveTwice_GivesTheSameMap) {
   }
 }
 
-TEST(Survey, NoTurns_SaysSo) { EXPECT_THROW(survey(RecordedDrive(), {}), std::invalid_argument); }
+TEST(Survey, NoScans_Throws) { EXPECT_THROW(survey(RecordedDrive(), {}), std::invalid_argument); }
 
-TEST(Survey, NothingInReach_SaysSo) {
+TEST(Survey, NoReturns_Throws) {
   RecordedDrive drive;
   core::Scan scan;
   for (int i = 0; i < 300; ++i) {

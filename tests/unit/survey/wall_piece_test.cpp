@@ -14,23 +14,23 @@ struct Scene {
   MappedDrive drive;
   std::vector<FaceEvidence> evidence;
   std::vector<WallPiece> pieces;
-  std::vector<Dropped> dropped;
+  std::vector<DroppedPiece> dropped;
 };
 
 Scene cut(const std::vector<std::pair<Vec2, Vec2>>& walls) {
   Scene scene;
-  std::vector<core::Pose2> way;
-  for (int i = 0; i < 20; ++i) way.push_back({0.1 * i, 0, 0});
-  scene.drive = mapped_drive(walls, way);
+  std::vector<core::Pose2> trajectory;
+  for (int i = 0; i < 20; ++i) trajectory.push_back({0.1 * i, 0, 0});
+  scene.drive = mapped_drive(walls, trajectory);
   add_returns(scene.drive);
   scene.evidence = gather_evidence(scene.drive, {}, {});
   scene.pieces = cut_pieces(scene.drive, scene.evidence, {}, scene.dropped);
   return scene;
 }
 
-TEST(CutPieces, FaceOverADoorway_BecomesTwo) {
+TEST(CutPieces, FaceAcrossDoorway_BecomesTwoPieces) {
   Scene scene = cut({{{3, 2}, {2, 2}}, {{1, 2}, {-1, 2}}, {{5, 4}, {-3, 4}}});
-  // As if somebody had taken both pieces for one wall.
+  // Both pieces as one face.
   scene.drive.faces[0].extend({-1, 2});
   scene.drive.faces.erase(scene.drive.faces.begin() + 1);
   scene.drive.observations.clear();
@@ -45,7 +45,7 @@ TEST(CutPieces, FaceOverADoorway_BecomesTwo) {
   EXPECT_NEAR(lengths_m[1], 2, 0.05);
 }
 
-TEST(CutPieces, FaceThatRaysWentThrough_IsDroppedWithTheReason) {
+TEST(CutPieces, FaceWithPassingRays_IsDroppedWithReason) {
   Scene scene = cut({{{5, 4}, {-3, 4}}});
   scene.drive.faces.push_back(face_between({1.5, 2}, {0.5, 2}));  // somebody stood there
   scene.evidence = gather_evidence(scene.drive, {}, {});
@@ -55,17 +55,17 @@ TEST(CutPieces, FaceThatRaysWentThrough_IsDroppedWithTheReason) {
   EXPECT_NE(scene.dropped[0].why.find("rays went through"), std::string::npos);
 }
 
-TEST(CutPieces, FaceSeenInFewTurns_IsDroppedWithTheReason) {
+TEST(CutPieces, FaceObservedInFewScans_IsDroppedWithReason) {
   Scene scene = cut({{{5, 4}, {-3, 4}}});
-  scene.drive.faces[0].sightings = 4;
+  scene.drive.faces[0].observations = 4;
   scene.pieces = cut_pieces(scene.drive, scene.evidence, {}, scene.dropped);
   EXPECT_TRUE(scene.pieces.empty());
   ASSERT_EQ(scene.dropped.size(), 1U);
-  EXPECT_EQ(scene.dropped[0].why, "seen in 4 turns");
+  EXPECT_EQ(scene.dropped[0].why, "observed in 4 scans");
 }
 
 WallPiece piece_of(MappedDrive& drive, const Vec2& from, const Vec2& to, std::size_t hits) {
-  const MappedFace face = face_between(from, to);
+  const LineLandmark face = face_between(from, to);
   WallPiece piece;
   piece.face = static_cast<std::uint32_t>(drive.faces.size());
   piece.begin_m = face.begin_m();
@@ -75,44 +75,44 @@ WallPiece piece_of(MappedDrive& drive, const Vec2& from, const Vec2& to, std::si
   return piece;
 }
 
-TEST(PartCrossings, WallThroughAnother_EndsAtItsFront) {
+TEST(TrimCrossings, CrossingWall_EndsAtFrontOfOther) {
   MappedDrive drive;
-  // Free space below the first; the second comes up from there and runs through it.
+  // Free space is below the first; the second comes from there and crosses it.
   std::vector<WallPiece> pieces = {piece_of(drive, {2, 1}, {-2, 1}, 900),
                                    piece_of(drive, {0, 0}, {0, 1.5}, 100)};
-  std::vector<Dropped> dropped;
-  part_crossings(drive, {}, pieces, dropped);
+  std::vector<DroppedPiece> dropped;
+  trim_crossings(drive, {}, pieces, dropped);
   ASSERT_EQ(pieces.size(), 2U);
   EXPECT_NEAR((pieces[1].end.point - Vec2(0, 1)).norm(), 0, 1e-9);
   EXPECT_NEAR((pieces[1].begin.point - Vec2(0, 0)).norm(), 0, 1e-9);
   EXPECT_TRUE(dropped.empty());
 }
 
-TEST(PartCrossings, LineAlongAWall_IsMistaken) {
+TEST(TrimCrossings, SmallAngle_IsDroppedWithReason) {
   MappedDrive drive;
   std::vector<WallPiece> pieces = {piece_of(drive, {1, 1.1}, {-1, 0.9}, 100),
                                    piece_of(drive, {2, 1}, {-2, 1}, 900)};
-  std::vector<Dropped> dropped;
-  part_crossings(drive, {}, pieces, dropped);
+  std::vector<DroppedPiece> dropped;
+  trim_crossings(drive, {}, pieces, dropped);
   ASSERT_EQ(pieces.size(), 1U);
   EXPECT_EQ(pieces[0].hits, 900U);
   ASSERT_EQ(dropped.size(), 1U);
-  EXPECT_EQ(dropped[0].why, "a mistaken line along a wall");
+  EXPECT_EQ(dropped[0].why, "a wrong line along a wall");
 }
 
-TEST(PartCrossings, CornerOfAnEdge_StaysWhole) {
+TEST(TrimCrossings, OuterCorner_StaysUnchanged) {
   MappedDrive drive;
-  // Both reach a cell beyond the edge that they make.
+  // Both extend a cell beyond their corner.
   std::vector<WallPiece> pieces = {piece_of(drive, {2, 1}, {-0.02, 1}, 900),
                                    piece_of(drive, {0, 0.98}, {0, 2}, 100)};
-  std::vector<Dropped> dropped;
-  part_crossings(drive, {}, pieces, dropped);
+  std::vector<DroppedPiece> dropped;
+  trim_crossings(drive, {}, pieces, dropped);
   ASSERT_EQ(pieces.size(), 2U);
   EXPECT_NEAR(pieces[0].length_m(), 2.02, 1e-9);
   EXPECT_NEAR(pieces[1].length_m(), 1.02, 1e-9);
 }
 
-TEST(JoinCorners, RoomCorner_MeetsInTheIntersection) {
+TEST(JoinCorners, RoomCorner_MeetsAtIntersection) {
   Scene scene = cut({{{-1, -1}, {3, -1}}, {{3, -1}, {3, 2}}});
   join_corners(scene.drive, scene.evidence, {}, scene.pieces);
   ASSERT_EQ(scene.pieces.size(), 2U);
@@ -123,7 +123,7 @@ TEST(JoinCorners, RoomCorner_MeetsInTheIntersection) {
   EXPECT_EQ(scene.pieces[0].begin.neighbour, kNoPiece);
 }
 
-TEST(JoinCorners, EdgeOfAWall_IsConvex) {
+TEST(JoinCorners, OuterCorner_IsConvex) {
   Scene scene = cut({{{1.9, 1.5}, {1, 1.5}}, {{1, 1.5}, {1, 1.9}}});
   ASSERT_EQ(scene.pieces.size(), 2U);
   join_corners(scene.drive, scene.evidence, {}, scene.pieces);
@@ -131,14 +131,14 @@ TEST(JoinCorners, EdgeOfAWall_IsConvex) {
   EXPECT_FALSE(scene.pieces[0].end.is_concave);
 }
 
-TEST(JoinCorners, WallsWithADoorwayBetween_AreNotJoined) {
+TEST(JoinCorners, DoorwayBetweenWalls_AreNotJoined) {
   Scene scene =
       cut({{{3, 1}, {3, 2}}, {{2.75, 2.2}, {-1, 2.2}}, {{6, -2}, {6, 5}}, {{6, 5}, {-2, 5}}});
   join_corners(scene.drive, scene.evidence, {}, scene.pieces);
   EXPECT_EQ(scene.pieces[0].end.neighbour, kNoPiece) << "rays went through the corner";
 }
 
-TEST(JoinCorners, WallOnAnotherOnesSide_EndsThere) {
+TEST(JoinCorners, WallMeetsSideOfAnother_EndsThere) {
   Scene scene = cut({{{4, 2}, {-2, 2}}, {{1, 2}, {1, 1}}});
   join_corners(scene.drive, scene.evidence, {}, scene.pieces);
   ASSERT_EQ(scene.pieces.size(), 2U);
@@ -147,14 +147,14 @@ TEST(JoinCorners, WallOnAnotherOnesSide_EndsThere) {
   EXPECT_EQ(scene.pieces[0].begin.neighbour, kNoPiece);
 }
 
-TEST(DropLonely, ShortPieceAlone_GoesAndNamesStayRight) {
+TEST(DropIsolated, ShortPiece_IsDroppedAndNeighboursAreRenumbered) {
   Scene scene = cut({{{0.5, 1}, {0.38, 1}}, {{-1, -1}, {3, -1}}, {{3, -1}, {3, 2}}});
   join_corners(scene.drive, scene.evidence, {}, scene.pieces);
   ASSERT_EQ(scene.pieces.size(), 3U);
-  drop_lonely(scene.drive, {}, scene.pieces, scene.dropped);
+  drop_isolated(scene.drive, {}, scene.pieces, scene.dropped);
   ASSERT_EQ(scene.pieces.size(), 2U);
   EXPECT_EQ(scene.pieces[0].end.neighbour, 1U);
-  EXPECT_EQ(scene.dropped.back().why, "short, and stands alone");
+  EXPECT_EQ(scene.dropped.back().why, "short and isolated");
 }
 
 }  // namespace

@@ -7,11 +7,11 @@
 namespace cornerd::tool {
 namespace {
 
-using calibration::GrossFaults;
+using calibration::WiringFaults;
 using testing::HasSubstr;
 using testing::Not;
 
-std::string described(const GrossFaults& faults, settings::OdometrySource source = {}) {
+std::string described(const WiringFaults& faults, settings::OdometrySource source = {}) {
   settings::OdometryConfig config;
   config.source = source;
   return describe_faults(faults, config);
@@ -21,7 +21,7 @@ TEST(GrossFaultText, NoFault_IsNoText) { EXPECT_EQ(described({}), ""); }
 
 TEST(GrossFaultText, APlainFactor_GivesTheCorrectedValue) {
   const auto by = [](double factor) {
-    GrossFaults faults;
+    WiringFaults faults;
     faults.left_factor = faults.right_factor = factor;
     return described(faults);
   };
@@ -36,8 +36,8 @@ TEST(GrossFaultText, APlainFactor_GivesTheCorrectedValue) {
 }
 
 TEST(GrossFaultText, WhereReadingsComeFrom_DecidesWhatToChange) {
-  GrossFaults faults;
-  faults.are_exchanged = faults.gyro_is_reversed = true;
+  WiringFaults faults;
+  faults.are_swapped = faults.gyro_is_reversed = true;
   EXPECT_THAT(described(faults), HasSubstr("swap left and right in the ODOMETRY lines; "));
   EXPECT_THAT(described(faults), HasSubstr("negate gyro in the ODOMETRY lines"));
   const std::string kernel = described(faults, settings::OdometrySource::kKernel);
@@ -46,16 +46,16 @@ TEST(GrossFaultText, WhereReadingsComeFrom_DecidesWhatToChange) {
 }
 
 TEST(GrossFaultText, AllTurnedAround_MayBeTheMount) {
-  GrossFaults faults;
-  faults.are_exchanged = faults.left_is_reversed = faults.right_is_reversed = true;
+  WiringFaults faults;
+  faults.are_swapped = faults.left_is_reversed = faults.right_is_reversed = true;
   EXPECT_THAT(described(faults), HasSubstr("lidar.mount.theta"));
-  faults.are_exchanged = false;
+  faults.are_swapped = false;
   EXPECT_THAT(described(faults), HasSubstr("both wheels count backward"));
   EXPECT_THAT(described(faults), Not(HasSubstr("mount")));
 }
 
 TEST(GrossFaultText, Degrees_AreNamed) {
-  GrossFaults faults;
+  WiringFaults faults;
   faults.gyro_factor = 58.4;
   EXPECT_THAT(described(faults), HasSubstr("degrees a second"));
   faults.gyro_factor = 3;

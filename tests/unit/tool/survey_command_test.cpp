@@ -120,7 +120,7 @@ TEST_F(SurveyCommandTest, LidarAndWheelsThatAreSilentWhileTheRobotGoesOn_AreRefu
   silence_lidar(file("one.ndjson"), /*keeps_odometry=*/false);
   const CommandRun run({"survey", file("gap.ndjson"), "-o", file("map.json")});
   EXPECT_EQ(run.exit_code, 1) << run.out;
-  EXPECT_NE(run.err.find("no turn of the lidar from 4."), std::string::npos) << run.err;
+  EXPECT_NE(run.err.find("no scan and no odometry from 4."), std::string::npos) << run.err;
   EXPECT_FALSE(std::filesystem::exists(file("map.json")));
 }
 
@@ -182,8 +182,8 @@ TEST_F(SurveyCommandTest, TooFewTurns_SaysHowManyThereWere) {
             0);
   const CommandRun run({"survey", file("a.ndjson"), "-o", file("map.json")});
   EXPECT_EQ(run.exit_code, 1);
-  EXPECT_NE(run.err.find("whole turns of a lidar in it: "), std::string::npos) << run.err;
-  EXPECT_NE(run.err.find("a wall has to be seen in 5"), std::string::npos) << run.err;
+  EXPECT_NE(run.err.find("complete scans, and a wall needs"), std::string::npos) << run.err;
+  EXPECT_NE(run.err.find("a wall needs 5"), std::string::npos) << run.err;
 }
 
 TEST_F(SurveyCommandTest, RecordingWhoseClockBeginsAnew_FollowsTheOneBefore) {

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "bench/localization/kidnapping.hpp"
-#include "replay/simulator/places.hpp"
+#include "replay/simulator/random_poses.hpp"
 #include "tests/unit/replay/test_maps.hpp"
 
 namespace cornerd::bench {

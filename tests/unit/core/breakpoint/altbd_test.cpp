@@ -134,8 +134,8 @@ TEST(Altbd, WallThatGrows_IsAnnouncedAndEnds) {
     const Altbd::Event event = altbd.next(growing, /*ended=*/false, wall);
     if (event != Altbd::Event::kNone) events.push_back(event);
     if (event == Altbd::Event::kWallBegun) {
-      EXPECT_GT(wall.support, ExtractionConfig().doubtful_samples);
-      EXPECT_LT(wall.support, 3 * ExtractionConfig().doubtful_samples);
+      EXPECT_GT(wall.support, ExtractionConfig().short_wall_samples);
+      EXPECT_LT(wall.support, 3 * ExtractionConfig().short_wall_samples);
     }
   }
   ASSERT_GE(events.size(), 7U);

@@ -42,8 +42,8 @@ TEST(Catalog, Neighbours_AreAllThatARayReaches) {
     plan.walls.push_back({place.translation(), place * Vec2(0.4, 0), 0.1});
   }
   const WallMap map(plan);
-  const double reach_m = 2.5;
-  const Catalog catalog(map, reach_m);
+  const double max_distance_m = 2.5;
+  const Catalog catalog(map, max_distance_m);
   const auto free_place = [](const Corner& corner) {
     return Vec2(corner.position + 1e-3 * unit_vector(corner.bisector_rad()));
   };
@@ -54,14 +54,14 @@ TEST(Catalog, Neighbours_AreAllThatARayReaches) {
       const Vec2 way = free_place(catalog.landmarks()[j]) - from;
       const double distance_m =
           (catalog.landmarks()[j].position - catalog.landmarks()[i].position).norm();
-      if (i == j || std::abs(distance_m - reach_m) < 0.01) continue;
-      const bool sees = distance_m < reach_m &&
+      if (i == j || std::abs(distance_m - max_distance_m) < 0.01) continue;
+      const bool sees = distance_m < max_distance_m &&
                         map.range_along(from, std::atan2(way.y(), way.x()), way.norm()) == 0;
       const bool listed = std::any_of(neighbours.begin(), neighbours.end(),
                                       [&](const LandmarkPair& pair) { return pair.to == j; });
       if (sees) {
         EXPECT_TRUE(listed) << i << " and " << j;
-      } else if (distance_m > reach_m) {
+      } else if (distance_m > max_distance_m) {
         EXPECT_FALSE(listed) << i << " and " << j;
       }
     }

@@ -41,7 +41,7 @@ double error_after_m(int places, Localizer& localizer, const WallMap& map) {
       options.start_ns += from_seconds(0.137);
       const Scan scan = biased(source.take(map, T_map_lidar, options), kBias);
       const PoseEstimate& pose = localizer.step(scan).pose;
-      const bool named = names_a_place(pose.state);
+      const bool named = has_pose(pose.state);
       if (!named || place < places - 5) continue;
       error_m += (pose.T_map_base.translation() - T_map_lidar.translation()).norm();
       ++fixes;
@@ -59,7 +59,7 @@ TEST(BiasEstimator, TurnsAtKnownPlaces_ShowTheBias) {
   for (int k = 0; k < 60; ++k) {
     const Pose2 T_map_lidar = source.place_in(0.4, 2.2, 0.4, 1.4);
     points.assign(biased(source.take(*map, T_map_lidar), kBias), 0.1, 12, 0, {}, estimator.bias());
-    estimator.learn(*map, T_map_lidar, points.points(), 1);
+    estimator.update(*map, T_map_lidar, points.points(), 1);
   }
   EXPECT_EQ(estimator.scans(), 60U);
   EXPECT_NEAR(estimator.bias().range_scale, kBias.range_scale, 0.0015);
@@ -76,7 +76,7 @@ TEST(BiasEstimator, SensorWithoutBias_IsLeftAsItIs) {
   for (int k = 0; k < 60; ++k) {
     const Pose2 T_map_lidar = source.place_in(0.4, 2.2, 0.4, 1.4);
     points.assign(source.take(*map, T_map_lidar), 0.1, 12, 0, {}, estimator.bias());
-    estimator.learn(*map, T_map_lidar, points.points(), 1);
+    estimator.update(*map, T_map_lidar, points.points(), 1);
   }
   EXPECT_NEAR(estimator.bias().range_scale, 0, 0.001);
   EXPECT_NEAR(estimator.bias().range_offset_m, 0, 0.001);
@@ -96,7 +96,7 @@ TEST(BiasEstimator, RobotThatMovesWithinItsTurns_IsNoBias) {
     const Scan scan = source.take(*map, T_map_lidar, starts);
     const TimeNs middle_ns = scan.start_ns() + (scan.end_ns() - scan.start_ns()) / 2;
     points.assign(scan, 0.1, 12, middle_ns, {}, estimator.bias());
-    estimator.learn(*map, T_map_lidar, points.points(), 1);
+    estimator.update(*map, T_map_lidar, points.points(), 1);
   }
   EXPECT_NEAR(estimator.bias().range_scale, 0, 0.001);
   EXPECT_NEAR(estimator.bias().range_offset_m, 0, 0.001);
@@ -106,7 +106,7 @@ TEST(BiasEstimator, RobotThatMovesWithinItsTurns_IsNoBias) {
 
 TEST(BiasEstimator, ThatResumes_KnowsWhatWasLearntAndLearnsOn) {
   const auto map = testing::make_map(testing::l_shaped_room());
-  const LearnedBias learned{
+  const EstimatedBias learned{
       .bias = kBias, .sigma = {0.001, 0.001, radians(0.02), radians(0.02)}, .scans = 400};
   BiasEstimator estimator(12, {}, {});
   estimator.resume(learned);
@@ -118,7 +118,7 @@ TEST(BiasEstimator, ThatResumes_KnowsWhatWasLearntAndLearnsOn) {
   for (int k = 0; k < 60; ++k) {
     const Pose2 T_map_lidar = source.place_in(0.4, 2.2, 0.4, 1.4);
     points.assign(biased(source.take(*map, T_map_lidar), kBias), 0.1, 12, 0, {}, estimator.bias());
-    estimator.learn(*map, T_map_lidar, points.points(), 1);
+    estimator.update(*map, T_map_lidar, points.points(), 1);
     EXPECT_NEAR(estimator.bias().range_scale, kBias.range_scale, 0.0015);
     EXPECT_NEAR(estimator.bias().range_offset_m, kBias.range_offset_m, 0.0015);
   }
@@ -138,7 +138,7 @@ TEST(BiasEstimator, ThatDoesNotForget_TakesAllTurnsAlike) {
     const Pose2 T_map_lidar = source.place_in(0.4, 2.2, 0.4, 1.4);
     const SensorBias now{.range_scale = 0, .range_offset_m = k < 400 ? 0.004 : 0};
     points.assign(biased(source.take(*map, T_map_lidar), now), 0.1, 12, 0, {}, estimator.bias());
-    estimator.learn(*map, T_map_lidar, points.points(), 1);
+    estimator.update(*map, T_map_lidar, points.points(), 1);
   }
   EXPECT_NEAR(estimator.bias().range_offset_m, 0.002, 0.0004);
 }
@@ -166,7 +166,7 @@ TEST(BiasEstimator, TurnsThatTeach_LeaveLessDoubt) {
   for (int k = 0; k < 20; ++k) {
     const Pose2 T_map_lidar = source.place_in(0.4, 2.2, 0.4, 1.4);
     points.assign(source.take(*map, T_map_lidar), 0.1, 12, 0, {}, estimator.bias());
-    estimator.learn(*map, T_map_lidar, points.points(), 1);
+    estimator.update(*map, T_map_lidar, points.points(), 1);
     EXPECT_LT(estimator.learned().sigma.range_scale, before);
     before = estimator.learned().sigma.range_scale;
   }
@@ -178,7 +178,7 @@ TEST(BiasEstimator, TurnOfFewPoints_TeachesNothing) {
   testing::ScanSource source(64);
   testing::ScanOptions sparse;
   sparse.samples = 30;
-  estimator.learn(*map, {1, 1, 0}, testing::polar(source.take(*map, {1, 1, 0}, sparse)).points(),
+  estimator.update(*map, {1, 1, 0}, testing::polar(source.take(*map, {1, 1, 0}, sparse)).points(),
                   1);
   EXPECT_EQ(estimator.scans(), 0U);
   EXPECT_TRUE(estimator.bias().is_none());
@@ -188,23 +188,23 @@ TEST(Localizer, BiasedLidar_IsLearntWhileItRuns) {
   const auto map = testing::make_map(testing::l_shaped_room());
   Localizer learning(map, {});
   LocalizerConfig config;
-  config.learn_bias = false;
+  config.calibrate_online = false;
   Localizer trusting(map, config);
   const double with_m = error_after_m(14, learning, *map);
   const double without_m = error_after_m(14, trusting, *map);
   EXPECT_LT(with_m, 0.0025);
   EXPECT_GT(without_m, 0.004);
-  EXPECT_NEAR(learning.learned_bias().bias.range_scale, kBias.range_scale, 0.004);
-  EXPECT_TRUE(trusting.learned_bias().bias.is_none());
+  EXPECT_NEAR(learning.estimated_bias().bias.range_scale, kBias.range_scale, 0.004);
+  EXPECT_TRUE(trusting.estimated_bias().bias.is_none());
   learning.forget();
-  EXPECT_TRUE(learning.learned_bias().bias.is_none());
+  EXPECT_TRUE(learning.estimated_bias().bias.is_none());
 }
 
 TEST(Localizer, BiasThatIsKnown_IsTakenOffFromTheFirstTurn) {
   const auto map = testing::make_map(testing::l_shaped_room());
   LocalizerConfig config;
   config.bias = kBias;
-  config.learn_bias = false;
+  config.calibrate_online = false;
   Localizer localizer(map, config);
   EXPECT_LT(error_after_m(5, localizer, *map), 0.001);
 }

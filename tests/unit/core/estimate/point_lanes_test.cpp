@@ -29,27 +29,27 @@ PolarScan noisy_wall() {
 }
 
 /// Point by point, in double precision.
-FaceSums exact_sum(std::span<const PolarPoint> points, const SensorNoise& noise, double slack_m) {
+FaceSums exact_sum(std::span<const PolarPoint> points, const SensorNoise& noise, double extra_sigma_m) {
   const Vec2 normal = unit_vector(kWallAngle_rad);
   FaceSums sum;
   for (const PolarPoint& point : points) {
-    const double distance_m = normal.dot(point.place()) + kHeight_m;
+    const double distance_m = normal.dot(point.position()) + kHeight_m;
     const double lever_m = normal.y() * point.x_m - normal.x() * point.y_m;
-    const double variance_m2 =
+    const double variance =
         noise.variance_across_m2(point.range_m, std::abs(normal.dot(point.ray()))) * kScale *
             kScale +
-        slack_m * slack_m;
-    const double z_squared = distance_m * distance_m / variance_m2;
+        extra_sigma_m * extra_sigma_m;
+    const double z_squared = distance_m * distance_m / variance;
     if (z_squared >= 16) continue;
     const double share = 1 - z_squared / 16;
-    const double weight = share * share / variance_m2;
+    const double weight = share * share / variance;
     sum.weight += weight;
     sum.lever += weight * lever_m;
     sum.lever_squared += weight * lever_m * lever_m;
     sum.distance += weight * distance_m;
     sum.distance_lever += weight * distance_m * lever_m;
     sum.z_squared += z_squared;
-    sum.squared_m2 += distance_m * distance_m;
+    sum.squared_distances += distance_m * distance_m;
     sum.points += 1;
   }
   return sum;
@@ -63,7 +63,7 @@ void expect_near(const FaceSums& one, const FaceSums& other) {
   EXPECT_NEAR(one.distance, other.distance, 1e-6 * other.weight);
   EXPECT_NEAR(one.distance_lever, other.distance_lever, 2e-6 * other.weight);
   EXPECT_NEAR(one.z_squared, other.z_squared, kShare * other.z_squared);
-  EXPECT_NEAR(one.squared_m2, other.squared_m2, kShare * other.squared_m2);
+  EXPECT_NEAR(one.squared_distances, other.squared_distances, kShare * other.squared_distances);
   EXPECT_EQ(one.points, other.points);
 }
 
@@ -75,12 +75,12 @@ TEST(PointLanes, PointsOfAWall_AddUpAsInDoublePrecision) {
   PointLanes lanes;
   for (const SensorNoise& noise : {SensorNoise{}, by_table}) {
     lanes.assign(scan.points(), noise, kScale);
-    for (const double slack_m : {0.0, 0.01}) {
+    for (const double extra_sigma_m : {0.0, 0.01}) {
       // Every number of points that fours can leave over.
       for (std::size_t begin = 0; begin < 5; ++begin) {
         const auto part = scan.points().subspan(begin);
-        expect_near(lanes.sum(begin, scan.size(), unit_vector(kWallAngle_rad), kHeight_m, slack_m),
-                    exact_sum(part, noise, slack_m));
+        expect_near(lanes.sum(begin, scan.size(), unit_vector(kWallAngle_rad), kHeight_m, extra_sigma_m),
+                    exact_sum(part, noise, extra_sigma_m));
       }
     }
   }

@@ -12,11 +12,11 @@ namespace {
 
 class RefinementTest : public ::testing::Test {
  protected:
-  RefinedPose refine(const Scan& scan, const Pose2& start, double reach_m = 0.1) {
+  RefinedPose refine(const Scan& scan, const Pose2& start, double search_radius_m = 0.1) {
     const PolarScan points = testing::polar(scan);
-    std::vector<PolarPoint> thin;
-    for (std::size_t i = 0; i < points.size(); i += 6) thin.push_back(points[i]);
-    return refinement_.refine(*map_, start, reach_m, thin, points.points(), 1);
+    std::vector<PolarPoint> subset;
+    for (std::size_t i = 0; i < points.size(); i += 6) subset.push_back(points[i]);
+    return refinement_.refine(*map_, start, search_radius_m, subset, points.points(), 1);
   }
 
   std::shared_ptr<const WallMap> map_ = testing::make_map(testing::l_shaped_room());

@@ -14,7 +14,7 @@ TEST(SmallAngle, Turned_IsWhatSineAndCosineGive) {
     for (const double angle_rad : {size_rad, -size_rad}) {
       const Vec2 exact(std::cos(angle_rad) * way.x() - std::sin(angle_rad) * way.y(),
                        std::sin(angle_rad) * way.x() + std::cos(angle_rad) * way.y());
-      EXPECT_LT((turned(way, angle_rad) - exact).norm(), 6e-11) << angle_rad;
+      EXPECT_LT((rotated(way, angle_rad) - exact).norm(), 6e-11) << angle_rad;
     }
   }
 }

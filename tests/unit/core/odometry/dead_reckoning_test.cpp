@@ -8,8 +8,8 @@ namespace {
 
 constexpr DriveGeometry kRobot{0.05, 0.2, 1000, 0};
 
-MotionStep step_of(double left_m, double right_m, double gyro_rad) {
-  MotionStep step;
+OdometryIncrement step_of(double left_m, double right_m, double gyro_rad) {
+  OdometryIncrement step;
   step.to_ns = kNsPerSecond / 10;
   step.left_m = left_m;
   step.right_m = right_m;
@@ -19,7 +19,7 @@ MotionStep step_of(double left_m, double right_m, double gyro_rad) {
 }
 
 TEST(HeadingChange, EachMode_IsItsEquation) {
-  const MotionStep step = step_of(0.01, 0.03, 0.2);  // wheels: 0.1 rad
+  const OdometryIncrement step = step_of(0.01, 0.03, 0.2);  // wheels: 0.1 rad
   const auto change = [&](HeadingSource source, double c_enco, double c_gyro) {
     return heading_change(step, kRobot, {source, {c_enco, c_gyro, 0}});
   };
@@ -35,7 +35,7 @@ TEST(HeadingChange, EachMode_IsItsEquation) {
 }
 
 TEST(HeadingChange, WithoutAGyro_TakesTheEncoders) {
-  MotionStep step = step_of(0.01, 0.03, 0.2);
+  OdometryIncrement step = step_of(0.01, 0.03, 0.2);
   step.has_gyro = false;
   EXPECT_DOUBLE_EQ(heading_change(step, kRobot, {HeadingSource::kMean, {1, 1, 0}}), 0.1);
 }

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "core/odometry/motion_step.hpp"
+#include "core/odometry/odometry_increment.hpp"
 
 namespace cornerd::core {
 namespace {

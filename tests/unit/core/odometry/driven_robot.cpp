@@ -31,7 +31,7 @@ OdometryReading DrivenRobot::drive(double dt_s, double speed_m_s, double rate_ra
 
   const auto counts = [&](double way_m) {
     const auto count = static_cast<std::int64_t>(std::floor(way_m / geometry_.metres_per_count()));
-    return geometry_.ceiling > 0 ? count & geometry_.ceiling : count;
+    return geometry_.counter_max > 0 ? count & geometry_.counter_max : count;
   };
   const double noise_rad_s = errors_.gyro_rad_s_per_sqrt_hz / std::sqrt(dt_s) * normal();
   return {now_ns_, counts(left_m_), counts(right_m_),

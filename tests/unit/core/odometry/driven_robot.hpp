@@ -18,7 +18,7 @@ inline OdometryConfig switched_on() {
   return config;
 }
 
-/// As LearnedOdometry has it, plus noise.
+/// As OdometryParameters has it, plus noise.
 struct RobotErrors {
   double left_scale = 0;
   double right_scale = 0;

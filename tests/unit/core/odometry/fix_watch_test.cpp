@@ -9,7 +9,7 @@ namespace {
 constexpr double kTurn_rad = 0.2;
 
 /// A fix that is where it was foretold.
-void explain(FixWatch& watch, double way_m, double rotation_rad) {
+void beam_likelihood(FixWatch& watch, double way_m, double rotation_rad) {
   const FixWatch::Way way{Vec2(way_m, 0), rotation_rad};
   watch.add_explained(way, way);
 }
@@ -19,7 +19,7 @@ FixWatch doubting() {
   for (int k = 0; k < 3; ++k) {
     EXPECT_TRUE(watch.is_believed()) << k;
     watch.add_stranger(true);
-    explain(watch, 0.05, 0);
+    beam_likelihood(watch, 0.05, 0);
   }
   return watch;
 }
@@ -27,7 +27,7 @@ FixWatch doubting() {
 TEST(FixWatch, StrangersBetweenStraights_AreNotForgottenOnThem) {
   FixWatch watch = doubting();
   EXPECT_FALSE(watch.is_believed());
-  for (int k = 0; k < 100; ++k) explain(watch, 0.05, k % 2 == 0 ? 0.01 : -0.01);
+  for (int k = 0; k < 100; ++k) beam_likelihood(watch, 0.05, k % 2 == 0 ? 0.01 : -0.01);
   EXPECT_FALSE(watch.is_believed());
   EXPECT_FALSE(watch.is_contradicted());
 }
@@ -36,7 +36,7 @@ TEST(FixWatch, TurnsThatAreForetold_ProveItRight) {
   FixWatch watch = doubting();
   for (int k = 0; k < 5; ++k) {
     EXPECT_FALSE(watch.is_believed()) << k;
-    explain(watch, 0.05, k % 2 == 0 ? kTurn_rad : -kTurn_rad);
+    beam_likelihood(watch, 0.05, k % 2 == 0 ? kTurn_rad : -kTurn_rad);
   }
   EXPECT_TRUE(watch.is_believed());
 }
@@ -46,7 +46,7 @@ TEST(FixWatch, StrangersNowAndThen_AreSlips) {
   for (int k = 0; k < 20; ++k) {
     watch.add_stranger(true);
     EXPECT_TRUE(watch.is_believed()) << k;
-    for (int turns = 0; turns < 3; ++turns) explain(watch, 0.05, kTurn_rad);
+    for (int turns = 0; turns < 3; ++turns) beam_likelihood(watch, 0.05, kTurn_rad);
   }
 }
 
@@ -55,7 +55,7 @@ TEST(FixWatch, StrangersThatAreNotAboutTurning_CountInARow) {
   for (int k = 0; k < 20; ++k) {
     watch.add_stranger(false);
     watch.add_stranger(false);
-    explain(watch, 0.05, 0);
+    beam_likelihood(watch, 0.05, 0);
   }
   EXPECT_TRUE(watch.is_believed());
   for (int k = 0; k < 3; ++k) {
@@ -72,16 +72,16 @@ TEST(FixWatch, TheFirstWayAndTurn_TheLidarHasToHaveSeen) {
   FixWatch watch;
   EXPECT_TRUE(watch.carries(0.01, 0.01)) << "it stands";
   EXPECT_FALSE(watch.carries(0.1, 0));
-  explain(watch, 0.05, 0);
+  beam_likelihood(watch, 0.05, 0);
   EXPECT_TRUE(watch.carries(0.1, 0.01));
   EXPECT_FALSE(watch.carries(0.1, kTurn_rad));
-  explain(watch, 0.05, kTurn_rad);
+  beam_likelihood(watch, 0.05, kTurn_rad);
   EXPECT_TRUE(watch.carries(10, 10));
 }
 
 TEST(FixWatch, ASlowRobot_ProvesItOverManyFixes) {
   FixWatch watch;
-  for (int k = 0; k < 8; ++k) explain(watch, 0.003, 0.01);
+  for (int k = 0; k < 8; ++k) beam_likelihood(watch, 0.003, 0.01);
   EXPECT_TRUE(watch.carries(10, 10));
 }
 
@@ -96,19 +96,19 @@ TEST(FixWatch, ASlowRobotWhoseOdometryLies_ProvesNothing) {
 
 TEST(FixWatch, ARobotThatStands_ProvesNothing) {
   FixWatch watch;
-  for (int k = 0; k < 1000; ++k) explain(watch, k % 2 == 0 ? 0.002 : -0.002, 0);
+  for (int k = 0; k < 1000; ++k) beam_likelihood(watch, k % 2 == 0 ? 0.002 : -0.002, 0);
   EXPECT_FALSE(watch.carries(0.1, 0));
 }
 
 TEST(FixWatch, AfterAStranger_NothingIsCarriedOnUntilAFixIsExplained) {
   FixWatch watch;
-  explain(watch, 0.05, kTurn_rad);
+  beam_likelihood(watch, 0.05, kTurn_rad);
   watch.add_stranger(true);
   EXPECT_FALSE(watch.carries(0, 0));
-  explain(watch, 0.05, 0);
+  beam_likelihood(watch, 0.05, 0);
   EXPECT_TRUE(watch.carries(1, 0));
   EXPECT_FALSE(watch.carries(1, kTurn_rad)) << "it was about turning";
-  explain(watch, 0.05, kTurn_rad);
+  beam_likelihood(watch, 0.05, kTurn_rad);
   EXPECT_TRUE(watch.carries(1, kTurn_rad));
 }
 

@@ -21,7 +21,7 @@ TEST(FusionFilter, ThirtySecondsWithFixes_TeachScalesAndBias) {
     const testing::RobotErrors errors = usual_errors();
     Drive drive(switched_on(), errors, seed);
     drive.drive(30, true);
-    const LearnedOdometry learned = drive.filter().learned();
+    const OdometryParameters learned = drive.filter().learned();
     EXPECT_NEAR(learned.left_scale, errors.left_scale, 0.003) << seed;
     EXPECT_NEAR(learned.right_scale, errors.right_scale, 0.003) << seed;
     EXPECT_NEAR(learned.gyro_scale, errors.gyro_scale, 0.003) << seed;
@@ -50,7 +50,7 @@ TEST(FusionFilter, WhatChangesInADrive_IsLearntAnew) {
     errors.gyro_bias_rad_s -= 0.01;
     drive.robot().change(errors);
     drive.drive(20, true);
-    const LearnedOdometry learned = drive.filter().learned();
+    const OdometryParameters learned = drive.filter().learned();
     EXPECT_NEAR(learned.left_scale, errors.left_scale, 0.005) << seed;
     EXPECT_NEAR(learned.right_scale, errors.right_scale, 0.005) << seed;
     EXPECT_NEAR(learned.gyro_bias_rad_s, errors.gyro_bias_rad_s, 0.001) << seed;
@@ -100,10 +100,10 @@ TEST(FusionFilter, AWheelThatSpinsFree_DoesNotTurnTheRobot) {
   const OdometryConfig config = switched_on();
   Drive drive(config, usual_errors(), 4);
   drive.drive(30, true);
-  const LearnedOdometry before = drive.filter().learned();
+  const OdometryParameters before = drive.filter().learned();
   const Pose2 start = drive.filter().pose();
   const std::uint64_t slips = drive.filter().slips();
-  MotionStep slip;
+  OdometryIncrement slip;
   slip.to_ns = kNsPerSecond / 50;
   slip.right_m = 0.02;
   slip.has_gyro = true;
@@ -131,10 +131,10 @@ TEST(FusionFilter, AFixFromElsewhere_IsRefusedAndChangesNothing) {
 TEST(FusionFilter, AHole_LetsTheDoubtGrowAndTheLearnedStay) {
   Drive drive(switched_on(), usual_errors(), 6);
   drive.drive(30, true);
-  const LearnedOdometry before = drive.filter().learned();
-  MotionStep hole;
+  const OdometryParameters before = drive.filter().learned();
+  OdometryIncrement hole;
   hole.to_ns = 2 * kNsPerSecond;
-  hole.is_hole = true;
+  hole.is_gap = true;
   drive.filter().predict(hole);
   EXPECT_GT(drive.filter().pose_covariance()(0, 0), 0.25);
   EXPECT_EQ(drive.filter().learned().left_scale, before.left_scale);

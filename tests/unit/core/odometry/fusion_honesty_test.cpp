@@ -97,13 +97,13 @@ TEST(FusionFilter, AnyMotion_KeepsTheCovarianceOne) {
   FusionFilter filter(switched_on());
   filter.set_pose({}, Covariance3::Identity() * 1e-6);
   for (int i = 0; i < 20000; ++i) {
-    MotionStep step;
+    OdometryIncrement step;
     step.to_ns = static_cast<TimeNs>(random() % 1'000'000'000) + 1;
     step.left_m = normal(random);
     step.right_m = normal(random);
     step.gyro_rad = normal(random) * 10;
     step.has_gyro = random() % 2 == 0;
-    step.is_hole = random() % 50 == 0;
+    step.is_gap = random() % 50 == 0;
     filter.predict(step);
     const Pose2 anywhere{normal(random), normal(random), normal(random)};
     if (random() % 5 == 0) filter.correct(anywhere, Covariance3::Identity() * 1e-4);

@@ -10,7 +10,7 @@ namespace {
 void turn(GyroProof& proof, double& heading_rad, double gain, int turns = 1) {
   for (int i = 0; i < turns; ++i) {
     heading_rad = normalize_angle(heading_rad + 0.14);
-    MotionStep step;
+    OdometryIncrement step;
     step.to_ns = 140'000'000;
     step.gyro_rad = gain * 0.14;
     step.has_gyro = true;
@@ -33,7 +33,7 @@ TEST(GyroProof, StraightsProveNothing) {
   GyroProof proof;
   double heading_rad = 0;
   for (int i = 0; i < 100; ++i) {
-    MotionStep step;
+    OdometryIncrement step;
     step.to_ns = 140'000'000;
     step.has_gyro = true;
     proof.drove(step);
@@ -46,7 +46,7 @@ TEST(GyroProof, AStretchWithoutAGyro_IsNotComparedWith) {
   GyroProof proof;
   double heading_rad = 0;
   turn(proof, heading_rad, 1, 4);
-  MotionStep blind;
+  OdometryIncrement blind;
   blind.to_ns = 140'000'000;
   for (int i = 0; i < 20; ++i) {
     proof.drove(blind);

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/odometry/motion_step.hpp"
+#include "core/odometry/odometry_increment.hpp"
 
 namespace cornerd::core {
 namespace {

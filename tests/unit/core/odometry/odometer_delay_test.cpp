@@ -103,7 +103,7 @@ TEST(OdometerDelay, LateOrEarlyReadings_AreFoundOutAndReckonedWith) {
   for (const double delay_s : {0.0, 0.005, 0.02, -0.03, 0.08, -0.12, 0.17}) {
     LateRide ride(delay_s, config_of_late_ride());
     ride.teach();
-    EXPECT_NEAR(ride.odometer.summary().learned.delay_s, delay_s, 5e-4);
+    EXPECT_NEAR(ride.odometer.summary().parameters.delay_s, delay_s, 5e-4);
     EXPECT_LT(ride.odometer.summary().sigma.delay_s, 4e-4) << delay_s;
     const double nees = ride.blind_nees();
     EXPECT_LT(nees, 5) << delay_s;
@@ -117,7 +117,7 @@ TEST(OdometerDelay, ADelayThatJumps_IsFollowed) {
     ride.teach();
     ride.delay_by(jump_s);
     ride.teach();
-    EXPECT_NEAR(ride.odometer.summary().learned.delay_s, jump_s, 1e-3);
+    EXPECT_NEAR(ride.odometer.summary().parameters.delay_s, jump_s, 1e-3);
     EXPECT_LT(ride.blind_nees(), 5) << jump_s;
   }
 }
@@ -137,7 +137,7 @@ TEST(OdometerDelay, ARobotThatStands_LearnsNone) {
     odometer.correct({kSigma * robot.normal(), kSigma * robot.normal(), kSigma * robot.normal()},
                      Covariance3::Identity() * kSigma * kSigma);
   }
-  EXPECT_EQ(odometer.summary().learned.delay_s, 0);
+  EXPECT_EQ(odometer.summary().parameters.delay_s, 0);
   EXPECT_GE(odometer.summary().sigma.delay_s, config.noise.delay_s);
 }
 
@@ -152,7 +152,7 @@ TEST(OdometerDelay, ReadingsThatArriveAfterTheTurn_ArePublishedWhereTheyAreAfter
   int after = 0;
   for (int i = 0; i < 20; ++i) {
     ride.read();
-    const auto ahead = ride.odometer.ahead();
+    const auto ahead = ride.odometer.predict_latest();
     if (!ahead) {
       ++before;
       continue;
@@ -181,14 +181,14 @@ TEST(OdometerDelay, TimesThatAreNotDoubted_ArePutDownToTheWheels) {
   config.noise.delay_s = config.noise.delay_s_per_sqrt_s = 0;
   LateRide ride(0.005, config);
   ride.teach();
-  EXPECT_NEAR(ride.odometer.summary().learned.delay_s, 0, 1e-4);
+  EXPECT_NEAR(ride.odometer.summary().parameters.delay_s, 0, 1e-4);
   EXPECT_GT(ride.blind_nees(), 10);
 }
 
 TEST(OdometerDelay, AKnownDelay_IsStartedFrom) {
   OdometryConfig config = config_of_late_ride();
   config.noise.delay_s = config.noise.delay_s_per_sqrt_s = 0;
-  config.start.delay_s = 0.02;
+  config.initial.delay_s = 0.02;
   LateRide ride(0.02, config);
   ride.teach();
   EXPECT_LT(ride.blind_nees(), 5);

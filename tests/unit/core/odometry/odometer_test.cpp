@@ -26,7 +26,7 @@ TEST(Odometer, BeforeTheFirstFix_PredictsNothing) {
   Ride ride(switched_on());
   for (int k = 0; k < 5; ++k) ride.turn();
   EXPECT_FALSE(ride.odometer.prediction());
-  EXPECT_TRUE(ride.odometer.knows_motion());
+  EXPECT_TRUE(ride.odometer.has_motion());
 }
 
 TEST(Odometer, Ahead_IsWhereTheRobotIsByNow) {
@@ -38,7 +38,7 @@ TEST(Odometer, Ahead_IsWhereTheRobotIsByNow) {
   double variance_m2 = 0;
   for (int i = 0; i < 100; ++i) {
     const Pose2 now = ride.go_on();
-    const auto ahead = ride.odometer.ahead();
+    const auto ahead = ride.odometer.predict_latest();
     ASSERT_TRUE(ahead);
     EXPECT_LT((ahead->T_map_base.translation() - now.translation()).norm(), 0.01) << i;
     EXPECT_LT(std::abs(angle_between(ahead->T_map_base.theta_rad, now.theta_rad)), 0.01) << i;
@@ -55,9 +55,9 @@ TEST(Odometer, Ahead_IsWhatTheNextTurnStartsFrom) {
     ride.odometer.correct(ride.truth, kFixCovariance);
   }
   ride.go_on();
-  ASSERT_TRUE(ride.odometer.ahead());
+  ASSERT_TRUE(ride.odometer.predict_latest());
   for (int i = 0; i < 9; ++i) ride.go_on();
-  const PredictedPose ahead = ride.odometer.ahead().value();
+  const PredictedPose ahead = ride.odometer.predict_latest().value();
   ride.odometer.advance(ahead.t_ns - 1000, ahead.t_ns, ahead.t_ns + 1000);
   const PredictedPose reached = ride.odometer.prediction().value();
   EXPECT_NEAR(reached.T_map_base.x_m, ahead.T_map_base.x_m, 1e-9);
@@ -69,7 +69,7 @@ TEST(Odometer, BeforeTheFirstFix_IsNothingAhead) {
   Ride ride(switched_on());
   ride.turn();
   ride.go_on();
-  EXPECT_FALSE(ride.odometer.ahead());
+  EXPECT_FALSE(ride.odometer.predict_latest());
 }
 
 TEST(Odometer, BetweenFixes_PredictsTheMiddleOfTheTurn) {
@@ -81,9 +81,9 @@ TEST(Odometer, BetweenFixes_PredictsTheMiddleOfTheTurn) {
     }
     ride.odometer.correct(ride.truth, kFixCovariance);
   }
-  EXPECT_EQ(ride.odometer.summary().strangers, 0U);
-  EXPECT_TRUE(ride.odometer.summary().trusted);
-  EXPECT_NEAR(ride.odometer.summary().learned.gyro_bias_rad_s, 0.01, 0.001);
+  EXPECT_EQ(ride.odometer.summary().rejected_fixes, 0U);
+  EXPECT_TRUE(ride.odometer.summary().healthy);
+  EXPECT_NEAR(ride.odometer.summary().parameters.gyro_bias_rad_s, 0.01, 0.001);
 }
 
 TEST(Odometer, ReadingsThatComeLateOrSeldom_StillCountOnce) {
@@ -101,7 +101,7 @@ TEST(Odometer, ReadingsThatComeLateOrSeldom_StillCountOnce) {
 
 TEST(Odometer, Blind_GoesOnForAsLongAsItIsAllowed) {
   OdometryConfig config = switched_on();
-  config.bridge_s = 3;
+  config.max_extrapolation_s = 3;
   Ride ride(config);
   for (int k = 0; k < 200; ++k) {
     ride.turn();
@@ -124,7 +124,7 @@ TEST(Odometer, ReadingsStop_PredictionStops) {
   }
   for (int k = 0; k < 4; ++k) ride.turn(/*readings=*/false);
   EXPECT_FALSE(ride.odometer.prediction());
-  EXPECT_FALSE(ride.odometer.knows_motion());
+  EXPECT_FALSE(ride.odometer.has_motion());
   EXPECT_FALSE(ride.odometer.summary().present);
   for (int k = 0; k < 20; ++k) {
     ride.turn();
@@ -146,8 +146,8 @@ TEST(Odometer, WheelsThatTellAnotherStory_AreNotBelieved) {
     ride.odometer.correct(hanging, kFixCovariance);
   }
   EXPECT_FALSE(ride.odometer.prediction());
-  EXPECT_FALSE(ride.odometer.summary().trusted);
-  EXPECT_GT(ride.odometer.summary().strangers, 3U);
+  EXPECT_FALSE(ride.odometer.summary().healthy);
+  EXPECT_GT(ride.odometer.summary().rejected_fixes, 3U);
 }
 
 /// The worst that a bold prediction was off by, in its own sigmas, in 5 s without fixes, its
@@ -213,7 +213,7 @@ TEST(Odometer, AWheelThatStandsStill_IsNotBelieved) {
     ride.turn();
     ride.odometer.correct(ride.truth, kFixCovariance);
   }
-  EXPECT_TRUE(ride.odometer.summary().trusted);
+  EXPECT_TRUE(ride.odometer.summary().healthy);
   std::optional<std::int64_t> frozen;
   ride.spoil = [&](int, OdometryReading& reading) {
     if (!frozen) frozen = reading.left;
@@ -223,10 +223,10 @@ TEST(Odometer, AWheelThatStandsStill_IsNotBelieved) {
   for (int k = 0; k < 36; ++k) {
     ride.turn();
     ride.odometer.correct(ride.truth, kFixCovariance);
-    trusted += ride.odometer.summary().trusted;
+    trusted += ride.odometer.summary().healthy;
   }
   EXPECT_LT(trusted, 12);
-  EXPECT_NEAR(ride.odometer.summary().learned.left_scale, 0.01, 0.005);
+  EXPECT_NEAR(ride.odometer.summary().parameters.left_scale, 0.01, 0.005);
 }
 
 TEST(Odometer, ARobotThatStands_LearnsNothingOfItsWheels) {
@@ -243,9 +243,9 @@ TEST(Odometer, ARobotThatStands_LearnsNothingOfItsWheels) {
     }
     odometer.advance(start_ns, start_ns + 70'000'000, now_ns);
     odometer.correct(Pose2{1 + 3e-4 * normal(random), 2, 0.3 + 3e-4 * normal(random)},
-                     Covariance3::Identity() * 1e-7 + odometer.doubt_of_motion());
+                     Covariance3::Identity() * 1e-7 + odometer.deskew_covariance());
   }
-  const LearnedOdometry learned = odometer.summary().learned;
+  const OdometryParameters learned = odometer.summary().parameters;
   EXPECT_NEAR(learned.left_scale, 0, 0.005);
   EXPECT_NEAR(learned.right_scale, 0, 0.005);
   EXPECT_NEAR(learned.track_scale, 0, 0.005);
@@ -264,7 +264,7 @@ TEST(Odometer, TimesThatComeLateOrEarly_DoNotDriveTheScalesAway) {
     ride.turn();
     ride.odometer.correct(ride.truth, kFixCovariance);
   }
-  const LearnedOdometry learned = ride.odometer.summary().learned;
+  const OdometryParameters learned = ride.odometer.summary().parameters;
   EXPECT_NEAR(learned.track_scale, 0, 0.02);
   EXPECT_NEAR(learned.gyro_scale, 0, 0.02);
   EXPECT_NEAR(learned.left_scale, 0.01, 0.01);
@@ -284,7 +284,7 @@ TEST(Odometer, SwitchedOff_DoesNothing) {
   ride.turn();
   ride.odometer.correct(ride.truth, kFixCovariance);
   ride.turn();
-  EXPECT_FALSE(ride.odometer.knows_motion());
+  EXPECT_FALSE(ride.odometer.has_motion());
   EXPECT_FALSE(ride.odometer.prediction());
 }
 
@@ -317,7 +317,7 @@ TEST(Odometer, ATurnTakenInMotion_IsStraightened) {
   }
   Scan still;
   odometer.advance(start_ns, 75'000'000, turn.end_ns());
-  ASSERT_TRUE(odometer.straighten(turn, T_base_lidar, still));
+  ASSERT_TRUE(odometer.deskew(turn, T_base_lidar, still));
   ASSERT_EQ(still.size(), turn.size());
   const Pose2 T_map_lidar = pose_at(0.075) * T_base_lidar;
   double worst_m = 0;

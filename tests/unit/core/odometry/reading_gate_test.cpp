@@ -20,7 +20,7 @@ constexpr TimeNs kMillisecond_ns = 1'000'000;
 OdometryConfig small_robot() {
   OdometryConfig config;
   config.enabled = true;
-  config.geometry.ceiling = 65535;
+  config.geometry.counter_max = 65535;
   return config;
 }
 
@@ -43,7 +43,7 @@ Outcome drive_with(const std::function<void(int, OdometryReading&)>& spoil) {
     const auto step = gate.add(reading, robot.now_ns());
     if (!step) continue;
     ++outcome.steps;
-    outcome.holes += step->is_hole;
+    outcome.holes += step->is_gap;
     outcome.left_m += step->left_m;
     outcome.gyro_rad += step->gyro_rad;
   }
@@ -119,7 +119,7 @@ TEST(ReadingGate, ASecondWithoutReadings_IsAHole) {
     if (i > 50 && i < 110) reading.right.reset();
   });
   EXPECT_EQ(outcome.holes, 1);
-  EXPECT_EQ(outcome.counters.holes, 1U);
+  EXPECT_EQ(outcome.counters.gaps, 1U);
 }
 
 TEST(ReadingGate, TheFarFutureAndThePast_AreRefused) {
@@ -145,7 +145,7 @@ TEST(ReadingGate, AClockThatWasSetBack_IsFollowedAfterAWhile) {
 TEST(ReadingGate, AClockThatWasSetBack_LeavesAHoleThatEndsBeforeItBegins) {
   testing::DrivenRobot robot(small_robot().geometry, {});
   ReadingGate gate(small_robot());
-  std::vector<MotionStep> back;
+  std::vector<OdometryIncrement> back;
   for (int i = 0; i < 150; ++i) {
     OdometryReading reading = robot.drive(0.02, 0.3, 0.1);
     if (i >= 50) reading.t_ns -= kNsPerSecond;
@@ -153,7 +153,7 @@ TEST(ReadingGate, AClockThatWasSetBack_LeavesAHoleThatEndsBeforeItBegins) {
     if (step && step->to_ns < step->from_ns) back.push_back(*step);
   }
   ASSERT_EQ(back.size(), 1U);
-  EXPECT_TRUE(back.front().is_hole);
+  EXPECT_TRUE(back.front().is_gap);
 }
 
 TEST(ReadingGate, OneReadingAheadOfTheOthers_CostsItselfAlone) {
@@ -219,7 +219,7 @@ TEST(ReadingGate, APauseOfReadingsAndTurnsThatComeAsAWhole_IsNoLeapOfTheClock) {
     newest_sample_ns = reading.t_ns;
   }
   EXPECT_EQ(gate.counters().future, 0U);
-  EXPECT_EQ(gate.counters().holes, 0U);
+  EXPECT_EQ(gate.counters().gaps, 0U);
 }
 
 TEST(ReadingGate, MoreAheadThanTheLimit_IsRefused) {
@@ -285,7 +285,7 @@ TEST(ReadingGate, RatesThatAreNone_AreLeftOut) {
     if (i == 30) reading.gyro_rad_s = std::nan("");
     if (i == 50) reading.gyro_rad_s = 5198147;
   });
-  EXPECT_EQ(outcome.counters.gyro, 2U);
+  EXPECT_EQ(outcome.counters.invalid_rates, 2U);
   EXPECT_NEAR(outcome.gyro_rad, 0.1 * 0.02 * 149, 0.01);
 }
 
@@ -301,7 +301,7 @@ TEST(ReadingGate, AGyroThatIsStuck_IsNoticedByTheWheels) {
     with_gyro += step && step->has_gyro;
   }
   EXPECT_LT(with_gyro, 15);
-  EXPECT_GT(gate.counters().frozen, 80U);
+  EXPECT_GT(gate.counters().stuck, 80U);
 }
 
 TEST(ReadingGate, AGyroThatIsStuck_IsNotBelievedAgainWhenTheRobotTurnsBack) {

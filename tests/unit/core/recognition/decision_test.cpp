@@ -8,14 +8,14 @@
 namespace cornerd::core {
 namespace {
 
-Place place_at(double x_m, double log_likelihood, double of_things) {
-  Place place;
+VerifiedHypothesis place_at(double x_m, double log_likelihood, double of_things) {
+  VerifiedHypothesis place;
   place.refined.T_map_lidar = {x_m, 0, 0};
   place.refined.valid = true;
-  place.explanation.rays = 300;
-  place.explanation.hits = 300;
-  place.explanation.log_likelihood = log_likelihood;
-  place.explanation.log_likelihood_of_things = of_things;
+  place.likelihood.rays = 300;
+  place.likelihood.hits = 300;
+  place.likelihood.log_likelihood = log_likelihood;
+  place.likelihood.log_likelihood_of_obstacles = of_things;
   return place;
 }
 
@@ -25,14 +25,14 @@ TEST(Decide, NoPlace_IsLost) {
 }
 
 TEST(Decide, OnePlaceFarAhead_IsAFix) {
-  const std::vector<Place> places = {place_at(1, 1000, 1000), place_at(5, 900, 900)};
+  const std::vector<VerifiedHypothesis> places = {place_at(1, 1000, 1000), place_at(5, 900, 900)};
   const Decision decision = decide(places, std::nullopt);
   EXPECT_EQ(decision.state, PoseState::kFix);
   EXPECT_EQ(decision.place, 0U);
 }
 
 TEST(Decide, TwoPlacesAlike_AreAmbiguous) {
-  const std::vector<Place> places = {place_at(1, 1000, 1000), place_at(5, 995, 995),
+  const std::vector<VerifiedHypothesis> places = {place_at(1, 1000, 1000), place_at(5, 995, 995),
                                      place_at(9, 800, 800)};
   const Decision decision = decide(places, std::nullopt);
   EXPECT_EQ(decision.state, PoseState::kAmbiguous);
@@ -40,7 +40,7 @@ TEST(Decide, TwoPlacesAlike_AreAmbiguous) {
 }
 
 TEST(Decide, ManyThatAreUnlikelyEach_AreInDoubtTogether) {
-  std::vector<Place> places = {place_at(1, 1000, 1000), place_at(5, 984, 900)};
+  std::vector<VerifiedHypothesis> places = {place_at(1, 1000, 1000), place_at(5, 984, 900)};
   const Decision alone = decide(places, std::nullopt);
   EXPECT_EQ(alone.state, PoseState::kFix);
   EXPECT_LT(alone.doubt, kWrongFixRate);
@@ -52,53 +52,53 @@ TEST(Decide, ManyThatAreUnlikelyEach_AreInDoubtTogether) {
 }
 
 TEST(Decide, PlacesAlike_ShareTheBelief) {
-  const std::vector<Place> places(4, place_at(1, 1000, 1000));
+  const std::vector<VerifiedHypothesis> places(4, place_at(1, 1000, 1000));
   EXPECT_NEAR(decide(places, std::nullopt).doubt, 0.75, 1e-12);
 }
 
 TEST(Decide, RivalBehindByRaysOfOneThing_StaysInDoubt) {
-  const std::vector<Place> places = {place_at(1, 1000, 1000), place_at(5, 700, 995)};
+  const std::vector<VerifiedHypothesis> places = {place_at(1, 1000, 1000), place_at(5, 700, 995)};
   EXPECT_EQ(decide(places, std::nullopt).state, PoseState::kAmbiguous);
 }
 
 TEST(Decide, RivalThatExplainsMoreRays_StaysInDoubt) {
   // As with a sensor that is off by 1 % and 5 mm: the true place fits less exactly, but all over.
-  std::vector<Place> places = {place_at(1, 1000, 1000), place_at(5, 800, 800)};
-  places[0].explanation.hits = 280;
-  places[1].explanation.hits = 220;
-  places[1].explanation.near = 75;
+  std::vector<VerifiedHypothesis> places = {place_at(1, 1000, 1000), place_at(5, 800, 800)};
+  places[0].likelihood.hits = 280;
+  places[1].likelihood.hits = 220;
+  places[1].likelihood.near_hits = 75;
   EXPECT_EQ(decide(places, std::nullopt).state, PoseState::kAmbiguous);
-  places[1].explanation.near = 55;
+  places[1].likelihood.near_hits = 55;
   EXPECT_EQ(decide(places, std::nullopt).state, PoseState::kFix);
 }
 
 TEST(Decide, WallsLessExactThanTheModel_WidenTheMargin) {
-  std::vector<Place> places = {place_at(1, 1000, 1000), place_at(5, 970, 970)};
+  std::vector<VerifiedHypothesis> places = {place_at(1, 1000, 1000), place_at(5, 970, 970)};
   EXPECT_EQ(decide(places, std::nullopt).state, PoseState::kFix);
-  places[0].refined.spread = 2.5;
+  places[0].refined.reduced_chi_square = 2.5;
   EXPECT_EQ(decide(places, std::nullopt).state, PoseState::kAmbiguous);
 }
 
 TEST(Decide, PriorAtOneRival_ChoosesIt) {
-  const std::vector<Place> places = {place_at(1, 1000, 1000), place_at(5, 995, 995)};
+  const std::vector<VerifiedHypothesis> places = {place_at(1, 1000, 1000), place_at(5, 995, 995)};
   const Decision decision = decide(places, Prior{{5.1, 0.05, 0.1}});
   EXPECT_EQ(decision.state, PoseState::kTracking);
   EXPECT_EQ(decision.place, 1U);
 }
 
 TEST(Decide, PriorThatMayHaveComeToBothRivals_ChoosesNone) {
-  const std::vector<Place> places = {place_at(1, 1000, 1000), place_at(1.3, 995, 995)};
+  const std::vector<VerifiedHypothesis> places = {place_at(1, 1000, 1000), place_at(1.3, 995, 995)};
   EXPECT_EQ(decide(places, Prior{{1, 0, 0}}).state, PoseState::kTracking);
   EXPECT_EQ(decide(places, Prior{{1, 0, 0}, 0.1}).state, PoseState::kAmbiguous);
 }
 
 TEST(Decide, PriorSomewhereElse_ChoosesNothing) {
-  const std::vector<Place> places = {place_at(1, 1000, 1000), place_at(5, 995, 995)};
+  const std::vector<VerifiedHypothesis> places = {place_at(1, 1000, 1000), place_at(5, 995, 995)};
   EXPECT_EQ(decide(places, Prior{{3, 0, 0}}).state, PoseState::kAmbiguous);
 }
 
 TEST(Decide, PriorAgainstAClearTurn_IsOverruled) {
-  const std::vector<Place> places = {place_at(1, 1000, 1000), place_at(5, 500, 500)};
+  const std::vector<VerifiedHypothesis> places = {place_at(1, 1000, 1000), place_at(5, 500, 500)};
   const Decision decision = decide(places, Prior{{5, 0, 0}});
   EXPECT_EQ(decision.state, PoseState::kFix);
   EXPECT_EQ(decision.place, 0U);

@@ -11,55 +11,55 @@ namespace {
 constexpr double kAllRound_rad = radians(1);
 constexpr double kHalfCovered_rad = radians(180);
 
-Evidence evidence(std::size_t hits, std::size_t corners, double widest_gap_rad = kAllRound_rad,
+Evidence evidence(std::size_t hits, std::size_t corners, double largest_gap_rad = kAllRound_rad,
                   std::size_t through = 0) {
   Evidence evidence;
-  evidence.explanation.rays = 800;
-  evidence.explanation.hits = hits;
-  evidence.explanation.through = through;
-  evidence.explanation.shorts = 800 - hits - through;
+  evidence.likelihood.rays = 800;
+  evidence.likelihood.hits = hits;
+  evidence.likelihood.free_space_violations = through;
+  evidence.likelihood.shorts = 800 - hits - through;
   evidence.corners = corners;
-  evidence.widest_gap_rad = widest_gap_rad;
+  evidence.largest_gap_rad = largest_gap_rad;
   return evidence;
 }
 
 TEST(Evidence, NearlyAllRays_LeaveNoDoubt) {
-  EXPECT_TRUE(leaves_no_doubt(evidence(780, 0).explanation, false));
-  EXPECT_FALSE(leaves_no_doubt(evidence(770, 0).explanation, false));
-  EXPECT_TRUE(leaves_no_doubt(evidence(770, 0).explanation, true));
+  EXPECT_TRUE(is_conclusive(evidence(780, 0).likelihood, false));
+  EXPECT_FALSE(is_conclusive(evidence(770, 0).likelihood, false));
+  EXPECT_TRUE(is_conclusive(evidence(770, 0).likelihood, true));
 }
 
 TEST(Evidence, FewRays_LeaveDoubtHoweverWellTheyFit) {
-  Explanation few;
+  BeamLikelihood few;
   few.rays = few.hits = 99;
-  EXPECT_FALSE(leaves_no_doubt(few, true));
+  EXPECT_FALSE(is_conclusive(few, true));
 }
 
 TEST(Evidence, NearlyAllRaysOrManyAndThreeCorners_AreEvident) {
-  EXPECT_TRUE(is_evident(evidence(765, 0)));
-  EXPECT_FALSE(is_evident(evidence(755, 0)));
-  EXPECT_TRUE(is_evident(evidence(490, 3)));
-  EXPECT_FALSE(is_evident(evidence(470, 2, kAllRound_rad, 10)));
+  EXPECT_TRUE(is_unambiguous_fix(evidence(765, 0)));
+  EXPECT_FALSE(is_unambiguous_fix(evidence(755, 0)));
+  EXPECT_TRUE(is_unambiguous_fix(evidence(490, 3)));
+  EXPECT_FALSE(is_unambiguous_fix(evidence(470, 2, kAllRound_rad, 10)));
 }
 
 TEST(Evidence, ThingsInTheWay_NeedACornerAndNothingSeenThroughAWall) {
-  EXPECT_TRUE(is_evident(evidence(450, 1)));
-  EXPECT_FALSE(is_evident(evidence(450, 0)));
-  EXPECT_FALSE(is_evident(evidence(450, 1, kAllRound_rad, 9)));
+  EXPECT_TRUE(is_unambiguous_fix(evidence(450, 1)));
+  EXPECT_FALSE(is_unambiguous_fix(evidence(450, 0)));
+  EXPECT_FALSE(is_unambiguous_fix(evidence(450, 1, kAllRound_rad, 9)));
 }
 
 TEST(Evidence, ThingsInTheWay_AreNotBelievedWhereOtherPlacesWereNotTried) {
   Evidence untried = evidence(450, 1);
-  untried.all_tried = false;
-  EXPECT_FALSE(is_evident(untried));
+  untried.exhaustive = false;
+  EXPECT_FALSE(is_unambiguous_fix(untried));
   untried = evidence(490, 3);
-  untried.all_tried = false;
-  EXPECT_TRUE(is_evident(untried));
+  untried.exhaustive = false;
+  EXPECT_TRUE(is_unambiguous_fix(untried));
 }
 
 TEST(Evidence, HalfATurn_IsBelievedByItsCornersAlone) {
-  EXPECT_FALSE(is_evident(evidence(790, 2, kHalfCovered_rad)));
-  EXPECT_TRUE(is_evident(evidence(790, 3, kHalfCovered_rad)));
+  EXPECT_FALSE(is_unambiguous_fix(evidence(790, 2, kHalfCovered_rad)));
+  EXPECT_TRUE(is_unambiguous_fix(evidence(790, 3, kHalfCovered_rad)));
 }
 
 TEST(Evidence, HalfATurnOfARobotThatIsExpected_NeedsACornerAtThePrior) {
@@ -73,19 +73,19 @@ TEST(Evidence, HalfATurnOfARobotThatIsExpected_NeedsACornerAtThePrior) {
 }
 
 TEST(Evidence, AJump_NeedsASecondTurnUnlessItIsCertain) {
-  EXPECT_FALSE(needs_a_second(evidence(780, 2), false, true));
-  EXPECT_TRUE(needs_a_second(evidence(780, 1), false, true));
-  EXPECT_TRUE(needs_a_second(evidence(770, 5), false, true));
-  EXPECT_FALSE(needs_a_second(evidence(770, 5), true, true));
-  EXPECT_FALSE(needs_a_second(evidence(770, 5), false, false));
+  EXPECT_FALSE(needs_confirmation(evidence(780, 2), false, true));
+  EXPECT_TRUE(needs_confirmation(evidence(780, 1), false, true));
+  EXPECT_TRUE(needs_confirmation(evidence(770, 5), false, true));
+  EXPECT_FALSE(needs_confirmation(evidence(770, 5), true, true));
+  EXPECT_FALSE(needs_confirmation(evidence(770, 5), false, false));
 }
 
 TEST(Evidence, HalfATurn_NeedsASecondUnlessItIsWhereItShouldBe) {
   Evidence half = evidence(790, 5, kHalfCovered_rad);
-  EXPECT_TRUE(needs_a_second(half, false, false));
-  EXPECT_TRUE(needs_a_second(half, true, true));
+  EXPECT_TRUE(needs_confirmation(half, false, false));
+  EXPECT_TRUE(needs_confirmation(half, true, true));
   half.at_prior = true;
-  EXPECT_FALSE(needs_a_second(half, true, true));
+  EXPECT_FALSE(needs_confirmation(half, true, true));
 }
 
 }  // namespace

@@ -12,10 +12,10 @@ namespace {
 
 class ExplanationTest : public ::testing::Test {
  protected:
-  Explanation at(const Pose2& T_map_lidar, const Scan& scan) {
+  BeamLikelihood at(const Pose2& T_map_lidar, const Scan& scan) {
     const PolarScan points = testing::polar(scan);
     const auto hits = prediction_.cast(*map_, T_map_lidar, points.points());
-    return explain(*map_, points.points(), hits, T_map_lidar, {}, 1, 0);
+    return beam_likelihood(*map_, points.points(), hits, T_map_lidar, {}, 1, 0);
   }
 
   std::shared_ptr<const WallMap> map_ = testing::make_map(testing::l_shaped_room());
@@ -25,23 +25,23 @@ class ExplanationTest : public ::testing::Test {
 
 TEST_F(ExplanationTest, TruePlaceOfAClearTurn_HitsNearlyEveryRay) {
   const Pose2 T_map_lidar{1, 1, 0.5};
-  const Explanation explanation = at(T_map_lidar, source_.take(*map_, T_map_lidar));
-  EXPECT_EQ(explanation.rays, 540U);
-  EXPECT_GT(explanation.hit_share(), 0.99);
-  EXPECT_LT(explanation.through_share(), 0.01);
+  const BeamLikelihood likelihood = at(T_map_lidar, source_.take(*map_, T_map_lidar));
+  EXPECT_EQ(likelihood.rays, 540U);
+  EXPECT_GT(likelihood.hit_share(), 0.99);
+  EXPECT_LT(likelihood.violation_share(), 0.01);
 }
 
 TEST_F(ExplanationTest, EveryRay_IsCountedOnce) {
-  const Explanation explanation = at({1.4, 1.2, 2.5}, source_.take(*map_, {1, 1, 0.5}));
-  EXPECT_EQ(explanation.hits + explanation.near + explanation.shorts + explanation.through,
-            explanation.rays);
+  const BeamLikelihood likelihood = at({1.4, 1.2, 2.5}, source_.take(*map_, {1, 1, 0.5}));
+  EXPECT_EQ(likelihood.hits + likelihood.near_hits + likelihood.shorts + likelihood.free_space_violations,
+            likelihood.rays);
 }
 
 TEST_F(ExplanationTest, WrongPlace_IsLessLikelyAndLooksThroughWalls) {
   const Pose2 T_map_lidar{1, 1, 0.5};
   const Scan scan = source_.take(*map_, T_map_lidar);
-  const Explanation wrong = at({3.2, 0.9, 0.5}, scan);
-  EXPECT_GT(wrong.through_share(), 0.1);
+  const BeamLikelihood wrong = at({3.2, 0.9, 0.5}, scan);
+  EXPECT_GT(wrong.violation_share(), 0.1);
   EXPECT_LT(wrong.log_likelihood + 500, at(T_map_lidar, scan).log_likelihood);
 }
 
@@ -57,12 +57,12 @@ TEST_F(ExplanationTest, SomethingInFrontOfTheWall_CountsOnceAsAThing) {
     }
     return at(T_map_lidar, scan);
   };
-  const Explanation small = hidden(30);
-  const Explanation large = hidden(90);
+  const BeamLikelihood small = hidden(30);
+  const BeamLikelihood large = hidden(90);
   EXPECT_EQ(small.shorts, 30U);
   EXPECT_EQ(large.shorts, 90U);
   const double by_rays = small.log_likelihood - large.log_likelihood;
-  const double by_things = small.log_likelihood_of_things - large.log_likelihood_of_things;
+  const double by_things = small.log_likelihood_of_obstacles - large.log_likelihood_of_obstacles;
   EXPECT_GT(by_rays, 150);
   EXPECT_LT(std::abs(by_things), by_rays / 3);
 }

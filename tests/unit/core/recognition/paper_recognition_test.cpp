@@ -14,7 +14,7 @@ namespace {
 
 class PaperRecognitionTest : public ::testing::Test {
  protected:
-  std::span<const Hypothesis> places_of(const Pose2& T_map_lidar) {
+  std::span<const PoseHypothesis> places_of(const Pose2& T_map_lidar) {
     detector_.detect(testing::polar(source_.take(*map_, T_map_lidar)), detection_);
     return recognition_.places(detection_.breakpoints, detection_.segments);
   }
@@ -32,7 +32,7 @@ TEST_F(PaperRecognitionTest, RoomWithoutSymmetry_IsRecognised) {
   for (int k = 0; k < 40; ++k) {
     const Pose2 T_map_lidar = source_.place_in(0.4, 2.2, 0.4, 1.4);
     const auto places = places_of(T_map_lidar);
-    found += std::any_of(places.begin(), places.end(), [&](const Hypothesis& place) {
+    found += std::any_of(places.begin(), places.end(), [&](const PoseHypothesis& place) {
       return same_place(place.T_map_lidar, T_map_lidar, 0.1, radians(5));
     });
   }

@@ -13,7 +13,7 @@ namespace {
 
 constexpr core::TimeNs kMs = 1'000'000;
 
-/// Moves while somebody waits, and then lets the test do its part.
+/// Advances on wait(), then calls on_wait.
 class TestClock : public Clock {
  public:
   core::TimeNs monotonic_ns() override { return now_ns += read_takes_ns; }
@@ -46,7 +46,7 @@ class KernelOdometryTest : public ::testing::Test {
     tree_.add_counter(1, config_.right.counter);
     tree_.add_gyro(0, config_.gyro.device);
   }
-  /// Runs for so many waits; `at_wait` is called at each of them, from 1.
+  /// Runs for `waits` waits; `at_wait` is called with each one's number, from 1.
   void run(
       int waits, const std::function<void(int)>& at_wait = [](int) {}) {
     std::stop_source stop;
@@ -67,7 +67,7 @@ class KernelOdometryTest : public ::testing::Test {
   std::optional<KernelOdometry> driver_;
 };
 
-TEST_F(KernelOdometryTest, AllSensors_GiveReadingsAtTheRateInMonotonicTime) {
+TEST_F(KernelOdometryTest, AllSensors_GiveReadingsAtTheRate) {
   add_all();
   tree_.set_count(0, "10");
   tree_.set_count(1, "20");
@@ -82,21 +82,21 @@ TEST_F(KernelOdometryTest, AllSensors_GiveReadingsAtTheRateInMonotonicTime) {
   EXPECT_EQ(driver_->status().counters.readings, 50u);
 }
 
-TEST_F(KernelOdometryTest, RateThatIsNoWholeMilliseconds_IsKeptInTheMean) {
+TEST_F(KernelOdometryTest, PeriodOfFractionalMilliseconds_IsKeptOnAverage) {
   add_all();
   config_.rate_hz = 60;
   run(121);
   EXPECT_NEAR(core::to_seconds(readings_.all.back().t_ns - readings_.all.front().t_ns), 2, 0.002);
 }
 
-TEST_F(KernelOdometryTest, NothingThere_GivesNoReadingAndSaysSo) {
+TEST_F(KernelOdometryTest, NoSensors_GiveNoReadingsAndStateAbsent) {
   run(10);
   EXPECT_TRUE(readings_.all.empty());
   EXPECT_EQ(left(), SensorState::kAbsent);
   EXPECT_EQ(driver_->status().gyro.state, SensorState::kAbsent);
 }
 
-TEST_F(KernelOdometryTest, SensorsThatComeLater_AreFoundWithinASecond) {
+TEST_F(KernelOdometryTest, SensorsAddedLater_AreFoundWithinASecond) {
   run(60, [&](int count) {
     if (count == 5) add_all();
   });
@@ -104,7 +104,7 @@ TEST_F(KernelOdometryTest, SensorsThatComeLater_AreFoundWithinASecond) {
   EXPECT_EQ(left(), SensorState::kRunning);
 }
 
-TEST_F(KernelOdometryTest, OneSensorThatIsMissing_LeavesTheOthers) {
+TEST_F(KernelOdometryTest, OneSensorMissing_LeavesTheOthers) {
   add_all();
   tree_.remove(test::SysfsTree::counter(0));
   run(3);
@@ -114,25 +114,25 @@ TEST_F(KernelOdometryTest, OneSensorThatIsMissing_LeavesTheOthers) {
   EXPECT_TRUE(readings_.all[0].gyro_rad_s);
 }
 
-TEST_F(KernelOdometryTest, GarbageInOneReading_LeavesThatValueOut) {
+TEST_F(KernelOdometryTest, InvalidValue_IsLeftOutOfTheReading) {
   add_all();
   run(3, [&](int count) { tree_.set_rate(0, count == 1 ? "garbage" : "1"); });
   ASSERT_EQ(readings_.all.size(), 3u);
   EXPECT_FALSE(readings_.all[1].gyro_rad_s);
   EXPECT_TRUE(readings_.all[1].left);
   EXPECT_TRUE(readings_.all[2].gyro_rad_s);
-  EXPECT_EQ(driver_->status().counters.garbage, 1u);
+  EXPECT_EQ(driver_->status().counters.invalid_values, 1u);
 }
 
-TEST_F(KernelOdometryTest, EncoderThatFreezes_IsAStateOfItsOwn) {
+TEST_F(KernelOdometryTest, ConstantEncoder_IsStuck) {
   add_all();
   run(50, [&](int count) { tree_.set_count(1, std::to_string(1000 * count)); });
-  EXPECT_EQ(left(), SensorState::kFrozen);
+  EXPECT_EQ(left(), SensorState::kStuck);
   EXPECT_EQ(driver_->status().right.state, SensorState::kRunning);
-  EXPECT_EQ(driver_->status().gyro.state, SensorState::kFrozen);
+  EXPECT_EQ(driver_->status().gyro.state, SensorState::kStuck);
 }
 
-TEST_F(KernelOdometryTest, ReaderThatWasHeldUp_LeavesCountsOutThatDoNotBelongTogether) {
+TEST_F(KernelOdometryTest, CountsReadFarApart_AreLeftOut) {
   add_all();
   config_.rate_hz = 10;
   clock_.read_takes_ns = 6 * kMs;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A folder that looks as sysfs does on a board: the names, the files and their texts as Linux 6.1
-// has them for its drivers ti-eqep and inv-mpu6050.
+// A folder with the files and texts that Linux 6.1 has in sysfs for ti-eqep and inv-mpu6050.
 #pragma once
 
 #include <filesystem>
@@ -15,7 +14,7 @@ class SysfsTree {
  public:
   const std::filesystem::path& root() const { return folder_.path(); }
 
-  /// An eQEP as the udev rule leaves it; `number` follows the order of probing.
+  /// An eQEP as the udev rule sets it up; `number` follows the order of probing.
   void add_counter(int number, const std::string& name) {
     const std::string device = counter(number);
     write(device + "/name", name);
@@ -54,7 +53,7 @@ class SysfsTree {
     return "bus/iio/devices/iio:device" + std::to_string(number);
   }
 
-  /// In place, as the kernel's files change: who has one open reads the new text.
+  /// In place, so that an open descriptor reads the new text.
   void write(const std::string& file, const std::string& text) {
     std::filesystem::create_directories((folder_ / file).parent_path());
     std::ofstream(folder_ / file) << text << '\n';

@@ -17,7 +17,7 @@ class CountingSink : public drivers::SampleSink {
   std::size_t samples = 0;
 };
 
-TEST(SampleStream, FromBytesToSamples_AllocatesNothing) {
+TEST(SampleStream, DamagedStreamOfAllFormats_AllocatesNothing) {
   Bytes damaged_nodes = nodes(2000, 30);
   damaged_nodes.erase(damaged_nodes.begin() + 1234);
   damaged_nodes[5000] ^= 1;
@@ -36,7 +36,7 @@ TEST(SampleStream, FromBytesToSamples_AllocatesNothing) {
   EXPECT_GT(sink.samples, 14000U);
 }
 
-TEST(SampleStream, SamplesThatWaitForTheirTime_AllocateNothing) {
+TEST(SampleStream, HeldSamples_AllocateNothing) {
   const Bytes stream = join({kStandardDescriptor, nodes(12000, 30)});
   constexpr core::TimeNs kByteNs = 101'600;
   SampleStream samples({});
@@ -46,7 +46,7 @@ TEST(SampleStream, SamplesThatWaitForTheirTime_AllocateNothing) {
   for (std::size_t i = 0; i < stream.size(); i += 60) {
     const auto piece = std::span(stream).subspan(i, std::min<std::size_t>(60, stream.size() - i));
     core::TimeNs now_ns = static_cast<core::TimeNs>(i) * kByteNs;
-    // The device pauses after a third, and the reader is held up after two.
+    // The device pauses after one third, and the reader stalls after two thirds.
     if (i > stream.size() / 3) now_ns += 300'000'000;
     if (i > 2 * stream.size() / 3) {
       now_ns = std::max(now_ns,

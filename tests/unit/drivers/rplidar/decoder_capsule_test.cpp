@@ -29,7 +29,7 @@ Bytes capsule_b() {
   return express_capsule(10, false, samples);
 }
 
-/// Express capsules of which a few are replaced, `without` or damaged.
+/// Express capsules, some of them damaged or removed.
 struct ExpressRun {
   std::vector<Bytes> capsules = express_capsules(60, 5);
 
@@ -44,7 +44,7 @@ struct ExpressRun {
   }
 };
 
-/// Whether each sample is what express_capsules() put at its index.
+/// Each sample is the one that express_capsules() put at its index.
 void expect_right_place(const CollectingSink& sink) {
   for (const RawSample& sample : sink.samples) {
     const int capsule = static_cast<int>(sample.index / 32);
@@ -56,7 +56,7 @@ void expect_right_place(const CollectingSink& sink) {
   }
 }
 
-TEST(DecoderExpress, KnownCapsule_IsReadAsTheSdkReadsIt) {
+TEST(DecoderExpress, KnownCapsule_DecodesAsBySdk) {
   const auto sink = decode(join({kExpressDescriptor, kCapsuleA, capsule_b()}));
   ASSERT_THAT(sink.samples, SizeIs(32));
   EXPECT_NEAR(angle_deg(sink.samples[0]), 350.0, 0.006);
@@ -77,10 +77,10 @@ TEST(DecoderExpress, AngleCorrection_IsUnsigned) {
   EXPECT_NEAR(angle_deg(sink.samples[32]), 6.0, 0.006);
   EXPECT_EQ(sink.samples[32].dist_q2, 16383U * 4);
   EXPECT_NEAR(angle_deg(sink.samples[33]), 2.828, 0.006);
-  EXPECT_EQ(sink.samples[34].quality, 0) << "no return, no quality";
+  EXPECT_EQ(sink.samples[34].quality, 0) << "no return";
 }
 
-TEST(DecoderExpress, WholeStream_EachSampleInItsPlace) {
+TEST(DecoderExpress, UndamagedStream_DecodesEverySample) {
   const auto sink = decode(join(ExpressRun().capsules));
   EXPECT_THAT(sink.samples, SizeIs(59 * 32));
   expect_right_place(sink);
@@ -88,17 +88,17 @@ TEST(DecoderExpress, WholeStream_EachSampleInItsPlace) {
   EXPECT_THAT(sink.gaps, IsEmpty());
 }
 
-TEST(DecoderExpress, LostCapsule_IsNoticedAndNothingSpansTheHole) {
+TEST(DecoderExpress, LostCapsule_IsCountedAndLeavesItsIndices) {
   Decoder decoder;
   const auto sink = decode(join(ExpressRun().remove(20, 1).capsules), decoder);
   EXPECT_THAT(sink.samples, SizeIs(58 * 32));
   expect_right_place(sink);
   EXPECT_EQ(decoder.counters().lost_capsules, 1U);
-  EXPECT_EQ(decoder.counters().unpaired_capsules, 1U) << "the last alone";
-  EXPECT_THAT(sink.gaps, IsEmpty()) << "how many samples are missing is known";
+  EXPECT_EQ(decoder.counters().unpaired_capsules, 1U) << "the last one only";
+  EXPECT_THAT(sink.gaps, IsEmpty()) << "the number of missing samples is known";
 }
 
-TEST(DecoderExpress, CapsuleLostAcrossZero_StillBeginsATurn) {
+TEST(DecoderExpress, CapsuleLostAcrossZero_StillStartsAScan) {
   // Capsule 16 begins at 347.4 degrees and sweeps through zero.
   for (const std::size_t lost : {15U, 16U, 17U}) {
     const auto sink = decode(join(ExpressRun().remove(lost, 1).capsules));
@@ -115,12 +115,12 @@ TEST(DecoderExpress, FiveLostCapsules_AreCounted) {
   EXPECT_THAT(sink.gaps, IsEmpty());
 }
 
-TEST(DecoderExpress, MoreThanHalfATurnLost_IsAGap) {
+TEST(DecoderExpress, MoreThanHalfARevolutionLost_IsAGap) {
   const auto sink = decode(join(ExpressRun().remove(20, 12).capsules));
   EXPECT_THAT(sink.gaps, ElementsAre(19 * 32));
 }
 
-TEST(DecoderExpress, BadChecksum_CostsThatCapsuleAlone) {
+TEST(DecoderExpress, BadChecksum_DropsOneCapsule) {
   Decoder decoder;
   const auto sink = decode(join(ExpressRun().damage(20).capsules), decoder);
   EXPECT_THAT(sink.samples, SizeIs(58 * 32));
@@ -132,13 +132,13 @@ TEST(DecoderExpress, BadChecksum_CostsThatCapsuleAlone) {
   EXPECT_THAT(sink.gaps, IsEmpty());
 }
 
-TEST(DecoderExpress, BadChecksumAcrossZero_MergesNoTurns) {
+TEST(DecoderExpress, BadChecksumAcrossZero_MergesNoScans) {
   const auto sink = decode(join(ExpressRun().damage(16).capsules));
   EXPECT_EQ(sink.scans(), 3U);
   expect_right_place(sink);
 }
 
-TEST(DecoderExpress, LostByte_IsRewound) {
+TEST(DecoderExpress, LostByte_DropsOneCapsule) {
   for (const std::size_t byte : {0U, 1U, 2U, 3U, 40U, 83U}) {
     Bytes stream = join(ExpressRun().capsules);
     stream.erase(stream.begin() + static_cast<std::ptrdiff_t>(20 * 84 + byte));
@@ -150,7 +150,7 @@ TEST(DecoderExpress, LostByte_IsRewound) {
   }
 }
 
-TEST(DecoderExpress, FalseHeaderBeforeTheTrueOne_IsRewound) {
+TEST(DecoderExpress, FalseHeader_IsSearchedAgain) {
   // The sync nibbles, then too few bytes for a capsule.
   Bytes stream = from_hex("a35600a05a0011a5");
   stream = join({stream, join(ExpressRun().capsules)});
@@ -159,7 +159,7 @@ TEST(DecoderExpress, FalseHeaderBeforeTheTrueOne_IsRewound) {
   expect_right_place(sink);
 }
 
-TEST(DecoderExpress, StreamBeginsAnew_DropsTheCapsuleBefore) {
+TEST(DecoderExpress, NewStream_DropsTheCapsuleBefore) {
   auto capsules = express_capsules(20, 5);
   const auto again = express_capsules(20, 200);
   capsules.insert(capsules.end(), again.begin(), again.end());
@@ -170,7 +170,7 @@ TEST(DecoderExpress, StreamBeginsAnew_DropsTheCapsuleBefore) {
   EXPECT_EQ(decoder.counters().unpaired_capsules, 2U);
 }
 
-TEST(DecoderExpress, ChangingSpeed_IsFollowed) {
+TEST(DecoderExpress, ChangingSpeed_LosesNoCapsule) {
   std::vector<Bytes> capsules;
   double angle = 0;
   double step = 8;
@@ -184,13 +184,13 @@ TEST(DecoderExpress, ChangingSpeed_IsFollowed) {
   EXPECT_EQ(decoder.counters().lost_capsules, 0U);
 }
 
-TEST(DecoderExpress, EarlyHeadOfHalfThePace_CostsOneCapsuleToBelieve) {
+TEST(DecoderExpress, HalfSpeedHead_DropsOneCapsule) {
   Decoder decoder;
   EXPECT_THAT(decode(join(express_capsules(40, 5, 42.8)), decoder).samples, SizeIs(38 * 32));
   EXPECT_EQ(decoder.counters().lost_capsules, 0U);
 }
 
-TEST(DecoderExpress, OneByteInTenThousandLost_FalsifiesNothing) {
+TEST(DecoderExpress, OneByteInTenThousandLost_FalsifiesNoSample) {
   std::mt19937 random(3);
   for (int run = 0; run < 20; ++run) {
     Bytes stream = join(express_capsules(460, 5));
@@ -204,7 +204,7 @@ TEST(DecoderExpress, OneByteInTenThousandLost_FalsifiesNothing) {
   }
 }
 
-TEST(DecoderUltra, MajorsAndPredictions_AreReadAsTheSdkReadsThem) {
+TEST(DecoderUltra, MajorsAndPredictions_DecodeAsBySdk) {
   // Codes 1300, 1300, 0, 400 with predictions (5,-5), (511,-512), (3,3), (7,-7), and again.
   std::array<UltraCabin, 32> cabins;
   constexpr std::array<UltraCabin, 4> kPattern{
@@ -237,7 +237,7 @@ TEST(DecoderUltra, OpticalCorrection_DependsOnTheDistance) {
   EXPECT_NEAR(correction(1), 7.5, 0.03) << "no return";
 }
 
-TEST(DecoderUltra, LostCapsule_IsNoticed) {
+TEST(DecoderUltra, LostCapsule_IsCounted) {
   auto capsules = ultra_capsules(40, 5);
   capsules.erase(capsules.begin() + 20);
   Decoder decoder;
@@ -246,7 +246,7 @@ TEST(DecoderUltra, LostCapsule_IsNoticed) {
   EXPECT_EQ(decoder.counters().lost_capsules, 1U);
   EXPECT_EQ(sink.samples.back().index, 39U * 96 - 1);
   EXPECT_EQ(decoder.format(), WireFormat::kUltra);
-  // The capsule before the hole is read; its last two ranges need the one that is missing.
+  // The capsule before the gap is decoded, but for the two ranges predicted from the missing one.
   const auto whole = decode(join(ultra_capsules(40, 5)));
   for (std::size_t i = 0; i < 20 * 96 - 2; ++i) {
     EXPECT_EQ(sink.samples[i].dist_q2, whole.samples[i].dist_q2) << i;
@@ -256,7 +256,7 @@ TEST(DecoderUltra, LostCapsule_IsNoticed) {
   EXPECT_EQ(sink.samples[20 * 96 - 1].dist_q2, 0U);
 }
 
-TEST(DecoderUltra, LostByte_IsRewound) {
+TEST(DecoderUltra, LostByte_DropsOneCapsule) {
   Bytes stream = join(ultra_capsules(40, 5));
   stream.erase(stream.begin() + 20 * 132 + 50);
   EXPECT_THAT(decode(stream).samples, SizeIs(38 * 96));

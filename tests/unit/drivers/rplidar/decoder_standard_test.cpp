@@ -14,7 +14,7 @@ using testing::ElementsAre;
 using testing::IsEmpty;
 using testing::SizeIs;
 
-/// The numbers n of the nodes() that were delivered, by their distances (of those with a return).
+/// Distances that no node of nodes(count) has.
 std::vector<std::uint32_t> foreign_distances(const CollectingSink& sink, int count) {
   std::vector<std::uint32_t> known;
   for (int n = 0; n < count; ++n) known.push_back(node_dist_q2(n));
@@ -26,7 +26,7 @@ std::vector<std::uint32_t> foreign_distances(const CollectingSink& sink, int cou
   return foreign;
 }
 
-TEST(DecoderStandard, RealNodesAfterADescriptor_AreReadAsTheSdkReadsThem) {
+TEST(DecoderStandard, RealNodes_DecodeAsBySdk) {
   const auto sink = decode(join({kStandardDescriptor, from_hex("028f630000"),
                                  from_hex("0223640000"), from_hex("3e9b640000")}));
   ASSERT_THAT(sink.samples, SizeIs(3));
@@ -35,10 +35,10 @@ TEST(DecoderStandard, RealNodesAfterADescriptor_AreReadAsTheSdkReadsThem) {
   EXPECT_EQ(sink.samples[0].quality, 0);
   EXPECT_NEAR(sink.samples[2].angle_q6 / 64.0, 201.203, 0.001);
   EXPECT_EQ(sink.samples[2].dist_q2, 0U);
-  EXPECT_EQ(sink.samples[2].quality, 15) << "a quality without a return is normal";
+  EXPECT_EQ(sink.samples[2].quality, 15) << "real nodes have a quality without a return";
 }
 
-TEST(DecoderStandard, AngleBeyondAFullTurn_IsReduced) {
+TEST(DecoderStandard, AngleBeyondOneRevolution_IsReduced) {
   const auto sink =
       decode(join({kStandardDescriptor, from_hex("3d01003412"), from_hex("3e03b4e803")}));
   ASSERT_THAT(sink.samples, SizeIs(2));
@@ -49,7 +49,7 @@ TEST(DecoderStandard, AngleBeyondAFullTurn_IsReduced) {
   EXPECT_EQ(sink.samples[1].dist_q2, 250U * 4);
 }
 
-TEST(DecoderStandard, StreamFromItsMiddle_LosesNoNodeToTheLock) {
+TEST(DecoderStandard, StreamWithoutDescriptor_LosesNoNodeToTheLock) {
   const Bytes stream = nodes(100, 30);
   const auto sink = decode(std::span(stream).subspan(3));
   ASSERT_THAT(sink.samples, SizeIs(99));
@@ -60,13 +60,13 @@ TEST(DecoderStandard, FewerNodesThanALockNeeds_GiveNothing) {
   EXPECT_THAT(decode(nodes(9, 30)).samples, IsEmpty());
 }
 
-TEST(DecoderStandard, StandingBytes_AreNoRotation) {
+TEST(DecoderStandard, ConstantAngle_GivesNothing) {
   Bytes stream;
   for (int n = 0; n < 200; ++n) stream = join({stream, node(false, 15, 124, 1000)});
   EXPECT_THAT(decode(stream).samples, IsEmpty());
 }
 
-TEST(DecoderStandard, RandomBytes_GiveAlmostNothing) {
+TEST(DecoderStandard, RandomBytes_GiveNothing) {
   std::mt19937 random(1);
   Bytes noise(100000);
   std::generate(noise.begin(), noise.end(),
@@ -76,7 +76,7 @@ TEST(DecoderStandard, RandomBytes_GiveAlmostNothing) {
 
 class LostByte : public testing::TestWithParam<int> {};
 
-TEST_P(LostByte, InANode_CostsThatNodeAlone) {
+TEST_P(LostByte, InANode_DropsOneNode) {
   Bytes stream = nodes(400, 30);
   stream.erase(stream.begin() + 200 * 5 + GetParam());
   Decoder decoder;
@@ -85,13 +85,13 @@ TEST_P(LostByte, InANode_CostsThatNodeAlone) {
   EXPECT_THAT(foreign_distances(sink, 400), IsEmpty());
   EXPECT_THAT(sink.gaps, IsEmpty());
   EXPECT_EQ(decoder.counters().resyncs, 1U);
-  EXPECT_EQ(sink.samples.back().index, 399U) << "the lost node counts as a sample period";
+  EXPECT_EQ(sink.samples.back().index, 399U) << "a lost node takes a sample period";
   EXPECT_EQ(sink.samples.back().dist_q2, node_dist_q2(399));
 }
 
 INSTANTIATE_TEST_SUITE_P(EachByte, LostByte, testing::Range(0, 5));
 
-TEST(DecoderStandard, DamagedAngle_CostsThatNodeAlone) {
+TEST(DecoderStandard, DamagedAngle_DropsOneNode) {
   Bytes stream = nodes(400, 30);
   stream[200 * 5 + 2] ^= 0x40;
   Decoder decoder;
@@ -102,7 +102,7 @@ TEST(DecoderStandard, DamagedAngle_CostsThatNodeAlone) {
   EXPECT_EQ(sink.samples.back().index, 399U);
 }
 
-TEST(DecoderStandard, DamagedCheckBits_CostThatNodeAlone) {
+TEST(DecoderStandard, DamagedCheckBits_DropOneNodeEach) {
   Bytes stream = nodes(400, 30);
   stream[200 * 5 + 1] ^= 0x01;
   stream[300 * 5] ^= 0x01;
@@ -111,7 +111,7 @@ TEST(DecoderStandard, DamagedCheckBits_CostThatNodeAlone) {
   EXPECT_EQ(decoder.counters().bad_nodes, 2U);
 }
 
-TEST(DecoderStandard, InsertedBytes_CostAtMostTheNodesTheyHit) {
+TEST(DecoderStandard, InsertedBytes_DropAtMostTwoNodes) {
   Bytes stream = nodes(400, 30);
   const Bytes echo{0xA5, 0x25};
   stream.insert(stream.begin() + 200 * 5 + 3, echo.begin(), echo.end());
@@ -121,7 +121,7 @@ TEST(DecoderStandard, InsertedBytes_CostAtMostTheNodesTheyHit) {
   EXPECT_THAT(sink.gaps, IsEmpty());
 }
 
-TEST(DecoderStandard, BytesLostByTheHundred_AreAGapOfUnknownLength) {
+TEST(DecoderStandard, ManyBytesLost_AreAGap) {
   Bytes stream = nodes(700, 30);
   stream.erase(stream.begin() + 1001, stream.begin() + 1001 + 1713);
   const auto sink = decode(stream);
@@ -130,7 +130,7 @@ TEST(DecoderStandard, BytesLostByTheHundred_AreAGapOfUnknownLength) {
   EXPECT_THAT(foreign_distances(sink, 700), IsEmpty());
 }
 
-TEST(DecoderStandard, OneByteInTenThousandDamaged_FalsifiesNoTurn) {
+TEST(DecoderStandard, OneByteInTenThousandDamaged_FalsifiesNoScan) {
   constexpr int kNodes = 30 * 316;
   std::mt19937 random(7);
   std::size_t foreign = 0;
@@ -150,11 +150,11 @@ TEST(DecoderStandard, OneByteInTenThousandDamaged_FalsifiesNoTurn) {
     EXPECT_THAT(sink.gaps, IsEmpty());
     foreign += foreign_distances(sink, kNodes).size();
   }
-  // A flipped bit in a distance is beyond noticing: two bytes of five, half of the faults.
+  // Flipped bits in distances are undetectable: two bytes of five, half of the faults.
   EXPECT_LE(foreign, 20 * 10U);
 }
 
-TEST(DecoderStandard, TurnMarks_AreTheDevices) {
+TEST(DecoderStandard, StartFlags_StartScans) {
   const auto sink = decode(nodes(1000, 30));
   std::vector<std::uint64_t> starts;
   for (const RawSample& sample : sink.samples) {
@@ -163,9 +163,9 @@ TEST(DecoderStandard, TurnMarks_AreTheDevices) {
   EXPECT_THAT(starts, ElementsAre(290, 606, 922));
 }
 
-TEST(DecoderStandard, MissingTurnMark_IsReplacedByTheAngle) {
+TEST(DecoderStandard, MissingStartFlag_IsReplacedByTheAngle) {
   Bytes stream = nodes(1300, 30);
-  for (std::size_t n = 500; n < 700; ++n) {  // the second mark, with node 606
+  for (std::size_t n = 500; n < 700; ++n) {  // the second start flag, of node 606
     if ((stream[n * 5] & 3) == 1) stream[n * 5] ^= 3;
   }
   const auto sink = decode(stream);
@@ -179,7 +179,7 @@ TEST(DecoderStandard, MissingTurnMark_IsReplacedByTheAngle) {
   EXPECT_EQ(starts[2], 922U);
 }
 
-TEST(DecoderStandard, TurnMarkInTheMiddleOfATurn_IsIgnoredAndCounted) {
+TEST(DecoderStandard, StartFlagFarFromZero_IsIgnoredAndCounted) {
   Bytes stream = nodes(1000, 30);
   stream[450 * 5] ^= 3;
   Decoder decoder;
@@ -190,7 +190,7 @@ TEST(DecoderStandard, TurnMarkInTheMiddleOfATurn_IsIgnoredAndCounted) {
   EXPECT_EQ(decoder.counters().false_scan_starts, 1U);
 }
 
-TEST(DecoderStandard, SlowAndFastHeads_AreBothFollowed) {
+TEST(DecoderStandard, SlowAndFastHeads_LoseNoNode) {
   for (const double scan_rate_hz : {1.0, 5.5, 10.0, 13.0}) {
     const double step_deg = 360 * scan_rate_hz * 508e-6;
     const int count = static_cast<int>(std::lround(4 * 360 / step_deg));
@@ -200,13 +200,13 @@ TEST(DecoderStandard, SlowAndFastHeads_AreBothFollowed) {
   }
 }
 
-TEST(DecoderStandard, StaleFirstNode_IsDeliveredAndDisturbsNothing) {
+TEST(DecoderStandard, StaleFirstNode_IsDelivered) {
   const auto sink = decode(join({kStandardDescriptor, node(false, 15, 174.8, 0), nodes(400, 344)}));
   EXPECT_THAT(sink.samples, SizeIs(401));
   EXPECT_EQ(sink.scans(), 2U);
 }
 
-TEST(DecoderStandard, StaleFirstNodeWithAStartFlag_BeginsNoTurn) {
+TEST(DecoderStandard, StaleFirstNodeWithAStartFlag_StartsNoScan) {
   const auto sink = decode(join({kStandardDescriptor, node(true, 15, 10, 0), nodes(40, 340)}));
   EXPECT_THAT(sink.samples, SizeIs(41));
   EXPECT_FALSE(sink.samples[0].starts_scan);

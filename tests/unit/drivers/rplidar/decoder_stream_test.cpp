@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What stands around the measurements: descriptors, banners, stale bytes; and how bytes are cut up.
+// Descriptors, banners and stale bytes around the measurements, and arbitrary portions.
 #include <gmock/gmock.h>
 
 #include <string_view>
@@ -19,20 +19,20 @@ const Bytes kHealthAnswer = from_hex("a55a0300000006000000");
 const Bytes kInfoAnswer = from_hex("a55a1400000004181d010792d8ed93c0ea98c9a5e698f207064669");
 const Bytes kConfAnswer = from_hex("a55a10000000207f00000053656e736974697669747900");
 
-TEST(DecoderStream, Descriptor_DecidesAgainstWhatTheCallerBelieved) {
+TEST(DecoderStream, Descriptor_OverridesTheCallersFormat) {
   Decoder decoder(WireFormat::kExpress);
   EXPECT_THAT(decode(join({kStandardDescriptor, nodes(5, 30)}), decoder).samples, SizeIs(5));
   EXPECT_EQ(decoder.format(), WireFormat::kStandard);
 }
 
-TEST(DecoderStream, BootBanner_IsPassedOver) {
+TEST(DecoderStream, BootBanner_IsSkipped) {
   const auto sink =
       decode(join({text("RP LIDAR System.\r\nFirmware Ver 1.29 - rtm, HW Ver 7\r\nModel: 18\r\n"),
                    kExpressDescriptor, join(express_capsules(10, 5))}));
   EXPECT_THAT(sink.samples, SizeIs(9 * 32));
 }
 
-TEST(DecoderStream, OtherAnswersEchoesAndMarkers_ArePassedOver) {
+TEST(DecoderStream, OtherAnswersAndEchoes_AreSkipped) {
   Decoder decoder;
   const auto sink =
       decode(join({from_hex("a552a520"), kInfoAnswer, kHealthAnswer, kConfAnswer,
@@ -43,7 +43,7 @@ TEST(DecoderStream, OtherAnswersEchoesAndMarkers_ArePassedOver) {
             decoder.counters().bytes - kStandardDescriptor.size() - 50 * 5);
 }
 
-TEST(DecoderStream, SyncByteBeforeADescriptor_HidesItNot) {
+TEST(DecoderStream, SyncByteBeforeADescriptor_DoesNotHideIt) {
   EXPECT_THAT(decode(join({from_hex("a5a5"), kStandardDescriptor, nodes(5, 30)})).samples,
               SizeIs(5));
   EXPECT_THAT(
@@ -51,7 +51,7 @@ TEST(DecoderStream, SyncByteBeforeADescriptor_HidesItNot) {
       SizeIs(2 * 32));
 }
 
-TEST(DecoderStream, StaleTailOfAStream_EndsWhereTheDescriptorBegins) {
+TEST(DecoderStream, StaleStreamBeforeADescriptor_EndsAtTheDescriptor) {
   // The previous scan was cut off inside a node, or a capsule.
   const Bytes old_nodes = nodes(60, 200);
   const Bytes old_capsules = join(express_capsules(6, 200));
@@ -68,7 +68,7 @@ TEST(DecoderStream, StaleTailOfAStream_EndsWhereTheDescriptorBegins) {
   }
 }
 
-TEST(DecoderStream, ModeChangedInTheMiddle_IsFollowed) {
+TEST(DecoderStream, ModeChange_IsFollowed) {
   Decoder decoder;
   const auto sink =
       decode(join({kStandardDescriptor, nodes(50, 30), kUltraDescriptor, join(ultra_capsules(5, 5)),
@@ -79,7 +79,7 @@ TEST(DecoderStream, ModeChangedInTheMiddle_IsFollowed) {
   EXPECT_EQ(decoder.format(), WireFormat::kExpress);
 }
 
-TEST(DecoderStream, DescriptorLikeBytesInsideACapsule_DoNotDerail) {
+TEST(DecoderStream, DescriptorLikeBytesInACapsule_AreData) {
   auto capsules = express_capsules(10, 5);
   std::array<ExpressSample, 32> samples{};
   // u16 A and B, u8: a5 5a 05 00 00 | 40 81: six of the seven bytes at most can be chosen.
@@ -89,7 +89,7 @@ TEST(DecoderStream, DescriptorLikeBytesInsideACapsule_DoNotDerail) {
   EXPECT_THAT(decode(join(capsules)).samples, SizeIs(9 * 32));
 }
 
-TEST(DecoderStream, FormatsThatAnA1DoesNotSend_AreNotTakenForOthers) {
+TEST(DecoderStream, DenseFormat_GivesNothing) {
   Decoder decoder;
   const Bytes dense_descriptor = from_hex("a55a5400004085");
   // A dense capsule looks like an express one, to the checksum.
@@ -98,24 +98,24 @@ TEST(DecoderStream, FormatsThatAnA1DoesNotSend_AreNotTakenForOthers) {
   EXPECT_EQ(decoder.format(), std::nullopt);
 }
 
-TEST(DecoderStream, ForeignFormat_EndsWithTheNextDescriptor) {
+TEST(DecoderStream, DenseFormat_EndsAtTheNextDescriptor) {
   EXPECT_THAT(decode(join({from_hex("a55a5400004085"), join(express_capsules(3, 5)),
                            kExpressDescriptor, join(express_capsules(3, 5))}))
                   .samples,
               SizeIs(2 * 32));
 }
 
-TEST(DecoderStream, DamagedDescriptor_FormatIsFoundFromTheBytes) {
+TEST(DecoderStream, DamagedDescriptor_FormatIsDetected) {
   Bytes descriptor = kExpressDescriptor;
   descriptor[2] ^= 1;
-  // What is left says nothing, and the caller believes in standard nodes.
+  // The caller's format is wrong too.
   Decoder decoder(WireFormat::kStandard);
   const auto sink = decode(join({descriptor, join(express_capsules(80, 5))}), decoder);
   EXPECT_EQ(decoder.format(), WireFormat::kExpress);
   EXPECT_GE(sink.samples.size(), 20U * 32);
 }
 
-TEST(DecoderStream, AllBytes_AreAccountedFor) {
+TEST(DecoderStream, AllBytes_AreUsedOrSkipped) {
   Bytes stream = join({from_hex("0102"), kStandardDescriptor, nodes(300, 30)});
   stream.erase(stream.begin() + 700);
   Decoder decoder;
@@ -127,7 +127,7 @@ TEST(DecoderStream, AllBytes_AreAccountedFor) {
 
 class Cut : public testing::TestWithParam<std::size_t> {};
 
-TEST_P(Cut, InPieces_GivesTheSameSamples) {
+TEST_P(Cut, AnyPortions_GiveTheSameSamples) {
   Bytes damaged = nodes(900, 30);
   damaged.erase(damaged.begin() + 1234);
   damaged[3000] ^= 1;

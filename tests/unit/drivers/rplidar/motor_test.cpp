@@ -29,7 +29,7 @@ class DtrLine : public drivers::ByteStream {
   bool has_line = true;
 };
 
-/// A folder as sysfs has one for a GPIO line or PWM channel.
+/// A folder with the files of a GPIO line or PWM channel.
 class SysfsFolder {
  public:
   explicit SysfsFolder(std::initializer_list<const char*> files) {
@@ -45,7 +45,7 @@ class SysfsFolder {
   cornerd::test::TemporaryFolder folder_;
 };
 
-TEST(Motor, Dtr_StopsTheMotorWhereItIsSet) {
+TEST(Motor, Dtr_IsClearedToStartAndSetToStop) {
   DtrLine port;
   const auto motor = make_motor({.kind = MotorKind::kDtr, .path = {}});
   EXPECT_TRUE(motor->start(port));
@@ -53,13 +53,13 @@ TEST(Motor, Dtr_StopsTheMotorWhereItIsSet) {
   EXPECT_THAT(port.history, ElementsAre(false, true));
 }
 
-TEST(Motor, PortWithoutDtr_IsNoError) {
+TEST(Motor, NoDtr_IsNoError) {
   DtrLine port;
   port.has_line = false;
   EXPECT_TRUE(make_motor({.kind = MotorKind::kDtr, .path = {}})->start(port));
 }
 
-TEST(Motor, Gpio_IsHighToTurn) {
+TEST(Motor, Gpio_IsHighToStart) {
   const SysfsFolder line{"value"};
   DtrLine port;
   const auto motor = make_motor({.kind = MotorKind::kGpio, .path = line.path()});
@@ -70,7 +70,7 @@ TEST(Motor, Gpio_IsHighToTurn) {
   EXPECT_TRUE(port.history.empty());
 }
 
-TEST(Motor, Pwm_HasPeriodAndDutyInNanoseconds) {
+TEST(Motor, Pwm_WritesNanoseconds) {
   const SysfsFolder channel{"period", "duty_cycle", "enable"};
   DtrLine port;
   const auto motor =

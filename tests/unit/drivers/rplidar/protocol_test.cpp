@@ -2,8 +2,7 @@
 #include <gmock/gmock.h>
 
 #include "drivers/rplidar/protocol/answers.hpp"
-#include "drivers/rplidar/protocol/descriptor.hpp"
-#include "drivers/rplidar/protocol/request.hpp"
+#include "drivers/rplidar/protocol/framing.hpp"
 #include "wire_fixture.hpp"
 
 namespace cornerd::rplidar::test {
@@ -32,7 +31,7 @@ std::vector<Descriptor> find_descriptors(const Bytes& bytes) {
   return found;
 }
 
-TEST(Request, Frames_AreThoseOfTheProtocol) {
+TEST(Request, Commands_HaveTheProtocolsBytes) {
   EXPECT_EQ(bytes_of(Request(Command::kStop)), from_hex("a525"));
   EXPECT_EQ(bytes_of(Request(Command::kGetInfo)), from_hex("a550"));
   EXPECT_EQ(bytes_of(Request::express_scan(0)), from_hex("a58205000000000022"));
@@ -44,7 +43,7 @@ TEST(Request, Frames_AreThoseOfTheProtocol) {
   EXPECT_EQ(bytes_of(Request(Command::kSetMotorPwm, from_hex("9402"))), from_hex("a5f0029402c1"));
 }
 
-TEST(RequestParser, WhatARequestSays_IsUnderstood) {
+TEST(RequestParser, SeveralRequests_AreParsed) {
   const auto requests = parse(from_hex("a525 a584067f00000003005b a520"));
   ASSERT_THAT(requests, SizeIs(3));
   EXPECT_EQ(requests[0].command(), Command::kStop);
@@ -56,17 +55,17 @@ TEST(RequestParser, WhatARequestSays_IsUnderstood) {
   EXPECT_EQ(requests[2].command(), Command::kScan);
 }
 
-TEST(RequestParser, WrongChecksum_IsPassedOver) {
+TEST(RequestParser, WrongChecksum_IsSkipped) {
   const auto requests = parse(from_hex("a58205000000000023 a550"));
   ASSERT_THAT(requests, SizeIs(1));
   EXPECT_EQ(requests[0].command(), Command::kGetInfo);
 }
 
-TEST(RequestParser, StraySyncAndNoise_ArePassedOver) {
+TEST(RequestParser, StraySyncAndNoise_AreSkipped) {
   EXPECT_THAT(parse(from_hex("00ff a5a525 5a")), SizeIs(1));
 }
 
-TEST(DescriptorSearch, RealExchange_IsFoundAmongItsEchoes) {
+TEST(DescriptorSearch, RealExchange_IsFoundAmongEchoes) {
   const auto found = find_descriptors(from_hex("a552a520a55a0300000006000000a55a0500004081"));
   ASSERT_THAT(found, SizeIs(2));
   EXPECT_TRUE(found[0].is(AnswerType::kHealth));
@@ -77,16 +76,16 @@ TEST(DescriptorSearch, RealExchange_IsFoundAmongItsEchoes) {
   EXPECT_TRUE(found[1].stream);
 }
 
-TEST(DescriptorSearch, SyncBeforeSync_IsNoObstacle) {
+TEST(DescriptorSearch, SyncBeforeSync_IsSkipped) {
   EXPECT_THAT(find_descriptors(from_hex("a5a5a55a1400000004")), SizeIs(1));
 }
 
-TEST(Descriptor, Encoding_IsReadBack) {
+TEST(Descriptor, UltraScan_EncodesAsOnTheWire) {
   const Descriptor descriptor{.size = 132, .stream = true, .type = 0x84};
   EXPECT_THAT(descriptor.encode(), ElementsAreArray(kUltraDescriptor));
 }
 
-TEST(Answers, InfoOfARealA1_IsRead) {
+TEST(Answers, InfoOfARealA1_RoundTrips) {
   const auto info = DeviceInfo::decode(from_hex("181d010792d8ed93c0ea98c9a5e698f207064669"));
   ASSERT_TRUE(info);
   EXPECT_EQ(info->model_name(), "A1M8");
@@ -98,7 +97,7 @@ TEST(Answers, InfoOfARealA1_IsRead) {
               ElementsAreArray(from_hex("181d010792d8ed93c0ea98c9a5e698f207064669")));
 }
 
-TEST(Answers, FirmwareOfOneDigit_KeepsItsZero) {
+TEST(Answers, FirmwareMinorOfOneDigit_IsPadded) {
   EXPECT_EQ((DeviceInfo{.firmware = firmware_version(1, 5)}).firmware_text(), "1.05");
 }
 
@@ -111,7 +110,7 @@ TEST(Answers, HealthCode_IsLittleEndian) {
   EXPECT_EQ((Health{}).text(), "good");
 }
 
-TEST(Answers, ConfigurationOfARealA1_IsRead) {
+TEST(Answers, ConfigurationOfARealA1_Decodes) {
   const Bytes period_bytes = from_hex("71000000007f0000");
   const auto period = ConfAnswer::decode(period_bytes);
   ASSERT_TRUE(period && period->is(ConfType::kModePeriod));
@@ -122,7 +121,7 @@ TEST(Answers, ConfigurationOfARealA1_IsRead) {
   EXPECT_EQ(name->text(), "Sensitivity");
 }
 
-TEST(Answers, TooFewBytes_AreNoAnswer) {
+TEST(Answers, TooFewBytes_GiveNullopt) {
   EXPECT_FALSE(DeviceInfo::decode(from_hex("181d0107")));
   EXPECT_FALSE(Health::decode(from_hex("0000")));
   EXPECT_FALSE(SampleRate::decode(from_hex("fc01fe")));

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Bytes of real A1s, where somebody has them: $CORNERD_RECORDINGS/a1-wire. They were recorded by
-// others and are not part of the project.
+// Bytes of real A1s in $CORNERD_RECORDINGS/a1-wire, recorded by others and not part of the project.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -68,7 +67,7 @@ class Recordings : public testing::Test {
   fs::path wire_;
 };
 
-TEST_F(Recordings, LongestOne_NodeByNodeAndTurnByTurn) {
+TEST_F(Recordings, LongestFile_MatchesNodesAndScans) {
   const auto rows = read_golden("sample_data_pyserial_1");
   const auto sink = decode(read_bytes(wire_ / "sample_data_pyserial_1.bin"));
   ASSERT_EQ(rows.size(), 10435U);
@@ -79,18 +78,17 @@ TEST_F(Recordings, LongestOne_NodeByNodeAndTurnByTurn) {
   }
 }
 
-TEST_F(Recordings, OtherGoldenFiles_NodeByNode) {
+TEST_F(Recordings, OtherFiles_MatchNodes) {
   for (const char* name : {"sample_data_motorctrl_1st_try", "capture_1", "sample_data_2"}) {
     SCOPED_TRACE(name);
     auto rows = read_golden(name);
-    // Two of the files end within an echoed STOP, of which their reference made a node with a start
-    // flag in the middle of a turn.
+    // Two files end within an echoed STOP, which their reference decodes as a node.
     if (rows.back().start == 1) rows.pop_back();
     expect_equal(decode(read_bytes(wire_ / (std::string(name) + ".bin"))).samples, rows);
   }
 }
 
-TEST_F(Recordings, EveryFile_HasTurnsOfOneTurnAndDistancesOfTheWire) {
+TEST_F(Recordings, EveryFile_HasScansOfOneRevolutionAndDistancesOfTheWire) {
   std::vector<fs::path> files;
   for (const auto& entry : fs::recursive_directory_iterator(wire_)) {
     if (entry.path().extension() == ".bin") files.push_back(entry.path());
@@ -102,11 +100,11 @@ TEST_F(Recordings, EveryFile_HasTurnsOfOneTurnAndDistancesOfTheWire) {
     const auto sink = decode(bytes);
     EXPECT_GE(sink.samples.size(), bytes.size() / 5 * 97 / 100);
 
-    std::set<std::array<std::uint8_t, 4>> on_wire;  // angle and distance as they stand in a node
+    std::set<std::array<std::uint8_t, 4>> on_wire;  // angle and distance of each node
     for (std::size_t i = 0; i + 5 <= bytes.size(); ++i) {
       on_wire.insert({bytes[i + 1], bytes[i + 2], bytes[i + 3], bytes[i + 4]});
     }
-    std::size_t in_turn = 0;
+    std::size_t in_scan = 0;
     bool scan_is_complete = false;
     auto gap = sink.gaps.begin();
     for (std::size_t i = 0; i < sink.samples.size(); ++i) {
@@ -116,16 +114,16 @@ TEST_F(Recordings, EveryFile_HasTurnsOfOneTurnAndDistancesOfTheWire) {
         ++gap;
       }
       if (sample.starts_scan) {
-        // The recorder's units turned at 6.1 to 6.6 Hz.
+        // The recorded devices rotated at 6.1 to 6.6 Hz.
         if (scan_is_complete) {
-          EXPECT_GE(in_turn, 285U);
-          EXPECT_LE(in_turn, 325U);
+          EXPECT_GE(in_scan, 285U);
+          EXPECT_LE(in_scan, 325U);
         }
         scan_is_complete = true;
-        in_turn = 0;
+        in_scan = 0;
       }
-      ++in_turn;
-      EXPECT_LE(in_turn, 325U + (scan_is_complete ? 0 : 325));
+      ++in_scan;
+      EXPECT_LE(in_scan, 325U + (scan_is_complete ? 0 : 325));
       const unsigned angle = sample.angle_q6 * 2U + 1;
       const unsigned beyond = angle + 360 * 128;
       const auto node_of = [&](unsigned word) {

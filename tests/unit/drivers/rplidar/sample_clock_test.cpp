@@ -12,7 +12,7 @@ namespace {
 constexpr double kPeriodS = 254e-6;
 constexpr double kStartS = 100;
 
-/// A device whose samples arrive late by a few milliseconds, now and then by more.
+/// A device whose samples arrive with exponential delays of mean 2 ms.
 class SimulatedArrivals {
  public:
   explicit SimulatedArrivals(double pace = 1) : period_s_(kPeriodS * pace) {}
@@ -21,7 +21,7 @@ class SimulatedArrivals {
     return kStartS + pause_s_ + static_cast<double>(index) * period_s_;
   }
 
-  /// Feeds `count` samples in packets of 32 and gives the largest error of their times.
+  /// Feeds `count` samples in packets of 32; returns the largest error of their times.
   double run(SampleClock& clock, std::uint64_t count) {
     double worst_s = 0;
     for (const std::uint64_t end = index_ + count; index_ < end; ++index_) {
@@ -34,15 +34,15 @@ class SimulatedArrivals {
     return worst_s;
   }
 
-  /// The reader sees nothing until then, and all of it at once.
+  /// The reader reads nothing for so long, then everything at once.
   void stall(double duration_s) { not_before_s_ = true_s(index_) + duration_s; }
-  /// The device sends nothing for a while, and does not count either.
+  /// The device neither measures nor counts for so long.
   void pause(double duration_s) { pause_s_ += duration_s; }
 
  private:
   void observe(SampleClock& clock) {
-    std::exponential_distribution<double> lateness(1 / 2e-3);
-    const double arrival_s = std::max(true_s(index_) + lateness(random_), not_before_s_);
+    std::exponential_distribution<double> delay(1 / 2e-3);
+    const double arrival_s = std::max(true_s(index_) + delay(random_), not_before_s_);
     clock.observe(index_, core::from_seconds(arrival_s));
   }
 
@@ -54,7 +54,7 @@ class SimulatedArrivals {
   std::mt19937 random_{5};
 };
 
-TEST(SampleClock, JitteryArrivals_GiveEvenTimes) {
+TEST(SampleClock, JitteryArrivals_GiveTimesWithinHalfAMillisecond) {
   SampleClock clock(kPeriodS);
   SimulatedArrivals arrivals;
   arrivals.run(clock, 8000);
@@ -62,7 +62,7 @@ TEST(SampleClock, JitteryArrivals_GiveEvenTimes) {
   EXPECT_EQ(clock.resets(), 0U);
 }
 
-TEST(SampleClock, PaceOnePercentOff_IsLearnt) {
+TEST(SampleClock, PeriodOnePercentOff_IsEstimated) {
   for (const double pace : {0.99, 1.01}) {
     SampleClock clock(kPeriodS);
     SimulatedArrivals arrivals(pace);
@@ -73,7 +73,7 @@ TEST(SampleClock, PaceOnePercentOff_IsLearnt) {
   }
 }
 
-TEST(SampleClock, ReaderThatStalls_ShiftsNoTimes) {
+TEST(SampleClock, StalledReader_ShiftsNoTimes) {
   for (const double stall_s : {0.1, 0.3, 1.0}) {
     SampleClock clock(kPeriodS);
     SimulatedArrivals arrivals;
@@ -84,22 +84,22 @@ TEST(SampleClock, ReaderThatStalls_ShiftsNoTimes) {
   }
 }
 
-TEST(SampleClock, ReaderThatIsHeldUp_IsInDoubtUntilItHasCaughtUp) {
+TEST(SampleClock, StalledReader_IsUncertainUntilItHasCaughtUp) {
   SampleClock clock(kPeriodS);
   SimulatedArrivals arrivals;
   arrivals.run(clock, 20000);
-  EXPECT_FALSE(clock.in_doubt());
+  EXPECT_FALSE(clock.is_uncertain());
   arrivals.stall(2);
   arrivals.run(clock, 32);
-  EXPECT_TRUE(clock.in_doubt());
+  EXPECT_TRUE(clock.is_uncertain());
   arrivals.run(clock, 7000);
-  EXPECT_TRUE(clock.in_doubt()) << "of 7874 samples";
+  EXPECT_TRUE(clock.is_uncertain()) << "of 7874 samples";
   arrivals.run(clock, 1000);
-  EXPECT_FALSE(clock.in_doubt());
+  EXPECT_FALSE(clock.is_uncertain());
   EXPECT_EQ(clock.resets(), 0U);
 }
 
-TEST(SampleClock, BacklogThatIsReadSlowly_IsNoPause) {
+TEST(SampleClock, BacklogReadSlowly_IsNoPause) {
   SampleClock clock(kPeriodS);
   constexpr std::uint64_t kBefore = 16'000;
   constexpr std::uint64_t kBacklog = 8'000;
@@ -108,31 +108,31 @@ TEST(SampleClock, BacklogThatIsReadSlowly_IsNoPause) {
   };
   std::uint64_t index = 0;
   for (; index < kBefore; index += 32) clock.observe(index, at(static_cast<double>(index), 0));
-  // As fast as the device goes on measuring: its lateness stays, as a pause's does.
+  // Read at the speed of measuring, so that the delay stays, as after a pause.
   for (; index < kBefore + kBacklog; index += 32) {
-    clock.observe(index, at(static_cast<double>(index), 2), /*more_waits=*/true);
-    ASSERT_TRUE(clock.in_doubt()) << index;
+    clock.observe(index, at(static_cast<double>(index), 2), /*more_pending=*/true);
+    ASSERT_TRUE(clock.is_uncertain()) << index;
   }
   clock.observe(index, at(static_cast<double>(index), 0.01));
-  EXPECT_FALSE(clock.in_doubt());
+  EXPECT_FALSE(clock.is_uncertain());
   EXPECT_NEAR(static_cast<double>(clock.time_of(kBefore) - at(kBefore, 0)), 0, 2e6);
 }
 
-TEST(SampleClock, DeviceThatPauses_IsFollowedWithinThreeTenthsOfASecond) {
+TEST(SampleClock, PausedDevice_IsFollowedWithin300Ms) {
   SampleClock clock(kPeriodS);
   SimulatedArrivals arrivals;
   arrivals.run(clock, 20000);
   arrivals.pause(0.8);
   arrivals.run(clock, 32);
-  EXPECT_TRUE(clock.in_doubt());
+  EXPECT_TRUE(clock.is_uncertain());
   arrivals.run(clock, 1248);
-  EXPECT_FALSE(clock.in_doubt());
+  EXPECT_FALSE(clock.is_uncertain());
   EXPECT_EQ(clock.anchored_from(), 20000U);
   EXPECT_LT(arrivals.run(clock, 20000), 5e-3);
   EXPECT_EQ(clock.resets(), 1U);
 }
 
-TEST(SampleClock, BrokenCount_KeepsThePace) {
+TEST(SampleClock, Reanchor_KeepsThePeriod) {
   SampleClock clock(kPeriodS);
   SimulatedArrivals arrivals(1.01);
   arrivals.run(clock, 40000);

@@ -32,7 +32,7 @@ StreamedSamples stream_untimed(const Bytes& bytes, const SampleStreamConfig& con
   return samples;
 }
 
-TEST(SampleStream, DeviceAngles_BecomeBearingsOfTheLidarFrame) {
+TEST(SampleStream, DeviceAngles_BecomeCounterClockwiseBearings) {
   const Bytes bytes =
       join({kStandardDescriptor, node(false, 15, 90, 1000), node(false, 15, 91, 0)});
   const auto upright = stream_untimed(bytes, {});
@@ -54,7 +54,7 @@ TEST(SampleStream, Bearings_StayWithinPi) {
   }
 }
 
-TEST(SampleStream, BytesWithoutAClock_AreTimedByTheirNumber) {
+TEST(SampleStream, UntimedBytes_AreTimedByIndex) {
   const auto standard = stream_untimed(nodes(1000, 30), {});
   EXPECT_EQ(standard.all[0].t_ns, 0);
   EXPECT_EQ(standard.all[999].t_ns, 999 * 508'000);
@@ -67,8 +67,8 @@ TEST(SampleStream, BytesWithoutAClock_AreTimedByTheirNumber) {
   EXPECT_EQ(stability.all[600].t_ns, 600 * 201'000);
 }
 
-TEST(SampleStream, PeriodThatCannotBe_IsTheUsualOne) {
-  // 254 us with one bit wrong, as Q8 in 32 bits; and next to nothing.
+TEST(SampleStream, ImplausiblePeriod_IsReplacedByTheNominalOne) {
+  // 254 us with one bit wrong (Q8 in 32 bits), almost 0, negative.
   for (const double period_s : {254e-6 + 0.262144, 1e-9, -1.0}) {
     const auto express =
         stream_untimed(join(express_capsules(20, 5)),
@@ -77,14 +77,14 @@ TEST(SampleStream, PeriodThatCannotBe_IsTheUsualOne) {
   }
 }
 
-TEST(SampleStream, LostNode_LeavesItsTime) {
+TEST(SampleStream, LostNode_TakesItsSamplePeriod) {
   Bytes bytes = nodes(400, 30);
   bytes.erase(bytes.begin() + 1002);
   EXPECT_EQ(stream_untimed(bytes, {}).all.back().t_ns, 399 * 508'000);
 }
 
-/// A capsule that is complete at its time, on a wire of 115200 baud, read in blocks of any size.
-TEST(SampleStream, TimedBytes_GiveTheTimeOfMeasurement) {
+/// Capsules on a wire of 115200 baud, read in blocks that do not match them.
+TEST(SampleStream, TimedBytes_GiveMeasurementTimesWithinAMillisecond) {
   constexpr double kByteS = 10.0 / 115200;
   constexpr double kPeriodS = 254e-6;
   const auto capsules = express_capsules(1000, 5, 21.4);
@@ -93,7 +93,7 @@ TEST(SampleStream, TimedBytes_GiveTheTimeOfMeasurement) {
   Bytes waiting;
   double last_byte_s = 0;
   for (std::size_t c = 0; c < capsules.size(); ++c) {
-    // The last sample of capsule c is measured at (32 c + 31.5) periods, if the first is at 0.
+    // Sent 1.5 periods after the last sample of capsule c.
     const double sent_s = 1 + (32.0 * static_cast<double>(c) + 31 + 1.5) * kPeriodS;
     for (std::size_t i = 0; i < capsules[c].size(); ++i) {
       waiting.push_back(capsules[c][i]);
@@ -111,7 +111,7 @@ TEST(SampleStream, TimedBytes_GiveTheTimeOfMeasurement) {
   EXPECT_EQ(stream.counters().clock_resets, 0U);
 }
 
-/// A lidar whose nodes are fed in pieces of 80 bytes, each with its own true time.
+/// Feeds nodes in pieces of 80 bytes and knows each node's true time.
 class FedNodes {
  public:
   void run(int pieces, core::TimeNs late_ns = 0) {
@@ -128,9 +128,9 @@ class FedNodes {
       stream_.feed(bytes, now_ns_, samples_);
     }
   }
-  /// Nothing is measured for so long.
+  /// The device does not measure for so long.
   void pause(core::TimeNs pause_ns) { truth_ns_ += pause_ns; }
-  /// The largest error of a sample's time. A range tells a sample from those within half a second.
+  /// The largest error of a sample's time. Ranges identify samples within half a second.
   core::TimeNs worst_error_ns() const {
     core::TimeNs worst_ns = 0;
     for (const core::Sample& sample : samples_.all) {
@@ -157,7 +157,7 @@ class FedNodes {
   int number_ = 0;
 };
 
-TEST(SampleStream, AfterAPause_NoSampleBearsATimeOfThePause) {
+TEST(SampleStream, DevicePause_NoSampleHasATimeWithinIt) {
   FedNodes nodes;
   nodes.run(100);
   nodes.pause(300'000'000);
@@ -167,7 +167,7 @@ TEST(SampleStream, AfterAPause_NoSampleBearsATimeOfThePause) {
   EXPECT_GT(nodes.samples().all.size(), 3100U);
 }
 
-TEST(SampleStream, UntimedSamples_AreTheOnesNotDelivered) {
+TEST(SampleStream, UntimedSamples_CountThoseNotDelivered) {
   FedNodes nodes;
   const auto expect_all_counted = [&](std::uint64_t least_untimed) {
     const drivers::StreamCounters& counters = nodes.counters();
@@ -185,7 +185,7 @@ TEST(SampleStream, UntimedSamples_AreTheOnesNotDelivered) {
   expect_all_counted(16);
 }
 
-TEST(SampleStream, AfterTheReaderWasHeldUp_AllSamplesBearTheirTimes) {
+TEST(SampleStream, StalledReader_AllSamplesHaveTheirTimes) {
   FedNodes nodes;
   nodes.run(100);
   nodes.run(1, 2 * core::kNsPerSecond);

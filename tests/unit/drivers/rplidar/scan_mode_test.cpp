@@ -19,19 +19,19 @@ TEST(ScanMode, Auto_PrefersExpress) {
   EXPECT_EQ(choose_mode(std::span(kFirmware129).first(1), "auto")->name, "Standard");
 }
 
-TEST(ScanMode, Name_IsFoundInAnyCase) {
+TEST(ScanMode, Name_IsCaseInsensitive) {
   EXPECT_EQ(choose_mode(kFirmware129, "sensitivity")->id, 3);
   EXPECT_EQ(choose_mode(kFirmware129, "STANDARD")->id, 0);
 }
 
-TEST(ScanMode, UnknownName_IsNoMode) {
+TEST(ScanMode, UnknownName_GivesNull) {
   EXPECT_EQ(choose_mode(kFirmware129, "Turbo"), nullptr);
   EXPECT_EQ(choose_mode(kFirmware129, ""), nullptr);
   EXPECT_EQ(choose_mode({}, "auto"), nullptr);
   EXPECT_EQ(list_names(std::span(kFirmware129).first(3)), "Standard, Express, Boost");
 }
 
-TEST(ScanMode, Request_IsScanForStandardNodesAlone) {
+TEST(ScanMode, Request_IsScanForStandardElseExpressScan) {
   EXPECT_EQ(kFirmware129[0].request().command(), Command::kScan);
   EXPECT_EQ(kFirmware129[1].request().command(), Command::kExpressScan);
   EXPECT_EQ(kFirmware129[3].request().payload()[0], 3);

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "drivers/rplidar/protocol/descriptor.hpp"
+#include "drivers/rplidar/protocol/framing.hpp"
 
 namespace cornerd::rplidar::test {
 namespace {
@@ -13,7 +13,7 @@ using std::chrono::nanoseconds;
 
 constexpr core::TimeNs kCapsuleNs = 32 * 254'000;
 
-/// The same capsule without a single return.
+/// Removes all returns from a capsule.
 void make_blind(Bytes& capsule) {
   std::fill(capsule.begin() + 4, capsule.end(), std::uint8_t{0});
   std::uint8_t checksum = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// An A1 in memory, on a clock that moves only while somebody waits.
+// An A1 in memory, on a clock that advances only on waits.
 #pragma once
 
 #include <cstddef>
@@ -14,7 +14,7 @@
 
 #include "drivers/clock.hpp"
 #include "drivers/rplidar/protocol/answers.hpp"
-#include "drivers/rplidar/protocol/request.hpp"
+#include "drivers/rplidar/protocol/framing.hpp"
 #include "drivers/serial/serial_port.hpp"
 #include "wire_fixture.hpp"
 
@@ -37,7 +37,7 @@ class ManualClock : public drivers::Clock {
   std::function<void()> on_advance;
 };
 
-/// The device itself, plugged in or not; what it is asked, it answers as the real one does.
+/// Answers requests as a real A1, with faults to switch on.
 struct ScriptedA1 {
   explicit ScriptedA1(ManualClock& its_clock) : clock(its_clock) {}
 
@@ -48,14 +48,14 @@ struct ScriptedA1 {
   std::deque<Health> health{Health{}};  ///< the last one stays
   std::vector<std::string> mode_names{"Standard", "Express", "Boost", "Sensitivity", "Stability"};
   bool answers = true;
-  bool noise = false;  ///< comes in place of its answers
+  bool noise = false;  ///< is sent in place of answers
   bool measures = true;
-  bool blind = false;      ///< nothing returns
-  std::uint32_t baud = 0;  ///< at any other it hears and says nothing; 0: at each it does
-  int wrong_periods = 0;   ///< so many answers to how long an express sample takes have a bit wrong
-  int lost_answers = 0;    ///< so many answers are lost on the way
+  bool blind = false;      ///< no sample has a return
+  std::uint32_t baud = 0;  ///< at any other it is silent; 0: any is right
+  int wrong_periods = 0;   ///< this many answers about the express period have a wrong bit
+  int lost_answers = 0;    ///< this many answers are lost
   int resets_to_measure = 0;
-  Bytes chatter;  ///< what the port has to say before it is asked
+  Bytes chatter;  ///< unsolicited bytes at opening
   drivers::OpenError open_error = drivers::OpenError::kNone;
   std::optional<core::TimeNs> unplugged_at_ns;
 
@@ -70,17 +70,16 @@ struct ScriptedA1 {
   bool unplugged() const { return unplugged_at_ns && clock.now_ns >= *unplugged_at_ns; }
 
   std::deque<std::uint8_t> output;
-  core::TimeNs output_from_ns = 0;  ///< nothing comes earlier
+  core::TimeNs output_from_ns = 0;  ///< no byte is available earlier
   int capsule = 0;
-  bool understood = true;  ///< opened at its own speed
+  bool understood = true;  ///< opened at the right speed
 
  private:
   void answer(std::uint8_t type, const Bytes& payload);
   void answer_conf(const Request& request);
 };
 
-/// What went over the wire, as names: "STOP", "INFO", "HEALTH", "CONF", "RESET", "SCAN", "EXPRESS
-/// 1".
+/// Names of requests: "STOP", "INFO", "HEALTH", "CONF", "RATE", "RESET", "SCAN", "EXPRESS 1".
 std::vector<std::string> names(const std::vector<Request>& requests);
 
 }  // namespace cornerd::rplidar::test

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
-#include "drivers/rplidar/wire/ultra.hpp"
-
 #include <gtest/gtest.h>
 
 #include <array>
 #include <utility>
 
+#include "drivers/rplidar/wire/capsule.hpp"
+
 namespace cornerd::rplidar {
 namespace {
 
-TEST(Varbit, TheSdksTable_IsReproduced) {
+TEST(Varbit, AllRanges_MatchTheSdksTable) {
   constexpr std::array<std::pair<int, int>, 12> kTable{{{511, 511},
                                                         {512, 512},
                                                         {513, 514},
@@ -25,7 +25,7 @@ TEST(Varbit, TheSdksTable_IsReproduced) {
   for (const auto& [code, mm] : kTable) EXPECT_EQ(decode_varbit(code).mm, mm) << code;
 }
 
-TEST(Varbit, Levels_AreTheStepsOfTheirRanges) {
+TEST(Varbit, Level_IsTheStepOfItsRange) {
   for (const int code : {0, 100, 600, 1300, 2000, 4000}) {
     EXPECT_EQ(decode_varbit(code + 1).mm - decode_varbit(code).mm, 1 << decode_varbit(code).level)
         << code;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Bytes as an A1 sends them, and a place to put what the decoder makes of them.
+// Bytes as an A1 sends them, and a sink for decoded samples.
 #pragma once
 
 #include <array>
@@ -25,11 +25,11 @@ inline const Bytes kUltraDescriptor = {0xA5, 0x5A, 0x84, 0x00, 0x00, 0x40, 0x84}
 
 Bytes node(bool start, int quality, double angle_deg, double dist_mm);
 
-/// `count` nodes of a head that turns by `step_deg` a node from `from_deg` on. As on a real A1,
-/// nodes with a return (three of four) bear an angle up to 8 degrees smaller than those without,
-/// and the start flag comes with the first node of a turn. Distances tell the nodes apart.
+/// `count` nodes of a head that rotates by `step_deg` per node from `from_deg` on. As on a real A1,
+/// nodes with a return (three of four) have an angle up to 8 degrees smaller than those without,
+/// and the first node of a revolution has the start flag. Distances identify the nodes.
 Bytes nodes(int count, double from_deg, double step_deg = 1.14);
-/// What the n-th of those nodes carries.
+/// Distance of the n-th of those nodes.
 std::uint32_t node_dist_q2(int n);
 
 struct ExpressSample {
@@ -64,7 +64,7 @@ class CollectingSink : public RawSampleSink {
   std::vector<std::size_t> gaps;  ///< number of samples before each
 };
 
-/// Decodes all of `bytes`, the end included.
+/// Decodes all of `bytes` and finishes.
 CollectingSink decode(std::span<const std::uint8_t> bytes, Decoder& decoder);
 CollectingSink decode(std::span<const std::uint8_t> bytes,
                       std::optional<WireFormat> format = std::nullopt);

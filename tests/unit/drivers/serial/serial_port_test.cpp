@@ -21,9 +21,8 @@
 #include <iterator>
 #include <vector>
 
-#include "drivers/serial/baud_rate.hpp"
+#include "drivers/serial/byte_stream.hpp"
 #include "drivers/serial/file_descriptor.hpp"
-#include "drivers/serial/recording_byte_stream.hpp"
 #include "tests/temporary_folder.hpp"
 
 namespace cornerd::drivers {
@@ -74,13 +73,13 @@ Bytes read_all(ByteStream& port, std::size_t count) {
   return all;
 }
 
-TEST(SerialPort, EveryByte_PassesUnchangedBothWays) {
+TEST(SerialPort, EveryByteValue_PassesBothWays) {
   PtyMaster master;
   const auto opened = open_serial_port(master.path, 115200);
   ASSERT_NE(opened.stream, nullptr) << opened.message;
   Bytes bytes(256);
   for (std::size_t i = 0; i < bytes.size(); ++i) bytes[i] = static_cast<std::uint8_t>(i);
-  // What a terminal in its usual mode would act on, at the end too.
+  // Characters that a cooked terminal acts on.
   for (const int special : {0x03, 0x04, 0x0A, 0x0D, 0x11, 0x13, 0x1A, 0xFF, 0xFF}) {
     bytes.push_back(static_cast<std::uint8_t>(special));
   }
@@ -90,7 +89,7 @@ TEST(SerialPort, EveryByte_PassesUnchangedBothWays) {
   EXPECT_EQ(master.read(1000), bytes);
 }
 
-TEST(SerialPort, NothingThere_IsATimeout) {
+TEST(SerialPort, NoInput_IsATimeout) {
   PtyMaster master;
   const auto opened = open_serial_port(master.path, 115200);
   std::array<std::uint8_t, 8> buffer{};
@@ -108,7 +107,7 @@ TEST(SerialPort, HangUp_IsReportedAfterTheLastBytes) {
   EXPECT_FALSE(opened.stream->write(Bytes{1}));
 }
 
-TEST(SerialPort, DiscardedInput_IsGone) {
+TEST(SerialPort, DiscardInput_DropsUnreadBytes) {
   PtyMaster master;
   const auto opened = open_serial_port(master.path, 115200);
   master.write({1, 2, 3});
@@ -128,11 +127,11 @@ TEST(SerialPort, SecondOpener_IsRefused) {
   EXPECT_EQ(second.message, master.path + ": held by another process");
 }
 
-TEST(SerialPort, AfterClosing_IsFreeAgain) {
+TEST(SerialPort, ClosedPort_CanBeOpenedAgain) {
   PtyMaster master;
   open_serial_port(master.path, 115200);
   EXPECT_NE(open_serial_port(master.path, 115200).stream, nullptr);
-  // Programs that know no flock get in as well.
+  // Programs that do not use flock can open it too.
   EXPECT_TRUE(FileDescriptor(::open(master.path.c_str(), O_RDWR | O_NOCTTY | O_CLOEXEC)).is_open());
 }
 
@@ -142,20 +141,21 @@ TEST(SerialPort, MissingPort_IsNamed) {
   EXPECT_EQ(opened.message, "/dev/no-such-port: no such port");
 }
 
-TEST(SerialPort, FileThatIsNoPort_IsRefused) {
+TEST(SerialPort, NoTerminal_IsRefused) {
   const auto opened = open_serial_port("/dev/null", 115200);
   EXPECT_EQ(opened.error, OpenError::kFailed);
   EXPECT_EQ(opened.message, "/dev/null: not a serial port");
 }
 
-TEST(SerialPort, OddSpeed_IsRefused) {
+TEST(SerialPort, NonStandardBaud_IsRefused) {
   PtyMaster master;
   const auto opened = open_serial_port(master.path, 256000);
   EXPECT_EQ(opened.error, OpenError::kFailed);
-  EXPECT_EQ(opened.message, master.path + ": 256000 baud is not supported");
+  EXPECT_EQ(opened.message,
+            master.path + ": 256000 baud is not supported; use a standard rate such as 115200");
 }
 
-TEST(SerialPort, MissingRights_AreSaid) {
+TEST(SerialPort, NoPermission_IsDenied) {
   PtyMaster master;
   std::filesystem::permissions(master.path, std::filesystem::perms::none);
   const pid_t child = ::fork();
@@ -169,7 +169,7 @@ TEST(SerialPort, MissingRights_AreSaid) {
   EXPECT_EQ(status, 0);
 }
 
-/// From now on open() says EPERM, as where a control group forbids a device. False: cannot be had.
+/// Makes open() fail with EPERM, as a control group does. False if seccomp is unavailable.
 bool forbid_opening() {
   sock_filter steps[] = {
       BPF_STMT(BPF_LD | BPF_W | BPF_ABS, offsetof(seccomp_data, nr)),
@@ -182,7 +182,7 @@ bool forbid_opening() {
          ::prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, &filter) == 0;
 }
 
-TEST(SerialPort, KindThatTheUnitForbids_IsNamed) {
+TEST(SerialPort, DeviceForbiddenByTheUnit_NamesTheSetting) {
   const test::TemporaryFolder folder;
   const std::filesystem::path port = folder.path() / "ttyXY12";
   std::ofstream(port) << "";
@@ -208,13 +208,13 @@ TEST(SerialPort, PseudoTerminal_HasNoDtr) {
   EXPECT_FALSE(open_serial_port(master.path, 115200).stream->set_dtr(true));
 }
 
-TEST(BaudRate, StandardRates_HaveTheirConstants) {
+TEST(BaudRate, StandardRate_HasItsConstant) {
   EXPECT_EQ(termios_speed(115200), B115200);
   EXPECT_EQ(termios_speed(9600), B9600);
   EXPECT_EQ(termios_speed(0), std::nullopt);
 }
 
-TEST(RecordingByteStream, BothDirections_AreSeen) {
+TEST(RecordingByteStream, BothDirections_AreObserved) {
   PtyMaster master;
   std::vector<std::pair<RecordingByteStream::Direction, Bytes>> seen;
   RecordingByteStream port(

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "drivers/serial/standard_streams.hpp"
-
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/wait.h>
@@ -8,10 +6,12 @@
 
 #include <vector>
 
+#include "drivers/serial/file_descriptor.hpp"
+
 namespace cornerd::drivers {
 namespace {
 
-/// The first number that a child gets for what it opens, with those closed before.
+/// The descriptor number that a child gets from open() after closing some.
 int first_free_number(const std::vector<int>& closed) {
   const pid_t child = ::fork();
   if (child == 0) {
@@ -24,7 +24,7 @@ int first_free_number(const std::vector<int>& closed) {
   return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }
 
-TEST(StandardStreams, ThoseThatAreClosed_AreOccupied) {
+TEST(StandardStreams, ClosedOnes_AreOccupied) {
   const int usual = first_free_number({});
   ASSERT_GT(usual, 2);
   EXPECT_EQ(first_free_number({0, 1, 2}), usual);

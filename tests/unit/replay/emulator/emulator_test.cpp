@@ -275,7 +275,7 @@ TEST(Emulator, ProtectionStop_ScansNotUntilAResetHasHealedIt) {
   EXPECT_EQ(host.ask("a552"), "a55a0300000006000000");
   EXPECT_EQ(host.ask_for_scan("a520"), "a55a0500004081");
 
-  config.reset_heals = false;
+  config.reset_restores_health = false;
   Host broken("1.29", config);
   broken.send("a540");
   broken.receive_for(core::kNsPerSecond);

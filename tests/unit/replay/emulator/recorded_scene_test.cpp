@@ -19,7 +19,7 @@ class RecordedRoom : public ::testing::Test {
     config.scans = 2;
     config.simulator.sensor = SensorModel::perfect();
     RecordingWriter writer(file_);
-    simulate_recording(make_room(), visit_places({kFirst, kSecond}, 1), config, writer, nullptr);
+    simulate_recording(make_room(), visit_poses({kFirst, kSecond}, 1), config, writer, nullptr);
   }
 
   static double true_range(const core::Pose2& pose, double bearing_rad) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "replay/simulator/byte_faults.hpp"
+#include "replay/simulator/serial_line.hpp"
 
 #include <gtest/gtest.h>
 

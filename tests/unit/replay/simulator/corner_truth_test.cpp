@@ -40,12 +40,12 @@ std::size_t count(const CornerTruth& truth, CornerView view) {
   const auto corners = truth.corners();
   return static_cast<std::size_t>(
       std::count_if(corners.begin(), corners.end(),
-                    [&](const SeenCorner& corner) { return corner.view == view; }));
+                    [&](const CornerObservation& corner) { return corner.view == view; }));
 }
 
 /// The corner nearest to a point of the map.
-const SeenCorner* corner_at(const CornerTruth& truth, const Pose2& place, const Vec2& point) {
-  for (const SeenCorner& corner : truth.corners()) {
+const CornerObservation* corner_at(const CornerTruth& truth, const Pose2& place, const Vec2& point) {
+  for (const CornerObservation& corner : truth.corners()) {
     if ((place * corner.position - point).norm() < 1e-6) return &corner;
   }
   return nullptr;
@@ -62,20 +62,20 @@ TEST(CornerTruth, SquareRoom_ShowsFourCornersWithAllReturnsOnTheirWalls) {
   const Pose2 place{0.9, 1.2, 0.7};
   const auto turn = perfect_scan(*map, place, 400);
   CornerTruth truth(*map, kFarthest_m);
-  truth.look(place, turn.points());
+  truth.observe(place, turn.points());
 
   ASSERT_EQ(truth.corners().size(), 4u);
   EXPECT_EQ(count(truth, CornerView::kSupported), 4u);
   std::uint32_t left = 0;
-  for (const SeenCorner& corner : truth.corners()) {
+  for (const CornerObservation& corner : truth.corners()) {
     left += corner.left_returns;
     EXPECT_LT((place * corner.position - map->corners()[corner.corner].position).norm(), 1e-9);
   }
   EXPECT_EQ(left, 400u);  // every return lies on the left wall of one corner
-  EXPECT_TRUE(truth.shadow_ends().empty());
+  EXPECT_TRUE(truth.occlusion_edges().empty());
 
   // The wall at the bottom spans atan(0.9 / 1.2) + atan(1.1 / 1.2) of the circle: 88.2 of 400 rays.
-  const SeenCorner* origin = corner_at(truth, place, {0, 0});
+  const CornerObservation* origin = corner_at(truth, place, {0, 0});
   ASSERT_NE(origin, nullptr);
   EXPECT_NEAR(origin->left_returns, 400 * (0.6435 + 0.7419) / core::kTwoPi, 1);
 }
@@ -92,11 +92,11 @@ TEST(CornerTruth, Returns_AreThoseThatThisTurnHas) {
   };
   CornerTruth truth(*map, kFarthest_m);
   const auto look = [&](int below, int above) {
-    truth.look(place, only(below, above).points());
+    truth.observe(place, only(below, above).points());
     return corner_at(truth, place, {2, 3});
   };
 
-  const SeenCorner* corner = look(5, 5);
+  const CornerObservation* corner = look(5, 5);
   ASSERT_NE(corner, nullptr);
   EXPECT_EQ(corner->right_returns, 5u);
   EXPECT_EQ(corner->left_returns, 5u);
@@ -119,8 +119,8 @@ TEST(CornerTruth, WrongReturns_AreOfNoWall) {
     return bearing_rad > 0 ? range_m : range_m / 2;  // all that lies to the right is something else
   });
   CornerTruth truth(*map, kFarthest_m);
-  truth.look(place, turn.points());
-  const SeenCorner* corner = corner_at(truth, place, {0, 0});
+  truth.observe(place, turn.points());
+  const CornerObservation* corner = corner_at(truth, place, {0, 0});
   ASSERT_NE(corner, nullptr);
   EXPECT_EQ(corner->left_returns, 0u);  // the wall at y = 0
   EXPECT_EQ(corner->view, CornerView::kOneSided);
@@ -135,9 +135,9 @@ TEST(CornerTruth, FarCorner_MayHaveTooFewReturns) {
   const WallMap map(plan);
   const Pose2 place{0.5, 0.5, 0};
   CornerTruth truth(map, kFarthest_m);
-  truth.look(place, perfect_scan(map, place, 400).points());  // its end: 7.6 degrees, 8.5 rays
+  truth.observe(place, perfect_scan(map, place, 400).points());  // its end: 7.6 degrees, 8.5 rays
   EXPECT_EQ(count(truth, CornerView::kSupported), 4u);
-  truth.look(place, perfect_scan(map, place, 100).points());
+  truth.observe(place, perfect_scan(map, place, 100).points());
   EXPECT_EQ(count(truth, CornerView::kSupported), 2u);
   EXPECT_EQ(count(truth, CornerView::kVisible), 2u);
 }
@@ -146,9 +146,9 @@ TEST(CornerTruth, WallOutOfReach_GivesNothing) {
   const auto map = make_room();
   const Pose2 place{0.5, 0.5, 0};
   CornerTruth truth(*map, 1.9);  // reaches the corner (2, 0), but not the one at (2, 3)
-  truth.look(place, perfect_scan(*map, place, 400).points());
+  truth.observe(place, perfect_scan(*map, place, 400).points());
   EXPECT_NE(corner_at(truth, place, {2, 0}), nullptr);
-  const SeenCorner* far_corner = corner_at(truth, place, {2, 3});
+  const CornerObservation* far_corner = corner_at(truth, place, {2, 3});
   EXPECT_TRUE(far_corner == nullptr || far_corner->view != CornerView::kSupported);
 }
 
@@ -156,10 +156,10 @@ TEST(CornerTruth, EndOfAThickWall_HasOneCornerOfTwoSidesAndOneOfOneSide) {
   const WallMap map = room_with({{{1, 0}, {1, 0.991}, 0.018}});  // stands up to y = 1
   const Pose2 place{0.4, 1.3, -2};
   CornerTruth truth(map, kFarthest_m);
-  truth.look(place, perfect_scan(map, place, 1600).points());
+  truth.observe(place, perfect_scan(map, place, 1600).points());
 
-  const SeenCorner* near_corner = corner_at(truth, place, {0.991, 1});
-  const SeenCorner* far_corner = corner_at(truth, place, {1.009, 1});
+  const CornerObservation* near_corner = corner_at(truth, place, {0.991, 1});
+  const CornerObservation* far_corner = corner_at(truth, place, {1.009, 1});
   ASSERT_NE(near_corner, nullptr);
   ASSERT_NE(far_corner, nullptr);
   // The end of 18 mm, seen under 0.0075 rad at 0.66 m: one or two of 1,600 rays.
@@ -173,9 +173,9 @@ TEST(CornerTruth, EndSeenHeadOn_HasNoCornerOfTwoSides) {
   const WallMap map = room_with({{{1, 0}, {1, 0.991}, 0.018}});
   const Pose2 place{1, 1.3, 0};
   CornerTruth truth(map, kFarthest_m);
-  truth.look(place, perfect_scan(map, place, 1600).points());
+  truth.observe(place, perfect_scan(map, place, 1600).points());
   for (const double x : {0.991, 1.009}) {
-    const SeenCorner* corner = corner_at(truth, place, {x, 1});
+    const CornerObservation* corner = corner_at(truth, place, {x, 1});
     ASSERT_NE(corner, nullptr);
     EXPECT_EQ(corner->view, CornerView::kOneSided);
   }
@@ -185,8 +185,8 @@ TEST(CornerTruth, CornerBehindAWall_IsHiddenThoughBothItsWallsAreSeen) {
   const WallMap map = room_with({{{1.6, 2.4}, {1.4, 2.6}, 0}});  // before the corner at (2, 3)
   const Pose2 place{1, 2, 0};
   CornerTruth truth(map, kFarthest_m);
-  truth.look(place, perfect_scan(map, place, 800).points());
-  const SeenCorner* corner = corner_at(truth, place, {2, 3});
+  truth.observe(place, perfect_scan(map, place, 800).points());
+  const CornerObservation* corner = corner_at(truth, place, {2, 3});
   ASSERT_NE(corner, nullptr);
   EXPECT_GE(std::min(corner->left_returns, corner->right_returns), kSupportReturns);
   EXPECT_EQ(corner->view, CornerView::kHidden);
@@ -199,7 +199,7 @@ TEST(CornerTruth, RoomBehindAWall_IsNotThere) {
   const WallMap map(plan);
   const Pose2 place{1, 1, 0};
   CornerTruth truth(map, kFarthest_m);
-  truth.look(place, perfect_scan(map, place, 800).points());
+  truth.observe(place, perfect_scan(map, place, 800).points());
   EXPECT_EQ(corner_at(truth, place, {5, 3}), nullptr);
   EXPECT_EQ(truth.corners().size(), 4u);
 }
@@ -208,11 +208,11 @@ TEST(CornerTruth, WallThatHidesAnother_CastsAShadowOnIt) {
   const WallMap map = room_with({{{0.8, 2}, {1.2, 2}, 0}});
   const Pose2 place{1, 1, 0.3};
   CornerTruth truth(map, kFarthest_m);
-  truth.look(place, perfect_scan(map, place, 3600).points());
+  truth.observe(place, perfect_scan(map, place, 3600).points());
   // Seen from (1, 1) the piece at y = 2 hides x = 0.6 to 1.4 of the wall at y = 3.
-  ASSERT_EQ(truth.shadow_ends().size(), 2u);
+  ASSERT_EQ(truth.occlusion_edges().size(), 2u);
   std::vector<double> ends;
-  for (const Vec2& end : truth.shadow_ends()) {
+  for (const Vec2& end : truth.occlusion_edges()) {
     EXPECT_NEAR((place * end).y(), 3, 1e-6);
     ends.push_back((place * end).x());
   }
@@ -227,8 +227,8 @@ TEST(CornerTruth, WallThatMeetsAnotherInItsMiddle_SplitsItsReturns) {
   const WallMap map = room_with({{{1, 3}, {1, 2}, 0}});
   const Pose2 place{0.5, 2.5, 0};
   CornerTruth truth(map, kFarthest_m);
-  truth.look(place, perfect_scan(map, place, 720).points());
-  const SeenCorner* corner = corner_at(truth, place, {1, 3});
+  truth.observe(place, perfect_scan(map, place, 720).points());
+  const CornerObservation* corner = corner_at(truth, place, {1, 3});
   ASSERT_NE(corner, nullptr);
   EXPECT_EQ(corner->view, CornerView::kSupported);
   // Of the wall at y = 3 only the half on this side: 90 degrees of the circle.
@@ -238,9 +238,9 @@ TEST(CornerTruth, WallThatMeetsAnotherInItsMiddle_SplitsItsReturns) {
 TEST(CornerTruth, EmptyTurn_ShowsNothing) {
   const auto map = make_room();
   CornerTruth truth(*map, kFarthest_m);
-  truth.look({1, 1, 0}, {});
+  truth.observe({1, 1, 0}, {});
   EXPECT_TRUE(truth.corners().empty());
-  EXPECT_TRUE(truth.shadow_ends().empty());
+  EXPECT_TRUE(truth.occlusion_edges().empty());
 }
 
 }  // namespace

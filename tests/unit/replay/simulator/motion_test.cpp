@@ -49,13 +49,13 @@ TEST(DrivePath, NoWayToGo_IsRefused) {
 }
 
 TEST(VisitPlaces, Place_ChangesWithTheTurn) {
-  const Motion motion = visit_places({{1, 0, 0}, {2, 0, 0}, {3, 0, 0}}, 2);
+  const Motion motion = visit_poses({{1, 0, 0}, {2, 0, 0}, {3, 0, 0}}, 2);
   EXPECT_EQ(motion(0, -1).x_m, 1);
   EXPECT_EQ(motion(0, 1).x_m, 1);
   EXPECT_EQ(motion(0, 2).x_m, 2);
   EXPECT_EQ(motion(0, 5).x_m, 3);
   EXPECT_EQ(motion(0, 99).x_m, 3);
-  EXPECT_THROW(visit_places({}, 2), std::invalid_argument);
+  EXPECT_THROW(visit_poses({}, 2), std::invalid_argument);
 }
 
 TEST(DrivePath, WithAcceleration_GoesOffAndStopsGently) {

@@ -101,7 +101,7 @@ TEST_P(RoundTrip, CleanStream_CountsNothingAsThrownAway) {
 
 TEST_P(RoundTrip, SampleTimes_AreThoseOfTheMeasurement) {
   // Known to a sample period: whether a packet leaves at once after its last sample is not known.
-  const core::TimeNs tolerance_ns = 2 * usual_sample_period_ns(GetParam());
+  const core::TimeNs tolerance_ns = 2 * nominal_sample_period_ns(GetParam());
   ASSERT_EQ(timed_.size(), received_.size());
   for (std::size_t i = timed_.size() / 2; i < timed_.size(); ++i) {
     ASSERT_NEAR(static_cast<double>(timed_[i].t_ns - sent_[i].t_ns), 0,

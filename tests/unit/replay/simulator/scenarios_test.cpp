@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "replay/simulator/scenarios.hpp"
+#include "replay/simulator/motion.hpp"
 
 #include <gtest/gtest.h>
 
-#include "replay/simulator/motion.hpp"
-#include "replay/simulator/places.hpp"
+#include "replay/simulator/random_poses.hpp"
 #include "settings/map_file.hpp"
 
 namespace cornerd::replay {

@@ -56,7 +56,7 @@ TEST(SimulatedOdometry, ExactRobot_EndsWhereItIs) {
 TEST(SimulatedOdometry, CountsThatWrap_ChangeNothing) {
   RobotModel wide = exact_robot();
   RobotModel narrow = exact_robot();
-  narrow.geometry.ceiling = 999;
+  narrow.geometry.counter_max = 999;
   const core::Pose2 a = reckoned(wide, core::HeadingSource::kEncoder, 20);
   const core::Pose2 b = reckoned(narrow, core::HeadingSource::kEncoder, 20);
   EXPECT_NEAR(a.x_m, b.x_m, 1e-9);

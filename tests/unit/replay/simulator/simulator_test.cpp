@@ -79,7 +79,7 @@ TEST_P(SimulatorOfEveryFormat, SampleTimes_AreOnePeriodApartAcrossPackets) {
     const WirePacket packet = simulator.next();
     for (const SimulatedSample& sample : packet.samples) {
       EXPECT_EQ(sample.t_ns, expected_ns);
-      expected_ns += usual_sample_period_ns(GetParam());
+      expected_ns += nominal_sample_period_ns(GetParam());
     }
     EXPECT_GE(packet.ready_ns, expected_ns);
   }

@@ -30,7 +30,7 @@ class CheckDaemon : public testing::Test {
 };
 
 TEST_F(CheckDaemon, RunningLidar_IsGood) {
-  message::ToldStatus& status = *daemon().status;
+  message::ParsedStatus& status = *daemon().status;
   status.lidar_model = "A1M8";
   status.lidar_firmware = "1.29";
   status.lidar_health = "good";
@@ -43,7 +43,7 @@ TEST_F(CheckDaemon, RunningLidar_IsGood) {
 }
 
 TEST_F(CheckDaemon, FaultOfTheLidar_IsToldInTheDaemonsWords) {
-  message::ToldStatus& status = *daemon().status;
+  message::ParsedStatus& status = *daemon().status;
   status.lidar_state = "faulty";
   status.lidar_fault = "dead-laser";
   status.lidar_detail = "/dev/rplidar: its head turns, but nothing returns";
@@ -53,7 +53,7 @@ TEST_F(CheckDaemon, FaultOfTheLidar_IsToldInTheDaemonsWords) {
 }
 
 TEST_F(CheckDaemon, AdviceToAskDoctor_IsLeftOut) {
-  message::ToldStatus& status = *daemon().status;
+  message::ParsedStatus& status = *daemon().status;
   status.lidar_state = "opening";
   status.lidar_detail = "/dev/rplidar: held; waiting for it. `sudo cornerctl doctor` says by whom";
   EXPECT_EQ(check_daemon(stand_in_.patient)[1].what, "opening: /dev/rplidar: held; waiting for it");

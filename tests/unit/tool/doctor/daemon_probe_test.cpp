@@ -16,7 +16,7 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr const char* kGreeting =
-    "{\"class\":\"VERSION\",\"program\":\"cornerd\",\"version\":\"1.2.3\",\"schema\":1}\n"
+    "{\"class\":\"VERSION\",\"program\":\"cornerd\",\"version\":\"1.2.3\",\"schema\":2}\n"
     "{\"class\":\"STATUS\",\"t\":1,\"lidar\":{\"state\":\"running\"}}\nnonsense\n";
 
 TEST(ProbeDaemon, WhatItSays_IsCounted) {

@@ -85,8 +85,8 @@ TEST_F(AdviceTest, SensorsLineAndMessages_ComeLast) {
   expect(Style::kDoubt, "3.0 % of the lidar's bytes were damaged", "cable");
   hear(status_line(R"("state":"running")",
                    R"(,"odometry":{"state":"running","sensors":{"gyro":{"state":"running"},)"
-                   R"("left":{"state":"frozen","detail":"does it turn?"}}})"));
-  expect(Style::kDoubt, "odometry: left is frozen", "does it turn?");
+                   R"("left":{"state":"stuck","detail":"does it turn?"}}})"));
+  expect(Style::kDoubt, "odometry: left is stuck", "does it turn?");
   hear(status_line(R"("state":"running")",
                    R"(,"odometry":{"state":"absent","hint":"lines lack left"})"));
   expect(Style::kDoubt, "odometry: lines lack left", "doctor");

@@ -7,7 +7,7 @@
 namespace cornerd::tool {
 
 inline const std::string kVersionLine =
-    R"({"class":"VERSION","program":"cornerd","version":"1.2.3","schema":1})";
+    R"({"class":"VERSION","program":"cornerd","version":"1.2.3","schema":2})";
 
 inline std::string status_line(const std::string& lidar = R"("state":"running")",
                                const std::string& rest = "") {

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+#include "replay/simulator/random_poses.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <stdexcept>
+
+#include "replay/simulator/random.hpp"
+
+namespace cornerd::replay {
+
+namespace {
+
+/// Looks in this many directions; one that leaves the map without meeting a wall means outside.
+constexpr int kDirections = 64;
+/// Share of the map's bounding box that must be usable, or the search gives up.
+constexpr double kMinUsableShare = 1e-4;
+
+bool has_walls_on_all_sides(const core::WallMap& map, const core::Vec2& point) {
+  const double diagonal_m = (map.upper_right() - map.lower_left()).norm();
+  for (int i = 0; i < kDirections; ++i) {
+    if (map.range_along(point, core::kTwoPi * i / kDirections, diagonal_m) <= 0) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+bool is_indoors(const core::WallMap& map, const core::Vec2& point) {
+  return !map.is_solid(point) && (map.room_at(point) || has_walls_on_all_sides(map, point));
+}
+
+double clearance_at(const core::WallMap& map, const core::Vec2& point) {
+  double nearest_m = std::numeric_limits<double>::infinity();
+  for (const core::Face& face : map.faces()) {
+    const double along_m = std::clamp((point - face.from).dot(face.direction), 0.0, face.length_m);
+    nearest_m = std::min(nearest_m, (face.from + along_m * face.direction - point).norm());
+  }
+  return nearest_m;
+}
+
+std::vector<core::Pose2> random_poses(const core::WallMap& map, std::size_t count,
+                                       double clearance_m, std::uint64_t seed) {
+  Random random(seed);
+  std::vector<core::Pose2> places;
+  const auto max_tries =
+      static_cast<std::size_t>(static_cast<double>(count + 1) / kMinUsableShare);
+  for (std::size_t tries = 0; places.size() < count; ++tries) {
+    if (tries == max_tries) {
+      throw std::runtime_error("the map has no room for a robot with that clearance");
+    }
+    const double x_m = random.uniform(map.lower_left().x(), map.upper_right().x());
+    const double y_m = random.uniform(map.lower_left().y(), map.upper_right().y());
+    const double theta_rad = random.uniform(-core::kPi, core::kPi);
+    const core::Vec2 point(x_m, y_m);
+    if (clearance_at(map, point) < clearance_m || !is_indoors(map, point)) continue;
+    places.push_back({x_m, y_m, theta_rad});
+  }
+  return places;
+}
+
+}  // namespace cornerd::replay

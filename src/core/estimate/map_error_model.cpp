@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+#include "core/estimate/map_error_model.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/geometry/squared.hpp"
+
+namespace cornerd::core {
+namespace {
+
+/// Moments of Tukey's biweight cut at four sigma, for normal residuals: the variance of the
+/// weighted sum of distances, and the derivative of that sum by the face's own displacement, both
+/// divided by the sum of the weights. E[(1 - z^2/16)^4 z^2] = 0.513 and E[(1 - z^2/16) (1 - 5
+/// z^2/16)] = 0.684 over E[(1 - z^2/16)^2] = 0.887.
+constexpr double kNoiseShare = 0.579;
+constexpr double kShiftShare = 0.771;
+
+/// Exponential forgetting with each scan: three seconds.
+constexpr double kRetained = 0.95;
+
+}  // namespace
+
+FaceResidualStatistics face_residual_statistics(std::span<FaceResidual> residuals,
+                                                const Covariance3& covariance) {
+  std::sort(
+      residuals.begin(), residuals.end(),
+      [](const FaceResidual& one, const FaceResidual& other) { return one.face < other.face; });
+  FaceResidualStatistics statistics;
+  Covariance3 squared_gradients = Covariance3::Zero();
+  for (std::size_t begin = 0, end = 0; begin < residuals.size(); begin = end) {
+    FaceResidual sum = residuals[begin];
+    for (end = begin + 1; end < residuals.size() && residuals[end].face == sum.face; ++end) {
+      sum.weight += residuals[end].weight;
+      sum.lever += residuals[end].lever;
+      sum.distance += residuals[end].distance;
+    }
+    if (!(sum.weight > 0)) continue;
+    const Eigen::Vector3d gradient(sum.weight * sum.normal.x(), sum.weight * sum.normal.y(),
+                                   sum.lever);
+    // Leverage of the face: the share of its displacement that the pose absorbs.
+    const double leverage = gradient.dot(covariance * gradient) / sum.weight;
+    const double noise = kNoiseShare * (1 - leverage);
+    statistics.excess += squared(sum.distance) / sum.weight - noise;
+    statistics.excess_variance += 2 * squared(noise);
+    statistics.excess_per_variance += squared(kShiftShare) * sum.weight * (1 - leverage);
+    squared_gradients += gradient * gradient.transpose();
+  }
+  statistics.covariance_per_variance = covariance * squared_gradients * covariance;
+  return statistics;
+}
+
+void MapErrorModel::add(const FaceResidualStatistics& statistics) {
+  excess_ = kRetained * excess_ + statistics.excess;
+  excess_variance_ = squared(kRetained) * excess_variance_ + statistics.excess_variance;
+  excess_per_variance_ = kRetained * excess_per_variance_ + statistics.excess_per_variance;
+}
+
+double MapErrorModel::variance() const {
+  // Without this margin half of all scans show some excess by chance.
+  const double excess = excess_ - std::sqrt(excess_variance_);
+  return excess > 0 && excess_per_variance_ > 0 ? excess / excess_per_variance_ : 0;
+}
+
+Covariance3 MapErrorModel::pose_covariance(const FaceResidualStatistics& statistics) const {
+  return variance() * statistics.covariance_per_variance;
+}
+
+}  // namespace cornerd::core

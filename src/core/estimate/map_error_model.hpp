@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "core/geometry/pose2.hpp"
+
+namespace cornerd::core {
+
+/// The residual of one face: sums over its points.
+struct FaceResidual {
+  std::uint32_t face = 0;
+  Vec2 normal;
+  double weight = 0;    ///< 1/m^2, sum of the biweights
+  double lever = 0;     ///< weighted sum of d(distance)/d(theta), m
+  double distance = 0;  ///< weighted sum of the distances in front of the face, m
+};
+
+/// What a refined scan shows of faces that are displaced from the map. All points of such a face
+/// are off together, so that no number of points averages the error out. Causes: hand-measured
+/// walls, an unknown range bias, motion distortion.
+struct FaceResidualStatistics {
+  double excess = 0;               ///< of the faces' mean squared distances over the points' noise
+  double excess_variance = 0;      ///< variance of `excess` where no face is displaced
+  double excess_per_variance = 0;  ///< expected excess per m^2 of the faces' variance
+  /// Pose covariance (x, y, theta) per m^2 of the faces' variance.
+  Covariance3 covariance_per_variance = Covariance3::Zero();
+};
+
+/// `residuals`: at the refined pose; sorted in place. `covariance`: of that pose by the points'
+/// noise alone.
+FaceResidualStatistics face_residual_statistics(std::span<FaceResidual> residuals,
+                                                const Covariance3& covariance);
+
+/// Map error model: the variance of the faces' positions, averaged over the last scans since one
+/// scan sees too few faces.
+class MapErrorModel {
+ public:
+  void add(const FaceResidualStatistics& statistics);
+  /// To be added to the covariance of a pose with these residuals.
+  Covariance3 pose_covariance(const FaceResidualStatistics& statistics) const;
+  double variance() const;
+  void forget() { *this = {}; }
+
+ private:
+  double excess_ = 0;  ///< sums over the scans, with exponential forgetting
+  double excess_variance_ = 0;
+  double excess_per_variance_ = 0;
+};
+
+}  // namespace cornerd::core

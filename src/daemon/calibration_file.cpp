@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: MIT
+#include "daemon/calibration_file.hpp"
+
+#include <spdlog/spdlog.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <system_error>
+#include <utility>
+
+#include "daemon/replace_file.hpp"
+#include "settings/document.hpp"
+
+namespace cornerd::daemon {
+namespace {
+
+/// Fewer turns tell less than what an A1 may be off by.
+constexpr std::size_t kMinScans = 20;
+/// News is what differs by this share of its sigma, or is so much better estimate.
+constexpr double kMinChangeSigmas = 0.5;
+constexpr double kMinSigmaRatio = 0.7;
+
+constexpr double core::SensorBias::*kParts[] = {
+    &core::SensorBias::range_scale, &core::SensorBias::range_offset_m,
+    &core::SensorBias::bearing_sine_rad, &core::SensorBias::bearing_cosine_rad};
+
+/// True for a file of its kind, or what a power cut or a failing disk left of one: the beginning,
+/// nothing, or zeros.
+bool is_own(std::string_view text) {
+  if (text.find_first_not_of('\0') == std::string_view::npos) return true;
+  const std::string all = settings::text_of({});
+  const std::string_view begin = std::string_view(all).substr(0, all.find('\n', 2));
+  return text.substr(0, begin.size()) == begin.substr(0, text.size());
+}
+
+bool is_json(std::string_view text) {
+  return settings::Json::accept(text, /*ignore_comments=*/true);
+}
+
+}  // namespace
+
+std::filesystem::path calibration_file_path(const settings::LidarConfig& config) {
+  if (config.driver == settings::DriverKind::kReplay) return {};
+  if (!config.learned_file.empty()) return config.learned_file;
+  const char* const folder = std::getenv("STATE_DIRECTORY");
+  if (folder == nullptr || *folder == '\0') return {};
+  return std::filesystem::path(folder) / "lidar.json";
+}
+
+CalibrationFile::CalibrationFile(const std::filesystem::path& file, const core::SensorBias& configured) {
+  content_.configured = configured;
+  if (file.empty()) return;
+  // Where it is a link, what it leads to is replaced, not the link.
+  std::error_code unresolved;
+  file_ = std::filesystem::weakly_canonical(file, unresolved);
+  if (unresolved) file_ = file;
+  load();
+}
+
+void CalibrationFile::load() {
+  using std::filesystem::file_type;
+  std::error_code unread;
+  const file_type type = std::filesystem::status(file_, unread).type();
+  if (type == file_type::not_found) return;
+  const auto leave_alone = [this](std::string_view why) {
+    spdlog::warn("{}; what is learnt of the lidar is not kept", why);
+    file_.clear();
+  };
+  if (type != file_type::regular) return leave_alone(file_.string() + ": is no ordinary file");
+  std::string text;
+  try {
+    text =
+        settings::read_file(file_, settings::kMaxLearnedLidarBytes, settings::FileKind::kOrdinary);
+  } catch (const std::exception& error) {
+    return leave_alone(error.what());
+  }
+  try {
+    settings::LearnedLidar found = settings::parse_learned_lidar(text, file_);
+    if (found.configured != content_.configured) {
+      spdlog::info("{}: learnt under another /lidar/bias, and not used", file_.string());
+      return;
+    }
+    content_ = std::move(found);
+    written_ = content_.learned;
+    spdlog::info("the lidar's bias is known from {} turns before", written_.scans);
+  } catch (const std::exception& error) {
+    if (!is_own(text)) {
+      // Somebody's settings or map, given by mistake, stay where they are.
+      if (is_json(text)) return leave_alone(error.what());
+      const std::filesystem::path aside = file_.string() + ".bad";
+      std::error_code failed;
+      std::filesystem::rename(file_, aside, failed);
+      if (failed) return leave_alone(error.what());
+      return spdlog::warn("{}; it is {} now, and the lidar is learnt anew", error.what(),
+                          aside.string());
+    }
+    spdlog::warn("what was learnt of the lidar is not used: {}", error.what());
+  }
+}
+
+bool CalibrationFile::identify(std::string_view serial) {
+  if (serial.empty() || serial == content_.serial) return true;
+  const bool is_another = !content_.serial.empty();
+  content_.serial = serial;
+  if (is_another) content_.learned = written_ = {};
+  return !is_another;
+}
+
+bool CalibrationFile::reconfigure(const core::SensorBias& configured) {
+  if (configured == content_.configured) return true;
+  content_.configured = configured;
+  content_.learned = written_ = {};
+  return false;
+}
+
+bool CalibrationFile::is_significant() const {
+  if (written_.scans == 0) return true;
+  for (const auto part : kParts) {
+    const double sigma = written_.sigma.*part;
+    if (std::abs(content_.learned.bias.*part - written_.bias.*part) > kMinChangeSigmas * sigma)
+      return true;
+    if (content_.learned.sigma.*part < kMinSigmaRatio * sigma) return true;
+  }
+  return false;
+}
+
+void CalibrationFile::update(const core::EstimatedBias& learned) {
+  if (learned.scans <= content_.learned.scans) return;
+  content_.learned = learned;
+  if (file_.empty() || learned.scans < kMinScans || !is_significant()) return;
+  try {
+    replace_file(file_, settings::text_of(content_));
+    written_ = learned;
+  } catch (const std::exception& error) {
+    if (!has_warned_) spdlog::warn("what was learnt of the lidar is not kept: {}", error.what());
+    has_warned_ = true;
+  }
+}
+
+}  // namespace cornerd::daemon

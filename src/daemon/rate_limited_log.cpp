@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+#include "daemon/rate_limited_log.hpp"
+
+#include <spdlog/spdlog.h>
+
+#include "core/types.hpp"
+
+namespace cornerd::daemon {
+namespace {
+
+constexpr std::int64_t kPeriodNs = 10 * core::kNsPerSecond;
+
+}  // namespace
+
+void RateLimitedLog::add(const std::string& text, std::int64_t now_ns) {
+  flush(now_ns);
+  if (logged_ns_ && now_ns - *logged_ns_ < kPeriodNs) {
+    ++suppressed_;
+    last_ = text;
+    return;
+  }
+  logged_ns_ = now_ns;
+  spdlog::log(level_, "{}: {}", what_, text);
+}
+
+void RateLimitedLog::flush(std::int64_t now_ns) {
+  if (suppressed_ == 0 || now_ns - *logged_ns_ < kPeriodNs) return;
+  logged_ns_ = now_ns;
+  spdlog::log(level_, "{}: {} more, the last {}", what_, suppressed_, last_);
+  suppressed_ = 0;
+}
+
+}  // namespace cornerd::daemon

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: MIT
+#include "message/odometry_input_monitor.hpp"
+
+namespace cornerd::message {
+namespace {
+
+/// Length of an evaluated interval. STATUS may be published twice in a shorter time.
+constexpr core::TimeNs kMinInterval_ns = core::kNsPerSecond * 9 / 10;
+
+}  // namespace
+
+void OdometryInputMonitor::add(const core::OdometryReading& reading) {
+  ++lines_.all;
+  lines_.rates += reading.gyro_rad_s ? 1 : 0;
+  if (reading.left && reading.right) {
+    ++lines_.both;
+  } else if (reading.left) {
+    ++lines_.left;
+  } else if (reading.right) {
+    ++lines_.right;
+  } else if (reading.gyro_rad_s) {
+    ++lines_.gyro;
+  }
+}
+
+std::string_view OdometryInputMonitor::hint(const core::OdometrySummary& summary,
+                                            core::TimeNs t_ns) {
+  if (!evaluated_ns_ || t_ns < *evaluated_ns_) evaluated_ns_ = t_ns;
+  if (t_ns - *evaluated_ns_ >= kMinInterval_ns) {
+    hint_ = diagnose(summary.counters);
+    rejected_ = find_rejected(summary.counters);
+    evaluated_ns_ = t_ns;
+    counters_ = summary.counters;
+    lines_ = {};
+  }
+  return summary.present ? std::string_view() : hint_;
+}
+
+std::string_view OdometryInputMonitor::diagnose(const core::OdometryCounters& counters) const {
+  if (lines_.all == 0)
+    return "no ODOMETRY line arrives: start the program that sends encoder counts to the control "
+           "socket";
+  if (lines_.both == 0) {
+    if (lines_.left > 0 && lines_.right > 0) {
+      return "ODOMETRY lines have left or right: send both counts in one line";
+    }
+    if (lines_.left > 0) return "ODOMETRY lines lack right: send both counts in one line";
+    if (lines_.right > 0) return "ODOMETRY lines lack left: send both counts in one line";
+    if (lines_.gyro > 0)
+      return "ODOMETRY lines lack left and right: a gyro does not measure distance, send encoder "
+             "counts too";
+    return "ODOMETRY lines lack left, right and gyro: send encoder counts";
+  }
+  const std::uint64_t half = lines_.all / 2;
+  if (counters.future - counters_.future > half) {
+    return "t of ODOMETRY lines is ahead of the lidar's clock: send UNIX time in seconds, or no t";
+  }
+  if (counters.past - counters_.past > half) {
+    return "t of ODOMETRY lines is behind the lidar's clock: send UNIX time in seconds, or no t";
+  }
+  if (counters.jumps - counters_.jumps > half) {
+    return "counts of ODOMETRY lines jump by more than /advanced/odometry/max_speed allows: check "
+           "the encoders, counts_per_turn and wheel_radius";
+  }
+  return {};
+}
+
+OdometryInputMonitor::Rejected OdometryInputMonitor::find_rejected(
+    const core::OdometryCounters& counters) const {
+  // A new pipeline, after a reload, counts from 0.
+  const auto since = [&](auto member) {
+    return counters.*member < counters_.*member ? 0 : counters.*member - counters_.*member;
+  };
+  const std::uint64_t wrong_time =
+      since(&core::OdometryCounters::past) + since(&core::OdometryCounters::future);
+  const auto is_most = [](std::uint64_t rejected, std::uint64_t lines) {
+    return lines > 0 && rejected > lines / 2;
+  };
+  const bool all = is_most(wrong_time, lines_.all);
+  return {.counts = all || is_most(since(&core::OdometryCounters::jumps), lines_.both),
+          .gyro = all || is_most(since(&core::OdometryCounters::invalid_rates), lines_.rates)};
+}
+
+}  // namespace cornerd::message

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: MIT
+#include "core/estimate/map_error_model.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include <Eigen/LU>
+
+#include "../fixtures.hpp"
+#include "core/estimate/refinement.hpp"
+
+namespace cornerd::core {
+namespace {
+
+class WallDoubtTest : public ::testing::Test {
+ protected:
+  /// Turns in a room each of whose walls is off the map by this standard deviation, across itself.
+  void take_turns(double sigma_m, std::uint64_t seed) {
+    FloorPlan plan = testing::l_shaped_room();
+    std::mt19937_64 random(seed);
+    std::normal_distribution<double> off_m(0, sigma_m);
+    for (Wall& wall : plan.walls) {
+      const Vec2 across = off_m(random) * rotate_left((wall.to - wall.from).normalized());
+      wall.from += across;
+      wall.to += across;
+    }
+    const auto building = testing::make_map(plan);
+    for (int scan = 0; scan < kScans; ++scan) {
+      const Pose2 T_map_lidar = source_.place_in(0.5, 2.2, 0.4, 1.5);
+      const PolarScan points = testing::polar(source_.take(*building, T_map_lidar));
+      const RefinedPose refined =
+          refinement_.refine(*map_, T_map_lidar, 0.05, points.points(), points.points(), 1);
+      ASSERT_TRUE(refined.valid);
+      doubt_.add(refined.face_residuals);
+      const Eigen::Vector3d error(
+          refined.T_map_lidar.x_m - T_map_lidar.x_m, refined.T_map_lidar.y_m - T_map_lidar.y_m,
+          angle_between(T_map_lidar.theta_rad, refined.T_map_lidar.theta_rad));
+      const Covariance3 told = refined.covariance + doubt_.doubt_of(refined.face_residuals);
+      nees_with_ += error.dot(told.inverse() * error);
+      nees_without_ += error.dot(refined.covariance.inverse() * error);
+      variance_m2_ += doubt_.variance();
+      ++count_;
+    }
+    doubt_.forget();
+  }
+  double sigma_m() const { return std::sqrt(variance_m2_ / count_); }
+
+  static constexpr int kScans = 40;
+  std::shared_ptr<const WallMap> map_ = testing::make_map(testing::l_shaped_room());
+  Refinement refinement_{12, {}};
+  testing::ScanSource source_{8};
+  MapErrorModel doubt_;
+  double nees_with_ = 0;
+  double nees_without_ = 0;
+  double variance_m2_ = 0;
+  int count_ = 0;
+};
+
+TEST_F(WallDoubtTest, WallsThatAreWhereTheMapHasThem_AreNotDoubted) {
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) take_turns(0, seed);
+  EXPECT_LT(sigma_m(), 0.0006);
+  EXPECT_GT(nees_with_ / count_, 2.4);  // 3 where it is exact
+}
+
+TEST_F(WallDoubtTest, WallsThatAreOff_MakeThePoseAsUnsure) {
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) take_turns(0.004, seed);
+  EXPECT_NEAR(sigma_m(), 0.004, 0.0015);
+  EXPECT_LT(nees_with_ / count_, 6);
+  EXPECT_GT(nees_without_ / count_, 20);
+}
+
+TEST_F(WallDoubtTest, ATurnThatSeesNothing_AddsNothing) {
+  const FaceResidualStatistics nothing = face_residual_statistics({}, Covariance3::Identity());
+  doubt_.add(nothing);
+  EXPECT_EQ(doubt_.variance(), 0);
+  EXPECT_TRUE(doubt_.doubt_of(nothing).isZero());
+}
+
+}  // namespace
+}  // namespace cornerd::core

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: MIT
+#include "message/odometry_input_monitor.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+#include <utility>
+
+namespace cornerd::message {
+namespace {
+
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+class OdometryInputMonitorTest : public ::testing::Test {
+ protected:
+  OdometryInputMonitorTest() {
+    summary_.enabled = true;
+    static_cast<void>(hint());
+  }
+  void add(const core::OdometryReading& reading, int times = 50) {
+    for (int i = 0; i < times; ++i) monitor_.add(reading);
+  }
+  /// The hint one second later.
+  std::string hint() {
+    t_ns_ += core::kNsPerSecond;
+    return std::string(monitor_.hint(summary_, t_ns_));
+  }
+
+  OdometryInputMonitor monitor_;
+  core::OdometrySummary summary_;
+  core::TimeNs t_ns_ = 0;
+};
+
+TEST_F(OdometryInputMonitorTest, MissingFields_NamedInHint) {
+  EXPECT_THAT(hint(), HasSubstr("no ODOMETRY line"));
+  add({0, {}, {}, 0.1});
+  EXPECT_THAT(hint(), HasSubstr("lack left and right: a gyro"));
+  add({0, 1, {}, 0.1});
+  EXPECT_THAT(hint(), HasSubstr("lack right"));
+  add({0, {}, 1, {}});
+  EXPECT_THAT(hint(), HasSubstr("lack left:"));
+  add({0, 1, {}, {}});
+  add({0, {}, 1, {}});
+  EXPECT_THAT(hint(), HasSubstr("left or right: send both counts in one line"));
+  add({});
+  EXPECT_THAT(hint(), HasSubstr("lack left, right and gyro"));
+}
+
+TEST_F(OdometryInputMonitorTest, RejectedLines_CauseInHint) {
+  add({0, 1, 1, {}});
+  EXPECT_THAT(hint(), IsEmpty());
+  add({0, 1, 1, {}});
+  summary_.counters.future += 40;
+  EXPECT_THAT(hint(), HasSubstr("ahead of the lidar's"));
+  add({0, 1, 1, {}});
+  summary_.counters.past += 40;
+  EXPECT_THAT(hint(), HasSubstr("behind the lidar's"));
+  add({0, 1, 1, {}});
+  summary_.counters.jumps += 40;
+  EXPECT_THAT(hint(), HasSubstr("/odometry/max_speed"));
+}
+
+TEST_F(OdometryInputMonitorTest, MostValuesRejected_Reported) {
+  const auto counts_and_gyro = [&](int past, int jumps, int gyro) {
+    add({0, 1, 1, 0.1});
+    summary_.counters.past += past;
+    summary_.counters.jumps += jumps;
+    summary_.counters.invalid_rates += gyro;
+    static_cast<void>(hint());
+    return std::pair(monitor_.rejected().counts, monitor_.rejected().gyro);
+  };
+  EXPECT_EQ(counts_and_gyro(20, 20, 20), std::pair(false, false));
+  EXPECT_EQ(counts_and_gyro(40, 0, 0), std::pair(true, true));
+  EXPECT_EQ(counts_and_gyro(0, 40, 0), std::pair(true, false));
+  EXPECT_EQ(counts_and_gyro(0, 0, 40), std::pair(false, true));
+  static_cast<void>(hint());
+  EXPECT_FALSE(monitor_.rejected().counts) << "no lines arrive";
+  summary_.counters = {};
+  EXPECT_EQ(counts_and_gyro(0, 0, 0), std::pair(false, false)) << "counters were reset";
+}
+
+TEST_F(OdometryInputMonitorTest, OdometryPresent_NoHint) {
+  summary_.present = true;
+  add({0, {}, {}, 0.1});
+  EXPECT_THAT(hint(), IsEmpty());
+}
+
+TEST_F(OdometryInputMonitorTest, TwoCallsWithinInterval_SameHint) {
+  add({0, {}, 1, {}});
+  const std::string first = hint();
+  EXPECT_EQ(monitor_.hint(summary_, t_ns_ + 1000), first);
+  EXPECT_EQ(monitor_.hint(summary_, t_ns_ - core::kNsPerSecond), first) << "the clock was set back";
+}
+
+}  // namespace
+}  // namespace cornerd::message
