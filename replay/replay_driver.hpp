@@ -4,8 +4,8 @@
 #include <filesystem>
 #include <stop_token>
 
-#include "core/triple_buffer.hpp"
 #include "core/ring_buffer.hpp"
+#include "core/triple_buffer.hpp"
 #include "drivers/lidar_driver.hpp"
 #include "replay/recording.hpp"
 

@@ -6,20 +6,12 @@
 #include "core/odometry/odometry_config.hpp"
 #include "core/triple_buffer.hpp"
 #include "drivers/clock.hpp"
+#include "drivers/config/kernel_odometry_config.hpp"
 #include "drivers/odometry/kernel_sensors.hpp"
 #include "drivers/odometry/odometry_driver.hpp"
 #include "drivers/odometry/stuck_detector.hpp"
 
 namespace cornerd::drivers {
-
-struct KernelOdometryConfig {
-  std::filesystem::path sysfs = "/sys";
-  EncoderConfig left;
-  EncoderConfig right;
-  GyroConfig gyro;
-  double rate_hz = 50;
-  core::DriveGeometry geometry;  ///< for StuckDetector
-};
 
 /// Polls wheel encoders and a gyro through the kernel's drivers; see README.md beside this file. It
 /// polls because Debian 12's eQEP driver has no events, and IIO buffers need more rights than

@@ -8,6 +8,7 @@
 #include <string>
 #include <string_view>
 
+#include "drivers/config/kernel_odometry_config.hpp"
 #include "drivers/odometry/odometry_driver.hpp"
 #include "drivers/odometry/sysfs.hpp"
 
@@ -41,12 +42,6 @@ class KernelSensor {
   std::uint64_t invalid_values_ = 0;
 };
 
-struct EncoderConfig {
-  std::string counter;    ///< the device's name, e.g. "48300180.counter"
-  int count = 0;          ///< index of the count within the device
-  bool reversed = false;  ///< counts down when the robot rolls forward
-};
-
 /// A wheel encoder of the kernel's counter subsystem.
 class Encoder : public KernelSensor {
  public:
@@ -74,12 +69,6 @@ class Encoder : public KernelSensor {
   std::optional<std::int64_t> last_;
   std::int64_t total_ = 0;
   std::uint64_t wraps_ = 0;
-};
-
-struct GyroConfig {
-  std::string device;     ///< name or label, e.g. "mpu6050"; empty: no gyro
-  char axis = 'z';        ///< the vertical one
-  bool reversed = false;  ///< the axis points down
 };
 
 /// A gyro of the kernel's industrial I/O subsystem.

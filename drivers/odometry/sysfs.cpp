@@ -13,7 +13,6 @@
 #include <vector>
 
 namespace cornerd::drivers {
-
 namespace {
 
 template <typename Number, typename... Format>

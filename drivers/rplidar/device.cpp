@@ -4,7 +4,6 @@
 #include <algorithm>
 
 namespace cornerd::rplidar {
-
 namespace {
 
 using std::chrono::milliseconds;

@@ -24,14 +24,14 @@ std::string_view pattern(LidarFault fault) {
       return "still measuring for a program that ended without stopping it; stopped it";
     case LidarFault::kUnexpectedData:
       return "unexpected bytes that are no lidar's measurement; is it another device, a console, "
-             "or a wrong baud?";
+             "or a wrong advanced.lidar.baud?";
     case LidarFault::kBooting:
       return "just switched on; waiting until it has started";
     case LidarFault::kNoAnswer:
       return "no answer; check that it is an RPLidar at {} baud, that RX and TX are not swapped, "
              "and that it gets 5 V";
     case LidarFault::kWrongBaud:
-      return "no answer at the configured speed, but {}; correct the baud in the config";
+      return "no answer at the configured speed, but {}; set advanced.lidar.baud";
     case LidarFault::kProtectionStop:
       return "protection stop, {}; resetting it";
     case LidarFault::kHealthError:
@@ -42,7 +42,8 @@ std::string_view pattern(LidarFault fault) {
     case LidarFault::kMotorControl:
       return "motor cannot be switched, {}; check the motor settings";
     case LidarFault::kNoData:
-      return "never began to measure; check that its motor turns (belt, motor settings, 5 V). "
+      return "never began to measure; check that its motor turns (belt, advanced.lidar.motor, 5 "
+             "V). "
              "Retrying";
     case LidarFault::kMotorStalled:
       return "stopped measuring; check that its head turns freely, its belt and its 5 V";

@@ -2,7 +2,6 @@
 #include "drivers/rplidar/status_board.hpp"
 
 namespace cornerd::rplidar {
-
 namespace {
 
 constexpr core::TimeNs kUpdateNs = core::kNsPerSecond / 2;

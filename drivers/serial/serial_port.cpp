@@ -18,7 +18,6 @@
 #include "drivers/serial/file_descriptor.hpp"
 
 namespace cornerd::drivers {
-
 namespace {
 
 constexpr int kWriteTimeoutMs = 500;

@@ -7,7 +7,6 @@
 #include <vector>
 
 namespace cornerd::replay {
-
 namespace {
 
 /// Takes from `wish` what there is room for.

@@ -22,7 +22,7 @@ struct EmulatorConfig {
   const Firmware* firmware = find_firmware("1.29");
   rplidar::Health health;
   bool reset_restores_health = true;  ///< RESET makes the health good; else it stays as it was
-  double spin_up_s = 0;     ///< from a scan request to the first data, but for FORCE_SCAN
+  double spin_up_s = 0;               ///< from a scan request to the first data, but for FORCE_SCAN
   /// Whether configuration type 0x01 (desired rotation) is answered. Vendor software waits 2 s for
   /// an answer to it in vain where it is not.
   bool answers_rotation_request = true;

@@ -6,7 +6,6 @@
 #include "drivers/rplidar/protocol/answers.hpp"
 
 namespace cornerd::replay {
-
 namespace {
 
 using rplidar::WireFormat;

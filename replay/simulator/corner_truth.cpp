@@ -48,13 +48,15 @@ bool CornerTruth::has_line_of_sight(const core::Vec2& origin, const core::Vec2& 
 }
 
 std::uint32_t CornerTruth::returns_of(const Side& side) const {
-  return static_cast<std::uint32_t>(std::count_if(hits_.begin(), hits_.end(), [&](const WallHit& hit) {
-    return hit.face == side.face && hit.along_m >= side.from_m - kOnFace_m &&
-           hit.along_m <= side.to_m + kOnFace_m;
-  }));
+  return static_cast<std::uint32_t>(
+      std::count_if(hits_.begin(), hits_.end(), [&](const WallHit& hit) {
+        return hit.face == side.face && hit.along_m >= side.from_m - kOnFace_m &&
+               hit.along_m <= side.to_m + kOnFace_m;
+      }));
 }
 
-void CornerTruth::observe(const core::Pose2& T_map_lidar, std::span<const core::PolarPoint> points) {
+void CornerTruth::observe(const core::Pose2& T_map_lidar,
+                          std::span<const core::PolarPoint> points) {
   hits_.clear();
   const auto hits = ray_caster_.cast(map_, T_map_lidar, points);
   for (std::uint32_t i = 0; i < points.size(); ++i) {
@@ -81,10 +83,10 @@ void CornerTruth::observe(const core::Pose2& T_map_lidar, std::span<const core::
     const std::uint32_t fewer = std::min(observation.left_returns, observation.right_returns);
     const bool is_visible = has_line_of_sight(T_map_lidar.translation(), position);
     if (!is_visible && fewer == 0) continue;
-    observation.view = !is_visible                  ? CornerView::kHidden
-                : fewer >= kSupportReturns ? CornerView::kSupported
-                : fewer > 0                ? CornerView::kVisible
-                                           : CornerView::kOneSided;
+    observation.view = !is_visible                ? CornerView::kHidden
+                       : fewer >= kSupportReturns ? CornerView::kSupported
+                       : fewer > 0                ? CornerView::kVisible
+                                                  : CornerView::kOneSided;
     corners_.push_back(observation);
   }
   find_occlusion_edges(points);

@@ -7,7 +7,6 @@
 #include <utility>
 
 namespace cornerd::replay {
-
 namespace {
 
 /// Along a piece of a drive of some length (or angle), up to a rate and down again.
@@ -80,7 +79,8 @@ class Drive {
                                         [](double t, const Leg& leg) { return t < leg.start_s; });
     const Leg& leg = after == legs_.begin() ? legs_.front() : *(after - 1);
     const double share = leg.profile.share(t_s - leg.start_s);
-    return {leg.from.x_m + leg.translation_m.x() * share, leg.from.y_m + leg.translation_m.y() * share,
+    return {leg.from.x_m + leg.translation_m.x() * share,
+            leg.from.y_m + leg.translation_m.y() * share,
             core::normalize_angle(leg.from.theta_rad + leg.rotation_rad * share)};
   }
 

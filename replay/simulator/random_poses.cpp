@@ -8,7 +8,6 @@
 #include "replay/simulator/random.hpp"
 
 namespace cornerd::replay {
-
 namespace {
 
 /// Looks in this many directions; one that leaves the map without meeting a wall means outside.
@@ -40,11 +39,10 @@ double clearance_at(const core::WallMap& map, const core::Vec2& point) {
 }
 
 std::vector<core::Pose2> random_poses(const core::WallMap& map, std::size_t count,
-                                       double clearance_m, std::uint64_t seed) {
+                                      double clearance_m, std::uint64_t seed) {
   Random random(seed);
   std::vector<core::Pose2> places;
-  const auto max_tries =
-      static_cast<std::size_t>(static_cast<double>(count + 1) / kMinUsableShare);
+  const auto max_tries = static_cast<std::size_t>(static_cast<double>(count + 1) / kMinUsableShare);
   for (std::size_t tries = 0; places.size() < count; ++tries) {
     if (tries == max_tries) {
       throw std::runtime_error("the map has no room for a robot with that clearance");

@@ -13,7 +13,7 @@ namespace cornerd::replay {
 /// on all sides, in free space, and no wall nearer than `clearance_m`.
 /// Throws std::runtime_error where the map has next to no such place.
 std::vector<core::Pose2> random_poses(const core::WallMap& map, std::size_t count,
-                                       double clearance_m, std::uint64_t seed);
+                                      double clearance_m, std::uint64_t seed);
 
 /// True where a robot could stand: in free space, in one of the rooms or with walls on all sides.
 bool is_indoors(const core::WallMap& map, const core::Vec2& point);

@@ -4,7 +4,6 @@
 #include <utility>
 
 namespace cornerd::replay {
-
 namespace {
 
 /// Beyond any lidar of this family; its own limits are the sensor model's affair.

@@ -60,8 +60,8 @@ class SensorErrors {
   /// Where a sample that claims `device_angle_rad` really looks, less what it claims.
   double direction_error(double device_angle_rad);
 
-  /// What is measured of a wall at `range_m` (0: no wall); 0: nothing. `incidence_rad`: from the wall's
-  /// normal, counter-clockwise, where it is known and needs_incidence().
+  /// What is measured of a wall at `range_m` (0: no wall); 0: nothing. `incidence_rad`: from the
+  /// wall's normal, counter-clockwise, where it is known and needs_incidence().
   double measured(double range_m, std::optional<double> incidence_rad = std::nullopt);
   bool needs_incidence() const { return !model_.wall.empty(); }
 

@@ -8,7 +8,6 @@
 #include <utility>
 
 namespace cornerd::replay {
-
 namespace {
 
 /// The drive is looked at this often; a gyro's own low pass is about as slow.
@@ -41,7 +40,8 @@ core::OdometryReading SimulatedOdometry::next() {
   next_ns_ += period_ns_;
   const core::DriveGeometry& geometry = model_.geometry;
   const auto counts = [&](double distance_m) {
-    const auto count = static_cast<std::int64_t>(std::floor(distance_m / geometry.metres_per_count()));
+    const auto count =
+        static_cast<std::int64_t>(std::floor(distance_m / geometry.metres_per_count()));
     if (geometry.counter_max <= 0) return count;
     const std::int64_t span = geometry.counter_max + 1;
     return (count % span + span) % span;
@@ -64,7 +64,8 @@ void SimulatedOdometry::advance(core::TimeNs to_ns) {
   const core::Pose2 way = T_map_base_.inverse() * T_map_next;
   const double dt_s = core::to_seconds(to_ns - now_ns_);
   const double rotation_rad = way.theta_rad;
-  const double distance_m = way.x_m * std::cos(rotation_rad / 2) + way.y_m * std::sin(rotation_rad / 2);
+  const double distance_m =
+      way.x_m * std::cos(rotation_rad / 2) + way.y_m * std::sin(rotation_rad / 2);
   const double half_m = rotation_rad * model_.geometry.track_m * (1 + model_.track_scale) / 2;
   double left_m = wheel_travel(distance_m - half_m, model_.left_scale);
   double right_m = wheel_travel(distance_m + half_m, model_.right_scale);
@@ -85,7 +86,8 @@ void SimulatedOdometry::advance(core::TimeNs to_ns) {
 }
 
 double SimulatedOdometry::wheel_travel(double distance_m, double radius_scale) {
-  const double noise_m = model_.wheel_m_per_sqrt_m * std::sqrt(std::abs(distance_m)) * random_.normal();
+  const double noise_m =
+      model_.wheel_m_per_sqrt_m * std::sqrt(std::abs(distance_m)) * random_.normal();
   return (distance_m + noise_m) / (1 + radius_scale);
 }
 

@@ -82,7 +82,7 @@ class CoveredScene final : public MapScene {
 class OdometryInputMonitor {
  public:
   OdometryInputMonitor(const SimulatedRecordingConfig& config, const Motion& motion,
-                RecordingWriter& recording)
+                       RecordingWriter& recording)
       : recording_(recording) {
     if (config.robot) {
       odometry_.emplace(motion, *config.robot, config.simulator.seed ^ kOdometrySeed);
@@ -105,7 +105,8 @@ class OdometryInputMonitor {
 /// What a reader gets of the bytes: portions, some damaged, each a little late.
 class Reads {
  public:
-  Reads(const SimulatedRecordingConfig& config, RecordingWriter& recording, OdometryInputMonitor& odometry)
+  Reads(const SimulatedRecordingConfig& config, RecordingWriter& recording,
+        OdometryInputMonitor& odometry)
       : faults_(config.byte_fault_share, config.simulator.seed ^ kFaultSeed),
         random_(config.simulator.seed ^ kJitterSeed),
         jitter_s_(config.arrival_jitter_s),

@@ -115,7 +115,8 @@ double Simulator::range_at(const Head& head, std::int64_t scan, double device_an
                              sign * core::radians(device_angle_deg));
 }
 
-Simulator::Triangulation Simulator::triangulate(const Head& head, std::int64_t scan, double error_deg) {
+Simulator::Triangulation Simulator::triangulate(const Head& head, std::int64_t scan,
+                                                double error_deg) {
   const double sign = config_.inverted ? 1 : -1;
   const double bearing_rad = sign * core::radians(head.angle_deg - kLaserAngleDeg + error_deg);
   const core::Vec2 laser = sign * kLaserOffsetM * core::rotate_left(core::unit_vector(bearing_rad));
@@ -126,7 +127,7 @@ Simulator::Triangulation Simulator::triangulate(const Head& head, std::int64_t s
 }
 
 std::optional<double> Simulator::incidence_at(const Head& head, std::int64_t scan,
-                                        double device_angle_deg, double range_m) {
+                                              double device_angle_deg, double range_m) {
   if (!errors_.needs_incidence() || range_m <= 0) return std::nullopt;
   constexpr double kAsideDeg = 0.05;
   constexpr double kGrazing = 20;  // growth of the range per radian, in ranges: 87 degrees
@@ -159,7 +160,8 @@ std::uint32_t Simulator::measured_for_ultra(const Head& head, std::int64_t scan)
     range_m = errors_.mixed(range_m, triangulate(head, scan, error_deg + half_beam_deg).range_m);
   }
   const double angle_deg = head.angle_deg + error_deg - optical_offset_deg(range_m);
-  return to_units(errors_.measured(range_m, incidence_at(head, scan, angle_deg, range_m)), 1e3, 28'656);
+  return to_units(errors_.measured(range_m, incidence_at(head, scan, angle_deg, range_m)), 1e3,
+                  28'656);
 }
 
 double Simulator::sweep(std::size_t count) {
@@ -188,8 +190,7 @@ Simulator::Head Simulator::take_node() {
   Head head = next_first_;
   next_first_ = head_.next();
   // The mark of a turn stays where it is.
-  const bool same_scan =
-      scan_of(head.angle_deg, 0) == scan_of(next_first_.angle_deg, step_deg);
+  const bool same_scan = scan_of(head.angle_deg, 0) == scan_of(next_first_.angle_deg, step_deg);
   swapped_ = !swapped_ && same_scan && errors_.swaps_nodes();
   if (swapped_) std::swap(head.angle_deg, next_first_.angle_deg);
   return head;

@@ -93,7 +93,7 @@ class Simulator {
   Triangulation triangulate(const Head& head, std::int64_t scan, double error_deg);
   /// Of a ray to the normal of the wall that it meets; nullopt at an edge, or where nobody asks.
   std::optional<double> incidence_at(const Head& head, std::int64_t scan, double device_angle_deg,
-                               double range_m);
+                                     double range_m);
   double measured_at(const Head& head, std::int64_t scan, double device_angle_deg);
   std::uint32_t measured_for_ultra(const Head& head, std::int64_t scan);
 

@@ -7,9 +7,9 @@
 #include <utility>
 
 #include "bench/experiment_robot.hpp"
-#include "bench/localization/pose_error.hpp"
 #include "bench/odometry_experiment.hpp"
 #include "core/pipeline.hpp"
+#include "replay/pose_error.hpp"
 #include "replay/simulator/motion.hpp"
 #include "replay/simulator/random.hpp"
 #include "replay/simulator/scene.hpp"
@@ -39,15 +39,15 @@ class BlindScore {
  private:
   static void add_to(PoseHonesty& honesty, const core::PoseEstimate& pose,
                      const core::Pose2& truth) {
-    const PoseError error = error_of(pose.T_map_base, truth);
-    const double nees =
-        normalised_error_squared(pose, truth).value_or(std::numeric_limits<double>::infinity());
+    const replay::PoseError error = replay::error_of(pose.T_map_base, truth);
+    const double nees = replay::normalised_error_squared(pose, truth)
+                            .value_or(std::numeric_limits<double>::infinity());
     ++honesty.poses;
     honesty.mean_m += error.place_m;
     honesty.worst_m = std::max(honesty.worst_m, error.place_m);
     honesty.worst_rad = std::max(honesty.worst_rad, error.heading_rad);
     honesty.mean_nees += nees;
-    honesty.share_within += nees < kNees95 ? 1 : 0;
+    honesty.share_within += nees < replay::kNees95 ? 1 : 0;
   }
   static void make_means(PoseHonesty& honesty) {
     const auto poses = static_cast<double>(std::max<std::size_t>(honesty.poses, 1));

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "bench/corner_experiment.hpp"
 
-#include "bench/simulated_scan.hpp"
 #include "core/breakpoint/detector.hpp"
 #include "replay/simulator/random_poses.hpp"
+#include "replay/simulator/scan_simulator.hpp"
 
 namespace cornerd::bench {
 
@@ -36,7 +36,7 @@ std::vector<MethodScore> score_methods(std::span<const std::shared_ptr<const cor
     detectors.emplace_back(method.config, config.noise);
   }
 
-  ScanSimulator simulator(sensor, samples, seed);
+  replay::ScanSimulator simulator(sensor, samples, seed);
   core::PolarScan points;
   core::Detection detection;
   std::size_t done = 0;

@@ -5,9 +5,9 @@
 
 #include "bench/nearest_corners.hpp"
 #include "bench/scoring.hpp"
-#include "bench/simulated_scan.hpp"
 #include "bench/workload.hpp"
 #include "core/localizer.hpp"
+#include "replay/simulator/scan_simulator.hpp"
 
 namespace cornerd::bench {
 namespace {
@@ -91,7 +91,7 @@ PaperScans simulate_paper_scans(std::span<const std::shared_ptr<const core::Wall
                                 const replay::SensorModel& sensor, std::size_t samples,
                                 std::uint64_t seed) {
   PaperScans result{{maps.begin(), maps.end()}, paper_places(maps), {}};
-  ScanSimulator simulator(sensor, samples, seed);
+  replay::ScanSimulator simulator(sensor, samples, seed);
   for (const PaperPlace& place : result.places) {
     result.scans.push_back(simulator.take(*maps[place.map], place.T_map_lidar));
   }

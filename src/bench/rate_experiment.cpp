@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "bench/experiment_robot.hpp"
-#include "bench/localization/pose_error.hpp"
 #include "core/pipeline.hpp"
+#include "replay/pose_error.hpp"
 #include "replay/simulator/motion.hpp"
 #include "replay/simulator/simulated_odometry.hpp"
 #include "replay/simulator/simulator.hpp"
@@ -19,7 +19,7 @@ constexpr double kSlowly_m_s = 0.25;
 
 void score_scan(const core::PoseEstimate& pose, const core::Pose2& truth, RateResult& result) {
   ++result.scans;
-  const PoseError error = error_of(pose.T_map_base, truth);
+  const replay::PoseError error = replay::error_of(pose.T_map_base, truth);
   if (pose.state == core::PoseState::kFix) {
     result.fixes.add(pose, truth);
     result.worst_fix_m = std::max(result.worst_fix_m, error.place_m);

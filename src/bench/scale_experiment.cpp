@@ -7,10 +7,10 @@
 
 #include "bench/building.hpp"
 #include "bench/instruction_counter.hpp"
-#include "bench/simulated_scan.hpp"
 #include "bench/statistics.hpp"
 #include "core/catalog/catalog.hpp"
 #include "replay/simulator/random_poses.hpp"
+#include "replay/simulator/scan_simulator.hpp"
 
 namespace cornerd::bench {
 namespace {
@@ -39,7 +39,7 @@ std::vector<ScaleCase> scale_cases(const std::vector<std::size_t>& corners, std:
 ScaleScans::ScaleScans(std::shared_ptr<const core::WallMap> map, std::size_t scans,
                        std::uint64_t seed)
     : places_(replay::random_poses(*map, scans, kScaleClearance_m, seed)) {
-  ScanSimulator simulator({}, kScaleSamples, seed + 1);
+  replay::ScanSimulator simulator({}, kScaleSamples, seed + 1);
   for (const core::Pose2& place : places_) scans_.push_back(simulator.take(*map, place));
 }
 

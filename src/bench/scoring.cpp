@@ -7,8 +7,8 @@ namespace cornerd::bench {
 namespace {
 
 using core::BreakpointKind;
-using replay::CornerView;
 using replay::CornerObservation;
+using replay::CornerView;
 
 double share(std::size_t part, std::size_t whole) {
   return whole == 0 ? 1 : static_cast<double>(part) / static_cast<double>(whole);

@@ -89,7 +89,8 @@ SurveyExperiment run_survey_experiment(std::shared_ptr<const core::WallMap> map,
   };
   add("adjusted", drive, [&] { return survey::survey(drive.drive, {}); });
   core::LocalizerConfig taught;
-  taught.odometry.initial = experiment.cases.front().result.learned.value_or(core::OdometryParameters());
+  taught.odometry.initial =
+      experiment.cases.front().result.learned.value_or(core::OdometryParameters());
   add("adjusted, lidar alone", alone, [&] { return survey::survey(alone.drive, {}); });
   add("ransac", drive, [&] { return survey::ransac_survey(drive.drive, {}, {}); });
   add("ransac, odometry taught", drive,

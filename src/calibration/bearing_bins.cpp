@@ -12,7 +12,7 @@ namespace cornerd::calibration {
 namespace {
 
 constexpr std::size_t kBins = 720;
-constexpr std::size_t kWidest = 8;                ///< of them in one
+constexpr std::size_t kWidest = 8;               ///< of them in one
 constexpr std::size_t kMaxReturnsPerBin = 4000;  ///< ten minutes of an A1
 /// A spread of ten samples is good to a quarter of itself; the fits take many of them together.
 constexpr std::size_t kMinReturns = 10;

@@ -79,7 +79,8 @@ DriveError reckon(std::span<const OdometryIncrement> steps, std::span<const Know
                   DrivePoints* points) {
   return walk(at_true_times(steps, learned.delay_s), places, points, std::identity(),
               [&](const OdometryIncrement& step) {
-                const core::CorrectedIncrement moved = core::corrected_increment(step, geometry, learned);
+                const core::CorrectedIncrement moved =
+                    core::corrected_increment(step, geometry, learned);
                 return core::arc(moved.translation_m, moved.rotation_rad);
               });
 }

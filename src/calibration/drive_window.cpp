@@ -22,7 +22,7 @@ void go_on(DriveWindow& window, const core::Pose2& from, const core::Pose2& to) 
 }  // namespace
 
 std::vector<core::OdometryIncrement> at_true_times(std::span<const core::OdometryIncrement> steps,
-                                            double delay_s) {
+                                                   double delay_s) {
   std::vector<core::OdometryIncrement> moved(steps.begin(), steps.end());
   const core::TimeNs delay_ns = core::from_seconds(delay_s);
   for (core::OdometryIncrement& step : moved) {

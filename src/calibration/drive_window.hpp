@@ -25,7 +25,7 @@ struct DriveWindow {
 
 /// The steps at the times when they were true, of readings that bear times `delay_s` later.
 std::vector<core::OdometryIncrement> at_true_times(std::span<const core::OdometryIncrement> steps,
-                                            double delay_s);
+                                                   double delay_s);
 
 /// Windows of about a second, one after another; those that holes or lost turns are in are left
 /// out. Steps and places in the order of time.

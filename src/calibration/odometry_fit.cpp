@@ -226,8 +226,8 @@ class Fit {
     slope.col(kDelay) = (residuals(later, p_) - residuals(earlier, p_)) / (2 * kDelayNudge_s);
     const Residuals weight =
         now.unaryExpr([&](double r) { return is_sharp_ ? tukey_weight(r) : cauchy_weight(r); });
-    const Residuals curve =
-        now.unaryExpr([&](double r) { return is_sharp_ ? tukey_curvature(r) : cauchy_curvature(r); });
+    const Residuals curve = now.unaryExpr(
+        [&](double r) { return is_sharp_ ? tukey_curvature(r) : cauchy_curvature(r); });
     unweighted_ += slope.cwiseAbs2().colwise().sum().transpose();
     information_ += slope.transpose() * weight.asDiagonal() * slope;
     curvature_ += slope.transpose() * curve.asDiagonal() * slope;

@@ -8,8 +8,8 @@
 #include <Eigen/Core>
 #include <Eigen/LU>
 
-#include "calibration/robust_statistics.hpp"
 #include "calibration/odometry_fit.hpp"
+#include "calibration/robust_statistics.hpp"
 
 namespace cornerd::calibration {
 namespace {
@@ -232,7 +232,7 @@ bool WiringFaults::any() const {
 }
 
 WiringFaults find_wiring_faults(std::span<const DriveWindow> windows,
-                              const core::DriveGeometry& geometry) {
+                                const core::DriveGeometry& geometry) {
   WiringFaults faults;
   const std::vector<Told> sums = sums_of(windows);
   if (sums.size() < kFewestTold) return faults;

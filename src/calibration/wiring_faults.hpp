@@ -7,8 +7,8 @@
 #include <span>
 
 #include "calibration/drive_window.hpp"
-#include "core/odometry/odometry_increment.hpp"
 #include "core/odometry/odometry_config.hpp"
+#include "core/odometry/odometry_increment.hpp"
 
 namespace cornerd::calibration {
 
@@ -17,7 +17,7 @@ namespace cornerd::calibration {
 struct WiringFaults {
   bool left_is_stuck = false;  ///< its counts do not change while the wheel rolls
   bool right_is_stuck = false;
-  bool are_swapped = false;     ///< what comes as left is the right wheel's
+  bool are_swapped = false;       ///< what comes as left is the right wheel's
   bool left_is_reversed = false;  ///< what comes as left falls where it should grow
   bool right_is_reversed = false;
   /// How often its counts' way a wheel goes, where that is far from once; `left`: what comes as it.
@@ -36,7 +36,7 @@ struct WiringFaults {
 
 /// `steps` by `geometry`; `windows` of cut_windows().
 WiringFaults find_wiring_faults(std::span<const DriveWindow> windows,
-                              const core::DriveGeometry& geometry);
+                                const core::DriveGeometry& geometry);
 
 /// The track that the turns of a drive ask for, metres; nullopt where it does not tell.
 std::optional<double> apparent_track_m(std::span<const DriveWindow> windows);

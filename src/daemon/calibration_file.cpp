@@ -39,15 +39,16 @@ bool is_json(std::string_view text) {
 
 }  // namespace
 
-std::filesystem::path calibration_file_path(const settings::LidarConfig& config) {
+std::filesystem::path calibration_file(const settings::LidarConfig& config) {
   if (config.driver == settings::DriverKind::kReplay) return {};
-  if (!config.learned_file.empty()) return config.learned_file;
+  if (!config.calibration_file.empty()) return config.calibration_file;
   const char* const folder = std::getenv("STATE_DIRECTORY");
   if (folder == nullptr || *folder == '\0') return {};
   return std::filesystem::path(folder) / "lidar.json";
 }
 
-CalibrationFile::CalibrationFile(const std::filesystem::path& file, const core::SensorBias& configured) {
+CalibrationFile::CalibrationFile(const std::filesystem::path& file,
+                                 const core::SensorBias& configured) {
   content_.configured = configured;
   if (file.empty()) return;
   // Where it is a link, what it leads to is replaced, not the link.
@@ -69,15 +70,15 @@ void CalibrationFile::load() {
   if (type != file_type::regular) return leave_alone(file_.string() + ": is no ordinary file");
   std::string text;
   try {
-    text =
-        settings::read_file(file_, settings::kMaxLearnedLidarBytes, settings::FileKind::kOrdinary);
+    text = settings::read_file(file_, settings::kMaxLidarCalibrationBytes,
+                               settings::FileKind::kOrdinary);
   } catch (const std::exception& error) {
     return leave_alone(error.what());
   }
   try {
-    settings::LearnedLidar found = settings::parse_learned_lidar(text, file_);
+    settings::LidarCalibration found = settings::parse_lidar_calibration(text, file_);
     if (found.configured != content_.configured) {
-      spdlog::info("{}: learnt under another /lidar/bias, and not used", file_.string());
+      spdlog::info("{}: learnt under another /advanced/lidar/bias, and not used", file_.string());
       return;
     }
     content_ = std::move(found);

@@ -6,13 +6,13 @@
 
 #include "core/sensor_bias.hpp"
 #include "settings/config.hpp"
-#include "settings/learned_lidar.hpp"
+#include "settings/lidar_calibration.hpp"
 
 namespace cornerd::daemon {
 
 /// Where the settings, or else the service manager, want to have kept what was learnt of the lidar;
 /// empty: nowhere. A recording teaches nothing about a device.
-std::filesystem::path calibration_file_path(const settings::LidarConfig& config);
+std::filesystem::path calibration_file(const settings::LidarConfig& config);
 
 /// What is estimate of the lidar, from one run of the daemon to the next. What cannot be read or
 /// written is a line in the log, and costs nothing else. For the server's thread.
@@ -26,7 +26,8 @@ class CalibrationFile {
   /// Of this lidar under these settings; no turns: nothing.
   const core::EstimatedBias& estimate() const { return content_.learned; }
 
-  /// The device has said its number. False where what was estimate is another one's: now nothing is.
+  /// The device has said its number. False where what was estimate is another one's: now nothing
+  /// is.
   bool identify(std::string_view serial);
 
   /// The settings have this lidar.bias now. False where it is another one: now nothing is estimate.
@@ -41,7 +42,7 @@ class CalibrationFile {
   bool is_significant() const;
 
   std::filesystem::path file_;
-  settings::LearnedLidar content_;
+  settings::LidarCalibration content_;
   core::EstimatedBias written_;
   bool has_warned_ = false;
 };

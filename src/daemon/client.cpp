@@ -12,10 +12,10 @@
 namespace cornerd::daemon {
 namespace {
 
-/// The kernel raises this to its least, 4,608 bytes: three or four poses.
+/// The kernel raises this to its minimum of 4,608 bytes: three or four POSE lines.
 constexpr int kSendBufferBytes = 1;
 
-/// Requests of a client that does not read their answers wait in its own send buffer.
+/// With more waiting answers, requests stay in the client's own send buffer.
 constexpr std::size_t kMaxWaitingAnswers = 16;
 
 }  // namespace
@@ -36,7 +36,7 @@ bool Client::send() {
 }
 
 Client::Input Client::receive(const Handle& handle) {
-  // One block a round: a client that never stops sending delays nobody.
+  // One block per round, so that a client that sends continuously delays no other.
   std::array<char, 16 * 1024> block;
   const ssize_t count = ::recv(fd_.get(), block.data(), block.size(), MSG_DONTWAIT);
   if (count < 0) return errno == EAGAIN || errno == EINTR ? Input::kOpen : Input::kBroken;

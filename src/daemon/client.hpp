@@ -5,17 +5,17 @@
 #include <functional>
 #include <string_view>
 
-#include "daemon/require_fd.hpp"
 #include "daemon/line_splitter.hpp"
 #include "daemon/outbox.hpp"
+#include "daemon/require_fd.hpp"
 #include "message/request.hpp"
 
 namespace cornerd::daemon {
 
-/// One connection: lines in, lines out, neither ever waited for.
+/// One connection: reads and writes lines without blocking.
 class Client {
  public:
-  /// Makes the socket's send buffer small, so that the kernel holds little that is stale.
+  /// Makes the socket's send buffer small, so that the kernel holds few stale messages.
   Client(FileDescriptor fd, message::ClassSet watched);
 
   int fd() const { return fd_.get(); }
@@ -26,20 +26,20 @@ class Client {
     return watched_.contains(message_class);
   }
 
-  /// False where the connection is at its end.
+  /// False if the connection is broken.
   [[nodiscard]] bool send();
   enum class Input : std::uint8_t { kOpen, kTooLong, kBroken };
   using Handle = std::function<void(std::string_view line)>;
-  /// What the client has sent, as far as its answers find room.
+  /// Reads and handles requests until too many answers wait.
   [[nodiscard]] Input receive(const Handle& handle);
-  /// The rest of it, once there is room again.
+  /// Handles requests that receive() left.
   [[nodiscard]] Input handle_requests(const Handle& handle);
-  /// It has sent more than was handled.
+  /// Requests wait to be handled.
   bool has_requests() const { return input_.has_line(); }
-  /// Its answers wait for it to read.
+  /// The outbox waits until the client reads.
   bool is_blocked() const { return blocked_; }
 
-  /// What epoll has to watch for now.
+  /// Events for epoll.
   std::uint32_t wanted_events() const;
 
  private:
@@ -47,8 +47,8 @@ class Client {
   message::ClassSet watched_;
   LineSplitter input_;
   Outbox outbox_;
-  bool blocked_ = false;      ///< the outbox waits for the client to read
-  bool input_ended_ = false;  ///< the client sends no more; it may still read
+  bool blocked_ = false;
+  bool input_ended_ = false;  ///< the client closed its sending side; it may still read
 };
 
 }  // namespace cornerd::daemon

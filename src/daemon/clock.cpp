@@ -6,8 +6,7 @@
 namespace cornerd::daemon {
 namespace {
 
-/// Slewing moves the clock by at most a tenth of the time that passes (adjtimex(2)): 10 ms between
-/// two calls.
+/// adjtimex(2) slews by at most 10 %: 10 ms in the 0.1 s between two calls.
 constexpr std::int64_t kStepNs = 50'000'000;
 
 }  // namespace

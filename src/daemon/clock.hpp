@@ -19,12 +19,11 @@ inline std::int64_t clock_ns(clockid_t clock) {
 inline std::int64_t monotonic_ns() { return clock_ns(CLOCK_MONOTONIC); }
 inline core::TimeNs unix_ns() { return clock_ns(CLOCK_REALTIME); }
 
-/// Notices that somebody set the time of day: samples bear UNIX time, and a board without a battery
-/// begins with a wrong one.
+/// Detects steps of UNIX time. Boards without a battery-backed clock start with a wrong time.
 class ClockStepDetector {
  public:
-  /// How far UNIX time has moved against the monotonic clock since the last call, where that is a
-  /// step and not the slewing of a time daemon.
+  /// The change of UNIX time relative to the monotonic clock since the last call; nullopt if it is
+  /// small enough for the slewing of a time daemon.
   std::optional<std::int64_t> step_ns(std::int64_t unix_ns, std::int64_t monotonic_ns);
 
  private:

@@ -25,8 +25,8 @@ constexpr milliseconds kTick{100};
 constexpr int kTicksPerStatus = 10;
 
 std::unique_ptr<core::Pipeline> with_calibration(std::unique_ptr<core::Pipeline> pipeline,
-                                        const settings::LidarConfig& config,
-                                        const CalibrationFile& calibration) {
+                                                 const settings::LidarConfig& config,
+                                                 const CalibrationFile& calibration) {
   if (config.calibrate_online) pipeline->localizer().resume(calibration.estimate());
   return pipeline;
 }
@@ -46,9 +46,10 @@ Daemon::Daemon(Loaded loaded, Reloader::Load load, std::unique_ptr<drivers::Lida
       status_(server_, notifier_),
       tick_(kTick),
       reloader_(std::move(load)),
-      calibration_(calibration_file_path(config_.lidar), config_.lidar.bias),
+      calibration_(calibration_file(config_.lidar), config_.lidar.bias),
       lidar_(std::move(lidar)),
-      localization_(*lidar_, with_calibration(std::move(loaded.pipeline), config_.lidar, calibration_),
+      localization_(*lidar_,
+                    with_calibration(std::move(loaded.pipeline), config_.lidar, calibration_),
                     source_of(config_.lidar.driver)) {
   open_sockets();
   // Only who has the sockets is this robot's daemon, and may touch its port.
@@ -173,7 +174,7 @@ void Daemon::on_loaded() {
     return notifier_.ready();
   }
   Loaded& loaded = outcome.loaded;
-  if (const std::string list = needs_restart(config_, loaded.config); !list.empty()) {
+  if (const std::string list = settings::needs_restart(config_, loaded.config); !list.empty()) {
     spdlog::warn("takes effect at the next start: {}", list);
   }
   const std::string name =

@@ -21,7 +21,7 @@
 namespace cornerd::daemon {
 namespace {
 
-/// A descriptor's number is given again as soon as it is free: `registration` tells the two apart.
+/// The kernel reuses descriptor numbers; `registration` distinguishes their owners.
 epoll_event event_of(int fd, std::uint32_t registration, std::uint32_t events) {
   epoll_event event{};
   event.events = events;
@@ -65,9 +65,9 @@ void EventLoop::run_once(int timeout_ms) {
   for (int i = 0; i < count; ++i) {
     const epoll_event& event = events[static_cast<std::size_t>(i)];
     const auto found = registrations_.find(static_cast<int>(event.data.u64 & 0xffffffff));
-    // A handler before this one may have removed it, and added another of the same number.
+    // An earlier handler of this round may have replaced the descriptor.
     if (found == registrations_.end() || found->second.number != event.data.u64 >> 32) continue;
-    const auto handler = found->second.handler;  // lives on where it removes itself
+    const auto handler = found->second.handler;  // keeps a handler alive that removes itself
     (*handler)(event.events);
   }
 }

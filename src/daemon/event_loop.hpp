@@ -11,23 +11,23 @@
 
 namespace cornerd::daemon {
 
-/// Calls whoever waits for a descriptor: epoll, level-triggered. One thread.
+/// Dispatches events of file descriptors: epoll, level-triggered, one thread.
 class EventLoop {
  public:
-  /// `events`: those of epoll(7). A handler may add and remove any descriptor, its own too.
+  /// `events`: see epoll_ctl(2). A handler may add and remove any descriptor, including its own.
   using Handler = std::function<void(std::uint32_t events)>;
 
-  /// Throws std::system_error, as does add().
+  /// Throws std::system_error, like add().
   EventLoop();
 
-  /// The descriptor stays its owner's, who removes it before closing it.
+  /// Does not take ownership of `fd`. Call remove() before closing it.
   void add(int fd, std::uint32_t events, Handler handler);
   void change(int fd, std::uint32_t events);
   void remove(int fd);
 
-  /// One round: waits for events at most `timeout_ms` (-1: for ever), and handles them.
+  /// Waits at most `timeout_ms` for events (-1: no limit) and handles them.
   void run_once(int timeout_ms);
-  /// Rounds until stop().
+  /// Handles events until stop().
   void run();
   void stop() { running_ = false; }
 
@@ -43,14 +43,14 @@ class EventLoop {
   bool running_ = false;
 };
 
-/// A descriptor that becomes readable once a period.
+/// A file descriptor that becomes readable once per period.
 class PeriodicTimer {
  public:
   /// Throws std::system_error.
   explicit PeriodicTimer(std::chrono::nanoseconds period);
 
   int fd() const { return fd_.get(); }
-  /// No longer readable until the next period. Returns by how much this one is late.
+  /// Makes the descriptor unreadable until the next period. Returns the delay of this call.
   std::chrono::nanoseconds acknowledge();
 
  private:
@@ -59,18 +59,19 @@ class PeriodicTimer {
   std::chrono::nanoseconds due_;  ///< on the monotonic clock
 };
 
-/// From here on SIGHUP waits for a Signals to take it, and ends nothing.
+/// Blocks SIGHUP until a Signals takes it, so that an early reload request does not end the
+/// program.
 void block_reloads();
 
-/// SIGTERM, SIGINT and SIGHUP as something to wait for. From its construction on none of them ends
-/// the program. Make it before any thread, since threads inherit that the signals are blocked.
+/// SIGTERM, SIGINT and SIGHUP as a file descriptor. Construct it before any thread: threads inherit
+/// the signal mask.
 class Signals {
  public:
   /// Throws std::system_error.
   Signals();
 
   int fd() const { return fd_.get(); }
-  /// The number of the signal that came; 0 where none did.
+  /// The number of the next pending signal; 0 if there is none.
   int take() const;
 
  private:

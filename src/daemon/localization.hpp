@@ -7,9 +7,9 @@
 #include <thread>
 
 #include "core/latency_histogram.hpp"
-#include "core/triple_buffer.hpp"
 #include "core/pipeline.hpp"
 #include "core/ring_buffer.hpp"
+#include "core/triple_buffer.hpp"
 #include "daemon/require_fd.hpp"
 #include "daemon/sample_channel.hpp"
 #include "daemon/slot_exchange.hpp"
@@ -81,7 +81,9 @@ class Localization {
   /// Now by the clock of the samples: the newest one's time, whose turn may still be going on.
   core::TimeNs newest_sample_ns() const { return channel_.newest_ns(); }
   /// A pose for every reading, be there turns or not: odometry.publish_predictions.
-  void publish_predictions(bool every) { publishes_predictions_.store(every, std::memory_order_relaxed); }
+  void publish_predictions(bool every) {
+    publishes_predictions_.store(every, std::memory_order_relaxed);
+  }
   /// The robot is about there.
   void set_initial_pose(const core::Pose2& T_map_base) { initial_poses_.push(T_map_base); }
   /// From the next turn on this one localizes; it knows nothing yet. Returns its generation.
@@ -97,7 +99,8 @@ class Localization {
   /// localizer to.
   bool has_progressed();
 
-  /// LatencyHistogram: from when a turn's last sample was handed over to when the localizer looks at it.
+  /// LatencyHistogram: from when a turn's last sample was handed over to when the localizer looks
+  /// at it.
   LoopHealth localizer_health() { return health_.read(); }
   std::uint64_t reader_page_faults() const { return channel_.producer_page_faults(); }
 

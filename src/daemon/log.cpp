@@ -18,9 +18,8 @@
 namespace cornerd::daemon {
 namespace {
 
-/// Standard error, or a second way to what it leads to: whether a write waits is the way's own, and
-/// the first one may be shared with a shell. Of a file both ways would write over each other; a
-/// socket has no second one.
+/// Reopens a pipe or terminal on standard error, because O_NONBLOCK on the original would affect a
+/// shell that shares it. Files and sockets cannot be reopened usefully: standard error itself.
 std::FILE* open_without_waiting() {
   struct stat found {};
   if (::fstat(STDERR_FILENO, &found) != 0) return stderr;
@@ -36,7 +35,7 @@ std::FILE* open_without_waiting() {
 
 void set_up_log() {
   auto log = std::make_shared<spdlog::logger>("cornerd", std::make_shared<LogSink>());
-  // sd-daemon(3): the service manager sets it where standard error is the journal.
+  // systemd.exec(5): set if standard error is connected to the journal.
   const bool is_journal = std::getenv("JOURNAL_STREAM") != nullptr;
   log->set_pattern(is_journal ? "%l: %v" : "%H:%M:%S.%e %^%l%$: %v");
   spdlog::set_default_logger(std::move(log));
@@ -49,7 +48,8 @@ LogSink::LogSink(std::FILE* stream)
 
 void LogSink::log(const spdlog::details::log_msg& message) {
   if (lost_ > 0) {
-    const std::string text = std::to_string(lost_) + " messages found no room in this log";
+    const std::string text =
+        std::to_string(lost_) + " log messages were dropped: the reader is slow";
     if (!write({message.logger_name, spdlog::level::warn, text})) {
       ++lost_;
       return;
@@ -67,7 +67,7 @@ bool LogSink::write(const spdlog::details::log_msg& message) {
   return is_written;
 }
 
-/// For a line: a pipe says so of a page, a socket of half of its buffer.
+/// Room for one line: poll(2) reports POLLOUT for a free page of a pipe, half a socket buffer.
 bool LogSink::has_room() const {
   pollfd waiting{.fd = ::fileno(stream_), .events = POLLOUT, .revents = 0};
   return ::poll(&waiting, 1, 0) > 0 && (waiting.revents & POLLOUT) != 0;

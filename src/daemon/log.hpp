@@ -3,8 +3,8 @@
 
 namespace cornerd::daemon {
 
-/// Logs go to standard error: with the time of day, or without it where the journal adds its own.
-/// One thread logs, and waits for nobody.
+/// Logs go to standard error, with the time of day unless the journal adds it. Only one thread may
+/// log; logging never blocks.
 void set_up_log();
 
 }  // namespace cornerd::daemon

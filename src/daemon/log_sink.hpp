@@ -9,8 +9,8 @@
 
 namespace cornerd::daemon {
 
-/// Standard error, for which nobody ever waits: what a reader that stalls leaves no room for is
-/// lost, and the next line that finds room says how many were. One thread's.
+/// Standard error without blocking. Lines that find no room are dropped; the next line that is
+/// written reports their number. For one thread.
 class LogSink final : public spdlog::sinks::ansicolor_sink<spdlog::details::console_nullmutex> {
  public:
   LogSink();

@@ -16,14 +16,13 @@ namespace {
 
 using message::MessageClass;
 
-/// Everybody may read where the robot is: any program of the robot, without a word to the group
-/// file. Changing it takes membership in the daemon's group.
+/// Every user may read poses; control requests need membership of the daemon's group.
 constexpr mode_t kPoseMode = 0666;
 constexpr mode_t kControlMode = 0660;
 
 mode_t mode_of(SocketRole role) { return role == SocketRole::kPose ? kPoseMode : kControlMode; }
 
-/// What a client gets that has not said what it wants.
+/// The classes before the first WATCH.
 message::ClassSet default_classes(SocketRole role) {
   message::ClassSet classes;
   if (role == SocketRole::kPose) {
@@ -67,7 +66,7 @@ void MessageServer::serve(Socket& socket) {
             [this, &socket](std::uint32_t /*events*/) { accept_clients(socket); });
 }
 
-void MessageServer::restore_sockets(const std::function<void(const std::string& line)>& tell) {
+void MessageServer::restore_sockets(const std::function<void(const std::string& line)>& log) {
   for (Socket& socket : sockets_) {
     if (socket.listener->file_exists()) {
       socket.restore_failed = false;
@@ -79,9 +78,9 @@ void MessageServer::restore_sockets(const std::function<void(const std::string& 
       loop_.remove(socket.listener->fd());
       socket.listener = std::move(listener);
       serve(socket);
-      tell(path.string() + ": was removed, and is there again");
+      log(path.string() + ": the socket file was removed; recreated it");
     } catch (const std::exception& error) {
-      if (!std::exchange(socket.restore_failed, true)) tell(error.what());
+      if (!std::exchange(socket.restore_failed, true)) log(error.what());
     }
   }
 }
@@ -90,14 +89,16 @@ void MessageServer::accept_clients(Socket& socket) {
   FileDescriptor fd = socket.listener->accept();
   if (!fd.is_open()) return;
   if (socket.role == SocketRole::kControl) {
-    // The file's mode says the same, unless somebody has changed it.
+    // Checked here too because the mode of the socket file may have been changed.
     const std::optional<Peer> peer = peer_of(fd.get());
     if (!peer || !belongs_to(*peer, socket.listener->group(), ::geteuid())) {
-      return reject(std::move(fd), "forbidden", "this is for members of the socket's group");
+      return reject(std::move(fd), "forbidden",
+                    "the control socket is for members of its group: add this user to it");
     }
   }
   if (clients() >= kMaxClients && !evict_pose_client(socket)) {
-    return reject(std::move(fd), "too-many-clients", "no more clients are served");
+    return reject(std::move(fd), "too-many-clients",
+                  "at most 32 clients are served: close other connections");
   }
   add_client(socket, std::move(fd));
 }
@@ -109,7 +110,7 @@ bool MessageServer::evict_pose_client(const Socket& socket) {
     if (other.role != SocketRole::kPose || other.clients.empty()) continue;
     const ClientIterator newest = std::prev(other.clients.end());
     newest->outbox().answer(
-        line_.error("too-many-clients", "the control socket needs the place", "", ""));
+        line_.error("too-many-clients", "disconnected to make room for a control client", "", ""));
     static_cast<void>(newest->send());
     remove(other, newest);
     return true;
@@ -144,16 +145,17 @@ void MessageServer::handle_events(Socket& socket, ClientIterator client, std::ui
   } else if (events & (EPOLLHUP | EPOLLERR)) {
     return remove(socket, client);
   }
-  // Answers that were sent make room for those to what was asked in the same breath.
+  // Sending answers makes room to handle further requests.
   while (send_or_remove(socket, client) && client->has_requests() && !client->is_blocked()) {
     if (!handle_input_result(socket, client, client->handle_requests(handle))) return;
   }
 }
 
-bool MessageServer::handle_input_result(Socket& socket, ClientIterator client, Client::Input input) {
+bool MessageServer::handle_input_result(Socket& socket, ClientIterator client,
+                                        Client::Input input) {
   if (input == Client::Input::kOpen) return true;
   if (input == Client::Input::kTooLong) {
-    client->outbox().answer(line_.error("too-long", "a line has at most 64 KiB", "", ""));
+    client->outbox().answer(line_.error("too-long", "the line is longer than 64 KiB", "", ""));
     static_cast<void>(client->send());
   }
   remove(socket, client);
@@ -182,11 +184,11 @@ void MessageServer::answer(Client& client, SocketRole role, std::string_view tex
   const auto error = [&](std::string_view code, std::string_view reason) {
     client.outbox().answer(line_.error(code, reason, request.name, request.id_json));
   };
-  const auto change_belief = [&](const auto& act) {
+  const auto if_control = [&](const auto& act) {
     if (role == SocketRole::kControl) {
       act();
     } else {
-      error("read-only", "this socket only tells; the control socket takes such requests");
+      error("read-only", "the pose socket takes no such request: use the control socket");
     }
   };
   std::visit(Overloaded{
@@ -200,28 +202,29 @@ void MessageServer::answer(Client& client, SocketRole role, std::string_view tex
                    ok();
                  },
                  [&](const message::RelocalizeRequest&) {
-                   change_belief([&] {
+                   if_control([&] {
                      actions_.relocalize();
                      ok();
                    });
                  },
                  [&](const message::SetPoseRequest& set_pose) {
-                   change_belief([&] {
-                     if (!actions_.set_pose) return error("unsupported", "no pose can be set");
+                   if_control([&] {
+                     if (!actions_.set_pose)
+                       return error("unsupported", "this daemon takes no initial pose");
                      actions_.set_pose(set_pose);
                      ok();
                    });
                  },
                  [&](const message::OdometryReading& reading) {
-                   change_belief([&] {
+                   if_control([&] {
                      if (!actions_.add_odometry) {
-                       return error("unsupported", "odometry.source of the config is not socket");
+                       return error("unsupported",
+                                    "/odometry/source of the config is not \"socket\"");
                      }
-                     // Too many for an answer each.
+                     // Accepted ODOMETRY gets no answer: it comes at up to 500 Hz.
                      if (actions_.add_odometry(reading, client.fd())) return;
-                     error(
-                         "second-client",
-                         "another client sends the same: its odometry is taken while it is of use");
+                     error("second-client",
+                           "another client's odometry is used: stop one of the two clients");
                    });
                  },
              },

@@ -20,29 +20,28 @@
 
 namespace cornerd::daemon {
 
-/// What a socket is for. Whoever may connect to the pose socket learns where the robot is; whoever
-/// may connect to the control socket can also change what the daemon believes.
+/// The pose socket is read-only; the control socket takes requests that change the estimate.
 enum class SocketRole : std::uint8_t { kPose, kControl };
 
-/// What a client of the control socket may change. An empty one is refused as unsupported.
+/// Handlers of control requests. A request with an empty handler is refused as unsupported.
 struct ControlActions {
   std::function<void()> relocalize;
   std::function<void(const message::SetPoseRequest&)> set_pose = {};
-  /// False where the client is to be told that another's is taken: once, as one that does not read
-  /// is no longer heard when its answers fill its queue. `connection`: that which it came by.
+  /// Returns false if the client gets an ERROR because another client's odometry is used. That
+  /// happens once per connection, so that answers do not fill the queue of a client that never
+  /// reads. `connection`: identifies the client.
   std::function<bool(const message::OdometryReading&, int connection)> add_odometry = {};
-  /// A connection has ended; optional.
+  /// A connection was closed; optional.
   std::function<void(int connection)> disconnect = {};
 };
 
-/// The clients of both sockets: sends them what they watch, answers what they ask. One thread, that
-/// of the loop, which must outlive it.
+/// Serves the clients of both sockets. Runs in the thread of `loop`, which must outlive it.
 class MessageServer {
  public:
-  /// On both sockets together.
+  /// Of both sockets.
   static constexpr std::size_t kMaxClients = 32;
-  /// So many find room on the control socket though others have taken it all: anybody may listen
-  /// for poses, and is not to keep the robot's own programs out.
+  /// Clients that the control socket always accepts. Any user may connect to the pose socket, and
+  /// must not lock out the robot's own programs.
   static constexpr std::size_t kReservedControlClients = 4;
 
   MessageServer(EventLoop& loop, std::string version, ControlActions actions);
@@ -50,20 +49,21 @@ class MessageServer {
   MessageServer(const MessageServer&) = delete;
   MessageServer& operator=(const MessageServer&) = delete;
 
-  /// Throws std::runtime_error where the socket cannot be had.
+  /// Throws std::runtime_error if the socket cannot be opened.
   void listen(const std::filesystem::path& path, SocketRole role);
-  /// On a socket that is there already.
+  /// On a socket from the service manager.
   void listen(InheritedSocket socket, SocketRole role);
 
-  /// Makes those again whose file somebody has removed, and says so; what it cannot make, once.
-  void restore_sockets(const std::function<void(const std::string& line)>& tell);
+  /// Recreates sockets whose file was removed. `log` gets one line per restored socket and one line
+  /// for the first failure.
+  void restore_sockets(const std::function<void(const std::string& line)>& log);
 
-  /// To all that watch the class. The newest of each class is kept for POLL and newcomers.
+  /// Sends to all clients that watch the class. Keeps the newest line for POLL and new clients.
   void publish(message::MessageClass message_class, std::string_view line);
   bool is_watched(message::MessageClass message_class) const;
 
   std::size_t clients() const;
-  /// Messages that clients lost because they did not read.
+  /// Messages lost by slow clients.
   std::uint64_t dropped() const;
 
  private:
@@ -74,22 +74,23 @@ class MessageServer {
         : listener(std::make_unique<UnixListener>(path, std::move(inherited))), role(its_role) {}
     std::unique_ptr<UnixListener> listener;
     SocketRole role;
-    bool restore_failed = false;  ///< its file is gone, and cannot be made again
+    bool restore_failed = false;
     std::list<Client> clients;
   };
   using ClientIterator = std::list<Client>::iterator;
 
   void serve(Socket& socket);
   void accept_clients(Socket& socket);
-  /// Sends the newest client of the pose socket away where one that comes may have its place.
+  /// Disconnects the newest client of the pose socket for a reserved control client. False if no
+  /// place becomes free.
   bool evict_pose_client(const Socket& socket);
   void add_client(Socket& socket, FileDescriptor fd);
-  /// Tells a client why, and no more.
+  /// Sends an ERROR and disconnects.
   void reject(FileDescriptor fd, std::string_view code, std::string_view reason);
   void handle_events(Socket& socket, ClientIterator client, std::uint32_t events);
-  /// False where the client had to be removed.
+  /// False if the client was removed.
   bool handle_input_result(Socket& socket, ClientIterator client, Client::Input input);
-  /// Sends what waits; removes the client where it is gone. False where it was.
+  /// Sends waiting lines. False if the connection was broken and the client removed.
   bool send_or_remove(Socket& socket, ClientIterator client);
   void remove(Socket& socket, ClientIterator client);
   void answer(Client& client, SocketRole role, std::string_view line);

@@ -13,7 +13,7 @@ constexpr std::uint64_t kMaxHandoverLines = 5;
 
 /// `is_useful`: what comes is all that is needed. `is_refused`: what this gives is, of late.
 bool OdometryClients::Publisher::accepts(int other, core::TimeNs now_ns, bool is_useful,
-                                    bool is_refused) {
+                                         bool is_refused) {
   if (connection >= 0 && connection != other) {
     const bool is_silent = now_ns - last_ns > kSilenceTimeout_ns;
     const bool is_useless = is_useful && now_ns - useful_ns > kUselessTimeout_ns;
@@ -26,7 +26,7 @@ bool OdometryClients::Publisher::accepts(int other, core::TimeNs now_ns, bool is
 }
 
 OdometryClients::Verdict OdometryClients::accept(int connection, core::TimeNs now_ns,
-                                                message::OdometryReading& reading) {
+                                                 message::OdometryReading& reading) {
   const bool is_empty = !reading.left && !reading.right && !reading.gyro_rad_s;
   const bool is_whole = reading.left && reading.right;
   const message::OdometryInputMonitor::Refused rejected = lines_.rejected();
@@ -44,7 +44,8 @@ OdometryClients::Verdict OdometryClients::accept(int connection, core::TimeNs no
   if (is_empty || reading.left || reading.right || reading.gyro_rad_s) lines_.add(reading);
   if (all) return Verdict::kAccepted;
   ++rejected_;
-  return rejected_connections_.insert(connection).second ? Verdict::kFirstRejection : Verdict::kRejected;
+  return rejected_connections_.insert(connection).second ? Verdict::kFirstRejection
+                                                         : Verdict::kRejected;
 }
 
 void OdometryClients::disconnect(int connection) {

@@ -24,7 +24,7 @@ class OdometryClients {
 
   enum class Verdict : std::uint8_t {
     kAccepted,
-    kRejected,      ///< all of it, or a part
+    kRejected,        ///< all of it, or a part
     kFirstRejection,  ///< the first time of this connection: it should be told
   };
   /// Takes out of the reading what another client gives; the rest, if there is any, is to be taken.
@@ -51,8 +51,8 @@ class OdometryClients {
   std::set<int> rejected_connections_;  ///< open ones
   message::OdometryInputMonitor lines_;
   std::uint64_t rejected_ = 0;  ///< lines of which anything was
-  std::uint64_t reported_ = 0;     ///< of them
-  int hint_repeats_ = 0;            ///< in so many STATUS more
+  std::uint64_t reported_ = 0;  ///< of them
+  int hint_repeats_ = 0;        ///< in so many STATUS more
 };
 
 }  // namespace cornerd::daemon

@@ -13,10 +13,6 @@ namespace {
 
 using drivers::SensorState;
 
-drivers::EncoderConfig encoder_of(const settings::KernelOdometryConfig::Encoder& config) {
-  return {.counter = config.counter, .count = config.count, .reversed = config.reversed};
-}
-
 bool runs(SensorState state) { return state == SensorState::kRunning; }
 /// A sensor has fewer different things to say.
 constexpr std::size_t kMaxTexts = 64;
@@ -30,14 +26,7 @@ bool passes(SensorState state) {
 
 std::unique_ptr<drivers::OdometryDriver> make_odometry(const settings::OdometryConfig& config) {
   if (config.source != settings::OdometrySource::kKernel) return nullptr;
-  drivers::KernelOdometryConfig kernel;
-  kernel.sysfs = config.kernel.sysfs;
-  kernel.left = encoder_of(config.kernel.left);
-  kernel.right = encoder_of(config.kernel.right);
-  kernel.gyro = {.device = config.kernel.gyro.device,
-                 .axis = config.kernel.gyro.axis,
-                 .reversed = config.kernel.gyro.reversed};
-  kernel.rate_hz = config.kernel.rate_hz;
+  drivers::KernelOdometryConfig kernel = config.kernel;
   kernel.geometry = config.core.geometry;
   return std::make_unique<drivers::KernelOdometry>(kernel);
 }

@@ -13,35 +13,36 @@
 
 namespace cornerd::daemon {
 
-/// What one client has yet to get. Of each class it holds the newest line alone: a client that does
-/// not read loses its own older messages and is told how many, and costs nobody memory or time. A
-/// line that was begun is finished before any other.
+/// The lines that wait for one client: answers in order, and the newest message of each class. A
+/// slow client loses older messages; "dropped" in the next one gives their number. A partly written
+/// line is finished before any other.
 class Outbox {
  public:
-  /// Takes some of the bytes and says how many; 0: not now; negative: never again.
+  /// Returns the number of bytes written; 0 if writing would block; negative if the connection is
+  /// broken.
   using Write = std::function<std::ptrdiff_t(std::string_view bytes)>;
   enum class Result : std::uint8_t {
-    kEmpty,    ///< all is written
-    kBlocked,  ///< the rest waits until the client reads
+    kEmpty,    ///< everything is written
+    kBlocked,  ///< the client has to read first
     kBroken,
   };
 
-  /// A message: replaces the one of its class that still waits.
+  /// Replaces the waiting message of the same class.
   void put(message::MessageClass message_class, std::string_view line);
-  /// An answer to the client's own request: kept, in order.
+  /// Answers are never dropped.
   void answer(std::string_view line);
 
   Result flush(const Write& write);
 
   std::size_t waiting_answers() const { return answers_.size(); }
-  /// Lines that were replaced, of all classes.
+  /// Messages replaced, of all classes.
   std::uint64_t dropped() const { return dropped_; }
 
  private:
   struct Slot {
-    std::string line;  ///< empty: nothing waits
+    std::string line;  ///< empty if none waits
     std::uint64_t order = 0;
-    std::uint64_t dropped = 0;  ///< since the last line of this class that was delivered
+    std::uint64_t dropped = 0;  ///< since the last delivered line of this class
   };
   static constexpr std::size_t kClasses =
       static_cast<std::size_t>(message::MessageClass::kEvent) + 1;
@@ -49,7 +50,7 @@ class Outbox {
   Slot* oldest();
   Result write_line(std::string_view line, const Write& write);
 
-  std::string partial_;  ///< rest of a line that was begun
+  std::string partial_;  ///< rest of a partly written line
   std::deque<std::string> answers_;
   std::array<Slot, kClasses> slots_;
   std::uint64_t order_ = 0;

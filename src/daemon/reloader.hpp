@@ -54,8 +54,4 @@ class Reloader {
   std::jthread thread_;
 };
 
-/// What differs between two settings and takes effect at the next start alone, as the pointers of
-/// the settings, separated by ", "; empty: nothing does.
-std::string needs_restart(const settings::Config& before, const settings::Config& now);
-
 }  // namespace cornerd::daemon

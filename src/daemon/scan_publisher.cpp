@@ -29,7 +29,8 @@ constexpr double kMaxJump_rad = core::radians(179);
 ScanPublisher::ScanPublisher(MessageServer& server, std::shared_ptr<const core::WallMap> map)
     : server_(server), map_(std::move(map)) {}
 
-void ScanPublisher::set_next_map(std::uint32_t generation, std::shared_ptr<const core::WallMap> map) {
+void ScanPublisher::set_next_map(std::uint32_t generation,
+                                 std::shared_ptr<const core::WallMap> map) {
   next_generation_ = generation;
   next_map_ = std::move(map);
 }

@@ -17,8 +17,9 @@
 namespace cornerd::daemon {
 namespace {
 
+/// SD_LISTEN_FDS_START.
 constexpr int kFirstSocket = 3;
-/// No unit passes more; a wrong number is not to close the descriptors of others.
+/// A larger $LISTEN_FDS is taken for wrong, so that it closes no other descriptors.
 constexpr std::uint64_t kMaxSockets = 16;
 
 int option(int fd, int name) {
@@ -32,14 +33,13 @@ std::filesystem::path path_of(int fd) {
   socklen_t size = sizeof(address);
   const bool is_unix = ::getsockname(fd, reinterpret_cast<sockaddr*>(&address), &size) == 0 &&
                        address.sun_family == AF_UNIX;
-  // The longest path has no zero at its end.
+  // A path of maximum length is not null-terminated.
   return is_unix
              ? std::string(address.sun_path, ::strnlen(address.sun_path, sizeof(address.sun_path)))
              : std::string();
 }
 
-}  // namespace
-
+/// A decimal number; nullopt if the variable is not set or holds anything else.
 std::optional<std::uint64_t> number_in_environment(const char* name) {
   const char* text = std::getenv(name);
   if (text == nullptr) return std::nullopt;
@@ -50,12 +50,15 @@ std::optional<std::uint64_t> number_in_environment(const char* name) {
   return number;
 }
 
+}  // namespace
+
 std::vector<InheritedSocket> take_inherited_sockets() {
   std::vector<InheritedSocket> sockets;
   const auto pid = number_in_environment("LISTEN_PID");
   const auto count = number_in_environment("LISTEN_FDS");
   for (const char* name : {"LISTEN_PID", "LISTEN_FDS", "LISTEN_FDNAMES"}) ::unsetenv(name);
-  if (pid != static_cast<std::uint64_t>(::getpid()) || !count || *count > kMaxSockets) return sockets;
+  if (pid != static_cast<std::uint64_t>(::getpid()) || !count || *count > kMaxSockets)
+    return sockets;
   for (int fd = kFirstSocket; fd < kFirstSocket + static_cast<int>(*count); ++fd) {
     FileDescriptor owned(fd);
     ::fcntl(fd, F_SETFD, FD_CLOEXEC);
@@ -95,7 +98,7 @@ void Notifier::send(std::string_view state) {
   std::memcpy(address.sun_path, address_.data(), address_.size());
   if (address.sun_path[0] == '@') address.sun_path[0] = '\0';  // an abstract address
   const auto length = static_cast<socklen_t>(offsetof(sockaddr_un, sun_path) + address_.size());
-  // A manager that does not listen is its own affair.
+  // Errors are ignored: the daemon works without a service manager.
   static_cast<void>(::sendto(socket_.get(), state.data(), state.size(), MSG_NOSIGNAL | MSG_DONTWAIT,
                              reinterpret_cast<const sockaddr*>(&address), length));
 }

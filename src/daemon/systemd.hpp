@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// The service manager's protocols, without libsystemd: sd_listen_fds(3) and sd_notify(3).
 #pragma once
 
 #include <cstdint>
@@ -12,36 +13,31 @@
 
 namespace cornerd::daemon {
 
-/// A variable as a decimal number; nullopt where it is not set, or is anything else.
-std::optional<std::uint64_t> number_in_environment(const char* name);
-
-/// A socket that listens already: the service manager's, see sd_listen_fds(3).
+/// A listening socket that the service manager opened.
 struct InheritedSocket {
-  std::filesystem::path path;  ///< that it is bound to
+  std::filesystem::path path;  ///< its address
   FileDescriptor fd;           ///< non-blocking
 };
 
-/// Those that were passed to this process ($LISTEN_PID, $LISTEN_FDS), as far as they are UNIX
-/// stream sockets that listen; others are closed. Takes them over: a second call finds none.
+/// Takes the listening UNIX stream sockets passed to this process ($LISTEN_PID, $LISTEN_FDS) and
+/// closes other passed descriptors. A second call returns none.
 std::vector<InheritedSocket> take_inherited_sockets();
 
-/// Tells the service manager how things stand: sd_notify(3) without its library. Silent where
-/// nobody asked ($NOTIFY_SOCKET is not set).
+/// Notifies the service manager. Does nothing if $NOTIFY_SOCKET is not set.
 class Notifier {
  public:
   /// Reads $NOTIFY_SOCKET, $WATCHDOG_USEC and $WATCHDOG_PID.
   Notifier();
 
   void ready() { send("READY=1"); }
-  /// Settings are being read again; ready() says that this is over.
+  /// A reload has started; ready() ends it.
   void reloading() { send("RELOADING=1"); }
   void stopping() { send("STOPPING=1"); }
   void alive() { send("WATCHDOG=1"); }
-  /// A line for a person, sent where it differs from the last.
+  /// One line for `systemctl status`, sent if it differs from the last.
   void status(std::string_view text);
 
-  /// How often to say alive(): half of what the manager waits for, in microseconds, since whole
-  /// seconds would make none of a short one. nullopt: the manager does not watch us.
+  /// Period for alive(): half of the watchdog's timeout. nullopt if there is no watchdog.
   std::optional<std::uint64_t> watchdog_period_us() const { return watchdog_period_us_; }
 
  private:

@@ -32,7 +32,8 @@ sockaddr_un address_of(const std::filesystem::path& path) {
   sockaddr_un address{};
   address.sun_family = AF_UNIX;
   const std::string& name = path.native();
-  if (name.size() >= sizeof(address.sun_path)) fail(path, "too long for a socket");
+  if (name.size() >= sizeof(address.sun_path))
+    fail(path, "the path is too long for a socket: use at most 107 bytes");
   std::memcpy(address.sun_path, name.data(), name.size());
   return address;
 }
@@ -45,9 +46,8 @@ FileDescriptor make_socket() {
   return require_fd(::socket(AF_UNIX, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0), "socket");
 }
 
-/// Of those that start at the same time one after the other looks and makes its socket: one that
-/// has its name and does not listen yet would pass for stale. Whoever holds on to the folder for
-/// longer is no cornerd.
+/// Serializes instances that start at the same time: a socket that is bound but does not listen yet
+/// looks stale. Gives up after 1 s, since no cornerd holds the lock that long.
 FileDescriptor lock_folder(const std::filesystem::path& path) {
   const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
   FileDescriptor fd(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
@@ -60,31 +60,41 @@ FileDescriptor lock_folder(const std::filesystem::path& path) {
 
 FileDescriptor make_spare() { return FileDescriptor(::open("/dev/null", O_RDONLY | O_CLOEXEC)); }
 
-/// Why the file is not to be removed; nothing: nobody listens there any more.
+/// Why the socket file must not be removed; nullopt if it is stale.
 std::optional<std::string> why_in_use(const std::filesystem::path& path,
                                       const sockaddr_un& address) {
   const FileDescriptor probe = make_socket();
   const bool answers = ::connect(probe.get(), generic(address), sizeof(address)) == 0;
   const int error = errno;
-  // A full backlog is alive.
-  if (answers || error == EAGAIN) return "another cornerd listens there";
+  // EAGAIN: the backlog of a live listener is full.
+  if (answers || error == EAGAIN) {
+    return "another cornerd listens on this socket: stop it, or set another path in /socket";
+  }
   if (error == ECONNREFUSED) return std::nullopt;
-  if (error != EACCES)
-    return std::string("cannot be told from one in use: ") + std::strerror(error);
-  // Another user's: whether anybody listens is for the kernel's list to say.
+  if (error != EACCES) {
+    return std::string("cannot connect to the existing socket: ") + std::strerror(error) +
+           "; remove the file if no cornerd runs";
+  }
+  // Another user's socket.
   const std::optional<bool> listens = is_listening(path);
-  if (!listens) return "is another user's, and whether it is in use cannot be told";
-  if (*listens) return "another user's cornerd listens there";
+  if (!listens) {
+    return "the socket belongs to another user, and /proc/net/unix cannot be read: remove the file "
+           "if no cornerd runs";
+  }
+  if (*listens) {
+    return "another user's cornerd listens on this socket: stop it, or set another path in /socket";
+  }
   return std::nullopt;
 }
 
 void remove_stale(const std::filesystem::path& path, const sockaddr_un& address) {
   struct stat file {};
   if (::lstat(path.c_str(), &file) != 0) return;
-  if (!S_ISSOCK(file.st_mode)) fail(path, "is there already and is no socket");
+  if (!S_ISSOCK(file.st_mode))
+    fail(path, "exists and is not a socket: remove it, or set another path");
   if (const auto reason = why_in_use(path, address)) fail(path, *reason);
   if (::unlink(path.c_str()) != 0 && errno != ENOENT) {
-    fail(path, std::string("is left over, and cannot be removed: ") + std::strerror(errno));
+    fail(path, std::string("cannot remove the stale socket: ") + std::strerror(errno));
   }
 }
 
@@ -102,7 +112,7 @@ bool is_same(const std::filesystem::path& file, const std::filesystem::path& lis
 
 constexpr std::size_t kUsualGroups = 32;
 
-/// Nothing where the kernel (before 4.13) cannot tell.
+/// Empty before Linux 4.13.
 std::vector<gid_t> groups_of(int fd) {
   std::vector<gid_t> groups(kUsualGroups);
   socklen_t size = kUsualGroups * sizeof(gid_t);
@@ -126,7 +136,7 @@ UnixListener::UnixListener(const std::filesystem::path& path, mode_t mode)
   remove_stale(path, address);
   fd_ = make_socket();
   if (::bind(fd_.get(), generic(address), sizeof(address)) != 0) {
-    fail(path, std::string("cannot be made: ") + std::strerror(errno));
+    fail(path, std::string("cannot bind the socket: ") + std::strerror(errno));
   }
   struct stat file {};
   if (::stat(path.c_str(), &file) == 0) {
@@ -134,12 +144,12 @@ UnixListener::UnixListener(const std::filesystem::path& path, mode_t mode)
     inode_ = file.st_ino;
     group_ = file.st_gid;
   }
-  // After bind(), since the service's umask would decide otherwise; before listen(), since nobody
-  // can connect until then.
+  // After bind(), because the umask limits the mode; before listen(), because no client can connect
+  // until then.
   if (::chmod(path.c_str(), mode) != 0 || ::listen(fd_.get(), kBacklog) != 0) {
     const std::string reason = std::strerror(errno);
     ::unlink(path.c_str());
-    fail(path, "cannot be listened on: " + reason);
+    fail(path, "cannot listen on the socket: " + reason);
   }
 }
 

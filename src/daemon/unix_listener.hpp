@@ -12,57 +12,56 @@
 
 namespace cornerd::daemon {
 
-/// A listening UNIX stream socket with a name in the file system, removed at the end.
+/// A listening UNIX stream socket with a path.
 class UnixListener {
  public:
-  /// A socket file that nobody listens on any more is replaced; one that somebody does is left
-  /// alone. Throws std::runtime_error, one line with the path.
+  /// Replaces a stale socket file. Throws std::runtime_error if another process listens on it or
+  /// the socket cannot be made.
   UnixListener(const std::filesystem::path& path, mode_t mode);
-  /// Of a socket that listens there already; the file is somebody else's to remove.
+  /// Takes over a listening socket whose file belongs to the service manager.
   UnixListener(const std::filesystem::path& path, FileDescriptor inherited);
-  /// Removes the file where it is still this socket's.
+  /// Removes the socket file unless another process replaced it.
   ~UnixListener();
   UnixListener(const UnixListener&) = delete;
   UnixListener& operator=(const UnixListener&) = delete;
 
   int fd() const { return fd_.get(); }
   const std::filesystem::path& path() const { return path_; }
-  /// False once somebody has removed the file: no client finds the socket any more.
+  /// False if the socket file was removed, so that no client can connect.
   bool file_exists() const;
-  /// The next waiting client, non-blocking; not open where there is none. One that there is no
-  /// descriptor left for is sent away: it would keep the loop busy.
+  /// The next waiting client, non-blocking; not open if there is none. If the process is out of
+  /// descriptors, the client is disconnected, since it would keep the event loop busy.
   FileDescriptor accept();
-  /// The group of the file.
+  /// Group of the socket file.
   gid_t group() const { return group_; }
 
  private:
   std::filesystem::path path_;
   FileDescriptor fd_;
-  FileDescriptor spare_;  ///< to be given up for such a client
+  FileDescriptor spare_;  ///< closed to accept and disconnect a client without a descriptor
   gid_t group_ = 0;
   dev_t device_ = 0;
   ino_t inode_ = 0;
 };
 
-/// Whether somebody listens on the socket of this file, as far as the kernel's list of this network
-/// namespace goes; nullopt where it cannot be read. It tells where connect() is not allowed.
+/// True if a process listens on the socket file, by /proc/self/net/unix; nullopt if that cannot be
+/// read. Works for sockets of other users, where connect() is refused.
 std::optional<bool> is_listening(const std::filesystem::path& file);
 
-/// The same of such a list: the text of /proc/net/unix. A relative name in it, which may be from
-/// anywhere, counts where it ends as the file does.
+/// `list`: the text of /proc/net/unix. A relative path in it matches if its file name does.
 bool is_listening(const std::filesystem::path& file, std::istream& list);
 
-/// Who is at the other end of a connection, as the kernel knows it.
+/// Credentials of the process at the other end of a connection.
 struct Peer {
   uid_t user = 0;
   gid_t group = 0;
   std::vector<gid_t> other_groups;
 };
 
-/// Of a UNIX socket; nullopt where the kernel does not tell.
+/// nullopt if `fd` is not a UNIX socket.
 std::optional<Peer> peer_of(int fd);
 
-/// Whether that one may do what members of `group` may: as one of them, as root, or as `owner`.
+/// True for members of `group`, root, and `owner`.
 bool belongs_to(const Peer& peer, gid_t group, uid_t owner);
 
 }  // namespace cornerd::daemon

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include "gridmap/image.hpp"
-
 #include <algorithm>
 #include <cstring>
 
+#include "gridmap/image.hpp"
 
 #ifdef CORNERD_HAS_PNG
 #include <png.h>

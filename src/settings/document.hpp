@@ -9,7 +9,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "settings/file_kind.hpp"
+#include "settings/config.hpp"
 
 namespace cornerd::settings {
 

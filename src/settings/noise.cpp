@@ -1,18 +1,15 @@
 // SPDX-License-Identifier: MIT
-#include "settings/noise.hpp"
-
 #include <cmath>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "settings/config_table.hpp"
+
 namespace cornerd::settings {
 namespace {
 
 constexpr std::size_t kMaxNoiseBytes = 1 << 20;
-
-/// A sigma of 0 would make every return infinitely good.
-constexpr Interval kSigmaM = {1e-5, 1};
 constexpr double kMostCoefficient = 1e6;
 
 core::SigmaTable::Point read_sigma(ObjectReader point) {
@@ -23,43 +20,42 @@ core::SigmaTable::Point read_sigma(ObjectReader point) {
   return read;
 }
 
-void read_table(ObjectReader& noise, core::SigmaTable& table) {
-  constexpr std::string_view kKey = "ranges";
-  const Json* array = noise.find(kKey);
+void read_table(ObjectReader& noise, std::string_view key, core::SigmaTable& table) {
+  const Json* array = noise.find(key);
   if (array == nullptr) return;
-  if (!array->is_array()) noise.fail(kKey, "must be a list of { \"range\", \"sigma\" }");
+  if (!array->is_array()) noise.fail(key, "must be a list of { \"range\", \"sigma\" }");
   if (array->size() > core::SigmaTable::kMaxPoints) {
-    noise.fail(kKey, "has more than " + std::to_string(core::SigmaTable::kMaxPoints) + " entries");
+    noise.fail(key, "has more than " + std::to_string(core::SigmaTable::kMaxPoints) + " entries");
   }
   std::vector<core::SigmaTable::Point> points;
   for (std::size_t i = 0; i < array->size(); ++i) {
-    points.push_back(read_sigma(noise.element(kKey, *array, i)));
+    points.push_back(read_sigma(noise.element(key, *array, i)));
     if (i > 0 && points[i].range_m <= points[i - 1].range_m) {
-      noise.fail(kKey, i, "must be of a longer range than the one before");
+      noise.fail(key, i, "must be of a longer range than the one before");
     }
   }
   table = core::SigmaTable(points);
 }
 
 void read_coefficients(ObjectReader& piece, calibration::WallPiece& read) {
-  constexpr std::string_view kKey = "coefficients";
-  const Json* rows = piece.find(kKey);
-  if (rows == nullptr) piece.fail(kKey, "is missing");
+  constexpr std::string_view key = "coefficients";
+  const Json* rows = piece.find(key);
+  if (rows == nullptr) piece.fail(key, "is missing");
   if (!rows->is_array() || rows->size() > read.coefficients.size()) {
-    piece.fail(kKey, "must be a list of at most " + std::to_string(read.coefficients.size()) +
-                         " lists, one for each power of the ray");
+    piece.fail(key, "must be a list of at most " + std::to_string(read.coefficients.size()) +
+                        " lists, one for each power of the ray");
   }
   for (std::size_t i = 0; i < rows->size(); ++i) {
     const Json& row = (*rows)[i];
     auto& target = read.coefficients[i];
     if (!row.is_array() || row.size() > target.size()) {
-      piece.fail(kKey, i,
+      piece.fail(key, i,
                  "must be a list of at most " + std::to_string(target.size()) +
                      " numbers, one for each power of the distance");
     }
     for (std::size_t j = 0; j < row.size(); ++j) {
       if (!row[j].is_number() || !(std::abs(row[j].get<double>()) <= kMostCoefficient)) {
-        piece.fail(kKey, i,
+        piece.fail(key, i,
                    "must hold numbers from -" + to_text(kMostCoefficient) + " to " +
                        to_text(kMostCoefficient));
       }
@@ -80,19 +76,18 @@ calibration::WallPiece read_piece(ObjectReader piece) {
   return read;
 }
 
-void read_wall_model(ObjectReader& noise, calibration::WallModel& model) {
-  constexpr std::string_view kKey = "wall";
-  const Json* array = noise.find(kKey);
+void read_wall_model(ObjectReader& noise, std::string_view key, calibration::WallModel& model) {
+  const Json* array = noise.find(key);
   if (array == nullptr) return;
-  if (!array->is_array()) noise.fail(kKey, "must be a list of { \"from\", \"to\", ... }");
+  if (!array->is_array()) noise.fail(key, "must be a list of { \"from\", \"to\", ... }");
   if (array->size() > calibration::kMaxWallPieces) {
-    noise.fail(kKey, "has more than " + std::to_string(calibration::kMaxWallPieces) + " entries");
+    noise.fail(key, "has more than " + std::to_string(calibration::kMaxWallPieces) + " entries");
   }
   std::vector<calibration::WallPiece> pieces;
   for (std::size_t i = 0; i < array->size(); ++i) {
-    pieces.push_back(read_piece(noise.element(kKey, *array, i)));
+    pieces.push_back(read_piece(noise.element(key, *array, i)));
     if (i > 0 && pieces[i].to_m <= pieces[i - 1].to_m) {
-      noise.fail(kKey, i, "must reach farther than the one before");
+      noise.fail(key, i, "must reach farther than the one before");
     }
   }
   model = calibration::WallModel(std::move(pieces));
@@ -100,13 +95,17 @@ void read_wall_model(ObjectReader& noise, calibration::WallModel& model) {
 
 }  // namespace
 
-void read_noise(ObjectReader noise, NoiseConfig& config) {
-  noise.number("floor", config.sensor.floor_m, kSigmaM);
-  noise.number("share", config.sensor.share, {0, 1});
-  noise.number("bearing", config.sensor.bearing_rad, {0, 0.1});
-  read_table(noise, config.sensor.table);
-  read_wall_model(noise, config.wall);
-  noise.finish();
+Value sigma_table(core::SigmaTable& table) {
+  return {[&table](ObjectReader& noise, std::string_view key) { read_table(noise, key, table); },
+          [] { return nlohmann::ordered_json::array(); },
+          "at most " + std::to_string(core::SigmaTable::kMaxPoints) + " entries"};
+}
+
+Value wall_model(calibration::WallModel& model) {
+  return {
+      [&model](ObjectReader& noise, std::string_view key) { read_wall_model(noise, key, model); },
+      [] { return nlohmann::ordered_json::array(); },
+      "at most " + std::to_string(calibration::kMaxWallPieces) + " entries"};
 }
 
 NoiseConfig load_noise(const std::filesystem::path& file) {

@@ -20,6 +20,5 @@ void add_emulate(CLI::App& program);
 void add_survey(CLI::App& program);
 void add_calibrate(CLI::App& program);
 void add_map(CLI::App& program);
-void add_bench(CLI::App& program);
 
 }  // namespace cornerd::tool

@@ -8,8 +8,8 @@
 #include <CLI/CLI.hpp>
 
 #include "settings/config.hpp"
+#include "tool/command_line/failure.hpp"
 #include "tool/commands.hpp"
-#include "tool/failure.hpp"
 
 namespace cornerd::tool {
 
@@ -39,7 +39,6 @@ int run_cornerctl(int argc, const char* const* argv) {
   add_survey(program);
   add_calibrate(program);
   add_map(program);
-  add_bench(program);
 
   try {
     const std::string first = argc > 1 ? argv[1] : "";

@@ -13,7 +13,7 @@
 #include "core/geometry/angle.hpp"
 #include "tests/temporary_folder.hpp"
 #include "tests/unit/tool/command_run.hpp"
-#include "tool/truth.hpp"
+#include "tool/replay/truth.hpp"
 
 namespace cornerd {
 namespace {
@@ -32,7 +32,7 @@ double nees_of(const json& pose, const core::Pose2& truth) {
   return error.dot(Eigen::LLT<Eigen::Matrix3d>(covariance).solve(error));
 }
 
-TEST(AbruptRobot, ByTheLidarAlone_IsToldWithItsDoubt) {
+TEST(AbruptRobot, LidarAlone_CovarianceIsConsistent) {
   const test::TemporaryFolder folder;
   const std::string map = CORNERD_SOURCE_DIR "/config/maps/flat-7.json";
   const std::string recording = folder / "drive.ndjson";

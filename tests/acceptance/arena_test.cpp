@@ -44,7 +44,7 @@ class Arena : public testing::TestWithParam<std::tuple<const char*, WireFormat>>
   }
 };
 
-TEST_P(Arena, ClearTurns_AreFixedToTheMillimetre) {
+TEST_P(Arena, CleanScans_ErrorBelowMillimetre) {
   const auto statistics = localize({.wire = std::get<1>(GetParam())});
   SCOPED_TRACE(statistics.report());
   EXPECT_GE(statistics.scans(), kPlaces - 1);
@@ -55,7 +55,7 @@ TEST_P(Arena, ClearTurns_AreFixedToTheMillimetre) {
   EXPECT_LT(statistics.mean_nees(), 4.2);
 }
 
-TEST_P(Arena, SixtyPercentMissing_AreStillFixed) {
+TEST_P(Arena, SixtyPercentMissing_StateIsFix) {
   const auto statistics = localize({.wire = std::get<1>(GetParam()), .missing_share = 0.6});
   SCOPED_TRACE(statistics.report());
   EXPECT_GE(share(statistics, PoseState::kFix), 0.97);
@@ -63,7 +63,7 @@ TEST_P(Arena, SixtyPercentMissing_AreStillFixed) {
   EXPECT_LT(statistics.mean_error_m(), 0.001);
 }
 
-TEST_P(Arena, OneByteInTenThousandBad_CostsNoWrongPose) {
+TEST_P(Arena, OneByteInTenThousandCorrupted_NoWrongPose) {
   const auto statistics = localize({.wire = std::get<1>(GetParam()), .byte_fault_share = 1e-4});
   SCOPED_TRACE(statistics.report());
   EXPECT_GE(statistics.scans(), kPlaces * 95 / 100);

@@ -31,7 +31,7 @@ double quantile(std::vector<double> values, double share) {
   return values.at(static_cast<std::size_t>(share * static_cast<double>(values.size() - 1)));
 }
 
-TEST(Corners, OfEachNoise_AreFoundAndTrue) {
+TEST(Corners, EachNoiseLevel_PrecisionAndRecallHold) {
   const auto maps = layouts();
   for (const bench::Circumstances& circumstances : bench::usual_circumstances()) {
     SCOPED_TRACE(circumstances.title);

@@ -36,7 +36,7 @@ core::FloorPlan moved(core::FloorPlan plan, double sigma_m, std::uint64_t seed) 
   return plan;
 }
 
-TEST(InexactMap, PosesInIt_SayHowFarOffItIs) {
+TEST(InexactMap, DisplacedWalls_CovarianceIsConsistent) {
   const auto map =
       settings::load_map(std::filesystem::path(CORNERD_SOURCE_DIR) / "config/maps/flat-7.json");
   constexpr int kBuildings = 5;

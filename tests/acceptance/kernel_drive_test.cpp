@@ -11,9 +11,9 @@
 #include <string>
 
 #include "bench/experiment_robot.hpp"
-#include "bench/localization/pose_error.hpp"
 #include "core/pipeline.hpp"
 #include "drivers/odometry/kernel_odometry.hpp"
+#include "replay/pose_error.hpp"
 #include "replay/simulator/motion.hpp"
 #include "replay/simulator/scene.hpp"
 #include "replay/simulator/simulated_odometry.hpp"
@@ -141,9 +141,9 @@ class KernelDrive : public drivers::Clock, public drivers::OdometrySink {
     if (!is_fix && !is_predicted) return;
     ++(is_fix ? driven_.fixes : driven_.predicted);
     const core::Pose2 truth = motion_(result.pose.t_ns, 0);
-    if (!bench::is_right(result.pose.T_map_base, truth)) ++driven_.wrong;
+    if (!replay::is_right(result.pose.T_map_base, truth)) ++driven_.wrong;
     driven_.worst_m =
-        std::max(driven_.worst_m, bench::error_of(result.pose.T_map_base, truth).place_m);
+        std::max(driven_.worst_m, replay::error_of(result.pose.T_map_base, truth).place_m);
   }
 
   std::shared_ptr<const core::WallMap> map_;
@@ -180,13 +180,13 @@ void expect_unharmed(const Driven& driven) {
   EXPECT_TRUE(driven.odometry.healthy);
 }
 
-TEST(DriveByKernelSensors, Clean_IsCarriedOnWhileTheLidarIsCovered) {
+TEST(DriveByKernelSensors, CoveredLidar_PosesArePredicted) {
   const Driven driven = drive([](Texts&, test::SysfsTree&, double) {});
   expect_unharmed(driven);
   EXPECT_EQ(driven.odometry.counters.jumps, 0U);
 }
 
-TEST(DriveByKernelSensors, CountsThatWrapAtAnyCeiling_GoOn) {
+TEST(DriveByKernelSensors, CountsWrap_DriveContinues) {
   for (const auto& [ceiling, first] :
        {std::pair<std::int64_t, std::int64_t>{0xFFFFFFFF, 0xFFFFFF00}, {0xFFFF, 65000}, {999, 0}}) {
     const Driven driven = drive([](Texts&, test::SysfsTree&, double) {}, ceiling, first);
@@ -196,7 +196,7 @@ TEST(DriveByKernelSensors, CountsThatWrapAtAnyCeiling_GoOn) {
   }
 }
 
-TEST(DriveByKernelSensors, GarbageAndJumps_CostThemselves) {
+TEST(DriveByKernelSensors, InvalidAndJumpingValues_OnlyTheyAreRejected) {
   int step = 0;
   const Driven driven = drive([&](Texts& texts, test::SysfsTree&, double) {
     ++step;
@@ -211,7 +211,7 @@ TEST(DriveByKernelSensors, GarbageAndJumps_CostThemselves) {
   EXPECT_GE(driven.sensors.counters.invalid_values, 30U);
 }
 
-TEST(DriveByKernelSensors, SensorThatGoesAndComesBackUnderAnotherNumber_IsFoundAgain) {
+TEST(DriveByKernelSensors, SensorReturnsUnderOtherNumber_IsFound) {
   bool is_gone = false;
   bool is_back = false;
   const Driven driven = drive([&](Texts&, test::SysfsTree& tree, double t_s) {
@@ -229,7 +229,7 @@ TEST(DriveByKernelSensors, SensorThatGoesAndComesBackUnderAnotherNumber_IsFoundA
   EXPECT_EQ(driven.sensors.gyro.state, drivers::SensorState::kRunning);
 }
 
-TEST(DriveByKernelSensors, GyroThatFreezes_IsNoLongerBelieved) {
+TEST(DriveByKernelSensors, GyroStuck_IsRejected) {
   std::string held;
   const Driven driven = drive([&](Texts& texts, test::SysfsTree&, double t_s) {
     if (t_s < 8) held = texts.rate;
@@ -239,7 +239,7 @@ TEST(DriveByKernelSensors, GyroThatFreezes_IsNoLongerBelieved) {
   EXPECT_GT(driven.odometry.counters.stuck, 100U);
 }
 
-TEST(DriveByKernelSensors, EncoderThatFreezes_IsSaidAndDistrusted) {
+TEST(DriveByKernelSensors, EncoderStuck_IsReportedUnhealthy) {
   std::string held;
   const Driven driven = drive([&](Texts& texts, test::SysfsTree&, double t_s) {
     if (t_s < 8) held = texts.left;
@@ -250,7 +250,7 @@ TEST(DriveByKernelSensors, EncoderThatFreezes_IsSaidAndDistrusted) {
   EXPECT_EQ(driven.sensors.left.state, drivers::SensorState::kStuck);
 }
 
-TEST(DriveByKernelSensors, EncodersThatAreAbsentForAWhile_AreMissedAndNotMadeUp) {
+TEST(DriveByKernelSensors, EncodersAbsent_GapIsCounted) {
   for (const double until_s : {8.0, 18.0}) {
     const Driven driven = drive([&](Texts& texts, test::SysfsTree&, double t_s) {
       if (is_between(t_s, 5, until_s)) texts.left = texts.right = "";

@@ -33,7 +33,7 @@ class MapImportFigures : public testing::TestWithParam<PictureKind> {
   }
 };
 
-TEST_P(MapImportFigures, WallsAndPoses_AreWithinThePicture) {
+TEST_P(MapImportFigures, ImportedImage_WallsAndPosesAreAccurate) {
   const auto [name, maker, resolution_m, yaw_rad] = GetParam();
   const auto truth = settings::load_map(std::filesystem::path(CORNERD_SOURCE_DIR) / "config/maps" /
                                         (std::string(name) + ".json"));

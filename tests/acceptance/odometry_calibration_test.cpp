@@ -24,7 +24,7 @@ void PrintTo(const RightRobot& robot, std::ostream* out) { *out << robot.name; }
 
 class CalibratedRobot : public testing::TestWithParam<RightRobot> {};
 
-TEST_P(CalibratedRobot, ThatIsRight_IsNotBlamed) {
+TEST_P(CalibratedRobot, CorrectRobot_NoFaultReported) {
   const test::TemporaryFolder folder;
   const std::string map = CORNERD_SOURCE_DIR "/config/maps/flat-7.json";
   const std::string recording = folder / "drive.ndjson";

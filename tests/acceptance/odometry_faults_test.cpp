@@ -18,7 +18,7 @@
 #include "core/geometry/angle.hpp"
 #include "tests/temporary_folder.hpp"
 #include "tests/unit/tool/command_run.hpp"
-#include "tool/truth.hpp"
+#include "tool/replay/truth.hpp"
 
 namespace cornerd::tool {
 namespace {
@@ -169,7 +169,7 @@ Fault another_time_beside(double by_s) {
 
 const Fault kNone = [](json line, int) { return std::vector<json>{std::move(line)}; };
 
-TEST_F(OdometryFaults, None_IsTheDriveThatTheOthersAreMeasuredBy) {
+TEST_F(OdometryFaults, NoFault_IsTheReference) {
   const Replayed clean = replay(kNone);
   expect_unharmed(clean);
   for (const char* counter : {"past", "future", "jumps", "invalid_rates", "stuck", "gaps"}) {
@@ -177,13 +177,14 @@ TEST_F(OdometryFaults, None_IsTheDriveThatTheOthersAreMeasuredBy) {
   }
 }
 
-TEST_F(OdometryFaults, CountsThatWrap_AreTheSameDrive) {
+TEST_F(OdometryFaults, CountsWrap_PosesAreUnchanged) {
   const Replayed clean = replay(kNone);
-  EXPECT_EQ(replay(wrapped(65000, 0xFFFF), {"/odometry/ceiling=65535"}).poses, clean.poses);
+  EXPECT_EQ(replay(wrapped(65000, 0xFFFF), {"/advanced/odometry/counter_max=65535"}).poses,
+            clean.poses);
   EXPECT_EQ(replay(wrapped(0xFFFFF000, 0xFFFFFFFF)).poses, clean.poses);
 }
 
-TEST_F(OdometryFaults, CountsThatJumpOnce_CostThatReading) {
+TEST_F(OdometryFaults, CountsJumpOnce_OnlyThatReadingIsRejected) {
   for (const int reading : {300, 800}) {  // seen, and covered
     for (const int by : {30464, -30464, 5198147}) {
       const Replayed replayed = replay([=](json line, int index) -> std::vector<json> {
@@ -196,7 +197,7 @@ TEST_F(OdometryFaults, CountsThatJumpOnce_CostThatReading) {
   }
 }
 
-TEST_F(OdometryFaults, ControllerThatIsRestarted_CountsOnFromThere) {
+TEST_F(OdometryFaults, ControllerRestarts_CountingContinues) {
   for (const int reading : {300, 800}) {
     const Replayed replayed =
         replay([=, at = json()](json line, int index) mutable -> std::vector<json> {
@@ -213,7 +214,7 @@ TEST_F(OdometryFaults, ControllerThatIsRestarted_CountsOnFromThere) {
   }
 }
 
-TEST_F(OdometryFaults, RatesThatAreGarbage_CostThemselves) {
+TEST_F(OdometryFaults, RatesInvalid_OnlyTheyAreRejected) {
   for (const double rate_rad_s : {5198147.0, -5198147.0, 99.0}) {
     const Replayed replayed = replay([=](json line, int index) -> std::vector<json> {
       if (index % 10 == 0) line["gyro"] = rate_rad_s;
@@ -225,14 +226,14 @@ TEST_F(OdometryFaults, RatesThatAreGarbage_CostThemselves) {
   }
 }
 
-TEST_F(OdometryFaults, ReadingsThatAreAbsent_AreMissedAndNotMadeUp) {
+TEST_F(OdometryFaults, ReadingsAbsent_GapIsCounted) {
   expect_unharmed(replay(absent(250, 400)));
   const Replayed blind = replay(absent(725, 850));  // while the lidar is covered, and before
   expect_right(blind);
   EXPECT_GE(blind.count("lost"), 12);
 }
 
-TEST_F(OdometryFaults, ASensorThatIsAbsent_LeavesTheOthers) {
+TEST_F(OdometryFaults, OneSensorAbsent_OthersAreUsed) {
   expect_unharmed(replay(without("gyro", 0)));
   expect_unharmed(replay(without("gyro", 400)));
   for (const int first : {0, 400}) {
@@ -243,7 +244,7 @@ TEST_F(OdometryFaults, ASensorThatIsAbsent_LeavesTheOthers) {
   }
 }
 
-TEST_F(OdometryFaults, GyroThatIsFrozen_IsNoLongerBelieved) {
+TEST_F(OdometryFaults, GyroStuck_IsRejected) {
   for (const int first : {100, 400, 600}) {
     const Replayed replayed = replay(frozen({"gyro"}, first));
     expect_unharmed(replayed, 134);  // one fix fewer than with the others
@@ -251,7 +252,7 @@ TEST_F(OdometryFaults, GyroThatIsFrozen_IsNoLongerBelieved) {
   }
 }
 
-TEST_F(OdometryFaults, WheelsThatAreFrozen_AreDistrusted) {
+TEST_F(OdometryFaults, WheelsStuck_AreUnhealthy) {
   for (const int first : {100, 400, 600}) {
     for (const auto& wheels : {std::vector{"left"}, std::vector{"left", "right"}}) {
       const Replayed replayed = replay(frozen(wheels, first));
@@ -261,7 +262,7 @@ TEST_F(OdometryFaults, WheelsThatAreFrozen_AreDistrusted) {
   }
 }
 
-TEST_F(OdometryFaults, ReadingsOfThePastBesideGoodOnes_CostNothing) {
+TEST_F(OdometryFaults, PastReadingsAmongValidOnes_PosesAreUnchanged) {
   const Replayed clean = replay(kNone);
   for (const double by_s : {-0.05, -0.3}) {
     const Replayed replayed = replay(another_time_beside(by_s));
@@ -270,7 +271,7 @@ TEST_F(OdometryFaults, ReadingsOfThePastBesideGoodOnes_CostNothing) {
   }
 }
 
-TEST_F(OdometryFaults, ReadingsOfTheFutureBesideGoodOnes_CostNothing) {
+TEST_F(OdometryFaults, FutureReadingsAmongValidOnes_PosesAreUnchanged) {
   for (const double by_s : {0.3, 1.5, 3.0, 3600.0}) {
     const Replayed replayed = replay(another_time_beside(by_s));
     expect_unharmed(replayed);
@@ -278,7 +279,7 @@ TEST_F(OdometryFaults, ReadingsOfTheFutureBesideGoodOnes_CostNothing) {
   }
 }
 
-TEST_F(OdometryFaults, ClientOfAnotherTimeAltogether_LeavesTheLidarAlone) {
+TEST_F(OdometryFaults, ClientClockFarOff_LidarAloneLocalizes) {
   const Replayed replayed = replay([](json line, int) -> std::vector<json> {
     line["t"] = line["t"].get<double>() + 3600;
     return {std::move(line)};

@@ -17,7 +17,7 @@
 #include "core/geometry/angle.hpp"
 #include "tests/temporary_folder.hpp"
 #include "tests/unit/tool/command_run.hpp"
-#include "tool/truth.hpp"
+#include "tool/replay/truth.hpp"
 
 namespace cornerd {
 namespace {
@@ -119,7 +119,7 @@ class DriveOf100m : public testing::TestWithParam<BadRobot> {
 };
 
 // One test, not three: each would drive the 100 m again.
-TEST_P(DriveOf100m, BadWheelsAndGyro_AreLearntAndCarryFiveSecondsBlind) {
+TEST_P(DriveOf100m, WheelAndGyroErrors_AreEstimatedAndBridgeFiveSeconds) {
   EXPECT_GE(way_m(), 100);
   double sum_m = 0;
   std::size_t predicted = 0;

@@ -6,8 +6,8 @@
 #include "core/pipeline.hpp"
 #include "replay/simulator/random_poses.hpp"
 #include "tests/temporary_folder.hpp"
-#include "tool/playback.hpp"
-#include "tool/truth.hpp"
+#include "tool/replay/playback.hpp"
+#include "tool/replay/truth.hpp"
 
 namespace cornerd {
 

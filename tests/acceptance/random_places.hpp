@@ -6,7 +6,7 @@
 
 #include "core/map/wall_map.hpp"
 #include "replay/simulator/simulated_recording.hpp"
-#include "tool/error_statistics.hpp"
+#include "tool/replay/error_statistics.hpp"
 
 namespace cornerd {
 

@@ -90,7 +90,7 @@ struct Cut {
 };
 class SurveyOfPartsThatDoNotJoin : public testing::TestWithParam<Cut> {};
 
-TEST_P(SurveyOfPartsThatDoNotJoin, WithOdometry_IsNoticed) {
+TEST_P(SurveyOfPartsThatDoNotJoin, WithOdometry_GapIsReported) {
   const survey::RecordedDrive once = exploration(/*has_odometry=*/true);
   survey::RecordedDrive parts;
   append(once, 0, GetParam().end, parts);
@@ -103,7 +103,7 @@ INSTANTIATE_TEST_SUITE_P(CutAt, SurveyOfPartsThatDoNotJoin,
                          testing::Values(Cut{876, 0, Verdict::kWarned},
                                          Cut{145, 365, Verdict::kRefused}));
 
-TEST(SurveyOfPartsThatJoin, WithOdometry_IsTheMapOfTheWhole) {
+TEST(SurveyOfPartsThatJoin, WithOdometry_MapIsComplete) {
   const survey::RecordedDrive once = exploration(/*has_odometry=*/true);
   survey::RecordedDrive parts;
   append(once, 0, 400, parts);

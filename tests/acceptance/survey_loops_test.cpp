@@ -24,7 +24,7 @@ class SurveyOfARing : public testing::TestWithParam<std::uint64_t> {
   const bench::SimulatedDrive drive_ = bench::ring_drive(GetParam());
 };
 
-TEST_P(SurveyOfARing, ComesBackOutOfTheMatchingsReach_IsClosedAndHasSingleWalls) {
+TEST_P(SurveyOfARing, RevisitBeyondMatching_LoopIsClosedWithoutDuplicateWalls) {
   const bench::LoopCase made = bench::survey_loop(map_, drive_, /*close_loops=*/true);
   EXPECT_GE(closed_loops(made.result), 1U);
   EXPECT_GT(made.result.loops.front().off_m, 0.15);
@@ -35,7 +35,7 @@ TEST_P(SurveyOfARing, ComesBackOutOfTheMatchingsReach_IsClosedAndHasSingleWalls)
   EXPECT_LT(made.score.corner_max_m(), 0.02);
 }
 
-TEST_P(SurveyOfARing, WithoutLoopClosing_HasDoubleWalls) {
+TEST_P(SurveyOfARing, WithoutLoopClosure_HasDuplicateWalls) {
   const bench::LoopCase made = bench::survey_loop(map_, drive_, /*close_loops=*/false);
   EXPECT_GT(made.score.invented_m, 2);
 }
@@ -48,7 +48,7 @@ class SurveyOfARingByTheLidarAlone : public testing::TestWithParam<std::uint64_t
   const bench::SimulatedDrive drive_ = bench::ring_drive(GetParam(), /*has_odometry=*/false);
 };
 
-TEST_P(SurveyOfARingByTheLidarAlone, BareStretchThatALoopGoesAcross_IsRightAndSaid) {
+TEST_P(SurveyOfARingByTheLidarAlone, DegenerateStretchInsideLoop_MapIsRightAndReported) {
   const bench::LoopCase made =
       bench::survey_loop(core::WallMap(bench::ring_corridor()), drive_, /*close_loops=*/true);
   EXPECT_EQ(made.score.walls_found, made.score.walls_seen);
@@ -56,7 +56,7 @@ TEST_P(SurveyOfARingByTheLidarAlone, BareStretchThatALoopGoesAcross_IsRightAndSa
   EXPECT_GT(made.result.degenerate_scans.size(), 100U);
 }
 
-TEST(SurveyOfARingByTheLidarAloneLeftOpen, BareStretch_IsRefused) {
+TEST(SurveyOfARingByTheLidarAloneLeftOpen, DegenerateStretch_IsRejected) {
   const bench::SimulatedDrive drive = bench::ring_drive(1, /*has_odometry=*/false);
   survey::SurveyConfig config;
   config.close_loops = false;
@@ -71,7 +71,7 @@ TEST(SurveyOfARingByTheLidarAloneLeftOpen, BareStretch_IsRefused) {
 // 2, 11 and 12 were not right while turns were straightened once and by the motion before alone.
 INSTANTIATE_TEST_SUITE_P(Seeds, SurveyOfARingByTheLidarAlone, testing::Values(1, 2, 3, 11, 12));
 
-TEST(SurveyOfEqualRooms, RoomsThatLookTheSame_AreRecognisedButNotClosed) {
+TEST(SurveyOfEqualRooms, LookAlikeRooms_AreNotClosed) {
   const core::WallMap map(bench::equal_rooms(4));
   const bench::SimulatedDrive drive = bench::equal_rooms_drive(5);
   const bench::LoopCase made = bench::survey_loop(map, drive, /*close_loops=*/true);

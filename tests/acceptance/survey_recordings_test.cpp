@@ -17,7 +17,7 @@
 #include "core/localizer.hpp"
 #include "survey/survey.hpp"
 #include "tests/temporary_folder.hpp"
-#include "tool/survey_files.hpp"
+#include "tool/survey/survey_files.hpp"
 
 namespace cornerd {
 namespace {
@@ -78,7 +78,7 @@ class RealRoom : public testing::Test {
   fs::path folder_;
 };
 
-TEST_F(RealRoom, MapOfOnePlace_LocalizesTheOthersWithin3cm) {
+TEST_F(RealRoom, MapOfOneRecording_LocalizesOthersWithin3cm) {
   const survey::RecordedDrive drive = load(5);
   const auto map = std::make_shared<const core::WallMap>(survey::survey(drive, {}).plan);
   // The lidar moved in its first second: its usual place is the frame of the registration.
@@ -150,7 +150,7 @@ class RealCorridor : public testing::Test {
 };
 std::unique_ptr<survey::SurveyResult> RealCorridor::result_;
 
-TEST_F(RealCorridor, ItsWalls_AreStraightToHalfADegree) {
+TEST_F(RealCorridor, Walls_AreStraightToHalfADegree) {
   std::vector<CorridorSide> walls = right_sides();
   for (const CorridorSide& side : left_sides()) walls.push_back(side);
   ASSERT_GE(walls.size(), 5U);
@@ -161,7 +161,7 @@ TEST_F(RealCorridor, ItsWalls_AreStraightToHalfADegree) {
   EXPECT_LT(most->direction_rad - least->direction_rad, core::radians(0.5));
 }
 
-TEST_F(RealCorridor, ItsRightSideBetweenDoors_IsOneLineTo2cm) {
+TEST_F(RealCorridor, RightSideBetweenDoors_IsStraightTo2cm) {
   const std::vector<CorridorSide> walls = right_sides();
   core::Vec2 first = walls.front().from;
   core::Vec2 last = walls.front().to;
@@ -177,7 +177,7 @@ TEST_F(RealCorridor, ItsRightSideBetweenDoors_IsOneLineTo2cm) {
   }
 }
 
-TEST_F(RealCorridor, ItsWalls_AreSingle) {
+TEST_F(RealCorridor, Walls_HaveNoDuplicates) {
   for (const std::vector<CorridorSide>& walls : {right_sides(), left_sides()}) {
     double length_m = 0;
     for (std::size_t i = 0; i < walls.size(); ++i) {
@@ -192,7 +192,7 @@ TEST_F(RealCorridor, ItsWalls_AreSingle) {
   }
 }
 
-TEST_F(RealCorridor, TracksThatSlip_AreBelieved) {
+TEST_F(RealCorridor, SlippingTracks_OdometryIsAccepted) {
   EXPECT_TRUE(result_->has_odometry);
   EXPECT_FALSE(result_->rejected_odometry.has_value());
 }

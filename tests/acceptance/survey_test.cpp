@@ -37,7 +37,7 @@ class SurveyOfAFlat : public testing::Test {
 };
 std::unique_ptr<bench::SurveyExperiment> SurveyOfAFlat::experiment_;
 
-TEST_F(SurveyOfAFlat, EveryWallOver30cmThatWasSeen_IsThereAndNoneIsInvented) {
+TEST_F(SurveyOfAFlat, VisibleWallsOver30cm_AreMappedWithoutFalseOnes) {
   EXPECT_GE(experiment_->way_m, 100);
   const bench::SurveyScore& score = made("adjusted").score;
   EXPECT_EQ(score.walls_found, score.walls_seen);
@@ -45,7 +45,7 @@ TEST_F(SurveyOfAFlat, EveryWallOver30cmThatWasSeen_IsThereAndNoneIsInvented) {
   EXPECT_LT(score.invented_m, 0.05);
 }
 
-TEST_F(SurveyOfAFlat, Corners_AreRightTo5mmInTheMedianAnd20mmAtMost) {
+TEST_F(SurveyOfAFlat, Corners_MedianErrorBelow5mmAndMaxBelow20mm) {
   const bench::SurveyScore& score = made("adjusted").score;
   EXPECT_EQ(score.corners_found, score.corners_seen);
   EXPECT_GT(score.corners_seen, 40U);
@@ -53,7 +53,7 @@ TEST_F(SurveyOfAFlat, Corners_AreRightTo5mmInTheMedianAnd20mmAtMost) {
   EXPECT_LE(score.corner_max_m(), 0.020);
 }
 
-TEST_F(SurveyOfAFlat, SecondDrive_CostsAtMost3mmOverTheTrueMap) {
+TEST_F(SurveyOfAFlat, SecondDrive_ErrorAtMost3mmAboveTrueMap) {
   const auto& second = made("adjusted").second_drive;
   ASSERT_TRUE(second.has_value());
   EXPECT_EQ(second->wrong, 0U);
@@ -61,7 +61,7 @@ TEST_F(SurveyOfAFlat, SecondDrive_CostsAtMost3mmOverTheTrueMap) {
   EXPECT_LE(second->mean_error_m, experiment_->in_true_map.mean_error_m + 0.003);
 }
 
-TEST_F(SurveyOfAFlat, LidarAlone_FindsTheWallsToo) {
+TEST_F(SurveyOfAFlat, LidarAlone_FindsTheWalls) {
   const bench::SurveyScore& score = made("adjusted, lidar alone").score;
   EXPECT_EQ(score.walls_found, score.walls_seen);
   EXPECT_LT(score.invented_m, 0.05);
@@ -69,7 +69,7 @@ TEST_F(SurveyOfAFlat, LidarAlone_FindsTheWallsToo) {
   EXPECT_LE(score.corner_max_m(), 0.020);
 }
 
-TEST_F(SurveyOfAFlat, ThePapersWay_IsFarBehind) {
+TEST_F(SurveyOfAFlat, PaperMethod_IsLessAccurate) {
   const bench::SurveyScore& ours = made("adjusted").score;
   const bench::SurveyScore& taught = made("ransac, odometry taught").score;
   EXPECT_LT(taught.walls_found, ours.walls_found);
@@ -78,7 +78,7 @@ TEST_F(SurveyOfAFlat, ThePapersWay_IsFarBehind) {
 
 /// Starts and stops at once, within a turn of the lidar, which that bends; 12 degrees from turn to
 /// turn. Taken for where the robot could not be, a single turn of these tore the map by 0.8 m.
-TEST(SurveyByTheLidarAlone, RobotThatStartsAndStopsAtOnce_GetsTheRightMap) {
+TEST(SurveyByTheLidarAlone, AbruptStartsAndStops_MapIsRight) {
   const auto map =
       settings::load_map(std::filesystem::path(CORNERD_SOURCE_DIR) / "config/maps/flat-7.json");
   const replay::Scenario* exploration = replay::find_scenario("exploration");

@@ -7,7 +7,6 @@
 #include <cstdlib>
 #include <cstring>
 
-
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace cornerd::gridmap;
   try {

@@ -15,7 +15,7 @@
 #include "message/line_writer.hpp"
 #include "settings/config.hpp"
 #include "settings/map_file.hpp"
-#include "tool/playback.hpp"
+#include "tool/replay/playback.hpp"
 
 namespace cornerd {
 namespace {

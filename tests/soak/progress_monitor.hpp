@@ -7,8 +7,8 @@ namespace cornerd::soak {
 
 /// What this process has had of the machine.
 struct Activity {
-  double time_s = 0;       ///< on a clock that never stops
-  double cpu_s = 0;        ///< of all its threads so far
+  double time_s = 0;           ///< on a clock that never stops
+  double cpu_s = 0;            ///< of all its threads so far
   bool others_asleep = false;  ///< none of the other threads runs or waits for a processor
 
   static Activity now();

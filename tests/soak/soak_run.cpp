@@ -12,13 +12,13 @@
 #include <memory>
 #include <utility>
 
-#include "bench/localization/pose_error.hpp"
 #include "core/geometry/angle.hpp"
 #include "core/pipeline.hpp"
 #include "daemon/localization.hpp"
 #include "drivers/rplidar/rplidar_driver.hpp"
 #include "message/line_writer.hpp"
 #include "progress_monitor.hpp"
+#include "replay/pose_error.hpp"
 #include "replay/simulator/motion.hpp"
 #include "settings/map_file.hpp"
 #include "tests/sanitized.hpp"
@@ -97,10 +97,10 @@ std::string describe(const core::PoseEstimate& pose, const core::Pose2& truth, s
 /// True of a fix that is elsewhere.
 bool is_wrong(const core::PoseEstimate& pose, const core::Pose2& truth, SoakReport& report) {
   if (!core::has_pose(pose.state)) return false;
-  const bench::PoseError error = bench::error_of(pose.T_map_base, truth);
+  const replay::PoseError error = replay::error_of(pose.T_map_base, truth);
   report.worst_error_m = std::max(report.worst_error_m, error.place_m);
   report.worst_error_rad = std::max(report.worst_error_rad, error.heading_rad);
-  return !bench::is_right(pose.T_map_base, truth);
+  return !replay::is_right(pose.T_map_base, truth);
 }
 
 }  // namespace

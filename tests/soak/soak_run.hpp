@@ -35,7 +35,7 @@ struct SoakReport {
   double simulated_s = 0;
   double real_s = 0;
   double max_without_progress_s = 0;  ///< of both loops, as the watchdog sees it
-  std::uint64_t warm_bytes = 0;           ///< of resident memory, after a tenth of the turns
+  std::uint64_t warm_bytes = 0;       ///< of resident memory, after a tenth of the turns
   std::uint64_t end_bytes = 0;
 
   /// What does not hold; empty: all is well.

@@ -173,7 +173,7 @@ TEST_F(Clients, ThirtyTwoOfAllKinds_LeaveTheReadersTheirPoses) {
   const EmulatedLidar lidar(folder_ / "map.json", folder_ / "lidar");
   const DaemonProcess daemon =
       start({"/lidar/driver=rplidar", "/lidar/device=" + (folder_ / "lidar").string(),
-             "/realtime/priority=50", "/realtime/lock_memory=true"});
+             "/advanced/realtime/priority=50", "/advanced/realtime/lock_memory=true"});
   const Heartbeat heartbeat;
   std::vector<Reader> readers;
   for (int i = 0; i < kReaders; ++i) readers.push_back({connect(), &heartbeat});

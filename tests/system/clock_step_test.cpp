@@ -124,7 +124,7 @@ TEST_F(ClockStep, AnHourBackAndAYearAhead_CostNoPoseAndNoWordToTheWatchdog) {
 
 TEST_F(ClockStep, AnHourBackWhileTheLidarIsWaitedFor_DoesNotMakeThatAnHourLonger) {
   lidar_.expect_speed(115200);
-  const DaemonProcess daemon = start_live({"/lidar/baud=57600"});
+  const DaemonProcess daemon = start_live({"/advanced/lidar/baud=57600"});
   TestClient client = connect();
   watch(client);
   for (json status = next_of(client, "STATUS");
@@ -141,7 +141,8 @@ TEST_F(ClockStep, AnHourBackWhileTheLidarIsWaitedFor_DoesNotMakeThatAnHourLonger
 }
 
 TEST_F(ClockStep, ReadingsOfAControllerByTheSameClock_AreTakenBeforeAndAfter) {
-  const DaemonProcess daemon = start_live({"/odometry/source=socket", "/odometry/publish=true"});
+  const DaemonProcess daemon =
+      start_live({"/odometry/source=socket", "/advanced/odometry/publish_predictions=true"});
   TestClient client = connect();
   watch(client);
   std::jthread controller([&, control = connect("control.sock")](std::stop_token stop) mutable {

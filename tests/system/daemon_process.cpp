@@ -105,7 +105,7 @@ DaemonTest::DaemonTest() {
     "lidar": { "driver": "replay", "file": "room.ndjson", "speed": 5, "loop": true },
     "map": "map.json",
     "socket": { "pose": "pose.sock", "control": "control.sock" },
-    "realtime": { "priority": 0, "lock_memory": false } })";
+    "advanced": { "realtime": { "priority": 0, "lock_memory": false } } })";
 }
 
 DaemonProcess DaemonTest::start(const std::vector<std::string>& overrides,

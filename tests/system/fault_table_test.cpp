@@ -164,9 +164,9 @@ TEST_F(FaultTable, DeadLaser) {
 
 TEST_F(FaultTable, WrongSpeed) {
   lidar_->expect_speed(115200);
-  launch({"/lidar/baud=57600"});
+  launch({"/advanced/lidar/baud=57600"});
   expect(
-      "lidar.baud is wrong; the device's follows", "wrong-baud", "backoff", [] {},
+      "advanced.lidar.baud is wrong; the device's follows", "wrong-baud", "backoff", [] {},
       [&] { lidar_->expect_speed(57600); });
 }
 

@@ -12,7 +12,8 @@ class KernelOdometry : public DaemonTest {
  protected:
   DaemonProcess start_with_tree() {
     return start({"/lidar/driver=rplidar", "/lidar/device=/dev/no_such_lidar",
-                  "/odometry/source=kernel", "/odometry/kernel/sysfs=" + tree_.root().string()});
+                  "/odometry/source=kernel",
+                  "/advanced/odometry/kernel/sysfs=" + tree_.root().string()});
   }
   /// The sensors of the first STATUS where that one is in that state.
   static json sensors_with(TestClient& client, const char* sensor, const std::string& state) {

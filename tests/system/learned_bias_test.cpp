@@ -18,7 +18,7 @@ class EstimatedBias : public DaemonTest {
  protected:
   DaemonProcess start_on_lidar() {
     return start({"/lidar/driver=rplidar", "/lidar/device=" + (folder_ / "lidar").string(),
-                  "/lidar/learned_file=" + file_.string()});
+                  "/advanced/lidar/calibration_file=" + file_.string()});
   }
 
   /// The first STATUS that tells of at least so many turns that taught.

@@ -18,7 +18,7 @@ class OdometryReload : public DaemonTest {
  protected:
   void set_publish(bool publish) {
     json settings = json::parse(std::ifstream(config()));
-    settings["odometry"]["publish"] = publish;
+    settings["advanced"]["odometry"]["publish_predictions"] = publish;
     std::ofstream(config()) << settings;
   }
 

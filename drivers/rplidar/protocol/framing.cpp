@@ -7,7 +7,6 @@
 #include <string_view>
 
 namespace cornerd::rplidar {
-
 namespace {
 
 constexpr std::size_t kHeaderSize = 2;

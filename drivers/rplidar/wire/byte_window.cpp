@@ -5,7 +5,6 @@
 #include <array>
 
 namespace cornerd::rplidar {
-
 namespace {
 
 struct KnownDescriptor {

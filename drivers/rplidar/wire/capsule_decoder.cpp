@@ -9,7 +9,6 @@
 #include "drivers/rplidar/wire/standard_node.hpp"
 
 namespace cornerd::rplidar {
-
 namespace {
 
 constexpr float kDegree = 64;

@@ -6,7 +6,6 @@
 #include <cstdlib>
 
 namespace cornerd::rplidar {
-
 namespace {
 
 // The A1's angle correction reaches slightly beyond 360 degrees.

@@ -2,8 +2,8 @@
 #include "bench/localization/cost.hpp"
 
 #include "bench/localization/circle.hpp"
-#include "bench/simulated_scan.hpp"
 #include "core/localizer.hpp"
+#include "replay/simulator/scan_simulator.hpp"
 
 namespace cornerd::bench {
 namespace {
@@ -17,7 +17,7 @@ void localize_scans(const std::shared_ptr<const core::WallMap>& map, std::size_t
                     bool tracking) {
   const CircularMotion motion = tracking ? CircularMotion{0.2, 1.5} : CircularMotion{};
   const auto places = random_circles(*map, motion, tracking ? 1 : kMaxCountedScans, kCostSeed);
-  ScanSimulator lidar({}, kCostSamples, kCostSeed);
+  replay::ScanSimulator lidar({}, kCostSamples, kCostSeed);
   core::Localizer localizer(map, {});
   core::TimeNs t_ns = 0;
   for (std::size_t i = 0; i < kMaxCountedScans; ++i, t_ns += lidar.scan_ns()) {

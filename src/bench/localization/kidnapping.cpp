@@ -3,9 +3,9 @@
 
 #include <algorithm>
 
-#include "bench/localization/pose_error.hpp"
-#include "bench/simulated_scan.hpp"
+#include "replay/pose_error.hpp"
 #include "replay/simulator/random_poses.hpp"
+#include "replay/simulator/scan_simulator.hpp"
 
 namespace cornerd::bench {
 namespace {
@@ -22,7 +22,7 @@ KidnappingScore run_kidnapping(const std::vector<std::shared_ptr<const core::Wal
   for (std::size_t m = 0; m < maps.size(); ++m) {
     const core::WallMap& map = *maps[m];
     const std::size_t share = jumps * (m + 1) / maps.size() - jumps * m / maps.size();
-    ScanSimulator lidar({}, kKidnappingSamples, seed + m);
+    replay::ScanSimulator lidar({}, kKidnappingSamples, seed + m);
     core::Localizer localizer(maps[m], {});
     core::TimeNs t_ns = 0;
     const auto places = replay::random_poses(map, share + 1, kKidnappingClearance_m, seed + m);
@@ -34,7 +34,7 @@ KidnappingScore run_kidnapping(const std::vector<std::shared_ptr<const core::Wal
         t_ns += lidar.scan_ns();
         const core::PoseEstimate& pose = localizer.step(scan).pose;
         if (i == 0 || !core::has_pose(pose.state)) continue;
-        if (is_right(pose.T_map_base, place)) {
+        if (replay::is_right(pose.T_map_base, place)) {
           recovered = std::min(recovered, k);
         } else {
           ++(k == 0 ? score.wrong_first : score.wrong_later);

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <numeric>
 
-#include "bench/localization/pose_error.hpp"
 #include "bench/statistics.hpp"
+#include "replay/pose_error.hpp"
 
 namespace cornerd::bench {
 
@@ -15,14 +15,14 @@ void PoseScore::add(const core::PoseEstimate& estimate, const core::Pose2& truth
   using core::PoseState;
   ++scans_;
   reliability_.add(estimate, truth);
-  const bool right = is_right(estimate.T_map_base, truth);
+  const bool right = replay::is_right(estimate.T_map_base, truth);
   switch (estimate.state) {
     case PoseState::kLost:
       ++lost_;
       return;
     case PoseState::kAmbiguous:
       ++ambiguous_;
-      ambiguous_with_truth_ += lists_truth(estimate, truth) ? 1 : 0;
+      ambiguous_with_truth_ += replay::lists_truth(estimate, truth) ? 1 : 0;
       return;
     case PoseState::kPredicted:
       ++predicted_;
@@ -33,12 +33,12 @@ void PoseScore::add(const core::PoseEstimate& estimate, const core::Pose2& truth
       ++named_;
       wrong_ += right ? 0 : 1;
   }
-  if (const auto nees = normalised_error_squared(estimate, truth)) {
+  if (const auto nees = replay::normalised_error_squared(estimate, truth)) {
     nees_ += *nees;
-    inside_95_ += *nees < kNees95 ? 1 : 0;
+    inside_95_ += *nees < replay::kNees95 ? 1 : 0;
   }
   if (!right) return;
-  const PoseError error = error_of(estimate.T_map_base, truth);
+  const replay::PoseError error = replay::error_of(estimate.T_map_base, truth);
   errors_m_.push_back(error.place_m);
   squares_m2_ += error.place_m * error.place_m;
   bound_m2_ += bound.topLeftCorner<2, 2>().trace();

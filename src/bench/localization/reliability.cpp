@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "bench/localization/reliability.hpp"
 
-#include "bench/localization/pose_error.hpp"
+#include "replay/pose_error.hpp"
 
 namespace cornerd::bench {
 
@@ -15,7 +15,7 @@ void Reliability::add(const core::PoseEstimate& estimate, const core::Pose2& tru
     if (estimate.doubt >= each.least_doubt) bin = &each;
   }
   ++bin->scans;
-  bin->wrong += is_right(first, truth) ? 0 : 1;
+  bin->wrong += replay::is_right(first, truth) ? 0 : 1;
   bin->doubt += estimate.doubt;
 }
 

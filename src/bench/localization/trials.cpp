@@ -10,7 +10,7 @@
 #include "bench/localization/circle.hpp"
 #include "bench/localization/cramer_rao.hpp"
 #include "bench/localization/world.hpp"
-#include "bench/simulated_scan.hpp"
+#include "replay/simulator/scan_simulator.hpp"
 #include "replay/simulator/simulated_odometry.hpp"
 
 namespace cornerd::bench {
@@ -71,8 +71,9 @@ class Robot {
       const core::Scan& scan = lidar_.take(start_ns, [&](core::TimeNs t_ns, double bearing_rad) {
         const core::Pose2 at = motion(t_ns, 0);
         const double angle_rad = at.theta_rad + bearing_rad;
-        return range_with(things, at.translation(), angle_rad,
-                          world.range_along(at.translation(), angle_rad, ScanSimulator::kSight_m));
+        return range_with(
+            things, at.translation(), angle_rad,
+            world.range_along(at.translation(), angle_rad, replay::ScanSimulator::kSight_m));
       });
       if (trial_.updates_per_scan > 1) {
         follow(scan, motion, odometry, score);
@@ -112,7 +113,7 @@ class Robot {
   std::shared_ptr<const core::WallMap> map_;
   std::uint64_t seed_;
   replay::Random random_;
-  ScanSimulator lidar_;
+  replay::ScanSimulator lidar_;
   core::Localizer localizer_;
   CramerRao bound_;
   core::PolarScan points_;

@@ -16,9 +16,7 @@ inline double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y()
 inline Vec2 rotate_left(const Vec2& v) { return {-v.y(), v.x()}; }
 inline Vec2 unit_vector(double angle_rad) { return {std::cos(angle_rad), std::sin(angle_rad)}; }
 /// Counter-clockwise from x, in [-pi, pi].
-inline double angle_of(const Vec2& direction) {
-  return std::atan2(direction.y(), direction.x());
-}
+inline double angle_of(const Vec2& direction) { return std::atan2(direction.y(), direction.x()); }
 
 /// A rigid transform of the plane, element of SE(2): `T_a_b * p_b` is the point p_b of frame b in
 /// frame a.

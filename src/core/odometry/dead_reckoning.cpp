@@ -46,7 +46,7 @@ double heading_change(const OdometryIncrement& step, const DriveGeometry& geomet
 }
 
 OdometryIncrement by_wheels_alone(const OdometryIncrement& step, const DriveGeometry& geometry,
-                           const DeadReckoningConfig& config) {
+                                  const DeadReckoningConfig& config) {
   const double radius_m = geometry.wheel_radius_m;
   const double dead_band_rad = config.factors.dead_band_rad;
   const double way_m = (counted(step.left_m, radius_m, dead_band_rad) +
@@ -62,8 +62,8 @@ OdometryIncrement by_wheels_alone(const OdometryIncrement& step, const DriveGeom
 
 const Pose2& DeadReckoning::add(const OdometryIncrement& step) {
   const OdometryIncrement alone = by_wheels_alone(step, geometry_, config_);
-  T_start_base_ =
-      T_start_base_ * arc(alone.translation_m(), (alone.right_m - alone.left_m) / geometry_.track_m);
+  T_start_base_ = T_start_base_ *
+                  arc(alone.translation_m(), (alone.right_m - alone.left_m) / geometry_.track_m);
   return T_start_base_;
 }
 

@@ -2,8 +2,8 @@
 // Bertocco, Oliveira, Santos: Odometry and Feature Extraction (2019), section III.
 #pragma once
 
-#include "core/odometry/odometry_increment.hpp"
 #include "core/odometry/odometry_config.hpp"
+#include "core/odometry/odometry_increment.hpp"
 
 namespace cornerd::core {
 
@@ -20,7 +20,7 @@ double heading_change(const OdometryIncrement& step, const DriveGeometry& geomet
 /// The same step as wheels without a gyro would have to tell it: the filter's way to use a mode of
 /// the paper.
 OdometryIncrement by_wheels_alone(const OdometryIncrement& step, const DriveGeometry& geometry,
-                           const DeadReckoningConfig& config);
+                                  const DeadReckoningConfig& config);
 
 /// Adds up steps from a known start. Nothing corrects it.
 class DeadReckoning {

@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "core/geometry/squared.hpp"
-#include "core/odometry/fusion_prediction.hpp"
 #include "core/odometry/corrected_increment.hpp"
+#include "core/odometry/fusion_prediction.hpp"
 
 namespace cornerd::core {
 namespace {
@@ -43,7 +43,8 @@ void FusionFilter::start_from(const OdometryParameters& start) {
   covariance_(kTrack, kTrack) = squared(noise_.track_scale);
   covariance_(kGyro, kGyro) = squared(noise_.gyro_scale);
   covariance_(kDelay, kDelay) = squared(noise_.delay_s);
-  covariance_(kLeftRest, kLeftRest) = covariance_(kRightRest, kRightRest) = geometry_.quantization_variance();
+  covariance_(kLeftRest, kLeftRest) = covariance_(kRightRest, kRightRest) =
+      geometry_.quantization_variance();
   learning_ = NoiseLearning(geometry_);
   usual_.forget();
 }

@@ -8,19 +8,19 @@
 #include <Eigen/Core>
 
 #include "core/odometry/jitter_meter.hpp"
-#include "core/odometry/odometry_increment.hpp"
 #include "core/odometry/noise_learning.hpp"
 #include "core/odometry/odometry_config.hpp"
+#include "core/odometry/odometry_increment.hpp"
 #include "core/odometry/pull_watch.hpp"
 #include "core/odometry/slip_watch.hpp"
 #include "core/odometry/usual_motion.hpp"
 
 namespace cornerd::core {
 
-/// An extended Kalman filter over the pose of `base` in `map` and OdometryParameters. Wheels move it,
-/// the gyro corrects the turn of each step, the lidar's fixes correct all of it. The pose is that
-/// of a reading's time; a fix is of the lidar's, which is the same less the delay, and what the
-/// delay is off by shows in fixes as the way that the robot makes meanwhile. Fixed size, no
+/// An extended Kalman filter over the pose of `base` in `map` and OdometryParameters. Wheels move
+/// it, the gyro corrects the turn of each step, the lidar's fixes correct all of it. The pose is
+/// that of a reading's time; a fix is of the lidar's, which is the same less the delay, and what
+/// the delay is off by shows in fixes as the way that the robot makes meanwhile. Fixed size, no
 /// allocation.
 class FusionFilter {
  public:

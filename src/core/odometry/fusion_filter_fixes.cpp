@@ -8,8 +8,8 @@
 #include <Eigen/Cholesky>
 
 #include "core/geometry/squared.hpp"
-#include "core/odometry/fusion_filter.hpp"
 #include "core/odometry/corrected_increment.hpp"
+#include "core/odometry/fusion_filter.hpp"
 
 namespace cornerd::core {
 namespace {

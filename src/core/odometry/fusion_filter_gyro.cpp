@@ -27,7 +27,8 @@ void FusionFilter::expect_of_gyro(Prediction& p) const {
   // not mind. Unreckoned with, it looks like slip, and what is made of that drives the scales away.
   // Counts change sides with every reading as well.
   const double rate_rad_s = p.dt_s > 0 ? p.step.gyro_rad / p.dt_s : 0;
-  const double counts_rad2 = kCountsForJitter * geometry_.quantization_variance() / squared(p.track_m);
+  const double counts_rad2 =
+      kCountsForJitter * geometry_.quantization_variance() / squared(p.track_m);
   p.jitter_rad2 = std::max(0.0, 2 * jitter_.variance_s2() * squared(rate_rad_s) - counts_rad2);
   // When within the step the rate changed nobody knows: evenly between its two ends.
   p.gyro_rad2 = p.gyro_told_rad2 * learning_.gyro_factor() + squared(p.step.gyro_change_rad) / 3 +

@@ -2,8 +2,8 @@
 // Of the filter alone: what its files hand to each other.
 #pragma once
 
-#include "core/odometry/fusion_filter.hpp"
 #include "core/odometry/corrected_increment.hpp"
+#include "core/odometry/fusion_filter.hpp"
 
 namespace cornerd::core {
 

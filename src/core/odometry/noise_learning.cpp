@@ -16,7 +16,8 @@ constexpr double kLongestWindow_s = 4;
 
 }  // namespace
 
-void NoiseLearning::drove(const OdometryIncrement& step, double wheel_rad2, double gyro_rad2, bool slips) {
+void NoiseLearning::drove(const OdometryIncrement& step, double wheel_rad2, double gyro_rad2,
+                          bool slips) {
   if (step.is_gap) return interrupt();
   if (slips) by_wheels_.is_open = false;
   if (!step.has_gyro) by_gyro_.is_open = false;
@@ -30,8 +31,8 @@ void NoiseLearning::drove(const OdometryIncrement& step, double wheel_rad2, doub
   by_gyro_.told_rad2 += gyro_rad2;
 }
 
-void NoiseLearning::fixed(double heading_rad, double variance_rad2, const OdometryParameters& learned,
-                          const Covariance& covariance) {
+void NoiseLearning::fixed(double heading_rad, double variance_rad2,
+                          const OdometryParameters& learned, const Covariance& covariance) {
   const auto is_due = [&](Window& window, double factor) {
     if (++window.fixes < kFewestFixes) return false;
     return factor * window.told_rad2 > kStandsOut * (window.variance_rad2 + variance_rad2) ||

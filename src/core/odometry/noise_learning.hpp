@@ -3,9 +3,9 @@
 
 #include <Eigen/Core>
 
-#include "core/odometry/odometry_increment.hpp"
 #include "core/odometry/noise_meter.hpp"
 #include "core/odometry/odometry_config.hpp"
+#include "core/odometry/odometry_increment.hpp"
 
 namespace cornerd::core {
 

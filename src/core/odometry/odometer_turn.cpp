@@ -82,12 +82,14 @@ Covariance3 Odometer::deskew_covariance() const {
   // Where in its count each wheel is in the middle: what the rest of the turn is deskewed to.
   const DriveGeometry& geometry = config_.geometry;
   const double lever_m2 = config_.conservative ? kLever_m * kLever_m : 0;
-  const double place_m2 = place_m * place_m + uneven_m * uneven_m + geometry.quantization_variance() / 2 +
+  const double place_m2 = place_m * place_m + uneven_m * uneven_m +
+                          geometry.quantization_variance() / 2 +
                           kWanderShare * (wander.place_m2 + lever_m2 * wander.rotation_variance);
   double rotation_variance = rotation_rad * rotation_rad + uneven_rad * uneven_rad +
                              kWanderShare * wander.rotation_variance;
   if (!last_.has_gyro)
-    rotation_variance += 2 * geometry.quantization_variance() / (geometry.track_m * geometry.track_m);
+    rotation_variance +=
+        2 * geometry.quantization_variance() / (geometry.track_m * geometry.track_m);
   if (doubts_slips()) {
     const double rolled_m =
         std::max(way.translation().norm(), std::abs(way.theta_rad) * geometry.track_m / 2);

@@ -51,7 +51,7 @@ constexpr double kSlackCounts = 2;
 }  // namespace
 
 std::optional<OdometryIncrement> ReadingGate::add(const OdometryReading& reading,
-                                           std::optional<TimeNs> now_ns) {
+                                                  std::optional<TimeNs> now_ns) {
   ++counters_.readings;
   if (!is_in_time(reading.t_ns, now_ns)) return std::nullopt;
   if (reading.gyro_rad_s) add_gyro(reading.t_ns, *reading.gyro_rad_s);
@@ -207,7 +207,8 @@ std::optional<OdometryIncrement> ReadingGate::add_counts(const Counts& counts) {
   }
   const bool is_jump = !is_possible(*last_, counts);
   const bool agrees = doubted_ && is_possible(*doubted_, counts);
-  const bool is_glitch = config_.conservative && before_last_ && is_sudden(*before_last_, *last_, counts) &&
+  const bool is_glitch = config_.conservative && before_last_ &&
+                         is_sudden(*before_last_, *last_, counts) &&
                          !(agrees && !is_sudden(*last_, *doubted_, counts));
   if (is_jump || is_glitch) {
     ++counters_.jumps;

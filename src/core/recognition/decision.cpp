@@ -11,8 +11,8 @@ namespace {
 /// many rays at once: so many nats of a turn are worth one nat of belief. What they promise is
 /// measured (`cornerctl bench --localizer`, "kept promises").
 constexpr double kNatsPerNat = 1.3;
-/// Each ray that even the likeliest place does not beam_likelihood says that the map or the model is off by
-/// something.
+/// Each ray that even the likeliest place does not beam_likelihood says that the map or the model
+/// is off by something.
 constexpr double kNatsPerNatPerStranger = 0.0217;
 /// The same where things are counted instead of rays: so many for the turn, and for each ray.
 constexpr double kNatsPerNatOfThings = 1.04;
@@ -52,7 +52,8 @@ class Belief {
     const double by_rays = (other.log_likelihood - likeliest_.log_likelihood) / worth_;
     if (!is_few_things(other)) return std::exp(by_rays);
     const double by_things =
-        (other.log_likelihood_of_obstacles - likeliest_.log_likelihood_of_obstacles) / worth_of_things_;
+        (other.log_likelihood_of_obstacles - likeliest_.log_likelihood_of_obstacles) /
+        worth_of_things_;
     return std::exp(std::min(0.0, std::max(by_rays, by_things)));
   }
 
@@ -63,8 +64,8 @@ class Belief {
   }
   /// Less exact, but nothing stands in its way: the sensor may be biased, or a wall displaced.
   bool explains_more(const BeamLikelihood& other) const {
-    return static_cast<double>(other.hits + other.near) >
-           static_cast<double>(likeliest_.hits + likeliest_.near) + kRaysForARival +
+    return static_cast<double>(other.hits + other.near_hits) >
+           static_cast<double>(likeliest_.hits + likeliest_.near_hits) + kRaysForARival +
                kRaysForARivalPerThing * shorts_;
   }
 
@@ -97,7 +98,8 @@ Decision decide(std::span<const VerifiedHypothesis> places, const std::optional<
   std::size_t near = 0;
   for (std::size_t i = 0; i < decision.rivals; ++i) {
     if (!same_place(places[i].refined.T_map_lidar, prior->T_map_lidar,
-                    kPriorRadius_m + prior->position_error_m, kPriorAngle_rad + prior->heading_error_rad)) {
+                    kPriorRadius_m + prior->position_error_m,
+                    kPriorAngle_rad + prior->heading_error_rad)) {
       continue;
     }
     decision.place = i;

@@ -10,10 +10,10 @@ namespace cornerd::core {
 /// Evidence of one scan for one hypothesis, whatever the competing ones have.
 struct Evidence {
   BeamLikelihood likelihood;
-  std::size_t corners = 0;        ///< breakpoints with a landmark on the map
-  double largest_gap_rad = 0;     ///< largest gap of the field of view
-  bool exhaustive = true;         ///< every hypothesis of the scan's walls was tested
-  bool at_prior = false;  ///< agrees with a prior of small uncertainty
+  std::size_t corners = 0;     ///< breakpoints with a landmark on the map
+  double largest_gap_rad = 0;  ///< largest gap of the field of view
+  bool exhaustive = true;      ///< every hypothesis of the scan's walls was tested
+  bool at_prior = false;       ///< agrees with a prior of small uncertainty
 };
 
 /// True where the field of view has no gap of 170 degrees or more: the lidar was not covered.

@@ -61,8 +61,8 @@ class SumOfLogarithms {
 }  // namespace
 
 BeamLikelihood beam_likelihood(const WallMap& map, std::span<const PolarPoint> points,
-                    std::span<const PredictedHit> hits, const Pose2& T_map_lidar,
-                    const SensorNoise& noise, double noise_scale, double extra_sigma_m) {
+                               std::span<const PredictedHit> hits, const Pose2& T_map_lidar,
+                               const SensorNoise& noise, double noise_scale, double extra_sigma_m) {
   const double c = std::cos(T_map_lidar.theta_rad);
   const double s = std::sin(T_map_lidar.theta_rad);
   std::size_t hidden_in_a_row = 0;

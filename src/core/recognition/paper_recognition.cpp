@@ -117,7 +117,7 @@ int PaperRecognition::lines_on_walls(std::span<const WallSegment> segments,
 }
 
 std::span<const PoseHypothesis> PaperRecognition::places(std::span<const Breakpoint> breakpoints,
-                                                     std::span<const WallSegment> segments) {
+                                                         std::span<const WallSegment> segments) {
   found_.clear();
   if (!find_nearest(breakpoints)) return {};
   match_nearest();

@@ -23,7 +23,7 @@ class PaperRecognition {
 
   /// The places that stages 2 and 3 like best, several where they are level.
   std::span<const PoseHypothesis> places(std::span<const Breakpoint> breakpoints,
-                                     std::span<const WallSegment> segments);
+                                         std::span<const WallSegment> segments);
 
  private:
   using Triple = std::array<const Breakpoint*, 3>;

@@ -5,7 +5,7 @@
 #include "tool/doctor/checks.hpp"
 #include "tool/doctor/process_table.hpp"
 #include "tool/doctor/service_unit.hpp"
-#include "tool/formatted.hpp"
+#include "tool/drawing/formatted.hpp"
 
 namespace cornerd::tool {
 
@@ -97,7 +97,7 @@ void add_reading_rate(const Patient& patient, std::vector<Finding>& findings) {
   }
   const bool is_wrong = *hz < kFewestReadings_hz;
   const std::string mend = patient.config.odometry.source == settings::OdometrySource::kKernel
-                               ? "odometry.kernel.rate: 50"
+                               ? "advanced.odometry.kernel.rate: 50"
                                : "send ODOMETRY 50 times a second, wheels and gyro in one line";
   findings.push_back({is_wrong ? Verdict::kWrong : Verdict::kNote,
                       "odometry",

@@ -8,7 +8,7 @@
 #include <string_view>
 
 #include "tool/doctor/machine.hpp"
-#include "tool/socket_client.hpp"
+#include "tool/watch/socket_client.hpp"
 
 namespace cornerd::tool {
 

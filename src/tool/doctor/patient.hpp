@@ -16,8 +16,8 @@ namespace cornerd::tool {
 
 /// What the daemon said while it was listened to.
 struct DaemonView {
-  int connect_errno = 0;                      ///< why nobody could be asked; 0: somebody answered
-  std::string version;                        ///< empty: it said nothing at all
+  int connect_errno = 0;                        ///< why nobody could be asked; 0: somebody answered
+  std::string version;                          ///< empty: it said nothing at all
   std::optional<message::ParsedStatus> status;  ///< the newest
   /// Of readings of wheels and gyro; nullopt where it was not listened to for long enough.
   std::optional<double> odometry_hz;

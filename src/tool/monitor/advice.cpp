@@ -4,7 +4,7 @@
 #include <cmath>
 #include <optional>
 
-#include "tool/formatted.hpp"
+#include "tool/drawing/formatted.hpp"
 
 namespace cornerd::tool {
 

@@ -9,7 +9,7 @@
 #include "tool/monitor/screen.hpp"
 #include "tool/monitor/signal_queue.hpp"
 #include "tool/monitor/terminal.hpp"
-#include "tool/socket_client.hpp"
+#include "tool/watch/socket_client.hpp"
 
 namespace cornerd::tool {
 

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "message/line_writer.hpp"
-#include "tool/formatted.hpp"
+#include "tool/drawing/formatted.hpp"
 
 namespace cornerd::tool {
 

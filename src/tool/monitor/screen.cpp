@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tool/formatted.hpp"
+#include "tool/drawing/formatted.hpp"
 #include "tool/monitor/advice.hpp"
 #include "tool/monitor/pose_panel.hpp"
 

@@ -8,7 +8,7 @@
 #include <cstring>
 #include <string>
 
-#include "tool/failure.hpp"
+#include "tool/command_line/failure.hpp"
 
 namespace cornerd::tool {
 

@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <cerrno>
 
-#include "tool/failure.hpp"
+#include "tool/command_line/failure.hpp"
 
 namespace cornerd::tool {
 

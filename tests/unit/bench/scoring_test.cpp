@@ -6,7 +6,7 @@
 
 #include <vector>
 
-#include "bench/simulated_scan.hpp"
+#include "replay/simulator/scan_simulator.hpp"
 #include "tests/unit/replay/test_maps.hpp"
 
 namespace cornerd::bench {
@@ -30,7 +30,7 @@ Breakpoint detection(double x_m, double y_m, BreakpointKind kind = BreakpointKin
 class CornerScoring : public testing::Test {
  protected:
   CornerScoring() : map_(plan()), truth_(map_, 12) {
-    ScanSimulator simulator(replay::SensorModel::perfect(), 2000, 1);
+    replay::ScanSimulator simulator(replay::SensorModel::perfect(), 2000, 1);
     core::PolarScan points;
     points.assign(simulator.take(map_, kPlace), 0.15, 12);
     truth_.look(kPlace, points.points());

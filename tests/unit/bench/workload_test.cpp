@@ -6,14 +6,14 @@
 #include <vector>
 
 #include "bench/instruction_counter.hpp"
-#include "bench/simulated_scan.hpp"
+#include "replay/simulator/scan_simulator.hpp"
 #include "tests/unit/replay/test_maps.hpp"
 
 namespace cornerd::bench {
 namespace {
 
 std::vector<core::Scan> room_scans(std::size_t samples) {
-  ScanSimulator simulator({}, samples, 1);
+  replay::ScanSimulator simulator({}, samples, 1);
   return {simulator.take(*replay::make_room(), {1, 1, 0}),
           simulator.take(*replay::make_room(), {1.5, 2, 1})};
 }

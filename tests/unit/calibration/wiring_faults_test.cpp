@@ -16,7 +16,7 @@ using core::OdometryIncrement;
 
 /// A known drive, each step of which is told wrong.
 WiringFaults faults_of(const std::function<void(OdometryIncrement&)>& wrong, double scans = 1,
-                      const core::DriveGeometry& geometry = {}) {
+                       const core::DriveGeometry& geometry = {}) {
   KnownDrive known = known_drive({}, scans);
   for (OdometryIncrement& step : known.steps) wrong(step);
   return find_wiring_faults(cut_windows(known.steps, known.places), geometry);
@@ -40,7 +40,8 @@ TEST(WiringFaults, SlipsAndJitter_AreNone) {
 }
 
 TEST(WiringFaults, ADriveThatDoesNotTell_HasNone) {
-  EXPECT_FALSE(faults_of([](OdometryIncrement& step) { std::swap(step.left_m, step.right_m); }, 0).any())
+  EXPECT_FALSE(
+      faults_of([](OdometryIncrement& step) { std::swap(step.left_m, step.right_m); }, 0).any())
       << "straight on";
   EXPECT_FALSE(find_wiring_faults({}, {}).any());
   const KnownDrive known = known_drive({}, 1);
@@ -115,7 +116,8 @@ TEST(WiringFaults, AWrongGyro_IsNamed) {
   const WiringFaults reversed = faults_of([](OdometryIncrement& step) { step.gyro_rad *= -1; });
   EXPECT_TRUE(reversed.gyro_is_reversed);
   EXPECT_FALSE(reversed.gyro_factor || reversed.gyro_bias_rad_s || reversed.left_factor);
-  const WiringFaults degrees = faults_of([](OdometryIncrement& step) { step.gyro_rad *= 180 / core::kPi; });
+  const WiringFaults degrees =
+      faults_of([](OdometryIncrement& step) { step.gyro_rad *= 180 / core::kPi; });
   ASSERT_TRUE(degrees.gyro_factor);
   EXPECT_NEAR(*degrees.gyro_factor, 57.3 * 1.02, 0.3);
   const WiringFaults biased =

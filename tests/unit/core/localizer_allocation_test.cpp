@@ -38,7 +38,7 @@ void operator delete[](void* memory, std::size_t) noexcept { std::free(memory); 
 namespace cornerd::core {
 namespace {
 
-TEST(Pipeline, FromSampleToPose_AllocatesNothing) {
+TEST(Pipeline, SampleToPose_AllocatesNothing) {
   const auto map = testing::make_map(testing::l_shaped_room());
   const auto symmetric = testing::make_map(testing::rectangular_room(3, 2));
   testing::ScanSource source(71);
@@ -72,7 +72,7 @@ TEST(Pipeline, FromSampleToPose_AllocatesNothing) {
   }
 }
 
-TEST(Pipeline, FromSampleToPoseByEachMethod_AllocatesNothing) {
+TEST(Pipeline, SampleToPoseEachMethod_AllocatesNothing) {
   const auto map = testing::make_map(testing::l_shaped_room());
   for (const Method method :
        {Method::kAltbd, Method::kPrintedAltbd, Method::kAbdIepf, Method::kLineTracking}) {
@@ -99,7 +99,7 @@ TEST(Pipeline, FromSampleToPoseByEachMethod_AllocatesNothing) {
   }
 }
 
-TEST(Pipeline, WithOdometryAndPartsOfTurns_AllocatesNothing) {
+TEST(Pipeline, OdometryAndPartialScans_AllocatesNothing) {
   const auto map = testing::make_map(testing::l_shaped_room());
   testing::ScanSource source(74);
   LocalizerConfig config;
@@ -132,7 +132,7 @@ TEST(Pipeline, WithOdometryAndPartsOfTurns_AllocatesNothing) {
   EXPECT_GT(parts, 20);
 }
 
-TEST(BreakpointStream, FromReturnToBreakpoint_AllocatesNothing) {
+TEST(BreakpointStream, ReturnToBreakpoint_AllocatesNothing) {
   const auto map = testing::make_map(testing::l_shaped_room());
   testing::ScanSource source(73);
   for (const Sweep sweep : {Sweep::kCounterClockwise, Sweep::kClockwise}) {
@@ -152,7 +152,7 @@ TEST(BreakpointStream, FromReturnToBreakpoint_AllocatesNothing) {
   }
 }
 
-TEST(Pipeline, TheCounter_Counts) {
+TEST(Pipeline, AllocationCounter_Counts) {
   const long before = allocations;
   delete new int(3);
   EXPECT_GT(allocations - before, 0);

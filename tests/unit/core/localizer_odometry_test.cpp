@@ -18,7 +18,8 @@ constexpr double kTurnOfDrive_s = 0.14;
 /// A robot on a circle in the L-shaped room, seen by its lidar and by its wheels.
 class CircleDrive {
  public:
-  CircleDrive(double speed_m_s, double rate_rad_s, double max_extrapolation_s = 10, bool publish = false)
+  CircleDrive(double speed_m_s, double rate_rad_s, double max_extrapolation_s = 10,
+              bool publish = false)
       : map_(testing::make_map(testing::l_shaped_room())),
         localizer_(map_, config(max_extrapolation_s, publish)),
         robot_({}, errors(), 5),
@@ -78,7 +79,7 @@ class CircleDrive {
   std::vector<Between> between_;
 };
 
-TEST(LocalizerWithOdometry, PublishedReadings_ArePredictedPosesBetweenTheTurns) {
+TEST(LocalizerWithOdometry, PublishPredictions_PosesBetweenScans) {
   CircleDrive drive(0.4, 0.8, 10, true);
   for (int k = 0; k < 40; ++k) drive.turn();
   EXPECT_TRUE(drive.between().size() > 39 * 13);
@@ -93,13 +94,13 @@ TEST(LocalizerWithOdometry, PublishedReadings_ArePredictedPosesBetweenTheTurns) 
   }
 }
 
-TEST(LocalizerWithOdometry, ReadingsThatNobodyAskedToPublish_GiveNoPose) {
+TEST(LocalizerWithOdometry, PublishPredictionsOff_NoPosesBetweenScans) {
   CircleDrive drive(0.4, 0.8);
   for (int k = 0; k < 3; ++k) drive.turn();
   EXPECT_TRUE(drive.between().empty());
 }
 
-TEST(LocalizerWithOdometry, CarriedRobot_IsPredictedFromWhereItIsNow) {
+TEST(LocalizerWithOdometry, KidnappedRobot_IsPredictedFromItsNewPose) {
   CircleDrive drive(0.4, 0.8, 10, true);
   for (int k = 0; k < 10; ++k) drive.turn();
   const Pose2 elsewhere{0.5, 2.4, -2};
@@ -118,7 +119,7 @@ TEST(LocalizerWithOdometry, CarriedRobot_IsPredictedFromWhereItIsNow) {
   }
 }
 
-TEST(LocalizerWithOdometry, FastSpin_IsFixedFromTheSecondTurnOn) {
+TEST(LocalizerWithOdometry, FastSpin_IsFixFromSecondScan) {
   CircleDrive drive(0.4, 2.5);
   drive.turn();
   for (int k = 0; k < 40; ++k) {
@@ -128,7 +129,7 @@ TEST(LocalizerWithOdometry, FastSpin_IsFixedFromTheSecondTurnOn) {
   }
 }
 
-TEST(LocalizerWithOdometry, CoveredLidar_IsBridgedAndItsDoubtGrows) {
+TEST(LocalizerWithOdometry, CoveredLidar_IsPredictedWithGrowingCovariance) {
   CircleDrive drive(0.3, 0.8);
   for (int k = 0; k < 100; ++k) drive.turn();
   double last_m2 = 0;
@@ -145,7 +146,7 @@ TEST(LocalizerWithOdometry, CoveredLidar_IsBridgedAndItsDoubtGrows) {
   EXPECT_EQ(drive.turn().state, PoseState::kFix);
 }
 
-TEST(LocalizerWithOdometry, AfterTheBridge_IsLost) {
+TEST(LocalizerWithOdometry, AfterMaxExtrapolation_IsLost) {
   CircleDrive drive(0.3, 0.8, /*max_extrapolation_s=*/1);
   for (int k = 0; k < 20; ++k) drive.turn();
   for (int k = 1; k <= 12; ++k) {
@@ -155,7 +156,7 @@ TEST(LocalizerWithOdometry, AfterTheBridge_IsLost) {
   }
 }
 
-TEST(LocalizerWithOdometry, CarriedElsewhere_IsNotPredictedAgainstTheTurn) {
+TEST(LocalizerWithOdometry, KidnappedRobot_NotPredictedAgainstScan) {
   CircleDrive drive(0, 0.001);
   for (int k = 0; k < 20; ++k) drive.turn();
   const Pose2 elsewhere{2.2, 0.5, -2};
@@ -166,7 +167,7 @@ TEST(LocalizerWithOdometry, CarriedElsewhere_IsNotPredictedAgainstTheTurn) {
   }
 }
 
-TEST(LocalizerWithOdometry, Summary_TellsWhatWasLearned) {
+TEST(LocalizerWithOdometry, Summary_HasEstimatedParameters) {
   CircleDrive drive(0.3, 0.8);
   for (int k = 0; k < 200; ++k) drive.turn();
   const OdometrySummary& odometry = drive.odometry();
@@ -175,11 +176,12 @@ TEST(LocalizerWithOdometry, Summary_TellsWhatWasLearned) {
   EXPECT_GT(odometry.fixes, 190U);
   // One circle tells the way, but neither wheel from wheel nor bias from scale.
   // The wheels roll at 0.236 and 0.364 m/s.
-  EXPECT_NEAR((0.236 * odometry.parameters.left_scale + 0.364 * odometry.parameters.right_scale) / 0.6,
-              0.01 * 0.236 / 0.6, 0.001);
+  EXPECT_NEAR(
+      (0.236 * odometry.parameters.left_scale + 0.364 * odometry.parameters.right_scale) / 0.6,
+      0.01 * 0.236 / 0.6, 0.001);
 }
 
-TEST(Localizer, AGivenPose_TellsTwinsApart) {
+TEST(Localizer, InitialPose_ResolvesSymmetry) {
   const auto map = testing::make_map(testing::two_equal_rooms());
   testing::ScanSource source(92);
   Localizer localizer(map, {});

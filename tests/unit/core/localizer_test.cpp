@@ -10,7 +10,7 @@
 namespace cornerd::core {
 namespace {
 
-TEST(Localizer, UniqueRoom_IsFixedFromOneTurn) {
+TEST(Localizer, UniqueRoom_FixFromOneScan) {
   const auto map = testing::make_map(testing::l_shaped_room());
   testing::ScanSource source(61);
   for (int k = 0; k < 100; ++k) {
@@ -27,7 +27,7 @@ TEST(Localizer, UniqueRoom_IsFixedFromOneTurn) {
   }
 }
 
-TEST(Localizer, PlainRectangle_IsAmbiguousAndItsAlternativesHoldTheTruth) {
+TEST(Localizer, Rectangle_IsAmbiguousWithTruthAmongAlternatives) {
   const auto map = testing::make_map(testing::rectangular_room(3, 2));
   testing::ScanSource source(62);
   for (int k = 0; k < 50; ++k) {
@@ -50,7 +50,7 @@ TEST(Localizer, PlainRectangle_IsAmbiguousAndItsAlternativesHoldTheTruth) {
   }
 }
 
-TEST(Localizer, TwoEqualRooms_AreAmbiguousUntilAPriorTells) {
+TEST(Localizer, TwoEqualRooms_AmbiguousWithoutPrior) {
   const auto map = testing::make_map(testing::two_equal_rooms());
   testing::ScanSource source(63);
   Localizer localizer(map, {});
@@ -72,7 +72,7 @@ TEST(Localizer, OtherBuilding_IsLost) {
   }
 }
 
-TEST(Localizer, LidarCoveredForMostOfTheTurn_NamesNoPlaceByAWallAndACorner) {
+TEST(Localizer, MostlyCoveredLidar_WallAndCornerGiveNoPose) {
   const auto map = testing::make_map(testing::l_shaped_room());
   testing::ScanSource source(65);
   for (int k = 0; k < 50; ++k) {
@@ -88,14 +88,14 @@ TEST(Localizer, LidarCoveredForMostOfTheTurn_NamesNoPlaceByAWallAndACorner) {
   }
 }
 
-TEST(Localizer, EmptyTurn_IsLost) {
+TEST(Localizer, EmptyScan_IsLost) {
   const auto map = testing::make_map(testing::l_shaped_room());
   Localizer localizer(map, {});
   EXPECT_EQ(localizer.step(Scan()).pose.state, PoseState::kLost);
   EXPECT_EQ(localizer.step(Scan()).pose.seq, 2U);
 }
 
-TEST(Localizer, NoMap_DetectsAndIsLost) {
+TEST(Localizer, NoMap_DetectsBreakpointsAndIsLost) {
   const auto map = testing::make_map(testing::l_shaped_room());
   testing::ScanSource source(65);
   Localizer localizer(nullptr, {});
@@ -104,7 +104,7 @@ TEST(Localizer, NoMap_DetectsAndIsLost) {
   EXPECT_GE(result.detection.breakpoints.size(), 4U);
 }
 
-TEST(Localizer, LidarOffTheCentre_GivesThePoseOfTheBase) {
+TEST(Localizer, MountedOffCentre_PoseIsOfBase) {
   const auto map = testing::make_map(testing::l_shaped_room());
   testing::ScanSource source(66);
   LocalizerConfig config;
@@ -118,7 +118,7 @@ TEST(Localizer, LidarOffTheCentre_GivesThePoseOfTheBase) {
   EXPECT_NEAR(pose.T_map_base.theta_rad, T_map_base.theta_rad, 0.005);
 }
 
-TEST(Localizer, RobotThatDrives_IsFollowed) {
+TEST(Localizer, DrivingRobot_IsTracked) {
   const auto map = testing::make_map(testing::l_shaped_room());
   testing::ScanSource source(67);
   Localizer localizer(map, {});
@@ -135,7 +135,7 @@ TEST(Localizer, RobotThatDrives_IsFollowed) {
   }
 }
 
-TEST(Localizer, Room_IsNamed) {
+TEST(Localizer, PoseInRoom_HasRoomIndex) {
   const auto map = testing::make_map(testing::l_shaped_room());
   testing::ScanSource source(68);
   Localizer localizer(map, {});
@@ -144,7 +144,7 @@ TEST(Localizer, Room_IsNamed) {
   EXPECT_EQ(map->plan().rooms[*pose.room].name, "nook");
 }
 
-TEST(Localizer, SameTurns_GiveTheSamePosesToTheLastBit) {
+TEST(Localizer, SameScans_PosesAreBitIdentical) {
   const auto map = testing::make_map(testing::l_shaped_room());
   const auto run = [&] {
     testing::ScanSource source(69);

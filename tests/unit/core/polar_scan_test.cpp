@@ -28,14 +28,14 @@ Scan scan_of(std::initializer_list<double> bearings_rad) {
   return scan;
 }
 
-TEST(PolarScan, ClockwiseTurnWithBackwardSteps_IsSorted) {
+TEST(PolarScan, ClockwiseScanWithBackwardSteps_IsSorted) {
   const PolarScan points =
       testing::polar(scan_of({1, 0.9, 0.95, 0.5, -1, -0.9, -3, 3, 2, 2.1, 1.2}));
   EXPECT_EQ(points.size(), 11U);
   EXPECT_TRUE(is_sorted(points));
 }
 
-TEST(PolarScan, AnyOrderAtAll_IsSorted) {
+TEST(PolarScan, AnyOrder_IsSorted) {
   std::mt19937 random(5);
   Scan scan;
   for (std::size_t i = 0; i < kMaxSamplesPerScan; ++i) {
@@ -56,7 +56,7 @@ void append(PolarScan& points, double from_rad, double to_rad) {
   }
 }
 
-TEST(PolarScan, WidestGap_GoesAcrossTheSeamToo) {
+TEST(PolarScan, LargestGap_AcrossSeam_IsFound) {
   PolarScan points;
   EXPECT_EQ(points.largest_gap_rad(), kTwoPi);
   points.begin(0.01);
@@ -68,7 +68,7 @@ TEST(PolarScan, WidestGap_GoesAcrossTheSeamToo) {
   EXPECT_NEAR(points.largest_gap_rad(), kTwoPi - 2.6, 1e-9);
 }
 
-TEST(PolarScan, OutliersInTheDark_FillNoGap) {
+TEST(PolarScan, IsolatedReturns_DoNotFillGap) {
   PolarScan points;
   points.begin(0.01);
   for (const double bearing_rad : {-3.0, -2.0, -1.99, -1.0}) points.append(bearing_rad, 1);
@@ -83,7 +83,7 @@ TEST(PolarScan, SparseReturns_LeaveNoGap) {
   EXPECT_LT(points.largest_gap_rad(), 0.1);
 }
 
-TEST(PolarScan, ReturnsOutsideTheLimits_AreLeftOut) {
+TEST(PolarScan, ReturnsOutsideLimits_AreDropped) {
   Scan scan;
   for (const float range : {0.0F, 0.1F, 0.2F, 5.0F, 13.0F}) {
     Sample sample;
@@ -97,7 +97,7 @@ TEST(PolarScan, ReturnsOutsideTheLimits_AreLeftOut) {
   EXPECT_EQ(points.size(), 0U);
 }
 
-TEST(PolarScan, TurnTakenInMotion_LooksAsIfTakenAtRest) {
+TEST(PolarScan, ScanTakenInMotion_IsDeskewed) {
   const auto map = testing::make_map(testing::rectangular_room(3, 2));
   const Pose2 T_map_lidar{1.3, 0.8, 0.4};
   testing::ScanSource source;

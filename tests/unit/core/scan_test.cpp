@@ -16,7 +16,7 @@ Sample sample_at(double bearing_rad, bool starts_scan = false) {
   return sample;
 }
 
-TEST(ScanAssembler, StreamJoinedInMidTurn_GivesOnlyWholeTurns) {
+TEST(ScanAssembler, StreamJoinedMidScan_OnlyWholeScans) {
   ScanAssembler assembler;
   Scan scan;
   int scans = 0;
@@ -30,7 +30,7 @@ TEST(ScanAssembler, StreamJoinedInMidTurn_GivesOnlyWholeTurns) {
   EXPECT_EQ(assembler.dropped(), 63U);
 }
 
-TEST(ScanAssembler, Finish_HandsOutATurnThatWentRound) {
+TEST(ScanAssembler, Finish_WholeRevolution_IsHandedOut) {
   ScanAssembler assembler;
   Scan scan;
   for (int i = 0; i < 99; ++i) assembler.add(sample_at(-kTwoPi * i / 100, i == 0), scan);
@@ -39,7 +39,7 @@ TEST(ScanAssembler, Finish_HandsOutATurnThatWentRound) {
   EXPECT_FALSE(assembler.finish(scan));
 }
 
-TEST(ScanAssembler, Finish_KeepsBackAPieceOfATurn) {
+TEST(ScanAssembler, Finish_PartialRevolution_IsDropped) {
   ScanAssembler assembler;
   Scan scan;
   for (int i = 0; i < 60; ++i) assembler.add(sample_at(-kTwoPi * i / 100, i == 0), scan);
@@ -47,7 +47,7 @@ TEST(ScanAssembler, Finish_KeepsBackAPieceOfATurn) {
   EXPECT_EQ(assembler.dropped(), 60U);
 }
 
-TEST(ScanAssembler, SampleThatEndsTheTurn_CompletesItAtOnce) {
+TEST(ScanAssembler, SampleEndsScan_CompletesAtOnce) {
   ScanAssembler assembler;
   Scan scan;
   EXPECT_FALSE(assembler.add(sample_at(0, true), scan));
@@ -59,7 +59,7 @@ TEST(ScanAssembler, SampleThatEndsTheTurn_CompletesItAtOnce) {
   EXPECT_FALSE(assembler.add(sample_at(0, true), scan)) << "nothing was collected in between";
 }
 
-TEST(ScanAssembler, EndlessTurn_IsCutAtTheCapacityAndCounted) {
+TEST(ScanAssembler, EndlessScan_IsCutAtCapacityAndCounted) {
   ScanAssembler assembler;
   Scan scan;
   assembler.add(sample_at(0, true), scan);
@@ -69,7 +69,7 @@ TEST(ScanAssembler, EndlessTurn_IsCutAtTheCapacityAndCounted) {
   EXPECT_EQ(scan.size(), kMaxSamplesPerScan);
 }
 
-TEST(ScanAssembler, Reset_ForgetsTheTurnInProgress) {
+TEST(ScanAssembler, Reset_DropsScanInProgress) {
   ScanAssembler assembler;
   Scan scan;
   for (int i = 0; i < 99; ++i) assembler.add(sample_at(-kTwoPi * i / 100, i == 0), scan);

@@ -17,7 +17,7 @@ TEST(SensorNoise, WithoutTable_IsTheLargerOfFloorAndShare) {
   EXPECT_DOUBLE_EQ(noise.sigma_range_m(3), 0.03);
 }
 
-TEST(SensorNoise, Table_TakesThePlaceOfFloorAndShare) {
+TEST(SensorNoise, Table_ReplacesFloorAndShare) {
   const SensorNoise noise{0.5, 0.5, 0, SigmaTable(kPoints)};
   EXPECT_NEAR(noise.sigma_range_m(0.3), 0.002, 1e-9);
   EXPECT_NEAR(noise.sigma_range_m(1.0), 0.001, 1e-9);
@@ -25,13 +25,13 @@ TEST(SensorNoise, Table_TakesThePlaceOfFloorAndShare) {
   EXPECT_NEAR(noise.variance_across_m2(1.0, 1), 1e-6, 1e-12);
 }
 
-TEST(SigmaTable, BetweenItsPoints_IsStraight) {
+TEST(SigmaTable, BetweenPoints_IsLinear) {
   const SigmaTable table(kPoints);
   EXPECT_NEAR(table.sigma_m(0.65), 0.0015, 1e-9);
   EXPECT_NEAR(table.sigma_m(2.51), 0.0055 + 0.01 * 0.003, 1e-8);
 }
 
-TEST(SigmaTable, BeyondItsEnds_HoldsTheFirstSigmaAndTheLastShare) {
+TEST(SigmaTable, BeyondEnds_FirstSigmaAndLastShare) {
   const SigmaTable table(kPoints);
   EXPECT_NEAR(table.sigma_m(0.05), 0.002, 1e-9);
   EXPECT_NEAR(table.sigma_m(-1), 0.002, 1e-9);
@@ -42,7 +42,7 @@ TEST(SigmaTable, BeyondItsEnds_HoldsTheFirstSigmaAndTheLastShare) {
             std::numeric_limits<double>::infinity());
 }
 
-TEST(SigmaTable, OfNoPoints_IsEmpty) {
+TEST(SigmaTable, NoPoints_IsEmpty) {
   EXPECT_TRUE(SigmaTable().empty());
   EXPECT_TRUE(SigmaTable(std::span<const SigmaTable::Point>()).empty());
   EXPECT_FALSE(SigmaTable(kPoints).empty());

@@ -19,7 +19,9 @@ constexpr core::EstimatedBias kLearned{
 
 class LidarMemoryTest : public ::testing::Test {
  protected:
-  CalibrationFile open_file(const core::SensorBias& configured = {}) const { return {file_, configured}; }
+  CalibrationFile open_file(const core::SensorBias& configured = {}) const {
+    return {file_, configured};
+  }
   test::TemporaryFolder folder_;
   std::filesystem::path file_ = folder_ / "lidar.json";
 };
@@ -167,13 +169,13 @@ TEST_F(LidarMemoryTest, FolderThatComesLater_IsWrittenInto) {
 TEST(LearnedFile, IsWhereTheSettingsOrTheServiceManagerSay) {
   settings::LidarConfig config;
   ::unsetenv("STATE_DIRECTORY");
-  EXPECT_TRUE(calibration_file_path(config).empty());
+  EXPECT_TRUE(calibration_file(config).empty());
   ::setenv("STATE_DIRECTORY", "/var/lib/cornerd", 1);
-  EXPECT_EQ(calibration_file_path(config), "/var/lib/cornerd/lidar.json");
-  config.learned_file = "/data/lidar.json";
-  EXPECT_EQ(calibration_file_path(config), "/data/lidar.json");
+  EXPECT_EQ(calibration_file(config), "/var/lib/cornerd/lidar.json");
+  config.calibration_file = "/data/lidar.json";
+  EXPECT_EQ(calibration_file(config), "/data/lidar.json");
   config.driver = settings::DriverKind::kReplay;
-  EXPECT_TRUE(calibration_file_path(config).empty());
+  EXPECT_TRUE(calibration_file(config).empty());
   ::unsetenv("STATE_DIRECTORY");
 }
 

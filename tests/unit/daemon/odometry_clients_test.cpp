@@ -108,7 +108,8 @@ TEST_F(OdometryClientsTest, FirstOneThatSendsOneWheelAlone_LosesItsPlaceToAWhole
     EXPECT_TRUE(accepts(7, left));
     if (accepts(8, wheels())) taken_ns = now_ns_;
   }
-  EXPECT_NEAR(core::to_seconds(taken_ns), core::to_seconds(OdometryClients::kUselessTimeout_ns), 0.1);
+  EXPECT_NEAR(core::to_seconds(taken_ns), core::to_seconds(OdometryClients::kUselessTimeout_ns),
+              0.1);
   for (int i = 0; i < 500; ++i) {
     EXPECT_FALSE(accepts(7, left));
     EXPECT_TRUE(accepts(8, wheels()));

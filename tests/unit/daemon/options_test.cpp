@@ -36,7 +36,7 @@ TEST(Options, WrongUsage_IsRefused) {
   EXPECT_THROW(parse({"--config=c", "--check=yes"}), UsageError);
   EXPECT_THROW(parse({"--config=c", "--verbose"}), UsageError);
   EXPECT_THROW(parse({"c.json"}), UsageError);
-  for (const char* override : {"x", "/lidar/baud", "lidar=1", "/=1", ""}) {
+  for (const char* override : {"x", "/advanced/lidar/baud", "lidar=1", "/=1", ""}) {
     EXPECT_THROW(parse({"--config=c", "--set", override}), UsageError) << override;
   }
 }

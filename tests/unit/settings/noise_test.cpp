@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "settings/noise.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

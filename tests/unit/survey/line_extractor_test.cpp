@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "bench/simulated_scan.hpp"
+#include "replay/simulator/scan_simulator.hpp"
 
 namespace cornerd::survey {
 namespace {
@@ -18,7 +18,7 @@ std::vector<LineObservation> look(const core::Pose2& T_map_lidar, std::uint64_t 
        0,
        {{{0, 0}, {4, 0}, 0}, {{4, 0}, {4, 3}, 0}, {{4, 3}, {0, 3}, 0}, {{0, 3}, {0, 0}, 0}},
        {}});
-  bench::ScanSimulator simulator({}, 540, seed);
+  replay::ScanSimulator simulator({}, 540, seed);
   core::PolarScan points;
   points.assign(simulator.take(map, T_map_lidar), 0.15, 12);
   LineExtractor extractor({}, {});

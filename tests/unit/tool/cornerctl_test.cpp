@@ -14,8 +14,9 @@
 #include <string>
 #include <vector>
 
+#include "command_run.hpp"
 #include "tests/temporary_folder.hpp"
-#include "tool/failure.hpp"
+#include "tool/command_line/failure.hpp"
 #include "xml_check.hpp"
 
 namespace cornerd::tool {
@@ -24,23 +25,7 @@ namespace {
 using testing::HasSubstr;
 using testing::StartsWith;
 
-struct Outcome {
-  int exit_code = 0;
-  std::string out;
-  std::string err;
-};
-
-Outcome run(const std::vector<std::string>& words) {
-  std::vector<const char*> arguments = {"cornerctl"};
-  for (const std::string& word : words) arguments.push_back(word.c_str());
-  testing::internal::CaptureStdout();
-  testing::internal::CaptureStderr();
-  Outcome outcome;
-  outcome.exit_code = run_cornerctl(static_cast<int>(arguments.size()), arguments.data());
-  outcome.out = testing::internal::GetCapturedStdout();
-  outcome.err = testing::internal::GetCapturedStderr();
-  return outcome;
-}
+CommandRun run(const std::vector<std::string>& words) { return CommandRun(words); }
 
 std::size_t count_lines(const std::string& text, const std::string& beginning) {
   std::istringstream lines(text);
@@ -95,16 +80,11 @@ TEST_F(Cornerctl, WrongUsage_EndsWith2AndSaysWhyOnStandardError) {
       {"simulate", "--map", map_, "-o", path("x.bin"), "--pose", "1,2"},
       {"simulate", "--map", map_, "-o", path("x.bin"), "--pose", "1,1,0", "--places", "2"},
       {"doctor", "--nonsense"},
-      {"bench", "--positions", "-1"},
-      {"bench", "--positions", "nan"},
-      {"bench", "--samples", "-3"},
-      {"bench", "--seed", "-1"},
-      {"bench", "--methods", "guess"},
       {"map"},
       {"map", "render", map_},
   };
   for (const auto& words : wrong) {
-    const Outcome outcome = run(words);
+    const CommandRun outcome = run(words);
     EXPECT_EQ(outcome.exit_code, kExitUsage) << testing::PrintToString(words);
     EXPECT_EQ(outcome.out, "");
     EXPECT_NE(outcome.err, "");
@@ -123,11 +103,11 @@ TEST_F(Cornerctl, WrongMapOrConfig_EndsWith78AndOneLine) {
       {"map", "check", path("absent.json")},
       {"replay", "x.bin", "--map", path("no-map.json")},
       {"replay", "x.bin", "--map", map_, "--config", path("typo.json")},
-      {"replay", "x.bin", "--map", map_, "--set", "/lidar/baud=fast"},
+      {"replay", "x.bin", "--map", map_, "--set", "/advanced/lidar/baud=fast"},
       {"doctor", "--config", path("typo.json")},
   };
   for (const auto& words : wrong) {
-    const Outcome outcome = run(words);
+    const CommandRun outcome = run(words);
     EXPECT_EQ(outcome.exit_code, kExitConfig) << testing::PrintToString(words);
     EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
   }
@@ -138,14 +118,14 @@ TEST_F(Cornerctl, WrongMapOrConfig_EndsWith78AndOneLine) {
 TEST_F(Cornerctl, FileThatIsNoRecording_Fails) {
   write("noise.bin", "The quick brown fox jumps over the lazy dog.");
   for (const std::string& name : {path("absent.bin"), path("noise.bin"), path(".")}) {
-    const Outcome outcome = run({"replay", name, "--map", map_});
+    const CommandRun outcome = run({"replay", name, "--map", map_});
     EXPECT_EQ(outcome.exit_code, kExitFailed) << name;
     EXPECT_THAT(outcome.err, HasSubstr(name));
   }
 }
 
 TEST_F(Cornerctl, MapCheck_TellsWhatIsInTheMap) {
-  const Outcome outcome = run({"map", "check", map_});
+  const CommandRun outcome = run({"map", "check", map_});
   EXPECT_EQ(outcome.exit_code, kExitDone);
   EXPECT_THAT(outcome.out, HasSubstr("krpai-2019-a"));
   EXPECT_THAT(outcome.out, HasSubstr("room-1"));
@@ -153,7 +133,7 @@ TEST_F(Cornerctl, MapCheck_TellsWhatIsInTheMap) {
 }
 
 TEST_F(Cornerctl, SimulateAndReplay_FindTheRobotWhereItIs) {
-  const Outcome outcome = run(
+  const CommandRun outcome = run(
       {"replay", recording(), "--map", map_, "--classes", "POSE", "--truth", path("still.truth")});
   EXPECT_EQ(outcome.exit_code, kExitDone);
   EXPECT_EQ(count_lines(outcome.out, R"({"class":"POSE")"), 4U);
@@ -171,7 +151,7 @@ TEST_F(Cornerctl, Replay_GivesTheSameBytesForTheSameInput) {
 }
 
 TEST_F(Cornerctl, Replay_NeedsNoMapWithoutPoses) {
-  const Outcome outcome = run({"replay", recording(), "--classes", "SCAN,STATUS"});
+  const CommandRun outcome = run({"replay", recording(), "--classes", "SCAN,STATUS"});
   EXPECT_EQ(outcome.exit_code, kExitDone);
   EXPECT_EQ(count_lines(outcome.out, R"({"class":"SCAN")"), 4U);
   EXPECT_GE(count_lines(outcome.out, R"({"class":"STATUS")"), 1U);
@@ -179,33 +159,34 @@ TEST_F(Cornerctl, Replay_NeedsNoMapWithoutPoses) {
 
 TEST_F(Cornerctl, Replay_PlaysSeveralFilesOneAfterAnother) {
   const std::string file = recording();
-  const Outcome outcome = run({"replay", file, file, "--classes", "SCAN"});
+  const CommandRun outcome = run({"replay", file, file, "--classes", "SCAN"});
   EXPECT_EQ(count_lines(outcome.out, R"({"class":"SCAN")"), 8U);
 }
 
 TEST_F(Cornerctl, ReplayOfItsOwnScans_SeesTheSameTurns) {
   write("scans.ndjson", run({"replay", recording(), "--classes", "SCAN"}).out);
-  const Outcome outcome = run({"replay", path("scans.ndjson"), "--map", map_, "--classes", "POSE"});
+  const CommandRun outcome =
+      run({"replay", path("scans.ndjson"), "--map", map_, "--classes", "POSE"});
   EXPECT_EQ(outcome.exit_code, kExitDone);
   EXPECT_EQ(count_lines(outcome.out, R"({"class":"POSE")"), 4U);
 }
 
 TEST_F(Cornerctl, Detect_GivesTheBreakpointsOfEveryTurn) {
-  const Outcome outcome = run({"detect", recording(), "--method", "altbd"});
+  const CommandRun outcome = run({"detect", recording(), "--method", "altbd"});
   EXPECT_EQ(outcome.exit_code, kExitDone);
   EXPECT_EQ(count_lines(outcome.out, R"({"class":"BREAKPOINTS")"), 4U);
   EXPECT_THAT(outcome.out, HasSubstr(R"("kind":"corner")"));
 }
 
 TEST_F(Cornerctl, BareBytesOfAMovingRobot_BearNoTruth) {
-  const Outcome outcome = run({"simulate", "--map", map_, "--path", "0.3,0.3 0.3,0.6", "-o",
-                               path("moving.bin"), "--truth", path("moving.truth")});
+  const CommandRun outcome = run({"simulate", "--map", map_, "--path", "0.3,0.3 0.3,0.6", "-o",
+                                  path("moving.bin"), "--truth", path("moving.truth")});
   EXPECT_EQ(outcome.exit_code, kExitUsage);
 }
 
 TEST_F(Cornerctl, MapRender_DrawsTheRecordingInTheMap) {
-  const Outcome outcome = run({"map", "render", map_, "-o", path("map.svg"), "--recording",
-                               recording(), "--truth", path("still.truth")});
+  const CommandRun outcome = run({"map", "render", map_, "-o", path("map.svg"), "--recording",
+                                  recording(), "--truth", path("still.truth")});
   EXPECT_EQ(outcome.exit_code, kExitDone) << outcome.err;
   const std::string picture = read(path("map.svg"));
   EXPECT_EQ(find_xml_error(picture), "");
@@ -216,8 +197,8 @@ TEST_F(Cornerctl, MapRender_DrawsTheRecordingInTheMap) {
 
 TEST_F(Cornerctl, MapRenderWithATrajectory_DrawsTheRecordingFromThere) {
   const std::string file = recording();
-  const Outcome outcome = run({"map", "render", map_, "-o", path("map.svg"), "--recording", file,
-                               "--trajectory", path("still.truth")});
+  const CommandRun outcome = run({"map", "render", map_, "-o", path("map.svg"), "--recording", file,
+                                  "--trajectory", path("still.truth")});
   EXPECT_EQ(outcome.exit_code, kExitDone) << outcome.err;
   const std::string picture = read(path("map.svg"));
   EXPECT_EQ(find_xml_error(picture), "");
@@ -229,13 +210,13 @@ TEST_F(Cornerctl, MapRenderWithATrajectory_DrawsTheRecordingFromThere) {
 }
 
 TEST_F(Cornerctl, FileThatCannotBeWritten_Fails) {
-  const Outcome outcome = run({"map", "render", map_, "-o", path("absent/map.svg")});
+  const CommandRun outcome = run({"map", "render", map_, "-o", path("absent/map.svg")});
   EXPECT_EQ(outcome.exit_code, kExitFailed);
   EXPECT_THAT(outcome.err, HasSubstr("absent/map.svg: No such file or directory"));
 }
 
 TEST_F(Cornerctl, Watch_FailsAtOnceWhereNoDaemonIs) {
-  const Outcome outcome = run({"watch", "--socket", path("pose.sock")});
+  const CommandRun outcome = run({"watch", "--socket", path("pose.sock")});
   EXPECT_EQ(outcome.exit_code, kExitFailed);
   EXPECT_THAT(outcome.err, HasSubstr("pose.sock"));
 }
@@ -243,7 +224,7 @@ TEST_F(Cornerctl, Watch_FailsAtOnceWhereNoDaemonIs) {
 TEST_F(Cornerctl, Doctor_NamesWhatIsWrongAndFails) {
   write("cornerd.json", R"({"lidar": {"device": "/dev/no-such-port"}, "map": ")" + map_ +
                             R"(", "socket": {"pose": ")" + path("pose.sock") + "\"}}");
-  const Outcome outcome = run({"doctor", "--config", path("cornerd.json")});
+  const CommandRun outcome = run({"doctor", "--config", path("cornerd.json")});
   EXPECT_EQ(outcome.exit_code, kExitFailed);
   EXPECT_THAT(outcome.out, HasSubstr("ok     map "));
   EXPECT_THAT(outcome.out, HasSubstr("WRONG  port      /dev/no-such-port: no such port"));
@@ -253,14 +234,14 @@ TEST_F(Cornerctl, Doctor_NamesWhatIsWrongAndFails) {
 
 TEST_F(Cornerctl, Doctor_LooksAtTheRestWhereTheConfigIsWrong) {
   write("typo.json", R"({"lidar": {"devise": "/dev/ttyUSB0"}})");
-  const Outcome outcome = run({"doctor", "--config", path("typo.json")});
+  const CommandRun outcome = run({"doctor", "--config", path("typo.json")});
   EXPECT_EQ(outcome.exit_code, kExitConfig);
   EXPECT_THAT(outcome.out, HasSubstr("/lidar/devise"));
   EXPECT_THAT(outcome.out, HasSubstr("port "));
 }
 
 TEST_F(Cornerctl, Record_FailsAtOnceWhereNoPortIs) {
-  const Outcome outcome = run({"record", "--device", path("tty"), "-o", path("r.bin")});
+  const CommandRun outcome = run({"record", "--device", path("tty"), "-o", path("r.bin")});
   EXPECT_EQ(outcome.exit_code, kExitFailed);
   EXPECT_THAT(outcome.err, HasSubstr(path("tty")));
   EXPECT_FALSE(std::filesystem::exists(path("r.bin")));

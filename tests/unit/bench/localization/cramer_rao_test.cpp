@@ -7,14 +7,14 @@
 
 #include <Eigen/LU>
 
-#include "bench/simulated_scan.hpp"
+#include "replay/simulator/scan_simulator.hpp"
 #include "tests/unit/replay/test_maps.hpp"
 
 namespace cornerd::bench {
 namespace {
 
 core::PolarScan scan_at(const core::WallMap& map, const core::Pose2& place, std::size_t samples) {
-  ScanSimulator lidar(replay::SensorModel::perfect(), samples, 1);
+  replay::ScanSimulator lidar(replay::SensorModel::perfect(), samples, 1);
   core::PolarScan points;
   points.assign(lidar.take(map, place), 0.1, 12);
   return points;

@@ -57,7 +57,7 @@ double worst_residual_m(const PolarScan& points, const SegmentTracks& tracks) {
   return worst;
 }
 
-TEST(AbdThreshold, Formulas_AreThoseOfThePaper) {
+TEST(AbdThreshold, Formulas_MatchThePaper) {
   const double lambda = radians(8);
   for (const double step : {0.2, 0.7, 3.0, 7.5}) {
     for (const double bearing : {-3.1, -0.4, 0.0, 1.9}) {
@@ -72,7 +72,7 @@ TEST(AbdThreshold, Formulas_AreThoseOfThePaper) {
   }
 }
 
-TEST(AbdThreshold, SamplesLambdaOrMoreApart_AreNeverNeighbours) {
+TEST(AbdThreshold, SamplesLambdaApart_AreNotNeighbours) {
   for (const AbdThreshold threshold : kThresholds) {
     for (const double step : {8.001, 45.0, 179.0, 181.0, 189.0, 359.0}) {
       EXPECT_EQ(abd_threshold_m({.threshold = threshold}, at(-kPi, 1), at(-kPi + radians(step), 1)),
@@ -81,7 +81,7 @@ TEST(AbdThreshold, SamplesLambdaOrMoreApart_AreNeverNeighbours) {
   }
 }
 
-TEST(AbdIepf, RectangularRoom_HasFourWallsAndTheCuts) {
+TEST(AbdIepf, RectangularRoom_FourWallsPlusCuts) {
   const auto map = testing::make_map(testing::rectangular_room(3, 2));
   testing::ScanSource source(41);
   testing::ScanOptions exact;
@@ -106,7 +106,7 @@ TEST(AbdIepf, RectangularRoom_HasFourWallsAndTheCuts) {
   }
 }
 
-TEST(AbdIepf, Walls_AreRunsWithinTheLimitOfTheirChords) {
+TEST(AbdIepf, Walls_StayWithinSplitLimitOfTheirChords) {
   const auto map = testing::make_map(testing::l_shaped_room());
   testing::ScanSource source(42);
   testing::ScanOptions noisy;
@@ -129,7 +129,7 @@ TEST(AbdIepf, Walls_AreRunsWithinTheLimitOfTheirChords) {
   }
 }
 
-TEST(AbdIepf, GapInTheReturns_EndsAWallFromLambdaOn) {
+TEST(AbdIepf, GapOfLambdaOrMore_EndsWall) {
   const auto map = testing::make_map(testing::rectangular_room(3, 2));
   testing::ScanSource source(43);
   testing::ScanOptions exact;
@@ -148,7 +148,7 @@ TEST(AbdIepf, GapInTheReturns_EndsAWallFromLambdaOn) {
   EXPECT_EQ(walls_with_gap(radians(6)), walls_with_gap(0));
 }
 
-TEST(AbdIepf, PrintedLimit_RunsOverTheCornersOfASmallRoom) {
+TEST(AbdIepf, PrintedLimit_MissesCornersOfSmallRoom) {
   const auto map = testing::make_map(testing::rectangular_room(0.7, 0.5));
   testing::ScanSource source(44);
   for (int k = 0; k < 20; ++k) {
@@ -161,7 +161,7 @@ TEST(AbdIepf, PrintedLimit_RunsOverTheCornersOfASmallRoom) {
   }
 }
 
-TEST(AbdIepf, EndsAtOnePlace_AreSplitAtTheFarthestSample) {
+TEST(AbdIepf, EndsCoincide_SplitsAtFarthestSample) {
   // The seam is in the middle of a wall, and that place is seen from both of its sides. A line
   // through both would lie along the wall: the whole opposite one were at the same distance.
   const auto map = testing::make_map(testing::rectangular_room(3, 2));
@@ -177,7 +177,7 @@ TEST(AbdIepf, EndsAtOnePlace_AreSplitAtTheFarthestSample) {
   EXPECT_EQ(track(testing::polar(scan)).size(), 5U);
 }
 
-TEST(AbdIepf, FewerThanFivePoints_AreNoWall) {
+TEST(AbdIepf, FewerThanFivePoints_NoWall) {
   Scan scan;
   EXPECT_TRUE(track(testing::polar(scan)).empty());
   for (std::uint32_t i = 1; i <= DetectorConfig().min_support; ++i) {
@@ -189,7 +189,7 @@ TEST(AbdIepf, FewerThanFivePoints_AreNoWall) {
   }
 }
 
-TEST(AbdIepf, FullTurnOfNoise_EndsWithinTheRoomThatWasTaken) {
+TEST(AbdIepf, FullScanOfNoise_StaysWithinCapacity) {
   // Whatever the ranges are, each split is at a sample of its own.
   const auto map = testing::make_map(testing::rectangular_room(3, 2));
   testing::ScanSource source(46);
@@ -206,7 +206,7 @@ TEST(AbdIepf, FullTurnOfNoise_EndsWithinTheRoomThatWasTaken) {
   }
 }
 
-TEST(AbdIepf, MoreWallsThanFit_AreDroppedAndCounted) {
+TEST(AbdIepf, TooManyWalls_AreDroppedAndCounted) {
   const auto map = testing::make_map(testing::rectangular_room(3, 2));
   testing::ScanSource source(47);
   const PolarScan points = testing::polar(source.take(*map, {1.5, 1, 0.3}));

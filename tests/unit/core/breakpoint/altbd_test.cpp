@@ -27,7 +27,7 @@ Tracked altbd_walls(const PolarScan& points, const SensorNoise& believed = {}) {
   return tracked;
 }
 
-TEST(Altbd, RectangularRoom_HasFourWallsAndTheSeam) {
+TEST(Altbd, RectangularRoom_FourWallsPlusSeam) {
   const auto map = testing::make_map(testing::rectangular_room(3, 2));
   testing::ScanSource source(11);
   for (int k = 0; k < 20; ++k) {
@@ -43,7 +43,7 @@ TEST(Altbd, RectangularRoom_HasFourWallsAndTheSeam) {
   }
 }
 
-TEST(Altbd, OutliersAlone_BreakNoWall) {
+TEST(Altbd, SingleOutliers_DoNotBreakWall) {
   const auto map = testing::make_map(testing::rectangular_room(3, 2));
   testing::ScanSource source(12);
   const Scan clean = source.take(*map, {1.5, 1, 0.3});
@@ -56,7 +56,7 @@ TEST(Altbd, OutliersAlone_BreakNoWall) {
   EXPECT_LE(altbd_walls(testing::polar(scan)).tracks.size(), 5U);
 }
 
-TEST(Altbd, NoiseTwiceTheModel_IsNoticedAndBreaksLittle) {
+TEST(Altbd, NoiseTwiceTheModel_IsEstimatedWithFewBreaks) {
   const auto map = testing::make_map(testing::rectangular_room(3, 2));
   testing::ScanSource source(13);
   testing::ScanOptions options;
@@ -66,7 +66,7 @@ TEST(Altbd, NoiseTwiceTheModel_IsNoticedAndBreaksLittle) {
   EXPECT_NEAR(tracked.noise_scale, 2, 0.3);
 }
 
-TEST(Altbd, TooFewPoints_AreNoWall) {
+TEST(Altbd, TooFewPoints_NoWall) {
   Scan scan;
   for (std::uint32_t i = 0; i + 1 < DetectorConfig().min_support; ++i) {
     Sample sample;
@@ -78,7 +78,7 @@ TEST(Altbd, TooFewPoints_AreNoWall) {
   EXPECT_TRUE(altbd_walls(testing::polar(Scan())).tracks.empty());
 }
 
-TEST(Altbd, NoiseOfTheTurnBefore_IsRemembered) {
+TEST(Altbd, NoiseOfPreviousScan_IsRetained) {
   const auto map = testing::make_map(testing::rectangular_room(3, 2));
   testing::ScanSource source(14);
   testing::ScanOptions options;
@@ -96,7 +96,7 @@ TEST(Altbd, NoiseOfTheTurnBefore_IsRemembered) {
   }
 }
 
-TEST(Altbd, TurnsWithoutNoise_LeaveNoGateThatOthersCannotPass) {
+TEST(Altbd, NoiselessScans_GateStaysOpen) {
   const auto map = testing::make_map(testing::rectangular_room(3, 2));
   testing::ScanSource source(16);
   testing::ScanOptions exact;
@@ -119,7 +119,7 @@ TEST(Altbd, TurnsWithoutNoise_LeaveNoGateThatOthersCannotPass) {
   EXPECT_GT(support, noisy.size() * 9 / 10);
 }
 
-TEST(Altbd, WallThatGrows_IsAnnouncedAndEnds) {
+TEST(Altbd, GrowingWall_BeginAndEndAreReported) {
   const auto map = testing::make_map(testing::rectangular_room(3, 2));
   testing::ScanSource source(15);
   const PolarScan whole = testing::polar(source.take(*map, {1.5, 1, 0.3}));

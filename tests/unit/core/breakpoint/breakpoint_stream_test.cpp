@@ -40,7 +40,7 @@ PolarScan noisy_scan(testing::ScanSource& source, const WallMap& map, const Pose
   return testing::polar(source.take(map, T_map_lidar, options));
 }
 
-TEST(BreakpointStream, ReturnByReturn_GivesTheBreakpointsOfTheWholeTurn) {
+TEST(BreakpointStream, ReturnByReturn_EqualsWholeScan) {
   const auto map = testing::make_map(testing::l_shaped_room());
   testing::ScanSource source(41);
   Detector detector({}, {});
@@ -66,7 +66,7 @@ TEST(BreakpointStream, ReturnByReturn_GivesTheBreakpointsOfTheWholeTurn) {
   }
 }
 
-TEST(BreakpointStream, ClockwiseTurn_GivesThoseOfItsMirrorImage) {
+TEST(BreakpointStream, ClockwiseScan_EqualsMirroredScan) {
   const auto map = testing::make_map(testing::l_shaped_room());
   testing::ScanSource source(42);
   Detector detector({}, {});
@@ -91,7 +91,7 @@ TEST(BreakpointStream, ClockwiseTurn_GivesThoseOfItsMirrorImage) {
   }
 }
 
-TEST(BreakpointStream, BackwardSteps_ChangeNothing) {
+TEST(BreakpointStream, BackwardSteps_ResultIsUnchanged) {
   const auto map = testing::make_map(testing::l_shaped_room());
   testing::ScanSource source(43);
   const PolarScan scan = noisy_scan(source, *map, {1.1, 0.9, 0.4});
@@ -111,7 +111,7 @@ TEST(BreakpointStream, BackwardSteps_ChangeNothing) {
   expect_same(run(shuffled), run(scan.points()));
 }
 
-TEST(BreakpointStream, Breakpoint_IsCertainLongBeforeTheTurnEnds) {
+TEST(BreakpointStream, Breakpoint_IsFinalBeforeScanEnds) {
   const auto map = testing::make_map(testing::rectangular_room(3, 2));
   testing::ScanSource source(44);
   const PolarScan scan = testing::polar(source.take(*map, {1.5, 1, 0.3}));
@@ -133,7 +133,7 @@ TEST(BreakpointStream, Breakpoint_IsCertainLongBeforeTheTurnEnds) {
   EXPECT_GE(early, 1U);
 }
 
-TEST(BreakpointStream, SeamAnywhere_IsNoBreakpoint) {
+TEST(BreakpointStream, SeamAnywhere_NoBreakpoint) {
   const auto map = testing::make_map(testing::rectangular_room(3, 2));
   testing::ScanSource source(45);
   const PolarScan scan = testing::polar(source.take(*map, {1.3, 0.8, 0.1}));
@@ -169,7 +169,7 @@ TEST(BreakpointStream, ReturnsBeyondTheCircle_AreIgnored) {
   EXPECT_EQ(stream.detection().segments.size(), walls);
 }
 
-TEST(BreakpointStream, RangesThatAreNone_AreIgnored) {
+TEST(BreakpointStream, InvalidRanges_AreIgnored) {
   const auto map = testing::make_map(testing::rectangular_room(3, 2));
   testing::ScanSource source(47);
   const PolarScan scan = testing::polar(source.take(*map, {1.3, 0.8, 0.1}));

@@ -29,7 +29,7 @@ const Breakpoint* nearest(const Detection& detection, const Pose2& T_map_lidar, 
   return found != detection.breakpoints.end() && distance(*found) < 0.03 ? &*found : nullptr;
 }
 
-TEST(Detector, LShapedRoom_ShowsFiveInnerCornersAndTheEdge) {
+TEST(Detector, LShapedRoom_FiveInnerCornersAndEdge) {
   const auto map = testing::make_map(testing::l_shaped_room());
   testing::ScanSource source(21);
   for (int k = 0; k < 20; ++k) {
@@ -48,7 +48,7 @@ TEST(Detector, LShapedRoom_ShowsFiveInnerCornersAndTheEdge) {
   }
 }
 
-TEST(Detector, CornerWalls_PointTheWayTheyGoOnTheMap) {
+TEST(Detector, CornerWalls_DirectionsMatchMap) {
   const auto map = testing::make_map(testing::rectangular_room(3, 2));
   testing::ScanSource source(22);
   const Pose2 T_map_lidar{1.2, 0.9, 2.0};
@@ -64,7 +64,7 @@ TEST(Detector, CornerWalls_PointTheWayTheyGoOnTheMap) {
   }
 }
 
-TEST(Detector, WallInFrontOfAnother_EndsInATerminalNotInItsShadow) {
+TEST(Detector, WallInFrontOfAnother_EndsInTerminal) {
   FloorPlan plan = testing::rectangular_room(4, 3);
   plan.walls.push_back({{0, 1.5}, {1.2, 1.5}, 0.01});
   const WallMap map(plan);
@@ -83,7 +83,7 @@ TEST(Detector, WallInFrontOfAnother_EndsInATerminalNotInItsShadow) {
   EXPECT_EQ(nearest(detection, T_map_lidar, shadow), nullptr);
 }
 
-TEST(Detector, CornerCovariance_IsHonest) {
+TEST(Detector, CornerCovariance_IsConsistent) {
   const auto map = testing::make_map(testing::rectangular_room(3, 2));
   testing::ScanSource source(24);
   double nees = 0;
@@ -114,7 +114,7 @@ std::size_t count_walls(Method method, const Scan& scan) {
   return detection.segments.size();
 }
 
-TEST(Detector, EachMethod_SeesWhatItsOwnLimitsTell) {
+TEST(Detector, EachMethod_UsesItsOwnLimits) {
   // A step below the 30 mm that the baselines allow, but above the noise that ALTBD knows.
   FloorPlan plan = testing::rectangular_room(3, 2);
   plan.walls.push_back({{1.5, 0.0125}, {3, 0.0125}, 0.025});
@@ -138,7 +138,7 @@ TEST(Detector, EachMethod_SeesWhatItsOwnLimitsTell) {
   EXPECT_EQ(count_walls(Method::kLineTracking, gap), 4U);
 }
 
-TEST(Detector, LShapedRoom_ShowsItsInnerCornersByEachMethod) {
+TEST(Detector, LShapedRoom_EachMethodFindsInnerCorners) {
   const auto map = testing::make_map(testing::l_shaped_room());
   for (const Method method : {Method::kAltbd, Method::kAbdIepf, Method::kLineTracking}) {
     DetectorConfig config;
@@ -158,7 +158,7 @@ TEST(Detector, LShapedRoom_ShowsItsInnerCornersByEachMethod) {
   }
 }
 
-TEST(Detector, TurnRoundTheSeam_FindsTheSameCorners) {
+TEST(Detector, ScanRotatedAcrossSeam_SameCorners) {
   const auto map = testing::make_map(testing::rectangular_room(3, 2));
   for (int k = 0; k < 36; ++k) {
     testing::ScanSource source(25);

@@ -8,7 +8,7 @@
 namespace cornerd::core {
 namespace {
 
-TEST(LineFit, PointsOnALine_AreMetExactlyInEveryDirection) {
+TEST(LineFit, PointsOnALine_FitIsExactInEveryDirection) {
   for (int k = 0; k < 360; k += 7) {
     const Vec2 normal = unit_vector(radians(k));
     const Vec2 along = rotate_left(normal);
@@ -25,7 +25,7 @@ TEST(LineFit, PointsOnALine_AreMetExactlyInEveryDirection) {
   }
 }
 
-TEST(LineFit, PointTakenBack_LeavesNoTrace) {
+TEST(LineFit, RemovedPoint_FitIsUnchanged) {
   LineFit with;
   LineFit without;
   const double xs[] = {1, 1.1, 1.2, 1.3};
@@ -40,7 +40,7 @@ TEST(LineFit, PointTakenBack_LeavesNoTrace) {
   EXPECT_LT((with.line().normal - without.line().normal).norm(), 1e-12);
 }
 
-TEST(LineFit, TwoPiecesAddedUp_AreOneFit) {
+TEST(LineFit, TwoPartsAdded_EqualsOneFit) {
   LineFit whole({1, 1});
   LineFit a({1, 1});
   LineFit b({2, 5});
@@ -55,7 +55,7 @@ TEST(LineFit, TwoPiecesAddedUp_AreOneFit) {
   EXPECT_NEAR(a.chi_square(), whole.chi_square(), 1e-9);
 }
 
-TEST(LineFit, StatedVariance_IsThatOfManyFits) {
+TEST(LineFit, StatedVariance_MatchesMonteCarlo) {
   constexpr double kSigma_m = 0.005;
   std::mt19937 random(2);
   std::normal_distribution<double> noise(0, kSigma_m);

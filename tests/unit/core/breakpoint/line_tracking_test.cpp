@@ -27,7 +27,7 @@ double distance_m(const Line& line, const PolarPoint& point) {
   return std::abs(line.normal.dot(Vec2(point.x_m, point.y_m)) - line.offset_m);
 }
 
-TEST(LineTracking, RectangularRoom_HasFourWallsAndTheSeam) {
+TEST(LineTracking, RectangularRoom_FourWallsPlusSeam) {
   const auto map = testing::make_map(testing::rectangular_room(3, 2));
   testing::ScanSource source(31);
   testing::ScanOptions exact;
@@ -44,7 +44,7 @@ TEST(LineTracking, RectangularRoom_HasFourWallsAndTheSeam) {
   }
 }
 
-TEST(LineTracking, Walls_AreRunsThatFollowEachOther) {
+TEST(LineTracking, Walls_AreConsecutiveRuns) {
   const auto map = testing::make_map(testing::l_shaped_room());
   testing::ScanSource source(32);
   for (int k = 0; k < 20; ++k) {
@@ -60,7 +60,7 @@ TEST(LineTracking, Walls_AreRunsThatFollowEachOther) {
   }
 }
 
-TEST(LineTracking, AWall_EndsWhereTheNextSampleIsFartherThanTheLimit) {
+TEST(LineTracking, SampleBeyondLimit_EndsWall) {
   const auto map = testing::make_map(testing::l_shaped_room());
   testing::ScanSource source(33);
   for (int k = 0; k < 20; ++k) {
@@ -87,7 +87,7 @@ PolarScan stepped_wall(double step_m) {
   return testing::polar(scan);
 }
 
-TEST(LineTracking, AStep_IsSeenFromTheLimitOn) {
+TEST(LineTracking, StepAboveLimit_EndsWall) {
   EXPECT_EQ(lines_of(stepped_wall(0.9 * LineTrackingConfig().max_distance_m)).size(), 1U);
   const SegmentTracks tracks = lines_of(stepped_wall(1.1 * LineTrackingConfig().max_distance_m));
   ASSERT_EQ(tracks.size(), 2U);
@@ -95,7 +95,7 @@ TEST(LineTracking, AStep_IsSeenFromTheLimitOn) {
   EXPECT_EQ(tracks[1].first, 50U);
 }
 
-TEST(LineTracking, FewerThanFivePoints_AreNoWall) {
+TEST(LineTracking, FewerThanFivePoints_NoWall) {
   Scan scan;
   EXPECT_TRUE(lines_of(testing::polar(scan)).empty());
   for (std::uint32_t i = 1; i <= DetectorConfig().min_support; ++i) {
@@ -107,7 +107,7 @@ TEST(LineTracking, FewerThanFivePoints_AreNoWall) {
   }
 }
 
-TEST(LineTracking, MoreWallsThanFit_AreDroppedAndCounted) {
+TEST(LineTracking, TooManyWalls_AreDroppedAndCounted) {
   const auto map = testing::make_map(testing::rectangular_room(3, 2));
   testing::ScanSource source(34);
   const PolarScan points = testing::polar(source.take(*map, {1.5, 1, 0.3}));

@@ -31,7 +31,7 @@ testing::ScanOptions dense() {
   return options;
 }
 
-TEST(PrintedAltbd, ExactTurn_HasTheWallsInTheDimensionallySoundReading) {
+TEST(PrintedAltbd, NoiselessScan_SquaredAxesFindWalls) {
   testing::ScanOptions exact;
   exact.with_noise = false;
   const SegmentTracks walls = printed_walls(
@@ -41,13 +41,13 @@ TEST(PrintedAltbd, ExactTurn_HasTheWallsInTheDimensionallySoundReading) {
   EXPECT_LE(walls.size(), 5U);
 }
 
-TEST(PrintedAltbd, NoiseAtTheDensityOfAnA1_BreaksTheWallsOfThreePointLines) {
+TEST(PrintedAltbd, NoiseAtA1Density_ThreePointLinesBreakWalls) {
   const PolarScan noisy = scan_in_room(dense());
   const PrintedAltbdConfig first_three{.axes = EllipseAxes::kSquared};
   EXPECT_GT(printed_walls(noisy, first_three).size(), 15U);  // of four
 }
 
-TEST(PrintedAltbd, EachReading_EndsWithinTheRoomThatWasTaken) {
+TEST(PrintedAltbd, EachVariant_StaysWithinCapacity) {
   const PolarScan noisy = scan_in_room(dense());
   for (const EllipseAxes axes : {EllipseAxes::kPrinted, EllipseAxes::kSquared}) {
     for (const MinorAxis minor : {MinorAxis::kMetres, MinorAxis::kShareOfRange}) {
@@ -64,7 +64,7 @@ TEST(PrintedAltbd, EachReading_EndsWithinTheRoomThatWasTaken) {
   }
 }
 
-TEST(PrintedAltbd, TooFewPoints_AreNoWall) {
+TEST(PrintedAltbd, TooFewPoints_NoWall) {
   PolarScan points;
   points.begin(0.01);
   for (std::uint32_t i = 0; i + 1 < DetectorConfig().min_support; ++i) points.append(0.01 * i, 1);

@@ -11,7 +11,7 @@
 namespace cornerd::core {
 namespace {
 
-TEST(Catalog, Pairs_AreThoseThatSeeEachOther) {
+TEST(Catalog, Pairs_AreMutuallyVisible) {
   const WallMap map(testing::two_equal_rooms());
   const Catalog catalog(map, 12);
   EXPECT_GT(catalog.pairs().size(), 0U);
@@ -34,7 +34,7 @@ TEST(Catalog, Pairs_AreThoseThatSeeEachOther) {
   EXPECT_EQ(listed, 2 * catalog.pairs().size());
 }
 
-TEST(Catalog, Neighbours_AreAllThatARayReaches) {
+TEST(Catalog, Neighbours_MatchRayCasting) {
   testing::ScanSource source(32);
   FloorPlan plan;
   for (int i = 0; i < 60; ++i) {
@@ -68,7 +68,7 @@ TEST(Catalog, Neighbours_AreAllThatARayReaches) {
   }
 }
 
-TEST(Catalog, HallOfColumns_KeepsTheNearestOfManyNeighbours) {
+TEST(Catalog, HallOfColumns_KeepsNearestNeighbours) {
   FloorPlan plan;
   for (int i = 0; i < 12; ++i) {
     for (int j = 0; j < 12; ++j) plan.walls.push_back({{i, j}, {i, j}, 0.02});
@@ -82,7 +82,7 @@ TEST(Catalog, HallOfColumns_KeepsTheNearestOfManyNeighbours) {
   }
 }
 
-TEST(Catalog, VisitNear_MissesNoLandmarkWithinItsRadius) {
+TEST(Catalog, VisitNear_VisitsAllWithinRadius) {
   const WallMap map(testing::l_shaped_room());
   const Catalog catalog(map, 12);
   testing::ScanSource source(31);

@@ -50,7 +50,7 @@ class PairIndexTest : public ::testing::Test {
   std::vector<LandmarkPair> pairs_;
 };
 
-TEST_F(PairIndexTest, Query_IsAnsweredByAllThatMatchAndHardlyByOthers) {
+TEST_F(PairIndexTest, Query_AllMatchesWithFewOthers) {
   const PairIndex index(landmarks_, pairs_);
   EXPECT_EQ(index.size(), pairs_.size());
   std::size_t found = 0;
@@ -81,7 +81,7 @@ TEST_F(PairIndexTest, Query_IsAnsweredByAllThatMatchAndHardlyByOthers) {
   EXPECT_GT(found, 1000U);
 }
 
-TEST_F(PairIndexTest, WithoutPairs_AnswersNothing) {
+TEST_F(PairIndexTest, NoPairs_NothingFound) {
   for (const PairIndex& index : {PairIndex(), PairIndex(landmarks_, {})}) {
     EXPECT_EQ(index.size(), 0U);
     index.visit({0, 10, true, FaceSide::kLeft, 0, kPi},

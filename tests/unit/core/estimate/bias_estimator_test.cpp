@@ -51,7 +51,7 @@ double error_after_m(int places, Localizer& localizer, const WallMap& map) {
   return error_m / fixes;
 }
 
-TEST(BiasEstimator, TurnsAtKnownPlaces_ShowTheBias) {
+TEST(BiasEstimator, ScansAtKnownPoses_BiasIsEstimated) {
   const auto map = testing::make_map(testing::l_shaped_room());
   BiasEstimator estimator(12, {}, {});
   testing::ScanSource source(62);
@@ -68,7 +68,7 @@ TEST(BiasEstimator, TurnsAtKnownPlaces_ShowTheBias) {
   EXPECT_NEAR(estimator.bias().bearing_cosine_rad, kBias.bearing_cosine_rad, radians(0.03));
 }
 
-TEST(BiasEstimator, SensorWithoutBias_IsLeftAsItIs) {
+TEST(BiasEstimator, UnbiasedSensor_EstimateStaysZero) {
   const auto map = testing::make_map(testing::l_shaped_room());
   BiasEstimator estimator(12, {}, {});
   testing::ScanSource source(63);
@@ -84,7 +84,7 @@ TEST(BiasEstimator, SensorWithoutBias_IsLeftAsItIs) {
   EXPECT_NEAR(estimator.bias().bearing_cosine_rad, 0, radians(0.03));
 }
 
-TEST(BiasEstimator, RobotThatMovesWithinItsTurns_IsNoBias) {
+TEST(BiasEstimator, MotionWithinScans_IsNotTakenForBias) {
   const auto map = testing::make_map(testing::l_shaped_room());
   BiasEstimator estimator(12, {}, {});
   testing::ScanSource source(65);
@@ -104,7 +104,7 @@ TEST(BiasEstimator, RobotThatMovesWithinItsTurns_IsNoBias) {
   EXPECT_NEAR(estimator.bias().bearing_cosine_rad, 0, radians(0.03));
 }
 
-TEST(BiasEstimator, ThatResumes_KnowsWhatWasLearntAndLearnsOn) {
+TEST(BiasEstimator, Resumed_ContinuesFromStoredEstimate) {
   const auto map = testing::make_map(testing::l_shaped_room());
   const EstimatedBias learned{
       .bias = kBias, .sigma = {0.001, 0.001, radians(0.02), radians(0.02)}, .scans = 400};
@@ -129,7 +129,7 @@ TEST(BiasEstimator, ThatResumes_KnowsWhatWasLearntAndLearnsOn) {
   EXPECT_EQ(estimator.scans(), 0U);
 }
 
-TEST(BiasEstimator, ThatDoesNotForget_TakesAllTurnsAlike) {
+TEST(BiasEstimator, NoForgetting_AllScansCountEqually) {
   const auto map = testing::make_map(testing::l_shaped_room());
   BiasEstimator estimator(12, {}, {}, 0);
   testing::ScanSource source(68);
@@ -143,7 +143,7 @@ TEST(BiasEstimator, ThatDoesNotForget_TakesAllTurnsAlike) {
   EXPECT_NEAR(estimator.bias().range_offset_m, 0.002, 0.0004);
 }
 
-TEST(BiasEstimator, FartherOffThanALidarMayBe_SaysSo) {
+TEST(BiasEstimator, BiasBeyondLimit_IsReported) {
   const auto map = testing::make_map(testing::l_shaped_room());
   const SensorBias known{.range_offset_m = 0.03};
   BiasEstimator estimator(12, {}, known);
@@ -157,7 +157,7 @@ TEST(BiasEstimator, FartherOffThanALidarMayBe_SaysSo) {
   EXPECT_EQ(estimator.bias().range_scale, 0.03);
 }
 
-TEST(BiasEstimator, TurnsThatTeach_LeaveLessDoubt) {
+TEST(BiasEstimator, MoreScans_SigmaDecreases) {
   const auto map = testing::make_map(testing::l_shaped_room());
   BiasEstimator estimator(12, {}, {});
   testing::ScanSource source(67);
@@ -172,19 +172,19 @@ TEST(BiasEstimator, TurnsThatTeach_LeaveLessDoubt) {
   }
 }
 
-TEST(BiasEstimator, TurnOfFewPoints_TeachesNothing) {
+TEST(BiasEstimator, FewPoints_EstimateIsUnchanged) {
   const auto map = testing::make_map(testing::l_shaped_room());
   BiasEstimator estimator(12, {}, {});
   testing::ScanSource source(64);
   testing::ScanOptions sparse;
   sparse.samples = 30;
   estimator.update(*map, {1, 1, 0}, testing::polar(source.take(*map, {1, 1, 0}, sparse)).points(),
-                  1);
+                   1);
   EXPECT_EQ(estimator.scans(), 0U);
   EXPECT_TRUE(estimator.bias().is_none());
 }
 
-TEST(Localizer, BiasedLidar_IsLearntWhileItRuns) {
+TEST(Localizer, BiasedLidar_BiasIsEstimatedOnline) {
   const auto map = testing::make_map(testing::l_shaped_room());
   Localizer learning(map, {});
   LocalizerConfig config;
@@ -200,7 +200,7 @@ TEST(Localizer, BiasedLidar_IsLearntWhileItRuns) {
   EXPECT_TRUE(learning.estimated_bias().bias.is_none());
 }
 
-TEST(Localizer, BiasThatIsKnown_IsTakenOffFromTheFirstTurn) {
+TEST(Localizer, ConfiguredBias_IsRemovedFromFirstScan) {
   const auto map = testing::make_map(testing::l_shaped_room());
   LocalizerConfig config;
   config.bias = kBias;

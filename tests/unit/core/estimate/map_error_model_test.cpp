@@ -14,7 +14,7 @@
 namespace cornerd::core {
 namespace {
 
-class WallDoubtTest : public ::testing::Test {
+class MapErrorModelTest : public ::testing::Test {
  protected:
   /// Turns in a room each of whose walls is off the map by this standard deviation, across itself.
   void take_turns(double sigma_m, std::uint64_t seed) {
@@ -58,20 +58,20 @@ class WallDoubtTest : public ::testing::Test {
   int count_ = 0;
 };
 
-TEST_F(WallDoubtTest, WallsThatAreWhereTheMapHasThem_AreNotDoubted) {
+TEST_F(MapErrorModelTest, ExactMap_VarianceIsZero) {
   for (std::uint64_t seed = 1; seed <= 10; ++seed) take_turns(0, seed);
   EXPECT_LT(sigma_m(), 0.0006);
   EXPECT_GT(nees_with_ / count_, 2.4);  // 3 where it is exact
 }
 
-TEST_F(WallDoubtTest, WallsThatAreOff_MakeThePoseAsUnsure) {
+TEST_F(MapErrorModelTest, DisplacedWalls_PoseCovarianceIsConsistent) {
   for (std::uint64_t seed = 1; seed <= 40; ++seed) take_turns(0.004, seed);
   EXPECT_NEAR(sigma_m(), 0.004, 0.0015);
   EXPECT_LT(nees_with_ / count_, 6);
   EXPECT_GT(nees_without_ / count_, 20);
 }
 
-TEST_F(WallDoubtTest, ATurnThatSeesNothing_AddsNothing) {
+TEST_F(MapErrorModelTest, EmptyScan_AddsNothing) {
   const FaceResidualStatistics nothing = face_residual_statistics({}, Covariance3::Identity());
   doubt_.add(nothing);
   EXPECT_EQ(doubt_.variance(), 0);

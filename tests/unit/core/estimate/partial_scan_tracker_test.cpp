@@ -65,7 +65,7 @@ double error_m(const FollowedRobot::Part& part) {
   return (part.pose.T_map_base.translation() - part.truth.translation()).norm();
 }
 
-TEST(PartialScanTracker, EveryQuarter_GivesAPoseOfItsOwnTime) {
+TEST(PartialScanTracker, EveryQuarter_PoseAtItsOwnTime) {
   FollowedRobot robot({0.2, 0, 0.5});
   const auto parts = robot.drive(10);
   // The first turn is not known to be whole, the second is, and its place is known at its end.
@@ -82,20 +82,20 @@ TEST(PartialScanTracker, EveryQuarter_GivesAPoseOfItsOwnTime) {
   }
 }
 
-TEST(PartialScanTracker, CornersOfThePart_AreRecognised) {
+TEST(PartialScanTracker, CornersOfPart_AreCounted) {
   FollowedRobot robot({});
   std::size_t corners = 0;
   for (const auto& part : robot.drive(5)) corners += part.pose.corners;
   EXPECT_GE(corners, 6U);
 }
 
-TEST(PartialScanTracker, OneUpdateATurn_IsTheTurnsOwn) {
+TEST(PartialScanTracker, OneUpdatePerScan_IsTheScansPose) {
   FollowedRobot robot({0.2, 0, 0.5}, 1);
   EXPECT_TRUE(robot.drive(5).empty());
   EXPECT_EQ(robot.complete_scans(), 4);
 }
 
-TEST(PartialScanTracker, RobotThatWasCarriedAway_GetsNoPoseFromParts) {
+TEST(PartialScanTracker, KidnappedRobot_NoPoseFromParts) {
   FollowedRobot robot({});
   ASSERT_FALSE(robot.drive(4).empty());
   const auto elsewhere = testing::make_map(testing::rectangular_room(2.2, 1.7));

@@ -29,7 +29,8 @@ PolarScan noisy_wall() {
 }
 
 /// Point by point, in double precision.
-FaceSums exact_sum(std::span<const PolarPoint> points, const SensorNoise& noise, double extra_sigma_m) {
+FaceSums exact_sum(std::span<const PolarPoint> points, const SensorNoise& noise,
+                   double extra_sigma_m) {
   const Vec2 normal = unit_vector(kWallAngle_rad);
   FaceSums sum;
   for (const PolarPoint& point : points) {
@@ -67,7 +68,7 @@ void expect_near(const FaceSums& one, const FaceSums& other) {
   EXPECT_EQ(one.points, other.points);
 }
 
-TEST(PointLanes, PointsOfAWall_AddUpAsInDoublePrecision) {
+TEST(PointLanes, PointsOfWall_SumsMatchDoublePrecision) {
   const PolarScan scan = noisy_wall();
   SensorNoise by_table;
   const SigmaTable::Point measured[] = {{1, 0.002}, {3, 0.009}};
@@ -79,20 +80,21 @@ TEST(PointLanes, PointsOfAWall_AddUpAsInDoublePrecision) {
       // Every number of points that fours can leave over.
       for (std::size_t begin = 0; begin < 5; ++begin) {
         const auto part = scan.points().subspan(begin);
-        expect_near(lanes.sum(begin, scan.size(), unit_vector(kWallAngle_rad), kHeight_m, extra_sigma_m),
-                    exact_sum(part, noise, extra_sigma_m));
+        expect_near(
+            lanes.sum(begin, scan.size(), unit_vector(kWallAngle_rad), kHeight_m, extra_sigma_m),
+            exact_sum(part, noise, extra_sigma_m));
       }
     }
   }
 }
 
-TEST(PointLanes, NoPoints_AddNothing) {
+TEST(PointLanes, NoPoints_SumsAreZero) {
   PointLanes lanes;
   lanes.assign({}, {}, 1);
   EXPECT_EQ(lanes.sum(0, 0, {1, 0}, 1, 0).points, 0);
 }
 
-TEST(PointLanes, PointsOnTheWallWithoutNoise_HaveAWeight) {
+TEST(PointLanes, NoiselessPointsOnWall_WeightIsFinite) {
   PolarScan scan;
   scan.begin(0.1);
   scan.append(kPi, 2);

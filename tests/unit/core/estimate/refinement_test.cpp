@@ -24,7 +24,7 @@ class RefinementTest : public ::testing::Test {
   testing::ScanSource source_{51};
 };
 
-TEST_F(RefinementTest, ExactTurn_IsFoundExactly) {
+TEST_F(RefinementTest, NoiselessScan_PoseIsExact) {
   testing::ScanOptions options;
   options.with_noise = false;
   const Pose2 T_map_lidar{1.2, 0.9, 0.7};
@@ -35,7 +35,7 @@ TEST_F(RefinementTest, ExactTurn_IsFoundExactly) {
   EXPECT_NEAR(refined.T_map_lidar.theta_rad, 0.7, 1e-5);
 }
 
-TEST_F(RefinementTest, NoisyTurns_HaveAnHonestCovariance) {
+TEST_F(RefinementTest, NoisyScans_CovarianceIsConsistent) {
   double nees = 0;
   int count = 0;
   for (int k = 0; k < 300; ++k) {
@@ -54,16 +54,16 @@ TEST_F(RefinementTest, NoisyTurns_HaveAnHonestCovariance) {
   EXPECT_LT(nees / count, 4.0);
 }
 
-TEST_F(RefinementTest, LoneWall_DeterminesNoPose) {
+TEST_F(RefinementTest, SingleWall_PoseIsInvalid) {
   FloorPlan plan;
   plan.walls.push_back({{-5, 1}, {5, 1}, 0.02});
   map_ = testing::make_map(plan);
   EXPECT_FALSE(refine(source_.take(*map_, {0, 0, 0}), {0.02, 0.02, 0.01}).valid);
 }
 
-TEST_F(RefinementTest, NoPoints_DetermineNoPose) { EXPECT_FALSE(refine(Scan(), {1, 1, 0}).valid); }
+TEST_F(RefinementTest, NoPoints_PoseIsInvalid) { EXPECT_FALSE(refine(Scan(), {1, 1, 0}).valid); }
 
-TEST_F(RefinementTest, ThirdOfTheRaysStopped_PullsAtNothing) {
+TEST_F(RefinementTest, ThirdOfRaysBlocked_PoseIsUnchanged) {
   const Pose2 T_map_lidar{1.2, 0.9, 0.7};
   const Scan clear = source_.take(*map_, T_map_lidar);
   Scan scan;

@@ -8,7 +8,7 @@
 namespace cornerd::core {
 namespace {
 
-TEST(NormalizeAngle, AnyTurn_LiesAboveMinusPiUpToPi) {
+TEST(NormalizeAngle, AnyAngle_IsInHalfOpenInterval) {
   for (int k = -2000; k <= 2000; ++k) {
     const double angle = k * 0.01;
     const double normal = normalize_angle(angle);
@@ -24,12 +24,12 @@ TEST(NormalizeAngle, MinusPi_IsPi) {
   EXPECT_NEAR(normalize_angle(3 * kPi), kPi, 1e-12);
 }
 
-TEST(AngleBetween, AcrossTheSeam_TakesTheShorterWay) {
+TEST(AngleBetween, AcrossSeam_TakesShorterRotation) {
   EXPECT_NEAR(angle_between(radians(170), radians(-170)), radians(20), 1e-12);
   EXPECT_NEAR(angle_between(radians(-170), radians(170)), radians(-20), 1e-12);
 }
 
-TEST(Pose2, TimesItsInverse_IsNothing) {
+TEST(Pose2, TimesItsInverse_IsIdentity) {
   for (int k = 0; k < 100; ++k) {
     const Pose2 T_a_b{k * 0.3 - 10, 5 - k * 0.2, normalize_angle(k * 0.7)};
     const Pose2 nothing = T_a_b * T_a_b.inverse();
@@ -39,14 +39,14 @@ TEST(Pose2, TimesItsInverse_IsNothing) {
   }
 }
 
-TEST(Pose2, Composition_MovesPointsOneAfterTheOther) {
+TEST(Pose2, Composition_AppliesTransformsInOrder) {
   const Pose2 T_a_b{1, 2, 0.5};
   const Pose2 T_b_c{-0.3, 0.7, -2.9};
   const Vec2 p_c(0.4, -1.1);
   EXPECT_LT(((T_a_b * T_b_c) * p_c - T_a_b * (T_b_c * p_c)).norm(), 1e-12);
 }
 
-TEST(Pose2, QuarterTurn_TakesXToY) {
+TEST(Pose2, QuarterRotation_MapsXToY) {
   const Vec2 p = Pose2{0, 0, kPi / 2} * Vec2(1, 0);
   EXPECT_NEAR(p.x(), 0, 1e-15);
   EXPECT_NEAR(p.y(), 1, 1e-15);
@@ -60,7 +60,7 @@ TEST(Twist2, Over_FollowsTheArc) {
   EXPECT_NEAR(quarter.theta_rad, kPi / 2, 1e-12);
 }
 
-TEST(Twist2, MotionBetween_UndoesOver) {
+TEST(Twist2, MotionBetween_InvertsOver) {
   const Pose2 from{0.3, -0.7, 2.9};
   for (const double omega_rad_s : {0.0, 1e-4, 0.0099, 0.011, 1.5, -6.0}) {
     const Twist2 motion{0.5, -0.2, omega_rad_s};

@@ -8,7 +8,7 @@ namespace {
 
 const double kAngles_rad[] = {0, 1e-9, 1e-3, 0.02, 0.0999, 0.1, 0.1001, 0.5, 2, 3.1};
 
-TEST(SmallAngle, Turned_IsWhatSineAndCosineGive) {
+TEST(SmallAngle, Rotated_MatchesSineAndCosine) {
   const Vec2 way(0.6, -2.5);
   for (const double size_rad : kAngles_rad) {
     for (const double angle_rad : {size_rad, -size_rad}) {
@@ -19,7 +19,7 @@ TEST(SmallAngle, Turned_IsWhatSineAndCosineGive) {
   }
 }
 
-TEST(SmallAngle, TurnBetween_IsTheAngleThatOneWasTurnedBy) {
+TEST(SmallAngle, RotationBetween_MatchesArcTangent) {
   const Vec2 from(-1.2, 0.3);
   for (const double size_rad : kAngles_rad) {
     for (const double angle_rad : {size_rad, -size_rad}) {
@@ -30,7 +30,7 @@ TEST(SmallAngle, TurnBetween_IsTheAngleThatOneWasTurnedBy) {
   }
 }
 
-TEST(SmallAngle, TurnBetweenOppositeWays_IsHalfATurn) {
+TEST(SmallAngle, RotationBetweenOppositeDirections_IsPi) {
   EXPECT_DOUBLE_EQ(std::abs(rotation_between({1, 0}, {-2, 0})), kPi);
 }
 

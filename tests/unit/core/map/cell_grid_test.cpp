@@ -23,7 +23,7 @@ bool holds(std::span<const std::uint32_t> things, std::uint32_t thing) {
   return std::find(things.begin(), things.end(), thing) != things.end();
 }
 
-TEST(CellGrid, EveryPointOfASegment_HasItInItsCell) {
+TEST(CellGrid, PointOfSegment_CellContainsSegment) {
   std::mt19937_64 random(5);
   for (int k = 0; k < 20; ++k) {
     std::uniform_real_distribution<double> anywhere(-7, 7);
@@ -46,14 +46,14 @@ TEST(CellGrid, EveryPointOfASegment_HasItInItsCell) {
   }
 }
 
-TEST(CellGrid, LongThingsAcrossEverything_TakeNoMoreRoomThanShortOnes) {
+TEST(CellGrid, LongItems_MemoryIsBounded) {
   std::mt19937_64 random(6);
   const auto extents = random_segments(random, 20'000, 10'000);
   const CellGrid grid(extents);
   EXPECT_LT(grid.memory_bytes(), 20'000U * 32 * 4);
 }
 
-TEST(CellGrid, ThingsFarApart_TakeNoMoreRoomThanNearOnes) {
+TEST(CellGrid, DistantItems_MemoryIsBounded) {
   const std::vector<Extent> extents = {
       Extent::of_segment({-10'000, -10'000}, {-9'999, -10'000}, 0.1),
       Extent::of_segment({10'000, 10'000}, {9'999, 10'000}, 0.1),
@@ -64,7 +64,7 @@ TEST(CellGrid, ThingsFarApart_TakeNoMoreRoomThanNearOnes) {
   EXPECT_TRUE(grid.at({20'000, 0}).empty());
 }
 
-TEST(CellGrid, Collect_FindsWhatTouches) {
+TEST(CellGrid, Collect_FindsTouchingItems) {
   const std::vector<Extent> extents = {Extent::of_segment({0, 0}, {4, 0}, 0.1),
                                        Extent::of_segment({2, -1}, {2, 1}, 0.1),
                                        Extent::of_segment({9, 9}, {9, 5}, 0.1)};
@@ -77,7 +77,7 @@ TEST(CellGrid, Collect_FindsWhatTouches) {
   EXPECT_EQ(std::adjacent_find(found.begin(), found.end()), found.end());
 }
 
-TEST(CellGrid, WithoutThings_IsEmptyEverywhere) {
+TEST(CellGrid, NoItems_IsEmpty) {
   const CellGrid grid;
   std::vector<std::uint32_t> found = {7};
   grid.collect(Extent{}, found);

@@ -8,7 +8,7 @@
 namespace cornerd::core {
 namespace {
 
-TEST(RayCaster, EveryRay_MeetsWhatASingleRayMeets) {
+TEST(RayCaster, EveryRay_MatchesSingleRay) {
   const auto map = testing::make_map(testing::l_shaped_room());
   testing::ScanSource source(3);
   RayCaster prediction(12);
@@ -25,7 +25,7 @@ TEST(RayCaster, EveryRay_MeetsWhatASingleRayMeets) {
   }
 }
 
-TEST(RayCaster, RayIntoTheOpen_MeetsNothing) {
+TEST(RayCaster, RayWithoutWall_NoHit) {
   FloorPlan plan;
   plan.walls.push_back({{1, -1}, {1, 1}, 0.1});
   const WallMap map(plan);

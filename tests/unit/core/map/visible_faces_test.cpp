@@ -49,7 +49,7 @@ void expect_all_seen_faces(const WallMap& map, const Vec2& origin, double max_ra
   VisibleFaces visible_faces;
   std::set<std::size_t> visited;
   visible_faces.find(map, origin, max_range_m,
-             [&](std::uint32_t face, const VisibleFace&) { visited.insert(face); });
+                     [&](std::uint32_t face, const VisibleFace&) { visited.insert(face); });
   for (int i = 0; i < 90; ++i) {
     const double angle_rad = radians(0.25 + 4 * i);
     const auto [face, range_m] = nearest_face(map, origin, angle_rad, max_range_m);
@@ -61,7 +61,7 @@ void expect_all_seen_faces(const WallMap& map, const Vec2& origin, double max_ra
   }
 }
 
-TEST(VisibleFaces, FaceThatAnyRayMeets_IsVisited) {
+TEST(VisibleFaces, FaceHitByRay_IsVisited) {
   testing::ScanSource source(41);
   for (const int walls : {3, 30, 300, 900}) {
     const double size_m = walls < 100 ? 4 : 15;
@@ -72,7 +72,7 @@ TEST(VisibleFaces, FaceThatAnyRayMeets_IsVisited) {
   }
 }
 
-TEST(VisibleFaces, PlaceOnTheAxesAndDiagonalsOfCorners_MissesNothing) {
+TEST(VisibleFaces, ViewpointAlignedWithCorners_AllFacesVisited) {
   FloorPlan plan;
   for (int i = 0; i < 6; ++i) {
     for (int j = 0; j < 6; ++j) plan.walls.push_back({{i, j}, {i + 0.5, j}, 0});
@@ -87,7 +87,7 @@ TEST(VisibleFaces, PlaceOnTheAxesAndDiagonalsOfCorners_MissesNothing) {
   }
 }
 
-TEST(VisibleFaces, RoomAmongManyRooms_SeesNoneOfTheOthers) {
+TEST(VisibleFaces, RoomAmongManyRooms_OthersAreOccluded) {
   FloorPlan plan;
   for (int i = 0; i <= 30; ++i) {
     plan.walls.push_back({{3.0 * i, 0}, {3.0 * i, 90}, 0.1});
@@ -102,12 +102,13 @@ TEST(VisibleFaces, RoomAmongManyRooms_SeesNoneOfTheOthers) {
   EXPECT_LT(visible_faces.occlusion().max_range_m(), 3);
 }
 
-TEST(VisibleFaces, PlaceFarOutside_SeesNothingAndAnswersAtOnce) {
+TEST(VisibleFaces, ViewpointFarOutside_NothingVisited) {
   const WallMap map(testing::l_shaped_room());
   VisibleFaces visible_faces;
   for (const Vec2& place : {Vec2(1e9, 0), Vec2(-40, 2), Vec2(std::nan(""), 0)}) {
-    visible_faces.find(map, place, 12,
-               [](std::uint32_t, const VisibleFace&) { ADD_FAILURE() << "seen from afar"; });
+    visible_faces.find(map, place, 12, [](std::uint32_t, const VisibleFace&) {
+      ADD_FAILURE() << "seen from afar";
+    });
   }
 }
 

@@ -26,7 +26,7 @@ const Corner* corner_at(const WallMap& map, const Vec2& point) {
   return found == corners.end() ? nullptr : &*found;
 }
 
-TEST(WallMap, LoneWall_HasFourFacesWithSquareEndsPastBothPoints) {
+TEST(WallMap, SingleWall_FourFacesWithSquareEnds) {
   const WallMap map(plan_of({{{0, 0}, {2, 0}, 0.2}}));
   EXPECT_EQ(map.faces().size(), 4U);
   ASSERT_EQ(map.corners().size(), 4U);
@@ -38,7 +38,7 @@ TEST(WallMap, LoneWall_HasFourFacesWithSquareEndsPastBothPoints) {
   EXPECT_NE(corner_at(map, {2.1, 0.1}), nullptr);
 }
 
-TEST(WallMap, Faces_HaveTheFreeSpaceOnTheirLeft) {
+TEST(WallMap, Faces_FreeSpaceIsOnLeft) {
   const WallMap map(testing::l_shaped_room());
   for (const Face& face : map.faces()) {
     const Vec2 middle = (face.from + face.to) / 2;
@@ -48,7 +48,7 @@ TEST(WallMap, Faces_HaveTheFreeSpaceOnTheirLeft) {
   }
 }
 
-TEST(WallMap, ClosedRoom_HasAnInnerAndAnOuterOutline) {
+TEST(WallMap, ClosedRoom_InnerAndOuterOutline) {
   const WallMap map(testing::rectangular_room(3, 2));
   EXPECT_EQ(map.faces().size(), 8U);
   ASSERT_EQ(map.corners().size(), 8U);
@@ -62,7 +62,7 @@ TEST(WallMap, ClosedRoom_HasAnInnerAndAnOuterOutline) {
   EXPECT_NEAR(inner->right_face_rad, kPi / 2, 1e-9);
 }
 
-TEST(WallMap, WallAgainstAWall_LeavesNoSurfaceBetweenThem) {
+TEST(WallMap, TouchingWalls_NoSurfaceBetween) {
   const WallMap map(plan_of({{{0, 0}, {4, 0}, 0.2}, {{2, 0}, {2, 1}, 0.2}}));
   // The long wall's upper side is cut in two; the other three sides are whole; the short wall shows
   // two sides and its end.
@@ -85,7 +85,7 @@ TEST(WallMap, SameWallTwice_IsOneWall) {
   EXPECT_EQ(WallMap(plan_of({line, line})).faces().size(), 2U);
 }
 
-TEST(WallMap, LineWall_IsSeenFromBothSidesAndEndsInCorners) {
+TEST(WallMap, LineWall_VisibleFromBothSidesWithCornersAtEnds) {
   const WallMap map(plan_of({{{0, 0}, {2, 0}, 0}}));
   EXPECT_EQ(map.faces().size(), 2U);
   EXPECT_NEAR(map.range_along({1, 1}, -kPi / 2, 12), 1, 1e-12);
@@ -94,7 +94,7 @@ TEST(WallMap, LineWall_IsSeenFromBothSidesAndEndsInCorners) {
   EXPECT_NEAR(map.corners()[0].opening_rad, kTwoPi, 1e-9);
 }
 
-TEST(WallMap, CrossingLineWalls_MakeFourCornersWhereTheyCross) {
+TEST(WallMap, CrossingLineWalls_FourCornersAtCrossing) {
   const WallMap map(plan_of({{{-1, 0}, {1, 0}, 0}, {{0, -1}, {0, 1}, 0}}));
   int at_crossing = 0;
   for (const Corner& corner : map.corners()) {
@@ -105,7 +105,7 @@ TEST(WallMap, CrossingLineWalls_MakeFourCornersWhereTheyCross) {
   EXPECT_EQ(at_crossing, 4);
 }
 
-TEST(WallMap, Ray_MeetsTheNearestFaceOrNothing) {
+TEST(WallMap, Ray_HitsNearestFaceOrNone) {
   const WallMap map(testing::rectangular_room(3, 2));
   EXPECT_NEAR(map.range_along({1, 1}, 0, 12), 2, 1e-12);
   EXPECT_NEAR(map.range_along({1, 1}, kPi, 12), 1, 1e-12);
@@ -114,7 +114,7 @@ TEST(WallMap, Ray_MeetsTheNearestFaceOrNothing) {
   EXPECT_EQ(map.range_along({10, 10}, 0, 12), 0);
 }
 
-TEST(WallMap, Rooms_TheFirstThatHoldsThePointWins) {
+TEST(WallMap, OverlappingRooms_FirstContainingPoint) {
   const WallMap map(testing::l_shaped_room());
   ASSERT_TRUE(map.room_at({1, 2.5}));
   EXPECT_EQ(map.plan().rooms[*map.room_at({1, 2.5})].name, "nook");
@@ -122,7 +122,7 @@ TEST(WallMap, Rooms_TheFirstThatHoldsThePointWins) {
   EXPECT_FALSE(map.room_at({9, 9}));
 }
 
-TEST(WallMap, WallWithoutExtent_IsRefusedByItsNumber) {
+TEST(WallMap, WallWithoutExtent_ThrowsWithIndex) {
   try {
     const WallMap map(plan_of({{{0, 0}, {1, 0}, 0.1}, {{2, 2}, {2, 2}, 0}}));
     FAIL() << "accepted";
@@ -131,14 +131,14 @@ TEST(WallMap, WallWithoutExtent_IsRefusedByItsNumber) {
   }
 }
 
-TEST(WallMap, NonsenseNumbers_AreRefused) {
+TEST(WallMap, NonFiniteNumbers_Throw) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   EXPECT_THROW(WallMap(plan_of({{{0, nan}, {1, 0}, 0.1}})), std::invalid_argument);
   EXPECT_THROW(WallMap(plan_of({{{0, 0}, {1, 0}, -0.1}})), std::invalid_argument);
   EXPECT_THROW(WallMap(plan_of({})), std::invalid_argument);
 }
 
-TEST(WallMap, Post_IsASquareOfItsThickness) {
+TEST(WallMap, Post_IsSquareOfItsThickness) {
   const WallMap map(plan_of({{{1, 1}, {1, 1}, 0.3}}));
   EXPECT_EQ(map.faces().size(), 4U);
   EXPECT_TRUE(map.is_solid({1.1, 1.1}));

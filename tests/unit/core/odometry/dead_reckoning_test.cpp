@@ -18,7 +18,7 @@ OdometryIncrement step_of(double left_m, double right_m, double gyro_rad) {
   return step;
 }
 
-TEST(HeadingChange, EachMode_IsItsEquation) {
+TEST(HeadingChange, EachMode_MatchesItsEquation) {
   const OdometryIncrement step = step_of(0.01, 0.03, 0.2);  // wheels: 0.1 rad
   const auto change = [&](HeadingSource source, double c_enco, double c_gyro) {
     return heading_change(step, kRobot, {source, {c_enco, c_gyro, 0}});
@@ -34,13 +34,13 @@ TEST(HeadingChange, EachMode_IsItsEquation) {
   EXPECT_DOUBLE_EQ(change(HeadingSource::kWeighted, 0, 2), 0.2);
 }
 
-TEST(HeadingChange, WithoutAGyro_TakesTheEncoders) {
+TEST(HeadingChange, NoGyro_UsesEncoders) {
   OdometryIncrement step = step_of(0.01, 0.03, 0.2);
   step.has_gyro = false;
   EXPECT_DOUBLE_EQ(heading_change(step, kRobot, {HeadingSource::kMean, {1, 1, 0}}), 0.1);
 }
 
-TEST(DeadReckoning, ACircleInSmallSteps_EndsWhereItBegan) {
+TEST(DeadReckoning, CircleInSmallIncrements_EndsAtStart) {
   DeadReckoning odometry(kRobot, {});
   for (int i = 0; i < 1000; ++i) {
     odometry.add(step_of((0.5 - 0.1) * kTwoPi / 1000, (0.5 + 0.1) * kTwoPi / 1000, 0));
@@ -50,7 +50,7 @@ TEST(DeadReckoning, ACircleInSmallSteps_EndsWhereItBegan) {
   EXPECT_NEAR(odometry.pose().theta_rad, 0, 1e-9);
 }
 
-TEST(DeadReckoning, QuarterCircle_GoesInTheDirectionHalfWayThrough) {
+TEST(DeadReckoning, QuarterCircle_UsesMidpointHeading) {
   DeadReckoning odometry(kRobot, {}, {1, 2, kPi / 2});
   const Pose2& pose = odometry.add(step_of(0.1, 0.1 + 0.2 * kPi / 2, 0));
   const double way_m = 0.1 + 0.2 * kPi / 4;
@@ -59,7 +59,7 @@ TEST(DeadReckoning, QuarterCircle_GoesInTheDirectionHalfWayThrough) {
   EXPECT_NEAR(pose.theta_rad, kPi, 1e-12);
 }
 
-TEST(DeadReckoning, DeadBand_LosesASlowDrive) {
+TEST(DeadReckoning, DeadBand_DropsSlowDrive) {
   DeadReckoning with(kRobot, {HeadingSource::kEncoder, {1, 1, 0.01}});
   DeadReckoning without(kRobot, {});
   // Each step turns the wheels by 0.008 and 0.006 rad: under the paper's 0.01.

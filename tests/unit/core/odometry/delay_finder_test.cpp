@@ -50,7 +50,7 @@ class Rides {
   Pose2 T_map_base_;
 };
 
-TEST(DelayFinder, AnyDelay_IsFoundToAFewMilliseconds) {
+TEST(DelayFinder, AnyDelay_IsEstimatedToMilliseconds) {
   for (const double late_s : {-0.17, -0.1, -0.05, 0.04, 0.1, 0.17}) {
     Rides ride(late_s);
     ride.go_about();
@@ -62,21 +62,21 @@ TEST(DelayFinder, AnyDelay_IsFoundToAFewMilliseconds) {
   }
 }
 
-TEST(DelayFinder, TheRightDelay_IsLeftAlone) {
+TEST(DelayFinder, CorrectDelay_IsUnchanged) {
   Rides ride(0.1);
   ride.go_about();
   EXPECT_FALSE(ride.finder.instead_of(0.1));
   EXPECT_FALSE(ride.finder.instead_of(0.11)) << "the filter's own to find";
 }
 
-TEST(DelayFinder, SteadyMotion_TellsNothing) {
+TEST(DelayFinder, SteadyMotion_DelayIsUnobservable) {
   Rides ride(0.1);
   ride.go(10, 0.4, 0.8);
   EXPECT_FALSE(ride.finder.instead_of(0));
   EXPECT_NEAR(std::sqrt(ride.finder.doubt_about(0, kFirst_s, kUsual_s)), 0.03, 0.01);
 }
 
-TEST(DelayFinder, BeforeAnything_ItMayBeWhatItUsuallyIs) {
+TEST(DelayFinder, NoData_HasPriorSigma) {
   const DelayFinder finder;
   const double little_s2 = finder.doubt_about(0, kFirst_s, 0.01);
   EXPECT_LT(little_s2, finder.doubt_about(0, kFirst_s, 0.05));
@@ -84,7 +84,7 @@ TEST(DelayFinder, BeforeAnything_ItMayBeWhatItUsuallyIs) {
   EXPECT_GT(finder.doubt_about(0.1, 0, 0.01), 0.05 * 0.05);
 }
 
-TEST(DelayFinder, ADelayThatJumps_IsFoundAgain) {
+TEST(DelayFinder, DelayJumps_IsEstimatedAgain) {
   DelayFinder finder;
   Rides before(0.02);
   Rides after(0.1);
@@ -100,7 +100,7 @@ TEST(DelayFinder, ADelayThatJumps_IsFoundAgain) {
 }
 
 /// Wheels that turn the other way round are late by nothing.
-TEST(DelayFinder, WhatNoDelayExplains_IsNotPutDownToOne) {
+TEST(DelayFinder, UnexplainedResiduals_DelayIsUnchanged) {
   Rides ride(0);
   Rides mirrored(0);
   for (int i = 0; i < 6; ++i) {

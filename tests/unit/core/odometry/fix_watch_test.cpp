@@ -24,7 +24,7 @@ FixWatch doubting() {
   return watch;
 }
 
-TEST(FixWatch, StrangersBetweenStraights_AreNotForgottenOnThem) {
+TEST(FixWatch, RejectedFixesBetweenStraights_StayCounted) {
   FixWatch watch = doubting();
   EXPECT_FALSE(watch.is_believed());
   for (int k = 0; k < 100; ++k) beam_likelihood(watch, 0.05, k % 2 == 0 ? 0.01 : -0.01);
@@ -32,7 +32,7 @@ TEST(FixWatch, StrangersBetweenStraights_AreNotForgottenOnThem) {
   EXPECT_FALSE(watch.is_contradicted());
 }
 
-TEST(FixWatch, TurnsThatAreForetold_ProveItRight) {
+TEST(FixWatch, PredictedRotations_Validate) {
   FixWatch watch = doubting();
   for (int k = 0; k < 5; ++k) {
     EXPECT_FALSE(watch.is_believed()) << k;
@@ -41,7 +41,7 @@ TEST(FixWatch, TurnsThatAreForetold_ProveItRight) {
   EXPECT_TRUE(watch.is_believed());
 }
 
-TEST(FixWatch, StrangersNowAndThen_AreSlips) {
+TEST(FixWatch, OccasionalRejectedFixes_AreSlips) {
   FixWatch watch;
   for (int k = 0; k < 20; ++k) {
     watch.add_stranger(true);
@@ -50,7 +50,7 @@ TEST(FixWatch, StrangersNowAndThen_AreSlips) {
   }
 }
 
-TEST(FixWatch, StrangersThatAreNotAboutTurning_CountInARow) {
+TEST(FixWatch, RejectedFixesOfTranslation_CountConsecutively) {
   FixWatch watch;
   for (int k = 0; k < 20; ++k) {
     watch.add_stranger(false);
@@ -68,7 +68,7 @@ TEST(FixWatch, StrangersThatAreNotAboutTurning_CountInARow) {
   EXPECT_TRUE(watch.is_believed()) << "it was carried, and is looked for anew";
 }
 
-TEST(FixWatch, TheFirstWayAndTurn_TheLidarHasToHaveSeen) {
+TEST(FixWatch, FirstMotion_NeedsConfirmationByLidar) {
   FixWatch watch;
   EXPECT_TRUE(watch.carries(0.01, 0.01)) << "it stands";
   EXPECT_FALSE(watch.carries(0.1, 0));
@@ -79,13 +79,13 @@ TEST(FixWatch, TheFirstWayAndTurn_TheLidarHasToHaveSeen) {
   EXPECT_TRUE(watch.carries(10, 10));
 }
 
-TEST(FixWatch, ASlowRobot_ProvesItOverManyFixes) {
+TEST(FixWatch, SlowRobot_IsValidatedOverManyFixes) {
   FixWatch watch;
   for (int k = 0; k < 8; ++k) beam_likelihood(watch, 0.003, 0.01);
   EXPECT_TRUE(watch.carries(10, 10));
 }
 
-TEST(FixWatch, ASlowRobotWhoseOdometryLies_ProvesNothing) {
+TEST(FixWatch, SlowRobotWrongOdometry_IsNotValidated) {
   FixWatch watch;
   for (int k = 0; k < 100; ++k) {
     watch.add_explained({Vec2(0.003, 0), 0.01}, {Vec2(-0.003, 0), -0.01});
@@ -94,13 +94,13 @@ TEST(FixWatch, ASlowRobotWhoseOdometryLies_ProvesNothing) {
   EXPECT_FALSE(watch.carries(0, kTurn_rad));
 }
 
-TEST(FixWatch, ARobotThatStands_ProvesNothing) {
+TEST(FixWatch, StationaryRobot_IsNotValidated) {
   FixWatch watch;
   for (int k = 0; k < 1000; ++k) beam_likelihood(watch, k % 2 == 0 ? 0.002 : -0.002, 0);
   EXPECT_FALSE(watch.carries(0.1, 0));
 }
 
-TEST(FixWatch, AfterAStranger_NothingIsCarriedOnUntilAFixIsExplained) {
+TEST(FixWatch, AfterRejectedFix_NoPredictionUntilAcceptedFix) {
   FixWatch watch;
   beam_likelihood(watch, 0.05, kTurn_rad);
   watch.add_stranger(true);

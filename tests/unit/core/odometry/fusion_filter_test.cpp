@@ -16,7 +16,7 @@ using testing::switched_on;
 using testing::usual_errors;
 using Drive = testing::TaughtRobot;
 
-TEST(FusionFilter, ThirtySecondsWithFixes_TeachScalesAndBias) {
+TEST(FusionFilter, ThirtySecondsOfFixes_ScalesAndBiasAreEstimated) {
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     const testing::RobotErrors errors = usual_errors();
     Drive drive(switched_on(), errors, seed);
@@ -30,7 +30,7 @@ TEST(FusionFilter, ThirtySecondsWithFixes_TeachScalesAndBias) {
   }
 }
 
-TEST(FusionFilter, FiveSecondsBlindAfterThirty_StayWithinThreeCentimetres) {
+TEST(FusionFilter, FiveSecondsWithoutFixes_ErrorBelow3cm) {
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     Drive drive(switched_on(), usual_errors(), seed);
     drive.drive(30, true);
@@ -40,7 +40,7 @@ TEST(FusionFilter, FiveSecondsBlindAfterThirty_StayWithinThreeCentimetres) {
   }
 }
 
-TEST(FusionFilter, WhatChangesInADrive_IsLearntAnew) {
+TEST(FusionFilter, ParametersChange_AreEstimatedAgain) {
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
     testing::RobotErrors errors = usual_errors();
     Drive drive(switched_on(), errors, seed);
@@ -57,7 +57,7 @@ TEST(FusionFilter, WhatChangesInADrive_IsLearntAnew) {
   }
 }
 
-TEST(FusionFilter, WhatStaysAsItIs_IsNotDoubtedAnew) {
+TEST(FusionFilter, ParametersConstant_CovarianceIsNotInflated) {
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     Drive drive(switched_on(), usual_errors(), seed);
     drive.drive(60, true);
@@ -70,7 +70,7 @@ TEST(FusionFilter, WhatStaysAsItIs_IsNotDoubtedAnew) {
   }
 }
 
-TEST(FusionFilter, CoarseCounts_DoNotAddUp) {
+TEST(FusionFilter, CoarseCounts_QuantizationDoesNotAccumulate) {
   // The way from count to count is off by 1.4 mm at each end, however many lie in between.
   const OdometryConfig config = config_with_counts_of_5_mm();
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
@@ -84,7 +84,7 @@ TEST(FusionFilter, CoarseCounts_DoNotAddUp) {
   }
 }
 
-TEST(FusionFilter, WithFixes_IsBetterThanTheFixes) {
+TEST(FusionFilter, WithFixes_ErrorBelowFixNoise) {
   double squares_m2 = 0;
   int count = 0;
   Drive drive(switched_on(), usual_errors(), 3);
@@ -96,7 +96,7 @@ TEST(FusionFilter, WithFixes_IsBetterThanTheFixes) {
   EXPECT_LT(std::sqrt(squares_m2 / count), kFixSigma_m * std::sqrt(2.0));
 }
 
-TEST(FusionFilter, AWheelThatSpinsFree_DoesNotTurnTheRobot) {
+TEST(FusionFilter, WheelSpinsFree_HeadingIsUnchanged) {
   const OdometryConfig config = switched_on();
   Drive drive(config, usual_errors(), 4);
   drive.drive(30, true);
@@ -117,7 +117,7 @@ TEST(FusionFilter, AWheelThatSpinsFree_DoesNotTurnTheRobot) {
   EXPECT_TRUE(drive.correct());  // half a metre of spinning makes it doubt enough
 }
 
-TEST(FusionFilter, AFixFromElsewhere_IsRefusedAndChangesNothing) {
+TEST(FusionFilter, NisAboveGate_FixIsRejected) {
   Drive drive(switched_on(), usual_errors(), 5);
   drive.drive(10, true);
   const FusionFilter before = drive.filter();
@@ -128,7 +128,7 @@ TEST(FusionFilter, AFixFromElsewhere_IsRefusedAndChangesNothing) {
   EXPECT_EQ(drive.filter().covariance(), before.covariance());
 }
 
-TEST(FusionFilter, AHole_LetsTheDoubtGrowAndTheLearnedStay) {
+TEST(FusionFilter, Gap_CovarianceGrowsAndParametersStay) {
   Drive drive(switched_on(), usual_errors(), 6);
   drive.drive(30, true);
   const OdometryParameters before = drive.filter().learned();

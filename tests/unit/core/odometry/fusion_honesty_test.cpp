@@ -46,7 +46,7 @@ double mean_nees(double taught_s, double blind_s, bool with_gyro, double noisier
   return sum / kRobots;
 }
 
-TEST(FusionFilter, PredictedCovariance_IsHonest) {
+TEST(FusionFilter, PredictedCovariance_IsConsistent) {
   // The mean of 100 is off by 0.25 itself. The filter reckons with more noise than these robots
   // have (scrub, scales that wander): it may be cautious, never bold. Where nothing is learned yet,
   // scales that are off by several percent are not quite linear.
@@ -68,7 +68,7 @@ TEST(FusionFilter, PredictedCovariance_IsHonest) {
   }
 }
 
-TEST(FusionFilter, WheelsAndGyroNoisierOrQuieterThanTold_AreFoundOutByTheFixes) {
+TEST(FusionFilter, WrongNoiseModel_IsCorrectedByFixes) {
   // Taken as told, they would give 9 and 0.9.
   for (const bool with_gyro : {true, false}) {
     const double noisy = mean_nees(30, 5, with_gyro, std::sqrt(3.0));
@@ -82,7 +82,7 @@ TEST(FusionFilter, WheelsAndGyroNoisierOrQuieterThanTold_AreFoundOutByTheFixes) 
   }
 }
 
-TEST(FusionFilter, CoarseCounts_LeaveTheCovarianceHonest) {
+TEST(FusionFilter, CoarseCounts_CovarianceIsConsistent) {
   for (const bool with_gyro : {true, false}) {
     const double nees = mean_nees(15, 3, with_gyro, 1, config_with_counts_of_5_mm());
     EXPECT_LT(nees, 3.6) << with_gyro;
@@ -91,7 +91,7 @@ TEST(FusionFilter, CoarseCounts_LeaveTheCovarianceHonest) {
   }
 }
 
-TEST(FusionFilter, AnyMotion_KeepsTheCovarianceOne) {
+TEST(FusionFilter, AnyMotion_CovarianceStaysPositiveDefinite) {
   std::mt19937_64 random(7);
   std::normal_distribution<double> normal;
   FusionFilter filter(switched_on());

@@ -19,7 +19,7 @@ void turn(GyroProof& proof, double& heading_rad, double gain, int turns = 1) {
   }
 }
 
-TEST(GyroProof, TurnsThatTheLidarSees_ProveIt) {
+TEST(GyroProof, RotationsSeenByLidar_Validate) {
   GyroProof proof;
   double heading_rad = 0;
   EXPECT_FALSE(proof.holds());
@@ -29,7 +29,7 @@ TEST(GyroProof, TurnsThatTheLidarSees_ProveIt) {
   EXPECT_FALSE(proof.holds());
 }
 
-TEST(GyroProof, StraightsProveNothing) {
+TEST(GyroProof, Straights_DoNotValidate) {
   GyroProof proof;
   double heading_rad = 0;
   for (int i = 0; i < 100; ++i) {
@@ -42,7 +42,7 @@ TEST(GyroProof, StraightsProveNothing) {
   EXPECT_FALSE(proof.holds());
 }
 
-TEST(GyroProof, AStretchWithoutAGyro_IsNotComparedWith) {
+TEST(GyroProof, IncrementWithoutGyro_IsIgnored) {
   GyroProof proof;
   double heading_rad = 0;
   turn(proof, heading_rad, 1, 4);

@@ -10,7 +10,7 @@ namespace {
 
 constexpr TimeNs kMs = 1'000'000;
 
-TEST(MotionPath, BetweenReadings_FollowsTheArc) {
+TEST(MotionPath, BetweenReadings_FollowsArc) {
   MotionPath path;
   path.add(0, 100 * kMs, arc(0.1, 0));
   path.add(100 * kMs, 200 * kMs, arc(0.1, 1.0));
@@ -23,7 +23,7 @@ TEST(MotionPath, BetweenReadings_FollowsTheArc) {
   EXPECT_NEAR(path.at(50 * kMs).x_m, 0.05, 1e-12);
 }
 
-TEST(MotionPath, AfterTheLastReading_GoesOnAsBefore) {
+TEST(MotionPath, AfterLastReading_IsExtrapolated) {
   MotionPath path;
   path.add(0, 100 * kMs, arc(0.1, 0.2));
   EXPECT_TRUE(path.covers(0, 200 * kMs));
@@ -33,7 +33,7 @@ TEST(MotionPath, AfterTheLastReading_GoesOnAsBefore) {
   EXPECT_FALSE(path.covers(-1, 50 * kMs));
 }
 
-TEST(MotionPath, AHole_IsNotBridged) {
+TEST(MotionPath, Gap_IsNotCovered) {
   MotionPath path;
   path.add(0, 100 * kMs, arc(0.1, 0));
   path.add(150 * kMs, 250 * kMs, arc(0.1, 0));
@@ -41,7 +41,7 @@ TEST(MotionPath, AHole_IsNotBridged) {
   EXPECT_TRUE(path.covers(150 * kMs, 200 * kMs));
 }
 
-TEST(MotionPath, AChangeOfSpeed_IsFoundWhereItWas) {
+TEST(MotionPath, SpeedChange_IsLocated) {
   MotionPath path;
   const auto drive = [&](int i, double way_m) {
     path.add(i * kNsPerSecond / 10, (i + 1) * kNsPerSecond / 10, arc(way_m, 0));
@@ -52,7 +52,7 @@ TEST(MotionPath, AChangeOfSpeed_IsFoundWhereItWas) {
   EXPECT_NEAR(path.greatest_change(3 * kNsPerSecond / 2, 2 * kNsPerSecond).x_m, 0, 1e-9);
 }
 
-TEST(MotionPath, LongDrive_KeepsTheLastTwoSeconds) {
+TEST(MotionPath, LongDrive_KeepsLastTwoSeconds) {
   MotionPath path;
   for (int i = 0; i < 5000; ++i) path.add(i * 5 * kMs, (i + 1) * 5 * kMs, arc(0.001, 0));
   EXPECT_TRUE(path.covers(23'000 * kMs, 25'000 * kMs));
@@ -60,7 +60,7 @@ TEST(MotionPath, LongDrive_KeepsTheLastTwoSeconds) {
   EXPECT_NEAR(path.at(25'000 * kMs).x_m - path.at(24'000 * kMs).x_m, 0.2, 1e-9);
 }
 
-TEST(MotionPath, BeforeTheFirstMotion_CoversNothing) { EXPECT_FALSE(MotionPath().covers(0, 0)); }
+TEST(MotionPath, Empty_CoversNothing) { EXPECT_FALSE(MotionPath().covers(0, 0)); }
 
 }  // namespace
 }  // namespace cornerd::core

@@ -21,18 +21,20 @@ double learned(double factor, double other, int observations, double outlier = 0
   return meter.factor();
 }
 
-TEST(NoiseMeter, Residuals_TellHowMuchLargerOrSmallerTheNoiseIs) {
+TEST(NoiseMeter, Residuals_NoiseScaleIsEstimated) {
   EXPECT_NEAR(learned(4, 0.5, 400), 4, 1.2);
   EXPECT_NEAR(learned(0.1, 0.02, 400), 0.1, 0.03);
 }
 
-TEST(NoiseMeter, NoiseThatDrowns_TeachesNothing) { EXPECT_NEAR(learned(4, 1000, 400), 1, 0.5); }
+TEST(NoiseMeter, NoiseBelowFixNoise_EstimateIsUnchanged) {
+  EXPECT_NEAR(learned(4, 1000, 400), 1, 0.5);
+}
 
-TEST(NoiseMeter, FewResiduals_MoveItLittle) { EXPECT_NEAR(learned(0.1, 0, 2), 1, 0.25); }
+TEST(NoiseMeter, FewResiduals_EstimateChangesLittle) { EXPECT_NEAR(learned(0.1, 0, 2), 1, 0.25); }
 
 TEST(NoiseMeter, Outliers_CountAsFourSigma) { EXPECT_LT(learned(1, 0.1, 400, 1000), 2.5); }
 
-TEST(NoiseMeter, NothingTold_ChangesNothing) {
+TEST(NoiseMeter, NoResiduals_EstimateIsUnchanged) {
   NoiseMeter meter(8, 0.01, 100);
   meter.add(5, 0, 1);
   EXPECT_EQ(meter.factor(), 1);

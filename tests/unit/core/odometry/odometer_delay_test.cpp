@@ -99,7 +99,7 @@ OdometryConfig config_of_late_ride() {
   return config;
 }
 
-TEST(OdometerDelay, LateOrEarlyReadings_AreFoundOutAndReckonedWith) {
+TEST(OdometerDelay, DelayedReadings_DelayIsEstimatedAndUsed) {
   for (const double delay_s : {0.0, 0.005, 0.02, -0.03, 0.08, -0.12, 0.17}) {
     LateRide ride(delay_s, config_of_late_ride());
     ride.teach();
@@ -111,7 +111,7 @@ TEST(OdometerDelay, LateOrEarlyReadings_AreFoundOutAndReckonedWith) {
   }
 }
 
-TEST(OdometerDelay, ADelayThatJumps_IsFollowed) {
+TEST(OdometerDelay, DelayJumps_IsTracked) {
   for (const double jump_s : {-0.1, 0.05, 0.12}) {
     LateRide ride(0.01, config_of_late_ride());
     ride.teach();
@@ -122,7 +122,7 @@ TEST(OdometerDelay, ADelayThatJumps_IsFollowed) {
   }
 }
 
-TEST(OdometerDelay, ARobotThatStands_LearnsNone) {
+TEST(OdometerDelay, StationaryRobot_DelayIsNotEstimated) {
   const OdometryConfig config = config_of_late_ride();
   Odometer odometer(config);
   testing::RobotErrors errors;
@@ -141,7 +141,7 @@ TEST(OdometerDelay, ARobotThatStands_LearnsNone) {
   EXPECT_GE(odometer.summary().sigma.delay_s, config.noise.delay_s);
 }
 
-TEST(OdometerDelay, ReadingsThatArriveAfterTheTurn_ArePublishedWhereTheyAreAfterIt) {
+TEST(OdometerDelay, ReadingsAfterScan_PredictionsFollowScan) {
   LateRide ride(0, config_of_late_ride());
   ride.teach();
   const TimeNs scan_ns = ride.odometer.prediction().value().t_ns;
@@ -164,7 +164,7 @@ TEST(OdometerDelay, ReadingsThatArriveAfterTheTurn_ArePublishedWhereTheyAreAfter
   EXPECT_GT(after, 10);
 }
 
-TEST(OdometerDelay, WhatIsGuessedBeyondTheReadings_IsDoubted) {
+TEST(OdometerDelay, ExtrapolationBeyondReadings_CovarianceGrows) {
   LateRide ride(0, config_of_late_ride());
   ride.teach();
   const Covariance3 read = ride.odometer.prediction().value().covariance;
@@ -176,7 +176,7 @@ TEST(OdometerDelay, WhatIsGuessedBeyondTheReadings_IsDoubted) {
 }
 
 /// What is reckoned with in the first test: without a doubt in the times nothing is learned.
-TEST(OdometerDelay, TimesThatAreNotDoubted_ArePutDownToTheWheels) {
+TEST(OdometerDelay, DelayFixed_ErrorsGoToWheels) {
   OdometryConfig config = config_of_late_ride();
   config.noise.delay_s = config.noise.delay_s_per_sqrt_s = 0;
   LateRide ride(0.005, config);
@@ -185,7 +185,7 @@ TEST(OdometerDelay, TimesThatAreNotDoubted_ArePutDownToTheWheels) {
   EXPECT_GT(ride.blind_nees(), 10);
 }
 
-TEST(OdometerDelay, AKnownDelay_IsStartedFrom) {
+TEST(OdometerDelay, ConfiguredDelay_IsInitial) {
   OdometryConfig config = config_of_late_ride();
   config.noise.delay_s = config.noise.delay_s_per_sqrt_s = 0;
   config.initial.delay_s = 0.02;
@@ -194,7 +194,7 @@ TEST(OdometerDelay, AKnownDelay_IsStartedFrom) {
   EXPECT_LT(ride.blind_nees(), 5);
 }
 
-TEST(OdometerDelay, BeforeItIsLearned_TheCovarianceHoldsWhatItMayBe) {
+TEST(OdometerDelay, DelayUnknown_CovarianceContainsItsPrior) {
   OdometryConfig sure = config_of_late_ride();
   sure.noise.delay_s = 0;
   FusionFilter doubting(config_of_late_ride());

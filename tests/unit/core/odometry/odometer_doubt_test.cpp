@@ -48,13 +48,13 @@ Carried carried_on(Ride& ride, int seen, int blind, int times) {
   return carried;
 }
 
-TEST(OdometerDoubt, AGyroThatWasUpsideDownFromTheFirst_IsNeverCarriedOn) {
+TEST(OdometerDoubt, GyroInvertedFromStart_NoPrediction) {
   Ride ride(switched_on());
   ride.spoil = [](int, OdometryReading& reading) { reading.gyro_rad_s = -*reading.gyro_rad_s; };
   EXPECT_EQ(carried_on(ride, 1, 1, 300).wrong, 0);
 }
 
-TEST(OdometerDoubt, AGyroThatSticksInADrive_IsNotCarriedOnInTurns) {
+TEST(OdometerDoubt, GyroSticks_NoPredictionInRotations) {
   Ride ride(switched_on());
   EXPECT_GT(carried_on(ride, 1, 1, 60).predictions, 55);
   std::optional<double> stuck;
@@ -67,7 +67,7 @@ TEST(OdometerDoubt, AGyroThatSticksInADrive_IsNotCarriedOnInTurns) {
   EXPECT_GT(carried.predictions, 60) << "the wheels alone go on";
 }
 
-TEST(OdometerDoubt, AModeThatLearnsNothing_TellsWhatItMayBeOffBy) {
+TEST(OdometerDoubt, ModeWithoutEstimation_CovarianceContainsPrior) {
   for (const HeadingSource mode : {HeadingSource::kEncoder, HeadingSource::kGyro,
                                    HeadingSource::kMean, HeadingSource::kWeighted}) {
     OdometryConfig config = switched_on();
@@ -79,7 +79,7 @@ TEST(OdometerDoubt, AModeThatLearnsNothing_TellsWhatItMayBeOffBy) {
   }
 }
 
-TEST(OdometerDoubt, WheelsThatSlipWithoutAGyro_AreToldWithThatDoubt) {
+TEST(OdometerDoubt, WheelSlipWithoutGyro_CovarianceIsConsistent) {
   Ride ride(switched_on());
   std::mt19937_64 random(5);
   std::int64_t slipped = 0;

@@ -22,14 +22,14 @@ using testing::kFixCovariance;
 using testing::Ride;
 using testing::switched_on;
 
-TEST(Odometer, BeforeTheFirstFix_PredictsNothing) {
+TEST(Odometer, BeforeFirstFix_NoPrediction) {
   Ride ride(switched_on());
   for (int k = 0; k < 5; ++k) ride.turn();
   EXPECT_FALSE(ride.odometer.prediction());
   EXPECT_TRUE(ride.odometer.has_motion());
 }
 
-TEST(Odometer, Ahead_IsWhereTheRobotIsByNow) {
+TEST(Odometer, PredictLatest_IsCurrentPose) {
   Ride ride(switched_on());
   for (int k = 0; k < 300; ++k) {
     ride.turn();
@@ -47,7 +47,7 @@ TEST(Odometer, Ahead_IsWhereTheRobotIsByNow) {
   }
 }
 
-TEST(Odometer, Ahead_IsWhatTheNextTurnStartsFrom) {
+TEST(Odometer, PredictLatest_IsStartOfNextScan) {
   // What was carried on reading by reading and what the turn consumes are the same counts.
   Ride ride(switched_on());
   for (int k = 0; k < 20; ++k) {
@@ -65,14 +65,14 @@ TEST(Odometer, Ahead_IsWhatTheNextTurnStartsFrom) {
   EXPECT_TRUE(reached.covariance.isApprox(ahead.covariance, 1e-6));
 }
 
-TEST(Odometer, BeforeTheFirstFix_IsNothingAhead) {
+TEST(Odometer, PredictLatest_BeforeFirstFix_IsNull) {
   Ride ride(switched_on());
   ride.turn();
   ride.go_on();
   EXPECT_FALSE(ride.odometer.predict_latest());
 }
 
-TEST(Odometer, BetweenFixes_PredictsTheMiddleOfTheTurn) {
+TEST(Odometer, BetweenFixes_PredictsMiddleOfScan) {
   Ride ride(switched_on());
   for (int k = 0; k < 300; ++k) {
     ride.turn();
@@ -86,7 +86,7 @@ TEST(Odometer, BetweenFixes_PredictsTheMiddleOfTheTurn) {
   EXPECT_NEAR(ride.odometer.summary().parameters.gyro_bias_rad_s, 0.01, 0.001);
 }
 
-TEST(Odometer, ReadingsThatComeLateOrSeldom_StillCountOnce) {
+TEST(Odometer, LateOrSparseReadings_CountOnce) {
   for (const auto& [late, every] : {std::pair{8, 1}, {0, 17}, {8, 17}}) {
     Ride ride(switched_on(), late, every);
     for (int k = 0; k < 100; ++k) {
@@ -99,7 +99,7 @@ TEST(Odometer, ReadingsThatComeLateOrSeldom_StillCountOnce) {
   }
 }
 
-TEST(Odometer, Blind_GoesOnForAsLongAsItIsAllowed) {
+TEST(Odometer, NoFixes_PredictsForMaxExtrapolation) {
   OdometryConfig config = switched_on();
   config.max_extrapolation_s = 3;
   Ride ride(config);
@@ -116,7 +116,7 @@ TEST(Odometer, Blind_GoesOnForAsLongAsItIsAllowed) {
   }
 }
 
-TEST(Odometer, ReadingsStop_PredictionStops) {
+TEST(Odometer, ReadingsStop_PredictionEnds) {
   Ride ride(switched_on());
   for (int k = 0; k < 20; ++k) {
     ride.turn();
@@ -133,7 +133,7 @@ TEST(Odometer, ReadingsStop_PredictionStops) {
   EXPECT_TRUE(ride.odometer.prediction());
 }
 
-TEST(Odometer, WheelsThatTellAnotherStory_AreNotBelieved) {
+TEST(Odometer, InconsistentWheels_AreRejected) {
   Ride ride(switched_on());
   for (int k = 0; k < 50; ++k) {
     ride.turn();
@@ -175,7 +175,7 @@ double worst_sigmas_while_blind(const std::function<void(int, OdometryReading&)>
   return worst;
 }
 
-TEST(Odometer, OneReadingAheadOfTheOthersWhileBlind_ChangesNothing) {
+TEST(Odometer, OneFutureReadingWithoutFixes_PredictionIsUnchanged) {
   for (const double ahead_s : {0.1, 0.2, 0.5, 1.0, 1.5, 1.9}) {
     int predictions = 0;
     const auto leap = [&](int i, OdometryReading& reading) {
@@ -186,7 +186,7 @@ TEST(Odometer, OneReadingAheadOfTheOthersWhileBlind_ChangesNothing) {
   }
 }
 
-TEST(Odometer, AClockThatIsSetBackWhileBlind_EndsThePrediction) {
+TEST(Odometer, ClockSetBackWithoutFixes_PredictionEnds) {
   for (const double back_s : {0.2, 0.5, 1.0, 1.9}) {
     const auto set_back = [&](int i, OdometryReading& reading) {
       if (i >= 140) reading.t_ns -= from_seconds(back_s);
@@ -195,7 +195,7 @@ TEST(Odometer, AClockThatIsSetBackWhileBlind_EndsThePrediction) {
   }
 }
 
-TEST(Odometer, AGyroThatTurnsRoundOrIsOff_IsNotCarriedOn) {
+TEST(Odometer, GyroInvertedOrBiased_NoPrediction) {
   const auto reversed = [](int, OdometryReading& reading) {
     reading.gyro_rad_s = -*reading.gyro_rad_s;
   };
@@ -207,7 +207,7 @@ TEST(Odometer, AGyroThatTurnsRoundOrIsOff_IsNotCarriedOn) {
   }
 }
 
-TEST(Odometer, AWheelThatStandsStill_IsNotBelieved) {
+TEST(Odometer, StuckWheel_IsRejected) {
   Ride ride(switched_on());
   for (int k = 0; k < 100; ++k) {
     ride.turn();
@@ -229,7 +229,7 @@ TEST(Odometer, AWheelThatStandsStill_IsNotBelieved) {
   EXPECT_NEAR(ride.odometer.summary().parameters.left_scale, 0.01, 0.005);
 }
 
-TEST(Odometer, ARobotThatStands_LearnsNothingOfItsWheels) {
+TEST(Odometer, StationaryRobot_WheelScalesAreUnchanged) {
   Odometer odometer(switched_on());
   std::mt19937_64 random(7);
   std::normal_distribution<double> normal;
@@ -253,7 +253,7 @@ TEST(Odometer, ARobotThatStands_LearnsNothingOfItsWheels) {
   EXPECT_NEAR(learned.gyro_bias_rad_s, 0.01, 0.002);
 }
 
-TEST(Odometer, TimesThatComeLateOrEarly_DoNotDriveTheScalesAway) {
+TEST(Odometer, JitteringTimes_ScalesDoNotDrift) {
   Ride ride(switched_on());
   std::mt19937_64 random(5);
   std::normal_distribution<double> jitter_s(0, 0.002);
@@ -270,7 +270,7 @@ TEST(Odometer, TimesThatComeLateOrEarly_DoNotDriveTheScalesAway) {
   EXPECT_NEAR(learned.left_scale, 0.01, 0.01);
 }
 
-TEST(Odometer, Forgotten_NeedsAFix) {
+TEST(Odometer, AfterForget_NeedsFix) {
   Ride ride(switched_on());
   ride.turn();
   ride.odometer.correct(ride.truth, kFixCovariance);
@@ -279,7 +279,7 @@ TEST(Odometer, Forgotten_NeedsAFix) {
   EXPECT_FALSE(ride.odometer.prediction());
 }
 
-TEST(Odometer, SwitchedOff_DoesNothing) {
+TEST(Odometer, Disabled_DoesNothing) {
   Ride ride(OdometryConfig{});
   ride.turn();
   ride.odometer.correct(ride.truth, kFixCovariance);
@@ -288,7 +288,7 @@ TEST(Odometer, SwitchedOff_DoesNothing) {
   EXPECT_FALSE(ride.odometer.prediction());
 }
 
-TEST(Odometer, ATurnTakenInMotion_IsStraightened) {
+TEST(Odometer, ScanTakenInMotion_IsDeskewed) {
   const auto map = testing::make_map(testing::rectangular_room(4, 3));
   const OdometryConfig config = switched_on();
   testing::DrivenRobot robot(config.geometry, {});

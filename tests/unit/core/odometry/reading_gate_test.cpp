@@ -53,14 +53,14 @@ Outcome drive_with(const std::function<void(int, OdometryReading&)>& spoil) {
 
 constexpr double kLeft_m = (0.3 - 0.1 * 0.08) * 0.02 * 149;
 
-TEST(ReadingGate, CleanDrive_GivesAllOfIt) {
+TEST(ReadingGate, CleanDrive_IncrementsAreComplete) {
   const Outcome outcome = drive_with([](int, OdometryReading&) {});
   EXPECT_EQ(outcome.steps, 149);
   EXPECT_NEAR(outcome.left_m, kLeft_m, 0.001);
   EXPECT_NEAR(outcome.gyro_rad, 0.1 * 0.02 * 149, 1e-9);
 }
 
-TEST(ReadingGate, SpeedsThatNobodyDrives_CostTheirReadingAlone) {
+TEST(ReadingGate, ImpossibleSpeed_OnlyThatReadingIsRejected) {
   for (const std::int64_t garbage :
        {std::int64_t{30464}, std::int64_t{5198147}, std::numeric_limits<std::int64_t>::min(),
         std::numeric_limits<std::int64_t>::max()}) {
@@ -73,7 +73,7 @@ TEST(ReadingGate, SpeedsThatNobodyDrives_CostTheirReadingAlone) {
   }
 }
 
-TEST(ReadingGate, ASpikeThatAWheelMightRoll_CostsItsReadingAlone) {
+TEST(ReadingGate, PossibleSpike_OnlyThatReadingIsRejected) {
   for (const int counts : {200, 300, 420, -250}) {
     const Outcome outcome = drive_with([&](int i, OdometryReading& reading) {
       if (i == 70) reading.left = *reading.left + counts;
@@ -84,7 +84,7 @@ TEST(ReadingGate, ASpikeThatAWheelMightRoll_CostsItsReadingAlone) {
   }
 }
 
-TEST(ReadingGate, AWheelThatSpinsUpAtOnce_IsFollowed) {
+TEST(ReadingGate, WheelSpinsUpSuddenly_IsFollowed) {
   const DriveGeometry geometry = small_robot().geometry;
   const auto spun = [&](int i) { return i < 70 ? 0 : (i - 69) * 2 * 0.02; };
   const Outcome outcome = drive_with([&](int i, OdometryReading& reading) {
@@ -96,7 +96,7 @@ TEST(ReadingGate, AWheelThatSpinsUpAtOnce_IsFollowed) {
   EXPECT_NEAR(outcome.left_m, kLeft_m + spun(149), 0.001);
 }
 
-TEST(ReadingGate, CountsThatStayElsewhere_AreARestart) {
+TEST(ReadingGate, CountsStayElsewhere_IsRestart) {
   const Outcome outcome = drive_with([](int i, OdometryReading& reading) {
     if (i >= 70) reading.left = *reading.left + 30464;
   });
@@ -105,7 +105,7 @@ TEST(ReadingGate, CountsThatStayElsewhere_AreARestart) {
   EXPECT_NEAR(outcome.left_m, kLeft_m - 3 * 0.02 * 0.292, 0.002);
 }
 
-TEST(ReadingGate, WholeReadingsLost_AreMadeUpForByTheCounts) {
+TEST(ReadingGate, ReadingsLost_CountsCoverThem) {
   const Outcome outcome = drive_with([](int i, OdometryReading& reading) {
     if (i > 70 && i < 80) reading.left.reset();
   });
@@ -114,7 +114,7 @@ TEST(ReadingGate, WholeReadingsLost_AreMadeUpForByTheCounts) {
   EXPECT_NEAR(outcome.gyro_rad, 0.1 * 0.02 * 149, 1e-9);
 }
 
-TEST(ReadingGate, ASecondWithoutReadings_IsAHole) {
+TEST(ReadingGate, OneSecondWithoutReadings_IsGap) {
   const Outcome outcome = drive_with([](int i, OdometryReading& reading) {
     if (i > 50 && i < 110) reading.right.reset();
   });
@@ -122,7 +122,7 @@ TEST(ReadingGate, ASecondWithoutReadings_IsAHole) {
   EXPECT_EQ(outcome.counters.gaps, 1U);
 }
 
-TEST(ReadingGate, TheFarFutureAndThePast_AreRefused) {
+TEST(ReadingGate, FarFutureAndPast_AreRejected) {
   const Outcome outcome = drive_with([](int i, OdometryReading& reading) {
     if (i == 40) reading.t_ns += 3600 * kNsPerSecond;
     if (i == 60) reading.t_ns -= 100 * kMillisecond_ns;
@@ -134,7 +134,7 @@ TEST(ReadingGate, TheFarFutureAndThePast_AreRefused) {
   EXPECT_NEAR(outcome.left_m, kLeft_m, 0.001);
 }
 
-TEST(ReadingGate, AClockThatWasSetBack_IsFollowedAfterAWhile) {
+TEST(ReadingGate, ClockSetBack_IsFollowedLater) {
   const Outcome outcome = drive_with([](int i, OdometryReading& reading) {
     if (i >= 50) reading.t_ns -= 2 * kNsPerSecond;
   });
@@ -142,7 +142,7 @@ TEST(ReadingGate, AClockThatWasSetBack_IsFollowedAfterAWhile) {
   EXPECT_GT(outcome.left_m, 0.7 * kLeft_m);
 }
 
-TEST(ReadingGate, AClockThatWasSetBack_LeavesAHoleThatEndsBeforeItBegins) {
+TEST(ReadingGate, ClockSetBack_GapEndsBeforeItBegins) {
   testing::DrivenRobot robot(small_robot().geometry, {});
   ReadingGate gate(small_robot());
   std::vector<OdometryIncrement> back;
@@ -156,7 +156,7 @@ TEST(ReadingGate, AClockThatWasSetBack_LeavesAHoleThatEndsBeforeItBegins) {
   EXPECT_TRUE(back.front().is_gap);
 }
 
-TEST(ReadingGate, OneReadingAheadOfTheOthers_CostsItselfAlone) {
+TEST(ReadingGate, OneFutureReading_OnlyItIsRejected) {
   for (const int ahead_ms : {100, 200, 300, 1000, 1900}) {
     const Outcome outcome = drive_with([&](int i, OdometryReading& reading) {
       if (i == 60) reading.t_ns += ahead_ms * kMillisecond_ns;
@@ -169,7 +169,7 @@ TEST(ReadingGate, OneReadingAheadOfTheOthers_CostsItselfAlone) {
   }
 }
 
-TEST(ReadingGate, APause_IsOverWhenReadingsGoOn) {
+TEST(ReadingGate, Pause_EndsWithNextReadings) {
   const Outcome outcome = drive_with([](int i, OdometryReading& reading) {
     if (i > 50 && i < 75) reading.t_ns -= 3600 * kNsPerSecond;
   });
@@ -179,7 +179,7 @@ TEST(ReadingGate, APause_IsOverWhenReadingsGoOn) {
   EXPECT_NEAR(outcome.left_m, kLeft_m, 0.001);
 }
 
-TEST(ReadingGate, AClockThatLeapsAheadOfTheLidars_IsRefusedUntilItComesBack) {
+TEST(ReadingGate, ClockLeapsAhead_RejectedUntilItReturns) {
   for (const int ahead_ms : {300, 600, 1500, 5000}) {
     const Outcome outcome = drive_with([&](int i, OdometryReading& reading) {
       if (i >= 50 && i < 80) reading.t_ns += ahead_ms * kMillisecond_ns;
@@ -190,14 +190,14 @@ TEST(ReadingGate, AClockThatLeapsAheadOfTheLidars_IsRefusedUntilItComesBack) {
   }
 }
 
-TEST(ReadingGate, AClockThatWasAlwaysAhead_IsRefusedAfterAWhile) {
+TEST(ReadingGate, ClockAlwaysAhead_IsRejectedLater) {
   const Outcome outcome =
       drive_with([](int, OdometryReading& reading) { reading.t_ns += kNsPerSecond; });
   EXPECT_GT(outcome.counters.future, 50U);
   EXPECT_LT(outcome.steps, 100);
 }
 
-TEST(ReadingGate, TurnsThatComeAsAWhole_MakeNoFuture) {
+TEST(ReadingGate, ScansInOnePiece_NoFutureReadings) {
   testing::DrivenRobot robot(small_robot().geometry, {});
   ReadingGate gate(small_robot());
   TimeNs newest_sample_ns = 0;
@@ -209,7 +209,7 @@ TEST(ReadingGate, TurnsThatComeAsAWhole_MakeNoFuture) {
   EXPECT_EQ(gate.counters().future, 0U);
 }
 
-TEST(ReadingGate, APauseOfReadingsAndTurnsThatComeAsAWhole_IsNoLeapOfTheClock) {
+TEST(ReadingGate, PauseWithScansInOnePiece_IsNoClockLeap) {
   testing::DrivenRobot robot(small_robot().geometry, {});
   ReadingGate gate(small_robot());
   TimeNs newest_sample_ns = 0;
@@ -222,7 +222,7 @@ TEST(ReadingGate, APauseOfReadingsAndTurnsThatComeAsAWhole_IsNoLeapOfTheClock) {
   EXPECT_EQ(gate.counters().gaps, 0U);
 }
 
-TEST(ReadingGate, MoreAheadThanTheLimit_IsRefused) {
+TEST(ReadingGate, AheadOfLimit_IsRejected) {
   OdometryConfig config = small_robot();
   config.limits.ahead_s = 0.25;
   ReadingGate gate(config);
@@ -234,7 +234,7 @@ TEST(ReadingGate, MoreAheadThanTheLimit_IsRefused) {
   EXPECT_EQ(gate.counters().future, 1U);
 }
 
-TEST(ReadingGate, ReadingsThatWereHeldBack_AreNotOfTheTimeWhenTheyCame) {
+TEST(ReadingGate, ReadingsHeldBack_ArrivalTimesAreRejected) {
   // Ten of them wait, and come within 2 ms, as stamped on arrival.
   const TimeNs let_go_ns = [] {
     testing::DrivenRobot robot(small_robot().geometry, {});
@@ -252,7 +252,7 @@ TEST(ReadingGate, ReadingsThatWereHeldBack_AreNotOfTheTimeWhenTheyCame) {
   EXPECT_NEAR(outcome.left_m, kLeft_m, 0.001);
 }
 
-TEST(ReadingGate, SeldomReadings_AreNoLeaps) {
+TEST(ReadingGate, SparseReadings_AreNoLeaps) {
   testing::DrivenRobot robot(small_robot().geometry, {});
   ReadingGate gate(small_robot());
   int steps = 0;
@@ -264,7 +264,7 @@ TEST(ReadingGate, SeldomReadings_AreNoLeaps) {
   EXPECT_EQ(gate.counters().future, 0U);
 }
 
-TEST(ReadingGate, AClientThatGoesOnMoreSlowly_IsFollowed) {
+TEST(ReadingGate, ClientSlowsDown_IsFollowed) {
   for (const double slow_s : {0.1, 0.2, 0.5}) {
     testing::DrivenRobot robot(small_robot().geometry, {});
     ReadingGate gate(small_robot());
@@ -280,7 +280,7 @@ TEST(ReadingGate, AClientThatGoesOnMoreSlowly_IsFollowed) {
   }
 }
 
-TEST(ReadingGate, RatesThatAreNone_AreLeftOut) {
+TEST(ReadingGate, InvalidRates_AreDropped) {
   const Outcome outcome = drive_with([](int i, OdometryReading& reading) {
     if (i == 30) reading.gyro_rad_s = std::nan("");
     if (i == 50) reading.gyro_rad_s = 5198147;
@@ -289,7 +289,7 @@ TEST(ReadingGate, RatesThatAreNone_AreLeftOut) {
   EXPECT_NEAR(outcome.gyro_rad, 0.1 * 0.02 * 149, 0.01);
 }
 
-TEST(ReadingGate, AGyroThatIsStuck_IsNoticedByTheWheels) {
+TEST(ReadingGate, GyroStuck_IsDetectedByWheels) {
   OdometryConfig config = small_robot();
   testing::DrivenRobot robot(config.geometry, {});
   ReadingGate gate(config);
@@ -304,7 +304,7 @@ TEST(ReadingGate, AGyroThatIsStuck_IsNoticedByTheWheels) {
   EXPECT_GT(gate.counters().stuck, 80U);
 }
 
-TEST(ReadingGate, AGyroThatIsStuck_IsNotBelievedAgainWhenTheRobotTurnsBack) {
+TEST(ReadingGate, GyroStuck_StaysRejectedWhenRotationReverses) {
   const OdometryConfig config = small_robot();
   testing::DrivenRobot robot(config.geometry, {});
   ReadingGate gate(config);
@@ -324,7 +324,7 @@ TEST(ReadingGate, AGyroThatIsStuck_IsNotBelievedAgainWhenTheRobotTurnsBack) {
   EXPECT_TRUE(step->has_gyro);
 }
 
-TEST(ReadingGate, CountsAndRatesInLinesOfTheirOwn_MeetInOneStep) {
+TEST(ReadingGate, CountsAndRatesInSeparateLines_FormOneIncrement) {
   const OdometryConfig config = small_robot();
   testing::DrivenRobot robot(config.geometry, {});
   ReadingGate gate(config);
@@ -346,7 +346,7 @@ TEST(ReadingGate, CountsAndRatesInLinesOfTheirOwn_MeetInOneStep) {
   EXPECT_NEAR(gyro_rad, 0.5 * 0.96, 1e-9);
 }
 
-TEST(ReadingGate, AnyReadings_GiveStepsThatARobotCouldTake) {
+TEST(ReadingGate, AnyReadings_IncrementsArePossible) {
   const OdometryConfig config = small_robot();
   std::mt19937_64 random(9);
   ReadingGate gate(config);

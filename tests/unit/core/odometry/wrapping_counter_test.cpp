@@ -9,7 +9,7 @@
 namespace cornerd::core {
 namespace {
 
-TEST(CountDifference, AcrossTheCeiling_GoesTheShorterWay) {
+TEST(CountDifference, AcrossCounterMax_TakesShorterDifference) {
   EXPECT_EQ(count_difference(65530, 5, 65535), 11);
   EXPECT_EQ(count_difference(5, 65530, 65535), -11);
   EXPECT_EQ(count_difference(4294967295, 0, 4294967295), 1);
@@ -17,16 +17,16 @@ TEST(CountDifference, AcrossTheCeiling_GoesTheShorterWay) {
   EXPECT_EQ(count_difference(998, 1, 999), 3);
 }
 
-TEST(CountDifference, SignedReadings_AreTheSameCounter) {
+TEST(CountDifference, SignedReadings_SameCounter) {
   EXPECT_EQ(count_difference(32760, -32760, 65535), 16);
   EXPECT_EQ(count_difference(-3, 4, 4294967295), 7);
 }
 
-TEST(CountDifference, WithoutCeiling_IsPlain) {
+TEST(CountDifference, WithoutCounterMax_IsPlainDifference) {
   EXPECT_EQ(count_difference(-7, 4294967400, 0), 4294967407);
 }
 
-TEST(CountDifference, AnyCeiling_AddsUpToWhatWasDriven) {
+TEST(CountDifference, AnyCounterMax_DifferencesAddUp) {
   std::mt19937_64 random(5);
   for (const std::int64_t ceiling : {9LL, 999LL, 65535LL, 4294967295LL, (1LL << 62) - 1}) {
     const std::int64_t span = ceiling + 1;
@@ -43,7 +43,7 @@ TEST(CountDifference, AnyCeiling_AddsUpToWhatWasDriven) {
   }
 }
 
-TEST(CountDifference, ExtremesOfTheType_AreNoOverflow) {
+TEST(CountDifference, ExtremesOfType_NoOverflow) {
   constexpr auto kLow = std::numeric_limits<std::int64_t>::min();
   constexpr auto kHigh = std::numeric_limits<std::int64_t>::max();
   EXPECT_EQ(count_difference(kHigh, kLow, 0), 1);

@@ -19,27 +19,27 @@ VerifiedHypothesis place_at(double x_m, double log_likelihood, double of_things)
   return place;
 }
 
-TEST(Decide, NoPlace_IsLost) {
+TEST(Decide, NoHypothesis_IsLost) {
   EXPECT_EQ(decide({}, std::nullopt).state, PoseState::kLost);
   EXPECT_EQ(decide({}, Prior{}).state, PoseState::kLost);
 }
 
-TEST(Decide, OnePlaceFarAhead_IsAFix) {
+TEST(Decide, OneHypothesisFarAhead_IsFix) {
   const std::vector<VerifiedHypothesis> places = {place_at(1, 1000, 1000), place_at(5, 900, 900)};
   const Decision decision = decide(places, std::nullopt);
   EXPECT_EQ(decision.state, PoseState::kFix);
   EXPECT_EQ(decision.place, 0U);
 }
 
-TEST(Decide, TwoPlacesAlike_AreAmbiguous) {
+TEST(Decide, TwoEqualHypotheses_AreAmbiguous) {
   const std::vector<VerifiedHypothesis> places = {place_at(1, 1000, 1000), place_at(5, 995, 995),
-                                     place_at(9, 800, 800)};
+                                                  place_at(9, 800, 800)};
   const Decision decision = decide(places, std::nullopt);
   EXPECT_EQ(decision.state, PoseState::kAmbiguous);
   EXPECT_EQ(decision.rivals, 2U);
 }
 
-TEST(Decide, ManyThatAreUnlikelyEach_AreInDoubtTogether) {
+TEST(Decide, ManyUnlikelyHypotheses_AreAmbiguousTogether) {
   std::vector<VerifiedHypothesis> places = {place_at(1, 1000, 1000), place_at(5, 984, 900)};
   const Decision alone = decide(places, std::nullopt);
   EXPECT_EQ(alone.state, PoseState::kFix);
@@ -51,17 +51,17 @@ TEST(Decide, ManyThatAreUnlikelyEach_AreInDoubtTogether) {
   EXPECT_NEAR(among_many.doubt, 7 * alone.doubt, 0.01 * kWrongFixRate);
 }
 
-TEST(Decide, PlacesAlike_ShareTheBelief) {
+TEST(Decide, EqualHypotheses_ShareThePosterior) {
   const std::vector<VerifiedHypothesis> places(4, place_at(1, 1000, 1000));
   EXPECT_NEAR(decide(places, std::nullopt).doubt, 0.75, 1e-12);
 }
 
-TEST(Decide, RivalBehindByRaysOfOneThing_StaysInDoubt) {
+TEST(Decide, BehindByRaysOfOneObstacle_StaysAmbiguous) {
   const std::vector<VerifiedHypothesis> places = {place_at(1, 1000, 1000), place_at(5, 700, 995)};
   EXPECT_EQ(decide(places, std::nullopt).state, PoseState::kAmbiguous);
 }
 
-TEST(Decide, RivalThatExplainsMoreRays_StaysInDoubt) {
+TEST(Decide, CompetingWithMoreHits_StaysAmbiguous) {
   // As with a sensor that is off by 1 % and 5 mm: the true place fits less exactly, but all over.
   std::vector<VerifiedHypothesis> places = {place_at(1, 1000, 1000), place_at(5, 800, 800)};
   places[0].likelihood.hits = 280;
@@ -72,32 +72,32 @@ TEST(Decide, RivalThatExplainsMoreRays_StaysInDoubt) {
   EXPECT_EQ(decide(places, std::nullopt).state, PoseState::kFix);
 }
 
-TEST(Decide, WallsLessExactThanTheModel_WidenTheMargin) {
+TEST(Decide, ReducedChiSquareAboveOne_WidensMargin) {
   std::vector<VerifiedHypothesis> places = {place_at(1, 1000, 1000), place_at(5, 970, 970)};
   EXPECT_EQ(decide(places, std::nullopt).state, PoseState::kFix);
   places[0].refined.reduced_chi_square = 2.5;
   EXPECT_EQ(decide(places, std::nullopt).state, PoseState::kAmbiguous);
 }
 
-TEST(Decide, PriorAtOneRival_ChoosesIt) {
+TEST(Decide, PriorAtOneHypothesis_ChoosesIt) {
   const std::vector<VerifiedHypothesis> places = {place_at(1, 1000, 1000), place_at(5, 995, 995)};
   const Decision decision = decide(places, Prior{{5.1, 0.05, 0.1}});
   EXPECT_EQ(decision.state, PoseState::kTracking);
   EXPECT_EQ(decision.place, 1U);
 }
 
-TEST(Decide, PriorThatMayHaveComeToBothRivals_ChoosesNone) {
+TEST(Decide, PriorReachesBothHypotheses_ChoosesNone) {
   const std::vector<VerifiedHypothesis> places = {place_at(1, 1000, 1000), place_at(1.3, 995, 995)};
   EXPECT_EQ(decide(places, Prior{{1, 0, 0}}).state, PoseState::kTracking);
   EXPECT_EQ(decide(places, Prior{{1, 0, 0}, 0.1}).state, PoseState::kAmbiguous);
 }
 
-TEST(Decide, PriorSomewhereElse_ChoosesNothing) {
+TEST(Decide, PriorElsewhere_ChoosesNone) {
   const std::vector<VerifiedHypothesis> places = {place_at(1, 1000, 1000), place_at(5, 995, 995)};
   EXPECT_EQ(decide(places, Prior{{3, 0, 0}}).state, PoseState::kAmbiguous);
 }
 
-TEST(Decide, PriorAgainstAClearTurn_IsOverruled) {
+TEST(Decide, PriorAgainstClearScan_IsOverruled) {
   const std::vector<VerifiedHypothesis> places = {place_at(1, 1000, 1000), place_at(5, 500, 500)};
   const Decision decision = decide(places, Prior{{5, 0, 0}});
   EXPECT_EQ(decision.state, PoseState::kFix);

@@ -23,32 +23,32 @@ Evidence evidence(std::size_t hits, std::size_t corners, double largest_gap_rad 
   return evidence;
 }
 
-TEST(Evidence, NearlyAllRays_LeaveNoDoubt) {
+TEST(Evidence, NearlyAllHits_IsConclusive) {
   EXPECT_TRUE(is_conclusive(evidence(780, 0).likelihood, false));
   EXPECT_FALSE(is_conclusive(evidence(770, 0).likelihood, false));
   EXPECT_TRUE(is_conclusive(evidence(770, 0).likelihood, true));
 }
 
-TEST(Evidence, FewRays_LeaveDoubtHoweverWellTheyFit) {
+TEST(Evidence, FewRays_AreNotConclusive) {
   BeamLikelihood few;
   few.rays = few.hits = 99;
   EXPECT_FALSE(is_conclusive(few, true));
 }
 
-TEST(Evidence, NearlyAllRaysOrManyAndThreeCorners_AreEvident) {
+TEST(Evidence, NearlyAllHitsOrManyAndThreeCorners_AreUnambiguous) {
   EXPECT_TRUE(is_unambiguous_fix(evidence(765, 0)));
   EXPECT_FALSE(is_unambiguous_fix(evidence(755, 0)));
   EXPECT_TRUE(is_unambiguous_fix(evidence(490, 3)));
   EXPECT_FALSE(is_unambiguous_fix(evidence(470, 2, kAllRound_rad, 10)));
 }
 
-TEST(Evidence, ThingsInTheWay_NeedACornerAndNothingSeenThroughAWall) {
+TEST(Evidence, Obstacles_NeedCornerAndNoViolations) {
   EXPECT_TRUE(is_unambiguous_fix(evidence(450, 1)));
   EXPECT_FALSE(is_unambiguous_fix(evidence(450, 0)));
   EXPECT_FALSE(is_unambiguous_fix(evidence(450, 1, kAllRound_rad, 9)));
 }
 
-TEST(Evidence, ThingsInTheWay_AreNotBelievedWhereOtherPlacesWereNotTried) {
+TEST(Evidence, Obstacles_NotExhaustive_AreAmbiguous) {
   Evidence untried = evidence(450, 1);
   untried.exhaustive = false;
   EXPECT_FALSE(is_unambiguous_fix(untried));
@@ -57,12 +57,12 @@ TEST(Evidence, ThingsInTheWay_AreNotBelievedWhereOtherPlacesWereNotTried) {
   EXPECT_TRUE(is_unambiguous_fix(untried));
 }
 
-TEST(Evidence, HalfATurn_IsBelievedByItsCornersAlone) {
+TEST(Evidence, HalfAScan_NeedsCorners) {
   EXPECT_FALSE(is_unambiguous_fix(evidence(790, 2, kHalfCovered_rad)));
   EXPECT_TRUE(is_unambiguous_fix(evidence(790, 3, kHalfCovered_rad)));
 }
 
-TEST(Evidence, HalfATurnOfARobotThatIsExpected_NeedsACornerAtThePrior) {
+TEST(Evidence, HalfAScanAtPrior_NeedsCorner) {
   EXPECT_TRUE(may_be_tracked(evidence(80, 0)));
   Evidence half = evidence(80, 1, kHalfCovered_rad);
   EXPECT_FALSE(may_be_tracked(half));
@@ -72,7 +72,7 @@ TEST(Evidence, HalfATurnOfARobotThatIsExpected_NeedsACornerAtThePrior) {
   EXPECT_FALSE(may_be_tracked(half));
 }
 
-TEST(Evidence, AJump_NeedsASecondTurnUnlessItIsCertain) {
+TEST(Evidence, Jump_NeedsConfirmationUnlessConclusive) {
   EXPECT_FALSE(needs_confirmation(evidence(780, 2), false, true));
   EXPECT_TRUE(needs_confirmation(evidence(780, 1), false, true));
   EXPECT_TRUE(needs_confirmation(evidence(770, 5), false, true));
@@ -80,7 +80,7 @@ TEST(Evidence, AJump_NeedsASecondTurnUnlessItIsCertain) {
   EXPECT_FALSE(needs_confirmation(evidence(770, 5), false, false));
 }
 
-TEST(Evidence, HalfATurn_NeedsASecondUnlessItIsWhereItShouldBe) {
+TEST(Evidence, HalfAScan_NeedsConfirmationUnlessAtPrior) {
   Evidence half = evidence(790, 5, kHalfCovered_rad);
   EXPECT_TRUE(needs_confirmation(half, false, false));
   EXPECT_TRUE(needs_confirmation(half, true, true));

@@ -10,7 +10,7 @@
 namespace cornerd::core {
 namespace {
 
-class ExplanationTest : public ::testing::Test {
+class BeamLikelihoodTest : public ::testing::Test {
  protected:
   BeamLikelihood at(const Pose2& T_map_lidar, const Scan& scan) {
     const PolarScan points = testing::polar(scan);
@@ -23,7 +23,7 @@ class ExplanationTest : public ::testing::Test {
   testing::ScanSource source_{41};
 };
 
-TEST_F(ExplanationTest, TruePlaceOfAClearTurn_HitsNearlyEveryRay) {
+TEST_F(BeamLikelihoodTest, TruePoseClearScan_NearlyAllHits) {
   const Pose2 T_map_lidar{1, 1, 0.5};
   const BeamLikelihood likelihood = at(T_map_lidar, source_.take(*map_, T_map_lidar));
   EXPECT_EQ(likelihood.rays, 540U);
@@ -31,13 +31,14 @@ TEST_F(ExplanationTest, TruePlaceOfAClearTurn_HitsNearlyEveryRay) {
   EXPECT_LT(likelihood.violation_share(), 0.01);
 }
 
-TEST_F(ExplanationTest, EveryRay_IsCountedOnce) {
+TEST_F(BeamLikelihoodTest, EveryRay_IsCountedOnce) {
   const BeamLikelihood likelihood = at({1.4, 1.2, 2.5}, source_.take(*map_, {1, 1, 0.5}));
-  EXPECT_EQ(likelihood.hits + likelihood.near_hits + likelihood.shorts + likelihood.free_space_violations,
-            likelihood.rays);
+  EXPECT_EQ(
+      likelihood.hits + likelihood.near_hits + likelihood.shorts + likelihood.free_space_violations,
+      likelihood.rays);
 }
 
-TEST_F(ExplanationTest, WrongPlace_IsLessLikelyAndLooksThroughWalls) {
+TEST_F(BeamLikelihoodTest, WrongPose_LowerLikelihoodAndViolations) {
   const Pose2 T_map_lidar{1, 1, 0.5};
   const Scan scan = source_.take(*map_, T_map_lidar);
   const BeamLikelihood wrong = at({3.2, 0.9, 0.5}, scan);
@@ -45,7 +46,7 @@ TEST_F(ExplanationTest, WrongPlace_IsLessLikelyAndLooksThroughWalls) {
   EXPECT_LT(wrong.log_likelihood + 500, at(T_map_lidar, scan).log_likelihood);
 }
 
-TEST_F(ExplanationTest, SomethingInFrontOfTheWall_CountsOnceAsAThing) {
+TEST_F(BeamLikelihoodTest, ObstacleBeforeWall_CountsOnce) {
   const Pose2 T_map_lidar{1, 1, 0.5};
   const Scan clear = source_.take(*map_, T_map_lidar);
   const auto hidden = [&](std::size_t count) {

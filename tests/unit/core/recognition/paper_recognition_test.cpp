@@ -27,7 +27,7 @@ class PaperRecognitionTest : public ::testing::Test {
   Detection detection_;
 };
 
-TEST_F(PaperRecognitionTest, RoomWithoutSymmetry_IsRecognised) {
+TEST_F(PaperRecognitionTest, AsymmetricRoom_IsRecognised) {
   int found = 0;
   for (int k = 0; k < 40; ++k) {
     const Pose2 T_map_lidar = source_.place_in(0.4, 2.2, 0.4, 1.4);
@@ -39,14 +39,14 @@ TEST_F(PaperRecognitionTest, RoomWithoutSymmetry_IsRecognised) {
   EXPECT_GE(found, 36);
 }
 
-TEST_F(PaperRecognitionTest, FewerThanThreeCorners_NameNoPlace) {
+TEST_F(PaperRecognitionTest, FewerThanThreeCorners_NoHypothesis) {
   places_of({1, 1, 0});
   detection_.breakpoints.resize(2);
   EXPECT_TRUE(recognition_.places(detection_.breakpoints, detection_.segments).empty());
   EXPECT_TRUE(recognition_.places({}, {}).empty());
 }
 
-TEST_F(PaperRecognitionTest, LocalizerThatIsAskedTo_UsesIt) {
+TEST_F(PaperRecognitionTest, MethodPaper_LocalizerUsesIt) {
   LocalizerConfig config;
   config.recognition = RecognitionMethod::kPaper;
   Localizer localizer(map_, config);

@@ -8,7 +8,7 @@
 namespace cornerd::core {
 namespace {
 
-TEST(PoseTable, PlaceThatIsNamedOften_IsThereOnceWithItsCount) {
+TEST(PoseTable, RepeatedPose_IsStoredOnceWithCount) {
   PoseTable table(100);
   for (int k = 0; k < 5; ++k) table.add({1.02 + 0.001 * k, -2.02, 0.3});
   table.add({1.02, -2.02, 1.3});
@@ -21,7 +21,7 @@ TEST(PoseTable, PlaceThatIsNamedOften_IsThereOnceWithItsCount) {
             5);
 }
 
-TEST(PoseTable, MoreThanAreAskedFor_TheMostNamedStay) {
+TEST(PoseTable, MorePosesThanCount_MostVotedStay) {
   PoseTable table(2000);
   for (int round = 0; round < 3; ++round) {
     for (int i = 0; i < 500; ++i) {
@@ -33,7 +33,7 @@ TEST(PoseTable, MoreThanAreAskedFor_TheMostNamedStay) {
   for (const PoseHypothesis& place : places) EXPECT_EQ(place.votes, 3);
 }
 
-TEST(PoseTable, FullTable_StillCountsWhatItHas) {
+TEST(PoseTable, FullTable_StillCounts) {
   PoseTable table(16);
   for (int round = 0; round < 2; ++round) {
     for (int i = 0; i < 40; ++i) table.add({1.0 * i, 0, 0});

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: MIT
-
 #include "drivers/odometry/kernel_sensors.hpp"
 
 #include <gmock/gmock.h>
@@ -8,7 +7,6 @@
 #include "sysfs_tree.hpp"
 
 namespace cornerd::drivers {
-
 namespace {
 
 using ::testing::HasSubstr;

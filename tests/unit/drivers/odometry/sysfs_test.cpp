@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
+#include "drivers/odometry/sysfs.hpp"
+
 #include <gtest/gtest.h>
 
 #include <limits>
 #include <string>
-
-#include "drivers/odometry/sysfs.hpp"
 
 namespace cornerd::drivers {
 namespace {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "replay/simulator/serial_line.hpp"
-
 #include <gtest/gtest.h>
 
 #include <vector>
+
+#include "replay/simulator/serial_line.hpp"
 
 namespace cornerd::replay {
 namespace {

@@ -44,7 +44,8 @@ std::size_t count(const CornerTruth& truth, CornerView view) {
 }
 
 /// The corner nearest to a point of the map.
-const CornerObservation* corner_at(const CornerTruth& truth, const Pose2& place, const Vec2& point) {
+const CornerObservation* corner_at(const CornerTruth& truth, const Pose2& place,
+                                   const Vec2& point) {
   for (const CornerObservation& corner : truth.corners()) {
     if ((place * corner.position - point).norm() < 1e-6) return &corner;
   }

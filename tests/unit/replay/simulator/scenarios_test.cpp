@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "replay/simulator/motion.hpp"
-
 #include <gtest/gtest.h>
 
+#include "replay/simulator/motion.hpp"
 #include "replay/simulator/random_poses.hpp"
 #include "settings/map_file.hpp"
 

@@ -58,8 +58,8 @@ TEST(SimulateRecording, TruthOfPlaces_HasTheTimeOfEachArrivalAndDeparture) {
   {
     RecordingWriter writer(folder.path() / "a.bin");
     TruthWriter truth(folder.path() / "truth.ndjson");
-    simulate_recording(make_room(), visit_poses({{0.5, 0.5, 0}, {1, 1, 1}, {1.5, 2, 2}}, 2),
-                       config, writer, &truth);
+    simulate_recording(make_room(), visit_poses({{0.5, 0.5, 0}, {1, 1, 1}, {1.5, 2, 2}}, 2), config,
+                       writer, &truth);
   }
   std::vector<message::RecordedTruth> truths;
   for (const std::string& line : lines_of(folder.path() / "truth.ndjson")) {

@@ -86,7 +86,8 @@ TEST_F(CheckDaemon, ReadingsThatComeTooSeldom_AreNamed) {
   EXPECT_THAT(few, Finds(Verdict::kWrong, "odometry", "4.9 readings a second: too few"));
   EXPECT_THAT(few.mends, ElementsAre(HasSubstr("send ODOMETRY 50 times a second")));
   stand_in_.patient.config.odometry.source = settings::OdometrySource::kKernel;
-  EXPECT_THAT(check_daemon(stand_in_.patient)[2].mends, ElementsAre("odometry.kernel.rate: 50"));
+  EXPECT_THAT(check_daemon(stand_in_.patient)[2].mends,
+              ElementsAre("advanced.odometry.kernel.rate: 50"));
   daemon().odometry_hz = 0;
   EXPECT_THAT(check_daemon(stand_in_.patient)[2],
               Finds(Verdict::kNote, "odometry", "no reading comes"));

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "bench/blind_experiment.hpp"
+
+namespace cornerd::bench {
+
+struct BlindRow {
+  std::string_view title;
+  BlindResult result;
+};
+
+std::string blind_text(const std::vector<BlindRow>& rows);
+nlohmann::ordered_json blind_json(const std::vector<BlindRow>& rows);
+
+}  // namespace cornerd::bench

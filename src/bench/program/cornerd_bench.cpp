@@ -1,0 +1,285 @@
+// SPDX-License-Identifier: MIT
+#include "bench/program/cornerd_bench.hpp"
+
+#include <cstdint>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include "bench/program/contest_maps.hpp"
+#include "bench/program/instruction_report.hpp"
+#include "bench/program/localization_bench.hpp"
+#include "bench/program/odometry_bench.hpp"
+#include "bench/program/report_json.hpp"
+#include "bench/program/report_plots.hpp"
+#include "bench/program/report_text.hpp"
+#include "bench/program/scale_bench.hpp"
+#include "bench/program/survey_bench.hpp"
+#include "bench/workload.hpp"
+#include "core/scan.hpp"
+#include "tool/command_line/failure.hpp"
+#include "tool/command_line/file_guard.hpp"
+#include "tool/command_line/output.hpp"
+#include "tool/command_line/progress_bar.hpp"
+
+namespace cornerd::bench {
+
+namespace {
+
+/// The median of so many runs is a turn's time.
+constexpr std::size_t kTimingRepeats = 51;
+
+struct BenchOptions {
+  std::filesystem::path maps;
+  std::vector<std::string> methods;
+  bool variants = false;
+  std::size_t positions = 10'000;
+  std::size_t samples = 800;
+  std::uint64_t seed = 1;
+  bool instructions = false;
+  std::filesystem::path plots;
+  std::string json;
+  std::size_t detections = 0;
+  bool scale = false;
+  bool localizer = false;
+  std::string only_localize;
+  bool odometry = false;
+  bool survey = false;
+  std::vector<std::size_t> corners;
+  const CLI::Option* positions_given = nullptr;
+};
+
+std::vector<NamedMethod> chosen_methods(const BenchOptions& options) {
+  std::vector<NamedMethod> methods;
+  for (const std::string& name : options.methods) {
+    const NamedMethod* method = find_method(name);
+    if (method == nullptr) throw tool::UsageError("--methods: none is called '" + name + "'");
+    methods.push_back(*method);
+  }
+  if (!methods.empty()) return methods;
+  const auto add = [&](auto table) { methods.insert(methods.end(), table.begin(), table.end()); };
+  add(paper_methods());
+  if (options.variants) add(variants());
+  return methods;
+}
+
+/// The noise of the published experiment, as far as an A1's has been measured.
+replay::SensorModel usual_sensor() { return usual_circumstances().front().sensor; }
+
+/// What a counter of instructions is started on: it does nothing else.
+void only_detect(const BenchOptions& options) {
+  const auto maps = load_contest_maps(options.maps);
+  const auto scans = simulate_paper_scans(maps, usual_sensor(), options.samples, options.seed);
+  Workload workload(chosen_methods(options).front(), scans.scans);
+  for (std::size_t i = 0; i < options.detections; ++i) workload.run_all();
+}
+
+BenchReport measure(const BenchOptions& options) {
+  const std::filesystem::path folder = contest_maps_folder(options.maps);
+  const auto maps = load_contest_maps(folder);
+  const auto methods = chosen_methods(options);
+
+  BenchReport report;
+  report.samples = options.samples;
+  report.positions = options.positions;
+  report.seed = options.seed;
+  report.scans = simulate_paper_scans(maps, usual_sensor(), options.samples, options.seed);
+  report.supported_corners = supported_corners(report.scans);
+  report.preparation_us = time_preparation_us(report.scans.scans, kTimingRepeats);
+  report.paper = run_paper_experiment(report.scans, methods, kTimingRepeats);
+  if (options.instructions) {
+    count_instructions({maps, folder, usual_sensor(), options.seed}, methods, report);
+  }
+  for (const Circumstances& circumstances : usual_circumstances()) {
+    if (options.positions == 0) break;
+    tool::ProgressBar bar(circumstances.title, options.positions);
+    report.corners.push_back(
+        {circumstances.title,
+         score_methods(maps, methods, circumstances.sensor, options.samples, options.positions,
+                       options.seed, [&](std::size_t done) { bar.show(done); })});
+  }
+  return report;
+}
+
+void run_scale(const BenchOptions& options) {
+  ScaleBenchOptions scale;
+  if (!options.corners.empty()) scale.corners = options.corners;
+  if (options.positions_given->count() > 0) scale.scans = options.positions;
+  scale.seed = options.seed;
+  scale.instructions = options.instructions;
+  scale.plots = options.plots;
+  scale.json = options.json;
+  if (options.detections > 0) {
+    only_localize(scale, options.detections);
+  } else {
+    run_scale_bench(scale);
+  }
+}
+
+void run_localizer(const BenchOptions& options) {
+  LocalizationBenchOptions localization;
+  localization.maps = options.maps;
+  if (options.positions_given->count() > 0) localization.places = options.positions;
+  localization.seed = options.seed;
+  localization.instructions = options.instructions;
+  localization.json = options.json;
+  if (options.detections > 0) {
+    only_localize_in_arena(localization, options.detections, options.only_localize == "tracking");
+  } else {
+    run_localization_bench(localization);
+  }
+}
+
+/// The maps that are read are those of a folder.
+void guard_maps(const BenchOptions& options) {
+  if (options.json.empty() || (options.scale && options.maps.empty())) return;
+  tool::CommandFiles files{.read = {}, .written = {}, .output = options.json};
+  std::error_code ignored;  // a folder that cannot be read is told when its maps are
+  for (const auto& entry :
+       std::filesystem::directory_iterator(contest_maps_folder(options.maps), ignored)) {
+    files.read.push_back(entry.path());
+  }
+  tool::guard_files(files);
+}
+
+void run_bench(const BenchOptions& options) {
+  guard_maps(options);
+  if (options.localizer) {
+    if (options.scale || options.survey)
+      throw tool::UsageError("--localizer excludes --scale and --survey");
+    run_localizer(options);
+    return;
+  }
+  if (options.odometry) {
+    if (options.scale) throw tool::UsageError("--odometry and --scale are two benchmarks");
+    OdometryBenchOptions odometry{options.maps, options.plots, options.json, options.seed};
+    if (options.positions_given->count() > 0) odometry.drives = options.positions;
+    run_odometry_bench(odometry);
+    return;
+  }
+  if (options.survey) {
+    if (options.scale) throw tool::UsageError("--survey or --scale, one at a time");
+    run_survey_bench({options.maps, options.plots, options.seed});
+    return;
+  }
+  if (options.scale) {
+    run_scale(options);
+    return;
+  }
+  if (!options.corners.empty()) throw tool::UsageError("--corners is for --scale");
+  if (options.detections > 0) {
+    only_detect(options);
+    return;
+  }
+  // Before the work: whatever cannot be written is said at once.
+  std::unique_ptr<tool::Output> json;
+  if (options.json == "-") json = std::make_unique<tool::Output>();
+  if (!options.json.empty() && !json) {
+    json = std::make_unique<tool::Output>(std::filesystem::path(options.json));
+  }
+  const BenchReport report = measure(options);
+  if (!options.plots.empty()) draw_bench(report, options.plots);
+  if (json) {
+    json->write(bench_json(report));
+    json->flush();
+  }
+  if (options.json == "-") return;
+  tool::Output output;
+  output.write(bench_text(report));
+  output.flush();
+}
+
+void add_options(CLI::App& program, const std::shared_ptr<BenchOptions>& options) {
+  program
+      .add_option("--maps", options->maps,
+                  "folder with krpai-2019-a.json to -d.json; else the installed ones")
+      ->type_name("DIR");
+  program
+      .add_option("--methods", options->methods,
+                  "only these: altbd, abd-iepf, lt, or a variant's name")
+      ->delimiter(',')
+      ->type_name("NAME,...");
+  program.add_flag("--variants", options->variants, "also other forms of the methods");
+  program.add_flag(
+      "--scale", options->scale,
+      "instead: the first fix in buildings of 20 to 20,000 corners, and in equal rooms; "
+      "--positions: turns in each, else 200");
+  program.add_flag(
+      "--localizer", options->localizer,
+      "instead: poses against the truth and the Cramer-Rao bound, with a biased lidar, few "
+      "returns, things in the way, a displaced wall, a closed door, in motion, kidnapped; "
+      "--positions: places for each, else 1,000");
+  program.add_flag("--odometry", options->odometry,
+                   "instead: the paper's modes of odometry on its drives, and poses carried on "
+                   "without the lidar; "
+                   "--maps: with flat-7.json");
+  program.add_flag("--survey", options->survey,
+                   "instead: a drive of 100 m, surveyed by both methods, and a second one "
+                   "localized in the maps");
+  program.add_option("--corners", options->corners, "with --scale: buildings of about so many")
+      ->delimiter(',')
+      ->check(CLI::Range(std::size_t{0}, std::size_t{100'000}))
+      ->type_name("N,...");
+  options->positions_given =
+      program
+          .add_option("--positions", options->positions,
+                      "random places; 0: the paper's 43 alone (--odometry: drives of each robot)")
+          ->check(CLI::Range(std::size_t{0}, std::size_t{10'000'000}))
+          ->type_name("N")
+          ->capture_default_str();
+  program.add_option("--samples", options->samples, "a turn")
+      ->check(CLI::Range(std::size_t{1}, core::kMaxSamplesPerScan))
+      ->type_name("N")
+      ->capture_default_str();
+  program.add_option("--seed", options->seed, "of all randomness")
+      ->check([](const std::string& text) {  // else -1 is the largest number
+        return text.starts_with('-') ? std::string("is negative") : std::string();
+      })
+      ->capture_default_str();
+  program.add_flag("--instructions", options->instructions,
+                   "count the instructions a turn, of 400 to 10,000 samples: by the processor's "
+                   "counter, else by valgrind (slow)");
+  program.add_option("--plots", options->plots, "draw the figures into this folder, as SVG")
+      ->type_name("DIR");
+  program.add_option("--json", options->json, "all figures; -: on standard output, and no text")
+      ->type_name("FILE");
+  program.add_option("--only-detect", options->detections)
+      ->group("");  // hidden: what valgrind is started on
+  program.add_option("--only-localize", options->only_localize)->group("");  // likewise
+  program.callback([options] { run_bench(*options); });
+}
+
+int complain(const char* text, int exit_code) {
+  std::fprintf(stderr, "cornerd-bench: %s\n", text);
+  return exit_code;
+}
+
+}  // namespace
+
+int run_cornerd_bench(int argc, const char* const* argv) {
+  CLI::App program(
+      "cornerd-bench: the published tables, measured again on this machine, and more places",
+      "cornerd-bench");
+  program.set_version_flag("--version", "cornerd-bench " CORNERD_VERSION);
+  add_options(program, std::make_shared<BenchOptions>());
+  try {
+    program.parse(argc, argv);
+    return tool::kExitDone;
+  } catch (const CLI::ParseError& error) {
+    return program.exit(error) == 0 ? tool::kExitDone : tool::kExitUsage;
+  } catch (const tool::OutputClosed&) {
+    return tool::kExitDone;
+  } catch (const tool::UsageError& error) {
+    return complain(error.what(), tool::kExitUsage);
+  } catch (const settings::SettingsError& error) {
+    return complain(error.what(), tool::kExitConfig);
+  } catch (const std::exception& error) {
+    return complain(error.what(), tool::kExitFailed);
+  }
+}
+
+}  // namespace cornerd::bench

@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: MIT
+#include <csignal>
+
+#include "bench/program/cornerd_bench.hpp"
+#include "drivers/serial/file_descriptor.hpp"
+
+int main(int argc, char** argv) {
+  cornerd::drivers::occupy_standard_streams();
+  // A reader that goes away is an error of write(), which ends the program as any other does.
+  std::signal(SIGPIPE, SIG_IGN);
+  return cornerd::bench::run_cornerd_bench(argc, argv);
+}

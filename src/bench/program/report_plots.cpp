@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: MIT
+#include "bench/program/report_plots.hpp"
+
+#include <algorithm>
+#include <system_error>
+#include <vector>
+
+#include "bench/paper_figures.hpp"
+#include "bench/program/boxplot_drawing.hpp"
+#include "tool/command_line/failure.hpp"
+#include "tool/command_line/output.hpp"
+#include "tool/drawing/map_drawing.hpp"
+
+namespace cornerd::bench {
+
+namespace {
+
+constexpr double kPlotMm = 1e3;
+
+void save(const std::filesystem::path& file, const std::string& document) {
+  tool::Output output(file);
+  output.write(document);
+  output.flush();
+}
+
+std::string draw_times(const BenchReport& report) {
+  std::vector<BoxplotSeries> series;
+  for (const PaperResult& result : report.paper) {
+    BoxplotSeries times{std::string(result.method.title), {}};
+    for (const PlaceResult& place : result.places) times.values.push_back(place.time_us);
+    series.push_back(std::move(times));
+  }
+  return draw_boxplots(
+      {"Time a turn", std::to_string(report.scans.places.size()) + " places", "microseconds"},
+      series);
+}
+
+std::string draw_positions(const BenchReport& report) {
+  std::vector<BoxplotSeries> series;
+  for (const PaperResult& result : report.paper) {
+    if (result.method.name == "lt") continue;  // nor has the paper's figure
+    BoxplotSeries errors{std::string(result.method.title), {}};
+    for (const PlaceResult& place : result.places) {
+      if (!place.nearest_corners_error_m) continue;
+      errors.values.push_back(kPlotMm * *place.nearest_corners_error_m);
+    }
+    series.push_back(std::move(errors));
+  }
+  BoxplotSeries own{"cornerd", {}};
+  if (!report.paper.empty()) {
+    for (const PlaceResult& place : report.paper.front().places) {
+      if (place.localizer_error_m) own.values.push_back(kPlotMm * *place.localizer_error_m);
+    }
+  }
+  series.push_back(std::move(own));
+  return draw_boxplots(
+      {"Position error", "by the two nearest corners; cornerd: by the whole turn", "millimetres"},
+      series);
+}
+
+/// The turn that shows most corners.
+std::size_t richest_scan(const BenchReport& report) {
+  const auto& counts = report.supported_corners;
+  return static_cast<std::size_t>(std::max_element(counts.begin(), counts.end()) - counts.begin());
+}
+
+std::string draw_bench_scan(const BenchReport& report, const PaperResult& result,
+                            std::size_t scan) {
+  const PaperPlace& place = report.scans.places[scan];
+  const PlaceResult& found = result.places[scan];
+  tool::MapDrawing drawing(*report.scans.maps[place.map]);
+  drawing.add_scan(report.scans.scans[scan], place.T_map_lidar);
+  drawing.add_breakpoints(found.breakpoints, place.T_map_lidar);
+  drawing.add_pose(place.T_map_lidar);
+  return drawing.document(std::string(result.method.title) + ": " +
+                          std::to_string(found.true_corners) + " true corners (rings), " +
+                          std::to_string(found.false_corners) +
+                          " false ones; squares: ends of walls");
+}
+
+}  // namespace
+
+void draw_bench(const BenchReport& report, const std::filesystem::path& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) throw tool::Failure(folder.string() + ": " + error.message());
+  save(folder / "times.svg", draw_times(report));
+  save(folder / "positions.svg", draw_positions(report));
+  if (report.scans.scans.empty()) return;
+  const std::size_t scan = richest_scan(report);
+  for (const PaperResult& result : report.paper) {
+    save(folder / ("turn-" + std::string(result.method.name) + ".svg"),
+         draw_bench_scan(report, result, scan));
+  }
+}
+
+}  // namespace cornerd::bench

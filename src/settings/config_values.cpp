@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: MIT
+#include <sys/un.h>
+
+#include <algorithm>
+
+#include <nlohmann/json.hpp>
+
+#include "settings/config_table.hpp"
+
+namespace cornerd::settings {
+namespace {
+
+using Ordered = nlohmann::ordered_json;
+
+constexpr std::size_t kMaxTextBytes = 64;
+constexpr std::size_t kMaxSocketBytes = sizeof(sockaddr_un::sun_path) - 1;
+
+constexpr Choice<rplidar::MotorKind> kMotorsByName[] = {{"dtr", rplidar::MotorKind::kDtr},
+                                                        {"none", rplidar::MotorKind::kNone}};
+constexpr Choice<rplidar::MotorKind> kMotorsByPath[] = {{"gpio", rplidar::MotorKind::kGpio},
+                                                        {"pwm", rplidar::MotorKind::kPwm}};
+
+}  // namespace
+
+Value number(double& member, double low, double high) {
+  return {[&member, low, high](ObjectReader& object, std::string_view key) {
+            object.number(key, member, {low, high});
+          },
+          [&member] { return Ordered(member); }, to_text(low) + " to " + to_text(high)};
+}
+
+Value boolean(bool& member) {
+  return {[&member](ObjectReader& object, std::string_view key) { object.boolean(key, member); },
+          [&member] { return Ordered(member); }, "true, false"};
+}
+
+Value text(std::string& member) {
+  return {[&member](ObjectReader& object, std::string_view key) {
+            object.text(key, member, kMaxTextBytes);
+          },
+          [&member] { return Ordered(member); },
+          "a string of at most " + std::to_string(kMaxTextBytes) + " bytes"};
+}
+
+Value path(std::filesystem::path& member) {
+  return {[&member](ObjectReader& object, std::string_view key) { object.path(key, member); },
+          [&member] { return Ordered(member.string()); }, "a path"};
+}
+
+Value socket_path(std::filesystem::path& member) {
+  Value value = path(member);
+  value.read = [&member](ObjectReader& object, std::string_view key) {
+    object.path(key, member);
+    if (member.native().size() <= kMaxSocketBytes) return;
+    object.fail(key, "a socket's path has at most " + std::to_string(kMaxSocketBytes) +
+                         " bytes: " + member.string());
+  };
+  return value;
+}
+
+Value baud_rate(std::uint32_t& baud) {
+  std::string list;
+  for (const std::uint32_t rate : kBaudRates) {
+    list += (list.empty() ? "" : ", ") + std::to_string(rate);
+  }
+  return {[&baud, list](ObjectReader& object, std::string_view key) {
+            object.integer(key, baud, kBaudRates.front(), kBaudRates.back());
+            if (std::find(kBaudRates.begin(), kBaudRates.end(), baud) != kBaudRates.end()) return;
+            object.fail(key, "must be one of " + list);
+          },
+          [&baud] { return Ordered(baud); }, list};
+}
+
+Value replay_speed(double& speed) {
+  return {[&speed](ObjectReader& object, std::string_view key) {
+            const Json* value = object.find(key);
+            if (value != nullptr && *value == "max") {
+              speed = 0;
+            } else {
+              object.number(key, speed, {0, 1000});
+            }
+          },
+          [&speed] { return Ordered(speed); }, "0 to 1000, \"max\""};
+}
+
+/// A name, or an object where a line of the board switches the motor.
+Value motor(rplidar::MotorConfig& config) {
+  const auto read = [&config](ObjectReader& lidar, std::string_view key) {
+    const Json* value = lidar.find(key);
+    if (value == nullptr) return;
+    if (!value->is_object()) {
+      lidar.choice(key, config.kind, kMotorsByName);
+      return;
+    }
+    ObjectReader object = lidar.object(key);
+    if (!object.choice("kind", config.kind, kMotorsByPath)) object.fail("kind", "is missing");
+    if (!object.path("path", config.path)) object.fail("path", "is missing");
+    if (config.kind == rplidar::MotorKind::kPwm) {
+      object.number("duty", config.duty, {0, 1});
+      object.number("period", config.period_s, {1e-6, 1});
+    }
+    object.finish();
+  };
+  const auto write = [&config]() -> Ordered {
+    if (config.kind == rplidar::MotorKind::kDtr) return "dtr";
+    if (config.kind == rplidar::MotorKind::kNone) return "none";
+    const bool is_pwm = config.kind == rplidar::MotorKind::kPwm;
+    Ordered object = {{"kind", is_pwm ? "pwm" : "gpio"}, {"path", config.path.string()}};
+    if (is_pwm) object.update({{"duty", config.duty}, {"period", config.period_s}});
+    return object;
+  };
+  return {read, write, "\"dtr\", \"none\", or an object"};
+}
+
+}  // namespace cornerd::settings

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: MIT
+// cornerctl calibrate bias: how the lidar errs always, from places that its map knows.
+#include "tool/calibrate/calibrate_bias.hpp"
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
+#include "core/pipeline.hpp"
+#include "settings/lidar_calibration.hpp"
+#include "settings/map_file.hpp"
+#include "tool/command_line/failure.hpp"
+#include "tool/command_line/file_guard.hpp"
+#include "tool/command_line/options.hpp"
+#include "tool/command_line/output.hpp"
+#include "tool/drawing/text_table.hpp"
+#include "tool/replay/playback.hpp"
+
+namespace cornerd::tool {
+namespace {
+
+/// As many as it takes until a lidar's bias shows in each turn (the bench's "biased lidar").
+constexpr std::size_t kMinTeachingScans = 20;
+
+struct CalibrateBiasOptions {
+  std::vector<std::filesystem::path> files;
+  SettingsOptions settings;
+  std::string wire = "auto";
+  std::filesystem::path output;
+};
+
+std::string describe_bias(const core::EstimatedBias& learned) {
+  TextTable table;
+  const core::SensorBias& bias = learned.bias;
+  const core::SensorBias& sigma = learned.sigma;
+  const auto row = [&](const char* name, double value, double doubt, double unit) {
+    table.add_row({name, formatted("%+.3f", unit * value), formatted("+- %.3f", unit * doubt)});
+  };
+  row("range scale, %", bias.range_scale, sigma.range_scale, 100);
+  row("range offset, mm", bias.range_offset_m, sigma.range_offset_m, 1e3);
+  row("bearing, sine, degrees", bias.bearing_sine_rad, sigma.bearing_sine_rad, core::degrees(1));
+  row("bearing, cosine, degrees", bias.bearing_cosine_rad, sigma.bearing_cosine_rad,
+      core::degrees(1));
+  return formatted(
+             "From %zu turns at places of the map, of a lidar that stood or that wheels tell the "
+             "motion of:\n",
+             learned.scans) +
+         table.text();
+}
+
+void calibrate_bias(const CalibrateBiasOptions& options) {
+  const settings::Config config = options.settings.resolve(/*needs_map=*/true);
+  CommandFiles files{.read = options.files, .written = {}, .output = options.output};
+  files.read.insert(files.read.end(), {options.settings.config_file(), config.map});
+  guard_files(files);
+  core::LocalizerConfig localizer = config.localizer();
+  localizer.calibrate_online = true;
+  localizer.forget_bias = false;
+  core::Pipeline pipeline(settings::load_map(config.map), localizer);
+  Playback playback(pipeline, [](const core::Scan&, const core::ScanResult&) {});
+  for (const std::filesystem::path& file : options.files) {
+    pipeline.localizer().relocalize();
+    playback.play(file, {parse_wire(options.wire), config.lidar.mount.inverted});
+  }
+  const core::EstimatedBias learned = pipeline.localizer().estimated_bias();
+  if (learned.scans < kMinTeachingScans) {
+    throw Failure("only " + std::to_string(learned.scans) +
+                  " turns were found in the map with the lidar at rest: record some seconds each "
+                  "at several places, and see with replay whether they are found");
+  }
+  if (learned.is_limited) {
+    throw Failure("the lidar seems to be off by more than one can be: is the map to scale?");
+  }
+  Output report = Output::report_beside(options.output);
+  report.write(describe_bias(learned));
+  report.flush();
+  if (options.output.empty()) return;
+  const nlohmann::ordered_json fragment = {
+      {"advanced", {{"lidar", {{"bias", settings::json_of(learned.bias)}}}}}};
+  Output file(options.output);
+  file.write(fragment.dump(2) + '\n');
+  file.flush();
+}
+
+}  // namespace
+
+void add_calibrate_bias(CLI::App& group) {
+  CLI::App* command = group.add_subcommand(
+      "bias", "what the lidar's ranges and bearings are always off by, at places of a known map");
+  const auto options = std::make_shared<CalibrateBiasOptions>();
+  command
+      ->add_option("files", options->files,
+                   "recordings (.bin, .ndjson) of a robot that stands for some seconds each at "
+                   "several places")
+      ->required()
+      ->type_name("FILE");
+  options->settings.add_config(*command);
+  options->settings.add_map(*command);
+  command
+      ->add_option("-o,--output", options->output,
+                   "the key advanced.lidar.bias, for a config; -: on standard output")
+      ->type_name("JSON");
+  add_wire_option(*command, options->wire);
+  command->callback([options] { calibrate_bias(*options); });
+}
+
+}  // namespace cornerd::tool

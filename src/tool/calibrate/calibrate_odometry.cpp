@@ -1,0 +1,255 @@
+// SPDX-License-Identifier: MIT
+// cornerctl calibrate odometry: what wheels and gyro are off by, from a recorded drive.
+#include "tool/calibrate/calibrate_odometry.hpp"
+
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include "calibration/drive_reckoning.hpp"
+#include "calibration/factor_search.hpp"
+#include "calibration/odometry_fit.hpp"
+#include "calibration/wiring_faults.hpp"
+#include "settings/map_file.hpp"
+#include "tool/calibrate/drive_fit.hpp"
+#include "tool/calibrate/recorded_drive.hpp"
+#include "tool/command_line/failure.hpp"
+#include "tool/command_line/file_guard.hpp"
+#include "tool/command_line/options.hpp"
+#include "tool/command_line/output.hpp"
+#include "tool/drawing/drive_drawing.hpp"
+#include "tool/drawing/factors_text.hpp"
+#include "tool/drawing/text_table.hpp"
+#include "tool/replay/truth.hpp"
+
+namespace cornerd::tool {
+
+namespace {
+
+using calibration::DriveError;
+using core::HeadingSource;
+
+struct CalibrateOdometryOptions {
+  std::filesystem::path file;
+  SettingsOptions settings;
+  std::filesystem::path truth;
+  std::string wire = "auto";
+  std::filesystem::path output;
+  std::filesystem::path plot;
+};
+
+std::vector<std::string> row(const char* name, const std::string& factors,
+                             const DriveError& error) {
+  return {name, factors, formatted("%.3f", error.mean_m), formatted("%.3f", error.end_m)};
+}
+
+std::string describe_learned(const calibration::OdometryFit& fit) {
+  TextTable table;
+  bool at_bound = false;
+  const auto add = [&](const char* name, double value, double sigma) {
+    const bool is_bound = std::abs(value) >= calibration::kMaxFittedScale;
+    at_bound = at_bound || is_bound;
+    table.add_row(
+        {name, formatted("%+.5f", value) + (is_bound ? "*" : ""), formatted("+- %.5f", sigma)});
+  };
+  add("left wheel", fit.learned.left_scale, fit.sigma.left_scale);
+  add("right wheel", fit.learned.right_scale, fit.sigma.right_scale);
+  add("track", fit.learned.track_scale, fit.sigma.track_scale);
+  if (fit.has_gyro) {
+    add("gyro scale", fit.learned.gyro_scale, fit.sigma.gyro_scale);
+    add("gyro bias, rad/s", fit.learned.gyro_bias_rad_s, fit.sigma.gyro_bias_rad_s);
+  }
+  table.add_row({"delay, s", formatted("%+.5f", fit.learned.delay_s),
+                 formatted("+- %.5f", fit.sigma.delay_s),
+                 fit.has_delay ? "" : "as configured: the drive does not tell"});
+  constexpr const char* kBoundText =
+      "* as far off as is believed: correct odometry.track, wheel_radius or counts_per_turn "
+      "first\n";
+  return table.text() + (at_bound ? kBoundText : "");
+}
+
+/// More sigmas from the configured one than this, and another delay is worth writing.
+constexpr double kSureDelaySigmas = 3;
+
+/// The delay for the config: the one that was found where it is sure, else the configured one.
+double written_delay_s(const calibration::OdometryFit& fit, double configured_s) {
+  const double change_s = fit.learned.delay_s - configured_s;
+  const bool is_sure = fit.has_delay && std::abs(change_s) > kSureDelaySigmas * fit.sigma.delay_s;
+  const bool is_allowed = std::abs(fit.learned.delay_s) <= settings::kMaxInitialDelay_s;
+  return is_sure && is_allowed ? fit.learned.delay_s : configured_s;
+}
+
+std::string fragment(const calibration::OdometryFit& fit, double delay_s) {
+  const core::OdometryParameters& learned = fit.learned;
+  std::string text = "{\n  \"advanced\": {\n    \"odometry\": {\n      \"initial\": {";
+  const auto add = [&text](const char* key, double value) {
+    text += formatted("%s\n        \"%s\": %.6f", text.back() == '{' ? "" : ",", key, value);
+  };
+  add("left_scale", learned.left_scale);
+  add("right_scale", learned.right_scale);
+  add("track_scale", learned.track_scale);
+  add("gyro_scale", learned.gyro_scale);
+  add("gyro_bias", learned.gyro_bias_rad_s);
+  if (delay_s != 0) add("delay", delay_s);
+  return text + "\n      }\n    }\n  }\n}\n";
+}
+
+/// Readings that are farther off than the daemon can make up for.
+std::string describe_delay(const calibration::OdometryFit& fit) {
+  if (std::abs(fit.learned.delay_s) <= settings::kMaxInitialDelay_s) return {};
+  return formatted(
+      "The readings are %.2f s %s, by more than advanced.odometry.initial.delay may be (%.1f s) "
+      "and "
+      "the daemon finds: have each bear the time when it was true. The values above are "
+      "those of readings that do.\n",
+      std::abs(fit.learned.delay_s), fit.learned.delay_s > 0 ? "late" : "early",
+      settings::kMaxInitialDelay_s);
+}
+
+/// A drive's first half teaches the filter, in the second one it is alone. `steps`: the drive's, at
+/// the times when they were true.
+calibration::FilteredDrive filter_half(const RecordedDrive& drive,
+                                       std::span<const core::OdometryIncrement> steps,
+                                       core::OdometryConfig config) {
+  config.enabled = true;
+  config.initial.delay_s = 0;
+  const core::TimeNs first_ns = drive.places.front().t_ns;
+  const core::TimeNs last_ns = drive.places.back().t_ns;
+  return calibration::filter_drive(steps, drive.places, config,
+                                   first_ns + (last_ns - first_ns) / 2);
+}
+
+std::string draw_reckonings(const RecordedDrive& drive,
+                            std::span<const core::OdometryIncrement> steps,
+                            const settings::Config& config, const calibration::OdometryFit& fit,
+                            const calibration::FilteredDrive& filtered) {
+  const core::DriveGeometry& geometry = config.odometry.core.geometry;
+  calibration::DrivePoints known;
+  for (const calibration::KnownPose& place : drive.places) {
+    known.push_back(place.T_map_base.translation());
+  }
+  calibration::DrivePoints raw;
+  reckon(steps, drive.places, geometry, core::DeadReckoningConfig{}, &raw);
+  calibration::DrivePoints fitted;
+  reckon(drive.steps, drive.places, geometry, fit.learned, &fitted);
+  const std::span<const core::Vec2> points(filtered.points);
+  const std::size_t alone = filtered.alone.places;
+  const DrawnTrack tracks[] = {
+      {"by the lidar", "#2f3640", known, true},
+      {"wheels as configured", "#c2255c", raw},
+      {"least squares", "#d9822b", fitted},
+      {"filter, taught by the lidar", "#8fb8d8", points.first(points.size() - alone)},
+      {"filter, then alone", "#2f6f9f", points.last(alone)}};
+  std::shared_ptr<const core::WallMap> map;
+  if (!config.map.empty()) map = settings::load_map(config.map);
+  return draw_drive("The drive by wheels and gyro", tracks, map.get());
+}
+
+void calibrate_odometry(const CalibrateOdometryOptions& options) {
+  std::optional<Truth> truth;
+  if (!options.truth.empty()) truth = Truth::load(options.truth);
+  const settings::Config config = options.settings.resolve(/*needs_map=*/!truth);
+  guard_files({.read = {options.file, options.truth, options.settings.config_file(), config.map},
+               .written = {options.plot},
+               .output = options.output});
+  // Before the work: what cannot be written is said at once.
+  std::unique_ptr<Output> plot;
+  if (!options.plot.empty()) plot = std::make_unique<Output>(options.plot);
+  const auto [drive, fit] =
+      fit_drive(options.file, parse_wire(options.wire), config, truth ? &*truth : nullptr);
+  const auto steps = calibration::at_true_times(drive.steps, fit.learned.delay_s);
+  const core::DriveGeometry& geometry = config.odometry.core.geometry;
+
+  TextTable table;
+  table.add_row({"heading from", "factors", "mean error, m", "at the end, m"});
+  const double dead_band_rad = config.odometry.core.paper.dead_band_rad;
+  bool at_edge = false;
+  const std::pair<HeadingSource, const char*> modes[] = {{HeadingSource::kEncoder, "encoder"},
+                                                         {HeadingSource::kGyro, "gyro"},
+                                                         {HeadingSource::kMean, "mean"},
+                                                         {HeadingSource::kWeighted, "weighted"}};
+  for (const auto& [source, name] : modes) {
+    if (source != HeadingSource::kEncoder && !fit.has_gyro) continue;
+    core::DeadReckoningConfig reckoning{source, {1, 1, dead_band_rad}};
+    if (source != HeadingSource::kWeighted) {
+      table.add_row(row(name, "none", reckon(steps, drive.places, geometry, reckoning)));
+    }
+    if (source == HeadingSource::kMean) continue;
+    const auto found = search_factors(steps, drive.places, geometry, reckoning);
+    at_edge = at_edge || found.at_edge();
+    reckoning.factors = found.factors;
+    table.add_row(row(name, describe_factors(source, found),
+                      reckon(steps, drive.places, geometry, reckoning)));
+  }
+  table.add_row(
+      row("least squares", "below", reckon(drive.steps, drive.places, geometry, fit.learned)));
+
+  const calibration::FilteredDrive filtered = filter_half(drive, steps, config.odometry.core);
+  table.add_row(row("filter, 2nd half", "learned in the 1st", filtered.alone));
+
+  Output report = Output::report_beside(options.output);
+  report.write(formatted("The drive by wheels and gyro alone, against %zu known places:\n",
+                         drive.places.size()));
+  report.write(table.text());
+  if (at_edge) report.write(std::string(kEdgeText));
+  report.write(
+      formatted("\nLeast squares over %zu windows of a second, as shares:\n", fit.windows));
+  report.write(describe_learned(fit));
+  report.write(describe_delay(fit));
+  if (std::abs(fit.learned.track_scale) >= calibration::kMaxFittedScale) {
+    const auto track_m =
+        calibration::apparent_track_m(calibration::cut_windows(steps, drive.places));
+    if (track_m) report.write(formatted("  its turns are those of a track of %.3g m\n", *track_m));
+  }
+  report.flush();
+  if (plot) {
+    plot->write(draw_reckonings(drive, steps, config, fit, filtered));
+    plot->flush();
+  }
+  if (!options.output.empty()) {
+    Output file(options.output);
+    file.write(fragment(fit, written_delay_s(fit, config.odometry.core.start.delay_s)));
+    file.flush();
+  }
+}
+
+}  // namespace
+
+void add_calibrate_odometry(CLI::App& group) {
+  CLI::App* command = group.add_subcommand(
+      "odometry",
+      "what wheels, gyro and their times are off by, from a recorded drive in a known map");
+  const auto options = std::make_shared<CalibrateOdometryOptions>();
+  command
+      ->add_option("file", options->file,
+                   "a drive with ODOMETRY lines (.ndjson): half a minute or "
+                   "more, with straights and turns both ways")
+      ->required()
+      ->type_name("FILE");
+  options->settings.add_config(*command);
+  options->settings.add_map(*command);
+  command
+      ->add_option("--truth", options->truth,
+                   "where the robot really was, in place of the lidar's own fixes")
+      ->type_name("FILE");
+  command
+      ->add_option("-o,--output", options->output,
+                   "the key advanced.odometry.initial, for a config; -: on standard output")
+      ->type_name("JSON");
+  command
+      ->add_option("--plot", options->plot,
+                   "draw the drive as wheels, least squares and the filter have it")
+      ->type_name("SVG");
+  add_wire_option(*command, options->wire);
+  command->callback([options] { calibrate_odometry(*options); });
+}
+
+}  // namespace cornerd::tool

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: MIT
+#include "tool/calibrate/drive_fit.hpp"
+
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "calibration/delay_search.hpp"
+#include "calibration/wiring_faults.hpp"
+#include "tool/calibrate/gross_fault_text.hpp"
+#include "tool/command_line/failure.hpp"
+#include "tool/drawing/formatted.hpp"
+
+namespace cornerd::tool {
+namespace {
+
+using calibration::DelaySearch;
+
+/// Where more of the readings than this are refused, it is not now and then one that is garbage.
+constexpr double kMostRefused = 0.1;
+/// Turns that were straightened by readings of times as wrong as this are straightened again.
+constexpr double kStraightEnough_s = 0.005;
+
+class DriveFitter {
+ public:
+  DriveFitter(const std::filesystem::path& file, std::optional<rplidar::WireFormat> wire,
+              const settings::Config& config, const Truth* truth)
+      : file_(file), wire_(wire), config_(config), truth_(truth) {}
+
+  FittedDrive run() {
+    RecordedDrive drive = play(/*straightened=*/true);
+    if (drive.steps.empty() && drive.wide_steps.empty()) {
+      fail(drive.counters.readings == 0 ? "no odometry in it"
+                                        : "none of its ODOMETRY lines has both left and right");
+    }
+    std::string faults = look_at(drive);
+    if (auto fit = faults.empty() ? fit_of(drive) : std::nullopt) {
+      return {std::move(drive), *fit};
+    }
+    if (truth_ == nullptr) {
+      // Wheels that are far off, or of another time, may cost the turns that would show it.
+      RecordedDrive plain = play(/*straightened=*/false);
+      if (plain.places.size() < 2) fail("the robot was not found in the map");
+      const std::string plain_faults = look_at(plain);
+      auto fit = plain_faults.empty() && search_.is_told ? fit_of(plain) : std::nullopt;
+      if (fit) return {std::move(plain), *fit};
+      if (faults.empty()) faults = plain_faults;
+    }
+    if (!faults.empty()) fail(faults);
+    fail(
+        "too little to tell wheels and gyro from: drive half a minute or more, with straights and "
+        "turns both ways");
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& why) const {
+    throw Failure(file_.string() + ": " + why);
+  }
+
+  double configured_s() const { return config_.odometry.core.initial.delay_s; }
+
+  RecordedDrive play(bool straightened) const {
+    return play_drive(file_, wire_, config_, truth_, straightened);
+  }
+
+  static bool is_wide(const RecordedDrive& drive) {
+    const core::OdometryCounters& counters = drive.counters;
+    return static_cast<double>(counters.jumps + counters.invalid_rates) >
+           kMostRefused * static_cast<double>(counters.readings);
+  }
+
+  /// What no scale makes up for; empty where nothing is wrong.
+  std::string look_at(RecordedDrive& drive) {
+    const auto& steps = is_wide(drive) ? drive.wide_steps : drive.steps;
+    search_ = calibration::search_delay(steps, drive.places, configured_s());
+    if (search_.at_edge) {
+      fail(
+          formatted("the readings are %.1f s %s or more, the most that is looked for: have each "
+                    "bear the time when it was true",
+                    calibration::kMaxDelay_s, search_.delay_s > 0 ? "late" : "early"));
+    }
+    straighten(drive, search_.delay_s);
+    const auto windows =
+        calibration::cut_windows(calibration::at_true_times(steps, search_.delay_s), drive.places);
+    const core::DriveGeometry& geometry = config_.odometry.core.geometry;
+    return describe_faults(calibration::find_wiring_faults(windows, geometry), config_.odometry);
+  }
+
+  /// Finds the places anew where the turns were straightened by what was read at other times.
+  void straighten(RecordedDrive& drive, double delay_s) const {
+    if (truth_ != nullptr || std::abs(delay_s - configured_s()) <= kStraightEnough_s) return;
+    auto places = play_places(file_, wire_, config_, drive.readings, delay_s);
+    if (places.size() >= drive.places.size() / 2) drive.places = std::move(places);
+  }
+
+  std::optional<calibration::OdometryFit> fit_of(const RecordedDrive& drive) const {
+    return calibration::fit_odometry(drive.steps, drive.places, config_.odometry.core.geometry,
+                                     search_.delay_s);
+  }
+
+  const std::filesystem::path& file_;
+  std::optional<rplidar::WireFormat> wire_;
+  const settings::Config& config_;
+  const Truth* truth_;
+  DelaySearch search_;  ///< in the drive that was looked at last
+};
+
+}  // namespace
+
+FittedDrive fit_drive(const std::filesystem::path& file, std::optional<rplidar::WireFormat> wire,
+                      const settings::Config& config, const Truth* truth) {
+  return DriveFitter(file, wire, config, truth).run();
+}
+
+}  // namespace cornerd::tool

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: MIT
+#include "tool/calibrate/gross_fault_text.hpp"
+
+#include <cmath>
+#include <string_view>
+#include <vector>
+
+#include "tool/drawing/formatted.hpp"
+
+namespace cornerd::tool {
+
+namespace {
+
+using calibration::WiringFaults;
+
+/// Nearer to a whole factor than this a factor is that one: wheels are no farther off.
+constexpr double kWholeShare = 0.1;
+
+class FaultText {
+ public:
+  FaultText(const WiringFaults& faults, const settings::OdometryConfig& config)
+      : faults_(faults), config_(config) {}
+
+  std::string text() {
+    add_standing();
+    add_directions();
+    add_factors();
+    add_gyro();
+    std::string all;
+    for (const std::string& sentence : sentences_) {
+      all += (all.empty() ? "" : "; ") + sentence;
+    }
+    return all;
+  }
+
+ private:
+  bool is_kernel() const { return config_.source == settings::OdometrySource::kKernel; }
+  void add(std::string sentence) { sentences_.push_back(std::move(sentence)); }
+
+  void add_standing() {
+    if (faults_.left_is_stuck && faults_.right_is_stuck) {
+      add("neither wheel's counts change while the robot drives");
+    } else if (faults_.left_is_stuck || faults_.right_is_stuck) {
+      add(
+          formatted("the %s counts do not change while the robot drives: look at that encoder and "
+                    "its wires",
+                    faults_.left_is_stuck ? "left" : "right"));
+    }
+  }
+
+  void add_directions() {
+    const bool both = faults_.left_is_reversed && faults_.right_is_reversed;
+    if (both && faults_.are_swapped) {
+      return add(
+          "wheels and lidar see the robot drive opposite ways: lidar.mount.theta is off by half a "
+          "turn, or left and right are exchanged and both count backward");
+    }
+    if (faults_.are_swapped) {
+      add(is_kernel() ? "left and right are exchanged: swap advanced.odometry.kernel.left and "
+                        "advanced.odometry.kernel.right"
+                      : "left and right are exchanged: swap left and right in the ODOMETRY lines");
+    }
+    if (both) {
+      add("both wheels count backward: " + reverse("left") + " and " + reverse("right"));
+    } else if (faults_.left_is_reversed || faults_.right_is_reversed) {
+      const char* name = faults_.left_is_reversed ? "left" : "right";
+      add(formatted("what comes as %s counts backward: ", name) + reverse(name));
+    }
+  }
+
+  /// What to do with a wheel, or the gyro, whose sign is wrong.
+  std::string reverse(std::string_view name) const {
+    if (!is_kernel()) return "negate " + std::string(name) + " in the ODOMETRY lines";
+    const drivers::KernelOdometryConfig& kernel = config_.kernel;
+    const bool was = name == "left"    ? kernel.left.reversed
+                     : name == "right" ? kernel.right.reversed
+                                       : kernel.gyro.reversed;
+    return "set advanced.odometry.kernel." + std::string(name) + ".reversed to " +
+           (was ? "false" : "true");
+  }
+
+  void add_factors() {
+    if (faults_.left_factor && faults_.right_factor) {
+      const double left = *faults_.left_factor;
+      const double right = *faults_.right_factor;
+      if (left == right) {
+        add(formatted("the wheels turn %.3g times as far as the counts say: ", left) +
+            corrections(left));
+      } else {
+        add(
+            formatted("the left wheel turns %.3g times as far as its counts say, the right one "
+                      "%.3g times: count the edges of both encoders alike",
+                      left, right));
+      }
+    }
+    if (faults_.track_m) {
+      add(formatted("the robot turns as if its wheels were %.3g m apart: correct odometry.track",
+                    *faults_.track_m));
+    }
+  }
+
+  std::string corrections(double factor) const {
+    const core::DriveGeometry& geometry = config_.core.geometry;
+    const double whole = std::round(std::max(factor, 1 / factor));
+    const double plain = factor > 1 ? whole : 1 / whole;
+    const bool is_plain = std::abs(factor / plain - 1) < kWholeShare;
+    const double taken = is_plain ? plain : factor;
+    const std::string counts =
+        formatted("set odometry.counts_per_turn to %.7g", geometry.counts_per_turn / taken);
+    // The four edges of an encoder's two lines.
+    if (is_plain && whole == 4) return counts;
+    return counts + formatted(" or odometry.wheel_radius to %.4g, whichever is wrong",
+                              geometry.wheel_radius_m * taken);
+  }
+
+  void add_gyro() {
+    if (faults_.gyro_is_unrelated) {
+      add(is_kernel() ? "the gyro says nothing of the robot's turns: set "
+                        "advanced.odometry.kernel.gyro.axis "
+                        "to the one that points up"
+                      : "the gyro says nothing of the robot's turns: send the rate about the axis "
+                        "that points up");
+    }
+    if (faults_.gyro_is_reversed) {
+      add("the gyro's sign is reversed, it grows turning to the left: " + reverse("gyro"));
+    }
+    if (faults_.gyro_factor) {
+      constexpr double kDegrees = 180 / core::kPi;
+      const bool is_degrees = std::abs(*faults_.gyro_factor / kDegrees - 1) < 2 * kWholeShare;
+      add(formatted("the gyro reads %.3g times the true rate: %s radians a second",
+                    *faults_.gyro_factor,
+                    is_degrees ? "it is in degrees a second, send" : "it has to be in"));
+    }
+    if (faults_.gyro_bias_rad_s) {
+      add(
+          formatted("the gyro reads %+.2f rad/s while the robot stands: have its zero taken before "
+                    "it drives",
+                    *faults_.gyro_bias_rad_s));
+    }
+  }
+
+  const WiringFaults& faults_;
+  const settings::OdometryConfig& config_;
+  std::vector<std::string> sentences_;
+};
+
+}  // namespace
+
+std::string describe_faults(const WiringFaults& faults, const settings::OdometryConfig& config) {
+  return FaultText(faults, config).text();
+}
+
+}  // namespace cornerd::tool

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: MIT
+#include "tool/calibrate/recorded_drive.hpp"
+
+#include <cstdlib>
+#include <utility>
+
+#include "core/pipeline.hpp"
+#include "replay/recording.hpp"
+#include "settings/map_file.hpp"
+
+namespace cornerd::tool {
+
+namespace {
+
+/// Beyond any unit that is wrong.
+constexpr double kWide = 100;
+constexpr core::TimeNs kNearTimes_ns = 2 * core::kNsPerSecond;
+constexpr core::TimeNs kFarAhead_ns = 10 * core::kNsPerSecond;
+
+core::OdometryConfig widened(core::OdometryConfig config) {
+  config.limits.wheel_speed_m_s *= kWide;
+  config.limits.gyro_rad_s *= kWide;
+  return config;
+}
+
+/// In the order of time.
+void add_place(const calibration::KnownPose& place, std::vector<calibration::KnownPose>& places) {
+  if (places.empty() || place.t_ns > places.back().t_ns) places.push_back(place);
+}
+
+void add_fix(const core::ScanResult& result, std::vector<calibration::KnownPose>& places) {
+  const core::PoseEstimate& pose = result.pose;
+  if (pose.state == core::PoseState::kFix) add_place({pose.t_ns, pose.T_map_base}, places);
+}
+
+/// The steps of the drive, and what the lidar makes of its turns.
+class DriveSink final : public replay::RecordingSink {
+ public:
+  DriveSink(core::Pipeline& pipeline, const core::OdometryConfig& odometry, const Truth* truth)
+      : pipeline_(pipeline), gate_(odometry), wide_gate_(widened(odometry)), truth_(truth) {}
+
+  void on_sample(const core::Sample& sample) override {
+    now_ns_ = sample.t_ns;
+    take(pipeline_.add(sample));
+  }
+  void on_gap() override { take(pipeline_.finish()); }
+  void on_odometry(const message::OdometryReading& reading) override {
+    drive_.readings.push_back(reading);
+    pipeline_.add(reading);
+    const auto now_ns = came_at(reading.t_ns);
+    if (const auto step = gate_.add(reading, now_ns)) drive_.steps.push_back(*step);
+    if (const auto step = wide_gate_.add(reading, now_ns)) drive_.wide_steps.push_back(*step);
+  }
+  RecordedDrive finish() {
+    take(pipeline_.finish());
+    drive_.counters = gate_.counters();
+    return std::move(drive_);
+  }
+
+ private:
+  /// By the lidar's newest sample; a clock that is off by so little is to be found out.
+  std::optional<core::TimeNs> came_at(core::TimeNs t_ns) const {
+    const bool is_near = now_ns_ && std::abs(t_ns - *now_ns_) < kNearTimes_ns;
+    return is_near ? t_ns : now_ns_;
+  }
+
+  void take(const core::ScanResult* result) {
+    if (result == nullptr) return;
+    if (truth_ == nullptr) return add_fix(*result, drive_.places);
+    const core::TimeNs t_ns = result->pose.t_ns;
+    if (const auto T_map_base = truth_->at(t_ns)) add_place({t_ns, *T_map_base}, drive_.places);
+  }
+
+  core::Pipeline& pipeline_;
+  core::ReadingGate gate_;
+  core::ReadingGate wide_gate_;
+  const Truth* truth_;
+  std::optional<core::TimeNs> now_ns_;
+  RecordedDrive drive_;
+};
+
+/// Each reading before the samples that are later, wherever in the recording it stands.
+class PlaceSink final : public replay::RecordingSink {
+ public:
+  PlaceSink(core::Pipeline& pipeline, std::vector<core::OdometryReading> readings)
+      : pipeline_(pipeline), readings_(std::move(readings)) {}
+
+  void on_sample(const core::Sample& sample) override {
+    for (; next_ < readings_.size(); ++next_) {
+      const core::TimeNs ahead_ns = readings_[next_].t_ns - sample.t_ns;
+      // One of the far future is to be refused now, not to keep others waiting.
+      if (ahead_ns > 0 && ahead_ns < kFarAhead_ns) break;
+      pipeline_.add(readings_[next_], sample.t_ns);
+    }
+    take(pipeline_.add(sample));
+  }
+  void on_gap() override { take(pipeline_.finish()); }
+  void on_odometry(const message::OdometryReading& /*reading*/) override {}
+  std::vector<calibration::KnownPose> finish() {
+    take(pipeline_.finish());
+    return std::move(places_);
+  }
+
+ private:
+  void take(const core::ScanResult* result) {
+    if (result != nullptr) add_fix(*result, places_);
+  }
+
+  core::Pipeline& pipeline_;
+  std::vector<core::OdometryReading> readings_;
+  std::size_t next_ = 0;
+  std::vector<calibration::KnownPose> places_;
+};
+
+}  // namespace
+
+RecordedDrive play_drive(const std::filesystem::path& file, std::optional<rplidar::WireFormat> wire,
+                         const settings::Config& config, const Truth* truth, bool straightened) {
+  core::LocalizerConfig localizer = config.localizer();
+  localizer.odometry.enabled = straightened;
+  core::Pipeline pipeline(truth != nullptr ? nullptr : settings::load_map(config.map), localizer);
+  DriveSink sink(pipeline, config.odometry.core, truth);
+  replay::RecordingPlayer player(file, {wire, config.lidar.mount.inverted});
+  while (player.step(sink)) {
+  }
+  return sink.finish();
+}
+
+std::vector<calibration::KnownPose> play_places(const std::filesystem::path& file,
+                                                std::optional<rplidar::WireFormat> wire,
+                                                const settings::Config& config,
+                                                std::vector<core::OdometryReading> readings,
+                                                double delay_s) {
+  for (core::OdometryReading& reading : readings) reading.t_ns -= core::from_seconds(delay_s);
+  core::LocalizerConfig localizer = config.localizer();
+  localizer.odometry.enabled = true;
+  localizer.odometry.initial.delay_s = 0;
+  core::Pipeline pipeline(settings::load_map(config.map), localizer);
+  PlaceSink sink(pipeline, std::move(readings));
+  replay::RecordingPlayer player(file, {wire, config.lidar.mount.inverted});
+  while (player.step(sink)) {
+  }
+  return sink.finish();
+}
+
+}  // namespace cornerd::tool

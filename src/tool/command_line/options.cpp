@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: MIT
+#include "tool/command_line/options.hpp"
+
+#include <unistd.h>
+
+#include <charconv>
+#include <cmath>
+#include <optional>
+#include <sstream>
+#include <string_view>
+
+#include <CLI/CLI.hpp>
+
+#include "settings/document.hpp"
+#include "settings/object_reader.hpp"
+#include "settings/override.hpp"
+#include "tool/command_line/failure.hpp"
+
+namespace cornerd::tool {
+
+namespace {
+
+constexpr std::size_t kMaxConfigBytes = std::size_t{1} << 20;
+constexpr const char* kInstalledConfig = "/etc/cornerd/cornerd.json";
+
+/// Exactly `count` finite numbers between commas; empty where the text is anything else.
+std::vector<double> parse_numbers(std::string_view text, std::size_t count) {
+  std::vector<double> numbers;
+  const char* at = text.data();
+  const char* const end = at + text.size();
+  while (numbers.size() < count) {
+    double number = 0;
+    const auto [next, error] = std::from_chars(at, end, number);
+    if (error != std::errc() || !std::isfinite(number)) return {};
+    numbers.push_back(number);
+    if (numbers.size() == count) return next == end ? numbers : std::vector<double>{};
+    if (next == end || *next != ',') return {};
+    at = next + 1;
+  }
+  return {};
+}
+
+}  // namespace
+
+void SettingsOptions::add_config(CLI::App& command) {
+  command.add_option("--config", config_, "config file; without it every key has its default")
+      ->type_name("FILE");
+  command.add_option("--set", set_, "any config value: /json/pointer=value")
+      ->type_name("/PTR=VALUE")
+      ->check([](const std::string& text) {
+        return settings::is_override(text) ? std::string() : "must be /json/pointer=value";
+      })
+      ->allow_extra_args(false);
+}
+
+void SettingsOptions::add_map(CLI::App& command) {
+  command.add_option("--map", map_, "map of the building; else the one that the config names")
+      ->type_name("FILE");
+}
+
+void SettingsOptions::use_installed_config() {
+  if (config_.empty() && ::access(kInstalledConfig, R_OK) == 0) config_ = kInstalledConfig;
+}
+
+settings::Config SettingsOptions::resolve(bool needs_map) const {
+  if (needs_map && config_.empty() && map_.empty()) {
+    throw UsageError("name a map: --map FILE, or --config FILE with a map in it");
+  }
+  std::vector<std::string> overrides = overrides_;
+  if (!map_.empty()) overrides.push_back("/map=" + settings::Json(map_.string()).dump());
+  overrides.insert(overrides.end(), set_.begin(), set_.end());
+  const std::string text = config_.empty() ? "{}" : settings::read_file(config_, kMaxConfigBytes);
+  return settings::parse_config(text, config_, overrides, needs_map);
+}
+
+void add_wire_option(CLI::App& command, std::string& wire) {
+  command.add_option("--wire", wire, "format of bytes that begin without a response descriptor")
+      ->check(CLI::IsMember({"standard", "express", "ultra", "auto"}))
+      ->capture_default_str();
+}
+
+std::optional<rplidar::WireFormat> parse_wire(const std::string& wire) {
+  if (wire == "standard") return rplidar::WireFormat::kStandard;
+  if (wire == "express") return rplidar::WireFormat::kExpress;
+  if (wire == "ultra") return rplidar::WireFormat::kUltra;
+  return std::nullopt;
+}
+
+message::ClassSet parse_classes(const std::vector<std::string>& names) {
+  message::ClassSet classes;
+  for (const std::string& name : names) {
+    const std::optional<message::MessageClass> known = message::message_class_from(name);
+    if (!known) throw UsageError("--classes: no class is called '" + name + "'");
+    classes.insert(*known);
+  }
+  return classes;
+}
+
+CLI::Validator number_within(double low, double high) {
+  const std::string limits = settings::to_text(low) + " to " + settings::to_text(high);
+  return {[low, high, limits](std::string& text) {
+            double number = 0;
+            const bool read = CLI::detail::lexical_cast(text, number);
+            return read && number >= low && number <= high
+                       ? std::string()
+                       : "must be a number from " + limits + ", not " + text;
+          },
+          "FLOAT in [" + limits + "]"};
+}
+
+core::Pose2 parse_pose(const std::string& text) {
+  const std::vector<double> numbers = parse_numbers(text, 3);
+  if (numbers.empty()) {
+    throw UsageError("'" + text + "' is no pose: x,y,theta in metres and radians");
+  }
+  return {numbers[0], numbers[1], core::normalize_angle(numbers[2])};
+}
+
+std::vector<core::Vec2> parse_points(const std::string& text) {
+  std::vector<core::Vec2> points;
+  std::istringstream words(text);
+  for (std::string word; words >> word;) {
+    const std::vector<double> numbers = parse_numbers(word, 2);
+    if (numbers.empty()) throw UsageError("'" + word + "' is no point: x,y in metres");
+    points.emplace_back(numbers[0], numbers[1]);
+  }
+  return points;
+}
+
+}  // namespace cornerd::tool

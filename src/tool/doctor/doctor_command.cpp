@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+// cornerctl doctor: what is wrong between lidar and pose, and how to mend it.
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <iterator>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include "tool/command_line/failure.hpp"
+#include "tool/command_line/options.hpp"
+#include "tool/command_line/output.hpp"
+#include "tool/commands.hpp"
+#include "tool/doctor/checks.hpp"
+#include "tool/doctor/daemon_probe.hpp"
+
+namespace cornerd::tool {
+
+namespace {
+
+/// STATUS comes once a second.
+constexpr std::chrono::milliseconds kListenFor(2500);
+
+/// Whoever runs this, with the groups of the session: those in /etc/group may be newer.
+Account caller_account(const Machine& machine) {
+  Account caller{std::to_string(::geteuid()), ::geteuid(), {::getegid()}};
+  if (const auto known = find_account(machine, caller.uid)) caller.name = known->name;
+  std::vector<gid_t> gids(static_cast<std::size_t>(std::max(0, ::getgroups(0, nullptr))));
+  const int count = ::getgroups(static_cast<int>(gids.size()), gids.data());
+  for (int i = 0; i < count; ++i) caller.gids.insert(gids[static_cast<std::size_t>(i)]);
+  return caller;
+}
+
+void diagnose(SettingsOptions& options) {
+  options.use_installed_config();
+  SettingsCheck settings = check_settings(options.config_file(), options.set());
+  Patient patient;
+  patient.config = settings.config;
+  patient.config_file = options.config_file();
+  if (!options.config_file().empty()) patient.config_name = options.config_file().string();
+  patient.caller = caller_account(patient.machine);
+  patient.daemon = probe_daemon(patient.config.socket.pose, kListenFor);
+
+  std::vector<Finding> findings = std::move(settings.findings);
+  std::vector<Finding> found = examine(patient);
+  std::move(found.begin(), found.end(), std::back_inserter(findings));
+  drop_overruled(findings);
+  Output output;
+  output.write(findings_text(findings));
+  output.flush();
+  if (settings.error) std::rethrow_exception(settings.error);
+  if (const std::size_t wrong = count_wrong(findings); wrong > 0) {
+    throw Failure(std::to_string(wrong) + (wrong == 1 ? " thing is wrong" : " things are wrong"));
+  }
+}
+
+}  // namespace
+
+void add_doctor(CLI::App& program) {
+  CLI::App* command = program.add_subcommand(
+      "doctor",
+      "what is wrong between lidar and pose, and how to mend it; exit code 1 where "
+      "something is");
+  const auto options = std::make_shared<SettingsOptions>();
+  options->add_config(*command);
+  command->callback([options] { diagnose(*options); });
+}
+
+}  // namespace cornerd::tool

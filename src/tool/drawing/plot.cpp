@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: MIT
+#include "tool/drawing/plot.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace cornerd::tool {
+
+namespace {
+
+core::Vec2 size_of_plot() { return {8, 5}; }
+constexpr double kPixelsPerUnit = 100;
+constexpr double kPlotMarginPx = 60;
+constexpr double kLegendLinePx = 18;
+constexpr std::string_view kAxisInk = "#2f3640";
+constexpr std::string_view kGridInk = "#e9e6df";
+
+/// 1, 2 or 5 times a power of ten, so that an axis has four to ten steps.
+double step_of(const PlotAxis& axis) {
+  const double rough = (axis.high - axis.low) / 5;
+  const double power = std::pow(10, std::floor(std::log10(rough)));
+  for (const double factor : {1.0, 2.0, 5.0}) {
+    if (factor * power >= rough) return factor * power;
+  }
+  return 10 * power;
+}
+
+std::string tick_text(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.10g", std::abs(value) < 1e-12 ? 0.0 : value);
+  return text;
+}
+
+}  // namespace
+
+Plot::Plot(const PlotAxis& x, const PlotAxis& y, std::string_view title)
+    : x_(x), y_(y), title_(title), svg_({0, 0}, size_of_plot(), kPixelsPerUnit, kPlotMarginPx) {
+  draw_axes();
+}
+
+core::Vec2 Plot::place(double x, double y) const {
+  const core::Vec2 share((x - x_.low) / (x_.high - x_.low), (y - y_.low) / (y_.high - y_.low));
+  return share.cwiseMax(0).cwiseMin(1).cwiseProduct(size_of_plot());
+}
+
+void Plot::draw_axes() {
+  const Paint grid{.stroke = kGridInk};
+  const TextStyle tick{.fill = kAxisInk, .size = 11};
+  svg_.begin_group("axes");
+  const double dx = step_of(x_);
+  for (double x = std::ceil(x_.low / dx) * dx; x <= x_.high + dx * 1e-6; x += dx) {
+    svg_.line(place(x, y_.low), place(x, y_.high), grid);
+    svg_.text(place(x, y_.low), tick_text(x), tick, 0, 18);
+  }
+  const double dy = step_of(y_);
+  for (double y = std::ceil(y_.low / dy) * dy; y <= y_.high + dy * 1e-6; y += dy) {
+    svg_.line(place(x_.low, y), place(x_.high, y), grid);
+    svg_.text(place(x_.low, y), tick_text(y), {.fill = kAxisInk, .size = 11, .anchor = "end"}, -6,
+              4);
+  }
+  const TextStyle label{.fill = kAxisInk, .size = 13};
+  svg_.text(place((x_.low + x_.high) / 2, y_.low), x_.label, label, 0, 42);
+  svg_.text(place(x_.low, (y_.low + y_.high) / 2), y_.label,
+            {.fill = kAxisInk, .size = 13, .rotation_deg = 90}, -40, 0);
+  svg_.text(place((x_.low + x_.high) / 2, y_.high), title_,
+            {.fill = kAxisInk, .size = 15, .bold = true}, 0, -24);
+  svg_.end_group();
+}
+
+void Plot::dot(double x, double y, double radius_px, const Paint& paint) {
+  svg_.dot(place(x, y), radius_px, paint);
+}
+
+void Plot::line(std::span<const core::Vec2> points, const Paint& paint) {
+  std::vector<core::Vec2> piece;
+  const auto draw = [&] {
+    if (piece.size() > 1) svg_.polyline(piece, paint);
+    piece.clear();
+  };
+  for (const core::Vec2& point : points) {
+    if (point.y() >= y_.low && point.y() <= y_.high) {
+      piece.push_back(place(point.x(), point.y()));
+    } else {
+      draw();
+    }
+  }
+  draw();
+}
+
+void Plot::legend(std::string_view text, const Paint& paint) {
+  const double down_px = 14 + kLegendLinePx * legends_++;
+  const core::Vec2 at(0.15, size_of_plot().y() - down_px / kPixelsPerUnit);
+  if (paint.stroke == "none") {
+    svg_.dot(at + core::Vec2(0.15, 0), 3, paint);
+  } else {
+    svg_.line(at, at + core::Vec2(0.3, 0), paint);
+  }
+  svg_.text(at + core::Vec2(0.4, 0), text, {.fill = kAxisInk, .size = 12, .anchor = "start"}, 0, 4);
+}
+
+}  // namespace cornerd::tool

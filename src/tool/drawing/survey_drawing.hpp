@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+
+#include "survey/survey.hpp"
+
+namespace cornerd::tool {
+
+/// Walls, points, the way, and where the evidence is thin, as SVG.
+std::string survey_drawing(const survey::SurveyResult& result);
+
+/// The picture of Bertocco et al.: 1024 x 1024 pixels, points, and the lines on them in blue.
+std::string ransac_canvas(const survey::SurveyResult& result);
+
+}  // namespace cornerd::tool

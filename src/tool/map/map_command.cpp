@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: MIT
+// cornerctl map, and its check.
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include "settings/map_file.hpp"
+#include "tool/command_line/file_guard.hpp"
+#include "tool/command_line/output.hpp"
+#include "tool/commands.hpp"
+#include "tool/drawing/map_drawing.hpp"
+#include "tool/drawing/text_table.hpp"
+#include "tool/map/look_alikes.hpp"
+#include "tool/map/map_commands.hpp"
+
+namespace cornerd::tool {
+
+std::string describe_map(const core::WallMap& map) {
+  const core::Vec2 size = map.upper_right() - map.lower_left();
+  return formatted("%.3f x %.3f m, %zu walls, %zu corners", size.x(), size.y(),
+                   map.plan().walls.size(), map.corners().size());
+}
+
+namespace {
+
+struct CheckOptions {
+  std::filesystem::path map;
+  std::filesystem::path plot;
+  std::size_t places = 400;
+};
+
+void check(const CheckOptions& options) {
+  guard_files({.read = {options.map}, .written = {options.plot}, .output = {}});
+  const auto map = settings::load_map(options.map);
+  std::optional<Output> picture;
+  if (!options.plot.empty()) picture.emplace(options.plot);
+  const auto corners = map->corners();
+  const auto convex = std::count_if(corners.begin(), corners.end(),
+                                    [](const core::Corner& corner) { return corner.is_convex(); });
+  std::string rooms;
+  for (const core::Room& room : map->plan().rooms) {
+    rooms += (rooms.empty() ? ": " : ", ") + room.name;
+  }
+
+  const core::Vec2 size = map->upper_right() - map->lower_left();
+  char text[400];
+  std::snprintf(text, sizeof text,
+                "name     %s\nsize     %.3f x %.3f m\nwalls    %zu\nfaces    %zu\n"
+                "corners  %zu (%td convex)\nrooms    %zu",
+                map->plan().name.c_str(), size.x(), size.y(), map->plan().walls.size(),
+                map->faces().size(), corners.size(), convex, map->plan().rooms.size());
+  Output output;
+  output.write(text);
+  output.write(rooms);
+  output.write("\n");
+  output.flush();
+  if (options.places == 0) return;
+  const std::vector<ExaminedPlace> places = examine_places(map, options.places);
+  output.write(describe_look_alikes(*map, places));
+  output.flush();
+  if (!picture) return;
+  MapDrawing drawing(*map);
+  drawing.add_examined_places(places);
+  picture->write(
+      drawing.document(describe_map(*map) +
+                       "; red: places that one turn cannot tell from those at the lines' ends"));
+  picture->flush();
+}
+
+void add_check(CLI::App& group) {
+  CLI::App* command = group.add_subcommand(
+      "check", "validate a map and say what is in it, and which places a turn cannot tell apart");
+  const auto options = std::make_shared<CheckOptions>();
+  command->add_option("map", options->map, "the map")->required()->type_name("MAP");
+  command
+      ->add_option("--places", options->places,
+                   "look around at about so many places; 0: only validate")
+      ->check(CLI::Range(std::size_t{0}, std::size_t{1'000'000}))
+      ->type_name("N")
+      ->capture_default_str();
+  command->add_option("--plot", options->plot, "draw them")->type_name("SVG");
+  command->callback([options] { check(*options); });
+}
+
+}  // namespace
+
+void add_map(CLI::App& program) {
+  CLI::App* group = program.add_subcommand("map", "validate, draw and import maps");
+  group->require_subcommand(1);
+  add_check(*group);
+  add_map_render(*group);
+  add_map_import(*group);
+}
+
+}  // namespace cornerd::tool

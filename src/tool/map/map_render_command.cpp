@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: MIT
+// cornerctl map render.
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include "settings/map_file.hpp"
+#include "tool/command_line/failure.hpp"
+#include "tool/command_line/file_guard.hpp"
+#include "tool/command_line/options.hpp"
+#include "tool/command_line/output.hpp"
+#include "tool/drawing/map_drawing.hpp"
+#include "tool/drawing/text_table.hpp"
+#include "tool/map/drive_points.hpp"
+#include "tool/map/map_commands.hpp"
+#include "tool/replay/playback.hpp"
+#include "tool/replay/truth.hpp"
+
+namespace cornerd::tool {
+
+namespace {
+
+struct RenderOptions {
+  std::filesystem::path map;
+  std::filesystem::path output;
+  SettingsOptions settings;
+  std::string pose;
+  std::filesystem::path recording;
+  std::string wire = "auto";
+  std::filesystem::path trajectory;
+  std::filesystem::path truth;
+};
+
+/// What a recording looks like in the map: the way of the robot, all points, and one turn in full.
+struct RecordedView {
+  std::vector<core::Vec2> path;
+  DrivePoints points;
+  core::Scan scan;
+  core::PoseEstimate pose;                ///< of that turn, as far as it was localized
+  std::optional<core::Pose2> T_map_base;  ///< of that turn
+  std::vector<core::Breakpoint> breakpoints;
+  std::size_t scans = 0;
+};
+
+bool names_place(const core::PoseEstimate& pose) {
+  return pose.state != core::PoseState::kAmbiguous && pose.state != core::PoseState::kLost;
+}
+
+/// `way`: where the robot was; null: to be found out by localizing in `map`.
+RecordedView view_recording(const RenderOptions& options, const settings::Config& config,
+                            std::shared_ptr<const core::WallMap> map, const Truth* way) {
+  RecordedView view;
+  core::Pipeline pipeline(way == nullptr ? std::move(map) : nullptr, config.localizer());
+  Playback playback(pipeline, [&](const core::Scan& scan, const core::ScanResult& result) {
+    ++view.scans;
+    std::optional<core::Pose2> T_map_base;
+    if (way != nullptr) {
+      T_map_base = way->at(scan.start_ns() + (scan.end_ns() - scan.start_ns()) / 2);
+    } else if (names_place(result.pose)) {
+      T_map_base = result.pose.T_map_base;
+    }
+    view.points.add(scan, T_map_base);
+    if (T_map_base) view.path.push_back(T_map_base->translation());
+    // A turn without a place is shown only where there is none with one.
+    if (!T_map_base && !view.path.empty()) return;
+    view.scan = scan;
+    view.pose = result.pose;
+    view.T_map_base = T_map_base;
+    const auto found = result.detection.breakpoints;
+    view.breakpoints.assign(found.begin(), found.end());
+  });
+  playback.play(options.recording, {parse_wire(options.wire), config.lidar.mount.inverted});
+  return view;
+}
+
+std::vector<core::Vec2> way_of(const Truth& truth) {
+  std::vector<core::Vec2> way;
+  for (const message::RecordedTruth& point : truth.points()) {
+    way.push_back(point.T_map_base.translation());
+  }
+  return way;
+}
+
+void draw_points(MapDrawing& drawing, const core::WallMap& map,
+                 const std::vector<core::Vec2>& points) {
+  // As far as the picture's margin goes.
+  constexpr double kBeyondPx = 40;
+  const core::Vec2 margin = core::Vec2::Constant(kBeyondPx * drawing.pixel_m());
+  drawing.add_points(
+      thin_out(points, drawing.pixel_m(), map.lower_left() - margin, map.upper_right() + margin));
+}
+
+void render(const RenderOptions& options) {
+  if (!options.trajectory.empty() && options.recording.empty()) {
+    throw UsageError("--trajectory says where a recording was made; --recording names none");
+  }
+  guard_files({.read = {options.map, options.recording, options.trajectory, options.truth,
+                        options.settings.config_file()},
+               .written = {},
+               .output = options.output});
+  const settings::Config config = options.settings.resolve(/*needs_map=*/false);
+  const core::Pose2 T_base_lidar = config.localizer().T_base_lidar;
+  const auto map = settings::load_map(options.map);
+  std::optional<core::Pose2> T_map_base;
+  if (!options.pose.empty()) T_map_base = parse_pose(options.pose);
+
+  MapDrawing drawing(*map);
+  std::string subtitle = describe_map(*map);
+  if (!options.truth.empty()) {
+    drawing.add_path(way_of(Truth::load(options.truth)), /*truth=*/true);
+  }
+  if (!options.recording.empty()) {
+    std::optional<Truth> way;
+    if (!options.trajectory.empty()) way = Truth::load(options.trajectory);
+    const RecordedView view = view_recording(options, config, map, way ? &*way : nullptr);
+    draw_points(drawing, *map,
+                way ? view.points.place(T_base_lidar, *way) : view.points.place(T_base_lidar));
+    drawing.add_path(view.path);
+    if (!T_map_base && view.T_map_base) {
+      T_map_base = view.T_map_base;
+      if (!way) drawing.add_uncertainty(*T_map_base, view.pose.covariance);
+    }
+    if (T_map_base) {
+      const core::Pose2 T_map_lidar = *T_map_base * T_base_lidar;
+      drawing.add_scan(view.scan, T_map_lidar);
+      drawing.add_breakpoints(view.breakpoints, T_map_lidar);
+    } else {
+      std::fprintf(stderr, "cornerctl: no turn of %s names a place; the map is drawn alone\n",
+                   options.recording.c_str());
+    }
+    subtitle += formatted("; %zu of %zu turns ", view.path.size(), view.scans);
+    subtitle += way ? "placed by " + options.trajectory.filename().string() : "found their place";
+  }
+  if (T_map_base) drawing.add_pose(*T_map_base);
+
+  Output output(options.output);
+  output.write(drawing.document(subtitle));
+  output.flush();
+}
+
+}  // namespace
+
+void add_map_render(CLI::App& group) {
+  CLI::App* command = group.add_subcommand("render", "draw a map, and a recording in it, as SVG");
+  const auto options = std::make_shared<RenderOptions>();
+  command->add_option("map", options->map, "the map")->required()->type_name("MAP");
+  command->add_option("-o,--output", options->output, "the picture; -: on standard output")
+      ->required()
+      ->type_name("SVG");
+  command
+      ->add_option("--recording", options->recording,
+                   "draw its points, its way and its last turn, localized in the map")
+      ->type_name("FILE");
+  command
+      ->add_option("--trajectory", options->trajectory,
+                   "where the robot was (as --truth files and survey --trajectory have it): the "
+                   "recording is drawn from there, and not localized")
+      ->type_name("FILE");
+  command
+      ->add_option("--pose", options->pose,
+                   "draw the robot there, and the recording's turn as seen from there")
+      ->type_name("X,Y,THETA");
+  command->add_option("--truth", options->truth, "draw the true way, dashed")->type_name("FILE");
+  options->settings.add_config(*command);
+  add_wire_option(*command, options->wire);
+  command->callback([options] { render(*options); });
+}
+
+}  // namespace cornerd::tool

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+#include "tool/map/map_text.hpp"
+
+#include <string_view>
+
+#include "message/json_text.hpp"
+#include "settings/map_file.hpp"
+#include "tool/command_line/failure.hpp"
+#include "tool/command_line/file_guard.hpp"
+
+namespace cornerd::tool {
+
+namespace {
+
+/// Tenths of a micrometre: what meets in the plan meets in the file.
+constexpr int kMapDecimals = 7;
+
+void write_point(message::JsonText& json, std::string_view name, const core::Vec2& point) {
+  json.key(name);
+  json.open_array();
+  json.fixed(point.x(), kMapDecimals);
+  json.fixed(point.y(), kMapDecimals);
+  json.close_array();
+}
+
+}  // namespace
+
+std::string map_text(const core::FloorPlan& plan) {
+  message::JsonText json(256);
+  json.string(plan.name);
+  std::string text = "{ \"format\": \"cornerd-map\", \"version\": 1, \"name\": ";
+  text.append(json.view()).append(",\n  \"walls\": [\n");
+  for (std::size_t i = 0; i < plan.walls.size(); ++i) {
+    const core::Wall& wall = plan.walls[i];
+    json.clear();
+    json.open_object();
+    write_point(json, "from", wall.from);
+    write_point(json, "to", wall.to);
+    json.key("thickness");
+    json.fixed(wall.thickness_m, kMapDecimals);
+    json.close_object();
+    text.append("    ").append(json.view()).append(i + 1 < plan.walls.size() ? ",\n" : "\n");
+  }
+  return text + "  ] }\n";
+}
+
+std::string map_name(const std::string& given, const std::filesystem::path& file) {
+  if (!given.empty()) return given;
+  return file == kStandardOutput ? "map" : file.stem().string();
+}
+
+std::shared_ptr<const core::WallMap> read_back(const std::string& text,
+                                               const std::filesystem::path& file) {
+  try {
+    return settings::parse_map(text, file);
+  } catch (const settings::SettingsError& error) {
+    throw Failure(std::string(error.what()) + "; nothing is written, as no program would read it");
+  }
+}
+
+}  // namespace cornerd::tool

@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: MIT
+// cornerctl record: what comes from a lidar's port, and in .ndjson what is sent to it, with times.
+#include <atomic>
+#include <cstdio>
+#include <exception>
+#include <filesystem>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+#include <utility>
+
+#include <CLI/CLI.hpp>
+
+#include "drivers/clock.hpp"
+#include "drivers/rplidar/rplidar_driver.hpp"
+#include "drivers/serial/byte_stream.hpp"
+#include "drivers/serial/serial_port.hpp"
+#include "replay/recording_writer.hpp"
+#include "tool/command_line/failure.hpp"
+#include "tool/command_line/file_guard.hpp"
+#include "tool/command_line/options.hpp"
+#include "tool/command_line/stop_signal.hpp"
+#include "tool/commands.hpp"
+#include "tool/record/board_odometry.hpp"
+
+namespace cornerd::tool {
+
+namespace {
+
+using drivers::RecordingByteStream;
+
+struct RecordOptions {
+  SettingsOptions settings;
+  std::filesystem::path output;
+  double seconds = 0;
+};
+
+/// Writes what the driver's thread sees; a full disk ends the recording, not the thread.
+class Recorder {
+ public:
+  explicit Recorder(const std::filesystem::path& file) : writer_(file) {}
+
+  void observe(RecordingByteStream::Direction direction, std::span<const std::uint8_t> bytes) {
+    drivers::Clock& clock = drivers::system_clock();
+    const core::TimeNs t_ns = clock.monotonic_ns() + clock.unix_offset_ns();
+    const bool received = direction == RecordingByteStream::Direction::kReceived;
+    write([&] { received ? writer_.received(t_ns, bytes) : writer_.sent(t_ns, bytes); });
+  }
+  /// Of another thread.
+  void observe(const core::OdometryReading& reading) {
+    message::LineWriter::OdometryFields fields;
+    fields.t_ns = reading.t_ns;
+    fields.has_counts = reading.left && reading.right;
+    fields.left = reading.left.value_or(0);
+    fields.right = reading.right.value_or(0);
+    fields.has_gyro = reading.gyro_rad_s.has_value();
+    fields.gyro_rad_s = reading.gyro_rad_s.value_or(0);
+    write([&] { writer_.odometry(fields); });
+  }
+  bool has_lines() const { return writer_.has_lines(); }
+
+  bool failed() const { return failed_; }
+  /// After the driver's thread has ended. Throws what went wrong.
+  void finish() {
+    if (problem_) std::rethrow_exception(problem_);
+    writer_.flush();
+  }
+
+ private:
+  void write(const auto& put) {
+    if (failed_) return;
+    const std::scoped_lock lock(mutex_);
+    try {
+      put();
+    } catch (...) {
+      problem_ = std::current_exception();
+      failed_ = true;
+    }
+  }
+
+  std::mutex mutex_;
+  replay::RecordingWriter writer_;
+  std::exception_ptr problem_;
+  std::atomic<bool> failed_ = false;
+};
+
+class NoSink : public drivers::SampleSink {
+ public:
+  void on_sample(const core::Sample&) override {}
+  void on_gap() override {}
+};
+
+rplidar::RplidarDriverConfig driver_config(const settings::LidarConfig& lidar) {
+  rplidar::RplidarDriverConfig config;
+  config.device = lidar.device.string();
+  config.baud = lidar.baud;
+  config.mode = lidar.mode;
+  config.inverted = lidar.mount.inverted;
+  config.motor = lidar.motor;
+  return config;
+}
+
+void say_when_changed(const drivers::LidarStatus& now, drivers::LidarStatus& said) {
+  if (now.state == said.state && now.detail.view() == said.detail.view()) return;
+  said = now;
+  const std::string_view state = to_string(now.state);
+  const std::string_view detail = now.detail.view();
+  std::fprintf(stderr, "cornerctl: %.*s%s%.*s\n", static_cast<int>(state.size()), state.data(),
+               detail.empty() ? "" : ": ", static_cast<int>(detail.size()), detail.data());
+}
+
+void record(RecordOptions& options) {
+  const settings::Config settings = options.settings.resolve(/*needs_map=*/false);
+  const rplidar::RplidarDriverConfig config = driver_config(settings.lidar);
+  guard_files({.read = {config.device, options.settings.config_file()},
+               .written = {options.output},
+               .output = {}});
+
+  // A driver waits for a port that is not there; a person who mistyped its name should not.
+  drivers::OpenResult first = drivers::open_serial_port(config.device, config.baud);
+  if (!first.stream) throw Failure(first.message);
+
+  Recorder recorder(options.output);
+  StopSignal stop_signal;
+  const auto open_port = [&](std::uint32_t baud) -> drivers::OpenResult {
+    drivers::OpenResult port =
+        first.stream ? std::exchange(first, {}) : drivers::open_serial_port(config.device, baud);
+    if (port.stream) {
+      port.stream = std::make_unique<RecordingByteStream>(
+          std::move(port.stream),
+          [&](auto direction, auto bytes) { recorder.observe(direction, bytes); });
+    }
+    return port;
+  };
+  rplidar::RplidarDriver driver(config, open_port);
+
+  drivers::LidarStatus said;
+  std::optional<std::uint64_t> readings;
+  {
+    NoSink sink;
+    std::optional<BoardOdometry> odometry;
+    if (settings.odometry.source == settings::OdometrySource::kKernel && recorder.has_lines()) {
+      odometry.emplace(settings.odometry, [&](const auto& reading) { recorder.observe(reading); });
+    }
+    const std::jthread reader([&](const std::stop_token& stop) { driver.run(stop, sink); });
+    const core::TimeNs began_ns = drivers::system_clock().monotonic_ns();
+    const auto over = [&] {
+      const core::TimeNs elapsed_ns = drivers::system_clock().monotonic_ns() - began_ns;
+      return recorder.failed() ||
+             (options.seconds > 0 && core::to_seconds(elapsed_ns) >= options.seconds);
+    };
+    while (!over() && !stop_signal.wait(std::chrono::milliseconds(50))) {
+      say_when_changed(driver.status(), said);
+    }
+    if (odometry) readings = odometry->status().counters.readings;
+  }
+  recorder.finish();
+  const drivers::StreamCounters counters = driver.status().counters;
+  if (counters.samples == 0) throw Failure(config.device + ": sent not a single sample");
+  std::fprintf(stderr, "%s: %llu bytes, %llu turns\n", options.output.c_str(),
+               static_cast<unsigned long long>(counters.bytes),
+               static_cast<unsigned long long>(counters.scans));
+  if (readings) {
+    std::fprintf(stderr, "%s: %llu readings of wheels and gyro\n", options.output.c_str(),
+                 static_cast<unsigned long long>(*readings));
+  }
+}
+
+}  // namespace
+
+void add_record(CLI::App& program) {
+  CLI::App* command = program.add_subcommand("record", "keep what a lidar sends");
+  const auto options = std::make_shared<RecordOptions>();
+  const auto override_with = [options](const char* pointer) {
+    return [options, pointer](const std::string& value) {
+      options->settings.add_override(pointer + ("=" + value));
+    };
+  };
+  command->add_option_function<std::string>("--device", override_with("/lidar/device"), "its port")
+      ->type_name("DEV");
+  command->add_option_function<std::string>("--baud", override_with("/advanced/lidar/baud"),
+                                            "its speed");
+  command->add_option_function<std::string>("--mode", override_with("/advanced/lidar/mode"),
+                                            "auto, or a scan mode by name");
+  options->settings.add_config(*command);
+  command
+      ->add_option(
+          "-o,--output", options->output,
+          "the recording: .bin what came, .ndjson both ways with times, and wheels and gyro where "
+          "the config's odometry.source is kernel")
+      ->required()
+      ->type_name("FILE");
+  command->add_option("--seconds", options->seconds, "else until interrupted")
+      ->check(CLI::PositiveNumber)
+      ->type_name("N");
+  command->callback([options] { record(*options); });
+}
+
+}  // namespace cornerd::tool

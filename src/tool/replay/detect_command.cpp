@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: MIT
+// cornerctl detect: the breakpoints of every turn, without a map.
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include "tool/command_line/failure.hpp"
+#include "tool/command_line/file_guard.hpp"
+#include "tool/command_line/options.hpp"
+#include "tool/command_line/output.hpp"
+#include "tool/commands.hpp"
+#include "tool/drawing/scan_drawing.hpp"
+#include "tool/replay/message_printer.hpp"
+#include "tool/replay/playback.hpp"
+
+namespace cornerd::tool {
+
+namespace {
+
+struct DetectOptions {
+  std::vector<std::filesystem::path> files;
+  std::string method;
+  SettingsOptions settings;
+  std::vector<std::string> classes = {"BREAKPOINTS"};
+  std::string wire = "auto";
+  std::filesystem::path plot;
+  std::size_t plotted_scan = 1;
+};
+
+void save_plot(const DetectOptions& options, const core::Scan& scan,
+               const core::Detection& detection) {
+  Output picture(options.plot);
+  const std::size_t corners =
+      std::count_if(detection.breakpoints.begin(), detection.breakpoints.end(),
+                    [](const auto& b) { return b.kind == core::BreakpointKind::kCorner; });
+  picture.write(draw_scan(
+      scan, detection,
+      std::to_string(scan.size()) + " samples, " + std::to_string(detection.segments.size()) +
+          " walls, " + std::to_string(corners) + " corners (rings), " +
+          std::to_string(detection.breakpoints.size() - corners) + " ends (squares)"));
+  picture.flush();
+}
+
+constexpr std::pair<std::string_view, core::Method> kMethods[] = {
+    {"altbd", core::Method::kAltbd},
+    {"altbd-printed", core::Method::kPrintedAltbd},
+    {"abd-iepf", core::Method::kAbdIepf},
+    {"lt", core::Method::kLineTracking}};
+
+core::Method parse_method(const std::string& name) {
+  for (const auto& [known, method] : kMethods) {
+    if (name == known) return method;
+  }
+  return core::Method::kAltbd;
+}
+
+void detect(DetectOptions& options) {
+  const message::ClassSet classes = parse_classes(options.classes);
+  if (classes.contains(message::MessageClass::kPose)) {
+    throw UsageError("--classes: POSE needs a map; use replay");
+  }
+  CommandFiles files{.read = options.files, .written = {options.plot}, .output = {}};
+  files.read.push_back(options.settings.config_file());
+  guard_files(files);
+  settings::Config config = options.settings.resolve(/*needs_map=*/false);
+  config.detector.method = parse_method(options.method);
+
+  Output output;
+  MessagePrinter printer(output, classes, nullptr);
+  core::Pipeline pipeline(nullptr, config.localizer());
+  std::size_t scans = 0;
+  Playback playback(pipeline, [&](const core::Scan& scan, const core::ScanResult& result) {
+    printer.print_scan(scan, result);
+    if (++scans == options.plotted_scan && !options.plot.empty()) {
+      save_plot(options, scan, result.detection);
+    }
+  });
+  for (const std::filesystem::path& file : options.files) {
+    playback.play(file, {parse_wire(options.wire), config.lidar.mount.inverted});
+  }
+  output.flush();
+  if (!options.plot.empty() && scans < options.plotted_scan) {
+    throw Failure("--turn " + std::to_string(options.plotted_scan) + ": there are " +
+                  std::to_string(scans) + " turns");
+  }
+}
+
+}  // namespace
+
+void add_detect(CLI::App& program) {
+  CLI::App* command = program.add_subcommand("detect", "breakpoints alone, no map needed");
+  const auto options = std::make_shared<DetectOptions>();
+  command->add_option("files", options->files, "recordings (.bin, .ndjson), one after another")
+      ->required()
+      ->type_name("FILE");
+  command->add_option("--method", options->method, "how walls are found; without it, altbd")
+      ->check(CLI::IsMember({"altbd", "altbd-printed", "abd-iepf", "lt"}));
+  options->settings.add_config(*command);
+  command->add_option("--classes", options->classes, "messages to print: BREAKPOINTS, SCAN")
+      ->delimiter(',')
+      ->capture_default_str();
+  add_wire_option(*command, options->wire);
+  command->add_option("--plot", options->plot, "draw a turn with its walls and breakpoints, as SVG")
+      ->type_name("FILE");
+  command->add_option("--turn", options->plotted_scan, "which turn --plot draws, from 1 on")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 100'000'000));
+  command->callback([options] { detect(*options); });
+}
+
+}  // namespace cornerd::tool

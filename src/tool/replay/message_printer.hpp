@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <optional>
+
+#include "core/localizer.hpp"
+#include "core/scan.hpp"
+#include "drivers/lidar_driver.hpp"
+#include "message/line_writer.hpp"
+#include "message/odometry_input_monitor.hpp"
+#include "message/request.hpp"
+#include "tool/command_line/output.hpp"
+
+namespace cornerd::tool {
+
+/// The daemon's messages about a recording, as far as they were asked for.
+class MessagePrinter {
+ public:
+  /// `plan`: names the rooms; null: there is no map.
+  MessagePrinter(Output& output, message::ClassSet classes, const core::FloorPlan* plan);
+
+  void print_scan(const core::Scan& scan, const core::ScanResult& result);
+
+  /// What odometry it had, for STATUS to say why there is none.
+  void note(const core::OdometryReading& reading) { odometry_lines_.add(reading); }
+
+  /// A pose between two turns.
+  void print_pose(const core::PoseEstimate& pose);
+
+  /// What comes now is of another file: rates begin anew.
+  void begin_recording();
+  /// STATUS where a second has passed since the last one. Time is that of the data.
+  void print_status_when_due(core::TimeNs t_ns, const drivers::StreamCounters& counters);
+  void print_status(core::TimeNs t_ns, const drivers::StreamCounters& counters,
+                    drivers::LidarState state);
+
+ private:
+  struct Mark {
+    core::TimeNs t_ns = 0;
+    drivers::StreamCounters counters;
+  };
+
+  Output& output_;
+  message::ClassSet classes_;
+  const core::FloorPlan* plan_;
+  message::LineWriter writer_;
+  std::optional<Mark> last_status_;
+  core::OdometrySummary odometry_;  ///< as of the last turn
+  message::OdometryInputMonitor odometry_lines_;
+};
+
+}  // namespace cornerd::tool

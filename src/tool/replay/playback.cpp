@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+#include "tool/replay/playback.hpp"
+
+#include <cstdio>
+#include <utility>
+
+#include "tool/command_line/failure.hpp"
+
+namespace cornerd::tool {
+
+class Playback::Sink : public replay::RecordingSink {
+ public:
+  explicit Sink(Playback& playback) : playback_(playback) {}
+
+  void on_sample(const core::Sample& sample) override {
+    playback_.play_readings_until(sample.t_ns);
+    playback_.on_result(playback_.pipeline_.add(sample));
+    playback_.on_pose_between(playback_.pipeline_.part());
+  }
+  void on_gap() override { playback_.on_result(playback_.pipeline_.finish()); }
+  void on_odometry(const message::OdometryReading& reading) override {
+    if (!playback_.has_readings_) playback_.add(reading);
+  }
+
+ private:
+  Playback& playback_;
+};
+
+Playback::Playback(core::Pipeline& pipeline, OnScan on_scan, OnPiece on_piece)
+    : pipeline_(pipeline), on_scan_(std::move(on_scan)), on_piece_(std::move(on_piece)) {}
+
+void Playback::play_readings_until(core::TimeNs t_ns) {
+  while (next_reading_ < readings_.size() && readings_[next_reading_].t_ns <= t_ns) {
+    add(readings_[next_reading_++]);
+  }
+}
+
+void Playback::add(const core::OdometryReading& reading) {
+  if (on_reading_) on_reading_(reading);
+  on_pose_between(pipeline_.add(reading));
+}
+
+void Playback::on_pose_between(const core::PoseEstimate* pose) {
+  if (pose != nullptr && on_prediction_) on_prediction_(*pose);
+}
+
+void Playback::on_result(const core::ScanResult* result) {
+  if (result == nullptr) return;
+  ++scans_;
+  on_scan_(pipeline_.scan(), *result);
+  if (independent_) pipeline_.localizer().forget();
+}
+
+void Playback::play(const std::filesystem::path& file, const replay::RecordingOptions& options) {
+  replay::RecordingPlayer player(file, options);
+  Sink sink(*this);
+  scans_ = 0;
+  next_reading_ = 0;
+  pipeline_.localizer().relocalize();
+  while (player.step(sink)) {
+    if (on_piece_) on_piece_(player.time_ns(), player.counters());
+  }
+  on_result(pipeline_.finish());
+  if (on_piece_) on_piece_(player.time_ns(), player.counters());
+
+  if (player.bad_lines() > 0) {
+    std::fprintf(stderr, "%s: %llu lines passed over; the first: %s\n", file.c_str(),
+                 static_cast<unsigned long long>(player.bad_lines()),
+                 player.first_problem().c_str());
+  }
+  if (scans_ == 0) throw Failure(file.string() + ": not one whole turn of a lidar in it");
+}
+
+}  // namespace cornerd::tool

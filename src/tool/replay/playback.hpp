@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <functional>
+#include <utility>
+#include <vector>
+
+#include "core/pipeline.hpp"
+#include "drivers/lidar_driver.hpp"
+#include "replay/recording.hpp"
+
+namespace cornerd::tool {
+
+/// Plays recordings through the daemon's own pipeline.
+class Playback {
+ public:
+  /// Called for every turn; both arguments are valid during the call alone.
+  using OnScan = std::function<void(const core::Scan& scan, const core::ScanResult& result)>;
+  /// Called after every piece of the recording, with the time and the counters so far.
+  using OnPiece = std::function<void(core::TimeNs t_ns, const drivers::StreamCounters& counters)>;
+
+  /// Called for every pose between two turns (odometry.publish_predictions,
+  /// localizer.updates_per_scan).
+  using OnPrediction = std::function<void(const core::PoseEstimate& pose)>;
+
+  Playback(core::Pipeline& pipeline, OnScan on_scan, OnPiece on_piece = {});
+
+  /// Called for every reading of wheels and gyro.
+  using OnReading = std::function<void(const core::OdometryReading& reading)>;
+
+  void set_on_reading(OnReading on_reading) { on_reading_ = std::move(on_reading); }
+  void set_on_prediction(OnPrediction on_prediction) { on_prediction_ = std::move(on_prediction); }
+
+  /// Forget everything between turns, as if each were the first.
+  void set_independent(bool independent) { independent_ = independent; }
+
+  /// Wheels and gyro of another file, in the order of its times; in place of the recording's own.
+  void set_odometry(std::vector<core::OdometryReading> readings) {
+    readings_ = std::move(readings);
+    has_readings_ = true;
+  }
+
+  /// Plays one file to its end; nothing of an earlier one is remembered. What was passed over is
+  /// said on standard error. Throws replay::RecordingError, and Failure where the file holds not a
+  /// single whole turn.
+  void play(const std::filesystem::path& file, const replay::RecordingOptions& options);
+
+ private:
+  class Sink;
+
+  void on_result(const core::ScanResult* result);
+  void on_pose_between(const core::PoseEstimate* pose);
+
+  core::Pipeline& pipeline_;
+  OnScan on_scan_;
+  OnPiece on_piece_;
+  OnPrediction on_prediction_;
+  OnReading on_reading_;
+  void add(const core::OdometryReading& reading);
+  void play_readings_until(core::TimeNs t_ns);
+
+  bool independent_ = false;
+  bool has_readings_ = false;
+  std::vector<core::OdometryReading> readings_;
+  std::size_t next_reading_ = 0;
+  std::size_t scans_ = 0;
+};
+
+}  // namespace cornerd::tool

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: MIT
+// cornerctl emulate: an A1 on a pseudo-terminal, for cornerd or any other client to open.
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <stop_token>
+#include <string>
+#include <thread>
+#include <utility>
+
+#include <CLI/CLI.hpp>
+
+#include "replay/emulator/firmware.hpp"
+#include "replay/emulator/pty_emulator.hpp"
+#include "replay/emulator/recorded_scene.hpp"
+#include "replay/recording_writer.hpp"
+#include "settings/map_file.hpp"
+#include "tool/command_line/failure.hpp"
+#include "tool/command_line/file_guard.hpp"
+#include "tool/command_line/options.hpp"
+#include "tool/command_line/output.hpp"
+#include "tool/command_line/stop_signal.hpp"
+#include "tool/commands.hpp"
+#include "tool/simulate/simulation_options.hpp"
+
+namespace cornerd::tool {
+
+namespace {
+
+struct EmulateOptions {
+  std::filesystem::path recording;
+  SettingsOptions settings;
+  SimulationOptions simulation;
+  std::string wire = "auto";
+  std::string firmware = "1.29";
+  double spin_up_s = 0;
+  std::filesystem::path link;
+  std::filesystem::path truth;
+};
+
+/// A scene, and the motion in it where there is one.
+struct World {
+  std::unique_ptr<replay::Scene> scene;
+  replay::Motion motion;
+};
+
+World make_world(const EmulateOptions& options, const settings::Config& config) {
+  if (!options.recording.empty()) {
+    if (!options.truth.empty()) throw UsageError("--truth: a recording does not know it");
+    const replay::RecordingOptions how{parse_wire(options.wire), config.lidar.mount.inverted};
+    return {std::make_unique<replay::RecordedScene>(options.recording, how), {}};
+  }
+  if (options.simulation.places > 0 && !options.truth.empty()) {
+    throw UsageError("--truth: a robot that jumps from place to place has none between two turns");
+  }
+  const auto map = settings::load_map(config.map);
+  const replay::Motion motion = options.simulation.motion(*map);
+  return {std::make_unique<replay::MapScene>(map, motion, config.localizer().T_base_lidar), motion};
+}
+
+void emulate(const EmulateOptions& options) {
+  const replay::Firmware* firmware = replay::find_firmware(options.firmware);
+  if (firmware == nullptr) throw UsageError("--firmware: there are 1.29, 1.24 and 1.17");
+  const settings::Config config = options.settings.resolve(/*needs_map=*/options.recording.empty());
+  guard_files(
+      {.read = {options.recording, options.settings.config_file(), options.simulation.sensor.noise,
+                options.recording.empty() ? config.map : std::filesystem::path()},
+       .written = {options.truth, options.link},
+       .output = {}});
+  World world = make_world(options, config);
+
+  replay::EmulatorConfig device;
+  device.firmware = firmware;
+  device.spin_up_s = options.spin_up_s;
+  auto simulator = std::make_unique<replay::Simulator>(
+      std::move(world.scene),
+      options.simulation.simulator(rplidar::WireFormat::kStandard, config.lidar));
+  replay::PtyEmulator emulator(replay::Emulator(device, std::move(simulator)), options.link);
+
+  std::optional<replay::TruthWriter> truth;
+  if (!options.truth.empty()) {
+    truth.emplace(options.truth);
+    emulator.set_on_time([&](core::TimeNs t_ns, core::TimeNs unix_ns) {
+      truth->add(unix_ns, world.motion(t_ns, 0));
+    });
+  }
+
+  // From here on the signals are waited for; whoever reads the path may send one at once.
+  const StopSignal stop_signal;
+  std::stop_source stop;
+  const std::jthread waiter([&](const std::stop_token& over) {
+    while (!over.stop_requested()) {
+      if (stop_signal.wait(std::chrono::milliseconds(50))) stop.request_stop();
+    }
+  });
+  Output output(/*flush_each=*/true);
+  output.write((options.link.empty() ? emulator.path() : options.link).string() + "\n");
+  emulator.run(stop.get_token());
+  if (truth) truth->flush();
+}
+
+}  // namespace
+
+void add_emulate(CLI::App& program) {
+  CLI::App* command = program.add_subcommand(
+      "emulate", "an A1 on a pseudo-terminal, whose path is printed, until interrupted");
+  const auto options = std::make_shared<EmulateOptions>();
+  command->add_option("file", options->recording, "it sees what this recording holds; else a map")
+      ->type_name("FILE");
+  options->settings.add_config(*command);
+  options->settings.add_map(*command);
+  options->simulation.add_to(*command);
+  add_wire_option(*command, options->wire);
+  command->add_option("--firmware", options->firmware, "1.29, 1.24 or 1.17")->capture_default_str();
+  command->add_option("--spin-up", options->spin_up_s, "seconds until the motor is fast enough")
+      ->check(number_within(0, 3600));
+  command->add_option("--link", options->link, "a symbolic link to the pseudo-terminal")
+      ->type_name("PATH");
+  command->add_option("--truth", options->truth, "where the robot really is, in UNIX time")
+      ->type_name("FILE");
+  command->callback([options] { emulate(*options); });
+}
+
+}  // namespace cornerd::tool

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: MIT
+#include "tool/simulate/odometry_options.hpp"
+
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include "tool/command_line/failure.hpp"
+#include "tool/command_line/options.hpp"
+
+namespace cornerd::tool {
+
+namespace {
+
+core::Vec2 parse_pair(const std::string& text, const char* option) {
+  const std::vector<core::Vec2> pairs = parse_points(text);
+  if (pairs.size() != 1) throw UsageError(std::string(option) + " takes one pair: A,B");
+  return pairs.front();
+}
+
+}  // namespace
+
+void OdometryOptions::add_to(CLI::App& command) {
+  command.add_flag("--odometry", enabled,
+                   "ODOMETRY lines too, by the config's wheels (odometry.wheel_radius ...)");
+  command.add_option("--odometry-rate", model.rate_hz, "readings a second")
+      ->check(number_within(1, 1000))
+      ->capture_default_str();
+  command
+      .add_option("--wheel-errors", wheel_errors,
+                  "the wheels' true radii are larger by this share: 0.015,0.025")
+      ->type_name("LEFT,RIGHT");
+  command.add_option("--track-error", model.track_scale, "the true track is larger by this share")
+      ->check(number_within(-0.5, 0.5));
+  command
+      .add_option("--wheel-noise", model.wheel_m_per_sqrt_m,
+                  "what a wheel's way is off after a metre (m), at random")
+      ->check(number_within(0, 1))
+      ->capture_default_str();
+  command.add_option("--gyro-error", model.gyro_scale, "the gyro tells more by this share")
+      ->check(number_within(-0.5, 0.5));
+  command.add_option("--gyro-bias", model.gyro_bias_rad_s, "and this much (rad/s)")
+      ->check(number_within(-1, 1));
+  command.add_option("--gyro-noise", model.gyro_rad_s_per_sqrt_hz, "its noise (rad/s/sqrt(Hz))")
+      ->check(number_within(0, 1))
+      ->capture_default_str();
+  command.add_flag("--no-gyro", no_gyro, "encoders alone");
+  command
+      .add_option("--slips", model.slips_per_m,
+                  "how often a metre a wheel slips: half as much again for 0.2 s")
+      ->check(number_within(0, 100));
+  command
+      .add_option("--covered", covered, "something hangs over the lidar between these times (s)")
+      ->type_name("FROM,TO");
+}
+
+std::optional<replay::RobotModel> OdometryOptions::robot(
+    const settings::OdometryConfig& config) const {
+  if (!enabled) return std::nullopt;
+  replay::RobotModel robot = model;
+  robot.geometry = config.core.geometry;
+  robot.has_gyro = !no_gyro;
+  if (!wheel_errors.empty()) {
+    const core::Vec2 scales = parse_pair(wheel_errors, "--wheel-errors");
+    if (!(scales.cwiseAbs().maxCoeff() <= 0.5)) {
+      throw UsageError("--wheel-errors: no more than 0.5 each");
+    }
+    robot.left_scale = scales.x();
+    robot.right_scale = scales.y();
+  }
+  return robot;
+}
+
+OdometryOptions::Times OdometryOptions::covered_times() const {
+  if (covered.empty()) return {};
+  const core::Vec2 times_s = parse_pair(covered, "--covered");
+  if (!(times_s.x() >= 0 && times_s.x() < times_s.y() && times_s.y() < 1e6)) {
+    throw UsageError("--covered: two times of the recording, in their order");
+  }
+  return {core::from_seconds(times_s.x()), core::from_seconds(times_s.y())};
+}
+
+}  // namespace cornerd::tool

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: MIT
+// cornerctl simulate: a recording of a simulated robot in a map, with its truth.
+#include <cstdint>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include <CLI/CLI.hpp>
+
+#include "replay/recording_writer.hpp"
+#include "replay/simulator/simulated_recording.hpp"
+#include "settings/map_file.hpp"
+#include "tool/command_line/failure.hpp"
+#include "tool/command_line/file_guard.hpp"
+#include "tool/command_line/options.hpp"
+#include "tool/commands.hpp"
+#include "tool/simulate/odometry_options.hpp"
+#include "tool/simulate/simulation_options.hpp"
+
+namespace cornerd::tool {
+
+namespace {
+
+struct SimulateOptions {
+  SettingsOptions settings;
+  SimulationOptions simulation;
+  OdometryOptions odometry;
+  std::int64_t scans = 0;
+  std::string wire = "express";
+  double byte_faults = 0;
+  std::filesystem::path output;
+  std::filesystem::path truth;
+};
+
+void simulate(const SimulateOptions& options) {
+  const settings::Config settings = options.settings.resolve(/*needs_map=*/true);
+  guard_files(
+      {.read = {settings.map, options.settings.config_file(), options.simulation.sensor.noise},
+       .written = {options.output, options.truth},
+       .output = {}});
+  const auto map = settings::load_map(settings.map);
+  const SimulationOptions& simulation = options.simulation;
+  const replay::Motion motion = simulation.motion(*map);
+
+  replay::SimulatedRecordingConfig config;
+  config.simulator = simulation.simulator(*parse_wire(options.wire), settings.lidar);
+  config.T_base_lidar = settings.localizer().T_base_lidar;
+  config.scans = options.scans > 0 ? options.scans : simulation.default_scans();
+  config.byte_fault_share = options.byte_faults;
+  config.robot = options.odometry.robot(settings.odometry);
+  const OdometryOptions::Times covered = options.odometry.covered_times();
+  config.covered_from_ns = covered.from_ns;
+  config.covered_to_ns = covered.to_ns;
+
+  if (config.robot && simulation.places > 0) {
+    throw UsageError("--odometry: the robot has to drive or to stand, --places carries it");
+  }
+  const bool has_times = replay::RecordingWriter::has_lines(options.output);
+  if (config.robot && !has_times) {
+    throw UsageError("--odometry needs a recording with times: -o FILE.ndjson");
+  }
+  if (!options.truth.empty() && !has_times && !simulation.stands_still()) {
+    throw UsageError("--truth of a robot that moves needs a recording with times: -o FILE.ndjson");
+  }
+  replay::RecordingWriter recording(options.output);
+  std::optional<replay::TruthWriter> truth;
+  if (!options.truth.empty()) truth.emplace(options.truth);
+  const replay::SimulatedRecordingSummary summary =
+      simulate_recording(map, motion, config, recording, truth ? &*truth : nullptr);
+  std::fprintf(stderr, "%s: %lld turns in %.1f s, %llu samples, %.0f %% of them with a return\n",
+               options.output.c_str(), static_cast<long long>(config.scans), summary.duration_s,
+               static_cast<unsigned long long>(summary.samples),
+               100.0 * static_cast<double>(summary.returns) / static_cast<double>(summary.samples));
+}
+
+}  // namespace
+
+void add_simulate(CLI::App& program) {
+  CLI::App* command =
+      program.add_subcommand("simulate", "record a simulated robot in a map, with its truth");
+  const auto options = std::make_shared<SimulateOptions>();
+  options->settings.add_config(*command);
+  options->settings.add_map(*command);
+  options->simulation.add_to(*command);
+  options->odometry.add_to(*command);
+  command
+      ->add_option(
+          "--turns", options->scans,
+          "whole turns of the lidar; else as many as the places, once through the scenario, or 10")
+      ->check(CLI::PositiveNumber)
+      ->type_name("N");
+  command->add_option("--wire", options->wire, "standard, express or ultra")
+      ->check(CLI::IsMember({"standard", "express", "ultra"}))
+      ->capture_default_str();
+  command
+      ->add_option("-o,--output", options->output,
+                   "the recording: .ndjson with times, .bin the bare bytes")
+      ->required()
+      ->type_name("FILE");
+  command->add_option("--truth", options->truth, "where the robot really was, for replay --truth")
+      ->type_name("FILE");
+  command->callback([options] { simulate(*options); });
+}
+
+}  // namespace cornerd::tool

@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: MIT
+// cornerctl survey: from a recorded drive to a map that the robot can localize in.
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include "settings/map_file.hpp"
+#include "settings/object_reader.hpp"
+#include "survey/ransac_survey.hpp"
+#include "survey/survey.hpp"
+#include "tool/command_line/failure.hpp"
+#include "tool/command_line/file_guard.hpp"
+#include "tool/command_line/options.hpp"
+#include "tool/command_line/output.hpp"
+#include "tool/command_line/progress_bar.hpp"
+#include "tool/commands.hpp"
+#include "tool/drawing/survey_drawing.hpp"
+#include "tool/map/map_text.hpp"
+#include "tool/survey/survey_files.hpp"
+
+namespace cornerd::tool {
+
+namespace {
+
+struct SurveyOptions {
+  std::vector<std::filesystem::path> files;
+  SettingsOptions settings;
+  std::string wire = "auto";
+  std::filesystem::path odometry;
+  std::filesystem::path output;
+  std::filesystem::path plot;
+  std::filesystem::path trajectory;
+  std::string name;
+  std::string start;
+  std::string method = "adjusted";
+  std::optional<std::size_t> iterations;
+  bool manhattan = false;
+};
+
+void write_survey_file(const std::filesystem::path& file, const std::string& text) {
+  Output output(file);
+  output.write(text);
+  output.flush();
+}
+
+survey::SurveyResult make_map(const SurveyOptions& options, const core::LocalizerConfig& sensor,
+                              const survey::RecordedDrive& drive) {
+  constexpr std::size_t kSteps = 1000;
+  ProgressBar bar("survey", kSteps);
+  const auto show = [&](std::string_view phase, double share) {
+    bar.show(static_cast<std::size_t>(share * static_cast<double>(kSteps)), phase);
+  };
+  try {
+    if (options.method == "ransac") {
+      survey::RansacConfig config;
+      config.iterations = options.iterations.value_or(config.iterations);
+      return survey::ransac_survey(drive, sensor, config, show);
+    }
+    survey::SurveyConfig config;
+    config.sensor = sensor;
+    config.manhattan = options.manhattan;
+    return survey::survey(drive, config, show);
+  } catch (const std::invalid_argument& error) {
+    throw Failure(options.files.front().string() + ": " + error.what());
+  }
+}
+
+core::Pose2 parse_start(const std::string& text) {
+  if (text.empty()) return {};
+  const core::Pose2 start = parse_pose(text);
+  if (std::max(std::abs(start.x_m), std::abs(start.y_m)) > settings::kFarthestCoordinateM) {
+    throw UsageError("--start: a map goes from " +
+                     settings::to_text(-settings::kFarthestCoordinateM) + " to " +
+                     settings::to_text(settings::kFarthestCoordinateM) + " m; shift the origin");
+  }
+  return start;
+}
+
+void check_usage(const SurveyOptions& options) {
+  CommandFiles files{.read = options.files,
+                     .written = {options.plot, options.trajectory},
+                     .output = options.output};
+  files.read.insert(files.read.end(), {options.odometry, options.settings.config_file()});
+  guard_files(files);
+  const bool is_ransac = options.method == "ransac";
+  if (is_ransac && options.manhattan) throw UsageError("--manhattan: not by --method ransac");
+  if (!is_ransac && options.iterations) throw UsageError("--iterations is for --method ransac");
+}
+
+void run_survey(const SurveyOptions& options) {
+  check_usage(options);
+  const core::Pose2 start = parse_start(options.start);
+  const settings::Config config = options.settings.resolve(/*needs_map=*/false);
+  const survey::RecordedDrive drive = load_drive(
+      options.files, {parse_wire(options.wire), config.lidar.mount.inverted}, options.odometry);
+  survey::SurveyResult result = make_map(options, config.localizer(), drive);
+  survey::move_frame(start, result);
+  result.plan.name = map_name(options.name, options.output);
+
+  const std::string text = map_text(result.plan);
+  read_back(text, options.output);
+  write_survey_file(options.output, text);
+  if (!options.trajectory.empty()) write_survey_file(options.trajectory, trajectory_text(result));
+  if (!options.plot.empty()) {
+    write_survey_file(options.plot,
+                      options.method == "ransac" ? ransac_canvas(result) : survey_drawing(result));
+  }
+  Output report = Output::report_beside(options.output);
+  report.write(survey_report(result));
+  report.flush();
+}
+
+}  // namespace
+
+void add_survey(CLI::App& program) {
+  CLI::App* command = program.add_subcommand("survey", "a map of the walls from a recorded drive");
+  const auto options = std::make_shared<SurveyOptions>();
+  command
+      ->add_option("files", options->files,
+                   "recordings of one drive, each goes on where the one before ended")
+      ->required()
+      ->type_name("FILE");
+  command->add_option("-o,--output", options->output, "the map; -: on standard output")
+      ->required()
+      ->type_name("MAP");
+  command->add_option("--name", options->name, "of the map; the file's without it")
+      ->type_name("NAME");
+  command
+      ->add_option("--start", options->start,
+                   "where in the map the robot was in the first turn (m, m, rad); else its origin")
+      ->type_name("X,Y,THETA");
+  command->add_option("--plot", options->plot, "draw walls, points and the way")->type_name("SVG");
+  command
+      ->add_option("--trajectory", options->trajectory,
+                   "the corrected way, a pose for each turn, as --truth files have it")
+      ->type_name("NDJSON");
+  command
+      ->add_option("--method", options->method,
+                   "adjusted: the way is corrected while it maps; ransac: lines in the points that "
+                   "the odometry alone gives (Bertocco et al.), to compare with")
+      ->check(CLI::IsMember({"adjusted", "ransac"}))
+      ->capture_default_str();
+  command->add_option("--iterations", options->iterations, "of --method ransac")
+      ->check(CLI::Range(std::size_t{1}, std::size_t{1'000'000}))
+      ->default_str(std::to_string(survey::RansacConfig().iterations));
+  command->add_flag("--manhattan", options->manhattan,
+                    "make walls square that are so within their doubt, half a degree at most");
+  command
+      ->add_option("--odometry", options->odometry,
+                   "ODOMETRY lines of another file, in place of the recordings' own")
+      ->type_name("FILE");
+  options->settings.add_config(*command);
+  add_wire_option(*command, options->wire);
+  command->callback([options] { run_survey(*options); });
+}
+
+}  // namespace cornerd::tool

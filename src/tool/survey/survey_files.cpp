@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: MIT
+#include "tool/survey/survey_files.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "core/scan.hpp"
+#include "message/json_text.hpp"
+#include "tool/command_line/failure.hpp"
+#include "tool/replay/odometry_file.hpp"
+
+namespace cornerd::tool {
+
+namespace {
+
+/// A file whose clock begins anew goes on so long after the one before it.
+constexpr core::TimeNs kBetweenClocks_ns = core::kNsPerSecond;
+/// Between two readings of one clock.
+constexpr core::TimeNs kGoesOn_ns = core::kNsPerSecond / 2;
+
+class SurveySink final : public replay::RecordingSink {
+ public:
+  SurveySink(survey::RecordedDrive& drive, bool takes_odometry)
+      : drive_(drive), takes_odometry_(takes_odometry) {}
+
+  /// What comes now is of the next file.
+  void begin_file() {
+    is_first_ = true;
+    shift_ns_ = 0;
+    now_ns_.reset();
+  }
+  /// By which the file's clock was set on; 0 where it goes on from the file before.
+  core::TimeNs shift_ns() const { return shift_ns_; }
+
+  void on_sample(const core::Sample& sample) override {
+    core::Sample shifted = sample;
+    shifted.t_ns = shifted_ns(sample.t_ns);
+    now_ns_ = shifted.t_ns;
+    if (assembler_.add(shifted, scan_)) drive_.add(scan_);
+  }
+  void on_gap() override { finish(); }
+  void on_odometry(const message::OdometryReading& reading) override {
+    message::OdometryReading shifted = reading;
+    shifted.t_ns = shifted_ns(reading.t_ns);
+    // A lidar may be silent for long: readings that go on from one another tell the time meanwhile.
+    if (now_ns_ && shifted.t_ns < *now_ns_ + kGoesOn_ns) {
+      now_ns_ = std::max(*now_ns_, shifted.t_ns);
+    }
+    if (takes_odometry_) drive_.add(shifted, now_ns_);
+  }
+  void finish() {
+    if (assembler_.finish(scan_)) drive_.add(scan_);
+    assembler_.reset();
+  }
+
+ private:
+  core::TimeNs shifted_ns(core::TimeNs t_ns) {
+    if (is_first_ && latest_ns_ && t_ns < *latest_ns_) {
+      shift_ns_ = *latest_ns_ + kBetweenClocks_ns - t_ns;
+    }
+    is_first_ = false;
+    t_ns += shift_ns_;
+    latest_ns_ = std::max(latest_ns_.value_or(t_ns), t_ns);
+    return t_ns;
+  }
+
+  survey::RecordedDrive& drive_;
+  bool takes_odometry_;
+  core::ScanAssembler assembler_;
+  core::Scan scan_;
+  std::optional<core::TimeNs> now_ns_;
+  bool is_first_ = true;  ///< of the file: its clock is not known yet
+  core::TimeNs shift_ns_ = 0;
+  std::optional<core::TimeNs> latest_ns_;  ///< of all files so far
+};
+
+}  // namespace
+
+survey::RecordedDrive load_drive(std::span<const std::filesystem::path> files,
+                                 const replay::RecordingOptions& options,
+                                 const std::filesystem::path& odometry) {
+  survey::RecordedDrive drive;
+  SurveySink sink(drive, odometry.empty());
+  for (const std::filesystem::path& file : files) {
+    const std::size_t scans_before = drive.size();
+    replay::RecordingPlayer player(file, options);
+    sink.begin_file();
+    while (player.step(sink)) {
+    }
+    sink.finish();
+    if (player.bad_lines() > 0) {
+      std::fprintf(stderr, "%s: %llu lines passed over; the first: %s\n", file.c_str(),
+                   static_cast<unsigned long long>(player.bad_lines()),
+                   player.first_problem().c_str());
+    }
+    if (drive.size() == scans_before) {
+      throw Failure(file.string() + ": not one whole turn of a lidar in it" +
+                    (files.size() > 1 ? "; for ODOMETRY of another file there is --odometry" : ""));
+    }
+    if (sink.shift_ns() == 0) continue;
+    if (!odometry.empty()) {
+      throw Failure(file.string() +
+                    ": its clock begins before the end of the recording before it, " + "so that " +
+                    odometry.string() + " does not tell which of them it is of");
+    }
+    std::fprintf(stderr,
+                 "%s: its clock begins before the end of the recording before it; taken as the "
+                 "drive's next part, its times %.3f s later\n",
+                 file.c_str(), core::to_seconds(sink.shift_ns()));
+  }
+  if (!odometry.empty()) drive.set_odometry(load_odometry(odometry));
+  return drive;
+}
+
+std::string trajectory_text(const survey::SurveyResult& result) {
+  message::JsonText json(128);
+  std::string text;
+  for (std::size_t i = 0; i < result.t_ns.size(); ++i) {
+    const core::Pose2& T_map_base = result.T_map_base[i];
+    json.clear();
+    json.open_object();
+    json.key("t");
+    json.seconds(result.t_ns[i]);
+    json.key("x");
+    json.fixed(T_map_base.x_m, 6);
+    json.key("y");
+    json.fixed(T_map_base.y_m, 6);
+    json.key("theta");
+    json.angle(T_map_base.theta_rad);
+    json.close_object();
+    text.append(json.view()).append("\n");
+  }
+  return text;
+}
+
+}  // namespace cornerd::tool

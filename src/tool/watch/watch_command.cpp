@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+// cornerctl watch: the daemon's messages as they come.
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include "settings/config.hpp"
+#include "tool/command_line/failure.hpp"
+#include "tool/command_line/options.hpp"
+#include "tool/command_line/output.hpp"
+#include "tool/commands.hpp"
+#include "tool/watch/socket_client.hpp"
+
+namespace cornerd::tool {
+
+namespace {
+
+using namespace std::chrono_literals;
+
+// A restart of the daemon takes well under a second; one that stays away is not worth more than a
+// look every five.
+constexpr auto kFirstRetry = 200ms;
+constexpr auto kLongestRetry = 5000ms;
+
+struct WatchOptions {
+  SettingsOptions settings;
+  std::filesystem::path socket;
+  std::vector<std::string> classes;
+};
+
+/// WATCH for the classes; empty where the daemon's own choice is good.
+std::string request_for(const std::vector<std::string>& classes) {
+  if (classes.empty()) return {};
+  parse_classes(classes);
+  std::string request = R"({"class":"WATCH","classes":[)";
+  for (const std::string& name : classes) {
+    if (request.back() != '[') request += ',';
+    request += '"' + name + '"';
+  }
+  return request + "]}\n";
+}
+
+void watch(const WatchOptions& options) {
+  const std::string request = request_for(options.classes);
+  const std::filesystem::path socket =
+      options.socket.empty() ? options.settings.resolve(/*needs_map=*/false).socket.pose
+                             : options.socket;
+  Output output(/*flush_each=*/true);
+  SocketClient daemon;
+  if (!daemon.connect(socket)) throw Failure(daemon.problem() + " (does cornerd run?)");
+
+  for (auto retry = kFirstRetry;;) {
+    if (request.empty() || daemon.send(request)) {
+      for (std::string_view lines; !(lines = daemon.receive()).empty();) {
+        output.write(lines);
+        retry = kFirstRetry;
+      }
+    }
+    std::fprintf(stderr, "cornerctl: %s: the daemon has gone; waiting for it\n", socket.c_str());
+    do {
+      std::this_thread::sleep_for(retry);
+      retry = std::min(retry * 2, kLongestRetry);
+    } while (!daemon.connect(socket));
+    std::fputs("cornerctl: the daemon is back\n", stderr);
+  }
+}
+
+}  // namespace
+
+void add_watch(CLI::App& program) {
+  CLI::App* command =
+      program.add_subcommand("watch", "the daemon's messages, one JSON object a line");
+  const auto options = std::make_shared<WatchOptions>();
+  command->add_option("--socket", options->socket, "else the one that the config names")
+      ->type_name("PATH");
+  options->settings.add_config(*command);
+  command
+      ->add_option("--classes", options->classes, "messages to ask for; else POSE, STATUS, EVENT")
+      ->delimiter(',');
+  command->callback([options] { watch(*options); });
+}
+
+}  // namespace cornerd::tool

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+#include "tool/calibrate/gross_fault_text.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace cornerd::tool {
+namespace {
+
+using calibration::WiringFaults;
+using testing::HasSubstr;
+using testing::Not;
+
+std::string described(const WiringFaults& faults, settings::OdometrySource source = {}) {
+  settings::OdometryConfig config;
+  config.source = source;
+  return describe_faults(faults, config);
+}
+
+TEST(GrossFaultText, NoFault_IsNoText) { EXPECT_EQ(described({}), ""); }
+
+TEST(GrossFaultText, APlainFactor_GivesTheCorrectedValue) {
+  const auto by = [](double factor) {
+    WiringFaults faults;
+    faults.left_factor = faults.right_factor = factor;
+    return described(faults);
+  };
+  EXPECT_EQ(by(4.08),
+            "the wheels turn 4.08 times as far as the counts say: set odometry.counts_per_turn to "
+            "360");
+  EXPECT_THAT(by(0.26), HasSubstr("odometry.counts_per_turn to 5760"));
+  EXPECT_THAT(by(0.51), HasSubstr("odometry.counts_per_turn to 2880 or odometry.wheel_radius to "
+                                  "0.01625"));
+  EXPECT_THAT(by(1.6), HasSubstr("odometry.counts_per_turn to 900 or odometry.wheel_radius to "
+                                 "0.052"));
+}
+
+TEST(GrossFaultText, WhereReadingsComeFrom_DecidesWhatToChange) {
+  WiringFaults faults;
+  faults.are_swapped = faults.gyro_is_reversed = true;
+  EXPECT_THAT(described(faults), HasSubstr("swap left and right in the ODOMETRY lines; "));
+  EXPECT_THAT(described(faults), HasSubstr("negate gyro in the ODOMETRY lines"));
+  const std::string kernel = described(faults, settings::OdometrySource::kKernel);
+  EXPECT_THAT(kernel,
+              HasSubstr("swap advanced.odometry.kernel.left and advanced.odometry.kernel.right"));
+  EXPECT_THAT(kernel, HasSubstr("set advanced.odometry.kernel.gyro.reversed to true"));
+}
+
+TEST(GrossFaultText, AllTurnedAround_MayBeTheMount) {
+  WiringFaults faults;
+  faults.are_swapped = faults.left_is_reversed = faults.right_is_reversed = true;
+  EXPECT_THAT(described(faults), HasSubstr("lidar.mount.theta"));
+  faults.are_swapped = false;
+  EXPECT_THAT(described(faults), HasSubstr("both wheels count backward"));
+  EXPECT_THAT(described(faults), Not(HasSubstr("mount")));
+}
+
+TEST(GrossFaultText, Degrees_AreNamed) {
+  WiringFaults faults;
+  faults.gyro_factor = 58.4;
+  EXPECT_THAT(described(faults), HasSubstr("degrees a second"));
+  faults.gyro_factor = 3;
+  EXPECT_THAT(described(faults), Not(HasSubstr("degrees")));
+}
+
+}  // namespace
+}  // namespace cornerd::tool

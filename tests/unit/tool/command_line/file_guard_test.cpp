@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: MIT
+#include "tool/command_line/file_guard.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <map>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "command_run.hpp"
+#include "tests/temporary_folder.hpp"
+#include "tool/command_line/failure.hpp"
+
+namespace cornerd::tool {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+class FileGuard : public testing::Test {
+ protected:
+  fs::path path(const std::string& name) const { return folder_.path() / name; }
+  fs::path made(const std::string& name) const {
+    std::ofstream(path(name)) << "kept";
+    return path(name);
+  }
+
+  test::TemporaryFolder folder_;
+};
+
+TEST_F(FileGuard, OtherFilesAndNone_AreLetThrough) {
+  EXPECT_NO_THROW(guard_files({.read = {made("a"), ""}, .written = {path("b"), ""}, .output = ""}));
+  EXPECT_NO_THROW(guard_files({.read = {}, .written = {path("a"), path("b")}, .output = "-"}));
+}
+
+TEST_F(FileGuard, InputByAnotherName_IsFound) {
+  const fs::path file = made("a");
+  fs::create_symlink("a", path("link"));
+  fs::create_hard_link(file, path("hard"));
+  for (const char* name : {"a", "./a", "link", "hard"}) {
+    EXPECT_THROW(guard_files({.read = {file}, .written = {path(name)}, .output = {}}), UsageError)
+        << name;
+    EXPECT_THROW(guard_files({.read = {file}, .written = {}, .output = path(name)}), UsageError)
+        << name;
+  }
+  EXPECT_THROW(guard_files({.read = {path("new")}, .written = {path("./new")}, .output = {}}),
+               UsageError);
+}
+
+TEST_F(FileGuard, TwoOutputsOfOneName_AreWrongUsage) {
+  EXPECT_THROW(guard_files({.read = {}, .written = {path("a"), path("./a")}, .output = {}}),
+               UsageError);
+  EXPECT_THROW(guard_files({.read = {}, .written = {path("a")}, .output = path("a")}), UsageError);
+  // Of the folder that one is in, neither of them there yet.
+  EXPECT_THROW(guard_files({.read = {}, .written = {"./absent.json"}, .output = "absent.json"}),
+               UsageError);
+}
+
+TEST_F(FileGuard, TwoOutputsThatNobodyKeeps_AreLetThrough) {
+  EXPECT_NO_THROW(guard_files({.read = {}, .written = {"/dev/null"}, .output = "/dev/null"}));
+}
+
+TEST_F(FileGuard, DashForAnOutputOfAFileOfItsOwn_IsWrongUsage) {
+  EXPECT_THROW(guard_files({.read = {}, .written = {"-"}, .output = {}}), UsageError);
+}
+
+/// The files that commands read, and a check that none of them was touched.
+class CommandFilesTest : public FileGuard {
+ protected:
+  CommandFilesTest() {
+    fs::copy_file(CORNERD_SOURCE_DIR "/config/maps/krpai-2019-a.json", path("map.json"));
+    write("config.json", R"({"map": "map.json"})");
+    write("noise.json", R"({"lidar": {"noise": {"floor": 0.01}}})");
+    write("room.yaml",
+          "image: room.pgm\nresolution: 0.1\norigin: [0, 0, 0]\nnegate: 0\n"
+          "occupied_thresh: 0.65\nfree_thresh: 0.196\n");
+    write("room.pgm", "P2\n3 3\n255\n0 0 0\n0 254 0\n0 0 0\n");
+    CommandRun({"simulate", "--map", file("map.json"), "--path", "0.9,0.9 0.9,1.5", "--odometry",
+                "--turns", "4", "-o", file("drive.ndjson"), "--truth", file("truth.ndjson")});
+    contents_ = contents();
+  }
+  std::string file(const std::string& name) const { return path(name).string(); }
+  void write(const std::string& name, const std::string& text) const {
+    std::ofstream(path(name)) << text;
+  }
+  std::map<std::string, std::string> contents() const {
+    std::map<std::string, std::string> all;
+    for (const auto& entry : fs::directory_iterator(folder_.path())) {
+      std::ostringstream text;
+      text << std::ifstream(entry.path()).rdbuf();
+      all[entry.path().filename()] = text.str();
+    }
+    return all;
+  }
+  /// The path of what is a file's name.
+  std::string expand(const std::string& word) const {
+    return contents_.contains(word) || word == "new" ? file(word) : word;
+  }
+
+  std::map<std::string, std::string> contents_;
+};
+
+TEST_F(CommandFilesTest, OutputOverAnInputOrAnOutput_IsWrongUsageAndNothingIsWritten) {
+  const std::vector<std::string> calls[] = {
+      {"map", "render", "map.json", "-o", "map.json"},
+      {"map", "render", "map.json", "-o", "drive.ndjson", "--recording", "drive.ndjson"},
+      {"map", "render", "map.json", "-o", "truth.ndjson", "--truth", "truth.ndjson"},
+      {"map", "render", "map.json", "-o", "truth.ndjson", "--recording", "drive.ndjson",
+       "--trajectory", "truth.ndjson"},
+      {"map", "render", "map.json", "-o", "config.json", "--config", "config.json"},
+      {"map", "check", "map.json", "--plot", "map.json"},
+      {"map", "import", "room.yaml", "-o", "room.yaml"},
+      {"map", "import", "room.yaml", "-o", "room.pgm"},
+      {"map", "import", "room.yaml", "-o", "new", "--plot", "room.pgm"},
+      {"map", "import", "room.yaml", "-o", "new", "--plot", "new"},
+      {"survey", "drive.ndjson", "-o", "drive.ndjson"},
+      {"survey", "drive.ndjson", "-o", "new", "--trajectory", "drive.ndjson"},
+      {"survey", "drive.ndjson", "-o", "truth.ndjson", "--odometry", "truth.ndjson"},
+      {"survey", "drive.ndjson", "-o", "config.json", "--config", "config.json"},
+      {"survey", "drive.ndjson", "-o", "new", "--plot", "new"},
+      {"detect", "drive.ndjson", "--plot", "drive.ndjson"},
+      {"detect", "drive.ndjson", "--plot", "config.json", "--config", "config.json"},
+      {"simulate", "--config", "config.json", "--pose", "1,1,0", "-o", "map.json"},
+      {"simulate", "--config", "config.json", "--pose", "1,1,0", "-o", "config.json"},
+      {"simulate", "--map", "map.json", "--pose", "1,1,0", "--noise", "noise.json", "-o",
+       "noise.json"},
+      {"simulate", "--map", "map.json", "--pose", "1,1,0", "-o", "new", "--truth", "new"},
+      {"simulate", "--map", "map.json", "--pose", "1,1,0", "-o", "new", "--truth", "map.json"},
+      {"simulate", "--map", "map.json", "--pose", "1,1,0", "-o", "-"},
+      {"simulate", "--map", "map.json", "--path", "1,1 1,2", "-o", "new", "--odometry"},
+      {"simulate", "--map", "map.json", "--path", "1,1 1,2", "-o", "new", "--truth",
+       "truth.ndjson"},
+      {"emulate", "--map", "map.json", "--pose", "1,1,0", "--truth", "map.json"},
+      {"emulate", "drive.ndjson", "--link", "drive.ndjson"},
+      {"record", "--device", "new", "-o", "new"},
+      {"record", "--config", "config.json", "-o", "config.json"},
+      {"calibrate", "noise", "drive.ndjson", "-o", "drive.ndjson"},
+      {"calibrate", "noise", "drive.ndjson@1", "--plot", "drive.ndjson"},
+      {"calibrate", "noise", "drive.ndjson", "--plot", "new", "--plot-wall", "new"},
+      {"calibrate", "bias", "drive.ndjson", "--map", "map.json", "-o", "map.json"},
+      {"calibrate", "bias", "drive.ndjson", "--map", "map.json", "-o", "drive.ndjson"},
+      {"calibrate", "odometry", "drive.ndjson", "--map", "map.json", "-o", "map.json"},
+      {"calibrate", "odometry", "drive.ndjson", "--config", "config.json", "--plot", "config.json"},
+      {"calibrate", "odometry", "drive.ndjson", "--map", "map.json", "--truth", "truth.ndjson",
+       "--plot", "truth.ndjson"},
+  };
+  for (const std::vector<std::string>& call : calls) {
+    std::vector<std::string> words;
+    for (const std::string& word : call) {
+      const std::size_t at = word.find('@');
+      words.push_back(at == std::string::npos ? expand(word)
+                                              : expand(word.substr(0, at)) + word.substr(at));
+    }
+    const CommandRun run(words);
+    EXPECT_EQ(run.exit_code, kExitUsage) << testing::PrintToString(call) << run.err;
+    EXPECT_EQ(run.out, "") << testing::PrintToString(call);
+    ASSERT_EQ(contents(), contents_) << testing::PrintToString(call);
+  }
+}
+
+TEST_F(CommandFilesTest, PictureOnStandardOutput_IsAllThereIs) {
+  const CommandRun run({"map", "render", file("map.json"), "-o", "-"});
+  EXPECT_EQ(run.exit_code, kExitDone) << run.err;
+  EXPECT_THAT(run.out, testing::StartsWith("<svg"));
+  EXPECT_FALSE(fs::exists("-"));
+}
+
+}  // namespace
+}  // namespace cornerd::tool

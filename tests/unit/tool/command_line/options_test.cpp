@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+#include "tool/command_line/options.hpp"
+
+#include <gtest/gtest.h>
+
+#include "tool/command_line/failure.hpp"
+#include "tool/replay/pace.hpp"
+
+namespace cornerd::tool {
+namespace {
+
+TEST(ParsePose, ThreeNumbers_AreAPose) {
+  const core::Pose2 pose = parse_pose("1.5,-2,3.5");
+  EXPECT_DOUBLE_EQ(pose.x_m, 1.5);
+  EXPECT_DOUBLE_EQ(pose.y_m, -2);
+  EXPECT_DOUBLE_EQ(pose.theta_rad, 3.5 - core::kTwoPi);
+}
+
+TEST(ParsePose, AnythingElse_IsWrongUsage) {
+  for (const char* text : {"", "1", "1,2", "1,2,", "1,2,3,4", "1,2,3 ", "a,b,c", "1,2,nan",
+                           "1,inf,3", "1;2;3", ",,"}) {
+    EXPECT_THROW(parse_pose(text), UsageError) << text;
+  }
+}
+
+TEST(ParsePoints, WordsOfTwoNumbers_ArePoints) {
+  const auto points = parse_points(" 1,2  3,-4 ");
+  ASSERT_EQ(points.size(), 2U);
+  EXPECT_EQ(points[1], core::Vec2(3, -4));
+  EXPECT_TRUE(parse_points("").empty());
+  EXPECT_THROW(parse_points("1,2 3"), UsageError);
+}
+
+TEST(ParseClasses, UnknownName_IsWrongUsage) {
+  const message::ClassSet classes = parse_classes({"POSE", "SCAN"});
+  EXPECT_TRUE(classes.contains(message::MessageClass::kPose));
+  EXPECT_TRUE(classes.contains(message::MessageClass::kScan));
+  EXPECT_FALSE(classes.contains(message::MessageClass::kStatus));
+  EXPECT_THROW(parse_classes({"POSE", "pose"}), UsageError);
+}
+
+TEST(ParseSpeed, MaxOrAPositiveNumber_IsASpeed) {
+  EXPECT_FALSE(parse_speed("max"));
+  EXPECT_EQ(parse_speed("2.5"), 2.5);
+  for (const char* text : {"", "0", "-1", "fast", "1x", "nan", "inf"}) {
+    EXPECT_THROW(parse_speed(text), UsageError) << text;
+  }
+}
+
+TEST(ParseWire, Auto_LeavesItToTheBytes) {
+  EXPECT_EQ(parse_wire("express"), rplidar::WireFormat::kExpress);
+  EXPECT_EQ(parse_wire("auto"), std::nullopt);
+}
+
+}  // namespace
+}  // namespace cornerd::tool

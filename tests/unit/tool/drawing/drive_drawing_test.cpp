@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+#include "tool/drawing/drive_drawing.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "xml_check.hpp"
+
+namespace cornerd::tool {
+namespace {
+
+using testing::HasSubstr;
+
+TEST(DriveDrawing, TracksWithoutAMap_AreWellFormedAndNamed) {
+  const std::vector<core::Vec2> way = {{0, 0}, {1, 0}, {1, 5}};
+  const DrawnTrack tracks[] = {{"by <the> lidar", "#000000", way, true},
+                               {"wheels", "#c2255c", way, false}};
+  const std::string svg = draw_drive("A drive & more", tracks, nullptr);
+  EXPECT_EQ(find_xml_error(svg), "");
+  EXPECT_THAT(svg, HasSubstr("wheels"));
+  EXPECT_THAT(svg, HasSubstr("stroke-dasharray"));
+}
+
+TEST(DriveDrawing, NoPointsAtAll_IsAnEmptyPicture) {
+  const DrawnTrack tracks[] = {{"nothing", "#000000", {}, false}};
+  EXPECT_EQ(find_xml_error(draw_drive("none", tracks, nullptr)), "");
+}
+
+TEST(DriveDrawing, PointsThatAreOne_AreDrawnOnce) {
+  std::vector<core::Vec2> way(1000, {0, 0});
+  way.emplace_back(10, 0);
+  const DrawnTrack tracks[] = {{"stands, then drives", "#000000", way, false}};
+  EXPECT_LT(draw_drive("few", tracks, nullptr).size(), 5000u);
+}
+
+}  // namespace
+}  // namespace cornerd::tool
