@@ -18,9 +18,13 @@ target_link_libraries(cornerd_spdlog INTERFACE Threads::Threads)
 find_path(CORNERD_CLI11_DIR CLI/CLI.hpp PATHS /usr/include REQUIRED NO_CMAKE_FIND_ROOT_PATH)
 add_library(cornerd_cli11 INTERFACE)
 
-# The one library that is linked, to the tool, and only where it is found: a cross build goes without.
+# Shared libraries that the tools link where they are found. A cross build goes without them.
 find_package(PNG QUIET)
 set(CORNERD_PNG ${PNG_FOUND})
+if(NOT CMAKE_CROSSCOMPILING)
+  find_package(yaml-cpp QUIET)
+endif()
+set(CORNERD_YAML ${yaml-cpp_FOUND})
 
 if(CORNERD_BUILD_TESTS)
   # From Debian's sources, so that sanitized and ARM builds get a library built like themselves.

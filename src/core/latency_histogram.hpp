@@ -10,8 +10,7 @@
 
 namespace cornerd::core {
 
-/// How late a loop came to its work, how often: steps of 1, 2, 5 from 0.1 ms to a second. Small
-/// enough to be handed from thread to thread as it is.
+/// Histogram of a loop's delays: bins 1, 2, 5 from 0.1 ms to 1 s. Trivially copyable.
 struct LatencyHistogram {
   /// Upper limits of all bins but the last one.
   static constexpr std::array<TimeNs, 13> kEdgesNs = {

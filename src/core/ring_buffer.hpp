@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What stands between the thread that reads the port and the one that localizes.
+// The queue between the reader thread and the localizer thread.
 #pragma once
 
 #include <atomic>
@@ -11,13 +11,13 @@
 
 namespace cornerd::core {
 
-/// A queue of fixed size for one producer thread and one consumer thread: no lock, no allocation
-/// after construction, both sides wait-free. Where it is full the newest element is refused and
-/// counted: the consumer is behind, and what it already has in hand is older but whole.
+/// Wait-free queue of fixed size for one producer and one consumer thread. No allocation after
+/// construction. A full queue refuses and counts the newest element, so queued data stays
+/// contiguous.
 ///
-/// Each index is written by one side alone and published with release after the slot it covers;
-/// the other side reads it with acquire. Both sides keep a copy of the other's index, so that the
-/// shared cache line is touched only where the copy says full or empty.
+/// Each index has one writer, which publishes it with release after the slot; the other side reads
+/// it with acquire. Each side caches the other's index and reads the shared one only if the cached
+/// one says full or empty.
 template <typename T>
 class RingBuffer {
   static_assert(std::is_trivially_copyable_v<T>);
@@ -28,7 +28,7 @@ class RingBuffer {
       : mask_(std::bit_ceil(capacity < 2 ? std::size_t{2} : capacity) - 1),
         slots_(std::make_unique<T[]>(mask_ + 1)) {}
 
-  /// Producer. False where the buffer is full: the element is lost and counted.
+  /// Producer. False if the buffer is full: the element is lost and counted.
   bool push(const T& element) {
     const std::size_t head = head_.load(std::memory_order_relaxed);
     if (head - known_tail_ > mask_) {
@@ -43,7 +43,7 @@ class RingBuffer {
     return true;
   }
 
-  /// Consumer. False where the buffer is empty.
+  /// Consumer. False if the buffer is empty.
   bool pop(T& element) {
     const std::size_t tail = tail_.load(std::memory_order_relaxed);
     if (tail == known_head_) {

@@ -8,8 +8,7 @@
 
 namespace cornerd::core {
 
-/// The newest value that one thread published, for one other thread to look at: a triple buffer.
-/// Neither side ever waits, and a value is never seen half written.
+/// Hands the newest value from one writer thread to one reader thread. Wait-free; no torn values.
 template <typename T>
 class TripleBuffer {
   static_assert(std::is_trivially_copyable_v<T>);
@@ -22,7 +21,7 @@ class TripleBuffer {
             kIndex;
   }
 
-  /// Reader. The newest published value; T{} before the first. Valid until the next read().
+  /// Reader. The newest value, T{} before the first; valid until the next read().
   const T& read() {
     if (middle_.load(std::memory_order_relaxed) & kFresh) {
       front_ = middle_.exchange(front_, std::memory_order_acq_rel) & kIndex;

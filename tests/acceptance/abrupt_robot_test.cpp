@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the lidar alone promises of a robot that starts and turns at once: its turns are smeared by
-// a motion that nothing tells of, and what is told of them has to be as unsure as they are.
+// A robot that starts and turns abruptly without odometry: motion-distorted scans must have a
+// consistent covariance.
 #include <gtest/gtest.h>
 
 #include <map>
@@ -20,7 +20,7 @@ namespace {
 
 using nlohmann::json;
 
-/// Normalised estimation error squared: 3 in the mean where the covariance is honest.
+/// Normalized estimation error squared: 3 in the mean where the covariance is consistent.
 double nees_of(const json& pose, const core::Pose2& truth) {
   const Eigen::Vector3d error(pose["x"].get<double>() - truth.x_m,
                               pose["y"].get<double>() - truth.y_m,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The accuracy that the README states, from bytes to poses: a simulated A1 at random places of the
-// four layouts of the contest arena, each turn localized without a prior.
+// contest arena's four layouts, each scan localized without a prior.
 #include <gtest/gtest.h>
 
 #include <filesystem>

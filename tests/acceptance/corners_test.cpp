@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What src/core/breakpoint/README.md says of the corners, at 2,000 places.
+// The figures of src/core/breakpoint/README.md, at 2,000 poses.
 #include <gtest/gtest.h>
 
 #include <algorithm>

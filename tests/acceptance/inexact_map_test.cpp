@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Who measures walls with a tape is off by a centimetre. Poses in such a map are off as well, and
-// have to say so.
+// Walls measured by tape are off by a centimetre. Poses in such a map need a covariance that
+// contains this.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -17,11 +17,11 @@
 namespace cornerd {
 namespace {
 
-/// The building, each line of whose walls is off the map by this standard deviation.
+/// The building with each wall line displaced from the map by this standard deviation.
 core::FloorPlan moved(core::FloorPlan plan, double sigma_m, std::uint64_t seed) {
   std::mt19937_64 random(seed);
   std::normal_distribution<double> off_m(0, sigma_m);
-  std::map<std::pair<int, long>, double> lines;  // along an axis, at so many millimetres
+  std::map<std::pair<int, long>, double> lines;  // key: axis and position in millimetres
   const auto off_of = [&](int axis, double at_m) {
     const auto [line, is_new] = lines.try_emplace({axis, std::lround(1000 * at_m)}, 0);
     if (is_new) line->second = off_m(random);
@@ -57,7 +57,7 @@ TEST(InexactMap, DisplacedWalls_CovarianceIsConsistent) {
       error_m += statistics.mean_error_m() / kBuildings;
     }
     EXPECT_GT(error_m, sigma_m / 3);
-    EXPECT_LT(nees, 6) << sigma_m;  // 20 to 500 by the noise of the points alone
+    EXPECT_LT(nees, 6) << sigma_m;  // 20 to 500 with the point noise alone
     EXPECT_GT(nees, 2) << sigma_m;
     RecordProperty("nees_" + std::to_string(std::lround(1000 * sigma_m)) + "_mm",
                    std::to_string(nees));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A drive whose wheels and gyro are files, as the kernel's counter and IIO drivers have them: from
-// their texts to the pose, while they wrap, jump, freeze, vanish and talk garbage.
+// A drive with the kernel's counter and IIO drivers as files, from their texts to the pose:
+// wrapping, jumping, stuck, absent and invalid values.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -27,11 +27,11 @@ namespace {
 constexpr core::TimeNs kPeriod_ns = core::kNsPerSecond / 50;
 constexpr double kGyroScale_rad_s = 0.001064724;
 constexpr double kDrive_s = 20;
-/// The lidar sees nothing in between.
+/// Start of the time without the lidar.
 constexpr double kCovered_s = 15;
 constexpr double kSeesAgain_s = 17;
 
-/// What the files say next; the test may falsify it, or touch the tree itself.
+/// The next texts of the files; a test may change them, or the tree.
 struct Texts {
   std::string left;
   std::string right;
@@ -48,7 +48,7 @@ struct Driven {
   drivers::OdometryStatus sensors;
 };
 
-/// Time goes on while the driver waits, and with it the robot, its files and its lidar.
+/// Simulated time: waiting advances the robot, its files and its lidar.
 class KernelDrive : public drivers::Clock, public drivers::OdometrySink {
  public:
   KernelDrive(Mischief mischief, std::int64_t ceiling, std::int64_t first_count)
@@ -122,7 +122,7 @@ class KernelDrive : public drivers::Clock, public drivers::OdometrySink {
     texts_ = texts;
   }
 
-  /// The lidar's samples up to now.
+  /// Adds the lidar's samples up to now.
   void look_around() {
     const double now_s = core::to_seconds(now_ns_);
     scene_->cover(now_s >= kCovered_s && now_s < kSeesAgain_s);

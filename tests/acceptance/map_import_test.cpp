@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The figures of src/gridmap/README.md: pictures of known buildings, imported; how near their walls
-// come, and how well the turns of a lidar in the true building are localized in them.
+// The figures of src/gridmap/README.md: imported images of known buildings, the accuracy of their
+// walls and of poses in them.
 #include <gtest/gtest.h>
 
 #include <cstdio>

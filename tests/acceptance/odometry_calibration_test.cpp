@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Robots that are as right as robots are: calibrating their odometry must never blame them of more.
+// Robots without faults: calibrating their odometry must not report any.
 #include <gtest/gtest.h>
 
 #include <ostream>

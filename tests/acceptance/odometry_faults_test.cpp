@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What comes from wheels and gyro is absent, wraps, jumps, freezes, is garbage or of another time:
-// from the line of a recording to the pose. None of it may make a pose wrong.
+// Faults of wheels and gyro from a recording's lines to the pose: absent, wrapping, jumping, stuck,
+// invalid and mistimed values. None may cause a wrong pose.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -25,14 +25,14 @@ namespace {
 
 using nlohmann::json;
 
-/// The lines in place of one ODOMETRY line; `index` counts them, 50 a second.
+/// The lines that replace one ODOMETRY line; `index` counts them, 50 a second.
 using Fault = std::function<std::vector<json>(json line, int index)>;
 
-/// What a replay made of the drive.
+/// Result of a replay of the drive.
 struct Replayed {
   std::vector<std::string> poses;  ///< their lines
   std::map<std::string, int> states;
-  std::size_t wrong = 0;  ///< of those that name a place: over 10 cm or 5 degrees off
+  std::size_t wrong = 0;  ///< fix or tracking, off by over 10 cm or 5 degrees
   double worst_fix_m = 0;
   double worst_m = 0;
   json odometry;  ///< of the last STATUS
@@ -46,7 +46,7 @@ struct Replayed {
 
 class OdometryFaults : public testing::Test {
  protected:
-  /// 20 s around a circuit of a flat, the lidar covered for two of them.
+  /// 20 s around a circuit of a flat; the lidar is covered for two of them.
   OdometryFaults() {
     const CommandRun run({"simulate", "--map", map_, "--scenario", "circuit-1", "--turns", "150",
                           "--drive-speed", "0.4", "--odometry", "--covered", "15,17", "-o",
@@ -98,7 +98,7 @@ class OdometryFaults : public testing::Test {
     return replayed;
   }
 
-  /// Right and as often as ever where the lidar sees, and carried on where it does not.
+  /// As many correct fixes as without a fault, and predictions under cover.
   static void expect_unharmed(const Replayed& replayed, int fewest_fixes = 135) {
     expect_right(replayed);
     EXPECT_GE(replayed.count("fix"), fewest_fixes);
@@ -106,7 +106,7 @@ class OdometryFaults : public testing::Test {
     EXPECT_LT(replayed.worst_m, 0.03);
     EXPECT_EQ(replayed.odometry["state"], "running");
   }
-  /// No pose that is wrong; there may be fewer.
+  /// No wrong pose; there may be fewer.
   static void expect_right(const Replayed& replayed) {
     EXPECT_EQ(replayed.wrong, 0U);
     EXPECT_EQ(replayed.poses.size(), 150U);
@@ -120,7 +120,7 @@ class OdometryFaults : public testing::Test {
   const std::string truth_ = folder_ / "truth.ndjson";
 };
 
-/// Both counts differ by `offset`, and wrap.
+/// Both counts offset by `offset`, wrapping.
 Fault wrapped(std::int64_t offset, std::int64_t ceiling) {
   return [=](json line, int) -> std::vector<json> {
     for (const char* wheel : {"left", "right"}) {
@@ -130,7 +130,7 @@ Fault wrapped(std::int64_t offset, std::int64_t ceiling) {
   };
 }
 
-/// No line from reading `first` on until `last`.
+/// No line from reading `first` to before `last`.
 Fault absent(int first, int last) {
   return [=](json line, int index) -> std::vector<json> {
     if (index >= first && index < last) return {};
@@ -138,7 +138,7 @@ Fault absent(int first, int last) {
   };
 }
 
-/// From reading `first` on the line lacks that field.
+/// The line lacks that field from reading `first` on.
 Fault without(const char* field, int first) {
   return [=](json line, int index) -> std::vector<json> {
     if (index >= first) line.erase(field);
@@ -146,7 +146,7 @@ Fault without(const char* field, int first) {
   };
 }
 
-/// From reading `first` on that field stays as it is then.
+/// The field keeps its value from reading `first` on.
 Fault frozen(std::vector<const char*> fields, int first) {
   return [=, held = json()](json line, int index) mutable -> std::vector<json> {
     if (index == first) held = line;
@@ -157,7 +157,7 @@ Fault frozen(std::vector<const char*> fields, int first) {
   };
 }
 
-/// After each tenth line the same one of another time.
+/// After each tenth line the same line at another time.
 Fault another_time_beside(double by_s) {
   return [=](json line, int index) -> std::vector<json> {
     json other = line;
@@ -185,7 +185,7 @@ TEST_F(OdometryFaults, CountsWrap_PosesAreUnchanged) {
 }
 
 TEST_F(OdometryFaults, CountsJumpOnce_OnlyThatReadingIsRejected) {
-  for (const int reading : {300, 800}) {  // seen, and covered
+  for (const int reading : {300, 800}) {  // lidar uncovered, covered
     for (const int by : {30464, -30464, 5198147}) {
       const Replayed replayed = replay([=](json line, int index) -> std::vector<json> {
         if (index == reading) line["left"] = (line["left"].get<std::int64_t>() + by) & 0xFFFFFFFF;
@@ -221,14 +221,14 @@ TEST_F(OdometryFaults, RatesInvalid_OnlyTheyAreRejected) {
       return {std::move(line)};
     });
     expect_unharmed(replayed);
-    // What no gyro can say is no reading at all.
+    // A reading with an invalid rate alone is not counted as a reading.
     EXPECT_EQ(replayed.counter("invalid_rates") + 1030 - replayed.counter("readings"), 103);
   }
 }
 
 TEST_F(OdometryFaults, ReadingsAbsent_GapIsCounted) {
   expect_unharmed(replay(absent(250, 400)));
-  const Replayed blind = replay(absent(725, 850));  // while the lidar is covered, and before
+  const Replayed blind = replay(absent(725, 850));  // lidar covered, uncovered
   expect_right(blind);
   EXPECT_GE(blind.count("lost"), 12);
 }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What odometry promises: 100 m through a flat of seven rooms with bad wheels and a bad gyro, the
-// lidar covered on the way. The whole way: the port's bytes and ODOMETRY lines in a recording, and
-// its replay.
+// 100 m through a flat of seven rooms with erroneous wheels and gyro, the lidar covered on the way:
+// a recording of the port's bytes and ODOMETRY lines, and its replay.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -96,7 +95,7 @@ class DriveOf100m : public testing::TestWithParam<BadRobot> {
     return {(core::Vec2(pose["x"], pose["y"]) - truth->translation()).norm(),
             std::abs(core::angle_between(truth->theta_rad, pose["theta"]))};
   }
-  /// What had been learned after 30 s of driving.
+  /// Estimates after 30 s of driving.
   json learned() const {
     const auto after = std::find_if(statuses_.begin(), statuses_.end(),
                                     [](const json& status) { return status["t"] > kTaught_s; });
@@ -118,7 +117,7 @@ class DriveOf100m : public testing::TestWithParam<BadRobot> {
   std::vector<json> statuses_;
 };
 
-// One test, not three: each would drive the 100 m again.
+// One test, since each test would drive the 100 m again.
 TEST_P(DriveOf100m, WheelAndGyroErrors_AreEstimatedAndBridgeFiveSeconds) {
   EXPECT_GE(way_m(), 100);
   double sum_m = 0;
@@ -145,7 +144,7 @@ TEST_P(DriveOf100m, WheelAndGyroErrors_AreEstimatedAndBridgeFiveSeconds) {
   EXPECT_NEAR(now["gyro_scale"], GetParam().gyro_scale, 0.003);
   EXPECT_NEAR(now["gyro_bias"], GetParam().gyro_bias_rad_s, 0.001);
 
-  EXPECT_GE(predicted, 34U);  // 7.3 turns a second
+  EXPECT_GE(predicted, 34U);  // 7.3 scans a second
   EXPECT_LE(last_blind.place_m, 0.03);
   EXPECT_LE(last_blind.heading_rad, core::radians(1));
   RecordProperty("mean_mm", std::to_string(1e3 * mean_m));

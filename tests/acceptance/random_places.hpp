@@ -10,8 +10,8 @@
 
 namespace cornerd {
 
-/// As many turns as `config` has, so many at each random place of `building`, through a recording's
-/// bytes, localized in `map`: where there is one at each, without a prior.
+/// Localizes `config`'s number of scans at each random place of `building`, through a recording's
+/// bytes, in `map`; without a prior where there is one scan per place.
 tool::ErrorStatistics localize_random_places(std::shared_ptr<const core::WallMap> building,
                                              std::shared_ptr<const core::WallMap> map,
                                              const replay::SimulatedRecordingConfig& config,

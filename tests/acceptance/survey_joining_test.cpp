@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Drives of which one part begins elsewhere than the one before ended: places laid over each other
-// are no map.
+// Drives of which one part begins elsewhere than the previous part ended must not be joined.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -31,13 +30,13 @@ survey::RecordedDrive exploration(bool has_odometry) {
       .drive;
 }
 
-/// Adds turns [first, last) and what the odometry told in them to what a drive has: as if the robot
-/// had been carried from its last place to that of the first turn, its wheels in the air.
+/// Appends scans [first, last) and their odometry to a drive, as if the robot had been carried from
+/// its last pose to that of the first scan.
 void append(const survey::RecordedDrive& from, std::size_t first, std::size_t last,
             survey::RecordedDrive& to) {
   core::TimeNs later_ns = 0;
   if (to.size() > 0) {
-    // No pause: a gyro that turned at its beginning would be taken to have turned all along it.
+    // Without a pause: a rotation at its beginning would be extrapolated over it.
     later_ns = to.end_ns(to.size() - 1) + core::kNsPerSecond / 1000 - from.start_ns(first);
   }
   std::pair<std::int64_t, std::int64_t> counts;
@@ -98,7 +97,7 @@ TEST_P(SurveyOfPartsThatDoNotJoin, WithOdometry_GapIsReported) {
   EXPECT_GE(judged(parts), GetParam().least);
 }
 
-// The same drive once more; and the robot carried on, from one room to another.
+// Once the same drive; once a robot carried to another room.
 INSTANTIATE_TEST_SUITE_P(CutAt, SurveyOfPartsThatDoNotJoin,
                          testing::Values(Cut{876, 0, Verdict::kWarned},
                                          Cut{145, 365, Verdict::kRefused}));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a survey promises of drives that come back: the loop is closed, and no other.
+// Surveys of drives that return: the loop is closed, and no other.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -42,7 +42,7 @@ TEST_P(SurveyOfARing, WithoutLoopClosure_HasDuplicateWalls) {
 
 INSTANTIATE_TEST_SUITE_P(Seeds, SurveyOfARing, testing::Values(1, 2));
 
-/// Nine metres of it tell nothing of the way along them.
+/// Nine metres of the ring are degenerate: scans there do not determine the translation along them.
 class SurveyOfARingByTheLidarAlone : public testing::TestWithParam<std::uint64_t> {
  protected:
   const bench::SimulatedDrive drive_ = bench::ring_drive(GetParam(), /*has_odometry=*/false);
@@ -68,7 +68,7 @@ TEST(SurveyOfARingByTheLidarAloneLeftOpen, DegenerateStretch_IsRejected) {
   }
 }
 
-// 2, 11 and 12 were not right while turns were straightened once and by the motion before alone.
+// Seeds 2, 11 and 12 fail where scans are deskewed only once and by the previous motion.
 INSTANTIATE_TEST_SUITE_P(Seeds, SurveyOfARingByTheLidarAlone, testing::Values(1, 2, 3, 11, 12));
 
 TEST(SurveyOfEqualRooms, LookAlikeRooms_AreNotClosed) {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Surveys of a real room and a real corridor, where somebody has their recordings:
-// $CORNERD_RECORDINGS/room and /drive. They were recorded by others and are not part of the
-// project.
+// Surveys of a real room and corridor in $CORNERD_RECORDINGS/room and /drive, recordings by others
+// that are not part of the project. Skipped without them.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -24,7 +23,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Registration of the same recordings (2 to 7 mm), in the frame of place 5.
+/// Poses by registration of the same recordings (2 to 7 mm), in the frame of place 5.
 constexpr std::array<core::Pose2, 5> kRegisteredPlaces = {{{0.0583, -1.2050, -0.50980},
                                                            {0.0626, -0.8514, -0.17760},
                                                            {0.0492, -0.7280, -0.01997},
@@ -47,7 +46,7 @@ class RealRoom : public testing::Test {
     return tool::load_drive(files, {}, {});
   }
 
-  /// Poses of the turns that name one.
+  /// Poses of the scans with a fix or tracking.
   static std::vector<core::Pose2> localize(const std::shared_ptr<const core::WallMap>& map,
                                            const survey::RecordedDrive& drive) {
     core::Localizer localizer(map, {});
@@ -81,7 +80,7 @@ class RealRoom : public testing::Test {
 TEST_F(RealRoom, MapOfOneRecording_LocalizesOthersWithin3cm) {
   const survey::RecordedDrive drive = load(5);
   const auto map = std::make_shared<const core::WallMap>(survey::survey(drive, {}).plan);
-  // The lidar moved in its first second: its usual place is the frame of the registration.
+  // The lidar moved in its first second: the registration's frame is its usual pose.
   const auto own = localize(map, drive);
   ASSERT_FALSE(own.empty());
   const core::Pose2 T_place_map = median(own).inverse();
@@ -97,7 +96,7 @@ TEST_F(RealRoom, MapOfOneRecording_LocalizesOthersWithin3cm) {
   }
 }
 
-/// Walls along a corridor whose axis is nearly the map's x: those of a metre and more.
+/// Walls of a metre and more along a corridor whose axis is nearly the map's x.
 struct CorridorSide {
   core::Vec2 from;
   core::Vec2 to;
@@ -117,7 +116,7 @@ class RealCorridor : public testing::Test {
     ASSERT_EQ(std::system(unpack.c_str()), 0);
     survey::SurveyConfig config;
     config.sensor.T_base_lidar = {-0.035, 0, 0};
-    config.sensor.noise.bearing_rad = 0.005;  // they are rounded to a degree
+    config.sensor.noise.bearing_rad = 0.005;  // bearings are rounded to a degree
     config.sensor.odometry.geometry = {0.0291, 0.19, 333.33, 65535};
     const std::vector<fs::path> files = {recording};
     result_ = std::make_unique<survey::SurveyResult>(
@@ -128,7 +127,7 @@ class RealCorridor : public testing::Test {
     if (!result_) GTEST_SKIP() << "CORNERD_RECORDINGS names no folder with drive in it";
   }
 
-  /// Each from left to right.
+  /// Ordered from left to right.
   static std::vector<CorridorSide> sides(double least_y_m, double most_y_m) {
     std::vector<CorridorSide> found;
     for (const core::Wall& wall : result_->plan.walls) {

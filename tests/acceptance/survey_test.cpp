@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a survey promises: the walls of a flat of seven rooms from a drive of 100 m with bad
-// odometry, to millimetres, and poses in the result as good as in the true map.
+// A survey of a flat of seven rooms from a drive of 100 m with erroneous odometry: walls to
+// millimetres, and poses in its map as accurate as in the true map.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -76,8 +76,8 @@ TEST_F(SurveyOfAFlat, PaperMethod_IsLessAccurate) {
   EXPECT_GT(taught.corner_median_m(), 4 * ours.corner_median_m());
 }
 
-/// Starts and stops at once, within a turn of the lidar, which that bends; 12 degrees from turn to
-/// turn. Taken for where the robot could not be, a single turn of these tore the map by 0.8 m.
+/// Starts and stops within one scan distort it by up to 12 degrees. Matched at an impossible pose,
+/// one such scan displaced the map by 0.8 m.
 TEST(SurveyByTheLidarAlone, AbruptStartsAndStops_MapIsRight) {
   const auto map =
       settings::load_map(std::filesystem::path(CORNERD_SOURCE_DIR) / "config/maps/flat-7.json");

@@ -9,7 +9,7 @@ namespace {
 
 constexpr double kThickness_m = 0.02;
 
-/// Centre lines half a thickness outside the given inner outline.
+/// Wall centre lines half a thickness outside the given inner outline.
 void add_box(FloorPlan& plan, double x0, double y0, double x1, double y1) {
   const double h = kThickness_m / 2;
   const Vec2 a(x0 - h, y0 - h);
@@ -46,8 +46,7 @@ FloorPlan two_equal_rooms() {
   FloorPlan plan;
   for (const double x : {0.0, 5.0}) {
     add_box(plan, x, 0, x + 3, 2);
-    plan.walls.push_back(
-        {{x + 1, 0}, {x + 1, 0.7}, kThickness_m});  // breaks the room's own symmetry
+    plan.walls.push_back({{x + 1, 0}, {x + 1, 0.7}, kThickness_m});  // breaks the room's symmetry
   }
   return plan;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Small buildings and the turns that a lidar would take in them.
+// Small buildings and simulated scans in them.
 #pragma once
 
 #include <cstdint>
@@ -16,10 +16,10 @@ namespace cornerd::core::testing {
 /// A closed room with its lower left inner corner at (0, 0).
 FloorPlan rectangular_room(double width_m, double depth_m);
 
-/// An L-shaped room of 4 x 3 m without any symmetry: its upper right quarter is solid.
+/// An L-shaped room of 4 x 3 m without symmetry: its upper right quarter is solid.
 FloorPlan l_shaped_room();
 
-/// Two equal rectangular rooms side by side that cannot see each other.
+/// Two equal rectangular rooms side by side, not visible from each other.
 FloorPlan two_equal_rooms();
 
 std::shared_ptr<const WallMap> make_map(FloorPlan plan);
@@ -29,13 +29,13 @@ struct ScanOptions {
   double missing_share = 0;
   bool with_noise = true;
   SensorNoise noise;
-  double first_bearing_rad = 3.0;  ///< the turn goes clockwise from here
-  Twist2 motion;                   ///< of the lidar, around the middle of the turn
+  double first_bearing_rad = 3.0;  ///< bearings fall from here
+  Twist2 motion;                   ///< of the lidar, about the middle of the scan
   double scan_s = 0.137;
   TimeNs start_ns = 0;
 };
 
-/// Simulated turns, equal on every run.
+/// Simulated scans, the same on every run.
 class ScanSource {
  public:
   explicit ScanSource(std::uint64_t seed = 1) : random_(seed) {}

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The way from a sample to a pose takes no memory after construction. Replaces the program's
-// operator new, and so watches the standard library and Eigen (through malloc) alike.
+// The path from a sample to a pose allocates nothing after construction. Replaces the program's
+// operator new, and so counts the allocations of the standard library and of Eigen (through
+// malloc).
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -17,7 +18,8 @@ std::atomic<long> allocations{0};
 
 void* allocate(std::size_t size) {
   ++allocations;
-  void* memory = std::malloc(size == 0 ? 1 : size);  // NOLINT: this is what operator new is made of
+  void* memory =
+      std::malloc(size == 0 ? 1 : size);  // NOLINT: operator new is implemented by malloc
   if (memory == nullptr) throw std::bad_alloc();
   return memory;
 }
@@ -63,7 +65,7 @@ TEST(Pipeline, SampleToPose_AllocatesNothing) {
       }
     }
     EXPECT_EQ(allocations - before, 0);
-    // All ways through the step were taken.
+    // Every branch of the step was taken.
     EXPECT_GT(
         states[static_cast<int>(PoseState::kFix)] + states[static_cast<int>(PoseState::kTracking)],
         building == map ? 0 : -1);
@@ -148,7 +150,7 @@ TEST(BreakpointStream, ReturnToBreakpoint_AllocatesNothing) {
       found += stream.finish().size();
       EXPECT_EQ(allocations - before, 0);
     }
-    EXPECT_EQ(found > 30, sweep == Sweep::kClockwise);  // the turns are taken clockwise
+    EXPECT_EQ(found > 30, sweep == Sweep::kClockwise);  // the scans are clockwise
   }
 }
 

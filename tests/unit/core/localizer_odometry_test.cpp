@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The localizer with wheels and a gyro: deskewed turns, and poses without the lidar.
+// The localizer with wheels and a gyro: deskewed scans, and poses without the lidar.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kTurnOfDrive_s = 0.14;
 
-/// A robot on a circle in the L-shaped room, seen by its lidar and by its wheels.
+/// A robot on a circle in the L-shaped room with lidar and wheels.
 class CircleDrive {
  public:
   CircleDrive(double speed_m_s, double rate_rad_s, double max_extrapolation_s = 10,
@@ -174,8 +174,8 @@ TEST(LocalizerWithOdometry, Summary_HasEstimatedParameters) {
   EXPECT_TRUE(odometry.enabled);
   EXPECT_TRUE(odometry.healthy);
   EXPECT_GT(odometry.fixes, 190U);
-  // One circle tells the way, but neither wheel from wheel nor bias from scale.
-  // The wheels roll at 0.236 and 0.364 m/s.
+  // On one circle the wheels' scales, the bias and the gyro's scale are not observable separately.
+  // The wheels move at 0.236 and 0.364 m/s.
   EXPECT_NEAR(
       (0.236 * odometry.parameters.left_scale + 0.364 * odometry.parameters.right_scale) / 0.6,
       0.01 * 0.236 / 0.6, 0.001);

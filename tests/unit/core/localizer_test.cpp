@@ -34,7 +34,7 @@ TEST(Localizer, Rectangle_IsAmbiguousWithTruthAmongAlternatives) {
     Localizer localizer(map, {});
     const Pose2 T_map_base = source.place_in(0.4, 2.6, 0.4, 1.6);
     const PoseEstimate& pose = localizer.step(source.take(*map, T_map_base)).pose;
-    // At the very middle the two places differ by half a turn alone: they are still two.
+    // In the centre the two hypotheses differ by a rotation of pi alone: still two.
     ASSERT_EQ(pose.state, PoseState::kAmbiguous);
     ASSERT_EQ(pose.alternatives.size(), 2U);
     double nearest = 1;

@@ -49,7 +49,7 @@ TEST(PolarScan, AnyOrder_IsSorted) {
   EXPECT_TRUE(is_sorted(points));
 }
 
-/// Returns all the way from one bearing to the other.
+/// Returns at all bearings between the two.
 void append(PolarScan& points, double from_rad, double to_rad) {
   for (double bearing_rad = from_rad; bearing_rad <= to_rad; bearing_rad += points.spacing_rad()) {
     points.append(bearing_rad, 1);

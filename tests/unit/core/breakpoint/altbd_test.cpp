@@ -34,7 +34,7 @@ TEST(Altbd, RectangularRoom_FourWallsPlusSeam) {
     const Pose2 T_map_lidar = source.place_in(0.5, 2.5, 0.5, 1.5);
     const PolarScan points = testing::polar(source.take(*map, T_map_lidar));
     const Tracked tracked = altbd_walls(points);
-    // The seam at bearing pi cuts a wall, or falls into a corner.
+    // The seam at bearing pi cuts a wall or falls into a corner.
     EXPECT_GE(tracked.tracks.size(), 4U);
     EXPECT_LE(tracked.tracks.size(), 5U);
     std::uint32_t support = 0;
@@ -62,7 +62,7 @@ TEST(Altbd, NoiseTwiceTheModel_IsEstimatedWithFewBreaks) {
   testing::ScanOptions options;
   options.noise = {.floor_m = 0.003, .share = 0.01, .bearing_rad = 2 * SensorNoise{}.bearing_rad};
   const Tracked tracked = altbd_walls(testing::polar(source.take(*map, {1.5, 1, 0.3}, options)));
-  EXPECT_LE(tracked.tracks.size(), 7U);  // one may break before enough of the noise was seen
+  EXPECT_LE(tracked.tracks.size(), 7U);  // one wall may break before the noise is estimated
   EXPECT_NEAR(tracked.noise_scale, 2, 0.3);
 }
 

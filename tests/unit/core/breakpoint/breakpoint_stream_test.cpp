@@ -46,7 +46,7 @@ TEST(BreakpointStream, ReturnByReturn_EqualsWholeScan) {
   Detector detector({}, {});
   BreakpointStream stream({}, {});
   for (int k = 0; k < 40; ++k) {
-    // As the stream takes them: a whole turn's rays are computed from one another.
+    // Rays computed one by one, as the stream does: a scan's rays are rotated from one another.
     PolarScan scan;
     const PolarScan taken = noisy_scan(source, *map, source.place_in(0.3, 3.7, 0.3, 1.5));
     scan.begin(taken.spacing_rad());
@@ -123,7 +123,7 @@ TEST(BreakpointStream, Breakpoint_IsFinalBeforeScanEnds) {
     for (const Breakpoint& breakpoint : stream.add(point.bearing_rad, point.range_m)) {
       const double seen_rad = std::atan2(breakpoint.position.y(), breakpoint.position.x());
       EXPECT_GT(point.bearing_rad, seen_rad);
-      // The wall after it is 113 degrees wide at most, seen from the middle; then comes the next.
+      // The next wall spans 113 degrees at most from the middle.
       EXPECT_LT(point.bearing_rad - seen_rad, radians(140));
       ++early;
     }

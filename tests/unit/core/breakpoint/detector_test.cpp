@@ -77,7 +77,7 @@ TEST(Detector, WallInFrontOfAnother_EndsInTerminal) {
   EXPECT_TRUE(end->wall_on_left);
   EXPECT_FALSE(end->wall_on_right);
   EXPECT_NEAR(std::abs(end->left_wall_rad), kPi, 0.05);
-  // Where the wall behind comes out of the shadow nothing of the building ends.
+  // Where the wall behind leaves the shadow there is no breakpoint.
   const Vec2 shadow =
       T_map_lidar.translation() + (Vec2(1.205, 1.495) - T_map_lidar.translation()) * (2.4 / 0.895);
   EXPECT_EQ(nearest(detection, T_map_lidar, shadow), nullptr);
@@ -100,7 +100,7 @@ TEST(Detector, CornerCovariance_IsConsistent) {
     }
   }
   EXPECT_GT(count, 1100);
-  EXPECT_GT(nees / count, 1.2);  // 2 where it is exact
+  EXPECT_GT(nees / count, 1.2);  // 2 where it is consistent
   EXPECT_LT(nees / count, 2.8);
 }
 
@@ -115,7 +115,7 @@ std::size_t count_walls(Method method, const Scan& scan) {
 }
 
 TEST(Detector, EachMethod_UsesItsOwnLimits) {
-  // A step below the 30 mm that the baselines allow, but above the noise that ALTBD knows.
+  // A step below the baselines' 30 mm but above the noise that ALTBD models.
   FloorPlan plan = testing::rectangular_room(3, 2);
   plan.walls.push_back({{1.5, 0.0125}, {3, 0.0125}, 0.025});
   testing::ScanSource source(26);
@@ -126,8 +126,8 @@ TEST(Detector, EachMethod_UsesItsOwnLimits) {
   EXPECT_EQ(count_walls(Method::kAbdIepf, stepped), 4U);
   EXPECT_EQ(count_walls(Method::kLineTracking, stepped), 4U);
 
-  // A piece of the upper wall that gives no returns, as wide as a door: wider than lambda of ABD
-  // and than the gap that ALTBD bridges; LT bridges any.
+  // A gap in the upper wall's returns as wide as a door: wider than ABD's lambda and ALTBD's gap;
+  // LT bridges any.
   const Scan whole = source.take(*testing::make_map(testing::rectangular_room(3, 2)), {1.2, 1, 0});
   Scan gap;
   for (const Sample& sample : whole.samples()) {

@@ -32,7 +32,8 @@ class PairIndexTest : public ::testing::Test {
   double uniform(double low, double high) {
     return std::uniform_real_distribution<double>(low, high)(random_);
   }
-  /// What the query asks of a pair, without any index; `slack_rad` on both sides of its tolerance.
+  /// Tests a pair against the query without an index; `slack_rad` widens its tolerance on both
+  /// sides.
   bool answers(const PairQuery& query, std::uint32_t from, std::uint32_t to, double slack_rad) {
     const Corner& corner = landmarks_[from];
     const Vec2 way = landmarks_[to].position - corner.position;

@@ -9,7 +9,7 @@
 namespace cornerd::core {
 namespace {
 
-/// The same turn as a lidar with this bias gives it.
+/// The scan as a lidar with this bias measures it.
 Scan biased(const Scan& scan, const SensorBias& bias) {
   Scan result;
   for (Sample sample : scan.samples()) {
@@ -28,7 +28,7 @@ Scan biased(const Scan& scan, const SensorBias& bias) {
 
 constexpr SensorBias kBias{0.01, 0.005, radians(0.2), radians(-0.2)};
 
-/// Mean position error at the last five of `places` places, ten turns at each.
+/// Mean position error at the last five of `places` places, ten scans at each.
 double error_after_m(int places, Localizer& localizer, const WallMap& map) {
   testing::ScanSource source(61);
   testing::ScanOptions options;

@@ -16,7 +16,8 @@ namespace {
 
 class MapErrorModelTest : public ::testing::Test {
  protected:
-  /// Turns in a room each of whose walls is off the map by this standard deviation, across itself.
+  /// Scans in a room whose walls are displaced from the map by this standard deviation, across
+  /// themselves.
   void take_turns(double sigma_m, std::uint64_t seed) {
     FloorPlan plan = testing::l_shaped_room();
     std::mt19937_64 random(seed);
@@ -61,7 +62,7 @@ class MapErrorModelTest : public ::testing::Test {
 TEST_F(MapErrorModelTest, ExactMap_VarianceIsZero) {
   for (std::uint64_t seed = 1; seed <= 10; ++seed) take_turns(0, seed);
   EXPECT_LT(sigma_m(), 0.0006);
-  EXPECT_GT(nees_with_ / count_, 2.4);  // 3 where it is exact
+  EXPECT_GT(nees_with_ / count_, 2.4);  // 3 where it is consistent
 }
 
 TEST_F(MapErrorModelTest, DisplacedWalls_PoseCovarianceIsConsistent) {

@@ -14,7 +14,7 @@ namespace {
 constexpr double kPartScan_s = 0.14;
 const Pose2 kStart{1.2, 1.0, 0.4};
 
-/// A robot that keeps its speed, and what the daemon's pipeline says of it.
+/// A robot at constant velocity in the daemon's pipeline.
 class FollowedRobot {
  public:
   explicit FollowedRobot(const Twist2& motion, std::size_t updates_per_scan = 4)
@@ -25,7 +25,7 @@ class FollowedRobot {
     Pose2 truth;
   };
 
-  /// The poses of the parts of this many turns. `from`: the building that is seen.
+  /// The poses of the parts of this many scans. `from`: the building around the lidar.
   std::vector<Part> drive(int scans, const WallMap* seen = nullptr) {
     std::vector<Part> parts;
     for (int k = 0; k < scans; ++k, ++scan_) {
@@ -68,7 +68,7 @@ double error_m(const FollowedRobot::Part& part) {
 TEST(PartialScanTracker, EveryQuarter_PoseAtItsOwnTime) {
   FollowedRobot robot({0.2, 0, 0.5});
   const auto parts = robot.drive(10);
-  // The first turn is not known to be whole, the second is, and its place is known at its end.
+  // The first scan may be incomplete; the second is complete and ends with a pose.
   ASSERT_GE(parts.size(), 3U * 7);
   ASSERT_LE(parts.size(), 3U * 9);
   TimeNs before_ns = 0;

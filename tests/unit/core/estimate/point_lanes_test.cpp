@@ -13,7 +13,7 @@ const double kWallAngle_rad = 0.4;
 const double kHeight_m = 1.7;
 const double kScale = 1.3;
 
-/// Returns of a wall whose foot lies behind the lidar, some far off it.
+/// Returns of a wall whose nearest point lies behind the lidar, some of them outliers.
 PolarScan noisy_wall() {
   std::mt19937_64 random(7);
   std::normal_distribution<double> normal;
@@ -28,7 +28,7 @@ PolarScan noisy_wall() {
   return scan;
 }
 
-/// Point by point, in double precision.
+/// Point by point in double precision.
 FaceSums exact_sum(std::span<const PolarPoint> points, const SensorNoise& noise,
                    double extra_sigma_m) {
   const Vec2 normal = unit_vector(kWallAngle_rad);
@@ -57,7 +57,7 @@ FaceSums exact_sum(std::span<const PolarPoint> points, const SensorNoise& noise,
 }
 
 void expect_near(const FaceSums& one, const FaceSums& other) {
-  constexpr double kShare = 1e-3;  // a NEON division is an approximation
+  constexpr double kShare = 1e-3;  // NEON divides approximately
   EXPECT_NEAR(one.weight, other.weight, kShare * other.weight);
   EXPECT_NEAR(one.lever, other.lever, kShare * other.weight);
   EXPECT_NEAR(one.lever_squared, other.lever_squared, kShare * other.lever_squared);
@@ -77,7 +77,7 @@ TEST(PointLanes, PointsOfWall_SumsMatchDoublePrecision) {
   for (const SensorNoise& noise : {SensorNoise{}, by_table}) {
     lanes.assign(scan.points(), noise, kScale);
     for (const double extra_sigma_m : {0.0, 0.01}) {
-      // Every number of points that fours can leave over.
+      // Every remainder of the groups of four.
       for (std::size_t begin = 0; begin < 5; ++begin) {
         const auto part = scan.points().subspan(begin);
         expect_near(

@@ -50,7 +50,7 @@ TEST_F(RefinementTest, NoisyScans_CovarianceIsConsistent) {
     nees += error.dot(refined.covariance.inverse() * error);
     ++count;
   }
-  EXPECT_GT(nees / count, 2.5);  // 3 where it is exact
+  EXPECT_GT(nees / count, 2.5);  // 3 where it is consistent
   EXPECT_LT(nees / count, 4.0);
 }
 

@@ -12,7 +12,7 @@
 namespace cornerd::core {
 namespace {
 
-/// The face that one ray meets, by asking every face there is.
+/// The face that one ray hits, by testing all faces.
 std::pair<std::size_t, double> nearest_face(const WallMap& map, const Vec2& origin,
                                             double angle_rad, double max_range_m) {
   const Vec2 ray = unit_vector(angle_rad);
@@ -34,7 +34,7 @@ std::pair<std::size_t, double> nearest_face(const WallMap& map, const Vec2& orig
   return nearest;
 }
 
-/// Many short walls in any direction, of any thickness.
+/// Many short walls of any direction and thickness.
 FloorPlan thicket(testing::ScanSource& source, int walls, double size_m) {
   FloorPlan plan;
   for (int i = 0; i < walls; ++i) {
@@ -81,7 +81,7 @@ TEST(VisibleFaces, ViewpointAlignedWithCorners_AllFacesVisited) {
   const WallMap map(plan);
   for (double x = -1; x <= 7; x += 0.5) {
     for (double y = -1; y <= 7; y += 0.5) {
-      // A touch beside the lattice: on a wall's line one sees it or not as rounding has it.
+      // Slightly off the lattice: on a wall's own line visibility depends on rounding.
       expect_all_seen_faces(map, {x + 1e-7, y + 2e-7}, 8);
     }
   }

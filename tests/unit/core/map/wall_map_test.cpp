@@ -57,15 +57,15 @@ TEST(WallMap, ClosedRoom_InnerAndOuterOutline) {
   EXPECT_FALSE(inner->is_convex());
   EXPECT_NEAR(inner->opening_rad, kPi / 2, 1e-9);
   EXPECT_NEAR(inner->bisector_rad(), kPi / 4, 1e-9);
-  // From inside, looking at the corner, the wall along x is on the left.
+  // From inside, facing the corner, the wall along x is on the left.
   EXPECT_NEAR(inner->left_face_rad, 0, 1e-9);
   EXPECT_NEAR(inner->right_face_rad, kPi / 2, 1e-9);
 }
 
 TEST(WallMap, TouchingWalls_NoSurfaceBetween) {
   const WallMap map(plan_of({{{0, 0}, {4, 0}, 0.2}, {{2, 0}, {2, 1}, 0.2}}));
-  // The long wall's upper side is cut in two; the other three sides are whole; the short wall shows
-  // two sides and its end.
+  // The long wall's upper side is cut in two and its other three sides are whole; the short wall
+  // shows two sides and its end.
   EXPECT_EQ(map.faces().size(), 8U);
   const Corner* inner = corner_at(map, {1.9, 0.1});
   ASSERT_NE(inner, nullptr);

@@ -13,8 +13,7 @@ namespace {
 constexpr double kFirst_s = 0;
 constexpr double kUsual_s = 0.03;
 
-/// Readings fifty times a second, a fix every 0.14 s, of a robot that starts, stops and turns; all
-/// that it does is exact.
+/// Readings at 50 Hz and a fix every 0.14 s of a robot that starts, stops and turns, without noise.
 class Rides {
  public:
   explicit Rides(double late_s) : late_s_(late_s) {}
@@ -99,7 +98,7 @@ TEST(DelayFinder, DelayJumps_IsEstimatedAgain) {
   EXPECT_NEAR(*found, 0.1, 0.01);
 }
 
-/// Wheels that turn the other way round are late by nothing.
+/// Exchanged wheel directions are no delay.
 TEST(DelayFinder, UnexplainedResiduals_DelayIsUnchanged) {
   Rides ride(0);
   Rides mirrored(0);

@@ -7,7 +7,7 @@
 namespace cornerd::core::testing {
 
 OdometryReading DrivenRobot::drive(double dt_s, double speed_m_s, double rate_rad_s) {
-  // Fine enough that the half-angle step is exact.
+  // Fine enough for the half-angle step to be exact.
   constexpr int kParts = 10;
   const double rate_before_rad_s = rate_rad_s_;
   rate_rad_s_ = rate_rad_s;

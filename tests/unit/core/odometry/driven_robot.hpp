@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A robot that drives about, for tests: exact where it is, wrong where it measures.
+// A simulated robot with exact poses and erroneous sensors.
 #pragma once
 
 #include <cstdint>
@@ -11,14 +11,14 @@
 
 namespace cornerd::core::testing {
 
-/// The small robot of the defaults.
+/// The defaults' robot.
 inline OdometryConfig switched_on() {
   OdometryConfig config;
   config.enabled = true;
   return config;
 }
 
-/// As OdometryParameters has it, plus noise.
+/// As in OdometryParameters, plus noise.
 struct RobotErrors {
   double left_scale = 0;
   double right_scale = 0;
@@ -34,11 +34,11 @@ class DrivenRobot {
   DrivenRobot(const DriveGeometry& geometry, const RobotErrors& errors, std::uint64_t seed = 1)
       : geometry_(geometry), errors_(errors), random_(seed) {}
 
-  /// Drives on for `dt_s` at this speed, the turning rate going evenly to the new one. Returns what
-  /// the controller says at the end.
+  /// Drives for `dt_s` at this speed with a linear change of the rotation rate. Returns the reading
+  /// at the end.
   OdometryReading drive(double dt_s, double speed_m_s, double rate_rad_s);
 
-  /// Another floor, a load, a gyro that got warm.
+  /// Another floor, a load, a warm gyro.
   void change(const RobotErrors& errors) { errors_ = errors; }
 
   const Pose2& truth() const { return T_map_base_; }
@@ -57,8 +57,7 @@ class DrivenRobot {
   double right_m_ = 0;
 };
 
-/// The rates of a drive that a person would call lively: straights, bends, turns on the spot,
-/// rests.
+/// Rotation rates of a varied drive: straights, bends, rotations on the spot, rests.
 struct Rates {
   double speed_m_s = 0;
   double rate_rad_s = 0;

@@ -8,8 +8,8 @@ namespace {
 
 constexpr double kTurn_rad = 0.2;
 
-/// A fix that is where it was foretold.
-void beam_likelihood(FixWatch& watch, double way_m, double rotation_rad) {
+/// A fix at the predicted pose.
+void accept_fix(FixWatch& watch, double way_m, double rotation_rad) {
   const FixWatch::Way way{Vec2(way_m, 0), rotation_rad};
   watch.add_explained(way, way);
 }
@@ -19,7 +19,7 @@ FixWatch doubting() {
   for (int k = 0; k < 3; ++k) {
     EXPECT_TRUE(watch.is_believed()) << k;
     watch.add_stranger(true);
-    beam_likelihood(watch, 0.05, 0);
+    accept_fix(watch, 0.05, 0);
   }
   return watch;
 }
@@ -27,7 +27,7 @@ FixWatch doubting() {
 TEST(FixWatch, RejectedFixesBetweenStraights_StayCounted) {
   FixWatch watch = doubting();
   EXPECT_FALSE(watch.is_believed());
-  for (int k = 0; k < 100; ++k) beam_likelihood(watch, 0.05, k % 2 == 0 ? 0.01 : -0.01);
+  for (int k = 0; k < 100; ++k) accept_fix(watch, 0.05, k % 2 == 0 ? 0.01 : -0.01);
   EXPECT_FALSE(watch.is_believed());
   EXPECT_FALSE(watch.is_contradicted());
 }
@@ -36,7 +36,7 @@ TEST(FixWatch, PredictedRotations_Validate) {
   FixWatch watch = doubting();
   for (int k = 0; k < 5; ++k) {
     EXPECT_FALSE(watch.is_believed()) << k;
-    beam_likelihood(watch, 0.05, k % 2 == 0 ? kTurn_rad : -kTurn_rad);
+    accept_fix(watch, 0.05, k % 2 == 0 ? kTurn_rad : -kTurn_rad);
   }
   EXPECT_TRUE(watch.is_believed());
 }
@@ -46,7 +46,7 @@ TEST(FixWatch, OccasionalRejectedFixes_AreSlips) {
   for (int k = 0; k < 20; ++k) {
     watch.add_stranger(true);
     EXPECT_TRUE(watch.is_believed()) << k;
-    for (int turns = 0; turns < 3; ++turns) beam_likelihood(watch, 0.05, kTurn_rad);
+    for (int turns = 0; turns < 3; ++turns) accept_fix(watch, 0.05, kTurn_rad);
   }
 }
 
@@ -55,7 +55,7 @@ TEST(FixWatch, RejectedFixesOfTranslation_CountConsecutively) {
   for (int k = 0; k < 20; ++k) {
     watch.add_stranger(false);
     watch.add_stranger(false);
-    beam_likelihood(watch, 0.05, 0);
+    accept_fix(watch, 0.05, 0);
   }
   EXPECT_TRUE(watch.is_believed());
   for (int k = 0; k < 3; ++k) {
@@ -72,16 +72,16 @@ TEST(FixWatch, FirstMotion_NeedsConfirmationByLidar) {
   FixWatch watch;
   EXPECT_TRUE(watch.carries(0.01, 0.01)) << "it stands";
   EXPECT_FALSE(watch.carries(0.1, 0));
-  beam_likelihood(watch, 0.05, 0);
+  accept_fix(watch, 0.05, 0);
   EXPECT_TRUE(watch.carries(0.1, 0.01));
   EXPECT_FALSE(watch.carries(0.1, kTurn_rad));
-  beam_likelihood(watch, 0.05, kTurn_rad);
+  accept_fix(watch, 0.05, kTurn_rad);
   EXPECT_TRUE(watch.carries(10, 10));
 }
 
 TEST(FixWatch, SlowRobot_IsValidatedOverManyFixes) {
   FixWatch watch;
-  for (int k = 0; k < 8; ++k) beam_likelihood(watch, 0.003, 0.01);
+  for (int k = 0; k < 8; ++k) accept_fix(watch, 0.003, 0.01);
   EXPECT_TRUE(watch.carries(10, 10));
 }
 
@@ -96,19 +96,19 @@ TEST(FixWatch, SlowRobotWrongOdometry_IsNotValidated) {
 
 TEST(FixWatch, StationaryRobot_IsNotValidated) {
   FixWatch watch;
-  for (int k = 0; k < 1000; ++k) beam_likelihood(watch, k % 2 == 0 ? 0.002 : -0.002, 0);
+  for (int k = 0; k < 1000; ++k) accept_fix(watch, k % 2 == 0 ? 0.002 : -0.002, 0);
   EXPECT_FALSE(watch.carries(0.1, 0));
 }
 
 TEST(FixWatch, AfterRejectedFix_NoPredictionUntilAcceptedFix) {
   FixWatch watch;
-  beam_likelihood(watch, 0.05, kTurn_rad);
+  accept_fix(watch, 0.05, kTurn_rad);
   watch.add_stranger(true);
   EXPECT_FALSE(watch.carries(0, 0));
-  beam_likelihood(watch, 0.05, 0);
+  accept_fix(watch, 0.05, 0);
   EXPECT_TRUE(watch.carries(1, 0));
   EXPECT_FALSE(watch.carries(1, kTurn_rad)) << "it was about turning";
-  beam_likelihood(watch, 0.05, kTurn_rad);
+  accept_fix(watch, 0.05, kTurn_rad);
   EXPECT_TRUE(watch.carries(1, kTurn_rad));
 }
 

@@ -71,7 +71,7 @@ TEST(FusionFilter, ParametersConstant_CovarianceIsNotInflated) {
 }
 
 TEST(FusionFilter, CoarseCounts_QuantizationDoesNotAccumulate) {
-  // The way from count to count is off by 1.4 mm at each end, however many lie in between.
+  // The travel between two counts is off by 1.4 mm at each end, however many lie in between.
   const OdometryConfig config = config_with_counts_of_5_mm();
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     Drive drive(config, usual_errors(), seed);
@@ -114,7 +114,7 @@ TEST(FusionFilter, WheelSpinsFree_HeadingIsUnchanged) {
   EXPECT_NEAR(drive.filter().learned().right_scale, before.right_scale, 0.002);
   EXPECT_NEAR(drive.filter().learned().gyro_bias_rad_s, before.gyro_bias_rad_s, 0.001);
   EXPECT_LT((drive.filter().pose().translation() - start.translation()).norm(), 0.03);
-  EXPECT_TRUE(drive.correct());  // half a metre of spinning makes it doubt enough
+  EXPECT_TRUE(drive.correct());  // half a metre of free spinning makes the covariance large enough
 }
 
 TEST(FusionFilter, NisAboveGate_FixIsRejected) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What takes many robots or steps to tell, minutes of them in an emulator.
+// Consistency tests that take many robots or steps, and minutes in an emulator.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -20,15 +20,15 @@ using testing::switched_on;
 using testing::usual_errors;
 using Drive = testing::TaughtRobot;
 
-/// Normalised estimation error squared: 3 in the mean where the covariance is honest. The errors of
-/// each robot are drawn from what the filter is told of them.
+/// Normalized estimation error squared: 3 in the mean where the covariance is consistent. Each
+/// robot's errors are drawn from the filter's priors.
 double mean_nees(double taught_s, double blind_s, bool with_gyro, double noisier = 1,
                  const OdometryConfig& config = switched_on()) {
   double sum = 0;
   constexpr int kRobots = 100;
   for (std::uint64_t seed = 1; seed <= kRobots; ++seed) {
     std::mt19937_64 random(seed);
-    random.discard(1000);  // equal beginnings of seeds that are alike
+    random.discard(1000);  // decorrelates similar seeds
     std::normal_distribution<double> normal;
     testing::RobotErrors errors = usual_errors();
     errors.left_scale = config.noise.wheel_scale * normal(random);
@@ -47,9 +47,9 @@ double mean_nees(double taught_s, double blind_s, bool with_gyro, double noisier
 }
 
 TEST(FusionFilter, PredictedCovariance_IsConsistent) {
-  // The mean of 100 is off by 0.25 itself. The filter reckons with more noise than these robots
-  // have (scrub, scales that wander): it may be cautious, never bold. Where nothing is learned yet,
-  // scales that are off by several percent are not quite linear.
+  // The mean of 100 is uncertain by 0.25. The filter models more noise than these robots have
+  // (scrub, random walks of scales): a conservative covariance passes, an overconfident one does
+  // not. Before any estimation, scales off by several percent are nonlinear.
   struct Case {
     double taught_s;
     double blind_s;
@@ -69,7 +69,7 @@ TEST(FusionFilter, PredictedCovariance_IsConsistent) {
 }
 
 TEST(FusionFilter, WrongNoiseModel_IsCorrectedByFixes) {
-  // Taken as told, they would give 9 and 0.9.
+  // With the configured noise the values would be 9 and 0.9.
   for (const bool with_gyro : {true, false}) {
     const double noisy = mean_nees(30, 5, with_gyro, std::sqrt(3.0));
     EXPECT_LT(noisy, 4.2) << with_gyro;

@@ -17,7 +17,7 @@ inline OdometryConfig small_robot() {
   return config;
 }
 
-/// What the gate makes of a steady drive of 3 s with one reading replaced.
+/// The gate's output for a steady drive of 3 s with one reading replaced.
 struct Outcome {
   double left_m = 0;
   double gyro_rad = 0;

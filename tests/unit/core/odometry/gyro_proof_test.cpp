@@ -6,7 +6,7 @@
 namespace cornerd::core {
 namespace {
 
-/// Turns of 0.14 s at 1 rad/s, of which the gyro says `gain` times as much.
+/// Scans of 0.14 s at 1 rad/s, of which the gyro measures `gain` times as much.
 void turn(GyroProof& proof, double& heading_rad, double gain, int turns = 1) {
   for (int i = 0; i < turns; ++i) {
     heading_rad = normalize_angle(heading_rad + 0.14);

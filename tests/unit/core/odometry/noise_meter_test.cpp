@@ -9,7 +9,7 @@
 namespace cornerd::core {
 namespace {
 
-/// Residuals of a noise that is `factor` times what was told (variance 1), among `other`.
+/// Residuals with `factor` times the modelled variance of 1, among other noise `other`.
 double learned(double factor, double other, int observations, double outlier = 0) {
   std::mt19937_64 random(1);
   std::normal_distribution<double> normal(0, std::sqrt(factor + other));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Readings whose times are late or early by the same all the time.
+// Readings with a constant delay.
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
@@ -10,7 +10,7 @@
 namespace cornerd::core {
 namespace {
 
-/// A minute with fixes teaches; then five seconds without any, and five with, in turn.
+/// A minute with fixes; then five seconds without and five with fixes, in turn.
 class LateRide {
  public:
   explicit LateRide(double delay_s, const OdometryConfig& config)
@@ -19,7 +19,7 @@ class LateRide {
   void teach() {
     for (int k = 0; k < 430; ++k) turn(true);
   }
-  /// The mean of the normalized squared error of what is predicted, 3 if it is as good as it says.
+  /// Mean NEES of the predictions; 3 where they are consistent.
   double blind_nees() {
     constexpr int kScans = 35;
     double sum = 0;
@@ -59,7 +59,7 @@ class LateRide {
 
   void delay_by(double delay_s) { delay_ns_ = from_seconds(delay_s); }
 
-  /// The lidar is ahead of the readings by so much.
+  /// Advances the lidar's time ahead of the readings.
   void advance_beyond(double ahead_s) {
     const TimeNs middle_ns = robot_.now_ns() + from_seconds(ahead_s);
     odometer.advance(middle_ns - 1000, middle_ns, middle_ns + 1000);
@@ -175,7 +175,7 @@ TEST(OdometerDelay, ExtrapolationBeyondReadings_CovarianceGrows) {
   EXPECT_TRUE(ride.odometer.may_miss_motion());
 }
 
-/// What is reckoned with in the first test: without a doubt in the times nothing is learned.
+/// Counterpart of the first test: without a prior sigma the delay is not estimated.
 TEST(OdometerDelay, DelayFixed_ErrorsGoToWheels) {
   OdometryConfig config = config_of_late_ride();
   config.noise.delay_s = config.noise.delay_s_per_sqrt_s = 0;
@@ -202,7 +202,7 @@ TEST(OdometerDelay, DelayUnknown_CovarianceContainsItsPrior) {
   for (FusionFilter* const filter : {&doubting, &certain}) {
     filter->set_velocity(0.5, 1);
     filter->set_pose({}, Covariance3::Identity() * 1e-6);
-    // Seen just now: what the delay is off by is in no place that was seen.
+    // Right after a fix the delay's error is not in the pose.
     EXPECT_NEAR(filter->pose_covariance()(0, 0), 1e-6, 1e-9);
     filter->set_velocity(0, 0);
   }

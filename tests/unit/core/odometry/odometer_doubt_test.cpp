@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What an odometer says where wheels, gyro and clock may be wrong: nothing, or with as much doubt.
+// Predictions with faulty wheels, gyro or clock: absent, or with a consistent covariance.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -24,7 +24,7 @@ struct Carried {
   double mean_error_squared = 0;
 };
 
-/// Fixes in all turns but `blind` of them after every `seen`; what is said in those.
+/// Fixes in all scans but `blind` of them after every `seen`; collects the predictions in those.
 Carried carried_on(Ride& ride, int seen, int blind, int times) {
   Carried carried;
   for (int i = 0; i < times; ++i) {

@@ -24,7 +24,7 @@ TEST(Odometer, InconsistentWheels_AreRejected) {
     ride.turn();
     ride.odometer.correct(ride.truth, kFixCovariance);
   }
-  // The robot hangs in the air: the wheels go on, the lidar sees the same place.
+  // The robot is lifted: wheels move, the lidar's pose does not.
   const Pose2 hanging = ride.truth;
   for (int k = 0; k < 15; ++k) {
     ride.turn();
@@ -35,8 +35,8 @@ TEST(Odometer, InconsistentWheels_AreRejected) {
   EXPECT_GT(ride.odometer.summary().rejected_fixes, 3U);
 }
 
-/// The worst that a bold prediction was off by, in its own sigmas, in 5 s without fixes, its
-/// readings spoiled: 0 where it never predicted.
+/// Largest error of an overconfident prediction in its own sigmas, in 5 s without fixes and with
+/// corrupted readings; 0 without a prediction.
 double worst_sigmas_while_blind(const std::function<void(int, OdometryReading&)>& spoil,
                                 int* predictions = nullptr) {
   Ride ride(switched_on());

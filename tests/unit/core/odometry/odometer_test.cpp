@@ -48,7 +48,7 @@ TEST(Odometer, PredictLatest_IsCurrentPose) {
 }
 
 TEST(Odometer, PredictLatest_IsStartOfNextScan) {
-  // What was carried on reading by reading and what the turn consumes are the same counts.
+  // Counts predicted reading by reading equal those that the scan consumes.
   Ride ride(switched_on());
   for (int k = 0; k < 20; ++k) {
     ride.turn();
@@ -93,7 +93,8 @@ TEST(Odometer, LateOrSparseReadings_CountOnce) {
       ride.turn();
       if (k < 60) ride.odometer.correct(ride.truth, kFixCovariance);
     }
-    // Six seconds blind. The last reading is up to 0.25 s old: what the rates did since is a guess.
+    // Six seconds without fixes. The last reading is up to 0.25 s old, and motion since then is
+    // extrapolated.
     EXPECT_LT(ride.error_m(), 0.12) << late << ' ' << every;
     EXPECT_EQ(ride.odometer.summary().counters.jumps, 0U);
   }
@@ -142,7 +143,7 @@ TEST(Odometer, StationaryRobot_WheelScalesAreUnchanged) {
     const TimeNs start_ns = now_ns;
     for (int i = 0; i < 7; ++i) {
       now_ns += 20'000'000;
-      // Four times the noise that is told.
+      // Four times the configured noise.
       odometer.add({now_ns, 0, 0, 0.01 + 0.007 * normal(random)}, now_ns);
     }
     odometer.advance(start_ns, start_ns + 70'000'000, now_ns);
@@ -202,7 +203,7 @@ TEST(Odometer, ScanTakenInMotion_IsDeskewed) {
   constexpr double kRate_rad_s = 2;
   for (int i = 0; i < 15; ++i) odometer.add(robot.drive(0.01, kSpeed_m_s, kRate_rad_s), {});
 
-  // Each ray from where the robot is at its time, the middle of the turn at (1, 1) in the room.
+  // Each ray from the robot's pose at its time; the middle of the scan is at (1, 1) in the room.
   const TimeNs start_ns = 15'000'000;
   const auto pose_at = [&](double t_s) {
     const double rotation_rad = kRate_rad_s * (t_s - 0.075);

@@ -128,7 +128,7 @@ TEST(ReadingGate, AheadOfLimit_IsRejected) {
 }
 
 TEST(ReadingGate, ReadingsHeldBack_ArrivalTimesAreRejected) {
-  // Ten of them wait, and come within 2 ms, as stamped on arrival.
+  // Ten readings are held back and arrive within 2 ms, stamped on arrival.
   const TimeNs let_go_ns = [] {
     testing::DrivenRobot robot(small_robot().geometry, {});
     TimeNs t_ns = 0;

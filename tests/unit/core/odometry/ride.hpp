@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A robot that drives while an odometer listens.
+// A driving robot with an odometer.
 #pragma once
 
 #include <cstddef>
@@ -13,7 +13,7 @@ namespace cornerd::core::testing {
 
 inline const Covariance3 kFixCovariance = Covariance3::Identity() * 1e-6;
 
-/// Readings at 50 Hz, a turn of the lidar every 7 of them; each reading comes `late` readings late.
+/// Readings at 50 Hz, a scan every 7 of them; each reading arrives `late` readings late.
 class Ride {
  public:
   explicit Ride(const OdometryConfig& config, int late = 0, int every = 1)
@@ -28,7 +28,7 @@ class Ride {
     return errors;
   }
 
-  /// To the end of the next turn; `truth` is then the pose in its middle.
+  /// Drives to the end of the next scan; `truth` is then the pose at its middle.
   void turn(bool readings = true) {
     const TimeNs start_ns = robot_.now_ns();
     for (int i = 0; i < 14; ++i, ++ticks_) {
@@ -49,7 +49,7 @@ class Ride {
     return (predicted->T_map_base.translation() - truth.translation()).norm();
   }
 
-  /// One reading more, and where the robot is then.
+  /// One more reading, and the robot's pose then.
   Pose2 go_on() {
     const Rates rates = lively_drive(0.01 * ticks_++);
     const OdometryReading reading = robot_.drive(0.01, rates.speed_m_s, rates.rate_rad_s);

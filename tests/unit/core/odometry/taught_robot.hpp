@@ -27,7 +27,7 @@ inline RobotErrors usual_errors() {
 inline constexpr double kFixSigma_m = 0.002;
 inline constexpr double kFixSigma_rad = 0.001;
 
-/// A robot, its filter, and a lidar that says where it is every 0.14 s.
+/// A robot, its filter, and a fix of the lidar every 0.14 s.
 class TaughtRobot {
  public:
   TaughtRobot(const OdometryConfig& config, const RobotErrors& errors, std::uint64_t seed)
@@ -44,7 +44,7 @@ class TaughtRobot {
       OdometryReading reading = robot_.drive(0.02, rates.speed_m_s, rates.rate_rad_s);
       if (!with_gyro) reading.gyro_rad_s.reset();
       if (const auto step = gate_.add(reading, std::nullopt)) filter_.predict(*step);
-      // As the odometer does.
+      // As in Odometer.
       if (with_fixes && ticks_ % 7 == 0 && !correct())
         filter_.set_pose(measured(), fix_covariance_);
     }

@@ -62,7 +62,7 @@ TEST(Decide, BehindByRaysOfOneObstacle_StaysAmbiguous) {
 }
 
 TEST(Decide, CompetingWithMoreHits_StaysAmbiguous) {
-  // As with a sensor that is off by 1 % and 5 mm: the true place fits less exactly, but all over.
+  // A sensor off by 1 % and 5 mm: the true hypothesis fits less exactly, but with all rays.
   std::vector<VerifiedHypothesis> places = {place_at(1, 1000, 1000), place_at(5, 800, 800)};
   places[0].likelihood.hits = 280;
   places[1].likelihood.hits = 220;
