@@ -9,13 +9,13 @@
 
 namespace cornerd::replay {
 
-/// Lines of a stream, none of which takes more memory than the limit.
+/// Reads lines with a limit on their length.
 class LineReader {
  public:
   enum class Result : std::uint8_t {
     kLine,
-    kTornLine,  ///< the stream's last line, without its newline
-    kTooLong,   ///< passed over; line() is empty
+    kTornLine,  ///< the last line, without a newline
+    kTooLong,   ///< skipped; line() is empty
     kEnd,
   };
 
@@ -24,9 +24,9 @@ class LineReader {
 
   Result next();
 
-  /// Without its end; valid until the next call.
+  /// Without line end; valid until the next call.
   std::string_view line() const { return line_; }
-  /// Of the line that was read last; the first is 1.
+  /// Number of the last line; the first is 1.
   std::uint64_t number() const { return number_; }
 
  private:

@@ -15,7 +15,7 @@ PoseError error_of(const core::Pose2& T_map_base, const core::Pose2& truth) {
 
 bool is_right(const core::Pose2& T_map_base, const core::Pose2& truth) {
   const PoseError error = error_of(T_map_base, truth);
-  return error.place_m <= kWrong_m && error.heading_rad <= kWrong_rad;
+  return error.position_m <= kWrong_m && error.heading_rad <= kWrong_rad;
 }
 
 bool lists_truth(const core::PoseEstimate& estimate, const core::Pose2& truth) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How a pose is judged against the truth, whoever counts.
+// Compares a pose with the truth.
 #pragma once
 
 #include <optional>
@@ -8,26 +8,26 @@
 
 namespace cornerd::replay {
 
-/// A pose farther from the truth than this is wrong, not merely inexact.
+/// A pose farther from the truth is wrong.
 inline constexpr double kWrong_m = 0.1;
 inline constexpr double kWrong_rad = core::radians(5);
 
-/// 95 % of a chi-square of three degrees of freedom.
+/// 95 % quantile of chi-square with 3 degrees of freedom.
 inline constexpr double kNees95 = 7.815;
 
 struct PoseError {
-  double place_m = 0;
-  double heading_rad = 0;  ///< without its sign
+  double position_m = 0;
+  double heading_rad = 0;  ///< absolute
 };
 PoseError error_of(const core::Pose2& T_map_base, const core::Pose2& truth);
 
 bool is_right(const core::Pose2& T_map_base, const core::Pose2& truth);
 
-/// True where the true place is among the alternatives.
+/// True if the true pose is among the alternatives.
 bool lists_truth(const core::PoseEstimate& estimate, const core::Pose2& truth);
 
-/// Normalised estimation error squared: 3 on average where the covariances are honest. nullopt
-/// where the covariance is none.
+/// Normalised estimation error squared (NEES), 3 on average for a consistent covariance. nullopt if
+/// the covariance is not positive definite.
 std::optional<double> normalised_error_squared(const core::PoseEstimate& estimate,
                                                const core::Pose2& truth);
 

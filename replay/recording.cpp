@@ -22,7 +22,7 @@ std::ifstream open_for_reading(const std::filesystem::path& file) {
     throw RecordingError(file.string() + ": " + reason);
   };
   std::error_code ignored;
-  if (std::filesystem::is_directory(file, ignored)) fail("is a folder, not a recording");
+  if (std::filesystem::is_directory(file, ignored)) fail("is a folder; name a recording");
   if (file.extension() == ".gz") fail("is compressed; unpack it first (gunzip)");
   std::ifstream stream(file, std::ios::binary);
   if (!stream) fail(std::string("cannot be read: ") + std::strerror(errno));
@@ -35,7 +35,7 @@ RecordingKind kind_of(const std::filesystem::path& file, std::istream& stream) {
   return stream.peek() == '{' ? RecordingKind::kMessages : RecordingKind::kBytes;
 }
 
-/// Passes on, and notes the time.
+/// Passes samples on and stores their time.
 class TimeTap : public drivers::SampleSink {
  public:
   TimeTap(drivers::SampleSink& sink, core::TimeNs& time_ns) : sink_(sink), time_ns_(time_ns) {}
@@ -77,7 +77,7 @@ class RecordingPlayer::Implementation {
   bool step(RecordingSink& sink) {
     if (ended_) return false;
     const bool more = kind_ == RecordingKind::kBytes ? step_bytes(sink) : step_line(sink);
-    if (stream_.bad()) throw RecordingError(name_ + ": cannot be read any further");
+    if (stream_.bad()) throw RecordingError(name_ + ": read error; check the disk");
     if (more) return true;
     ended_ = true;
     if (input_ != Input::kScans) {

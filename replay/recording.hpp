@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Reading what was recorded: .bin (a port's bytes) and .ndjson (timed messages).
+// Reads recordings: .bin (a port's bytes) and .ndjson (timed messages).
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,7 @@
 
 namespace cornerd::replay {
 
-/// A file that cannot be read or written, or is no recording. what() is one line with its name.
+/// A file cannot be read or written, or is no recording. what() is one line with the file's name.
 class RecordingError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -24,29 +24,27 @@ class RecordingError : public std::runtime_error {
 
 enum class RecordingKind : std::uint8_t { kBytes, kMessages };
 
-/// By the name where it ends in .bin or .ndjson, else by the first character: a message begins
-/// with '{', which no answer of an A1 does.
-/// Throws RecordingError where the file cannot be read or is compressed.
+/// By the extension .bin or .ndjson, else by the first character: a message begins with '{', which
+/// no answer of an A1 does. Throws RecordingError if the file cannot be read or is compressed.
 RecordingKind kind_of_recording(const std::filesystem::path& file);
 
 struct RecordingOptions {
-  std::optional<rplidar::WireFormat> wire;  ///< of bytes that begin without a descriptor
-  bool inverted = false;                    ///< the lidar hung upside down
+  std::optional<rplidar::WireFormat> wire;  ///< of bytes without a descriptor
+  bool inverted = false;                    ///< the lidar was upside down
 };
 
-/// Where a recording is played to. Bytes arrive as samples, SCAN messages likewise.
+/// Receives a recording: SERIAL and SCAN as samples, and ODOMETRY.
 class RecordingSink : public drivers::SampleSink {
  public:
   virtual void on_odometry(const message::OdometryReading& reading) = 0;
 };
 
-/// Plays one recording in the order of its lines. Damaged lines and bytes are counted and passed
-/// over; a last line that was torn off is not even counted, as a recorder that was ended leaves
-/// one. Memory does not grow with the file: a line of over message::kMaxRecordedBytes is damaged.
+/// Plays a recording in the order of its lines. Damaged lines and bytes are counted and skipped; an
+/// incomplete last line is only skipped, as a killed recorder leaves one. Memory is bounded: a line
+/// of more than message::kMaxRecordedBytes is damaged.
 ///
-/// Each SCAN is one turn, whatever its angles: its first sample starts it, its last one ends it. A
-/// recording that has both SERIAL and SCAN tells everything
-/// twice; the kind that comes first is played, the other is not.
+/// Each SCAN is one scan, whatever its angles. Of SERIAL and SCAN only the kind that comes first is
+/// played, as both hold the same samples.
 class RecordingPlayer {
  public:
   /// Throws RecordingError.
@@ -55,16 +53,15 @@ class RecordingPlayer {
   RecordingPlayer(std::istream& stream, RecordingKind kind, const RecordingOptions& options);
   ~RecordingPlayer();
 
-  /// Plays the next piece: a line, or a block of bytes. False at the end, when all that was held
-  /// back has been delivered too. `on_gap` is called where bytes are missing, never between SCANs.
-  /// Throws RecordingError where the file can no longer be read.
+  /// Plays the next line or block of bytes; false at the end. Calls on_gap() where bytes are
+  /// missing, never between SCANs. Throws RecordingError on a read error.
   bool step(RecordingSink& sink);
 
-  /// Time of the last piece that was played. Bytes without a clock: since the first of them.
+  /// Time of the last piece played; for .bin since its start.
   core::TimeNs time_ns() const;
   const drivers::StreamCounters& counters() const;
   std::uint64_t bad_lines() const;
-  /// One line about the first bad line; empty where there was none.
+  /// One line about the first bad line; empty if there was none.
   const std::string& first_problem() const;
 
  private:

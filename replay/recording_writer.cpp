@@ -9,7 +9,8 @@ namespace cornerd::replay {
 namespace {
 
 [[noreturn]] void fail(const std::filesystem::path& file) {
-  throw RecordingError(file.string() + ": cannot be written: " + std::strerror(errno));
+  throw RecordingError(file.string() + ": cannot be written: " + std::strerror(errno) +
+                       "; check the folder and its rights");
 }
 
 std::ofstream open_for_writing(const std::filesystem::path& file) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Writing recordings: .bin (a port's bytes) and .ndjson (timed messages).
+// Writes recordings: .bin (a port's bytes) and .ndjson (timed messages).
 #pragma once
 
 #include <cstdint>
@@ -15,21 +15,20 @@
 
 namespace cornerd::replay {
 
-/// Writes what came from a port. A name that ends in .ndjson gives timed lines, any other the bare
-/// bytes, which have no place for anything else. All methods throw RecordingError where the file
-/// cannot be written.
+/// Records a port. A file *.ndjson gets timed lines, any other the received bytes alone. All
+/// methods throw RecordingError if the file cannot be written.
 class RecordingWriter {
  public:
   explicit RecordingWriter(const std::filesystem::path& file);
 
-  /// `t_ns`: when the last of the bytes arrived.
+  /// `t_ns`: arrival of the last byte.
   void received(core::TimeNs t_ns, std::span<const std::uint8_t> bytes);
   void sent(core::TimeNs t_ns, std::span<const std::uint8_t> bytes);
   void odometry(const message::LineWriter::OdometryFields& odometry);
-  /// After this all that was written is in the file.
+  /// Writes buffered data to the file.
   void flush();
 
-  /// Whether a file of this name gets lines.
+  /// Whether this file gets lines.
   static bool has_lines(const std::filesystem::path& file) { return file.extension() == ".ndjson"; }
   bool has_lines() const { return has_lines_; }
 
@@ -42,14 +41,14 @@ class RecordingWriter {
   message::LineWriter line_;
 };
 
-/// Writes a --truth file: as few poses as tell the same when they are interpolated.
+/// Writes a --truth file, without poses that interpolation restores.
 class TruthWriter {
  public:
   /// Throws RecordingError, as do all methods.
   explicit TruthWriter(const std::filesystem::path& file);
 
   void add(core::TimeNs t_ns, const core::Pose2& T_map_base);
-  /// Writes the last pose too, and all of it into the file.
+  /// Writes the last pose and all buffered data.
   void flush();
 
  private:
@@ -63,7 +62,7 @@ class TruthWriter {
   std::ofstream stream_;
   message::LineWriter line_;
   std::optional<core::Pose2> written_;
-  std::optional<Entry> held_back_;  ///< the newest pose that was like the one before it
+  std::optional<Entry> held_back_;  ///< the newest pose, if equal to the one before
 };
 
 }  // namespace cornerd::replay

@@ -17,16 +17,16 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// A stop is honoured within this time.
+/// Longest delay of a stop.
 constexpr std::chrono::milliseconds kMaxSleep{50};
-/// How long the consumer is left alone where it has no room.
+/// Poll interval of a full consumer.
 constexpr std::chrono::microseconds kRoomSleep{500};
-/// A step of the recorded time beyond this is a clock that was set, or a pause nobody waits for.
+/// A longer step of recorded time is a clock step or a pause, which is skipped.
 constexpr core::TimeNs kMaxPauseNs = 10 * core::kNsPerSecond;
 
 }  // namespace
 
-/// Lets samples pass when their time has come.
+/// Passes samples on at their time.
 class ReplayDriver::Pacer : public RecordingSink {
  public:
   Pacer(ReplayDriver& driver, drivers::SampleSink& sink, double speed, const std::stop_token& stop)
@@ -136,9 +136,9 @@ void ReplayDriver::publish(const RecordingPlayer& player, const Pacer& pacer) {
 }
 
 void ReplayDriver::play(const std::stop_token& stop, Pacer& pacer) {
-  // Opening a pipe that nobody writes does not return, whoever asks for the end.
+  // Opening a pipe without a writer blocks, also against a stop request.
   if (std::filesystem::is_other(config_.file)) {
-    throw std::runtime_error(config_.file.string() + ": is no ordinary file");
+    throw std::runtime_error(config_.file.string() + ": is no regular file; name a recording");
   }
   status_.state = drivers::LidarState::kRunning;
   bool again = true;

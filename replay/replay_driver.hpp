@@ -13,14 +13,14 @@ namespace cornerd::replay {
 
 struct ReplayDriverConfig {
   std::filesystem::path file;
-  double speed = 1;   ///< times real time; 0: as fast as the sink takes it
-  bool loop = false;  ///< begin again at the end
+  double speed = 1;   ///< relative to real time; 0: as fast as the sink takes it
+  bool loop = false;  ///< restart at the end
   RecordingOptions recording;
 };
 
-/// A recording in place of a device. Samples keep their recorded times; with `loop` time goes on
-/// growing from one pass to the next. A file that cannot be played is the state kFaulty, its end
-/// kEnded; run() returns after either.
+/// Plays a recording in place of a device. Samples keep their recorded times; with `loop` time
+/// keeps growing over passes. An unplayable file is state kFaulty, its end kEnded; run() then
+/// returns.
 class ReplayDriver : public drivers::LidarDriver {
  public:
   explicit ReplayDriver(ReplayDriverConfig config);
@@ -39,7 +39,7 @@ class ReplayDriver : public drivers::LidarDriver {
   ReplayDriverConfig config_;
   drivers::LidarStatus status_;  ///< run()'s own copy
   core::TripleBuffer<drivers::LidarStatus> published_;
-  static constexpr std::size_t kChanges = 16;  ///< a recording goes through four
+  static constexpr std::size_t kChanges = 16;  ///< a recording has at most four
   core::RingBuffer<drivers::LidarChange> changes_{kChanges};
   drivers::LidarChange last_change_;
 };

@@ -40,7 +40,7 @@ endfunction()
 #   LABELS  `long`: only `tests/run all` builds and runs it. `slow`: besides, not in sanitized and
 #           emulated builds, since it tests algorithms and neither memory nor the board.
 #           `threads`: the thread sanitizer runs it.
-#   LONG    cases that only `tests/run all` runs
+#   LONG    cases that only `tests/run all` runs, each pattern in a process of its own
 #   ALONE   cases that run while nothing else does
 #   SHARDS  the number of processes that share the other cases; COST: the larger, the sooner it starts
 function(cornerd_add_test_program name)
@@ -72,15 +72,15 @@ function(cornerd_add_test_program name)
     set(arg_SHARDS 2)
   endif()
 
-  list(JOIN arg_LONG ":" long)
   list(JOIN arg_ALONE ":" alone)
   string(JOIN ":" apart ${arg_LONG} ${arg_ALONE})
   cornerd_add_test_run(${name} ${name} "-${apart}" LABELS ${arg_LABELS} SHARDS ${arg_SHARDS}
     COST ${arg_COST})
-  if(long)
-    cornerd_add_test_run(${name}.long ${name} "${long}" LABELS ${arg_LABELS} long
-      SHARDS ${arg_SHARDS} COST ${arg_COST})
-  endif()
+  set(number 0)
+  foreach(pattern IN LISTS arg_LONG)
+    cornerd_add_test_run(${name}.long.${number} ${name} "${pattern}" LABELS ${arg_LABELS} long COST 100)
+    math(EXPR number "${number} + 1")
+  endforeach()
   if(alone)
     cornerd_add_test_run(${name}.alone ${name} "${alone}" LABELS ${arg_LABELS} SERIAL)
   endif()

@@ -9,7 +9,7 @@
 namespace cornerd::replay {
 namespace {
 
-/// Takes from `wish` what there is room for.
+/// Takes up to `room` from `wish`.
 std::size_t grant(std::size_t& wish, std::size_t room) {
   const std::size_t granted = std::min(wish, room);
   wish -= granted;
@@ -20,7 +20,7 @@ std::size_t grant(std::size_t& wish, std::size_t room) {
 
 FaultStream::ReadResult FaultStream::read(std::span<std::uint8_t> buffer,
                                           std::chrono::milliseconds timeout) {
-  // What is repeated or invented needs room.
+  // Repeated and inserted bytes need room.
   std::vector<std::uint8_t> sent(buffer.size() / 2);
   const ReadResult result = stream_->read(sent, timeout);
   if (result.status != ReadStatus::kData) return result;
@@ -43,7 +43,7 @@ FaultStream::ReadResult FaultStream::read(std::span<std::uint8_t> buffer,
 
 namespace {
 
-/// As a USB adapter hands over what has come meanwhile.
+/// Interval of a USB adapter's transfers.
 constexpr core::TimeNs kPortionNs = 4'000'000;
 
 }  // namespace

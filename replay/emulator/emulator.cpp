@@ -15,14 +15,14 @@ using rplidar::Command;
 
 /// All bytes of a request must arrive within this time.
 constexpr core::TimeNs kRequestTimeoutNs = 5 * core::kNsPerSecond;
-/// From the end of a request to the first bit of its answer; vendor software on a real A1 sees
-/// round trips of 2.3 to 4.5 ms for answers that are 1.3 to 2.3 ms long.
+/// From the end of a request to the first bit of its answer. Real round trips take 2.3 to 4.5 ms
+/// for answers of 1.3 to 2.3 ms.
 constexpr core::TimeNs kAnswerDelayNs = 1'000'000;
-/// From RESET to the banner, and from there to the first request that is heard: as measured on an
+/// From RESET to the banner, and from there to the first request that is answered; measured on an
 /// A1M8 of firmware 1.29.
 constexpr core::TimeNs kBootNs = 671'000'000;
 constexpr core::TimeNs kIgnoreAfterBannerNs = 4'000'000;
-/// Whoever drives the emulator was held up for longer than this: the scan begins anew.
+/// If the caller stalls for longer, the stream restarts.
 constexpr core::TimeNs kMaxStallNs = core::kNsPerSecond;
 
 }  // namespace

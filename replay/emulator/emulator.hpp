@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// An A1 at the far end of a serial line: requests in, answers and scans out.
+// An A1 at the far end of a serial line: receives requests, sends answers and scans.
 #pragma once
 
 #include <array>
@@ -21,23 +21,22 @@ namespace cornerd::replay {
 struct EmulatorConfig {
   const Firmware* firmware = find_firmware("1.29");
   rplidar::Health health;
-  bool reset_restores_health = true;  ///< RESET makes the health good; else it stays as it was
-  double spin_up_s = 0;               ///< from a scan request to the first data, but for FORCE_SCAN
-  /// Whether configuration type 0x01 (desired rotation) is answered. Vendor software waits 2 s for
-  /// an answer to it in vain where it is not.
+  bool reset_restores_health = true;  ///< RESET clears a failed health
+  double spin_up_s = 0;               ///< from a scan request to the first data; 0 for FORCE_SCAN
+  /// Whether configuration type 0x01 (desired rotation) is answered. If not, vendor software waits
+  /// 2 s for it.
   bool answers_rotation_request = true;
   std::uint32_t baud = 115200;
   std::array<std::uint8_t, 16> serial = {0xC0, 0x12, 0x9A, 0xE1, 0xC3, 0xE2, 0x9B, 0xD2,
                                          0xA7, 0xE7, 0x9C, 0xF3, 0x40, 0x55, 0x34, 0x12};
 };
 
-/// The device's side of the protocol. It knows no port and no clock: whoever drives it says what
-/// time it is (not decreasing, from 0), hands over what the host sent, and takes what has crossed
-/// the line by then. Not safe for concurrent calls.
+/// The device's side of the protocol, without port or clock: the caller passes the time (from 0,
+/// not decreasing) and the host's bytes, and takes the bytes sent by then. Not safe for concurrent
+/// calls.
 ///
-/// A request that the firmware does not know, or whose checksum is wrong, is not answered and has
-/// no effect; any other one ends a scan in progress, of which the packet on the line still arrives.
-/// With a health that has failed no scan starts, silently, as in the device's protection stop.
+/// An unknown request, or one with a wrong checksum, has no effect. Any other one ends the scan;
+/// the packet on the line still arrives. With a failed health no scan starts (protection stop).
 class Emulator {
  public:
   Emulator(const EmulatorConfig& config, std::unique_ptr<Simulator> simulator);
@@ -47,14 +46,14 @@ class Emulator {
   /// Appends the bytes that have left the device by `now_ns`.
   void take(core::TimeNs now_ns, std::vector<std::uint8_t>& out);
 
-  /// When take() will next have something to give; nullopt where only a request brings it about.
+  /// Time of the next byte; nullopt if none comes without a request.
   std::optional<core::TimeNs> next_ns() const;
 
-  /// Somebody holds the head, or lets it go: the stream pauses, and goes on by itself.
+  /// Blocks or releases the head: the stream pauses, and resumes by itself.
   void set_stalled(bool stalled, core::TimeNs now_ns);
-  /// What it finds wrong with itself from now on. One that has failed ends the scan.
+  /// A failed health ends the scan.
   void set_health(const rplidar::Health& health, core::TimeNs now_ns);
-  /// Its supply breaks down and comes back: as after a RESET, without being asked.
+  /// As after a RESET, but unasked.
   void power_cycle(core::TimeNs now_ns) { reset(now_ns); }
 
   bool scanning() const { return scanning_; }
@@ -82,7 +81,7 @@ class Emulator {
   bool scanning_ = false;
   bool stalled_ = false;
   FirmwareScanMode mode_;
-  core::TimeNs packet_ready_ns_ = 0;  ///< of the packet that is being measured
+  core::TimeNs packet_ready_ns_ = 0;  ///< of the packet being measured
   std::vector<std::uint8_t> packet_;
 };
 

@@ -12,7 +12,7 @@ using rplidar::WireFormat;
 
 constexpr std::uint32_t k12MetresQ8 = 12 << 8;
 
-// As a device of firmware 1.29 answered: 508, 254, 127, 127, 201 us.
+// Answers of a real device: 508, 254, 127, 127, 201 us.
 constexpr std::array<FirmwareScanMode, 5> kModes129 = {{
     {"Standard", 130048, k12MetresQ8, 0x81, WireFormat::kStandard},
     {"Express", 65024, k12MetresQ8, 0x82, WireFormat::kExpress},
@@ -32,7 +32,7 @@ constexpr std::array<Firmware, 3> kFirmwares = {{
      "RP LIDAR System.\r\nFirmware Ver 1.29 - rtm, HW Ver 7\r\nModel: 18\r\n"},
     {"1.24", 1, 24, 5, 0x18, 500, 250, kModes124, 2,
      "RP LIDAR System.\r\nFirmware Ver 1.24 - rtm, HW Ver 5\r\nModel: 18\r\n"},
-    // A head of 2,000 samples a second gives no more of them in express mode.
+    // A head of 2,000 samples/s gives no more in express mode.
     {"1.17",
      1,
      17,
@@ -76,7 +76,7 @@ void append(std::vector<std::uint8_t>& bytes, std::uint32_t value, int count) {
   for (int i = 0; i < count; ++i) bytes.push_back(static_cast<std::uint8_t>(value >> (8 * i)));
 }
 
-/// False where the entry is none of a scan mode.
+/// False if `entry` is no entry of a scan mode.
 bool append_mode_entry(std::vector<std::uint8_t>& bytes, const FirmwareScanMode& mode,
                        ConfType entry) {
   switch (entry) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What A1s of different firmwares can do, and what they say about themselves.
+// Capabilities and answers of A1s by firmware.
 #pragma once
 
 #include <cstdint>
@@ -26,9 +26,9 @@ struct Firmware {
   std::uint8_t minor = 0;
   std::uint8_t hardware = 0;
   std::uint8_t model = 0;
-  std::uint16_t standard_us = 0;  ///< sample periods, as GET_SAMPLERATE tells them
+  std::uint16_t standard_us = 0;  ///< sample periods of GET_SAMPLERATE
   std::uint16_t express_us = 0;
-  /// By id, as GET_LIDAR_CONF tells them; empty: the firmware does not know that request.
+  /// By id, for GET_LIDAR_CONF; empty: that request is not answered.
   std::span<const FirmwareScanMode> modes;
   std::uint16_t typical_mode = 0;
   std::string_view banner;  ///< printed after a reset
@@ -40,19 +40,17 @@ const Firmware* find_firmware(std::string_view version);
 /// The mode of a SCAN request.
 FirmwareScanMode standard_mode(const Firmware& firmware);
 
-/// The mode that an EXPRESS_SCAN request asks for. Id 0 is the old express mode whatever the table
-/// says; the others are rows of the table.
+/// The mode of an EXPRESS_SCAN request. Id 0 is legacy express; the others are rows of the table.
 std::optional<FirmwareScanMode> express_mode(const Firmware& firmware, std::uint8_t id);
 
-/// What a device tells of the rotation that it would like.
+/// Value of GET_LIDAR_CONF type 0x01, desired rotation.
 struct RotationTarget {
   std::uint16_t rpm = 600;
   std::uint16_t pwm = 660;
 };
 
-/// The answer to a GET_LIDAR_CONF request: the type of the entry, echoed, and its value.
-/// `request`: the payload: type, 4 bytes, and for entries of a scan mode its id, 2 bytes.
-/// `target`: nullopt: that entry is not answered. Empty where the device would not answer.
+/// Answer to GET_LIDAR_CONF: the echoed type and its value; empty: no answer. `request`: type, 4
+/// bytes, and for entries of a scan mode its id, 2 bytes. `target` nullopt: not answered.
 std::vector<std::uint8_t> configuration_value(const Firmware& firmware,
                                               const std::optional<RotationTarget>& target,
                                               std::span<const std::uint8_t> request);

@@ -59,8 +59,8 @@ PseudoTerminal::~PseudoTerminal() {
   ::close(master_);
 }
 
-/// As a port that is opened afresh: raw, and without what an earlier client left unread. The next
-/// client may already be there, so what it has set and written stays.
+/// Raw, without bytes that an earlier client left unread. The next client may be there already, so
+/// its settings and output are kept.
 bool PseudoTerminal::prepare_for_next_client() {
   const int client_end = ::open(path_.c_str(), O_RDWR | O_NOCTTY | O_CLOEXEC | O_NONBLOCK);
   if (client_end < 0) return false;
@@ -71,8 +71,8 @@ bool PseudoTerminal::prepare_for_next_client() {
     ::tcsetattr(client_end, TCSANOW, &settings);
   }
   ::tcflush(client_end, TCIFLUSH);
-  // A port loses this with its last client; a pseudo-terminal keeps it when that one is killed.
-  // (Who lacks CAP_SYS_ADMIN has been refused above, and waits in vain for a next client.)
+  // A pseudo-terminal stays exclusive when its client is killed. (Without CAP_SYS_ADMIN open() has
+  // failed above, and no next client is possible.)
   ::ioctl(client_end, TIOCNXCL);
   ::close(client_end);
   has_client_ = false;
@@ -86,7 +86,7 @@ bool PseudoTerminal::wait(int timeout_ms) {
     has_client_ = true;
   } else if ((poll_for.revents & POLLIN) == 0) {
     if (has_client_) prepare_for_next_client();
-    // The hang-up is a lasting state, for which poll() does not wait.
+    // poll() returns at once while the hang-up lasts.
     std::this_thread::sleep_for(std::chrono::milliseconds(timeout_ms));
   }
   return has_client_;

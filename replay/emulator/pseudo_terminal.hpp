@@ -8,12 +8,12 @@
 
 namespace cornerd::replay {
 
-/// A serial port made of software: what it is written to comes out at `path()`, which any program
-/// can open as it opens a port, and the other way round. Not safe for concurrent calls.
+/// A pseudo-terminal: a software serial port that any program can open at path(). Not safe for
+/// concurrent calls.
 class PseudoTerminal {
  public:
-  /// `link`: a symbolic link to make to it; empty: none. One that exists is replaced, but nothing
-  /// that is not a link. Throws std::system_error.
+  /// `link`: symbolic link to create; empty: none. Replaces an existing link, but no other file.
+  /// Throws std::system_error.
   explicit PseudoTerminal(const std::filesystem::path& link = {});
   ~PseudoTerminal();
   PseudoTerminal(const PseudoTerminal&) = delete;
@@ -21,18 +21,16 @@ class PseudoTerminal {
 
   const std::filesystem::path& path() const { return path_; }
 
-  /// Waits until there is something to read, or that time has passed. True where a client has the
-  /// port open.
+  /// Waits for bytes or the timeout. True if a client has the port open.
   bool wait(int timeout_ms);
 
-  /// Whether the client has set that speed; true for one that termios does not know.
+  /// Whether the client has set this speed; true if termios does not know it.
   bool has_speed(std::uint32_t baud) const;
 
-  /// Bytes that the client has written; 0 where there are none.
+  /// Number of bytes read from the client.
   std::size_t read(std::span<std::uint8_t> buffer);
 
-  /// Returns the bytes that the client's side had room for: a port without flow control loses the
-  /// rest.
+  /// Number of bytes that the client's buffer had room for; the rest are lost.
   std::size_t write(std::span<const std::uint8_t> bytes);
 
  private:

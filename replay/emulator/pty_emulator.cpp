@@ -15,7 +15,7 @@ using std::chrono::nanoseconds;
 constexpr int kMaxWaitMs = 10;
 constexpr core::TimeNs kOnTimePeriodNs = 10'000'000;
 
-/// A byte takes 87 us; waking up for each would be noise. USB adapters hand over every 1 ms too.
+/// A byte takes 87 us; wakes up at most every 1 ms, as USB adapters do.
 int wait_ms(std::optional<core::TimeNs> next_ns, core::TimeNs now_ns) {
   if (!next_ns) return kMaxWaitMs;
   return static_cast<int>(std::clamp<core::TimeNs>((*next_ns - now_ns) / 1'000'000, 1, kMaxWaitMs));

@@ -8,13 +8,12 @@
 namespace cornerd::replay {
 namespace {
 
-/// Half of the widest step between two samples of an A1 (2 kHz at 10 Hz: 1.8 degrees). Farther from
-/// every sample there was a hole.
+/// About half of an A1's widest step (2 kHz at 10 Hz: 1.8 degrees); farther away is a gap.
 constexpr double kMaxSampleDistanceRad = core::radians(1.0);
 
 }  // namespace
 
-/// Cuts the samples into turns and keeps those that a step of the player has completed.
+/// Collects the scans that a step of the player has completed.
 class RecordedScene::ScanCollector : public RecordingSink {
  public:
   void on_sample(const core::Sample& sample) override {
@@ -63,7 +62,7 @@ void RecordedScene::load_next_scan() {
     if (player_->step(*scans_)) continue;
     scans_->finish();
     if (!scans_->scans.empty()) break;
-    if (restarted) throw RecordingError(file_.string() + ": holds no whole turn of a lidar");
+    if (restarted) throw RecordingError(file_.string() + ": no complete scan; record for longer");
     restarted = true;
     open();
   }
@@ -90,7 +89,7 @@ double RecordedScene::range_along(core::TimeNs, std::int64_t scan, const core::V
     scan_ = scan;
     load_next_scan();
   }
-  // A ray that passes the axis at a distance meets each circle around it at another bearing.
+  // A ray offset from the axis hits a point of range r at bearing + asin(left / r): iterate.
   const double left_m = core::cross(core::unit_vector(bearing_rad), origin);
   double range_m = nearest_range(bearing_rad);
   for (int i = 0; i < 3 && range_m > std::abs(left_m); ++i) {

@@ -13,11 +13,11 @@
 
 namespace cornerd::replay {
 
-/// What a lidar saw once: the turns of a recording, one after the other, for ever. Along a ray it
-/// has the return that was recorded nearest to it, so it can be scanned anew in any mode.
+/// The scans of a recording, repeated endlessly. A ray has the range of the nearest recorded
+/// sample, so the scene can be scanned in any mode.
 class RecordedScene : public Scene {
  public:
-  /// Throws RecordingError where the file cannot be read or has no whole turn.
+  /// Throws RecordingError if the file cannot be read or has no complete scan.
   RecordedScene(std::filesystem::path file, const RecordingOptions& options);
   ~RecordedScene() override;
 
@@ -40,7 +40,7 @@ class RecordedScene : public Scene {
   std::unique_ptr<RecordingPlayer> player_;
   std::unique_ptr<ScanCollector> scans_;
   std::int64_t scan_ = 0;
-  std::vector<Return> returns_;  ///< of the turn in force, by bearing, empty ones too
+  std::vector<Return> returns_;  ///< of the current scan, by bearing, empty ones included
 };
 
 }  // namespace cornerd::replay

@@ -12,23 +12,23 @@
 
 namespace cornerd::replay {
 
-/// What the device has to say, at the pace of its serial line.
+/// Send queue of the device, at the speed of its serial line.
 class Transmitter {
  public:
   explicit Transmitter(std::uint32_t baud) : line_(baud) {}
 
-  /// Queues bytes that may be sent from `ready_ns` on.
+  /// Queues bytes, to be sent from `ready_ns` on.
   void queue(core::TimeNs ready_ns, std::span<const std::uint8_t> bytes);
 
-  /// Drops what has not begun to be sent by `now_ns`. What has begun is sent to its end.
+  /// Drops packets whose transmission has not begun by `now_ns`.
   void drop_unsent(core::TimeNs now_ns);
-  /// The device falls silent in the middle of a byte.
+  /// Drops everything, even a packet in transmission.
   void clear(core::TimeNs now_ns);
 
-  /// Appends the bytes that have crossed the line by `now_ns`.
+  /// Appends the bytes that have arrived by `now_ns`.
   void take(core::TimeNs now_ns, std::vector<std::uint8_t>& out);
 
-  /// When the next byte will have crossed; nullopt where there is none.
+  /// Arrival of the next byte; nullopt if there is none.
   std::optional<core::TimeNs> next_ns() const;
 
  private:

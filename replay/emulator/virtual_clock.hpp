@@ -8,8 +8,7 @@
 
 namespace cornerd::replay {
 
-/// A clock that moves only while somebody waits: hours pass as fast as they can be computed. Of one
-/// thread.
+/// A clock that advances only on waits, so that hours take seconds. For one thread.
 class VirtualClock : public drivers::Clock {
  public:
   core::TimeNs monotonic_ns() override { return now_ns_; }
@@ -18,7 +17,7 @@ class VirtualClock : public drivers::Clock {
     advance_to(now_ns_ + std::chrono::nanoseconds(duration).count());
   }
 
-  /// Nothing where that is in the past.
+  /// No effect if that is in the past.
   void advance_to(core::TimeNs t_ns) {
     if (t_ns <= now_ns_) return;
     now_ns_ = t_ns;

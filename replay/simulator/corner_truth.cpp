@@ -7,11 +7,10 @@
 namespace cornerd::replay {
 namespace {
 
-/// Far above the noise of any A1 indoors, far below the distance from one wall to the next: what
-/// differs more did not come from the predicted wall.
+/// Far above an A1's noise indoors, far below the distance between walls.
 constexpr double kMaxResidual_m = 0.05;
 constexpr double kMaxResidualShare = 0.05;
-/// The map's corners lie on their faces to a few rounding errors.
+/// Rounding errors of corners on their faces.
 constexpr double kOnFace_m = 1e-5;
 
 }  // namespace
@@ -30,8 +29,7 @@ CornerTruth::Side CornerTruth::side_of(const core::Vec2& position, double direct
   const auto faces = map_.faces();
   for (std::uint32_t i = 0; i < faces.size(); ++i) {
     const core::Face& face = faces[i];
-    // The free space is on the left of a face: the left face of a corner leaves it, the right one
-    // comes to it.
+    // Free space is on a face's left: the left face of a corner begins there, the right one ends.
     if ((left ? 1 : -1) * face.direction.dot(away) < 1 - 1e-9) continue;
     if (std::abs(face.normal.dot(position) - face.offset_m) > kOnFace_m) continue;
     const double along_m = face.direction.dot(position - face.from);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which corners a turn shows: from the map, the place and the returns, never from a detector.
+// Which corners of a map a scan shows: from map, true pose and returns, without a detector.
 #pragma once
 
 #include <cstddef>
@@ -13,48 +13,45 @@
 
 namespace cornerd::replay {
 
-/// How much of a corner a turn shows. A corner is in sight where nothing stands between it and the
-/// lidar; the end of a wall has two, one thickness apart, of which usually one alone shows both its
-/// faces.
+/// How much of a corner a scan shows. A corner is visible if no wall is between it and the lidar.
+/// The end of a wall has two corners, of which usually only one shows both its faces.
 enum class CornerView : std::uint8_t {
-  kSupported,  ///< in sight, each wall gives at least kSupportReturns
-  kVisible,    ///< in sight, each wall gives a return, one of them fewer than that
-  kOneSided,   ///< in sight, but one of its walls alone gives returns: a wall's end
-  kHidden,     ///< both walls give returns, the corner itself is behind something
+  kSupported,  ///< visible, at least kSupportReturns returns on each face
+  kVisible,    ///< visible, fewer returns on one face, at least one
+  kOneSided,   ///< visible, returns on one face only: a wall's end
+  kHidden,     ///< occluded, returns on both faces
 };
 
-/// Fewer returns than these make no wall (El Amin et al., section V.B: "more than four points").
+/// Least returns of a wall (El Amin et al., section V.B: "more than four points").
 inline constexpr std::uint32_t kSupportReturns = 5;
 
 struct CornerObservation {
   std::uint32_t corner = 0;                  ///< index into WallMap::corners()
   core::Vec2 position = core::Vec2::Zero();  ///< lidar frame
   CornerView view = CornerView::kHidden;
-  std::uint32_t left_returns = 0;  ///< of the turn, on the whole face to the left of the corner
+  std::uint32_t left_returns = 0;  ///< on the whole face to the left of the corner
   std::uint32_t right_returns = 0;
 };
 
-/// The corners of one map as turns show them. A return is one of a face where a ray without noise,
-/// at the bearing that the sample claims, meets that face first, and the range agrees: returns that
-/// are missing, or wrong altogether, count for nothing.
+/// Finds the corners of a map in scans of known pose. A return belongs to the face that a ray at
+/// its bearing hits first, if the ranges agree to 5 cm + 5 %.
 class CornerTruth {
  public:
-  /// `map` has to outlive this.
+  /// `map` must outlive this.
   CornerTruth(const core::WallMap& map, double max_range_m);
 
   void observe(const core::Pose2& T_map_lidar, std::span<const core::PolarPoint> points);
 
-  /// Of the last turn: all corners of which at least one wall gave a return and that are in sight,
-  /// and the hidden ones of which both did.
+  /// Of the last scan: visible corners with a return on a face, hidden ones with returns on both.
   std::span<const CornerObservation> corners() const { return corners_; }
 
-  /// Where the turn's view of a wall ends because a nearer wall hides how it goes on: the last
-  /// return before that, lidar frame. Such a place is no corner, though it is where a line of
-  /// returns ends.
+  /// Last returns of faces before a nearer wall occludes them, lidar frame. No corners, although a
+  /// line
+  /// of returns ends there.
   std::span<const core::Vec2> occlusion_edges() const { return occlusion_edges_; }
 
  private:
-  /// The part of a face that one side of a corner is.
+  /// One side of a corner: a part of a face.
   struct Side {
     std::uint32_t face = core::PredictedHit::kNone;
     double from_m = 0;  ///< along the face
@@ -64,7 +61,7 @@ class CornerTruth {
     Side left;
     Side right;
   };
-  /// A return, as the map explains it.
+  /// A return on a face of the map.
   struct WallHit {
     std::uint32_t face = core::PredictedHit::kNone;
     double along_m = 0;
@@ -80,7 +77,7 @@ class CornerTruth {
 
   const core::WallMap& map_;
   core::RayCaster ray_caster_;
-  std::vector<Sides> sides_;  ///< as the map's corners
+  std::vector<Sides> sides_;  ///< by index of the map's corners
   std::vector<WallHit> hits_;
   std::vector<CornerObservation> corners_;
   std::vector<core::Vec2> occlusion_edges_;

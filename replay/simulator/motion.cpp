@@ -9,11 +9,11 @@
 namespace cornerd::replay {
 namespace {
 
-/// Along a piece of a drive of some length (or angle), up to a rate and down again.
+/// Trapezoidal speed profile over a length or angle.
 class Profile {
  public:
   Profile() = default;
-  /// `acceleration`: 0 is at once.
+  /// `acceleration` 0: unlimited.
   Profile(double length, double rate, double acceleration) : length_(length), rate_(rate) {
     if (acceleration > 0) {
       rate_ = std::min(rate, std::sqrt(length * acceleration));
@@ -22,7 +22,7 @@ class Profile {
     duration_s_ = length / rate_ + ramp_s_;
   }
   double duration_s() const { return duration_s_; }
-  /// In [0, 1].
+  /// Share of the length covered, in [0, 1].
   double share(double t_s) const {
     t_s = std::clamp(t_s, 0.0, duration_s_);
     const double left_s = duration_s_ - t_s;
@@ -38,7 +38,7 @@ class Profile {
   double duration_s_ = 0;
 };
 
-/// Straight on, or a turn on the spot.
+/// A straight line, or a rotation on the spot.
 struct Leg {
   double start_s = 0;
   core::Pose2 from;
@@ -55,12 +55,12 @@ class Drive {
       if (stops.empty() || point != stops.back()) stops.push_back(point);
     }
     if (config.loop && stops.size() > 1 && stops.front() == stops.back()) stops.pop_back();
-    if (stops.size() < 2) throw std::invalid_argument("a path needs two different points");
+    if (stops.size() < 2) throw std::invalid_argument("path: needs at least two different points");
     if (!(config.speed_m_s > 0) || !(config.yaw_rate_rad_s > 0)) {
-      throw std::invalid_argument("speed and yaw rate of a drive must be positive");
+      throw std::invalid_argument("drive: speed and yaw rate must be positive");
     }
     if (!(config.acceleration_m_s2 >= 0) || !(config.yaw_acceleration_rad_s2 >= 0)) {
-      throw std::invalid_argument("accelerations of a drive must not be negative");
+      throw std::invalid_argument("drive: accelerations must not be negative");
     }
     end_ = {stops[0].x(), stops[0].y(), heading(stops[0], stops[1])};
     const double first_heading_rad = end_.theta_rad;
@@ -120,13 +120,13 @@ Motion stand_still(const core::Pose2& T_map_base) {
   return [T_map_base](core::TimeNs, std::int64_t) { return T_map_base; };
 }
 
-Motion visit_poses(std::vector<core::Pose2> places, std::int64_t scans_each) {
-  if (places.empty()) throw std::invalid_argument("there is no place to visit");
-  if (scans_each < 1) throw std::invalid_argument("a visit takes at least one turn");
-  return [places = std::move(places), scans_each](core::TimeNs, std::int64_t scan) {
-    const auto last = static_cast<std::int64_t>(places.size()) - 1;
+Motion visit_poses(std::vector<core::Pose2> poses, std::int64_t scans_each) {
+  if (poses.empty()) throw std::invalid_argument("visit_poses: needs at least one pose");
+  if (scans_each < 1) throw std::invalid_argument("visit_poses: needs at least one scan per pose");
+  return [poses = std::move(poses), scans_each](core::TimeNs, std::int64_t scan) {
+    const auto last = static_cast<std::int64_t>(poses.size()) - 1;
     const std::int64_t index = std::clamp<std::int64_t>(scan / scans_each, 0, last);
-    return places[static_cast<std::size_t>(index)];
+    return poses[static_cast<std::size_t>(index)];
   };
 }
 

@@ -9,8 +9,8 @@
 
 namespace cornerd::replay {
 
-/// Random numbers that a seed fixes on every platform: the standard fixes std::mt19937_64 to the
-/// bit but leaves its distributions open, so those are written out here.
+/// Random numbers, equal on every platform. The standard defines std::mt19937_64 to the bit, but
+/// not its distributions, so they are written out here.
 class Random {
  public:
   explicit Random(std::uint64_t seed) : engine_(seed) {}
@@ -20,7 +20,7 @@ class Random {
   double uniform(double low, double high) { return low + (high - low) * uniform(); }
   bool chance(double probability) { return uniform() < probability; }
 
-  /// Mean 0, standard deviation 1 (Box and Muller; one of the pair is used).
+  /// Mean 0, standard deviation 1 (Box-Muller, one of the pair).
   double normal() {
     const double radius = std::sqrt(-2 * std::log(1 - uniform()));
     return radius * std::cos(core::kTwoPi * uniform());

@@ -10,9 +10,9 @@
 namespace cornerd::replay {
 namespace {
 
-/// Looks in this many directions; one that leaves the map without meeting a wall means outside.
+/// Rays per point; a ray that hits no wall means outside.
 constexpr int kDirections = 64;
-/// Share of the map's bounding box that must be usable, or the search gives up.
+/// Usable share of the map's bounding box below which the search gives up.
 constexpr double kMinUsableShare = 1e-4;
 
 bool has_walls_on_all_sides(const core::WallMap& map, const core::Vec2& point) {
@@ -41,20 +41,21 @@ double clearance_at(const core::WallMap& map, const core::Vec2& point) {
 std::vector<core::Pose2> random_poses(const core::WallMap& map, std::size_t count,
                                       double clearance_m, std::uint64_t seed) {
   Random random(seed);
-  std::vector<core::Pose2> places;
+  std::vector<core::Pose2> poses;
   const auto max_tries = static_cast<std::size_t>(static_cast<double>(count + 1) / kMinUsableShare);
-  for (std::size_t tries = 0; places.size() < count; ++tries) {
+  for (std::size_t tries = 0; poses.size() < count; ++tries) {
     if (tries == max_tries) {
-      throw std::runtime_error("the map has no room for a robot with that clearance");
+      throw std::runtime_error(
+          "the map has no room for a robot with that clearance; choose a smaller one");
     }
     const double x_m = random.uniform(map.lower_left().x(), map.upper_right().x());
     const double y_m = random.uniform(map.lower_left().y(), map.upper_right().y());
     const double theta_rad = random.uniform(-core::kPi, core::kPi);
     const core::Vec2 point(x_m, y_m);
     if (clearance_at(map, point) < clearance_m || !is_indoors(map, point)) continue;
-    places.push_back({x_m, y_m, theta_rad});
+    poses.push_back({x_m, y_m, theta_rad});
   }
-  return places;
+  return poses;
 }
 
 }  // namespace cornerd::replay

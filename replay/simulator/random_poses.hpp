@@ -9,16 +9,15 @@
 
 namespace cornerd::replay {
 
-/// Random poses of a robot inside a building, any heading: in one of the map's rooms or with walls
-/// on all sides, in free space, and no wall nearer than `clearance_m`.
-/// Throws std::runtime_error where the map has next to no such place.
+/// Uniform random poses indoors, with no wall nearer than `clearance_m`. Throws std::runtime_error
+/// if less than about 1e-4 of the map's bounding box qualifies.
 std::vector<core::Pose2> random_poses(const core::WallMap& map, std::size_t count,
                                       double clearance_m, std::uint64_t seed);
 
-/// True where a robot could stand: in free space, in one of the rooms or with walls on all sides.
+/// In free space, and in one of the map's rooms or with walls on all sides.
 bool is_indoors(const core::WallMap& map, const core::Vec2& point);
 
-/// Distance from a point to the nearest wall surface; infinite for a map without any.
+/// Distance to the nearest wall surface; infinite for a map without walls.
 double clearance_at(const core::WallMap& map, const core::Vec2& point);
 
 }  // namespace cornerd::replay

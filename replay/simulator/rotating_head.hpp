@@ -9,8 +9,8 @@
 
 namespace cornerd::replay {
 
-/// Where the head points while it runs, one sample period after the other. Its angle is not reduced
-/// to a turn: turn n goes from 360 * n to 360 * (n + 1) degrees.
+/// Angle of the rotating head at each sample. Not reduced: revolution n is 360 n to 360 (n + 1)
+/// deg.
 class RotatingHead {
  public:
   struct Position {
@@ -18,7 +18,7 @@ class RotatingHead {
     double angle_deg = 0;
   };
 
-  /// `jitter`: standard deviation of the rate from turn to turn, as a share of it.
+  /// `jitter`: relative standard deviation of the rate from revolution to revolution.
   RotatingHead(double rate_hz, double jitter, core::TimeNs period_ns, std::uint64_t seed)
       : random_(seed), mean_rate_hz_(rate_hz), jitter_(jitter), period_ns_(period_ns) {
     draw_rate();
@@ -26,7 +26,7 @@ class RotatingHead {
 
   void start(core::TimeNs t_ns, double angle_deg) { now_ = {t_ns, angle_deg}; }
 
-  /// Samples from `t_ns` on (or at once where that is past) at another period.
+  /// Continues at `t_ns` (or now, if that is past) with another sample period.
   void resume(core::TimeNs t_ns, core::TimeNs period_ns) {
     if (t_ns > now_.t_ns) {
       now_.angle_deg += 360 * rate_hz_ * core::to_seconds(t_ns - now_.t_ns);
@@ -44,13 +44,13 @@ class RotatingHead {
     return position;
   }
 
-  /// Degrees from one sample to the next.
+  /// Degrees between samples.
   double step_deg() const { return 360 * rate_hz_ * core::to_seconds(period_ns_); }
   core::TimeNs period_ns() const { return period_ns_; }
 
  private:
   void draw_rate() {
-    // A real motor's rate is bounded; a tail of the normal distribution is not.
+    // Bounded, as a real motor's rate is.
     const double deviation = std::fmin(3, std::fmax(-3, random_.normal()));
     rate_hz_ = mean_rate_hz_ * (1 + jitter_ * deviation);
   }

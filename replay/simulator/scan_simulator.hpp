@@ -13,30 +13,27 @@
 
 namespace cornerd::replay {
 
-inline constexpr core::TimeNs kDefaultScanDuration_ns =
-    137'000'000;  ///< an A1 that runs free on 5 V
+inline constexpr core::TimeNs kDefaultScanDuration_ns = 137'000'000;  ///< an uncontrolled A1 at 5 V
 
-/// Turns of a lidar: `samples` rays evenly spread over the circle, clockwise as an A1 turns, with
-/// the errors of the simulator's sensor. There is no wire in between: ranges and bearings are not
-/// rounded, and start at the lidar's back.
+/// Scans of `samples` evenly spaced rays, clockwise from the lidar's back, with the sensor model's
+/// errors. Ranges and bearings are not rounded to a wire format.
 class ScanSimulator {
  public:
   ScanSimulator(const SensorModel& sensor, std::size_t samples, std::uint64_t seed,
                 core::TimeNs scan_ns = kDefaultScanDuration_ns);
 
-  /// Of a lidar that stands still. The result is valid until the next call. Takes the next numbers
-  /// of the random sequence.
+  /// A lidar at rest. The result is valid until the next call.
   const core::Scan& take(const core::WallMap& map, const core::Pose2& T_map_lidar);
-  /// Of one that moves.
+  /// A moving lidar.
   const core::Scan& take(const core::WallMap& map, core::TimeNs start_ns,
                          const Motion& T_map_lidar);
 
-  /// Farther than any map reaches: the sensor model has limits of its own.
-  static constexpr double kSight_m = 100;
+  /// Beyond any map; the sensor model has its own limit.
+  static constexpr double kMaxRange_m = 100;
 
-  /// How far one sees at a time, in a direction in the lidar's frame then; 0: no wall.
-  using Triangulation = std::function<double(core::TimeNs t_ns, double bearing_rad)>;
-  const core::Scan& take(core::TimeNs start_ns, const Triangulation& range_along);
+  /// Range at a time, by bearing in the lidar frame of that time; 0: no wall.
+  using RangeFunction = std::function<double(core::TimeNs t_ns, double bearing_rad)>;
+  const core::Scan& take(core::TimeNs start_ns, const RangeFunction& range_along);
 
   core::TimeNs scan_ns() const { return scan_ns_; }
 

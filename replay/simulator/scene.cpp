@@ -6,7 +6,7 @@
 namespace cornerd::replay {
 namespace {
 
-/// Beyond any lidar of this family; its own limits are the sensor model's affair.
+/// Beyond any lidar of this family; SensorModel has the sensor's own limit.
 constexpr double kMaxRangeM = 100;
 
 }  // namespace

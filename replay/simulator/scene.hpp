@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a lidar sees, whatever it is made of.
+// The surroundings that a simulated lidar measures.
 #pragma once
 
 #include <atomic>
@@ -18,13 +18,13 @@ class Scene {
  public:
   virtual ~Scene() = default;
 
-  /// Distance along a ray in the lidar's frame; 0: nothing there. Times and turns of successive
-  /// calls do not decrease.
+  /// Distance along a ray in the lidar frame; 0: no wall. Times and scans of successive calls do
+  /// not decrease.
   virtual double range_along(core::TimeNs t_ns, std::int64_t scan, const core::Vec2& origin,
                              double bearing_rad) = 0;
 };
 
-/// A robot with a lidar among the walls of a map.
+/// The walls of a map, seen from a moving robot.
 class MapScene : public Scene {
  public:
   MapScene(std::shared_ptr<const core::WallMap> map, Motion motion,
@@ -33,7 +33,7 @@ class MapScene : public Scene {
   double range_along(core::TimeNs t_ns, std::int64_t scan, const core::Vec2& origin,
                      double bearing_rad) override;
 
-  /// The truth: the pose of `base`.
+  /// The true pose.
   core::Pose2 T_map_base(core::TimeNs t_ns, std::int64_t scan) const { return motion_(t_ns, scan); }
 
  private:
@@ -42,8 +42,7 @@ class MapScene : public Scene {
   core::Pose2 T_base_lidar_;
 };
 
-/// A scene that can be hidden from the lidar: as a covered or dead laser sees it. Any thread may
-/// cover it.
+/// A scene that any thread can cover, as if the laser were covered or dead.
 class CoverableScene : public Scene {
  public:
   explicit CoverableScene(std::unique_ptr<Scene> scene) : scene_(std::move(scene)) {}

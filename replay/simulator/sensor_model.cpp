@@ -51,13 +51,13 @@ double SensorErrors::measured(double range_m, std::optional<double> incidence_ra
 
 double SensorErrors::mixed(double one_m, double other_m) {
   if (one_m <= 0 || other_m <= 0) return std::max(one_m, other_m);
-  // One surface: what its middle has, or every bearing would be off by half a beam.
+  // One surface: its middle, or every bearing would be off by half a beam.
   if (std::abs(one_m - other_m) < model_.mixed_step_m) return (one_m + other_m) / 2;
   return random_.uniform(std::min(one_m, other_m), std::max(one_m, other_m));
 }
 
 bool SensorErrors::swaps_nodes() {
-  // Each swap takes two nodes, of which one steps back.
+  // Each swap uses two nodes, and one of them steps back.
   return model_.backward > 0 && random_.chance(model_.backward / (1 - model_.backward));
 }
 

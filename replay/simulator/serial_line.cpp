@@ -18,7 +18,7 @@ std::span<const std::uint8_t> ByteFaults::pass(std::span<const std::uint8_t> sen
     const std::uint64_t kind = random_.bits() % 3;
     if (kind == 0) continue;
     const auto damage = kind == 1 ? std::uint64_t{1} << random_.bits() % 8  // one bit
-                                  : 1 + random_.bits() % 255;               // any other byte
+                                  : 1 + random_.bits() % 255;               // another byte
     arrived_.push_back(static_cast<std::uint8_t>(byte ^ damage));
   }
   return arrived_;

@@ -10,7 +10,7 @@
 namespace cornerd::replay {
 namespace {
 
-/// The drive is looked at this often; a gyro's own low pass is about as slow.
+/// Integration step; a gyro's low-pass filter is about as slow.
 constexpr core::TimeNs kStepNs = 2'000'000;
 constexpr core::TimeNs kSlipNs = core::kNsPerSecond / 5;
 
@@ -28,7 +28,7 @@ SimulatedOdometry::SimulatedOdometry(Motion motion, const RobotModel& model, std
       period_ns_(core::from_seconds(1 / std::max(model.rate_hz, 1e-3))),
       T_map_base_(motion_(0, 0)) {
   if (!(model.rate_hz >= 1 && model.rate_hz <= 1000)) {
-    throw std::invalid_argument("odometry is read 1 to 1000 times a second");
+    throw std::invalid_argument("robot model: rate_hz must be 1 to 1000 readings per second");
   }
   until_slip_m_ = metres_to_next(random_, model.slips_per_m);
 }

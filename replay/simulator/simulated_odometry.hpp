@@ -10,33 +10,32 @@
 
 namespace cornerd::replay {
 
-/// How a simulated robot's wheels and gyro differ from what its config says, and from each other.
+/// A simulated robot: its configured geometry, and the errors of wheels and gyro.
 struct RobotModel {
   core::DriveGeometry geometry;  ///< as configured
-  double rate_hz = 50;           ///< readings a second
+  double rate_hz = 50;           ///< readings per second
   bool has_gyro = true;
 
   // Relative: 0.02 is 2 % more than configured.
   double left_scale = 0;   ///< of the wheel's radius
   double right_scale = 0;  ///< of the wheel's radius
   double track_scale = 0;
-  double gyro_scale = 0;  ///< of the rate that it tells
+  double gyro_scale = 0;  ///< of the measured rate
   double gyro_bias_rad_s = 0;
 
-  double wheel_m_per_sqrt_m = 0.001;       ///< each wheel's way wanders
-  double gyro_rad_s_per_sqrt_hz = 0.0002;  ///< an MPU-6050: 0.005 degrees; and the floor shakes it
-  double gyro_step_rad_s = 1.0 / 131 * 0.0174533;  ///< its smallest, at 250 degrees a second
+  double wheel_m_per_sqrt_m = 0.001;               ///< random walk of each wheel's travel
+  double gyro_rad_s_per_sqrt_hz = 0.0002;          ///< MPU-6050: 0.005 deg/s, plus vibration
+  double gyro_step_rad_s = 1.0 / 131 * 0.0174533;  ///< resolution at 250 deg/s full scale
 
-  /// Slips: so often a metre one wheel turns on for a fifth of a second by this share more.
+  /// Slips: during 0.2 s one wheel rotates by `slip_share` more than it travels.
   double slips_per_m = 0;
   double slip_share = 0.5;
 };
 
-/// What the encoders and the gyro of a robot on a drive say, reading by reading. Same model, same
-/// drive, same seed: same readings.
+/// Encoder and gyro readings of a simulated drive. Deterministic for model, drive and seed.
 class SimulatedOdometry {
  public:
-  /// Throws std::invalid_argument where the rate is not in [1, 1000] Hz.
+  /// Throws std::invalid_argument if the rate is not in [1, 1000] Hz.
   SimulatedOdometry(Motion motion, const RobotModel& model, std::uint64_t seed);
 
   core::TimeNs next_ns() const { return next_ns_; }

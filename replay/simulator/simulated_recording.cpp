@@ -13,18 +13,18 @@
 namespace cornerd::replay {
 namespace {
 
-/// A read returns about this much: one express capsule, sixteen nodes.
+/// Size of a read: about one express capsule, or sixteen nodes.
 constexpr std::size_t kReadBytes = 80;
 constexpr core::TimeNs kTruthPeriodNs = 10'000'000;
-/// A decoder needs to see this much of the turn after the last one to be sure of its end: an ultra
-/// capsule is up to 44 degrees long, and is decoded when the next one has arrived.
+/// Share of a scan that a decoder needs to complete the one before: an ultra capsule spans up to 44
+/// degrees and waits for its successor.
 constexpr double kLeadOutShare = 0.3;
 
 constexpr std::uint64_t kOdometrySeed = 0xA0761D6478BD642Fu;
 constexpr std::uint64_t kFaultSeed = 0xD1B54A32D192ED03u;
 constexpr std::uint64_t kJitterSeed = 0x8CB92BA72F3D8DD7u;
 
-/// The pose at the time of each sample, thinned out.
+/// Samples the true pose.
 class TruthSampler {
  public:
   TruthSampler(const Motion& motion, TruthWriter* writer) : motion_(motion), writer_(writer) {}
@@ -58,7 +58,7 @@ class TruthSampler {
   core::TimeNs written_ns_ = -1;
 };
 
-/// A map with something over the lidar for a while.
+/// Covered for an interval.
 class CoveredScene final : public MapScene {
  public:
   CoveredScene(std::shared_ptr<const core::WallMap> map, const Motion& motion,
@@ -78,7 +78,7 @@ class CoveredScene final : public MapScene {
   core::TimeNs to_ns_;
 };
 
-/// What the robot's controller sends meanwhile, in the order of time.
+/// ODOMETRY lines up to the time of a read.
 class OdometryInputMonitor {
  public:
   OdometryInputMonitor(const SimulatedRecordingConfig& config, const Motion& motion,
@@ -102,7 +102,7 @@ class OdometryInputMonitor {
   std::optional<SimulatedOdometry> odometry_;
 };
 
-/// What a reader gets of the bytes: portions, some damaged, each a little late.
+/// Portions of bytes as read from the port: damaged and delayed.
 class Reads {
  public:
   Reads(const SimulatedRecordingConfig& config, RecordingWriter& recording,
@@ -150,9 +150,10 @@ SimulatedRecordingSummary simulate_recording(std::shared_ptr<const core::WallMap
                                              const Motion& motion,
                                              const SimulatedRecordingConfig& config,
                                              RecordingWriter& recording, TruthWriter* truth) {
-  if (config.scans < 1) throw std::invalid_argument("a recording takes at least one turn");
+  if (config.scans < 1) throw std::invalid_argument("simulated recording: needs at least one scan");
   if (!(config.byte_fault_share >= 0 && config.byte_fault_share < 1)) {
-    throw std::invalid_argument("the share of bad bytes must be in [0, 1)");
+    throw std::invalid_argument(
+        "simulated recording: the share of damaged bytes must be in [0, 1)");
   }
   Simulator simulator(std::make_unique<CoveredScene>(std::move(map), motion, config),
                       config.simulator);

@@ -9,13 +9,13 @@
 namespace cornerd::replay {
 namespace {
 
-/// The A1's optics, as the vendor's decoder of ultra capsules corrects for them.
+/// The A1's optics, as in the vendor's correction of ultra capsules.
 constexpr double kLaserOffsetM = 0.024;
 constexpr double kLaserAngleDeg = 8.0;
 constexpr double kMinCorrectedM = 0.050;
-constexpr double kNearOffsetDeg = 7.5;  ///< nearer than that, and for empty samples
+constexpr double kNearOffsetDeg = 7.5;  ///< if nearer, or without a return
 
-/// What an A1 reports with a return: standard nodes carry 15 with one, 0 without.
+/// Quality of a standard node with a return; 0 without.
 constexpr std::uint8_t kQuality = 15;
 
 constexpr std::uint64_t kHeadSeed = 0x9E3779B97F4A7C15u;  ///< keeps head and noise independent
@@ -33,7 +33,7 @@ std::uint16_t wrap_q6(std::int64_t angle_q6) {
   return static_cast<std::uint16_t>(((angle_q6 % kRevolution) + kRevolution) % kRevolution);
 }
 
-/// The turn that a sample belongs to: the last one before the mark already starts the next turn.
+/// The last sample before the zero angle belongs to the next scan.
 std::int64_t scan_of(double angle_deg, double step_deg) {
   return static_cast<std::int64_t>(std::floor((angle_deg + step_deg) / 360));
 }
@@ -80,7 +80,7 @@ Simulator::Simulator(std::unique_ptr<Scene> scene, const SimulatorConfig& config
             config.seed ^ kHeadSeed) {
   if (!(config.motor_hz >= 1 && config.motor_hz <= 15) ||
       !(config.motor_jitter >= 0 && config.motor_jitter <= 0.1)) {
-    throw std::invalid_argument("the motor must turn at 1 to 15 Hz, with a jitter of at most 0.1");
+    throw std::invalid_argument("motor: the rate must be 1 to 15 Hz and the jitter 0 to 0.1");
   }
   head_.start(0, config.start_angle_deg);
   start(0, config.wire, config.sample_period_ns);
@@ -130,7 +130,7 @@ std::optional<double> Simulator::incidence_at(const Head& head, std::int64_t sca
                                               double device_angle_deg, double range_m) {
   if (!errors_.needs_incidence() || range_m <= 0) return std::nullopt;
   constexpr double kAsideDeg = 0.05;
-  constexpr double kGrazing = 20;  // growth of the range per radian, in ranges: 87 degrees
+  constexpr double kGrazing = 20;  // (dr/dangle) / r at 87 degrees of incidence
   const double before_m = range_at(head, scan, device_angle_deg - kAsideDeg);
   const double after_m = range_at(head, scan, device_angle_deg + kAsideDeg);
   if (before_m <= 0 || after_m <= 0) return std::nullopt;
@@ -171,7 +171,7 @@ double Simulator::sweep(std::size_t count) {
   const std::int64_t start_q6 = to_q6(heads_[0].angle_deg);
   const double step_deg = static_cast<double>(to_q6(next_first_.angle_deg) - start_q6) / 64.0 /
                           static_cast<double>(count);
-  // From here on the angles are those that the capsule's two start angles tell of.
+  // From here on angles are interpolated between start angles, as a decoder does.
   for (std::size_t k = 0; k < count; ++k) {
     heads_[k].angle_deg = static_cast<double>(start_q6) / 64.0 + static_cast<double>(k) * step_deg;
     samples_[k] = {heads_[k].t_ns, scan_of(heads_[k].angle_deg, step_deg),
@@ -189,7 +189,7 @@ Simulator::Head Simulator::take_node() {
   const double step_deg = head_.step_deg();
   Head head = next_first_;
   next_first_ = head_.next();
-  // The mark of a turn stays where it is.
+  // A swap must not move the scan start.
   const bool same_scan = scan_of(head.angle_deg, 0) == scan_of(next_first_.angle_deg, step_deg);
   swapped_ = !swapped_ && same_scan && errors_.swaps_nodes();
   if (swapped_) std::swap(head.angle_deg, next_first_.angle_deg);
@@ -206,7 +206,7 @@ WirePacket Simulator::next_node() {
   const double offset_deg = triangulate(head, sample.scan, 0).offset_deg;
   std::uint16_t angle_q6 = wrap_q6(to_q6(head.angle_deg - offset_deg));
   sample.dist_q2 = to_units(measured_at(head, sample.scan, angle_q6 / 64.0), 4e3, 0xFFFF);
-  // A node without a return has nothing to be corrected by.
+  // A node without a return has no angle correction.
   if (sample.dist_q2 == 0) angle_q6 = wrap_q6(to_q6(head.angle_deg));
   sample.device_angle_deg = angle_q6 / 64.0;
 

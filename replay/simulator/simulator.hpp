@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A simulated A1: a scene in, the bytes of its scan stream out.
+// A simulated A1: turns a scene into the bytes of a scan stream.
 #pragma once
 
 #include <array>
@@ -19,59 +19,57 @@
 
 namespace cornerd::replay {
 
-/// Sample period of an A1 of firmware 1.29 in the mode that is usual for a format: Standard 508,
-/// Express 254, Boost and Sensitivity 127 us.
+/// Sample period of firmware 1.29: Standard 508, Express 254, Boost and Sensitivity 127 us.
 core::TimeNs nominal_sample_period_ns(rplidar::WireFormat format);
 
 struct SimulatorConfig {
   SensorModel sensor;
   rplidar::WireFormat wire = rplidar::WireFormat::kExpress;
-  core::TimeNs sample_period_ns = 0;  ///< 0: the format's usual one
-  double motor_hz = 7.3;              ///< as an A1 runs free on 5 V
-  double motor_jitter = 0.007;        ///< of the rate, from turn to turn: 1 ms of 137
-  bool inverted = false;              ///< hung upside down: its angle then counts counter-clockwise
-  /// Where the head stands at time 0, degrees; negative, so that turn 0 is the first whole one.
+  core::TimeNs sample_period_ns = 0;  ///< 0: the nominal one
+  double motor_hz = 7.3;              ///< an uncontrolled A1 at 5 V
+  double motor_jitter = 0.007;        ///< of the rate, per revolution: 1 ms of 137
+  bool inverted = false;              ///< upside down: the angle counts counter-clockwise
+  /// Angle of the head at time 0, degrees; negative, so that scan 0 is the first complete one.
   double start_angle_deg = -60;
   std::uint64_t seed = 1;
 };
 
-/// A sample as the wire carries it, with what the wire does not carry.
+/// A sample as on the wire, with its true time and scan.
 struct SimulatedSample {
   core::TimeNs t_ns = 0;
   std::int64_t scan = 0;
   bool starts_scan = false;
-  double device_angle_deg = 0;  ///< what the wire claims, clockwise, in [0, 360)
-  std::uint32_t dist_q2 = 0;    ///< what the wire claims, millimetres * 4; 0: nothing returned
+  double device_angle_deg = 0;  ///< as on the wire, clockwise, in [0, 360)
+  std::uint32_t dist_q2 = 0;    ///< as on the wire, millimetres * 4; 0: no return
 };
 
-/// The same as a decoder and its clock would deliver it.
+/// As a decoder and sample clock deliver it.
 core::Sample to_sample(const SimulatedSample& simulated, bool inverted = false);
 
 /// One packet of the stream: a node or a capsule.
 struct WirePacket {
-  core::TimeNs ready_ns = 0;                 ///< when all that it tells of has been measured
-  std::span<const std::uint8_t> bytes;       ///< valid until the next packet is asked for
+  core::TimeNs ready_ns = 0;                 ///< its last sample has been measured
+  std::span<const std::uint8_t> bytes;       ///< valid until the next packet
   std::span<const SimulatedSample> samples;  ///< likewise
 };
 
-/// Endless; as fast as it is asked. Same config, same scene: same bytes.
+/// An endless stream, deterministic for config and scene.
 ///
-/// The head's own angle grows evenly through a capsule, from its start angle to the next one's. An
-/// A1 measures by triangulation: its laser sits 24 mm beside the axis and looks 8 degrees off, so a
-/// wall at distance d is seen 8 - asin(24 mm / d) degrees before the head's own angle. Nodes and
-/// express capsules carry angles that the device has corrected for this, to 1/64 and 1/8 degree;
-/// ultra capsules leave the correction to the host. A range is therefore taken in exactly the
-/// direction that a decoder will compute; the sensor model's jitter comes on top.
+/// Within a capsule the head's angle grows linearly. An A1 triangulates: its laser sits 24 mm
+/// beside the axis and points 8 degrees off, so a wall at distance d lies 8 deg - asin(24 mm / d)
+/// before the head's angle. Nodes and express capsules carry angles corrected for this, to 1/64 and
+/// 1/8 degree; for ultra capsules the host corrects. The simulator measures each range in exactly
+/// the direction that a decoder computes, plus the sensor model's jitter.
 ///
-/// A turn starts at the last sample before the head's own angle passes 0, as the vendor's decoder
-/// has it; its corrected angle is 352 to 360 degrees, as start flags of real devices have.
+/// A scan starts at the last sample before the head's angle passes 0, as in the vendor's decoder;
+/// its corrected angle is 352 to 360 degrees.
 class Simulator {
  public:
-  /// Throws std::invalid_argument where a rate is out of the device's reach (1 to 15 Hz).
+  /// Throws std::invalid_argument if the motor's rate is not in [1, 15] Hz.
   Simulator(std::unique_ptr<Scene> scene, const SimulatorConfig& config);
 
-  /// Begins a new stream at `t_ns` (at least the time reached), as after a scan request. The head
-  /// goes on turning; only the first start of all takes the config's start angle.
+  /// Begins a new stream at `t_ns` (not before the current time), as after a scan request. The head
+  /// keeps rotating; the config's start angle is that of the first stream.
   void start(core::TimeNs t_ns, rplidar::WireFormat wire, core::TimeNs sample_period_ns);
 
   WirePacket next();
@@ -83,26 +81,26 @@ class Simulator {
  private:
   using Head = RotatingHead::Position;
 
-  /// Where a triangulating sensor sees the wall.
+  /// A wall as a triangulating sensor measures it.
   struct Triangulation {
-    double offset_deg = 0;  ///< from the head's own angle back to the wall's direction
+    double offset_deg = 0;  ///< from the wall's direction to the head's angle
     double range_m = 0;     ///< from the axis; 0: no wall
   };
 
   double range_at(const Head& head, std::int64_t scan, double device_angle_deg);
   Triangulation triangulate(const Head& head, std::int64_t scan, double error_deg);
-  /// Of a ray to the normal of the wall that it meets; nullopt at an edge, or where nobody asks.
+  /// Angle of incidence on the wall; nullopt at an edge, or if not needed.
   std::optional<double> incidence_at(const Head& head, std::int64_t scan, double device_angle_deg,
                                      double range_m);
   double measured_at(const Head& head, std::int64_t scan, double device_angle_deg);
   std::uint32_t measured_for_ultra(const Head& head, std::int64_t scan);
 
   WirePacket next_node();
-  /// The head's position that the next node tells of; moves the head on.
+  /// The head's position for the next node; advances the head.
   Head take_node();
   WirePacket next_express();
   WirePacket next_ultra();
-  /// Moves the head through a capsule of `count` samples. Returns the degrees between two of them.
+  /// Advances the head through a capsule of `count` samples; returns the degrees between samples.
   double sweep(std::size_t count);
   WirePacket packet(std::size_t bytes, std::size_t samples, core::TimeNs ready_ns);
 
@@ -112,9 +110,9 @@ class Simulator {
   SensorErrors errors_;
   RotatingHead head_;
   bool restart_ = true;
-  bool swapped_ = false;             ///< the node to come was due before the last one
-  Head next_first_;                  ///< first position of the packet to come
-  std::uint32_t next_first_mm_ = 0;  ///< its distance: an ultra capsule needs the next one's
+  bool swapped_ = false;             ///< the last two nodes were swapped
+  Head next_first_;                  ///< first position of the next packet
+  std::uint32_t next_first_mm_ = 0;  ///< its distance, which ends the previous ultra capsule
 
   std::array<Head, kUltraSamples> heads_;  ///< of the packet under construction
   std::array<SimulatedSample, kUltraSamples> samples_;

@@ -8,7 +8,7 @@ namespace {
 
 constexpr std::uint8_t low_byte(std::uint32_t value) { return static_cast<std::uint8_t>(value); }
 
-/// The first four bytes of a capsule; the rest must be complete, as the checksum covers it.
+/// Writes the first four bytes; the checksum covers the rest, which must be complete.
 void write_capsule_header(std::uint16_t start_angle_q6, bool restart,
                           std::span<std::uint8_t> capsule) {
   capsule[2] = low_byte(start_angle_q6);
@@ -19,7 +19,7 @@ void write_capsule_header(std::uint16_t start_angle_q6, bool restart,
   capsule[1] = low_byte(0x50u | (checksum >> 4));
 }
 
-/// A distance in the capsule's floating code of 12 bits, and what a decoder makes of it.
+/// A 12-bit floating-point code and its decoded distance.
 struct MajorCode {
   std::uint32_t code = 0;
   std::uint32_t mm = 0;
@@ -43,7 +43,7 @@ MajorCode major_code(std::uint32_t dist_mm) {
   return {};
 }
 
-/// A distance as its difference to a coded neighbour: 10 bits, of which -512 and 511 mean invalid.
+/// Difference to a coded neighbour: 10 bits; -512 and 511 are invalid.
 struct Prediction {
   std::uint32_t bits = 0x200;
   std::uint32_t mm = 0;

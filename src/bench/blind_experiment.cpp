@@ -43,8 +43,8 @@ class BlindScore {
     const double nees = replay::normalised_error_squared(pose, truth)
                             .value_or(std::numeric_limits<double>::infinity());
     ++honesty.poses;
-    honesty.mean_m += error.place_m;
-    honesty.worst_m = std::max(honesty.worst_m, error.place_m);
+    honesty.mean_m += error.position_m;
+    honesty.worst_m = std::max(honesty.worst_m, error.position_m);
     honesty.worst_rad = std::max(honesty.worst_rad, error.heading_rad);
     honesty.mean_nees += nees;
     honesty.share_within += nees < replay::kNees95 ? 1 : 0;

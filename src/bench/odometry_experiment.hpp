@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "calibration/drive_reckoning.hpp"
 #include "calibration/factor_search.hpp"
 #include "calibration/odometry_fit.hpp"
 #include "core/geometry/pose2.hpp"

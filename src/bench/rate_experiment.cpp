@@ -22,7 +22,7 @@ void score_scan(const core::PoseEstimate& pose, const core::Pose2& truth, RateRe
   const replay::PoseError error = replay::error_of(pose.T_map_base, truth);
   if (pose.state == core::PoseState::kFix) {
     result.fixes.add(pose, truth);
-    result.worst_fix_m = std::max(result.worst_fix_m, error.place_m);
+    result.worst_fix_m = std::max(result.worst_fix_m, error.position_m);
     result.worst_fix_rad = std::max(result.worst_fix_rad, error.heading_rad);
   } else if (pose.state == core::PoseState::kPredicted) {
     result.predicted.add(pose, truth);

@@ -14,17 +14,17 @@ namespace {
 constexpr std::size_t kBins = 720;
 constexpr std::size_t kWidest = 8;               ///< of them in one
 constexpr std::size_t kMaxReturnsPerBin = 4000;  ///< ten minutes of an A1
-/// A spread of ten samples is good to a quarter of itself; the fits take many of them together.
+/// A sigma of ten samples is good to a quarter; the fits use many bins.
 constexpr std::size_t kMinReturns = 10;
-/// Share of the bins that must be told before wider ones are not worth their blur.
+/// Share of the bins with statistics from which on bins are not widened.
 constexpr double kEnoughBins = 0.5;
 
 constexpr double kGateSigmas = 3;
-/// A normal distribution cut at 3 sigma is that much narrower.
+/// Sigma of a normal distribution truncated at 3 sigma.
 constexpr double kCutAtThreeSigma = 0.9866;
-/// Coarsest step of an A1's nodes and express capsules: nearer to the line nothing is an outlier.
+/// Coarsest range step of an A1; the smallest outlier gate.
 constexpr double kStepM = 0.001;
-/// Returns further than this from the median of their bin are of something else.
+/// Returns farther than this from the median of their bin are outliers.
 constexpr double kOtherThingM = 0.05;
 constexpr double kOtherThingShare = 0.1;
 constexpr int kGateRounds = 4;
@@ -111,8 +111,8 @@ std::optional<BinSpread> spread_of(const std::vector<Return>& all) {
   return spread;
 }
 
-/// A bin's own slope is as good as its few tenths of a degree allow. Where both neighbours lie on
-/// the same wall, their ranges tell it several times better.
+/// A bin is too narrow for a good slope. Where both neighbours lie on the same wall, their ranges
+/// give it several times better.
 void take_slopes_from_neighbours(std::vector<BinSpread>& spreads, double width_rad) {
   const std::vector<BinSpread> own = spreads;
   for (std::size_t i = 1; i + 1 < own.size(); ++i) {
@@ -133,8 +133,8 @@ BearingBins::BearingBins() : bins_(kBins) {}
 
 void BearingBins::add(double bearing_rad, double range_m) {
   if (!(range_m > 0) || !std::isfinite(bearing_rad)) return;
-  const double scan = core::normalize_angle(bearing_rad) / core::kTwoPi + 0.5;
-  const auto bin = std::min(static_cast<std::size_t>(scan * kBins), kBins - 1);
+  const double revolution = core::normalize_angle(bearing_rad) / core::kTwoPi + 0.5;
+  const auto bin = std::min(static_cast<std::size_t>(revolution * kBins), kBins - 1);
   if (bins_[bin].size() >= kMaxReturnsPerBin) return;
   bins_[bin].push_back(
       {static_cast<float>(core::normalize_angle(bearing_rad)), static_cast<float>(range_m)});

@@ -7,23 +7,23 @@
 
 namespace cornerd::calibration {
 
-/// A return of a lidar that does not move.
+/// A return of a stationary lidar.
 struct Return {
   float bearing_rad = 0;
   float range_m = 0;
 };
 
-/// What one direction saw of a wall, turn after turn.
+/// Statistics of the returns in one bearing bin: a straight line of range over bearing.
 struct BinSpread {
   double bearing_rad = 0;  ///< mean
   double range_m = 0;      ///< at that bearing
-  double sigma_m = 0;      ///< of the range about a straight line over the bearing
-  double slope_m = 0;      ///< growth of the range with the bearing, per radian
+  double sigma_m = 0;      ///< of the range about the line
+  double slope_m = 0;      ///< of the line, per radian
   std::size_t returns = 0;
   /// Mean of the later half of the returns less that of the earlier one, in sigmas: 1.7 where the
   /// lidar moved evenly, near 0 where it stood.
   double drift = 0;
-  double rejected = 0;  ///< share of the returns that lie off the line: edges, crosstalk, people
+  double rejected = 0;  ///< share of outliers: edges, crosstalk, people
 
   /// Tangent of the angle between the ray and the wall's normal.
   double steepness() const { return range_m > 0 ? slope_m / range_m : 0; }
@@ -34,15 +34,15 @@ class BearingBins {
  public:
   BearingBins();
 
-  /// Empty samples (range 0) count for nothing. What exceeds the room of a bin is dropped.
+  /// Ignores empty samples (range 0), and returns beyond the capacity of a bin.
   void add(double bearing_rad, double range_m);
 
   std::size_t returns() const { return returns_; }
-  /// All that was kept, in the order of the bins.
+  /// All stored returns, sorted by bin.
   std::vector<Return> all() const;
 
-  /// Bins with too few returns for a spread are left out. Where half a degree gathers too little,
-  /// bins are wider: 1, 2 or 4 degrees, by which five turns are enough.
+  /// Bins with too few returns are left out. Bins of half a degree are widened to 1, 2 or 4 degrees
+  /// where most have too few; five scans are then enough.
   std::vector<BinSpread> spreads() const;
 
  private:

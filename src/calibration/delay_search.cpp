@@ -19,20 +19,20 @@ namespace {
 constexpr double kDelayStep_s = 0.02;
 constexpr int kDelaySteps = 30;  ///< to either side
 static_assert(kDelaySteps * kDelayStep_s == kMaxDelay_s);
-constexpr std::size_t kFewestCompared = 10;
+constexpr std::size_t kMinCompared = 10;
 constexpr int kDelayRounds = 6;
-/// Squared surprises that must speak against the configured delay, and against others that are
-/// no neighbours: less may be chance.
+/// Increase of the robust cost at the configured delay, and at other local minima, from which on
+/// the best delay is unambiguous.
 constexpr double kAgainst = 40;
 constexpr double kAgainstOthers = 25;
 
-/// One of many: y = share . x, in sigmas.
+/// A linear equation y = share . x, in sigmas.
 struct Comparison {
   Eigen::Vector2d x;
   double y = 0;
 };
 
-/// The sum of the squared surprises, tamed as those of the fit, with the shares that make it least.
+/// Smallest robust (Cauchy) cost over the shares, by iteratively reweighted least squares.
 double cost_of(const std::vector<Comparison>& all) {
   Eigen::Vector2d share = Eigen::Vector2d::Zero();
   double cost = 0;
@@ -40,11 +40,11 @@ double cost_of(const std::vector<Comparison>& all) {
     Eigen::Matrix2d information = 1e-9 * Eigen::Matrix2d::Identity();
     Eigen::Vector2d right = Eigen::Vector2d::Zero();
     cost = 0;
-    for (const Comparison& told : all) {
-      const double r = told.y - told.x.dot(share);
+    for (const Comparison& equation : all) {
+      const double r = equation.y - equation.x.dot(share);
       const double weight = round == 0 ? 1 : cauchy_weight(r);
-      information += weight * told.x * told.x.transpose();
-      right += weight * told.y * told.x;
+      information += weight * equation.x * equation.x.transpose();
+      right += weight * equation.y * equation.x;
       cost += cauchy_cost(r);
     }
     if (round < kDelayRounds) share = information.inverse() * right;
@@ -52,12 +52,12 @@ double cost_of(const std::vector<Comparison>& all) {
   return cost;
 }
 
-/// Per window; nullopt where too few are whole.
-std::optional<double> surprise_of(std::span<const core::OdometryIncrement> steps,
-                                  std::span<const KnownPose> places, double delay_s) {
+/// Cost per window at a delay; nullopt where too few windows are complete.
+std::optional<double> cost_at(std::span<const core::OdometryIncrement> steps,
+                              std::span<const KnownPose> places, double delay_s) {
   const auto windows = cut_windows(at_true_times(steps, delay_s), places);
-  if (windows.size() < kFewestCompared) return std::nullopt;
-  std::vector<Comparison> ways;
+  if (windows.size() < kMinCompared) return std::nullopt;
+  std::vector<Comparison> translations;
   std::vector<Comparison> wheel_rotations;
   std::vector<Comparison> gyro_rotations;
   for (const DriveWindow& window : windows) {
@@ -69,7 +69,7 @@ std::optional<double> surprise_of(std::span<const core::OdometryIncrement> steps
       gyro += Eigen::Vector2d(step.gyro_rad, step.duration_s());
       has_gyro = has_gyro && step.has_gyro;
     }
-    ways.push_back({wheels / kPlaceSigma_m, window.way_m / kPlaceSigma_m});
+    translations.push_back({wheels / kPoseSigma_m, window.distance_m / kPoseSigma_m});
     wheel_rotations.push_back(
         {wheels / kWheelRotationSigma_rad, window.rotation_rad / kWheelRotationSigma_rad});
     if (has_gyro) {
@@ -77,7 +77,7 @@ std::optional<double> surprise_of(std::span<const core::OdometryIncrement> steps
           {gyro / kGyroRotationSigma_rad, window.rotation_rad / kGyroRotationSigma_rad});
     }
   }
-  const double cost = cost_of(ways) + cost_of(wheel_rotations) + cost_of(gyro_rotations);
+  const double cost = cost_of(translations) + cost_of(wheel_rotations) + cost_of(gyro_rotations);
   return cost / static_cast<double>(windows.size());
 }
 
@@ -87,17 +87,17 @@ DelaySearch search_delay(std::span<const core::OdometryIncrement> steps,
                          std::span<const KnownPose> places, double configured_s) {
   DelaySearch search{.delay_s = configured_s};
   std::vector<double> costs;
-  const auto as_configured = surprise_of(steps, places, configured_s);
+  const auto as_configured = cost_at(steps, places, configured_s);
   if (!as_configured) return search;
   for (int i = -kDelaySteps; i <= kDelaySteps; ++i) {
-    const auto cost = surprise_of(steps, places, kDelayStep_s * i);
+    const auto cost = cost_at(steps, places, kDelayStep_s * i);
     if (!cost) return search;
     costs.push_back(*cost);
   }
   const auto best = static_cast<int>(std::ranges::min_element(costs) - costs.begin());
   const double least = costs[best];
   const auto windows = static_cast<double>(cut_windows(steps, places).size());
-  // What is noisier than it should be says less.
+  // Scales the thresholds where the residuals are larger than modelled.
   const double unit = std::max(1.0, least / 3) / std::max(1.0, windows);
   if (*as_configured < least + kAgainst * unit) return search;
   const int last = 2 * kDelaySteps;
@@ -108,7 +108,7 @@ DelaySearch search_delay(std::span<const core::OdometryIncrement> steps,
       return search;
     }
   }
-  search.is_told = true;
+  search.is_unambiguous = true;
   search.at_edge = best == 0 || best == last;
   search.delay_s = kDelayStep_s * (best - kDelaySteps);
   if (search.at_edge) return search;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How late the readings of a recorded drive are, roughly but from anywhere.
+// Global search for the time delay of the odometry readings of a recorded drive.
 #pragma once
 
 #include <span>
@@ -8,19 +8,18 @@
 
 namespace cornerd::calibration {
 
-/// Readings later or earlier than this are not looked for.
+/// Largest delay searched, in either direction.
 inline constexpr double kMaxDelay_s = 0.6;
 
 struct DelaySearch {
-  double delay_s = 0;    ///< to a hundredth of a second, or the configured one
-  bool is_told = false;  ///< this delay explains the drive, the configured and all others do not
-  bool at_edge = false;  ///< it is told, and the true one may lie beyond what was searched
+  double delay_s = 0;           ///< to a hundredth of a second, or the configured one
+  bool is_unambiguous = false;  ///< clearly better than the configured one and all others
+  bool at_edge = false;         ///< unambiguous, but the true one may lie beyond the search range
 };
 
-/// Of many delays the one with which the counts' and the gyro's share of the windows' ways and
-/// turns explain them best, whatever those shares are: wheels and gyro may be off by anything.
-/// Where nothing tells (constant speed, no turns) it is `configured_s`. Steps and places in the
-/// order of time.
+/// The delay for which translations and rotations of the windows fit the wheels and the gyro best,
+/// with free scale factors. `configured_s` where the drive does not determine it (constant speed,
+/// no rotations). `steps` and `places` are sorted by time.
 DelaySearch search_delay(std::span<const core::OdometryIncrement> steps,
                          std::span<const KnownPose> places, double configured_s);
 

@@ -13,11 +13,12 @@ namespace {
 
 using core::OdometryIncrement;
 
-/// Walks through the steps, and looks at each known place where the robot has got to. `prepare` has
-/// whole steps, `motion` those parts of them that lie between two places.
+/// Integrates the increments and compares at each known pose. `prepare` gets whole increments,
+/// `motion` their parts between two poses.
 template <typename Prepare, typename Motion>
-DriveError walk(std::span<const OdometryIncrement> steps, std::span<const KnownPose> places,
-                DrivePoints* points, const Prepare& prepare, const Motion& motion) {
+DriveError for_each_known_pose(std::span<const OdometryIncrement> steps,
+                               std::span<const KnownPose> places, DrivePoints* points,
+                               const Prepare& prepare, const Motion& motion) {
   DriveError error;
   std::size_t next = 0;
   while (next < places.size() && !steps.empty() && places[next].t_ns < steps.front().from_ns) {
@@ -50,7 +51,7 @@ DriveError walk(std::span<const OdometryIncrement> steps, std::span<const KnownP
   return error;
 }
 
-/// What a known place is off by, the lidar's own errors included.
+/// Sigmas of a known pose.
 constexpr double kKnownSigma_m = 0.01;
 constexpr double kKnownSigma_rad = 0.005;
 
@@ -65,8 +66,8 @@ core::Covariance3 known_covariance() {
 DriveError reckon(std::span<const OdometryIncrement> steps, std::span<const KnownPose> places,
                   const core::DriveGeometry& geometry, const core::DeadReckoningConfig& config,
                   DrivePoints* points) {
-  // A dead band is for whole steps: parts of them would stay under it.
-  return walk(
+  // The dead band applies to whole increments: their parts would stay under it.
+  return for_each_known_pose(
       steps, places, points,
       [&](const OdometryIncrement& step) { return core::by_wheels_alone(step, geometry, config); },
       [&](const OdometryIncrement& alone) {
@@ -77,20 +78,20 @@ DriveError reckon(std::span<const OdometryIncrement> steps, std::span<const Know
 DriveError reckon(std::span<const OdometryIncrement> steps, std::span<const KnownPose> places,
                   const core::DriveGeometry& geometry, const core::OdometryParameters& learned,
                   DrivePoints* points) {
-  return walk(at_true_times(steps, learned.delay_s), places, points, std::identity(),
-              [&](const OdometryIncrement& step) {
-                const core::CorrectedIncrement moved =
-                    core::corrected_increment(step, geometry, learned);
-                return core::arc(moved.translation_m, moved.rotation_rad);
-              });
+  return for_each_known_pose(at_true_times(steps, learned.delay_s), places, points, std::identity(),
+                             [&](const OdometryIncrement& step) {
+                               const core::CorrectedIncrement moved =
+                                   core::corrected_increment(step, geometry, learned);
+                               return core::arc(moved.translation_m, moved.rotation_rad);
+                             });
 }
 
 FilteredDrive filter_drive(std::span<const core::OdometryIncrement> steps,
                            std::span<const KnownPose> places, const core::OdometryConfig& config,
-                           core::TimeNs taught_until_ns) {
+                           core::TimeNs corrected_until_ns) {
   FilteredDrive drive;
   core::FusionFilter filter(config);
-  const core::Covariance3 doubt = known_covariance();
+  const core::Covariance3 covariance = known_covariance();
   std::size_t next = 0;
   while (next < places.size() && !steps.empty() && places[next].t_ns < steps.front().from_ns) {
     ++next;
@@ -98,15 +99,17 @@ FilteredDrive filter_drive(std::span<const core::OdometryIncrement> steps,
   bool begun = false;
   const auto arrive = [&](const KnownPose& place) {
     if (!begun) {
-      filter.set_pose(place.T_map_base, doubt);
+      filter.set_pose(place.T_map_base, covariance);
       begun = true;
       return;
     }
     const core::Vec2 here = filter.pose().translation();
     drive.points.push_back(here);
-    if (place.t_ns <= taught_until_ns) {
-      // One that does not fit is taken all the same: the wheels slipped, the place is known.
-      if (!filter.correct(place.T_map_base, doubt)) filter.set_pose(place.T_map_base, doubt);
+    if (place.t_ns <= corrected_until_ns) {
+      // A pose that fails the gate resets the filter: the wheels slipped.
+      if (!filter.correct(place.T_map_base, covariance)) {
+        filter.set_pose(place.T_map_base, covariance);
+      }
       return;
     }
     drive.alone.end_m = (here - place.T_map_base.translation()).norm();

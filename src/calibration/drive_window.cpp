@@ -9,14 +9,15 @@ namespace cornerd::calibration {
 namespace {
 
 constexpr core::TimeNs kWindow_ns = core::kNsPerSecond;
-/// A window may miss its length by this much where a turn was lost.
+/// Longer windows, where scans are missing, are left out.
 constexpr core::TimeNs kLongestWindow_ns = 3 * core::kNsPerSecond;
 
-void go_on(DriveWindow& window, const core::Pose2& from, const core::Pose2& to) {
+void extend(DriveWindow& window, const core::Pose2& from, const core::Pose2& to) {
   const double rotation_rad = core::angle_between(from.theta_rad, to.theta_rad);
-  const core::Pose2 way = from.inverse() * to;
+  const core::Pose2 motion = from.inverse() * to;
   window.rotation_rad += rotation_rad;
-  window.way_m += way.x_m * std::cos(rotation_rad / 2) + way.y_m * std::sin(rotation_rad / 2);
+  window.distance_m +=
+      motion.x_m * std::cos(rotation_rad / 2) + motion.y_m * std::sin(rotation_rad / 2);
 }
 
 }  // namespace
@@ -40,13 +41,13 @@ std::vector<DriveWindow> cut_windows(std::span<const core::OdometryIncrement> st
     DriveWindow window;
     std::size_t j = i + 1;
     for (; j < places.size(); ++j) {
-      go_on(window, places[j - 1].T_map_base, places[j].T_map_base);
+      extend(window, places[j - 1].T_map_base, places[j].T_map_base);
       if (places[j].t_ns - places[i].t_ns >= kWindow_ns) break;
     }
     if (j == places.size()) break;
     const core::TimeNs from_ns = places[i].t_ns;
     const core::TimeNs to_ns = places[j].t_ns;
-    window.way = places[i].T_map_base.inverse() * places[j].T_map_base;
+    window.motion = places[i].T_map_base.inverse() * places[j].T_map_base;
     while (first < steps.size() && steps[first].to_ns <= from_ns) ++first;
     bool whole = first < steps.size() && steps[first].from_ns <= from_ns;
     core::TimeNs reached_ns = from_ns;

@@ -9,26 +9,26 @@
 
 namespace cornerd::calibration {
 
-/// Where the robot was, by the lidar or by a truth.
+/// A pose of the robot from the lidar, or from ground truth.
 struct KnownPose {
   core::TimeNs t_ns = 0;
   core::Pose2 T_map_base;
 };
 
-/// The steps between two known places, cut to them.
+/// The odometry increments between two known poses.
 struct DriveWindow {
   std::vector<core::OdometryIncrement> steps;
-  core::Pose2 way;          ///< as it was, from the first place to the second
-  double rotation_rad = 0;  ///< as it was; may be more than half a turn
-  double way_m = 0;         ///< along the arcs between the places meanwhile; backward is negative
+  core::Pose2 motion;       ///< true motion from the first pose to the second
+  double rotation_rad = 0;  ///< true rotation, not wrapped
+  double distance_m = 0;  ///< true distance along the arcs between the poses; backward is negative
 };
 
-/// The steps at the times when they were true, of readings that bear times `delay_s` later.
+/// The increments at their true times, for readings whose times are `delay_s` late.
 std::vector<core::OdometryIncrement> at_true_times(std::span<const core::OdometryIncrement> steps,
                                                    double delay_s);
 
-/// Windows of about a second, one after another; those that holes or lost turns are in are left
-/// out. Steps and places in the order of time.
+/// Consecutive windows of about a second, without those that have a gap in the increments or in
+/// the poses. `steps` and `places` are sorted by time.
 std::vector<DriveWindow> cut_windows(std::span<const core::OdometryIncrement> steps,
                                      std::span<const KnownPose> places);
 

@@ -9,10 +9,10 @@ namespace {
 
 using core::HeadingSource;
 
-/// Factors as whole thousandths, so that none is looked at twice by rounding.
+/// Factors in whole thousandths, exact in each grid.
 constexpr int kThousand = 1000;
-constexpr int kLeast = static_cast<int>(kMinFactor * kThousand);
-constexpr int kMost = static_cast<int>(kMaxFactor * kThousand);
+constexpr int kMin = static_cast<int>(kMinFactor * kThousand);
+constexpr int kMax = static_cast<int>(kMaxFactor * kThousand);
 
 struct FactorPair {
   int encoder = kThousand;
@@ -30,8 +30,7 @@ class GridSearch {
   bool by_encoder() const { return config_.source != HeadingSource::kGyro; }
   bool by_gyro() const { return config_.source != HeadingSource::kEncoder; }
 
-  /// All candidates within `count` steps of the best so far; again around a better one that is
-  /// found at their rim.
+  /// Tries all candidates within `count` steps of the best; repeats while the best is at the rim.
   void search(int step, int count) {
     for (bool at_rim = true; at_rim;) {
       const FactorPair around = best_;
@@ -48,8 +47,8 @@ class GridSearch {
   FoundFactors found() const {
     FoundFactors found;
     found.factors = factors_of(best_);
-    found.encoder_at_edge = by_encoder() && (best_.encoder == kLeast || best_.encoder == kMost);
-    found.gyro_at_edge = by_gyro() && (best_.gyro == kLeast || best_.gyro == kMost);
+    found.encoder_at_edge = by_encoder() && (best_.encoder == kMin || best_.encoder == kMax);
+    found.gyro_at_edge = by_gyro() && (best_.gyro == kMin || best_.gyro == kMax);
     return found;
   }
 
@@ -60,9 +59,7 @@ class GridSearch {
     if (by_gyro()) factors.gyro_factor = candidate.gyro / double{kThousand};
     return factors;
   }
-  static bool is_candidate(int thousandths) {
-    return thousandths >= kLeast && thousandths <= kMost;
-  }
+  static bool is_candidate(int thousandths) { return thousandths >= kMin && thousandths <= kMax; }
 
   void try_candidate(const FactorPair& candidate) {
     if (!is_candidate(candidate.encoder) || !is_candidate(candidate.gyro)) return;
@@ -87,8 +84,8 @@ FoundFactors search_factors(std::span<const core::OdometryIncrement> steps,
                             std::span<const KnownPose> places, const core::DriveGeometry& geometry,
                             const core::DeadReckoningConfig& start) {
   GridSearch grid(steps, places, geometry, start);
-  // Reaches over all candidates from wherever the best is.
-  grid.search(50, (kMost - kLeast) / 50);
+  // The first grid covers the whole range.
+  grid.search(50, (kMax - kMin) / 50);
   grid.search(10, 6);
   grid.search(1, 12);
   return grid.found();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a recorded drive, whose places are known, says of a robot's wheels and gyro.
+// Calibration of wheels and gyro from a recorded drive with known poses.
 #pragma once
 
 #include <cstddef>
@@ -15,27 +15,7 @@
 
 namespace cornerd::calibration {
 
-/// A drive by wheels and gyro alone, from its first known place on.
-struct DriveError {
-  double mean_m = 0;  ///< over the known places
-  double end_m = 0;   ///< at the last one
-  std::size_t places = 0;
-};
-
-/// Where each of the known places after the first was thought to be.
-using DrivePoints = std::vector<core::Vec2>;
-
-/// Steps and places in the order of time, as everywhere here.
-DriveError reckon(std::span<const core::OdometryIncrement> steps, std::span<const KnownPose> places,
-                  const core::DriveGeometry& geometry, const core::DeadReckoningConfig& config,
-                  DrivePoints* points = nullptr);
-/// The same with what was learned, the delay included; the heading is the gyro's where there is
-/// one.
-DriveError reckon(std::span<const core::OdometryIncrement> steps, std::span<const KnownPose> places,
-                  const core::DriveGeometry& geometry, const core::OdometryParameters& learned,
-                  DrivePoints* points = nullptr);
-
-/// A scale is believed to be no larger: one that ends there means that the geometry is wrong.
+/// Bound of a scale; a fit that ends there means a wrong geometry.
 inline constexpr double kMaxFittedScale = 0.5;
 
 struct OdometryFit {
@@ -43,15 +23,15 @@ struct OdometryFit {
   core::OdometryParameters sigma;
   std::size_t windows = 0;
   bool has_gyro = false;
-  /// The drive tells the delay, else `learned` has the one that was given, and `sigma` how little
-  /// is known of it.
+  /// The drive determines the delay; otherwise `learned` has the given one.
   bool has_delay = false;
 };
 
-/// Least squares over windows of about a second from known place to known place: the way by the
-/// wheels, the turn by wheels and gyro, and how late both are, which is looked for near `delay_s`.
-/// Windows that fit badly (a slip) count less. The sigmas are those of the residuals themselves.
-/// Nullopt where the drive does not tell them all: too short, without turns or without straights.
+/// Robust least squares over windows of about a second between known poses: translation by the
+/// wheels, rotation by wheels and gyro, and the time delay of both, searched near `delay_s`.
+/// Windows with slip are downweighted. The sigmas follow from the residuals (sandwich covariance).
+/// Nullopt where the drive does not determine all parameters: too short, no rotations or no
+/// straights.
 std::optional<OdometryFit> fit_odometry(std::span<const core::OdometryIncrement> steps,
                                         std::span<const KnownPose> places,
                                         const core::DriveGeometry& geometry, double delay_s = 0);

@@ -10,19 +10,19 @@
 namespace cornerd::calibration {
 namespace {
 
-/// Narrow where an A1's noise changes fastest; the paper's limits, 0.6 and 1 m, are among them.
+/// Narrow where an A1's noise changes fastest; includes the paper's limits, 0.6 and 1 m.
 constexpr std::array kEdgesM = {0.0, 0.3, 0.45, 0.6, 0.8, 1.0, 1.25, 1.5, 2.0,
                                 2.5, 3.0, 4.0,  5.0, 6.0, 8.0, 10.0, 12.5};
-constexpr double kNearestM = 0.15;  ///< an A1 sees nothing before
+constexpr double kNearestM = 0.15;  ///< smallest range of an A1
 constexpr std::size_t kMinBinsPerCell = 12;
 constexpr double kFlat = 0.577;     ///< tangent of 30 degrees
 constexpr double kSteep = 0.839;    ///< of 40 degrees
-constexpr double kTooSteep = 2.75;  ///< of 70 degrees: the footprint of the beam counts there
+constexpr double kTooSteep = 2.75;  ///< of 70 degrees: the beam's footprint dominates there
 constexpr std::size_t kMinSteepBins = 12;
-/// Half a step of a standard node's distance: no wire carries less noise than that.
+/// Half a distance step of a standard node: quantisation.
 constexpr double kMinSigmaM = 0.000125;
-/// The table's sigma between its points is good to a tenth.
-constexpr double kDoubtOfRangeVariance = 0.2;
+/// Relative sigma of the range variance interpolated in the table.
+constexpr double kRangeVarianceSigma = 0.2;
 constexpr double kMaxBearingRad = 0.05;
 constexpr int kFitRounds = 20;
 
@@ -31,8 +31,7 @@ bool is_steep(const BinSpread& bin) {
   return std::abs(bin.steepness()) >= kSteep && std::abs(bin.steepness()) < kTooSteep;
 }
 
-/// At least half of the bin's sigma: a bin whose spread came out small by chance would otherwise
-/// claim a range without noise.
+/// At least half of the bin's sigma: a bin whose sigma is small by chance would give zero.
 double without_bearing(const BinSpread& bin, double bearing_rad) {
   const double aside_m = bin.slope_m * bearing_rad;
   const double all = bin.sigma_m * bin.sigma_m;
@@ -61,8 +60,8 @@ RangeCell make_cell(std::span<const BinSpread> bins, double from_m, double to_m,
           sigmas.size()};
 }
 
-/// Each cell begins at an edge and ends at the next one behind which there are enough bins, within
-/// twice the range; where there is none, nothing is known between the two edges.
+/// A cell reaches from an edge to the nearest one that gives it enough bins, within twice the
+/// range.
 std::vector<RangeCell> make_cells(std::span<const BinSpread> bins, double bearing_rad) {
   std::vector<RangeCell> cells;
   for (std::size_t first = 0; first + 1 < kEdgesM.size(); ++first) {
@@ -86,8 +85,8 @@ std::vector<core::SigmaTable::Point> points_of(std::span<const RangeCell> cells)
   return points;
 }
 
-/// What the steep bins have beyond the noise of the range. `bearing_rad`: the last answer. nullopt
-/// where there are too few of them.
+/// Bearing sigma from the steep bins' variance beyond the range's. `bearing_rad`: the last iterate.
+/// Nullopt where there are too few.
 std::optional<double> bearing_noise(std::span<const BinSpread> bins,
                                     const core::SigmaTable& range_noise, double bearing_rad) {
   std::vector<Weighted> squares;
@@ -96,20 +95,18 @@ std::optional<double> bearing_noise(std::span<const BinSpread> bins,
     const double all = bin.sigma_m * bin.sigma_m;
     const double along = std::pow(range_noise.sigma_m(bin.range_m), 2);
     const double slope = bin.slope_m * bin.slope_m;
-    // Where the range's own noise is large, or few returns tell the spread, little is left to see.
-    // By what is believed so far, as weights by what was measured would prefer what came out small.
-    const double believed = along + slope * bearing_rad * bearing_rad;
-    const double doubt = std::hypot(believed * std::sqrt(2.0 / static_cast<double>(bin.returns)),
-                                    kDoubtOfRangeVariance * along);
-    squares.push_back({(all - along) / slope, slope / doubt});
+    // Weights by the modelled variance: weights by the measured one would prefer small values.
+    const double modelled = along + slope * bearing_rad * bearing_rad;
+    const double sigma = std::hypot(modelled * std::sqrt(2.0 / static_cast<double>(bin.returns)),
+                                    kRangeVarianceSigma * along);
+    squares.push_back({(all - along) / slope, slope / sigma});
   }
   if (squares.size() < kMinSteepBins) return std::nullopt;
   return std::min(std::sqrt(std::max(weighted_median(squares), 0.0)), kMaxBearingRad);
 }
 
-/// Sum over the cells of |log(measured / model)|: a cell that is off by half counts as one that is
-/// off by double, and one odd cell does not bend the whole.
-double misfit(std::span<const RangeCell> cells, double floor_m, double share) {
+/// Weighted mean over the cells of |log(measured / model)|; robust against single cells.
+double log_residual(std::span<const RangeCell> cells, double floor_m, double share) {
   double sum = 0;
   double weights = 0;
   for (const RangeCell& cell : cells) {
@@ -126,7 +123,7 @@ void fit_floor_and_share(std::span<const RangeCell> cells, RangeNoise& fit) {
   constexpr int kSteps = 40;
   double floor_m = 0.0016;  // geometric middles of 0.1 mm .. 25 mm and 0.0002 .. 0.1
   double share = 0.0045;
-  fit.plain_residual = misfit(cells, floor_m, share);
+  fit.plain_residual = log_residual(cells, floor_m, share);
   double reach = std::log(25.0);
   for (int round = 0; round < 3; ++round) {
     const double middle_floor_m = floor_m;
@@ -135,7 +132,7 @@ void fit_floor_and_share(std::span<const RangeCell> cells, RangeNoise& fit) {
       for (int j = -kSteps; j <= kSteps; ++j) {
         const double try_floor_m = middle_floor_m * std::exp(reach * i / kSteps);
         const double try_share = middle_share * std::exp(reach * j / kSteps);
-        const double found = misfit(cells, try_floor_m, try_share);
+        const double found = log_residual(cells, try_floor_m, try_share);
         if (found >= fit.plain_residual) continue;
         fit.plain_residual = found;
         floor_m = try_floor_m;
@@ -144,8 +141,7 @@ void fit_floor_and_share(std::span<const RangeCell> cells, RangeNoise& fit) {
     }
     reach *= 2.0 / kSteps;
   }
-  // Where nothing was measured the nearest sigma holds, the farthest one's share of the range does:
-  // as in the table.
+  // Outside the cells: the nearest cell's sigma, and the farthest cell's share, as in the table.
   fit.plain.floor_m = std::max(floor_m, share * cells.front().range_m);
   fit.plain.share = std::max(share, floor_m / cells.back().range_m);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a window of a recorded drive is off by, and how little one counts that is off by much more.
+// Medians, and the weights of robust least squares.
 #pragma once
 
 #include <algorithm>
@@ -10,7 +10,7 @@
 
 namespace cornerd::calibration {
 
-/// Of a normal distribution: sigma over the median of the absolute values.
+/// Sigma of a normal distribution over its median absolute deviation.
 inline constexpr double kMedianToSigma = 1.4826;
 
 /// The value that `share` of the values do not exceed; 0 for none. Reorders its copy.
@@ -43,37 +43,37 @@ inline double weighted_median(std::vector<Weighted> values) {
 
 inline double median(std::vector<double> values) { return quantile(std::move(values), 0.5); }
 
-/// What two places and a second of wheels and gyro are off by.
-inline constexpr double kPlaceSigma_m = 0.004;
+/// Sigmas of a window of about a second: two lidar poses, wheels and gyro.
+inline constexpr double kPoseSigma_m = 0.004;
 inline constexpr double kWheelRotationSigma_rad = 0.015;
 inline constexpr double kGyroRotationSigma_rad = 0.003;
-/// Cauchy: a residual of so many sigmas counts half; one of a slip hardly at all.
+/// Cauchy: a residual of this many sigmas has half the weight.
 inline constexpr double kHalfWeightSigmas = 2;
 
-/// Of a residual in sigmas.
+/// `r`: a residual in sigmas.
 inline double cauchy_weight(double r) {
   return 1 / (1 + r * r / (kHalfWeightSigmas * kHalfWeightSigmas));
 }
-/// In place of its square.
+/// Replaces the squared residual.
 inline double cauchy_cost(double r) {
   constexpr double kWidth = kHalfWeightSigmas * kHalfWeightSigmas;
   return kWidth * std::log1p(r * r / kWidth);
 }
-/// How fast what it pulls with grows with it.
+/// Derivative of weight times residual.
 inline double cauchy_curvature(double r) {
   const double weight = cauchy_weight(r);
   return weight * (2 * weight - 1);
 }
 
-/// Tukey's biweight, once the residuals' own sigma is known: one of so many sigmas counts nothing.
-/// A slip always adds counts, so that whatever little all slips weigh is a bias.
+/// Tukey's biweight: a residual of this many sigmas has no weight. Slips always add counts, so that
+/// any weight of them is a bias.
 inline constexpr double kNoWeightSigmas = 4.685;
 
 inline double tukey_weight(double r) {
   const double rest = 1 - r * r / (kNoWeightSigmas * kNoWeightSigmas);
   return rest > 0 ? rest * rest : 0;
 }
-/// How fast what it pulls with grows with it.
+/// Derivative of weight times residual.
 inline double tukey_curvature(double r) {
   const double share = r * r / (kNoWeightSigmas * kNoWeightSigmas);
   return share < 1 ? (1 - share) * (1 - 5 * share) : 0;

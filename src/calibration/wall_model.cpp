@@ -24,16 +24,16 @@ struct PaperPiece {
 };
 constexpr PaperPiece kPaper[] = {{0, 0.6, 6, 3}, {0.6, 1.0, 2, 3}, {1.0, 2.25, 2, 1}};
 
-/// A polynomial of order 6 needs more than its seven coefficients.
+/// A polynomial of order 6 has seven coefficients.
 constexpr std::size_t kMinPieceReturns = 100;
 constexpr double kGate = 4;
 constexpr int kRejectRounds = 4;
-/// Distances nearer to each other are one: nobody places a wall better.
+/// Nearer distances are one: walls are not placed more precisely.
 constexpr double kSameDistanceM = 0.002;
 
 std::vector<WallReturn> within(std::span<const WallReturn> returns, const PaperPiece& paper) {
   std::vector<WallReturn> inside;
-  // Those at a border belong to both sides, which keeps the pieces together.
+  // Returns at a border belong to both pieces, which makes them continuous.
   std::copy_if(returns.begin(), returns.end(), std::back_inserter(inside), [&](const auto& each) {
     return each.distance_m >= paper.from_m - kSameDistanceM &&
            each.distance_m <= paper.to_m + kSameDistanceM;
@@ -49,7 +49,7 @@ std::size_t count_distances(std::span<const WallReturn> returns) {
   return distances.size();
 }
 
-/// Sums of products of the scaled powers, whatever the number of returns.
+/// Normal equations of the scaled powers; memory does not grow with the returns.
 class NormalEquations {
  public:
   NormalEquations(const WallPieceFit& fit)
@@ -182,7 +182,7 @@ std::vector<WallPieceFit> fit_wall_model(std::span<const WallReturn> returns) {
       fit.piece.ray_rad = std::max(fit.piece.ray_rad, std::abs(each.ray_rad));
       squares += each.error_m * each.error_m;
     }
-    // A wall at a border alone is told by the piece before it.
+    // A wall at a border only is in the piece before.
     const bool new_distances = fits.empty() || fit.piece.to_m > fits.back().piece.to_m;
     if (fit.piece.ray_rad <= 0 || !new_distances) continue;
     fit.rms_m = std::sqrt(squares / static_cast<double>(inside.size()));

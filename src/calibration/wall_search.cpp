@@ -17,27 +17,26 @@ namespace {
 constexpr std::size_t kDirections = 360;
 constexpr double kFarthestRay = core::radians(70);
 constexpr double kNormalRay = core::radians(15);
-/// The lidar's own error and the tape's are below this, what else stands about is beyond.
+/// Gate across the wall for the errors of lidar and tape measure.
 constexpr double kGateM = 0.02;
 constexpr double kGateShare = 0.04;
-/// The gate for the wall's own returns: wide enough for what the lidar errs by along the wall.
+/// Gate for the wall's returns, wide enough for the lidar's errors along the wall.
 constexpr double kGateSpreads = 5;
 constexpr double kMinGateM = 0.01;
-/// Direction and offset can be told apart: the wall is seen over more than a few degrees.
+/// Direction and offset are separable: the wall spans more than a few degrees.
 constexpr double kMinDeterminant = 1e-6;
 constexpr int kRefinements = 8;
-/// Of a wall 10 degrees wide, once round.
+/// One scan of a wall 10 degrees wide.
 constexpr std::size_t kMinWallReturns = 10;
 
 double gate_m(double distance_m) { return kGateM + kGateShare * distance_m; }
 
-/// Each return beyond the distance could lie on two walls, left and right of it. Of the directions
-/// of all those walls the true one comes up most.
+/// Hough vote: each return farther than the wall's distance fits two wall directions.
 double most_voted_direction(std::span<const Return> returns, double distance_m) {
   std::array<double, kDirections> votes{};
   const auto vote = [&votes](double bearing_rad) {
-    const double scan = core::normalize_angle(bearing_rad) / core::kTwoPi + 0.5;
-    votes[static_cast<std::size_t>(scan * kDirections) % kDirections] += 1;
+    const double revolution = core::normalize_angle(bearing_rad) / core::kTwoPi + 0.5;
+    votes[static_cast<std::size_t>(revolution * kDirections) % kDirections] += 1;
   };
   for (const Return& each : returns) {
     const double cosine = distance_m / each.range_m;
@@ -58,8 +57,8 @@ double most_voted_direction(std::span<const Return> returns, double distance_m) 
                                core::kPi);
 }
 
-/// A wall under search, and the constant that its ranges err by. Without it an offset of the lidar
-/// would turn a wall that is seen farther to one side than to the other.
+/// A wall hypothesis with a constant range offset. Without the offset, a wall that spans more angle
+/// on one side of its normal would be rotated.
 struct Candidate {
   double distance_m = 0;
   double normal_rad = 0;
@@ -69,7 +68,7 @@ struct Candidate {
   double ray_rad(const Return& each) const {
     return core::angle_between(normal_rad, each.bearing_rad);
   }
-  /// How far a return lies behind the wall.
+  /// Distance of a return behind the wall.
   double behind_m(const Return& each) const {
     return (each.range_m - offset_m) * std::cos(ray_rad(each)) - distance_m;
   }
@@ -78,11 +77,10 @@ struct Candidate {
   }
 };
 
-/// Direction and offset by least squares across the wall, whose distance is known; and a gate after
-/// the returns' spread, so that the walls around the corner fall out. nullopt where the candidate
-/// holds next to none.
+/// Least squares of direction and offset at the known distance, and a gate from the median residual
+/// that excludes adjacent walls. Nullopt where too few returns fit.
 std::optional<Candidate> refine(std::span<const Return> returns, const Candidate& last) {
-  // behind = cos(ray) * (offset - distance * tan(ray) / cos(ray) * turn)
+  // behind = cos(ray) * (offset - distance * tan(ray) / cos(ray) * rotation)
   double aa = 0;
   double ab = 0;
   double bb = 0;
@@ -118,7 +116,7 @@ constexpr double kHalfBin = core::radians(0.3);
 constexpr double kMinSpan = core::radians(20);
 constexpr std::size_t kMinBins = 15;
 constexpr std::size_t kMaxWalls = 16;
-/// The mean of a direction is off its wall by less: skirting boards and sagging paper included.
+/// Unevenness of a wall: skirting boards, sagging paper.
 constexpr double kUneven = 0.004;
 constexpr double kUnevenShare = 0.002;  // of the distance
 constexpr double kSigmasOfReturn = 5;
@@ -137,7 +135,7 @@ struct FlatWall {
   }
 };
 
-/// The wall that a direction sees, by its own slope.
+/// The wall through a bin, by the bin's slope.
 FlatWall wall_of(const BinSpread& bin) {
   const double ray = std::atan(bin.steepness());
   return {core::normalize_angle(bin.bearing_rad - ray), bin.range_m * std::cos(ray)};
@@ -170,7 +168,7 @@ double span_of(std::span<const BinSpread> bins, const FlatWall& wall) {
   return high - low;
 }
 
-/// The wall that most bins see; nullopt where none of them sees one.
+/// The wall in most bins; nullopt where there is none.
 std::optional<FlatWall> largest_wall(std::span<const BinSpread> bins) {
   FlatWall best;
   std::size_t most = 0;
@@ -191,8 +189,7 @@ std::optional<FlatWall> largest_wall(std::span<const BinSpread> bins) {
   return best;
 }
 
-/// The bin that a return fell into; null where that sees something else. `bins` are in the order of
-/// their bearing.
+/// The bin of a return; null where that bin is not on the wall. `bins` are sorted by bearing.
 const BinSpread* bin_of(std::span<const BinSpread> bins, double bearing_rad) {
   const auto next = std::lower_bound(
       bins.begin(), bins.end(), bearing_rad,

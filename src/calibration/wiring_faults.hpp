@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What is wrong with wheels or gyro beyond any scale: least squares without bounds of the way and
-// the turn by the lidar on what the two encoders say, and of the turn on what the gyro says.
+// Faults of wiring and units, beyond scale errors: unbounded least squares of the lidar's
+// translation and rotation on the two wheels, and of its rotation on the gyro.
 #pragma once
 
 #include <optional>
@@ -12,33 +12,32 @@
 
 namespace cornerd::calibration {
 
-/// A scale that the fit of odometry may well find is no fault. A drive that does not tell one (too
-/// short, without turns) has none.
+/// Scale errors within reach of fit_odometry() are no fault. A drive that does not determine a
+/// fault (too short, without rotations) has none.
 struct WiringFaults {
-  bool left_is_stuck = false;  ///< its counts do not change while the wheel rolls
+  bool left_is_stuck = false;  ///< the counts do not change while the wheel rolls
   bool right_is_stuck = false;
-  bool are_swapped = false;       ///< what comes as left is the right wheel's
-  bool left_is_reversed = false;  ///< what comes as left falls where it should grow
+  bool are_swapped = false;       ///< the left field has the right wheel's counts
+  bool left_is_reversed = false;  ///< the left field falls where it should grow
   bool right_is_reversed = false;
-  /// How often its counts' way a wheel goes, where that is far from once; `left`: what comes as it.
+  /// True over counted distance, where far from 1; `left`: of the left field.
   std::optional<double> left_factor;
   std::optional<double> right_factor;
-  std::optional<double> track_m;  ///< where it is far from the configured one
+  std::optional<double> track_m;  ///< true track, where far from the configured one
 
-  bool gyro_is_unrelated = false;  ///< to the robot's turns
+  bool gyro_is_unrelated = false;  ///< does not measure the robot's rotations
   bool gyro_is_reversed = false;
-  std::optional<double> gyro_factor;      ///< how often the true rate it reads, where far from once
-  std::optional<double> gyro_bias_rad_s;  ///< where it is beyond what is believed
+  std::optional<double> gyro_factor;      ///< measured over true rate, where far from 1
+  std::optional<double> gyro_bias_rad_s;  ///< where beyond the fit's bound
 
-  /// By the wheels, or by the gyro where they are right.
   bool any() const;
 };
 
-/// `steps` by `geometry`; `windows` of cut_windows().
+/// `windows`: of cut_windows(), with distances by `geometry`.
 WiringFaults find_wiring_faults(std::span<const DriveWindow> windows,
                                 const core::DriveGeometry& geometry);
 
-/// The track that the turns of a drive ask for, metres; nullopt where it does not tell.
+/// The track (m) that a drive's rotations imply; nullopt where they do not determine it.
 std::optional<double> apparent_track_m(std::span<const DriveWindow> windows);
 
 }  // namespace cornerd::calibration

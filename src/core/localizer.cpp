@@ -241,7 +241,7 @@ std::size_t Localizer::Workspace::corners_of(const Decision& decision) const {
 
 bool Localizer::Workspace::is_expected(const Pose2& T_map_lidar, TimeNs t_ns) const {
   const std::optional<Prior> prior = memory.prior(t_ns);
-  return prior && same_place(prior->T_map_lidar, T_map_lidar, kJump_m, kJump_rad);
+  return prior && same_pose(prior->T_map_lidar, T_map_lidar, kJump_m, kJump_rad);
 }
 
 bool Localizer::Workspace::prior_is_fresh(TimeNs t_ns) const {
@@ -253,8 +253,8 @@ bool Localizer::Workspace::is_at_prior(const Pose2& T_map_lidar, TimeNs t_ns) co
   const std::optional<Prior> prior = memory.prior(t_ns);
   return prior && prior->heading_error_rad < kAlmostSure_rad &&
          prior->position_error_m < kFresh_m &&
-         same_place(prior->T_map_lidar, T_map_lidar, prior->position_error_m + kAtPrior_m,
-                    prior->heading_error_rad + kAtPrior_rad);
+         same_pose(prior->T_map_lidar, T_map_lidar, prior->position_error_m + kAtPrior_m,
+                   prior->heading_error_rad + kAtPrior_rad);
 }
 
 PoseState Localizer::Workspace::believe(const Decision& decision, std::size_t corners,
@@ -268,7 +268,7 @@ PoseState Localizer::Workspace::believe(const Decision& decision, std::size_t co
     return may_be_tracked(evidence) ? PoseState::kTracking : PoseState::kAmbiguous;
   }
   const bool confirmed =
-      T_map_doubted && same_place(*T_map_doubted, T_map_lidar, kJump_m, kJump_rad);
+      T_map_doubted && same_pose(*T_map_doubted, T_map_lidar, kJump_m, kJump_rad);
   T_map_doubted.reset();
   const bool expected = is_expected(T_map_lidar, t_ns);
   if (!is_unambiguous_fix(evidence)) {

@@ -46,7 +46,7 @@ struct PoseEstimate {
   double rmse_m = 0;                ///< of the inliers
   double age_s = 0;                 ///< since the last turn that named a place
   /// The turn's belief that its likeliest place is not the right one: 0 to 1, Decision::doubt.
-  double doubt = 0;
+  double p_wrong = 0;
   std::vector<Alternative> alternatives;  ///< capacity kMaxAlternatives; best first
 };
 

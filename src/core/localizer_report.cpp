@@ -49,7 +49,7 @@ void Localizer::Workspace::report(const Decision& decision, std::size_t corners,
   pose.alternatives.clear();
   pose.covariance.setZero();
   pose.T_map_base = {};
-  pose.doubt = decision.doubt;
+  pose.p_wrong = decision.doubt;
   if (has_pose(decision.state)) {
     report_pose(place->verification.hypotheses()[decision.place], corners, t_ns);
   } else if (decision.state == PoseState::kAmbiguous) {
@@ -66,10 +66,10 @@ void Localizer::Workspace::report(const Decision& decision, std::size_t corners,
 bool Localizer::Workspace::contradicts(const PredictedPose& predicted) const {
   if (result.pose.state == PoseState::kLost) {
     return T_map_doubted &&
-           !same_place(predicted.T_map_base, *T_map_doubted * T_lidar_base, kJump_m, kJump_rad);
+           !same_pose(predicted.T_map_base, *T_map_doubted * T_lidar_base, kJump_m, kJump_rad);
   }
   const auto is_near = [&](const Alternative& other) {
-    return same_place(predicted.T_map_base, other.T_map_base, kJump_m, kJump_rad);
+    return same_pose(predicted.T_map_base, other.T_map_base, kJump_m, kJump_rad);
   };
   return std::none_of(result.pose.alternatives.begin(), result.pose.alternatives.end(), is_near);
 }

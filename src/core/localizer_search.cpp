@@ -10,9 +10,9 @@ namespace {
 
 /// A place that recognition gave is off by up to this much; one that was carried on from the turn
 /// before, by what a robot drives meanwhile; one that a turn in motion gave, by the motion.
-constexpr double kRecognisedReach_m = 0.10;
-constexpr double kPriorReach_m = 0.15;
-constexpr double kMotionReach_m = 0.08;
+constexpr double kRecognisedRadius_m = 0.10;
+constexpr double kPriorSearchRadius_m = 0.15;
+constexpr double kMotionSearchRadius_m = 0.08;
 
 /// Places with fewer votes of corners than this share of the best one's are looked at where those
 /// with more leave doubt: in large buildings they are many.
@@ -48,18 +48,18 @@ void Localizer::Workspace::look(const Scan& scan, TimeNs t_ns, const Twist2& as_
   verification.begin(points.points(), noise_scale());
   if (const std::optional<Prior> prior = memory.prior(t_ns)) {
     const PoseHypothesis carried_on{prior->T_map_lidar, 0};
-    verification.consider(std::span(&carried_on, 1), kPriorReach_m);
+    verification.consider(std::span(&carried_on, 1), kPriorSearchRadius_m);
   }
   const Detection& seen = result.detection;
   if (place->paper) {
     verification.consider(place->paper->places(seen.breakpoints, seen.segments),
-                          kRecognisedReach_m);
+                          kRecognisedRadius_m);
     return;
   }
   const auto pairs = place->recognition.from_pairs(seen.breakpoints);
   const std::size_t likely = count_likely(pairs, kLikelyShare);
-  verification.consider(pairs.first(likely), kRecognisedReach_m);
-  if (in_doubt(t_ns)) verification.consider(pairs.subspan(likely), kRecognisedReach_m);
+  verification.consider(pairs.first(likely), kRecognisedRadius_m);
+  if (in_doubt(t_ns)) verification.consider(pairs.subspan(likely), kRecognisedRadius_m);
 }
 
 bool Localizer::Workspace::in_doubt(TimeNs t_ns) const {
@@ -104,7 +104,7 @@ void Localizer::Workspace::look_for_the_motion(const Scan& scan, TimeNs t_ns) {
     for (int k = 0; k < 2 && (in_doubt(t_ns) || is_smeared()) && best_hits() > 0; ++k) {
       const Pose2 start = place->verification.hypotheses().front().refined.T_map_lidar;
       const RefinedMotion refined = place->refinement.refine_motion(
-          *map, start, kMotionReach_m, points.points(), result.detection.noise_scale);
+          *map, start, kMotionSearchRadius_m, points.points(), result.detection.noise_scale);
       if (!refined.valid || !is_plausible(refined.motion)) break;
       try_motion(motion + refined.motion);
     }
@@ -128,10 +128,10 @@ void Localizer::Workspace::look_everywhere(TimeNs t_ns) {
   if (!place || place->paper) return;
   const std::span<const Breakpoint> breakpoints = result.detection.breakpoints;
   Recognition& recognition = place->recognition;
-  place->verification.consider(recognition.from_single_corners(breakpoints), kRecognisedReach_m);
+  place->verification.consider(recognition.from_single_corners(breakpoints), kRecognisedRadius_m);
   if (!in_doubt(t_ns)) return;
   place->verification.consider(recognition.from_walls(result.detection.segments, breakpoints),
-                               kRecognisedReach_m);
+                               kRecognisedRadius_m);
 }
 
 }  // namespace cornerd::core

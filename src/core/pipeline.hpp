@@ -28,7 +28,7 @@ class Pipeline {
   }
 
   /// Pose from a partial scan, if the last sample ended one; see Localizer::follow().
-  const PoseEstimate* part() const { return partial_pose_; }
+  const PoseEstimate* partial_pose() const { return partial_pose_; }
 
   /// Odometry, in order of time among the samples. Returns as Localizer::add(). `now_ns`: by a
   /// clock; nullopt: the time of the newest sample.

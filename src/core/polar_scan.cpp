@@ -72,18 +72,18 @@ PolarPoint moved(const PolarPoint& point, const Twist2& motion) {
   // Exponential map as in Twist2::over(), by series: rotations within a scan are small.
   const double along = 1 - rotation_rad * rotation_rad / 6;
   const double aside = rotation_rad / 2 * (1 - rotation_rad * rotation_rad / 12);
-  const Vec2 place = Vec2(along * motion.vx_m_s - aside * motion.vy_m_s,
-                          aside * motion.vx_m_s + along * motion.vy_m_s) *
-                         dt_s +
-                     rotated(point.position(), rotation_rad);
-  const double range_m = std::max(place.norm(), 1e-6);
-  const Vec2 ray = place * (1 / range_m);
-  return {normalize_angle(point.bearing_rad + rotation_between(point.ray(), place)),
+  const Vec2 position = Vec2(along * motion.vx_m_s - aside * motion.vy_m_s,
+                             aside * motion.vx_m_s + along * motion.vy_m_s) *
+                            dt_s +
+                        rotated(point.position(), rotation_rad);
+  const double range_m = std::max(position.norm(), 1e-6);
+  const Vec2 ray = position * (1 / range_m);
+  return {normalize_angle(point.bearing_rad + rotation_between(point.ray(), position)),
           range_m,
           ray.x(),
           ray.y(),
-          place.x(),
-          place.y(),
+          position.x(),
+          position.y(),
           dt_s};
 }
 
@@ -171,17 +171,17 @@ void PolarScan::sort() {
   for (std::size_t i = 1; i < points_.size(); ++i) {
     if (!by_bearing(points_[i], points_[i - 1])) continue;
     const PolarPoint moving = points_[i];
-    std::size_t place = i;
-    while (place > 0 && by_bearing(moving, points_[place - 1])) {
+    std::size_t target = i;
+    while (target > 0 && by_bearing(moving, points_[target - 1])) {
       if (moves_left-- == 0) {
-        points_[place] = moving;
+        points_[target] = moving;
         std::sort(points_.begin(), points_.end(), by_bearing);
         return;
       }
-      points_[place] = points_[place - 1];
-      --place;
+      points_[target] = points_[target - 1];
+      --target;
     }
-    points_[place] = moving;
+    points_[target] = moving;
   }
 }
 

@@ -14,9 +14,10 @@
 namespace cornerd::daemon {
 namespace {
 
-/// Fewer turns tell less than what an A1 may be off by.
+/// With fewer scans sigma exceeds an A1's usual bias.
 constexpr std::size_t kMinScans = 20;
-/// News is what differs by this share of its sigma, or is so much better estimate.
+/// A new estimate is written if a parameter changed by this multiple of sigma, or sigma shrank to
+/// this share.
 constexpr double kMinChangeSigmas = 0.5;
 constexpr double kMinSigmaRatio = 0.7;
 
@@ -24,8 +25,8 @@ constexpr double core::SensorBias::*kParts[] = {
     &core::SensorBias::range_scale, &core::SensorBias::range_offset_m,
     &core::SensorBias::bearing_sine_rad, &core::SensorBias::bearing_cosine_rad};
 
-/// True for a file of its kind, or what a power cut or a failing disk left of one: the beginning,
-/// nothing, or zeros.
+/// True for a calibration file, and for the remains of one after a power cut: truncated, empty, or
+/// zeros.
 bool is_own(std::string_view text) {
   if (text.find_first_not_of('\0') == std::string_view::npos) return true;
   const std::string all = settings::text_of({});
@@ -39,7 +40,7 @@ bool is_json(std::string_view text) {
 
 }  // namespace
 
-std::filesystem::path calibration_file(const settings::LidarConfig& config) {
+std::filesystem::path calibration_file_path(const settings::LidarConfig& config) {
   if (config.driver == settings::DriverKind::kReplay) return {};
   if (!config.calibration_file.empty()) return config.calibration_file;
   const char* const folder = std::getenv("STATE_DIRECTORY");
@@ -51,7 +52,7 @@ CalibrationFile::CalibrationFile(const std::filesystem::path& file,
                                  const core::SensorBias& configured) {
   content_.configured = configured;
   if (file.empty()) return;
-  // Where it is a link, what it leads to is replaced, not the link.
+  // The target of a symbolic link is replaced, not the link.
   std::error_code unresolved;
   file_ = std::filesystem::weakly_canonical(file, unresolved);
   if (unresolved) file_ = file;
@@ -64,10 +65,10 @@ void CalibrationFile::load() {
   const file_type type = std::filesystem::status(file_, unread).type();
   if (type == file_type::not_found) return;
   const auto leave_alone = [this](std::string_view why) {
-    spdlog::warn("{}; what is learnt of the lidar is not kept", why);
+    spdlog::warn("{}; the lidar's calibration is not stored: set another /advanced/lidar/calibration_file", why);
     file_.clear();
   };
-  if (type != file_type::regular) return leave_alone(file_.string() + ": is no ordinary file");
+  if (type != file_type::regular) return leave_alone(file_.string() + ": not a regular file");
   std::string text;
   try {
     text = settings::read_file(file_, settings::kMaxLidarCalibrationBytes,
@@ -78,24 +79,24 @@ void CalibrationFile::load() {
   try {
     settings::LidarCalibration found = settings::parse_lidar_calibration(text, file_);
     if (found.configured != content_.configured) {
-      spdlog::info("{}: learnt under another /advanced/lidar/bias, and not used", file_.string());
+      spdlog::info("{}: not used, since /advanced/lidar/bias has changed", file_.string());
       return;
     }
     content_ = std::move(found);
     written_ = content_.learned;
-    spdlog::info("the lidar's bias is known from {} turns before", written_.scans);
+    spdlog::info("{}: the lidar's bias is known from {} scans", file_.string(), written_.scans);
   } catch (const std::exception& error) {
     if (!is_own(text)) {
-      // Somebody's settings or map, given by mistake, stay where they are.
+      // A configuration or map given by mistake must not be overwritten.
       if (is_json(text)) return leave_alone(error.what());
       const std::filesystem::path aside = file_.string() + ".bad";
       std::error_code failed;
       std::filesystem::rename(file_, aside, failed);
       if (failed) return leave_alone(error.what());
-      return spdlog::warn("{}; it is {} now, and the lidar is learnt anew", error.what(),
+      return spdlog::warn("{}; renamed to {}, the lidar is calibrated again", error.what(),
                           aside.string());
     }
-    spdlog::warn("what was learnt of the lidar is not used: {}", error.what());
+    spdlog::warn("the lidar's stored calibration is not used: {}", error.what());
   }
 }
 
@@ -133,7 +134,7 @@ void CalibrationFile::update(const core::EstimatedBias& learned) {
     replace_file(file_, settings::text_of(content_));
     written_ = learned;
   } catch (const std::exception& error) {
-    if (!has_warned_) spdlog::warn("what was learnt of the lidar is not kept: {}", error.what());
+    if (!has_warned_) spdlog::warn("cannot store the lidar's calibration: {}", error.what());
     has_warned_ = true;
   }
 }

@@ -10,31 +10,31 @@
 
 namespace cornerd::daemon {
 
-/// Where the settings, or else the service manager, want to have kept what was learnt of the lidar;
-/// empty: nowhere. A recording teaches nothing about a device.
-std::filesystem::path calibration_file(const settings::LidarConfig& config);
+/// Path of the lidar's calibration file: the configured one, or lidar.json in $STATE_DIRECTORY.
+/// Empty (no file) without either, and for a recording.
+std::filesystem::path calibration_file_path(const settings::LidarConfig& config);
 
-/// What is estimate of the lidar, from one run of the daemon to the next. What cannot be read or
-/// written is a line in the log, and costs nothing else. For the server's thread.
+/// Keeps the estimated bias of the lidar across restarts. Errors are logged and otherwise ignored.
+/// For the server thread.
 class CalibrationFile {
  public:
-  /// Recalls what was kept under the same settings. `file`: empty: nothing is kept. JSON
-  /// that was not written by a CalibrationFile is left alone, what is none renamed to *.bad.
-  /// `configured`: lidar.bias of the settings.
+  /// Loads `file`; if its name is empty, nothing is stored. A JSON file of another format is left
+  /// alone; a file that is not JSON is renamed to *.bad. A stored bias is used only if it was
+  /// estimated with the same `configured` bias (/advanced/lidar/bias).
   CalibrationFile(const std::filesystem::path& file, const core::SensorBias& configured);
 
-  /// Of this lidar under these settings; no turns: nothing.
+  /// The stored or newest estimate; 0 scans if there is none.
   const core::EstimatedBias& estimate() const { return content_.learned; }
 
-  /// The device has said its number. False where what was estimate is another one's: now nothing
-  /// is.
+  /// Sets the device's serial number. Returns false, and forgets the estimate, if the number
+  /// differs from the stored one.
   bool identify(std::string_view serial);
 
-  /// The settings have this lidar.bias now. False where it is another one: now nothing is estimate.
+  /// Sets the configured bias. Returns false, and forgets the estimate, if it differs.
   bool reconfigure(const core::SensorBias& configured);
 
-  /// What the turns have taught by now, of this lidar under these settings. Writes it down where it
-  /// says more than what is there already: a dozen times in the first minutes, hardly ever later.
+  /// Takes a newer estimate and writes it if it differs significantly from the stored one: about a
+  /// dozen times in the first minutes, rarely later.
   void update(const core::EstimatedBias& learned);
 
  private:

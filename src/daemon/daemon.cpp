@@ -20,7 +20,7 @@ namespace {
 using std::chrono::microseconds;
 using std::chrono::milliseconds;
 
-/// How soon a change of the lidar's state is noticed.
+/// Period at which changes of the lidar's state are published.
 constexpr milliseconds kTick{100};
 constexpr int kTicksPerStatus = 10;
 
@@ -46,22 +46,21 @@ Daemon::Daemon(Loaded loaded, Reloader::Load load, std::unique_ptr<drivers::Lida
       status_(server_, notifier_),
       tick_(kTick),
       reloader_(std::move(load)),
-      calibration_(calibration_file(config_.lidar), config_.lidar.bias),
+      calibration_(calibration_file_path(config_.lidar), config_.lidar.bias),
       lidar_(std::move(lidar)),
       localization_(*lidar_,
                     with_calibration(std::move(loaded.pipeline), config_.lidar, calibration_),
                     source_of(config_.lidar.driver)) {
   open_sockets();
-  // Only who has the sockets is this robot's daemon, and may touch its port.
+  // The sockets are opened first: a second instance fails before it touches the serial port.
   localization_.publish_predictions(config_.odometry.core.publish_predictions);
   localization_.start();
-  // A recording brings its own.
+  // A recording contains its own odometry.
   auto odometry = is_live_ ? make_odometry(config_.odometry) : nullptr;
   if (odometry) {
     odometry_.emplace(std::move(odometry), localization_);
     status_.set_odometry(&*odometry_);
   }
-  // A recording's lines come by no client.
   if (is_live_ && config_.odometry.source == settings::OdometrySource::kSocket) {
     status_.set_odometry(&odometry_clients_);
   }
@@ -93,21 +92,21 @@ void Daemon::open_sockets() {
   open(config_.socket.pose, SocketRole::kPose);
   open(config_.socket.control, SocketRole::kControl);
   for (const InheritedSocket& socket : inherited) {
-    spdlog::warn("{}: the service manager listens there, and the settings name another path",
+    spdlog::warn("{}: the service manager's socket is not used: set its path in /socket",
                  socket.path.string());
   }
 }
 
-/// Asked for and rejected is worth a line, and costs nothing else.
+/// Refusals are logged; the daemon runs without real-time privileges.
 void Daemon::set_up_realtime() {
   const settings::RealtimeConfig& config = config_.realtime;
   if (config.priority > 0) {
     if (const int error = localization_.prioritize_reader(config.priority)) {
-      spdlog::warn("priority {} is refused: {}; the unit's real-time drop-in allows it",
+      spdlog::warn("real-time priority {} refused: {}; install the unit's real-time drop-in",
                    config.priority, std::strerror(error));
     } else {
       health_.priority = config.priority;
-      spdlog::info("the port is read with priority {} (SCHED_FIFO)", config.priority);
+      spdlog::info("the reader thread has real-time priority {} (SCHED_FIFO)", config.priority);
     }
   }
   if (config.lock_memory) {
@@ -115,7 +114,7 @@ void Daemon::set_up_realtime() {
     health_.memory_is_locked = error == 0;
     if (error != 0) {
       prefault_memory();
-      spdlog::warn("memory is not locked: {}; the unit's real-time drop-in allows it",
+      spdlog::warn("memory lock refused: {}; install the unit's real-time drop-in",
                    std::strerror(error));
     }
   }
@@ -134,11 +133,12 @@ ControlActions Daemon::control_actions(const settings::Config& config) {
       if (is_live_) {
         reading.t_ns = reading.timed ? reading.t_ns - (unix_ns() - monotonic_ns()) : monotonic_ns();
       } else if (!reading.timed) {
-        // Of the recording's time, as everything else here; that of a turn would stand for a turn.
+        // The newest sample's time, because the time of the last scan does not advance within a
+        // scan.
         reading.t_ns = localization_.newest_sample_ns();
       }
-      const bool says = reading.left || reading.right || reading.gyro_rad_s;
-      if (verdict == Verdict::kAccepted || says) localization_.add(reading);
+      const bool has_values = reading.left || reading.right || reading.gyro_rad_s;
+      if (verdict == Verdict::kAccepted || has_values) localization_.add(reading);
       return verdict != Verdict::kFirstRejection;
     };
     actions.disconnect = [this](int connection) { odometry_clients_.disconnect(connection); };
@@ -147,7 +147,7 @@ ControlActions Daemon::control_actions(const settings::Config& config) {
 }
 
 void Daemon::run() {
-  // The sockets accept and the settings hold; whether there is a lidar is a state, not a condition.
+  // Ready without a lidar: its absence is a state that STATUS reports.
   notifier_.ready();
   loop_.run();
   notifier_.stopping();
@@ -156,7 +156,7 @@ void Daemon::run() {
 void Daemon::on_signal() {
   const int signal = signals_.take();
   if (signal == SIGHUP) {
-    spdlog::info("SIGHUP: reading settings and map again");
+    spdlog::info("SIGHUP: reloading config and map");
     notifier_.reloading();
     reloader_.start();
   } else if (signal != 0) {
@@ -168,14 +168,14 @@ void Daemon::on_signal() {
 void Daemon::on_loaded() {
   Reloader::Outcome outcome = reloader_.take();
   if (!outcome.error.empty()) {
-    spdlog::error("nothing is changed: {}", outcome.error);
+    spdlog::error("reload refused, the old config and map stay in use: {}", outcome.error);
     server_.publish(message::MessageClass::kEvent,
                     line_.event(now_ns(), "reload refused", outcome.error));
     return notifier_.ready();
   }
   Loaded& loaded = outcome.loaded;
   if (const std::string list = settings::needs_restart(config_, loaded.config); !list.empty()) {
-    spdlog::warn("takes effect at the next start: {}", list);
+    spdlog::warn("restart cornerd to apply: {}", list);
   }
   const std::string name =
       fmt::format("{}, {} walls", loaded.map->plan().name, loaded.map->plan().walls.size());
@@ -217,7 +217,7 @@ void Daemon::update_calibration_file() {
   if (!calibration_.identify(lidar.serial.view())) {
     localization_.forget_lidar();
     const std::string text = fmt::format("serial number {}", lidar.serial.view());
-    spdlog::info("another lidar, {}: what was learnt of the last one is forgotten", text);
+    spdlog::info("another lidar, {}: its bias is estimated anew", text);
     server_.publish(message::MessageClass::kEvent, line_.event(now_ns(), "another lidar", text));
   }
   if (scans_.lidar() == localization_.lidar()) calibration_.update(scans_.bias());
@@ -227,7 +227,7 @@ void Daemon::publish_changes() {
   drivers::LidarChange change;
   while (lidar_->take_change(change)) {
     if (!status_.update(change, now_ns())) continue;
-    // Some states last for milliseconds: each is told all the same.
+    // Each state is published, even if it lasted only for milliseconds.
     drivers::LidarStatus then = lidar_->status();
     then.state = change.state;
     then.fault = change.fault;
@@ -238,8 +238,7 @@ void Daemon::publish_changes() {
 
 void Daemon::on_watchdog() {
   watchdog_->acknowledge();
-  // That this runs shows that the server lives; the localizer has to show it too. A driver that
-  // waits for its device is healthy, however long that takes.
+  // Reader and localizer must make progress too. A driver that waits for its device does.
   if (localization_.has_progressed()) notifier_.alive();
 }
 

@@ -23,16 +23,16 @@
 
 namespace cornerd::daemon {
 
-/// The whole program: a driver's samples in, messages to clients out.
+/// The program: takes samples from a driver and publishes messages to clients.
 class Daemon {
  public:
-  /// Opens the sockets and starts the threads. Throws std::runtime_error, one line.
-  /// `load`: what `loaded` came from; SIGHUP calls it again. The first call is the caller's, while
-  /// a signal still ends the program at once, as a large building's catalogue takes its time.
+  /// Opens the sockets and starts the threads. Throws std::runtime_error.
+  /// `loaded`: the result of a first call of `load`, made while signals still end the program at
+  /// once. SIGHUP calls `load` again.
   Daemon(Loaded loaded, Reloader::Load load, std::unique_ptr<drivers::LidarDriver> lidar,
          std::string version);
 
-  /// Serves until a signal asks for the end.
+  /// Runs until SIGTERM or SIGINT.
   void run();
 
  private:
@@ -45,15 +45,15 @@ class Daemon {
   void on_loaded();
   void open_sockets();
   void set_up_realtime();
-  /// On the clock of the samples: UNIX time live, the recording's own in a replay.
+  /// UNIX time live; the recording's time in a replay.
   core::TimeNs now_ns() const;
 
   settings::Config config_;
   const bool is_live_;
-  Signals signals_;  ///< before the threads
+  Signals signals_;  ///< constructed before any thread
   EventLoop loop_;
   Notifier notifier_;
-  OdometryClients odometry_clients_;  ///< before the server, which tells it of the last to go
+  OdometryClients odometry_clients_;  ///< before server_, whose destructor calls it
   MessageServer server_;
   ScanPublisher scans_;
   StatusPublisher status_;
@@ -67,8 +67,8 @@ class Daemon {
   Reloader reloader_;
   CalibrationFile calibration_;
   std::unique_ptr<drivers::LidarDriver> lidar_;
-  Localization localization_;               ///< before what is below: its threads end first
-  std::optional<OdometryReader> odometry_;  ///< feeds it
+  Localization localization_;
+  std::optional<OdometryReader> odometry_;  ///< last: its thread uses localization_
 };
 
 }  // namespace cornerd::daemon

@@ -8,7 +8,7 @@
 
 namespace cornerd::daemon {
 
-/// The driver that the settings name. It opens nothing before it runs.
+/// The driver of /lidar/driver. It opens the device or file when it runs.
 std::unique_ptr<drivers::LidarDriver> make_lidar(const settings::LidarConfig& config);
 
 }  // namespace cornerd::daemon

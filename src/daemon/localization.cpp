@@ -14,9 +14,9 @@
 namespace cornerd::daemon {
 namespace {
 
-/// More than a second of turns that the server may be busy with something else.
+/// More than a second of scans, while the server is busy.
 constexpr std::size_t kReportSlots = 16;
-/// Two seconds of a controller that sends 500 a second: a turn takes one at most.
+/// Two seconds at 500 Hz; a scan takes at most one second.
 constexpr std::size_t kReadingSlots = 1024;
 constexpr std::size_t kInitialPoseSlots = 4;
 /// More than a tenth of a second of readings.
@@ -60,7 +60,7 @@ int Localization::prioritize_reader(int priority) {
 
 void Localization::read(const std::stop_token& stop) {
   driver_.run(stop, channel_);
-  // A recording that has ended: its last turn has no successor that would complete it.
+  // At the end of a recording no further sample completes the last scan.
   channel_.on_gap();
   reader_has_ended_.store(true, std::memory_order_relaxed);
 }
@@ -68,7 +68,7 @@ void Localization::read(const std::stop_token& stop) {
 void Localization::localize(const std::stop_token& stop) {
   SampleChannel::Item item;
   while (true) {
-    // In this order: a stop that is asked for after the question changes wakes().
+    // Read wakes() first: a stop requested after the check below changes it.
     const std::uint32_t seen = channel_.wakes();
     if (stop.stop_requested()) return;
     while (!stop.stop_requested() && channel_.pop(item)) process(item);
@@ -92,13 +92,13 @@ void Localization::process(const SampleChannel::Item& item) {
 }
 
 void Localization::swap_pipeline(const SampleChannel::Item& item) {
-  // The one before has yet to be fetched by whoever frees it.
+  // The server thread has not yet freed the previous pipeline.
   if (next_.load() == nullptr || retired_.load() != nullptr) return;
   Generation* const next = next_.exchange(nullptr);
   if (next == nullptr) return;
   retired_.store(current_.release());
   current_.reset(next);
-  // The sample that ended the last turn is the next one's first.
+  // The sample that ended the last scan is the first of the next.
   const bool begins = item.kind == SampleChannel::Kind::kSample && item.sample.starts_scan;
   if (begins) next->pipeline->add(item.sample);
 }
@@ -116,7 +116,7 @@ void Localization::process(core::Pipeline& pipeline, const SampleChannel::Item& 
   const core::ScanResult* result =
       item.kind == SampleChannel::Kind::kGap ? pipeline.finish() : pipeline.add(item.sample);
   if (result != nullptr) report(pipeline, *result, item.arrival_ns);
-  if (item.kind == SampleChannel::Kind::kSample) report(pipeline.part());
+  if (item.kind == SampleChannel::Kind::kSample) report(pipeline.partial_pose());
 }
 
 void Localization::report(const core::Pipeline& pipeline, const core::ScanResult& result,
@@ -128,7 +128,7 @@ void Localization::report(const core::Pipeline& pipeline, const core::ScanResult
     report.result = result;
     report.scan = pipeline.scan();
     report.number = scans_;
-    report.result.pose.seq = poses_;  // goes on from pipeline to pipeline
+    report.result.pose.seq = poses_;  // continues across pipelines
     if (source_ == SourceKind::kDevice) {
       const core::TimeNs to_unix_ns = unix_ns() - monotonic_ns();
       report.result.pose.t_ns += to_unix_ns;
@@ -155,7 +155,7 @@ void Localization::take_readings() {
 
 void Localization::report(const core::PoseEstimate* prediction) {
   if (prediction == nullptr) return;
-  // One that finds no room is lost: the next one is newer.
+  // A prediction that finds no room is lost; a newer one follows.
   ++poses_;
   predictions_.put([&](core::PoseEstimate& pose) {
     pose = *prediction;

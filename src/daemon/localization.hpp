@@ -17,90 +17,88 @@
 
 namespace cornerd::daemon {
 
-/// What the samples come from. A device does not wait, and its samples bear monotonic time, so that
-/// nobody who sets the clock disturbs it; a recording waits for the localizer, and bears its own.
+/// A device does not wait, and its samples have monotonic time, which clock steps do not affect. A
+/// recording waits for the localizer and has its own time.
 enum class SourceKind : std::uint8_t { kDevice, kRecording };
 
-/// What one turn gave, for the server's thread. Its times are UNIX time, or the recording's own.
+/// Result of one scan for the server thread. Its times are UNIX time, or the recording's time.
 struct ScanReport {
   core::ScanResult result;
   core::Scan scan;
-  std::uint64_t number = 0;  ///< of the turn; POSE.seq counts poses between turns as well
-  /// From when the turn's end was handed over by the driver to when the pose was there.
+  std::uint64_t number = 0;  ///< counts scans; POSE.seq also counts predictions
+  /// From the arrival of the scan's last sample to its pose.
   std::int64_t latency_ns = 0;
-  /// Of the pipeline that made it: grows with each that is put in another's place.
-  std::uint32_t generation = 0;
-  std::uint32_t lidar = 0;  ///< that result.bias is of: Localization::lidar()
+  std::uint32_t generation = 0;  ///< of the pipeline, see Localization::replace_pipeline()
+  std::uint32_t lidar = 0;       ///< to which result.bias belongs, see Localization::lidar()
 };
 
-/// How a thread keeps its time.
+/// Timing of a thread.
 struct LoopHealth {
   core::LatencyHistogram latency;
   std::uint64_t page_faults = 0;
 };
 
-/// The two threads that must not be late: one runs the driver, one the pipeline. Once they run,
-/// neither locks, logs or allocates; what they have to say goes through the server's thread.
+/// The two real-time threads: the reader runs the driver, the localizer runs the pipeline. They do
+/// not lock, log or allocate (tests/unit/daemon/realtime_allocation_test.cpp); results go to the
+/// server thread.
 class Localization {
  public:
   /// `driver` must outlive this.
   Localization(drivers::LidarDriver& driver, std::unique_ptr<core::Pipeline> pipeline,
                SourceKind source);
-  /// Stops both: the driver ends its device's work in its own thread.
+  /// Stops both threads; the driver stops its device in the reader thread.
   ~Localization();
   Localization(const Localization&) = delete;
   Localization& operator=(const Localization&) = delete;
 
-  // All that follows is for the server's thread.
+  // The members below are for the server thread, except add().
 
   /// Throws std::system_error.
   void start();
-  /// SCHED_FIFO for the thread that reads the port. Returns errno of a refusal, or 0.
+  /// Gives the reader thread SCHED_FIFO. Returns 0 or an errno.
   int prioritize_reader(int priority);
 
-  /// Readable when there are reports.
+  /// Readable when reports or predictions wait.
   int event_fd() const { return reported_.get(); }
-  /// Calls `use` with every ScanReport there is, oldest first.
+  /// Calls `use` with each waiting ScanReport, oldest first.
   void take(const auto& use) {
     clear_event();
     delete retired_.exchange(nullptr);
     while (reports_.take(use)) {
     }
   }
-  /// The same with every pose between turns. After take().
+  /// Calls `use` with each waiting pose between scans. Call it after take().
   void take_predictions(const auto& use) {
     while (predictions_.take(use)) {
     }
   }
-  /// What wheels and gyro say, on the clock of the samples; of one thread, be it the server's or
-  /// another. One that finds no room is lost; the next one's counts make up for it.
+  /// An odometry reading with the time base of the samples. Call it from one thread only. A reading
+  /// that finds no room is lost; the next encoder counts contain its motion.
   void add(const core::OdometryReading& reading) {
     readings_.push(reading);
     if (publishes_predictions_.load(std::memory_order_relaxed)) channel_.wake();
   }
-  /// Now by the clock of the samples: the newest one's time, whose turn may still be going on.
+  /// Time of the newest sample, which may belong to an incomplete scan.
   core::TimeNs newest_sample_ns() const { return channel_.newest_ns(); }
-  /// A pose for every reading, be there turns or not: odometry.publish_predictions.
+  /// Publish a pose for each reading: /advanced/odometry/publish_predictions.
   void publish_predictions(bool every) {
     publishes_predictions_.store(every, std::memory_order_relaxed);
   }
-  /// The robot is about there.
+  /// An approximate pose from a client (SET_POSE).
   void set_initial_pose(const core::Pose2& T_map_base) { initial_poses_.push(T_map_base); }
-  /// From the next turn on this one localizes; it knows nothing yet. Returns its generation.
+  /// Replaces the pipeline after the current scan. Returns the generation of the new one.
   std::uint32_t replace_pipeline(std::unique_ptr<core::Pipeline> pipeline);
-  /// The next turn is recognised without a prior.
+  /// The next scan is matched without a prior.
   void relocalize() { relocalize_.store(true, std::memory_order_relaxed); }
-  /// Another lidar, or one that is taken for another: what was learnt of the last one is forgotten.
-  /// The reports of turns that know nothing of it bear its new lidar().
+  /// Forgets the estimated bias after a change of the lidar. Later reports have a new lidar().
   void forget_lidar() { lidar_.fetch_add(1, std::memory_order_relaxed); }
   std::uint32_t lidar() const { return lidar_.load(std::memory_order_relaxed); }
 
-  /// True where reader and localizer have both come round since this was last true. Asks the
-  /// localizer to.
+  /// True if reader and localizer have both made progress since the last call that returned true.
+  /// Wakes the localizer.
   bool has_progressed();
 
-  /// LatencyHistogram: from when a turn's last sample was handed over to when the localizer looks
-  /// at it.
+  /// Latency from the arrival of a scan's last sample to its processing.
   LoopHealth localizer_health() { return health_.read(); }
   std::uint64_t reader_page_faults() const { return channel_.producer_page_faults(); }
 
@@ -111,7 +109,7 @@ class Localization {
   struct Generation {
     std::unique_ptr<core::Pipeline> pipeline;
     std::uint32_t number = 0;
-    std::uint32_t lidar = 0;  ///< that it learns of
+    std::uint32_t lidar = 0;  ///< whose bias it estimates
   };
 
   void read(const std::stop_token& stop);
@@ -120,7 +118,7 @@ class Localization {
   void process(core::Pipeline& pipeline, const SampleChannel::Item& item);
   void report(const core::Pipeline& pipeline, const core::ScanResult& result,
               std::int64_t arrival_ns);
-  /// Puts the next pipeline, where there is one, in the place of this, between two turns.
+  /// Installs the next pipeline, if there is one, between two scans.
   void swap_pipeline(const SampleChannel::Item& item);
   void take_readings();
   void report(const core::PoseEstimate* prediction);
@@ -128,13 +126,13 @@ class Localization {
 
   drivers::LidarDriver& driver_;
   const SourceKind source_;
-  std::unique_ptr<Generation> current_;  ///< the localizer's thread's, as is the next
+  std::unique_ptr<Generation> current_;  ///< owned by the localizer thread, like the two counters
   std::uint64_t scans_ = 0;
-  std::uint64_t poses_ = 0;  ///< those between the turns included
-  /// To that thread and back: it takes no memory and gives none away.
+  std::uint64_t poses_ = 0;  ///< including those between scans
+  /// Pipelines go to the localizer thread and back, so that it neither allocates nor frees.
   std::atomic<Generation*> next_{nullptr};
   std::atomic<Generation*> retired_{nullptr};
-  std::uint32_t newest_ = 0;  ///< number of the last one that was handed over
+  std::uint32_t newest_ = 0;  ///< number of the last pipeline handed over
   SampleChannel channel_;
   core::RingBuffer<core::OdometryReading> readings_;
   core::RingBuffer<core::Pose2> initial_poses_;
@@ -142,10 +140,10 @@ class Localization {
   SlotExchange<core::PoseEstimate> predictions_;
   std::atomic<bool> publishes_predictions_{false};
   FileDescriptor reported_;
-  LoopHealth own_health_;  ///< the localizer's thread's
+  LoopHealth own_health_;  ///< owned by the localizer thread
   core::TripleBuffer<LoopHealth> health_;
   std::atomic<bool> relocalize_{false};
-  std::atomic<std::uint32_t> lidar_{0};  ///< counts them
+  std::atomic<std::uint32_t> lidar_{0};  ///< counts changes of the lidar
   std::atomic<std::uint32_t> lost_reports_{0};
   std::atomic<std::uint32_t> rounds_{0};
   std::atomic<bool> reader_has_ended_{false};

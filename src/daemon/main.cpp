@@ -31,7 +31,7 @@ using namespace cornerd;
 constexpr int kExitFailed = 1;
 constexpr int kExitUsage = 2;
 
-/// Nobody may read it: then it ends all the same.
+/// Waits at most 1 s for a reader of standard error.
 void print_error(const std::string& what) {
   constexpr int kTimeoutMs = 1000;
   pollfd stream{.fd = STDERR_FILENO, .events = POLLOUT, .revents = 0};
@@ -42,14 +42,14 @@ void print(std::string_view text) {
   if (std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0) {
     return;
   }
-  // Whoever reads it has gone: he has seen enough.
+  // The reader, such as `head`, has closed the pipe.
   if (errno == EPIPE) return;
   throw std::system_error(errno, std::generic_category(), "standard output");
 }
 
 core::LocalizerConfig localizer_config(const settings::Config& config) {
   core::LocalizerConfig localizer = config.localizer();
-  // A client's clock and ours may differ by a little; what is stamped by the same one does not.
+  // Tolerated clock difference between an ODOMETRY client and the daemon.
   constexpr double kClocks_s = 0.25;
   if (config.lidar.driver != settings::DriverKind::kReplay) {
     localizer.odometry.limits.ahead_s = kClocks_s;
@@ -58,7 +58,7 @@ core::LocalizerConfig localizer_config(const settings::Config& config) {
 }
 
 int run(const daemon::Options& options) {
-  // Read again on SIGHUP, when nobody may wait for them.
+  // A reload must not block on a pipe or device.
   constexpr auto kKind = settings::FileKind::kOrdinary;
   if (options.help) {
     print(daemon::kHelp);
@@ -93,13 +93,13 @@ int run(const daemon::Options& options) {
 int main(int argc, char** argv) {
   daemon::block_reloads();
   drivers::occupy_standard_streams();
-  // Whoever read the log is gone: no reason to follow.
+  // A closed log must not end the daemon.
   std::signal(SIGPIPE, SIG_IGN);
   try {
     const std::span<const char* const> arguments(argv, static_cast<std::size_t>(argc));
     return run(daemon::parse_options(arguments.subspan(argc > 0 ? 1 : 0)));
   } catch (const daemon::UsageError& error) {
-    print_error(std::string(error.what()) + "\ncornerd --help says more");
+    print_error(std::string(error.what()) + "\nsee cornerd --help");
     return kExitUsage;
   } catch (const settings::SettingsError& error) {
     print_error(error.what());

@@ -10,49 +10,47 @@
 
 namespace cornerd::daemon {
 
-/// Whose wheels and whose gyro are taken where several clients send them. Two that send the same,
-/// a moment apart, make a motion of their own: the first one goes on, the other is rejected until
-/// the first has gone or fallen silent, or nothing that it gives has been of use for a while: the
-/// count of one wheel alone, lines that are all rejected. Counts and rates may come from different
-/// clients.
+/// Selects one publisher of encoder counts and one of gyro rates among the clients, because two
+/// publishers of the same quantity would add a motion that did not happen. The first client stays
+/// selected until it disconnects, is silent, or sends nothing usable for a while (only one wheel,
+/// or lines that are all rejected). Counts and rates may come from different clients.
 class OdometryClients {
  public:
-  /// Longer than any pause of a client that is worth its odometry.
+  /// A publisher that pauses for longer loses its place.
   static constexpr core::TimeNs kSilenceTimeout_ns = core::kNsPerSecond;
-  /// Longer than the robot's clock or the lidar may trouble the lines of a good one.
+  /// Longer than a clock step or a lidar fault makes good lines unusable.
   static constexpr core::TimeNs kUselessTimeout_ns = 4 * core::kNsPerSecond;
 
   enum class Verdict : std::uint8_t {
     kAccepted,
-    kRejected,        ///< all of it, or a part
-    kFirstRejection,  ///< the first time of this connection: it should be told
+    kRejected,        ///< at least one value
+    kFirstRejection,  ///< the first of this connection, which gets an ERROR
   };
-  /// Takes out of the reading what another client gives; the rest, if there is any, is to be taken.
-  /// `connection`: any number that no other open one has.
+  /// Removes values of which another client is the publisher; the caller uses the rest.
+  /// `connection`: unique among open connections.
   Verdict accept(int connection, core::TimeNs now_ns, message::OdometryReading& reading);
-  /// The connection has ended; its number may be another's now.
+  /// The connection was closed; its number may be reused.
   void disconnect(int connection);
 
-  /// How many lines were rejected, and what is wrong with those that come: for a STATUS whose
-  /// odometry and time are set. To be called for each.
+  /// Sets second_client and odometry_hint. Call once for each STATUS, with odometry and t_ns set.
   void describe(message::StatusFields& status);
 
  private:
   struct Publisher {
     int connection = -1;
     core::TimeNs last_ns = 0;
-    core::TimeNs useful_ns = 0;  ///< when it last gave what is of use, or took the place
+    core::TimeNs useful_ns = 0;  ///< its last complete, accepted line, or its selection
 
-    bool accepts(int other, core::TimeNs now_ns, bool is_useful, bool is_refused);
+    bool accepts(int other, core::TimeNs now_ns, bool is_useful, bool is_rejected);
   };
 
   Publisher counts_;
   Publisher gyro_;
-  std::set<int> rejected_connections_;  ///< open ones
-  message::OdometryInputMonitor lines_;
-  std::uint64_t rejected_ = 0;  ///< lines of which anything was
-  std::uint64_t reported_ = 0;  ///< of them
-  int hint_repeats_ = 0;        ///< in so many STATUS more
+  std::set<int> rejected_connections_;  ///< of open connections
+  message::OdometryInputMonitor input_;
+  std::uint64_t rejected_ = 0;  ///< lines with a rejected value
+  std::uint64_t reported_ = 0;  ///< rejected_ at the last STATUS
+  int hint_repeats_ = 0;        ///< STATUS messages left with the hint
 };
 
 }  // namespace cornerd::daemon

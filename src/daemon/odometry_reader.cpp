@@ -13,12 +13,12 @@ namespace {
 
 using drivers::SensorState;
 
-bool runs(SensorState state) { return state == SensorState::kRunning; }
-/// A sensor has fewer different things to say.
+bool is_running(SensorState state) { return state == SensorState::kRunning; }
+/// More than the different texts of the sensors.
 constexpr std::size_t kMaxTexts = 64;
 
-/// A value that is no number, or a read that failed once, is nothing that a device was lost by.
-bool passes(SensorState state) {
+/// A single bad value or failed read does not mean that the device was lost.
+bool is_transient(SensorState state) {
   return state == SensorState::kInvalid || state == SensorState::kUnreadable;
 }
 
@@ -42,17 +42,17 @@ bool OdometryReader::publish_changes(MessageServer& server, core::TimeNs t_ns) {
   bool changed = false;
   for (Sensor& sensor : sensors_) {
     const drivers::SensorStatus& status = newest_.*sensor.member;
-    if (sensor.said == status.state) continue;
-    const bool passed = sensor.said && passes(*sensor.said);
-    sensor.said = status.state;
+    if (sensor.published == status.state) continue;
+    const bool was_transient = sensor.published && is_transient(*sensor.published);
+    sensor.published = status.state;
     changed = true;
     if (status.state == SensorState::kNone) continue;
     std::string text(sensor.name);
     text.append(" ").append(to_string(status.state));
     if (!status.detail.view().empty()) text.append(": ").append(status.detail.view());
     log_once(status.state, text);
-    if (passes(status.state) || passed) continue;
-    const char* what = runs(status.state) ? "device found" : "device lost";
+    if (is_transient(status.state) || was_transient) continue;
+    const char* what = is_running(status.state) ? "device found" : "device lost";
     server.publish(message::MessageClass::kEvent, line_.event(t_ns, what, text));
   }
   return changed;
@@ -61,7 +61,7 @@ bool OdometryReader::publish_changes(MessageServer& server, core::TimeNs t_ns) {
 void OdometryReader::log_once(SensorState state, const std::string& text) {
   if (logged_.size() >= kMaxTexts) logged_.clear();
   if (!logged_.insert(text).second) return;
-  spdlog::log(runs(state) ? spdlog::level::info : spdlog::level::warn, "odometry {}", text);
+  spdlog::log(is_running(state) ? spdlog::level::info : spdlog::level::warn, "odometry {}", text);
 }
 
 void OdometryReader::describe(message::StatusFields& status) {

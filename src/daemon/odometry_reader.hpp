@@ -16,29 +16,29 @@
 
 namespace cornerd::daemon {
 
-/// The driver of wheels and gyro that the settings name; null where readings come otherwise.
+/// The driver for /odometry/source "kernel"; null for other sources.
 std::unique_ptr<drivers::OdometryDriver> make_odometry(const settings::OdometryConfig& config);
 
-/// Wheels and gyro of the board itself: read in a thread of its own, as a gyro's bus may take its
-/// time, and told of by the server's.
+/// Reads encoders and gyro of the board in a thread of its own, because a gyro's bus may be slow.
+/// Its state is published by the server thread.
 class OdometryReader {
  public:
-  /// Nothing else may add readings to `localization`, which must outlive this.
+  /// The only source of readings for `localization`, which must outlive this.
   OdometryReader(std::unique_ptr<drivers::OdometryDriver> driver, Localization& localization);
 
-  /// To be called often. Logs, and publishes EVENT, where a sensor was lost or found; true where
-  /// any state changed: time for a STATUS.
+  /// Logs and publishes EVENT for sensors lost and found. Returns true if a state changed and
+  /// STATUS should be published. Call it periodically.
   bool publish_changes(MessageServer& server, core::TimeNs t_ns);
-  /// What STATUS says of it; valid until the next call of this or the above.
+  /// Sets the sensors' fields of STATUS; valid until the next call of a member.
   void describe(message::StatusFields& status);
 
  private:
   struct Sensor {
     std::string_view name;
     drivers::SensorStatus drivers::OdometryStatus::*member;
-    std::optional<drivers::SensorState> said;
+    std::optional<drivers::SensorState> published;
   };
-  /// What comes and goes is worth a line the first time.
+  /// Logs each text once, because an intermittent sensor changes state often.
   void log_once(drivers::SensorState state, const std::string& text);
 
   static constexpr std::size_t kSensors = 3;
@@ -65,7 +65,7 @@ class OdometryReader {
   drivers::OdometryStatus newest_;
   std::array<message::StatusFields::Sensor, kSensors> described_;
   std::array<message::StatusFields::Counter, kCounters> counters_;
-  std::jthread thread_;  ///< last: it ends first
+  std::jthread thread_;  ///< last member: joined first
 };
 
 }  // namespace cornerd::daemon

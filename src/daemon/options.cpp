@@ -3,12 +3,12 @@
 
 #include <optional>
 
-#include "settings/override.hpp"
+#include "settings/document.hpp"
 
 namespace cornerd::daemon {
 namespace {
 
-/// The arguments one after the other; "--name=value" counts as "--name" "value".
+/// Iterates over the arguments; "--name=value" equals "--name" "value".
 class Arguments {
  public:
   explicit Arguments(std::span<const char* const> arguments) : rest_(arguments) {}
@@ -49,18 +49,18 @@ class Arguments {
 }  // namespace
 
 constexpr std::string_view kHelp =
-    R"(cornerd: tells a robot where it is in a known building, by a turn of its lidar.
+    R"(cornerd: localizes a robot in a known map, from one scan of its lidar.
 
     cornerd --config FILE            run in the foreground; SIGTERM ends it
-    cornerd --config FILE --check    read the config and its map, say what is wrong or "ok"
+    cornerd --config FILE --check    check the config and its map; print "ok" or the error
 
-    --config FILE           the settings, JSON with // comments
-    --set /POINTER=VALUE    one setting in place of the file's; may be repeated
-    --check                 run nothing
+    --config FILE           the config, JSON with // comments
+    --set /POINTER=VALUE    overrides one value of the config; may be repeated
+    --check                 check only
     --help, --version
 
-Exit codes: 0 done; 1 failed, said on standard error; 2 wrong usage; 78 a config or map that is
-wrong, named by file, JSON pointer and reason.
+Exit codes: 0 success; 1 failure, see standard error; 2 wrong usage; 78 invalid config or map, named
+by file, JSON pointer and reason.
 )";
 
 Options parse_options(std::span<const char* const> arguments) {

@@ -10,7 +10,7 @@
 
 namespace cornerd::daemon {
 
-/// A command line that makes no sense. what() says why.
+/// Wrong usage of the command line; what() gives the reason.
 class UsageError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -26,7 +26,7 @@ struct Options {
 
 extern const std::string_view kHelp;
 
-/// `arguments`: without the program's name. Throws UsageError.
+/// `arguments`: without the program name. Throws UsageError.
 Options parse_options(std::span<const char* const> arguments);
 
 }  // namespace cornerd::daemon

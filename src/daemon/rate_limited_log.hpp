@@ -9,16 +9,15 @@
 
 namespace cornerd::daemon {
 
-/// In the log, something that may happen ten times a second for a year: the first is a line, of
-/// those that follow within ten seconds one line has the number and the last.
+/// Logs an event at most once per 10 s. Further events are summarized: their number and the last.
 class RateLimitedLog {
  public:
-  /// `what`: a literal, before the colon.
+  /// `what`: a string literal, the prefix of each line.
   RateLimitedLog(spdlog::level::level_enum level, const char* what) : level_(level), what_(what) {}
 
-  /// `now_ns`: monotonic, as below.
+  /// `now_ns`: monotonic.
   void add(const std::string& text, std::int64_t now_ns);
-  /// Says what was held back, once its time has come. To be called now and then.
+  /// Logs the summary if 10 s have passed. Call it periodically.
   void flush(std::int64_t now_ns);
 
  private:

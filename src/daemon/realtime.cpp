@@ -16,10 +16,10 @@ namespace cornerd::daemon {
 namespace {
 
 #ifdef __SANITIZE_THREAD__
-/// The sanitizer's own data of a thread lie in its stack: under 800 kB no thread can be made.
+/// ThreadSanitizer keeps 800 kB of its own on each stack.
 constexpr std::size_t kStackBytes = 8 * 1024 * 1024;
 #else
-/// The deepest are the settings' reader, whose nesting is limited, and the localizer: 60 kB.
+/// The deepest users are the JSON parser, whose nesting is limited, and the localizer: 60 kB.
 constexpr std::size_t kStackBytes = 512 * 1024;
 #endif
 
@@ -29,7 +29,7 @@ struct Mapping {
   bool writable = false;
 };
 
-/// Private mappings of this process that can be read. Others are devices' or somebody else's.
+/// Readable private mappings of this process. Others belong to devices or are shared.
 std::vector<Mapping> mappings() {
   std::vector<Mapping> all;
   std::ifstream maps("/proc/self/maps");
@@ -39,7 +39,6 @@ std::vector<Mapping> mappings() {
     char rights[5] = {};
     if (std::sscanf(line.c_str(), "%lx-%lx %4s", &begin, &end, rights) != 3) continue;
     if (rights[0] != 'r' || rights[3] != 'p' || line.find("[v") != std::string::npos) continue;
-    // The kernel writes addresses as numbers.
     void* const address = reinterpret_cast<void*>(begin);  // NOLINT(performance-no-int-to-ptr)
     all.push_back({address, end - begin, rights[1] == 'w'});
   }
@@ -63,7 +62,7 @@ bool prefault_memory() {
   for (const Mapping& mapping : mappings()) {
     const int result = ::madvise(mapping.begin, mapping.size,
                                  mapping.writable ? MADV_POPULATE_WRITE : MADV_POPULATE_READ);
-    // Some mappings have no memory to give; that they cannot be asked at all is EINVAL for each.
+    // EINVAL for writable mappings: the kernel does not know MADV_POPULATE_WRITE.
     if (result != 0 && errno == EINVAL && mapping.writable) is_known = false;
   }
   return is_known;

@@ -13,34 +13,33 @@
 
 namespace cornerd::daemon {
 
-/// Settings, their map, and what localizes in it.
+/// The config, its map, and a pipeline for them.
 struct Loaded {
   settings::Config config;
   std::shared_ptr<const core::WallMap> map;
   std::unique_ptr<core::Pipeline> pipeline;
 };
 
-/// Reads settings and map again in a thread of its own: a large building's catalogue takes its
-/// time, and nobody waits for it.
+/// Loads config and map in a thread of its own, because the catalogue of a large map takes seconds.
 class Reloader {
  public:
-  /// Throws where the settings or the map are wrong.
+  /// Throws if the config or the map is invalid.
   using Load = std::function<Loaded()>;
 
   struct Outcome {
     Loaded loaded;
-    std::string error;  ///< one line; empty: all is well
+    std::string error;  ///< one line; empty on success
   };
 
   /// Throws std::system_error.
   explicit Reloader(Load load);
 
-  /// Begins to load. Asked for while it loads, it loads once more when that is done.
+  /// Starts loading. A call during loading makes it load once more afterwards.
   void start();
 
   /// Readable when there is an outcome.
   int event_fd() const { return done_.get(); }
-  /// Of the load that has ended.
+  /// The outcome of the finished load.
   Outcome take();
 
  private:
@@ -50,7 +49,7 @@ class Reloader {
   FileDescriptor done_;
   bool is_loading_ = false;
   bool reload_pending_ = false;
-  Outcome outcome_;  ///< the thread's, until done_ says otherwise
+  Outcome outcome_;  ///< owned by the thread until done_ is readable
   std::jthread thread_;
 };
 

@@ -28,7 +28,7 @@ bool write_all(int fd, std::string_view text) {
 void replace_file(const std::filesystem::path& file, std::string_view text) {
   const std::string fresh = file.string() + ".new";
   const FileDescriptor fd(::open(fresh.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666));
-  // A name that the disk knows before the content is an empty file after a power cut.
+  // fsync() before rename(): otherwise a power cut may leave an empty file.
   if (!fd.is_open() || !write_all(fd.get(), text) || ::fsync(fd.get()) != 0 ||
       ::rename(fresh.c_str(), file.c_str()) != 0) {
     const std::system_error error(errno, std::generic_category(), fresh);

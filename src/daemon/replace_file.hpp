@@ -6,8 +6,8 @@
 
 namespace cornerd::daemon {
 
-/// Puts `text` in the place of what the file held. Whoever is killed, or loses power, in between
-/// leaves the old file or the new one, whole. Throws std::system_error.
+/// Replaces the file's content atomically: after a crash or power cut the old or the new content is
+/// complete. Throws std::system_error.
 void replace_file(const std::filesystem::path& file, std::string_view text);
 
 }  // namespace cornerd::daemon

@@ -10,11 +10,11 @@
 namespace cornerd::daemon {
 namespace {
 
-/// Two seconds of an A1's fastest mode.
+/// Two seconds of an A1's fastest mode (8,000 samples per second).
 constexpr std::size_t kCapacity = 16384;
 constexpr std::uint32_t kWakeInterval = 4096;
 
-/// Far less than the ring holds, at any speed that a recording is played with.
+/// Far shorter than the ring lasts at any playback speed.
 constexpr std::chrono::milliseconds kRetryInterval{1};
 
 }  // namespace
@@ -55,7 +55,7 @@ void SampleChannel::on_gap() {
 }
 
 void SampleChannel::on_reading(const core::OdometryReading& reading) {
-  // One that is lost is made up for by the counts of the next.
+  // A lost reading does no harm: the next counts contain its motion.
   push({.sample = {}, .reading = reading, .arrival_ns = 0, .kind = Kind::kReading});
 }
 

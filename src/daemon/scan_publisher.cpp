@@ -18,10 +18,10 @@ using message::MessageClass;
 
 namespace {
 
-/// More than a robot moves between two turns: it was carried, or one of the two places was wrong.
+/// More than a robot moves between two scans: it was carried, or one of the two poses is wrong.
 constexpr double kJump_m = 0.5;
 constexpr double kJump_rad = core::radians(60);
-/// No robot is told that it turned round because turns were missing.
+/// Upper limit of the rotation after missing scans.
 constexpr double kMaxJump_rad = core::radians(179);
 
 }  // namespace
@@ -40,7 +40,7 @@ void ScanPublisher::publish(const ScanReport& report) {
   if (next_map_ && report.generation == next_generation_) {
     map_ = std::move(next_map_);
     next_map_.reset();
-    last_fix_.reset();  // places of one map add nothing about another's
+    last_fix_.reset();  // poses in two maps cannot be compared
   }
   latencies_.add(core::to_seconds(report.latency_ns));
   ++poses_[static_cast<std::size_t>(pose.state)];
@@ -66,13 +66,14 @@ void ScanPublisher::publish_jump(const core::PoseEstimate& pose, std::uint64_t n
   if (!core::has_pose(pose.state)) return;
   if (last_fix_) {
     const auto scans = static_cast<double>(number - last_fix_->number);
-    const double way_m =
+    const double translation_m =
         (pose.T_map_base.translation() - last_fix_->T_map_base.translation()).norm();
     const double rotated_rad =
         std::abs(core::angle_between(last_fix_->T_map_base.theta_rad, pose.T_map_base.theta_rad));
-    if (way_m > kJump_m * scans || rotated_rad > std::min(kJump_rad * scans, kMaxJump_rad)) {
+    if (translation_m > kJump_m * scans ||
+        rotated_rad > std::min(kJump_rad * scans, kMaxJump_rad)) {
       const std::string text =
-          fmt::format("{:.3f} m, {:.1f} degrees", way_m, core::degrees(rotated_rad));
+          fmt::format("{:.3f} m, {:.1f} degrees", translation_m, core::degrees(rotated_rad));
       jumps_.add(text, monotonic_ns());
       server_.publish(MessageClass::kEvent, line_.event(pose.t_ns, "jump", text));
     }

@@ -15,7 +15,7 @@
 
 namespace cornerd::daemon {
 
-/// Makes messages of what the turns gave.
+/// Publishes POSE, SCAN, BREAKPOINTS and EVENT from the results of scans.
 class ScanPublisher {
  public:
   static constexpr std::size_t kStates = static_cast<std::size_t>(core::PoseState::kLost) + 1;
@@ -23,21 +23,21 @@ class ScanPublisher {
   ScanPublisher(MessageServer& server, std::shared_ptr<const core::WallMap> map);
 
   void publish(const ScanReport& report);
-  /// The map of the turns from that generation on.
+  /// The map of scans from `generation` on.
   void set_next_map(std::uint32_t generation, std::shared_ptr<const core::WallMap> map);
-  /// A pose between two turns. It is no turn's, and changes no state.
+  /// A pose between two scans; it does not change the state.
   void publish(const core::PoseEstimate& pose);
 
   const LatencyWindow& latencies() const { return latencies_; }
-  /// Of the newest turn; nullopt before the first.
+  /// State of the newest scan; nullopt before the first.
   std::optional<core::PoseState> state() const { return state_; }
-  /// What the newest turn knew of it.
+  /// Of the newest scan.
   const core::OdometrySummary& odometry() const { return odometry_; }
   const core::EstimatedBias& bias() const { return bias_; }
-  /// That the bias is of: Localization::lidar().
+  /// To which bias() belongs, see Localization::lidar().
   std::uint32_t lidar() const { return lidar_; }
   core::TimeNs end_of_newest_scan_ns() const { return end_ns_; }
-  /// Poses so far, by state.
+  /// Number of scans by state.
   const std::array<std::uint64_t, kStates>& poses() const { return poses_; }
 
  private:

@@ -9,9 +9,8 @@
 
 namespace cornerd::daemon {
 
-/// Hands large values from one thread to another in order, in slots that were made beforehand: no
-/// lock, no allocation, no copy beyond the producer's own. The indices of the slots travel round in
-/// two ring buffers: filled ones forth, empty ones back.
+/// Passes large values between two threads in order, in preallocated slots: no lock, no allocation.
+/// Two ring buffers carry the indices of filled and of empty slots.
 template <typename T>
 class SlotExchange {
  public:
@@ -19,8 +18,7 @@ class SlotExchange {
     for (std::uint32_t i = 0; i < slots; ++i) empty_.push(i);
   }
 
-  /// Producer: calls `fill` with a slot and hands it over. False where the consumer has yet to
-  /// return one.
+  /// Producer: calls `fill` with a slot and passes it on. False if no slot is empty.
   bool put(const auto& fill) {
     std::uint32_t index = 0;
     if (!empty_.pop(index)) return false;
@@ -29,7 +27,8 @@ class SlotExchange {
     return true;
   }
 
-  /// Consumer: calls `use` with the oldest filled slot, then returns it. False where there is none.
+  /// Consumer: calls `use` with the oldest filled slot, then returns the slot. False if there is
+  /// none.
   bool take(const auto& use) {
     std::uint32_t index = 0;
     if (!filled_.pop(index)) return false;

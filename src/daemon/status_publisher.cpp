@@ -22,7 +22,7 @@ using Counter = message::StatusFields::Counter;
 constexpr std::array<std::string_view, ScanPublisher::kStates> kPoseCounterNames = {
     "poses_fix", "poses_tracking", "poses_predicted", "poses_ambiguous", "poses_lost"};
 
-/// A driver has fewer different things to say.
+/// More than the different texts of a driver.
 constexpr std::size_t kMaxTexts = 64;
 
 bool is_fault(const drivers::LidarChange& change) {
@@ -38,7 +38,7 @@ std::string describe(LidarState state, LidarFault fault, std::string_view detail
   return text;
 }
 
-/// What an EVENT calls a change.
+/// EVENT.what of a change.
 std::string_view name_of(const std::optional<drivers::LidarChange>& from,
                          const drivers::LidarChange& to) {
   const bool ran = from && from->state == LidarState::kRunning;

@@ -16,31 +16,30 @@
 
 namespace cornerd::daemon {
 
-/// How the daemon itself keeps its time, beside what Localization knows.
+/// Timing and privileges of the daemon, in addition to Localization's.
 struct DaemonHealth {
-  int priority = 0;  ///< of the thread that reads the port; 0: an ordinary one
+  int priority = 0;  ///< SCHED_FIFO priority of the reader thread; 0 if it has none
   bool memory_is_locked = false;
-  core::LatencyHistogram server;  ///< of its ticks
+  core::LatencyHistogram server;  ///< of its ticks of 0.1 s
 };
 
-/// Says how lidar and daemon are: as STATUS, as EVENT where the lidar's state or fault changes, to
-/// the service manager and to the log.
+/// Publishes the state of lidar and daemon as STATUS, changes of the lidar as EVENT, and both to
+/// the service manager and the log.
 class StatusPublisher {
  public:
   StatusPublisher(MessageServer& server, Notifier& notifier);
 
-  /// For each state that the lidar came to. True where it is a change: time for a STATUS.
+  /// Call it for each change of the lidar. Returns true if STATUS should be published.
   bool update(const drivers::LidarChange& change, core::TimeNs t_ns);
   void publish(const drivers::LidarStatus& lidar, const ScanPublisher& scans,
                Localization& localization, const DaemonHealth& health, core::TimeNs t_ns);
-  /// Whose sensors to tell of; null: none of this program's.
+  /// The reader of the board's sensors; null if there is none.
   void set_odometry(OdometryReader* odometry) { odometry_ = odometry; }
-  /// The clients that odometry comes from; null: it comes otherwise.
+  /// The clients that send odometry; null for other sources.
   void set_odometry(OdometryClients* clients) { odometry_clients_ = clients; }
 
  private:
-  /// Between two tries a driver goes through the same states again and again: each is worth a line
-  /// the first time.
+  /// Logs each text once until the lidar runs, because retries repeat the same states.
   void log_once(const drivers::LidarChange& change, const std::string& text);
 
   MessageServer& server_;
@@ -50,7 +49,7 @@ class StatusPublisher {
   message::LineWriter line_;
   std::optional<drivers::LidarChange> last_;
   std::string text_;
-  std::set<std::string> logged_texts_;  ///< in the log, since the lidar last ran
+  std::set<std::string> logged_texts_;  ///< since the lidar last ran
 };
 
 }  // namespace cornerd::daemon

@@ -9,8 +9,8 @@
 
 namespace cornerd::gridmap {
 
-/// A border between free and occupied cells, along their sides. Free cells are on the left of the
-/// way; occupied cells that touch at a corner hang together.
+/// A border between free and occupied cells, along their sides, with free cells on the left.
+/// Occupied cells that touch at a corner are connected.
 struct Border {
   struct Point {
     std::int32_t x = 0;
@@ -18,7 +18,7 @@ struct Border {
     bool operator==(const Point&) const = default;
     core::Vec2 place() const { return {x, y}; }
   };
-  /// Corners of cells, each one side of a cell from the last. A closed one ends where it begins.
+  /// Corners of cells, each one cell side from the last. A closed border ends where it begins.
   std::vector<Point> points;
   bool closed = false;
 
@@ -30,7 +30,7 @@ struct Border {
   }
 };
 
-/// All of them. Where unknown cells begin a border ends.
+/// All borders of a grid. A border ends where unknown cells begin.
 std::vector<Border> trace_borders(const OccupancyGrid& grid);
 
 }  // namespace cornerd::gridmap

@@ -12,14 +12,14 @@ namespace {
 
 using core::Vec2;
 
-/// A run this long is fitted without its first and last sides, which belong to the corner.
+/// A run of this length is fitted without its first and last sides, which belong to the corners.
 constexpr std::size_t kTrimmedFrom = 8;
 constexpr std::size_t kTrimmedSides = 1;
-/// Shorter than this a run's direction is that of the picture's raster rather than its own.
+/// The direction of a shorter run is that of the raster.
 constexpr double kUndirected = 5;
-/// A run this short between two others that meet beside it is a corner cut off by the raster.
+/// A shorter run between two that meet beside it is a corner cut off by the raster.
 constexpr double kChamfer = 2.9;
-/// Two runs both longer than this that go against each other are two faces of a thin wall.
+/// Two longer runs in opposite directions are the two faces of a thin wall.
 constexpr double kBackwards = 1.5;
 
 Vec2 displacement(const Border& border, const Run& run) {
@@ -34,7 +34,7 @@ double largest_distance(const Border& border, const Run& run) {
   return largest;
 }
 
-/// A corner for certain: the point farthest from any other.
+/// Begins a closed border at the point farthest from its first, which is a corner.
 void turn_to_corner(Border& border) {
   if (!border.closed) return;
   border.points.pop_back();
@@ -48,7 +48,7 @@ void turn_to_corner(Border& border) {
   border.points.push_back(border.points.front());
 }
 
-/// Iterative end-point fit; without recursion, as a border may be as long as the picture is large.
+/// Iterative end-point fit. Without recursion: a border may be very long.
 std::vector<Run> split(const Border& border, double tolerance) {
   std::vector<Run> runs;
   std::vector<std::pair<std::size_t, std::size_t>> open = {{0, border.size()}};
@@ -61,9 +61,9 @@ std::vector<Run> split(const Border& border, double tolerance) {
     double farthest = 0;
     std::size_t cut = begin;
     for (std::size_t i = begin + 1; i + 1 < end; ++i) {
-      const Vec2 way = border.middle(i) - first;
+      const Vec2 direction = border.middle(i) - first;
       const double distance =
-          length > 1e-9 ? std::abs(core::cross(chord, way)) / length : way.norm();
+          length > 1e-9 ? std::abs(core::cross(chord, direction)) / length : direction.norm();
       if (distance > farthest) {
         farthest = distance;
         cut = i;
@@ -101,13 +101,13 @@ double cost_of_joining(const Border& border, const Run& one, const Run& next) {
   return largest_distance(border, joined(border, one, next));
 }
 
-/// Joins neighbours, those first that lie on one line best. A rough border begins with as many runs
-/// as it has steps: what is joined is found by a heap, and its neighbours by links.
+/// Joins adjacent runs, the most collinear first. A heap and links, since a rough border has as
+/// many runs as steps.
 void join(const Border& border, double tolerance, std::vector<Run>& runs) {
   struct Join {
     double cost;
     std::size_t first;
-    std::size_t first_end;  ///< of both runs when this was put down: it is void once one has grown
+    std::size_t first_end;  ///< ends of both runs at the time; the entry is stale if one has grown
     std::size_t second_end;
     bool operator<(const Join& other) const { return cost > other.cost; }
   };
@@ -143,7 +143,7 @@ void join(const Border& border, double tolerance, std::vector<Run>& runs) {
   std::erase_if(runs, [](const Run& run) { return run.size() == 0; });
 }
 
-/// Gives each side between the middles of two neighbours to the line that it lies nearer to.
+/// Moves the cut between two runs to the place with the least squared distances.
 void move_cut(const Border& border, Run& one, Run& next) {
   const std::size_t low = one.begin + one.size() / 2;
   const std::size_t high = next.begin + (next.size() + 1) / 2;
@@ -181,15 +181,15 @@ std::size_t neighbour(const Border& border, std::size_t count, std::size_t i, bo
 bool is_chamfer(const Border& border, const Run& before, const Run& run, const Run& after,
                 double longest) {
   if (run.extent > longest || before.extent < run.extent || after.extent < run.extent) return false;
-  const double sine = core::cross(before.way, after.way);
+  const double sine = core::cross(before.direction, after.direction);
   if (std::abs(sine) < 0.5) return false;
-  const double along = core::cross(after.at - before.at, after.way) / sine;
-  const Vec2 corner = before.at + along * before.way;
+  const double along = core::cross(after.at - before.at, after.direction) / sine;
+  const Vec2 corner = before.at + along * before.direction;
   const Vec2 middle = (border.points[run.begin].place() + border.points[run.end].place()) / 2;
   return (corner - middle).norm() < longest;
 }
 
-/// Lets the neighbours of a cut-off corner meet; their lines stay what they are.
+/// Removes cut-off corners: their neighbours meet, with unchanged lines.
 void sharpen_corners(const Border& border, double tolerance, std::vector<Run>& runs) {
   const double longest = std::max(kChamfer, 2 * tolerance);
   for (std::size_t i = 1; i + 1 < runs.size();) {
@@ -203,7 +203,7 @@ void sharpen_corners(const Border& border, double tolerance, std::vector<Run>& r
   }
 }
 
-/// Turns short runs square to, or along, the longer one of their neighbours.
+/// Makes short runs square or parallel to the longer one of their neighbours.
 void direct_short_runs(const Border& border, std::vector<Run>& runs) {
   const double square = std::sin(core::radians(30));
   for (std::size_t i = 0; i < runs.size(); ++i) {
@@ -213,12 +213,13 @@ void direct_short_runs(const Border& border, std::vector<Run>& runs) {
     const Run& after = runs[neighbour(border, runs.size(), i, true)];
     const Run& longer = before.extent > after.extent ? before : after;
     if (longer.extent < kUndirected) continue;
-    const double sine = core::cross(longer.way, run.way);
-    const double cosine = longer.way.dot(run.way);
+    const double sine = core::cross(longer.direction, run.direction);
+    const double cosine = longer.direction.dot(run.direction);
     if (std::abs(cosine) < square) {
-      run.way = sine > 0 ? core::rotate_left(longer.way) : Vec2(-core::rotate_left(longer.way));
+      run.direction = sine > 0 ? core::rotate_left(longer.direction)
+                               : Vec2(-core::rotate_left(longer.direction));
     } else if (std::abs(sine) < square) {
-      run.way = cosine > 0 ? longer.way : Vec2(-longer.way);
+      run.direction = cosine > 0 ? longer.direction : Vec2(-longer.direction);
     }
   }
 }
@@ -233,16 +234,16 @@ void fit_run(const Border& border, Run& run) {
     const Vec2 middle = border.middle(i);
     run.fit.add(middle.x(), middle.y(), 1);
   }
-  const Vec2 way = displacement(border, run);
+  const Vec2 direction = displacement(border, run);
   run.extent = (border.middle(run.end - 1) - first).norm();
   if (run.fit.count() < 2) {
     run.at = first;
-    run.way = way.normalized();
+    run.direction = direction.normalized();
     return;
   }
   const core::Line line = run.fit.line();
   run.at = line.centroid;
-  run.way = line.direction().dot(way) >= 0 ? line.direction() : Vec2(-line.direction());
+  run.direction = line.direction().dot(direction) >= 0 ? line.direction() : Vec2(-line.direction());
 }
 
 std::vector<Run> straight_runs(Border& border, double tolerance) {

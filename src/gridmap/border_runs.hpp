@@ -9,26 +9,27 @@
 
 namespace cornerd::gridmap {
 
-/// A straight stretch of a border. Lengths in cells.
+/// A straight part of a border. Lengths in cells.
 struct Run {
   std::size_t begin = 0;  ///< sides of cells [begin, end) of the border
   std::size_t end = 0;
-  core::Vec2 at = core::Vec2::Zero();   ///< a point of its line: the middle of its sides
-  core::Vec2 way = core::Vec2::Zero();  ///< unit vector along it; the free space is on the left
-  double extent = 0;                    ///< from its first side to its last
-  core::LineFit fit;                    ///< of the middles of its sides, without those at its ends
+  core::Vec2 at = core::Vec2::Zero();  ///< a point of its line: the centroid of its sides
+  core::Vec2 direction =
+      core::Vec2::Zero();  ///< unit vector along it; the free space is on the left
+  double extent = 0;       ///< from its first side to its last
+  core::LineFit fit;       ///< of the middles of its sides, without those at its ends
 
   std::size_t size() const { return end - begin; }
-  core::Vec2 normal() const { return core::rotate_left(way); }
+  core::Vec2 normal() const { return core::rotate_left(direction); }
   double height_of(const core::Vec2& point) const { return normal().dot(point - at); }
 };
 
-/// Cuts a border into as few straight runs as lie within `tolerance` cells of it. Half a cell is
-/// what the picture itself makes of a straight line; steps of slanted and of ragged walls below
-/// the tolerance vanish. A closed border is turned so that it begins at a corner.
+/// Splits a border into few straight runs within `tolerance` cells of it. The raster displaces a
+/// straight line by up to half a cell; smaller steps vanish. A closed border is rotated to begin at
+/// a corner.
 std::vector<Run> straight_runs(Border& border, double tolerance);
 
-/// The line of least squares through what a run holds, along its way.
+/// Fits a run's line by least squares.
 void fit_run(const Border& border, Run& run);
 
 }  // namespace cornerd::gridmap

@@ -59,7 +59,7 @@ Patch describe(const std::vector<Place>& places) {
   return patch;
 }
 
-/// The patches change only once all are known: what goes must not split or join others.
+/// Called after all patches are found, since a removal may split or join others.
 void forget(OccupancyGrid& grid, const std::vector<Place>& places) {
   for (const Place& place : places) grid.set(place.column, place.row, Cell::kUnknown);
 }

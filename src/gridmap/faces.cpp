@@ -13,15 +13,15 @@ namespace {
 
 using core::Vec2;
 
-/// As far from where its border turns a corner may lie, in cells, beside what the runs are off by.
+/// Largest distance of a corner from where its border turns, beside the tolerance of the runs.
 constexpr double kCornerReach = 2.5;
-/// Below this two lines have no corner, but a step between them.
+/// Two lines at a smaller angle have a step between them instead of a corner.
 constexpr double kMinSine = 0.05;
-/// Two runs turned against each other more than this are the two faces of a wall that ends.
+/// Two adjacent runs in opposite directions are the faces of a wall that ends.
 constexpr double kWallEndCosine = -0.8;
-/// Cells around a wall's end that its farthest point is looked for in.
+/// Cells around a wall's end in which its farthest point is searched.
 constexpr std::size_t kEndSides = 6;
-/// A joint shorter than this is none.
+/// Shortest joint.
 constexpr double kMinJoint = 0.05;
 
 std::vector<LinkedRun> link_runs(const Border& border, std::vector<Run> runs, std::size_t first) {
@@ -40,12 +40,12 @@ std::vector<LinkedRun> link_runs(const Border& border, std::vector<Run> runs, st
   return linked;
 }
 
-/// Where a wall ends between its two faces: the farthest point of the border around there.
+/// The end of a wall between its two faces: the border's farthest point there.
 Vec2 farthest_around(const Border& border, const Run& one, const Run& next) {
   Vec2 far = border.points[one.end].place();
   const auto look = [&](std::size_t i) {
     const Vec2 place = border.points[i].place();
-    if (one.way.dot(place - far) > 0) far = place;
+    if (one.direction.dot(place - far) > 0) far = place;
   };
   for (std::size_t i = one.end - std::min(kEndSides, one.size()); i <= one.end; ++i) look(i);
   const std::size_t last = next.begin + std::min(kEndSides, next.size());
@@ -94,10 +94,10 @@ class FaceBuilder {
   }
 
   std::optional<Vec2> corner(const LinkedRun& one, const LinkedRun& next) const {
-    const double sine = core::cross(one.run.way, next.run.way);
+    const double sine = core::cross(one.run.direction, next.run.direction);
     if (std::abs(sine) < kMinSine) return std::nullopt;
-    const double along = core::cross(next.run.at - one.run.at, next.run.way) / sine;
-    const Vec2 meet = one.run.at + along * one.run.way;
+    const double along = core::cross(next.run.at - one.run.at, next.run.direction) / sine;
+    const Vec2 meet = one.run.at + along * one.run.direction;
     const double reach = kCornerReach + options_.tolerance + 1.5 * options_.inset;
     if ((meet - one.end).norm() > reach) return std::nullopt;
     return meet;
@@ -114,24 +114,24 @@ class FaceBuilder {
       const LinkedRun& next = runs_[one.next];
       if (const auto meet = corner(one, next)) {
         to_[i] = from_[one.next] = *meet;
-        is_inner_[one.next] = core::cross(one.run.way, next.run.way) > 0;
+        is_inner_[one.next] = core::cross(one.run.direction, next.run.direction) > 0;
         continue;
       }
-      Vec2 scan = one.end;
-      if (one.run.way.dot(next.run.way) < kWallEndCosine) {
-        scan = farthest_around(borders_[border_of_[i]], one.run, next.run) -
-               options_.inset * one.run.way;
+      Vec2 cut = one.end;
+      if (one.run.direction.dot(next.run.direction) < kWallEndCosine) {
+        cut = farthest_around(borders_[border_of_[i]], one.run, next.run) -
+              options_.inset * one.run.direction;
       }
-      to_[i] = on_line(one.run, scan);
-      from_[one.next] = on_line(next.run, scan);
+      to_[i] = on_line(one.run, cut);
+      from_[one.next] = on_line(next.run, cut);
     }
   }
 
-  /// With all that the run goes on in.
+  /// Adds the face of a run and its continuations.
   void add_face(std::size_t first, std::vector<GridFace>& faces) const {
     std::size_t last = first;
     while (runs_[last].continued_by != kNoRun) last = runs_[last].continued_by;
-    GridFace face{from_[first], to_[last], runs_[first].run.way};
+    GridFace face{from_[first], to_[last], runs_[first].run.direction};
     face.enters_from = is_inner_[first];
     face.enters_to = runs_[last].next != kNoRun && is_inner_[runs_[last].next];
     if (face.length() < kMinJoint) {
@@ -154,7 +154,7 @@ class FaceBuilder {
   std::vector<std::size_t> border_of_;
   std::vector<Vec2> from_;  ///< ends of the runs
   std::vector<Vec2> to_;
-  std::vector<bool> is_inner_;  ///< they begin in a room's corner
+  std::vector<bool> is_inner_;  ///< the run begins in a room's corner
 };
 
 }  // namespace

@@ -12,15 +12,15 @@
 namespace cornerd::gridmap {
 namespace {
 
-/// A mapper's walls are a cell or two thick, with few exceptions where it erred.
+/// Mapped walls are one or two cells thick.
 constexpr double kDrawnBuriedShare = 0.25;
-/// Specks of two cells are noise at any resolution.
+/// Patches of two cells are noise at any resolution.
 constexpr double kSpeckCells = 2.5;
-/// What the raster makes of a straight line, and what mappers make of one.
+/// Deviation of a straight line's border in a drawing, and in a mapped picture, in cells.
 constexpr double kDrawnTolerance = 0.75;
 constexpr double kMappedTolerance = 1.25;
 constexpr double kBlock_m = 2;
-/// So far a wall goes into another one, that no ray slips through the joint.
+/// Overlap of walls that meet, so that no ray passes through the joint.
 constexpr double kInto_m = 0.001;
 
 class Placer {
@@ -57,8 +57,8 @@ ImportResult import_grid(OccupancyGrid grid, double resolution_m, const core::Po
 
   ImportResult result;
   result.made_by = options.made_by == MadeBy::kUnknown ? detect_maker(grid) : options.made_by;
-  const double least = std::max(kSpeckCells, cells(options.speck_m));
-  for (const Patch& patch : drop_specks(grid, least)) {
+  const double min_size = std::max(kSpeckCells, cells(options.speck_m));
+  for (const Patch& patch : drop_specks(grid, min_size)) {
     result.specks.push_back(placer.remark(patch.centre, patch.size));
   }
   const double pocket_cells = options.pocket_m2 / (resolution_m * resolution_m);
@@ -81,13 +81,13 @@ ImportResult import_grid(OccupancyGrid grid, double resolution_m, const core::Po
   SolidLimits limits;
   limits.thickness = cells(options.thickness_m);
   limits.block = std::max(limits.thickness, cells(kBlock_m));
-  limits.slack = std::max(limits.slack, face_options.tolerance / 2);
+  limits.tolerance = std::max(limits.tolerance, face_options.tolerance / 2);
   limits.thin = cells(options.thin_m);
   limits.into = cells(kInto_m);
   const std::vector<core::Wall> solids = find_solids(grid, set.faces, limits);
   std::vector<LeftOut> left_out;
   const std::vector<core::Wall> one_sided =
-      find_one_sided(grid, set.faces, solids, limits, least, left_out);
+      find_one_sided(grid, set.faces, solids, limits, min_size, left_out);
   for (const LeftOut& piece : left_out) {
     result.short_pieces.push_back(placer.remark(piece.centre, piece.size));
   }

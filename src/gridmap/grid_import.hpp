@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// From a picture of cells to a map of walls.
+// From an occupancy grid to a map of walls.
 #pragma once
 
 #include <cstddef>
@@ -12,43 +12,42 @@
 
 namespace cornerd::gridmap {
 
-/// Where in its cells the surface of a wall lies. A lidar's mapper marks the cells that beams ended
-/// in: the surface goes through their middle on average. Who draws a picture fills what is solid.
+/// How the picture was made. A mapper marks the cells that beams ended in: the surface goes through
+/// their middle on average. A drawing fills what is solid: the surface is on the cells' sides.
 enum class MadeBy : std::uint8_t { kUnknown, kLidar, kDrawing };
 
 struct ImportOptions {
-  MadeBy made_by = MadeBy::kUnknown;  ///< unknown: see detect_maker()
-  double speck_m = 0.1;               ///< smaller than this, or than 2.5 cells, nothing is a wall
-  double pocket_m2 = 0.05;            ///< smaller than this no free space is a room
-  double join_gap_m = 0.3;            ///< unknown stretch of a wall that goes on behind it
-  double thickness_m = 0.6;           ///< the thickest wall whose inside is unknown
-  double thin_m = 0;           ///< of walls so thin that the picture has no thickness for them
-  double roughness_m = 0.025;  ///< steps of a lidar's walls that are none
-  bool square = true;          ///< make square what is so as far as the picture tells
+  MadeBy made_by = MadeBy::kUnknown;  ///< unknown: by detect_maker()
+  double speck_m = 0.1;               ///< smallest occupied patch, at least 2.5 cells
+  double pocket_m2 = 0.05;            ///< smallest free patch
+  double join_gap_m = 0.3;            ///< largest unknown gap within a wall
+  double thickness_m = 0.6;           ///< thickest wall with unknown cells inside
+  double thin_m = 0;                  ///< thickness of walls thinner than a cell
+  double roughness_m = 0.025;         ///< largest step of a mapped wall that is noise
+  bool square = true;                 ///< make walls square that are so within the raster's error
 };
 
-/// What did not become a wall, or was taken as one without being seen.
+/// Something left out of the map, or closed without being seen.
 struct Remark {
   core::Vec2 place = core::Vec2::Zero();  ///< in the map
   double size_m = 0;
 };
 
 struct ImportResult {
-  /// Without a name; no walls where the picture has no border. The two-sided walls come first.
+  /// Without a name. The two-sided walls come first.
   core::FloorPlan plan;
   MadeBy made_by = MadeBy::kUnknown;
-  std::size_t two_sided = 0;  ///< of the walls: those both of whose faces were seen
+  std::size_t two_sided = 0;  ///< walls with both faces seen
   std::vector<Remark> specks;
   std::vector<Remark> pockets;
   std::vector<Remark> short_pieces;
   std::vector<Remark> joined_gaps;
 };
 
-/// Drawn, where nothing is unknown, or much is occupied that no beam could have reached.
+/// A drawing, where no cell is unknown, or many occupied cells cannot have been reached by beams.
 MadeBy detect_maker(const OccupancyGrid& grid);
 
-/// Walls along the borders between free and occupied cells. Never fails; a picture without a border
-/// gives no walls.
+/// Walls along the borders between free and occupied cells; none where there is no border.
 ImportResult import_grid(OccupancyGrid grid, double resolution_m, const core::Pose2& T_map_picture,
                          const ImportOptions& options);
 

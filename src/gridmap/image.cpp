@@ -12,7 +12,7 @@ constexpr bool is_space(char c) {
   return c == ' ' || c == '\t' || c == '\n' || c == '\r' || c == '\v' || c == '\f';
 }
 
-/// Numbers between white space and comments.
+/// Reads numbers between white space and comments.
 class PgmText {
  public:
   explicit PgmText(std::string_view rest) : rest_(rest) {}
@@ -26,7 +26,7 @@ class PgmText {
     return value;
   }
 
-  /// The pixels' bytes begin after exactly one.
+  /// The pixels' bytes begin after exactly one white space.
   void one_space() {
     if (rest_.empty() || !is_space(rest_.front())) {
       throw GridError("PGM: no white space after the largest value");
@@ -53,7 +53,7 @@ class PgmText {
 };
 
 void read_digits(PgmText& text, Image& image) {
-  // Two characters a pixel at least: a size that the text cannot hold takes no memory.
+  // At least two characters a pixel: a wrong size allocates no memory.
   if (text.rest().size() / 2 + 1 < image.width * image.height) throw GridError("PGM: ends early");
   image.shades.reserve(image.width * image.height);
   for (std::size_t i = 0; i < image.width * image.height; ++i) {
@@ -88,7 +88,7 @@ void check_size(std::size_t width, std::size_t height) {
 Image decode_image(std::string_view bytes) {
   if (is_pgm(bytes)) return decode_pgm(bytes);
   if (is_png(bytes)) return decode_png(bytes);
-  throw GridError("is neither PGM (P2 or P5) nor PNG");
+  throw GridError("is neither PGM (P2 or P5) nor PNG: convert it");
 }
 
 bool is_pgm(std::string_view bytes) { return bytes.starts_with("P2") || bytes.starts_with("P5"); }

@@ -13,8 +13,8 @@ namespace cornerd::gridmap {
 
 enum class Cell : std::uint8_t { kFree, kOccupied, kUnknown };
 
-/// Square cells, column 0 and row 0 at the lower left. A point of the grid has its coordinates in
-/// cells: cell (column, row) reaches from there to (column + 1, row + 1).
+/// Square cells, with column 0 and row 0 at the lower left. Points have coordinates in cells: cell
+/// (column, row) reaches from there to (column + 1, row + 1).
 class OccupancyGrid {
  public:
   /// All unknown.
@@ -30,7 +30,7 @@ class OccupancyGrid {
   bool holds(std::int64_t column, std::int64_t row) const {
     return column >= 0 && row >= 0 && column < columns_ && row < rows_;
   }
-  /// Beyond the picture all is unknown.
+  /// Unknown outside of the picture.
   Cell at(std::int64_t column, std::int64_t row) const {
     return holds(column, row) ? cells_[index(column, row)] : Cell::kUnknown;
   }
@@ -47,9 +47,9 @@ class OccupancyGrid {
   std::vector<Cell> cells_;
 };
 
-/// Shades as map_server reads them. Cells between the thresholds are unknown in the mode trinary;
-/// in scale they count as the nearer of both. In raw, shades are per cent of 0 to 100, what is
-/// above is unknown, and the thresholds are shares of that. What is transparent is unknown.
+/// Occupancy of the pixels as in map_server. Between the thresholds: unknown in the mode trinary,
+/// the nearer state in scale. In raw, values are per cent, and unknown above 100. Transparent
+/// pixels are unknown.
 OccupancyGrid read_shades(const Image& image, const MapServerYaml& yaml);
 
 }  // namespace cornerd::gridmap

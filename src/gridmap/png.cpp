@@ -16,7 +16,7 @@ bool is_png(std::string_view bytes) { return bytes.starts_with("\x89PNG\r\n\x1a\
 
 namespace {
 
-/// What libpng's callbacks see.
+/// State of libpng's callbacks.
 struct Decoding {
   std::string_view rest;
   char error[160] = "";
@@ -37,7 +37,7 @@ void on_error(png_structp png, png_const_charp reason) {
 
 void on_warning(png_structp, png_const_charp) {}
 
-/// libpng leaves by longjmp where the file is bad: nothing in here has a destructor.
+/// libpng leaves by longjmp on errors: no local of read_...() has a destructor.
 class Reader {
  public:
   explicit Reader(std::string_view bytes) : decoding_{.rest = bytes} {
@@ -101,7 +101,7 @@ Image decode_png(std::string_view bytes) {
   image.height = reader.height();
   check_size(image.width, image.height);
   const std::size_t count = image.width * image.height;
-  // Deflate makes a byte of a thousand at most: a size beyond that takes no memory.
+  // Deflate compresses by a factor of 1032 at most: a wrong size allocates no memory.
   if (count / 8 > bytes.size() * 1040) throw GridError("PNG: ends early");
   std::vector<std::uint8_t> rgba(count * 4);
   if (!reader.read_pixels(rgba.data())) reader.fail();
@@ -124,7 +124,7 @@ bool has_png() { return false; }
 
 Image decode_png(std::string_view) {
   throw GridError(
-      "is a PNG, and this program was built without libpng; convert it "
+      "is a PNG, and this program was built without libpng: convert it "
       "(pngtopnm map.png >map.pgm) and name the PGM in the yaml");
 }
 

@@ -10,28 +10,28 @@ namespace {
 
 using core::Vec2;
 
-/// What the ends of a run may move by, in cells: the error of a line drawn in cells.
+/// Largest movement of a run's ends, in cells: the raster's error.
 constexpr double kSquareMove = 0.4;
-/// Runs this near to one line, in cells, are of one wall.
+/// Largest distance of runs on one line, in cells.
 constexpr double kSameLine = 0.6;
-/// Stretches of one wall may overlap by so many cells, where their corners were rounded.
+/// Largest overlap of continuations, in cells, from rounded corners.
 constexpr double kOverlap = 1;
 constexpr double kSampleStep = 0.5;
 
-/// Angle of a run's way from the nearest of the four axes of `frame_rad`.
+/// Angle of a run's direction from the nearest of the four axes of `frame_rad`.
 double from_axis(const Run& run, double frame_rad) {
-  return std::remainder(core::angle_of(run.way) - frame_rad, core::kPi / 2);
+  return std::remainder(core::angle_of(run.direction) - frame_rad, core::kPi / 2);
 }
 
 double allowed_rotation(const Run& run) { return 2 * kSquareMove / std::max(run.extent, 1.0); }
 
-/// The direction that most of the walls' length agrees with: of the longest run, then of all that
-/// are square to it, each by the weight of what is known of its direction.
+/// The main direction: that of the longest run, refined by all that are square to it, weighted by
+/// the information on their direction.
 double main_direction(const std::vector<LinkedRun>& runs) {
   const auto longest = std::max_element(
       runs.begin(), runs.end(),
       [](const LinkedRun& a, const LinkedRun& b) { return a.run.extent < b.run.extent; });
-  double frame_rad = std::remainder(core::angle_of(longest->run.way), core::kPi / 2);
+  double frame_rad = std::remainder(core::angle_of(longest->run.direction), core::kPi / 2);
   constexpr int kRounds = 3;
   for (int round = 0; round < kRounds; ++round) {
     double sum = 0;
@@ -45,17 +45,17 @@ double main_direction(const std::vector<LinkedRun>& runs) {
     }
     if (weights > 0) frame_rad += sum / weights;
   }
-  // Most pictures are drawn along the building's walls.
+  // Most pictures are aligned with the building.
   const double raster_rad = std::remainder(frame_rad, core::kPi / 2);
   return std::abs(raster_rad) < allowed_rotation(longest->run) / 4 ? frame_rad - raster_rad
                                                                    : frame_rad;
 }
 
 double gap_between(const Run& one, const LinkedRun& first, const LinkedRun& second) {
-  return one.way.dot(second.begin - first.end);
+  return one.direction.dot(second.begin - first.end);
 }
 
-/// What is behind the border between two stretches.
+/// Cells behind the border between two runs.
 struct Between {
   bool is_free = false;
   bool is_unknown = false;
@@ -68,7 +68,7 @@ Between look_between(const OccupancyGrid& grid, const FaceOptions& options, cons
   const Vec2 start = first.end - (run.height_of(first.end) + 0.5 - options.inset) * run.normal();
   Between between;
   for (double s = kSampleStep / 2; s < gap; s += kSampleStep) {
-    const Cell cell = grid.at(start + s * run.way);
+    const Cell cell = grid.at(start + s * run.direction);
     between.is_free = between.is_free || cell == Cell::kFree;
     between.is_unknown = between.is_unknown || cell == Cell::kUnknown;
   }
@@ -89,15 +89,15 @@ std::optional<Continuation> find_continuation(const OccupancyGrid& grid, const F
   const LinkedRun& second = runs[j];
   const Run& longer = first.run.extent >= second.run.extent ? first.run : second.run;
   const Run& shorter = first.run.extent >= second.run.extent ? second.run : first.run;
-  if (longer.way.dot(shorter.way) < 0.98) return std::nullopt;
+  if (longer.direction.dot(shorter.direction) < 0.98) return std::nullopt;
   const double gap = gap_between(longer, first, second);
   if (gap < -kOverlap) return std::nullopt;
   const double half = shorter.extent / 2;
-  if (std::abs(longer.height_of(shorter.at - half * shorter.way)) > kSameLine ||
-      std::abs(longer.height_of(shorter.at + half * shorter.way)) > kSameLine) {
+  if (std::abs(longer.height_of(shorter.at - half * shorter.direction)) > kSameLine ||
+      std::abs(longer.height_of(shorter.at + half * shorter.direction)) > kSameLine) {
     return std::nullopt;
   }
-  // Stretches of another wall far away are left alone for their own sake.
+  // A far run is of another wall.
   if (gap > options.join_gap && gap > 4 * longer.extent) return std::nullopt;
   const Between between = look_between(grid, options, first, gap);
   if (between.is_free || (between.is_unknown && gap > options.join_gap)) return std::nullopt;
@@ -112,7 +112,7 @@ std::vector<std::size_t> chain_of(const std::vector<LinkedRun>& runs, std::size_
   return chain;
 }
 
-/// One line for all of them: the common direction where they were made parallel.
+/// Gives the runs one line; keeps a common direction.
 void share_line(std::vector<LinkedRun>& runs, const std::vector<std::size_t>& chain, double inset) {
   const LinkedRun& longest =
       runs[*std::max_element(chain.begin(), chain.end(), [&](std::size_t a, std::size_t b) {
@@ -122,16 +122,17 @@ void share_line(std::vector<LinkedRun>& runs, const std::vector<std::size_t>& ch
   bool parallel = true;
   for (const std::size_t i : chain) {
     fit.add(runs[i].run.fit);
-    parallel = parallel && core::cross(longest.run.way, runs[i].run.way) == 0;
+    parallel = parallel && core::cross(longest.run.direction, runs[i].run.direction) == 0;
   }
   if (fit.count() < 2) return;
   const core::Line line = fit.line();
-  Vec2 way = longest.run.way;
-  if (!parallel) way = line.direction().dot(way) > 0 ? line.direction() : Vec2(-line.direction());
-  const Vec2 at = line.centroid - inset * core::rotate_left(way);
+  Vec2 direction = longest.run.direction;
+  if (!parallel)
+    direction = line.direction().dot(direction) > 0 ? line.direction() : Vec2(-line.direction());
+  const Vec2 at = line.centroid - inset * core::rotate_left(direction);
   for (const std::size_t i : chain) {
-    runs[i].run.way = way;
-    runs[i].run.at = at + way.dot(runs[i].run.at - at) * way;
+    runs[i].run.direction = direction;
+    runs[i].run.at = at + direction.dot(runs[i].run.at - at) * direction;
   }
 }
 
@@ -143,14 +144,14 @@ void square_up(std::vector<LinkedRun>& runs) {
   for (LinkedRun& linked : runs) {
     Run& run = linked.run;
     if (std::abs(from_axis(run, frame_rad)) > allowed_rotation(run)) continue;
-    // The four axes from one, so that opposite ones are opposite to the last bit.
+    // All four axes from one, so that opposite ones are exactly opposite.
     const Vec2 axis = core::unit_vector(frame_rad);
-    const double quarters = (core::angle_of(run.way) - frame_rad) / (core::kPi / 2);
+    const double quarters = (core::angle_of(run.direction) - frame_rad) / (core::kPi / 2);
     const auto quarter = static_cast<int>(std::lround(quarters)) & 3;
-    run.way = quarter == 0   ? axis
-              : quarter == 1 ? core::rotate_left(axis)
-              : quarter == 2 ? Vec2(-axis)
-                             : Vec2(-core::rotate_left(axis));
+    run.direction = quarter == 0   ? axis
+                    : quarter == 1 ? core::rotate_left(axis)
+                    : quarter == 2 ? Vec2(-axis)
+                                   : Vec2(-core::rotate_left(axis));
   }
 }
 

@@ -11,7 +11,7 @@ namespace cornerd::gridmap {
 
 inline constexpr std::size_t kNoRun = std::numeric_limits<std::size_t>::max();
 
-/// A run, the two beside it on its border, and those that it goes on in.
+/// A run with its neighbours on the border, and its continuations on the same line.
 struct LinkedRun {
   Run run;
   core::Vec2 begin = core::Vec2::Zero();  ///< where its border begins and ends
@@ -22,12 +22,12 @@ struct LinkedRun {
   std::size_t continues = kNoRun;
 };
 
-/// Turns runs along or square to the longest of them where their ends move by less than a part of a
-/// cell: the picture cannot tell the difference, and two faces of one wall become parallel.
+/// Makes runs parallel or square to the longest where that moves their ends by less than the
+/// raster's error. Both faces of a wall then become parallel.
 void square_up(std::vector<LinkedRun>& runs);
 
-/// Finds the runs that go on in others behind what adjoins or what is unknown, and gives them one
-/// line. Returns the unknown places.
+/// Finds runs that continue others behind an adjoining wall or an unknown gap, and gives them one
+/// line. Returns the unknown gaps.
 std::vector<JoinedGap> continue_runs(const OccupancyGrid& grid, const FaceOptions& options,
                                      std::vector<LinkedRun>& runs);
 

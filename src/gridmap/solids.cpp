@@ -12,20 +12,20 @@ namespace {
 
 using core::Vec2;
 
-constexpr double kLookStep = 0.5;  ///< between two looks along a wall
-constexpr double kMargin = 1;      ///< from a face: what the raster may be off by
+constexpr double kLookStep = 0.5;  ///< sampling step along a wall
+constexpr double kMargin = 1;      ///< raster error at a face
 constexpr double kMinOverlap = 1;
-/// Both faces of a wall deviate from parallel by at most this over their length.
+/// Largest deviation from parallel of a wall's faces over their length.
 constexpr double kWedge = 1;
-/// A face that is covered by so much of its length by walls found before needs no other.
+/// A face covered by walls over this share of its length needs no other.
 constexpr double kEnough = 0.9;
 
-/// Two faces that may be those of one wall, in the wall's own axes.
+/// Two faces that may belong to one wall, in the wall's axes.
 struct Candidate {
   std::size_t front = 0;
   std::size_t back = 0;
   Vec2 origin = Vec2::Zero();  ///< on the wall's axis
-  Vec2 way = Vec2::Zero();
+  Vec2 direction = Vec2::Zero();
   double thickness = 0;
   Stretch both;  ///< along the axis: where both faces are
   Stretch all;   ///< where any of them is
@@ -33,24 +33,26 @@ struct Candidate {
 
 std::optional<Candidate> match(const GridFace& front, const GridFace& back,
                                const SolidLimits& limits) {
-  if (front.way.dot(back.way) > -0.97) return std::nullopt;
+  if (front.direction.dot(back.direction) > -0.97) return std::nullopt;
   Candidate candidate;
-  candidate.way = (front.way - back.way).normalized();
-  const Vec2 normal = core::rotate_left(candidate.way);
-  const auto along = [&](const Vec2& point) { return candidate.way.dot(point - front.from); };
+  candidate.direction = (front.direction - back.direction).normalized();
+  const Vec2 normal = core::rotate_left(candidate.direction);
+  const auto along = [&](const Vec2& point) { return candidate.direction.dot(point - front.from); };
   const Stretch a{along(front.from), along(front.to)};
   const Stretch b{along(back.to), along(back.from)};
   candidate.both = {std::max(a.begin, b.begin), std::min(a.end, b.end)};
   candidate.all = {std::min(a.begin, b.begin), std::max(a.end, b.end)};
   const double overlap = candidate.both.length();
   if (overlap < kMinOverlap) return std::nullopt;
-  if (std::abs(core::cross(front.way, back.way)) * overlap > kWedge) return std::nullopt;
+  if (std::abs(core::cross(front.direction, back.direction)) * overlap > kWedge)
+    return std::nullopt;
   // Heights of both faces in the middle of what they share.
-  const Vec2 middle = front.from + (candidate.both.begin + candidate.both.end) / 2 * candidate.way;
+  const Vec2 middle =
+      front.from + (candidate.both.begin + candidate.both.end) / 2 * candidate.direction;
   const double top = -front.height_of(middle) * front.normal().dot(normal);
   const double bottom = -back.height_of(middle) * back.normal().dot(normal);
   candidate.thickness = top - bottom;
-  if (candidate.thickness < -limits.slack || candidate.thickness > limits.block) {
+  if (candidate.thickness < -limits.tolerance || candidate.thickness > limits.block) {
     return std::nullopt;
   }
   candidate.thickness = std::max(candidate.thickness, 0.0);
@@ -100,10 +102,10 @@ class SolidFinder {
     return candidates;
   }
 
-  /// True where a place of the axis has nothing free across the wall.
+  /// No free cell across the wall at a coordinate of the axis.
   bool is_solid(const Candidate& candidate, double along, bool occupied_alone) const {
-    const Vec2 centre = candidate.origin + along * candidate.way;
-    const Vec2 normal = core::rotate_left(candidate.way);
+    const Vec2 centre = candidate.origin + along * candidate.direction;
+    const Vec2 normal = core::rotate_left(candidate.direction);
     const double reach = std::max(candidate.thickness / 2 - kMargin, 0.0);
     for (double s = -reach; s <= reach; s += kLookStep) {
       const Cell cell = grid_.at(Vec2(centre + s * normal));
@@ -113,7 +115,7 @@ class SolidFinder {
     return true;
   }
 
-  /// The whole of what both faces share, but for single looks beside a rough border.
+  /// No free cell over the overlap of both faces, except a few samples at a rough border.
   bool is_solid(const Candidate& candidate, bool occupied_alone) const {
     std::size_t looks = 0;
     std::size_t solid = 0;
@@ -125,8 +127,7 @@ class SolidFinder {
     return static_cast<double>(solid) >= 0.95 * static_cast<double>(looks);
   }
 
-  /// From the end of what both faces share to where the longer of them ends, as far as it is solid,
-  /// and a little into what is there.
+  /// Extends the overlap to the end of the longer face, as far as it is solid.
   double grow(const Candidate& candidate, bool ahead, bool occupied_alone) const {
     const double sign = ahead ? 1 : -1;
     const double from = ahead ? candidate.both.end : candidate.both.begin;
@@ -144,8 +145,8 @@ class SolidFinder {
 
   bool is_covered(std::size_t index, const Candidate& candidate) const {
     const GridFace& face = faces_[index];
-    const Vec2 begin = candidate.origin + candidate.both.begin * candidate.way;
-    const Vec2 end = candidate.origin + candidate.both.end * candidate.way;
+    const Vec2 begin = candidate.origin + candidate.both.begin * candidate.direction;
+    const Vec2 end = candidate.origin + candidate.both.end * candidate.direction;
     Stretch part{face.along(begin), face.along(end)};
     if (part.begin > part.end) std::swap(part.begin, part.end);
     double left = 0;
@@ -161,22 +162,23 @@ class SolidFinder {
     const Stretch reach{grow(candidate, false, occupied_alone),
                         grow(candidate, true, occupied_alone)};
     core::Wall wall;
-    wall.thickness_m = candidate.thickness < limits_.least ? limits_.thin : candidate.thickness;
+    wall.thickness_m =
+        candidate.thickness < limits_.min_thickness ? limits_.thin : candidate.thickness;
     const double half = wall.thickness_m / 2;
     if (reach.length() >= wall.thickness_m) {
-      wall.from = candidate.origin + (reach.begin + half) * candidate.way;
-      wall.to = candidate.origin + (reach.end - half) * candidate.way;
+      wall.from = candidate.origin + (reach.begin + half) * candidate.direction;
+      wall.to = candidate.origin + (reach.end - half) * candidate.direction;
     } else {
       // Thicker than long: as a wall that runs across.
-      const Vec2 middle = candidate.origin + (reach.begin + reach.end) / 2 * candidate.way;
-      const Vec2 across = (half - reach.length() / 2) * core::rotate_left(candidate.way);
+      const Vec2 middle = candidate.origin + (reach.begin + reach.end) / 2 * candidate.direction;
+      const Vec2 across = (half - reach.length() / 2) * core::rotate_left(candidate.direction);
       wall.thickness_m = reach.length();
       wall.from = middle - across;
       wall.to = middle + across;
     }
     const core::WallBox box(wall);
     for (std::size_t i = 0; i < faces_.size(); ++i) {
-      const Stretch part = covered(faces_[i], box, limits_.slack);
+      const Stretch part = covered(faces_[i], box, limits_.tolerance);
       if (part.length() > 0) covered_[i].push_back(part);
     }
     walls_.push_back(wall);
@@ -189,7 +191,7 @@ class SolidFinder {
   std::vector<core::Wall> walls_;
 };
 
-/// Cuts [begin, end] down to where |start + s * slope| <= limit.
+/// Restricts the interval to where |start + s * slope| <= limit.
 void clip(double start, double slope, double limit, Stretch& stretch) {
   if (std::abs(slope) < 1e-9) {
     if (std::abs(start) > limit) stretch = {0, 0};
@@ -203,13 +205,13 @@ void clip(double start, double slope, double limit, Stretch& stretch) {
 
 }  // namespace
 
-Stretch covered(const GridFace& face, const core::WallBox& wall, double slack) {
+Stretch covered(const GridFace& face, const core::WallBox& wall, double tolerance) {
   const Vec2 start = wall.to_local(face.from);
-  const Vec2 slope = wall.to_local(face.from + face.way) - start;
+  const Vec2 slope = wall.to_local(face.from + face.direction) - start;
   Stretch stretch{0, face.length()};
-  if (face.height_of(wall.centre) > slack) return {0, 0};
-  clip(start.x(), slope.x(), wall.half_length_m + slack, stretch);
-  clip(start.y(), slope.y(), wall.half_width_m + slack, stretch);
+  if (face.height_of(wall.centre) > tolerance) return {0, 0};
+  clip(start.x(), slope.x(), wall.half_length_m + tolerance, stretch);
+  clip(start.y(), slope.y(), wall.half_width_m + tolerance, stretch);
   return stretch;
 }
 

@@ -11,30 +11,29 @@ namespace cornerd::gridmap {
 
 /// In cells.
 struct SolidLimits {
-  double thickness = 12;  ///< with unknown cells between both faces
-  double block = 200;     ///< with occupied cells alone
-  double least = 0.4;     ///< thinner than this a wall is a line
-  double slack = 0.7;     ///< a face this near to a wall's side is its side
-  double thin = 0;        ///< thickness of the walls that would be lines
-  double into = 0;        ///< how far a wall goes into what it ends at: no ray slips through
+  double thickness = 12;       ///< largest thickness with unknown cells inside
+  double block = 200;          ///< largest thickness with occupied cells only
+  double min_thickness = 0.4;  ///< a thinner wall is a line
+  double tolerance = 0.7;      ///< distance of a face to a wall's side that is its own
+  double thin = 0;             ///< thickness given to walls that would be lines
+  double into = 0;             ///< overlap of a wall with the one it ends at: no ray passes between
 };
 
-/// The walls both of whose faces are there, with nothing free in between, the thinnest first. In
-/// cells. Walls that meet overlap.
+/// Walls with both faces and no free cells in between, the thinnest first. In cells. Walls that
+/// meet overlap.
 std::vector<core::Wall> find_solids(const OccupancyGrid& grid, std::span<const GridFace> faces,
                                     const SolidLimits& limits);
 
-/// A stretch along something.
 struct Stretch {
   double begin = 0;
   double end = 0;
   double length() const { return end - begin; }
 };
 
-/// The part of a face within `slack` cells of a wall; none where the wall stands before the face.
-Stretch covered(const GridFace& face, const core::WallBox& wall, double slack);
+/// The part of a face within `tolerance` cells of a wall; none where the wall is in front of it.
+Stretch covered(const GridFace& face, const core::WallBox& wall, double tolerance);
 
-/// What is left of [0, length] without the given stretches, which may overlap.
+/// The rest of [0, length] without the given intervals, which may overlap.
 std::vector<Stretch> uncovered(double length, std::vector<Stretch> covered);
 
 }  // namespace cornerd::gridmap

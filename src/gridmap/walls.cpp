@@ -12,19 +12,19 @@ namespace {
 
 using core::Vec2;
 
-/// What is left of a face beside solids is a line of its own from this length on.
+/// Shortest rest of a face beside solids.
 constexpr double kMinRest = 1;
-/// A line that ends this near to a solid ends on it.
+/// A line that ends within this distance of a solid is extended to it.
 constexpr double kReach = 1.5;
 constexpr double kSamePoint = 1e-3;
 constexpr double kMinLine = 0.05;
 
-/// A piece of face beside all solids.
+/// A part of a face that no solid covers.
 struct Line {
   Vec2 from = Vec2::Zero();
   Vec2 to = Vec2::Zero();
   double depth = 0;      ///< of the occupied cells behind it
-  bool touches = false;  ///< one of its ends is in a solid
+  bool touches = false;  ///< an end is in a solid
   bool enters_from = false;
   bool enters_to = false;
 };
@@ -41,7 +41,7 @@ class LineFinder {
     const double length = face.length();
     std::vector<Stretch> hidden;
     for (const core::WallBox& box : boxes_) {
-      const Stretch part = covered(face, box, limits_.slack);
+      const Stretch part = covered(face, box, limits_.tolerance);
       if (part.length() > 0) hidden.push_back(part);
     }
     for (Stretch open : uncovered(length, std::move(hidden))) {
@@ -51,8 +51,8 @@ class LineFinder {
       touches = extend(face, open, true) || touches;
       if (open.length() < kMinLine) continue;
       Line line;
-      line.from = face.from + open.begin * face.way;
-      line.to = face.from + open.end * face.way;
+      line.from = face.from + open.begin * face.direction;
+      line.to = face.from + open.end * face.direction;
       line.depth = face.is_joint ? 0 : depth_behind(face, open);
       line.touches = touches;
       line.enters_from = open.begin == 0 && face.enters_from;
@@ -61,7 +61,7 @@ class LineFinder {
     }
   }
 
-  std::vector<core::Wall> take(double least, std::vector<LeftOut>& left_out) {
+  std::vector<core::Wall> take(double min_size, std::vector<LeftOut>& left_out) {
     const std::vector<std::size_t> groups = group();
     std::vector<core::Wall> kept;
     for (std::size_t i = 0; i < lines_.size(); ++i) {
@@ -75,7 +75,7 @@ class LineFinder {
         high = high.cwiseMax(lines_[j].from).cwiseMax(lines_[j].to);
         touches = touches || lines_[j].touches;
       }
-      if (!touches && (high - low).norm() < least) {
+      if (!touches && (high - low).norm() < min_size) {
         left_out.push_back({(low + high) / 2, (high - low).norm()});
         continue;
       }
@@ -87,16 +87,16 @@ class LineFinder {
   }
 
  private:
-  /// Lets one end of a stretch go into a solid that is near there. False where there is none.
+  /// Extends one end of an interval into a near solid. False where there is none.
   bool extend(const GridFace& face, Stretch& open, bool at_end) const {
     const double end = at_end ? open.end : open.begin;
     const double sign = at_end ? 1 : -1;
-    // The face's line, from the middle of the stretch on beyond its end.
+    // The face's line, from the middle of the interval beyond its end.
     GridFace line = face;
-    line.from = face.from + (open.begin + open.end) / 2 * face.way;
-    line.way = sign * face.way;
+    line.from = face.from + (open.begin + open.end) / 2 * face.direction;
+    line.direction = sign * face.direction;
     const double to_end = sign * (end - (open.begin + open.end) / 2);
-    line.to = line.from + (to_end + kReach) * line.way;
+    line.to = line.from + (to_end + kReach) * line.direction;
     bool found = false;
     double nearest = to_end + kReach;
     for (const core::WallBox& box : boxes_) {
@@ -111,12 +111,12 @@ class LineFinder {
     return true;
   }
 
-  /// How far the cells behind a stretch are occupied, but for a few of its length.
+  /// Depth of the occupied cells behind an interval (10 % quantile).
   double depth_behind(const GridFace& face, const Stretch& open) const {
     constexpr double kStep = 0.5;
     std::vector<double> depths;
     for (double s = open.begin + kStep; s < open.end - kStep / 2; s += kStep) {
-      const Vec2 surface = face.from + s * face.way;
+      const Vec2 surface = face.from + s * face.direction;
       double depth = 0;
       while (depth < limits_.thickness &&
              grid_.at(Vec2(surface - (depth + kStep / 2) * face.normal())) == Cell::kOccupied) {
@@ -130,20 +130,20 @@ class LineFinder {
     return std::min(*few, open.length());
   }
 
-  /// A wall behind a line, its front on it.
+  /// A wall behind a line, with its front on the line.
   core::Wall thicken(const Line& line) const {
-    if (line.depth < limits_.least) return {line.from, line.to, 0};
+    if (line.depth < limits_.min_thickness) return {line.from, line.to, 0};
     const double half = line.depth / 2;
-    const Vec2 way = (line.to - line.from).normalized();
-    const Vec2 middle = half * core::rotate_left(way);
-    // In a room's corner two of them meet in a point: into each other, that no ray slips through.
+    const Vec2 direction = (line.to - line.from).normalized();
+    const Vec2 middle = half * core::rotate_left(direction);
+    // In a room's corner two walls meet in a point: overlap them, so that no ray passes.
     const double into = std::min(limits_.into, half);
     const double from = half - (line.enters_from ? into : 0);
     const double to = half - (line.enters_to ? into : 0);
-    return {line.from + from * way - middle, line.to - to * way - middle, line.depth};
+    return {line.from + from * direction - middle, line.to - to * direction - middle, line.depth};
   }
 
-  /// Of each line: the first of those that it hangs together with.
+  /// For each line, the first line of its connected group.
   std::vector<std::size_t> group() const {
     std::vector<std::size_t> first(lines_.size());
     std::iota(first.begin(), first.end(), std::size_t{0});
@@ -184,11 +184,11 @@ class LineFinder {
 
 std::vector<core::Wall> find_one_sided(const OccupancyGrid& grid, std::span<const GridFace> faces,
                                        std::span<const core::Wall> solids,
-                                       const SolidLimits& limits, double least,
+                                       const SolidLimits& limits, double min_size,
                                        std::vector<LeftOut>& left_out) {
   LineFinder finder(grid, solids, limits);
   for (const GridFace& face : faces) finder.add(face);
-  return finder.take(least, left_out);
+  return finder.take(min_size, left_out);
 }
 
 }  // namespace cornerd::gridmap

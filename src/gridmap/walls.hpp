@@ -10,18 +10,17 @@
 
 namespace cornerd::gridmap {
 
-/// What did not become a wall. In cells.
+/// Faces that became no wall. In cells.
 struct LeftOut {
   core::Vec2 centre = core::Vec2::Zero();
   double size = 0;
 };
 
-/// What of the faces no solid covers: what was seen from one side, as thick as the picture has
-/// occupied cells behind it, or a line where it has none. Groups of them that touch neither a solid
-/// nor each other over `least` go to `left_out`. All in cells.
+/// Walls of the faces that no solid covers, as thick as the occupied cells behind them, or lines.
+/// Connected groups shorter than `min_size` that touch no solid go to `left_out`. All in cells.
 std::vector<core::Wall> find_one_sided(const OccupancyGrid& grid, std::span<const GridFace> faces,
                                        std::span<const core::Wall> solids,
-                                       const SolidLimits& limits, double least,
+                                       const SolidLimits& limits, double min_size,
                                        std::vector<LeftOut>& left_out);
 
 }  // namespace cornerd::gridmap

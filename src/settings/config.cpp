@@ -4,7 +4,7 @@
 #include <set>
 
 #include "settings/config_table.hpp"
-#include "settings/override.hpp"
+#include "settings/document.hpp"
 
 namespace cornerd::settings {
 namespace {
@@ -105,7 +105,7 @@ void check(const Config& config, const ConfigReader& reader, bool require_map) {
   if (lidar.driver == DriverKind::kReplay && lidar.file.empty()) {
     reader.fail("/lidar/file", "is missing; the driver \"replay\" plays it");
   }
-  const std::int64_t counter_max = config.odometry.core.geometry.ceiling;
+  const std::int64_t counter_max = config.odometry.core.geometry.counter_max;
   if (counter_max == 1 || counter_max == 2) {
     reader.fail("/advanced/odometry/counter_max",
                 "must be 0 (never wraps) or at least 3: a smaller counter does not tell forward "
@@ -159,7 +159,7 @@ Config parse_config(std::string_view text, const std::filesystem::path& file,
   OdometryConfig& odometry = config.odometry;
   odometry.core.enabled = odometry.source != OdometrySource::kNone;
   // The driver reads each counter's own maximum.
-  if (odometry.source == OdometrySource::kKernel) odometry.core.geometry.ceiling = 0;
+  if (odometry.source == OdometrySource::kKernel) odometry.core.geometry.counter_max = 0;
   if (odometry.kernel.gyro.device == "none") odometry.kernel.gyro.device.clear();
   return config;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The config file: every key, its default, its limits.
+// What a config file sets, with the defaults. Its keys are in config_table.cpp.
 #pragma once
 
 #include <array>

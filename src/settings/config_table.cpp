@@ -108,7 +108,7 @@ void add_odometry_keys(std::vector<Key>& table, OdometryConfig& odometry) {
 void add_advanced_odometry_keys(std::vector<Key>& table, OdometryConfig& odometry) {
   const auto add = [&table](Key key) { table.push_back(std::move(key)); };
   add({"/advanced/odometry/counter_max",
-       integer(odometry.core.geometry.ceiling, 0, std::int64_t{1} << 53),
+       integer(odometry.core.geometry.counter_max, 0, std::int64_t{1} << 53),
        "The highest count before the counter wraps to 0: 65535 for 16 bits, 4294967295 for 32; 0 "
        "for counts that never wrap. Source \"kernel\" reads it from the counters.",
        Applies::kOnReload, "/odometry/ceiling"});
@@ -117,7 +117,7 @@ void add_advanced_odometry_keys(std::vector<Key>& table, OdometryConfig& odometr
   add({"/advanced/odometry/max_extrapolation", number(odometry.core.max_extrapolation_s, 0, 3600),
        "How long a pose is dead reckoned without the lidar (POSE.state \"predicted\"), seconds.",
        Applies::kOnReload, "/odometry/bridge"});
-  add({"/advanced/odometry/publish_predictions", boolean(odometry.core.publish),
+  add({"/advanced/odometry/publish_predictions", boolean(odometry.core.publish_predictions),
        "A POSE (\"predicted\") for every odometry reading too, with its age and growing "
        "covariance.",
        Applies::kOnReload, "/odometry/publish"});
@@ -138,7 +138,7 @@ void add_advanced_odometry_keys(std::vector<Key>& table, OdometryConfig& odometr
        "Initial calibration of the filter, which estimates all of it. `cornerctl calibrate "
        "odometry "
        "-o` writes it."});
-  core::OdometryParameters& initial = odometry.core.start;
+  core::OdometryParameters& initial = odometry.core.initial;
   const auto scale = [](double& member) { return number(member, -0.5, 0.5); };
   const auto add_initial = [&add](const std::string& name, Value value, const char* text) {
     add({"/advanced/odometry/initial/" + name, std::move(value), text, Applies::kOnReload,

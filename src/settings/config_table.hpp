@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The table of all config keys. It makes the reader, `--check`, the list of what takes a restart,
-// the refusal of schema 1's pointers, config/cornerd.full.json and config/README.md.
+// the refusal of schema 1's pointers, config/cornerd.full.json and config/keys.md.
 #pragma once
 
 #include <cstdint>

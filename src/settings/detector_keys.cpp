@@ -60,10 +60,10 @@ void add_detector_keys(std::vector<Key>& table, core::DetectorConfig& config) {
       "Largest angle between them, radians.", "max_piece_angle");
   add("/merge_chi_square", number(extraction.joined_chi_square, 0, 1e6),
       "Largest chi-square that one line instead of two may cost.", "joined_chi_square");
-  add("/weak_samples", integer(extraction.short_wall_samples, 3, kMaxCount),
+  add("/short_wall_samples", integer(extraction.short_wall_samples, 3, kMaxCount),
       "A wall of at most so many samples may be noise of its neighbours and is tested for it.",
       "doubtful_samples");
-  add("/weak_sigma", number(extraction.short_wall_sigma_rad, 0.001, 1.5),
+  add("/short_wall_sigma", number(extraction.short_wall_sigma_rad, 0.001, 1.5),
       "So may a wall whose direction has a larger sigma, radians.", "doubtful_sigma");
   add("/min_corner_angle", number(extraction.min_corner_angle_rad, 0.01, 1.5),
       "Smallest angle of a corner, radians.");
@@ -72,10 +72,10 @@ void add_detector_keys(std::vector<Key>& table, core::DetectorConfig& config) {
   add("/grazing_gap", number(extraction.grazing_reach, 1, 100),
       "Largest gap that they may leave, in units of corner_tolerance.", "grazing_reach");
   add("/see_through_samples", integer(extraction.see_through_samples, 0, kMaxCount),
-      "One sample behind a corner is an outlier where more samples than these lie between the "
-      "corner's walls,");
+      "Behind a corner one sample is an outlier where more samples than these lie between the "
+      "corner's walls.");
   add("/see_through_gap", number(extraction.see_through_gap_m, 0, 10),
-      "or where the walls are nearer to each other than this, metres.");
+      "The same where those walls are nearer to each other than this, metres.");
   add("/max_face", number(extraction.max_face_m, 0, 1),
       "Depth of the face of a wall's end that shows its corner, metres.");
   add("/min_face_samples", integer(extraction.min_face_samples, 1, kMaxCount),
@@ -85,14 +85,14 @@ void add_detector_keys(std::vector<Key>& table, core::DetectorConfig& config) {
   add("/occlusion_samples", integer(extraction.samples_beyond, 2, 100),
       "Samples beyond an end that are tested for occlusion by the wall; two must be occluded.",
       "look_beyond");
-  add("/short_wall_sigma", number(extraction.max_rest_sigma_rad, 0, 1.5),
-      "Two to four samples beside a corner show its other wall: largest sigma of their direction, "
-      "radians,",
+  add("/stub_sigma", number(extraction.max_rest_sigma_rad, 0, 1.5),
+      "Two to four samples beside a corner show its other wall. Largest sigma of their direction, "
+      "radians.",
       "max_rest_sigma");
-  add("/short_wall_angle", number(extraction.min_rest_angle_rad, 0, 1.5),
-      "smallest angle to the rays, radians,", "min_rest_angle");
-  add("/short_wall_corner_sigma", number(extraction.max_rest_corner_sigma_m, 0, 1),
-      "and largest sigma of the corner, metres.", "max_rest_corner_sigma");
+  add("/stub_angle", number(extraction.min_rest_angle_rad, 0, 1.5),
+      "Smallest angle between such a wall and the rays, radians.", "min_rest_angle");
+  add("/stub_corner_sigma", number(extraction.max_rest_corner_sigma_m, 0, 1),
+      "Largest sigma of such a corner, metres.", "max_rest_corner_sigma");
 }
 
 }  // namespace cornerd::settings

@@ -20,12 +20,12 @@ namespace {
 
 constexpr std::size_t kMaxDepth = 16;
 
-/// Watches the parser build the document, for what the document itself no longer shows.
+/// Checks during parsing what the parsed document no longer shows: repeated keys and depth.
 class StructureCheck {
  public:
   explicit StructureCheck(const std::filesystem::path& file) : file_(file) {}
 
-  /// Of a value that the parser could not make.
+  /// Pointer of the value at which the parser stopped.
   std::string pointer_of_next() {
     begin_element();
     return pointer();
@@ -82,12 +82,12 @@ class StructureCheck {
   std::vector<Level> levels_;
 };
 
-/// The library's "[json.exception.parse_error.101] parse error at line 1, column 2: ..." without
-/// its own name for it.
+/// "line 1, column 2: ..." of "[json.exception.parse_error.101] parse error at line 1, column 2:
+/// ..."
 std::string strip_library_prefix(std::string_view what) {
-  constexpr std::string_view kLead = "parse error at ";
-  const std::size_t lead = what.find(kLead);
-  if (lead != std::string_view::npos) return std::string(what.substr(lead + kLead.size()));
+  constexpr std::string_view kPrefix = "parse error at ";
+  const std::size_t prefix = what.find(kPrefix);
+  if (prefix != std::string_view::npos) return std::string(what.substr(prefix + kPrefix.size()));
   const std::size_t bracket = what.find("] ");
   return std::string(bracket == std::string_view::npos ? what : what.substr(bracket + 2));
 }
@@ -97,14 +97,27 @@ struct FileCloser {
 };
 using FileStream = std::unique_ptr<std::FILE, FileCloser>;
 
-/// Null, and errno says why, where it cannot be opened.
+/// Null, with errno set, where it cannot be opened.
 FileStream open_to_read(const std::filesystem::path& file, FileKind kind) {
-  const int never_wait = kind == FileKind::kOrdinary ? O_NONBLOCK : 0;
-  const int fd = ::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NOCTTY | never_wait);
+  const int non_blocking = kind == FileKind::kOrdinary ? O_NONBLOCK : 0;
+  const int fd = ::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NOCTTY | non_blocking);
   if (fd < 0) return nullptr;
   FileStream stream(::fdopen(fd, "rb"));
   if (!stream) ::close(fd);
   return stream;
+}
+
+/// RFC 6901, section 4.
+std::string unescape(std::string_view token) {
+  std::string key;
+  for (std::size_t i = 0; i < token.size(); ++i) {
+    if (token[i] == '~' && i + 1 < token.size()) {
+      key += token[++i] == '1' ? '/' : '~';
+    } else {
+      key += token[i];
+    }
+  }
+  return key;
 }
 
 }  // namespace
@@ -156,6 +169,37 @@ std::string child_pointer(const std::string& parent, std::string_view key) {
       pointer += c;
     }
   }
+  return pointer;
+}
+
+bool is_override(std::string_view text) {
+  const std::size_t equals = text.find('=');
+  return equals != std::string_view::npos && equals >= 2 && text.front() == '/';
+}
+
+std::string apply_override(Json& document, std::string_view text) {
+  const std::size_t equals = text.find('=');
+  const std::string pointer(text.substr(0, equals));
+  if (!is_override(text)) {
+    throw SettingsError("override \"" + std::string(text) + "\"", "",
+                        "must be /json/pointer=value");
+  }
+  Json* target = &document;
+  std::string_view rest = std::string_view(pointer).substr(1);
+  for (bool is_last = false; !is_last;) {
+    const std::size_t slash = rest.find('/');
+    is_last = slash == std::string_view::npos;
+    const std::string key = unescape(rest.substr(0, slash));
+    if (!is_last) rest.remove_prefix(slash + 1);
+    if (target->is_null()) *target = Json::object();
+    if (!target->is_object()) {
+      throw SettingsError("override", pointer, "\"" + key + "\" would be inside what is no object");
+    }
+    target = &(*target)[key];
+  }
+  const std::string_view value = text.substr(equals + 1);
+  *target = Json::parse(value, nullptr, /*allow_exceptions=*/false);
+  if (target->is_discarded()) *target = std::string(value);
   return pointer;
 }
 

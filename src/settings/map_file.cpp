@@ -9,7 +9,7 @@
 namespace cornerd::settings {
 namespace {
 
-/// A file of the most walls, written generously.
+/// Enough for kMaxWalls walls with all their keys and spaces.
 constexpr std::size_t kMaxMapBytes = 32 << 20;
 constexpr std::size_t kMaxWalls = 100'000;
 constexpr std::size_t kMaxRooms = 10'000;
@@ -17,10 +17,10 @@ constexpr std::size_t kMaxPolygonPoints = 10'000;
 constexpr std::size_t kMaxNameBytes = 128;
 constexpr int kVersion = 1;
 
-constexpr Interval kCoordinateM{-kFarthestCoordinateM, kFarthestCoordinateM};
+constexpr Interval kCoordinateM{-kMaxCoordinateM, kMaxCoordinateM};
 constexpr Interval kThicknessM{0, 10};
 
-/// Nearer than that two points are one: a tenth of a millimetre, below any drawing's precision.
+/// Points closer than this are one: below any drawing's precision.
 constexpr double kSamePointM = 1e-4;
 
 const Json& require_array(ObjectReader& object, std::string_view key, std::size_t min_size,
@@ -70,7 +70,7 @@ core::Wall read_wall(ObjectReader object, double default_thickness_m) {
   return wall;
 }
 
-/// Names go to terminals.
+/// Names are printed on terminals, where a control character is a command.
 bool read_name(ObjectReader& object, std::string& name) {
   if (!object.text("name", name, kMaxNameBytes)) return false;
   if (one_line(name) != name) object.fail("name", "must not have control characters");

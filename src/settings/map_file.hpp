@@ -10,8 +10,8 @@
 
 namespace cornerd::settings {
 
-/// From the map's origin in x and in y: no coordinate of a map is larger.
-inline constexpr double kFarthestCoordinateM = 10'000;
+/// Largest absolute x or y of a map's points, metres.
+inline constexpr double kMaxCoordinateM = 10'000;
 
 /// Reads a cornerd-map. Throws SettingsError with file, JSON pointer and reason.
 core::FloorPlan parse_floor_plan(std::string_view text, const std::filesystem::path& file);

@@ -10,7 +10,7 @@ namespace cornerd::settings {
 namespace {
 
 constexpr std::size_t kMaxNoiseBytes = 1 << 20;
-constexpr double kMostCoefficient = 1e6;
+constexpr double kMaxCoefficient = 1e6;
 
 core::SigmaTable::Point read_sigma(ObjectReader point) {
   core::SigmaTable::Point read;
@@ -54,10 +54,10 @@ void read_coefficients(ObjectReader& piece, calibration::WallPiece& read) {
                      " numbers, one for each power of the distance");
     }
     for (std::size_t j = 0; j < row.size(); ++j) {
-      if (!row[j].is_number() || !(std::abs(row[j].get<double>()) <= kMostCoefficient)) {
+      if (!row[j].is_number() || !(std::abs(row[j].get<double>()) <= kMaxCoefficient)) {
         piece.fail(key, i,
-                   "must hold numbers from -" + to_text(kMostCoefficient) + " to " +
-                       to_text(kMostCoefficient));
+                   "must hold numbers from -" + to_text(kMaxCoefficient) + " to " +
+                       to_text(kMaxCoefficient));
       }
       target[j] = row[j].get<double>();
     }

@@ -12,7 +12,7 @@ namespace {
 
 const Json kEmptyObject = Json::object();
 
-/// Levenshtein's distance: edits of one letter that make `a` into `b`.
+/// Levenshtein distance.
 std::size_t edit_distance(std::string_view a, std::string_view b) {
   std::vector<std::size_t> row(b.size() + 1);
   std::iota(row.begin(), row.end(), std::size_t{0});
@@ -37,20 +37,20 @@ std::string list_of(std::span<const std::string_view> names, std::string_view qu
   return list;
 }
 
-/// A likely meant key where one is near, else all that there are.
+/// A known key of a small edit distance, else the list of all.
 std::string hint_for(std::string_view unknown, const std::vector<std::string>& known) {
-  constexpr std::size_t kLongestTypo = 64;
-  if (unknown.size() <= kLongestTypo) {
+  constexpr std::size_t kMaxTypoBytes = 64;
+  if (unknown.size() <= kMaxTypoBytes) {
     std::size_t nearest = 1 + std::max<std::size_t>(unknown.size() / 3, 1);
-    std::string_view meant;
+    std::string_view nearest_key;
     for (const std::string& key : known) {
       const std::size_t distance = edit_distance(unknown, key);
       if (distance < nearest) {
         nearest = distance;
-        meant = key;
+        nearest_key = key;
       }
     }
-    if (!meant.empty()) return "did you mean \"" + std::string(meant) + "\"?";
+    if (!nearest_key.empty()) return "did you mean \"" + std::string(nearest_key) + "\"?";
   }
   const std::vector<std::string_view> names(known.begin(), known.end());
   return "known here: " + list_of(names, "");

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Takes the keys of a JSON object, one call a key: the call is the one place that knows the key,
-// and what the member held before is its default.
+// Reads the keys of a JSON object into members, one call for each key. The value that a member has
+// before the call is the default.
 #pragma once
 
 #include <array>
@@ -17,7 +17,7 @@
 
 namespace cornerd::settings {
 
-/// What all objects of one document share.
+/// Shared by all objects of one document.
 struct DocumentContext {
   std::filesystem::path file;          ///< as errors name it
   std::filesystem::path folder{};      ///< of relative paths; empty: they stay as they are
@@ -64,13 +64,13 @@ class ObjectReader {
     return true;
   }
 
-  /// The value itself, for what has a shape of its own; nullptr where the key is absent.
+  /// The value itself, for other types; nullptr where the key is absent.
   const Json* find(std::string_view key);
   /// A nested object; an empty one where the key is absent.
   ObjectReader object(std::string_view key);
   ObjectReader element(std::string_view key, const Json& array, std::size_t index) const;
 
-  /// Every key has been asked for: any other one is an error.
+  /// Fails for a key that no call has named.
   void finish() const;
 
   [[noreturn]] void fail(std::string_view key, const std::string& reason) const;

@@ -8,11 +8,11 @@ namespace cornerd::settings {
 
 namespace {
 
-/// Bytes of the control character that `text` begins with; 0 where it begins with none.
+/// Bytes of the control character at the start of `text`; 0 where there is none.
 std::size_t control_length(std::string_view text) {
   const auto first = static_cast<unsigned char>(text[0]);
   if (first < 0x20 || first == 0x7f) return 1;
-  // U+0080 to U+009F in UTF-8: one of them begins a terminal's commands, as ESC [ does.
+  // U+0080 to U+009F in UTF-8: U+009B starts a terminal command, as ESC [ does.
   const auto second = static_cast<unsigned char>(text.size() > 1 ? text[1] : 0);
   return first == 0xc2 && second >= 0x80 && second < 0xa0 ? 2 : 0;
 }

@@ -135,7 +135,7 @@ std::vector<RecognisedScan> agreeing(const MappedDrive& drive,
     std::vector<RecognisedScan> same;
     for (const RecognisedScan& other : scans) {
       const core::Pose2 expected = T_then_now * drive.T_map_lidar[other.index];
-      if (core::same_place(expected, other.T_map_lidar, kMaxDisagreement_m, kMaxDisagreement_rad)) {
+      if (core::same_pose(expected, other.T_map_lidar, kMaxDisagreement_m, kMaxDisagreement_rad)) {
         same.push_back(other);
       }
     }
@@ -202,7 +202,7 @@ std::optional<LoopCandidate> find_loop(const MappedDrive& drive, std::size_t beg
   if (!is_enough(drive, agreed, recognised.size())) return std::nullopt;
   const RecognisedScan& middle = agreed[agreed.size() / 2];
   loop.T_now_then = drive.T_map_lidar[middle.index].inverse() * middle.T_map_lidar;
-  if (core::same_place({}, loop.T_now_then, kClosed_m, kClosed_rad)) return std::nullopt;
+  if (core::same_pose({}, loop.T_now_then, kClosed_m, kClosed_rad)) return std::nullopt;
   for (const RecognisedScan& one : agreed)
     loop.loop_constraints.push_back(tie_of(drive, earlier, one));
   return loop;

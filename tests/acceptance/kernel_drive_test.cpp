@@ -37,7 +37,7 @@ struct Texts {
   std::string right;
   std::string rate;
 };
-using Mischief = std::function<void(Texts&, test::SysfsTree&, double t_s)>;
+using Fault = std::function<void(Texts&, test::SysfsTree&, double t_s)>;
 
 struct Driven {
   std::size_t fixes = 0;
@@ -51,16 +51,16 @@ struct Driven {
 /// Simulated time: waiting advances the robot, its files and its lidar.
 class KernelDrive : public drivers::Clock, public drivers::OdometrySink {
  public:
-  KernelDrive(Mischief mischief, std::int64_t ceiling, std::int64_t first_count)
+  KernelDrive(Fault fault, std::int64_t counter_max, std::int64_t first_count)
       : map_(settings::load_map(CORNERD_SOURCE_DIR "/config/maps/flat-7.json")),
         motion_(
             replay::drive_path(replay::find_scenario("circuit-1")->path, bench::gentle_drive())),
-        mischief_(std::move(mischief)),
-        ceiling_(ceiling),
+        fault_(std::move(fault)),
+        counter_max_(counter_max),
         first_count_(first_count) {
     robot_.geometry.counter_max = 0;
     config_.odometry.enabled = true;
-    config_.odometry.geometry.counter_max = ceiling;
+    config_.odometry.geometry.counter_max = counter_max;
   }
 
   Driven drive() {
@@ -68,7 +68,7 @@ class KernelDrive : public drivers::Clock, public drivers::OdometrySink {
     tree_.add_counter(1, kRight);
     tree_.add_gyro(0, kGyro);
     for (int i = 0; i < 2; ++i) {
-      tree_.set_of_count(i, "ceiling", std::to_string(ceiling_));
+      tree_.set_of_count(i, "ceiling", std::to_string(counter_max_));
     }
     auto scene =
         std::make_unique<replay::CoverableScene>(std::make_unique<replay::MapScene>(map_, motion_));
@@ -110,12 +110,12 @@ class KernelDrive : public drivers::Clock, public drivers::OdometrySink {
   void write_texts() {
     while (odometry_->next_ns() <= now_ns_) reading_ = odometry_->next();
     const auto count = [&](std::int64_t counted) {
-      const std::int64_t counts = ceiling_ + 1;
+      const std::int64_t counts = counter_max_ + 1;
       return std::to_string(((counted + first_count_) % counts + counts) % counts);
     };
     Texts texts{count(*reading_.left), count(*reading_.right),
                 std::to_string(std::lround(*reading_.gyro_rad_s / kGyroScale_rad_s))};
-    mischief_(texts, tree_, core::to_seconds(now_ns_));
+    fault_(texts, tree_, core::to_seconds(now_ns_));
     if (texts.left != texts_.left) tree_.set_count(0, texts.left);
     if (texts.right != texts_.right) tree_.set_count(1, texts.right);
     if (texts.rate != texts_.rate) tree_.set_rate(0, texts.rate);
@@ -143,13 +143,13 @@ class KernelDrive : public drivers::Clock, public drivers::OdometrySink {
     const core::Pose2 truth = motion_(result.pose.t_ns, 0);
     if (!replay::is_right(result.pose.T_map_base, truth)) ++driven_.wrong;
     driven_.worst_m =
-        std::max(driven_.worst_m, replay::error_of(result.pose.T_map_base, truth).place_m);
+        std::max(driven_.worst_m, replay::error_of(result.pose.T_map_base, truth).position_m);
   }
 
   std::shared_ptr<const core::WallMap> map_;
   replay::Motion motion_;
-  Mischief mischief_;
-  std::int64_t ceiling_;
+  Fault fault_;
+  std::int64_t counter_max_;
   std::int64_t first_count_;
   replay::RobotModel robot_;
   core::LocalizerConfig config_;
@@ -166,8 +166,8 @@ class KernelDrive : public drivers::Clock, public drivers::OdometrySink {
   Driven driven_;
 };
 
-Driven drive(Mischief mischief, std::int64_t ceiling = 0xFFFFFFFF, std::int64_t first_count = 0) {
-  return KernelDrive(std::move(mischief), ceiling, first_count).drive();
+Driven drive(Fault fault, std::int64_t counter_max = 0xFFFFFFFF, std::int64_t first_count = 0) {
+  return KernelDrive(std::move(fault), counter_max, first_count).drive();
 }
 
 bool is_between(double t_s, double from_s, double to_s) { return t_s >= from_s && t_s < to_s; }
@@ -187,12 +187,12 @@ TEST(DriveByKernelSensors, CoveredLidar_PosesArePredicted) {
 }
 
 TEST(DriveByKernelSensors, CountsWrap_DriveContinues) {
-  for (const auto& [ceiling, first] :
+  for (const auto& [counter_max, first] :
        {std::pair<std::int64_t, std::int64_t>{0xFFFFFFFF, 0xFFFFFF00}, {0xFFFF, 65000}, {999, 0}}) {
-    const Driven driven = drive([](Texts&, test::SysfsTree&, double) {}, ceiling, first);
+    const Driven driven = drive([](Texts&, test::SysfsTree&, double) {}, counter_max, first);
     expect_unharmed(driven);
-    EXPECT_EQ(driven.odometry.counters.jumps, 0U) << ceiling;
-    EXPECT_GT(driven.sensors.counters.wraps, 0U) << ceiling;
+    EXPECT_EQ(driven.odometry.counters.jumps, 0U) << counter_max;
+    EXPECT_GT(driven.sensors.counters.wraps, 0U) << counter_max;
   }
 }
 

@@ -121,10 +121,10 @@ class OdometryFaults : public testing::Test {
 };
 
 /// Both counts offset by `offset`, wrapping.
-Fault wrapped(std::int64_t offset, std::int64_t ceiling) {
+Fault wrapped(std::int64_t offset, std::int64_t counter_max) {
   return [=](json line, int) -> std::vector<json> {
     for (const char* wheel : {"left", "right"}) {
-      line[wheel] = (line[wheel].get<std::int64_t>() + offset) & ceiling;
+      line[wheel] = (line[wheel].get<std::int64_t>() + offset) & counter_max;
     }
     return {std::move(line)};
   };
@@ -228,9 +228,9 @@ TEST_F(OdometryFaults, RatesInvalid_OnlyTheyAreRejected) {
 
 TEST_F(OdometryFaults, ReadingsAbsent_GapIsCounted) {
   expect_unharmed(replay(absent(250, 400)));
-  const Replayed blind = replay(absent(725, 850));  // lidar covered, uncovered
-  expect_right(blind);
-  EXPECT_GE(blind.count("lost"), 12);
+  const Replayed under_cover = replay(absent(725, 850));  // lidar covered, uncovered
+  expect_right(under_cover);
+  EXPECT_GE(under_cover.count("lost"), 12);
 }
 
 TEST_F(OdometryFaults, OneSensorAbsent_OthersAreUsed) {

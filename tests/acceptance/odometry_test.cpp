@@ -86,7 +86,7 @@ class DriveOf100m : public testing::TestWithParam<BadRobot> {
   }
 
   struct Error {
-    double place_m;
+    double position_m;
     double heading_rad;
   };
   Error error_of(const json& pose) const {
@@ -96,19 +96,20 @@ class DriveOf100m : public testing::TestWithParam<BadRobot> {
             std::abs(core::angle_between(truth->theta_rad, pose["theta"]))};
   }
   /// Estimates after 30 s of driving.
-  json learned() const {
+  json estimates() const {
     const auto after = std::find_if(statuses_.begin(), statuses_.end(),
                                     [](const json& status) { return status["t"] > kTaught_s; });
     if (after == statuses_.end() || (*after)["t"] > kTaught_s + 1.5) return {};
     return (*after)["odometry"];
   }
-  double way_m() const {
-    double way_m = 0;
+  double distance_m() const {
+    double distance_m = 0;
     const auto& points = truth_->points();
     for (std::size_t i = 1; i < points.size(); ++i) {
-      way_m += (points[i].T_map_base.translation() - points[i - 1].T_map_base.translation()).norm();
+      distance_m +=
+          (points[i].T_map_base.translation() - points[i - 1].T_map_base.translation()).norm();
     }
-    return way_m;
+    return distance_m;
   }
 
   test::TemporaryFolder folder_;
@@ -119,13 +120,13 @@ class DriveOf100m : public testing::TestWithParam<BadRobot> {
 
 // One test, since each test would drive the 100 m again.
 TEST_P(DriveOf100m, WheelAndGyroErrors_AreEstimatedAndBridgeFiveSeconds) {
-  EXPECT_GE(way_m(), 100);
+  EXPECT_GE(distance_m(), 100);
   double sum_m = 0;
   std::size_t predicted = 0;
   Error last_blind{HUGE_VAL, HUGE_VAL};
   for (const json& pose : poses_) {
     const Error error = error_of(pose);
-    sum_m += error.place_m;
+    sum_m += error.position_m;
     if (pose["t"] > kTaught_s && pose["t"] < kUncovered_s && pose["state"] == "predicted") {
       ++predicted;
       last_blind = error;
@@ -136,7 +137,7 @@ TEST_P(DriveOf100m, WheelAndGyroErrors_AreEstimatedAndBridgeFiveSeconds) {
   const double mean_m = sum_m / static_cast<double>(poses_.size());
   EXPECT_LE(mean_m, 0.005);
 
-  const json now = learned();
+  const json now = estimates();
   ASSERT_TRUE(now.is_object());
   EXPECT_NEAR(now["left_scale"], GetParam().left_scale, 0.003);
   EXPECT_NEAR(now["right_scale"], GetParam().right_scale, 0.003);
@@ -145,10 +146,10 @@ TEST_P(DriveOf100m, WheelAndGyroErrors_AreEstimatedAndBridgeFiveSeconds) {
   EXPECT_NEAR(now["gyro_bias"], GetParam().gyro_bias_rad_s, 0.001);
 
   EXPECT_GE(predicted, 34U);  // 7.3 scans a second
-  EXPECT_LE(last_blind.place_m, 0.03);
+  EXPECT_LE(last_blind.position_m, 0.03);
   EXPECT_LE(last_blind.heading_rad, core::radians(1));
   RecordProperty("mean_mm", std::to_string(1e3 * mean_m));
-  RecordProperty("blind_mm", std::to_string(1e3 * last_blind.place_m));
+  RecordProperty("blind_mm", std::to_string(1e3 * last_blind.position_m));
   RecordProperty("blind_degrees", std::to_string(core::degrees(last_blind.heading_rad)));
 }
 

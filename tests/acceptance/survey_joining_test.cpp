@@ -50,10 +50,10 @@ void append(const survey::RecordedDrive& from, std::size_t first, std::size_t la
       to.add(scan);
     }
   };
-  for (survey::RecordedDrive::Reading said : from.readings()) {
-    if (said.turn < first || said.turn >= last) continue;
-    add_scans(said.turn);
-    core::OdometryReading reading = said.reading;
+  for (survey::RecordedDrive::Reading recorded : from.readings()) {
+    if (recorded.turn < first || recorded.turn >= last) continue;
+    add_scans(recorded.turn);
+    core::OdometryReading reading = recorded.reading;
     if (is_first && !to.readings().empty()) {
       const core::OdometryReading& before = to.readings().back().reading;
       counts = {*before.left - *reading.left, *before.right - *reading.right};
@@ -62,8 +62,8 @@ void append(const survey::RecordedDrive& from, std::size_t first, std::size_t la
     reading.t_ns += later_ns;
     *reading.left += counts.first;
     *reading.right += counts.second;
-    if (said.now_ns) *said.now_ns += later_ns;
-    to.add(reading, said.now_ns);
+    if (recorded.now_ns) *recorded.now_ns += later_ns;
+    to.add(reading, recorded.now_ns);
   }
   add_scans(last);
 }

@@ -71,9 +71,9 @@ TEST_F(SurveyOfAFlat, LidarAlone_FindsTheWalls) {
 
 TEST_F(SurveyOfAFlat, PaperMethod_IsLessAccurate) {
   const bench::SurveyScore& ours = made("adjusted").score;
-  const bench::SurveyScore& taught = made("ransac, odometry taught").score;
-  EXPECT_LT(taught.walls_found, ours.walls_found);
-  EXPECT_GT(taught.corner_median_m(), 4 * ours.corner_median_m());
+  const bench::SurveyScore& calibrated = made("ransac, odometry taught").score;
+  EXPECT_LT(calibrated.walls_found, ours.walls_found);
+  EXPECT_GT(calibrated.corner_median_m(), 4 * ours.corner_median_m());
 }
 
 /// Starts and stops within one scan distort it by up to 12 degrees. Matched at an impossible pose,

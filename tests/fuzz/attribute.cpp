@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Any bytes in an attribute of sysfs are a number or none; a number is finite, and the same as what
-// is printed of it.
+// Any text of a sysfs attribute is a finite number or none, and an integer round-trips.
 #include <cmath>
 #include <cstddef>
 #include <cstdint>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Any text, and any override, is a config or a SettingsError of one line.
+// Any text and override give a config, or a SettingsError of one line.
 #include "settings/config.hpp"
 
 #include <cmath>
@@ -13,7 +13,7 @@
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace cornerd::settings;
   const std::string_view input(reinterpret_cast<const char*>(data), size);
-  // What follows a zero byte is an override.
+  // The text after a zero byte is an override.
   const std::size_t zero = input.find('\0');
   std::vector<std::string> overrides;
   if (zero != std::string_view::npos) overrides.emplace_back(input.substr(zero + 1));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Any bytes, in any portions, become samples within the wire's limits. The first byte chooses the
-// format that the caller believes in, and the portions.
+// Any bytes, in any portions, give samples within the limits of the wire. The first byte selects
+// the format and the size of the portions.
 #include "drivers/rplidar/decoder.hpp"
 
 #include <algorithm>
@@ -21,15 +21,16 @@ void require(bool condition) {
 class CheckingSink : public RawSampleSink {
  public:
   void on_sample(const RawSample& sample) override {
-    constexpr std::uint32_t kFarthestQ2 = (28656 + (510 << 4)) * 4;  // ultra: major and prediction
+    constexpr std::uint32_t kMaxDistanceQ2 =
+        (28656 + (510 << 4)) * 4;  // ultra: major and prediction
     require(sample.angle_q6 < kFullRevolutionQ6);
-    require(sample.dist_q2 <= kFarthestQ2);
+    require(sample.dist_q2 <= kMaxDistanceQ2);
     require(sample.quality < 64);
     require(!any_ || sample.index > last_index_);
     last_index_ = sample.index;
     any_ = true;
     ++samples_;
-    // Half a turn at 20 turns a second is 49 nodes; a gap may cut a turn short.
+    // Half a revolution at 20 Hz is 49 nodes; a gap may shorten a scan.
     if (sample.starts_scan && since_start_ >= 0) require(since_start_ >= 2);
     if (sample.starts_scan) since_start_ = 0;
     if (since_start_ >= 0) ++since_start_;
@@ -43,7 +44,7 @@ class CheckingSink : public RawSampleSink {
   bool any_ = false;
   std::uint64_t last_index_ = 0;
   std::uint64_t samples_ = 0;
-  int since_start_ = -1;  ///< samples; -1: no turn in progress
+  int since_start_ = -1;  ///< samples since the scan start; -1: no scan in progress
 };
 
 std::optional<WireFormat> format_of(unsigned choice) {

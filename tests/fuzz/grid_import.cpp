@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Any small picture gives no walls, or walls that are a map. The first byte is its width, the
-// second chooses options; then a cell a byte.
+// Any small picture gives no walls, or walls that make a map. The first byte is the width, the
+// second selects options; then one byte per cell.
 #include "gridmap/grid_import.hpp"
 
 #include <algorithm>
@@ -25,7 +25,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   options.square = (data[1] & 4U) != 0;
   if ((data[1] & 8U) != 0) options.thin_m = 0.02;
   ImportResult result = import_grid(grid, 0.05, {1, 2, 0.3}, options);
-  // Throws where they are none.
+  // Throws if they make no map.
   if (!result.plan.walls.empty()) static_cast<void>(cornerd::core::WallMap(std::move(result.plan)));
   return 0;
 }

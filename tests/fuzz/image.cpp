@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Any bytes are a picture, whole and within its own largest value, or a GridError of one line.
+// Any bytes give a complete picture with shades up to its maximum, or a GridError of one line.
 #include "gridmap/image.hpp"
 
 #include <cstddef>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Any text is a floor plan or a SettingsError of one line; a small plan is a map or refused as one.
+// Any text gives a floor plan, or a SettingsError of one line; a small plan makes a map or is
+// refused.
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
@@ -19,7 +20,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   } catch (const settings::SettingsError& error) {
     if (std::strchr(error.what(), '\n') != nullptr) std::abort();
   } catch (const std::invalid_argument&) {
-    // How a WallMap says that nothing can be built of these walls.
+    // WallMap refuses walls that make no map.
   }
   return 0;
 }

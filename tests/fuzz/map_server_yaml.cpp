@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Any text is a description of a picture with numbers in their limits, or a GridError of one line.
+// Any text gives a map description within its limits, or a GridError.
 #include "gridmap/map_server_yaml.hpp"
 
 #include <cmath>

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Whatever a daemon says and whatever the size of the screen: every frame is whole, and nothing in
-// it could command the terminal. The first two bytes are the size; the rest are lines, keys, and
-// text.
+// For any lines of a daemon and any screen size, every frame is complete and has no control
+// characters. The first two bytes are the size; the rest are lines, keys and text.
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Any bytes are a recorded message or an error; a scan among them is finite and can be written.
+// Any bytes give a recorded message or an error; a scan among them is finite and can be written.
 #include <cmath>
 #include <cstddef>
 #include <cstdint>

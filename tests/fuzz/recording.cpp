@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Any bytes, as a port's and as lines: played to the end, every sample within its limits.
+// Any bytes, as .bin and as .ndjson, play to the end, with every sample within its limits.
 #include "replay/recording.hpp"
 
 #include <cmath>

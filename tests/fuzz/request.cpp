@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Any bytes are a request or an error, and either can be answered with a line that is JSON.
+// Any bytes give a request or an error, and the answer to either is one line of JSON.
 #include "message/request.hpp"
 
 #include <cstddef>

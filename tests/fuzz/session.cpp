@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A device that answers anything at all: whatever comes out of the port, the driver goes on, comes
-// to a stop when it is asked to, and every byte is accounted for. The first byte of the input
-// chooses how much a read brings; the same bytes answer again and again.
+// Any bytes as answers: the driver keeps running, stops when requested, and accounts for every
+// byte. The first byte selects the size of reads; the other bytes are the answer to every request.
 #include <algorithm>
 #include <cstdlib>
 #include <limits>
@@ -22,7 +21,7 @@ void require(bool condition) {
   if (!condition) std::abort();
 }
 
-/// What the host read from the port, of all times that it was open.
+/// Bytes read from the port, over all openings.
 std::uint64_t read_bytes = 0;
 
 class AnyPort : public drivers::ByteStream {
@@ -64,7 +63,7 @@ class CountingSink : public drivers::SampleSink {
     last_ns_ = sample.t_ns;
     ++samples;
   }
-  /// What comes after it may be of another session, whose clock is fitted anew.
+  /// The next session fits its clock anew.
   void on_gap() override { last_ns_ = kBefore; }
   std::uint64_t samples = 0;
 
@@ -92,7 +91,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   std::stop_source stop;
   clock.set_on_advance([&](core::TimeNs now_ns) {
     if (now_ns >= kDuration) stop.request_stop();
-    // It has to notice within a second.
+    // The driver must stop within a second.
     require(now_ns < kDuration + core::kNsPerSecond);
   });
   CountingSink sink;

@@ -27,12 +27,12 @@ struct Golden {
   const char* recording;
   const char* map;
   const char* config;
-  bool independent;  ///< each turn is somewhere else
+  bool independent;  ///< each scan is at another pose
 };
 
 void PrintTo(const Golden& golden, std::ostream* out) { *out << golden.recording; }
 
-/// A number of steps, so that there is no -0.
+/// Rounded to a multiple of `step`; never -0.
 std::string rounded(double value, double step, int decimals) {
   return fmt::format("{:.{}f}", std::round(value / step) * step + 0.0, decimals);
 }
@@ -42,9 +42,9 @@ std::string scan_text(const core::ScanResult& result, const core::FloorPlan& pla
   std::string text = fmt::format("{:3} {:9} corners {:2} ends and corners seen {:2}", pose.seq,
                                  message::to_string(pose.state), pose.corners,
                                  result.detection.breakpoints.size());
-  const bool has_place =
+  const bool is_localized =
       pose.state != core::PoseState::kLost && pose.state != core::PoseState::kAmbiguous;
-  if (has_place) {
+  if (is_localized) {
     text += fmt::format("  x {} y {} theta {}", rounded(pose.T_map_base.x_m, 0.001, 3),
                         rounded(pose.T_map_base.y_m, 0.001, 3),
                         rounded(core::degrees(pose.T_map_base.theta_rad), 0.1, 1));
@@ -77,7 +77,7 @@ std::string replay_text(const Golden& golden) {
 
 class GoldenReplay : public testing::TestWithParam<Golden> {};
 
-TEST_P(GoldenReplay, Poses_AreThoseInTheTree) {
+TEST_P(GoldenReplay, Poses_MatchTheCommittedText) {
   const std::string text = replay_text(GetParam());
   const std::filesystem::path file = kFolder / (std::string(GetParam().recording) + ".txt");
   if (std::getenv("CORNERD_UPDATE_GOLDEN") != nullptr) {
@@ -86,7 +86,7 @@ TEST_P(GoldenReplay, Poses_AreThoseInTheTree) {
   }
   std::ostringstream expected;
   expected << std::ifstream(file).rdbuf();
-  EXPECT_EQ(text, expected.str()) << "meant so? See tests/golden/README.md";
+  EXPECT_EQ(text, expected.str()) << "if intended, see tests/golden/README.md";
 }
 
 INSTANTIATE_TEST_SUITE_P(

@@ -4,6 +4,7 @@
 #include <cstdio>
 
 namespace cornerd::soak {
+
 FaultPlan::FaultPlan(replay::EmulatedDevice& device, replay::CoverableScene& scene,
                      const FaultConfig& config, std::uint64_t seed)
     : device_(device), scene_(scene), config_(config), random_(seed) {}
@@ -53,7 +54,7 @@ void FaultPlan::begin(core::TimeNs now_ns) {
       device_.emulator().power_cycle(now_ns);
       break;
     case 9:
-      // More than a second, and the emulator begins its stream anew.
+      // Loses one second of bytes.
       device_.faults().to_lose = 11'520;
       break;
     default:
@@ -83,11 +84,11 @@ std::string FaultPlan::at(core::TimeNs t_ns) const {
     char text[96];
     std::snprintf(text, sizeof(text), "%.2f s after \"%s\" began",
                   core::to_seconds(t_ns - fault.begin_ns), kNames[fault.kind].data());
-    std::string said = text;
-    if (fault.end_ns == 0 || fault.end_ns > t_ns) return said;
+    std::string description = text;
+    if (fault.end_ns == 0 || fault.end_ns > t_ns) return description;
     std::snprintf(text, sizeof(text), ", %.2f s after its end",
                   core::to_seconds(t_ns - fault.end_ns));
-    return said + text;
+    return description + text;
   }
   return "before the first fault";
 }

@@ -14,15 +14,14 @@
 
 namespace cornerd::soak {
 
-/// How often, and what.
+/// Which faults, how often, how long.
 struct FaultConfig {
-  double mean_pause_s = 8;  ///< between two: long enough for poses to come back
+  double mean_pause_s = 8;  ///< between faults: long enough to localize again
   double max_duration_s = 6;
-  std::optional<std::size_t> only;  ///< of FaultPlan::kNames; nullopt: any
+  std::optional<std::size_t> only;  ///< index into FaultPlan::kNames; nullopt: any
 };
 
-/// Everything that may befall a lidar and its cable, at random times, one after the other, each for
-/// a random while.
+/// Faults of a lidar and its cable, one at a time, at random times and of random duration.
 class FaultPlan {
  public:
   static constexpr std::array<std::string_view, 11> kNames = {
@@ -34,19 +33,19 @@ class FaultPlan {
   FaultPlan(replay::EmulatedDevice& device, replay::CoverableScene& scene,
             const FaultConfig& config, std::uint64_t seed);
 
-  /// To be called with each new time.
+  /// Call with each new time.
   void advance(core::TimeNs now_ns);
-  /// How often each has happened so far.
+  /// Number of each fault so far.
   const std::array<std::uint64_t, kNames.size()>& counts() const { return counts_; }
 
-  /// The newest fault that had begun by then, and when; of any thread.
+  /// The newest fault that had begun by `t_ns`, as text. Any thread.
   std::string at(core::TimeNs t_ns) const;
 
  private:
   struct Fault {
     std::size_t kind = kNames.size();
     core::TimeNs begin_ns = 0;
-    core::TimeNs end_ns = 0;  ///< 0: it lasts
+    core::TimeNs end_ns = 0;  ///< 0: still active
   };
 
   void begin(core::TimeNs now_ns);
@@ -59,7 +58,7 @@ class FaultPlan {
   core::TimeNs next_ns_ = 0;
   bool is_on_ = false;
   mutable std::mutex mutex_;
-  /// The newest ones, in a ring: who asks is a second behind.
+  /// Ring of the newest faults, as callers of at() are a second behind.
   std::array<Fault, 64> faults_{};
   std::uint64_t begun_ = 0;
   std::array<std::uint64_t, kNames.size()> counts_{};

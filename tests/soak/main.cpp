@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// daemon_soak [--turns N] [--seed N] [--only FAULT] [--pause S] [--longest S]: the daemon's loops
-// through every fault or one of them, at many times real time. Says what happened; 1 where
-// something does not hold that must.
+// daemon_soak [--scans N] [--seed N] [--only FAULT] [--pause S] [--longest S]: runs the daemon's
+// loops through all faults, or one of them, faster than real time. Exit code 1 if a check fails.
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -26,7 +25,7 @@ std::optional<std::size_t> fault_of(std::string_view name) {
 
 void print(const soak::SoakReport& report) {
   const auto number = [](std::uint64_t value) { return static_cast<unsigned long long>(value); };
-  std::printf("%llu turns, %.1f h, in %.0f s: %.0f times real time\n", number(report.scans),
+  std::printf("%llu scans, %.1f h, in %.0f s: %.0f times real time\n", number(report.scans),
               report.simulated_s / 3600, report.real_s, report.simulated_s / report.real_s);
   for (std::size_t i = 0; i < report.poses.size(); ++i) {
     const auto name = message::to_string(static_cast<core::PoseState>(i));
@@ -39,12 +38,12 @@ void print(const soak::SoakReport& report) {
     std::printf("  %-20.*s %10llu times\n", static_cast<int>(soak::FaultPlan::kNames[i].size()),
                 soak::FaultPlan::kNames[i].data(), number(report.faults[i]));
   }
-  std::printf("  bytes %llu = used %llu + skipped %llu; the port gave %llu\n",
+  std::printf("  bytes %llu = used %llu + skipped %llu; read from the port %llu\n",
               number(report.counters.bytes), number(report.counters.used_bytes),
               number(report.counters.skipped_bytes), number(report.read_bytes));
   std::printf("  resident memory %llu kB after a tenth, %llu kB at the end\n",
               number(report.warm_bytes / 1024), number(report.end_bytes / 1024));
-  std::printf("  longest without progress of both loops, computing or asleep: %.2f s\n",
+  std::printf("  longest time without progress of both loops: %.2f s\n",
               report.max_without_progress_s);
 }
 
@@ -54,7 +53,7 @@ int main(int argc, char** argv) {
   soak::SoakConfig config;
   for (int i = 1; i + 1 < argc; i += 2) {
     const std::string_view name = argv[i];
-    if (name == "--turns") {
+    if (name == "--scans") {
       config.scans = std::strtoull(argv[i + 1], nullptr, 10);
     } else if (name == "--seed") {
       config.seed = std::strtoull(argv[i + 1], nullptr, 10);
@@ -66,7 +65,7 @@ int main(int argc, char** argv) {
       config.faults.max_duration_s = std::strtod(argv[i + 1], nullptr);
     } else {
       std::fprintf(stderr,
-                   "daemon_soak [--turns N] [--seed N] [--only FAULT] [--pause S] [--longest S]\n");
+                   "daemon_soak [--scans N] [--seed N] [--only FAULT] [--pause S] [--longest S]\n");
       return 2;
     }
   }

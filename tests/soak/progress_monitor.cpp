@@ -17,7 +17,7 @@ double seconds(clockid_t clock) {
   return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
 
-/// proc_pid_stat(5): the state follows the name, which may have brackets itself.
+/// proc_pid_stat(5): the state follows the name, which may contain brackets.
 bool is_runnable(const std::filesystem::path& thread) {
   std::string line;
   std::getline(std::ifstream(thread / "stat"), line);

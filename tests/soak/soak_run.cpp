@@ -38,7 +38,7 @@ std::uint64_t resident_bytes() {
   return resident * static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
 }
 
-/// Everything but the program under test.
+/// Map, trajectory, emulated device and faults.
 class World {
  public:
   explicit World(const SoakConfig& config)
@@ -85,7 +85,7 @@ std::string describe(const core::PoseEstimate& pose, const core::Pose2& truth, s
   const auto degrees = [](double angle_rad) { return core::degrees(angle_rad); };
   char text[256];
   std::snprintf(text, sizeof(text),
-                "turn %llu, %.3f s: %s at %.3f %.3f %.1f, truth %.3f %.3f %.1f; %d corners, "
+                "scan %llu, %.3f s: %s at %.3f %.3f %.1f, truth %.3f %.3f %.1f; %d corners, "
                 "%d inliers, rmse %.4f m; ",
                 static_cast<unsigned long long>(scan), core::to_seconds(pose.t_ns),
                 message::to_string(pose.state).data(), pose.T_map_base.x_m, pose.T_map_base.y_m,
@@ -94,11 +94,11 @@ std::string describe(const core::PoseEstimate& pose, const core::Pose2& truth, s
   return text + plan.at(pose.t_ns);
 }
 
-/// True of a fix that is elsewhere.
+/// True if there is a pose and it is wrong. Updates the worst errors.
 bool is_wrong(const core::PoseEstimate& pose, const core::Pose2& truth, SoakReport& report) {
   if (!core::has_pose(pose.state)) return false;
   const replay::PoseError error = replay::error_of(pose.T_map_base, truth);
-  report.worst_error_m = std::max(report.worst_error_m, error.place_m);
+  report.worst_error_m = std::max(report.worst_error_m, error.position_m);
   report.worst_error_rad = std::max(report.worst_error_rad, error.heading_rad);
   return !replay::is_right(pose.T_map_base, truth);
 }
@@ -113,7 +113,7 @@ SoakReport run(const SoakConfig& config) {
   SoakReport report;
   const auto began = Clock::now();
   {
-    // A source that waits: virtual time is in no hurry.
+    // kRecording: the source waits for the localizer, as virtual time allows.
     daemon::Localization localization(
         driver, std::make_unique<core::Pipeline>(world.map, core::LocalizerConfig{}),
         daemon::SourceKind::kRecording);
@@ -155,12 +155,12 @@ std::vector<std::string> SoakReport::failures(const SoakConfig& config) const {
   const auto require = [&failures](bool holds, const char* what) {
     if (!holds) failures.emplace_back(what);
   };
-  require(scans >= config.scans, "it came to a standstill");
-  require(wrong == 0, "there were wrong fixes");
-  require(counters.bytes == read_bytes, "bytes came that are not counted");
+  require(scans >= config.scans, "scans are missing: the loops stopped");
+  require(wrong == 0, "there were wrong poses");
+  require(counters.bytes == read_bytes, "received bytes are not counted");
   require(counters.used_bytes + counters.skipped_bytes == counters.bytes,
           "bytes are neither used nor skipped");
-  require(max_without_progress_s < config.max_stall_s, "a watchdog would have bitten");
+  require(max_without_progress_s < config.max_stall_s, "a watchdog would have expired");
   require(test::kSanitized || end_bytes < warm_bytes + kMaxGrowthBytes, "memory grew");
   return failures;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Sockets that somebody else made, and clients that may not.
+// Socket activation and access to the control socket.
 #include <grp.h>
 #include <gtest/gtest.h>
 #include <signal.h>
@@ -20,10 +20,10 @@ namespace {
 
 class Activation : public DaemonTest {};
 
-TEST_F(Activation, SocketsOfTheManager_AreServedAndLeftToIt) {
+TEST_F(Activation, SocketsOfServiceManager_ServedAndNotRemoved) {
   const daemon::UnixListener pose(folder_ / "pose.sock", 0666);
   const daemon::UnixListener control(folder_ / "control.sock", 0660);
-  // Clients may come before the daemon.
+  // Clients may connect before the daemon starts.
   TestClient early(folder_ / "pose.sock");
   ASSERT_TRUE(early.is_connected());
   DaemonProcess daemon(with_config(), folder_ / "log", {}, {pose.fd(), control.fd()});
@@ -38,7 +38,7 @@ TEST_F(Activation, SocketsOfTheManager_AreServedAndLeftToIt) {
   EXPECT_TRUE(std::filesystem::exists(folder_ / "control.sock"));
 }
 
-TEST_F(Activation, SocketOfAnotherPath_IsNotServed) {
+TEST_F(Activation, SocketOfAnotherPath_NotServed) {
   const daemon::UnixListener other(folder_ / "other.sock", 0666);
   const DaemonProcess daemon(with_config(), folder_ / "log", {}, {other.fd()});
   TestClient client = connect("control.sock");
@@ -46,7 +46,7 @@ TEST_F(Activation, SocketOfAnotherPath_IsNotServed) {
   EXPECT_NE(daemon.output().find("other.sock"), std::string::npos) << daemon.output();
 }
 
-/// Connects as nobody, in no group, and says whether VERSION came first.
+/// Connects as user nobody without groups. True if the first line is VERSION.
 bool strangers_are_served(const std::filesystem::path& socket) {
   const pid_t child = ::fork();
   if (child == 0) {
@@ -63,11 +63,11 @@ bool strangers_are_served(const std::filesystem::path& socket) {
   return WIFEXITED(status) && WEXITSTATUS(status) == 0;
 }
 
-TEST_F(Activation, StrangersToTheGroup_AreTurnedAwayFromControlAlone) {
-  if (::geteuid() != 0) GTEST_SKIP() << "to be somebody else takes root";
+TEST_F(Activation, UserOutsideGroup_RefusedByControlSocketOnly) {
+  if (::geteuid() != 0) GTEST_SKIP() << "changing the user needs root";
   const DaemonProcess daemon = start();
   connect("control.sock");
-  // Somebody opens what the mode would have kept shut.
+  // A mode that would let everybody connect.
   std::filesystem::permissions(folder_ / "control.sock", std::filesystem::perms::all);
   std::filesystem::permissions(folder_ / "", std::filesystem::perms::all);
   EXPECT_TRUE(strangers_are_served(folder_ / "pose.sock"));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// As many clients as there may be, a third of them ill-behaved: the others miss nothing. Prints how
-// late the daemon's loops come to their work without and with them; CORNERD_POSES=300 for longer:
+// The maximum number of clients, a third of them misbehaving: the others miss no pose. Prints the
+// latency of the daemon's loops without and with them. CORNERD_POSES=300 runs longer:
 //   build/dev/tests/system_daemon --gtest_filter='Clients.*' | grep '^|'
 #include <gtest/gtest.h>
 
@@ -33,7 +33,7 @@ constexpr int kSilent = 8;
 constexpr int kBabblers = 4;
 constexpr std::uint64_t kFlatBytes = 1 << 20;
 
-/// Of each half, without and with the crowd.
+/// Poses of each half, without and with the misbehaving clients.
 std::uint64_t poses_to_read() {
   const char* poses = std::getenv("CORNERD_POSES");
   return poses == nullptr ? 20 : std::strtoull(poses, nullptr, 10);
@@ -41,7 +41,7 @@ std::uint64_t poses_to_read() {
 
 using Clock = std::chrono::steady_clock;
 
-/// Reads poses without a break, and sees whether one is missing.
+/// Reads poses continuously and checks that none is missing.
 struct Reader {
   TestClient client;
   const Heartbeat* heartbeat;
@@ -53,7 +53,7 @@ struct Reader {
     if (message["class"] == "STATUS") realtime = message["realtime"];
     if (message["class"] != "POSE") return;
     const std::uint64_t dropped = message.value("dropped", 0u);
-    // The heartbeat may be the last to go on.
+    // The heartbeat may resume last.
     if (dropped > 0) std::this_thread::sleep_for(std::chrono::milliseconds(50));
     EXPECT_TRUE(dropped == 0 || heartbeat->stood_still_lately()) << message;
     if (last != 0) {
@@ -64,7 +64,7 @@ struct Reader {
   }
 };
 
-/// Everybody who takes without giving, until it is destroyed.
+/// The misbehaving clients, until destroyed.
 class Crowd {
  public:
   explicit Crowd(std::filesystem::path socket) : socket_(std::move(socket)) {
@@ -82,7 +82,7 @@ class Crowd {
   }
 
  private:
-  /// A thousand times a second: one that comes too late makes up for it.
+  /// 1,000 times per second; a late round is made up for.
   void visit(const std::stop_token& stop) {
     for (auto next = began_; !stop.stop_requested(); std::this_thread::sleep_until(next)) {
       const TestClient visit(socket_);
@@ -132,13 +132,13 @@ class Clients : public DaemonTest {
     while (readers.front().poses < until) {
       for (Reader& reader : readers) {
         const auto line = reader.client.read_line(60'000);
-        ASSERT_TRUE(line) << "a reader is forgotten";
+        ASSERT_TRUE(line) << "a reader got no line";
         reader.take(json::parse(*line));
       }
     }
   }
 
-  /// The edge below which that share of the counts lies, in milliseconds.
+  /// The edge in milliseconds below which this share of the counts lies.
   static std::string within(const std::vector<std::uint64_t>& counts, const json& edges,
                             double share) {
     std::uint64_t all = 0;
@@ -152,7 +152,7 @@ class Clients : public DaemonTest {
     return "more";
   }
 
-  /// How late each loop was between two STATUS.
+  /// Latency of each loop between two STATUS.
   static void print(const char* when, const json& from, const json& to) {
     for (const char* loop : {"reader", "localizer", "server"}) {
       std::vector<std::uint64_t> counts = to[loop]["counts"];
@@ -169,7 +169,7 @@ class Clients : public DaemonTest {
   }
 };
 
-TEST_F(Clients, ThirtyTwoOfAllKinds_LeaveTheReadersTheirPoses) {
+TEST_F(Clients, ThirtyTwoOfAllKinds_ReadersMissNoPose) {
   const EmulatedLidar lidar(folder_ / "map.json", folder_ / "lidar");
   const DaemonProcess daemon =
       start({"/lidar/driver=rplidar", "/lidar/device=" + (folder_ / "lidar").string(),
@@ -200,11 +200,11 @@ TEST_F(Clients, ThirtyTwoOfAllKinds_LeaveTheReadersTheirPoses) {
   if (!test::kSanitized) {
     EXPECT_LT(end_bytes, warm_bytes + kFlatBytes);
   }
-  // One visitor may be there or on its way.
+  // One client that connects and disconnects may be connected at this moment.
   EXPECT_NEAR(static_cast<double>(end_descriptors), static_cast<double>(warm_descriptors), 3);
   EXPECT_GT(crowd->visits(), 20u);
 
-  // Who did not read gets the newest, and is told what it lost.
+  // A client that did not read gets the newest line and the number dropped.
   std::uint64_t dropped = 0;
   std::uint64_t newest = 0;
   while (newest + 3 < readers.front().last) {
@@ -216,7 +216,7 @@ TEST_F(Clients, ThirtyTwoOfAllKinds_LeaveTheReadersTheirPoses) {
   EXPECT_GT(dropped, 0u);
 }
 
-TEST_F(Clients, OneTooMany_IsToldSo) {
+TEST_F(Clients, TooManyClients_Refused) {
   const DaemonProcess daemon = start();
   std::vector<TestClient> clients;
   for (int i = 0; i < 32; ++i) {
@@ -227,7 +227,7 @@ TEST_F(Clients, OneTooMany_IsToldSo) {
   const json error = next(last);
   EXPECT_EQ(error["class"], "ERROR");
   EXPECT_EQ(error["code"], "too-many-clients");
-  EXPECT_FALSE(next(last).is_object()) << "it is sent away";
+  EXPECT_FALSE(next(last).is_object()) << "it is disconnected";
   EXPECT_EQ(next_of(clients.front(), "POSE")["class"], "POSE");
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What SettableClock and the library that makes a process obey it have in common.
+// Shared by SettableClock and the preloaded library clock_preload.
 #pragma once
 
 #include <fcntl.h>
@@ -11,14 +11,14 @@
 
 namespace cornerd::system_test {
 
-/// Nanoseconds that the time of day is ahead of the machine's.
+/// Offset of the time of day from the machine's, nanoseconds.
 using ClockOffset = std::atomic<std::int64_t>;
 static_assert(ClockOffset::is_always_lock_free);
 
-/// Names the file that holds the offset.
+/// Environment variable with the path of the file that holds the offset.
 inline constexpr const char* kClockFileVariable = "CORNERD_TEST_CLOCK";
 
-/// Shared with whoever maps the same file; null where that fails.
+/// Shared by all processes that map the file; null on failure.
 inline ClockOffset* map_clock_offset(const char* file) {
   const int fd = ::open(file, O_RDWR | O_CLOEXEC);
   if (fd < 0) return nullptr;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Loaded before the C library (LD_PRELOAD): time of day as somebody has set it, see SettableClock.
-// The machine's own clock stays as it is, and monotonic clocks are passed on.
+// LD_PRELOAD library: offsets the time of day, see SettableClock.
+// The machine's clock and monotonic clocks are unchanged.
 #include <stdlib.h>
 #include <sys/syscall.h>
 #include <sys/time.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Somebody sets the time of day, as happens on a board without a battery once it finds a network:
-// a live lidar's poses go on as if nothing were, and bear the new time.
+// Steps of the time of day, as on a board without a battery-backed clock once it has a network:
+// poses of a live lidar continue and have the new time.
 #include <gtest/gtest.h>
 
 #include <chrono>
@@ -22,14 +22,14 @@ namespace {
 
 constexpr double kHourBack_s = -3600;
 constexpr double kYearAhead_s = 365.25 * 86400;
-/// Later than that no message comes, however busy the machine is; no step is as short.
+/// Maximum delay of a message on a busy machine; every step is longer.
 constexpr double kLatest_s = 60;
 constexpr int kPosesAfterStep = 15;
 
 class ClockStep : public DaemonTest {
  protected:
   void SetUp() override {
-    if (test::kSanitized) GTEST_SKIP() << "a sanitizer has to be loaded first itself";
+    if (test::kSanitized) GTEST_SKIP() << "a sanitizer must be preloaded first";
   }
 
   DaemonProcess start_live(std::vector<std::string> more = {}) {
@@ -52,15 +52,15 @@ class ClockStep : public DaemonTest {
     }
   }
 
-  /// The message is of just now by a clock that is so far ahead of the machine's.
+  /// True if the message has the current time of a clock with this offset.
   bool is_of_now(const json& message, double offset_s) const {
     const double late_s = clock_.now_s() - clock_.offset_s() - (message_s(message) - offset_s);
     return late_s > -1e-3 && late_s < kLatest_s;
   }
   static double message_s(const json& message) { return message["t"]; }
 
-  /// Sets the clock and reads on until it has been told and poses have come after it: none is
-  /// missing, and each message bears the time of the one clock or of the other.
+  /// Steps the clock and reads until the EVENT and later poses arrive. No pose may be missing, and
+  /// each message must have the time of the old or of the new clock.
   void step(TestClient& client, double by_s) {
     const double before_s = clock_.offset_s();
     clock_.step_s(by_s);
@@ -75,7 +75,7 @@ class ClockStep : public DaemonTest {
       EXPECT_TRUE(is_after || is_of_now(message, before_s)) << message;
       if (message["class"] == "EVENT" && message["what"] == "clock step") told.push_back(message);
       if (message["class"] != "POSE") continue;
-      ASSERT_LT(++poses, 10 * kPosesAfterStep) << "the step has not been noticed";
+      ASSERT_LT(++poses, 10 * kPosesAfterStep) << "the step was not detected";
       EXPECT_TRUE(is_after || poses_after == 0) << "back to the old time: " << message;
       poses_after += is_after ? 1 : 0;
       expect_next(message, message_s(message) - (is_after ? after_s : before_s));
@@ -108,7 +108,7 @@ class ClockStep : public DaemonTest {
   double last_s_ = 0;
 };
 
-TEST_F(ClockStep, AnHourBackAndAYearAhead_CostNoPoseAndNoWordToTheWatchdog) {
+TEST_F(ClockStep, StepsOfAnHourBackAndAYearAhead_NoPoseAndNoWatchdogMissing) {
   const DaemonProcess daemon = start_live();
   TestClient client = connect();
   watch(client);
@@ -122,7 +122,7 @@ TEST_F(ClockStep, AnHourBackAndAYearAhead_CostNoPoseAndNoWordToTheWatchdog) {
   EXPECT_TRUE(daemon.is_running());
 }
 
-TEST_F(ClockStep, AnHourBackWhileTheLidarIsWaitedFor_DoesNotMakeThatAnHourLonger) {
+TEST_F(ClockStep, StepBackDuringBackoff_BackoffNotExtended) {
   lidar_.expect_speed(115200);
   const DaemonProcess daemon = start_live({"/advanced/lidar/baud=57600"});
   TestClient client = connect();
@@ -140,7 +140,7 @@ TEST_F(ClockStep, AnHourBackWhileTheLidarIsWaitedFor_DoesNotMakeThatAnHourLonger
   EXPECT_TRUE(is_of_now(pose, kHourBack_s)) << pose;
 }
 
-TEST_F(ClockStep, ReadingsOfAControllerByTheSameClock_AreTakenBeforeAndAfter) {
+TEST_F(ClockStep, OdometryOfSameClock_AcceptedBeforeAndAfterStep) {
   const DaemonProcess daemon =
       start_live({"/odometry/source=socket", "/advanced/odometry/publish_predictions=true"});
   TestClient client = connect();
@@ -163,7 +163,7 @@ TEST_F(ClockStep, ReadingsOfAControllerByTheSameClock_AreTakenBeforeAndAfter) {
     ASSERT_TRUE(status.is_object());
     const json& odometry = status["odometry"];
     EXPECT_EQ(odometry["state"], "running") << odometry;
-    // Those on their way bear the old time.
+    // Lines in transit have the old time.
     EXPECT_LT(odometry["counters"]["past"].get<int>(), 20) << odometry;
     EXPECT_LT(odometry["counters"]["future"].get<int>(), 20) << odometry;
     EXPECT_EQ(odometry["counters"]["restarts"], 0) << odometry;

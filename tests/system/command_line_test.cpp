@@ -18,7 +18,7 @@ using ::testing::StartsWith;
 
 class CommandLine : public DaemonTest {
  protected:
-  /// Exit 78 and one line that names the file, the pointer and the reason.
+  /// Exit code 78 and one line with file, pointer and reason.
   void expect_config_error(const std::vector<std::string>& arguments, const std::string& file,
                            const std::string& rest) {
     for (const bool checks : {false, true}) {
@@ -37,48 +37,48 @@ class CommandLine : public DaemonTest {
   }
 };
 
-TEST_F(CommandLine, CheckOfGoodSettings_SaysOk) {
+TEST_F(CommandLine, CheckOfValidConfig_PrintsOk) {
   const Result result = run({"--config", config(), "--check"});
   EXPECT_EQ(result.exit_code, 0);
   EXPECT_EQ(result.output, "ok\n");
 }
 
-TEST_F(CommandLine, KeyWithATypo_IsNamed) {
+TEST_F(CommandLine, UnknownKey_NamedInError) {
   const std::string file =
       write("typo.json", R"({ "map": "map.json", "lidar": { "devise": "x" } })");
   expect_config_error({"--config", file}, file, "/lidar/devise: unknown key");
 }
 
-TEST_F(CommandLine, ConfigThatIsNoJson_IsNamedByLine) {
+TEST_F(CommandLine, ConfigNotJson_LineInError) {
   const std::string file = write("bad.json", "{\n  \"map\" }\n");
   expect_config_error({"--config", file}, file, "line 2, column");
 }
 
-TEST_F(CommandLine, MapThatIsNoMap_IsNamed) {
+TEST_F(CommandLine, MapOfAnotherFormat_NamedInError) {
   const std::string map = write("nomap.json", R"({ "hello": 1 })");
   expect_config_error({"--config", config(), "--set", "/map=" + map}, map, "/format: ");
 }
 
-TEST_F(CommandLine, MapWithAWrongWall_IsNamedByItsPointer) {
+TEST_F(CommandLine, MapWithInvalidWall_PointerInError) {
   const std::string map = write(
       "wall.json", R"({ "format": "cornerd-map", "version": 1, "walls": [ { "from": [0, 0] } ] })");
   expect_config_error({"--config", config(), "--set", "/map=" + map}, map, "/walls/0/to: ");
 }
 
-TEST_F(CommandLine, FilesThatAreMissing_AreNamed) {
+TEST_F(CommandLine, MissingFiles_NamedInError) {
   expect_config_error({"--config", "/nowhere/c.json"}, "/nowhere/c.json", "cannot be opened");
   expect_config_error({"--config", config(), "--set", "/map=/nowhere/m.json"}, "/nowhere/m.json",
                       "cannot be opened");
 }
 
-TEST_F(CommandLine, WrongUsage_IsCode2) {
+TEST_F(CommandLine, WrongUsage_ExitCode2) {
   EXPECT_EQ(run({}).exit_code, 2);
   const Result result = run({"--config", config(), "--frobnicate"});
   EXPECT_EQ(result.exit_code, 2);
   EXPECT_THAT(result.output, HasSubstr("--frobnicate"));
 }
 
-TEST_F(CommandLine, HelpAndVersion_AreData) {
+TEST_F(CommandLine, HelpAndVersion_OnStandardOutput) {
   const Result help = run({"--help"});
   EXPECT_EQ(help.exit_code, 0);
   EXPECT_THAT(help.output, HasSubstr("--check"));
@@ -87,16 +87,16 @@ TEST_F(CommandLine, HelpAndVersion_AreData) {
   EXPECT_THAT(version.output, StartsWith("cornerd "));
 }
 
-TEST_F(CommandLine, OutputThatFails_IsAFailure) {
+TEST_F(CommandLine, UnwritableOutput_ExitCode1) {
   for (const auto& arguments : std::vector<std::vector<std::string>>{
            {"--help"}, {"--version"}, {"--config", config(), "--check"}}) {
-    // The reason finds no room either.
+    // The error message cannot be written either.
     DaemonProcess process(arguments, "/dev/full");
     EXPECT_EQ(process.wait_for_exit(), 1) << arguments.front();
   }
 }
 
-TEST_F(CommandLine, PipeInPlaceOfAFile_IsNotWaitedFor) {
+TEST_F(CommandLine, PipeInsteadOfFile_RefusedWithoutBlocking) {
   const std::string pipe = (folder_ / "pipe").string();
   ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
   expect_config_error({"--config", pipe}, pipe, "is no ordinary file");

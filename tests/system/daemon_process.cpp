@@ -17,7 +17,7 @@
 namespace cornerd::system_test {
 namespace {
 
-/// Long enough for a loaded machine and a sanitizer; a passing test never waits for it.
+/// Enough for a loaded machine and a sanitizer; only a failing test waits so long.
 constexpr std::chrono::seconds kPatience{60};
 constexpr std::chrono::milliseconds kPoll{10};
 
@@ -30,7 +30,7 @@ bool wait_until(const auto& condition) {
   return true;
 }
 
-/// As sd_listen_fds(3) has it: from 3 on, without a gap.
+/// Consecutive descriptors from 3 on, see sd_listen_fds(3).
 void pass_on(const std::vector<int>& sockets) {
   constexpr int kFirst = 3;
   constexpr int kOutOfTheWay = 100;
@@ -63,7 +63,7 @@ DaemonProcess::DaemonProcess(const std::vector<std::string>& arguments,
     ::dup2(fd, STDOUT_FILENO);
     ::dup2(fd, STDERR_FILENO);
   }
-  ::signal(SIGPIPE, SIG_DFL);  // whatever started the tests
+  ::signal(SIGPIPE, SIG_DFL);  // the test runner may have ignored it
   for (const auto& [name, value] : environment) ::setenv(name.c_str(), value.c_str(), 1);
   if (!sockets.empty()) pass_on(sockets);
   ::execv(argv[0], argv.data());
@@ -128,7 +128,7 @@ DaemonTest::Result DaemonTest::run(const std::vector<std::string>& arguments) {
 TestClient DaemonTest::connect(const char* socket) {
   std::optional<TestClient> client;
   EXPECT_TRUE(wait_until([&] { return client.emplace(folder_ / socket).is_connected(); }))
-      << "nobody listens on " << socket;
+      << "no daemon listens on " << socket;
   return std::move(*client);
 }
 

@@ -20,11 +20,11 @@ namespace cornerd::system_test {
 using daemon::TestClient;
 using nlohmann::json;
 
-/// The built cornerd, running. Killed at the end where it still does.
+/// The built cornerd as a process; the destructor kills it.
 class DaemonProcess {
  public:
-  /// `errors`: where standard error and standard output go; empty: with all three streams closed.
-  /// `sockets`: that listen, passed on as a service manager does.
+  /// `errors`: target of standard error and standard output; if empty, all three streams are
+  /// closed. `sockets`: listening sockets, passed as a service manager does.
   DaemonProcess(const std::vector<std::string>& arguments, const std::filesystem::path& errors,
                 const std::map<std::string, std::string>& environment = {},
                 const std::vector<int>& sockets = {});
@@ -35,9 +35,9 @@ class DaemonProcess {
   void send_signal(int signal) const;
   bool is_running() const;
   pid_t pid() const { return pid_; }
-  /// The exit code; nullopt where it does not end in time, or by a signal.
+  /// The exit code; nullopt after a timeout or a signal.
   std::optional<int> wait_for_exit();
-  /// What it wrote to standard error and standard output.
+  /// Its standard error and standard output.
   std::string output() const;
 
  private:
@@ -45,24 +45,24 @@ class DaemonProcess {
   std::filesystem::path errors_;
 };
 
-/// A folder with a map, a recording, and settings that play it.
+/// A folder with a map, a recording, and a config that replays it.
 class DaemonTest : public ::testing::Test {
  protected:
   DaemonTest();
 
-  /// cornerd with the settings of the folder, and some of them in place of the file's.
+  /// Starts cornerd with the folder's config and overrides.
   DaemonProcess start(const std::vector<std::string>& overrides = {},
                       const std::map<std::string, std::string>& environment = {});
-  /// Runs cornerd to its end.
+  /// Runs cornerd until it ends.
   struct Result {
     std::optional<int> exit_code;
     std::string output;
   };
   Result run(const std::vector<std::string>& arguments);
 
-  /// A client of the socket, once that is there.
+  /// A client of the socket; waits for the socket.
   TestClient connect(const char* socket = "pose.sock");
-  /// The next message of that class.
+  /// The next message of this class.
   static json next_of(TestClient& client, const std::string& message_class);
   static json next(TestClient& client);
 

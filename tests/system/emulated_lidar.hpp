@@ -13,10 +13,10 @@
 
 namespace cornerd::system_test {
 
-/// An A1 that stands in a room, on a pseudo-terminal that can be unplugged.
+/// An emulated A1 at rest in a room, on a pseudo-terminal that can be unplugged.
 class EmulatedLidar {
  public:
-  /// `map`: of the room; `link`: the port's name.
+  /// `map`: the room; `link`: path of the port.
   EmulatedLidar(const std::filesystem::path& map, const std::filesystem::path& link,
                 const replay::EmulatorConfig& config = {});
   /// Unplugs it.
@@ -24,7 +24,7 @@ class EmulatedLidar {
   EmulatedLidar(const EmulatedLidar&) = delete;
   EmulatedLidar& operator=(const EmulatedLidar&) = delete;
 
-  /// Does that to the device, in its own thread and at its own time; returns when it is done.
+  /// Runs the function on the device in the device's thread; returns when it has run.
   void act(std::function<void(replay::Emulator&, core::TimeNs)> action);
   void cover(bool covered) { scene_->cover(covered); }
   void expect_speed(std::uint32_t baud) { pty_->expect_speed(baud); }

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
-// What befalls a lidar, the state that the daemon reports, and when it is over. Prints a table:
+// Faults of a lidar, the reported state, and the time to recover. Prints a table:
 //   build/dev/tests/system_daemon --gtest_filter='FaultTable.*' | grep '^|'
-// With CORNERD_TIMES=1 it also holds the daemon to its times, on a machine that has nothing else to
-// do.
+// With CORNERD_TIMES=1 it also checks the times, on an otherwise idle machine.
 #include <gtest/gtest.h>
 
 #include <chrono>
@@ -32,7 +31,7 @@ class FaultTable : public DaemonTest {
     lidar_ = std::make_unique<EmulatedLidar>(folder_ / "map.json", folder_ / "lidar", config);
   }
 
-  /// cornerd on the emulated port, when it has its first pose.
+  /// Starts cornerd on the emulated port and waits for the first pose.
   void start_daemon(const std::vector<std::string>& more = {}) {
     launch(more);
     wait_for_fix();
@@ -59,7 +58,7 @@ class FaultTable : public DaemonTest {
     }
   }
 
-  /// Seconds until a STATUS tells of that fault; `state`: the one that it comes with.
+  /// Seconds until a STATUS has the fault; `state`: the state of that STATUS.
   double wait_for_fault(const std::string& fault, std::string& state) {
     const auto began = Clock::now();
     while (true) {
@@ -67,12 +66,13 @@ class FaultTable : public DaemonTest {
       if (!status.is_object()) return -1;
       if (status["lidar"].value("fault", "") != fault) continue;
       state = status["lidar"]["state"];
-      EXPECT_FALSE(status["lidar"]["detail"].get<std::string>().empty()) << "without a hint";
+      EXPECT_FALSE(status["lidar"]["detail"].get<std::string>().empty())
+          << "the detail must not be empty";
       return seconds_since(began);
     }
   }
 
-  /// Begins the fault, ends it, and prints how long each took to be seen.
+  /// Begins and ends the fault; prints both delays.
   void expect(const char* what, const std::string& fault, const std::string& state,
               const std::function<void()>& begin, const std::function<void()>& end,
               double limit_s = 0, double back_limit_s = 0) {
@@ -92,7 +92,7 @@ class FaultTable : public DaemonTest {
     }
   }
 
-  /// Poses of before the fault may still be on their way: those end with the first STATUS.
+  /// Poses from before the fault may still arrive until the first STATUS.
   void skip_stale_poses() {
     client_->send("{\"class\":\"POLL\",\"id\":\"now\"}\n");
     for (json ok = next_of(*client_, "OK"); ok.is_object() && ok.value("id", "") != "now";) {
@@ -110,21 +110,21 @@ class FaultTable : public DaemonTest {
   std::unique_ptr<TestClient> client_;
 };
 
-TEST_F(FaultTable, Unplugged) {
+TEST_F(FaultTable, Unplugged_PluggedInAgain_Recovers) {
   start_daemon();
   expect(
       "plug pulled out; put in again", "unplugged", "backoff", [&] { lidar_.reset(); },
       [&] { plug_in(); }, 1, 2);
 }
 
-TEST_F(FaultTable, NoPort) {
+TEST_F(FaultTable, NoPort_PluggedIn_Recovers) {
   lidar_.reset();
   launch();
   expect(
       "no port at the start; plugged in", "no-port", "absent", [] {}, [&] { plug_in(); }, 1, 2);
 }
 
-TEST_F(FaultTable, MotorStalled) {
+TEST_F(FaultTable, MotorStalled_Released_Recovers) {
   start_daemon();
   expect(
       "head held; let go within 3 s", "motor-stalled", "faulty",
@@ -132,7 +132,7 @@ TEST_F(FaultTable, MotorStalled) {
       [&] { lidar_->act([](auto& device, auto t_ns) { device.set_stalled(false, t_ns); }); });
 }
 
-TEST_F(FaultTable, ProtectionStop) {
+TEST_F(FaultTable, ProtectionStop_Reset_Recovers) {
   start_daemon();
   expect(
       "protection stop; RESET heals it", "protection-stop", "faulty",
@@ -144,7 +144,7 @@ TEST_F(FaultTable, ProtectionStop) {
       [] {});
 }
 
-TEST_F(FaultTable, HealthError) {
+TEST_F(FaultTable, HealthError_Healed_Recovers) {
   replay::EmulatorConfig config;
   config.health = {.status = 2, .code = 0x8001};
   config.reset_restores_health = false;
@@ -155,14 +155,14 @@ TEST_F(FaultTable, HealthError) {
       [&] { lidar_->act([](auto& device, auto t_ns) { device.set_health({}, t_ns); }); });
 }
 
-TEST_F(FaultTable, DeadLaser) {
+TEST_F(FaultTable, DeadLaser_Healed_Recovers) {
   start_daemon();
   expect(
       "nothing returns; sees again", "dead-laser", "faulty", [&] { lidar_->cover(true); },
       [&] { lidar_->cover(false); });
 }
 
-TEST_F(FaultTable, WrongSpeed) {
+TEST_F(FaultTable, WrongBaud_Corrected_Recovers) {
   lidar_->expect_speed(115200);
   launch({"/advanced/lidar/baud=57600"});
   expect(
@@ -170,15 +170,15 @@ TEST_F(FaultTable, WrongSpeed) {
       [&] { lidar_->expect_speed(57600); });
 }
 
-TEST_F(FaultTable, StreamRunningAndKilled) {
+TEST_F(FaultTable, StreamRunning_DaemonRestarted_Recovers) {
   start_daemon();
   const auto began = Clock::now();
-  // Dead before the next one starts, as a service manager has it.
+  // The old process must have ended before the next starts, as with a service manager.
   daemon_.reset();
   launch();
   wait_for_fix();
   const double back_s = seconds_since(began);
-  // Whether a byte of it comes between the port's opening and STOP is a matter of milliseconds.
+  // A byte of the old stream between opening the port and STOP is a matter of milliseconds.
   const bool seen = daemon_->output().find("stream-running") != std::string::npos;
   print("killed (SIGKILL) and started again", seen ? "identifying, stream-running" : "identifying",
         0, back_s);
@@ -187,14 +187,14 @@ TEST_F(FaultTable, StreamRunningAndKilled) {
   }
 }
 
-TEST_F(FaultTable, SupplyBreakdown) {
+TEST_F(FaultTable, SupplyBreakdown_Over_Recovers) {
   start_daemon();
   expect(
       "supply breaks down for a moment", "restarted", "backoff",
       [&] { lidar_->act([](auto& device, auto t_ns) { device.power_cycle(t_ns); }); }, [] {});
 }
 
-TEST_F(FaultTable, NoDataAfterTheStart) {
+TEST_F(FaultTable, NoDataAfterStart_MotorTurns_Recovers) {
   lidar_->act([](auto& device, auto t_ns) { device.set_stalled(true, t_ns); });
   launch();
   expect(
@@ -202,7 +202,7 @@ TEST_F(FaultTable, NoDataAfterTheStart) {
       [&] { lidar_->act([](auto& device, auto t_ns) { device.set_stalled(false, t_ns); }); });
 }
 
-TEST_F(FaultTable, Booting) {
+TEST_F(FaultTable, Booting_Over_Recovers) {
   lidar_->act([](auto& device, auto t_ns) { device.power_cycle(t_ns); });
   launch();
   expect(

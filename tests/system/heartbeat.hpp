@@ -8,8 +8,8 @@
 
 namespace cornerd::system_test {
 
-/// Sees when this process gets no processor: then its lidar's bytes come all at once, turns with
-/// them, and a reader that has not run loses some, as it should.
+/// Detects that this process got no processor. Then the emulated lidar's bytes arrive in a burst,
+/// and a reader that did not run may lose some.
 class Heartbeat {
   using Clock = std::chrono::steady_clock;
 

@@ -15,7 +15,7 @@ class KernelOdometry : public DaemonTest {
                   "/odometry/source=kernel",
                   "/advanced/odometry/kernel/sysfs=" + tree_.root().string()});
   }
-  /// The sensors of the first STATUS where that one is in that state.
+  /// The sensors of the first STATUS in which this sensor has this state.
   static json sensors_with(TestClient& client, const char* sensor, const std::string& state) {
     while (true) {
       const json status = next_of(client, "STATUS");
@@ -30,7 +30,7 @@ class KernelOdometry : public DaemonTest {
   test::SysfsTree tree_;
 };
 
-TEST_F(KernelOdometry, SensorsOfTheBoard_AreReadAndTheirStatesTold) {
+TEST_F(KernelOdometry, BoardSensors_ReadAndStatesPublished) {
   tree_.add_counter(0, "48304180.counter");
   tree_.add_gyro(0, "mpu6050");
   const DaemonProcess daemon = start_with_tree();
@@ -50,7 +50,7 @@ TEST_F(KernelOdometry, SensorsOfTheBoard_AreReadAndTheirStatesTold) {
   EXPECT_TRUE(daemon.is_running());
 }
 
-TEST_F(KernelOdometry, OdometryOfAClient_IsRefused) {
+TEST_F(KernelOdometry, OdometryOfClient_Refused) {
   const DaemonProcess daemon = start_with_tree();
   TestClient client = connect("control.sock");
   client.send(R"({"class":"ODOMETRY","left":1,"right":2})"

@@ -15,7 +15,7 @@ namespace {
 
 class LidarState : public DaemonTest {
  protected:
-  /// The first STATUS whose lidar is in that state.
+  /// The first STATUS with this lidar state.
   static json status_in(TestClient& client, const std::string& state) {
     while (true) {
       json status = next_of(client, "STATUS");
@@ -24,7 +24,7 @@ class LidarState : public DaemonTest {
   }
 };
 
-TEST_F(LidarState, MissingPort_IsWaitedForAndReported) {
+TEST_F(LidarState, MissingPort_ReportedAndWaitedFor) {
   const DaemonProcess daemon = start({"/lidar/driver=rplidar", "/lidar/device=/dev/no_such_lidar"});
   TestClient client = connect();
   const json status = status_in(client, "absent");
@@ -35,7 +35,7 @@ TEST_F(LidarState, MissingPort_IsWaitedForAndReported) {
   EXPECT_NE(daemon.output().find("/dev/no_such_lidar"), std::string::npos) << daemon.output();
 }
 
-TEST_F(LidarState, RecordingThatIsMissing_IsReported) {
+TEST_F(LidarState, MissingRecording_Reported) {
   const DaemonProcess daemon = start({"/lidar/file=/nowhere/r.bin"});
   TestClient client = connect();
   const json status = status_in(client, "faulty");
@@ -43,7 +43,7 @@ TEST_F(LidarState, RecordingThatIsMissing_IsReported) {
   EXPECT_TRUE(daemon.is_running());
 }
 
-TEST_F(LidarState, RecordingAtItsEnd_IsReportedAndTheLastPoseStaysToBeAskedFor) {
+TEST_F(LidarState, EndOfRecording_ReportedAndPollAnswersLastPose) {
   const DaemonProcess daemon = start({"/lidar/loop=false", "/lidar/speed=max"});
   TestClient client = connect();
   const json status = status_in(client, "ended");
@@ -55,8 +55,8 @@ TEST_F(LidarState, RecordingAtItsEnd_IsReportedAndTheLastPoseStaysToBeAskedFor) 
   EXPECT_TRUE(daemon.is_running());
 }
 
-/// A device that never says a word.
-TEST_F(LidarState, EndIsAskedForInWhateverStateTheLidarIs_ComesAtOnce) {
+/// A device that never answers.
+TEST_F(LidarState, TerminationInAnyState_EndsAtOnce) {
   const daemon::FileDescriptor master(::posix_openpt(O_RDWR | O_NOCTTY | O_CLOEXEC));
   ASSERT_EQ(::grantpt(master.get()) | ::unlockpt(master.get()), 0);
   const std::string silent = ::ptsname(master.get());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Controllers that send ODOMETRY to the built daemon.
+// Clients that send ODOMETRY to the built daemon.
 #include <gtest/gtest.h>
 
 #include <chrono>
@@ -13,9 +13,9 @@
 namespace cornerd::system_test {
 namespace {
 
-class OdometryControllers : public DaemonTest {
+class OdometryClients : public DaemonTest {
  protected:
-  /// One that says this fifty times a second, for as long as it lives.
+  /// A client that sends this line at 50 Hz during its lifetime.
   std::jthread controller(std::string line) {
     return std::jthread(
         [line = std::move(line), control = connect("control.sock")](std::stop_token stop) mutable {
@@ -26,7 +26,7 @@ class OdometryControllers : public DaemonTest {
         });
   }
 
-  /// What the STATUS of a while says last of odometry, or first in that state.
+  /// The last odometry state in STATUS within some time, or the first equal to that state.
   json odometry_of(TestClient& client, const std::string& state, int most = 40) {
     json status;
     for (int i = 0; i < most; ++i) {
@@ -39,12 +39,12 @@ class OdometryControllers : public DaemonTest {
 
 constexpr const char* kBoth = R"({"class":"ODOMETRY","left":7,"right":7,"gyro":0})";
 
-TEST_F(OdometryControllers, LinesWithoutATimeOfAReplay_AreOfTheRecordingsTime) {
+TEST_F(OdometryClients, Replay_LinesWithoutTime_GetRecordingTime) {
   const DaemonProcess daemon = start({"/lidar/speed=1", "/odometry/source=socket"});
   TestClient client = connect();
   const std::jthread robot = controller(kBoth);
   ASSERT_EQ(odometry_of(client, "running")["odometry"]["state"], "running") << daemon.output();
-  // On a machine that is slow many lines come between two samples, and are of one time.
+  // On a slow machine many lines arrive between two samples and get the same time.
   json odometry;
   for (int i = 0; i < 40; ++i) {
     odometry = next_of(client, "STATUS")["odometry"];
@@ -59,7 +59,7 @@ TEST_F(OdometryControllers, LinesWithoutATimeOfAReplay_AreOfTheRecordingsTime) {
       << odometry;
 }
 
-TEST_F(OdometryControllers, FirstOneWhoseLinesAreOfNoUse_LosesItsPlaceToAGoodOne) {
+TEST_F(OdometryClients, FirstClientUnusable_ReplacedBySecond) {
   const EmulatedLidar lidar(folder_ / "map.json", folder_ / "lidar");
   const DaemonProcess daemon =
       start({"/lidar/driver=rplidar", "/lidar/device=" + (folder_ / "lidar").string(),
@@ -68,7 +68,7 @@ TEST_F(OdometryControllers, FirstOneWhoseLinesAreOfNoUse_LosesItsPlaceToAGoodOne
   for (const char* useless : {R"({"class":"ODOMETRY","left":7})",
                               R"({"class":"ODOMETRY","t":12,"left":7,"right":7,"gyro":0})"}) {
     const std::jthread first = controller(useless);
-    // Before the good one comes, so that it is the first one that has the place.
+    // The unusable client connects first, so that it is selected first.
     for (int i = 0; i < 2; ++i) static_cast<void>(next_of(client, "STATUS"));
     const std::jthread second = controller(kBoth);
     const json status = odometry_of(client, "running");

@@ -29,7 +29,7 @@ class OdometryReload : public DaemonTest {
   }
 };
 
-TEST_F(OdometryReload, PublishThatIsSwitchedOn_HoldsWithoutALidarToo) {
+TEST_F(OdometryReload, PublishPredictionsEnabled_WorksWithoutLidar) {
   std::optional<EmulatedLidar> lidar;
   lidar.emplace(folder_ / "map.json", folder_ / "lidar");
   set_publish(false);
@@ -48,7 +48,7 @@ TEST_F(OdometryReload, PublishThatIsSwitchedOn_HoldsWithoutALidarToo) {
   ASSERT_TRUE(next_in(client, "fix").is_object()) << daemon.output();
   set_publish(true);
   daemon.send_signal(SIGHUP);
-  // Of the new settings: they go on where the turns end.
+  // Predictions of the new config continue where the scans end.
   ASSERT_TRUE(next_in(client, "predicted").is_object()) << daemon.output();
   lidar.reset();
   json last;

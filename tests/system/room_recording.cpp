@@ -40,7 +40,7 @@ void write_recording(const std::filesystem::path& file, int scans) {
   for (int i = 0; i < scans; ++i) {
     turn.clear();
     for (int k = 0; k < kSamplesPerScan; ++k) {
-      // Clockwise, as an RPLidar turns.
+      // An RPLidar rotates clockwise.
       const double bearing_rad = core::kPi - core::kTwoPi * k / kSamplesPerScan;
       const double range_m = map.range_along({kTrueX, kTrueY}, kTrueTheta + bearing_rad, 12);
       turn.add({.t_ns = i * kScanNs + k * kScanNs / kSamplesPerScan,

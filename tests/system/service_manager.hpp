@@ -8,14 +8,14 @@
 
 namespace cornerd::system_test {
 
-/// A service manager's end of $NOTIFY_SOCKET.
+/// The service manager's side of $NOTIFY_SOCKET.
 class ServiceManager {
  public:
   explicit ServiceManager(const std::filesystem::path& socket);
 
-  /// True once that word has come; others before it are passed over.
+  /// Waits for this message and skips others; false after a timeout.
   bool hears(const std::string& word) const;
-  /// Passes over what has come so far.
+  /// Discards received messages.
   void forget() const;
 
  private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a service manager relies on: the word that the daemon is ready, its watchdog, its end.
+// Behaviour under a service manager: readiness, watchdog, reload, termination.
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/stat.h>
@@ -25,7 +25,7 @@ class Service : public DaemonTest {
     }
   }
 
-  /// Among the first things that it does.
+  /// One of the daemon's first actions.
   static bool ignores_broken_pipes(pid_t pid) {
     std::ifstream status("/proc/" + std::to_string(pid) + "/status");
     for (std::string line; std::getline(status, line);) {
@@ -35,7 +35,7 @@ class Service : public DaemonTest {
     return false;
   }
 
-  /// That takes a while to read.
+  /// A map that takes a while to load.
   static void write_large_map(const std::filesystem::path& file) {
     std::ofstream map(file);
     map << R"({ "format": "cornerd-map", "version": 1, "walls": [ )";
@@ -46,7 +46,7 @@ class Service : public DaemonTest {
   }
 };
 
-TEST_F(Service, Ready_IsSaidWhenTheSocketsAccept) {
+TEST_F(Service, Ready_SentWhenSocketsAccept) {
   const std::string path = (folder_ / "notify").string();
   const ServiceManager manager(path);
   const DaemonProcess daemon = start({}, {{"NOTIFY_SOCKET", path}});
@@ -57,7 +57,7 @@ TEST_F(Service, Ready_IsSaidWhenTheSocketsAccept) {
   EXPECT_TRUE(manager.hears("STOPPING=1"));
 }
 
-TEST_F(Service, Watchdog_IsFedWhileThereIsNoLidarToo) {
+TEST_F(Service, Watchdog_WithoutLidar_Fed) {
   const std::string path = (folder_ / "notify").string();
   const ServiceManager manager(path);
   const DaemonProcess daemon = start({"/lidar/driver=rplidar", "/lidar/device=/dev/no_such_lidar"},
@@ -67,7 +67,7 @@ TEST_F(Service, Watchdog_IsFedWhileThereIsNoLidarToo) {
 
 class ServiceEnd : public Service, public ::testing::WithParamInterface<int> {};
 
-TEST_P(ServiceEnd, TerminationSignal_EndsCleanlyAndRemovesTheSockets) {
+TEST_P(ServiceEnd, TerminationSignal_EndsCleanlyAndRemovesSockets) {
   DaemonProcess daemon = start();
   TestClient client = connect();
   next_of(client, "POSE");
@@ -79,7 +79,7 @@ TEST_P(ServiceEnd, TerminationSignal_EndsCleanlyAndRemovesTheSockets) {
 
 INSTANTIATE_TEST_SUITE_P(EachSignal, ServiceEnd, ::testing::Values(SIGTERM, SIGINT));
 
-TEST_F(Service, Hangup_LoadsTheMapAgainAndMissesNoTurn) {
+TEST_F(Service, Hangup_MapReloadedAndNoScanMissed) {
   const std::string path = (folder_ / "notify").string();
   const ServiceManager manager(path);
   const DaemonProcess daemon = start({}, {{"NOTIFY_SOCKET", path}});
@@ -105,7 +105,7 @@ TEST_F(Service, Hangup_LoadsTheMapAgainAndMissesNoTurn) {
   EXPECT_TRUE(manager.hears("READY=1"));
 }
 
-TEST_F(Service, HangupWithABadFile_ChangesNothingAndSaysWhy) {
+TEST_F(Service, HangupWithInvalidFile_RefusedWithReason) {
   const DaemonProcess daemon = start();
   TestClient client = connect();
   next_of(client, "POSE");
@@ -125,7 +125,7 @@ TEST_F(Service, HangupWithABadFile_ChangesNothingAndSaysWhy) {
   EXPECT_TRUE(daemon.is_running());
 }
 
-TEST_F(Service, HangupWithAPipeInPlaceOfTheMap_IsRefused) {
+TEST_F(Service, HangupWithPipeInsteadOfMap_Refused) {
   DaemonProcess daemon = start();
   TestClient client = connect();
   client.send(R"({"class":"WATCH","classes":["POSE","EVENT"]})"
@@ -145,7 +145,7 @@ TEST_F(Service, HangupWithAPipeInPlaceOfTheMap_IsRefused) {
   EXPECT_EQ(daemon.wait_for_exit(), 0);
 }
 
-TEST_F(Service, HangupWhileItStarts_WaitsForTheStart) {
+TEST_F(Service, HangupDuringStart_HandledAfterStart) {
   write_large_map(folder_ / "map.json");
   DaemonProcess daemon = start();
   while (daemon.is_running() && !ignores_broken_pipes(daemon.pid())) std::this_thread::yield();
@@ -158,7 +158,7 @@ TEST_F(Service, HangupWhileItStarts_WaitsForTheStart) {
   EXPECT_NE(daemon.output().find("SIGHUP: reading"), std::string::npos) << daemon.output();
 }
 
-TEST_F(Service, KilledInstance_LeavesNothingThatHindersTheNext) {
+TEST_F(Service, KilledInstance_NextOneStarts) {
   {
     const DaemonProcess daemon = start();
     connect();

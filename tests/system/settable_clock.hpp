@@ -9,11 +9,11 @@
 
 namespace cornerd::system_test {
 
-/// The time of day of a process that is started with environment(): somebody sets it, and the
-/// machine's stays as it is. Monotonic clocks go on.
+/// Sets the time of day of a process that is started with environment(). The machine's clock and
+/// monotonic clocks are unchanged.
 class SettableClock {
  public:
-  /// `file`: is made. Throws std::system_error.
+  /// Creates `file`. Throws std::system_error.
   explicit SettableClock(const std::filesystem::path& file);
   ~SettableClock();
   SettableClock(const SettableClock&) = delete;
@@ -21,9 +21,9 @@ class SettableClock {
 
   std::map<std::string, std::string> environment() const;
   void step_s(double by_s);
-  /// How far it is ahead of the machine's.
+  /// Offset from the machine's clock.
   double offset_s() const;
-  /// UNIX time by it.
+  /// UNIX time of this clock.
   double now_s() const;
 
  private:

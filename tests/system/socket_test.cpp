@@ -9,7 +9,7 @@ namespace {
 
 class Socket : public DaemonTest {};
 
-TEST_F(Socket, NewClient_GetsVersionThenPosesThatAreTrue) {
+TEST_F(Socket, NewClient_VersionThenCorrectPoses) {
   const DaemonProcess daemon = start();
   TestClient client = connect();
   const json version = next(client);
@@ -22,13 +22,13 @@ TEST_F(Socket, NewClient_GetsVersionThenPosesThatAreTrue) {
   EXPECT_NEAR(pose["theta"].get<double>(), kTrueTheta, 0.01);
   EXPECT_EQ(pose["room"], "only");
   EXPECT_GT(pose["cov"]["xx"].get<double>(), 0);
-  // A state that lasted for milliseconds is told too, and before.
+  // A state that lasted for milliseconds is published too, before this one.
   json status = next_of(client, "STATUS");
   while (status["lidar"]["state"] == "opening") status = next_of(client, "STATUS");
   EXPECT_EQ(status["lidar"]["state"], "running");
 }
 
-TEST_F(Socket, EveryTurn_HasItsPose) {
+TEST_F(Socket, EveryScan_HasOnePose) {
   const DaemonProcess daemon = start();
   TestClient client = connect();
   std::uint64_t last = next_of(client, "POSE")["seq"];
@@ -39,7 +39,7 @@ TEST_F(Socket, EveryTurn_HasItsPose) {
   }
 }
 
-TEST_F(Socket, Watch_ChangesTheClasses) {
+TEST_F(Socket, Watch_Request_ChangesClasses) {
   const DaemonProcess daemon = start();
   TestClient client = connect();
   client.send(R"({"class":"WATCH","classes":["SCAN","BREAKPOINTS"],"id":"w"})"
@@ -55,7 +55,7 @@ TEST_F(Socket, Watch_ChangesTheClasses) {
   }
 }
 
-TEST_F(Socket, BadLine_GetsAnErrorAndCostsNothingElse) {
+TEST_F(Socket, MalformedLine_ErrorAndConnectionStays) {
   const DaemonProcess daemon = start();
   TestClient client = connect();
   client.send("\xff\xfe{]\n{\"class\":\"WATCH\",\"classes\":[\"NOPE\"],\"id\":3}\n");
@@ -66,7 +66,7 @@ TEST_F(Socket, BadLine_GetsAnErrorAndCostsNothingElse) {
   EXPECT_EQ(next_of(client, "POSE")["class"], "POSE");
 }
 
-TEST_F(Socket, LineOver64KiB_ClosesThatClientAlone) {
+TEST_F(Socket, LineOver64KiB_OnlyThatClientClosed) {
   const DaemonProcess daemon = start();
   TestClient other = connect();
   TestClient client = connect();
@@ -77,7 +77,7 @@ TEST_F(Socket, LineOver64KiB_ClosesThatClientAlone) {
   EXPECT_EQ(next_of(other, "POSE")["class"], "POSE");
 }
 
-TEST_F(Socket, Relocalize_IsAnsweredAndPosesGoOn) {
+TEST_F(Socket, Relocalize_AnsweredAndPosesContinue) {
   const DaemonProcess daemon = start();
   TestClient reader = connect();
   next_of(reader, "POSE");
@@ -88,12 +88,12 @@ TEST_F(Socket, Relocalize_IsAnsweredAndPosesGoOn) {
   EXPECT_EQ(next_of(reader, "POSE")["class"], "POSE");
 }
 
-TEST_F(Socket, SecondInstance_IsRefusedAndHarmsNothing) {
+TEST_F(Socket, SecondInstance_RefusedAndFirstUnaffected) {
   const DaemonProcess daemon = start();
   TestClient client = connect();
   const Result second = run({"--config", config()});
   EXPECT_EQ(second.exit_code, 1);
-  EXPECT_NE(second.output.find("another cornerd listens there"), std::string::npos)
+  EXPECT_NE(second.output.find("another cornerd listens on this socket"), std::string::npos)
       << second.output;
   EXPECT_EQ(next_of(client, "POSE")["class"], "POSE");
   EXPECT_TRUE(connect().is_connected());

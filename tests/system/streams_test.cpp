@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the daemon's log goes to fails: the robot is told its place all the same.
+// Faults of the log's target do not affect the poses.
 #include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -24,7 +24,7 @@ using ::testing::ContainsRegex;
 
 class Streams : public DaemonTest {
  protected:
-  /// The lidar's own events may come in between.
+  /// Skips events of the lidar.
   static bool tells_of_the_map(TestClient& client) {
     constexpr int kMostEvents = 20;
     for (int i = 0; i < kMostEvents; ++i) {
@@ -33,7 +33,7 @@ class Streams : public DaemonTest {
     return false;
   }
 
-  /// A reload logs.
+  /// Makes the daemon log by a reload.
   void reload(const DaemonProcess& daemon) {
     TestClient client = connect();
     client.send(R"({"class":"WATCH","classes":["POSE","EVENT"]})"
@@ -55,7 +55,7 @@ class Streams : public DaemonTest {
     EXPECT_EQ(daemon.wait_for_exit(), 0);
   }
 
-  /// Writes until there is no room for one byte. Returns how many there was room for.
+  /// Writes until the buffer is full. Returns the number of bytes.
   static std::size_t fill(int fd) {
     std::array<char, 4096> block{};
     std::size_t sum = 0;
@@ -67,7 +67,7 @@ class Streams : public DaemonTest {
     return sum;
   }
 
-  /// What there is to read without waiting.
+  /// Reads without waiting.
   static std::string drain(int fd) {
     std::string all;
     std::array<char, 4096> block{};
@@ -78,7 +78,7 @@ class Streams : public DaemonTest {
   }
 };
 
-TEST_F(Streams, Closed_AreNotTakenByAnythingElse) {
+TEST_F(Streams, ClosedStreams_DescriptorsNotReused) {
   DaemonProcess daemon(with_config(), "");
   connect();
   const std::filesystem::path descriptors = "/proc/" + std::to_string(daemon.pid()) + "/fd";
@@ -88,12 +88,12 @@ TEST_F(Streams, Closed_AreNotTakenByAnythingElse) {
   expect_service(daemon);
 }
 
-TEST_F(Streams, DiskThatIsFull_CostsTheLogAlone) {
+TEST_F(Streams, FullDisk_OnlyLogLost) {
   DaemonProcess daemon(with_config(), "/dev/full");
   expect_service(daemon);
 }
 
-TEST_F(Streams, ReaderOfTheLogThatStalls_IsNotWaitedFor) {
+TEST_F(Streams, StalledLogReader_NotWaitedFor) {
   const std::filesystem::path pipe = folder_ / "pipe";
   ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
   const daemon::FileDescriptor reader(::open(pipe.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC));
@@ -102,15 +102,15 @@ TEST_F(Streams, ReaderOfTheLogThatStalls_IsNotWaitedFor) {
   DaemonProcess daemon(with_config(), pipe);
   serve(daemon);
   const std::string rest = drain(reader.get()).substr(stuffed);
-  EXPECT_EQ(rest, "") << "there was room";
+  EXPECT_EQ(rest, "") << "no line may be dropped";
   reload(daemon);
-  EXPECT_THAT(drain(reader.get()), ContainsRegex("warning: [0-9]+ messages found no room in this"));
+  EXPECT_THAT(drain(reader.get()), ContainsRegex("warning: [0-9]+ log messages were dropped"));
   fill(writer.get());
   daemon.send_signal(SIGTERM);
   EXPECT_EQ(daemon.wait_for_exit(), 0);
 }
 
-TEST_F(Streams, TerminalThatStalls_IsNotWaitedFor) {
+TEST_F(Streams, StalledTerminal_NotWaitedFor) {
   int master = -1;
   int slave = -1;
   std::array<char, 64> name{};
@@ -118,7 +118,7 @@ TEST_F(Streams, TerminalThatStalls_IsNotWaitedFor) {
   const daemon::FileDescriptor screen(master);
   const daemon::FileDescriptor line(slave);
   ::fcntl(line.get(), F_SETFL, O_NONBLOCK);
-  // The kernel carries it over to the master's side bit by bit.
+  // The kernel transfers data to the master side gradually.
   while (fill(line.get()) > 0) std::this_thread::sleep_for(std::chrono::milliseconds(20));
   DaemonProcess daemon(with_config(), name.data());
   serve(daemon);
@@ -126,7 +126,7 @@ TEST_F(Streams, TerminalThatStalls_IsNotWaitedFor) {
   EXPECT_EQ(daemon.wait_for_exit(), 0);
 }
 
-TEST_F(Streams, ReaderOfTheLogThatLeaves_IsNotFollowed) {
+TEST_F(Streams, LogReaderCloses_DaemonContinues) {
   const std::filesystem::path pipe = folder_ / "pipe";
   ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
   daemon::FileDescriptor reader(::open(pipe.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC));

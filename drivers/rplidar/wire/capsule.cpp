@@ -92,10 +92,10 @@ int optical_correction_q16_degrees(int dist_q2) {
   constexpr double kRadian = std::numbers::pi / 180 * (1 << 16);
   constexpr int kNear = static_cast<int>(7.5 * kRadian);
   constexpr int kFar = static_cast<int>(8.0 * kRadian);
-  constexpr int kNearestQ2 = 50 * 4;
+  constexpr int kMinCorrectedQ2 = 50 * 4;
   constexpr int kLensQ2 = 98361;  // 24 mm, in units that fit the next line
   int correction_q16 = kNear;
-  if (dist_q2 >= kNearestQ2) {
+  if (dist_q2 >= kMinCorrectedQ2) {
     const int k = kLensQ2 / dist_q2;
     correction_q16 = kFar - (k << 6) - (k * k * k) / 98304;
   }

@@ -39,8 +39,8 @@ void PoseScore::add(const core::PoseEstimate& estimate, const core::Pose2& truth
   }
   if (!right) return;
   const replay::PoseError error = replay::error_of(estimate.T_map_base, truth);
-  errors_m_.push_back(error.place_m);
-  squares_m2_ += error.place_m * error.place_m;
+  errors_m_.push_back(error.position_m);
+  squares_m2_ += error.position_m * error.position_m;
   bound_m2_ += bound.topLeftCorner<2, 2>().trace();
   heading_rad_ += error.heading_rad;
 }

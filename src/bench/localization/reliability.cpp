@@ -12,11 +12,11 @@ void Reliability::add(const core::PoseEstimate& estimate, const core::Pose2& tru
       is_fix ? estimate.T_map_base : estimate.alternatives.front().T_map_base;
   Bin* bin = bins_.data();
   for (Bin& each : bins_) {
-    if (estimate.doubt >= each.least_doubt) bin = &each;
+    if (estimate.p_wrong >= each.least_doubt) bin = &each;
   }
   ++bin->scans;
   bin->wrong += replay::is_right(first, truth) ? 0 : 1;
-  bin->doubt += estimate.doubt;
+  bin->doubt += estimate.p_wrong;
 }
 
 void Reliability::add(const Reliability& other) {

@@ -48,11 +48,11 @@ std::span<const Breakpoint> BreakpointStream::add(double bearing_rad, double ran
               reorder_buffer_.begin());
     --buffered_;
   }
-  std::size_t place = buffered_++;
-  for (; place > 0 && reorder_buffer_[place - 1].sweep_rad > item.sweep_rad; --place) {
-    reorder_buffer_[place] = reorder_buffer_[place - 1];
+  std::size_t slot = buffered_++;
+  for (; slot > 0 && reorder_buffer_[slot - 1].sweep_rad > item.sweep_rad; --slot) {
+    reorder_buffer_[slot] = reorder_buffer_[slot - 1];
   }
-  reorder_buffer_[place] = item;
+  reorder_buffer_[slot] = item;
 
   std::size_t taken = 0;
   while (taken < buffered_ &&

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // ALTBD as El Amin et al. print it (section III.A, steps 1-19), in the readings that the print
-// leaves open. `cornerctl bench --variants` measures them; README.md beside this file concludes.
+// leaves open. `cornerd-bench --variants` measures them; README.md beside this file concludes.
 #pragma once
 
 #include <cstddef>

@@ -11,11 +11,11 @@
 namespace cornerd::core {
 namespace {
 
-constexpr double kOffWall_m = 1e-3;
+constexpr double kWallOffset_m = 1e-3;
 
 /// The landmark's position, moved into its opening, off its own walls.
 Vec2 off_wall(const Corner& landmark) {
-  return landmark.position + kOffWall_m * unit_vector(landmark.bisector_rad());
+  return landmark.position + kWallOffset_m * unit_vector(landmark.bisector_rad());
 }
 
 /// True where no wall stands between two landmarks.
@@ -23,10 +23,10 @@ bool is_visible(const WallMap& map, const Corner& a, const Corner& b) {
   const Vec2 from = off_wall(a);
   const Vec2 displacement = off_wall(b) - from;
   const double distance_m = displacement.norm();
-  if (distance_m < kOffWall_m) return false;
+  if (distance_m < kWallOffset_m) return false;
   const double range_m = map.range_along(from, std::atan2(displacement.y(), displacement.x()),
-                                         distance_m + kOffWall_m);
-  return range_m == 0 || range_m > distance_m - kOffWall_m;
+                                         distance_m + kWallOffset_m);
+  return range_m == 0 || range_m > distance_m - kWallOffset_m;
 }
 
 }  // namespace
@@ -73,16 +73,16 @@ std::vector<LandmarkPair> Catalog::visible_pairs(const WallMap& map, double max_
   std::vector<LandmarkPair> pairs;
   for (std::uint32_t i = 0; i < landmarks_.size(); ++i) {
     const Corner& landmark = landmarks_[i];
-    visible_faces.find(map, off_wall(landmark), max_distance_m + kOffWall_m,
+    visible_faces.find(map, off_wall(landmark), max_distance_m + kWallOffset_m,
                        [](std::uint32_t, const VisibleFace&) {});
     candidates.clear();
     const double max_range_m =
-        std::min(max_distance_m, visible_faces.occlusion().max_range_m() + 2 * kOffWall_m);
+        std::min(max_distance_m, visible_faces.occlusion().max_range_m() + 2 * kWallOffset_m);
     visit_within(landmark.position, max_range_m, [&](std::uint32_t j) {
       const Vec2 displacement = landmarks_[j].position - landmark.position;
       const double distance_m = displacement.norm();
       if (j == i || distance_m > max_distance_m ||
-          !visible_faces.occlusion().may_be_visible(displacement, 3 * kOffWall_m))
+          !visible_faces.occlusion().may_be_visible(displacement, 3 * kWallOffset_m))
         return;
       candidates.push_back({distance_m, j});
     });

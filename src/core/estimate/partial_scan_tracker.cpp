@@ -76,8 +76,8 @@ std::optional<PartialScanPose> PartialScanTracker::localize(const PredictedState
   PartialScanPose pose;
   pose.refined = refinement_.refine(map_, predicted.T_map_lidar, kSearchRadius_m, points_.points(),
                                     points_.points(), noise_scale, &prior);
-  if (!pose.refined.valid || !same_place(pose.refined.T_map_lidar, predicted.T_map_lidar,
-                                         kMaxInnovation_m, kMaxInnovation_rad)) {
+  if (!pose.refined.valid || !same_pose(pose.refined.T_map_lidar, predicted.T_map_lidar,
+                                        kMaxInnovation_m, kMaxInnovation_rad)) {
     return std::nullopt;
   }
   const auto hits = ray_caster_.cast(map_, pose.refined.T_map_lidar, points_.points());

@@ -52,7 +52,7 @@ void Refinement::find_hits(const WallMap& map, const Pose2& T_map_lidar,
   const double same_m = std::max(kSameHits_m, kSameHitsShare * extra_sigma_m);
   const double same_rad = kSameHits_rad / kSameHits_m * same_m;
   const bool same_points = points.data() == points_.data() && points.size() == points_.size();
-  if (same_points && same_place(T_map_lidar, T_map_hits_, same_m, same_rad)) return;
+  if (same_points && same_pose(T_map_lidar, T_map_hits_, same_m, same_rad)) return;
   if (!same_points) lanes_.assign(points, noise_, noise_scale);
   hits_ = ray_caster_.cast_near(map, T_map_lidar, points);
   points_ = points;

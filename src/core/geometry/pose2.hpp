@@ -89,7 +89,7 @@ inline Twist2 motion_between(const Pose2& from, const Pose2& to, double dt_s) {
 using Covariance3 = Eigen::Matrix3d;
 
 /// True where both poses agree within the given distance and angle.
-inline bool same_place(const Pose2& a, const Pose2& b, double distance_m, double angle_rad) {
+inline bool same_pose(const Pose2& a, const Pose2& b, double distance_m, double angle_rad) {
   return (a.translation() - b.translation()).squaredNorm() < distance_m * distance_m &&
          std::abs(angle_between(a.theta_rad, b.theta_rad)) < angle_rad;
 }

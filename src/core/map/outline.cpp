@@ -107,8 +107,8 @@ std::vector<Interval> remaining(std::vector<Interval> hidden) {
 
 /// A cheap bounding-circle test: no false negatives.
 bool may_touch(const WallBox& a, const WallBox& b) {
-  const double reach = a.half_length_m + a.half_width_m + b.half_length_m + b.half_width_m;
-  return (a.centre - b.centre).squaredNorm() <= (reach + 1e-3) * (reach + 1e-3);
+  const double radius = a.half_length_m + a.half_width_m + b.half_length_m + b.half_width_m;
+  return (a.centre - b.centre).squaredNorm() <= (radius + 1e-3) * (radius + 1e-3);
 }
 
 /// Joins collinear faces that continue each other: a wall drawn in pieces is one wall.
@@ -159,8 +159,8 @@ Vec2 WallBox::to_local(const Vec2& point) const {
 }
 
 Extent WallBox::extent() const {
-  const Vec2 reach = half_length_m * along;
-  return Extent::of_segment(centre - reach, centre + reach, half_width_m + kGeometryEpsilon_m);
+  const Vec2 half = half_length_m * along;
+  return Extent::of_segment(centre - half, centre + half, half_width_m + kGeometryEpsilon_m);
 }
 
 std::vector<Face> outline_of(std::span<const WallBox> boxes) {

@@ -86,11 +86,11 @@ void VisibleFaces::find(const WallMap& map, const Vec2& origin, double max_range
   const Vec2 position = (origin - grid.lower_left()) / grid.cell_m();
   const auto columns = static_cast<std::ptrdiff_t>(grid.columns());
   const auto rows = static_cast<std::ptrdiff_t>(grid.rows());
-  const double reach = max_range_m / grid.cell_m() + 1;
+  const double max_range = max_range_m / grid.cell_m() + 1;
   // Out of range of the whole map, or not finite.
-  if (!(position.x() > -reach && position.y() > -reach &&
-        position.x() < static_cast<double>(columns) + reach &&
-        position.y() < static_cast<double>(rows) + reach)) {
+  if (!(position.x() > -max_range && position.y() > -max_range &&
+        position.x() < static_cast<double>(columns) + max_range &&
+        position.y() < static_cast<double>(rows) + max_range)) {
     return;
   }
   const auto column = static_cast<std::ptrdiff_t>(std::floor(position.x()));

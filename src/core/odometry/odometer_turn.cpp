@@ -13,14 +13,14 @@ namespace {
 constexpr double kMotionShare = 0.01;
 /// What a turn's fix is off by of what wheels and gyro wander in it: a sample between its middle
 /// and its end by a quarter of that, all of them together by a twelfth, and those that a coordinate
-/// hangs on by something between (NEES of fixes, `cornerctl bench --odometry`).
+/// hangs on by something between (NEES of fixes, `cornerd-bench --odometry`).
 constexpr double kWanderShare = 0.3;
 /// A turn whose pieces are turned against each other seems to be elsewhere as well: by so much of
 /// that angle, in rooms (NEES of fixes without a gyro, the same).
 constexpr double kLever_m = 0.3;
 /// A change of speed between two readings moves what is between them by a quarter of what it comes
 /// to at most, and a turn's samples are only in part there (NEES of fixes with few readings a
-/// second, `cornerctl bench --odometry`).
+/// second, `cornerd-bench --odometry`).
 constexpr double kUnevenShare = 0.2;
 
 /// The end of a turn that no reading tells of: of a change of speed in it, so much is in the pose.

@@ -9,7 +9,7 @@ namespace {
 
 /// Log-likelihoods count every ray as if it were independent. A displaced wall or a person moves
 /// many rays at once: so many nats of a turn are worth one nat of belief. What they promise is
-/// measured (`cornerctl bench --localizer`, "kept promises").
+/// measured (`cornerd-bench --localizer`, "kept promises").
 constexpr double kNatsPerNat = 1.3;
 /// Each ray that even the likeliest place does not beam_likelihood says that the map or the model
 /// is off by something.
@@ -97,9 +97,9 @@ Decision decide(std::span<const VerifiedHypothesis> places, const std::optional<
   if (!prior) return decision;
   std::size_t near = 0;
   for (std::size_t i = 0; i < decision.rivals; ++i) {
-    if (!same_place(places[i].refined.T_map_lidar, prior->T_map_lidar,
-                    kPriorRadius_m + prior->position_error_m,
-                    kPriorAngle_rad + prior->heading_error_rad)) {
+    if (!same_pose(places[i].refined.T_map_lidar, prior->T_map_lidar,
+                   kPriorRadius_m + prior->position_error_m,
+                   kPriorAngle_rad + prior->heading_error_rad)) {
       continue;
     }
     decision.place = i;

@@ -29,7 +29,7 @@ constexpr double kWallEndTolerance_m = 0.10;
 /// Error of a breakpoint's position under a hypothesis of one pair or one corner.
 constexpr double kVoteRadius_m = Catalog::kVisitRadius_m;
 /// Closer hypotheses converge to the same pose.
-constexpr double kSamePlace_m = 0.08;
+constexpr double kSamePose_m = 0.08;
 constexpr double kSameHeading_rad = radians(8);
 
 bool agree(double a_rad, double b_rad) {
@@ -257,7 +257,7 @@ std::span<const PoseHypothesis> Recognition::ranked() {
   for (const PoseHypothesis& hypothesis : hypotheses) {
     if (hypothesis.votes < least) break;
     const auto is_same = [&](const PoseHypothesis& other) {
-      return same_place(other.T_map_lidar, hypothesis.T_map_lidar, kSamePlace_m, kSameHeading_rad);
+      return same_pose(other.T_map_lidar, hypothesis.T_map_lidar, kSamePose_m, kSameHeading_rad);
     };
     const auto end = hypotheses.begin() + static_cast<std::ptrdiff_t>(kept);
     if (std::none_of(hypotheses.begin(), end, is_same)) hypotheses[kept++] = hypothesis;

@@ -25,7 +25,7 @@ constexpr double kRoughMarginPerUnmatchedRay = 2;
 /// The same before refinement: 68 and 169 observed.
 constexpr double kUnrefinedMargin = 150;
 /// Remaining error after the rough refinement.
-constexpr double kRefinedReach_m = 0.01;
+constexpr double kRefinedRadius_m = 0.01;
 
 // A verified pose: at least half of the rays hit the map's walls (the rest may be people and
 // chairs), with hardly any free-space violation. The two walls of one corner fit any other corner,
@@ -130,19 +130,18 @@ double Verification::unmatched_margin() const {
 }
 
 bool Verification::is_unambiguous(const Pose2& T_map_lidar) const {
-  return std::any_of(hypotheses_.begin(), hypotheses_.end(),
-                     [&](const VerifiedHypothesis& hypothesis) {
-                       return same_place(hypothesis.refined.T_map_lidar, T_map_lidar, kDistinct_m,
-                                         kDistinct_rad) &&
-                              is_conclusive(hypothesis.likelihood, /*expected=*/false);
-                     });
+  return std::any_of(
+      hypotheses_.begin(), hypotheses_.end(), [&](const VerifiedHypothesis& hypothesis) {
+        return same_pose(hypothesis.refined.T_map_lidar, T_map_lidar, kDistinct_m, kDistinct_rad) &&
+               is_conclusive(hypothesis.likelihood, /*expected=*/false);
+      });
 }
 
 void Verification::examine(const Pose2& T_map_lidar) {
   if (is_duplicate(T_map_lidar)) return;
   VerifiedHypothesis hypothesis;
   hypothesis.refined =
-      refinement_.refine(map_, T_map_lidar, kRefinedReach_m, subset_, points_, noise_scale_);
+      refinement_.refine(map_, T_map_lidar, kRefinedRadius_m, subset_, points_, noise_scale_);
   if (!hypothesis.refined.valid || is_duplicate(hypothesis.refined.T_map_lidar)) return;
   const auto hits = ray_caster_.cast(map_, hypothesis.refined.T_map_lidar, points_);
   hypothesis.likelihood =
@@ -153,7 +152,7 @@ void Verification::examine(const Pose2& T_map_lidar) {
 bool Verification::is_duplicate(const Pose2& T_map_lidar) const {
   return std::any_of(
       hypotheses_.begin(), hypotheses_.end(), [&](const VerifiedHypothesis& hypothesis) {
-        return same_place(hypothesis.refined.T_map_lidar, T_map_lidar, kDistinct_m, kDistinct_rad);
+        return same_pose(hypothesis.refined.T_map_lidar, T_map_lidar, kDistinct_m, kDistinct_rad);
       });
 }
 

@@ -43,7 +43,7 @@ class DriveFitter {
       RecordedDrive plain = play(/*straightened=*/false);
       if (plain.places.size() < 2) fail("the robot was not found in the map");
       const std::string plain_faults = look_at(plain);
-      auto fit = plain_faults.empty() && search_.is_told ? fit_of(plain) : std::nullopt;
+      auto fit = plain_faults.empty() && search_.is_unambiguous ? fit_of(plain) : std::nullopt;
       if (fit) return {std::move(plain), *fit};
       if (faults.empty()) faults = plain_faults;
     }

@@ -13,7 +13,6 @@
 
 #include "settings/document.hpp"
 #include "settings/object_reader.hpp"
-#include "settings/override.hpp"
 #include "tool/command_line/failure.hpp"
 
 namespace cornerd::tool {

@@ -15,7 +15,7 @@ class Playback::Sink : public replay::RecordingSink {
   void on_sample(const core::Sample& sample) override {
     playback_.play_readings_until(sample.t_ns);
     playback_.on_result(playback_.pipeline_.add(sample));
-    playback_.on_pose_between(playback_.pipeline_.part());
+    playback_.on_pose_between(playback_.pipeline_.partial_pose());
   }
   void on_gap() override { playback_.on_result(playback_.pipeline_.finish()); }
   void on_odometry(const message::OdometryReading& reading) override {

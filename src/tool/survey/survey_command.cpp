@@ -78,10 +78,10 @@ survey::SurveyResult make_map(const SurveyOptions& options, const core::Localize
 core::Pose2 parse_start(const std::string& text) {
   if (text.empty()) return {};
   const core::Pose2 start = parse_pose(text);
-  if (std::max(std::abs(start.x_m), std::abs(start.y_m)) > settings::kFarthestCoordinateM) {
+  if (std::max(std::abs(start.x_m), std::abs(start.y_m)) > settings::kMaxCoordinateM) {
     throw UsageError("--start: a map goes from " +
-                     settings::to_text(-settings::kFarthestCoordinateM) + " to " +
-                     settings::to_text(settings::kFarthestCoordinateM) + " m; shift the origin");
+                     settings::to_text(-settings::kMaxCoordinateM) + " to " +
+                     settings::to_text(settings::kMaxCoordinateM) + " m; shift the origin");
   }
   return start;
 }

@@ -19,13 +19,13 @@ double median_sigma_m(const BearingBins& bins) {
   return median(sigmas);
 }
 
-TEST(BearingBins, KnownSpread_IsFoundAgain) {
+TEST(BearingBins, GaussianRanges_GiveTheirSigma) {
   StaticRoom room;
   room.sigma_m = [](double) { return 0.004; };
   EXPECT_NEAR(median_sigma_m(room.record()), 0.004, 0.0003);
 }
 
-TEST(BearingBins, OutliersAndSlant_DoNotWidenIt) {
+TEST(BearingBins, OutliersAndSlope_DoNotChangeSigma) {
   StaticRoom room;
   room.sigma_m = [](double) { return 0.004; };
   room.outliers = 0.1;
@@ -36,7 +36,7 @@ TEST(BearingBins, OutliersAndSlant_DoNotWidenIt) {
   EXPECT_NEAR(median(rejected), 0.1, 0.04);
 }
 
-TEST(BearingBins, Slope_IsThatOfTheWall) {
+TEST(BearingBins, ObliqueWall_GivesItsSlope) {
   StaticRoom room;
   room.sigma_m = [](double) { return 0.001; };
   for (const BinSpread& spread : room.record().spreads()) {
@@ -47,7 +47,7 @@ TEST(BearingBins, Slope_IsThatOfTheWall) {
   }
 }
 
-TEST(BearingBins, FewTurns_TakeWiderBinsOrNone) {
+TEST(BearingBins, FewScans_UseWiderBinsOrNone) {
   StaticRoom room;
   room.sigma_m = [](double) { return 0.002; };
   room.scans = 15;
@@ -62,7 +62,7 @@ TEST(BearingBins, FewTurns_TakeWiderBinsOrNone) {
   EXPECT_TRUE(room.record().spreads().empty());
 }
 
-TEST(BearingBins, LidarThatMoves_Drifts) {
+TEST(BearingBins, MovingLidar_HasDrift) {
   BearingBins still;
   BearingBins moving;
   for (int i = 0; i < 60 * 300; ++i) {
@@ -80,7 +80,7 @@ TEST(BearingBins, LidarThatMoves_Drifts) {
   EXPECT_GT(median_drift(moving), 1.3);
 }
 
-TEST(BearingBins, EmptyAndBrokenSamples_CountForNothing) {
+TEST(BearingBins, EmptyAndInvalidSamples_AreIgnored) {
   BearingBins bins;
   bins.add(1, 0);
   bins.add(1, std::numeric_limits<double>::quiet_NaN());

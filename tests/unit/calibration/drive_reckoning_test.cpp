@@ -39,7 +39,7 @@ class FilteredDriveTest : public ::testing::Test {
   std::vector<KnownPose> places_;
 };
 
-TEST_F(FilteredDriveTest, FirstHalf_TeachesTheSecond) {
+TEST_F(FilteredDriveTest, CorrectedFirstHalf_ImprovesSecondHalf) {
   const FilteredDrive drive = filter(30);
   EXPECT_NEAR(drive.learned.left_scale, kLeftScale, 0.003);
   EXPECT_NEAR(drive.learned.right_scale, kRightScale, 0.003);
@@ -49,14 +49,14 @@ TEST_F(FilteredDriveTest, FirstHalf_TeachesTheSecond) {
   EXPECT_LT(drive.alone.end_m, raw.end_m / 5);
 }
 
-TEST_F(FilteredDriveTest, WithoutATeacher_ItIsDeadReckoning) {
+TEST_F(FilteredDriveTest, WithoutCorrections_IsDeadReckoning) {
   const FilteredDrive drive = filter(0);
   const DriveError raw = reckon(steps_, places_, config_.geometry, core::DeadReckoningConfig{});
   EXPECT_NEAR(drive.alone.end_m, raw.end_m, 1e-6);
   EXPECT_EQ(drive.alone.places, raw.places);
 }
 
-TEST_F(FilteredDriveTest, NoPlaces_GiveNothing) {
+TEST_F(FilteredDriveTest, NoKnownPoses_GiveNoErrors) {
   const FilteredDrive drive = filter_drive(steps_, {}, config_, 0);
   EXPECT_TRUE(drive.points.empty());
   EXPECT_EQ(drive.alone.places, 0u);

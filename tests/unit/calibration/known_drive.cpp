@@ -3,12 +3,12 @@
 
 namespace cornerd::calibration {
 
-KnownDrive known_drive(const core::DriveGeometry& geometry, double scans, bool with_gyro) {
+KnownDrive known_drive(const core::DriveGeometry& geometry, double rotations, bool with_gyro) {
   KnownDrive drive;
   core::Pose2 T_map_base{1, 2, 0.5};
   for (int i = 0; i < 3000; ++i) {
     if (i % 7 == 0) drive.places.push_back({i * core::TimeNs{20'000'000}, T_map_base});
-    const double rate_rad_s = scans * (i / 100 % 3 == 0 ? 0.0 : i / 100 % 3 == 1 ? 0.9 : -0.7);
+    const double rate_rad_s = rotations * (i / 100 % 3 == 0 ? 0.0 : i / 100 % 3 == 1 ? 0.9 : -0.7);
     const double way_m = 0.4 * 0.02;
     const double rotation_rad = rate_rad_s * 0.02;
     T_map_base = T_map_base * core::arc(way_m, rotation_rad);

@@ -7,7 +7,7 @@
 
 namespace cornerd::calibration {
 
-/// What the wheels and the gyro of a known drive are off by.
+/// Errors of the wheels and the gyro of a known drive.
 inline const core::OdometryParameters kKnownErrors{0.01, 0.015, 0.025, -0.01, 0.02};
 
 struct KnownDrive {
@@ -15,7 +15,9 @@ struct KnownDrive {
   std::vector<KnownPose> places;
 };
 
-/// Straights and turns for a minute at 50 steps a second, known every 0.14 s; `turns`: 0 for none.
-KnownDrive known_drive(const core::DriveGeometry& geometry, double scans, bool with_gyro = true);
+/// Straights and rotations for a minute at 50 Hz, with known poses every 0.14 s. `rotations`:
+/// factor on the yaw rates.
+KnownDrive known_drive(const core::DriveGeometry& geometry, double rotations,
+                       bool with_gyro = true);
 
 }  // namespace cornerd::calibration

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Drives whose readings bear times that are late or early.
+// Drives whose odometry readings have late or early times.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -11,7 +11,7 @@
 namespace cornerd::calibration {
 namespace {
 
-/// The places as a lidar has them.
+/// Known poses at the rate of a lidar.
 void blur(std::vector<KnownPose>& places, unsigned seed, double sigma = 0.001) {
   std::mt19937 random(seed);
   std::normal_distribution<double> normal;
@@ -29,7 +29,7 @@ KnownDrive late_drive(double late_s, unsigned seed, bool with_gyro = true) {
   return known;
 }
 
-/// Two minutes in which the rate of turn changes so slowly that no time is better than another.
+/// Two minutes with a yaw rate that changes too slowly to determine the delay.
 KnownDrive slow_drive(double late_s, unsigned seed) {
   KnownDrive known = known_drive({}, 1);
   known.places.clear();
@@ -55,13 +55,13 @@ KnownDrive slow_drive(double late_s, unsigned seed) {
 
 class LateReadings : public testing::TestWithParam<double> {};
 
-TEST_P(LateReadings, AreFoundWithAllElse) {
+TEST_P(LateReadings, SearchAndFit_FindDelayAndParameters) {
   const double late_s = GetParam();
   for (const bool with_gyro : {true, false}) {
     const KnownDrive known = late_drive(late_s, 1, with_gyro);
     const DelaySearch search = search_delay(known.steps, known.places, 0);
     EXPECT_NEAR(search.delay_s, late_s, 0.01);
-    EXPECT_EQ(search.is_told, late_s != 0);
+    EXPECT_EQ(search.is_unambiguous, late_s != 0);
     EXPECT_FALSE(search.at_edge);
     const auto fit = fit_odometry(known.steps, known.places, {}, search.delay_s);
     ASSERT_TRUE(fit);
@@ -79,7 +79,7 @@ TEST_P(LateReadings, AreFoundWithAllElse) {
 INSTANTIATE_TEST_SUITE_P(ByDelay, LateReadings,
                          testing::Values(-0.55, -0.3, -0.06, 0.0, 0.02, 0.17, 0.5));
 
-TEST(DelaySearch, BeyondItsEnds_SaysSo) {
+TEST(DelaySearch, DelayBeyondRange_IsMarkedAtEdge) {
   for (const double late_s : {-0.75, 0.75}) {
     const KnownDrive known = late_drive(late_s, 1);
     const DelaySearch search = search_delay(known.steps, known.places, 0);
@@ -88,7 +88,7 @@ TEST(DelaySearch, BeyondItsEnds_SaysSo) {
   }
 }
 
-TEST(DelaySearch, WheelsAndGyroThatAreFarOff_AreNoHindrance) {
+TEST(DelaySearch, LargeScaleErrors_DoNotChangeDelay) {
   KnownDrive known = late_drive(0.3, 1);
   for (core::OdometryIncrement& step : known.steps) {
     std::swap(step.left_m, step.right_m);
@@ -98,11 +98,11 @@ TEST(DelaySearch, WheelsAndGyroThatAreFarOff_AreNoHindrance) {
   EXPECT_NEAR(search_delay(known.steps, known.places, 0).delay_s, 0.3, 0.01);
 }
 
-TEST(DelaySearch, WithoutChangesOfSpeed_LeavesTheConfiguredOneAndTheSigmaSaysSo) {
+TEST(DelaySearch, ConstantSpeed_KeepsConfiguredDelayWithLargeSigma) {
   for (const double late_s : {0.0, 0.1}) {
     const KnownDrive known = slow_drive(late_s, 3);
     const DelaySearch search = search_delay(known.steps, known.places, 0.015);
-    EXPECT_FALSE(search.is_told);
+    EXPECT_FALSE(search.is_unambiguous);
     EXPECT_EQ(search.delay_s, 0.015);
     const auto fit = fit_odometry(known.steps, known.places, {}, search.delay_s);
     ASSERT_TRUE(fit);
@@ -113,12 +113,12 @@ TEST(DelaySearch, WithoutChangesOfSpeed_LeavesTheConfiguredOneAndTheSigmaSaysSo)
   }
 }
 
-TEST(DelaySearch, TooShortADrive_TellsNothing) {
+TEST(DelaySearch, NoWindows_IsAmbiguous) {
   EXPECT_EQ(search_delay({}, {}, 0.05).delay_s, 0.05);
-  EXPECT_FALSE(search_delay({}, {}, 0.05).is_told);
+  EXPECT_FALSE(search_delay({}, {}, 0.05).is_unambiguous);
 }
 
-TEST(OdometryFit, Sigmas_AreWhatItIsOffBy) {
+TEST(OdometryFit, Errors_MatchSigmas) {
   constexpr int kDrives = 20;
   double squares[6] = {};
   for (int seed = 1; seed <= kDrives; ++seed) {
@@ -136,7 +136,7 @@ TEST(OdometryFit, Sigmas_AreWhatItIsOffBy) {
     add(4, &core::OdometryParameters::gyro_scale, kKnownErrors.gyro_scale);
     add(5, &core::OdometryParameters::delay_s, 0.04);
   }
-  // A mean of twenty squares of what is normal lies between these but once in thousands.
+  // Bounds of a mean of twenty squared normal variables, one in thousands.
   for (const double square : squares) {
     EXPECT_GT(square, 0.05);
     EXPECT_LT(square, 2.4);

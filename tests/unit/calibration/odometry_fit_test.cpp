@@ -5,12 +5,13 @@
 
 #include <vector>
 
+#include "calibration/drive_reckoning.hpp"
 #include "known_drive.hpp"
 
 namespace cornerd::calibration {
 namespace {
 
-TEST(OdometryFit, ExactDrive_IsGivenBack) {
+TEST(OdometryFit, NoiseFreeDrive_GivesItsParameters) {
   const core::DriveGeometry geometry;
   const KnownDrive known = known_drive(geometry, 1);
   const auto fit = fit_odometry(known.steps, known.places, geometry);
@@ -24,7 +25,7 @@ TEST(OdometryFit, ExactDrive_IsGivenBack) {
   EXPECT_GT(reckon(known.steps, known.places, geometry, core::OdometryParameters{}).end_m, 0.3);
 }
 
-TEST(OdometryFit, WithoutAGyro_TellsTheWheels) {
+TEST(OdometryFit, WithoutGyro_GivesWheelParameters) {
   const core::DriveGeometry geometry;
   const KnownDrive known = known_drive(geometry, 1, /*with_gyro=*/false);
   const auto fit = fit_odometry(known.steps, known.places, geometry);
@@ -33,7 +34,7 @@ TEST(OdometryFit, WithoutAGyro_TellsTheWheels) {
   EXPECT_NEAR(fit->learned.track_scale, kKnownErrors.track_scale, 5e-4);
 }
 
-TEST(OdometryFit, SlipsNowAndThen_AreOutvoted) {
+TEST(OdometryFit, OccasionalSlips_AreDownweighted) {
   const core::DriveGeometry geometry;
   KnownDrive known = known_drive(geometry, 1);
   for (std::size_t i = 0; i < known.steps.size(); i += 400) known.steps[i].left_m += 0.03;
@@ -43,7 +44,7 @@ TEST(OdometryFit, SlipsNowAndThen_AreOutvoted) {
   EXPECT_NEAR(fit->learned.gyro_scale, kKnownErrors.gyro_scale, 1e-3);
 }
 
-TEST(OdometryFit, TooLittle_IsNoFit) {
+TEST(OdometryFit, TooLittleMotion_GivesNullopt) {
   const core::DriveGeometry geometry;
   const KnownDrive straight = known_drive(geometry, 0);
   EXPECT_FALSE(fit_odometry(straight.steps, straight.places, geometry)) << "no turn, no track";
@@ -54,7 +55,7 @@ TEST(OdometryFit, TooLittle_IsNoFit) {
       fit_odometry(std::span(known.steps).first(200), std::span(known.places).first(20), geometry));
 }
 
-TEST(OdometryFit, Holes_AreLeftOut) {
+TEST(OdometryFit, Gaps_AreLeftOut) {
   const core::DriveGeometry geometry;
   KnownDrive known = known_drive(geometry, 1);
   for (std::size_t i = 500; i < 510; ++i) {
@@ -66,8 +67,8 @@ TEST(OdometryFit, Holes_AreLeftOut) {
   EXPECT_NEAR(fit->learned.left_scale, kKnownErrors.left_scale, 2e-4);
 }
 
-TEST(Reckon, DeadBand_IsForWholeSteps) {
-  // The robot is looked at in the middle of a step: half of it must not stay under the dead band.
+TEST(Reckon, DeadBand_AppliesToWholeIncrements) {
+  // A known pose lies in the middle of an increment; half of it must not stay under the dead band.
   const core::DriveGeometry geometry;
   core::OdometryIncrement step;
   step.to_ns = 100'000'000;
@@ -80,7 +81,7 @@ TEST(Reckon, DeadBand_IsForWholeSteps) {
   EXPECT_NEAR(error.end_m, 0, 1e-9);
 }
 
-TEST(Reckon, NothingKnown_IsNoError) {
+TEST(Reckon, NoKnownPoses_GiveNoError) {
   EXPECT_EQ(reckon({}, {}, {}, core::OdometryParameters{}).places, 0U);
 }
 

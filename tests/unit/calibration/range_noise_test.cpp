@@ -12,7 +12,7 @@
 namespace cornerd::calibration {
 namespace {
 
-TEST(RangeNoise, FloorAndShare_AreFoundAgain) {
+TEST(RangeNoise, KnownFloorAndShare_AreFound) {
   for (const auto& [floor_m, share] : {std::pair{0.004, 0.005}, {0.006, 0.0025}, {0.008, 0.01}}) {
     StaticRoom room;
     room.scans = 100;
@@ -25,7 +25,7 @@ TEST(RangeNoise, FloorAndShare_AreFoundAgain) {
   }
 }
 
-TEST(RangeNoise, BearingNoise_IsToldFromThatOfTheRange) {
+TEST(RangeNoise, BearingNoise_IsSeparatedFromRangeNoise) {
   StaticRoom room;
   room.scans = 100;
   room.bearing_rad = core::radians(0.2);
@@ -38,7 +38,7 @@ TEST(RangeNoise, BearingNoise_IsToldFromThatOfTheRange) {
   EXPECT_NEAR(noise->plain.share, 0.002, 0.0005);
 }
 
-TEST(RangeNoise, NoiseOfNoSimpleShape_IsInTheTable) {
+TEST(RangeNoise, NoiseOfOtherShape_IsInTable) {
   StaticRoom room;
   room.scans = 100;
   const auto sigma_m = [](double range_m) { return range_m < 3 ? 0.004 : 0.0015; };
@@ -53,7 +53,7 @@ TEST(RangeNoise, NoiseOfNoSimpleShape_IsInTheTable) {
   }
 }
 
-TEST(RangeNoise, RangesWithoutMeasurement_AreLeftOutAndNeverZero) {
+TEST(RangeNoise, RangesWithoutBins_AreLeftOut) {
   // The room has walls at right angles 0.4, 2, 5.6 and 7 m away, and none in between.
   StaticRoom room;
   const auto noise = fit_range_noise(room.record().spreads());  // no noise at all
@@ -70,7 +70,7 @@ TEST(RangeNoise, RangesWithoutMeasurement_AreLeftOutAndNeverZero) {
   }
 }
 
-TEST(RangeNoise, FarWallsAlone_LeaveNoCheaperNearOnes) {
+TEST(RangeNoise, FarWallsOnly_KeepTheirSigmaNearby) {
   std::vector<BinSpread> bins;
   for (int i = 0; i < 40; ++i) bins.push_back({0, 3.0 + 0.05 * i, 0.01, 0, 50, 0, 0});
   const auto noise = fit_range_noise(bins);
@@ -81,7 +81,7 @@ TEST(RangeNoise, FarWallsAlone_LeaveNoCheaperNearOnes) {
   EXPECT_EQ(noise->plain.bearing_rad, core::SensorNoise{}.bearing_rad);
 }
 
-TEST(RangeNoise, OfNothing_IsNone) {
+TEST(RangeNoise, NoBins_GiveNullopt) {
   EXPECT_FALSE(fit_range_noise({}).has_value());
   const BinSpread one{0, 1, 0.002, 0, 20, 0, 0};
   EXPECT_FALSE(fit_range_noise({&one, 1}).has_value());

@@ -22,7 +22,7 @@ BearingBins StaticRoom::record(unsigned seed) const {
   std::uniform_real_distribution<double> uniform;
   BearingBins bins;
   for (int i = 0; i < scans * samples_per_scan; ++i) {
-    // Not a whole number of samples in a turn, as on real devices.
+    // Not a whole number of samples in a scan, as on real devices.
     const double claimed_rad = core::kTwoPi * i / (samples_per_scan + 0.37);
     const double range_m = true_range_m(claimed_rad + bearing_rad * normal(engine));
     const double noise_m = sigma_m(range_m) * normal(engine);

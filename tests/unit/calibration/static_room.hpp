@@ -8,7 +8,7 @@
 
 namespace cornerd::calibration {
 
-/// A lidar that stands still in a rectangle of 9 x 6 m, 0.4 m from one wall and 2 m from another.
+/// A stationary lidar in a rectangle of 9 x 6 m, 0.4 m from one wall and 2 m from another.
 struct StaticRoom {
   int scans = 60;
   int samples_per_scan = 300;

@@ -19,14 +19,14 @@ WallPiece piece(double from_m, double to_m, double constant_m) {
   return piece;
 }
 
-TEST(WallModel, Empty_ErrsByNothing) {
+TEST(WallModel, Empty_HasZeroError) {
   const WallModel model;
   EXPECT_EQ(model.error_m(1, 0.5), 0);
   EXPECT_EQ(model.sigma_m(1), 0);
   EXPECT_FALSE(model.covers(0.1));
 }
 
-TEST(WallModel, Coefficients_AreOfPowersOfRayAndDistance) {
+TEST(WallModel, Coefficients_MultiplyPowersOfRayAndDistance) {
   WallPiece only = piece(0, 2, 0.001);
   only.coefficients[0][1] = 0.002;
   only.coefficients[1][0] = 0.003;
@@ -40,7 +40,7 @@ TEST(WallModel, Coefficients_AreOfPowersOfRayAndDistance) {
   EXPECT_NEAR(WallModel({only}).error_m(distance, ray), expected, 1e-15);
 }
 
-TEST(WallModel, Distance_ChoosesThePiece) {
+TEST(WallModel, Distance_SelectsPiece) {
   const WallModel model({piece(0.15, 0.6, 0.01), piece(0.6, 1, 0.02)});
   EXPECT_EQ(model.error_m(0.6, 0), 0.01);
   EXPECT_EQ(model.error_m(0.7, 0), 0.02);
@@ -48,14 +48,14 @@ TEST(WallModel, Distance_ChoosesThePiece) {
   EXPECT_EQ(model.sigma_m(0.9), 0.002);
 }
 
-TEST(WallModel, BetweenPieces_TakesTheNearerOne) {
+TEST(WallModel, BetweenPieces_UsesNearerPiece) {
   const WallModel model({piece(0.2, 0.5, 0.01), piece(0.9, 1, 0.02)});
   EXPECT_EQ(model.error_m(0.6, 0), 0.01);
   EXPECT_EQ(model.error_m(0.8, 0), 0.02);
   EXPECT_EQ(model.error_m(0.1, 0), 0.01);
 }
 
-TEST(WallModel, BeyondWhatWasMeasured_HoldsTheNearest) {
+TEST(WallModel, OutsideMeasuredRange_IsClamped) {
   WallPiece only = piece(0.5, 1, 0);
   only.coefficients[1][1] = 1;
   const WallModel model({only});
@@ -67,7 +67,7 @@ TEST(WallModel, BeyondWhatWasMeasured_HoldsTheNearest) {
   EXPECT_FALSE(model.covers(1.01));
 }
 
-/// The paper's measurement: walls at 0.15 to 2.25 m every 5 cm, 5 turns of each.
+/// The paper's measurement: walls at 0.15 to 2.25 m every 5 cm, 5 scans of each.
 std::vector<WallReturn> measure(auto error_m, double sigma_m, double step_m = 0.05) {
   std::mt19937 engine(3);
   std::normal_distribution<double> normal;
@@ -88,7 +88,7 @@ WallModel model_of(const std::vector<WallPieceFit>& fits) {
   return WallModel(pieces);
 }
 
-TEST(WallFit, PolynomialsOfThePapersOrders_AreFoundAgain) {
+TEST(FitWallModel, PolynomialsOfPapersOrders_AreFound) {
   const auto error_m = [](double d, double ray) {
     const double of_any = 0.002 - 0.003 * ray;
     if (d <= 0.6)
@@ -115,7 +115,7 @@ TEST(WallFit, PolynomialsOfThePapersOrders_AreFoundAgain) {
   EXPECT_EQ(fits[2].distance_order, 1u);
 }
 
-TEST(WallFit, Outliers_AreLeftOut) {
+TEST(FitWallModel, Outliers_AreLeftOut) {
   auto returns = measure([](double, double) { return 0.003; }, 0.001);
   for (std::size_t i = 0; i < returns.size(); i += 20) returns[i].error_m += 0.05;
   for (const WallPieceFit& fit : fit_wall_model(returns)) {
@@ -125,7 +125,7 @@ TEST(WallFit, Outliers_AreLeftOut) {
   }
 }
 
-TEST(WallFit, FewDistances_LowerTheOrderNotTheSense) {
+TEST(FitWallModel, FewDistances_LowerTheOrder) {
   // Walls at 0.15, 0.85 and 1.55, 2.25 m.
   const auto error_m = [](double d, double ray) { return 0.002 * ray + 0.001 * d; };
   const auto fits = fit_wall_model(measure(error_m, 0.0005, 0.7));
@@ -138,13 +138,13 @@ TEST(WallFit, FewDistances_LowerTheOrderNotTheSense) {
   EXPECT_NEAR(model_of(fits).error_m(2.0, 1), 0.004, 0.0002);
 }
 
-TEST(WallFit, WallAtABorderAlone_IsOnePiece) {
+TEST(FitWallModel, WallAtBorder_GivesOnePiece) {
   std::vector<WallReturn> border;
   for (int i = 0; i < 500; ++i) border.push_back({0.6, -1 + 0.004 * i, 0.001});
   EXPECT_EQ(fit_wall_model(border).size(), 1u);
 }
 
-TEST(WallFit, RangesWithoutMeasurement_HaveNoPiece) {
+TEST(FitWallModel, DistancesWithoutReturns_HaveNoPiece) {
   EXPECT_TRUE(fit_wall_model({}).empty());
   std::vector<WallReturn> near;
   for (const WallReturn& each : measure([](double, double) { return 0.0; }, 0.001)) {

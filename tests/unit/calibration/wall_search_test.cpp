@@ -19,7 +19,7 @@ std::vector<KnownWall> walls_of(const BearingBins& bins) {
   return walls;
 }
 
-TEST(FoundWalls, RoomWithFourWalls_GivesTheirDistancesAndNothingElse) {
+TEST(FindWalls, RoomWithFourWalls_GivesTheirDistances) {
   StaticRoom room;
   room.sigma_m = [](double) { return 0.003; };
   const std::vector<KnownWall> walls = walls_of(room.record());
@@ -33,8 +33,8 @@ TEST(FoundWalls, RoomWithFourWalls_GivesTheirDistancesAndNothingElse) {
   }
 }
 
-TEST(FoundWalls, ErrorsAlongTheWall_AreThoseOfTheLidar) {
-  // Ranges that are long to both sides of the normal, as the paper's polynomials have them.
+TEST(FindWalls, ErrorsDependingOnRay_AreKept) {
+  // Ranges are too long on both sides of the normal, as in the paper's polynomials.
   StaticRoom room;
   room.sigma_m = [](double) { return 0.001; };
   BearingBins bent;
@@ -63,9 +63,9 @@ TEST(FoundWalls, ErrorsAlongTheWall_AreThoseOfTheLidar) {
   EXPECT_GT(aside_m / aside_count - near_m / near_count, 0.001);
 }
 
-TEST(FoundWalls, OfNothing_AreNone) { EXPECT_TRUE(find_walls({}, {}).empty()); }
+TEST(FindWalls, NoBins_GiveNoWalls) { EXPECT_TRUE(find_walls({}, {}).empty()); }
 
-TEST(FoundWalls, RoundRoom_HasNone) {
+TEST(FindWalls, RoundRoom_GivesNoWalls) {
   BearingBins bins;
   for (int i = 0; i < 30 * 300; ++i) {
     bins.add(core::kTwoPi * i / 300.37, 2 + 0.001 * std::sin(12.9898 * i));
@@ -73,7 +73,7 @@ TEST(FoundWalls, RoundRoom_HasNone) {
   EXPECT_TRUE(walls_of(bins).empty());
 }
 
-// The walls of the room stand 0.4, 2, 5.6 and 7 m away.
+// The walls of the room are 0.4, 2, 5.6 and 7 m away.
 StaticRoom noisy_room(int scans) {
   StaticRoom room;
   room.scans = scans;
@@ -81,7 +81,7 @@ StaticRoom noisy_room(int scans) {
   return room;
 }
 
-TEST(KnownWall, EveryWallOfARoom_IsFoundByItsDistance) {
+TEST(FindKnownWall, EachWallOfRoom_IsFoundByItsDistance) {
   const std::vector<Return> returns = noisy_room(5).record().all();
   const std::pair<double, double> walls[] = {
       {0.4, -core::kPi / 2}, {2, core::kPi}, {5.6, core::kPi / 2}, {7, 0}};
@@ -94,7 +94,7 @@ TEST(KnownWall, EveryWallOfARoom_IsFoundByItsDistance) {
   }
 }
 
-TEST(KnownWall, Bias_StaysInTheErrors) {
+TEST(FindKnownWall, RangeBias_StaysInErrors) {
   const StaticRoom room = noisy_room(10);
   BearingBins biased;
   for (const Return& each : room.record().all()) biased.add(each.bearing_rad, each.range_m + 0.012);
@@ -107,7 +107,7 @@ TEST(KnownWall, Bias_StaysInTheErrors) {
   EXPECT_NEAR(sum_m / static_cast<double>(wall->returns.size()), 0.012, 0.001);
 }
 
-TEST(KnownWall, DistanceWithoutWall_IsNone) {
+TEST(FindKnownWall, DistanceWithoutWall_GivesNullopt) {
   const std::vector<Return> returns = noisy_room(5).record().all();
   EXPECT_FALSE(find_known_wall(returns, 11).has_value());
   EXPECT_FALSE(find_known_wall({}, 1).has_value());

@@ -15,14 +15,14 @@ namespace {
 using core::OdometryIncrement;
 
 /// A known drive, each step of which is told wrong.
-WiringFaults faults_of(const std::function<void(OdometryIncrement&)>& wrong, double scans = 1,
+WiringFaults faults_of(const std::function<void(OdometryIncrement&)>& wrong, double rotations = 1,
                        const core::DriveGeometry& geometry = {}) {
-  KnownDrive known = known_drive({}, scans);
+  KnownDrive known = known_drive({}, rotations);
   for (OdometryIncrement& step : known.steps) wrong(step);
   return find_wiring_faults(cut_windows(known.steps, known.places), geometry);
 }
 
-TEST(WiringFaults, ARobotThatIsAFewPercentOff_HasNone) {
+TEST(WiringFaults, ScaleErrorsOfFewPercent_AreNone) {
   EXPECT_FALSE(faults_of([](OdometryIncrement&) {}).any());
   EXPECT_FALSE(faults_of([](OdometryIncrement& step) { step.has_gyro = false; }).any());
   EXPECT_FALSE(faults_of([](OdometryIncrement& step) { step.left_m *= 1.2; }).any());
@@ -39,7 +39,7 @@ TEST(WiringFaults, SlipsAndJitter_AreNone) {
   EXPECT_FALSE(faults.any());
 }
 
-TEST(WiringFaults, ADriveThatDoesNotTell_HasNone) {
+TEST(WiringFaults, TooLittleMotion_HasNone) {
   EXPECT_FALSE(
       faults_of([](OdometryIncrement& step) { std::swap(step.left_m, step.right_m); }, 0).any())
       << "straight on";
@@ -50,7 +50,7 @@ TEST(WiringFaults, ADriveThatDoesNotTell_HasNone) {
   EXPECT_FALSE(find_wiring_faults(few, {}).any());
 }
 
-TEST(WiringFaults, WheelsExchangedOrReversed_AreNamed) {
+TEST(WiringFaults, WheelsSwappedOrReversed_AreFound) {
   const WiringFaults exchanged =
       faults_of([](OdometryIncrement& step) { std::swap(step.left_m, step.right_m); });
   EXPECT_TRUE(exchanged.are_swapped);
@@ -72,7 +72,7 @@ TEST(WiringFaults, WheelsExchangedOrReversed_AreNamed) {
   EXPECT_FALSE(all.left_is_reversed || all.left_factor);
 }
 
-TEST(WiringFaults, AWrongCount_IsNamedWithItsFactor) {
+TEST(WiringFaults, WrongCountsPerTurn_GivesFactor) {
   for (const double factor : {0.25, 0.5, 2.0, 4.0}) {
     const WiringFaults faults = faults_of([&](OdometryIncrement& step) {
       step.left_m /= factor;
@@ -89,7 +89,7 @@ TEST(WiringFaults, AWrongCount_IsNamedWithItsFactor) {
   EXPECT_NEAR(*one.right_factor, 0.25, 0.02);
 }
 
-TEST(WiringFaults, AWrongTrack_IsNamedWithTheRightOne) {
+TEST(WiringFaults, WrongTrack_GivesTrueTrack) {
   core::DriveGeometry wide;
   wide.track_m *= 2.5;
   const WiringFaults faults = faults_of([](OdometryIncrement&) {}, 1, wide);
@@ -98,13 +98,13 @@ TEST(WiringFaults, AWrongTrack_IsNamedWithTheRightOne) {
   EXPECT_FALSE(faults.left_factor);
 }
 
-TEST(WiringFaults, AStandingWheel_IsNamedAndNothingElseOfTheWheels) {
+TEST(WiringFaults, StuckCounter_IsTheOnlyWheelFault) {
   const WiringFaults faults = faults_of([](OdometryIncrement& step) { step.left_m = 0; });
   EXPECT_TRUE(faults.left_is_stuck);
   EXPECT_FALSE(faults.right_is_stuck || faults.left_is_reversed || faults.left_factor);
 }
 
-TEST(WiringFaults, AMountOffToOneSide_IsNoFaultOfTheWheels) {
+TEST(WiringFaults, LidarMountOffToOneSide_IsNoWheelFault) {
   KnownDrive known = known_drive({}, 1);
   for (KnownPose& place : known.places) {
     place.T_map_base = place.T_map_base * core::Pose2{0, 0.2, 0};
@@ -112,7 +112,7 @@ TEST(WiringFaults, AMountOffToOneSide_IsNoFaultOfTheWheels) {
   EXPECT_FALSE(find_wiring_faults(cut_windows(known.steps, known.places), {}).any());
 }
 
-TEST(WiringFaults, AWrongGyro_IsNamed) {
+TEST(WiringFaults, WrongGyro_IsFound) {
   const WiringFaults reversed = faults_of([](OdometryIncrement& step) { step.gyro_rad *= -1; });
   EXPECT_TRUE(reversed.gyro_is_reversed);
   EXPECT_FALSE(reversed.gyro_factor || reversed.gyro_bias_rad_s || reversed.left_factor);

@@ -126,7 +126,7 @@ TEST(Pipeline, OdometryAndPartialScans_AllocatesNothing) {
     for (const Sample& sample : scan.samples()) {
       const ScanResult* result = pipeline.add(sample);
       predicted += result != nullptr && result->pose.state == PoseState::kPredicted;
-      parts += pipeline.part() != nullptr;
+      parts += pipeline.partial_pose() != nullptr;
     }
   }
   EXPECT_EQ(allocations - before, 0);

@@ -26,7 +26,7 @@ class CircleDrive {
         speed_m_s_(speed_m_s),
         rate_rad_s_(rate_rad_s) {}
 
-  const PoseEstimate& turn(bool covered = false, const std::optional<Pose2>& elsewhere = {}) {
+  const PoseEstimate& drive_scan(bool covered = false, const std::optional<Pose2>& elsewhere = {}) {
     testing::ScanOptions options;
     options.scan_s = kTurnOfDrive_s;
     options.start_ns = robot_.now_ns();
@@ -81,7 +81,7 @@ class CircleDrive {
 
 TEST(LocalizerWithOdometry, PublishPredictions_PosesBetweenScans) {
   CircleDrive drive(0.4, 0.8, 10, true);
-  for (int k = 0; k < 40; ++k) drive.turn();
+  for (int k = 0; k < 40; ++k) drive.drive_scan();
   EXPECT_TRUE(drive.between().size() > 39 * 13);
   std::uint64_t seq = 0;
   for (const CircleDrive::Between& between : drive.between()) {
@@ -96,22 +96,22 @@ TEST(LocalizerWithOdometry, PublishPredictions_PosesBetweenScans) {
 
 TEST(LocalizerWithOdometry, PublishPredictionsOff_NoPosesBetweenScans) {
   CircleDrive drive(0.4, 0.8);
-  for (int k = 0; k < 3; ++k) drive.turn();
+  for (int k = 0; k < 3; ++k) drive.drive_scan();
   EXPECT_TRUE(drive.between().empty());
 }
 
 TEST(LocalizerWithOdometry, KidnappedRobot_IsPredictedFromItsNewPose) {
   CircleDrive drive(0.4, 0.8, 10, true);
-  for (int k = 0; k < 10; ++k) drive.turn();
+  for (int k = 0; k < 10; ++k) drive.drive_scan();
   const Pose2 elsewhere{0.5, 2.4, -2};
-  const PoseEstimate& pose = drive.turn(false, elsewhere);
+  const PoseEstimate& pose = drive.drive_scan(false, elsewhere);
   ASSERT_EQ(pose.state, PoseState::kFix);
   EXPECT_LT((pose.T_map_base.translation() - elsewhere.translation()).norm(), 0.02);
   const std::size_t before = drive.between().size();
   const Pose2 one_scan_later = elsewhere * arc(0.4 * kTurnOfDrive_s, 0.8 * kTurnOfDrive_s);
-  drive.turn(false, one_scan_later);
+  drive.drive_scan(false, one_scan_later);
   EXPECT_EQ(drive.between().size(), before) << "until the lidar and the wheels agree again";
-  drive.turn(false, one_scan_later);
+  drive.drive_scan(false, one_scan_later);
   ASSERT_GT(drive.between().size(), before);
   for (std::size_t i = before; i < drive.between().size(); ++i) {
     const Pose2& predicted = drive.between()[i].pose.T_map_base;
@@ -121,9 +121,9 @@ TEST(LocalizerWithOdometry, KidnappedRobot_IsPredictedFromItsNewPose) {
 
 TEST(LocalizerWithOdometry, FastSpin_IsFixFromSecondScan) {
   CircleDrive drive(0.4, 2.5);
-  drive.turn();
+  drive.drive_scan();
   for (int k = 0; k < 40; ++k) {
-    const PoseEstimate& pose = drive.turn();
+    const PoseEstimate& pose = drive.drive_scan();
     ASSERT_EQ(pose.state, PoseState::kFix) << k;
     EXPECT_LT(drive.error_m(pose), 0.01) << k;
   }
@@ -131,10 +131,10 @@ TEST(LocalizerWithOdometry, FastSpin_IsFixFromSecondScan) {
 
 TEST(LocalizerWithOdometry, CoveredLidar_IsPredictedWithGrowingCovariance) {
   CircleDrive drive(0.3, 0.8);
-  for (int k = 0; k < 100; ++k) drive.turn();
+  for (int k = 0; k < 100; ++k) drive.drive_scan();
   double last_m2 = 0;
   for (int k = 1; k <= 35; ++k) {
-    const PoseEstimate& pose = drive.turn(/*covered=*/true);
+    const PoseEstimate& pose = drive.drive_scan(/*covered=*/true);
     ASSERT_EQ(pose.state, PoseState::kPredicted) << k;
     EXPECT_NEAR(pose.age_s, k * kTurnOfDrive_s, 0.02);
     EXPECT_LT(drive.error_m(pose), 0.03);
@@ -143,14 +143,14 @@ TEST(LocalizerWithOdometry, CoveredLidar_IsPredictedWithGrowingCovariance) {
     EXPECT_TRUE(pose.room);
     EXPECT_TRUE(pose.alternatives.empty());
   }
-  EXPECT_EQ(drive.turn().state, PoseState::kFix);
+  EXPECT_EQ(drive.drive_scan().state, PoseState::kFix);
 }
 
 TEST(LocalizerWithOdometry, AfterMaxExtrapolation_IsLost) {
   CircleDrive drive(0.3, 0.8, /*max_extrapolation_s=*/1);
-  for (int k = 0; k < 20; ++k) drive.turn();
+  for (int k = 0; k < 20; ++k) drive.drive_scan();
   for (int k = 1; k <= 12; ++k) {
-    EXPECT_EQ(drive.turn(/*covered=*/true).state,
+    EXPECT_EQ(drive.drive_scan(/*covered=*/true).state,
               k * kTurnOfDrive_s <= 1 ? PoseState::kPredicted : PoseState::kLost)
         << k;
   }
@@ -158,10 +158,10 @@ TEST(LocalizerWithOdometry, AfterMaxExtrapolation_IsLost) {
 
 TEST(LocalizerWithOdometry, KidnappedRobot_NotPredictedAgainstScan) {
   CircleDrive drive(0, 0.001);
-  for (int k = 0; k < 20; ++k) drive.turn();
+  for (int k = 0; k < 20; ++k) drive.drive_scan();
   const Pose2 elsewhere{2.2, 0.5, -2};
   for (int k = 0; k < 2; ++k) {
-    const PoseEstimate& pose = drive.turn(false, elsewhere);
+    const PoseEstimate& pose = drive.drive_scan(false, elsewhere);
     EXPECT_EQ(pose.state, PoseState::kFix);
     EXPECT_NEAR(pose.T_map_base.x_m, 2.2, 0.01);
   }
@@ -169,7 +169,7 @@ TEST(LocalizerWithOdometry, KidnappedRobot_NotPredictedAgainstScan) {
 
 TEST(LocalizerWithOdometry, Summary_HasEstimatedParameters) {
   CircleDrive drive(0.3, 0.8);
-  for (int k = 0; k < 200; ++k) drive.turn();
+  for (int k = 0; k < 200; ++k) drive.drive_scan();
   const OdometrySummary& odometry = drive.odometry();
   EXPECT_TRUE(odometry.enabled);
   EXPECT_TRUE(odometry.healthy);

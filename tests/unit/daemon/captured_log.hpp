@@ -11,7 +11,7 @@
 
 namespace cornerd::daemon {
 
-/// What is logged while it lives, a line each: "info: text".
+/// Captures the log during its lifetime, one line per message: "info: text".
 class CapturedLog {
  public:
   CapturedLog() : before_(spdlog::default_logger()) {

@@ -11,7 +11,7 @@
 namespace cornerd::daemon {
 namespace {
 
-TEST(Client, ManyRequestsAtOnce_AreHandledAsTheirAnswersFindRoom) {
+TEST(Client, ManyRequestsAtOnce_HandledAsAnswersFindRoom) {
   int ends[2];
   ASSERT_EQ(::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends), 0);
   Client client{FileDescriptor(ends[0]), {}};

@@ -12,7 +12,7 @@ namespace {
 
 FileDescriptor readable_fd() { return FileDescriptor(::eventfd(1, EFD_NONBLOCK | EFD_CLOEXEC)); }
 
-TEST(EventLoop, ReadyDescriptor_CallsItsHandler) {
+TEST(EventLoop, ReadyDescriptor_HandlerCalled) {
   EventLoop loop;
   const FileDescriptor fd = readable_fd();
   int calls = 0;
@@ -27,20 +27,20 @@ TEST(EventLoop, ReadyDescriptor_CallsItsHandler) {
   EXPECT_EQ(calls, 1);
 }
 
-TEST(EventLoop, HandlerThatRemovesItself_IsNotCalledAgain) {
+TEST(EventLoop, HandlerRemovesItself_NotCalledAgain) {
   EventLoop loop;
   const FileDescriptor fd = readable_fd();
   int calls = 0;
   loop.add(fd.get(), EPOLLIN, [&, token = std::string(100, 'x')](std::uint32_t) {
     loop.remove(fd.get());
-    calls += token.size() == 100 ? 1 : 1000;  // its own captures are still there
+    calls += token.size() == 100 ? 1 : 1000;  // the captures must still exist
   });
   loop.run_once(0);
   loop.run_once(0);
   EXPECT_EQ(calls, 1);
 }
 
-TEST(EventLoop, HandlerRemovedInTheSameRound_IsNotCalled) {
+TEST(EventLoop, HandlerRemovedInSameRound_NotCalled) {
   EventLoop loop;
   const FileDescriptor first = readable_fd();
   const FileDescriptor second = readable_fd();
@@ -56,12 +56,12 @@ TEST(EventLoop, HandlerRemovedInTheSameRound_IsNotCalled) {
   EXPECT_EQ(calls, 1);
 }
 
-TEST(EventLoop, DescriptorOfTheSameNumberInTheSameRound_GetsNoEventOfTheOneBefore) {
+TEST(EventLoop, DescriptorNumberReusedInSameRound_NoStaleEvent) {
   EventLoop loop;
   const FileDescriptor first = readable_fd();
   const FileDescriptor second = readable_fd();
   int calls = 0;
-  // Whichever comes first has the other one's number given to a descriptor that is not readable.
+  // The first handler gives the other's number to a descriptor that is not readable.
   const auto replace = [&](int other) {
     ++calls;
     loop.remove(other);
@@ -75,7 +75,7 @@ TEST(EventLoop, DescriptorOfTheSameNumberInTheSameRound_GetsNoEventOfTheOneBefor
   EXPECT_EQ(calls, 1);
 }
 
-TEST(EventLoop, Stop_EndsRun) {
+TEST(EventLoop, Stop_Called_EndsRun) {
   EventLoop loop;
   const FileDescriptor fd = readable_fd();
   loop.add(fd.get(), EPOLLIN, [&](std::uint32_t) { loop.stop(); });
@@ -83,7 +83,7 @@ TEST(EventLoop, Stop_EndsRun) {
   SUCCEED() << "run() returned";
 }
 
-TEST(EventLoop, DescriptorThatIsNone_IsRefused) {
+TEST(EventLoop, InvalidDescriptor_Throws) {
   EventLoop loop;
   EXPECT_THROW(loop.add(-1, EPOLLIN, [](std::uint32_t) {}), std::system_error);
 }

@@ -6,7 +6,7 @@
 namespace cornerd::daemon {
 namespace {
 
-TEST(LatencyWindow, Percentiles_AreThoseOfTheNearestRank) {
+TEST(LatencyWindow, HundredValues_NearestRankPercentiles) {
   LatencyWindow window;
   for (int i = 100; i >= 1; --i) window.add(i);
   EXPECT_EQ(window.percentile(0.50), 50);
@@ -16,7 +16,7 @@ TEST(LatencyWindow, Percentiles_AreThoseOfTheNearestRank) {
   EXPECT_EQ(window.percentile(0), 1);
 }
 
-TEST(LatencyWindow, OneValue_IsEveryPercentile) {
+TEST(LatencyWindow, OneValue_EveryPercentile) {
   LatencyWindow window;
   EXPECT_TRUE(window.empty());
   EXPECT_EQ(window.percentile(0.5), 0);
@@ -26,7 +26,7 @@ TEST(LatencyWindow, OneValue_IsEveryPercentile) {
   EXPECT_EQ(window.percentile(0.99), 3);
 }
 
-TEST(LatencyWindow, OldValues_AreForgotten) {
+TEST(LatencyWindow, FullWindow_OldValuesDropped) {
   LatencyWindow window;
   for (std::size_t i = 0; i < LatencyWindow::kSize; ++i) window.add(1000);
   for (std::size_t i = 0; i < LatencyWindow::kSize; ++i) window.add(1);

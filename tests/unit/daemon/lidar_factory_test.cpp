@@ -9,7 +9,7 @@
 namespace cornerd::daemon {
 namespace {
 
-TEST(LidarFactory, EverySpeedThatTheSettingsTake_CanBeSet) {
+TEST(LidarFactory, EveryConfigurableBaud_Supported) {
   for (const std::uint32_t baud : settings::kBaudRates) {
     EXPECT_TRUE(drivers::termios_speed(baud)) << baud;
   }

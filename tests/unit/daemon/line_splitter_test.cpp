@@ -25,32 +25,32 @@ class LineSplitterTest : public ::testing::Test {
   std::vector<std::string> lines_;
 };
 
-TEST_F(LineSplitterTest, LinesInAnyPortions_AreTheSame) {
+TEST_F(LineSplitterTest, AnyPortions_SameLines) {
   const std::string text = "one\ntwo\r\n\n\nthree\n";
   EXPECT_TRUE(feed(text));
   for (const char c : text) EXPECT_TRUE(feed({&c, 1}));
   EXPECT_THAT(lines_, ElementsAre("one", "two", "three", "one", "two", "three"));
 }
 
-TEST_F(LineSplitterTest, RestWithoutNewline_IsKeptForTheEnd) {
+TEST_F(LineSplitterTest, RestWithoutNewline_KeptForTheEnd) {
   EXPECT_TRUE(feed("a\nrest"));
   EXPECT_THAT(lines_, ElementsAre("a"));
   EXPECT_EQ(splitter_.take_remainder(), "rest");
   EXPECT_EQ(splitter_.take_remainder(), "");
 }
 
-TEST_F(LineSplitterTest, LineAtTheLimit_IsTaken) {
+TEST_F(LineSplitterTest, LineAtLimit_Accepted) {
   EXPECT_TRUE(feed("12345678\n"));
   EXPECT_THAT(lines_, ElementsAre("12345678"));
 }
 
-TEST_F(LineSplitterTest, LineBeyondTheLimit_IsRefusedBeforeItEnds) {
+TEST_F(LineSplitterTest, LineBeyondLimit_RefusedBeforeItsEnd) {
   EXPECT_TRUE(feed("1234"));
   EXPECT_FALSE(feed("56789"));
   EXPECT_THAT(lines_, IsEmpty());
 }
 
-TEST_F(LineSplitterTest, LinesThatAreNotTakenYet_StayWhileMoreCome) {
+TEST_F(LineSplitterTest, WaitingLines_KeptWhenMoreArrive) {
   splitter_.feed("one\n\ntwo\nth");
   EXPECT_EQ(splitter_.next(), "one");
   EXPECT_TRUE(splitter_.has_line());
@@ -61,7 +61,7 @@ TEST_F(LineSplitterTest, LinesThatAreNotTakenYet_StayWhileMoreCome) {
   EXPECT_EQ(splitter_.next(), std::nullopt);
 }
 
-TEST_F(LineSplitterTest, LinesBeforeTheOneTooLong_AreHandled) {
+TEST_F(LineSplitterTest, LinesBeforeTooLongLine_Handled) {
   EXPECT_FALSE(feed("ok\n123456789\n"));
   EXPECT_THAT(lines_, ElementsAre("ok"));
 }

@@ -17,7 +17,7 @@ bool is_listed(const std::string& file, const std::string& list) {
   return is_listening(file, lines);
 }
 
-TEST(SomebodyListens, ListOfTheKernel_IsReadByFlagsAndPath) {
+TEST(IsListening, KernelList_MatchedByFlagsAndPath) {
   const std::string row = "0000000000000000: 00000002 00000000 00010000 0001 01 1276 ";
   EXPECT_TRUE(is_listed("/run/a b.sock", row + "/run/a b.sock\n"));
   EXPECT_TRUE(is_listed("/run/a.sock", "junk\n" + row + "/run/b.sock\n" + row + "a.sock\n"));
@@ -28,7 +28,7 @@ TEST(SomebodyListens, ListOfTheKernel_IsReadByFlagsAndPath) {
                          "0000000000000000: 00000003 00000000 00000000 0001 03 77 /run/a.sock\n"));
 }
 
-TEST(SomebodyListens, LiveSocketByAnotherName_IsFound) {
+TEST(IsListening, LiveSocketByAnotherName_Found) {
   const test::TemporaryFolder folder;
   const std::filesystem::path by_link = folder / "link" / "s";
   std::filesystem::create_directory(folder / "real");

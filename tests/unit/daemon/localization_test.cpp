@@ -15,8 +15,8 @@
 namespace cornerd::daemon {
 namespace {
 
-/// Turns of a round room, as fast as the sink takes them; then it waits for its stop as a device
-/// does, or ends as a recording does.
+/// Scans of a round room, as fast as the sink takes them. Then it waits to be stopped, as a device
+/// does, or ends, as a recording does.
 class FakeLidar final : public drivers::LidarDriver {
  public:
   FakeLidar(int scans, bool ends) : scans_(scans), ends_(ends) {}
@@ -55,7 +55,7 @@ std::unique_ptr<core::Pipeline> pipeline_without_map() {
   return std::make_unique<core::Pipeline>(nullptr, core::LocalizerConfig{});
 }
 
-/// The starts of the turns that are reported until `count` are there or nothing comes any more.
+/// Start times of `count` reported scans; fewer if no more arrive.
 std::vector<core::TimeNs> collect(Localization& localization, std::size_t count) {
   std::vector<core::TimeNs> starts;
   pollfd readable{localization.event_fd(), POLLIN, 0};
@@ -70,20 +70,20 @@ std::vector<core::TimeNs> collect(Localization& localization, std::size_t count)
   return starts;
 }
 
-TEST(Localization, EveryTurnOfARecording_IsReportedInOrder) {
-  // As many as there are slots, so that none is lost however late this thread is.
+TEST(Localization, Recording_EveryScanReportedInOrder) {
+  // As many as there are slots, so that none is lost if this thread is slow.
   constexpr std::size_t kScans = 16;
   FakeLidar lidar(kScans, /*ends=*/true);
   Localization localization(lidar, pipeline_without_map(), SourceKind::kRecording);
   localization.start();
   const auto starts = collect(localization, kScans);
-  ASSERT_EQ(starts.size(), kScans) << "the last one too, although no other turn follows it";
+  ASSERT_EQ(starts.size(), kScans) << "including the last scan";
   for (std::size_t i = 0; i < kScans; ++i)
     EXPECT_EQ(starts[i], static_cast<core::TimeNs>(i) * 1000);
   EXPECT_EQ(localization.lost_reports(), 0u);
 }
 
-TEST(Localization, ServerThatIsBusy_LosesNewTurnsAndKnowsIt) {
+TEST(Localization, BusyServer_NewScansLostAndCounted) {
   constexpr int kScans = 100;
   FakeLidar lidar(kScans, /*ends=*/true);
   Localization localization(lidar, pipeline_without_map(), SourceKind::kRecording);
@@ -94,7 +94,7 @@ TEST(Localization, ServerThatIsBusy_LosesNewTurnsAndKnowsIt) {
   EXPECT_EQ(starts.front(), 0);
 }
 
-TEST(Localization, End_StopsADriverThatWaitsForItsDevice) {
+TEST(Localization, Destructor_StopsWaitingDriver) {
   FakeLidar lidar(3, /*ends=*/false);
   {
     Localization localization(lidar, pipeline_without_map(), SourceKind::kDevice);
@@ -104,17 +104,18 @@ TEST(Localization, End_StopsADriverThatWaitsForItsDevice) {
   EXPECT_TRUE(lidar.has_stopped());
 }
 
-TEST(Localization, EndBeforeTheStart_IsQuiet) {
+TEST(Localization, DestructorBeforeStart_DoesNothing) {
   FakeLidar lidar(1, /*ends=*/true);
   const Localization localization(lidar, pipeline_without_map(), SourceKind::kDevice);
   EXPECT_FALSE(lidar.has_stopped());
 }
 
-TEST(Localization, ReplacedPipeline_TakesOverBetweenTwoTurnsAndMissesNone) {
+TEST(Localization, ReplacedPipeline_NoScanMissed) {
   FakeLidar lidar(16, /*ends=*/true);
   Localization localization(lidar, pipeline_without_map(), SourceKind::kRecording);
   EXPECT_EQ(localization.replace_pipeline(pipeline_without_map()), 1u);
-  EXPECT_EQ(localization.replace_pipeline(pipeline_without_map()), 2u) << "one that was never used";
+  EXPECT_EQ(localization.replace_pipeline(pipeline_without_map()), 2u)
+      << "replaces a pipeline that was never used";
   localization.start();
   std::vector<std::uint32_t> generations;
   std::vector<core::TimeNs> starts;
@@ -133,17 +134,17 @@ TEST(Localization, ReplacedPipeline_TakesOverBetweenTwoTurnsAndMissesNone) {
   localization.replace_pipeline(pipeline_without_map());
 }
 
-TEST(Localization, IdleLocalizer_StillProvesThatItLives) {
+TEST(Localization, IdleLocalizer_HasProgressed) {
   FakeLidar lidar(0, /*ends=*/false);
   Localization localization(lidar, pipeline_without_map(), SourceKind::kDevice);
   localization.start();
   for (int round = 0; round < 3; ++round) {
     while (!localization.has_progressed()) std::this_thread::yield();
   }
-  SUCCEED() << "three times round without a sample";
+  SUCCEED() << "three rounds without a sample";
 }
 
-TEST(Localization, ReaderThatIsStuck_IsNoProgress) {
+TEST(Localization, StuckReader_NoProgress) {
   FakeLidar lidar(0, /*ends=*/false);
   lidar.get_stuck();
   Localization localization(lidar, pipeline_without_map(), SourceKind::kDevice);
@@ -152,7 +153,7 @@ TEST(Localization, ReaderThatIsStuck_IsNoProgress) {
   while (std::chrono::steady_clock::now() < until) EXPECT_FALSE(localization.has_progressed());
 }
 
-TEST(Localization, ReaderAtTheEndOfItsRecording_IsNotStuck) {
+TEST(Localization, ReaderAtEndOfRecording_HasProgressed) {
   FakeLidar lidar(0, /*ends=*/true);
   Localization localization(lidar, pipeline_without_map(), SourceKind::kRecording);
   localization.start();
@@ -162,7 +163,7 @@ TEST(Localization, ReaderAtTheEndOfItsRecording_IsNotStuck) {
   }
 }
 
-TEST(Localization, TurnsOfADevice_AreReportedInUnixTime) {
+TEST(Localization, Device_ScansReportedInUnixTime) {
   FakeLidar lidar(3, /*ends=*/false);
   Localization localization(lidar, pipeline_without_map(), SourceKind::kDevice);
   localization.start();

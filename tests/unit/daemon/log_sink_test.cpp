@@ -16,7 +16,7 @@
 namespace cornerd::daemon {
 namespace {
 
-/// Standard error is a socket, as a service's is, while it lives.
+/// Makes standard error a socket, like a service's, during its lifetime.
 class LogSinkTest : public ::testing::Test {
  protected:
   LogSinkTest() : before_(::dup(STDERR_FILENO)) {
@@ -42,7 +42,7 @@ class LogSinkTest : public ::testing::Test {
   FileDescriptor journal_;
 };
 
-TEST_F(LogSinkTest, JournalThatStalls_IsNotWaitedForAndLearnsHowManyItMissed) {
+TEST_F(LogSinkTest, StalledReader_LinesDroppedAndCounted) {
   constexpr int kMessages = 10'000;
   spdlog::logger log("test", std::make_shared<LogSink>());
   log.set_pattern("%v");
@@ -51,8 +51,8 @@ TEST_F(LogSinkTest, JournalThatStalls_IsNotWaitedForAndLearnsHowManyItMissed) {
   const auto lines = std::count(found.begin(), found.end(), '\n');
   EXPECT_LT(lines, kMessages);
   log.info("again");
-  EXPECT_EQ(drain(),
-            std::to_string(kMessages - lines) + " messages found no room in this log\nagain\n");
+  EXPECT_EQ(drain(), std::to_string(kMessages - lines) +
+                         " log messages were dropped: the reader is slow\nagain\n");
 }
 
 }  // namespace

@@ -1,18 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "daemon/message_server.hpp"
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <filesystem>
-#include <fstream>
 #include <string>
-#include <vector>
 
-#include <nlohmann/json.hpp>
-
-#include "test_client.hpp"
-#include "tests/temporary_folder.hpp"
+#include "message_server_fixture.hpp"
 
 namespace cornerd::daemon {
 namespace {
@@ -20,70 +14,7 @@ namespace {
 using message::MessageClass;
 using nlohmann::json;
 
-class MessageServerTest : public ::testing::Test {
- protected:
-  MessageServerTest() {
-    server_.listen(pose_path_, SocketRole::kPose);
-    server_.listen(control_path_, SocketRole::kControl);
-  }
-
-  /// Until nothing is left to do.
-  void serve() {
-    for (int i = 0; i < 20; ++i) loop_.run_once(0);
-  }
-
-  TestClient connect(const std::filesystem::path& path) {
-    TestClient client(path);
-    serve();
-    return client;
-  }
-
-  /// A connection that has read its VERSION.
-  TestClient greeted(const std::filesystem::path& path) {
-    TestClient client = connect(path);
-    EXPECT_EQ(next(client)["class"], "VERSION");
-    return client;
-  }
-
-  static json next(TestClient& client) {
-    const auto line = client.read_line(0);
-    return line ? json::parse(*line) : json("nothing");
-  }
-
-  json ask(TestClient& client, const std::string& request) {
-    EXPECT_TRUE(client.send(request + "\n"));
-    serve();
-    return next(client);
-  }
-
-  static std::string pose(int seq) {
-    return "{\"class\":\"POSE\",\"seq\":" + std::to_string(seq) + "}\n";
-  }
-
-  test::TemporaryFolder folder_;
-  const std::filesystem::path pose_path_ = folder_ / "pose.sock";
-  const std::filesystem::path control_path_ = folder_ / "control.sock";
-  EventLoop loop_;
-  int relocalizations_ = 0;
-  std::vector<core::Pose2> given_;
-  std::vector<message::OdometryReading> readings_;
-  int publisher_ = -1;  ///< the connection whose readings are taken
-  MessageServer server_{
-      loop_,
-      "1.2.3",
-      {[this] { ++relocalizations_; },
-       [this](const message::SetPoseRequest& request) { given_.push_back(request.T_map_base); },
-       [this](const message::OdometryReading& reading, int connection) {
-         readings_.push_back(reading);
-         if (publisher_ < 0) publisher_ = connection;
-         return publisher_ == connection;
-       },
-       [this](int connection) {
-         if (publisher_ == connection) publisher_ = -1;
-       }}};
-};
-
-TEST_F(MessageServerTest, NewClient_GetsVersionThenPoseAndStatusAlone) {
+TEST_F(MessageServerTest, NewClient_VersionThenPoseAndStatusOnly) {
   TestClient client = greeted(pose_path_);
   server_.publish(MessageClass::kScan, "{\"class\":\"SCAN\"}\n");
   server_.publish(MessageClass::kPose, pose(1));
@@ -93,7 +24,7 @@ TEST_F(MessageServerTest, NewClient_GetsVersionThenPoseAndStatusAlone) {
   EXPECT_EQ(next(client), "nothing");
 }
 
-TEST_F(MessageServerTest, Newcomer_GetsTheNewestStatusButNoOldPose) {
+TEST_F(MessageServerTest, NewClient_NewestStatusAndNoOldPose) {
   server_.publish(MessageClass::kStatus, "{\"class\":\"STATUS\",\"n\":1}\n");
   server_.publish(MessageClass::kPose, pose(1));
   TestClient client = greeted(pose_path_);
@@ -101,7 +32,7 @@ TEST_F(MessageServerTest, Newcomer_GetsTheNewestStatusButNoOldPose) {
   EXPECT_EQ(next(client), "nothing");
 }
 
-TEST_F(MessageServerTest, Watch_ChoosesTheClasses) {
+TEST_F(MessageServerTest, Watch_Request_SelectsClasses) {
   TestClient client = greeted(pose_path_);
   EXPECT_EQ(ask(client, R"({"class":"WATCH","classes":["SCAN"],"id":5})"),
             json({{"class", "OK"}, {"request", "WATCH"}, {"id", 5}}));
@@ -112,7 +43,7 @@ TEST_F(MessageServerTest, Watch_ChoosesTheClasses) {
   EXPECT_EQ(next(client)["class"], "SCAN");
 }
 
-TEST_F(MessageServerTest, WatchOfOneClient_IsItsOwn) {
+TEST_F(MessageServerTest, Watch_OneClient_OthersUnaffected) {
   TestClient first = greeted(pose_path_);
   TestClient second = greeted(pose_path_);
   ask(first, R"({"class":"WATCH","classes":[]})");
@@ -121,7 +52,7 @@ TEST_F(MessageServerTest, WatchOfOneClient_IsItsOwn) {
   EXPECT_EQ(next(second)["class"], "POSE");
 }
 
-TEST_F(MessageServerTest, BadLine_GetsAnErrorAndCostsNothingElse) {
+TEST_F(MessageServerTest, MalformedLine_ErrorAndConnectionStays) {
   TestClient client = greeted(pose_path_);
   EXPECT_EQ(ask(client, "what?")["code"], "json");
   const json unknown = ask(client, R"({"class":"FLY","id":"a"})");
@@ -131,10 +62,10 @@ TEST_F(MessageServerTest, BadLine_GetsAnErrorAndCostsNothingElse) {
   EXPECT_EQ(next(client)["class"], "POSE");
 }
 
-TEST_F(MessageServerTest, LineTooLong_ClosesThatClientAlone) {
+TEST_F(MessageServerTest, TooLongLine_OnlyThatClientClosed) {
   TestClient client = greeted(pose_path_);
   TestClient other = greeted(pose_path_);
-  // In pieces that the socket takes without a reader.
+  // In pieces that fit the socket's buffer.
   for (int i = 0; i < 5; ++i) {
     client.send(std::string(16 * 1024, 'x'));
     serve();
@@ -146,7 +77,7 @@ TEST_F(MessageServerTest, LineTooLong_ClosesThatClientAlone) {
   EXPECT_EQ(next(other)["class"], "POSE");
 }
 
-TEST_F(MessageServerTest, Poll_GetsTheNewestPoseAndStatusOnEitherSocket) {
+TEST_F(MessageServerTest, Poll_EitherSocket_NewestPoseAndStatus) {
   for (const auto& path : {pose_path_, control_path_}) {
     server_.publish(MessageClass::kPose, pose(7));
     TestClient client = greeted(path);
@@ -156,7 +87,7 @@ TEST_F(MessageServerTest, Poll_GetsTheNewestPoseAndStatusOnEitherSocket) {
   }
 }
 
-TEST_F(MessageServerTest, Relocalize_IsForTheControlSocket) {
+TEST_F(MessageServerTest, Relocalize_PoseSocket_Refused) {
   TestClient reader = greeted(pose_path_);
   EXPECT_EQ(ask(reader, R"({"class":"RELOCALIZE"})")["code"], "read-only");
   EXPECT_EQ(relocalizations_, 0);
@@ -165,7 +96,7 @@ TEST_F(MessageServerTest, Relocalize_IsForTheControlSocket) {
   EXPECT_EQ(relocalizations_, 1);
 }
 
-TEST_F(MessageServerTest, SetPose_IsForTheControlSocket) {
+TEST_F(MessageServerTest, SetPose_PoseSocket_Refused) {
   TestClient reader = greeted(pose_path_);
   const char* request = R"({"class":"SET_POSE","x":1,"y":2,"theta":0.5,"id":7})";
   EXPECT_EQ(ask(reader, request)["code"], "read-only");
@@ -176,12 +107,12 @@ TEST_F(MessageServerTest, SetPose_IsForTheControlSocket) {
   EXPECT_EQ(given_[0].y_m, 2);
 }
 
-TEST_F(MessageServerTest, Odometry_IsTakenWithoutAnAnswer) {
+TEST_F(MessageServerTest, Odometry_ControlSocket_AcceptedWithoutAnswer) {
   TestClient reader = greeted(pose_path_);
   EXPECT_EQ(ask(reader, R"({"class":"ODOMETRY","left":1,"right":2})")["code"], "read-only");
   TestClient controller = greeted(control_path_);
   controller.send("{\"class\":\"ODOMETRY\",\"t\":5,\"left\":1,\"right\":2,\"gyro\":0.1}\n");
-  // The next answer is that of the next request.
+  // ODOMETRY has no answer, so the next line answers the next request.
   EXPECT_EQ(ask(controller, R"({"class":"RELOCALIZE"})")["request"], "RELOCALIZE");
   ASSERT_EQ(readings_.size(), 1U);
   EXPECT_EQ(readings_[0].t_ns, 5 * core::kNsPerSecond);
@@ -190,7 +121,7 @@ TEST_F(MessageServerTest, Odometry_IsTakenWithoutAnAnswer) {
   EXPECT_EQ(ask(controller, R"({"class":"ODOMETRY","left":"x"})")["code"], "field");
 }
 
-TEST_F(MessageServerTest, OdometryOfASecondClient_IsToldWhyUntilTheFirstHasGone) {
+TEST_F(MessageServerTest, Odometry_SecondClient_ErrorUntilFirstDisconnects) {
   const std::string line = R"({"class":"ODOMETRY","left":1,"right":2})";
   TestClient second = greeted(control_path_);
   {
@@ -203,166 +134,13 @@ TEST_F(MessageServerTest, OdometryOfASecondClient_IsToldWhyUntilTheFirstHasGone)
   EXPECT_EQ(ask(second, line), "nothing");
 }
 
-TEST_F(MessageServerTest, WhatNobodyTakes_IsRefusedClearly) {
+TEST_F(MessageServerTest, RequestWithoutHandler_Unsupported) {
   const std::filesystem::path path = folder_ / "other.sock";
   MessageServer server{loop_, "1.2.3", {[] {}}};
   server.listen(path, SocketRole::kControl);
   TestClient client = greeted(path);
   EXPECT_EQ(ask(client, R"({"class":"SET_POSE","x":0,"y":0,"theta":0})")["code"], "unsupported");
   EXPECT_EQ(ask(client, R"({"class":"ODOMETRY","left":0,"right":0})")["code"], "unsupported");
-}
-
-TEST_F(MessageServerTest, ClientThatOnlyAsks_GetsItsAnswerAfterItsLastWord) {
-  server_.publish(MessageClass::kPose, pose(3));
-  TestClient client = greeted(pose_path_);
-  client.send(R"({"class":"POLL"})");  // no newline
-  client.finish_sending();
-  serve();
-  EXPECT_EQ(next(client)["seq"], 3);
-  EXPECT_EQ(next(client)["class"], "OK");
-  server_.publish(MessageClass::kPose, pose(4));
-  EXPECT_EQ(next(client)["seq"], 4) << "it may go on reading";
-}
-
-TEST_F(MessageServerTest, ClientThatLeaves_IsForgotten) {
-  {
-    TestClient client = greeted(pose_path_);
-    EXPECT_EQ(server_.clients(), 1u);
-  }
-  serve();
-  EXPECT_EQ(server_.clients(), 0u);
-}
-
-TEST_F(MessageServerTest, ClientThatDoesNotRead_GetsTheNewestAndIsToldWhatItLost) {
-  TestClient sleeper = greeted(pose_path_);
-  TestClient reader = greeted(pose_path_);
-  constexpr int kPoses = 200;
-  const std::string padding(400, ' ');  // as long as a real one
-  for (int i = 1; i <= kPoses; ++i) {
-    server_.publish(MessageClass::kPose,
-                    "{\"class\":\"POSE\"," + padding + "\"seq\":" + std::to_string(i) + "}\n");
-    EXPECT_EQ(next(reader)["seq"], i) << "the reader is delayed by nobody";
-  }
-  std::vector<int> seen;
-  int dropped = 0;
-  for (json line = next(sleeper); line != "nothing"; line = next(sleeper)) {
-    seen.push_back(line["seq"]);
-    dropped += line.value("dropped", 0);
-    serve();
-  }
-  EXPECT_EQ(seen.back(), kPoses);
-  EXPECT_EQ(static_cast<int>(seen.size()) + dropped, kPoses) << "every loss is told";
-  EXPECT_LE(seen.size(), 8u) << "more would be seconds of stale poses";
-  EXPECT_EQ(server_.dropped(), static_cast<std::uint64_t>(dropped));
-}
-
-TEST_F(MessageServerTest, LineLongerThanTheSocketTakes_ArrivesWhole) {
-  TestClient client = greeted(pose_path_);
-  ask(client, R"({"class":"WATCH","classes":["SCAN"]})");
-  const std::string text(100'000, 'r');
-  server_.publish(MessageClass::kScan, "{\"class\":\"SCAN\",\"text\":\"" + text + "\"}\n");
-  server_.publish(MessageClass::kScan, "{\"class\":\"SCAN\",\"text\":\"2\"}\n");
-  server_.publish(MessageClass::kScan, "{\"class\":\"SCAN\",\"text\":\"3\"}\n");
-  json line = "nothing";
-  // One line takes many turns of reading here and writing there.
-  for (int i = 0; i < 1000 && line == "nothing"; ++i) {
-    line = next(client);
-    serve();
-  }
-  EXPECT_EQ(line["text"], text);
-  line = next(client);
-  EXPECT_EQ(line["text"], "3");
-  EXPECT_EQ(line["dropped"], 1);
-}
-
-TEST_F(MessageServerTest, ClientThatAsksWithoutReading_IsNoLongerListenedTo) {
-  TestClient client = greeted(pose_path_);
-  std::string requests;
-  for (int i = 0; i < 1000; ++i)
-    requests += "{\"class\":\"POLL\",\"id\":" + std::to_string(i) + "}\n";
-  client.send(requests.substr(0, 30'000));
-  serve();
-  // It gets all its answers once it reads.
-  int last = -1;
-  for (int i = 0; i < 5000; ++i) {
-    const json line = next(client);
-    if (line != "nothing") {
-      EXPECT_EQ(line["id"], last + 1) << "in order, and none is lost";
-      last = line["id"];
-    }
-    serve();
-  }
-  EXPECT_GT(last, 900);
-}
-
-TEST_F(MessageServerTest, SocketThatSomebodyRemoved_IsMadeAgain) {
-  TestClient before = greeted(pose_path_);
-  std::vector<std::string> told;
-  const auto restore = [&] {
-    server_.restore_sockets([&](const std::string& line) { told.push_back(line); });
-  };
-  restore();
-  EXPECT_TRUE(told.empty());
-  std::filesystem::remove(pose_path_);
-  restore();
-  ASSERT_EQ(told.size(), 1u);
-  EXPECT_THAT(told.front(), ::testing::StartsWith(pose_path_.string()));
-  TestClient after = greeted(pose_path_);
-  server_.publish(MessageClass::kPose, pose(1));
-  EXPECT_EQ(next(before)["class"], "POSE");
-  EXPECT_EQ(next(after)["class"], "POSE");
-}
-
-TEST_F(MessageServerTest, SocketThatCannotBeMadeAgain_IsToldOfOnce) {
-  std::vector<std::string> told;
-  const auto restore = [&] {
-    server_.restore_sockets([&](const std::string& line) { told.push_back(line); });
-  };
-  // A file in the place of their folder.
-  const std::filesystem::path aside = folder_.path().string() + ".aside";
-  std::filesystem::rename(folder_.path(), aside);
-  std::ofstream(folder_.path()) << "in the way";
-  restore();
-  restore();
-  EXPECT_EQ(told.size(), 2u) << "of each socket once";
-  std::filesystem::remove(folder_.path());
-  std::filesystem::rename(aside, folder_.path());
-  restore();
-  EXPECT_EQ(told.size(), 2u) << "they are there";
-  greeted(pose_path_);
-}
-
-TEST_F(MessageServerTest, MoreClientsThanAreServed_AreToldSo) {
-  TestClient controller = greeted(control_path_);
-  std::vector<TestClient> clients;
-  for (std::size_t i = 1; i < MessageServer::kMaxClients; ++i) {
-    clients.push_back(greeted(pose_path_));
-  }
-  TestClient refused = connect(pose_path_);
-  EXPECT_EQ(next(refused)["code"], "too-many-clients");
-  EXPECT_EQ(refused.read_line(0), std::nullopt);
-  EXPECT_TRUE(refused.has_ended());
-  EXPECT_EQ(server_.clients(), MessageServer::kMaxClients);
-}
-
-TEST_F(MessageServerTest, ControlClient_FindsRoomWhereTheListenersHaveTakenIt) {
-  std::vector<TestClient> clients;
-  for (std::size_t i = 0; i < MessageServer::kMaxClients; ++i) {
-    clients.push_back(greeted(pose_path_));
-  }
-  std::vector<TestClient> controllers;
-  for (std::size_t i = 0; i < MessageServer::kReservedControlClients; ++i) {
-    controllers.push_back(greeted(control_path_));
-    EXPECT_EQ(next(clients.back())["code"], "too-many-clients") << "the newest goes";
-    EXPECT_EQ(clients.back().read_line(0), std::nullopt);
-    EXPECT_TRUE(clients.back().has_ended());
-    clients.pop_back();
-  }
-  EXPECT_EQ(server_.clients(), MessageServer::kMaxClients);
-  TestClient refused = connect(control_path_);
-  EXPECT_EQ(next(refused)["code"], "too-many-clients");
-  server_.publish(MessageClass::kPose, pose(1));
-  for (TestClient& client : clients) EXPECT_EQ(next(client)["class"], "POSE");
 }
 
 }  // namespace

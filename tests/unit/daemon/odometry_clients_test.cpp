@@ -48,13 +48,13 @@ class OdometryClientsTest : public ::testing::Test {
   core::TimeNs now_ns_ = 0;
 };
 
-TEST_F(OdometryClientsTest, OneClient_IsTaken) {
+TEST_F(OdometryClientsTest, OneClient_Accepted) {
   for (int i = 0; i < 100; ++i) EXPECT_TRUE(accepts(7, wheels()));
   EXPECT_EQ(described().second_client, 0U);
   EXPECT_THAT(described().odometry_hint, IsEmpty());
 }
 
-TEST_F(OdometryClientsTest, ASecondOne_IsRefusedCountedAndTold) {
+TEST_F(OdometryClientsTest, SecondClient_RejectedCountedAndInHint) {
   for (int i = 0; i < 50; ++i) {
     EXPECT_TRUE(accepts(7, wheels()));
     EXPECT_FALSE(accepts(8, wheels()));
@@ -62,10 +62,10 @@ TEST_F(OdometryClientsTest, ASecondOne_IsRefusedCountedAndTold) {
   EXPECT_EQ(described().second_client, 50U);
   EXPECT_THAT(std::string(described().odometry_hint), HasSubstr("two clients"));
   for (int i = 0; i < 5; ++i) static_cast<void>(described());
-  EXPECT_THAT(described().odometry_hint, IsEmpty()) << "long ago";
+  EXPECT_THAT(described().odometry_hint, IsEmpty()) << "the hint expires";
 }
 
-TEST_F(OdometryClientsTest, WheelsOfOneAndGyroOfAnother_AreBothTaken) {
+TEST_F(OdometryClientsTest, WheelsAndGyroOfDifferentClients_BothAccepted) {
   for (int i = 0; i < 50; ++i) {
     EXPECT_TRUE(accepts(7, wheels()));
     EXPECT_TRUE(accepts(8, gyro()));
@@ -77,18 +77,18 @@ TEST_F(OdometryClientsTest, WheelsOfOneAndGyroOfAnother_AreBothTaken) {
   EXPECT_EQ(both.gyro_rad_s, 0.2);
 }
 
-TEST_F(OdometryClientsTest, FirstOneThatGoesOrFallsSilent_LeavesItToTheNext) {
+TEST_F(OdometryClientsTest, FirstClientDisconnectsOrIsSilent_NextAccepted) {
   EXPECT_TRUE(accepts(7, wheels()));
   EXPECT_FALSE(accepts(8, wheels()));
   clients_.disconnect(7);
   EXPECT_TRUE(accepts(8, wheels()));
-  EXPECT_THAT(described().odometry_hint, IsEmpty()) << "it was handed over";
-  EXPECT_FALSE(accepts(7, wheels())) << "another client, by the same number";
+  EXPECT_THAT(described().odometry_hint, IsEmpty()) << "a handover is no fault";
+  EXPECT_FALSE(accepts(7, wheels())) << "another client with the same number";
   now_ns_ += OdometryClients::kSilenceTimeout_ns;
   EXPECT_TRUE(accepts(7, wheels()));
 }
 
-TEST_F(OdometryClientsTest, ARefusedClient_IsToldOnceForEachConnection) {
+TEST_F(OdometryClientsTest, RejectedClient_FirstRejectionOncePerConnection) {
   EXPECT_TRUE(accepts(7, wheels()));
   EXPECT_FALSE(accepts(8, wheels()));
   EXPECT_EQ(verdict_, Verdict::kFirstRejection);
@@ -99,7 +99,7 @@ TEST_F(OdometryClientsTest, ARefusedClient_IsToldOnceForEachConnection) {
   EXPECT_EQ(verdict_, Verdict::kFirstRejection);
 }
 
-TEST_F(OdometryClientsTest, FirstOneThatSendsOneWheelAlone_LosesItsPlaceToAWholeOne) {
+TEST_F(OdometryClientsTest, FirstClientSendsOneWheel_ReplacedByCompleteClient) {
   OdometryReading left;
   left.left = 1;
   EXPECT_TRUE(accepts(7, left));
@@ -116,7 +116,7 @@ TEST_F(OdometryClientsTest, FirstOneThatSendsOneWheelAlone_LosesItsPlaceToAWhole
   }
 }
 
-TEST_F(OdometryClientsTest, TwoThatSendOneWheelEach_DoNotPushEachOtherOut) {
+TEST_F(OdometryClientsTest, TwoClientsWithOneWheelEach_FirstStays) {
   OdometryReading left;
   left.left = 1;
   OdometryReading right;
@@ -127,7 +127,7 @@ TEST_F(OdometryClientsTest, TwoThatSendOneWheelEach_DoNotPushEachOtherOut) {
   }
 }
 
-TEST_F(OdometryClientsTest, FirstOneThatIsRefusedAllTheTime_LosesItsPlace) {
+TEST_F(OdometryClientsTest, FirstClientAlwaysRejected_Replaced) {
   static_cast<void>(described());
   int taken = 0;
   for (int i = 0; i < 400; ++i) {
@@ -138,7 +138,7 @@ TEST_F(OdometryClientsTest, FirstOneThatIsRefusedAllTheTime_LosesItsPlace) {
     if (taken > 0) break;
   }
   EXPECT_EQ(taken, 1);
-  // And the good one that has it now keeps it.
+  // The second client, whose lines are accepted, stays selected.
   for (int i = 0; i < 1000; ++i) {
     EXPECT_TRUE(accepts(8, wheels()));
     EXPECT_FALSE(accepts(7, wheels()));
@@ -146,7 +146,7 @@ TEST_F(OdometryClientsTest, FirstOneThatIsRefusedAllTheTime_LosesItsPlace) {
   }
 }
 
-TEST_F(OdometryClientsTest, FirstOneThatIsRefusedForAMoment_KeepsItsPlace) {
+TEST_F(OdometryClientsTest, FirstClientBrieflyRejected_Stays) {
   static_cast<void>(described());
   for (int i = 0; i < 1000; ++i) {
     EXPECT_TRUE(accepts(7, wheels()));
@@ -156,7 +156,7 @@ TEST_F(OdometryClientsTest, FirstOneThatIsRefusedForAMoment_KeepsItsPlace) {
   }
 }
 
-TEST_F(OdometryClientsTest, GyroThatIsRefusedAllTheTime_LosesItsPlaceAndTheWheelsKeepTheirs) {
+TEST_F(OdometryClientsTest, GyroAlwaysRejected_OnlyGyroReplaced) {
   static_cast<void>(described());
   bool is_taken = false;
   for (int i = 0; i < 400 && !is_taken; ++i) {
@@ -171,7 +171,7 @@ TEST_F(OdometryClientsTest, GyroThatIsRefusedAllTheTime_LosesItsPlaceAndTheWheel
   EXPECT_TRUE(accepts(7, wheels()));
 }
 
-TEST_F(OdometryClientsTest, WhatLinesLack_IsTold) {
+TEST_F(OdometryClientsTest, MissingFields_InHint) {
   summary_.present = false;
   static_cast<void>(described());
   for (int i = 0; i < 50; ++i) EXPECT_TRUE(accepts(7, gyro()));

@@ -13,23 +13,23 @@ using ::testing::ElementsAre;
 
 Options parse(const std::vector<const char*>& arguments) { return parse_options(arguments); }
 
-TEST(Options, BothWaysToGiveAValue_AreTheSame) {
+TEST(Options, ValueAfterSpaceOrEquals_Same) {
   EXPECT_EQ(parse({"--config", "a.json"}).config, "a.json");
   EXPECT_EQ(parse({"--config=a.json"}).config, "a.json");
 }
 
-TEST(Options, Overrides_KeepTheirOrderAndTheirEqualsSigns) {
+TEST(Options, Overrides_KeepOrderAndEqualsSigns) {
   const Options options = parse({"--config=c", "--set", "/a=1", "--set=/b=x=y", "--check"});
   EXPECT_THAT(options.overrides, ElementsAre("/a=1", "/b=x=y"));
   EXPECT_TRUE(options.check);
 }
 
-TEST(Options, HelpAndVersion_NeedNoConfig) {
+TEST(Options, HelpAndVersion_NoConfigNeeded) {
   EXPECT_TRUE(parse({"--help"}).help);
   EXPECT_TRUE(parse({"--version"}).version);
 }
 
-TEST(Options, WrongUsage_IsRefused) {
+TEST(Options, WrongUsage_Throws) {
   EXPECT_THROW(parse({}), UsageError);
   EXPECT_THROW(parse({"--check"}), UsageError);
   EXPECT_THROW(parse({"--config"}), UsageError);
@@ -41,7 +41,7 @@ TEST(Options, WrongUsage_IsRefused) {
   }
 }
 
-TEST(Options, Help_NamesEveryOption) {
+TEST(Options, Help_Text_NamesEveryOption) {
   for (const char* option : {"--config", "--set", "--check", "--help", "--version"}) {
     EXPECT_NE(kHelp.find(option), std::string_view::npos) << option;
   }

@@ -12,7 +12,7 @@ namespace {
 using message::MessageClass;
 using Result = Outbox::Result;
 
-/// A socket whose other end reads when the test says so.
+/// A socket whose buffer the test controls.
 class Pipe {
  public:
   explicit Pipe(std::size_t room) : room_(room) {}
@@ -36,7 +36,7 @@ class Pipe {
   std::string received_;
 };
 
-TEST(Outbox, ClientThatReads_GetsEverythingInOrder) {
+TEST(Outbox, ReadingClient_AllLinesInOrder) {
   Outbox outbox;
   Pipe pipe(1000);
   outbox.put(MessageClass::kScan, "{\"s\":1}\n");
@@ -47,7 +47,7 @@ TEST(Outbox, ClientThatReads_GetsEverythingInOrder) {
   EXPECT_EQ(outbox.dropped(), 0u);
 }
 
-TEST(Outbox, ClientThatDoesNotRead_GetsTheNewestAndIsToldWhatItLost) {
+TEST(Outbox, SlowClient_NewestLineAndNumberDropped) {
   Outbox outbox;
   Pipe pipe(0);
   for (const char* line : {"{\"p\":1}\n", "{\"p\":2}\n", "{\"p\":3}\n"}) {
@@ -61,7 +61,7 @@ TEST(Outbox, ClientThatDoesNotRead_GetsTheNewestAndIsToldWhatItLost) {
   EXPECT_EQ(outbox.dropped(), 2u);
 }
 
-TEST(Outbox, AfterTheLossWasTold_TheCountBeginsAnew) {
+TEST(Outbox, DroppedReported_CountRestarts) {
   Outbox outbox;
   Pipe pipe(0);
   outbox.put(MessageClass::kPose, "{\"p\":1}\n");
@@ -73,7 +73,7 @@ TEST(Outbox, AfterTheLossWasTold_TheCountBeginsAnew) {
   EXPECT_EQ(pipe.received(), "{\"p\":2,\"dropped\":1}\n{\"p\":3}\n");
 }
 
-TEST(Outbox, TornLine_IsFinishedBeforeAnyOther) {
+TEST(Outbox, PartlyWrittenLine_FinishedFirst) {
   Outbox outbox;
   Pipe pipe(3);
   outbox.put(MessageClass::kPose, "{\"p\":1}\n");
@@ -85,7 +85,7 @@ TEST(Outbox, TornLine_IsFinishedBeforeAnyOther) {
   EXPECT_EQ(pipe.received(), "{\"p\":1}\n{\"a\":1}\n{\"p\":3,\"dropped\":1}\n");
 }
 
-TEST(Outbox, AnswersAreNeverLost) {
+TEST(Outbox, Answers_BlockedClient_NeverLost) {
   Outbox outbox;
   Pipe pipe(0);
   std::string all;
@@ -101,11 +101,11 @@ TEST(Outbox, AnswersAreNeverLost) {
   EXPECT_EQ(pipe.received(), all);
 }
 
-TEST(Outbox, BrokenConnection_IsTold) {
+TEST(Outbox, BrokenConnection_Reported) {
   Outbox outbox;
   Pipe pipe(1000);
   pipe.break_off();
-  EXPECT_EQ(outbox.flush(pipe.writer()), Result::kEmpty) << "nothing to write, nothing noticed";
+  EXPECT_EQ(outbox.flush(pipe.writer()), Result::kEmpty) << "not noticed without a line to write";
   outbox.answer("{}\n");
   EXPECT_EQ(outbox.flush(pipe.writer()), Result::kBroken);
 }

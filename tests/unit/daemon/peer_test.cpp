@@ -14,18 +14,18 @@ namespace {
 constexpr uid_t kOwner = 200;
 constexpr gid_t kGroup = 300;
 
-TEST(Peer, RootOwnerAndMembers_BelongToTheGroup) {
+TEST(Peer, RootOwnerAndMembers_Belong) {
   EXPECT_TRUE(belongs_to({.user = 0, .group = 0, .other_groups = {}}, kGroup, kOwner));
   EXPECT_TRUE(belongs_to({.user = kOwner, .group = 1, .other_groups = {}}, kGroup, kOwner));
   EXPECT_TRUE(belongs_to({.user = 7, .group = kGroup, .other_groups = {}}, kGroup, kOwner));
   EXPECT_TRUE(belongs_to({.user = 7, .group = 1, .other_groups = {2, kGroup}}, kGroup, kOwner));
 }
 
-TEST(Peer, AnyoneElse_DoesNot) {
+TEST(Peer, OtherUser_DoesNotBelong) {
   EXPECT_FALSE(belongs_to({.user = 7, .group = 1, .other_groups = {2, 3}}, kGroup, kOwner));
 }
 
-TEST(Peer, OfAConnection_IsWhoeverMadeIt) {
+TEST(Peer, Connection_CredentialsOfItsProcess) {
   std::array<int, 2> ends{};
   ASSERT_EQ(::socketpair(AF_UNIX, SOCK_STREAM, 0, ends.data()), 0);
   const FileDescriptor mine(ends[0]);
@@ -36,7 +36,7 @@ TEST(Peer, OfAConnection_IsWhoeverMadeIt) {
   EXPECT_EQ(peer->group, ::getegid());
 }
 
-TEST(Peer, OfSomethingElse_IsNobody) {
+TEST(Peer, NotASocket_Nullopt) {
   std::array<int, 2> ends{};
   ASSERT_EQ(::pipe(ends.data()), 0);
   const FileDescriptor out(ends[0]);

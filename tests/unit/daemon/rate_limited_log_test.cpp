@@ -16,7 +16,7 @@ constexpr std::int64_t at(double seconds) {
   return static_cast<std::int64_t>(seconds * core::kNsPerSecond);
 }
 
-TEST(RateLimitedLog, ManyInTenSeconds_AreALineAndACount) {
+TEST(RateLimitedLog, ManyEventsInTenSeconds_OneLineAndSummary) {
   const CapturedLog captured;
   RateLimitedLog log(spdlog::level::warn, "jump");
   log.add("a", at(100));
@@ -29,7 +29,7 @@ TEST(RateLimitedLog, ManyInTenSeconds_AreALineAndACount) {
   EXPECT_EQ(captured.text(), "warning: jump: a\nwarning: jump: 2 more, the last c\n");
 }
 
-TEST(RateLimitedLog, CountThatIsTold_BeginsAnotherTenSeconds) {
+TEST(RateLimitedLog, SummaryLogged_PeriodRestarts) {
   const CapturedLog captured;
   RateLimitedLog log(spdlog::level::info, "jump");
   for (int i = 0; i < 1000; ++i) log.add(std::to_string(i), at(0.1 * i));
@@ -37,7 +37,7 @@ TEST(RateLimitedLog, CountThatIsTold_BeginsAnotherTenSeconds) {
   EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 10) << text;
 }
 
-TEST(RateLimitedLog, OneAfterALongWhile_IsALineAtOnce) {
+TEST(RateLimitedLog, EventAfterTenSeconds_LoggedAtOnce) {
   const CapturedLog captured;
   RateLimitedLog log(spdlog::level::info, "jump");
   log.add("a", at(1));

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The two loops that must not be late, over ten thousand turns: no memory is asked for and none is
-// touched for the first time.
+// Reader and localizer over 10,000 scans: no heap allocation and no page fault after the warm-up.
 #include <gtest/gtest.h>
 #include <poll.h>
 
@@ -50,7 +49,7 @@ constexpr std::uint64_t kScans = test::kSanitized ? 200 : 10'000;
 #endif
 constexpr std::uint64_t kWarmUpScans = 100;
 
-/// Express capsules, one a read; then nothing more, and time stands still.
+/// One express capsule per read; at the end no more data, and time stops.
 class Wire : public drivers::ByteStream {
  public:
   Wire(const std::vector<std::uint8_t>& capsules, replay::VirtualClock& clock)
@@ -129,12 +128,12 @@ std::vector<std::uint8_t> capsules_of(std::shared_ptr<const core::WallMap> map,
 }
 
 #ifdef CORNERD_TESTS_EMULATED
-constexpr bool kEmulated = true;  // the emulator's own page faults are counted with ours
+constexpr bool kEmulated = true;  // the counts would include the emulator's page faults
 #else
 constexpr bool kEmulated = false;
 #endif
 
-TEST(Realtime, ReaderAndLocalizer_NeitherAllocateNorFaultAfterTheWarmUp) {
+TEST(Realtime, ReaderAndLocalizer_AfterWarmUp_NoAllocationsOrFaults) {
   is_excused = true;
   const auto map = settings::load_map(CORNERD_SOURCE_DIR "/config/maps/krpai-2019-a.json");
   const auto capsules = capsules_of(map, kScans + 10);
@@ -148,7 +147,7 @@ TEST(Realtime, ReaderAndLocalizer_NeitherAllocateNorFaultAfterTheWarmUp) {
   Localization localization(driver, std::make_unique<core::Pipeline>(map, core::LocalizerConfig{}),
                             SourceKind::kRecording);
   localization.start();
-  // A sanitizer maps more than any machine has.
+  // A sanitizer maps more memory than the machine has.
   const bool is_touched = !test::kSanitized && prefault_memory();
   std::uint64_t scans = 0;
   std::uint64_t reported = 0;
@@ -166,9 +165,9 @@ TEST(Realtime, ReaderAndLocalizer_NeitherAllocateNorFaultAfterTheWarmUp) {
       faults = faults_so_far();
     }
   }
-  EXPECT_EQ(allocations_of_loops - allocations, 0U) << "in " << kScans << " turns";
+  EXPECT_EQ(allocations_of_loops - allocations, 0U) << "in " << kScans << " scans";
   if (!test::kSanitized && !kEmulated && is_touched) {
-    EXPECT_EQ(faults_so_far() - faults, 0U) << "in " << kScans << " turns";
+    EXPECT_EQ(faults_so_far() - faults, 0U) << "in " << kScans << " scans";
   }
   EXPECT_GE(scans, kScans);
 }

@@ -17,7 +17,7 @@
 namespace {
 
 std::filesystem::path watched_file;
-/// Of the watched file, at each fsync().
+/// Sizes of the watched file at each fsync().
 std::vector<std::uintmax_t> sizes_at_sync;
 std::vector<std::uintmax_t> synced_sizes;
 
@@ -36,7 +36,7 @@ extern "C" int fsync(int fd) {
 namespace cornerd::daemon {
 namespace {
 
-TEST(ReplaceFile, Content_IsOnTheDiskBeforeItsName) {
+TEST(ReplaceFile, NewContent_SyncedBeforeRename) {
   const test::TemporaryFolder folder;
   std::ofstream(folder / "f") << "old";
   watched_file = folder / "f";
@@ -49,7 +49,7 @@ TEST(ReplaceFile, Content_IsOnTheDiskBeforeItsName) {
   EXPECT_FALSE(std::filesystem::exists(folder / "f.new"));
 }
 
-TEST(ReplaceFile, WhatCannotBeReplaced_StaysAndIsToldOf) {
+TEST(ReplaceFile, UnreplaceableFile_ThrowsAndStays) {
   const test::TemporaryFolder folder;
   std::filesystem::create_directories(folder / "f" / "inside");
   EXPECT_THROW(replace_file(folder / "f", "new"), std::system_error);

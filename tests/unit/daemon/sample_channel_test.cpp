@@ -15,7 +15,7 @@ core::Sample sample(core::TimeNs t_ns, bool starts_scan = false) {
   return {.t_ns = t_ns, .starts_scan = starts_scan};
 }
 
-TEST(SampleChannel, SamplesAndGaps_KeepTheirOrder) {
+TEST(SampleChannel, SamplesAndGaps_KeepOrder) {
   SampleChannel channel(WhenFull::kLose);
   channel.on_sample(sample(1, true));
   channel.on_gap();
@@ -31,7 +31,7 @@ TEST(SampleChannel, SamplesAndGaps_KeepTheirOrder) {
   EXPECT_FALSE(channel.pop(item));
 }
 
-TEST(SampleChannel, NewestTime_IsThatOfTheLastSampleThoughNobodyHasTakenIt) {
+TEST(SampleChannel, NewestTime_OfLastSampleEvenIfNotPopped) {
   SampleChannel channel(WhenFull::kLose);
   EXPECT_EQ(channel.newest_ns(), 0);
   channel.on_sample(sample(5, true));
@@ -40,7 +40,7 @@ TEST(SampleChannel, NewestTime_IsThatOfTheLastSampleThoughNobodyHasTakenIt) {
   EXPECT_EQ(channel.newest_ns(), 8);
 }
 
-TEST(SampleChannel, SampleThatMayCompleteATurn_WakesTheConsumer) {
+TEST(SampleChannel, SampleThatMayCompleteScan_WakesConsumer) {
   SampleChannel channel(WhenFull::kLose);
   const std::uint32_t before = channel.wakes();
   channel.on_sample(sample(1));
@@ -53,14 +53,14 @@ TEST(SampleChannel, SampleThatMayCompleteATurn_WakesTheConsumer) {
   EXPECT_EQ(channel.wakes(), before + 3);
 }
 
-TEST(SampleChannel, StreamWithoutTurns_StillWakesBeforeTheRingIsFull) {
+TEST(SampleChannel, StreamWithoutScanStarts_WakesBeforeRingIsFull) {
   SampleChannel channel(WhenFull::kLose);
   const std::uint32_t before = channel.wakes();
   while (channel.lost() == 0 && channel.wakes() == before) channel.on_sample(sample(1));
   EXPECT_EQ(channel.lost(), 0u);
 }
 
-TEST(SampleChannel, ConsumerThatIsBehind_LosesWhatIsNewAndSeesAGap) {
+TEST(SampleChannel, SlowConsumer_NewSamplesLostAndGap) {
   SampleChannel channel(WhenFull::kLose);
   core::TimeNs pushed = 0;
   while (channel.lost() < 10) channel.on_sample(sample(++pushed));
@@ -68,7 +68,7 @@ TEST(SampleChannel, ConsumerThatIsBehind_LosesWhatIsNewAndSeesAGap) {
   core::TimeNs popped = 0;
   while (channel.pop(item)) {
     ASSERT_EQ(item.kind, Kind::kSample);
-    ASSERT_EQ(item.sample.t_ns, ++popped) << "what it has is whole";
+    ASSERT_EQ(item.sample.t_ns, ++popped) << "no sample is missing in the ring";
   }
   EXPECT_EQ(popped, pushed - 10);
   channel.on_sample(sample(++pushed));
@@ -78,7 +78,7 @@ TEST(SampleChannel, ConsumerThatIsBehind_LosesWhatIsNewAndSeesAGap) {
   EXPECT_EQ(item.sample.t_ns, pushed);
 }
 
-TEST(SampleChannel, Recording_WaitsForTheConsumerAndLosesNothing) {
+TEST(SampleChannel, Recording_SlowConsumer_NothingLost) {
   constexpr core::TimeNs kSamples = 200'000;
   SampleChannel channel(WhenFull::kWait);
   std::jthread producer([&channel] {
@@ -102,7 +102,7 @@ TEST(SampleChannel, Recording_WaitsForTheConsumerAndLosesNothing) {
   EXPECT_EQ(channel.lost(), 0u);
 }
 
-TEST(SampleChannel, Close_EndsTheWaitOfARecording) {
+TEST(SampleChannel, Close_WaitingProducer_Ends) {
   SampleChannel channel(WhenFull::kWait);
   std::jthread producer([&channel] {
     for (int i = 0; i < 100'000; ++i) channel.on_sample(sample(i));

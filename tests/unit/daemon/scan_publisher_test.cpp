@@ -53,7 +53,7 @@ class ScanPublisherTest : public ::testing::Test {
   std::optional<TestClient> client_;
 };
 
-TEST_F(ScanPublisherTest, JumpsAtEachTurn_AreEventsAndOneLineInTheLog) {
+TEST_F(ScanPublisherTest, JumpAtEachScan_EventsAndOneLogLine) {
   const CapturedLog log;
   constexpr int kJumps = 5;
   for (int i = 0; i <= kJumps; ++i) publish_fix_at(i % 2 == 0 ? 0 : 1);

@@ -9,7 +9,7 @@
 namespace cornerd::daemon {
 namespace {
 
-TEST(SlotExchange, Values_ComeOutInOrder) {
+TEST(SlotExchange, Values_Taken_InOrder) {
   SlotExchange<int> exchange(2);
   EXPECT_TRUE(exchange.put([](int& slot) { slot = 1; }));
   EXPECT_TRUE(exchange.put([](int& slot) { slot = 2; }));
@@ -21,7 +21,7 @@ TEST(SlotExchange, Values_ComeOutInOrder) {
   EXPECT_FALSE(exchange.take([&](const int&) { FAIL(); }));
 }
 
-TEST(SlotExchange, NoSlotLeft_RefusesUntilOneIsReturned) {
+TEST(SlotExchange, NoEmptySlot_RefusedUntilOneIsReturned) {
   SlotExchange<int> exchange(3);
   for (int i = 0; i < 3; ++i) EXPECT_TRUE(exchange.put([](int&) {}));
   EXPECT_FALSE(exchange.put([](int&) { FAIL(); }));
@@ -29,7 +29,7 @@ TEST(SlotExchange, NoSlotLeft_RefusesUntilOneIsReturned) {
   EXPECT_TRUE(exchange.put([](int&) {}));
 }
 
-TEST(SlotExchange, TwoThreads_NeverSeeAHalfWrittenValue) {
+TEST(SlotExchange, TwoThreads_NoTornValue) {
   using Value = std::array<int, 64>;
   constexpr int kValues = 2'000;
   SlotExchange<Value> exchange(4);

@@ -54,17 +54,17 @@ class StatusPublisherTest : public ::testing::Test {
   std::optional<TestClient> client_;
 };
 
-TEST_F(StatusPublisherTest, SameStateAndReason_IsNoChange) {
+TEST_F(StatusPublisherTest, SameStateAndDetail_NoChange) {
   const auto absent = change(LidarState::kAbsent, LidarFault::kNoPort, "no port");
   EXPECT_TRUE(publisher_.update(absent, 0));
   EXPECT_EQ(next(), json::parse(R"({"class":"EVENT","t":0,"what":"device fault",
                                     "detail":"absent, no-port: no port"})"));
   EXPECT_FALSE(publisher_.update(absent, 0));
   EXPECT_TRUE(publisher_.update(change(LidarState::kAbsent, LidarFault::kNoPort, "still none"), 0));
-  EXPECT_EQ(next(), "nothing") << "an event is for states and faults, not for words";
+  EXPECT_EQ(next(), "nothing") << "a new detail alone is no event";
 }
 
-TEST_F(StatusPublisherTest, EachStateAndFault_IsAnEvent) {
+TEST_F(StatusPublisherTest, EachStateAndFault_Event) {
   const auto expect = [this](const drivers::LidarChange& change, const char* what,
                              const char* detail) {
     publisher_.update(change, 1'000'000'000);
@@ -81,7 +81,7 @@ TEST_F(StatusPublisherTest, EachStateAndFault_IsAnEvent) {
          "backoff, unplugged: gone");
 }
 
-TEST_F(StatusPublisherTest, Status_HasTheDriversCountersAndTheDaemonsOwn) {
+TEST_F(StatusPublisherTest, Status_Published_HasCountersOfDriverAndDaemon) {
   IdleLidar idle;
   Localization localization(idle,
                             std::make_unique<core::Pipeline>(nullptr, core::LocalizerConfig{}),

@@ -15,7 +15,7 @@
 
 namespace cornerd::daemon {
 
-/// A client as anybody would write one: connects, writes lines, reads lines.
+/// A client for tests: connects, writes lines, reads lines.
 class TestClient {
  public:
   explicit TestClient(const std::filesystem::path& path)
@@ -38,14 +38,14 @@ class TestClient {
     return true;
   }
 
-  /// Sends what there is room for: whoever does not read its answers is not read for long.
+  /// Sends what fits into the socket's buffer.
   void offer(std::string_view text) {
     static_cast<void>(::send(fd_.get(), text.data(), text.size(), MSG_NOSIGNAL | MSG_DONTWAIT));
   }
 
   void finish_sending() { ::shutdown(fd_.get(), SHUT_WR); }
 
-  /// The next line without its newline; nullopt where none comes in time or the connection ended.
+  /// The next line without its newline; nullopt after the timeout or the end of the connection.
   std::optional<std::string> read_line(int timeout_ms = 10'000) {
     while (true) {
       const std::size_t newline = buffer_.find('\n');
@@ -66,7 +66,7 @@ class TestClient {
     }
   }
 
-  /// The other side closed the connection (known after read_line()).
+  /// The other side closed the connection. Valid after read_line().
   bool has_ended() const { return ended_; }
 
  private:

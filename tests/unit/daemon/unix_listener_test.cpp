@@ -33,7 +33,7 @@ std::string error_of(const std::filesystem::path& path) {
   return {};
 }
 
-/// Leaves a socket file behind that nobody listens on, as a killed daemon does.
+/// Leaves a stale socket file, as a killed daemon does.
 void leave_stale_socket(const std::filesystem::path& path) {
   const FileDescriptor fd(::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0));
   sockaddr_un address{};
@@ -42,7 +42,7 @@ void leave_stale_socket(const std::filesystem::path& path) {
   ASSERT_EQ(::bind(fd.get(), reinterpret_cast<const sockaddr*>(&address), sizeof(address)), 0);
 }
 
-TEST(UnixListener, Client_IsAccepted) {
+TEST(UnixListener, Client_Connects_Accepted) {
   const test::TemporaryFolder folder;
   UnixListener listener(folder / "s", 0600);
   EXPECT_FALSE(listener.accept().is_open());
@@ -51,7 +51,7 @@ TEST(UnixListener, Client_IsAccepted) {
   EXPECT_TRUE(listener.accept().is_open());
 }
 
-TEST(UnixListener, ClientThatNoDescriptorIsLeftFor_IsSentAway) {
+TEST(UnixListener, OutOfDescriptors_ClientDisconnected) {
   const test::TemporaryFolder folder;
   UnixListener listener(folder / "s", 0600);
   TestClient client(folder / "s");
@@ -68,7 +68,7 @@ TEST(UnixListener, ClientThatNoDescriptorIsLeftFor_IsSentAway) {
   EXPECT_TRUE(listener.accept().is_open());
 }
 
-TEST(UnixListener, RemovedFile_IsNoticed) {
+TEST(UnixListener, RemovedFile_Noticed) {
   const test::TemporaryFolder folder;
   const UnixListener listener(folder / "s", 0600);
   EXPECT_TRUE(listener.file_exists());
@@ -76,7 +76,7 @@ TEST(UnixListener, RemovedFile_IsNoticed) {
   EXPECT_FALSE(listener.file_exists());
 }
 
-TEST(UnixListener, ThoseThatStartTogether_AreOne) {
+TEST(UnixListener, SimultaneousStarts_OneListens) {
   const test::TemporaryFolder folder;
   for (int round = 0; round < 20; ++round) {
     leave_stale_socket(folder / "s");
@@ -99,7 +99,7 @@ TEST(UnixListener, ThoseThatStartTogether_AreOne) {
   }
 }
 
-TEST(UnixListener, Mode_IsTheOneAskedForWhateverTheUmask) {
+TEST(UnixListener, Mode_AnyUmask_AsRequested) {
   const test::TemporaryFolder folder;
   const mode_t before = ::umask(0077);
   const UnixListener listener(folder / "s", 0666);
@@ -109,13 +109,13 @@ TEST(UnixListener, Mode_IsTheOneAskedForWhateverTheUmask) {
   EXPECT_EQ(file.st_mode & 0777, 0666u);
 }
 
-TEST(UnixListener, End_RemovesTheFile) {
+TEST(UnixListener, Destructor_RemovesFile) {
   const test::TemporaryFolder folder;
   { const UnixListener listener(folder / "s", 0600); }
   EXPECT_FALSE(std::filesystem::exists(folder / "s"));
 }
 
-TEST(UnixListener, End_LeavesAFileThatIsNoLongerItsOwn) {
+TEST(UnixListener, Destructor_LeavesReplacedFile) {
   const test::TemporaryFolder folder;
   std::optional<UnixListener> first;
   first.emplace(folder / "s", 0600);
@@ -125,21 +125,22 @@ TEST(UnixListener, End_LeavesAFileThatIsNoLongerItsOwn) {
   EXPECT_TRUE(TestClient(folder / "s").is_connected());
 }
 
-TEST(UnixListener, StaleFile_IsReplaced) {
+TEST(UnixListener, StaleFile_Replaced) {
   const test::TemporaryFolder folder;
   leave_stale_socket(folder / "s");
   const UnixListener listener(folder / "s", 0600);
   EXPECT_TRUE(TestClient(folder / "s").is_connected());
 }
 
-TEST(UnixListener, SocketOfALiveInstance_IsLeftAlone) {
+TEST(UnixListener, SocketOfLiveInstance_LeftAlone) {
   const test::TemporaryFolder folder;
   const UnixListener first(folder / "s", 0600);
-  EXPECT_EQ(error_of(folder / "s"), (folder / "s").string() + ": another cornerd listens there");
+  EXPECT_THAT(error_of(folder / "s"),
+              StartsWith((folder / "s").string() + ": another cornerd listens on this socket"));
   EXPECT_TRUE(TestClient(folder / "s").is_connected());
 }
 
-/// Somebody whom a file's mode keeps out, as it does not root.
+/// Drops root privileges, so that file modes apply.
 class Unprivileged {
  public:
   explicit Unprivileged(const std::filesystem::path& folder) {
@@ -158,7 +159,7 @@ class Unprivileged {
   bool was_root_ = false;
 };
 
-TEST(UnixListener, StaleFileOfAnotherUser_IsReplaced) {
+TEST(UnixListener, StaleFileOfAnotherUser_Replaced) {
   const test::TemporaryFolder folder;
   leave_stale_socket(folder / "s");
   ASSERT_EQ(::chmod((folder / "s").c_str(), 0), 0);
@@ -167,39 +168,41 @@ TEST(UnixListener, StaleFileOfAnotherUser_IsReplaced) {
   EXPECT_TRUE(TestClient(folder / "s").is_connected());
 }
 
-TEST(UnixListener, SocketOfAnotherUsersLiveInstance_IsLeftAlone) {
+TEST(UnixListener, SocketOfAnotherUsersLiveInstance_LeftAlone) {
   const test::TemporaryFolder folder;
   const UnixListener first(folder / "s", 0);
   const Unprivileged user(folder.path());
-  EXPECT_EQ(error_of(folder / "s"),
-            (folder / "s").string() + ": another user's cornerd listens there");
+  EXPECT_THAT(
+      error_of(folder / "s"),
+      StartsWith((folder / "s").string() + ": another user's cornerd listens on this socket"));
   EXPECT_TRUE(first.file_exists());
 }
 
-TEST(UnixListener, StaleFileThatMayNotBeRemoved_IsNamedAsSuch) {
+TEST(UnixListener, UnremovableStaleFile_NamedInError) {
   const test::TemporaryFolder folder;
   leave_stale_socket(folder / "s");
   const Unprivileged user(folder.path());
   ASSERT_EQ(::chmod(folder.path().c_str(), 0500), 0);
-  EXPECT_THAT(error_of(folder / "s"), HasSubstr("is left over, and cannot be removed: "));
+  EXPECT_THAT(error_of(folder / "s"), HasSubstr("cannot remove the stale socket: "));
   ASSERT_EQ(::chmod(folder.path().c_str(), 0700), 0);
 }
 
-TEST(UnixListener, FileThatIsNoSocket_IsLeftAlone) {
+TEST(UnixListener, NotASocket_LeftAlone) {
   const test::TemporaryFolder folder;
   std::ofstream(folder / "s") << "precious";
-  EXPECT_THAT(error_of(folder / "s"), HasSubstr("is no socket"));
+  EXPECT_THAT(error_of(folder / "s"), HasSubstr("is not a socket"));
   EXPECT_EQ(std::filesystem::file_size(folder / "s"), 8u);
 }
 
-TEST(UnixListener, FolderThatIsMissing_IsMade) {
+TEST(UnixListener, MissingFolder_Created) {
   const test::TemporaryFolder folder;
   const UnixListener listener(folder / "run" / "s", 0600);
   EXPECT_TRUE(std::filesystem::exists(folder / "run"));
 }
 
-TEST(UnixListener, PathThatCannotBe_IsNamed) {
-  EXPECT_THAT(error_of("/nowhere/at/all/s"), StartsWith("/nowhere/at/all/s: cannot be made: "));
+TEST(UnixListener, InvalidPath_NamedInError) {
+  EXPECT_THAT(error_of("/nowhere/at/all/s"),
+              StartsWith("/nowhere/at/all/s: cannot bind the socket: "));
   EXPECT_THAT(error_of("/tmp/" + std::string(200, 'x')), HasSubstr("too long for a socket"));
 }
 

@@ -25,18 +25,18 @@ OccupancyGrid half_plane(std::size_t columns, std::size_t rows, double height, d
   return grid;
 }
 
-TEST(BorderRuns, SlantedWall_IsOneLineToATenthOfACell) {
+TEST(StraightRuns, ObliqueWall_IsOneRunToTenthOfCell) {
   for (const double slope : {0.013, 0.1, 0.37, 0.9}) {
     auto borders = trace_borders(half_plane(80, 100, 10.3, slope));
     ASSERT_EQ(borders.size(), 1U) << slope;
     const auto runs = straight_runs(borders[0], 0.75);
     ASSERT_EQ(runs.size(), 1U) << slope;
-    EXPECT_NEAR(runs[0].way.y() / runs[0].way.x(), slope, 0.004) << slope;
+    EXPECT_NEAR(runs[0].direction.y() / runs[0].direction.x(), slope, 0.004) << slope;
     EXPECT_NEAR(runs[0].at.y() - slope * runs[0].at.x(), 10.3, 0.15) << slope;
   }
 }
 
-TEST(BorderRuns, Rectangle_HasFourRuns) {
+TEST(StraightRuns, Rectangle_GivesFourRuns) {
   auto borders = trace_borders(sketch({
       "..........",
       ".########.",
@@ -50,11 +50,11 @@ TEST(BorderRuns, Rectangle_HasFourRuns) {
   const auto runs = straight_runs(borders[0], 0.75);
   ASSERT_EQ(runs.size(), 4U);
   for (const auto& run : runs) {
-    EXPECT_NEAR(std::abs(run.way.x()) + std::abs(run.way.y()), 1, 1e-9);
+    EXPECT_NEAR(std::abs(run.direction.x()) + std::abs(run.direction.y()), 1, 1e-9);
   }
 }
 
-TEST(BorderRuns, StepOfOneCell_IsNoWall) {
+TEST(StraightRuns, StepOfOneCell_IsIgnored) {
   OccupancyGrid grid = half_plane(40, 10, 4, 0);
   grid.set(20, 4, Cell::kOccupied);
   grid.set(21, 4, Cell::kOccupied);
@@ -64,7 +64,7 @@ TEST(BorderRuns, StepOfOneCell_IsNoWall) {
   EXPECT_NEAR(runs[0].height_of(Vec2(0, 4)), 0, 0.2);
 }
 
-TEST(BorderRuns, StepOfThreeCells_IsOne) {
+TEST(StraightRuns, StepOfThreeCells_IsKept) {
   OccupancyGrid grid = half_plane(40, 12, 4, 0);
   for (std::int64_t column = 20; column < 40; ++column) {
     for (std::int64_t row = 4; row < 7; ++row) grid.set(column, row, Cell::kOccupied);
@@ -72,15 +72,15 @@ TEST(BorderRuns, StepOfThreeCells_IsOne) {
   auto borders = trace_borders(grid);
   const auto runs = straight_runs(borders[0], 0.75);
   ASSERT_EQ(runs.size(), 3U);
-  EXPECT_NEAR(std::abs(runs[1].way.y()), 1, 1e-9);
+  EXPECT_NEAR(std::abs(runs[1].direction.y()), 1, 1e-9);
   EXPECT_NEAR(runs[1].at.x(), 20, 1e-9);
 }
 
-TEST(BorderRuns, BothFacesOfAWallOfOneCell_AreTwoRuns) {
+TEST(StraightRuns, WallOfOneCell_GivesTwoRuns) {
   auto borders = trace_borders(sketch({"............", "..#########.", "............"}));
   const auto runs = straight_runs(borders[0], 0.75);
   ASSERT_EQ(runs.size(), 2U);
-  EXPECT_LT(runs[0].way.dot(runs[1].way), -0.99);
+  EXPECT_LT(runs[0].direction.dot(runs[1].direction), -0.99);
 }
 
 }  // namespace

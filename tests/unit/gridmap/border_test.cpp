@@ -8,7 +8,7 @@
 namespace cornerd::gridmap {
 namespace {
 
-TEST(Border, OneCell_IsGoneAroundWithTheFreeOnTheLeft) {
+TEST(TraceBorders, SingleCell_GivesClosedBorderWithFreeOnLeft) {
   const auto borders = trace_borders(sketch({"...", ".#.", "..."}));
   ASSERT_EQ(borders.size(), 1U);
   EXPECT_TRUE(borders[0].closed);
@@ -21,19 +21,19 @@ TEST(Border, OneCell_IsGoneAroundWithTheFreeOnTheLeft) {
   EXPECT_EQ(area2, -2);  // clockwise around what is occupied
 }
 
-TEST(Border, OccupiedCellsThatTouchAtACorner_HangTogether) {
+TEST(TraceBorders, CellsTouchingAtCorner_ShareOneBorder) {
   const auto borders = trace_borders(sketch({"....", ".#..", "..#.", "...."}));
   ASSERT_EQ(borders.size(), 1U);
   EXPECT_EQ(borders[0].size(), 8U);
 }
 
-TEST(Border, UnknownCells_HaveNone) {
+TEST(TraceBorders, UnknownCells_GiveNoBorder) {
   EXPECT_TRUE(trace_borders(sketch({"??", "??"})).empty());
   EXPECT_TRUE(trace_borders(sketch({"#?.", "#?."})).empty());
   EXPECT_TRUE(trace_borders(sketch({"##", "##"})).empty());
 }
 
-TEST(Border, WhereTheUnknownBegins_ItEnds) {
+TEST(TraceBorders, UnknownNeighbour_EndsBorder) {
   const auto borders = trace_borders(sketch({"?...?", "#####"}));
   ASSERT_EQ(borders.size(), 1U);
   EXPECT_FALSE(borders[0].closed);
@@ -42,7 +42,7 @@ TEST(Border, WhereTheUnknownBegins_ItEnds) {
   EXPECT_EQ(borders[0].points.back(), (Border::Point{4, 1}));
 }
 
-TEST(Border, RoomAndItsPillar_AreTwo) {
+TEST(TraceBorders, RoomWithPillar_GivesTwoBorders) {
   EXPECT_EQ(trace_borders(sketch({"######", "#....#", "#.##.#", "#....#", "######"})).size(), 2U);
 }
 

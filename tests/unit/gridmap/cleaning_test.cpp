@@ -8,7 +8,7 @@
 namespace cornerd::gridmap {
 namespace {
 
-TEST(Cleaning, Specks_AreLeftOutAndWallsStay) {
+TEST(DropSpecks, SmallPatches_BecomeUnknown) {
   OccupancyGrid grid = sketch({"#.....", ".#....", "..#..#", "......"});
   const auto dropped = drop_specks(grid, 2.5);
   ASSERT_EQ(dropped.size(), 1U);
@@ -18,14 +18,14 @@ TEST(Cleaning, Specks_AreLeftOutAndWallsStay) {
   EXPECT_EQ(grid.count(Cell::kOccupied), 3U);  // a diagonal hangs together
 }
 
-TEST(Cleaning, ShutInPockets_AreLeftOutButTheLargestFreePatch) {
+TEST(DropPockets, EnclosedPatches_BecomeUnknownExceptLargest) {
   OccupancyGrid grid = sketch({"#####", "#.#..", "#####"});
   EXPECT_EQ(drop_pockets(grid, 100).size(), 1U);
   EXPECT_EQ(grid.at(1, 1), Cell::kUnknown);
   EXPECT_EQ(grid.count(Cell::kFree), 2U);
 }
 
-TEST(Cleaning, BuriedShare_IsOfCellsBehindOthers) {
+TEST(BuriedShare, SolidBlock_CountsInnerCells) {
   EXPECT_EQ(buried_share(sketch({"....", "####", "...."})), 0);
   EXPECT_NEAR(buried_share(sketch({"###", "###", "###"})), 1.0 / 9, 1e-12);
 }

@@ -18,18 +18,18 @@ constexpr double kMarginCells = 8;
 DrawnMap blank(const core::WallMap& map, double resolution_m, double yaw_rad) {
   const Vec2 low = map.lower_left();
   const Vec2 high = map.upper_right();
-  const core::Pose2 scan{0, 0, yaw_rad};
+  const core::Pose2 rotation{0, 0, yaw_rad};
   Vec2 near = Vec2::Constant(1e9);
   Vec2 far = -near;
   for (const Vec2& corner : {low, high, Vec2(low.x(), high.y()), Vec2(high.x(), low.y())}) {
-    const Vec2 turned = scan.inverse() * corner;
+    const Vec2 turned = rotation.inverse() * corner;
     near = near.cwiseMin(turned);
     far = far.cwiseMax(turned);
   }
   // Off the raster by what nobody chose.
   const Vec2 margin = Vec2(kMarginCells + 0.37, kMarginCells + 0.21) * resolution_m;
   const Vec2 size = (far - near + 2 * margin) / resolution_m;
-  const Vec2 origin = scan * Vec2(near - margin);
+  const Vec2 origin = rotation * Vec2(near - margin);
   return {OccupancyGrid(static_cast<std::size_t>(size.x()), static_cast<std::size_t>(size.y())),
           resolution_m,
           {origin.x(), origin.y(), yaw_rad}};
@@ -55,7 +55,7 @@ std::array<std::int64_t, 2> cell_of(const DrawnMap& drawn, const Vec2& place) {
           static_cast<std::int64_t>(std::floor(cell.y()))};
 }
 
-/// What a mapper counts in each cell.
+/// A mapper's counts in a cell.
 struct Counts {
   int hits = 0;
   int passes = 0;
@@ -116,10 +116,10 @@ DrawnMap draw_map(const core::WallMap& map, double resolution_m, double yaw_rad)
     drawn.grid.set(column, row, map.is_solid(middle) ? Cell::kOccupied : Cell::kFree);
   });
   for (const core::Wall& wall : map.plan().walls) {
-    const Vec2 way = wall.to - wall.from;
-    const double steps = std::ceil(way.norm() / resolution_m * 10);
+    const Vec2 direction = wall.to - wall.from;
+    const double steps = std::ceil(direction.norm() / resolution_m * 10);
     for (double i = 0; i <= steps; ++i) {
-      const auto cell = cell_of(drawn, wall.from + i / steps * way);
+      const auto cell = cell_of(drawn, wall.from + i / steps * direction);
       drawn.grid.set(cell[0], cell[1], Cell::kOccupied);
     }
   }
@@ -137,7 +137,7 @@ DrawnMap scan_map(const core::WallMap& map, double resolution_m, double yaw_rad,
   std::uniform_real_distribution<double> share(0, 1);
   for (std::size_t made = 0; made < places;) {
     const Vec2 place = map.lower_left() + size.cwiseProduct(Vec2(share(random), share(random)));
-    // Not within a wall, nor so near that a robot would touch it.
+    // Not within a wall, nor within a robot's radius of one.
     bool is_near = map.is_solid(place);
     for (const core::Face& face : map.faces()) is_near = is_near || distance_to(face, place) < 0.1;
     if (is_near) continue;

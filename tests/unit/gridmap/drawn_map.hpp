@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Pictures of a building that is known, and how near to it an import of them comes.
+// Pictures of a known building, and the errors of their import.
 #pragma once
 
 #include <cstddef>
@@ -26,13 +26,12 @@ struct DrawnMap {
   }
 };
 
-/// As a drawing program has it: occupied where the middle of a cell is within a wall, and where the
-/// centre line of a wall goes through it; unknown outside of the building. `yaw_rad`: of the
-/// picture against the building.
+/// A drawing: a cell is occupied where its middle is within a wall, or a wall's centre line crosses
+/// it; unknown outside of the building. `yaw_rad`: of the picture relative to the building.
 DrawnMap draw_map(const core::WallMap& map, double resolution_m, double yaw_rad);
 
-/// As a lidar's mapper has it, of beams of 0.5 degrees from random places: occupied where a quarter
-/// of the beams that reached a cell ended in it. `sigma_m`: of their ranges.
+/// A mapper's picture from beams every 0.5 degrees at random places: a cell is occupied where a
+/// quarter of the beams that reached it ended in it. `sigma_m`: of their ranges.
 DrawnMap scan_map(const core::WallMap& map, double resolution_m, double yaw_rad, double sigma_m,
                   std::size_t places);
 
@@ -44,8 +43,9 @@ struct ImportScore {
   std::size_t corners = 0;              ///< of the building that face free cells
   std::vector<double> corner_errors_m;  ///< ascending, of those found
   std::size_t invented_corners = 0;
-  double faces_m = 0;     ///< of the building's surfaces before free cells, longer than a few cells
-  double missed_m = 0;    ///< of that: no imported surface within 1.5 cells that looks the same way
+  double faces_m = 0;  ///< of the building's surfaces before free cells, longer than a few cells
+  double missed_m =
+      0;  ///< of that: no imported surface within 1.5 cells that looks the same direction
   double invented_m = 0;  ///< of imported surfaces before free cells
 
   double median_m() const {

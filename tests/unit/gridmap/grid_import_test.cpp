@@ -21,7 +21,7 @@ ImportResult import_drawn(const DrawnMap& drawn) {
   return import_grid(drawn.grid, drawn.resolution_m, drawn.T_map_picture, {});
 }
 
-TEST(GridImport, DrawnFlat_IsThereToThePictureSAccuracy) {
+TEST(GridImport, DrawnFlat_IsAccurateToHalfACell) {
   const core::WallMap flat = sample_map("flat-7.json");
   for (const double yaw_rad : {0.0, 0.2}) {
     const DrawnMap drawn = draw_map(flat, 0.05, yaw_rad);
@@ -37,14 +37,14 @@ TEST(GridImport, DrawnFlat_IsThereToThePictureSAccuracy) {
   }
 }
 
-TEST(GridImport, ObliquePicture_IsFarMoreAccurateThanItsCells) {
+TEST(GridImport, RotatedPicture_IsAccurateBelowCellSize) {
   const core::WallMap flat = sample_map("flat-7.json");
   const DrawnMap drawn = draw_map(flat, 0.05, 0.2);
   const core::WallMap imported(import_drawn(drawn).plan);
   EXPECT_LT(score_import(flat, imported, drawn).median_m(), 0.004);
 }
 
-TEST(GridImport, WhatALidarMapped_HasItsSurfacesInTheMiddleOfTheCells) {
+TEST(GridImport, MappedByLidar_HasSurfacesInMiddleOfCells) {
   const core::WallMap arena = sample_map("krpai-2019-a.json");
   const DrawnMap drawn = scan_map(arena, 0.02, 0.2, 0.01, 25);
   const ImportResult result = import_drawn(drawn);
@@ -57,7 +57,7 @@ TEST(GridImport, WhatALidarMapped_HasItsSurfacesInTheMiddleOfTheCells) {
   EXPECT_LT(score.invented_m, 0.1);
 }
 
-TEST(GridImport, ThinWalls_AreLinesOrAsThickAsTold) {
+TEST(GridImport, ThinWalls_AreLinesOrOfGivenThickness) {
   const OccupancyGrid grid = sketch({"??????????", "?........?", "?.######.?", "?........?"});
   ImportOptions options;
   options.made_by = MadeBy::kLidar;
@@ -69,7 +69,7 @@ TEST(GridImport, ThinWalls_AreLinesOrAsThickAsTold) {
   EXPECT_NEAR(result.plan.walls[0].thickness_m, 0.018, 1e-9);
 }
 
-TEST(GridImport, UnknownGapInAWall_IsClosedAndADoorStaysOpen) {
+TEST(GridImport, UnknownGapAndDoor_ClosesGapOnly) {
   const auto walls_of = [](const char* wall) {
     const OccupancyGrid grid = sketch({"????????????????????????", wall, "........................",
                                        "........................", "########################"});
@@ -96,12 +96,12 @@ TEST(GridImport, SpecksAndPockets_AreReported) {
   EXPECT_EQ(result.pockets.size(), 1U);
 }
 
-TEST(GridImport, PictureWithoutABorder_GivesNoWalls) {
+TEST(GridImport, NoBorder_GivesNoWalls) {
   EXPECT_TRUE(import_grid(OccupancyGrid(5, 5), 0.05, {}, {}).plan.walls.empty());
   EXPECT_TRUE(import_grid(sketch({"....", "...."}), 0.05, {}, {}).plan.walls.empty());
 }
 
-TEST(GridImport, AnyPicture_GivesWallsThatAreAMap) {
+TEST(GridImport, RandomPictures_GiveValidMaps) {
   std::mt19937 random(20194);
   for (int trial = 0; trial < 60; ++trial) {
     OccupancyGrid grid(24, 17);

@@ -21,7 +21,7 @@ std::string pgm_error(const std::string& bytes) {
   return "none";
 }
 
-TEST(Pgm, Bytes_AreShadesFromTheTopDown) {
+TEST(DecodePgm, Bytes_AreShadesFromTopDown) {
   const Image image =
       decode_image(std::string("P5\n# GIMP\n3 2\n255\n\x00\x80\xff\x01\x02\x03", 24));
   EXPECT_EQ(image.width, 3U);
@@ -30,22 +30,22 @@ TEST(Pgm, Bytes_AreShadesFromTheTopDown) {
   EXPECT_THAT(image.shades, ElementsAre(0, 128, 255, 1, 2, 3));
 }
 
-TEST(Pgm, WideBytes_HaveTheHigherFirst) {
+TEST(DecodePgm, TwoBytePixels_AreBigEndian) {
   const Image image = decode_image(std::string("P5 2 1 1000\n\x03\xe8\x00\x07", 16));
   EXPECT_EQ(image.white, 1000);
   EXPECT_THAT(image.shades, ElementsAre(1000, 7));
 }
 
-TEST(Pgm, Digits_MayStandAnyhow) {
+TEST(DecodePgm, Digits_AcceptAnyWhiteSpace) {
   const Image image = decode_image("P2\n# a comment\n2 # another\n2\n15\n0 15\n\n  7\t8\n");
   EXPECT_THAT(image.shades, ElementsAre(0, 15, 7, 8));
 }
 
-TEST(Pgm, FirstPixelLikeASpace_IsAPixel) {
+TEST(DecodePgm, FirstPixelWithValueOfSpace_IsPixel) {
   EXPECT_THAT(decode_image("P5\n2 1\n255\n \n").shades, ElementsAre(' ', '\n'));
 }
 
-TEST(Pgm, WhatIsWrong_IsSaid) {
+TEST(DecodePgm, WrongFile_ThrowsWithReason) {
   EXPECT_THAT(pgm_error("P6\n1 1\n255\nabc"), HasSubstr("neither PGM"));
   EXPECT_THAT(pgm_error(""), HasSubstr("neither PGM"));
   EXPECT_THAT(pgm_error("P5\n2 2\n255\nabc"), HasSubstr("ends early"));
@@ -95,7 +95,7 @@ class Png : public testing::Test {
   }
 };
 
-TEST_F(Png, Grey_KeepsItsValuesWhateverItsGamma) {
+TEST_F(Png, GreyWithGamma_KeepsValues) {
   const Image image = decode_image(bytes_of(kGrey));
   EXPECT_EQ(image.width, 2U);
   EXPECT_EQ(image.height, 2U);
@@ -103,13 +103,13 @@ TEST_F(Png, Grey_KeepsItsValuesWhateverItsGamma) {
   EXPECT_TRUE(image.alphas.empty());
 }
 
-TEST_F(Png, Colours_AreTheirMeanAndKeepTheirTransparency) {
+TEST_F(Png, Colours_GiveMeanAndTransparency) {
   const Image image = decode_image(bytes_of(kColoured));
   EXPECT_THAT(image.shades, ElementsAre(60, 0));
   EXPECT_THAT(image.alphas, ElementsAre(255, 128));
 }
 
-TEST_F(Png, WhatIsCutOrDamaged_IsRefused) {
+TEST_F(Png, TruncatedOrDamaged_Throws) {
   const std::string whole = bytes_of(kGrey);
   for (std::size_t size = 8; size < whole.size() - 12; ++size) {
     EXPECT_THAT(png_error(whole.substr(0, size)), HasSubstr("PNG: ")) << size;
@@ -119,7 +119,7 @@ TEST_F(Png, WhatIsCutOrDamaged_IsRefused) {
   EXPECT_THAT(png_error(damaged), HasSubstr("PNG: "));
 }
 
-TEST(PngWithoutLibpng, IsToldHowToConvert) {
+TEST(PngWithoutLibpng, Decode_SaysHowToConvert) {
   if (has_png()) GTEST_SKIP() << "built with libpng";
   EXPECT_THAT(png_error(bytes_of(kGrey)), HasSubstr("pngtopnm"));
 }

@@ -35,27 +35,27 @@ std::vector<Cell> read(const std::vector<std::uint16_t>& shades, const MapServer
   return cells;
 }
 
-TEST(OccupancyGrid, Trinary_IsUnknownBetweenTheThresholds) {
+TEST(ReadShades, Trinary_IsUnknownBetweenThresholds) {
   EXPECT_THAT(read({0, 80, 100, 205, 206, 254}, yaml(ShadeMode::kTrinary)),
               ElementsAre(kOccupied, kOccupied, kUnknown, kUnknown, kFree, kFree));
 }
 
-TEST(OccupancyGrid, Negated_HasWhiteAsOccupied) {
+TEST(ReadShades, Negated_HasWhiteOccupied) {
   EXPECT_THAT(read({0, 50, 255}, yaml(ShadeMode::kTrinary, true)),
               ElementsAre(kFree, kUnknown, kOccupied));
 }
 
-TEST(OccupancyGrid, Scale_TakesTheNearerOfBoth) {
+TEST(ReadShades, Scale_UsesNearerState) {
   EXPECT_THAT(read({0, 120, 160, 255}, yaml(ShadeMode::kScale)),
               ElementsAre(kOccupied, kOccupied, kFree, kFree));
 }
 
-TEST(OccupancyGrid, Raw_IsPerCent) {
+TEST(ReadShades, Raw_IsPerCent) {
   EXPECT_THAT(read({0, 19, 50, 66, 100, 101, 255}, yaml(ShadeMode::kRaw)),
               ElementsAre(kFree, kFree, kUnknown, kOccupied, kOccupied, kUnknown, kUnknown));
 }
 
-TEST(OccupancyGrid, LargestValue_IsWhite) {
+TEST(ReadShades, LargestValue_IsWhite) {
   Image image;
   image.width = 2;
   image.height = 1;
@@ -66,7 +66,7 @@ TEST(OccupancyGrid, LargestValue_IsWhite) {
   EXPECT_EQ(grid.at(1, 0), kOccupied);
 }
 
-TEST(OccupancyGrid, TopOfThePicture_IsTheHighestRow) {
+TEST(ReadShades, TopOfPicture_IsHighestRow) {
   Image image;
   image.width = 1;
   image.height = 2;
@@ -76,7 +76,7 @@ TEST(OccupancyGrid, TopOfThePicture_IsTheHighestRow) {
   EXPECT_EQ(grid.at(0, 0), kFree);
 }
 
-TEST(OccupancyGrid, TransparentPixels_AreUnknown) {
+TEST(ReadShades, TransparentPixels_AreUnknown) {
   Image image;
   image.width = 2;
   image.height = 1;
@@ -87,7 +87,7 @@ TEST(OccupancyGrid, TransparentPixels_AreUnknown) {
   EXPECT_EQ(grid.at(1, 0), kUnknown);
 }
 
-TEST(OccupancyGrid, BeyondThePicture_IsUnknown) {
+TEST(OccupancyGrid, OutsidePicture_IsUnknown) {
   const OccupancyGrid grid = read_shades({.width = 1, .height = 1, .shades = {255}, .alphas = {}},
                                          yaml(ShadeMode::kTrinary));
   EXPECT_EQ(grid.at(0, 0), kFree);

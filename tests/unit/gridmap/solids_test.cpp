@@ -8,7 +8,7 @@
 namespace cornerd::gridmap {
 namespace {
 
-TEST(Uncovered, IsWhatIsLeft) {
+TEST(Uncovered, OverlappingIntervals_GiveTheRest) {
   const auto open = uncovered(10, {{4, 6}, {-1, 1}, {5, 7}});
   ASSERT_EQ(open.size(), 2U);
   EXPECT_EQ(open[0].begin, 1);
@@ -18,8 +18,8 @@ TEST(Uncovered, IsWhatIsLeft) {
   EXPECT_TRUE(uncovered(2, {{-1, 3}}).empty());
 }
 
-TEST(Covered, WallBeforeAFace_CoversNothingOfIt) {
-  const GridFace face{.from = {0, 0}, .to = {10, 0}, .way = {1, 0}};
+TEST(Covered, WallInFrontOfFace_CoversNothing) {
+  const GridFace face{.from = {0, 0}, .to = {10, 0}, .direction = {1, 0}};
   const core::WallBox behind(core::Wall{{2, -1}, {6, -1}, 2});
   const core::WallBox before(core::Wall{{4, 1.5}, {4, 8}, 3});
   const Stretch part = covered(face, behind, 0.5);
@@ -37,21 +37,21 @@ std::vector<core::Wall> solids_of(const std::vector<std::string>& lines, double 
   return find_solids(grid, set.faces, limits);
 }
 
-TEST(FindSolids, FreeStandingWall_IsOne) {
+TEST(FindSolids, FreeStandingWall_IsFound) {
   const auto walls = solids_of({"............", ".##########.", ".##########.", "............"}, 5);
   ASSERT_EQ(walls.size(), 1U);
   EXPECT_NEAR(walls[0].thickness_m, 2, 1e-6);
   EXPECT_NEAR((walls[0].to - walls[0].from).norm(), 8, 1e-6);
 }
 
-TEST(FindSolids, TwoFacesOfACorridor_AreNone) {
+TEST(FindSolids, FacesOfCorridor_AreNotPaired) {
   EXPECT_TRUE(
       solids_of(
           {"??????????", "##########", "..........", "..........", "##########", "??????????"}, 5)
           .empty());
 }
 
-TEST(FindSolids, UnknownInside_IsSolidUpToTheThickest) {
+TEST(FindSolids, UnknownInside_IsSolidUpToLimit) {
   const std::vector<std::string> hollow = {"..........", "##########", "??????????",
                                            "??????????", "##########", ".........."};
   EXPECT_EQ(solids_of(hollow, 5).size(), 1U);

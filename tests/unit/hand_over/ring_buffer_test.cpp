@@ -9,14 +9,14 @@
 namespace cornerd::core {
 namespace {
 
-TEST(RingBuffer, Empty_GivesNothing) {
+TEST(RingBuffer, Empty_PopReturnsFalse) {
   RingBuffer<int> ring(4);
   int element = 7;
   EXPECT_FALSE(ring.pop(element));
   EXPECT_EQ(element, 7);
 }
 
-TEST(RingBuffer, Full_RefusesTheNewestAndCounts) {
+TEST(RingBuffer, Full_RefusesAndCountsTheNewest) {
   RingBuffer<int> ring(4);
   for (int i = 0; i < 4; ++i) EXPECT_TRUE(ring.push(i));
   EXPECT_FALSE(ring.push(4));
@@ -30,12 +30,12 @@ TEST(RingBuffer, Full_RefusesTheNewestAndCounts) {
   EXPECT_FALSE(ring.pop(element));
 }
 
-TEST(RingBuffer, OddCapacity_IsRoundedUp) {
+TEST(RingBuffer, OddCapacity_IsRoundedUpToAPowerOfTwo) {
   EXPECT_EQ(RingBuffer<int>(5).capacity(), 8U);
   EXPECT_EQ(RingBuffer<int>(0).capacity(), 2U);
 }
 
-TEST(RingBuffer, ManyTimesRound_KeepsTheOrder) {
+TEST(RingBuffer, ManyWraps_KeepTheOrder) {
   RingBuffer<std::uint32_t> ring(8);
   std::uint32_t in = 0;
   std::uint32_t out = 0;

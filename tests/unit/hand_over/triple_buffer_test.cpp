@@ -11,12 +11,12 @@
 namespace cornerd::core {
 namespace {
 
-TEST(TripleBuffer, BeforeTheFirstValue_ReadsTheDefault) {
+TEST(TripleBuffer, BeforeTheFirstPublish_ReadsTheDefault) {
   TripleBuffer<int> latest;
   EXPECT_EQ(latest.read(), 0);
 }
 
-TEST(TripleBuffer, SeveralValues_ReadsTheNewestAgainAndAgain) {
+TEST(TripleBuffer, SeveralPublishes_ReadsTheNewest) {
   TripleBuffer<int> latest;
   latest.publish(1);
   latest.publish(2);
@@ -26,7 +26,7 @@ TEST(TripleBuffer, SeveralValues_ReadsTheNewestAgainAndAgain) {
   EXPECT_EQ(latest.read(), 3);
 }
 
-TEST(TripleBuffer, TwoThreads_NeverSeeHalfAValueNorGoBack) {
+TEST(TripleBuffer, TwoThreads_ReadWholeValuesInOrder) {
   using Block = std::array<std::uint32_t, 64>;
   TripleBuffer<Block> latest;
   std::atomic<bool> done{false};

@@ -11,7 +11,7 @@ namespace {
 
 using Result = LineReader::Result;
 
-TEST(LineReader, Lines_ComeWithoutTheirEnds) {
+TEST(LineReader, Lines_HaveNoLineEnds) {
   std::istringstream stream("one\n\nthree\r\nfour");
   LineReader reader(stream, 100);
   EXPECT_EQ(reader.next(), Result::kLine);
@@ -27,7 +27,7 @@ TEST(LineReader, Lines_ComeWithoutTheirEnds) {
   EXPECT_EQ(reader.next(), Result::kEnd);
 }
 
-TEST(LineReader, LimitIsForTheLineAlone) {
+TEST(LineReader, LineBeyondTheLimit_IsSkipped) {
   std::istringstream stream("12345\n123456\n1\n1234567");
   LineReader reader(stream, 5);
   EXPECT_EQ(reader.next(), Result::kLine);

@@ -63,7 +63,7 @@ void simulate(const std::filesystem::path& file, double byte_faults = 0) {
   simulate_recording(make_room(), stand_still({1, 1, 0}), config, writer, nullptr);
 }
 
-TEST(RecordingPlayer, Scans_AreOneTurnEachWithoutAGapBetween) {
+TEST(RecordingPlayer, ScanLines_AreOneScanEachWithoutGaps) {
   const Played played = play_lines(scan_line(10) + scan_line(10.1) + scan_line(10.2));
   EXPECT_EQ(played.scan_sizes, (std::vector<std::size_t>{4, 4, 4}));
   EXPECT_EQ(played.gaps, 0);
@@ -75,7 +75,7 @@ TEST(RecordingPlayer, Scans_AreOneTurnEachWithoutAGapBetween) {
   EXPECT_NEAR(core::to_seconds(played.samples[5].t_ns), 10.125, 1e-9);
 }
 
-TEST(RecordingPlayer, LinesThatAreNoInput_ArePassedOver) {
+TEST(RecordingPlayer, OtherMessages_AreSkipped) {
   std::uint64_t bad_lines = 0;
   const Played played = play_lines(R"({"class":"VERSION","program":"cornerd"})"
                                    "\n\n" +
@@ -92,7 +92,7 @@ TEST(RecordingPlayer, LinesThatAreNoInput_ArePassedOver) {
   EXPECT_EQ(played.odometry[0].left, -7);
 }
 
-TEST(RecordingPlayer, DamagedLines_AreCountedNamedAndCostOnlyThemselves) {
+TEST(RecordingPlayer, DamagedLines_AreCountedAndSkipped) {
   std::uint64_t bad_lines = 0;
   std::string problem;
   const std::string endless(message::kMaxRecordedBytes + 10, 'x');
@@ -104,16 +104,16 @@ TEST(RecordingPlayer, DamagedLines_AreCountedNamedAndCostOnlyThemselves) {
   EXPECT_EQ(played.scan_sizes.size(), 3u);
 }
 
-TEST(RecordingPlayer, TornLastLine_IsNoProblem) {
+TEST(RecordingPlayer, IncompleteLastLine_IsNotCounted) {
   std::uint64_t bad_lines = 0;
   const std::string whole = scan_line(2);
   EXPECT_EQ(play_lines(scan_line(1) + whole.substr(0, 40), &bad_lines).scan_sizes.size(), 1u);
   EXPECT_EQ(bad_lines, 0u);
-  // One that only lacks its newline has lost nothing.
+  // A last line that lacks only its newline is complete.
   EXPECT_EQ(play_lines(scan_line(1) + whole.substr(0, whole.size() - 1)).scan_sizes.size(), 2u);
 }
 
-TEST(RecordingPlayer, BytesAndLines_GiveTheSameSamples) {
+TEST(RecordingPlayer, BinAndNdjson_GiveTheSameSamples) {
   const test::TemporaryFolder folder;
   simulate(folder.path() / "a.bin");
   simulate(folder.path() / "a.ndjson");
@@ -127,12 +127,12 @@ TEST(RecordingPlayer, BytesAndLines_GiveTheSameSamples) {
     EXPECT_EQ(from_bytes.samples[i].range_m, from_lines.samples[i].range_m);
   }
   EXPECT_EQ(from_bytes.scan_sizes.size(), 5u);
-  EXPECT_EQ(bytes.counters().scans, 6u);  // the last one was begun
+  EXPECT_EQ(bytes.counters().scans, 6u);  // the last one is partial
   EXPECT_NEAR(core::to_seconds(bytes.time_ns()), 5.5 / 7.3, 0.08);
   EXPECT_NEAR(core::to_seconds(lines.time_ns()), 5.5 / 7.3, 0.08);
 }
 
-TEST(RecordingPlayer, SerialBesideScans_IsToldOnce) {
+TEST(RecordingPlayer, SerialAndScans_PlaysOneOfThem) {
   const test::TemporaryFolder folder;
   simulate(folder.path() / "a.ndjson");
   std::ifstream stream(folder.path() / "a.ndjson");
@@ -150,7 +150,7 @@ TEST(RecordingPlayer, DamagedBytes_AreCounted) {
   EXPECT_GT(player.counters().bad_checksums, 0u);
 }
 
-TEST(RecordingPlayer, Kind_IsKnownByNameOrByTheFirstCharacter) {
+TEST(RecordingPlayer, Kind_FollowsExtensionOrFirstCharacter) {
   const test::TemporaryFolder folder;
   const auto write = [&](const char* name, const std::string& text) {
     std::ofstream(folder.path() / name, std::ios::binary) << text;
@@ -162,7 +162,7 @@ TEST(RecordingPlayer, Kind_IsKnownByNameOrByTheFirstCharacter) {
   EXPECT_EQ(kind_of_recording(write("d.dump", "\xA5\x5A")), RecordingKind::kBytes);
 }
 
-TEST(RecordingPlayer, WhatIsNoRecording_IsNamedWithItsReason) {
+TEST(RecordingPlayer, UnreadableFile_IsNamedWithItsReason) {
   const test::TemporaryFolder folder;
   const auto problem_with = [](const std::filesystem::path& file) -> std::string {
     try {

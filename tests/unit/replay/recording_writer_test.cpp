@@ -37,7 +37,7 @@ TEST(RecordingWriter, Ndjson_HoldsBothDirectionsAndOdometry) {
   EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 3);
 }
 
-TEST(RecordingWriter, Bin_HoldsReceivedBytesAlone) {
+TEST(RecordingWriter, Bin_HoldsReceivedBytesOnly) {
   const test::TemporaryFolder folder;
   RecordingWriter writer(folder.path() / "a.bin");
   writer.sent(1, kBytes);
@@ -47,7 +47,7 @@ TEST(RecordingWriter, Bin_HoldsReceivedBytesAlone) {
   EXPECT_EQ(text_of(folder.path() / "a.bin"), std::string("\xA5\x00\x5A", 3));
 }
 
-TEST(TruthWriter, StandingStill_TakesTwoLines) {
+TEST(TruthWriter, ConstantPose_TakesTwoLines) {
   const test::TemporaryFolder folder;
   TruthWriter writer(folder.path() / "truth.ndjson");
   for (int i = 0; i < 10; ++i) writer.add(i * core::kNsPerSecond, {1, 2, 0.5});

@@ -31,7 +31,7 @@ struct PlayedSamples : drivers::SampleSink {
   std::stop_source stop;
 };
 
-/// Two turns of four samples, 0.1 s each.
+/// Two scans of four samples, 0.1 s each.
 std::filesystem::path write_recording(const test::TemporaryFolder& folder) {
   const std::filesystem::path file = folder.path() / "a.ndjson";
   std::ofstream stream(file);
@@ -43,7 +43,7 @@ std::filesystem::path write_recording(const test::TemporaryFolder& folder) {
   return file;
 }
 
-TEST(ReplayDriver, Recording_IsDeliveredInItsOwnTimeAndEnds) {
+TEST(ReplayDriver, Recording_KeepsItsTimesAndEnds) {
   const test::TemporaryFolder folder;
   ReplayDriver driver({write_recording(folder), 0, false, {}});
   PlayedSamples sink;
@@ -59,7 +59,7 @@ TEST(ReplayDriver, Recording_IsDeliveredInItsOwnTimeAndEnds) {
   EXPECT_NEAR(status.samples_hz, 40, 1e-6);
 }
 
-TEST(ReplayDriver, Loop_LetsTimeGoOnGrowingEvenly) {
+TEST(ReplayDriver, Loop_TimeKeepsGrowingEvenly) {
   const test::TemporaryFolder folder;
   ReplayDriver driver({write_recording(folder), 0, true, {}});
   PlayedSamples sink;
@@ -73,18 +73,18 @@ TEST(ReplayDriver, Loop_LetsTimeGoOnGrowingEvenly) {
   EXPECT_EQ(driver.status().counters.scans, 7u);
 }
 
-TEST(ReplayDriver, Speed_PacesTheSamples) {
+TEST(ReplayDriver, Speed2_PacesTheSamples) {
   const test::TemporaryFolder folder;
   ReplayDriver driver({write_recording(folder), 2, false, {}});
   PlayedSamples sink;
   const auto begin = std::chrono::steady_clock::now();
   driver.run({}, sink);
-  // 0.175 s from the first sample to the last, at twice the speed. Slower is the machine's affair.
+  // 0.175 s from the first sample to the last, at twice the speed; a slow machine may take longer.
   EXPECT_GE(std::chrono::steady_clock::now() - begin, std::chrono::milliseconds(87));
   EXPECT_EQ(sink.samples.size(), 8u);
 }
 
-TEST(ReplayDriver, Stop_IsHonouredWhileItWaits) {
+TEST(ReplayDriver, Stop_EndsAWait) {
   const test::TemporaryFolder folder;
   ReplayDriver driver({write_recording(folder), 1e-6, false, {}});  // 25 ms become seven hours
   PlayedSamples sink;
@@ -93,7 +93,7 @@ TEST(ReplayDriver, Stop_IsHonouredWhileItWaits) {
   EXPECT_EQ(sink.samples.size(), 1u);
 }
 
-TEST(ReplayDriver, FullSpeed_DoesNotOverrunASlowConsumer) {
+TEST(ReplayDriver, Unpaced_WaitsForASlowConsumer) {
   struct RingSink : drivers::SampleSink {
     void on_sample(const core::Sample& sample) override {
       ring.push(sample);
@@ -123,7 +123,7 @@ TEST(ReplayDriver, FullSpeed_DoesNotOverrunASlowConsumer) {
   EXPECT_EQ(sink.ring.overflows(), 0u);
 }
 
-TEST(ReplayDriver, UnreadableFile_IsAFaultThatIsNamed) {
+TEST(ReplayDriver, UnreadableFile_IsFaultyWithItsName) {
   ReplayDriver driver({"/nonexistent/a.bin", 1, true, {}});
   PlayedSamples sink;
   driver.run({}, sink);
@@ -132,7 +132,7 @@ TEST(ReplayDriver, UnreadableFile_IsAFaultThatIsNamed) {
   EXPECT_NE(status.detail.view().find("/nonexistent/a.bin"), std::string::npos);
 }
 
-TEST(ReplayDriver, PipeThatNobodyWrites_IsAFaultThatIsNamed) {
+TEST(ReplayDriver, PipeWithoutWriter_IsFaultyWithItsName) {
   const test::TemporaryFolder folder;
   const std::filesystem::path pipe = folder / "pipe";
   ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
@@ -140,10 +140,11 @@ TEST(ReplayDriver, PipeThatNobodyWrites_IsAFaultThatIsNamed) {
   PlayedSamples sink;
   driver.run({}, sink);
   EXPECT_EQ(driver.status().state, LidarState::kFaulty);
-  EXPECT_EQ(driver.status().detail.view(), pipe.string() + ": is no ordinary file");
+  EXPECT_EQ(driver.status().detail.view(),
+            pipe.string() + ": is no regular file; name a recording");
 }
 
-TEST(ReplayDriver, LoopOverNothing_Ends) {
+TEST(ReplayDriver, LoopOverEmptyFile_Ends) {
   const test::TemporaryFolder folder;
   std::ofstream(folder.path() / "empty.bin").flush();
   ReplayDriver driver({folder.path() / "empty.bin", 0, true, {}});

@@ -7,7 +7,7 @@
 
 namespace cornerd::replay {
 
-/// A room of 2 by 3 metres inside, its lower left inner corner at the origin.
+/// A room of 2 by 3 m with its lower left corner at the origin.
 inline std::shared_ptr<const core::WallMap> make_room() {
   core::FloorPlan plan;
   plan.name = "room";

@@ -39,7 +39,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Wrong{R"({MAP, "advanced": {"realtime": {"colour": 1}}})",
                           "/advanced/realtime/colour: unknown key; known here: priority, "
                           "lock_memory"},
-                    Wrong{R"({MAP, "odometry": {"sauce": {"a": 1}}})", "mean \"source\"?"}));
+                    Wrong{R"({MAP, "odometry": {"sorce": {"a": 1}}})", "mean \"source\"?"}));
 
 INSTANTIATE_TEST_SUITE_P(
     WrongType, WrongConfig,

@@ -87,13 +87,13 @@ TEST(Config, Keys_SetTheirMembers) {
   EXPECT_EQ(odometry.geometry.wheel_radius_m, 0.03);
   EXPECT_EQ(odometry.geometry.track_m, 0.2);
   EXPECT_EQ(odometry.geometry.counts_per_turn, 48);
-  EXPECT_EQ(odometry.geometry.ceiling, 65535);
+  EXPECT_EQ(odometry.geometry.counter_max, 65535);
   EXPECT_EQ(odometry.noise.wheel_m_per_sqrt_m, 0.01);
   EXPECT_EQ(odometry.noise.gyro_bias_rad_s, 0.1);
-  EXPECT_EQ(odometry.start.left_scale, 0.02);
-  EXPECT_EQ(odometry.start.delay_s, -0.1);
+  EXPECT_EQ(odometry.initial.left_scale, 0.02);
+  EXPECT_EQ(odometry.initial.delay_s, -0.1);
   EXPECT_EQ(odometry.max_extrapolation_s, 3);
-  EXPECT_TRUE(odometry.publish);
+  EXPECT_TRUE(odometry.publish_predictions);
 }
 
 TEST(Config, OldPointerOfAnOverride_IsRefusedWithItsNewName) {

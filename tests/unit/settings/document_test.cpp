@@ -24,7 +24,7 @@ TEST(Document, Comments_AreAllowed) {
   EXPECT_EQ(document["a"], 1);
 }
 
-TEST(Document, NoJson_IsNamedByLineAndColumn) {
+TEST(Document, SyntaxError_IsNamedByLineAndColumn) {
   EXPECT_THAT(document_error("{\n  \"a\": 1,\n}"), StartsWith("f.json: line 3, column 1: "));
   EXPECT_THAT(document_error(""), StartsWith("f.json: line 1, column 1: "));
   EXPECT_THAT(document_error("{\"a\": NaN}"), StartsWith("f.json: line 1, column"));
@@ -32,13 +32,13 @@ TEST(Document, NoJson_IsNamedByLineAndColumn) {
   EXPECT_THAT(document_error("{\"a\": \"\xff\"}"), StartsWith("f.json: line 1, column"));
 }
 
-TEST(Document, NumberBeyondADouble_IsNamedByItsPointer) {
+TEST(Document, NumberOutsideDouble_IsNamedByItsPointer) {
   EXPECT_THAT(document_error(R"({"a": {"b": 1, "c": 1e999}})"),
               AllOf(StartsWith("f.json: /a/c: "), HasSubstr("1e999")));
   EXPECT_THAT(document_error(R"({"w": [1, [2], 1e999]})"), StartsWith("f.json: /w/2: "));
 }
 
-TEST(Document, KeyTwice_IsNamedByItsPointer) {
+TEST(Document, RepeatedKey_IsNamedByItsPointer) {
   EXPECT_EQ(document_error(R"({"a": {"b": 1, "c": {"b": 2}, "b": 3}})"),
             "f.json: /a/b: this key is there twice");
   EXPECT_EQ(document_error(R"({"w": [1, [2], {"x": 1, "x": 1}]})"),
@@ -46,12 +46,50 @@ TEST(Document, KeyTwice_IsNamedByItsPointer) {
   EXPECT_NO_THROW(parse_document(R"([{"a": 1}, {"a": 1}])", "f.json"));
 }
 
-TEST(Document, TooDeep_IsAnError) {
+TEST(Document, NestingTooDeep_IsAnError) {
   EXPECT_THAT(document_error(std::string(100'000, '[')), HasSubstr("nested too deep"));
 }
 
 TEST(ChildPointer, SpecialCharacters_AreEscaped) {
   EXPECT_EQ(child_pointer("/a", "b/c~d"), "/a/b~1c~0d");
+}
+
+TEST(Override, Value_IsJsonOrText) {
+  Json document = Json::object();
+  EXPECT_EQ(apply_override(document, "/a=1.5"), "/a");
+  apply_override(document, "/b=true");
+  apply_override(document, "/c=/dev/ttyS1");
+  apply_override(document, "/d=\"12\"");
+  apply_override(document, "/e={\"f\": 1}");
+  apply_override(document, "/g=x=y");
+  EXPECT_EQ(document, Json::parse(R"({"a": 1.5, "b": true, "c": "/dev/ttyS1", "d": "12",
+                                      "e": {"f": 1}, "g": "x=y"})"));
+}
+
+TEST(Override, AbsentObjects_AreCreated) {
+  Json document = Json::parse(R"({"a": {"b": 1}})");
+  apply_override(document, "/a/c/d=2");
+  apply_override(document, "/e~1f/~0=3");
+  EXPECT_EQ(document, Json::parse(R"({"a": {"b": 1, "c": {"d": 2}}, "e/f": {"~": 3}})"));
+}
+
+TEST(Override, WithoutPointerOrValue_IsAnError) {
+  for (const char* text : {"", "=1", "a=1", "/a", "/=1"}) {
+    EXPECT_THAT(error_of([text] {
+                  Json document;
+                  apply_override(document, text);
+                }),
+                HasSubstr("must be /json/pointer=value"))
+        << text;
+  }
+}
+
+TEST(Override, BelowAValueThatIsNoObject_IsAnError) {
+  EXPECT_THAT(error_of([] {
+                Json document = Json::parse(R"({"map": "/m"})");
+                apply_override(document, "/map/x=1");
+              }),
+              HasSubstr("/map/x"));
 }
 
 }  // namespace

@@ -33,20 +33,20 @@ TEST(LidarCalibration, Written_ReadsTheSame) {
   EXPECT_EQ(again.learned.scans, 412u);
 }
 
-TEST(LidarCalibration, WithoutANumber_ReadsTheSame) {
+TEST(LidarCalibration, WithoutASerialNumber_ReadsTheSame) {
   LidarCalibration calibration = usual_calibration();
   calibration.serial.clear();
   EXPECT_EQ(parse_lidar_calibration(text_of(calibration), "l.json").serial, "");
 }
 
-TEST(LidarCalibration, CutShort_IsAnError) {
+TEST(LidarCalibration, TruncatedFile_IsAnError) {
   const std::string text = text_of(usual_calibration());
   for (std::size_t length = 0; length + 2 < text.size(); length += 7) {
     EXPECT_THAT(calibration_error(text.substr(0, length)), HasSubstr("l.json")) << length;
   }
 }
 
-TEST(LidarCalibration, OfAnotherKindOrWithoutWhatItNeeds_IsAnError) {
+TEST(LidarCalibration, WrongOrMissingKey_IsNamed) {
   EXPECT_THAT(calibration_error("{}"), HasSubstr("/format"));
   EXPECT_THAT(calibration_error(R"({"format":"cornerd-map"})"), HasSubstr("/format"));
   EXPECT_THAT(calibration_error(R"({"format":"cornerd-lidar","turns":3})"), HasSubstr("/sigma"));

@@ -41,7 +41,7 @@ TEST(Noise, EveryKey_ReachesTheLocalizer) {
   EXPECT_NEAR(noise.sigma_range_m(1.25), 0.0025, 1e-9);
 }
 
-TEST(Noise, WrongValues_AreNamedByTheirPointer) {
+TEST(Noise, WrongValue_IsNamedByItsPointer) {
   EXPECT_THAT(noise_error(R"({"floor": 0})"), HasSubstr("/lidar/noise/floor: must be from"));
   EXPECT_THAT(noise_error(R"({"share": -1})"), HasSubstr("/lidar/noise/share: must be from"));
   EXPECT_THAT(noise_error(R"({"bearing": 5})"), HasSubstr("/lidar/noise/bearing: must be from"));
@@ -73,7 +73,7 @@ TEST(Noise, WallModel_IsRead) {
   EXPECT_EQ(wall.sigma_m(0.8), 0.003);
 }
 
-TEST(Noise, WrongWallModels_AreNamedByTheirPointer) {
+TEST(Noise, WrongWallModel_IsNamedByItsPointer) {
   const auto piece_error = [](const std::string& coefficients, const std::string& to = "1") {
     return noise_error(R"({"wall": [{"from": 0.2, "ray": 1, "sigma": 0.002, "to": )" + to +
                        R"(, "coefficients": )" + coefficients + "}]}");
@@ -89,7 +89,7 @@ TEST(Noise, WrongWallModels_AreNamedByTheirPointer) {
   EXPECT_THAT(piece_error("[[1e9]]"), HasSubstr("/wall/0/coefficients/0: must hold numbers"));
 }
 
-TEST(Noise, MoreRangesThanTheTableHolds_AreAnError) {
+TEST(Noise, TooManyRanges_AreAnError) {
   std::string list;
   for (int i = 0; i < 65; ++i) {
     list += (i > 0 ? ", " : "") + ("{\"range\": " + std::to_string(i + 1)) + ", \"sigma\": 0.1}";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// config/cornerd.full.json and config/README.md are made from the table of keys. To write them
+// config/cornerd.full.json and config/keys.md are made from the table of keys. To write them
 // anew: CORNERD_UPDATE_GOLDEN=1 unit_settings
 #include <gtest/gtest.h>
 
@@ -71,7 +71,7 @@ std::string object_text(const std::vector<Key>& table, const std::string& sectio
     if (!is_leaf && name == last_section) continue;
     if (rest == name) comments += comment(key.text, indent);
     if (is_leaf && !has_default(key)) {
-      comments += indent + "// \"" + name + "\": \"...\"\n";
+      comments += indent + "// \"" + name + "\": \"...\",\n";
       continue;
     }
     const std::string value =
@@ -89,14 +89,13 @@ std::string object_text(const std::vector<Key>& table, const std::string& sectio
 
 std::string full_sample() {
   Config config = shown_config();
-  return "// Every key of cornerd's settings with its default. A file needs no more than \"map\"; "
-         "an "
-         "unknown key\n"
-         "// is an error. Metres, radians, seconds; x forward, y left, theta counter-clockwise. A "
-         "relative path\n"
-         "// is relative to the file that holds it. `cornerd --config FILE --check` reads a file "
-         "like this one\n"
-         "// and reports what is wrong with it.\n" +
+  return comment(
+             "Every key of cornerd's settings with its default. A file needs no more than \"map\"; "
+             "an unknown key is an error. Metres, radians, seconds; x forward, y left, theta "
+             "counter-clockwise. A relative path is relative to the file that holds it. `cornerd "
+             "--config FILE --check` reads a file like this one and reports what is wrong with it. "
+             "keys.md has the limits.",
+             "") +
          object_text(config_table(config), "", "  ") + "\n";
 }
 
@@ -152,7 +151,7 @@ TEST_P(GeneratedPage, File_IsWhatTheTableMakes) {
 
 INSTANTIATE_TEST_SUITE_P(Pages, GeneratedPage,
                          testing::Values(Page{"cornerd.full.json", full_sample},
-                                         Page{"README.md", page}));
+                                         Page{"keys.md", page}));
 
 class Sample : public testing::TestWithParam<const char*> {};
 

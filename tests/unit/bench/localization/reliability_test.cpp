@@ -9,7 +9,7 @@ namespace {
 core::PoseEstimate answer(core::PoseState state, double doubt) {
   core::PoseEstimate estimate;
   estimate.state = state;
-  estimate.doubt = doubt;
+  estimate.p_wrong = doubt;
   estimate.T_map_base = {1, 2, 0};
   if (state == core::PoseState::kAmbiguous) {
     estimate.T_map_base = {};

@@ -13,8 +13,8 @@ struct Tracked {
   double noise_scale = 0;
 };
 
-Tracked altbd_walls(const PolarScan& points, const SensorNoise& believed = {}) {
-  Altbd altbd({}, believed);
+Tracked altbd_walls(const PolarScan& points, const SensorNoise& noise_model = {}) {
+  Altbd altbd({}, noise_model);
   altbd.begin();
   Tracked tracked;
   SegmentTrack wall;
@@ -86,9 +86,9 @@ TEST(Altbd, NoiseOfPreviousScan_IsRetained) {
   const PolarScan points = testing::polar(source.take(*map, {1.5, 1, 0.3}, options));
   Altbd altbd({}, {});
   SegmentTrack wall;
-  for (int turn = 0; turn < 2; ++turn) {
+  for (int scan = 0; scan < 2; ++scan) {
     altbd.begin();
-    if (turn == 1) {
+    if (scan == 1) {
       EXPECT_GT(altbd.noise_scale(), 1.5);
     }
     while (altbd.next(points, true, wall) != Altbd::Event::kNone) {
@@ -105,7 +105,7 @@ TEST(Altbd, NoiselessScans_GateStaysOpen) {
   const PolarScan noisy = testing::polar(source.take(*map, {1.5, 1, 0.3}));
   Altbd altbd({}, {});
   SegmentTrack wall;
-  for (int turn = 0; turn < 10; ++turn) {
+  for (int scan = 0; scan < 10; ++scan) {
     altbd.begin();
     while (altbd.next(clean, true, wall) != Altbd::Event::kNone) {
     }

@@ -106,13 +106,13 @@ TEST(BiasEstimator, MotionWithinScans_IsNotTakenForBias) {
 
 TEST(BiasEstimator, Resumed_ContinuesFromStoredEstimate) {
   const auto map = testing::make_map(testing::l_shaped_room());
-  const EstimatedBias learned{
+  const EstimatedBias stored{
       .bias = kBias, .sigma = {0.001, 0.001, radians(0.02), radians(0.02)}, .scans = 400};
   BiasEstimator estimator(12, {}, {});
-  estimator.resume(learned);
+  estimator.resume(stored);
   EXPECT_EQ(estimator.scans(), 400U);
   EXPECT_EQ(estimator.bias().range_offset_m, kBias.range_offset_m);
-  EXPECT_EQ(estimator.learned().sigma.range_scale, 0.001);
+  EXPECT_EQ(estimator.estimate().sigma.range_scale, 0.001);
   testing::ScanSource source(66);
   PolarScan points;
   for (int k = 0; k < 60; ++k) {
@@ -149,11 +149,11 @@ TEST(BiasEstimator, BiasBeyondLimit_IsReported) {
   BiasEstimator estimator(12, {}, known);
   estimator.resume({.bias = known, .sigma = {0.001, 0.001, 0.001, 0.001}, .scans = 50});
   EXPECT_EQ(estimator.bias().range_offset_m, 0.03);
-  EXPECT_FALSE(estimator.learned().is_limited);
+  EXPECT_FALSE(estimator.estimate().is_limited);
   SensorBias far = known;
   far.range_scale = 0.05;
   estimator.resume({.bias = far, .sigma = {0.001, 0.001, 0.001, 0.001}, .scans = 50});
-  EXPECT_TRUE(estimator.learned().is_limited);
+  EXPECT_TRUE(estimator.estimate().is_limited);
   EXPECT_EQ(estimator.bias().range_scale, 0.03);
 }
 
@@ -167,8 +167,8 @@ TEST(BiasEstimator, MoreScans_SigmaDecreases) {
     const Pose2 T_map_lidar = source.place_in(0.4, 2.2, 0.4, 1.4);
     points.assign(source.take(*map, T_map_lidar), 0.1, 12, 0, {}, estimator.bias());
     estimator.update(*map, T_map_lidar, points.points(), 1);
-    EXPECT_LT(estimator.learned().sigma.range_scale, before);
-    before = estimator.learned().sigma.range_scale;
+    EXPECT_LT(estimator.estimate().sigma.range_scale, before);
+    before = estimator.estimate().sigma.range_scale;
   }
 }
 

@@ -34,17 +34,18 @@ class MapErrorModelTest : public ::testing::Test {
       const RefinedPose refined =
           refinement_.refine(*map_, T_map_lidar, 0.05, points.points(), points.points(), 1);
       ASSERT_TRUE(refined.valid);
-      doubt_.add(refined.face_residuals);
+      map_error_.add(refined.face_residuals);
       const Eigen::Vector3d error(
           refined.T_map_lidar.x_m - T_map_lidar.x_m, refined.T_map_lidar.y_m - T_map_lidar.y_m,
           angle_between(T_map_lidar.theta_rad, refined.T_map_lidar.theta_rad));
-      const Covariance3 told = refined.covariance + doubt_.doubt_of(refined.face_residuals);
-      nees_with_ += error.dot(told.inverse() * error);
+      const Covariance3 consistent =
+          refined.covariance + map_error_.pose_covariance(refined.face_residuals);
+      nees_with_ += error.dot(consistent.inverse() * error);
       nees_without_ += error.dot(refined.covariance.inverse() * error);
-      variance_m2_ += doubt_.variance();
+      variance_m2_ += map_error_.variance();
       ++count_;
     }
-    doubt_.forget();
+    map_error_.forget();
   }
   double sigma_m() const { return std::sqrt(variance_m2_ / count_); }
 
@@ -52,7 +53,7 @@ class MapErrorModelTest : public ::testing::Test {
   std::shared_ptr<const WallMap> map_ = testing::make_map(testing::l_shaped_room());
   Refinement refinement_{12, {}};
   testing::ScanSource source_{8};
-  MapErrorModel doubt_;
+  MapErrorModel map_error_;
   double nees_with_ = 0;
   double nees_without_ = 0;
   double variance_m2_ = 0;
@@ -74,9 +75,9 @@ TEST_F(MapErrorModelTest, DisplacedWalls_PoseCovarianceIsConsistent) {
 
 TEST_F(MapErrorModelTest, EmptyScan_AddsNothing) {
   const FaceResidualStatistics nothing = face_residual_statistics({}, Covariance3::Identity());
-  doubt_.add(nothing);
-  EXPECT_EQ(doubt_.variance(), 0);
-  EXPECT_TRUE(doubt_.doubt_of(nothing).isZero());
+  map_error_.add(nothing);
+  EXPECT_EQ(map_error_.variance(), 0);
+  EXPECT_TRUE(map_error_.pose_covariance(nothing).isZero());
 }
 
 }  // namespace

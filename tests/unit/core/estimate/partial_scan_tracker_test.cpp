@@ -37,7 +37,7 @@ class FollowedRobot {
       const Scan scan = source_.take(seen != nullptr ? *seen : *map_, middle, options);
       for (const Sample& sample : scan.samples()) {
         if (pipeline_.add(sample) != nullptr) ++complete_scans_;
-        if (const PoseEstimate* pose = pipeline_.part())
+        if (const PoseEstimate* pose = pipeline_.partial_pose())
           parts.push_back({*pose, truth(pose->t_ns)});
       }
     }

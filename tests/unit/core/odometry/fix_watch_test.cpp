@@ -46,7 +46,7 @@ TEST(FixWatch, OccasionalRejectedFixes_AreSlips) {
   for (int k = 0; k < 20; ++k) {
     watch.add_stranger(true);
     EXPECT_TRUE(watch.is_believed()) << k;
-    for (int turns = 0; turns < 3; ++turns) accept_fix(watch, 0.05, kTurn_rad);
+    for (int scans = 0; scans < 3; ++scans) accept_fix(watch, 0.05, kTurn_rad);
   }
 }
 

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "taught_robot.hpp"
+#include "filtered_drive.hpp"
 
 namespace cornerd::core {
 namespace {
@@ -14,7 +14,7 @@ using testing::config_with_counts_of_5_mm;
 using testing::kFixSigma_m;
 using testing::switched_on;
 using testing::usual_errors;
-using Drive = testing::TaughtRobot;
+using Drive = testing::FilteredDrive;
 
 TEST(FusionFilter, ThirtySecondsOfFixes_ScalesAndBiasAreEstimated) {
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {

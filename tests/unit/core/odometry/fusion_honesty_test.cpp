@@ -10,7 +10,7 @@
 #include <Eigen/Eigenvalues>
 
 #include "core/odometry/fusion_filter.hpp"
-#include "taught_robot.hpp"
+#include "filtered_drive.hpp"
 
 namespace cornerd::core {
 namespace {
@@ -18,7 +18,7 @@ namespace {
 using testing::config_with_counts_of_5_mm;
 using testing::switched_on;
 using testing::usual_errors;
-using Drive = testing::TaughtRobot;
+using Drive = testing::FilteredDrive;
 
 /// Normalized estimation error squared: 3 in the mean where the covariance is consistent. Each
 /// robot's errors are drawn from the filter's priors.

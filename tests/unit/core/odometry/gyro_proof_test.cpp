@@ -7,8 +7,8 @@ namespace cornerd::core {
 namespace {
 
 /// Scans of 0.14 s at 1 rad/s, of which the gyro measures `gain` times as much.
-void turn(GyroProof& proof, double& heading_rad, double gain, int turns = 1) {
-  for (int i = 0; i < turns; ++i) {
+void rotate(GyroProof& proof, double& heading_rad, double gain, int scans = 1) {
+  for (int i = 0; i < scans; ++i) {
     heading_rad = normalize_angle(heading_rad + 0.14);
     OdometryIncrement step;
     step.to_ns = 140'000'000;
@@ -23,9 +23,9 @@ TEST(GyroProof, RotationsSeenByLidar_Validate) {
   GyroProof proof;
   double heading_rad = 0;
   EXPECT_FALSE(proof.holds());
-  turn(proof, heading_rad, 1.03, 4);
+  rotate(proof, heading_rad, 1.03, 4);
   EXPECT_TRUE(proof.holds());
-  turn(proof, heading_rad, -1, 4);
+  rotate(proof, heading_rad, -1, 4);
   EXPECT_FALSE(proof.holds());
 }
 
@@ -45,7 +45,7 @@ TEST(GyroProof, Straights_DoNotValidate) {
 TEST(GyroProof, IncrementWithoutGyro_IsIgnored) {
   GyroProof proof;
   double heading_rad = 0;
-  turn(proof, heading_rad, 1, 4);
+  rotate(proof, heading_rad, 1, 4);
   OdometryIncrement blind;
   blind.to_ns = 140'000'000;
   for (int i = 0; i < 20; ++i) {

@@ -10,14 +10,14 @@
 namespace cornerd::core {
 namespace {
 
-/// A minute with fixes; then five seconds without and five with fixes, in turn.
+/// A minute with fixes; then five seconds without and five with fixes, alternating.
 class LateRide {
  public:
   explicit LateRide(double delay_s, const OdometryConfig& config)
       : odometer(config), robot_(config.geometry, errors(), 5), delay_ns_(from_seconds(delay_s)) {}
 
   void teach() {
-    for (int k = 0; k < 430; ++k) turn(true);
+    for (int k = 0; k < 430; ++k) drive_scan(true);
   }
   /// Mean NEES of the predictions; 3 where they are consistent.
   double blind_nees() {
@@ -26,7 +26,7 @@ class LateRide {
     int count = 0;
     for (int k = 0; k < 20 * kScans; ++k) {
       const bool blind = k / kScans % 2 == 0;
-      turn(!blind);
+      drive_scan(!blind);
       const auto predicted = odometer.prediction();
       EXPECT_TRUE(predicted) << k;
       if (!blind || !predicted) continue;
@@ -36,7 +36,7 @@ class LateRide {
     return sum / count;
   }
 
-  void turn(bool with_fix) {
+  void drive_scan(bool with_fix) {
     constexpr double kReading_s = 0.02;
     const TimeNs start_ns = robot_.now_ns();
     TimeNs middle_ns = 0;

@@ -9,13 +9,13 @@
 #include <random>
 
 #include "core/odometry/odometer.hpp"
-#include "ride.hpp"
+#include "odometer_drive.hpp"
 
 namespace cornerd::core {
 namespace {
 
 using testing::kFixCovariance;
-using testing::Ride;
+using testing::OdometerDrive;
 using testing::switched_on;
 
 struct Carried {
@@ -25,15 +25,15 @@ struct Carried {
 };
 
 /// Fixes in all scans but `blind` of them after every `seen`; collects the predictions in those.
-Carried carried_on(Ride& ride, int seen, int blind, int times) {
+Carried carried_on(OdometerDrive& ride, int seen, int blind, int times) {
   Carried carried;
   for (int i = 0; i < times; ++i) {
     for (int k = 0; k < seen; ++k) {
-      ride.turn();
+      ride.drive_scan();
       ride.odometer.correct(ride.truth, kFixCovariance);
     }
     for (int k = 0; k < blind; ++k) {
-      ride.turn();
+      ride.drive_scan();
       const auto predicted = ride.odometer.prediction();
       if (!predicted) continue;
       const Eigen::Vector3d error(
@@ -49,13 +49,13 @@ Carried carried_on(Ride& ride, int seen, int blind, int times) {
 }
 
 TEST(OdometerDoubt, GyroInvertedFromStart_NoPrediction) {
-  Ride ride(switched_on());
+  OdometerDrive ride(switched_on());
   ride.spoil = [](int, OdometryReading& reading) { reading.gyro_rad_s = -*reading.gyro_rad_s; };
   EXPECT_EQ(carried_on(ride, 1, 1, 300).wrong, 0);
 }
 
 TEST(OdometerDoubt, GyroSticks_NoPredictionInRotations) {
-  Ride ride(switched_on());
+  OdometerDrive ride(switched_on());
   EXPECT_GT(carried_on(ride, 1, 1, 60).predictions, 55);
   std::optional<double> stuck;
   ride.spoil = [&](int, OdometryReading& reading) {
@@ -72,7 +72,7 @@ TEST(OdometerDoubt, ModeWithoutEstimation_CovarianceContainsPrior) {
                                    HeadingSource::kMean, HeadingSource::kWeighted}) {
     OdometryConfig config = switched_on();
     config.mode = mode;
-    Ride ride(config);
+    OdometerDrive ride(config);
     const Carried carried = carried_on(ride, 2, 7, 60);
     EXPECT_GT(carried.predictions, 200) << static_cast<int>(mode);
     EXPECT_LT(carried.mean_error_squared, 4) << static_cast<int>(mode);
@@ -80,7 +80,7 @@ TEST(OdometerDoubt, ModeWithoutEstimation_CovarianceContainsPrior) {
 }
 
 TEST(OdometerDoubt, WheelSlipWithoutGyro_CovarianceIsConsistent) {
-  Ride ride(switched_on());
+  OdometerDrive ride(switched_on());
   std::mt19937_64 random(5);
   std::int64_t slipped = 0;
   ride.spoil = [&](int, OdometryReading& reading) {

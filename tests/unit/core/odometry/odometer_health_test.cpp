@@ -19,15 +19,15 @@ using testing::Ride;
 using testing::switched_on;
 
 TEST(Odometer, InconsistentWheels_AreRejected) {
-  Ride ride(switched_on());
+  OdometerDrive ride(switched_on());
   for (int k = 0; k < 50; ++k) {
-    ride.turn();
+    ride.drive_scan();
     ride.odometer.correct(ride.truth, kFixCovariance);
   }
   // The robot is lifted: wheels move, the lidar's pose does not.
   const Pose2 hanging = ride.truth;
   for (int k = 0; k < 15; ++k) {
-    ride.turn();
+    ride.drive_scan();
     ride.odometer.correct(hanging, kFixCovariance);
   }
   EXPECT_FALSE(ride.odometer.prediction());
@@ -39,15 +39,15 @@ TEST(Odometer, InconsistentWheels_AreRejected) {
 /// corrupted readings; 0 without a prediction.
 double worst_sigmas_while_blind(const std::function<void(int, OdometryReading&)>& spoil,
                                 int* predictions = nullptr) {
-  Ride ride(switched_on());
+  OdometerDrive ride(switched_on());
   for (int k = 0; k < 100; ++k) {
-    ride.turn();
+    ride.drive_scan();
     ride.odometer.correct(ride.truth, kFixCovariance);
   }
   ride.spoil = spoil;
   double worst = 0;
   for (int k = 0; k < 36; ++k) {
-    ride.turn();
+    ride.drive_scan();
     const auto predicted = ride.odometer.prediction();
     if (!predicted) continue;
     if (predictions) ++*predictions;
@@ -93,9 +93,9 @@ TEST(Odometer, GyroInvertedOrBiased_NoPrediction) {
 }
 
 TEST(Odometer, StuckWheel_IsRejected) {
-  Ride ride(switched_on());
+  OdometerDrive ride(switched_on());
   for (int k = 0; k < 100; ++k) {
-    ride.turn();
+    ride.drive_scan();
     ride.odometer.correct(ride.truth, kFixCovariance);
   }
   EXPECT_TRUE(ride.odometer.summary().healthy);
@@ -106,7 +106,7 @@ TEST(Odometer, StuckWheel_IsRejected) {
   };
   int trusted = 0;
   for (int k = 0; k < 36; ++k) {
-    ride.turn();
+    ride.drive_scan();
     ride.odometer.correct(ride.truth, kFixCovariance);
     trusted += ride.odometer.summary().healthy;
   }

@@ -12,27 +12,27 @@
 
 #include "../fixtures.hpp"
 #include "driven_robot.hpp"
-#include "ride.hpp"
+#include "odometer_drive.hpp"
 
 namespace cornerd::core {
 namespace {
 
 constexpr double kScan_s = 0.14;
 using testing::kFixCovariance;
-using testing::Ride;
+using testing::OdometerDrive;
 using testing::switched_on;
 
 TEST(Odometer, BeforeFirstFix_NoPrediction) {
-  Ride ride(switched_on());
-  for (int k = 0; k < 5; ++k) ride.turn();
+  OdometerDrive ride(switched_on());
+  for (int k = 0; k < 5; ++k) ride.drive_scan();
   EXPECT_FALSE(ride.odometer.prediction());
   EXPECT_TRUE(ride.odometer.has_motion());
 }
 
 TEST(Odometer, PredictLatest_IsCurrentPose) {
-  Ride ride(switched_on());
+  OdometerDrive ride(switched_on());
   for (int k = 0; k < 300; ++k) {
-    ride.turn();
+    ride.drive_scan();
     ride.odometer.correct(ride.truth, kFixCovariance);
   }
   double variance_m2 = 0;
@@ -49,9 +49,9 @@ TEST(Odometer, PredictLatest_IsCurrentPose) {
 
 TEST(Odometer, PredictLatest_IsStartOfNextScan) {
   // Counts predicted reading by reading equal those that the scan consumes.
-  Ride ride(switched_on());
+  OdometerDrive ride(switched_on());
   for (int k = 0; k < 20; ++k) {
-    ride.turn();
+    ride.drive_scan();
     ride.odometer.correct(ride.truth, kFixCovariance);
   }
   ride.go_on();
@@ -66,16 +66,16 @@ TEST(Odometer, PredictLatest_IsStartOfNextScan) {
 }
 
 TEST(Odometer, PredictLatest_BeforeFirstFix_IsNull) {
-  Ride ride(switched_on());
-  ride.turn();
+  OdometerDrive ride(switched_on());
+  ride.drive_scan();
   ride.go_on();
   EXPECT_FALSE(ride.odometer.predict_latest());
 }
 
 TEST(Odometer, BetweenFixes_PredictsMiddleOfScan) {
-  Ride ride(switched_on());
+  OdometerDrive ride(switched_on());
   for (int k = 0; k < 300; ++k) {
-    ride.turn();
+    ride.drive_scan();
     if (k > 50) {
       ASSERT_LT(ride.error_m(), 0.004) << k;
     }
@@ -88,9 +88,9 @@ TEST(Odometer, BetweenFixes_PredictsMiddleOfScan) {
 
 TEST(Odometer, LateOrSparseReadings_CountOnce) {
   for (const auto& [late, every] : {std::pair{8, 1}, {0, 17}, {8, 17}}) {
-    Ride ride(switched_on(), late, every);
+    OdometerDrive ride(switched_on(), late, every);
     for (int k = 0; k < 100; ++k) {
-      ride.turn();
+      ride.drive_scan();
       if (k < 60) ride.odometer.correct(ride.truth, kFixCovariance);
     }
     // Six seconds without fixes. The last reading is up to 0.25 s old, and motion since then is
@@ -103,13 +103,13 @@ TEST(Odometer, LateOrSparseReadings_CountOnce) {
 TEST(Odometer, NoFixes_PredictsForMaxExtrapolation) {
   OdometryConfig config = switched_on();
   config.max_extrapolation_s = 3;
-  Ride ride(config);
+  OdometerDrive ride(config);
   for (int k = 0; k < 200; ++k) {
-    ride.turn();
+    ride.drive_scan();
     ride.odometer.correct(ride.truth, kFixCovariance);
   }
   for (int k = 1; k <= 40; ++k) {
-    ride.turn();
+    ride.drive_scan();
     ASSERT_EQ(ride.odometer.prediction().has_value(), k * kScan_s <= 3) << k;
     if (k * kScan_s <= 3) {
       EXPECT_LT(ride.error_m(), 0.02);
@@ -118,17 +118,17 @@ TEST(Odometer, NoFixes_PredictsForMaxExtrapolation) {
 }
 
 TEST(Odometer, ReadingsStop_PredictionEnds) {
-  Ride ride(switched_on());
+  OdometerDrive ride(switched_on());
   for (int k = 0; k < 20; ++k) {
-    ride.turn();
+    ride.drive_scan();
     ride.odometer.correct(ride.truth, kFixCovariance);
   }
-  for (int k = 0; k < 4; ++k) ride.turn(/*readings=*/false);
+  for (int k = 0; k < 4; ++k) ride.drive_scan(/*readings=*/false);
   EXPECT_FALSE(ride.odometer.prediction());
   EXPECT_FALSE(ride.odometer.has_motion());
   EXPECT_FALSE(ride.odometer.summary().present);
   for (int k = 0; k < 20; ++k) {
-    ride.turn();
+    ride.drive_scan();
     ride.odometer.correct(ride.truth, kFixCovariance);
   }
   EXPECT_TRUE(ride.odometer.prediction());
@@ -139,7 +139,7 @@ TEST(Odometer, StationaryRobot_WheelScalesAreUnchanged) {
   std::mt19937_64 random(7);
   std::normal_distribution<double> normal;
   TimeNs now_ns = 0;
-  for (int turn = 0; turn < 400; ++turn) {
+  for (int scan = 0; scan < 400; ++scan) {
     const TimeNs start_ns = now_ns;
     for (int i = 0; i < 7; ++i) {
       now_ns += 20'000'000;
@@ -159,14 +159,14 @@ TEST(Odometer, StationaryRobot_WheelScalesAreUnchanged) {
 }
 
 TEST(Odometer, JitteringTimes_ScalesDoNotDrift) {
-  Ride ride(switched_on());
+  OdometerDrive ride(switched_on());
   std::mt19937_64 random(5);
   std::normal_distribution<double> jitter_s(0, 0.002);
   ride.spoil = [&](int, OdometryReading& reading) {
     reading.t_ns += from_seconds(std::clamp(jitter_s(random), -0.004, 0.004));
   };
   for (int k = 0; k < 400; ++k) {
-    ride.turn();
+    ride.drive_scan();
     ride.odometer.correct(ride.truth, kFixCovariance);
   }
   const OdometryParameters learned = ride.odometer.summary().parameters;
@@ -176,19 +176,19 @@ TEST(Odometer, JitteringTimes_ScalesDoNotDrift) {
 }
 
 TEST(Odometer, AfterForget_NeedsFix) {
-  Ride ride(switched_on());
-  ride.turn();
+  OdometerDrive ride(switched_on());
+  ride.drive_scan();
   ride.odometer.correct(ride.truth, kFixCovariance);
   ride.odometer.forget();
-  ride.turn();
+  ride.drive_scan();
   EXPECT_FALSE(ride.odometer.prediction());
 }
 
 TEST(Odometer, Disabled_DoesNothing) {
-  Ride ride(OdometryConfig{});
-  ride.turn();
+  OdometerDrive ride(OdometryConfig{});
+  ride.drive_scan();
   ride.odometer.correct(ride.truth, kFixCovariance);
-  ride.turn();
+  ride.drive_scan();
   EXPECT_FALSE(ride.odometer.has_motion());
   EXPECT_FALSE(ride.odometer.prediction());
 }
@@ -210,7 +210,7 @@ TEST(Odometer, ScanTakenInMotion_IsDeskewed) {
     const double chord_m = 2 * kSpeed_m_s / kRate_rad_s * std::sin(rotation_rad / 2);
     return Pose2{1, 1, 0.7} * arc(chord_m, rotation_rad);
   };
-  Scan turn;
+  Scan scan;
   for (int i = 0; i < 400; ++i) {
     Sample sample;
     sample.t_ns = start_ns + i * 300'000;
@@ -218,15 +218,15 @@ TEST(Odometer, ScanTakenInMotion_IsDeskewed) {
     const Pose2 T_map_lidar = pose_at(to_seconds(sample.t_ns)) * T_base_lidar;
     sample.range_m = static_cast<float>(map->range_along(
         T_map_lidar.translation(), T_map_lidar.theta_rad + sample.bearing_rad, 12));
-    turn.add(sample);
+    scan.add(sample);
   }
-  Scan still;
-  odometer.advance(start_ns, 75'000'000, turn.end_ns());
-  ASSERT_TRUE(odometer.deskew(turn, T_base_lidar, still));
-  ASSERT_EQ(still.size(), turn.size());
+  Scan deskewed;
+  odometer.advance(start_ns, 75'000'000, scan.end_ns());
+  ASSERT_TRUE(odometer.deskew(scan, T_base_lidar, deskewed));
+  ASSERT_EQ(deskewed.size(), scan.size());
   const Pose2 T_map_lidar = pose_at(0.075) * T_base_lidar;
   double worst_m = 0;
-  for (const Sample& sample : still.samples()) {
+  for (const Sample& sample : deskewed.samples()) {
     const Vec2 point = T_map_lidar * (sample.range_m * unit_vector(sample.bearing_rad));
     const double off_m = std::min({std::abs(point.x()), std::abs(point.x() - 4),
                                    std::abs(point.y()), std::abs(point.y() - 3)});

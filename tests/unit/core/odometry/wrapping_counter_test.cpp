@@ -28,8 +28,8 @@ TEST(CountDifference, WithoutCounterMax_IsPlainDifference) {
 
 TEST(CountDifference, AnyCounterMax_DifferencesAddUp) {
   std::mt19937_64 random(5);
-  for (const std::int64_t ceiling : {9LL, 999LL, 65535LL, 4294967295LL, (1LL << 62) - 1}) {
-    const std::int64_t span = ceiling + 1;
+  for (const std::int64_t counter_max : {9LL, 999LL, 65535LL, 4294967295LL, (1LL << 62) - 1}) {
+    const std::int64_t span = counter_max + 1;
     const std::int64_t longest = span / 2 - 1;
     std::int64_t count = 0;
     for (int i = 0; i < 1000; ++i) {
@@ -37,7 +37,7 @@ TEST(CountDifference, AnyCounterMax_DifferencesAddUp) {
           static_cast<std::int64_t>(random() % static_cast<std::uint64_t>(2 * longest + 1)) -
           longest;
       const std::int64_t next = ((count + way) % span + span) % span;
-      ASSERT_EQ(count_difference(count, next, ceiling), way) << ceiling;
+      ASSERT_EQ(count_difference(count, next, counter_max), way) << counter_max;
       count = next;
     }
   }
@@ -47,9 +47,9 @@ TEST(CountDifference, ExtremesOfType_NoOverflow) {
   constexpr auto kLow = std::numeric_limits<std::int64_t>::min();
   constexpr auto kHigh = std::numeric_limits<std::int64_t>::max();
   EXPECT_EQ(count_difference(kHigh, kLow, 0), 1);
-  for (const std::int64_t ceiling : {1LL, 65535LL, 4294967295LL}) {
-    const std::int64_t way = count_difference(kLow, kHigh, ceiling);
-    EXPECT_LE(std::abs(way), (ceiling + 1) / 2);
+  for (const std::int64_t counter_max : {1LL, 65535LL, 4294967295LL}) {
+    const std::int64_t way = count_difference(kLow, kHigh, counter_max);
+    EXPECT_LE(std::abs(way), (counter_max + 1) / 2);
   }
 }
 

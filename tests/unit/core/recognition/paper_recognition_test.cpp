@@ -33,7 +33,7 @@ TEST_F(PaperRecognitionTest, AsymmetricRoom_IsRecognised) {
     const Pose2 T_map_lidar = source_.place_in(0.4, 2.2, 0.4, 1.4);
     const auto places = places_of(T_map_lidar);
     found += std::any_of(places.begin(), places.end(), [&](const PoseHypothesis& place) {
-      return same_place(place.T_map_lidar, T_map_lidar, 0.1, radians(5));
+      return same_pose(place.T_map_lidar, T_map_lidar, 0.1, radians(5));
     });
   }
   EXPECT_GE(found, 36);
@@ -57,7 +57,7 @@ TEST_F(PaperRecognitionTest, MethodPaper_LocalizerUsesIt) {
     const PoseEstimate& pose = localizer.step(source_.take(*map_, T_map_lidar)).pose;
     if (pose.state != PoseState::kFix) continue;
     ++fixes;
-    EXPECT_TRUE(same_place(pose.T_map_base, T_map_lidar, 0.02, radians(1)));
+    EXPECT_TRUE(same_pose(pose.T_map_base, T_map_lidar, 0.02, radians(1)));
   }
   EXPECT_GE(fixes, 16);
 }

@@ -15,15 +15,15 @@ using testing::IsEmpty;
 using testing::SizeIs;
 
 /// Distances that no node of nodes(count) has.
-std::vector<std::uint32_t> foreign_distances(const CollectingSink& sink, int count) {
+std::vector<std::uint32_t> unknown_distances(const CollectingSink& sink, int count) {
   std::vector<std::uint32_t> known;
   for (int n = 0; n < count; ++n) known.push_back(node_dist_q2(n));
   std::sort(known.begin(), known.end());
-  std::vector<std::uint32_t> foreign;
+  std::vector<std::uint32_t> unknown;
   for (const std::uint32_t dist_q2 : sink.distances()) {
-    if (!std::binary_search(known.begin(), known.end(), dist_q2)) foreign.push_back(dist_q2);
+    if (!std::binary_search(known.begin(), known.end(), dist_q2)) unknown.push_back(dist_q2);
   }
-  return foreign;
+  return unknown;
 }
 
 TEST(DecoderStandard, RealNodes_DecodeAsBySdk) {
@@ -82,7 +82,7 @@ TEST_P(LostByte, InANode_DropsOneNode) {
   Decoder decoder;
   const auto sink = decode(stream, decoder);
   EXPECT_GE(sink.samples.size(), 398U);
-  EXPECT_THAT(foreign_distances(sink, 400), IsEmpty());
+  EXPECT_THAT(unknown_distances(sink, 400), IsEmpty());
   EXPECT_THAT(sink.gaps, IsEmpty());
   EXPECT_EQ(decoder.counters().resyncs, 1U);
   EXPECT_EQ(sink.samples.back().index, 399U) << "a lost node takes a sample period";
@@ -117,7 +117,7 @@ TEST(DecoderStandard, InsertedBytes_DropAtMostTwoNodes) {
   stream.insert(stream.begin() + 200 * 5 + 3, echo.begin(), echo.end());
   const auto sink = decode(stream);
   EXPECT_GE(sink.samples.size(), 398U);
-  EXPECT_THAT(foreign_distances(sink, 400), IsEmpty());
+  EXPECT_THAT(unknown_distances(sink, 400), IsEmpty());
   EXPECT_THAT(sink.gaps, IsEmpty());
 }
 
@@ -127,13 +127,13 @@ TEST(DecoderStandard, ManyBytesLost_AreAGap) {
   const auto sink = decode(stream);
   EXPECT_THAT(sink.gaps, SizeIs(1));
   EXPECT_GE(sink.samples.size(), 700U - 1713 / 5 - 4);
-  EXPECT_THAT(foreign_distances(sink, 700), IsEmpty());
+  EXPECT_THAT(unknown_distances(sink, 700), IsEmpty());
 }
 
 TEST(DecoderStandard, OneByteInTenThousandDamaged_FalsifiesNoScan) {
   constexpr int kNodes = 30 * 316;
   std::mt19937 random(7);
-  std::size_t foreign = 0;
+  std::size_t unknown = 0;
   for (int run = 0; run < 20; ++run) {
     Bytes stream = nodes(kNodes, 30);
     for (std::size_t i = 0; i < stream.size(); ++i) {
@@ -148,10 +148,10 @@ TEST(DecoderStandard, OneByteInTenThousandDamaged_FalsifiesNoScan) {
     EXPECT_GE(sink.samples.size(), kNodes - 30U);
     EXPECT_EQ(sink.scans(), 30U);
     EXPECT_THAT(sink.gaps, IsEmpty());
-    foreign += foreign_distances(sink, kNodes).size();
+    unknown += unknown_distances(sink, kNodes).size();
   }
   // Flipped bits in distances are undetectable: two bytes of five, half of the faults.
-  EXPECT_LE(foreign, 20 * 10U);
+  EXPECT_LE(unknown, 20 * 10U);
 }
 
 TEST(DecoderStandard, StartFlags_StartScans) {

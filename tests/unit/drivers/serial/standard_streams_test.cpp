@@ -25,11 +25,11 @@ int first_free_number(const std::vector<int>& closed) {
 }
 
 TEST(StandardStreams, ClosedOnes_AreOccupied) {
-  const int usual = first_free_number({});
-  ASSERT_GT(usual, 2);
-  EXPECT_EQ(first_free_number({0, 1, 2}), usual);
-  EXPECT_EQ(first_free_number({2}), usual);
-  EXPECT_EQ(first_free_number({0}), usual);
+  const int expected = first_free_number({});
+  ASSERT_GT(expected, 2);
+  EXPECT_EQ(first_free_number({0, 1, 2}), expected);
+  EXPECT_EQ(first_free_number({2}), expected);
+  EXPECT_EQ(first_free_number({0}), expected);
 }
 
 }  // namespace

@@ -3,80 +3,15 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <string>
 #include <vector>
 
-#include "drivers/rplidar/decoder.hpp"
-#include "tests/unit/replay/hex.hpp"
-#include "tests/unit/replay/test_maps.hpp"
+#include "host.hpp"
 
 namespace cornerd::replay {
 namespace {
 
-constexpr core::TimeNs kMs = 1'000'000;
-
-/// A host at the other end of the line, on a clock of its own.
-class Host {
- public:
-  explicit Host(const char* firmware, EmulatorConfig config = {})
-      : emulator_(with_firmware(config, firmware),
-                  std::make_unique<Simulator>(
-                      std::make_unique<MapScene>(make_room(), stand_still({1, 1, 0})),
-                      SimulatorConfig{})) {}
-
-  void send(const std::string& hex) { emulator_.receive(from_hex(hex), now_ns_); }
-  std::vector<std::uint8_t> receive_for(core::TimeNs duration_ns) {
-    std::vector<std::uint8_t> bytes;
-    const core::TimeNs end_ns = now_ns_ + duration_ns;
-    while (now_ns_ < end_ns) {
-      now_ns_ = std::min(now_ns_ + kMs, end_ns);
-      emulator_.take(now_ns_, bytes);
-    }
-    return bytes;
-  }
-  /// What comes within 20 ms of a request: more than any answer takes.
-  std::string ask(const std::string& hex) {
-    send(hex);
-    return to_hex(receive_for(20 * kMs));
-  }
-  /// The first bytes of the answer to a scan request.
-  std::string ask_for_scan(const std::string& hex) { return ask(hex).substr(0, 14); }
-
-  Emulator& emulator() { return emulator_; }
-  core::TimeNs now_ns() const { return now_ns_; }
-
- private:
-  static EmulatorConfig with_firmware(EmulatorConfig config, const char* firmware) {
-    config.firmware = find_firmware(firmware);
-    return config;
-  }
-
-  Emulator emulator_;
-  core::TimeNs now_ns_ = 0;
-};
-
-struct Samples : rplidar::RawSampleSink {
-  void on_sample(const rplidar::RawSample& sample) override {
-    ++count;
-    valid += sample.dist_q2 != 0;
-    scans += sample.starts_scan;
-  }
-  void on_gap() override { ++gaps; }
-  int count = 0;
-  int valid = 0;
-  int scans = 0;
-  int gaps = 0;
-};
-
-Samples decode(const std::vector<std::uint8_t>& bytes) {
-  Samples samples;
-  rplidar::Decoder decoder;
-  decoder.feed(bytes, samples);
-  return samples;
-}
-
-// Answers of firmware 1.29 as real devices gave them, but for the serial number.
+// Answers of real devices, but for the serial number.
 TEST(Emulator, Firmware129_AnswersAsARealDevice) {
   Host host("1.29");
   EXPECT_EQ(host.ask("a550").substr(0, 22), "a55a1400000004181d0107");
@@ -108,7 +43,7 @@ TEST(Emulator, Firmware124_KnowsThreeModes) {
   EXPECT_EQ(host.ask_for_scan("a58205020000000020"), "a55a8400004084");
 }
 
-TEST(Emulator, Firmware117_IgnoresConfigurationAndKnowsTheOldExpressMode) {
+TEST(Emulator, Firmware117_IgnoresConfigurationAndHasLegacyExpress) {
   Host host("1.17");
   EXPECT_EQ(host.ask("a550").substr(14, 8), "00110100");
   EXPECT_EQ(host.ask("a559"), "a55a0400000015f401f401");
@@ -118,15 +53,15 @@ TEST(Emulator, Firmware117_IgnoresConfigurationAndKnowsTheOldExpressMode) {
   EXPECT_EQ(Host("1.17").ask_for_scan("a58205010000000023"), "");
 }
 
-TEST(Emulator, RotationRequest_GetsFourBytesOrNothing) {
+TEST(Emulator, RotationRequest_IsAnsweredIfConfigured) {
   EXPECT_EQ(Host("1.29").ask("a584040100000024").size(), 2u * (7 + 4 + 4));
   EmulatorConfig silent;
   silent.answers_rotation_request = false;
   EXPECT_EQ(Host("1.29", silent).ask("a584040100000024"), "");
 }
 
-TEST(Emulator, VendorsExpressStart_IsAnsweredStepByStep) {
-  // The requests of the vendor's own program, in its order, for firmware 1.24 and later.
+TEST(Emulator, VendorsStartSequence_IsAnswered) {
+  // The requests of the vendor's program for firmware 1.24 and later.
   Host host("1.29");
   for (const char* request : {"a550", "a550", "a552", "a584040100000024"}) {
     EXPECT_EQ(host.ask(request).substr(0, 4), "a55a") << request;
@@ -148,7 +83,7 @@ TEST(Emulator, VendorsExpressStart_IsAnsweredStepByStep) {
   EXPECT_EQ(to_hex(host.receive_for(100 * kMs)), "");
 }
 
-TEST(Emulator, VendorsOldStart_IsAnsweredStepByStep) {
+TEST(Emulator, VendorsLegacyStartSequence_IsAnswered) {
   Host host("1.17");
   for (const char* request : {"a550", "a550", "a552"}) {
     EXPECT_EQ(host.ask(request).substr(0, 4), "a55a") << request;
@@ -179,7 +114,7 @@ INSTANTIATE_TEST_SUITE_P(
                       ModeCase{"a58205030000000021", "a55a8400004084", 1 / 127e-6},
                       ModeCase{"a58205040000000026", "a55a8400004084", 1 / 201e-6}));
 
-TEST_P(EmulatorModes, Stream_HasTheModesFormatAndRate) {
+TEST_P(EmulatorModes, Scan_HasTheModesFormatAndRate) {
   Host host("1.29");
   host.send(GetParam().request);
   const std::vector<std::uint8_t> bytes = host.receive_for(4 * core::kNsPerSecond);
@@ -187,12 +122,12 @@ TEST_P(EmulatorModes, Stream_HasTheModesFormatAndRate) {
   const Samples samples = decode(bytes);
   EXPECT_NEAR(samples.count / 4.0, GetParam().samples_hz, 0.03 * GetParam().samples_hz);
   EXPECT_GT(samples.valid, samples.count * 9 / 10);
-  // The capsules of Stability stand so far apart that a decoder believes in them at the fourth.
+  // The steps of Stability's capsules exceed a decoder's first limit, so it accepts the fourth.
   EXPECT_LE(samples.gaps, 3);
   EXPECT_NEAR(samples.scans, 4 * 7.3, 1.5);
 }
 
-TEST(Emulator, Bytes_TakeTheirTimeOnTheLine) {
+TEST(Emulator, Answer_ArrivesAtLineSpeed) {
   Host host("1.29");
   host.send("a550");
   std::vector<std::uint8_t> bytes;
@@ -207,7 +142,7 @@ TEST(Emulator, Bytes_TakeTheirTimeOnTheLine) {
   EXPECT_FALSE(host.emulator().next_ns());
 }
 
-TEST(Emulator, Stop_LetsThePacketOnTheLineArriveWhole) {
+TEST(Emulator, Stop_CompletesThePacketOnTheLine) {
   for (int offset_ms = 0; offset_ms < 16; ++offset_ms) {
     Host host("1.29");
     host.send("a58205010000000023");
@@ -221,7 +156,7 @@ TEST(Emulator, Stop_LetsThePacketOnTheLineArriveWhole) {
   }
 }
 
-TEST(Emulator, AnyRequestDuringAScan_EndsIt) {
+TEST(Emulator, RequestDuringAScan_EndsIt) {
   Host host("1.29");
   host.send("a520");
   host.receive_for(100 * kMs);
@@ -229,7 +164,7 @@ TEST(Emulator, AnyRequestDuringAScan_EndsIt) {
   EXPECT_FALSE(host.emulator().scanning());
 }
 
-TEST(Emulator, RequestThatIsNone_ChangesNothing) {
+TEST(Emulator, InvalidRequest_HasNoEffect) {
   Host host("1.29");
   host.send("a520");
   host.receive_for(100 * kMs);
@@ -238,7 +173,7 @@ TEST(Emulator, RequestThatIsNone_ChangesNothing) {
   EXPECT_TRUE(host.emulator().scanning());
 }
 
-TEST(Emulator, RequestInPieces_MustBeCompleteWithinFiveSeconds) {
+TEST(Emulator, RequestInPieces_TimesOutAfterFiveSeconds) {
   Host host("1.29");
   host.send("a5");
   host.receive_for(4900 * kMs);
@@ -249,7 +184,7 @@ TEST(Emulator, RequestInPieces_MustBeCompleteWithinFiveSeconds) {
   EXPECT_EQ(host.ask("a5a552"), "a55a0300000006000000");
 }
 
-TEST(Emulator, Reset_IsFollowedByTheBannerAndDeafUntilThen) {
+TEST(Emulator, Reset_IgnoresRequestsUntilTheBanner) {
   Host host("1.29");
   host.send("a520");
   host.receive_for(100 * kMs);
@@ -264,7 +199,7 @@ TEST(Emulator, Reset_IsFollowedByTheBannerAndDeafUntilThen) {
   EXPECT_EQ(host.ask("a552"), "a55a0300000006000000");
 }
 
-TEST(Emulator, ProtectionStop_ScansNotUntilAResetHasHealedIt) {
+TEST(Emulator, FailedHealth_PreventsScansUntilReset) {
   EmulatorConfig config;
   config.health = {2, 0x8001};
   Host host("1.29", config);
@@ -282,7 +217,7 @@ TEST(Emulator, ProtectionStop_ScansNotUntilAResetHasHealedIt) {
   EXPECT_EQ(broken.ask("a552"), "a55a0300000006020180");
 }
 
-TEST(Emulator, SpinUp_DelaysTheDataButNotTheDescriptor) {
+TEST(Emulator, SpinUp_DelaysDataButNotTheDescriptor) {
   EmulatorConfig config;
   config.spin_up_s = 1;
   Host host("1.29", config);
@@ -293,7 +228,7 @@ TEST(Emulator, SpinUp_DelaysTheDataButNotTheDescriptor) {
   EXPECT_GT(host.receive_for(100 * kMs).size(), 500u);
 }
 
-TEST(Emulator, HeldUpDriver_GetsAFreshStreamInsteadOfTheBacklog) {
+TEST(Emulator, StalledCaller_GetsANewStreamInsteadOfTheBacklog) {
   Host host("1.29");
   host.send("a58205010000000023");
   host.receive_for(100 * kMs);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The emulator beside real devices: exchanges that others recorded, where the folder is at hand.
+// Compares the emulator with recorded exchanges of real devices in $CORNERD_RECORDINGS.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -27,7 +27,7 @@ std::string exchange(const std::string& request) {
   return to_hex(answer);
 }
 
-TEST(RecordedHandshakes, Firmware129_IsAnsweredByteForByte) {
+TEST(RecordedHandshakes, Firmware129_AnswersByteForByte) {
   const char* folder = std::getenv("CORNERD_RECORDINGS");
   if (folder == nullptr) GTEST_SKIP() << "CORNERD_RECORDINGS is not set";
   const auto file = std::filesystem::path(folder) / "a1-wire" / "handshakes.json";
@@ -40,13 +40,13 @@ TEST(RecordedHandshakes, Firmware129_IsAnsweredByteForByte) {
     if (!id.starts_with("a1_") || !entry.contains("rx")) continue;
     std::string expected = entry.at("rx");
     std::string answer = exchange(entry.at("tx"));
-    // Every device has a serial number of its own, in the last 16 bytes of its information.
+    // The last 16 bytes are the serial number.
     constexpr std::size_t kInfoWithoutSerial = 2 * (7 + 4);
     if (entry.at("tx") == "a550") {
       EXPECT_EQ(answer.size(), expected.size()) << id;
       expected.resize(kInfoWithoutSerial);
     }
-    // Of a scan the beginning was recorded.
+    // Only the beginning of a scan was recorded.
     answer.resize(std::min(answer.size(), expected.size()));
     EXPECT_EQ(answer, expected) << id;
     ++compared;

@@ -20,10 +20,10 @@
 namespace cornerd::replay {
 namespace {
 
-/// Longer than any answer takes on any machine; reached only where the test fails.
-constexpr int kPatienceMs = 20'000;
+/// Longer than any answer takes; reached only if the test fails.
+constexpr int kTimeoutMs = 20'000;
 
-/// A program that has the port open.
+/// A program with the port open.
 class Client {
  public:
   explicit Client(const std::filesystem::path& port)
@@ -37,12 +37,12 @@ class Client {
     const auto bytes = from_hex(hex);
     ASSERT_EQ(::write(port_, bytes.data(), bytes.size()), static_cast<ssize_t>(bytes.size()));
   }
-  /// Reads until the hexadecimal text has arrived. False where it does not come.
+  /// Reads until the bytes have arrived. False on a timeout.
   bool receive(const std::string& hex) {
     std::string received;
     pollfd readable{port_, POLLIN, 0};
     while (received.find(hex) == std::string::npos) {
-      if (::poll(&readable, 1, kPatienceMs) <= 0) return false;
+      if (::poll(&readable, 1, kTimeoutMs) <= 0) return false;
       std::uint8_t buffer[256];
       const ssize_t count = ::read(port_, buffer, sizeof buffer);
       if (count <= 0) return false;
@@ -91,7 +91,7 @@ class PtyEmulatorTest : public ::testing::Test {
   std::jthread thread_;
 };
 
-TEST_F(PtyEmulatorTest, Clients_ComeAndGoAndFindAPortWithoutStaleBytes) {
+TEST_F(PtyEmulatorTest, SuccessiveClients_GetNoStaleBytes) {
   for (int i = 0; i < 3; ++i) {
     Client client(folder_.path() / "port");
     ASSERT_TRUE(client.is_open());
@@ -102,7 +102,7 @@ TEST_F(PtyEmulatorTest, Clients_ComeAndGoAndFindAPortWithoutStaleBytes) {
   }
 }
 
-TEST_F(PtyEmulatorTest, TimeRuns_WithAndWithoutAClient) {
+TEST_F(PtyEmulatorTest, NoClient_TimeContinues) {
   {
     Client client(folder_.path() / "port");
     client.send("a552");
@@ -114,7 +114,7 @@ TEST_F(PtyEmulatorTest, TimeRuns_WithAndWithoutAClient) {
   EXPECT_GT(last_unix_ns_, core::TimeNs{1'600'000'000} * core::kNsPerSecond);
 }
 
-TEST_F(PtyEmulatorTest, ClientThatDoesNotRead_DelaysNobody) {
+TEST_F(PtyEmulatorTest, ClientThatDoesNotRead_DoesNotBlock) {
   Client client(folder_.path() / "port");
   client.send("a58205030000000021");
   // The terminal holds 4 kB: express scans fill them in less.
@@ -122,7 +122,7 @@ TEST_F(PtyEmulatorTest, ClientThatDoesNotRead_DelaysNobody) {
   stop();
 }
 
-TEST(PseudoTerminal, Link_IsReplacedAndGoesWithIt) {
+TEST(PseudoTerminal, Link_IsReplacedAndRemovedAtTheEnd) {
   const test::TemporaryFolder folder;
   const auto link = folder.path() / "port";
   std::filesystem::create_symlink("/nonexistent", link);
@@ -133,7 +133,7 @@ TEST(PseudoTerminal, Link_IsReplacedAndGoesWithIt) {
   EXPECT_FALSE(std::filesystem::is_symlink(std::filesystem::symlink_status(link)));
 }
 
-TEST(PseudoTerminal, FileInTheLinksPlace_IsKept) {
+TEST(PseudoTerminal, FileAtTheLinksPath_IsKept) {
   const test::TemporaryFolder folder;
   const auto link = folder.path() / "port";
   std::ofstream(link) << "precious";

@@ -32,7 +32,7 @@ class RecordedRoom : public ::testing::Test {
   std::filesystem::path file_ = folder_.path() / "a.ndjson";
 };
 
-TEST_F(RecordedRoom, Turns_ComeOneAfterTheOtherForEver) {
+TEST_F(RecordedRoom, Scans_RepeatEndlessly) {
   RecordedScene scene(file_, {});
   for (std::int64_t scan = -1; scan < 6; ++scan) {
     const core::Pose2& pose = scan <= 0 || scan % 2 == 0 ? kFirst : kSecond;
@@ -44,15 +44,15 @@ TEST_F(RecordedRoom, Turns_ComeOneAfterTheOtherForEver) {
   }
 }
 
-TEST_F(RecordedRoom, RayBesideTheAxis_MeetsTheSameWall) {
+TEST_F(RecordedRoom, RayOffsetFromTheAxis_HitsTheSameWall) {
   RecordedScene scene(file_, {});
-  // The wall at x = 2, 1.2 m ahead: 5 cm to the left or right of the axis it is no farther.
+  // The wall at x = 2 is 1.2 m ahead, also 5 cm beside the axis.
   for (const double left_m : {-0.05, 0.05}) {
     EXPECT_NEAR(scene.range_along(0, 0, {0, left_m}, 0), 1.2, 0.01);
   }
 }
 
-TEST_F(RecordedRoom, Emulated_GivesTheRecordedRangesInAnyFormat) {
+TEST_F(RecordedRoom, OtherFormat_GivesTheRecordedRanges) {
   for (const auto format : {rplidar::WireFormat::kStandard, rplidar::WireFormat::kUltra}) {
     SimulatorConfig config;
     config.wire = format;
@@ -70,9 +70,9 @@ TEST_F(RecordedRoom, Emulated_GivesTheRecordedRangesInAnyFormat) {
   }
 }
 
-TEST(RecordedScene, RecordingWithoutATurn_IsRefused) {
+TEST(RecordedScene, RecordingWithoutAScan_IsRefused) {
   const test::TemporaryFolder folder;
-  std::ofstream(folder.path() / "a.bin") << "no lidar has ever said this";
+  std::ofstream(folder.path() / "a.bin") << "no measurement";
   EXPECT_THROW(RecordedScene(folder.path() / "a.bin", {}), RecordingError);
 }
 

@@ -8,7 +8,7 @@
 namespace cornerd::replay {
 namespace {
 
-TEST(ByteFaults, None_LeavesEveryByte) {
+TEST(ByteFaults, ProbabilityZero_LeavesEveryByte) {
   ByteFaults faults(0, 1);
   const std::vector<std::uint8_t> sent(1000, 0xA5);
   const auto arrived = faults.pass(sent);
@@ -16,7 +16,7 @@ TEST(ByteFaults, None_LeavesEveryByte) {
   EXPECT_EQ(faults.faults(), 0u);
 }
 
-TEST(ByteFaults, Share_IsLostOrDamaged) {
+TEST(ByteFaults, ProbabilityOnePercent_LosesOrDamagesThatShare) {
   ByteFaults faults(0.01, 1);
   const std::vector<std::uint8_t> sent(1'000'000, 0xA5);
   const auto arrived = faults.pass(sent);
@@ -28,7 +28,7 @@ TEST(ByteFaults, Share_IsLostOrDamaged) {
   EXPECT_EQ(lost + damaged, faults.faults());
 }
 
-TEST(ByteFaults, Portions_DoNotChangeTheResult) {
+TEST(ByteFaults, AnyPortions_GiveTheSameResult) {
   std::vector<std::uint8_t> sent(5000);
   for (std::size_t i = 0; i < sent.size(); ++i) sent[i] = static_cast<std::uint8_t>(i);
   ByteFaults whole(0.05, 4);

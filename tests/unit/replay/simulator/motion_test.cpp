@@ -10,7 +10,7 @@ namespace {
 
 core::Pose2 at(const Motion& motion, double t_s) { return motion(core::from_seconds(t_s), 0); }
 
-TEST(DrivePath, Corner_IsTurnedOnTheSpot) {
+TEST(DrivePath, Corner_IsARotationOnTheSpot) {
   DriveConfig config;
   config.speed_m_s = 0.5;
   config.yaw_rate_rad_s = core::kPi / 2;
@@ -24,7 +24,7 @@ TEST(DrivePath, Corner_IsTurnedOnTheSpot) {
   EXPECT_NEAR(at(motion, 100).y_m, 1, 1e-9);
 }
 
-TEST(DrivePath, Loop_ComesBackToWhereItBegan) {
+TEST(DrivePath, Loop_IsPeriodic) {
   DriveConfig config;
   config.speed_m_s = 1;
   config.yaw_rate_rad_s = core::kPi;
@@ -41,14 +41,14 @@ TEST(DrivePath, Loop_ComesBackToWhereItBegan) {
   EXPECT_NEAR(at(motion, 5.75).theta_rad, -core::kPi / 4, 1e-9);
 }
 
-TEST(DrivePath, NoWayToGo_IsRefused) {
+TEST(DrivePath, OnePointOrNoSpeed_IsRefused) {
   EXPECT_THROW(drive_path({{1, 1}, {1, 1}}, {}), std::invalid_argument);
   DriveConfig config;
   config.speed_m_s = 0;
   EXPECT_THROW(drive_path({{0, 0}, {1, 1}}, config), std::invalid_argument);
 }
 
-TEST(VisitPlaces, Place_ChangesWithTheTurn) {
+TEST(VisitPoses, Pose_ChangesWithTheScan) {
   const Motion motion = visit_poses({{1, 0, 0}, {2, 0, 0}, {3, 0, 0}}, 2);
   EXPECT_EQ(motion(0, -1).x_m, 1);
   EXPECT_EQ(motion(0, 1).x_m, 1);
@@ -58,7 +58,7 @@ TEST(VisitPlaces, Place_ChangesWithTheTurn) {
   EXPECT_THROW(visit_poses({}, 2), std::invalid_argument);
 }
 
-TEST(DrivePath, WithAcceleration_GoesOffAndStopsGently) {
+TEST(DrivePath, WithAcceleration_SpeedIsTrapezoidal) {
   DriveConfig config;
   config.speed_m_s = 1;
   config.acceleration_m_s2 = 0.5;
@@ -73,7 +73,7 @@ TEST(DrivePath, WithAcceleration_GoesOffAndStopsGently) {
   EXPECT_NEAR(at(motion, 9).x_m, 4, 1e-9);
 }
 
-TEST(DrivePath, TooShortForItsSpeed_IsHalfUpAndHalfDown) {
+TEST(DrivePath, ShortPath_SpeedIsTriangular) {
   DriveConfig config;
   config.speed_m_s = 10;
   config.acceleration_m_s2 = 1;

@@ -11,33 +11,33 @@
 namespace cornerd::replay {
 namespace {
 
-TEST(RandomPlaces, Places_AreInsideFreeAndClear) {
+TEST(RandomPoses, AllPoses_AreIndoorsWithClearance) {
   const auto map =
       settings::load_map(std::string(CORNERD_SOURCE_DIR) + "/config/maps/krpai-2019-a.json");
-  const auto places = random_poses(*map, 100, 0.2, 1);
-  ASSERT_EQ(places.size(), 100u);
-  for (const core::Pose2& place : places) {
-    EXPECT_FALSE(map->is_solid(place.translation()));
-    EXPECT_GE(clearance_at(*map, place.translation()), 0.2);
-    EXPECT_GT(place.x_m, 0.2);
-    EXPECT_LT(place.x_m, 2.2);
-    EXPECT_GT(place.y_m, 0.2);
-    EXPECT_LT(place.y_m, 2.2);
+  const auto poses = random_poses(*map, 100, 0.2, 1);
+  ASSERT_EQ(poses.size(), 100u);
+  for (const core::Pose2& pose : poses) {
+    EXPECT_FALSE(map->is_solid(pose.translation()));
+    EXPECT_GE(clearance_at(*map, pose.translation()), 0.2);
+    EXPECT_GT(pose.x_m, 0.2);
+    EXPECT_LT(pose.x_m, 2.2);
+    EXPECT_GT(pose.y_m, 0.2);
+    EXPECT_LT(pose.y_m, 2.2);
   }
 }
 
-TEST(RandomPlaces, Outside_IsNoPlace) {
-  core::FloorPlan plan;  // A small closed room, and a lonely wall far away.
+TEST(RandomPoses, RegionOutsideTheWalls_HasNoPoses) {
+  core::FloorPlan plan;  // A small closed room, and an isolated wall far away.
   plan.walls = {{{0, 0}, {2, 0}, 0},
                 {{2, 0}, {2, 2}, 0},
                 {{2, 2}, {0, 2}, 0},
                 {{0, 2}, {0, 0}, 0},
                 {{6, 0}, {6, 2}, 0}};
   const core::WallMap map(plan);
-  for (const core::Pose2& place : random_poses(map, 50, 0.1, 2)) EXPECT_LT(place.x_m, 2);
+  for (const core::Pose2& pose : random_poses(map, 50, 0.1, 2)) EXPECT_LT(pose.x_m, 2);
 }
 
-TEST(RandomPlaces, Seed_DecidesAlone) {
+TEST(RandomPoses, SameSeed_GivesTheSamePoses) {
   const auto map = make_room();
   const auto once = random_poses(*map, 5, 0.2, 9);
   const auto again = random_poses(*map, 5, 0.2, 9);
@@ -49,11 +49,11 @@ TEST(RandomPlaces, Seed_DecidesAlone) {
   }
 }
 
-TEST(RandomPlaces, NoRoom_IsSaidAndNotSoughtForEver) {
+TEST(RandomPoses, TooLargeClearance_Throws) {
   EXPECT_THROW(random_poses(*make_room(), 1, 1.5, 1), std::runtime_error);
 }
 
-TEST(ClearanceAt, Point_HasTheDistanceToTheNearestWall) {
+TEST(ClearanceAt, AnyPoint_IsDistanceToNearestWall) {
   EXPECT_DOUBLE_EQ(clearance_at(*make_room(), {0.5, 1.0}), 0.5);
   EXPECT_DOUBLE_EQ(clearance_at(*make_room(), {-3, -4}), 5);
 }

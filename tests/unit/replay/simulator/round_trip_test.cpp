@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the simulator sends, the decoder reads.
+// The decoder reads what the simulator sends.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -66,11 +66,11 @@ INSTANTIATE_TEST_SUITE_P(Formats, RoundTrip,
                          ::testing::Values(WireFormat::kStandard, WireFormat::kExpress,
                                            WireFormat::kUltra));
 
-TEST_P(RoundTrip, EverySample_ComesBackAsItWasSent) {
+TEST_P(RoundTrip, EverySample_IsDecodedAsSent) {
   // A capsule without a successor stays undecoded.
   ASSERT_GE(received_.size() + kUltraSamples, sent_.size());
-  // The decoder's fixed point truncates a capsule's angles; the vendor's series for the optics of
-  // ultra capsules, which it follows, truncates by up to 0.06 degrees.
+  // The decoder's fixed point truncates angles; the vendor's series for the optics of ultra
+  // capsules adds up to 0.06 degrees.
   const int tolerance_q6 = GetParam() == WireFormat::kStandard  ? 0
                            : GetParam() == WireFormat::kExpress ? 1
                                                                 : 6;
@@ -83,13 +83,13 @@ TEST_P(RoundTrip, EverySample_ComesBackAsItWasSent) {
   }
 }
 
-TEST_P(RoundTrip, Turns_AreSplitAtTheSameSample) {
+TEST_P(RoundTrip, Scans_StartAtTheSameSample) {
   for (std::size_t i = 1; i < received_.size(); ++i) {
     ASSERT_EQ(received_[i].starts_scan, sent_[i].starts_scan) << i;
   }
 }
 
-TEST_P(RoundTrip, CleanStream_CountsNothingAsThrownAway) {
+TEST_P(RoundTrip, CleanStream_LosesNothing) {
   EXPECT_EQ(gaps_, 0);
   EXPECT_EQ(counters_.skipped_bytes, 0u);
   EXPECT_EQ(counters_.bad_checksums, 0u);
@@ -99,8 +99,8 @@ TEST_P(RoundTrip, CleanStream_CountsNothingAsThrownAway) {
   EXPECT_EQ(counters_.false_scan_starts, 0u);
 }
 
-TEST_P(RoundTrip, SampleTimes_AreThoseOfTheMeasurement) {
-  // Known to a sample period: whether a packet leaves at once after its last sample is not known.
+TEST_P(RoundTrip, SampleTimes_AreWithinTwoPeriods) {
+  // The delay between the last sample and its packet is known to one period.
   const core::TimeNs tolerance_ns = 2 * nominal_sample_period_ns(GetParam());
   ASSERT_EQ(timed_.size(), received_.size());
   for (std::size_t i = timed_.size() / 2; i < timed_.size(); ++i) {
@@ -110,7 +110,7 @@ TEST_P(RoundTrip, SampleTimes_AreThoseOfTheMeasurement) {
   }
 }
 
-TEST_P(RoundTrip, ToSample_SaysWhatTheStreamDelivers) {
+TEST_P(RoundTrip, ToSample_EqualsTheStreamsSample) {
   for (std::size_t i = 1; i < timed_.size(); ++i) {
     const core::Sample expected = to_sample(sent_[i]);
     ASSERT_NEAR(core::angle_between(expected.bearing_rad, timed_[i].bearing_rad), 0, 0.0015);

@@ -9,7 +9,7 @@
 namespace cornerd::replay {
 namespace {
 
-TEST(SensorErrors, Perfect_ChangesNothingWithinTheLimits) {
+TEST(SensorErrors, PerfectModel_ChangesNothingWithinTheLimits) {
   SensorErrors noise(SensorModel::perfect(), 1);
   EXPECT_EQ(noise.measured(1.25), 1.25);
   EXPECT_EQ(noise.measured(0.15), 0.15);
@@ -19,7 +19,7 @@ TEST(SensorErrors, Perfect_ChangesNothingWithinTheLimits) {
   EXPECT_EQ(noise.direction_error(1), 0);
 }
 
-TEST(SensorErrors, Missing_HasItsShareAndRunLength) {
+TEST(SensorErrors, MissingSamples_HaveShareAndRunLength) {
   for (const double run : {1.0, 10.0}) {
     SensorModel model = SensorModel::perfect();
     model.missing = 0.6;
@@ -40,7 +40,7 @@ TEST(SensorErrors, Missing_HasItsShareAndRunLength) {
   }
 }
 
-TEST(SensorErrors, Outliers_HaveTheirShareAndStayWithinTheLimits) {
+TEST(SensorErrors, Outliers_HaveTheirShareWithinTheLimits) {
   SensorModel model = SensorModel::perfect();
   model.outliers = 0.1;
   SensorErrors noise(model, 5);
@@ -57,7 +57,7 @@ TEST(SensorErrors, Outliers_HaveTheirShareAndStayWithinTheLimits) {
   EXPECT_GT(nearer, outliers / 2);
 }
 
-TEST(SensorErrors, Spread_GrowsWithTheRangeBeyondTheFloor) {
+TEST(SensorErrors, RangeNoise_GrowsWithTheRangeBeyondTheFloor) {
   SensorModel model = SensorModel::perfect();
   model.noise.floor_m = 0.0015;
   model.noise.share = 0.005;
@@ -77,7 +77,7 @@ TEST(SensorErrors, Spread_GrowsWithTheRangeBeyondTheFloor) {
   }
 }
 
-TEST(SensorErrors, Spread_FollowsACalibratedTable) {
+TEST(SensorErrors, RangeNoise_FollowsACalibratedTable) {
   const core::SigmaTable::Point points[] = {{0.5, 0.001}, {2, 0.007}};
   SensorModel model = SensorModel::perfect();
   model.noise.table = core::SigmaTable(points);
@@ -93,7 +93,7 @@ TEST(SensorErrors, Spread_FollowsACalibratedTable) {
   }
 }
 
-TEST(SensorErrors, Biases_ScaleShiftAndBend) {
+TEST(SensorErrors, Biases_ChangeRangeAndDirection) {
   SensorModel model = SensorModel::perfect();
   model.range_scale = 1.01;
   model.range_offset_m = -0.02;
@@ -105,7 +105,7 @@ TEST(SensorErrors, Biases_ScaleShiftAndBend) {
   EXPECT_DOUBLE_EQ(noise.direction_error(0.5 + core::kPi / 2), 0.01);
 }
 
-TEST(SensorErrors, Mixed_LiesBetweenTheSidesOfAnEdge) {
+TEST(SensorErrors, BeamOnAnEdge_GivesARangeBetweenItsSides) {
   SensorErrors noise(SensorModel::perfect(), 1);
   EXPECT_DOUBLE_EQ(noise.mixed(1.0, 1.01), 1.005);
   EXPECT_EQ(noise.mixed(0, 1.01), 1.01);

@@ -30,7 +30,7 @@ Motion square_drive() {
   return drive_path({{0, 0}, {1, 0}, {1, 1}, {0, 1}}, drive);
 }
 
-/// Where dead reckoning of one mode ends, seen from the start.
+/// Final pose of dead reckoning with one heading source.
 core::Pose2 reckoned(const RobotModel& model, core::HeadingSource source, double duration_s) {
   SimulatedOdometry odometry(square_drive(), model, 7);
   core::OdometryConfig config;
@@ -43,7 +43,7 @@ core::Pose2 reckoned(const RobotModel& model, core::HeadingSource source, double
   return reckoning.pose();
 }
 
-TEST(SimulatedOdometry, ExactRobot_EndsWhereItIs) {
+TEST(SimulatedOdometry, ExactRobot_DeadReckoningEndsAtTheTruth) {
   for (const auto source : {core::HeadingSource::kEncoder, core::HeadingSource::kGyro}) {
     const core::Pose2 truth = square_drive()(core::from_seconds(30), 0);
     const core::Pose2 pose = reckoned(exact_robot(), source, 30);
@@ -53,7 +53,7 @@ TEST(SimulatedOdometry, ExactRobot_EndsWhereItIs) {
   }
 }
 
-TEST(SimulatedOdometry, CountsThatWrap_ChangeNothing) {
+TEST(SimulatedOdometry, WrappingCounts_ChangeNothing) {
   RobotModel wide = exact_robot();
   RobotModel narrow = exact_robot();
   narrow.geometry.counter_max = 999;
@@ -63,7 +63,7 @@ TEST(SimulatedOdometry, CountsThatWrap_ChangeNothing) {
   EXPECT_NEAR(a.theta_rad, b.theta_rad, 1e-9);
 }
 
-TEST(SimulatedOdometry, LargerWheels_TellOfLess) {
+TEST(SimulatedOdometry, LargerWheel_GivesFewerCounts) {
   RobotModel model = exact_robot();
   DriveConfig drive;
   drive.speed_m_s = 1;
@@ -77,7 +77,7 @@ TEST(SimulatedOdometry, LargerWheels_TellOfLess) {
   EXPECT_NEAR(static_cast<double>(*last.right) * per_count_m, 5 / 0.98, 1e-3);
 }
 
-TEST(SimulatedOdometry, Gyro_IsOffByItsScaleAndBias) {
+TEST(SimulatedOdometry, GyroErrors_AreScaleAndBias) {
   RobotModel model = exact_robot();
   model.gyro_scale = 0.02;
   model.gyro_bias_rad_s = 0.01;
@@ -96,7 +96,7 @@ TEST(SimulatedOdometry, Gyro_IsOffByItsScaleAndBias) {
   EXPECT_NEAR(std::abs(turning), 1.02 + (turning > 0 ? 0.01 : -0.01), 1e-6);
 }
 
-TEST(SimulatedOdometry, Slips_MakeCountsOfNoWay) {
+TEST(SimulatedOdometry, Slips_AddCountsWithoutTravel) {
   RobotModel model = exact_robot();
   model.slips_per_m = 0.5;
   const core::Pose2 truth = square_drive()(core::from_seconds(60), 0);
@@ -104,7 +104,7 @@ TEST(SimulatedOdometry, Slips_MakeCountsOfNoWay) {
   EXPECT_GT((pose.translation() - truth.translation()).norm(), 0.1);
 }
 
-TEST(SimulatedOdometry, ARateOfNothing_IsRefused) {
+TEST(SimulatedOdometry, RateZero_IsRefused) {
   RobotModel model;
   model.rate_hz = 0;
   EXPECT_THROW(SimulatedOdometry(square_drive(), model, 1), std::invalid_argument);

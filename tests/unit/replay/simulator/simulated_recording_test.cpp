@@ -22,7 +22,7 @@ std::vector<std::string> lines_of(const std::filesystem::path& file) {
   return lines;
 }
 
-TEST(SimulateRecording, Files_CarryTheSameBytesInBothKinds) {
+TEST(SimulateRecording, BinAndNdjson_HoldTheSameBytes) {
   const test::TemporaryFolder folder;
   SimulatedRecordingConfig config;
   config.scans = 2;
@@ -51,7 +51,7 @@ TEST(SimulateRecording, Files_CarryTheSameBytesInBothKinds) {
   EXPECT_LT(summary.duration_s, 3 / 7.3);
 }
 
-TEST(SimulateRecording, TruthOfPlaces_HasTheTimeOfEachArrivalAndDeparture) {
+TEST(SimulateRecording, TruthOfVisits_HasEachArrivalAndDeparture) {
   const test::TemporaryFolder folder;
   SimulatedRecordingConfig config;
   config.scans = 6;

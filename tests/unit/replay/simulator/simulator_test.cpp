@@ -36,9 +36,9 @@ INSTANTIATE_TEST_SUITE_P(Formats, SimulatorOfEveryFormat,
                                            rplidar::WireFormat::kExpress,
                                            rplidar::WireFormat::kUltra));
 
-TEST_P(SimulatorOfEveryFormat, WithoutErrors_CarriesTheRangeInTheDirectionThatTheWireSays) {
+TEST_P(SimulatorOfEveryFormat, PerfectSensor_HasTheRangeInTheWiresDirection) {
   Simulator simulator(standing_scene(), config_for(GetParam()));
-  // Half a step of the distance's code; ultra truncates, and its direction follows the distance.
+  // Half a step of the distance's code; ultra truncates, and its direction depends on the distance.
   const double tolerance_m = GetParam() == rplidar::WireFormat::kStandard  ? 0.000126
                              : GetParam() == rplidar::WireFormat::kExpress ? 0.000501
                                                                            : 0.0085;
@@ -53,7 +53,7 @@ TEST_P(SimulatorOfEveryFormat, WithoutErrors_CarriesTheRangeInTheDirectionThatTh
   }
 }
 
-TEST_P(SimulatorOfEveryFormat, Turns_StartOnceEachAtTheEndOfTheTurnBefore) {
+TEST_P(SimulatorOfEveryFormat, Scans_StartAtTheLastSampleBeforeZero) {
   Simulator simulator(standing_scene(), config_for(GetParam()));
   std::int64_t scan = -1;
   core::TimeNs last_start_ns = 0;
@@ -85,7 +85,7 @@ TEST_P(SimulatorOfEveryFormat, SampleTimes_AreOnePeriodApartAcrossPackets) {
   }
 }
 
-TEST_P(SimulatorOfEveryFormat, SameSeed_GivesTheSameBytesAndAnotherDoesNot) {
+TEST_P(SimulatorOfEveryFormat, SameSeed_GivesTheSameBytes) {
   SimulatorConfig config = config_for(GetParam());
   config.sensor = SensorModel{};
   const auto bytes_with_seed = [&](std::uint64_t seed) {
@@ -102,7 +102,7 @@ TEST_P(SimulatorOfEveryFormat, SameSeed_GivesTheSameBytesAndAnotherDoesNot) {
   EXPECT_NE(bytes_with_seed(7), bytes_with_seed(8));
 }
 
-TEST(Simulator, ExpressNoise_HasTheModelsSpread) {
+TEST(Simulator, ExpressNoise_HasTheModelsSigma) {
   SimulatorConfig config = config_for(rplidar::WireFormat::kExpress);
   config.sensor.noise.floor_m = 0.004;
   Simulator simulator(standing_scene(), config);
@@ -118,7 +118,7 @@ TEST(Simulator, ExpressNoise_HasTheModelsSpread) {
   EXPECT_NEAR(std::sqrt(sum_of_squares / count), 0.004, 0.0002);
 }
 
-TEST(Simulator, StandardNodes_StepBackAsOftenAsAsked) {
+TEST(Simulator, StandardNodes_StepBackByTheConfiguredShare) {
   SimulatorConfig config = config_for(rplidar::WireFormat::kStandard);
   config.sensor.backward = 0.03;
   Simulator simulator(standing_scene(), config);
@@ -138,8 +138,8 @@ TEST(Simulator, StandardNodes_StepBackAsOftenAsAsked) {
   EXPECT_NEAR(static_cast<double>(steps_back) / kCount, 0.03, 0.003);
 }
 
-/// Real A1s lose a third of their samples in stretches, and 2 to 5 % of their nodes step back.
-TEST(Simulator, StandardNodesAfterEmptyOnes_StepBackAsThoseOfRealDevices) {
+/// Real A1s lose a third of their samples in runs, and 2 to 5 % of their nodes step back.
+TEST(Simulator, MissingRuns_StepBackAsOnRealDevices) {
   SimulatorConfig config = config_for(rplidar::WireFormat::kStandard);
   config.sensor.missing = 0.38;
   config.sensor.missing_run = 6;
@@ -157,7 +157,7 @@ TEST(Simulator, StandardNodesAfterEmptyOnes_StepBackAsThoseOfRealDevices) {
   EXPECT_LT(steps_back, 0.05 * kCount);
 }
 
-TEST(Simulator, WideBeam_LooksAsFarLeftAsRight) {
+TEST(Simulator, WideBeam_IsSymmetric) {
   for (const auto wire : {rplidar::WireFormat::kStandard, rplidar::WireFormat::kUltra}) {
     SimulatorConfig config = config_for(wire);
     config.sensor.beam_width_rad = core::radians(1);
@@ -169,7 +169,7 @@ TEST(Simulator, WideBeam_LooksAsFarLeftAsRight) {
         const double deg = sample.device_angle_deg;
         const double range_m = true_range_m(deg);
         const double slope_m = true_range_m(deg + 0.1) - true_range_m(deg - 0.1);
-        // A beam that looked to one side would gain on every slope that rises there.
+        // An asymmetric beam would be biased where the range grows to one side.
         sum_m += (slope_m > 0 ? 1 : -1) * (sample.dist_q2 / 4000.0 - range_m);
         ++count;
       }
@@ -178,7 +178,7 @@ TEST(Simulator, WideBeam_LooksAsFarLeftAsRight) {
   }
 }
 
-TEST(Simulator, Inverted_CountsItsAngleTheOtherWay) {
+TEST(Simulator, Inverted_CountsCounterClockwise) {
   SimulatorConfig config = config_for(rplidar::WireFormat::kStandard);
   config.inverted = true;
   Simulator simulator(standing_scene(), config);
@@ -188,7 +188,7 @@ TEST(Simulator, Inverted_CountsItsAngleTheOtherWay) {
   }
 }
 
-TEST(Simulator, Start_BeginsTheNewFormatLaterWithTheRestartFlag) {
+TEST(Simulator, Start_BeginsTheNewFormatWithTheRestartFlag) {
   Simulator simulator(standing_scene(), config_for(rplidar::WireFormat::kStandard));
   for (int i = 0; i < 100; ++i) simulator.next();
   simulator.start(core::kNsPerSecond, rplidar::WireFormat::kUltra, 201'000);
@@ -201,7 +201,7 @@ TEST(Simulator, Start_BeginsTheNewFormatLaterWithTheRestartFlag) {
   EXPECT_EQ(packet.bytes[3] & 0x80, 0);
 }
 
-TEST(Simulator, MotorOutOfReach_IsRefused) {
+TEST(Simulator, MotorRateOutOfRange_IsRefused) {
   SimulatorConfig config;
   config.motor_hz = 0;
   EXPECT_THROW(Simulator(standing_scene(), config), std::invalid_argument);

@@ -14,7 +14,7 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::ElementsAreArray;
 
-/// The protocol's own reading of a coded distance, written from its table.
+/// Distance of a code, from the protocol's table.
 std::uint32_t decode_major(std::uint32_t code) {
   if (code < 512) return code;
   if (code < 1280) return 512 + (code - 512) * 2;
@@ -29,14 +29,14 @@ std::uint32_t word_of(const UltraCapsule& capsule, std::size_t cabin) {
   return word;
 }
 
-TEST(WireEncoder, Node_HasTheBytesOfRealCaptures) {
+TEST(WireEncoder, Node_HasTheBytesOfARealDevice) {
   EXPECT_THAT(encode_node(false, 0, 12743, 0), ElementsAreArray(from_hex("028f630000")));
   EXPECT_THAT(encode_node(false, 15, 12877, 0), ElementsAreArray(from_hex("3e9b640000")));
   EXPECT_THAT(encode_node(true, 15, 0, 4660), ElementsAreArray(from_hex("3d01003412")));
 }
 
-TEST(WireEncoder, Express_HasTheBytesThatTheVendorsDecoderReads) {
-  // The vector that the vendor's decoder was fed with: 350 degrees, distances 1000 + k, offsets 2k.
+TEST(WireEncoder, Express_HasTheVendorsTestVector) {
+  // 350 degrees, distances 1000 + k mm, offsets 2k.
   std::array<ExpressSample, kExpressSamples> samples;
   for (std::size_t k = 0; k < samples.size(); ++k) {
     samples[k] = {static_cast<std::uint16_t>(1000 + k), static_cast<std::uint8_t>(2 * k)};
@@ -49,8 +49,8 @@ TEST(WireEncoder, Express_HasTheBytesThatTheVendorsDecoderReads) {
                                         "1b101f10ec")));
 }
 
-TEST(WireEncoder, Ultra_HasTheCodesThatTheVendorsDecoderReads) {
-  // Its answer to majors 1300, 1300, 0, 400 and predictions (5,-5), (511,-512), (3,3), (7,-7).
+TEST(WireEncoder, Ultra_HasTheVendorsTestVector) {
+  // Majors 1300, 1300, 0, 400 with predictions (5,-5), (511,-512), (3,3), (7,-7).
   std::array<std::uint32_t, kUltraSamples + 1> dist_mm{};
   const std::array<std::uint32_t, 12> repeated{2128, 2148, 2108, 2128, 0,   0,
                                                0,    403,  403,  400,  407, 2100};
@@ -63,7 +63,7 @@ TEST(WireEncoder, Ultra_HasTheCodesThatTheVendorsDecoderReads) {
   EXPECT_EQ(word_of(capsule, 3), 400u | 7u << 12 | (1024u - 7) << 22);
 }
 
-TEST(WireEncoder, Ultra_CarriesEveryDistanceToItsResolution) {
+TEST(WireEncoder, Ultra_EncodesEveryDistanceToItsResolution) {
   for (std::uint32_t mm = 1; mm <= 12000; ++mm) {
     std::array<std::uint32_t, kUltraSamples + 1> dist_mm{};
     dist_mm[0] = mm;
@@ -75,14 +75,14 @@ TEST(WireEncoder, Ultra_CarriesEveryDistanceToItsResolution) {
   }
 }
 
-TEST(WireEncoder, Ultra_DifferenceThatDoesNotFit_IsCarriedAsInvalid) {
+TEST(WireEncoder, UltraDifferenceOutOfRange_IsInvalid) {
   std::array<std::uint32_t, kUltraSamples + 1> dist_mm{};
   dist_mm[0] = 300;
   dist_mm[1] = 300 + 510;
   dist_mm[3] = 300;
   dist_mm[4] = 300 + 511;
   dist_mm[6] = 600;
-  dist_mm[7] = 89;  // 256 codes of 2 mm below: the code -256 is free, so is -512 of level 0
+  dist_mm[7] = 89;  // 256 steps of 2 mm below, within the 10 bits
   const UltraCapsule capsule = encode_ultra(0, false, dist_mm);
   EXPECT_EQ(capsule.carried_mm[1], 810u);
   EXPECT_EQ(capsule.carried_mm[4], 0u);
@@ -90,7 +90,7 @@ TEST(WireEncoder, Ultra_DifferenceThatDoesNotFit_IsCarriedAsInvalid) {
   EXPECT_EQ(capsule.carried_mm[7], 88u);
 }
 
-TEST(WireEncoder, Capsules_ChecksumCoversAllButItself) {
+TEST(WireEncoder, Checksum_CoversAllButItself) {
   std::array<ExpressSample, kExpressSamples> samples{};
   samples[7] = {1234, 17};
   const ExpressBytes bytes = encode_express(0x5A3C, false, samples);
@@ -103,7 +103,7 @@ TEST(WireEncoder, Capsules_ChecksumCoversAllButItself) {
   EXPECT_EQ(bytes[3] & 0x80, 0);
 }
 
-TEST(WireEncoder, Descriptors_AreThoseOfTheProtocol) {
+TEST(WireEncoder, Descriptor_MatchesTheProtocol) {
   EXPECT_THAT(scan_descriptor(rplidar::WireFormat::kStandard),
               ElementsAre(0xA5, 0x5A, 0x05, 0, 0, 0x40, 0x81));
   EXPECT_THAT(scan_descriptor(rplidar::WireFormat::kExpress),

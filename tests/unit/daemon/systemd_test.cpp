@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include "daemon/systemd.hpp"
+
 #include <gtest/gtest.h>
 #include <sys/socket.h>
 #include <sys/un.h>
@@ -8,13 +10,12 @@
 #include <cstring>
 #include <string>
 
-#include "daemon/systemd.hpp"
 #include "tests/temporary_folder.hpp"
 
 namespace cornerd::daemon {
 namespace {
 
-/// The service manager's end.
+/// The service manager's side of the socket.
 class NotifierTest : public ::testing::Test {
  protected:
   NotifierTest() : manager_(::socket(AF_UNIX, SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0)) {
@@ -41,7 +42,7 @@ class NotifierTest : public ::testing::Test {
   FileDescriptor manager_;
 };
 
-TEST_F(NotifierTest, States_ArriveAsTheManagerWantsThem) {
+TEST_F(NotifierTest, States_Sent_InSdNotifyFormat) {
   Notifier notifier;
   notifier.ready();
   EXPECT_EQ(received(), "READY=1");
@@ -51,7 +52,7 @@ TEST_F(NotifierTest, States_ArriveAsTheManagerWantsThem) {
   EXPECT_EQ(received(), "STOPPING=1");
 }
 
-TEST_F(NotifierTest, SameStatus_IsSentOnce) {
+TEST_F(NotifierTest, SameStatus_SentOnce) {
   Notifier notifier;
   notifier.status("lidar absent");
   notifier.status("lidar absent");
@@ -61,14 +62,14 @@ TEST_F(NotifierTest, SameStatus_IsSentOnce) {
   EXPECT_EQ(received(), "nothing");
 }
 
-TEST_F(NotifierTest, Watchdog_IsHalfOfWhatTheManagerWaitsEvenBelowASecond) {
+TEST_F(NotifierTest, WatchdogTimeout_PeriodIsHalf) {
   ::setenv("WATCHDOG_USEC", "1000001", 1);
   EXPECT_EQ(Notifier().watchdog_period_us(), 500'000u);
   ::setenv("WATCHDOG_PID", std::to_string(::getpid()).c_str(), 1);
   EXPECT_EQ(Notifier().watchdog_period_us(), 500'000u);
 }
 
-TEST_F(NotifierTest, WatchdogOfAnotherProcessOrNone_IsNotOurs) {
+TEST_F(NotifierTest, WatchdogOfAnotherProcessOrInvalid_NoPeriod) {
   EXPECT_EQ(Notifier().watchdog_period_us(), std::nullopt);
   ::setenv("WATCHDOG_USEC", "1000000", 1);
   ::setenv("WATCHDOG_PID", "1", 1);
@@ -80,7 +81,7 @@ TEST_F(NotifierTest, WatchdogOfAnotherProcessOrNone_IsNotOurs) {
   }
 }
 
-TEST_F(NotifierTest, WithoutAManager_NothingHappens) {
+TEST_F(NotifierTest, WithoutManager_NothingSent) {
   for (const char* address : {"", "relative", "/nowhere/notify"}) {
     ::setenv("NOTIFY_SOCKET", address, 1);
     Notifier notifier;

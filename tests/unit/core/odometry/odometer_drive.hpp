@@ -14,9 +14,9 @@ namespace cornerd::core::testing {
 inline const Covariance3 kFixCovariance = Covariance3::Identity() * 1e-6;
 
 /// Readings at 50 Hz, a scan every 7 of them; each reading arrives `late` readings late.
-class Ride {
+class OdometerDrive {
  public:
-  explicit Ride(const OdometryConfig& config, int late = 0, int every = 1)
+  explicit OdometerDrive(const OdometryConfig& config, int late = 0, int every = 1)
       : odometer(config), robot_(config.geometry, errors(), 3), late_(late), every_(every) {}
 
   static RobotErrors errors() {
@@ -29,7 +29,7 @@ class Ride {
   }
 
   /// Drives to the end of the next scan; `truth` is then the pose at its middle.
-  void turn(bool readings = true) {
+  void drive_scan(bool readings = true) {
     const TimeNs start_ns = robot_.now_ns();
     for (int i = 0; i < 14; ++i, ++ticks_) {
       const Rates rates = lively_drive(0.01 * ticks_);

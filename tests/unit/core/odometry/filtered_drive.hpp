@@ -28,9 +28,9 @@ inline constexpr double kFixSigma_m = 0.002;
 inline constexpr double kFixSigma_rad = 0.001;
 
 /// A robot, its filter, and a fix of the lidar every 0.14 s.
-class TaughtRobot {
+class FilteredDrive {
  public:
-  TaughtRobot(const OdometryConfig& config, const RobotErrors& errors, std::uint64_t seed)
+  FilteredDrive(const OdometryConfig& config, const RobotErrors& errors, std::uint64_t seed)
       : robot_(config.geometry, errors, seed), gate_(config), filter_(config) {
     fix_covariance_ = Eigen::Vector3d(kFixSigma_m * kFixSigma_m, kFixSigma_m * kFixSigma_m,
                                       kFixSigma_rad * kFixSigma_rad)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a daemon learns of its lidar is there when it starts again, for the same lidar alone.
+// The estimated bias of the lidar survives a restart, for the same lidar only.
 #include <gtest/gtest.h>
 #include <signal.h>
 
@@ -21,7 +21,7 @@ class EstimatedBias : public DaemonTest {
                   "/advanced/lidar/calibration_file=" + file_.string()});
   }
 
-  /// The first STATUS that tells of at least so many turns that taught.
+  /// The first STATUS whose bias has at least this many scans.
   json status_after(std::uint64_t scans) {
     TestClient client = connect();
     while (true) {
@@ -40,7 +40,7 @@ class EstimatedBias : public DaemonTest {
   std::filesystem::path file_ = folder_ / "learned.json";
 };
 
-TEST_F(EstimatedBias, SameLidar_IsKnownAtTheNextStartAndAnotherIsNot) {
+TEST_F(EstimatedBias, Restart_BiasLoadedForSameLidarOnly) {
   {
     const EmulatedLidar lidar(folder_ / "map.json", folder_ / "lidar");
     DaemonProcess daemon = start_on_lidar();
@@ -48,7 +48,7 @@ TEST_F(EstimatedBias, SameLidar_IsKnownAtTheNextStartAndAnotherIsNot) {
     ASSERT_TRUE(status.is_object()) << daemon.output();
     EXPECT_TRUE(status["lidar"]["bias"]["sigma"].contains("range_offset")) << status;
     EXPECT_FALSE(status["lidar"].value("serial", "").empty()) << status;
-    // A tick after the STATUS at the latest.
+    // At most one tick after the STATUS.
     status_after(22);
     end(daemon);
     EXPECT_TRUE(std::filesystem::exists(file_)) << daemon.output();
@@ -76,7 +76,7 @@ TEST_F(EstimatedBias, SameLidar_IsKnownAtTheNextStartAndAnotherIsNot) {
   EXPECT_NE(daemon.output().find("another lidar"), std::string::npos) << daemon.output();
 }
 
-TEST_F(EstimatedBias, ReloadBeforeTheFirstTurn_GoesOnWithWhatWasKept) {
+TEST_F(EstimatedBias, ReloadBeforeFirstScan_StoredBiasKept) {
   std::ofstream(file_) << R"({"format": "cornerd-lidar", "turns": 400,
       "bias": {"range_scale": 0.004, "range_offset": 0.001, "bearing_sine": 0, "bearing_cosine": 0},
       "sigma": {"range_scale": 5e-4, "range_offset": 5e-4, "bearing_sine": 3e-4,
@@ -96,7 +96,7 @@ TEST_F(EstimatedBias, ReloadBeforeTheFirstTurn_GoesOnWithWhatWasKept) {
   end(daemon);
 }
 
-TEST_F(EstimatedBias, ReloadRightAfterAnotherLidar_DoesNotBringBackTheLastOnes) {
+TEST_F(EstimatedBias, ReloadAfterChangeOfLidar_OldBiasNotRestored) {
   auto lidar = std::make_unique<EmulatedLidar>(folder_ / "map.json", folder_ / "lidar");
   DaemonProcess daemon = start_on_lidar();
   const json first = status_after(40);
