@@ -56,8 +56,8 @@ class SensorErrors {
   /// True direction minus reported direction of a sample.
   double direction_error(double device_angle_rad);
 
-  /// Measured range of a wall at `range_m` (0: no wall); 0: no return. `incidence_rad`: from the wall's
-  /// normal, counter-clockwise, for needs_incidence().
+  /// Measured range of a wall at `range_m` (0: no wall); 0: no return. `incidence_rad`: from the
+  /// wall's normal, counter-clockwise, for needs_incidence().
   double measured(double range_m, std::optional<double> incidence_rad = std::nullopt);
   bool needs_incidence() const { return !model_.wall.empty(); }
 

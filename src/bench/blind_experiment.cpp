@@ -6,8 +6,8 @@
 #include <limits>
 #include <utility>
 
-#include "bench/experiment_robot.hpp"
 #include "bench/odometry_experiment.hpp"
+#include "bench/simulated_drive.hpp"
 #include "core/pipeline.hpp"
 #include "replay/pose_error.hpp"
 #include "replay/simulator/motion.hpp"

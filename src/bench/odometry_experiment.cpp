@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "bench/odometry_experiment.hpp"
 
-#include "bench/experiment_robot.hpp"
+#include "bench/simulated_drive.hpp"
 #include "core/odometry/reading_gate.hpp"
 #include "replay/simulator/motion.hpp"
 #include "replay/simulator/simulated_odometry.hpp"

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "bench/corner_experiment.hpp"
-#include "bench/paper_figures.hpp"
+#include "bench/paper_experiment.hpp"
 #include "replay/simulator/random_poses.hpp"
 
 namespace cornerd::bench {

@@ -5,7 +5,7 @@
 #include <optional>
 #include <utility>
 
-#include "bench/experiment_robot.hpp"
+#include "bench/simulated_drive.hpp"
 #include "core/pipeline.hpp"
 #include "replay/pose_error.hpp"
 #include "replay/simulator/motion.hpp"

@@ -30,4 +30,11 @@ struct SimulatedDriveConfig {
 SimulatedDrive simulate_drive(std::shared_ptr<const core::WallMap> map,
                               const replay::Motion& motion, const SimulatedDriveConfig& config);
 
+/// No wheel slips by this robot's own doing: 1 m/s2 and 6 rad/s2 at the most, once around and
+/// again.
+replay::DriveConfig gentle_drive(double speed_m_s = 0.4);
+
+/// Wheels 1.5 and 2.5 % larger than configured, the gyro 2 % and 0.01 rad/s off; no slips.
+replay::RobotModel wrong_robot();
+
 }  // namespace cornerd::bench

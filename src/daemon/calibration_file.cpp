@@ -65,7 +65,9 @@ void CalibrationFile::load() {
   const file_type type = std::filesystem::status(file_, unread).type();
   if (type == file_type::not_found) return;
   const auto leave_alone = [this](std::string_view why) {
-    spdlog::warn("{}; the lidar's calibration is not stored: set another /advanced/lidar/calibration_file", why);
+    spdlog::warn(
+        "{}; the lidar's calibration is not stored: set another /advanced/lidar/calibration_file",
+        why);
     file_.clear();
   };
   if (type != file_type::regular) return leave_alone(file_.string() + ": not a regular file");

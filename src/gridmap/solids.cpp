@@ -27,8 +27,8 @@ struct Candidate {
   Vec2 origin = Vec2::Zero();  ///< on the wall's axis
   Vec2 direction = Vec2::Zero();
   double thickness = 0;
-  Stretch both;  ///< along the axis: where both faces are
-  Stretch all;   ///< where any of them is
+  Interval both;  ///< along the axis: where both faces are
+  Interval all;   ///< where any of them is
 };
 
 std::optional<Candidate> match(const GridFace& front, const GridFace& back,
@@ -38,8 +38,8 @@ std::optional<Candidate> match(const GridFace& front, const GridFace& back,
   candidate.direction = (front.direction - back.direction).normalized();
   const Vec2 normal = core::rotate_left(candidate.direction);
   const auto along = [&](const Vec2& point) { return candidate.direction.dot(point - front.from); };
-  const Stretch a{along(front.from), along(front.to)};
-  const Stretch b{along(back.to), along(back.from)};
+  const Interval a{along(front.from), along(front.to)};
+  const Interval b{along(back.to), along(back.from)};
   candidate.both = {std::max(a.begin, b.begin), std::min(a.end, b.end)};
   candidate.all = {std::min(a.begin, b.begin), std::max(a.end, b.end)};
   const double overlap = candidate.both.length();
@@ -147,10 +147,10 @@ class SolidFinder {
     const GridFace& face = faces_[index];
     const Vec2 begin = candidate.origin + candidate.both.begin * candidate.direction;
     const Vec2 end = candidate.origin + candidate.both.end * candidate.direction;
-    Stretch part{face.along(begin), face.along(end)};
+    Interval part{face.along(begin), face.along(end)};
     if (part.begin > part.end) std::swap(part.begin, part.end);
     double left = 0;
-    for (const Stretch& open : uncovered(face.length(), covered_[index])) {
+    for (const Interval& open : uncovered(face.length(), covered_[index])) {
       left += std::max(0.0, std::min(open.end, part.end) - std::max(open.begin, part.begin));
     }
     return left < (1 - kEnough) * part.length();
@@ -159,8 +159,8 @@ class SolidFinder {
   void add(const Candidate& candidate) {
     const bool occupied_alone = candidate.thickness > limits_.thickness;
     if (!is_solid(candidate, occupied_alone)) return;
-    const Stretch reach{grow(candidate, false, occupied_alone),
-                        grow(candidate, true, occupied_alone)};
+    const Interval reach{grow(candidate, false, occupied_alone),
+                         grow(candidate, true, occupied_alone)};
     core::Wall wall;
     wall.thickness_m =
         candidate.thickness < limits_.min_thickness ? limits_.thin : candidate.thickness;
@@ -178,7 +178,7 @@ class SolidFinder {
     }
     const core::WallBox box(wall);
     for (std::size_t i = 0; i < faces_.size(); ++i) {
-      const Stretch part = covered(faces_[i], box, limits_.tolerance);
+      const Interval part = covered(faces_[i], box, limits_.tolerance);
       if (part.length() > 0) covered_[i].push_back(part);
     }
     walls_.push_back(wall);
@@ -187,12 +187,12 @@ class SolidFinder {
   const OccupancyGrid& grid_;
   std::span<const GridFace> faces_;
   const SolidLimits& limits_;
-  std::vector<std::vector<Stretch>> covered_;  ///< of each face
+  std::vector<std::vector<Interval>> covered_;  ///< of each face
   std::vector<core::Wall> walls_;
 };
 
 /// Restricts the interval to where |start + s * slope| <= limit.
-void clip(double start, double slope, double limit, Stretch& stretch) {
+void clip(double start, double slope, double limit, Interval& stretch) {
   if (std::abs(slope) < 1e-9) {
     if (std::abs(start) > limit) stretch = {0, 0};
     return;
@@ -205,22 +205,22 @@ void clip(double start, double slope, double limit, Stretch& stretch) {
 
 }  // namespace
 
-Stretch covered(const GridFace& face, const core::WallBox& wall, double tolerance) {
+Interval covered(const GridFace& face, const core::WallBox& wall, double tolerance) {
   const Vec2 start = wall.to_local(face.from);
   const Vec2 slope = wall.to_local(face.from + face.direction) - start;
-  Stretch stretch{0, face.length()};
+  Interval stretch{0, face.length()};
   if (face.height_of(wall.centre) > tolerance) return {0, 0};
   clip(start.x(), slope.x(), wall.half_length_m + tolerance, stretch);
   clip(start.y(), slope.y(), wall.half_width_m + tolerance, stretch);
   return stretch;
 }
 
-std::vector<Stretch> uncovered(double length, std::vector<Stretch> covered) {
+std::vector<Interval> uncovered(double length, std::vector<Interval> covered) {
   std::sort(covered.begin(), covered.end(),
-            [](const Stretch& a, const Stretch& b) { return a.begin < b.begin; });
-  std::vector<Stretch> open;
+            [](const Interval& a, const Interval& b) { return a.begin < b.begin; });
+  std::vector<Interval> open;
   double reached = 0;
-  for (const Stretch& part : covered) {
+  for (const Interval& part : covered) {
     if (part.begin > reached) open.push_back({reached, std::min(part.begin, length)});
     reached = std::max(reached, part.end);
   }

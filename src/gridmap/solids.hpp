@@ -24,16 +24,16 @@ struct SolidLimits {
 std::vector<core::Wall> find_solids(const OccupancyGrid& grid, std::span<const GridFace> faces,
                                     const SolidLimits& limits);
 
-struct Stretch {
+struct Interval {
   double begin = 0;
   double end = 0;
   double length() const { return end - begin; }
 };
 
 /// The part of a face within `tolerance` cells of a wall; none where the wall is in front of it.
-Stretch covered(const GridFace& face, const core::WallBox& wall, double tolerance);
+Interval covered(const GridFace& face, const core::WallBox& wall, double tolerance);
 
 /// The rest of [0, length] without the given intervals, which may overlap.
-std::vector<Stretch> uncovered(double length, std::vector<Stretch> covered);
+std::vector<Interval> uncovered(double length, std::vector<Interval> covered);
 
 }  // namespace cornerd::gridmap

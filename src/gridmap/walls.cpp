@@ -39,12 +39,12 @@ class LineFinder {
 
   void add(const GridFace& face) {
     const double length = face.length();
-    std::vector<Stretch> hidden;
+    std::vector<Interval> hidden;
     for (const core::WallBox& box : boxes_) {
-      const Stretch part = covered(face, box, limits_.tolerance);
+      const Interval part = covered(face, box, limits_.tolerance);
       if (part.length() > 0) hidden.push_back(part);
     }
-    for (Stretch open : uncovered(length, std::move(hidden))) {
+    for (Interval open : uncovered(length, std::move(hidden))) {
       const bool is_whole = open.length() >= length;
       if (!is_whole && open.length() < kMinRest) continue;
       bool touches = extend(face, open, false);
@@ -88,7 +88,7 @@ class LineFinder {
 
  private:
   /// Extends one end of an interval into a near solid. False where there is none.
-  bool extend(const GridFace& face, Stretch& open, bool at_end) const {
+  bool extend(const GridFace& face, Interval& open, bool at_end) const {
     const double end = at_end ? open.end : open.begin;
     const double sign = at_end ? 1 : -1;
     // The face's line, from the middle of the interval beyond its end.
@@ -100,7 +100,7 @@ class LineFinder {
     bool found = false;
     double nearest = to_end + kReach;
     for (const core::WallBox& box : boxes_) {
-      const Stretch inside = covered(line, box, 0);
+      const Interval inside = covered(line, box, 0);
       if (inside.length() <= 0 || inside.end < to_end - kReach) continue;
       found = true;
       nearest = std::min(nearest, inside.begin + std::min(limits_.into, inside.length() / 2));
@@ -112,7 +112,7 @@ class LineFinder {
   }
 
   /// Depth of the occupied cells behind an interval (10 % quantile).
-  double depth_behind(const GridFace& face, const Stretch& open) const {
+  double depth_behind(const GridFace& face, const Interval& open) const {
     constexpr double kStep = 0.5;
     std::vector<double> depths;
     for (double s = open.begin + kStep; s < open.end - kStep / 2; s += kStep) {

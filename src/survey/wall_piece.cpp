@@ -10,7 +10,7 @@ namespace cornerd::survey {
 namespace {
 
 /// Open cells in a row that make an opening; a single one is pose noise.
-constexpr std::size_t kHoleCells = 2;
+constexpr std::size_t kMinOpenCells = 2;
 
 std::string text_of(std::size_t count, const char* what) {
   return std::to_string(count) + " " + what;
@@ -33,7 +33,7 @@ class Cutter {
       drop(face_.begin_m(), face_.end_m(), "observed in " + text_of(face_.observations, "scans"));
       return;
     }
-    std::size_t holes = 0;
+    std::size_t open_run = 0;
     std::size_t open_cells = 0;
     for (std::size_t i = 0; i < evidence_.size(); ++i) {
       const bool within =
@@ -41,10 +41,10 @@ class Cutter {
           evidence_.along_of(i) < face_.end_m() + kSlack_m;
       if (evidence_.is_wall(i) && within) {
         take(i);
-        holes = 0;
+        open_run = 0;
       } else if (evidence_.is_open(i)) {
         open_cells += within ? 1 : 0;
-        if (++holes >= kHoleCells) close();
+        if (++open_run >= kMinOpenCells) close();
       }
     }
     close();

@@ -1,24 +1,28 @@
 // SPDX-License-Identifier: MIT
-// The subcommands of cornerctl, a file for each. Each function adds its command to the program; the
-// command runs inside the parse, and throws what it cannot do (see failure.hpp).
+// The commands of cornerctl. Each function adds its command to the program or to a group of
+// commands. The command runs inside the parse and throws what it cannot do (failure.hpp).
 #pragma once
-
-namespace CLI {
-class App;
-}
 
 namespace cornerd::tool {
 
-void add_watch(CLI::App& program);
-void add_doctor(CLI::App& program);
-void add_monitor(CLI::App& program);
-void add_replay(CLI::App& program);
-void add_detect(CLI::App& program);
-void add_record(CLI::App& program);
-void add_simulate(CLI::App& program);
-void add_emulate(CLI::App& program);
-void add_survey(CLI::App& program);
-void add_calibrate(CLI::App& program);
-void add_map(CLI::App& program);
+class Command;
+
+void add_watch(Command& program);
+void add_monitor(Command& program);
+void add_doctor(Command& program);
+void add_replay(Command& program);
+void add_detect(Command& program);
+void add_record(Command& program);
+void add_simulate(Command& program);
+void add_emulate(Command& program);
+void add_survey(Command& program);
+
+void add_calibrate(Command& program);
+void add_calibrate_bias(Command& group);
+void add_calibrate_odometry(Command& group);
+
+void add_map(Command& program);
+void add_map_render(Command& group);
+void add_map_import(Command& group);
 
 }  // namespace cornerd::tool

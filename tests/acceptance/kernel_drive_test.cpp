@@ -10,7 +10,7 @@
 #include <optional>
 #include <string>
 
-#include "bench/experiment_robot.hpp"
+#include "bench/simulated_drive.hpp"
 #include "core/pipeline.hpp"
 #include "drivers/odometry/kernel_odometry.hpp"
 #include "replay/pose_error.hpp"

@@ -7,7 +7,7 @@
 #include <stdexcept>
 
 #include "bench/building.hpp"
-#include "bench/loop_experiment.hpp"
+#include "bench/survey_experiment.hpp"
 
 namespace cornerd {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "bench/localization/cost.hpp"
 
-#include "bench/localization/circle.hpp"
+#include "bench/localization/world.hpp"
 #include "core/localizer.hpp"
 #include "replay/simulator/scan_simulator.hpp"
 

@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "bench/building.hpp"
-#include "bench/localization/circle.hpp"
 #include "bench/localization/cramer_rao.hpp"
 #include "bench/localization/world.hpp"
 #include "replay/simulator/scan_simulator.hpp"

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "bench/localization/circle.hpp"
 #include "bench/localization/pose_score.hpp"
+#include "bench/localization/world.hpp"
 #include "core/map/wall_map.hpp"
 #include "replay/simulator/sensor_model.hpp"
 

@@ -3,10 +3,12 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <vector>
 
 #include "core/map/wall_map.hpp"
+#include "replay/simulator/motion.hpp"
 #include "replay/simulator/random.hpp"
 
 namespace cornerd::bench {
@@ -35,5 +37,19 @@ std::vector<core::FloorPlan> with_a_door_closed(const core::WallMap& map);
 
 /// The same with one of its walls moved across itself, in one plan for each wall.
 std::vector<core::FloorPlan> with_a_wall_displaced(const core::WallMap& map, double by_m);
+
+/// How the robot moves: on a circle to the left, at these speeds; not at all where they are 0.
+struct CircularMotion {
+  double speed_m_s = 0;
+  double yaw_rate_rad_s = 0;
+};
+
+/// From `start` on, for ever.
+replay::Motion circling(const core::Pose2& start, const CircularMotion& motion);
+
+/// Random circles that keep clear of the walls, by their first pose. Throws std::runtime_error
+/// where the world has no room for them.
+std::vector<core::Pose2> random_circles(const core::WallMap& world, const CircularMotion& motion,
+                                        std::size_t count, std::uint64_t seed);
 
 }  // namespace cornerd::bench

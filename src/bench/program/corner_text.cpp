@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "bench/program/report_text.hpp"
+#include "bench/program/report.hpp"
 #include "bench/statistics.hpp"
 #include "tool/drawing/text_table.hpp"
 

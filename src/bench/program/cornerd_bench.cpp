@@ -5,24 +5,17 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
-#include <CLI/CLI.hpp>
-
+#include "bench/program/benches.hpp"
 #include "bench/program/contest_maps.hpp"
-#include "bench/program/instruction_report.hpp"
-#include "bench/program/localization_bench.hpp"
-#include "bench/program/odometry_bench.hpp"
-#include "bench/program/report_json.hpp"
-#include "bench/program/report_plots.hpp"
-#include "bench/program/report_text.hpp"
-#include "bench/program/scale_bench.hpp"
-#include "bench/program/survey_bench.hpp"
+#include "bench/program/report.hpp"
 #include "bench/workload.hpp"
 #include "core/scan.hpp"
+#include "tool/command_line/command.hpp"
 #include "tool/command_line/failure.hpp"
-#include "tool/command_line/file_guard.hpp"
 #include "tool/command_line/output.hpp"
 #include "tool/command_line/progress_bar.hpp"
 
@@ -50,7 +43,7 @@ struct BenchOptions {
   bool odometry = false;
   bool survey = false;
   std::vector<std::size_t> corners;
-  const CLI::Option* positions_given = nullptr;
+  std::optional<tool::Option> positions_given;
 };
 
 std::vector<NamedMethod> chosen_methods(const BenchOptions& options) {
@@ -108,7 +101,7 @@ BenchReport measure(const BenchOptions& options) {
 void run_scale(const BenchOptions& options) {
   ScaleBenchOptions scale;
   if (!options.corners.empty()) scale.corners = options.corners;
-  if (options.positions_given->count() > 0) scale.scans = options.positions;
+  if (options.positions_given->is_given()) scale.scans = options.positions;
   scale.seed = options.seed;
   scale.instructions = options.instructions;
   scale.plots = options.plots;
@@ -123,7 +116,7 @@ void run_scale(const BenchOptions& options) {
 void run_localizer(const BenchOptions& options) {
   LocalizationBenchOptions localization;
   localization.maps = options.maps;
-  if (options.positions_given->count() > 0) localization.places = options.positions;
+  if (options.positions_given->is_given()) localization.places = options.positions;
   localization.seed = options.seed;
   localization.instructions = options.instructions;
   localization.json = options.json;
@@ -157,7 +150,7 @@ void run_bench(const BenchOptions& options) {
   if (options.odometry) {
     if (options.scale) throw tool::UsageError("--odometry and --scale are two benchmarks");
     OdometryBenchOptions odometry{options.maps, options.plots, options.json, options.seed};
-    if (options.positions_given->count() > 0) odometry.drives = options.positions;
+    if (options.positions_given->is_given()) odometry.drives = options.positions;
     run_odometry_bench(odometry);
     return;
   }
@@ -193,16 +186,16 @@ void run_bench(const BenchOptions& options) {
   output.flush();
 }
 
-void add_options(CLI::App& program, const std::shared_ptr<BenchOptions>& options) {
+void add_options(tool::Command& program, const std::shared_ptr<BenchOptions>& options) {
   program
       .add_option("--maps", options->maps,
                   "folder with krpai-2019-a.json to -d.json; else the installed ones")
-      ->type_name("DIR");
+      .type_name("DIR");
   program
       .add_option("--methods", options->methods,
                   "only these: altbd, abd-iepf, lt, or a variant's name")
-      ->delimiter(',')
-      ->type_name("NAME,...");
+      .delimiter(',')
+      .type_name("NAME,...");
   program.add_flag("--variants", options->variants, "also other forms of the methods");
   program.add_flag(
       "--scale", options->scale,
@@ -221,65 +214,45 @@ void add_options(CLI::App& program, const std::shared_ptr<BenchOptions>& options
                    "instead: a drive of 100 m, surveyed by both methods, and a second one "
                    "localized in the maps");
   program.add_option("--corners", options->corners, "with --scale: buildings of about so many")
-      ->delimiter(',')
-      ->check(CLI::Range(std::size_t{0}, std::size_t{100'000}))
-      ->type_name("N,...");
+      .delimiter(',')
+      .range(std::size_t{0}, std::size_t{100'000})
+      .type_name("N,...");
   options->positions_given =
       program
           .add_option("--positions", options->positions,
                       "random places; 0: the paper's 43 alone (--odometry: drives of each robot)")
-          ->check(CLI::Range(std::size_t{0}, std::size_t{10'000'000}))
-          ->type_name("N")
-          ->capture_default_str();
+          .range(std::size_t{0}, std::size_t{10'000'000})
+          .type_name("N")
+          .capture_default_str();
   program.add_option("--samples", options->samples, "a turn")
-      ->check(CLI::Range(std::size_t{1}, core::kMaxSamplesPerScan))
-      ->type_name("N")
-      ->capture_default_str();
+      .range(std::size_t{1}, core::kMaxSamplesPerScan)
+      .type_name("N")
+      .capture_default_str();
   program.add_option("--seed", options->seed, "of all randomness")
-      ->check([](const std::string& text) {  // else -1 is the largest number
+      .check([](const std::string& text) {  // else -1 is the largest number
         return text.starts_with('-') ? std::string("is negative") : std::string();
       })
-      ->capture_default_str();
+      .capture_default_str();
   program.add_flag("--instructions", options->instructions,
                    "count the instructions a turn, of 400 to 10,000 samples: by the processor's "
                    "counter, else by valgrind (slow)");
   program.add_option("--plots", options->plots, "draw the figures into this folder, as SVG")
-      ->type_name("DIR");
+      .type_name("DIR");
   program.add_option("--json", options->json, "all figures; -: on standard output, and no text")
-      ->type_name("FILE");
+      .type_name("FILE");
   program.add_option("--only-detect", options->detections)
-      ->group("");  // hidden: what valgrind is started on
-  program.add_option("--only-localize", options->only_localize)->group("");  // likewise
+      .hidden();  // hidden: what valgrind is started on
+  program.add_option("--only-localize", options->only_localize).hidden();  // likewise
   program.callback([options] { run_bench(*options); });
-}
-
-int complain(const char* text, int exit_code) {
-  std::fprintf(stderr, "cornerd-bench: %s\n", text);
-  return exit_code;
 }
 
 }  // namespace
 
 int run_cornerd_bench(int argc, const char* const* argv) {
-  CLI::App program(
-      "cornerd-bench: the published tables, measured again on this machine, and more places",
-      "cornerd-bench");
-  program.set_version_flag("--version", "cornerd-bench " CORNERD_VERSION);
-  add_options(program, std::make_shared<BenchOptions>());
-  try {
-    program.parse(argc, argv);
-    return tool::kExitDone;
-  } catch (const CLI::ParseError& error) {
-    return program.exit(error) == 0 ? tool::kExitDone : tool::kExitUsage;
-  } catch (const tool::OutputClosed&) {
-    return tool::kExitDone;
-  } catch (const tool::UsageError& error) {
-    return complain(error.what(), tool::kExitUsage);
-  } catch (const settings::SettingsError& error) {
-    return complain(error.what(), tool::kExitConfig);
-  } catch (const std::exception& error) {
-    return complain(error.what(), tool::kExitFailed);
-  }
+  const auto options = std::make_shared<BenchOptions>();
+  return tool::run_program(
+      "cornerd-bench", "the published tables, measured again on this machine, and more places",
+      [&](tool::Command& program) { add_options(program, options); }, argc, argv);
 }
 
 }  // namespace cornerd::bench

@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "bench/program/instruction_report.hpp"
-
 #include <cstdio>
 #include <optional>
 #include <set>
 #include <string>
 
 #include "bench/instruction_counter.hpp"
-#include "bench/program/callgrind.hpp"
+#include "bench/program/report.hpp"
 #include "bench/workload.hpp"
 #include "tool/command_line/progress_bar.hpp"
 

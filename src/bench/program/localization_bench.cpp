@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: MIT
-#include "bench/program/localization_bench.hpp"
-
 #include <memory>
 #include <optional>
 #include <vector>
 
 #include <nlohmann/json.hpp>
 
+#include "bench/instruction_counter.hpp"
 #include "bench/localization/cost.hpp"
 #include "bench/localization/kidnapping.hpp"
 #include "bench/localization/trials.hpp"
-#include "bench/program/callgrind.hpp"
+#include "bench/program/benches.hpp"
 #include "bench/program/contest_maps.hpp"
 #include "core/recognition/decision.hpp"
 #include "settings/map_file.hpp"

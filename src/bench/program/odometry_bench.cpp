@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "bench/program/odometry_bench.hpp"
-
 #include <algorithm>
 #include <iterator>
 #include <memory>
@@ -11,9 +9,9 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/odometry_experiment.hpp"
-#include "bench/program/blind_text.hpp"
+#include "bench/program/benches.hpp"
 #include "bench/program/contest_maps.hpp"
-#include "bench/program/rate_text.hpp"
+#include "bench/program/odometry_text.hpp"
 #include "settings/map_file.hpp"
 #include "tool/command_line/failure.hpp"
 #include "tool/command_line/output.hpp"
@@ -26,8 +24,6 @@ namespace cornerd::bench {
 
 namespace {
 
-using OdometryResult;
-using ReckonedTrack;
 using core::HeadingSource;
 
 /// Of a second table, for each drive that was asked for.

@@ -3,13 +3,19 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
+#include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "bench/corner_experiment.hpp"
+#include "bench/methods.hpp"
 #include "bench/paper_experiment.hpp"
+#include "bench/program/report.hpp"
+#include "replay/simulator/sensor_model.hpp"
 
 namespace cornerd::bench {
 
@@ -49,5 +55,44 @@ struct BenchReport {
     return std::nullopt;
   }
 };
+
+/// Time per turn and location, beside the paper's.
+std::string time_table(const BenchReport& report);
+
+/// True and false corners per location, beside the paper's.
+std::string true_false_table(const BenchReport& report);
+
+/// Position errors, beside the paper's.
+std::string position_table(const BenchReport& report);
+
+/// Instructions per turn and sample, over the number of samples.
+std::string scaling_table(const BenchReport& report);
+
+/// Precision, recall and error of the corners: a table for each circumstance.
+std::string corner_tables(const BenchReport& report);
+
+std::string bench_text(const BenchReport& report);
+
+/// What cornerd-bench measured, as one JSON object: metres, microseconds, shares.
+std::string bench_json(const BenchReport& report);
+
+/// The pictures of the paper's figures, drawn from what was measured, into a folder that is made
+/// where it is missing: times.svg (figure 11), positions.svg (figure 15), and turn-METHOD.svg, one
+/// turn with what each method finds in it (figures 9 and 10). Throws Failure.
+void draw_bench(const BenchReport& report, const std::filesystem::path& folder);
+
+/// What the turns are made of.
+struct CountedScans {
+  std::vector<std::shared_ptr<const core::WallMap>> maps;
+  std::filesystem::path folder;  ///< of the maps
+  replay::SensorModel sensor;
+  std::uint64_t seed = 0;
+};
+
+/// Fills in the instructions that each method takes for a turn, for several numbers of samples: by
+/// the processor's counter, else by valgrind as the difference between detecting once and twice,
+/// so that nothing but the detection counts. Where there is neither, says so on standard error.
+void count_instructions(const CountedScans& scans, std::span<const NamedMethod> methods,
+                        BenchReport& report);
 
 }  // namespace cornerd::bench

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "bench/program/report_json.hpp"
-
 #include <algorithm>
 #include <vector>
 
 #include <nlohmann/json.hpp>
 
-#include "bench/paper_figures.hpp"
+#include "bench/paper_experiment.hpp"
+#include "bench/program/report.hpp"
 #include "bench/statistics.hpp"
 
 namespace cornerd::bench {

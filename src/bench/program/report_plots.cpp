@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "bench/program/report_plots.hpp"
-
 #include <algorithm>
 #include <system_error>
 #include <vector>
 
-#include "bench/paper_figures.hpp"
+#include "bench/paper_experiment.hpp"
 #include "bench/program/boxplot_drawing.hpp"
+#include "bench/program/report.hpp"
 #include "tool/command_line/failure.hpp"
 #include "tool/command_line/output.hpp"
 #include "tool/drawing/map_drawing.hpp"

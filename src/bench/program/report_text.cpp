@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "bench/program/report_text.hpp"
-
 #include <algorithm>
 #include <functional>
 #include <optional>
 #include <vector>
 
-#include "bench/paper_figures.hpp"
+#include "bench/paper_experiment.hpp"
+#include "bench/program/report.hpp"
 #include "bench/statistics.hpp"
 #include "tool/drawing/text_table.hpp"
 
@@ -14,10 +13,6 @@ namespace cornerd::bench {
 
 namespace {
 
-using kPaperLocations;
-using kPaperMethodCount;
-using PaperResult;
-using PlaceResult;
 using Places = std::vector<const PlaceResult*>;
 
 constexpr double kBenchMm = 1e3;

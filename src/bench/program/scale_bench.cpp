@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "bench/program/scale_bench.hpp"
-
 #include <cmath>
 #include <cstdio>
 #include <memory>
@@ -9,7 +7,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "bench/program/callgrind.hpp"
+#include "bench/instruction_counter.hpp"
+#include "bench/program/benches.hpp"
 #include "bench/scale_experiment.hpp"
 #include "tool/command_line/failure.hpp"
 #include "tool/command_line/output.hpp"

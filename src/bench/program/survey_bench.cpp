@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "bench/program/survey_bench.hpp"
-
 #include <string>
 #include <system_error>
 #include <vector>
 
 #include "bench/building.hpp"
-#include "bench/loop_experiment.hpp"
+#include "bench/program/benches.hpp"
 #include "bench/program/contest_maps.hpp"
 #include "bench/survey_experiment.hpp"
 #include "settings/map_file.hpp"

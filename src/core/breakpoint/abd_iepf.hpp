@@ -25,7 +25,7 @@ double abd_threshold_m(const AbdIepfConfig& config, const PolarPoint& before,
 /// its regression line.
 ///
 /// The sample that is cut at ends one chord and begins the next; the regression takes it once, for
-/// the earlier piece. The weights track_block the sensor's noise, since the covariances of the
+/// the earlier piece. The weights follow the sensor's noise, since the covariances of the
 /// breakpoints are made of them. In the worst case, a spiral, IEPF takes n^2 / 2 steps.
 class AbdIepf {
  public:

@@ -17,7 +17,7 @@ namespace cornerd::core {
 ///
 /// Nothing here is made better than the print: a line follows the samples around a corner until
 /// they are D_max off, goes on over any gap, and ends at a lone outlier. Only the samples' weights
-/// track_block the sensor's noise, since the covariances of the breakpoints are made of them.
+/// follow the sensor's noise, since the covariances of the breakpoints are made of them.
 class LineTracking {
  public:
   LineTracking(const DetectorConfig& config, const SensorNoise& noise)

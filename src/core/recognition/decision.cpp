@@ -11,7 +11,7 @@ namespace {
 /// many rays at once: so many nats of a turn are worth one nat of belief. What they promise is
 /// measured (`cornerd-bench --localizer`, "kept promises").
 constexpr double kNatsPerNat = 1.3;
-/// Each ray that even the likeliest place does not beam_likelihood says that the map or the model
+/// Each ray that even the likeliest place does not explain says that the map or the model
 /// is off by something.
 constexpr double kNatsPerNatPerStranger = 0.0217;
 /// The same where things are counted instead of rays: so many for the turn, and for each ray.

@@ -1,22 +1,20 @@
 // SPDX-License-Identifier: MIT
 // cornerctl calibrate bias: how the lidar errs always, from places that its map knows.
-#include "tool/calibrate/calibrate_bias.hpp"
-
 #include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
 
-#include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
 #include "core/pipeline.hpp"
 #include "settings/lidar_calibration.hpp"
 #include "settings/map_file.hpp"
+#include "tool/command_line/command.hpp"
 #include "tool/command_line/failure.hpp"
-#include "tool/command_line/file_guard.hpp"
 #include "tool/command_line/options.hpp"
 #include "tool/command_line/output.hpp"
+#include "tool/commands.hpp"
 #include "tool/drawing/text_table.hpp"
 #include "tool/replay/playback.hpp"
 
@@ -88,24 +86,24 @@ void calibrate_bias(const CalibrateBiasOptions& options) {
 
 }  // namespace
 
-void add_calibrate_bias(CLI::App& group) {
-  CLI::App* command = group.add_subcommand(
+void add_calibrate_bias(Command& group) {
+  Command command = group.add_subcommand(
       "bias", "what the lidar's ranges and bearings are always off by, at places of a known map");
   const auto options = std::make_shared<CalibrateBiasOptions>();
   command
-      ->add_option("files", options->files,
-                   "recordings (.bin, .ndjson) of a robot that stands for some seconds each at "
-                   "several places")
-      ->required()
-      ->type_name("FILE");
-  options->settings.add_config(*command);
-  options->settings.add_map(*command);
+      .add_option("files", options->files,
+                  "recordings (.bin, .ndjson) of a robot that stands for some seconds each at "
+                  "several places")
+      .required()
+      .type_name("FILE");
+  options->settings.add_config(command);
+  options->settings.add_map(command);
   command
-      ->add_option("-o,--output", options->output,
-                   "the key advanced.lidar.bias, for a config; -: on standard output")
-      ->type_name("JSON");
-  add_wire_option(*command, options->wire);
-  command->callback([options] { calibrate_bias(*options); });
+      .add_option("-o,--output", options->output,
+                  "the key advanced.lidar.bias, for a config; -: on standard output")
+      .type_name("JSON");
+  add_wire_option(command, options->wire);
+  command.callback([options] { calibrate_bias(*options); });
 }
 
 }  // namespace cornerd::tool

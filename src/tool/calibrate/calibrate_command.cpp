@@ -12,19 +12,15 @@
 #include <utility>
 #include <vector>
 
-#include <CLI/CLI.hpp>
-
 #include "calibration/bearing_bins.hpp"
 #include "calibration/range_noise.hpp"
 #include "calibration/robust_statistics.hpp"
 #include "calibration/wall_model.hpp"
 #include "calibration/wall_search.hpp"
 #include "replay/recording.hpp"
-#include "tool/calibrate/calibrate_bias.hpp"
-#include "tool/calibrate/calibrate_odometry.hpp"
 #include "tool/calibrate/noise_report.hpp"
+#include "tool/command_line/command.hpp"
 #include "tool/command_line/failure.hpp"
-#include "tool/command_line/file_guard.hpp"
 #include "tool/command_line/options.hpp"
 #include "tool/command_line/output.hpp"
 #include "tool/commands.hpp"
@@ -191,46 +187,46 @@ void calibrate_noise(const CalibrateNoiseOptions& options) {
   if (!options.wall_plot.empty()) write_file(options.wall_plot, draw_walls(walls, sources));
 }
 
-void add_noise(CLI::App& group) {
-  CLI::App* command = group.add_subcommand(
+void add_noise(Command& group) {
+  Command command = group.add_subcommand(
       "noise", "the lidar's noise over the range, from recordings of a robot that stands still");
   const auto options = std::make_shared<CalibrateNoiseOptions>();
   command
-      ->add_option(
+      .add_option(
           "files", options->files,
           "recordings (.bin, .ndjson), each from one place; FILE@METRES: before a straight wall "
           "that is so far from the lidar's axis")
-      ->required()
-      ->type_name("FILE");
+      .required()
+      .type_name("FILE");
   command
-      ->add_option(
+      .add_option(
           "--model", options->model,
           "what -o writes: plain (floor and share), table, auto (the table where plain is off), "
           "or paper: auto and the paper's model of walls, which FILE@METRES writes anyway")
-      ->check(CLI::IsMember({"auto", "plain", "table", "paper"}))
-      ->capture_default_str();
+      .choices({"auto", "plain", "table", "paper"})
+      .capture_default_str();
   command
-      ->add_option(
+      .add_option(
           "-o,--output", options->output,
           "the key lidar.noise, for a config and for simulate --noise; -: on standard output")
-      ->type_name("JSON");
-  command->add_option("--plot", options->plot, "draw sigma over the range")->type_name("SVG");
+      .type_name("JSON");
+  command.add_option("--plot", options->plot, "draw sigma over the range").type_name("SVG");
   command
-      ->add_option("--plot-wall", options->wall_plot,
-                   "draw what the ranges of walls err by, over the ray's angle")
-      ->type_name("SVG");
-  add_wire_option(*command, options->wire);
-  command->callback([options] { calibrate_noise(*options); });
+      .add_option("--plot-wall", options->wall_plot,
+                  "draw what the ranges of walls err by, over the ray's angle")
+      .type_name("SVG");
+  add_wire_option(command, options->wire);
+  command.callback([options] { calibrate_noise(*options); });
 }
 
 }  // namespace
 
-void add_calibrate(CLI::App& program) {
-  CLI::App* group = program.add_subcommand("calibrate", "measure what a config wants to know");
-  group->require_subcommand(1);
-  add_noise(*group);
-  add_calibrate_bias(*group);
-  add_calibrate_odometry(*group);
+void add_calibrate(Command& program) {
+  Command group = program.add_subcommand("calibrate", "measure what a config wants to know");
+  group.require_subcommand();
+  add_noise(group);
+  add_calibrate_bias(group);
+  add_calibrate_odometry(group);
 }
 
 }  // namespace cornerd::tool

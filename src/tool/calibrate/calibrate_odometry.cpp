@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: MIT
 // cornerctl calibrate odometry: what wheels and gyro are off by, from a recorded drive.
-#include "tool/calibrate/calibrate_odometry.hpp"
-
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
@@ -12,8 +10,6 @@
 #include <utility>
 #include <vector>
 
-#include <CLI/CLI.hpp>
-
 #include "calibration/drive_reckoning.hpp"
 #include "calibration/factor_search.hpp"
 #include "calibration/odometry_fit.hpp"
@@ -21,10 +17,11 @@
 #include "settings/map_file.hpp"
 #include "tool/calibrate/drive_fit.hpp"
 #include "tool/calibrate/recorded_drive.hpp"
+#include "tool/command_line/command.hpp"
 #include "tool/command_line/failure.hpp"
-#include "tool/command_line/file_guard.hpp"
 #include "tool/command_line/options.hpp"
 #include "tool/command_line/output.hpp"
+#include "tool/commands.hpp"
 #include "tool/drawing/drive_drawing.hpp"
 #include "tool/drawing/factors_text.hpp"
 #include "tool/drawing/text_table.hpp"
@@ -223,33 +220,33 @@ void calibrate_odometry(const CalibrateOdometryOptions& options) {
 
 }  // namespace
 
-void add_calibrate_odometry(CLI::App& group) {
-  CLI::App* command = group.add_subcommand(
+void add_calibrate_odometry(Command& group) {
+  Command command = group.add_subcommand(
       "odometry",
       "what wheels, gyro and their times are off by, from a recorded drive in a known map");
   const auto options = std::make_shared<CalibrateOdometryOptions>();
   command
-      ->add_option("file", options->file,
-                   "a drive with ODOMETRY lines (.ndjson): half a minute or "
-                   "more, with straights and turns both ways")
-      ->required()
-      ->type_name("FILE");
-  options->settings.add_config(*command);
-  options->settings.add_map(*command);
+      .add_option("file", options->file,
+                  "a drive with ODOMETRY lines (.ndjson): half a minute or "
+                  "more, with straights and turns both ways")
+      .required()
+      .type_name("FILE");
+  options->settings.add_config(command);
+  options->settings.add_map(command);
   command
-      ->add_option("--truth", options->truth,
-                   "where the robot really was, in place of the lidar's own fixes")
-      ->type_name("FILE");
+      .add_option("--truth", options->truth,
+                  "where the robot really was, in place of the lidar's own fixes")
+      .type_name("FILE");
   command
-      ->add_option("-o,--output", options->output,
-                   "the key advanced.odometry.initial, for a config; -: on standard output")
-      ->type_name("JSON");
+      .add_option("-o,--output", options->output,
+                  "the key advanced.odometry.initial, for a config; -: on standard output")
+      .type_name("JSON");
   command
-      ->add_option("--plot", options->plot,
-                   "draw the drive as wheels, least squares and the filter have it")
-      ->type_name("SVG");
-  add_wire_option(*command, options->wire);
-  command->callback([options] { calibrate_odometry(*options); });
+      .add_option("--plot", options->plot,
+                  "draw the drive as wheels, least squares and the filter have it")
+      .type_name("SVG");
+  add_wire_option(command, options->wire);
+  command.callback([options] { calibrate_odometry(*options); });
 }
 
 }  // namespace cornerd::tool

@@ -10,7 +10,7 @@
 #include "calibration/wiring_faults.hpp"
 #include "tool/calibrate/gross_fault_text.hpp"
 #include "tool/command_line/failure.hpp"
-#include "tool/drawing/formatted.hpp"
+#include "tool/drawing/text_table.hpp"
 
 namespace cornerd::tool {
 namespace {

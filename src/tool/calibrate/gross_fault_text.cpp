@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "tool/drawing/formatted.hpp"
+#include "tool/drawing/text_table.hpp"
 
 namespace cornerd::tool {
 

@@ -9,10 +9,9 @@
 #include <sstream>
 #include <string_view>
 
-#include <CLI/CLI.hpp>
-
 #include "settings/document.hpp"
 #include "settings/object_reader.hpp"
+#include "tool/command_line/command.hpp"
 #include "tool/command_line/failure.hpp"
 
 namespace cornerd::tool {
@@ -41,20 +40,20 @@ std::vector<double> parse_numbers(std::string_view text, std::size_t count) {
 
 }  // namespace
 
-void SettingsOptions::add_config(CLI::App& command) {
+void SettingsOptions::add_config(Command& command) {
   command.add_option("--config", config_, "config file; without it every key has its default")
-      ->type_name("FILE");
+      .type_name("FILE");
   command.add_option("--set", set_, "any config value: /json/pointer=value")
-      ->type_name("/PTR=VALUE")
-      ->check([](const std::string& text) {
+      .type_name("/PTR=VALUE")
+      .check([](const std::string& text) {
         return settings::is_override(text) ? std::string() : "must be /json/pointer=value";
       })
-      ->allow_extra_args(false);
+      .one_word();
 }
 
-void SettingsOptions::add_map(CLI::App& command) {
+void SettingsOptions::add_map(Command& command) {
   command.add_option("--map", map_, "map of the building; else the one that the config names")
-      ->type_name("FILE");
+      .type_name("FILE");
 }
 
 void SettingsOptions::use_installed_config() {
@@ -72,10 +71,10 @@ settings::Config SettingsOptions::resolve(bool needs_map) const {
   return settings::parse_config(text, config_, overrides, needs_map);
 }
 
-void add_wire_option(CLI::App& command, std::string& wire) {
+void add_wire_option(Command& command, std::string& wire) {
   command.add_option("--wire", wire, "format of bytes that begin without a response descriptor")
-      ->check(CLI::IsMember({"standard", "express", "ultra", "auto"}))
-      ->capture_default_str();
+      .choices({"standard", "express", "ultra", "auto"})
+      .capture_default_str();
 }
 
 std::optional<rplidar::WireFormat> parse_wire(const std::string& wire) {
@@ -93,18 +92,6 @@ message::ClassSet parse_classes(const std::vector<std::string>& names) {
     classes.insert(*known);
   }
   return classes;
-}
-
-CLI::Validator number_within(double low, double high) {
-  const std::string limits = settings::to_text(low) + " to " + settings::to_text(high);
-  return {[low, high, limits](std::string& text) {
-            double number = 0;
-            const bool read = CLI::detail::lexical_cast(text, number);
-            return read && number >= low && number <= high
-                       ? std::string()
-                       : "must be a number from " + limits + ", not " + text;
-          },
-          "FLOAT in [" + limits + "]"};
 }
 
 core::Pose2 parse_pose(const std::string& text) {

@@ -11,18 +11,15 @@
 #include "message/request.hpp"
 #include "settings/config.hpp"
 
-namespace CLI {
-class App;
-class Validator;
-}  // namespace CLI
-
 namespace cornerd::tool {
+
+class Command;
 
 /// --config, --map and --set of the commands that need settings.
 class SettingsOptions {
  public:
-  void add_config(CLI::App& command);
-  void add_map(CLI::App& command);
+  void add_config(Command& command);
+  void add_map(Command& command);
 
   /// The config with everything that the command line puts over it. Without --config: defaults.
   /// Throws settings::SettingsError; UsageError where a map is needed and none is named.
@@ -45,16 +42,12 @@ class SettingsOptions {
 };
 
 /// --wire standard|express|ultra|auto, for bytes that begin without a response descriptor.
-void add_wire_option(CLI::App& command, std::string& wire);
+void add_wire_option(Command& command, std::string& wire);
 /// nullopt for auto; the option accepts nothing that is unknown.
 std::optional<rplidar::WireFormat> parse_wire(const std::string& wire);
 
 /// "POSE,SCAN" as a set. Throws UsageError.
 message::ClassSet parse_classes(const std::vector<std::string>& names);
-
-/// For numbers on the command line: a finite one from `low` to `high`. CLI11's own checks let "nan"
-/// pass, as it compares false with every limit.
-CLI::Validator number_within(double low, double high);
 
 /// "x,y,theta" in metres and radians. Throws UsageError.
 core::Pose2 parse_pose(const std::string& text);

@@ -4,7 +4,6 @@
 
 #include "tool/doctor/checks.hpp"
 #include "tool/doctor/process_table.hpp"
-#include "tool/doctor/udev_notes.hpp"
 #include "tool/doctor/usb_adapters.hpp"
 
 namespace cornerd::tool {

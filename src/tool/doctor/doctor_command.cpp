@@ -9,8 +9,7 @@
 #include <string>
 #include <vector>
 
-#include <CLI/CLI.hpp>
-
+#include "tool/command_line/command.hpp"
 #include "tool/command_line/failure.hpp"
 #include "tool/command_line/options.hpp"
 #include "tool/command_line/output.hpp"
@@ -60,14 +59,14 @@ void diagnose(SettingsOptions& options) {
 
 }  // namespace
 
-void add_doctor(CLI::App& program) {
-  CLI::App* command = program.add_subcommand(
+void add_doctor(Command& program) {
+  Command command = program.add_subcommand(
       "doctor",
       "what is wrong between lidar and pose, and how to mend it; exit code 1 where "
       "something is");
   const auto options = std::make_shared<SettingsOptions>();
-  options->add_config(*command);
-  command->callback([options] { diagnose(*options); });
+  options->add_config(command);
+  command.callback([options] { diagnose(*options); });
 }
 
 }  // namespace cornerd::tool

@@ -3,6 +3,11 @@
 
 #include <sys/stat.h>
 
+#include <array>
+#include <iterator>
+
+#include "tool/doctor/checks.hpp"
+
 namespace cornerd::tool {
 
 std::optional<Account> service_account(const Machine& machine) {
@@ -46,6 +51,18 @@ std::string other_than_port(const Machine& machine, const FileFacts& file) {
 bool has_port(const Patient& patient) {
   const std::optional<FileFacts> file = patient.machine.facts(patient.config.lidar.device);
   return file && other_than_port(patient.machine, *file).empty();
+}
+
+std::vector<Finding> examine(const Patient& patient) {
+  constexpr std::array kChecks = {check_reading, check_port,     check_rights,
+                                  check_holders, check_claimers, check_power,
+                                  check_daemon,  check_control,  check_poses};
+  std::vector<Finding> findings;
+  for (const auto check : kChecks) {
+    std::vector<Finding> found = check(patient);
+    std::move(found.begin(), found.end(), std::back_inserter(findings));
+  }
+  return findings;
 }
 
 }  // namespace cornerd::tool

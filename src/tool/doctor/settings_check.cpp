@@ -4,7 +4,7 @@
 #include "settings/document.hpp"
 #include "settings/map_file.hpp"
 #include "tool/doctor/checks.hpp"
-#include "tool/drawing/formatted.hpp"
+#include "tool/drawing/text_table.hpp"
 
 namespace cornerd::tool {
 

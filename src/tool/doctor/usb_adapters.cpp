@@ -2,6 +2,8 @@
 #include "tool/doctor/usb_adapters.hpp"
 
 #include <algorithm>
+#include <iterator>
+#include <vector>
 
 namespace cornerd::tool {
 
@@ -44,6 +46,21 @@ std::vector<UsbAdapter> find_usb_adapters(const Machine& machine) {
     if (adapter.is_cp2102() && !known) adapters.push_back(adapter);
   }
   return adapters;
+}
+
+bool has_udev_rules(const Machine& machine) {
+  constexpr const char* kFolders[] = {"/lib/udev/rules.d", "/usr/lib/udev/rules.d",
+                                      "/etc/udev/rules.d"};
+  return std::any_of(std::begin(kFolders), std::end(kFolders), [&](const char* folder) {
+    const std::vector<std::string> names = machine.list(folder);
+    return std::any_of(names.begin(), names.end(),
+                       [](const std::string& name) { return name.ends_with("-cornerd.rules"); });
+  });
+}
+
+std::optional<std::string> udev_notes(const Machine& machine, const std::string& port) {
+  const std::string number = machine.read_line("/sys/class/tty/" + port + "/dev");
+  return number.empty() ? std::nullopt : machine.read("/run/udev/data/c" + number);
 }
 
 }  // namespace cornerd::tool

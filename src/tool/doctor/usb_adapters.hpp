@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,5 +26,12 @@ struct UsbAdapter {
 
 /// All that have a port, and CP2102s without one.
 std::vector<UsbAdapter> find_usb_adapters(const Machine& machine);
+
+/// Are the package's rules, or a copy of them, where udev reads rules?
+bool has_udev_rules(const Machine& machine);
+
+/// What udev noted of a port ("ttyUSB0") when it was plugged in, a line each: "E:ID_MODEL=CP2102".
+/// nullopt: nothing.
+std::optional<std::string> udev_notes(const Machine& machine, const std::string& port);
 
 }  // namespace cornerd::tool

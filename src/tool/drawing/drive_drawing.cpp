@@ -16,9 +16,9 @@ using core::Vec2;
 
 constexpr double kDriveMarginPx = 50;
 constexpr double kLongerSidePx = 900;
-constexpr double kLegendLinePx = 18;
+constexpr double kDriveLegendLinePx = 18;
 constexpr std::string_view kWallInk = "#2f3640";
-constexpr std::string_view kGridInk = "#e9e6df";
+constexpr std::string_view kDriveGridInk = "#e9e6df";
 
 struct Bounds {
   Vec2 low{1e9, 1e9};
@@ -64,7 +64,7 @@ double grid_step(double size_m) {
 }
 
 void draw_metres(Svg& svg, const Bounds& bounds, double step_m) {
-  const Paint grid{.stroke = kGridInk};
+  const Paint grid{.stroke = kDriveGridInk};
   const TextStyle label{.fill = kWallInk, .size = 11};
   for (double x = std::ceil(bounds.low.x() / step_m) * step_m; x <= bounds.high.x(); x += step_m) {
     svg.line({x, bounds.low.y()}, {x, bounds.high.y()}, grid);
@@ -100,7 +100,7 @@ std::string draw_drive(std::string_view title, std::span<const DrawnTrack> track
     svg.polyline(thinned(track.points, 1.5 / svg.pixels_per_m()), paint);
     svg.text(upper_left, track.name,
              {.fill = track.colour, .size = 13, .anchor = "start", .bold = true}, 8, down_px);
-    down_px += kLegendLinePx;
+    down_px += kDriveLegendLinePx;
   }
   svg.text(upper_left, title, {.fill = kWallInk, .size = 15, .anchor = "start", .bold = true}, 0,
            -16);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "tool/drawing/factors_text.hpp"
 
-#include "tool/drawing/formatted.hpp"
+#include "tool/drawing/text_table.hpp"
 
 namespace cornerd::tool {
 

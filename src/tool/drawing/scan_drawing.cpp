@@ -13,9 +13,9 @@ namespace cornerd::tool {
 namespace {
 
 constexpr double kWidthPx = 860;
-constexpr double kMarginPx = 40;
+constexpr double kScanMarginPx = 40;
 constexpr Paint kWall{.stroke = "#1f6f8b", .stroke_width = 2.5, .opacity = 0.8};
-constexpr Paint kReturn{.fill = "#2f3640", .opacity = 0.7};
+constexpr Paint kScanReturn{.fill = "#2f3640", .opacity = 0.7};
 constexpr Paint kCornerRing{.stroke = "#c0392b", .stroke_width = 2};
 constexpr Paint kEndSquare{.stroke = "#d68910", .stroke_width = 2};
 constexpr Paint kLidarCross{.stroke = "#000000", .stroke_width = 1.5};
@@ -52,9 +52,9 @@ std::string draw_scan(const core::Scan& scan, const core::Detection& detection,
     low = low.cwiseMin(place);
     high = high.cwiseMax(place);
   }
-  Svg svg(low, high, kWidthPx / (high - low).x(), kMarginPx);
+  Svg svg(low, high, kWidthPx / (high - low).x(), kScanMarginPx);
   draw_metres(svg, low, high);
-  for (const core::Vec2& place : places) svg.dot(place, 1.3, kReturn);
+  for (const core::Vec2& place : places) svg.dot(place, 1.3, kScanReturn);
   for (const core::WallSegment& wall : detection.segments) svg.line(wall.first, wall.last, kWall);
   const double half_m = 5 / svg.pixels_per_m();
   for (const core::Breakpoint& breakpoint : detection.breakpoints) {

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
+#include <cstdarg>
 #include <cstddef>
+#include <cstdio>
 #include <string>
 #include <string_view>
 #include <vector>
-
-#include "tool/drawing/formatted.hpp"
 
 namespace cornerd::tool {
 
@@ -22,5 +23,15 @@ class TextTable {
  private:
   std::vector<std::vector<std::string>> rows_;
 };
+
+/// printf to a string of at most 255 bytes.
+__attribute__((format(printf, 1, 2))) inline std::string formatted(const char* format, ...) {
+  std::array<char, 256> text{};
+  va_list arguments;
+  va_start(arguments, format);
+  std::vsnprintf(text.data(), text.size(), format, arguments);
+  va_end(arguments);
+  return text.data();
+}
 
 }  // namespace cornerd::tool

@@ -8,24 +8,16 @@
 #include <string>
 #include <vector>
 
-#include <CLI/CLI.hpp>
-
 #include "settings/map_file.hpp"
-#include "tool/command_line/file_guard.hpp"
+#include "tool/command_line/command.hpp"
 #include "tool/command_line/output.hpp"
 #include "tool/commands.hpp"
 #include "tool/drawing/map_drawing.hpp"
 #include "tool/drawing/text_table.hpp"
 #include "tool/map/look_alikes.hpp"
-#include "tool/map/map_commands.hpp"
+#include "tool/map/map_text.hpp"
 
 namespace cornerd::tool {
-
-std::string describe_map(const core::WallMap& map) {
-  const core::Vec2 size = map.upper_right() - map.lower_left();
-  return formatted("%.3f x %.3f m, %zu walls, %zu corners", size.x(), size.y(),
-                   map.plan().walls.size(), map.corners().size());
-}
 
 namespace {
 
@@ -73,29 +65,29 @@ void check(const CheckOptions& options) {
   picture->flush();
 }
 
-void add_check(CLI::App& group) {
-  CLI::App* command = group.add_subcommand(
+void add_check(Command& group) {
+  Command command = group.add_subcommand(
       "check", "validate a map and say what is in it, and which places a turn cannot tell apart");
   const auto options = std::make_shared<CheckOptions>();
-  command->add_option("map", options->map, "the map")->required()->type_name("MAP");
+  command.add_option("map", options->map, "the map").required().type_name("MAP");
   command
-      ->add_option("--places", options->places,
-                   "look around at about so many places; 0: only validate")
-      ->check(CLI::Range(std::size_t{0}, std::size_t{1'000'000}))
-      ->type_name("N")
-      ->capture_default_str();
-  command->add_option("--plot", options->plot, "draw them")->type_name("SVG");
-  command->callback([options] { check(*options); });
+      .add_option("--places", options->places,
+                  "look around at about so many places; 0: only validate")
+      .range(std::size_t{0}, std::size_t{1'000'000})
+      .type_name("N")
+      .capture_default_str();
+  command.add_option("--plot", options->plot, "draw them").type_name("SVG");
+  command.callback([options] { check(*options); });
 }
 
 }  // namespace
 
-void add_map(CLI::App& program) {
-  CLI::App* group = program.add_subcommand("map", "validate, draw and import maps");
-  group->require_subcommand(1);
-  add_check(*group);
-  add_map_render(*group);
-  add_map_import(*group);
+void add_map(Command& program) {
+  Command group = program.add_subcommand("map", "validate, draw and import maps");
+  group.require_subcommand();
+  add_check(group);
+  add_map_render(group);
+  add_map_import(group);
 }
 
 }  // namespace cornerd::tool

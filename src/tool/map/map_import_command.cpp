@@ -10,19 +10,17 @@
 #include <utility>
 #include <vector>
 
-#include <CLI/CLI.hpp>
-
 #include "gridmap/grid_import.hpp"
 #include "gridmap/image.hpp"
 #include "gridmap/map_server_yaml.hpp"
 #include "settings/document.hpp"
+#include "tool/command_line/command.hpp"
 #include "tool/command_line/failure.hpp"
-#include "tool/command_line/file_guard.hpp"
 #include "tool/command_line/options.hpp"
 #include "tool/command_line/output.hpp"
+#include "tool/commands.hpp"
 #include "tool/drawing/map_drawing.hpp"
 #include "tool/drawing/text_table.hpp"
-#include "tool/map/map_commands.hpp"
 #include "tool/map/map_text.hpp"
 
 namespace cornerd::tool {
@@ -151,61 +149,61 @@ void import_map(MapImportOptions options) {
 
 }  // namespace
 
-void add_map_import(CLI::App& group) {
-  CLI::App* command =
+void add_map_import(Command& group) {
+  Command command =
       group.add_subcommand("import", "make a map of walls from a ROS map (yaml, and pgm or png)");
   const auto options = std::make_shared<MapImportOptions>();
-  command->add_option("yaml", options->yaml, "what map_server reads; it names the picture")
-      ->required()
-      ->type_name("YAML");
-  command->add_option("-o,--output", options->output, "the map; -: on standard output")
-      ->required()
-      ->type_name("MAP");
-  command->add_option("--name", options->name, "of the map; the file's without it")
-      ->type_name("NAME");
+  command.add_option("yaml", options->yaml, "what map_server reads; it names the picture")
+      .required()
+      .type_name("YAML");
+  command.add_option("-o,--output", options->output, "the map; -: on standard output")
+      .required()
+      .type_name("MAP");
+  command.add_option("--name", options->name, "of the map; the file's without it")
+      .type_name("NAME");
   command
-      ->add_option("--made-by", options->made_by,
-                   "lidar: beams ended in the occupied cells, surfaces go through their middle; "
-                   "drawing: what is solid was filled; auto: drawing where nothing is unknown, or "
-                   "more than a quarter of the occupied cells lie behind others")
-      ->check(CLI::IsMember({"auto", "lidar", "drawing"}))
-      ->capture_default_str();
+      .add_option("--made-by", options->made_by,
+                  "lidar: beams ended in the occupied cells, surfaces go through their middle; "
+                  "drawing: what is solid was filled; auto: drawing where nothing is unknown, or "
+                  "more than a quarter of the occupied cells lie behind others")
+      .choices({"auto", "lidar", "drawing"})
+      .capture_default_str();
   command
-      ->add_option("--speck", options->grid.speck_m,
-                   "what is occupied and smaller (m), or smaller than 2.5 cells, is left out")
-      ->check(number_within(0, 10))
-      ->type_name("M")
-      ->capture_default_str();
+      .add_option("--speck", options->grid.speck_m,
+                  "what is occupied and smaller (m), or smaller than 2.5 cells, is left out")
+      .within(0, 10)
+      .type_name("M")
+      .capture_default_str();
   command
-      ->add_option("--gap", options->grid.join_gap_m,
-                   "an unknown stretch of at most this (m) is wall where the wall goes on behind")
-      ->check(number_within(0, 10))
-      ->type_name("M")
-      ->capture_default_str();
+      .add_option("--gap", options->grid.join_gap_m,
+                  "an unknown stretch of at most this (m) is wall where the wall goes on behind")
+      .within(0, 10)
+      .type_name("M")
+      .capture_default_str();
   command
-      ->add_option("--thickest", options->grid.thickness_m,
-                   "two faces at most so far apart (m) are one wall, though what is between them "
-                   "is unknown")
-      ->check(number_within(0, 5))
-      ->type_name("M")
-      ->capture_default_str();
+      .add_option("--thickest", options->grid.thickness_m,
+                  "two faces at most so far apart (m) are one wall, though what is between them "
+                  "is unknown")
+      .within(0, 5)
+      .type_name("M")
+      .capture_default_str();
   command
-      ->add_option("--thin", options->grid.thin_m,
-                   "thickness of the walls that are thinner than the picture can tell (m)")
-      ->check(number_within(0, 1))
-      ->type_name("M")
-      ->capture_default_str();
+      .add_option("--thin", options->grid.thin_m,
+                  "thickness of the walls that are thinner than the picture can tell (m)")
+      .within(0, 1)
+      .type_name("M")
+      .capture_default_str();
   command
-      ->add_option("--roughness", options->grid.roughness_m,
-                   "steps of at most this (m), or 1.25 cells, in what a lidar mapped are noise")
-      ->check(number_within(0, 0.5))
-      ->type_name("M")
-      ->capture_default_str();
-  command->add_flag("!--keep-angles", options->grid.square,
-                    "leave walls oblique that are square within what the picture tells");
-  command->add_option("--plot", options->plot, "draw the walls, and what was left out")
-      ->type_name("SVG");
-  command->callback([options] { import_map(*options); });
+      .add_option("--roughness", options->grid.roughness_m,
+                  "steps of at most this (m), or 1.25 cells, in what a lidar mapped are noise")
+      .within(0, 0.5)
+      .type_name("M")
+      .capture_default_str();
+  command.add_flag("!--keep-angles", options->grid.square,
+                   "leave walls oblique that are square within what the picture tells");
+  command.add_option("--plot", options->plot, "draw the walls, and what was left out")
+      .type_name("SVG");
+  command.callback([options] { import_map(*options); });
 }
 
 }  // namespace cornerd::tool

@@ -8,17 +8,16 @@
 #include <utility>
 #include <vector>
 
-#include <CLI/CLI.hpp>
-
 #include "settings/map_file.hpp"
+#include "tool/command_line/command.hpp"
 #include "tool/command_line/failure.hpp"
-#include "tool/command_line/file_guard.hpp"
 #include "tool/command_line/options.hpp"
 #include "tool/command_line/output.hpp"
+#include "tool/commands.hpp"
 #include "tool/drawing/map_drawing.hpp"
 #include "tool/drawing/text_table.hpp"
 #include "tool/map/drive_points.hpp"
-#include "tool/map/map_commands.hpp"
+#include "tool/map/map_text.hpp"
 #include "tool/replay/playback.hpp"
 #include "tool/replay/truth.hpp"
 
@@ -146,30 +145,30 @@ void render(const RenderOptions& options) {
 
 }  // namespace
 
-void add_map_render(CLI::App& group) {
-  CLI::App* command = group.add_subcommand("render", "draw a map, and a recording in it, as SVG");
+void add_map_render(Command& group) {
+  Command command = group.add_subcommand("render", "draw a map, and a recording in it, as SVG");
   const auto options = std::make_shared<RenderOptions>();
-  command->add_option("map", options->map, "the map")->required()->type_name("MAP");
-  command->add_option("-o,--output", options->output, "the picture; -: on standard output")
-      ->required()
-      ->type_name("SVG");
+  command.add_option("map", options->map, "the map").required().type_name("MAP");
+  command.add_option("-o,--output", options->output, "the picture; -: on standard output")
+      .required()
+      .type_name("SVG");
   command
-      ->add_option("--recording", options->recording,
-                   "draw its points, its way and its last turn, localized in the map")
-      ->type_name("FILE");
+      .add_option("--recording", options->recording,
+                  "draw its points, its way and its last turn, localized in the map")
+      .type_name("FILE");
   command
-      ->add_option("--trajectory", options->trajectory,
-                   "where the robot was (as --truth files and survey --trajectory have it): the "
-                   "recording is drawn from there, and not localized")
-      ->type_name("FILE");
+      .add_option("--trajectory", options->trajectory,
+                  "where the robot was (as --truth files and survey --trajectory have it): the "
+                  "recording is drawn from there, and not localized")
+      .type_name("FILE");
   command
-      ->add_option("--pose", options->pose,
-                   "draw the robot there, and the recording's turn as seen from there")
-      ->type_name("X,Y,THETA");
-  command->add_option("--truth", options->truth, "draw the true way, dashed")->type_name("FILE");
-  options->settings.add_config(*command);
-  add_wire_option(*command, options->wire);
-  command->callback([options] { render(*options); });
+      .add_option("--pose", options->pose,
+                  "draw the robot there, and the recording's turn as seen from there")
+      .type_name("X,Y,THETA");
+  command.add_option("--truth", options->truth, "draw the true way, dashed").type_name("FILE");
+  options->settings.add_config(command);
+  add_wire_option(command, options->wire);
+  command.callback([options] { render(*options); });
 }
 
 }  // namespace cornerd::tool

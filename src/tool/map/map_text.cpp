@@ -6,7 +6,8 @@
 #include "message/json_text.hpp"
 #include "settings/map_file.hpp"
 #include "tool/command_line/failure.hpp"
-#include "tool/command_line/file_guard.hpp"
+#include "tool/command_line/output.hpp"
+#include "tool/drawing/text_table.hpp"
 
 namespace cornerd::tool {
 
@@ -56,6 +57,12 @@ std::shared_ptr<const core::WallMap> read_back(const std::string& text,
   } catch (const settings::SettingsError& error) {
     throw Failure(std::string(error.what()) + "; nothing is written, as no program would read it");
   }
+}
+
+std::string describe_map(const core::WallMap& map) {
+  const core::Vec2 size = map.upper_right() - map.lower_left();
+  return formatted("%.3f x %.3f m, %zu walls, %zu corners", size.x(), size.y(),
+                   map.plan().walls.size(), map.corners().size());
 }
 
 }  // namespace cornerd::tool

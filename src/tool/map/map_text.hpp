@@ -20,4 +20,7 @@ std::string map_text(const core::FloorPlan& plan);
 std::shared_ptr<const core::WallMap> read_back(const std::string& text,
                                                const std::filesystem::path& file);
 
+/// "2.418 x 2.418 m, 13 walls, 40 corners"
+std::string describe_map(const core::WallMap& map);
+
 }  // namespace cornerd::tool

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <optional>
 
-#include "tool/drawing/formatted.hpp"
+#include "tool/drawing/text_table.hpp"
 
 namespace cornerd::tool {
 

@@ -3,9 +3,12 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "tool/monitor/frame.hpp"
 
 namespace cornerd::tool {
 
@@ -64,5 +67,22 @@ void append_utf8(std::string& text, char32_t glyph);
 
 /// Lines of at most `width` characters, broken between words where that is possible.
 std::vector<std::string> wrap_text(std::string_view text, std::size_t width);
+
+/// Turns frames into what a terminal of the ECMA-48 kind (xterm, tmux, the Linux console) is told:
+/// of each frame no more than what differs from the one before.
+class FrameEncoder {
+ public:
+  explicit FrameEncoder(bool colours) : colours_(colours) {}
+
+  std::string encode(const Frame& frame);
+  /// The screen has been lost or has another size: the next frame is drawn whole.
+  void forget() { shown_.reset(); }
+
+ private:
+  void append_style(std::string& out, Style style) const;
+
+  bool colours_;
+  std::optional<Frame> shown_;
+};
 
 }  // namespace cornerd::tool

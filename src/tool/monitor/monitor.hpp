@@ -4,7 +4,7 @@
 #include <chrono>
 #include <filesystem>
 
-#include "tool/monitor/frame_encoder.hpp"
+#include "tool/monitor/frame.hpp"
 #include "tool/monitor/monitor_state.hpp"
 #include "tool/monitor/screen.hpp"
 #include "tool/monitor/signal_queue.hpp"

@@ -3,9 +3,8 @@
 #include <filesystem>
 #include <memory>
 
-#include <CLI/CLI.hpp>
-
 #include "settings/map_file.hpp"
+#include "tool/command_line/command.hpp"
 #include "tool/command_line/failure.hpp"
 #include "tool/command_line/options.hpp"
 #include "tool/commands.hpp"
@@ -39,17 +38,17 @@ void monitor(MonitorOptions& options) {
 
 }  // namespace
 
-void add_monitor(CLI::App& program) {
-  CLI::App* command = program.add_subcommand(
+void add_monitor(Command& program) {
+  Command command = program.add_subcommand(
       "monitor",
       "a live view in the terminal: map, turn, corners, pose, rates, what is wrong and "
       "what to do; q ends it");
   const auto options = std::make_shared<MonitorOptions>();
-  command->add_option("--socket", options->socket, "else the one that the config names")
-      ->type_name("PATH");
-  options->settings.add_config(*command);
-  options->settings.add_map(*command);
-  command->callback([options] { monitor(*options); });
+  command.add_option("--socket", options->socket, "else the one that the config names")
+      .type_name("PATH");
+  options->settings.add_config(command);
+  options->settings.add_map(command);
+  command.callback([options] { monitor(*options); });
 }
 
 }  // namespace cornerd::tool

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "message/line_writer.hpp"
-#include "tool/drawing/formatted.hpp"
+#include "tool/drawing/text_table.hpp"
 
 namespace cornerd::tool {
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tool/drawing/formatted.hpp"
+#include "tool/drawing/text_table.hpp"
 #include "tool/monitor/advice.hpp"
 #include "tool/monitor/pose_panel.hpp"
 

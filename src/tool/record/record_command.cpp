@@ -11,16 +11,15 @@
 #include <thread>
 #include <utility>
 
-#include <CLI/CLI.hpp>
-
 #include "drivers/clock.hpp"
 #include "drivers/rplidar/rplidar_driver.hpp"
 #include "drivers/serial/byte_stream.hpp"
 #include "drivers/serial/serial_port.hpp"
 #include "replay/recording_writer.hpp"
+#include "tool/command_line/command.hpp"
 #include "tool/command_line/failure.hpp"
-#include "tool/command_line/file_guard.hpp"
 #include "tool/command_line/options.hpp"
+#include "tool/command_line/output.hpp"
 #include "tool/command_line/stop_signal.hpp"
 #include "tool/commands.hpp"
 #include "tool/record/board_odometry.hpp"
@@ -170,32 +169,31 @@ void record(RecordOptions& options) {
 
 }  // namespace
 
-void add_record(CLI::App& program) {
-  CLI::App* command = program.add_subcommand("record", "keep what a lidar sends");
+void add_record(Command& program) {
+  Command command = program.add_subcommand("record", "keep what a lidar sends");
   const auto options = std::make_shared<RecordOptions>();
   const auto override_with = [options](const char* pointer) {
     return [options, pointer](const std::string& value) {
       options->settings.add_override(pointer + ("=" + value));
     };
   };
-  command->add_option_function<std::string>("--device", override_with("/lidar/device"), "its port")
-      ->type_name("DEV");
-  command->add_option_function<std::string>("--baud", override_with("/advanced/lidar/baud"),
-                                            "its speed");
-  command->add_option_function<std::string>("--mode", override_with("/advanced/lidar/mode"),
-                                            "auto, or a scan mode by name");
-  options->settings.add_config(*command);
+  command.add_option_function("--device", override_with("/lidar/device"), "its port")
+      .type_name("DEV");
+  command.add_option_function("--baud", override_with("/advanced/lidar/baud"), "its speed");
+  command.add_option_function("--mode", override_with("/advanced/lidar/mode"),
+                              "auto, or a scan mode by name");
+  options->settings.add_config(command);
   command
-      ->add_option(
+      .add_option(
           "-o,--output", options->output,
           "the recording: .bin what came, .ndjson both ways with times, and wheels and gyro where "
           "the config's odometry.source is kernel")
-      ->required()
-      ->type_name("FILE");
-  command->add_option("--seconds", options->seconds, "else until interrupted")
-      ->check(CLI::PositiveNumber)
-      ->type_name("N");
-  command->callback([options] { record(*options); });
+      .required()
+      .type_name("FILE");
+  command.add_option("--seconds", options->seconds, "else until interrupted")
+      .positive()
+      .type_name("N");
+  command.callback([options] { record(*options); });
 }
 
 }  // namespace cornerd::tool

@@ -8,10 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include <CLI/CLI.hpp>
-
+#include "tool/command_line/command.hpp"
 #include "tool/command_line/failure.hpp"
-#include "tool/command_line/file_guard.hpp"
 #include "tool/command_line/options.hpp"
 #include "tool/command_line/output.hpp"
 #include "tool/commands.hpp"
@@ -93,25 +91,25 @@ void detect(DetectOptions& options) {
 
 }  // namespace
 
-void add_detect(CLI::App& program) {
-  CLI::App* command = program.add_subcommand("detect", "breakpoints alone, no map needed");
+void add_detect(Command& program) {
+  Command command = program.add_subcommand("detect", "breakpoints alone, no map needed");
   const auto options = std::make_shared<DetectOptions>();
-  command->add_option("files", options->files, "recordings (.bin, .ndjson), one after another")
-      ->required()
-      ->type_name("FILE");
-  command->add_option("--method", options->method, "how walls are found; without it, altbd")
-      ->check(CLI::IsMember({"altbd", "altbd-printed", "abd-iepf", "lt"}));
-  options->settings.add_config(*command);
-  command->add_option("--classes", options->classes, "messages to print: BREAKPOINTS, SCAN")
-      ->delimiter(',')
-      ->capture_default_str();
-  add_wire_option(*command, options->wire);
-  command->add_option("--plot", options->plot, "draw a turn with its walls and breakpoints, as SVG")
-      ->type_name("FILE");
-  command->add_option("--turn", options->plotted_scan, "which turn --plot draws, from 1 on")
-      ->capture_default_str()
-      ->check(CLI::Range(1, 100'000'000));
-  command->callback([options] { detect(*options); });
+  command.add_option("files", options->files, "recordings (.bin, .ndjson), one after another")
+      .required()
+      .type_name("FILE");
+  command.add_option("--method", options->method, "how walls are found; without it, altbd")
+      .choices({"altbd", "altbd-printed", "abd-iepf", "lt"});
+  options->settings.add_config(command);
+  command.add_option("--classes", options->classes, "messages to print: BREAKPOINTS, SCAN")
+      .delimiter(',')
+      .capture_default_str();
+  add_wire_option(command, options->wire);
+  command.add_option("--plot", options->plot, "draw a turn with its walls and breakpoints, as SVG")
+      .type_name("FILE");
+  command.add_option("--turn", options->plotted_scan, "which turn --plot draws, from 1 on")
+      .capture_default_str()
+      .range(1, 100'000'000);
+  command.callback([options] { detect(*options); });
 }
 
 }  // namespace cornerd::tool

@@ -1,9 +1,19 @@
 // SPDX-License-Identifier: MIT
 #include "tool/replay/playback.hpp"
 
+#include <cerrno>
+#include <charconv>
+#include <cmath>
 #include <cstdio>
+#include <cstring>
+#include <fstream>
+#include <string>
+#include <thread>
 #include <utility>
+#include <variant>
 
+#include "message/request.hpp"
+#include "replay/line_reader.hpp"
 #include "tool/command_line/failure.hpp"
 
 namespace cornerd::tool {
@@ -69,6 +79,50 @@ void Playback::play(const std::filesystem::path& file, const replay::RecordingOp
                  player.first_problem().c_str());
   }
   if (scans_ == 0) throw Failure(file.string() + ": not one whole turn of a lidar in it");
+}
+
+std::optional<double> parse_speed(const std::string& text) {
+  if (text == "max") return std::nullopt;
+  double speed = 0;
+  const char* const end = text.data() + text.size();
+  const auto [parsed_to, error] = std::from_chars(text.data(), end, speed);
+  if (error != std::errc() || parsed_to != end || !std::isfinite(speed) || speed <= 0) {
+    throw UsageError("--speed: '" + text + "' is neither max nor a number above 0");
+  }
+  return speed;
+}
+
+void Pace::wait_until(core::TimeNs data_ns) {
+  if (!first_data_ns_) {
+    first_data_ns_ = data_ns;
+    began_ = Clock::now();
+  }
+  const std::chrono::duration<double, std::nano> wait(
+      static_cast<double>(data_ns - *first_data_ns_) / speed_);
+  std::this_thread::sleep_until(began_ + std::chrono::duration_cast<Clock::duration>(wait));
+}
+
+std::vector<core::OdometryReading> load_odometry(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream) throw Failure(file.string() + ": " + std::strerror(errno));
+  std::vector<core::OdometryReading> readings;
+  replay::LineReader lines(stream, message::kMaxRecordedBytes);
+  using Result = replay::LineReader::Result;
+  for (Result result = lines.next(); result != Result::kEnd; result = lines.next()) {
+    const auto fail = [&](const std::string& reason) {
+      throw Failure(file.string() + ":" + std::to_string(lines.number()) + ": " + reason);
+    };
+    if (result == Result::kTooLong) fail("too long for a message");
+    if (lines.line().empty()) continue;
+    const message::RecordedLine line = message::parse_recorded_line(lines.line());
+    if (const auto* error = std::get_if<message::RequestError>(&line)) {
+      if (result == Result::kLine) fail(error->text);
+    } else if (const auto* reading = std::get_if<message::OdometryReading>(&line)) {
+      readings.push_back(*reading);
+    }
+  }
+  if (readings.empty()) throw Failure(file.string() + ": not one ODOMETRY line in it");
+  return readings;
 }
 
 }  // namespace cornerd::tool

@@ -1,13 +1,18 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <filesystem>
 #include <functional>
+#include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
+#include "core/odometry/odometry_reading.hpp"
 #include "core/pipeline.hpp"
+#include "core/types.hpp"
 #include "drivers/lidar_driver.hpp"
 #include "replay/recording.hpp"
 
@@ -67,5 +72,29 @@ class Playback {
   std::size_t next_reading_ = 0;
   std::size_t scans_ = 0;
 };
+
+/// "max": nullopt; else how many times real time, above 0. Throws UsageError.
+std::optional<double> parse_speed(const std::string& text);
+
+/// Holds recorded data back until its time has come.
+class Pace {
+ public:
+  explicit Pace(double speed) : speed_(speed) {}
+
+  /// Sleeps until as much time has passed since the first call, divided by the speed, as lies
+  /// between the data of the two calls.
+  void wait_until(core::TimeNs data_ns);
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  double speed_;
+  std::optional<core::TimeNs> first_data_ns_;
+  Clock::time_point began_;
+};
+
+/// The ODOMETRY lines of a file in the order that they stand in; other lines are passed over.
+/// Throws Failure where the file cannot be read, has a bad line or not one reading.
+std::vector<core::OdometryReading> load_odometry(const std::filesystem::path& file);
 
 }  // namespace cornerd::tool

@@ -7,17 +7,14 @@
 #include <string>
 #include <vector>
 
-#include <CLI/CLI.hpp>
-
 #include "settings/map_file.hpp"
+#include "tool/command_line/command.hpp"
 #include "tool/command_line/failure.hpp"
 #include "tool/command_line/options.hpp"
 #include "tool/command_line/output.hpp"
 #include "tool/commands.hpp"
 #include "tool/replay/error_statistics.hpp"
 #include "tool/replay/message_printer.hpp"
-#include "tool/replay/odometry_file.hpp"
-#include "tool/replay/pace.hpp"
 #include "tool/replay/playback.hpp"
 #include "tool/replay/truth.hpp"
 
@@ -98,31 +95,31 @@ void replay(const ReplayOptions& options) {
 
 }  // namespace
 
-void add_replay(CLI::App& program) {
-  CLI::App* command =
+void add_replay(Command& program) {
+  Command command =
       program.add_subcommand("replay", "the daemon's own pipeline over recordings, to messages");
   const auto options = std::make_shared<ReplayOptions>();
-  command->add_option("files", options->files, "recordings (.bin, .ndjson), one after another")
-      ->required()
-      ->type_name("FILE");
-  options->settings.add_config(*command);
-  options->settings.add_map(*command);
-  command->add_option("--classes", options->classes, "messages to print")
-      ->delimiter(',')
-      ->capture_default_str();
-  command->add_option("--speed", options->speed, "max, or times real time")->capture_default_str();
-  add_wire_option(*command, options->wire);
+  command.add_option("files", options->files, "recordings (.bin, .ndjson), one after another")
+      .required()
+      .type_name("FILE");
+  options->settings.add_config(command);
+  options->settings.add_map(command);
+  command.add_option("--classes", options->classes, "messages to print")
+      .delimiter(',')
+      .capture_default_str();
+  command.add_option("--speed", options->speed, "max, or times real time").capture_default_str();
+  add_wire_option(command, options->wire);
   command
-      ->add_option("--odometry", options->odometry,
-                   "wheels and gyro: ODOMETRY lines, in place of those of the recordings, which "
-                   "count where the config's odometry.source is not none")
-      ->type_name("FILE");
+      .add_option("--odometry", options->odometry,
+                  "wheels and gyro: ODOMETRY lines, in place of those of the recordings, which "
+                  "count where the config's odometry.source is not none")
+      .type_name("FILE");
   command
-      ->add_option("--truth", options->truth,
-                   "where the robot really was: error statistics on standard error")
-      ->type_name("FILE");
-  command->add_flag("--independent", options->independent, "forget everything between turns");
-  command->callback([options] { replay(*options); });
+      .add_option("--truth", options->truth,
+                  "where the robot really was: error statistics on standard error")
+      .type_name("FILE");
+  command.add_flag("--independent", options->independent, "forget everything between turns");
+  command.callback([options] { replay(*options); });
 }
 
 }  // namespace cornerd::tool

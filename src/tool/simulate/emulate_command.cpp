@@ -10,15 +10,13 @@
 #include <thread>
 #include <utility>
 
-#include <CLI/CLI.hpp>
-
 #include "replay/emulator/firmware.hpp"
 #include "replay/emulator/pty_emulator.hpp"
 #include "replay/emulator/recorded_scene.hpp"
 #include "replay/recording_writer.hpp"
 #include "settings/map_file.hpp"
+#include "tool/command_line/command.hpp"
 #include "tool/command_line/failure.hpp"
-#include "tool/command_line/file_guard.hpp"
 #include "tool/command_line/options.hpp"
 #include "tool/command_line/output.hpp"
 #include "tool/command_line/stop_signal.hpp"
@@ -103,24 +101,24 @@ void emulate(const EmulateOptions& options) {
 
 }  // namespace
 
-void add_emulate(CLI::App& program) {
-  CLI::App* command = program.add_subcommand(
+void add_emulate(Command& program) {
+  Command command = program.add_subcommand(
       "emulate", "an A1 on a pseudo-terminal, whose path is printed, until interrupted");
   const auto options = std::make_shared<EmulateOptions>();
-  command->add_option("file", options->recording, "it sees what this recording holds; else a map")
-      ->type_name("FILE");
-  options->settings.add_config(*command);
-  options->settings.add_map(*command);
-  options->simulation.add_to(*command);
-  add_wire_option(*command, options->wire);
-  command->add_option("--firmware", options->firmware, "1.29, 1.24 or 1.17")->capture_default_str();
-  command->add_option("--spin-up", options->spin_up_s, "seconds until the motor is fast enough")
-      ->check(number_within(0, 3600));
-  command->add_option("--link", options->link, "a symbolic link to the pseudo-terminal")
-      ->type_name("PATH");
-  command->add_option("--truth", options->truth, "where the robot really is, in UNIX time")
-      ->type_name("FILE");
-  command->callback([options] { emulate(*options); });
+  command.add_option("file", options->recording, "it sees what this recording holds; else a map")
+      .type_name("FILE");
+  options->settings.add_config(command);
+  options->settings.add_map(command);
+  options->simulation.add_to(command);
+  add_wire_option(command, options->wire);
+  command.add_option("--firmware", options->firmware, "1.29, 1.24 or 1.17").capture_default_str();
+  command.add_option("--spin-up", options->spin_up_s, "seconds until the motor is fast enough")
+      .within(0, 3600);
+  command.add_option("--link", options->link, "a symbolic link to the pseudo-terminal")
+      .type_name("PATH");
+  command.add_option("--truth", options->truth, "where the robot really is, in UNIX time")
+      .type_name("FILE");
+  command.callback([options] { emulate(*options); });
 }
 
 }  // namespace cornerd::tool

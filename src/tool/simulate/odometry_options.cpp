@@ -3,8 +3,7 @@
 
 #include <vector>
 
-#include <CLI/CLI.hpp>
-
+#include "tool/command_line/command.hpp"
 #include "tool/command_line/failure.hpp"
 #include "tool/command_line/options.hpp"
 
@@ -20,38 +19,36 @@ core::Vec2 parse_pair(const std::string& text, const char* option) {
 
 }  // namespace
 
-void OdometryOptions::add_to(CLI::App& command) {
+void OdometryOptions::add_to(Command& command) {
   command.add_flag("--odometry", enabled,
                    "ODOMETRY lines too, by the config's wheels (odometry.wheel_radius ...)");
   command.add_option("--odometry-rate", model.rate_hz, "readings a second")
-      ->check(number_within(1, 1000))
-      ->capture_default_str();
+      .within(1, 1000)
+      .capture_default_str();
   command
       .add_option("--wheel-errors", wheel_errors,
                   "the wheels' true radii are larger by this share: 0.015,0.025")
-      ->type_name("LEFT,RIGHT");
+      .type_name("LEFT,RIGHT");
   command.add_option("--track-error", model.track_scale, "the true track is larger by this share")
-      ->check(number_within(-0.5, 0.5));
+      .within(-0.5, 0.5);
   command
       .add_option("--wheel-noise", model.wheel_m_per_sqrt_m,
                   "what a wheel's way is off after a metre (m), at random")
-      ->check(number_within(0, 1))
-      ->capture_default_str();
+      .within(0, 1)
+      .capture_default_str();
   command.add_option("--gyro-error", model.gyro_scale, "the gyro tells more by this share")
-      ->check(number_within(-0.5, 0.5));
-  command.add_option("--gyro-bias", model.gyro_bias_rad_s, "and this much (rad/s)")
-      ->check(number_within(-1, 1));
+      .within(-0.5, 0.5);
+  command.add_option("--gyro-bias", model.gyro_bias_rad_s, "and this much (rad/s)").within(-1, 1);
   command.add_option("--gyro-noise", model.gyro_rad_s_per_sqrt_hz, "its noise (rad/s/sqrt(Hz))")
-      ->check(number_within(0, 1))
-      ->capture_default_str();
+      .within(0, 1)
+      .capture_default_str();
   command.add_flag("--no-gyro", no_gyro, "encoders alone");
   command
       .add_option("--slips", model.slips_per_m,
                   "how often a metre a wheel slips: half as much again for 0.2 s")
-      ->check(number_within(0, 100));
-  command
-      .add_option("--covered", covered, "something hangs over the lidar between these times (s)")
-      ->type_name("FROM,TO");
+      .within(0, 100);
+  command.add_option("--covered", covered, "something hangs over the lidar between these times (s)")
+      .type_name("FROM,TO");
 }
 
 std::optional<replay::RobotModel> OdometryOptions::robot(

@@ -8,11 +8,9 @@
 #include "replay/simulator/simulated_odometry.hpp"
 #include "settings/config.hpp"
 
-namespace CLI {
-class App;
-}
-
 namespace cornerd::tool {
+
+class Command;
 
 /// What a simulated robot's wheels and gyro tell, and how wrong they are.
 struct OdometryOptions {
@@ -22,7 +20,7 @@ struct OdometryOptions {
   bool no_gyro = false;
   replay::RobotModel model;
 
-  void add_to(CLI::App& command);
+  void add_to(Command& command);
 
   /// nullopt where no odometry is asked for. The geometry is the config's. Throws UsageError.
   std::optional<replay::RobotModel> robot(const settings::OdometryConfig& config) const;

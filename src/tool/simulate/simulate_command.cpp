@@ -7,14 +7,13 @@
 #include <optional>
 #include <string>
 
-#include <CLI/CLI.hpp>
-
 #include "replay/recording_writer.hpp"
 #include "replay/simulator/simulated_recording.hpp"
 #include "settings/map_file.hpp"
+#include "tool/command_line/command.hpp"
 #include "tool/command_line/failure.hpp"
-#include "tool/command_line/file_guard.hpp"
 #include "tool/command_line/options.hpp"
+#include "tool/command_line/output.hpp"
 #include "tool/commands.hpp"
 #include "tool/simulate/odometry_options.hpp"
 #include "tool/simulate/simulation_options.hpp"
@@ -77,31 +76,31 @@ void simulate(const SimulateOptions& options) {
 
 }  // namespace
 
-void add_simulate(CLI::App& program) {
-  CLI::App* command =
+void add_simulate(Command& program) {
+  Command command =
       program.add_subcommand("simulate", "record a simulated robot in a map, with its truth");
   const auto options = std::make_shared<SimulateOptions>();
-  options->settings.add_config(*command);
-  options->settings.add_map(*command);
-  options->simulation.add_to(*command);
-  options->odometry.add_to(*command);
+  options->settings.add_config(command);
+  options->settings.add_map(command);
+  options->simulation.add_to(command);
+  options->odometry.add_to(command);
   command
-      ->add_option(
+      .add_option(
           "--turns", options->scans,
           "whole turns of the lidar; else as many as the places, once through the scenario, or 10")
-      ->check(CLI::PositiveNumber)
-      ->type_name("N");
-  command->add_option("--wire", options->wire, "standard, express or ultra")
-      ->check(CLI::IsMember({"standard", "express", "ultra"}))
-      ->capture_default_str();
+      .positive()
+      .type_name("N");
+  command.add_option("--wire", options->wire, "standard, express or ultra")
+      .choices({"standard", "express", "ultra"})
+      .capture_default_str();
   command
-      ->add_option("-o,--output", options->output,
-                   "the recording: .ndjson with times, .bin the bare bytes")
-      ->required()
-      ->type_name("FILE");
-  command->add_option("--truth", options->truth, "where the robot really was, for replay --truth")
-      ->type_name("FILE");
-  command->callback([options] { simulate(*options); });
+      .add_option("-o,--output", options->output,
+                  "the recording: .ndjson with times, .bin the bare bytes")
+      .required()
+      .type_name("FILE");
+  command.add_option("--truth", options->truth, "where the robot really was, for replay --truth")
+      .type_name("FILE");
+  command.callback([options] { simulate(*options); });
 }
 
 }  // namespace cornerd::tool

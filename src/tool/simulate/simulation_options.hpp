@@ -3,21 +3,46 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "core/map/wall_map.hpp"
 #include "replay/simulator/motion.hpp"
 #include "replay/simulator/scene.hpp"
+#include "replay/simulator/sensor_model.hpp"
 #include "replay/simulator/simulator.hpp"
 #include "settings/config.hpp"
-#include "tool/simulate/sensor_options.hpp"
-
-namespace CLI {
-class App;
-}
 
 namespace cornerd::tool {
+
+class Command;
+
+/// How a simulated lidar errs: options over the defaults of the sensor model.
+struct SensorOptions {
+  std::filesystem::path noise;  ///< a file with the key /lidar/noise, as calibrate noise writes it
+  bool real = false;            ///< what real A1s lose and mix up, under all options below
+  std::optional<double> floor_m;
+  std::optional<double> share;
+  std::optional<double> bearing_deg;
+  std::optional<double> missing;
+  std::optional<double> missing_run;
+  std::optional<double> outliers;
+  std::optional<double> beam_deg;
+  std::optional<double> backward;
+  std::optional<double> range_scale;
+  std::optional<double> range_offset_m;
+  std::optional<double> eccentricity_deg;
+  std::optional<double> eccentricity_phase_deg;
+
+  void add_to(Command& command);
+
+  /// `configured`: the noise that the config names; --noise goes before it, floor and share before
+  /// any table and the wall model's own sigmas.
+  /// Throws settings::SettingsError.
+  replay::SensorModel model(const settings::NoiseConfig& configured) const;
+};
 
 /// Where a simulated robot is and how its lidar errs: what simulate and emulate have in common.
 struct SimulationOptions {
@@ -35,7 +60,7 @@ struct SimulationOptions {
   SensorOptions sensor;
   std::uint64_t seed = 1;
 
-  void add_to(CLI::App& command);
+  void add_to(Command& command);
 
   bool stands_still() const { return !pose.empty(); }
   /// Turns of the sensor in a recording of which nobody says how long it is.

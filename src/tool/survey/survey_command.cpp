@@ -12,14 +12,12 @@
 #include <utility>
 #include <vector>
 
-#include <CLI/CLI.hpp>
-
 #include "settings/map_file.hpp"
 #include "settings/object_reader.hpp"
 #include "survey/ransac_survey.hpp"
 #include "survey/survey.hpp"
+#include "tool/command_line/command.hpp"
 #include "tool/command_line/failure.hpp"
-#include "tool/command_line/file_guard.hpp"
 #include "tool/command_line/options.hpp"
 #include "tool/command_line/output.hpp"
 #include "tool/command_line/progress_bar.hpp"
@@ -79,9 +77,9 @@ core::Pose2 parse_start(const std::string& text) {
   if (text.empty()) return {};
   const core::Pose2 start = parse_pose(text);
   if (std::max(std::abs(start.x_m), std::abs(start.y_m)) > settings::kMaxCoordinateM) {
-    throw UsageError("--start: a map goes from " +
-                     settings::to_text(-settings::kMaxCoordinateM) + " to " +
-                     settings::to_text(settings::kMaxCoordinateM) + " m; shift the origin");
+    throw UsageError("--start: a map goes from " + settings::to_text(-settings::kMaxCoordinateM) +
+                     " to " + settings::to_text(settings::kMaxCoordinateM) +
+                     " m; shift the origin");
   }
   return start;
 }
@@ -122,46 +120,46 @@ void run_survey(const SurveyOptions& options) {
 
 }  // namespace
 
-void add_survey(CLI::App& program) {
-  CLI::App* command = program.add_subcommand("survey", "a map of the walls from a recorded drive");
+void add_survey(Command& program) {
+  Command command = program.add_subcommand("survey", "a map of the walls from a recorded drive");
   const auto options = std::make_shared<SurveyOptions>();
   command
-      ->add_option("files", options->files,
-                   "recordings of one drive, each goes on where the one before ended")
-      ->required()
-      ->type_name("FILE");
-  command->add_option("-o,--output", options->output, "the map; -: on standard output")
-      ->required()
-      ->type_name("MAP");
-  command->add_option("--name", options->name, "of the map; the file's without it")
-      ->type_name("NAME");
+      .add_option("files", options->files,
+                  "recordings of one drive, each goes on where the one before ended")
+      .required()
+      .type_name("FILE");
+  command.add_option("-o,--output", options->output, "the map; -: on standard output")
+      .required()
+      .type_name("MAP");
+  command.add_option("--name", options->name, "of the map; the file's without it")
+      .type_name("NAME");
   command
-      ->add_option("--start", options->start,
-                   "where in the map the robot was in the first turn (m, m, rad); else its origin")
-      ->type_name("X,Y,THETA");
-  command->add_option("--plot", options->plot, "draw walls, points and the way")->type_name("SVG");
+      .add_option("--start", options->start,
+                  "where in the map the robot was in the first turn (m, m, rad); else its origin")
+      .type_name("X,Y,THETA");
+  command.add_option("--plot", options->plot, "draw walls, points and the way").type_name("SVG");
   command
-      ->add_option("--trajectory", options->trajectory,
-                   "the corrected way, a pose for each turn, as --truth files have it")
-      ->type_name("NDJSON");
+      .add_option("--trajectory", options->trajectory,
+                  "the corrected way, a pose for each turn, as --truth files have it")
+      .type_name("NDJSON");
   command
-      ->add_option("--method", options->method,
-                   "adjusted: the way is corrected while it maps; ransac: lines in the points that "
-                   "the odometry alone gives (Bertocco et al.), to compare with")
-      ->check(CLI::IsMember({"adjusted", "ransac"}))
-      ->capture_default_str();
-  command->add_option("--iterations", options->iterations, "of --method ransac")
-      ->check(CLI::Range(std::size_t{1}, std::size_t{1'000'000}))
-      ->default_str(std::to_string(survey::RansacConfig().iterations));
-  command->add_flag("--manhattan", options->manhattan,
-                    "make walls square that are so within their doubt, half a degree at most");
+      .add_option("--method", options->method,
+                  "adjusted: the way is corrected while it maps; ransac: lines in the points that "
+                  "the odometry alone gives (Bertocco et al.), to compare with")
+      .choices({"adjusted", "ransac"})
+      .capture_default_str();
+  command.add_option("--iterations", options->iterations, "of --method ransac")
+      .range(std::size_t{1}, std::size_t{1'000'000})
+      .default_str(std::to_string(survey::RansacConfig().iterations));
+  command.add_flag("--manhattan", options->manhattan,
+                   "make walls square that are so within their doubt, half a degree at most");
   command
-      ->add_option("--odometry", options->odometry,
-                   "ODOMETRY lines of another file, in place of the recordings' own")
-      ->type_name("FILE");
-  options->settings.add_config(*command);
-  add_wire_option(*command, options->wire);
-  command->callback([options] { run_survey(*options); });
+      .add_option("--odometry", options->odometry,
+                  "ODOMETRY lines of another file, in place of the recordings' own")
+      .type_name("FILE");
+  options->settings.add_config(command);
+  add_wire_option(command, options->wire);
+  command.callback([options] { run_survey(*options); });
 }
 
 }  // namespace cornerd::tool

@@ -10,7 +10,7 @@
 #include "core/scan.hpp"
 #include "message/json_text.hpp"
 #include "tool/command_line/failure.hpp"
-#include "tool/replay/odometry_file.hpp"
+#include "tool/replay/playback.hpp"
 
 namespace cornerd::tool {
 

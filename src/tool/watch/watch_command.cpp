@@ -9,9 +9,8 @@
 #include <thread>
 #include <vector>
 
-#include <CLI/CLI.hpp>
-
 #include "settings/config.hpp"
+#include "tool/command_line/command.hpp"
 #include "tool/command_line/failure.hpp"
 #include "tool/command_line/options.hpp"
 #include "tool/command_line/output.hpp"
@@ -74,17 +73,16 @@ void watch(const WatchOptions& options) {
 
 }  // namespace
 
-void add_watch(CLI::App& program) {
-  CLI::App* command =
+void add_watch(Command& program) {
+  Command command =
       program.add_subcommand("watch", "the daemon's messages, one JSON object a line");
   const auto options = std::make_shared<WatchOptions>();
-  command->add_option("--socket", options->socket, "else the one that the config names")
-      ->type_name("PATH");
-  options->settings.add_config(*command);
-  command
-      ->add_option("--classes", options->classes, "messages to ask for; else POSE, STATUS, EVENT")
-      ->delimiter(',');
-  command->callback([options] { watch(*options); });
+  command.add_option("--socket", options->socket, "else the one that the config names")
+      .type_name("PATH");
+  options->settings.add_config(command);
+  command.add_option("--classes", options->classes, "messages to ask for; else POSE, STATUS, EVENT")
+      .delimiter(',');
+  command.callback([options] { watch(*options); });
 }
 
 }  // namespace cornerd::tool

@@ -6,7 +6,6 @@
 #include <array>
 #include <numeric>
 
-#include "bench/paper_figures.hpp"
 #include "tests/unit/bench/contest_maps.hpp"
 
 namespace cornerd::bench {

@@ -7,7 +7,7 @@
 #include <stdexcept>
 
 #include "bench/corner_experiment.hpp"
-#include "bench/paper_figures.hpp"
+#include "bench/paper_experiment.hpp"
 #include "replay/simulator/random_poses.hpp"
 #include "tests/unit/bench/contest_maps.hpp"
 #include "tests/unit/replay/test_maps.hpp"

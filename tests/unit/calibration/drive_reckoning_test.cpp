@@ -10,7 +10,7 @@ constexpr core::TimeNs kStep_ns = 20'000'000;
 constexpr double kLeftScale = 0.015;
 constexpr double kRightScale = 0.025;
 
-/// Straights and turns for a minute, known every 0.14 s, by wheels that are larger than they say.
+/// A minute of straights and rotations with poses every 0.14 s and scale errors of the wheels.
 class FilteredDriveTest : public ::testing::Test {
  protected:
   FilteredDriveTest() {

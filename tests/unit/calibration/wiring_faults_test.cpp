@@ -14,7 +14,7 @@ namespace {
 
 using core::OdometryIncrement;
 
-/// A known drive, each step of which is told wrong.
+/// The faults of a known drive whose increments are changed by `wrong`.
 WiringFaults faults_of(const std::function<void(OdometryIncrement&)>& wrong, double rotations = 1,
                        const core::DriveGeometry& geometry = {}) {
   KnownDrive known = known_drive({}, rotations);

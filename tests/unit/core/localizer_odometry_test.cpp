@@ -13,7 +13,7 @@
 namespace cornerd::core {
 namespace {
 
-constexpr double kTurnOfDrive_s = 0.14;
+constexpr double kScanDuration_s = 0.14;
 
 /// A robot on a circle in the L-shaped room with lidar and wheels.
 class CircleDrive {
@@ -28,7 +28,7 @@ class CircleDrive {
 
   const PoseEstimate& drive_scan(bool covered = false, const std::optional<Pose2>& elsewhere = {}) {
     testing::ScanOptions options;
-    options.scan_s = kTurnOfDrive_s;
+    options.scan_s = kScanDuration_s;
     options.start_ns = robot_.now_ns();
     options.motion = {speed_m_s_, 0, rate_rad_s_};
     options.missing_share = covered ? 1 : 0;
@@ -89,7 +89,7 @@ TEST(LocalizerWithOdometry, PublishPredictions_PosesBetweenScans) {
     EXPECT_GT(between.pose.seq, seq);
     seq = between.pose.seq;
     EXPECT_GT(between.pose.age_s, 0);
-    EXPECT_LT(between.pose.age_s, 2 * kTurnOfDrive_s);
+    EXPECT_LT(between.pose.age_s, 2 * kScanDuration_s);
     EXPECT_LT((between.pose.T_map_base.translation() - between.truth.translation()).norm(), 0.02);
   }
 }
@@ -108,7 +108,7 @@ TEST(LocalizerWithOdometry, KidnappedRobot_IsPredictedFromItsNewPose) {
   ASSERT_EQ(pose.state, PoseState::kFix);
   EXPECT_LT((pose.T_map_base.translation() - elsewhere.translation()).norm(), 0.02);
   const std::size_t before = drive.between().size();
-  const Pose2 one_scan_later = elsewhere * arc(0.4 * kTurnOfDrive_s, 0.8 * kTurnOfDrive_s);
+  const Pose2 one_scan_later = elsewhere * arc(0.4 * kScanDuration_s, 0.8 * kScanDuration_s);
   drive.drive_scan(false, one_scan_later);
   EXPECT_EQ(drive.between().size(), before) << "until the lidar and the wheels agree again";
   drive.drive_scan(false, one_scan_later);
@@ -136,7 +136,7 @@ TEST(LocalizerWithOdometry, CoveredLidar_IsPredictedWithGrowingCovariance) {
   for (int k = 1; k <= 35; ++k) {
     const PoseEstimate& pose = drive.drive_scan(/*covered=*/true);
     ASSERT_EQ(pose.state, PoseState::kPredicted) << k;
-    EXPECT_NEAR(pose.age_s, k * kTurnOfDrive_s, 0.02);
+    EXPECT_NEAR(pose.age_s, k * kScanDuration_s, 0.02);
     EXPECT_LT(drive.error_m(pose), 0.03);
     EXPECT_GT(pose.covariance.trace(), last_m2);
     last_m2 = pose.covariance.trace();
@@ -151,7 +151,7 @@ TEST(LocalizerWithOdometry, AfterMaxExtrapolation_IsLost) {
   for (int k = 0; k < 20; ++k) drive.drive_scan();
   for (int k = 1; k <= 12; ++k) {
     EXPECT_EQ(drive.drive_scan(/*covered=*/true).state,
-              k * kTurnOfDrive_s <= 1 ? PoseState::kPredicted : PoseState::kLost)
+              k * kScanDuration_s <= 1 ? PoseState::kPredicted : PoseState::kLost)
         << k;
   }
 }

@@ -26,7 +26,7 @@ DrawnMap blank(const core::WallMap& map, double resolution_m, double yaw_rad) {
     near = near.cwiseMin(turned);
     far = far.cwiseMax(turned);
   }
-  // Off the raster by what nobody chose.
+  // An arbitrary offset to the raster.
   const Vec2 margin = Vec2(kMarginCells + 0.37, kMarginCells + 0.21) * resolution_m;
   const Vec2 size = (far - near + 2 * margin) / resolution_m;
   const Vec2 origin = rotation * Vec2(near - margin);

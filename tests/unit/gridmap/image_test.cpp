@@ -60,7 +60,7 @@ TEST(DecodePgm, WrongFile_ThrowsWithReason) {
   EXPECT_THAT(pgm_error("P2\n8000 8000\n255\n1 2"), HasSubstr("ends early"));
 }
 
-/// 2 x 2, grey, and says that it is linear: 0, 205 above 254, 100.
+/// 2 x 2, grey, with linear gamma: 0, 205 above 254, 100.
 constexpr char kGrey[] =
     "\x89\x50\x4e\x47\x0d\x0a\x1a\x0a\x00\x00\x00\x0d\x49\x48\x44\x52\x00\x00\x00\x02"
     "\x00\x00\x00\x02\x08\x00\x00\x00\x00\x57\xdd\x52\xf8\x00\x00\x00\x04\x67\x41\x4d"

@@ -22,7 +22,7 @@ TEST(Covered, WallInFrontOfFace_CoversNothing) {
   const GridFace face{.from = {0, 0}, .to = {10, 0}, .direction = {1, 0}};
   const core::WallBox behind(core::Wall{{2, -1}, {6, -1}, 2});
   const core::WallBox before(core::Wall{{4, 1.5}, {4, 8}, 3});
-  const Stretch part = covered(face, behind, 0.5);
+  const Interval part = covered(face, behind, 0.5);
   EXPECT_NEAR(part.begin, 0.5, 1e-9);
   EXPECT_NEAR(part.end, 7.5, 1e-9);
   EXPECT_LE(covered(face, before, 0.5).length(), 0);

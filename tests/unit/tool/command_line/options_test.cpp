@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "tool/command_line/failure.hpp"
-#include "tool/replay/pace.hpp"
+#include "tool/replay/playback.hpp"
 
 namespace cornerd::tool {
 namespace {

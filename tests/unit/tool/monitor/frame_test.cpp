@@ -40,4 +40,43 @@ TEST(WrapText, Words_StayWholeWhereTheyFit) {
 }
 
 }  // namespace
+
+namespace {
+
+TEST(FrameEncoder, FirstFrame_ClearsTheScreen) {
+  Frame frame(4, 2);
+  frame.write(1, 1, "ab", Style::kBad);
+  EXPECT_EQ(FrameEncoder(true).encode(frame), "\x1b[0m\x1b[2J\x1b[2;2H\x1b[0;1;31mab\x1b[0m");
+}
+
+TEST(FrameEncoder, NextFrame_IsWhatDiffers) {
+  FrameEncoder encoder(true);
+  Frame frame(6, 2);
+  frame.write(0, 0, "abcdef");
+  encoder.encode(frame);
+  EXPECT_EQ(encoder.encode(frame), "");
+  frame.write(2, 0, "X");
+  frame.write(5, 0, "Y");
+  frame.write(0, 1, "é");
+  EXPECT_EQ(encoder.encode(frame), "\x1b[1;3H\x1b[0mX\x1b[1;6HY\x1b[2;1Hé");
+}
+
+TEST(FrameEncoder, AfterALoss_AllIsDrawnAgain) {
+  FrameEncoder encoder(true);
+  Frame frame(3, 1);
+  frame.write(0, 0, "abc");
+  const std::string whole = encoder.encode(frame);
+  encoder.forget();
+  EXPECT_EQ(encoder.encode(frame), whole);
+  EXPECT_EQ(encoder.encode(Frame(2, 1)), "\x1b[0m\x1b[2J");
+}
+
+TEST(FrameEncoder, WithoutColours_BadIsBold) {
+  Frame frame(2, 1);
+  frame.write(0, 0, "a", Style::kBad);
+  frame.write(1, 0, "b", Style::kGood);
+  EXPECT_EQ(FrameEncoder(false).encode(frame), "\x1b[0m\x1b[2J\x1b[1;1H\x1b[0;1ma\x1b[0mb\x1b[0m");
+}
+
+}  // namespace
 }  // namespace cornerd::tool

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What simulate and emulate have in common, as their users meet it.
+#include "tool/simulate/simulation_options.hpp"
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -11,7 +13,6 @@
 #include "command_run.hpp"
 #include "tests/temporary_folder.hpp"
 #include "tool/command_line/failure.hpp"
-#include "tool/simulate/sensor_options.hpp"
 
 namespace cornerd::tool {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "bench/program/callgrind.hpp"
+#include "bench/instruction_counter.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "tool/command_line/file_guard.hpp"
+#include "tool/command_line/output.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

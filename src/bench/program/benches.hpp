@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace cornerd::bench {
+
+struct LocalizationBenchOptions {
+  std::filesystem::path maps;  ///< folder of the contest arena's layouts and of flat-7.json
+  std::size_t places = 1000;   ///< in each trial
+  std::uint64_t seed = 1;
+  bool instructions = false;
+  std::string json;  ///< file, "-" or empty
+};
+
+/// cornerd-bench --localizer: precision, honesty, adversity, motion, kidnapping and cost.
+void run_localization_bench(const LocalizationBenchOptions& options);
+
+/// What valgrind is started on: localizes in `turns` turns and says nothing. `tracking`: with what
+/// the turns before told, else each without.
+void only_localize_in_arena(const LocalizationBenchOptions& options, std::size_t scans,
+                            bool tracking);
+
+struct OdometryBenchOptions {
+  std::filesystem::path maps;   ///< folder with flat-7.json; empty: the installed one
+  std::filesystem::path plots;  ///< folder; empty: no pictures
+  std::string json;             ///< file, "-" or empty
+  std::uint64_t seed = 1;
+  std::size_t drives = 4;  ///< of each robot whose lidar is covered now and then
+};
+
+/// cornerd-bench --odometry: the paper's modes of odometry on its drives, as a table, as JSON and
+/// drawn against the truth.
+void run_odometry_bench(const OdometryBenchOptions& options);
+
+struct ScaleBenchOptions {
+  std::vector<std::size_t> corners = {20, 200, 2000, 20'000};
+  std::size_t scans = 200;
+  std::uint64_t seed = 1;
+  bool instructions = false;
+  std::filesystem::path plots;  ///< folder; empty: no picture
+  std::string json;             ///< file, "-" or empty
+};
+
+/// cornerd-bench --scale: the first fix in buildings of several sizes, as a table, as JSON and as
+/// a picture.
+void run_scale_bench(const ScaleBenchOptions& options);
+
+/// What valgrind is started on: localizes `times` in each turn and says nothing.
+void only_localize(const ScaleBenchOptions& options, std::size_t times);
+
+struct SurveyBenchOptions {
+  std::filesystem::path maps;   ///< folder with flat-7.json
+  std::filesystem::path plots;  ///< folder to draw into; empty: none
+  std::uint64_t seed = 1;
+};
+
+/// A simulated drive of 100 m, surveyed by both methods, on standard output.
+void run_survey_bench(const SurveyBenchOptions& options);
+
+}  // namespace cornerd::bench

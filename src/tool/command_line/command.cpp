@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: MIT
+#include "tool/command_line/command.hpp"
+
+#include <cstdint>
+#include <cstdio>
+#include <exception>
+#include <filesystem>
+#include <optional>
+
+#include <CLI/CLI.hpp>
+
+#include "settings/object_reader.hpp"
+#include "tool/command_line/failure.hpp"
+
+namespace cornerd::tool {
+
+Option& Option::type_name(const std::string& name) {
+  option_->type_name(name);
+  return *this;
+}
+
+Option& Option::required() {
+  option_->required();
+  return *this;
+}
+
+Option& Option::capture_default_str() {
+  option_->capture_default_str();
+  return *this;
+}
+
+Option& Option::default_str(const std::string& text) {
+  option_->default_str(text);
+  return *this;
+}
+
+Option& Option::delimiter(char delimiter) {
+  option_->delimiter(delimiter);
+  return *this;
+}
+
+Option& Option::one_word() {
+  option_->allow_extra_args(false);
+  return *this;
+}
+
+Option& Option::hidden() {
+  option_->group("");
+  return *this;
+}
+
+Option& Option::choices(const std::vector<std::string>& values) {
+  option_->check(CLI::IsMember(values));
+  return *this;
+}
+
+template <typename T>
+Option& Option::range(T low, T high) {
+  option_->check(CLI::Range(low, high));
+  return *this;
+}
+template Option& Option::range(int, int);
+template Option& Option::range(std::size_t, std::size_t);
+
+Option& Option::within(double low, double high) {
+  const std::string limits = settings::to_text(low) + " to " + settings::to_text(high);
+  option_->check(
+      [low, high, limits](const std::string& text) {
+        double number = 0;
+        const bool read = CLI::detail::lexical_cast(text, number);
+        return read && number >= low && number <= high
+                   ? std::string()
+                   : "must be a number from " + limits + ", not " + text;
+      },
+      "FLOAT in [" + limits + "]");
+  return *this;
+}
+
+Option& Option::positive() {
+  option_->check(CLI::PositiveNumber);
+  return *this;
+}
+
+Option& Option::check(const std::function<std::string(const std::string&)>& check) {
+  option_->check(check);
+  return *this;
+}
+
+bool Option::is_given() const { return option_->count() > 0; }
+
+Command Command::add_subcommand(const std::string& name, const std::string& help) {
+  return Command(*app_->add_subcommand(name, help));
+}
+
+void Command::require_subcommand() { app_->require_subcommand(1); }
+
+template <typename T>
+Option Command::add_option(const std::string& names, T& target, const std::string& help) {
+  return Option(*app_->add_option(names, target, help));
+}
+template Option Command::add_option(const std::string&, std::string&, const std::string&);
+template Option Command::add_option(const std::string&, std::filesystem::path&, const std::string&);
+template Option Command::add_option(const std::string&, double&, const std::string&);
+template Option Command::add_option(const std::string&, std::size_t&, const std::string&);
+template Option Command::add_option(const std::string&, std::int64_t&, const std::string&);
+template Option Command::add_option(const std::string&, std::optional<double>&, const std::string&);
+template Option Command::add_option(const std::string&, std::optional<std::size_t>&,
+                                    const std::string&);
+template Option Command::add_option(const std::string&, std::vector<std::string>&,
+                                    const std::string&);
+template Option Command::add_option(const std::string&, std::vector<std::filesystem::path>&,
+                                    const std::string&);
+template Option Command::add_option(const std::string&, std::vector<std::size_t>&,
+                                    const std::string&);
+#if SIZE_MAX != UINT64_MAX
+template Option Command::add_option(const std::string&, std::uint64_t&, const std::string&);
+#endif
+
+Option Command::add_flag(const std::string& names, bool& target, const std::string& help) {
+  return Option(*app_->add_flag(names, target, help));
+}
+
+Option Command::add_option_function(const std::string& names,
+                                    const std::function<void(const std::string&)>& take,
+                                    const std::string& help) {
+  return Option(*app_->add_option_function<std::string>(names, take, help));
+}
+
+void Command::callback(const std::function<void()>& run) { app_->callback(run); }
+
+int run_program(const std::string& name, const std::string& summary,
+                const std::function<void(Command& program)>& add, int argc,
+                const char* const* argv) {
+  const auto fail = [&](const char* text, int exit_code) {
+    std::fprintf(stderr, "%s: %s\n", name.c_str(), text);
+    return exit_code;
+  };
+  CLI::App app(name + ": " + summary, name);
+  app.set_version_flag("--version", name + " " CORNERD_VERSION);
+  app.fallthrough();
+  Command program(app);
+  add(program);
+  try {
+    const std::string first = argc > 1 ? argv[1] : "";
+    if (app.get_require_subcommand_min() > 0 && !first.empty() && first.front() != '-' &&
+        app.get_subcommands([&](CLI::App* one) { return one->get_name() == first; }).empty()) {
+      throw UsageError("there is no command \"" + first + "\"; " + name + " --help lists them");
+    }
+    app.parse(argc, argv);
+    return kExitDone;
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? kExitDone : kExitUsage;
+  } catch (const OutputClosed&) {
+    return kExitDone;
+  } catch (const UsageError& error) {
+    return fail(error.what(), kExitUsage);
+  } catch (const settings::SettingsError& error) {
+    return fail(error.what(), kExitConfig);
+  } catch (const std::exception& error) {
+    return fail(error.what(), kExitFailed);
+  }
+}
+
+}  // namespace cornerd::tool
