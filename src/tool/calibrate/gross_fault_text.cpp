@@ -39,10 +39,10 @@ class FaultText {
 
   void add_standing() {
     if (faults_.left_is_stuck && faults_.right_is_stuck) {
-      add("neither wheel's counts change while the robot drives");
+      add("neither wheel's counts change while the robot drives: check both encoders");
     } else if (faults_.left_is_stuck || faults_.right_is_stuck) {
       add(
-          formatted("the %s counts do not change while the robot drives: look at that encoder and "
+          formatted("the %s counts do not change while the robot drives: check that encoder and "
                     "its wires",
                     faults_.left_is_stuck ? "left" : "right"));
     }
@@ -52,7 +52,7 @@ class FaultText {
     const bool both = faults_.left_is_reversed && faults_.right_is_reversed;
     if (both && faults_.are_swapped) {
       return add(
-          "wheels and lidar see the robot drive opposite ways: lidar.mount.theta is off by half a "
+          "wheels and lidar measure opposite directions: lidar.mount.theta is off by half a "
           "turn, or left and right are exchanged and both count backward");
     }
     if (faults_.are_swapped) {
@@ -64,7 +64,7 @@ class FaultText {
       add("both wheels count backward: " + reverse("left") + " and " + reverse("right"));
     } else if (faults_.left_is_reversed || faults_.right_is_reversed) {
       const char* name = faults_.left_is_reversed ? "left" : "right";
-      add(formatted("what comes as %s counts backward: ", name) + reverse(name));
+      add(formatted("the %s wheel counts backward: ", name) + reverse(name));
     }
   }
 

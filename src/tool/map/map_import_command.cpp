@@ -96,11 +96,11 @@ std::string report(const gridmap::MapServerYaml& yaml, const gridmap::Image& ima
   }
   text += "\n";
   text += describe(result.specks, "left out", "specks of occupied cells");
-  text += describe(result.pockets, "left out", "shut-in patches of free cells");
-  text += describe(result.short_pieces, "left out", "pieces of border too short for a wall");
+  text += describe(result.pockets, "left out", "enclosed patches of free cells");
+  text += describe(result.short_pieces, "left out", "borders too short for a wall");
   text += describe(result.joined_gaps, "closed", "gaps of unknown cells in walls");
   for (const std::string& key : yaml.unknown_keys) {
-    text += "passed over  the key " + key + "\n";
+    text += "ignored      the key " + key + "\n";
   }
   return text;
 }
@@ -131,8 +131,8 @@ void import_map(MapImportOptions options) {
       gridmap::read_shades(image, yaml), yaml.resolution_m, yaml.T_map_picture, options.grid);
   if (result.plan.walls.empty()) {
     throw Failure(options.yaml.string() +
-                  ": no border between free and occupied cells; are negate, mode and the "
-                  "thresholds right?");
+                  ": no border between free and occupied cells: check negate, mode and the "
+                  "thresholds");
   }
   result.plan.name = map_name(options.name, options.output);
 

@@ -22,13 +22,13 @@ std::string sources_of(const survey::SurveyResult& result) {
   return "by " + wheels + " and lidar";
 }
 
-/// Tyres wear and are pumped up by a few hundredths: more is a wrong config.
+/// Wear and pressure of tyres change a wheel by a few per cent; more is a wrong config.
 std::string describe_wheels(const core::OdometryParameters& learned) {
   constexpr double kMostScale = 0.15;
   if (std::max(std::abs(learned.left_scale), std::abs(learned.right_scale)) < kMostScale) return "";
   return formatted(
-      "WARNING: the left wheel is %+.0f %% off what the config says, the right one %+.0f %%: check "
-      "odometry.counts_per_turn and odometry.wheel_radius\n",
+      "WARNING: the left wheel differs by %+.0f %% from the config, the right one by %+.0f %%: "
+      "check odometry.counts_per_turn and odometry.wheel_radius\n",
       100 * learned.left_scale, 100 * learned.right_scale);
 }
 
@@ -38,7 +38,7 @@ std::string describe_drive(const survey::SurveyResult& result) {
     way_m += length_of(result.T_map_base[i - 1].translation(), result.T_map_base[i].translation());
   }
   const double duration_s = core::to_seconds(result.t_ns.back() - result.t_ns.front());
-  return formatted("%zu turns, %.1f s, %.1f m %s\n", result.T_map_base.size(), duration_s, way_m,
+  return formatted("%zu scans, %.1f s, %.1f m %s\n", result.T_map_base.size(), duration_s, way_m,
                    sources_of(result).c_str());
 }
 
@@ -47,13 +47,13 @@ std::string describe_doubt(const survey::RejectedOdometry& doubt) {
     return formatted("%.1f m by its counts and %.1f m by the lidar", way.counted_m, way.lidar_m);
   };
   return formatted(
-             "WARNING: the odometry contradicts the lidar in %zu turns and is missing in %zu; it "
+             "WARNING: the odometry contradicts the lidar in %zu scans and is missing in %zu. It "
              "was "
-             "left out, the map is by the lidar alone: ",
+             "left out, and the map is by the lidar alone: ",
              doubt.contradicted_scans, doubt.scans_without_odometry) +
-         "the left wheel went " + wheel(doubt.left) + ", the right one " + wheel(doubt.right) +
-         "; check that the encoders count, forward as more, odometry.counts_per_turn and "
-         "odometry.wheel_radius\n";
+         "the left wheel moved " + wheel(doubt.left) + ", the right one " + wheel(doubt.right) +
+         ". Check that both encoders count up when the robot drives forward, "
+         "odometry.counts_per_turn and odometry.wheel_radius\n";
 }
 
 std::string describe_walls(const survey::SurveyResult& result) {
@@ -66,8 +66,8 @@ std::string describe_walls(const survey::SurveyResult& result) {
   double thin_m = 0;
   for (const survey::ThinPlace& place : result.thin) thin_m += length_of(place.from, place.to);
   return formatted(
-      "%zu walls, %.1f m: %zu with both sides, %zu seen from one side; %.2f m were not seen but "
-      "lie between what was\n",
+      "%zu walls, %.1f m: %zu with both faces, %zu seen from one side; %.2f m were not seen, but "
+      "lie between seen parts\n",
       result.plan.walls.size(), length_m, solids, result.plan.walls.size() - solids, thin_m);
 }
 
@@ -76,10 +76,10 @@ std::string describe_loop(const survey::SurveyResult& result, const survey::Loop
     return core::to_seconds(result.t_ns[scan] - result.t_ns.front());
   };
   const std::string text = formatted(
-      "loop %s: after %.1f s where it was after %.1f s, by %zu turns; the way was %.2f m and %.1f "
-      "degrees off",
-      loop.closed() ? "closed" : "refused", time_s(loop.later), time_s(loop.earlier), loop.agreeing,
-      loop.off_m, core::degrees(std::abs(loop.off_rad)));
+      "loop %s: at %.1f s the robot was where it was at %.1f s, by %zu scans; the drift was %.2f m "
+      "and %.1f degrees",
+      loop.closed() ? "closed" : "rejected", time_s(loop.later), time_s(loop.earlier),
+      loop.agreeing, loop.off_m, core::degrees(std::abs(loop.off_rad)));
   return text + (loop.closed() ? "\n" : ": " + loop.refused + "\n");
 }
 
@@ -89,34 +89,33 @@ std::string survey_report(const survey::SurveyResult& result) {
   std::string text = describe_drive(result) + describe_walls(result);
   if (result.observations == 0) return text;  // the paper's way
   if (result.rejected_odometry) text += describe_doubt(*result.rejected_odometry);
-  text += formatted("%zu sightings of walls, residuals %.2f of their doubt, %zu outliers\n",
+  text += formatted("%zu wall observations, residuals %.2f of their sigma, %zu outliers\n",
                     result.observations, result.sigma, result.outliers);
   if (!result.unmatched_scans.empty()) {
-    text += formatted("%zu turns saw too little of the map to be placed by it\n",
-                      result.unmatched_scans.size());
+    text += formatted("%zu scans did not match the map\n", result.unmatched_scans.size());
   }
   if (!result.degenerate_scans.empty()) {
     text += formatted(
-        "WARNING: %zu turns, the first %.1f s after the start, saw nothing of the way along the "
-        "walls, and no odometry tells it: the map may be too long or too short there\n",
+        "WARNING: %zu scans, the first %.1f s after the start, show only walls along one "
+        "direction, "
+        "and there is no odometry: the map may be too long or too short there\n",
         result.degenerate_scans.size(),
         core::to_seconds(result.t_ns[result.degenerate_scans.front()] - result.t_ns.front()));
   }
   if (survey::has_duplicate_walls(result.duplicate_m, result.plan.walls)) {
     text += formatted(
         "WARNING: %.1f m of walls lie behind others that would have hidden them: things moved, or "
-        "the "
-        "way was off there\n",
+        "the trajectory drifted there\n",
         result.duplicate_m);
   }
   if (survey::has_free_space_conflicts(result.free_space_conflicts)) {
     text += formatted(
-        "WARNING: rays went through %.1f m of the sides of walls (stretches: %zu): things "
-        "moved, or the drive does not fit together there\n",
+        "WARNING: rays went through %.1f m of the wall faces (at %zu places): things moved, or the "
+        "recording maps several places over each other there\n",
         result.free_space_conflicts.length_m, result.free_space_conflicts.places);
   }
   if (result.squared) {
-    text += formatted("%zu sides of walls are square to each other, %zu were left askew\n",
+    text += formatted("%zu wall faces are square to each other, %zu are not\n",
                       result.squared->square, result.squared->askew);
   }
   if (result.learned) {
@@ -129,12 +128,12 @@ std::string survey_report(const survey::SurveyResult& result) {
   }
   for (const survey::LoopReport& loop : result.loops) text += describe_loop(result, loop);
   if (result.merged_faces > 0) {
-    text += formatted("%zu pieces were merged with others\n", result.merged_faces);
+    text += formatted("%zu wall faces were merged with others\n", result.merged_faces);
   }
   if (result.discarded_faces + result.dropped.size() == 0) return text;
   text += "dropped:\n";
   if (result.discarded_faces > 0) {
-    text += formatted("  %zu that were seen once or twice\n", result.discarded_faces);
+    text += formatted("  %zu faces observed once or twice\n", result.discarded_faces);
   }
   std::vector<survey::DroppedPiece> dropped = result.dropped;
   std::stable_sort(dropped.begin(), dropped.end(), [](const auto& one, const auto& other) {

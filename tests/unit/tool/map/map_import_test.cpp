@@ -67,7 +67,7 @@ TEST_F(MapImport, RosMap_BecomesAMapThatCheckAccepts) {
   EXPECT_EQ(run.err, "");
   EXPECT_THAT(run.out, HasSubstr("taken as     drawn"));
   EXPECT_THAT(run.out, HasSubstr("1 specks of occupied cells, the largest 0.10 m at 11.05,20.25"));
-  EXPECT_THAT(run.out, HasSubstr("passed over  the key made_with"));
+  EXPECT_THAT(run.out, HasSubstr("ignored      the key made_with"));
 
   const auto map = settings::load_map(path("room.json"));
   EXPECT_EQ(map->plan().name, "my room");

@@ -172,7 +172,7 @@ TEST_F(SurveyCommandTest, WheelsOfAnotherSize_AreLearnedAndSaid) {
   const CommandRun run(
       {"survey", file("one.ndjson"), "-o", file("map.json"), "--config", file("wrong.json")});
   ASSERT_EQ(run.exit_code, 0) << run.err;
-  EXPECT_NE(run.out.find("WARNING: the left wheel is +3"), std::string::npos) << run.out;
+  EXPECT_NE(run.out.find("WARNING: the left wheel differs by +3"), std::string::npos) << run.out;
 }
 
 TEST_F(SurveyCommandTest, TooFewTurns_SaysHowManyThereWere) {
