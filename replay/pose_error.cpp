@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/Cholesky>
+#include "core/geometry/linear_solve.hpp"
 
 namespace cornerd::replay {
 
@@ -26,8 +26,8 @@ bool lists_truth(const core::PoseEstimate& estimate, const core::Pose2& truth) {
 
 std::optional<double> normalised_error_squared(const core::PoseEstimate& estimate,
                                                const core::Pose2& truth) {
-  const Eigen::LLT<core::Covariance3> root(estimate.covariance);
-  if (root.info() != Eigen::Success) return std::nullopt;
+  const core::Cholesky3 root(estimate.covariance);
+  if (!root.succeeded()) return std::nullopt;
   const core::Pose2& pose = estimate.T_map_base;
   const Eigen::Vector3d error(pose.x_m - truth.x_m, pose.y_m - truth.y_m,
                               core::angle_between(truth.theta_rad, pose.theta_rad));

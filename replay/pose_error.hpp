@@ -4,7 +4,7 @@
 
 #include <optional>
 
-#include "core/localizer.hpp"
+#include "core/pose_estimate.hpp"
 
 namespace cornerd::replay {
 

@@ -181,7 +181,7 @@ RplidarDriver::Failure RplidarDriver::identify(Device& device, drivers::ByteStre
   const ScanMode* const chosen = choose_mode(modes, config_.mode);
   if (chosen == nullptr) {
     return {LidarState::kFaulty, LidarFault::kNoSuchMode,
-            "\"" + config_.mode + "\"; set lidar.mode to one of " + list_names(modes)};
+            "\"" + config_.mode + "\"; set advanced.lidar.mode to one of " + list_names(modes)};
   }
   mode = *chosen;
   board_.set_mode(mode.name);

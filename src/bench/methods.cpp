@@ -2,54 +2,51 @@
 #include "bench/methods.hpp"
 
 #include <array>
+#include <utility>
+
+#include "baseline/wall_finders.hpp"
 
 namespace cornerd::bench {
 namespace {
 
 using core::DetectorConfig;
-using core::Method;
 
-DetectorConfig of(Method method) {
+DetectorConfig of(core::WallFinderFactory finder) {
   DetectorConfig config;
-  config.method = method;
+  config.finder = std::move(finder);
   return config;
 }
 
 const std::array kPaperMethods = {
-    NamedMethod{"altbd", "ALTBD", of(Method::kAltbd)},
-    NamedMethod{"abd-iepf", "ABD+IEPF", of(Method::kAbdIepf)},
-    NamedMethod{"lt", "LT", of(Method::kLineTracking)},
+    NamedMethod{"altbd", "ALTBD", of({})},
+    NamedMethod{"abd-iepf", "ABD+IEPF", of(baseline::abd_iepf())},
+    NamedMethod{"lt", "LT", of(baseline::line_tracking())},
 };
 
 /// As the paper has them: walls of more than four points.
-DetectorConfig walls_of_five(Method method) {
-  DetectorConfig config = of(method);
+DetectorConfig walls_of_five(core::WallFinderFactory finder) {
+  DetectorConfig config = of(std::move(finder));
   config.min_support = 5;
   return config;
 }
 
-DetectorConfig printed_altbd(const core::PrintedAltbdConfig& reading) {
-  DetectorConfig config = walls_of_five(Method::kPrintedAltbd);
-  config.printed_altbd = reading;
-  return config;
+DetectorConfig printed_altbd(const baseline::PrintedAltbdConfig& reading) {
+  return walls_of_five(baseline::printed_altbd(reading));
 }
 
-DetectorConfig abd_iepf(core::AbdThreshold threshold, double split_limit_m) {
-  DetectorConfig config = of(Method::kAbdIepf);
-  config.abd_iepf.threshold = threshold;
-  config.abd_iepf.split_limit_m = split_limit_m;
-  return config;
+DetectorConfig abd_iepf(baseline::AbdThreshold threshold, double split_limit_m) {
+  return of(baseline::abd_iepf({.threshold = threshold, .split_limit_m = split_limit_m}));
 }
 
-using core::AbdThreshold;
-using core::EllipseAxes;
-using core::ErrorMean;
-using core::MinorAxis;
-using core::TrackedLine;
+using baseline::AbdThreshold;
+using baseline::EllipseAxes;
+using baseline::ErrorMean;
+using baseline::MinorAxis;
+using baseline::TrackedLine;
 
 const std::array kVariants = {
-    NamedMethod{"altbd-5", "ALTBD, walls of 5", walls_of_five(Method::kAltbd)},
-    NamedMethod{"abd-iepf-5", "ABD+IEPF, walls of 5", walls_of_five(Method::kAbdIepf)},
+    NamedMethod{"altbd-5", "ALTBD, walls of 5", walls_of_five({})},
+    NamedMethod{"abd-iepf-5", "ABD+IEPF, walls of 5", walls_of_five(baseline::abd_iepf())},
     NamedMethod{"altbd-printed", "ALTBD as printed", printed_altbd({})},
     NamedMethod{"altbd-printed-metres", "printed: h_max in metres",
                 printed_altbd({.minor = MinorAxis::kMetres})},

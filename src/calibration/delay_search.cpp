@@ -8,9 +8,9 @@
 #include <vector>
 
 #include <Eigen/Core>
-#include <Eigen/LU>
 
 #include "calibration/robust_statistics.hpp"
+#include "core/geometry/linear_solve.hpp"
 #include "core/geometry/parabola.hpp"
 
 namespace cornerd::calibration {
@@ -47,7 +47,7 @@ double cost_of(const std::vector<Comparison>& all) {
       right += weight * equation.y * equation.x;
       cost += cauchy_cost(r);
     }
-    if (round < kDelayRounds) share = information.inverse() * right;
+    if (round < kDelayRounds) share = core::inverse(information) * right;
   }
   return cost;
 }

@@ -6,10 +6,10 @@
 #include <vector>
 
 #include <Eigen/Core>
-#include <Eigen/LU>
 
 #include "calibration/odometry_fit.hpp"
 #include "calibration/robust_statistics.hpp"
+#include "core/geometry/linear_solve.hpp"
 
 namespace cornerd::calibration {
 namespace {
@@ -96,8 +96,8 @@ std::optional<FactorPairEstimate> solve(const std::vector<Equation>& equations) 
       right += weights[i] * equation.y * equation.x;
     }
     const double most = information.diagonal().prod();
-    if (!(information.determinant() > 1e-9 * most)) return std::nullopt;
-    const Eigen::Matrix2d covariance = information.inverse();
+    if (!(core::determinant(information) > 1e-9 * most)) return std::nullopt;
+    const Eigen::Matrix2d covariance = core::inverse(information);
     shares.share = covariance * right;
     for (std::size_t i = 0; i < equations.size(); ++i) {
       residuals[i] = std::abs(equations[i].y - equations[i].x.dot(shares.share));

@@ -5,12 +5,20 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
+#include <memory>
 
 #include "core/geometry/angle.hpp"
 
 namespace cornerd::core {
 
-enum class Method : std::uint8_t { kAltbd, kPrintedAltbd, kAbdIepf, kLineTracking };
+struct DetectorConfig;
+struct SensorNoise;
+class WallFinder;
+
+/// Makes a method that finds walls, by these parameters and this noise.
+using WallFinderFactory =
+    std::function<std::unique_ptr<WallFinder>(const DetectorConfig&, const SensorNoise&)>;
 
 /// ALTBD as cornerd runs it. Defaults without a source are tuned by `cornerd-bench`.
 struct AltbdConfig {
@@ -27,46 +35,6 @@ struct AltbdConfig {
   double max_gap_m = 0.3;
   /// Weight of the noise model in the estimate of the scan's noise, in residuals.
   double prior_residuals = 20;
-};
-
-/// Whether step 12 divides by the axes, as it is printed, or by their squares, as an ellipse has
-/// it.
-enum class EllipseAxes : std::uint8_t { kPrinted, kSquared };
-/// What step 5's h_max, a share, is taken to be: metres, or a share of the range.
-enum class MinorAxis : std::uint8_t { kMetres, kShareOfRange };
-/// The line that predicts: the three points of step 1 until the wall ends (as printed), the last
-/// three points, or all points so far ("line tracking").
-enum class TrackedLine : std::uint8_t { kFirstThree, kLastThree, kAll };
-/// Steps 4 and 18: sigma_n is the mean of the last three errors, or of all since the wall began.
-enum class ErrorMean : std::uint8_t { kLastThree, kAll };
-
-/// ALTBD as it is printed, in its readings.
-struct PrintedAltbdConfig {
-  EllipseAxes axes = EllipseAxes::kPrinted;
-  MinorAxis minor = MinorAxis::kShareOfRange;
-  TrackedLine line = TrackedLine::kFirstThree;
-  ErrorMean mean = ErrorMean::kLastThree;
-};
-
-/// How far apart neighbouring samples of one segment may be.
-enum class AbdThreshold : std::uint8_t {
-  kBorgesAldon,  ///< eq. 4: by the earlier sample's range; sigma_r in metres
-  kWeerakoon,    ///< eq. 5: by the shorter range and the longer one's noise; sigma_r as a share
-};
-
-struct AbdIepfConfig {
-  AbdThreshold threshold = AbdThreshold::kWeerakoon;  ///< that of the paper's measurements
-  double sigma_r = 0.0038;                            ///< section V.C
-  double lambda_rad = radians(8);                     ///< section V.C
-  /// d_thd of IEPF, of a sample from the chord. Three standard deviations of an A1's range at 2 m.
-  /// The paper prints 0.46 m, the width of the arena's doors: a right angle stands out so far only
-  /// where both its walls are seen for 0.65 m, too far for rooms in a 2.4 m arena.
-  double split_limit_m = 0.03;
-};
-
-struct LineTrackingConfig {
-  /// D_max. The paper prints none: three standard deviations of an A1's range at 2 m.
-  double max_distance_m = 0.03;
 };
 
 /// Post-processing of the walls, whatever the method: merging, corners, ends. Defaults are tuned by
@@ -115,16 +83,13 @@ struct ExtractionConfig {
 };
 
 struct DetectorConfig {
-  Method method = Method::kAltbd;
+  WallFinderFactory finder;          ///< replaces ALTBD; empty: ALTBD
   double sigma_offset = 0.04;        ///< share of the range (paper, step 5 and section V.C)
   double corner_tolerance_m = 0.23;  ///< Dth_corner: half a door of 46 cm (step 13, section V.C)
   /// Samples that make a wall. The paper has "more than four points" (section V.B); all methods
   /// find more corners with four (core/breakpoint/README.md).
   std::uint32_t min_support = 4;
   AltbdConfig altbd;
-  PrintedAltbdConfig printed_altbd;
-  AbdIepfConfig abd_iepf;
-  LineTrackingConfig lt;
   ExtractionConfig extraction;
 };
 

@@ -262,8 +262,7 @@ PoseState Localizer::Workspace::believe(const Decision& decision, std::size_t co
   const core::VerifiedHypothesis& found = place->verification.hypotheses()[decision.place];
   const Pose2& T_map_lidar = found.refined.T_map_lidar;
   const Evidence evidence{found.likelihood, corners, points.largest_gap_rad(),
-                          !place->paper && place->recognition.is_exhaustive(),
-                          is_at_prior(T_map_lidar, t_ns)};
+                          place->recognition.is_exhaustive(), is_at_prior(T_map_lidar, t_ns)};
   if (decision.state == PoseState::kTracking) {
     return may_be_tracked(evidence) ? PoseState::kTracking : PoseState::kAmbiguous;
   }

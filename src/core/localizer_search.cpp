@@ -51,11 +51,6 @@ void Localizer::Workspace::look(const Scan& scan, TimeNs t_ns, const Twist2& as_
     verification.consider(std::span(&carried_on, 1), kPriorSearchRadius_m);
   }
   const Detection& seen = result.detection;
-  if (place->paper) {
-    verification.consider(place->paper->places(seen.breakpoints, seen.segments),
-                          kRecognisedRadius_m);
-    return;
-  }
   const auto pairs = place->recognition.from_pairs(seen.breakpoints);
   const std::size_t likely = count_likely(pairs, kLikelyShare);
   verification.consider(pairs.first(likely), kRecognisedRadius_m);
@@ -125,7 +120,7 @@ void Localizer::Workspace::look_for_the_motion(const Scan& scan, TimeNs t_ns) {
 }
 
 void Localizer::Workspace::look_everywhere(TimeNs t_ns) {
-  if (!place || place->paper) return;
+  if (!place) return;
   const std::span<const Breakpoint> breakpoints = result.detection.breakpoints;
   Recognition& recognition = place->recognition;
   place->verification.consider(recognition.from_single_corners(breakpoints), kRecognisedRadius_m);

@@ -13,11 +13,11 @@
 #include "core/catalog/catalog.hpp"
 #include "core/estimate/bias_estimator.hpp"
 #include "core/estimate/constant_velocity_model.hpp"
-#include "core/estimate/partial_scan_tracker.hpp"
 #include "core/estimate/refinement.hpp"
 #include "core/localizer.hpp"
+#include "core/odometry/odometer.hpp"
 #include "core/recognition/decision.hpp"
-#include "core/recognition/paper_recognition.hpp"
+#include "core/recognition/partial_scan_tracker.hpp"
 #include "core/recognition/recognition.hpp"
 #include "core/recognition/verification.hpp"
 
@@ -44,12 +44,10 @@ struct Localizer::Workspace {
           refinement(config.max_range_m, config.noise),
           bias(config.max_range_m, config.noise, config.bias,
                config.forget_bias ? BiasEstimator::kForgettingRate : 0) {
-      if (config.recognition == RecognitionMethod::kPaper) paper.emplace(map, catalog);
       if (config.updates_per_scan > 1) parts.emplace(map, config);
     }
     Catalog catalog;
     Recognition recognition;
-    std::optional<PaperRecognition> paper;  ///< where it is asked for, instead
     Verification verification;
     Refinement refinement;
     BiasEstimator bias;

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "daemon/calibration_file.hpp"
 
-#include <spdlog/spdlog.h>
-
 #include <cmath>
 #include <cstdlib>
 #include <system_error>
 #include <utility>
 
+#include "daemon/log.hpp"
 #include "daemon/replace_file.hpp"
 #include "settings/document.hpp"
 
@@ -65,9 +64,9 @@ void CalibrationFile::load() {
   const file_type type = std::filesystem::status(file_, unread).type();
   if (type == file_type::not_found) return;
   const auto leave_alone = [this](std::string_view why) {
-    spdlog::warn(
-        "{}; the lidar's calibration is not stored: set another /advanced/lidar/calibration_file",
-        why);
+    log(LogLevel::kWarning, std::string(why) +
+                                "; the lidar's calibration is not stored: set another "
+                                "/advanced/lidar/calibration_file");
     file_.clear();
   };
   if (type != file_type::regular) return leave_alone(file_.string() + ": not a regular file");
@@ -81,12 +80,13 @@ void CalibrationFile::load() {
   try {
     settings::LidarCalibration found = settings::parse_lidar_calibration(text, file_);
     if (found.configured != content_.configured) {
-      spdlog::info("{}: not used, since /advanced/lidar/bias has changed", file_.string());
+      log(LogLevel::kInfo, file_.string() + ": not used, since /advanced/lidar/bias has changed");
       return;
     }
     content_ = std::move(found);
     written_ = content_.learned;
-    spdlog::info("{}: the lidar's bias is known from {} scans", file_.string(), written_.scans);
+    log(LogLevel::kInfo, file_.string() + ": the lidar's bias is known from " +
+                             std::to_string(written_.scans) + " scans");
   } catch (const std::exception& error) {
     if (!is_own(text)) {
       // A configuration or map given by mistake must not be overwritten.
@@ -95,10 +95,11 @@ void CalibrationFile::load() {
       std::error_code failed;
       std::filesystem::rename(file_, aside, failed);
       if (failed) return leave_alone(error.what());
-      return spdlog::warn("{}; renamed to {}, the lidar is calibrated again", error.what(),
-                          aside.string());
+      return log(LogLevel::kWarning, std::string(error.what()) + "; renamed to " + aside.string() +
+                                         ", the lidar is calibrated again");
     }
-    spdlog::warn("the lidar's stored calibration is not used: {}", error.what());
+    log(LogLevel::kWarning,
+        std::string("the lidar's stored calibration is not used: ") + error.what());
   }
 }
 
@@ -136,7 +137,9 @@ void CalibrationFile::update(const core::EstimatedBias& learned) {
     replace_file(file_, settings::text_of(content_));
     written_ = learned;
   } catch (const std::exception& error) {
-    if (!has_warned_) spdlog::warn("cannot store the lidar's calibration: {}", error.what());
+    if (!has_warned_) {
+      log(LogLevel::kWarning, std::string("cannot store the lidar's calibration: ") + error.what());
+    }
     has_warned_ = true;
   }
 }

@@ -2,16 +2,18 @@
 #include "daemon/daemon.hpp"
 
 #include <signal.h>
-#include <spdlog/spdlog.h>
 #include <sys/epoll.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
+#include <cstdio>
 #include <cstring>
 #include <utility>
 #include <vector>
 
 #include "daemon/clock.hpp"
+#include "daemon/log.hpp"
 #include "daemon/realtime.hpp"
 
 namespace cornerd::daemon {
@@ -92,8 +94,9 @@ void Daemon::open_sockets() {
   open(config_.socket.pose, SocketRole::kPose);
   open(config_.socket.control, SocketRole::kControl);
   for (const InheritedSocket& socket : inherited) {
-    spdlog::warn("{}: the service manager's socket is not used: set its path in /socket",
-                 socket.path.string());
+    log(LogLevel::kWarning,
+        socket.path.string() +
+            ": the service manager's socket is not used: set its path in /socket");
   }
 }
 
@@ -102,11 +105,13 @@ void Daemon::set_up_realtime() {
   const settings::RealtimeConfig& config = config_.realtime;
   if (config.priority > 0) {
     if (const int error = localization_.prioritize_reader(config.priority)) {
-      spdlog::warn("real-time priority {} refused: {}; install the unit's real-time drop-in",
-                   config.priority, std::strerror(error));
+      log(LogLevel::kWarning, "real-time priority " + std::to_string(config.priority) +
+                                  " refused: " + std::strerror(error) +
+                                  "; install the unit's real-time drop-in");
     } else {
       health_.priority = config.priority;
-      spdlog::info("the reader thread has real-time priority {} (SCHED_FIFO)", config.priority);
+      log(LogLevel::kInfo, "the reader thread has real-time priority " +
+                               std::to_string(config.priority) + " (SCHED_FIFO)");
     }
   }
   if (config.lock_memory) {
@@ -114,8 +119,8 @@ void Daemon::set_up_realtime() {
     health_.memory_is_locked = error == 0;
     if (error != 0) {
       prefault_memory();
-      spdlog::warn("memory lock refused: {}; install the unit's real-time drop-in",
-                   std::strerror(error));
+      log(LogLevel::kWarning, std::string("memory lock refused: ") + std::strerror(error) +
+                                  "; install the unit's real-time drop-in");
     }
   }
 }
@@ -156,11 +161,11 @@ void Daemon::run() {
 void Daemon::on_signal() {
   const int signal = signals_.take();
   if (signal == SIGHUP) {
-    spdlog::info("SIGHUP: reloading config and map");
+    log(LogLevel::kInfo, "SIGHUP: reloading config and map");
     notifier_.reloading();
     reloader_.start();
   } else if (signal != 0) {
-    spdlog::info("{}: ending", signal == SIGTERM ? "SIGTERM" : "SIGINT");
+    log(LogLevel::kInfo, signal == SIGTERM ? "SIGTERM: ending" : "SIGINT: ending");
     loop_.stop();
   }
 }
@@ -168,24 +173,24 @@ void Daemon::on_signal() {
 void Daemon::on_loaded() {
   Reloader::Outcome outcome = reloader_.take();
   if (!outcome.error.empty()) {
-    spdlog::error("reload refused, the old config and map stay in use: {}", outcome.error);
+    log(LogLevel::kError, "reload refused, the old config and map stay in use: " + outcome.error);
     server_.publish(message::MessageClass::kEvent,
                     line_.event(now_ns(), "reload refused", outcome.error));
     return notifier_.ready();
   }
   Loaded& loaded = outcome.loaded;
   if (const std::string list = settings::needs_restart(config_, loaded.config); !list.empty()) {
-    spdlog::warn("restart cornerd to apply: {}", list);
+    log(LogLevel::kWarning, "restart cornerd to apply: " + list);
   }
   const std::string name =
-      fmt::format("{}, {} walls", loaded.map->plan().name, loaded.map->plan().walls.size());
+      loaded.map->plan().name + ", " + std::to_string(loaded.map->plan().walls.size()) + " walls";
   if (!calibration_.reconfigure(loaded.config.lidar.bias)) localization_.forget_lidar();
   localization_.publish_predictions(loaded.config.odometry.core.publish_predictions);
   auto pipeline = with_calibration(std::move(loaded.pipeline), loaded.config.lidar, calibration_);
   scans_.set_next_map(localization_.replace_pipeline(std::move(pipeline)), std::move(loaded.map));
   if (health_.memory_is_locked) health_.memory_is_locked = lock_memory() == 0;
   if (config_.realtime.lock_memory && !health_.memory_is_locked) prefault_memory();
-  spdlog::info("map loaded: {}", name);
+  log(LogLevel::kInfo, "map loaded: " + name);
   server_.publish(message::MessageClass::kEvent, line_.event(now_ns(), "map loaded", name));
   notifier_.ready();
 }
@@ -194,9 +199,11 @@ void Daemon::on_tick() {
   health_.server.add(tick_.acknowledge().count());
   if (is_live_) {
     if (const auto step_ns = clock_.step_ns(unix_ns(), monotonic_ns())) {
-      const std::string text = fmt::format("{:+.3f} s", core::to_seconds(*step_ns));
-      clock_steps_.add(text, monotonic_ns());
-      server_.publish(message::MessageClass::kEvent, line_.event(now_ns(), "clock step", text));
+      std::array<char, 64> text{};
+      std::snprintf(text.data(), text.size(), "%+.3f s", core::to_seconds(*step_ns));
+      clock_steps_.add(text.data(), monotonic_ns());
+      server_.publish(message::MessageClass::kEvent,
+                      line_.event(now_ns(), "clock step", text.data()));
     }
     clock_steps_.flush(monotonic_ns());
   }
@@ -208,7 +215,7 @@ void Daemon::on_tick() {
     status_.publish(lidar_->status(), scans_, localization_, health_, now_ns());
   }
   if (is_time) {
-    server_.restore_sockets([](const std::string& line) { spdlog::warn("{}", line); });
+    server_.restore_sockets([](const std::string& line) { log(LogLevel::kWarning, line); });
   }
 }
 
@@ -216,8 +223,8 @@ void Daemon::update_calibration_file() {
   const drivers::LidarStatus lidar = lidar_->status();
   if (!calibration_.identify(lidar.serial.view())) {
     localization_.forget_lidar();
-    const std::string text = fmt::format("serial number {}", lidar.serial.view());
-    spdlog::info("another lidar, {}: its bias is estimated anew", text);
+    const std::string text = "serial number " + std::string(lidar.serial.view());
+    log(LogLevel::kInfo, "another lidar, " + text + ": its bias is estimated anew");
     server_.publish(message::MessageClass::kEvent, line_.event(now_ns(), "another lidar", text));
   }
   if (scans_.lidar() == localization_.lidar()) calibration_.update(scans_.bias());

@@ -58,7 +58,7 @@ class Daemon {
   ScanPublisher scans_;
   StatusPublisher status_;
   ClockStepDetector clock_;
-  RateLimitedLog clock_steps_{spdlog::level::warn, "clock step"};
+  RateLimitedLog clock_steps_{LogLevel::kWarning, "clock step"};
   PeriodicTimer tick_;
   std::optional<PeriodicTimer> watchdog_;
   message::LineWriter line_;

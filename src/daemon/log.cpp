@@ -41,6 +41,19 @@ void set_up_log() {
   spdlog::set_default_logger(std::move(log));
 }
 
+void log(LogLevel level, std::string_view line) {
+  switch (level) {
+    case LogLevel::kDebug:
+      return spdlog::debug(line);
+    case LogLevel::kInfo:
+      return spdlog::info(line);
+    case LogLevel::kWarning:
+      return spdlog::warn(line);
+    case LogLevel::kError:
+      return spdlog::error(line);
+  }
+}
+
 LogSink::LogSink() : LogSink(open_without_waiting()) {}
 
 LogSink::LogSink(std::FILE* stream)

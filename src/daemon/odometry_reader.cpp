@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "daemon/odometry_reader.hpp"
 
-#include <spdlog/spdlog.h>
-
 #include <string>
 #include <utility>
 
+#include "daemon/log.hpp"
 #include "drivers/odometry/kernel_odometry.hpp"
 
 namespace cornerd::daemon {
@@ -15,7 +14,7 @@ using drivers::SensorState;
 
 bool is_running(SensorState state) { return state == SensorState::kRunning; }
 /// More than the different texts of the sensors.
-constexpr std::size_t kMaxTexts = 64;
+constexpr std::size_t kMaxSensorTexts = 64;
 
 /// A single bad value or failed read does not mean that the device was lost.
 bool is_transient(SensorState state) {
@@ -59,9 +58,9 @@ bool OdometryReader::publish_changes(MessageServer& server, core::TimeNs t_ns) {
 }
 
 void OdometryReader::log_once(SensorState state, const std::string& text) {
-  if (logged_.size() >= kMaxTexts) logged_.clear();
+  if (logged_.size() >= kMaxSensorTexts) logged_.clear();
   if (!logged_.insert(text).second) return;
-  spdlog::log(is_running(state) ? spdlog::level::info : spdlog::level::warn, "odometry {}", text);
+  log(is_running(state) ? LogLevel::kInfo : LogLevel::kWarning, "odometry " + text);
 }
 
 void OdometryReader::describe(message::StatusFields& status) {

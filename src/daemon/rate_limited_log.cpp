@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "daemon/rate_limited_log.hpp"
 
-#include <spdlog/spdlog.h>
-
 #include "core/types.hpp"
 
 namespace cornerd::daemon {
@@ -20,13 +18,13 @@ void RateLimitedLog::add(const std::string& text, std::int64_t now_ns) {
     return;
   }
   logged_ns_ = now_ns;
-  spdlog::log(level_, "{}: {}", what_, text);
+  log(level_, std::string(what_) + ": " + text);
 }
 
 void RateLimitedLog::flush(std::int64_t now_ns) {
   if (suppressed_ == 0 || now_ns - *logged_ns_ < kPeriodNs) return;
   logged_ns_ = now_ns;
-  spdlog::log(level_, "{}: {} more, the last {}", what_, suppressed_, last_);
+  log(level_, std::string(what_) + ": " + std::to_string(suppressed_) + " more, the last " + last_);
   suppressed_ = 0;
 }
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <spdlog/common.h>
-
 #include <cstdint>
 #include <optional>
 #include <string>
+
+#include "daemon/log.hpp"
 
 namespace cornerd::daemon {
 
@@ -13,7 +13,7 @@ namespace cornerd::daemon {
 class RateLimitedLog {
  public:
   /// `what`: a string literal, the prefix of each line.
-  RateLimitedLog(spdlog::level::level_enum level, const char* what) : level_(level), what_(what) {}
+  RateLimitedLog(LogLevel level, const char* what) : level_(level), what_(what) {}
 
   /// `now_ns`: monotonic.
   void add(const std::string& text, std::int64_t now_ns);
@@ -21,7 +21,7 @@ class RateLimitedLog {
   void flush(std::int64_t now_ns);
 
  private:
-  spdlog::level::level_enum level_;
+  LogLevel level_;
   const char* what_;
   std::optional<std::int64_t> logged_ns_;
   std::uint64_t suppressed_ = 0;

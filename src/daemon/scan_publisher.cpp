@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "daemon/scan_publisher.hpp"
 
-#include <spdlog/spdlog.h>
-
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdio>
 #include <string>
 #include <utility>
 
@@ -72,10 +72,11 @@ void ScanPublisher::publish_jump(const core::PoseEstimate& pose, std::uint64_t n
         std::abs(core::angle_between(last_fix_->T_map_base.theta_rad, pose.T_map_base.theta_rad));
     if (translation_m > kJump_m * scans ||
         rotated_rad > std::min(kJump_rad * scans, kMaxJump_rad)) {
-      const std::string text =
-          fmt::format("{:.3f} m, {:.1f} degrees", translation_m, core::degrees(rotated_rad));
-      jumps_.add(text, monotonic_ns());
-      server_.publish(MessageClass::kEvent, line_.event(pose.t_ns, "jump", text));
+      std::array<char, 64> text{};
+      std::snprintf(text.data(), text.size(), "%.3f m, %.1f degrees", translation_m,
+                    core::degrees(rotated_rad));
+      jumps_.add(text.data(), monotonic_ns());
+      server_.publish(MessageClass::kEvent, line_.event(pose.t_ns, "jump", text.data()));
     }
   }
   last_fix_ = {number, pose.T_map_base};
@@ -89,7 +90,7 @@ void ScanPublisher::publish_change(core::PoseState to, core::TimeNs t_ns) {
   using message::to_string;
   std::string change(state_ ? to_string(*state_) : "none");
   change.append(" -> ").append(to_string(to));
-  spdlog::debug("pose {}", change);
+  log(LogLevel::kDebug, "pose " + change);
   server_.publish(MessageClass::kEvent, line_.event(t_ns, "state change", change));
   state_ = to;
 }

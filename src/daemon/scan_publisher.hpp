@@ -54,7 +54,7 @@ class ScanPublisher {
   };
   std::optional<Fix> last_fix_;
   message::LineWriter line_;
-  RateLimitedLog jumps_{spdlog::level::info, "jump"};
+  RateLimitedLog jumps_{LogLevel::kInfo, "jump"};
   LatencyWindow latencies_;
   std::optional<core::PoseState> state_;
   core::OdometrySummary odometry_;

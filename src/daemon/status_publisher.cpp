@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "daemon/status_publisher.hpp"
 
-#include <spdlog/spdlog.h>
-
 #include <algorithm>
 #include <array>
 #include <string_view>
 
+#include "daemon/log.hpp"
 #include "drivers/lidar_status.hpp"
 #include "message/line_writer.hpp"
 
@@ -23,7 +22,7 @@ constexpr std::array<std::string_view, ScanPublisher::kStates> kPoseCounterNames
     "poses_fix", "poses_tracking", "poses_predicted", "poses_ambiguous", "poses_lost"};
 
 /// More than the different texts of a driver.
-constexpr std::size_t kMaxTexts = 64;
+constexpr std::size_t kMaxLidarTexts = 64;
 
 bool is_fault(const drivers::LidarChange& change) {
   return change.fault != LidarFault::kNone || change.state == LidarState::kFaulty ||
@@ -67,9 +66,9 @@ bool StatusPublisher::update(const drivers::LidarChange& change, core::TimeNs t_
 
 void StatusPublisher::log_once(const drivers::LidarChange& change, const std::string& text) {
   if (change.state == LidarState::kRunning) logged_texts_.clear();
-  if (logged_texts_.size() == kMaxTexts) logged_texts_.clear();
+  if (logged_texts_.size() == kMaxLidarTexts) logged_texts_.clear();
   if (!logged_texts_.insert(text).second) return;
-  spdlog::log(is_fault(change) ? spdlog::level::warn : spdlog::level::info, "lidar {}", text);
+  log(is_fault(change) ? LogLevel::kWarning : LogLevel::kInfo, "lidar " + text);
 }
 
 void StatusPublisher::publish(const drivers::LidarStatus& lidar, const ScanPublisher& scans,

@@ -10,8 +10,16 @@
 
 #include "core/breakpoint/breakpoint.hpp"
 #include "core/latency_histogram.hpp"
-#include "core/localizer.hpp"
+#include "core/odometry/odometry_summary.hpp"
+#include "core/pose_estimate.hpp"
 #include "message/json_text.hpp"
+
+namespace cornerd::core {
+struct Detection;
+struct FloorPlan;
+struct EstimatedBias;
+class Scan;
+}  // namespace cornerd::core
 
 namespace cornerd::message {
 

@@ -5,8 +5,8 @@
 #include <optional>
 #include <string_view>
 
-#include "core/odometry/odometer.hpp"
 #include "core/odometry/odometry_reading.hpp"
+#include "core/odometry/odometry_summary.hpp"
 
 namespace cornerd::message {
 

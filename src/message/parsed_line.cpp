@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "core/scan.hpp"
 #include "message/field_reader.hpp"
 #include "message/input_fields.hpp"
 #include "message/line_writer.hpp"
@@ -148,7 +149,7 @@ ParsedLine read_event(FieldReader& fields) {
                      std::string(fields.optional_text("detail"))};
 }
 
-ParsedLine read_line(std::string_view name, FieldReader& fields) {
+ParsedLine read_message(std::string_view name, FieldReader& fields) {
   if (name == "VERSION") {
     return ParsedVersion{std::string(fields.text("program")), std::string(fields.text("version"))};
   }
@@ -173,7 +174,7 @@ std::uint64_t ParsedStatus::counter(std::string_view name) const {
 }
 
 ParsedLine parse_line(std::string_view line) {
-  return parse_by_class<ParsedLine>(line, kMaxRecordedBytes, read_line);
+  return parse_by_class<ParsedLine>(line, kMaxRecordedBytes, read_message);
 }
 
 }  // namespace cornerd::message

@@ -10,7 +10,7 @@
 #include <variant>
 #include <vector>
 
-#include "core/localizer.hpp"
+#include "core/pose_estimate.hpp"
 #include "message/request.hpp"
 
 namespace cornerd::message {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // STATUS of LineWriter.
+#include "core/sensor_bias.hpp"
 #include "message/line_writer.hpp"
 
 namespace cornerd::message {

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "calibration/wall_model.hpp"
-#include "core/localizer.hpp"
+#include "core/localizer_config.hpp"
 #include "core/odometry/odometry_config.hpp"
 #include "drivers/config/kernel_odometry_config.hpp"
 #include "drivers/config/motor_config.hpp"

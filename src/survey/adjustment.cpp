@@ -6,8 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include <Eigen/LU>
-
+#include "core/geometry/linear_solve.hpp"
 #include "survey/linearization.hpp"
 
 namespace cornerd::survey {
@@ -58,7 +57,8 @@ AdjustmentResult adjust(MappedDrive& drive, std::span<const FaceConstraint> cons
     }
     for (std::size_t i = 0; i < drive.faces.size(); ++i) {
       const Eigen::Matrix2d& information = now.information_of(i);
-      if (information.determinant() > 0) drive.faces[i].set_covariance(information.inverse());
+      if (core::determinant(information) > 0)
+        drive.faces[i].set_covariance(core::inverse(information));
     }
     break;
   }

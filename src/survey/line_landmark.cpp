@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "core/geometry/linear_solve.hpp"
+
 namespace cornerd::survey {
 
 PlacedObservation::PlacedObservation(const LineObservation& seen, const core::Pose2& T_map_lidar)
@@ -52,7 +54,8 @@ void LineLandmark::update(const LineObservation& seen, const core::Pose2& T_map_
                                  seen.sigma_offset_m * seen.sigma_offset_m);
   Eigen::Matrix2d innovation_covariance = design * covariance_ * design.transpose();
   innovation_covariance.diagonal() += variance;
-  const Eigen::Matrix2d gain = covariance_ * design.transpose() * innovation_covariance.inverse();
+  const Eigen::Matrix2d gain =
+      covariance_ * design.transpose() * core::inverse(innovation_covariance);
   const Eigen::Vector2d correction = gain * innovation;
   covariance_ = (Eigen::Matrix2d::Identity() - gain * design) * covariance_;
   covariance_ = (covariance_ + covariance_.transpose().eval()) / 2;

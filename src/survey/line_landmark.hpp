@@ -5,7 +5,6 @@
 #include <cstdint>
 
 #include <Eigen/Core>
-#include <Eigen/LU>
 
 #include "core/geometry/pose2.hpp"
 #include "core/geometry/squared.hpp"

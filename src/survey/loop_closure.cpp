@@ -6,8 +6,7 @@
 #include <span>
 #include <utility>
 
-#include <Eigen/Cholesky>
-
+#include "core/geometry/linear_solve.hpp"
 #include "survey/adjustment.hpp"
 #include "survey/face_merging.hpp"
 #include "survey/linearization.hpp"
@@ -37,7 +36,7 @@ double mahalanobis_distance(const MappedDrive& drive, const LoopConstraint& cons
                                       drive.T_map_lidar[constraint.later],
                                       constraint.T_earlier_later);
   const Eigen::Vector3d off(residual.off[0], residual.off[1], residual.off[2]);
-  return std::sqrt(off.dot(covariance.ldlt().solve(off)));
+  return std::sqrt(off.dot(core::SymmetricSolver<3>(covariance).solve(off)));
 }
 
 bool constraints_hold(const MappedDrive& drive, std::span<const LoopConstraint> loop_constraints) {

@@ -4,8 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
+#include "core/geometry/linear_solve.hpp"
 
 namespace cornerd::survey {
 namespace {
@@ -77,7 +76,9 @@ double weakest_sigma_m(const Eigen::Matrix3d& information) {
   const Eigen::Vector2d shared = information.block<2, 1>(0, 2);
   const Eigen::Matrix2d place =
       information.topLeftCorner<2, 2>() - shared * shared.transpose() / information(2, 2);
-  const double least = Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(place).eigenvalues()[0];
+  // The lesser eigenvalue of a symmetric matrix.
+  const double least =
+      (place(0, 0) + place(1, 1)) / 2 - std::hypot((place(0, 0) - place(1, 1)) / 2, place(0, 1));
   return least > 0 ? 1 / std::sqrt(least) : std::numeric_limits<double>::infinity();
 }
 
@@ -105,7 +106,7 @@ ScanMatch ScanMatcher::match(std::span<const LineObservation> observations,
                              std::vector<std::uint32_t>& faces_of) const {
   ScanMatch result;
   core::Pose2 pose = prior;
-  const Eigen::Matrix3d prior_information = covariance.inverse();
+  const Eigen::Matrix3d prior_information = core::inverse(covariance);
   Eigen::Matrix3d information = prior_information;
   SearchRadius gate = radius;
   for (int step = 0; step < kSteps; ++step) {
@@ -129,7 +130,7 @@ ScanMatch ScanMatcher::match(std::span<const LineObservation> observations,
       information(2, 2) += weight / off.angle_variance;
       right_hand_side[2] -= weight / off.angle_variance * off.angle_rad;
     }
-    const Eigen::Vector3d move = information.ldlt().solve(right_hand_side);
+    const Eigen::Vector3d move = core::SymmetricSolver<3>(information).solve(right_hand_side);
     if (!move.allFinite()) return result;
     pose = {pose.x_m + move.x(), pose.y_m + move.y(),
             core::normalize_angle(pose.theta_rad + move.z())};
@@ -140,7 +141,7 @@ ScanMatch ScanMatcher::match(std::span<const LineObservation> observations,
 
   result.matched_share = assign(observations, faces, pose, kExactRadius, faces_of);
   result.T_map_lidar = pose;
-  result.covariance = information.inverse();
+  result.covariance = core::inverse(information);
   result.weakest_sigma_m = weakest_sigma_m(information - prior_information);
   const double worst_m2 = std::max(result.covariance(0, 0), result.covariance(1, 1));
   result.valid = result.matched_share > kMinShare && worst_m2 < squared(kSureSigma_m);

@@ -28,7 +28,7 @@ class MapImportFigures : public testing::TestWithParam<PictureKind> {
                                         const std::shared_ptr<const core::WallMap>& map) {
     replay::SimulatedRecordingConfig config;
     config.simulator.seed = 20195;
-    config.turns = kPlaces;
+    config.scans = kPlaces;
     return localize_random_places(truth_map, map, config);
   }
 };
@@ -49,12 +49,12 @@ TEST_P(MapImportFigures, ImportedImage_WallsAndPosesAreAccurate) {
   const std::size_t fixes = poses.count(core::PoseState::kFix);
   std::printf("%-12s %s %.2f m %.1f rad: %s; %zu of %zu fixes, mean %.1f mm, %zu wrong\n", name,
               maker == Artist::kDrawing ? "drawn" : "lidar", resolution_m, yaw_rad,
-              score.text().c_str(), fixes, poses.turns(), 1000 * poses.mean_error_m(),
+              score.text().c_str(), fixes, poses.scans(), 1000 * poses.mean_error_m(),
               poses.wrong());
   EXPECT_LT(score.missed_m, 0.02 * score.faces_m);
   EXPECT_LT(score.invented_m, 0.02 * score.faces_m);
   EXPECT_LT(score.median_m(), 0.5 * resolution_m + 0.009);  // of the arena's walls, half
-  EXPECT_LE(poses.wrong(), poses.turns() / 50);
+  EXPECT_LE(poses.wrong(), poses.scans() / 50);
 }
 
 INSTANTIATE_TEST_SUITE_P(Pictures, MapImportFigures,

@@ -51,8 +51,8 @@ void append(const survey::RecordedDrive& from, std::size_t first, std::size_t la
     }
   };
   for (survey::RecordedDrive::Reading recorded : from.readings()) {
-    if (recorded.turn < first || recorded.turn >= last) continue;
-    add_scans(recorded.turn);
+    if (recorded.scan < first || recorded.scan >= last) continue;
+    add_scans(recorded.scan);
     core::OdometryReading reading = recorded.reading;
     if (is_first && !to.readings().empty()) {
       const core::OdometryReading& before = to.readings().back().reading;

@@ -14,7 +14,7 @@
 namespace cornerd::system_test {
 namespace {
 
-class EstimatedBias : public DaemonTest {
+class CalibrationFile : public DaemonTest {
  protected:
   DaemonProcess start_on_lidar() {
     return start({"/lidar/driver=rplidar", "/lidar/device=" + (folder_ / "lidar").string(),
@@ -40,7 +40,7 @@ class EstimatedBias : public DaemonTest {
   std::filesystem::path file_ = folder_ / "learned.json";
 };
 
-TEST_F(EstimatedBias, Restart_BiasLoadedForSameLidarOnly) {
+TEST_F(CalibrationFile, Restart_BiasLoadedForSameLidarOnly) {
   {
     const EmulatedLidar lidar(folder_ / "map.json", folder_ / "lidar");
     DaemonProcess daemon = start_on_lidar();
@@ -76,7 +76,7 @@ TEST_F(EstimatedBias, Restart_BiasLoadedForSameLidarOnly) {
   EXPECT_NE(daemon.output().find("another lidar"), std::string::npos) << daemon.output();
 }
 
-TEST_F(EstimatedBias, ReloadBeforeFirstScan_StoredBiasKept) {
+TEST_F(CalibrationFile, ReloadBeforeFirstScan_StoredBiasKept) {
   std::ofstream(file_) << R"({"format": "cornerd-lidar", "turns": 400,
       "bias": {"range_scale": 0.004, "range_offset": 0.001, "bearing_sine": 0, "bearing_cosine": 0},
       "sigma": {"range_scale": 5e-4, "range_offset": 5e-4, "bearing_sine": 3e-4,
@@ -96,7 +96,7 @@ TEST_F(EstimatedBias, ReloadBeforeFirstScan_StoredBiasKept) {
   end(daemon);
 }
 
-TEST_F(EstimatedBias, ReloadAfterChangeOfLidar_OldBiasNotRestored) {
+TEST_F(CalibrationFile, ReloadAfterChangeOfLidar_OldBiasNotRestored) {
   auto lidar = std::make_unique<EmulatedLidar>(folder_ / "map.json", folder_ / "lidar");
   DaemonProcess daemon = start_on_lidar();
   const json first = status_after(40);

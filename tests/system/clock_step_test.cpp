@@ -67,22 +67,22 @@ class ClockStep : public DaemonTest {
     const double after_s = clock_.offset_s();
     int poses = 0;
     int poses_after = 0;
-    std::vector<json> told;
-    while (poses_after < kPosesAfterStep || told.empty()) {
+    std::vector<json> steps;
+    while (poses_after < kPosesAfterStep || steps.empty()) {
       const json message = next(client);
       ASSERT_TRUE(message.is_object()) << "after a step of " << by_s << " s";
       const bool is_after = is_of_now(message, after_s);
       EXPECT_TRUE(is_after || is_of_now(message, before_s)) << message;
-      if (message["class"] == "EVENT" && message["what"] == "clock step") told.push_back(message);
+      if (message["class"] == "EVENT" && message["what"] == "clock step") steps.push_back(message);
       if (message["class"] != "POSE") continue;
       ASSERT_LT(++poses, 10 * kPosesAfterStep) << "the step was not detected";
       EXPECT_TRUE(is_after || poses_after == 0) << "back to the old time: " << message;
       poses_after += is_after ? 1 : 0;
       expect_next(message, message_s(message) - (is_after ? after_s : before_s));
     }
-    ASSERT_EQ(told.size(), 1u);
-    EXPECT_TRUE(is_of_now(told[0], after_s)) << told[0];
-    EXPECT_NEAR(std::stod(told[0]["detail"].get<std::string>()), by_s, 0.1) << told[0];
+    ASSERT_EQ(steps.size(), 1u);
+    EXPECT_TRUE(is_of_now(steps[0], after_s)) << steps[0];
+    EXPECT_NEAR(std::stod(steps[0]["detail"].get<std::string>()), by_s, 0.1) << steps[0];
   }
 
   /// `machine_s`: the pose's time by the machine's clock.

@@ -198,7 +198,7 @@ TEST_F(FaultTable, NoDataAfterStart_MotorTurns_Recovers) {
   lidar_->act([](auto& device, auto t_ns) { device.set_stalled(true, t_ns); });
   launch();
   expect(
-      "head does not turn at the start; turns", "no-data", "backoff", [] {},
+      "motor does not start; rotates", "no-data", "backoff", [] {},
       [&] { lidar_->act([](auto& device, auto t_ns) { device.set_stalled(false, t_ns); }); });
 }
 

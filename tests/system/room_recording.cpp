@@ -34,21 +34,21 @@ void write_map(const std::filesystem::path& file, const std::string& room) {
 
 void write_recording(const std::filesystem::path& file, int scans) {
   const core::WallMap map(settings::parse_floor_plan(kMap, file));
-  core::Scan turn;
+  core::Scan scan;
   message::LineWriter line;
   std::ofstream stream(file);
   for (int i = 0; i < scans; ++i) {
-    turn.clear();
+    scan.clear();
     for (int k = 0; k < kSamplesPerScan; ++k) {
       // An RPLidar rotates clockwise.
       const double bearing_rad = core::kPi - core::kTwoPi * k / kSamplesPerScan;
       const double range_m = map.range_along({kTrueX, kTrueY}, kTrueTheta + bearing_rad, 12);
-      turn.add({.t_ns = i * kScanNs + k * kScanNs / kSamplesPerScan,
+      scan.add({.t_ns = i * kScanNs + k * kScanNs / kSamplesPerScan,
                 .bearing_rad = static_cast<float>(bearing_rad),
                 .range_m = static_cast<float>(range_m),
                 .quality = 47});
     }
-    stream << line.scan(turn);
+    stream << line.scan(scan);
   }
 }
 

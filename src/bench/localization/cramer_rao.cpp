@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include <Eigen/LU>
+#include "core/geometry/linear_solve.hpp"
 
 namespace cornerd::bench {
 namespace {
@@ -32,7 +32,7 @@ core::Covariance3 CramerRao::bound(const core::WallMap& map, const core::Pose2& 
                                 face.normal.y() * arm.x() - face.normal.x() * arm.y());
     information += slope * slope.transpose() / variance_m2;
   }
-  const core::Covariance3 bound = information.inverse();
+  const core::Covariance3 bound = core::inverse(information);
   return bound.allFinite() ? bound : core::Covariance3::Zero();
 }
 

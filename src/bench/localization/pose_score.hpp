@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "core/localizer.hpp"
+#include "core/pose_estimate.hpp"
 
 namespace cornerd::bench {
 

@@ -1,22 +1,20 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <variant>
+#include <memory>
 
-#include "core/breakpoint/abd_iepf.hpp"
 #include "core/breakpoint/altbd.hpp"
 #include "core/breakpoint/breakpoint.hpp"
-#include "core/breakpoint/line_tracking.hpp"
-#include "core/breakpoint/printed_altbd.hpp"
 #include "core/breakpoint/segment_track.hpp"
+#include "core/breakpoint/wall_finder.hpp"
 #include "core/breakpoint/wall_polyline.hpp"
 #include "core/detector_config.hpp"
 #include "core/polar_scan.hpp"
 
 namespace cornerd::core {
 
-/// From a scan's returns to its walls and breakpoints. The configured method tracks the walls;
-/// post-processing is common. Allocates nothing after construction.
+/// From a scan's returns to its walls and breakpoints. ALTBD, or the configured finder, tracks the
+/// walls; post-processing is common. Allocates nothing after construction.
 class Detector {
  public:
   Detector(const DetectorConfig& config, const SensorNoise& noise);
@@ -27,10 +25,8 @@ class Detector {
   void forget();
 
  private:
-  using Tracker = std::variant<Altbd, PrintedAltbd, AbdIepf, LineTracking>;
-  static Tracker make_tracker(const DetectorConfig& config, const SensorNoise& noise);
-
-  Tracker tracker_;
+  Altbd altbd_;
+  std::unique_ptr<WallFinder> finder_;  ///< null: ALTBD
   SegmentTracks tracks_;
   WallPolyline polyline_;
 };

@@ -6,10 +6,9 @@
 #include <optional>
 #include <utility>
 
-#include <Eigen/LU>
-
 #include "core/breakpoint/wall_end.hpp"
 #include "core/breakpoint/wall_tests.hpp"
+#include "core/geometry/linear_solve.hpp"
 
 namespace cornerd::core {
 namespace {
@@ -46,7 +45,7 @@ Eigen::Matrix2d intersection_covariance(const Line& a, const Line& b, const Vec2
                                         double scale) {
   Eigen::Matrix2d normals;
   normals << a.normal.transpose(), b.normal.transpose();
-  const Eigen::Matrix2d inverse = normals.inverse();
+  const Eigen::Matrix2d inverse = core::inverse(normals);
   const double variance_a = a.variance_at(a.direction().dot(point - a.centroid));
   const double variance_b = b.variance_at(b.direction().dot(point - b.centroid));
   return scale * scale * inverse * Vec2(variance_a, variance_b).asDiagonal() * inverse.transpose();

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/Cholesky>
+#include "core/geometry/linear_solve.hpp"
 
 namespace cornerd::core {
 namespace {
@@ -105,10 +105,10 @@ void BiasEstimator::update(const WallMap& map, const Pose2& T_map_lidar,
   if (used < kMinPoints) return;
 
   information.diagonal().segment<3>(3) += kMotionSigma.cwiseAbs2().cwiseInverse();
-  const Eigen::LDLT<Eigen::Matrix<double, 6, 6>> of_turn(information.topLeftCorner<6, 6>());
-  if (of_turn.info() != Eigen::Success || !of_turn.isPositive()) return;
+  const SymmetricSolver<6> of_turn(information.topLeftCorner<6, 6>());
+  if (!of_turn.succeeded() || !of_turn.is_positive()) return;
   const Eigen::Matrix<double, 6, 4> coupled = information.topRightCorner<6, 4>();
-  const Eigen::Matrix<double, 6, 4> solved = of_turn.solve(coupled);
+  const Eigen::Matrix<double, 6, 4> solved = of_turn.solve_columns(coupled);
   const Matrix4 of_bias = information.bottomRightCorner<4, 4>() - coupled.transpose() * solved;
   const Vector4 reduced_gradient = gradient.tail<4>() - solved.transpose() * gradient.head<6>();
   if (!of_bias.allFinite() || !reduced_gradient.allFinite()) return;
@@ -118,7 +118,7 @@ void BiasEstimator::update(const WallMap& map, const Pose2& T_map_lidar,
               kScanShare * (of_bias * vector_of(estimate_.bias) + reduced_gradient);
   const Vector4 prior = prior_information();
   const Matrix4 sum = information_ + Matrix4(prior.asDiagonal());
-  const Matrix4 covariance = sum.ldlt().solve(Matrix4::Identity());
+  const Matrix4 covariance = SymmetricSolver<4>(sum).inverse();
   const Vector4 best = covariance * (evidence_ + prior.cwiseProduct(prior_));
   if (!best.allFinite() || !(covariance.diagonal().minCoeff() > 0)) return;
   set_estimate(best, covariance);

@@ -4,9 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/Cholesky>
-
-#include "core/recognition/hypothesis.hpp"
+#include "core/geometry/linear_solve.hpp"
 
 namespace cornerd::core {
 namespace {
@@ -120,7 +118,7 @@ RefinedPose Refinement::gauss_newton(const WallMap& map, const Pose2& start, dou
   RefinedPose refined;
   refined.T_map_lidar = start;
   double extra_sigma_m = search_radius_m;
-  Eigen::LDLT<Eigen::Matrix3d> solver;
+  SymmetricSolver<3> solver;
   Step sums;
   points_ = {};
   for (int k = 0; k < kMaxSteps; ++k) {
@@ -137,7 +135,7 @@ RefinedPose Refinement::gauss_newton(const WallMap& map, const Pose2& start, dou
                           angle_between(prior->T_map_lidar.theta_rad, at.theta_rad));
     }
     solver.compute(sums.information);
-    const Eigen::Vector3d pivots = solver.vectorD();
+    const Eigen::Vector3d pivots = solver.pivots();
     if (sums.inliers < kMinInliers || !(pivots.minCoeff() > kMinPivot * pivots.maxCoeff())) {
       return refined;
     }
@@ -152,8 +150,7 @@ RefinedPose Refinement::gauss_newton(const WallMap& map, const Pose2& start, dou
   }
   const auto inliers = static_cast<double>(sums.inliers);
   refined.reduced_chi_square = sums.chi_square / std::max(1.0, inliers - 3);
-  refined.covariance =
-      solver.solve(Eigen::Matrix3d::Identity()) * std::max(1.0, refined.reduced_chi_square);
+  refined.covariance = solver.inverse() * std::max(1.0, refined.reduced_chi_square);
   refined.inliers = sums.inliers;
   refined.rmse_m = std::sqrt(sums.squared_distances / std::max(1.0, inliers));
   refined.valid = refined.covariance.allFinite();
@@ -207,8 +204,8 @@ RefinedMotion Refinement::refine_motion(const WallMap& map, const Pose2& start,
       gradient.noalias() += weight * distance_m * jacobians;
       ++inliers;
     }
-    const Eigen::LDLT<Matrix6> solver(information);
-    if (inliers < kMinInliers || solver.info() != Eigen::Success) return refined;
+    const SymmetricSolver<6> solver(information);
+    if (inliers < kMinInliers || !solver.succeeded()) return refined;
     const Vector6 move = solver.solve(gradient);
     if (!move.allFinite()) return refined;
     refined.T_map_lidar = T_map_lidar * Pose2{-move[0], -move[1], -move[2]};

@@ -2,27 +2,39 @@
 // Bertocco, Oliveira, Santos: Odometry and Feature Extraction (2019), section III.
 #pragma once
 
+#include <cstdint>
+
 #include "core/odometry/odometry_config.hpp"
 #include "core/odometry/odometry_increment.hpp"
 
 namespace cornerd::core {
+
+/// Source of heading changes: the modes of Bertocco et al. (2019), and the filter.
+enum class HeadingSource : std::uint8_t { kEncoder, kGyro, kMean, kWeighted, kFilter };
+
+/// Factors of the paper's modes.
+struct PaperFactors {
+  double encoder_factor = 1;  ///< c_enco
+  double gyro_factor = 1;     ///< c_gyro
+  /// tr: smaller changes of a wheel's angle or of the heading are taken as zero; 0.01 in the paper.
+  double dead_band_rad = 0;
+};
 
 struct DeadReckoningConfig {
   HeadingSource source = HeadingSource::kEncoder;  ///< one of the paper's four
   PaperFactors factors;
 };
 
-/// The change of heading in a step, by the paper's modes: encoders alone, gyro alone, equation 4,
-/// equation 5. Without a gyro all of them take the encoders.
+/// Heading change of an increment by the paper's modes: encoders alone, gyro alone, equation 4,
+/// equation 5. Without a gyro all use the encoders.
 double heading_change(const OdometryIncrement& step, const DriveGeometry& geometry,
                       const DeadReckoningConfig& config);
 
-/// The same step as wheels without a gyro would have to tell it: the filter's way to use a mode of
-/// the paper.
+/// The increment with the wheels' rotations that give the heading change of that mode.
 OdometryIncrement by_wheels_alone(const OdometryIncrement& step, const DriveGeometry& geometry,
                                   const DeadReckoningConfig& config);
 
-/// Adds up steps from a known start. Nothing corrects it.
+/// Integrates increments from a known pose, without corrections.
 class DeadReckoning {
  public:
   DeadReckoning(const DriveGeometry& geometry, const DeadReckoningConfig& config,

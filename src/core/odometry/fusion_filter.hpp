@@ -4,7 +4,6 @@
 #include <array>
 #include <cstdint>
 
-#include <Eigen/Cholesky>
 #include <Eigen/Core>
 
 #include "core/odometry/jitter_meter.hpp"
@@ -16,6 +15,8 @@
 #include "core/odometry/usual_motion.hpp"
 
 namespace cornerd::core {
+
+class Cholesky3;
 
 /// An extended Kalman filter over the pose of `base` in `map` and OdometryParameters. Wheels move
 /// it, the gyro corrects the turn of each step, the lidar's fixes correct all of it. The pose is
@@ -130,7 +131,7 @@ class FusionFilter {
   Eigen::Matrix<double, 3, kSize> seen_with_state() const;
   void predict_hole(const OdometryIncrement& step);
   /// Doubts anew what the fixes pull to one side. `root`: of the surprise's covariance.
-  void watch_pulls(const Eigen::LLT<Eigen::Matrix3d>& root, const Eigen::Vector3d& surprise);
+  void watch_pulls(const Cholesky3& root, const Eigen::Vector3d& surprise);
   void keep_in_bounds();
 
   DriveGeometry geometry_;

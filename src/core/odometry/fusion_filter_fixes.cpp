@@ -5,8 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include <Eigen/Cholesky>
-
+#include "core/geometry/linear_solve.hpp"
 #include "core/geometry/squared.hpp"
 #include "core/odometry/corrected_increment.hpp"
 #include "core/odometry/fusion_filter.hpp"
@@ -105,8 +104,8 @@ Eigen::Vector3d FusionFilter::surprise_of(const Pose2& T_map_base) const {
 
 bool FusionFilter::explains(const Pose2& T_map_base, const Covariance3& covariance) const {
   const Eigen::Vector3d surprise = surprise_of(T_map_base);
-  const Eigen::LLT<Eigen::Matrix3d> root(pose_covariance() + covariance);
-  return root.info() == Eigen::Success && surprise.dot(root.solve(surprise)) < kStranger;
+  const Cholesky3 root(pose_covariance() + covariance);
+  return root.succeeded() && surprise.dot(root.solve(surprise)) < kStranger;
 }
 
 bool FusionFilter::correct(const Pose2& T_map_base, const Covariance3& covariance) {
@@ -114,20 +113,19 @@ bool FusionFilter::correct(const Pose2& T_map_base, const Covariance3& covarianc
   learning_.fixed(T_map_base.theta_rad, covariance(2, 2), learned(),
                   covariance_.block<5, 5>(kBias, kBias));
   const Eigen::Vector3d surprise = surprise_of(T_map_base);
-  const Eigen::LLT<Eigen::Matrix3d> root(pose_covariance() + covariance);
+  const Cholesky3 root(pose_covariance() + covariance);
   watch_pulls(root, surprise);
-  const Eigen::Matrix<double, kSize, 3> with_pose = seen_with_state().transpose();
-  const Eigen::Matrix<double, kSize, 3> gain = root.solve(with_pose.transpose()).transpose();
+  const Eigen::Matrix<double, 3, kSize> with_state = seen_with_state();
+  const Eigen::Matrix<double, kSize, 3> gain = root.solve_columns(with_state).transpose();
   state_ += gain * surprise;
-  covariance_ -= gain * with_pose.transpose();
+  covariance_ -= gain * with_state;
   keep_in_bounds();
   since_fix_ = {.start = T_map_base.translation()};
   return true;
 }
 
-void FusionFilter::watch_pulls(const Eigen::LLT<Eigen::Matrix3d>& root,
-                               const Eigen::Vector3d& surprise) {
-  const Eigen::Vector3d whitened = root.matrixL().solve(surprise);
+void FusionFilter::watch_pulls(const Cholesky3& root, const Eigen::Vector3d& surprise) {
+  const Eigen::Vector3d whitened = root.whiten(surprise);
   const std::array doubted_anew = {std::pair(kBias, kDoubtedAnew * noise_.gyro_bias_rad_s),
                                    std::pair(kLeft, kDoubtedAnew * noise_.wheel_scale),
                                    std::pair(kRight, kDoubtedAnew * noise_.wheel_scale),
@@ -136,7 +134,7 @@ void FusionFilter::watch_pulls(const Eigen::LLT<Eigen::Matrix3d>& root,
                                    std::pair(kDelay, kDelayDoubtedAnew * noise_.delay_s)};
   const Eigen::Matrix<double, 3, kSize> with_state = seen_with_state();
   for (const auto& [index, sigma] : doubted_anew) {
-    const Eigen::Vector3d seen = root.matrixL().solve(with_state.col(index));
+    const Eigen::Vector3d seen = root.whiten(with_state.col(index));
     if (!(seen.squaredNorm() > 0)) continue;
     pulls_[index].add(seen.normalized().dot(whitened));
     if (!pulls_[index].is_one_sided()) continue;

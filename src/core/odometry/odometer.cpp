@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/odometry/dead_reckoning.hpp"
-
 namespace cornerd::core {
 namespace {
 
@@ -16,17 +14,6 @@ constexpr double kLeastRate_rad_s = 0.1;
 
 /// The delay that is learned wavers by less.
 constexpr TimeNs kMostWavering_ns = 20'000'000;
-
-/// The paper's modes learn nothing: for them all is as it was configured.
-OdometryConfig as_configured(OdometryConfig config) {
-  if (config.mode != HeadingSource::kFilter) {
-    OdometryNoise& noise = config.noise;
-    noise.wheel_scale = noise.track_scale = noise.gyro_scale = noise.gyro_bias_rad_s = 0;
-    noise.scale_per_sqrt_s = noise.bias_rad_s_per_sqrt_s = 0;
-    noise.delay_s = noise.delay_s_per_sqrt_s = 0;
-  }
-  return config;
-}
 
 /// What of the step is left after what was guessed of it: all counts count once.
 OdometryIncrement less_guess(const OdometryIncrement& step, OdometryIncrement& guessed) {
@@ -45,7 +32,7 @@ OdometryIncrement less_guess(const OdometryIncrement& step, OdometryIncrement& g
 }  // namespace
 
 Odometer::Odometer(const OdometryConfig& config)
-    : config_(config), gate_(config), filter_(as_configured(config)), ahead_(filter_) {
+    : config_(config), gate_(config), filter_(config), ahead_(filter_) {
   filter_.believe_gyro(!config.conservative);
 }
 
@@ -56,9 +43,6 @@ bool Odometer::add(const OdometryReading& reading, std::optional<TimeNs> now_ns)
   if (step->to_ns < step->from_ns) {
     begin_anew(*step);
     return false;
-  }
-  if (config_.mode != HeadingSource::kFilter && !step->is_gap) {
-    *step = by_wheels_alone(*step, config_.geometry, {config_.mode, config_.paper});
   }
   if (step->is_gap) {
     path_.clear();

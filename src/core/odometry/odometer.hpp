@@ -16,6 +16,7 @@
 #include "core/odometry/noise_meter.hpp"
 #include "core/odometry/odometry_config.hpp"
 #include "core/odometry/odometry_reading.hpp"
+#include "core/odometry/odometry_summary.hpp"
 #include "core/odometry/reading_gate.hpp"
 #include "core/odometry/turn_slips.hpp"
 #include "core/scan.hpp"
@@ -26,19 +27,6 @@ struct PredictedPose {
   TimeNs t_ns = 0;
   Pose2 T_map_base;
   Covariance3 covariance = Covariance3::Zero();
-};
-
-/// For STATUS: state of the readings and estimated parameters.
-struct OdometrySummary {
-  bool enabled = false;
-  bool present = false;  ///< readings arrive
-  bool healthy = false;  ///< readings are consistent with the lidar and each other
-  OdometryParameters parameters;
-  OdometryParameters sigma;  ///< of `parameters`
-  OdometryCounters counters;
-  std::uint64_t slips = 0;
-  std::uint64_t fixes = 0;           ///< used by the filter
-  std::uint64_t rejected_fixes = 0;  ///< inconsistent with the wheels
 };
 
 /// Takes readings at any rate and of any quality and predicts poses. The filter stands at the time
@@ -107,13 +95,9 @@ class Odometer {
   Covariance3 learned_doubt(const Pose2& T_map_base, const Covariance3& covariance);
   std::optional<PredictedPose> prediction_of(const FusionFilter& filter, TimeNs t_ns,
                                              TimeNs guessed_ns) const;
-  /// Of what was driven since the last fix: what a mode that learns nothing may be off by, as it
-  /// was configured; and slips that no gyro shows.
-  Covariance3 doubt_of_mode(const FusionFilter& filter) const;
+  /// Of what was driven since the last fix: slips that no gyro shows.
   Covariance3 doubt_of_slips(const FusionFilter& filter) const;
-  bool doubts_slips() const {
-    return config_.conservative && config_.mode == HeadingSource::kFilter && !last_.has_gyro;
-  }
+  bool doubts_slips() const { return config_.conservative && !last_.has_gyro; }
   void watch_for_slips(const Pose2& T_map_base, const Covariance3& covariance);
   /// What a robot makes of a time, its variance in s^2, of which no reading tells.
   static Covariance3 doubt_of_change(double unread_s2);

@@ -53,21 +53,6 @@ Covariance3 Odometer::doubt_of_guess(TimeNs guessed_ns) {
   return doubt_of_change(guessed_s * guessed_s);
 }
 
-Covariance3 Odometer::doubt_of_mode(const FusionFilter& filter) const {
-  if (config_.mode == HeadingSource::kFilter) return Covariance3::Zero();
-  const OdometryNoise& noise = config_.noise;
-  const FusionFilter::Stretch& since = filter.since_fix();
-  const double apart_m = noise.wheel_scale * since.rolled_m;
-  const double by_wheels_rad2 = 2 * squared(apart_m / config_.geometry.track_m) +
-                                squared(noise.track_scale * since.rotated_rad);
-  const double by_gyro_rad2 = squared(noise.gyro_scale * since.rotated_rad) +
-                              squared(noise.gyro_bias_rad_s * since.duration_s);
-  double rotation_variance = (by_wheels_rad2 + by_gyro_rad2) / 4;
-  if (config_.mode == HeadingSource::kEncoder) rotation_variance = by_wheels_rad2;
-  if (config_.mode == HeadingSource::kGyro) rotation_variance = by_gyro_rad2;
-  return doubt_of_turn(filter, rotation_variance, squared(apart_m));
-}
-
 Covariance3 Odometer::doubt_of_slips(const FusionFilter& filter) const {
   if (!doubts_slips()) return Covariance3::Zero();
   const double rotation_variance = turn_slips_.rad2_per_m() * filter.since_fix().rolled_m;
@@ -97,7 +82,7 @@ std::optional<PredictedPose> Odometer::prediction_of(const FusionFilter& filter,
   const double more_s2 = delay_doubt_s2(filter.learned().delay_s);
   Covariance3 covariance = filter.pose_covariance(more_s2);
   covariance += doubt_of_change(more_s2) + doubt_of_guess(guessed_ns);
-  covariance += doubt_of_mode(filter) + doubt_of_slips(filter);
+  covariance += doubt_of_slips(filter);
   const double place_m2 = std::max(covariance(0, 0), covariance(1, 1));
   if (!(place_m2 < kMostSigma_m * kMostSigma_m) ||
       !(covariance(2, 2) < kMostSigma_rad * kMostSigma_rad)) {
@@ -109,7 +94,6 @@ std::optional<PredictedPose> Odometer::prediction_of(const FusionFilter& filter,
 void Odometer::correct(const Pose2& T_map_base, const Covariance3& covariance) {
   if (!config_.enabled || !present_) return;
   ahead_is_stale_ = true;
-  filter_.doubt_pose(doubt_of_mode(filter_));
   watch_for_slips(T_map_base, covariance);
   // What was guessed wrong the readings that are to come put right, not the fix.
   const Covariance3 of_guess = covariance + doubt_of_guess(guessed_ns());
@@ -148,9 +132,7 @@ bool Odometer::may_miss_motion() const {
          delay_doubt_s2(filter_.learned().delay_s) > kUnknownDelay_s * kUnknownDelay_s;
 }
 
-bool Odometer::learns_delay() const {
-  return config_.mode == HeadingSource::kFilter && config_.noise.delay_s > 0;
-}
+bool Odometer::learns_delay() const { return config_.noise.delay_s > 0; }
 
 void Odometer::learn_anew(double delay_s) {
   OdometryParameters start = config_.initial;

@@ -46,17 +46,6 @@ struct OdometryNoise {
   double delay_s_per_sqrt_s = 2e-5;
 };
 
-/// Source of heading changes. The first four are modes of Bertocco et al. (2019).
-enum class HeadingSource : std::uint8_t { kEncoder, kGyro, kMean, kWeighted, kFilter };
-
-/// Factors of the paper's modes.
-struct PaperFactors {
-  double encoder_factor = 1;  ///< c_enco
-  double gyro_factor = 1;     ///< c_gyro
-  /// tr: smaller changes of a wheel's angle or of the heading are taken as zero; 0.01 in the paper.
-  double dead_band_rad = 0;
-};
-
 /// Parameters of the robot. A scale is a relative error: a wheel's true travel is (1 + scale) times
 /// its counts' travel, the true track (1 + scale) times the configured one, and a gyro reads (1 +
 /// scale) times the true rate plus the bias. A reading was true `delay_s` before its time stamp, on
@@ -75,10 +64,7 @@ struct OdometryConfig {
   DriveGeometry geometry;
   OdometryLimits limits;
   OdometryNoise noise;
-  OdometryParameters initial;  ///< initial estimates
-  HeadingSource mode =
-      HeadingSource::kFilter;  ///< the paper's modes are for comparison and estimate nothing
-  PaperFactors paper;
+  OdometryParameters initial;       ///< initial estimates
   double max_extrapolation_s = 10;  ///< longest time of dead reckoning without the lidar
   /// Reject predictions after repeated wrong ones, hold back sudden counts, and add uncertainty to
   /// extrapolation. A survey, which adjusts the drive as a whole, switches this off.

@@ -7,20 +7,9 @@
 #include "core/odometry/odometry_config.hpp"
 #include "core/odometry/odometry_increment.hpp"
 #include "core/odometry/odometry_reading.hpp"
+#include "core/odometry/odometry_summary.hpp"
 
 namespace cornerd::core {
-
-/// Rejected readings by cause.
-struct OdometryCounters {
-  std::uint64_t readings = 0;
-  std::uint64_t past = 0;           ///< not after the last reading, long before now, or held back
-  std::uint64_t future = 0;         ///< well after now, or ahead of the readings that followed
-  std::uint64_t jumps = 0;          ///< more counts than a wheel can turn
-  std::uint64_t invalid_rates = 0;  ///< rates that are none
-  std::uint64_t stuck = 0;          ///< rates that stay the same to the bit while the wheels turn
-  std::uint64_t gaps = 0;           ///< times of which nothing is known
-  std::uint64_t restarts = 0;       ///< counts or times that went on somewhere else
-};
 
 /// Validates readings and makes odometry increments of them. A bad reading is dropped alone. Counts
 /// or times that stay elsewhere mean a restarted controller: a new start after an increment that is

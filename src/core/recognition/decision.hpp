@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/estimate/constant_velocity_model.hpp"
-#include "core/localizer.hpp"
+#include "core/pose_estimate.hpp"
 #include "core/recognition/verification.hpp"
 
 namespace cornerd::core {

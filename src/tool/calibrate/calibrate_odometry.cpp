@@ -167,7 +167,6 @@ void calibrate_odometry(const CalibrateOdometryOptions& options) {
 
   TextTable table;
   table.add_row({"heading from", "factors", "mean error, m", "at the end, m"});
-  const double dead_band_rad = config.odometry.core.paper.dead_band_rad;
   bool at_edge = false;
   const std::pair<HeadingSource, const char*> modes[] = {{HeadingSource::kEncoder, "encoder"},
                                                          {HeadingSource::kGyro, "gyro"},
@@ -175,7 +174,7 @@ void calibrate_odometry(const CalibrateOdometryOptions& options) {
                                                          {HeadingSource::kWeighted, "weighted"}};
   for (const auto& [source, name] : modes) {
     if (source != HeadingSource::kEncoder && !fit.has_gyro) continue;
-    core::DeadReckoningConfig reckoning{source, {1, 1, dead_band_rad}};
+    core::DeadReckoningConfig reckoning{source, {}};
     if (source != HeadingSource::kWeighted) {
       table.add_row(row(name, "none", reckon(steps, drive.places, geometry, reckoning)));
     }

@@ -4,10 +4,9 @@
 #include <filesystem>
 #include <memory>
 #include <string>
-#include <string_view>
-#include <utility>
 #include <vector>
 
+#include "baseline/wall_finders.hpp"
 #include "tool/command_line/command.hpp"
 #include "tool/command_line/failure.hpp"
 #include "tool/command_line/options.hpp"
@@ -45,19 +44,6 @@ void save_plot(const DetectOptions& options, const core::Scan& scan,
   picture.flush();
 }
 
-constexpr std::pair<std::string_view, core::Method> kMethods[] = {
-    {"altbd", core::Method::kAltbd},
-    {"altbd-printed", core::Method::kPrintedAltbd},
-    {"abd-iepf", core::Method::kAbdIepf},
-    {"lt", core::Method::kLineTracking}};
-
-core::Method parse_method(const std::string& name) {
-  for (const auto& [known, method] : kMethods) {
-    if (name == known) return method;
-  }
-  return core::Method::kAltbd;
-}
-
 void detect(DetectOptions& options) {
   const message::ClassSet classes = parse_classes(options.classes);
   if (classes.contains(message::MessageClass::kPose)) {
@@ -67,7 +53,7 @@ void detect(DetectOptions& options) {
   files.read.push_back(options.settings.config_file());
   guard_files(files);
   settings::Config config = options.settings.resolve(/*needs_map=*/false);
-  config.detector.method = parse_method(options.method);
+  config.detector.finder = baseline::wall_finder(options.method);
 
   Output output;
   MessagePrinter printer(output, classes, nullptr);

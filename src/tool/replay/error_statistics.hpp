@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/localizer.hpp"
+#include "core/pose_estimate.hpp"
 
 namespace cornerd::tool {
 

@@ -3,8 +3,8 @@
 
 #include <optional>
 
-#include "core/localizer.hpp"
 #include "core/scan.hpp"
+#include "core/scan_result.hpp"
 #include "drivers/lidar_driver.hpp"
 #include "message/line_writer.hpp"
 #include "message/odometry_input_monitor.hpp"

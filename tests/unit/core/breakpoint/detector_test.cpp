@@ -104,60 +104,6 @@ TEST(Detector, CornerCovariance_IsConsistent) {
   EXPECT_LT(nees / count, 2.8);
 }
 
-std::size_t count_walls(Method method, const Scan& scan) {
-  DetectorConfig config;
-  config.method = method;
-  Detector detector(config, {});
-  Detection detection;
-  detector.detect(testing::polar(scan), detection);
-  EXPECT_EQ(detection.overflowed, 0U);
-  return detection.segments.size();
-}
-
-TEST(Detector, EachMethod_UsesItsOwnLimits) {
-  // A step below the baselines' 30 mm but above the noise that ALTBD models.
-  FloorPlan plan = testing::rectangular_room(3, 2);
-  plan.walls.push_back({{1.5, 0.0125}, {3, 0.0125}, 0.025});
-  testing::ScanSource source(26);
-  testing::ScanOptions exact;
-  exact.with_noise = false;
-  const Scan stepped = source.take(WallMap(plan), {1.2, 1, 0}, exact);
-  EXPECT_EQ(count_walls(Method::kAltbd, stepped), 5U);
-  EXPECT_EQ(count_walls(Method::kAbdIepf, stepped), 4U);
-  EXPECT_EQ(count_walls(Method::kLineTracking, stepped), 4U);
-
-  // A gap in the upper wall's returns as wide as a door: wider than ABD's lambda and ALTBD's gap;
-  // LT bridges any.
-  const Scan whole = source.take(*testing::make_map(testing::rectangular_room(3, 2)), {1.2, 1, 0});
-  Scan gap;
-  for (const Sample& sample : whole.samples()) {
-    if (std::abs(sample.bearing_rad - kPi / 2) > radians(11)) gap.add(sample);
-  }
-  EXPECT_EQ(count_walls(Method::kAltbd, gap), 5U);
-  EXPECT_EQ(count_walls(Method::kAbdIepf, gap), 5U);
-  EXPECT_EQ(count_walls(Method::kLineTracking, gap), 4U);
-}
-
-TEST(Detector, LShapedRoom_EachMethodFindsInnerCorners) {
-  const auto map = testing::make_map(testing::l_shaped_room());
-  for (const Method method : {Method::kAltbd, Method::kAbdIepf, Method::kLineTracking}) {
-    DetectorConfig config;
-    config.method = method;
-    Detector detector(config, {});
-    Detection detection;
-    testing::ScanSource source(27);
-    int found = 0;
-    for (int k = 0; k < 20; ++k) {
-      const Pose2 T_map_lidar = source.place_in(0.5, 2.2, 0.4, 1.5);
-      detector.detect(testing::polar(source.take(*map, T_map_lidar)), detection);
-      for (const Vec2& corner : {Vec2(0, 0), Vec2(4, 0), Vec2(4, 1.8), Vec2(2.5, 3), Vec2(0, 3)}) {
-        found += nearest(detection, T_map_lidar, corner) != nullptr ? 1 : 0;
-      }
-    }
-    EXPECT_GE(found, 90) << static_cast<int>(method);
-  }
-}
-
 TEST(Detector, ScanRotatedAcrossSeam_SameCorners) {
   const auto map = testing::make_map(testing::rectangular_room(3, 2));
   for (int k = 0; k < 36; ++k) {

@@ -67,18 +67,6 @@ TEST(OdometerDoubt, GyroSticks_NoPredictionInRotations) {
   EXPECT_GT(carried.predictions, 60) << "the wheels alone go on";
 }
 
-TEST(OdometerDoubt, ModeWithoutEstimation_CovarianceContainsPrior) {
-  for (const HeadingSource mode : {HeadingSource::kEncoder, HeadingSource::kGyro,
-                                   HeadingSource::kMean, HeadingSource::kWeighted}) {
-    OdometryConfig config = switched_on();
-    config.mode = mode;
-    OdometerDrive ride(config);
-    const Carried carried = carried_on(ride, 2, 7, 60);
-    EXPECT_GT(carried.predictions, 200) << static_cast<int>(mode);
-    EXPECT_LT(carried.mean_error_squared, 4) << static_cast<int>(mode);
-  }
-}
-
 TEST(OdometerDoubt, WheelSlipWithoutGyro_CovarianceIsConsistent) {
   OdometerDrive ride(switched_on());
   std::mt19937_64 random(5);

@@ -67,10 +67,9 @@ TEST_F(RplidarDriverTest, WrongBaud_IsReportedWithTheDefaultBaud) {
   make("auto", 57600);
   run(seconds(5));
   EXPECT_THAT(faults, Contains(LidarFault::kWrongBaud));
-  EXPECT_EQ(
-      hints[LidarFault::kWrongBaud],
-      "/dev/lidar: no answer at the configured speed, but one at 115200 baud; correct the baud "
-      "in the config");
+  EXPECT_EQ(hints[LidarFault::kWrongBaud],
+            "/dev/lidar: no answer at the configured speed, but one at 115200 baud; set "
+            "advanced.lidar.baud");
 }
 
 TEST_F(RplidarDriverTest, NoiseInsteadOfAnswers_IsWrongBaud) {

@@ -72,7 +72,8 @@ TEST_F(RplidarDriverTest, UnknownMode_IsAFaultThatListsTheModes) {
   EXPECT_EQ(last.state, LidarState::kFaulty);
   EXPECT_EQ(last.fault, LidarFault::kNoSuchMode);
   EXPECT_EQ(last.detail.view(),
-            "/dev/lidar: no scan mode \"Sensitivity\"; set lidar.mode to one of Standard, Express, "
+            "/dev/lidar: no scan mode \"Sensitivity\"; set advanced.lidar.mode to one of Standard, "
+            "Express, "
             "Boost");
 }
 

@@ -1,21 +1,21 @@
 // SPDX-License-Identifier: MIT
-#include "core/breakpoint/printed_altbd.hpp"
+#include "baseline/printed_altbd.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "../fixtures.hpp"
+#include "../core/fixtures.hpp"
 
-namespace cornerd::core {
+namespace cornerd::baseline {
 namespace {
 
+using namespace core;
+
 SegmentTracks printed_walls(const PolarScan& points, const PrintedAltbdConfig& reading = {}) {
-  DetectorConfig config;
-  config.printed_altbd = reading;
   SegmentTracks tracks;
   tracks.reserve(kMaxSegmentsPerScan);
-  PrintedAltbd(config, {}).track(points, tracks);
+  PrintedAltbd({}, {}, reading).track(points, tracks);
   return tracks;
 }
 
@@ -73,4 +73,4 @@ TEST(PrintedAltbd, TooFewPoints_NoWall) {
 }
 
 }  // namespace
-}  // namespace cornerd::core
+}  // namespace cornerd::baseline

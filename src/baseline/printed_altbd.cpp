@@ -1,21 +1,21 @@
 // SPDX-License-Identifier: MIT
-#include "core/breakpoint/printed_altbd.hpp"
+#include "baseline/printed_altbd.hpp"
 
 #include <cmath>
 
-namespace cornerd::core {
+namespace cornerd::baseline {
 namespace {
 
 constexpr std::size_t kThree = 3;
 
 /// Line through three neighbouring samples, all of one weight.
-Line line_through(const PolarScan& scan, std::size_t first) {
-  LineFit fit({scan[first].x_m, scan[first].y_m});
+core::Line line_through(const core::PolarScan& scan, std::size_t first) {
+  core::LineFit fit({scan[first].x_m, scan[first].y_m});
   for (std::size_t i = first; i < first + kThree; ++i) fit.add(scan[i].x_m, scan[i].y_m, 1);
   return fit.line();
 }
 
-double relative_error(const Line& line, const PolarPoint& point) {
+double relative_error(const core::Line& line, const core::PolarPoint& point) {
   const double j_m = line.normal.dot(point.position()) - line.offset_m;
   return std::abs(j_m) / point.range_m;
 }
@@ -33,11 +33,12 @@ struct PrintedAltbd::Miss {
   double distance_m = 0;  ///< from the predicted point
 };
 
-PrintedAltbd::PrintedAltbd(const DetectorConfig& config, const SensorNoise& noise)
-    : config_(config), noise_(noise) {}
+PrintedAltbd::PrintedAltbd(const core::DetectorConfig& detector, const core::SensorNoise& noise,
+                           const PrintedAltbdConfig& config)
+    : detector_(detector), config_(config), noise_(noise) {}
 
-void PrintedAltbd::start(const PolarScan& scan, std::size_t index) {
-  current_ = SegmentTrack::starting_at(scan, index);
+void PrintedAltbd::start(const core::PolarScan& scan, std::size_t index) {
+  current_ = core::SegmentTrack::starting_at(scan, index);
   for (std::size_t i = index; i < index + kThree; ++i) current_.add(scan, i, noise_);
   predictor_ = line_through(scan, index);
   error_sum_ = 0;
@@ -48,25 +49,25 @@ void PrintedAltbd::start(const PolarScan& scan, std::size_t index) {
 }
 
 double PrintedAltbd::mean_error() const {
-  if (config_.printed_altbd.mean == ErrorMean::kAll) return error_sum_ / current_.support;
+  if (config_.mean == ErrorMean::kAll) return error_sum_ / current_.support;
   return (errors_[0] + errors_[1] + errors_[2]) / kThree;
 }
 
-PrintedAltbd::Miss PrintedAltbd::measure(const PolarScan& scan, std::size_t index) const {
-  const PolarPoint& point = scan[index];
-  const PolarPoint& before = scan[current_.last];
-  const Vec2 ray = point.ray();
+PrintedAltbd::Miss PrintedAltbd::measure(const core::PolarScan& scan, std::size_t index) const {
+  const core::PolarPoint& point = scan[index];
+  const core::PolarPoint& before = scan[current_.last];
+  const core::Vec2 ray = point.ray();
   const double approach = predictor_.normal.dot(ray);
   Miss miss;
   if (approach * predictor_.offset_m <= 0) return miss;
   miss.meets = true;
-  const Vec2 predicted = predictor_.offset_m / approach * ray;
-  const Vec2 offset = point.position() - predicted;
+  const core::Vec2 predicted = predictor_.offset_m / approach * ray;
+  const core::Vec2 offset = point.position() - predicted;
   miss.k_m = predictor_.direction().dot(offset);
   miss.j_m = predictor_.normal.dot(offset);
   miss.q_max_m = std::abs(predictor_.direction().dot(predicted - before.position()));
-  const double h_max = mean_error() + config_.sigma_offset;
-  miss.h_max = config_.printed_altbd.minor == MinorAxis::kMetres ? h_max : h_max * point.range_m;
+  const double h_max = mean_error() + detector_.sigma_offset;
+  miss.h_max = config_.minor == MinorAxis::kMetres ? h_max : h_max * point.range_m;
   miss.error = std::abs(miss.j_m) / point.range_m;
   miss.distance_m = offset.norm();
   return miss;
@@ -77,25 +78,25 @@ bool PrintedAltbd::inside(const Miss& miss) const {
   if (!miss.meets || miss.q_max_m <= 0) return false;
   const double k2 = miss.k_m * miss.k_m;
   const double j2 = miss.j_m * miss.j_m;
-  if (config_.printed_altbd.axes == EllipseAxes::kPrinted) {
+  if (config_.axes == EllipseAxes::kPrinted) {
     return k2 / miss.q_max_m + j2 / miss.h_max <= 1;
   }
   return k2 / (miss.q_max_m * miss.q_max_m) + j2 / (miss.h_max * miss.h_max) <= 1;
 }
 
 /// Steps 16-18, and the line that the reading refits.
-void PrintedAltbd::extend(const PolarScan& scan, std::size_t index, double error) {
+void PrintedAltbd::extend(const core::PolarScan& scan, std::size_t index, double error) {
   errors_[current_.support % kThree] = error;
   error_sum_ += error;
   current_.add(scan, index, noise_);
-  if (config_.printed_altbd.line == TrackedLine::kAll) {
+  if (config_.line == TrackedLine::kAll) {
     predictor_ = current_.fit.line();
-  } else if (config_.printed_altbd.line == TrackedLine::kLastThree) {
+  } else if (config_.line == TrackedLine::kLastThree) {
     predictor_ = line_through(scan, index + 1 - kThree);
   }
 }
 
-std::size_t PrintedAltbd::track(const PolarScan& scan, SegmentTracks& tracks) {
+std::size_t PrintedAltbd::track(const core::PolarScan& scan, core::SegmentTracks& tracks) {
   tracks.clear();
   std::size_t dropped = 0;
   std::size_t index = 0;
@@ -108,8 +109,8 @@ std::size_t PrintedAltbd::track(const PolarScan& scan, SegmentTracks& tracks) {
       if (!inside(miss)) break;
       extend(scan, next, miss.error);
     }
-    const bool corner = miss.meets && miss.distance_m <= config_.corner_tolerance_m;
-    if (current_.support >= config_.min_support) {
+    const bool corner = miss.meets && miss.distance_m <= detector_.corner_tolerance_m;
+    if (current_.support >= detector_.min_support) {
       current_.line = current_.fit.line();
       if (!keep_wall(current_, tracks)) ++dropped;
       index = corner ? next : next - 1;
@@ -121,4 +122,4 @@ std::size_t PrintedAltbd::track(const PolarScan& scan, SegmentTracks& tracks) {
   return dropped;
 }
 
-}  // namespace cornerd::core
+}  // namespace cornerd::baseline

@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: MIT
-#include "core/breakpoint/line_tracking.hpp"
+#include "baseline/line_tracking.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "../fixtures.hpp"
+#include "../core/fixtures.hpp"
 
-namespace cornerd::core {
+namespace cornerd::baseline {
 namespace {
+
+using namespace core;
 
 SegmentTracks lines_of(const PolarScan& points) {
   SegmentTracks tracks;
@@ -95,29 +97,5 @@ TEST(LineTracking, StepAboveLimit_EndsWall) {
   EXPECT_EQ(tracks[1].first, 50U);
 }
 
-TEST(LineTracking, FewerThanFivePoints_NoWall) {
-  Scan scan;
-  EXPECT_TRUE(lines_of(testing::polar(scan)).empty());
-  for (std::uint32_t i = 1; i <= DetectorConfig().min_support; ++i) {
-    Sample sample;
-    sample.bearing_rad = 0.01F * static_cast<float>(i);
-    sample.range_m = 1;
-    scan.add(sample);
-    EXPECT_EQ(lines_of(testing::polar(scan)).size(), i < DetectorConfig().min_support ? 0U : 1U);
-  }
-}
-
-TEST(LineTracking, TooManyWalls_AreDroppedAndCounted) {
-  const auto map = testing::make_map(testing::rectangular_room(3, 2));
-  testing::ScanSource source(34);
-  const PolarScan points = testing::polar(source.take(*map, {1.5, 1, 0.3}));
-  const std::size_t all = lines_of(points).size();
-  SegmentTracks tracks;
-  tracks.reserve(2);
-  const std::size_t capacity = tracks.capacity();
-  EXPECT_EQ(LineTracking({}, {}).track(points, tracks), all - capacity);
-  EXPECT_EQ(tracks.size(), capacity);
-}
-
 }  // namespace
-}  // namespace cornerd::core
+}  // namespace cornerd::baseline

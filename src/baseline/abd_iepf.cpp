@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "core/breakpoint/abd_iepf.hpp"
+#include "baseline/abd_iepf.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-namespace cornerd::core {
+namespace cornerd::baseline {
 namespace {
 
 /// Round a closed room a segment's ends can be one place. Below an A1's resolution a chord has no
@@ -20,7 +20,7 @@ struct Abd {
         cos_lambda(std::cos(config.lambda_rad)),
         sigma3(3 * config.sigma_r) {}
 
-  double limit_m(const PolarPoint& before, const PolarPoint& after) const {
+  double limit_m(const core::PolarPoint& before, const core::PolarPoint& after) const {
     if (after.bearing_rad - before.bearing_rad >= lambda_rad) return 0;
     const double sine = before.ray_x * after.ray_y - before.ray_y * after.ray_x;
     const double cosine = before.ray_x * after.ray_x + before.ray_y * after.ray_y;
@@ -31,7 +31,7 @@ struct Abd {
   }
 
   /// Eq. 1.
-  bool are_apart(const PolarPoint& before, const PolarPoint& after) const {
+  bool are_apart(const core::PolarPoint& before, const core::PolarPoint& after) const {
     const double limit = limit_m(before, after);
     return (after.position() - before.position()).squaredNorm() > limit * limit;
   }
@@ -49,16 +49,16 @@ struct Farthest {
 };
 
 /// Of the samples strictly between the ends.
-Farthest farthest_from_chord(const PolarScan& scan, std::size_t first, std::size_t last) {
-  const Vec2 begin = scan[first].position();
-  const Vec2 chord = scan[last].position() - begin;
+Farthest farthest_from_chord(const core::PolarScan& scan, std::size_t first, std::size_t last) {
+  const core::Vec2 begin = scan[first].position();
+  const core::Vec2 chord = scan[last].position() - begin;
   const double length_m = chord.norm();
   const bool closed = length_m <= kMinChord_m;
-  const Vec2 direction = closed ? Vec2::Zero() : Vec2(chord / length_m);
+  const core::Vec2 direction = closed ? core::Vec2::Zero() : core::Vec2(chord / length_m);
   Farthest farthest;
   for (std::size_t i = first + 1; i < last; ++i) {
-    const Vec2 offset = scan[i].position() - begin;
-    const double height_m = cross(direction, offset);
+    const core::Vec2 offset = scan[i].position() - begin;
+    const double height_m = core::cross(direction, offset);
     const double height_m2 = closed ? offset.squaredNorm() : height_m * height_m;
     if (height_m2 > farthest.height_m2) farthest = {i, height_m2};
   }
@@ -67,25 +67,27 @@ Farthest farthest_from_chord(const PolarScan& scan, std::size_t first, std::size
 
 }  // namespace
 
-double abd_threshold_m(const AbdIepfConfig& config, const PolarPoint& before,
-                       const PolarPoint& after) {
+double abd_threshold_m(const AbdIepfConfig& config, const core::PolarPoint& before,
+                       const core::PolarPoint& after) {
   return Abd(config).limit_m(before, after);
 }
 
-AbdIepf::AbdIepf(const DetectorConfig& config, const SensorNoise& noise)
-    : noise_(noise), config_(config.abd_iepf), min_support_(config.min_support) {
-  ends_.reserve(kMaxSamplesPerScan);  // they are different samples: no turn has more of them
+AbdIepf::AbdIepf(const core::DetectorConfig& detector, const core::SensorNoise& noise,
+                 const AbdIepfConfig& config)
+    : noise_(noise), config_(config), min_support_(detector.min_support) {
+  ends_.reserve(core::kMaxSamplesPerScan);  // they are different samples: no turn has more of them
 }
 
-SegmentTrack AbdIepf::fit(const PolarScan& scan, std::size_t first, std::size_t last) const {
-  SegmentTrack piece = SegmentTrack::starting_at(scan, first);
+core::SegmentTrack AbdIepf::fit(const core::PolarScan& scan, std::size_t first,
+                                std::size_t last) const {
+  core::SegmentTrack piece = core::SegmentTrack::starting_at(scan, first);
   for (std::size_t i = first; i <= last; ++i) piece.add(scan, i, noise_);
   piece.line = piece.fit.line();
   return piece;
 }
 
-std::size_t AbdIepf::split(const PolarScan& scan, std::size_t first, std::size_t last,
-                           SegmentTracks& tracks) {
+std::size_t AbdIepf::split(const core::PolarScan& scan, std::size_t first, std::size_t last,
+                           core::SegmentTracks& tracks) {
   const double limit_m2 = config_.split_limit_m * config_.split_limit_m;
   std::size_t dropped = 0;
   std::size_t begin = first;
@@ -105,7 +107,7 @@ std::size_t AbdIepf::split(const PolarScan& scan, std::size_t first, std::size_t
   return dropped;
 }
 
-std::size_t AbdIepf::track(const PolarScan& scan, SegmentTracks& tracks) {
+std::size_t AbdIepf::track(const core::PolarScan& scan, core::SegmentTracks& tracks) {
   tracks.clear();
   const Abd abd(config_);
   std::size_t dropped = 0;
@@ -119,4 +121,4 @@ std::size_t AbdIepf::track(const PolarScan& scan, SegmentTracks& tracks) {
   return dropped;
 }
 
-}  // namespace cornerd::core
+}  // namespace cornerd::baseline

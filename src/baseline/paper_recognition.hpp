@@ -11,7 +11,7 @@
 #include "core/recognition/hypothesis.hpp"
 #include "core/recognition/pose_table.hpp"
 
-namespace cornerd::core {
+namespace cornerd::baseline {
 
 /// 1. The three nearest corners are looked for in the sub-catalogues, by their types and distances.
 /// 2. The remaining corners and terminals, then 3. the points that form a line, choose among what
@@ -19,24 +19,26 @@ namespace cornerd::core {
 /// in the .cpp. Takes no memory after construction; asks every landmark of the map.
 class PaperRecognition {
  public:
-  PaperRecognition(const WallMap& map, const Catalog& catalog);
+  PaperRecognition(const core::WallMap& map, const core::Catalog& catalog);
 
   /// The places that stages 2 and 3 like best, several where they are level.
-  std::span<const PoseHypothesis> places(std::span<const Breakpoint> breakpoints,
-                                         std::span<const WallSegment> segments);
+  std::span<const core::PoseHypothesis> places(std::span<const core::Breakpoint> breakpoints,
+                                               std::span<const core::WallSegment> segments);
 
  private:
-  using Triple = std::array<const Breakpoint*, 3>;
-  bool find_nearest(std::span<const Breakpoint> breakpoints);
+  using Triple = std::array<const core::Breakpoint*, 3>;
+  bool find_nearest(std::span<const core::Breakpoint> breakpoints);
   void match_nearest();
-  void propose(const Corner& a, const Corner& b, const Corner& c);
-  int recognised(std::span<const Breakpoint> breakpoints, const Pose2& T_map_lidar) const;
-  int lines_on_walls(std::span<const WallSegment> segments, const Pose2& T_map_lidar) const;
+  void propose(const core::Corner& a, const core::Corner& b, const core::Corner& c);
+  int recognised(std::span<const core::Breakpoint> breakpoints,
+                 const core::Pose2& T_map_lidar) const;
+  int lines_on_walls(std::span<const core::WallSegment> segments,
+                     const core::Pose2& T_map_lidar) const;
 
-  const WallMap& map_;
-  const Catalog& catalog_;
+  const core::WallMap& map_;
+  const core::Catalog& catalog_;
   Triple nearest_{};
-  PoseTable found_;
+  core::PoseTable found_;
 };
 
-}  // namespace cornerd::core
+}  // namespace cornerd::baseline

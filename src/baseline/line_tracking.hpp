@@ -4,13 +4,18 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 
-#include "core/breakpoint/segment_track.hpp"
+#include "core/breakpoint/wall_finder.hpp"
 #include "core/detector_config.hpp"
-#include "core/polar_scan.hpp"
 #include "core/sensor_noise.hpp"
 
-namespace cornerd::core {
+namespace cornerd::baseline {
+
+struct LineTrackingConfig {
+  /// D_max. The paper prints none: three standard deviations of an A1's range at 2 m.
+  double max_distance_m = 0.03;
+};
 
 /// A line through two samples, fitted anew with each next one (running sums), until one lies
 /// farther from it than a constant. That sample starts the next line.
@@ -18,21 +23,20 @@ namespace cornerd::core {
 /// Nothing here is made better than the print: a line follows the samples around a corner until
 /// they are D_max off, goes on over any gap, and ends at a lone outlier. Only the samples' weights
 /// follow the sensor's noise, since the covariances of the breakpoints are made of them.
-class LineTracking {
+class LineTracking final : public core::WallFinder {
  public:
-  LineTracking(const DetectorConfig& config, const SensorNoise& noise)
-      : noise_(noise),
-        max_distance_m_(config.lt.max_distance_m),
-        min_support_(config.min_support) {}
+  LineTracking(const core::DetectorConfig& detector, const core::SensorNoise& noise,
+               const LineTrackingConfig& config = {})
+      : noise_(noise), max_distance_m_(config.max_distance_m), min_support_(detector.min_support) {}
 
   /// Walls of at least min_support samples. Allocates nothing beyond the capacity of `tracks`;
   /// walls that do not fit are dropped, and counted in the result.
-  std::size_t track(const PolarScan& scan, SegmentTracks& tracks) const;
+  std::size_t track(const core::PolarScan& scan, core::SegmentTracks& tracks) override;
 
  private:
-  SensorNoise noise_;
+  core::SensorNoise noise_;
   double max_distance_m_;
   std::uint32_t min_support_;
 };
 
-}  // namespace cornerd::core
+}  // namespace cornerd::baseline

@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: MIT
-#include "core/recognition/paper_recognition.hpp"
+#include "baseline/paper_recognition.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "../fixtures.hpp"
+#include "../core/fixtures.hpp"
 #include "core/breakpoint/detector.hpp"
-#include "core/localizer.hpp"
 
-namespace cornerd::core {
+namespace cornerd::baseline {
 namespace {
+
+using namespace core;
 
 class PaperRecognitionTest : public ::testing::Test {
  protected:
@@ -46,21 +47,5 @@ TEST_F(PaperRecognitionTest, FewerThanThreeCorners_NoHypothesis) {
   EXPECT_TRUE(recognition_.places({}, {}).empty());
 }
 
-TEST_F(PaperRecognitionTest, MethodPaper_LocalizerUsesIt) {
-  LocalizerConfig config;
-  config.recognition = RecognitionMethod::kPaper;
-  Localizer localizer(map_, config);
-  int fixes = 0;
-  for (int k = 0; k < 20; ++k) {
-    const Pose2 T_map_lidar = source_.place_in(0.4, 2.2, 0.4, 1.4);
-    localizer.relocalize();
-    const PoseEstimate& pose = localizer.step(source_.take(*map_, T_map_lidar)).pose;
-    if (pose.state != PoseState::kFix) continue;
-    ++fixes;
-    EXPECT_TRUE(same_pose(pose.T_map_base, T_map_lidar, 0.02, radians(1)));
-  }
-  EXPECT_GE(fixes, 16);
-}
-
 }  // namespace
-}  // namespace cornerd::core
+}  // namespace cornerd::baseline

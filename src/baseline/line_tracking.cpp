@@ -1,26 +1,26 @@
 // SPDX-License-Identifier: MIT
-#include "core/breakpoint/line_tracking.hpp"
+#include "baseline/line_tracking.hpp"
 
 #include <cmath>
 
-namespace cornerd::core {
+namespace cornerd::baseline {
 namespace {
 
 /// Step 1: two samples make a line.
 constexpr std::size_t kLineSeed = 2;
 
-double distance_m(const Line& line, const PolarPoint& point) {
+double distance_m(const core::Line& line, const core::PolarPoint& point) {
   return std::abs(line.normal.dot(point.position()) - line.offset_m);
 }
 
 }  // namespace
 
-std::size_t LineTracking::track(const PolarScan& scan, SegmentTracks& tracks) const {
+std::size_t LineTracking::track(const core::PolarScan& scan, core::SegmentTracks& tracks) {
   tracks.clear();
   std::size_t dropped = 0;
   std::size_t index = 0;
   while (index + kLineSeed <= scan.size()) {
-    SegmentTrack wall = SegmentTrack::starting_at(scan, index);
+    core::SegmentTrack wall = core::SegmentTrack::starting_at(scan, index);
     wall.add(scan, index++, noise_);
     do {
       wall.add(scan, index++, noise_);
@@ -31,4 +31,4 @@ std::size_t LineTracking::track(const PolarScan& scan, SegmentTracks& tracks) co
   return dropped;
 }
 
-}  // namespace cornerd::core
+}  // namespace cornerd::baseline

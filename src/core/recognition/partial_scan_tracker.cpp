@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "core/estimate/partial_scan_tracker.hpp"
+#include "core/recognition/partial_scan_tracker.hpp"
 
-#include <Eigen/LU>
+#include <Eigen/Core>
 
+#include "core/geometry/linear_solve.hpp"
 #include "core/recognition/hypothesis.hpp"
 
 namespace cornerd::core {
@@ -16,7 +17,7 @@ constexpr double kMaxInnovation_rad = radians(15);
 /// A partial scan has few rays on few walls: most must hit the predicted walls, and hardly any may
 /// pass through one.
 constexpr std::size_t kMinHits = 25;
-constexpr double kMinHitShare = 0.8;
+constexpr double kMinPartialHitShare = 0.8;
 constexpr double kMaxViolationShare = 0.05;
 
 }  // namespace
@@ -72,7 +73,7 @@ std::optional<PartialScanPose> PartialScanTracker::localize(const PredictedState
                                                             const SensorBias& bias,
                                                             double noise_scale) {
   points_.assign(part_, min_range_m_, max_range_m_, end_ns(), predicted.motion, bias);
-  const PosePrior prior{predicted.T_map_lidar, predicted.covariance.inverse()};
+  const PosePrior prior{predicted.T_map_lidar, inverse(predicted.covariance)};
   PartialScanPose pose;
   pose.refined = refinement_.refine(map_, predicted.T_map_lidar, kSearchRadius_m, points_.points(),
                                     points_.points(), noise_scale, &prior);
@@ -83,7 +84,7 @@ std::optional<PartialScanPose> PartialScanTracker::localize(const PredictedState
   const auto hits = ray_caster_.cast(map_, pose.refined.T_map_lidar, points_.points());
   pose.likelihood = beam_likelihood(map_, points_.points(), hits, pose.refined.T_map_lidar, noise_,
                                     noise_scale, 0);
-  if (pose.likelihood.hits < kMinHits || pose.likelihood.hit_share() < kMinHitShare ||
+  if (pose.likelihood.hits < kMinHits || pose.likelihood.hit_share() < kMinPartialHitShare ||
       pose.likelihood.violation_share() > kMaxViolationShare) {
     return std::nullopt;
   }

@@ -1,28 +1,24 @@
 // SPDX-License-Identifier: MIT
-#include "core/breakpoint/abd_iepf.hpp"
+#include "baseline/abd_iepf.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "../fixtures.hpp"
+#include "../core/fixtures.hpp"
 
-namespace cornerd::core {
+namespace cornerd::baseline {
 namespace {
 
-constexpr AbdThreshold kThresholds[] = {AbdThreshold::kBorgesAldon, AbdThreshold::kWeerakoon};
+using namespace core;
 
-DetectorConfig with(const AbdIepfConfig& abd_iepf) {
-  DetectorConfig config;
-  config.abd_iepf = abd_iepf;
-  return config;
-}
+constexpr AbdThreshold kThresholds[] = {AbdThreshold::kBorgesAldon, AbdThreshold::kWeerakoon};
 
 SegmentTracks track(const PolarScan& points, const AbdIepfConfig& options = {}) {
   SegmentTracks tracks;
   tracks.reserve(kMaxSegmentsPerScan);
-  EXPECT_EQ(AbdIepf(with(options), {}).track(points, tracks), 0U);
+  EXPECT_EQ(AbdIepf({}, {}, options).track(points, tracks), 0U);
   return tracks;
 }
 
@@ -177,18 +173,6 @@ TEST(AbdIepf, EndsCoincide_SplitsAtFarthestSample) {
   EXPECT_EQ(track(testing::polar(scan)).size(), 5U);
 }
 
-TEST(AbdIepf, FewerThanFivePoints_NoWall) {
-  Scan scan;
-  EXPECT_TRUE(track(testing::polar(scan)).empty());
-  for (std::uint32_t i = 1; i <= DetectorConfig().min_support; ++i) {
-    Sample sample;
-    sample.bearing_rad = 0.01F * static_cast<float>(i);
-    sample.range_m = 1;
-    scan.add(sample);
-    EXPECT_EQ(track(testing::polar(scan)).size(), i < DetectorConfig().min_support ? 0U : 1U);
-  }
-}
-
 TEST(AbdIepf, FullScanOfNoise_StaysWithinCapacity) {
   // Whatever the ranges are, each split is at a sample of its own.
   const auto map = testing::make_map(testing::rectangular_room(3, 2));
@@ -200,23 +184,11 @@ TEST(AbdIepf, FullScanOfNoise_StaysWithinCapacity) {
   for (const AbdThreshold threshold : kThresholds) {
     SegmentTracks tracks;
     tracks.reserve(kMaxSegmentsPerScan);
-    AbdIepf(with({.threshold = threshold, .split_limit_m = 1e-6}), {}).track(points, tracks);
+    AbdIepf({}, {}, {.threshold = threshold, .split_limit_m = 1e-6}).track(points, tracks);
     EXPECT_LE(tracks.size(), kMaxSegmentsPerScan);
     for (const SegmentTrack& wall : tracks) EXPECT_LT(wall.last, points.size());
   }
 }
 
-TEST(AbdIepf, TooManyWalls_AreDroppedAndCounted) {
-  const auto map = testing::make_map(testing::rectangular_room(3, 2));
-  testing::ScanSource source(47);
-  const PolarScan points = testing::polar(source.take(*map, {1.5, 1, 0.3}));
-  const std::size_t all = track(points).size();
-  SegmentTracks tracks;
-  tracks.reserve(2);
-  const std::size_t capacity = tracks.capacity();
-  EXPECT_EQ(AbdIepf({}, {}).track(points, tracks), all - capacity);
-  EXPECT_EQ(tracks.size(), capacity);
-}
-
 }  // namespace
-}  // namespace cornerd::core
+}  // namespace cornerd::baseline

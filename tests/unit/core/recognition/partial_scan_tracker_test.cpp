@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/estimate/partial_scan_tracker.hpp"
+#include "core/recognition/partial_scan_tracker.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "core/recognition/paper_recognition.hpp"
+#include "baseline/paper_recognition.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-namespace cornerd::core {
+namespace cornerd::baseline {
 namespace {
 
 /// Distances that differ by less are equal. The paper prints none: five times its corners' error.
@@ -16,24 +16,24 @@ constexpr std::size_t kMaxLevel = 64;
 /// A corner weighs more than all lines: stage 3 only chooses where stage 2 leaves a choice.
 constexpr int kVotesPerCorner = 1000;
 
-bool is_type(const Breakpoint& breakpoint, const Corner& landmark) {
+bool is_type(const core::Breakpoint& breakpoint, const core::Corner& landmark) {
   return landmark.is_convex() ==
-         (breakpoint.kind == BreakpointKind::kTerminal || breakpoint.convex);
+         (breakpoint.kind == core::BreakpointKind::kTerminal || breakpoint.convex);
 }
 
 bool is_equal(double seen_m, double drawn_m) { return std::abs(seen_m - drawn_m) < kEqual_m; }
 
 }  // namespace
 
-PaperRecognition::PaperRecognition(const WallMap& map, const Catalog& catalog)
+PaperRecognition::PaperRecognition(const core::WallMap& map, const core::Catalog& catalog)
     : map_(map), catalog_(catalog), found_(kMaxFound) {}
 
-bool PaperRecognition::find_nearest(std::span<const Breakpoint> breakpoints) {
+bool PaperRecognition::find_nearest(std::span<const core::Breakpoint> breakpoints) {
   nearest_ = {};
-  for (const Breakpoint& breakpoint : breakpoints) {
-    if (breakpoint.kind != BreakpointKind::kCorner) continue;
-    const Breakpoint* candidate = &breakpoint;
-    for (const Breakpoint*& place : nearest_) {
+  for (const core::Breakpoint& breakpoint : breakpoints) {
+    if (breakpoint.kind != core::BreakpointKind::kCorner) continue;
+    const core::Breakpoint* candidate = &breakpoint;
+    for (const core::Breakpoint*& place : nearest_) {
       if (place == nullptr || candidate->position.squaredNorm() < place->position.squaredNorm()) {
         std::swap(place, candidate);
       }
@@ -43,15 +43,16 @@ bool PaperRecognition::find_nearest(std::span<const Breakpoint> breakpoints) {
   return nearest_.back() != nullptr;
 }
 
-void PaperRecognition::propose(const Corner& a, const Corner& b, const Corner& c) {
-  const Vec2 seen = nearest_[1]->position - nearest_[0]->position;
-  const Vec2 drawn = b.position - a.position;
+void PaperRecognition::propose(const core::Corner& a, const core::Corner& b,
+                               const core::Corner& c) {
+  const core::Vec2 seen = nearest_[1]->position - nearest_[0]->position;
+  const core::Vec2 drawn = b.position - a.position;
   const double heading_rad =
-      normalize_angle(std::atan2(drawn.y(), drawn.x()) - std::atan2(seen.y(), seen.x()));
-  const Vec2 origin =
-      (a.position + b.position) / 2 -
-      Pose2{0, 0, heading_rad} * Vec2((nearest_[0]->position + nearest_[1]->position) / 2);
-  const Pose2 T_map_lidar{origin.x(), origin.y(), heading_rad};
+      core::normalize_angle(std::atan2(drawn.y(), drawn.x()) - std::atan2(seen.y(), seen.x()));
+  const core::Vec2 origin = (a.position + b.position) / 2 -
+                            core::Pose2{0, 0, heading_rad} *
+                                core::Vec2((nearest_[0]->position + nearest_[1]->position) / 2);
+  const core::Pose2 T_map_lidar{origin.x(), origin.y(), heading_rad};
   // Distances alone do not tell a triangle from its mirror image.
   if ((T_map_lidar * nearest_[2]->position - c.position).norm() < 2 * kEqual_m) {
     found_.add(T_map_lidar);
@@ -70,11 +71,11 @@ void PaperRecognition::match_nearest() {
   const double third_m = seen_m(1, 2);
   for (std::uint32_t i = 0; i < landmarks.size(); ++i) {
     if (!is_type(*nearest_[0], landmarks[i])) continue;
-    for (const LandmarkPair& one : catalog_.neighbours(i)) {
-      const Corner& b = landmarks[one.to];
+    for (const core::LandmarkPair& one : catalog_.neighbours(i)) {
+      const core::Corner& b = landmarks[one.to];
       if (!is_equal(first_m, one.distance_m) || !is_type(*nearest_[1], b)) continue;
-      for (const LandmarkPair& other : catalog_.neighbours(i)) {
-        const Corner& c = landmarks[other.to];
+      for (const core::LandmarkPair& other : catalog_.neighbours(i)) {
+        const core::Corner& c = landmarks[other.to];
         if (is_equal(second_m, other.distance_m) && is_type(*nearest_[2], c) &&
             is_equal(third_m, (b.position - c.position).norm())) {
           propose(landmarks[i], b, c);
@@ -84,30 +85,30 @@ void PaperRecognition::match_nearest() {
   }
 }
 
-int PaperRecognition::recognised(std::span<const Breakpoint> breakpoints,
-                                 const Pose2& T_map_lidar) const {
+int PaperRecognition::recognised(std::span<const core::Breakpoint> breakpoints,
+                                 const core::Pose2& T_map_lidar) const {
   int count = 0;
-  for (const Breakpoint& breakpoint : breakpoints) {
-    const Vec2 point = T_map_lidar * breakpoint.position;
+  for (const core::Breakpoint& breakpoint : breakpoints) {
+    const core::Vec2 point = T_map_lidar * breakpoint.position;
     bool found = false;
     catalog_.visit_near(point, [&](std::uint32_t index) {
-      const Corner& landmark = catalog_.landmarks()[index];
+      const core::Corner& landmark = catalog_.landmarks()[index];
       found = found || (is_type(breakpoint, landmark) &&
-                        (landmark.position - point).norm() < Catalog::kVisitRadius_m);
+                        (landmark.position - point).norm() < core::Catalog::kVisitRadius_m);
     });
     count += found ? 1 : 0;
   }
   return count;
 }
 
-int PaperRecognition::lines_on_walls(std::span<const WallSegment> segments,
-                                     const Pose2& T_map_lidar) const {
+int PaperRecognition::lines_on_walls(std::span<const core::WallSegment> segments,
+                                     const core::Pose2& T_map_lidar) const {
   int count = 0;
-  for (const WallSegment& segment : segments) {
-    const Vec2 middle = T_map_lidar * Vec2((segment.first + segment.last) / 2);
+  for (const core::WallSegment& segment : segments) {
+    const core::Vec2 middle = T_map_lidar * core::Vec2((segment.first + segment.last) / 2);
     const auto faces = map_.face_grid().at(middle);
     count += std::any_of(faces.begin(), faces.end(), [&](std::uint32_t i) {
-      const Face& face = map_.faces()[i];
+      const core::Face& face = map_.faces()[i];
       const double along_m = face.direction.dot(middle - face.from);
       return std::abs(face.normal.dot(middle) - face.offset_m) < kOnFace_m && along_m >= 0 &&
              along_m <= face.length_m;
@@ -116,17 +117,17 @@ int PaperRecognition::lines_on_walls(std::span<const WallSegment> segments,
   return count;
 }
 
-std::span<const PoseHypothesis> PaperRecognition::places(std::span<const Breakpoint> breakpoints,
-                                                         std::span<const WallSegment> segments) {
+std::span<const core::PoseHypothesis> PaperRecognition::places(
+    std::span<const core::Breakpoint> breakpoints, std::span<const core::WallSegment> segments) {
   found_.clear();
   if (!find_nearest(breakpoints)) return {};
   match_nearest();
-  const std::span<PoseHypothesis> places = found_.most_voted(kMaxFound);
-  for (PoseHypothesis& place : places) {
+  const std::span<core::PoseHypothesis> places = found_.most_named(kMaxFound);
+  for (core::PoseHypothesis& place : places) {
     place.votes = kVotesPerCorner * recognised(breakpoints, place.T_map_lidar) +
                   lines_on_walls(segments, place.T_map_lidar);
   }
-  std::sort(places.begin(), places.end(), is_better);
+  std::sort(places.begin(), places.end(), core::is_better);
   std::size_t level = 0;
   while (level < std::min(places.size(), kMaxLevel) && places[level].votes == places[0].votes) {
     ++level;
@@ -134,4 +135,4 @@ std::span<const PoseHypothesis> PaperRecognition::places(std::span<const Breakpo
   return places.first(level);
 }
 
-}  // namespace cornerd::core
+}  // namespace cornerd::baseline
