@@ -6,6 +6,8 @@
 
 #include "core/geometry/angle.hpp"
 #include "core/geometry/pose2.hpp"
+#include "core/map/wall_map.hpp"
+#include "core/scan.hpp"
 
 namespace cornerd::message {
 namespace {

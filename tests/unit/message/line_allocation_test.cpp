@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <new>
 
+#include "core/scan.hpp"
 #include "message/line_writer.hpp"
 
 namespace {

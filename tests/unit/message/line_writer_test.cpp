@@ -11,6 +11,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/map/wall_map.hpp"
+#include "core/scan.hpp"
 #include "line_text.hpp"
 #include "message/request.hpp"
 

@@ -5,6 +5,8 @@
 
 #include <string>
 
+#include "core/map/wall_map.hpp"
+#include "core/scan.hpp"
 #include "message/line_writer.hpp"
 
 namespace cornerd::message {
