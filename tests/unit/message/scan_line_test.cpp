@@ -4,6 +4,7 @@
 #include <limits>
 #include <variant>
 
+#include "core/scan.hpp"
 #include "line_text.hpp"
 #include "message/line_writer.hpp"
 #include "message/request.hpp"
