@@ -166,7 +166,7 @@ TEST_F(FaultTable, WrongBaud_Corrected_Recovers) {
   lidar_->expect_speed(115200);
   launch({"/advanced/lidar/baud=57600"});
   expect(
-      "advanced.lidar.baud is wrong; the device's follows", "wrong-baud", "backoff", [] {},
+      "/advanced/lidar/baud is wrong; the device's follows", "wrong-baud", "backoff", [] {},
       [&] { lidar_->expect_speed(57600); });
 }
 

@@ -18,7 +18,7 @@ constexpr std::int64_t at(double seconds) {
 
 TEST(RateLimitedLog, ManyEventsInTenSeconds_OneLineAndSummary) {
   const CapturedLog captured;
-  RateLimitedLog log(spdlog::level::warn, "jump");
+  RateLimitedLog log(LogLevel::kWarning, "jump");
   log.add("a", at(100));
   log.add("b", at(100.1));
   log.add("c", at(109.9));
@@ -31,7 +31,7 @@ TEST(RateLimitedLog, ManyEventsInTenSeconds_OneLineAndSummary) {
 
 TEST(RateLimitedLog, SummaryLogged_PeriodRestarts) {
   const CapturedLog captured;
-  RateLimitedLog log(spdlog::level::info, "jump");
+  RateLimitedLog log(LogLevel::kInfo, "jump");
   for (int i = 0; i < 1000; ++i) log.add(std::to_string(i), at(0.1 * i));
   const std::string text = captured.text();
   EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 10) << text;
@@ -39,7 +39,7 @@ TEST(RateLimitedLog, SummaryLogged_PeriodRestarts) {
 
 TEST(RateLimitedLog, EventAfterTenSeconds_LoggedAtOnce) {
   const CapturedLog captured;
-  RateLimitedLog log(spdlog::level::info, "jump");
+  RateLimitedLog log(LogLevel::kInfo, "jump");
   log.add("a", at(1));
   log.add("b", at(11));
   EXPECT_EQ(captured.text(), "info: jump: a\ninfo: jump: b\n");

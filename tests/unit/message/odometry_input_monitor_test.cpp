@@ -59,7 +59,7 @@ TEST_F(OdometryInputMonitorTest, RejectedLines_CauseInHint) {
   EXPECT_THAT(hint(), HasSubstr("behind the lidar's"));
   add({0, 1, 1, {}});
   summary_.counters.jumps += 40;
-  EXPECT_THAT(hint(), HasSubstr("advanced.odometry.max_speed"));
+  EXPECT_THAT(hint(), HasSubstr("/advanced/odometry/max_speed"));
 }
 
 TEST_F(OdometryInputMonitorTest, MostValuesRejected_Reported) {

@@ -26,9 +26,10 @@ TEST(BenchOdometry, GivesTheModesOnAllDrivesAndDrawsThem) {
   const test::TemporaryFolder folder;
   const std::filesystem::path plots = folder.path() / "plots";
   const std::filesystem::path json = folder.path() / "odometry.json";
-  const CommandRun outcome({"--maps", CORNERD_SOURCE_DIR "/config/maps", "--odometry",
-                            "--positions", "0", "--plots", plots.string(), "--json",
-                            json.string()});
+  const test::ProgramRun outcome(
+      "cornerd-bench", run_cornerd_bench,
+      {"--maps", CORNERD_SOURCE_DIR "/config/maps", "--odometry", "--positions", "0", "--plots",
+       plots.string(), "--json", json.string()});
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_THAT(outcome.out, testing::HasSubstr("weighted (eq. 5)"));
   const auto figures = nlohmann::json::parse(text_of(json));
