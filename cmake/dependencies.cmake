@@ -32,6 +32,7 @@ if(CORNERD_BUILD_TESTS)
   add_subdirectory(/usr/src/googletest ${CMAKE_BINARY_DIR}/googletest EXCLUDE_FROM_ALL)
   foreach(library gtest gtest_main gmock gmock_main)
     target_link_libraries(${library} PUBLIC $<BUILD_INTERFACE:cornerd_sanitizer>)
+    target_compile_options(${library} PRIVATE -O0)
     get_target_property(directories ${library} INTERFACE_INCLUDE_DIRECTORIES)
     set_target_properties(${library} PROPERTIES
       INTERFACE_SYSTEM_INCLUDE_DIRECTORIES "${directories}")

@@ -46,19 +46,19 @@ void LineExtractor::add(const core::PolarScan& points, const core::WallSegment& 
   const core::Line line = fit.line();
   if (!(line.variance_along > 0)) return;
 
-  LineObservation sighting;
-  sighting.normal_rad = core::angle_of(line.normal);
-  sighting.centroid = line.centroid;
-  sighting.sigma_offset_m = std::sqrt(1 / line.weight + squared(kFloor_m));
-  sighting.sigma_angle_rad =
+  LineObservation observation;
+  observation.normal_rad = core::angle_of(line.normal);
+  observation.centroid = line.centroid;
+  observation.sigma_offset_m = std::sqrt(1 / line.weight + squared(kFloor_m));
+  observation.sigma_angle_rad =
       std::sqrt(1 / (line.weight * line.variance_along) + squared(kFloor_rad));
-  if (sighting.sigma_angle_rad > kMaxSigma_rad) return;
+  if (observation.sigma_angle_rad > kMaxSigma_rad) return;
   const core::Vec2 direction = along(line.normal);
-  sighting.begin_m = direction.dot(segment.first - line.centroid);
-  sighting.end_m = direction.dot(segment.last - line.centroid);
-  if (!(sighting.end_m > sighting.begin_m)) return;
-  sighting.support = static_cast<std::uint32_t>(fit.count());
-  observations.push_back(sighting);
+  observation.begin_m = direction.dot(segment.first - line.centroid);
+  observation.end_m = direction.dot(segment.last - line.centroid);
+  if (!(observation.end_m > observation.begin_m)) return;
+  observation.support = static_cast<std::uint32_t>(fit.count());
+  observations.push_back(observation);
 }
 
 }  // namespace cornerd::survey

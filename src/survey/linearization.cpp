@@ -33,7 +33,7 @@ RelativePoseResidual::RelativePoseResidual(const core::Pose2& from, const core::
 Linearization::Linearization(const MappedDrive& drive, std::span<const FaceConstraint> constraints,
                              double gnc_scale)
     : drive_(drive),
-      leniency_(gnc_scale),
+      gnc_scale_(gnc_scale),
       first_face_(3 * (static_cast<int>(drive.T_map_lidar.size()) - 1)),
       equations_(face_unknown(drive.faces.size())),
       information_(drive.faces.size(), Eigen::Matrix2d::Zero()) {
@@ -56,7 +56,7 @@ void Linearization::add(const MatchedObservation& observation) {
   const double angle_weight = 1 / (seen.sigma_angle_rad * seen.sigma_angle_rad);
   const double height_weight = 1 / (seen.sigma_offset_m * seen.sigma_offset_m);
   const double chi2 = angle_rad * angle_rad * angle_weight + height_m * height_m * height_weight;
-  const double weight = 1 / (1 + chi2 / (kHalfWeight * leniency_));
+  const double weight = 1 / (1 + chi2 / (kHalfWeight * gnc_scale_));
   chi_square_ += std::min(chi2, kHalfWeight);
   if (chi2 > kHalfWeight) ++outliers_;
 
@@ -83,7 +83,7 @@ void Linearization::add_odometry_edge(std::size_t scan) {
 void Linearization::add_loop_constraint(const LoopConstraint& constraint) {
   const Eigen::Vector3d sigma(constraint.sigma_m, constraint.sigma_m, constraint.sigma_rad);
   add_relative_pose(constraint.earlier, constraint.later, constraint.T_earlier_later,
-                    sigma.cwiseAbs2(), kHalfWeightLoop * leniency_);
+                    sigma.cwiseAbs2(), kHalfWeightLoop * gnc_scale_);
 }
 
 void Linearization::add_relative_pose(std::size_t from, std::size_t to, const core::Pose2& expected,

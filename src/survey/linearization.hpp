@@ -54,7 +54,7 @@ class Linearization {
   void add_face_constraint(const FaceConstraint& constraint);
 
   const MappedDrive& drive_;
-  double leniency_;
+  double gnc_scale_;
   int first_face_;
   NormalEquations equations_;
   std::vector<Eigen::Matrix2d> information_;

@@ -64,7 +64,7 @@ bool ScanReader::next() {
   if (odometer_.deskew(scan_, config_.T_base_lidar, still_)) {
     points_.assign(still_, config_.min_range_m, config_.max_range_m, t_ns, {}, config_.bias);
   } else {
-    straighten(expected_motion());
+    deskew(expected_motion());
   }
   started_ = true;
   return true;
@@ -149,7 +149,7 @@ core::Twist2 ScanReader::expected_motion() const {
 
 bool ScanReader::deskew_again(const core::Pose2& T_map_lidar) {
   if (index_ == 0 || drive_.has_wheels() || is_known(index_)) return false;
-  straighten(motion_to(T_map_lidar));
+  deskew(motion_to(T_map_lidar));
   return true;
 }
 
@@ -160,7 +160,7 @@ core::Twist2 ScanReader::motion_to(const core::Pose2& T_map_lidar) const {
   return core::motion_between(last_T_map_lidar_, T_map_lidar, dt_s);
 }
 
-void ScanReader::straighten(const core::Twist2& motion) {
+void ScanReader::deskew(const core::Twist2& motion) {
   points_.assign(scan_, config_.min_range_m, config_.max_range_m, drive_.middle_ns(index_), motion,
                  config_.bias);
 }

@@ -65,7 +65,7 @@ class ScanReader {
   bool is_known(std::size_t scan) const;
   core::Twist2 expected_motion() const;
   core::Twist2 motion_to(const core::Pose2& T_map_lidar) const;
-  void straighten(const core::Twist2& motion);
+  void deskew(const core::Twist2& motion);
 
   const RecordedDrive& drive_;
   core::LocalizerConfig config_;

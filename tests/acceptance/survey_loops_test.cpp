@@ -48,7 +48,7 @@ class SurveyOfARingByTheLidarAlone : public testing::TestWithParam<std::uint64_t
   const bench::SimulatedDrive drive_ = bench::ring_drive(GetParam(), /*has_odometry=*/false);
 };
 
-TEST_P(SurveyOfARingByTheLidarAlone, DegenerateStretchInsideLoop_MapIsRightAndReported) {
+TEST_P(SurveyOfARingByTheLidarAlone, DegeneratePartInsideLoop_MapIsRightAndReported) {
   const bench::LoopCase made =
       bench::survey_loop(core::WallMap(bench::ring_corridor()), drive_, /*close_loops=*/true);
   EXPECT_EQ(made.score.walls_found, made.score.walls_seen);
@@ -56,7 +56,7 @@ TEST_P(SurveyOfARingByTheLidarAlone, DegenerateStretchInsideLoop_MapIsRightAndRe
   EXPECT_GT(made.result.degenerate_scans.size(), 100U);
 }
 
-TEST(SurveyOfARingByTheLidarAloneLeftOpen, DegenerateStretch_IsRejected) {
+TEST(SurveyOfARingByTheLidarAloneLeftOpen, DegeneratePart_IsRejected) {
   const bench::SimulatedDrive drive = bench::ring_drive(1, /*has_odometry=*/false);
   survey::SurveyConfig config;
   config.close_loops = false;

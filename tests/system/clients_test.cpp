@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The maximum number of clients, a third of them misbehaving: the others miss no pose. Prints the
 // latency of the daemon's loops without and with them. CORNERD_POSES=300 runs longer:
-//   build/dev/tests/system_daemon --gtest_filter='Clients.*' | grep '^|'
+//   build/test/tests/system_daemon --gtest_filter='Clients.*' | grep '^|'
 #include <gtest/gtest.h>
 
 #include <algorithm>

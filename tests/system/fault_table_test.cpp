@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Faults of a lidar, the reported state, and the time to recover. Prints a table:
-//   build/dev/tests/system_daemon --gtest_filter='FaultTable.*' | grep '^|'
+//   build/test/tests/system_daemon --gtest_filter='FaultTable.*' | grep '^|'
 // With CORNERD_TIMES=1 it also checks the times, on an otherwise idle machine.
 #include <gtest/gtest.h>
 

@@ -8,7 +8,7 @@
 
 #include "calibration/delay_search.hpp"
 #include "calibration/wiring_faults.hpp"
-#include "tool/calibrate/gross_fault_text.hpp"
+#include "tool/calibrate/wiring_fault_text.hpp"
 #include "tool/command_line/failure.hpp"
 #include "tool/drawing/text_table.hpp"
 
@@ -19,7 +19,7 @@ using calibration::DelaySearch;
 
 /// Where more of the readings than this are refused, it is not now and then one that is garbage.
 constexpr double kMostRefused = 0.1;
-/// Turns that were straightened by readings of times as wrong as this are straightened again.
+/// Turns that were deskewed by readings of times as wrong as this are deskewed again.
 constexpr double kStraightEnough_s = 0.005;
 
 class DriveFitter {
@@ -29,7 +29,7 @@ class DriveFitter {
       : file_(file), wire_(wire), config_(config), truth_(truth) {}
 
   FittedDrive run() {
-    RecordedDrive drive = play(/*straightened=*/true);
+    RecordedDrive drive = play(/*deskewed=*/true);
     if (drive.steps.empty() && drive.wide_steps.empty()) {
       fail(drive.counters.readings == 0 ? "no odometry in it"
                                         : "none of its ODOMETRY lines has both left and right");
@@ -40,7 +40,7 @@ class DriveFitter {
     }
     if (truth_ == nullptr) {
       // Wheels that are far off, or of another time, may cost the turns that would show it.
-      RecordedDrive plain = play(/*straightened=*/false);
+      RecordedDrive plain = play(/*deskewed=*/false);
       if (plain.places.size() < 2) fail("the robot was not found in the map");
       const std::string plain_faults = look_at(plain);
       auto fit = plain_faults.empty() && search_.is_unambiguous ? fit_of(plain) : std::nullopt;
@@ -60,8 +60,8 @@ class DriveFitter {
 
   double configured_s() const { return config_.odometry.core.initial.delay_s; }
 
-  RecordedDrive play(bool straightened) const {
-    return play_drive(file_, wire_, config_, truth_, straightened);
+  RecordedDrive play(bool deskewed) const {
+    return play_drive(file_, wire_, config_, truth_, deskewed);
   }
 
   static bool is_wide(const RecordedDrive& drive) {
@@ -80,15 +80,15 @@ class DriveFitter {
                     "bear the time when it was true",
                     calibration::kMaxDelay_s, search_.delay_s > 0 ? "late" : "early"));
     }
-    straighten(drive, search_.delay_s);
+    deskew(drive, search_.delay_s);
     const auto windows =
         calibration::cut_windows(calibration::at_true_times(steps, search_.delay_s), drive.places);
     const core::DriveGeometry& geometry = config_.odometry.core.geometry;
     return describe_faults(calibration::find_wiring_faults(windows, geometry), config_.odometry);
   }
 
-  /// Finds the places anew where the turns were straightened by what was read at other times.
-  void straighten(RecordedDrive& drive, double delay_s) const {
+  /// Finds the places anew where the turns were deskewed by what was read at other times.
+  void deskew(RecordedDrive& drive, double delay_s) const {
     if (truth_ != nullptr || std::abs(delay_s - configured_s()) <= kStraightEnough_s) return;
     auto places = play_places(file_, wire_, config_, drive.readings, delay_s);
     if (places.size() >= drive.places.size() / 2) drive.places = std::move(places);

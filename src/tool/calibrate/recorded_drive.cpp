@@ -115,9 +115,9 @@ class PlaceSink final : public replay::RecordingSink {
 }  // namespace
 
 RecordedDrive play_drive(const std::filesystem::path& file, std::optional<rplidar::WireFormat> wire,
-                         const settings::Config& config, const Truth* truth, bool straightened) {
+                         const settings::Config& config, const Truth* truth, bool deskewed) {
   core::LocalizerConfig localizer = config.localizer();
-  localizer.odometry.enabled = straightened;
+  localizer.odometry.enabled = deskewed;
   core::Pipeline pipeline(truth != nullptr ? nullptr : settings::load_map(config.map), localizer);
   DriveSink sink(pipeline, config.odometry.core, truth);
   replay::RecordingPlayer player(file, {wire, config.lidar.mount.inverted});

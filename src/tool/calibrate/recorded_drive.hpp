@@ -23,13 +23,13 @@ struct RecordedDrive {
   std::vector<core::OdometryReading> readings;  ///< all of them, as they came
 };
 
-/// Places are the truth's, or the lidar's fixes where it is null. `straightened`: turns by what
+/// Places are the truth's, or the lidar's fixes where it is null. `deskewed`: turns by what
 /// wheels and gyro say, which gives better fixes where they are right. Throws
 /// replay::RecordingError and settings::SettingsError.
 RecordedDrive play_drive(const std::filesystem::path& file, std::optional<rplidar::WireFormat> wire,
-                         const settings::Config& config, const Truth* truth, bool straightened);
+                         const settings::Config& config, const Truth* truth, bool deskewed);
 
-/// The lidar's fixes once more, its turns straightened by readings whose times are earlier by
+/// The lidar's fixes once more, its turns deskewed by readings whose times are earlier by
 /// `delay_s` than they say. Throws as play_drive().
 std::vector<calibration::KnownPose> play_places(const std::filesystem::path& file,
                                                 std::optional<rplidar::WireFormat> wire,

@@ -78,7 +78,7 @@ void add_line_quality(const message::ParsedStatus& status, std::vector<Finding>&
        {"a shorter or screened cable, away from motors; a steadier 5 V"}});
 }
 
-/// Turns in motion are straightened by what was read meanwhile: with fewer readings than the first,
+/// Turns in motion are deskewed by what was read meanwhile: with fewer readings than the first,
 /// turns are lost and what is carried on may be wrong; with fewer than the second, fixes are worse
 /// than they say (core/odometry/README.md).
 constexpr double kFewestReadings_hz = 10;

@@ -6,6 +6,7 @@
 #include <poll.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <fstream>
 #include <string>
 #include <system_error>
@@ -64,8 +65,9 @@ class PtyEmulatorTest : public ::testing::Test {
  protected:
   PtyEmulatorTest() : emulator_(make_emulator(), folder_.path() / "port") {
     emulator_.set_on_time([this](core::TimeNs t_ns, core::TimeNs unix_ns) {
-      last_t_ns_ = t_ns;
       last_unix_ns_ = unix_ns;
+      last_t_ns_ = t_ns;
+      last_t_ns_.notify_all();
     });
     thread_ = std::jthread([this](const std::stop_token& stop) { emulator_.run(stop); });
   }
@@ -75,10 +77,17 @@ class PtyEmulatorTest : public ::testing::Test {
     thread_.join();
   }
 
+  /// Returns once the emulator's own time has passed that.
+  void wait_until(double t_s) {
+    for (core::TimeNs t_ns = last_t_ns_; t_ns < core::from_seconds(t_s); t_ns = last_t_ns_) {
+      last_t_ns_.wait(t_ns);
+    }
+  }
+
   test::TemporaryFolder folder_;
   PtyEmulator emulator_;
-  core::TimeNs last_t_ns_ = -1;
-  core::TimeNs last_unix_ns_ = -1;
+  std::atomic<core::TimeNs> last_t_ns_ = -1;
+  std::atomic<core::TimeNs> last_unix_ns_ = -1;
   std::jthread thread_;
 };
 
@@ -99,16 +108,17 @@ TEST_F(PtyEmulatorTest, NoClient_TimeContinues) {
     client.send("a552");
     EXPECT_TRUE(client.receive("a55a0300000006000000"));
   }
-  std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  const core::TimeNs then_ns = last_t_ns_;
+  wait_until(core::to_seconds(then_ns) + 0.02);
   stop();
-  EXPECT_GT(last_t_ns_, 40'000'000);
   EXPECT_GT(last_unix_ns_, core::TimeNs{1'600'000'000} * core::kNsPerSecond);
 }
 
 TEST_F(PtyEmulatorTest, ClientThatDoesNotRead_DoesNotBlock) {
   Client client(folder_.path() / "port");
   client.send("a58205030000000021");
-  std::this_thread::sleep_for(std::chrono::milliseconds(300));
+  // The terminal holds 4 kB: express scans fill them in less.
+  wait_until(0.4);
   stop();
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "tool/calibrate/gross_fault_text.hpp"
+#include "tool/calibrate/wiring_fault_text.hpp"
 
 #include <cmath>
 #include <string_view>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "tool/calibrate/gross_fault_text.hpp"
+#include "tool/calibrate/wiring_fault_text.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -17,9 +17,9 @@ std::string described(const WiringFaults& faults, settings::OdometrySource sourc
   return describe_faults(faults, config);
 }
 
-TEST(GrossFaultText, NoFault_IsNoText) { EXPECT_EQ(described({}), ""); }
+TEST(WiringFaultText, NoFault_IsNoText) { EXPECT_EQ(described({}), ""); }
 
-TEST(GrossFaultText, APlainFactor_GivesTheCorrectedValue) {
+TEST(WiringFaultText, APlainFactor_GivesTheCorrectedValue) {
   const auto by = [](double factor) {
     WiringFaults faults;
     faults.left_factor = faults.right_factor = factor;
@@ -35,7 +35,7 @@ TEST(GrossFaultText, APlainFactor_GivesTheCorrectedValue) {
                                  "0.052"));
 }
 
-TEST(GrossFaultText, WhereReadingsComeFrom_DecidesWhatToChange) {
+TEST(WiringFaultText, WhereReadingsComeFrom_DecidesWhatToChange) {
   WiringFaults faults;
   faults.are_swapped = faults.gyro_is_reversed = true;
   EXPECT_THAT(described(faults), HasSubstr("swap left and right in the ODOMETRY lines; "));
@@ -46,7 +46,7 @@ TEST(GrossFaultText, WhereReadingsComeFrom_DecidesWhatToChange) {
   EXPECT_THAT(kernel, HasSubstr("set advanced.odometry.kernel.gyro.reversed to true"));
 }
 
-TEST(GrossFaultText, AllTurnedAround_MayBeTheMount) {
+TEST(WiringFaultText, AllTurnedAround_MayBeTheMount) {
   WiringFaults faults;
   faults.are_swapped = faults.left_is_reversed = faults.right_is_reversed = true;
   EXPECT_THAT(described(faults), HasSubstr("lidar.mount.theta"));
@@ -55,7 +55,7 @@ TEST(GrossFaultText, AllTurnedAround_MayBeTheMount) {
   EXPECT_THAT(described(faults), Not(HasSubstr("mount")));
 }
 
-TEST(GrossFaultText, Degrees_AreNamed) {
+TEST(WiringFaultText, Degrees_AreNamed) {
   WiringFaults faults;
   faults.gyro_factor = 58.4;
   EXPECT_THAT(described(faults), HasSubstr("degrees a second"));

@@ -1,0 +1,87 @@
+# Programs of GoogleTest cases. CTest runs a program at once rather than a case at once: starting it
+# 1,700 times takes longer than most cases do. Each run writes its cases to cases/NAME.xml in the build
+# folder, and tests/run counts them there.
+
+# What `tests/run` builds, and what `tests/run tsan` does: the layers with threads of their own.
+add_custom_target(short_tests)
+add_custom_target(threaded_tests)
+
+# cornerd_add_test_run(NAME PROGRAM FILTER LABELS label... SHARDS n): a run of a program's cases, in
+# n processes.
+function(cornerd_add_test_run name program filter)
+  cmake_parse_arguments(arg "SERIAL" "SHARDS;COST" "LABELS" ${ARGN})
+  if(NOT arg_SHARDS)
+    set(arg_SHARDS 1)
+  endif()
+  math(EXPR last "${arg_SHARDS} - 1")
+  foreach(shard RANGE ${last})
+    set(test ${name})
+    set(environment "")
+    if(arg_SHARDS GREATER 1)
+      string(APPEND test ".${shard}")
+      set(environment "GTEST_TOTAL_SHARDS=${arg_SHARDS};GTEST_SHARD_INDEX=${shard}")
+    endif()
+    add_test(NAME ${test} COMMAND ${program} --gtest_filter=${filter}
+      --gtest_output=xml:${CMAKE_BINARY_DIR}/cases/${test}.xml)
+    set_tests_properties(${test} PROPERTIES LABELS "${arg_LABELS}" TIMEOUT 1200
+      ENVIRONMENT "${environment}")
+    if(arg_SERIAL)
+      set_tests_properties(${test} PROPERTIES RUN_SERIAL ON)
+    endif()
+    if(arg_COST)
+      set_tests_properties(${test} PROPERTIES COST ${arg_COST})
+    endif()
+  endforeach()
+endfunction()
+
+# cornerd_add_test_program(NAME SOURCES file... LINK target... [LABELS label...] [SHARDS n] [COST n]
+#   [LONG pattern...] [ALONE pattern...])
+# A program of GoogleTest cases.
+#   LABELS  `long`: only `tests/run all` builds and runs it. `slow`: besides, not in sanitized and
+#           emulated builds, since it tests algorithms and neither memory nor the board.
+#           `threads`: the thread sanitizer runs it.
+#   LONG    cases that only `tests/run all` runs, each pattern in a process of its own
+#   ALONE   cases that run while nothing else does
+#   SHARDS  the number of processes that share the other cases; COST: the larger, the sooner it starts
+function(cornerd_add_test_program name)
+  cmake_parse_arguments(arg "" "SHARDS;COST" "SOURCES;LINK;LABELS;LONG;ALONE" ${ARGN})
+  if("slow" IN_LIST arg_LABELS)
+    if(CMAKE_CROSSCOMPILING OR CORNERD_SANITIZE)
+      return()
+    endif()
+    list(APPEND arg_LABELS long)
+  endif()
+  cornerd_add_executable(${name} SOURCES ${arg_SOURCES} LINK ${arg_LINK} gmock gtest gtest_main)
+  set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
+  # What is tested is optimised, in its library; most of a test's time is its compilation.
+  target_compile_options(${name} PRIVATE -O0)
+  # A source that replaces operator new must not be seen by code that calls it.
+  foreach(source ${arg_SOURCES})
+    if(source MATCHES "allocation")
+      set_source_files_properties(${source} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+    endif()
+  endforeach()
+  target_compile_definitions(${name} PRIVATE CORNERD_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+  if("threads" IN_LIST arg_LABELS)
+    add_dependencies(threaded_tests ${name})
+  endif()
+  if(NOT "long" IN_LIST arg_LABELS)
+    add_dependencies(short_tests ${name})
+  endif()
+  if(CMAKE_CROSSCOMPILING AND NOT arg_SHARDS)
+    set(arg_SHARDS 2)
+  endif()
+
+  list(JOIN arg_ALONE ":" alone)
+  string(JOIN ":" apart ${arg_LONG} ${arg_ALONE})
+  cornerd_add_test_run(${name} ${name} "-${apart}" LABELS ${arg_LABELS} SHARDS ${arg_SHARDS}
+    COST ${arg_COST})
+  set(number 0)
+  foreach(pattern IN LISTS arg_LONG)
+    cornerd_add_test_run(${name}.long.${number} ${name} "${pattern}" LABELS ${arg_LABELS} long COST 100)
+    math(EXPR number "${number} + 1")
+  endforeach()
+  if(alone)
+    cornerd_add_test_run(${name}.alone ${name} "${alone}" LABELS ${arg_LABELS} SERIAL)
+  endif()
+endfunction()
