@@ -155,7 +155,7 @@ TEST_F(Service, HangupDuringStart_HandledAfterStart) {
   }
   daemon.send_signal(SIGTERM);
   EXPECT_EQ(daemon.wait_for_exit(), 0);
-  EXPECT_NE(daemon.output().find("SIGHUP: reading"), std::string::npos) << daemon.output();
+  EXPECT_NE(daemon.output().find("SIGHUP: reloading"), std::string::npos) << daemon.output();
 }
 
 TEST_F(Service, KilledInstance_NextOneStarts) {
