@@ -45,12 +45,12 @@ struct ExtractionConfig {
   /// Samples between two pieces of one wall: a table leg, a run of outliers.
   std::size_t max_interruption = 4;
   /// Largest gap between the pieces: below a door's width.
-  double max_piece_gap_m = 0.3;
+  double merge_gap_m = 0.3;
   /// Largest angle between the pieces.
-  double max_piece_angle_rad = radians(60);
+  double merge_angle_rad = radians(60);
   /// Largest increase of chi-square when two lines become one. Normal noise reaches 15 once in
   /// 2,000 times; a tracker that stops at the worst sample reaches more.
-  double joined_chi_square = 40;
+  double merge_chi_square = 40;
   /// A wall of at most this many samples, or with a less certain direction, may be noise of its
   /// neighbours and is tested for it.
   std::uint32_t short_wall_samples = 12;
@@ -60,7 +60,7 @@ struct ExtractionConfig {
   /// Rays without a return between a wall at grazing incidence and its corner.
   double grazing_rays = 4;
   /// Gap that such rays may leave, in units of Dth_corner.
-  double grazing_reach = 2;
+  double grazing_gap = 2;
   /// A single sample behind a corner is an outlier where more than this many samples lie between
   /// its walls, or where their gap is smaller than this.
   std::size_t see_through_samples = 3;
@@ -73,13 +73,13 @@ struct ExtractionConfig {
   /// not localized better than this.
   double max_end_span_m = 0.12;
   /// Samples beyond the end that are tested for occlusion; two have to pass.
-  std::size_t samples_beyond = 3;
+  std::size_t occlusion_samples = 3;
   /// Largest direction uncertainty of two to four samples that count as the rest of a wall.
-  double max_rest_sigma_rad = radians(9);
+  double stub_sigma_rad = radians(9);
   /// Smallest angle between that rest and the rays: smaller angles are mixed pixels at an edge.
-  double min_rest_angle_rad = radians(3.5);
+  double stub_angle_rad = radians(3.5);
   /// Largest standard deviation of a corner made with such a rest.
-  double max_rest_corner_sigma_m = 0.02;
+  double stub_corner_sigma_m = 0.02;
 };
 
 struct DetectorConfig {

@@ -54,11 +54,11 @@ void add_detector_keys(std::vector<Key>& table, core::DetectorConfig& config) {
       "Deviation, in standard deviations, that is still noise.");
   add("/max_interruption", integer(extraction.max_interruption, 0, kMaxCount),
       "Samples between two segments that may be merged into one wall.");
-  add("/merge_gap", number(extraction.max_piece_gap_m, 0, 10), "Largest gap between them, metres.",
+  add("/merge_gap", number(extraction.merge_gap_m, 0, 10), "Largest gap between them, metres.",
       "max_piece_gap");
-  add("/merge_angle", number(extraction.max_piece_angle_rad, 0.01, 1.57),
+  add("/merge_angle", number(extraction.merge_angle_rad, 0.01, 1.57),
       "Largest angle between them, radians.", "max_piece_angle");
-  add("/merge_chi_square", number(extraction.joined_chi_square, 0, 1e6),
+  add("/merge_chi_square", number(extraction.merge_chi_square, 0, 1e6),
       "Largest chi-square that one line instead of two may cost.", "joined_chi_square");
   add("/short_wall_samples", integer(extraction.short_wall_samples, 3, kMaxCount),
       "A wall of at most so many samples may be noise of its neighbours and is tested for it.",
@@ -69,7 +69,7 @@ void add_detector_keys(std::vector<Key>& table, core::DetectorConfig& config) {
       "Smallest angle of a corner, radians.");
   add("/grazing_rays", number(extraction.grazing_rays, 0, 100),
       "Rays without a return that are allowed between a grazed wall and its corner.");
-  add("/grazing_gap", number(extraction.grazing_reach, 1, 100),
+  add("/grazing_gap", number(extraction.grazing_gap, 1, 100),
       "Largest gap that they may leave, in units of corner_tolerance.", "grazing_reach");
   add("/see_through_samples", integer(extraction.see_through_samples, 0, kMaxCount),
       "Behind a corner one sample is an outlier where more samples than these lie between the "
@@ -82,16 +82,16 @@ void add_detector_keys(std::vector<Key>& table, core::DetectorConfig& config) {
       "Samples on that face.");
   add("/max_end_span", number(extraction.max_end_span_m, 0, 1),
       "A wall whose end is known less exactly than this reports no end, metres.");
-  add("/occlusion_samples", integer(extraction.samples_beyond, 2, 100),
+  add("/occlusion_samples", integer(extraction.occlusion_samples, 2, 100),
       "Samples beyond an end that are tested for occlusion by the wall; two must be occluded.",
       "look_beyond");
-  add("/stub_sigma", number(extraction.max_rest_sigma_rad, 0, 1.5),
+  add("/stub_sigma", number(extraction.stub_sigma_rad, 0, 1.5),
       "Two to four samples beside a corner show its other wall. Largest sigma of their direction, "
       "radians.",
       "max_rest_sigma");
-  add("/stub_angle", number(extraction.min_rest_angle_rad, 0, 1.5),
+  add("/stub_angle", number(extraction.stub_angle_rad, 0, 1.5),
       "Smallest angle between such a wall and the rays, radians.", "min_rest_angle");
-  add("/stub_corner_sigma", number(extraction.max_rest_corner_sigma_m, 0, 1),
+  add("/stub_corner_sigma", number(extraction.stub_corner_sigma_m, 0, 1),
       "Largest sigma of such a corner, metres.", "max_rest_corner_sigma");
 }
 

@@ -77,8 +77,7 @@ bool Border::is_reached(const Vec2& corner, const SegmentTrack& wall, std::size_
   std::size_t farthest = end;
   for (std::size_t k = 1; k <= between_; ++k) {
     const std::size_t index = (step > 0 ? end + k : end + n - k) % n;
-    if ((scan_[index].position() - scan_[farthest].position()).norm() >
-        context_.limits.max_piece_gap_m)
+    if ((scan_[index].position() - scan_[farthest].position()).norm() > context_.limits.merge_gap_m)
       break;
     if (mahalanobis_squared(context_.noise, wall.line, scan_[index]) < gate2) farthest = index;
   }
@@ -91,7 +90,7 @@ bool Border::is_reached(const Vec2& corner, const SegmentTrack& wall, std::size_
   const PolarPoint& next = scan_[step > 0 ? left_.first : right_.last];
   const double height_m = wall.line.normal.dot(next.position()) - wall.line.offset_m;
   const bool behind = height_m < 0 && mahalanobis_squared(context_.noise, wall.line, next) > gate2;
-  return !behind && distance_m <= context_.limits.grazing_reach * corner_tolerance_m_;
+  return !behind && distance_m <= context_.limits.grazing_gap * corner_tolerance_m_;
 }
 
 std::optional<Breakpoint> Border::corner() const {
@@ -146,7 +145,7 @@ std::optional<SegmentTrack> rest_of_wall(const PolarScan& scan, std::size_t end,
     rest.line = rest.fit.line();
     const double sigma_angle_rad =
         context.noise_scale / std::sqrt(rest.line.weight * rest.line.variance_along);
-    if (sigma_angle_rad > context.limits.max_rest_sigma_rad) continue;
+    if (sigma_angle_rad > context.limits.stub_sigma_rad) continue;
     bool is_on_line = true;
     for (std::size_t k = 0; k < count && is_on_line; ++k) {
       const PolarPoint& point = scan[(first + k) % n];
@@ -203,7 +202,7 @@ void extract_border(const PolarScan& scan, const SegmentTrack& right, const Segm
       const auto rest = rest_of_wall(scan, on_right ? right.last : left.first, on_right ? +1 : -1,
                                      between, context);
       if (rest) found = on_right ? corner_of(right, *rest) : corner_of(*rest, left);
-      const double limit_m = context.limits.max_rest_corner_sigma_m;
+      const double limit_m = context.limits.stub_corner_sigma_m;
       if (found && found->covariance.trace() > limit_m * limit_m) found.reset();
     }
     add(found ? found : end.terminal());

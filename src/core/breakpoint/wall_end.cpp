@@ -122,7 +122,7 @@ std::optional<Breakpoint> WallEnd::corner() const {
 
 bool WallEnd::is_occluding(std::size_t skip) const {
   std::size_t behind = 0;
-  for (std::size_t k = 1 + skip; k <= context_.limits.samples_beyond + skip; ++k) {
+  for (std::size_t k = 1 + skip; k <= context_.limits.occlusion_samples + skip; ++k) {
     const Beyond beyond = sample_beyond(k);
     if (beyond.height_m < -context_.limits.gate_sigmas * beyond.sigma_height_m) {
       ++behind;

@@ -93,7 +93,7 @@ void WallPolyline::reassign_points(const PolarScan& scan, SegmentTrack& right,
     const PolarPoint& point = scan[index];
     const PolarPoint& end = scan[&to == &left ? left.first : right.last];
     const double gap_m = std::hypot(point.x_m - end.x_m, point.y_m - end.y_m);
-    return gap_m < config_.extraction.max_piece_gap_m &&
+    return gap_m < config_.extraction.merge_gap_m &&
            mahalanobis_squared(noise_, to.line, point) <
                mahalanobis_squared(noise_, from.line, point);
   };

@@ -33,13 +33,13 @@ bool is_one_wall(const PolarScan& scan, const ExtractionContext& context, const 
                  const SegmentTrack& left) {
   if (samples_between(scan, right, left) > context.limits.max_interruption) return false;
   const Vec2 gap = scan[left.first].position() - scan[right.last].position();
-  if (gap.norm() > context.limits.max_piece_gap_m) return false;
+  if (gap.norm() > context.limits.merge_gap_m) return false;
   if (right.line.normal.dot(left.line.normal) < context.angles.min_piece_cosine) return false;
 
   LineFit both = right.fit;
   both.add(left.fit);
   const double cost = both.chi_square() - right.fit.chi_square() - left.fit.chi_square();
-  const double limit = context.limits.joined_chi_square * context.noise_scale * context.noise_scale;
+  const double limit = context.limits.merge_chi_square * context.noise_scale * context.noise_scale;
   return cost * across_factor(context.noise, both.line()) < limit;
 }
 

@@ -81,7 +81,7 @@ TEST(Config, Keys_SetTheirMembers) {
   EXPECT_EQ(localizer.detector.sigma_offset, 0.05);
   EXPECT_EQ(localizer.detector.corner_tolerance_m, 0.3);
   EXPECT_EQ(localizer.detector.altbd.seed_samples, 4U);
-  EXPECT_EQ(localizer.detector.extraction.samples_beyond, 5U);
+  EXPECT_EQ(localizer.detector.extraction.occlusion_samples, 5U);
   const core::OdometryConfig& odometry = localizer.odometry;
   EXPECT_TRUE(odometry.enabled);
   EXPECT_EQ(odometry.geometry.wheel_radius_m, 0.03);
