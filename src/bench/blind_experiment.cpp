@@ -19,25 +19,25 @@
 namespace cornerd::bench {
 namespace {
 
-class BlindScore {
+class CoveredLidarScore {
  public:
-  explicit BlindScore(BlindResult& result) : result_(result) {}
+  explicit CoveredLidarScore(CoveredLidarResult& result) : result_(result) {}
 
   void add(const core::PoseEstimate& pose, const core::Pose2& truth) {
     if (pose.state == core::PoseState::kFix) add_to(result_.fixes, pose, truth);
     if (pose.state != core::PoseState::kPredicted) return;
-    const auto ages = std::find_if(result_.carried_on.begin(), result_.carried_on.end(),
-                                   [&](const BlindAges& a) { return pose.age_s < a.to_s; });
-    if (ages != result_.carried_on.end()) add_to(*ages, pose, truth);
+    const auto ages = std::find_if(result_.predicted.begin(), result_.predicted.end(),
+                                   [&](const AgeConsistency& a) { return pose.age_s < a.to_s; });
+    if (ages != result_.predicted.end()) add_to(*ages, pose, truth);
   }
 
   void finish() {
     make_means(result_.fixes);
-    for (BlindAges& ages : result_.carried_on) make_means(ages);
+    for (AgeConsistency& ages : result_.predicted) make_means(ages);
   }
 
  private:
-  static void add_to(PoseHonesty& honesty, const core::PoseEstimate& pose,
+  static void add_to(PoseConsistency& honesty, const core::PoseEstimate& pose,
                      const core::Pose2& truth) {
     const replay::PoseError error = replay::error_of(pose.T_map_base, truth);
     const double nees = replay::normalised_error_squared(pose, truth)
@@ -49,17 +49,17 @@ class BlindScore {
     honesty.mean_nees += nees;
     honesty.share_within += nees < replay::kNees95 ? 1 : 0;
   }
-  static void make_means(PoseHonesty& honesty) {
+  static void make_means(PoseConsistency& honesty) {
     const auto poses = static_cast<double>(std::max<std::size_t>(honesty.poses, 1));
     honesty.mean_m /= poses;
     honesty.mean_nees /= poses;
     honesty.share_within /= poses;
   }
 
-  BlindResult& result_;
+  CoveredLidarResult& result_;
 };
 
-bool is_covered(const BlindCase& blind, core::TimeNs t_ns) {
+bool is_covered(const CoveredLidarCase& blind, core::TimeNs t_ns) {
   const double since_s = core::to_seconds(t_ns) - blind.first_s;
   return since_s >= 0 && std::fmod(since_s, blind.again_s) < blind.covered_s;
 }
@@ -80,8 +80,8 @@ void draw_errors(replay::RobotModel& robot, std::uint64_t seed) {
   robot.gyro_bias_rad_s = told.gyro_bias_rad_s * random.normal();
 }
 
-void drive_blind(std::shared_ptr<const core::WallMap> map, const BlindCase& blind,
-                 std::uint64_t seed, BlindScore& score) {
+void drive_blind(std::shared_ptr<const core::WallMap> map, const CoveredLidarCase& blind,
+                 std::uint64_t seed, CoveredLidarScore& score) {
   const replay::Motion motion =
       replay::drive_path(replay::find_scenario("exploration")->path, gentle_drive());
   replay::SimulatorConfig simulated;
@@ -118,69 +118,69 @@ void drive_blind(std::shared_ptr<const core::WallMap> map, const BlindCase& blin
 
 }  // namespace
 
-std::vector<BlindCase> blind_cases() {
-  BlindCase usual;
+std::vector<CoveredLidarCase> covered_lidar_cases() {
+  CoveredLidarCase usual;
   usual.title = "16 cm robot";
   usual.robot = odometry_robots().back().model;
   usual.robot.slips_per_m = 0;
-  std::vector<BlindCase> cases = {usual};
+  std::vector<CoveredLidarCase> cases = {usual};
   const auto add = [&](std::string_view title, auto&& differ) {
     cases.push_back(usual);
     cases.back().title = title;
     differ(cases.back());
   };
-  const auto twice_the_noise = [](BlindCase& blind) {
+  const auto twice_the_noise = [](CoveredLidarCase& blind) {
     blind.robot.wheel_m_per_sqrt_m = 0.002;
     blind.robot.gyro_rad_s_per_sqrt_hz = 0.0005;
   };
-  const auto slips = [](BlindCase& blind) { blind.robot.slips_per_m = 0.3; };
-  const auto no_gyro = [](BlindCase& blind) { blind.robot.has_gyro = false; };
-  const auto pioneer = [](BlindCase& blind) {
+  const auto slips = [](CoveredLidarCase& blind) { blind.robot.slips_per_m = 0.3; };
+  const auto no_gyro = [](CoveredLidarCase& blind) { blind.robot.has_gyro = false; };
+  const auto pioneer = [](CoveredLidarCase& blind) {
     blind.robot.geometry = odometry_robots().front().model.geometry;
   };
   add("twice the noise", twice_the_noise);
   add("slips every 3 m", slips);
   add("no gyro", no_gyro);
-  add("no gyro, twice the noise", [&](BlindCase& blind) {
+  add("no gyro, twice the noise", [&](CoveredLidarCase& blind) {
     no_gyro(blind);
     twice_the_noise(blind);
   });
-  add("no gyro, slips every 3 m", [&](BlindCase& blind) {
+  add("no gyro, slips every 3 m", [&](CoveredLidarCase& blind) {
     no_gyro(blind);
     slips(blind);
   });
-  add("counts of 5 mm", [](BlindCase& blind) { blind.robot.geometry.counts_per_turn = 40; });
-  add("after 3 s, robots drawn", [](BlindCase& blind) {
+  add("counts of 5 mm", [](CoveredLidarCase& blind) { blind.robot.geometry.counts_per_turn = 40; });
+  add("after 3 s, robots drawn", [](CoveredLidarCase& blind) {
     blind.first_s = 3;
     blind.duration_s = 8;
     blind.draws_errors = true;
     blind.drives_for_one = 15;
   });
-  add("a lidar off by 5 mm and 0.5 %", [](BlindCase& blind) {
+  add("a lidar off by 5 mm and 0.5 %", [](CoveredLidarCase& blind) {
     blind.lidar.range_offset_m = 0.005;
     blind.lidar.range_scale = 1.005;
   });
   add("Pioneer P3-DX", pioneer);
-  add("Pioneer, no gyro", [&](BlindCase& blind) {
+  add("Pioneer, no gyro", [&](CoveredLidarCase& blind) {
     pioneer(blind);
     no_gyro(blind);
   });
-  add("Pioneer, slips every 3 m", [&](BlindCase& blind) {
+  add("Pioneer, slips every 3 m", [&](CoveredLidarCase& blind) {
     pioneer(blind);
     slips(blind);
   });
   return cases;
 }
 
-BlindResult run_blind_case(std::shared_ptr<const core::WallMap> map, const BlindCase& blind,
+CoveredLidarResult run_covered_lidar_case(std::shared_ptr<const core::WallMap> map, const CoveredLidarCase& blind,
                            std::uint64_t seed, std::size_t drives) {
-  BlindResult result;
+  CoveredLidarResult result;
   constexpr double kAges_s[] = {0, 0.25, 1, 2, 5};
-  for (std::size_t i = 0; i < result.carried_on.size(); ++i) {
-    result.carried_on[i].from_s = kAges_s[i];
-    result.carried_on[i].to_s = kAges_s[i + 1];
+  for (std::size_t i = 0; i < result.predicted.size(); ++i) {
+    result.predicted[i].from_s = kAges_s[i];
+    result.predicted[i].to_s = kAges_s[i + 1];
   }
-  BlindScore score(result);
+  CoveredLidarScore score(result);
   drives *= blind.drives_for_one;
   for (std::size_t i = 0; i < drives; ++i) drive_blind(map, blind, seed + i, score);
   score.finish();

@@ -16,7 +16,7 @@
 namespace cornerd::bench {
 
 /// A drive through the rooms of config/maps/flat-7.json, and when its lidar sees nothing.
-struct BlindCase {
+struct CoveredLidarCase {
   std::string_view title;
   replay::RobotModel robot;
   replay::SensorModel lidar;
@@ -30,7 +30,7 @@ struct BlindCase {
 };
 
 /// Poses against the truth, and what they say of their doubt.
-struct PoseHonesty {
+struct PoseConsistency {
   std::size_t poses = 0;
   double mean_m = 0;
   double worst_m = 0;
@@ -40,23 +40,23 @@ struct PoseHonesty {
 };
 
 /// Poses of one range of ages.
-struct BlindAges : PoseHonesty {
+struct AgeConsistency : PoseConsistency {
   double from_s = 0;
   double to_s = 0;
 };
 
-struct BlindResult {
-  PoseHonesty fixes;
+struct CoveredLidarResult {
+  PoseConsistency fixes;
   /// What lies between two turns, then the lidar covered.
-  std::array<BlindAges, 4> carried_on;
+  std::array<AgeConsistency, 4> predicted;
 };
 
 /// Robots that are as wrong as in the table of the modes, one that slips, and others.
-std::vector<BlindCase> blind_cases();
+std::vector<CoveredLidarCase> covered_lidar_cases();
 
 /// A pose is carried on for every reading of the wheels (OdometryConfig::publish). Same input, same
 /// result.
-BlindResult run_blind_case(std::shared_ptr<const core::WallMap> map, const BlindCase& blind,
+CoveredLidarResult run_covered_lidar_case(std::shared_ptr<const core::WallMap> map, const CoveredLidarCase& blind,
                            std::uint64_t seed, std::size_t drives);
 
 }  // namespace cornerd::bench

@@ -7,7 +7,7 @@
 
 namespace cornerd::bench {
 
-std::vector<Circumstances> usual_circumstances() {
+std::vector<Conditions> default_conditions() {
   const auto sensor = [](double floor_m, double share, double missing) {
     replay::SensorModel model;
     model.noise.floor_m = floor_m;

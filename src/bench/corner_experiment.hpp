@@ -20,14 +20,14 @@ namespace cornerd::bench {
 /// Nearer to a wall than this an A1 sees nothing.
 inline constexpr double kClearance_m = 0.15;
 
-struct Circumstances {
+struct Conditions {
   std::string title;
   replay::SensorModel sensor;
 };
 
 /// Range noise of max(1.5 mm, 0.5 %) and of max(3 mm, 1 %), each with 0.5 % and with a third of the
 /// returns missing; 0.2 % outliers, bearings off by 0.05 degrees.
-std::vector<Circumstances> usual_circumstances();
+std::vector<Conditions> default_conditions();
 
 struct MethodScore {
   NamedMethod method;

@@ -46,7 +46,7 @@ std::vector<Recognised> recognise(std::span<const core::Breakpoint> breakpoints,
 
 }  // namespace
 
-std::optional<core::Pose2> place_by_nearest_corners(std::span<const core::Breakpoint> breakpoints,
+std::optional<core::Pose2> pose_from_nearest_corners(std::span<const core::Breakpoint> breakpoints,
                                                     const core::WallMap& map,
                                                     const core::Pose2& T_map_lidar) {
   const std::vector<Recognised> corners = recognise(breakpoints, map, T_map_lidar);

@@ -17,7 +17,7 @@ namespace cornerd::bench {
 /// as seen from the true place, and one without such a corner is passed over. So is a second one
 /// less than 10 cm from the first, as the paper takes both corners of a wall's end for one point.
 /// nullopt where fewer than two are left.
-std::optional<core::Pose2> place_by_nearest_corners(std::span<const core::Breakpoint> breakpoints,
+std::optional<core::Pose2> pose_from_nearest_corners(std::span<const core::Breakpoint> breakpoints,
                                                     const core::WallMap& map,
                                                     const core::Pose2& T_map_lidar);
 

@@ -89,7 +89,7 @@ ReckonedTrack reckon_by_fit(const Drive& drive, const core::OdometryParameters& 
 }  // namespace
 
 std::vector<OdometryRobot> odometry_robots() {
-  replay::RobotModel wrong = wrong_robot();
+  replay::RobotModel wrong = miscalibrated_robot();
   wrong.slips_per_m = 0.05;
   OdometryRobot pioneer{"Pioneer P3-DX", "pioneer", wrong};
   pioneer.model.geometry = {.wheel_radius_m = 0.0975, .track_m = 0.331, .counts_per_turn = 76600};

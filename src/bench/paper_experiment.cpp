@@ -26,7 +26,7 @@ class ScanTruths {
   }
 
   const replay::CornerTruth& at(std::size_t scan) {
-    const PaperPlace& place = scans_.places[scan];
+    const PaperPose& place = scans_.places[scan];
     points_.assign(scans_.scans[scan], limits_.min_range_m, limits_.max_range_m);
     truths_[place.map].observe(place.T_map_lidar, points_.points());
     return truths_[place.map];
@@ -56,10 +56,10 @@ PaperResult run_method(const PaperScans& scans, const NamedMethod& method,
   Workload workload(method, scans.scans);
   ScanTruths truth(scans);
 
-  PaperResult result{method, std::vector<PlaceResult>(scans.places.size())};
+  PaperResult result{method, std::vector<PoseResult>(scans.places.size())};
   for (std::size_t i = 0; i < scans.places.size(); ++i) {
-    PlaceResult& at = result.places[i];
-    const PaperPlace& place = scans.places[i];
+    PoseResult& at = result.places[i];
+    const PaperPose& place = scans.places[i];
     workload.run(i);
     at.breakpoints = workload.detection().breakpoints;
 
@@ -68,14 +68,14 @@ PaperResult run_method(const PaperScans& scans, const NamedMethod& method,
     at.true_corners = score.detections(BreakpointKind::kCorner, Verdict::kTrue);
     at.missed_corners = score.missed();
     at.false_corners = score.detections(BreakpointKind::kCorner, Verdict::kFalse) +
-                       score.detections(BreakpointKind::kCorner, Verdict::kAside);
+                       score.detections(BreakpointKind::kCorner, Verdict::kOneSided);
 
     const auto error_m = [&](const std::optional<core::Pose2>& found) -> std::optional<double> {
       if (!found) return std::nullopt;
       return distance_m(*found, place.T_map_lidar);
     };
     at.nearest_corners_error_m = error_m(
-        place_by_nearest_corners(at.breakpoints, *scans.maps[place.map], place.T_map_lidar));
+        pose_from_nearest_corners(at.breakpoints, *scans.maps[place.map], place.T_map_lidar));
     at.localizer_error_m = error_m(localize(localizers[place.map], scans.scans[i]));
   }
   if (timing_repeats > 0) {
@@ -90,9 +90,9 @@ PaperResult run_method(const PaperScans& scans, const NamedMethod& method,
 PaperScans simulate_paper_scans(std::span<const std::shared_ptr<const core::WallMap>> maps,
                                 const replay::SensorModel& sensor, std::size_t samples,
                                 std::uint64_t seed) {
-  PaperScans result{{maps.begin(), maps.end()}, paper_places(maps), {}};
+  PaperScans result{{maps.begin(), maps.end()}, paper_poses(maps), {}};
   replay::ScanSimulator simulator(sensor, samples, seed);
-  for (const PaperPlace& place : result.places) {
+  for (const PaperPose& place : result.places) {
     result.scans.push_back(simulator.take(*maps[place.map], place.T_map_lidar));
   }
   return result;

@@ -22,7 +22,7 @@ namespace cornerd::bench {
 /// One turn at each place, the same for all methods.
 struct PaperScans {
   std::vector<std::shared_ptr<const core::WallMap>> maps;
-  std::vector<PaperPlace> places;
+  std::vector<PaperPose> places;
   std::vector<core::Scan> scans;
 };
 PaperScans simulate_paper_scans(std::span<const std::shared_ptr<const core::WallMap>> maps,
@@ -30,7 +30,7 @@ PaperScans simulate_paper_scans(std::span<const std::shared_ptr<const core::Wall
                                 std::uint64_t seed);
 
 /// What a method made of one turn.
-struct PlaceResult {
+struct PoseResult {
   double time_us = 0;
   std::size_t true_corners = 0;
   /// Detections that claim to be corners and are none, or are a wall's end that shows one wall, or
@@ -44,7 +44,7 @@ struct PlaceResult {
 
 struct PaperResult {
   NamedMethod method;
-  std::vector<PlaceResult> places;  ///< as PaperScans::places
+  std::vector<PoseResult> places;  ///< as PaperScans::places
 };
 
 /// `timing_repeats`: of every turn; the median counts. 0: nothing is timed.

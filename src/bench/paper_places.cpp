@@ -52,8 +52,8 @@ core::Pose2 next_place(const core::WallMap& map, std::size_t room, std::size_t& 
 
 }  // namespace
 
-std::vector<PaperPlace> paper_places(std::span<const std::shared_ptr<const core::WallMap>> maps) {
-  std::vector<PaperPlace> places;
+std::vector<PaperPose> paper_poses(std::span<const std::shared_ptr<const core::WallMap>> maps) {
+  std::vector<PaperPose> places;
   for (std::size_t location = 0; location < kPaperLocations.size(); ++location) {
     std::size_t step = 0;
     for (std::size_t i = 0; i < kPaperLocations[location].places; ++i) {

@@ -11,7 +11,7 @@
 
 namespace cornerd::bench {
 
-struct PaperPlace {
+struct PaperPose {
   std::size_t location = 0;  ///< index into kPaperLocations
   std::size_t map = 0;       ///< which of the layouts
   core::Pose2 T_map_lidar;
@@ -21,6 +21,6 @@ struct PaperPlace {
 /// the first free points, 15 cm from any wall, of an evenly filling sequence (Roberts's R2 over the
 /// room's bounding box), any heading, the layouts taking turns.
 /// Throws std::runtime_error where a map lacks one of the rooms or has no place in it.
-std::vector<PaperPlace> paper_places(std::span<const std::shared_ptr<const core::WallMap>> maps);
+std::vector<PaperPose> paper_poses(std::span<const std::shared_ptr<const core::WallMap>> maps);
 
 }  // namespace cornerd::bench

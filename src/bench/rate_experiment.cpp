@@ -41,7 +41,7 @@ RateResult run_rate_case(std::shared_ptr<const core::WallMap> map, double rate_h
   replay::SimulatorConfig simulated;
   simulated.seed = seed;
   replay::Simulator simulator(std::make_unique<replay::MapScene>(map, motion), simulated);
-  replay::RobotModel robot = wrong_robot();
+  replay::RobotModel robot = miscalibrated_robot();
   std::optional<replay::SimulatedOdometry> odometry;
   if (rate_hz > 0) {
     robot.rate_hz = rate_hz;

@@ -78,7 +78,7 @@ ScaleResult run_scale_case(const ScaleCase& building, std::size_t scans, std::ui
     result.score.add(pose, simulated.places()[scan]);
     before_s = thread_time_s();
   });
-  result.time_us = mean_and_spread(times_us).mean;
+  result.time_us = mean_and_deviation(times_us).mean;
   std::sort(times_us.begin(), times_us.end());
   result.time_99_us = quantile(times_us, 0.99);
 

@@ -69,11 +69,11 @@ std::span<const Verdict> CornerScore::add(std::span<const core::Breakpoint> brea
       });
   match(
       breakpoints, corners.size(), [&](std::uint32_t c) { return !shows_both_walls(corners[c]); },
-      corner_position, [&](const Pair& pair) { verdicts_[pair.detection] = Verdict::kAside; });
+      corner_position, [&](const Pair& pair) { verdicts_[pair.detection] = Verdict::kOneSided; });
   match(
       breakpoints, shadows.size(), [](std::uint32_t) { return true; },
       [&](std::uint32_t c) { return shadows[c]; },
-      [&](const Pair& pair) { verdicts_[pair.detection] = Verdict::kShadow; });
+      [&](const Pair& pair) { verdicts_[pair.detection] = Verdict::kOcclusionEdge; });
 
   for (std::size_t d = 0; d < breakpoints.size(); ++d) {
     ++counts_[index(breakpoints[d].kind)][static_cast<std::size_t>(verdicts_[d])];
@@ -102,14 +102,14 @@ std::size_t CornerScore::detections(Verdict verdict) const {
 
 double CornerScore::precision(bool strictly) const {
   const std::size_t found = detections(Verdict::kTrue);
-  const std::size_t aside = strictly ? detections(Verdict::kAside) : 0;
+  const std::size_t aside = strictly ? detections(Verdict::kOneSided) : 0;
   return share(found, found + detections(Verdict::kFalse) + aside);
 }
 
 double CornerScore::precision_of_corners(bool strictly) const {
   constexpr BreakpointKind kKind = BreakpointKind::kCorner;
   const std::size_t found = detections(kKind, Verdict::kTrue);
-  const std::size_t aside = strictly ? detections(kKind, Verdict::kAside) : 0;
+  const std::size_t aside = strictly ? detections(kKind, Verdict::kOneSided) : 0;
   return share(found, found + detections(kKind, Verdict::kFalse) + aside);
 }
 

@@ -19,8 +19,8 @@ inline constexpr double kMatchDistance_m = 0.06;
 enum class Verdict : std::uint8_t {
   kTrue,    ///< a corner whose walls both give returns
   kFalse,   ///< nothing, or a corner that another detection has already
-  kAside,   ///< a corner that is no more than a wall's end from here, or is hidden itself
-  kShadow,  ///< where one wall hides another: neither true nor false
+  kOneSided,   ///< a corner that is no more than a wall's end from here, or is hidden itself
+  kOcclusionEdge,  ///< where one wall hides another: neither true nor false
 };
 
 /// What was detected in many turns against what was there.

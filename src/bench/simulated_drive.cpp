@@ -42,7 +42,7 @@ replay::DriveConfig gentle_drive(double speed_m_s) {
   return drive;
 }
 
-replay::RobotModel wrong_robot() {
+replay::RobotModel miscalibrated_robot() {
   replay::RobotModel robot;
   robot.left_scale = 0.015;
   robot.right_scale = 0.025;

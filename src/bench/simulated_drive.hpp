@@ -35,6 +35,6 @@ SimulatedDrive simulate_drive(std::shared_ptr<const core::WallMap> map,
 replay::DriveConfig gentle_drive(double speed_m_s = 0.4);
 
 /// Wheels 1.5 and 2.5 % larger than configured, the gyro 2 % and 0.01 rad/s off; no slips.
-replay::RobotModel wrong_robot();
+replay::RobotModel miscalibrated_robot();
 
 }  // namespace cornerd::bench

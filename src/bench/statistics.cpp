@@ -7,8 +7,8 @@
 
 namespace cornerd::bench {
 
-MeanAndSpread mean_and_spread(const std::vector<double>& values) {
-  MeanAndSpread result;
+MeanAndDeviation mean_and_deviation(const std::vector<double>& values) {
+  MeanAndDeviation result;
   if (values.empty()) return result;
   const auto count = static_cast<double>(values.size());
   result.mean = std::accumulate(values.begin(), values.end(), 0.0) / count;

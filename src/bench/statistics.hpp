@@ -5,11 +5,11 @@
 
 namespace cornerd::bench {
 
-struct MeanAndSpread {
+struct MeanAndDeviation {
   double mean = 0;
   double deviation = 0;  ///< standard deviation of a single value; 0 for fewer than two
 };
-MeanAndSpread mean_and_spread(const std::vector<double>& values);
+MeanAndDeviation mean_and_deviation(const std::vector<double>& values);
 
 /// Interpolated between the values next to that rank, 0 for none. `sorted`: by rising value.
 double quantile(const std::vector<double>& sorted, double share);

@@ -21,7 +21,7 @@ SimulatedDrive survey_drive(std::shared_ptr<const core::WallMap> map, std::size_
   config.scans = scans;
   config.simulator.seed = seed;
   config.has_odometry = has_odometry;
-  config.robot = wrong_robot();
+  config.robot = miscalibrated_robot();
   const replay::Scenario* exploration = replay::find_scenario("exploration");
   return simulate_drive(std::move(map), replay::drive_path(exploration->path, gentle_drive()),
                         config);
@@ -116,7 +116,7 @@ SimulatedDrive slipping_drive(core::FloorPlan plan, const std::vector<Vec2>& pat
   config.has_odometry = has_odometry;
   config.simulator.seed = seed;
   config.simulator.sensor.max_range_m = kShortRange_m;
-  config.robot = wrong_robot();
+  config.robot = miscalibrated_robot();
   config.robot.slips_per_m = 0.3;
   config.robot.slip_share = 10;
   return simulate_drive(std::make_shared<const core::WallMap>(std::move(plan)),

@@ -39,7 +39,7 @@ TEST(AbruptRobot, LidarAlone_CovarianceIsConsistent) {
   const std::string truth_file = folder / "truth.ndjson";
   const tool::CommandRun simulated({"simulate",    "--map",          map,       "--scenario",
                                     "exploration", "--loop",         "--real",  "--seed",
-                                    "2",           "--turns",        "900",     "--range-scale",
+                                    "2",           "--scans",        "900",     "--range-scale",
                                     "1.01",        "--range-offset", "0.005",   "--drive-speed",
                                     "0.4",         "--turn-speed",   "2",       "-o",
                                     recording,     "--truth",        truth_file});

@@ -16,7 +16,7 @@ namespace {
 using core::PoseState;
 using rplidar::WireFormat;
 
-struct Circumstances {
+struct Conditions {
   WireFormat wire = WireFormat::kExpress;
   double missing_share = 0.005;
   double byte_fault_share = 0;
@@ -26,7 +26,7 @@ class Arena : public testing::TestWithParam<std::tuple<const char*, WireFormat>>
  protected:
   static constexpr std::size_t kPlaces = 200;
 
-  tool::ErrorStatistics localize(const Circumstances& circumstances) {
+  tool::ErrorStatistics localize(const Conditions& circumstances) {
     const std::string layout = std::get<0>(GetParam());
     const auto map = settings::load_map(std::filesystem::path(CORNERD_SOURCE_DIR) /
                                         ("config/maps/krpai-2019-" + layout + ".json"));

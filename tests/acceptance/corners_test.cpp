@@ -33,7 +33,7 @@ double quantile(std::vector<double> values, double share) {
 
 TEST(Corners, EachNoiseLevel_PrecisionAndRecallHold) {
   const auto maps = layouts();
-  for (const bench::Circumstances& circumstances : bench::usual_circumstances()) {
+  for (const bench::Conditions& circumstances : bench::default_conditions()) {
     SCOPED_TRACE(circumstances.title);
     const bool noisy = circumstances.sensor.noise.share > 0.007;
     const auto scores = bench::score_methods(maps, bench::paper_methods(), circumstances.sensor,

@@ -28,7 +28,7 @@ TEST_P(CalibratedRobot, CorrectRobot_NoFaultReported) {
   const test::TemporaryFolder folder;
   const std::string map = CORNERD_SOURCE_DIR "/config/maps/flat-7.json";
   const std::string recording = folder / "drive.ndjson";
-  Words simulate = {"simulate", "--map", map, "--odometry", "--turns", "300", "-o", recording};
+  Words simulate = {"simulate", "--map", map, "--odometry", "--scans", "300", "-o", recording};
   Words calibrate = {"calibrate", "odometry", recording, "--map", map};
   for (Words* words : {&simulate, &calibrate}) {
     words->insert(words->end(), GetParam().config.begin(), GetParam().config.end());

@@ -48,7 +48,7 @@ class OdometryFaults : public testing::Test {
  protected:
   /// 20 s around a circuit of a flat; the lidar is covered for two of them.
   OdometryFaults() {
-    const CommandRun run({"simulate", "--map", map_, "--scenario", "circuit-1", "--turns", "150",
+    const CommandRun run({"simulate", "--map", map_, "--scenario", "circuit-1", "--scans", "150",
                           "--drive-speed", "0.4", "--odometry", "--covered", "15,17", "-o",
                           recording_, "--truth", truth_});
     if (run.exit_code != 0) throw std::runtime_error(run.err);

@@ -64,7 +64,7 @@ class DriveOf100m : public testing::TestWithParam<BadRobot> {
                                       "--gyro-bias=" + std::to_string(robot.gyro_bias_rad_s),
                                       "--covered",
                                       "30,35",
-                                      "--turns",
+                                      "--scans",
                                       "2600",
                                       "--seed",
                                       std::to_string(robot.seed),

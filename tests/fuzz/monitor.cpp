@@ -46,7 +46,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   core::TimeNs now_ns = 0;
   state.connect(now_ns);
   for (const std::string_view line : tool::split_words(text, "\n")) {
-    state.hear(line, now_ns += core::kNsPerSecond / 7);
+    state.take_line(line, now_ns += core::kNsPerSecond / 7);
   }
   tool::ViewChoice choice;
   choice.unicode = columns % 2 == 0;

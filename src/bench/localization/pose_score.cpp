@@ -62,7 +62,7 @@ double PoseScore::median_error_m() const {
 double PoseScore::rmse_m() const { return std::sqrt(per_right(squares_m2_)); }
 double PoseScore::bound_m() const { return std::sqrt(per_right(bound_m2_)); }
 double PoseScore::mean_heading_error_rad() const { return per_right(heading_rad_); }
-double PoseScore::of_bound() const { return bound_m2_ > 0 ? rmse_m() / bound_m() : 0; }
+double PoseScore::rmse_over_bound() const { return bound_m2_ > 0 ? rmse_m() / bound_m() : 0; }
 
 double PoseScore::mean_nees() const {
   return named_ == 0 ? 0 : nees_ / static_cast<double>(named_);
@@ -79,7 +79,7 @@ void Reliability::add(const core::PoseEstimate& estimate, const core::Pose2& tru
       is_fix ? estimate.T_map_base : estimate.alternatives.front().T_map_base;
   Bin* bin = bins_.data();
   for (Bin& each : bins_) {
-    if (estimate.p_wrong >= each.least_doubt) bin = &each;
+    if (estimate.p_wrong >= each.min_p_wrong) bin = &each;
   }
   ++bin->scans;
   bin->wrong += replay::is_right(first, truth) ? 0 : 1;

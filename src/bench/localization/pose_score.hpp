@@ -14,7 +14,7 @@ namespace cornerd::bench {
 class Reliability {
  public:
   struct Bin {
-    double least_doubt = 0;
+    double min_p_wrong = 0;
     std::size_t scans = 0;
     std::size_t wrong = 0;  ///< turns whose likeliest place was not the true one
     double doubt = 0;       ///< of these turns, summed: how many should be wrong
@@ -52,7 +52,7 @@ class PoseScore {
   double rmse_m() const;
   double mean_heading_error_rad() const;
   /// Root mean square error over that of the bound; 0 where no bound was given.
-  double of_bound() const;
+  double rmse_over_bound() const;
   double bound_m() const;  ///< root mean square error that the bound allows
 
   /// Normalised estimation error squared: 3 on average where the covariances are honest, and

@@ -61,7 +61,7 @@ class Robot {
     }
     const replay::Motion motion = circling(start, trial_.motion);
     replay::SimulatedOdometry odometry(motion, {}, seed_++);
-    std::vector<RoundThing> things;
+    std::vector<RoundObstacle> things;
     if (trial_.clutter > 0) {
       things = clutter_around(world, start.translation(), trial_.clutter, random_);
     }
@@ -70,7 +70,7 @@ class Robot {
       const core::Scan& scan = lidar_.take(start_ns, [&](core::TimeNs t_ns, double bearing_rad) {
         const core::Pose2 at = motion(t_ns, 0);
         const double angle_rad = at.theta_rad + bearing_rad;
-        return range_with(
+        return range_with_obstacles(
             things, at.translation(), angle_rad,
             world.range_along(at.translation(), angle_rad, replay::ScanSimulator::kMaxRange_m));
       });
@@ -120,7 +120,7 @@ class Robot {
 
 }  // namespace
 
-std::vector<Trial> usual_trials(const Maps& arenas,
+std::vector<Trial> default_trials(const Maps& arenas,
                                 const std::shared_ptr<const core::WallMap>& flat) {
   constexpr double kDisplaced_m = 0.03;
   constexpr core::TimeNs kSlowTurn_ns = 181'818'182;  // 5.5 turns a second

@@ -36,7 +36,7 @@ struct Trial {
 
 /// Those of the bench: precision, bias, adversity and motion, in these layouts of the arena and,
 /// where a robot needs room to move, in this flat.
-std::vector<Trial> usual_trials(const std::vector<std::shared_ptr<const core::WallMap>>& arenas,
+std::vector<Trial> default_trials(const std::vector<std::shared_ptr<const core::WallMap>>& arenas,
                                 const std::shared_ptr<const core::WallMap>& flat);
 
 /// `places` random ones, shared by the trial's buildings, turns of 800 samples.

@@ -19,22 +19,22 @@ constexpr double kWorldSight_m = 100;
 constexpr int kClutterRays = 360;
 
 double share_stopped(const core::WallMap& map, const Vec2& place,
-                     const std::vector<RoundThing>& things) {
+                     const std::vector<RoundObstacle>& things) {
   int stopped = 0;
   for (int i = 0; i < kClutterRays; ++i) {
     const double angle_rad = core::kTwoPi * i / kClutterRays;
     const double range_m = map.range_along(place, angle_rad, kWorldSight_m);
-    stopped += range_with(things, place, angle_rad, range_m) < range_m ? 1 : 0;
+    stopped += range_with_obstacles(things, place, angle_rad, range_m) < range_m ? 1 : 0;
   }
   return static_cast<double>(stopped) / kClutterRays;
 }
 
 }  // namespace
 
-double range_with(const std::vector<RoundThing>& things, const Vec2& origin, double angle_rad,
+double range_with_obstacles(const std::vector<RoundObstacle>& things, const Vec2& origin, double angle_rad,
                   double range_m) {
   const Vec2 ray = core::unit_vector(angle_rad);
-  for (const RoundThing& thing : things) {
+  for (const RoundObstacle& thing : things) {
     const Vec2 to = thing.centre - origin;
     const double along_m = to.dot(ray);
     const double aside_m = core::cross(ray, to);
@@ -45,12 +45,12 @@ double range_with(const std::vector<RoundThing>& things, const Vec2& origin, dou
   return range_m;
 }
 
-std::vector<RoundThing> clutter_around(const core::WallMap& map, const Vec2& place, double share,
+std::vector<RoundObstacle> clutter_around(const core::WallMap& map, const Vec2& place, double share,
                                        replay::Random& random) {
   constexpr double kNearest_m = 0.25;
   constexpr double kSmallest_m = 0.02;  // a chair's leg
   constexpr double kLargest_m = 0.2;    // a person
-  std::vector<RoundThing> things;
+  std::vector<RoundObstacle> things;
   while (share_stopped(map, place, things) < share) {
     const double angle_rad = random.uniform(0, core::kTwoPi);
     const double range_m = map.range_along(place, angle_rad, kWorldSight_m);

@@ -61,7 +61,7 @@ std::vector<NamedMethod> chosen_methods(const BenchOptions& options) {
 }
 
 /// The noise of the published experiment, as far as an A1's has been measured.
-replay::SensorModel usual_sensor() { return usual_circumstances().front().sensor; }
+replay::SensorModel usual_sensor() { return default_conditions().front().sensor; }
 
 /// What a counter of instructions is started on: it does nothing else.
 void only_detect(const BenchOptions& options) {
@@ -87,7 +87,7 @@ BenchReport measure(const BenchOptions& options) {
   if (options.instructions) {
     count_instructions({maps, folder, usual_sensor(), options.seed}, methods, report);
   }
-  for (const Circumstances& circumstances : usual_circumstances()) {
+  for (const Conditions& circumstances : default_conditions()) {
     if (options.positions == 0) break;
     tool::ProgressBar bar(circumstances.title, options.positions);
     report.corners.push_back(

@@ -72,7 +72,7 @@ std::string trials_text(const std::vector<TrialResult>& trials) {
                    tool::formatted("%.3f", kMetresToMillimetres * score.mean_error_m()),
                    tool::formatted("%.3f", kMetresToMillimetres * score.median_error_m()),
                    tool::formatted("%.3f", kMetresToMillimetres * score.rmse_m()),
-                   tool::formatted("%.2f", score.of_bound()),
+                   tool::formatted("%.2f", score.rmse_over_bound()),
                    tool::formatted("%.3f", core::degrees(score.mean_heading_error_rad())),
                    tool::formatted("%.2f", score.mean_nees()),
                    tool::formatted("%.1f", 100 * score.share_inside_95())});
@@ -88,7 +88,7 @@ std::string reliability_text(const Reliability& reliability) {
   tool::TextTable table;
   table.add_row({"doubt of the likeliest place", "turns", "should be wrong", "wrong"});
   for (const Reliability::Bin& bin : reliability.bins()) {
-    table.add_row({bin.least_doubt > 0 ? tool::formatted("from %g", bin.least_doubt)
+    table.add_row({bin.min_p_wrong > 0 ? tool::formatted("from %g", bin.min_p_wrong)
                                        : tool::formatted("below %g (a fix)", core::kWrongFixRate),
                    std::to_string(bin.scans), tool::formatted("%.3g", bin.doubt),
                    std::to_string(bin.wrong)});
@@ -128,7 +128,7 @@ OrderedJson json_of(const TrialResult& trial) {
           {"median_error", score.median_error_m()},
           {"rmse", score.rmse_m()},
           {"bound", score.bound_m()},
-          {"of_bound", score.of_bound()},
+          {"of_bound", score.rmse_over_bound()},
           {"mean_heading_error", score.mean_heading_error_rad()},
           {"nees", score.mean_nees()},
           {"share_inside_95", score.share_inside_95()}};
@@ -138,7 +138,7 @@ std::string report_json(const LocalizationReport& report, const LocalizationBenc
   OrderedJson document = {{"seed", options.seed}, {"samples", 800}};
   for (const TrialResult& trial : report.trials) document["trials"].push_back(json_of(trial));
   for (const Reliability::Bin& bin : report.reliability.bins()) {
-    document["reliability"].push_back({{"least_doubt", bin.least_doubt},
+    document["reliability"].push_back({{"least_doubt", bin.min_p_wrong},
                                        {"turns", bin.scans},
                                        {"expected_wrong", bin.doubt},
                                        {"wrong", bin.wrong}});
@@ -176,7 +176,7 @@ void run_localization_bench(const LocalizationBenchOptions& options) {
   }
 
   LocalizationReport report;
-  for (const Trial& trial : usual_trials(arenas, flat)) {
+  for (const Trial& trial : default_trials(arenas, flat)) {
     tool::ProgressBar bar(trial.title, options.places);
     report.trials.push_back({trial.title, run_trial(trial, options.places, options.seed,
                                                     [&](std::size_t n) { bar.show(n); })});

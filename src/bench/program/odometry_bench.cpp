@@ -202,7 +202,7 @@ void run_odometry_bench(const OdometryBenchOptions& options) {
   std::vector<RateRow> rates;
   {
     const auto all = odometry_robots();
-    const auto cases = blind_cases();
+    const auto cases = covered_lidar_cases();
     tool::ProgressBar bar("odometry", all.size() * replay::scenarios().size() + cases.size() +
                                           2 * std::size(kReadingRates_hz));
     std::size_t done = 0;
@@ -213,9 +213,9 @@ void run_odometry_bench(const OdometryBenchOptions& options) {
         bar.show(++done);
       }
     }
-    for (const BlindCase& one : cases) {
+    for (const CoveredLidarCase& one : cases) {
       if (options.drives == 0) break;
-      blind.push_back({one.title, run_blind_case(map, one, options.seed, options.drives)});
+      blind.push_back({one.title, run_covered_lidar_case(map, one, options.seed, options.drives)});
       bar.show(++done);
     }
     for (const bool gently : {false, true}) {

@@ -12,7 +12,7 @@ namespace cornerd::bench {
 
 namespace {
 
-nlohmann::ordered_json figures_of(const PoseHonesty& poses) {
+nlohmann::ordered_json figures_of(const PoseConsistency& poses) {
   return {{"poses", poses.poses},       {"mean_error", poses.mean_m},
           {"max_error", poses.worst_m}, {"max_heading_error", poses.worst_rad},
           {"nees", poses.mean_nees},    {"share_within", poses.share_within}};
@@ -23,7 +23,7 @@ nlohmann::ordered_json figures_of(const PoseHonesty& poses) {
 std::string blind_text(const std::vector<BlindRow>& rows) {
   tool::TextTable table;
   table.add_row({"robot", "age [s]", "poses", "mean, max [mm]", "max [deg]", "NEES", "< 7.815"});
-  const auto add = [&](const std::string& robot, const std::string& age, const PoseHonesty& poses) {
+  const auto add = [&](const std::string& robot, const std::string& age, const PoseConsistency& poses) {
     table.add_row({robot, age, tool::formatted("%zu", poses.poses),
                    tool::formatted("%.2f, %.1f", 1e3 * poses.mean_m, 1e3 * poses.worst_m),
                    tool::formatted("%.2f", core::degrees(poses.worst_rad)),
@@ -32,7 +32,7 @@ std::string blind_text(const std::vector<BlindRow>& rows) {
   };
   for (const BlindRow& row : rows) {
     add(std::string(row.title), "fix", row.result.fixes);
-    for (const BlindAges& ages : row.result.carried_on) {
+    for (const AgeConsistency& ages : row.result.predicted) {
       add("", tool::formatted("%.2f-%.2f", ages.from_s, ages.to_s), ages);
     }
   }
@@ -48,7 +48,7 @@ nlohmann::ordered_json blind_json(const std::vector<BlindRow>& rows) {
   nlohmann::ordered_json robots = nlohmann::ordered_json::array();
   for (const BlindRow& row : rows) {
     nlohmann::ordered_json by_age = nlohmann::ordered_json::array();
-    for (const BlindAges& ages : row.result.carried_on) {
+    for (const AgeConsistency& ages : row.result.predicted) {
       nlohmann::ordered_json figures = {{"from", ages.from_s}, {"to", ages.to_s}};
       figures.update(figures_of(ages));
       by_age.push_back(std::move(figures));

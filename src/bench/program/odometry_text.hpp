@@ -14,7 +14,7 @@ namespace cornerd::bench {
 
 struct BlindRow {
   std::string_view title;
-  BlindResult result;
+  CoveredLidarResult result;
 };
 
 std::string blind_text(const std::vector<BlindRow>& rows);

@@ -14,7 +14,7 @@ namespace {
 
 using Figures = nlohmann::ordered_json;
 
-Figures json_of(const PlaceResult& result, const PaperPlace& place, const PaperScans& scans) {
+Figures json_of(const PoseResult& result, const PaperPose& place, const PaperScans& scans) {
   Figures figures = {{"location", kPaperLocations[place.location].title},
                      {"map", scans.maps[place.map]->plan().name},
                      {"x", place.T_map_lidar.x_m},
@@ -50,8 +50,8 @@ Figures json_of(const MethodScore& line) {
           {"detections",
            {{"true", score.detections(Verdict::kTrue)},
             {"false", score.detections(Verdict::kFalse)},
-            {"aside", score.detections(Verdict::kAside)},
-            {"shadow", score.detections(Verdict::kShadow)}}},
+            {"aside", score.detections(Verdict::kOneSided)},
+            {"shadow", score.detections(Verdict::kOcclusionEdge)}}},
           {"precision", score.precision()},
           {"precision_strict", score.precision(true)},
           {"precision_of_corners", score.precision_of_corners()},

@@ -13,7 +13,7 @@ namespace cornerd::bench {
 
 namespace {
 
-using Places = std::vector<const PlaceResult*>;
+using Places = std::vector<const PoseResult*>;
 
 constexpr double kBenchMm = 1e3;
 constexpr std::size_t kReference = 1;  // ABD+IEPF, among the paper's methods
@@ -29,7 +29,7 @@ std::optional<std::size_t> paper_index(const NamedMethod& method) {
 
 Places all_places(const PaperResult& result) {
   Places places;
-  for (const PlaceResult& place : result.places) places.push_back(&place);
+  for (const PoseResult& place : result.places) places.push_back(&place);
   return places;
 }
 
@@ -41,10 +41,10 @@ Places places_at(const BenchReport& report, const PaperResult& result, std::size
   return places;
 }
 
-MeanAndSpread time_of(const Places& places) {
+MeanAndDeviation time_of(const Places& places) {
   std::vector<double> times_us;
-  for (const PlaceResult* place : places) times_us.push_back(place->time_us);
-  return mean_and_spread(times_us);
+  for (const PoseResult* place : places) times_us.push_back(place->time_us);
+  return mean_and_deviation(times_us);
 }
 
 struct TrueAndFalse {
@@ -54,7 +54,7 @@ struct TrueAndFalse {
 };
 TrueAndFalse count_corners(const Places& places) {
   TrueAndFalse counts;
-  for (const PlaceResult* place : places) {
+  for (const PoseResult* place : places) {
     counts.true_corners += place->true_corners;
     counts.false_corners += place->false_corners;
     counts.faulty_places += place->false_corners > 0 ? 1 : 0;
@@ -108,7 +108,7 @@ class MethodTable {
   std::vector<std::vector<std::string>> rows_;
 };
 
-std::string time_text(const MeanAndSpread& time, const PaperMean* paper) {
+std::string time_text(const MeanAndDeviation& time, const PaperMean* paper) {
   std::string text = tool::formatted("%.1f +- %.1f", time.mean, time.deviation);
   if (paper != nullptr)
     text += tool::formatted(" (%.1f +- %.1f ms)", paper->mean, paper->deviation);
@@ -116,7 +116,7 @@ std::string time_text(const MeanAndSpread& time, const PaperMean* paper) {
 }
 
 std::string error_text(const std::vector<double>& errors_m) {
-  const MeanAndSpread error = mean_and_spread(errors_m);
+  const MeanAndDeviation error = mean_and_deviation(errors_m);
   return tool::formatted("%.2f +- %.2f (%zu)", kBenchMm * error.mean, kBenchMm * error.deviation,
                          errors_m.size());
 }
@@ -133,7 +133,7 @@ std::string time_table(const BenchReport& report) {
     const PaperLocation& paper = kPaperLocations[location];
     table.add_row(std::string(paper.title), std::to_string(paper.places),
                   [&](const PaperResult& result) {
-                    const MeanAndSpread time = time_of(places_at(report, result, location));
+                    const MeanAndDeviation time = time_of(places_at(report, result, location));
                     const auto index = paper_index(result.method);
                     if (!index) return time_text(time, nullptr);
                     const PaperMean printed{paper.cells[*index].time_ms,
@@ -143,7 +143,7 @@ std::string time_table(const BenchReport& report) {
   }
   double reference_us = 0;
   table.add_row("all", std::to_string(report.scans.places.size()), [&](const PaperResult& result) {
-    const MeanAndSpread time = time_of(all_places(result));
+    const MeanAndDeviation time = time_of(all_places(result));
     const auto index = paper_index(result.method);
     if (index == kReference) reference_us = time.mean;
     return time_text(time, index ? &kPaperTimes_ms[*index] : nullptr);
@@ -198,7 +198,7 @@ std::string true_false_table(const BenchReport& report) {
   });
   table.add_row("missed of those with 5", "", [&](const PaperResult& result) {
     std::size_t missed = 0;
-    for (const PlaceResult& place : result.places) missed += place.missed_corners;
+    for (const PoseResult& place : result.places) missed += place.missed_corners;
     return std::to_string(missed);
   });
   std::size_t supported = 0;
@@ -214,7 +214,7 @@ std::string position_table(const BenchReport& report) {
   for (const PaperResult& result : report.paper) {
     std::vector<double> nearest_m;
     std::vector<double> localizer_m;
-    for (const PlaceResult& place : result.places) {
+    for (const PoseResult& place : result.places) {
       if (place.nearest_corners_error_m) nearest_m.push_back(*place.nearest_corners_error_m);
       if (place.localizer_error_m) localizer_m.push_back(*place.localizer_error_m);
     }

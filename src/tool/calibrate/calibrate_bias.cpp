@@ -22,7 +22,7 @@ namespace cornerd::tool {
 namespace {
 
 /// As many as it takes until a lidar's bias shows in each turn (the bench's "biased lidar").
-constexpr std::size_t kMinTeachingScans = 20;
+constexpr std::size_t kMinBiasScans = 20;
 
 struct CalibrateBiasOptions {
   std::vector<std::filesystem::path> files;
@@ -65,7 +65,7 @@ void calibrate_bias(const CalibrateBiasOptions& options) {
     playback.play(file, {parse_wire(options.wire), config.lidar.mount.inverted});
   }
   const core::EstimatedBias learned = pipeline.localizer().estimated_bias();
-  if (learned.scans < kMinTeachingScans) {
+  if (learned.scans < kMinBiasScans) {
     throw Failure("only " + std::to_string(learned.scans) +
                   " turns were found in the map with the lidar at rest: record some seconds each "
                   "at several places, and see with replay whether they are found");

@@ -40,11 +40,11 @@ struct CalibrateNoiseOptions {
 };
 
 /// Floor and share that are off by more than this in the mean give way to the table.
-constexpr double kMisfitForTable = 0.2;
+constexpr double kMaxPlainResidual = 0.2;
 /// Median over the directions of what they drifted, in sigmas: 1.7 in an even movement.
-constexpr double kMovedDrift = 1;
-constexpr double kNearestWallM = 0.05;
-constexpr double kFarthestWallM = 12;
+constexpr double kMaxDrift_sigmas = 1;
+constexpr double kMinWallDistance_m = 0.05;
+constexpr double kMaxWallDistance_m = 12;
 
 class BinsSink : public replay::RecordingSink {
  public:
@@ -67,7 +67,7 @@ class BinsSink : public replay::RecordingSink {
 void warn_if_moved(const std::string& file, const std::vector<calibration::BinSpread>& spreads) {
   std::vector<double> drifts;
   for (const calibration::BinSpread& spread : spreads) drifts.push_back(std::abs(spread.drift));
-  if (calibration::median(drifts) < kMovedDrift) return;
+  if (calibration::median(drifts) < kMaxDrift_sigmas) return;
   std::fprintf(stderr,
                "cornerctl: warning: %s: the lidar seems to have moved; its noise will come "
                "out too large\n",
@@ -88,7 +88,7 @@ RecordingOfWall parse_recording(const std::string& text) {
   const auto [end, error] =
       std::from_chars(number.data(), number.data() + number.size(), distance_m);
   if (error != std::errc() || end != number.data() + number.size() ||
-      !(distance_m >= kNearestWallM && distance_m <= kFarthestWallM)) {
+      !(distance_m >= kMinWallDistance_m && distance_m <= kMaxWallDistance_m)) {
     throw UsageError("'" + text +
                      "': after the @ stands the wall's distance, in metres from 0.05 to "
                      "12, as in still.bin@0.45");
@@ -176,7 +176,7 @@ void calibrate_noise(const CalibrateNoiseOptions& options) {
   if (!walls.empty()) report.write("\n" + describe_wall_model(walls, distances_known));
   report.flush();
   const bool with_table = options.model == "table" ||
-                          (options.model != "plain" && noise->plain_residual > kMisfitForTable);
+                          (options.model != "plain" && noise->plain_residual > kMaxPlainResidual);
   if (!options.output.empty()) {
     const bool with_walls = distances_known || options.model == "paper";
     write_file(options.output,

@@ -48,7 +48,7 @@ std::vector<std::string> row(const char* name, const std::string& factors,
   return {name, factors, formatted("%.3f", error.mean_m), formatted("%.3f", error.end_m)};
 }
 
-std::string describe_learned(const calibration::OdometryFit& fit) {
+std::string describe_estimate(const calibration::OdometryFit& fit) {
   TextTable table;
   bool at_bound = false;
   const auto add = [&](const char* name, double value, double sigma) {
@@ -74,12 +74,12 @@ std::string describe_learned(const calibration::OdometryFit& fit) {
 }
 
 /// More sigmas from the configured one than this, and another delay is worth writing.
-constexpr double kSureDelaySigmas = 3;
+constexpr double kSignificantDelaySigmas = 3;
 
 /// The delay for the config: the one that was found where it is sure, else the configured one.
 double written_delay_s(const calibration::OdometryFit& fit, double configured_s) {
   const double change_s = fit.learned.delay_s - configured_s;
-  const bool is_sure = fit.has_delay && std::abs(change_s) > kSureDelaySigmas * fit.sigma.delay_s;
+  const bool is_sure = fit.has_delay && std::abs(change_s) > kSignificantDelaySigmas * fit.sigma.delay_s;
   const bool is_allowed = std::abs(fit.learned.delay_s) <= settings::kMaxInitialDelay_s;
   return is_sure && is_allowed ? fit.learned.delay_s : configured_s;
 }
@@ -124,7 +124,7 @@ calibration::FilteredDrive filter_half(const RecordedDrive& drive,
                                    first_ns + (last_ns - first_ns) / 2);
 }
 
-std::string draw_reckonings(const RecordedDrive& drive,
+std::string draw_dead_reckoning(const RecordedDrive& drive,
                             std::span<const core::OdometryIncrement> steps,
                             const settings::Config& config, const calibration::OdometryFit& fit,
                             const calibration::FilteredDrive& filtered) {
@@ -198,7 +198,7 @@ void calibrate_odometry(const CalibrateOdometryOptions& options) {
   if (at_edge) report.write(std::string(kEdgeText));
   report.write(
       formatted("\nLeast squares over %zu windows of a second, as shares:\n", fit.windows));
-  report.write(describe_learned(fit));
+  report.write(describe_estimate(fit));
   report.write(describe_delay(fit));
   if (std::abs(fit.learned.track_scale) >= calibration::kMaxFittedScale) {
     const auto track_m =
@@ -207,7 +207,7 @@ void calibrate_odometry(const CalibrateOdometryOptions& options) {
   }
   report.flush();
   if (plot) {
-    plot->write(draw_reckonings(drive, steps, config, fit, filtered));
+    plot->write(draw_dead_reckoning(drive, steps, config, fit, filtered));
     plot->flush();
   }
   if (!options.output.empty()) {

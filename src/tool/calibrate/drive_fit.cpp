@@ -18,9 +18,9 @@ namespace {
 using calibration::DelaySearch;
 
 /// Where more of the readings than this are refused, it is not now and then one that is garbage.
-constexpr double kMostRefused = 0.1;
+constexpr double kMaxRejectedShare = 0.1;
 /// Turns that were deskewed by readings of times as wrong as this are deskewed again.
-constexpr double kStraightEnough_s = 0.005;
+constexpr double kMaxDeskewDelay_s = 0.005;
 
 class DriveFitter {
  public:
@@ -30,11 +30,11 @@ class DriveFitter {
 
   FittedDrive run() {
     RecordedDrive drive = play(/*deskewed=*/true);
-    if (drive.steps.empty() && drive.wide_steps.empty()) {
+    if (drive.steps.empty() && drive.increments_within_wide_limits.empty()) {
       fail(drive.counters.readings == 0 ? "no odometry in it"
                                         : "none of its ODOMETRY lines has both left and right");
     }
-    std::string faults = look_at(drive);
+    std::string faults = find_faults(drive);
     if (auto fit = faults.empty() ? fit_of(drive) : std::nullopt) {
       return {std::move(drive), *fit};
     }
@@ -42,7 +42,7 @@ class DriveFitter {
       // Wheels that are far off, or of another time, may cost the turns that would show it.
       RecordedDrive plain = play(/*deskewed=*/false);
       if (plain.places.size() < 2) fail("the robot was not found in the map");
-      const std::string plain_faults = look_at(plain);
+      const std::string plain_faults = find_faults(plain);
       auto fit = plain_faults.empty() && search_.is_unambiguous ? fit_of(plain) : std::nullopt;
       if (fit) return {std::move(plain), *fit};
       if (faults.empty()) faults = plain_faults;
@@ -67,12 +67,12 @@ class DriveFitter {
   static bool is_wide(const RecordedDrive& drive) {
     const core::OdometryCounters& counters = drive.counters;
     return static_cast<double>(counters.jumps + counters.invalid_rates) >
-           kMostRefused * static_cast<double>(counters.readings);
+           kMaxRejectedShare * static_cast<double>(counters.readings);
   }
 
   /// What no scale makes up for; empty where nothing is wrong.
-  std::string look_at(RecordedDrive& drive) {
-    const auto& steps = is_wide(drive) ? drive.wide_steps : drive.steps;
+  std::string find_faults(RecordedDrive& drive) {
+    const auto& steps = is_wide(drive) ? drive.increments_within_wide_limits : drive.steps;
     search_ = calibration::search_delay(steps, drive.places, configured_s());
     if (search_.at_edge) {
       fail(
@@ -89,8 +89,8 @@ class DriveFitter {
 
   /// Finds the places anew where the turns were deskewed by what was read at other times.
   void deskew(RecordedDrive& drive, double delay_s) const {
-    if (truth_ != nullptr || std::abs(delay_s - configured_s()) <= kStraightEnough_s) return;
-    auto places = play_places(file_, wire_, config_, drive.readings, delay_s);
+    if (truth_ != nullptr || std::abs(delay_s - configured_s()) <= kMaxDeskewDelay_s) return;
+    auto places = localize_drive(file_, wire_, config_, drive.readings, delay_s);
     if (places.size() >= drive.places.size() / 2) drive.places = std::move(places);
   }
 

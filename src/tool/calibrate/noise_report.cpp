@@ -124,8 +124,8 @@ std::string describe_distances(std::span<const calibration::KnownWall> walls) {
     xy += wall.distance_m * wall.measured_m / n;
   }
   const double spread = xx - x * x;
-  constexpr double kLeastSpreadM2 = 0.01;  // distances 10 cm about their mean
-  if (spread > kLeastSpreadM2) {
+  constexpr double kMinSpreadM2 = 0.01;  // distances 10 cm about their mean
+  if (spread > kMinSpreadM2) {
     const double scale = (xy - x * y) / spread;
     append_line(out, "bias     measured = %.4f * true %+.2f mm", scale, kMmPerM * (y - scale * x));
   }

@@ -13,24 +13,24 @@ namespace cornerd::tool {
 namespace {
 
 /// Beyond any unit that is wrong.
-constexpr double kWide = 100;
-constexpr core::TimeNs kNearTimes_ns = 2 * core::kNsPerSecond;
-constexpr core::TimeNs kFarAhead_ns = 10 * core::kNsPerSecond;
+constexpr double kLimitFactor = 100;
+constexpr core::TimeNs kMaxClockOffset_ns = 2 * core::kNsPerSecond;
+constexpr core::TimeNs kMaxLead_ns = 10 * core::kNsPerSecond;
 
 core::OdometryConfig widened(core::OdometryConfig config) {
-  config.limits.wheel_speed_m_s *= kWide;
-  config.limits.gyro_rad_s *= kWide;
+  config.limits.wheel_speed_m_s *= kLimitFactor;
+  config.limits.gyro_rad_s *= kLimitFactor;
   return config;
 }
 
 /// In the order of time.
-void add_place(const calibration::KnownPose& place, std::vector<calibration::KnownPose>& places) {
+void add_pose(const calibration::KnownPose& place, std::vector<calibration::KnownPose>& places) {
   if (places.empty() || place.t_ns > places.back().t_ns) places.push_back(place);
 }
 
 void add_fix(const core::ScanResult& result, std::vector<calibration::KnownPose>& places) {
   const core::PoseEstimate& pose = result.pose;
-  if (pose.state == core::PoseState::kFix) add_place({pose.t_ns, pose.T_map_base}, places);
+  if (pose.state == core::PoseState::kFix) add_pose({pose.t_ns, pose.T_map_base}, places);
 }
 
 /// The steps of the drive, and what the lidar makes of its turns.
@@ -47,9 +47,9 @@ class DriveSink final : public replay::RecordingSink {
   void on_odometry(const message::OdometryReading& reading) override {
     drive_.readings.push_back(reading);
     pipeline_.add(reading);
-    const auto now_ns = came_at(reading.t_ns);
+    const auto now_ns = arrival_time(reading.t_ns);
     if (const auto step = gate_.add(reading, now_ns)) drive_.steps.push_back(*step);
-    if (const auto step = wide_gate_.add(reading, now_ns)) drive_.wide_steps.push_back(*step);
+    if (const auto step = wide_gate_.add(reading, now_ns)) drive_.increments_within_wide_limits.push_back(*step);
   }
   RecordedDrive finish() {
     take(pipeline_.finish());
@@ -59,8 +59,8 @@ class DriveSink final : public replay::RecordingSink {
 
  private:
   /// By the lidar's newest sample; a clock that is off by so little is to be found out.
-  std::optional<core::TimeNs> came_at(core::TimeNs t_ns) const {
-    const bool is_near = now_ns_ && std::abs(t_ns - *now_ns_) < kNearTimes_ns;
+  std::optional<core::TimeNs> arrival_time(core::TimeNs t_ns) const {
+    const bool is_near = now_ns_ && std::abs(t_ns - *now_ns_) < kMaxClockOffset_ns;
     return is_near ? t_ns : now_ns_;
   }
 
@@ -68,7 +68,7 @@ class DriveSink final : public replay::RecordingSink {
     if (result == nullptr) return;
     if (truth_ == nullptr) return add_fix(*result, drive_.places);
     const core::TimeNs t_ns = result->pose.t_ns;
-    if (const auto T_map_base = truth_->at(t_ns)) add_place({t_ns, *T_map_base}, drive_.places);
+    if (const auto T_map_base = truth_->at(t_ns)) add_pose({t_ns, *T_map_base}, drive_.places);
   }
 
   core::Pipeline& pipeline_;
@@ -80,16 +80,16 @@ class DriveSink final : public replay::RecordingSink {
 };
 
 /// Each reading before the samples that are later, wherever in the recording it stands.
-class PlaceSink final : public replay::RecordingSink {
+class PoseSink final : public replay::RecordingSink {
  public:
-  PlaceSink(core::Pipeline& pipeline, std::vector<core::OdometryReading> readings)
+  PoseSink(core::Pipeline& pipeline, std::vector<core::OdometryReading> readings)
       : pipeline_(pipeline), readings_(std::move(readings)) {}
 
   void on_sample(const core::Sample& sample) override {
     for (; next_ < readings_.size(); ++next_) {
       const core::TimeNs ahead_ns = readings_[next_].t_ns - sample.t_ns;
       // One of the far future is to be refused now, not to keep others waiting.
-      if (ahead_ns > 0 && ahead_ns < kFarAhead_ns) break;
+      if (ahead_ns > 0 && ahead_ns < kMaxLead_ns) break;
       pipeline_.add(readings_[next_], sample.t_ns);
     }
     take(pipeline_.add(sample));
@@ -126,7 +126,7 @@ RecordedDrive play_drive(const std::filesystem::path& file, std::optional<rplida
   return sink.finish();
 }
 
-std::vector<calibration::KnownPose> play_places(const std::filesystem::path& file,
+std::vector<calibration::KnownPose> localize_drive(const std::filesystem::path& file,
                                                 std::optional<rplidar::WireFormat> wire,
                                                 const settings::Config& config,
                                                 std::vector<core::OdometryReading> readings,
@@ -136,7 +136,7 @@ std::vector<calibration::KnownPose> play_places(const std::filesystem::path& fil
   localizer.odometry.enabled = true;
   localizer.odometry.initial.delay_s = 0;
   core::Pipeline pipeline(settings::load_map(config.map), localizer);
-  PlaceSink sink(pipeline, std::move(readings));
+  PoseSink sink(pipeline, std::move(readings));
   replay::RecordingPlayer player(file, {wire, config.lidar.mount.inverted});
   while (player.step(sink)) {
   }

@@ -17,7 +17,7 @@ namespace cornerd::tool {
 /// A drive by wheels and gyro, and where the robot was meanwhile.
 struct RecordedDrive {
   std::vector<core::OdometryIncrement> steps;
-  std::vector<core::OdometryIncrement> wide_steps;  ///< with whatever wheels and gyro say believed
+  std::vector<core::OdometryIncrement> increments_within_wide_limits;  ///< with whatever wheels and gyro say believed
   core::OdometryCounters counters;                  ///< of `steps`
   std::vector<calibration::KnownPose> places;
   std::vector<core::OdometryReading> readings;  ///< all of them, as they came
@@ -31,7 +31,7 @@ RecordedDrive play_drive(const std::filesystem::path& file, std::optional<rplida
 
 /// The lidar's fixes once more, its turns deskewed by readings whose times are earlier by
 /// `delay_s` than they say. Throws as play_drive().
-std::vector<calibration::KnownPose> play_places(const std::filesystem::path& file,
+std::vector<calibration::KnownPose> localize_drive(const std::filesystem::path& file,
                                                 std::optional<rplidar::WireFormat> wire,
                                                 const settings::Config& config,
                                                 std::vector<core::OdometryReading> readings,

@@ -14,7 +14,7 @@ namespace {
 using calibration::WiringFaults;
 
 /// Nearer to a whole factor than this a factor is that one: wheels are no farther off.
-constexpr double kWholeShare = 0.1;
+constexpr double kIntegerTolerance = 0.1;
 
 class FaultText {
  public:
@@ -103,7 +103,7 @@ class FaultText {
     const core::DriveGeometry& geometry = config_.core.geometry;
     const double whole = std::round(std::max(factor, 1 / factor));
     const double plain = factor > 1 ? whole : 1 / whole;
-    const bool is_plain = std::abs(factor / plain - 1) < kWholeShare;
+    const bool is_plain = std::abs(factor / plain - 1) < kIntegerTolerance;
     const double taken = is_plain ? plain : factor;
     const std::string counts =
         formatted("set odometry.counts_per_turn to %.7g", geometry.counts_per_turn / taken);
@@ -126,7 +126,7 @@ class FaultText {
     }
     if (faults_.gyro_factor) {
       constexpr double kDegrees = 180 / core::kPi;
-      const bool is_degrees = std::abs(*faults_.gyro_factor / kDegrees - 1) < 2 * kWholeShare;
+      const bool is_degrees = std::abs(*faults_.gyro_factor / kDegrees - 1) < 2 * kIntegerTolerance;
       add(formatted("the gyro reads %.3g times the true rate: %s radians a second",
                     *faults_.gyro_factor,
                     is_degrees ? "it is in degrees a second, send" : "it has to be in"));

@@ -19,7 +19,7 @@ std::vector<Finding> check_port(const Patient& patient);
 /// May whoever runs the daemon open it?
 std::vector<Finding> check_rights(const Patient& patient);
 /// The same of a port with such an owner, group and mode.
-Finding judge_rights(const Patient& patient, const FileFacts& port);
+Finding check_port_rights(const Patient& patient, const FileFacts& port);
 /// Who has it open, and does the kernel talk on it?
 std::vector<Finding> check_holders(const Patient& patient);
 /// Is there anything that takes such ports for itself: gpsd, ModemManager, brltty?

@@ -25,7 +25,7 @@ std::string shell_value(const Machine& machine, const char* file, std::string_vi
 }
 
 /// gpsd's own rules have udev ask for its service with every CP2102; the package's take that back.
-bool is_asked_of_gpsd(const Machine& machine, const std::string& port) {
+bool is_claimed_by_gpsd(const Machine& machine, const std::string& port) {
   if (shell_value(machine, kGpsdSettings, "USBAUTO") != "true") return false;
   const std::optional<std::string> notes = udev_notes(machine, port);
   return notes ? notes->find("gpsdctl@") != std::string::npos : !has_udev_rules(machine);
@@ -44,7 +44,7 @@ void check_gpsd(const Machine& machine, const std::filesystem::path& port, bool 
          "gpsd",
          "is told to read " + port.string() + " as a GPS receiver",
          {"take it out of DEVICES in " + settings + ", then: sudo systemctl restart gpsd"}});
-  } else if (is_usb && is_asked_of_gpsd(machine, port.filename().string())) {
+  } else if (is_usb && is_claimed_by_gpsd(machine, port.filename().string())) {
     findings.push_back(
         {Verdict::kWrong,
          "gpsd",
@@ -101,7 +101,7 @@ void check_brltty(const Machine& machine, const std::vector<UsbAdapter>& adapter
                                   [](const UsbAdapter& one) { return one.port.empty(); });
   if (taken != adapters.end()) {
     finding.what += ", and has this one, it seems: it is plugged in and there is no port";
-    finding.mends.emplace_back("then plug the lidar in again");
+    finding.remedies.emplace_back("then plug the lidar in again");
   }
   findings.push_back(finding);
 }

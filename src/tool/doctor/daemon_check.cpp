@@ -12,8 +12,8 @@ namespace cornerd::tool {
 namespace {
 
 /// More damaged bytes than line noise explains.
-constexpr double kBadShare = 0.01;
-constexpr std::string_view kSeeDoctor = ". `sudo cornerctl doctor`";
+constexpr double kMaxSkippedShare = 0.01;
+constexpr std::string_view kDoctorAdvice = ". `sudo cornerctl doctor`";
 
 std::vector<Finding> unreachable(const Patient& patient) {
   const std::string socket = patient.config.socket.pose.string();
@@ -35,9 +35,9 @@ std::vector<Finding> unreachable(const Patient& patient) {
   Finding finding{Verdict::kWrong, "daemon",
                   "does not run (" + socket + ": " + std::strerror(error) + ")"};
   if (has_service_unit(patient.machine)) {
-    finding.mends = {"sudo systemctl start cornerd", "why it ended: journalctl -u cornerd -n 20"};
+    finding.remedies = {"sudo systemctl start cornerd", "why it ended: journalctl -u cornerd -n 20"};
   } else {
-    finding.mends = {"cornerd --config FILE, or install the package"};
+    finding.remedies = {"cornerd --config FILE, or install the package"};
   }
   return {finding};
 }
@@ -48,7 +48,7 @@ std::string describe_lidar(const message::ParsedStatus& status) {
   if (!status.lidar_fault.empty()) text += ", " + status.lidar_fault;
   if (!status.lidar_detail.empty()) {
     // Whoever reads this has just done what the end of some advises.
-    return text + ": " + status.lidar_detail.substr(0, status.lidar_detail.find(kSeeDoctor));
+    return text + ": " + status.lidar_detail.substr(0, status.lidar_detail.find(kDoctorAdvice));
   }
   if (!status.lidar_model.empty()) text += ", " + status.lidar_model;
   if (!status.lidar_firmware.empty()) text += " firmware " + status.lidar_firmware;
@@ -62,7 +62,7 @@ Finding lidar_finding(const message::ParsedStatus& status) {
   Finding finding{runs ? Verdict::kGood : Verdict::kWrong, "lidar", describe_lidar(status)};
   // The daemon's own text says what to do about the rest.
   if (!runs && status.lidar_detail.empty()) {
-    finding.mends = {"see again in some seconds: it may only be starting"};
+    finding.remedies = {"see again in some seconds: it may only be starting"};
   }
   return finding;
 }
@@ -70,7 +70,7 @@ Finding lidar_finding(const message::ParsedStatus& status) {
 void add_line_quality(const message::ParsedStatus& status, std::vector<Finding>& findings) {
   const auto bytes = static_cast<double>(status.counter("bytes"));
   const double share = bytes > 0 ? static_cast<double>(status.counter("skipped_bytes")) / bytes : 0;
-  if (share <= kBadShare) return;
+  if (share <= kMaxSkippedShare) return;
   findings.push_back(
       {Verdict::kNote,
        "line",
@@ -81,7 +81,7 @@ void add_line_quality(const message::ParsedStatus& status, std::vector<Finding>&
 /// Turns in motion are deskewed by what was read meanwhile: with fewer readings than the first,
 /// turns are lost and what is carried on may be wrong; with fewer than the second, fixes are worse
 /// than they say (core/odometry/README.md).
-constexpr double kFewestReadings_hz = 10;
+constexpr double kMinReadings_hz = 10;
 constexpr double kGoodReadings_hz = 20;
 
 void add_reading_rate(const Patient& patient, std::vector<Finding>& findings) {
@@ -95,7 +95,7 @@ void add_reading_rate(const Patient& patient, std::vector<Finding>& findings) {
                         {"start what sends ODOMETRY to control.sock"}});
     return;
   }
-  const bool is_wrong = *hz < kFewestReadings_hz;
+  const bool is_wrong = *hz < kMinReadings_hz;
   const std::string mend = patient.config.odometry.source == settings::OdometrySource::kKernel
                                ? "advanced.odometry.kernel.rate: 50"
                                : "send ODOMETRY 50 times a second, wheels and gyro in one line";

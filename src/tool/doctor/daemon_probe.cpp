@@ -15,10 +15,10 @@ namespace cornerd::tool {
 namespace {
 
 /// At an A1's pace a second and a half.
-constexpr std::uint64_t kEnoughPoses = 10;
+constexpr std::uint64_t kMinPoses = 10;
 
 /// Two STATUS are a second apart; one that a change of state caused may come at once.
-constexpr double kShortestSpan_s = 0.8;
+constexpr double kMinSpan_s = 0.8;
 
 /// How often readings of wheels and gyro come, from one STATUS to another.
 class ReadingRate {
@@ -34,7 +34,7 @@ class ReadingRate {
   std::optional<double> hz() const {
     if (!first_) return std::nullopt;
     const double span_s = core::to_seconds(last_.t_ns - first_->t_ns);
-    if (span_s < kShortestSpan_s) return std::nullopt;
+    if (span_s < kMinSpan_s) return std::nullopt;
     return (last_.readings - first_->readings) / span_s;
   }
 
@@ -47,7 +47,7 @@ class ReadingRate {
   Seen last_;
 };
 
-void note_line(std::string_view line, DaemonView& view, ReadingRate& rate) {
+void take_line(std::string_view line, DaemonView& view, ReadingRate& rate) {
   message::ParsedLine told = message::parse_line(line);
   if (const auto* version = std::get_if<message::ParsedVersion>(&told)) {
     view.version = version->version;
@@ -59,9 +59,9 @@ void note_line(std::string_view line, DaemonView& view, ReadingRate& rate) {
   }
 }
 
-bool has_heard_enough(const DaemonView& view) {
+bool has_enough(const DaemonView& view) {
   return view.status &&
-         std::accumulate(view.poses.begin(), view.poses.end(), std::uint64_t{0}) >= kEnoughPoses;
+         std::accumulate(view.poses.begin(), view.poses.end(), std::uint64_t{0}) >= kMinPoses;
 }
 
 }  // namespace
@@ -76,14 +76,14 @@ DaemonView probe_daemon(const std::filesystem::path& socket, std::chrono::millis
   }
   ReadingRate rate;
   const Clock::time_point end = Clock::now() + at_most;
-  while (!has_heard_enough(view) || !rate.is_settled()) {
+  while (!has_enough(view) || !rate.is_settled()) {
     const auto left = std::chrono::ceil<std::chrono::milliseconds>(end - Clock::now());
     if (left.count() <= 0) break;
     pollfd entry{.fd = daemon.fd(), .events = POLLIN, .revents = 0};
     if (::poll(&entry, 1, static_cast<int>(left.count())) <= 0) continue;
     const auto lines = daemon.take();
     if (!lines) break;
-    for (const std::string_view line : split_words(*lines, "\n")) note_line(line, view, rate);
+    for (const std::string_view line : split_words(*lines, "\n")) take_line(line, view, rate);
   }
   view.odometry_hz = rate.hz();
   return view;

@@ -22,7 +22,7 @@ namespace cornerd::tool {
 namespace {
 
 /// STATUS comes once a second.
-constexpr std::chrono::milliseconds kListenFor(2500);
+constexpr std::chrono::milliseconds kProbeTime(2500);
 
 /// Whoever runs this, with the groups of the session: those in /etc/group may be newer.
 Account caller_account(const Machine& machine) {
@@ -42,7 +42,7 @@ void diagnose(SettingsOptions& options) {
   patient.config_file = options.config_file();
   if (!options.config_file().empty()) patient.config_name = options.config_file().string();
   patient.caller = caller_account(patient.machine);
-  patient.daemon = probe_daemon(patient.config.socket.pose, kListenFor);
+  patient.daemon = probe_daemon(patient.config.socket.pose, kProbeTime);
 
   std::vector<Finding> findings = std::move(settings.findings);
   std::vector<Finding> found = examine(patient);

@@ -45,7 +45,7 @@ std::string findings_text(std::span<const Finding> findings) {
   for (const Finding& finding : findings) {
     text += padded(verdict_word(finding.verdict), kVerdictWidth) +
             padded(finding.subject, kSubjectWidth) + finding.what + '\n';
-    for (const std::string& mend : finding.mends) {
+    for (const std::string& mend : finding.remedies) {
       text += std::string(kVerdictWidth + kSubjectWidth, ' ') + "-> " + mend + '\n';
     }
   }

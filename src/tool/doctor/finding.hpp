@@ -18,7 +18,7 @@ struct Finding {
   Verdict verdict = Verdict::kGood;
   std::string subject;  ///< one word: "port"
   std::string what;
-  std::vector<std::string> mends{};  ///< what to do about it, a line each
+  std::vector<std::string> remedies{};  ///< what to do about it, a line each
 };
 
 /// Leaves out the good findings of subjects that another finding has wrong: a map that its reader

@@ -8,7 +8,7 @@ namespace cornerd::tool {
 
 namespace {
 
-std::string mend_for(const Process& holder, const std::string& port) {
+std::string remedy_for(const Process& holder, const std::string& port) {
   if (holder.name == "gpsd") return "sudo systemctl disable --now gpsd.socket gpsd";
   if (holder.name == "ModemManager") return "sudo systemctl mask --now ModemManager";
   if (holder.name == "brltty") return "sudo apt remove brltty (it serves Braille displays)";
@@ -51,7 +51,7 @@ std::vector<Finding> check_holders(const Patient& patient) {
       findings.push_back({Verdict::kWrong,
                           "holder",
                           title + " has " + port.string() + " open",
-                          {mend_for(process, name)}});
+                          {remedy_for(process, name)}});
     }
   }
   if (findings.empty() && keeper == "nobody" && !holders.complete) {

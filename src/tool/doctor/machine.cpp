@@ -14,8 +14,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kMostBytes = std::size_t{4} << 20;
-constexpr int kMostLinks = 32;
+constexpr std::size_t kMaxFileBytes = std::size_t{4} << 20;
+constexpr int kMaxLinks = 32;
 
 }  // namespace
 
@@ -44,7 +44,7 @@ fs::path Machine::follow(const fs::path& file, std::vector<fs::path>* steps) con
     if (part == "." || part.empty()) continue;
     if (steps != nullptr) steps->push_back(done / part);
     const std::string target = read_link(done / part);
-    if (target.empty() || ++links > kMostLinks) {
+    if (target.empty() || ++links > kMaxLinks) {
       done /= part;
       continue;
     }
@@ -78,7 +78,7 @@ std::optional<std::string> Machine::read(const fs::path& file) const {
       ::open(outside(resolve(file)).c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC | O_NOCTTY);
   if (fd < 0) return std::nullopt;
   std::optional<std::string> text = std::string();
-  while (text->size() < kMostBytes) {
+  while (text->size() < kMaxFileBytes) {
     char chunk[8192];
     const ssize_t got = ::read(fd, chunk, sizeof chunk);
     // EPIPE: the log has lost lines that were to come next; there are more.

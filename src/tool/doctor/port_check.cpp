@@ -15,7 +15,7 @@ constexpr const char* kReloadRules =
     "sudo udevadm control --reload && sudo udevadm trigger --subsystem-match=tty";
 
 /// What to do where the port is not there and nothing on USB could be it.
-std::vector<std::string> mends_without_adapter(const std::string& device) {
+std::vector<std::string> remedies_without_adapter(const std::string& device) {
   if (device.starts_with("/dev/ttyO")) {
     return {"newer kernels call it ttyS: try lidar.device \"/dev/ttyS" + device.substr(9) + "\""};
   }
@@ -36,28 +36,28 @@ Finding absent_port(const Patient& patient, const std::vector<UsbAdapter>& adapt
   for (const UsbAdapter& adapter : adapters) {
     if (adapter.port.empty()) {
       finding.what += "; an adapter (" + adapter.describe() + ") is plugged in, without a driver";
-      finding.mends.emplace_back(find_process(patient.machine, "brltty")
+      finding.remedies.emplace_back(find_process(patient.machine, "brltty")
                                      ? "take it from brltty, see below"
                                      : "sudo modprobe cp210x");
       continue;
     }
     finding.what += "; there is /dev/" + adapter.port + " (" + adapter.describe() + ")";
     if (device == "/dev/rplidar" && adapter.is_cp2102()) {
-      finding.mends.emplace_back(
+      finding.remedies.emplace_back(
           has_udev_rules(patient.machine)
               ? kReloadRules
               : "install systemd/61-cornerd.rules in /etc/udev/rules.d, then: " +
                     std::string(kReloadRules));
     }
-    finding.mends.push_back("or set lidar.device to \"/dev/" + adapter.port + "\" in " +
+    finding.remedies.push_back("or set lidar.device to \"/dev/" + adapter.port + "\" in " +
                             patient.config_name);
   }
-  if (!finding.mends.empty() && finding.mends.front().starts_with("or ")) {
-    finding.mends.front().erase(0, 3);
+  if (!finding.remedies.empty() && finding.remedies.front().starts_with("or ")) {
+    finding.remedies.front().erase(0, 3);
   }
-  if (finding.mends.empty()) finding.mends = mends_without_adapter(device);
+  if (finding.remedies.empty()) finding.remedies = remedies_without_adapter(device);
   if (patient.machine.exists(device)) {
-    finding.mends.emplace_back("lidar.device must name a port, as /dev/rplidar or /dev/ttyS4 do");
+    finding.remedies.emplace_back("lidar.device must name a port, as /dev/rplidar or /dev/ttyS4 do");
   }
   return finding;
 }
@@ -79,7 +79,7 @@ Finding found_port(const Patient& patient, const std::vector<UsbAdapter>& adapte
   if (patient.machine.read_line("/sys/class/tty/" + name + "/type") == "0") {
     finding.verdict = Verdict::kWrong;
     finding.what += ": there is no UART behind it";
-    finding.mends = mends_without_adapter(port.string());
+    finding.remedies = remedies_without_adapter(port.string());
   }
   return finding;
 }

@@ -11,7 +11,7 @@ namespace cornerd::tool {
 
 namespace {
 
-constexpr const char* kStronger =
+constexpr const char* kPowerRemedy =
     "the A1 wants 4.9 to 5.5 V, up to 0.6 A when it starts: a stronger supply, a shorter cable, or "
     "a "
     "hub with a supply of its own";
@@ -64,7 +64,7 @@ struct Trace {
   std::string_view word;  ///< what the kernel writes
   const char* meaning;
 };
-constexpr std::array kTraces = {
+constexpr std::array kKernelMessages = {
     Trace{"nder-voltage detected", "the board's own supply was too low"},
     Trace{"ndervoltage detected", "the board's own supply was too low"},
     Trace{"over-current", "a USB port gave more current than it can"},
@@ -77,7 +77,7 @@ constexpr std::array kTraces = {
 
 /// What the kernel's log has of it, a finding for each kind.
 void read_kernel_log(const std::string& log, std::vector<Finding>& findings) {
-  for (const Trace& trace : kTraces) {
+  for (const Trace& trace : kKernelMessages) {
     std::size_t count = 0;
     std::istringstream lines(log);
     for (std::string line; std::getline(lines, line);) {
@@ -88,7 +88,7 @@ void read_kernel_log(const std::string& log, std::vector<Finding>& findings) {
                         "power",
                         std::string(trace.meaning) + ", " + std::to_string(count) +
                             (count == 1 ? " time" : " times") + " in the kernel's log",
-                        {kStronger}});
+                        {kPowerRemedy}});
   }
 }
 
@@ -100,14 +100,14 @@ std::vector<Finding> check_power(const Patient& patient) {
   std::vector<Finding> findings;
   if (is_undervolted(machine)) {
     findings.push_back(
-        {Verdict::kWrong, "power", "the board's supply is too low now", {kStronger}});
+        {Verdict::kWrong, "power", "the board's supply is too low now", {kPowerRemedy}});
   }
   if (const unsigned count = count_over_currents(machine); count > 0) {
     findings.push_back({Verdict::kWrong,
                         "power",
                         "USB ports were switched off by too much current, " +
                             std::to_string(count) + " times since the start",
-                        {kStronger}});
+                        {kPowerRemedy}});
   }
   const std::string name = port_of(patient).filename().string();
   for (const UsbAdapter& adapter : find_usb_adapters(machine)) {
@@ -115,7 +115,7 @@ std::vector<Finding> check_power(const Patient& patient) {
       findings.push_back({Verdict::kNote,
                           "power",
                           "the lidar hangs on a hub without a supply of its own",
-                          {kStronger}});
+                          {kPowerRemedy}});
     }
   }
   const std::optional<std::string> log = machine.read("/dev/kmsg");

@@ -48,24 +48,24 @@ std::vector<HiddenFolder> hidden_folders(const Machine& machine) {
   return folders;
 }
 
-std::vector<std::string> mends_by_moving(const Patient& patient, const std::string& subject,
+std::vector<std::string> remedies_by_moving(const Patient& patient, const std::string& subject,
                                          const fs::path& file) {
-  std::vector<std::string> mends = {"sudo install -m 644 " + file.string() + " /etc/cornerd/"};
+  std::vector<std::string> remedies = {"sudo install -m 644 " + file.string() + " /etc/cornerd/"};
   const std::string copy = (fs::path("/etc/cornerd") / file.filename()).string();
   if (subject == "config") {
     if (copy != "/etc/cornerd/cornerd.json") {
-      mends.emplace_back("and name it cornerd.json there, which the service reads");
+      remedies.emplace_back("and name it cornerd.json there, which the service reads");
     }
   } else {
     const std::string key = subject == "map" ? "\"map\": \"" : "\"lidar\": { \"file\": \"";
-    mends.push_back("and, in " + patient.config_name + ": " + key + copy +
+    remedies.push_back("and, in " + patient.config_name + ": " + key + copy +
                     (subject == "map" ? "\"" : "\" }"));
   }
-  return mends;
+  return remedies;
 }
 
 /// What keeps the service from reading a file, if anything does.
-std::vector<Finding> judge_reading(const Patient& patient, const Account& service,
+std::vector<Finding> check_file_access(const Patient& patient, const Account& service,
                                    const std::string& subject, const fs::path& named) {
   const Machine& machine = patient.machine;
   const fs::path file = fs::absolute(named).lexically_normal();
@@ -79,18 +79,18 @@ std::vector<Finding> judge_reading(const Patient& patient, const Account& servic
     return {{Verdict::kWrong, subject,
              file.string() + ": the service sees nothing of " + hidden.folder.string() + " (" +
                  hidden.key + " in its unit)",
-             mends_by_moving(patient, subject, file)}};
+             remedies_by_moving(patient, subject, file)}};
   }
   for (const fs::path& step : steps) {
     const fs::path folder = machine.resolve(step.parent_path());
     const auto facts = machine.facts(folder);
     if (!facts || may_access(service, *facts, kMaySearch)) continue;
-    auto mends = mends_by_moving(patient, subject, file);
-    mends.push_back("or open the folder: sudo chmod a+x " + folder.string());
+    auto remedies = remedies_by_moving(patient, subject, file);
+    remedies.push_back("or open the folder: sudo chmod a+x " + folder.string());
     return {{Verdict::kWrong, subject,
              file.string() + ": the service's user cornerd must not enter " + folder.string() +
                  " (" + describe_rights(machine, *facts) + ")",
-             mends}};
+             remedies}};
   }
   const auto facts = machine.facts(file);
   if (!facts || may_access(service, *facts, kMayRead)) return {};
@@ -122,7 +122,7 @@ std::vector<Finding> check_reading(const Patient& patient) {
   std::vector<Finding> findings;
   for (const auto& [subject, file] : files) {
     if (file.empty()) continue;
-    for (Finding& finding : judge_reading(patient, *service, subject, file)) {
+    for (Finding& finding : check_file_access(patient, *service, subject, file)) {
       findings.push_back(std::move(finding));
     }
   }

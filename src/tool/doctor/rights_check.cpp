@@ -6,7 +6,7 @@ namespace cornerd::tool {
 
 namespace {
 
-std::vector<std::string> mends_for(const Patient& patient, const Account& who, bool is_service,
+std::vector<std::string> remedies_for(const Patient& patient, const Account& who, bool is_service,
                                    const FileFacts& port, const std::string& name) {
   const bool group_may = (port.mode >> 3 & 06U) == 06U;
   const std::string group = group_name(patient.machine, port.gid);
@@ -28,7 +28,7 @@ std::vector<std::string> mends_for(const Patient& patient, const Account& who, b
 
 }  // namespace
 
-Finding judge_rights(const Patient& patient, const FileFacts& port) {
+Finding check_port_rights(const Patient& patient, const FileFacts& port) {
   const std::string name = port_of(patient).string();
   const std::optional<Account> service = service_account(patient.machine);
   const Account& who = service ? *service : patient.caller;
@@ -38,14 +38,14 @@ Finding judge_rights(const Patient& patient, const FileFacts& port) {
     return {Verdict::kGood, "rights", user + " may open" + rights};
   }
   return {Verdict::kWrong, "rights", user + " must not open" + rights,
-          mends_for(patient, who, service.has_value(), port, name)};
+          remedies_for(patient, who, service.has_value(), port, name)};
 }
 
 std::vector<Finding> check_rights(const Patient& patient) {
   if (patient.config.lidar.driver == settings::DriverKind::kReplay) return {};
   const auto port = patient.machine.facts(patient.config.lidar.device);
   if (!port || !has_port(patient)) return {};
-  std::vector<Finding> findings = {judge_rights(patient, *port)};
+  std::vector<Finding> findings = {check_port_rights(patient, *port)};
   const std::filesystem::path name = port_of(patient);
   if (service_account(patient.machine) && !service_unit_allows(patient.machine, name)) {
     findings.push_back({Verdict::kWrong,

@@ -12,13 +12,13 @@ namespace {
 
 constexpr std::size_t kMaxSettingsBytes = std::size_t{1} << 20;
 /// Fewer corners than a pattern has: there is nothing to recognise.
-constexpr std::size_t kFewestCorners = 3;
-constexpr auto kAsTheDaemon = settings::FileKind::kOrdinary;
+constexpr std::size_t kMinCorners = 3;
+constexpr auto kDaemonFileKind = settings::FileKind::kOrdinary;
 
 void check_config_file(const std::filesystem::path& file, const std::vector<std::string>& overrides,
                        SettingsCheck& check) {
   const std::string text =
-      file.empty() ? "{}" : settings::read_file(file, kMaxSettingsBytes, kAsTheDaemon);
+      file.empty() ? "{}" : settings::read_file(file, kMaxSettingsBytes, kDaemonFileKind);
   check.config = settings::parse_config(text, file, overrides, /*require_map=*/false);
   if (file.empty()) {
     check.findings.push_back({Verdict::kNote,
@@ -40,15 +40,15 @@ void check_map_file(SettingsCheck& check) {
          {R"(draw one (README.md, "A map") and name it: "map": "/path/to/map.json")"}});
     return;
   }
-  const auto map = settings::load_map(file, kAsTheDaemon);
+  const auto map = settings::load_map(file, kDaemonFileKind);
   const core::Vec2 size = map->upper_right() - map->lower_left();
   Finding finding{
       Verdict::kGood, "map",
       file.string() + formatted(": %.3f x %.3f m, %zu walls, %zu corners", size.x(), size.y(),
                                 map->plan().walls.size(), map->corners().size())};
-  if (map->corners().size() < kFewestCorners) {
+  if (map->corners().size() < kMinCorners) {
     finding.verdict = Verdict::kWrong;
-    finding.mends = {"poses are recognised by corners: give the map the walls of the building"};
+    finding.remedies = {"poses are recognised by corners: give the map the walls of the building"};
   }
   check.findings.push_back(finding);
 }

@@ -78,11 +78,11 @@ std::string draw_walls(std::span<const calibration::WallPieceFit> fits,
   const calibration::WallModel model(std::move(pieces));
   Plot plot({-rays_deg, rays_deg, "ray, from the wall's normal (degrees)"},
             {-highest_mm, highest_mm, "measured less true range (mm)"}, "Walls at known distances");
-  constexpr std::size_t kMostDots = 300;  // for each wall
+  constexpr std::size_t kMaxDots = 300;  // for each wall
   for (std::size_t i = 0; i < walls.size(); ++i) {
     const auto& returns = walls[i].returns;
     const Paint dots{.fill = kWallTints[i % kWallTints.size()], .opacity = 0.3};
-    for (std::size_t k = 0; k < returns.size(); k += 1 + returns.size() / kMostDots) {
+    for (std::size_t k = 0; k < returns.size(); k += 1 + returns.size() / kMaxDots) {
       plot.dot(core::degrees(returns[k].ray_rad), kToMm * returns[k].error_m, 1.5, dots);
     }
   }
@@ -96,8 +96,8 @@ std::string draw_walls(std::span<const calibration::WallPieceFit> fits,
     plot.line(points, stroke);
     char label[32];
     std::snprintf(label, sizeof label, "%.2f m", walls[i].distance_m);
-    constexpr std::size_t kMostLegends = 16;
-    if (i < kMostLegends) plot.legend(label, stroke);
+    constexpr std::size_t kMaxLegends = 16;
+    if (i < kMaxLegends) plot.legend(label, stroke);
   }
   return plot.document();
 }

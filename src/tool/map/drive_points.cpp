@@ -11,7 +11,7 @@ namespace cornerd::tool {
 namespace {
 
 /// Two turns further apart than this say nothing about the way between them.
-constexpr core::TimeNs kNeighbourNs = core::kNsPerSecond / 2;
+constexpr core::TimeNs kMaxNeighbourInterval_ns = core::kNsPerSecond / 2;
 
 core::Vec2 return_of(const core::Sample& sample) {
   return core::unit_vector(sample.bearing_rad) * double{sample.range_m};
@@ -20,7 +20,7 @@ core::Vec2 return_of(const core::Sample& sample) {
 }  // namespace
 
 void DrivePoints::add(const core::Scan& scan, const std::optional<core::Pose2>& T_map_base) {
-  Turn kept;
+  RecordedScan kept;
   kept.T_map_base = T_map_base;
   const auto samples = scan.samples();
   if (!samples.empty()) {
@@ -33,12 +33,12 @@ void DrivePoints::add(const core::Scan& scan, const std::optional<core::Pose2>& 
 }
 
 core::Pose2 DrivePoints::pose_at(std::size_t scan, core::TimeNs t_ns) const {
-  const Turn& own = scans_[scan];
+  const RecordedScan& own = scans_[scan];
   const bool before = t_ns < own.middle_ns;
   if (before ? scan == 0 : scan + 1 == scans_.size()) return *own.T_map_base;
-  const Turn& other = scans_[before ? scan - 1 : scan + 1];
+  const RecordedScan& other = scans_[before ? scan - 1 : scan + 1];
   const core::TimeNs apart_ns = std::abs(other.middle_ns - own.middle_ns);
-  if (!other.T_map_base || apart_ns == 0 || apart_ns > kNeighbourNs) return *own.T_map_base;
+  if (!other.T_map_base || apart_ns == 0 || apart_ns > kMaxNeighbourInterval_ns) return *own.T_map_base;
   const double share =
       static_cast<double>(std::abs(t_ns - own.middle_ns)) / static_cast<double>(apart_ns);
   return interpolate(*own.T_map_base, *other.T_map_base, share);
@@ -58,7 +58,7 @@ std::vector<core::Vec2> DrivePoints::place(const core::Pose2& T_base_lidar) cons
 std::vector<core::Vec2> DrivePoints::place(const core::Pose2& T_base_lidar,
                                            const Truth& way) const {
   std::vector<core::Vec2> points;
-  for (const Turn& scan : scans_) {
+  for (const RecordedScan& scan : scans_) {
     for (const core::Sample& sample : scan.returns) {
       const auto T_map_base = way.at(sample.t_ns);
       if (T_map_base) points.push_back(*T_map_base * (T_base_lidar * return_of(sample)));

@@ -24,7 +24,7 @@ class DrivePoints {
   std::vector<core::Vec2> place(const core::Pose2& T_base_lidar, const Truth& way) const;
 
  private:
-  struct Turn {
+  struct RecordedScan {
     core::TimeNs middle_ns = 0;
     std::optional<core::Pose2> T_map_base;
     std::vector<core::Sample> returns;
@@ -32,7 +32,7 @@ class DrivePoints {
   /// Where the robot was at a time of a turn whose place is known.
   core::Pose2 pose_at(std::size_t scan, core::TimeNs t_ns) const;
 
-  std::vector<Turn> scans_;
+  std::vector<RecordedScan> scans_;
 };
 
 /// One of the points that share a square of `cell_m`, of those within the two corners.

@@ -47,7 +47,7 @@ struct RecordedView {
   std::size_t scans = 0;
 };
 
-bool names_place(const core::PoseEstimate& pose) {
+bool has_pose(const core::PoseEstimate& pose) {
   return pose.state != core::PoseState::kAmbiguous && pose.state != core::PoseState::kLost;
 }
 
@@ -61,7 +61,7 @@ RecordedView view_recording(const RenderOptions& options, const settings::Config
     std::optional<core::Pose2> T_map_base;
     if (way != nullptr) {
       T_map_base = way->at(scan.start_ns() + (scan.end_ns() - scan.start_ns()) / 2);
-    } else if (names_place(result.pose)) {
+    } else if (has_pose(result.pose)) {
       T_map_base = result.pose.T_map_base;
     }
     view.points.add(scan, T_map_base);
@@ -78,7 +78,7 @@ RecordedView view_recording(const RenderOptions& options, const settings::Config
   return view;
 }
 
-std::vector<core::Vec2> way_of(const Truth& truth) {
+std::vector<core::Vec2> path_of(const Truth& truth) {
   std::vector<core::Vec2> way;
   for (const message::RecordedTruth& point : truth.points()) {
     way.push_back(point.T_map_base.translation());
@@ -112,7 +112,7 @@ void render(const RenderOptions& options) {
   MapDrawing drawing(*map);
   std::string subtitle = describe_map(*map);
   if (!options.truth.empty()) {
-    drawing.add_path(way_of(Truth::load(options.truth)), /*truth=*/true);
+    drawing.add_path(path_of(Truth::load(options.truth)), /*truth=*/true);
   }
   if (!options.recording.empty()) {
     std::optional<Truth> way;

@@ -13,11 +13,11 @@ namespace {
 using core::PoseState;
 
 /// STATUS comes every second, whatever the lidar does.
-constexpr double kLongestSilence_s = 3.5;
+constexpr double kMaxSilence_s = 3.5;
 /// More damaged bytes than line noise explains.
-constexpr double kBadByteShare = 0.01;
+constexpr double kMaxSkippedShare = 0.01;
 /// Below that share of turns that name a place, people ask why.
-constexpr double kGoodScanShare = 0.8;
+constexpr double kMinFixShare = 0.8;
 constexpr std::size_t kMinScans = 20;
 
 std::string seconds_text(double seconds) { return formatted("%.0f s", std::floor(seconds)); }
@@ -29,7 +29,7 @@ std::optional<Advice> advise_on_connection(const MonitorState& state, core::Time
         "no daemon since " + seconds_text(state.connection_age_s(now_ns)) + ": " + state.reason(),
         "start it: sudo systemctl start cornerd; why it ended: journalctl -u cornerd"};
   }
-  if (const double silence_s = state.silence_s(now_ns); silence_s > kLongestSilence_s) {
+  if (const double silence_s = state.silence_s(now_ns); silence_s > kMaxSilence_s) {
     return Advice{Style::kBad, "the daemon has said nothing for " + seconds_text(silence_s),
                   "is it stopped? sudo systemctl restart cornerd; cornerctl doctor looks further"};
   }
@@ -43,13 +43,13 @@ std::optional<Advice> advise_on_lidar(const message::ParsedStatus& status) {
                          (status.lidar_state == "identifying" || status.lidar_state == "starting" ||
                           status.lidar_state == "opening");
   return Advice{
-      is_coming ? Style::kDoubt : Style::kBad,
+      is_coming ? Style::kWarning : Style::kBad,
       "lidar " + status.lidar_state + (status.lidar_fault.empty() ? "" : ", " + status.lidar_fault),
       status.lidar_detail};
 }
 
 std::optional<Advice> advise_on_pose(const MonitorState& state, core::TimeNs now_ns) {
-  if (!state.pose()) return Advice{Style::kDoubt, "the lidar runs, and no turn is over yet", ""};
+  if (!state.pose()) return Advice{Style::kWarning, "the lidar runs, and no turn is over yet", ""};
   const message::ParsedPose& pose = *state.pose();
   if (state.recent() > 1 && !state.pose_rate_hz(now_ns)) {
     return Advice{Style::kBad, "the lidar runs, and no turns come", "cornerctl doctor"};
@@ -61,11 +61,11 @@ std::optional<Advice> advise_on_pose(const MonitorState& state, core::TimeNs now
                     "lidar sits, are the walls hidden? key l shows what it sees"};
     case PoseState::kAmbiguous:
       return Advice{
-          Style::kDoubt, formatted("%zu places fit what the lidar sees", pose.alternatives.size()),
+          Style::kWarning, formatted("%zu places fit what the lidar sees", pose.alternatives.size()),
           "move on, or say where it is (SET_POSE); cornerctl map check tells which places "
           "look alike"};
     case PoseState::kPredicted:
-      return Advice{Style::kDoubt,
+      return Advice{Style::kWarning,
                     formatted("by wheels and gyro alone for %.1f s", pose.age_s.value_or(0)),
                     "is the lidar covered, or the robot where the map has nothing?"};
     case PoseState::kFix:
@@ -79,27 +79,27 @@ std::optional<Advice> advise_on_quality(const MonitorState& state) {
   const std::size_t named = state.recent(PoseState::kFix) + state.recent(PoseState::kTracking);
   const std::size_t scans = state.recent();
   if (scans >= kMinScans &&
-      static_cast<double>(named) < kGoodScanShare * static_cast<double>(scans)) {
-    return Advice{Style::kDoubt,
+      static_cast<double>(named) < kMinFixShare * static_cast<double>(scans)) {
+    return Advice{Style::kWarning,
                   formatted("%zu of the last %zu turns named no place", scans - named, scans),
                   "things that are not on the map hide its walls, or its walls are elsewhere"};
   }
   for (const message::ParsedStatus::Sensor& sensor : state.status()->odometry_sensors) {
     if (sensor.state == "running") continue;
-    return Advice{Style::kDoubt, "odometry: " + sensor.name + " is " + sensor.state, sensor.detail};
+    return Advice{Style::kWarning, "odometry: " + sensor.name + " is " + sensor.state, sensor.detail};
   }
   if (const std::string& hint = state.status()->odometry_hint; !hint.empty()) {
-    return Advice{Style::kDoubt, "odometry: " + hint, "cornerctl doctor says more"};
+    return Advice{Style::kWarning, "odometry: " + hint, "cornerctl doctor says more"};
   }
   const auto bytes = static_cast<double>(state.status()->counter("bytes"));
   const auto skipped = static_cast<double>(state.status()->counter("skipped_bytes"));
-  if (skipped > kBadByteShare * bytes) {
-    return Advice{Style::kDoubt,
+  if (skipped > kMaxSkippedShare * bytes) {
+    return Advice{Style::kWarning,
                   formatted("%.1f %% of the lidar's bytes were damaged", 100 * skipped / bytes),
                   "a shorter or screened cable, away from motors; a steadier 5 V"};
   }
-  if (!state.complaint().empty()) {
-    return Advice{Style::kDoubt, state.complaint(), "are cornerd and cornerctl of one version?"};
+  if (!state.protocol_error().empty()) {
+    return Advice{Style::kWarning, state.protocol_error(), "are cornerd and cornerctl of one version?"};
   }
   return std::nullopt;
 }

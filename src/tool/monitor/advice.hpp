@@ -10,7 +10,7 @@ namespace cornerd::tool {
 
 /// What is wrong, most urgent first and alone, and what to do about it.
 struct Advice {
-  Style style = Style::kGood;  ///< kBad: no pose can come; kDoubt: poses are fewer or worse
+  Style style = Style::kGood;  ///< kBad: no pose can come; kWarning: poses are fewer or worse
   std::string what;
   std::string mend;  ///< empty: wait
 };

@@ -133,7 +133,7 @@ const char* rendition(Style style, bool colours) {
       return "0;7";
     case Style::kGood:
       return colours ? "0;32" : "0";
-    case Style::kDoubt:
+    case Style::kWarning:
       return colours ? "0;33" : "0;1";
     case Style::kBad:
       return colours ? "0;1;31" : "0;1";

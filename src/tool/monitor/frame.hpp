@@ -19,7 +19,7 @@ enum class Style : std::uint8_t {
   kBold,
   kTitle,
   kGood,
-  kDoubt,
+  kWarning,
   kBad,
   kWall,
   kReturn,

@@ -15,7 +15,7 @@ using core::Pose2;
 using core::Vec2;
 
 /// Sights of the lidar's view, so that it does not breathe with every turn.
-constexpr std::array<double, 6> kSights_m = {0.5, 1, 2, 4, 8, 12};
+constexpr std::array<double, 6> kViewRadii_m = {0.5, 1, 2, 4, 8, 12};
 
 /// Metres to dots, and to the cells of the frame.
 class Projection {
@@ -72,13 +72,13 @@ char32_t arrow(double direction_rad, bool unicode) {
 }
 
 /// How far the lidar's view is to reach, of the steps that there are.
-double sight_of(const ReceivedScan& received) {
+double view_radius_of(const ReceivedScan& received) {
   double farthest_m = 0;
   for (const core::Sample& sample : received.scan.samples) {
     farthest_m = std::max(farthest_m, double{sample.range_m});
   }
-  const auto* const sight = std::lower_bound(kSights_m.begin(), kSights_m.end(), farthest_m);
-  return sight == kSights_m.end() ? farthest_m : *sight;
+  const auto* const sight = std::lower_bound(kViewRadii_m.begin(), kViewRadii_m.end(), farthest_m);
+  return sight == kViewRadii_m.end() ? farthest_m : *sight;
 }
 
 void draw_walls(DotCanvas& canvas, const Projection& projection, const core::WallMap& map) {
@@ -108,7 +108,7 @@ void draw_breakpoints(Frame& frame, const Projection& projection,
 double draw_lidar_view(Frame& frame, const Region& region, const MonitorState& state,
                        const Scene& scene, const ViewChoice& choice) {
   if (!state.scan()) return 0;
-  const double size_m = 2 * sight_of(*state.scan()) / std::exp2(choice.zoom);
+  const double size_m = 2 * view_radius_of(*state.scan()) / std::exp2(choice.zoom);
   DotCanvas canvas(region.columns, region.rows, choice.unicode);
   const Pose2& T_base_lidar = scene.T_base_lidar;
   const Projection projection(canvas, region, T_base_lidar.translation(), {size_m, size_m});
@@ -139,7 +139,7 @@ double draw_map_view(Frame& frame, const Region& region, const MonitorState& sta
   if (is_placed) draw_breakpoints(frame, projection, state.breakpoints(), T_map_lidar);
   if (state.pose()) {
     for (const core::Alternative& place : state.pose()->alternatives) {
-      projection.put(frame, place.T_map_base.translation(), {U'?', Style::kDoubt});
+      projection.put(frame, place.T_map_base.translation(), {U'?', Style::kWarning});
     }
   }
   if (robot) {

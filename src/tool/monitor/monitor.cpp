@@ -23,12 +23,12 @@ using namespace std::chrono_literals;
 constexpr std::string_view kWatch =
     "{\"class\":\"WATCH\",\"classes\":[\"POSE\",\"SCAN\",\"BREAKPOINTS\",\"STATUS\",\"EVENT\"]}\n";
 /// Faster than an A1 turns, slower than what costs a modem's line or a board's processor something.
-constexpr auto kShortestFrame = 100ms;
+constexpr auto kMinFrameInterval = 100ms;
 /// For the ages on the screen, while nothing comes.
-constexpr auto kLongestFrame = 500ms;
-constexpr auto kFirstRetryAfter = 200ms;
-constexpr auto kLongestRetryAfter = 2000ms;
-constexpr int kMostZoom = 8;
+constexpr auto kMaxFrameInterval = 500ms;
+constexpr auto kFirstRetryDelay = 200ms;
+constexpr auto kMaxRetryDelay = 2000ms;
+constexpr int kMaxZoom = 8;
 
 std::string environment(const char* name) {
   const char* const value = std::getenv(name);
@@ -49,11 +49,11 @@ Monitor::Monitor(std::filesystem::path socket, const Scene& scene, const ViewCho
       signals_({SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGWINCH, SIGTSTP, SIGCONT}),
       encoder_(colours),
       next_try_(Clock::now()),
-      retry_(kFirstRetryAfter),
-      drawn_(Clock::now() - kLongestFrame) {}
+      retry_(kFirstRetryDelay),
+      drawn_(Clock::now() - kMaxFrameInterval) {}
 
 void Monitor::run() {
-  while (!is_over_) {
+  while (!is_done_) {
     connect_when_due();
     draw_when_due();
     wait();
@@ -75,7 +75,7 @@ void Monitor::lose_daemon(std::string_view reason) {
   // A daemon that accepts and goes at once is retried ever more slowly, too: hence not at
   // connect().
   next_try_ = Clock::now() + retry_;
-  retry_ = std::min<std::chrono::milliseconds>(retry_ * 2, kLongestRetryAfter);
+  retry_ = std::min<std::chrono::milliseconds>(retry_ * 2, kMaxRetryDelay);
   state_.lose(reason, nanoseconds(Clock::now()));
   daemon_.close();
   is_changed_ = true;
@@ -84,23 +84,23 @@ void Monitor::lose_daemon(std::string_view reason) {
 void Monitor::draw_when_due() {
   const Clock::time_point now = Clock::now();
   const auto since = now - drawn_;
-  if (terminal_.has_unsent() || since < kShortestFrame) return;
-  if (!is_changed_ && since < kLongestFrame) return;
+  if (terminal_.has_unsent() || since < kMinFrameInterval) return;
+  if (!is_changed_ && since < kMaxFrameInterval) return;
   const Terminal::Size size = terminal_.size();
   const Frame frame =
       draw_screen(state_, scene_, choice_, size.columns, size.rows, nanoseconds(now));
-  if (!terminal_.show(encoder_.encode(frame))) is_over_ = true;
+  if (!terminal_.show(encoder_.encode(frame))) is_done_ = true;
   drawn_ = now;
   is_changed_ = false;
 }
 
 void Monitor::wait() {
-  if (is_over_) return;
-  Clock::time_point until = drawn_ + (is_changed_ ? kShortestFrame : kLongestFrame);
+  if (is_done_) return;
+  Clock::time_point until = drawn_ + (is_changed_ ? kMinFrameInterval : kMaxFrameInterval);
   if (!state_.is_connected()) until = std::min(until, next_try_);
   const auto left = std::chrono::ceil<std::chrono::milliseconds>(until - Clock::now());
   // While the terminal takes nothing there is nothing to draw, and so no reason to wake up.
-  const int timeout_ms = terminal_.has_unsent() ? static_cast<int>(kLongestFrame / 1ms)
+  const int timeout_ms = terminal_.has_unsent() ? static_cast<int>(kMaxFrameInterval / 1ms)
                                                 : std::max(0, static_cast<int>(left.count()));
   const short keys_and_room =
       static_cast<short>(terminal_.has_unsent() ? POLLIN | POLLOUT : POLLIN);
@@ -108,9 +108,9 @@ void Monitor::wait() {
                                   pollfd{terminal_.fd(), keys_and_room, 0},
                                   pollfd{daemon_.fd(), POLLIN, 0}};
   if (::poll(waited.data(), waited.size(), timeout_ms) <= 0) return;
-  if (waited[0].revents != 0) obey_signals();
-  if (waited[1].revents & POLLOUT && !terminal_.flush()) is_over_ = true;
-  if (waited[1].revents & ~POLLOUT) obey_keys();
+  if (waited[0].revents != 0) handle_signals();
+  if (waited[1].revents & POLLOUT && !terminal_.flush()) is_done_ = true;
+  if (waited[1].revents & ~POLLOUT) handle_keys();
   if (waited[2].revents != 0) listen();
 }
 
@@ -118,29 +118,29 @@ void Monitor::listen() {
   const auto lines = daemon_.take();
   if (!lines) return lose_daemon(socket_.string() + ": the daemon has gone");
   for (const std::string_view line : split_words(*lines, "\n")) {
-    state_.hear(line, nanoseconds(Clock::now()));
+    state_.take_line(line, nanoseconds(Clock::now()));
     is_changed_ = true;
   }
-  if (state_.status()) retry_ = kFirstRetryAfter;
+  if (state_.status()) retry_ = kFirstRetryDelay;
 }
 
-void Monitor::obey_keys() {
+void Monitor::handle_keys() {
   const auto keys = terminal_.take_keys();
   if (!keys) {
-    is_over_ = true;
+    is_done_ = true;
     return;
   }
   for (const char key : *keys) {
     is_changed_ = true;
-    if (key == 'q' || key == 'Q') is_over_ = true;
+    if (key == 'q' || key == 'Q') is_done_ = true;
     if (key == 'a') choice_.unicode = !choice_.unicode;
     if (key == 'l') choice_.lidar_view = !choice_.lidar_view;
-    if (key == '+' || key == '=') choice_.zoom = std::min(choice_.zoom + 1, kMostZoom);
+    if (key == '+' || key == '=') choice_.zoom = std::min(choice_.zoom + 1, kMaxZoom);
     if (key == '-') choice_.zoom = std::max(choice_.zoom - 1, 0);
   }
 }
 
-void Monitor::obey_signals() {
+void Monitor::handle_signals() {
   for (int signal = 0; (signal = signals_.take()) != 0;) {
     is_changed_ = true;
     if (signal == SIGTSTP) {
@@ -152,7 +152,7 @@ void Monitor::obey_signals() {
     } else if (signal == SIGWINCH) {
       encoder_.forget();
     } else {
-      is_over_ = true;
+      is_done_ = true;
     }
   }
 }

@@ -31,8 +31,8 @@ class Monitor {
   /// Sleeps until there is something to do.
   void wait();
   void listen();
-  void obey_keys();
-  void obey_signals();
+  void handle_keys();
+  void handle_signals();
   void suspend();
   void draw_when_due();
 
@@ -48,7 +48,7 @@ class Monitor {
   std::chrono::milliseconds retry_;
   Clock::time_point drawn_;
   bool is_changed_ = true;
-  bool is_over_ = false;
+  bool is_done_ = false;
 };
 
 /// What the environment tells of a terminal (TERM, NO_COLOR, LC_ALL, LC_CTYPE, LANG).

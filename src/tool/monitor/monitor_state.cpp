@@ -8,13 +8,13 @@ namespace cornerd::tool {
 
 namespace {
 
-constexpr std::size_t kMostEvents = 50;
+constexpr std::size_t kMaxEvents = 50;
 /// Three seconds of an A1.
-constexpr std::size_t kMostArrivals = 22;
-constexpr std::size_t kMostStates = 100;
+constexpr std::size_t kMaxArrivals = 22;
+constexpr std::size_t kMaxStates = 100;
 /// Seven turns of an A1.
 constexpr double kFreshPose_s = 1;
-constexpr core::TimeNs kLongestPause_ns = 2 * core::kNsPerSecond;
+constexpr core::TimeNs kMaxPause_ns = 2 * core::kNsPerSecond;
 
 template <typename Value>
 void push_limited(std::deque<Value>& values, Value value, std::size_t most) {
@@ -25,7 +25,7 @@ void push_limited(std::deque<Value>& values, Value value, std::size_t most) {
 }  // namespace
 
 void MonitorState::lose(std::string_view reason, core::TimeNs now_ns) {
-  if (connected_ || !since_ns_) since_ns_ = now_ns;
+  if (connected_ || !changed_ns_) changed_ns_ = now_ns;
   connected_ = false;
   reason_ = reason;
   // What it said last is no longer so.
@@ -35,36 +35,36 @@ void MonitorState::lose(std::string_view reason, core::TimeNs now_ns) {
   breakpoints_ = {};
   arrivals_.clear();
   states_.clear();
-  complaint_.clear();
+  protocol_error_.clear();
 }
 
 void MonitorState::connect(core::TimeNs now_ns) {
   connected_ = true;
-  since_ns_ = now_ns;
-  heard_ns_ = now_ns;
+  changed_ns_ = now_ns;
+  last_line_ns_ = now_ns;
 }
 
 double MonitorState::connection_age_s(core::TimeNs now_ns) const {
-  return core::to_seconds(now_ns - since_ns_.value_or(now_ns));
+  return core::to_seconds(now_ns - changed_ns_.value_or(now_ns));
 }
 
 double MonitorState::silence_s(core::TimeNs now_ns) const {
-  return core::to_seconds(now_ns - heard_ns_);
+  return core::to_seconds(now_ns - last_line_ns_);
 }
 
 void MonitorState::note(message::ParsedPose pose, core::TimeNs now_ns) {
-  push_limited(states_, pose.state, kMostStates);
-  push_limited(arrivals_, now_ns, kMostArrivals);
+  push_limited(states_, pose.state, kMaxStates);
+  push_limited(arrivals_, now_ns, kMaxArrivals);
   pose_ = std::move(pose);
 }
 
-void MonitorState::hear(std::string_view line, core::TimeNs now_ns) {
-  heard_ns_ = now_ns;
+void MonitorState::take_line(std::string_view line, core::TimeNs now_ns) {
+  last_line_ns_ = now_ns;
   message::ParsedLine told = message::parse_line(line);
   if (const auto* error = std::get_if<message::RequestError>(&told)) {
-    complaint_ = "a message that makes no sense: " + error->text;
+    protocol_error_ = "a message that makes no sense: " + error->text;
   } else if (const auto* refused = std::get_if<message::ParsedError>(&told)) {
-    complaint_ = refused->code + ": " + refused->text;
+    protocol_error_ = refused->code + ": " + refused->text;
   } else if (auto* version = std::get_if<message::ParsedVersion>(&told)) {
     version_ = std::move(version->version);
   } else if (auto* pose = std::get_if<message::ParsedPose>(&told)) {
@@ -79,7 +79,7 @@ void MonitorState::hear(std::string_view line, core::TimeNs now_ns) {
     status_ = std::move(*status);
   } else if (auto* event = std::get_if<message::ParsedEvent>(&told)) {
     events_.push_front(std::move(*event));
-    if (events_.size() > kMostEvents) events_.pop_back();
+    if (events_.size() > kMaxEvents) events_.pop_back();
   }
 }
 
@@ -93,7 +93,7 @@ bool MonitorState::is_pose_stale(core::TimeNs now_ns) const {
 
 std::optional<double> MonitorState::pose_rate_hz(core::TimeNs now_ns) const {
   if (arrivals_.size() < 2 || arrivals_.back() <= arrivals_.front()) return std::nullopt;
-  if (now_ns - arrivals_.back() > kLongestPause_ns) return std::nullopt;
+  if (now_ns - arrivals_.back() > kMaxPause_ns) return std::nullopt;
   return static_cast<double>(arrivals_.size() - 1) /
          core::to_seconds(arrivals_.back() - arrivals_.front());
 }

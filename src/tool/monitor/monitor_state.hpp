@@ -26,7 +26,7 @@ class MonitorState {
   void lose(std::string_view reason, core::TimeNs now_ns);
   void connect(core::TimeNs now_ns);
   /// One line without its end.
-  void hear(std::string_view line, core::TimeNs now_ns);
+  void take_line(std::string_view line, core::TimeNs now_ns);
 
   bool is_connected() const { return connected_; }
   const std::string& reason() const { return reason_; }
@@ -44,7 +44,7 @@ class MonitorState {
   /// The newest first.
   const std::deque<message::ParsedEvent>& events() const { return events_; }
   /// What the daemon could not make sense of, or we not of it; empty: nothing.
-  const std::string& complaint() const { return complaint_; }
+  const std::string& protocol_error() const { return protocol_error_; }
 
   /// Since the last pose came; 0 where there is none.
   double pose_silence_s(core::TimeNs now_ns) const;
@@ -61,8 +61,8 @@ class MonitorState {
 
   bool connected_ = false;
   std::string reason_;
-  std::optional<core::TimeNs> since_ns_;
-  core::TimeNs heard_ns_ = 0;
+  std::optional<core::TimeNs> changed_ns_;
+  core::TimeNs last_line_ns_ = 0;
   std::string version_;
   std::optional<message::ParsedPose> pose_;
   std::optional<message::ParsedStatus> status_;
@@ -71,7 +71,7 @@ class MonitorState {
   std::deque<message::ParsedEvent> events_;
   std::deque<core::TimeNs> arrivals_;
   std::deque<core::PoseState> states_;
-  std::string complaint_;
+  std::string protocol_error_;
 };
 
 }  // namespace cornerd::tool

@@ -14,7 +14,7 @@ namespace {
 using core::PoseState;
 
 constexpr double kDegreesPerRad = 180 / core::kPi;
-constexpr std::size_t kMostAlternatives = 3;
+constexpr std::size_t kMaxAlternatives = 3;
 
 Style style_of(PoseState state) {
   switch (state) {
@@ -23,14 +23,14 @@ Style style_of(PoseState state) {
       return Style::kGood;
     case PoseState::kPredicted:
     case PoseState::kAmbiguous:
-      return Style::kDoubt;
+      return Style::kWarning;
     case PoseState::kLost:
       return Style::kBad;
   }
   return Style::kPlain;
 }
 
-void add_place(const message::ParsedPose& pose, std::vector<PanelLine>& lines) {
+void add_pose_values(const message::ParsedPose& pose, std::vector<PanelLine>& lines) {
   const auto sigma = [&](int row) {
     return pose.covariance ? std::sqrt(std::max(0.0, (*pose.covariance)(row, row))) : NAN;
   };
@@ -47,19 +47,19 @@ void add_place(const message::ParsedPose& pose, std::vector<PanelLine>& lines) {
 }
 
 void add_alternatives(const message::ParsedPose& pose, std::vector<PanelLine>& lines) {
-  for (std::size_t i = 0; i < std::min(pose.alternatives.size(), kMostAlternatives); ++i) {
+  for (std::size_t i = 0; i < std::min(pose.alternatives.size(), kMaxAlternatives); ++i) {
     const core::Alternative& place = pose.alternatives[i];
     lines.push_back(
         {formatted("? %.2f, %.2f m %4.0f deg  %.2f", place.T_map_base.x_m, place.T_map_base.y_m,
                    place.T_map_base.theta_rad * kDegreesPerRad, place.score),
-         Style::kDoubt});
+         Style::kWarning});
   }
 }
 
 /// `silence_s`: since it came.
 void add_pose(const message::ParsedPose& pose, double silence_s, std::vector<PanelLine>& lines) {
   if (pose.T_map_base) {
-    add_place(pose, lines);
+    add_pose_values(pose, lines);
   } else {
     add_alternatives(pose, lines);
   }

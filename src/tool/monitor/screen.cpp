@@ -17,10 +17,10 @@ constexpr std::size_t kPanelColumns = 32;
 constexpr std::size_t kColumnsForBoth = 64;
 /// How many of them then: state, place and what speaks for it.
 constexpr std::size_t kPanelRowsAbove = 6;
-constexpr std::size_t kFewestMapRows = 4;
+constexpr std::size_t kMinMapRows = 4;
 constexpr std::size_t kRowsForAdvice = 20;
 constexpr std::size_t kAdviceRows = 3;
-constexpr std::size_t kMostAdviceRows = 5;
+constexpr std::size_t kMaxAdviceRows = 5;
 
 void draw_title(Frame& frame, const MonitorState& state, const Scene& scene, core::TimeNs now_ns) {
   for (std::size_t column = 0; column < frame.columns(); ++column) {
@@ -58,7 +58,7 @@ double draw_body(Frame& frame, const Region& body, const MonitorState& state, co
                     now_ns);
   }
   const std::size_t panel_rows =
-      body.rows >= kPanelRowsAbove + kFewestMapRows ? kPanelRowsAbove : body.rows;
+      body.rows >= kPanelRowsAbove + kMinMapRows ? kPanelRowsAbove : body.rows;
   draw_panel(frame, {body.column, body.row, body.columns, panel_rows}, state, now_ns);
   return draw_map(frame, {body.column, body.row + panel_rows, body.columns, body.rows - panel_rows},
                   state, scene, choice, now_ns);
@@ -76,15 +76,15 @@ std::vector<PanelLine> advice_lines(const Advice& advice, std::size_t columns) {
 /// Always the same on a screen with room, so that the map does not jump, but for a long
 /// explanation.
 std::size_t advice_rows(std::size_t needed, std::size_t rows) {
-  if (rows >= kRowsForAdvice) return std::clamp(needed, kAdviceRows, kMostAdviceRows);
+  if (rows >= kRowsForAdvice) return std::clamp(needed, kAdviceRows, kMaxAdviceRows);
   return rows >= 3 ? 1 : 0;
 }
 
 /// "|-----| 0.5 m": the longest round length that fits.
 std::string ruler_text(double metres_per_cell) {
-  constexpr double kLongest_cells = 14;
+  constexpr double kMaxLength_cells = 14;
   if (!(metres_per_cell > 0)) return "";
-  const double longest_m = kLongest_cells * metres_per_cell;
+  const double longest_m = kMaxLength_cells * metres_per_cell;
   const double power = std::pow(10, std::floor(std::log10(longest_m)));
   double length_m = power;
   for (const double factor : {2.0, 5.0}) {
@@ -112,12 +112,12 @@ Frame draw_screen(const MonitorState& state, const Scene& scene, const ViewChoic
   const std::size_t all = frame.rows();
   const std::size_t key_rows = all >= 8 ? 1 : 0;
   const std::vector<PanelLine> advice = advice_lines(advise(state, now_ns), frame.columns());
-  const std::size_t said_rows = advice_rows(advice.size(), all);
-  const std::size_t body_rows = all - std::min(all, 1 + key_rows + said_rows);
+  const std::size_t shown_rows = advice_rows(advice.size(), all);
+  const std::size_t body_rows = all - std::min(all, 1 + key_rows + shown_rows);
   const double metres_per_cell =
       draw_body(frame, {0, 1, frame.columns(), body_rows}, state, scene, choice, now_ns);
   // The end may be missing on a small screen; what is wrong is in its first line.
-  for (std::size_t i = 0; i < std::min(said_rows, advice.size()); ++i) {
+  for (std::size_t i = 0; i < std::min(shown_rows, advice.size()); ++i) {
     frame.write(0, 1 + body_rows + i, advice[i].text, advice[i].style);
   }
   if (key_rows > 0) draw_keys(frame, all - 1, metres_per_cell);

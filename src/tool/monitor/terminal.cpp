@@ -21,8 +21,8 @@ constexpr std::string_view kGiveBackScreen = "\x1b[0m\x1b[?25h\x1b[?1049l";
 /// For the last words to a terminal that is slow; one that takes nothing gets none.
 constexpr int kLastWords_ms = 200;
 /// No screen is larger; a broken answer is.
-constexpr std::size_t kMostColumns = 1000;
-constexpr std::size_t kMostRows = 500;
+constexpr std::size_t kMaxColumns = 1000;
+constexpr std::size_t kMaxRows = 500;
 
 /// Standard output's terminal, opened anew: not to wait is a property of the open file, which
 /// standard output shares with the shell.
@@ -78,8 +78,8 @@ void Terminal::leave() {
 Terminal::Size Terminal::size() const {
   winsize told{};
   if (::ioctl(fd_, TIOCGWINSZ, &told) != 0 || told.ws_col == 0 || told.ws_row == 0) return {};
-  return {std::min<std::size_t>(told.ws_col, kMostColumns),
-          std::min<std::size_t>(told.ws_row, kMostRows)};
+  return {std::min<std::size_t>(told.ws_col, kMaxColumns),
+          std::min<std::size_t>(told.ws_row, kMaxRows)};
 }
 
 std::optional<std::string> Terminal::take_keys() {

@@ -101,7 +101,7 @@ rplidar::RplidarDriverConfig driver_config(const settings::LidarConfig& lidar) {
   return config;
 }
 
-void say_when_changed(const drivers::LidarStatus& now, drivers::LidarStatus& said) {
+void report_change(const drivers::LidarStatus& now, drivers::LidarStatus& said) {
   if (now.state == said.state && now.detail.view() == said.detail.view()) return;
   said = now;
   const std::string_view state = to_string(now.state);
@@ -151,7 +151,7 @@ void record(RecordOptions& options) {
              (options.seconds > 0 && core::to_seconds(elapsed_ns) >= options.seconds);
     };
     while (!over() && !stop_signal.wait(std::chrono::milliseconds(50))) {
-      say_when_changed(driver.status(), said);
+      report_change(driver.status(), said);
     }
     if (odometry) readings = odometry->status().counters.readings;
   }

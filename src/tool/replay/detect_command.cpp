@@ -70,7 +70,7 @@ void detect(DetectOptions& options) {
   }
   output.flush();
   if (!options.plot.empty() && scans < options.plotted_scan) {
-    throw Failure("--turn " + std::to_string(options.plotted_scan) + ": there are " +
+    throw Failure("--scan " + std::to_string(options.plotted_scan) + ": there are " +
                   std::to_string(scans) + " turns");
   }
 }
@@ -92,7 +92,7 @@ void add_detect(Command& program) {
   add_wire_option(command, options->wire);
   command.add_option("--plot", options->plot, "draw a turn with its walls and breakpoints, as SVG")
       .type_name("FILE");
-  command.add_option("--turn", options->plotted_scan, "which turn --plot draws, from 1 on")
+  command.add_option("--scan", options->plotted_scan, "which turn --plot draws, from 1 on")
       .capture_default_str()
       .range(1, 100'000'000);
   command.callback([options] { detect(*options); });

@@ -21,7 +21,7 @@ double distance(const core::Pose2& a, const core::Pose2& b) {
   return (a.translation() - b.translation()).norm();
 }
 
-double scan(const core::Pose2& a, const core::Pose2& b) {
+double rotation(const core::Pose2& a, const core::Pose2& b) {
   return std::abs(core::angle_between(a.theta_rad, b.theta_rad));
 }
 
@@ -81,7 +81,7 @@ void ErrorStatistics::add(const core::PoseEstimate& estimate, const core::Pose2&
 void ErrorStatistics::add_pose(const core::PoseEstimate& estimate, const core::Pose2& truth) {
   const core::Pose2& pose = estimate.T_map_base;
   distances_m_.push_back(distance(pose, truth));
-  angles_rad_.push_back(scan(pose, truth));
+  angles_rad_.push_back(rotation(pose, truth));
   wrong_ += replay::is_right(pose, truth) ? 0 : 1;
   if (const auto nees = replay::normalised_error_squared(estimate, truth)) {
     nees_sum_ += *nees;

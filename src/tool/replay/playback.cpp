@@ -25,7 +25,7 @@ class Playback::Sink : public replay::RecordingSink {
   void on_sample(const core::Sample& sample) override {
     playback_.play_readings_until(sample.t_ns);
     playback_.on_result(playback_.pipeline_.add(sample));
-    playback_.on_pose_between(playback_.pipeline_.partial_pose());
+    playback_.on_intermediate_pose(playback_.pipeline_.partial_pose());
   }
   void on_gap() override { playback_.on_result(playback_.pipeline_.finish()); }
   void on_odometry(const message::OdometryReading& reading) override {
@@ -47,10 +47,10 @@ void Playback::play_readings_until(core::TimeNs t_ns) {
 
 void Playback::add(const core::OdometryReading& reading) {
   if (on_reading_) on_reading_(reading);
-  on_pose_between(pipeline_.add(reading));
+  on_intermediate_pose(pipeline_.add(reading));
 }
 
-void Playback::on_pose_between(const core::PoseEstimate* pose) {
+void Playback::on_intermediate_pose(const core::PoseEstimate* pose) {
   if (pose != nullptr && on_prediction_) on_prediction_(*pose);
 }
 

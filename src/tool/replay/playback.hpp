@@ -56,7 +56,7 @@ class Playback {
   class Sink;
 
   void on_result(const core::ScanResult* result);
-  void on_pose_between(const core::PoseEstimate* pose);
+  void on_intermediate_pose(const core::PoseEstimate* pose);
 
   core::Pipeline& pipeline_;
   OnScan on_scan_;

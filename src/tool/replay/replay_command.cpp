@@ -52,7 +52,7 @@ void replay(const ReplayOptions& options) {
   MessagePrinter printer(output, classes, map ? &map->plan() : nullptr);
   core::Pipeline pipeline(map, config.localizer());
   ErrorStatistics errors;
-  ErrorStatistics errors_between;
+  ErrorStatistics intermediate_errors;
   std::optional<Pace> pace;
 
   const auto on_scan = [&](const core::Scan& scan, const core::ScanResult& result) {
@@ -75,7 +75,7 @@ void replay(const ReplayOptions& options) {
   playback.set_on_prediction([&](const core::PoseEstimate& pose) {
     printer.print_pose(pose);
     if (!truth) return;
-    if (const auto T_map_base = truth->at(pose.t_ns)) errors_between.add(pose, *T_map_base);
+    if (const auto T_map_base = truth->at(pose.t_ns)) intermediate_errors.add(pose, *T_map_base);
   });
   playback.set_on_reading([&](const core::OdometryReading& reading) { printer.note(reading); });
   if (!options.odometry.empty()) playback.set_odometry(load_odometry(options.odometry));
@@ -88,8 +88,8 @@ void replay(const ReplayOptions& options) {
   }
   output.flush();
   if (truth) std::fputs(errors.report().c_str(), stderr);
-  if (errors_between.scans() > 0) {
-    std::fprintf(stderr, "between the turns\n%s", errors_between.report("poses").c_str());
+  if (intermediate_errors.scans() > 0) {
+    std::fprintf(stderr, "between the turns\n%s", intermediate_errors.report("poses").c_str());
   }
 }
 

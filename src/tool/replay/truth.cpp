@@ -14,7 +14,7 @@ namespace cornerd::tool {
 
 namespace {
 
-constexpr core::TimeNs kHoldNs = core::kNsPerSecond / 5;
+constexpr core::TimeNs kHoldLast_ns = core::kNsPerSecond / 5;
 
 }  // namespace
 
@@ -52,7 +52,7 @@ std::optional<core::Pose2> Truth::at(core::TimeNs t_ns) const {
   if (after == points_.begin()) return std::nullopt;
   const auto& before = *std::prev(after);
   if (after == points_.end()) {
-    if (t_ns > before.t_ns + kHoldNs) return std::nullopt;
+    if (t_ns > before.t_ns + kHoldLast_ns) return std::nullopt;
     return before.T_map_base;
   }
   const double share =

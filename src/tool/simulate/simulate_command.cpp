@@ -86,7 +86,7 @@ void add_simulate(Command& program) {
   options->odometry.add_to(command);
   command
       .add_option(
-          "--turns", options->scans,
+          "--scans", options->scans,
           "whole turns of the lidar; else as many as the places, once through the scenario, or 10")
       .positive()
       .type_name("N");

@@ -39,7 +39,7 @@ void SimulationOptions::add_to(Command& command) {
                   "it drives there, in config/maps/flat-7.json: circuit-1, circuit-2, exploration")
       .choices({"circuit-1", "circuit-2", "exploration"});
   command.add_flag("--loop", loop, "and from the last point back to the first, for ever");
-  command.add_option("--turns-each", scans_each, "turns of the lidar at each of the places")
+  command.add_option("--scans-each", scans_each, "turns of the lidar at each of the places")
       .positive()
       .capture_default_str();
   command.add_option("--drive-speed", speed_m_s, "metres a second along the path")
@@ -117,7 +117,7 @@ namespace {
 /// stretches of about six; 3-6 % step back, most of them after empty ones; 0.18 degrees of bearing
 /// noise (calibrate noise, one recording). Assumed: the outliers, and the beam, which stands on few
 /// edges of another RPLidar (16-47 % mixed); the A1's 13 edges showed none.
-void err_as_real_ones(replay::SensorModel& model) {
+void set_recorded_errors(replay::SensorModel& model) {
   model.missing = 0.38;
   model.missing_run = 6;
   model.outliers = 0.005;
@@ -182,7 +182,7 @@ replay::SensorModel SensorOptions::model(const settings::NoiseConfig& configured
   }
   model.noise.floor_m = floor_m.value_or(model.noise.floor_m);
   model.noise.share = share.value_or(model.noise.share);
-  if (real) err_as_real_ones(model);
+  if (real) set_recorded_errors(model);
   if (bearing_deg) model.noise.bearing_rad = core::radians(*bearing_deg);
   model.missing = missing.value_or(model.missing);
   model.missing_run = missing_run.value_or(model.missing_run);

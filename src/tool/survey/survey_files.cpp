@@ -17,9 +17,9 @@ namespace cornerd::tool {
 namespace {
 
 /// A file whose clock begins anew goes on so long after the one before it.
-constexpr core::TimeNs kBetweenClocks_ns = core::kNsPerSecond;
+constexpr core::TimeNs kGapBetweenClocks_ns = core::kNsPerSecond;
 /// Between two readings of one clock.
-constexpr core::TimeNs kGoesOn_ns = core::kNsPerSecond / 2;
+constexpr core::TimeNs kMaxReadingInterval_ns = core::kNsPerSecond / 2;
 
 class SurveySink final : public replay::RecordingSink {
  public:
@@ -46,7 +46,7 @@ class SurveySink final : public replay::RecordingSink {
     message::OdometryReading shifted = reading;
     shifted.t_ns = shifted_ns(reading.t_ns);
     // A lidar may be silent for long: readings that go on from one another tell the time meanwhile.
-    if (now_ns_ && shifted.t_ns < *now_ns_ + kGoesOn_ns) {
+    if (now_ns_ && shifted.t_ns < *now_ns_ + kMaxReadingInterval_ns) {
       now_ns_ = std::max(*now_ns_, shifted.t_ns);
     }
     if (takes_odometry_) drive_.add(shifted, now_ns_);
@@ -59,7 +59,7 @@ class SurveySink final : public replay::RecordingSink {
  private:
   core::TimeNs shifted_ns(core::TimeNs t_ns) {
     if (is_first_ && latest_ns_ && t_ns < *latest_ns_) {
-      shift_ns_ = *latest_ns_ + kBetweenClocks_ns - t_ns;
+      shift_ns_ = *latest_ns_ + kGapBetweenClocks_ns - t_ns;
     }
     is_first_ = false;
     t_ns += shift_ns_;

@@ -17,15 +17,15 @@ double length_of(const core::Vec2& from, const core::Vec2& to) { return (to - fr
 std::string sources_of(const survey::SurveyResult& result) {
   if (!result.has_odometry) return "by the lidar alone";
   const std::string wheels = result.has_gyro ? "wheels, gyro" : "wheels";
-  const bool is_papers = result.observations == 0;  // it places its turns by the odometry alone
-  if (is_papers) return result.has_gyro ? "by wheels and gyro" : "by wheels";
+  const bool is_ransac = result.observations == 0;  // it places its turns by the odometry alone
+  if (is_ransac) return result.has_gyro ? "by wheels and gyro" : "by wheels";
   return "by " + wheels + " and lidar";
 }
 
 /// Wear and pressure of tyres change a wheel by a few per cent; more is a wrong config.
 std::string describe_wheels(const core::OdometryParameters& learned) {
-  constexpr double kMostScale = 0.15;
-  if (std::max(std::abs(learned.left_scale), std::abs(learned.right_scale)) < kMostScale) return "";
+  constexpr double kMaxScale = 0.15;
+  if (std::max(std::abs(learned.left_scale), std::abs(learned.right_scale)) < kMaxScale) return "";
   return formatted(
       "WARNING: the left wheel differs by %+.0f %% from the config, the right one by %+.0f %%: "
       "check odometry.counts_per_turn and odometry.wheel_radius\n",
@@ -42,7 +42,7 @@ std::string describe_drive(const survey::SurveyResult& result) {
                    sources_of(result).c_str());
 }
 
-std::string describe_doubt(const survey::RejectedOdometry& doubt) {
+std::string describe_rejected_odometry(const survey::RejectedOdometry& doubt) {
   const auto wheel = [](const survey::WheelDistance& way) {
     return formatted("%.1f m by its counts and %.1f m by the lidar", way.counted_m, way.lidar_m);
   };
@@ -88,7 +88,7 @@ std::string describe_loop(const survey::SurveyResult& result, const survey::Loop
 std::string survey_report(const survey::SurveyResult& result) {
   std::string text = describe_drive(result) + describe_walls(result);
   if (result.observations == 0) return text;  // the paper's way
-  if (result.rejected_odometry) text += describe_doubt(*result.rejected_odometry);
+  if (result.rejected_odometry) text += describe_rejected_odometry(*result.rejected_odometry);
   text += formatted("%zu wall observations, residuals %.2f of their sigma, %zu outliers\n",
                     result.observations, result.sigma, result.outliers);
   if (!result.unmatched_scans.empty()) {

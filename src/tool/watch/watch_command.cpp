@@ -25,8 +25,8 @@ using namespace std::chrono_literals;
 
 // A restart of the daemon takes well under a second; one that stays away is not worth more than a
 // look every five.
-constexpr auto kFirstRetry = 200ms;
-constexpr auto kLongestRetry = 5000ms;
+constexpr auto kFirstReconnectDelay = 200ms;
+constexpr auto kMaxReconnectDelay = 5000ms;
 
 struct WatchOptions {
   SettingsOptions settings;
@@ -55,17 +55,17 @@ void watch(const WatchOptions& options) {
   SocketClient daemon;
   if (!daemon.connect(socket)) throw Failure(daemon.problem() + " (does cornerd run?)");
 
-  for (auto retry = kFirstRetry;;) {
+  for (auto retry = kFirstReconnectDelay;;) {
     if (request.empty() || daemon.send(request)) {
       for (std::string_view lines; !(lines = daemon.receive()).empty();) {
         output.write(lines);
-        retry = kFirstRetry;
+        retry = kFirstReconnectDelay;
       }
     }
     std::fprintf(stderr, "cornerctl: %s: the daemon has gone; waiting for it\n", socket.c_str());
     do {
       std::this_thread::sleep_for(retry);
-      retry = std::min(retry * 2, kLongestRetry);
+      retry = std::min(retry * 2, kMaxReconnectDelay);
     } while (!daemon.connect(socket));
     std::fputs("cornerctl: the daemon is back\n", stderr);
   }

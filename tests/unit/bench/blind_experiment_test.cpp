@@ -14,12 +14,12 @@
 namespace cornerd::bench {
 namespace {
 
-BlindResult run(std::string_view title, std::size_t drives) {
-  const auto cases = blind_cases();
+CoveredLidarResult run(std::string_view title, std::size_t drives) {
+  const auto cases = covered_lidar_cases();
   const auto blind = std::find_if(cases.begin(), cases.end(),
-                                  [&](const BlindCase& one) { return one.title == title; });
+                                  [&](const CoveredLidarCase& one) { return one.title == title; });
   if (blind == cases.end()) throw std::invalid_argument(std::string(title));
-  return run_blind_case(settings::load_map(CORNERD_SOURCE_DIR "/config/maps/flat-7.json"), *blind,
+  return run_covered_lidar_case(settings::load_map(CORNERD_SOURCE_DIR "/config/maps/flat-7.json"), *blind,
                         1, drives);
 }
 
@@ -37,7 +37,7 @@ struct RobotBounds {
 
 void PrintTo(const RobotBounds& bounds, std::ostream* out) { *out << bounds.title; }
 
-void expect_honest(const PoseHonesty& poses, double most_nees, double least_share,
+void expect_honest(const PoseConsistency& poses, double most_nees, double least_share,
                    const std::string& which) {
   EXPECT_GT(poses.poses, 500u) << which;
   EXPECT_GT(poses.mean_nees, kLeastNees) << which;
@@ -49,11 +49,11 @@ class BlindRobot : public testing::TestWithParam<RobotBounds> {};
 
 TEST_P(BlindRobot, FixesAndCarriedOnPoses_AreHonest) {
   const RobotBounds& bounds = GetParam();
-  const BlindResult result = run(bounds.title, 2);
+  const CoveredLidarResult result = run(bounds.title, 2);
   // Bold fixes have fewer within.
   const double least_share = bounds.most_nees_of_fixes > kMostNees ? 0.7 : bounds.least_share;
   expect_honest(result.fixes, bounds.most_nees_of_fixes, least_share, "fixes");
-  for (const BlindAges& ages : result.carried_on) {
+  for (const AgeConsistency& ages : result.predicted) {
     expect_honest(ages, bounds.most_nees, bounds.least_share, std::to_string(ages.from_s));
   }
 }
@@ -71,7 +71,7 @@ INSTANTIATE_TEST_SUITE_P(Robots, BlindRobot,
                                          RobotBounds{"Pioneer, no gyro", kMostNees, 5, 0.8}));
 
 TEST(BlindExperiment, SlipsThatNoGyroSees_LeaveTheFixesRight) {
-  const PoseHonesty fixes = run("no gyro, slips every 3 m", 2).fixes;
+  const PoseConsistency fixes = run("no gyro, slips every 3 m", 2).fixes;
   EXPECT_GT(fixes.poses, 2600u);
   EXPECT_LT(fixes.mean_m, 0.0012);
   EXPECT_LT(fixes.mean_nees, 5.5);
@@ -79,19 +79,19 @@ TEST(BlindExperiment, SlipsThatNoGyroSees_LeaveTheFixesRight) {
 }
 
 TEST(BlindExperiment, CarriedOnPoses_AreGoodForFiveSeconds) {
-  for (const BlindAges& ages : run("16 cm robot", 1).carried_on) {
+  for (const AgeConsistency& ages : run("16 cm robot", 1).predicted) {
     EXPECT_LT(ages.worst_m, 0.01) << ages.from_s;
   }
 }
 
 TEST(BlindExperiment, CoarseCounts_CostNoMoreThanACount) {
-  for (const BlindAges& ages : run("counts of 5 mm", 1).carried_on) {
+  for (const AgeConsistency& ages : run("counts of 5 mm", 1).predicted) {
     EXPECT_LT(ages.mean_m, 0.003) << ages.from_s;
   }
 }
 
 TEST(BlindExperiment, LidarThatIsOff_IsLearntOnTheWay) {
-  for (const BlindAges& ages : run("a lidar off by 5 mm and 0.5 %", 1).carried_on) {
+  for (const AgeConsistency& ages : run("a lidar off by 5 mm and 0.5 %", 1).predicted) {
     EXPECT_GT(ages.mean_nees, 1) << ages.from_s;
     EXPECT_LT(ages.mean_nees, 4) << ages.from_s;
     EXPECT_LT(ages.mean_m, 0.002) << ages.from_s;
@@ -100,8 +100,8 @@ TEST(BlindExperiment, LidarThatIsOff_IsLearntOnTheWay) {
 
 TEST(BlindExperiment, RobotsAsWrongAsTold_AreHonestBeforeMuchIsLearned) {
   // The fixes' own doubt, which has yet to be learned, makes them cautious at first.
-  const auto result = run("after 3 s, robots drawn", 4).carried_on;
-  for (const BlindAges& ages : result) EXPECT_LT(ages.mean_nees, 4) << ages.from_s;
+  const auto result = run("after 3 s, robots drawn", 4).predicted;
+  for (const AgeConsistency& ages : result) EXPECT_LT(ages.mean_nees, 4) << ages.from_s;
   for (std::size_t i = 1; i < result.size(); ++i) {
     EXPECT_GT(result[i].mean_nees, 1.2) << result[i].from_s;
     EXPECT_GT(result[i].share_within, 0.88) << result[i].from_s;
@@ -109,8 +109,8 @@ TEST(BlindExperiment, RobotsAsWrongAsTold_AreHonestBeforeMuchIsLearned) {
 }
 
 TEST(BlindExperiment, SameSeed_GivesTheSameFigures) {
-  const auto one = run("after 3 s, robots drawn", 1).carried_on;
-  const auto again = run("after 3 s, robots drawn", 1).carried_on;
+  const auto one = run("after 3 s, robots drawn", 1).predicted;
+  const auto again = run("after 3 s, robots drawn", 1).predicted;
   for (std::size_t i = 0; i < one.size(); ++i) {
     EXPECT_EQ(one[i].poses, again[i].poses);
     EXPECT_EQ(one[i].mean_nees, again[i].mean_nees);

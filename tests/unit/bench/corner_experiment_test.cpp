@@ -40,7 +40,7 @@ TEST(ScoreMethods, Seed_DecidesAlone) {
 }
 
 TEST(UsualCircumstances, Sensors_AreFour) {
-  const auto circumstances = usual_circumstances();
+  const auto circumstances = default_conditions();
   ASSERT_EQ(circumstances.size(), 4u);
   EXPECT_DOUBLE_EQ(circumstances[0].sensor.noise.share, 0.005);
   EXPECT_DOUBLE_EQ(circumstances[3].sensor.noise.floor_m, 0.003);

@@ -25,7 +25,7 @@ Breakpoint seen(const Vec2& corner, const Vec2& error = Vec2::Zero()) {
 
 TEST(NearestCorners, ExactCorners_GiveTheExactPlace) {
   const std::vector breakpoints = {seen({2, 3}), seen({0, 0}), seen({2, 0})};
-  const auto place = place_by_nearest_corners(breakpoints, *replay::make_room(), kTrueRoomPlace);
+  const auto place = pose_from_nearest_corners(breakpoints, *replay::make_room(), kTrueRoomPlace);
   ASSERT_TRUE(place);
   EXPECT_NEAR(place->x_m, 0.5, 1e-12);
   EXPECT_NEAR(place->y_m, 0.7, 1e-12);
@@ -34,14 +34,14 @@ TEST(NearestCorners, ExactCorners_GiveTheExactPlace) {
 
 TEST(NearestCorners, TheTwoNearest_AloneDecide) {
   const std::vector breakpoints = {seen({2, 3}, {0.04, 0.03}), seen({0, 0}), seen({2, 0})};
-  const auto place = place_by_nearest_corners(breakpoints, *replay::make_room(), kTrueRoomPlace);
+  const auto place = pose_from_nearest_corners(breakpoints, *replay::make_room(), kTrueRoomPlace);
   ASSERT_TRUE(place);
   EXPECT_NEAR((place->translation() - kTrueRoomPlace.translation()).norm(), 0, 1e-12);
 }
 
 TEST(NearestCorners, DistanceThatIsOff_IsSharedByBoth) {
   const std::vector breakpoints = {seen({0, 0}), seen({2, 0}, {0.02, 0})};
-  const auto place = place_by_nearest_corners(breakpoints, *replay::make_room(), kTrueRoomPlace);
+  const auto place = pose_from_nearest_corners(breakpoints, *replay::make_room(), kTrueRoomPlace);
   ASSERT_TRUE(place);
   EXPECT_NEAR(place->x_m, 0.5 - 0.01, 1e-12);
   EXPECT_NEAR(place->y_m, 0.7, 1e-12);
@@ -52,16 +52,16 @@ TEST(NearestCorners, WhatIsNoCornerOfTheMap_IsPassedOver) {
   terminal.kind = core::BreakpointKind::kTerminal;
   const std::vector breakpoints = {seen({0.5, 0.5}), terminal, seen({0, 0}), seen({2, 0}),
                                    seen({0.02, 0.02})};
-  const auto place = place_by_nearest_corners(breakpoints, *replay::make_room(), kTrueRoomPlace);
+  const auto place = pose_from_nearest_corners(breakpoints, *replay::make_room(), kTrueRoomPlace);
   ASSERT_TRUE(place);
   EXPECT_LT((place->translation() - kTrueRoomPlace.translation()).norm(), 0.03);
 }
 
 TEST(NearestCorners, OneCornerSeenTwice_NamesNoPlace) {
   const auto map = replay::make_room();
-  EXPECT_FALSE(place_by_nearest_corners({}, *map, kTrueRoomPlace));
+  EXPECT_FALSE(pose_from_nearest_corners({}, *map, kTrueRoomPlace));
   const std::vector breakpoints = {seen({0, 0}), seen({0, 0}, {0.01, 0})};
-  EXPECT_FALSE(place_by_nearest_corners(breakpoints, *map, kTrueRoomPlace));
+  EXPECT_FALSE(pose_from_nearest_corners(breakpoints, *map, kTrueRoomPlace));
 }
 
 }  // namespace

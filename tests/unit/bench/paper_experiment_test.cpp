@@ -40,7 +40,7 @@ TEST(PaperExperiment, EveryMethodAtEveryPlace_HasItsFigures) {
   const PaperResult& altbd = results.front();
   EXPECT_EQ(altbd.method.name, "altbd");
   std::size_t found = 0;
-  for (const PlaceResult& place : altbd.places) {
+  for (const PoseResult& place : altbd.places) {
     found += place.true_corners;
     EXPECT_GT(place.time_us, 0);
     ASSERT_TRUE(place.localizer_error_m);

@@ -17,10 +17,10 @@ namespace {
 
 TEST(PaperPlaces, Rooms_HaveAsManyAsThePaper) {
   const auto maps = contest_maps();
-  const auto places = paper_places(maps);
+  const auto places = paper_poses(maps);
   ASSERT_EQ(places.size(), 43u);
   std::array<std::size_t, kPaperLocations.size()> counts{};
-  for (const PaperPlace& place : places) {
+  for (const PaperPose& place : places) {
     ++counts[place.location];
     const core::WallMap& map = *maps[place.map];
     const core::Vec2 point = place.T_map_lidar.translation();
@@ -35,12 +35,12 @@ TEST(PaperPlaces, Rooms_HaveAsManyAsThePaper) {
 
 TEST(PaperPlaces, Layouts_TakeTurns) {
   std::array<std::size_t, 4> counts{};
-  for (const PaperPlace& place : paper_places(contest_maps())) ++counts[place.map];
+  for (const PaperPose& place : paper_poses(contest_maps())) ++counts[place.map];
   for (const std::size_t count : counts) EXPECT_GE(count, 10u);
 }
 
 TEST(PaperPlaces, PlacesOfARoom_AreApart) {
-  const auto places = paper_places(contest_maps());
+  const auto places = paper_poses(contest_maps());
   for (std::size_t i = 0; i < places.size(); ++i) {
     for (std::size_t j = i + 1; j < places.size(); ++j) {
       const core::Vec2 way =
@@ -52,7 +52,7 @@ TEST(PaperPlaces, PlacesOfARoom_AreApart) {
 
 TEST(PaperPlaces, MapWithoutTheRooms_IsRefused) {
   const std::vector maps = {replay::make_room()};
-  EXPECT_THROW(paper_places(maps), std::runtime_error);
+  EXPECT_THROW(paper_poses(maps), std::runtime_error);
 }
 
 }  // namespace

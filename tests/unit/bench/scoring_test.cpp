@@ -33,7 +33,7 @@ class CornerScoring : public testing::Test {
     replay::ScanSimulator simulator(replay::SensorModel::perfect(), 2000, 1);
     core::PolarScan points;
     points.assign(simulator.take(map_, kPlace), 0.15, 12);
-    truth_.look(kPlace, points.points());
+    truth_.observe(kPlace, points.points());
   }
 
   static core::FloorPlan plan() {
@@ -73,12 +73,12 @@ TEST_F(CornerScoring, EndOfAWall_HasItsTrueCornerFirstAndOneAside) {
   EXPECT_THAT(judge({detection(left_m, -0.3)}), ElementsAre(Verdict::kTrue));
   EXPECT_THAT(
       judge({detection(right_m, -0.3), detection(left_m, -0.3), detection(left_m - 0.02, -0.3)}),
-      ElementsAre(Verdict::kTrue, Verdict::kAside, Verdict::kFalse));
+      ElementsAre(Verdict::kTrue, Verdict::kOneSided, Verdict::kFalse));
 }
 
 TEST_F(CornerScoring, EndOfAShadow_IsNeitherTrueNorFalse) {
   EXPECT_THAT(judge({detection(0.4, 2), detection(-0.4, 2), detection(0, 2)}),
-              ElementsAre(Verdict::kShadow, Verdict::kShadow, Verdict::kFalse));
+              ElementsAre(Verdict::kOcclusionEdge, Verdict::kOcclusionEdge, Verdict::kFalse));
   EXPECT_DOUBLE_EQ(score_.precision(), 0);
 }
 

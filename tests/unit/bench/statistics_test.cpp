@@ -9,16 +9,16 @@
 namespace cornerd::bench {
 namespace {
 
-TEST(MeanAndSpread, OfASample_DividesByOneLess) {
-  const MeanAndSpread result = mean_and_spread({2, 4, 4, 4, 5, 5, 7, 9});
+TEST(MeanAndDeviation, OfASample_DividesByOneLess) {
+  const MeanAndDeviation result = mean_and_deviation({2, 4, 4, 4, 5, 5, 7, 9});
   EXPECT_DOUBLE_EQ(result.mean, 5);
   EXPECT_DOUBLE_EQ(result.deviation, std::sqrt(32.0 / 7));
 }
 
-TEST(MeanAndSpread, OfOneOrNone_HasNoSpread) {
-  EXPECT_EQ(mean_and_spread({}).mean, 0);
-  EXPECT_EQ(mean_and_spread({3}).mean, 3);
-  EXPECT_EQ(mean_and_spread({3}).deviation, 0);
+TEST(MeanAndDeviation, OfOneOrNone_HasNoSpread) {
+  EXPECT_EQ(mean_and_deviation({}).mean, 0);
+  EXPECT_EQ(mean_and_deviation({3}).mean, 3);
+  EXPECT_EQ(mean_and_deviation({3}).deviation, 0);
 }
 
 TEST(Quantile, BetweenTwoValues_IsInterpolated) {

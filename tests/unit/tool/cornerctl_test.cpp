@@ -48,7 +48,7 @@ class Cornerctl : public testing::Test {
   }
   /// Four turns at one place of the sample map, and their truth in still.truth.
   std::string recording() const {
-    run({"simulate", "--map", map_, "--pose", "0.3,0.5,1", "--turns", "4", "-o",
+    run({"simulate", "--map", map_, "--pose", "0.3,0.5,1", "--scans", "4", "-o",
          path("still.ndjson"), "--truth", path("still.truth")});
     return path("still.ndjson");
   }

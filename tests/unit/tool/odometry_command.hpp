@@ -20,7 +20,7 @@ class OdometryCommandTest : public ::testing::Test {
  protected:
   CommandRun simulate(std::vector<std::string> more, const std::string& scans = "150") {
     std::vector<std::string> words = {
-        "simulate", "--map",    map_,      "--scenario", "circuit-1",  "--turns",       scans,
+        "simulate", "--map",    map_,      "--scenario", "circuit-1",  "--scans",       scans,
         "-o",       recording_, "--truth", truth_,       "--odometry", "--drive-speed", "0.4"};
     words.insert(words.end(), more.begin(), more.end());
     return CommandRun(words);

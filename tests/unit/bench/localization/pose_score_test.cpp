@@ -58,7 +58,7 @@ TEST(PoseScore, Bound_IsWhatTheErrorsAreMeasuredBy) {
   const core::Covariance3 bound = Eigen::Vector3d(2e-4, 2e-4, 1e-4).asDiagonal();
   score.add(pose_of(PoseState::kFix, {1.04, 2, 0}), {1, 2, 0}, bound);
   EXPECT_NEAR(score.bound_m(), 0.02, 1e-12);
-  EXPECT_NEAR(score.of_bound(), 2, 1e-9);
+  EXPECT_NEAR(score.rmse_over_bound(), 2, 1e-9);
 }
 
 }  // namespace

@@ -33,8 +33,8 @@ TEST(Trials, StandingRobot_IsMeasuredAgainstTheBound) {
   EXPECT_EQ(score.scans(), 20u);
   EXPECT_EQ(score.wrong(), 0u);
   ASSERT_GT(score.named(), 15u);
-  EXPECT_GT(score.of_bound(), 0.5);
-  EXPECT_LT(score.of_bound(), 2);
+  EXPECT_GT(score.rmse_over_bound(), 0.5);
+  EXPECT_LT(score.rmse_over_bound(), 2);
 }
 
 TEST(Trials, WorldThatIsNotTheMap_IsWhatTheLidarSees) {

@@ -35,7 +35,7 @@ class CalibrateNoise : public testing::Test {
         "walls": [{"from": [0, 0], "to": [6, 0]}, {"from": [6, 0], "to": [6, 4]},
                   {"from": [6, 4], "to": [0, 4]}, {"from": [0, 4], "to": [0, 0]}]})";
     CommandRun({"simulate", "--map", path("hall.json"), "--wire", "standard", "--pose", "2,0.6,0.3",
-                "--turns", scans, "--sigma-floor", floor, "--sigma-share", "0.002",
+                "--scans", scans, "--sigma-floor", floor, "--sigma-share", "0.002",
                 "--bearing-noise", "0.15", "-o", path("still.bin")});
     return path("still.bin");
   }
@@ -112,7 +112,7 @@ TEST_F(CalibrateNoise, WallsAtKnownDistances_GiveBackTheModelThatTheSimulatorDre
        {"0.2", "0.3", "0.4", "0.5", "0.59", "0.8", "0.9", "1.2", "1.6", "2.0"}) {
     const std::string file = path(std::string("wall-") + distance + ".bin");
     const CommandRun run({"simulate", "--map", path("hall.json"), "--wire", "standard", "--pose",
-                          std::string("3,") + distance + ",0", "--turns", "10", "--noise",
+                          std::string("3,") + distance + ",0", "--scans", "10", "--noise",
                           path("truth.json"), "--outliers", "0", "-o", file});
     ASSERT_EQ(run.exit_code, kExitDone) << run.err;
     words.push_back(file + "@" + distance);
@@ -177,7 +177,7 @@ class CalibrateBias : public CalibrateNoise {
  protected:
   std::string biased_recording(const std::string& places,
                                const std::string& scale = "1.008") const {
-    CommandRun({"simulate", "--map", map_, "--places", places, "--turns-each", "20",
+    CommandRun({"simulate", "--map", map_, "--places", places, "--scans-each", "20",
                 "--range-scale", scale, "--range-offset", "0.004", "-o", path("places.ndjson")});
     return path("places.ndjson");
   }

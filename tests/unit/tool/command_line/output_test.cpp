@@ -79,7 +79,7 @@ class CommandFilesTest : public FileGuard {
           "occupied_thresh: 0.65\nfree_thresh: 0.196\n");
     write("room.pgm", "P2\n3 3\n255\n0 0 0\n0 254 0\n0 0 0\n");
     CommandRun({"simulate", "--map", file("map.json"), "--path", "0.9,0.9 0.9,1.5", "--odometry",
-                "--turns", "4", "-o", file("drive.ndjson"), "--truth", file("truth.ndjson")});
+                "--scans", "4", "-o", file("drive.ndjson"), "--truth", file("truth.ndjson")});
     contents_ = contents();
   }
   std::string file(const std::string& name) const { return path(name).string(); }

@@ -27,7 +27,7 @@ TEST_F(CheckClaimers, GpsdThatTakesEveryCp2102_IsToBeTold) {
   stand_in_.write("/etc/default/gpsd", "# comment\nDEVICES=\"\"\nUSBAUTO=\"true\"\n");
   const auto found = findings();
   ASSERT_THAT(found, ElementsAre(Finds(Verdict::kWrong, "gpsd", "every CP2102")));
-  EXPECT_THAT(found[0].mends, ElementsAre(HasSubstr("udev rules"), HasSubstr("USBAUTO=\"false\"")));
+  EXPECT_THAT(found[0].remedies, ElementsAre(HasSubstr("udev rules"), HasSubstr("USBAUTO=\"false\"")));
   stand_in_.write("/etc/default/gpsd", "USBAUTO=\"true\"\nUSBAUTO='false'\n");
   EXPECT_THAT(findings(), ElementsAre(Finds(Verdict::kGood, "gpsd", "leaves the port alone")));
 }
@@ -60,7 +60,7 @@ TEST_F(CheckClaimers, ModemManager_GoesByWhatUdevNoted) {
   stand_in_.run_process(9, "ModemManager");
   const auto found = findings();
   ASSERT_THAT(found, ElementsAre(Finds(Verdict::kWrong, "modems", "ModemManager talks")));
-  EXPECT_THAT(found[0].mends, ElementsAre(HasSubstr("udev rules"), HasSubstr("mask --now")));
+  EXPECT_THAT(found[0].remedies, ElementsAre(HasSubstr("udev rules"), HasSubstr("mask --now")));
   stand_in_.write("/run/udev/data/c188:0", "S:rplidar\nE:ID_MM_PORT_IGNORE=1\n");
   EXPECT_THAT(findings(), ElementsAre(Finds(Verdict::kGood, "modems", "leaves the port alone")));
 }
@@ -79,7 +79,7 @@ TEST_F(CheckClaimers, BrlttyThatHasTaken_IsNamed) {
   stand_in_.run_process(9, "brltty");
   const auto found = findings();
   ASSERT_THAT(found, ElementsAre(Finds(Verdict::kWrong, "brltty", "has this one")));
-  EXPECT_THAT(found[0].mends, ElementsAre(HasSubstr("apt remove brltty"), HasSubstr("plug")));
+  EXPECT_THAT(found[0].remedies, ElementsAre(HasSubstr("apt remove brltty"), HasSubstr("plug")));
 }
 
 TEST(CheckClaimersOfNothing, NothingPluggedIn_AllAreAskedAllTheSame) {

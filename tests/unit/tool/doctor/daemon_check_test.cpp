@@ -84,9 +84,9 @@ TEST_F(CheckDaemon, ReadingsThatComeTooSeldom_AreNamed) {
   daemon().odometry_hz = 4.9;
   const Finding few = check_daemon(stand_in_.patient)[2];
   EXPECT_THAT(few, Finds(Verdict::kWrong, "odometry", "4.9 readings a second: too few"));
-  EXPECT_THAT(few.mends, ElementsAre(HasSubstr("send ODOMETRY 50 times a second")));
+  EXPECT_THAT(few.remedies, ElementsAre(HasSubstr("send ODOMETRY 50 times a second")));
   stand_in_.patient.config.odometry.source = settings::OdometrySource::kKernel;
-  EXPECT_THAT(check_daemon(stand_in_.patient)[2].mends,
+  EXPECT_THAT(check_daemon(stand_in_.patient)[2].remedies,
               ElementsAre("advanced.odometry.kernel.rate: 50"));
   daemon().odometry_hz = 0;
   EXPECT_THAT(check_daemon(stand_in_.patient)[2],
@@ -105,11 +105,11 @@ TEST_F(CheckDaemon, WhyThereIsNoOdometry_IsToldInTheDaemonsWordsOnce) {
 TEST_F(CheckDaemon, NobodyListens_IsExplained) {
   daemon() = {};
   daemon().connect_errno = ENOENT;
-  EXPECT_THAT(check_daemon(stand_in_.patient)[0].mends, ElementsAre(HasSubstr("install")));
+  EXPECT_THAT(check_daemon(stand_in_.patient)[0].remedies, ElementsAre(HasSubstr("install")));
   stand_in_.write("/lib/systemd/system/cornerd.service");
   const auto found = check_daemon(stand_in_.patient);
   ASSERT_THAT(found, ElementsAre(Finds(Verdict::kWrong, "daemon", "does not run")));
-  EXPECT_THAT(found[0].mends, ElementsAre("sudo systemctl start cornerd", HasSubstr("journalctl")));
+  EXPECT_THAT(found[0].remedies, ElementsAre("sudo systemctl start cornerd", HasSubstr("journalctl")));
   stand_in_.run_process(31, "cornerd");
   EXPECT_THAT(
       check_daemon(stand_in_.patient)[0],
@@ -135,9 +135,9 @@ TEST_F(CheckDaemon, Poses_AreGoodWhereHalfOfThemNameAPlace) {
 
 TEST_F(CheckDaemon, LostAndAmbiguous_HaveDifferentCures) {
   see(1, 0, 9);
-  EXPECT_THAT(check_poses(stand_in_.patient)[0].mends[0], HasSubstr("right map"));
+  EXPECT_THAT(check_poses(stand_in_.patient)[0].remedies[0], HasSubstr("right map"));
   see(1, 8, 1);
-  EXPECT_THAT(check_poses(stand_in_.patient)[0].mends[0], HasSubstr("look-alike"));
+  EXPECT_THAT(check_poses(stand_in_.patient)[0].remedies[0], HasSubstr("look-alike"));
 }
 
 }  // namespace
@@ -155,7 +155,7 @@ TEST(CheckControl, OutsideTheGroup_OnlyReads) {
   stand_in.write("/etc/group", "cornerd:x:990:\n");
   const auto found = check_control(stand_in.patient);
   ASSERT_THAT(found, ElementsAre(Finds(Verdict::kNote, "control", "send no requests")));
-  EXPECT_THAT(found[0].mends, ElementsAre(HasSubstr("usermod -aG cornerd ada")));
+  EXPECT_THAT(found[0].remedies, ElementsAre(HasSubstr("usermod -aG cornerd ada")));
   stand_in.write("/etc/group", "cornerd:x:990:ada\n");
   EXPECT_THAT(check_control(stand_in.patient),
               ElementsAre(Finds(Verdict::kNote, "control", "older")));

@@ -58,10 +58,10 @@ TEST_F(CheckHolders, Others_AreNamedWithTheirCure) {
                                  Finds(Verdict::kWrong, "holder", "ModemManager (process 81)"),
                                  Finds(Verdict::kWrong, "holder", "agetty"),
                                  Finds(Verdict::kWrong, "holder", "minicom")));
-  EXPECT_THAT(found[0].mends[0], HasSubstr("gpsd.socket"));
-  EXPECT_THAT(found[1].mends[0], HasSubstr("mask --now ModemManager"));
-  EXPECT_THAT(found[2].mends[0], HasSubstr("serial-getty@ttyUSB0.service"));
-  EXPECT_THAT(found[3].mends[0], HasSubstr("sudo kill 83"));
+  EXPECT_THAT(found[0].remedies[0], HasSubstr("gpsd.socket"));
+  EXPECT_THAT(found[1].remedies[0], HasSubstr("mask --now ModemManager"));
+  EXPECT_THAT(found[2].remedies[0], HasSubstr("serial-getty@ttyUSB0.service"));
+  EXPECT_THAT(found[3].remedies[0], HasSubstr("sudo kill 83"));
 }
 
 TEST_F(CheckHolders, WhoAsks_IsNoHolder) {
@@ -81,7 +81,7 @@ TEST_F(CheckHolders, ProcessesThatHideTheirFiles_AreOwnedUpTo) {
   const auto found = findings();
   ASSERT_THAT(found,
               ElementsAre(Finds(Verdict::kNote, "holder", "nobody whose files you may see")));
-  EXPECT_THAT(found[0].mends, ElementsAre(HasSubstr("sudo cornerctl doctor")));
+  EXPECT_THAT(found[0].remedies, ElementsAre(HasSubstr("sudo cornerctl doctor")));
 }
 
 TEST_F(CheckHolders, ConsoleOfTheKernel_IsWrong) {

@@ -27,18 +27,18 @@ TEST(CheckPort, AdapterWithoutRules_IsFoundUnderItsOtherName) {
   stand_in.plug_in_without_rules();
   auto findings = check_port(stand_in.patient);
   ASSERT_THAT(findings, ElementsAre(Finds(Verdict::kWrong, "port", "there is /dev/ttyUSB0")));
-  EXPECT_THAT(findings[0].mends,
+  EXPECT_THAT(findings[0].remedies,
               ElementsAre(StartsWith("install systemd/61-cornerd.rules"),
                           "or set lidar.device to \"/dev/ttyUSB0\" in cornerd.json"));
   stand_in.write("/lib/udev/rules.d/61-cornerd.rules");
-  EXPECT_THAT(check_port(stand_in.patient)[0].mends[0], StartsWith("sudo udevadm control"));
+  EXPECT_THAT(check_port(stand_in.patient)[0].remedies[0], StartsWith("sudo udevadm control"));
 }
 
 TEST(CheckPort, OtherNameOfAUsbPort_IsProposed) {
   StandIn stand_in;
   stand_in.plug_in_without_rules();
   stand_in.patient.config.lidar.device = "/dev/ttyUSB1";
-  EXPECT_THAT(check_port(stand_in.patient)[0].mends,
+  EXPECT_THAT(check_port(stand_in.patient)[0].remedies,
               ElementsAre("set lidar.device to \"/dev/ttyUSB0\" in cornerd.json"));
 }
 
@@ -59,7 +59,7 @@ TEST(CheckPort, AdapterWithoutDriver_WantsTheDriver) {
   stand_in.write("/sys/bus/usb/devices/1-1/idProduct", "ea60\n");
   const auto findings = check_port(stand_in.patient);
   ASSERT_THAT(findings, ElementsAre(Finds(Verdict::kWrong, "port", "without a driver")));
-  EXPECT_THAT(findings[0].mends, ElementsAre("sudo modprobe cp210x"));
+  EXPECT_THAT(findings[0].remedies, ElementsAre("sudo modprobe cp210x"));
 }
 
 TEST(CheckPort, WhatIsNoSerialPort_IsWrongAndHasNeitherRightsNorHolders) {
@@ -69,7 +69,7 @@ TEST(CheckPort, WhatIsNoSerialPort_IsWrongAndHasNeitherRightsNorHolders) {
     stand_in.patient.config.lidar.device = device;
     const auto findings = check_port(stand_in.patient);
     ASSERT_THAT(findings, ElementsAre(Finds(Verdict::kWrong, "port", what)));
-    EXPECT_THAT(findings[0].mends,
+    EXPECT_THAT(findings[0].remedies,
                 testing::Contains("set lidar.device to \"/dev/ttyUSB0\" in cornerd.json"));
     EXPECT_TRUE(check_rights(stand_in.patient).empty());
     EXPECT_TRUE(check_holders(stand_in.patient).empty());
@@ -95,15 +95,15 @@ TEST(CheckPort, NothingPluggedIn_AsksForPlugAndCable) {
   const StandIn stand_in;
   const auto findings = check_port(stand_in.patient);
   ASSERT_THAT(findings, ElementsAre(Finds(Verdict::kWrong, "port", "/dev/rplidar: no such port")));
-  EXPECT_THAT(findings[0].mends, ElementsAre(HasSubstr("plug the lidar in"), HasSubstr("cable")));
+  EXPECT_THAT(findings[0].remedies, ElementsAre(HasSubstr("plug the lidar in"), HasSubstr("cable")));
 }
 
 TEST(CheckPort, UartsOfABoard_AreExplained) {
   StandIn stand_in;
   stand_in.patient.config.lidar.device = "/dev/ttyO4";
-  EXPECT_THAT(check_port(stand_in.patient)[0].mends, ElementsAre(HasSubstr("\"/dev/ttyS4\"")));
+  EXPECT_THAT(check_port(stand_in.patient)[0].remedies, ElementsAre(HasSubstr("\"/dev/ttyS4\"")));
   stand_in.patient.config.lidar.device = "/dev/ttyS4";
-  EXPECT_THAT(check_port(stand_in.patient)[0].mends, ElementsAre(HasSubstr("overlay")));
+  EXPECT_THAT(check_port(stand_in.patient)[0].remedies, ElementsAre(HasSubstr("overlay")));
   stand_in.write("/dev/ttyS4");
   stand_in.write("/sys/class/tty/ttyS4/type", "0\n");
   EXPECT_THAT(check_port(stand_in.patient),

@@ -32,7 +32,7 @@ TEST_F(CheckPower, OverCurrentOfAUsbPort_IsWrong) {
   stand_in_.write(hub + "/usb1-port2/over_current_count", "0\n");
   const auto found = findings();
   ASSERT_THAT(found, ElementsAre(Finds(Verdict::kWrong, "power", "3 times")));
-  EXPECT_THAT(found[0].mends, ElementsAre(HasSubstr("stronger supply")));
+  EXPECT_THAT(found[0].remedies, ElementsAre(HasSubstr("stronger supply")));
 }
 
 TEST_F(CheckPower, BoardThatWatchesItsSupply_IsBelieved) {

@@ -57,7 +57,7 @@ TEST_F(CheckReading, FileOfRootAlone_IsToBeOpened) {
   const auto found = findings();
   ASSERT_THAT(found, ElementsAre(Finds(Verdict::kWrong, "config", "must not read it (-rw-------"),
                                  Finds(Verdict::kWrong, "map", "must not read it (-rw-r-----")));
-  EXPECT_THAT(found[0].mends, ElementsAre("sudo chmod a+r /etc/cornerd/cornerd.json"));
+  EXPECT_THAT(found[0].remedies, ElementsAre("sudo chmod a+r /etc/cornerd/cornerd.json"));
 }
 
 TEST_F(CheckReading, FolderThatMustNotBeEntered_IsNamed) {
@@ -66,7 +66,7 @@ TEST_F(CheckReading, FolderThatMustNotBeEntered_IsNamed) {
   ASSERT_THAT(found, ElementsAre(Finds(Verdict::kWrong, "map",
                                        "/srv/maps/home.json: the service's user cornerd must not "
                                        "enter /srv (drwxr-x---")));
-  EXPECT_THAT(found[0].mends,
+  EXPECT_THAT(found[0].remedies,
               ElementsAre("sudo install -m 644 /srv/maps/home.json /etc/cornerd/",
                           "and, in /etc/cornerd/cornerd.json: \"map\": \"/etc/cornerd/home.json\"",
                           "or open the folder: sudo chmod a+x /srv"));
@@ -77,7 +77,7 @@ TEST_F(CheckReading, HomesAndTemporaryFolders_AreNotSeenByTheService) {
     use_map(folder + "/ada/home.json");
     const auto found = findings();
     ASSERT_THAT(found, ElementsAre(Finds(Verdict::kWrong, "map", "sees nothing of " + folder)));
-    EXPECT_THAT(found[0].mends[0], HasSubstr("sudo install -m 644 " + folder + "/ada/home.json"));
+    EXPECT_THAT(found[0].remedies[0], HasSubstr("sudo install -m 644 " + folder + "/ada/home.json"));
   }
   use_map("/homes/ada/home.json");
   EXPECT_THAT(findings(), ElementsAre(Finds(Verdict::kGood, "reading", "")));

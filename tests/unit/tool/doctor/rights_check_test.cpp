@@ -23,7 +23,7 @@ class CheckRights : public testing::Test {
     FileFacts port;
     port.gid = gid;
     port.mode = mode;
-    return judge_rights(stand_in_.patient, port);
+    return check_port_rights(stand_in_.patient, port);
   }
   StandIn stand_in_;
 };
@@ -32,13 +32,13 @@ TEST_F(CheckRights, CallerOutsideTheGroup_IsToJoinIt) {
   const Finding finding = judge(20, 0660);
   EXPECT_THAT(finding, Finds(Verdict::kWrong, "rights",
                              "ada must not open /dev/ttyUSB0 (crw-rw---- root dialout)"));
-  EXPECT_THAT(finding.mends,
+  EXPECT_THAT(finding.remedies,
               ElementsAre("sudo usermod -aG dialout ada, then log out and in again"));
 }
 
 TEST_F(CheckRights, SessionOlderThanTheMembership_IsToBeRenewed) {
   stand_in_.write("/etc/group", "dialout:x:20:ada\n");
-  EXPECT_THAT(judge(20, 0660).mends, ElementsAre(HasSubstr("this session is older")));
+  EXPECT_THAT(judge(20, 0660).remedies, ElementsAre(HasSubstr("this session is older")));
   stand_in_.patient.caller.gids.insert(20);
   EXPECT_THAT(judge(20, 0660), Finds(Verdict::kGood, "rights", "ada may open"));
 }
@@ -48,12 +48,12 @@ TEST_F(CheckRights, Service_IsInDialoutByItsUnit) {
   EXPECT_THAT(judge(20, 0660), Finds(Verdict::kGood, "rights", "the service's user cornerd may"));
   const Finding elsewhere = judge(10, 0660);
   EXPECT_THAT(elsewhere, Finds(Verdict::kWrong, "rights", "user cornerd must not"));
-  EXPECT_THAT(elsewhere.mends, ElementsAre(HasSubstr("usermod -aG uucp cornerd")));
+  EXPECT_THAT(elsewhere.remedies, ElementsAre(HasSubstr("usermod -aG uucp cornerd")));
 }
 
 TEST_F(CheckRights, PortOfRootAlone_WantsTheRules) {
-  EXPECT_THAT(judge(0, 0600).mends, ElementsAre(HasSubstr("udev rules")));
-  EXPECT_THAT(judge(0, 0660).mends, ElementsAre(HasSubstr("udev rules")));
+  EXPECT_THAT(judge(0, 0600).remedies, ElementsAre(HasSubstr("udev rules")));
+  EXPECT_THAT(judge(0, 0660).remedies, ElementsAre(HasSubstr("udev rules")));
 }
 
 TEST_F(CheckRights, WithoutPort_SaysNothing) {
@@ -72,7 +72,7 @@ TEST_F(CheckRights, KindThatTheUnitLeavesOut_IsToBeAdded) {
   const auto found = check_rights(stand_in_.patient);
   ASSERT_EQ(found.size(), 2U);
   EXPECT_THAT(found[1], Finds(Verdict::kWrong, "rights", "DeviceAllow= has no ttyXY"));
-  EXPECT_THAT(found[1].mends, ElementsAre(HasSubstr("DeviceAllow=char-ttyXY rw"),
+  EXPECT_THAT(found[1].remedies, ElementsAre(HasSubstr("DeviceAllow=char-ttyXY rw"),
                                           HasSubstr("systemctl restart cornerd")));
 }
 

@@ -72,7 +72,7 @@ class StandIn {
 /// A finding with this verdict and subject, and a text that matches.
 MATCHER_P3(Finds, verdict, subject, what, "") {
   *result_listener << arg.subject << ": " << arg.what;
-  for (const std::string& mend : arg.mends) *result_listener << " -> " << mend;
+  for (const std::string& mend : arg.remedies) *result_listener << " -> " << mend;
   return arg.verdict == verdict && arg.subject == subject &&
          testing::ExplainMatchResult(testing::HasSubstr(what), arg.what, result_listener);
 }

@@ -18,7 +18,7 @@ TEST(MonitorState, Connection_HasAnAgeAndAReason) {
   state.connect(20 * core::kNsPerSecond);
   EXPECT_TRUE(state.is_connected());
   EXPECT_EQ(state.silence_s(23 * core::kNsPerSecond), 3);
-  state.hear(kVersionLine, 22 * core::kNsPerSecond);
+  state.take_line(kVersionLine, 22 * core::kNsPerSecond);
   EXPECT_EQ(state.silence_s(23 * core::kNsPerSecond), 1);
   EXPECT_EQ(state.version(), "1.2.3");
 }
@@ -26,9 +26,9 @@ TEST(MonitorState, Connection_HasAnAgeAndAReason) {
 TEST(MonitorState, LostDaemon_TakesItsWordsAlong) {
   MonitorState state;
   state.connect(0);
-  state.hear(kFixLine, 1);
-  state.hear(status_line(), 1);
-  state.hear(R"({"class":"EVENT","t":1,"what":"device found"})", 1);
+  state.take_line(kFixLine, 1);
+  state.take_line(status_line(), 1);
+  state.take_line(R"({"class":"EVENT","t":1,"what":"device found"})", 1);
   state.lose("gone", 2);
   EXPECT_FALSE(state.pose());
   EXPECT_FALSE(state.status());
@@ -39,15 +39,15 @@ TEST(MonitorState, LostDaemon_TakesItsWordsAlong) {
 TEST(MonitorState, Turn_BelongsToThePoseBeforeIt) {
   MonitorState state;
   state.connect(0);
-  state.hear(kFixLine, 1);
-  state.hear(R"({"class":"SCAN","t":100.4,"duration":0.1,"angles":[0],"ranges":[1]})", 1);
-  state.hear(R"({"class":"BREAKPOINTS","t":100.4,"points":[{"x":1,"y":0,"kind":"corner"}]})", 1);
+  state.take_line(kFixLine, 1);
+  state.take_line(R"({"class":"SCAN","t":100.4,"duration":0.1,"angles":[0],"ranges":[1]})", 1);
+  state.take_line(R"({"class":"BREAKPOINTS","t":100.4,"points":[{"x":1,"y":0,"kind":"corner"}]})", 1);
   ASSERT_TRUE(state.scan());
   ASSERT_TRUE(state.scan()->T_map_base);
   EXPECT_EQ(state.scan()->T_map_base->y_m, 0.5);
   EXPECT_EQ(state.breakpoints().points.size(), 1U);
-  state.hear(kLostLine, 2);
-  state.hear(R"({"class":"SCAN","t":100.5,"duration":0.1,"angles":[0],"ranges":[1]})", 2);
+  state.take_line(kLostLine, 2);
+  state.take_line(R"({"class":"SCAN","t":100.5,"duration":0.1,"angles":[0],"ranges":[1]})", 2);
   EXPECT_FALSE(state.scan()->T_map_base);
   EXPECT_TRUE(state.breakpoints().points.empty());
 }
@@ -57,8 +57,8 @@ TEST(MonitorState, Rate_IsThatOfTheLastPoses) {
   state.connect(0);
   EXPECT_FALSE(state.pose_rate_hz(0));
   core::TimeNs now_ns = 0;
-  for (int i = 0; i < 100; ++i) state.hear(kFixLine, now_ns += core::kNsPerSecond);
-  for (int i = 0; i < 22; ++i) state.hear(kLostLine, now_ns += core::kNsPerSecond / 8);
+  for (int i = 0; i < 100; ++i) state.take_line(kFixLine, now_ns += core::kNsPerSecond);
+  for (int i = 0; i < 22; ++i) state.take_line(kLostLine, now_ns += core::kNsPerSecond / 8);
   EXPECT_EQ(state.pose_rate_hz(now_ns), 8);
   EXPECT_EQ(state.recent(), 100U);
   EXPECT_EQ(state.recent(core::PoseState::kLost), 22U);
@@ -69,16 +69,16 @@ TEST(MonitorState, Rate_IsThatOfTheLastPoses) {
 TEST(MonitorState, Nonsense_IsAComplaint) {
   MonitorState state;
   state.connect(0);
-  state.hear("hello", 1);
-  EXPECT_NE(state.complaint(), "");
-  state.hear(R"({"class":"ERROR","code":"too-many-clients","message":"no more"})", 1);
-  EXPECT_EQ(state.complaint(), "too-many-clients: no more");
+  state.take_line("hello", 1);
+  EXPECT_NE(state.protocol_error(), "");
+  state.take_line(R"({"class":"ERROR","code":"too-many-clients","message":"no more"})", 1);
+  EXPECT_EQ(state.protocol_error(), "too-many-clients: no more");
 }
 
 TEST(MonitorState, Events_NewestFirstAndNotForEver) {
   MonitorState state;
   for (int i = 0; i < 60; ++i) {
-    state.hear(R"({"class":"EVENT","t":1,"what":"e)" + std::to_string(i) + "\"}", 1);
+    state.take_line(R"({"class":"EVENT","t":1,"what":"e)" + std::to_string(i) + "\"}", 1);
   }
   EXPECT_EQ(state.events().size(), 50U);
   EXPECT_EQ(state.events().front().what, "e59");

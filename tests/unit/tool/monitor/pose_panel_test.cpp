@@ -17,14 +17,14 @@ std::string text_of(const MonitorState& state, core::TimeNs now_ns) {
 TEST(PosePanel, Fix_IsToldWithItsDoubtAndItsSource) {
   MonitorState state;
   state.connect(0);
-  for (int i = 1; i <= 5; ++i) state.hear(kFixLine, i * core::kNsPerSecond / 8);
-  state.hear(status_line(R"("state":"running","model":"A1M8","firmware":"1.29","mode":"Express",)"
+  for (int i = 1; i <= 5; ++i) state.take_line(kFixLine, i * core::kNsPerSecond / 8);
+  state.take_line(status_line(R"("state":"running","model":"A1M8","firmware":"1.29","mode":"Express",)"
                          R"("health":"good","rate_hz":7.1,"samples_hz":1923.4)",
                          R"(,"odometry":{"state":"running"},"latency":{"p50":0.0012,"p95":0.002,)"
                          R"("p99":0.0034})"),
              core::kNsPerSecond);
-  state.hear(R"({"class":"EVENT","t":98,"what":"device found","detail":"running"})", 0);
-  state.hear(R"({"class":"EVENT","t":100.5,"what":"state change","detail":"lost -> fix"})", 0);
+  state.take_line(R"({"class":"EVENT","t":98,"what":"device found","detail":"running"})", 0);
+  state.take_line(R"({"class":"EVENT","t":100.5,"what":"state change","detail":"lost -> fix"})", 0);
   EXPECT_EQ(text_of(state, core::kNsPerSecond),
             "fix  hall\n"
             "x         1.000 m   +- 0.20 mm\n"
@@ -49,20 +49,20 @@ TEST(PosePanel, Fix_IsToldWithItsDoubtAndItsSource) {
 TEST(PosePanel, PoseThatNoneFollows_AgesAndIsStale) {
   MonitorState state;
   state.connect(0);
-  state.hear(kFixLine, 0);
+  state.take_line(kFixLine, 0);
   EXPECT_EQ(panel_lines(state, core::kNsPerSecond)[0].style, Style::kGood);
   const auto lines = panel_lines(state, 3 * core::kNsPerSecond);
   EXPECT_EQ(lines[0].text, "stale fix  hall");
   EXPECT_EQ(lines[5].text, "rmse 2.1 mm  age 3.0 s");
   for (std::size_t i = 0; i < 6; ++i) EXPECT_EQ(lines[i].style, Style::kDim) << lines[i].text;
-  state.hear(kFixLine, 3 * core::kNsPerSecond);
+  state.take_line(kFixLine, 3 * core::kNsPerSecond);
   EXPECT_EQ(panel_lines(state, 3 * core::kNsPerSecond)[0].text, "fix  hall");
 }
 
 TEST(PosePanel, AmbiguousPose_ListsItsPlaces) {
   MonitorState state;
   state.connect(0);
-  state.hear(kAmbiguousLine, 0);
+  state.take_line(kAmbiguousLine, 0);
   EXPECT_EQ(text_of(state, 0),
             "ambiguous\n"
             "? 0.50, 0.25 m    0 deg  0.60\n"

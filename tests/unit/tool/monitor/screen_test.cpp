@@ -26,16 +26,16 @@ class Screen : public testing::Test {
  protected:
   Screen() : map_(room()), scene_{&map_, {}} {
     state_.connect(0);
-    state_.hear(kVersionLine, 0);
-    state_.hear(status_line(), 0);
+    state_.take_line(kVersionLine, 0);
+    state_.take_line(status_line(), 0);
     choice_.unicode = false;
   }
   /// One turn that sees the walls ahead and behind, and a corner.
   void receive_scan(const std::string& pose) {
-    state_.hear(pose, 0);
-    state_.hear(
+    state_.take_line(pose, 0);
+    state_.take_line(
         R"({"class":"SCAN","t":100.4,"duration":0.1,"angles":[0,3.14159],"ranges":[0.5,0.5]})", 0);
-    state_.hear(R"({"class":"BREAKPOINTS","t":100.4,"points":[{"x":0.95,"y":0.45,"kind":"corner"},)"
+    state_.take_line(R"({"class":"BREAKPOINTS","t":100.4,"points":[{"x":0.95,"y":0.45,"kind":"corner"},)"
                 R"({"x":-0.5,"y":-0.25,"kind":"terminal"}]})",
                 0);
   }
@@ -155,7 +155,7 @@ TEST_F(Screen, AmbiguousPose_MarksItsPlaces) {
 }
 
 TEST_F(Screen, Zoom_PutsTheRobotInTheMiddle) {
-  state_.hear(kPredictedLine, 0);
+  state_.take_line(kPredictedLine, 0);
   choice_.zoom = 2;
   const Frame frame = draw_screen(state_, scene_, choice_, 80, 24, 0);
   // 47 columns of map, 19 rows below the title.
@@ -174,12 +174,12 @@ TEST_F(Screen, LongExplanation_HasRoomAt80By24) {
   std::string detail;
   for (int i = 0; i < 23; ++i) detail += "ten chars ";
   detail += "the end";
-  state_.hear(status_line(R"("state":"faulty","detail":")" + detail + '"'), 0);
+  state_.take_line(status_line(R"("state":"faulty","detail":")" + detail + '"'), 0);
   EXPECT_THAT(shown(80, 24), HasSubstr("the end\n"));
 }
 
 TEST_F(Screen, HostileNames_CannotWriteToTheTerminal) {
-  state_.hear(status_line(R"("state":"\u001b]0;owned\u0007","detail":"\u001b[2J")"), 0);
+  state_.take_line(status_line(R"("state":"\u001b]0;owned\u0007","detail":"\u001b[2J")"), 0);
   for (const char c : shown(80, 24)) EXPECT_TRUE(c == '\n' || static_cast<unsigned char>(c) >= ' ');
 }
 

@@ -24,7 +24,7 @@ class SimulationOptionsTest : public testing::Test {
   std::string path(const std::string& name) const { return (folder_.path() / name).string(); }
   CommandRun simulate(const std::vector<std::string>& more) const {
     std::vector<std::string> words = {"simulate", "--map", map_,     "-o",       path("x.bin"),
-                                      "--turns",  "2",     "--pose", "0.3,0.5,1"};
+                                      "--scans",  "2",     "--pose", "0.3,0.5,1"};
     words.insert(words.end(), more.begin(), more.end());
     return CommandRun(words);
   }
@@ -44,7 +44,7 @@ TEST_F(SimulationOptionsTest, NumberThatIsNone_IsWrongUsage) {
       EXPECT_FALSE(std::filesystem::exists(path("x.bin")));
     }
   }
-  for (const char* option : {"--turns", "--turns-each", "--seed"}) {
+  for (const char* option : {"--scans", "--scans-each", "--seed"}) {
     for (const char* value : {"nan", "inf", "1e99"}) {
       EXPECT_EQ(simulate({option, value}).exit_code, kExitUsage) << option << ' ' << value;
     }
@@ -66,7 +66,7 @@ TEST_F(SimulationOptionsTest, TruthInTheRecordingsPlace_IsWrongUsage) {
 TEST_F(SimulationOptionsTest, PlaceOutsideTheBuilding_IsSaidAndSimulated) {
   EXPECT_THAT(simulate({}).err, Not(HasSubstr("warning")));
   const std::vector<std::string> words = {"simulate",       "--map",   map_, "-o",
-                                          path("x.ndjson"), "--turns", "1"};
+                                          path("x.ndjson"), "--scans", "1"};
   const auto with = [&](std::vector<std::string> more) {
     more.insert(more.begin(), words.begin(), words.end());
     return CommandRun(more);

@@ -31,7 +31,7 @@ class SurveyCommandTest : public ::testing::Test {
   }
   void simulate(const std::string& recording, const std::string& truth, const std::string& seed) {
     ASSERT_EQ(CommandRun({"simulate", "--map", arena_, "--path",
-                          "0.9,0.9 0.9,1.5 1.15,1.15 0.9,0.9", "--loop", "--turns", "120",
+                          "0.9,0.9 0.9,1.5 1.15,1.15 0.9,0.9", "--loop", "--scans", "120",
                           "--odometry", "--seed", seed, "-o", recording, "--truth", truth})
                   .exit_code,
               0);
@@ -134,7 +134,7 @@ TEST_F(SurveyCommandTest, NoTurnInIt_Fails) {
 TEST_F(SurveyCommandTest, WheelsThatLie_AreLeftOutAndTheReportSaysWhatToCheck) {
   ASSERT_EQ(
       CommandRun({"simulate", "--map", arena_, "--path", "0.9,0.9 0.9,1.5 1.15,1.15 0.9,0.9",
-                  "--loop", "--turns", "120", "--odometry", "--drive-speed", "0.3",
+                  "--loop", "--scans", "120", "--odometry", "--drive-speed", "0.3",
                   "--acceleration", "1", "--turn-acceleration", "3", "-o", file("one.ndjson")})
           .exit_code,
       0);
@@ -152,7 +152,7 @@ TEST_F(SurveyCommandTest, WheelsThatLie_AreLeftOutAndTheReportSaysWhatToCheck) {
 TEST_F(SurveyCommandTest, WheelsThatLieWhereTheLidarAloneIsLost_AreNamedInTheRefusal) {
   // A lidar of 7.3 Hz sees the next turn 31 degrees on.
   ASSERT_EQ(CommandRun({"simulate", "--map", arena_, "--path", "0.9,0.9 0.9,1.5 1.15,1.15 0.9,0.9",
-                        "--loop", "--turns", "120", "--odometry", "--turn-speed", "4", "-o",
+                        "--loop", "--scans", "120", "--odometry", "--turn-speed", "4", "-o",
                         file("one.ndjson")})
                 .exit_code,
             0);
@@ -176,7 +176,7 @@ TEST_F(SurveyCommandTest, WheelsOfAnotherSize_AreLearnedAndSaid) {
 }
 
 TEST_F(SurveyCommandTest, TooFewTurns_SaysHowManyThereWere) {
-  ASSERT_EQ(CommandRun({"simulate", "--map", arena_, "--path", "0.9,0.9 0.9,1.5", "--turns", "4",
+  ASSERT_EQ(CommandRun({"simulate", "--map", arena_, "--path", "0.9,0.9 0.9,1.5", "--scans", "4",
                         "-o", file("a.ndjson")})
                 .exit_code,
             0);
