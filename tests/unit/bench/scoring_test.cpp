@@ -33,7 +33,7 @@ class CornerScoring : public testing::Test {
     replay::ScanSimulator simulator(replay::SensorModel::perfect(), 2000, 1);
     core::PolarScan points;
     points.assign(simulator.take(map_, kPlace), 0.15, 12);
-    truth_.look(kPlace, points.points());
+    truth_.observe(kPlace, points.points());
   }
 
   static core::FloorPlan plan() {
