@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/localizer.hpp"
+#include "core/odometry/odometry_increment.hpp"
 #include "fixtures.hpp"
 #include "odometry/driven_robot.hpp"
 

@@ -9,13 +9,13 @@
 
 #include "core/odometry/odometer.hpp"
 #include "driven_robot.hpp"
-#include "ride.hpp"
+#include "odometer_drive.hpp"
 
 namespace cornerd::core {
 namespace {
 
 using testing::kFixCovariance;
-using testing::Ride;
+using testing::OdometerDrive;
 using testing::switched_on;
 
 TEST(Odometer, InconsistentWheels_AreRejected) {
