@@ -1,11 +1,10 @@
-# Manual pages, made of what the programs say of themselves. A cross build runs them in the emulator
-# that its toolchain file names; without one there are no pages. Nor are there any of builds that are
-# never installed.
+# Manual pages, made from the programs' --help. A cross build runs the programs in the emulator of its
+# toolchain file, and makes no pages without one. Builds that are never installed have no pages.
 if(CORNERD_SANITIZE OR CORNERD_FUZZ)
   return()
 endif()
 if(CMAKE_CROSSCOMPILING AND NOT CMAKE_CROSSCOMPILING_EMULATOR)
-  message(WARNING "no emulator to run the programs in: no manual pages")
+  message(WARNING "no manual pages: set CMAKE_CROSSCOMPILING_EMULATOR to make them in a cross build")
   return()
 endif()
 
