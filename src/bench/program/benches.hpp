@@ -17,11 +17,11 @@ struct LocalizationBenchOptions {
   std::string json;  ///< file, "-" or empty
 };
 
-/// cornerd-bench --localizer: precision, honesty, adversity, motion, kidnapping and cost.
+/// cornerd-bench --localizer: precision, consistency, adversity, motion, kidnapping and cost.
 void run_localization_bench(const LocalizationBenchOptions& options);
 
-/// What valgrind is started on: localizes in `turns` turns and says nothing. `tracking`: with what
-/// the turns before told, else each without.
+/// What valgrind is started on: localizes in `scans` scans and says nothing. `tracking`: with what
+/// the scans before told, else each without.
 void only_localize_in_arena(const LocalizationBenchOptions& options, std::size_t scans,
                             bool tracking);
 
@@ -50,7 +50,7 @@ struct ScaleBenchOptions {
 /// a picture.
 void run_scale_bench(const ScaleBenchOptions& options);
 
-/// What valgrind is started on: localizes `times` in each turn and says nothing.
+/// What valgrind is started on: localizes `times` in each scan and says nothing.
 void only_localize(const ScaleBenchOptions& options, std::size_t times);
 
 struct SurveyBenchOptions {

@@ -40,7 +40,7 @@ std::string corner_tables(const BenchReport& report) {
       "  recall 5: share found of the corners whose walls both give 5 returns or more\n"
       "  recall 1: share found of all corners whose walls both give a return\n"
       "  median, 95 %: distance of the true detections from their corners\n"
-      "  false: detections a turn that are no corner, or one that was found already\n";
+      "  false: detections a scan that are no corner, or one that was found already\n";
   return out;
 }
 

@@ -23,7 +23,7 @@ namespace cornerd::bench {
 
 namespace {
 
-/// The median of so many runs is a turn's time.
+/// The median of so many runs is a scan's time.
 constexpr std::size_t kTimingRepeats = 51;
 
 struct BenchOptions {
@@ -200,7 +200,7 @@ void add_options(tool::Command& program, const std::shared_ptr<BenchOptions>& op
   program.add_flag(
       "--scale", options->scale,
       "instead: the first fix in buildings of 20 to 20,000 corners, and in equal rooms; "
-      "--positions: turns in each, else 200");
+      "--positions: scans in each, else 200");
   program.add_flag(
       "--localizer", options->localizer,
       "instead: poses against the truth and the Cramer-Rao bound, with a biased lidar, few "
@@ -224,7 +224,7 @@ void add_options(tool::Command& program, const std::shared_ptr<BenchOptions>& op
           .range(std::size_t{0}, std::size_t{10'000'000})
           .type_name("N")
           .capture_default_str();
-  program.add_option("--samples", options->samples, "a turn")
+  program.add_option("--samples", options->samples, "a scan")
       .range(std::size_t{1}, core::kMaxSamplesPerScan)
       .type_name("N")
       .capture_default_str();
@@ -234,7 +234,7 @@ void add_options(tool::Command& program, const std::shared_ptr<BenchOptions>& op
       })
       .capture_default_str();
   program.add_flag("--instructions", options->instructions,
-                   "count the instructions a turn, of 400 to 10,000 samples: by the processor's "
+                   "count the instructions a scan, of 400 to 10,000 samples: by the processor's "
                    "counter, else by valgrind (slow)");
   program.add_option("--plots", options->plots, "draw the figures into this folder, as SVG")
       .type_name("DIR");

@@ -13,10 +13,10 @@ namespace cornerd::bench {
 
 namespace {
 
-/// An A1's turns are of 270 to 1,450 samples; what lies beyond shows how the methods grow.
+/// An A1's scans are of 270 to 1,450 samples; what lies beyond shows how the methods grow.
 const std::set<std::size_t> kCountedSizes = {400, 800, 1450, 2900, 5800, 10'000};
 
-/// One detection in each of the turns.
+/// One detection in each of the scans.
 std::optional<double> count_by_processor(InstructionCounter& counter, const CountedScans& scans,
                                          const NamedMethod& method, std::size_t samples) {
   const auto simulated = simulate_paper_scans(scans.maps, scans.sensor, samples, scans.seed);

@@ -23,7 +23,7 @@ namespace {
 using OrderedJson = nlohmann::ordered_json;
 
 constexpr double kMetresToMillimetres = 1e3;
-/// Turns by whose cost the others' is told from the program's own.
+/// Scans by whose cost the others' is told from the program's own.
 constexpr std::size_t kFewScans = 20;
 constexpr std::size_t kManyScans = kMaxCountedScans;
 
@@ -33,7 +33,7 @@ struct TrialResult {
 };
 
 struct CostResult {
-  std::optional<double> first_fix;  ///< instructions a turn of 800 samples, no prior
+  std::optional<double> first_fix;  ///< instructions a scan of 800 samples, no prior
   std::optional<double> tracking;
 };
 
@@ -62,7 +62,7 @@ double percent(std::size_t part, std::size_t whole) {
 
 std::string trials_text(const std::vector<TrialResult>& trials) {
   tool::TextTable table;
-  table.add_row({"trial", "turns", "named %", "wrong", "ambiguous", "of these true", "lost",
+  table.add_row({"trial", "scans", "named %", "wrong", "ambiguous", "of these true", "lost",
                  "mean mm", "median", "rms", "of bound", "mean deg", "NEES", "< 7.8 %"});
   for (const auto& [title, score] : trials) {
     table.add_row({title, std::to_string(score.scans()),
@@ -77,16 +77,16 @@ std::string trials_text(const std::vector<TrialResult>& trials) {
                    tool::formatted("%.2f", score.mean_nees()),
                    tool::formatted("%.1f", 100 * score.share_inside_95())});
   }
-  return "The localizer, turns of 800 samples, each without a prior unless the robot moves\n\n" +
+  return "The localizer, scans of 800 samples, each without a prior unless the robot moves\n\n" +
          table.text(/*numbers=*/true) +
          "\n  wrong: over 10 cm or 5 degrees off; rms of bound: over the Cramer-Rao bound's of the "
-         "same turns;\n  NEES: normalised error squared, 3 where covariances are honest, and 95 % "
+         "same scans;\n  NEES: normalised error squared, 3 where covariances are honest, and 95 % "
          "below 7.8\n";
 }
 
 std::string reliability_text(const Reliability& reliability) {
   tool::TextTable table;
-  table.add_row({"doubt of the likeliest place", "turns", "should be wrong", "wrong"});
+  table.add_row({"doubt of the likeliest place", "scans", "should be wrong", "wrong"});
   for (const Reliability::Bin& bin : reliability.bins()) {
     table.add_row({bin.min_p_wrong > 0 ? tool::formatted("from %g", bin.min_p_wrong)
                                        : tool::formatted("below %g (a fix)", core::kWrongFixRate),
@@ -97,12 +97,12 @@ std::string reliability_text(const Reliability& reliability) {
 }
 
 std::string kidnapping_text(const KidnappingScore& score) {
-  std::string text = "\nKidnapped " + std::to_string(score.jumps) + " times: right again with turn";
+  std::string text = "\nKidnapped " + std::to_string(score.jumps) + " times: right again with scan";
   for (std::size_t k = 0; k < score.recovered.size(); ++k) {
     if (score.recovered[k] == 0) continue;
     text += tool::formatted(" %zu: %zu,", k + 1, score.recovered[k]);
   }
-  return text + tool::formatted(" never: %zu; wrong with the first turn: %zu, later: %zu\n",
+  return text + tool::formatted(" never: %zu; wrong with the first scan: %zu, later: %zu\n",
                                 score.never, score.wrong_first, score.wrong_later);
 }
 
@@ -110,14 +110,14 @@ std::string cost_text(const CostResult& cost) {
   const auto millions = [](const std::optional<double>& value) {
     return value ? tool::formatted("%.2f million", *value * 1e-6) : std::string("not counted");
   };
-  return "\nInstructions a turn of 800 samples, arena A: first fix " + millions(cost.first_fix) +
+  return "\nInstructions a scan of 800 samples, arena A: first fix " + millions(cost.first_fix) +
          ", tracking " + millions(cost.tracking) + "\n";
 }
 
 OrderedJson json_of(const TrialResult& trial) {
   const PoseScore& score = trial.score;
   return {{"trial", trial.title},
-          {"turns", score.scans()},
+          {"scans", score.scans()},
           {"named", score.named()},
           {"wrong", score.wrong()},
           {"predicted", score.predicted()},
@@ -139,13 +139,13 @@ std::string report_json(const LocalizationReport& report, const LocalizationBenc
   for (const TrialResult& trial : report.trials) document["trials"].push_back(json_of(trial));
   for (const Reliability::Bin& bin : report.reliability.bins()) {
     document["reliability"].push_back({{"least_doubt", bin.min_p_wrong},
-                                       {"turns", bin.scans},
+                                       {"scans", bin.scans},
                                        {"expected_wrong", bin.doubt},
                                        {"wrong", bin.wrong}});
   }
   const KidnappingScore& kidnapping = report.kidnapping;
   document["kidnapping"] = {{"jumps", kidnapping.jumps},
-                            {"recovered_with_turn", kidnapping.recovered},
+                            {"recovered_with_scan", kidnapping.recovered},
                             {"never", kidnapping.never},
                             {"wrong_first", kidnapping.wrong_first},
                             {"wrong_later", kidnapping.wrong_later}};

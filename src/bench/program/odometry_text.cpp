@@ -23,7 +23,8 @@ nlohmann::ordered_json figures_of(const PoseConsistency& poses) {
 std::string blind_text(const std::vector<BlindRow>& rows) {
   tool::TextTable table;
   table.add_row({"robot", "age [s]", "poses", "mean, max [mm]", "max [deg]", "NEES", "< 7.815"});
-  const auto add = [&](const std::string& robot, const std::string& age, const PoseConsistency& poses) {
+  const auto add = [&](const std::string& robot, const std::string& age,
+                       const PoseConsistency& poses) {
     table.add_row({robot, age, tool::formatted("%zu", poses.poses),
                    tool::formatted("%.2f, %.1f", 1e3 * poses.mean_m, 1e3 * poses.worst_m),
                    tool::formatted("%.2f", core::degrees(poses.worst_rad)),
@@ -36,7 +37,7 @@ std::string blind_text(const std::vector<BlindRow>& rows) {
       add("", tool::formatted("%.2f-%.2f", ages.from_s, ages.to_s), ages);
     }
   }
-  return "The fixes, and the poses that wheels and gyro carry on between the turns of the lidar "
+  return "The fixes, and the poses that wheels and gyro carry on between the scans "
          "and\n"
          "while it is covered, by their age. NEES: the error squared in units of the covariance, 3 "
          "is exact,\n"
@@ -88,7 +89,7 @@ nlohmann::ordered_json rate_json(const std::vector<RateRow>& rows) {
     const RateResult& result = row.result;
     rates.push_back({{"readings_hz", row.rate_hz},
                      {"gently", row.gently},
-                     {"turns", result.scans},
+                     {"scans", result.scans},
                      {"fixes", result.fixes.scans()},
                      {"wrong_fixes", result.fixes.wrong()},
                      {"mean_error", result.fixes.mean_error_m()},

@@ -7,7 +7,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include "bench/blind_experiment.hpp"
+#include "bench/covered_lidar_experiment.hpp"
 #include "bench/rate_experiment.hpp"
 
 namespace cornerd::bench {

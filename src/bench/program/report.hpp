@@ -25,7 +25,7 @@ struct CornerReport {
   std::vector<MethodScore> scores;
 };
 
-/// Instructions that a method takes for a turn of so many samples, the mean over the 43 places.
+/// Instructions that a method takes for a scan of so many samples, the mean over the 43 places.
 struct InstructionFigure {
   std::string method;  ///< its title
   std::size_t samples = 0;
@@ -34,13 +34,13 @@ struct InstructionFigure {
 
 /// All that cornerd-bench measured.
 struct BenchReport {
-  std::size_t samples = 0;  ///< a turn
+  std::size_t samples = 0;  ///< a scan
   std::size_t positions = 0;
   std::uint64_t seed = 0;
 
   PaperScans scans;
   std::vector<PaperResult> paper;
-  std::vector<std::size_t> supported_corners;  ///< of each of the turns
+  std::vector<std::size_t> supported_corners;  ///< of each of the scans
   double preparation_us = 0;
 
   std::string counter;  ///< what counted instructions; empty: nothing
@@ -56,7 +56,7 @@ struct BenchReport {
   }
 };
 
-/// Time per turn and location, beside the paper's.
+/// Time per scan and location, beside the paper's.
 std::string time_table(const BenchReport& report);
 
 /// True and false corners per location, beside the paper's.
@@ -65,7 +65,7 @@ std::string true_false_table(const BenchReport& report);
 /// Position errors, beside the paper's.
 std::string position_table(const BenchReport& report);
 
-/// Instructions per turn and sample, over the number of samples.
+/// Instructions per scan and sample, over the number of samples.
 std::string scaling_table(const BenchReport& report);
 
 /// Precision, recall and error of the corners: a table for each circumstance.
@@ -77,11 +77,11 @@ std::string bench_text(const BenchReport& report);
 std::string bench_json(const BenchReport& report);
 
 /// The pictures of the paper's figures, drawn from what was measured, into a folder that is made
-/// where it is missing: times.svg (figure 11), positions.svg (figure 15), and turn-METHOD.svg, one
-/// turn with what each method finds in it (figures 9 and 10). Throws Failure.
+/// where it is missing: times.svg (figure 11), positions.svg (figure 15), and scan-METHOD.svg, one
+/// scan with what each method finds in it (figures 9 and 10). Throws Failure.
 void draw_bench(const BenchReport& report, const std::filesystem::path& folder);
 
-/// What the turns are made of.
+/// What the scans are made of.
 struct CountedScans {
   std::vector<std::shared_ptr<const core::WallMap>> maps;
   std::filesystem::path folder;  ///< of the maps
@@ -89,7 +89,7 @@ struct CountedScans {
   std::uint64_t seed = 0;
 };
 
-/// Fills in the instructions that each method takes for a turn, for several numbers of samples: by
+/// Fills in the instructions that each method takes for a scan, for several numbers of samples: by
 /// the processor's counter, else by valgrind as the difference between detecting once and twice,
 /// so that nothing but the detection counts. Where there is neither, says so on standard error.
 void count_instructions(const CountedScans& scans, std::span<const NamedMethod> methods,

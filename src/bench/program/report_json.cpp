@@ -44,7 +44,7 @@ Figures json_of(const MethodScore& line) {
   std::vector<double> errors_m = score.errors_m();
   std::sort(errors_m.begin(), errors_m.end());
   return {{"method", line.method.name},
-          {"turns", score.scans()},
+          {"scans", score.scans()},
           {"supported_corners", score.supported()},
           {"visible_corners", score.visible()},
           {"detections",

@@ -30,7 +30,7 @@ std::string draw_times(const BenchReport& report) {
     series.push_back(std::move(times));
   }
   return draw_boxplots(
-      {"Time a turn", std::to_string(report.scans.places.size()) + " places", "microseconds"},
+      {"Time a scan", std::to_string(report.scans.places.size()) + " places", "microseconds"},
       series);
 }
 
@@ -53,11 +53,11 @@ std::string draw_positions(const BenchReport& report) {
   }
   series.push_back(std::move(own));
   return draw_boxplots(
-      {"Position error", "by the two nearest corners; cornerd: by the whole turn", "millimetres"},
+      {"Position error", "by the two nearest corners; cornerd: by the whole scan", "millimetres"},
       series);
 }
 
-/// The turn that shows most corners.
+/// The scan that shows most corners.
 std::size_t richest_scan(const BenchReport& report) {
   const auto& counts = report.supported_corners;
   return static_cast<std::size_t>(std::max_element(counts.begin(), counts.end()) - counts.begin());
@@ -88,7 +88,7 @@ void draw_bench(const BenchReport& report, const std::filesystem::path& folder) 
   if (report.scans.scans.empty()) return;
   const std::size_t scan = richest_scan(report);
   for (const PaperResult& result : report.paper) {
-    save(folder / ("turn-" + std::string(result.method.name) + ".svg"),
+    save(folder / ("scan-" + std::string(result.method.name) + ".svg"),
          draw_bench_scan(report, result, scan));
   }
 }

@@ -162,9 +162,9 @@ std::string time_table(const BenchReport& report) {
       return instruction_text(report.instructions_of(result.method.title, report.samples));
     });
   }
-  return "Table I: time a turn, microseconds (the paper's)\n" + table.text() +
+  return "Table I: time a scan, microseconds (the paper's)\n" + table.text() +
          tool::formatted(
-             "  Putting a turn in order and into Cartesian coordinates takes %.1f us more.\n",
+             "  Putting a scan in order and into Cartesian coordinates takes %.1f us more.\n",
              report.preparation_us);
 }
 
@@ -204,7 +204,7 @@ std::string true_false_table(const BenchReport& report) {
   std::size_t supported = 0;
   for (const std::size_t count : report.supported_corners) supported += count;
   return "Table II: true / false corners (the paper's)\n" + table.text() +
-         tool::formatted("  The turns show %zu corners whose walls both give 5 returns or more.\n",
+         tool::formatted("  The scans show %zu corners whose walls both give 5 returns or more.\n",
                          supported);
 }
 
@@ -248,11 +248,11 @@ std::string scaling_table(const BenchReport& report) {
     }
     table.add_row(row);
   }
-  return "Instructions a turn (a sample), counted by " + report.counter + "\n" + table.text(true);
+  return "Instructions a scan (a sample), counted by " + report.counter + "\n" + table.text(true);
 }
 
 std::string bench_text(const BenchReport& report) {
-  std::string out = tool::formatted("%zu samples a turn, seed %llu\n\n", report.samples,
+  std::string out = tool::formatted("%zu samples a scan, seed %llu\n\n", report.samples,
                                     static_cast<unsigned long long>(report.seed));
   out += time_table(report) + '\n' + true_false_table(report) + '\n' + position_table(report);
   if (!report.instructions.empty()) out += '\n' + scaling_table(report);

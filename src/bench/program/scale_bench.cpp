@@ -24,7 +24,7 @@ constexpr double kMillimetre = 1e3;
 constexpr double kMebibyte = 1024 * 1024;
 constexpr double kMillion = 1e6;
 constexpr double kMicroToMilli = 1e-3;
-/// Localized in so many turns when valgrind counts.
+/// Localized in so many scans when valgrind counts.
 constexpr std::size_t kCountedByValgrind = 50;
 
 /// A building as valgrind is told: its corners, or 0 for the equal rooms, which come last.
@@ -59,7 +59,7 @@ std::string scale_text(const std::vector<ScaleResult>& results) {
                    tool::formatted("%.3f", kMicroToMilli * r.time_99_us),
                    r.instructions ? tool::formatted("%.2f", *r.instructions / kMillion) : "-"});
   }
-  return "First fix by the size of the building: no prior, one turn of 800 samples\n\n" +
+  return "First fix by the size of the building: no prior, one scan of 800 samples\n\n" +
          table.text(/*numbers=*/true);
 }
 
@@ -73,7 +73,7 @@ std::string scale_json(const std::vector<ScaleResult>& results, const ScaleBench
                                       {"map_s", r.map_s},
                                       {"catalog_s", r.catalog_s},
                                       {"memory_bytes", r.memory_bytes},
-                                      {"turns", r.score.scans()},
+                                      {"scans", r.score.scans()},
                                       {"fixed", r.score.right()},
                                       {"wrong", r.score.wrong()},
                                       {"ambiguous", r.score.ambiguous()},
@@ -109,9 +109,9 @@ std::string draw_scale(const std::vector<ScaleResult>& results) {
   };
   draw("corners", "#8c867a", [](const auto& r) { return static_cast<double>(r.corners); });
   draw("memory", "#2f6f9f", [](const auto& r) { return static_cast<double>(r.memory_bytes); });
-  draw("time of a turn", "#c2255c", [](const auto& r) { return r.time_us; });
+  draw("time of a scan", "#c2255c", [](const auto& r) { return r.time_us; });
   if (results.front().instructions) {
-    draw("instructions of a turn", "#1b9e77",
+    draw("instructions of a scan", "#1b9e77",
          [](const auto& r) { return r.instructions.value_or(0); });
   }
   return plot.document();

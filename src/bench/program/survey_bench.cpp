@@ -51,7 +51,7 @@ std::string experiment_text(const SurveyExperiment& experiment) {
              experiment.way_m) +
          table.text() +
          tool::formatted(
-             "A second drive in the true map: mean error %.2f mm, %zu of %zu turns named a "
+             "A second drive in the true map: mean error %.2f mm, %zu of %zu scans named a "
              "place, %zu wrong.\n",
              experiment.in_true_map.mean_error_m * kMillimetres, experiment.in_true_map.named,
              experiment.in_true_map.scans, experiment.in_true_map.wrong);

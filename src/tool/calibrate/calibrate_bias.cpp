@@ -21,7 +21,7 @@
 namespace cornerd::tool {
 namespace {
 
-/// As many as it takes until a lidar's bias shows in each turn (the bench's "biased lidar").
+/// As many as it takes until a lidar's bias shows in each scan (the bench's "biased lidar").
 constexpr std::size_t kMinBiasScans = 20;
 
 struct CalibrateBiasOptions {
@@ -44,7 +44,7 @@ std::string describe_bias(const core::EstimatedBias& learned) {
   row("bearing, cosine, degrees", bias.bearing_cosine_rad, sigma.bearing_cosine_rad,
       core::degrees(1));
   return formatted(
-             "From %zu turns at places of the map, of a lidar that stood or that wheels tell the "
+             "From %zu scans at places of the map, of a lidar that stood or that wheels tell the "
              "motion of:\n",
              learned.scans) +
          table.text();
@@ -67,7 +67,7 @@ void calibrate_bias(const CalibrateBiasOptions& options) {
   const core::EstimatedBias learned = pipeline.localizer().estimated_bias();
   if (learned.scans < kMinBiasScans) {
     throw Failure("only " + std::to_string(learned.scans) +
-                  " turns were found in the map with the lidar at rest: record some seconds each "
+                  " scans were found in the map with the lidar at rest: record some seconds each "
                   "at several places, and see with replay whether they are found");
   }
   if (learned.is_limited) {

@@ -111,7 +111,7 @@ void measure(const RecordingOfWall& recording, const std::string& wire, Measured
   while (player.step(sink)) {
   }
   const std::vector<calibration::BinSpread> spreads = bins.spreads();
-  std::fprintf(stderr, "%s: %zu turns, %zu returns, %zu directions with a spread\n", file.c_str(),
+  std::fprintf(stderr, "%s: %zu scans, %zu returns, %zu directions with a spread\n", file.c_str(),
                sink.scans(), bins.returns(), spreads.size());
   warn_if_moved(file, spreads);
   measured.spreads.insert(measured.spreads.end(), spreads.begin(), spreads.end());
@@ -156,7 +156,7 @@ void calibrate_noise(const CalibrateNoiseOptions& options) {
   const auto noise = calibration::fit_range_noise(measured.spreads);
   if (!noise) {
     throw Failure(
-        "too little to tell the noise from: record some 20 turns or more of a lidar that "
+        "too little to tell the noise from: record some 20 scans or more of a lidar that "
         "stands still and sees walls");
   }
   if (!noise->is_of_walls()) {

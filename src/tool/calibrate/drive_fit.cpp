@@ -19,7 +19,7 @@ using calibration::DelaySearch;
 
 /// Where more of the readings than this are refused, it is not now and then one that is garbage.
 constexpr double kMaxRejectedShare = 0.1;
-/// Turns that were deskewed by readings of times as wrong as this are deskewed again.
+/// Scans that were deskewed by readings of times as wrong as this are deskewed again.
 constexpr double kMaxDeskewDelay_s = 0.005;
 
 class DriveFitter {
@@ -39,7 +39,7 @@ class DriveFitter {
       return {std::move(drive), *fit};
     }
     if (truth_ == nullptr) {
-      // Wheels that are far off, or of another time, may cost the turns that would show it.
+      // Wheels that are far off, or of another time, may cost the scans that would show it.
       RecordedDrive plain = play(/*deskewed=*/false);
       if (plain.places.size() < 2) fail("the robot was not found in the map");
       const std::string plain_faults = find_faults(plain);
@@ -87,7 +87,7 @@ class DriveFitter {
     return describe_faults(calibration::find_wiring_faults(windows, geometry), config_.odometry);
   }
 
-  /// Finds the places anew where the turns were deskewed by what was read at other times.
+  /// Finds the places anew where the scans were deskewed by what was read at other times.
   void deskew(RecordedDrive& drive, double delay_s) const {
     if (truth_ != nullptr || std::abs(delay_s - configured_s()) <= kMaxDeskewDelay_s) return;
     auto places = localize_drive(file_, wire_, config_, drive.readings, delay_s);

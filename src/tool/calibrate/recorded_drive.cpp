@@ -33,7 +33,7 @@ void add_fix(const core::ScanResult& result, std::vector<calibration::KnownPose>
   if (pose.state == core::PoseState::kFix) add_pose({pose.t_ns, pose.T_map_base}, places);
 }
 
-/// The steps of the drive, and what the lidar makes of its turns.
+/// The steps of the drive, and what the lidar makes of its scans.
 class DriveSink final : public replay::RecordingSink {
  public:
   DriveSink(core::Pipeline& pipeline, const core::OdometryConfig& odometry, const Truth* truth)
@@ -49,7 +49,8 @@ class DriveSink final : public replay::RecordingSink {
     pipeline_.add(reading);
     const auto now_ns = arrival_time(reading.t_ns);
     if (const auto step = gate_.add(reading, now_ns)) drive_.steps.push_back(*step);
-    if (const auto step = wide_gate_.add(reading, now_ns)) drive_.increments_within_wide_limits.push_back(*step);
+    if (const auto step = wide_gate_.add(reading, now_ns))
+      drive_.increments_within_wide_limits.push_back(*step);
   }
   RecordedDrive finish() {
     take(pipeline_.finish());
@@ -127,10 +128,10 @@ RecordedDrive play_drive(const std::filesystem::path& file, std::optional<rplida
 }
 
 std::vector<calibration::KnownPose> localize_drive(const std::filesystem::path& file,
-                                                std::optional<rplidar::WireFormat> wire,
-                                                const settings::Config& config,
-                                                std::vector<core::OdometryReading> readings,
-                                                double delay_s) {
+                                                   std::optional<rplidar::WireFormat> wire,
+                                                   const settings::Config& config,
+                                                   std::vector<core::OdometryReading> readings,
+                                                   double delay_s) {
   for (core::OdometryReading& reading : readings) reading.t_ns -= core::from_seconds(delay_s);
   core::LocalizerConfig localizer = config.localizer();
   localizer.odometry.enabled = true;

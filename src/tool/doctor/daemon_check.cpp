@@ -35,14 +35,15 @@ std::vector<Finding> unreachable(const Patient& patient) {
   Finding finding{Verdict::kWrong, "daemon",
                   "does not run (" + socket + ": " + std::strerror(error) + ")"};
   if (has_service_unit(patient.machine)) {
-    finding.remedies = {"sudo systemctl start cornerd", "why it ended: journalctl -u cornerd -n 20"};
+    finding.remedies = {"sudo systemctl start cornerd",
+                        "why it ended: journalctl -u cornerd -n 20"};
   } else {
     finding.remedies = {"cornerd --config FILE, or install the package"};
   }
   return {finding};
 }
 
-/// "running, A1M8 firmware 1.29, health good, 7.1 turns/s"
+/// "running, A1M8 firmware 1.29, health good, 7.1 scans/s"
 std::string describe_lidar(const message::ParsedStatus& status) {
   std::string text = status.lidar_state;
   if (!status.lidar_fault.empty()) text += ", " + status.lidar_fault;
@@ -53,7 +54,7 @@ std::string describe_lidar(const message::ParsedStatus& status) {
   if (!status.lidar_model.empty()) text += ", " + status.lidar_model;
   if (!status.lidar_firmware.empty()) text += " firmware " + status.lidar_firmware;
   if (!status.lidar_health.empty()) text += ", health " + status.lidar_health;
-  if (status.rate_hz) text += formatted(", %.1f turns/s", *status.rate_hz);
+  if (status.rate_hz) text += formatted(", %.1f scans/s", *status.rate_hz);
   return text;
 }
 
@@ -78,8 +79,8 @@ void add_line_quality(const message::ParsedStatus& status, std::vector<Finding>&
        {"a shorter or screened cable, away from motors; a steadier 5 V"}});
 }
 
-/// Turns in motion are deskewed by what was read meanwhile: with fewer readings than the first,
-/// turns are lost and what is carried on may be wrong; with fewer than the second, fixes are worse
+/// Scans in motion are deskewed by what was read meanwhile: with fewer readings than the first,
+/// scans are lost and what is carried on may be wrong; with fewer than the second, fixes are worse
 /// than they say (core/odometry/README.md).
 constexpr double kMinReadings_hz = 10;
 constexpr double kGoodReadings_hz = 20;

@@ -34,9 +34,9 @@ std::vector<Finding> check_poses(const Patient& patient) {
     return {{Verdict::kWrong,
              "poses",
              "none came, although the lidar runs",
-             {"see again in some seconds: the first turn may not be over"}}};
+             {"see again in some seconds: the first scan may not be over"}}};
   }
-  const std::string what = "of the last turns: " + describe_poses(daemon);
+  const std::string what = "of the last scans: " + describe_poses(daemon);
   const std::uint64_t lost = poses_in(daemon, core::PoseState::kLost);
   const std::uint64_t ambiguous = poses_in(daemon, core::PoseState::kAmbiguous);
   if (2 * (lost + ambiguous) <= all) return {{Verdict::kGood, "poses", what}};

@@ -14,10 +14,10 @@
 
 namespace cornerd::tool {
 
-/// A place of a building, and the others that one turn of a lidar cannot tell from it.
+/// A place of a building, and the others that one scan cannot tell from it.
 struct ExaminedPlace {
   core::Pose2 place;
-  bool is_known = false;                 ///< a turn taken there names it
+  bool is_known = false;                 ///< a scan taken there names it
   bool is_lost = false;                  ///< or it fits nowhere: too little is seen from there
   std::vector<core::Pose2> look_alikes;  ///< without the place itself; none where it is known
 };
@@ -35,7 +35,7 @@ class MapDrawing {
   void add_track(std::span<const core::Vec2> points, std::string_view colour);
   /// A line of the legend, under the picture.
   void add_legend(std::string_view text, std::string_view colour);
-  /// The returns of one turn.
+  /// The returns of one scan.
   void add_scan(const core::Scan& scan, const core::Pose2& T_map_lidar);
   /// Returns of a whole drive, on the map.
   void add_points(std::span<const core::Vec2> points);
@@ -52,7 +52,7 @@ class MapDrawing {
   /// The ellipse that holds the true position 95 times of 100.
   void add_uncertainty(const core::Pose2& T_map_base, const core::Covariance3& covariance);
 
-  /// Places that one turn tells from all others, and those that it does not, with lines to what
+  /// Places that one scan tells from all others, and those that it does not, with lines to what
   /// they look like.
   void add_examined_places(std::span<const ExaminedPlace> places);
 

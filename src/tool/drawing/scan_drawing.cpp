@@ -71,7 +71,7 @@ std::string draw_scan(const core::Scan& scan, const core::Detection& detection,
   svg.line({-2 * half_m, 0}, {2 * half_m, 0}, kLidarCross);
   svg.line({0, -2 * half_m}, {0, 2 * half_m}, kLidarCross);
   svg.text({low.x(), high.y()}, subtitle + "; grid: 1 m", {.size = 13, .anchor = "start"}, 0, -14);
-  return svg.document("one turn");
+  return svg.document("one scan");
 }
 
 }  // namespace cornerd::tool

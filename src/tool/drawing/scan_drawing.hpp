@@ -8,7 +8,7 @@
 
 namespace cornerd::tool {
 
-/// A turn as the lidar saw it, to scale and without any map: its returns as dots, the walls that
+/// A scan as the lidar saw it, to scale and without any map: its returns as dots, the walls that
 /// were found in them as lines, corners as rings, terminals as squares, the lidar as a cross at
 /// (0, 0) looking to the right. An SVG document.
 std::string draw_scan(const core::Scan& scan, const core::Detection& detection,

@@ -21,7 +21,7 @@ std::string survey_drawing(const survey::SurveyResult& result) {
   drawing.add_path(way);
   if (!result.T_map_base.empty()) drawing.add_pose(result.T_map_base.front());
   return drawing.document(
-      formatted("%zu walls from %zu turns; green: returns; orange: not seen, between what was",
+      formatted("%zu walls from %zu scans; green: returns; orange: not seen, between what was",
                 result.plan.walls.size(), result.T_map_base.size()));
 }
 

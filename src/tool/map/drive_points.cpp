@@ -10,7 +10,7 @@ namespace cornerd::tool {
 
 namespace {
 
-/// Two turns further apart than this say nothing about the way between them.
+/// Two scans further apart than this say nothing about the way between them.
 constexpr core::TimeNs kMaxNeighbourInterval_ns = core::kNsPerSecond / 2;
 
 core::Vec2 return_of(const core::Sample& sample) {
@@ -38,7 +38,8 @@ core::Pose2 DrivePoints::pose_at(std::size_t scan, core::TimeNs t_ns) const {
   if (before ? scan == 0 : scan + 1 == scans_.size()) return *own.T_map_base;
   const RecordedScan& other = scans_[before ? scan - 1 : scan + 1];
   const core::TimeNs apart_ns = std::abs(other.middle_ns - own.middle_ns);
-  if (!other.T_map_base || apart_ns == 0 || apart_ns > kMaxNeighbourInterval_ns) return *own.T_map_base;
+  if (!other.T_map_base || apart_ns == 0 || apart_ns > kMaxNeighbourInterval_ns)
+    return *own.T_map_base;
   const double share =
       static_cast<double>(std::abs(t_ns - own.middle_ns)) / static_cast<double>(apart_ns);
   return interpolate(*own.T_map_base, *other.T_map_base, share);

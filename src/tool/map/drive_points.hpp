@@ -10,17 +10,17 @@
 
 namespace cornerd::tool {
 
-/// The returns of a drive, turn by turn, until it is known where each was taken from.
+/// The returns of a drive, scan by scan, until it is known where each was taken from.
 class DrivePoints {
  public:
-  /// `T_map_base`: in the middle of the turn, where that is known.
+  /// `T_map_base`: in the middle of the scan, where that is known.
   void add(const core::Scan& scan, const std::optional<core::Pose2>& T_map_base);
 
-  /// Of the turns whose place is known, in the map: each return from where the robot was between
-  /// this turn and the next to it, unless that one is long ago.
+  /// Of the scans whose place is known, in the map: each return from where the robot was between
+  /// this scan and the next to it, unless that one is long ago.
   std::vector<core::Vec2> place(const core::Pose2& T_base_lidar) const;
 
-  /// Of all turns: each return from where `way` has the robot, none where it says nothing.
+  /// Of all scans: each return from where `way` has the robot, none where it says nothing.
   std::vector<core::Vec2> place(const core::Pose2& T_base_lidar, const Truth& way) const;
 
  private:
@@ -29,7 +29,7 @@ class DrivePoints {
     std::optional<core::Pose2> T_map_base;
     std::vector<core::Sample> returns;
   };
-  /// Where the robot was at a time of a turn whose place is known.
+  /// Where the robot was at a time of a scan whose place is known.
   core::Pose2 pose_at(std::size_t scan, core::TimeNs t_ns) const;
 
   std::vector<RecordedScan> scans_;

@@ -11,7 +11,7 @@
 
 namespace cornerd::tool {
 
-/// Takes a simulated turn at each point of a lattice over the building, as an A1 would, and asks
+/// Takes a simulated scan at each point of a lattice over the building, as an A1 would, and asks
 /// the localizer where that was. `count`: about so many places. Equal on every run.
 std::vector<ExaminedPlace> examine_places(const std::shared_ptr<const core::WallMap>& map,
                                           std::size_t count);

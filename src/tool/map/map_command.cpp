@@ -61,13 +61,13 @@ void check(const CheckOptions& options) {
   drawing.add_examined_places(places);
   picture->write(
       drawing.document(describe_map(*map) +
-                       "; red: places that one turn cannot tell from those at the lines' ends"));
+                       "; red: places that one scan cannot tell from those at the lines' ends"));
   picture->flush();
 }
 
 void add_check(Command& group) {
   Command command = group.add_subcommand(
-      "check", "validate a map and say what is in it, and which places a turn cannot tell apart");
+      "check", "validate a map and say what is in it, and which places a scan cannot tell apart");
   const auto options = std::make_shared<CheckOptions>();
   command.add_option("map", options->map, "the map").required().type_name("MAP");
   command

@@ -36,13 +36,13 @@ struct RenderOptions {
   std::filesystem::path truth;
 };
 
-/// What a recording looks like in the map: the way of the robot, all points, and one turn in full.
+/// What a recording looks like in the map: the way of the robot, all points, and one scan in full.
 struct RecordedView {
   std::vector<core::Vec2> path;
   DrivePoints points;
   core::Scan scan;
-  core::PoseEstimate pose;                ///< of that turn, as far as it was localized
-  std::optional<core::Pose2> T_map_base;  ///< of that turn
+  core::PoseEstimate pose;                ///< of that scan, as far as it was localized
+  std::optional<core::Pose2> T_map_base;  ///< of that scan
   std::vector<core::Breakpoint> breakpoints;
   std::size_t scans = 0;
 };
@@ -66,7 +66,7 @@ RecordedView view_recording(const RenderOptions& options, const settings::Config
     }
     view.points.add(scan, T_map_base);
     if (T_map_base) view.path.push_back(T_map_base->translation());
-    // A turn without a place is shown only where there is none with one.
+    // A scan without a place is shown only where there is none with one.
     if (!T_map_base && !view.path.empty()) return;
     view.scan = scan;
     view.pose = result.pose;
@@ -130,10 +130,10 @@ void render(const RenderOptions& options) {
       drawing.add_scan(view.scan, T_map_lidar);
       drawing.add_breakpoints(view.breakpoints, T_map_lidar);
     } else {
-      std::fprintf(stderr, "cornerctl: no turn of %s names a place; the map is drawn alone\n",
+      std::fprintf(stderr, "cornerctl: no scan of %s names a place; the map is drawn alone\n",
                    options.recording.c_str());
     }
-    subtitle += formatted("; %zu of %zu turns ", view.path.size(), view.scans);
+    subtitle += formatted("; %zu of %zu scans ", view.path.size(), view.scans);
     subtitle += way ? "placed by " + options.trajectory.filename().string() : "found their place";
   }
   if (T_map_base) drawing.add_pose(*T_map_base);
@@ -154,7 +154,7 @@ void add_map_render(Command& group) {
       .type_name("SVG");
   command
       .add_option("--recording", options->recording,
-                  "draw its points, its way and its last turn, localized in the map")
+                  "draw its points, its way and its last scan, localized in the map")
       .type_name("FILE");
   command
       .add_option("--trajectory", options->trajectory,
@@ -163,7 +163,7 @@ void add_map_render(Command& group) {
       .type_name("FILE");
   command
       .add_option("--pose", options->pose,
-                  "draw the robot there, and the recording's turn as seen from there")
+                  "draw the robot there, and the recording's scan as seen from there")
       .type_name("X,Y,THETA");
   command.add_option("--truth", options->truth, "draw the true way, dashed").type_name("FILE");
   options->settings.add_config(command);

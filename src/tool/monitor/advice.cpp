@@ -16,7 +16,7 @@ using core::PoseState;
 constexpr double kMaxSilence_s = 3.5;
 /// More damaged bytes than line noise explains.
 constexpr double kMaxSkippedShare = 0.01;
-/// Below that share of turns that name a place, people ask why.
+/// Below that share of scans that name a place, people ask why.
 constexpr double kMinFixShare = 0.8;
 constexpr std::size_t kMinScans = 20;
 
@@ -49,10 +49,10 @@ std::optional<Advice> advise_on_lidar(const message::ParsedStatus& status) {
 }
 
 std::optional<Advice> advise_on_pose(const MonitorState& state, core::TimeNs now_ns) {
-  if (!state.pose()) return Advice{Style::kWarning, "the lidar runs, and no turn is over yet", ""};
+  if (!state.pose()) return Advice{Style::kWarning, "the lidar runs, and no scan is over yet", ""};
   const message::ParsedPose& pose = *state.pose();
   if (state.recent() > 1 && !state.pose_rate_hz(now_ns)) {
-    return Advice{Style::kBad, "the lidar runs, and no turns come", "cornerctl doctor"};
+    return Advice{Style::kBad, "the lidar runs, and no scans come", "cornerctl doctor"};
   }
   switch (pose.state) {
     case PoseState::kLost:
@@ -61,7 +61,8 @@ std::optional<Advice> advise_on_pose(const MonitorState& state, core::TimeNs now
                     "lidar sits, are the walls hidden? key l shows what it sees"};
     case PoseState::kAmbiguous:
       return Advice{
-          Style::kWarning, formatted("%zu places fit what the lidar sees", pose.alternatives.size()),
+          Style::kWarning,
+          formatted("%zu places fit what the lidar sees", pose.alternatives.size()),
           "move on, or say where it is (SET_POSE); cornerctl map check tells which places "
           "look alike"};
     case PoseState::kPredicted:
@@ -81,12 +82,13 @@ std::optional<Advice> advise_on_quality(const MonitorState& state) {
   if (scans >= kMinScans &&
       static_cast<double>(named) < kMinFixShare * static_cast<double>(scans)) {
     return Advice{Style::kWarning,
-                  formatted("%zu of the last %zu turns named no place", scans - named, scans),
+                  formatted("%zu of the last %zu scans named no place", scans - named, scans),
                   "things that are not on the map hide its walls, or its walls are elsewhere"};
   }
   for (const message::ParsedStatus::Sensor& sensor : state.status()->odometry_sensors) {
     if (sensor.state == "running") continue;
-    return Advice{Style::kWarning, "odometry: " + sensor.name + " is " + sensor.state, sensor.detail};
+    return Advice{Style::kWarning, "odometry: " + sensor.name + " is " + sensor.state,
+                  sensor.detail};
   }
   if (const std::string& hint = state.status()->odometry_hint; !hint.empty()) {
     return Advice{Style::kWarning, "odometry: " + hint, "cornerctl doctor says more"};
@@ -99,7 +101,8 @@ std::optional<Advice> advise_on_quality(const MonitorState& state) {
                   "a shorter or screened cable, away from motors; a steadier 5 V"};
   }
   if (!state.protocol_error().empty()) {
-    return Advice{Style::kWarning, state.protocol_error(), "are cornerd and cornerctl of one version?"};
+    return Advice{Style::kWarning, state.protocol_error(),
+                  "are cornerd and cornerctl of one version?"};
   }
   return std::nullopt;
 }

@@ -68,8 +68,8 @@ void append_utf8(std::string& text, char32_t glyph);
 /// Lines of at most `width` characters, broken between words where that is possible.
 std::vector<std::string> wrap_text(std::string_view text, std::size_t width);
 
-/// Turns frames into what a terminal of the ECMA-48 kind (xterm, tmux, the Linux console) is told:
-/// of each frame no more than what differs from the one before.
+/// Encodes frames as ECMA-48 sequences (xterm, tmux, the Linux console):
+/// only the cells that differ from the frame before.
 class FrameEncoder {
  public:
   explicit FrameEncoder(bool colours) : colours_(colours) {}

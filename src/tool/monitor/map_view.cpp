@@ -14,7 +14,7 @@ namespace {
 using core::Pose2;
 using core::Vec2;
 
-/// Sights of the lidar's view, so that it does not breathe with every turn.
+/// Sights of the lidar's view, so that it does not breathe with every scan.
 constexpr std::array<double, 6> kViewRadii_m = {0.5, 1, 2, 4, 8, 12};
 
 /// Metres to dots, and to the cells of the frame.

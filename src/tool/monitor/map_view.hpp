@@ -31,7 +31,7 @@ struct Region {
   std::size_t rows = 0;
 };
 
-/// Walls, the last turn's returns, its corners (o) and ends of walls (x), the robot as an arrow
+/// Walls, the last scan's returns, its corners (o) and ends of walls (x), the robot as an arrow
 /// (dim where its pose is stale), and where it may be as well (?). Returns the width of a cell in
 /// metres; 0 where nothing is drawn.
 double draw_map(Frame& frame, const Region& region, const MonitorState& state, const Scene& scene,

@@ -22,7 +22,7 @@ using namespace std::chrono_literals;
 
 constexpr std::string_view kWatch =
     "{\"class\":\"WATCH\",\"classes\":[\"POSE\",\"SCAN\",\"BREAKPOINTS\",\"STATUS\",\"EVENT\"]}\n";
-/// Faster than an A1 turns, slower than what costs a modem's line or a board's processor something.
+/// Faster than an A1's scan rate, slow enough for a serial terminal.
 constexpr auto kMinFrameInterval = 100ms;
 /// For the ages on the screen, while nothing comes.
 constexpr auto kMaxFrameInterval = 500ms;

@@ -41,7 +41,7 @@ void monitor(MonitorOptions& options) {
 void add_monitor(Command& program) {
   Command command = program.add_subcommand(
       "monitor",
-      "a live view in the terminal: map, turn, corners, pose, rates, what is wrong and "
+      "a live view in the terminal: map, scan, corners, pose, rates, what is wrong and "
       "what to do; q ends it");
   const auto options = std::make_shared<MonitorOptions>();
   command.add_option("--socket", options->socket, "else the one that the config names")

@@ -12,7 +12,7 @@ constexpr std::size_t kMaxEvents = 50;
 /// Three seconds of an A1.
 constexpr std::size_t kMaxArrivals = 22;
 constexpr std::size_t kMaxStates = 100;
-/// Seven turns of an A1.
+/// Seven scans of an A1.
 constexpr double kFreshPose_s = 1;
 constexpr core::TimeNs kMaxPause_ns = 2 * core::kNsPerSecond;
 
@@ -70,7 +70,7 @@ void MonitorState::take_line(std::string_view line, core::TimeNs now_ns) {
   } else if (auto* pose = std::get_if<message::ParsedPose>(&told)) {
     note(std::move(*pose), now_ns);
   } else if (auto* scan = std::get_if<message::RecordedScan>(&told)) {
-    // POSE comes first, then SCAN and BREAKPOINTS of the same turn.
+    // POSE comes first, then SCAN and BREAKPOINTS of the same scan.
     scan_ = {std::move(*scan), pose_ ? pose_->T_map_base : std::nullopt};
     breakpoints_ = {};
   } else if (auto* points = std::get_if<message::ParsedBreakpoints>(&told)) {

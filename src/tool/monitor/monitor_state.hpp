@@ -12,7 +12,7 @@
 
 namespace cornerd::tool {
 
-/// A turn of the lidar, and where the pose that came with it says that it was taken.
+/// A scan of the lidar, and where the pose that came with it says that it was taken.
 struct ReceivedScan {
   message::RecordedScan scan;
   std::optional<core::Pose2> T_map_base;
@@ -39,7 +39,7 @@ class MonitorState {
   const std::optional<message::ParsedPose>& pose() const { return pose_; }
   const std::optional<message::ParsedStatus>& status() const { return status_; }
   const std::optional<ReceivedScan>& scan() const { return scan_; }
-  /// Of the same turn.
+  /// Of the same scan.
   const message::ParsedBreakpoints& breakpoints() const { return breakpoints_; }
   /// The newest first.
   const std::deque<message::ParsedEvent>& events() const { return events_; }

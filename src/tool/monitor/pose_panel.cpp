@@ -77,7 +77,7 @@ void add_rates(const MonitorState& state, core::TimeNs now_ns, std::vector<Panel
   std::string scans;
   if (const auto rate_hz = state.pose_rate_hz(now_ns))
     scans = formatted("poses %.1f/s  ", *rate_hz);
-  if (status && status->rate_hz) scans += formatted("turns %.1f/s", *status->rate_hz);
+  if (status && status->rate_hz) scans += formatted("scans %.1f/s", *status->rate_hz);
   if (!scans.empty()) lines.push_back({scans});
   if (status && status->samples_hz) {
     lines.push_back({formatted("samples %.0f/s", *status->samples_hz)});

@@ -158,7 +158,7 @@ void record(RecordOptions& options) {
   recorder.finish();
   const drivers::StreamCounters counters = driver.status().counters;
   if (counters.samples == 0) throw Failure(config.device + ": sent not a single sample");
-  std::fprintf(stderr, "%s: %llu bytes, %llu turns\n", options.output.c_str(),
+  std::fprintf(stderr, "%s: %llu bytes, %llu scans\n", options.output.c_str(),
                static_cast<unsigned long long>(counters.bytes),
                static_cast<unsigned long long>(counters.scans));
   if (readings) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// cornerctl detect: the breakpoints of every turn, without a map.
+// cornerctl detect: the breakpoints of every scan, without a map.
 #include <algorithm>
 #include <filesystem>
 #include <memory>
@@ -71,7 +71,7 @@ void detect(DetectOptions& options) {
   output.flush();
   if (!options.plot.empty() && scans < options.plotted_scan) {
     throw Failure("--scan " + std::to_string(options.plotted_scan) + ": there are " +
-                  std::to_string(scans) + " turns");
+                  std::to_string(scans) + " scans");
   }
 }
 
@@ -90,9 +90,9 @@ void add_detect(Command& program) {
       .delimiter(',')
       .capture_default_str();
   add_wire_option(command, options->wire);
-  command.add_option("--plot", options->plot, "draw a turn with its walls and breakpoints, as SVG")
+  command.add_option("--plot", options->plot, "draw a scan with its walls and breakpoints, as SVG")
       .type_name("FILE");
-  command.add_option("--scan", options->plotted_scan, "which turn --plot draws, from 1 on")
+  command.add_option("--scan", options->plotted_scan, "which scan --plot draws, from 1 on")
       .capture_default_str()
       .range(1, 100'000'000);
   command.callback([options] { detect(*options); });

@@ -122,7 +122,7 @@ std::string ErrorStatistics::report(std::string_view counted) const {
   if (const std::size_t ambiguous = count(core::PoseState::kAmbiguous); ambiguous > 0) {
     append(out, "ambiguous  %zu of %zu list the true place\n", ambiguous_with_truth_, ambiguous);
   }
-  if (unknown_ > 0) append(out, "unknown    %zu turns outside of the truth's time\n", unknown_);
+  if (unknown_ > 0) append(out, "unknown    %zu scans outside of the truth's time\n", unknown_);
   return out;
 }
 

@@ -15,13 +15,13 @@ namespace cornerd::tool {
 class ErrorStatistics {
  public:
   void add(const core::PoseEstimate& estimate, const core::Pose2& T_map_base);
-  /// A turn that the truth says nothing about.
+  /// A scan that the truth says nothing about.
   void add_unknown() { ++unknown_; }
 
   std::size_t scans() const { return scans_; }
   std::size_t count(core::PoseState state) const { return states_[index(state)]; }
   std::size_t wrong() const { return wrong_; }
-  /// Ambiguous turns, one of whose alternatives is the true place.
+  /// Ambiguous scans, one of whose alternatives is the true place.
   std::size_t ambiguous_with_truth() const { return ambiguous_with_truth_; }
   double mean_error_m() const;
   double max_error_m() const;
@@ -29,7 +29,7 @@ class ErrorStatistics {
   double mean_nees() const;
 
   /// Several lines for a person.
-  std::string report(std::string_view counted = "turns") const;
+  std::string report(std::string_view counted = "scans") const;
 
  private:
   static constexpr std::size_t kStates = 5;

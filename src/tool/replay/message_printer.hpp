@@ -24,7 +24,7 @@ class MessagePrinter {
   /// What odometry it had, for STATUS to say why there is none.
   void note(const core::OdometryReading& reading) { odometry_lines_.add(reading); }
 
-  /// A pose between two turns.
+  /// A pose between two scans.
   void print_pose(const core::PoseEstimate& pose);
 
   /// What comes now is of another file: rates begin anew.
@@ -45,7 +45,7 @@ class MessagePrinter {
   const core::FloorPlan* plan_;
   message::LineWriter writer_;
   std::optional<Mark> last_status_;
-  core::OdometrySummary odometry_;  ///< as of the last turn
+  core::OdometrySummary odometry_;  ///< as of the last scan
   message::OdometryInputMonitor odometry_lines_;
 };
 

@@ -78,7 +78,7 @@ void Playback::play(const std::filesystem::path& file, const replay::RecordingOp
                  static_cast<unsigned long long>(player.bad_lines()),
                  player.first_problem().c_str());
   }
-  if (scans_ == 0) throw Failure(file.string() + ": not one whole turn of a lidar in it");
+  if (scans_ == 0) throw Failure(file.string() + ": not one complete scan in it");
 }
 
 std::optional<double> parse_speed(const std::string& text) {

@@ -21,12 +21,12 @@ namespace cornerd::tool {
 /// Plays recordings through the daemon's own pipeline.
 class Playback {
  public:
-  /// Called for every turn; both arguments are valid during the call alone.
+  /// Called for every scan; both arguments are valid during the call alone.
   using OnScan = std::function<void(const core::Scan& scan, const core::ScanResult& result)>;
   /// Called after every piece of the recording, with the time and the counters so far.
   using OnPiece = std::function<void(core::TimeNs t_ns, const drivers::StreamCounters& counters)>;
 
-  /// Called for every pose between two turns (odometry.publish_predictions,
+  /// Called for every pose between two scans (odometry.publish_predictions,
   /// localizer.updates_per_scan).
   using OnPrediction = std::function<void(const core::PoseEstimate& pose)>;
 
@@ -38,7 +38,7 @@ class Playback {
   void set_on_reading(OnReading on_reading) { on_reading_ = std::move(on_reading); }
   void set_on_prediction(OnPrediction on_prediction) { on_prediction_ = std::move(on_prediction); }
 
-  /// Forget everything between turns, as if each were the first.
+  /// Forget everything between scans, as if each were the first.
   void set_independent(bool independent) { independent_ = independent; }
 
   /// Wheels and gyro of another file, in the order of its times; in place of the recording's own.
@@ -49,7 +49,7 @@ class Playback {
 
   /// Plays one file to its end; nothing of an earlier one is remembered. What was passed over is
   /// said on standard error. Throws replay::RecordingError, and Failure where the file holds not a
-  /// single whole turn.
+  /// single whole scan.
   void play(const std::filesystem::path& file, const replay::RecordingOptions& options);
 
  private:

@@ -89,7 +89,7 @@ void replay(const ReplayOptions& options) {
   output.flush();
   if (truth) std::fputs(errors.report().c_str(), stderr);
   if (intermediate_errors.scans() > 0) {
-    std::fprintf(stderr, "between the turns\n%s", intermediate_errors.report("poses").c_str());
+    std::fprintf(stderr, "between the scans\n%s", intermediate_errors.report("poses").c_str());
   }
 }
 
@@ -118,7 +118,7 @@ void add_replay(Command& program) {
       .add_option("--truth", options->truth,
                   "where the robot really was: error statistics on standard error")
       .type_name("FILE");
-  command.add_flag("--independent", options->independent, "forget everything between turns");
+  command.add_flag("--independent", options->independent, "forget everything between scans");
   command.callback([options] { replay(*options); });
 }
 

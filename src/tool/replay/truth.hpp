@@ -19,7 +19,7 @@ class Truth {
   explicit Truth(std::vector<message::RecordedTruth> points) : points_(std::move(points)) {}
 
   /// Interpolated, the heading by the shorter way; nullopt before the first point and more than a
-  /// turn of the sensor (0.2 s) after the last one, as far as which the last one holds.
+  /// scan period (0.2 s) after the last one, as far as which the last one holds.
   std::optional<core::Pose2> at(core::TimeNs t_ns) const;
 
   const std::vector<message::RecordedTruth>& points() const { return points_; }

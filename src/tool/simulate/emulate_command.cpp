@@ -51,7 +51,7 @@ World make_world(const EmulateOptions& options, const settings::Config& config) 
     return {std::make_unique<replay::RecordedScene>(options.recording, how), {}};
   }
   if (options.simulation.places > 0 && !options.truth.empty()) {
-    throw UsageError("--truth: a robot that jumps from place to place has none between two turns");
+    throw UsageError("--truth: a robot that jumps from place to place has none between two scans");
   }
   const auto map = settings::load_map(config.map);
   const replay::Motion motion = options.simulation.motion(*map);

@@ -68,7 +68,7 @@ void simulate(const SimulateOptions& options) {
   if (!options.truth.empty()) truth.emplace(options.truth);
   const replay::SimulatedRecordingSummary summary =
       simulate_recording(map, motion, config, recording, truth ? &*truth : nullptr);
-  std::fprintf(stderr, "%s: %lld turns in %.1f s, %llu samples, %.0f %% of them with a return\n",
+  std::fprintf(stderr, "%s: %lld scans in %.1f s, %llu samples, %.0f %% of them with a return\n",
                options.output.c_str(), static_cast<long long>(config.scans), summary.duration_s,
                static_cast<unsigned long long>(summary.samples),
                100.0 * static_cast<double>(summary.returns) / static_cast<double>(summary.samples));
@@ -85,9 +85,8 @@ void add_simulate(Command& program) {
   options->simulation.add_to(command);
   options->odometry.add_to(command);
   command
-      .add_option(
-          "--scans", options->scans,
-          "whole turns of the lidar; else as many as the places, once through the scenario, or 10")
+      .add_option("--scans", options->scans,
+                  "complete scans; else as many as the places, once through the scenario, or 10")
       .positive()
       .type_name("N");
   command.add_option("--wire", options->wire, "standard, express or ultra")

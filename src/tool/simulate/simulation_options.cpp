@@ -39,7 +39,7 @@ void SimulationOptions::add_to(Command& command) {
                   "it drives there, in config/maps/flat-7.json: circuit-1, circuit-2, exploration")
       .choices({"circuit-1", "circuit-2", "exploration"});
   command.add_flag("--loop", loop, "and from the last point back to the first, for ever");
-  command.add_option("--scans-each", scans_each, "turns of the lidar at each of the places")
+  command.add_option("--scans-each", scans_each, "scans at each of the places")
       .positive()
       .capture_default_str();
   command.add_option("--drive-speed", speed_m_s, "metres a second along the path")
@@ -56,9 +56,7 @@ void SimulationOptions::add_to(Command& command) {
       .add_option("--turn-acceleration", yaw_acceleration_rad_s2,
                   "radians a second squared at both ends of a turn; 0: at once")
       .within(0, 1000);
-  command.add_option("--motor", motor_hz, "turns of the lidar a second")
-      .within(1, 15)
-      .capture_default_str();
+  command.add_option("--motor", motor_hz, "scans a second").within(1, 15).capture_default_str();
   sensor.add_to(command);
   command.add_option("--seed", seed, "of all randomness").capture_default_str();
 }

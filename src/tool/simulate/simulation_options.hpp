@@ -63,7 +63,7 @@ struct SimulationOptions {
   void add_to(Command& command);
 
   bool stands_still() const { return !pose.empty(); }
-  /// Turns of the sensor in a recording of which nobody says how long it is.
+  /// Scans of the sensor in a recording of which nobody says how long it is.
   std::int64_t default_scans() const;
   /// Throws UsageError unless exactly one of pose, places, path and scenario is given. Says on
   /// standard error where the robot would stand in a wall or outside the building.

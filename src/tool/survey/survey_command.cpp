@@ -135,12 +135,12 @@ void add_survey(Command& program) {
       .type_name("NAME");
   command
       .add_option("--start", options->start,
-                  "where in the map the robot was in the first turn (m, m, rad); else its origin")
+                  "where in the map the robot was in the first scan (m, m, rad); else its origin")
       .type_name("X,Y,THETA");
   command.add_option("--plot", options->plot, "draw walls, points and the way").type_name("SVG");
   command
       .add_option("--trajectory", options->trajectory,
-                  "the corrected way, a pose for each turn, as --truth files have it")
+                  "the corrected way, a pose for each scan, as --truth files have it")
       .type_name("NDJSON");
   command
       .add_option("--method", options->method,

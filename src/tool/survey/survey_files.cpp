@@ -97,7 +97,7 @@ survey::RecordedDrive load_drive(std::span<const std::filesystem::path> files,
                    player.first_problem().c_str());
     }
     if (drive.size() == scans_before) {
-      throw Failure(file.string() + ": not one whole turn of a lidar in it" +
+      throw Failure(file.string() + ": not one complete scan in it" +
                     (files.size() > 1 ? "; for ODOMETRY of another file there is --odometry" : ""));
     }
     if (sink.shift_ns() == 0) continue;

@@ -18,7 +18,7 @@ survey::RecordedDrive load_drive(std::span<const std::filesystem::path> files,
                                  const replay::RecordingOptions& options,
                                  const std::filesystem::path& odometry);
 
-/// A --truth file: a line for each turn.
+/// A --truth file: a line for each scan.
 std::string trajectory_text(const survey::SurveyResult& result);
 
 /// For people: what was found, what was dropped and why.

@@ -17,7 +17,7 @@ double length_of(const core::Vec2& from, const core::Vec2& to) { return (to - fr
 std::string sources_of(const survey::SurveyResult& result) {
   if (!result.has_odometry) return "by the lidar alone";
   const std::string wheels = result.has_gyro ? "wheels, gyro" : "wheels";
-  const bool is_ransac = result.observations == 0;  // it places its turns by the odometry alone
+  const bool is_ransac = result.observations == 0;  // it places its scans by the odometry alone
   if (is_ransac) return result.has_gyro ? "by wheels and gyro" : "by wheels";
   return "by " + wheels + " and lidar";
 }

@@ -46,7 +46,7 @@ class Cornerctl : public testing::Test {
   void write(const std::string& name, const std::string& text) const {
     std::ofstream(path(name)) << text;
   }
-  /// Four turns at one place of the sample map, and their truth in still.truth.
+  /// Four scans at one pose of the sample map, and their truth in still.truth.
   std::string recording() const {
     run({"simulate", "--map", map_, "--pose", "0.3,0.5,1", "--scans", "4", "-o",
          path("still.ndjson"), "--truth", path("still.truth")});
@@ -137,7 +137,7 @@ TEST_F(Cornerctl, SimulateAndReplay_FindTheRobotWhereItIs) {
       {"replay", recording(), "--map", map_, "--classes", "POSE", "--truth", path("still.truth")});
   EXPECT_EQ(outcome.exit_code, kExitDone);
   EXPECT_EQ(count_lines(outcome.out, R"({"class":"POSE")"), 4U);
-  EXPECT_THAT(outcome.err, HasSubstr("turns            4"));
+  EXPECT_THAT(outcome.err, HasSubstr("scans            4"));
   EXPECT_THAT(outcome.err, HasSubstr("wrong            0"));
 }
 
@@ -163,7 +163,7 @@ TEST_F(Cornerctl, Replay_PlaysSeveralFilesOneAfterAnother) {
   EXPECT_EQ(count_lines(outcome.out, R"({"class":"SCAN")"), 8U);
 }
 
-TEST_F(Cornerctl, ReplayOfItsOwnScans_SeesTheSameTurns) {
+TEST_F(Cornerctl, ReplayOfItsOwnScans_GivesSamePoses) {
   write("scans.ndjson", run({"replay", recording(), "--classes", "SCAN"}).out);
   const CommandRun outcome =
       run({"replay", path("scans.ndjson"), "--map", map_, "--classes", "POSE"});
@@ -171,7 +171,7 @@ TEST_F(Cornerctl, ReplayOfItsOwnScans_SeesTheSameTurns) {
   EXPECT_EQ(count_lines(outcome.out, R"({"class":"POSE")"), 4U);
 }
 
-TEST_F(Cornerctl, Detect_GivesTheBreakpointsOfEveryTurn) {
+TEST_F(Cornerctl, Detect_GivesTheBreakpointsOfEveryScan) {
   const CommandRun outcome = run({"detect", recording(), "--method", "altbd"});
   EXPECT_EQ(outcome.exit_code, kExitDone);
   EXPECT_EQ(count_lines(outcome.out, R"({"class":"BREAKPOINTS")"), 4U);
@@ -192,7 +192,7 @@ TEST_F(Cornerctl, MapRender_DrawsTheRecordingInTheMap) {
   EXPECT_EQ(find_xml_error(picture), "");
   EXPECT_THAT(picture, HasSubstr("id=\"scan\""));
   EXPECT_THAT(picture, HasSubstr("id=\"points\""));
-  EXPECT_THAT(picture, HasSubstr("4 of 4 turns found"));
+  EXPECT_THAT(picture, HasSubstr("4 of 4 scans found"));
 }
 
 TEST_F(Cornerctl, MapRenderWithATrajectory_DrawsTheRecordingFromThere) {

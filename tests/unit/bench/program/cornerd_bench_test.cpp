@@ -54,7 +54,7 @@ TEST_F(BenchCommand, Scale_IsATableAPictureAndFigures) {
   EXPECT_THAT(outcome.out, HasSubstr("equal rooms"));
   const auto figures = nlohmann::json::parse(read(folder_.path() / "scale.json"));
   ASSERT_EQ(figures["scale"].size(), 3U);
-  EXPECT_EQ(figures["scale"][0]["turns"], 6);
+  EXPECT_EQ(figures["scale"][0]["scans"], 6);
   EXPECT_EQ(figures["scale"][0]["wrong"], 0);
   EXPECT_FALSE(figures["scale"][0].contains("instructions"));
   EXPECT_EQ(find_xml_error(read(folder_.path() / "plots/scale.svg")), "");
@@ -104,7 +104,7 @@ TEST_F(BenchCommand, Json_HasAllFiguresAndNoText) {
   EXPECT_EQ(figures["paper_experiment"][0]["places"].size(), 43u);
   ASSERT_EQ(figures["corners"].size(), 4u);
   const auto& score = figures["corners"][0]["methods"][0];
-  EXPECT_EQ(score["turns"], 8);
+  EXPECT_EQ(score["scans"], 8);
   EXPECT_GT(score["recall_supported"], 0.8);
 }
 
@@ -123,7 +123,7 @@ TEST_F(BenchCommand, Plots_AreDrawn) {
   const ProgramRun outcome = run({"--positions", "0", "--plots", plots.string()});
   EXPECT_EQ(outcome.exit_code, tool::kExitDone);
   EXPECT_THAT(outcome.out, Not(HasSubstr("random places")));
-  for (const char* name : {"times", "positions", "turn-altbd", "turn-abd-iepf", "turn-lt"}) {
+  for (const char* name : {"times", "positions", "scan-altbd", "scan-abd-iepf", "scan-lt"}) {
     const std::string picture = read(plots / (std::string(name) + ".svg"));
     EXPECT_EQ(find_xml_error(picture), "") << name;
     EXPECT_GT(count_elements(picture, "polygon"), 2u) << name;

@@ -70,10 +70,10 @@ TEST_F(CalibrateNoise, Model_ChoosesWhatIsWritten) {
   EXPECT_NEAR(settings::load_noise(path("table.json")).sensor.sigma_range_m(0.7), 0.002, 0.0003);
 }
 
-TEST_F(CalibrateNoise, TooFewTurns_AreAFailureThatSaysWhatToDo) {
+TEST_F(CalibrateNoise, TooFewScans_AreAFailureThatSaysWhatToDo) {
   const CommandRun run({"calibrate", "noise", recording("0.002", "1"), "-o", path("noise.json")});
   EXPECT_EQ(run.exit_code, kExitFailed);
-  EXPECT_THAT(run.err, HasSubstr("record some 20 turns"));
+  EXPECT_THAT(run.err, HasSubstr("record some 20 scans"));
   EXPECT_EQ(run.out, "");
   EXPECT_FALSE(std::filesystem::exists(path("noise.json")));
 }
@@ -83,8 +83,8 @@ TEST_F(CalibrateNoise, ReturnsOfNoWall_AreAFailureThatSaysSo) {
     std::mt19937 random(3);
     std::uniform_real_distribution<double> range_m(0.3, 6);
     std::ofstream file(path("chance.ndjson"));
-    for (int turn = 0; turn < 60; ++turn) {
-      nlohmann::json scan = {{"class", "SCAN"}, {"t", 0.2 * turn}, {"duration", 0.18}};
+    for (int i = 0; i < 60; ++i) {
+      nlohmann::json scan = {{"class", "SCAN"}, {"t", 0.2 * i}, {"duration", 0.18}};
       for (int i = 0; i < 300; ++i) {
         scan["angles"].push_back(0.02 * i);
         scan["ranges"].push_back(range_m(random));
@@ -203,10 +203,10 @@ TEST_F(CalibrateBias, MapThatIsNotToScale_IsAnErrorAndWritesNothing) {
   EXPECT_FALSE(std::filesystem::exists(path("bias.json")));
 }
 
-TEST_F(CalibrateBias, TooFewTurns_AreAnError) {
+TEST_F(CalibrateBias, TooFewScans_AreAnError) {
   const CommandRun run({"calibrate", "bias", recording("0.002", "5"), "--map", path("hall.json")});
   EXPECT_EQ(run.exit_code, kExitFailed);
-  EXPECT_THAT(run.err, HasSubstr("turns were found"));
+  EXPECT_THAT(run.err, HasSubstr("scans were found"));
 }
 
 }  // namespace

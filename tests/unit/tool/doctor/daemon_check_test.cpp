@@ -39,7 +39,7 @@ TEST_F(CheckDaemon, RunningLidar_IsGood) {
       check_daemon(stand_in_.patient),
       ElementsAre(
           Finds(Verdict::kGood, "daemon", "cornerd 1.2.3 answers on /run/cornerd/pose.sock"),
-          Finds(Verdict::kGood, "lidar", "running, A1M8 firmware 1.29, health good, 7.1 turns/s")));
+          Finds(Verdict::kGood, "lidar", "running, A1M8 firmware 1.29, health good, 7.1 scans/s")));
 }
 
 TEST_F(CheckDaemon, FaultOfTheLidar_IsToldInTheDaemonsWords) {
@@ -48,7 +48,7 @@ TEST_F(CheckDaemon, FaultOfTheLidar_IsToldInTheDaemonsWords) {
   status.lidar_fault = "dead-laser";
   status.lidar_detail = "/dev/rplidar: its head turns, but nothing returns";
   EXPECT_THAT(check_daemon(stand_in_.patient)[1],
-              Finds(Verdict::kWrong, "lidar", "faulty, dead-laser: /dev/rplidar: its head turns"));
+              Finds(Verdict::kWrong, "lidar", "faulty, dead-laser: /dev/rplidar: its head scans"));
   EXPECT_THAT(check_poses(stand_in_.patient), IsEmpty());
 }
 
@@ -109,7 +109,8 @@ TEST_F(CheckDaemon, NobodyListens_IsExplained) {
   stand_in_.write("/lib/systemd/system/cornerd.service");
   const auto found = check_daemon(stand_in_.patient);
   ASSERT_THAT(found, ElementsAre(Finds(Verdict::kWrong, "daemon", "does not run")));
-  EXPECT_THAT(found[0].remedies, ElementsAre("sudo systemctl start cornerd", HasSubstr("journalctl")));
+  EXPECT_THAT(found[0].remedies,
+              ElementsAre("sudo systemctl start cornerd", HasSubstr("journalctl")));
   stand_in_.run_process(31, "cornerd");
   EXPECT_THAT(
       check_daemon(stand_in_.patient)[0],

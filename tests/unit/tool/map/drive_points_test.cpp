@@ -20,7 +20,7 @@ core::Scan scan_at(core::TimeNs start_ns) {
   return scan;
 }
 
-TEST(DrivePoints, ReturnsBetweenTwoTurns_AreFromBetweenTheirPlaces) {
+TEST(DrivePoints, ReturnBetweenTwoScans_UsesInterpolatedPose) {
   DrivePoints drive;
   drive.add(scan_at(0), core::Pose2{0, 0, 0});
   drive.add(scan_at(kScanNs), core::Pose2{1, 0, 0});
@@ -32,7 +32,7 @@ TEST(DrivePoints, ReturnsBetweenTwoTurns_AreFromBetweenTheirPlaces) {
   EXPECT_NEAR(points[3].x(), 3.5, 1e-9);
 }
 
-TEST(DrivePoints, TurnsLongAgoOrLost_SayNothingOfTheWay) {
+TEST(DrivePoints, ScanLongAgoOrLost_IsNotInterpolated) {
   DrivePoints drive;
   drive.add(scan_at(0), core::Pose2{0, 0, 0});
   drive.add(scan_at(10 * kScanNs), core::Pose2{1, 0, 0});

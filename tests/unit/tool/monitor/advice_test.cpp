@@ -52,12 +52,12 @@ TEST_F(AdviceTest, Lidar_SpeaksForItself) {
   expect(Style::kBad, "lidar faulty, dead-laser", "is it covered?");
 }
 
-TEST_F(AdviceTest, TurnsThatDoNotCome_AreMissed) {
+TEST_F(AdviceTest, NoScans_AdvisesDoctor) {
   take_line(status_line());
-  expect(Style::kWarning, "the lidar runs, and no turn is over yet", "");
+  expect(Style::kWarning, "the lidar runs, and no scan is over yet", "");
   take_line(kFixLine, 5);
   now_ns_ += 5 * core::kNsPerSecond / 2;
-  expect(Style::kBad, "the lidar runs, and no turns come", "doctor");
+  expect(Style::kBad, "the lidar runs, and no scans come", "doctor");
 }
 
 TEST_F(AdviceTest, EachStateWithoutPlace_HasItsOwn) {
@@ -76,19 +76,20 @@ TEST_F(AdviceTest, TooFewFixes_AreCounted) {
   take_line(kFixLine, 14);
   expect(Style::kGood, "all is well", "");
   take_line(kFixLine);
-  expect(Style::kWarning, "5 of the last 20 turns named no place", "not on the map");
+  expect(Style::kWarning, "5 of the last 20 scans named no place", "not on the map");
 }
 
 TEST_F(AdviceTest, SensorsLineAndMessages_ComeLast) {
   take_line(kFixLine, 2);
-  take_line(status_line(R"("state":"running")", R"(,"counters":{"bytes":1000,"skipped_bytes":30})"));
+  take_line(
+      status_line(R"("state":"running")", R"(,"counters":{"bytes":1000,"skipped_bytes":30})"));
   expect(Style::kWarning, "3.0 % of the lidar's bytes were damaged", "cable");
   take_line(status_line(R"("state":"running")",
-                   R"(,"odometry":{"state":"running","sensors":{"gyro":{"state":"running"},)"
-                   R"("left":{"state":"stuck","detail":"does it turn?"}}})"));
+                        R"(,"odometry":{"state":"running","sensors":{"gyro":{"state":"running"},)"
+                        R"("left":{"state":"stuck","detail":"does it turn?"}}})"));
   expect(Style::kWarning, "odometry: left is stuck", "does it turn?");
   take_line(status_line(R"("state":"running")",
-                   R"(,"odometry":{"state":"absent","hint":"lines lack left"})"));
+                        R"(,"odometry":{"state":"absent","hint":"lines lack left"})"));
   expect(Style::kWarning, "odometry: lines lack left", "doctor");
   take_line(status_line());
   take_line("hello");

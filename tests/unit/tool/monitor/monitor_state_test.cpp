@@ -36,7 +36,7 @@ TEST(MonitorState, LostDaemon_TakesItsWordsAlong) {
   EXPECT_EQ(state.events().size(), 1U);
 }
 
-TEST(MonitorState, Turn_BelongsToThePoseBeforeIt) {
+TEST(MonitorState, Scan_GetsPoseBeforeIt) {
   MonitorState state;
   state.connect(0);
   state.take_line(kFixLine, 1);

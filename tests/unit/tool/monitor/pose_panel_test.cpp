@@ -33,7 +33,7 @@ TEST(PosePanel, Fix_IsToldWithItsDoubtAndItsSource) {
             "corners 4, inliers 210\n"
             "rmse 2.1 mm  age 0.4 s\n"
             "\n"
-            "poses 8.0/s  turns 7.1/s\n"
+            "poses 8.0/s  scans 7.1/s\n"
             "samples 1923/s\n"
             "latency 1.2 ms, 99 %: 3.4 ms\n"
             "last 5: 5 fix\n"

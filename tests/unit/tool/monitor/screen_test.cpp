@@ -30,7 +30,7 @@ class Screen : public testing::Test {
     state_.take_line(status_line(), 0);
     choice_.unicode = false;
   }
-  /// One turn that sees the walls ahead and behind, and a corner.
+  /// One scan that sees the walls ahead and behind, and a corner.
   void receive_scan(const std::string& pose) {
     state_.take_line(pose, 0);
     state_.take_line(

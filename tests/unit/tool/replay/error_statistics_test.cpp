@@ -90,7 +90,7 @@ TEST(ErrorStatistics, Report_GivesQuantiles) {
   statistics.add_unknown();
   const std::string report = statistics.report();
   EXPECT_THAT(report, HasSubstr("mean 10.50  median 10.00  95 % 19.00  max 20.00 mm"));
-  EXPECT_THAT(report, HasSubstr("1 turns outside of the truth's time"));
+  EXPECT_THAT(report, HasSubstr("1 scans outside of the truth's time"));
 }
 
 }  // namespace

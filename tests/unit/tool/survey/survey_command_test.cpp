@@ -124,11 +124,11 @@ TEST_F(SurveyCommandTest, LidarAndWheelsThatAreSilentWhileTheRobotGoesOn_AreRefu
   EXPECT_FALSE(std::filesystem::exists(file("map.json")));
 }
 
-TEST_F(SurveyCommandTest, NoTurnInIt_Fails) {
+TEST_F(SurveyCommandTest, NoScanInRecording_Fails) {
   std::ofstream(file("empty.ndjson")) << "";
   const CommandRun run({"survey", file("empty.ndjson"), "-o", file("map.json")});
   EXPECT_EQ(run.exit_code, 1);
-  EXPECT_NE(run.err.find("not one whole turn"), std::string::npos);
+  EXPECT_NE(run.err.find("not one complete scan"), std::string::npos);
 }
 
 TEST_F(SurveyCommandTest, WheelsThatLie_AreLeftOutAndTheReportSaysWhatToCheck) {
@@ -150,7 +150,7 @@ TEST_F(SurveyCommandTest, WheelsThatLie_AreLeftOutAndTheReportSaysWhatToCheck) {
 }
 
 TEST_F(SurveyCommandTest, WheelsThatLieWhereTheLidarAloneIsLost_AreNamedInTheRefusal) {
-  // A lidar of 7.3 Hz sees the next turn 31 degrees on.
+  // A lidar of 7.3 Hz sees the next scan rotated by 31 degrees.
   ASSERT_EQ(CommandRun({"simulate", "--map", arena_, "--path", "0.9,0.9 0.9,1.5 1.15,1.15 0.9,0.9",
                         "--loop", "--scans", "120", "--odometry", "--turn-speed", "4", "-o",
                         file("one.ndjson")})
@@ -175,7 +175,7 @@ TEST_F(SurveyCommandTest, WheelsOfAnotherSize_AreLearnedAndSaid) {
   EXPECT_NE(run.out.find("WARNING: the left wheel differs by +3"), std::string::npos) << run.out;
 }
 
-TEST_F(SurveyCommandTest, TooFewTurns_SaysHowManyThereWere) {
+TEST_F(SurveyCommandTest, TooFewScans_SaysHowManyThereWere) {
   ASSERT_EQ(CommandRun({"simulate", "--map", arena_, "--path", "0.9,0.9 0.9,1.5", "--scans", "4",
                         "-o", file("a.ndjson")})
                 .exit_code,
@@ -214,13 +214,13 @@ TEST_F(SurveyCommandTest, OdometryBesideClocksThatBeginAnew_NamesTheFiles) {
   EXPECT_NE(run.err.find("one.odometry does not tell"), std::string::npos) << run.err;
 }
 
-TEST_F(SurveyCommandTest, RecordingWithoutATurnBesideOthers_IsNamed) {
+TEST_F(SurveyCommandTest, OneRecordingWithoutScan_IsNamed) {
   simulate(file("one.ndjson"), file("truth"), "1");
   std::ofstream(file("two.ndjson")) << R"({"class":"ODOMETRY","t":0.000000,"left":0,"right":0})"
                                     << "\n";
   const CommandRun run({"survey", file("one.ndjson"), file("two.ndjson"), "-o", file("map.json")});
   EXPECT_EQ(run.exit_code, 1);
-  EXPECT_NE(run.err.find("two.ndjson: not one whole turn"), std::string::npos) << run.err;
+  EXPECT_NE(run.err.find("two.ndjson: not one complete scan"), std::string::npos) << run.err;
   EXPECT_NE(run.err.find("--odometry"), std::string::npos) << run.err;
 }
 
