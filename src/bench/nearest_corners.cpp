@@ -10,9 +10,9 @@
 namespace cornerd::bench {
 namespace {
 
-constexpr double kLeastBaseline_m = 0.10;
+constexpr double kMinBaseline_m = 0.10;
 
-struct Recognised {
+struct MatchedCorner {
   core::Vec2 seen;    ///< lidar frame
   core::Vec2 on_map;  ///< map frame
 };
@@ -29,40 +29,41 @@ std::optional<core::Vec2> corner_near(const core::WallMap& map, const core::Vec2
   return nearest;
 }
 
-/// Recognised corners, the nearest to the sensor first.
-std::vector<Recognised> recognise(std::span<const core::Breakpoint> breakpoints,
-                                  const core::WallMap& map, const core::Pose2& T_map_lidar) {
-  std::vector<Recognised> corners;
+/// MatchedCorner corners, the nearest to the sensor first.
+std::vector<MatchedCorner> match_corners(std::span<const core::Breakpoint> breakpoints,
+                                         const core::WallMap& map, const core::Pose2& T_map_lidar) {
+  std::vector<MatchedCorner> corners;
   for (const core::Breakpoint& breakpoint : breakpoints) {
     if (breakpoint.kind != core::BreakpointKind::kCorner) continue;
     const auto on_map = corner_near(map, T_map_lidar * breakpoint.position);
     if (on_map) corners.push_back({breakpoint.position, *on_map});
   }
-  std::stable_sort(corners.begin(), corners.end(), [](const Recognised& a, const Recognised& b) {
-    return a.seen.squaredNorm() < b.seen.squaredNorm();
-  });
+  std::stable_sort(corners.begin(), corners.end(),
+                   [](const MatchedCorner& a, const MatchedCorner& b) {
+                     return a.seen.squaredNorm() < b.seen.squaredNorm();
+                   });
   return corners;
 }
 
 }  // namespace
 
 std::optional<core::Pose2> pose_from_nearest_corners(std::span<const core::Breakpoint> breakpoints,
-                                                    const core::WallMap& map,
-                                                    const core::Pose2& T_map_lidar) {
-  const std::vector<Recognised> corners = recognise(breakpoints, map, T_map_lidar);
+                                                     const core::WallMap& map,
+                                                     const core::Pose2& T_map_lidar) {
+  const std::vector<MatchedCorner> corners = match_corners(breakpoints, map, T_map_lidar);
   if (corners.size() < 2) return std::nullopt;
-  const Recognised& first = corners.front();
+  const MatchedCorner& first = corners.front();
   const auto second =
-      std::find_if(corners.begin() + 1, corners.end(), [&](const Recognised& other) {
-        return (other.on_map - first.on_map).norm() > kLeastBaseline_m;
+      std::find_if(corners.begin() + 1, corners.end(), [&](const MatchedCorner& other) {
+        return (other.on_map - first.on_map).norm() > kMinBaseline_m;
       });
   if (second == corners.end()) return std::nullopt;
 
   const double theta_rad = core::normalize_angle(core::angle_of(second->on_map - first.on_map) -
                                                  core::angle_of(second->seen - first.seen));
   const core::Pose2 turned{0, 0, theta_rad};
-  const core::Vec2 middle_of_seen = (first.seen + second->seen) / 2;
-  const core::Vec2 place = (first.on_map + second->on_map) / 2 - turned * middle_of_seen;
+  const core::Vec2 measured_middle = (first.seen + second->seen) / 2;
+  const core::Vec2 place = (first.on_map + second->on_map) / 2 - turned * measured_middle;
   return core::Pose2{place.x(), place.y(), theta_rad};
 }
 

@@ -12,7 +12,7 @@ namespace {
 using core::HeadingSource;
 
 /// How often the truth is looked at: at the ends of the paper's steps.
-constexpr core::TimeNs kLook_ns = kPaperStep_ns;
+constexpr core::TimeNs kTruthPeriod_ns = kPaperStep_ns;
 
 struct Drive {
   core::DriveGeometry geometry;
@@ -55,7 +55,7 @@ Drive drive_once(const OdometryRobot& robot, const replay::Scenario& scenario, s
     if (const auto step = gate.add(odometry.next(), std::nullopt)) drive.steps.push_back(*step);
   }
   drive.paper_steps = joined(drive.steps);
-  for (core::TimeNs t_ns = 0; t_ns <= end_ns; t_ns += kLook_ns) {
+  for (core::TimeNs t_ns = 0; t_ns <= end_ns; t_ns += kTruthPeriod_ns) {
     drive.places.push_back({t_ns, motion(t_ns, 0)});
   }
   return drive;

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "bench/methods.hpp"
-#include "bench/paper_places.hpp"
+#include "bench/paper_poses.hpp"
 #include "core/breakpoint/breakpoint.hpp"
 #include "core/scan.hpp"
 #include "replay/simulator/sensor_model.hpp"

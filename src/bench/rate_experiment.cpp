@@ -15,7 +15,7 @@
 namespace cornerd::bench {
 namespace {
 
-constexpr double kSlowly_m_s = 0.25;
+constexpr double kSlowSpeed_m_s = 0.25;
 
 void score_scan(const core::PoseEstimate& pose, const core::Pose2& truth, RateResult& result) {
   ++result.scans;
@@ -34,7 +34,7 @@ void score_scan(const core::PoseEstimate& pose, const core::Pose2& truth, RateRe
 
 RateResult run_rate_case(std::shared_ptr<const core::WallMap> map, double rate_hz, bool gently,
                          std::size_t scans, std::uint64_t seed) {
-  replay::DriveConfig drive = gentle_drive(kSlowly_m_s);
+  replay::DriveConfig drive = gentle_drive(kSlowSpeed_m_s);
   if (!gently) drive.acceleration_m_s2 = drive.yaw_acceleration_rad_s2 = 0;
   const replay::Motion motion =
       replay::drive_path(replay::find_scenario("exploration")->path, drive);

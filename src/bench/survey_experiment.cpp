@@ -55,7 +55,7 @@ LocalizationScore localize_drive(std::shared_ptr<const core::WallMap> map,
 namespace {
 
 /// More corners than this in a flat are noise, and no map: nobody waits for a localizer in them.
-constexpr std::size_t kMostCorners = 2000;
+constexpr std::size_t kMaxCorners = 2000;
 /// Turns of the second drive: once through all rooms.
 constexpr std::size_t kSecondScans = 1200;
 
@@ -84,19 +84,19 @@ SurveyExperiment run_survey_experiment(std::shared_ptr<const core::WallMap> map,
     made.result.plan.name = title;
     const auto found = std::make_shared<const core::WallMap>(made.result.plan);
     made.score = score_survey(*map, driven.T_map_base, *found, driven.T_map_base.front());
-    if (found->corners().size() < kMostCorners) {
+    if (found->corners().size() < kMaxCorners) {
       made.second_drive = localize_drive(found, second, made.score.T_true_map);
     }
     experiment.cases.push_back(std::move(made));
   };
   add("adjusted", drive, [&] { return survey::survey(drive.drive, {}); });
-  core::LocalizerConfig taught;
-  taught.odometry.initial =
+  core::LocalizerConfig calibrated;
+  calibrated.odometry.initial =
       experiment.cases.front().result.learned.value_or(core::OdometryParameters());
   add("adjusted, lidar alone", alone, [&] { return survey::survey(alone.drive, {}); });
   add("ransac", drive, [&] { return survey::ransac_survey(drive.drive, {}, {}); });
   add("ransac, odometry taught", drive,
-      [&] { return survey::ransac_survey(drive.drive, taught, {}); });
+      [&] { return survey::ransac_survey(drive.drive, calibrated, {}); });
   return experiment;
 }
 

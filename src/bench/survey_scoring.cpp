@@ -15,21 +15,21 @@ using core::Vec2;
 
 constexpr double kCell_m = 0.02;
 /// Rays on a cell that was seen: well over a drive, not at its edge.
-constexpr int kRaysOfASeenCell = 10;
-constexpr double kReach_m = 6;
-constexpr double kLeastWall_m = 0.3;
-constexpr double kLeastShare = 0.95;
+constexpr int kMinRaysPerCell = 10;
+constexpr double kMaxRange_m = 6;
+constexpr double kMinWall_m = 0.3;
+constexpr double kMinFoundShare = 0.95;
 /// A wall of the map is on a true one within this, and looks the same way.
 constexpr double kOnWall_m = 0.03;
-const double kSameWay = std::cos(core::radians(10));
+const double kMinNormalCosine = std::cos(core::radians(10));
 /// A corner is looked for so far off; seen where both walls were seen this near to it.
-constexpr double kCornerReach_m = 0.10;
-constexpr double kUpToCorner_m = 0.08;
+constexpr double kCornerSearchRadius_m = 0.10;
+constexpr double kMaxDistanceToCorner_m = 0.08;
 
 /// Which cells of the true faces were seen.
-class SeenWalls {
+class VisibleWalls {
  public:
-  SeenWalls(const core::WallMap& map, std::span<const core::Pose2> places) : map_(map) {
+  VisibleWalls(const core::WallMap& map, std::span<const core::Pose2> places) : map_(map) {
     for (const core::Face& face : map.faces()) {
       rays_.emplace_back(static_cast<std::size_t>(std::ceil(face.length_m / kCell_m)), 0);
     }
@@ -37,7 +37,7 @@ class SeenWalls {
     core::PolarScan scan;
     scan.begin(core::kTwoPi / kRays);
     for (int i = 0; i < kRays; ++i) scan.append(-core::kPi + (i + 0.5) * core::kTwoPi / kRays, 1);
-    core::RayCaster prediction(kReach_m);
+    core::RayCaster prediction(kMaxRange_m);
     for (const core::Pose2& place : places) {
       const auto hits = prediction.cast(map, place, scan.points());
       for (std::size_t i = 0; i < hits.size(); ++i) count(place, scan[i], hits[i]);
@@ -46,7 +46,7 @@ class SeenWalls {
 
   std::size_t cells(std::size_t face) const { return rays_[face].size(); }
   bool sees(std::size_t face, std::size_t cell) const {
-    return rays_[face][cell] >= kRaysOfASeenCell;
+    return rays_[face][cell] >= kMinRaysPerCell;
   }
   Vec2 place_of(std::size_t face, std::size_t cell) const {
     const core::Face& wall = map_.faces()[face];
@@ -55,7 +55,8 @@ class SeenWalls {
   /// Something of the face was seen this near to the point.
   bool sees_near(std::size_t face, const Vec2& point) const {
     for (std::size_t cell = 0; cell < cells(face); ++cell) {
-      if (sees(face, cell) && (place_of(face, cell) - point).norm() < kUpToCorner_m) return true;
+      if (sees(face, cell) && (place_of(face, cell) - point).norm() < kMaxDistanceToCorner_m)
+        return true;
     }
     return false;
   }
@@ -131,7 +132,7 @@ core::Pose2 align(std::span<const Pair> pairs, const core::Pose2& otherwise) {
 }
 
 /// Corners both of whose faces were seen up to them.
-std::vector<core::Corner> seen_corners(const core::WallMap& truth, const SeenWalls& seen) {
+std::vector<core::Corner> seen_corners(const core::WallMap& truth, const VisibleWalls& seen) {
   std::vector<core::Corner> corners;
   for (const core::Corner& corner : truth.corners()) {
     int faces = 0;
@@ -148,7 +149,7 @@ std::vector<core::Corner> seen_corners(const core::WallMap& truth, const SeenWal
   return corners;
 }
 
-void score_walls(const core::WallMap& truth, const SeenWalls& seen, const core::WallMap& found,
+void score_walls(const core::WallMap& truth, const VisibleWalls& seen, const core::WallMap& found,
                  SurveyScore& score) {
   std::vector<core::Face> faces(found.faces().begin(), found.faces().end());
   for (core::Face& face : faces) {
@@ -165,15 +166,15 @@ void score_walls(const core::WallMap& truth, const SeenWalls& seen, const core::
       ++cells;
       const Vec2 place = seen.place_of(i, cell);
       hits += std::any_of(faces.begin(), faces.end(), [&](const core::Face& face) {
-        return face.normal.dot(truth.faces()[i].normal) > kSameWay &&
+        return face.normal.dot(truth.faces()[i].normal) > kMinNormalCosine &&
                distance_to(face, place) < kOnWall_m;
       });
     }
     score.seen_m += kCell_m * static_cast<double>(cells);
     score.found_m += kCell_m * static_cast<double>(hits);
-    if (kCell_m * static_cast<double>(cells) < kLeastWall_m) continue;
+    if (kCell_m * static_cast<double>(cells) < kMinWall_m) continue;
     ++score.walls_seen;
-    if (static_cast<double>(hits) >= kLeastShare * static_cast<double>(cells)) {
+    if (static_cast<double>(hits) >= kMinFoundShare * static_cast<double>(cells)) {
       ++score.walls_found;
     } else {
       score.missed.push_back((truth.faces()[i].from + truth.faces()[i].to) / 2);
@@ -197,16 +198,16 @@ void score_walls(const core::WallMap& truth, const SeenWalls& seen, const core::
 
 SurveyScore score_survey(const core::WallMap& truth, std::span<const core::Pose2> places,
                          const core::WallMap& found, const core::Pose2& start) {
-  const SeenWalls seen(truth, places);
+  const VisibleWalls seen(truth, places);
   const std::vector<core::Corner> corners = seen_corners(truth, seen);
   SurveyScore score;
   score.T_true_map = start;
   // From far to near: a map by odometry alone lies askew.
-  for (const double reach_m : {0.5, 0.25, kCornerReach_m, kCornerReach_m}) {
+  for (const double reach_m : {0.5, 0.25, kCornerSearchRadius_m, kCornerSearchRadius_m}) {
     score.T_true_map =
         align(pair_corners(corners, found, score.T_true_map, reach_m), score.T_true_map);
   }
-  const auto pairs = pair_corners(corners, found, score.T_true_map, kCornerReach_m);
+  const auto pairs = pair_corners(corners, found, score.T_true_map, kCornerSearchRadius_m);
   score.corners_seen = corners.size();
   score.corners_found = pairs.size();
   for (const Pair& pair : pairs) {

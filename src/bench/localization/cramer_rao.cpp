@@ -9,7 +9,7 @@ namespace cornerd::bench {
 namespace {
 
 /// Returns farther than this from the wall, in standard deviations, are outliers.
-constexpr double kOfTheWall = 6;
+constexpr double kOutlierSigmas = 6;
 
 }  // namespace
 
@@ -26,11 +26,11 @@ core::Covariance3 CramerRao::bound(const core::WallMap& map, const core::Pose2& 
     const double sine = std::abs(face.normal.dot(ray));
     const double variance_m2 = noise_.variance_across_m2(range_m, sine);
     const double across_m = (scan[i].range_m - range_m) * sine;
-    if (across_m * across_m > kOfTheWall * kOfTheWall * variance_m2) continue;
+    if (across_m * across_m > kOutlierSigmas * kOutlierSigmas * variance_m2) continue;
     const core::Vec2 arm = range_m * ray;
-    const Eigen::Vector3d slope(face.normal.x(), face.normal.y(),
-                                face.normal.y() * arm.x() - face.normal.x() * arm.y());
-    information += slope * slope.transpose() / variance_m2;
+    const Eigen::Vector3d jacobian(face.normal.x(), face.normal.y(),
+                                   face.normal.y() * arm.x() - face.normal.x() * arm.y());
+    information += jacobian * jacobian.transpose() / variance_m2;
   }
   const core::Covariance3 bound = core::inverse(information);
   return bound.allFinite() ? bound : core::Covariance3::Zero();

@@ -9,6 +9,7 @@
 #include "bench/building.hpp"
 #include "bench/localization/cramer_rao.hpp"
 #include "bench/localization/world.hpp"
+#include "core/localizer.hpp"
 #include "replay/simulator/scan_simulator.hpp"
 #include "replay/simulator/simulated_odometry.hpp"
 
@@ -61,9 +62,9 @@ class Robot {
     }
     const replay::Motion motion = circling(start, trial_.motion);
     replay::SimulatedOdometry odometry(motion, {}, seed_++);
-    std::vector<RoundObstacle> things;
+    std::vector<RoundObstacle> obstacles;
     if (trial_.clutter > 0) {
-      things = clutter_around(world, start.translation(), trial_.clutter, random_);
+      obstacles = clutter_around(world, start.translation(), trial_.clutter, random_);
     }
     for (std::size_t k = 0; k < trial_.scans_each; ++k) {
       const auto start_ns = static_cast<core::TimeNs>(k) * trial_.scan_ns;
@@ -71,7 +72,7 @@ class Robot {
         const core::Pose2 at = motion(t_ns, 0);
         const double angle_rad = at.theta_rad + bearing_rad;
         return range_with_obstacles(
-            things, at.translation(), angle_rad,
+            obstacles, at.translation(), angle_rad,
             world.range_along(at.translation(), angle_rad, replay::ScanSimulator::kMaxRange_m));
       });
       if (trial_.updates_per_scan > 1) {
@@ -121,9 +122,9 @@ class Robot {
 }  // namespace
 
 std::vector<Trial> default_trials(const Maps& arenas,
-                                const std::shared_ptr<const core::WallMap>& flat) {
+                                  const std::shared_ptr<const core::WallMap>& flat) {
   constexpr double kDisplaced_m = 0.03;
-  constexpr core::TimeNs kSlowTurn_ns = 181'818'182;  // 5.5 turns a second
+  constexpr core::TimeNs kSlowScan_ns = 181'818'182;  // 5.5 turns a second
   const CircularMotion brisk{0.5, 1.5};
   const replay::SensorModel usual;
   const auto with = [&](auto&& change) {
@@ -168,7 +169,7 @@ std::vector<Trial> default_trials(const Maps& arenas,
                           home);
       moving.motion = brisk;
       moving.scans_each = 30;
-      moving.scan_ns = kSlowTurn_ns;
+      moving.scan_ns = kSlowScan_ns;
       moving.odometry = odometry;
       moving.updates_per_scan = updates;
     }

@@ -26,7 +26,7 @@ struct Trial {
   std::string title;
   std::vector<MappedBuilding> buildings;
   replay::SensorModel sensor;
-  double clutter = 0;          ///< share of the rays that things stop
+  double clutter = 0;          ///< share of the rays that obstacles stop
   std::size_t scans_each = 1;  ///< at a place, or on a circle; each begins without a prior
   CircularMotion motion;
   std::size_t updates_per_scan = 1;  ///< above 1, the poses of parts of a turn are judged alone
@@ -37,7 +37,7 @@ struct Trial {
 /// Those of the bench: precision, bias, adversity and motion, in these layouts of the arena and,
 /// where a robot needs room to move, in this flat.
 std::vector<Trial> default_trials(const std::vector<std::shared_ptr<const core::WallMap>>& arenas,
-                                const std::shared_ptr<const core::WallMap>& flat);
+                                  const std::shared_ptr<const core::WallMap>& flat);
 
 /// `places` random ones, shared by the trial's buildings, turns of 800 samples.
 PoseScore run_trial(const Trial& trial, std::size_t places, std::uint64_t seed,

@@ -14,52 +14,53 @@ using core::Vec2;
 
 constexpr double kMinDoor_m = 0.3;
 constexpr double kMaxDoor_m = 1.2;
-constexpr double kWorldSight_m = 100;
+constexpr double kWorldRange_m = 100;
 /// Rays by which the share of a turn is judged.
 constexpr int kClutterRays = 360;
 
 double share_stopped(const core::WallMap& map, const Vec2& place,
-                     const std::vector<RoundObstacle>& things) {
+                     const std::vector<RoundObstacle>& obstacles) {
   int stopped = 0;
   for (int i = 0; i < kClutterRays; ++i) {
     const double angle_rad = core::kTwoPi * i / kClutterRays;
-    const double range_m = map.range_along(place, angle_rad, kWorldSight_m);
-    stopped += range_with_obstacles(things, place, angle_rad, range_m) < range_m ? 1 : 0;
+    const double range_m = map.range_along(place, angle_rad, kWorldRange_m);
+    stopped += range_with_obstacles(obstacles, place, angle_rad, range_m) < range_m ? 1 : 0;
   }
   return static_cast<double>(stopped) / kClutterRays;
 }
 
 }  // namespace
 
-double range_with_obstacles(const std::vector<RoundObstacle>& things, const Vec2& origin, double angle_rad,
-                  double range_m) {
+double range_with_obstacles(const std::vector<RoundObstacle>& obstacles, const Vec2& origin,
+                            double angle_rad, double range_m) {
   const Vec2 ray = core::unit_vector(angle_rad);
-  for (const RoundObstacle& thing : things) {
-    const Vec2 to = thing.centre - origin;
+  for (const RoundObstacle& obstacle : obstacles) {
+    const Vec2 to = obstacle.centre - origin;
     const double along_m = to.dot(ray);
     const double aside_m = core::cross(ray, to);
-    if (along_m <= 0 || std::abs(aside_m) >= thing.radius_m) continue;
-    const double hit_m = along_m - std::sqrt(thing.radius_m * thing.radius_m - aside_m * aside_m);
+    if (along_m <= 0 || std::abs(aside_m) >= obstacle.radius_m) continue;
+    const double hit_m =
+        along_m - std::sqrt(obstacle.radius_m * obstacle.radius_m - aside_m * aside_m);
     if (hit_m > 0 && (range_m == 0 || hit_m < range_m)) range_m = hit_m;
   }
   return range_m;
 }
 
 std::vector<RoundObstacle> clutter_around(const core::WallMap& map, const Vec2& place, double share,
-                                       replay::Random& random) {
+                                          replay::Random& random) {
   constexpr double kNearest_m = 0.25;
   constexpr double kSmallest_m = 0.02;  // a chair's leg
   constexpr double kLargest_m = 0.2;    // a person
-  std::vector<RoundObstacle> things;
-  while (share_stopped(map, place, things) < share) {
+  std::vector<RoundObstacle> obstacles;
+  while (share_stopped(map, place, obstacles) < share) {
     const double angle_rad = random.uniform(0, core::kTwoPi);
-    const double range_m = map.range_along(place, angle_rad, kWorldSight_m);
+    const double range_m = map.range_along(place, angle_rad, kWorldRange_m);
     const double radius_m = random.uniform(kSmallest_m, kLargest_m);
     const double centre_m = random.uniform(kNearest_m, std::max(kNearest_m, range_m));
     if (centre_m - radius_m < kNearest_m / 2) continue;
-    things.push_back({place + centre_m * core::unit_vector(angle_rad), radius_m});
+    obstacles.push_back({place + centre_m * core::unit_vector(angle_rad), radius_m});
   }
-  return things;
+  return obstacles;
 }
 
 std::vector<core::Wall> doors_of(const core::WallMap& map) {
@@ -107,8 +108,8 @@ std::vector<core::FloorPlan> with_a_wall_displaced(const core::WallMap& map, dou
 namespace {
 
 constexpr double kCircleClearance_m = 0.15;
-constexpr std::size_t kPlacesAtOnce = 16;
-constexpr std::size_t kMostCircleTries = 500;
+constexpr std::size_t kPosesAtOnce = 16;
+constexpr std::size_t kMaxCircleTries = 500;
 
 bool is_clear(const core::WallMap& world, const core::Vec2& centre, double radius_m) {
   // So near each other that no wall slips through between two of them.
@@ -143,9 +144,9 @@ std::vector<core::Pose2> random_circles(const core::WallMap& world, const Circul
   std::vector<core::Pose2> starts;
   const double radius_m = motion.speed_m_s / motion.yaw_rate_rad_s;
   for (std::size_t tries = 0; starts.size() < count; ++tries) {
-    if (tries == kMostCircleTries) throw std::runtime_error("no room for a circle of that size");
+    if (tries == kMaxCircleTries) throw std::runtime_error("no room for a circle of that size");
     for (const core::Pose2& place :
-         replay::random_poses(world, kPlacesAtOnce, kCircleClearance_m, seed + tries)) {
+         replay::random_poses(world, kPosesAtOnce, kCircleClearance_m, seed + tries)) {
       if (starts.size() == count) break;
       if (is_clear(world, place * core::Vec2(0, radius_m), radius_m)) starts.push_back(place);
     }

@@ -13,20 +13,20 @@
 
 namespace cornerd::bench {
 
-/// A thing that is not on the map, upright and round: a person, a bin.
+/// A obstacle that is not on the map, upright and round: a person, a bin.
 struct RoundObstacle {
   core::Vec2 centre = core::Vec2::Zero();
   double radius_m = 0;
 };
 
-/// Distance along a ray to the nearest of `things`, at most `range_m`; 0 where that is 0 and none
-/// is met.
-double range_with_obstacles(const std::vector<RoundObstacle>& things, const core::Vec2& origin, double angle_rad,
-                  double range_m);
+/// Distance along a ray to the nearest of `obstacles`, at most `range_m`; 0 where that is 0 and
+/// none is met.
+double range_with_obstacles(const std::vector<RoundObstacle>& obstacles, const core::Vec2& origin,
+                            double angle_rad, double range_m);
 
 /// Things around a place that stop at least `share` of its rays before the walls do.
 std::vector<RoundObstacle> clutter_around(const core::WallMap& map, const core::Vec2& place,
-                                       double share, replay::Random& random);
+                                          double share, replay::Random& random);
 
 /// The doors of a plan: from a wall's end, straight on over 0.3 to 1.2 m of free floor to what is
 /// next.

@@ -17,23 +17,23 @@ core::WallMap two_rooms() {
 }
 
 TEST(World, RangeWithAThing_EndsAtItsSurface) {
-  const std::vector<RoundObstacle> things = {{{2, 0}, 0.25}};
-  EXPECT_NEAR(range_with_obstacles(things, {0, 0}, 0, 5), 1.75, 1e-12);
-  EXPECT_NEAR(range_with_obstacles(things, {0, 0}, 0, 0), 1.75, 1e-12);
-  EXPECT_EQ(range_with_obstacles(things, {0, 0}, 0, 1), 1);
-  EXPECT_EQ(range_with_obstacles(things, {0, 0}, core::kPi, 5), 5);
+  const std::vector<RoundObstacle> obstacles = {{{2, 0}, 0.25}};
+  EXPECT_NEAR(range_with_obstacles(obstacles, {0, 0}, 0, 5), 1.75, 1e-12);
+  EXPECT_NEAR(range_with_obstacles(obstacles, {0, 0}, 0, 0), 1.75, 1e-12);
+  EXPECT_EQ(range_with_obstacles(obstacles, {0, 0}, 0, 1), 1);
+  EXPECT_EQ(range_with_obstacles(obstacles, {0, 0}, core::kPi, 5), 5);
 }
 
 TEST(World, Clutter_StopsAsManyRaysAsAskedFor) {
   const auto map = replay::make_room();
   replay::Random random(3);
   const core::Vec2 place(1.2, 1.1);
-  const auto things = clutter_around(*map, place, 0.3, random);
+  const auto obstacles = clutter_around(*map, place, 0.3, random);
   int stopped = 0;
   for (int i = 0; i < 3600; ++i) {
     const double angle_rad = core::radians(0.1 * i);
     const double range_m = map->range_along(place, angle_rad, 100);
-    stopped += range_with_obstacles(things, place, angle_rad, range_m) < range_m ? 1 : 0;
+    stopped += range_with_obstacles(obstacles, place, angle_rad, range_m) < range_m ? 1 : 0;
   }
   EXPECT_GT(stopped, 0.29 * 3600);
   EXPECT_LT(stopped, 0.6 * 3600);

@@ -20,13 +20,13 @@ struct CoveredLidarCase {
   std::string_view title;
   replay::RobotModel robot;
   replay::SensorModel lidar;
-  double first_s = 30;  ///< of driving until the lidar is covered for the first time
-  double again_s = 12;  ///< from then to the next time, and so on
-  double covered_s = 5;
+  double first_cover_s = 30;   ///< of driving until the lidar is covered for the first time
+  double cover_period_s = 12;  ///< from then to the next time, and so on
+  double cover_duration_s = 5;
   double duration_s = 300;
   /// Each drive has a robot of its own, with errors drawn from core::OdometryNoise.
   bool draws_errors = false;
-  std::size_t drives_for_one = 1;  ///< where they are short: so many instead of one
+  std::size_t drive_factor = 1;  ///< where they are short: so many instead of one
 };
 
 /// Poses against the truth, and what they say of their doubt.
@@ -56,7 +56,8 @@ std::vector<CoveredLidarCase> covered_lidar_cases();
 
 /// A pose is carried on for every reading of the wheels (OdometryConfig::publish). Same input, same
 /// result.
-CoveredLidarResult run_covered_lidar_case(std::shared_ptr<const core::WallMap> map, const CoveredLidarCase& blind,
-                           std::uint64_t seed, std::size_t drives);
+CoveredLidarResult run_covered_lidar_case(std::shared_ptr<const core::WallMap> map,
+                                          const CoveredLidarCase& test_case, std::uint64_t seed,
+                                          std::size_t drives);
 
 }  // namespace cornerd::bench

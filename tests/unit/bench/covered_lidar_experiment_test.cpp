@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "bench/blind_experiment.hpp"
+#include "bench/covered_lidar_experiment.hpp"
 
 #include <gtest/gtest.h>
 
@@ -16,11 +16,11 @@ namespace {
 
 CoveredLidarResult run(std::string_view title, std::size_t drives) {
   const auto cases = covered_lidar_cases();
-  const auto blind = std::find_if(cases.begin(), cases.end(),
-                                  [&](const CoveredLidarCase& one) { return one.title == title; });
-  if (blind == cases.end()) throw std::invalid_argument(std::string(title));
-  return run_covered_lidar_case(settings::load_map(CORNERD_SOURCE_DIR "/config/maps/flat-7.json"), *blind,
-                        1, drives);
+  const auto test_case = std::find_if(
+      cases.begin(), cases.end(), [&](const CoveredLidarCase& one) { return one.title == title; });
+  if (test_case == cases.end()) throw std::invalid_argument(std::string(title));
+  return run_covered_lidar_case(settings::load_map(CORNERD_SOURCE_DIR "/config/maps/flat-7.json"),
+                                *test_case, 1, drives);
 }
 
 /// 3 is exact. Two drives are a rough measure, and the filter reckons with a little more noise than
@@ -45,9 +45,9 @@ void expect_honest(const PoseConsistency& poses, double most_nees, double least_
   EXPECT_GT(poses.share_within, least_share) << which;
 }
 
-class BlindRobot : public testing::TestWithParam<RobotBounds> {};
+class CoveredLidarRobot : public testing::TestWithParam<RobotBounds> {};
 
-TEST_P(BlindRobot, FixesAndCarriedOnPoses_AreHonest) {
+TEST_P(CoveredLidarRobot, FixesAndCarriedOnPoses_AreHonest) {
   const RobotBounds& bounds = GetParam();
   const CoveredLidarResult result = run(bounds.title, 2);
   // Bold fixes have fewer within.
@@ -60,7 +60,7 @@ TEST_P(BlindRobot, FixesAndCarriedOnPoses_AreHonest) {
 
 // Without a gyro they are a little bolder than honest: those bounds hold what is (README.md of
 // core/odometry).
-INSTANTIATE_TEST_SUITE_P(Robots, BlindRobot,
+INSTANTIATE_TEST_SUITE_P(Robots, CoveredLidarRobot,
                          testing::Values(RobotBounds{"16 cm robot"}, RobotBounds{"twice the noise"},
                                          RobotBounds{"slips every 3 m"},
                                          RobotBounds{"counts of 5 mm"},
@@ -70,7 +70,7 @@ INSTANTIATE_TEST_SUITE_P(Robots, BlindRobot,
                                          RobotBounds{"no gyro, twice the noise", 7, 5, 0.8},
                                          RobotBounds{"Pioneer, no gyro", kMostNees, 5, 0.8}));
 
-TEST(BlindExperiment, SlipsThatNoGyroSees_LeaveTheFixesRight) {
+TEST(CoveredLidarExperiment, SlipsThatNoGyroSees_LeaveTheFixesRight) {
   const PoseConsistency fixes = run("no gyro, slips every 3 m", 2).fixes;
   EXPECT_GT(fixes.poses, 2600u);
   EXPECT_LT(fixes.mean_m, 0.0012);
@@ -78,19 +78,19 @@ TEST(BlindExperiment, SlipsThatNoGyroSees_LeaveTheFixesRight) {
   EXPECT_GT(fixes.share_within, 0.85);
 }
 
-TEST(BlindExperiment, CarriedOnPoses_AreGoodForFiveSeconds) {
+TEST(CoveredLidarExperiment, CarriedOnPoses_AreGoodForFiveSeconds) {
   for (const AgeConsistency& ages : run("16 cm robot", 1).predicted) {
     EXPECT_LT(ages.worst_m, 0.01) << ages.from_s;
   }
 }
 
-TEST(BlindExperiment, CoarseCounts_CostNoMoreThanACount) {
+TEST(CoveredLidarExperiment, CoarseCounts_CostNoMoreThanACount) {
   for (const AgeConsistency& ages : run("counts of 5 mm", 1).predicted) {
     EXPECT_LT(ages.mean_m, 0.003) << ages.from_s;
   }
 }
 
-TEST(BlindExperiment, LidarThatIsOff_IsLearntOnTheWay) {
+TEST(CoveredLidarExperiment, LidarThatIsOff_IsLearntOnTheWay) {
   for (const AgeConsistency& ages : run("a lidar off by 5 mm and 0.5 %", 1).predicted) {
     EXPECT_GT(ages.mean_nees, 1) << ages.from_s;
     EXPECT_LT(ages.mean_nees, 4) << ages.from_s;
@@ -98,7 +98,7 @@ TEST(BlindExperiment, LidarThatIsOff_IsLearntOnTheWay) {
   }
 }
 
-TEST(BlindExperiment, RobotsAsWrongAsTold_AreHonestBeforeMuchIsLearned) {
+TEST(CoveredLidarExperiment, RobotsAsWrongAsTold_AreHonestBeforeMuchIsLearned) {
   // The fixes' own doubt, which has yet to be learned, makes them cautious at first.
   const auto result = run("after 3 s, robots drawn", 4).predicted;
   for (const AgeConsistency& ages : result) EXPECT_LT(ages.mean_nees, 4) << ages.from_s;
@@ -108,7 +108,7 @@ TEST(BlindExperiment, RobotsAsWrongAsTold_AreHonestBeforeMuchIsLearned) {
   }
 }
 
-TEST(BlindExperiment, SameSeed_GivesTheSameFigures) {
+TEST(CoveredLidarExperiment, SameSeed_GivesTheSameFigures) {
   const auto one = run("after 3 s, robots drawn", 1).predicted;
   const auto again = run("after 3 s, robots drawn", 1).predicted;
   for (std::size_t i = 0; i < one.size(); ++i) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "bench/paper_places.hpp"
+#include "bench/paper_poses.hpp"
 
 #include <gtest/gtest.h>
 

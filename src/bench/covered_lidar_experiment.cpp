@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "bench/blind_experiment.hpp"
+#include "bench/covered_lidar_experiment.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -37,31 +37,31 @@ class CoveredLidarScore {
   }
 
  private:
-  static void add_to(PoseConsistency& honesty, const core::PoseEstimate& pose,
+  static void add_to(PoseConsistency& consistency, const core::PoseEstimate& pose,
                      const core::Pose2& truth) {
     const replay::PoseError error = replay::error_of(pose.T_map_base, truth);
     const double nees = replay::normalised_error_squared(pose, truth)
                             .value_or(std::numeric_limits<double>::infinity());
-    ++honesty.poses;
-    honesty.mean_m += error.position_m;
-    honesty.worst_m = std::max(honesty.worst_m, error.position_m);
-    honesty.worst_rad = std::max(honesty.worst_rad, error.heading_rad);
-    honesty.mean_nees += nees;
-    honesty.share_within += nees < replay::kNees95 ? 1 : 0;
+    ++consistency.poses;
+    consistency.mean_m += error.position_m;
+    consistency.worst_m = std::max(consistency.worst_m, error.position_m);
+    consistency.worst_rad = std::max(consistency.worst_rad, error.heading_rad);
+    consistency.mean_nees += nees;
+    consistency.share_within += nees < replay::kNees95 ? 1 : 0;
   }
-  static void make_means(PoseConsistency& honesty) {
-    const auto poses = static_cast<double>(std::max<std::size_t>(honesty.poses, 1));
-    honesty.mean_m /= poses;
-    honesty.mean_nees /= poses;
-    honesty.share_within /= poses;
+  static void make_means(PoseConsistency& consistency) {
+    const auto poses = static_cast<double>(std::max<std::size_t>(consistency.poses, 1));
+    consistency.mean_m /= poses;
+    consistency.mean_nees /= poses;
+    consistency.share_within /= poses;
   }
 
   CoveredLidarResult& result_;
 };
 
-bool is_covered(const CoveredLidarCase& blind, core::TimeNs t_ns) {
-  const double since_s = core::to_seconds(t_ns) - blind.first_s;
-  return since_s >= 0 && std::fmod(since_s, blind.again_s) < blind.covered_s;
+bool is_covered(const CoveredLidarCase& test_case, core::TimeNs t_ns) {
+  const double since_s = core::to_seconds(t_ns) - test_case.first_cover_s;
+  return since_s >= 0 && std::fmod(since_s, test_case.cover_period_s) < test_case.cover_duration_s;
 }
 
 /// Seeds of the lidar, of wheels and gyro and of the robot: no two drives share any of them.
@@ -80,19 +80,20 @@ void draw_errors(replay::RobotModel& robot, std::uint64_t seed) {
   robot.gyro_bias_rad_s = told.gyro_bias_rad_s * random.normal();
 }
 
-void drive_blind(std::shared_ptr<const core::WallMap> map, const CoveredLidarCase& blind,
-                 std::uint64_t seed, CoveredLidarScore& score) {
+void simulate_covered_drive(std::shared_ptr<const core::WallMap> map,
+                            const CoveredLidarCase& test_case, std::uint64_t seed,
+                            CoveredLidarScore& score) {
   const replay::Motion motion =
       replay::drive_path(replay::find_scenario("exploration")->path, gentle_drive());
   replay::SimulatorConfig simulated;
-  simulated.sensor = blind.lidar;
+  simulated.sensor = test_case.lidar;
   simulated.seed = seed_of(kLidarStream, seed);
   auto scene =
       std::make_unique<replay::CoverableScene>(std::make_unique<replay::MapScene>(map, motion));
   replay::CoverableScene& world = *scene;
   replay::Simulator simulator(std::move(scene), simulated);
-  replay::RobotModel robot = blind.robot;
-  if (blind.draws_errors) draw_errors(robot, seed_of(kRobotStream, seed));
+  replay::RobotModel robot = test_case.robot;
+  if (test_case.draws_errors) draw_errors(robot, seed_of(kRobotStream, seed));
   replay::SimulatedOdometry odometry(motion, robot, seed_of(kOdometryStream, seed));
 
   core::LocalizerConfig config;
@@ -100,8 +101,8 @@ void drive_blind(std::shared_ptr<const core::WallMap> map, const CoveredLidarCas
   config.odometry.publish_predictions = true;
   config.odometry.geometry = robot.geometry;
   core::Pipeline pipeline(std::move(map), config);
-  for (core::TimeNs now_ns = 0; core::to_seconds(now_ns) < blind.duration_s;) {
-    world.cover(is_covered(blind, now_ns));
+  for (core::TimeNs now_ns = 0; core::to_seconds(now_ns) < test_case.duration_s;) {
+    world.cover(is_covered(test_case, now_ns));
     for (const replay::SimulatedSample& sample : simulator.next().samples) {
       while (odometry.next_ns() <= sample.t_ns) {
         if (const core::PoseEstimate* pose = pipeline.add(odometry.next(), sample.t_ns)) {
@@ -129,51 +130,53 @@ std::vector<CoveredLidarCase> covered_lidar_cases() {
     cases.back().title = title;
     differ(cases.back());
   };
-  const auto twice_the_noise = [](CoveredLidarCase& blind) {
-    blind.robot.wheel_m_per_sqrt_m = 0.002;
-    blind.robot.gyro_rad_s_per_sqrt_hz = 0.0005;
+  const auto twice_the_noise = [](CoveredLidarCase& test_case) {
+    test_case.robot.wheel_m_per_sqrt_m = 0.002;
+    test_case.robot.gyro_rad_s_per_sqrt_hz = 0.0005;
   };
-  const auto slips = [](CoveredLidarCase& blind) { blind.robot.slips_per_m = 0.3; };
-  const auto no_gyro = [](CoveredLidarCase& blind) { blind.robot.has_gyro = false; };
-  const auto pioneer = [](CoveredLidarCase& blind) {
-    blind.robot.geometry = odometry_robots().front().model.geometry;
+  const auto slips = [](CoveredLidarCase& test_case) { test_case.robot.slips_per_m = 0.3; };
+  const auto no_gyro = [](CoveredLidarCase& test_case) { test_case.robot.has_gyro = false; };
+  const auto pioneer = [](CoveredLidarCase& test_case) {
+    test_case.robot.geometry = odometry_robots().front().model.geometry;
   };
   add("twice the noise", twice_the_noise);
   add("slips every 3 m", slips);
   add("no gyro", no_gyro);
-  add("no gyro, twice the noise", [&](CoveredLidarCase& blind) {
-    no_gyro(blind);
-    twice_the_noise(blind);
+  add("no gyro, twice the noise", [&](CoveredLidarCase& test_case) {
+    no_gyro(test_case);
+    twice_the_noise(test_case);
   });
-  add("no gyro, slips every 3 m", [&](CoveredLidarCase& blind) {
-    no_gyro(blind);
-    slips(blind);
+  add("no gyro, slips every 3 m", [&](CoveredLidarCase& test_case) {
+    no_gyro(test_case);
+    slips(test_case);
   });
-  add("counts of 5 mm", [](CoveredLidarCase& blind) { blind.robot.geometry.counts_per_turn = 40; });
-  add("after 3 s, robots drawn", [](CoveredLidarCase& blind) {
-    blind.first_s = 3;
-    blind.duration_s = 8;
-    blind.draws_errors = true;
-    blind.drives_for_one = 15;
+  add("counts of 5 mm",
+      [](CoveredLidarCase& test_case) { test_case.robot.geometry.counts_per_turn = 40; });
+  add("after 3 s, robots drawn", [](CoveredLidarCase& test_case) {
+    test_case.first_cover_s = 3;
+    test_case.duration_s = 8;
+    test_case.draws_errors = true;
+    test_case.drive_factor = 15;
   });
-  add("a lidar off by 5 mm and 0.5 %", [](CoveredLidarCase& blind) {
-    blind.lidar.range_offset_m = 0.005;
-    blind.lidar.range_scale = 1.005;
+  add("a lidar off by 5 mm and 0.5 %", [](CoveredLidarCase& test_case) {
+    test_case.lidar.range_offset_m = 0.005;
+    test_case.lidar.range_scale = 1.005;
   });
   add("Pioneer P3-DX", pioneer);
-  add("Pioneer, no gyro", [&](CoveredLidarCase& blind) {
-    pioneer(blind);
-    no_gyro(blind);
+  add("Pioneer, no gyro", [&](CoveredLidarCase& test_case) {
+    pioneer(test_case);
+    no_gyro(test_case);
   });
-  add("Pioneer, slips every 3 m", [&](CoveredLidarCase& blind) {
-    pioneer(blind);
-    slips(blind);
+  add("Pioneer, slips every 3 m", [&](CoveredLidarCase& test_case) {
+    pioneer(test_case);
+    slips(test_case);
   });
   return cases;
 }
 
-CoveredLidarResult run_covered_lidar_case(std::shared_ptr<const core::WallMap> map, const CoveredLidarCase& blind,
-                           std::uint64_t seed, std::size_t drives) {
+CoveredLidarResult run_covered_lidar_case(std::shared_ptr<const core::WallMap> map,
+                                          const CoveredLidarCase& test_case, std::uint64_t seed,
+                                          std::size_t drives) {
   CoveredLidarResult result;
   constexpr double kAges_s[] = {0, 0.25, 1, 2, 5};
   for (std::size_t i = 0; i < result.predicted.size(); ++i) {
@@ -181,8 +184,8 @@ CoveredLidarResult run_covered_lidar_case(std::shared_ptr<const core::WallMap> m
     result.predicted[i].to_s = kAges_s[i + 1];
   }
   CoveredLidarScore score(result);
-  drives *= blind.drives_for_one;
-  for (std::size_t i = 0; i < drives; ++i) drive_blind(map, blind, seed + i, score);
+  drives *= test_case.drive_factor;
+  for (std::size_t i = 0; i < drives; ++i) simulate_covered_drive(map, test_case, seed + i, score);
   score.finish();
   return result;
 }

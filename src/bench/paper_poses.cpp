@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "bench/paper_places.hpp"
+#include "bench/paper_poses.hpp"
 
 #include <cmath>
 #include <stdexcept>
@@ -30,7 +30,7 @@ std::size_t room_index(const core::WallMap& map, std::string_view name) {
 
 /// The point of the sequence in the room; `step` counts on.
 core::Pose2 next_place(const core::WallMap& map, std::size_t room, std::size_t& step) {
-  constexpr std::size_t kMostTries = 100'000;
+  constexpr std::size_t kMaxTries = 100'000;
   const std::vector<core::Vec2>& polygon = map.plan().rooms[room].polygon;
   core::Vec2 low = polygon.front();
   core::Vec2 high = polygon.front();
@@ -38,7 +38,7 @@ core::Pose2 next_place(const core::WallMap& map, std::size_t room, std::size_t& 
     low = low.cwiseMin(point);
     high = high.cwiseMax(point);
   }
-  for (std::size_t tries = 0; tries < kMostTries; ++tries) {
+  for (std::size_t tries = 0; tries < kMaxTries; ++tries) {
     const auto k = static_cast<double>(++step);
     const core::Vec2 share(fraction(0.5 + k * kPlastic), fraction(0.5 + k * kPlasticSquared));
     const core::Vec2 point = low + share.cwiseProduct(high - low);
