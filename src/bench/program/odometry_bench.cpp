@@ -122,7 +122,7 @@ std::string odometry_text(const std::vector<RobotResults>& robots) {
 }
 
 std::string odometry_json(const std::vector<RobotResults>& robots,
-                          const std::vector<BlindRow>& test_case, const std::vector<RateRow>& rates,
+                          const std::vector<BlindRow>& predictions, const std::vector<RateRow>& rates,
                           std::uint64_t seed) {
   nlohmann::ordered_json drives = nlohmann::ordered_json::array();
   for (const RobotResults& results : robots) {
@@ -148,7 +148,7 @@ std::string odometry_json(const std::vector<RobotResults>& robots,
   }
   return nlohmann::ordered_json({{"seed", seed},
                                  {"odometry", std::move(drives)},
-                                 {"carried_on", blind_json(test_case)},
+                                 {"carried_on", blind_json(predictions)},
                                  {"rates", rate_json(rates)}})
              .dump(2) +
          '\n';
@@ -198,7 +198,7 @@ void run_odometry_bench(const OdometryBenchOptions& options) {
   }
 
   std::vector<RobotResults> robots;
-  std::vector<BlindRow> test_case;
+  std::vector<BlindRow> predictions;
   std::vector<RateRow> rates;
   {
     const auto all = odometry_robots();
@@ -215,7 +215,7 @@ void run_odometry_bench(const OdometryBenchOptions& options) {
     }
     for (const CoveredLidarCase& one : cases) {
       if (options.drives == 0) break;
-      test_case.push_back(
+      predictions.push_back(
           {one.title, run_covered_lidar_case(map, one, options.seed, options.drives)});
       bar.show(++done);
     }
@@ -244,13 +244,13 @@ void run_odometry_bench(const OdometryBenchOptions& options) {
     }
   }
   if (json) {
-    json->write(odometry_json(robots, test_case, rates, options.seed));
+    json->write(odometry_json(robots, predictions, rates, options.seed));
     json->flush();
   }
   if (options.json == "-") return;
   tool::Output output;
   output.write(odometry_text(robots));
-  if (options.drives > 0) output.write('\n' + blind_text(test_case) + '\n' + rate_text(rates));
+  if (options.drives > 0) output.write('\n' + blind_text(predictions) + '\n' + rate_text(rates));
   output.flush();
 }
 

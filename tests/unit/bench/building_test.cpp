@@ -10,7 +10,7 @@
 namespace cornerd::bench {
 namespace {
 
-TEST(OfficeBuilding, HasAboutTheCornersThatAreAskedFor) {
+TEST(OfficeBuilding, CornerCount_MatchesRequest) {
   for (const double corners : {200.0, 2000.0, 20'000.0}) {
     const core::WallMap map(office_building(static_cast<std::size_t>(corners), 1));
     EXPECT_NEAR(static_cast<double>(map.corners().size()), corners, 0.15 * corners);
@@ -18,7 +18,7 @@ TEST(OfficeBuilding, HasAboutTheCornersThatAreAskedFor) {
   EXPECT_LT(core::WallMap(office_building(20, 1)).corners().size(), 40U);
 }
 
-TEST(OfficeBuilding, EachRoom_OpensToAFreePlaceIndoors) {
+TEST(OfficeBuilding, EachRoom_HasADoorToTheCorridor) {
   const core::WallMap map(office_building(300, 2));
   EXPECT_GT(map.plan().rooms.size(), 20U);
   for (const core::Pose2& place : replay::random_poses(map, 50, 0.3, 3)) {
@@ -26,7 +26,7 @@ TEST(OfficeBuilding, EachRoom_OpensToAFreePlaceIndoors) {
   }
 }
 
-TEST(OfficeBuilding, SameSeed_IsTheSameBuilding) {
+TEST(OfficeBuilding, SameSeed_SameBuilding) {
   const auto one = office_building(500, 4);
   const auto same = office_building(500, 4);
   const auto other = office_building(500, 5);
@@ -38,7 +38,7 @@ TEST(OfficeBuilding, SameSeed_IsTheSameBuilding) {
   EXPECT_NE(one.walls[3].to, other.walls[3].to);
 }
 
-TEST(EqualRooms, LookTheSameFromEachOne) {
+TEST(EqualRooms, SameSpotInEachRoom_SameRanges) {
   const core::WallMap map(equal_rooms(5));
   const core::Vec2 place(1.1, 3.3);
   for (int i = 0; i < 360; ++i) {

@@ -15,7 +15,7 @@ std::vector<MethodScore> score_rooms(std::size_t positions, std::uint64_t seed) 
   return score_methods(maps, paper_methods(), {}, 400, positions, seed);
 }
 
-TEST(ScoreMethods, EmptyRoom_IsFoundWhole) {
+TEST(ScoreMethods, EmptyRoom_AllCornersFound) {
   std::size_t told = 0;
   const std::vector maps = {replay::make_room()};
   const auto scores =
@@ -29,17 +29,17 @@ TEST(ScoreMethods, EmptyRoom_IsFoundWhole) {
   EXPECT_GT(scores[0].score.precision(), 0.98);
 }
 
-TEST(ScoreMethods, Positions_AreSharedByTheMaps) {
+TEST(ScoreMethods, Positions_AreDividedAmongMaps) {
   EXPECT_EQ(score_rooms(5, 1)[0].score.scans(), 5u);
   EXPECT_EQ(score_rooms(1, 1)[0].score.scans(), 1u);
 }
 
-TEST(ScoreMethods, Seed_DecidesAlone) {
+TEST(ScoreMethods, SameSeed_SameScore) {
   EXPECT_EQ(score_rooms(4, 7)[0].score.errors_m(), score_rooms(4, 7)[0].score.errors_m());
   EXPECT_NE(score_rooms(4, 7)[0].score.errors_m(), score_rooms(4, 8)[0].score.errors_m());
 }
 
-TEST(UsualCircumstances, Sensors_AreFour) {
+TEST(DefaultConditions, All_FourSensors) {
   const auto circumstances = default_conditions();
   ASSERT_EQ(circumstances.size(), 4u);
   EXPECT_DOUBLE_EQ(circumstances[0].sensor.noise.share, 0.005);

@@ -25,36 +25,36 @@ CoveredLidarResult run(std::string_view title, std::size_t drives) {
 
 /// 3 is exact. Two drives are a rough measure, and the filter reckons with a little more noise than
 /// these robots have; but a tenth of it would be as wrong as ten times as much.
-constexpr double kLeastNees = 1.4;
-constexpr double kMostNees = 4;
+constexpr double kMinNees = 1.4;
+constexpr double kMaxNees = 4;
 
 struct RobotBounds {
   const char* title;
-  double most_nees_of_fixes = kMostNees;
-  double most_nees = kMostNees;
-  double least_share = 0.9;  ///< of 95 %
+  double max_nees_of_fixes = kMaxNees;
+  double max_nees = kMaxNees;
+  double min_share = 0.9;  ///< of 95 %
 };
 
 void PrintTo(const RobotBounds& bounds, std::ostream* out) { *out << bounds.title; }
 
-void expect_honest(const PoseConsistency& poses, double most_nees, double least_share,
-                   const std::string& which) {
+void expect_consistent(const PoseConsistency& poses, double max_nees, double min_share,
+                       const std::string& which) {
   EXPECT_GT(poses.poses, 500u) << which;
-  EXPECT_GT(poses.mean_nees, kLeastNees) << which;
-  EXPECT_LT(poses.mean_nees, most_nees) << which;
-  EXPECT_GT(poses.share_within, least_share) << which;
+  EXPECT_GT(poses.mean_nees, kMinNees) << which;
+  EXPECT_LT(poses.mean_nees, max_nees) << which;
+  EXPECT_GT(poses.share_within, min_share) << which;
 }
 
 class CoveredLidarRobot : public testing::TestWithParam<RobotBounds> {};
 
-TEST_P(CoveredLidarRobot, FixesAndCarriedOnPoses_AreHonest) {
+TEST_P(CoveredLidarRobot, FixesAndPredictions_AreConsistent) {
   const RobotBounds& bounds = GetParam();
   const CoveredLidarResult result = run(bounds.title, 2);
   // Bold fixes have fewer within.
-  const double least_share = bounds.most_nees_of_fixes > kMostNees ? 0.7 : bounds.least_share;
-  expect_honest(result.fixes, bounds.most_nees_of_fixes, least_share, "fixes");
+  const double min_share = bounds.max_nees_of_fixes > kMaxNees ? 0.7 : bounds.min_share;
+  expect_consistent(result.fixes, bounds.max_nees_of_fixes, min_share, "fixes");
   for (const AgeConsistency& ages : result.predicted) {
-    expect_honest(ages, bounds.most_nees, bounds.least_share, std::to_string(ages.from_s));
+    expect_consistent(ages, bounds.max_nees, bounds.min_share, std::to_string(ages.from_s));
   }
 }
 
@@ -66,11 +66,11 @@ INSTANTIATE_TEST_SUITE_P(Robots, CoveredLidarRobot,
                                          RobotBounds{"counts of 5 mm"},
                                          RobotBounds{"Pioneer P3-DX"},
                                          RobotBounds{"Pioneer, slips every 3 m"},
-                                         RobotBounds{"no gyro", kMostNees, 5, 0.8},
+                                         RobotBounds{"no gyro", kMaxNees, 5, 0.8},
                                          RobotBounds{"no gyro, twice the noise", 7, 5, 0.8},
-                                         RobotBounds{"Pioneer, no gyro", kMostNees, 5, 0.8}));
+                                         RobotBounds{"Pioneer, no gyro", kMaxNees, 5, 0.8}));
 
-TEST(CoveredLidarExperiment, SlipsThatNoGyroSees_LeaveTheFixesRight) {
+TEST(CoveredLidarExperiment, SlipWithoutGyro_FixesStayConsistent) {
   const PoseConsistency fixes = run("no gyro, slips every 3 m", 2).fixes;
   EXPECT_GT(fixes.poses, 2600u);
   EXPECT_LT(fixes.mean_m, 0.0012);
@@ -78,19 +78,19 @@ TEST(CoveredLidarExperiment, SlipsThatNoGyroSees_LeaveTheFixesRight) {
   EXPECT_GT(fixes.share_within, 0.85);
 }
 
-TEST(CoveredLidarExperiment, CarriedOnPoses_AreGoodForFiveSeconds) {
+TEST(CoveredLidarExperiment, FiveSecondsCovered_ErrorBelowOneCentimetre) {
   for (const AgeConsistency& ages : run("16 cm robot", 1).predicted) {
     EXPECT_LT(ages.worst_m, 0.01) << ages.from_s;
   }
 }
 
-TEST(CoveredLidarExperiment, CoarseCounts_CostNoMoreThanACount) {
+TEST(CoveredLidarExperiment, CoarseCounts_ErrorBelowOneCount) {
   for (const AgeConsistency& ages : run("counts of 5 mm", 1).predicted) {
     EXPECT_LT(ages.mean_m, 0.003) << ages.from_s;
   }
 }
 
-TEST(CoveredLidarExperiment, LidarThatIsOff_IsLearntOnTheWay) {
+TEST(CoveredLidarExperiment, BiasedLidar_PredictionsStayConsistent) {
   for (const AgeConsistency& ages : run("a lidar off by 5 mm and 0.5 %", 1).predicted) {
     EXPECT_GT(ages.mean_nees, 1) << ages.from_s;
     EXPECT_LT(ages.mean_nees, 4) << ages.from_s;
@@ -98,7 +98,7 @@ TEST(CoveredLidarExperiment, LidarThatIsOff_IsLearntOnTheWay) {
   }
 }
 
-TEST(CoveredLidarExperiment, RobotsAsWrongAsTold_AreHonestBeforeMuchIsLearned) {
+TEST(CoveredLidarExperiment, RandomRobotsAfterThreeSeconds_AreConsistent) {
   // The fixes' own doubt, which has yet to be learned, makes them cautious at first.
   const auto result = run("after 3 s, robots drawn", 4).predicted;
   for (const AgeConsistency& ages : result) EXPECT_LT(ages.mean_nees, 4) << ages.from_s;
@@ -108,7 +108,7 @@ TEST(CoveredLidarExperiment, RobotsAsWrongAsTold_AreHonestBeforeMuchIsLearned) {
   }
 }
 
-TEST(CoveredLidarExperiment, SameSeed_GivesTheSameFigures) {
+TEST(CoveredLidarExperiment, SameSeed_SameResult) {
   const auto one = run("after 3 s, robots drawn", 1).predicted;
   const auto again = run("after 3 s, robots drawn", 1).predicted;
   for (std::size_t i = 0; i < one.size(); ++i) {

@@ -8,7 +8,7 @@
 namespace cornerd::bench {
 namespace {
 
-TEST(Methods, Names_AreFoundAndUnique) {
+TEST(Methods, EachName_IsUniqueAndFound) {
   std::set<std::string_view> names;
   for (const auto methods : {paper_methods(), variants()}) {
     for (const NamedMethod& method : methods) {

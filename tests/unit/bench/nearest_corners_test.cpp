@@ -23,7 +23,7 @@ Breakpoint seen(const Vec2& corner, const Vec2& error = Vec2::Zero()) {
   return breakpoint;
 }
 
-TEST(NearestCorners, ExactCorners_GiveTheExactPlace) {
+TEST(NearestCorners, ExactCorners_ExactPose) {
   const std::vector breakpoints = {seen({2, 3}), seen({0, 0}), seen({2, 0})};
   const auto place = pose_from_nearest_corners(breakpoints, *replay::make_room(), kTrueRoomPlace);
   ASSERT_TRUE(place);
@@ -32,14 +32,14 @@ TEST(NearestCorners, ExactCorners_GiveTheExactPlace) {
   EXPECT_NEAR(place->theta_rad, 2.5, 1e-12);
 }
 
-TEST(NearestCorners, TheTwoNearest_AloneDecide) {
+TEST(NearestCorners, ThreeCorners_FarthestIsIgnored) {
   const std::vector breakpoints = {seen({2, 3}, {0.04, 0.03}), seen({0, 0}), seen({2, 0})};
   const auto place = pose_from_nearest_corners(breakpoints, *replay::make_room(), kTrueRoomPlace);
   ASSERT_TRUE(place);
   EXPECT_NEAR((place->translation() - kTrueRoomPlace.translation()).norm(), 0, 1e-12);
 }
 
-TEST(NearestCorners, DistanceThatIsOff_IsSharedByBoth) {
+TEST(NearestCorners, DistanceError_IsSharedByBothCorners) {
   const std::vector breakpoints = {seen({0, 0}), seen({2, 0}, {0.02, 0})};
   const auto place = pose_from_nearest_corners(breakpoints, *replay::make_room(), kTrueRoomPlace);
   ASSERT_TRUE(place);
@@ -47,7 +47,7 @@ TEST(NearestCorners, DistanceThatIsOff_IsSharedByBoth) {
   EXPECT_NEAR(place->y_m, 0.7, 1e-12);
 }
 
-TEST(NearestCorners, WhatIsNoCornerOfTheMap_IsPassedOver) {
+TEST(NearestCorners, DetectionWithoutMapCorner_IsIgnored) {
   Breakpoint terminal = seen({0, 0}, {0.01, 0.05});
   terminal.kind = core::BreakpointKind::kTerminal;
   const std::vector breakpoints = {seen({0.5, 0.5}), terminal, seen({0, 0}), seen({2, 0}),
@@ -57,7 +57,7 @@ TEST(NearestCorners, WhatIsNoCornerOfTheMap_IsPassedOver) {
   EXPECT_LT((place->translation() - kTrueRoomPlace.translation()).norm(), 0.03);
 }
 
-TEST(NearestCorners, OneCornerSeenTwice_NamesNoPlace) {
+TEST(NearestCorners, OneCornerDetectedTwice_NoPose) {
   const auto map = replay::make_room();
   EXPECT_FALSE(pose_from_nearest_corners({}, *map, kTrueRoomPlace));
   const std::vector breakpoints = {seen({0, 0}), seen({0, 0}, {0.01, 0})};

@@ -11,7 +11,7 @@
 namespace cornerd::bench {
 namespace {
 
-TEST(PaperFigures, Sums_AreThoseOfTheText) {
+TEST(PaperFigures, Sums_MatchTheText) {
   // Section V.E and the abstract: 2, 10 and 23 errors at 43 places; section V.D: the mean times.
   std::array<std::size_t, kPaperMethodCount> errors{};
   std::array<double, kPaperMethodCount> times_ms{};
@@ -30,7 +30,7 @@ TEST(PaperFigures, Sums_AreThoseOfTheText) {
   }
 }
 
-TEST(PaperExperiment, EveryMethodAtEveryPlace_HasItsFigures) {
+TEST(PaperExperiment, EachMethodAndPose_HasResults) {
   const auto scans = simulate_paper_scans(contest_maps(), {}, 800, 1);
   ASSERT_EQ(scans.scans.size(), 43u);
   const auto results = run_paper_experiment(scans, paper_methods(), 1);
@@ -52,7 +52,7 @@ TEST(PaperExperiment, EveryMethodAtEveryPlace_HasItsFigures) {
   EXPECT_GT(found, there * 9 / 10);
 }
 
-TEST(PaperExperiment, WithoutRepeats_NothingIsTimed) {
+TEST(PaperExperiment, NoRepeats_NoTimes) {
   const auto scans = simulate_paper_scans(contest_maps(), {}, 400, 1);
   const auto results = run_paper_experiment(scans, paper_methods().first(1), 0);
   EXPECT_EQ(results[0].places[0].time_us, 0);

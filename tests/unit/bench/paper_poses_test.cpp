@@ -15,7 +15,7 @@
 namespace cornerd::bench {
 namespace {
 
-TEST(PaperPlaces, Rooms_HaveAsManyAsThePaper) {
+TEST(PaperPlaces, EachRoom_HasThePapersCount) {
   const auto maps = contest_maps();
   const auto places = paper_poses(maps);
   ASSERT_EQ(places.size(), 43u);
@@ -33,13 +33,13 @@ TEST(PaperPlaces, Rooms_HaveAsManyAsThePaper) {
   EXPECT_EQ(counts, (std::array<std::size_t, 5>{9, 8, 10, 8, 8}));
 }
 
-TEST(PaperPlaces, Layouts_TakeTurns) {
+TEST(PaperPlaces, Layouts_AreUsedInRotation) {
   std::array<std::size_t, 4> counts{};
   for (const PaperPose& place : paper_poses(contest_maps())) ++counts[place.map];
   for (const std::size_t count : counts) EXPECT_GE(count, 10u);
 }
 
-TEST(PaperPlaces, PlacesOfARoom_AreApart) {
+TEST(PaperPlaces, PosesOfARoom_AreApart) {
   const auto places = paper_poses(contest_maps());
   for (std::size_t i = 0; i < places.size(); ++i) {
     for (std::size_t j = i + 1; j < places.size(); ++j) {
@@ -50,7 +50,7 @@ TEST(PaperPlaces, PlacesOfARoom_AreApart) {
   }
 }
 
-TEST(PaperPlaces, MapWithoutTheRooms_IsRefused) {
+TEST(PaperPlaces, MapWithoutRooms_Throws) {
   const std::vector maps = {replay::make_room()};
   EXPECT_THROW(paper_poses(maps), std::runtime_error);
 }

@@ -13,7 +13,7 @@ RateResult run_at(double rate_hz, bool gently = false) {
                        gently, 1500, 1);
 }
 
-TEST(RateExperiment, TenReadingsASecond_AreBetterThanTheLidarAlone) {
+TEST(RateExperiment, TenReadingsASecond_BeatLidarAlone) {
   const RateResult alone = run_at(0);
   EXPECT_EQ(alone.predicted.scans(), 0u);
   for (const double rate_hz : {10.0, 20.0, 50.0}) {
@@ -27,11 +27,11 @@ TEST(RateExperiment, TenReadingsASecond_AreBetterThanTheLidarAlone) {
   }
 }
 
-TEST(RateExperiment, ThreeReadingsASecond_GiveNoWrongFix) {
+TEST(RateExperiment, ThreeReadingsASecond_NoWrongFix) {
   for (const bool gently : {false, true}) EXPECT_EQ(run_at(3, gently).fixes.wrong(), 0u) << gently;
 }
 
-TEST(RateExperiment, MoreReadings_LeaveSmallerErrors) {
+TEST(RateExperiment, MoreReadings_SmallerErrors) {
   const RateResult few = run_at(10, true);
   const RateResult many = run_at(50, true);
   EXPECT_LT(many.fixes.mean_error_m(), few.fixes.mean_error_m());

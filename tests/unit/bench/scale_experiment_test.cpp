@@ -6,7 +6,7 @@
 namespace cornerd::bench {
 namespace {
 
-TEST(ScaleExperiment, BuildingOfAHundredRooms_IsKnownAtOnce) {
+TEST(ScaleExperiment, HundredRooms_EachScanIsFixed) {
   const auto cases = scale_cases({1200}, 1);
   ASSERT_EQ(cases.size(), 2U);
   const ScaleResult result = run_scale_case(cases[0], 40, 1);
@@ -23,13 +23,13 @@ TEST(ScaleExperiment, BuildingOfAHundredRooms_IsKnownAtOnce) {
 }
 
 /// One of these turns shows a bare corridor, which another one with two people in it looks like.
-TEST(ScaleExperiment, CorridorThatIsNoneOfThoseTried_IsNotNamed) {
+TEST(ScaleExperiment, BareCorridor_NoFix) {
   const ScaleResult result = run_scale_case(scale_cases({2000}, 1)[0], 10, 1);
   EXPECT_EQ(result.score.wrong(), 0U);
   EXPECT_GE(result.score.right(), 8U);
 }
 
-TEST(ScaleExperiment, EqualRooms_AreAmbiguousWithTheTruthAmongThem) {
+TEST(ScaleExperiment, EqualRooms_AmbiguousWithTruth) {
   const auto cases = scale_cases({}, 1);
   const ScaleResult result = run_scale_case(cases[0], 60, 2);
   EXPECT_EQ(result.score.wrong(), 0U);
@@ -37,7 +37,7 @@ TEST(ScaleExperiment, EqualRooms_AreAmbiguousWithTheTruthAmongThem) {
   EXPECT_EQ(result.score.ambiguous_with_truth(), result.score.ambiguous());
 }
 
-TEST(ScaleExperiment, TwentyThousandCorners_StayWithinSixtyFourMebibytes) {
+TEST(ScaleExperiment, TwentyThousandCorners_MemoryBelow64MiB) {
   const auto cases = scale_cases({20'000}, 1);
   const ScaleResult result = run_scale_case(cases[0], 10, 1);
   EXPECT_GT(result.corners, 18'000U);

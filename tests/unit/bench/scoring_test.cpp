@@ -61,12 +61,12 @@ TEST_F(CornerScoring, DetectionWithinSixCentimetres_IsTrue) {
   EXPECT_NEAR(score_.errors_m()[0], 0.03, 1e-9);
 }
 
-TEST_F(CornerScoring, SecondDetectionOfACorner_IsFalse_AndTheNearerOneIsTrue) {
+TEST_F(CornerScoring, TwoDetectionsOfACorner_NearerIsTrue) {
   EXPECT_THAT(judge({detection(0.97, 2), detection(0.99, 2), detection(1, 1.97)}),
               ElementsAre(Verdict::kFalse, Verdict::kTrue, Verdict::kFalse));
 }
 
-TEST_F(CornerScoring, EndOfAWall_HasItsTrueCornerFirstAndOneAside) {
+TEST_F(CornerScoring, WallEnd_OneTrueAndOneOneSided) {
   // Seen from (1, 1) the wall at x = 0.4 shows its right face and its end.
   const double right_m = 0.409 - 1;
   const double left_m = 0.391 - 1;
@@ -76,13 +76,13 @@ TEST_F(CornerScoring, EndOfAWall_HasItsTrueCornerFirstAndOneAside) {
       ElementsAre(Verdict::kTrue, Verdict::kOneSided, Verdict::kFalse));
 }
 
-TEST_F(CornerScoring, EndOfAShadow_IsNeitherTrueNorFalse) {
+TEST_F(CornerScoring, OcclusionEdge_IsNeitherTrueNorFalse) {
   EXPECT_THAT(judge({detection(0.4, 2), detection(-0.4, 2), detection(0, 2)}),
               ElementsAre(Verdict::kOcclusionEdge, Verdict::kOcclusionEdge, Verdict::kFalse));
   EXPECT_DOUBLE_EQ(score_.precision(), 0);
 }
 
-TEST_F(CornerScoring, Shares_CountWhatTheySay) {
+TEST_F(CornerScoring, PrecisionAndRecall_MatchCounts) {
   // The room's four corners, both walls of 5 returns; that at the foot of the thick wall on the
   // right; the other foot is hidden. The corner at its end has few returns on 18 mm.
   const std::size_t supported = score_.supported();
@@ -97,14 +97,14 @@ TEST_F(CornerScoring, Shares_CountWhatTheySay) {
   EXPECT_DOUBLE_EQ(score_.recall_of_visible(), 2.0 / static_cast<double>(score_.visible()));
 }
 
-TEST_F(CornerScoring, Strictly_OneSidedEndsAreFalse) {
+TEST_F(CornerScoring, Strictly_OneSidedEnds_AreFalse) {
   judge({detection(1, 2), detection(0.2, 1, BreakpointKind::kTerminal)});  // end of the thin wall
   EXPECT_DOUBLE_EQ(score_.precision(), 1);
   EXPECT_DOUBLE_EQ(score_.precision(true), 0.5);
   EXPECT_DOUBLE_EQ(score_.precision_of_corners(true), 1);
 }
 
-TEST_F(CornerScoring, Merge_AddsUp) {
+TEST_F(CornerScoring, Merge_AddsCounts) {
   CornerScore other = score_;
   judge({detection(1, 2), detection(0.5, 0.5)});
   other.merge(score_);
@@ -115,7 +115,7 @@ TEST_F(CornerScoring, Merge_AddsUp) {
   EXPECT_DOUBLE_EQ(other.precision(), 0.5);
 }
 
-TEST_F(CornerScoring, NothingDetected_IsPreciseAndFindsNothing) {
+TEST_F(CornerScoring, NothingDetected_PrecisionOneRecallZero) {
   judge({});
   EXPECT_EQ(score_.precision(), 1);
   EXPECT_EQ(score_.recall_of_visible(), 0);

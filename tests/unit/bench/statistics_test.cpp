@@ -9,13 +9,13 @@
 namespace cornerd::bench {
 namespace {
 
-TEST(MeanAndDeviation, OfASample_DividesByOneLess) {
+TEST(MeanAndDeviation, Sample_DividesByCountMinusOne) {
   const MeanAndDeviation result = mean_and_deviation({2, 4, 4, 4, 5, 5, 7, 9});
   EXPECT_DOUBLE_EQ(result.mean, 5);
   EXPECT_DOUBLE_EQ(result.deviation, std::sqrt(32.0 / 7));
 }
 
-TEST(MeanAndDeviation, OfOneOrNone_HasNoSpread) {
+TEST(MeanAndDeviation, FewerThanTwoValues_DeviationZero) {
   EXPECT_EQ(mean_and_deviation({}).mean, 0);
   EXPECT_EQ(mean_and_deviation({3}).mean, 3);
   EXPECT_EQ(mean_and_deviation({3}).deviation, 0);
@@ -29,7 +29,7 @@ TEST(Quantile, BetweenTwoValues_IsInterpolated) {
   EXPECT_EQ(quantile({}, 0.5), 0);
 }
 
-TEST(Boxplot, OfElevenValues_HasTukeysFiguresAndOutliers) {
+TEST(Boxplot, ElevenValues_TukeyStatistics) {
   // Quartiles 3.5 and 8.5: whiskers reach at most to -4 and 16.
   const BoxplotStatistics plot = boxplot_of({40, 1, 2, 3, 4, 5, 6, 7, 8, 9, 16});
   EXPECT_DOUBLE_EQ(plot.lower_quartile, 3.5);
@@ -40,7 +40,7 @@ TEST(Boxplot, OfElevenValues_HasTukeysFiguresAndOutliers) {
   EXPECT_THAT(plot.outliers, testing::ElementsAre(40));
 }
 
-TEST(Boxplot, OfEqualValues_IsALine) {
+TEST(Boxplot, EqualValues_BoxOfZeroHeight) {
   const BoxplotStatistics plot = boxplot_of({2, 2, 2});
   EXPECT_EQ(plot.lower_whisker, 2);
   EXPECT_EQ(plot.median, 2);

@@ -21,7 +21,7 @@ SurveyScore score(const core::FloorPlan& found, const core::Pose2& start = {}) {
   return score_survey(core::WallMap(room()), places, core::WallMap(found), start);
 }
 
-TEST(SurveyScoring, TheTruthItself_IsPerfect) {
+TEST(SurveyScoring, TrueMap_PerfectScore) {
   const SurveyScore result = score(room());
   EXPECT_EQ(result.walls_seen, 4U);
   EXPECT_EQ(result.walls_found, 4U);
@@ -43,7 +43,7 @@ TEST(SurveyScoring, AnotherFrame_IsAligned) {
   EXPECT_EQ(result.walls_found, 4U);
 }
 
-TEST(SurveyScoring, MissingWall_IsMissed) {
+TEST(SurveyScoring, MissingWall_IsCounted) {
   core::FloorPlan found = room();
   found.walls.pop_back();
   const SurveyScore result = score(found);
@@ -52,13 +52,13 @@ TEST(SurveyScoring, MissingWall_IsMissed) {
   EXPECT_NEAR((result.missed[0] - Vec2(0, 1.5)).norm(), 0, 1e-9);
 }
 
-TEST(SurveyScoring, WallInTheMiddleOfTheRoom_IsInvented) {
+TEST(SurveyScoring, ExtraWall_IsInvented) {
   core::FloorPlan found = room();
   found.walls.push_back({{1, 1}, {2, 1}, 0});
   EXPECT_NEAR(score(found).invented_m, 2, 0.1) << "it has two sides";
 }
 
-TEST(SurveyScoring, CornerThatIsOff_ShowsInTheMaximum) {
+TEST(SurveyScoring, DisplacedCorner_RaisesMaximum) {
   core::FloorPlan found = room();
   found.walls[0].to = found.walls[1].from = {4.03, 0};
   EXPECT_NEAR(score(found).corner_max_m(), 0.0225, 0.003) << "less what the alignment takes of it";

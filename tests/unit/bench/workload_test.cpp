@@ -18,7 +18,7 @@ std::vector<core::Scan> room_scans(std::size_t samples) {
           simulator.take(*replay::make_room(), {1.5, 2, 1})};
 }
 
-TEST(Workload, Run_DetectsInThatTurn) {
+TEST(Workload, Run_DetectsInThatScan) {
   const auto scans = room_scans(800);
   Workload workload(paper_methods().front(), scans);
   ASSERT_EQ(workload.scans(), 2u);
@@ -29,7 +29,7 @@ TEST(Workload, Run_DetectsInThatTurn) {
   EXPECT_NE(workload.detection().breakpoints.front().position, second);
 }
 
-TEST(Workload, EachTurn_IsTimed) {
+TEST(Workload, EachScan_IsTimed) {
   const auto scans = room_scans(400);
   Workload workload(paper_methods().front(), scans);
   const auto times_us = time_scans_us(workload, 9);
@@ -38,7 +38,7 @@ TEST(Workload, EachTurn_IsTimed) {
   EXPECT_GT(time_preparation_us(scans, 3), 0);
 }
 
-TEST(InstructionCounter, WhereThereIsOne_CountsWork) {
+TEST(InstructionCounter, Available_CountsWork) {
   InstructionCounter counter;
   volatile unsigned sum = 0;
   const auto work = [&](unsigned steps) {

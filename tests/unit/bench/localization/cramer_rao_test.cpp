@@ -20,7 +20,7 @@ core::PolarScan scan_at(const core::WallMap& map, const core::Pose2& place, std:
   return points;
 }
 
-TEST(CramerRao, FourTimesTheSamples_HalveTheBound) {
+TEST(CramerRao, FourTimesTheSamples_HalfTheBound) {
   const auto map = replay::make_room();
   const core::Pose2 place{1.2, 1.1, 0.4};
   CramerRao cramer_rao({}, 12);
@@ -29,7 +29,7 @@ TEST(CramerRao, FourTimesTheSamples_HalveTheBound) {
   for (int i = 0; i < 3; ++i) EXPECT_NEAR(std::sqrt(few(i, i) / many(i, i)), 2, 0.1);
 }
 
-TEST(CramerRao, NoiseOfTheRangeAlone_GivesTheTextbooksFigure) {
+TEST(CramerRao, RangeNoiseAlone_MatchesClosedForm) {
   // Each wall tells about the direction across it, by every ray that meets it, whose range errs by
   // the same: n rays at angles a to the wall give n * sin^2(a) / (sigma * sin(a))^2 = n / sigma^2.
   const auto map = replay::make_room();
@@ -57,7 +57,7 @@ TEST(CramerRao, NoiseOfTheRangeAlone_GivesTheTextbooksFigure) {
   EXPECT_NEAR(rays / expected, 1, 0.02);
 }
 
-TEST(CramerRao, ALoneWall_BoundsNothing) {
+TEST(CramerRao, SingleWall_NoBound) {
   core::FloorPlan plan;
   plan.walls = {{{-50, 1}, {50, 1}, 0}};
   const core::WallMap map(plan);

@@ -16,7 +16,7 @@ core::PoseEstimate pose_of(PoseState state, const core::Pose2& T_map_base) {
   return estimate;
 }
 
-TEST(PoseScore, PosesNearTheTruth_AreNamedAndRight) {
+TEST(PoseScore, PoseNearTruth_NamedAndRight) {
   PoseScore score;
   score.add(pose_of(PoseState::kFix, {1.03, 2, 0}), {1, 2, 0});
   score.add(pose_of(PoseState::kTracking, {1, 2.04, 0.01}), {1, 2, 0});
@@ -29,7 +29,7 @@ TEST(PoseScore, PosesNearTheTruth_AreNamedAndRight) {
   EXPECT_EQ(score.share_inside_95(), 0);
 }
 
-TEST(PoseScore, PosesFarFromTheTruth_AreWrongAndNoPartOfTheError) {
+TEST(PoseScore, PoseFarFromTruth_WrongAndNotInTheError) {
   PoseScore score;
   score.add(pose_of(PoseState::kFix, {1.2, 2, 0}), {1, 2, 0});
   score.add(pose_of(PoseState::kFix, {1, 2, 0.2}), {1, 2, 0});
@@ -40,7 +40,7 @@ TEST(PoseScore, PosesFarFromTheTruth_AreWrongAndNoPartOfTheError) {
   EXPECT_EQ(score.mean_error_m(), 0);
 }
 
-TEST(PoseScore, AmbiguousTurns_AreAskedForTheTruthAmongTheirAlternatives) {
+TEST(PoseScore, Ambiguous_CountedWithTruthAmongAlternatives) {
   core::PoseEstimate estimate = pose_of(PoseState::kAmbiguous, {});
   estimate.alternatives = {{{5, 5, 0}, 0.6}, {{1.01, 2, 0}, 0.4}};
   PoseScore score;
@@ -53,7 +53,7 @@ TEST(PoseScore, AmbiguousTurns_AreAskedForTheTruthAmongTheirAlternatives) {
   EXPECT_EQ(score.scans(), 3u);
 }
 
-TEST(PoseScore, Bound_IsWhatTheErrorsAreMeasuredBy) {
+TEST(PoseScore, Bound_ScalesTheError) {
   PoseScore score;
   const core::Covariance3 bound = Eigen::Vector3d(2e-4, 2e-4, 1e-4).asDiagonal();
   score.add(pose_of(PoseState::kFix, {1.04, 2, 0}), {1, 2, 0}, bound);
@@ -77,7 +77,7 @@ core::PoseEstimate answer(core::PoseState state, double doubt) {
   return estimate;
 }
 
-TEST(Reliability, Answers_AreSortedByTheirDoubt) {
+TEST(Reliability, Poses_AreBinnedByPWrong) {
   Reliability reliability;
   reliability.add(answer(core::PoseState::kFix, 1e-8), {1, 2, 0});
   reliability.add(answer(core::PoseState::kFix, 1e-9), {5, 2, 0});
@@ -92,7 +92,7 @@ TEST(Reliability, Answers_AreSortedByTheirDoubt) {
   EXPECT_NEAR(bins.back().doubt, 0.7, 1e-12);
 }
 
-TEST(Reliability, SumOfTwo_CountsBoth) {
+TEST(Reliability, Sum_CountsBoth) {
   Reliability one;
   one.add(answer(core::PoseState::kAmbiguous, 0.002), {5, 2, 0});
   Reliability sum = one;

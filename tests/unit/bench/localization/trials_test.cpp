@@ -28,7 +28,7 @@ Trial in_a_room() {
   return trial;
 }
 
-TEST(Trials, StandingRobot_IsMeasuredAgainstTheBound) {
+TEST(Trials, StandingRobot_ErrorNearBound) {
   const PoseScore score = run_trial(in_a_room(), 20, 1);
   EXPECT_EQ(score.scans(), 20u);
   EXPECT_EQ(score.wrong(), 0u);
@@ -37,7 +37,7 @@ TEST(Trials, StandingRobot_IsMeasuredAgainstTheBound) {
   EXPECT_LT(score.rmse_over_bound(), 2);
 }
 
-TEST(Trials, WorldThatIsNotTheMap_IsWhatTheLidarSees) {
+TEST(Trials, WorldOtherThanMap_LidarSeesWorld) {
   Trial trial = in_a_room();
   core::FloorPlan larger = trial.buildings.front().map->plan();
   for (core::Wall& wall : larger.walls) {
@@ -48,7 +48,7 @@ TEST(Trials, WorldThatIsNotTheMap_IsWhatTheLidarSees) {
   EXPECT_EQ(run_trial(trial, 10, 1).named(), 0u);
 }
 
-TEST(Trials, MovingRobot_IsFollowedRoundItsCircle) {
+TEST(Trials, MovingRobot_IsTrackedOnItsCircle) {
   Trial trial = in_a_room();
   trial.motion = {0.1, 1};
   trial.scans_each = 8;
@@ -59,7 +59,7 @@ TEST(Trials, MovingRobot_IsFollowedRoundItsCircle) {
   EXPECT_EQ(score.wrong(), 0u);
 }
 
-TEST(Circle, Motion_ComesBackAndKeepsClear) {
+TEST(Circle, Motion_ReturnsAndKeepsClearance) {
   const auto map = replay::make_room();
   const CircularMotion motion{0.2, 1};
   for (const core::Pose2& start : random_circles(*map, motion, 5, 1)) {
@@ -73,11 +73,11 @@ TEST(Circle, Motion_ComesBackAndKeepsClear) {
   }
 }
 
-TEST(Circle, RoomTooSmallForIt_IsSaid) {
+TEST(Circle, RoomTooSmall_Throws) {
   EXPECT_THROW(random_circles(*replay::make_room(), {5, 1}, 1, 1), std::runtime_error);
 }
 
-TEST(Kidnapping, EveryJump_IsCountedOnce) {
+TEST(Kidnapping, EachJump_IsCountedOnce) {
   const KidnappingScore score = run_kidnapping({odd_room()}, 10, 1);
   EXPECT_EQ(score.jumps, 10u);
   std::size_t sum = score.never;

@@ -16,7 +16,7 @@ core::WallMap two_rooms() {
   return core::WallMap(plan);
 }
 
-TEST(World, RangeWithAThing_EndsAtItsSurface) {
+TEST(World, Obstacle_RangeEndsAtItsSurface) {
   const std::vector<RoundObstacle> obstacles = {{{2, 0}, 0.25}};
   EXPECT_NEAR(range_with_obstacles(obstacles, {0, 0}, 0, 5), 1.75, 1e-12);
   EXPECT_NEAR(range_with_obstacles(obstacles, {0, 0}, 0, 0), 1.75, 1e-12);
@@ -24,7 +24,7 @@ TEST(World, RangeWithAThing_EndsAtItsSurface) {
   EXPECT_EQ(range_with_obstacles(obstacles, {0, 0}, core::kPi, 5), 5);
 }
 
-TEST(World, Clutter_StopsAsManyRaysAsAskedFor) {
+TEST(World, Clutter_StopsRequestedShare) {
   const auto map = replay::make_room();
   replay::Random random(3);
   const core::Vec2 place(1.2, 1.1);
@@ -39,13 +39,13 @@ TEST(World, Clutter_StopsAsManyRaysAsAskedFor) {
   EXPECT_LT(stopped, 0.6 * 3600);
 }
 
-TEST(World, Doors_AreTheGapsThatAWallGoesOnBehind) {
+TEST(World, Doors_AreGapsBetweenWallEnds) {
   const auto doors = doors_of(two_rooms());
   ASSERT_EQ(doors.size(), 1u);
   EXPECT_NEAR((doors[0].from + doors[0].to).y() / 2, 1.05, 0.06);
 }
 
-TEST(World, ClosedDoor_LetsNoRayThrough) {
+TEST(World, ClosedDoor_StopsRays) {
   const auto plans = with_a_door_closed(two_rooms());
   ASSERT_EQ(plans.size(), 1u);
   const core::WallMap closed(plans.front());
@@ -53,7 +53,7 @@ TEST(World, ClosedDoor_LetsNoRayThrough) {
   EXPECT_NEAR(two_rooms().range_along({1, 1}, 0, 10), 2.95, 1e-9);
 }
 
-TEST(World, DisplacedWall_IsOneForEachPlan) {
+TEST(World, DisplacedWall_OnePlanPerWall) {
   const auto plans = with_a_wall_displaced(two_rooms(), 0.03);
   ASSERT_EQ(plans.size(), 6u);
   EXPECT_NEAR(core::WallMap(plans[0]).range_along({1, 1}, -core::kPi / 2, 10), 0.95 - 0.03, 1e-9);
