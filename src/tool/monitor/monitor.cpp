@@ -63,7 +63,7 @@ void Monitor::run() {
 void Monitor::connect_when_due() {
   const Clock::time_point now = Clock::now();
   if (state_.is_connected() || now < next_try_) return;
-  if (daemon_.connect(socket_, /*patient=*/false) && daemon_.send(kWatch)) {
+  if (daemon_.connect(socket_, /*blocking=*/false) && daemon_.send(kWatch)) {
     state_.connect(nanoseconds(now));
     is_changed_ = true;
     return;

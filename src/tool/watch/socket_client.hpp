@@ -18,7 +18,7 @@ class SocketClient {
 
   /// False where nobody listens there; problem() and error_number() say why. Not `patient`: where
   /// somebody listens and too many wait before us, too.
-  bool connect(const std::filesystem::path& socket, bool patient = true);
+  bool connect(const std::filesystem::path& socket, bool blocking = true);
   void close();
 
   /// False where the daemon has gone.

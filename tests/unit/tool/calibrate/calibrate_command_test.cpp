@@ -83,8 +83,8 @@ TEST_F(CalibrateNoise, ReturnsOfNoWall_AreAFailureThatSaysSo) {
     std::mt19937 random(3);
     std::uniform_real_distribution<double> range_m(0.3, 6);
     std::ofstream file(path("chance.ndjson"));
-    for (int i = 0; i < 60; ++i) {
-      nlohmann::json scan = {{"class", "SCAN"}, {"t", 0.2 * i}, {"duration", 0.18}};
+    for (int k = 0; k < 60; ++k) {
+      nlohmann::json scan = {{"class", "SCAN"}, {"t", 0.2 * k}, {"duration", 0.18}};
       for (int i = 0; i < 300; ++i) {
         scan["angles"].push_back(0.02 * i);
         scan["ranges"].push_back(range_m(random));
