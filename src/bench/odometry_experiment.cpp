@@ -11,7 +11,7 @@ namespace {
 
 using core::HeadingSource;
 
-/// How often the truth is looked at: at the ends of the paper's steps.
+/// The truth is sampled at the ends of the paper's steps.
 constexpr core::TimeNs kTruthPeriod_ns = kPaperStep_ns;
 
 struct Drive {
@@ -21,7 +21,7 @@ struct Drive {
   std::vector<calibration::KnownPose> places;
 };
 
-/// Steps that end where a paper's step ends.
+/// Joins increments to steps of kPaperStep_ns.
 std::vector<core::OdometryIncrement> joined(const std::vector<core::OdometryIncrement>& steps) {
   std::vector<core::OdometryIncrement> joined;
   bool goes_on = false;
@@ -77,7 +77,7 @@ ReckonedTrack reckon_by_mode(const Drive& drive, HeadingSource source, bool as_p
   return track;
 }
 
-/// The heading is the gyro's, its errors and the wheels' taken off.
+/// Heading of the gyro, corrected by the fitted parameters.
 ReckonedTrack reckon_by_fit(const Drive& drive, const core::OdometryParameters& learned) {
   ReckonedTrack track;
   track.source = HeadingSource::kFilter;
@@ -112,7 +112,7 @@ OdometryResult run_odometry_case(const OdometryRobot& robot, const replay::Scena
                                       HeadingSource::kMean, HeadingSource::kWeighted};
   for (const bool as_printed : {true, false}) {
     for (const HeadingSource mode : kModes) {
-      // Without factors the weighted mean is the mean.
+      // Without factors the weighted mean equals the mean.
       if (mode == HeadingSource::kWeighted) continue;
       result.tracks.push_back(reckon_by_mode(drive, mode, as_printed, /*with_factors=*/false));
     }

@@ -18,7 +18,7 @@ double distance_m(const core::Pose2& a, const core::Pose2& b) {
   return (a.translation() - b.translation()).norm();
 }
 
-/// The corners that each of the turns shows, one turn after another.
+/// The true corners visible in each scan.
 class ScanTruths {
  public:
   explicit ScanTruths(const PaperScans& scans) : scans_(scans) {
@@ -39,7 +39,7 @@ class ScanTruths {
   core::PolarScan points_;
 };
 
-/// Where cornerd says the lidar is, each turn by itself.
+/// The localizer's pose, each scan independent.
 std::optional<core::Pose2> localize(core::Localizer& localizer, const core::Scan& scan) {
   localizer.forget();
   const core::PoseEstimate& pose = localizer.step(scan).pose;

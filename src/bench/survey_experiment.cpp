@@ -54,9 +54,9 @@ LocalizationScore localize_drive(std::shared_ptr<const core::WallMap> map,
 
 namespace {
 
-/// More corners than this in a flat are noise, and no map: nobody waits for a localizer in them.
+/// A surveyed flat with more corners is noise, and localizing in it would take hours.
 constexpr std::size_t kMaxCorners = 2000;
-/// Turns of the second drive: once through all rooms.
+/// Scans of the second drive: once through all rooms.
 constexpr std::size_t kSecondScans = 1200;
 
 double cpu_now_s() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }

@@ -14,19 +14,19 @@ namespace {
 using core::Vec2;
 
 constexpr double kCell_m = 0.02;
-/// Rays on a cell that was seen: well over a drive, not at its edge.
+/// A cell with fewer rays is at the edge of the visible part.
 constexpr int kMinRaysPerCell = 10;
 constexpr double kMaxRange_m = 6;
 constexpr double kMinWall_m = 0.3;
 constexpr double kMinFoundShare = 0.95;
-/// A wall of the map is on a true one within this, and looks the same way.
+/// Largest distance and rotation of a map wall from its true wall.
 constexpr double kOnWall_m = 0.03;
 const double kMinNormalCosine = std::cos(core::radians(10));
-/// A corner is looked for so far off; seen where both walls were seen this near to it.
+/// Search radius for a corner, and how near to it both walls have to be visible.
 constexpr double kCornerSearchRadius_m = 0.10;
 constexpr double kMaxDistanceToCorner_m = 0.08;
 
-/// Which cells of the true faces were seen.
+/// The cells of the true faces that rays hit from the drive's poses.
 class VisibleWalls {
  public:
   VisibleWalls(const core::WallMap& map, std::span<const core::Pose2> places) : map_(map) {
@@ -52,7 +52,7 @@ class VisibleWalls {
     const core::Face& wall = map_.faces()[face];
     return wall.from + (static_cast<double>(cell) + 0.5) * kCell_m * wall.direction;
   }
-  /// Something of the face was seen this near to the point.
+  /// A visible cell of the face is within kMaxDistanceToCorner_m of the point.
   bool sees_near(std::size_t face, const Vec2& point) const {
     for (std::size_t cell = 0; cell < cells(face); ++cell) {
       if (sees(face, cell) && (place_of(face, cell) - point).norm() < kMaxDistanceToCorner_m)
@@ -86,7 +86,7 @@ struct Pair {
   Vec2 found;
 };
 
-/// The map's corner that is nearest to a true one, where it is of the same kind.
+/// The nearest map corner of the same kind for each true corner.
 std::vector<Pair> pair_corners(std::span<const core::Corner> truth, const core::WallMap& found,
                                const core::Pose2& T_true_map, double reach_m) {
   std::vector<Pair> pairs;
@@ -109,7 +109,7 @@ std::vector<Pair> pair_corners(std::span<const core::Corner> truth, const core::
   return pairs;
 }
 
-/// Least squares; none, where there are fewer than two pairs.
+/// Least squares; `otherwise` for fewer than two pairs.
 core::Pose2 align(std::span<const Pair> pairs, const core::Pose2& otherwise) {
   if (pairs.size() < 2) return otherwise;
   Vec2 truth = Vec2::Zero();
@@ -131,7 +131,7 @@ core::Pose2 align(std::span<const Pair> pairs, const core::Pose2& otherwise) {
   return {shift.x(), shift.y(), turn.theta_rad};
 }
 
-/// Corners both of whose faces were seen up to them.
+/// Corners whose faces are both visible up to the corner.
 std::vector<core::Corner> seen_corners(const core::WallMap& truth, const VisibleWalls& seen) {
   std::vector<core::Corner> corners;
   for (const core::Corner& corner : truth.corners()) {
@@ -140,7 +140,7 @@ std::vector<core::Corner> seen_corners(const core::WallMap& truth, const Visible
       const core::Face& face = truth.faces()[i];
       const double to_end_m =
           std::min((face.from - corner.position).norm(), (face.to - corner.position).norm());
-      // Not the other side of a line.
+      // Skips the rear side of a wall without thickness.
       if (face.normal.dot(core::unit_vector(corner.bisector_rad())) <= 0) continue;
       if (to_end_m < 1e-6 && seen.sees_near(i, corner.position)) ++faces;
     }
@@ -202,7 +202,7 @@ SurveyScore score_survey(const core::WallMap& truth, std::span<const core::Pose2
   const std::vector<core::Corner> corners = seen_corners(truth, seen);
   SurveyScore score;
   score.T_true_map = start;
-  // From far to near: a map by odometry alone lies askew.
+  // Coarse to fine: a map from odometry alone is distorted.
   for (const double reach_m : {0.5, 0.25, kCornerSearchRadius_m, kCornerSearchRadius_m}) {
     score.T_true_map =
         align(pair_corners(corners, found, score.T_true_map, reach_m), score.T_true_map);

@@ -40,7 +40,7 @@ KidnappingScore run_kidnapping(const std::vector<std::shared_ptr<const core::Wal
           ++(k == 0 ? score.wrong_first : score.wrong_later);
         }
       }
-      if (i == 0) continue;  // where the robot is taken from
+      if (i == 0) continue;  // the start
       ++score.jumps;
       if (recovered < KidnappingScore::kScans) {
         ++score.recovered[recovered];

@@ -41,7 +41,7 @@ std::vector<MappedBuilding> changed(const Maps& maps, Change&& change) {
   return buildings;
 }
 
-/// One robot at one place after another.
+/// Visits one start pose after another.
 class Robot {
  public:
   Robot(const Trial& trial, std::shared_ptr<const core::WallMap> map, std::uint64_t seed)
@@ -54,7 +54,7 @@ class Robot {
         bound_(trial.sensor.noise, core::LocalizerConfig().max_range_m) {}
 
   void visit(const core::WallMap& world, const core::Pose2& start, PoseScore& score) {
-    // Each place has a clock of its own, which wheels are not used to.
+    // The clock starts anew at each pose, so the odometry has to be reset.
     if (trial_.odometry) {
       localizer_.forget();
     } else {
@@ -124,7 +124,7 @@ class Robot {
 std::vector<Trial> default_trials(const Maps& arenas,
                                   const std::shared_ptr<const core::WallMap>& flat) {
   constexpr double kDisplaced_m = 0.03;
-  constexpr core::TimeNs kSlowScan_ns = 181'818'182;  // 5.5 turns a second
+  constexpr core::TimeNs kSlowScan_ns = 181'818'182;  // 5.5 scans a second
   const CircularMotion brisk{0.5, 1.5};
   const replay::SensorModel usual;
   const auto with = [&](auto&& change) {

@@ -12,7 +12,7 @@ namespace cornerd::bench {
 namespace {
 
 TEST(PaperFigures, Sums_MatchTheText) {
-  // Section V.E and the abstract: 2, 10 and 23 errors at 43 places; section V.D: the mean times.
+  // Section V.E and the abstract: 2, 10 and 23 errors at 43 poses; section V.D: the mean times.
   std::array<std::size_t, kPaperMethodCount> errors{};
   std::array<double, kPaperMethodCount> times_ms{};
   std::size_t places = 0;
