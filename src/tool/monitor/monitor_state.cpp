@@ -28,7 +28,7 @@ void MonitorState::lose(std::string_view reason, core::TimeNs now_ns) {
   if (connected_ || !changed_ns_) changed_ns_ = now_ns;
   connected_ = false;
   reason_ = reason;
-  // What it said last is no longer so.
+  // The last messages are no longer valid.
   pose_.reset();
   status_.reset();
   scan_.reset();
@@ -62,7 +62,7 @@ void MonitorState::take_line(std::string_view line, core::TimeNs now_ns) {
   last_line_ns_ = now_ns;
   message::ParsedLine parsed = message::parse_line(line);
   if (const auto* error = std::get_if<message::RequestError>(&parsed)) {
-    protocol_error_ = "a message that makes no sense: " + error->text;
+    protocol_error_ = "invalid message: " + error->text;
   } else if (const auto* refused = std::get_if<message::ParsedError>(&parsed)) {
     protocol_error_ = refused->code + ": " + refused->text;
   } else if (auto* version = std::get_if<message::ParsedVersion>(&parsed)) {

@@ -79,8 +79,7 @@ TEST_F(CheckDaemon, ReadingsThatComeTooSeldom_AreNamed) {
   daemon().odometry_hz = 12;
   EXPECT_THAT(check_daemon(stand_in_.patient)[2],
               Finds(Verdict::kNote, "odometry",
-                    "12.0 readings a second: fixes of a robot in motion "
-                    "covariance of fixes in motion is too small"));
+                    "12.0 readings a second: few, the covariance of fixes in motion is too small"));
   daemon().odometry_hz = 4.9;
   const Finding few = check_daemon(stand_in_.patient)[2];
   EXPECT_THAT(few, Finds(Verdict::kWrong, "odometry", "4.9 readings a second: too few"));

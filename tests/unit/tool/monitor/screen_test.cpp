@@ -6,7 +6,7 @@
 
 #include <algorithm>
 
-#include "monitor/told.hpp"
+#include "monitor/daemon_lines.hpp"
 
 namespace cornerd::tool {
 namespace {
@@ -35,9 +35,10 @@ class Screen : public testing::Test {
     state_.take_line(pose, 0);
     state_.take_line(
         R"({"class":"SCAN","t":100.4,"duration":0.1,"angles":[0,3.14159],"ranges":[0.5,0.5]})", 0);
-    state_.take_line(R"({"class":"BREAKPOINTS","t":100.4,"points":[{"x":0.95,"y":0.45,"kind":"corner"},)"
-                R"({"x":-0.5,"y":-0.25,"kind":"terminal"}]})",
-                0);
+    state_.take_line(
+        R"({"class":"BREAKPOINTS","t":100.4,"points":[{"x":0.95,"y":0.45,"kind":"corner"},)"
+        R"({"x":-0.5,"y":-0.25,"kind":"terminal"}]})",
+        0);
   }
   std::string shown(std::size_t columns, std::size_t rows) const {
     return draw_screen(state_, scene_, choice_, columns, rows, 0).text();
@@ -151,7 +152,7 @@ TEST_F(Screen, AmbiguousPose_MarksItsPlaces) {
   const std::string text = shown(80, 24);
   const std::size_t map_marks = static_cast<std::size_t>(std::count(text.begin(), text.end(), '?'));
   EXPECT_EQ(map_marks, 4U);  // two on the map, two beside it
-  EXPECT_THAT(text, HasSubstr("2 places fit"));
+  EXPECT_THAT(text, HasSubstr("2 poses fit"));
 }
 
 TEST_F(Screen, Zoom_PutsTheRobotInTheMiddle) {
