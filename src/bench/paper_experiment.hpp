@@ -22,7 +22,7 @@ namespace cornerd::bench {
 /// One scan at each pose, the same for all methods.
 struct PaperScans {
   std::vector<std::shared_ptr<const core::WallMap>> maps;
-  std::vector<PaperPose> places;
+  std::vector<PaperPose> poses;
   std::vector<core::Scan> scans;
 };
 PaperScans simulate_paper_scans(std::span<const std::shared_ptr<const core::WallMap>> maps,
@@ -44,7 +44,7 @@ struct PoseResult {
 
 struct PaperResult {
   NamedMethod method;
-  std::vector<PoseResult> places;  ///< as PaperScans::places
+  std::vector<PoseResult> poses;  ///< as PaperScans::poses
 };
 
 /// `timing_repeats`: rounds whose median is the time of a scan; 0: no timing.
@@ -68,7 +68,7 @@ struct PaperCell {
 struct PaperLocation {
   std::string_view title;
   std::string_view room;  ///< its name in the maps
-  std::size_t places;
+  std::size_t poses;
   std::array<PaperCell, kPaperMethodCount> cells;
 };
 

@@ -53,16 +53,16 @@ core::Pose2 next_place(const core::WallMap& map, std::size_t room, std::size_t& 
 }  // namespace
 
 std::vector<PaperPose> paper_poses(std::span<const std::shared_ptr<const core::WallMap>> maps) {
-  std::vector<PaperPose> places;
+  std::vector<PaperPose> poses;
   for (std::size_t location = 0; location < kPaperLocations.size(); ++location) {
     std::size_t step = 0;
-    for (std::size_t i = 0; i < kPaperLocations[location].places; ++i) {
+    for (std::size_t i = 0; i < kPaperLocations[location].poses; ++i) {
       const std::size_t m = i % maps.size();
       const std::size_t room = room_index(*maps[m], kPaperLocations[location].room);
-      places.push_back({location, m, next_place(*maps[m], room, step)});
+      poses.push_back({location, m, next_place(*maps[m], room, step)});
     }
   }
-  return places;
+  return poses;
 }
 
 }  // namespace cornerd::bench

@@ -44,7 +44,7 @@ class ScaleScans {
  public:
   ScaleScans(std::shared_ptr<const core::WallMap> map, std::size_t scans, std::uint64_t seed);
 
-  const std::vector<core::Pose2>& places() const { return places_; }
+  const std::vector<core::Pose2>& poses() const { return places_; }
   const std::vector<core::Scan>& scans() const { return scans_; }
 
   /// Localizes every scan without a prior.

@@ -46,7 +46,7 @@ struct SurveyCase {
 struct SurveyExperiment {
   std::vector<SurveyCase> cases;
   LocalizationScore in_true_map;  ///< the same second drive
-  double way_m = 0;
+  double length_m = 0;
 };
 
 /// survey() with and without odometry; ransac_survey() with the odometry as configured, and with

@@ -29,7 +29,7 @@ constexpr double kMaxDistanceToCorner_m = 0.08;
 /// The cells of the true faces that rays hit from the drive's poses.
 class VisibleWalls {
  public:
-  VisibleWalls(const core::WallMap& map, std::span<const core::Pose2> places) : map_(map) {
+  VisibleWalls(const core::WallMap& map, std::span<const core::Pose2> poses) : map_(map) {
     for (const core::Face& face : map.faces()) {
       rays_.emplace_back(static_cast<std::size_t>(std::ceil(face.length_m / kCell_m)), 0);
     }
@@ -38,7 +38,7 @@ class VisibleWalls {
     scan.begin(core::kTwoPi / kRays);
     for (int i = 0; i < kRays; ++i) scan.append(-core::kPi + (i + 0.5) * core::kTwoPi / kRays, 1);
     core::RayCaster prediction(kMaxRange_m);
-    for (const core::Pose2& place : places) {
+    for (const core::Pose2& place : poses) {
       const auto hits = prediction.cast(map, place, scan.points());
       for (std::size_t i = 0; i < hits.size(); ++i) count(place, scan[i], hits[i]);
     }
@@ -126,9 +126,9 @@ core::Pose2 align(std::span<const Pair> pairs, const core::Pose2& otherwise) {
     cosine += a.dot(b);
     sine += core::cross(a, b);
   }
-  const core::Pose2 turn{0, 0, std::atan2(sine, cosine)};
-  const Vec2 shift = truth - turn * found;
-  return {shift.x(), shift.y(), turn.theta_rad};
+  const core::Pose2 rotation{0, 0, std::atan2(sine, cosine)};
+  const Vec2 shift = truth - rotation * found;
+  return {shift.x(), shift.y(), rotation.theta_rad};
 }
 
 /// Corners whose faces are both visible up to the corner.
@@ -196,9 +196,9 @@ void score_walls(const core::WallMap& truth, const VisibleWalls& seen, const cor
 
 }  // namespace
 
-SurveyScore score_survey(const core::WallMap& truth, std::span<const core::Pose2> places,
+SurveyScore score_survey(const core::WallMap& truth, std::span<const core::Pose2> poses,
                          const core::WallMap& found, const core::Pose2& start) {
-  const VisibleWalls seen(truth, places);
+  const VisibleWalls seen(truth, poses);
   const std::vector<core::Corner> corners = seen_corners(truth, seen);
   SurveyScore score;
   score.T_true_map = start;

@@ -29,8 +29,8 @@ struct SurveyScore {
   double corner_max_m() const { return corner_errors_m.empty() ? 0 : corner_errors_m.back(); }
 };
 
-/// `places`: true poses of the lidar, one for each scan. `start`: initial guess of T_true_map.
-SurveyScore score_survey(const core::WallMap& truth, std::span<const core::Pose2> places,
+/// `poses`: true poses of the lidar, one for each scan. `start`: initial guess of T_true_map.
+SurveyScore score_survey(const core::WallMap& truth, std::span<const core::Pose2> poses,
                          const core::WallMap& found, const core::Pose2& start);
 
 }  // namespace cornerd::bench

@@ -38,7 +38,7 @@ class SurveyOfAFlat : public testing::Test {
 std::unique_ptr<bench::SurveyExperiment> SurveyOfAFlat::experiment_;
 
 TEST_F(SurveyOfAFlat, VisibleWallsOver30cm_AreMappedWithoutFalseOnes) {
-  EXPECT_GE(experiment_->way_m, 100);
+  EXPECT_GE(experiment_->length_m, 100);
   const bench::SurveyScore& score = made("adjusted").score;
   EXPECT_EQ(score.walls_found, score.walls_seen);
   EXPECT_GT(score.walls_seen, 70U);
@@ -71,7 +71,7 @@ TEST_F(SurveyOfAFlat, LidarAlone_FindsTheWalls) {
 
 TEST_F(SurveyOfAFlat, PaperMethod_IsLessAccurate) {
   const bench::SurveyScore& ours = made("adjusted").score;
-  const bench::SurveyScore& calibrated = made("ransac, odometry taught").score;
+  const bench::SurveyScore& calibrated = made("ransac, calibrated odometry").score;
   EXPECT_LT(calibrated.walls_found, ours.walls_found);
   EXPECT_GT(calibrated.corner_median_m(), 4 * ours.corner_median_m());
 }

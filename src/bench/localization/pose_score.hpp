@@ -15,8 +15,8 @@ class Reliability {
   struct Bin {
     double min_p_wrong = 0;
     std::size_t scans = 0;
-    std::size_t wrong = 0;  ///< scans whose best hypothesis is wrong
-    double doubt = 0;       ///< sum of p_wrong: the expected number of wrong ones
+    std::size_t wrong = 0;      ///< scans whose best hypothesis is wrong
+    double expected_wrong = 0;  ///< sum of p_wrong: the expected number of wrong ones
   };
 
   void add(const core::PoseEstimate& estimate, const core::Pose2& truth);

@@ -155,7 +155,7 @@ std::vector<Trial> default_trials(const Maps& arenas,
   add("arena", arena);
   add("flat", home);
   add("12 equal rooms", std::vector{as_mapped(rooms)});
-  Trial& bias = add("biased lidar, 20 turns each", arena);
+  Trial& bias = add("biased lidar, 20 scans each", arena);
   bias.sensor = biased;
   bias.scans_each = 20;
   add("60 % missing", arena).sensor = sparse;
@@ -165,7 +165,7 @@ std::vector<Trial> default_trials(const Maps& arenas,
   for (const std::size_t updates : {1, 4}) {
     for (const bool odometry : {false, true}) {
       Trial& moving = add(std::string("0.5 m/s, 1.5 rad/s") + (odometry ? ", odometry" : "") +
-                              (updates > 1 ? ", quarters of a turn" : ""),
+                              (updates > 1 ? ", quarters of a scan" : ""),
                           home);
       moving.motion = brisk;
       moving.scans_each = 30;
@@ -177,7 +177,7 @@ std::vector<Trial> default_trials(const Maps& arenas,
   return trials;
 }
 
-PoseScore run_trial(const Trial& trial, std::size_t places, std::uint64_t seed,
+PoseScore run_trial(const Trial& trial, std::size_t poses, std::uint64_t seed,
                     const std::function<void(std::size_t done)>& progress) {
   PoseScore score;
   std::size_t done = 0;
@@ -186,7 +186,7 @@ PoseScore run_trial(const Trial& trial, std::size_t places, std::uint64_t seed,
     const MappedBuilding& building = trial.buildings[b];
     Robot robot(trial, building.map, seed + b);
     const std::size_t worlds = building.worlds.size();
-    const std::size_t share = places * (b + 1) / buildings - places * b / buildings;
+    const std::size_t share = poses * (b + 1) / buildings - poses * b / buildings;
     for (std::size_t w = 0; w < worlds; ++w) {
       const core::WallMap& world = *building.worlds[w];
       const std::size_t count = share * (w + 1) / worlds - share * w / worlds;

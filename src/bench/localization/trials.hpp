@@ -39,8 +39,8 @@ struct Trial {
 std::vector<Trial> default_trials(const std::vector<std::shared_ptr<const core::WallMap>>& arenas,
                                   const std::shared_ptr<const core::WallMap>& flat);
 
-/// Divides `places` random start poses among the trial's buildings; 800 samples a scan.
-PoseScore run_trial(const Trial& trial, std::size_t places, std::uint64_t seed,
+/// Divides `poses` random start poses among the trial's buildings; 800 samples a scan.
+PoseScore run_trial(const Trial& trial, std::size_t poses, std::uint64_t seed,
                     const std::function<void(std::size_t done)>& progress = {});
 
 }  // namespace cornerd::bench

@@ -48,7 +48,7 @@ std::string experiment_text(const SurveyExperiment& experiment) {
   return tool::formatted(
              "A drive of %.1f m through seven rooms, wheels 1.5 and 2.5 %% and gyro 2 %% and "
              "0.01 rad/s off:\n",
-             experiment.way_m) +
+             experiment.length_m) +
          table.text() +
          tool::formatted(
              "A second drive in the true map: mean error %.2f mm, %zu of %zu scans named a "
