@@ -117,22 +117,23 @@ int PaperRecognition::lines_on_walls(std::span<const core::WallSegment> segments
   return count;
 }
 
-std::span<const core::PoseHypothesis> PaperRecognition::places(
+std::span<const core::PoseHypothesis> PaperRecognition::hypotheses(
     std::span<const core::Breakpoint> breakpoints, std::span<const core::WallSegment> segments) {
   found_.clear();
   if (!find_nearest(breakpoints)) return {};
   match_nearest();
-  const std::span<core::PoseHypothesis> places = found_.most_voted(kMaxFound);
-  for (core::PoseHypothesis& place : places) {
+  const std::span<core::PoseHypothesis> hypotheses = found_.most_voted(kMaxFound);
+  for (core::PoseHypothesis& place : hypotheses) {
     place.votes = kVotesPerCorner * recognised(breakpoints, place.T_map_lidar) +
                   lines_on_walls(segments, place.T_map_lidar);
   }
-  std::sort(places.begin(), places.end(), core::is_better);
+  std::sort(hypotheses.begin(), hypotheses.end(), core::is_better);
   std::size_t level = 0;
-  while (level < std::min(places.size(), kMaxLevel) && places[level].votes == places[0].votes) {
+  while (level < std::min(hypotheses.size(), kMaxLevel) &&
+         hypotheses[level].votes == hypotheses[0].votes) {
     ++level;
   }
-  return places.first(level);
+  return hypotheses.first(level);
 }
 
 }  // namespace cornerd::baseline

@@ -22,8 +22,8 @@ class PaperRecognition {
   PaperRecognition(const core::WallMap& map, const core::Catalog& catalog);
 
   /// The best pose hypotheses of stages 2 and 3; several in a tie.
-  std::span<const core::PoseHypothesis> places(std::span<const core::Breakpoint> breakpoints,
-                                               std::span<const core::WallSegment> segments);
+  std::span<const core::PoseHypothesis> hypotheses(std::span<const core::Breakpoint> breakpoints,
+                                                   std::span<const core::WallSegment> segments);
 
  private:
   using Triple = std::array<const core::Breakpoint*, 3>;

@@ -45,7 +45,7 @@ class VisibleWalls {
   }
 
   std::size_t cells(std::size_t face) const { return rays_[face].size(); }
-  bool sees(std::size_t face, std::size_t cell) const {
+  bool is_visible(std::size_t face, std::size_t cell) const {
     return rays_[face][cell] >= kMinRaysPerCell;
   }
   Vec2 place_of(std::size_t face, std::size_t cell) const {
@@ -53,9 +53,9 @@ class VisibleWalls {
     return wall.from + (static_cast<double>(cell) + 0.5) * kCell_m * wall.direction;
   }
   /// A visible cell of the face is within kMaxDistanceToCorner_m of the point.
-  bool sees_near(std::size_t face, const Vec2& point) const {
+  bool is_visible_near(std::size_t face, const Vec2& point) const {
     for (std::size_t cell = 0; cell < cells(face); ++cell) {
-      if (sees(face, cell) && (place_of(face, cell) - point).norm() < kMaxDistanceToCorner_m)
+      if (is_visible(face, cell) && (place_of(face, cell) - point).norm() < kMaxDistanceToCorner_m)
         return true;
     }
     return false;
@@ -132,7 +132,7 @@ core::Pose2 align(std::span<const Pair> pairs, const core::Pose2& otherwise) {
 }
 
 /// Corners whose faces are both visible up to the corner.
-std::vector<core::Corner> seen_corners(const core::WallMap& truth, const VisibleWalls& seen) {
+std::vector<core::Corner> visible_corners(const core::WallMap& truth, const VisibleWalls& seen) {
   std::vector<core::Corner> corners;
   for (const core::Corner& corner : truth.corners()) {
     int faces = 0;
@@ -142,7 +142,7 @@ std::vector<core::Corner> seen_corners(const core::WallMap& truth, const Visible
           std::min((face.from - corner.position).norm(), (face.to - corner.position).norm());
       // Skips the rear side of a wall without thickness.
       if (face.normal.dot(core::unit_vector(corner.bisector_rad())) <= 0) continue;
-      if (to_end_m < 1e-6 && seen.sees_near(i, corner.position)) ++faces;
+      if (to_end_m < 1e-6 && seen.is_visible_near(i, corner.position)) ++faces;
     }
     if (faces >= 2) corners.push_back(corner);
   }
@@ -162,7 +162,7 @@ void score_walls(const core::WallMap& truth, const VisibleWalls& seen, const cor
     std::size_t cells = 0;
     std::size_t hits = 0;
     for (std::size_t cell = 0; cell < seen.cells(i); ++cell) {
-      if (!seen.sees(i, cell)) continue;
+      if (!seen.is_visible(i, cell)) continue;
       ++cells;
       const Vec2 place = seen.place_of(i, cell);
       hits += std::any_of(faces.begin(), faces.end(), [&](const core::Face& face) {
@@ -173,7 +173,7 @@ void score_walls(const core::WallMap& truth, const VisibleWalls& seen, const cor
     score.seen_m += kCell_m * static_cast<double>(cells);
     score.found_m += kCell_m * static_cast<double>(hits);
     if (kCell_m * static_cast<double>(cells) < kMinWall_m) continue;
-    ++score.walls_seen;
+    ++score.walls_visible;
     if (static_cast<double>(hits) >= kMinFoundShare * static_cast<double>(cells)) {
       ++score.walls_found;
     } else {
@@ -199,7 +199,7 @@ void score_walls(const core::WallMap& truth, const VisibleWalls& seen, const cor
 SurveyScore score_survey(const core::WallMap& truth, std::span<const core::Pose2> poses,
                          const core::WallMap& found, const core::Pose2& start) {
   const VisibleWalls seen(truth, poses);
-  const std::vector<core::Corner> corners = seen_corners(truth, seen);
+  const std::vector<core::Corner> corners = visible_corners(truth, seen);
   SurveyScore score;
   score.T_true_map = start;
   // Coarse to fine: a map from odometry alone is distorted.
@@ -208,7 +208,7 @@ SurveyScore score_survey(const core::WallMap& truth, std::span<const core::Pose2
         align(pair_corners(corners, found, score.T_true_map, reach_m), score.T_true_map);
   }
   const auto pairs = pair_corners(corners, found, score.T_true_map, kCornerSearchRadius_m);
-  score.corners_seen = corners.size();
+  score.corners_visible = corners.size();
   score.corners_found = pairs.size();
   for (const Pair& pair : pairs) {
     score.corner_errors_m.push_back((score.T_true_map * pair.found - pair.truth).norm());

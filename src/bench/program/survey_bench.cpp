@@ -25,10 +25,10 @@ std::string describe_second(const std::optional<LocalizationScore>& score) {
 }
 
 std::string walls_text(const SurveyScore& score) {
-  return tool::formatted("%zu of %zu", score.walls_found, score.walls_seen);
+  return tool::formatted("%zu of %zu", score.walls_found, score.walls_visible);
 }
 std::string corners_text(const SurveyScore& score) {
-  return tool::formatted("%zu of %zu", score.corners_found, score.corners_seen);
+  return tool::formatted("%zu of %zu", score.corners_found, score.corners_visible);
 }
 std::string corner_errors_text(const SurveyScore& score) {
   return tool::formatted("%.2f, %.2f mm", score.corner_median_m() * kMillimetres,

@@ -23,7 +23,7 @@ SurveyScore score(const core::FloorPlan& found, const core::Pose2& start = {}) {
 
 TEST(SurveyScoring, TrueMap_PerfectScore) {
   const SurveyScore result = score(room());
-  EXPECT_EQ(result.walls_seen, 4U);
+  EXPECT_EQ(result.walls_visible, 4U);
   EXPECT_EQ(result.walls_found, 4U);
   EXPECT_EQ(result.invented_m, 0);
   EXPECT_EQ(result.corners_found, 4U);
