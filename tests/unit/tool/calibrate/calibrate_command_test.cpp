@@ -94,7 +94,7 @@ TEST_F(CalibrateNoise, ReturnsOfNoWall_AreAFailureThatSaysSo) {
   }
   const CommandRun run({"calibrate", "noise", path("chance.ndjson"), "-o", path("noise.json")});
   EXPECT_EQ(run.exit_code, kExitFailed);
-  EXPECT_THAT(run.err, HasSubstr("too scattered to be of walls"));
+  EXPECT_THAT(run.err, HasSubstr("too scattered for walls"));
   EXPECT_FALSE(std::filesystem::exists(path("noise.json")));
 }
 
@@ -206,7 +206,7 @@ TEST_F(CalibrateBias, MapThatIsNotToScale_IsAnErrorAndWritesNothing) {
 TEST_F(CalibrateBias, TooFewScans_AreAnError) {
   const CommandRun run({"calibrate", "bias", recording("0.002", "5"), "--map", path("hall.json")});
   EXPECT_EQ(run.exit_code, kExitFailed);
-  EXPECT_THAT(run.err, HasSubstr("scans were found"));
+  EXPECT_THAT(run.err, HasSubstr("scans were localized"));
 }
 
 }  // namespace
