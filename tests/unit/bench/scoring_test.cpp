@@ -96,7 +96,7 @@ TEST_F(CornerScoring, PrecisionAndRecall_MatchCounts) {
   EXPECT_DOUBLE_EQ(score_.recall_of_visible(), 2.0 / static_cast<double>(score_.visible()));
 }
 
-TEST_F(CornerScoring, Strictly_OneSidedEnds_AreFalse) {
+TEST_F(CornerScoring, StrictPrecision_OneSidedEndsAreFalse) {
   judge({detection(1, 2), detection(0.2, 1, BreakpointKind::kTerminal)});  // end of the thin wall
   EXPECT_DOUBLE_EQ(score_.precision(), 1);
   EXPECT_DOUBLE_EQ(score_.precision(true), 0.5);
