@@ -69,7 +69,7 @@ TEST(ErrorStatistics, HeadingsOnBothSidesOfPi_AreNear) {
   EXPECT_EQ(statistics.wrong(), 0U);
 }
 
-TEST(ErrorStatistics, AmbiguousAndLost_NameNoPlaceAndAreNeverWrong) {
+TEST(ErrorStatistics, AmbiguousAndLost_AreNeverWrong) {
   ErrorStatistics statistics;
   core::PoseEstimate ambiguous = estimate(PoseState::kAmbiguous, 9, 9, 0);
   ambiguous.alternatives = {{{5, 5, 0}, 0.6}, {{0.01, 0, 0}, 0.4}};

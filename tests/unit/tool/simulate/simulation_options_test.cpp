@@ -104,7 +104,7 @@ TEST_F(SimulationOptionsTest, Real_IsTheGroundUnderOtherOptions) {
   EXPECT_GT(options.model({}).missing_run, 2);
 }
 
-TEST_F(SimulationOptionsTest, SensorModel_TakesTheLastWordFromTheCommandLine) {
+TEST_F(SimulationOptionsTest, CommandLine_OverridesSensorModel) {
   std::ofstream(path("noise.json"))
       << R"({"lidar": {"noise": {"floor": 0.02, "ranges": [{"range": 1, "sigma": 0.3}]}}})";
   SensorOptions options;
