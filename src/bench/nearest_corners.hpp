@@ -18,7 +18,7 @@ namespace cornerd::bench {
 /// less than 10 cm from the first, as the paper takes both corners of a wall's end for one point.
 /// nullopt where fewer than two are left.
 std::optional<core::Pose2> pose_from_nearest_corners(std::span<const core::Breakpoint> breakpoints,
-                                                    const core::WallMap& map,
-                                                    const core::Pose2& T_map_lidar);
+                                                     const core::WallMap& map,
+                                                     const core::Pose2& T_map_lidar);
 
 }  // namespace cornerd::bench

@@ -25,7 +25,8 @@ struct OdometryRobot {
   replay::RobotModel model;
 };
 
-/// A Pioneer P3-DX and a robot of 16 cm, both as miscalibrated_robot(), a wheel slipping every 20 m.
+/// A Pioneer P3-DX and a robot of 16 cm, both as miscalibrated_robot(), a wheel slipping every 20
+/// m.
 std::vector<OdometryRobot> odometry_robots();
 
 /// The paper's threshold tr, and how long its steps are that it holds for.

@@ -23,8 +23,9 @@ struct RateResult {
   std::size_t scans = 0;
 };
 
-/// miscalibrated_robot() through the rooms of config/maps/flat-7.json at 0.25 m/s, with turns on the spot
-/// at 1.5 rad/s; it starts and stops `gently` (gentle_drive) or at once. Same input, same result.
+/// miscalibrated_robot() through the rooms of config/maps/flat-7.json at 0.25 m/s, with turns on
+/// the spot at 1.5 rad/s; it starts and stops `gently` (gentle_drive) or at once. Same input, same
+/// result.
 RateResult run_rate_case(std::shared_ptr<const core::WallMap> map, double rate_hz, bool gently,
                          std::size_t scans, std::uint64_t seed);
 

@@ -17,9 +17,9 @@ inline constexpr double kMatchDistance_m = 0.06;
 
 /// What a detection turned out to be.
 enum class Verdict : std::uint8_t {
-  kTrue,    ///< a corner whose walls both give returns
-  kFalse,   ///< nothing, or a corner that another detection has already
-  kOneSided,   ///< a corner that is no more than a wall's end from here, or is hidden itself
+  kTrue,           ///< a corner whose walls both give returns
+  kFalse,          ///< nothing, or a corner that another detection has already
+  kOneSided,       ///< a corner that is no more than a wall's end from here, or is hidden itself
   kOcclusionEdge,  ///< where one wall hides another: neither true nor false
 };
 

@@ -61,7 +61,7 @@ std::vector<double> time_scans_us(Workload& workload, std::size_t repeats) {
 double time_preparation_us(std::span<const core::Scan> scans, std::size_t repeats) {
   core::PolarScan points;
   return mean_and_deviation(median_times_us(scans.size(), repeats,
-                                         [&](std::size_t i) { prepare(scans[i], points); }))
+                                            [&](std::size_t i) { prepare(scans[i], points); }))
       .mean;
 }
 

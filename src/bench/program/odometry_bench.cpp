@@ -122,8 +122,8 @@ std::string odometry_text(const std::vector<RobotResults>& robots) {
 }
 
 std::string odometry_json(const std::vector<RobotResults>& robots,
-                          const std::vector<BlindRow>& predictions, const std::vector<RateRow>& rates,
-                          std::uint64_t seed) {
+                          const std::vector<BlindRow>& predictions,
+                          const std::vector<RateRow>& rates, std::uint64_t seed) {
   nlohmann::ordered_json drives = nlohmann::ordered_json::array();
   for (const RobotResults& results : robots) {
     for (const OdometryResult& drive : results.drives) {

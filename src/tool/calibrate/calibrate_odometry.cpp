@@ -79,7 +79,8 @@ constexpr double kSignificantDelaySigmas = 3;
 /// The delay for the config: the one that was found where it is sure, else the configured one.
 double written_delay_s(const calibration::OdometryFit& fit, double configured_s) {
   const double change_s = fit.learned.delay_s - configured_s;
-  const bool is_sure = fit.has_delay && std::abs(change_s) > kSignificantDelaySigmas * fit.sigma.delay_s;
+  const bool is_sure =
+      fit.has_delay && std::abs(change_s) > kSignificantDelaySigmas * fit.sigma.delay_s;
   const bool is_allowed = std::abs(fit.learned.delay_s) <= settings::kMaxInitialDelay_s;
   return is_sure && is_allowed ? fit.learned.delay_s : configured_s;
 }
@@ -125,9 +126,9 @@ calibration::FilteredDrive filter_half(const RecordedDrive& drive,
 }
 
 std::string draw_dead_reckoning(const RecordedDrive& drive,
-                            std::span<const core::OdometryIncrement> steps,
-                            const settings::Config& config, const calibration::OdometryFit& fit,
-                            const calibration::FilteredDrive& filtered) {
+                                std::span<const core::OdometryIncrement> steps,
+                                const settings::Config& config, const calibration::OdometryFit& fit,
+                                const calibration::FilteredDrive& filtered) {
   const core::DriveGeometry& geometry = config.odometry.core.geometry;
   calibration::DrivePoints known;
   for (const calibration::KnownPose& place : drive.places) {

@@ -49,7 +49,7 @@ std::vector<HiddenFolder> hidden_folders(const Machine& machine) {
 }
 
 std::vector<std::string> remedies_by_moving(const Patient& patient, const std::string& subject,
-                                         const fs::path& file) {
+                                            const fs::path& file) {
   std::vector<std::string> remedies = {"sudo install -m 644 " + file.string() + " /etc/cornerd/"};
   const std::string copy = (fs::path("/etc/cornerd") / file.filename()).string();
   if (subject == "config") {
@@ -59,14 +59,14 @@ std::vector<std::string> remedies_by_moving(const Patient& patient, const std::s
   } else {
     const std::string key = subject == "map" ? "\"map\": \"" : "\"lidar\": { \"file\": \"";
     remedies.push_back("and, in " + patient.config_name + ": " + key + copy +
-                    (subject == "map" ? "\"" : "\" }"));
+                       (subject == "map" ? "\"" : "\" }"));
   }
   return remedies;
 }
 
 /// What keeps the service from reading a file, if anything does.
 std::vector<Finding> check_file_access(const Patient& patient, const Account& service,
-                                   const std::string& subject, const fs::path& named) {
+                                       const std::string& subject, const fs::path& named) {
   const Machine& machine = patient.machine;
   const fs::path file = fs::absolute(named).lexically_normal();
   if (!machine.exists(file)) return {};  // said elsewhere

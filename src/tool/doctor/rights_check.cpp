@@ -7,7 +7,7 @@ namespace cornerd::tool {
 namespace {
 
 std::vector<std::string> remedies_for(const Patient& patient, const Account& who, bool is_service,
-                                   const FileFacts& port, const std::string& name) {
+                                      const FileFacts& port, const std::string& name) {
   const bool group_may = (port.mode >> 3 & 06U) == 06U;
   const std::string group = group_name(patient.machine, port.gid);
   if (!group_may || port.gid == 0) {

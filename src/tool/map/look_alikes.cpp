@@ -99,7 +99,7 @@ std::string describe_look_alikes(const core::WallMap& map,
   }
 
   std::vector<std::pair<std::pair<std::string, std::string>, Ambiguity>> lines(ambiguities.begin(),
-                                                                              ambiguities.end());
+                                                                               ambiguities.end());
   std::stable_sort(lines.begin(), lines.end(),
                    [](const auto& a, const auto& b) { return a.second.places > b.second.places; });
   std::string text =

@@ -27,7 +27,8 @@ TEST_F(CheckClaimers, GpsdThatTakesEveryCp2102_IsToBeTold) {
   stand_in_.write("/etc/default/gpsd", "# comment\nDEVICES=\"\"\nUSBAUTO=\"true\"\n");
   const auto found = findings();
   ASSERT_THAT(found, ElementsAre(Finds(Verdict::kWrong, "gpsd", "every CP2102")));
-  EXPECT_THAT(found[0].remedies, ElementsAre(HasSubstr("udev rules"), HasSubstr("USBAUTO=\"false\"")));
+  EXPECT_THAT(found[0].remedies,
+              ElementsAre(HasSubstr("udev rules"), HasSubstr("USBAUTO=\"false\"")));
   stand_in_.write("/etc/default/gpsd", "USBAUTO=\"true\"\nUSBAUTO='false'\n");
   EXPECT_THAT(findings(), ElementsAre(Finds(Verdict::kGood, "gpsd", "leaves the port alone")));
 }

@@ -77,7 +77,8 @@ TEST_F(CheckReading, HomesAndTemporaryFolders_AreNotSeenByTheService) {
     use_map(folder + "/ada/home.json");
     const auto found = findings();
     ASSERT_THAT(found, ElementsAre(Finds(Verdict::kWrong, "map", "sees nothing of " + folder)));
-    EXPECT_THAT(found[0].remedies[0], HasSubstr("sudo install -m 644 " + folder + "/ada/home.json"));
+    EXPECT_THAT(found[0].remedies[0],
+                HasSubstr("sudo install -m 644 " + folder + "/ada/home.json"));
   }
   use_map("/homes/ada/home.json");
   EXPECT_THAT(findings(), ElementsAre(Finds(Verdict::kGood, "reading", "")));

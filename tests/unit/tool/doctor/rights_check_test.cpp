@@ -73,7 +73,7 @@ TEST_F(CheckRights, KindThatTheUnitLeavesOut_IsToBeAdded) {
   ASSERT_EQ(found.size(), 2U);
   EXPECT_THAT(found[1], Finds(Verdict::kWrong, "rights", "DeviceAllow= has no ttyXY"));
   EXPECT_THAT(found[1].remedies, ElementsAre(HasSubstr("DeviceAllow=char-ttyXY rw"),
-                                          HasSubstr("systemctl restart cornerd")));
+                                             HasSubstr("systemctl restart cornerd")));
 }
 
 }  // namespace

@@ -41,7 +41,8 @@ TEST(MonitorState, Scan_GetsPoseBeforeIt) {
   state.connect(0);
   state.take_line(kFixLine, 1);
   state.take_line(R"({"class":"SCAN","t":100.4,"duration":0.1,"angles":[0],"ranges":[1]})", 1);
-  state.take_line(R"({"class":"BREAKPOINTS","t":100.4,"points":[{"x":1,"y":0,"kind":"corner"}]})", 1);
+  state.take_line(R"({"class":"BREAKPOINTS","t":100.4,"points":[{"x":1,"y":0,"kind":"corner"}]})",
+                  1);
   ASSERT_TRUE(state.scan());
   ASSERT_TRUE(state.scan()->T_map_base);
   EXPECT_EQ(state.scan()->T_map_base->y_m, 0.5);

@@ -18,11 +18,12 @@ TEST(PosePanel, Fix_IsToldWithItsDoubtAndItsSource) {
   MonitorState state;
   state.connect(0);
   for (int i = 1; i <= 5; ++i) state.take_line(kFixLine, i * core::kNsPerSecond / 8);
-  state.take_line(status_line(R"("state":"running","model":"A1M8","firmware":"1.29","mode":"Express",)"
-                         R"("health":"good","rate_hz":7.1,"samples_hz":1923.4)",
-                         R"(,"odometry":{"state":"running"},"latency":{"p50":0.0012,"p95":0.002,)"
-                         R"("p99":0.0034})"),
-             core::kNsPerSecond);
+  state.take_line(
+      status_line(R"("state":"running","model":"A1M8","firmware":"1.29","mode":"Express",)"
+                  R"("health":"good","rate_hz":7.1,"samples_hz":1923.4)",
+                  R"(,"odometry":{"state":"running"},"latency":{"p50":0.0012,"p95":0.002,)"
+                  R"("p99":0.0034})"),
+      core::kNsPerSecond);
   state.take_line(R"({"class":"EVENT","t":98,"what":"device found","detail":"running"})", 0);
   state.take_line(R"({"class":"EVENT","t":100.5,"what":"state change","detail":"lost -> fix"})", 0);
   EXPECT_EQ(text_of(state, core::kNsPerSecond),

@@ -35,9 +35,10 @@ class Screen : public testing::Test {
     state_.take_line(pose, 0);
     state_.take_line(
         R"({"class":"SCAN","t":100.4,"duration":0.1,"angles":[0,3.14159],"ranges":[0.5,0.5]})", 0);
-    state_.take_line(R"({"class":"BREAKPOINTS","t":100.4,"points":[{"x":0.95,"y":0.45,"kind":"corner"},)"
-                R"({"x":-0.5,"y":-0.25,"kind":"terminal"}]})",
-                0);
+    state_.take_line(
+        R"({"class":"BREAKPOINTS","t":100.4,"points":[{"x":0.95,"y":0.45,"kind":"corner"},)"
+        R"({"x":-0.5,"y":-0.25,"kind":"terminal"}]})",
+        0);
   }
   std::string shown(std::size_t columns, std::size_t rows) const {
     return draw_screen(state_, scene_, choice_, columns, rows, 0).text();
