@@ -85,8 +85,8 @@ TEST_F(CalibrateNoise, ReturnsOfNoWall_AreAFailureThatSaysSo) {
     std::ofstream file(path("chance.ndjson"));
     for (int i = 0; i < 60; ++i) {
       nlohmann::json scan = {{"class", "SCAN"}, {"t", 0.2 * i}, {"duration", 0.18}};
-      for (int i = 0; i < 300; ++i) {
-        scan["angles"].push_back(0.02 * i);
+      for (int k = 0; k < 300; ++k) {
+        scan["angles"].push_back(0.02 * k);
         scan["ranges"].push_back(range_m(random));
       }
       file << scan << '\n';
