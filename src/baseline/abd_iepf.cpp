@@ -7,11 +7,11 @@
 namespace cornerd::baseline {
 namespace {
 
-/// Round a closed room a segment's ends can be one place. Below an A1's resolution a chord has no
-/// direction to speak of, and the distance to that place counts instead.
+/// In a closed room both ends of a segment can coincide. A chord below an A1's resolution has no
+/// usable direction, so the distance from its end is used.
 constexpr double kMinChord_m = 0.001;
 
-/// What eq. 4 and 5 ask of the configuration, made once a turn.
+/// Constants of eq. 4 and 5, computed once a scan.
 struct Abd {
   explicit Abd(const AbdIepfConfig& config)
       : threshold(config.threshold),
@@ -48,7 +48,7 @@ struct Farthest {
   double height_m2 = 0;  ///< squared
 };
 
-/// Of the samples strictly between the ends.
+/// Of the samples between the ends, without them.
 Farthest farthest_from_chord(const core::PolarScan& scan, std::size_t first, std::size_t last) {
   const core::Vec2 begin = scan[first].position();
   const core::Vec2 chord = scan[last].position() - begin;
@@ -75,7 +75,7 @@ double abd_threshold_m(const AbdIepfConfig& config, const core::PolarPoint& befo
 AbdIepf::AbdIepf(const core::DetectorConfig& detector, const core::SensorNoise& noise,
                  const AbdIepfConfig& config)
     : noise_(noise), config_(config), min_support_(detector.min_support) {
-  ends_.reserve(core::kMaxSamplesPerScan);  // they are different samples: no turn has more of them
+  ends_.reserve(core::kMaxSamplesPerScan);  // distinct samples of one scan
 }
 
 core::SegmentTrack AbdIepf::fit(const core::PolarScan& scan, std::size_t first,

@@ -13,24 +13,22 @@
 namespace cornerd::baseline {
 
 struct LineTrackingConfig {
-  /// D_max. The paper prints none: three standard deviations of an A1's range at 2 m.
+  /// D_max. The paper prints no value; here three standard deviations of an A1's range at 2 m.
   double max_distance_m = 0.03;
 };
 
-/// A line through two samples, fitted anew with each next one (running sums), until one lies
-/// farther from it than a constant. That sample starts the next line.
-///
-/// Nothing here is made better than the print: a line follows the samples around a corner until
-/// they are D_max off, goes on over any gap, and ends at a lone outlier. Only the samples' weights
-/// follow the sensor's noise, since the covariances of the breakpoints are made of them.
+/// A line through two samples is refitted with each next one (running sums), until a sample is
+/// farther from it than D_max. That sample starts the next line. As printed, a line continues over
+/// any gap and ends at a single outlier. Only the weights follow the sensor's noise, since the
+/// covariances of the breakpoints follow from them.
 class LineTracking final : public core::WallFinder {
  public:
   LineTracking(const core::DetectorConfig& detector, const core::SensorNoise& noise,
                const LineTrackingConfig& config = {})
       : noise_(noise), max_distance_m_(config.max_distance_m), min_support_(detector.min_support) {}
 
-  /// Walls of at least min_support samples. Allocates nothing beyond the capacity of `tracks`;
-  /// walls that do not fit are dropped, and counted in the result.
+  /// Finds walls of at least min_support samples. Returns the number of walls dropped because
+  /// `tracks` is full. Allocates nothing.
   std::size_t track(const core::PolarScan& scan, core::SegmentTracks& tracks) override;
 
  private:

@@ -7,13 +7,13 @@
 namespace cornerd::baseline {
 namespace {
 
-/// Distances that differ by less are equal. The paper prints none: five times its corners' error.
+/// Tolerance of equal distances. The paper prints no value; here five times its corner error.
 constexpr double kEqual_m = 0.05;
-/// A point this near to a face lies on it.
+/// Tolerance of a point on a face.
 constexpr double kOnFace_m = 0.05;
 constexpr std::size_t kMaxFound = 1024;
 constexpr std::size_t kMaxLevel = 64;
-/// A corner weighs more than all lines: stage 3 only chooses where stage 2 leaves a choice.
+/// One corner outweighs all lines: stage 3 only breaks ties of stage 2.
 constexpr int kVotesPerCorner = 1000;
 
 bool is_type(const core::Breakpoint& breakpoint, const core::Corner& landmark) {
@@ -53,7 +53,7 @@ void PaperRecognition::propose(const core::Corner& a, const core::Corner& b,
                             core::Pose2{0, 0, heading_rad} *
                                 core::Vec2((nearest_[0]->position + nearest_[1]->position) / 2);
   const core::Pose2 T_map_lidar{origin.x(), origin.y(), heading_rad};
-  // Distances alone do not tell a triangle from its mirror image.
+  // Distances alone do not distinguish a triangle from its mirror image.
   if ((T_map_lidar * nearest_[2]->position - c.position).norm() < 2 * kEqual_m) {
     found_.add(T_map_lidar);
   }
@@ -117,22 +117,23 @@ int PaperRecognition::lines_on_walls(std::span<const core::WallSegment> segments
   return count;
 }
 
-std::span<const core::PoseHypothesis> PaperRecognition::places(
+std::span<const core::PoseHypothesis> PaperRecognition::hypotheses(
     std::span<const core::Breakpoint> breakpoints, std::span<const core::WallSegment> segments) {
   found_.clear();
   if (!find_nearest(breakpoints)) return {};
   match_nearest();
-  const std::span<core::PoseHypothesis> places = found_.most_voted(kMaxFound);
-  for (core::PoseHypothesis& place : places) {
+  const std::span<core::PoseHypothesis> hypotheses = found_.most_voted(kMaxFound);
+  for (core::PoseHypothesis& place : hypotheses) {
     place.votes = kVotesPerCorner * recognised(breakpoints, place.T_map_lidar) +
                   lines_on_walls(segments, place.T_map_lidar);
   }
-  std::sort(places.begin(), places.end(), core::is_better);
+  std::sort(hypotheses.begin(), hypotheses.end(), core::is_better);
   std::size_t level = 0;
-  while (level < std::min(places.size(), kMaxLevel) && places[level].votes == places[0].votes) {
+  while (level < std::min(hypotheses.size(), kMaxLevel) &&
+         hypotheses[level].votes == hypotheses[0].votes) {
     ++level;
   }
-  return places.first(level);
+  return hypotheses.first(level);
 }
 
 }  // namespace cornerd::baseline

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// El Amin et al., section IV.B.4: the three stages as they are published, to measure against.
+// Corner recognition as published by El Amin et al., section IV.B.4.
 #pragma once
 
 #include <array>
@@ -13,17 +13,17 @@
 
 namespace cornerd::baseline {
 
-/// 1. The three nearest corners are looked for in the sub-catalogues, by their types and distances.
-/// 2. The remaining corners and terminals, then 3. the points that form a line, choose among what
-/// is found. The pose is that of the two nearest corners. What the paper leaves open is a constant
-/// in the .cpp. Takes no memory after construction; asks every landmark of the map.
+/// Stage 1 searches the sub-catalogues for the three nearest corners, by type and distance. Stage 2
+/// counts the remaining corners and terminals, stage 3 the lines on walls. The pose follows from
+/// the two nearest corners. Parameters that the paper leaves open are constants in the .cpp.
+/// Allocates nothing after construction; visits every landmark of the map.
 class PaperRecognition {
  public:
   PaperRecognition(const core::WallMap& map, const core::Catalog& catalog);
 
-  /// The places that stages 2 and 3 like best, several where they are level.
-  std::span<const core::PoseHypothesis> places(std::span<const core::Breakpoint> breakpoints,
-                                               std::span<const core::WallSegment> segments);
+  /// The best pose hypotheses of stages 2 and 3; several in a tie.
+  std::span<const core::PoseHypothesis> hypotheses(std::span<const core::Breakpoint> breakpoints,
+                                                   std::span<const core::WallSegment> segments);
 
  private:
   using Triple = std::array<const core::Breakpoint*, 3>;

@@ -8,7 +8,7 @@ namespace {
 
 constexpr std::size_t kThree = 3;
 
-/// Line through three neighbouring samples, all of one weight.
+/// Line through three neighbouring samples of equal weight.
 core::Line line_through(const core::PolarScan& scan, std::size_t first) {
   core::LineFit fit({scan[first].x_m, scan[first].y_m});
   for (std::size_t i = first; i < first + kThree; ++i) fit.add(scan[i].x_m, scan[i].y_m, 1);
@@ -22,7 +22,7 @@ double relative_error(const core::Line& line, const core::PolarPoint& point) {
 
 }  // namespace
 
-/// The next sample as steps 6-11 see it.
+/// Deviation of the next sample from its prediction, steps 6-11.
 struct PrintedAltbd::Miss {
   double k_m = 0;         ///< from the predicted point, along the line
   double j_m = 0;         ///< across it
@@ -84,7 +84,7 @@ bool PrintedAltbd::inside(const Miss& miss) const {
   return k2 / (miss.q_max_m * miss.q_max_m) + j2 / (miss.h_max * miss.h_max) <= 1;
 }
 
-/// Steps 16-18, and the line that the reading refits.
+/// Steps 16-18, and the refit of the variant.
 void PrintedAltbd::extend(const core::PolarScan& scan, std::size_t index, double error) {
   errors_[current_.support % kThree] = error;
   error_sum_ += error;
@@ -115,7 +115,7 @@ std::size_t PrintedAltbd::track(const core::PolarScan& scan, core::SegmentTracks
       if (!keep_wall(current_, tracks)) ++dropped;
       index = corner ? next : next - 1;
     } else {
-      // Step 15 would take the same three samples again where they were all there was.
+      // Step 15 would repeat the same three samples for ever where the wall has no others.
       index = corner || next == index + kThree ? index + 1 : next - 1;
     }
   }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// ALTBD as El Amin et al. print it (section III.A, steps 1-19), in the readings that the print
-// leaves open. `cornerctl bench --variants` measures them; README.md beside this file concludes.
+// ALTBD as El Amin et al. print it (section III.A, steps 1-19), in the variants that the print
+// leaves open. `cornerd-bench --variants` measures them (src/bench/README.md).
 #pragma once
 
 #include <cstddef>
@@ -12,18 +12,16 @@
 
 namespace cornerd::baseline {
 
-/// Whether step 12 divides by the axes, as it is printed, or by their squares, as an ellipse has
-/// it.
+/// Step 12 divides by the axes (as printed) or by their squares (an ellipse).
 enum class EllipseAxes : std::uint8_t { kPrinted, kSquared };
-/// What step 5's h_max, a share, is taken to be: metres, or a share of the range.
+/// Unit of h_max in step 5: metres, or a share of the range.
 enum class MinorAxis : std::uint8_t { kMetres, kShareOfRange };
-/// The line that predicts: the three points of step 1 until the wall ends (as printed), the last
-/// three points, or all points so far ("line tracking").
+/// The predicting line: through the three points of step 1 until the wall ends (as printed), the
+/// last three points, or all points so far ("line tracking").
 enum class TrackedLine : std::uint8_t { kFirstThree, kLastThree, kAll };
-/// Steps 4 and 18: sigma_n is the mean of the last three errors, or of all since the wall began.
+/// Steps 4 and 18: sigma_n is the mean of the last three errors, or of all errors of the wall.
 enum class ErrorMean : std::uint8_t { kLastThree, kAll };
 
-/// ALTBD as it is printed, in its readings.
 struct PrintedAltbdConfig {
   EllipseAxes axes = EllipseAxes::kPrinted;
   MinorAxis minor = MinorAxis::kShareOfRange;
@@ -31,17 +29,17 @@ struct PrintedAltbdConfig {
   ErrorMean mean = ErrorMean::kLastThree;
 };
 
-/// One wall after another: a line through three samples predicts the next, one outside the ellipse
-/// ends the wall. The next wall begins with that sample where it is within Dth_corner of the
-/// prediction (step 14), else with the wall's last one (step 15). Corners are placed as all
-/// methods' are, at the intersection of the walls (extraction.hpp), not at step 14's foot.
+/// A line through three samples predicts the next one; a sample outside the ellipse ends the wall.
+/// The next wall begins with that sample where it is within Dth_corner of the prediction (step 14),
+/// else with the wall's last sample (step 15). Corners are intersections of walls, as for all
+/// methods (extraction.hpp), not the point of step 14.
 class PrintedAltbd final : public core::WallFinder {
  public:
   PrintedAltbd(const core::DetectorConfig& detector, const core::SensorNoise& noise,
                const PrintedAltbdConfig& config = {});
 
-  /// Walls of at least min_support samples. Allocates nothing beyond the capacity of `tracks`;
-  /// walls that do not fit are dropped, and counted in the result.
+  /// Finds walls of at least min_support samples. Returns the number of walls dropped because
+  /// `tracks` is full. Allocates nothing.
   std::size_t track(const core::PolarScan& scan, core::SegmentTracks& tracks) override;
 
  private:

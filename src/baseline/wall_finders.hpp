@@ -15,7 +15,7 @@ core::WallFinderFactory printed_altbd(const PrintedAltbdConfig& config = {});
 core::WallFinderFactory abd_iepf(const AbdIepfConfig& config = {});
 core::WallFinderFactory line_tracking(const LineTrackingConfig& config = {});
 
-/// "altbd-printed", "abd-iepf" or "lt", with its defaults; empty, which is ALTBD, for any other.
+/// "altbd-printed", "abd-iepf" or "lt" with its defaults; empty (ALTBD) for any other name.
 core::WallFinderFactory wall_finder(std::string_view name);
 
 }  // namespace cornerd::baseline

@@ -17,13 +17,13 @@ using core::Vec2;
 constexpr double kThickness_m = 0.12;
 constexpr double kDoor_m = 0.9;
 constexpr double kCorridor_m = 1.8;
-/// Corners that a room adds (four of its own, four at its door, four at its cupboard), and those of
-/// the corridors of a small building. Counted in the maps that this makes.
+/// Corners of a room (four of its own, four at its door, four at its cupboard), and of the
+/// corridors of a small building, counted in generated maps.
 constexpr double kCornersPerRoom = 12;
 constexpr double kOtherCorners = 14;
 
-/// What a room looks like from its corridor: x along the corridor from the room's left wall, y away
-/// from the corridor.
+/// A room in the frame of its corridor: x along the corridor from the room's left wall, y away from
+/// it.
 struct RoomShape {
   double width_m = 0;
   double depth_m = 0;
@@ -32,7 +32,7 @@ struct RoomShape {
   double cupboard_depth_m = 0;
 };
 
-/// Draws rooms along a corridor, on the side that `up` says.
+/// Draws rooms along a corridor: above it where `up` is 1, below it where `up` is -1.
 class CorridorSide {
  public:
   CorridorSide(core::FloorPlan& plan, const Vec2& start, double up)

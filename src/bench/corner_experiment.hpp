@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How well each method finds corners, over many places.
+// Precision and recall of each corner detector at random poses.
 #pragma once
 
 #include <cstddef>
@@ -17,7 +17,7 @@
 
 namespace cornerd::bench {
 
-/// Nearer to a wall than this an A1 sees nothing.
+/// An A1 measures no shorter range.
 inline constexpr double kClearance_m = 0.15;
 
 struct Conditions {
@@ -26,7 +26,7 @@ struct Conditions {
 };
 
 /// Range noise of max(1.5 mm, 0.5 %) and of max(3 mm, 1 %), each with 0.5 % and with a third of the
-/// returns missing; 0.2 % outliers, bearings off by 0.05 degrees.
+/// returns missing; 0.2 % outliers, bearing noise of 0.05 degrees.
 std::vector<Conditions> default_conditions();
 
 struct MethodScore {
@@ -34,11 +34,11 @@ struct MethodScore {
   CornerScore score;
 };
 
-/// Told now and then how many of the positions are done.
+/// Called with the number of finished positions.
 using Progress = std::function<void(std::size_t done)>;
 
-/// All methods see the same turns: one at each of `positions` random places, which the maps share
-/// evenly.
+/// Scores all methods on the same scans: one at each of `positions` random poses, divided evenly
+/// among the maps.
 std::vector<MethodScore> score_methods(std::span<const std::shared_ptr<const core::WallMap>> maps,
                                        std::span<const NamedMethod> methods,
                                        const replay::SensorModel& sensor, std::size_t samples,

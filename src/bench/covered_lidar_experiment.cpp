@@ -64,12 +64,12 @@ bool is_covered(const CoveredLidarCase& test_case, core::TimeNs t_ns) {
   return since_s >= 0 && std::fmod(since_s, test_case.cover_period_s) < test_case.cover_duration_s;
 }
 
-/// Seeds of the lidar, of wheels and gyro and of the robot: no two drives share any of them.
+/// Independent random streams: no two drives share a seed.
 constexpr std::uint64_t kStreams = 3;
 enum Stream : std::uint8_t { kLidarStream, kOdometryStream, kRobotStream };
 std::uint64_t seed_of(Stream stream, std::uint64_t drive) { return kStreams * drive + stream; }
 
-/// A robot whose errors are drawn from what the filter is told of them.
+/// Draws the robot's errors from the filter's initial covariance.
 void draw_errors(replay::RobotModel& robot, std::uint64_t seed) {
   const core::OdometryNoise told;
   replay::Random random(seed);

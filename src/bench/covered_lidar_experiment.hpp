@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How far off poses are that wheels and gyro carry on without the lidar, and whether they know it.
+// Error and consistency of poses predicted by odometry while the lidar is covered.
 #pragma once
 
 #include <array>
@@ -15,31 +15,31 @@
 
 namespace cornerd::bench {
 
-/// A drive through the rooms of config/maps/flat-7.json, and when its lidar sees nothing.
+/// A drive through the rooms of config/maps/flat-7.json whose lidar is covered periodically.
 struct CoveredLidarCase {
   std::string_view title;
   replay::RobotModel robot;
   replay::SensorModel lidar;
-  double first_cover_s = 30;   ///< of driving until the lidar is covered for the first time
-  double cover_period_s = 12;  ///< from then to the next time, and so on
+  double first_cover_s = 30;   ///< from the start to the first cover
+  double cover_period_s = 12;  ///< from one cover's start to the next one's
   double cover_duration_s = 5;
   double duration_s = 300;
-  /// Each drive has a robot of its own, with errors drawn from core::OdometryNoise.
+  /// Each drive has random robot errors, drawn from core::OdometryNoise.
   bool draws_errors = false;
-  std::size_t drive_factor = 1;  ///< where they are short: so many instead of one
+  std::size_t drive_factor = 1;  ///< multiplies the number of drives, for short ones
 };
 
-/// Poses against the truth, and what they say of their doubt.
+/// Error of poses and consistency of their covariance.
 struct PoseConsistency {
   std::size_t poses = 0;
   double mean_m = 0;
   double worst_m = 0;
   double worst_rad = 0;
-  double mean_nees = 0;     ///< error squared in units of the covariance: 3 is exact
-  double share_within = 0;  ///< of those whose NEES is under kNees95, 95 % of them if it is exact
+  double mean_nees = 0;     ///< normalised estimation error squared; 3 for an exact covariance
+  double share_within = 0;  ///< share with NEES below kNees95; 0.95 for an exact covariance
 };
 
-/// Poses of one range of ages.
+/// Predicted poses of one range of ages.
 struct AgeConsistency : PoseConsistency {
   double from_s = 0;
   double to_s = 0;
@@ -47,15 +47,14 @@ struct AgeConsistency : PoseConsistency {
 
 struct CoveredLidarResult {
   PoseConsistency fixes;
-  /// What lies between two turns, then the lidar covered.
+  /// By age; the first range is that between two scans.
   std::array<AgeConsistency, 4> predicted;
 };
 
-/// Robots that are as wrong as in the table of the modes, one that slips, and others.
+/// miscalibrated_robot() and variants: more noise, slip, no gyro, coarse encoders, a biased lidar.
 std::vector<CoveredLidarCase> covered_lidar_cases();
 
-/// A pose is carried on for every reading of the wheels (OdometryConfig::publish). Same input, same
-/// result.
+/// Scores a prediction for every odometry reading (publish_predictions). Deterministic.
 CoveredLidarResult run_covered_lidar_case(std::shared_ptr<const core::WallMap> map,
                                           const CoveredLidarCase& test_case, std::uint64_t seed,
                                           std::size_t drives);

@@ -42,7 +42,7 @@ std::optional<std::uint64_t> InstructionCounter::read() const {
 
 namespace {
 
-/// What a program writes to standard error, until it ends; nullopt where it cannot be run or fails.
+/// Standard error of a program; nullopt where it cannot be run or fails.
 std::optional<std::string> standard_error_of(const std::vector<std::string>& command) {
   std::vector<char*> arguments;
   for (const std::string& word : command) arguments.push_back(const_cast<char*>(word.c_str()));
@@ -86,7 +86,7 @@ std::optional<std::uint64_t> parse_callgrind_report(const std::string& report) {
 }
 
 std::optional<std::uint64_t> count_by_callgrind(const std::vector<std::string>& words) {
-  // Valgrind is a program of its own to the kernel: /proc/self/exe would be it.
+  // Under valgrind /proc/self/exe is valgrind, so the path is read here.
   std::array<char, 4096> self{};
   const ssize_t length = readlink("/proc/self/exe", self.data(), self.size());
   if (length <= 0 || static_cast<std::size_t>(length) == self.size()) return std::nullopt;

@@ -9,8 +9,8 @@
 
 namespace cornerd::bench {
 
-/// Counts the instructions that this thread executes in user space, by the processor's own counter
-/// (perf_event_open): where there is one, and where the kernel lets us.
+/// Counts the instructions of this thread in user space by the processor's counter
+/// (perf_event_open). Unavailable where the processor or the kernel's permissions lack it.
 class InstructionCounter {
  public:
   InstructionCounter();
@@ -35,12 +35,11 @@ class InstructionCounter {
   int descriptor_ = -1;
 };
 
-/// How many instructions this program executes when it is called with these words, as valgrind
-/// counts them: exactly, on any machine, and slowly. nullopt where valgrind is not installed or
-/// the program fails.
+/// Instructions of this program run with these arguments, counted by valgrind: exact on any
+/// machine, and slow. nullopt where valgrind is not installed or the program fails.
 std::optional<std::uint64_t> count_by_callgrind(const std::vector<std::string>& words);
 
-/// The figure in callgrind's report, "==12== Collected : 3325337".
+/// The count in callgrind's report, "==12== Collected : 3325337".
 std::optional<std::uint64_t> parse_callgrind_report(const std::string& report);
 
 }  // namespace cornerd::bench

@@ -23,7 +23,7 @@ const std::array kPaperMethods = {
     NamedMethod{"lt", "LT", of(baseline::line_tracking())},
 };
 
-/// As the paper has them: walls of more than four points.
+/// The paper's walls have more than four points (section V.B).
 DetectorConfig walls_of_five(core::WallFinderFactory finder) {
   DetectorConfig config = of(std::move(finder));
   config.min_support = 5;

@@ -8,20 +8,20 @@
 
 namespace cornerd::bench {
 
-/// A way to find corners that is measured under a name.
+/// A corner detector with a name.
 struct NamedMethod {
   std::string_view name;   ///< as on the command line
   std::string_view title;  ///< as in tables
   core::DetectorConfig config;
 };
 
-/// The three that the paper compares: altbd, abd-iepf, lt.
+/// The three methods of the paper: altbd, abd-iepf, lt.
 std::span<const NamedMethod> paper_methods();
 
-/// Other forms of them. To add one, add a line to the table.
+/// Variants of them. To add one, add a line to the table in the .cpp.
 std::span<const NamedMethod> variants();
 
-/// Among both; null where there is none of that name.
+/// Searches both lists; nullptr where the name is unknown.
 const NamedMethod* find_method(std::string_view name);
 
 }  // namespace cornerd::bench

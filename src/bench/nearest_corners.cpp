@@ -29,7 +29,7 @@ std::optional<core::Vec2> corner_near(const core::WallMap& map, const core::Vec2
   return nearest;
 }
 
-/// MatchedCorner corners, the nearest to the sensor first.
+/// Ascending by distance from the sensor.
 std::vector<MatchedCorner> match_corners(std::span<const core::Breakpoint> breakpoints,
                                          const core::WallMap& map, const core::Pose2& T_map_lidar) {
   std::vector<MatchedCorner> corners;

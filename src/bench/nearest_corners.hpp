@@ -9,14 +9,11 @@
 
 namespace cornerd::bench {
 
-/// The paper's position (section V.F): from the two corners nearest to the sensor alone. It prints
-/// no formula; here it is the rigid motion that puts the two on the map's corners, what is left of
-/// their distance shared by both.
-///
-/// Recognition is not what is measured: a detection stands for the map's corner within 6 cm of it
-/// as seen from the true place, and one without such a corner is passed over. So is a second one
-/// less than 10 cm from the first, as the paper takes both corners of a wall's end for one point.
-/// nullopt where fewer than two are left.
+/// Pose from the two corners nearest to the sensor (paper, section V.F). The paper prints no
+/// formula: here it is the rigid transform of the two onto the map's corners, the residual of their
+/// distance shared by both. Correspondences come from the true pose `T_map_lidar`, within 6 cm. A
+/// second corner within 10 cm of the first is ignored, since the paper counts both corners of a
+/// wall's end as one point. nullopt where fewer than two are left.
 std::optional<core::Pose2> pose_from_nearest_corners(std::span<const core::Breakpoint> breakpoints,
                                                      const core::WallMap& map,
                                                      const core::Pose2& T_map_lidar);

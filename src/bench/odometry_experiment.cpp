@@ -11,17 +11,17 @@ namespace {
 
 using core::HeadingSource;
 
-/// How often the truth is looked at: at the ends of the paper's steps.
+/// The truth is sampled at the ends of the paper's steps.
 constexpr core::TimeNs kTruthPeriod_ns = kPaperStep_ns;
 
 struct Drive {
   core::DriveGeometry geometry;
   std::vector<core::OdometryIncrement> steps;
   std::vector<core::OdometryIncrement> paper_steps;  ///< the same, joined
-  std::vector<calibration::KnownPose> places;
+  std::vector<calibration::KnownPose> poses;
 };
 
-/// Steps that end where a paper's step ends.
+/// Joins increments to steps of kPaperStep_ns.
 std::vector<core::OdometryIncrement> joined(const std::vector<core::OdometryIncrement>& steps) {
   std::vector<core::OdometryIncrement> joined;
   bool goes_on = false;
@@ -56,7 +56,7 @@ Drive drive_once(const OdometryRobot& robot, const replay::Scenario& scenario, s
   }
   drive.paper_steps = joined(drive.steps);
   for (core::TimeNs t_ns = 0; t_ns <= end_ns; t_ns += kTruthPeriod_ns) {
-    drive.places.push_back({t_ns, motion(t_ns, 0)});
+    drive.poses.push_back({t_ns, motion(t_ns, 0)});
   }
   return drive;
 }
@@ -70,19 +70,19 @@ ReckonedTrack reckon_by_mode(const Drive& drive, HeadingSource source, bool as_p
   core::DeadReckoningConfig config{source, {}};
   if (as_printed) config.factors.dead_band_rad = kPaperDeadBand_rad;
   if (with_factors) {
-    track.factors = calibration::search_factors(steps, drive.places, drive.geometry, config);
+    track.factors = calibration::search_factors(steps, drive.poses, drive.geometry, config);
     config.factors = track.factors->factors;
   }
-  track.error = calibration::reckon(steps, drive.places, drive.geometry, config, &track.points);
+  track.error = calibration::reckon(steps, drive.poses, drive.geometry, config, &track.points);
   return track;
 }
 
-/// The heading is the gyro's, its errors and the wheels' taken off.
+/// Heading of the gyro, corrected by the fitted parameters.
 ReckonedTrack reckon_by_fit(const Drive& drive, const core::OdometryParameters& learned) {
   ReckonedTrack track;
   track.source = HeadingSource::kFilter;
   track.error =
-      calibration::reckon(drive.steps, drive.places, drive.geometry, learned, &track.points);
+      calibration::reckon(drive.steps, drive.poses, drive.geometry, learned, &track.points);
   return track;
 }
 
@@ -103,7 +103,7 @@ OdometryResult run_odometry_case(const OdometryRobot& robot, const replay::Scena
   const Drive drive = drive_once(robot, scenario, seed);
   OdometryResult result;
   result.scenario = scenario.name;
-  for (const calibration::KnownPose& place : drive.places) {
+  for (const calibration::KnownPose& place : drive.poses) {
     const core::Vec2 point = place.T_map_base.translation();
     if (!result.truth.empty()) result.length_m += (point - result.truth.back()).norm();
     result.truth.push_back(point);
@@ -112,7 +112,7 @@ OdometryResult run_odometry_case(const OdometryRobot& robot, const replay::Scena
                                       HeadingSource::kMean, HeadingSource::kWeighted};
   for (const bool as_printed : {true, false}) {
     for (const HeadingSource mode : kModes) {
-      // Without factors the weighted mean is the mean.
+      // Without factors the weighted mean equals the mean.
       if (mode == HeadingSource::kWeighted) continue;
       result.tracks.push_back(reckon_by_mode(drive, mode, as_printed, /*with_factors=*/false));
     }
@@ -121,7 +121,7 @@ OdometryResult run_odometry_case(const OdometryRobot& robot, const replay::Scena
       result.tracks.push_back(reckon_by_mode(drive, mode, as_printed, /*with_factors=*/true));
     }
   }
-  if (const auto fit = calibration::fit_odometry(drive.steps, drive.places, drive.geometry)) {
+  if (const auto fit = calibration::fit_odometry(drive.steps, drive.poses, drive.geometry)) {
     result.tracks.push_back(reckon_by_fit(drive, fit->learned));
   }
   return result;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Figures 3 to 6 of Bertocco et al. (2019) as ours: where the paper's four modes of odometry think
-// that a robot is, after its two circuits and its exploration of a flat.
+// Figures 3 to 6 of Bertocco et al. (2019): trajectories of the paper's four odometry modes on two
+// circuits and in the exploration of a flat.
 #pragma once
 
 #include <cstdint>
@@ -21,24 +21,23 @@ namespace cornerd::bench {
 
 struct OdometryRobot {
   std::string_view title;
-  std::string_view name;  ///< in names of files
+  std::string_view name;  ///< in file names
   replay::RobotModel model;
 };
 
-/// A Pioneer P3-DX and a robot of 16 cm, both as miscalibrated_robot(), a wheel slipping every 20
-/// m.
+/// A Pioneer P3-DX and a robot with a track of 16 cm: miscalibrated_robot() with a slip every 20 m.
 std::vector<OdometryRobot> odometry_robots();
 
-/// The paper's threshold tr, and how long its steps are that it holds for.
+/// The paper's threshold tr, and the step that it applies to.
 inline constexpr double kPaperDeadBand_rad = 0.01;
 inline constexpr core::TimeNs kPaperStep_ns = core::kNsPerSecond / 10;
 
-/// A drive as one way of reckoning has it.
+/// The trajectory of one mode.
 struct ReckonedTrack {
   core::HeadingSource source = core::HeadingSource::kEncoder;  ///< kFilter: by least squares
-  /// The paper's steps and dead band; else each reading is a step and nothing is left out.
+  /// With the paper's steps and dead band; otherwise each reading is a step, without a dead band.
   bool as_printed = false;
-  std::optional<calibration::FoundFactors> factors;  ///< found on this very drive
+  std::optional<calibration::FoundFactors> factors;  ///< fitted to this drive
   calibration::DriveError error;
   calibration::DrivePoints points;
 };
@@ -47,12 +46,12 @@ struct OdometryResult {
   std::string_view scenario;
   double length_m = 0;
   std::vector<core::Vec2> truth;
-  /// The modes without factors, then those that have any with them; first as printed, then without
-  /// the dead band. Then least squares.
+  /// The modes without factors, then with fitted factors; first as printed, then without the dead
+  /// band. Least squares last.
   std::vector<ReckonedTrack> tracks;
 };
 
-/// A robot drives the scenario once. Same input, same result.
+/// Simulates one drive of the scenario. Deterministic.
 OdometryResult run_odometry_case(const OdometryRobot& robot, const replay::Scenario& scenario,
                                  std::uint64_t seed);
 

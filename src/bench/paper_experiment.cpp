@@ -18,7 +18,7 @@ double distance_m(const core::Pose2& a, const core::Pose2& b) {
   return (a.translation() - b.translation()).norm();
 }
 
-/// The corners that each of the turns shows, one turn after another.
+/// The true corners visible in each scan.
 class ScanTruths {
  public:
   explicit ScanTruths(const PaperScans& scans) : scans_(scans) {
@@ -26,7 +26,7 @@ class ScanTruths {
   }
 
   const replay::CornerTruth& at(std::size_t scan) {
-    const PaperPose& place = scans_.places[scan];
+    const PaperPose& place = scans_.poses[scan];
     points_.assign(scans_.scans[scan], limits_.min_range_m, limits_.max_range_m);
     truths_[place.map].observe(place.T_map_lidar, points_.points());
     return truths_[place.map];
@@ -39,7 +39,7 @@ class ScanTruths {
   core::PolarScan points_;
 };
 
-/// Where cornerd says the lidar is, each turn by itself.
+/// The localizer's pose, each scan independent.
 std::optional<core::Pose2> localize(core::Localizer& localizer, const core::Scan& scan) {
   localizer.forget();
   const core::PoseEstimate& pose = localizer.step(scan).pose;
@@ -56,10 +56,10 @@ PaperResult run_method(const PaperScans& scans, const NamedMethod& method,
   Workload workload(method, scans.scans);
   ScanTruths truth(scans);
 
-  PaperResult result{method, std::vector<PoseResult>(scans.places.size())};
-  for (std::size_t i = 0; i < scans.places.size(); ++i) {
-    PoseResult& at = result.places[i];
-    const PaperPose& place = scans.places[i];
+  PaperResult result{method, std::vector<PoseResult>(scans.poses.size())};
+  for (std::size_t i = 0; i < scans.poses.size(); ++i) {
+    PoseResult& at = result.poses[i];
+    const PaperPose& place = scans.poses[i];
     workload.run(i);
     at.breakpoints = workload.detection().breakpoints;
 
@@ -80,7 +80,7 @@ PaperResult run_method(const PaperScans& scans, const NamedMethod& method,
   }
   if (timing_repeats > 0) {
     const std::vector<double> times_us = time_scans_us(workload, timing_repeats);
-    for (std::size_t i = 0; i < times_us.size(); ++i) result.places[i].time_us = times_us[i];
+    for (std::size_t i = 0; i < times_us.size(); ++i) result.poses[i].time_us = times_us[i];
   }
   return result;
 }
@@ -92,7 +92,7 @@ PaperScans simulate_paper_scans(std::span<const std::shared_ptr<const core::Wall
                                 std::uint64_t seed) {
   PaperScans result{{maps.begin(), maps.end()}, paper_poses(maps), {}};
   replay::ScanSimulator simulator(sensor, samples, seed);
-  for (const PaperPose& place : result.places) {
+  for (const PaperPose& place : result.poses) {
     result.scans.push_back(simulator.take(*maps[place.map], place.T_map_lidar));
   }
   return result;

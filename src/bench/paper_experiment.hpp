@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The experiment of El Amin et al., section V: 43 places, three methods.
+// The experiment of El Amin et al., section V: 43 poses, three methods.
 #pragma once
 
 #include <array>
@@ -19,40 +19,40 @@
 
 namespace cornerd::bench {
 
-/// One turn at each place, the same for all methods.
+/// One scan at each pose, the same for all methods.
 struct PaperScans {
   std::vector<std::shared_ptr<const core::WallMap>> maps;
-  std::vector<PaperPose> places;
+  std::vector<PaperPose> poses;
   std::vector<core::Scan> scans;
 };
 PaperScans simulate_paper_scans(std::span<const std::shared_ptr<const core::WallMap>> maps,
                                 const replay::SensorModel& sensor, std::size_t samples,
                                 std::uint64_t seed);
 
-/// What a method made of one turn.
+/// Result of a method for one scan.
 struct PoseResult {
   double time_us = 0;
   std::size_t true_corners = 0;
-  /// Detections that claim to be corners and are none, or are a wall's end that shows one wall, or
-  /// a corner that is found already.
+  /// Detections of the kind "corner" without a corner, at a wall's end that shows one wall, or at a
+  /// corner that has a nearer detection.
   std::size_t false_corners = 0;
   std::size_t missed_corners = 0;                 ///< of those whose walls both give 5 returns
-  std::optional<double> nearest_corners_error_m;  ///< of the paper's position
-  std::optional<double> localizer_error_m;        ///< of cornerd's, where it names a place
+  std::optional<double> nearest_corners_error_m;  ///< of pose_from_nearest_corners
+  std::optional<double> localizer_error_m;        ///< of the localizer, where it gives a fix
   std::vector<core::Breakpoint> breakpoints;
 };
 
 struct PaperResult {
   NamedMethod method;
-  std::vector<PoseResult> places;  ///< as PaperScans::places
+  std::vector<PoseResult> poses;  ///< as PaperScans::poses
 };
 
-/// `timing_repeats`: of every turn; the median counts. 0: nothing is timed.
+/// `timing_repeats`: rounds whose median is the time of a scan; 0: no timing.
 std::vector<PaperResult> run_paper_experiment(const PaperScans& scans,
                                               std::span<const NamedMethod> methods,
                                               std::size_t timing_repeats);
 
-/// How many corners whose walls both give 5 returns each turn shows.
+/// For each scan the number of visible corners whose walls both give 5 returns.
 std::vector<std::size_t> supported_corners(const PaperScans& scans);
 
 /// In the order of paper_methods(): ALTBD, ABD+IEPF, LT.
@@ -68,7 +68,7 @@ struct PaperCell {
 struct PaperLocation {
   std::string_view title;
   std::string_view room;  ///< its name in the maps
-  std::size_t places;
+  std::size_t poses;
   std::array<PaperCell, kPaperMethodCount> cells;
 };
 
@@ -86,7 +86,7 @@ struct PaperMean {
 };
 inline constexpr std::array<PaperMean, kPaperMethodCount> kPaperTimes_ms = {
     {{101.61, 2.63}, {175.4, 10.13}, {59.87, 1.94}}};
-/// Position by the two nearest corners; the paper has none for LT.
+/// Position from the two nearest corners; the paper has none for LT.
 inline constexpr std::array<PaperMean, 2> kPaperPositionErrors_mm = {{{9.72, 1.55}, {11.2, 2.14}}};
 
 }  // namespace cornerd::bench

@@ -12,8 +12,8 @@
 namespace cornerd::bench {
 namespace {
 
-/// Inverse powers of the plastic number and of the golden ratio: multiples of them, modulo 1, fill
-/// a square and a line evenly.
+/// Inverse powers of the plastic number and of the golden ratio: steps of a low-discrepancy
+/// sequence (Roberts's R2, R1).
 constexpr double kPlastic = 0.7548776662466927;
 constexpr double kPlasticSquared = 0.5698402909980532;
 constexpr double kGolden = 0.6180339887498949;
@@ -28,7 +28,7 @@ std::size_t room_index(const core::WallMap& map, std::string_view name) {
   throw std::runtime_error("map " + map.plan().name + " has no room " + std::string(name));
 }
 
-/// The point of the sequence in the room; `step` counts on.
+/// The next free point of the sequence in the room; advances `step`.
 core::Pose2 next_place(const core::WallMap& map, std::size_t room, std::size_t& step) {
   constexpr std::size_t kMaxTries = 100'000;
   const std::vector<core::Vec2>& polygon = map.plan().rooms[room].polygon;
@@ -53,16 +53,16 @@ core::Pose2 next_place(const core::WallMap& map, std::size_t room, std::size_t& 
 }  // namespace
 
 std::vector<PaperPose> paper_poses(std::span<const std::shared_ptr<const core::WallMap>> maps) {
-  std::vector<PaperPose> places;
+  std::vector<PaperPose> poses;
   for (std::size_t location = 0; location < kPaperLocations.size(); ++location) {
     std::size_t step = 0;
-    for (std::size_t i = 0; i < kPaperLocations[location].places; ++i) {
+    for (std::size_t i = 0; i < kPaperLocations[location].poses; ++i) {
       const std::size_t m = i % maps.size();
       const std::size_t room = room_index(*maps[m], kPaperLocations[location].room);
-      places.push_back({location, m, next_place(*maps[m], room, step)});
+      poses.push_back({location, m, next_place(*maps[m], room, step)});
     }
   }
-  return places;
+  return poses;
 }
 
 }  // namespace cornerd::bench

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What poses in motion are worth by how often wheels and gyro are read.
+// Accuracy of poses in motion by the rate of the odometry.
 #pragma once
 
 #include <cstddef>
@@ -23,9 +23,8 @@ struct RateResult {
   std::size_t scans = 0;
 };
 
-/// miscalibrated_robot() through the rooms of config/maps/flat-7.json at 0.25 m/s, with turns on
-/// the spot at 1.5 rad/s; it starts and stops `gently` (gentle_drive) or at once. Same input, same
-/// result.
+/// miscalibrated_robot() in config/maps/flat-7.json at 0.25 m/s, with rotations on the spot at 1.5
+/// rad/s. It accelerates `gently` (gentle_drive) or abruptly. Deterministic.
 RateResult run_rate_case(std::shared_ptr<const core::WallMap> map, double rate_hz, bool gently,
                          std::size_t scans, std::uint64_t seed);
 

@@ -75,7 +75,7 @@ ScaleResult run_scale_case(const ScaleCase& building, std::size_t scans, std::ui
   double before_s = thread_time_s();
   simulated.localize(localizer, [&](std::size_t scan, const core::PoseEstimate& pose) {
     times_us.push_back((thread_time_s() - before_s) * 1e6);
-    result.score.add(pose, simulated.places()[scan]);
+    result.score.add(pose, simulated.poses()[scan]);
     before_s = thread_time_s();
   });
   result.time_us = mean_and_deviation(times_us).mean;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How the first fix in a building depends on the building's size: no prior, one turn.
+// The first fix by the size of the building: no prior, one scan.
 #pragma once
 
 #include <cstddef>
@@ -21,33 +21,33 @@ struct ScaleCase {
   core::FloorPlan plan;
 };
 
-/// Office buildings of about so many corners each, and a corridor of twelve equal rooms, where all
-/// that can be asked for is that the true place is among the alternatives.
+/// Office buildings of about so many corners each, and a corridor of twelve identical rooms, where
+/// a scan is correct if the true pose is among the alternatives.
 std::vector<ScaleCase> scale_cases(const std::vector<std::size_t>& corners, std::uint64_t seed);
 
 struct ScaleResult {
   std::string title;
   std::size_t rooms = 0;
   std::size_t corners = 0;
-  std::size_t pairs = 0;         ///< in the catalogue
-  double map_s = 0;              ///< to find the plan's faces and corners and index them
-  double catalog_s = 0;          ///< to make the catalogue
+  std::size_t pairs = 0;         ///< of the catalogue
+  double map_s = 0;              ///< CPU time to find and index the plan's faces and corners
+  double catalog_s = 0;          ///< CPU time to make the catalogue
   std::size_t memory_bytes = 0;  ///< of faces, corners, their index and the catalogue
   PoseScore score;
-  double time_us = 0;                  ///< CPU time a turn, mean
-  double time_99_us = 0;               ///< 99 of 100 turns take no longer
-  std::optional<double> instructions;  ///< a turn, mean
+  double time_us = 0;                  ///< mean CPU time of a scan
+  double time_99_us = 0;               ///< 99th percentile
+  std::optional<double> instructions;  ///< mean of a scan
 };
 
-/// Turns at random places of one building.
+/// Scans at random poses in one building.
 class ScaleScans {
  public:
   ScaleScans(std::shared_ptr<const core::WallMap> map, std::size_t scans, std::uint64_t seed);
 
-  const std::vector<core::Pose2>& places() const { return places_; }
+  const std::vector<core::Pose2>& poses() const { return places_; }
   const std::vector<core::Scan>& scans() const { return scans_; }
 
-  /// Localizes in every turn, each time as if nothing had been known.
+  /// Localizes every scan without a prior.
   void localize(core::Localizer& localizer,
                 const std::function<void(std::size_t scan, const core::PoseEstimate&)>& done) const;
 

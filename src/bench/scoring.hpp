@@ -12,23 +12,23 @@
 
 namespace cornerd::bench {
 
-/// A detection within so much of a corner is that corner.
+/// Largest distance of a detection from its corner.
 inline constexpr double kMatchDistance_m = 0.06;
 
-/// What a detection turned out to be.
+/// Classification of a detection.
 enum class Verdict : std::uint8_t {
   kTrue,           ///< a corner whose walls both give returns
-  kFalse,          ///< nothing, or a corner that another detection has already
-  kOneSided,       ///< a corner that is no more than a wall's end from here, or is hidden itself
-  kOcclusionEdge,  ///< where one wall hides another: neither true nor false
+  kFalse,          ///< no corner, or one that has a nearer detection
+  kOneSided,       ///< a corner with one visible wall, or an occluded one
+  kOcclusionEdge,  ///< where one wall occludes another: neither true nor false
 };
 
-/// What was detected in many turns against what was there.
+/// Detections in many scans against the true corners.
 class CornerScore {
  public:
-  /// `breakpoints` in the lidar frame, as is the truth. Each corner belongs to one detection at
-  /// most: the nearest pairs are matched first, those of corners seen from both sides before
-  /// others. Returns the verdict on each breakpoint, valid until the next call.
+  /// `breakpoints` and `truth` in the lidar frame. Each corner matches one detection at most:
+  /// nearest pairs first, corners with both walls visible before others. Returns a verdict for each
+  /// breakpoint, valid until the next call.
   std::span<const Verdict> add(std::span<const core::Breakpoint> breakpoints,
                                const replay::CornerTruth& truth);
   void merge(const CornerScore& other);
@@ -39,14 +39,14 @@ class CornerScore {
   }
   std::size_t detections(Verdict verdict) const;
 
-  std::size_t supported() const { return supported_; }  ///< corners, both walls with 5 returns
+  std::size_t supported() const { return supported_; }  ///< corners whose walls both give 5 returns
   std::size_t missed() const { return supported_ - supported_found_; }  ///< of the supported
-  std::size_t visible() const { return visible_; }  ///< those included, both walls with one
+  std::size_t visible() const { return visible_; }  ///< corners whose walls both give a return
 
-  /// Share of the detections that are true corners. Those at one-sided wall ends (and hidden
-  /// corners) are left out, or are false where `strictly`. 1 where nothing was detected.
+  /// Share of the detections that are true corners. Those of kOneSided are left out, or count as
+  /// false where `strictly`. 1 where nothing was detected.
   double precision(bool strictly = false) const;
-  /// The same of the detections that claim to be corners, not terminals.
+  /// The same for detections of the kind "corner" alone.
   double precision_of_corners(bool strictly = false) const;
   double recall_of_supported() const;
   double recall_of_visible() const;

@@ -14,7 +14,7 @@
 
 namespace cornerd::bench {
 
-/// A drive in memory, and where the robot was in the middle of each of its turns.
+/// A drive in memory, with the true pose in the middle of each scan.
 struct SimulatedDrive {
   survey::RecordedDrive drive;
   std::vector<core::Pose2> T_map_base;
@@ -30,8 +30,7 @@ struct SimulatedDriveConfig {
 SimulatedDrive simulate_drive(std::shared_ptr<const core::WallMap> map,
                               const replay::Motion& motion, const SimulatedDriveConfig& config);
 
-/// No wheel slips by this robot's own doing: 1 m/s2 and 6 rad/s2 at the most, once around and
-/// again.
+/// A looped path at no more than 1 m/s2 and 6 rad/s2.
 replay::DriveConfig gentle_drive(double speed_m_s = 0.4);
 
 /// Wheels 1.5 and 2.5 % larger than configured, the gyro 2 % and 0.01 rad/s off; no slips.

@@ -11,18 +11,18 @@ struct MeanAndDeviation {
 };
 MeanAndDeviation mean_and_deviation(const std::vector<double>& values);
 
-/// Interpolated between the values next to that rank, 0 for none. `sorted`: by rising value.
+/// Interpolated linearly; 0 for no values. `sorted`: ascending.
 double quantile(const std::vector<double>& sorted, double share);
 
-/// What a boxplot shows (Tukey): the box is the quartiles, the whiskers reach to the farthest
-/// values within 1.5 box lengths of it, what lies beyond is drawn one by one.
+/// Tukey's boxplot: the box spans the quartiles, the whiskers reach to the farthest values
+/// within 1.5 box lengths, values beyond are outliers.
 struct BoxplotStatistics {
   double lower_whisker = 0;
   double lower_quartile = 0;
   double median = 0;
   double upper_quartile = 0;
   double upper_whisker = 0;
-  std::vector<double> outliers;  ///< by rising value
+  std::vector<double> outliers;  ///< ascending
 };
 BoxplotStatistics boxplot_of(std::vector<double> values);
 

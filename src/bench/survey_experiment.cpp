@@ -54,9 +54,9 @@ LocalizationScore localize_drive(std::shared_ptr<const core::WallMap> map,
 
 namespace {
 
-/// More corners than this in a flat are noise, and no map: nobody waits for a localizer in them.
+/// A surveyed flat with more corners is noise, and localizing in it would take hours.
 constexpr std::size_t kMaxCorners = 2000;
-/// Turns of the second drive: once through all rooms.
+/// Scans of the second drive: once through all rooms.
 constexpr std::size_t kSecondScans = 1200;
 
 double cpu_now_s() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
@@ -71,7 +71,7 @@ SurveyExperiment run_survey_experiment(std::shared_ptr<const core::WallMap> map,
   SurveyExperiment experiment;
   experiment.in_true_map = localize_drive(map, second, {});
   for (std::size_t i = 1; i < drive.T_map_base.size(); ++i) {
-    experiment.way_m +=
+    experiment.length_m +=
         (drive.T_map_base[i].translation() - drive.T_map_base[i - 1].translation()).norm();
   }
 
@@ -95,7 +95,7 @@ SurveyExperiment run_survey_experiment(std::shared_ptr<const core::WallMap> map,
       experiment.cases.front().result.learned.value_or(core::OdometryParameters());
   add("adjusted, lidar alone", alone, [&] { return survey::survey(alone.drive, {}); });
   add("ransac", drive, [&] { return survey::ransac_survey(drive.drive, {}, {}); });
-  add("ransac, odometry taught", drive,
+  add("ransac, calibrated odometry", drive,
       [&] { return survey::ransac_survey(drive.drive, calibrated, {}); });
   return experiment;
 }

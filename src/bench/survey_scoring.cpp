@@ -14,22 +14,22 @@ namespace {
 using core::Vec2;
 
 constexpr double kCell_m = 0.02;
-/// Rays on a cell that was seen: well over a drive, not at its edge.
+/// A cell with fewer rays is at the edge of the visible part.
 constexpr int kMinRaysPerCell = 10;
 constexpr double kMaxRange_m = 6;
 constexpr double kMinWall_m = 0.3;
 constexpr double kMinFoundShare = 0.95;
-/// A wall of the map is on a true one within this, and looks the same way.
+/// Largest distance and rotation of a map wall from its true wall.
 constexpr double kOnWall_m = 0.03;
 const double kMinNormalCosine = std::cos(core::radians(10));
-/// A corner is looked for so far off; seen where both walls were seen this near to it.
+/// Search radius for a corner, and how near to it both walls have to be visible.
 constexpr double kCornerSearchRadius_m = 0.10;
 constexpr double kMaxDistanceToCorner_m = 0.08;
 
-/// Which cells of the true faces were seen.
+/// The cells of the true faces that rays hit from the drive's poses.
 class VisibleWalls {
  public:
-  VisibleWalls(const core::WallMap& map, std::span<const core::Pose2> places) : map_(map) {
+  VisibleWalls(const core::WallMap& map, std::span<const core::Pose2> poses) : map_(map) {
     for (const core::Face& face : map.faces()) {
       rays_.emplace_back(static_cast<std::size_t>(std::ceil(face.length_m / kCell_m)), 0);
     }
@@ -38,24 +38,24 @@ class VisibleWalls {
     scan.begin(core::kTwoPi / kRays);
     for (int i = 0; i < kRays; ++i) scan.append(-core::kPi + (i + 0.5) * core::kTwoPi / kRays, 1);
     core::RayCaster prediction(kMaxRange_m);
-    for (const core::Pose2& place : places) {
+    for (const core::Pose2& place : poses) {
       const auto hits = prediction.cast(map, place, scan.points());
       for (std::size_t i = 0; i < hits.size(); ++i) count(place, scan[i], hits[i]);
     }
   }
 
   std::size_t cells(std::size_t face) const { return rays_[face].size(); }
-  bool sees(std::size_t face, std::size_t cell) const {
+  bool is_visible(std::size_t face, std::size_t cell) const {
     return rays_[face][cell] >= kMinRaysPerCell;
   }
   Vec2 place_of(std::size_t face, std::size_t cell) const {
     const core::Face& wall = map_.faces()[face];
     return wall.from + (static_cast<double>(cell) + 0.5) * kCell_m * wall.direction;
   }
-  /// Something of the face was seen this near to the point.
-  bool sees_near(std::size_t face, const Vec2& point) const {
+  /// A visible cell of the face is within kMaxDistanceToCorner_m of the point.
+  bool is_visible_near(std::size_t face, const Vec2& point) const {
     for (std::size_t cell = 0; cell < cells(face); ++cell) {
-      if (sees(face, cell) && (place_of(face, cell) - point).norm() < kMaxDistanceToCorner_m)
+      if (is_visible(face, cell) && (place_of(face, cell) - point).norm() < kMaxDistanceToCorner_m)
         return true;
     }
     return false;
@@ -86,7 +86,7 @@ struct Pair {
   Vec2 found;
 };
 
-/// The map's corner that is nearest to a true one, where it is of the same kind.
+/// The nearest map corner of the same kind for each true corner.
 std::vector<Pair> pair_corners(std::span<const core::Corner> truth, const core::WallMap& found,
                                const core::Pose2& T_true_map, double reach_m) {
   std::vector<Pair> pairs;
@@ -109,7 +109,7 @@ std::vector<Pair> pair_corners(std::span<const core::Corner> truth, const core::
   return pairs;
 }
 
-/// Least squares; none, where there are fewer than two pairs.
+/// Least squares; `otherwise` for fewer than two pairs.
 core::Pose2 align(std::span<const Pair> pairs, const core::Pose2& otherwise) {
   if (pairs.size() < 2) return otherwise;
   Vec2 truth = Vec2::Zero();
@@ -126,13 +126,13 @@ core::Pose2 align(std::span<const Pair> pairs, const core::Pose2& otherwise) {
     cosine += a.dot(b);
     sine += core::cross(a, b);
   }
-  const core::Pose2 turn{0, 0, std::atan2(sine, cosine)};
-  const Vec2 shift = truth - turn * found;
-  return {shift.x(), shift.y(), turn.theta_rad};
+  const core::Pose2 rotation{0, 0, std::atan2(sine, cosine)};
+  const Vec2 shift = truth - rotation * found;
+  return {shift.x(), shift.y(), rotation.theta_rad};
 }
 
-/// Corners both of whose faces were seen up to them.
-std::vector<core::Corner> seen_corners(const core::WallMap& truth, const VisibleWalls& seen) {
+/// Corners whose faces are both visible up to the corner.
+std::vector<core::Corner> visible_corners(const core::WallMap& truth, const VisibleWalls& seen) {
   std::vector<core::Corner> corners;
   for (const core::Corner& corner : truth.corners()) {
     int faces = 0;
@@ -140,9 +140,9 @@ std::vector<core::Corner> seen_corners(const core::WallMap& truth, const Visible
       const core::Face& face = truth.faces()[i];
       const double to_end_m =
           std::min((face.from - corner.position).norm(), (face.to - corner.position).norm());
-      // Not the other side of a line.
+      // Skips the rear side of a wall without thickness.
       if (face.normal.dot(core::unit_vector(corner.bisector_rad())) <= 0) continue;
-      if (to_end_m < 1e-6 && seen.sees_near(i, corner.position)) ++faces;
+      if (to_end_m < 1e-6 && seen.is_visible_near(i, corner.position)) ++faces;
     }
     if (faces >= 2) corners.push_back(corner);
   }
@@ -162,7 +162,7 @@ void score_walls(const core::WallMap& truth, const VisibleWalls& seen, const cor
     std::size_t cells = 0;
     std::size_t hits = 0;
     for (std::size_t cell = 0; cell < seen.cells(i); ++cell) {
-      if (!seen.sees(i, cell)) continue;
+      if (!seen.is_visible(i, cell)) continue;
       ++cells;
       const Vec2 place = seen.place_of(i, cell);
       hits += std::any_of(faces.begin(), faces.end(), [&](const core::Face& face) {
@@ -173,7 +173,7 @@ void score_walls(const core::WallMap& truth, const VisibleWalls& seen, const cor
     score.seen_m += kCell_m * static_cast<double>(cells);
     score.found_m += kCell_m * static_cast<double>(hits);
     if (kCell_m * static_cast<double>(cells) < kMinWall_m) continue;
-    ++score.walls_seen;
+    ++score.walls_visible;
     if (static_cast<double>(hits) >= kMinFoundShare * static_cast<double>(cells)) {
       ++score.walls_found;
     } else {
@@ -196,19 +196,19 @@ void score_walls(const core::WallMap& truth, const VisibleWalls& seen, const cor
 
 }  // namespace
 
-SurveyScore score_survey(const core::WallMap& truth, std::span<const core::Pose2> places,
+SurveyScore score_survey(const core::WallMap& truth, std::span<const core::Pose2> poses,
                          const core::WallMap& found, const core::Pose2& start) {
-  const VisibleWalls seen(truth, places);
-  const std::vector<core::Corner> corners = seen_corners(truth, seen);
+  const VisibleWalls seen(truth, poses);
+  const std::vector<core::Corner> corners = visible_corners(truth, seen);
   SurveyScore score;
   score.T_true_map = start;
-  // From far to near: a map by odometry alone lies askew.
+  // Coarse to fine: a map from odometry alone is distorted.
   for (const double reach_m : {0.5, 0.25, kCornerSearchRadius_m, kCornerSearchRadius_m}) {
     score.T_true_map =
         align(pair_corners(corners, found, score.T_true_map, reach_m), score.T_true_map);
   }
   const auto pairs = pair_corners(corners, found, score.T_true_map, kCornerSearchRadius_m);
-  score.corners_seen = corners.size();
+  score.corners_visible = corners.size();
   score.corners_found = pairs.size();
   for (const Pair& pair : pairs) {
     score.corner_errors_m.push_back((score.T_true_map * pair.found - pair.truth).norm());

@@ -16,8 +16,8 @@ double cpu_time_us() {
   return static_cast<double>(now.tv_sec) * 1e6 + static_cast<double>(now.tv_nsec) * 1e-3;
 }
 
-/// The median time of each of `count` tasks. They take turns: run again and again, one would train
-/// the branch predictor as no robot does.
+/// Median time of each of `count` tasks. The tasks are interleaved, since repeating one would train
+/// the branch predictor.
 template <typename Task>
 std::vector<double> median_times_us(std::size_t count, std::size_t repeats, Task&& task) {
   std::vector<std::vector<double>> times_us(count);

@@ -10,16 +10,15 @@
 
 namespace cornerd::bench {
 
-/// Turns to detect corners in, and nothing else: what is timed and counted. A turn is what the
-/// paper's clock starts at, angles and ranges, put in order and into Cartesian coordinates, which
-/// is the same for every method.
+/// Corner detection alone, for timing and counting. The scans are sorted and converted to Cartesian
+/// coordinates beforehand, which costs every method the same.
 class Workload {
  public:
   Workload(const NamedMethod& method, std::span<const core::Scan> scans);
 
   std::size_t scans() const { return points_.size(); }
 
-  /// Detects in one turn.
+  /// Detects in one scan.
   void run(std::size_t scan);
   void run_all();
 
@@ -31,11 +30,10 @@ class Workload {
   core::Detection detection_;
 };
 
-/// CPU time of this thread that each turn takes, the median of `repeats` rounds, in microseconds.
+/// Thread CPU time of each scan in microseconds, the median of `repeats` rounds.
 std::vector<double> time_scans_us(Workload& workload, std::size_t repeats);
 
-/// CPU time of this thread that putting a turn in order takes, in microseconds: the mean over the
-/// turns.
+/// Thread CPU time of sorting and converting a scan, in microseconds, the mean over the scans.
 double time_preparation_us(std::span<const core::Scan> scans, std::size_t repeats);
 
 }  // namespace cornerd::bench

@@ -92,7 +92,7 @@ class ConfigReader {
   const std::vector<Key>& table_;
 };
 
-/// What no key alone can get wrong.
+/// Checks that involve more than one key.
 void check(const Config& config, const ConfigReader& reader, bool require_map) {
   if (require_map && config.map.empty()) {
     reader.fail("/map", "is missing; it is the only key without a default");

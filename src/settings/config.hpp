@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a config file sets, with the defaults. Its keys are in config_table.cpp.
+// The values of a config file, with their defaults. The keys are in config_table.cpp.
 #pragma once
 
 #include <array>
@@ -27,10 +27,10 @@ class SettingsError : public std::runtime_error {
   SettingsError(const std::string& file, const std::string& pointer, const std::string& reason);
 };
 
-/// EX_CONFIG of sysexits.h: what a program ends with on a SettingsError.
+/// EX_CONFIG of sysexits.h: the exit code after a SettingsError.
 inline constexpr int kExitConfig = 78;
 
-/// What may be read as a file: opening a pipe that nobody writes would block.
+/// kOrdinary: a regular file alone, since opening a pipe without a writer blocks.
 enum class FileKind : std::uint8_t { kOrdinary, kAny };
 
 enum class DriverKind : std::uint8_t { kRplidar, kReplay };

@@ -19,7 +19,7 @@ void add_detector_keys(std::vector<Key>& table, core::DetectorConfig& config) {
   };
   add("", {},
       "How corners are found. \"The paper\" is El Amin, Priandana and Hardhienata's of ALTBD. A "
-      "default without a source is the best one in `cornerctl bench`.");
+      "default without a source is the best one in `cornerd-bench`.");
   add("/sigma_offset", number(config.sigma_offset, 0.001, 1),
       "Deviation of a sample from its wall, as a share of its range, that is still the wall "
       "(paper, "

@@ -12,7 +12,7 @@
 
 namespace cornerd::settings {
 
-/// The bias that a daemon has estimated of its lidar, as its file keeps it for the next run.
+/// The lidar's bias as the daemon estimated it, kept in a file for the next run.
 struct LidarCalibration {
   std::string serial;           ///< of the device; empty where it has none
   core::SensorBias configured;  ///< /advanced/lidar/bias at the time of the estimate

@@ -28,10 +28,10 @@ TEST_P(SurveyOfARing, RevisitBeyondMatching_LoopIsClosedWithoutDuplicateWalls) {
   const bench::LoopCase made = bench::survey_loop(map_, drive_, /*close_loops=*/true);
   EXPECT_GE(closed_loops(made.result), 1U);
   EXPECT_GT(made.result.loops.front().off_m, 0.15);
-  EXPECT_EQ(made.score.walls_found, made.score.walls_seen);
-  EXPECT_GT(made.score.walls_seen, 30U);
+  EXPECT_EQ(made.score.walls_found, made.score.walls_visible);
+  EXPECT_GT(made.score.walls_visible, 30U);
   EXPECT_LT(made.score.invented_m, 0.05);
-  EXPECT_EQ(made.score.corners_found, made.score.corners_seen);
+  EXPECT_EQ(made.score.corners_found, made.score.corners_visible);
   EXPECT_LT(made.score.corner_max_m(), 0.02);
 }
 
@@ -51,7 +51,7 @@ class SurveyOfARingByTheLidarAlone : public testing::TestWithParam<std::uint64_t
 TEST_P(SurveyOfARingByTheLidarAlone, DegeneratePartInsideLoop_MapIsRightAndReported) {
   const bench::LoopCase made =
       bench::survey_loop(core::WallMap(bench::ring_corridor()), drive_, /*close_loops=*/true);
-  EXPECT_EQ(made.score.walls_found, made.score.walls_seen);
+  EXPECT_EQ(made.score.walls_found, made.score.walls_visible);
   EXPECT_LT(made.score.invented_m, 0.05);
   EXPECT_GT(made.result.degenerate_scans.size(), 100U);
 }
@@ -77,7 +77,7 @@ TEST(SurveyOfEqualRooms, LookAlikeRooms_AreNotClosed) {
   const bench::LoopCase made = bench::survey_loop(map, drive, /*close_loops=*/true);
   EXPECT_FALSE(made.result.loops.empty());
   EXPECT_EQ(closed_loops(made.result), 0U);
-  EXPECT_EQ(made.score.walls_found, made.score.walls_seen);
+  EXPECT_EQ(made.score.walls_found, made.score.walls_visible);
   EXPECT_LT(made.score.invented_m, 0.05);
 }
 

@@ -38,17 +38,17 @@ class SurveyOfAFlat : public testing::Test {
 std::unique_ptr<bench::SurveyExperiment> SurveyOfAFlat::experiment_;
 
 TEST_F(SurveyOfAFlat, VisibleWallsOver30cm_AreMappedWithoutFalseOnes) {
-  EXPECT_GE(experiment_->way_m, 100);
+  EXPECT_GE(experiment_->length_m, 100);
   const bench::SurveyScore& score = made("adjusted").score;
-  EXPECT_EQ(score.walls_found, score.walls_seen);
-  EXPECT_GT(score.walls_seen, 70U);
+  EXPECT_EQ(score.walls_found, score.walls_visible);
+  EXPECT_GT(score.walls_visible, 70U);
   EXPECT_LT(score.invented_m, 0.05);
 }
 
 TEST_F(SurveyOfAFlat, Corners_MedianErrorBelow5mmAndMaxBelow20mm) {
   const bench::SurveyScore& score = made("adjusted").score;
-  EXPECT_EQ(score.corners_found, score.corners_seen);
-  EXPECT_GT(score.corners_seen, 40U);
+  EXPECT_EQ(score.corners_found, score.corners_visible);
+  EXPECT_GT(score.corners_visible, 40U);
   EXPECT_LE(score.corner_median_m(), 0.005);
   EXPECT_LE(score.corner_max_m(), 0.020);
 }
@@ -63,7 +63,7 @@ TEST_F(SurveyOfAFlat, SecondDrive_ErrorAtMost3mmAboveTrueMap) {
 
 TEST_F(SurveyOfAFlat, LidarAlone_FindsTheWalls) {
   const bench::SurveyScore& score = made("adjusted, lidar alone").score;
-  EXPECT_EQ(score.walls_found, score.walls_seen);
+  EXPECT_EQ(score.walls_found, score.walls_visible);
   EXPECT_LT(score.invented_m, 0.05);
   EXPECT_LE(score.corner_median_m(), 0.005);
   EXPECT_LE(score.corner_max_m(), 0.020);
@@ -71,7 +71,7 @@ TEST_F(SurveyOfAFlat, LidarAlone_FindsTheWalls) {
 
 TEST_F(SurveyOfAFlat, PaperMethod_IsLessAccurate) {
   const bench::SurveyScore& ours = made("adjusted").score;
-  const bench::SurveyScore& calibrated = made("ransac, odometry taught").score;
+  const bench::SurveyScore& calibrated = made("ransac, calibrated odometry").score;
   EXPECT_LT(calibrated.walls_found, ours.walls_found);
   EXPECT_GT(calibrated.corner_median_m(), 4 * ours.corner_median_m());
 }
@@ -99,7 +99,7 @@ TEST(SurveyByTheLidarAlone, AbruptStartsAndStops_MapIsRight) {
     const core::WallMap found(result.plan);
     const bench::SurveyScore score =
         bench::score_survey(*map, driven.T_map_base, found, driven.T_map_base.front());
-    EXPECT_EQ(score.walls_found, score.walls_seen) << speed_m_s;
+    EXPECT_EQ(score.walls_found, score.walls_visible) << speed_m_s;
     EXPECT_LT(score.invented_m, 0.1) << speed_m_s;
     EXPECT_LE(score.corner_max_m(), 0.020) << speed_m_s;
   }

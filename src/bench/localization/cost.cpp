@@ -16,12 +16,12 @@ constexpr std::uint64_t kCostSeed = 1;
 void localize_scans(const std::shared_ptr<const core::WallMap>& map, std::size_t scans,
                     bool tracking) {
   const CircularMotion motion = tracking ? CircularMotion{0.2, 1.5} : CircularMotion{};
-  const auto places = random_circles(*map, motion, tracking ? 1 : kMaxCountedScans, kCostSeed);
+  const auto poses = random_circles(*map, motion, tracking ? 1 : kMaxCountedScans, kCostSeed);
   replay::ScanSimulator lidar({}, kCostSamples, kCostSeed);
   core::Localizer localizer(map, {});
   core::TimeNs t_ns = 0;
   for (std::size_t i = 0; i < kMaxCountedScans; ++i, t_ns += lidar.scan_ns()) {
-    const core::Scan& scan = lidar.take(*map, t_ns, circling(places[tracking ? 0 : i], motion));
+    const core::Scan& scan = lidar.take(*map, t_ns, circling(poses[tracking ? 0 : i], motion));
     if (i >= scans) continue;
     if (!tracking) localizer.relocalize();
     localizer.step(scan);

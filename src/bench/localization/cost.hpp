@@ -10,10 +10,9 @@ namespace cornerd::bench {
 
 inline constexpr std::size_t kMaxCountedScans = 60;
 
-/// Work whose instructions are counted: the first `turns` of kMaxCountedScans turns of 800 samples
-/// are localized. All are simulated, so that what one number of turns costs more than another is
-/// the localizer's work alone. Where `tracking`, of a robot that drives a small circle at 0.2 m/s;
-/// else of one that stands at random places, each turn as if nothing had been known.
+/// Localizes the first `scans` of kMaxCountedScans scans of 800 samples. All are simulated, so that
+/// the difference of two runs is the localizer's cost alone. `tracking`: a robot on a small circle
+/// at 0.2 m/s; else random poses, each scan without a prior.
 void localize_scans(const std::shared_ptr<const core::WallMap>& map, std::size_t scans,
                     bool tracking);
 

@@ -8,7 +8,7 @@
 namespace cornerd::bench {
 namespace {
 
-/// Returns farther than this from the wall, in standard deviations, are outliers.
+/// Returns farther from the wall are outliers, in standard deviations.
 constexpr double kOutlierSigmas = 6;
 
 }  // namespace

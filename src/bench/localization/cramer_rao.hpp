@@ -8,16 +8,16 @@
 
 namespace cornerd::bench {
 
-/// The Cramer-Rao bound of one turn: no unbiased estimator's covariance is less. It takes every
-/// return for a normal one of the wall that its ray meets at the true place, its bearing uncertain
-/// along with its range. Outliers, and what rays at corners lose, would only raise it.
+/// Cramer-Rao bound of the pose from one scan: no unbiased estimator has a smaller covariance.
+/// Every return is modelled as normally distributed around the wall that its ray hits at the true
+/// pose, with noise in range and bearing. Outliers would only raise the bound.
 class CramerRao {
  public:
   CramerRao(const core::SensorNoise& noise, double max_range_m)
       : noise_(noise), prediction_(max_range_m) {}
 
-  /// Of x, y in metres in the map frame, and heading in radians. Zero where the turn's walls do
-  /// not fix the pose.
+  /// 3 x 3, of x, y (metres, map frame) and heading (radians). Zero where the scan's walls leave
+  /// the pose unobservable.
   core::Covariance3 bound(const core::WallMap& map, const core::Pose2& T_map_lidar,
                           const core::PolarScan& scan);
 

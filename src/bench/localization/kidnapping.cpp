@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "core/localizer.hpp"
 #include "replay/pose_error.hpp"
 #include "replay/simulator/random_poses.hpp"
 #include "replay/simulator/scan_simulator.hpp"
@@ -25,9 +26,9 @@ KidnappingScore run_kidnapping(const std::vector<std::shared_ptr<const core::Wal
     replay::ScanSimulator lidar({}, kKidnappingSamples, seed + m);
     core::Localizer localizer(maps[m], {});
     core::TimeNs t_ns = 0;
-    const auto places = replay::random_poses(map, share + 1, kKidnappingClearance_m, seed + m);
-    for (std::size_t i = 0; i < places.size(); ++i) {
-      const core::Pose2& place = places[i];
+    const auto poses = replay::random_poses(map, share + 1, kKidnappingClearance_m, seed + m);
+    for (std::size_t i = 0; i < poses.size(); ++i) {
+      const core::Pose2& place = poses[i];
       std::size_t recovered = KidnappingScore::kScans;
       for (std::size_t k = 0; k < KidnappingScore::kScans; ++k) {
         const core::Scan& scan = lidar.take(map, t_ns, replay::stand_still(place));
@@ -40,7 +41,7 @@ KidnappingScore run_kidnapping(const std::vector<std::shared_ptr<const core::Wal
           ++(k == 0 ? score.wrong_first : score.wrong_later);
         }
       }
-      if (i == 0) continue;  // where the robot is taken from
+      if (i == 0) continue;  // the start
       ++score.jumps;
       if (recovered < KidnappingScore::kScans) {
         ++score.recovered[recovered];

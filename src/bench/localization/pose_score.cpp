@@ -83,14 +83,14 @@ void Reliability::add(const core::PoseEstimate& estimate, const core::Pose2& tru
   }
   ++bin->scans;
   bin->wrong += replay::is_right(first, truth) ? 0 : 1;
-  bin->doubt += estimate.p_wrong;
+  bin->expected_wrong += estimate.p_wrong;
 }
 
 void Reliability::add(const Reliability& other) {
   for (std::size_t k = 0; k < bins_.size(); ++k) {
     bins_[k].scans += other.bins_[k].scans;
     bins_[k].wrong += other.bins_[k].wrong;
-    bins_[k].doubt += other.bins_[k].doubt;
+    bins_[k].expected_wrong += other.bins_[k].expected_wrong;
   }
 }
 

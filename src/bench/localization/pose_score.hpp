@@ -9,31 +9,30 @@
 
 namespace cornerd::bench {
 
-/// Whether turns are wrong as often as they say themselves: the reliability diagram of the
-/// decision between one place and several. Turns that named no place at all say nothing.
+/// Reliability diagram of p_wrong over all scans with a fix or alternatives.
 class Reliability {
  public:
   struct Bin {
     double min_p_wrong = 0;
     std::size_t scans = 0;
-    std::size_t wrong = 0;  ///< turns whose likeliest place was not the true one
-    double doubt = 0;       ///< of these turns, summed: how many should be wrong
+    std::size_t wrong = 0;      ///< scans whose best hypothesis is wrong
+    double expected_wrong = 0;  ///< sum of p_wrong: the expected number of wrong ones
   };
 
   void add(const core::PoseEstimate& estimate, const core::Pose2& truth);
   void add(const Reliability& other);
 
-  /// By how much they doubted their likeliest place, least first.
+  /// Ascending by p_wrong.
   const auto& bins() const { return bins_; }
 
  private:
   std::array<Bin, 6> bins_ = {{{0}, {1e-5}, {1e-4}, {1e-3}, {1e-2}, {1e-1}}};
 };
 
-/// What many turns said of places that are known.
+/// Pose estimates against known poses.
 class PoseScore {
  public:
-  /// `bound`: the least covariance that this turn allows (CramerRao), zero where nobody asks.
+  /// `bound`: the scan's Cramer-Rao bound, or zero.
   void add(const core::PoseEstimate& estimate, const core::Pose2& truth,
            const core::Covariance3& bound = core::Covariance3::Zero());
 
@@ -46,21 +45,21 @@ class PoseScore {
   std::size_t ambiguous_with_truth() const { return ambiguous_with_truth_; }
   std::size_t lost() const { return lost_; }
 
-  // Of the poses that were named and right.
+  // Of the named and correct poses.
   double mean_error_m() const;
   double median_error_m() const;
   double rmse_m() const;
   double mean_heading_error_rad() const;
-  /// Root mean square error over that of the bound; 0 where no bound was given.
+  /// Root mean square error over that of the bound; 0 without a bound.
   double rmse_over_bound() const;
-  double bound_m() const;  ///< root mean square error that the bound allows
+  double bound_m() const;  ///< root mean square error of the bound
 
-  /// Normalised estimation error squared: 3 on average where the covariances are honest, and
-  /// under 7.815 in 95 % of the turns. Of all that were named.
+  /// Normalised estimation error squared of the named poses: for exact covariances the mean is 3,
+  /// and 95 % are below 7.815 (chi-square, 3 degrees of freedom).
   double mean_nees() const;
   double share_inside_95() const;
 
-  /// Of all turns, whether they named a place or doubted.
+  /// Of all scans.
   const Reliability& reliability() const { return reliability_; }
 
  private:

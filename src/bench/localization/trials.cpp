@@ -41,7 +41,7 @@ std::vector<MappedBuilding> changed(const Maps& maps, Change&& change) {
   return buildings;
 }
 
-/// One robot at one place after another.
+/// Visits one start pose after another.
 class Robot {
  public:
   Robot(const Trial& trial, std::shared_ptr<const core::WallMap> map, std::uint64_t seed)
@@ -54,7 +54,7 @@ class Robot {
         bound_(trial.sensor.noise, core::LocalizerConfig().max_range_m) {}
 
   void visit(const core::WallMap& world, const core::Pose2& start, PoseScore& score) {
-    // Each place has a clock of its own, which wheels are not used to.
+    // The clock starts anew at each pose, so the odometry has to be reset.
     if (trial_.odometry) {
       localizer_.forget();
     } else {
@@ -124,7 +124,7 @@ class Robot {
 std::vector<Trial> default_trials(const Maps& arenas,
                                   const std::shared_ptr<const core::WallMap>& flat) {
   constexpr double kDisplaced_m = 0.03;
-  constexpr core::TimeNs kSlowScan_ns = 181'818'182;  // 5.5 turns a second
+  constexpr core::TimeNs kSlowScan_ns = 181'818'182;  // 5.5 scans a second
   const CircularMotion brisk{0.5, 1.5};
   const replay::SensorModel usual;
   const auto with = [&](auto&& change) {
@@ -155,7 +155,7 @@ std::vector<Trial> default_trials(const Maps& arenas,
   add("arena", arena);
   add("flat", home);
   add("12 equal rooms", std::vector{as_mapped(rooms)});
-  Trial& bias = add("biased lidar, 20 turns each", arena);
+  Trial& bias = add("biased lidar, 20 scans each", arena);
   bias.sensor = biased;
   bias.scans_each = 20;
   add("60 % missing", arena).sensor = sparse;
@@ -165,7 +165,7 @@ std::vector<Trial> default_trials(const Maps& arenas,
   for (const std::size_t updates : {1, 4}) {
     for (const bool odometry : {false, true}) {
       Trial& moving = add(std::string("0.5 m/s, 1.5 rad/s") + (odometry ? ", odometry" : "") +
-                              (updates > 1 ? ", quarters of a turn" : ""),
+                              (updates > 1 ? ", quarters of a scan" : ""),
                           home);
       moving.motion = brisk;
       moving.scans_each = 30;
@@ -177,7 +177,7 @@ std::vector<Trial> default_trials(const Maps& arenas,
   return trials;
 }
 
-PoseScore run_trial(const Trial& trial, std::size_t places, std::uint64_t seed,
+PoseScore run_trial(const Trial& trial, std::size_t poses, std::uint64_t seed,
                     const std::function<void(std::size_t done)>& progress) {
   PoseScore score;
   std::size_t done = 0;
@@ -186,7 +186,7 @@ PoseScore run_trial(const Trial& trial, std::size_t places, std::uint64_t seed,
     const MappedBuilding& building = trial.buildings[b];
     Robot robot(trial, building.map, seed + b);
     const std::size_t worlds = building.worlds.size();
-    const std::size_t share = places * (b + 1) / buildings - places * b / buildings;
+    const std::size_t share = poses * (b + 1) / buildings - poses * b / buildings;
     for (std::size_t w = 0; w < worlds; ++w) {
       const core::WallMap& world = *building.worlds[w];
       const std::size_t count = share * (w + 1) / worlds - share * w / worlds;

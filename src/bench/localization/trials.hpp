@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the localizer is put to: places that are known, seen under all kinds of circumstances.
+// Localization at known poses under many conditions.
 #pragma once
 
 #include <cstddef>
@@ -16,7 +16,7 @@
 
 namespace cornerd::bench {
 
-/// A map, and the buildings that it may be the map of. `worlds`: at least one.
+/// A map, and the true buildings (at least one) that differ from it.
 struct MappedBuilding {
   std::shared_ptr<const core::WallMap> map;
   std::vector<std::shared_ptr<const core::WallMap>> worlds;
@@ -27,20 +27,20 @@ struct Trial {
   std::vector<MappedBuilding> buildings;
   replay::SensorModel sensor;
   double clutter = 0;          ///< share of the rays that obstacles stop
-  std::size_t scans_each = 1;  ///< at a place, or on a circle; each begins without a prior
+  std::size_t scans_each = 1;  ///< at each start pose; the first has no prior
   CircularMotion motion;
-  std::size_t updates_per_scan = 1;  ///< above 1, the poses of parts of a turn are judged alone
+  std::size_t updates_per_scan = 1;  ///< above 1, only the poses of partial scans are scored
   bool odometry = false;
   core::TimeNs scan_ns = 137'000'000;
 };
 
-/// Those of the bench: precision, bias, adversity and motion, in these layouts of the arena and,
-/// where a robot needs room to move, in this flat.
+/// Accuracy, bias, disturbances and motion: in the arena's layouts, and in the flat where the robot
+/// moves.
 std::vector<Trial> default_trials(const std::vector<std::shared_ptr<const core::WallMap>>& arenas,
                                   const std::shared_ptr<const core::WallMap>& flat);
 
-/// `places` random ones, shared by the trial's buildings, turns of 800 samples.
-PoseScore run_trial(const Trial& trial, std::size_t places, std::uint64_t seed,
+/// Divides `poses` random start poses among the trial's buildings; 800 samples a scan.
+PoseScore run_trial(const Trial& trial, std::size_t poses, std::uint64_t seed,
                     const std::function<void(std::size_t done)>& progress = {});
 
 }  // namespace cornerd::bench

@@ -15,7 +15,7 @@ using core::Vec2;
 constexpr double kMinDoor_m = 0.3;
 constexpr double kMaxDoor_m = 1.2;
 constexpr double kWorldRange_m = 100;
-/// Rays by which the share of a turn is judged.
+/// Rays that estimate the share of stopped ones.
 constexpr int kClutterRays = 360;
 
 double share_stopped(const core::WallMap& map, const Vec2& place,
@@ -72,7 +72,7 @@ std::vector<core::Wall> doors_of(const core::WallMap& map) {
       if (map.is_solid(beyond)) continue;
       const double open_m = map.range_along(beyond, core::angle_of(along), kMaxDoor_m);
       if (open_m < kMinDoor_m) continue;
-      // A door between two ends is found from both.
+      // A door between two wall ends is found from both.
       const core::Wall door{to, beyond + open_m * along, wall.thickness_m};
       const bool known = std::any_of(doors.begin(), doors.end(), [&](const core::Wall& other) {
         constexpr double kSame_m = 0.15;
@@ -112,7 +112,7 @@ constexpr std::size_t kPosesAtOnce = 16;
 constexpr std::size_t kMaxCircleTries = 500;
 
 bool is_clear(const core::WallMap& world, const core::Vec2& centre, double radius_m) {
-  // So near each other that no wall slips through between two of them.
+  // Closer than the clearance, so that no wall fits between two points.
   const int points = static_cast<int>(std::ceil(core::kTwoPi * radius_m / kCircleClearance_m)) + 1;
   for (int i = 0; i < points; ++i) {
     const double angle_rad = core::kTwoPi * i / points;

@@ -11,7 +11,7 @@ namespace cornerd::bench {
 
 struct LocalizationBenchOptions {
   std::filesystem::path maps;  ///< folder of the contest arena's layouts and of flat-7.json
-  std::size_t places = 1000;   ///< in each trial
+  std::size_t poses = 1000;    ///< in each trial
   std::uint64_t seed = 1;
   bool instructions = false;
   std::string json;  ///< file, "-" or empty

@@ -116,7 +116,7 @@ void run_scale(const BenchOptions& options) {
 void run_localizer(const BenchOptions& options) {
   LocalizationBenchOptions localization;
   localization.maps = options.maps;
-  if (options.positions_given->is_given()) localization.places = options.positions;
+  if (options.positions_given->is_given()) localization.poses = options.positions;
   localization.seed = options.seed;
   localization.instructions = options.instructions;
   localization.json = options.json;

@@ -28,7 +28,7 @@ std::optional<double> count_by_processor(InstructionCounter& counter, const Coun
 }
 
 std::optional<double> count_by_valgrind(const CountedScans& scans, const NamedMethod& method,
-                                        std::size_t samples, std::size_t places) {
+                                        std::size_t samples, std::size_t poses) {
   const auto count = [&](int times) {
     return count_by_callgrind({"--maps", scans.folder.string(), "--methods",
                                std::string(method.name), "--samples", std::to_string(samples),
@@ -38,7 +38,7 @@ std::optional<double> count_by_valgrind(const CountedScans& scans, const NamedMe
   const auto once = count(1);
   const auto twice = once ? count(2) : std::nullopt;
   if (!twice || *twice < *once) return std::nullopt;
-  return static_cast<double>(*twice - *once) / static_cast<double>(places);
+  return static_cast<double>(*twice - *once) / static_cast<double>(poses);
 }
 
 }  // namespace
@@ -52,10 +52,9 @@ void count_instructions(const CountedScans& scans, std::span<const NamedMethod> 
   std::size_t done = 0;
   for (const std::size_t samples : sizes) {
     for (const NamedMethod& method : methods) {
-      const auto count =
-          counter.is_available()
-              ? count_by_processor(counter, scans, method, samples)
-              : count_by_valgrind(scans, method, samples, report.scans.places.size());
+      const auto count = counter.is_available()
+                             ? count_by_processor(counter, scans, method, samples)
+                             : count_by_valgrind(scans, method, samples, report.scans.poses.size());
       if (!count) {
         std::fprintf(stderr,
                      "cornerctl: instructions cannot be counted here: no performance counter for "

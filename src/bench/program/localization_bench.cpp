@@ -90,7 +90,7 @@ std::string reliability_text(const Reliability& reliability) {
   for (const Reliability::Bin& bin : reliability.bins()) {
     table.add_row({bin.min_p_wrong > 0 ? tool::formatted("from %g", bin.min_p_wrong)
                                        : tool::formatted("below %g (a fix)", core::kWrongFixRate),
-                   std::to_string(bin.scans), tool::formatted("%.3g", bin.doubt),
+                   std::to_string(bin.scans), tool::formatted("%.3g", bin.expected_wrong),
                    std::to_string(bin.wrong)});
   }
   return "\nKept promises, all trials\n\n" + table.text(/*numbers=*/true);
@@ -140,7 +140,7 @@ std::string report_json(const LocalizationReport& report, const LocalizationBenc
   for (const Reliability::Bin& bin : report.reliability.bins()) {
     document["reliability"].push_back({{"least_doubt", bin.min_p_wrong},
                                        {"scans", bin.scans},
-                                       {"expected_wrong", bin.doubt},
+                                       {"expected_wrong", bin.expected_wrong},
                                        {"wrong", bin.wrong}});
   }
   const KidnappingScore& kidnapping = report.kidnapping;
@@ -177,14 +177,14 @@ void run_localization_bench(const LocalizationBenchOptions& options) {
 
   LocalizationReport report;
   for (const Trial& trial : default_trials(arenas, flat)) {
-    tool::ProgressBar bar(trial.title, options.places);
-    report.trials.push_back({trial.title, run_trial(trial, options.places, options.seed,
+    tool::ProgressBar bar(trial.title, options.poses);
+    report.trials.push_back({trial.title, run_trial(trial, options.poses, options.seed,
                                                     [&](std::size_t n) { bar.show(n); })});
   }
   {
-    tool::ProgressBar bar("kidnapping", options.places);
+    tool::ProgressBar bar("kidnapping", options.poses);
     report.kidnapping =
-        run_kidnapping(arenas, options.places, options.seed, [&](std::size_t n) { bar.show(n); });
+        run_kidnapping(arenas, options.poses, options.seed, [&](std::size_t n) { bar.show(n); });
   }
   if (options.instructions) {
     report.cost = CostResult{count_scan(options, false), count_scan(options, true)};

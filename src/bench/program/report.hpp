@@ -25,7 +25,7 @@ struct CornerReport {
   std::vector<MethodScore> scores;
 };
 
-/// Instructions that a method takes for a scan of so many samples, the mean over the 43 places.
+/// Instructions that a method takes for a scan of so many samples, the mean over the 43 poses.
 struct InstructionFigure {
   std::string method;  ///< its title
   std::size_t samples = 0;

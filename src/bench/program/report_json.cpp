@@ -32,11 +32,11 @@ Figures json_of(const PoseResult& result, const PaperPose& place, const PaperSca
 }
 
 Figures json_of(const PaperResult& result, const PaperScans& scans) {
-  Figures places = Figures::array();
-  for (std::size_t i = 0; i < result.places.size(); ++i) {
-    places.push_back(json_of(result.places[i], scans.places[i], scans));
+  Figures poses = Figures::array();
+  for (std::size_t i = 0; i < result.poses.size(); ++i) {
+    poses.push_back(json_of(result.poses[i], scans.poses[i], scans));
   }
-  return {{"method", result.method.name}, {"places", places}};
+  return {{"method", result.method.name}, {"places", poses}};
 }
 
 Figures json_of(const MethodScore& line) {

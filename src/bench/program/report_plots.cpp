@@ -26,11 +26,11 @@ std::string draw_times(const BenchReport& report) {
   std::vector<BoxplotSeries> series;
   for (const PaperResult& result : report.paper) {
     BoxplotSeries times{std::string(result.method.title), {}};
-    for (const PoseResult& place : result.places) times.values.push_back(place.time_us);
+    for (const PoseResult& place : result.poses) times.values.push_back(place.time_us);
     series.push_back(std::move(times));
   }
   return draw_boxplots(
-      {"Time a scan", std::to_string(report.scans.places.size()) + " places", "microseconds"},
+      {"Time a scan", std::to_string(report.scans.poses.size()) + " places", "microseconds"},
       series);
 }
 
@@ -39,7 +39,7 @@ std::string draw_positions(const BenchReport& report) {
   for (const PaperResult& result : report.paper) {
     if (result.method.name == "lt") continue;  // nor has the paper's figure
     BoxplotSeries errors{std::string(result.method.title), {}};
-    for (const PoseResult& place : result.places) {
+    for (const PoseResult& place : result.poses) {
       if (!place.nearest_corners_error_m) continue;
       errors.values.push_back(kPlotMm * *place.nearest_corners_error_m);
     }
@@ -47,7 +47,7 @@ std::string draw_positions(const BenchReport& report) {
   }
   BoxplotSeries own{"cornerd", {}};
   if (!report.paper.empty()) {
-    for (const PoseResult& place : report.paper.front().places) {
+    for (const PoseResult& place : report.paper.front().poses) {
       if (place.localizer_error_m) own.values.push_back(kPlotMm * *place.localizer_error_m);
     }
   }
@@ -65,8 +65,8 @@ std::size_t richest_scan(const BenchReport& report) {
 
 std::string draw_bench_scan(const BenchReport& report, const PaperResult& result,
                             std::size_t scan) {
-  const PaperPose& place = report.scans.places[scan];
-  const PoseResult& found = result.places[scan];
+  const PaperPose& place = report.scans.poses[scan];
+  const PoseResult& found = result.poses[scan];
   tool::MapDrawing drawing(*report.scans.maps[place.map]);
   drawing.add_scan(report.scans.scans[scan], place.T_map_lidar);
   drawing.add_breakpoints(found.breakpoints, place.T_map_lidar);

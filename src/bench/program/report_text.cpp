@@ -28,22 +28,22 @@ std::optional<std::size_t> paper_index(const NamedMethod& method) {
 }
 
 Places all_places(const PaperResult& result) {
-  Places places;
-  for (const PoseResult& place : result.places) places.push_back(&place);
-  return places;
+  Places poses;
+  for (const PoseResult& place : result.poses) poses.push_back(&place);
+  return poses;
 }
 
 Places places_at(const BenchReport& report, const PaperResult& result, std::size_t location) {
-  Places places;
-  for (std::size_t i = 0; i < result.places.size(); ++i) {
-    if (report.scans.places[i].location == location) places.push_back(&result.places[i]);
+  Places poses;
+  for (std::size_t i = 0; i < result.poses.size(); ++i) {
+    if (report.scans.poses[i].location == location) poses.push_back(&result.poses[i]);
   }
-  return places;
+  return poses;
 }
 
-MeanAndDeviation time_of(const Places& places) {
+MeanAndDeviation time_of(const Places& poses) {
   std::vector<double> times_us;
-  for (const PoseResult* place : places) times_us.push_back(place->time_us);
+  for (const PoseResult* place : poses) times_us.push_back(place->time_us);
   return mean_and_deviation(times_us);
 }
 
@@ -52,9 +52,9 @@ struct TrueAndFalse {
   std::size_t false_corners = 0;
   std::size_t faulty_places = 0;
 };
-TrueAndFalse count_corners(const Places& places) {
+TrueAndFalse count_corners(const Places& poses) {
   TrueAndFalse counts;
-  for (const PoseResult* place : places) {
+  for (const PoseResult* place : poses) {
     counts.true_corners += place->true_corners;
     counts.false_corners += place->false_corners;
     counts.faulty_places += place->false_corners > 0 ? 1 : 0;
@@ -79,8 +79,8 @@ class MethodTable {
     add_row(label, "places",
             [](const PaperResult& result) { return std::string(result.method.title); });
   }
-  void add_row(const std::string& label, const std::string& places, const Cell& cell) {
-    std::vector<std::string> row = {label, places};
+  void add_row(const std::string& label, const std::string& poses, const Cell& cell) {
+    std::vector<std::string> row = {label, poses};
     for (const PaperResult& result : report_.paper) row.push_back(cell(result));
     rows_.push_back(std::move(row));
   }
@@ -131,7 +131,7 @@ std::string time_table(const BenchReport& report) {
   MethodTable table(report, "location");
   for (std::size_t location = 0; location < kPaperLocations.size(); ++location) {
     const PaperLocation& paper = kPaperLocations[location];
-    table.add_row(std::string(paper.title), std::to_string(paper.places),
+    table.add_row(std::string(paper.title), std::to_string(paper.poses),
                   [&](const PaperResult& result) {
                     const MeanAndDeviation time = time_of(places_at(report, result, location));
                     const auto index = paper_index(result.method);
@@ -142,7 +142,7 @@ std::string time_table(const BenchReport& report) {
                   });
   }
   double reference_us = 0;
-  table.add_row("all", std::to_string(report.scans.places.size()), [&](const PaperResult& result) {
+  table.add_row("all", std::to_string(report.scans.poses.size()), [&](const PaperResult& result) {
     const MeanAndDeviation time = time_of(all_places(result));
     const auto index = paper_index(result.method);
     if (index == kReference) reference_us = time.mean;
@@ -172,7 +172,7 @@ std::string true_false_table(const BenchReport& report) {
   MethodTable table(report, "location");
   for (std::size_t location = 0; location < kPaperLocations.size(); ++location) {
     const PaperLocation& paper = kPaperLocations[location];
-    table.add_row(std::string(paper.title), std::to_string(paper.places),
+    table.add_row(std::string(paper.title), std::to_string(paper.poses),
                   [&](const PaperResult& result) {
                     const TrueAndFalse counts = count_corners(places_at(report, result, location));
                     std::string text =
@@ -184,7 +184,7 @@ std::string true_false_table(const BenchReport& report) {
                     return text;
                   });
   }
-  table.add_row("all", std::to_string(report.scans.places.size()), [&](const PaperResult& result) {
+  table.add_row("all", std::to_string(report.scans.poses.size()), [&](const PaperResult& result) {
     const TrueAndFalse counts = count_corners(all_places(result));
     std::string text = tool::formatted("%zu / %zu", counts.true_corners, counts.false_corners);
     if (const auto index = paper_index(result.method)) {
@@ -198,7 +198,7 @@ std::string true_false_table(const BenchReport& report) {
   });
   table.add_row("missed of those with 5", "", [&](const PaperResult& result) {
     std::size_t missed = 0;
-    for (const PoseResult& place : result.places) missed += place.missed_corners;
+    for (const PoseResult& place : result.poses) missed += place.missed_corners;
     return std::to_string(missed);
   });
   std::size_t supported = 0;
@@ -214,7 +214,7 @@ std::string position_table(const BenchReport& report) {
   for (const PaperResult& result : report.paper) {
     std::vector<double> nearest_m;
     std::vector<double> localizer_m;
-    for (const PoseResult& place : result.places) {
+    for (const PoseResult& place : result.poses) {
       if (place.nearest_corners_error_m) nearest_m.push_back(*place.nearest_corners_error_m);
       if (place.localizer_error_m) localizer_m.push_back(*place.localizer_error_m);
     }

@@ -25,10 +25,10 @@ std::string describe_second(const std::optional<LocalizationScore>& score) {
 }
 
 std::string walls_text(const SurveyScore& score) {
-  return tool::formatted("%zu of %zu", score.walls_found, score.walls_seen);
+  return tool::formatted("%zu of %zu", score.walls_found, score.walls_visible);
 }
 std::string corners_text(const SurveyScore& score) {
-  return tool::formatted("%zu of %zu", score.corners_found, score.corners_seen);
+  return tool::formatted("%zu of %zu", score.corners_found, score.corners_visible);
 }
 std::string corner_errors_text(const SurveyScore& score) {
   return tool::formatted("%.2f, %.2f mm", score.corner_median_m() * kMillimetres,
@@ -48,7 +48,7 @@ std::string experiment_text(const SurveyExperiment& experiment) {
   return tool::formatted(
              "A drive of %.1f m through seven rooms, wheels 1.5 and 2.5 %% and gyro 2 %% and "
              "0.01 rad/s off:\n",
-             experiment.way_m) +
+             experiment.length_m) +
          table.text() +
          tool::formatted(
              "A second drive in the true map: mean error %.2f mm, %zu of %zu scans named a "

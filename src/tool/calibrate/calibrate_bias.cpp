@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// cornerctl calibrate bias: how the lidar errs always, from places that its map knows.
+// cornerctl calibrate bias: the lidar's systematic errors, from recordings in a known map.
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -21,7 +21,7 @@
 namespace cornerd::tool {
 namespace {
 
-/// As many as it takes until a lidar's bias shows in each scan (the bench's "biased lidar").
+/// Enough for a significant bias (cornerd-bench --localizer, "biased lidar").
 constexpr std::size_t kMinBiasScans = 20;
 
 struct CalibrateBiasOptions {
@@ -43,10 +43,7 @@ std::string describe_bias(const core::EstimatedBias& learned) {
   row("bearing, sine, degrees", bias.bearing_sine_rad, sigma.bearing_sine_rad, core::degrees(1));
   row("bearing, cosine, degrees", bias.bearing_cosine_rad, sigma.bearing_cosine_rad,
       core::degrees(1));
-  return formatted(
-             "From %zu scans at places of the map, of a lidar that stood or that wheels tell the "
-             "motion of:\n",
-             learned.scans) +
+  return formatted("From %zu localized scans at rest or with odometry:\n", learned.scans) +
          table.text();
 }
 
@@ -67,11 +64,11 @@ void calibrate_bias(const CalibrateBiasOptions& options) {
   const core::EstimatedBias learned = pipeline.localizer().estimated_bias();
   if (learned.scans < kMinBiasScans) {
     throw Failure("only " + std::to_string(learned.scans) +
-                  " scans were found in the map with the lidar at rest: record some seconds each "
-                  "at several places, and see with replay whether they are found");
+                  " scans were localized with the lidar at rest: record some seconds each at "
+                  "several places, and check with replay that they are localized");
   }
   if (learned.is_limited) {
-    throw Failure("the lidar seems to be off by more than one can be: is the map to scale?");
+    throw Failure("the bias exceeds its limits: check that the map is to scale");
   }
   Output report = Output::report_beside(options.output);
   report.write(describe_bias(learned));
@@ -88,7 +85,7 @@ void calibrate_bias(const CalibrateBiasOptions& options) {
 
 void add_calibrate_bias(Command& group) {
   Command command = group.add_subcommand(
-      "bias", "what the lidar's ranges and bearings are always off by, at places of a known map");
+      "bias", "the systematic errors of ranges and bearings, from recordings in a known map");
   const auto options = std::make_shared<CalibrateBiasOptions>();
   command
       .add_option("files", options->files,

@@ -39,9 +39,9 @@ struct CalibrateNoiseOptions {
   std::filesystem::path wall_plot;
 };
 
-/// Floor and share that are off by more than this in the mean give way to the table.
+/// A larger mean residual of floor and share selects the table.
 constexpr double kMaxPlainResidual = 0.2;
-/// Median over the directions of what they drifted, in sigmas: 1.7 in an even movement.
+/// Median drift of the directions in sigmas; a uniform movement gives 1.7.
 constexpr double kMaxDrift_sigmas = 1;
 constexpr double kMinWallDistance_m = 0.05;
 constexpr double kMaxWallDistance_m = 12;
@@ -69,12 +69,11 @@ void warn_if_moved(const std::string& file, const std::vector<calibration::BinSp
   for (const calibration::BinSpread& spread : spreads) drifts.push_back(std::abs(spread.drift));
   if (calibration::median(drifts) < kMaxDrift_sigmas) return;
   std::fprintf(stderr,
-               "cornerctl: warning: %s: the lidar seems to have moved; its noise will come "
-               "out too large\n",
+               "cornerctl: warning: %s: the lidar probably moved; its noise is overestimated\n",
                file.c_str());
 }
 
-/// A recording, and the distance of the wall before it where the user knows that: "FILE@0.45".
+/// A recording and the distance of a wall if the user gives it: "FILE@0.45".
 struct RecordingOfWall {
   std::string file;
   std::optional<double> distance_m;
@@ -90,16 +89,16 @@ RecordingOfWall parse_recording(const std::string& text) {
   if (error != std::errc() || end != number.data() + number.size() ||
       !(distance_m >= kMinWallDistance_m && distance_m <= kMaxWallDistance_m)) {
     throw UsageError("'" + text +
-                     "': after the @ stands the wall's distance, in metres from 0.05 to "
-                     "12, as in still.bin@0.45");
+                     "': the number after @ must be the wall's distance, 0.05 to 12 m, as in "
+                     "still.bin@0.45");
   }
   return {text.substr(0, at), distance_m};
 }
 
-/// All that the recordings tell.
+/// The measurements of all recordings.
 struct Measured {
   std::vector<calibration::BinSpread> spreads;
-  std::vector<calibration::KnownWall> walls;  ///< at the distances that the user told
+  std::vector<calibration::KnownWall> walls;  ///< at the distances that the user gave
   std::vector<calibration::KnownWall> found;  ///< in recordings without one
 };
 
@@ -156,13 +155,12 @@ void calibrate_noise(const CalibrateNoiseOptions& options) {
   const auto noise = calibration::fit_range_noise(measured.spreads);
   if (!noise) {
     throw Failure(
-        "too little to tell the noise from: record some 20 scans or more of a lidar that "
-        "stands still and sees walls");
+        "too few data: record some 20 scans or more of a lidar that stands still and sees walls");
   }
   if (!noise->is_of_walls()) {
     throw Failure(
-        "the returns are too scattered to be of walls: is it a recording of a lidar that stands "
-        "still, and is --wire its format?");
+        "the returns are too scattered for walls: check that the lidar stood still and that --wire "
+        "is right");
   }
   const bool distances_known = !measured.walls.empty();
   const auto& sources = distances_known ? measured.walls : measured.found;
@@ -222,7 +220,7 @@ void add_noise(Command& group) {
 }  // namespace
 
 void add_calibrate(Command& program) {
-  Command group = program.add_subcommand("calibrate", "measure what a config wants to know");
+  Command group = program.add_subcommand("calibrate", "measure values for the config");
   group.require_subcommand();
   add_noise(group);
   add_calibrate_bias(group);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// cornerctl calibrate odometry: what wheels and gyro are off by, from a recorded drive.
+// cornerctl calibrate odometry: errors of wheels and gyro from a recorded drive.
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
@@ -66,17 +66,16 @@ std::string describe_estimate(const calibration::OdometryFit& fit) {
   }
   table.add_row({"delay, s", formatted("%+.5f", fit.learned.delay_s),
                  formatted("+- %.5f", fit.sigma.delay_s),
-                 fit.has_delay ? "" : "as configured: the drive does not tell"});
+                 fit.has_delay ? "" : "as configured: the drive does not show it"});
   constexpr const char* kBoundText =
-      "* as far off as is believed: correct odometry.track, wheel_radius or counts_per_turn "
-      "first\n";
+      "* at the limit: correct odometry.track, wheel_radius or counts_per_turn first\n";
   return table.text() + (at_bound ? kBoundText : "");
 }
 
-/// More sigmas from the configured one than this, and another delay is worth writing.
+/// A delay that differs by more sigmas from the configured one is written.
 constexpr double kSignificantDelaySigmas = 3;
 
-/// The delay for the config: the one that was found where it is sure, else the configured one.
+/// The fitted delay if it is significant, else the configured one.
 double written_delay_s(const calibration::OdometryFit& fit, double configured_s) {
   const double change_s = fit.learned.delay_s - configured_s;
   const bool is_sure =
@@ -100,20 +99,18 @@ std::string fragment(const calibration::OdometryFit& fit, double delay_s) {
   return text + "\n      }\n    }\n  }\n}\n";
 }
 
-/// Readings that are farther off than the daemon can make up for.
+/// Reports a delay that exceeds the daemon's limit.
 std::string describe_delay(const calibration::OdometryFit& fit) {
   if (std::abs(fit.learned.delay_s) <= settings::kMaxInitialDelay_s) return {};
   return formatted(
-      "The readings are %.2f s %s, by more than advanced.odometry.initial.delay may be (%.1f s) "
-      "and "
-      "the daemon finds: have each bear the time when it was true. The values above are "
-      "those of readings that do.\n",
+      "The readings are %.2f s %s, more than advanced.odometry.initial.delay allows (%.1f s): "
+      "send the time of measurement in each. The values above hold for such readings.\n",
       std::abs(fit.learned.delay_s), fit.learned.delay_s > 0 ? "late" : "early",
       settings::kMaxInitialDelay_s);
 }
 
-/// A drive's first half teaches the filter, in the second one it is alone. `steps`: the drive's, at
-/// the times when they were true.
+/// The filter gets fixes in the drive's first half and dead reckons in the second. `steps`: at the
+/// times of measurement.
 calibration::FilteredDrive filter_half(const RecordedDrive& drive,
                                        std::span<const core::OdometryIncrement> steps,
                                        core::OdometryConfig config) {
@@ -144,8 +141,8 @@ std::string draw_dead_reckoning(const RecordedDrive& drive,
       {"by the lidar", "#2f3640", known, true},
       {"wheels as configured", "#c2255c", raw},
       {"least squares", "#d9822b", fitted},
-      {"filter, taught by the lidar", "#8fb8d8", points.first(points.size() - alone)},
-      {"filter, then alone", "#2f6f9f", points.last(alone)}};
+      {"filter, with fixes", "#8fb8d8", points.first(points.size() - alone)},
+      {"filter, dead reckoning", "#2f6f9f", points.last(alone)}};
   std::shared_ptr<const core::WallMap> map;
   if (!config.map.empty()) map = settings::load_map(config.map);
   return draw_drive("The drive by wheels and gyro", tracks, map.get());
@@ -158,7 +155,7 @@ void calibrate_odometry(const CalibrateOdometryOptions& options) {
   guard_files({.read = {options.file, options.truth, options.settings.config_file(), config.map},
                .written = {options.plot},
                .output = options.output});
-  // Before the work: what cannot be written is said at once.
+  // Fails before the work if the file cannot be written.
   std::unique_ptr<Output> plot;
   if (!options.plot.empty()) plot = std::make_unique<Output>(options.plot);
   const auto [drive, fit] =
@@ -190,7 +187,7 @@ void calibrate_odometry(const CalibrateOdometryOptions& options) {
       row("least squares", "below", reckon(drive.steps, drive.places, geometry, fit.learned)));
 
   const calibration::FilteredDrive filtered = filter_half(drive, steps, config.odometry.core);
-  table.add_row(row("filter, 2nd half", "learned in the 1st", filtered.alone));
+  table.add_row(row("filter, 2nd half", "estimated in the 1st", filtered.alone));
 
   Output report = Output::report_beside(options.output);
   report.write(formatted("The drive by wheels and gyro alone, against %zu known places:\n",
@@ -204,7 +201,7 @@ void calibrate_odometry(const CalibrateOdometryOptions& options) {
   if (std::abs(fit.learned.track_scale) >= calibration::kMaxFittedScale) {
     const auto track_m =
         calibration::apparent_track_m(calibration::cut_windows(steps, drive.places));
-    if (track_m) report.write(formatted("  its turns are those of a track of %.3g m\n", *track_m));
+    if (track_m) report.write(formatted("  its rotations match a track of %.3g m\n", *track_m));
   }
   report.flush();
   if (plot) {
@@ -222,8 +219,7 @@ void calibrate_odometry(const CalibrateOdometryOptions& options) {
 
 void add_calibrate_odometry(Command& group) {
   Command command = group.add_subcommand(
-      "odometry",
-      "what wheels, gyro and their times are off by, from a recorded drive in a known map");
+      "odometry", "errors and delay of wheels and gyro, from a recorded drive in a known map");
   const auto options = std::make_shared<CalibrateOdometryOptions>();
   command
       .add_option("file", options->file,
@@ -233,17 +229,14 @@ void add_calibrate_odometry(Command& group) {
       .type_name("FILE");
   options->settings.add_config(command);
   options->settings.add_map(command);
-  command
-      .add_option("--truth", options->truth,
-                  "where the robot really was, in place of the lidar's own fixes")
+  command.add_option("--truth", options->truth, "true poses in place of the lidar's fixes")
       .type_name("FILE");
   command
       .add_option("-o,--output", options->output,
                   "the key advanced.odometry.initial, for a config; -: on standard output")
       .type_name("JSON");
   command
-      .add_option("--plot", options->plot,
-                  "draw the drive as wheels, least squares and the filter have it")
+      .add_option("--plot", options->plot, "draw the drive by wheels, least squares and the filter")
       .type_name("SVG");
   add_wire_option(command, options->wire);
   command.callback([options] { calibrate_odometry(*options); });

@@ -17,9 +17,9 @@ namespace {
 
 using calibration::DelaySearch;
 
-/// Where more of the readings than this are refused, it is not now and then one that is garbage.
+/// A larger share of rejected readings means wrong units, not outliers.
 constexpr double kMaxRejectedShare = 0.1;
-/// Scans that were deskewed by readings of times as wrong as this are deskewed again.
+/// Scans deskewed by readings with a larger delay are deskewed again.
 constexpr double kMaxDeskewDelay_s = 0.005;
 
 class DriveFitter {
@@ -39,9 +39,9 @@ class DriveFitter {
       return {std::move(drive), *fit};
     }
     if (truth_ == nullptr) {
-      // Wheels that are far off, or of another time, may cost the scans that would show it.
+      // Wrong or late odometry may spoil the scans that would show its fault.
       RecordedDrive plain = play(/*deskewed=*/false);
-      if (plain.places.size() < 2) fail("the robot was not found in the map");
+      if (plain.places.size() < 2) fail("the robot was not localized in the map: check the map");
       const std::string plain_faults = find_faults(plain);
       auto fit = plain_faults.empty() && search_.is_unambiguous ? fit_of(plain) : std::nullopt;
       if (fit) return {std::move(plain), *fit};
@@ -49,7 +49,7 @@ class DriveFitter {
     }
     if (!faults.empty()) fail(faults);
     fail(
-        "too little to tell wheels and gyro from: drive half a minute or more, with straights and "
+        "too few data for wheels and gyro: drive half a minute or more, with straights and "
         "turns both ways");
   }
 
@@ -70,14 +70,14 @@ class DriveFitter {
            kMaxRejectedShare * static_cast<double>(counters.readings);
   }
 
-  /// What no scale makes up for; empty where nothing is wrong.
+  /// Faults that no scale corrects; empty if there are none.
   std::string find_faults(RecordedDrive& drive) {
     const auto& steps = is_wide(drive) ? drive.increments_within_wide_limits : drive.steps;
     search_ = calibration::search_delay(steps, drive.places, configured_s());
     if (search_.at_edge) {
       fail(
-          formatted("the readings are %.1f s %s or more, the most that is looked for: have each "
-                    "bear the time when it was true",
+          formatted("the readings are %.1f s %s or more, the limit of the search: send the time of "
+                    "measurement in each",
                     calibration::kMaxDelay_s, search_.delay_s > 0 ? "late" : "early"));
     }
     deskew(drive, search_.delay_s);
@@ -87,7 +87,7 @@ class DriveFitter {
     return describe_faults(calibration::find_wiring_faults(windows, geometry), config_.odometry);
   }
 
-  /// Finds the places anew where the scans were deskewed by what was read at other times.
+  /// Localizes again if the scans were deskewed by readings with a wrong delay.
   void deskew(RecordedDrive& drive, double delay_s) const {
     if (truth_ != nullptr || std::abs(delay_s - configured_s()) <= kMaxDeskewDelay_s) return;
     auto places = localize_drive(file_, wire_, config_, drive.readings, delay_s);
@@ -103,7 +103,7 @@ class DriveFitter {
   std::optional<rplidar::WireFormat> wire_;
   const settings::Config& config_;
   const Truth* truth_;
-  DelaySearch search_;  ///< in the drive that was looked at last
+  DelaySearch search_;  ///< of the last drive
 };
 
 }  // namespace

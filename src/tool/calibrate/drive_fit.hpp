@@ -17,10 +17,9 @@ struct FittedDrive {
   calibration::OdometryFit fit;
 };
 
-/// Plays a recorded drive and fits wheels and gyro to it: first how late they are, then whether
-/// anything is wrong that no scale makes up for, then the rest. Places are the truth's, or the
-/// lidar's where it is null. Throws Failure, which says what is wrong or missing,
-/// replay::RecordingError and settings::SettingsError.
+/// Plays a recorded drive and fits wheels and gyro: first the delay, then wiring faults, then
+/// scales. Poses come from `truth`, or from the lidar's fixes if it is null. Throws Failure with
+/// the fault, replay::RecordingError and settings::SettingsError.
 FittedDrive fit_drive(const std::filesystem::path& file, std::optional<rplidar::WireFormat> wire,
                       const settings::Config& config, const Truth* truth);
 

@@ -27,7 +27,7 @@ __attribute__((format(printf, 2, 3))) void append_line(std::string& out, const c
   out += '\n';
 }
 
-/// Three digits are more than a calibration knows; without exponents, as people write them.
+/// Three significant digits without an exponent.
 std::string short_decimal(double value) {
   const int digits = 2 - static_cast<int>(std::floor(std::log10(std::max(value, 1e-9))));
   char text[32];
@@ -54,7 +54,7 @@ void append_cells(std::string& out, const RangeNoise& noise) {
   }
 }
 
-/// As many digits as a polynomial needs whose terms cancel.
+/// Nine digits: the polynomial's terms cancel.
 std::string exact_number(double value) {
   char text[32];
   std::snprintf(text, sizeof text, "%.9g", value);
@@ -99,10 +99,9 @@ std::string describe_noise(const RangeNoise& noise) {
     append_line(out, "bearing  not measured (too few walls at a slant); %.3f degrees by default",
                 core::degrees(noise.plain.bearing_rad));
   }
-  append_line(out, "Nothing is known below %.2f m, where the nearest sigma is taken, and beyond",
+  append_line(out, "No data below %.2f m, where the nearest sigma holds, and beyond",
               noise.cells.front().range_m);
-  append_line(out,
-              "%.2f m, where the farthest one's share of the range is; gaps are bridged straight.",
+  append_line(out, "%.2f m, where sigma grows with the range; gaps are interpolated linearly.",
               noise.cells.back().range_m);
   return out;
 }

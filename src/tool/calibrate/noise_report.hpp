@@ -10,7 +10,7 @@
 
 namespace cornerd::tool {
 
-/// For people: what was measured range by range, and how far the models are from it.
+/// A table of the measured sigmas by range and the residuals of the models.
 std::string describe_noise(const calibration::RangeNoise& noise);
 
 /// For config files, `simulate --noise` and `emulate --noise`: { "lidar": { "noise": ... } }.
@@ -19,10 +19,10 @@ std::string describe_noise(const calibration::RangeNoise& noise);
 std::string noise_fragment(const calibration::RangeNoise& noise, bool with_table,
                            std::span<const calibration::WallPieceFit> walls);
 
-/// For people: what the recordings at known distances say of the range's bias.
+/// A table of the range's bias at known distances.
 std::string describe_distances(std::span<const calibration::KnownWall> walls);
-/// And of the paper's model: its pieces and what they leave. `distances_known`: else they come from
-/// the recordings themselves.
+/// A table of the paper's model: pieces and residuals. `distances_known`: given by the user, else
+/// fitted.
 std::string describe_wall_model(std::span<const calibration::WallPieceFit> fits,
                                 bool distances_known);
 

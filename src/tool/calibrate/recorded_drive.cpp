@@ -12,7 +12,7 @@ namespace cornerd::tool {
 
 namespace {
 
-/// Beyond any unit that is wrong.
+/// Exceeds the factor of any wrong unit.
 constexpr double kLimitFactor = 100;
 constexpr core::TimeNs kMaxClockOffset_ns = 2 * core::kNsPerSecond;
 constexpr core::TimeNs kMaxLead_ns = 10 * core::kNsPerSecond;
@@ -23,7 +23,7 @@ core::OdometryConfig widened(core::OdometryConfig config) {
   return config;
 }
 
-/// In the order of time.
+/// Drops poses that go back in time.
 void add_pose(const calibration::KnownPose& place, std::vector<calibration::KnownPose>& places) {
   if (places.empty() || place.t_ns > places.back().t_ns) places.push_back(place);
 }
@@ -33,7 +33,7 @@ void add_fix(const core::ScanResult& result, std::vector<calibration::KnownPose>
   if (pose.state == core::PoseState::kFix) add_pose({pose.t_ns, pose.T_map_base}, places);
 }
 
-/// The steps of the drive, and what the lidar makes of its scans.
+/// Collects increments, readings and poses of the drive.
 class DriveSink final : public replay::RecordingSink {
  public:
   DriveSink(core::Pipeline& pipeline, const core::OdometryConfig& odometry, const Truth* truth)
@@ -59,7 +59,8 @@ class DriveSink final : public replay::RecordingSink {
   }
 
  private:
-  /// By the lidar's newest sample; a clock that is off by so little is to be found out.
+  /// Time of the lidar's newest sample, or of the reading if they are near: the fit finds the
+  /// delay.
   std::optional<core::TimeNs> arrival_time(core::TimeNs t_ns) const {
     const bool is_near = now_ns_ && std::abs(t_ns - *now_ns_) < kMaxClockOffset_ns;
     return is_near ? t_ns : now_ns_;
@@ -80,7 +81,7 @@ class DriveSink final : public replay::RecordingSink {
   RecordedDrive drive_;
 };
 
-/// Each reading before the samples that are later, wherever in the recording it stands.
+/// Feeds each reading by its time, not by its position in the recording.
 class PoseSink final : public replay::RecordingSink {
  public:
   PoseSink(core::Pipeline& pipeline, std::vector<core::OdometryReading> readings)
@@ -89,7 +90,7 @@ class PoseSink final : public replay::RecordingSink {
   void on_sample(const core::Sample& sample) override {
     for (; next_ < readings_.size(); ++next_) {
       const core::TimeNs ahead_ns = readings_[next_].t_ns - sample.t_ns;
-      // One of the far future is to be refused now, not to keep others waiting.
+      // A reading of the far future must not block the others.
       if (ahead_ns > 0 && ahead_ns < kMaxLead_ns) break;
       pipeline_.add(readings_[next_], sample.t_ns);
     }

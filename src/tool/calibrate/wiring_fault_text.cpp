@@ -13,7 +13,7 @@ namespace {
 
 using calibration::WiringFaults;
 
-/// Nearer to a whole factor than this a factor is that one: wheels are no farther off.
+/// A factor this near to an integer counts as the integer.
 constexpr double kIntegerTolerance = 0.1;
 
 class FaultText {
@@ -68,7 +68,7 @@ class FaultText {
     }
   }
 
-  /// What to do with a wheel, or the gyro, whose sign is wrong.
+  /// The remedy for a wrong sign of a wheel or the gyro.
   std::string reverse(std::string_view name) const {
     if (!is_kernel()) return "negate " + std::string(name) + " in the ODOMETRY lines";
     const drivers::KernelOdometryConfig& kernel = config_.kernel;
@@ -115,11 +115,12 @@ class FaultText {
 
   void add_gyro() {
     if (faults_.gyro_is_unrelated) {
-      add(is_kernel() ? "the gyro says nothing of the robot's turns: set "
-                        "advanced.odometry.kernel.gyro.axis "
-                        "to the one that points up"
-                      : "the gyro says nothing of the robot's turns: send the rate about the axis "
-                        "that points up");
+      add(is_kernel()
+              ? "the gyro does not measure the robot's rotation: set "
+                "advanced.odometry.kernel.gyro.axis "
+                "to the one that points up"
+              : "the gyro does not measure the robot's rotation: send the rate about the axis "
+                "that points up");
     }
     if (faults_.gyro_is_reversed) {
       add("the gyro's sign is reversed, it grows turning to the left: " + reverse("gyro"));
@@ -132,10 +133,9 @@ class FaultText {
                     is_degrees ? "it is in degrees a second, send" : "it has to be in"));
     }
     if (faults_.gyro_bias_rad_s) {
-      add(
-          formatted("the gyro reads %+.2f rad/s while the robot stands: have its zero taken before "
-                    "it drives",
-                    *faults_.gyro_bias_rad_s));
+      add(formatted(
+          "the gyro reads %+.2f rad/s while the robot stands: calibrate its zero before the drive",
+          *faults_.gyro_bias_rad_s));
     }
   }
 

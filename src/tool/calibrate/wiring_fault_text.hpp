@@ -8,8 +8,8 @@
 
 namespace cornerd::tool {
 
-/// What is wrong and what to change for it, one line; empty where nothing is. Readings that are not
-/// of odometry.source kernel are taken for lines of a controller's.
+/// Faults and remedies in one line; empty if there are none. Without odometry.source kernel, the
+/// remedies refer to the controller's ODOMETRY lines.
 std::string describe_faults(const calibration::WiringFaults& faults,
                             const settings::OdometryConfig& config);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Commands and their options. A thin face of CLI11, which command.cpp alone includes: its header
-// takes as long to compile as a dozen of the commands.
+// Commands and their options: a thin wrapper of CLI11, whose header only command.cpp includes
+// because it compiles slowly.
 #pragma once
 
 #include <functional>

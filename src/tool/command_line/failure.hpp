@@ -11,7 +11,7 @@ namespace cornerd::tool {
 /// What cornerctl ends with.
 enum ExitCode : int {
   kExitDone = 0,
-  kExitFailed = 1,  ///< said on standard error
+  kExitFailed = 1,  ///< reported on standard error
   kExitUsage = 2,
   kExitConfig = settings::kExitConfig  ///< a config or map that is wrong
 };
@@ -28,7 +28,7 @@ class UsageError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Whoever read our standard output has gone. Not an error: he has seen enough.
+/// The reader of standard output closed it. Not an error.
 class OutputClosed : public std::exception {};
 
 }  // namespace cornerd::tool

@@ -13,7 +13,7 @@ namespace cornerd::tool {
 /// Standard output or a file, and the one place that notices that writing failed.
 class Output {
  public:
-  /// Standard output; `flush_each`: for those who read along.
+  /// Standard output; `flush_each`: after every write.
   explicit Output(bool flush_each = false);
   /// A new file, or standard output where it is called "-". Throws Failure.
   explicit Output(const std::filesystem::path& file);

@@ -12,7 +12,7 @@ namespace cornerd::tool {
 
 namespace {
 
-/// Colons do not merge as blanks would: "video:*:44:" has four fields.
+/// Keeps empty fields: "video:*:44:" has four.
 std::vector<std::string> split_fields(const std::string& line) {
   std::vector<std::string> fields(1);
   for (const char c : line) {
@@ -33,7 +33,7 @@ std::optional<unsigned> account_number(const std::string& digits) {
   return number;
 }
 
-/// The first line of a file with so many fields that the function accepts.
+/// The first line with at least `count` fields that `accepts` approves.
 std::vector<std::string> find_entry(
     const Machine& machine, const char* file, std::size_t count,
     const std::function<bool(const std::vector<std::string>&)>& accepts) {
@@ -89,7 +89,7 @@ std::string group_name(const Machine& machine, gid_t gid) {
 
 bool may_access(const Account& account, const FileFacts& file, mode_t rights) {
   if (account.uid == 0) return true;
-  // The first class that fits decides, even where a later one would allow more.
+  // POSIX: the first matching class decides, even if a later one allows more.
   const unsigned shift = account.uid == file.uid ? 6 : account.gids.contains(file.gid) ? 3 : 0;
   return (file.mode >> shift & rights) == rights;
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What doctor looks at, in the order from the plug to the pose. Each check says at least one thing
-// where it applies, and nothing where it does not: a recording in the lidar's place has no port.
+// The checks of doctor, from the plug to the pose. A check that applies returns at least one
+// finding; one that does not apply returns none.
 #pragma once
 
 #include <exception>
@@ -12,38 +12,38 @@
 
 namespace cornerd::tool {
 
-/// May the service's user read what the settings are in and what they name, wherever it lies?
+/// Can the service's user read the config, and the map and recording that it names?
 std::vector<Finding> check_reading(const Patient& patient);
-/// Is there a port where the settings say, and if not, where is it?
+/// Is there a serial port at lidar.device?
 std::vector<Finding> check_port(const Patient& patient);
-/// May whoever runs the daemon open it?
+/// Can the daemon's user open the port?
 std::vector<Finding> check_rights(const Patient& patient);
-/// The same of a port with such an owner, group and mode.
+/// The same for a port with this owner, group and mode.
 Finding check_port_rights(const Patient& patient, const FileFacts& port);
-/// Who has it open, and does the kernel talk on it?
+/// Which process has the port open, and is it a kernel console?
 std::vector<Finding> check_holders(const Patient& patient);
-/// Is there anything that takes such ports for itself: gpsd, ModemManager, brltty?
+/// Does another service claim the port: gpsd, ModemManager, brltty?
 std::vector<Finding> check_claimers(const Patient& patient);
-/// Did supply, cable or hub fail, or are they about to?
+/// Are there signs of a weak supply, cable or hub?
 std::vector<Finding> check_power(const Patient& patient);
-/// Does the daemon run, and how does it say that its lidar is?
+/// Does the daemon run, and which states does it report?
 std::vector<Finding> check_daemon(const Patient& patient);
-/// May whoever asks send requests to the daemon?
+/// Can the caller send requests to the daemon?
 std::vector<Finding> check_control(const Patient& patient);
-/// Are there poses, and if they name no place, why?
+/// Does the daemon send poses, and are most of them fixes?
 std::vector<Finding> check_poses(const Patient& patient);
 
 /// All of the above.
 std::vector<Finding> examine(const Patient& patient);
 
-/// Settings as far as they can be read, and what is wrong with them.
+/// The settings that could be read, and the findings about them.
 struct SettingsCheck {
   settings::Config config;
   std::vector<Finding> findings;
-  std::exception_ptr error;  ///< the first SettingsError; null where all is well
+  std::exception_ptr error;  ///< the first SettingsError; null if there is none
 };
 
-/// `file`: empty where there is none and every key has its default.
+/// `file`: empty for the default of every key.
 SettingsCheck check_settings(const std::filesystem::path& file,
                              const std::vector<std::string>& overrides);
 

@@ -12,7 +12,7 @@ namespace {
 
 constexpr const char* kGpsdSettings = "/etc/default/gpsd";
 
-/// The value of a line NAME="value" of a file that a shell would read; empty where there is none.
+/// The value of NAME="value" in a shell settings file; empty if it is absent.
 std::string shell_value(const Machine& machine, const char* file, std::string_view name) {
   std::istringstream lines(machine.read(file).value_or(""));
   std::string value;
@@ -24,7 +24,7 @@ std::string shell_value(const Machine& machine, const char* file, std::string_vi
   return value;
 }
 
-/// gpsd's own rules have udev ask for its service with every CP2102; the package's take that back.
+/// gpsd's udev rules start gpsd for every CP2102; the package's rules exclude the lidar.
 bool is_claimed_by_gpsd(const Machine& machine, const std::string& port) {
   if (shell_value(machine, kGpsdSettings, "USBAUTO") != "true") return false;
   const std::optional<std::string> notes = udev_notes(machine, port);
@@ -42,13 +42,13 @@ void check_gpsd(const Machine& machine, const std::filesystem::path& port, bool 
     findings.push_back(
         {Verdict::kWrong,
          "gpsd",
-         "is told to read " + port.string() + " as a GPS receiver",
-         {"take it out of DEVICES in " + settings + ", then: sudo systemctl restart gpsd"}});
+         "is configured to read " + port.string() + " as a GPS receiver",
+         {"remove it from DEVICES in " + settings + ", then: sudo systemctl restart gpsd"}});
   } else if (is_usb && is_claimed_by_gpsd(machine, port.filename().string())) {
     findings.push_back(
         {Verdict::kWrong,
          "gpsd",
-         "takes every CP2102 that is plugged in for a GPS receiver, the lidar's too",
+         "treats every CP2102 as a GPS receiver, the lidar's too",
          {"install the package's udev rules (61-cornerd.rules) and plug the lidar in again",
           "or set USBAUTO=\"false\" in " + settings + ", then: sudo systemctl restart gpsd"}});
   } else {
@@ -60,23 +60,23 @@ void check_modem_manager(const Machine& machine, const std::string& name, bool i
                          std::vector<Finding>& findings) {
   if (!is_usb || !find_process(machine, "ModemManager")) return;
   const std::optional<std::string> notes = udev_notes(machine, name);
-  // Of what is not there the rules will tell it.
-  const bool is_told = notes ? notes->find("E:ID_MM_PORT_IGNORE=1") != std::string::npos ||
-                                   notes->find("E:ID_MM_DEVICE_IGNORE=1") != std::string::npos
-                             : !machine.exists("/dev/" + name) && has_udev_rules(machine);
-  if (is_told) {
+  // An absent port has no udev data: the installed rules decide.
+  const bool is_ignored = notes ? notes->find("E:ID_MM_PORT_IGNORE=1") != std::string::npos ||
+                                      notes->find("E:ID_MM_DEVICE_IGNORE=1") != std::string::npos
+                                : !machine.exists("/dev/" + name) && has_udev_rules(machine);
+  if (is_ignored) {
     findings.push_back({Verdict::kGood, "modems", "ModemManager runs and leaves the port alone"});
     return;
   }
   findings.push_back(
       {Verdict::kWrong,
        "modems",
-       "ModemManager talks to every new port as to a modem, the lidar's too",
+       "ModemManager probes every new port for a modem, the lidar's too",
        {"install the package's udev rules (61-cornerd.rules) and plug the lidar in again",
-        "or, where there is no modem: sudo systemctl mask --now ModemManager"}});
+        "or, if there is no modem: sudo systemctl mask --now ModemManager"}});
 }
 
-/// The port behind USB that is the lidar's, or would be if it were there; empty: it is none.
+/// The name of the lidar's port if it is behind USB, present or not; else empty.
 std::string usb_port_name(const Patient& patient, const std::vector<UsbAdapter>& adapters) {
   const std::string name = port_of(patient).filename().string();
   const auto has_name = [&](const UsbAdapter& one) { return one.port == name; };
@@ -95,12 +95,12 @@ void check_brltty(const Machine& machine, const std::vector<UsbAdapter>& adapter
   if (!find_process(machine, "brltty")) return;
   Finding finding{Verdict::kWrong,
                   "brltty",
-                  "takes CP2102s for Braille displays",
-                  {"sudo apt remove brltty, unless somebody reads by it"}};
+                  "treats every CP2102 as a Braille display",
+                  {"sudo apt remove brltty, unless somebody needs it"}};
   const auto taken = std::find_if(adapters.begin(), adapters.end(),
                                   [](const UsbAdapter& one) { return one.port.empty(); });
   if (taken != adapters.end()) {
-    finding.what += ", and has this one, it seems: it is plugged in and there is no port";
+    finding.what += ", and probably has the lidar's: an adapter is plugged in and has no port";
     finding.remedies.emplace_back("then plug the lidar in again");
   }
   findings.push_back(finding);
@@ -121,7 +121,7 @@ std::vector<Finding> check_claimers(const Patient& patient) {
   if (is_usb) check_brltty(machine, adapters, findings);
   if (findings.empty()) {
     findings.push_back(
-        {Verdict::kGood, "claimers", "neither gpsd, ModemManager nor brltty is after the port"});
+        {Verdict::kGood, "claimers", "neither gpsd, ModemManager nor brltty claims the port"});
   }
   return findings;
 }

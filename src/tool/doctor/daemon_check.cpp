@@ -11,7 +11,7 @@ namespace cornerd::tool {
 
 namespace {
 
-/// More damaged bytes than line noise explains.
+/// Line noise damages fewer bytes than this.
 constexpr double kMaxSkippedShare = 0.01;
 constexpr std::string_view kDoctorAdvice = ". `sudo cornerctl doctor`";
 
@@ -22,15 +22,15 @@ std::vector<Finding> unreachable(const Patient& patient) {
   if (error == EACCES) {
     return {{Verdict::kWrong,
              "daemon",
-             socket + ": you may not enter its folder",
-             {"sudo cornerctl doctor, or correct the rights of the folder"}}};
+             socket + ": you must not enter its folder",
+             {"run sudo cornerctl doctor, or correct the rights of the folder"}}};
   }
   if (process) {
     return {{Verdict::kWrong,
              "daemon",
              "cornerd runs (process " + std::to_string(process->pid) +
                  "), but not with the socket " + socket,
-             {"name the config that it runs with: cornerctl doctor --config FILE"}}};
+             {"name its config: cornerctl doctor --config FILE"}}};
   }
   Finding finding{Verdict::kWrong, "daemon",
                   "does not run (" + socket + ": " + std::strerror(error) + ")"};
@@ -48,7 +48,7 @@ std::string describe_lidar(const message::ParsedStatus& status) {
   std::string text = status.lidar_state;
   if (!status.lidar_fault.empty()) text += ", " + status.lidar_fault;
   if (!status.lidar_detail.empty()) {
-    // Whoever reads this has just done what the end of some advises.
+    // The caller is already running doctor.
     return text + ": " + status.lidar_detail.substr(0, status.lidar_detail.find(kDoctorAdvice));
   }
   if (!status.lidar_model.empty()) text += ", " + status.lidar_model;
@@ -61,9 +61,9 @@ std::string describe_lidar(const message::ParsedStatus& status) {
 Finding lidar_finding(const message::ParsedStatus& status) {
   const bool runs = status.lidar_state == "running" && status.lidar_fault.empty();
   Finding finding{runs ? Verdict::kGood : Verdict::kWrong, "lidar", describe_lidar(status)};
-  // The daemon's own text says what to do about the rest.
+  // Otherwise lidar_detail holds the remedy.
   if (!runs && status.lidar_detail.empty()) {
-    finding.remedies = {"see again in some seconds: it may only be starting"};
+    finding.remedies = {"try again in a few seconds: it may still be starting"};
   }
   return finding;
 }
@@ -75,13 +75,12 @@ void add_line_quality(const message::ParsedStatus& status, std::vector<Finding>&
   findings.push_back(
       {Verdict::kNote,
        "line",
-       formatted("%.1f %% of the lidar's bytes were damaged or belonged to nothing", 100 * share),
-       {"a shorter or screened cable, away from motors; a steadier 5 V"}});
+       formatted("%.1f %% of the lidar's bytes were damaged or skipped", 100 * share),
+       {"use a shorter or shielded cable, away from motors, and a stable 5 V supply"}});
 }
 
-/// Scans in motion are deskewed by what was read meanwhile: with fewer readings than the first,
-/// scans are lost and what is carried on may be wrong; with fewer than the second, fixes are worse
-/// than they say (core/odometry/README.md).
+/// Deskewing needs readings: below the minimum, predicted poses may be wrong; below the good rate,
+/// covariances of fixes in motion are too small (core/odometry/README.md).
 constexpr double kMinReadings_hz = 10;
 constexpr double kGoodReadings_hz = 20;
 
@@ -92,44 +91,44 @@ void add_reading_rate(const Patient& patient, std::vector<Finding>& findings) {
     if (patient.daemon.status && !patient.daemon.status->odometry_hint.empty()) return;
     findings.push_back({Verdict::kNote,
                         "odometry",
-                        "the config has it, and no reading comes",
-                        {"start what sends ODOMETRY to control.sock"}});
+                        "is configured, but no reading arrives",
+                        {"start the program that sends ODOMETRY to control.sock"}});
     return;
   }
   const bool is_wrong = *hz < kMinReadings_hz;
-  const std::string mend = patient.config.odometry.source == settings::OdometrySource::kKernel
-                               ? "advanced.odometry.kernel.rate: 50"
-                               : "send ODOMETRY 50 times a second, wheels and gyro in one line";
+  const std::string mend =
+      patient.config.odometry.source == settings::OdometrySource::kKernel
+          ? "advanced.odometry.kernel.rate: 50"
+          : "send ODOMETRY 50 times a second, with wheels and gyro in one line";
   findings.push_back({is_wrong ? Verdict::kWrong : Verdict::kNote,
                       "odometry",
                       formatted("%.1f readings a second: ", *hz) +
-                          (is_wrong ? "too few, predicted poses of a robot in motion may be wrong"
-                                    : "fixes of a robot in motion are worse than they say"),
+                          (is_wrong ? "too few, predicted poses in motion may be wrong"
+                                    : "few, the covariance of fixes in motion is too small"),
                       {mend}});
 }
 
-/// The daemon's own words say what to do.
 void add_hint(const message::ParsedStatus& status, std::vector<Finding>& findings) {
   if (status.odometry_hint.empty()) return;
   findings.push_back({Verdict::kWrong,
                       "odometry",
                       status.odometry_state + ": " + status.odometry_hint,
-                      {"README.md, \"Odometry\", has what a line bears"}});
+                      {"see README.md, \"Odometry\", for the fields of a line"}});
 }
 
 }  // namespace
 
 std::vector<Finding> check_daemon(const Patient& patient) {
   const DaemonView& daemon = patient.daemon;
-  // EAGAIN: its queue of those who want to be let in is full.
+  // EAGAIN: the socket's queue of pending connections is full.
   const bool hangs = daemon.connect_errno == EAGAIN;
   if (daemon.connect_errno != 0 && !hangs) return unreachable(patient);
   if (hangs || daemon.version.empty()) {
     return {
         {Verdict::kWrong,
          "daemon",
-         "takes connections and says nothing: it hangs, or its socket waits for one that cannot "
-         "start",
+         "accepts connections but sends nothing: it hangs, or systemd holds the socket of a daemon "
+         "that cannot start",
          {"sudo systemctl restart cornerd", "why it does not start: journalctl -u cornerd -n 20"}}};
   }
   std::vector<Finding> findings = {
@@ -144,7 +143,7 @@ std::vector<Finding> check_daemon(const Patient& patient) {
         {Verdict::kWrong,
          "odometry",
          sensor.name + " is " + sensor.state + (sensor.detail.empty() ? "" : ": " + sensor.detail),
-         {"drivers/odometry/README.md has pins, overlays and names"}});
+         {"see drivers/odometry/README.md for pins, overlays and names"}});
   }
   add_hint(*daemon.status, findings);
   add_reading_rate(patient, findings);
@@ -163,12 +162,12 @@ std::vector<Finding> check_control(const Patient& patient) {
   if (account && account->gids.contains(*group)) {
     return {{Verdict::kNote,
              "control",
-             caller.name + " is in the group cornerd, this session is older than that",
+             caller.name + " is in the group cornerd, but this session began before that",
              {"log out and in again"}}};
   }
   return {{Verdict::kNote,
            "control",
-           caller.name + " may read poses, but send no requests (odometry, SET_POSE, RELOCALIZE)",
+           caller.name + " may read poses but not send requests (odometry, SET_POSE, RELOCALIZE)",
            {"sudo usermod -aG cornerd " + caller.name + ", then log out and in again"}}};
 }
 

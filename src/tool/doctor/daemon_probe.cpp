@@ -14,22 +14,22 @@ namespace cornerd::tool {
 
 namespace {
 
-/// At an A1's pace a second and a half.
+/// 1.5 s at an A1's scan rate.
 constexpr std::uint64_t kMinPoses = 10;
 
-/// Two STATUS are a second apart; one that a change of state caused may come at once.
+/// STATUS comes every second; a change of state sends one more at once.
 constexpr double kMinSpan_s = 0.8;
 
-/// How often readings of wheels and gyro come, from one STATUS to another.
+/// The rate of odometry readings, from the first STATUS to the last.
 class ReadingRate {
  public:
   void note(const message::ParsedStatus& status) {
     if (!status.odometry_readings) return;
-    const Seen seen{status.t_ns, *status.odometry_readings};
-    if (!first_ || seen.readings < first_->readings) first_ = seen;  // else it was restarted
-    last_ = seen;
+    const Count count{status.t_ns, *status.odometry_readings};
+    if (!first_ || count.readings < first_->readings) first_ = count;  // the daemon restarted
+    last_ = count;
   }
-  /// False where the daemon tells of readings and has not done so for long enough.
+  /// False while the daemon counts readings and the span is too short for a rate.
   bool is_settled() const { return !first_ || hz(); }
   std::optional<double> hz() const {
     if (!first_) return std::nullopt;
@@ -39,22 +39,22 @@ class ReadingRate {
   }
 
  private:
-  struct Seen {
+  struct Count {
     core::TimeNs t_ns = 0;
     double readings = 0;
   };
-  std::optional<Seen> first_;
-  Seen last_;
+  std::optional<Count> first_;
+  Count last_;
 };
 
 void take_line(std::string_view line, DaemonView& view, ReadingRate& rate) {
-  message::ParsedLine told = message::parse_line(line);
-  if (const auto* version = std::get_if<message::ParsedVersion>(&told)) {
+  message::ParsedLine parsed = message::parse_line(line);
+  if (const auto* version = std::get_if<message::ParsedVersion>(&parsed)) {
     view.version = version->version;
-  } else if (auto* status = std::get_if<message::ParsedStatus>(&told)) {
+  } else if (auto* status = std::get_if<message::ParsedStatus>(&parsed)) {
     rate.note(*status);
     view.status = std::move(*status);
-  } else if (const auto* pose = std::get_if<message::ParsedPose>(&told)) {
+  } else if (const auto* pose = std::get_if<message::ParsedPose>(&parsed)) {
     ++view.poses[static_cast<std::size_t>(pose->state)];
   }
 }
@@ -70,7 +70,7 @@ DaemonView probe_daemon(const std::filesystem::path& socket, std::chrono::millis
   using Clock = std::chrono::steady_clock;
   DaemonView view;
   SocketClient daemon;
-  if (!daemon.connect(socket, /*patient=*/false)) {
+  if (!daemon.connect(socket, /*blocking=*/false)) {
     view.connect_errno = daemon.error_number();
     return view;
   }

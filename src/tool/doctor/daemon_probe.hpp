@@ -8,7 +8,7 @@
 
 namespace cornerd::tool {
 
-/// Listens to the daemon until it has told its state and some poses, or until the time is over.
+/// Reads the daemon's messages until a STATUS and some poses have come, at most for `at_most`.
 DaemonView probe_daemon(const std::filesystem::path& socket, std::chrono::milliseconds at_most);
 
 }  // namespace cornerd::tool

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// cornerctl doctor: what is wrong between lidar and pose, and how to mend it.
+// cornerctl doctor: finds faults between lidar and pose and names remedies.
 #include <unistd.h>
 
 #include <algorithm>
@@ -21,10 +21,10 @@ namespace cornerd::tool {
 
 namespace {
 
-/// STATUS comes once a second.
+/// Long enough for two STATUS.
 constexpr std::chrono::milliseconds kProbeTime(2500);
 
-/// Whoever runs this, with the groups of the session: those in /etc/group may be newer.
+/// The caller with the groups of its session, which may be older than /etc/group.
 Account caller_account(const Machine& machine) {
   Account caller{std::to_string(::geteuid()), ::geteuid(), {::getegid()}};
   if (const auto known = find_account(machine, caller.uid)) caller.name = known->name;
@@ -53,7 +53,7 @@ void diagnose(SettingsOptions& options) {
   output.flush();
   if (settings.error) std::rethrow_exception(settings.error);
   if (const std::size_t wrong = count_wrong(findings); wrong > 0) {
-    throw Failure(std::to_string(wrong) + (wrong == 1 ? " thing is wrong" : " things are wrong"));
+    throw Failure(std::to_string(wrong) + (wrong == 1 ? " fault found" : " faults found"));
   }
 }
 
@@ -62,8 +62,7 @@ void diagnose(SettingsOptions& options) {
 void add_doctor(Command& program) {
   Command command = program.add_subcommand(
       "doctor",
-      "what is wrong between lidar and pose, and how to mend it; exit code 1 where "
-      "something is");
+      "find faults between lidar and pose, with remedies; exit code 1 if there is a fault");
   const auto options = std::make_shared<SettingsOptions>();
   options->add_config(command);
   command.callback([options] { diagnose(*options); });

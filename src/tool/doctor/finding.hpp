@@ -10,22 +10,21 @@ namespace cornerd::tool {
 enum class Verdict : unsigned char {
   kGood,
   kNote,   ///< no fault, but worth knowing
-  kWrong,  ///< keeps the pose away, or will
+  kWrong,  ///< prevents poses now or soon
 };
 
-/// What one check has to say.
+/// One result of a check.
 struct Finding {
   Verdict verdict = Verdict::kGood;
   std::string subject;  ///< one word: "port"
   std::string what;
-  std::vector<std::string> remedies{};  ///< what to do about it, a line each
+  std::vector<std::string> remedies{};  ///< one line each
 };
 
-/// Leaves out the good findings of subjects that another finding has wrong: a map that its reader
-/// may read is not "ok" where the service may not.
+/// Removes the good findings of a subject that also has a wrong one.
 void drop_overruled(std::vector<Finding>& findings);
 
-/// A line for each finding and for each way to mend it.
+/// One line for each finding and each remedy.
 std::string findings_text(std::span<const Finding> findings);
 
 std::size_t count_wrong(std::span<const Finding> findings);

@@ -36,9 +36,9 @@ std::vector<Finding> check_holders(const Patient& patient) {
   if (is_console(patient.machine, name)) {
     findings.push_back({Verdict::kWrong,
                         "console",
-                        "the kernel itself talks on " + port.string(),
-                        {"take console=" + name +
-                         " out of the kernel's command line (/boot/uEnv.txt "
+                        "the kernel uses " + port.string() + " as its console",
+                        {"remove console=" + name +
+                         " from the kernel's command line (/boot/uEnv.txt "
                          "or the boot loader), or connect the lidar to another UART"}});
   }
   const PortHolders holders = holders_of(patient.machine, port);
@@ -57,8 +57,8 @@ std::vector<Finding> check_holders(const Patient& patient) {
   if (findings.empty() && keeper == "nobody" && !holders.complete) {
     findings.push_back({Verdict::kNote,
                         "holder",
-                        "nobody whose files you may see has " + port.string() + " open",
-                        {"sudo cornerctl doctor sees everybody's"}});
+                        "no process that you may inspect has " + port.string() + " open",
+                        {"run sudo cornerctl doctor to inspect all processes"}});
   } else if (findings.empty()) {
     findings.push_back({Verdict::kGood, "holder", keeper + " has " + port.string() + " open"});
   }

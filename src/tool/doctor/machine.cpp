@@ -57,7 +57,7 @@ fs::path Machine::follow(const fs::path& file, std::vector<fs::path>* steps) con
 bool Machine::exists(const fs::path& file) const { return facts(file).has_value(); }
 
 std::optional<FileFacts> Machine::facts(const fs::path& file) const {
-  // Not stat(): on a board of 32 bits that fails where a number of the file has more.
+  // stat() fails with EOVERFLOW on 32-bit boards if a number of the file needs 64 bits.
   struct statx found {};
   const fs::path target = resolve(file);
   if (::statx(AT_FDCWD, outside(target).c_str(), 0, STATX_BASIC_STATS, &found) != 0) {
@@ -73,7 +73,7 @@ std::optional<FileFacts> Machine::facts(const fs::path& file) const {
 }
 
 std::optional<std::string> Machine::read(const fs::path& file) const {
-  // Not to wait: the kernel's log has no end, only nothing more for now.
+  // Non-blocking: a read at the end of /dev/kmsg would wait.
   const int fd =
       ::open(outside(resolve(file)).c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC | O_NOCTTY);
   if (fd < 0) return std::nullopt;
@@ -81,7 +81,7 @@ std::optional<std::string> Machine::read(const fs::path& file) const {
   while (text->size() < kMaxFileBytes) {
     char chunk[8192];
     const ssize_t got = ::read(fd, chunk, sizeof chunk);
-    // EPIPE: the log has lost lines that were to come next; there are more.
+    // EPIPE: /dev/kmsg has overwritten the next lines; later ones follow.
     if (got < 0 && (errno == EINTR || errno == EPIPE)) continue;
     if (got < 0 && errno != EAGAIN && text->empty()) text.reset();
     if (got <= 0) break;
@@ -106,7 +106,7 @@ std::vector<std::string> Machine::list(const fs::path& folder) const {
   std::vector<std::string> names;
   std::error_code error;
   fs::directory_iterator entries(outside(resolve(folder)), error);
-  // What vanishes meanwhile, as processes do, ends the list early at worst.
+  // An entry that vanishes meanwhile, such as a process, may end the list early.
   for (; !error && entries != fs::directory_iterator(); entries.increment(error)) {
     names.push_back(entries->path().filename().string());
   }

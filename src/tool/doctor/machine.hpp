@@ -12,7 +12,7 @@
 
 namespace cornerd::tool {
 
-/// Whose a file is and where it lies.
+/// Owner, mode and device numbers of a file.
 struct FileFacts {
   uid_t uid = 0;
   gid_t gid = 0;
@@ -24,31 +24,29 @@ struct FileFacts {
   unsigned own_minor = 0;
 };
 
-/// The files that tell how a machine is: /proc, /sys, /dev, /etc. A test brings a tree of its own;
-/// paths are absolute, and as seen from inside it.
+/// Read access to /proc, /sys, /dev and /etc below a root, which tests replace. Paths are absolute
+/// inside the root.
 class Machine {
  public:
-  /// `files_are_devices`: ordinary files below /dev stand for devices, which not everybody can
-  /// make.
+  /// `files_are_devices`: regular files below /dev count as devices (for tests without root).
   explicit Machine(std::filesystem::path root = "/", bool files_are_devices = false)
       : root_(std::move(root)), files_are_devices_(files_are_devices) {}
 
   bool exists(const std::filesystem::path& file) const;
-  /// Of what a link leads to; nullopt where there is nothing.
+  /// Follows links; nullopt if the file does not exist.
   std::optional<FileFacts> facts(const std::filesystem::path& file) const;
-  /// At most 4 MiB; nullopt where it is not there or must not be read.
+  /// At most 4 MiB; nullopt if the file cannot be read.
   std::optional<std::string> read(const std::filesystem::path& file) const;
   /// The first line; empty where there is none.
   std::string read_line(const std::filesystem::path& file) const;
-  /// What a link says; empty where it is none or must not be read.
+  /// The target of a link; empty if it is no link or cannot be read.
   std::string read_link(const std::filesystem::path& link) const;
-  /// Names of what is in a folder, sorted; empty where it must not be read.
+  /// Names in a folder, sorted; empty if it cannot be read.
   std::vector<std::string> list(const std::filesystem::path& folder) const;
   bool may_list(const std::filesystem::path& folder) const;
-  /// The path with every link on its way followed.
+  /// The path with all links followed.
   std::filesystem::path resolve(const std::filesystem::path& file) const;
-  /// All that is looked up on the way to a file, in this order: every folder, every link and what
-  /// each leads to, and the file.
+  /// Every path that a lookup of the file visits, in order: folders, links, link targets, the file.
   std::vector<std::filesystem::path> steps(const std::filesystem::path& file) const;
 
  private:

@@ -14,37 +14,37 @@
 
 namespace cornerd::tool {
 
-/// What the daemon said while it was listened to.
+/// The daemon's messages during the probe.
 struct DaemonView {
-  int connect_errno = 0;                        ///< why nobody could be asked; 0: somebody answered
-  std::string version;                          ///< empty: it said nothing at all
+  int connect_errno = 0;                        ///< 0: connected
+  std::string version;                          ///< empty: no message came
   std::optional<message::ParsedStatus> status;  ///< the newest
-  /// Of readings of wheels and gyro; nullopt where it was not listened to for long enough.
+  /// Odometry readings a second; nullopt if the probe was too short.
   std::optional<double> odometry_hz;
   /// Poses by state, in the order of core::PoseState.
   std::array<std::uint64_t, 5> poses{};
 };
 
-/// All that is examined.
+/// The input of all checks.
 struct Patient {
   Machine machine;
   settings::Config config;
   std::filesystem::path config_file;       ///< empty where there is none
-  std::string config_name = "the config";  ///< as advice calls it
-  Account caller;                          ///< who asks; its groups are those of its session
+  std::string config_name = "the config";  ///< its name in remedies
+  Account caller;                          ///< with the groups of its session
   DaemonView daemon;
 };
 
-/// The account that the service runs under; nullopt where it is not installed.
+/// The service's account; nullopt if the service is not installed.
 std::optional<Account> service_account(const Machine& machine);
 
-/// Where lidar.device leads to in the end.
+/// lidar.device with links followed.
 std::filesystem::path port_of(const Patient& patient);
 
-/// What is there in a serial port's place, "a folder"; empty: a serial port, as far as can be told
-/// without opening it, which disturbs a lidar.
+/// The file's type if it is no serial port ("a folder"), else empty. Does not open the port, which
+/// would disturb the lidar.
 std::string other_than_port(const Machine& machine, const FileFacts& file);
-/// There is something at lidar.device, and it is a serial port.
+/// True if lidar.device exists and is a serial port.
 bool has_port(const Patient& patient);
 
 }  // namespace cornerd::tool

@@ -34,7 +34,7 @@ std::vector<Finding> check_poses(const Patient& patient) {
     return {{Verdict::kWrong,
              "poses",
              "none came, although the lidar runs",
-             {"see again in some seconds: the first scan may not be over"}}};
+             {"try again in a few seconds: the first scan may not be complete"}}};
   }
   const std::string what = "of the last scans: " + describe_poses(daemon);
   const std::uint64_t lost = poses_in(daemon, core::PoseState::kLost);
@@ -45,17 +45,17 @@ std::vector<Finding> check_poses(const Patient& patient) {
              "poses",
              what,
              {"the map has look-alike places: cornerctl map check " + patient.config.map.string() +
-                  " tells which",
-              "give the map what breaks the symmetry, or say where it is: SET_POSE on the control "
-              "socket"}}};
+                  " lists them",
+              "add details that break the symmetry to the map, or send the pose: SET_POSE on the "
+              "control socket"}}};
   }
   return {
       {Verdict::kWrong,
        "poses",
        what,
-       {"is it the right map, and the robot inside it? cornerctl monitor shows both",
-        "does lidar.mount say how the lidar sits? turned by half a turn: theta; mirrored: inverted",
-        "are the walls where the map has them, to a few centimetres, and not covered?"}}};
+       {"check that the map is right and the robot inside it: cornerctl monitor shows both",
+        "check lidar.mount: theta if the scan is rotated, inverted if it is mirrored",
+        "check that the walls are where the map has them, to a few centimetres, and not hidden"}}};
 }
 
 }  // namespace cornerd::tool

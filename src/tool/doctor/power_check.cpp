@@ -12,9 +12,8 @@ namespace cornerd::tool {
 namespace {
 
 constexpr const char* kPowerRemedy =
-    "the A1 wants 4.9 to 5.5 V, up to 0.6 A when it starts: a stronger supply, a shorter cable, or "
-    "a "
-    "hub with a supply of its own";
+    "the A1 needs 4.9 to 5.5 V and up to 0.6 A at start: use a stronger supply, a shorter cable, "
+    "or a powered hub";
 
 unsigned sysfs_number(const Machine& machine, const std::filesystem::path& file, int base) {
   const std::string text = machine.read_line(file);
@@ -23,7 +22,7 @@ unsigned sysfs_number(const Machine& machine, const std::filesystem::path& file,
   return number;
 }
 
-/// How often ports of the USB hubs were switched off because of too much current.
+/// How often USB ports were switched off by over-current.
 unsigned count_over_currents(const Machine& machine) {
   unsigned count = 0;
   const std::filesystem::path devices = "/sys/bus/usb/devices";
@@ -37,7 +36,7 @@ unsigned count_over_currents(const Machine& machine) {
   return count;
 }
 
-/// True where a supply that is watched is below its limit now, as a Raspberry Pi's is.
+/// True if a hwmon sensor, such as a Raspberry Pi's, reports under-voltage now.
 bool is_undervolted(const Machine& machine) {
   const std::filesystem::path monitors = "/sys/class/hwmon";
   for (const std::string& monitor : machine.list(monitors)) {
@@ -51,7 +50,7 @@ bool is_undervolted(const Machine& machine) {
   return false;
 }
 
-/// True behind a hub that has to share what one port of the computer gives.
+/// True behind a bus-powered hub.
 bool is_behind_unpowered_hub(const Machine& machine, const UsbAdapter& adapter) {
   const std::filesystem::path hub = adapter.device.parent_path();
   constexpr unsigned kSelfPowered = 0x40;  // USB 2.0, 9.6.3: bmAttributes
@@ -67,15 +66,14 @@ struct Trace {
 constexpr std::array kKernelMessages = {
     Trace{"nder-voltage detected", "the board's own supply was too low"},
     Trace{"ndervoltage detected", "the board's own supply was too low"},
-    Trace{"over-current", "a USB port gave more current than it can"},
+    Trace{"over-current", "a USB port was overloaded"},
     Trace{"disabled by hub (EMI?)", "a USB port was disturbed"},
     Trace{"cp210x converter now disconnected",
           "the lidar's adapter was unplugged or lost its power"},
-    Trace{"device descriptor read/64, error",
-          "a USB device did not answer, as a bad cable makes it"},
+    Trace{"device descriptor read/64, error", "a USB device did not answer (bad cable?)"},
 };
 
-/// What the kernel's log has of it, a finding for each kind.
+/// One finding for each kind of message in the kernel's log.
 void read_kernel_log(const std::string& log, std::vector<Finding>& findings) {
   for (const Trace& trace : kKernelMessages) {
     std::size_t count = 0;
@@ -114,7 +112,7 @@ std::vector<Finding> check_power(const Patient& patient) {
     if (adapter.port == name && is_behind_unpowered_hub(machine, adapter)) {
       findings.push_back({Verdict::kNote,
                           "power",
-                          "the lidar hangs on a hub without a supply of its own",
+                          "the lidar is on a hub without its own supply",
                           {kPowerRemedy}});
     }
   }

@@ -82,7 +82,7 @@ PortHolders holders_of(const Machine& machine, const std::filesystem::path& devi
       holders.processes.push_back(describe_process(machine, pid));
     }
   }
-  // Locks are no secret: they betray cornerd to those who must not look into its files.
+  // /proc/locks is readable by everybody, unlike other users' /proc/PID/fd.
   const std::optional<FileFacts> file = machine.facts(device);
   std::istringstream locks(machine.read("/proc/locks").value_or(""));
   for (std::string line; file && std::getline(locks, line);) {

@@ -17,16 +17,16 @@ struct Process {
 
 struct PortHolders {
   std::vector<Process> processes;
-  /// False: other people's processes keep it to themselves what they have open.
+  /// False: the open files of other users' processes could not be read.
   bool complete = true;
 };
 
 std::optional<Process> find_process(const Machine& machine, std::string_view name);
 
-/// Who has the device open, or a lock on it. `device`: its own path, not a link to it.
+/// Processes that have the device open or locked. `device`: its own path, not a link to it.
 PortHolders holders_of(const Machine& machine, const std::filesystem::path& device);
 
-/// The process of a line of /proc/locks, where it is a lock on that file.
+/// The process of a line of /proc/locks; nullopt if the lock is on another file.
 std::optional<int> lock_owner(std::string_view line, const FileFacts& file);
 
 }  // namespace cornerd::tool

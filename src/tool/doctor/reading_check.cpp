@@ -22,14 +22,14 @@ bool is_within(const fs::path& file, const fs::path& folder) {
          folder.end();
 }
 
-/// What the unit keeps from the service, and by which key.
+/// A folder that the unit hides from the service, and the key that does so.
 struct HiddenFolder {
   std::string key;
   fs::path folder;
 };
 
 std::vector<HiddenFolder> hidden_folders(const Machine& machine) {
-  // What is bound is there again.
+  // Bound paths may be visible again.
   if (!service_unit_values(machine, "BindPaths").empty() ||
       !service_unit_values(machine, "BindReadOnlyPaths").empty()) {
     return {};
@@ -64,12 +64,12 @@ std::vector<std::string> remedies_by_moving(const Patient& patient, const std::s
   return remedies;
 }
 
-/// What keeps the service from reading a file, if anything does.
+/// Findings if the service cannot read a file.
 std::vector<Finding> check_file_access(const Patient& patient, const Account& service,
                                        const std::string& subject, const fs::path& named) {
   const Machine& machine = patient.machine;
   const fs::path file = fs::absolute(named).lexically_normal();
-  if (!machine.exists(file)) return {};  // said elsewhere
+  if (!machine.exists(file)) return {};  // reported by other checks
   const std::vector<fs::path> steps = machine.steps(file);
   for (const HiddenFolder& hidden : hidden_folders(machine)) {
     const bool is_hidden = std::any_of(steps.begin(), steps.end(), [&](const fs::path& step) {
@@ -77,7 +77,7 @@ std::vector<Finding> check_file_access(const Patient& patient, const Account& se
     });
     if (!is_hidden) continue;
     return {{Verdict::kWrong, subject,
-             file.string() + ": the service sees nothing of " + hidden.folder.string() + " (" +
+             file.string() + ": the service cannot see " + hidden.folder.string() + " (" +
                  hidden.key + " in its unit)",
              remedies_by_moving(patient, subject, file)}};
   }
@@ -101,7 +101,7 @@ std::vector<Finding> check_file_access(const Patient& patient, const Account& se
            {"sudo chmod a+r " + file.string()}}};
 }
 
-/// Somebody else runs it: what the service may read is not what counts.
+/// True if a user other than the service's runs the daemon.
 bool is_run_by_another(const Machine& machine, const Account& service) {
   const auto process = find_process(machine, "cornerd");
   const auto facts =

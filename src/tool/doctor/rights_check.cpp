@@ -21,7 +21,7 @@ std::vector<std::string> remedies_for(const Patient& patient, const Account& who
   const auto account = find_account(patient.machine, who.name);
   if (account && account->gids.contains(port.gid)) {
     return {who.name + " is in " + group +
-            ", this session is older than that: log out and in again"};
+            ", but this session began before that: log out and in again"};
   }
   return {"sudo usermod -aG " + group + " " + who.name + ", then log out and in again"};
 }
@@ -50,7 +50,7 @@ std::vector<Finding> check_rights(const Patient& patient) {
   if (service_account(patient.machine) && !service_unit_allows(patient.machine, name)) {
     findings.push_back({Verdict::kWrong,
                         "rights",
-                        "the service's unit does not let it have " + name.string() +
+                        "the service's unit denies " + name.string() +
                             ": its DeviceAllow= has no " + port_kind(name),
                         {"sudo systemctl edit cornerd, and write there: [Service], and below it "
                          "DeviceAllow=char-" +

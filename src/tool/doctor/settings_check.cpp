@@ -11,7 +11,7 @@ namespace cornerd::tool {
 namespace {
 
 constexpr std::size_t kMaxSettingsBytes = std::size_t{1} << 20;
-/// Fewer corners than a pattern has: there is nothing to recognise.
+/// A pattern needs three corners.
 constexpr std::size_t kMinCorners = 3;
 constexpr auto kDaemonFileKind = settings::FileKind::kOrdinary;
 
@@ -23,7 +23,7 @@ void check_config_file(const std::filesystem::path& file, const std::vector<std:
   if (file.empty()) {
     check.findings.push_back({Verdict::kNote,
                               "config",
-                              "none is installed and none was named: every key has its default",
+                              "none is installed or named: every key has its default",
                               {"name one: cornerctl doctor --config FILE"}});
   } else {
     check.findings.push_back({Verdict::kGood, "config", file.string()});
@@ -36,7 +36,7 @@ void check_map_file(SettingsCheck& check) {
     check.findings.push_back(
         {Verdict::kWrong,
          "map",
-         "the settings name none: there can be no pose",
+         "the config names none: no pose is possible",
          {R"(draw one (README.md, "A map") and name it: "map": "/path/to/map.json")"}});
     return;
   }
@@ -48,12 +48,12 @@ void check_map_file(SettingsCheck& check) {
                                 map->plan().walls.size(), map->corners().size())};
   if (map->corners().size() < kMinCorners) {
     finding.verdict = Verdict::kWrong;
-    finding.remedies = {"poses are recognised by corners: give the map the walls of the building"};
+    finding.remedies = {"poses are recognised by corners: add the building's walls to the map"};
   }
   check.findings.push_back(finding);
 }
 
-/// Runs one of them; what it throws is a finding too.
+/// Runs `body`; turns a SettingsError into a finding.
 template <typename Body>
 void record_error(SettingsCheck& check, const char* subject, const char* mend, const Body& body) {
   try {

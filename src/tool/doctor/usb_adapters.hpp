@@ -10,7 +10,7 @@
 
 namespace cornerd::tool {
 
-/// A serial port behind USB, or an adapter that no driver has made a port of.
+/// A USB serial adapter, with or without a driver.
 struct UsbAdapter {
   std::string port;                ///< "ttyUSB0"; empty: no driver has taken it
   std::string vendor;              ///< "10c4"
@@ -27,11 +27,10 @@ struct UsbAdapter {
 /// All that have a port, and CP2102s without one.
 std::vector<UsbAdapter> find_usb_adapters(const Machine& machine);
 
-/// Are the package's rules, or a copy of them, where udev reads rules?
+/// True if the package's rules, or a copy, are in a folder that udev reads.
 bool has_udev_rules(const Machine& machine);
 
-/// What udev noted of a port ("ttyUSB0") when it was plugged in, a line each: "E:ID_MODEL=CP2102".
-/// nullopt: nothing.
+/// udev's database entry of a port ("ttyUSB0"), lines such as "E:ID_MODEL=CP2102"; nullopt if none.
 std::optional<std::string> udev_notes(const Machine& machine, const std::string& port);
 
 }  // namespace cornerd::tool

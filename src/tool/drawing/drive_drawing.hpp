@@ -10,7 +10,7 @@
 
 namespace cornerd::tool {
 
-/// One way of reckoning a drive.
+/// One trajectory of a drive.
 struct DrawnTrack {
   std::string name;
   std::string_view colour;
@@ -18,8 +18,7 @@ struct DrawnTrack {
   bool is_truth = false;
 };
 
-/// Ways of the same drive, to scale, on a picture that is as large as all of them. `map`: its walls
-/// too; may be null.
+/// Trajectories of the same drive, to scale. `map`: draws its walls; may be null.
 std::string draw_drive(std::string_view title, std::span<const DrawnTrack> tracks,
                        const core::WallMap* map);
 

@@ -14,22 +14,21 @@
 
 namespace cornerd::tool {
 
-/// A place of a building, and the others that one scan cannot tell from it.
+/// A place, and the poses that one scan cannot distinguish from it.
 struct ExaminedPlace {
   core::Pose2 place;
-  bool is_known = false;                 ///< a scan taken there names it
-  bool is_lost = false;                  ///< or it fits nowhere: too little is seen from there
-  std::vector<core::Pose2> look_alikes;  ///< without the place itself; none where it is known
+  bool is_known = false;                 ///< a scan there gives a fix
+  bool is_lost = false;                  ///< a scan there shows too little
+  std::vector<core::Pose2> look_alikes;  ///< without the place itself; empty if it is known
 };
 
-/// A map to scale, and on it what a lidar saw and where the robot was. Draw from the bottom up:
-/// what is added later lies above.
+/// A map to scale with scans, poses and paths. Later elements lie above earlier ones.
 class MapDrawing {
  public:
   /// Draws the grid, the rooms with their names, the walls and their corners.
   explicit MapDrawing(const core::WallMap& map);
 
-  /// A way through the map. `truth`: thin and dashed, for the one that is only compared with.
+  /// A path in the map. `truth`: thin and dashed.
   void add_path(std::span<const core::Vec2> points, bool truth = false);
   /// The same in a colour of one's own.
   void add_track(std::span<const core::Vec2> points, std::string_view colour);
@@ -39,9 +38,9 @@ class MapDrawing {
   void add_scan(const core::Scan& scan, const core::Pose2& T_map_lidar);
   /// Returns of a whole drive, on the map.
   void add_points(std::span<const core::Vec2> points);
-  /// A stretch of wall that nothing was seen of.
+  /// A piece of wall without observations.
   void add_thin(const core::Vec2& from, const core::Vec2& to);
-  /// What an import left out, as a cross; where it closed a gap, a ring of its width.
+  /// A cross where an import left something out; a ring where it closed a gap of this width.
   void add_left_out(const core::Vec2& place);
   void add_closed(const core::Vec2& place, double width_m);
   /// Corners as rings, terminals as squares.
@@ -52,11 +51,10 @@ class MapDrawing {
   /// The ellipse that holds the true position 95 times of 100.
   void add_uncertainty(const core::Pose2& T_map_base, const core::Covariance3& covariance);
 
-  /// Places that one scan tells from all others, and those that it does not, with lines to what
-  /// they look like.
+  /// Known and ambiguous places, with lines to their look-alikes.
   void add_examined_places(std::span<const ExaminedPlace> places);
 
-  /// What a pixel of the picture is in the map.
+  /// Size of a pixel in the map.
   double pixel_m() const { return 1 / svg_.pixels_per_m(); }
 
   /// The whole picture. `subtitle`: one line under the map's name.

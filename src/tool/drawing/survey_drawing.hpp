@@ -7,7 +7,7 @@
 
 namespace cornerd::tool {
 
-/// Walls, points, the way, and where the evidence is thin, as SVG.
+/// Walls, points, trajectory and walls without observations, as SVG.
 std::string survey_drawing(const survey::SurveyResult& result);
 
 /// The picture of Bertocco et al.: 1024 x 1024 pixels, points, and the lines on them in blue.

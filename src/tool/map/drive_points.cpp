@@ -10,7 +10,7 @@ namespace cornerd::tool {
 
 namespace {
 
-/// Two scans further apart than this say nothing about the way between them.
+/// No interpolation between scans that are further apart.
 constexpr core::TimeNs kMaxNeighbourInterval_ns = core::kNsPerSecond / 2;
 
 core::Vec2 return_of(const core::Sample& sample) {
@@ -57,11 +57,11 @@ std::vector<core::Vec2> DrivePoints::place(const core::Pose2& T_base_lidar) cons
 }
 
 std::vector<core::Vec2> DrivePoints::place(const core::Pose2& T_base_lidar,
-                                           const Truth& way) const {
+                                           const Truth& trajectory) const {
   std::vector<core::Vec2> points;
   for (const RecordedScan& scan : scans_) {
     for (const core::Sample& sample : scan.returns) {
-      const auto T_map_base = way.at(sample.t_ns);
+      const auto T_map_base = trajectory.at(sample.t_ns);
       if (T_map_base) points.push_back(*T_map_base * (T_base_lidar * return_of(sample)));
     }
   }

@@ -19,13 +19,13 @@ using core::Vec2;
 
 constexpr std::size_t kSamplesPerScan = 800;
 constexpr std::uint64_t kNoiseSeed = 1;
-/// No robot's lidar comes nearer to a wall.
+/// A robot's lidar stays this far from walls.
 constexpr double kMinClearance_m = 0.15;
 constexpr double kMinStep_m = 0.05;
-/// An alternative this near is the place itself.
+/// An alternative this near is the same pose.
 constexpr double kSamePose_m = 0.1;
 constexpr double kSamePose_rad = core::radians(5);
-/// Lines of the description; more would hide what matters.
+/// Lines of the report.
 constexpr std::size_t kMaxLines = 12;
 
 bool is_same_pose(const core::Pose2& one, const core::Pose2& other) {

@@ -11,13 +11,12 @@
 
 namespace cornerd::tool {
 
-/// Takes a simulated scan at each point of a lattice over the building, as an A1 would, and asks
-/// the localizer where that was. `count`: about so many places. Equal on every run.
+/// Localizes a simulated A1 scan at each point of a lattice over the building. `count`: approximate
+/// number of places. Deterministic.
 std::vector<ExaminedPlace> examine_places(const std::shared_ptr<const core::WallMap>& map,
                                           std::size_t count);
 
-/// What map check says of them: the rooms that are taken for each other, or places where the map
-/// names no rooms. Lines that begin with what they are about.
+/// The report of map check: rooms, or places if the map names no rooms, that look alike.
 std::string describe_look_alikes(const core::WallMap& map,
                                  const std::vector<ExaminedPlace>& places);
 

@@ -72,7 +72,7 @@ void add_check(Command& group) {
   command.add_option("map", options->map, "the map").required().type_name("MAP");
   command
       .add_option("--places", options->places,
-                  "look around at about so many places; 0: only validate")
+                  "simulate scans at about so many places; 0: only validate")
       .range(std::size_t{0}, std::size_t{1'000'000})
       .type_name("N")
       .capture_default_str();

@@ -36,12 +36,12 @@ struct RenderOptions {
   std::filesystem::path truth;
 };
 
-/// What a recording looks like in the map: the way of the robot, all points, and one scan in full.
+/// A recording in the map: the robot's path, all points and one scan.
 struct RecordedView {
   std::vector<core::Vec2> path;
   DrivePoints points;
   core::Scan scan;
-  core::PoseEstimate pose;                ///< of that scan, as far as it was localized
+  core::PoseEstimate pose;                ///< of that scan
   std::optional<core::Pose2> T_map_base;  ///< of that scan
   std::vector<core::Breakpoint> breakpoints;
   std::size_t scans = 0;
@@ -51,7 +51,7 @@ bool has_pose(const core::PoseEstimate& pose) {
   return pose.state != core::PoseState::kAmbiguous && pose.state != core::PoseState::kLost;
 }
 
-/// `way`: where the robot was; null: to be found out by localizing in `map`.
+/// `way`: the trajectory; null: localize in `map`.
 RecordedView view_recording(const RenderOptions& options, const settings::Config& config,
                             std::shared_ptr<const core::WallMap> map, const Truth* way) {
   RecordedView view;
@@ -66,7 +66,7 @@ RecordedView view_recording(const RenderOptions& options, const settings::Config
     }
     view.points.add(scan, T_map_base);
     if (T_map_base) view.path.push_back(T_map_base->translation());
-    // A scan without a place is shown only where there is none with one.
+    // Prefers the last scan with a pose.
     if (!T_map_base && !view.path.empty()) return;
     view.scan = scan;
     view.pose = result.pose;
@@ -97,7 +97,7 @@ void draw_points(MapDrawing& drawing, const core::WallMap& map,
 
 void render(const RenderOptions& options) {
   if (!options.trajectory.empty() && options.recording.empty()) {
-    throw UsageError("--trajectory says where a recording was made; --recording names none");
+    throw UsageError("--trajectory needs --recording");
   }
   guard_files({.read = {options.map, options.recording, options.trajectory, options.truth,
                         options.settings.config_file()},
@@ -130,11 +130,11 @@ void render(const RenderOptions& options) {
       drawing.add_scan(view.scan, T_map_lidar);
       drawing.add_breakpoints(view.breakpoints, T_map_lidar);
     } else {
-      std::fprintf(stderr, "cornerctl: no scan of %s names a place; the map is drawn alone\n",
+      std::fprintf(stderr, "cornerctl: no scan of %s was localized; drawing the map alone\n",
                    options.recording.c_str());
     }
     subtitle += formatted("; %zu of %zu scans ", view.path.size(), view.scans);
-    subtitle += way ? "placed by " + options.trajectory.filename().string() : "found their place";
+    subtitle += way ? "placed by " + options.trajectory.filename().string() : "localized";
   }
   if (T_map_base) drawing.add_pose(*T_map_base);
 
@@ -154,18 +154,18 @@ void add_map_render(Command& group) {
       .type_name("SVG");
   command
       .add_option("--recording", options->recording,
-                  "draw its points, its way and its last scan, localized in the map")
+                  "draw its points, its path and its last scan, localized in the map")
       .type_name("FILE");
   command
       .add_option("--trajectory", options->trajectory,
-                  "where the robot was (as --truth files and survey --trajectory have it): the "
-                  "recording is drawn from there, and not localized")
+                  "poses of the recording (a --truth file, or survey --trajectory), in place of "
+                  "localization")
       .type_name("FILE");
   command
       .add_option("--pose", options->pose,
                   "draw the robot there, and the recording's scan as seen from there")
       .type_name("X,Y,THETA");
-  command.add_option("--truth", options->truth, "draw the true way, dashed").type_name("FILE");
+  command.add_option("--truth", options->truth, "draw the true path, dashed").type_name("FILE");
   options->settings.add_config(command);
   add_wire_option(command, options->wire);
   command.callback([options] { render(*options); });

@@ -55,7 +55,7 @@ std::shared_ptr<const core::WallMap> read_back(const std::string& text,
   try {
     return settings::parse_map(text, file);
   } catch (const settings::SettingsError& error) {
-    throw Failure(std::string(error.what()) + "; nothing is written, as no program would read it");
+    throw Failure(std::string(error.what()) + "; nothing is written");
   }
 }
 

@@ -15,8 +15,7 @@ std::string map_name(const std::string& given, const std::filesystem::path& file
 /// A map file of these walls; rooms are left out.
 std::string map_text(const core::FloorPlan& plan);
 
-/// To be asked before `text` is written: the map that it is to all that read maps. Throws Failure
-/// where they would refuse it.
+/// Parses `text` before it is written. Throws Failure if it is no valid map.
 std::shared_ptr<const core::WallMap> read_back(const std::string& text,
                                                const std::filesystem::path& file);
 

@@ -12,11 +12,11 @@ namespace {
 
 using core::PoseState;
 
-/// STATUS comes every second, whatever the lidar does.
+/// STATUS comes every second.
 constexpr double kMaxSilence_s = 3.5;
-/// More damaged bytes than line noise explains.
+/// Line noise damages fewer bytes than this.
 constexpr double kMaxSkippedShare = 0.01;
-/// Below that share of scans that name a place, people ask why.
+/// A smaller share of fixes is worth a warning.
 constexpr double kMinFixShare = 0.8;
 constexpr std::size_t kMinScans = 20;
 
@@ -30,10 +30,10 @@ std::optional<Advice> advise_on_connection(const MonitorState& state, core::Time
         "start it: sudo systemctl start cornerd; why it ended: journalctl -u cornerd"};
   }
   if (const double silence_s = state.silence_s(now_ns); silence_s > kMaxSilence_s) {
-    return Advice{Style::kBad, "the daemon has said nothing for " + seconds_text(silence_s),
-                  "is it stopped? sudo systemctl restart cornerd; cornerctl doctor looks further"};
+    return Advice{Style::kBad, "no message from the daemon for " + seconds_text(silence_s),
+                  "restart it: sudo systemctl restart cornerd; cornerctl doctor finds the cause"};
   }
-  if (!state.status()) return Advice{Style::kDim, "waiting for the daemon's first word", ""};
+  if (!state.status()) return Advice{Style::kDim, "waiting for the daemon's first message", ""};
   return std::nullopt;
 }
 
@@ -49,26 +49,25 @@ std::optional<Advice> advise_on_lidar(const message::ParsedStatus& status) {
 }
 
 std::optional<Advice> advise_on_pose(const MonitorState& state, core::TimeNs now_ns) {
-  if (!state.pose()) return Advice{Style::kWarning, "the lidar runs, and no scan is over yet", ""};
+  if (!state.pose())
+    return Advice{Style::kWarning, "the lidar runs, but no scan is complete yet", ""};
   const message::ParsedPose& pose = *state.pose();
   if (state.recent() > 1 && !state.pose_rate_hz(now_ns)) {
-    return Advice{Style::kBad, "the lidar runs, and no scans come", "cornerctl doctor"};
+    return Advice{Style::kBad, "the lidar runs, but no scans come", "run cornerctl doctor"};
   }
   switch (pose.state) {
     case PoseState::kLost:
-      return Advice{Style::kBad, "no place of the map fits what the lidar sees",
-                    "is it the right map, is the robot inside it, does lidar.mount say how the "
-                    "lidar sits, are the walls hidden? key l shows what it sees"};
+      return Advice{Style::kBad, "no pose in the map fits the scan",
+                    "check the map, that the robot is inside it, lidar.mount, and that the walls "
+                    "are not hidden; key l shows the scan"};
     case PoseState::kAmbiguous:
       return Advice{
-          Style::kWarning,
-          formatted("%zu places fit what the lidar sees", pose.alternatives.size()),
-          "move on, or say where it is (SET_POSE); cornerctl map check tells which places "
-          "look alike"};
+          Style::kWarning, formatted("%zu poses fit the scan", pose.alternatives.size()),
+          "move the robot, or send its pose (SET_POSE); cornerctl map check lists look-alike "
+          "places"};
     case PoseState::kPredicted:
-      return Advice{Style::kWarning,
-                    formatted("by wheels and gyro alone for %.1f s", pose.age_s.value_or(0)),
-                    "is the lidar covered, or the robot where the map has nothing?"};
+      return Advice{Style::kWarning, formatted("dead reckoned for %.1f s", pose.age_s.value_or(0)),
+                    "check that the lidar is not covered and the robot is inside the map"};
     case PoseState::kFix:
     case PoseState::kTracking:
       return std::nullopt;
@@ -82,8 +81,8 @@ std::optional<Advice> advise_on_quality(const MonitorState& state) {
   if (scans >= kMinScans &&
       static_cast<double>(named) < kMinFixShare * static_cast<double>(scans)) {
     return Advice{Style::kWarning,
-                  formatted("%zu of the last %zu scans named no place", scans - named, scans),
-                  "things that are not on the map hide its walls, or its walls are elsewhere"};
+                  formatted("%zu of the last %zu scans gave no pose", scans - named, scans),
+                  "unmapped obstacles hide the walls, or walls have moved"};
   }
   for (const message::ParsedStatus::Sensor& sensor : state.status()->odometry_sensors) {
     if (sensor.state == "running") continue;
@@ -91,18 +90,18 @@ std::optional<Advice> advise_on_quality(const MonitorState& state) {
                   sensor.detail};
   }
   if (const std::string& hint = state.status()->odometry_hint; !hint.empty()) {
-    return Advice{Style::kWarning, "odometry: " + hint, "cornerctl doctor says more"};
+    return Advice{Style::kWarning, "odometry: " + hint, "cornerctl doctor shows more"};
   }
   const auto bytes = static_cast<double>(state.status()->counter("bytes"));
   const auto skipped = static_cast<double>(state.status()->counter("skipped_bytes"));
   if (skipped > kMaxSkippedShare * bytes) {
     return Advice{Style::kWarning,
                   formatted("%.1f %% of the lidar's bytes were damaged", 100 * skipped / bytes),
-                  "a shorter or screened cable, away from motors; a steadier 5 V"};
+                  "use a shorter or shielded cable, away from motors, and a stable 5 V supply"};
   }
   if (!state.protocol_error().empty()) {
     return Advice{Style::kWarning, state.protocol_error(),
-                  "are cornerd and cornerctl of one version?"};
+                  "check that cornerd and cornerctl have the same version"};
   }
   return std::nullopt;
 }

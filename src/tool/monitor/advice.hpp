@@ -8,9 +8,9 @@
 
 namespace cornerd::tool {
 
-/// What is wrong, most urgent first and alone, and what to do about it.
+/// The most urgent fault and its remedy.
 struct Advice {
-  Style style = Style::kGood;  ///< kBad: no pose can come; kWarning: poses are fewer or worse
+  Style style = Style::kGood;  ///< kBad: no pose is possible; kWarning: poses are fewer or worse
   std::string what;
   std::string mend;  ///< empty: wait
 };

@@ -18,7 +18,7 @@ char32_t plain_glyph(Style style) { return style == Style::kWall ? U'#' : U'.'; 
 
 /// The part of a line within [0, width] x [0, height]; false where there is none (Liang-Barsky).
 bool clip(core::Vec2& from, core::Vec2& to, double width, double height) {
-  const core::Vec2 way = to - from;
+  const core::Vec2 direction = to - from;
   double begin = 0;
   double end = 1;
   const auto cut = [&](double step, double room) {
@@ -31,12 +31,12 @@ bool clip(core::Vec2& from, core::Vec2& to, double width, double height) {
     }
     return begin <= end;
   };
-  if (!cut(-way.x(), from.x()) || !cut(way.x(), width - from.x()) || !cut(-way.y(), from.y()) ||
-      !cut(way.y(), height - from.y())) {
+  if (!cut(-direction.x(), from.x()) || !cut(direction.x(), width - from.x()) ||
+      !cut(-direction.y(), from.y()) || !cut(direction.y(), height - from.y())) {
     return false;
   }
-  to = from + end * way;
-  from = from + begin * way;
+  to = from + end * direction;
+  from = from + begin * direction;
   return true;
 }
 

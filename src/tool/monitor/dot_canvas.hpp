@@ -9,8 +9,8 @@
 
 namespace cornerd::tool {
 
-/// Dots finer than a terminal's cells: eight to a cell by Braille characters, which makes them
-/// square; one to a cell where the terminal has no such characters. Dot (0, 0) is the upper left.
+/// Dots on a terminal: eight square ones to a cell with Braille characters, else one to a cell. Dot
+/// (0, 0) is the upper left.
 class DotCanvas {
  public:
   DotCanvas(std::size_t columns, std::size_t rows, bool unicode);
@@ -21,11 +21,11 @@ class DotCanvas {
   /// Height of a dot by its width, on a screen whose cells are twice as high as wide.
   double dot_aspect() const { return dots_across_ == 1 ? 2.0 : 1.0; }
 
-  /// A later one decides the style of its cell. Nothing where it lies outside.
+  /// The last dot decides the style of its cell. Dots outside are ignored.
   void dot(double across, double down, Style style);
   void line(const core::Vec2& from, const core::Vec2& to, Style style);
 
-  /// Draws it with its upper left cell there.
+  /// `column`, `row`: of its upper left cell.
   void draw_on(Frame& frame, std::size_t column, std::size_t row) const;
 
  private:

@@ -12,7 +12,7 @@
 
 namespace cornerd::tool {
 
-/// What a cell looks like besides its character. Colours are the terminal's own eight.
+/// The look of a cell, in the terminal's eight colours.
 enum class Style : std::uint8_t {
   kPlain,
   kDim,
@@ -33,7 +33,7 @@ struct Cell {
   bool operator==(const Cell&) const = default;
 };
 
-/// A terminal's screen as it is to be: cells by column and row from the upper left one.
+/// The content of a terminal's screen: cells by column and row from the upper left.
 class Frame {
  public:
   /// At least one cell each way.
@@ -45,10 +45,10 @@ class Frame {
     return cells_[row * columns_ + column];
   }
 
-  /// Nothing where it lies outside.
+  /// Ignores cells outside.
   void put(std::size_t column, std::size_t row, Cell cell);
-  /// Text as far as there is room, to at most `end`. What would move the cursor, is wider than a
-  /// cell or no UTF-8 is a '?'. Returns the column behind it.
+  /// Writes text up to the column `end`. Control characters, wide characters and invalid UTF-8
+  /// become '?'. Returns the column behind the text.
   std::size_t write(std::size_t column, std::size_t row, std::string_view text,
                     Style style = Style::kPlain, std::size_t end = SIZE_MAX);
 
@@ -75,7 +75,7 @@ class FrameEncoder {
   explicit FrameEncoder(bool colours) : colours_(colours) {}
 
   std::string encode(const Frame& frame);
-  /// The screen has been lost or has another size: the next frame is drawn whole.
+  /// The next frame is drawn completely.
   void forget() { shown_.reset(); }
 
  private:

@@ -14,7 +14,7 @@ namespace {
 using core::Pose2;
 using core::Vec2;
 
-/// Sights of the lidar's view, so that it does not breathe with every scan.
+/// Steps of the lidar view's radius, so that the scale does not change with every scan.
 constexpr std::array<double, 6> kViewRadii_m = {0.5, 1, 2, 4, 8, 12};
 
 /// Metres to dots, and to the cells of the frame.
@@ -71,14 +71,14 @@ char32_t arrow(double direction_rad, bool unicode) {
   return arrows[static_cast<std::size_t>(index) % arrows.size()];
 }
 
-/// How far the lidar's view is to reach, of the steps that there are.
+/// The smallest step that holds the scan.
 double view_radius_of(const ReceivedScan& received) {
   double farthest_m = 0;
   for (const core::Sample& sample : received.scan.samples) {
     farthest_m = std::max(farthest_m, double{sample.range_m});
   }
-  const auto* const sight = std::lower_bound(kViewRadii_m.begin(), kViewRadii_m.end(), farthest_m);
-  return sight == kViewRadii_m.end() ? farthest_m : *sight;
+  const auto* const radius = std::lower_bound(kViewRadii_m.begin(), kViewRadii_m.end(), farthest_m);
+  return radius == kViewRadii_m.end() ? farthest_m : *radius;
 }
 
 void draw_walls(DotCanvas& canvas, const Projection& projection, const core::WallMap& map) {

@@ -12,14 +12,14 @@ namespace cornerd::tool {
 
 /// What does not change while the monitor runs.
 struct Scene {
-  const core::WallMap* map = nullptr;  ///< null: what the lidar sees is drawn around itself
+  const core::WallMap* map = nullptr;  ///< null: the scan is drawn around the lidar
   core::Pose2 T_base_lidar;
 };
 
-/// What its keys change.
+/// The settings that keys change.
 struct ViewChoice {
   bool unicode = true;      ///< else one dot a cell and ASCII alone
-  bool lidar_view = false;  ///< what the lidar sees, around itself, instead of the map
+  bool lidar_view = false;  ///< the scan around the lidar instead of the map
   int zoom = 0;             ///< times two; above 0 the robot is in the middle
 };
 
@@ -31,9 +31,9 @@ struct Region {
   std::size_t rows = 0;
 };
 
-/// Walls, the last scan's returns, its corners (o) and ends of walls (x), the robot as an arrow
-/// (dim where its pose is stale), and where it may be as well (?). Returns the width of a cell in
-/// metres; 0 where nothing is drawn.
+/// Draws walls, the last scan's returns, corners (o) and wall ends (x), the robot as an arrow (dim
+/// if its pose is stale) and alternatives (?). Returns the width of a cell in metres; 0 if nothing
+/// is drawn.
 double draw_map(Frame& frame, const Region& region, const MonitorState& state, const Scene& scene,
                 const ViewChoice& choice, core::TimeNs now_ns);
 

@@ -24,7 +24,7 @@ constexpr std::string_view kWatch =
     "{\"class\":\"WATCH\",\"classes\":[\"POSE\",\"SCAN\",\"BREAKPOINTS\",\"STATUS\",\"EVENT\"]}\n";
 /// Faster than an A1's scan rate, slow enough for a serial terminal.
 constexpr auto kMinFrameInterval = 100ms;
-/// For the ages on the screen, while nothing comes.
+/// Keeps the ages on the screen up to date while no message comes.
 constexpr auto kMaxFrameInterval = 500ms;
 constexpr auto kFirstRetryDelay = 200ms;
 constexpr auto kMaxRetryDelay = 2000ms;
@@ -63,7 +63,7 @@ void Monitor::run() {
 void Monitor::connect_when_due() {
   const Clock::time_point now = Clock::now();
   if (state_.is_connected() || now < next_try_) return;
-  if (daemon_.connect(socket_, /*patient=*/false) && daemon_.send(kWatch)) {
+  if (daemon_.connect(socket_, /*blocking=*/false) && daemon_.send(kWatch)) {
     state_.connect(nanoseconds(now));
     is_changed_ = true;
     return;
@@ -72,8 +72,7 @@ void Monitor::connect_when_due() {
 }
 
 void Monitor::lose_daemon(std::string_view reason) {
-  // A daemon that accepts and goes at once is retried ever more slowly, too: hence not at
-  // connect().
+  // Backs off here and not at connect(), so that a daemon that accepts and exits is covered too.
   next_try_ = Clock::now() + retry_;
   retry_ = std::min<std::chrono::milliseconds>(retry_ * 2, kMaxRetryDelay);
   state_.lose(reason, nanoseconds(Clock::now()));
@@ -99,7 +98,7 @@ void Monitor::wait() {
   Clock::time_point until = drawn_ + (is_changed_ ? kMinFrameInterval : kMaxFrameInterval);
   if (!state_.is_connected()) until = std::min(until, next_try_);
   const auto left = std::chrono::ceil<std::chrono::milliseconds>(until - Clock::now());
-  // While the terminal takes nothing there is nothing to draw, and so no reason to wake up.
+  // Nothing can be drawn while the terminal accepts no output.
   const int timeout_ms = terminal_.has_unsent() ? static_cast<int>(kMaxFrameInterval / 1ms)
                                                 : std::max(0, static_cast<int>(left.count()));
   const short keys_and_room =
@@ -116,7 +115,7 @@ void Monitor::wait() {
 
 void Monitor::listen() {
   const auto lines = daemon_.take();
-  if (!lines) return lose_daemon(socket_.string() + ": the daemon has gone");
+  if (!lines) return lose_daemon(socket_.string() + ": the daemon closed the connection");
   for (const std::string_view line : split_words(*lines, "\n")) {
     state_.take_line(line, nanoseconds(Clock::now()));
     is_changed_ = true;
@@ -146,7 +145,7 @@ void Monitor::handle_signals() {
     if (signal == SIGTSTP) {
       suspend();
     } else if (signal == SIGCONT) {
-      // Whoever was in the foreground meanwhile may have left anything.
+      // Other programs may have changed the terminal meanwhile.
       terminal_.enter();
       encoder_.forget();
     } else if (signal == SIGWINCH) {

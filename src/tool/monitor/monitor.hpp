@@ -13,11 +13,10 @@
 
 namespace cornerd::tool {
 
-/// Shows what the daemon says on the terminal until somebody has seen enough. A daemon that goes,
-/// or is not there yet, is waited for.
+/// Shows the daemon's messages on the terminal. Reconnects to a daemon that is absent or exits.
 class Monitor {
  public:
-  /// The scene's map outlives it. Throws Failure where standard output is no terminal.
+  /// The scene's map must outlive the monitor. Throws Failure if standard output is no terminal.
   Monitor(std::filesystem::path socket, const Scene& scene, const ViewChoice& choice, bool colours);
 
   /// Until key q, an interrupt, a request to end, or the end of the terminal.
@@ -39,7 +38,7 @@ class Monitor {
   std::filesystem::path socket_;
   Scene scene_;
   ViewChoice choice_;
-  SignalQueue signals_;  // before the terminal, so that none of them leaves it as it is now
+  SignalQueue signals_;  // before the terminal: a signal must not prevent its restoration
   Terminal terminal_;
   FrameEncoder encoder_;
   SocketClient daemon_;
@@ -51,7 +50,7 @@ class Monitor {
   bool is_done_ = false;
 };
 
-/// What the environment tells of a terminal (TERM, NO_COLOR, LC_ALL, LC_CTYPE, LANG).
+/// Properties of the terminal by TERM, NO_COLOR, LC_ALL, LC_CTYPE and LANG.
 bool terminal_is_dumb();
 bool terminal_has_unicode();
 bool terminal_has_colours();

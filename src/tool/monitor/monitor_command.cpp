@@ -21,8 +21,7 @@ struct MonitorOptions {
 
 void monitor(MonitorOptions& options) {
   if (terminal_is_dumb()) {
-    throw Failure(
-        "monitor: this terminal (TERM=dumb) cannot be drawn on; there is cornerctl watch");
+    throw Failure("monitor: TERM=dumb has no cursor control; use cornerctl watch");
   }
   options.settings.use_installed_config();
   const settings::Config config = options.settings.resolve(/*needs_map=*/false);
@@ -41,10 +40,10 @@ void monitor(MonitorOptions& options) {
 void add_monitor(Command& program) {
   Command command = program.add_subcommand(
       "monitor",
-      "a live view in the terminal: map, scan, corners, pose, rates, what is wrong and "
-      "what to do; q ends it");
+      "a live view in the terminal: map, scan, corners, pose, rates, faults and remedies; "
+      "q ends it");
   const auto options = std::make_shared<MonitorOptions>();
-  command.add_option("--socket", options->socket, "else the one that the config names")
+  command.add_option("--socket", options->socket, "the daemon's socket; default: the config's")
       .type_name("PATH");
   options->settings.add_config(command);
   options->settings.add_map(command);

@@ -28,7 +28,7 @@ void MonitorState::lose(std::string_view reason, core::TimeNs now_ns) {
   if (connected_ || !changed_ns_) changed_ns_ = now_ns;
   connected_ = false;
   reason_ = reason;
-  // What it said last is no longer so.
+  // The last messages are no longer valid.
   pose_.reset();
   status_.reset();
   scan_.reset();
@@ -60,24 +60,24 @@ void MonitorState::note(message::ParsedPose pose, core::TimeNs now_ns) {
 
 void MonitorState::take_line(std::string_view line, core::TimeNs now_ns) {
   last_line_ns_ = now_ns;
-  message::ParsedLine told = message::parse_line(line);
-  if (const auto* error = std::get_if<message::RequestError>(&told)) {
-    protocol_error_ = "a message that makes no sense: " + error->text;
-  } else if (const auto* refused = std::get_if<message::ParsedError>(&told)) {
+  message::ParsedLine parsed = message::parse_line(line);
+  if (const auto* error = std::get_if<message::RequestError>(&parsed)) {
+    protocol_error_ = "invalid message: " + error->text;
+  } else if (const auto* refused = std::get_if<message::ParsedError>(&parsed)) {
     protocol_error_ = refused->code + ": " + refused->text;
-  } else if (auto* version = std::get_if<message::ParsedVersion>(&told)) {
+  } else if (auto* version = std::get_if<message::ParsedVersion>(&parsed)) {
     version_ = std::move(version->version);
-  } else if (auto* pose = std::get_if<message::ParsedPose>(&told)) {
+  } else if (auto* pose = std::get_if<message::ParsedPose>(&parsed)) {
     note(std::move(*pose), now_ns);
-  } else if (auto* scan = std::get_if<message::RecordedScan>(&told)) {
+  } else if (auto* scan = std::get_if<message::RecordedScan>(&parsed)) {
     // POSE comes first, then SCAN and BREAKPOINTS of the same scan.
     scan_ = {std::move(*scan), pose_ ? pose_->T_map_base : std::nullopt};
     breakpoints_ = {};
-  } else if (auto* points = std::get_if<message::ParsedBreakpoints>(&told)) {
+  } else if (auto* points = std::get_if<message::ParsedBreakpoints>(&parsed)) {
     breakpoints_ = std::move(*points);
-  } else if (auto* status = std::get_if<message::ParsedStatus>(&told)) {
+  } else if (auto* status = std::get_if<message::ParsedStatus>(&parsed)) {
     status_ = std::move(*status);
-  } else if (auto* event = std::get_if<message::ParsedEvent>(&told)) {
+  } else if (auto* event = std::get_if<message::ParsedEvent>(&parsed)) {
     events_.push_front(std::move(*event));
     if (events_.size() > kMaxEvents) events_.pop_back();
   }

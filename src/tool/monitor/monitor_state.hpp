@@ -12,17 +12,16 @@
 
 namespace cornerd::tool {
 
-/// A scan of the lidar, and where the pose that came with it says that it was taken.
+/// A scan and the pose at which it was taken.
 struct ReceivedScan {
   message::RecordedScan scan;
   std::optional<core::Pose2> T_map_base;
 };
 
-/// What is known of the daemon: everything it said, as far as it still matters. Times are a clock's
-/// that never steps; whoever feeds it brings them along.
+/// The state of the daemon from its messages. The caller passes the time of a monotonic clock.
 class MonitorState {
  public:
-  /// `reason`: why there is no connection, for a person.
+  /// `reason`: why there is no connection, for the user.
   void lose(std::string_view reason, core::TimeNs now_ns);
   void connect(core::TimeNs now_ns);
   /// One line without its end.
@@ -32,7 +31,7 @@ class MonitorState {
   const std::string& reason() const { return reason_; }
   /// Since the connection came or went.
   double connection_age_s(core::TimeNs now_ns) const;
-  /// Since the daemon last said anything, or since the connection.
+  /// Since the last message, or since the connection.
   double silence_s(core::TimeNs now_ns) const;
 
   const std::string& version() const { return version_; }
@@ -43,16 +42,16 @@ class MonitorState {
   const message::ParsedBreakpoints& breakpoints() const { return breakpoints_; }
   /// The newest first.
   const std::deque<message::ParsedEvent>& events() const { return events_; }
-  /// What the daemon could not make sense of, or we not of it; empty: nothing.
+  /// The last message that the daemon rejected or that could not be parsed; empty: none.
   const std::string& protocol_error() const { return protocol_error_; }
 
-  /// Since the last pose came; 0 where there is none.
+  /// Since the last pose; 0 if there is none.
   double pose_silence_s(core::TimeNs now_ns) const;
-  /// No pose has come for so long that the last one is no longer where the robot is.
+  /// True if the last pose is older than 1 s.
   bool is_pose_stale(core::TimeNs now_ns) const;
-  /// Poses a second, of the last few; nullopt where too few came, or none of late.
+  /// Rate of the last poses; nullopt if too few came, or none recently.
   std::optional<double> pose_rate_hz(core::TimeNs now_ns) const;
-  /// How many of the last (at most 100) poses were of a state, and how many there were.
+  /// The number of poses with this state among the last 100, and the number of these poses.
   std::size_t recent(core::PoseState state) const;
   std::size_t recent() const { return states_.size(); }
 

@@ -21,7 +21,7 @@ std::vector<PanelLine> panel_lines(const MonitorState& state, core::TimeNs now_n
 /// "3 s", "5 min", "2 h"
 std::string age_text(double seconds);
 
-/// "fix", in the colour that it has everywhere; "stale fix" where no pose has followed it.
+/// "fix" in the state's colour; "stale fix" if no pose has followed.
 PanelLine state_line(const MonitorState& state, core::TimeNs now_ns);
 
 }  // namespace cornerd::tool

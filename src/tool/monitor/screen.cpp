@@ -13,9 +13,9 @@ namespace cornerd::tool {
 namespace {
 
 constexpr std::size_t kPanelColumns = 32;
-/// Narrower than that, the figures are above the map and not beside it.
+/// On a narrower screen the panel is above the map.
 constexpr std::size_t kColumnsForBoth = 64;
-/// How many of them then: state, place and what speaks for it.
+/// Its rows then: state, pose and quality.
 constexpr std::size_t kPanelRowsAbove = 6;
 constexpr std::size_t kMinMapRows = 4;
 constexpr std::size_t kRowsForAdvice = 20;
@@ -29,7 +29,7 @@ void draw_title(Frame& frame, const MonitorState& state, const Scene& scene, cor
   std::string title = "cornerd " + state.version();
   title += scene.map == nullptr ? "  no map" : "  " + scene.map->plan().name;
   const std::size_t end = frame.write(1, 0, title, Style::kTitle);
-  // Where there is no room for the figures, the state is here at least.
+  // Shows the state even if there is no room for the panel.
   const std::string now = state_line(state, now_ns).text;
   if (end + 2 + now.size() + 1 <= frame.columns()) {
     frame.write(frame.columns() - now.size() - 1, 0, now, Style::kTitle);
@@ -73,8 +73,7 @@ std::vector<PanelLine> advice_lines(const Advice& advice, std::size_t columns) {
   return lines;
 }
 
-/// Always the same on a screen with room, so that the map does not jump, but for a long
-/// explanation.
+/// Constant on a large screen unless the advice is long, so that the map does not move.
 std::size_t advice_rows(std::size_t needed, std::size_t rows) {
   if (rows >= kRowsForAdvice) return std::clamp(needed, kAdviceRows, kMaxAdviceRows);
   return rows >= 3 ? 1 : 0;
@@ -116,7 +115,7 @@ Frame draw_screen(const MonitorState& state, const Scene& scene, const ViewChoic
   const std::size_t body_rows = all - std::min(all, 1 + key_rows + shown_rows);
   const double metres_per_cell =
       draw_body(frame, {0, 1, frame.columns(), body_rows}, state, scene, choice, now_ns);
-  // The end may be missing on a small screen; what is wrong is in its first line.
+  // A small screen may cut the end; the fault is in the first line.
   for (std::size_t i = 0; i < std::min(shown_rows, advice.size()); ++i) {
     frame.write(0, 1 + body_rows + i, advice[i].text, advice[i].style);
   }

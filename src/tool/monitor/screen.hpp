@@ -7,8 +7,8 @@
 
 namespace cornerd::tool {
 
-/// The whole screen: a title, the map with the figures beside it (below each other where the screen
-/// is narrow), what is wrong and what to do, the keys. Any size will do; 80 x 24 shows everything.
+/// The screen: title, map and panel (one above the other if narrow), advice and keys. Any size
+/// works; 80 x 24 shows everything.
 Frame draw_screen(const MonitorState& state, const Scene& scene, const ViewChoice& choice,
                   std::size_t columns, std::size_t rows, core::TimeNs now_ns);
 

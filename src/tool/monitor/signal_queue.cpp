@@ -25,7 +25,7 @@ SignalQueue::SignalQueue(std::initializer_list<int> signals) {
 }
 
 SignalQueue::~SignalQueue() {
-  // What came meanwhile is not for whoever comes next.
+  // Pending signals must not reach the old handlers.
   while (take() != 0) {
   }
   ::close(fd_);

@@ -6,7 +6,7 @@
 
 namespace cornerd::tool {
 
-/// Signals as something to poll for and to read, instead of something that interrupts. One thread.
+/// Signals to poll for and to read (signalfd), for one thread.
 class SignalQueue {
  public:
   /// Throws Failure.

@@ -18,18 +18,18 @@ namespace {
 // xterm's "control sequences": alternate screen, cursor off and on.
 constexpr std::string_view kTakeScreen = "\x1b[?1049h\x1b[?25l\x1b[2J";
 constexpr std::string_view kGiveBackScreen = "\x1b[0m\x1b[?25h\x1b[?1049l";
-/// For the last words to a terminal that is slow; one that takes nothing gets none.
+/// Wait for a slow terminal to accept the last output.
 constexpr int kLastWords_ms = 200;
-/// No screen is larger; a broken answer is.
+/// Larger answers are wrong.
 constexpr std::size_t kMaxColumns = 1000;
 constexpr std::size_t kMaxRows = 500;
 
-/// Standard output's terminal, opened anew: not to wait is a property of the open file, which
-/// standard output shares with the shell.
+/// Opens standard output's terminal again: O_NONBLOCK on the shared open file would affect the
+/// shell.
 int open_own_terminal() {
   constexpr int kFlags = O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC;
   const int fd = ::open("/proc/self/fd/1", kFlags);
-  // After su it may be another user's; this name is everybody's.
+  // After su the terminal may belong to another user; /dev/tty is open to everybody.
   return fd >= 0 ? fd : ::open("/dev/tty", kFlags);
 }
 
@@ -55,7 +55,7 @@ Terminal::~Terminal() {
 
 void Terminal::enter() {
   termios raw = before_;
-  // Ctrl-C and Ctrl-Z stay signals: they are waited for as those of others are.
+  // Ctrl-C and Ctrl-Z stay signals; SignalQueue reads them.
   raw.c_lflag &= ~static_cast<tcflag_t>(ICANON | ECHO);
   raw.c_cc[VMIN] = 0;
   raw.c_cc[VTIME] = 0;
@@ -64,8 +64,7 @@ void Terminal::enter() {
 }
 
 void Terminal::leave() {
-  // What is left of a frame would end in the middle of a sequence: its end first, if it goes at
-  // all.
+  // Completes the pending frame first, which may end inside a control sequence.
   unsent_ += kGiveBackScreen;
   pollfd entry{.fd = fd_, .events = POLLOUT, .revents = 0};
   while (flush() && has_unsent() && ::poll(&entry, 1, kLastWords_ms) > 0) {

@@ -10,8 +10,8 @@
 
 namespace cornerd::tool {
 
-/// The terminal of standard output: a screen of its own and single keys, and everything as it was
-/// at the end. Never waits: a terminal that takes nothing, as that of a broken ssh, stops nobody.
+/// The terminal of standard output in raw mode on the alternate screen; the destructor restores it.
+/// Never blocks, even if the terminal accepts no output (a broken ssh).
 class Terminal {
  public:
   /// Throws Failure where standard output is no terminal.
@@ -27,10 +27,10 @@ class Terminal {
   };
   Size size() const;
 
-  /// Keys since the last call; nullopt: it has hung up.
+  /// Keys since the last call; nullopt: the terminal hung up.
   std::optional<std::string> take_keys();
 
-  /// Writes as much as it takes; the rest when flush() is called. False: it has hung up.
+  /// Writes what the terminal accepts; flush() writes the rest. False: the terminal hung up.
   bool show(std::string_view bytes);
   bool flush();
   bool has_unsent() const { return !unsent_.empty(); }
@@ -45,7 +45,7 @@ class Terminal {
   std::string unsent_;
 };
 
-/// The keys of what came from a terminal: without the sequences that arrows and the like send.
+/// The single keys in a terminal's input, without the sequences of arrow and function keys.
 std::string plain_keys(std::string_view bytes);
 
 }  // namespace cornerd::tool

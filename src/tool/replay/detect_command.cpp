@@ -70,7 +70,7 @@ void detect(DetectOptions& options) {
   }
   output.flush();
   if (!options.plot.empty() && scans < options.plotted_scan) {
-    throw Failure("--scan " + std::to_string(options.plotted_scan) + ": there are " +
+    throw Failure("--scan " + std::to_string(options.plotted_scan) + ": the recordings hold " +
                   std::to_string(scans) + " scans");
   }
 }

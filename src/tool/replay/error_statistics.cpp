@@ -115,14 +115,14 @@ std::string ErrorStatistics::report(std::string_view counted) const {
   }
   if (nees_count_ > 0) {
     // The sum is chi-square with 3 n degrees of freedom: mean 3, variance of the mean 6 / n.
-    const double slack = 1.96 * std::sqrt(6 / static_cast<double>(nees_count_));
-    append(out, "nees       %.2f  (honest covariances: %.2f to %.2f)\n", mean_nees(),
-           std::max(0.0, 3 - slack), 3 + slack);
+    const double margin = 1.96 * std::sqrt(6 / static_cast<double>(nees_count_));
+    append(out, "nees       %.2f  (consistent covariances: %.2f to %.2f)\n", mean_nees(),
+           std::max(0.0, 3 - margin), 3 + margin);
   }
   if (const std::size_t ambiguous = count(core::PoseState::kAmbiguous); ambiguous > 0) {
-    append(out, "ambiguous  %zu of %zu list the true place\n", ambiguous_with_truth_, ambiguous);
+    append(out, "ambiguous  %zu of %zu list the true pose\n", ambiguous_with_truth_, ambiguous);
   }
-  if (unknown_ > 0) append(out, "unknown    %zu scans outside of the truth's time\n", unknown_);
+  if (unknown_ > 0) append(out, "unknown    %zu scans outside the truth's time span\n", unknown_);
   return out;
 }
 

@@ -11,24 +11,24 @@
 
 namespace cornerd::tool {
 
-/// How far a run of poses is from the truth, and whether its own doubts are honest.
+/// Errors of poses against the truth, and the consistency (NEES) of their covariances.
 class ErrorStatistics {
  public:
   void add(const core::PoseEstimate& estimate, const core::Pose2& T_map_base);
-  /// A scan that the truth says nothing about.
+  /// A scan without a true pose.
   void add_unknown() { ++unknown_; }
 
   std::size_t scans() const { return scans_; }
   std::size_t count(core::PoseState state) const { return states_[index(state)]; }
   std::size_t wrong() const { return wrong_; }
-  /// Ambiguous scans, one of whose alternatives is the true place.
+  /// Ambiguous scans, one of whose alternatives is the true pose.
   std::size_t ambiguous_with_truth() const { return ambiguous_with_truth_; }
   double mean_error_m() const;
   double max_error_m() const;
-  /// Normalised estimation error squared: 3 on average where the covariances are honest.
+  /// Normalised estimation error squared: 3 on average if the covariances are consistent.
   double mean_nees() const;
 
-  /// Several lines for a person.
+  /// Several lines for the user.
   std::string report(std::string_view counted = "scans") const;
 
  private:

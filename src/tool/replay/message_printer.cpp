@@ -60,7 +60,7 @@ void MessagePrinter::print_status(core::TimeNs t_ns, const drivers::StreamCounte
   status.odometry = &odometry_;
   status.odometry_hint = odometry_lines_.hint(odometry_, t_ns);
   if (status.odometry_hint.empty() && plan_ == nullptr) {
-    status.odometry_hint = "without a map nothing is learnt: name one with --map";
+    status.odometry_hint = "no calibration without a map: name one with --map";
   }
   if (last_status_ && t_ns > last_status_->t_ns) {
     const double elapsed_s = core::to_seconds(t_ns - last_status_->t_ns);

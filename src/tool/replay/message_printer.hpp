@@ -13,7 +13,7 @@
 
 namespace cornerd::tool {
 
-/// The daemon's messages about a recording, as far as they were asked for.
+/// Prints the daemon's messages of the chosen classes for a recording.
 class MessagePrinter {
  public:
   /// `plan`: names the rooms; null: there is no map.
@@ -21,15 +21,15 @@ class MessagePrinter {
 
   void print_scan(const core::Scan& scan, const core::ScanResult& result);
 
-  /// What odometry it had, for STATUS to say why there is none.
+  /// Counts odometry lines, for the hint in STATUS.
   void note(const core::OdometryReading& reading) { odometry_lines_.add(reading); }
 
   /// A pose between two scans.
   void print_pose(const core::PoseEstimate& pose);
 
-  /// What comes now is of another file: rates begin anew.
+  /// Starts the rates anew for the next file.
   void begin_recording();
-  /// STATUS where a second has passed since the last one. Time is that of the data.
+  /// STATUS if a second of the data's time has passed since the last one.
   void print_status_when_due(core::TimeNs t_ns, const drivers::StreamCounters& counters);
   void print_status(core::TimeNs t_ns, const drivers::StreamCounters& counters,
                     drivers::LidarState state);

@@ -74,7 +74,7 @@ void Playback::play(const std::filesystem::path& file, const replay::RecordingOp
   if (on_piece_) on_piece_(player.time_ns(), player.counters());
 
   if (player.bad_lines() > 0) {
-    std::fprintf(stderr, "%s: %llu lines passed over; the first: %s\n", file.c_str(),
+    std::fprintf(stderr, "%s: %llu lines skipped; the first: %s\n", file.c_str(),
                  static_cast<unsigned long long>(player.bad_lines()),
                  player.first_problem().c_str());
   }

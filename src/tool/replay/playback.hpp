@@ -38,18 +38,17 @@ class Playback {
   void set_on_reading(OnReading on_reading) { on_reading_ = std::move(on_reading); }
   void set_on_prediction(OnPrediction on_prediction) { on_prediction_ = std::move(on_prediction); }
 
-  /// Forget everything between scans, as if each were the first.
+  /// Resets the localizer after every scan.
   void set_independent(bool independent) { independent_ = independent; }
 
-  /// Wheels and gyro of another file, in the order of its times; in place of the recording's own.
+  /// Replaces the recording's odometry by these readings in ascending time.
   void set_odometry(std::vector<core::OdometryReading> readings) {
     readings_ = std::move(readings);
     has_readings_ = true;
   }
 
-  /// Plays one file to its end; nothing of an earlier one is remembered. What was passed over is
-  /// said on standard error. Throws replay::RecordingError, and Failure where the file holds not a
-  /// single whole scan.
+  /// Plays one file with a fresh localizer. Reports skipped lines on standard error. Throws
+  /// replay::RecordingError, and Failure if the file holds no complete scan.
   void play(const std::filesystem::path& file, const replay::RecordingOptions& options);
 
  private:
@@ -76,7 +75,7 @@ class Playback {
 /// "max": nullopt; else how many times real time, above 0. Throws UsageError.
 std::optional<double> parse_speed(const std::string& text);
 
-/// Holds recorded data back until its time has come.
+/// Plays recorded data in scaled real time.
 class Pace {
  public:
   explicit Pace(double speed) : speed_(speed) {}
@@ -93,8 +92,8 @@ class Pace {
   Clock::time_point began_;
 };
 
-/// The ODOMETRY lines of a file in the order that they stand in; other lines are passed over.
-/// Throws Failure where the file cannot be read, has a bad line or not one reading.
+/// The ODOMETRY lines of a file in their order; skips other lines. Throws Failure if the file
+/// cannot be read, has a bad line or no reading.
 std::vector<core::OdometryReading> load_odometry(const std::filesystem::path& file);
 
 }  // namespace cornerd::tool

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// cornerctl replay: recordings through the daemon's own pipeline. Same input, same output bytes.
+// cornerctl replay: runs the daemon's pipeline on recordings. Output is deterministic.
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -41,7 +41,7 @@ void replay(const ReplayOptions& options) {
   const bool needs_map = classes.contains(MessageClass::kPose) || !options.truth.empty();
   settings::Config config = options.settings.resolve(needs_map);
   if (!options.odometry.empty()) config.odometry.core.enabled = true;
-  // What odometry has learnt it has from poses.
+  // Online calibration of the odometry needs poses, hence the map.
   const bool learns = classes.contains(MessageClass::kStatus) && config.odometry.core.enabled;
   const bool uses_map = needs_map || (learns && !config.map.empty());
   const auto map = uses_map ? settings::load_map(config.map) : nullptr;
@@ -96,8 +96,8 @@ void replay(const ReplayOptions& options) {
 }  // namespace
 
 void add_replay(Command& program) {
-  Command command =
-      program.add_subcommand("replay", "the daemon's own pipeline over recordings, to messages");
+  Command command = program.add_subcommand(
+      "replay", "run the daemon's pipeline on recordings and print its messages");
   const auto options = std::make_shared<ReplayOptions>();
   command.add_option("files", options->files, "recordings (.bin, .ndjson), one after another")
       .required()
@@ -115,10 +115,9 @@ void add_replay(Command& program) {
                   "count where the config's odometry.source is not none")
       .type_name("FILE");
   command
-      .add_option("--truth", options->truth,
-                  "where the robot really was: error statistics on standard error")
+      .add_option("--truth", options->truth, "true poses: print error statistics on standard error")
       .type_name("FILE");
-  command.add_flag("--independent", options->independent, "forget everything between scans");
+  command.add_flag("--independent", options->independent, "reset the localizer after every scan");
   command.callback([options] { replay(*options); });
 }
 

@@ -11,15 +11,14 @@
 
 namespace cornerd::tool {
 
-/// Where a robot really was, over time: a --truth file.
+/// True poses over time: a --truth file.
 class Truth {
  public:
-  /// Throws Failure where the file cannot be read, has a bad line, or goes back in time.
+  /// Throws Failure if the file cannot be read, has a bad line or goes back in time.
   static Truth load(const std::filesystem::path& file);
   explicit Truth(std::vector<message::RecordedTruth> points) : points_(std::move(points)) {}
 
-  /// Interpolated, the heading by the shorter way; nullopt before the first point and more than a
-  /// scan period (0.2 s) after the last one, as far as which the last one holds.
+  /// Interpolated pose; nullopt before the first point and more than 0.2 s after the last.
   std::optional<core::Pose2> at(core::TimeNs t_ns) const;
 
   const std::vector<message::RecordedTruth>& points() const { return points_; }
@@ -28,7 +27,7 @@ class Truth {
   std::vector<message::RecordedTruth> points_;
 };
 
-/// Between two poses, the heading by the shorter way. `share`: 0 at the first, 1 at the second.
+/// Interpolates, the heading by the smaller angle. `share`: 0 at the first, 1 at the second pose.
 core::Pose2 interpolate(const core::Pose2& from, const core::Pose2& to, double share);
 
 }  // namespace cornerd::tool

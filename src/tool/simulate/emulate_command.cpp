@@ -46,12 +46,12 @@ struct World {
 
 World make_world(const EmulateOptions& options, const settings::Config& config) {
   if (!options.recording.empty()) {
-    if (!options.truth.empty()) throw UsageError("--truth: a recording does not know it");
+    if (!options.truth.empty()) throw UsageError("--truth: not available for a recording");
     const replay::RecordingOptions how{parse_wire(options.wire), config.lidar.mount.inverted};
     return {std::make_unique<replay::RecordedScene>(options.recording, how), {}};
   }
   if (options.simulation.places > 0 && !options.truth.empty()) {
-    throw UsageError("--truth: a robot that jumps from place to place has none between two scans");
+    throw UsageError("--truth: not available with --places: the robot jumps between scans");
   }
   const auto map = settings::load_map(config.map);
   const replay::Motion motion = options.simulation.motion(*map);
@@ -60,7 +60,7 @@ World make_world(const EmulateOptions& options, const settings::Config& config) 
 
 void emulate(const EmulateOptions& options) {
   const replay::Firmware* firmware = replay::find_firmware(options.firmware);
-  if (firmware == nullptr) throw UsageError("--firmware: there are 1.29, 1.24 and 1.17");
+  if (firmware == nullptr) throw UsageError("--firmware: must be 1.29, 1.24 or 1.17");
   const settings::Config config = options.settings.resolve(/*needs_map=*/options.recording.empty());
   guard_files(
       {.read = {options.recording, options.settings.config_file(), options.simulation.sensor.noise,
@@ -85,7 +85,7 @@ void emulate(const EmulateOptions& options) {
     });
   }
 
-  // From here on the signals are waited for; whoever reads the path may send one at once.
+  // Before the path is printed: its reader may send a signal at once.
   const StopSignal stop_signal;
   std::stop_source stop;
   const std::jthread waiter([&](const std::stop_token& over) {
@@ -105,7 +105,9 @@ void add_emulate(Command& program) {
   Command command = program.add_subcommand(
       "emulate", "an A1 on a pseudo-terminal, whose path is printed, until interrupted");
   const auto options = std::make_shared<EmulateOptions>();
-  command.add_option("file", options->recording, "it sees what this recording holds; else a map")
+  command
+      .add_option("file", options->recording,
+                  "replay this recording; without it, simulate in the map")
       .type_name("FILE");
   options->settings.add_config(command);
   options->settings.add_map(command);
@@ -116,7 +118,7 @@ void add_emulate(Command& program) {
       .within(0, 3600);
   command.add_option("--link", options->link, "a symbolic link to the pseudo-terminal")
       .type_name("PATH");
-  command.add_option("--truth", options->truth, "where the robot really is, in UNIX time")
+  command.add_option("--truth", options->truth, "write the true poses, in UNIX time")
       .type_name("FILE");
   command.callback([options] { emulate(*options); });
 }

@@ -33,10 +33,10 @@ void OdometryOptions::add_to(Command& command) {
       .within(-0.5, 0.5);
   command
       .add_option("--wheel-noise", model.wheel_m_per_sqrt_m,
-                  "what a wheel's way is off after a metre (m), at random")
+                  "random error of a wheel's distance after a metre (m)")
       .within(0, 1)
       .capture_default_str();
-  command.add_option("--gyro-error", model.gyro_scale, "the gyro tells more by this share")
+  command.add_option("--gyro-error", model.gyro_scale, "the gyro reads more by this share")
       .within(-0.5, 0.5);
   command.add_option("--gyro-bias", model.gyro_bias_rad_s, "and this much (rad/s)").within(-1, 1);
   command.add_option("--gyro-noise", model.gyro_rad_s_per_sqrt_hz, "its noise (rad/s/sqrt(Hz))")
@@ -45,9 +45,9 @@ void OdometryOptions::add_to(Command& command) {
   command.add_flag("--no-gyro", no_gyro, "encoders alone");
   command
       .add_option("--slips", model.slips_per_m,
-                  "how often a metre a wheel slips: half as much again for 0.2 s")
+                  "slips of a wheel per metre: 50 % more rotation for 0.2 s")
       .within(0, 100);
-  command.add_option("--covered", covered, "something hangs over the lidar between these times (s)")
+  command.add_option("--covered", covered, "the lidar is covered between these times (s)")
       .type_name("FROM,TO");
 }
 
@@ -72,7 +72,7 @@ OdometryOptions::Times OdometryOptions::covered_times() const {
   if (covered.empty()) return {};
   const core::Vec2 times_s = parse_pair(covered, "--covered");
   if (!(times_s.x() >= 0 && times_s.x() < times_s.y() && times_s.y() < 1e6)) {
-    throw UsageError("--covered: two times of the recording, in their order");
+    throw UsageError("--covered: must be two ascending times (s)");
   }
   return {core::from_seconds(times_s.x()), core::from_seconds(times_s.y())};
 }

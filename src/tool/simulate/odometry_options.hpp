@@ -12,7 +12,7 @@ namespace cornerd::tool {
 
 class Command;
 
-/// What a simulated robot's wheels and gyro tell, and how wrong they are.
+/// Options of a simulated robot's wheels and gyro, with their errors.
 struct OdometryOptions {
   bool enabled = false;
   std::string wheel_errors;  ///< "LEFT,RIGHT"
@@ -22,7 +22,7 @@ struct OdometryOptions {
 
   void add_to(Command& command);
 
-  /// nullopt where no odometry is asked for. The geometry is the config's. Throws UsageError.
+  /// nullopt without --odometry. The geometry comes from the config. Throws UsageError.
   std::optional<replay::RobotModel> robot(const settings::OdometryConfig& config) const;
   struct Times {
     core::TimeNs from_ns = 0;

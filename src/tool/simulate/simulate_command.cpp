@@ -54,7 +54,7 @@ void simulate(const SimulateOptions& options) {
   config.covered_to_ns = covered.to_ns;
 
   if (config.robot && simulation.places > 0) {
-    throw UsageError("--odometry: the robot has to drive or to stand, --places carries it");
+    throw UsageError("--odometry: not available with --places: the robot must drive or stand");
   }
   const bool has_times = replay::RecordingWriter::has_lines(options.output);
   if (config.robot && !has_times) {
@@ -86,7 +86,7 @@ void add_simulate(Command& program) {
   options->odometry.add_to(command);
   command
       .add_option("--scans", options->scans,
-                  "complete scans; else as many as the places, once through the scenario, or 10")
+                  "number of scans; default: all places, once through the scenario, or 10")
       .positive()
       .type_name("N");
   command.add_option("--wire", options->wire, "standard, express or ultra")
@@ -97,7 +97,7 @@ void add_simulate(Command& program) {
                   "the recording: .ndjson with times, .bin the bare bytes")
       .required()
       .type_name("FILE");
-  command.add_option("--truth", options->truth, "where the robot really was, for replay --truth")
+  command.add_option("--truth", options->truth, "write the true poses, for replay --truth")
       .type_name("FILE");
   command.callback([options] { simulate(*options); });
 }

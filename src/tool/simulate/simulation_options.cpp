@@ -50,11 +50,11 @@ void SimulationOptions::add_to(Command& command) {
       .capture_default_str();
   command
       .add_option("--acceleration", acceleration_m_s2,
-                  "metres a second squared at both ends of a way; 0: at once")
+                  "metres a second squared at both ends of a straight; 0: at once")
       .within(0, 100);
   command
       .add_option("--turn-acceleration", yaw_acceleration_rad_s2,
-                  "radians a second squared at both ends of a turn; 0: at once")
+                  "radians a second squared at both ends of a rotation; 0: at once")
       .within(0, 1000);
   command.add_option("--motor", motor_hz, "scans a second").within(1, 15).capture_default_str();
   sensor.add_to(command);
@@ -63,7 +63,7 @@ void SimulationOptions::add_to(Command& command) {
 
 replay::Motion SimulationOptions::motion(const core::WallMap& map) const {
   if (!pose.empty() + (places > 0) + !path.empty() + !scenario.empty() != 1) {
-    throw UsageError("say where the robot is: one of --pose, --places, --path and --scenario");
+    throw UsageError("give exactly one of --pose, --places, --path and --scenario");
   }
   if (!pose.empty()) {
     const core::Pose2 T_map_base = parse_pose(pose);
@@ -128,8 +128,8 @@ void set_recorded_errors(replay::SensorModel& model) {
 
 void SensorOptions::add_to(Command& command) {
   command.add_flag("--real", real,
-                   "lose samples in stretches and step back in angle as recorded A1s do, with some "
-                   "mixed pixels and outliers; further options refine that");
+                   "missing runs, backward angles, mixed pixels and outliers as in recordings of "
+                   "A1s; other options override");
   command
       .add_option("--noise", noise,
                   "the lidar's noise, as calibrate noise writes it; else the config's lidar.noise")
@@ -141,10 +141,7 @@ void SensorOptions::add_to(Command& command) {
   command.add_option("--bearing-noise", bearing_deg, "standard deviation of a bearing (degrees)")
       .within(0, 5);
   command.add_option("--missing", missing, "share of samples without a return").within(0, 1);
-  command
-      .add_option(
-          "--missing-run", missing_run,
-          "mean number of samples until one's fate is drawn anew: more lose whole stretches")
+  command.add_option("--missing-run", missing_run, "mean length of a run of missing samples")
       .within(1, 1e6);
   command.add_option("--outliers", outliers, "share of samples that are wrong").within(0, 1);
   command

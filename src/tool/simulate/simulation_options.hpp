@@ -19,10 +19,10 @@ namespace cornerd::tool {
 
 class Command;
 
-/// How a simulated lidar errs: options over the defaults of the sensor model.
+/// Errors of a simulated lidar: options over the defaults of the sensor model.
 struct SensorOptions {
   std::filesystem::path noise;  ///< a file with the key /lidar/noise, as calibrate noise writes it
-  bool real = false;            ///< what real A1s lose and mix up, under all options below
+  bool real = false;            ///< errors of recorded A1s; the options below override
   std::optional<double> floor_m;
   std::optional<double> share;
   std::optional<double> bearing_deg;
@@ -38,13 +38,13 @@ struct SensorOptions {
 
   void add_to(Command& command);
 
-  /// `configured`: the noise that the config names; --noise goes before it, floor and share before
-  /// any table and the wall model's own sigmas.
+  /// `configured`: the config's noise. --noise overrides it; floor and share override tables and
+  /// the wall model's sigmas.
   /// Throws settings::SettingsError.
   replay::SensorModel model(const settings::NoiseConfig& configured) const;
 };
 
-/// Where a simulated robot is and how its lidar errs: what simulate and emulate have in common.
+/// Options that simulate and emulate share: the robot's motion and the lidar's errors.
 struct SimulationOptions {
   std::string pose;        ///< x,y,theta: stands there
   std::size_t places = 0;  ///< visits so many random places
@@ -63,10 +63,10 @@ struct SimulationOptions {
   void add_to(Command& command);
 
   bool stands_still() const { return !pose.empty(); }
-  /// Scans of the sensor in a recording of which nobody says how long it is.
+  /// Scans of a recording without --scans.
   std::int64_t default_scans() const;
-  /// Throws UsageError unless exactly one of pose, places, path and scenario is given. Says on
-  /// standard error where the robot would stand in a wall or outside the building.
+  /// Throws UsageError unless exactly one of pose, places, path and scenario is given. Warns on
+  /// standard error about points inside walls or outside the building.
   replay::Motion motion(const core::WallMap& map) const;
   replay::DriveConfig drive() const;
   replay::SimulatorConfig simulator(rplidar::WireFormat wire,

@@ -123,9 +123,7 @@ void run_survey(const SurveyOptions& options) {
 void add_survey(Command& program) {
   Command command = program.add_subcommand("survey", "a map of the walls from a recorded drive");
   const auto options = std::make_shared<SurveyOptions>();
-  command
-      .add_option("files", options->files,
-                  "recordings of one drive, each goes on where the one before ended")
+  command.add_option("files", options->files, "consecutive recordings of one drive")
       .required()
       .type_name("FILE");
   command.add_option("-o,--output", options->output, "the map; -: on standard output")
@@ -135,24 +133,24 @@ void add_survey(Command& program) {
       .type_name("NAME");
   command
       .add_option("--start", options->start,
-                  "where in the map the robot was in the first scan (m, m, rad); else its origin")
+                  "pose of the first scan in the map (m, m, rad); default: the origin")
       .type_name("X,Y,THETA");
-  command.add_option("--plot", options->plot, "draw walls, points and the way").type_name("SVG");
+  command.add_option("--plot", options->plot, "draw walls, points and trajectory").type_name("SVG");
   command
       .add_option("--trajectory", options->trajectory,
-                  "the corrected way, a pose for each scan, as --truth files have it")
+                  "the estimated trajectory, a pose for each scan, in the format of --truth")
       .type_name("NDJSON");
   command
       .add_option("--method", options->method,
-                  "adjusted: the way is corrected while it maps; ransac: lines in the points that "
-                  "the odometry alone gives (Bertocco et al.), to compare with")
+                  "adjusted: least squares over poses and walls; ransac: lines in points placed by "
+                  "odometry alone (Bertocco et al.), for comparison")
       .choices({"adjusted", "ransac"})
       .capture_default_str();
   command.add_option("--iterations", options->iterations, "of --method ransac")
       .range(std::size_t{1}, std::size_t{1'000'000})
       .default_str(std::to_string(survey::RansacConfig().iterations));
   command.add_flag("--manhattan", options->manhattan,
-                   "make walls square that are so within their doubt, half a degree at most");
+                   "make walls square that are so within their sigma, half a degree at most");
   command
       .add_option("--odometry", options->odometry,
                   "ODOMETRY lines of another file, in place of the recordings' own")

@@ -16,7 +16,7 @@ namespace cornerd::tool {
 
 namespace {
 
-/// A file whose clock begins anew goes on so long after the one before it.
+/// Inserted before a file whose clock restarts.
 constexpr core::TimeNs kGapBetweenClocks_ns = core::kNsPerSecond;
 /// Between two readings of one clock.
 constexpr core::TimeNs kMaxReadingInterval_ns = core::kNsPerSecond / 2;
@@ -26,13 +26,13 @@ class SurveySink final : public replay::RecordingSink {
   SurveySink(survey::RecordedDrive& drive, bool takes_odometry)
       : drive_(drive), takes_odometry_(takes_odometry) {}
 
-  /// What comes now is of the next file.
+  /// Starts the next file.
   void begin_file() {
     is_first_ = true;
     shift_ns_ = 0;
     now_ns_.reset();
   }
-  /// By which the file's clock was set on; 0 where it goes on from the file before.
+  /// Added to the file's times; 0 if they follow the file before.
   core::TimeNs shift_ns() const { return shift_ns_; }
 
   void on_sample(const core::Sample& sample) override {
@@ -45,7 +45,7 @@ class SurveySink final : public replay::RecordingSink {
   void on_odometry(const message::OdometryReading& reading) override {
     message::OdometryReading shifted = reading;
     shifted.t_ns = shifted_ns(reading.t_ns);
-    // A lidar may be silent for long: readings that go on from one another tell the time meanwhile.
+    // Consecutive readings advance the time while the lidar is silent.
     if (now_ns_ && shifted.t_ns < *now_ns_ + kMaxReadingInterval_ns) {
       now_ns_ = std::max(*now_ns_, shifted.t_ns);
     }
@@ -92,7 +92,7 @@ survey::RecordedDrive load_drive(std::span<const std::filesystem::path> files,
     }
     sink.finish();
     if (player.bad_lines() > 0) {
-      std::fprintf(stderr, "%s: %llu lines passed over; the first: %s\n", file.c_str(),
+      std::fprintf(stderr, "%s: %llu lines skipped; the first: %s\n", file.c_str(),
                    static_cast<unsigned long long>(player.bad_lines()),
                    player.first_problem().c_str());
     }

@@ -33,25 +33,28 @@ std::string describe_wheels(const core::OdometryParameters& learned) {
 }
 
 std::string describe_drive(const survey::SurveyResult& result) {
-  double way_m = 0;
+  double length_m = 0;
   for (std::size_t i = 1; i < result.T_map_base.size(); ++i) {
-    way_m += length_of(result.T_map_base[i - 1].translation(), result.T_map_base[i].translation());
+    length_m +=
+        length_of(result.T_map_base[i - 1].translation(), result.T_map_base[i].translation());
   }
   const double duration_s = core::to_seconds(result.t_ns.back() - result.t_ns.front());
-  return formatted("%zu scans, %.1f s, %.1f m %s\n", result.T_map_base.size(), duration_s, way_m,
+  return formatted("%zu scans, %.1f s, %.1f m %s\n", result.T_map_base.size(), duration_s, length_m,
                    sources_of(result).c_str());
 }
 
-std::string describe_rejected_odometry(const survey::RejectedOdometry& doubt) {
-  const auto wheel = [](const survey::WheelDistance& way) {
-    return formatted("%.1f m by its counts and %.1f m by the lidar", way.counted_m, way.lidar_m);
+std::string describe_rejected_odometry(const survey::RejectedOdometry& rejected) {
+  const auto wheel = [](const survey::WheelDistance& distance) {
+    return formatted("%.1f m by its counts and %.1f m by the lidar", distance.counted_m,
+                     distance.lidar_m);
   };
   return formatted(
              "WARNING: the odometry contradicts the lidar in %zu scans and is missing in %zu. It "
              "was "
              "left out, and the map is by the lidar alone: ",
-             doubt.contradicted_scans, doubt.scans_without_odometry) +
-         "the left wheel moved " + wheel(doubt.left) + ", the right one " + wheel(doubt.right) +
+             rejected.contradicted_scans, rejected.scans_without_odometry) +
+         "the left wheel moved " + wheel(rejected.left) + ", the right one " +
+         wheel(rejected.right) +
          ". Check that both encoders count up when the robot drives forward, "
          "odometry.counts_per_turn and odometry.wheel_radius\n";
 }
@@ -87,7 +90,7 @@ std::string describe_loop(const survey::SurveyResult& result, const survey::Loop
 
 std::string survey_report(const survey::SurveyResult& result) {
   std::string text = describe_drive(result) + describe_walls(result);
-  if (result.observations == 0) return text;  // the paper's way
+  if (result.observations == 0) return text;  // --method ransac
   if (result.rejected_odometry) text += describe_rejected_odometry(*result.rejected_odometry);
   text += formatted("%zu wall observations, residuals %.2f of their sigma, %zu outliers\n",
                     result.observations, result.sigma, result.outliers);

@@ -26,7 +26,7 @@ bool SocketClient::fail(const std::string& path, int error_number) {
   return false;
 }
 
-bool SocketClient::connect(const std::filesystem::path& socket, bool patient) {
+bool SocketClient::connect(const std::filesystem::path& socket, bool blocking) {
   close();
   sockaddr_un address{};
   address.sun_family = AF_UNIX;
@@ -34,7 +34,7 @@ bool SocketClient::connect(const std::filesystem::path& socket, bool patient) {
   if (path.size() >= sizeof address.sun_path) return fail(path, ENAMETOOLONG);
   path.copy(address.sun_path, path.size());
 
-  fd_ = ::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | (patient ? 0 : SOCK_NONBLOCK), 0);
+  fd_ = ::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | (blocking ? 0 : SOCK_NONBLOCK), 0);
   const auto* const any = reinterpret_cast<const sockaddr*>(&address);
   if (fd_ < 0 || ::connect(fd_, any, sizeof address) != 0) return fail(path, errno);
   return true;

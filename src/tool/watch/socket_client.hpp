@@ -16,22 +16,22 @@ class SocketClient {
   SocketClient(const SocketClient&) = delete;
   SocketClient& operator=(const SocketClient&) = delete;
 
-  /// False where nobody listens there; problem() and error_number() say why. Not `patient`: where
-  /// somebody listens and too many wait before us, too.
-  bool connect(const std::filesystem::path& socket, bool patient = true);
+  /// False on failure; see problem() and error_number(). Not `blocking`: fails also if the queue of
+  /// pending connections is full.
+  bool connect(const std::filesystem::path& socket, bool blocking = true);
   void close();
 
-  /// False where the daemon has gone.
+  /// False if the daemon closed the connection.
   bool send(std::string_view line);
 
-  /// Waits for more of what the daemon says: one or more whole lines, each with its newline, valid
-  /// until the next call. Empty: the daemon has gone; a line that it did not end is dropped.
+  /// Waits for one or more complete lines with their newlines, valid until the next call. Empty:
+  /// the daemon closed the connection; an incomplete line is dropped.
   std::string_view receive();
 
-  /// What is there of it already: whole lines, or none. nullopt: the daemon has gone.
+  /// Complete lines that have arrived, or none. nullopt: the daemon closed the connection.
   std::optional<std::string_view> take();
 
-  /// To wait for what it says; -1 where it is not connected.
+  /// For poll(); -1 if not connected.
   int fd() const { return fd_; }
 
   const std::string& problem() const { return problem_; }
@@ -39,9 +39,9 @@ class SocketClient {
 
  private:
   bool fail(const std::string& path, int error_number);
-  /// One read, as recv() has the flags; false where the daemon has gone.
+  /// One recv() with these flags; false if the daemon closed the connection.
   bool fetch(int flags);
-  /// Hands out the whole lines that are there.
+  /// The complete lines in the buffer.
   std::string_view whole_lines();
 
   int fd_ = -1;

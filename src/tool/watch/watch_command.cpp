@@ -23,8 +23,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-// A restart of the daemon takes well under a second; one that stays away is not worth more than a
-// look every five.
+// The daemon restarts in less than a second.
 constexpr auto kFirstReconnectDelay = 200ms;
 constexpr auto kMaxReconnectDelay = 5000ms;
 
@@ -34,7 +33,7 @@ struct WatchOptions {
   std::vector<std::string> classes;
 };
 
-/// WATCH for the classes; empty where the daemon's own choice is good.
+/// WATCH for the classes; empty for the daemon's default.
 std::string request_for(const std::vector<std::string>& classes) {
   if (classes.empty()) return {};
   parse_classes(classes);
@@ -62,7 +61,8 @@ void watch(const WatchOptions& options) {
         retry = kFirstReconnectDelay;
       }
     }
-    std::fprintf(stderr, "cornerctl: %s: the daemon has gone; waiting for it\n", socket.c_str());
+    std::fprintf(stderr, "cornerctl: %s: the daemon closed the connection; waiting for it\n",
+                 socket.c_str());
     do {
       std::this_thread::sleep_for(retry);
       retry = std::min(retry * 2, kMaxReconnectDelay);

@@ -91,7 +91,7 @@ TEST(AbdIepf, RectangularRoom_FourWallsPlusCuts) {
       // The seam cuts one wall. The first chord is between its two sides, along that wall, and may
       // find any sample of the opposite one the farthest.
       EXPECT_LE(tracks.size(), 6U);
-      // No split is tested against the noise: with it there are more pieces, but of the same walls.
+      // IEPF does not test splits against the noise: noise gives more pieces of the same walls.
       const PolarScan points = testing::polar(source.take(*map, T_map_lidar));
       const SegmentTracks pieces = track(points, {threshold});
       EXPECT_GE(pieces.size(), 4U);
@@ -115,7 +115,7 @@ TEST(AbdIepf, Walls_StayWithinSplitLimitOfTheirChords) {
       EXPECT_GE(wall.first, free_from);
       EXPECT_LT(wall.last, points.size());
       EXPECT_EQ(wall.last - wall.first + 1, wall.support);
-      // After a cut, the chord that was judged began a sample earlier.
+      // After a split, the tested chord began one sample earlier.
       SegmentTrack judged = wall;
       if (wall.first > 0) --judged.first;
       const double limit_m = AbdIepfConfig().split_limit_m;
@@ -158,8 +158,8 @@ TEST(AbdIepf, PrintedLimit_MissesCornersOfSmallRoom) {
 }
 
 TEST(AbdIepf, EndsCoincide_SplitsAtFarthestSample) {
-  // The seam is in the middle of a wall, and that place is seen from both of its sides. A line
-  // through both would lie along the wall: the whole opposite one were at the same distance.
+  // The scan begins and ends in the middle of a wall. A chord through both ends would be along that
+  // wall, with the whole opposite wall at one distance.
   const auto map = testing::make_map(testing::rectangular_room(3, 2));
   testing::ScanSource source(45);
   testing::ScanOptions exact;
@@ -174,7 +174,7 @@ TEST(AbdIepf, EndsCoincide_SplitsAtFarthestSample) {
 }
 
 TEST(AbdIepf, FullScanOfNoise_StaysWithinCapacity) {
-  // Whatever the ranges are, each split is at a sample of its own.
+  // Each split is at a different sample.
   const auto map = testing::make_map(testing::rectangular_room(3, 2));
   testing::ScanSource source(46);
   testing::ScanOptions noise;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the baselines have in common, and what tells them apart.
+// Common properties of the baselines, and their differences.
 #include "baseline/wall_finders.hpp"
 
 #include <gtest/gtest.h>
@@ -36,7 +36,7 @@ std::size_t count_walls(std::string_view method, const Scan& scan) {
 }
 
 TEST(WallFinder, EachMethod_UsesItsOwnLimits) {
-  // A step below the 30 mm that the baselines allow, but above the noise that ALTBD knows.
+  // A step below the baselines' limit of 30 mm, but above the noise model of ALTBD.
   FloorPlan plan = testing::rectangular_room(3, 2);
   plan.walls.push_back({{1.5, 0.0125}, {3, 0.0125}, 0.025});
   testing::ScanSource source(26);
@@ -47,8 +47,8 @@ TEST(WallFinder, EachMethod_UsesItsOwnLimits) {
   EXPECT_EQ(count_walls("abd-iepf", stepped), 4U);
   EXPECT_EQ(count_walls("lt", stepped), 4U);
 
-  // A piece of the upper wall that gives no returns, as wide as a door: wider than lambda of ABD
-  // and than the gap that ALTBD bridges; LT bridges any.
+  // A gap without returns in the upper wall, as wide as a door: wider than lambda of ABD and than
+  // max_gap of ALTBD. LT continues over any gap.
   const Scan whole = source.take(*testing::make_map(testing::rectangular_room(3, 2)), {1.2, 1, 0});
   Scan gap;
   for (const Sample& sample : whole.samples()) {

@@ -18,7 +18,7 @@ TEST(OfficeBuilding, CornerCount_MatchesRequest) {
   EXPECT_LT(core::WallMap(office_building(20, 1)).corners().size(), 40U);
 }
 
-TEST(OfficeBuilding, EachRoom_HasADoorToTheCorridor) {
+TEST(OfficeBuilding, FreePose_IsInsideARoom) {
   const core::WallMap map(office_building(300, 2));
   EXPECT_GT(map.plan().rooms.size(), 20U);
   for (const core::Pose2& place : replay::random_poses(map, 50, 0.3, 3)) {

@@ -23,8 +23,8 @@ CoveredLidarResult run(std::string_view title, std::size_t drives) {
                                 *test_case, 1, drives);
 }
 
-/// 3 is exact. Two drives are a rough measure, and the filter reckons with a little more noise than
-/// these robots have; but a tenth of it would be as wrong as ten times as much.
+/// The mean of an exact covariance is 3. The bounds are wide, since two drives are few and the
+/// filter's noise exceeds these robots' a little.
 constexpr double kMinNees = 1.4;
 constexpr double kMaxNees = 4;
 
@@ -32,7 +32,7 @@ struct RobotBounds {
   const char* title;
   double max_nees_of_fixes = kMaxNees;
   double max_nees = kMaxNees;
-  double min_share = 0.9;  ///< of 95 %
+  double min_share = 0.9;  ///< 0.95 for an exact covariance
 };
 
 void PrintTo(const RobotBounds& bounds, std::ostream* out) { *out << bounds.title; }
@@ -50,7 +50,7 @@ class CoveredLidarRobot : public testing::TestWithParam<RobotBounds> {};
 TEST_P(CoveredLidarRobot, FixesAndPredictions_AreConsistent) {
   const RobotBounds& bounds = GetParam();
   const CoveredLidarResult result = run(bounds.title, 2);
-  // Bold fixes have fewer within.
+  // Overconfident fixes have a smaller share below kNees95.
   const double min_share = bounds.max_nees_of_fixes > kMaxNees ? 0.7 : bounds.min_share;
   expect_consistent(result.fixes, bounds.max_nees_of_fixes, min_share, "fixes");
   for (const AgeConsistency& ages : result.predicted) {
@@ -58,8 +58,8 @@ TEST_P(CoveredLidarRobot, FixesAndPredictions_AreConsistent) {
   }
 }
 
-// Without a gyro they are a little bolder than honest: those bounds hold what is (README.md of
-// core/odometry).
+// Without a gyro the covariance is slightly overconfident (src/bench/README.md); the bounds hold
+// that.
 INSTANTIATE_TEST_SUITE_P(Robots, CoveredLidarRobot,
                          testing::Values(RobotBounds{"16 cm robot"}, RobotBounds{"twice the noise"},
                                          RobotBounds{"slips every 3 m"},
@@ -99,7 +99,7 @@ TEST(CoveredLidarExperiment, BiasedLidar_PredictionsStayConsistent) {
 }
 
 TEST(CoveredLidarExperiment, RandomRobotsAfterThreeSeconds_AreConsistent) {
-  // The fixes' own doubt, which has yet to be learned, makes them cautious at first.
+  // The initial covariance is conservative, so the first range of ages has a small NEES.
   const auto result = run("after 3 s, robots drawn", 4).predicted;
   for (const AgeConsistency& ages : result) EXPECT_LT(ages.mean_nees, 4) << ages.from_s;
   for (std::size_t i = 1; i < result.size(); ++i) {

@@ -16,7 +16,7 @@ using core::Vec2;
 
 const Pose2 kTrueRoomPlace{0.5, 0.7, 2.5};
 
-/// A corner of the room of 2 by 3 m, seen `error` off from the true place.
+/// A corner of the room of 2 by 3 m, detected `error` off its true position.
 Breakpoint seen(const Vec2& corner, const Vec2& error = Vec2::Zero()) {
   Breakpoint breakpoint;
   breakpoint.position = kTrueRoomPlace.inverse() * (corner + error);

@@ -25,7 +25,8 @@ class OdometryExperiment : public ::testing::Test {
 };
 
 TEST_F(OdometryExperiment, AllModes_WithAndWithoutFactors) {
-  ASSERT_EQ(result_.tracks.size(), 13u);  // six as printed, six without the dead band, ours
+  ASSERT_EQ(result_.tracks.size(),
+            13u);  // six as printed, six without the dead band, least squares
   EXPECT_NEAR(result_.length_m, 7.9, 0.1);
   for (const ReckonedTrack& track : result_.tracks) {
     EXPECT_GT(track.error.places, 100u);

@@ -12,18 +12,18 @@ namespace cornerd::bench {
 namespace {
 
 TEST(PaperFigures, Sums_MatchTheText) {
-  // Section V.E and the abstract: 2, 10 and 23 errors at 43 places; section V.D: the mean times.
+  // Section V.E and the abstract: 2, 10 and 23 errors at 43 poses; section V.D: the mean times.
   std::array<std::size_t, kPaperMethodCount> errors{};
   std::array<double, kPaperMethodCount> times_ms{};
-  std::size_t places = 0;
+  std::size_t poses = 0;
   for (const PaperLocation& location : kPaperLocations) {
-    places += location.places;
+    poses += location.poses;
     for (std::size_t m = 0; m < kPaperMethodCount; ++m) {
       errors[m] += location.cells[m].false_corners;
-      times_ms[m] += location.cells[m].time_ms * static_cast<double>(location.places);
+      times_ms[m] += location.cells[m].time_ms * static_cast<double>(location.poses);
     }
   }
-  EXPECT_EQ(places, 43u);
+  EXPECT_EQ(poses, 43u);
   EXPECT_EQ(errors, (std::array<std::size_t, 3>{2, 10, 23}));
   for (std::size_t m = 0; m < kPaperMethodCount; ++m) {
     EXPECT_NEAR(times_ms[m] / 43, kPaperTimes_ms[m].mean, 0.01 * kPaperTimes_ms[m].mean);
@@ -40,7 +40,7 @@ TEST(PaperExperiment, EachMethodAndPose_HasResults) {
   const PaperResult& altbd = results.front();
   EXPECT_EQ(altbd.method.name, "altbd");
   std::size_t found = 0;
-  for (const PoseResult& place : altbd.places) {
+  for (const PoseResult& place : altbd.poses) {
     found += place.true_corners;
     EXPECT_GT(place.time_us, 0);
     ASSERT_TRUE(place.localizer_error_m);
@@ -55,7 +55,7 @@ TEST(PaperExperiment, EachMethodAndPose_HasResults) {
 TEST(PaperExperiment, NoRepeats_NoTimes) {
   const auto scans = simulate_paper_scans(contest_maps(), {}, 400, 1);
   const auto results = run_paper_experiment(scans, paper_methods().first(1), 0);
-  EXPECT_EQ(results[0].places[0].time_us, 0);
+  EXPECT_EQ(results[0].poses[0].time_us, 0);
 }
 
 }  // namespace

@@ -17,10 +17,10 @@ namespace {
 
 TEST(PaperPlaces, EachRoom_HasThePapersCount) {
   const auto maps = contest_maps();
-  const auto places = paper_poses(maps);
-  ASSERT_EQ(places.size(), 43u);
+  const auto poses = paper_poses(maps);
+  ASSERT_EQ(poses.size(), 43u);
   std::array<std::size_t, kPaperLocations.size()> counts{};
-  for (const PaperPose& place : places) {
+  for (const PaperPose& place : poses) {
     ++counts[place.location];
     const core::WallMap& map = *maps[place.map];
     const core::Vec2 point = place.T_map_lidar.translation();
@@ -40,11 +40,11 @@ TEST(PaperPlaces, Layouts_AreUsedInRotation) {
 }
 
 TEST(PaperPlaces, PosesOfARoom_AreApart) {
-  const auto places = paper_poses(contest_maps());
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    for (std::size_t j = i + 1; j < places.size(); ++j) {
+  const auto poses = paper_poses(contest_maps());
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    for (std::size_t j = i + 1; j < poses.size(); ++j) {
       const core::Vec2 way =
-          places[i].T_map_lidar.translation() - places[j].T_map_lidar.translation();
+          poses[i].T_map_lidar.translation() - poses[j].T_map_lidar.translation();
       EXPECT_GT(way.norm(), 0.02) << i << " and " << j;
     }
   }

@@ -22,7 +22,7 @@ TEST(RateExperiment, TenReadingsASecond_BeatLidarAlone) {
     EXPECT_EQ(with.fixes.wrong() + with.predicted.wrong(), 0u) << rate_hz;
     EXPECT_GT(with.fixes.scans(), alone.fixes.scans()) << rate_hz;
     EXPECT_LT(with.fixes.mean_error_m(), alone.fixes.mean_error_m()) << rate_hz;
-    // Of a turn in which it sets out before it is known how late the readings are.
+    // The first start, before the delay of the readings is estimated.
     EXPECT_LT(with.worst_fix_m, alone.worst_fix_m + 0.001) << rate_hz;
   }
 }

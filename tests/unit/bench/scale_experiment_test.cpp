@@ -22,7 +22,7 @@ TEST(ScaleExperiment, HundredRooms_EachScanIsFixed) {
   EXPECT_GT(result.time_99_us, 0);
 }
 
-/// One of these turns shows a bare corridor, which another one with two people in it looks like.
+/// One of these scans shows a bare corridor that resembles another one with two obstacles.
 TEST(ScaleExperiment, BareCorridor_NoFix) {
   const ScaleResult result = run_scale_case(scale_cases({2000}, 1)[0], 10, 1);
   EXPECT_EQ(result.score.wrong(), 0U);

@@ -24,9 +24,8 @@ Breakpoint detection(double x_m, double y_m, BreakpointKind kind = BreakpointKin
   return breakpoint;
 }
 
-/// What a perfect sensor at (1, 1) sees of a room of 2 by 3 m with a wall 18 mm thick that stands
-/// at x = 0.4 up to y = 0.7, and another one at y = 2 from x = 0.8 to 1.2 that hides a piece of a
-/// third.
+/// A noiseless sensor at (1, 1) in a room of 2 by 3 m, with a wall 18 mm thick at x = 0.4 up to y =
+/// 0.7, and another one at y = 2 from x = 0.8 to 1.2 that occludes a part of a third.
 class CornerScoring : public testing::Test {
  protected:
   CornerScoring() : map_(plan()), truth_(map_, 12) {
@@ -67,7 +66,7 @@ TEST_F(CornerScoring, TwoDetectionsOfACorner_NearerIsTrue) {
 }
 
 TEST_F(CornerScoring, WallEnd_OneTrueAndOneOneSided) {
-  // Seen from (1, 1) the wall at x = 0.4 shows its right face and its end.
+  // From (1, 1) the right face and the end of the wall at x = 0.4 are visible.
   const double right_m = 0.409 - 1;
   const double left_m = 0.391 - 1;
   EXPECT_THAT(judge({detection(left_m, -0.3)}), ElementsAre(Verdict::kTrue));
@@ -83,8 +82,8 @@ TEST_F(CornerScoring, OcclusionEdge_IsNeitherTrueNorFalse) {
 }
 
 TEST_F(CornerScoring, PrecisionAndRecall_MatchCounts) {
-  // The room's four corners, both walls of 5 returns; that at the foot of the thick wall on the
-  // right; the other foot is hidden. The corner at its end has few returns on 18 mm.
+  // The room's four corners and the right foot of the thick wall have 5 returns on both walls; the
+  // left foot is occluded. The corner at its end has few returns on 18 mm.
   const std::size_t supported = score_.supported();
   EXPECT_EQ(supported, 0u);
   judge({detection(1, 2), detection(1, -1, BreakpointKind::kTerminal), detection(0.5, 0.5),
@@ -97,7 +96,7 @@ TEST_F(CornerScoring, PrecisionAndRecall_MatchCounts) {
   EXPECT_DOUBLE_EQ(score_.recall_of_visible(), 2.0 / static_cast<double>(score_.visible()));
 }
 
-TEST_F(CornerScoring, Strictly_OneSidedEnds_AreFalse) {
+TEST_F(CornerScoring, StrictPrecision_OneSidedEndsAreFalse) {
   judge({detection(1, 2), detection(0.2, 1, BreakpointKind::kTerminal)});  // end of the thin wall
   EXPECT_DOUBLE_EQ(score_.precision(), 1);
   EXPECT_DOUBLE_EQ(score_.precision(true), 0.5);

@@ -17,13 +17,13 @@ core::FloorPlan room() {
 }
 
 SurveyScore score(const core::FloorPlan& found, const core::Pose2& start = {}) {
-  const std::vector<core::Pose2> places(20, core::Pose2{2, 1.5, 0});
-  return score_survey(core::WallMap(room()), places, core::WallMap(found), start);
+  const std::vector<core::Pose2> poses(20, core::Pose2{2, 1.5, 0});
+  return score_survey(core::WallMap(room()), poses, core::WallMap(found), start);
 }
 
 TEST(SurveyScoring, TrueMap_PerfectScore) {
   const SurveyScore result = score(room());
-  EXPECT_EQ(result.walls_seen, 4U);
+  EXPECT_EQ(result.walls_visible, 4U);
   EXPECT_EQ(result.walls_found, 4U);
   EXPECT_EQ(result.invented_m, 0);
   EXPECT_EQ(result.corners_found, 4U);

@@ -116,7 +116,7 @@ TEST(Config, WithoutAMap_IsReadWhereNoneIsRequired) {
   EXPECT_NO_THROW(parse_config("{}", kFile, {}, /*require_map=*/false));
 }
 
-TEST(Config, KernelOdometry_NamesItsDevicesAndReadsTheirMaxima) {
+TEST(Config, KernelOdometry_SetsDevicesAndIgnoresCounterMax) {
   const Config config = parse(R"({"map": "/m", "odometry": {"source": "kernel"}, "advanced":
     {"odometry": {"counter_max": 65535, "kernel": {
       "left": {"counter": "a", "count": 1, "reversed": true}, "right": {"counter": "a"},
@@ -136,7 +136,7 @@ TEST(Config, KernelOdometry_NamesItsDevicesAndReadsTheirMaxima) {
   EXPECT_EQ(config.localizer().odometry.geometry.counter_max, 0);
 }
 
-TEST(Config, MotorOnALineOfTheBoard_IsAnObject) {
+TEST(Config, MotorObject_SelectsALineOfTheBoard) {
   const Config gpio =
       overridden({R"(/advanced/lidar/motor={"kind": "gpio", "path": "/sys/gpio60"})"});
   EXPECT_EQ(gpio.lidar.motor.kind, rplidar::MotorKind::kGpio);

@@ -84,7 +84,7 @@ TEST(Override, WithoutPointerOrValue_IsAnError) {
   }
 }
 
-TEST(Override, BelowAValueThatIsNoObject_IsAnError) {
+TEST(Override, BelowANonObject_IsAnError) {
   EXPECT_THAT(error_of([] {
                 Json document = Json::parse(R"({"map": "/m"})");
                 apply_override(document, "/map/x=1");

@@ -57,7 +57,7 @@ TEST(MapFile, NameAndRooms_AreOptional) {
   EXPECT_TRUE(plan.rooms.empty());
 }
 
-TEST(MapFile, OtherJson_IsNoMap) {
+TEST(MapFile, OtherJson_IsRefused) {
   EXPECT_THAT(map_error("{}"), HasSubstr("/m/a.json: /format: must be \"cornerd-map\""));
   EXPECT_THAT(map_error(R"({"format": "other"})"), HasSubstr("/format"));
   EXPECT_THAT(map_error("[]"), EndsWith("must be an object"));
@@ -91,7 +91,7 @@ TEST(MapFile, WrongWall_IsNamedByItsIndex) {
               HasSubstr("/walls/0/thicknes: unknown key; did you mean \"thickness\"?"));
 }
 
-TEST(MapFile, WallOfNothing_IsRefused) {
+TEST(MapFile, WallWithoutLengthAndThickness_IsRefused) {
   EXPECT_THAT(wall_error(R"({"from": [1, 1], "to": [1, 1]})"),
               EndsWith("the wall has neither length nor thickness"));
   EXPECT_NO_THROW(parse_floor_plan(
@@ -110,7 +110,7 @@ TEST(MapFile, WrongRoom_IsNamedByItsIndex) {
               HasSubstr("/rooms/0/polygon/2: must be a point"));
 }
 
-TEST(MapFile, NameThatWouldCommandATerminal_IsRefused) {
+TEST(MapFile, ControlCharacterInName_IsRefused) {
   for (const char* name : {R"(a\u001b[2J)", R"(a\nb)", R"(\u007f)", R"(a\u009b2J)"}) {
     const std::string text = "\"name\": \"" + std::string(name) + "\"";
     EXPECT_THAT(map_error(map_of(std::string(kWall) + ", " + text)),
@@ -124,11 +124,11 @@ TEST(MapFile, NameThatWouldCommandATerminal_IsRefused) {
       "Küche 台所");
 }
 
-TEST(MapFile, FileNameThatWouldCommandATerminal_IsNoMapsName) {
+TEST(MapFile, ControlCharacterInFileName_IsReplaced) {
   EXPECT_EQ(parse_floor_plan(map_of(kWall), "a\x1b[2J\xc2\x9b.json").name, "a?[2J?");
 }
 
-TEST(MapFile, MoreWallsThanAnyBuilding_IsRefused) {
+TEST(MapFile, TooManyWalls_AreRefused) {
   std::string walls = "0";
   for (int i = 0; i < 100'000; ++i) walls += ",0";
   EXPECT_THAT(wall_error(walls), EndsWith("/walls: must have at most 100000 elements"));
@@ -149,7 +149,7 @@ TEST(LoadMap, AbsentFile_IsNamed) {
             "/nowhere/a.json: cannot be opened: No such file or directory");
 }
 
-TEST(LoadMap, WhatIsNoOrdinaryFile_IsNotWaitedFor) {
+TEST(LoadMap, PipeDeviceOrFolder_ThrowsAtOnce) {
   const test::TemporaryFolder folder;
   const std::string pipe = folder / "pipe";
   ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
@@ -161,7 +161,7 @@ TEST(LoadMap, WhatIsNoOrdinaryFile_IsNotWaitedFor) {
             folder.path().string() + ": is a folder");
 }
 
-TEST(LoadMap, PipeThatSomebodyWrites_IsReadToItsEnd) {
+TEST(LoadMap, PipeWithWriter_IsReadCompletely) {
   const test::TemporaryFolder folder;
   const std::string pipe = folder / "pipe";
   ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);

@@ -50,10 +50,10 @@ TEST(Survey, TwoRooms_AreMappedToMillimetres) {
   const core::WallMap found(result.plan);
   const auto score =
       bench::score_survey(*two_rooms(), simulated.T_map_base, found, simulated.T_map_base[0]);
-  EXPECT_EQ(score.walls_found, score.walls_seen);
-  EXPECT_GE(score.walls_seen, 9U);
+  EXPECT_EQ(score.walls_found, score.walls_visible);
+  EXPECT_GE(score.walls_visible, 9U);
   EXPECT_LT(score.invented_m, 0.05);
-  EXPECT_EQ(score.corners_found, score.corners_seen);
+  EXPECT_EQ(score.corners_found, score.corners_visible);
   EXPECT_LT(score.corner_median_m(), 0.002);
   EXPECT_LT(score.corner_max_m(), 0.01);
   ASSERT_TRUE(result.learned.has_value());
@@ -93,7 +93,7 @@ TEST(Survey, WithoutOdometry_OverlappingScans_GiveTheMap) {
   const core::WallMap found(result.plan);
   const auto score =
       bench::score_survey(*two_rooms(), simulated.T_map_base, found, simulated.T_map_base[0]);
-  EXPECT_EQ(score.walls_found, score.walls_seen);
+  EXPECT_EQ(score.walls_found, score.walls_visible);
   EXPECT_LT(score.corner_median_m(), 0.005);
 }
 
@@ -131,7 +131,7 @@ void expect_correct_without_odometry(const bench::SimulatedDrive& simulated,
   EXPECT_FALSE(result.has_odometry);
   const auto score = bench::score_survey(*two_rooms(), simulated.T_map_base,
                                          core::WallMap(result.plan), simulated.T_map_base[0]);
-  EXPECT_EQ(score.walls_found, score.walls_seen);
+  EXPECT_EQ(score.walls_found, score.walls_visible);
   EXPECT_LT(score.invented_m, 0.05);
   EXPECT_LT(score.corner_max_m(), 0.01);
 }

@@ -30,8 +30,8 @@ TEST(CramerRao, FourTimesTheSamples_HalfTheBound) {
 }
 
 TEST(CramerRao, RangeNoiseAlone_MatchesClosedForm) {
-  // Each wall tells about the direction across it, by every ray that meets it, whose range errs by
-  // the same: n rays at angles a to the wall give n * sin^2(a) / (sigma * sin(a))^2 = n / sigma^2.
+  // Each wall constrains its normal: n rays at angles a to the wall give an information of n *
+  // sin^2(a) / (sigma * sin(a))^2 = n / sigma^2.
   const auto map = replay::make_room();
   const core::Pose2 place{1.2, 1.1, 0};
   core::SensorNoise noise;
@@ -41,7 +41,7 @@ TEST(CramerRao, RangeNoiseAlone_MatchesClosedForm) {
   const core::PolarScan scan = scan_at(*map, place, 3600);
   const core::Covariance3 bound = CramerRao(noise, 12).bound(*map, place, scan);
   const core::Covariance3 information = bound.inverse();
-  // Two by two, the walls share the rays: together x and y get one each.
+  // Opposite walls share the rays: x and y together get one information of n / sigma^2 each.
   const double rays = information(0, 0) + information(1, 1);
   double expected = 0;
   for (const core::PolarPoint& point : scan.points()) {

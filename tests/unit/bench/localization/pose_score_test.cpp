@@ -65,14 +65,14 @@ TEST(PoseScore, Bound_ScalesTheError) {
 
 namespace {
 
-core::PoseEstimate answer(core::PoseState state, double doubt) {
+core::PoseEstimate answer(core::PoseState state, double p_wrong) {
   core::PoseEstimate estimate;
   estimate.state = state;
-  estimate.p_wrong = doubt;
+  estimate.p_wrong = p_wrong;
   estimate.T_map_base = {1, 2, 0};
   if (state == core::PoseState::kAmbiguous) {
     estimate.T_map_base = {};
-    estimate.alternatives = {{{1, 2, 0}, 1 - doubt}, {{5, 2, 0}, doubt}};
+    estimate.alternatives = {{{1, 2, 0}, 1 - p_wrong}, {{5, 2, 0}, p_wrong}};
   }
   return estimate;
 }
@@ -89,7 +89,7 @@ TEST(Reliability, Poses_AreBinnedByPWrong) {
   EXPECT_EQ(bins.front().wrong, 1u);
   EXPECT_EQ(bins.back().scans, 2u);
   EXPECT_EQ(bins.back().wrong, 1u);
-  EXPECT_NEAR(bins.back().doubt, 0.7, 1e-12);
+  EXPECT_NEAR(bins.back().expected_wrong, 0.7, 1e-12);
 }
 
 TEST(Reliability, Sum_CountsBoth) {

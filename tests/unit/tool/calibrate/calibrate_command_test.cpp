@@ -83,10 +83,10 @@ TEST_F(CalibrateNoise, ReturnsOfNoWall_AreAFailureThatSaysSo) {
     std::mt19937 random(3);
     std::uniform_real_distribution<double> range_m(0.3, 6);
     std::ofstream file(path("chance.ndjson"));
-    for (int i = 0; i < 60; ++i) {
-      nlohmann::json scan = {{"class", "SCAN"}, {"t", 0.2 * i}, {"duration", 0.18}};
-      for (int k = 0; k < 300; ++k) {
-        scan["angles"].push_back(0.02 * k);
+    for (int k = 0; k < 60; ++k) {
+      nlohmann::json scan = {{"class", "SCAN"}, {"t", 0.2 * k}, {"duration", 0.18}};
+      for (int i = 0; i < 300; ++i) {
+        scan["angles"].push_back(0.02 * i);
         scan["ranges"].push_back(range_m(random));
       }
       file << scan << '\n';
@@ -94,7 +94,7 @@ TEST_F(CalibrateNoise, ReturnsOfNoWall_AreAFailureThatSaysSo) {
   }
   const CommandRun run({"calibrate", "noise", path("chance.ndjson"), "-o", path("noise.json")});
   EXPECT_EQ(run.exit_code, kExitFailed);
-  EXPECT_THAT(run.err, HasSubstr("too scattered to be of walls"));
+  EXPECT_THAT(run.err, HasSubstr("too scattered for walls"));
   EXPECT_FALSE(std::filesystem::exists(path("noise.json")));
 }
 
@@ -206,7 +206,7 @@ TEST_F(CalibrateBias, MapThatIsNotToScale_IsAnErrorAndWritesNothing) {
 TEST_F(CalibrateBias, TooFewScans_AreAnError) {
   const CommandRun run({"calibrate", "bias", recording("0.002", "5"), "--map", path("hall.json")});
   EXPECT_EQ(run.exit_code, kExitFailed);
-  EXPECT_THAT(run.err, HasSubstr("scans were found"));
+  EXPECT_THAT(run.err, HasSubstr("scans were localized"));
 }
 
 }  // namespace

@@ -46,7 +46,8 @@ TEST_F(CheckClaimers, RulesOfThePackage_KeepGpsdOff) {
 
 TEST_F(CheckClaimers, GpsdThatIsGivenThePort_IsToLeaveIt) {
   stand_in_.write("/etc/default/gpsd", "DEVICES=\"/dev/ttyS1 /dev/rplidar\"\nUSBAUTO=\"false\"\n");
-  EXPECT_THAT(findings(), ElementsAre(Finds(Verdict::kWrong, "gpsd", "told to read /dev/ttyUSB0")));
+  EXPECT_THAT(findings(),
+              ElementsAre(Finds(Verdict::kWrong, "gpsd", "configured to read /dev/ttyUSB0")));
 }
 
 TEST_F(CheckClaimers, GpsdBesideAUartOfTheBoard_DoesNotMind) {
@@ -60,7 +61,7 @@ TEST_F(CheckClaimers, GpsdBesideAUartOfTheBoard_DoesNotMind) {
 TEST_F(CheckClaimers, ModemManager_GoesByWhatUdevNoted) {
   stand_in_.run_process(9, "ModemManager");
   const auto found = findings();
-  ASSERT_THAT(found, ElementsAre(Finds(Verdict::kWrong, "modems", "ModemManager talks")));
+  ASSERT_THAT(found, ElementsAre(Finds(Verdict::kWrong, "modems", "ModemManager probes")));
   EXPECT_THAT(found[0].remedies, ElementsAre(HasSubstr("udev rules"), HasSubstr("mask --now")));
   stand_in_.write("/run/udev/data/c188:0", "S:rplidar\nE:ID_MM_PORT_IGNORE=1\n");
   EXPECT_THAT(findings(), ElementsAre(Finds(Verdict::kGood, "modems", "leaves the port alone")));
@@ -69,7 +70,7 @@ TEST_F(CheckClaimers, ModemManager_GoesByWhatUdevNoted) {
 TEST_F(CheckClaimers, Brltty_TakesCp2102s) {
   stand_in_.run_process(9, "brltty");
   EXPECT_THAT(findings(), ElementsAre(Finds(Verdict::kWrong, "brltty", "Braille")));
-  EXPECT_THAT(findings()[0].what, Not(HasSubstr("has this one")));
+  EXPECT_THAT(findings()[0].what, Not(HasSubstr("probably has the lidar's")));
 }
 
 TEST_F(CheckClaimers, BrlttyThatHasTaken_IsNamed) {
@@ -79,7 +80,7 @@ TEST_F(CheckClaimers, BrlttyThatHasTaken_IsNamed) {
   }
   stand_in_.run_process(9, "brltty");
   const auto found = findings();
-  ASSERT_THAT(found, ElementsAre(Finds(Verdict::kWrong, "brltty", "has this one")));
+  ASSERT_THAT(found, ElementsAre(Finds(Verdict::kWrong, "brltty", "probably has the lidar's")));
   EXPECT_THAT(found[0].remedies, ElementsAre(HasSubstr("apt remove brltty"), HasSubstr("plug")));
 }
 
@@ -92,7 +93,7 @@ TEST(CheckClaimersOfNothing, NothingPluggedIn_AllAreAskedAllTheSame) {
   stand_in.write("/etc/default/gpsd", "USBAUTO=\"true\"\n");
   EXPECT_THAT(check_claimers(stand_in.patient),
               ElementsAre(Finds(Verdict::kWrong, "gpsd", "every CP2102"),
-                          Finds(Verdict::kWrong, "modems", "ModemManager talks"),
+                          Finds(Verdict::kWrong, "modems", "ModemManager probes"),
                           Finds(Verdict::kWrong, "brltty", "Braille")));
   stand_in.write("/etc/udev/rules.d/61-cornerd.rules");
   EXPECT_THAT(check_claimers(stand_in.patient),
@@ -117,7 +118,7 @@ TEST(CheckClaimersOfNothing, PortUnderAnotherName_GoesByItsNotes) {
   stand_in.run_process(8, "ModemManager");
   stand_in.write("/run/udev/data/c188:0", "E:ID_MODEL=CP2102\n");
   EXPECT_THAT(check_claimers(stand_in.patient),
-              ElementsAre(Finds(Verdict::kWrong, "modems", "ModemManager talks")));
+              ElementsAre(Finds(Verdict::kWrong, "modems", "ModemManager probes")));
 }
 
 }  // namespace

@@ -48,7 +48,7 @@ TEST_F(CheckDaemon, FaultOfTheLidar_IsToldInTheDaemonsWords) {
   status.lidar_fault = "dead-laser";
   status.lidar_detail = "/dev/rplidar: its head turns, but nothing returns";
   EXPECT_THAT(check_daemon(stand_in_.patient)[1],
-              Finds(Verdict::kWrong, "lidar", "faulty, dead-laser: /dev/rplidar: its head scans"));
+              Finds(Verdict::kWrong, "lidar", "faulty, dead-laser: /dev/rplidar: its head turns"));
   EXPECT_THAT(check_poses(stand_in_.patient), IsEmpty());
 }
 
@@ -79,8 +79,7 @@ TEST_F(CheckDaemon, ReadingsThatComeTooSeldom_AreNamed) {
   daemon().odometry_hz = 12;
   EXPECT_THAT(check_daemon(stand_in_.patient)[2],
               Finds(Verdict::kNote, "odometry",
-                    "12.0 readings a second: fixes of a robot in motion "
-                    "are worse than they say"));
+                    "12.0 readings a second: few, the covariance of fixes in motion is too small"));
   daemon().odometry_hz = 4.9;
   const Finding few = check_daemon(stand_in_.patient)[2];
   EXPECT_THAT(few, Finds(Verdict::kWrong, "odometry", "4.9 readings a second: too few"));
@@ -90,7 +89,7 @@ TEST_F(CheckDaemon, ReadingsThatComeTooSeldom_AreNamed) {
               ElementsAre("advanced.odometry.kernel.rate: 50"));
   daemon().odometry_hz = 0;
   EXPECT_THAT(check_daemon(stand_in_.patient)[2],
-              Finds(Verdict::kNote, "odometry", "no reading comes"));
+              Finds(Verdict::kNote, "odometry", "no reading arrives"));
 }
 
 TEST_F(CheckDaemon, WhyThereIsNoOdometry_IsToldInTheDaemonsWordsOnce) {
@@ -136,7 +135,7 @@ TEST_F(CheckDaemon, Poses_AreGoodWhereHalfOfThemNameAPlace) {
 
 TEST_F(CheckDaemon, LostAndAmbiguous_HaveDifferentCures) {
   see(1, 0, 9);
-  EXPECT_THAT(check_poses(stand_in_.patient)[0].remedies[0], HasSubstr("right map"));
+  EXPECT_THAT(check_poses(stand_in_.patient)[0].remedies[0], HasSubstr("map is right"));
   see(1, 8, 1);
   EXPECT_THAT(check_poses(stand_in_.patient)[0].remedies[0], HasSubstr("look-alike"));
 }
@@ -155,11 +154,11 @@ TEST(CheckControl, OutsideTheGroup_OnlyReads) {
   stand_in.write("/etc/passwd", "ada:x:1000:1000::/:/bin/sh\n");
   stand_in.write("/etc/group", "cornerd:x:990:\n");
   const auto found = check_control(stand_in.patient);
-  ASSERT_THAT(found, ElementsAre(Finds(Verdict::kNote, "control", "send no requests")));
+  ASSERT_THAT(found, ElementsAre(Finds(Verdict::kNote, "control", "not send requests")));
   EXPECT_THAT(found[0].remedies, ElementsAre(HasSubstr("usermod -aG cornerd ada")));
   stand_in.write("/etc/group", "cornerd:x:990:ada\n");
   EXPECT_THAT(check_control(stand_in.patient),
-              ElementsAre(Finds(Verdict::kNote, "control", "older")));
+              ElementsAre(Finds(Verdict::kNote, "control", "began before")));
   stand_in.patient.caller.gids.insert(990);
   EXPECT_THAT(check_control(stand_in.patient),
               ElementsAre(Finds(Verdict::kGood, "control", "may send requests")));

@@ -80,7 +80,7 @@ TEST_F(CheckHolders, ProcessesThatHideTheirFiles_AreOwnedUpTo) {
   stand_in_.run_process(91, "secret");
   const auto found = findings();
   ASSERT_THAT(found,
-              ElementsAre(Finds(Verdict::kNote, "holder", "nobody whose files you may see")));
+              ElementsAre(Finds(Verdict::kNote, "holder", "no process that you may inspect")));
   EXPECT_THAT(found[0].remedies, ElementsAre(HasSubstr("sudo cornerctl doctor")));
 }
 

@@ -59,7 +59,7 @@ TEST_F(CheckPower, HubWithoutASupply_IsNoted) {
               ElementsAre(Finds(Verdict::kGood, "power", "no trace")));
   behind_hub.write(hub + "/bmAttributes", "a0\n");
   EXPECT_THAT(check_power(behind_hub.patient),
-              ElementsAre(Finds(Verdict::kNote, "power", "hub without a supply")));
+              ElementsAre(Finds(Verdict::kNote, "power", "hub without its own supply")));
 }
 
 TEST_F(CheckPower, KernelLog_IsCounted) {

@@ -76,7 +76,7 @@ TEST_F(CheckReading, HomesAndTemporaryFolders_AreNotSeenByTheService) {
   for (const std::string folder : {"/home", "/root", "/run/user", "/tmp", "/var/tmp"}) {
     use_map(folder + "/ada/home.json");
     const auto found = findings();
-    ASSERT_THAT(found, ElementsAre(Finds(Verdict::kWrong, "map", "sees nothing of " + folder)));
+    ASSERT_THAT(found, ElementsAre(Finds(Verdict::kWrong, "map", "cannot see " + folder)));
     EXPECT_THAT(found[0].remedies[0],
                 HasSubstr("sudo install -m 644 " + folder + "/ada/home.json"));
   }
@@ -88,16 +88,16 @@ TEST_F(CheckReading, LinkIntoAHome_IsFollowed) {
   put("/home/ada/home.json");
   stand_in_.link("/etc/cornerd/map.json", "/home/ada/home.json");
   stand_in_.patient.config.map = "/etc/cornerd/map.json";
-  EXPECT_THAT(findings(), ElementsAre(Finds(Verdict::kWrong, "map", "nothing of /home")));
+  EXPECT_THAT(findings(), ElementsAre(Finds(Verdict::kWrong, "map", "cannot see /home")));
 }
 
 TEST_F(CheckReading, HomesThatAreALink_AreHiddenByBothNames) {
   put("/data/homes/ada/home.json");
   stand_in_.link("/home", "data/homes");
   stand_in_.patient.config.map = "/home/ada/home.json";
-  EXPECT_THAT(findings(), ElementsAre(Finds(Verdict::kWrong, "map", "nothing of /home")));
+  EXPECT_THAT(findings(), ElementsAre(Finds(Verdict::kWrong, "map", "cannot see /home")));
   stand_in_.patient.config.map = "/data/homes/ada/home.json";
-  EXPECT_THAT(findings(), ElementsAre(Finds(Verdict::kWrong, "map", "nothing of /home")));
+  EXPECT_THAT(findings(), ElementsAre(Finds(Verdict::kWrong, "map", "cannot see /home")));
 }
 
 TEST_F(CheckReading, UnitThatShowsHomes_IsBelieved) {
@@ -117,7 +117,7 @@ TEST_F(CheckReading, RecordingInTheLidarsPlace_IsReadToo) {
   stand_in_.patient.config.lidar.driver = settings::DriverKind::kReplay;
   stand_in_.patient.config.lidar.file = "/tmp/a.bin";
   put("/tmp/a.bin");
-  EXPECT_THAT(findings(), ElementsAre(Finds(Verdict::kWrong, "recording", "nothing of /tmp")));
+  EXPECT_THAT(findings(), ElementsAre(Finds(Verdict::kWrong, "recording", "cannot see /tmp")));
 }
 
 TEST_F(CheckReading, MissingFile_IsLeftToTheOthers) {

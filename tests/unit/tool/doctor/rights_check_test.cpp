@@ -38,7 +38,7 @@ TEST_F(CheckRights, CallerOutsideTheGroup_IsToJoinIt) {
 
 TEST_F(CheckRights, SessionOlderThanTheMembership_IsToBeRenewed) {
   stand_in_.write("/etc/group", "dialout:x:20:ada\n");
-  EXPECT_THAT(judge(20, 0660).remedies, ElementsAre(HasSubstr("this session is older")));
+  EXPECT_THAT(judge(20, 0660).remedies, ElementsAre(HasSubstr("this session began before")));
   stand_in_.patient.caller.gids.insert(20);
   EXPECT_THAT(judge(20, 0660), Finds(Verdict::kGood, "rights", "ada may open"));
 }

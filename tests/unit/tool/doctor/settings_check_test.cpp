@@ -47,7 +47,7 @@ TEST_F(CheckSettings, WrongMap_IsNamed) {
 }
 
 TEST_F(CheckSettings, WithoutMap_ThereIsNoPose) {
-  EXPECT_THAT(check("{}").findings[1], Finds(Verdict::kWrong, "map", "name none"));
+  EXPECT_THAT(check("{}").findings[1], Finds(Verdict::kWrong, "map", "names none"));
 }
 
 TEST_F(CheckSettings, MapWithoutCorners_IsNoUse) {

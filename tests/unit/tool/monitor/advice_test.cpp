@@ -4,7 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "monitor/told.hpp"
+#include "monitor/daemon_lines.hpp"
 
 namespace cornerd::tool {
 namespace {
@@ -34,10 +34,10 @@ TEST_F(AdviceTest, FixesOfARunningLidar_AreWell) {
 }
 
 TEST_F(AdviceTest, Daemon_IsMissedFirst) {
-  expect(Style::kDim, "waiting for the daemon's first word", "");
+  expect(Style::kDim, "waiting for the daemon's first message", "");
   take_line(status_line());
   now_ns_ += 9 * core::kNsPerSecond / 2;
-  expect(Style::kBad, "the daemon has said nothing for 4 s", "doctor");
+  expect(Style::kBad, "no message from the daemon for 4 s", "doctor");
   state_.lose("/run/pose.sock: No such file", 0);
   now_ns_ = 12 * core::kNsPerSecond;
   expect(Style::kBad, "no daemon since 12 s: /run/pose.sock: No such file",
@@ -54,20 +54,20 @@ TEST_F(AdviceTest, Lidar_SpeaksForItself) {
 
 TEST_F(AdviceTest, NoScans_AdvisesDoctor) {
   take_line(status_line());
-  expect(Style::kWarning, "the lidar runs, and no scan is over yet", "");
+  expect(Style::kWarning, "the lidar runs, but no scan is complete yet", "");
   take_line(kFixLine, 5);
   now_ns_ += 5 * core::kNsPerSecond / 2;
-  expect(Style::kBad, "the lidar runs, and no scans come", "doctor");
+  expect(Style::kBad, "the lidar runs, but no scans come", "doctor");
 }
 
 TEST_F(AdviceTest, EachStateWithoutPlace_HasItsOwn) {
   take_line(status_line());
   take_line(kLostLine);
-  expect(Style::kBad, "no place of the map fits what the lidar sees", "lidar.mount");
+  expect(Style::kBad, "no pose in the map fits the scan", "lidar.mount");
   take_line(kAmbiguousLine);
-  expect(Style::kWarning, "2 places fit what the lidar sees", "map check");
+  expect(Style::kWarning, "2 poses fit the scan", "map check");
   take_line(kPredictedLine);
-  expect(Style::kWarning, "by wheels and gyro alone for 1.2 s", "covered");
+  expect(Style::kWarning, "dead reckoned for 1.2 s", "covered");
 }
 
 TEST_F(AdviceTest, TooFewFixes_AreCounted) {
@@ -76,7 +76,7 @@ TEST_F(AdviceTest, TooFewFixes_AreCounted) {
   take_line(kFixLine, 14);
   expect(Style::kGood, "all is well", "");
   take_line(kFixLine);
-  expect(Style::kWarning, "5 of the last 20 scans named no place", "not on the map");
+  expect(Style::kWarning, "5 of the last 20 scans gave no pose", "unmapped obstacles");
 }
 
 TEST_F(AdviceTest, SensorsLineAndMessages_ComeLast) {
@@ -93,7 +93,7 @@ TEST_F(AdviceTest, SensorsLineAndMessages_ComeLast) {
   expect(Style::kWarning, "odometry: lines lack left", "doctor");
   take_line(status_line());
   take_line("hello");
-  EXPECT_THAT(advice().what, HasSubstr("makes no sense"));
+  EXPECT_THAT(advice().what, HasSubstr("invalid message"));
 }
 
 }  // namespace

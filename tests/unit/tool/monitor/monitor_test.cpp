@@ -17,7 +17,7 @@
 #include <string>
 
 #include "listening_socket.hpp"
-#include "monitor/told.hpp"
+#include "monitor/daemon_lines.hpp"
 #include "tests/temporary_folder.hpp"
 
 namespace cornerd::tool {

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "monitor/told.hpp"
+#include "monitor/daemon_lines.hpp"
 
 namespace cornerd::tool {
 namespace {

@@ -6,7 +6,7 @@
 
 #include <algorithm>
 
-#include "monitor/told.hpp"
+#include "monitor/daemon_lines.hpp"
 
 namespace cornerd::tool {
 namespace {
@@ -152,7 +152,7 @@ TEST_F(Screen, AmbiguousPose_MarksItsPlaces) {
   const std::string text = shown(80, 24);
   const std::size_t map_marks = static_cast<std::size_t>(std::count(text.begin(), text.end(), '?'));
   EXPECT_EQ(map_marks, 4U);  // two on the map, two beside it
-  EXPECT_THAT(text, HasSubstr("2 places fit"));
+  EXPECT_THAT(text, HasSubstr("2 poses fit"));
 }
 
 TEST_F(Screen, Zoom_PutsTheRobotInTheMiddle) {
