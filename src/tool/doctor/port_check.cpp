@@ -37,8 +37,8 @@ Finding absent_port(const Patient& patient, const std::vector<UsbAdapter>& adapt
     if (adapter.port.empty()) {
       finding.what += "; an adapter (" + adapter.describe() + ") is plugged in, without a driver";
       finding.remedies.emplace_back(find_process(patient.machine, "brltty")
-                                     ? "take it from brltty, see below"
-                                     : "sudo modprobe cp210x");
+                                        ? "take it from brltty, see below"
+                                        : "sudo modprobe cp210x");
       continue;
     }
     finding.what += "; there is /dev/" + adapter.port + " (" + adapter.describe() + ")";
@@ -50,14 +50,15 @@ Finding absent_port(const Patient& patient, const std::vector<UsbAdapter>& adapt
                     std::string(kReloadRules));
     }
     finding.remedies.push_back("or set lidar.device to \"/dev/" + adapter.port + "\" in " +
-                            patient.config_name);
+                               patient.config_name);
   }
   if (!finding.remedies.empty() && finding.remedies.front().starts_with("or ")) {
     finding.remedies.front().erase(0, 3);
   }
   if (finding.remedies.empty()) finding.remedies = remedies_without_adapter(device);
   if (patient.machine.exists(device)) {
-    finding.remedies.emplace_back("lidar.device must name a port, as /dev/rplidar or /dev/ttyS4 do");
+    finding.remedies.emplace_back(
+        "lidar.device must name a port, as /dev/rplidar or /dev/ttyS4 do");
   }
   return finding;
 }

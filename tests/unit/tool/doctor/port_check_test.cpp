@@ -95,7 +95,8 @@ TEST(CheckPort, NothingPluggedIn_AsksForPlugAndCable) {
   const StandIn stand_in;
   const auto findings = check_port(stand_in.patient);
   ASSERT_THAT(findings, ElementsAre(Finds(Verdict::kWrong, "port", "/dev/rplidar: no such port")));
-  EXPECT_THAT(findings[0].remedies, ElementsAre(HasSubstr("plug the lidar in"), HasSubstr("cable")));
+  EXPECT_THAT(findings[0].remedies,
+              ElementsAre(HasSubstr("plug the lidar in"), HasSubstr("cable")));
 }
 
 TEST(CheckPort, UartsOfABoard_AreExplained) {
