@@ -61,7 +61,8 @@ TEST_F(OdometryCommandTest, LinesThatLackAWheel_AreHintedAt) {
   const std::string wrong = folder_ / "wrong.ndjson";
   rewrite(wrong, [](json& line) { line.erase("left"); });
   const CommandRun run({"replay", wrong, "--map", map_, "--set", "/odometry/source=socket"});
-  EXPECT_THAT(run.out, HasSubstr(R"("odometry":{"state":"absent","hint":"lines lack left: )"));
+  EXPECT_THAT(run.out,
+              HasSubstr(R"("odometry":{"state":"absent","hint":"ODOMETRY lines lack left: )"));
 }
 
 TEST_F(OdometryCommandTest, OdometryFile_OverridesRecording) {

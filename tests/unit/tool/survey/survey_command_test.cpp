@@ -146,7 +146,7 @@ TEST_F(SurveyCommandTest, InconsistentWheels_AreRejectedWithRemedy) {
   EXPECT_NE(run.out.find("by the lidar alone\n"), std::string::npos) << run.out;
   EXPECT_NE(run.out.find("WARNING: the odometry contradicts the lidar"), std::string::npos);
   EXPECT_NE(run.out.find("odometry.counts_per_turn"), std::string::npos);
-  EXPECT_NE(run.out.find("sides of walls are square to each other"), std::string::npos);
+  EXPECT_NE(run.out.find("wall faces are square to each other"), std::string::npos);
 }
 
 TEST_F(SurveyCommandTest, InconsistentWheelsWithoutLidarMatch_FailWithRemedy) {
