@@ -4,10 +4,10 @@
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME cornerd)
 set(CPACK_PACKAGE_CONTACT "The cornerd authors <cornerd@example.org>")
-set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "tells a robot where it is, by one turn of a cheap lidar")
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "tells a robot where it is, from one scan of a cheap lidar")
 set(CPACK_DEBIAN_PACKAGE_DESCRIPTION
 "cornerd reads an RPLidar A1 on a serial port, finds the corners and wall ends
-of the room in every turn, recognises their pattern in a map of the building
+of the room in every scan, recognises their pattern in a map of the building
 as a star tracker recognises stars, and publishes the robot's pose, with an
 honest covariance, on a UNIX socket. cornerctl watches, records, replays,
 simulates and draws.")

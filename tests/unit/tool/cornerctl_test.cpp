@@ -192,7 +192,7 @@ TEST_F(Cornerctl, MapRender_DrawsTheRecordingInTheMap) {
   EXPECT_EQ(find_xml_error(picture), "");
   EXPECT_THAT(picture, HasSubstr("id=\"scan\""));
   EXPECT_THAT(picture, HasSubstr("id=\"points\""));
-  EXPECT_THAT(picture, HasSubstr("4 of 4 scans found"));
+  EXPECT_THAT(picture, HasSubstr("4 of 4 scans localized"));
 }
 
 TEST_F(Cornerctl, MapRenderWithATrajectory_DrawsTheRecordingFromThere) {

@@ -131,7 +131,7 @@ TEST_F(Screen, LidarView_IsAroundTheLidar) {
        x                        lidar running
 
 
-no place of the map fits what the lidar sees
+no pose in the map fits the scan
 q quit  + - zoom  l lidar's view  a ASCII         |------| 0.5 m
 )");
 }
