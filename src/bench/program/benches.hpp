@@ -20,8 +20,8 @@ struct LocalizationBenchOptions {
 /// cornerd-bench --localizer: precision, consistency, adversity, motion, kidnapping and cost.
 void run_localization_bench(const LocalizationBenchOptions& options);
 
-/// What valgrind is started on: localizes in `scans` scans and says nothing. `tracking`: with what
-/// the scans before told, else each without.
+/// The workload for valgrind: localizes `scans` scans without output. `tracking`: with the prior of
+/// the scans before, else without.
 void only_localize_in_arena(const LocalizationBenchOptions& options, std::size_t scans,
                             bool tracking);
 
@@ -50,7 +50,7 @@ struct ScaleBenchOptions {
 /// a picture.
 void run_scale_bench(const ScaleBenchOptions& options);
 
-/// What valgrind is started on: localizes `times` in each scan and says nothing.
+/// The workload for valgrind: localizes each scan `times` without output.
 void only_localize(const ScaleBenchOptions& options, std::size_t times);
 
 struct SurveyBenchOptions {

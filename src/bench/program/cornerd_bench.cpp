@@ -63,7 +63,7 @@ std::vector<NamedMethod> chosen_methods(const BenchOptions& options) {
 /// The noise of the published experiment, as far as an A1's has been measured.
 replay::SensorModel usual_sensor() { return default_conditions().front().sensor; }
 
-/// What a counter of instructions is started on: it does nothing else.
+/// The workload for the instruction counter.
 void only_detect(const BenchOptions& options) {
   const auto maps = load_contest_maps(options.maps);
   const auto scans = simulate_paper_scans(maps, usual_sensor(), options.samples, options.seed);
@@ -131,7 +131,7 @@ void run_localizer(const BenchOptions& options) {
 void guard_maps(const BenchOptions& options) {
   if (options.json.empty() || (options.scale && options.maps.empty())) return;
   tool::CommandFiles files{.read = {}, .written = {}, .output = options.json};
-  std::error_code ignored;  // a folder that cannot be read is told when its maps are
+  std::error_code ignored;  // load_contest_maps() reports an unreadable folder
   for (const auto& entry :
        std::filesystem::directory_iterator(contest_maps_folder(options.maps), ignored)) {
     files.read.push_back(entry.path());
@@ -168,7 +168,7 @@ void run_bench(const BenchOptions& options) {
     only_detect(options);
     return;
   }
-  // Before the work: whatever cannot be written is said at once.
+  // Fails before the work if the file cannot be written.
   std::unique_ptr<tool::Output> json;
   if (options.json == "-") json = std::make_unique<tool::Output>();
   if (!options.json.empty() && !json) {
@@ -207,7 +207,7 @@ void add_options(tool::Command& program, const std::shared_ptr<BenchOptions>& op
       "returns, things in the way, a displaced wall, a closed door, in motion, kidnapped; "
       "--positions: places for each, else 1,000");
   program.add_flag("--odometry", options->odometry,
-                   "instead: the paper's modes of odometry on its drives, and poses carried on "
+                   "instead: the paper's modes of odometry on its drives, and poses dead reckoned "
                    "without the lidar; "
                    "--maps: with flat-7.json");
   program.add_flag("--survey", options->survey,
@@ -241,7 +241,7 @@ void add_options(tool::Command& program, const std::shared_ptr<BenchOptions>& op
   program.add_option("--json", options->json, "all figures; -: on standard output, and no text")
       .type_name("FILE");
   program.add_option("--only-detect", options->detections)
-      .hidden();  // hidden: what valgrind is started on
+      .hidden();  // hidden: the workload for valgrind
   program.add_option("--only-localize", options->only_localize).hidden();  // likewise
   program.callback([options] { run_bench(*options); });
 }

@@ -23,7 +23,7 @@ namespace {
 using OrderedJson = nlohmann::ordered_json;
 
 constexpr double kMetresToMillimetres = 1e3;
-/// Scans by whose cost the others' is told from the program's own.
+/// The difference of two counts cancels the program's own cost.
 constexpr std::size_t kFewScans = 20;
 constexpr std::size_t kManyScans = kMaxCountedScans;
 
@@ -80,20 +80,20 @@ std::string trials_text(const std::vector<TrialResult>& trials) {
   return "The localizer, scans of 800 samples, each without a prior unless the robot moves\n\n" +
          table.text(/*numbers=*/true) +
          "\n  wrong: over 10 cm or 5 degrees off; rms of bound: over the Cramer-Rao bound's of the "
-         "same scans;\n  NEES: normalised error squared, 3 where covariances are honest, and 95 % "
+         "same scans;\n  NEES: normalised error squared, 3 if covariances are consistent, and 95 % "
          "below 7.8\n";
 }
 
 std::string reliability_text(const Reliability& reliability) {
   tool::TextTable table;
-  table.add_row({"doubt of the likeliest place", "scans", "should be wrong", "wrong"});
+  table.add_row({"p_wrong of the best hypothesis", "scans", "should be wrong", "wrong"});
   for (const Reliability::Bin& bin : reliability.bins()) {
     table.add_row({bin.min_p_wrong > 0 ? tool::formatted("from %g", bin.min_p_wrong)
                                        : tool::formatted("below %g (a fix)", core::kWrongFixRate),
                    std::to_string(bin.scans), tool::formatted("%.3g", bin.expected_wrong),
                    std::to_string(bin.wrong)});
   }
-  return "\nKept promises, all trials\n\n" + table.text(/*numbers=*/true);
+  return "\nReliability, all trials\n\n" + table.text(/*numbers=*/true);
 }
 
 std::string kidnapping_text(const KidnappingScore& score) {

@@ -148,7 +148,7 @@ std::string odometry_json(const std::vector<RobotResults>& robots,
   }
   return nlohmann::ordered_json({{"seed", seed},
                                  {"odometry", std::move(drives)},
-                                 {"carried_on", blind_json(predictions)},
+                                 {"dead_reckoned", blind_json(predictions)},
                                  {"rates", rate_json(rates)}})
              .dump(2) +
          '\n';
@@ -183,7 +183,7 @@ void save_picture(const std::filesystem::path& file, const std::string& document
 }  // namespace
 
 void run_odometry_bench(const OdometryBenchOptions& options) {
-  // Before the work: whatever cannot be written is said at once.
+  // Fails before the work if the file cannot be written.
   std::unique_ptr<tool::Output> json;
   if (options.json == "-") json = std::make_unique<tool::Output>();
   if (!options.json.empty() && !json) {

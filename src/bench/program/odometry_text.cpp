@@ -37,7 +37,7 @@ std::string blind_text(const std::vector<BlindRow>& rows) {
       add("", tool::formatted("%.2f-%.2f", ages.from_s, ages.to_s), ages);
     }
   }
-  return "The fixes, and the poses that wheels and gyro carry on between the scans "
+  return "The fixes, and the poses that wheels and gyro dead reckon between the scans "
          "and\n"
          "while it is covered, by their age. NEES: the error squared in units of the covariance, 3 "
          "is exact,\n"

@@ -27,7 +27,7 @@ constexpr double kMicroToMilli = 1e-3;
 /// Localized in so many scans when valgrind counts.
 constexpr std::size_t kCountedByValgrind = 50;
 
-/// A building as valgrind is told: its corners, or 0 for the equal rooms, which come last.
+/// `corners`: of the building, or 0 for the equal rooms, which come last.
 std::optional<double> count_scan_by_valgrind(const ScaleBenchOptions& options,
                                              std::size_t corners) {
   const std::size_t scans = std::min(options.scans, kCountedByValgrind);

@@ -149,7 +149,7 @@ std::optional<SegmentTrack> rest_of_wall(const PolarScan& scan, std::size_t end,
     bool is_on_line = true;
     for (std::size_t k = 0; k < count && is_on_line; ++k) {
       const PolarPoint& point = scan[(first + k) % n];
-      is_on_line = -rest.line.normal.dot(point.ray()) > context.angles.min_rest_sine &&
+      is_on_line = -rest.line.normal.dot(point.ray()) > context.angles.min_stub_sine &&
                    mahalanobis_squared(context.noise, rest.line, point) < context.gate2();
     }
     if (is_on_line) return rest;

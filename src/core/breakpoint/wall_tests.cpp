@@ -34,7 +34,7 @@ bool is_one_wall(const PolarScan& scan, const ExtractionContext& context, const 
   if (samples_between(scan, right, left) > context.limits.max_interruption) return false;
   const Vec2 gap = scan[left.first].position() - scan[right.last].position();
   if (gap.norm() > context.limits.merge_gap_m) return false;
-  if (right.line.normal.dot(left.line.normal) < context.angles.min_piece_cosine) return false;
+  if (right.line.normal.dot(left.line.normal) < context.angles.min_merge_cosine) return false;
 
   LineFit both = right.fit;
   both.add(left.fit);

@@ -16,12 +16,12 @@ namespace cornerd::core {
 /// The limits' angles as sines and cosines, computed once.
 struct AngleLimits {
   explicit AngleLimits(const ExtractionConfig& limits)
-      : min_piece_cosine(std::cos(limits.merge_angle_rad)),
+      : min_merge_cosine(std::cos(limits.merge_angle_rad)),
         min_corner_sine(std::sin(limits.min_corner_angle_rad)),
-        min_rest_sine(std::sin(limits.stub_angle_rad)) {}
-  double min_piece_cosine;
+        min_stub_sine(std::sin(limits.stub_angle_rad)) {}
+  double min_merge_cosine;
   double min_corner_sine;
-  double min_rest_sine;
+  double min_stub_sine;
 };
 
 /// What the tests of one scan's walls need.

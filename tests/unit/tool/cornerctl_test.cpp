@@ -178,7 +178,7 @@ TEST_F(Cornerctl, Detect_GivesTheBreakpointsOfEveryScan) {
   EXPECT_THAT(outcome.out, HasSubstr(R"("kind":"corner")"));
 }
 
-TEST_F(Cornerctl, BareBytesOfAMovingRobot_BearNoTruth) {
+TEST_F(Cornerctl, TruthOfMovingRobotInBin_IsUsageError) {
   const CommandRun outcome = run({"simulate", "--map", map_, "--path", "0.3,0.3 0.3,0.6", "-o",
                                   path("moving.bin"), "--truth", path("moving.truth")});
   EXPECT_EQ(outcome.exit_code, kExitUsage);
@@ -247,7 +247,7 @@ TEST_F(Cornerctl, Record_FailsAtOnceWhereNoPortIs) {
   EXPECT_FALSE(std::filesystem::exists(path("r.bin")));
 }
 
-TEST_F(Cornerctl, ReaderThatGoesAway_EndsItQuietly) {
+TEST_F(Cornerctl, ClosedReader_EndsQuietly) {
   const std::string file = recording();
   std::signal(SIGPIPE, SIG_IGN);
   int ends[2];

@@ -130,7 +130,7 @@ TEST_F(BenchCommand, Plots_AreDrawn) {
   }
 }
 
-TEST_F(BenchCommand, WhatCannotBeWritten_IsSaid) {
+TEST_F(BenchCommand, UnwritableOutput_Fails) {
   std::ofstream(folder_.path() / "file") << "";
   const ProgramRun plots =
       run({"--positions", "0", "--plots", (folder_.path() / "file" / "plots").string()});

@@ -135,7 +135,7 @@ TEST_F(CalibrateNoise, WallsAtKnownDistances_GiveBackTheModelThatTheSimulatorDre
   EXPECT_EQ(find_xml_error(text_of("wall.svg")), "");
 }
 
-TEST_F(CalibrateNoise, PapersModelWithoutKnownDistances_StandsOnTheWallsThatAreFound) {
+TEST_F(CalibrateNoise, PaperModelWithoutDistances_UsesFoundWalls) {
   const std::string file = recording("0.002");
   const CommandRun run({"calibrate", "noise", file, "--model", "paper", "-o", path("noise.json"),
                         "--plot-wall", path("wall.svg")});
@@ -185,7 +185,7 @@ class CalibrateBias : public CalibrateNoise {
   const std::string map_ = CORNERD_SOURCE_DIR "/config/maps/krpai-2019-a.json";
 };
 
-TEST_F(CalibrateBias, LidarThatIsOff_IsSaidAndWritten) {
+TEST_F(CalibrateBias, BiasedLidar_ReportsAndWritesBias) {
   const CommandRun run(
       {"calibrate", "bias", biased_recording("12"), "--map", map_, "-o", path("bias.json")});
   ASSERT_EQ(run.exit_code, kExitDone) << run.err;

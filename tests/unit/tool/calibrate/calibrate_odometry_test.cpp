@@ -42,7 +42,7 @@ TEST_F(CalibrateOdometry, GoodDrive_WritesWhatAReplayReads) {
   EXPECT_EQ(CommandRun({"replay", recording_, "--config", output, "--map", map_}).exit_code, 0);
 }
 
-TEST_F(CalibrateOdometry, ReadingsThatAreLate_FindsByHowMuch) {
+TEST_F(CalibrateOdometry, LateReadings_EstimatesDelay) {
   ASSERT_EQ(simulate({"--wheel-errors", "0.015,0.025", "--gyro-error", "0.02", "--acceleration",
                       "1", "--turn-acceleration", "6"},
                      "300")
@@ -77,7 +77,7 @@ TEST_F(CalibrateOdometry, ReadingsThatAreLate_FindsByHowMuch) {
   EXPECT_FALSE(std::filesystem::exists(output));
 }
 
-TEST_F(CalibrateOdometry, ARobotThatIsFarOff_NamesWhatToChange) {
+TEST_F(CalibrateOdometry, WrongGeometry_GivesRemedy) {
   ASSERT_EQ(simulate({"--wheel-errors", "0.015,0.025", "--gyro-bias", "0.01"}, "300").exit_code, 0);
   const std::string wrong = folder_ / "wrong.ndjson";
   const std::string output = folder_ / "odometry.json";

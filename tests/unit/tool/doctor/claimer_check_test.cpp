@@ -23,7 +23,7 @@ TEST_F(CheckClaimers, NobodyIsInstalled_IsGood) {
   EXPECT_THAT(findings(), ElementsAre(Finds(Verdict::kGood, "claimers", "neither")));
 }
 
-TEST_F(CheckClaimers, GpsdThatTakesEveryCp2102_IsToBeTold) {
+TEST_F(CheckClaimers, GpsdWithUsbAuto_IsWrong) {
   stand_in_.write("/etc/default/gpsd", "# comment\nDEVICES=\"\"\nUSBAUTO=\"true\"\n");
   const auto found = findings();
   ASSERT_THAT(found, ElementsAre(Finds(Verdict::kWrong, "gpsd", "every CP2102")));
@@ -44,13 +44,13 @@ TEST_F(CheckClaimers, RulesOfThePackage_KeepGpsdOff) {
   EXPECT_THAT(findings(), ElementsAre(Finds(Verdict::kGood, "gpsd", "leaves the port alone")));
 }
 
-TEST_F(CheckClaimers, GpsdThatIsGivenThePort_IsToLeaveIt) {
+TEST_F(CheckClaimers, GpsdWithPortInDevices_IsWrong) {
   stand_in_.write("/etc/default/gpsd", "DEVICES=\"/dev/ttyS1 /dev/rplidar\"\nUSBAUTO=\"false\"\n");
   EXPECT_THAT(findings(),
               ElementsAre(Finds(Verdict::kWrong, "gpsd", "configured to read /dev/ttyUSB0")));
 }
 
-TEST_F(CheckClaimers, GpsdBesideAUartOfTheBoard_DoesNotMind) {
+TEST_F(CheckClaimers, GpsdWithBoardUart_IsGood) {
   stand_in_.patient.config.lidar.device = "/dev/ttyS4";
   stand_in_.write("/dev/ttyS4");
   stand_in_.write("/etc/default/gpsd", "USBAUTO=\"true\"\n");
@@ -73,7 +73,7 @@ TEST_F(CheckClaimers, Brltty_TakesCp2102s) {
   EXPECT_THAT(findings()[0].what, Not(HasSubstr("probably has the lidar's")));
 }
 
-TEST_F(CheckClaimers, BrlttyThatHasTaken_IsNamed) {
+TEST_F(CheckClaimers, BrlttyWithoutPort_IsReported) {
   // The driver is off it: neither port nor link are left.
   for (const char* file : {"/dev/rplidar", "/dev/ttyUSB0", "/sys/class/tty/ttyUSB0"}) {
     std::filesystem::remove(stand_in_.outside(file));
@@ -84,7 +84,7 @@ TEST_F(CheckClaimers, BrlttyThatHasTaken_IsNamed) {
   EXPECT_THAT(found[0].remedies, ElementsAre(HasSubstr("apt remove brltty"), HasSubstr("plug")));
 }
 
-TEST(CheckClaimersOfNothing, NothingPluggedIn_AllAreAskedAllTheSame) {
+TEST(CheckClaimersOfNothing, NothingPluggedIn_ReportsAllClaimers) {
   const StandIn stand_in;
   EXPECT_THAT(check_claimers(stand_in.patient),
               ElementsAre(Finds(Verdict::kGood, "claimers", "neither")));

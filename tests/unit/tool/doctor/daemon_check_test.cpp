@@ -42,7 +42,7 @@ TEST_F(CheckDaemon, RunningLidar_IsGood) {
           Finds(Verdict::kGood, "lidar", "running, A1M8 firmware 1.29, health good, 7.1 scans/s")));
 }
 
-TEST_F(CheckDaemon, FaultOfTheLidar_IsToldInTheDaemonsWords) {
+TEST_F(CheckDaemon, LidarFault_QuotesDaemonDetail) {
   message::ParsedStatus& status = *daemon().status;
   status.lidar_state = "faulty";
   status.lidar_fault = "dead-laser";
@@ -73,7 +73,7 @@ TEST_F(CheckDaemon, SensorsOfTheOdometry_AreNamed) {
               Finds(Verdict::kWrong, "odometry", "left is absent: no counter 48300180.counter"));
 }
 
-TEST_F(CheckDaemon, ReadingsThatComeTooSeldom_AreNamed) {
+TEST_F(CheckDaemon, LowReadingRate_IsReported) {
   daemon().odometry_hz = 49.8;
   EXPECT_THAT(check_daemon(stand_in_.patient), SizeIs(2));
   daemon().odometry_hz = 12;
@@ -92,7 +92,7 @@ TEST_F(CheckDaemon, ReadingsThatComeTooSeldom_AreNamed) {
               Finds(Verdict::kNote, "odometry", "no reading arrives"));
 }
 
-TEST_F(CheckDaemon, WhyThereIsNoOdometry_IsToldInTheDaemonsWordsOnce) {
+TEST_F(CheckDaemon, OdometryHint_IsQuotedOnce) {
   daemon().status->odometry_state = "absent";
   daemon().status->odometry_hint = "lines lack left and right";
   daemon().odometry_hz = 0;
@@ -133,7 +133,7 @@ TEST_F(CheckDaemon, Poses_AreGoodWhereHalfOfThemNameAPlace) {
   EXPECT_THAT(check_poses(stand_in_.patient), ElementsAre(Finds(Verdict::kWrong, "poses", "none")));
 }
 
-TEST_F(CheckDaemon, LostAndAmbiguous_HaveDifferentCures) {
+TEST_F(CheckDaemon, LostAndAmbiguous_HaveDifferentRemedies) {
   see(1, 0, 9);
   EXPECT_THAT(check_poses(stand_in_.patient)[0].remedies[0], HasSubstr("map is right"));
   see(1, 8, 1);

@@ -19,7 +19,7 @@ constexpr const char* kGreeting =
     "{\"class\":\"VERSION\",\"program\":\"cornerd\",\"version\":\"1.2.3\",\"schema\":2}\n"
     "{\"class\":\"STATUS\",\"t\":1,\"lidar\":{\"state\":\"running\"}}\nnonsense\n";
 
-TEST(ProbeDaemon, WhatItSays_IsCounted) {
+TEST(ProbeDaemon, Messages_AreCounted) {
   const test::TemporaryFolder folder;
   const ListeningSocket daemon(folder.path() / "pose.sock");
   std::string said = kGreeting;
@@ -35,7 +35,7 @@ TEST(ProbeDaemon, WhatItSays_IsCounted) {
   EXPECT_EQ(view.poses[static_cast<std::size_t>(core::PoseState::kLost)], 10U);
 }
 
-TEST(ProbeDaemon, ReadingsOfWheels_AreCountedFromStatusToStatus) {
+TEST(ProbeDaemon, OdometryReadings_GiveRate) {
   const test::TemporaryFolder folder;
   const ListeningSocket daemon(folder.path() / "pose.sock");
   std::string said = kGreeting;
@@ -53,7 +53,7 @@ TEST(ProbeDaemon, ReadingsOfWheels_AreCountedFromStatusToStatus) {
   EXPECT_DOUBLE_EQ(*view.odometry_hz, 25);
 }
 
-TEST(ProbeDaemon, SilentDaemon_IsGivenUp) {
+TEST(ProbeDaemon, SilentDaemon_TimesOut) {
   const test::TemporaryFolder folder;
   const ListeningSocket daemon(folder.path() / "pose.sock");
   const DaemonView view = probe_daemon(folder.path() / "pose.sock", 1ms);
@@ -61,7 +61,7 @@ TEST(ProbeDaemon, SilentDaemon_IsGivenUp) {
   EXPECT_EQ(view.version, "");
 }
 
-TEST(ProbeDaemon, NobodyThere_TellsWhy) {
+TEST(ProbeDaemon, NoDaemon_GivesErrno) {
   EXPECT_EQ(probe_daemon("/nowhere/pose.sock", 1s).connect_errno, ENOENT);
   EXPECT_EQ(probe_daemon(std::string(200, 'x'), 1s).connect_errno, ENAMETOOLONG);
 }

@@ -42,12 +42,12 @@ TEST_F(CheckHolders, FreePort_IsGood) {
   EXPECT_THAT(findings(), ElementsAre(Finds(Verdict::kGood, "holder", "nobody has")));
 }
 
-TEST_F(CheckHolders, Cornerd_IsWhoShouldHaveIt) {
+TEST_F(CheckHolders, HeldByCornerd_IsGood) {
   open_port(77, "cornerd");
   EXPECT_THAT(findings(), ElementsAre(Finds(Verdict::kGood, "holder", "cornerd (process 77)")));
 }
 
-TEST_F(CheckHolders, Others_AreNamedWithTheirCure) {
+TEST_F(CheckHolders, HeldByOthers_GivesRemedies) {
   open_port(77, "cornerd");
   open_port(80, "gpsd");
   open_port(81, "ModemManager");
@@ -64,19 +64,19 @@ TEST_F(CheckHolders, Others_AreNamedWithTheirCure) {
   EXPECT_THAT(found[3].remedies[0], HasSubstr("sudo kill 83"));
 }
 
-TEST_F(CheckHolders, WhoAsks_IsNoHolder) {
+TEST_F(CheckHolders, CallerItself_IsIgnored) {
   open_port(84, "cornerctl");
   stand_in_.link("/proc/self", "84");
   EXPECT_THAT(findings(), ElementsAre(Finds(Verdict::kGood, "holder", "nobody has")));
 }
 
-TEST_F(CheckHolders, HolderWithSecretFiles_IsBetrayedByItsLock) {
+TEST_F(CheckHolders, HolderWithHiddenFiles_IsFoundByLock) {
   stand_in_.run_process(90, "cornerd");
   stand_in_.write("/proc/locks", "1: POSIX  ADVISORY  WRITE 5 00:01:2 0 EOF\n" + lock_by(90));
   EXPECT_THAT(findings(), ElementsAre(Finds(Verdict::kGood, "holder", "cornerd (process 90)")));
 }
 
-TEST_F(CheckHolders, ProcessesThatHideTheirFiles_AreOwnedUpTo) {
+TEST_F(CheckHolders, HiddenProcesses_GiveNote) {
   stand_in_.run_process(91, "secret");
   const auto found = findings();
   ASSERT_THAT(found,

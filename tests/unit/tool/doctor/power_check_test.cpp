@@ -35,7 +35,7 @@ TEST_F(CheckPower, OverCurrentOfAUsbPort_IsWrong) {
   EXPECT_THAT(found[0].remedies, ElementsAre(HasSubstr("stronger supply")));
 }
 
-TEST_F(CheckPower, BoardThatWatchesItsSupply_IsBelieved) {
+TEST_F(CheckPower, UndervoltageAlarm_IsWrong) {
   stand_in_.write("/sys/class/hwmon/hwmon0/in0_lcrit_alarm", "0\n");
   EXPECT_THAT(findings(), ElementsAre(Finds(Verdict::kGood, "power", "no trace")));
   stand_in_.write("/sys/class/hwmon/hwmon0/in0_lcrit_alarm", "1\n");

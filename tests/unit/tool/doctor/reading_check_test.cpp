@@ -100,7 +100,7 @@ TEST_F(CheckReading, HomesThatAreALink_AreHiddenByBothNames) {
   EXPECT_THAT(findings(), ElementsAre(Finds(Verdict::kWrong, "map", "cannot see /home")));
 }
 
-TEST_F(CheckReading, UnitThatShowsHomes_IsBelieved) {
+TEST_F(CheckReading, UnitWithoutProtectHome_IsGood) {
   use_map("/home/ada/home.json");
   stand_in_.write("/etc/systemd/system/cornerd.service.d/override.conf",
                   "[Service]\nProtectHome=read-only\n");

@@ -44,7 +44,7 @@ TEST(DrivePoints, ScanLongAgoOrLost_IsNotInterpolated) {
   EXPECT_NEAR(points[3].x(), 3, 1e-9);
 }
 
-TEST(DrivePoints, GivenWay_PlacesEveryReturnThatItKnows) {
+TEST(DrivePoints, Trajectory_PlacesReturns) {
   DrivePoints drive;
   drive.add(scan_at(0), std::nullopt);
   message::RecordedTruth begin;

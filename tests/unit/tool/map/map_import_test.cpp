@@ -115,7 +115,7 @@ TEST_F(MapImport, WrongUsage_EndsWith2) {
   EXPECT_EQ(CommandRun({"map", "import", path("room.yaml")}).exit_code, kExitUsage);
 }
 
-TEST_F(MapImport, MapThatNobodyWouldRead_IsNotWritten) {
+TEST_F(MapImport, InvalidMap_IsNotWritten) {
   const CommandRun run({"map", "import", path("room.yaml"), "-o", path("room.json"), "--name",
                         std::string(200, 'x')});
   EXPECT_EQ(run.exit_code, kExitFailed);

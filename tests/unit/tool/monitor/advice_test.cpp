@@ -33,7 +33,7 @@ TEST_F(AdviceTest, FixesOfARunningLidar_AreWell) {
   expect(Style::kGood, "all is well", "");
 }
 
-TEST_F(AdviceTest, Daemon_IsMissedFirst) {
+TEST_F(AdviceTest, NoDaemon_ComesFirst) {
   expect(Style::kDim, "waiting for the daemon's first message", "");
   take_line(status_line());
   now_ns_ += 9 * core::kNsPerSecond / 2;
@@ -44,7 +44,7 @@ TEST_F(AdviceTest, Daemon_IsMissedFirst) {
          "systemctl start cornerd");
 }
 
-TEST_F(AdviceTest, Lidar_SpeaksForItself) {
+TEST_F(AdviceTest, LidarFault_ShowsItsDetail) {
   take_line(status_line(R"("state":"starting")"));
   expect(Style::kWarning, "lidar starting", "");
   take_line(status_line(R"("state":"faulty","fault":"dead-laser","detail":"is it covered?")"));
@@ -60,7 +60,7 @@ TEST_F(AdviceTest, NoScans_AdvisesDoctor) {
   expect(Style::kBad, "the lidar runs, but no scans come", "doctor");
 }
 
-TEST_F(AdviceTest, EachStateWithoutPlace_HasItsOwn) {
+TEST_F(AdviceTest, EachStateWithoutPose_HasOwnAdvice) {
   take_line(status_line());
   take_line(kLostLine);
   expect(Style::kBad, "no pose in the map fits the scan", "lidar.mount");

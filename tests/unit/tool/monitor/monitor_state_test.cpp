@@ -23,7 +23,7 @@ TEST(MonitorState, Connection_HasAnAgeAndAReason) {
   EXPECT_EQ(state.version(), "1.2.3");
 }
 
-TEST(MonitorState, LostDaemon_TakesItsWordsAlong) {
+TEST(MonitorState, LostDaemon_ClearsItsState) {
   MonitorState state;
   state.connect(0);
   state.take_line(kFixLine, 1);
@@ -67,7 +67,7 @@ TEST(MonitorState, Rate_IsThatOfTheLastPoses) {
   EXPECT_FALSE(state.pose_rate_hz(now_ns + 3 * core::kNsPerSecond));
 }
 
-TEST(MonitorState, Nonsense_IsAComplaint) {
+TEST(MonitorState, InvalidMessage_SetsProtocolError) {
   MonitorState state;
   state.connect(0);
   state.take_line("hello", 1);

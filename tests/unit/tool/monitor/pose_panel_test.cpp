@@ -14,7 +14,7 @@ std::string text_of(const MonitorState& state, core::TimeNs now_ns) {
   return text;
 }
 
-TEST(PosePanel, Fix_IsToldWithItsDoubtAndItsSource) {
+TEST(PosePanel, Fix_ShowsSigmaAndSource) {
   MonitorState state;
   state.connect(0);
   for (int i = 1; i <= 5; ++i) state.take_line(kFixLine, i * core::kNsPerSecond / 8);

@@ -69,7 +69,7 @@ TEST(ErrorStatistics, HeadingsOnBothSidesOfPi_AreNear) {
   EXPECT_EQ(statistics.wrong(), 0U);
 }
 
-TEST(ErrorStatistics, AmbiguousAndLost_NameNoPlaceAndAreNeverWrong) {
+TEST(ErrorStatistics, AmbiguousAndLost_AreNeverWrong) {
   ErrorStatistics statistics;
   core::PoseEstimate ambiguous = estimate(PoseState::kAmbiguous, 9, 9, 0);
   ambiguous.alternatives = {{{5, 5, 0}, 0.6}, {{0.01, 0, 0}, 0.4}};
@@ -79,7 +79,7 @@ TEST(ErrorStatistics, AmbiguousAndLost_NameNoPlaceAndAreNeverWrong) {
   statistics.add(estimate(PoseState::kLost, 9, 9, 0), {0, 0, 0});
   EXPECT_EQ(statistics.wrong(), 0U);
   EXPECT_EQ(statistics.ambiguous_with_truth(), 1U);
-  EXPECT_THAT(statistics.report(), HasSubstr("1 of 2 list the true place"));
+  EXPECT_THAT(statistics.report(), HasSubstr("1 of 2 list the true pose"));
 }
 
 TEST(ErrorStatistics, Report_GivesQuantiles) {
@@ -90,7 +90,7 @@ TEST(ErrorStatistics, Report_GivesQuantiles) {
   statistics.add_unknown();
   const std::string report = statistics.report();
   EXPECT_THAT(report, HasSubstr("mean 10.50  median 10.00  95 % 19.00  max 20.00 mm"));
-  EXPECT_THAT(report, HasSubstr("1 scans outside of the truth's time"));
+  EXPECT_THAT(report, HasSubstr("1 scans outside the truth's time"));
 }
 
 }  // namespace

@@ -26,7 +26,7 @@ std::size_t count(const std::string& text, const std::string& what) {
   return found;
 }
 
-TEST_F(OdometryCommandTest, CoveredLidar_IsBridgedByTheRecordedOdometry) {
+TEST_F(OdometryCommandTest, CoveredLidar_IsDeadReckoned) {
   ASSERT_EQ(simulate({"--covered", "15,17"}).exit_code, 0);
   const CommandRun without = replay({});
   EXPECT_EQ(count(without.out, "\"state\":\"predicted\""), 0U);
@@ -38,7 +38,7 @@ TEST_F(OdometryCommandTest, CoveredLidar_IsBridgedByTheRecordedOdometry) {
   EXPECT_NE(with.out.find("\"odometry\":{\"state\":\"running\""), std::string::npos);
 }
 
-TEST_F(OdometryCommandTest, StatusAlone_SaysWhatWasLearnt) {
+TEST_F(OdometryCommandTest, StatusAlone_ShowsCalibration) {
   ASSERT_EQ(simulate({"--wheel-errors", "0.015,0.025"}).exit_code, 0);
   const std::vector<std::string> words = {"replay", recording_, "--set", "/odometry/source=socket",
                                           "--classes"};
@@ -61,10 +61,11 @@ TEST_F(OdometryCommandTest, LinesThatLackAWheel_AreHintedAt) {
   const std::string wrong = folder_ / "wrong.ndjson";
   rewrite(wrong, [](json& line) { line.erase("left"); });
   const CommandRun run({"replay", wrong, "--map", map_, "--set", "/odometry/source=socket"});
-  EXPECT_THAT(run.out, HasSubstr(R"("odometry":{"state":"absent","hint":"lines lack left: )"));
+  EXPECT_THAT(run.out,
+              HasSubstr(R"("odometry":{"state":"absent","hint":"ODOMETRY lines lack left: )"));
 }
 
-TEST_F(OdometryCommandTest, AnotherFile_GoesBeforeTheRecordingsOwn) {
+TEST_F(OdometryCommandTest, OdometryFile_OverridesRecording) {
   ASSERT_EQ(simulate({"--covered", "15,17"}).exit_code, 0);
   const std::string same = replay({"--set", "/odometry/source=socket"}).out;
   // In a recording a reading stands where it arrived, in a file of its own by its time.

@@ -81,7 +81,7 @@ TEST_F(SimulationOptionsTest, PlaceOutsideTheBuilding_IsSaidAndSimulated) {
 TEST_F(SimulationOptionsTest, NoiseFile_IsTakenAndNamedWhereItIsWrong) {
   std::ofstream(path("noise.json")) << R"({"lidar": {"noise": {"floor": 0.02, "share": 0}}})";
   std::ofstream(path("wrong.json")) << R"({"lidar": {"noise": {"floor": "much"}}})";
-  std::ofstream(path("other.json")) << R"({"lidar": {"baud": 115200}})";
+  std::ofstream(path("other.json")) << R"({"lidar": {"device": "/dev/ttyS1"}})";
   EXPECT_EQ(simulate({"--noise", path("noise.json")}).exit_code, kExitDone);
   EXPECT_EQ(simulate({"--noise", path("absent.json")}).exit_code, kExitConfig);
   const CommandRun wrong = simulate({"--noise", path("wrong.json")});
@@ -104,7 +104,7 @@ TEST_F(SimulationOptionsTest, Real_IsTheGroundUnderOtherOptions) {
   EXPECT_GT(options.model({}).missing_run, 2);
 }
 
-TEST_F(SimulationOptionsTest, SensorModel_TakesTheLastWordFromTheCommandLine) {
+TEST_F(SimulationOptionsTest, CommandLine_OverridesSensorModel) {
   std::ofstream(path("noise.json"))
       << R"({"lidar": {"noise": {"floor": 0.02, "ranges": [{"range": 1, "sigma": 0.3}]}}})";
   SensorOptions options;

@@ -97,7 +97,7 @@ TEST_F(SurveyCommandTest, SimulatedDrive_GivesAMapToLocalizeIn) {
   EXPECT_NE(replay.err.find("wrong            0"), std::string::npos) << replay.err;
 }
 
-TEST_F(SurveyCommandTest, LidarThatIsSilent_IsBridgedByTheWheels) {
+TEST_F(SurveyCommandTest, LidarGap_IsDeadReckoned) {
   simulate(file("one.ndjson"), file("one.truth"), "1");
   silence_lidar(file("one.ndjson"), /*keeps_odometry=*/true);
   const CommandRun run(
@@ -115,7 +115,7 @@ TEST_F(SurveyCommandTest, LidarThatIsSilent_IsBridgedByTheWheels) {
   EXPECT_NEAR(core::angle_between(seen.theta_rad, driven.theta_rad), 0, core::radians(0.5));
 }
 
-TEST_F(SurveyCommandTest, LidarAndWheelsThatAreSilentWhileTheRobotGoesOn_AreRefused) {
+TEST_F(SurveyCommandTest, GapOfLidarAndWheels_IsRejected) {
   simulate(file("one.ndjson"), file("one.truth"), "1");
   silence_lidar(file("one.ndjson"), /*keeps_odometry=*/false);
   const CommandRun run({"survey", file("gap.ndjson"), "-o", file("map.json")});
@@ -131,7 +131,7 @@ TEST_F(SurveyCommandTest, NoScanInRecording_Fails) {
   EXPECT_NE(run.err.find("not one complete scan"), std::string::npos);
 }
 
-TEST_F(SurveyCommandTest, WheelsThatLie_AreLeftOutAndTheReportSaysWhatToCheck) {
+TEST_F(SurveyCommandTest, InconsistentWheels_AreRejectedWithRemedy) {
   ASSERT_EQ(
       CommandRun({"simulate", "--map", arena_, "--path", "0.9,0.9 0.9,1.5 1.15,1.15 0.9,0.9",
                   "--loop", "--scans", "120", "--odometry", "--drive-speed", "0.3",
@@ -146,10 +146,10 @@ TEST_F(SurveyCommandTest, WheelsThatLie_AreLeftOutAndTheReportSaysWhatToCheck) {
   EXPECT_NE(run.out.find("by the lidar alone\n"), std::string::npos) << run.out;
   EXPECT_NE(run.out.find("WARNING: the odometry contradicts the lidar"), std::string::npos);
   EXPECT_NE(run.out.find("odometry.counts_per_turn"), std::string::npos);
-  EXPECT_NE(run.out.find("sides of walls are square to each other"), std::string::npos);
+  EXPECT_NE(run.out.find("wall faces are square to each other"), std::string::npos);
 }
 
-TEST_F(SurveyCommandTest, WheelsThatLieWhereTheLidarAloneIsLost_AreNamedInTheRefusal) {
+TEST_F(SurveyCommandTest, InconsistentWheelsWithoutLidarMatch_FailWithRemedy) {
   // A lidar of 7.3 Hz sees the next scan rotated by 31 degrees.
   ASSERT_EQ(CommandRun({"simulate", "--map", arena_, "--path", "0.9,0.9 0.9,1.5 1.15,1.15 0.9,0.9",
                         "--loop", "--scans", "120", "--odometry", "--turn-speed", "4", "-o",
@@ -165,7 +165,7 @@ TEST_F(SurveyCommandTest, WheelsThatLieWhereTheLidarAloneIsLost_AreNamedInTheRef
   EXPECT_NE(run.err.find("drive more slowly"), std::string::npos) << run.err;
 }
 
-TEST_F(SurveyCommandTest, WheelsOfAnotherSize_AreLearnedAndSaid) {
+TEST_F(SurveyCommandTest, WrongWheelRadius_IsEstimatedAndReported) {
   simulate(file("one.ndjson"), file("one.truth"), "1");
   std::ofstream(file("wrong.json"))
       << R"({"odometry": {"source": "socket", "counts_per_turn": 1900}})";
@@ -240,7 +240,7 @@ TEST_F(SurveyCommandTest, WrongUsage_IsSaidBeforeTheWork) {
   expect({"--plot", "-"}, "-: ");
 }
 
-TEST_F(SurveyCommandTest, MapThatNobodyWouldRead_IsNotWritten) {
+TEST_F(SurveyCommandTest, InvalidMap_IsNotWritten) {
   simulate(file("one.ndjson"), file("truth"), "1");
   const auto expect = [&](const std::vector<std::string>& more, const std::string& said) {
     std::vector<std::string> words = {"survey",         file("one.ndjson"), "-o",
