@@ -38,24 +38,24 @@ void read_table(ObjectReader& noise, std::string_view key, core::SigmaTable& tab
 }
 
 void read_coefficients(ObjectReader& piece, calibration::WallPiece& read) {
-  constexpr std::string_view key = "coefficients";
-  const Json* rows = piece.find(key);
-  if (rows == nullptr) piece.fail(key, "is missing");
+  constexpr std::string_view kKey = "coefficients";
+  const Json* rows = piece.find(kKey);
+  if (rows == nullptr) piece.fail(kKey, "is missing");
   if (!rows->is_array() || rows->size() > read.coefficients.size()) {
-    piece.fail(key, "must be a list of at most " + std::to_string(read.coefficients.size()) +
-                        " lists, one for each power of the ray");
+    piece.fail(kKey, "must be a list of at most " + std::to_string(read.coefficients.size()) +
+                         " lists, one for each power of the ray");
   }
   for (std::size_t i = 0; i < rows->size(); ++i) {
     const Json& row = (*rows)[i];
     auto& target = read.coefficients[i];
     if (!row.is_array() || row.size() > target.size()) {
-      piece.fail(key, i,
+      piece.fail(kKey, i,
                  "must be a list of at most " + std::to_string(target.size()) +
                      " numbers, one for each power of the distance");
     }
     for (std::size_t j = 0; j < row.size(); ++j) {
       if (!row[j].is_number() || !(std::abs(row[j].get<double>()) <= kMaxCoefficient)) {
-        piece.fail(key, i,
+        piece.fail(kKey, i,
                    "must hold numbers from -" + to_text(kMaxCoefficient) + " to " +
                        to_text(kMaxCoefficient));
       }
