@@ -45,7 +45,7 @@ CORNERD_COST_STAGE(publish)
 CORNERD_COST_STAGE(detect)
 CORNERD_COST_STAGE(recognize)
 CORNERD_COST_STAGE(refine)
-CORNERD_COST_STAGE(beam_likelihood)
+CORNERD_COST_STAGE(likelihood)
 CORNERD_COST_STAGE(first_fix)
 
 namespace cornerd {
@@ -131,11 +131,11 @@ class Parts {
         refinement_.refine(*map_, start, 0.15, thin_, points_.points(), 1);
     cost_end_refine();
 
-    cost_begin_explain();
+    cost_begin_likelihood();
     const auto hits = prediction_.cast(*map_, refined.T_map_lidar, points_.points());
     static_cast<void>(core::beam_likelihood(*map_, points_.points(), hits, refined.T_map_lidar,
                                             config_.noise, 1, 0));
-    cost_end_explain();
+    cost_end_likelihood();
 
     fresh_.relocalize();
     cost_begin_first_fix();
@@ -178,7 +178,7 @@ class Daemon {
     if (counts) cost_begin_publish();
     publisher_.publish(report_);
     if (counts) cost_end_publish();
-    if (counts) cost_end_turn();
+    if (counts) cost_end_scan();
 
     loop_.run_once(0);
     const std::size_t bytes = client_->read();
@@ -199,7 +199,7 @@ class Daemon {
       packets_.push_back({{packet.bytes.begin(), packet.bytes.end()}, packet.ready_ns});
       for (const auto& sample : packet.samples) begins |= sample.starts_scan;
     }
-    if (counts) cost_begin_turn();
+    if (counts) cost_begin_scan();
     if (counts) cost_begin_decode();
     for (const Packet& packet : packets_) stream_.feed(packet.bytes, packet.ready_ns, channel_);
     if (counts) cost_end_decode();
