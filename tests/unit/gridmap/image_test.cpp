@@ -119,7 +119,7 @@ TEST_F(Png, TruncatedOrDamaged_Throws) {
   EXPECT_THAT(png_error(damaged), HasSubstr("PNG: "));
 }
 
-TEST(PngWithoutLibpng, Decode_SaysHowToConvert) {
+TEST(PngWithoutLibpng, Decode_AnyPng_FailsWithRemedy) {
   if (has_png()) GTEST_SKIP() << "built with libpng";
   EXPECT_THAT(png_error(bytes_of(kGrey)), HasSubstr("pngtopnm"));
 }

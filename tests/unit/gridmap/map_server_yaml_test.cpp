@@ -139,7 +139,7 @@ TEST_F(MapServerYamlTest, Parse_BrokenYaml_NamesTheLine) {
   EXPECT_THAT(yaml_error(std::string(60'000, '[')), HasSubstr("is no YAML"));
 }
 
-TEST(MapServerYamlWithoutLibrary, Parse_AnyText_SaysWhatToDo) {
+TEST(MapServerYamlWithoutLibrary, Parse_AnyText_FailsWithRemedy) {
   if (has_yaml()) GTEST_SKIP() << "built with libyaml-cpp";
   EXPECT_THAT(yaml_error(kWhole), HasSubstr("import the map on a PC"));
 }

@@ -112,7 +112,7 @@ TEST(ConfigTable, PointersOldAndNew_AreUnique) {
   }
 }
 
-TEST(Config, WithoutAMap_IsReadWhereNoneIsRequired) {
+TEST(Config, NoMapRequired_IsReadWithoutMap) {
   EXPECT_NO_THROW(parse_config("{}", kFile, {}, /*require_map=*/false));
 }
 
@@ -170,7 +170,7 @@ TEST(Config, TooLongSocketPath_IsNamed) {
               HasSubstr("/socket/pose: a socket's path has at most 107 bytes"));
 }
 
-TEST(Config, Override_IsCheckedLikeTheFile) {
+TEST(Config, Override_IsCheckedAsTheFile) {
   const Config config = overridden({"/advanced/lidar/mode=Standard", "/lidar/mount/x=0.5"});
   EXPECT_EQ(config.lidar.mode, "Standard");
   EXPECT_EQ(config.lidar.mount.x_m, 0.5);

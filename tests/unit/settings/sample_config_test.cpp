@@ -139,7 +139,7 @@ void PrintTo(const Page& page, std::ostream* out) { *out << page.file; }
 
 class GeneratedPage : public testing::TestWithParam<Page> {};
 
-TEST_P(GeneratedPage, File_IsWhatTheTableMakes) {
+TEST_P(GeneratedPage, File_MatchesTheTable) {
   const std::filesystem::path file = kFolder / GetParam().file;
   const std::string text = GetParam().text();
   if (std::getenv("CORNERD_UPDATE_GOLDEN") != nullptr) {

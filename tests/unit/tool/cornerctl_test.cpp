@@ -57,14 +57,14 @@ class Cornerctl : public testing::Test {
   test::TemporaryFolder folder_;
 };
 
-TEST_F(Cornerctl, HelpAndVersion_AreNoErrors) {
+TEST_F(Cornerctl, HelpAndVersion_ExitCode0) {
   EXPECT_EQ(run({"--help"}).exit_code, kExitDone);
   EXPECT_THAT(run({"replay", "--help"}).out, HasSubstr("--truth"));
   EXPECT_EQ(run({"--version"}).out, "cornerctl " CORNERD_VERSION "\n");
   EXPECT_EQ(run({"map", "check", "--version"}).exit_code, kExitDone);
 }
 
-TEST_F(Cornerctl, WrongUsage_EndsWith2AndSaysWhyOnStandardError) {
+TEST_F(Cornerctl, WrongUsage_ExitCode2WithReasonOnStandardError) {
   const std::vector<std::vector<std::string>> wrong = {
       {},
       {"dance"},
@@ -91,11 +91,11 @@ TEST_F(Cornerctl, WrongUsage_EndsWith2AndSaysWhyOnStandardError) {
   }
 }
 
-TEST_F(Cornerctl, CommandThatThereIsNot_IsNamed) {
+TEST_F(Cornerctl, UnknownCommand_IsNamed) {
   EXPECT_THAT(run({"dance"}).err, HasSubstr("there is no command \"dance\""));
 }
 
-TEST_F(Cornerctl, WrongMapOrConfig_EndsWith78AndOneLine) {
+TEST_F(Cornerctl, WrongMapOrConfig_ExitCode78AndOneLine) {
   write("no-map.json", R"({"format": "cornerd-map", "version": 1, "walls": 7})");
   write("typo.json", R"({"lidar": {"devise": "/dev/ttyUSB0"}})");
   const std::vector<std::vector<std::string>> wrong = {
@@ -115,7 +115,7 @@ TEST_F(Cornerctl, WrongMapOrConfig_EndsWith78AndOneLine) {
   EXPECT_THAT(run(wrong[3]).err, HasSubstr("/lidar/devise"));
 }
 
-TEST_F(Cornerctl, FileThatIsNoRecording_Fails) {
+TEST_F(Cornerctl, Replay_NotARecording_Fails) {
   write("noise.bin", "The quick brown fox jumps over the lazy dog.");
   for (const std::string& name : {path("absent.bin"), path("noise.bin"), path(".")}) {
     const CommandRun outcome = run({"replay", name, "--map", map_});
@@ -124,7 +124,7 @@ TEST_F(Cornerctl, FileThatIsNoRecording_Fails) {
   }
 }
 
-TEST_F(Cornerctl, MapCheck_TellsWhatIsInTheMap) {
+TEST_F(Cornerctl, MapCheck_ValidMap_ListsItsContent) {
   const CommandRun outcome = run({"map", "check", map_});
   EXPECT_EQ(outcome.exit_code, kExitDone);
   EXPECT_THAT(outcome.out, HasSubstr("krpai-2019-a"));
@@ -132,7 +132,7 @@ TEST_F(Cornerctl, MapCheck_TellsWhatIsInTheMap) {
   EXPECT_EQ(outcome.err, "");
 }
 
-TEST_F(Cornerctl, SimulateAndReplay_FindTheRobotWhereItIs) {
+TEST_F(Cornerctl, Replay_SimulatedRecording_NoWrongPose) {
   const CommandRun outcome = run(
       {"replay", recording(), "--map", map_, "--classes", "POSE", "--truth", path("still.truth")});
   EXPECT_EQ(outcome.exit_code, kExitDone);
@@ -141,7 +141,7 @@ TEST_F(Cornerctl, SimulateAndReplay_FindTheRobotWhereItIs) {
   EXPECT_THAT(outcome.err, HasSubstr("wrong            0"));
 }
 
-TEST_F(Cornerctl, Replay_GivesTheSameBytesForTheSameInput) {
+TEST_F(Cornerctl, Replay_SameInput_GivesSameBytes) {
   const std::vector<std::string> words = {
       "replay", recording(), "--map", map_, "--classes", "VERSION,SCAN,BREAKPOINTS,POSE,STATUS"};
   const std::string once = run(words).out;
@@ -150,20 +150,20 @@ TEST_F(Cornerctl, Replay_GivesTheSameBytesForTheSameInput) {
   EXPECT_EQ(once, run(words).out);
 }
 
-TEST_F(Cornerctl, Replay_NeedsNoMapWithoutPoses) {
+TEST_F(Cornerctl, Replay_NoPosesRequested_NeedsNoMap) {
   const CommandRun outcome = run({"replay", recording(), "--classes", "SCAN,STATUS"});
   EXPECT_EQ(outcome.exit_code, kExitDone);
   EXPECT_EQ(count_lines(outcome.out, R"({"class":"SCAN")"), 4U);
   EXPECT_GE(count_lines(outcome.out, R"({"class":"STATUS")"), 1U);
 }
 
-TEST_F(Cornerctl, Replay_PlaysSeveralFilesOneAfterAnother) {
+TEST_F(Cornerctl, Replay_SeveralFiles_ArePlayedInOrder) {
   const std::string file = recording();
   const CommandRun outcome = run({"replay", file, file, "--classes", "SCAN"});
   EXPECT_EQ(count_lines(outcome.out, R"({"class":"SCAN")"), 8U);
 }
 
-TEST_F(Cornerctl, ReplayOfItsOwnScans_GivesSamePoses) {
+TEST_F(Cornerctl, Replay_RecordedScans_GivesAllPoses) {
   write("scans.ndjson", run({"replay", recording(), "--classes", "SCAN"}).out);
   const CommandRun outcome =
       run({"replay", path("scans.ndjson"), "--map", map_, "--classes", "POSE"});
@@ -171,20 +171,20 @@ TEST_F(Cornerctl, ReplayOfItsOwnScans_GivesSamePoses) {
   EXPECT_EQ(count_lines(outcome.out, R"({"class":"POSE")"), 4U);
 }
 
-TEST_F(Cornerctl, Detect_GivesTheBreakpointsOfEveryScan) {
+TEST_F(Cornerctl, Detect_Recording_GivesBreakpointsOfEachScan) {
   const CommandRun outcome = run({"detect", recording(), "--method", "altbd"});
   EXPECT_EQ(outcome.exit_code, kExitDone);
   EXPECT_EQ(count_lines(outcome.out, R"({"class":"BREAKPOINTS")"), 4U);
   EXPECT_THAT(outcome.out, HasSubstr(R"("kind":"corner")"));
 }
 
-TEST_F(Cornerctl, TruthOfMovingRobotInBin_IsUsageError) {
+TEST_F(Cornerctl, Simulate_TruthOfMovingRobotInBin_IsUsageError) {
   const CommandRun outcome = run({"simulate", "--map", map_, "--path", "0.3,0.3 0.3,0.6", "-o",
                                   path("moving.bin"), "--truth", path("moving.truth")});
   EXPECT_EQ(outcome.exit_code, kExitUsage);
 }
 
-TEST_F(Cornerctl, MapRender_DrawsTheRecordingInTheMap) {
+TEST_F(Cornerctl, MapRender_Recording_IsDrawnAtItsPoses) {
   const CommandRun outcome = run({"map", "render", map_, "-o", path("map.svg"), "--recording",
                                   recording(), "--truth", path("still.truth")});
   EXPECT_EQ(outcome.exit_code, kExitDone) << outcome.err;
@@ -195,7 +195,7 @@ TEST_F(Cornerctl, MapRender_DrawsTheRecordingInTheMap) {
   EXPECT_THAT(picture, HasSubstr("4 of 4 scans localized"));
 }
 
-TEST_F(Cornerctl, MapRenderWithATrajectory_DrawsTheRecordingFromThere) {
+TEST_F(Cornerctl, MapRender_Trajectory_PlacesTheRecording) {
   const std::string file = recording();
   const CommandRun outcome = run({"map", "render", map_, "-o", path("map.svg"), "--recording", file,
                                   "--trajectory", path("still.truth")});
@@ -209,19 +209,19 @@ TEST_F(Cornerctl, MapRenderWithATrajectory_DrawsTheRecordingFromThere) {
             kExitUsage);
 }
 
-TEST_F(Cornerctl, FileThatCannotBeWritten_Fails) {
+TEST_F(Cornerctl, MapRender_UnwritableFile_Fails) {
   const CommandRun outcome = run({"map", "render", map_, "-o", path("absent/map.svg")});
   EXPECT_EQ(outcome.exit_code, kExitFailed);
   EXPECT_THAT(outcome.err, HasSubstr("absent/map.svg: No such file or directory"));
 }
 
-TEST_F(Cornerctl, Watch_FailsAtOnceWhereNoDaemonIs) {
+TEST_F(Cornerctl, Watch_NoDaemon_FailsAtOnce) {
   const CommandRun outcome = run({"watch", "--socket", path("pose.sock")});
   EXPECT_EQ(outcome.exit_code, kExitFailed);
   EXPECT_THAT(outcome.err, HasSubstr("pose.sock"));
 }
 
-TEST_F(Cornerctl, Doctor_NamesWhatIsWrongAndFails) {
+TEST_F(Cornerctl, Doctor_NoPortAndNoDaemon_ReportsBothAndFails) {
   write("cornerd.json", R"({"lidar": {"device": "/dev/no-such-port"}, "map": ")" + map_ +
                             R"(", "socket": {"pose": ")" + path("pose.sock") + "\"}}");
   const CommandRun outcome = run({"doctor", "--config", path("cornerd.json")});
@@ -232,7 +232,7 @@ TEST_F(Cornerctl, Doctor_NamesWhatIsWrongAndFails) {
   EXPECT_THAT(outcome.err, HasSubstr("faults found"));
 }
 
-TEST_F(Cornerctl, Doctor_LooksAtTheRestWhereTheConfigIsWrong) {
+TEST_F(Cornerctl, Doctor_WrongConfig_ChecksTheRest) {
   write("typo.json", R"({"lidar": {"devise": "/dev/ttyUSB0"}})");
   const CommandRun outcome = run({"doctor", "--config", path("typo.json")});
   EXPECT_EQ(outcome.exit_code, kExitConfig);
@@ -240,14 +240,14 @@ TEST_F(Cornerctl, Doctor_LooksAtTheRestWhereTheConfigIsWrong) {
   EXPECT_THAT(outcome.out, HasSubstr("port "));
 }
 
-TEST_F(Cornerctl, Record_FailsAtOnceWhereNoPortIs) {
+TEST_F(Cornerctl, Record_NoPort_FailsAtOnce) {
   const CommandRun outcome = run({"record", "--device", path("tty"), "-o", path("r.bin")});
   EXPECT_EQ(outcome.exit_code, kExitFailed);
   EXPECT_THAT(outcome.err, HasSubstr(path("tty")));
   EXPECT_FALSE(std::filesystem::exists(path("r.bin")));
 }
 
-TEST_F(Cornerctl, ClosedReader_EndsQuietly) {
+TEST_F(Cornerctl, Replay_ClosedReader_EndsWithoutError) {
   const std::string file = recording();
   std::signal(SIGPIPE, SIG_IGN);
   int ends[2];

@@ -13,7 +13,7 @@ namespace {
 
 using testing::HasSubstr;
 
-TEST(DrawBoxplots, EverySeries_HasItsBoxAndName) {
+TEST(DrawBoxplots, EachSeries_HasBoxAndName) {
   const std::vector<BoxplotSeries> series = {{"one", {1, 2, 3, 4, 5}}, {"a < b", {2, 2, 2, 9}}};
   const std::string picture = draw_boxplots({"Time", "of 5", "us"}, series);
   EXPECT_EQ(tool::find_xml_error(picture), "");
@@ -23,7 +23,7 @@ TEST(DrawBoxplots, EverySeries_HasItsBoxAndName) {
   EXPECT_THAT(picture, HasSubstr(">Time</text>"));
 }
 
-TEST(DrawBoxplots, Median_LiesAtItsHeight) {
+TEST(DrawBoxplots, Median_IsAtItsHeight) {
   // The axis reaches to 1.05 of the largest value, over 340 pixels above the lower margin of 76.
   const std::vector<BoxplotSeries> series = {{"one", {0, 5, 10}}};
   const std::string picture = draw_boxplots({"T", "", "mm"}, series);
@@ -32,7 +32,7 @@ TEST(DrawBoxplots, Median_LiesAtItsHeight) {
   EXPECT_THAT(picture, HasSubstr("119,254.1 183,254.1"));
 }
 
-TEST(DrawBoxplots, NoValues_AreAnEmptyPicture) {
+TEST(DrawBoxplots, NoValues_GiveEmptyDrawing) {
   const std::vector<BoxplotSeries> series = {{"none", {}}};
   const std::string picture = draw_boxplots({"T", "", "mm"}, series);
   EXPECT_EQ(tool::find_xml_error(picture), "");

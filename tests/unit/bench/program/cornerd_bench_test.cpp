@@ -44,7 +44,7 @@ class BenchCommand : public testing::Test {
   test::TemporaryFolder folder_;
 };
 
-TEST_F(BenchCommand, Scale_IsATableAPictureAndFigures) {
+TEST_F(BenchCommand, Scale_GivesTableDrawingAndJson) {
   const ProgramRun outcome = run({"--scale", "--corners", "60,120", "--positions", "6", "--plots",
                                   (folder_.path() / "plots").string(), "--json",
                                   (folder_.path() / "scale.json").string()});
@@ -60,7 +60,7 @@ TEST_F(BenchCommand, Scale_IsATableAPictureAndFigures) {
   EXPECT_EQ(find_xml_error(read(folder_.path() / "plots/scale.svg")), "");
 }
 
-TEST_F(BenchCommand, WrongUsage_EndsWith2AndSaysWhyOnStandardError) {
+TEST_F(BenchCommand, WrongUsage_ExitCode2WithReasonOnStandardError) {
   const std::vector<std::vector<std::string>> wrong = {
       {"--corners", "60"}, {"--positions", "-1"},   {"--positions", "nan"},
       {"--samples", "-3"}, {"--seed", "-1"},        {"--methods", "guess"},
@@ -74,7 +74,7 @@ TEST_F(BenchCommand, WrongUsage_EndsWith2AndSaysWhyOnStandardError) {
   }
 }
 
-TEST_F(BenchCommand, JsonOverAMap_IsWrongUsage) {
+TEST_F(BenchCommand, JsonOverMap_IsWrongUsage) {
   const std::filesystem::path map = folder_.path() / "krpai-2019-a.json";
   std::ofstream(map) << "{}";
   const ProgramRun outcome = run({"--json", map.string()}, folder_.path().string());
@@ -82,7 +82,7 @@ TEST_F(BenchCommand, JsonOverAMap_IsWrongUsage) {
   EXPECT_THAT(outcome.err, HasSubstr("over what is read"));
 }
 
-TEST_F(BenchCommand, Text_HasThePapersFiguresBesideOurs) {
+TEST_F(BenchCommand, Text_HasFiguresOfPaperAndOfCornerd) {
   const ProgramRun outcome = run({"--positions", "8"});
   EXPECT_EQ(outcome.exit_code, tool::kExitDone);
   EXPECT_EQ(outcome.err, "");
@@ -94,7 +94,7 @@ TEST_F(BenchCommand, Text_HasThePapersFiguresBesideOurs) {
   EXPECT_THAT(outcome.out, HasSubstr("sigma max(3 mm, 1 %), a third missing"));
 }
 
-TEST_F(BenchCommand, Json_HasAllFiguresAndNoText) {
+TEST_F(BenchCommand, Json_HasAllFiguresWithoutText) {
   const ProgramRun outcome = run({"--positions", "8", "--methods", "altbd,lt", "--json", "-"});
   EXPECT_EQ(outcome.exit_code, tool::kExitDone);
   const auto figures = nlohmann::json::parse(outcome.out);
@@ -108,7 +108,7 @@ TEST_F(BenchCommand, Json_HasAllFiguresAndNoText) {
   EXPECT_GT(score["recall_supported"], 0.8);
 }
 
-TEST_F(BenchCommand, Seed_DecidesAllButTheTimes) {
+TEST_F(BenchCommand, SameSeed_SameCorners) {
   const auto corners_of = [](const std::string& seed) {
     const ProgramRun outcome =
         run({"--positions", "8", "--methods", "altbd", "--json", "-", "--seed", seed});
@@ -141,7 +141,7 @@ TEST_F(BenchCommand, UnwritableOutput_Fails) {
   EXPECT_EQ(json.out, "");
 }
 
-TEST_F(BenchCommand, MapsThatAreNotThere_AreWrongSettings) {
+TEST_F(BenchCommand, MissingMaps_ExitCode78) {
   const ProgramRun outcome = run({"--positions", "0"}, folder_.path().string());
   EXPECT_EQ(outcome.exit_code, tool::kExitConfig);
   EXPECT_THAT(outcome.err, HasSubstr("krpai-2019-a.json"));

@@ -22,7 +22,7 @@ std::string text_of(const std::filesystem::path& file) {
   return text.str();
 }
 
-TEST(BenchOdometry, GivesTheModesOnAllDrivesAndDrawsThem) {
+TEST(BenchOdometry, AllDrives_HaveEachModeAndDrawings) {
   const test::TemporaryFolder folder;
   const std::filesystem::path plots = folder.path() / "plots";
   const std::filesystem::path json = folder.path() / "odometry.json";

@@ -50,7 +50,7 @@ TEST_F(RplidarDriverTest, BootingDevice_IsWaitedFor) {
   EXPECT_EQ(a1.opened, 1);
 }
 
-TEST_F(RplidarDriverTest, DeviceThatRestarts_IsReportedAndStartedAgain) {
+TEST_F(RplidarDriverTest, RestartedDevice_IsReportedAndStartedAgain) {
   after(seconds(2), [&] {
     const std::string banner = "RP LIDAR System.\r\nFirmware Ver 1.29 - rtm\r\nModel: 18\r\n";
     a1.output.insert(a1.output.end(), banner.begin(), banner.end());
@@ -190,7 +190,7 @@ TEST_F(RplidarDriverTest, SilenceOfThreeSeconds_LeadsToAReset) {
   EXPECT_EQ(last.state, LidarState::kRunning);
 }
 
-TEST_F(RplidarDriverTest, DeviceThatNeverMeasures_HasFaultNoData) {
+TEST_F(RplidarDriverTest, DeviceWithoutData_HasFaultNoData) {
   a1.measures = false;
   run(seconds(8));
   EXPECT_THAT(faults, Contains(LidarFault::kNoData));

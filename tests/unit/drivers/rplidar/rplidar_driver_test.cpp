@@ -65,7 +65,7 @@ TEST_F(RplidarDriverTest, ModeByName_IsUsed) {
   EXPECT_EQ(last.mode.view(), "Sensitivity");
 }
 
-TEST_F(RplidarDriverTest, UnknownMode_IsAFaultThatListsTheModes) {
+TEST_F(RplidarDriverTest, UnknownMode_FaultListsTheModes) {
   a1.mode_names = {"Standard", "Express", "Boost"};
   make("Sensitivity");
   run(seconds(1));

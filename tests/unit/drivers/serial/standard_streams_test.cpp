@@ -24,7 +24,7 @@ int first_free_number(const std::vector<int>& closed) {
   return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }
 
-TEST(StandardStreams, ClosedOnes_AreOccupied) {
+TEST(StandardStreams, ClosedStreams_AreOccupied) {
   const int expected = first_free_number({});
   ASSERT_GT(expected, 2);
   EXPECT_EQ(first_free_number({0, 1, 2}), expected);

@@ -33,7 +33,7 @@ TEST(Emulator, Firmware129_AnswersAsARealDevice) {
   EXPECT_EQ(host.ask("a5840671000000000056"), "a55a08000000207100000000fc0100");
 }
 
-TEST(Emulator, Firmware124_KnowsThreeModes) {
+TEST(Emulator, Firmware124_HasThreeModes) {
   Host host("1.24");
   EXPECT_EQ(host.ask("a550").substr(14, 8), "18180105");
   EXPECT_EQ(host.ask("a584047000000055"), "a55a0600000020700000000300");

@@ -114,7 +114,7 @@ TEST_F(PtyEmulatorTest, NoClient_TimeContinues) {
   EXPECT_GT(last_unix_ns_, core::TimeNs{1'600'000'000} * core::kNsPerSecond);
 }
 
-TEST_F(PtyEmulatorTest, ClientThatDoesNotRead_DoesNotBlock) {
+TEST_F(PtyEmulatorTest, ClientNotReading_DoesNotBlock) {
   Client client(folder_.path() / "port");
   client.send("a58205030000000021");
   // The terminal holds 4 kB: express scans fill them in less.

@@ -223,7 +223,7 @@ TEST(CornerTruth, WallBeforeAnother_HasTwoOcclusionEdges) {
   EXPECT_EQ(count(truth, CornerView::kOneSided), 2u);  // the ends of the piece
 }
 
-TEST(CornerTruth, WallThatMeetsAnotherInItsMiddle_SplitsItsReturns) {
+TEST(CornerTruth, WallMeetingMiddleOfAnother_SplitsItsReturns) {
   const WallMap map = room_with({{{1, 3}, {1, 2}, 0}});
   const Pose2 pose{0.5, 2.5, 0};
   CornerTruth truth(map, kMaxRange_m);

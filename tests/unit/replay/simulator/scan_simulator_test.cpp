@@ -13,7 +13,7 @@ namespace {
 
 using core::Sample;
 
-TEST(ScanSimulator, PerfectSensor_ReturnsTheWallsInEvenSteps) {
+TEST(ScanSimulator, PerfectSensor_ReturnsWallsAtEvenSteps) {
   const auto map = make_room();
   ScanSimulator simulator(SensorModel::perfect(), 360, 1);
   const core::Pose2 place{1.2, 1.1, 0.4};
@@ -30,7 +30,7 @@ TEST(ScanSimulator, PerfectSensor_ReturnsTheWallsInEvenSteps) {
   }
 }
 
-TEST(ScanSimulator, Missing_AreAsManyAsTheModelSays) {
+TEST(ScanSimulator, MissingReturns_HaveTheModelsShare) {
   const auto map = make_room();
   SensorModel sensor;
   sensor.missing = 1.0 / 3;
@@ -41,7 +41,7 @@ TEST(ScanSimulator, Missing_AreAsManyAsTheModelSays) {
   EXPECT_NEAR(static_cast<double>(missing), 8000.0 / 3, 150);
 }
 
-TEST(ScanSimulator, SuccessiveTurns_DifferButTheSeedDecidesThem) {
+TEST(ScanSimulator, SuccessiveScans_DifferReproducibly) {
   const auto map = make_room();
   const auto ranges = [&](ScanSimulator& simulator) {
     std::vector<float> result;

@@ -43,7 +43,7 @@ class CalibrateNoise : public testing::Test {
   test::TemporaryFolder folder_;
 };
 
-TEST_F(CalibrateNoise, SimulatedLidar_GivesBackItsNoiseAsAFileThatSimulateTakes) {
+TEST_F(CalibrateNoise, SimulatedLidar_NoiseIsEstimatedAndWrittenForSimulate) {
   const CommandRun run({"calibrate", "noise", recording("0.002"), "-o", path("noise.json"),
                         "--plot", path("noise.svg")});
   ASSERT_EQ(run.exit_code, kExitDone) << run.err;
@@ -61,7 +61,7 @@ TEST_F(CalibrateNoise, SimulatedLidar_GivesBackItsNoiseAsAFileThatSimulateTakes)
             kExitDone);
 }
 
-TEST_F(CalibrateNoise, Model_ChoosesWhatIsWritten) {
+TEST_F(CalibrateNoise, Model_PlainOrTable_SelectsWhatIsWritten) {
   const std::string file = recording("0.002");
   CommandRun({"calibrate", "noise", file, "--model", "plain", "-o", path("plain.json")});
   CommandRun({"calibrate", "noise", file, "--model", "table", "-o", path("table.json")});
@@ -70,7 +70,7 @@ TEST_F(CalibrateNoise, Model_ChoosesWhatIsWritten) {
   EXPECT_NEAR(settings::load_noise(path("table.json")).sensor.sigma_range_m(0.7), 0.002, 0.0003);
 }
 
-TEST_F(CalibrateNoise, TooFewScans_AreAFailureThatSaysWhatToDo) {
+TEST_F(CalibrateNoise, TooFewScans_FailWithRemedy) {
   const CommandRun run({"calibrate", "noise", recording("0.002", "1"), "-o", path("noise.json")});
   EXPECT_EQ(run.exit_code, kExitFailed);
   EXPECT_THAT(run.err, HasSubstr("record some 20 scans"));
@@ -78,7 +78,7 @@ TEST_F(CalibrateNoise, TooFewScans_AreAFailureThatSaysWhatToDo) {
   EXPECT_FALSE(std::filesystem::exists(path("noise.json")));
 }
 
-TEST_F(CalibrateNoise, ReturnsOfNoWall_AreAFailureThatSaysSo) {
+TEST_F(CalibrateNoise, ScatteredReturns_FailWithReason) {
   {
     std::mt19937 random(3);
     std::uniform_real_distribution<double> range_m(0.3, 6);
@@ -98,7 +98,7 @@ TEST_F(CalibrateNoise, ReturnsOfNoWall_AreAFailureThatSaysSo) {
   EXPECT_FALSE(std::filesystem::exists(path("noise.json")));
 }
 
-TEST_F(CalibrateNoise, WallsAtKnownDistances_GiveBackTheModelThatTheSimulatorDrewFrom) {
+TEST_F(CalibrateNoise, WallsAtKnownDistances_GiveTheSimulatedWallModel) {
   recording("0.002", "1");
   std::ofstream(path("truth.json")) << R"({"lidar": {"noise": {"bearing": 0, "wall": [
       {"from": 0.1, "to": 0.6, "ray": 1.2, "sigma": 0.001,
@@ -154,7 +154,7 @@ TEST_F(CalibrateNoise, PaperModelWithoutDistances_UsesFoundWalls) {
   EXPECT_THAT(text_of("noise.json"), Not(HasSubstr("wall")));
 }
 
-TEST_F(CalibrateNoise, WallThatIsNotThere_IsAFailureAndADistanceThatIsNoneWrongUsage) {
+TEST_F(CalibrateNoise, NoWallAtDistanceOrInvalidDistance_Fails) {
   const std::string file = recording("0.002");
   const CommandRun absent({"calibrate", "noise", file + "@11"});
   EXPECT_EQ(absent.exit_code, kExitFailed);
@@ -165,7 +165,7 @@ TEST_F(CalibrateNoise, WallThatIsNotThere_IsAFailureAndADistanceThatIsNoneWrongU
   }
 }
 
-TEST_F(CalibrateNoise, WrongUsage_EndsWith2) {
+TEST_F(CalibrateNoise, WrongUsage_ExitCode2) {
   EXPECT_EQ(CommandRun({"calibrate"}).exit_code, kExitUsage);
   EXPECT_EQ(CommandRun({"calibrate", "noise"}).exit_code, kExitUsage);
   EXPECT_EQ(CommandRun({"calibrate", "noise", "x.bin", "--model", "best"}).exit_code, kExitUsage);
@@ -195,7 +195,7 @@ TEST_F(CalibrateBias, BiasedLidar_ReportsAndWritesBias) {
   EXPECT_NEAR(bias["range_offset"], 0.004, 0.002);
 }
 
-TEST_F(CalibrateBias, MapThatIsNotToScale_IsAnErrorAndWritesNothing) {
+TEST_F(CalibrateBias, MapNotToScale_FailsAndWritesNothing) {
   const CommandRun run({"calibrate", "bias", biased_recording("12", "1.04"), "--map", map_, "-o",
                         path("bias.json")});
   EXPECT_EQ(run.exit_code, kExitFailed);
@@ -203,7 +203,7 @@ TEST_F(CalibrateBias, MapThatIsNotToScale_IsAnErrorAndWritesNothing) {
   EXPECT_FALSE(std::filesystem::exists(path("bias.json")));
 }
 
-TEST_F(CalibrateBias, TooFewScans_AreAnError) {
+TEST_F(CalibrateBias, TooFewScans_Fail) {
   const CommandRun run({"calibrate", "bias", recording("0.002", "5"), "--map", path("hall.json")});
   EXPECT_EQ(run.exit_code, kExitFailed);
   EXPECT_THAT(run.err, HasSubstr("scans were localized"));

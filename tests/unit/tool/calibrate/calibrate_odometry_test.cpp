@@ -19,7 +19,7 @@ using nlohmann::json;
 using testing::HasSubstr;
 using CalibrateOdometry = OdometryCommandTest;
 
-TEST_F(CalibrateOdometry, GoodDrive_WritesWhatAReplayReads) {
+TEST_F(CalibrateOdometry, GoodDrive_WritesConfigForReplay) {
   ASSERT_EQ(
       simulate({"--wheel-errors", "0.015,0.025", "--gyro-error", "0.02", "--gyro-bias", "0.01"},
                "300")
@@ -77,7 +77,7 @@ TEST_F(CalibrateOdometry, LateReadings_EstimatesDelay) {
   EXPECT_FALSE(std::filesystem::exists(output));
 }
 
-TEST_F(CalibrateOdometry, WrongGeometry_GivesRemedy) {
+TEST_F(CalibrateOdometry, WrongGeometry_FailsWithRemedy) {
   ASSERT_EQ(simulate({"--wheel-errors", "0.015,0.025", "--gyro-bias", "0.01"}, "300").exit_code, 0);
   const std::string wrong = folder_ / "wrong.ndjson";
   const std::string output = folder_ / "odometry.json";

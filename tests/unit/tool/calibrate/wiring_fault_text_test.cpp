@@ -17,9 +17,9 @@ std::string described(const WiringFaults& faults, settings::OdometrySource sourc
   return describe_faults(faults, config);
 }
 
-TEST(WiringFaultText, NoFault_IsNoText) { EXPECT_EQ(described({}), ""); }
+TEST(WiringFaultText, NoFault_GivesNoText) { EXPECT_EQ(described({}), ""); }
 
-TEST(WiringFaultText, APlainFactor_GivesTheCorrectedValue) {
+TEST(WiringFaultText, WrongFactor_GivesCorrectedValue) {
   const auto by = [](double factor) {
     WiringFaults faults;
     faults.left_factor = faults.right_factor = factor;
@@ -35,7 +35,7 @@ TEST(WiringFaultText, APlainFactor_GivesTheCorrectedValue) {
                                  "0.052"));
 }
 
-TEST(WiringFaultText, WhereReadingsComeFrom_DecidesWhatToChange) {
+TEST(WiringFaultText, OdometrySource_SelectsTheRemedy) {
   WiringFaults faults;
   faults.are_swapped = faults.gyro_is_reversed = true;
   EXPECT_THAT(described(faults), HasSubstr("swap left and right in the ODOMETRY lines; "));
@@ -46,7 +46,7 @@ TEST(WiringFaultText, WhereReadingsComeFrom_DecidesWhatToChange) {
   EXPECT_THAT(kernel, HasSubstr("set advanced.odometry.kernel.gyro.reversed to true"));
 }
 
-TEST(WiringFaultText, AllTurnedAround_MayBeTheMount) {
+TEST(WiringFaultText, AllDirectionsReversed_NamesTheMount) {
   WiringFaults faults;
   faults.are_swapped = faults.left_is_reversed = faults.right_is_reversed = true;
   EXPECT_THAT(described(faults), HasSubstr("lidar.mount.theta"));
@@ -55,7 +55,7 @@ TEST(WiringFaultText, AllTurnedAround_MayBeTheMount) {
   EXPECT_THAT(described(faults), Not(HasSubstr("mount")));
 }
 
-TEST(WiringFaultText, Degrees_AreNamed) {
+TEST(WiringFaultText, GyroInDegrees_IsNamed) {
   WiringFaults faults;
   faults.gyro_factor = 58.4;
   EXPECT_THAT(described(faults), HasSubstr("degrees a second"));

@@ -16,14 +16,14 @@ TEST(ParsePose, ThreeNumbers_AreAPose) {
   EXPECT_DOUBLE_EQ(pose.theta_rad, 3.5 - core::kTwoPi);
 }
 
-TEST(ParsePose, AnythingElse_IsWrongUsage) {
+TEST(ParsePose, OtherText_IsWrongUsage) {
   for (const char* text : {"", "1", "1,2", "1,2,", "1,2,3,4", "1,2,3 ", "a,b,c", "1,2,nan",
                            "1,inf,3", "1;2;3", ",,"}) {
     EXPECT_THROW(parse_pose(text), UsageError) << text;
   }
 }
 
-TEST(ParsePoints, WordsOfTwoNumbers_ArePoints) {
+TEST(ParsePoints, PairsOfNumbers_ArePoints) {
   const auto points = parse_points(" 1,2  3,-4 ");
   ASSERT_EQ(points.size(), 2U);
   EXPECT_EQ(points[1], core::Vec2(3, -4));
@@ -39,7 +39,7 @@ TEST(ParseClasses, UnknownName_IsWrongUsage) {
   EXPECT_THROW(parse_classes({"POSE", "pose"}), UsageError);
 }
 
-TEST(ParseSpeed, MaxOrAPositiveNumber_IsASpeed) {
+TEST(ParseSpeed, MaxOrPositiveNumber_IsASpeed) {
   EXPECT_FALSE(parse_speed("max"));
   EXPECT_EQ(parse_speed("2.5"), 2.5);
   for (const char* text : {"", "0", "-1", "fast", "1x", "nan", "inf"}) {
@@ -47,7 +47,7 @@ TEST(ParseSpeed, MaxOrAPositiveNumber_IsASpeed) {
   }
 }
 
-TEST(ParseWire, Auto_LeavesItToTheBytes) {
+TEST(ParseWire, Auto_GivesNullopt) {
   EXPECT_EQ(parse_wire("express"), rplidar::WireFormat::kExpress);
   EXPECT_EQ(parse_wire("auto"), std::nullopt);
 }

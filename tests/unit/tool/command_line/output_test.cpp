@@ -33,12 +33,12 @@ class FileGuard : public testing::Test {
   test::TemporaryFolder folder_;
 };
 
-TEST_F(FileGuard, OtherFilesAndNone_AreLetThrough) {
+TEST_F(FileGuard, DistinctOrEmptyNames_AreAccepted) {
   EXPECT_NO_THROW(guard_files({.read = {made("a"), ""}, .written = {path("b"), ""}, .output = ""}));
   EXPECT_NO_THROW(guard_files({.read = {}, .written = {path("a"), path("b")}, .output = "-"}));
 }
 
-TEST_F(FileGuard, InputByAnotherName_IsFound) {
+TEST_F(FileGuard, OutputOverAliasOfInput_IsWrongUsage) {
   const fs::path file = made("a");
   fs::create_symlink("a", path("link"));
   fs::create_hard_link(file, path("hard"));
@@ -52,7 +52,7 @@ TEST_F(FileGuard, InputByAnotherName_IsFound) {
                UsageError);
 }
 
-TEST_F(FileGuard, TwoOutputsOfOneName_AreWrongUsage) {
+TEST_F(FileGuard, SameFileForTwoOutputs_IsWrongUsage) {
   EXPECT_THROW(guard_files({.read = {}, .written = {path("a"), path("./a")}, .output = {}}),
                UsageError);
   EXPECT_THROW(guard_files({.read = {}, .written = {path("a")}, .output = path("a")}), UsageError);
@@ -61,11 +61,11 @@ TEST_F(FileGuard, TwoOutputsOfOneName_AreWrongUsage) {
                UsageError);
 }
 
-TEST_F(FileGuard, TwoOutputsThatNobodyKeeps_AreLetThrough) {
+TEST_F(FileGuard, DeviceForTwoOutputs_IsAccepted) {
   EXPECT_NO_THROW(guard_files({.read = {}, .written = {"/dev/null"}, .output = "/dev/null"}));
 }
 
-TEST_F(FileGuard, DashForAnOutputOfAFileOfItsOwn_IsWrongUsage) {
+TEST_F(FileGuard, DashForFileOutput_IsWrongUsage) {
   EXPECT_THROW(guard_files({.read = {}, .written = {"-"}, .output = {}}), UsageError);
 }
 
@@ -120,7 +120,7 @@ class CommandFilesTest : public FileGuard {
   std::map<std::string, std::string> contents_;
 };
 
-TEST_F(CommandFilesTest, OutputOverAnInputOrAnOutput_IsWrongUsageAndNothingIsWritten) {
+TEST_F(CommandFilesTest, OutputOverInputOrOutput_IsWrongUsageAndWritesNothing) {
   const std::vector<std::string> calls[] = {
       {"map", "render", "map.json", "-o", "map.json"},
       {"map", "render", "map.json", "-o", "drive.ndjson", "--recording", "drive.ndjson"},
@@ -163,7 +163,7 @@ TEST_F(CommandFilesTest, OutputOverAnInputOrAnOutput_IsWrongUsageAndNothingIsWri
   expect_refused(calls);
 }
 
-TEST_F(CommandFilesTest, ImportedMapOverItsFiles_IsWrongUsageAndNothingIsWritten) {
+TEST_F(CommandFilesTest, ImportedMapOverItsInputs_IsWrongUsageAndWritesNothing) {
   if (!gridmap::has_yaml()) GTEST_SKIP() << "built without libyaml-cpp";
   const std::vector<std::string> calls[] = {
       {"map", "import", "room.yaml", "-o", "room.yaml"},
@@ -174,7 +174,7 @@ TEST_F(CommandFilesTest, ImportedMapOverItsFiles_IsWrongUsageAndNothingIsWritten
   expect_refused(calls);
 }
 
-TEST_F(CommandFilesTest, PictureOnStandardOutput_IsAllThereIs) {
+TEST_F(CommandFilesTest, DrawingOnStandardOutput_HasNoOtherText) {
   const CommandRun run({"map", "render", file("map.json"), "-o", "-"});
   EXPECT_EQ(run.exit_code, kExitDone) << run.err;
   EXPECT_THAT(run.out, testing::StartsWith("<svg"));

@@ -23,7 +23,7 @@ class Accounts : public testing::Test {
   StandIn stand_in_;
 };
 
-TEST_F(Accounts, User_HasItsGroups) {
+TEST_F(Accounts, KnownUser_HasItsGroups) {
   const auto ada = find_account(machine(), "ada");
   ASSERT_TRUE(ada);
   EXPECT_EQ(ada->uid, 1000U);
@@ -32,14 +32,14 @@ TEST_F(Accounts, User_HasItsGroups) {
   EXPECT_FALSE(find_account(machine(), "eve"));
 }
 
-TEST_F(Accounts, Groups_HaveNames) {
+TEST_F(Accounts, KnownGroup_HasItsName) {
   EXPECT_EQ(group_name(machine(), 44), "video");
   EXPECT_EQ(group_name(machine(), 99), "99");
   EXPECT_EQ(find_group(machine(), "dialout"), 20U);
   EXPECT_FALSE(find_group(machine(), "empty"));
 }
 
-TEST(MayReadAndWrite, FirstClassThatFits_Decides) {
+TEST(MayReadAndWrite, OwnerGroupOrOthers_FirstMatchDecides) {
   const Account ada{"ada", 1000, {1000, 20}};
   const auto file = [](uid_t uid, gid_t gid, mode_t mode) {
     FileFacts facts;
@@ -57,7 +57,7 @@ TEST(MayReadAndWrite, FirstClassThatFits_Decides) {
   EXPECT_TRUE(may_read_and_write({"root", 0, {0}}, file(5, 5, 0)));
 }
 
-TEST(MayAccess, AllOfTheRights_AreNeeded) {
+TEST(MayAccess, PartOfRights_IsDenied) {
   const Account ada{"ada", 1000, {1000}};
   FileFacts folder;
   folder.mode = 0751;

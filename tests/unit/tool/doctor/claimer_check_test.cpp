@@ -19,7 +19,7 @@ class CheckClaimers : public testing::Test {
   StandIn stand_in_;
 };
 
-TEST_F(CheckClaimers, NobodyIsInstalled_IsGood) {
+TEST_F(CheckClaimers, NoClaimerInstalled_IsGood) {
   EXPECT_THAT(findings(), ElementsAre(Finds(Verdict::kGood, "claimers", "neither")));
 }
 
@@ -33,7 +33,7 @@ TEST_F(CheckClaimers, GpsdWithUsbAuto_IsWrong) {
   EXPECT_THAT(findings(), ElementsAre(Finds(Verdict::kGood, "gpsd", "leaves the port alone")));
 }
 
-TEST_F(CheckClaimers, RulesOfThePackage_KeepGpsdOff) {
+TEST_F(CheckClaimers, UdevRulesInstalled_GpsdIsGood) {
   stand_in_.write("/etc/default/gpsd", "USBAUTO=\"true\"\n");
   stand_in_.write("/etc/udev/rules.d/61-cornerd.rules");
   EXPECT_THAT(findings(), ElementsAre(Finds(Verdict::kGood, "gpsd", "leaves the port alone")));
@@ -58,7 +58,7 @@ TEST_F(CheckClaimers, GpsdWithBoardUart_IsGood) {
   EXPECT_THAT(findings(), ElementsAre(Finds(Verdict::kGood, "gpsd", "leaves the port alone")));
 }
 
-TEST_F(CheckClaimers, ModemManager_GoesByWhatUdevNoted) {
+TEST_F(CheckClaimers, ModemManagerWithoutUdevIgnoreFlag_IsWrong) {
   stand_in_.run_process(9, "ModemManager");
   const auto found = findings();
   ASSERT_THAT(found, ElementsAre(Finds(Verdict::kWrong, "modems", "ModemManager probes")));
@@ -67,13 +67,13 @@ TEST_F(CheckClaimers, ModemManager_GoesByWhatUdevNoted) {
   EXPECT_THAT(findings(), ElementsAre(Finds(Verdict::kGood, "modems", "leaves the port alone")));
 }
 
-TEST_F(CheckClaimers, Brltty_TakesCp2102s) {
+TEST_F(CheckClaimers, BrlttyRunning_IsWrong) {
   stand_in_.run_process(9, "brltty");
   EXPECT_THAT(findings(), ElementsAre(Finds(Verdict::kWrong, "brltty", "Braille")));
   EXPECT_THAT(findings()[0].what, Not(HasSubstr("probably has the lidar's")));
 }
 
-TEST_F(CheckClaimers, BrlttyWithoutPort_IsReported) {
+TEST_F(CheckClaimers, BrlttyAndNoPort_IsProbableCause) {
   // The driver is off it: neither port nor link are left.
   for (const char* file : {"/dev/rplidar", "/dev/ttyUSB0", "/sys/class/tty/ttyUSB0"}) {
     std::filesystem::remove(stand_in_.outside(file));
@@ -102,7 +102,7 @@ TEST(CheckClaimersOfNothing, NothingPluggedIn_ReportsAllClaimers) {
                           Finds(Verdict::kWrong, "brltty", "Braille")));
 }
 
-TEST(CheckClaimersOfNothing, AbsentUartOfTheBoard_IsNobodys) {
+TEST(CheckClaimersOfNothing, AbsentBoardUart_IsGood) {
   StandIn stand_in;
   stand_in.patient.config.lidar.device = "/dev/ttyS4";
   stand_in.run_process(8, "ModemManager");
@@ -111,7 +111,7 @@ TEST(CheckClaimersOfNothing, AbsentUartOfTheBoard_IsNobodys) {
               ElementsAre(Finds(Verdict::kGood, "claimers", "neither")));
 }
 
-TEST(CheckClaimersOfNothing, PortUnderAnotherName_GoesByItsNotes) {
+TEST(CheckClaimersOfNothing, PortUnderAnotherName_UsesItsUdevData) {
   const StandIn stand_in;
   stand_in.plug_in_without_rules();
   stand_in.write("/etc/udev/rules.d/61-cornerd.rules");

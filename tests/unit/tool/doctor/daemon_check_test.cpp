@@ -52,21 +52,21 @@ TEST_F(CheckDaemon, LidarFault_QuotesDaemonDetail) {
   EXPECT_THAT(check_poses(stand_in_.patient), IsEmpty());
 }
 
-TEST_F(CheckDaemon, AdviceToAskDoctor_IsLeftOut) {
+TEST_F(CheckDaemon, AdviceToRunDoctor_IsOmitted) {
   message::ParsedStatus& status = *daemon().status;
   status.lidar_state = "opening";
   status.lidar_detail = "/dev/rplidar: held; waiting for it. `sudo cornerctl doctor` says by whom";
   EXPECT_EQ(check_daemon(stand_in_.patient)[1].what, "opening: /dev/rplidar: held; waiting for it");
 }
 
-TEST_F(CheckDaemon, DamagedBytes_AreNotedAboveTheNoise) {
+TEST_F(CheckDaemon, DamagedBytesAboveLimit_AreNoted) {
   daemon().status->counters = {{"bytes", 1000}, {"skipped_bytes", 10}};
   EXPECT_THAT(check_daemon(stand_in_.patient), SizeIs(2));
   daemon().status->counters = {{"bytes", 1000}, {"skipped_bytes", 25}};
   EXPECT_THAT(check_daemon(stand_in_.patient)[2], Finds(Verdict::kNote, "line", "2.5 %"));
 }
 
-TEST_F(CheckDaemon, SensorsOfTheOdometry_AreNamed) {
+TEST_F(CheckDaemon, AbsentOdometrySensor_IsNamed) {
   daemon().status->odometry_sensors = {{"gyro", "running", ""},
                                        {"left", "absent", "no counter 48300180.counter"}};
   EXPECT_THAT(check_daemon(stand_in_.patient)[2],
@@ -101,7 +101,7 @@ TEST_F(CheckDaemon, OdometryHint_IsQuotedOnce) {
   EXPECT_THAT(found[2], Finds(Verdict::kWrong, "odometry", "absent: lines lack left and right"));
 }
 
-TEST_F(CheckDaemon, NobodyListens_IsExplained) {
+TEST_F(CheckDaemon, NoListener_HasRemedyForItsCause) {
   daemon() = {};
   daemon().connect_errno = ENOENT;
   EXPECT_THAT(check_daemon(stand_in_.patient)[0].remedies, ElementsAre(HasSubstr("install")));
@@ -118,14 +118,14 @@ TEST_F(CheckDaemon, NobodyListens_IsExplained) {
   EXPECT_THAT(check_daemon(stand_in_.patient)[0], Finds(Verdict::kWrong, "daemon", "not enter"));
 }
 
-TEST_F(CheckDaemon, DaemonThatHangs_IsToBeRestarted) {
+TEST_F(CheckDaemon, NoAnswer_DaemonHangs) {
   daemon() = {};
   EXPECT_THAT(check_daemon(stand_in_.patient)[0], Finds(Verdict::kWrong, "daemon", "it hangs"));
   daemon().connect_errno = EAGAIN;
   EXPECT_THAT(check_daemon(stand_in_.patient)[0], Finds(Verdict::kWrong, "daemon", "it hangs"));
 }
 
-TEST_F(CheckDaemon, Poses_AreGoodWhereHalfOfThemNameAPlace) {
+TEST_F(CheckDaemon, HalfOfPosesAreFixes_IsGood) {
   see(5, 2, 3);
   EXPECT_THAT(check_poses(stand_in_.patient),
               ElementsAre(Finds(Verdict::kGood, "poses", "5 fix, 2 ambiguous, 3 lost")));
@@ -148,7 +148,7 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-TEST(CheckControl, OutsideTheGroup_OnlyReads) {
+TEST(CheckControl, CallerOutsideGroup_IsNoted) {
   StandIn stand_in;
   EXPECT_THAT(check_control(stand_in.patient), IsEmpty());
   stand_in.write("/etc/passwd", "ada:x:1000:1000::/:/bin/sh\n");

@@ -6,7 +6,7 @@
 namespace cornerd::tool {
 namespace {
 
-TEST(Finding, Text_HasALineForEachAndForEachMend) {
+TEST(Finding, Text_HasALineForEachFindingAndRemedy) {
   const Finding findings[] = {{Verdict::kGood, "port", "/dev/x"},
                               {Verdict::kWrong, "holder", "somebody", {"end it", "or wait"}},
                               {Verdict::kNote, "power", "hm"}};
@@ -19,7 +19,7 @@ TEST(Finding, Text_HasALineForEachAndForEachMend) {
   EXPECT_EQ(count_wrong(findings), 1U);
 }
 
-TEST(Finding, GoodOneOfAWrongSubject_IsLeftOut) {
+TEST(Finding, GoodFindingOfWrongSubject_IsDropped) {
   std::vector<Finding> findings = {{Verdict::kGood, "config", "a"},
                                    {Verdict::kGood, "map", "b"},
                                    {Verdict::kNote, "map", "c"},

@@ -47,7 +47,7 @@ TEST_F(CheckHolders, HeldByCornerd_IsGood) {
   EXPECT_THAT(findings(), ElementsAre(Finds(Verdict::kGood, "holder", "cornerd (process 77)")));
 }
 
-TEST_F(CheckHolders, HeldByOthers_GivesRemedies) {
+TEST_F(CheckHolders, HeldByOthers_HasRemedies) {
   open_port(77, "cornerd");
   open_port(80, "gpsd");
   open_port(81, "ModemManager");
@@ -84,12 +84,12 @@ TEST_F(CheckHolders, HiddenProcesses_GiveNote) {
   EXPECT_THAT(found[0].remedies, ElementsAre(HasSubstr("sudo cornerctl doctor")));
 }
 
-TEST_F(CheckHolders, ConsoleOfTheKernel_IsWrong) {
+TEST_F(CheckHolders, KernelConsole_IsWrong) {
   stand_in_.write("/sys/class/tty/console/active", "tty0 ttyUSB0\n");
   EXPECT_THAT(findings(), ElementsAre(Finds(Verdict::kWrong, "console", "/dev/ttyUSB0")));
 }
 
-TEST(LockOwner, LinesThatAreNoneOfThatFile_HaveNoOwner) {
+TEST(LockOwner, LinesOfOtherFiles_GiveNoOwner) {
   FileFacts file;
   file.device_major = 0;
   file.device_minor = 5;

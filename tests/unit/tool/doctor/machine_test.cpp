@@ -12,7 +12,7 @@ namespace {
 using testing::ElementsAre;
 using testing::IsEmpty;
 
-TEST(Machine, Links_AreFollowedInsideTheRoot) {
+TEST(Machine, Links_AreFollowedInsideRoot) {
   const StandIn stand_in;
   stand_in.write("/dev/ttyS4", "port");
   stand_in.link("/dev/lidar", "/dev/uart");
@@ -26,7 +26,7 @@ TEST(Machine, Links_AreFollowedInsideTheRoot) {
   EXPECT_EQ(machine.read_line("/sys/class/x/name"), "Y");
 }
 
-TEST(Machine, Steps_AreAllThatIsLookedUp) {
+TEST(Machine, Steps_ListEveryPathOfLookup) {
   const StandIn stand_in;
   stand_in.write("/data/maps/a.json");
   stand_in.link("/etc/maps", "../data/maps");
@@ -40,7 +40,7 @@ TEST(Machine, LinkToItself_Ends) {
   EXPECT_FALSE(stand_in.patient.machine.exists("/dev/loop"));
 }
 
-TEST(Machine, WhatIsNotThere_IsEmpty) {
+TEST(Machine, AbsentFile_IsEmpty) {
   const StandIn stand_in;
   const Machine& machine = stand_in.patient.machine;
   EXPECT_FALSE(machine.exists("/nothing"));

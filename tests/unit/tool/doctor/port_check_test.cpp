@@ -13,7 +13,7 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::StartsWith;
 
-TEST(CheckPort, PortThatIsThere_IsGoodAndNamed) {
+TEST(CheckPort, PresentPort_IsGoodAndNamed) {
   const StandIn stand_in;
   stand_in.plug_in();
   EXPECT_THAT(check_port(stand_in.patient),
@@ -22,7 +22,7 @@ TEST(CheckPort, PortThatIsThere_IsGoodAndNamed) {
                                 "Controller, 10c4:ea60)")));
 }
 
-TEST(CheckPort, AdapterWithoutRules_IsFoundUnderItsOtherName) {
+TEST(CheckPort, AdapterWithoutRules_IsFoundByItsKernelName) {
   const StandIn stand_in;
   stand_in.plug_in_without_rules();
   auto findings = check_port(stand_in.patient);
@@ -34,7 +34,7 @@ TEST(CheckPort, AdapterWithoutRules_IsFoundUnderItsOtherName) {
   EXPECT_THAT(check_port(stand_in.patient)[0].remedies[0], StartsWith("sudo udevadm control"));
 }
 
-TEST(CheckPort, OtherNameOfAUsbPort_IsProposed) {
+TEST(CheckPort, WrongUsbPort_OtherNameIsProposed) {
   StandIn stand_in;
   stand_in.plug_in_without_rules();
   stand_in.patient.config.lidar.device = "/dev/ttyUSB1";
@@ -42,7 +42,7 @@ TEST(CheckPort, OtherNameOfAUsbPort_IsProposed) {
               ElementsAre("set lidar.device to \"/dev/ttyUSB0\" in cornerd.json"));
 }
 
-TEST(CheckPort, OtherAdapters_AreMentioned) {
+TEST(CheckPort, SecondAdapter_IsMentioned) {
   const StandIn stand_in;
   stand_in.plug_in();
   stand_in.write("/sys/devices/pci0/usb1/1-2/idVendor", "1a86\n");
@@ -53,7 +53,7 @@ TEST(CheckPort, OtherAdapters_AreMentioned) {
       ElementsAre(Finds(Verdict::kGood, "port", "also plugged in: /dev/ttyUSB1 (1a86:7523)")));
 }
 
-TEST(CheckPort, AdapterWithoutDriver_WantsTheDriver) {
+TEST(CheckPort, AdapterWithoutDriver_RemedyIsModprobe) {
   const StandIn stand_in;
   stand_in.write("/sys/bus/usb/devices/1-1/idVendor", "10c4\n");
   stand_in.write("/sys/bus/usb/devices/1-1/idProduct", "ea60\n");
@@ -62,7 +62,7 @@ TEST(CheckPort, AdapterWithoutDriver_WantsTheDriver) {
   EXPECT_THAT(findings[0].remedies, ElementsAre("sudo modprobe cp210x"));
 }
 
-TEST(CheckPort, WhatIsNoSerialPort_IsWrongAndHasNeitherRightsNorHolders) {
+TEST(CheckPort, NotASerialPort_IsWrongWithoutFurtherChecks) {
   StandIn stand_in;
   stand_in.plug_in();
   const auto expect_wrong = [&](const char* device, const char* what) {
@@ -84,14 +84,14 @@ TEST(CheckPort, WhatIsNoSerialPort_IsWrongAndHasNeitherRightsNorHolders) {
   expect_wrong("/dev/null", "/dev/null: no serial port, but a device of the kind \"mem\"");
 }
 
-TEST(CheckPort, TerminalOfThisMachine_IsAPort) {
+TEST(CheckPort, ControllingTerminal_IsAPort) {
   const Machine machine;
   const std::optional<FileFacts> terminal = machine.facts("/dev/tty");
   if (!terminal) GTEST_SKIP() << "there is no /dev/tty";
   EXPECT_EQ(other_than_port(machine, *terminal), "");
 }
 
-TEST(CheckPort, NothingPluggedIn_AsksForPlugAndCable) {
+TEST(CheckPort, NothingPluggedIn_RemediesArePlugAndCable) {
   const StandIn stand_in;
   const auto findings = check_port(stand_in.patient);
   ASSERT_THAT(findings, ElementsAre(Finds(Verdict::kWrong, "port", "/dev/rplidar: no such port")));
@@ -99,7 +99,7 @@ TEST(CheckPort, NothingPluggedIn_AsksForPlugAndCable) {
               ElementsAre(HasSubstr("plug the lidar in"), HasSubstr("cable")));
 }
 
-TEST(CheckPort, UartsOfABoard_AreExplained) {
+TEST(CheckPort, BoardUart_HasRemedyForItsCause) {
   StandIn stand_in;
   stand_in.patient.config.lidar.device = "/dev/ttyO4";
   EXPECT_THAT(check_port(stand_in.patient)[0].remedies, ElementsAre(HasSubstr("\"/dev/ttyS4\"")));
@@ -113,7 +113,7 @@ TEST(CheckPort, UartsOfABoard_AreExplained) {
   EXPECT_THAT(check_port(stand_in.patient), ElementsAre(Finds(Verdict::kGood, "port", "ttyS4")));
 }
 
-TEST(CheckPort, RecordingInItsPlace_MustBeThere) {
+TEST(CheckPort, AbsentRecording_IsWrong) {
   StandIn stand_in;
   stand_in.patient.config.lidar.driver = settings::DriverKind::kReplay;
   stand_in.patient.config.lidar.file = "/drive.bin";

@@ -18,7 +18,7 @@ class CheckPower : public testing::Test {
   StandIn stand_in_;
 };
 
-TEST_F(CheckPower, WithoutTrouble_SaysWhereItLooked) {
+TEST_F(CheckPower, NoFault_NamesItsSource) {
   EXPECT_THAT(findings(), ElementsAre(Finds(Verdict::kGood, "power", "sudo cornerctl doctor")));
   stand_in_.write("/dev/kmsg", "6,1,0,-;usb 1-1: new full-speed USB device\n");
   const auto found = findings();
@@ -26,7 +26,7 @@ TEST_F(CheckPower, WithoutTrouble_SaysWhereItLooked) {
   EXPECT_EQ(found[0].what, "no trace of trouble");
 }
 
-TEST_F(CheckPower, OverCurrentOfAUsbPort_IsWrong) {
+TEST_F(CheckPower, UsbOverCurrent_IsWrong) {
   const std::string hub = "/sys/bus/usb/devices/1-0:1.0";
   stand_in_.write(hub + "/usb1-port1/over_current_count", "3\n");
   stand_in_.write(hub + "/usb1-port2/over_current_count", "0\n");
@@ -42,7 +42,7 @@ TEST_F(CheckPower, UndervoltageAlarm_IsWrong) {
   EXPECT_THAT(findings(), ElementsAre(Finds(Verdict::kWrong, "power", "supply is too low")));
 }
 
-TEST_F(CheckPower, HubWithoutASupply_IsNoted) {
+TEST_F(CheckPower, HubWithoutSupply_IsNoted) {
   // usb1 is the computer itself; a hub lies between only where its name is another one.
   stand_in_.write("/sys/devices/pci0/usb1/bmAttributes", "a0\n");
   EXPECT_THAT(findings(), ElementsAre(Finds(Verdict::kGood, "power", "no trace")));
@@ -62,7 +62,7 @@ TEST_F(CheckPower, HubWithoutASupply_IsNoted) {
               ElementsAre(Finds(Verdict::kNote, "power", "hub without its own supply")));
 }
 
-TEST_F(CheckPower, KernelLog_IsCounted) {
+TEST_F(CheckPower, FaultsInKernelLog_AreCounted) {
   stand_in_.write("/dev/kmsg",
                   "3,1,0,-;cp210x ttyUSB0: cp210x converter now disconnected from ttyUSB0\n"
                   "3,2,9,-;cp210x ttyUSB0: cp210x converter now disconnected from ttyUSB0\n"

@@ -41,17 +41,17 @@ class CheckReading : public testing::Test {
   StandIn stand_in_;
 };
 
-TEST_F(CheckReading, FilesOfEverybody_AreGood) {
+TEST_F(CheckReading, WorldReadableFiles_AreGood) {
   EXPECT_THAT(findings(), ElementsAre(Finds(Verdict::kGood, "reading", "user cornerd may read")));
 }
 
-TEST_F(CheckReading, WithoutTheServicesUser_SaysNothing) {
+TEST_F(CheckReading, NoServiceUser_NoFinding) {
   stand_in_.allow(kConfig, 0600);
   stand_in_.write("/etc/passwd", "ada:x:1000:1000::/:/bin/sh\n");
   EXPECT_THAT(findings(), IsEmpty());
 }
 
-TEST_F(CheckReading, FileOfRootAlone_IsToBeOpened) {
+TEST_F(CheckReading, FileReadableByRootOnly_IsWrong) {
   stand_in_.allow(kConfig, 0600);
   stand_in_.allow("/srv/maps/home.json", 0640);
   const auto found = findings();
@@ -60,7 +60,7 @@ TEST_F(CheckReading, FileOfRootAlone_IsToBeOpened) {
   EXPECT_THAT(found[0].remedies, ElementsAre("sudo chmod a+r /etc/cornerd/cornerd.json"));
 }
 
-TEST_F(CheckReading, FolderThatMustNotBeEntered_IsNamed) {
+TEST_F(CheckReading, FolderWithoutAccess_IsNamed) {
   stand_in_.allow("/srv", 0750);
   const auto found = findings();
   ASSERT_THAT(found, ElementsAre(Finds(Verdict::kWrong, "map",
@@ -72,7 +72,7 @@ TEST_F(CheckReading, FolderThatMustNotBeEntered_IsNamed) {
                           "or open the folder: sudo chmod a+x /srv"));
 }
 
-TEST_F(CheckReading, HomesAndTemporaryFolders_AreNotSeenByTheService) {
+TEST_F(CheckReading, HomesAndTemporaryFolders_AreHiddenFromService) {
   for (const std::string folder : {"/home", "/root", "/run/user", "/tmp", "/var/tmp"}) {
     use_map(folder + "/ada/home.json");
     const auto found = findings();
@@ -84,14 +84,14 @@ TEST_F(CheckReading, HomesAndTemporaryFolders_AreNotSeenByTheService) {
   EXPECT_THAT(findings(), ElementsAre(Finds(Verdict::kGood, "reading", "")));
 }
 
-TEST_F(CheckReading, LinkIntoAHome_IsFollowed) {
+TEST_F(CheckReading, LinkIntoHome_IsFollowed) {
   put("/home/ada/home.json");
   stand_in_.link("/etc/cornerd/map.json", "/home/ada/home.json");
   stand_in_.patient.config.map = "/etc/cornerd/map.json";
   EXPECT_THAT(findings(), ElementsAre(Finds(Verdict::kWrong, "map", "cannot see /home")));
 }
 
-TEST_F(CheckReading, HomesThatAreALink_AreHiddenByBothNames) {
+TEST_F(CheckReading, LinkedHomes_AreHiddenByBothNames) {
   put("/data/homes/ada/home.json");
   stand_in_.link("/home", "data/homes");
   stand_in_.patient.config.map = "/home/ada/home.json";
@@ -107,20 +107,20 @@ TEST_F(CheckReading, UnitWithoutProtectHome_IsGood) {
   EXPECT_THAT(findings(), ElementsAre(Finds(Verdict::kGood, "reading", "")));
 }
 
-TEST_F(CheckReading, DaemonOfAnotherUser_ReadsByItsOwnRights) {
+TEST_F(CheckReading, DaemonOfAnotherUser_NoFinding) {
   stand_in_.allow(kConfig, 0600);
   stand_in_.run_process(9, "cornerd");
   EXPECT_THAT(findings(), IsEmpty());
 }
 
-TEST_F(CheckReading, RecordingInTheLidarsPlace_IsReadToo) {
+TEST_F(CheckReading, RecordingInsteadOfLidar_IsChecked) {
   stand_in_.patient.config.lidar.driver = settings::DriverKind::kReplay;
   stand_in_.patient.config.lidar.file = "/tmp/a.bin";
   put("/tmp/a.bin");
   EXPECT_THAT(findings(), ElementsAre(Finds(Verdict::kWrong, "recording", "cannot see /tmp")));
 }
 
-TEST_F(CheckReading, MissingFile_IsLeftToTheOthers) {
+TEST_F(CheckReading, MissingFile_NoFinding) {
   stand_in_.patient.config.map = "/nowhere/home.json";
   EXPECT_THAT(findings(), ElementsAre(Finds(Verdict::kGood, "reading", "")));
 }

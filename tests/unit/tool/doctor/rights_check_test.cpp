@@ -28,7 +28,7 @@ class CheckRights : public testing::Test {
   StandIn stand_in_;
 };
 
-TEST_F(CheckRights, CallerOutsideTheGroup_IsToJoinIt) {
+TEST_F(CheckRights, CallerOutsideGroup_RemedyIsUsermod) {
   const Finding finding = judge(20, 0660);
   EXPECT_THAT(finding, Finds(Verdict::kWrong, "rights",
                              "ada must not open /dev/ttyUSB0 (crw-rw---- root dialout)"));
@@ -36,14 +36,14 @@ TEST_F(CheckRights, CallerOutsideTheGroup_IsToJoinIt) {
               ElementsAre("sudo usermod -aG dialout ada, then log out and in again"));
 }
 
-TEST_F(CheckRights, SessionOlderThanTheMembership_IsToBeRenewed) {
+TEST_F(CheckRights, SessionOlderThanMembership_RemedyIsNewLogin) {
   stand_in_.write("/etc/group", "dialout:x:20:ada\n");
   EXPECT_THAT(judge(20, 0660).remedies, ElementsAre(HasSubstr("this session began before")));
   stand_in_.patient.caller.gids.insert(20);
   EXPECT_THAT(judge(20, 0660), Finds(Verdict::kGood, "rights", "ada may open"));
 }
 
-TEST_F(CheckRights, Service_IsInDialoutByItsUnit) {
+TEST_F(CheckRights, ServiceUser_HasDialoutByItsUnit) {
   stand_in_.write("/etc/passwd", "cornerd:x:990:990::/:/bin/false\n");
   EXPECT_THAT(judge(20, 0660), Finds(Verdict::kGood, "rights", "the service's user cornerd may"));
   const Finding elsewhere = judge(10, 0660);
@@ -51,18 +51,18 @@ TEST_F(CheckRights, Service_IsInDialoutByItsUnit) {
   EXPECT_THAT(elsewhere.remedies, ElementsAre(HasSubstr("usermod -aG uucp cornerd")));
 }
 
-TEST_F(CheckRights, PortOfRootAlone_WantsTheRules) {
+TEST_F(CheckRights, PortOfRootOnly_RemedyIsUdevRules) {
   EXPECT_THAT(judge(0, 0600).remedies, ElementsAre(HasSubstr("udev rules")));
   EXPECT_THAT(judge(0, 0660).remedies, ElementsAre(HasSubstr("udev rules")));
 }
 
-TEST_F(CheckRights, WithoutPort_SaysNothing) {
+TEST_F(CheckRights, AbsentPort_NoFinding) {
   EXPECT_EQ(check_rights(stand_in_.patient).size(), 1U);
   stand_in_.patient.config.lidar.device = "/dev/ttyUSB7";
   EXPECT_THAT(check_rights(stand_in_.patient), IsEmpty());
 }
 
-TEST_F(CheckRights, KindThatTheUnitLeavesOut_IsToBeAdded) {
+TEST_F(CheckRights, KindNotInDeviceAllow_RemedyIsDropIn) {
   stand_in_.write("/etc/passwd", "cornerd:x:990:990::/:/bin/false\n");
   stand_in_.write("/lib/systemd/system/cornerd.service",
                   "DevicePolicy=closed\nDeviceAllow=char-ttyUSB rw\n");

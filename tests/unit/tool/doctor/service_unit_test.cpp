@@ -35,7 +35,7 @@ TEST_F(ServiceUnit, NotInstalled_AllowsEverything) {
   EXPECT_THAT(values(), IsEmpty()) << "a drop-in alone is no unit";
 }
 
-TEST_F(ServiceUnit, DropIns_AddAndTakeBack) {
+TEST_F(ServiceUnit, DropIns_AddAndReset) {
   install("DeviceAllow=char-ttyS rw\n# DeviceAllow=char-ttyZ rw\n");
   EXPECT_TRUE(has_service_unit(stand_in_.patient.machine));
   drop_in("/etc", "20.conf", "DeviceAllow = char-ttyXY rw \n");
@@ -48,7 +48,7 @@ TEST_F(ServiceUnit, DropIns_AddAndTakeBack) {
   EXPECT_EQ(values().size(), 2U);
 }
 
-TEST_F(ServiceUnit, KindOfAPort_HasToBeNamed) {
+TEST_F(ServiceUnit, PortKindNotInDeviceAllow_IsDenied) {
   install("DevicePolicy=closed\nDeviceAllow=char-ttyS rw\nDeviceAllow=char-ttyUSB r\n");
   EXPECT_TRUE(allows("/dev/ttyS4"));
   EXPECT_FALSE(allows("/dev/ttySC0"));
@@ -61,20 +61,20 @@ TEST_F(ServiceUnit, KindOfAPort_HasToBeNamed) {
   EXPECT_TRUE(allows("/dev/ttyXY1"));
 }
 
-TEST_F(ServiceUnit, WithoutPolicyAndList_AllowsEverything) {
+TEST_F(ServiceUnit, NoPolicyAndNoList_AllowsEverything) {
   install("DevicePolicy=auto\n");
   EXPECT_TRUE(allows("/dev/ttyXY1"));
   install("DevicePolicy=closed\n");
   EXPECT_FALSE(allows("/dev/ttyXY1"));
 }
 
-TEST(PortKind, NameWithoutItsNumber) {
+TEST(PortKind, DeviceName_WithoutItsNumber) {
   EXPECT_EQ(port_kind("/dev/ttymxc3"), "ttymxc");
   EXPECT_EQ(port_kind("/dev/ttyS12"), "ttyS");
 }
 
 /// The unit of the package.
-TEST_F(ServiceUnit, OurOwn_NamesTheUsualKinds) {
+TEST_F(ServiceUnit, PackagedUnit_AllowsCommonKinds) {
   std::filesystem::create_directories(stand_in_.outside("/lib/systemd/system"));
   std::filesystem::copy_file(CORNERD_SOURCE_DIR "/systemd/cornerd.service",
                              stand_in_.outside("/lib/systemd/system/cornerd.service"));

@@ -22,7 +22,7 @@ class CheckSettings : public testing::Test {
   test::TemporaryFolder folder_;
 };
 
-TEST_F(CheckSettings, GoodOnes_AreSummedUp) {
+TEST_F(CheckSettings, ValidConfigAndMap_AreSummarized) {
   const auto found =
       check(R"({ "map": ")" CORNERD_SOURCE_DIR R"(/config/maps/krpai-2019-a.json" })");
   EXPECT_THAT(found.findings, ElementsAre(Finds(Verdict::kGood, "config", "cornerd.json"),
@@ -31,7 +31,7 @@ TEST_F(CheckSettings, GoodOnes_AreSummedUp) {
   EXPECT_EQ(found.error, nullptr);
 }
 
-TEST_F(CheckSettings, Typo_IsNamedAndTheDefaultsStay) {
+TEST_F(CheckSettings, UnknownKey_IsNamedAndDefaultsStay) {
   const auto found = check(R"({ "lidar": { "devise": "x" } })");
   EXPECT_THAT(found.findings,
               ElementsAre(Finds(Verdict::kWrong, "config", "/lidar/devise: unknown key")));
@@ -46,11 +46,11 @@ TEST_F(CheckSettings, WrongMap_IsNamed) {
   EXPECT_NE(found.error, nullptr);
 }
 
-TEST_F(CheckSettings, WithoutMap_ThereIsNoPose) {
+TEST_F(CheckSettings, NoMap_IsWrong) {
   EXPECT_THAT(check("{}").findings[1], Finds(Verdict::kWrong, "map", "names none"));
 }
 
-TEST_F(CheckSettings, MapWithoutCorners_IsNoUse) {
+TEST_F(CheckSettings, MapWithTooFewCorners_IsWrong) {
   std::ofstream(folder_.path() / "line.json")
       << R"({ "format": "cornerd-map", "version": 1, "thickness": 0,
               "walls": [ { "from": [0, 0], "to": [1, 0] } ] })";
@@ -58,7 +58,7 @@ TEST_F(CheckSettings, MapWithoutCorners_IsNoUse) {
               Finds(Verdict::kWrong, "map", "2 corners"));
 }
 
-TEST_F(CheckSettings, WithoutFile_EveryKeyHasItsDefault) {
+TEST_F(CheckSettings, NoFile_DefaultsAreNoted) {
   EXPECT_THAT(check_settings({}, {}).findings[0], Finds(Verdict::kNote, "config", "default"));
 }
 

@@ -13,7 +13,7 @@ namespace {
 
 using testing::HasSubstr;
 
-TEST(DriveDrawing, TracksWithoutAMap_AreWellFormedAndNamed) {
+TEST(DriveDrawing, TracksWithoutMap_AreWellFormedAndNamed) {
   const std::vector<core::Vec2> way = {{0, 0}, {1, 0}, {1, 5}};
   const DrawnTrack tracks[] = {{"by <the> lidar", "#000000", way, true},
                                {"wheels", "#c2255c", way, false}};
@@ -23,12 +23,12 @@ TEST(DriveDrawing, TracksWithoutAMap_AreWellFormedAndNamed) {
   EXPECT_THAT(svg, HasSubstr("stroke-dasharray"));
 }
 
-TEST(DriveDrawing, NoPointsAtAll_IsAnEmptyPicture) {
+TEST(DriveDrawing, NoPoints_GivesEmptyDrawing) {
   const DrawnTrack tracks[] = {{"nothing", "#000000", {}, false}};
   EXPECT_EQ(find_xml_error(draw_drive("none", tracks, nullptr)), "");
 }
 
-TEST(DriveDrawing, PointsThatAreOne_AreDrawnOnce) {
+TEST(DriveDrawing, EqualPoints_AreDrawnOnce) {
   std::vector<core::Vec2> way(1000, {0, 0});
   way.emplace_back(10, 0);
   const DrawnTrack tracks[] = {{"stands, then drives", "#000000", way, false}};

@@ -33,7 +33,7 @@ core::Sample sample(float bearing_rad, float range_m) {
   return sample;
 }
 
-TEST(MapDrawing, EverythingThatCanBeAdded_IsWellFormed) {
+TEST(MapDrawing, EveryElement_IsWellFormed) {
   const core::WallMap map = square_room();
   MapDrawing drawing(map);
   core::Scan scan;
@@ -52,7 +52,7 @@ TEST(MapDrawing, EverythingThatCanBeAdded_IsWellFormed) {
   EXPECT_EQ(find_xml_error(drawing.document("a & b")), "");
 }
 
-TEST(MapDrawing, Map_ShowsItsNameItsRoomsAndEveryCorner) {
+TEST(MapDrawing, Map_ShowsNameRoomsAndCorners) {
   const core::WallMap map = square_room();
   const std::string picture = MapDrawing(map).document("");
   EXPECT_THAT(picture, HasSubstr(">cell &lt;7&gt;</text>"));
@@ -60,7 +60,7 @@ TEST(MapDrawing, Map_ShowsItsNameItsRoomsAndEveryCorner) {
   EXPECT_EQ(count_elements(picture, "circle"), map.corners().size());
 }
 
-TEST(MapDrawing, SamplesWithoutAReturn_AreNotDrawn) {
+TEST(MapDrawing, SamplesWithoutReturn_AreNotDrawn) {
   const core::WallMap map = square_room();
   MapDrawing drawing(map);
   core::Scan scan;
@@ -70,7 +70,7 @@ TEST(MapDrawing, SamplesWithoutAReturn_AreNotDrawn) {
   EXPECT_EQ(count_elements(drawing.document(""), "circle"), map.corners().size() + 1);
 }
 
-TEST(MapDrawing, Uncertainty_IsAsWideAsItsNinetyFivePercent) {
+TEST(MapDrawing, Uncertainty_IsThe95PercentEllipse) {
   const core::WallMap map = square_room();
   MapDrawing drawing(map);
   drawing.add_uncertainty({1, 1, 0}, core::Covariance3::Identity() * 1e-4);

@@ -16,7 +16,7 @@ using testing::HasSubstr;
 
 Svg two_by_one_metres() { return Svg({0, 0}, {2, 1}, 100, 10); }
 
-TEST(XmlCheck, BadDocuments_AreNoticed) {
+TEST(XmlCheck, MalformedDocuments_AreRejected) {
   EXPECT_EQ(find_xml_error("<svg a=\"1\"><g>text &amp; more</g><line/></svg>"), "");
   EXPECT_NE(find_xml_error("<svg><g></svg>"), "");
   EXPECT_NE(find_xml_error("<svg><g></svg></g>"), "");
@@ -40,12 +40,12 @@ TEST(Svg, EveryKindOfShape_IsWellFormed) {
   EXPECT_EQ(find_xml_error(svg.document("R&D")), "");
 }
 
-TEST(Svg, Page_HoldsTheRectangleAndItsMargin) {
+TEST(Svg, Page_HasRectangleAndMargin) {
   EXPECT_THAT(two_by_one_metres().document("t"),
               HasSubstr(R"(width="220" height="120" viewBox="0 0 220 120")"));
 }
 
-TEST(Svg, Metres_GrowUpwardsAndToTheRight) {
+TEST(Svg, Metres_IncreaseUpwardsAndToTheRight) {
   Svg svg = two_by_one_metres();
   svg.line({0, 0}, {2, 1}, {.stroke = "#000000"});
   EXPECT_THAT(svg.document("t"), HasSubstr(R"(points="10,110 210,10")"));
@@ -57,7 +57,7 @@ TEST(Svg, Numbers_AreRoundedToHundredths) {
   EXPECT_THAT(svg.document("t"), HasSubstr(R"(cx="43.33" cy="110")"));
 }
 
-TEST(Svg, CounterClockwiseTurn_IsNegativeOnAPageWhoseYGrowsDownwards) {
+TEST(Svg, CounterClockwiseRotation_IsNegativeOnThePage) {
   Svg svg = two_by_one_metres();
   svg.ellipse({0, 0}, 0.2, 0.1, core::radians(30), {.fill = "#000000"});
   EXPECT_THAT(svg.document("t"), HasSubstr("translate(10 110) rotate(-30)"));

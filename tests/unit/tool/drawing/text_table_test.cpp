@@ -14,7 +14,7 @@ TEST(TextTable, Columns_AreAsWideAsTheirWidestCell) {
   EXPECT_EQ(table.text(/*numbers=*/true), "  method     mm\n  lt      10.25  x\n");
 }
 
-TEST(TextTable, WithoutRows_IsEmpty) { EXPECT_EQ(TextTable().text(), ""); }
+TEST(TextTable, NoRows_IsEmpty) { EXPECT_EQ(TextTable().text(), ""); }
 
 TEST(Formatted, Values_AreInserted) { EXPECT_EQ(formatted("%.1f of %d", 2.25, 3), "2.2 of 3"); }
 

@@ -57,7 +57,7 @@ TEST(DrivePoints, Trajectory_PlacesReturns) {
   EXPECT_NEAR((points[0] - core::Vec2(2, 1)).norm(), 0, 1e-9);
 }
 
-TEST(ThinOut, OnePointOfEachSquare_StaysAndNoneBeyond) {
+TEST(ThinOut, PointsInOneSquare_OneRemainsAndNoneBeyond) {
   const auto kept =
       thin_out({{0.1, 0.1}, {0.2, 0.2}, {1.5, 0.1}, {-1, 0}, {9, 9}}, 1, {0, 0}, {3, 3});
   ASSERT_EQ(kept.size(), 2U);

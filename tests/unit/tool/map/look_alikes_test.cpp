@@ -31,7 +31,7 @@ core::FloorPlan closed_room(double width_m, double depth_m) {
   return plan;
 }
 
-TEST(LookAlikes, RectangularRoom_IsLikeItselfTurned) {
+TEST(LookAlikes, RectangularRoom_MatchesItselfRotated) {
   const auto map = make_map(closed_room(3, 2));
   const auto places = examine_places(map, 60);
   EXPECT_GT(places.size(), 30U);
@@ -47,7 +47,7 @@ TEST(LookAlikes, RectangularRoom_IsLikeItselfTurned) {
   EXPECT_THAT(describe_look_alikes(*map, places), HasSubstr("hall like itself, turned by 180"));
 }
 
-TEST(LookAlikes, RoomOfItsOwnShape_HasNone) {
+TEST(LookAlikes, AsymmetricRoom_HasNone) {
   core::FloorPlan plan = closed_room(3, 2);
   plan.walls.push_back({{0.9, 0}, {0.9, 0.7}, 0.1});
   const auto map = make_map(std::move(plan));
@@ -56,7 +56,7 @@ TEST(LookAlikes, RoomOfItsOwnShape_HasNone) {
   EXPECT_THAT(describe_look_alikes(*map, places), HasSubstr("alike    0 of"));
 }
 
-TEST(LookAlikes, EqualRooms_AreNamedByPairsAndDrawn) {
+TEST(LookAlikes, EqualRooms_AreNamedInPairsAndDrawn) {
   const auto map = make_map(bench::equal_rooms(4));
   const auto places = examine_places(map, 80);
   const std::string text = describe_look_alikes(*map, places);
@@ -66,14 +66,14 @@ TEST(LookAlikes, EqualRooms_AreNamedByPairsAndDrawn) {
   EXPECT_EQ(find_xml_error(drawing.document("look-alikes")), "");
 }
 
-TEST(LookAlikes, MapWithoutRooms_NamesPlaces) {
+TEST(LookAlikes, MapWithoutRooms_NamesPositions) {
   core::FloorPlan plan = closed_room(3, 2);
   plan.rooms.clear();
   const auto map = make_map(std::move(plan));
   EXPECT_THAT(describe_look_alikes(*map, examine_places(map, 6)), HasSubstr(") like ("));
 }
 
-TEST(LookAlikes, MapWithoutAnyIndoors_SaysNoPlaces) {
+TEST(LookAlikes, MapWithoutInterior_HasNoPlaces) {
   core::FloorPlan plan;
   plan.walls.push_back({{0, 0}, {2, 0}, 0.1});
   const auto map = make_map(std::move(plan));

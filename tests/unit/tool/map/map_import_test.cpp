@@ -60,7 +60,7 @@ class MapImport : public testing::Test {
   test::TemporaryFolder folder_;
 };
 
-TEST_F(MapImport, RosMap_BecomesAMapThatCheckAccepts) {
+TEST_F(MapImport, RosMap_BecomesValidMap) {
   const CommandRun run({"map", "import", path("room.yaml"), "-o", path("room.json"), "--name",
                         "my room", "--plot", path("room.svg")});
   EXPECT_EQ(run.exit_code, kExitDone) << run.err;
@@ -80,7 +80,7 @@ TEST_F(MapImport, RosMap_BecomesAMapThatCheckAccepts) {
   EXPECT_EQ(find_xml_error(picture.str()), "");
 }
 
-TEST_F(MapImport, WhatIsWrong_IsNamedByFileAndPlace) {
+TEST_F(MapImport, WrongInput_IsNamedByFileAndKey) {
   write("no-image.yaml", yaml("absent.pgm"));
   write("itself.yaml", yaml("itself.yaml"));
   write("short.yaml", "image: room.pgm\n");
@@ -97,14 +97,14 @@ TEST_F(MapImport, WhatIsWrong_IsNamedByFileAndPlace) {
   expect("absent.yaml", "absent.yaml: ");
 }
 
-TEST_F(MapImport, PictureWithoutWalls_Fails) {
+TEST_F(MapImport, ImageWithoutWalls_Fails) {
   write("room.pgm", "P2\n2 1\n255\n254 254\n");
   const CommandRun run = import("room.yaml");
   EXPECT_EQ(run.exit_code, kExitFailed);
   EXPECT_THAT(run.err, HasSubstr("no border"));
 }
 
-TEST_F(MapImport, WrongUsage_EndsWith2) {
+TEST_F(MapImport, WrongUsage_ExitCode2) {
   const std::string map = path("room.json");
   for (const std::vector<std::string>& more :
        {std::vector<std::string>{"--speck", "nan"}, {"--made-by", "magic"}, {"--gap", "-1"}}) {
@@ -123,7 +123,7 @@ TEST_F(MapImport, InvalidMap_IsNotWritten) {
   EXPECT_FALSE(std::filesystem::exists(path("room.json")));
 }
 
-TEST_F(MapImport, MapOnStandardOutput_HasTheReportBesideIt) {
+TEST_F(MapImport, MapOnStandardOutput_ReportOnStandardError) {
   const CommandRun run({"map", "import", path("room.yaml"), "-o", "-"});
   EXPECT_EQ(run.exit_code, kExitDone) << run.err;
   EXPECT_EQ(settings::parse_map(run.out, "map.json")->plan().name, "map");

@@ -27,13 +27,13 @@ class AdviceTest : public testing::Test {
   core::TimeNs now_ns_ = 0;
 };
 
-TEST_F(AdviceTest, FixesOfARunningLidar_AreWell) {
+TEST_F(AdviceTest, FixesOfRunningLidar_AreGood) {
   take_line(status_line());
   take_line(kFixLine, 3);
   expect(Style::kGood, "all is well", "");
 }
 
-TEST_F(AdviceTest, NoDaemon_ComesFirst) {
+TEST_F(AdviceTest, NoDaemon_PrecedesOtherAdvice) {
   expect(Style::kDim, "waiting for the daemon's first message", "");
   take_line(status_line());
   now_ns_ += 9 * core::kNsPerSecond / 2;
@@ -79,7 +79,7 @@ TEST_F(AdviceTest, TooFewFixes_AreCounted) {
   expect(Style::kWarning, "5 of the last 20 scans gave no pose", "unmapped obstacles");
 }
 
-TEST_F(AdviceTest, SensorsLineAndMessages_ComeLast) {
+TEST_F(AdviceTest, SensorsLineAndMessages_FollowOtherAdvice) {
   take_line(kFixLine, 2);
   take_line(
       status_line(R"("state":"running")", R"(,"counters":{"bytes":1000,"skipped_bytes":30})"));

@@ -14,7 +14,7 @@ std::string drawn(const DotCanvas& canvas) {
   return frame.text();
 }
 
-TEST(DotCanvas, Dots_AreEightToACell) {
+TEST(DotCanvas, Dots_EightPerCell) {
   DotCanvas canvas(2, 1, /*unicode=*/true);
   EXPECT_EQ(canvas.width(), 4U);
   EXPECT_EQ(canvas.height(), 4U);
@@ -24,7 +24,7 @@ TEST(DotCanvas, Dots_AreEightToACell) {
   EXPECT_EQ(drawn(canvas), "\n ⢁⠐\n\n");
 }
 
-TEST(DotCanvas, LaterDot_GivesItsStyleToTheCell) {
+TEST(DotCanvas, LaterDot_SetsStyleOfCell) {
   DotCanvas canvas(1, 1, /*unicode=*/true);
   canvas.dot(0, 0, Style::kWall);
   canvas.dot(1, 0, Style::kReturn);
@@ -33,7 +33,7 @@ TEST(DotCanvas, LaterDot_GivesItsStyleToTheCell) {
   EXPECT_EQ(frame.at(0, 0), (Cell{U'⠉', Style::kReturn}));
 }
 
-TEST(DotCanvas, WithoutUnicode_ACellIsADot) {
+TEST(DotCanvas, NoUnicode_OneDotPerCell) {
   DotCanvas canvas(3, 2, /*unicode=*/false);
   EXPECT_EQ(canvas.dot_aspect(), 2);
   canvas.line({0, 0}, {2.5, 0}, Style::kWall);
@@ -41,7 +41,7 @@ TEST(DotCanvas, WithoutUnicode_ACellIsADot) {
   EXPECT_EQ(drawn(canvas), "\n ###\n  .\n");
 }
 
-TEST(DotCanvas, Lines_AreCutAtTheEdges) {
+TEST(DotCanvas, Lines_AreClippedAtEdges) {
   DotCanvas canvas(3, 2, /*unicode=*/false);
   canvas.line({-1e9, 1.5}, {1e9, 1.5}, Style::kWall);
   canvas.line({-5, -1}, {5, -1}, Style::kWall);
@@ -49,7 +49,7 @@ TEST(DotCanvas, Lines_AreCutAtTheEdges) {
   EXPECT_EQ(drawn(canvas), "\n\n ###\n");
 }
 
-TEST(DotCanvas, DotsOutside_AreNone) {
+TEST(DotCanvas, DotsOutside_AreIgnored) {
   DotCanvas canvas(1, 1, /*unicode=*/true);
   for (const double off : {-0.5, 4.0, 1e300, std::nan("")}) {
     canvas.dot(off, 0, Style::kWall);

@@ -10,7 +10,7 @@ namespace {
 using testing::ElementsAre;
 using testing::IsEmpty;
 
-TEST(Frame, Text_IsClippedAtEveryEdge) {
+TEST(Frame, Text_IsClippedAtEachEdge) {
   Frame frame(5, 2);
   EXPECT_EQ(frame.write(2, 0, "hello"), 5U);
   EXPECT_EQ(frame.write(0, 1, "hello", Style::kPlain, 3), 3U);
@@ -19,19 +19,19 @@ TEST(Frame, Text_IsClippedAtEveryEdge) {
   EXPECT_EQ(frame.text(), "  hel\nhel\n");
 }
 
-TEST(Frame, WithoutSize_HasOneCell) {
+TEST(Frame, ZeroSize_HasOneCell) {
   const Frame frame(0, 0);
   EXPECT_EQ(frame.columns(), 1U);
   EXPECT_EQ(frame.rows(), 1U);
 }
 
-TEST(Frame, WhatWouldMoveTheCursor_IsAQuestionMark) {
+TEST(Frame, ControlOrWideCharacter_IsQuestionMark) {
   Frame frame(12, 1);
   frame.write(0, 0, "a\x1b[2J\n\x7fé\xff漢Ж");
   EXPECT_EQ(frame.text(), "a?[2J??é??Ж\n");
 }
 
-TEST(WrapText, Words_StayWholeWhereTheyFit) {
+TEST(WrapText, FittingWords_AreNotSplit) {
   EXPECT_THAT(wrap_text("one two three", 7), ElementsAre("one two", "three"));
   EXPECT_THAT(wrap_text("  one   two ", 20), ElementsAre("one two"));
   EXPECT_THAT(wrap_text("a abcdefgh b", 3), ElementsAre("a", "abc", "def", "gh", "b"));
@@ -49,7 +49,7 @@ TEST(FrameEncoder, FirstFrame_ClearsTheScreen) {
   EXPECT_EQ(FrameEncoder(true).encode(frame), "\x1b[0m\x1b[2J\x1b[2;2H\x1b[0;1;31mab\x1b[0m");
 }
 
-TEST(FrameEncoder, NextFrame_IsWhatDiffers) {
+TEST(FrameEncoder, NextFrame_HasOnlyChangedCells) {
   FrameEncoder encoder(true);
   Frame frame(6, 2);
   frame.write(0, 0, "abcdef");
@@ -61,7 +61,7 @@ TEST(FrameEncoder, NextFrame_IsWhatDiffers) {
   EXPECT_EQ(encoder.encode(frame), "\x1b[1;3H\x1b[0mX\x1b[1;6HY\x1b[2;1Hé");
 }
 
-TEST(FrameEncoder, AfterALoss_AllIsDrawnAgain) {
+TEST(FrameEncoder, AfterForget_AllIsDrawnAgain) {
   FrameEncoder encoder(true);
   Frame frame(3, 1);
   frame.write(0, 0, "abc");
@@ -71,7 +71,7 @@ TEST(FrameEncoder, AfterALoss_AllIsDrawnAgain) {
   EXPECT_EQ(encoder.encode(Frame(2, 1)), "\x1b[0m\x1b[2J");
 }
 
-TEST(FrameEncoder, WithoutColours_BadIsBold) {
+TEST(FrameEncoder, NoColours_BadIsBold) {
   Frame frame(2, 1);
   frame.write(0, 0, "a", Style::kBad);
   frame.write(1, 0, "b", Style::kGood);

@@ -8,7 +8,7 @@
 namespace cornerd::tool {
 namespace {
 
-TEST(MonitorState, Connection_HasAnAgeAndAReason) {
+TEST(MonitorState, Connection_HasAgeAndReason) {
   MonitorState state;
   state.lose("nobody there", 10 * core::kNsPerSecond);
   state.lose("still nobody", 14 * core::kNsPerSecond);
@@ -53,7 +53,7 @@ TEST(MonitorState, Scan_GetsPoseBeforeIt) {
   EXPECT_TRUE(state.breakpoints().points.empty());
 }
 
-TEST(MonitorState, Rate_IsThatOfTheLastPoses) {
+TEST(MonitorState, Rate_IsOfLastPoses) {
   MonitorState state;
   state.connect(0);
   EXPECT_FALSE(state.pose_rate_hz(0));
@@ -76,7 +76,7 @@ TEST(MonitorState, InvalidMessage_SetsProtocolError) {
   EXPECT_EQ(state.protocol_error(), "too-many-clients: no more");
 }
 
-TEST(MonitorState, Events_NewestFirstAndNotForEver) {
+TEST(MonitorState, ManyEvents_NewestFirstAndLimited) {
   MonitorState state;
   for (int i = 0; i < 60; ++i) {
     state.take_line(R"({"class":"EVENT","t":1,"what":"e)" + std::to_string(i) + "\"}", 1);

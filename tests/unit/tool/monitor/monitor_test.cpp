@@ -114,7 +114,7 @@ class MonitorOnTerminal : public testing::Test {
   std::string screen_;
 };
 
-TEST_F(MonitorOnTerminal, KeyQ_EndsItAndRestoresTheTerminal) {
+TEST_F(MonitorOnTerminal, KeyQ_EndsAndRestoresTerminal) {
   start_with_daemon();
   termios during{};
   EXPECT_EQ(::tcgetattr(terminal_, &during), 0);
@@ -123,19 +123,19 @@ TEST_F(MonitorOnTerminal, KeyQ_EndsItAndRestoresTheTerminal) {
   expect_clean_end();
 }
 
-TEST_F(MonitorOnTerminal, CtrlC_EndsIt) {
+TEST_F(MonitorOnTerminal, CtrlC_Ends) {
   start_with_daemon();
   press("\x03");
   expect_clean_end();
 }
 
-TEST_F(MonitorOnTerminal, RequestToEnd_EndsIt) {
+TEST_F(MonitorOnTerminal, TerminationSignal_Ends) {
   start_with_daemon();
   ::kill(child_, SIGTERM);
   expect_clean_end();
 }
 
-TEST_F(MonitorOnTerminal, LostDaemon_IsShownAndFoundAgain) {
+TEST_F(MonitorOnTerminal, LostDaemon_IsShownAndReconnected) {
   start_with_daemon();
   ::close(daemon_);
   ASSERT_TRUE(sees("no daemon since"));
@@ -147,7 +147,7 @@ TEST_F(MonitorOnTerminal, LostDaemon_IsShownAndFoundAgain) {
   expect_clean_end();
 }
 
-TEST_F(MonitorOnTerminal, DaemonThatIsNotThereYet_IsWaitedFor) {
+TEST_F(MonitorOnTerminal, AbsentDaemon_IsWaitedFor) {
   start();
   ASSERT_TRUE(sees("No such file or directory"));
   listener_.emplace(socket_);
@@ -159,7 +159,7 @@ TEST_F(MonitorOnTerminal, DaemonThatIsNotThereYet_IsWaitedFor) {
   expect_clean_end();
 }
 
-TEST_F(MonitorOnTerminal, NewSize_IsDrawnInto) {
+TEST_F(MonitorOnTerminal, NewSize_IsDrawnCompletely) {
   start_with_daemon();
   const winsize size{.ws_row = 40, .ws_col = 100, .ws_xpixel = 0, .ws_ypixel = 0};
   ASSERT_EQ(::ioctl(person_, TIOCSWINSZ, &size), 0);
@@ -169,7 +169,7 @@ TEST_F(MonitorOnTerminal, NewSize_IsDrawnInto) {
   expect_clean_end();
 }
 
-TEST_F(MonitorOnTerminal, Stop_GivesTheTerminalBackForAsLong) {
+TEST_F(MonitorOnTerminal, Stop_RestoresTerminalUntilContinued) {
   start_with_daemon();
   ::kill(child_, SIGTSTP);
   ASSERT_TRUE(sees("\x1b[?1049l"));
@@ -186,7 +186,7 @@ TEST_F(MonitorOnTerminal, Stop_GivesTheTerminalBackForAsLong) {
   expect_clean_end();
 }
 
-TEST_F(MonitorOnTerminal, TerminalThatTakesNothing_DoesNotKeepItFromEnding) {
+TEST_F(MonitorOnTerminal, StalledTerminal_StillEnds) {
   start_with_daemon();
   // Ctrl-S: from here on nothing is written any more.
   press("\x13");

@@ -47,7 +47,7 @@ TEST(PosePanel, Fix_ShowsSigmaAndSource) {
             "   3 s  device found\n");
 }
 
-TEST(PosePanel, PoseThatNoneFollows_AgesAndIsStale) {
+TEST(PosePanel, PoseWithoutSuccessor_AgesAndIsStale) {
   MonitorState state;
   state.connect(0);
   state.take_line(kFixLine, 0);
@@ -60,7 +60,7 @@ TEST(PosePanel, PoseThatNoneFollows_AgesAndIsStale) {
   EXPECT_EQ(panel_lines(state, 3 * core::kNsPerSecond)[0].text, "fix  hall");
 }
 
-TEST(PosePanel, AmbiguousPose_ListsItsPlaces) {
+TEST(PosePanel, AmbiguousPose_ListsItsHypotheses) {
   MonitorState state;
   state.connect(0);
   state.take_line(kAmbiguousLine, 0);
@@ -74,11 +74,11 @@ TEST(PosePanel, AmbiguousPose_ListsItsPlaces) {
             "\n");
 }
 
-TEST(PosePanel, WithoutDaemon_SaysSo) {
+TEST(PosePanel, NoDaemon_IsShown) {
   EXPECT_EQ(panel_lines(MonitorState(), 0)[0].text, "no daemon");
 }
 
-TEST(AgeText, Unit_GrowsWithTheAge) {
+TEST(AgeText, Unit_FollowsAge) {
   EXPECT_EQ(age_text(99.9), "99 s");
   EXPECT_EQ(age_text(100), "1 min");
   EXPECT_EQ(age_text(6000), "1 h");

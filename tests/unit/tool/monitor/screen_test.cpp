@@ -50,7 +50,7 @@ class Screen : public testing::Test {
   MonitorState state_;
 };
 
-TEST_F(Screen, Fix_IsDrawnInItsMap) {
+TEST_F(Screen, Fix_IsDrawnInMap) {
   receive_scan(kFixLine);
   EXPECT_EQ("\n" + shown(64, 14), R"(
  cornerd 1.2.3  hall                                  fix  hall
@@ -70,7 +70,7 @@ q quit  + - zoom  l lidar's view  a ASCII         |------| 0.5 m
 )");
 }
 
-TEST_F(Screen, Braille_IsFiner) {
+TEST_F(Screen, Unicode_IsDrawnInBraille) {
   choice_.unicode = true;
   receive_scan(kFixLine);
   EXPECT_EQ("\n" + shown(64, 14), R"(
@@ -91,7 +91,7 @@ q quit  + - zoom  l lidar's view  a ASCII         |------| 0.5 m
 )");
 }
 
-TEST_F(Screen, NarrowOne_HasTheFiguresAboveTheMap) {
+TEST_F(Screen, NarrowScreen_PanelIsAboveMap) {
   receive_scan(kFixLine);
   EXPECT_EQ("\n" + shown(30, 20), R"(
  cornerd 1.2.3  hall
@@ -117,7 +117,7 @@ q quit  + - zoom  l lidar's vi
 )");
 }
 
-TEST_F(Screen, LidarView_IsAroundTheLidar) {
+TEST_F(Screen, LidarView_IsCentredOnLidar) {
   receive_scan(kLostLine);
   choice_.lidar_view = true;
   EXPECT_EQ("\n" + shown(64, 12), R"(
@@ -136,7 +136,7 @@ q quit  + - zoom  l lidar's view  a ASCII         |------| 0.5 m
 )");
 }
 
-TEST_F(Screen, AnySize_IsFilledExactly) {
+TEST_F(Screen, AnySize_IsFilled) {
   receive_scan(kFixLine);
   for (std::size_t columns = 1; columns < 140; columns += 7) {
     for (std::size_t rows = 1; rows < 60; ++rows) {
@@ -147,7 +147,7 @@ TEST_F(Screen, AnySize_IsFilledExactly) {
   }
 }
 
-TEST_F(Screen, AmbiguousPose_MarksItsPlaces) {
+TEST_F(Screen, AmbiguousPose_MarksItsHypotheses) {
   receive_scan(kAmbiguousLine);
   const std::string text = shown(80, 24);
   const std::size_t map_marks = static_cast<std::size_t>(std::count(text.begin(), text.end(), '?'));
@@ -155,7 +155,7 @@ TEST_F(Screen, AmbiguousPose_MarksItsPlaces) {
   EXPECT_THAT(text, HasSubstr("2 poses fit"));
 }
 
-TEST_F(Screen, Zoom_PutsTheRobotInTheMiddle) {
+TEST_F(Screen, Zoom_CentresRobot) {
   state_.take_line(kPredictedLine, 0);
   choice_.zoom = 2;
   const Frame frame = draw_screen(state_, scene_, choice_, 80, 24, 0);
@@ -164,14 +164,14 @@ TEST_F(Screen, Zoom_PutsTheRobotInTheMiddle) {
   EXPECT_THAT(frame.text(), Not(HasSubstr("#")));
 }
 
-TEST_F(Screen, WithoutDaemon_SaysWhatToDo) {
+TEST_F(Screen, NoDaemon_HasRemedy) {
   state_.lose("/run/cornerd/pose.sock: No such file or directory", 0);
   const std::string text = shown(80, 24);
   EXPECT_THAT(text, HasSubstr("no daemon since 0 s: /run/cornerd/pose.sock: No such file"));
   EXPECT_THAT(text, HasSubstr("systemctl start cornerd"));
 }
 
-TEST_F(Screen, LongExplanation_HasRoomAt80By24) {
+TEST_F(Screen, LongDetail_Fits80By24) {
   std::string detail;
   for (int i = 0; i < 23; ++i) detail += "ten chars ";
   detail += "the end";
@@ -179,7 +179,7 @@ TEST_F(Screen, LongExplanation_HasRoomAt80By24) {
   EXPECT_THAT(shown(80, 24), HasSubstr("the end\n"));
 }
 
-TEST_F(Screen, HostileNames_CannotWriteToTheTerminal) {
+TEST_F(Screen, EscapeSequencesInNames_AreReplaced) {
   state_.take_line(status_line(R"("state":"\u001b]0;owned\u0007","detail":"\u001b[2J")"), 0);
   for (const char c : shown(80, 24)) EXPECT_TRUE(c == '\n' || static_cast<unsigned char>(c) >= ' ');
 }

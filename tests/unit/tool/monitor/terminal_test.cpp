@@ -6,7 +6,7 @@
 namespace cornerd::tool {
 namespace {
 
-TEST(PlainKeys, Sequences_AreNoKeys) {
+TEST(PlainKeys, Sequences_AreIgnored) {
   EXPECT_EQ(plain_keys("q"), "q");
   EXPECT_EQ(plain_keys("\x1b[Aq\x1b[1;5Q+\x1bOP-"), "q+-");
   EXPECT_EQ(plain_keys("\x1b[12"), "");

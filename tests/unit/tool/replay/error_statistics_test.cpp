@@ -19,14 +19,14 @@ core::PoseEstimate estimate(PoseState state, double x_m, double y_m, double thet
   return estimate;
 }
 
-TEST(ErrorStatistics, Nothing_IsReportedWithoutDivision) {
+TEST(ErrorStatistics, NoPoses_AreReportedWithoutDivision) {
   const ErrorStatistics statistics;
   EXPECT_EQ(statistics.mean_error_m(), 0);
   EXPECT_EQ(statistics.mean_nees(), 0);
   EXPECT_THAT(statistics.report(), Not(HasSubstr("nan")));
 }
 
-TEST(ErrorStatistics, Distances_AreThoseOfPythagoras) {
+TEST(ErrorStatistics, PositionErrors_AreEuclidean) {
   ErrorStatistics statistics;
   statistics.add(estimate(PoseState::kFix, 1.003, 2.004, 0), {1, 2, 0});
   statistics.add(estimate(PoseState::kTracking, 1, 2.001, 0), {1, 2, 0});
@@ -37,14 +37,14 @@ TEST(ErrorStatistics, Distances_AreThoseOfPythagoras) {
   EXPECT_EQ(statistics.wrong(), 0U);
 }
 
-TEST(ErrorStatistics, Nees_WeighsErrorsByTheCovariance) {
+TEST(ErrorStatistics, Nees_WeightsErrorsByCovariance) {
   ErrorStatistics statistics;
   // One sigma (10 mm, 10 mrad) in each of the three.
   statistics.add(estimate(PoseState::kFix, 0.01, -0.01, 0.01), {0, 0, 0});
   EXPECT_NEAR(statistics.mean_nees(), 3, 1e-9);
 }
 
-TEST(ErrorStatistics, UselessCovariance_IsLeftOutOfNees) {
+TEST(ErrorStatistics, SingularCovariance_IsOmittedFromNees) {
   ErrorStatistics statistics;
   core::PoseEstimate certain = estimate(PoseState::kFix, 0.01, 0, 0);
   certain.covariance.setZero();
@@ -53,7 +53,7 @@ TEST(ErrorStatistics, UselessCovariance_IsLeftOutOfNees) {
   EXPECT_THAT(statistics.report(), Not(HasSubstr("nees")));
 }
 
-TEST(ErrorStatistics, TenCentimetresOrFiveDegrees_AreWrong) {
+TEST(ErrorStatistics, ErrorAbove10CentimetresOr5Degrees_IsWrong) {
   ErrorStatistics statistics;
   statistics.add(estimate(PoseState::kFix, 0.099, 0, 0), {0, 0, 0});
   EXPECT_EQ(statistics.wrong(), 0U);
@@ -63,7 +63,7 @@ TEST(ErrorStatistics, TenCentimetresOrFiveDegrees_AreWrong) {
   EXPECT_EQ(statistics.wrong(), 2U);
 }
 
-TEST(ErrorStatistics, HeadingsOnBothSidesOfPi_AreNear) {
+TEST(ErrorStatistics, HeadingsAcrossPi_AreClose) {
   ErrorStatistics statistics;
   statistics.add(estimate(PoseState::kFix, 0, 0, core::kPi - 0.01), {0, 0, -core::kPi + 0.01});
   EXPECT_EQ(statistics.wrong(), 0U);
@@ -82,7 +82,7 @@ TEST(ErrorStatistics, AmbiguousAndLost_AreNeverWrong) {
   EXPECT_THAT(statistics.report(), HasSubstr("1 of 2 list the true pose"));
 }
 
-TEST(ErrorStatistics, Report_GivesQuantiles) {
+TEST(ErrorStatistics, Report_HasQuantiles) {
   ErrorStatistics statistics;
   for (int mm = 1; mm <= 20; ++mm) {
     statistics.add(estimate(PoseState::kFix, mm * 1e-3, 0, 0), {0, 0, 0});

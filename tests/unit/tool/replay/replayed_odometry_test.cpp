@@ -56,7 +56,7 @@ TEST_F(OdometryCommandTest, StatusAlone_ShowsCalibration) {
   EXPECT_THAT(odometry_of({"STATUS"})["hint"].get<std::string>(), HasSubstr("--map"));
 }
 
-TEST_F(OdometryCommandTest, LinesThatLackAWheel_AreHintedAt) {
+TEST_F(OdometryCommandTest, LinesWithoutOneWheel_GiveHint) {
   ASSERT_EQ(simulate({}).exit_code, 0);
   const std::string wrong = folder_ / "wrong.ndjson";
   rewrite(wrong, [](json& line) { line.erase("left"); });
@@ -76,7 +76,7 @@ TEST_F(OdometryCommandTest, OdometryFile_OverridesRecording) {
   EXPECT_EQ(replay({"--odometry", nothing}).exit_code, 1);
 }
 
-TEST_F(OdometryCommandTest, Readings_AreInTheOrderOfTime) {
+TEST_F(OdometryCommandTest, Readings_AreOrderedByTime) {
   ASSERT_EQ(simulate({"--no-gyro", "--odometry-rate", "100"}).exit_code, 0);
   std::ifstream stream(recording_);
   double last_s = -1;
@@ -100,7 +100,7 @@ TEST_F(OdometryCommandTest, CalibrateWithoutOdometry_Fails) {
   EXPECT_NE(run.err.find("no odometry"), std::string::npos);
 }
 
-TEST_F(OdometryCommandTest, WrongUse_IsNamed) {
+TEST_F(OdometryCommandTest, WrongUsage_IsNamed) {
   EXPECT_EQ(simulate({"--wheel-errors", "1"}).exit_code, 2);
   EXPECT_EQ(simulate({"--wheel-errors", "0.9,0"}).exit_code, 2);
   EXPECT_EQ(simulate({"--wheel-errors", "nan,0"}).exit_code, 2);

@@ -26,19 +26,19 @@ TEST(Truth, BetweenTwoPoints_IsInterpolated) {
   EXPECT_DOUBLE_EQ(pose->theta_rad, 0.5);
 }
 
-TEST(Truth, HeadingAcrossPi_GoesTheShortWay) {
+TEST(Truth, HeadingAcrossPi_TakesShorterRotation) {
   const Truth truth({{0, {0, 0, core::kPi - 0.1}}, {kSecond, {0, 0, -core::kPi + 0.3}}});
   EXPECT_NEAR(truth.at(kSecond / 2)->theta_rad, -core::kPi + 0.1, 1e-12);
 }
 
-TEST(Truth, TwoPointsOfOneTime_AreAJump) {
+TEST(Truth, TwoPointsOfOneTime_Jump) {
   const Truth truth(
       {{0, {1, 0, 0}}, {kSecond, {1, 0, 0}}, {kSecond, {9, 0, 0}}, {2 * kSecond, {9, 0, 0}}});
   EXPECT_DOUBLE_EQ(truth.at(kSecond - 1)->x_m, 1);
   EXPECT_DOUBLE_EQ(truth.at(kSecond)->x_m, 9);
 }
 
-TEST(Truth, OutsideOfItsTime_SaysNothing) {
+TEST(Truth, OutsideItsTime_GivesNullopt) {
   const Truth truth({{kSecond, {1, 0, 0}}, {2 * kSecond, {1, 0, 0}}});
   EXPECT_FALSE(truth.at(kSecond - 1));
   EXPECT_TRUE(truth.at(kSecond));
@@ -62,13 +62,13 @@ class TruthFile : public testing::Test {
   test::TemporaryFolder folder_;
 };
 
-TEST_F(TruthFile, GoodLines_AreRead) {
+TEST_F(TruthFile, ValidLines_AreRead) {
   EXPECT_EQ(problem_with("{\"t\":0,\"x\":1,\"y\":2,\"theta\":0}\n\n"
                          "{\"t\":1,\"x\":1,\"y\":2,\"theta\":0}\n"),
             "");
 }
 
-TEST_F(TruthFile, BadFiles_AreNamedWithTheirLine) {
+TEST_F(TruthFile, InvalidFiles_AreNamedWithTheirLine) {
   EXPECT_THAT(problem_with(""), HasSubstr("holds no pose"));
   EXPECT_THAT(problem_with("{\"t\":0,\"x\":1,\"y\":2,\"theta\":0}\nnonsense\n"),
               HasSubstr("truth.ndjson:2: "));

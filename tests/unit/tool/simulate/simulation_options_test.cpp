@@ -33,7 +33,7 @@ class SimulationOptionsTest : public testing::Test {
   test::TemporaryFolder folder_;
 };
 
-TEST_F(SimulationOptionsTest, NumberThatIsNone_IsWrongUsage) {
+TEST_F(SimulationOptionsTest, InvalidNumber_IsWrongUsage) {
   for (const char* option :
        {"--sigma-floor", "--sigma-share", "--bearing-noise", "--missing", "--missing-run",
         "--outliers", "--beam", "--backward", "--motor", "--drive-speed", "--turn-speed"}) {
@@ -53,7 +53,7 @@ TEST_F(SimulationOptionsTest, NumberThatIsNone_IsWrongUsage) {
   EXPECT_EQ(CommandRun({"emulate", "--map", map_, "--places", "-1"}).exit_code, kExitUsage);
 }
 
-TEST_F(SimulationOptionsTest, TruthInTheRecordingsPlace_IsWrongUsage) {
+TEST_F(SimulationOptionsTest, TruthOverRecording_IsWrongUsage) {
   for (const std::string& same : {path("x.bin"), path("./x.bin"), path("a/../x.bin")}) {
     const CommandRun run = simulate({"--truth", same});
     EXPECT_EQ(run.exit_code, kExitUsage) << same;
@@ -63,7 +63,7 @@ TEST_F(SimulationOptionsTest, TruthInTheRecordingsPlace_IsWrongUsage) {
   EXPECT_EQ(simulate({"--truth", path("truth")}).exit_code, kExitDone);
 }
 
-TEST_F(SimulationOptionsTest, PlaceOutsideTheBuilding_IsSaidAndSimulated) {
+TEST_F(SimulationOptionsTest, PoseOutsideBuilding_IsWarnedAboutAndSimulated) {
   EXPECT_THAT(simulate({}).err, Not(HasSubstr("warning")));
   const std::vector<std::string> words = {"simulate",       "--map",   map_, "-o",
                                           path("x.ndjson"), "--scans", "1"};
@@ -78,7 +78,7 @@ TEST_F(SimulationOptionsTest, PlaceOutsideTheBuilding_IsSaidAndSimulated) {
   EXPECT_THAT(with({"--path", "0.3,0.5 9,9"}).err, HasSubstr("warning: 9,9"));
 }
 
-TEST_F(SimulationOptionsTest, NoiseFile_IsTakenAndNamedWhereItIsWrong) {
+TEST_F(SimulationOptionsTest, NoiseFile_IsUsedOrErrorIsNamed) {
   std::ofstream(path("noise.json")) << R"({"lidar": {"noise": {"floor": 0.02, "share": 0}}})";
   std::ofstream(path("wrong.json")) << R"({"lidar": {"noise": {"floor": "much"}}})";
   std::ofstream(path("other.json")) << R"({"lidar": {"device": "/dev/ttyS1"}})";
@@ -90,7 +90,7 @@ TEST_F(SimulationOptionsTest, NoiseFile_IsTakenAndNamedWhereItIsWrong) {
   EXPECT_THAT(simulate({"--noise", path("other.json")}).err, HasSubstr("/lidar/noise: is missing"));
 }
 
-TEST_F(SimulationOptionsTest, Real_IsTheGroundUnderOtherOptions) {
+TEST_F(SimulationOptionsTest, RealModel_IsOverriddenByOtherOptions) {
   SensorOptions options;
   options.real = true;
   EXPECT_GT(options.model({}).missing, 0.3);

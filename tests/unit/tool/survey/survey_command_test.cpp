@@ -74,7 +74,7 @@ class SurveyCommandTest : public ::testing::Test {
   const std::string arena_ = CORNERD_SOURCE_DIR "/config/maps/krpai-2019-a.json";
 };
 
-TEST_F(SurveyCommandTest, SimulatedDrive_GivesAMapToLocalizeIn) {
+TEST_F(SurveyCommandTest, SimulatedDrive_GivesMapForLocalization) {
   simulate(file("one.ndjson"), file("one.truth"), "1");
   const Truth truth = Truth::load(file("one.truth"));
   constexpr core::TimeNs kMiddleOfTheFirstScan = 91'000'000;
@@ -175,7 +175,7 @@ TEST_F(SurveyCommandTest, WrongWheelRadius_IsEstimatedAndReported) {
   EXPECT_NE(run.out.find("WARNING: the left wheel differs by +3"), std::string::npos) << run.out;
 }
 
-TEST_F(SurveyCommandTest, TooFewScans_SaysHowManyThereWere) {
+TEST_F(SurveyCommandTest, TooFewScans_FailWithTheirNumber) {
   ASSERT_EQ(CommandRun({"simulate", "--map", arena_, "--path", "0.9,0.9 0.9,1.5", "--scans", "4",
                         "-o", file("a.ndjson")})
                 .exit_code,
@@ -186,7 +186,7 @@ TEST_F(SurveyCommandTest, TooFewScans_SaysHowManyThereWere) {
   EXPECT_NE(run.err.find("a wall needs 5"), std::string::npos) << run.err;
 }
 
-TEST_F(SurveyCommandTest, RecordingWhoseClockBeginsAnew_FollowsTheOneBefore) {
+TEST_F(SurveyCommandTest, RestartedClock_FollowsPreviousRecording) {
   simulate(file("whole.ndjson"), file("truth"), "1");
   split_in_two(file("whole.ndjson"), 8.2);
   const CommandRun run({"survey", file("one.ndjson"), file("two.ndjson"), "-o", file("map.json"),
@@ -204,7 +204,7 @@ TEST_F(SurveyCommandTest, RecordingWhoseClockBeginsAnew_FollowsTheOneBefore) {
             settings::load_map(file("other.json"))->plan().walls.size());
 }
 
-TEST_F(SurveyCommandTest, OdometryBesideClocksThatBeginAnew_NamesTheFiles) {
+TEST_F(SurveyCommandTest, OdometryFileWithRestartedClock_NamesTheFiles) {
   simulate(file("whole.ndjson"), file("truth"), "1");
   split_in_two(file("whole.ndjson"), 8.2);
   const CommandRun run({"survey", file("one.ndjson"), file("two.ndjson"), "-o", file("map.json"),
@@ -224,7 +224,7 @@ TEST_F(SurveyCommandTest, OneRecordingWithoutScan_IsNamed) {
   EXPECT_NE(run.err.find("--odometry"), std::string::npos) << run.err;
 }
 
-TEST_F(SurveyCommandTest, WrongUsage_IsSaidBeforeTheWork) {
+TEST_F(SurveyCommandTest, WrongUsage_IsReportedBeforeTheWork) {
   std::ofstream(file("a.ndjson")) << "";
   const auto expect = [&](const std::vector<std::string>& more, const std::string& said) {
     std::vector<std::string> words = {"survey", file("a.ndjson"), "-o", file("m.json")};
@@ -256,7 +256,7 @@ TEST_F(SurveyCommandTest, InvalidMap_IsNotWritten) {
   expect({"--name", std::string(200, 'x')}, "/name: ");
 }
 
-TEST_F(SurveyCommandTest, MapOnStandardOutput_HasTheReportBesideIt) {
+TEST_F(SurveyCommandTest, MapOnStandardOutput_ReportOnStandardError) {
   simulate(file("one.ndjson"), file("truth"), "1");
   const CommandRun run({"survey", file("one.ndjson"), "-o", "-"});
   ASSERT_EQ(run.exit_code, 0) << run.err;
