@@ -24,26 +24,23 @@ namespace {
 /// Enough for a significant bias (cornerd-bench --localizer, "biased lidar").
 constexpr std::size_t kMinBiasScans = 20;
 
-struct CalibrateBiasOptions {
+struct CalibrateBiasOptions : CalibrationOptions {
   std::vector<std::filesystem::path> files;
-  SettingsOptions settings;
-  std::string wire = "auto";
-  std::filesystem::path output;
 };
 
-std::string describe_bias(const core::EstimatedBias& learned) {
+std::string describe_bias(const core::EstimatedBias& estimated) {
   TextTable table;
-  const core::SensorBias& bias = learned.bias;
-  const core::SensorBias& sigma = learned.sigma;
-  const auto row = [&](const char* name, double value, double doubt, double unit) {
-    table.add_row({name, formatted("%+.3f", unit * value), formatted("+- %.3f", unit * doubt)});
+  const core::SensorBias& bias = estimated.bias;
+  const core::SensorBias& sigma = estimated.sigma;
+  const auto row = [&](const char* name, double value, double deviation, double unit) {
+    table.add_row({name, formatted("%+.3f", unit * value), formatted("+- %.3f", unit * deviation)});
   };
   row("range scale, %", bias.range_scale, sigma.range_scale, 100);
   row("range offset, mm", bias.range_offset_m, sigma.range_offset_m, 1e3);
   row("bearing, sine, degrees", bias.bearing_sine_rad, sigma.bearing_sine_rad, core::degrees(1));
   row("bearing, cosine, degrees", bias.bearing_cosine_rad, sigma.bearing_cosine_rad,
       core::degrees(1));
-  return formatted("From %zu localized scans at rest or with odometry:\n", learned.scans) +
+  return formatted("From %zu localized scans at rest or with odometry:\n", estimated.scans) +
          table.text();
 }
 
@@ -61,24 +58,22 @@ void calibrate_bias(const CalibrateBiasOptions& options) {
     pipeline.localizer().relocalize();
     playback.play(file, {parse_wire(options.wire), config.lidar.mount.inverted});
   }
-  const core::EstimatedBias learned = pipeline.localizer().estimated_bias();
-  if (learned.scans < kMinBiasScans) {
-    throw Failure("only " + std::to_string(learned.scans) +
+  const core::EstimatedBias estimated = pipeline.localizer().estimated_bias();
+  if (estimated.scans < kMinBiasScans) {
+    throw Failure("only " + std::to_string(estimated.scans) +
                   " scans were localized with the lidar at rest: record some seconds each at "
                   "several places, and check with replay that they are localized");
   }
-  if (learned.is_limited) {
+  if (estimated.is_limited) {
     throw Failure("the bias exceeds its limits: check that the map is to scale");
   }
   Output report = Output::report_beside(options.output);
-  report.write(describe_bias(learned));
+  report.write(describe_bias(estimated));
   report.flush();
   if (options.output.empty()) return;
   const nlohmann::ordered_json fragment = {
-      {"advanced", {{"lidar", {{"bias", settings::json_of(learned.bias)}}}}}};
-  Output file(options.output);
-  file.write(fragment.dump(2) + '\n');
-  file.flush();
+      {"advanced", {{"lidar", {{"bias", settings::json_of(estimated.bias)}}}}}};
+  write_file(options.output, fragment.dump(2) + '\n');
 }
 
 }  // namespace
@@ -89,17 +84,11 @@ void add_calibrate_bias(Command& group) {
   const auto options = std::make_shared<CalibrateBiasOptions>();
   command
       .add_option("files", options->files,
-                  "recordings (.bin, .ndjson) of a robot that stands for some seconds each at "
-                  "several places")
+                  "recordings (.bin, .ndjson) of a robot at rest, some seconds each at several "
+                  "places")
       .required()
       .type_name("FILE");
-  options->settings.add_config(command);
-  options->settings.add_map(command);
-  command
-      .add_option("-o,--output", options->output,
-                  "the key advanced.lidar.bias, for a config; -: on standard output")
-      .type_name("JSON");
-  add_wire_option(command, options->wire);
+  options->add(command, "advanced.lidar.bias");
   command.callback([options] { calibrate_bias(*options); });
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// cornerctl calibrate noise: the lidar's noise from recordings of a robot that stands still.
+// cornerctl calibrate noise: the lidar's noise from recordings of a robot at rest.
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -110,7 +110,7 @@ void measure(const RecordingOfWall& recording, const std::string& wire, Measured
   while (player.step(sink)) {
   }
   const std::vector<calibration::BinSpread> spreads = bins.spreads();
-  std::fprintf(stderr, "%s: %zu scans, %zu returns, %zu directions with a spread\n", file.c_str(),
+  std::fprintf(stderr, "%s: %zu scans, %zu returns, %zu directions with a sigma\n", file.c_str(),
                sink.scans(), bins.returns(), spreads.size());
   warn_if_moved(file, spreads);
   measured.spreads.insert(measured.spreads.end(), spreads.begin(), spreads.end());
@@ -137,12 +137,6 @@ std::vector<calibration::WallPieceFit> fit_walls(const std::vector<calibration::
   return calibration::fit_wall_model(returns);
 }
 
-void write_file(const std::filesystem::path& path, const std::string& text) {
-  Output file(path);
-  file.write(text);
-  file.flush();
-}
-
 void calibrate_noise(const CalibrateNoiseOptions& options) {
   CommandFiles files{
       .read = {}, .written = {options.plot, options.wall_plot}, .output = options.output};
@@ -154,8 +148,7 @@ void calibrate_noise(const CalibrateNoiseOptions& options) {
   }
   const auto noise = calibration::fit_range_noise(measured.spreads);
   if (!noise) {
-    throw Failure(
-        "too few data: record some 20 scans or more of a lidar that stands still and sees walls");
+    throw Failure("too few data: record 20 scans or more of a lidar at rest with walls in view");
   }
   if (!noise->is_of_walls()) {
     throw Failure(
@@ -187,20 +180,20 @@ void calibrate_noise(const CalibrateNoiseOptions& options) {
 
 void add_noise(Command& group) {
   Command command = group.add_subcommand(
-      "noise", "the lidar's noise over the range, from recordings of a robot that stands still");
+      "noise", "the lidar's noise over the range, from recordings of a robot at rest");
   const auto options = std::make_shared<CalibrateNoiseOptions>();
   command
       .add_option(
           "files", options->files,
-          "recordings (.bin, .ndjson), each from one place; FILE@METRES: before a straight wall "
-          "that is so far from the lidar's axis")
+          "recordings (.bin, .ndjson), each of a lidar at rest; FILE@METRES: with a straight wall "
+          "at this distance from the lidar's axis")
       .required()
       .type_name("FILE");
   command
       .add_option(
           "--model", options->model,
-          "what -o writes: plain (floor and share), table, auto (the table where plain is off), "
-          "or paper: auto and the paper's model of walls, which FILE@METRES writes anyway")
+          "model written by -o: plain (floor and share), table, auto (table if plain has a large "
+          "residual), or paper: auto and the paper's wall model, which FILE@METRES always adds")
       .choices({"auto", "plain", "table", "paper"})
       .capture_default_str();
   command
@@ -211,7 +204,7 @@ void add_noise(Command& group) {
   command.add_option("--plot", options->plot, "draw sigma over the range").type_name("SVG");
   command
       .add_option("--plot-wall", options->wall_plot,
-                  "draw what the ranges of walls err by, over the ray's angle")
+                  "draw the range errors of walls over the ray's angle")
       .type_name("SVG");
   add_wire_option(command, options->wire);
   command.callback([options] { calibrate_noise(*options); });

@@ -34,12 +34,9 @@ namespace {
 using calibration::DriveError;
 using core::HeadingSource;
 
-struct CalibrateOdometryOptions {
+struct CalibrateOdometryOptions : CalibrationOptions {
   std::filesystem::path file;
-  SettingsOptions settings;
   std::filesystem::path truth;
-  std::string wire = "auto";
-  std::filesystem::path output;
   std::filesystem::path plot;
 };
 
@@ -78,10 +75,10 @@ constexpr double kSignificantDelaySigmas = 3;
 /// The fitted delay if it is significant, else the configured one.
 double written_delay_s(const calibration::OdometryFit& fit, double configured_s) {
   const double change_s = fit.learned.delay_s - configured_s;
-  const bool is_sure =
+  const bool is_significant =
       fit.has_delay && std::abs(change_s) > kSignificantDelaySigmas * fit.sigma.delay_s;
   const bool is_allowed = std::abs(fit.learned.delay_s) <= settings::kMaxInitialDelay_s;
-  return is_sure && is_allowed ? fit.learned.delay_s : configured_s;
+  return is_significant && is_allowed ? fit.learned.delay_s : configured_s;
 }
 
 std::string fragment(const calibration::OdometryFit& fit, double delay_s) {
@@ -190,7 +187,7 @@ void calibrate_odometry(const CalibrateOdometryOptions& options) {
   table.add_row(row("filter, 2nd half", "estimated in the 1st", filtered.alone));
 
   Output report = Output::report_beside(options.output);
-  report.write(formatted("The drive by wheels and gyro alone, against %zu known places:\n",
+  report.write(formatted("The drive by wheels and gyro alone, against %zu known poses:\n",
                          drive.places.size()));
   report.write(table.text());
   if (at_edge) report.write(std::string(kEdgeText));
@@ -209,9 +206,8 @@ void calibrate_odometry(const CalibrateOdometryOptions& options) {
     plot->flush();
   }
   if (!options.output.empty()) {
-    Output file(options.output);
-    file.write(fragment(fit, written_delay_s(fit, config.odometry.core.initial.delay_s)));
-    file.flush();
+    write_file(options.output,
+               fragment(fit, written_delay_s(fit, config.odometry.core.initial.delay_s)));
   }
 }
 
@@ -224,21 +220,15 @@ void add_calibrate_odometry(Command& group) {
   command
       .add_option("file", options->file,
                   "a drive with ODOMETRY lines (.ndjson): half a minute or "
-                  "more, with straights and turns both ways")
+                  "more, straight and with rotations in both directions")
       .required()
       .type_name("FILE");
-  options->settings.add_config(command);
-  options->settings.add_map(command);
+  options->add(command, "advanced.odometry.initial");
   command.add_option("--truth", options->truth, "true poses in place of the lidar's fixes")
       .type_name("FILE");
   command
-      .add_option("-o,--output", options->output,
-                  "the key advanced.odometry.initial, for a config; -: on standard output")
-      .type_name("JSON");
-  command
       .add_option("--plot", options->plot, "draw the drive by wheels, least squares and the filter")
       .type_name("SVG");
-  add_wire_option(command, options->wire);
   command.callback([options] { calibrate_odometry(*options); });
 }
 

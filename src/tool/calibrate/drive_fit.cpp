@@ -49,8 +49,8 @@ class DriveFitter {
     }
     if (!faults.empty()) fail(faults);
     fail(
-        "too few data for wheels and gyro: drive half a minute or more, with straights and "
-        "turns both ways");
+        "too few data for wheels and gyro: drive half a minute or more, straight and with "
+        "rotations in both directions");
   }
 
  private:
@@ -70,7 +70,7 @@ class DriveFitter {
            kMaxRejectedShare * static_cast<double>(counters.readings);
   }
 
-  /// Faults that no scale corrects; empty if there are none.
+  /// Wiring faults, which no scale corrects; empty if there are none.
   std::string find_faults(RecordedDrive& drive) {
     const auto& steps = is_wide(drive) ? drive.increments_within_wide_limits : drive.steps;
     search_ = calibration::search_delay(steps, drive.places, configured_s());

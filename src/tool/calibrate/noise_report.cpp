@@ -37,7 +37,7 @@ std::string short_decimal(double value) {
 
 void append_cells(std::string& out, const RangeNoise& noise) {
   append_line(out, "%-13s %10s %10s %14s %10s %9s  %s", "range [m]", "directions", "sigma [mm]",
-              "quartiles [mm]", "model [mm]", "residual", "with slant [mm]");
+              "quartiles [mm]", "model [mm]", "residual", "with oblique [mm]");
   double end_m = 0;
   for (const RangeCell& cell : noise.cells) {
     if (end_m > 0 && cell.from_m > end_m) {
@@ -93,10 +93,10 @@ std::string describe_noise(const RangeNoise& noise) {
               kMmPerM * noise.plain.floor_m, 100 * noise.plain.share,
               100 * std::expm1(noise.plain_residual));
   if (noise.bearing_measured) {
-    append_line(out, "bearing  %.3f degrees, from directions that meet their wall at a slant",
+    append_line(out, "bearing  %.3f degrees, from oblique walls",
                 core::degrees(noise.plain.bearing_rad));
   } else {
-    append_line(out, "bearing  not measured (too few walls at a slant); %.3f degrees by default",
+    append_line(out, "bearing  not measured (too few oblique walls); %.3f degrees by default",
                 core::degrees(noise.plain.bearing_rad));
   }
   append_line(out, "No data below %.2f m, where the nearest sigma holds, and beyond",
@@ -122,10 +122,10 @@ std::string describe_distances(std::span<const calibration::KnownWall> walls) {
     xx += wall.distance_m * wall.distance_m / n;
     xy += wall.distance_m * wall.measured_m / n;
   }
-  const double spread = xx - x * x;
-  constexpr double kMinSpreadM2 = 0.01;  // distances 10 cm about their mean
-  if (spread > kMinSpreadM2) {
-    const double scale = (xy - x * y) / spread;
+  const double variance = xx - x * x;
+  constexpr double kMinVariance_m2 = 0.01;  // distances 10 cm about their mean
+  if (variance > kMinVariance_m2) {
+    const double scale = (xy - x * y) / variance;
     append_line(out, "bias     measured = %.4f * true %+.2f mm", scale, kMmPerM * (y - scale * x));
   }
   return out;
@@ -134,20 +134,19 @@ std::string describe_distances(std::span<const calibration::KnownWall> walls) {
 std::string describe_wall_model(std::span<const calibration::WallPieceFit> fits,
                                 bool distances_known) {
   std::string out;
-  append_line(out, "%-13s %9s %8s %10s %10s %10s %11s  %s", "wall [m]", "distances", "returns",
-              "ray order", "its order", "error [mm]", "rest [mm]", "beyond 3 sigma");
+  append_line(out, "%-13s %9s %8s %10s %10s %10s %13s  %s", "wall [m]", "distances", "returns",
+              "ray order", "its order", "error [mm]", "residual [mm]", "beyond 3 sigma");
   for (const calibration::WallPieceFit& fit : fits) {
-    append_line(out, "%.2f - %-6.2f %9zu %8zu %10zu %10zu %10.2f %11.2f %14.2f%%", fit.piece.from_m,
+    append_line(out, "%.2f - %-6.2f %9zu %8zu %10zu %10zu %10.2f %13.2f %14.2f%%", fit.piece.from_m,
                 fit.piece.to_m, fit.distances, fit.returns, fit.ray_order, fit.distance_order,
                 kMmPerM * fit.rms_m, kMmPerM * fit.piece.sigma_m, 100 * fit.beyond_3_sigma);
   }
-  append_line(out,
-              "error: root mean square of measured less true range; rest: what the polynomials");
-  append_line(out, "leave of it (a normal distribution has 0.27 %% beyond 3 sigma)");
+  append_line(out, "error: RMSE of the range before the fit; residual: after the fit");
+  append_line(out, "(a normal distribution has 0.27 %% beyond 3 sigma)");
   if (!distances_known) {
     append_line(out,
-                "The walls' distances are fitted to the same returns: a bias of the range does "
-                "not show.");
+                "The walls' distances are fitted to the same returns: a range bias is not "
+                "observable.");
   }
   return out;
 }

@@ -22,7 +22,7 @@ class FaultText {
       : faults_(faults), config_(config) {}
 
   std::string text() {
-    add_standing();
+    add_stuck();
     add_directions();
     add_factors();
     add_gyro();
@@ -37,7 +37,7 @@ class FaultText {
   bool is_kernel() const { return config_.source == settings::OdometrySource::kKernel; }
   void add(std::string sentence) { sentences_.push_back(std::move(sentence)); }
 
-  void add_standing() {
+  void add_stuck() {
     if (faults_.left_is_stuck && faults_.right_is_stuck) {
       add("neither wheel's counts change while the robot drives: check both encoders");
     } else if (faults_.left_is_stuck || faults_.right_is_stuck) {
@@ -52,8 +52,8 @@ class FaultText {
     const bool both = faults_.left_is_reversed && faults_.right_is_reversed;
     if (both && faults_.are_swapped) {
       return add(
-          "wheels and lidar measure opposite directions: lidar.mount.theta is off by half a "
-          "turn, or left and right are exchanged and both count backward");
+          "wheels and lidar measure opposite directions: lidar.mount.theta is off by 180 "
+          "degrees, or left and right are exchanged and both count backward");
     }
     if (faults_.are_swapped) {
       add(is_kernel() ? "left and right are exchanged: swap advanced.odometry.kernel.left and "
@@ -72,11 +72,11 @@ class FaultText {
   std::string reverse(std::string_view name) const {
     if (!is_kernel()) return "negate " + std::string(name) + " in the ODOMETRY lines";
     const drivers::KernelOdometryConfig& kernel = config_.kernel;
-    const bool was = name == "left"    ? kernel.left.reversed
-                     : name == "right" ? kernel.right.reversed
-                                       : kernel.gyro.reversed;
+    const bool is_reversed = name == "left"    ? kernel.left.reversed
+                             : name == "right" ? kernel.right.reversed
+                                               : kernel.gyro.reversed;
     return "set advanced.odometry.kernel." + std::string(name) + ".reversed to " +
-           (was ? "false" : "true");
+           (is_reversed ? "false" : "true");
   }
 
   void add_factors() {
@@ -84,17 +84,17 @@ class FaultText {
       const double left = *faults_.left_factor;
       const double right = *faults_.right_factor;
       if (left == right) {
-        add(formatted("the wheels turn %.3g times as far as the counts say: ", left) +
+        add(formatted("the wheels move %.3g times as far as their counts: ", left) +
             corrections(left));
       } else {
         add(
-            formatted("the left wheel turns %.3g times as far as its counts say, the right one "
+            formatted("the left wheel moves %.3g times as far as its counts, the right one "
                       "%.3g times: count the edges of both encoders alike",
                       left, right));
       }
     }
     if (faults_.track_m) {
-      add(formatted("the robot turns as if its wheels were %.3g m apart: correct odometry.track",
+      add(formatted("the rotations match a track of %.3g m: correct odometry.track",
                     *faults_.track_m));
     }
   }
@@ -123,7 +123,7 @@ class FaultText {
                 "that points up");
     }
     if (faults_.gyro_is_reversed) {
-      add("the gyro's sign is reversed, it grows turning to the left: " + reverse("gyro"));
+      add("the gyro's sign is reversed; a rotation to the left is positive: " + reverse("gyro"));
     }
     if (faults_.gyro_factor) {
       constexpr double kDegrees = 180 / core::kPi;

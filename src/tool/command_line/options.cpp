@@ -21,7 +21,7 @@ namespace {
 constexpr std::size_t kMaxConfigBytes = std::size_t{1} << 20;
 constexpr const char* kInstalledConfig = "/etc/cornerd/cornerd.json";
 
-/// Exactly `count` finite numbers between commas; empty where the text is anything else.
+/// Exactly `count` finite numbers separated by commas; empty for any other text.
 std::vector<double> parse_numbers(std::string_view text, std::size_t count) {
   std::vector<double> numbers;
   const char* at = text.data();
@@ -41,9 +41,9 @@ std::vector<double> parse_numbers(std::string_view text, std::size_t count) {
 }  // namespace
 
 void SettingsOptions::add_config(Command& command) {
-  command.add_option("--config", config_, "config file; without it every key has its default")
+  command.add_option("--config", config_, "config file; default: every key has its default")
       .type_name("FILE");
-  command.add_option("--set", set_, "any config value: /json/pointer=value")
+  command.add_option("--set", set_, "override a config value: /json/pointer=value")
       .type_name("/PTR=VALUE")
       .check([](const std::string& text) {
         return settings::is_override(text) ? std::string() : "must be /json/pointer=value";
@@ -52,7 +52,7 @@ void SettingsOptions::add_config(Command& command) {
 }
 
 void SettingsOptions::add_map(Command& command) {
-  command.add_option("--map", map_, "map of the building; else the one that the config names")
+  command.add_option("--map", map_, "map of the building; default: the map of the config")
       .type_name("FILE");
 }
 
@@ -62,7 +62,7 @@ void SettingsOptions::use_installed_config() {
 
 settings::Config SettingsOptions::resolve(bool needs_map) const {
   if (needs_map && config_.empty() && map_.empty()) {
-    throw UsageError("name a map: --map FILE, or --config FILE with a map in it");
+    throw UsageError("no map: name one with --map FILE, or with the key map in --config FILE");
   }
   std::vector<std::string> overrides = overrides_;
   if (!map_.empty()) overrides.push_back("/map=" + settings::Json(map_.string()).dump());
@@ -84,11 +84,21 @@ std::optional<rplidar::WireFormat> parse_wire(const std::string& wire) {
   return std::nullopt;
 }
 
+void CalibrationOptions::add(Command& command, const std::string& key) {
+  settings.add_config(command);
+  settings.add_map(command);
+  command
+      .add_option("-o,--output", output, "the key " + key + ", for a config; -: on standard output")
+      .type_name("JSON");
+  add_wire_option(command, wire);
+}
+
 message::ClassSet parse_classes(const std::vector<std::string>& names) {
   message::ClassSet classes;
   for (const std::string& name : names) {
     const std::optional<message::MessageClass> known = message::message_class_from(name);
-    if (!known) throw UsageError("--classes: no class is called '" + name + "'");
+    if (!known)
+      throw UsageError("--classes: '" + name + "' is no message class; see src/message/README.md");
     classes.insert(*known);
   }
   return classes;

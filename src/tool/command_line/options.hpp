@@ -21,17 +21,17 @@ class SettingsOptions {
   void add_config(Command& command);
   void add_map(Command& command);
 
-  /// The config with everything that the command line puts over it. Without --config: defaults.
-  /// Throws settings::SettingsError; UsageError where a map is needed and none is named.
+  /// The config with the overrides of the command line. Without --config: defaults. Throws
+  /// settings::SettingsError; UsageError if a map is needed and none is named.
   settings::Config resolve(bool needs_map) const;
 
-  /// Without --config: the service's, where it is there to be read.
+  /// Without --config: the service's config file, if it is readable.
   void use_installed_config();
   const std::filesystem::path& config_file() const { return config_; }
-  /// What --set says, as settings::parse_config takes it.
+  /// The values of --set, in the format of settings::parse_config.
   const std::vector<std::string>& set() const { return set_; }
 
-  /// Puts "/json/pointer=value" over the config, before what --set says.
+  /// Adds the override "/json/pointer=value"; --set takes precedence.
   void add_override(const std::string& text) { overrides_.push_back(text); }
 
  private:
@@ -43,8 +43,18 @@ class SettingsOptions {
 
 /// --wire standard|express|ultra|auto, for bytes that begin without a response descriptor.
 void add_wire_option(Command& command, std::string& wire);
-/// nullopt for auto; the option accepts nothing that is unknown.
+/// nullopt for auto. The option has checked the name.
 std::optional<rplidar::WireFormat> parse_wire(const std::string& wire);
+
+/// Options of a command that measures a config key in a known map.
+struct CalibrationOptions {
+  SettingsOptions settings;
+  std::string wire = "auto";
+  std::filesystem::path output;
+
+  /// --config, --set, --map, --wire, and -o for the value of `key`.
+  void add(Command& command, const std::string& key);
+};
 
 /// "POSE,SCAN" as a set. Throws UsageError.
 message::ClassSet parse_classes(const std::vector<std::string>& names);

@@ -44,11 +44,17 @@ void Output::fail() const {
   throw Failure(name_ + ": " + std::strerror(errno));
 }
 
+void write_file(const std::filesystem::path& file, std::string_view text) {
+  Output output(file);
+  output.write(text);
+  output.flush();
+}
+
 namespace {
 
 namespace fs = std::filesystem;
 
-/// Whether or not it exists yet.
+/// Also for files that do not exist yet.
 bool is_same_file(const fs::path& one, const fs::path& other) {
   if (one.empty() || other.empty()) return false;
   std::error_code ignored;
@@ -57,7 +63,7 @@ bool is_same_file(const fs::path& one, const fs::path& other) {
              fs::weakly_canonical(fs::absolute(other, ignored), ignored);
 }
 
-/// As /dev/null, which keeps nothing that could be written over.
+/// Several outputs may share a device such as /dev/null.
 bool is_device(const fs::path& file) {
   std::error_code ignored;
   return fs::is_character_file(file, ignored);
@@ -68,7 +74,7 @@ bool is_device(const fs::path& file) {
 void guard_files(const CommandFiles& files) {
   for (const fs::path& file : files.written) {
     if (file == kStandardOutput) {
-      throw UsageError("-: this output needs a file; one called so is ./-");
+      throw UsageError("-: this output cannot be standard output; name a file (./- for a file -)");
     }
   }
   std::vector<fs::path> written = files.written;
@@ -76,12 +82,13 @@ void guard_files(const CommandFiles& files) {
   for (std::size_t i = 0; i < written.size(); ++i) {
     for (const fs::path& file : files.read) {
       if (is_same_file(file, written[i])) {
-        throw UsageError(written[i].string() + ": would be written over what is read");
+        throw UsageError(written[i].string() +
+                         ": is an input of this command; name another output");
       }
     }
     for (std::size_t j = 0; j < i; ++j) {
       if (is_same_file(written[i], written[j]) && !is_device(written[i])) {
-        throw UsageError(written[i].string() + ": would be two of the outputs");
+        throw UsageError(written[i].string() + ": is named for two outputs; name a file for each");
       }
     }
   }

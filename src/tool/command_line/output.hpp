@@ -10,21 +10,21 @@
 
 namespace cornerd::tool {
 
-/// Standard output or a file, and the one place that notices that writing failed.
+/// Standard output or a file. Reports every failed write.
 class Output {
  public:
   /// Standard output; `flush_each`: after every write.
   explicit Output(bool flush_each = false);
-  /// A new file, or standard output where it is called "-". Throws Failure.
+  /// A new file, or standard output if the name is "-". Throws Failure.
   explicit Output(const std::filesystem::path& file);
 
-  /// For people: standard output, or standard error where `data` is standard output.
+  /// Output for the report: standard output, or standard error if `data` is standard output.
   static Output report_beside(const std::filesystem::path& data);
 
-  /// Throws OutputClosed where the reader has gone, Failure where the disk is full.
+  /// Throws OutputClosed if the reader closed the pipe, Failure if the disk is full.
   void write(std::string_view bytes);
 
-  /// Brings out what is buffered: the last chance to notice that the disk is full. Throws the same.
+  /// Writes the buffer; a full disk may only be reported here. Throws as write().
   void flush();
 
  private:
@@ -39,21 +39,23 @@ class Output {
   bool flush_each_ = false;
 };
 
-/// The name that stands for standard output.
+/// Writes a whole file, or standard output for "-". Throws as Output.
+void write_file(const std::filesystem::path& file, std::string_view text);
+
+/// The name of standard output.
 inline constexpr const char* kStandardOutput = "-";
 
-/// What a command reads and writes; names that are empty stand for nothing.
+/// Input and output files of a command; empty names are ignored.
 struct CommandFiles {
   std::vector<std::filesystem::path> read;
-  /// Pictures, ways, recordings: each a file of its own.
+  /// Drawings, trajectories, recordings; not standard output.
   std::vector<std::filesystem::path> written;
-  /// What -o names where that may be standard output.
+  /// The file of -o, if it may be standard output.
   std::filesystem::path output;
 };
 
-/// To be asked before anything is written. Throws UsageError where a file would be written over
-/// one that is read or over another output, by whatever names, and where something in `written`
-/// is "-".
+/// Call before the first write. Throws UsageError if an output is the same file as an input or as
+/// another output, links included, or if one of `written` is "-".
 void guard_files(const CommandFiles& files);
 
 }  // namespace cornerd::tool

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// cornerctl map import: a ROS map (yaml and picture) to walls.
+// cornerctl map import: a ROS map (YAML and image) to walls.
 #include <algorithm>
 #include <filesystem>
 #include <map>
@@ -31,19 +31,16 @@ using gridmap::MadeBy;
 using gridmap::Remark;
 
 constexpr std::size_t kMaxYamlBytes = 64 << 10;
-/// Of the largest picture in digits: "255 " a pixel.
+/// The largest image as PGM text: "255 " for each pixel.
 constexpr std::size_t kMaxImageBytes = 4 * gridmap::kMaxPixels + 4096;
 
-struct MapImportOptions {
+struct MapImportOptions : MapOutput {
   std::filesystem::path yaml;
-  std::filesystem::path output;
-  std::filesystem::path plot;
-  std::string name;
   std::string made_by = "auto";
   gridmap::ImportOptions grid;
 };
 
-/// What is read, with its errors naming the file.
+/// Errors name the file.
 gridmap::MapServerYaml read_yaml(const std::filesystem::path& file) {
   const std::string text = settings::read_file(file, kMaxYamlBytes);
   try {
@@ -65,7 +62,7 @@ gridmap::Image read_image(const std::filesystem::path& yaml, const std::filesyst
   }
 }
 
-/// "3 specks, the largest 0.10 m at 1.20,3.40"; nothing where there are none.
+/// "3 specks, the largest 0.10 m at 1.20,3.40"; empty if there are none.
 std::string describe(const std::vector<Remark>& remarks, const char* label, const char* what) {
   if (remarks.empty()) return {};
   const auto largest =
@@ -76,28 +73,29 @@ std::string describe(const std::vector<Remark>& remarks, const char* label, cons
 }
 
 std::string report(const gridmap::MapServerYaml& yaml, const gridmap::Image& image,
-                   const gridmap::ImportResult& result, const core::WallMap& map, bool guessed) {
-  std::string text = formatted("%-12s %zu x %zu cells of %g m\n", "picture", image.width,
+                   const gridmap::ImportResult& result, const core::WallMap& map,
+                   bool is_detected) {
+  std::string text = formatted("%-12s %zu x %zu cells of %g m\n", "image", image.width,
                                image.height, yaml.resolution_m);
-  text += formatted("%-12s %s%s\n", "taken as",
+  text += formatted("%-12s %s%s\n", "made by",
                     result.made_by == MadeBy::kDrawing
-                        ? "drawn: surfaces on the sides of the occupied cells"
-                        : "mapped by a lidar: surfaces in the middle of the occupied cells",
-                    guessed ? " (--made-by says otherwise)" : "");
+                        ? "drawing: surfaces on the edges of the occupied cells"
+                        : "lidar: surfaces in the middle of the occupied cells",
+                    is_detected ? "; detected, --made-by overrides it" : "");
   const auto one_sided = std::span(result.plan.walls).subspan(result.two_sided);
   const auto lines = std::count_if(one_sided.begin(), one_sided.end(),
                                    [](const core::Wall& wall) { return wall.thickness_m == 0; });
-  text += formatted("%-12s %s: %zu with both sides, %zu seen from one side", "walls",
+  text += formatted("%-12s %s: %zu with both faces, %zu with one face", "walls",
                     describe_map(map).c_str(), result.two_sided, one_sided.size());
   if (!one_sided.empty()) {
-    text += formatted(" (%zu as thick as is occupied behind it, %zu lines)",
+    text += formatted(" (%zu as thick as the occupied cells behind it, %zu lines)",
                       one_sided.size() - static_cast<std::size_t>(lines),
                       static_cast<std::size_t>(lines));
   }
   text += "\n";
-  text += describe(result.specks, "left out", "specks of occupied cells");
-  text += describe(result.pockets, "left out", "enclosed patches of free cells");
-  text += describe(result.short_pieces, "left out", "borders too short for a wall");
+  text += describe(result.specks, "dropped", "specks of occupied cells");
+  text += describe(result.pockets, "dropped", "enclosed patches of free cells");
+  text += describe(result.short_pieces, "dropped", "borders too short for a wall");
   text += describe(result.joined_gaps, "closed", "gaps of unknown cells in walls");
   for (const std::string& key : yaml.unknown_keys) {
     text += "ignored      the key " + key + "\n";
@@ -112,10 +110,8 @@ void draw(const MapImportOptions& options, const gridmap::ImportResult& result,
     for (const Remark& remark : *remarks) drawing.add_left_out(remark.place);
   }
   for (const Remark& gap : result.joined_gaps) drawing.add_closed(gap.place, gap.size_m);
-  Output output(options.plot);
-  output.write(
-      drawing.document(describe_map(map) + "; crosses: left out; orange rings: gaps closed"));
-  output.flush();
+  write_file(options.plot,
+             drawing.document(describe_map(map) + "; crosses: dropped; orange rings: gaps closed"));
 }
 
 void import_map(MapImportOptions options) {
@@ -123,10 +119,10 @@ void import_map(MapImportOptions options) {
       {"auto", MadeBy::kUnknown}, {"lidar", MadeBy::kLidar}, {"drawing", MadeBy::kDrawing}};
   options.grid.made_by = kMakers.at(options.made_by);
   const gridmap::MapServerYaml yaml = read_yaml(options.yaml);
-  const std::filesystem::path picture = options.yaml.parent_path() / yaml.image;
+  const std::filesystem::path image_file = options.yaml.parent_path() / yaml.image;
   guard_files(
-      {.read = {options.yaml, picture}, .written = {options.plot}, .output = options.output});
-  const gridmap::Image image = read_image(options.yaml, picture);
+      {.read = {options.yaml, image_file}, .written = {options.plot}, .output = options.output});
+  const gridmap::Image image = read_image(options.yaml, image_file);
   gridmap::ImportResult result = gridmap::import_grid(
       gridmap::read_shades(image, yaml), yaml.resolution_m, yaml.T_map_picture, options.grid);
   if (result.plan.walls.empty()) {
@@ -134,13 +130,7 @@ void import_map(MapImportOptions options) {
                   ": no border between free and occupied cells: check negate, mode and the "
                   "thresholds");
   }
-  result.plan.name = map_name(options.name, options.output);
-
-  const std::string text = map_text(result.plan);
-  const auto map = read_back(text, options.output);
-  Output output(options.output);
-  output.write(text);
-  output.flush();
+  const auto map = options.write(result.plan);
   if (!options.plot.empty()) draw(options, result, *map);
   Output summary = Output::report_beside(options.output);
   summary.write(report(yaml, image, result, *map, options.grid.made_by == MadeBy::kUnknown));
@@ -151,58 +141,51 @@ void import_map(MapImportOptions options) {
 
 void add_map_import(Command& group) {
   Command command =
-      group.add_subcommand("import", "make a map of walls from a ROS map (yaml, and pgm or png)");
+      group.add_subcommand("import", "make a map of walls from a ROS map (YAML, and PGM or PNG)");
   const auto options = std::make_shared<MapImportOptions>();
-  command.add_option("yaml", options->yaml, "what map_server reads; it names the picture")
+  command
+      .add_option("yaml", options->yaml,
+                  "the map's file for map_server; its key image names the image")
       .required()
       .type_name("YAML");
-  command.add_option("-o,--output", options->output, "the map; -: on standard output")
-      .required()
-      .type_name("MAP");
-  command.add_option("--name", options->name, "of the map; the file's without it")
-      .type_name("NAME");
+  options->add(command, "the walls, what was dropped and what was closed");
   command
       .add_option("--made-by", options->made_by,
-                  "lidar: beams ended in the occupied cells, surfaces go through their middle; "
-                  "drawing: what is solid was filled; auto: drawing where nothing is unknown, or "
-                  "more than a quarter of the occupied cells lie behind others")
+                  "lidar: surfaces are in the middle of the occupied cells, where beams ended; "
+                  "drawing: surfaces are on their edges; auto: drawing if no cell is unknown, or "
+                  "if more than a quarter of the occupied cells are behind others")
       .choices({"auto", "lidar", "drawing"})
       .capture_default_str();
   command
       .add_option("--speck", options->grid.speck_m,
-                  "what is occupied and smaller (m), or smaller than 2.5 cells, is left out")
+                  "occupied patches smaller than this (m), or than 2.5 cells, are dropped")
       .within(0, 10)
       .type_name("M")
       .capture_default_str();
   command
       .add_option("--gap", options->grid.join_gap_m,
-                  "an unknown stretch of at most this (m) is wall where the wall goes on behind")
+                  "largest gap of unknown cells in a wall that is closed (m)")
       .within(0, 10)
       .type_name("M")
       .capture_default_str();
   command
       .add_option("--thickest", options->grid.thickness_m,
-                  "two faces at most so far apart (m) are one wall, though what is between them "
-                  "is unknown")
+                  "largest distance of two faces of one wall with unknown cells in between (m)")
       .within(0, 5)
       .type_name("M")
       .capture_default_str();
-  command
-      .add_option("--thin", options->grid.thin_m,
-                  "thickness of the walls that are thinner than the picture can tell (m)")
+  command.add_option("--thin", options->grid.thin_m, "thickness of walls thinner than a cell (m)")
       .within(0, 1)
       .type_name("M")
       .capture_default_str();
   command
       .add_option("--roughness", options->grid.roughness_m,
-                  "steps of at most this (m), or 1.25 cells, in what a lidar mapped are noise")
+                  "steps up to this (m), or 1.25 cells, of a wall mapped by a lidar are noise")
       .within(0, 0.5)
       .type_name("M")
       .capture_default_str();
   command.add_flag("!--keep-angles", options->grid.square,
-                   "leave walls oblique that are square within what the picture tells");
-  command.add_option("--plot", options->plot, "draw the walls, and what was left out")
-      .type_name("SVG");
+                   "do not make walls square that are square within the error of the cells");
   command.callback([options] { import_map(*options); });
 }
 

@@ -5,6 +5,7 @@
 
 #include "message/json_text.hpp"
 #include "settings/map_file.hpp"
+#include "tool/command_line/command.hpp"
 #include "tool/command_line/failure.hpp"
 #include "tool/command_line/output.hpp"
 #include "tool/drawing/text_table.hpp"
@@ -13,7 +14,7 @@ namespace cornerd::tool {
 
 namespace {
 
-/// Tenths of a micrometre: what meets in the plan meets in the file.
+/// Tenths of a micrometre: equal corners of the plan stay equal in the file.
 constexpr int kMapDecimals = 7;
 
 void write_point(message::JsonText& json, std::string_view name, const core::Vec2& point) {
@@ -23,8 +24,6 @@ void write_point(message::JsonText& json, std::string_view name, const core::Vec
   json.fixed(point.y(), kMapDecimals);
   json.close_array();
 }
-
-}  // namespace
 
 std::string map_text(const core::FloorPlan& plan) {
   message::JsonText json(256);
@@ -45,11 +44,6 @@ std::string map_text(const core::FloorPlan& plan) {
   return text + "  ] }\n";
 }
 
-std::string map_name(const std::string& given, const std::filesystem::path& file) {
-  if (!given.empty()) return given;
-  return file == kStandardOutput ? "map" : file.stem().string();
-}
-
 std::shared_ptr<const core::WallMap> read_back(const std::string& text,
                                                const std::filesystem::path& file) {
   try {
@@ -57,6 +51,25 @@ std::shared_ptr<const core::WallMap> read_back(const std::string& text,
   } catch (const settings::SettingsError& error) {
     throw Failure(std::string(error.what()) + "; nothing is written");
   }
+}
+
+}  // namespace
+
+void MapOutput::add(Command& command, const std::string& plotted) {
+  command.add_option("-o,--output", output, "the map; -: on standard output")
+      .required()
+      .type_name("MAP");
+  command.add_option("--name", name, "name of the map; default: the name of its file")
+      .type_name("NAME");
+  command.add_option("--plot", plot, "draw " + plotted).type_name("SVG");
+}
+
+std::shared_ptr<const core::WallMap> MapOutput::write(core::FloorPlan& plan) const {
+  plan.name = !name.empty() ? name : output == kStandardOutput ? "map" : output.stem().string();
+  const std::string text = map_text(plan);
+  auto map = read_back(text, output);
+  write_file(output, text);
+  return map;
 }
 
 std::string describe_map(const core::WallMap& map) {

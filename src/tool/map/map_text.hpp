@@ -9,15 +9,21 @@
 
 namespace cornerd::tool {
 
-/// The name that the user gave, else the file's.
-std::string map_name(const std::string& given, const std::filesystem::path& file);
+class Command;
 
-/// A map file of these walls; rooms are left out.
-std::string map_text(const core::FloorPlan& plan);
+/// Options of a command that makes a map.
+struct MapOutput {
+  std::filesystem::path output;
+  std::filesystem::path plot;
+  std::string name;
 
-/// Parses `text` before it is written. Throws Failure if it is no valid map.
-std::shared_ptr<const core::WallMap> read_back(const std::string& text,
-                                               const std::filesystem::path& file);
+  /// -o, --name and --plot. `plotted`: the content of the plot.
+  void add(Command& command, const std::string& plotted);
+
+  /// Names the plan and writes its walls, without rooms. Throws Failure before it writes if the
+  /// plan is no valid map.
+  std::shared_ptr<const core::WallMap> write(core::FloorPlan& plan) const;
+};
 
 /// "2.418 x 2.418 m, 13 walls, 40 corners"
 std::string describe_map(const core::WallMap& map);

@@ -30,26 +30,17 @@ namespace cornerd::tool {
 
 namespace {
 
-struct SurveyOptions {
+struct SurveyOptions : MapOutput {
   std::vector<std::filesystem::path> files;
   SettingsOptions settings;
   std::string wire = "auto";
   std::filesystem::path odometry;
-  std::filesystem::path output;
-  std::filesystem::path plot;
   std::filesystem::path trajectory;
-  std::string name;
   std::string start;
   std::string method = "adjusted";
   std::optional<std::size_t> iterations;
   bool manhattan = false;
 };
-
-void write_survey_file(const std::filesystem::path& file, const std::string& text) {
-  Output output(file);
-  output.write(text);
-  output.flush();
-}
 
 survey::SurveyResult make_map(const SurveyOptions& options, const core::LocalizerConfig& sensor,
                               const survey::RecordedDrive& drive) {
@@ -77,9 +68,9 @@ core::Pose2 parse_start(const std::string& text) {
   if (text.empty()) return {};
   const core::Pose2 start = parse_pose(text);
   if (std::max(std::abs(start.x_m), std::abs(start.y_m)) > settings::kMaxCoordinateM) {
-    throw UsageError("--start: a map goes from " + settings::to_text(-settings::kMaxCoordinateM) +
-                     " to " + settings::to_text(settings::kMaxCoordinateM) +
-                     " m; shift the origin");
+    throw UsageError("--start: coordinates of a map go from " +
+                     settings::to_text(-settings::kMaxCoordinateM) + " to " +
+                     settings::to_text(settings::kMaxCoordinateM) + " m; shift the origin");
   }
   return start;
 }
@@ -91,8 +82,10 @@ void check_usage(const SurveyOptions& options) {
   files.read.insert(files.read.end(), {options.odometry, options.settings.config_file()});
   guard_files(files);
   const bool is_ransac = options.method == "ransac";
-  if (is_ransac && options.manhattan) throw UsageError("--manhattan: not by --method ransac");
-  if (!is_ransac && options.iterations) throw UsageError("--iterations is for --method ransac");
+  if (is_ransac && options.manhattan)
+    throw UsageError("--manhattan: not available with --method ransac; leave one out");
+  if (!is_ransac && options.iterations)
+    throw UsageError("--iterations: only for --method ransac; add it");
 }
 
 void run_survey(const SurveyOptions& options) {
@@ -103,15 +96,12 @@ void run_survey(const SurveyOptions& options) {
       options.files, {parse_wire(options.wire), config.lidar.mount.inverted}, options.odometry);
   survey::SurveyResult result = make_map(options, config.localizer(), drive);
   survey::move_frame(start, result);
-  result.plan.name = map_name(options.name, options.output);
 
-  const std::string text = map_text(result.plan);
-  read_back(text, options.output);
-  write_survey_file(options.output, text);
-  if (!options.trajectory.empty()) write_survey_file(options.trajectory, trajectory_text(result));
+  options.write(result.plan);
+  if (!options.trajectory.empty()) write_file(options.trajectory, trajectory_text(result));
   if (!options.plot.empty()) {
-    write_survey_file(options.plot,
-                      options.method == "ransac" ? ransac_canvas(result) : survey_drawing(result));
+    write_file(options.plot,
+               options.method == "ransac" ? ransac_canvas(result) : survey_drawing(result));
   }
   Output report = Output::report_beside(options.output);
   report.write(survey_report(result));
@@ -126,16 +116,11 @@ void add_survey(Command& program) {
   command.add_option("files", options->files, "consecutive recordings of one drive")
       .required()
       .type_name("FILE");
-  command.add_option("-o,--output", options->output, "the map; -: on standard output")
-      .required()
-      .type_name("MAP");
-  command.add_option("--name", options->name, "of the map; the file's without it")
-      .type_name("NAME");
+  options->add(command, "walls, points and trajectory");
   command
       .add_option("--start", options->start,
                   "pose of the first scan in the map (m, m, rad); default: the origin")
       .type_name("X,Y,THETA");
-  command.add_option("--plot", options->plot, "draw walls, points and trajectory").type_name("SVG");
   command
       .add_option("--trajectory", options->trajectory,
                   "the estimated trajectory, a pose for each scan, in the format of --truth")
@@ -146,11 +131,11 @@ void add_survey(Command& program) {
                   "odometry alone (Bertocco et al.), for comparison")
       .choices({"adjusted", "ransac"})
       .capture_default_str();
-  command.add_option("--iterations", options->iterations, "of --method ransac")
+  command.add_option("--iterations", options->iterations, "iterations of --method ransac")
       .range(std::size_t{1}, std::size_t{1'000'000})
       .default_str(std::to_string(survey::RansacConfig().iterations));
   command.add_flag("--manhattan", options->manhattan,
-                   "make walls square that are so within their sigma, half a degree at most");
+                   "make walls square that are square within their sigma, at most half a degree");
   command
       .add_option("--odometry", options->odometry,
                   "ODOMETRY lines of another file, in place of the recordings' own")

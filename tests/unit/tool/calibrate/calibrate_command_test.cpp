@@ -73,7 +73,7 @@ TEST_F(CalibrateNoise, Model_PlainOrTable_SelectsWhatIsWritten) {
 TEST_F(CalibrateNoise, TooFewScans_FailWithRemedy) {
   const CommandRun run({"calibrate", "noise", recording("0.002", "1"), "-o", path("noise.json")});
   EXPECT_EQ(run.exit_code, kExitFailed);
-  EXPECT_THAT(run.err, HasSubstr("record some 20 scans"));
+  EXPECT_THAT(run.err, HasSubstr("record 20 scans"));
   EXPECT_EQ(run.out, "");
   EXPECT_FALSE(std::filesystem::exists(path("noise.json")));
 }
@@ -141,7 +141,7 @@ TEST_F(CalibrateNoise, PaperModelWithoutDistances_UsesFoundWalls) {
                         "--plot-wall", path("wall.svg")});
   ASSERT_EQ(run.exit_code, kExitDone) << run.err;
   EXPECT_THAT(run.out, HasSubstr("distances are fitted"));
-  // Walls 0.6 and 2 m away; the simulated lidar errs by nothing but noise there.
+  // Walls at 0.6 and 2 m; the simulated lidar has noise only.
   const calibration::WallModel found = settings::load_noise(path("noise.json")).wall;
   ASSERT_FALSE(found.empty());
   for (const double distance_m : {0.6, 2.0}) {
@@ -172,7 +172,7 @@ TEST_F(CalibrateNoise, WrongUsage_ExitCode2) {
   EXPECT_EQ(CommandRun({"calibrate", "noise", path("absent.bin")}).exit_code, kExitFailed);
 }
 
-/// A lidar that is off stands at places of the arena.
+/// A biased lidar at rest at several poses in the arena.
 class CalibrateBias : public CalibrateNoise {
  protected:
   std::string biased_recording(const std::string& places,

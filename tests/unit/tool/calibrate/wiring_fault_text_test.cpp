@@ -26,7 +26,7 @@ TEST(WiringFaultText, WrongFactor_GivesCorrectedValue) {
     return described(faults);
   };
   EXPECT_EQ(by(4.08),
-            "the wheels turn 4.08 times as far as the counts say: set odometry.counts_per_turn to "
+            "the wheels move 4.08 times as far as their counts: set odometry.counts_per_turn to "
             "360");
   EXPECT_THAT(by(0.26), HasSubstr("odometry.counts_per_turn to 5760"));
   EXPECT_THAT(by(0.51), HasSubstr("odometry.counts_per_turn to 2880 or odometry.wheel_radius to "

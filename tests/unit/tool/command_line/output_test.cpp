@@ -56,7 +56,7 @@ TEST_F(FileGuard, SameFileForTwoOutputs_IsWrongUsage) {
   EXPECT_THROW(guard_files({.read = {}, .written = {path("a"), path("./a")}, .output = {}}),
                UsageError);
   EXPECT_THROW(guard_files({.read = {}, .written = {path("a")}, .output = path("a")}), UsageError);
-  // Of the folder that one is in, neither of them there yet.
+  // Relative names of a file that does not exist yet.
   EXPECT_THROW(guard_files({.read = {}, .written = {"./absent.json"}, .output = "absent.json"}),
                UsageError);
 }
@@ -69,7 +69,7 @@ TEST_F(FileGuard, DashForFileOutput_IsWrongUsage) {
   EXPECT_THROW(guard_files({.read = {}, .written = {"-"}, .output = {}}), UsageError);
 }
 
-/// The files that commands read, and a check that none of them was touched.
+/// Input files of commands, and a check that none was changed.
 class CommandFilesTest : public FileGuard {
  protected:
   CommandFilesTest() {
@@ -97,7 +97,7 @@ class CommandFilesTest : public FileGuard {
     }
     return all;
   }
-  /// The path of what is a file's name.
+  /// The path if `word` is the name of a file, else `word`.
   std::string expand(const std::string& word) const {
     return contents_.contains(word) || word == "new" ? file(word) : word;
   }

@@ -14,9 +14,9 @@ namespace {
 using testing::HasSubstr;
 
 TEST(DriveDrawing, TracksWithoutMap_AreWellFormedAndNamed) {
-  const std::vector<core::Vec2> way = {{0, 0}, {1, 0}, {1, 5}};
-  const DrawnTrack tracks[] = {{"by <the> lidar", "#000000", way, true},
-                               {"wheels", "#c2255c", way, false}};
+  const std::vector<core::Vec2> path = {{0, 0}, {1, 0}, {1, 5}};
+  const DrawnTrack tracks[] = {{"by <the> lidar", "#000000", path, true},
+                               {"wheels", "#c2255c", path, false}};
   const std::string svg = draw_drive("A drive & more", tracks, nullptr);
   EXPECT_EQ(find_xml_error(svg), "");
   EXPECT_THAT(svg, HasSubstr("wheels"));
@@ -29,9 +29,9 @@ TEST(DriveDrawing, NoPoints_GivesEmptyDrawing) {
 }
 
 TEST(DriveDrawing, EqualPoints_AreDrawnOnce) {
-  std::vector<core::Vec2> way(1000, {0, 0});
-  way.emplace_back(10, 0);
-  const DrawnTrack tracks[] = {{"stands, then drives", "#000000", way, false}};
+  std::vector<core::Vec2> path(1000, {0, 0});
+  path.emplace_back(10, 0);
+  const DrawnTrack tracks[] = {{"stands, then drives", "#000000", path, false}};
   EXPECT_LT(draw_drive("few", tracks, nullptr).size(), 5000u);
 }
 

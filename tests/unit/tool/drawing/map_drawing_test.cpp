@@ -41,10 +41,10 @@ TEST(MapDrawing, EveryElement_IsWellFormed) {
   std::array<core::Breakpoint, 2> breakpoints;
   breakpoints[0].position = {0.5, 0.5};
   breakpoints[1].kind = core::BreakpointKind::kTerminal;
-  const std::array<Vec2, 2> way = {Vec2(0.5, 0.5), Vec2(1, 1)};
+  const std::array<Vec2, 2> path = {Vec2(0.5, 0.5), Vec2(1, 1)};
   const core::Pose2 pose{1, 1, 0.3};
-  drawing.add_path(way);
-  drawing.add_path(way, /*truth=*/true);
+  drawing.add_path(path);
+  drawing.add_path(path, /*truth=*/true);
   drawing.add_scan(scan, pose);
   drawing.add_breakpoints(breakpoints, pose);
   drawing.add_uncertainty(pose, core::Covariance3::Identity() * 1e-4);

@@ -65,7 +65,7 @@ TEST_F(MapImport, RosMap_BecomesValidMap) {
                         "my room", "--plot", path("room.svg")});
   EXPECT_EQ(run.exit_code, kExitDone) << run.err;
   EXPECT_EQ(run.err, "");
-  EXPECT_THAT(run.out, HasSubstr("taken as     drawn"));
+  EXPECT_THAT(run.out, HasSubstr("made by      drawing"));
   EXPECT_THAT(run.out, HasSubstr("1 specks of occupied cells, the largest 0.10 m at 11.05,20.25"));
   EXPECT_THAT(run.out, HasSubstr("ignored      the key made_with"));
 
@@ -127,7 +127,7 @@ TEST_F(MapImport, MapOnStandardOutput_ReportOnStandardError) {
   const CommandRun run({"map", "import", path("room.yaml"), "-o", "-"});
   EXPECT_EQ(run.exit_code, kExitDone) << run.err;
   EXPECT_EQ(settings::parse_map(run.out, "map.json")->plan().name, "map");
-  EXPECT_THAT(run.err, HasSubstr("taken as     drawn"));
+  EXPECT_THAT(run.err, HasSubstr("made by      drawing"));
 }
 
 }  // namespace

@@ -57,7 +57,7 @@ TEST_F(SimulationOptionsTest, TruthOverRecording_IsWrongUsage) {
   for (const std::string& same : {path("x.bin"), path("./x.bin"), path("a/../x.bin")}) {
     const CommandRun run = simulate({"--truth", same});
     EXPECT_EQ(run.exit_code, kExitUsage) << same;
-    EXPECT_THAT(run.err, HasSubstr("two of the outputs"));
+    EXPECT_THAT(run.err, HasSubstr("named for two outputs"));
     EXPECT_FALSE(std::filesystem::exists(path("x.bin")));
   }
   EXPECT_EQ(simulate({"--truth", path("truth")}).exit_code, kExitDone);

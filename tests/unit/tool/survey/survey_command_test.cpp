@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A drive is simulated, surveyed, and localized in what came of it.
+// A drive is simulated and surveyed, and a second one is localized in the map.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -36,8 +36,8 @@ class SurveyCommandTest : public ::testing::Test {
                   .exit_code,
               0);
   }
-  /// What came before a time in one.ndjson, the rest in two.ndjson by a clock that begins anew, and
-  /// the first one's readings in one.odometry.
+  /// Lines before `at_s` to one.ndjson, the rest to two.ndjson with a restarted clock, and the
+  /// readings of the first to one.odometry.
   void split_in_two(const std::string& whole, double at_s) const {
     std::ifstream lines(whole);
     std::ofstream one(file("one.ndjson"));
@@ -58,8 +58,8 @@ class SurveyCommandTest : public ::testing::Test {
     }
   }
 
-  /// gap.ndjson: without what the lidar said from 5 to 9 s, in which the robot went on, and perhaps
-  /// what the odometry did.
+  /// gap.ndjson: without the scans from 5 to 9 s, in which the robot moves, and without the
+  /// odometry unless `keeps_odometry`.
   void silence_lidar(const std::string& whole, bool keeps_odometry) const {
     std::ifstream lines(whole);
     std::ofstream gap(file("gap.ndjson"));
@@ -82,14 +82,14 @@ TEST_F(SurveyCommandTest, SimulatedDrive_GivesMapForLocalization) {
   std::ostringstream pose;
   pose << start.x_m << "," << start.y_m << "," << start.theta_rad;
   const CommandRun run({"survey", file("one.ndjson"), "-o", file("map.json"), "--start", pose.str(),
-                        "--plot", file("map.svg"), "--trajectory", file("way.ndjson")});
+                        "--plot", file("map.svg"), "--trajectory", file("trajectory.ndjson")});
   ASSERT_EQ(run.exit_code, 0) << run.err;
   EXPECT_NE(run.out.find("by wheels, gyro and lidar"), std::string::npos);
 
   EXPECT_EQ(CommandRun({"map", "check", file("map.json"), "--places", "0"}).exit_code, 0);
   EXPECT_EQ(settings::load_map(file("map.json"))->plan().name, "map");
   EXPECT_EQ(find_xml_error(content(file("map.svg"))), "");
-  EXPECT_EQ(Truth::load(file("way.ndjson")).points().size(), 120U);
+  EXPECT_EQ(Truth::load(file("trajectory.ndjson")).points().size(), 120U);
 
   simulate(file("two.ndjson"), file("two.truth"), "2");
   const CommandRun replay({"replay", file("two.ndjson"), "--map", file("map.json"), "--truth",
@@ -100,19 +100,20 @@ TEST_F(SurveyCommandTest, SimulatedDrive_GivesMapForLocalization) {
 TEST_F(SurveyCommandTest, LidarGap_IsDeadReckoned) {
   simulate(file("one.ndjson"), file("one.truth"), "1");
   silence_lidar(file("one.ndjson"), /*keeps_odometry=*/true);
-  const CommandRun run(
-      {"survey", file("gap.ndjson"), "-o", file("map.json"), "--trajectory", file("way.ndjson")});
+  const CommandRun run({"survey", file("gap.ndjson"), "-o", file("map.json"), "--trajectory",
+                        file("trajectory.ndjson")});
   ASSERT_EQ(run.exit_code, 0) << run.err;
   const Truth truth = Truth::load(file("one.truth"));
-  const auto way = Truth::load(file("way.ndjson")).points();
+  const auto trajectory = Truth::load(file("trajectory.ndjson")).points();
   const auto is_later = [](const auto& point) { return point.t_ns > 9 * core::kNsPerSecond; };
-  const auto after = std::find_if(way.begin(), way.end(), is_later);
-  ASSERT_NE(after, way.end());
-  const core::Pose2 seen = way.front().T_map_base.inverse() * after->T_map_base;
-  const core::Pose2 driven = truth.at(way.front().t_ns)->inverse() * truth.at(after->t_ns).value();
+  const auto after = std::find_if(trajectory.begin(), trajectory.end(), is_later);
+  ASSERT_NE(after, trajectory.end());
+  const core::Pose2 surveyed = trajectory.front().T_map_base.inverse() * after->T_map_base;
+  const core::Pose2 driven =
+      truth.at(trajectory.front().t_ns)->inverse() * truth.at(after->t_ns).value();
   EXPECT_GT(driven.translation().norm() + std::abs(driven.theta_rad), 0.3);
-  EXPECT_LT((seen.translation() - driven.translation()).norm(), 0.01);
-  EXPECT_NEAR(core::angle_between(seen.theta_rad, driven.theta_rad), 0, core::radians(0.5));
+  EXPECT_LT((surveyed.translation() - driven.translation()).norm(), 0.01);
+  EXPECT_NEAR(core::angle_between(surveyed.theta_rad, driven.theta_rad), 0, core::radians(0.5));
 }
 
 TEST_F(SurveyCommandTest, GapOfLidarAndWheels_IsRejected) {
@@ -190,12 +191,12 @@ TEST_F(SurveyCommandTest, RestartedClock_FollowsPreviousRecording) {
   simulate(file("whole.ndjson"), file("truth"), "1");
   split_in_two(file("whole.ndjson"), 8.2);
   const CommandRun run({"survey", file("one.ndjson"), file("two.ndjson"), "-o", file("map.json"),
-                        "--trajectory", file("way.ndjson")});
+                        "--trajectory", file("trajectory.ndjson")});
   ASSERT_EQ(run.exit_code, 0) << run.err;
   EXPECT_NE(run.err.find("two.ndjson: its clock begins before the end"), std::string::npos);
   core::TimeNs last_ns = -1;
-  const Truth way = Truth::load(file("way.ndjson"));
-  for (const auto& point : way.points()) {
+  const Truth trajectory = Truth::load(file("trajectory.ndjson"));
+  for (const auto& point : trajectory.points()) {
     EXPECT_GT(point.t_ns, last_ns);
     last_ns = point.t_ns;
   }
@@ -211,7 +212,7 @@ TEST_F(SurveyCommandTest, OdometryFileWithRestartedClock_NamesTheFiles) {
                         "--odometry", file("one.odometry")});
   EXPECT_EQ(run.exit_code, 1);
   EXPECT_NE(run.err.find("two.ndjson: its clock begins"), std::string::npos) << run.err;
-  EXPECT_NE(run.err.find("one.odometry does not tell"), std::string::npos) << run.err;
+  EXPECT_NE(run.err.find("one.odometry are ambiguous"), std::string::npos) << run.err;
 }
 
 TEST_F(SurveyCommandTest, OneRecordingWithoutScan_IsNamed) {
@@ -226,31 +227,32 @@ TEST_F(SurveyCommandTest, OneRecordingWithoutScan_IsNamed) {
 
 TEST_F(SurveyCommandTest, WrongUsage_IsReportedBeforeTheWork) {
   std::ofstream(file("a.ndjson")) << "";
-  const auto expect = [&](const std::vector<std::string>& more, const std::string& said) {
+  const auto expect = [&](const std::vector<std::string>& more, const std::string& message) {
     std::vector<std::string> words = {"survey", file("a.ndjson"), "-o", file("m.json")};
     words.insert(words.end(), more.begin(), more.end());
     const CommandRun run(words);
-    EXPECT_EQ(run.exit_code, 2) << said;
-    EXPECT_NE(run.err.find(said), std::string::npos) << run.err;
+    EXPECT_EQ(run.exit_code, 2) << message;
+    EXPECT_NE(run.err.find(message), std::string::npos) << run.err;
   };
   expect({"--start", "nan,0,0"}, "is no pose");
   expect({"--start", "500000,4000000,0.3"}, "--start: ");
   expect({"--method", "ransac", "--manhattan"}, "--manhattan: ");
-  expect({"--iterations", "5"}, "--iterations is for --method ransac");
+  expect({"--iterations", "5"}, "--iterations: ");
   expect({"--plot", "-"}, "-: ");
 }
 
 TEST_F(SurveyCommandTest, InvalidMap_IsNotWritten) {
   simulate(file("one.ndjson"), file("truth"), "1");
-  const auto expect = [&](const std::vector<std::string>& more, const std::string& said) {
-    std::vector<std::string> words = {"survey",         file("one.ndjson"), "-o",
-                                      file("map.json"), "--trajectory",     file("way.ndjson")};
+  const auto expect = [&](const std::vector<std::string>& more, const std::string& message) {
+    std::vector<std::string> words = {"survey",       file("one.ndjson"),
+                                      "-o",           file("map.json"),
+                                      "--trajectory", file("trajectory.ndjson")};
     words.insert(words.end(), more.begin(), more.end());
     const CommandRun run(words);
-    EXPECT_EQ(run.exit_code, 1) << said;
-    EXPECT_NE(run.err.find(said), std::string::npos) << run.err;
+    EXPECT_EQ(run.exit_code, 1) << message;
+    EXPECT_NE(run.err.find(message), std::string::npos) << run.err;
     EXPECT_FALSE(std::filesystem::exists(file("map.json")));
-    EXPECT_FALSE(std::filesystem::exists(file("way.ndjson")));
+    EXPECT_FALSE(std::filesystem::exists(file("trajectory.ndjson")));
   };
   expect({"--start", "9999.9,0,0"}, "coordinates must be from -10000 to 10000; nothing is written");
   expect({"--name", std::string(200, 'x')}, "/name: ");
