@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The commands of cornerctl. Each function adds its command to the program or to a group of
-// commands. The command runs inside the parse and throws what it cannot do (failure.hpp).
+// commands. The command runs inside the parse and throws the exceptions of failure.hpp.
 #pragma once
 
 namespace cornerd::tool {

@@ -22,12 +22,12 @@ class Option {
   /// Its value as --help shows it: "FILE".
   Option& type_name(const std::string& name);
   Option& required();
-  /// --help shows the value that the target has now, or `text`.
+  /// --help shows the current value of the target, or `text`.
   Option& capture_default_str();
   Option& default_str(const std::string& text);
   /// Several values in one word: "a,b".
   Option& delimiter(char delimiter);
-  /// One word each time that it is given.
+  /// One word for each use of the option.
   Option& one_word();
   /// --help leaves it out.
   Option& hidden();
@@ -38,7 +38,7 @@ class Option {
   /// A finite number from `low` to `high`. CLI11's own checks let "nan" pass.
   Option& within(double low, double high);
   Option& positive();
-  /// `check` returns what is wrong with a value; empty: nothing.
+  /// `check` returns the error of a value; empty if it is valid.
   Option& check(const std::function<std::string(const std::string&)>& check);
 
   bool is_given() const;
@@ -66,15 +66,15 @@ class Command {
                              const std::function<void(const std::string&)>& take,
                              const std::string& help);
 
-  /// What the command does, once its options are read. It throws what it cannot do (failure.hpp).
+  /// The action, called after the options are parsed. Throws the exceptions of failure.hpp.
   void callback(const std::function<void()>& run);
 
  private:
   CLI::App* app_;
 };
 
-/// A program: what main() returns. `add` gives it commands or options. Prints --help, --version and
-/// errors, never throws.
+/// Runs a program and returns its exit code. `add` adds commands or options. Prints --help,
+/// --version and errors; never throws.
 int run_program(const std::string& name, const std::string& summary,
                 const std::function<void(Command& program)>& add, int argc,
                 const char* const* argv);

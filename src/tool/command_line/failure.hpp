@@ -8,12 +8,12 @@
 
 namespace cornerd::tool {
 
-/// What cornerctl ends with.
+/// Exit codes of cornerctl.
 enum ExitCode : int {
   kExitDone = 0,
   kExitFailed = 1,  ///< reported on standard error
   kExitUsage = 2,
-  kExitConfig = settings::kExitConfig  ///< a config or map that is wrong
+  kExitConfig = settings::kExitConfig  ///< wrong config or map
 };
 
 /// Ends a command with kExitFailed. what() is one line for the user.
@@ -22,7 +22,7 @@ class Failure : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Ends a command with kExitUsage: its options are well formed but make no sense together.
+/// Ends a command with kExitUsage: its options are well formed but contradict each other.
 class UsageError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

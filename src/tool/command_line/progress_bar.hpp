@@ -7,15 +7,15 @@
 
 namespace cornerd::tool {
 
-/// A line on standard error that says how far a long command is; nothing where that is no terminal.
+/// Progress of a long command, a line on standard error; not shown if that is no terminal.
 class ProgressBar {
  public:
   ProgressBar(std::string title, std::size_t total);
-  ~ProgressBar();  ///< takes the line away
+  ~ProgressBar();  ///< erases the line
   ProgressBar(const ProgressBar&) = delete;
   ProgressBar& operator=(const ProgressBar&) = delete;
 
-  /// `phase`: what is being done.
+  /// `phase`: the current step.
   void show(std::size_t done, std::string_view phase = {});
 
  private:

@@ -39,22 +39,22 @@ Bounds bounds_of(std::span<const DrawnTrack> tracks, const core::WallMap* map) {
     bounds.take(map->upper_right());
   }
   if (!(bounds.low.x() <= bounds.high.x())) bounds = {Vec2::Zero(), Vec2::Ones()};
-  // A robot that stands is drawn as well.
+  // A robot at rest needs a rectangle of some size, too.
   bounds.high = bounds.high.cwiseMax(bounds.low + Vec2::Ones());
   return bounds;
 }
 
-/// Points nearer to the last one than this say nothing to the eye.
-std::vector<Vec2> thinned(std::span<const Vec2> points, double least_m) {
+/// Drops points nearer than `min_step_m` to the last kept one, except the end.
+std::vector<Vec2> thinned(std::span<const Vec2> points, double min_step_m) {
   std::vector<Vec2> thin;
   for (const Vec2& point : points) {
-    if (thin.empty() || (point - thin.back()).norm() >= least_m) thin.push_back(point);
+    if (thin.empty() || (point - thin.back()).norm() >= min_step_m) thin.push_back(point);
   }
   if (!points.empty()) thin.push_back(points.back());
   return thin;
 }
 
-/// 1, 2 or 5 times a power of ten: some five steps across.
+/// 1, 2 or 5 times a power of ten: about five steps.
 double grid_step(double size_m) {
   const double power = std::pow(10, std::floor(std::log10(size_m / 5)));
   for (const double factor : {1.0, 2.0, 5.0}) {

@@ -8,12 +8,12 @@
 
 namespace cornerd::tool {
 
-/// The factors that the mode has, "0.812, 1.190"; one at an end of the search bears a star.
+/// The factors of the mode, "0.812, 1.190", with a star at a limit of the search.
 std::string describe_factors(core::HeadingSource source, const calibration::FoundFactors& found);
 
-/// What the star means, a line of its own.
+/// The footnote of the star, one line.
 inline constexpr std::string_view kEdgeText =
-    "* at an end of the search, 0 to 2.5: 0 leaves that sensor out, and at 2.5 the best lies "
-    "beyond\n";
+    "* at a limit of the search, 0 to 2.5: at 0 the sensor is not used, at 2.5 the optimum is "
+    "larger\n";
 
 }  // namespace cornerd::tool

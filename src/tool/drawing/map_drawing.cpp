@@ -76,8 +76,8 @@ Vec2 centroid(std::span<const Vec2> polygon) {
 }
 
 std::array<Vec2, 4> solid_of(const core::Wall& wall) {
-  const Vec2 way = wall.to - wall.from;
-  const Vec2 along = way.norm() > 0 ? Vec2(way.normalized()) : Vec2(Vec2::UnitX());
+  const Vec2 span = wall.to - wall.from;
+  const Vec2 along = span.norm() > 0 ? Vec2(span.normalized()) : Vec2(Vec2::UnitX());
   const Vec2 ahead = along * wall.thickness_m / 2;
   const Vec2 left = core::rotate_left(ahead);
   return {wall.from - ahead - left, wall.to + ahead - left, wall.to + ahead + left,
@@ -124,13 +124,13 @@ void MapDrawing::draw_grid(double step_m) {
   const Vec2 low = map_.lower_left();
   const Vec2 high = map_.upper_right();
   const Paint paint{.stroke = kGrid, .stroke_width = 1};
-  const double slack = step_m * 1e-6;
-  for (double i = std::ceil(low.x() / step_m - 1e-6); i * step_m <= high.x() + slack; ++i) {
+  const double tolerance_m = step_m * 1e-6;
+  for (double i = std::ceil(low.x() / step_m - 1e-6); i * step_m <= high.x() + tolerance_m; ++i) {
     const double x = i * step_m;
     svg_.line({x, low.y()}, {x, high.y()}, paint);
     svg_.text({x, low.y()}, short_number(x), {.fill = kLabel, .size = 12}, 0, 22);
   }
-  for (double i = std::ceil(low.y() / step_m - 1e-6); i * step_m <= high.y() + slack; ++i) {
+  for (double i = std::ceil(low.y() / step_m - 1e-6); i * step_m <= high.y() + tolerance_m; ++i) {
     const double y = i * step_m;
     svg_.line({low.x(), y}, {high.x(), y}, paint);
     svg_.text({low.x(), y}, short_number(y), {.fill = kLabel, .size = 12, .anchor = "end"}, -12, 4);

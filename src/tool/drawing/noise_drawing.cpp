@@ -58,8 +58,8 @@ std::string draw_noise(const calibration::RangeNoise& noise, std::span<const Bin
   core::SensorNoise tabled = noise.plain;
   tabled.table = core::SigmaTable(noise.table());
   plot.line(curve(tabled, end_m), kTableLine);
-  plot.legend("a direction, as measured", kDirection);
-  plot.legend("range alone: median and quartiles", kCellDot);
+  plot.legend("one direction, measured", kDirection);
+  plot.legend("range only: median and quartiles", kCellDot);
   plot.legend("floor and share", kPlainLine);
   plot.legend("table", kTableLine);
   return plot.document();
@@ -77,7 +77,7 @@ std::string draw_walls(std::span<const calibration::WallPieceFit> fits,
   }
   const calibration::WallModel model(std::move(pieces));
   Plot plot({-rays_deg, rays_deg, "ray, from the wall's normal (degrees)"},
-            {-highest_mm, highest_mm, "measured less true range (mm)"}, "Walls at known distances");
+            {-highest_mm, highest_mm, "range error (mm)"}, "Walls at known distances");
   constexpr std::size_t kMaxDots = 300;  // for each wall
   for (std::size_t i = 0; i < walls.size(); ++i) {
     const auto& returns = walls[i].returns;

@@ -11,13 +11,13 @@
 
 namespace cornerd::tool {
 
-/// Sigma over range as SVG: every direction a dot, the measured ranges with their quartiles, the
-/// fitted models as lines.
+/// Sigma over range as SVG: a dot for each direction, median and quartiles of each range interval,
+/// the fitted models as lines.
 std::string draw_noise(const calibration::RangeNoise& noise,
                        std::span<const calibration::BinSpread> bins);
 
-/// What ranges err by over the ray's angle, as SVG: the returns as dots, the fitted model as a line
-/// for every wall.
+/// Range error over the ray's angle, as SVG: the returns as dots, the fitted model as a line for
+/// each wall.
 std::string draw_walls(std::span<const calibration::WallPieceFit> fits,
                        std::span<const calibration::KnownWall> walls);
 

@@ -16,7 +16,7 @@ constexpr double kLegendLinePx = 18;
 constexpr std::string_view kAxisInk = "#2f3640";
 constexpr std::string_view kGridInk = "#e9e6df";
 
-/// 1, 2 or 5 times a power of ten, so that an axis has four to ten steps.
+/// 1, 2 or 5 times a power of ten: four to ten steps per axis.
 double step_of(const PlotAxis& axis) {
   const double rough = (axis.high - axis.low) / 5;
   const double power = std::pow(10, std::floor(std::log10(rough)));
@@ -39,7 +39,7 @@ Plot::Plot(const PlotAxis& x, const PlotAxis& y, std::string_view title)
   draw_axes();
 }
 
-core::Vec2 Plot::place(double x, double y) const {
+core::Vec2 Plot::position(double x, double y) const {
   const core::Vec2 share((x - x_.low) / (x_.high - x_.low), (y - y_.low) / (y_.high - y_.low));
   return share.cwiseMax(0).cwiseMin(1).cwiseProduct(size_of_plot());
 }
@@ -50,26 +50,26 @@ void Plot::draw_axes() {
   svg_.begin_group("axes");
   const double dx = step_of(x_);
   for (double x = std::ceil(x_.low / dx) * dx; x <= x_.high + dx * 1e-6; x += dx) {
-    svg_.line(place(x, y_.low), place(x, y_.high), grid);
-    svg_.text(place(x, y_.low), tick_text(x), tick, 0, 18);
+    svg_.line(position(x, y_.low), position(x, y_.high), grid);
+    svg_.text(position(x, y_.low), tick_text(x), tick, 0, 18);
   }
   const double dy = step_of(y_);
   for (double y = std::ceil(y_.low / dy) * dy; y <= y_.high + dy * 1e-6; y += dy) {
-    svg_.line(place(x_.low, y), place(x_.high, y), grid);
-    svg_.text(place(x_.low, y), tick_text(y), {.fill = kAxisInk, .size = 11, .anchor = "end"}, -6,
-              4);
+    svg_.line(position(x_.low, y), position(x_.high, y), grid);
+    svg_.text(position(x_.low, y), tick_text(y), {.fill = kAxisInk, .size = 11, .anchor = "end"},
+              -6, 4);
   }
   const TextStyle label{.fill = kAxisInk, .size = 13};
-  svg_.text(place((x_.low + x_.high) / 2, y_.low), x_.label, label, 0, 42);
-  svg_.text(place(x_.low, (y_.low + y_.high) / 2), y_.label,
+  svg_.text(position((x_.low + x_.high) / 2, y_.low), x_.label, label, 0, 42);
+  svg_.text(position(x_.low, (y_.low + y_.high) / 2), y_.label,
             {.fill = kAxisInk, .size = 13, .rotation_deg = 90}, -40, 0);
-  svg_.text(place((x_.low + x_.high) / 2, y_.high), title_,
+  svg_.text(position((x_.low + x_.high) / 2, y_.high), title_,
             {.fill = kAxisInk, .size = 15, .bold = true}, 0, -24);
   svg_.end_group();
 }
 
 void Plot::dot(double x, double y, double radius_px, const Paint& paint) {
-  svg_.dot(place(x, y), radius_px, paint);
+  svg_.dot(position(x, y), radius_px, paint);
 }
 
 void Plot::line(std::span<const core::Vec2> points, const Paint& paint) {
@@ -80,7 +80,7 @@ void Plot::line(std::span<const core::Vec2> points, const Paint& paint) {
   };
   for (const core::Vec2& point : points) {
     if (point.y() >= y_.low && point.y() <= y_.high) {
-      piece.push_back(place(point.x(), point.y()));
+      piece.push_back(position(point.x(), point.y()));
     } else {
       draw();
     }

@@ -17,8 +17,8 @@ struct PlotAxis {
   std::string_view label = {};
 };
 
-/// A picture of values over values: axes with a grid, and whatever is drawn into them. What lies
-/// outside the axes is moved to their edge (dots) or left out (lines).
+/// An x-y plot with a grid. Dots outside the axes are moved to their edge; points of lines outside
+/// the y axis are left out.
 class Plot {
  public:
   Plot(const PlotAxis& x, const PlotAxis& y, std::string_view title);
@@ -26,13 +26,13 @@ class Plot {
   void dot(double x, double y, double radius_px, const Paint& paint);
   /// Points with a y outside the axis interrupt the line.
   void line(std::span<const core::Vec2> points, const Paint& paint);
-  /// A line of the legend, in the paint of what it explains.
+  /// A line of the legend, in the paint of its dots or line.
   void legend(std::string_view text, const Paint& paint);
 
   std::string document() const { return svg_.document(title_); }
 
  private:
-  core::Vec2 place(double x, double y) const;
+  core::Vec2 position(double x, double y) const;
   void draw_axes();
 
   PlotAxis x_;

@@ -16,12 +16,12 @@ std::string survey_drawing(const survey::SurveyResult& result) {
   MapDrawing drawing(map);
   drawing.add_points(result.points);
   for (const survey::ThinPlace& place : result.thin) drawing.add_thin(place.from, place.to);
-  std::vector<core::Vec2> way;
-  for (const core::Pose2& T_map_base : result.T_map_base) way.push_back(T_map_base.translation());
-  drawing.add_path(way);
+  std::vector<core::Vec2> path;
+  for (const core::Pose2& T_map_base : result.T_map_base) path.push_back(T_map_base.translation());
+  drawing.add_path(path);
   if (!result.T_map_base.empty()) drawing.add_pose(result.T_map_base.front());
   return drawing.document(
-      formatted("%zu walls from %zu scans; green: returns; orange: not seen, between what was",
+      formatted("%zu walls from %zu scans; green: returns; orange: without observations",
                 result.plan.walls.size(), result.T_map_base.size()));
 }
 

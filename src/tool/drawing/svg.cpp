@@ -8,7 +8,7 @@ namespace cornerd::tool {
 
 namespace {
 
-/// A hundredth of a pixel; without trailing zeros, and the same on every machine.
+/// Rounded to a hundredth of a pixel, without trailing zeros, independent of the locale.
 void append_number(std::string& out, double value) {
   const double rounded = std::round(value * 100) / 100;
   char digits[32];

@@ -9,7 +9,7 @@
 
 namespace cornerd::tool {
 
-/// How a shape looks. Colours as SVG has them ("#2f3640", "none"); widths in pixels.
+/// Style of a shape: SVG colours ("#2f3640", "none"), widths in pixels.
 struct Paint {
   std::string_view fill = "none";
   std::string_view stroke = "none";
@@ -26,11 +26,11 @@ struct TextStyle {
   double rotation_deg = 0;  ///< counter-clockwise
 };
 
-/// An SVG picture of a piece of the plane: shapes are given in metres with y upwards, strokes and
-/// texts in pixels. Offsets in pixels, y downwards, shift a text off the point that it belongs to.
+/// An SVG drawing of a rectangle of the plane. Coordinates are in metres with y upwards; widths,
+/// text sizes and text offsets are in pixels. Offsets have y downwards.
 class Svg {
  public:
-  /// Shows the rectangle between the two corners, and `margin_px` around it.
+  /// The rectangle between the two corners, with a margin of `margin_px` around it.
   Svg(const core::Vec2& lower_left, const core::Vec2& upper_right, double pixels_per_m,
       double margin_px);
 
@@ -38,22 +38,22 @@ class Svg {
   void polyline(std::span<const core::Vec2> points, const Paint& paint);
   void line(const core::Vec2& from, const core::Vec2& to, const Paint& paint);
   void dot(const core::Vec2& center, double radius_px, const Paint& paint);
-  /// Half axes in metres; `rotation_rad`: of the first axis, counter-clockwise from x.
+  /// Semi-axes in metres; `rotation_rad`: of the first axis, counter-clockwise from x.
   void ellipse(const core::Vec2& center, double first_m, double second_m, double rotation_rad,
                const Paint& paint);
   void text(const core::Vec2& at, std::string_view text, const TextStyle& style,
             double right_px = 0, double down_px = 0);
 
-  /// What is drawn until the end of the group shares an id, for those who edit the picture.
+  /// Elements up to end_group() share an id, for editing the drawing.
   void begin_group(std::string_view id);
   void end_group();
 
-  /// The page of the whole picture, in metres: for frames and scale bars.
+  /// Size of the page, for frames and scale bars.
   double pixels_per_m() const { return pixels_per_m_; }
   double width_px() const { return width_px_; }
   double height_px() const { return height_px_; }
 
-  /// The complete document. `title` is what a browser's tab shows.
+  /// The complete document. `title`: of a browser's tab.
   std::string document(std::string_view title) const;
 
  private:
@@ -71,8 +71,8 @@ class Svg {
   std::string body_;
 };
 
-/// Text as the content of an XML element or attribute: the five special characters as entities,
-/// control characters, which XML has none of, as U+FFFD.
+/// Escapes text for an XML element or attribute: the five special characters as entities, control
+/// characters (not allowed in XML 1.0, section 2.2) as U+FFFD.
 std::string escape_xml(std::string_view text);
 
 }  // namespace cornerd::tool

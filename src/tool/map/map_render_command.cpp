@@ -51,16 +51,16 @@ bool has_pose(const core::PoseEstimate& pose) {
   return pose.state != core::PoseState::kAmbiguous && pose.state != core::PoseState::kLost;
 }
 
-/// `way`: the trajectory; null: localize in `map`.
+/// `trajectory`: poses of the recording; null: localize in `map`.
 RecordedView view_recording(const RenderOptions& options, const settings::Config& config,
-                            std::shared_ptr<const core::WallMap> map, const Truth* way) {
+                            std::shared_ptr<const core::WallMap> map, const Truth* trajectory) {
   RecordedView view;
-  core::Pipeline pipeline(way == nullptr ? std::move(map) : nullptr, config.localizer());
+  core::Pipeline pipeline(trajectory == nullptr ? std::move(map) : nullptr, config.localizer());
   Playback playback(pipeline, [&](const core::Scan& scan, const core::ScanResult& result) {
     ++view.scans;
     std::optional<core::Pose2> T_map_base;
-    if (way != nullptr) {
-      T_map_base = way->at(scan.start_ns() + (scan.end_ns() - scan.start_ns()) / 2);
+    if (trajectory != nullptr) {
+      T_map_base = trajectory->at(scan.start_ns() + (scan.end_ns() - scan.start_ns()) / 2);
     } else if (has_pose(result.pose)) {
       T_map_base = result.pose.T_map_base;
     }
@@ -79,16 +79,16 @@ RecordedView view_recording(const RenderOptions& options, const settings::Config
 }
 
 std::vector<core::Vec2> path_of(const Truth& truth) {
-  std::vector<core::Vec2> way;
+  std::vector<core::Vec2> path;
   for (const message::RecordedTruth& point : truth.points()) {
-    way.push_back(point.T_map_base.translation());
+    path.push_back(point.T_map_base.translation());
   }
-  return way;
+  return path;
 }
 
 void draw_points(MapDrawing& drawing, const core::WallMap& map,
                  const std::vector<core::Vec2>& points) {
-  // As far as the picture's margin goes.
+  // Up to the margin of the drawing.
   constexpr double kBeyondPx = 40;
   const core::Vec2 margin = core::Vec2::Constant(kBeyondPx * drawing.pixel_m());
   drawing.add_points(
@@ -115,15 +115,17 @@ void render(const RenderOptions& options) {
     drawing.add_path(path_of(Truth::load(options.truth)), /*truth=*/true);
   }
   if (!options.recording.empty()) {
-    std::optional<Truth> way;
-    if (!options.trajectory.empty()) way = Truth::load(options.trajectory);
-    const RecordedView view = view_recording(options, config, map, way ? &*way : nullptr);
+    std::optional<Truth> trajectory;
+    if (!options.trajectory.empty()) trajectory = Truth::load(options.trajectory);
+    const RecordedView view =
+        view_recording(options, config, map, trajectory ? &*trajectory : nullptr);
     draw_points(drawing, *map,
-                way ? view.points.place(T_base_lidar, *way) : view.points.place(T_base_lidar));
+                trajectory ? view.points.place(T_base_lidar, *trajectory)
+                           : view.points.place(T_base_lidar));
     drawing.add_path(view.path);
     if (!T_map_base && view.T_map_base) {
       T_map_base = view.T_map_base;
-      if (!way) drawing.add_uncertainty(*T_map_base, view.pose.covariance);
+      if (!trajectory) drawing.add_uncertainty(*T_map_base, view.pose.covariance);
     }
     if (T_map_base) {
       const core::Pose2 T_map_lidar = *T_map_base * T_base_lidar;
@@ -134,7 +136,7 @@ void render(const RenderOptions& options) {
                    options.recording.c_str());
     }
     subtitle += formatted("; %zu of %zu scans ", view.path.size(), view.scans);
-    subtitle += way ? "placed by " + options.trajectory.filename().string() : "localized";
+    subtitle += trajectory ? "placed by " + options.trajectory.filename().string() : "localized";
   }
   if (T_map_base) drawing.add_pose(*T_map_base);
 
@@ -149,7 +151,7 @@ void add_map_render(Command& group) {
   Command command = group.add_subcommand("render", "draw a map, and a recording in it, as SVG");
   const auto options = std::make_shared<RenderOptions>();
   command.add_option("map", options->map, "the map").required().type_name("MAP");
-  command.add_option("-o,--output", options->output, "the picture; -: on standard output")
+  command.add_option("-o,--output", options->output, "the drawing; -: on standard output")
       .required()
       .type_name("SVG");
   command
@@ -163,7 +165,7 @@ void add_map_render(Command& group) {
       .type_name("FILE");
   command
       .add_option("--pose", options->pose,
-                  "draw the robot there, and the recording's scan as seen from there")
+                  "draw the robot at this pose, and the recording's last scan from it")
       .type_name("X,Y,THETA");
   command.add_option("--truth", options->truth, "draw the true path, dashed").type_name("FILE");
   options->settings.add_config(command);

@@ -75,10 +75,10 @@ void Terminal::leave() {
 }
 
 Terminal::Size Terminal::size() const {
-  winsize told{};
-  if (::ioctl(fd_, TIOCGWINSZ, &told) != 0 || told.ws_col == 0 || told.ws_row == 0) return {};
-  return {std::min<std::size_t>(told.ws_col, kMaxColumns),
-          std::min<std::size_t>(told.ws_row, kMaxRows)};
+  winsize window{};
+  if (::ioctl(fd_, TIOCGWINSZ, &window) != 0 || window.ws_col == 0 || window.ws_row == 0) return {};
+  return {std::min<std::size_t>(window.ws_col, kMaxColumns),
+          std::min<std::size_t>(window.ws_row, kMaxRows)};
 }
 
 std::optional<std::string> Terminal::take_keys() {

@@ -170,27 +170,27 @@ void record(RecordOptions& options) {
 }  // namespace
 
 void add_record(Command& program) {
-  Command command = program.add_subcommand("record", "keep what a lidar sends");
+  Command command = program.add_subcommand("record", "record the bytes of a lidar");
   const auto options = std::make_shared<RecordOptions>();
   const auto override_with = [options](const char* pointer) {
     return [options, pointer](const std::string& value) {
       options->settings.add_override(pointer + ("=" + value));
     };
   };
-  command.add_option_function("--device", override_with("/lidar/device"), "its port")
+  command.add_option_function("--device", override_with("/lidar/device"), "port of the lidar")
       .type_name("DEV");
-  command.add_option_function("--baud", override_with("/advanced/lidar/baud"), "its speed");
+  command.add_option_function("--baud", override_with("/advanced/lidar/baud"), "its baud rate");
   command.add_option_function("--mode", override_with("/advanced/lidar/mode"),
                               "auto, or a scan mode by name");
   options->settings.add_config(command);
   command
       .add_option(
           "-o,--output", options->output,
-          "the recording: .bin what came, .ndjson both ways with times, and wheels and gyro where "
-          "the config's odometry.source is kernel")
+          "the recording: .bin received bytes; .ndjson both directions with times, and wheels and "
+          "gyro if odometry.source is kernel")
       .required()
       .type_name("FILE");
-  command.add_option("--seconds", options->seconds, "else until interrupted")
+  command.add_option("--seconds", options->seconds, "duration; default: until interrupted")
       .positive()
       .type_name("N");
   command.callback([options] { record(*options); });

@@ -98,17 +98,18 @@ survey::RecordedDrive load_drive(std::span<const std::filesystem::path> files,
     }
     if (drive.size() == scans_before) {
       throw Failure(file.string() + ": not one complete scan in it" +
-                    (files.size() > 1 ? "; for ODOMETRY of another file there is --odometry" : ""));
+                    (files.size() > 1 ? "; name a file of ODOMETRY lines with --odometry" : ""));
     }
     if (sink.shift_ns() == 0) continue;
     if (!odometry.empty()) {
-      throw Failure(file.string() +
-                    ": its clock begins before the end of the recording before it, " + "so that " +
-                    odometry.string() + " does not tell which of them it is of");
+      throw Failure(
+          file.string() +
+          ": its clock begins before the end of the previous recording, so the times of " +
+          odometry.string() + " are ambiguous; survey without --odometry");
     }
     std::fprintf(stderr,
-                 "%s: its clock begins before the end of the recording before it; taken as the "
-                 "drive's next part, its times %.3f s later\n",
+                 "%s: its clock begins before the end of the previous recording; its times are "
+                 "shifted by %.3f s\n",
                  file.c_str(), core::to_seconds(sink.shift_ns()));
   }
   if (!odometry.empty()) drive.set_odometry(load_odometry(odometry));

@@ -23,13 +23,14 @@ std::string sources_of(const survey::SurveyResult& result) {
 }
 
 /// Wear and pressure of tyres change a wheel by a few per cent; more is a wrong config.
-std::string describe_wheels(const core::OdometryParameters& learned) {
+std::string describe_wheels(const core::OdometryParameters& estimated) {
   constexpr double kMaxScale = 0.15;
-  if (std::max(std::abs(learned.left_scale), std::abs(learned.right_scale)) < kMaxScale) return "";
+  if (std::max(std::abs(estimated.left_scale), std::abs(estimated.right_scale)) < kMaxScale)
+    return "";
   return formatted(
       "WARNING: the left wheel differs by %+.0f %% from the config, the right one by %+.0f %%: "
       "check odometry.counts_per_turn and odometry.wheel_radius\n",
-      100 * learned.left_scale, 100 * learned.right_scale);
+      100 * estimated.left_scale, 100 * estimated.right_scale);
 }
 
 std::string describe_drive(const survey::SurveyResult& result) {
@@ -69,8 +70,8 @@ std::string describe_walls(const survey::SurveyResult& result) {
   double thin_m = 0;
   for (const survey::ThinPlace& place : result.thin) thin_m += length_of(place.from, place.to);
   return formatted(
-      "%zu walls, %.1f m: %zu with both faces, %zu seen from one side; %.2f m were not seen, but "
-      "lie between seen parts\n",
+      "%zu walls, %.1f m: %zu with both faces, %zu with one face; %.2f m without observations, "
+      "between observed parts\n",
       result.plan.walls.size(), length_m, solids, result.plan.walls.size() - solids, thin_m);
 }
 
@@ -79,9 +80,9 @@ std::string describe_loop(const survey::SurveyResult& result, const survey::Loop
     return core::to_seconds(result.t_ns[scan] - result.t_ns.front());
   };
   const std::string text = formatted(
-      "loop %s: at %.1f s the robot was where it was at %.1f s, by %zu scans; the drift was %.2f m "
-      "and %.1f degrees",
-      loop.closed() ? "closed" : "rejected", time_s(loop.later), time_s(loop.earlier),
+      "loop closure %s: scans at %.1f s and %.1f s, %zu matching scans; drift %.2f m and %.1f "
+      "degrees",
+      loop.closed() ? "accepted" : "rejected", time_s(loop.later), time_s(loop.earlier),
       loop.agreeing, loop.off_m, core::degrees(std::abs(loop.off_rad)));
   return text + (loop.closed() ? "\n" : ": " + loop.refused + "\n");
 }
@@ -107,14 +108,14 @@ std::string survey_report(const survey::SurveyResult& result) {
   }
   if (survey::has_duplicate_walls(result.duplicate_m, result.plan.walls)) {
     text += formatted(
-        "WARNING: %.1f m of walls lie behind others that would have hidden them: things moved, or "
-        "the trajectory drifted there\n",
+        "WARNING: %.1f m of duplicate walls, behind others that would have occluded them: objects "
+        "moved, or the trajectory drifted there\n",
         result.duplicate_m);
   }
   if (survey::has_free_space_conflicts(result.free_space_conflicts)) {
     text += formatted(
-        "WARNING: rays went through %.1f m of the wall faces (at %zu places): things moved, or the "
-        "recording maps several places over each other there\n",
+        "WARNING: free-space conflicts: rays went through %.1f m of the wall faces, at %zu places: "
+        "objects moved, or the recording maps several places over each other\n",
         result.free_space_conflicts.length_m, result.free_space_conflicts.places);
   }
   if (result.squared) {

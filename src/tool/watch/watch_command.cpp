@@ -77,10 +77,12 @@ void add_watch(Command& program) {
   Command command =
       program.add_subcommand("watch", "the daemon's messages, one JSON object a line");
   const auto options = std::make_shared<WatchOptions>();
-  command.add_option("--socket", options->socket, "else the one that the config names")
+  command.add_option("--socket", options->socket, "default: the pose socket of the config")
       .type_name("PATH");
   options->settings.add_config(command);
-  command.add_option("--classes", options->classes, "messages to ask for; else POSE, STATUS, EVENT")
+  command
+      .add_option("--classes", options->classes,
+                  "messages to receive; default: POSE, STATUS, EVENT")
       .delimiter(',');
   command.callback([options] { watch(*options); });
 }
