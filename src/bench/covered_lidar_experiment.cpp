@@ -71,13 +71,13 @@ std::uint64_t seed_of(Stream stream, std::uint64_t drive) { return kStreams * dr
 
 /// Draws the robot's errors from the filter's initial covariance.
 void draw_errors(replay::RobotModel& robot, std::uint64_t seed) {
-  const core::OdometryNoise told;
+  const core::OdometryNoise deviations;
   replay::Random random(seed);
-  robot.left_scale = told.wheel_scale * random.normal();
-  robot.right_scale = told.wheel_scale * random.normal();
-  robot.track_scale = told.track_scale * random.normal();
-  robot.gyro_scale = told.gyro_scale * random.normal();
-  robot.gyro_bias_rad_s = told.gyro_bias_rad_s * random.normal();
+  robot.left_scale = deviations.wheel_scale * random.normal();
+  robot.right_scale = deviations.wheel_scale * random.normal();
+  robot.track_scale = deviations.track_scale * random.normal();
+  robot.gyro_scale = deviations.gyro_scale * random.normal();
+  robot.gyro_bias_rad_s = deviations.gyro_bias_rad_s * random.normal();
 }
 
 void simulate_covered_drive(std::shared_ptr<const core::WallMap> map,

@@ -13,8 +13,8 @@ namespace {
 constexpr double kMinBaseline_m = 0.10;
 
 struct MatchedCorner {
-  core::Vec2 seen;    ///< lidar frame
-  core::Vec2 on_map;  ///< map frame
+  core::Vec2 measured;  ///< lidar frame
+  core::Vec2 on_map;    ///< map frame
 };
 
 std::optional<core::Vec2> corner_near(const core::WallMap& map, const core::Vec2& point) {
@@ -40,7 +40,7 @@ std::vector<MatchedCorner> match_corners(std::span<const core::Breakpoint> break
   }
   std::stable_sort(corners.begin(), corners.end(),
                    [](const MatchedCorner& a, const MatchedCorner& b) {
-                     return a.seen.squaredNorm() < b.seen.squaredNorm();
+                     return a.measured.squaredNorm() < b.measured.squaredNorm();
                    });
   return corners;
 }
@@ -60,11 +60,11 @@ std::optional<core::Pose2> pose_from_nearest_corners(std::span<const core::Break
   if (second == corners.end()) return std::nullopt;
 
   const double theta_rad = core::normalize_angle(core::angle_of(second->on_map - first.on_map) -
-                                                 core::angle_of(second->seen - first.seen));
-  const core::Pose2 turned{0, 0, theta_rad};
-  const core::Vec2 measured_middle = (first.seen + second->seen) / 2;
-  const core::Vec2 place = (first.on_map + second->on_map) / 2 - turned * measured_middle;
-  return core::Pose2{place.x(), place.y(), theta_rad};
+                                                 core::angle_of(second->measured - first.measured));
+  const core::Pose2 rotation{0, 0, theta_rad};
+  const core::Vec2 measured_middle = (first.measured + second->measured) / 2;
+  const core::Vec2 position = (first.on_map + second->on_map) / 2 - rotation * measured_middle;
+  return core::Pose2{position.x(), position.y(), theta_rad};
 }
 
 }  // namespace cornerd::bench

@@ -26,16 +26,16 @@ class Arena : public testing::TestWithParam<std::tuple<const char*, WireFormat>>
  protected:
   static constexpr std::size_t kPlaces = 200;
 
-  tool::ErrorStatistics localize(const Conditions& circumstances) {
+  tool::ErrorStatistics localize(const Conditions& conditions) {
     const std::string layout = std::get<0>(GetParam());
     const auto map = settings::load_map(std::filesystem::path(CORNERD_SOURCE_DIR) /
                                         ("config/maps/krpai-2019-" + layout + ".json"));
     replay::SimulatedRecordingConfig config;
-    config.simulator.wire = circumstances.wire;
-    config.simulator.sensor.missing = circumstances.missing_share;
+    config.simulator.wire = conditions.wire;
+    config.simulator.sensor.missing = conditions.missing_share;
     config.simulator.seed = 20191;
     config.scans = kPlaces;
-    config.byte_fault_share = circumstances.byte_fault_share;
+    config.byte_fault_share = conditions.byte_fault_share;
     return localize_random_places(map, map, config);
   }
 

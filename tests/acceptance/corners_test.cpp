@@ -33,10 +33,10 @@ double quantile(std::vector<double> values, double share) {
 
 TEST(Corners, EachNoiseLevel_PrecisionAndRecallHold) {
   const auto maps = layouts();
-  for (const bench::Conditions& circumstances : bench::default_conditions()) {
-    SCOPED_TRACE(circumstances.title);
-    const bool noisy = circumstances.sensor.noise.share > 0.007;
-    const auto scores = bench::score_methods(maps, bench::paper_methods(), circumstances.sensor,
+  for (const bench::Conditions& conditions : bench::default_conditions()) {
+    SCOPED_TRACE(conditions.title);
+    const bool noisy = conditions.sensor.noise.share > 0.007;
+    const auto scores = bench::score_methods(maps, bench::paper_methods(), conditions.sensor,
                                              kSamples, kPositions, 11);
     const bench::CornerScore& altbd = scores.at(0).score;
     EXPECT_GE(altbd.precision(), noisy ? 0.985 : 0.993);

@@ -17,24 +17,24 @@ struct LocalizationBenchOptions {
   std::string json;  ///< file, "-" or empty
 };
 
-/// cornerd-bench --localizer: precision, consistency, adversity, motion, kidnapping and cost.
+/// cornerd-bench --localizer: accuracy, consistency, disturbances, motion, kidnapping and cost.
 void run_localization_bench(const LocalizationBenchOptions& options);
 
-/// The workload for valgrind: localizes `scans` scans without output. `tracking`: with the prior of
-/// the scans before, else without.
+/// The workload for valgrind: localizes `scans` scans without output. `tracking`: with the previous
+/// scan as the prior, else without.
 void only_localize_in_arena(const LocalizationBenchOptions& options, std::size_t scans,
                             bool tracking);
 
 struct OdometryBenchOptions {
   std::filesystem::path maps;   ///< folder with flat-7.json; empty: the installed one
-  std::filesystem::path plots;  ///< folder; empty: no pictures
+  std::filesystem::path plots;  ///< folder; empty: no drawings
   std::string json;             ///< file, "-" or empty
   std::uint64_t seed = 1;
-  std::size_t drives = 4;  ///< of each robot whose lidar is covered now and then
+  std::size_t drives = 4;  ///< of each robot whose lidar is covered periodically
 };
 
-/// cornerd-bench --odometry: the paper's modes of odometry on its drives, as a table, as JSON and
-/// drawn against the truth.
+/// cornerd-bench --odometry: the paper's odometry modes on its drives, as a table, as JSON and
+/// drawn with the truth.
 void run_odometry_bench(const OdometryBenchOptions& options);
 
 struct ScaleBenchOptions {
@@ -42,12 +42,12 @@ struct ScaleBenchOptions {
   std::size_t scans = 200;
   std::uint64_t seed = 1;
   bool instructions = false;
-  std::filesystem::path plots;  ///< folder; empty: no picture
+  std::filesystem::path plots;  ///< folder; empty: no drawing
   std::string json;             ///< file, "-" or empty
 };
 
 /// cornerd-bench --scale: the first fix in buildings of several sizes, as a table, as JSON and as
-/// a picture.
+/// a drawing.
 void run_scale_bench(const ScaleBenchOptions& options);
 
 /// The workload for valgrind: localizes each scan `times` without output.
@@ -55,11 +55,11 @@ void only_localize(const ScaleBenchOptions& options, std::size_t times);
 
 struct SurveyBenchOptions {
   std::filesystem::path maps;   ///< folder with flat-7.json
-  std::filesystem::path plots;  ///< folder to draw into; empty: none
+  std::filesystem::path plots;  ///< folder; empty: no drawings
   std::uint64_t seed = 1;
 };
 
-/// A simulated drive of 100 m, surveyed by both methods, on standard output.
+/// cornerd-bench --survey: a simulated drive of 100 m, surveyed by both methods, as a table.
 void run_survey_bench(const SurveyBenchOptions& options);
 
 }  // namespace cornerd::bench

@@ -15,7 +15,7 @@ namespace {
 
 using core::Vec2;
 
-// A picture in pixels: the Svg's metre is one.
+// Drawn in pixels: one metre of Svg is one pixel.
 constexpr double kSlotPx = 150;
 constexpr double kHeightPx = 340;
 constexpr double kMarginAroundPx = 76;
@@ -107,9 +107,9 @@ std::string draw_boxplots(const BoxplotTexts& texts, std::span<const BoxplotSeri
     for (const double value : one.values) highest = std::max(highest, value);
   }
   if (highest <= 0) highest = 1;
-  constexpr double kAir = 1.05;
-  BoxplotPage page(series, highest * kAir);
-  page.axis(highest * kAir, texts.axis);
+  constexpr double kHeadroom = 1.05;
+  BoxplotPage page(series, highest * kHeadroom);
+  page.axis(highest * kHeadroom, texts.axis);
   for (std::size_t i = 0; i < series.size(); ++i) page.box(i, series[i]);
   return page.document(texts);
 }

@@ -18,8 +18,7 @@ struct BoxplotTexts {
   std::string axis;      ///< with its unit
 };
 
-/// Boxplots side by side over one axis that starts at 0, as SVG. Series without values are left
-/// empty.
+/// Boxplots side by side over one axis from 0, as SVG. A series without values has a name only.
 std::string draw_boxplots(const BoxplotTexts& texts, std::span<const BoxplotSeries> series);
 
 }  // namespace cornerd::bench

@@ -17,8 +17,7 @@ fs::path file_of(const fs::path& folder, char layout) {
   return folder / (std::string("krpai-2019-") + layout + ".json");
 }
 
-/// The folder config/maps of the tree that one stands in or that the program was built in, else the
-/// folder that the program was installed with.
+/// config/maps of the working directory, the installed folder, or config/maps of the source tree.
 fs::path find_folder() {
   std::error_code error;
   const fs::path program = fs::read_symlink("/proc/self/exe", error);
@@ -33,8 +32,8 @@ fs::path find_folder() {
     if (fs::exists(file_of(folder, 'a'), error)) return folder;
   }
   throw tool::UsageError(
-      "the contest arena's maps are not where they are installed; name their folder: "
-      "--maps DIR");
+      "krpai-2019-a.json is in no folder of maps (config/maps, share/cornerd/maps); name "
+      "the folder: --maps DIR");
 }
 
 }  // namespace

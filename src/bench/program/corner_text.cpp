@@ -10,12 +10,12 @@ namespace cornerd::bench {
 
 std::string corner_tables(const BenchReport& report) {
   constexpr double kMm = 1e3;
-  std::string out = "Corners at " + std::to_string(report.positions) + " random places\n\n";
-  for (const CornerReport& circumstances : report.corners) {
+  std::string out = "Corners at " + std::to_string(report.positions) + " random poses\n\n";
+  for (const CornerReport& corners : report.corners) {
     tool::TextTable table;
     table.add_row({"method", "precision", "strict", "of corners", "strict", "recall 5", "recall 1",
                    "median mm", "95 % mm", "false"});
-    for (const MethodScore& line : circumstances.scores) {
+    for (const MethodScore& line : corners.scores) {
       const CornerScore& score = line.score;
       std::vector<double> errors_m = score.errors_m();
       std::sort(errors_m.begin(), errors_m.end());
@@ -31,16 +31,16 @@ std::string corner_tables(const BenchReport& report) {
                      tool::formatted("%.2f", kMm * quantile(errors_m, 0.95)),
                      tool::formatted("%.3f", false_count / scans)});
     }
-    out += circumstances.circumstances + '\n' + table.text(true) + '\n';
+    out += corners.conditions + '\n' + table.text(true) + '\n';
   }
   out +=
-      "  precision: share of the detections within 60 mm of a corner that shows both its walls;\n"
-      "    wall ends that show one wall are left out, under 'strict' they are false\n"
-      "  of corners: the same of the detections that claim to be corners, not wall ends\n"
-      "  recall 5: share found of the corners whose walls both give 5 returns or more\n"
-      "  recall 1: share found of all corners whose walls both give a return\n"
+      "  precision: share of the detections within 60 mm of a corner with both walls visible;\n"
+      "    terminals with one visible wall are not counted, under 'strict' they are false\n"
+      "  of corners: precision of the detections of kind corner, without terminals\n"
+      "  recall 5: detected share of the corners with 5 returns or more on both walls\n"
+      "  recall 1: detected share of the corners with a return on both walls\n"
       "  median, 95 %: distance of the true detections from their corners\n"
-      "  false: detections a scan that are no corner, or one that was found already\n";
+      "  false: detections per scan that are no corner or repeat one\n";
   return out;
 }
 

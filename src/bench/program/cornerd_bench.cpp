@@ -23,7 +23,7 @@ namespace cornerd::bench {
 
 namespace {
 
-/// The median of so many runs is a scan's time.
+/// Runs per scan; their median is its time.
 constexpr std::size_t kTimingRepeats = 51;
 
 struct BenchOptions {
@@ -50,7 +50,9 @@ std::vector<NamedMethod> chosen_methods(const BenchOptions& options) {
   std::vector<NamedMethod> methods;
   for (const std::string& name : options.methods) {
     const NamedMethod* method = find_method(name);
-    if (method == nullptr) throw tool::UsageError("--methods: none is called '" + name + "'");
+    if (method == nullptr)
+      throw tool::UsageError("--methods: '" + name +
+                             "' is no method; known: altbd, abd-iepf, lt and the variants");
     methods.push_back(*method);
   }
   if (!methods.empty()) return methods;
@@ -60,13 +62,13 @@ std::vector<NamedMethod> chosen_methods(const BenchOptions& options) {
   return methods;
 }
 
-/// The noise of the published experiment, as far as an A1's has been measured.
-replay::SensorModel usual_sensor() { return default_conditions().front().sensor; }
+/// The noise of the published experiment.
+replay::SensorModel published_sensor() { return default_conditions().front().sensor; }
 
 /// The workload for the instruction counter.
 void only_detect(const BenchOptions& options) {
   const auto maps = load_contest_maps(options.maps);
-  const auto scans = simulate_paper_scans(maps, usual_sensor(), options.samples, options.seed);
+  const auto scans = simulate_paper_scans(maps, published_sensor(), options.samples, options.seed);
   Workload workload(chosen_methods(options).front(), scans.scans);
   for (std::size_t i = 0; i < options.detections; ++i) workload.run_all();
 }
@@ -80,19 +82,19 @@ BenchReport measure(const BenchOptions& options) {
   report.samples = options.samples;
   report.positions = options.positions;
   report.seed = options.seed;
-  report.scans = simulate_paper_scans(maps, usual_sensor(), options.samples, options.seed);
+  report.scans = simulate_paper_scans(maps, published_sensor(), options.samples, options.seed);
   report.supported_corners = supported_corners(report.scans);
   report.preparation_us = time_preparation_us(report.scans.scans, kTimingRepeats);
   report.paper = run_paper_experiment(report.scans, methods, kTimingRepeats);
   if (options.instructions) {
-    count_instructions({maps, folder, usual_sensor(), options.seed}, methods, report);
+    count_instructions({maps, folder, published_sensor(), options.seed}, methods, report);
   }
-  for (const Conditions& circumstances : default_conditions()) {
+  for (const Conditions& conditions : default_conditions()) {
     if (options.positions == 0) break;
-    tool::ProgressBar bar(circumstances.title, options.positions);
+    tool::ProgressBar bar(conditions.title, options.positions);
     report.corners.push_back(
-        {circumstances.title,
-         score_methods(maps, methods, circumstances.sensor, options.samples, options.positions,
+        {conditions.title,
+         score_methods(maps, methods, conditions.sensor, options.samples, options.positions,
                        options.seed, [&](std::size_t done) { bar.show(done); })});
   }
   return report;
@@ -127,7 +129,7 @@ void run_localizer(const BenchOptions& options) {
   }
 }
 
-/// The maps that are read are those of a folder.
+/// The maps are inputs: --json must not overwrite one.
 void guard_maps(const BenchOptions& options) {
   if (options.json.empty() || (options.scale && options.maps.empty())) return;
   tool::CommandFiles files{.read = {}, .written = {}, .output = options.json};
@@ -143,19 +145,19 @@ void run_bench(const BenchOptions& options) {
   guard_maps(options);
   if (options.localizer) {
     if (options.scale || options.survey)
-      throw tool::UsageError("--localizer excludes --scale and --survey");
+      throw tool::UsageError("--localizer excludes --scale and --survey; name one of them");
     run_localizer(options);
     return;
   }
   if (options.odometry) {
-    if (options.scale) throw tool::UsageError("--odometry and --scale are two benchmarks");
+    if (options.scale) throw tool::UsageError("--odometry excludes --scale; name one of them");
     OdometryBenchOptions odometry{options.maps, options.plots, options.json, options.seed};
     if (options.positions_given->is_given()) odometry.drives = options.positions;
     run_odometry_bench(odometry);
     return;
   }
   if (options.survey) {
-    if (options.scale) throw tool::UsageError("--survey or --scale, one at a time");
+    if (options.scale) throw tool::UsageError("--survey excludes --scale; name one of them");
     run_survey_bench({options.maps, options.plots, options.seed});
     return;
   }
@@ -163,7 +165,7 @@ void run_bench(const BenchOptions& options) {
     run_scale(options);
     return;
   }
-  if (!options.corners.empty()) throw tool::UsageError("--corners is for --scale");
+  if (!options.corners.empty()) throw tool::UsageError("--corners: only with --scale; add it");
   if (options.detections > 0) {
     only_detect(options);
     return;
@@ -189,56 +191,58 @@ void run_bench(const BenchOptions& options) {
 void add_options(tool::Command& program, const std::shared_ptr<BenchOptions>& options) {
   program
       .add_option("--maps", options->maps,
-                  "folder with krpai-2019-a.json to -d.json; else the installed ones")
+                  "folder with krpai-2019-a.json to -d.json; default: the installed one")
       .type_name("DIR");
   program
       .add_option("--methods", options->methods,
-                  "only these: altbd, abd-iepf, lt, or a variant's name")
+                  "methods to run: altbd, abd-iepf, lt, or a variant's name; default: all three")
       .delimiter(',')
       .type_name("NAME,...");
-  program.add_flag("--variants", options->variants, "also other forms of the methods");
+  program.add_flag("--variants", options->variants, "also run the variants of the methods");
   program.add_flag(
       "--scale", options->scale,
-      "instead: the first fix in buildings of 20 to 20,000 corners, and in equal rooms; "
-      "--positions: scans in each, else 200");
+      "other benchmark: the first fix in buildings of 20 to 20,000 corners, and in equal rooms; "
+      "--positions: scans in each, default 200");
   program.add_flag(
       "--localizer", options->localizer,
-      "instead: poses against the truth and the Cramer-Rao bound, with a biased lidar, few "
-      "returns, things in the way, a displaced wall, a closed door, in motion, kidnapped; "
-      "--positions: places for each, else 1,000");
-  program.add_flag("--odometry", options->odometry,
-                   "instead: the paper's modes of odometry on its drives, and poses dead reckoned "
-                   "without the lidar; "
-                   "--maps: with flat-7.json");
+      "other benchmark: poses against the truth and the Cramer-Rao bound, with a biased lidar, few "
+      "returns, unmapped obstacles, a displaced wall, a closed door, in motion, kidnapped; "
+      "--positions: poses of each, default 1,000");
+  program.add_flag(
+      "--odometry", options->odometry,
+      "other benchmark: the paper's odometry modes on its drives, and poses dead reckoned "
+      "while the lidar is covered; --maps: with flat-7.json");
   program.add_flag("--survey", options->survey,
-                   "instead: a drive of 100 m, surveyed by both methods, and a second one "
+                   "other benchmark: a drive of 100 m, surveyed by both methods, and a second one "
                    "localized in the maps");
-  program.add_option("--corners", options->corners, "with --scale: buildings of about so many")
+  program
+      .add_option("--corners", options->corners,
+                  "with --scale: approximate number of corners of each building")
       .delimiter(',')
       .range(std::size_t{0}, std::size_t{100'000})
       .type_name("N,...");
   options->positions_given =
       program
           .add_option("--positions", options->positions,
-                      "random places; 0: the paper's 43 alone (--odometry: drives of each robot)")
+                      "random poses; 0: only the paper's 43 (--odometry: drives of each robot)")
           .range(std::size_t{0}, std::size_t{10'000'000})
           .type_name("N")
           .capture_default_str();
-  program.add_option("--samples", options->samples, "a scan")
+  program.add_option("--samples", options->samples, "samples per scan")
       .range(std::size_t{1}, core::kMaxSamplesPerScan)
       .type_name("N")
       .capture_default_str();
-  program.add_option("--seed", options->seed, "of all randomness")
-      .check([](const std::string& text) {  // else -1 is the largest number
+  program.add_option("--seed", options->seed, "seed of the random numbers")
+      .check([](const std::string& text) {  // -1 would be the largest number
         return text.starts_with('-') ? std::string("is negative") : std::string();
       })
       .capture_default_str();
   program.add_flag("--instructions", options->instructions,
-                   "count the instructions a scan, of 400 to 10,000 samples: by the processor's "
+                   "count the instructions per scan, of 400 to 10,000 samples: by the processor's "
                    "counter, else by valgrind (slow)");
   program.add_option("--plots", options->plots, "draw the figures into this folder, as SVG")
       .type_name("DIR");
-  program.add_option("--json", options->json, "all figures; -: on standard output, and no text")
+  program.add_option("--json", options->json, "all figures; -: on standard output, without text")
       .type_name("FILE");
   program.add_option("--only-detect", options->detections)
       .hidden();  // hidden: the workload for valgrind
@@ -251,7 +255,7 @@ void add_options(tool::Command& program, const std::shared_ptr<BenchOptions>& op
 int run_cornerd_bench(int argc, const char* const* argv) {
   const auto options = std::make_shared<BenchOptions>();
   return tool::run_program(
-      "cornerd-bench", "the published tables, measured again on this machine, and more places",
+      "cornerd-bench", "the published tables, measured again on this machine, and more poses",
       [&](tool::Command& program) { add_options(program, options); }, argc, argv);
 }
 

@@ -3,7 +3,7 @@
 
 namespace cornerd::bench {
 
-/// The program: what main() returns. Prints to standard output and standard error, never throws.
+/// The program; returns its exit code. Never throws.
 int run_cornerd_bench(int argc, const char* const* argv);
 
 }  // namespace cornerd::bench

@@ -13,7 +13,7 @@ namespace cornerd::bench {
 
 namespace {
 
-/// An A1's scans are of 270 to 1,450 samples; what lies beyond shows how the methods grow.
+/// An A1's scans have 270 to 1,450 samples; larger ones show how the cost grows.
 const std::set<std::size_t> kCountedSizes = {400, 800, 1450, 2900, 5800, 10'000};
 
 /// One detection in each of the scans.
@@ -57,8 +57,8 @@ void count_instructions(const CountedScans& scans, std::span<const NamedMethod> 
                              : count_by_valgrind(scans, method, samples, report.scans.poses.size());
       if (!count) {
         std::fprintf(stderr,
-                     "cornerctl: instructions cannot be counted here: no performance counter for "
-                     "this user, and no valgrind\n");
+                     "cornerd-bench: instructions are not counted: no performance counter for this "
+                     "user, and no valgrind; install valgrind\n");
         report.instructions.clear();
         return;
       }

@@ -62,8 +62,8 @@ double percent(std::size_t part, std::size_t whole) {
 
 std::string trials_text(const std::vector<TrialResult>& trials) {
   tool::TextTable table;
-  table.add_row({"trial", "scans", "named %", "wrong", "ambiguous", "of these true", "lost",
-                 "mean mm", "median", "rms", "of bound", "mean deg", "NEES", "< 7.8 %"});
+  table.add_row({"trial", "scans", "named %", "wrong", "ambiguous", "with truth", "lost", "mean mm",
+                 "median", "rms", "of bound", "mean deg", "NEES", "< 7.8 %"});
   for (const auto& [title, score] : trials) {
     table.add_row({title, std::to_string(score.scans()),
                    tool::formatted("%.2f", percent(score.named(), score.scans())),
@@ -77,7 +77,7 @@ std::string trials_text(const std::vector<TrialResult>& trials) {
                    tool::formatted("%.2f", score.mean_nees()),
                    tool::formatted("%.1f", 100 * score.share_inside_95())});
   }
-  return "The localizer, scans of 800 samples, each without a prior unless the robot moves\n\n" +
+  return "The localizer, scans of 800 samples, without a prior except in motion\n\n" +
          table.text(/*numbers=*/true) +
          "\n  wrong: over 10 cm or 5 degrees off; rms of bound: over the Cramer-Rao bound's of the "
          "same scans;\n  NEES: normalised error squared, 3 if covariances are consistent, and 95 % "
@@ -86,7 +86,7 @@ std::string trials_text(const std::vector<TrialResult>& trials) {
 
 std::string reliability_text(const Reliability& reliability) {
   tool::TextTable table;
-  table.add_row({"p_wrong of the best hypothesis", "scans", "should be wrong", "wrong"});
+  table.add_row({"p_wrong of the best hypothesis", "scans", "expected wrong", "wrong"});
   for (const Reliability::Bin& bin : reliability.bins()) {
     table.add_row({bin.min_p_wrong > 0 ? tool::formatted("from %g", bin.min_p_wrong)
                                        : tool::formatted("below %g (a fix)", core::kWrongFixRate),
@@ -97,7 +97,8 @@ std::string reliability_text(const Reliability& reliability) {
 }
 
 std::string kidnapping_text(const KidnappingScore& score) {
-  std::string text = "\nKidnapped " + std::to_string(score.jumps) + " times: right again with scan";
+  std::string text =
+      "\nKidnapped " + std::to_string(score.jumps) + " times: correct again with scan";
   for (std::size_t k = 0; k < score.recovered.size(); ++k) {
     if (score.recovered[k] == 0) continue;
     text += tool::formatted(" %zu: %zu,", k + 1, score.recovered[k]);
@@ -138,7 +139,7 @@ std::string report_json(const LocalizationReport& report, const LocalizationBenc
   OrderedJson document = {{"seed", options.seed}, {"samples", 800}};
   for (const TrialResult& trial : report.trials) document["trials"].push_back(json_of(trial));
   for (const Reliability::Bin& bin : report.reliability.bins()) {
-    document["reliability"].push_back({{"least_doubt", bin.min_p_wrong},
+    document["reliability"].push_back({{"min_p_wrong", bin.min_p_wrong},
                                        {"scans", bin.scans},
                                        {"expected_wrong", bin.expected_wrong},
                                        {"wrong", bin.wrong}});

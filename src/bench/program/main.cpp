@@ -6,7 +6,7 @@
 
 int main(int argc, char** argv) {
   cornerd::drivers::occupy_standard_streams();
-  // A reader that goes away is an error of write(), which ends the program as any other does.
+  // A closed reader is then an error of write(), handled as any other.
   std::signal(SIGPIPE, SIG_IGN);
   return cornerd::bench::run_cornerd_bench(argc, argv);
 }

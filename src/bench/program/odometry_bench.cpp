@@ -26,7 +26,7 @@ namespace {
 
 using core::HeadingSource;
 
-/// Of a second table, for each drive that was asked for.
+/// Of the table by rate, for each of --positions drives.
 constexpr std::size_t kScansPerDrive = 650;
 
 struct RobotResults {
@@ -62,7 +62,7 @@ std::string factors_text(const ReckonedTrack& track) {
   return track.factors ? tool::describe_factors(track.source, *track.factors) : "-";
 }
 
-/// The same mode without the dead band; itself where there is none.
+/// The same mode without the dead band; `track` if there is none.
 const ReckonedTrack& without_dead_band(const OdometryResult& drive, const ReckonedTrack& track) {
   const auto other = std::find_if(drive.tracks.begin(), drive.tracks.end(), [&](const auto& one) {
     return one.source == track.source && !one.as_printed &&
@@ -107,9 +107,9 @@ bool has_factors_at_edge(const RobotResults& results) {
 
 std::string odometry_text(const std::vector<RobotResults>& robots) {
   std::string text =
-      "Odometry alone: how far off it is, in the mean and at the end, once around. Factors are\n"
-      "found on the very drive. Left as printed: a step every 0.1 s, changes of an angle under\n"
-      "0.01 rad count as none. Right: every reading is a step, and none is left out.\n\n";
+      "Dead reckoning by odometry: mean error and error at the end of one circuit. Factors are\n"
+      "fitted to the same drive. Left: as printed, with a step every 0.1 s and a dead band of\n"
+      "0.01 rad. Right: with a step for each reading, without a dead band.\n\n";
   bool at_edge = false;
   for (const RobotResults& results : robots) {
     text.append(results.robot.title).append("\n\n");
@@ -122,7 +122,7 @@ std::string odometry_text(const std::vector<RobotResults>& robots) {
 }
 
 std::string odometry_json(const std::vector<RobotResults>& robots,
-                          const std::vector<BlindRow>& predictions,
+                          const std::vector<DeadReckoningRow>& predictions,
                           const std::vector<RateRow>& rates, std::uint64_t seed) {
   nlohmann::ordered_json drives = nlohmann::ordered_json::array();
   for (const RobotResults& results : robots) {
@@ -148,13 +148,13 @@ std::string odometry_json(const std::vector<RobotResults>& robots,
   }
   return nlohmann::ordered_json({{"seed", seed},
                                  {"odometry", std::move(drives)},
-                                 {"dead_reckoned", blind_json(predictions)},
+                                 {"dead_reckoned", dead_reckoning_json(predictions)},
                                  {"rates", rate_json(rates)}})
              .dump(2) +
          '\n';
 }
 
-/// The modes as they are, or with their factors and least squares.
+/// The modes without factors, or with factors and least squares.
 std::string draw_tracks(const core::WallMap& map, const OdometryRobot& robot,
                         const OdometryResult& drive, bool with_factors, bool as_printed) {
   tool::MapDrawing drawing(map);
@@ -169,15 +169,10 @@ std::string draw_tracks(const core::WallMap& map, const OdometryRobot& robot,
     drawing.add_track(track.points, ink);
     drawing.add_legend(title_of(track), ink);
   }
-  return drawing.document(std::string(robot.title) + ", " + std::string(drive.scenario) +
-                          (with_factors ? ": odometry with factors" : ": odometry as it comes") +
-                          (as_printed ? "" : ", no dead band"));
-}
-
-void save_picture(const std::filesystem::path& file, const std::string& document) {
-  tool::Output output(file);
-  output.write(document);
-  output.flush();
+  return drawing.document(
+      std::string(robot.title) + ", " + std::string(drive.scenario) +
+      (with_factors ? ": odometry with factors" : ": odometry without factors") +
+      (as_printed ? "" : ", no dead band"));
 }
 
 }  // namespace
@@ -198,7 +193,7 @@ void run_odometry_bench(const OdometryBenchOptions& options) {
   }
 
   std::vector<RobotResults> robots;
-  std::vector<BlindRow> predictions;
+  std::vector<DeadReckoningRow> predictions;
   std::vector<RateRow> rates;
   {
     const auto all = odometry_robots();
@@ -237,8 +232,8 @@ void run_odometry_bench(const OdometryBenchOptions& options) {
         for (const bool as_printed : {true, false}) {
           const std::string variant = std::string(with_factors ? "-factors" : "") +
                                       (as_printed ? "" : "-no-dead-band") + ".svg";
-          save_picture(options.plots / (name + variant),
-                       draw_tracks(*map, results.robot, drive, with_factors, as_printed));
+          tool::write_file(options.plots / (name + variant),
+                           draw_tracks(*map, results.robot, drive, with_factors, as_printed));
         }
       }
     }
@@ -250,7 +245,8 @@ void run_odometry_bench(const OdometryBenchOptions& options) {
   if (options.json == "-") return;
   tool::Output output;
   output.write(odometry_text(robots));
-  if (options.drives > 0) output.write('\n' + blind_text(predictions) + '\n' + rate_text(rates));
+  if (options.drives > 0)
+    output.write('\n' + dead_reckoning_text(predictions) + '\n' + rate_text(rates));
   output.flush();
 }
 

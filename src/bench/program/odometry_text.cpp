@@ -20,7 +20,7 @@ nlohmann::ordered_json figures_of(const PoseConsistency& poses) {
 
 }  // namespace
 
-std::string blind_text(const std::vector<BlindRow>& rows) {
+std::string dead_reckoning_text(const std::vector<DeadReckoningRow>& rows) {
   tool::TextTable table;
   table.add_row({"robot", "age [s]", "poses", "mean, max [mm]", "max [deg]", "NEES", "< 7.815"});
   const auto add = [&](const std::string& robot, const std::string& age,
@@ -31,23 +31,21 @@ std::string blind_text(const std::vector<BlindRow>& rows) {
                    tool::formatted("%.2f", poses.mean_nees),
                    tool::formatted("%.1f %%", 100 * poses.share_within)});
   };
-  for (const BlindRow& row : rows) {
+  for (const DeadReckoningRow& row : rows) {
     add(std::string(row.title), "fix", row.result.fixes);
     for (const AgeConsistency& ages : row.result.predicted) {
       add("", tool::formatted("%.2f-%.2f", ages.from_s, ages.to_s), ages);
     }
   }
-  return "The fixes, and the poses that wheels and gyro dead reckon between the scans "
-         "and\n"
-         "while it is covered, by their age. NEES: the error squared in units of the covariance, 3 "
-         "is exact,\n"
-         "and 95 % are under 7.815.\n\n" +
+  return "Fixes, and poses dead reckoned by wheels and gyro between scans and while the lidar is\n"
+         "covered, by age. NEES: normalized estimation error squared. Consistent covariances give\n"
+         "a mean of 3, and 95 % below 7.815 (chi-square, 3 degrees of freedom).\n\n" +
          table.text();
 }
 
-nlohmann::ordered_json blind_json(const std::vector<BlindRow>& rows) {
+nlohmann::ordered_json dead_reckoning_json(const std::vector<DeadReckoningRow>& rows) {
   nlohmann::ordered_json robots = nlohmann::ordered_json::array();
-  for (const BlindRow& row : rows) {
+  for (const DeadReckoningRow& row : rows) {
     nlohmann::ordered_json by_age = nlohmann::ordered_json::array();
     for (const AgeConsistency& ages : row.result.predicted) {
       nlohmann::ordered_json figures = {{"from", ages.from_s}, {"to", ages.to_s}};
@@ -67,7 +65,7 @@ std::string rate_text(const std::vector<RateRow>& rows) {
   for (const RateRow& row : rows) {
     const RateResult& result = row.result;
     table.add_row(
-        {row.gently ? "gently" : "at once",
+        {row.gently ? "gentle" : "abrupt",
          row.rate_hz > 0 ? tool::formatted("%.0f", row.rate_hz) : "lidar alone",
          tool::formatted("%.1f %%", 100.0 * static_cast<double>(result.fixes.scans()) /
                                         static_cast<double>(result.scans)),
@@ -78,8 +76,8 @@ std::string rate_text(const std::vector<RateRow>& rows) {
          tool::formatted("%zu", result.fixes.wrong() + result.predicted.wrong()),
          tool::formatted("%.2f", core::degrees(result.worst_predicted_rad))});
   }
-  return "Poses at 0.25 m/s with turns on the spot, by how often wheels and gyro are read. Wrong:\n"
-         "over 10 cm or 5 degrees off.\n\n" +
+  return "Poses at 0.25 m/s with rotations in place, by the rate of the odometry. Wrong: error\n"
+         "above 10 cm or 5 degrees.\n\n" +
          table.text();
 }
 

@@ -12,17 +12,19 @@
 
 namespace cornerd::bench {
 
-struct BlindRow {
+/// Fixes and predictions of one robot.
+struct DeadReckoningRow {
   std::string_view title;
   CoveredLidarResult result;
 };
 
-std::string blind_text(const std::vector<BlindRow>& rows);
-nlohmann::ordered_json blind_json(const std::vector<BlindRow>& rows);
+std::string dead_reckoning_text(const std::vector<DeadReckoningRow>& rows);
+nlohmann::ordered_json dead_reckoning_json(const std::vector<DeadReckoningRow>& rows);
 
+/// Poses at one rate of odometry; 0: the lidar alone.
 struct RateRow {
   double rate_hz = 0;
-  bool gently = false;
+  bool gently = false;  ///< limited acceleration
   RateResult result;
 };
 

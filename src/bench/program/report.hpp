@@ -19,31 +19,31 @@
 
 namespace cornerd::bench {
 
-/// The scores of all methods under one circumstance.
+/// The scores of all methods for one sensor and noise.
 struct CornerReport {
-  std::string circumstances;
+  std::string conditions;
   std::vector<MethodScore> scores;
 };
 
-/// Instructions that a method takes for a scan of so many samples, the mean over the 43 poses.
+/// Mean instructions of a method per scan of `samples` samples, over the 43 poses.
 struct InstructionFigure {
   std::string method;  ///< its title
   std::size_t samples = 0;
   double per_scan = 0;
 };
 
-/// All that cornerd-bench measured.
+/// The measurements of cornerd-bench.
 struct BenchReport {
-  std::size_t samples = 0;  ///< a scan
+  std::size_t samples = 0;  ///< per scan
   std::size_t positions = 0;
   std::uint64_t seed = 0;
 
   PaperScans scans;
   std::vector<PaperResult> paper;
-  std::vector<std::size_t> supported_corners;  ///< of each of the scans
+  std::vector<std::size_t> supported_corners;  ///< of each scan
   double preparation_us = 0;
 
-  std::string counter;  ///< what counted instructions; empty: nothing
+  std::string counter;  ///< of instructions; empty: none
   std::vector<InstructionFigure> instructions;
   std::vector<CornerReport> corners;
 
@@ -56,32 +56,32 @@ struct BenchReport {
   }
 };
 
-/// Time per scan and location, beside the paper's.
+/// Time per scan and location, with the paper's.
 std::string time_table(const BenchReport& report);
 
-/// True and false corners per location, beside the paper's.
+/// True and false corners per location, with the paper's.
 std::string true_false_table(const BenchReport& report);
 
-/// Position errors, beside the paper's.
+/// Position errors, with the paper's.
 std::string position_table(const BenchReport& report);
 
-/// Instructions per scan and sample, over the number of samples.
+/// Instructions per scan and per sample, by the number of samples.
 std::string scaling_table(const BenchReport& report);
 
-/// Precision, recall and error of the corners: a table for each circumstance.
+/// Precision, recall and error of the corners: a table for each sensor and noise.
 std::string corner_tables(const BenchReport& report);
 
 std::string bench_text(const BenchReport& report);
 
-/// What cornerd-bench measured, as one JSON object: metres, microseconds, shares.
+/// The report as one JSON object: metres, microseconds, shares.
 std::string bench_json(const BenchReport& report);
 
-/// The pictures of the paper's figures, drawn from what was measured, into a folder that is made
-/// where it is missing: times.svg (figure 11), positions.svg (figure 15), and scan-METHOD.svg, one
-/// scan with what each method finds in it (figures 9 and 10). Throws Failure.
+/// Draws the paper's figures with the measured values: times.svg (figure 11), positions.svg (figure
+/// 15), and scan-METHOD.svg, one scan with each method's breakpoints (figures 9 and 10). Creates
+/// the folder if it is missing. Throws Failure.
 void draw_bench(const BenchReport& report, const std::filesystem::path& folder);
 
-/// What the scans are made of.
+/// Input of the simulated scans.
 struct CountedScans {
   std::vector<std::shared_ptr<const core::WallMap>> maps;
   std::filesystem::path folder;  ///< of the maps
@@ -89,9 +89,9 @@ struct CountedScans {
   std::uint64_t seed = 0;
 };
 
-/// Fills in the instructions that each method takes for a scan, for several numbers of samples: by
-/// the processor's counter, else by valgrind as the difference between detecting once and twice,
-/// so that nothing but the detection counts. Where there is neither, says so on standard error.
+/// Counts each method's instructions per scan, for several numbers of samples: by the processor's
+/// counter, else by valgrind. The difference of two runs with one and two detections excludes the
+/// rest of the program. Without either, reports it on standard error.
 void count_instructions(const CountedScans& scans, std::span<const NamedMethod> methods,
                         BenchReport& report);
 

@@ -14,12 +14,12 @@ namespace {
 
 using Figures = nlohmann::ordered_json;
 
-Figures json_of(const PoseResult& result, const PaperPose& place, const PaperScans& scans) {
-  Figures figures = {{"location", kPaperLocations[place.location].title},
-                     {"map", scans.maps[place.map]->plan().name},
-                     {"x", place.T_map_lidar.x_m},
-                     {"y", place.T_map_lidar.y_m},
-                     {"theta", place.T_map_lidar.theta_rad},
+Figures json_of(const PoseResult& result, const PaperPose& pose, const PaperScans& scans) {
+  Figures figures = {{"location", kPaperLocations[pose.location].title},
+                     {"map", scans.maps[pose.map]->plan().name},
+                     {"x", pose.T_map_lidar.x_m},
+                     {"y", pose.T_map_lidar.y_m},
+                     {"theta", pose.T_map_lidar.theta_rad},
                      {"time_us", result.time_us},
                      {"true_corners", result.true_corners},
                      {"missed_corners", result.missed_corners},
@@ -36,7 +36,7 @@ Figures json_of(const PaperResult& result, const PaperScans& scans) {
   for (std::size_t i = 0; i < result.poses.size(); ++i) {
     poses.push_back(json_of(result.poses[i], scans.poses[i], scans));
   }
-  return {{"method", result.method.name}, {"places", poses}};
+  return {{"method", result.method.name}, {"poses", poses}};
 }
 
 Figures json_of(const MethodScore& line) {
@@ -50,8 +50,8 @@ Figures json_of(const MethodScore& line) {
           {"detections",
            {{"true", score.detections(Verdict::kTrue)},
             {"false", score.detections(Verdict::kFalse)},
-            {"aside", score.detections(Verdict::kOneSided)},
-            {"shadow", score.detections(Verdict::kOcclusionEdge)}}},
+            {"one_sided", score.detections(Verdict::kOneSided)},
+            {"occlusion_edge", score.detections(Verdict::kOcclusionEdge)}}},
           {"precision", score.precision()},
           {"precision_strict", score.precision(true)},
           {"precision_of_corners", score.precision_of_corners()},
@@ -73,7 +73,7 @@ std::string bench_json(const BenchReport& report) {
   for (const CornerReport& table : report.corners) {
     Figures scores = Figures::array();
     for (const MethodScore& line : table.scores) scores.push_back(json_of(line));
-    corners.push_back({{"circumstances", table.circumstances}, {"methods", scores}});
+    corners.push_back({{"conditions", table.conditions}, {"methods", scores}});
   }
   Figures document = {{"samples", report.samples}, {"positions", report.positions},
                       {"seed", report.seed},       {"preparation_us", report.preparation_us},

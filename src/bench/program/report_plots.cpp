@@ -16,48 +16,42 @@ namespace {
 
 constexpr double kPlotMm = 1e3;
 
-void save(const std::filesystem::path& file, const std::string& document) {
-  tool::Output output(file);
-  output.write(document);
-  output.flush();
-}
-
 std::string draw_times(const BenchReport& report) {
   std::vector<BoxplotSeries> series;
   for (const PaperResult& result : report.paper) {
     BoxplotSeries times{std::string(result.method.title), {}};
-    for (const PoseResult& place : result.poses) times.values.push_back(place.time_us);
+    for (const PoseResult& pose : result.poses) times.values.push_back(pose.time_us);
     series.push_back(std::move(times));
   }
   return draw_boxplots(
-      {"Time a scan", std::to_string(report.scans.poses.size()) + " places", "microseconds"},
+      {"Time a scan", std::to_string(report.scans.poses.size()) + " poses", "microseconds"},
       series);
 }
 
 std::string draw_positions(const BenchReport& report) {
   std::vector<BoxplotSeries> series;
   for (const PaperResult& result : report.paper) {
-    if (result.method.name == "lt") continue;  // nor has the paper's figure
+    if (result.method.name == "lt") continue;  // not in the paper's figure
     BoxplotSeries errors{std::string(result.method.title), {}};
-    for (const PoseResult& place : result.poses) {
-      if (!place.nearest_corners_error_m) continue;
-      errors.values.push_back(kPlotMm * *place.nearest_corners_error_m);
+    for (const PoseResult& pose : result.poses) {
+      if (!pose.nearest_corners_error_m) continue;
+      errors.values.push_back(kPlotMm * *pose.nearest_corners_error_m);
     }
     series.push_back(std::move(errors));
   }
   BoxplotSeries own{"cornerd", {}};
   if (!report.paper.empty()) {
-    for (const PoseResult& place : report.paper.front().poses) {
-      if (place.localizer_error_m) own.values.push_back(kPlotMm * *place.localizer_error_m);
+    for (const PoseResult& pose : report.paper.front().poses) {
+      if (pose.localizer_error_m) own.values.push_back(kPlotMm * *pose.localizer_error_m);
     }
   }
   series.push_back(std::move(own));
   return draw_boxplots(
-      {"Position error", "by the two nearest corners; cornerd: by the whole scan", "millimetres"},
+      {"Position error", "by the two nearest corners; cornerd: by all returns", "millimetres"},
       series);
 }
 
-/// The scan that shows most corners.
+/// The scan with most visible corners.
 std::size_t richest_scan(const BenchReport& report) {
   const auto& counts = report.supported_corners;
   return static_cast<std::size_t>(std::max_element(counts.begin(), counts.end()) - counts.begin());
@@ -65,16 +59,15 @@ std::size_t richest_scan(const BenchReport& report) {
 
 std::string draw_bench_scan(const BenchReport& report, const PaperResult& result,
                             std::size_t scan) {
-  const PaperPose& place = report.scans.poses[scan];
+  const PaperPose& pose = report.scans.poses[scan];
   const PoseResult& found = result.poses[scan];
-  tool::MapDrawing drawing(*report.scans.maps[place.map]);
-  drawing.add_scan(report.scans.scans[scan], place.T_map_lidar);
-  drawing.add_breakpoints(found.breakpoints, place.T_map_lidar);
-  drawing.add_pose(place.T_map_lidar);
+  tool::MapDrawing drawing(*report.scans.maps[pose.map]);
+  drawing.add_scan(report.scans.scans[scan], pose.T_map_lidar);
+  drawing.add_breakpoints(found.breakpoints, pose.T_map_lidar);
+  drawing.add_pose(pose.T_map_lidar);
   return drawing.document(std::string(result.method.title) + ": " +
                           std::to_string(found.true_corners) + " true corners (rings), " +
-                          std::to_string(found.false_corners) +
-                          " false ones; squares: ends of walls");
+                          std::to_string(found.false_corners) + " false ones; squares: terminals");
 }
 
 }  // namespace
@@ -83,13 +76,13 @@ void draw_bench(const BenchReport& report, const std::filesystem::path& folder) 
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error) throw tool::Failure(folder.string() + ": " + error.message());
-  save(folder / "times.svg", draw_times(report));
-  save(folder / "positions.svg", draw_positions(report));
+  tool::write_file(folder / "times.svg", draw_times(report));
+  tool::write_file(folder / "positions.svg", draw_positions(report));
   if (report.scans.scans.empty()) return;
   const std::size_t scan = richest_scan(report);
   for (const PaperResult& result : report.paper) {
-    save(folder / ("scan-" + std::string(result.method.name) + ".svg"),
-         draw_bench_scan(report, result, scan));
+    tool::write_file(folder / ("scan-" + std::string(result.method.name) + ".svg"),
+                     draw_bench_scan(report, result, scan));
   }
 }
 

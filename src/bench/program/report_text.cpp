@@ -13,12 +13,12 @@ namespace cornerd::bench {
 
 namespace {
 
-using Places = std::vector<const PoseResult*>;
+using PoseResults = std::vector<const PoseResult*>;
 
 constexpr double kBenchMm = 1e3;
-constexpr std::size_t kReference = 1;  // ABD+IEPF, among the paper's methods
+constexpr std::size_t kReference = 1;  // index of ABD+IEPF in the paper's methods
 
-/// The paper's column of a method; nullopt for those that it has not.
+/// The paper's column of a method; nullopt if the paper has none.
 std::optional<std::size_t> paper_index(const NamedMethod& method) {
   const auto methods = paper_methods();
   for (std::size_t i = 0; i < methods.size() && i < kPaperMethodCount; ++i) {
@@ -27,37 +27,37 @@ std::optional<std::size_t> paper_index(const NamedMethod& method) {
   return std::nullopt;
 }
 
-Places all_places(const PaperResult& result) {
-  Places poses;
-  for (const PoseResult& place : result.poses) poses.push_back(&place);
+PoseResults all_poses(const PaperResult& result) {
+  PoseResults poses;
+  for (const PoseResult& pose : result.poses) poses.push_back(&pose);
   return poses;
 }
 
-Places places_at(const BenchReport& report, const PaperResult& result, std::size_t location) {
-  Places poses;
+PoseResults poses_at(const BenchReport& report, const PaperResult& result, std::size_t location) {
+  PoseResults poses;
   for (std::size_t i = 0; i < result.poses.size(); ++i) {
     if (report.scans.poses[i].location == location) poses.push_back(&result.poses[i]);
   }
   return poses;
 }
 
-MeanAndDeviation time_of(const Places& poses) {
+MeanAndDeviation time_of(const PoseResults& poses) {
   std::vector<double> times_us;
-  for (const PoseResult* place : poses) times_us.push_back(place->time_us);
+  for (const PoseResult* pose : poses) times_us.push_back(pose->time_us);
   return mean_and_deviation(times_us);
 }
 
 struct TrueAndFalse {
   std::size_t true_corners = 0;
   std::size_t false_corners = 0;
-  std::size_t faulty_places = 0;
+  std::size_t poses_with_false = 0;
 };
-TrueAndFalse count_corners(const Places& poses) {
+TrueAndFalse count_corners(const PoseResults& poses) {
   TrueAndFalse counts;
-  for (const PoseResult* place : poses) {
-    counts.true_corners += place->true_corners;
-    counts.false_corners += place->false_corners;
-    counts.faulty_places += place->false_corners > 0 ? 1 : 0;
+  for (const PoseResult* pose : poses) {
+    counts.true_corners += pose->true_corners;
+    counts.false_corners += pose->false_corners;
+    counts.poses_with_false += pose->false_corners > 0 ? 1 : 0;
   }
   return counts;
 }
@@ -76,7 +76,7 @@ class MethodTable {
  public:
   using Cell = std::function<std::string(const PaperResult& result)>;
   MethodTable(const BenchReport& report, const std::string& label) : report_(report) {
-    add_row(label, "places",
+    add_row(label, "poses",
             [](const PaperResult& result) { return std::string(result.method.title); });
   }
   void add_row(const std::string& label, const std::string& poses, const Cell& cell) {
@@ -133,7 +133,7 @@ std::string time_table(const BenchReport& report) {
     const PaperLocation& paper = kPaperLocations[location];
     table.add_row(std::string(paper.title), std::to_string(paper.poses),
                   [&](const PaperResult& result) {
-                    const MeanAndDeviation time = time_of(places_at(report, result, location));
+                    const MeanAndDeviation time = time_of(poses_at(report, result, location));
                     const auto index = paper_index(result.method);
                     if (!index) return time_text(time, nullptr);
                     const PaperMean printed{paper.cells[*index].time_ms,
@@ -143,14 +143,14 @@ std::string time_table(const BenchReport& report) {
   }
   double reference_us = 0;
   table.add_row("all", std::to_string(report.scans.poses.size()), [&](const PaperResult& result) {
-    const MeanAndDeviation time = time_of(all_places(result));
+    const MeanAndDeviation time = time_of(all_poses(result));
     const auto index = paper_index(result.method);
     if (index == kReference) reference_us = time.mean;
     return time_text(time, index ? &kPaperTimes_ms[*index] : nullptr);
   });
   if (reference_us > 0) {
     table.add_row("of ABD+IEPF", "", [&](const PaperResult& result) {
-      const double share = time_of(all_places(result)).mean / reference_us;
+      const double share = time_of(all_poses(result)).mean / reference_us;
       const auto index = paper_index(result.method);
       if (!index) return tool::formatted("%.2f", share);
       return tool::formatted("%.2f (%.2f)", share,
@@ -164,7 +164,7 @@ std::string time_table(const BenchReport& report) {
   }
   return "Table I: time a scan, microseconds (the paper's)\n" + table.text() +
          tool::formatted(
-             "  Putting a scan in order and into Cartesian coordinates takes %.1f us more.\n",
+             "  Sorting a scan and converting it to Cartesian coordinates takes %.1f us more.\n",
              report.preparation_us);
 }
 
@@ -174,7 +174,7 @@ std::string true_false_table(const BenchReport& report) {
     const PaperLocation& paper = kPaperLocations[location];
     table.add_row(std::string(paper.title), std::to_string(paper.poses),
                   [&](const PaperResult& result) {
-                    const TrueAndFalse counts = count_corners(places_at(report, result, location));
+                    const TrueAndFalse counts = count_corners(poses_at(report, result, location));
                     std::string text =
                         tool::formatted("%zu / %zu", counts.true_corners, counts.false_corners);
                     if (const auto index = paper_index(result.method)) {
@@ -185,7 +185,7 @@ std::string true_false_table(const BenchReport& report) {
                   });
   }
   table.add_row("all", std::to_string(report.scans.poses.size()), [&](const PaperResult& result) {
-    const TrueAndFalse counts = count_corners(all_places(result));
+    const TrueAndFalse counts = count_corners(all_poses(result));
     std::string text = tool::formatted("%zu / %zu", counts.true_corners, counts.false_corners);
     if (const auto index = paper_index(result.method)) {
       const TrueAndFalse paper = paper_corners(*index);
@@ -193,12 +193,12 @@ std::string true_false_table(const BenchReport& report) {
     }
     return text;
   });
-  table.add_row("places with a false one", "", [&](const PaperResult& result) {
-    return std::to_string(count_corners(all_places(result)).faulty_places);
+  table.add_row("poses with a false one", "", [&](const PaperResult& result) {
+    return std::to_string(count_corners(all_poses(result)).poses_with_false);
   });
-  table.add_row("missed of those with 5", "", [&](const PaperResult& result) {
+  table.add_row("missed, with 5 returns", "", [&](const PaperResult& result) {
     std::size_t missed = 0;
-    for (const PoseResult& place : result.poses) missed += place.missed_corners;
+    for (const PoseResult& pose : result.poses) missed += pose.missed_corners;
     return std::to_string(missed);
   });
   std::size_t supported = 0;
@@ -214,9 +214,9 @@ std::string position_table(const BenchReport& report) {
   for (const PaperResult& result : report.paper) {
     std::vector<double> nearest_m;
     std::vector<double> localizer_m;
-    for (const PoseResult& place : result.poses) {
-      if (place.nearest_corners_error_m) nearest_m.push_back(*place.nearest_corners_error_m);
-      if (place.localizer_error_m) localizer_m.push_back(*place.localizer_error_m);
+    for (const PoseResult& pose : result.poses) {
+      if (pose.nearest_corners_error_m) nearest_m.push_back(*pose.nearest_corners_error_m);
+      if (pose.localizer_error_m) localizer_m.push_back(*pose.localizer_error_m);
     }
     std::string paper = "-";
     const auto index = paper_index(result.method);
@@ -227,7 +227,7 @@ std::string position_table(const BenchReport& report) {
     table.add_row(
         {std::string(result.method.title), error_text(nearest_m), paper, error_text(localizer_m)});
   }
-  return "Position error, mm: mean +- standard deviation (places with a position)\n" + table.text();
+  return "Position error, mm: mean +- standard deviation (poses with a position)\n" + table.text();
 }
 
 std::string scaling_table(const BenchReport& report) {

@@ -24,7 +24,7 @@ constexpr double kMillimetre = 1e3;
 constexpr double kMebibyte = 1024 * 1024;
 constexpr double kMillion = 1e6;
 constexpr double kMicroToMilli = 1e-3;
-/// Localized in so many scans when valgrind counts.
+/// Scans localized under valgrind.
 constexpr std::size_t kCountedByValgrind = 50;
 
 /// `corners`: of the building, or 0 for the equal rooms, which come last.
@@ -45,7 +45,7 @@ std::optional<double> count_scan_by_valgrind(const ScaleBenchOptions& options,
 std::string scale_text(const std::vector<ScaleResult>& results) {
   tool::TextTable table;
   table.add_row({"building", "corners", "rooms", "load s", "MiB", "fix %", "wrong", "ambiguous",
-                 "of these true", "lost", "error mm", "time ms", "99 %", "10^6 instr."});
+                 "with truth", "lost", "error mm", "time ms", "99 %", "10^6 instr."});
   for (const ScaleResult& r : results) {
     const double scans = static_cast<double>(std::max<std::size_t>(1, r.score.scans()));
     table.add_row({r.title, std::to_string(r.corners), std::to_string(r.rooms),
@@ -89,15 +89,15 @@ std::string scale_json(const std::vector<ScaleResult>& results, const ScaleBench
   return document.dump(2) + '\n';
 }
 
-/// Over the corners' number, both in powers of ten: time, memory and instructions, as multiples of
-/// the smallest building's, so that one picture holds them.
+/// Time, memory and instructions over the number of corners, both axes logarithmic, relative to the
+/// smallest building.
 std::string draw_scale(const std::vector<ScaleResult>& results) {
   tool::Plot plot({1, 5, "corners, power of ten"}, {-0.5, 3.5, "times the smallest, power of ten"},
                   "First fix by the size of the building");
   const auto draw = [&](std::string_view name, std::string_view colour, auto&& value) {
     std::vector<core::Vec2> points;
     for (const ScaleResult& r : results) {
-      // The equal rooms are another question.
+      // The equal rooms measure ambiguity, not size.
       if (&r == &results.back() && results.size() > 1) break;
       const double share = value(r) / value(results.front());
       if (!(share > 0)) continue;
@@ -160,9 +160,10 @@ void run_scale_bench(const ScaleBenchOptions& options) {
     }
   }
   if (options.instructions && !results.front().instructions) {
-    std::fprintf(stderr,
-                 "cornerctl: instructions cannot be counted here: no performance counter for this "
-                 "user, and no valgrind\n");
+    std::fprintf(
+        stderr,
+        "cornerd-bench: instructions are not counted: no performance counter for this user, "
+        "and no valgrind; install valgrind\n");
   }
   if (picture) {
     picture->write(draw_scale(results));

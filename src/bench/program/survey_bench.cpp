@@ -46,13 +46,13 @@ std::string experiment_text(const SurveyExperiment& experiment) {
                    describe_second(made.second_drive), tool::formatted("%.1f s", made.cpu_s)});
   }
   return tool::formatted(
-             "A drive of %.1f m through seven rooms, wheels 1.5 and 2.5 %% and gyro 2 %% and "
-             "0.01 rad/s off:\n",
+             "A drive of %.1f m through seven rooms, errors: wheels 1.5 and 2.5 %%, gyro 2 %% and "
+             "0.01 rad/s:\n",
              experiment.length_m) +
          table.text() +
          tool::formatted(
-             "A second drive in the true map: mean error %.2f mm, %zu of %zu scans named a "
-             "place, %zu wrong.\n",
+             "A second drive in the true map: mean error %.2f mm, %zu of %zu scans with a "
+             "pose, %zu wrong.\n",
              experiment.in_true_map.mean_error_m * kMillimetres, experiment.in_true_map.named,
              experiment.in_true_map.scans, experiment.in_true_map.wrong);
 }
@@ -61,12 +61,10 @@ void write_drawing(const std::filesystem::path& folder, const char* name, const 
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error) throw tool::Failure(folder.string() + ": " + error.message());
-  tool::Output output(folder / name);
-  output.write(text);
-  output.flush();
+  tool::write_file(folder / name, text);
 }
 
-/// The walls and the way alone: returns on a drawing of this size hide them.
+/// Walls and trajectory without the returns, which would hide them at this scale.
 std::string loop_drawing(survey::SurveyResult result, const core::Pose2& start) {
   result.points.clear();
   survey::move_frame(start, result);
@@ -79,7 +77,7 @@ std::string loops_text(const SurveyBenchOptions& options) {
   const core::Pose2& start = drive.T_map_base.front();
   tool::TextTable table;
   table.add_row({"loops", "walls over 30 cm", "invented", "corners", "median, max error",
-                 "farthest off the way"});
+                 "largest position error"});
   for (const bool closes : {false, true}) {
     const LoopCase made = survey_loop(ring, drive, closes);
     table.add_row({closes ? "closed" : "left open", walls_text(made.score),
@@ -89,7 +87,7 @@ std::string loops_text(const SurveyBenchOptions& options) {
     write_drawing(options.plots, closes ? "ring-closed.svg" : "ring-open.svg",
                   loop_drawing(made.result, start));
   }
-  return "Around a corridor, a wheel slipping three times in ten metres, a lidar that sees 4 m:\n" +
+  return "A ring corridor, three wheel slips in ten metres, a lidar with a range of 4 m:\n" +
          table.text();
 }
 

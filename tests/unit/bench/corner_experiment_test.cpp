@@ -40,11 +40,11 @@ TEST(ScoreMethods, SameSeed_SameScore) {
 }
 
 TEST(DefaultConditions, All_FourSensors) {
-  const auto circumstances = default_conditions();
-  ASSERT_EQ(circumstances.size(), 4u);
-  EXPECT_DOUBLE_EQ(circumstances[0].sensor.noise.share, 0.005);
-  EXPECT_DOUBLE_EQ(circumstances[3].sensor.noise.floor_m, 0.003);
-  EXPECT_DOUBLE_EQ(circumstances[3].sensor.missing, 1.0 / 3);
+  const auto conditions = default_conditions();
+  ASSERT_EQ(conditions.size(), 4u);
+  EXPECT_DOUBLE_EQ(conditions[0].sensor.noise.share, 0.005);
+  EXPECT_DOUBLE_EQ(conditions[3].sensor.noise.floor_m, 0.003);
+  EXPECT_DOUBLE_EQ(conditions[3].sensor.missing, 1.0 / 3);
 }
 
 }  // namespace

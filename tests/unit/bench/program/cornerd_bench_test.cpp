@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// cornerd-bench as its users call it, at few places.
+// cornerd-bench as its users call it, at few poses.
 #include "bench/program/cornerd_bench.hpp"
 
 #include <gmock/gmock.h>
@@ -79,7 +79,7 @@ TEST_F(BenchCommand, JsonOverMap_IsWrongUsage) {
   std::ofstream(map) << "{}";
   const ProgramRun outcome = run({"--json", map.string()}, folder_.path().string());
   EXPECT_EQ(outcome.exit_code, tool::kExitUsage);
-  EXPECT_THAT(outcome.err, HasSubstr("over what is read"));
+  EXPECT_THAT(outcome.err, HasSubstr("is an input of this command"));
 }
 
 TEST_F(BenchCommand, Text_HasFiguresOfPaperAndOfCornerd) {
@@ -90,7 +90,7 @@ TEST_F(BenchCommand, Text_HasFiguresOfPaperAndOfCornerd) {
   EXPECT_THAT(outcome.out, HasSubstr("(101.6 +- 2.6 ms)"));
   EXPECT_THAT(outcome.out, HasSubstr("(157 / 2)"));
   EXPECT_THAT(outcome.out, HasSubstr("11.20 +- 2.14"));
-  EXPECT_THAT(outcome.out, HasSubstr("Corners at 8 random places"));
+  EXPECT_THAT(outcome.out, HasSubstr("Corners at 8 random poses"));
   EXPECT_THAT(outcome.out, HasSubstr("sigma max(3 mm, 1 %), a third missing"));
 }
 
@@ -101,7 +101,7 @@ TEST_F(BenchCommand, Json_HasAllFiguresWithoutText) {
   EXPECT_EQ(figures["samples"], 800);
   ASSERT_EQ(figures["paper_experiment"].size(), 2u);
   EXPECT_EQ(figures["paper_experiment"][1]["method"], "lt");
-  EXPECT_EQ(figures["paper_experiment"][0]["places"].size(), 43u);
+  EXPECT_EQ(figures["paper_experiment"][0]["poses"].size(), 43u);
   ASSERT_EQ(figures["corners"].size(), 4u);
   const auto& score = figures["corners"][0]["methods"][0];
   EXPECT_EQ(score["scans"], 8);
@@ -122,7 +122,7 @@ TEST_F(BenchCommand, Plots_AreDrawn) {
   const std::filesystem::path plots = folder_.path() / "new" / "plots";
   const ProgramRun outcome = run({"--positions", "0", "--plots", plots.string()});
   EXPECT_EQ(outcome.exit_code, tool::kExitDone);
-  EXPECT_THAT(outcome.out, Not(HasSubstr("random places")));
+  EXPECT_THAT(outcome.out, Not(HasSubstr("random poses")));
   for (const char* name : {"times", "positions", "scan-altbd", "scan-abd-iepf", "scan-lt"}) {
     const std::string picture = read(plots / (std::string(name) + ".svg"));
     EXPECT_EQ(find_xml_error(picture), "") << name;
