@@ -60,7 +60,7 @@ LidarCalibration parse_lidar_calibration(std::string_view text, const std::files
   read_bias(root.object("sigma"), calibration.learned.sigma);
   if (!is_possible(calibration.learned.sigma))
     root.fail("sigma", "must be 1e-6 at least, all of it");
-  std::uint32_t scans = 0;
+  std::uint32_t scans = 0;  // "turns" in the file: existing files have this key
   root.integer("turns", scans, std::uint32_t{1}, kMaxScans);
   if (scans == 0) root.fail("turns", "is missing");
   calibration.learned.scans = scans;
