@@ -17,7 +17,7 @@ struct FileFacts {
   uid_t uid = 0;
   gid_t gid = 0;
   mode_t mode = 0;            ///< its kind, and its permissions in the last nine bits
-  unsigned device_major = 0;  ///< of the file system that it lies on
+  unsigned device_major = 0;  ///< of its file system
   unsigned device_minor = 0;
   std::uint64_t inode = 0;
   unsigned own_major = 0;  ///< of a device: its number

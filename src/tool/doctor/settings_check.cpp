@@ -53,7 +53,7 @@ void check_map_file(SettingsCheck& check) {
   check.findings.push_back(finding);
 }
 
-/// Runs `body`; turns a SettingsError into a finding.
+/// Runs `body`; reports a SettingsError as a finding.
 template <typename Body>
 void record_error(SettingsCheck& check, const char* subject, const char* mend, const Body& body) {
   try {
@@ -70,11 +70,11 @@ SettingsCheck check_settings(const std::filesystem::path& file,
                              const std::vector<std::string>& overrides) {
   SettingsCheck check;
   record_error(check, "config",
-               "correct it there; cornerd.full.json explains every key; what is said below goes by "
-               "the defaults",
+               "correct it there; cornerd.full.json explains every key; the checks below use the "
+               "defaults",
                [&] { check_config_file(file, overrides, check); });
   if (check.error) return check;
-  record_error(check, "map", "correct it there; cornerctl map check FILE tells whether it is right",
+  record_error(check, "map", "correct it there; cornerctl map check FILE validates it",
                [&] { check_map_file(check); });
   return check;
 }

@@ -14,7 +14,7 @@ UsbAdapter read_usb_device(const Machine& machine, const std::filesystem::path& 
           machine.read_line(device / "product"), device};
 }
 
-/// The USB device that a port's folder lies in; empty where it is none's.
+/// The USB device of a port's folder; empty if it has none.
 std::filesystem::path usb_device_of(const Machine& machine, std::filesystem::path folder) {
   while (folder.has_relative_path()) {
     if (machine.exists(folder / "idVendor")) return folder;

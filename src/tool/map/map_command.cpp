@@ -59,24 +59,25 @@ void check(const CheckOptions& options) {
   if (!picture) return;
   MapDrawing drawing(*map);
   drawing.add_examined_places(places);
-  picture->write(
-      drawing.document(describe_map(*map) +
-                       "; red: places that one scan cannot tell from those at the lines' ends"));
+  picture->write(drawing.document(
+      describe_map(*map) +
+      "; red: places that one scan cannot distinguish from those at the ends of the lines"));
   picture->flush();
 }
 
 void add_check(Command& group) {
   Command command = group.add_subcommand(
-      "check", "validate a map and say what is in it, and which places a scan cannot tell apart");
+      "check",
+      "validate a map; report its content and the places that one scan cannot distinguish");
   const auto options = std::make_shared<CheckOptions>();
   command.add_option("map", options->map, "the map").required().type_name("MAP");
   command
       .add_option("--places", options->places,
-                  "simulate scans at about so many places; 0: only validate")
+                  "approximate number of simulated scans; 0: only validate")
       .range(std::size_t{0}, std::size_t{1'000'000})
       .type_name("N")
       .capture_default_str();
-  command.add_option("--plot", options->plot, "draw them").type_name("SVG");
+  command.add_option("--plot", options->plot, "draw the map and the places").type_name("SVG");
   command.callback([options] { check(*options); });
 }
 

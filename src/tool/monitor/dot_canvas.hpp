@@ -15,7 +15,7 @@ class DotCanvas {
  public:
   DotCanvas(std::size_t columns, std::size_t rows, bool unicode);
 
-  /// Dots each way.
+  /// Size in dots.
   std::size_t width() const { return columns_ * dots_across_; }
   std::size_t height() const { return rows_ * dots_down_; }
   /// Height of a dot by its width, on a screen whose cells are twice as high as wide.

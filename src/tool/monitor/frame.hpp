@@ -36,7 +36,7 @@ struct Cell {
 /// The content of a terminal's screen: cells by column and row from the upper left.
 class Frame {
  public:
-  /// At least one cell each way.
+  /// At least one column and one row.
   Frame(std::size_t columns, std::size_t rows);
 
   std::size_t columns() const { return columns_; }

@@ -34,7 +34,7 @@ class Projection {
             static_cast<double>(canvas_.height()) / 2 - off.y() / canvas_.dot_aspect()};
   }
 
-  /// Puts a character there, where it lies inside.
+  /// Draws a character if the point is inside.
   void put(Frame& frame, const Vec2& point, Cell cell) const {
     const Vec2 at = dot(point);
     const double column = std::floor(at.x() / dots_across());

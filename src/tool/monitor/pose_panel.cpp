@@ -108,7 +108,7 @@ void add_devices(const message::ParsedStatus& status, std::vector<PanelLine>& li
   if (!status.odometry_state.empty()) lines.push_back({"odometry " + status.odometry_state});
 }
 
-/// Time of what the daemon said last, on its own clock.
+/// Time of the daemon's last message, by its clock.
 double daemon_time_s(const MonitorState& state) {
   double latest_s = -INFINITY;
   if (state.pose()) latest_s = core::to_seconds(state.pose()->t_ns);

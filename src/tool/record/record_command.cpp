@@ -36,7 +36,7 @@ struct RecordOptions {
   double seconds = 0;
 };
 
-/// Writes what the driver's thread sees; a full disk ends the recording, not the thread.
+/// Writes the bytes of the driver's thread; a full disk ends the recording, not the thread.
 class Recorder {
  public:
   explicit Recorder(const std::filesystem::path& file) : writer_(file) {}
@@ -101,9 +101,9 @@ rplidar::RplidarDriverConfig driver_config(const settings::LidarConfig& lidar) {
   return config;
 }
 
-void report_change(const drivers::LidarStatus& now, drivers::LidarStatus& said) {
-  if (now.state == said.state && now.detail.view() == said.detail.view()) return;
-  said = now;
+void report_change(const drivers::LidarStatus& now, drivers::LidarStatus& reported) {
+  if (now.state == reported.state && now.detail.view() == reported.detail.view()) return;
+  reported = now;
   const std::string_view state = to_string(now.state);
   const std::string_view detail = now.detail.view();
   std::fprintf(stderr, "cornerctl: %.*s%s%.*s\n", static_cast<int>(state.size()), state.data(),
@@ -135,7 +135,7 @@ void record(RecordOptions& options) {
   };
   rplidar::RplidarDriver driver(config, open_port);
 
-  drivers::LidarStatus said;
+  drivers::LidarStatus reported;
   std::optional<std::uint64_t> readings;
   {
     NoSink sink;
@@ -151,7 +151,7 @@ void record(RecordOptions& options) {
              (options.seconds > 0 && core::to_seconds(elapsed_ns) >= options.seconds);
     };
     while (!over() && !stop_signal.wait(std::chrono::milliseconds(50))) {
-      report_change(driver.status(), said);
+      report_change(driver.status(), reported);
     }
     if (odometry) readings = odometry->status().counters.readings;
   }

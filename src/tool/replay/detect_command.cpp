@@ -78,12 +78,12 @@ void detect(DetectOptions& options) {
 }  // namespace
 
 void add_detect(Command& program) {
-  Command command = program.add_subcommand("detect", "breakpoints alone, no map needed");
+  Command command = program.add_subcommand("detect", "detect breakpoints without a map");
   const auto options = std::make_shared<DetectOptions>();
   command.add_option("files", options->files, "recordings (.bin, .ndjson), one after another")
       .required()
       .type_name("FILE");
-  command.add_option("--method", options->method, "how walls are found; without it, altbd")
+  command.add_option("--method", options->method, "detection of walls; default: altbd")
       .choices({"altbd", "altbd-printed", "abd-iepf", "lt"});
   options->settings.add_config(command);
   command.add_option("--classes", options->classes, "messages to print: BREAKPOINTS, SCAN")
@@ -92,7 +92,7 @@ void add_detect(Command& program) {
   add_wire_option(command, options->wire);
   command.add_option("--plot", options->plot, "draw a scan with its walls and breakpoints, as SVG")
       .type_name("FILE");
-  command.add_option("--scan", options->plotted_scan, "which scan --plot draws, from 1 on")
+  command.add_option("--scan", options->plotted_scan, "number of the scan for --plot, from 1")
       .capture_default_str()
       .range(1, 100'000'000);
   command.callback([options] { detect(*options); });

@@ -27,7 +27,7 @@ class MessagePrinter {
   /// A pose between two scans.
   void print_pose(const core::PoseEstimate& pose);
 
-  /// Starts the rates anew for the next file.
+  /// Resets the rates for the next file.
   void begin_recording();
   /// STATUS if a second of the data's time has passed since the last one.
   void print_status_when_due(core::TimeNs t_ns, const drivers::StreamCounters& counters);

@@ -80,8 +80,7 @@ class Pace {
  public:
   explicit Pace(double speed) : speed_(speed) {}
 
-  /// Sleeps until as much time has passed since the first call, divided by the speed, as lies
-  /// between the data of the two calls.
+  /// Sleeps until the time since the first call equals that of the data, divided by the speed.
   void wait_until(core::TimeNs data_ns);
 
  private:

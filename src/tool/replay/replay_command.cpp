@@ -107,12 +107,13 @@ void add_replay(Command& program) {
   command.add_option("--classes", options->classes, "messages to print")
       .delimiter(',')
       .capture_default_str();
-  command.add_option("--speed", options->speed, "max, or times real time").capture_default_str();
+  command.add_option("--speed", options->speed, "max, or a multiple of real time")
+      .capture_default_str();
   add_wire_option(command, options->wire);
   command
       .add_option("--odometry", options->odometry,
-                  "wheels and gyro: ODOMETRY lines, in place of those of the recordings, which "
-                  "count where the config's odometry.source is not none")
+                  "file of ODOMETRY lines, in place of those of the recordings, which are used "
+                  "unless odometry.source is none")
       .type_name("FILE");
   command
       .add_option("--truth", options->truth, "true poses: print error statistics on standard error")

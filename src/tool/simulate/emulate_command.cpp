@@ -106,15 +106,14 @@ void add_emulate(Command& program) {
       "emulate", "an A1 on a pseudo-terminal, whose path is printed, until interrupted");
   const auto options = std::make_shared<EmulateOptions>();
   command
-      .add_option("file", options->recording,
-                  "replay this recording; without it, simulate in the map")
+      .add_option("file", options->recording, "replay this recording; default: simulate in the map")
       .type_name("FILE");
   options->settings.add_config(command);
   options->settings.add_map(command);
   options->simulation.add_to(command);
   add_wire_option(command, options->wire);
   command.add_option("--firmware", options->firmware, "1.29, 1.24 or 1.17").capture_default_str();
-  command.add_option("--spin-up", options->spin_up_s, "seconds until the motor is fast enough")
+  command.add_option("--spin-up", options->spin_up_s, "duration of the motor's spin-up (s)")
       .within(0, 3600);
   command.add_option("--link", options->link, "a symbolic link to the pseudo-terminal")
       .type_name("PATH");

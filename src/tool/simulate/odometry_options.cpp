@@ -20,29 +20,30 @@ core::Vec2 parse_pair(const std::string& text, const char* option) {
 }  // namespace
 
 void OdometryOptions::add_to(Command& command) {
-  command.add_flag("--odometry", enabled,
-                   "ODOMETRY lines too, by the config's wheels (odometry.wheel_radius ...)");
-  command.add_option("--odometry-rate", model.rate_hz, "readings a second")
+  command.add_flag(
+      "--odometry", enabled,
+      "add ODOMETRY lines with the geometry of the config (odometry.wheel_radius ...)");
+  command.add_option("--odometry-rate", model.rate_hz, "rate of the readings (Hz)")
       .within(1, 1000)
       .capture_default_str();
-  command
-      .add_option("--wheel-errors", wheel_errors,
-                  "the wheels' true radii are larger by this share: 0.015,0.025")
+  command.add_option("--wheel-errors", wheel_errors, "scale errors of the wheel radii: 0.015,0.025")
       .type_name("LEFT,RIGHT");
-  command.add_option("--track-error", model.track_scale, "the true track is larger by this share")
+  command.add_option("--track-error", model.track_scale, "scale error of the track")
       .within(-0.5, 0.5);
   command
       .add_option("--wheel-noise", model.wheel_m_per_sqrt_m,
-                  "random error of a wheel's distance after a metre (m)")
+                  "standard deviation of a wheel's distance after one metre (m)")
       .within(0, 1)
       .capture_default_str();
-  command.add_option("--gyro-error", model.gyro_scale, "the gyro reads more by this share")
-      .within(-0.5, 0.5);
-  command.add_option("--gyro-bias", model.gyro_bias_rad_s, "and this much (rad/s)").within(-1, 1);
-  command.add_option("--gyro-noise", model.gyro_rad_s_per_sqrt_hz, "its noise (rad/s/sqrt(Hz))")
+  command.add_option("--gyro-error", model.gyro_scale, "scale error of the gyro").within(-0.5, 0.5);
+  command.add_option("--gyro-bias", model.gyro_bias_rad_s, "bias of the gyro (rad/s)")
+      .within(-1, 1);
+  command
+      .add_option("--gyro-noise", model.gyro_rad_s_per_sqrt_hz,
+                  "noise of the gyro (rad/s/sqrt(Hz))")
       .within(0, 1)
       .capture_default_str();
-  command.add_flag("--no-gyro", no_gyro, "encoders alone");
+  command.add_flag("--no-gyro", no_gyro, "readings of the encoders only");
   command
       .add_option("--slips", model.slips_per_m,
                   "slips of a wheel per metre: 50 % more rotation for 0.2 s")

@@ -86,7 +86,7 @@ void add_simulate(Command& program) {
   options->odometry.add_to(command);
   command
       .add_option("--scans", options->scans,
-                  "number of scans; default: all places, once through the scenario, or 10")
+                  "number of scans; default: all poses, once through the scenario, or 10")
       .positive()
       .type_name("N");
   command.add_option("--wire", options->wire, "standard, express or ultra")
@@ -94,7 +94,7 @@ void add_simulate(Command& program) {
       .capture_default_str();
   command
       .add_option("-o,--output", options->output,
-                  "the recording: .ndjson with times, .bin the bare bytes")
+                  "the recording: .ndjson with times, .bin bytes only")
       .required()
       .type_name("FILE");
   command.add_option("--truth", options->truth, "write the true poses, for replay --truth")

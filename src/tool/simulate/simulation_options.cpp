@@ -16,49 +16,50 @@ namespace cornerd::tool {
 
 namespace {
 
-/// From the middle of a small robot to the nearest wall; nearer than 0.15 m an A1 sees nothing.
+/// Smallest distance from the robot to a wall: the minimum range of an A1.
 constexpr double kClearanceM = 0.15;
 
 void warn_unless_indoors(const core::WallMap& map, const core::Vec2& point) {
   if (replay::is_indoors(map, point)) return;
-  std::fprintf(stderr, "cornerctl: warning: %.12g,%.12g is %s of the map; the lidar sees little\n",
+  std::fprintf(stderr,
+               "cornerctl: warning: %.12g,%.12g is %s of the map; few returns are expected\n",
                point.x(), point.y(), map.is_solid(point) ? "inside a wall" : "outside the walls");
 }
 
 }  // namespace
 
 void SimulationOptions::add_to(Command& command) {
-  command.add_option("--pose", pose, "the robot stands there (m, m, rad)").type_name("X,Y,THETA");
-  command.add_option("--places", places, "it visits so many random places")
+  command.add_option("--pose", pose, "pose of the robot at rest (m, m, rad)")
+      .type_name("X,Y,THETA");
+  command.add_option("--places", places, "number of random poses that the robot visits")
       .within(1, 1e6)
       .type_name("N");
-  command.add_option("--path", path, "it drives from point to point (m)")
-      .type_name("\"X,Y X,Y ...\"");
+  command.add_option("--path", path, "path of the robot (m)").type_name("\"X,Y X,Y ...\"");
   command
       .add_option("--scenario", scenario,
-                  "it drives there, in config/maps/flat-7.json: circuit-1, circuit-2, exploration")
+                  "path in config/maps/flat-7.json: circuit-1, circuit-2, exploration")
       .choices({"circuit-1", "circuit-2", "exploration"});
-  command.add_flag("--loop", loop, "and from the last point back to the first, for ever");
-  command.add_option("--scans-each", scans_each, "scans at each of the places")
+  command.add_flag("--loop", loop, "return to the first point of the path and repeat it");
+  command.add_option("--scans-each", scans_each, "scans at each pose of --places")
       .positive()
       .capture_default_str();
-  command.add_option("--drive-speed", speed_m_s, "metres a second along the path")
+  command.add_option("--drive-speed", speed_m_s, "speed along the path (m/s)")
       .within(1e-3, 100)
       .capture_default_str();
-  command.add_option("--turn-speed", yaw_rate_rad_s, "radians a second on the spot")
+  command.add_option("--turn-speed", yaw_rate_rad_s, "yaw rate of rotations in place (rad/s)")
       .within(1e-3, 100)
       .capture_default_str();
   command
       .add_option("--acceleration", acceleration_m_s2,
-                  "metres a second squared at both ends of a straight; 0: at once")
+                  "acceleration at both ends of a straight segment (m/s^2); 0: unlimited")
       .within(0, 100);
   command
       .add_option("--turn-acceleration", yaw_acceleration_rad_s2,
-                  "radians a second squared at both ends of a rotation; 0: at once")
+                  "angular acceleration at both ends of a rotation (rad/s^2); 0: unlimited")
       .within(0, 1000);
-  command.add_option("--motor", motor_hz, "scans a second").within(1, 15).capture_default_str();
+  command.add_option("--motor", motor_hz, "scan rate (Hz)").within(1, 15).capture_default_str();
   sensor.add_to(command);
-  command.add_option("--seed", seed, "of all randomness").capture_default_str();
+  command.add_option("--seed", seed, "seed of the random numbers").capture_default_str();
 }
 
 replay::Motion SimulationOptions::motion(const core::WallMap& map) const {
@@ -131,34 +132,34 @@ void SensorOptions::add_to(Command& command) {
                    "missing runs, backward angles, mixed pixels and outliers as in recordings of "
                    "A1s; other options override");
   command
-      .add_option("--noise", noise,
-                  "the lidar's noise, as calibrate noise writes it; else the config's lidar.noise")
+      .add_option(
+          "--noise", noise,
+          "the lidar's noise, a file of calibrate noise; default: lidar.noise of the config")
       .type_name("FILE");
-  command.add_option("--sigma-floor", floor_m, "standard deviation of a range: the larger of this")
+  command
+      .add_option("--sigma-floor", floor_m, "standard deviation of a range: the larger of this (m)")
       .within(0, 1);
-  command.add_option("--sigma-share", share, "(m) and this share of the range; in place of --noise")
+  command.add_option("--sigma-share", share, "and this share of the range; overrides --noise")
       .within(0, 1);
   command.add_option("--bearing-noise", bearing_deg, "standard deviation of a bearing (degrees)")
       .within(0, 5);
   command.add_option("--missing", missing, "share of samples without a return").within(0, 1);
   command.add_option("--missing-run", missing_run, "mean length of a run of missing samples")
       .within(1, 1e6);
-  command.add_option("--outliers", outliers, "share of samples that are wrong").within(0, 1);
-  command
-      .add_option("--beam", beam_deg,
-                  "width of the beam (degrees): at an edge a sample lies between its two sides")
+  command.add_option("--outliers", outliers, "share of outliers").within(0, 1);
+  command.add_option("--beam", beam_deg, "width of the beam (degrees): mixed pixels at edges")
       .within(0, 10);
   command
       .add_option("--backward", backward,
-                  "share of standard nodes that arrive behind the next one: their angle steps back")
+                  "share of standard nodes that arrive after the next one, with a backward step of "
+                  "the angle")
       .within(0, 0.4);
-  command.add_option("--range-scale", range_scale, "bias: what is measured of a metre (m)")
-      .within(0.9, 1.1);
+  command.add_option("--range-scale", range_scale, "bias: factor of every range").within(0.9, 1.1);
   command.add_option("--range-offset", range_offset_m, "bias: added to every range (m)")
       .within(-0.1, 0.1);
   command
       .add_option("--eccentricity", eccentricity_deg,
-                  "bias: of the angle disc, largest error of a direction (degrees)")
+                  "bias: largest bearing error by the eccentricity of the angle disc (degrees)")
       .within(0, 3);
   command
       .add_option("--eccentricity-phase", eccentricity_phase_deg,

@@ -75,7 +75,7 @@ void watch(const WatchOptions& options) {
 
 void add_watch(Command& program) {
   Command command =
-      program.add_subcommand("watch", "the daemon's messages, one JSON object a line");
+      program.add_subcommand("watch", "print the daemon's messages, one JSON object per line");
   const auto options = std::make_shared<WatchOptions>();
   command.add_option("--socket", options->socket, "default: the pose socket of the config")
       .type_name("PATH");

@@ -34,7 +34,7 @@ TEST_F(CalibrateOdometry, GoodDrive_WritesConfigForReplay) {
   const json start = json::parse(stream)["advanced"]["odometry"]["initial"];
   EXPECT_NEAR(start["left_scale"].get<double>(), 0.015, 0.003);
   EXPECT_NEAR(start["right_scale"].get<double>(), 0.025, 0.003);
-  EXPECT_NEAR(start["gyro_scale"].get<double>(), 0.02, 0.006);  // turns one way alone
+  EXPECT_NEAR(start["gyro_scale"].get<double>(), 0.02, 0.006);  // rotates in one direction only
   EXPECT_NEAR(start["gyro_bias"].get<double>(), 0.01, 0.001);
 
   const CommandRun by_truth({"calibrate", "odometry", recording_, "--truth", truth_, "-o", output});
@@ -95,7 +95,7 @@ TEST_F(CalibrateOdometry, WrongGeometry_FailsWithRemedy) {
               HasSubstr("odometry.counts_per_turn to 5760"));
   EXPECT_THAT(calibrate([&](json& line) { scale(line, 2); }),
               HasSubstr("odometry.counts_per_turn to 2880"));
-  // Faster than a wheel can turn: all of it is refused by the daemon.
+  // Faster than the limit of the wheels: the daemon rejects every reading.
   EXPECT_THAT(calibrate([&](json& line) { scale(line, 16); }),
               HasSubstr("odometry.counts_per_turn to 23040"));
   EXPECT_THAT(calibrate([&](json& line) { std::swap(line["left"], line["right"]); }),

@@ -22,10 +22,10 @@ constexpr const char* kGreeting =
 TEST(ProbeDaemon, Messages_AreCounted) {
   const test::TemporaryFolder folder;
   const ListeningSocket daemon(folder.path() / "pose.sock");
-  std::string said = kGreeting;
-  for (int i = 0; i < 10; ++i) said += "{\"class\":\"POSE\",\"t\":1,\"state\":\"lost\"}\n";
+  std::string messages = kGreeting;
+  for (int i = 0; i < 10; ++i) messages += "{\"class\":\"POSE\",\"t\":1,\"state\":\"lost\"}\n";
   // The queue of the socket holds both until they are wanted.
-  const std::jthread client([&] { daemon.accept_and_send(said); });
+  const std::jthread client([&] { daemon.accept_and_send(messages); });
   const DaemonView view = probe_daemon(folder.path() / "pose.sock", 60s);
   EXPECT_EQ(view.connect_errno, 0);
   EXPECT_EQ(view.version, "1.2.3");
@@ -38,16 +38,16 @@ TEST(ProbeDaemon, Messages_AreCounted) {
 TEST(ProbeDaemon, OdometryReadings_GiveRate) {
   const test::TemporaryFolder folder;
   const ListeningSocket daemon(folder.path() / "pose.sock");
-  std::string said = kGreeting;
-  for (int i = 0; i < 10; ++i) said += "{\"class\":\"POSE\",\"t\":1,\"state\":\"lost\"}\n";
+  std::string messages = kGreeting;
+  for (int i = 0; i < 10; ++i) messages += "{\"class\":\"POSE\",\"t\":1,\"state\":\"lost\"}\n";
   const auto status = [](const char* t_s, const char* readings) {
     return std::string("{\"class\":\"STATUS\",\"t\":") + t_s +
            ",\"lidar\":{\"state\":\"running\"},\"odometry\":{\"state\":\"running\",\"counters\":"
            "{\"readings\":" +
            readings + "}}}\n";
   };
-  said += status("7", "100") + status("7.1", "101") + status("9", "150");
-  const std::jthread client([&] { daemon.accept_and_send(said); });
+  messages += status("7", "100") + status("7.1", "101") + status("9", "150");
+  const std::jthread client([&] { daemon.accept_and_send(messages); });
   const DaemonView view = probe_daemon(folder.path() / "pose.sock", 60s);
   ASSERT_TRUE(view.odometry_hz);
   EXPECT_DOUBLE_EQ(*view.odometry_hz, 25);

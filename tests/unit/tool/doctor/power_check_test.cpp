@@ -43,7 +43,7 @@ TEST_F(CheckPower, UndervoltageAlarm_IsWrong) {
 }
 
 TEST_F(CheckPower, HubWithoutSupply_IsNoted) {
-  // usb1 is the computer itself; a hub lies between only where its name is another one.
+  // usb1 is the root hub of the computer; an external hub has another name.
   stand_in_.write("/sys/devices/pci0/usb1/bmAttributes", "a0\n");
   EXPECT_THAT(findings(), ElementsAre(Finds(Verdict::kGood, "power", "no trace")));
 

@@ -56,15 +56,15 @@ class MonitorOnTerminal : public testing::Test {
     ::_exit(0);
   }
 
-  void daemon_says(const std::string& line) const {
+  void send_message(const std::string& line) const {
     const std::string text = line + "\n";
     EXPECT_EQ(::send(daemon_, text.data(), text.size(), MSG_NOSIGNAL),
               static_cast<ssize_t>(text.size()));
   }
   void press(const char* keys) const { EXPECT_GT(::write(person_, keys, std::strlen(keys)), 0); }
 
-  /// Reads the screen until it was told this; false where it never is.
-  bool sees(const std::string& text) {
+  /// Reads the screen until it has `text`; false if it never has.
+  bool shows(const std::string& text) {
     pollfd entry{.fd = person_, .events = POLLIN, .revents = 0};
     while (screen_.find(text) == std::string::npos) {
       if (::poll(&entry, 1, kPatience_ms) <= 0) return false;
@@ -79,7 +79,7 @@ class MonitorOnTerminal : public testing::Test {
 
   /// It has ended with 0 and the terminal is as it was.
   void expect_clean_end() {
-    EXPECT_TRUE(sees("\x1b[?25h\x1b[?1049l"));
+    EXPECT_TRUE(shows("\x1b[?25h\x1b[?1049l"));
     int status = -1;
     EXPECT_EQ(::waitpid(child_, &status, 0), child_);
     child_ = -1;
@@ -95,12 +95,12 @@ class MonitorOnTerminal : public testing::Test {
   void start_with_daemon() {
     listener_.emplace(socket_);
     start();
-    ASSERT_TRUE(sees("\x1b[?1049h"));
+    ASSERT_TRUE(shows("\x1b[?1049h"));
     daemon_ = listener_->accept();
-    daemon_says(kVersionLine);
-    daemon_says(status_line());
-    daemon_says(kFixLine);
-    ASSERT_TRUE(sees("fix  hall"));
+    send_message(kVersionLine);
+    send_message(status_line());
+    send_message(kFixLine);
+    ASSERT_TRUE(shows("fix  hall"));
   }
 
   test::TemporaryFolder folder_;
@@ -138,23 +138,23 @@ TEST_F(MonitorOnTerminal, TerminationSignal_Ends) {
 TEST_F(MonitorOnTerminal, LostDaemon_IsShownAndReconnected) {
   start_with_daemon();
   ::close(daemon_);
-  ASSERT_TRUE(sees("no daemon since"));
+  ASSERT_TRUE(shows("no daemon since"));
   daemon_ = listener_->accept();
-  daemon_says(status_line());
-  daemon_says(kFixLine);
-  EXPECT_TRUE(sees("fix  hall"));
+  send_message(status_line());
+  send_message(kFixLine);
+  EXPECT_TRUE(shows("fix  hall"));
   press("q");
   expect_clean_end();
 }
 
 TEST_F(MonitorOnTerminal, AbsentDaemon_IsWaitedFor) {
   start();
-  ASSERT_TRUE(sees("No such file or directory"));
+  ASSERT_TRUE(shows("No such file or directory"));
   listener_.emplace(socket_);
   daemon_ = listener_->accept();
-  daemon_says(status_line());
-  daemon_says(kFixLine);
-  EXPECT_TRUE(sees("fix  hall"));
+  send_message(status_line());
+  send_message(kFixLine);
+  EXPECT_TRUE(shows("fix  hall"));
   press("q");
   expect_clean_end();
 }
@@ -163,8 +163,8 @@ TEST_F(MonitorOnTerminal, NewSize_IsDrawnCompletely) {
   start_with_daemon();
   const winsize size{.ws_row = 40, .ws_col = 100, .ws_xpixel = 0, .ws_ypixel = 0};
   ASSERT_EQ(::ioctl(person_, TIOCSWINSZ, &size), 0);
-  EXPECT_TRUE(sees("\x1b[2J"));
-  EXPECT_TRUE(sees("\x1b[40;1H"));
+  EXPECT_TRUE(shows("\x1b[2J"));
+  EXPECT_TRUE(shows("\x1b[40;1H"));
   press("q");
   expect_clean_end();
 }
@@ -172,7 +172,7 @@ TEST_F(MonitorOnTerminal, NewSize_IsDrawnCompletely) {
 TEST_F(MonitorOnTerminal, Stop_RestoresTerminalUntilContinued) {
   start_with_daemon();
   ::kill(child_, SIGTSTP);
-  ASSERT_TRUE(sees("\x1b[?1049l"));
+  ASSERT_TRUE(shows("\x1b[?1049l"));
   int status = 0;
   ASSERT_EQ(::waitpid(child_, &status, WUNTRACED), child_);
   ASSERT_TRUE(WIFSTOPPED(status));
@@ -180,8 +180,8 @@ TEST_F(MonitorOnTerminal, Stop_RestoresTerminalUntilContinued) {
   EXPECT_EQ(::tcgetattr(terminal_, &during), 0);
   EXPECT_EQ(during.c_lflag, before_.c_lflag);
   ::kill(child_, SIGCONT);
-  EXPECT_TRUE(sees("\x1b[?1049h"));
-  EXPECT_TRUE(sees("fix  hall"));
+  EXPECT_TRUE(shows("\x1b[?1049h"));
+  EXPECT_TRUE(shows("fix  hall"));
   press("q");
   expect_clean_end();
 }
@@ -191,7 +191,7 @@ TEST_F(MonitorOnTerminal, StalledTerminal_StillEnds) {
   // Ctrl-S: from here on nothing is written any more.
   press("\x13");
   for (int i = 0; i < 200; ++i) {
-    daemon_says(i % 2 == 0 ? kLostLine : kFixLine);
+    send_message(i % 2 == 0 ? kLostLine : kFixLine);
   }
   ::kill(child_, SIGTERM);
   int status = -1;
