@@ -7,9 +7,7 @@ if(CORNERD_SANITIZE)
   target_link_options(cornerd_sanitizer INTERFACE -fsanitize=${CORNERD_SANITIZE})
 endif()
 if(CORNERD_FUZZ)
-  target_compile_options(cornerd_sanitizer INTERFACE
-    -fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=all)
-  target_link_options(cornerd_sanitizer INTERFACE -fsanitize=address,undefined)
+  target_compile_options(cornerd_sanitizer INTERFACE -fsanitize=fuzzer-no-link)
 endif()
 
 add_library(cornerd_warnings INTERFACE)
@@ -24,6 +22,14 @@ endif()
 # Nobody asks errno after a root: with it, the compiler calls a function where an instruction does.
 add_compile_options(-fno-math-errno)
 
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  # A tenth of a compilation is collecting garbage that a machine with memory need not collect.
+  cmake_host_system_information(RESULT memory_MiB QUERY TOTAL_PHYSICAL_MEMORY)
+  if(memory_MiB GREATER 6000)
+    add_compile_options("SHELL:--param ggc-min-heapsize=1000000")
+  endif()
+endif()
+
 find_program(CORNERD_CCACHE ccache)
 if(CORNERD_CCACHE)
   # Without this it caches nothing that uses a precompiled header.
@@ -31,12 +37,15 @@ if(CORNERD_CCACHE)
     CCACHE_SLOPPINESS=pch_defines,time_macros ${CORNERD_CCACHE})
 endif()
 
-# cornerd_add_library(NAME SOURCES file... LINK target...)
+# cornerd_add_library(NAME SOURCES file... LINK target... [COLD])
 # A static library; its headers are included from the top of src/ ("core/scan.hpp") or of the tree
-# ("drivers/rplidar/decoder.hpp").
+# ("drivers/rplidar/decoder.hpp"). COLD: nobody waits for what it computes but for its compilation.
 function(cornerd_add_library name)
-  cmake_parse_arguments(arg "" "" "SOURCES;LINK" ${ARGN})
+  cmake_parse_arguments(arg "COLD" "" "SOURCES;LINK" ${ARGN})
   add_library(${name} STATIC ${arg_SOURCES})
+  if(arg_COLD AND NOT CORNERD_SANITIZE)
+    target_compile_options(${name} PRIVATE -O1)
+  endif()
   target_include_directories(${name} PUBLIC ${PROJECT_SOURCE_DIR}/src ${PROJECT_SOURCE_DIR})
   target_link_libraries(${name} PUBLIC ${arg_LINK} cornerd_sanitizer PRIVATE cornerd_warnings)
 endfunction()

@@ -6,6 +6,16 @@
 add_custom_target(short_tests)
 add_custom_target(threaded_tests)
 
+# What most tests include. Not where sources are compiled one by one: there each shows what it needs.
+if(CMAKE_UNITY_BUILD)
+  file(CONFIGURE OUTPUT test_headers.cpp CONTENT "")
+  add_library(test_headers OBJECT ${CMAKE_CURRENT_BINARY_DIR}/test_headers.cpp)
+  target_link_libraries(test_headers PRIVATE cornerd_eigen cornerd_sanitizer gmock gtest)
+  target_compile_options(test_headers PRIVATE -O0)
+  target_precompile_headers(test_headers PRIVATE <gmock/gmock.h> <gtest/gtest.h> <Eigen/Core>
+    <nlohmann/json.hpp> <algorithm> <cmath> <filesystem> <fstream> <sstream> <string> <thread> <vector>)
+endif()
+
 # cornerd_add_test_run(NAME PROGRAM FILTER LABELS label... SHARDS n): a run of a program's cases, in
 # n processes.
 function(cornerd_add_test_run name program filter)
@@ -39,12 +49,16 @@ endfunction()
 # A program of GoogleTest cases.
 #   LABELS  `long`: only `tests/run all` builds and runs it. `slow`: besides, not in sanitized and
 #           emulated builds, since it tests algorithms and neither memory nor the board.
+#           `host`: not in emulated builds, since a board has no use for it.
 #           `threads`: the thread sanitizer runs it.
 #   LONG    cases that only `tests/run all` runs, each pattern in a process of its own
 #   ALONE   cases that run while nothing else does
 #   SHARDS  the number of processes that share the other cases; COST: the larger, the sooner it starts
 function(cornerd_add_test_program name)
   cmake_parse_arguments(arg "" "SHARDS;COST" "SOURCES;LINK;LABELS;LONG;ALONE" ${ARGN})
+  if("host" IN_LIST arg_LABELS AND CMAKE_CROSSCOMPILING)
+    return()
+  endif()
   if("slow" IN_LIST arg_LABELS)
     if(CMAKE_CROSSCOMPILING OR CORNERD_SANITIZE)
       return()
@@ -55,6 +69,9 @@ function(cornerd_add_test_program name)
   set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
   # What is tested is optimised, in its library; most of a test's time is its compilation.
   target_compile_options(${name} PRIVATE -O0)
+  if(CMAKE_UNITY_BUILD)
+    target_precompile_headers(${name} REUSE_FROM test_headers)
+  endif()
   # A source that replaces operator new must not be seen by code that calls it.
   foreach(source ${arg_SOURCES})
     if(source MATCHES "allocation")
