@@ -5,6 +5,7 @@ if(CORNERD_SANITIZE)
   target_compile_options(cornerd_sanitizer INTERFACE -fsanitize=${CORNERD_SANITIZE}
     -fno-omit-frame-pointer -fno-sanitize-recover=all)
   target_link_options(cornerd_sanitizer INTERFACE -fsanitize=${CORNERD_SANITIZE})
+  target_compile_definitions(cornerd_sanitizer INTERFACE CORNERD_SANITIZED)
 endif()
 if(CORNERD_FUZZ)
   target_compile_options(cornerd_sanitizer INTERFACE -fsanitize=fuzzer-no-link)

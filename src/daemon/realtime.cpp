@@ -15,7 +15,7 @@
 namespace cornerd::daemon {
 namespace {
 
-#ifdef __SANITIZE_THREAD__
+#ifdef CORNERD_SANITIZED
 /// ThreadSanitizer keeps 800 kB of its own on each stack.
 constexpr std::size_t kStackBytes = 8 * 1024 * 1024;
 #else
