@@ -10,7 +10,8 @@ add_custom_target(threaded_tests)
 if(CMAKE_UNITY_BUILD)
   file(CONFIGURE OUTPUT test_headers.cpp CONTENT "")
   add_library(test_headers OBJECT ${CMAKE_CURRENT_BINARY_DIR}/test_headers.cpp)
-  target_link_libraries(test_headers PRIVATE cornerd_eigen cornerd_sanitizer gmock gtest)
+  target_link_libraries(test_headers PRIVATE cornerd_eigen cornerd_sanitizer cornerd_warnings gmock
+    gtest)
   target_compile_options(test_headers PRIVATE -O0)
   target_precompile_headers(test_headers PRIVATE <gmock/gmock.h> <gtest/gtest.h> <Eigen/Core>
     <nlohmann/json.hpp> <algorithm> <cmath> <filesystem> <fstream> <sstream> <string> <thread> <vector>)
