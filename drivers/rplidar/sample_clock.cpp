@@ -25,7 +25,12 @@ constexpr double kMaxPace = 2.0;
 void SampleClock::reset(double period_s) {
   reanchor();
   nominal_ns_ = period_s * 1e9;
-  period_ns_ = nominal_ns_;
+  set_period(nominal_ns_);
+}
+
+void SampleClock::set_period(double period_ns) {
+  period_ns_ = period_ns;
+  min_step_ns_ = static_cast<core::TimeNs>(period_ns / 2);
 }
 
 void SampleClock::reanchor() {
@@ -83,7 +88,7 @@ core::TimeNs SampleClock::time_of(std::uint64_t index) {
   const double x = static_cast<double>(static_cast<std::int64_t>(index - origin_index_));
   core::TimeNs t_ns = origin_ns_ + static_cast<core::TimeNs>(offset_ns_ + period_ns_ * x);
   // If the fit moved back, times advance at half a period until it catches up.
-  if (has_last_) t_ns = std::max(t_ns, last_ns_ + static_cast<core::TimeNs>(period_ns_ / 2));
+  if (has_last_) t_ns = std::max(t_ns, last_ns_ + min_step_ns_);
   last_ns_ = t_ns;
   has_last_ = true;
   return t_ns;
@@ -137,7 +142,7 @@ void SampleClock::fit() {
   if (b.x <= a.x) return;
   const double pace_ns = (b.y - a.y) / (b.x - a.x);
   if (pace_ns < kMinPace * nominal_ns_ || pace_ns > kMaxPace * nominal_ns_) return;
-  period_ns_ = pace_ns;
+  set_period(pace_ns);
   offset_ns_ = a.y - pace_ns * a.x;
 }
 

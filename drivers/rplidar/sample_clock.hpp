@@ -56,6 +56,7 @@ class SampleClock {
   double delay_ns(const Point& point) const {
     return point.y - (offset_ns_ + period_ns_ * point.x);
   }
+  void set_period(double period_ns);
   void anchor(const Point& point);
   void check_delay(const Point& point, bool more_pending);
   void begin_uncertainty(const Point& point);
@@ -67,6 +68,7 @@ class SampleClock {
 
   double nominal_ns_ = 0;
   double period_ns_ = 0;
+  core::TimeNs min_step_ns_ = 0;  ///< half of period_ns_: on ARMv7 a conversion is a library call
   double offset_ns_ = 0;
   std::uint64_t origin_index_ = 0;
   core::TimeNs origin_ns_ = 0;

@@ -21,12 +21,14 @@ constexpr std::chrono::milliseconds kRetryInterval{1};
 
 SampleChannel::SampleChannel(WhenFull when_full) : when_full_(when_full), ring_(kCapacity) {}
 
-bool SampleChannel::push(const Item& item) {
-  while (!ring_.push(item)) {
+bool SampleChannel::push(const Item& item) { return ring_.push(item) || retry(item); }
+
+bool SampleChannel::retry(const Item& item) {
+  do {
     if (when_full_ == WhenFull::kLose || closed_.load(std::memory_order_relaxed)) return false;
     wake();
     std::this_thread::sleep_for(kRetryInterval);
-  }
+  } while (!ring_.push(item));
   return true;
 }
 

@@ -54,6 +54,8 @@ class SampleChannel final : public drivers::SampleSink {
 
  private:
   bool push(const Item& item);
+  /// After a refused push: waits for room, or gives up.
+  bool retry(const Item& item);
 
   const WhenFull when_full_;
   core::RingBuffer<Item> ring_;
