@@ -38,13 +38,14 @@ if(CORNERD_CCACHE)
     CCACHE_SLOPPINESS=pch_defines,time_macros ${CORNERD_CCACHE})
 endif()
 
-# cornerd_add_library(NAME SOURCES file... LINK target... [COLD])
+# cornerd_add_library(NAME SOURCES file... LINK target... [COLD] [HOT])
 # A static library; its headers are included from the top of src/ ("core/scan.hpp") or of the tree
 # ("drivers/rplidar/decoder.hpp"). COLD: nobody waits for what it computes but for its compilation.
+# HOT: unoptimised, as a sanitized build is, it would take ten times as long.
 function(cornerd_add_library name)
-  cmake_parse_arguments(arg "COLD" "" "SOURCES;LINK" ${ARGN})
+  cmake_parse_arguments(arg "COLD;HOT" "" "SOURCES;LINK" ${ARGN})
   add_library(${name} STATIC ${arg_SOURCES})
-  if(arg_COLD AND NOT CORNERD_SANITIZE)
+  if((arg_COLD AND NOT CORNERD_SANITIZE) OR (arg_HOT AND CORNERD_SANITIZE))
     target_compile_options(${name} PRIVATE -O1)
   endif()
   target_include_directories(${name} PUBLIC ${PROJECT_SOURCE_DIR}/src ${PROJECT_SOURCE_DIR})
