@@ -6,8 +6,8 @@
 
 namespace cornerd::core {
 
-/// Nanoseconds. The core reads no clock: callers pass times of a clock of their choice (UNIX time
-/// live, time since the start in a replay).
+/// Nanoseconds. The core reads no clock: callers pass times of a clock of their choice (monotonic
+/// live, the recording's time in a replay).
 using TimeNs = std::int64_t;
 
 inline constexpr TimeNs kNsPerSecond = 1'000'000'000;

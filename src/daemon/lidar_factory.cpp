@@ -6,13 +6,17 @@
 
 namespace cornerd::daemon {
 std::unique_ptr<drivers::LidarDriver> make_lidar(const settings::LidarConfig& config) {
-  if (config.driver == settings::DriverKind::kReplay) {
-    replay::ReplayDriverConfig replay;
-    replay.file = config.file;
-    replay.speed = config.speed;
-    replay.loop = config.loop;
-    replay.recording.inverted = config.mount.inverted;
-    return std::make_unique<replay::ReplayDriver>(std::move(replay));
+  switch (config.driver) {  // no default: -Wswitch names a kind that has no driver
+    case settings::DriverKind::kReplay: {
+      replay::ReplayDriverConfig replay;
+      replay.file = config.file;
+      replay.speed = config.speed;
+      replay.loop = config.loop;
+      replay.recording.inverted = config.mount.inverted;
+      return std::make_unique<replay::ReplayDriver>(std::move(replay));
+    }
+    case settings::DriverKind::kRplidar:
+      break;
   }
   rplidar::RplidarDriverConfig device;
   device.device = config.device.string();
