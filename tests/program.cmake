@@ -46,7 +46,7 @@ function(cornerd_add_test_run name program filter)
 endfunction()
 
 # cornerd_add_test_program(NAME SOURCES file... LINK target... [LABELS label...] [SHARDS n] [COST n]
-#   [LONG pattern...] [ALONE pattern...])
+#   [LONG pattern...] [ALONE pattern...] [NATIVE pattern...])
 # A program of GoogleTest cases.
 #   LABELS  `long`: only `tests/run all` builds and runs it. `slow`: besides, not in sanitized and
 #           emulated builds, since it tests algorithms and neither memory nor the board.
@@ -54,9 +54,11 @@ endfunction()
 #           `threads`: the thread sanitizer runs it.
 #   LONG    cases that only `tests/run all` runs, each pattern in a process of its own
 #   ALONE   cases that run while nothing else does
+#   NATIVE  cases of minutes of simulated scans, whose code others call as well: not in sanitized and
+#           emulated builds, which take fifty times as long
 #   SHARDS  the number of processes that share the other cases; COST: the larger, the sooner it starts
 function(cornerd_add_test_program name)
-  cmake_parse_arguments(arg "" "SHARDS;COST" "SOURCES;LINK;LABELS;LONG;ALONE" ${ARGN})
+  cmake_parse_arguments(arg "" "SHARDS;COST" "SOURCES;LINK;LABELS;LONG;ALONE;NATIVE" ${ARGN})
   if("host" IN_LIST arg_LABELS AND CMAKE_CROSSCOMPILING)
     return()
   endif()
@@ -93,6 +95,9 @@ function(cornerd_add_test_program name)
 
   list(JOIN arg_ALONE ":" alone)
   string(JOIN ":" apart ${arg_LONG} ${arg_ALONE})
+  if(CMAKE_CROSSCOMPILING OR CORNERD_SANITIZE)
+    string(JOIN ":" apart ${apart} ${arg_NATIVE})
+  endif()
   cornerd_add_test_run(${name} ${name} "-${apart}" LABELS ${arg_LABELS} SHARDS ${arg_SHARDS}
     COST ${arg_COST})
   set(number 0)
