@@ -89,7 +89,7 @@ function(cornerd_add_test_program name)
   if(NOT "long" IN_LIST arg_LABELS)
     add_dependencies(short_tests ${name})
   endif()
-  if(CMAKE_CROSSCOMPILING AND NOT arg_SHARDS)
+  if((CMAKE_CROSSCOMPILING OR CORNERD_SANITIZE) AND NOT arg_SHARDS)
     set(arg_SHARDS 2)
   endif()
 
