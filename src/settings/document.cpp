@@ -154,7 +154,7 @@ Json parse_document(std::string_view text, const std::filesystem::path& file) {
   } catch (const Json::out_of_range& error) {
     throw SettingsError(file.string(), check.pointer_of_next(), strip_library_prefix(error.what()));
   } catch (const Json::exception& error) {
-    throw SettingsError(file.string(), "", strip_library_prefix(error.what()));
+    throw SettingsError(file.string(), "", one_line(strip_library_prefix(error.what())));
   }
 }
 

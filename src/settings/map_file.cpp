@@ -128,6 +128,13 @@ core::FloorPlan read_plan(ObjectReader root, const std::filesystem::path& file) 
 }  // namespace
 
 core::FloorPlan parse_floor_plan(std::string_view text, const std::filesystem::path& file) {
+  for (const std::string_view image : {"\x89PNG", "P2", "P4", "P5", "<svg", "<?xml"}) {
+    if (text.starts_with(image)) {
+      throw SettingsError(file.string(), "",
+                          "is an image, not a map; cornerctl map import makes a map from the yaml "
+                          "beside it");
+    }
+  }
   const DocumentContext context{.file = file};
   const Json document = parse_document(text, file);
   return read_plan({context, document, ""}, file);

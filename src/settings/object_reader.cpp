@@ -52,7 +52,8 @@ std::string hint_for(std::string_view unknown, const std::vector<std::string>& k
     }
     if (!nearest_key.empty()) return "did you mean \"" + std::string(nearest_key) + "\"?";
   }
-  const std::vector<std::string_view> names(known.begin(), known.end());
+  std::vector<std::string_view> names(known.begin(), known.end());
+  names.erase(std::unique(names.begin(), names.end()), names.end());
   return "known here: " + list_of(names, "");
 }
 

@@ -47,7 +47,7 @@ TEST_F(Activation, SocketOfAnotherPath_NotServed) {
 }
 
 /// Connects as user nobody without groups. True if the first line is VERSION.
-bool strangers_are_served(const std::filesystem::path& socket) {
+bool others_are_served(const std::filesystem::path& socket) {
   const pid_t child = ::fork();
   if (child == 0) {
     constexpr uid_t kNobody = 65534;
@@ -70,8 +70,8 @@ TEST_F(Activation, UserOutsideGroup_RefusedByControlSocketOnly) {
   // A mode that would let everybody connect.
   std::filesystem::permissions(folder_ / "control.sock", std::filesystem::perms::all);
   std::filesystem::permissions(folder_ / "", std::filesystem::perms::all);
-  EXPECT_TRUE(strangers_are_served(folder_ / "pose.sock"));
-  EXPECT_FALSE(strangers_are_served(folder_ / "control.sock"));
+  EXPECT_TRUE(others_are_served(folder_ / "pose.sock"));
+  EXPECT_FALSE(others_are_served(folder_ / "control.sock"));
 }
 
 }  // namespace

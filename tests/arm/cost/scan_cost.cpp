@@ -3,7 +3,7 @@
 //
 //   scan_cost MAP SAMPLES
 //
-// drives a simulated A1 of that many samples a turn, ten turns a second at most, through a contest
+// drives a simulated A1 of that many samples a scan, ten scans a second at most, through a contest
 // arena at 0.2 m/s. Everything runs in one thread, with the daemon's own parts; what it prints is
 // for the reader to see that poses came.
 #include <sys/socket.h>
@@ -52,11 +52,11 @@ namespace cornerd {
 namespace {
 
 constexpr double kSpeed_m_s = 0.2;
-/// Turns until the localizer has learnt what it learns at first, and those that are counted.
+/// Scans until the estimates of bias and noise have settled, and those that are counted.
 constexpr int kScansBefore = 25;
 constexpr int kScans = 20;
 
-/// As fast as the format is, and no more than ten turns a second.
+/// As fast as the format is, and no more than ten scans a second.
 replay::SimulatorConfig lidar_of(std::size_t samples) {
   replay::SimulatorConfig config;
   config.wire = samples > 540 ? rplidar::WireFormat::kUltra : rplidar::WireFormat::kExpress;
@@ -99,7 +99,7 @@ class Reader {
   int fd_;
 };
 
-/// The parts of the localizer one by one, on a turn that it has just localized.
+/// The parts of the localizer one by one, on a scan that it has just localized.
 class Parts {
  public:
   explicit Parts(std::shared_ptr<const core::WallMap> map)
@@ -168,7 +168,7 @@ class Daemon {
     client_->read();
   }
 
-  /// From where the last turn began to where the next one does.
+  /// From where the last scan began to where the next one does.
   void scan(replay::Simulator& lidar, bool counts) {
     decode(lidar, counts);
     if (counts) cost_begin_localize();

@@ -33,6 +33,12 @@ std::string wall_error(const std::string& wall) {
 
 constexpr const char* kWall = R"("walls": [{"from": [0, 0], "to": [1, 0]}])";
 
+TEST(MapFile, Image_IsRefusedWithTheCommandThatImportsIt) {
+  for (const char* image : {"\x89PNG\r\n", "P5\n2 2\n255\n", "<svg xmlns=\"\"/>"}) {
+    EXPECT_THAT(map_error(image), HasSubstr("cornerctl map import"));
+  }
+}
+
 TEST(MapFile, EveryField_ReachesThePlan) {
   const core::FloorPlan plan = parse_floor_plan(map_of(R"("name": "flat", "thickness": 0.018,
         "walls": [{"from": [0, 0], "to": [2.4, 0]},
