@@ -16,7 +16,7 @@ namespace cornerd::daemon {
 namespace {
 
 #ifdef CORNERD_SANITIZED
-/// ThreadSanitizer keeps 800 kB of its own on each stack.
+/// A sanitizer keeps its own data on each stack: ThreadSanitizer 800 kB.
 constexpr std::size_t kStackBytes = 8 * 1024 * 1024;
 #else
 /// The deepest users are the JSON parser, whose nesting is limited, and the localizer: 60 kB.
