@@ -9,6 +9,11 @@
 
 namespace cornerd::bench {
 
+/// Where --instructions cannot be done.
+inline constexpr const char* kNotCounted =
+    "cornerd-bench: instructions are not counted: no performance counter for this user, and no "
+    "valgrind; install valgrind\n";
+
 struct LocalizationBenchOptions {
   std::filesystem::path maps;  ///< folder of the contest arena's layouts and of flat-7.json
   std::size_t poses = 1000;    ///< in each trial

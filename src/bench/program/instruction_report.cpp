@@ -5,6 +5,7 @@
 #include <string>
 
 #include "bench/instruction_counter.hpp"
+#include "bench/program/benches.hpp"
 #include "bench/program/report.hpp"
 #include "bench/workload.hpp"
 #include "tool/command_line/progress_bar.hpp"
@@ -56,9 +57,7 @@ void count_instructions(const CountedScans& scans, std::span<const NamedMethod> 
                              ? count_by_processor(counter, scans, method, samples)
                              : count_by_valgrind(scans, method, samples, report.scans.poses.size());
       if (!count) {
-        std::fprintf(stderr,
-                     "cornerd-bench: instructions are not counted: no performance counter for this "
-                     "user, and no valgrind; install valgrind\n");
+        std::fputs(kNotCounted, stderr);
         report.instructions.clear();
         return;
       }

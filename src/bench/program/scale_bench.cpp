@@ -160,10 +160,7 @@ void run_scale_bench(const ScaleBenchOptions& options) {
     }
   }
   if (options.instructions && !results.front().instructions) {
-    std::fprintf(
-        stderr,
-        "cornerd-bench: instructions are not counted: no performance counter for this user, "
-        "and no valgrind; install valgrind\n");
+    std::fputs(kNotCounted, stderr);
   }
   if (picture) {
     picture->write(draw_scale(results));
