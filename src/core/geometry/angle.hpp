@@ -16,7 +16,8 @@ constexpr double degrees(double radians) { return radians * (180 / kPi); }
 inline double normalize_angle(double angle_rad) {
   if (angle_rad > -kPi && angle_rad <= kPi) return angle_rad;
   const double wrapped = angle_rad - kTwoPi * std::ceil((angle_rad - kPi) / kTwoPi);
-  return wrapped > -kPi ? wrapped : kPi;
+  // Several revolutions plus a half, rounded, may end beyond kPi.
+  return wrapped > -kPi && wrapped < kPi ? wrapped : kPi;
 }
 
 /// Rotation from `from_rad` to `to_rad` by the shorter way, in (-pi, pi].

@@ -24,6 +24,12 @@ TEST(NormalizeAngle, MinusPi_IsPi) {
   EXPECT_NEAR(normalize_angle(3 * kPi), kPi, 1e-12);
 }
 
+TEST(NormalizeAngle, HalfRevolutionAfterMany_IsNeverBeyondPi) {
+  for (int k = -2000; k <= 2000; ++k) {
+    EXPECT_LE(std::abs(normalize_angle(radians(180 + 360 * k))), kPi) << k;
+  }
+}
+
 TEST(AngleBetween, AcrossSeam_TakesShorterRotation) {
   EXPECT_NEAR(angle_between(radians(170), radians(-170)), radians(20), 1e-12);
   EXPECT_NEAR(angle_between(radians(-170), radians(170)), radians(-20), 1e-12);
