@@ -29,7 +29,7 @@ const core::Scan& ScanSimulator::take(core::TimeNs start_ns, const RangeFunction
     const double direction_rad = bearing_rad - errors_.direction_error(-bearing_rad);
     const double range_m = range_along(sample.t_ns, direction_rad);
     sample.bearing_rad = static_cast<float>(bearing_rad);
-    sample.range_m = static_cast<float>(errors_.measured(range_m));
+    sample.range_m = static_cast<float>(errors_.sees(bearing_rad) ? errors_.measured(range_m) : 0);
     sample.starts_scan = i == 0;
     scan_.add(sample);
   }

@@ -2,20 +2,33 @@
 // Error model of an A1.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <optional>
 
 #include "calibration/wall_model.hpp"
+#include "core/geometry/angle.hpp"
 #include "core/sensor_noise.hpp"
 #include "replay/simulator/random.hpp"
 
 namespace cornerd::replay {
+
+/// The sector that a lidar sees, in its frame.
+struct FieldOfView {
+  double width_rad = core::kTwoPi;
+  double centre_rad = 0;
+
+  bool contains(double bearing_rad) const {
+    return std::abs(core::angle_between(centre_rad, bearing_rad)) <= width_rad / 2;
+  }
+};
 
 /// Errors of a simulated A1. Real units lose 38 to 84 % of their samples indoors; `missing` sets
 /// it.
 struct SensorModel {
   double min_range_m = 0.15;  ///< no return below
   double max_range_m = 12.0;  ///< no return beyond
+  FieldOfView field_of_view;  ///< no return, nor an outlier, outside
 
   /// Noise of range and bearing: the localizer's own model. The sigmas may be 0 here.
   core::SensorNoise noise;
@@ -52,6 +65,9 @@ struct SensorModel {
 class SensorErrors {
  public:
   SensorErrors(const SensorModel& model, std::uint64_t seed) : model_(model), random_(seed) {}
+
+  /// Whether a reported bearing (lidar frame) is in the field of view.
+  bool sees(double bearing_rad) const { return model_.field_of_view.contains(bearing_rad); }
 
   /// True direction minus reported direction of a sample.
   double direction_error(double device_angle_rad);

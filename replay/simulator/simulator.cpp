@@ -140,7 +140,12 @@ std::optional<double> Simulator::incidence_at(const Head& head, std::int64_t sca
   return (config_.inverted ? 1 : -1) * std::atan(growth);
 }
 
+bool Simulator::sees(double device_angle_deg) const {
+  return errors_.sees((config_.inverted ? 1 : -1) * core::radians(device_angle_deg));
+}
+
 double Simulator::measured_at(const Head& head, std::int64_t scan, double device_angle_deg) {
+  if (!sees(device_angle_deg)) return 0;
   const double error_rad = errors_.direction_error(core::radians(device_angle_deg));
   const double angle_deg = device_angle_deg + core::degrees(error_rad);
   const double half_beam_deg = core::degrees(config_.sensor.beam_width_rad) / 2;
@@ -160,8 +165,10 @@ std::uint32_t Simulator::measured_for_ultra(const Head& head, std::int64_t scan)
     range_m = errors_.mixed(range_m, triangulate(head, scan, error_deg + half_beam_deg).range_m);
   }
   const double angle_deg = head.angle_deg + error_deg - optical_offset_deg(range_m);
-  return to_units(errors_.measured(range_m, incidence_at(head, scan, angle_deg, range_m)), 1e3,
-                  28'656);
+  const std::uint32_t measured_mm = to_units(
+      errors_.measured(range_m, incidence_at(head, scan, angle_deg, range_m)), 1e3, 28'656);
+  // The host computes the direction from the measured distance.
+  return sees(head.angle_deg - optical_offset_deg(measured_mm * 1e-3)) ? measured_mm : 0;
 }
 
 double Simulator::sweep(std::size_t count) {

@@ -92,6 +92,8 @@ class Simulator {
   /// Angle of incidence on the wall; nullopt at an edge, or if not needed.
   std::optional<double> incidence_at(const Head& head, std::int64_t scan, double device_angle_deg,
                                      double range_m);
+  /// Whether an angle as on the wire is in the field of view.
+  bool sees(double device_angle_deg) const;
   double measured_at(const Head& head, std::int64_t scan, double device_angle_deg);
   std::uint32_t measured_for_ultra(const Head& head, std::int64_t scan);
 

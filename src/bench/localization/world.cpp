@@ -5,6 +5,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "replay/simulator/doors.hpp"
+#include "replay/simulator/map_error.hpp"
 #include "replay/simulator/random_poses.hpp"
 
 namespace cornerd::bench {
@@ -12,8 +14,6 @@ namespace {
 
 using core::Vec2;
 
-constexpr double kMinDoor_m = 0.3;
-constexpr double kMaxDoor_m = 1.2;
 constexpr double kWorldRange_m = 100;
 /// Rays that estimate the share of stopped ones.
 constexpr int kClutterRays = 360;
@@ -63,30 +63,9 @@ std::vector<RoundObstacle> clutter_around(const core::WallMap& map, const Vec2& 
   return obstacles;
 }
 
-std::vector<core::Wall> doors_of(const core::WallMap& map) {
-  std::vector<core::Wall> doors;
-  for (const core::Wall& wall : map.plan().walls) {
-    for (const auto& [from, to] : {std::pair(wall.from, wall.to), {wall.to, wall.from}}) {
-      const Vec2 along = (to - from).normalized();
-      const Vec2 beyond = to + (wall.thickness_m / 2 + 1e-3) * along;
-      if (map.is_solid(beyond)) continue;
-      const double open_m = map.range_along(beyond, core::angle_of(along), kMaxDoor_m);
-      if (open_m < kMinDoor_m) continue;
-      // A door between two wall ends is found from both.
-      const core::Wall door{to, beyond + open_m * along, wall.thickness_m};
-      const bool known = std::any_of(doors.begin(), doors.end(), [&](const core::Wall& other) {
-        constexpr double kSame_m = 0.15;
-        return (other.from + other.to - door.from - door.to).norm() / 2 < kSame_m;
-      });
-      if (!known) doors.push_back(door);
-    }
-  }
-  return doors;
-}
-
 std::vector<core::FloorPlan> with_a_door_closed(const core::WallMap& map) {
   std::vector<core::FloorPlan> plans;
-  for (const core::Wall& door : doors_of(map)) {
+  for (const core::Wall& door : replay::doors_of(map)) {
     plans.push_back(map.plan());
     plans.back().walls.push_back(door);
   }
@@ -98,9 +77,7 @@ std::vector<core::FloorPlan> with_a_wall_displaced(const core::WallMap& map, dou
   for (std::size_t i = 0; i < map.plan().walls.size(); ++i) {
     plans.push_back(map.plan());
     core::Wall& wall = plans.back().walls[i];
-    const Vec2 across = by_m * core::rotate_left((wall.to - wall.from).normalized());
-    wall.from += across;
-    wall.to += across;
+    wall = replay::displaced(wall, by_m);
   }
   return plans;
 }

@@ -28,9 +28,6 @@ double range_with_obstacles(const std::vector<RoundObstacle>& obstacles, const c
 std::vector<RoundObstacle> clutter_around(const core::WallMap& map, const core::Vec2& place,
                                           double share, replay::Random& random);
 
-/// Doors of a plan: gaps of 0.3 to 1.2 m between a wall's end and the next wall in its direction.
-std::vector<core::Wall> doors_of(const core::WallMap& map);
-
 /// One plan for each door, with that door closed.
 std::vector<core::FloorPlan> with_a_door_closed(const core::WallMap& map);
 

@@ -47,15 +47,19 @@ struct World {
 World make_world(const EmulateOptions& options, const settings::Config& config) {
   if (!options.recording.empty()) {
     if (!options.truth.empty()) throw UsageError("--truth: not available for a recording");
+    if (options.simulation.changes_map()) {
+      throw UsageError("--map-error and --clutter: not available for a recording; give --map");
+    }
     const replay::RecordingOptions how{parse_wire(options.wire), config.lidar.mount.inverted};
     return {std::make_unique<replay::RecordedScene>(options.recording, how), {}};
   }
   if (options.simulation.places > 0 && !options.truth.empty()) {
     throw UsageError("--truth: not available with --places: the robot jumps between scans");
   }
-  const auto map = settings::load_map(config.map);
-  const replay::Motion motion = options.simulation.motion(*map);
-  return {std::make_unique<replay::MapScene>(map, motion, config.localizer().T_base_lidar), motion};
+  const auto [world, motion] =
+      options.simulation.place(settings::load_map(config.map), config.lidar);
+  return {std::make_unique<replay::MapScene>(world, motion, config.localizer().T_base_lidar),
+          motion};
 }
 
 void emulate(const EmulateOptions& options) {

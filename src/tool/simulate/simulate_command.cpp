@@ -39,9 +39,7 @@ void simulate(const SimulateOptions& options) {
       {.read = {settings.map, options.settings.config_file(), options.simulation.sensor.noise},
        .written = {options.output, options.truth},
        .output = {}});
-  const auto map = settings::load_map(settings.map);
   const SimulationOptions& simulation = options.simulation;
-  const replay::Motion motion = simulation.motion(*map);
 
   replay::SimulatedRecordingConfig config;
   config.simulator = simulation.simulator(*parse_wire(options.wire), settings.lidar);
@@ -63,11 +61,12 @@ void simulate(const SimulateOptions& options) {
   if (!options.truth.empty() && !has_times && !simulation.stands_still()) {
     throw UsageError("--truth of a robot that moves needs a recording with times: -o FILE.ndjson");
   }
+  const auto [world, motion] = simulation.place(settings::load_map(settings.map), settings.lidar);
   replay::RecordingWriter recording(options.output);
   std::optional<replay::TruthWriter> truth;
   if (!options.truth.empty()) truth.emplace(options.truth);
   const replay::SimulatedRecordingSummary summary =
-      simulate_recording(map, motion, config, recording, truth ? &*truth : nullptr);
+      simulate_recording(world, motion, config, recording, truth ? &*truth : nullptr);
   std::fprintf(stderr, "%s: %lld scans in %.1f s, %llu samples, %.0f %% of them with a return\n",
                options.output.c_str(), static_cast<long long>(config.scans), summary.duration_s,
                static_cast<unsigned long long>(summary.samples),

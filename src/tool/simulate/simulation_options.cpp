@@ -1,13 +1,18 @@
 // SPDX-License-Identifier: MIT
 #include "tool/simulate/simulation_options.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <utility>
 #include <vector>
 
 #include "core/geometry/angle.hpp"
+#include "replay/simulator/clutter.hpp"
+#include "replay/simulator/map_error.hpp"
 #include "replay/simulator/motion.hpp"
 #include "replay/simulator/random_poses.hpp"
+#include "replay/simulator/scanned_path.hpp"
 #include "tool/command_line/command.hpp"
 #include "tool/command_line/failure.hpp"
 #include "tool/command_line/options.hpp"
@@ -18,6 +23,9 @@ namespace {
 
 /// Smallest distance from the robot to a wall: the minimum range of an A1.
 constexpr double kClearanceM = 0.15;
+
+constexpr std::uint64_t kMapErrorSeed = 0x8BB84B93962EACC9u;
+constexpr std::uint64_t kClutterSeed = 0x2D358DCCAA6C78A5u;
 
 void warn_unless_indoors(const core::WallMap& map, const core::Vec2& point) {
   if (replay::is_indoors(map, point)) return;
@@ -58,26 +66,62 @@ void SimulationOptions::add_to(Command& command) {
                   "angular acceleration at both ends of a rotation (rad/s^2); 0: unlimited")
       .within(0, 1000);
   command.add_option("--motor", motor_hz, "scan rate (Hz)").within(1, 15).capture_default_str();
+  command
+      .add_option("--map-error", map_error_m,
+                  "standard deviation of each wall's displacement across itself in the simulated "
+                  "place (m); the map stays as it is")
+      .within(0, 0.5)
+      .type_name("SIGMA_M");
+  command
+      .add_option("--clutter", clutter,
+                  "share of the rays along the path that stop at unmapped obstacles: posts, legs "
+                  "of furniture, boxes, closed doors; none within 0.25 m of the path")
+      .within(0, 0.6)
+      .type_name("SHARE");
   sensor.add_to(command);
   command.add_option("--seed", seed, "seed of the random numbers").capture_default_str();
 }
 
-replay::Motion SimulationOptions::motion(const core::WallMap& map) const {
+replay::Motion SimulationOptions::motion(const core::WallMap& world) const {
   if (!pose.empty() + (places > 0) + !path.empty() + !scenario.empty() != 1) {
     throw UsageError("give exactly one of --pose, --places, --path and --scenario");
   }
   if (!pose.empty()) {
     const core::Pose2 T_map_base = parse_pose(pose);
-    warn_unless_indoors(map, T_map_base.translation());
+    warn_unless_indoors(world, T_map_base.translation());
     return replay::stand_still(T_map_base);
   }
   if (places > 0) {
-    return replay::visit_poses(replay::random_poses(map, places, kClearanceM, seed), scans_each);
+    return replay::visit_poses(replay::random_poses(world, places, kClearanceM, seed), scans_each);
   }
-  const std::vector<core::Vec2> points =
-      scenario.empty() ? parse_points(path) : replay::find_scenario(scenario)->path;
-  for (const core::Vec2& point : points) warn_unless_indoors(map, point);
-  return replay::drive_path(points, drive());
+  const std::vector<core::Vec2> stops = points();
+  for (const core::Vec2& point : stops) warn_unless_indoors(world, point);
+  return replay::drive_path(stops, drive());
+}
+
+std::vector<core::Vec2> SimulationOptions::points() const {
+  return scenario.empty() ? parse_points(path) : replay::find_scenario(scenario)->path;
+}
+
+SimulatedPlace SimulationOptions::place(std::shared_ptr<const core::WallMap> map,
+                                        const settings::LidarConfig& lidar) const {
+  SimulatedPlace place{std::move(map), {}};
+  core::FloorPlan plan = place.world->plan();
+  if (map_error_m > 0) {
+    plan = replay::with_map_error(plan, map_error_m, seed ^ kMapErrorSeed);
+    place.world = std::make_shared<const core::WallMap>(plan);
+  }
+  place.motion = motion(*place.world);
+  if (clutter <= 0) return place;
+  const core::Pose2 T_base_lidar{lidar.mount.x_m, lidar.mount.y_m, lidar.mount.theta_rad};
+  const replay::Clutter obstacles = replay::place_clutter(
+      *place.world, replay::scanned_path(place.motion, T_base_lidar, scans_of_motion(), motor_hz),
+      simulator(rplidar::WireFormat::kStandard, lidar).sensor, clutter, seed ^ kClutterSeed);
+  std::fprintf(stderr, "cornerctl: %zu unmapped obstacles stop %.0f %% of the rays\n",
+               obstacles.obstacles, 100 * obstacles.share);
+  plan.walls.insert(plan.walls.end(), obstacles.walls.begin(), obstacles.walls.end());
+  place.world = std::make_shared<const core::WallMap>(std::move(plan));
+  return place;
 }
 
 replay::DriveConfig SimulationOptions::drive() const {
@@ -92,17 +136,21 @@ replay::DriveConfig SimulationOptions::drive() const {
 
 std::int64_t SimulationOptions::default_scans() const {
   constexpr std::int64_t kShortRecording = 10;
-  if (!scenario.empty()) {
-    const double once_s = replay::drive_duration_s(replay::find_scenario(scenario)->path, drive());
-    return std::llround(once_s * motor_hz);
-  }
-  return places > 0 ? static_cast<std::int64_t>(places) * scans_each : kShortRecording;
+  return scenario.empty() && places == 0 ? kShortRecording : scans_of_motion();
+}
+
+std::int64_t SimulationOptions::scans_of_motion() const {
+  if (!pose.empty()) return 1;
+  if (places > 0) return static_cast<std::int64_t>(places) * scans_each;
+  return std::max<std::int64_t>(
+      1, std::llround(replay::drive_duration_s(points(), drive()) * motor_hz));
 }
 
 replay::SimulatorConfig SimulationOptions::simulator(rplidar::WireFormat wire,
                                                      const settings::LidarConfig& lidar) const {
   replay::SimulatorConfig config;
   config.sensor = sensor.model(lidar.noise);
+  config.sensor.field_of_view.centre_rad = -lidar.mount.theta_rad;
   config.wire = wire;
   config.motor_hz = motor_hz;
   config.inverted = lidar.mount.inverted;
@@ -150,6 +198,10 @@ void SensorOptions::add_to(Command& command) {
   command.add_option("--beam", beam_deg, "width of the beam (degrees): mixed pixels at edges")
       .within(0, 10);
   command
+      .add_option("--fov", fov_deg,
+                  "field of view, centred ahead of the robot (degrees): no returns outside")
+      .within(20, 360);
+  command
       .add_option("--backward", backward,
                   "share of standard nodes that arrive after the next one, with a backward step of "
                   "the angle")
@@ -184,6 +236,7 @@ replay::SensorModel SensorOptions::model(const settings::NoiseConfig& configured
   model.missing_run = missing_run.value_or(model.missing_run);
   model.outliers = outliers.value_or(model.outliers);
   if (beam_deg) model.beam_width_rad = core::radians(*beam_deg);
+  if (fov_deg) model.field_of_view.width_rad = core::radians(*fov_deg);
   model.backward = backward.value_or(model.backward);
   model.range_scale = range_scale.value_or(model.range_scale);
   model.range_offset_m = range_offset_m.value_or(model.range_offset_m);

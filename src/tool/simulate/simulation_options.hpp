@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "core/map/wall_map.hpp"
 #include "replay/simulator/motion.hpp"
@@ -30,6 +31,7 @@ struct SensorOptions {
   std::optional<double> missing_run;
   std::optional<double> outliers;
   std::optional<double> beam_deg;
+  std::optional<double> fov_deg;
   std::optional<double> backward;
   std::optional<double> range_scale;
   std::optional<double> range_offset_m;
@@ -44,7 +46,13 @@ struct SensorOptions {
   replay::SensorModel model(const settings::NoiseConfig& configured) const;
 };
 
-/// Options that simulate and emulate share: the robot's motion and the lidar's errors.
+/// What a simulated lidar measures.
+struct SimulatedPlace {
+  std::shared_ptr<const core::WallMap> world;  ///< the map with its error and clutter
+  replay::Motion motion;
+};
+
+/// Options that simulate and emulate share: the place, the robot's motion and the lidar's errors.
 struct SimulationOptions {
   std::string pose;        ///< x,y,theta: stands there
   std::size_t places = 0;  ///< visits so many random places
@@ -57,6 +65,8 @@ struct SimulationOptions {
   double acceleration_m_s2 = 0;
   double yaw_acceleration_rad_s2 = 0;
   double motor_hz = 7.3;
+  double map_error_m = 0;  ///< standard deviation of a wall's displacement from the map
+  double clutter = 0;      ///< share of the rays that stop at unmapped obstacles
   SensorOptions sensor;
   std::uint64_t seed = 1;
 
@@ -65,12 +75,21 @@ struct SimulationOptions {
   bool stands_still() const { return !pose.empty(); }
   /// Scans of a recording without --scans.
   std::int64_t default_scans() const;
-  /// Throws UsageError unless exactly one of pose, places, path and scenario is given. Warns on
-  /// standard error about points inside walls or outside the building.
-  replay::Motion motion(const core::WallMap& map) const;
-  replay::DriveConfig drive() const;
+  bool changes_map() const { return map_error_m > 0 || clutter > 0; }
+  /// The same for every length of a recording. Throws UsageError unless exactly one of pose,
+  /// places, path and scenario is given, std::runtime_error if the clutter or a place has no room.
+  /// Warns on standard error about points inside walls or outside the building.
+  SimulatedPlace place(std::shared_ptr<const core::WallMap> map,
+                       const settings::LidarConfig& lidar) const;
   replay::SimulatorConfig simulator(rplidar::WireFormat wire,
                                     const settings::LidarConfig& lidar) const;
+
+ private:
+  replay::Motion motion(const core::WallMap& world) const;
+  replay::DriveConfig drive() const;
+  std::vector<core::Vec2> points() const;
+  /// Scans until the motion ends or repeats.
+  std::int64_t scans_of_motion() const;
 };
 
 }  // namespace cornerd::tool

@@ -8,13 +8,7 @@
 namespace cornerd::bench {
 namespace {
 
-/// Two rooms of 2 x 2 m, a wall of 0.1 m between them, a door of 0.6 m in it.
-core::WallMap two_rooms() {
-  core::FloorPlan plan;
-  plan.walls = {{{0, 0}, {4, 0}, 0.1}, {{4, 0}, {4, 2}, 0.1},   {{4, 2}, {0, 2}, 0.1},
-                {{0, 2}, {0, 0}, 0.1}, {{2, 0}, {2, 0.7}, 0.1}, {{2, 1.4}, {2, 2}, 0.1}};
-  return core::WallMap(plan);
-}
+using replay::two_rooms;
 
 TEST(World, Obstacle_RangeEndsAtItsSurface) {
   const std::vector<RoundObstacle> obstacles = {{{2, 0}, 0.25}};
@@ -37,12 +31,6 @@ TEST(World, Clutter_StopsRequestedShare) {
   }
   EXPECT_GT(stopped, 0.29 * 3600);
   EXPECT_LT(stopped, 0.6 * 3600);
-}
-
-TEST(World, Doors_AreGapsBetweenWallEnds) {
-  const auto doors = doors_of(two_rooms());
-  ASSERT_EQ(doors.size(), 1u);
-  EXPECT_NEAR((doors[0].from + doors[0].to).y() / 2, 1.05, 0.06);
 }
 
 TEST(World, ClosedDoor_StopsRays) {

@@ -57,5 +57,14 @@ TEST(ScanSimulator, SuccessiveScans_DifferReproducibly) {
   EXPECT_NE(first, ranges(one));
 }
 
+TEST(ScanSimulator, FieldOfView_HasNoReturnsOutside) {
+  SensorModel sensor = SensorModel::perfect();
+  sensor.field_of_view = {core::radians(90), 0};
+  ScanSimulator lidar(sensor, 360, 1);
+  for (const core::Sample& sample : lidar.take(*make_room(), {1, 1, 0}).samples()) {
+    EXPECT_EQ(sample.range_m > 0, std::abs(sample.bearing_rad) <= core::kPi / 4);
+  }
+}
+
 }  // namespace
 }  // namespace cornerd::replay

@@ -9,6 +9,17 @@
 namespace cornerd::replay {
 namespace {
 
+TEST(FieldOfView, FullCircle_ContainsEveryBearing) {
+  for (const double centre_rad : {0.0, 0.3, core::kPi}) {
+    const FieldOfView all{core::radians(360), centre_rad};
+    for (int eighths = -100'000; eighths <= 100'000; ++eighths) {
+      const double bearing_rad = core::radians(eighths / 8.0);
+      ASSERT_TRUE(all.contains(bearing_rad));
+      ASSERT_TRUE(FieldOfView().contains(centre_rad + bearing_rad));
+    }
+  }
+}
+
 TEST(SensorErrors, PerfectModel_ChangesNothingWithinTheLimits) {
   SensorErrors noise(SensorModel::perfect(), 1);
   EXPECT_EQ(noise.measured(1.25), 1.25);

@@ -7,7 +7,9 @@
 
 #include <filesystem>
 #include <fstream>
+#include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "command_run.hpp"
@@ -36,13 +38,17 @@ class SimulationOptionsTest : public testing::Test {
 TEST_F(SimulationOptionsTest, InvalidNumber_IsWrongUsage) {
   for (const char* option :
        {"--sigma-floor", "--sigma-share", "--bearing-noise", "--missing", "--missing-run",
-        "--outliers", "--beam", "--backward", "--motor", "--drive-speed", "--turn-speed"}) {
+        "--outliers", "--beam", "--backward", "--motor", "--drive-speed", "--turn-speed",
+        "--map-error", "--clutter", "--fov"}) {
     for (const char* value : {"nan", "inf", "-inf", "-1", "much", ""}) {
       const CommandRun run = simulate({std::string(option) + "=" + value});
       EXPECT_EQ(run.exit_code, kExitUsage) << option << ' ' << value;
       EXPECT_NE(run.err, "");
       EXPECT_FALSE(std::filesystem::exists(path("x.bin")));
     }
+  }
+  for (const char* word : {"--map-error=0.6", "--clutter=0.7", "--fov=19", "--fov=361"}) {
+    EXPECT_EQ(simulate({word}).exit_code, kExitUsage) << word;
   }
   for (const char* option : {"--scans", "--scans-each", "--seed"}) {
     for (const char* value : {"nan", "inf", "1e99"}) {
@@ -76,6 +82,49 @@ TEST_F(SimulationOptionsTest, PoseOutsideBuilding_IsWarnedAboutAndSimulated) {
   EXPECT_THAT(outside.err, HasSubstr("warning: 7.5,1 is outside the walls"));
   EXPECT_THAT(with({"--pose", "0,1,0"}).err, HasSubstr("warning: 0,1 is inside a wall"));
   EXPECT_THAT(with({"--path", "0.3,0.5 9,9"}).err, HasSubstr("warning: 9,9"));
+}
+
+TEST_F(SimulationOptionsTest, PlaceWithMapErrorAndClutter_IsTheSameForTheSeed) {
+  const auto record = [&](const std::string& name, const std::vector<std::string>& more) {
+    std::vector<std::string> words = {
+        "simulate", "--map",   CORNERD_SOURCE_DIR "/config/maps/flat-7.json", "--path", "1,4 4,4",
+        "-o",       path(name)};
+    words.insert(words.end(), more.begin(), more.end());
+    const CommandRun run(words);
+    EXPECT_EQ(run.exit_code, kExitDone) << run.err;
+    std::ostringstream bytes;
+    bytes << std::ifstream(path(name)).rdbuf();
+    return std::pair(run.err, bytes.str());
+  };
+  const std::vector<std::string> all = {"--map-error", "0.03", "--clutter", "0.3", "--fov", "120"};
+  const auto [text, bytes] = record("a.bin", all);
+  EXPECT_THAT(text, HasSubstr("unmapped obstacles stop 3"));
+  EXPECT_THAT(text, testing::ContainsRegex(", 3[0-9] % of them with a return"));
+  EXPECT_EQ(record("b.bin", all).second, bytes);
+  const std::string plain = record("c.bin", {}).second;
+  for (const auto& one :
+       {std::vector<std::string>{"--map-error", "0.03"}, {"--clutter", "0.3"}, {"--fov", "120"}}) {
+    EXPECT_NE(record("d.bin", one).second, plain) << one[0];
+  }
+  EXPECT_EQ(record("e.bin", {"--map-error", "0", "--clutter", "0", "--fov", "360"}).second, plain);
+}
+
+TEST_F(SimulationOptionsTest, ClutterWithoutRoom_FailsWithTheShareReached) {
+  std::ofstream(path("cell.json")) << R"({"format": "cornerd-map", "version": 1, "thickness": 0.02,
+    "walls": [{"from": [0, 0], "to": [0.5, 0]}, {"from": [0.5, 0], "to": [0.5, 0.5]},
+              {"from": [0.5, 0.5], "to": [0, 0.5]}, {"from": [0, 0.5], "to": [0, 0]}]})";
+  const CommandRun run({"simulate", "--map", path("cell.json"), "--pose", "0.25,0.25,0",
+                        "--clutter", "0.6", "-o", path("x.bin")});
+  EXPECT_EQ(run.exit_code, kExitFailed);
+  EXPECT_THAT(run.err, HasSubstr("of the rays, not 60 %"));
+  EXPECT_FALSE(std::filesystem::exists(path("x.bin")));
+}
+
+TEST_F(SimulationOptionsTest, ClutterInRecording_IsWrongUsage) {
+  ASSERT_EQ(simulate({}).exit_code, kExitDone);
+  const CommandRun run({"emulate", path("x.bin"), "--clutter", "0.2"});
+  EXPECT_EQ(run.exit_code, kExitUsage);
+  EXPECT_THAT(run.err, HasSubstr("--clutter: not available for a recording"));
 }
 
 TEST_F(SimulationOptionsTest, NoiseFile_IsUsedOrErrorIsNamed) {
