@@ -75,7 +75,7 @@ const ScanResult& Localizer::step(const Scan& turn) {
 
   // 6. A turn whose place is known tells how the lidar errs always.
   if (w.teaches(decision)) {
-    const core::VerifiedHypothesis& at = w.place->verification.hypotheses()[decision.place];
+    const core::VerifiedHypothesis& at = w.chosen(decision);
     w.place->bias.update(*w.map, at.refined.T_map_lidar, w.points.points(),
                          std::max(1.0, w.result.detection.noise_scale));
   }
@@ -91,11 +91,19 @@ Decision Localizer::Workspace::find(const Scan& scan, TimeNs t_ns) {
   // 2. Where none is convincing, the robot may have changed its speed since the last turns.
   if ((in_doubt(t_ns) || is_smeared()) && !may_be_biased()) look_for_the_motion(scan, t_ns);
 
-  // 3. Where still none is, all places are tested that could have been overlooked.
-  if (in_doubt(t_ns)) look_everywhere(t_ns);
+  // 3. Where still none is, the whole map is searched.
+  candidates = {};
+  if (!place) return {};
+  const bool certain = !in_doubt(t_ns);
+  if (!certain) search_with_motion(scan, t_ns);
 
   // 4. One place is a fix, several are ambiguous, none is lost.
-  return place ? decide(place->verification.hypotheses(), memory.prior(t_ns)) : Decision{};
+  if (certain || is_exact(t_ns)) {
+    candidates = place->verification.hypotheses();
+    return decide(candidates, memory.prior(t_ns));
+  }
+  candidates = place->place_search.places();
+  return decide_by_faces(candidates, memory.prior(t_ns));
 }
 
 const PoseEstimate* Localizer::add(const OdometryReading& reading, std::optional<TimeNs> now_ns) {
@@ -186,8 +194,8 @@ void Localizer::resume(const EstimatedBias& learned) {
 bool Localizer::Workspace::teaches(const Decision& decision) const {
   if (!config.calibrate_online) return false;
   if (!has_pose(decision.state)) return false;
-  const core::VerifiedHypothesis& at = place->verification.hypotheses()[decision.place];
-  return (memory.is_stationary() || odometer.has_motion()) &&
+  const core::VerifiedHypothesis& at = chosen(decision);
+  return at.map_sigma_m == 0 && (memory.is_stationary() || odometer.has_motion()) &&
          at.likelihood.near_hit_share() > kTeachingShare;
 }
 
@@ -234,7 +242,7 @@ const Scan& Localizer::Workspace::deskewed(const Scan& turn, TimeNs t_ns) {
 
 std::size_t Localizer::Workspace::corners_of(const Decision& decision) const {
   if (!has_pose(decision.state)) return 0;
-  const core::VerifiedHypothesis& found = place->verification.hypotheses()[decision.place];
+  const core::VerifiedHypothesis& found = chosen(decision);
   return static_cast<std::size_t>(
       place->recognition.recognised(result.detection.breakpoints, found.refined.T_map_lidar));
 }
@@ -259,25 +267,18 @@ bool Localizer::Workspace::is_at_prior(const Pose2& T_map_lidar, TimeNs t_ns) co
 
 PoseState Localizer::Workspace::believe(const Decision& decision, std::size_t corners,
                                         TimeNs t_ns) {
-  const core::VerifiedHypothesis& found = place->verification.hypotheses()[decision.place];
-  const Pose2& T_map_lidar = found.refined.T_map_lidar;
-  const Evidence evidence{found.likelihood, corners, points.largest_gap_rad(),
-                          place->recognition.is_exhaustive(), is_at_prior(T_map_lidar, t_ns)};
-  if (decision.state == PoseState::kTracking) {
-    return may_be_tracked(evidence) ? PoseState::kTracking : PoseState::kAmbiguous;
-  }
+  const Pose2& T_map_lidar = chosen(decision).refined.T_map_lidar;
+  if (decision.state == PoseState::kTracking) return decision.state;
   const bool confirmed =
       T_map_doubted && same_pose(*T_map_doubted, T_map_lidar, kJump_m, kJump_rad);
   T_map_doubted.reset();
-  const bool expected = is_expected(T_map_lidar, t_ns);
-  if (!is_unambiguous_fix(evidence)) {
-    return expected && may_be_tracked(evidence) ? PoseState::kTracking : PoseState::kLost;
+  const bool is_certain =
+      is_conclusive(chosen(decision).likelihood, /*expected=*/false) && corners >= kCertainCorners;
+  if (confirmed || is_certain || !memory.prior(t_ns) || is_expected(T_map_lidar, t_ns)) {
+    return decision.state;
   }
-  if (!confirmed && needs_confirmation(evidence, expected, memory.prior(t_ns).has_value())) {
-    T_map_doubted = T_map_lidar;
-    return PoseState::kLost;
-  }
-  return PoseState::kFix;
+  T_map_doubted = T_map_lidar;
+  return PoseState::kLost;
 }
 
 }  // namespace cornerd::core

@@ -51,9 +51,9 @@ void Localizer::Workspace::report(const Decision& decision, std::size_t corners,
   pose.T_map_base = {};
   pose.p_wrong = decision.doubt;
   if (has_pose(decision.state)) {
-    report_pose(place->verification.hypotheses()[decision.place], corners, t_ns);
+    report_pose(chosen(decision), corners, t_ns);
   } else if (decision.state == PoseState::kAmbiguous) {
-    report_alternatives(place->verification.hypotheses().first(decision.rivals));
+    report_alternatives(candidates.first(decision.rivals));
   }
   if (pose.state == PoseState::kLost || pose.state == PoseState::kAmbiguous) {
     const auto predicted = odometer.prediction();

@@ -28,6 +28,13 @@ constexpr std::array kGuesses_rad_s = {1.5, -1.5, 3.0, -3.0, 0.75, -0.75};
 constexpr std::size_t kGuessesATurn = 2;
 constexpr double kGuessedShare = 0.8;
 
+/// What three unknowns of a motion are worth.
+constexpr double kNatsOfAMotion = 10;
+/// Hypotheses of pairs of corners that are compared in inexact maps, the most voted ones.
+constexpr std::size_t kMaxPairs = 64;
+/// A place near a fresh prior with a log likelihood ratio above this needs no search of the map.
+constexpr double kEvident = 20;
+
 /// The share of the rays that a place explains at least roughly where a bias is all that is wrong.
 constexpr double kAllButExact = 0.95;
 
@@ -119,14 +126,62 @@ void Localizer::Workspace::look_for_the_motion(const Scan& scan, TimeNs t_ns) {
   if (motion != best_motion) look(scan, t_ns, best_motion);
 }
 
-void Localizer::Workspace::look_everywhere(TimeNs t_ns) {
-  if (!place) return;
+bool Localizer::Workspace::is_exact(TimeNs t_ns) const {
+  const auto places = place->verification.hypotheses();
+  if (places.empty()) return false;
+  const Pose2& T_map_lidar = places.front().refined.T_map_lidar;
+  const bool expected = prior_is_fresh(t_ns) && is_expected(T_map_lidar, t_ns);
+  const auto likely = place->place_search.places();
+  return is_conclusive(places.front().likelihood, expected) &&
+         std::any_of(likely.begin(), likely.end(), [&](const VerifiedHypothesis& other) {
+           return is_no_chance(other) &&
+                  same_pose(other.refined.T_map_lidar, T_map_lidar, kJump_m, kJump_rad);
+         });
+}
+
+/// A motion fits walls that are beside their place in the map, a little: it has to explain more.
+void Localizer::Workspace::search_with_motion(const Scan& scan, TimeNs t_ns) {
+  const auto log_ratio = [&] {
+    const auto places = place->place_search.places();
+    return places.empty() ? 0 : places.front().log_ratio;
+  };
+  search_map(t_ns);
+  const Twist2 found = motion;
+  if (is_exact(t_ns) || found == memory.motion()) return;
+  const double log_ratio_found = log_ratio();
+  look(scan, t_ns, memory.motion());
+  search_map(t_ns);
+  if (is_exact(t_ns) || log_ratio() + kNatsOfAMotion > log_ratio_found) return;
+  look(scan, t_ns, found);
+  search_map(t_ns);
+}
+
+void Localizer::Workspace::search_map(TimeNs t_ns) {
+  PlaceSearch& search = place->place_search;
+  search.begin(points, noise_scale());
+  const std::optional<Prior> prior = memory.prior(t_ns);
+  if (prior) {
+    const PoseHypothesis carried_on{prior->T_map_lidar, 0};
+    search.consider(std::span(&carried_on, 1));
+  }
   const std::span<const Breakpoint> breakpoints = result.detection.breakpoints;
-  Recognition& recognition = place->recognition;
-  place->verification.consider(recognition.from_single_corners(breakpoints), kRecognisedRadius_m);
-  if (!in_doubt(t_ns)) return;
-  place->verification.consider(recognition.from_walls(result.detection.segments, breakpoints),
-                               kRecognisedRadius_m);
+  const auto pairs = place->recognition.from_pairs(breakpoints);
+  search.consider(pairs.first(std::min(pairs.size(), kMaxPairs)));
+  if (prior_is_fresh(t_ns)) {
+    const auto found = search.find();
+    if (!found.empty() && found.front().log_ratio > kEvident &&
+        is_expected(found.front().refined.T_map_lidar, t_ns)) {
+      return;
+    }
+    search.begin(points, noise_scale());
+    const PoseHypothesis carried_on{prior->T_map_lidar, 0};
+    search.consider(std::span(&carried_on, 1));
+    search.consider(pairs.first(std::min(pairs.size(), kMaxPairs)));
+  }
+  const auto everywhere = place->map_search.find(points.points(), result.detection.segments);
+  place->verification.consider(everywhere, kRecognisedRadius_m);
+  search.consider(everywhere);
+  search.find();
 }
 
 }  // namespace cornerd::core

@@ -17,7 +17,9 @@
 #include "core/localizer.hpp"
 #include "core/odometry/odometer.hpp"
 #include "core/recognition/decision.hpp"
+#include "core/recognition/map_search.hpp"
 #include "core/recognition/partial_scan_tracker.hpp"
+#include "core/recognition/place_search.hpp"
 #include "core/recognition/recognition.hpp"
 #include "core/recognition/verification.hpp"
 
@@ -41,6 +43,8 @@ struct Localizer::Workspace {
         : catalog(map, config.max_range_m),
           recognition(map, catalog),
           verification(map, config),
+          map_search(map),
+          place_search(map, config),
           refinement(config.max_range_m, config.noise),
           bias(config.max_range_m, config.noise, config.bias,
                config.forget_bias ? BiasEstimator::kForgettingRate : 0) {
@@ -49,6 +53,8 @@ struct Localizer::Workspace {
     Catalog catalog;
     Recognition recognition;
     Verification verification;
+    MapSearch map_search;
+    PlaceSearch place_search;
     Refinement refinement;
     BiasEstimator bias;
     MapErrorModel map_error;
@@ -69,9 +75,14 @@ struct Localizer::Workspace {
   Decision find(const Scan& scan, TimeNs t_ns);
   void look(const Scan& scan, TimeNs t_ns, const Twist2& as_if_moving);
   void look_for_the_motion(const Scan& scan, TimeNs t_ns);
-  void look_everywhere(TimeNs t_ns);
+  void search_map(TimeNs t_ns);
+  void search_with_motion(const Scan& scan, TimeNs t_ns);
+  bool is_exact(TimeNs t_ns) const;
   std::size_t corners_of(const Decision& decision) const;
   PoseState believe(const Decision& decision, std::size_t corners, TimeNs t_ns);
+  const VerifiedHypothesis& chosen(const Decision& decision) const {
+    return candidates[decision.place];
+  }
   bool is_expected(const Pose2& T_map_lidar, TimeNs t_ns) const;
   bool prior_is_fresh(TimeNs t_ns) const;
   bool is_at_prior(const Pose2& T_map_lidar, TimeNs t_ns) const;
@@ -100,8 +111,9 @@ struct Localizer::Workspace {
   Scan still;  ///< the turn as a lidar that stood still would have seen it
   ConstantVelocityModel memory;
   PolarScan points;
-  std::size_t guesses = 0;             ///< of the motion, so far
-  Twist2 motion;                       ///< that `points` were moved back by
+  std::size_t guesses = 0;                         ///< of the motion, so far
+  Twist2 motion;                                   ///< that `points` were moved back by
+  std::span<const VerifiedHypothesis> candidates;  ///< that the last decision is about
   std::optional<Pose2> T_map_doubted;  ///< a jump of the turn before that waits for a second
   ScanResult result;
   PoseEstimate between;  ///< of a reading between two turns, or of a part of a turn

@@ -63,7 +63,7 @@ void PointLanes::assign(std::span<const PolarPoint> points, const SensorNoise& n
 }
 
 FaceSums PointLanes::sum(std::size_t begin, std::size_t end, const Vec2& normal, double height_m,
-                         double extra_sigma_m) const {
+                         double extra_sigma_m, double face_sigma_m) const {
   constexpr auto kPerCut = static_cast<float>(1 / (kCutSigmas * kCutSigmas));
   // Turns any positive share into 1.
   constexpr float kHuge = 1e30F;
@@ -71,6 +71,7 @@ FaceSums PointLanes::sum(std::size_t begin, std::size_t end, const Vec2& normal,
   const auto ny = static_cast<float>(normal.y());
   const auto height = static_cast<float>(height_m);
   const auto extra_variance = static_cast<float>(extra_sigma_m * extra_sigma_m) + kMinVariance;
+  const auto face_variance = static_cast<float>(face_sigma_m * face_sigma_m);
   Lanes weights = Lanes::Zero();
   Lanes levers = weights;
   Lanes levers_squared = weights;
@@ -90,7 +91,9 @@ FaceSums PointLanes::sum(std::size_t begin, std::size_t end, const Vec2& normal,
         lanes(along_variance_, i) * sine * sine + lanes(across_variance_, i) + extra_variance;
     const Lanes information = Lanes::Ones() / variance;
     const Lanes z_squared = distance_m * distance_m * information;
-    Lanes share = (1 - z_squared * kPerCut).max(0.0F);
+    const Lanes cut =
+        face_variance > 0 ? Lanes(distance_m * distance_m / (variance + face_variance)) : z_squared;
+    Lanes share = (1 - cut * kPerCut).max(0.0F);
     if (end - i < kLanes) share *= Eigen::Map<const Lanes>(kFirst[end - i]);
     const Lanes is_inside = (share * kHuge).min(1.0F);
     const Lanes weight = share * share * information;
@@ -99,7 +102,8 @@ FaceSums PointLanes::sum(std::size_t begin, std::size_t end, const Vec2& normal,
     levers_squared += weight * lever_m * lever_m;
     distances += weight * distance_m;
     distances_levers += weight * distance_m * lever_m;
-    z_squares += is_inside * z_squared;
+    z_squares += face_variance > 0 ? Lanes(weight * distance_m * distance_m)
+                                   : Lanes(is_inside * z_squared);
     squared_distances += is_inside * distance_m * distance_m;
     inside += is_inside;
   }

@@ -19,7 +19,8 @@ struct FaceSums {
   double lever_squared = 0;
   double distance = 0;
   double distance_lever = 0;
-  double z_squared = 0;  ///< sum of squared distances over variances, unweighted like the rest
+  double z_squared = 0;  ///< sum of squared distances over variances, unweighted like the rest;
+                         ///< weighted where the face has an offset of its own
   double squared_distances = 0;  ///< m^2
   double points = 0;
 };
@@ -39,9 +40,10 @@ class PointLanes {
 
   /// Sums over the points [begin, end), which all hit one face. `normal`: of the face; `height_m`:
   /// distance of the lidar in front of it, lidar frame. Weights are Tukey's biweight over the
-  /// variance. `extra_sigma_m` is added to each point's noise (graduated non-convexity).
+  /// variance. `extra_sigma_m` is added to each point's noise (graduated non-convexity);
+  /// `face_sigma_m`, of the face's own offset, widens the cut alone.
   FaceSums sum(std::size_t begin, std::size_t end, const Vec2& normal, double height_m,
-               double extra_sigma_m) const;
+               double extra_sigma_m, double face_sigma_m = 0) const;
 
  private:
   std::vector<float> x_m_;

@@ -37,6 +37,15 @@ struct Refinement::Step {
   double chi_square = 0;
   double squared_distances = 0;
   std::size_t inliers = 0;
+
+  /// Eliminates the offset of a face: the Schur complement, of rank one.
+  void marginalise(const Vec2& normal, const FaceSums& sum, double map_sigma_m) {
+    const Eigen::Vector3d by_offset(sum.weight * normal.x(), sum.weight * normal.y(), sum.lever);
+    const double share = 1 / (sum.weight + 1 / (map_sigma_m * map_sigma_m));
+    information -= share * by_offset * by_offset.transpose();
+    gradient -= share * sum.distance * by_offset;
+    chi_square -= share * sum.distance * sum.distance;
+  }
 };
 
 Refinement::Refinement(double max_range_m, const SensorNoise& noise)
@@ -58,7 +67,7 @@ void Refinement::find_hits(const WallMap& map, const Pose2& T_map_lidar,
 }
 
 Refinement::Step Refinement::step(const WallMap& map, const Pose2& T_map_lidar,
-                                  double extra_sigma_m) {
+                                  double extra_sigma_m, double map_sigma_m) {
   const double c = std::cos(T_map_lidar.theta_rad);
   const double s = std::sin(T_map_lidar.theta_rad);
   Step sums;
@@ -72,8 +81,8 @@ Refinement::Step Refinement::step(const WallMap& map, const Pose2& T_map_lidar,
     const double nx = face.normal.x();
     const double ny = face.normal.y();
     const double height_m = nx * T_map_lidar.x_m + ny * T_map_lidar.y_m - face.offset_m;
-    const FaceSums sum =
-        lanes_.sum(begin, end, {c * nx + s * ny, c * ny - s * nx}, height_m, extra_sigma_m);
+    const FaceSums sum = lanes_.sum(begin, end, {c * nx + s * ny, c * ny - s * nx}, height_m,
+                                    extra_sigma_m, map_sigma_m);
     if (residuals_.size() < kMaxResiduals) {
       residuals_.push_back({met, face.normal, sum.weight, sum.lever, sum.distance});
     }
@@ -85,6 +94,7 @@ Refinement::Step Refinement::step(const WallMap& map, const Pose2& T_map_lidar,
     sums.information(2, 2) += sum.lever_squared;
     sums.gradient += Eigen::Vector3d(sum.distance * nx, sum.distance * ny, sum.distance_lever);
     sums.chi_square += sum.z_squared;
+    if (map_sigma_m > 0) sums.marginalise(face.normal, sum, map_sigma_m);
     sums.squared_distances += sum.squared_distances;
     sums.inliers += static_cast<std::size_t>(sum.points);
   }
@@ -95,9 +105,9 @@ Refinement::Step Refinement::step(const WallMap& map, const Pose2& T_map_lidar,
 RefinedPose Refinement::refine(const WallMap& map, const Pose2& start, double search_radius_m,
                                std::span<const PolarPoint> subset,
                                std::span<const PolarPoint> points, double noise_scale,
-                               const PosePrior* prior) {
-  RefinedPose refined =
-      gauss_newton(map, start, search_radius_m, subset, points, noise_scale, kMaxSteps, prior);
+                               double map_sigma_m, const PosePrior* prior) {
+  RefinedPose refined = gauss_newton(map, start, search_radius_m, subset, points, noise_scale,
+                                     map_sigma_m, kMaxSteps, prior);
   if (refined.valid) {
     refined.face_residuals = face_residual_statistics(
         residuals_, refined.covariance / std::max(1.0, refined.reduced_chi_square));
@@ -107,14 +117,16 @@ RefinedPose Refinement::refine(const WallMap& map, const Pose2& start, double se
 
 RefinedPose Refinement::refine_roughly(const WallMap& map, const Pose2& start,
                                        double search_radius_m, std::span<const PolarPoint> subset,
-                                       double noise_scale) {
-  return gauss_newton(map, start, search_radius_m, subset, subset, noise_scale, 1, nullptr);
+                                       double noise_scale, double map_sigma_m) {
+  return gauss_newton(map, start, search_radius_m, subset, subset, noise_scale, map_sigma_m, 1,
+                      nullptr);
 }
 
 RefinedPose Refinement::gauss_newton(const WallMap& map, const Pose2& start, double search_radius_m,
                                      std::span<const PolarPoint> subset,
                                      std::span<const PolarPoint> points, double noise_scale,
-                                     int max_final_steps, const PosePrior* prior) {
+                                     double map_sigma_m, int max_final_steps,
+                                     const PosePrior* prior) {
   RefinedPose refined;
   refined.T_map_lidar = start;
   double extra_sigma_m = search_radius_m;
@@ -125,7 +137,7 @@ RefinedPose Refinement::gauss_newton(const WallMap& map, const Pose2& start, dou
     const bool rough = extra_sigma_m > 0.004;
     const double step_extra_sigma_m = rough ? extra_sigma_m : 0;
     find_hits(map, refined.T_map_lidar, rough ? subset : points, noise_scale, step_extra_sigma_m);
-    sums = step(map, refined.T_map_lidar, step_extra_sigma_m);
+    sums = step(map, refined.T_map_lidar, step_extra_sigma_m, map_sigma_m);
     if (prior != nullptr) {
       const Pose2& at = refined.T_map_lidar;
       sums.information += prior->information;

@@ -44,14 +44,16 @@ class Refinement {
   Refinement(double max_range_m, const SensorNoise& noise);
 
   /// `start` may be off by `search_radius_m`. `subset`: some of `points`, for the first steps,
-  /// which need no precision.
+  /// which need no precision. `map_sigma_m`: standard deviation of each face's offset, which is
+  /// marginalised, so that the covariance knows of it (Probabilistic Robotics, section 3.5.4).
   RefinedPose refine(const WallMap& map, const Pose2& start, double search_radius_m,
                      std::span<const PolarPoint> subset, std::span<const PolarPoint> points,
-                     double noise_scale, const PosePrior* prior = nullptr);
+                     double noise_scale, double map_sigma_m = 0, const PosePrior* prior = nullptr);
 
   /// The same on few points, with only the steps that a rejection test needs.
   RefinedPose refine_roughly(const WallMap& map, const Pose2& start, double search_radius_m,
-                             std::span<const PolarPoint> subset, double noise_scale);
+                             std::span<const PolarPoint> subset, double noise_scale,
+                             double map_sigma_m = 0);
 
   /// The same for an unknown motion within the scan: estimates pose and velocity (six unknowns). A
   /// weak prior at rest bounds directions in which no wall is seen.
@@ -63,12 +65,13 @@ class Refinement {
   /// `max_final_steps`: limit of the steps on all `points`.
   RefinedPose gauss_newton(const WallMap& map, const Pose2& start, double search_radius_m,
                            std::span<const PolarPoint> subset, std::span<const PolarPoint> points,
-                           double noise_scale, int max_final_steps, const PosePrior* prior);
+                           double noise_scale, double map_sigma_m, int max_final_steps,
+                           const PosePrior* prior);
   /// The face that each point's ray hits from this pose.
   void find_hits(const WallMap& map, const Pose2& T_map_lidar, std::span<const PolarPoint> points,
                  double noise_scale, double extra_sigma_m);
   /// Normal equations of the last hits.
-  Step step(const WallMap& map, const Pose2& T_map_lidar, double extra_sigma_m);
+  Step step(const WallMap& map, const Pose2& T_map_lidar, double extra_sigma_m, double map_sigma_m);
 
   SensorNoise noise_;
   RayCaster ray_caster_;

@@ -29,6 +29,14 @@ struct Decision {
 /// among rivals where the robot can have come to no other one, never against the turn.
 Decision decide(std::span<const VerifiedHypothesis> places, const std::optional<Prior>& prior);
 
+/// The same for places of PlaceSearch, in a map that is inexact and incomplete. That the scan was
+/// taken somewhere else, or not in this map, is a hypothesis of its own.
+Decision decide_by_faces(std::span<const VerifiedHypothesis> places,
+                         const std::optional<Prior>& prior);
+
+/// True for a place of PlaceSearch that leaves no doubt that the scan was taken in this map.
+bool is_no_chance(const VerifiedHypothesis& place);
+
 /// How much the turn believes in a place next to the likeliest one: 1 for that one itself.
 double relative_belief(const VerifiedHypothesis& place, const VerifiedHypothesis& likeliest);
 

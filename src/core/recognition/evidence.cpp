@@ -11,7 +11,6 @@ namespace {
 constexpr double kCertainHitShare = 0.97;
 constexpr double kCertainHitShareExpected = 0.9;
 constexpr std::size_t kCertainHits = 100;
-constexpr std::size_t kCertainCorners = 2;
 /// A fix without a prior needs hits of nearly all rays, or hits of most rays and several corners.
 /// Lower shares may come from another building or a wrong motion, and need a prior.
 constexpr double kFixHitShare = 0.95;

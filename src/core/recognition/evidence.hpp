@@ -16,6 +16,9 @@ struct Evidence {
   bool at_prior = false;       ///< agrees with a prior of small uncertainty
 };
 
+/// Corners of a place that is certain.
+inline constexpr std::size_t kCertainCorners = 2;
+
 /// True where the field of view has no gap of 170 degrees or more: the lidar was not covered.
 bool has_full_coverage(double largest_gap_rad);
 

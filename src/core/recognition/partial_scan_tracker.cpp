@@ -76,7 +76,7 @@ std::optional<PartialScanPose> PartialScanTracker::localize(const PredictedState
   const PosePrior prior{predicted.T_map_lidar, inverse(predicted.covariance)};
   PartialScanPose pose;
   pose.refined = refinement_.refine(map_, predicted.T_map_lidar, kSearchRadius_m, points_.points(),
-                                    points_.points(), noise_scale, &prior);
+                                    points_.points(), noise_scale, 0, &prior);
   if (!pose.refined.valid || !same_pose(pose.refined.T_map_lidar, predicted.T_map_lidar,
                                         kMaxInnovation_m, kMaxInnovation_rad)) {
     return std::nullopt;

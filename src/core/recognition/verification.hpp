@@ -17,6 +17,8 @@ namespace cornerd::core {
 struct VerifiedHypothesis {
   RefinedPose refined;
   BeamLikelihood likelihood;
+  double log_ratio = 0;    ///< ScanLikelihood's, nats; of PlaceSearch alone
+  double map_sigma_m = 0;  ///< of the walls' offsets, which `refined` marginalised
 };
 
 /// Tests hypotheses against the whole scan: first on a subset of rays; hypotheses that pass are

@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: MIT
+#include "core/recognition/beam_model.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace cornerd::core {
+namespace {
+
+/// Share of the rays that end on the mapped wall: a furnished room.
+constexpr double kWallShare = 0.7;
+/// Density of a range that says nothing of the place: uniform over a room, 1/m.
+constexpr double kAnyDensity = 0.25;
+/// Density of an outlier among hits, over kAnyDensity.
+constexpr double kOutlierRatio = 0.02;
+constexpr double kGateSigmas = 3;
+/// Roughness of real surfaces, and what the noise model leaves out, as a standard deviation.
+constexpr double kSurface_m = 0.003;
+constexpr double kNoiseVarianceScale = 1.5;
+constexpr double kMinSine = 0.05;
+/// Beyond all walls.
+constexpr double kBeyondAll_m = 1e3;
+/// Rays are counted as if there were 400 a revolution: more are not more independent.
+constexpr double kNominalSpacing_rad = kTwoPi / 400;
+/// What n hits on one face are worth together: kWorth log(1 + n / kWorthHalf) of them. A face gives
+/// an offset and a direction, and their precision grows with the logarithm.
+constexpr double kWorth = 0.33;
+constexpr double kWorthHalf = 0.02;
+/// An unmapped object costs this much, and more the wider it is (nats, nats per metre).
+constexpr double kObject = 1;
+constexpr double kObjectPerMetre = 12;
+constexpr double kObjectStep_m = 0.1;
+/// A wall that is not there (nats), and each nominal ray through it. Faces shorter than kWall_m are
+/// the less permanent the shorter they are: furniture.
+constexpr double kMissingWall = 10;
+constexpr double kMissingWallPerRay = 3;
+constexpr double kWall_m = 0.3;
+/// Rays that end on a wall's edge may miss it; up to so many rays in a row cost this much each.
+constexpr std::size_t kEdgeRays = 2;
+constexpr double kEdgeRay = 1;
+/// Neighbouring rays whose wall a ray at an edge may meet, and where two walls are two.
+constexpr double kEdge_m = 0.06;
+constexpr std::ptrdiff_t kMaxEdgeRays = 8;
+constexpr double kStep_m = 0.1;
+/// A face that fits worse than this has something before it.
+constexpr double kWorstFace = -3;
+/// A map is the less likely the less exact it is.
+constexpr double kPerMapSigma = 1;
+
+}  // namespace
+
+BeamModel::BeamModel(const WallMap& map, const SensorNoise& noise)
+    : map_(map), noise_(noise), faces_(map.faces().size()) {
+  rays_.reserve(kMaxSamplesPerScan);
+  met_.reserve(faces_.size());
+}
+
+void BeamModel::meet(std::span<const PolarPoint> points, std::span<const PredictedHit> hits,
+                     const Pose2& T_map_lidar, double spacing_rad, double noise_scale) {
+  const double c = std::cos(T_map_lidar.theta_rad);
+  const double s = std::sin(T_map_lidar.theta_rad);
+  const auto count = static_cast<std::ptrdiff_t>(points.size());
+  const auto sine_of = [&](const PolarPoint& point, std::uint32_t face) {
+    const Vec2& normal = map_.faces()[face].normal;
+    return std::max(kMinSine, std::abs(normal.x() * (c * point.ray_x - s * point.ray_y) +
+                                       normal.y() * (s * point.ray_x + c * point.ray_y)));
+  };
+  rays_.resize(points.size());
+  for (std::ptrdiff_t i = 0; i < count; ++i) {
+    const PolarPoint& point = points[static_cast<std::size_t>(i)];
+    const PredictedHit& met = hits[static_cast<std::size_t>(i)];
+    Ray& ray = rays_[static_cast<std::size_t>(i)];
+    ray.face = met.face;
+    const bool none = met.face == PredictedHit::kNone;
+    double sine = none ? 1 : sine_of(point, met.face);
+    ray.across_m = none ? kBeyondAll_m : (point.range_m - met.range_m) * sine;
+    const double near_m = none ? point.range_m : std::min(met.range_m, point.range_m);
+    if (std::abs(ray.across_m) > kEdge_m) {
+      // At an edge it may be the neighbours' face that is met.
+      const auto reach = std::clamp<std::ptrdiff_t>(
+          static_cast<std::ptrdiff_t>(kEdge_m / (near_m * spacing_rad)), kEdgeRays, kMaxEdgeRays);
+      for (std::ptrdiff_t step = -reach; step <= reach; ++step) {
+        const PredictedHit& other = hits[static_cast<std::size_t>((i + step + count) % count)];
+        if (other.face == PredictedHit::kNone || other.face == met.face ||
+            (!none && std::abs(other.range_m - met.range_m) < kStep_m)) {
+          continue;
+        }
+        const double other_sine = sine_of(point, other.face);
+        const double across_m = (point.range_m - other.range_m) * other_sine;
+        if (std::abs(across_m) >= std::abs(ray.across_m)) continue;
+        ray.face = other.face;
+        ray.across_m = across_m;
+        sine = other_sine;
+      }
+    }
+    ray.variance_m2 = noise_.variance_across_m2(point.range_m, sine) * noise_scale * noise_scale *
+                          kNoiseVarianceScale +
+                      kSurface_m * kSurface_m;
+    ray.log_peak =
+        std::log(kWallShare * sine / (kAnyDensity * std::sqrt(kTwoPi * ray.variance_m2)));
+  }
+}
+
+double BeamModel::faces_log_ratio(double spacing_rad, double map_sigma_m) {
+  const double variance_m2 = map_sigma_m * map_sigma_m;
+  ++evaluation_;
+  met_.clear();
+  for (const Ray& ray : rays_) {
+    if (ray.outcome != Outcome::kHit) continue;
+    FaceSums& face = faces_[ray.face];
+    if (face.evaluation != evaluation_) {
+      face = {};
+      face.evaluation = evaluation_;
+      met_.push_back(ray.face);
+    }
+    face.rays += 1;
+    face.information += 1 / ray.variance_m2;
+    face.gradient += ray.across_m / ray.variance_m2;
+  }
+  const auto worth = [&](double rays) {
+    const double nominal = rays * spacing_rad / kNominalSpacing_rad;
+    return std::min(1.0, kWorth * std::log1p(nominal / kWorthHalf) / rays);
+  };
+  for (const std::uint32_t index : met_) {
+    FaceSums& face = faces_[index];
+    const double share = worth(face.rays);
+    face.offset_m = share * face.gradient / (share * face.information + 1 / variance_m2);
+  }
+  for (const Ray& ray : rays_) {
+    if (ray.outcome != Outcome::kHit) continue;
+    FaceSums& face = faces_[ray.face];
+    const double residual_m = ray.across_m - face.offset_m;
+    face.log_density += std::max(ray.log_peak - residual_m * residual_m / (2 * ray.variance_m2),
+                                 std::log(kOutlierRatio));
+  }
+  double log_ratio = 0;
+  for (const std::uint32_t index : met_) {
+    const FaceSums& face = faces_[index];
+    const double share = worth(face.rays);
+    log_ratio += std::max(kWorstFace, share * face.log_density -
+                                          std::log1p(variance_m2 * share * face.information) / 2 -
+                                          face.offset_m * face.offset_m / (2 * variance_m2));
+  }
+  return log_ratio;
+}
+
+double BeamModel::runs_log_ratio(std::span<const PolarPoint> points, double spacing_rad) const {
+  const auto continues = [&](std::size_t i) {
+    const Ray& a = rays_[i - 1];
+    const Ray& b = rays_[i];
+    if (a.outcome != b.outcome) return false;
+    if (a.outcome == Outcome::kThrough) return a.face == b.face;
+    return a.outcome != Outcome::kShort ||
+           std::abs(points[i].range_m - points[i - 1].range_m) < kObjectStep_m;
+  };
+  double log_ratio = 0;
+  for (std::size_t begin = 0, end = 0; begin < rays_.size(); begin = end) {
+    for (end = begin + 1; end < rays_.size() && continues(end);) ++end;
+    const std::size_t rays = end - begin;
+    switch (rays_[begin].outcome) {
+      case Outcome::kHit:
+        break;
+      case Outcome::kShort: {
+        const double width_m = (points[end - 1].position() - points[begin].position()).norm() +
+                               spacing_rad * points[begin].range_m;
+        log_ratio -=
+            kObject * std::min(1.0, static_cast<double>(rays) / 3) + kObjectPerMetre * width_m;
+        break;
+      }
+      case Outcome::kThrough: {
+        const double nominal = static_cast<double>(rays) * spacing_rad / kNominalSpacing_rad;
+        const double missing = rays <= kEdgeRays ? kEdgeRay * static_cast<double>(rays)
+                                                 : kMissingWall + kMissingWallPerRay * nominal;
+        log_ratio -= missing * std::min(1.0, map_.faces()[rays_[begin].face].length_m / kWall_m);
+        break;
+      }
+      case Outcome::kBeyond:
+        log_ratio -= std::min(2.0, std::sqrt(static_cast<double>(rays)));
+        break;
+    }
+  }
+  return log_ratio;
+}
+
+ScanLikelihood BeamModel::by_map_sigma(std::span<const PolarPoint> points, double spacing_rad,
+                                       double map_sigma_m) {
+  ScanLikelihood result;
+  result.rays = rays_.size();
+  result.map_sigma_m = map_sigma_m;
+  for (Ray& ray : rays_) {
+    const double variance_m2 = ray.variance_m2 + map_sigma_m * map_sigma_m;
+    if (ray.face == PredictedHit::kNone) {
+      ray.outcome = Outcome::kBeyond;
+    } else if (ray.across_m * ray.across_m < kGateSigmas * kGateSigmas * variance_m2) {
+      ray.outcome = Outcome::kHit;
+      ++result.hits;
+    } else if (ray.across_m < 0) {
+      ray.outcome = Outcome::kShort;
+      ++result.shorts;
+    } else {
+      ray.outcome = Outcome::kThrough;
+      ++result.throughs;
+    }
+  }
+  result.log_ratio = faces_log_ratio(spacing_rad, map_sigma_m) +
+                     runs_log_ratio(points, spacing_rad) -
+                     kPerMapSigma * std::log(map_sigma_m / kMapSigmas_m.front());
+  return result;
+}
+
+ScanLikelihood BeamModel::likelihood(std::span<const PolarPoint> points,
+                                     std::span<const PredictedHit> hits, const Pose2& T_map_lidar,
+                                     double spacing_rad, double noise_scale) {
+  meet(points, hits, T_map_lidar, spacing_rad, noise_scale);
+  ScanLikelihood best = by_map_sigma(points, spacing_rad, kMapSigmas_m.front());
+  for (const double map_sigma_m : std::span(kMapSigmas_m).subspan(1)) {
+    const ScanLikelihood other = by_map_sigma(points, spacing_rad, map_sigma_m);
+    if (other.log_ratio > best.log_ratio) best = other;
+  }
+  return best;
+}
+
+}  // namespace cornerd::core

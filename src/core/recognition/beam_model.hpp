@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/map/ray_caster.hpp"
+#include "core/polar_scan.hpp"
+#include "core/sensor_noise.hpp"
+
+namespace cornerd::core {
+
+/// What a scan says for a pose in a map that is inexact and incomplete.
+struct ScanLikelihood {
+  std::size_t rays = 0;
+  std::size_t hits = 0;      ///< on the face that the ray meets, within its uncertainty
+  std::size_t shorts = 0;    ///< before it: something unmapped
+  std::size_t throughs = 0;  ///< beyond it
+  double map_sigma_m = 0;    ///< the likeliest standard deviation of a face's offset
+  double log_ratio = 0;      ///< nats, over ranges that any other place would give
+};
+
+/// Beam model on faces (Thrun, Burgard and Fox, Probabilistic Robotics, section 6.3) whose errors
+/// are common to many rays: a face is displaced as a whole, an unmapped object stops a run of rays,
+/// a wall is missing as a whole. Allocates nothing after construction.
+class BeamModel {
+ public:
+  BeamModel(const WallMap& map, const SensorNoise& noise);
+
+  /// `hits`: the predicted face of each point at `T_map_lidar`. `spacing_rad`: between two rays.
+  ScanLikelihood likelihood(std::span<const PolarPoint> points, std::span<const PredictedHit> hits,
+                            const Pose2& T_map_lidar, double spacing_rad, double noise_scale);
+
+  /// Standard deviations of a face's offset across itself that are tried, m.
+  static constexpr std::array kMapSigmas_m = {0.003, 0.01, 0.025, 0.05};
+
+ private:
+  enum class Outcome : std::uint8_t { kHit, kShort, kThrough, kBeyond };
+  struct Ray {
+    std::uint32_t face = 0;
+    double across_m = 0;     ///< residual across the face, positive behind it
+    double variance_m2 = 0;  ///< of the sensor, across the face
+    double log_peak = 0;     ///< log density ratio of a hit without residual
+    Outcome outcome = Outcome::kBeyond;
+  };
+  struct FaceSums {
+    std::uint32_t evaluation = 0;  ///< that the sums belong to
+    double rays = 0;
+    double information = 0;  ///< sum of 1/variance, 1/m^2
+    double gradient = 0;     ///< sum of across/variance, 1/m
+    double offset_m = 0;     ///< the face's displacement, a posteriori
+    double log_density = 0;
+  };
+
+  void meet(std::span<const PolarPoint> points, std::span<const PredictedHit> hits,
+            const Pose2& T_map_lidar, double spacing_rad, double noise_scale);
+  ScanLikelihood by_map_sigma(std::span<const PolarPoint> points, double spacing_rad,
+                              double map_sigma_m);
+  double faces_log_ratio(double spacing_rad, double map_sigma_m);
+  double runs_log_ratio(std::span<const PolarPoint> points, double spacing_rad) const;
+
+  const WallMap& map_;
+  SensorNoise noise_;
+  std::vector<Ray> rays_;
+  std::vector<FaceSums> faces_;  ///< by index into map.faces()
+  std::vector<std::uint32_t> met_;
+  std::uint32_t evaluation_ = 0;
+};
+
+}  // namespace cornerd::core

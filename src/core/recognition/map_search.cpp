@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: MIT
+#include "core/recognition/map_search.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace cornerd::core {
+namespace {
+
+constexpr double kHeadingStep_rad = kTwoPi / static_cast<double>(MapSearch::kHeadings);
+/// Poses closer than this are one: refinement leads to the same place.
+constexpr double kDistinct_m = 0.3;
+constexpr double kDistinct_rad = radians(9);
+/// A wall shorter than this, or of fewer samples, has no certain direction.
+constexpr double kMinWall_m = 0.15;
+constexpr std::uint32_t kMinSupport = 8;
+/// Shorter ones are legs and posts, which no map has. With less wall than this all rays are taken.
+constexpr double kMinPointWall_m = 0.25;
+constexpr std::uint32_t kMinPointSupport = 5;
+constexpr double kEnoughWall_m = 1.5;
+/// Walls count up to these lengths, so that one long wall does not outvote a room.
+constexpr double kLongWall_m = 3;
+constexpr double kLongFaces_m = 20;
+/// Headings that turn less wall length into the map's directions than this share of the best one's
+/// are left out: furniture may stand across a room, most walls do not.
+constexpr double kMinHeadingShare = 0.5;
+
+std::size_t bin_of(const Vec2& direction) {
+  const double turns = std::atan2(direction.y(), direction.x()) / kHeadingStep_rad;
+  return static_cast<std::size_t>(std::floor(turns + 0.5) + MapSearch::kHeadings) %
+         MapSearch::kHeadings;
+}
+
+}  // namespace
+
+MapSearch::MapSearch(const WallMap& map) : field_(map) {
+  for (const Face& face : map.faces()) {
+    const std::size_t bin = bin_of(face.normal);
+    for (const std::size_t step : {kHeadings - 1, std::size_t{0}, std::size_t{1}}) {
+      double& length_m = map_directions_[(bin + step) % kHeadings];
+      length_m = std::min(length_m + face.length_m, kLongFaces_m);
+    }
+  }
+  headings_.reserve(kHeadings);
+  points_.reserve(kPoints);
+  cells_.resize(kHeadings * kPoints);
+  queue_.reserve(kMaxNodes);
+  found_.reserve(kMaxFound);
+}
+
+void MapSearch::select_headings(std::span<const WallSegment> segments) {
+  HeadingWeights scan_directions{};
+  for (const WallSegment& segment : segments) {
+    const double length_m = (segment.last - segment.first).norm();
+    if (segment.support < kMinSupport || length_m < kMinWall_m) continue;
+    scan_directions[bin_of(segment.normal)] += std::min(length_m, kLongWall_m);
+  }
+  HeadingWeights weights{};
+  for (std::size_t direction = 0; direction < kHeadings; ++direction) {
+    if (scan_directions[direction] == 0) continue;
+    for (std::size_t heading = 0; heading < kHeadings; ++heading) {
+      weights[heading] +=
+          scan_directions[direction] * map_directions_[(direction + heading) % kHeadings];
+    }
+  }
+  const double least = kMinHeadingShare * *std::max_element(weights.begin(), weights.end());
+  headings_.clear();
+  for (std::size_t heading = 0; heading < kHeadings; ++heading) {
+    if (weights[heading] >= least) headings_.push_back(static_cast<std::uint16_t>(heading));
+  }
+}
+
+void MapSearch::select_points(std::span<const PolarPoint> points,
+                              std::span<const WallSegment> segments) {
+  const auto is_wall = [](const WallSegment& segment) {
+    return segment.support >= kMinPointSupport &&
+           (segment.last - segment.first).norm() >= kMinPointWall_m;
+  };
+  double length_m = 0;
+  for (const WallSegment& segment : segments) {
+    if (is_wall(segment)) length_m += (segment.last - segment.first).norm();
+  }
+  points_.clear();
+  double covered_m = 0;  // since the last point
+  const double step_m = length_m / static_cast<double>(kPoints);
+  for (const WallSegment& segment : segments) {
+    if (!is_wall(segment)) continue;
+    const double wall_m = (segment.last - segment.first).norm();
+    for (double at_m = step_m - covered_m; at_m <= wall_m && points_.size() < kPoints;
+         at_m += step_m) {
+      points_.push_back(segment.first + at_m / wall_m * (segment.last - segment.first));
+    }
+    covered_m = std::fmod(covered_m + wall_m, step_m);
+  }
+  if (length_m >= kEnoughWall_m) return;
+  points_.clear();
+  for (std::size_t i = 0; i < std::min(kPoints, points.size()); ++i) {
+    points_.push_back(points[i * points.size() / std::min(kPoints, points.size())].position());
+  }
+}
+
+void MapSearch::rotate(std::size_t heading) {
+  const double c = std::cos(static_cast<double>(heading) * kHeadingStep_rad);
+  const double s = std::sin(static_cast<double>(heading) * kHeadingStep_rad);
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    const Vec2 point =
+        Vec2(c * points_[i].x() - s * points_[i].y(), s * points_[i].x() + c * points_[i].y()) /
+        field_.cell_m();
+    cells_[heading * kPoints + i] = {static_cast<std::int32_t>(std::floor(point.x())),
+                                     static_cast<std::int32_t>(std::floor(point.y()))};
+  }
+}
+
+void MapSearch::push(std::uint16_t heading, int level, int column, int row) {
+  if (column >= field_.columns() || row >= field_.rows()) return;
+  ++nodes_;
+  if (queue_.size() == queue_.capacity()) {
+    complete_ = false;
+    return;
+  }
+  int bound = 0;
+  const auto cells = std::span(cells_).subspan(heading * kPoints, points_.size());
+  for (const auto& [x, y] : cells) bound += field_.max_score(level, column + x, row + y);
+  queue_.push_back({bound, heading, static_cast<std::uint16_t>(level), column, row});
+}
+
+bool MapSearch::is_found(const Pose2& T_map_lidar) const {
+  return std::any_of(found_.begin(), found_.end(), [&](const PoseHypothesis& found) {
+    return same_pose(found.T_map_lidar, T_map_lidar, kDistinct_m, kDistinct_rad);
+  });
+}
+
+std::span<const PoseHypothesis> MapSearch::find(std::span<const PolarPoint> points,
+                                                std::span<const WallSegment> segments) {
+  // Ties are broken by place, so that results are the same on every machine.
+  const auto is_worse = [](const Node& a, const Node& b) {
+    if (a.bound != b.bound) return a.bound < b.bound;
+    if (a.level != b.level) return a.level > b.level;
+    if (a.heading != b.heading) return a.heading > b.heading;
+    if (a.row != b.row) return a.row > b.row;
+    return a.column > b.column;
+  };
+  found_.clear();
+  queue_.clear();
+  nodes_ = 0;
+  complete_ = true;
+  select_points(points, segments);
+  if (points_.empty()) return found_;
+  select_headings(segments);
+  constexpr int kTop = LikelihoodField::kLevels - 1;
+  for (const std::uint16_t heading : headings_) {
+    rotate(heading);
+    for (int row = 0; row < field_.rows(); row += 1 << kTop) {
+      for (int column = 0; column < field_.columns(); column += 1 << kTop) {
+        push(heading, kTop, column, row);
+      }
+    }
+  }
+  std::make_heap(queue_.begin(), queue_.end(), is_worse);
+  while (!queue_.empty() && found_.size() < kMaxFound && nodes_ < kMaxNodes) {
+    std::pop_heap(queue_.begin(), queue_.end(), is_worse);
+    const Node node = queue_.back();
+    queue_.pop_back();
+    if (node.level == 0) {
+      const Vec2 at =
+          field_.lower_left() + field_.cell_m() * Vec2(node.column + 0.5, node.row + 0.5);
+      const Pose2 T_map_lidar{at.x(), at.y(), normalize_angle(node.heading * kHeadingStep_rad)};
+      if (is_found(T_map_lidar)) continue;
+      found_.push_back({T_map_lidar, node.bound / static_cast<int>(points_.size())});
+      continue;
+    }
+    const int level = node.level - 1;
+    for (const int row : {node.row, node.row + (1 << level)}) {
+      for (const int column : {node.column, node.column + (1 << level)}) {
+        const std::size_t size = queue_.size();
+        push(node.heading, level, column, row);
+        if (queue_.size() > size) std::push_heap(queue_.begin(), queue_.end(), is_worse);
+      }
+    }
+  }
+  complete_ = complete_ && (queue_.empty() || found_.size() == kMaxFound);
+  return found_;
+}
+
+}  // namespace cornerd::core

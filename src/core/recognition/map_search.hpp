@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/breakpoint/breakpoint.hpp"
+#include "core/polar_scan.hpp"
+#include "core/recognition/hypothesis.hpp"
+#include "core/recognition/likelihood_field.hpp"
+
+namespace cornerd::core {
+
+/// Search of the whole map for the poses at which most of the scan's walls lie on the map's:
+/// best-first branch and bound on a likelihood field (Hess et al. 2016, algorithm 3; Olson 2015).
+/// It needs no corner and misses no place of its headings, which are those that turn the scan's
+/// walls into directions of the map's. Allocates nothing after construction.
+class MapSearch {
+ public:
+  explicit MapSearch(const WallMap& map);
+
+  /// Number of poses found: more than look alike in one building.
+  static constexpr std::size_t kMaxFound = 64;
+
+  /// The best distinct poses, best first; `votes` is the mean score of a point, 0 to 100.
+  /// `segments`: walls of the scan.
+  std::span<const PoseHypothesis> find(std::span<const PolarPoint> points,
+                                       std::span<const WallSegment> segments);
+
+  /// False where the last search ended before its end: more nodes than kMaxNodes.
+  bool is_complete() const { return complete_; }
+  /// Nodes that the last search visited, each a sum over kPoints points.
+  std::size_t nodes() const { return nodes_; }
+
+  static constexpr std::size_t kMaxNodes = 1U << 18U;
+  static constexpr std::size_t kPoints = 72;
+  static constexpr std::size_t kHeadings = 240;
+
+ private:
+  struct Node {
+    int bound = 0;  ///< sum of scores, at most
+    std::uint16_t heading = 0;
+    std::uint16_t level = 0;
+    int column = 0;
+    int row = 0;
+  };
+  using HeadingWeights = std::array<double, kHeadings>;
+
+  void select_headings(std::span<const WallSegment> segments);
+  void select_points(std::span<const PolarPoint> points, std::span<const WallSegment> segments);
+  void rotate(std::size_t heading);
+  void push(std::uint16_t heading, int level, int column, int row);
+  bool is_found(const Pose2& T_map_lidar) const;
+
+  LikelihoodField field_;
+  HeadingWeights map_directions_{};  ///< length of the faces by the direction of their normals, m
+  std::vector<Vec2> points_;         ///< on the scan's walls, evenly, m
+  std::vector<std::uint16_t> headings_;
+  std::vector<std::array<std::int32_t, 2>> cells_;  ///< of kPoints points, heading by heading
+  std::vector<Node> queue_;                         ///< a heap
+  std::vector<PoseHypothesis> found_;
+  std::size_t nodes_ = 0;
+  bool complete_ = true;
+};
+
+}  // namespace cornerd::core

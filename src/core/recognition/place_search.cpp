@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: MIT
+#include "core/recognition/place_search.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace cornerd::core {
+namespace {
+
+constexpr std::size_t kFewRays = 90;
+/// Candidates that are refined on few rays, and on all.
+constexpr std::size_t kMaxRefined = 40;
+constexpr std::size_t kMaxCompared = 12;
+/// Farther behind the best on few rays, and no candidate wins on all (nats).
+constexpr double kFewRaysMargin = 60;
+/// A ray on the wall that is predicted, roughly (m).
+constexpr double kRoughHit_m = 0.12;
+/// Remaining error of a hypothesis, and of one that was refined on few rays (m).
+constexpr double kCandidateRadius_m = 0.12;
+constexpr double kFewRaysRadius_m = 0.03;
+/// Refinement that leads farther away has left its place.
+constexpr double kMaxMove_m = 0.5;
+constexpr double kMaxMove_rad = 0.3;
+/// One candidate, and one place.
+constexpr double kSame_m = 0.03;
+constexpr double kSame_rad = 0.02;
+constexpr double kOnePlace_m = 0.3;
+constexpr double kOnePlace_rad = 0.15;
+/// Map uncertainty while hypotheses are refined roughly, and least one in the last steps: a wider
+/// cut loses no wall that is a centimetre off.
+constexpr double kRoughMapSigma_m = 0.025;
+constexpr double kMinMapSigma_m = 0.01;
+/// A less certain pose is no place: a single wall, a bare corridor.
+constexpr double kMaxSigma_m = 0.15;
+
+}  // namespace
+
+PlaceSearch::PlaceSearch(const WallMap& map, const LocalizerConfig& config)
+    : map_(map),
+      ray_caster_(config.max_range_m),
+      refinement_(config.max_range_m, config.noise),
+      beam_model_(map, config.noise) {
+  subset_.reserve(2 * kFewRays);
+  candidates_.reserve(kMaxCandidates);
+  places_.reserve(kMaxCompared);
+}
+
+void PlaceSearch::begin(const PolarScan& scan, double noise_scale) {
+  points_ = scan.points();
+  spacing_rad_ = scan.spacing_rad();
+  noise_scale_ = noise_scale;
+  candidates_.clear();
+  places_.clear();
+  subset_.clear();
+  const std::size_t stride = std::max<std::size_t>(1, points_.size() / kFewRays);
+  for (std::size_t i = 0; i < points_.size(); i += stride) subset_.push_back(points_[i]);
+}
+
+double PlaceSearch::rough_score(const Pose2& T_map_lidar) {
+  const auto hits = ray_caster_.cast_near(map_, T_map_lidar, subset_);
+  const double c = std::cos(T_map_lidar.theta_rad);
+  const double s = std::sin(T_map_lidar.theta_rad);
+  double score = 0;
+  for (std::size_t i = 0; i < subset_.size(); ++i) {
+    if (hits[i].face == PredictedHit::kNone) {
+      score -= 0.5;
+      continue;
+    }
+    const PolarPoint& point = subset_[i];
+    const Vec2& normal = map_.faces()[hits[i].face].normal;
+    const double across_m = (point.range_m - hits[i].range_m) *
+                            std::abs(normal.x() * (c * point.ray_x - s * point.ray_y) +
+                                     normal.y() * (s * point.ray_x + c * point.ray_y));
+    if (std::abs(across_m) < kRoughHit_m) {
+      score += 1;
+    } else if (across_m > 0) {
+      score -= 1;
+    }
+  }
+  return score;
+}
+
+void PlaceSearch::consider(std::span<const PoseHypothesis> hypotheses) {
+  for (const PoseHypothesis& hypothesis : hypotheses) {
+    if (candidates_.size() == kMaxCandidates) return;
+    candidates_.push_back({hypothesis.T_map_lidar, rough_score(hypothesis.T_map_lidar), 0});
+  }
+}
+
+void PlaceSearch::refine_roughly() {
+  const auto is_better = [](const Candidate& a, const Candidate& b) {
+    if (a.score != b.score) return a.score > b.score;
+    if (a.T_map_lidar.x_m != b.T_map_lidar.x_m) return a.T_map_lidar.x_m < b.T_map_lidar.x_m;
+    return a.T_map_lidar.theta_rad < b.T_map_lidar.theta_rad;
+  };
+  std::sort(candidates_.begin(), candidates_.end(), is_better);
+  const double spacing_rad = spacing_rad_ * static_cast<double>(points_.size()) /
+                             static_cast<double>(std::max<std::size_t>(1, subset_.size()));
+  candidates_.resize(std::min(candidates_.size(), kMaxRefined));
+  std::size_t kept = 0;
+  for (const Candidate& candidate : candidates_) {
+    const RefinedPose refined = refinement_.refine_roughly(
+        map_, candidate.T_map_lidar, kCandidateRadius_m, subset_, noise_scale_, kRoughMapSigma_m);
+    if (!refined.valid ||
+        !same_pose(refined.T_map_lidar, candidate.T_map_lidar, kMaxMove_m, kMaxMove_rad)) {
+      continue;
+    }
+    const auto last = candidates_.begin() + static_cast<std::ptrdiff_t>(kept);
+    if (std::any_of(candidates_.begin(), last, [&](const Candidate& other) {
+          return same_pose(other.T_map_lidar, refined.T_map_lidar, kSame_m, kSame_rad);
+        })) {
+      continue;
+    }
+    const auto hits = ray_caster_.cast(map_, refined.T_map_lidar, subset_);
+    const ScanLikelihood likelihood =
+        beam_model_.likelihood(subset_, hits, refined.T_map_lidar, spacing_rad, noise_scale_);
+    candidates_[kept++] = {refined.T_map_lidar, likelihood.log_ratio, likelihood.map_sigma_m};
+  }
+  candidates_.resize(kept);
+  std::sort(candidates_.begin(), candidates_.end(), is_better);
+}
+
+void PlaceSearch::add(const Candidate& candidate) {
+  VerifiedHypothesis place;
+  place.map_sigma_m = std::max(candidate.map_sigma_m, kMinMapSigma_m);
+  place.refined = refinement_.refine(map_, candidate.T_map_lidar, kFewRaysRadius_m, subset_,
+                                     points_, noise_scale_, place.map_sigma_m);
+  const Covariance3& covariance = place.refined.covariance;
+  if (!place.refined.valid || covariance(0, 0) + covariance(1, 1) > kMaxSigma_m * kMaxSigma_m) {
+    return;
+  }
+  const auto hits = ray_caster_.cast(map_, place.refined.T_map_lidar, points_);
+  const ScanLikelihood likelihood =
+      beam_model_.likelihood(points_, hits, place.refined.T_map_lidar, spacing_rad_, noise_scale_);
+  place.log_ratio = likelihood.log_ratio;
+  place.likelihood.rays = likelihood.rays;
+  place.likelihood.hits = likelihood.hits;
+  place.likelihood.shorts = likelihood.shorts;
+  place.likelihood.free_space_violations = likelihood.throughs;
+  for (VerifiedHypothesis& other : places_) {
+    if (!same_pose(other.refined.T_map_lidar, place.refined.T_map_lidar, kOnePlace_m,
+                   kOnePlace_rad)) {
+      continue;
+    }
+    if (place.log_ratio > other.log_ratio) other = place;
+    return;
+  }
+  places_.push_back(place);
+}
+
+std::span<const VerifiedHypothesis> PlaceSearch::find() {
+  refine_roughly();
+  places_.clear();
+  for (std::size_t i = 0; i < std::min(candidates_.size(), kMaxCompared); ++i) {
+    if (candidates_[i].score < candidates_.front().score - kFewRaysMargin) break;
+    add(candidates_[i]);
+  }
+  std::sort(places_.begin(), places_.end(),
+            [](const VerifiedHypothesis& a, const VerifiedHypothesis& b) {
+              if (a.log_ratio != b.log_ratio) return a.log_ratio > b.log_ratio;
+              return a.refined.T_map_lidar.x_m < b.refined.T_map_lidar.x_m;
+            });
+  return places_;
+}
+
+}  // namespace cornerd::core

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "core/estimate/refinement.hpp"
+#include "core/localizer_config.hpp"
+#include "core/recognition/beam_model.hpp"
+#include "core/recognition/hypothesis.hpp"
+#include "core/recognition/verification.hpp"
+
+namespace cornerd::core {
+
+/// The places that explain a scan best in a map that is inexact and incomplete: hypotheses are
+/// ranked by few rays, refined with the walls' offsets marginalised, and compared by the beam model
+/// on faces. Allocates nothing after construction.
+class PlaceSearch {
+ public:
+  PlaceSearch(const WallMap& map, const LocalizerConfig& config);
+
+  /// Starts a scan, which must outlive the calls for it.
+  void begin(const PolarScan& scan, double noise_scale);
+  /// Adds hypotheses that may be off by a decimetre.
+  void consider(std::span<const PoseHypothesis> hypotheses);
+  /// Compares what was considered since begin(). Distinct places, the likeliest first.
+  std::span<const VerifiedHypothesis> find();
+  /// The result of the last find().
+  std::span<const VerifiedHypothesis> places() const { return places_; }
+
+ private:
+  struct Candidate {
+    Pose2 T_map_lidar;
+    double score = 0;
+    double map_sigma_m = 0;
+  };
+  double rough_score(const Pose2& T_map_lidar);
+  void refine_roughly();
+  void add(const Candidate& candidate);
+
+  static constexpr std::size_t kMaxCandidates = 512;
+
+  const WallMap& map_;
+  RayCaster ray_caster_;
+  Refinement refinement_;
+  BeamModel beam_model_;
+  std::span<const PolarPoint> points_;
+  double spacing_rad_ = 0;
+  double noise_scale_ = 1;
+  std::vector<PolarPoint> subset_;
+  std::vector<Candidate> candidates_;
+  std::vector<VerifiedHypothesis> places_;
+};
+
+}  // namespace cornerd::core
