@@ -54,7 +54,7 @@ void SimulationOptions::add_to(Command& command) {
   command.add_option("--drive-speed", speed_m_s, "speed along the path (m/s)")
       .within(1e-3, 100)
       .capture_default_str();
-  command.add_option("--turn-speed", yaw_rate_rad_s, "yaw rate of rotations in place (rad/s)")
+  command.add_option("--rotation-speed", yaw_rate_rad_s, "yaw rate of rotations in place (rad/s)")
       .within(1e-3, 100)
       .capture_default_str();
   command
@@ -62,7 +62,7 @@ void SimulationOptions::add_to(Command& command) {
                   "acceleration at both ends of a straight segment (m/s^2); 0: unlimited")
       .within(0, 100);
   command
-      .add_option("--turn-acceleration", yaw_acceleration_rad_s2,
+      .add_option("--rotation-acceleration", yaw_acceleration_rad_s2,
                   "angular acceleration at both ends of a rotation (rad/s^2); 0: unlimited")
       .within(0, 1000);
   command.add_option("--motor", motor_hz, "scan rate (Hz)").within(1, 15).capture_default_str();
