@@ -88,6 +88,7 @@ void add_simulate(Command& program) {
                   "number of scans; default: all poses, once through the scenario, or 10")
       .positive()
       .type_name("N");
+  command.add_renamed("--turns", "--scans");
   command.add_option("--wire", options->wire, "standard, express or ultra")
       .choices({"standard", "express", "ultra"})
       .capture_default_str();

@@ -80,6 +80,9 @@ void SimulationOptions::add_to(Command& command) {
       .type_name("SHARE");
   sensor.add_to(command);
   command.add_option("--seed", seed, "seed of the random numbers").capture_default_str();
+  command.add_renamed("--turns-each", "--scans-each");
+  command.add_renamed("--turn-speed", "--rotation-speed");
+  command.add_renamed("--turn-acceleration", "--rotation-acceleration");
 }
 
 replay::Motion SimulationOptions::motion(const core::WallMap& world) const {
