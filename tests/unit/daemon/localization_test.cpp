@@ -10,7 +10,7 @@
 #include <thread>
 #include <vector>
 
-#include "daemon/clock.hpp"
+#include "daemon/posix_clock.hpp"
 #include "tests/wait_until.hpp"
 
 namespace cornerd::daemon {
