@@ -10,7 +10,6 @@
 #include <chrono>
 #include <fstream>
 #include <sstream>
-#include <thread>
 
 #include "room_recording.hpp"
 #include "tests/wait_until.hpp"
@@ -128,10 +127,12 @@ json DaemonTest::next(TestClient& client) {
 }
 
 json DaemonTest::next_of(TestClient& client, const std::string& message_class) {
-  while (true) {
+  const auto deadline = std::chrono::steady_clock::now() + test::kPatience;
+  while (std::chrono::steady_clock::now() < deadline) {
     json message = next(client);
     if (!message.is_object() || message["class"] == message_class) return message;
   }
+  return "nothing";
 }
 
 }  // namespace cornerd::system_test
