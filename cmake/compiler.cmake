@@ -23,6 +23,11 @@ endif()
 # Nobody asks errno after a root: with it, the compiler calls a function where an instruction does.
 add_compile_options(-fno-math-errno)
 
+# Sources are compiled in batches: without sections a program gets all of a batch for one function of it,
+# the daemon the papers' baselines and the fits of calibration.
+add_compile_options($<$<CONFIG:Release>:-ffunction-sections>)
+add_link_options($<$<CONFIG:Release>:-Wl,--gc-sections>)
+
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   # A tenth of a compilation is collecting garbage that a machine with memory need not collect.
   cmake_host_system_information(RESULT memory_MiB QUERY TOTAL_PHYSICAL_MEMORY)

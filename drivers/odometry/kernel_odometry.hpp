@@ -5,8 +5,8 @@
 
 #include "core/odometry/odometry_config.hpp"
 #include "core/triple_buffer.hpp"
-#include "drivers/clock.hpp"
 #include "drivers/config/kernel_odometry_config.hpp"
+#include "drivers/driver_clock.hpp"
 #include "drivers/odometry/kernel_sensors.hpp"
 #include "drivers/odometry/odometry_driver.hpp"
 #include "drivers/odometry/stuck_detector.hpp"

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "drivers/clock.hpp"
+#include "drivers/driver_clock.hpp"
 #include "drivers/rplidar/decoder.hpp"
 #include "drivers/rplidar/protocol/answers.hpp"
 #include "drivers/rplidar/protocol/framing.hpp"

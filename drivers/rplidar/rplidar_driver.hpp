@@ -7,7 +7,7 @@
 #include <stop_token>
 #include <string>
 
-#include "drivers/clock.hpp"
+#include "drivers/driver_clock.hpp"
 #include "drivers/lidar_driver.hpp"
 #include "drivers/rplidar/device.hpp"
 #include "drivers/rplidar/motor.hpp"

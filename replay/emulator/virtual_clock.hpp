@@ -4,7 +4,7 @@
 #include <functional>
 #include <stop_token>
 
-#include "drivers/clock.hpp"
+#include "drivers/driver_clock.hpp"
 
 namespace cornerd::replay {
 

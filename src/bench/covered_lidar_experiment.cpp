@@ -120,13 +120,13 @@ void simulate_covered_drive(std::shared_ptr<const core::WallMap> map,
 }  // namespace
 
 std::vector<CoveredLidarCase> covered_lidar_cases() {
-  CoveredLidarCase usual;
-  usual.title = "16 cm robot";
-  usual.robot = odometry_robots().back().model;
-  usual.robot.slips_per_m = 0;
-  std::vector<CoveredLidarCase> cases = {usual};
+  CoveredLidarCase nominal;
+  nominal.title = "16 cm robot";
+  nominal.robot = odometry_robots().back().model;
+  nominal.robot.slips_per_m = 0;
+  std::vector<CoveredLidarCase> cases = {nominal};
   const auto add = [&](std::string_view title, auto&& differ) {
-    cases.push_back(usual);
+    cases.push_back(nominal);
     cases.back().title = title;
     differ(cases.back());
   };

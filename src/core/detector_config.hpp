@@ -29,7 +29,7 @@ struct AltbdConfig {
   std::uint32_t seed_samples = 3;
   /// Consecutive misses that end a wall: outliers come alone, mixed pixels in pairs.
   std::uint32_t misses_to_break = 3;
-  /// Largest step in bearing within a wall: a door at a usual distance.
+  /// Largest step in bearing within a wall: 0.8 m of door from 1.8 m.
   double max_gap_rad = radians(25);
   /// Largest step along a wall between two samples: less than a door.
   double max_gap_m = 0.3;

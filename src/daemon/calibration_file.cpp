@@ -13,7 +13,7 @@
 namespace cornerd::daemon {
 namespace {
 
-/// With fewer scans sigma exceeds an A1's usual bias.
+/// With fewer scans sigma exceeds the bias of most A1s.
 constexpr std::size_t kMinScans = 20;
 /// A new estimate is written if a parameter changed by this multiple of sigma, or sigma shrank to
 /// this share.

@@ -12,8 +12,8 @@
 #include <utility>
 #include <vector>
 
-#include "daemon/clock.hpp"
 #include "daemon/log.hpp"
+#include "daemon/posix_clock.hpp"
 #include "daemon/realtime.hpp"
 
 namespace cornerd::daemon {

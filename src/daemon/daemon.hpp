@@ -7,12 +7,12 @@
 
 #include "core/map/wall_map.hpp"
 #include "daemon/calibration_file.hpp"
-#include "daemon/clock.hpp"
 #include "daemon/event_loop.hpp"
 #include "daemon/localization.hpp"
 #include "daemon/message_server.hpp"
 #include "daemon/odometry_clients.hpp"
 #include "daemon/odometry_reader.hpp"
+#include "daemon/posix_clock.hpp"
 #include "daemon/rate_limited_log.hpp"
 #include "daemon/reloader.hpp"
 #include "daemon/scan_publisher.hpp"

@@ -16,7 +16,7 @@
 #include <utility>
 
 #include "core/types.hpp"
-#include "daemon/clock.hpp"
+#include "daemon/posix_clock.hpp"
 
 namespace cornerd::daemon {
 namespace {

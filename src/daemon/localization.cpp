@@ -8,7 +8,7 @@
 #include <memory>
 #include <utility>
 
-#include "daemon/clock.hpp"
+#include "daemon/posix_clock.hpp"
 #include "daemon/realtime.hpp"
 
 namespace cornerd::daemon {

@@ -14,10 +14,10 @@
 #include <utility>
 
 #include "daemon/daemon.hpp"
+#include "daemon/daemon_options.hpp"
 #include "daemon/event_loop.hpp"
 #include "daemon/lidar_factory.hpp"
 #include "daemon/log.hpp"
-#include "daemon/options.hpp"
 #include "daemon/realtime.hpp"
 #include "daemon/reloader.hpp"
 #include "drivers/serial/file_descriptor.hpp"

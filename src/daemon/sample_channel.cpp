@@ -4,7 +4,7 @@
 #include <chrono>
 #include <thread>
 
-#include "daemon/clock.hpp"
+#include "daemon/posix_clock.hpp"
 #include "daemon/realtime.hpp"
 
 namespace cornerd::daemon {

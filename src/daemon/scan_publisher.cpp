@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "core/geometry/angle.hpp"
-#include "daemon/clock.hpp"
+#include "daemon/posix_clock.hpp"
 #include "message/line_writer.hpp"
 
 namespace cornerd::daemon {

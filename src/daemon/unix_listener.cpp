@@ -110,12 +110,12 @@ bool is_same(const std::filesystem::path& file, const std::filesystem::path& lis
          one.st_dev == other.st_dev && one.st_ino == other.st_ino;
 }
 
-constexpr std::size_t kUsualGroups = 32;
+constexpr std::size_t kFirstGroups = 32;
 
 /// Empty before Linux 4.13.
 std::vector<gid_t> groups_of(int fd) {
-  std::vector<gid_t> groups(kUsualGroups);
-  socklen_t size = kUsualGroups * sizeof(gid_t);
+  std::vector<gid_t> groups(kFirstGroups);
+  socklen_t size = kFirstGroups * sizeof(gid_t);
   int result = ::getsockopt(fd, SOL_SOCKET, SO_PEERGROUPS, groups.data(), &size);
   if (result != 0 && errno == ERANGE) {
     groups.resize(size / sizeof(gid_t));

@@ -10,7 +10,7 @@
 
 namespace cornerd::message {
 
-/// Counts what ODOMETRY lines contain and explains why odometry is absent. Allocates nothing.
+/// Counts what ODOMETRY lines contain, and reports why odometry is absent. Allocates nothing.
 class OdometryInputMonitor {
  public:
   void add(const core::OdometryReading& reading);

@@ -60,9 +60,10 @@ LidarCalibration parse_lidar_calibration(std::string_view text, const std::files
   read_bias(root.object("sigma"), calibration.learned.sigma);
   if (!is_possible(calibration.learned.sigma))
     root.fail("sigma", "must be 1e-6 at least, all of it");
-  std::uint32_t scans = 0;  // "turns" in the file: existing files have this key
-  root.integer("turns", scans, std::uint32_t{1}, kMaxScans);
-  if (scans == 0) root.fail("turns", "is missing");
+  std::uint32_t scans = 0;
+  root.integer("scans", scans, std::uint32_t{1}, kMaxScans);
+  if (root.find("turns") != nullptr) root.fail("turns", "moved; write /scans instead");
+  if (scans == 0) root.fail("scans", "is missing");
   calibration.learned.scans = scans;
   root.finish();
   return calibration;
@@ -74,7 +75,7 @@ std::string text_of(const LidarCalibration& calibration) {
   document["configured"] = json_of(calibration.configured);
   document["bias"] = json_of(calibration.learned.bias);
   document["sigma"] = json_of(calibration.learned.sigma);
-  document["turns"] = std::min<std::size_t>(calibration.learned.scans, kMaxScans);
+  document["scans"] = std::min<std::size_t>(calibration.learned.scans, kMaxScans);
   return document.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
 }
 

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "survey/evidence.hpp"
+#include "survey/face_evidence.hpp"
 #include "survey/mapped_drive.hpp"
 
 namespace cornerd::survey {

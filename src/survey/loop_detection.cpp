@@ -9,7 +9,7 @@
 
 #include "core/localizer.hpp"
 #include "core/recognition/hypothesis.hpp"
-#include "survey/evidence.hpp"
+#include "survey/face_evidence.hpp"
 
 namespace cornerd::survey {
 namespace {

@@ -46,8 +46,8 @@ double counted_m(const RecordedDrive& drive, const core::OdometryConfig& config,
 
 }  // namespace
 
-bool exceeds_rejection_share(std::size_t unbelieved, std::size_t scans) {
-  return static_cast<double>(unbelieved) > kMaxRejectedShare * static_cast<double>(scans);
+bool exceeds_rejection_share(std::size_t rejected, std::size_t scans) {
+  return static_cast<double>(rejected) > kMaxRejectedShare * static_cast<double>(scans);
 }
 
 void measure_wheel_distances(const RecordedDrive& drive, std::span<const core::Pose2> T_map_base,

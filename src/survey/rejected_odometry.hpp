@@ -24,8 +24,8 @@ struct RejectedOdometry {
   WheelDistance right;
 };
 
-/// More rejected scans than occasional wheel slip explains: a tenth of all.
-bool exceeds_rejection_share(std::size_t unbelieved, std::size_t scans);
+/// More rejected scans than occasional wheel slip causes: a tenth of all.
+bool exceeds_rejection_share(std::size_t rejected, std::size_t scans);
 
 /// Fills in the distances of `rejected`. `T_map_base`: at the middle of each scan.
 void measure_wheel_distances(const RecordedDrive& drive, std::span<const core::Pose2> T_map_base,

@@ -14,7 +14,7 @@ constexpr double kSquareSigmas = 3;
 constexpr double kWavy_rad = core::radians(0.03);
 /// Largest angle sigma of a face that gets a constraint.
 constexpr double kMaxFaceSigma_rad = core::radians(1);
-constexpr double kBondSigma_rad = core::radians(0.003);
+constexpr double kConstraintSigma_rad = core::radians(0.003);
 /// Shorter faces are furniture as often as walls.
 constexpr double kMin_m = 0.1;
 
@@ -46,7 +46,7 @@ RightAngles right_angles(const MappedDrive& drive, std::span<const std::uint32_t
     constraint.one = reference;
     constraint.other = others[i];
     constraint.rotation_rad = square_rad;
-    constraint.sigma_rad = kBondSigma_rad;
+    constraint.sigma_rad = kConstraintSigma_rad;
     result.constraints.push_back(constraint);
   }
   return result;

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "survey/adjustment.hpp"
-#include "survey/evidence.hpp"
+#include "survey/face_evidence.hpp"
 #include "survey/right_angles.hpp"
 #include "survey/validity_checks.hpp"
 #include "survey/wall_building.hpp"

@@ -47,12 +47,12 @@ void check_pauses(const RecordedDrive& recorded, const MappedDrive& drive);
 void check_degenerate_scans(const RecordedDrive& recorded, std::span<const std::size_t> degenerate,
                             std::span<const LoopReport> loops);
 
-/// More duplicate walls than moved things explain: 1.2 % of all walls and 0.5 m.
+/// More duplicate walls than moved objects cause: 1.2 % of all walls and 0.5 m.
 bool has_duplicate_walls(double duplicate_m, std::span<const core::Wall> walls);
 /// Without odometry: no more duplicate walls than that.
 void check_duplicate_walls(double duplicate_m, std::span<const core::Wall> walls);
 
-/// More than pose noise explains: 0.4 % of the wall faces.
+/// More than pose noise causes: 0.4 % of the wall faces.
 bool has_free_space_conflicts(const FreeSpaceConflicts& conflicts);
 /// At most 6 % of the wall faces, 0.6 m, or one place.
 void check_free_space_conflicts(const FreeSpaceConflicts& conflicts);

@@ -220,14 +220,14 @@ std::vector<FaceConstraint> parallel_constraints(const MappedDrive& drive,
   // A larger angle between both faces is intended.
   constexpr double kParallel_rad = core::radians(0.7);
   constexpr double kGateSigmas = 3;
-  constexpr double kBondSigma_rad = core::radians(0.02);
+  constexpr double kConstraintSigma_rad = core::radians(0.02);
   std::vector<FaceConstraint> constraints;
   for (const WallPair& pair : pairs) {
     FaceConstraint constraint;
     constraint.one = pieces[pair.one].face;
     constraint.other = pieces[pair.other].face;
     constraint.rotation_rad = core::kPi;
-    constraint.sigma_rad = kBondSigma_rad;
+    constraint.sigma_rad = kConstraintSigma_rad;
     const LineLandmark& one = drive.faces[constraint.one];
     const LineLandmark& other = drive.faces[constraint.other];
     const double rotation_rad =

@@ -6,7 +6,7 @@
 
 #include "core/map/wall_map.hpp"
 #include "survey/adjustment.hpp"
-#include "survey/evidence.hpp"
+#include "survey/face_evidence.hpp"
 #include "survey/wall_piece.hpp"
 
 namespace cornerd::survey {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "survey/drive_mapper.hpp"
-#include "survey/evidence.hpp"
+#include "survey/face_evidence.hpp"
 
 namespace cornerd::survey {
 

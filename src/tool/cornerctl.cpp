@@ -20,6 +20,7 @@ int run_cornerctl(int argc, const char* const* argv) {
     add_survey(program);
     add_calibrate(program);
     add_map(program);
+    program.add_renamed("bench", "cornerd-bench");
   };
   return run_program("cornerctl", "watch, record, replay, simulate and draw what cornerd does",
                      add_commands, argc, argv);

@@ -37,12 +37,18 @@ TEST(AbruptRobot, LidarAlone_CovarianceIsConsistent) {
   const std::string map = CORNERD_SOURCE_DIR "/config/maps/flat-7.json";
   const std::string recording = folder / "drive.ndjson";
   const std::string truth_file = folder / "truth.ndjson";
-  const tool::CommandRun simulated({"simulate",    "--map",          map,       "--scenario",
-                                    "exploration", "--loop",         "--real",  "--seed",
-                                    "2",           "--scans",        "900",     "--range-scale",
-                                    "1.01",        "--range-offset", "0.005",   "--drive-speed",
-                                    "0.4",         "--turn-speed",   "2",       "-o",
-                                    recording,     "--truth",        truth_file});
+  const tool::CommandRun simulated({"simulate",    "--map",
+                                    map,           "--scenario",
+                                    "exploration", "--loop",
+                                    "--real",      "--seed",
+                                    "2",           "--scans",
+                                    "900",         "--range-scale",
+                                    "1.01",        "--range-offset",
+                                    "0.005",       "--drive-speed",
+                                    "0.4",         "--rotation-speed",
+                                    "2",           "-o",
+                                    recording,     "--truth",
+                                    truth_file});
   ASSERT_EQ(simulated.exit_code, 0) << simulated.err;
   const tool::Truth truth = tool::Truth::load(truth_file);
   const tool::CommandRun replayed({"replay", recording, "--map", map, "--classes", "POSE"});

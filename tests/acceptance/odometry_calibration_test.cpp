@@ -43,7 +43,7 @@ TEST_P(CalibratedRobot, CorrectRobot_NoFaultReported) {
 /// The exploration of the flat by a robot that is some per cent off.
 Words exploring(const Words& more) {
   Words words = {"--scenario", "exploration",    "--loop",      "--drive-speed",
-                 "0.4",        "--acceleration", "1",           "--turn-acceleration",
+                 "0.4",        "--acceleration", "1",           "--rotation-acceleration",
                  "6",          "--wheel-errors", "0.015,0.025", "--gyro-error",
                  "0.02",       "--gyro-bias",    "0.01"};
   words.insert(words.end(), more.begin(), more.end());

@@ -56,7 +56,7 @@ class DriveOf100m : public testing::TestWithParam<BadRobot> {
                                       "0.4",
                                       "--acceleration",
                                       "1",
-                                      "--turn-acceleration",
+                                      "--rotation-acceleration",
                                       "6",
                                       "--odometry",
                                       "--wheel-errors=" + wheels,

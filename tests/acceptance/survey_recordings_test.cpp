@@ -80,7 +80,7 @@ class RealRoom : public testing::Test {
 TEST_F(RealRoom, MapOfOneRecording_LocalizesOthersWithin3cm) {
   const survey::RecordedDrive drive = load(5);
   const auto map = std::make_shared<const core::WallMap>(survey::survey(drive, {}).plan);
-  // The lidar moved in its first second: the registration's frame is its usual pose.
+  // The lidar moved in its first second: the registration's frame is its median pose.
   const auto own = localize(map, drive);
   ASSERT_FALSE(own.empty());
   const core::Pose2 T_place_map = median(own).inverse();

@@ -6,6 +6,8 @@
 #include <atomic>
 #include <thread>
 
+#include "tests/wait_until.hpp"
+
 namespace cornerd::soak {
 namespace {
 
@@ -48,12 +50,12 @@ TEST(Activity, OtherThread_IsAsleepWhileItWaits) {
     }
   });
   // Falling asleep takes a while.
-  while (!Activity::now().others_asleep) std::this_thread::yield();
+  EXPECT_TRUE(test::wait_until([] { return Activity::now().others_asleep; }));
   const double before_s = Activity::now().cpu_s;
   state = 1;
   state.notify_one();
-  while (Activity::now().others_asleep) std::this_thread::yield();
-  while (Activity::now().cpu_s <= before_s) std::this_thread::yield();
+  EXPECT_TRUE(test::wait_until([] { return !Activity::now().others_asleep; }));
+  EXPECT_TRUE(test::wait_until([&] { return Activity::now().cpu_s > before_s; }));
 }
 
 }  // namespace

@@ -77,7 +77,7 @@ TEST_F(CalibrationFile, Restart_BiasLoadedForSameLidarOnly) {
 }
 
 TEST_F(CalibrationFile, ReloadBeforeFirstScan_StoredBiasKept) {
-  std::ofstream(file_) << R"({"format": "cornerd-lidar", "turns": 400,
+  std::ofstream(file_) << R"({"format": "cornerd-lidar", "scans": 400,
       "bias": {"range_scale": 0.004, "range_offset": 0.001, "bearing_sine": 0, "bearing_cosine": 0},
       "sigma": {"range_scale": 5e-4, "range_offset": 5e-4, "bearing_sine": 3e-4,
                 "bearing_cosine": 3e-4}})";

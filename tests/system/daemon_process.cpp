@@ -10,25 +10,14 @@
 #include <chrono>
 #include <fstream>
 #include <sstream>
-#include <thread>
 
 #include "room_recording.hpp"
+#include "tests/wait_until.hpp"
 
 namespace cornerd::system_test {
 namespace {
 
-/// Enough for a loaded machine and a sanitizer; only a failing test waits so long.
-constexpr std::chrono::seconds kPatience{60};
-constexpr std::chrono::milliseconds kPoll{10};
-
-bool wait_until(const auto& condition) {
-  const auto deadline = std::chrono::steady_clock::now() + kPatience;
-  while (!condition()) {
-    if (std::chrono::steady_clock::now() > deadline) return false;
-    std::this_thread::sleep_for(kPoll);
-  }
-  return true;
-}
+using test::wait_until;
 
 /// Consecutive descriptors from 3 on, see sd_listen_fds(3).
 void pass_on(const std::vector<int>& sockets) {
@@ -133,15 +122,17 @@ TestClient DaemonTest::connect(const char* socket) {
 }
 
 json DaemonTest::next(TestClient& client) {
-  const auto line = client.read_line(std::chrono::milliseconds(kPatience).count());
+  const auto line = client.read_line(std::chrono::milliseconds(test::kPatience).count());
   return line ? json::parse(*line) : json("nothing");
 }
 
 json DaemonTest::next_of(TestClient& client, const std::string& message_class) {
-  while (true) {
+  const auto deadline = std::chrono::steady_clock::now() + test::kPatience;
+  while (std::chrono::steady_clock::now() < deadline) {
     json message = next(client);
     if (!message.is_object() || message["class"] == message_class) return message;
   }
+  return "nothing";
 }
 
 }  // namespace cornerd::system_test

@@ -7,11 +7,11 @@
 #include <filesystem>
 #include <fstream>
 #include <string>
-#include <thread>
 
 #include "daemon_process.hpp"
 #include "room_recording.hpp"
 #include "service_manager.hpp"
+#include "tests/wait_until.hpp"
 
 namespace cornerd::system_test {
 namespace {
@@ -148,11 +148,9 @@ TEST_F(Service, HangupWithPipeInsteadOfMap_Refused) {
 TEST_F(Service, HangupDuringStart_HandledAfterStart) {
   write_large_map(folder_ / "map.json");
   DaemonProcess daemon = start();
-  while (daemon.is_running() && !ignores_broken_pipes(daemon.pid())) std::this_thread::yield();
+  EXPECT_TRUE(test::wait_until([&] { return ignores_broken_pipes(daemon.pid()); }));
   daemon.send_signal(SIGHUP);
-  while (daemon.is_running() && !TestClient(folder_ / "pose.sock").is_connected()) {
-    std::this_thread::yield();
-  }
+  connect();
   daemon.send_signal(SIGTERM);
   EXPECT_EQ(daemon.wait_for_exit(), 0);
   EXPECT_NE(daemon.output().find("SIGHUP: reloading"), std::string::npos) << daemon.output();

@@ -126,9 +126,9 @@ std::vector<Trial> default_trials(const Maps& arenas,
   constexpr double kDisplaced_m = 0.03;
   constexpr core::TimeNs kSlowScan_ns = 181'818'182;  // 5.5 scans a second
   const CircularMotion brisk{0.5, 1.5};
-  const replay::SensorModel usual;
+  const replay::SensorModel nominal;
   const auto with = [&](auto&& change) {
-    replay::SensorModel sensor = usual;
+    replay::SensorModel sensor = nominal;
     change(sensor);
     return sensor;
   };

@@ -40,11 +40,11 @@ Catalog::Catalog(const WallMap& map, double max_distance_m)
 }
 
 void Catalog::index_landmarks(const WallMap& map) {
-  constexpr double kUsualCell_m = 0.25;
+  constexpr double kMinCell_m = 0.25;
   constexpr double kMaxCells = 1e6;
   lower_left_ = map.lower_left();
   const Vec2 size = map.upper_right() - map.lower_left();
-  cell_m_ = std::max(kUsualCell_m, std::sqrt(size.x() * size.y() / kMaxCells));
+  cell_m_ = std::max(kMinCell_m, std::sqrt(size.x() * size.y() / kMaxCells));
   columns_ = static_cast<std::size_t>(size.x() / cell_m_) + 1;
   rows_ = static_cast<std::size_t>(size.y() / cell_m_) + 1;
 

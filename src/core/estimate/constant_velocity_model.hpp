@@ -60,7 +60,7 @@ bool is_plausible(const Twist2& motion);
 Covariance3 deskew_covariance(const Twist2& assumed, const Twist2& measured);
 
 /// A pose's covariance after `dt_s` at constant velocity. The velocity is as uncertain as the
-/// difference of two such poses one usual scan apart.
+/// difference of two such poses one scan of nominal duration apart.
 Covariance3 extrapolated_covariance(const Covariance3& covariance, double dt_s);
 
 /// Covariance from deskewing a partial scan of `duration_s` by the velocity of `age_s` ago.

@@ -24,7 +24,7 @@ constexpr double kMinPivot = 1e-7;
 constexpr std::size_t kMinInliers = 8;
 /// Runs of neighbouring rays on one face in a scan; more are left out of the map error model.
 constexpr std::size_t kMaxResiduals = 1024;
-constexpr int kMotionSteps = 8;
+constexpr int kMotionIterations = 8;
 /// Prior standard deviations of the robot's velocity.
 constexpr double kMotionSigma_m_s = 0.5;
 constexpr double kMotionSigma_rad_s = 2;
@@ -182,7 +182,7 @@ RefinedMotion Refinement::refine_motion(const WallMap& map, const Pose2& start,
   refined.T_map_lidar = start;
   Eigen::Vector3d twist = Eigen::Vector3d::Zero();
   double extra_sigma_m = search_radius_m;
-  for (int k = 0; k < kMotionSteps; ++k) {
+  for (int k = 0; k < kMotionIterations; ++k) {
     const Pose2& T_map_lidar = refined.T_map_lidar;
     const auto hits = ray_caster_.cast_near(map, T_map_lidar, points);
     const double c = std::cos(T_map_lidar.theta_rad);

@@ -21,8 +21,8 @@
 #include "tool/calibrate/noise_report.hpp"
 #include "tool/command_line/command.hpp"
 #include "tool/command_line/failure.hpp"
-#include "tool/command_line/options.hpp"
 #include "tool/command_line/output.hpp"
+#include "tool/command_line/shared_options.hpp"
 #include "tool/commands.hpp"
 #include "tool/drawing/noise_drawing.hpp"
 

@@ -15,12 +15,12 @@
 #include "calibration/odometry_fit.hpp"
 #include "calibration/wiring_faults.hpp"
 #include "settings/map_file.hpp"
+#include "tool/calibrate/calibration_drive.hpp"
 #include "tool/calibrate/drive_fit.hpp"
-#include "tool/calibrate/recorded_drive.hpp"
 #include "tool/command_line/command.hpp"
 #include "tool/command_line/failure.hpp"
-#include "tool/command_line/options.hpp"
 #include "tool/command_line/output.hpp"
+#include "tool/command_line/shared_options.hpp"
 #include "tool/commands.hpp"
 #include "tool/drawing/drive_drawing.hpp"
 #include "tool/drawing/factors_text.hpp"
@@ -108,7 +108,7 @@ std::string describe_delay(const calibration::OdometryFit& fit) {
 
 /// The filter gets fixes in the drive's first half and dead reckons in the second. `steps`: at the
 /// times of measurement.
-calibration::FilteredDrive filter_half(const RecordedDrive& drive,
+calibration::FilteredDrive filter_half(const CalibrationDrive& drive,
                                        std::span<const core::OdometryIncrement> steps,
                                        core::OdometryConfig config) {
   config.enabled = true;
@@ -119,7 +119,7 @@ calibration::FilteredDrive filter_half(const RecordedDrive& drive,
                                    first_ns + (last_ns - first_ns) / 2);
 }
 
-std::string draw_dead_reckoning(const RecordedDrive& drive,
+std::string draw_dead_reckoning(const CalibrationDrive& drive,
                                 std::span<const core::OdometryIncrement> steps,
                                 const settings::Config& config, const calibration::OdometryFit& fit,
                                 const calibration::FilteredDrive& filtered) {

@@ -29,7 +29,7 @@ class DriveFitter {
       : file_(file), wire_(wire), config_(config), truth_(truth) {}
 
   FittedDrive run() {
-    RecordedDrive drive = play(/*deskewed=*/true);
+    CalibrationDrive drive = play(/*deskewed=*/true);
     if (drive.steps.empty() && drive.increments_within_wide_limits.empty()) {
       fail(drive.counters.readings == 0 ? "no odometry in it"
                                         : "none of its ODOMETRY lines has both left and right");
@@ -40,7 +40,7 @@ class DriveFitter {
     }
     if (truth_ == nullptr) {
       // Wrong or late odometry may spoil the scans that would show its fault.
-      RecordedDrive plain = play(/*deskewed=*/false);
+      CalibrationDrive plain = play(/*deskewed=*/false);
       if (plain.places.size() < 2) fail("the robot was not localized in the map: check the map");
       const std::string plain_faults = find_faults(plain);
       auto fit = plain_faults.empty() && search_.is_unambiguous ? fit_of(plain) : std::nullopt;
@@ -60,18 +60,18 @@ class DriveFitter {
 
   double configured_s() const { return config_.odometry.core.initial.delay_s; }
 
-  RecordedDrive play(bool deskewed) const {
+  CalibrationDrive play(bool deskewed) const {
     return play_drive(file_, wire_, config_, truth_, deskewed);
   }
 
-  static bool is_wide(const RecordedDrive& drive) {
+  static bool is_wide(const CalibrationDrive& drive) {
     const core::OdometryCounters& counters = drive.counters;
     return static_cast<double>(counters.jumps + counters.invalid_rates) >
            kMaxRejectedShare * static_cast<double>(counters.readings);
   }
 
   /// Wiring faults, which no scale corrects; empty if there are none.
-  std::string find_faults(RecordedDrive& drive) {
+  std::string find_faults(CalibrationDrive& drive) {
     const auto& steps = is_wide(drive) ? drive.increments_within_wide_limits : drive.steps;
     search_ = calibration::search_delay(steps, drive.places, configured_s());
     if (search_.at_edge) {
@@ -88,13 +88,13 @@ class DriveFitter {
   }
 
   /// Localizes again if the scans were deskewed by readings with a wrong delay.
-  void deskew(RecordedDrive& drive, double delay_s) const {
+  void deskew(CalibrationDrive& drive, double delay_s) const {
     if (truth_ != nullptr || std::abs(delay_s - configured_s()) <= kMaxDeskewDelay_s) return;
     auto places = localize_drive(file_, wire_, config_, drive.readings, delay_s);
     if (places.size() >= drive.places.size() / 2) drive.places = std::move(places);
   }
 
-  std::optional<calibration::OdometryFit> fit_of(const RecordedDrive& drive) const {
+  std::optional<calibration::OdometryFit> fit_of(const CalibrationDrive& drive) const {
     return calibration::fit_odometry(drive.steps, drive.places, config_.odometry.core.geometry,
                                      search_.delay_s);
   }

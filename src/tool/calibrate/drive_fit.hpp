@@ -7,13 +7,13 @@
 #include "calibration/odometry_fit.hpp"
 #include "drivers/rplidar/decoder.hpp"
 #include "settings/config.hpp"
-#include "tool/calibrate/recorded_drive.hpp"
+#include "tool/calibrate/calibration_drive.hpp"
 #include "tool/replay/truth.hpp"
 
 namespace cornerd::tool {
 
 struct FittedDrive {
-  RecordedDrive drive;
+  CalibrationDrive drive;
   calibration::OdometryFit fit;
 };
 

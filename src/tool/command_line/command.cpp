@@ -126,6 +126,16 @@ Option Command::add_option_function(const std::string& names,
   return Option(*app_->add_option_function<std::string>(names, take, help));
 }
 
+void Command::add_renamed(const std::string& old_name, const std::string& new_name) {
+  const auto refuse = [text = old_name + " is now called " + new_name] { throw UsageError(text); };
+  if (old_name.starts_with('-')) {
+    app_->add_flag_callback(old_name, refuse)->trigger_on_parse()->group("");
+  } else {
+    app_->add_subcommand(old_name)->group("")->preparse_callback(
+        [refuse](std::size_t) { refuse(); });
+  }
+}
+
 void Command::callback(const std::function<void()>& run) { app_->callback(run); }
 
 int run_program(const std::string& name, const std::string& summary,
@@ -138,6 +148,9 @@ int run_program(const std::string& name, const std::string& summary,
   CLI::App app(name + ": " + summary, name);
   app.set_version_flag("--version", name + " " CORNERD_VERSION);
   app.fallthrough();
+  app.failure_message([&](const CLI::App* parsed, const CLI::Error& error) {
+    return name + ": " + CLI::FailureMessage::simple(parsed, error);
+  });
   Command program(app);
   add(program);
   try {

@@ -66,6 +66,9 @@ class Command {
                              const std::function<void(const std::string&)>& take,
                              const std::string& help);
 
+  /// An option, or a command, of an earlier version: its use fails with the new name.
+  void add_renamed(const std::string& old_name, const std::string& new_name);
+
   /// The action, called after the options are parsed. Throws the exceptions of failure.hpp.
   void callback(const std::function<void()>& run);
 

@@ -11,8 +11,8 @@
 
 #include "tool/command_line/command.hpp"
 #include "tool/command_line/failure.hpp"
-#include "tool/command_line/options.hpp"
 #include "tool/command_line/output.hpp"
+#include "tool/command_line/shared_options.hpp"
 #include "tool/commands.hpp"
 #include "tool/doctor/checks.hpp"
 #include "tool/doctor/daemon_probe.hpp"

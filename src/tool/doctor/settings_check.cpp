@@ -70,7 +70,7 @@ SettingsCheck check_settings(const std::filesystem::path& file,
                              const std::vector<std::string>& overrides) {
   SettingsCheck check;
   record_error(check, "config",
-               "correct it there; cornerd.full.json explains every key; the checks below use the "
+               "correct it there; cornerd.full.json describes every key; the checks below use the "
                "defaults",
                [&] { check_config_file(file, overrides, check); });
   if (check.error) return check;

@@ -6,7 +6,7 @@
 #include "settings/map_file.hpp"
 #include "tool/command_line/command.hpp"
 #include "tool/command_line/failure.hpp"
-#include "tool/command_line/options.hpp"
+#include "tool/command_line/shared_options.hpp"
 #include "tool/commands.hpp"
 #include "tool/monitor/monitor.hpp"
 

@@ -3,7 +3,7 @@
 
 #include <utility>
 
-#include "drivers/clock.hpp"
+#include "drivers/driver_clock.hpp"
 #include "drivers/odometry/kernel_odometry.hpp"
 
 namespace cornerd::tool {

@@ -11,15 +11,15 @@
 #include <thread>
 #include <utility>
 
-#include "drivers/clock.hpp"
+#include "drivers/driver_clock.hpp"
 #include "drivers/rplidar/rplidar_driver.hpp"
 #include "drivers/serial/byte_stream.hpp"
 #include "drivers/serial/serial_port.hpp"
 #include "replay/recording_writer.hpp"
 #include "tool/command_line/command.hpp"
 #include "tool/command_line/failure.hpp"
-#include "tool/command_line/options.hpp"
 #include "tool/command_line/output.hpp"
+#include "tool/command_line/shared_options.hpp"
 #include "tool/command_line/stop_signal.hpp"
 #include "tool/commands.hpp"
 #include "tool/record/board_odometry.hpp"

@@ -9,8 +9,8 @@
 #include "baseline/wall_finders.hpp"
 #include "tool/command_line/command.hpp"
 #include "tool/command_line/failure.hpp"
-#include "tool/command_line/options.hpp"
 #include "tool/command_line/output.hpp"
+#include "tool/command_line/shared_options.hpp"
 #include "tool/commands.hpp"
 #include "tool/drawing/scan_drawing.hpp"
 #include "tool/replay/message_printer.hpp"
@@ -92,6 +92,7 @@ void add_detect(Command& program) {
   add_wire_option(command, options->wire);
   command.add_option("--plot", options->plot, "draw a scan with its walls and breakpoints, as SVG")
       .type_name("FILE");
+  command.add_renamed("--turn", "--scan");
   command.add_option("--scan", options->plotted_scan, "number of the scan for --plot, from 1")
       .capture_default_str()
       .range(1, 100'000'000);

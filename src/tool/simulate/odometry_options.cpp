@@ -5,7 +5,7 @@
 
 #include "tool/command_line/command.hpp"
 #include "tool/command_line/failure.hpp"
-#include "tool/command_line/options.hpp"
+#include "tool/command_line/shared_options.hpp"
 
 namespace cornerd::tool {
 

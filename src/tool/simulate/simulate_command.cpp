@@ -12,8 +12,8 @@
 #include "settings/map_file.hpp"
 #include "tool/command_line/command.hpp"
 #include "tool/command_line/failure.hpp"
-#include "tool/command_line/options.hpp"
 #include "tool/command_line/output.hpp"
+#include "tool/command_line/shared_options.hpp"
 #include "tool/commands.hpp"
 #include "tool/simulate/odometry_options.hpp"
 #include "tool/simulate/simulation_options.hpp"
@@ -88,6 +88,7 @@ void add_simulate(Command& program) {
                   "number of scans; default: all poses, once through the scenario, or 10")
       .positive()
       .type_name("N");
+  command.add_renamed("--turns", "--scans");
   command.add_option("--wire", options->wire, "standard, express or ultra")
       .choices({"standard", "express", "ultra"})
       .capture_default_str();

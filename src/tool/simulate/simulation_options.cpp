@@ -15,7 +15,7 @@
 #include "replay/simulator/scanned_path.hpp"
 #include "tool/command_line/command.hpp"
 #include "tool/command_line/failure.hpp"
-#include "tool/command_line/options.hpp"
+#include "tool/command_line/shared_options.hpp"
 
 namespace cornerd::tool {
 
@@ -54,7 +54,7 @@ void SimulationOptions::add_to(Command& command) {
   command.add_option("--drive-speed", speed_m_s, "speed along the path (m/s)")
       .within(1e-3, 100)
       .capture_default_str();
-  command.add_option("--turn-speed", yaw_rate_rad_s, "yaw rate of rotations in place (rad/s)")
+  command.add_option("--rotation-speed", yaw_rate_rad_s, "yaw rate of rotations in place (rad/s)")
       .within(1e-3, 100)
       .capture_default_str();
   command
@@ -62,7 +62,7 @@ void SimulationOptions::add_to(Command& command) {
                   "acceleration at both ends of a straight segment (m/s^2); 0: unlimited")
       .within(0, 100);
   command
-      .add_option("--turn-acceleration", yaw_acceleration_rad_s2,
+      .add_option("--rotation-acceleration", yaw_acceleration_rad_s2,
                   "angular acceleration at both ends of a rotation (rad/s^2); 0: unlimited")
       .within(0, 1000);
   command.add_option("--motor", motor_hz, "scan rate (Hz)").within(1, 15).capture_default_str();
@@ -80,6 +80,9 @@ void SimulationOptions::add_to(Command& command) {
       .type_name("SHARE");
   sensor.add_to(command);
   command.add_option("--seed", seed, "seed of the random numbers").capture_default_str();
+  command.add_renamed("--turns-each", "--scans-each");
+  command.add_renamed("--turn-speed", "--rotation-speed");
+  command.add_renamed("--turn-acceleration", "--rotation-acceleration");
 }
 
 replay::Motion SimulationOptions::motion(const core::WallMap& world) const {

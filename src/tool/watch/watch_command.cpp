@@ -12,8 +12,8 @@
 #include "settings/config.hpp"
 #include "tool/command_line/command.hpp"
 #include "tool/command_line/failure.hpp"
-#include "tool/command_line/options.hpp"
 #include "tool/command_line/output.hpp"
+#include "tool/command_line/shared_options.hpp"
 #include "tool/commands.hpp"
 #include "tool/watch/socket_client.hpp"
 

@@ -5,6 +5,7 @@
 #include <sys/epoll.h>
 #include <sys/eventfd.h>
 
+#include <stdexcept>
 #include <system_error>
 
 namespace cornerd::daemon {
@@ -78,9 +79,13 @@ TEST(EventLoop, DescriptorNumberReusedInSameRound_NoStaleEvent) {
 TEST(EventLoop, Stop_Called_EndsRun) {
   EventLoop loop;
   const FileDescriptor fd = readable_fd();
-  loop.add(fd.get(), EPOLLIN, [&](std::uint32_t) { loop.stop(); });
+  int calls = 0;
+  loop.add(fd.get(), EPOLLIN, [&](std::uint32_t) {
+    if (++calls > 1) throw std::logic_error("run() does not end");
+    loop.stop();
+  });
   loop.run();
-  SUCCEED() << "run() returned";
+  EXPECT_EQ(calls, 1);
 }
 
 TEST(EventLoop, InvalidDescriptor_Throws) {

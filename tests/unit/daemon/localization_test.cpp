@@ -10,7 +10,8 @@
 #include <thread>
 #include <vector>
 
-#include "daemon/clock.hpp"
+#include "daemon/posix_clock.hpp"
+#include "tests/wait_until.hpp"
 
 namespace cornerd::daemon {
 namespace {
@@ -88,7 +89,7 @@ TEST(Localization, BusyServer_NewScansLostAndCounted) {
   FakeLidar lidar(kScans, /*ends=*/true);
   Localization localization(lidar, pipeline_without_map(), SourceKind::kRecording);
   localization.start();
-  while (localization.lost_reports() + 16 < kScans) std::this_thread::yield();
+  ASSERT_TRUE(test::wait_until([&] { return localization.lost_reports() + 16 >= kScans; }));
   const auto starts = collect(localization, 16);
   EXPECT_EQ(starts.size(), 16u);
   EXPECT_EQ(starts.front(), 0);
@@ -139,9 +140,8 @@ TEST(Localization, IdleLocalizer_HasProgressed) {
   Localization localization(lidar, pipeline_without_map(), SourceKind::kDevice);
   localization.start();
   for (int round = 0; round < 3; ++round) {
-    while (!localization.has_progressed()) std::this_thread::yield();
+    EXPECT_TRUE(test::wait_until([&] { return localization.has_progressed(); }));
   }
-  SUCCEED() << "three rounds without a sample";
 }
 
 TEST(Localization, StuckReader_NoProgress) {
@@ -157,9 +157,9 @@ TEST(Localization, ReaderAtEndOfRecording_HasProgressed) {
   FakeLidar lidar(0, /*ends=*/true);
   Localization localization(lidar, pipeline_without_map(), SourceKind::kRecording);
   localization.start();
-  while (!lidar.has_stopped()) std::this_thread::yield();
+  ASSERT_TRUE(test::wait_until([&] { return lidar.has_stopped(); }));
   for (int round = 0; round < 3; ++round) {
-    while (!localization.has_progressed()) std::this_thread::yield();
+    EXPECT_TRUE(test::wait_until([&] { return localization.has_progressed(); }));
   }
 }
 

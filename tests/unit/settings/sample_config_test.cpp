@@ -102,8 +102,8 @@ std::string full_sample() {
 std::string page() {
   std::string text =
       "# Configuration\n\n"
-      "`/etc/cornerd/cornerd.json` is JSON with `//` comments. [cornerd.json](cornerd.json) is the "
-      "usual file,\n"
+      "`/etc/cornerd/cornerd.json` is JSON with `//` comments. [cornerd.json](cornerd.json) has "
+      "the keys that most robots need,\n"
       "[cornerd.full.json](cornerd.full.json) has every key with its default. Only `map` has none. "
       "An unknown key,\n"
       "a wrong type or a value out of range is an error that names its JSON pointer (exit code "

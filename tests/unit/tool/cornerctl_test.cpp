@@ -12,6 +12,7 @@
 #include <fstream>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "command_run.hpp"
@@ -23,6 +24,7 @@ namespace cornerd::tool {
 namespace {
 
 using testing::HasSubstr;
+using testing::Not;
 using testing::StartsWith;
 
 CommandRun run(const std::vector<std::string>& words) { return CommandRun(words); }
@@ -87,8 +89,29 @@ TEST_F(Cornerctl, WrongUsage_ExitCode2WithReasonOnStandardError) {
     const CommandRun outcome = run(words);
     EXPECT_EQ(outcome.exit_code, kExitUsage) << testing::PrintToString(words);
     EXPECT_EQ(outcome.out, "");
-    EXPECT_NE(outcome.err, "");
+    EXPECT_THAT(outcome.err, StartsWith("cornerctl: "));
   }
+}
+
+TEST_F(Cornerctl, OldName_IsRefusedWithItsNewName) {
+  const std::pair<std::vector<std::string>, std::string> renamed[] = {
+      {{"bench"}, "bench is now called cornerd-bench"},
+      {{"bench", "--json", "-"}, "cornerd-bench"},
+      {{"detect", "x.bin", "--turn", "3"}, "--turn is now called --scan"},
+      {{"simulate", "--turns", "30"}, "--turns is now called --scans"},
+      {{"simulate", "--turns=30"}, "--scans"},
+      {{"emulate", "--turns-each", "3"}, "--scans-each"},
+      {{"simulate", "--turn-speed", "2"}, "--rotation-speed"},
+      {{"emulate", "--turn-acceleration", "2"}, "--rotation-acceleration"},
+  };
+  for (const auto& [words, reason] : renamed) {
+    const CommandRun outcome = run(words);
+    EXPECT_EQ(outcome.exit_code, kExitUsage) << testing::PrintToString(words);
+    EXPECT_THAT(outcome.err, StartsWith("cornerctl: "));
+    EXPECT_THAT(outcome.err, HasSubstr(reason));
+  }
+  EXPECT_THAT(run({"--help"}).out, Not(HasSubstr("bench")));
+  EXPECT_THAT(run({"simulate", "--help"}).out, Not(HasSubstr("--turn")));
 }
 
 TEST_F(Cornerctl, UnknownCommand_IsNamed) {

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "drivers/clock.hpp"
+#include "drivers/driver_clock.hpp"
 #include "drivers/rplidar/protocol/answers.hpp"
 #include "drivers/rplidar/protocol/framing.hpp"
 #include "drivers/serial/serial_port.hpp"

@@ -16,6 +16,7 @@
 #include "tests/temporary_folder.hpp"
 #include "tests/unit/replay/hex.hpp"
 #include "tests/unit/replay/test_maps.hpp"
+#include "tests/wait_until.hpp"
 
 namespace cornerd::replay {
 namespace {
@@ -67,7 +68,6 @@ class PtyEmulatorTest : public ::testing::Test {
     emulator_.set_on_time([this](core::TimeNs t_ns, core::TimeNs unix_ns) {
       last_unix_ns_ = unix_ns;
       last_t_ns_ = t_ns;
-      last_t_ns_.notify_all();
     });
     thread_ = std::jthread([this](const std::stop_token& stop) { emulator_.run(stop); });
   }
@@ -77,11 +77,9 @@ class PtyEmulatorTest : public ::testing::Test {
     thread_.join();
   }
 
-  /// Returns once the emulator's own time has passed that.
-  void wait_until(double t_s) {
-    for (core::TimeNs t_ns = last_t_ns_; t_ns < core::from_seconds(t_s); t_ns = last_t_ns_) {
-      last_t_ns_.wait(t_ns);
-    }
+  /// Whether the emulator's own time passes that.
+  bool time_passes(double t_s) {
+    return test::wait_until([&] { return last_t_ns_ >= core::from_seconds(t_s); });
   }
 
   test::TemporaryFolder folder_;
@@ -109,7 +107,7 @@ TEST_F(PtyEmulatorTest, NoClient_TimeContinues) {
     EXPECT_TRUE(client.receive("a55a0300000006000000"));
   }
   const core::TimeNs then_ns = last_t_ns_;
-  wait_until(core::to_seconds(then_ns) + 0.02);
+  ASSERT_TRUE(time_passes(core::to_seconds(then_ns) + 0.02));
   stop();
   EXPECT_GT(last_unix_ns_, core::TimeNs{1'600'000'000} * core::kNsPerSecond);
 }
@@ -118,8 +116,7 @@ TEST_F(PtyEmulatorTest, ClientNotReading_DoesNotBlock) {
   Client client(folder_.path() / "port");
   client.send("a58205030000000021");
   // The terminal holds 4 kB: express scans fill them in less.
-  wait_until(0.4);
-  stop();
+  ASSERT_TRUE(time_passes(0.4));
 }
 
 TEST(PseudoTerminal, Link_IsReplacedAndRemovedAtTheEnd) {

@@ -44,7 +44,7 @@ TEST_F(CalibrateOdometry, GoodDrive_WritesConfigForReplay) {
 
 TEST_F(CalibrateOdometry, LateReadings_EstimatesDelay) {
   ASSERT_EQ(simulate({"--wheel-errors", "0.015,0.025", "--gyro-error", "0.02", "--acceleration",
-                      "1", "--turn-acceleration", "6"},
+                      "1", "--rotation-acceleration", "6"},
                      "300")
                 .exit_code,
             0);

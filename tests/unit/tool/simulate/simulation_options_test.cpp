@@ -38,7 +38,7 @@ class SimulationOptionsTest : public testing::Test {
 TEST_F(SimulationOptionsTest, InvalidNumber_IsWrongUsage) {
   for (const char* option :
        {"--sigma-floor", "--sigma-share", "--bearing-noise", "--missing", "--missing-run",
-        "--outliers", "--beam", "--backward", "--motor", "--drive-speed", "--turn-speed",
+        "--outliers", "--beam", "--backward", "--motor", "--drive-speed", "--rotation-speed",
         "--map-error", "--clutter", "--fov"}) {
     for (const char* value : {"nan", "inf", "-inf", "-1", "much", ""}) {
       const CommandRun run = simulate({std::string(option) + "=" + value});

@@ -136,7 +136,7 @@ TEST_F(SurveyCommandTest, InconsistentWheels_AreRejectedWithRemedy) {
   ASSERT_EQ(
       CommandRun({"simulate", "--map", arena_, "--path", "0.9,0.9 0.9,1.5 1.15,1.15 0.9,0.9",
                   "--loop", "--scans", "120", "--odometry", "--drive-speed", "0.3",
-                  "--acceleration", "1", "--turn-acceleration", "3", "-o", file("one.ndjson")})
+                  "--acceleration", "1", "--rotation-acceleration", "3", "-o", file("one.ndjson")})
           .exit_code,
       0);
   std::ofstream(file("wrong.json"))
@@ -153,7 +153,7 @@ TEST_F(SurveyCommandTest, InconsistentWheels_AreRejectedWithRemedy) {
 TEST_F(SurveyCommandTest, InconsistentWheelsWithoutLidarMatch_FailWithRemedy) {
   // A lidar of 7.3 Hz sees the next scan rotated by 31 degrees.
   ASSERT_EQ(CommandRun({"simulate", "--map", arena_, "--path", "0.9,0.9 0.9,1.5 1.15,1.15 0.9,0.9",
-                        "--loop", "--scans", "120", "--odometry", "--turn-speed", "4", "-o",
+                        "--loop", "--scans", "120", "--odometry", "--rotation-speed", "4", "-o",
                         file("one.ndjson")})
                 .exit_code,
             0);

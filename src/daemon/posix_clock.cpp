@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "daemon/clock.hpp"
+#include "daemon/posix_clock.hpp"
 
 #include <cstdlib>
 

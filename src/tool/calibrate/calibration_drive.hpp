@@ -15,7 +15,7 @@
 namespace cornerd::tool {
 
 /// A drive's odometry and poses.
-struct RecordedDrive {
+struct CalibrationDrive {
   std::vector<core::OdometryIncrement> steps;
   std::vector<core::OdometryIncrement>
       increments_within_wide_limits;  ///< with 100 times wider limits
@@ -26,8 +26,9 @@ struct RecordedDrive {
 
 /// Poses come from `truth`, or from the lidar's fixes if it is null. `deskewed`: by wheels and
 /// gyro. Throws replay::RecordingError and settings::SettingsError.
-RecordedDrive play_drive(const std::filesystem::path& file, std::optional<rplidar::WireFormat> wire,
-                         const settings::Config& config, const Truth* truth, bool deskewed);
+CalibrationDrive play_drive(const std::filesystem::path& file,
+                            std::optional<rplidar::WireFormat> wire, const settings::Config& config,
+                            const Truth* truth, bool deskewed);
 
 /// The lidar's fixes with scans deskewed by the readings `delay_s` earlier. Throws as play_drive().
 std::vector<calibration::KnownPose> localize_drive(const std::filesystem::path& file,

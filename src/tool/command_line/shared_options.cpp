@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "tool/command_line/options.hpp"
+#include "tool/command_line/shared_options.hpp"
 
 #include <unistd.h>
 

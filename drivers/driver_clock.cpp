@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "drivers/clock.hpp"
+#include "drivers/driver_clock.hpp"
 
 #include <time.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "survey/evidence.hpp"
+#include "survey/face_evidence.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "daemon/options.hpp"
+#include "daemon/daemon_options.hpp"
 
 #include <optional>
 

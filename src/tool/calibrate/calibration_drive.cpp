@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "tool/calibrate/recorded_drive.hpp"
+#include "tool/calibrate/calibration_drive.hpp"
 
 #include <cstdlib>
 #include <utility>
@@ -52,7 +52,7 @@ class DriveSink final : public replay::RecordingSink {
     if (const auto step = wide_gate_.add(reading, now_ns))
       drive_.increments_within_wide_limits.push_back(*step);
   }
-  RecordedDrive finish() {
+  CalibrationDrive finish() {
     take(pipeline_.finish());
     drive_.counters = gate_.counters();
     return std::move(drive_);
@@ -78,7 +78,7 @@ class DriveSink final : public replay::RecordingSink {
   core::ReadingGate wide_gate_;
   const Truth* truth_;
   std::optional<core::TimeNs> now_ns_;
-  RecordedDrive drive_;
+  CalibrationDrive drive_;
 };
 
 /// Feeds each reading by its time, not by its position in the recording.
@@ -116,8 +116,9 @@ class PoseSink final : public replay::RecordingSink {
 
 }  // namespace
 
-RecordedDrive play_drive(const std::filesystem::path& file, std::optional<rplidar::WireFormat> wire,
-                         const settings::Config& config, const Truth* truth, bool deskewed) {
+CalibrationDrive play_drive(const std::filesystem::path& file,
+                            std::optional<rplidar::WireFormat> wire, const settings::Config& config,
+                            const Truth* truth, bool deskewed) {
   core::LocalizerConfig localizer = config.localizer();
   localizer.odometry.enabled = deskewed;
   core::Pipeline pipeline(truth != nullptr ? nullptr : settings::load_map(config.map), localizer);
