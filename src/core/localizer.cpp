@@ -95,7 +95,14 @@ Decision Localizer::Workspace::find(const Scan& scan, TimeNs t_ns) {
   candidates = {};
   if (!place) return {};
   const bool certain = !in_doubt(t_ns);
-  if (!certain) search_with_motion(scan, t_ns);
+  if (!certain) {
+    search_map(t_ns);
+    // A motion fits walls that are beside their place in the map, a little.
+    if (!is_exact(t_ns) && motion != memory.motion()) {
+      look(scan, t_ns, memory.motion());
+      search_map(t_ns);
+    }
+  }
 
   // 4. One place is a fix, several are ambiguous, none is lost.
   if (certain || is_exact(t_ns)) {

@@ -28,8 +28,6 @@ constexpr std::array kGuesses_rad_s = {1.5, -1.5, 3.0, -3.0, 0.75, -0.75};
 constexpr std::size_t kGuessesATurn = 2;
 constexpr double kGuessedShare = 0.8;
 
-/// What three unknowns of a motion are worth.
-constexpr double kNatsOfAMotion = 10;
 /// Hypotheses of pairs of corners that are compared in inexact maps, the most voted ones.
 constexpr std::size_t kMaxPairs = 64;
 /// A place near a fresh prior with a log likelihood ratio above this needs no search of the map.
@@ -137,23 +135,6 @@ bool Localizer::Workspace::is_exact(TimeNs t_ns) const {
            return is_no_chance(other) &&
                   same_pose(other.refined.T_map_lidar, T_map_lidar, kJump_m, kJump_rad);
          });
-}
-
-/// A motion fits walls that are beside their place in the map, a little: it has to explain more.
-void Localizer::Workspace::search_with_motion(const Scan& scan, TimeNs t_ns) {
-  const auto log_ratio = [&] {
-    const auto places = place->place_search.places();
-    return places.empty() ? 0 : places.front().log_ratio;
-  };
-  search_map(t_ns);
-  const Twist2 found = motion;
-  if (is_exact(t_ns) || found == memory.motion()) return;
-  const double log_ratio_found = log_ratio();
-  look(scan, t_ns, memory.motion());
-  search_map(t_ns);
-  if (is_exact(t_ns) || log_ratio() + kNatsOfAMotion > log_ratio_found) return;
-  look(scan, t_ns, found);
-  search_map(t_ns);
 }
 
 void Localizer::Workspace::search_map(TimeNs t_ns) {

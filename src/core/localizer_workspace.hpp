@@ -76,7 +76,6 @@ struct Localizer::Workspace {
   void look(const Scan& scan, TimeNs t_ns, const Twist2& as_if_moving);
   void look_for_the_motion(const Scan& scan, TimeNs t_ns);
   void search_map(TimeNs t_ns);
-  void search_with_motion(const Scan& scan, TimeNs t_ns);
   bool is_exact(TimeNs t_ns) const;
   std::size_t corners_of(const Decision& decision) const;
   PoseState believe(const Decision& decision, std::size_t corners, TimeNs t_ns);
