@@ -16,7 +16,7 @@ using core::Vec2;
 constexpr std::size_t kTrimmedFrom = 8;
 /// A border of noise has few runs of this length, from first to last side, within the raster's
 /// error.
-constexpr double kStraight = 7;
+constexpr double kStraight = 4;
 constexpr double kRasterError = 0.75;
 constexpr std::size_t kTrimmedSides = 1;
 /// The direction of a shorter run is that of the raster.

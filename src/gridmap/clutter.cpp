@@ -68,11 +68,15 @@ Clutter box_clutter(const OccupancyGrid& grid, double min_size, double inset,
   ClutterBoxes boxes(min_size, inset, limits);
   for_each_patch(grid, Cell::kOccupied, 8, [&](const std::vector<CellIndex>& patch) {
     std::vector<Vec2> cells;
+    bool is_seen = false;
     for (const CellIndex& cell : patch) {
       cells.emplace_back(static_cast<double>(cell.column) + 0.5,
                          static_cast<double>(cell.row) + 0.5);
+      is_seen = is_seen || std::any_of(kNeighbours.begin(), kNeighbours.end(), [&](auto step) {
+                  return grid.at(cell.column + step.column, cell.row + step.row) == Cell::kFree;
+                });
     }
-    boxes.add(std::move(cells));
+    if (is_seen) boxes.add(std::move(cells));
   });
   return boxes.take();
 }

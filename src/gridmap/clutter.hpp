@@ -14,9 +14,9 @@ struct Clutter {
   std::vector<Patch> dropped;
 };
 
-/// Rectangles for the occupied patches beside all walls: chair legs, table edges. A patch that does
-/// not fill its rectangle is halved; parts shorter than `min_size` are dropped. The surfaces are
-/// `inset` behind the outline. In cells.
+/// Rectangles for the occupied patches beside all walls and free cells: chair legs, table edges. A
+/// patch that does not fill its rectangle is halved; parts shorter than `min_size` are dropped. The
+/// surfaces are `inset` behind the outline. In cells.
 Clutter box_clutter(const OccupancyGrid& grid, double min_size, double inset,
                     const SolidLimits& limits);
 

@@ -16,15 +16,19 @@
 namespace cornerd::gridmap {
 namespace {
 
-/// Share of straight borders. Drawings have 0.87 to 1. Mappers: a real one 0.5, simulated ones 0.1
+/// Share of straight borders. Drawings have 0.97 to 1. Mappers: a real one 0.7, simulated ones 0.5
 /// to 0.99 by noise and number of scans. Below this share, borders give false corners.
-constexpr double kSmoothShare = 0.8;
-/// The same of the backs of walls. Drawings have 0.98 to 1, simulated mappers 0.2 to 0.9.
-constexpr double kDrawnBacks = 0.95;
+constexpr double kSmoothShare = 0.9;
+/// The same of the backs of walls. Drawings of thick walls have 1, simulated mappers 0.6 to 0.97.
+constexpr double kDrawnBacks = 0.98;
 /// Mapped walls are one or two cells thick.
 constexpr double kDrawnBuriedShare = 0.25;
 /// Patches of two cells are noise at any resolution.
 constexpr double kSpeckCells = 2.5;
+constexpr double kSpeck_m = 0.1;
+/// Legs and feet of furniture move. On a recorded floor, fewer poses are found with them in the
+/// map.
+constexpr double kFurniture_m = 0.25;
 /// Deviation of a straight line's border in a drawing, and in a mapped picture, in cells.
 constexpr double kDrawnTolerance = 0.75;
 constexpr double kMappedTolerance = 1.25;
@@ -92,7 +96,8 @@ ImportResult import_grid(OccupancyGrid grid, double resolution_m, const core::Po
                                                        : MadeBy::kLidar;
   const bool by_drawing = result.made_by == MadeBy::kDrawing;
   const bool is_rough = !by_drawing && !is_smooth;
-  const double min_size = std::max(kSpeckCells, cells(options.speck_m));
+  const double min_size =
+      std::max(kSpeckCells, cells(options.speck_m.value_or(is_rough ? kFurniture_m : kSpeck_m)));
   // In a rough map, specks may be parts of walls.
   if (!is_rough) remark(drop_specks(grid, min_size), result.specks);
   const double pocket_cells = options.pocket_m2 / (resolution_m * resolution_m);

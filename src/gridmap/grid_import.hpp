@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,13 +19,14 @@ enum class MadeBy : std::uint8_t { kUnknown, kLidar, kDrawing };
 
 struct ImportOptions {
   MadeBy made_by = MadeBy::kUnknown;  ///< unknown: the data decide
-  double speck_m = 0.1;               ///< smallest occupied patch, at least 2.5 cells
-  double pocket_m2 = 0.05;            ///< smallest free patch
-  double join_gap_m = 0.6;            ///< largest unknown gap within a wall
-  double thickness_m = 0.6;           ///< thickest wall with unknown cells inside
-  double thin_m = 0;                  ///< thickness of walls thinner than a cell
-  double roughness_m = 0.025;         ///< largest step of a mapped wall that is noise
-  bool square = true;                 ///< make walls square that are so within the raster's error
+  /// Smallest occupied patch, at least 2.5 cells. Default: 0.1 m, in a rough map 0.25 m.
+  std::optional<double> speck_m = std::nullopt;
+  double pocket_m2 = 0.05;     ///< smallest free patch
+  double join_gap_m = 0.6;     ///< largest unknown gap within a wall
+  double thickness_m = 0.6;    ///< thickest wall with unknown cells inside
+  double thin_m = 0;           ///< thickness of walls thinner than a cell
+  double roughness_m = 0.025;  ///< largest step of a mapped wall that is noise
+  bool square = true;          ///< make walls square that are so within the raster's error
 };
 
 /// Something left out of the map, or closed without being seen.

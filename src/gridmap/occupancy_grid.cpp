@@ -24,15 +24,22 @@ Cell read_shade(double shade, const MapServerYaml& yaml) {
   return by_thresholds(1 - shade, yaml, yaml.mode == ShadeMode::kScale);
 }
 
-/// map_saver writes these three shades alone, with 205 for unknown, whatever thresholds it writes
-/// (nav2_map_server/src/map_io.cpp). With its own default of free_thresh, 0.25, 205 would be free.
+/// map_saver writes 0, 254, and 205 for unknown, whatever thresholds it writes
+/// (nav2_map_server/src/map_io.cpp). By its own default of free_thresh, 0.25, 205 would be free.
 constexpr unsigned kSavedUnknown = 205;
+constexpr unsigned kSavedFree = 254;
+/// One pixel in so many may have another shade: the edges of a brush that corrected the map.
+constexpr std::size_t kCorrected = 100;
 
 bool is_saved_by_ros(const Image& image, const MapServerYaml& yaml) {
-  return yaml.mode == ShadeMode::kTrinary && !yaml.negate && image.white == 255 &&
-         std::all_of(image.shades.begin(), image.shades.end(), [](unsigned shade) {
-           return shade == 0 || shade == kSavedUnknown || shade == 254;
-         });
+  if (yaml.mode != ShadeMode::kTrinary || yaml.negate || image.white != 255) return false;
+  std::size_t free = 0;
+  std::size_t other = 0;
+  for (const unsigned shade : image.shades) {
+    if (shade == kSavedFree) ++free;
+    if (shade != 0 && shade != kSavedUnknown && shade < kSavedFree) ++other;
+  }
+  return free > 0 && kCorrected * other <= image.shades.size();
 }
 
 }  // namespace

@@ -39,7 +39,9 @@ TEST(ReadShades, SavedByMapSaver_UnknownWhateverTheThreshold) {
   MapServerYaml nav2 = yaml(ShadeMode::kTrinary);
   nav2.free_threshold = 0.25;
   EXPECT_THAT(read({0, 205, 254}, nav2), ElementsAre(kOccupied, kUnknown, kFree));
+  EXPECT_THAT(read({0, 205, 255, 254}, nav2), ElementsAre(kOccupied, kUnknown, kFree, kFree));
   EXPECT_THAT(read({0, 205, 255}, nav2), ElementsAre(kOccupied, kFree, kFree));
+  EXPECT_THAT(read({0, 205, 230, 254}, nav2), ElementsAre(kOccupied, kFree, kFree, kFree));
 }
 
 TEST(ReadShades, Trinary_IsUnknownBetweenThresholds) {
