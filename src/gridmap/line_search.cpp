@@ -23,8 +23,8 @@ constexpr std::int64_t kSeedRadius = 10;
 /// are free or occupied, and continues beyond unknown ones for at least half their length.
 constexpr double kFreeScore = -1.5;
 constexpr double kUnknownScore = -0.5;
-/// Largest share of occupied cells before a line.
-constexpr double kMaxBefore = 0.15;
+/// Largest share of occupied cells before a line, of its score for each cell of length.
+constexpr double kMaxBefore = 0.2;
 /// Of the distances between an oblique line and the sides of cells along it: uniform.
 constexpr double kRasterVariance = 1.0 / 12;
 /// Of a corner in a raster from where its faces end, beside their tolerance.
@@ -40,6 +40,7 @@ struct Seed {
 struct Segment {
   SurfaceLine line;
   Interval extent;
+  double score = 0;
 
   GridFace face() const {
     return {line.at + extent.begin * line.direction, line.at + extent.end * line.direction,
@@ -196,7 +197,8 @@ class LineSearch {
     for (int round = 0; round < kFitRounds; ++round) {
       const Reach back = extend(line, false);
       const Reach ahead = extend(line, true);
-      if (back.score + ahead.score < min_score) return std::nullopt;
+      segment.score = back.score + ahead.score;
+      if (segment.score < min_score) return std::nullopt;
       segment.line = line;
       segment.extent = {back.end, ahead.end};
       if (round + 1 == kFitRounds) break;
@@ -225,7 +227,7 @@ class LineSearch {
         if (surface_.grid().at(column, row) == Cell::kOccupied) ++occupied;
       });
     });
-    return occupied < kMaxBefore * cells;
+    return occupied < kMaxBefore * cells * segment.score / segment.extent.length();
   }
 
   void take(const Segment& segment, std::vector<JoinedGap>& gaps) {
