@@ -14,6 +14,10 @@ using core::Vec2;
 
 /// A run of this length is fitted without its first and last sides, which belong to the corners.
 constexpr std::size_t kTrimmedFrom = 8;
+/// A border of noise has few runs of this length, from first to last side, within the raster's
+/// error.
+constexpr double kStraight = 4;
+constexpr double kRasterError = 0.75;
 constexpr std::size_t kTrimmedSides = 1;
 /// The direction of a shorter run is that of the raster.
 constexpr double kUndirected = 5;
@@ -254,6 +258,20 @@ std::vector<Run> straight_runs(Border& border, double tolerance) {
   sharpen_corners(border, tolerance, runs);
   direct_short_runs(border, runs);
   return runs;
+}
+
+double straight_share(const OccupancyGrid& grid) {
+  std::size_t all = 0;
+  std::size_t straight = 0;
+  for (Border& border : trace_borders(grid)) {
+    // The border of a speck has no room for a straight run.
+    if (static_cast<double>(border.size()) < 4 * (kStraight + 1)) continue;
+    all += border.size();
+    for (const Run& run : straight_runs(border, kRasterError)) {
+      if (run.extent >= kStraight) straight += run.size();
+    }
+  }
+  return all == 0 ? 1 : static_cast<double>(straight) / static_cast<double>(all);
 }
 
 }  // namespace cornerd::gridmap

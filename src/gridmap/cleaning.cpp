@@ -8,48 +8,12 @@
 namespace cornerd::gridmap {
 namespace {
 
-struct Place {
-  std::int64_t column;
-  std::int64_t row;
-};
-
-/// Straight neighbours first.
-constexpr std::array<Place, 8> kNeighbours = {
-    {{1, 0}, {0, 1}, {-1, 0}, {0, -1}, {1, 1}, {-1, 1}, {-1, -1}, {1, -1}}};
-
-/// Calls visit(cells of the patch) for every patch of the kind.
-template <typename Visitor>
-void for_each_patch(const OccupancyGrid& grid, Cell kind, std::size_t neighbours, Visitor&& visit) {
-  std::vector<bool> seen(static_cast<std::size_t>(grid.columns() * grid.rows()), false);
-  std::vector<Place> patch;
-  const auto take = [&](std::int64_t column, std::int64_t row) {
-    if (grid.at(column, row) != kind) return;
-    const auto i = static_cast<std::size_t>(row * grid.columns() + column);
-    if (seen[i]) return;
-    seen[i] = true;
-    patch.push_back({column, row});
-  };
-  for (std::int64_t row = 0; row < grid.rows(); ++row) {
-    for (std::int64_t column = 0; column < grid.columns(); ++column) {
-      patch.clear();
-      take(column, row);
-      for (std::size_t i = 0; i < patch.size(); ++i) {
-        const Place at = patch[i];
-        for (std::size_t n = 0; n < neighbours; ++n) {
-          take(at.column + kNeighbours[n].column, at.row + kNeighbours[n].row);
-        }
-      }
-      if (!patch.empty()) visit(patch);
-    }
-  }
-}
-
-Patch describe(const std::vector<Place>& places) {
+Patch describe(const std::vector<CellIndex>& places) {
   Patch patch;
   patch.cells = places.size();
-  Place low = places.front();
-  Place high = low;
-  for (const Place& place : places) {
+  CellIndex low = places.front();
+  CellIndex high = low;
+  for (const CellIndex& place : places) {
     low = {std::min(low.column, place.column), std::min(low.row, place.row)};
     high = {std::max(high.column, place.column), std::max(high.row, place.row)};
   }
@@ -60,16 +24,16 @@ Patch describe(const std::vector<Place>& places) {
 }
 
 /// Called after all patches are found, since a removal may split or join others.
-void forget(OccupancyGrid& grid, const std::vector<Place>& places) {
-  for (const Place& place : places) grid.set(place.column, place.row, Cell::kUnknown);
+void forget(OccupancyGrid& grid, const std::vector<CellIndex>& places) {
+  for (const CellIndex& place : places) grid.set(place.column, place.row, Cell::kUnknown);
 }
 
 }  // namespace
 
 std::vector<Patch> drop_specks(OccupancyGrid& grid, double size) {
   std::vector<Patch> dropped;
-  std::vector<Place> going;
-  for_each_patch(grid, Cell::kOccupied, 8, [&](const std::vector<Place>& places) {
+  std::vector<CellIndex> going;
+  for_each_patch(grid, Cell::kOccupied, 8, [&](const std::vector<CellIndex>& places) {
     const Patch patch = describe(places);
     if (patch.size >= size) return;
     dropped.push_back(patch);
@@ -81,12 +45,12 @@ std::vector<Patch> drop_specks(OccupancyGrid& grid, double size) {
 
 std::vector<Patch> drop_pockets(OccupancyGrid& grid, std::size_t cells) {
   std::size_t largest = 0;
-  for_each_patch(grid, Cell::kFree, 4, [&](const std::vector<Place>& places) {
+  for_each_patch(grid, Cell::kFree, 4, [&](const std::vector<CellIndex>& places) {
     largest = std::max(largest, places.size());
   });
   std::vector<Patch> dropped;
-  std::vector<Place> going;
-  for_each_patch(grid, Cell::kFree, 4, [&](const std::vector<Place>& places) {
+  std::vector<CellIndex> going;
+  for_each_patch(grid, Cell::kFree, 4, [&](const std::vector<CellIndex>& places) {
     if (places.size() >= std::min(cells, largest)) return;
     dropped.push_back(describe(places));
     going.insert(going.end(), places.begin(), places.end());
@@ -104,7 +68,7 @@ double buried_share(const OccupancyGrid& grid) {
       ++occupied;
       buried +=
           std::all_of(kNeighbours.begin(), kNeighbours.end(),
-                      [&](const Place& step) {
+                      [&](const CellIndex& step) {
                         return grid.at(column + step.column, row + step.row) == Cell::kOccupied;
                       })
               ? 1

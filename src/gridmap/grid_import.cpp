@@ -3,22 +3,38 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "gridmap/cleaning.hpp"
+#include "gridmap/clutter.hpp"
+#include "gridmap/face_corners.hpp"
 #include "gridmap/faces.hpp"
+#include "gridmap/line_search.hpp"
 #include "gridmap/solids.hpp"
 #include "gridmap/walls.hpp"
 
 namespace cornerd::gridmap {
 namespace {
 
+/// Share of straight borders. Drawings have 0.97 to 1. Mappers: a real one 0.7, simulated ones 0.5
+/// to 0.99 by noise and number of scans. Below this share, borders give false corners.
+constexpr double kSmoothShare = 0.9;
+/// The same of the backs of walls. Drawings of thick walls have 1, simulated mappers 0.6 to 0.97.
+constexpr double kDrawnBacks = 0.98;
 /// Mapped walls are one or two cells thick.
 constexpr double kDrawnBuriedShare = 0.25;
 /// Patches of two cells are noise at any resolution.
 constexpr double kSpeckCells = 2.5;
+constexpr double kSpeck_m = 0.1;
+/// Legs and feet of furniture move. On a recorded floor, fewer poses are found with them in the
+/// map.
+constexpr double kFurniture_m = 0.25;
 /// Deviation of a straight line's border in a drawing, and in a mapped picture, in cells.
 constexpr double kDrawnTolerance = 0.75;
 constexpr double kMappedTolerance = 1.25;
+/// Largest gap of free cells in a mapped wall: narrower than any opening for a robot.
+constexpr double kHole_m = 0.1;
+constexpr double kHoleCells = 3;
 constexpr double kBlock_m = 2;
 /// Overlap of walls that meet, so that no ray passes through the joint.
 constexpr double kInto_m = 0.001;
@@ -43,47 +59,90 @@ class Placer {
   core::Pose2 T_map_picture_;
 };
 
-}  // namespace
-
-MadeBy detect_maker(const OccupancyGrid& grid) {
-  if (grid.count(Cell::kUnknown) == 0) return MadeBy::kDrawing;
-  return buried_share(grid) > kDrawnBuriedShare ? MadeBy::kDrawing : MadeBy::kLidar;
+/// Unknown and free cells exchanged: its borders are the backs of the walls.
+OccupancyGrid from_behind(const OccupancyGrid& grid) {
+  OccupancyGrid behind = grid;
+  for (std::int64_t row = 0; row < grid.rows(); ++row) {
+    for (std::int64_t column = 0; column < grid.columns(); ++column) {
+      const Cell cell = grid.at(column, row);
+      if (cell == Cell::kOccupied) continue;
+      behind.set(column, row, cell == Cell::kFree ? Cell::kUnknown : Cell::kFree);
+    }
+  }
+  return behind;
 }
+
+/// A drawing has straight borders, and no cell is unknown, or many occupied cells cannot have been
+/// reached by beams. A mapped wall that is so thick has a ragged back: the farthest of many beams.
+bool is_drawn(const OccupancyGrid& grid, bool is_smooth) {
+  if (!is_smooth || grid.count(Cell::kUnknown) == 0) return is_smooth;
+  return buried_share(grid) > kDrawnBuriedShare && straight_share(from_behind(grid)) > kDrawnBacks;
+}
+
+}  // namespace
 
 ImportResult import_grid(OccupancyGrid grid, double resolution_m, const core::Pose2& T_map_picture,
                          const ImportOptions& options) {
   const Placer placer(resolution_m, T_map_picture);
   const auto cells = [&](double length_m) { return length_m / resolution_m; };
-
   ImportResult result;
-  result.made_by = options.made_by == MadeBy::kUnknown ? detect_maker(grid) : options.made_by;
-  const double min_size = std::max(kSpeckCells, cells(options.speck_m));
-  for (const Patch& patch : drop_specks(grid, min_size)) {
-    result.specks.push_back(placer.remark(patch.centre, patch.size));
-  }
-  const double pocket_cells = options.pocket_m2 / (resolution_m * resolution_m);
-  for (const Patch& patch : drop_pockets(grid, static_cast<std::size_t>(pocket_cells))) {
-    result.pockets.push_back(placer.remark(patch.centre, patch.size));
-  }
+  const auto remark = [&](const std::vector<Patch>& patches, std::vector<Remark>& remarks) {
+    for (const Patch& patch : patches) remarks.push_back(placer.remark(patch.centre, patch.size));
+  };
 
-  const bool is_drawn = result.made_by == MadeBy::kDrawing;
-  FaceOptions face_options;
-  face_options.tolerance =
-      is_drawn ? kDrawnTolerance : std::max(kMappedTolerance, cells(options.roughness_m));
-  face_options.inset = is_drawn ? 0 : 0.5;
-  face_options.join_gap = cells(options.join_gap_m);
-  face_options.square = options.square;
-  const FaceSet set = build_faces(grid, trace_borders(grid), face_options);
+  const bool is_smooth = straight_share(grid) > kSmoothShare;
+  result.made_by = options.made_by != MadeBy::kUnknown ? options.made_by
+                   : is_drawn(grid, is_smooth)         ? MadeBy::kDrawing
+                                                       : MadeBy::kLidar;
+  const bool by_drawing = result.made_by == MadeBy::kDrawing;
+  const bool is_rough = !by_drawing && !is_smooth;
+  const double min_size =
+      std::max(kSpeckCells, cells(options.speck_m.value_or(is_rough ? kFurniture_m : kSpeck_m)));
+  // In a rough map, specks may be parts of walls.
+  if (!is_rough) remark(drop_specks(grid, min_size), result.specks);
+  const double pocket_cells = options.pocket_m2 / (resolution_m * resolution_m);
+  remark(drop_pockets(grid, static_cast<std::size_t>(pocket_cells)), result.pockets);
+
+  const double tolerance =
+      by_drawing ? kDrawnTolerance : std::max(kMappedTolerance, cells(options.roughness_m));
+  SolidLimits limits;
+  limits.thickness = cells(options.thickness_m);
+  limits.block = std::max(limits.thickness, cells(kBlock_m));
+  limits.tolerance = std::max(limits.tolerance, tolerance / 2);
+  limits.thin = cells(options.thin_m);
+  limits.into = cells(kInto_m);
+
+  FaceSet set;
+  std::vector<core::Wall> boxes;
+  if (is_rough) {
+    LineSearchOptions search;
+    search.tolerance = tolerance;
+    search.join_gap = cells(options.join_gap_m);
+    search.max_hole = std::max(kHoleCells, cells(kHole_m));
+    MappedLines lines = find_lines(grid, search);
+    OccupancyGrid rest = grid;
+    const double reach = lines.inset + tolerance + 1;
+    draw_bands(lines.faces, {-reach, reach}, Cell::kUnknown, rest);
+    draw_bands(lines.faces, {-lines.inset, 0}, Cell::kOccupied, grid);
+    Clutter clutter = box_clutter(rest, min_size, lines.inset, limits);
+    remark(clutter.dropped, result.specks);
+    boxes = std::move(clutter.walls);
+    join_corners(grid, reach, search.join_gap, lines.faces);
+    set = {std::move(lines.faces), std::move(lines.gaps)};
+    limits.lines = true;
+    limits.wedge = tolerance;
+  } else {
+    FaceOptions face_options;
+    face_options.tolerance = tolerance;
+    face_options.inset = by_drawing ? 0 : 0.5;
+    face_options.join_gap = cells(options.join_gap_m);
+    face_options.square = options.square;
+    set = build_faces(grid, trace_borders(grid), face_options);
+  }
   for (const JoinedGap& gap : set.gaps) {
     result.joined_gaps.push_back(placer.remark(gap.centre, gap.length));
   }
 
-  SolidLimits limits;
-  limits.thickness = cells(options.thickness_m);
-  limits.block = std::max(limits.thickness, cells(kBlock_m));
-  limits.tolerance = std::max(limits.tolerance, face_options.tolerance / 2);
-  limits.thin = cells(options.thin_m);
-  limits.into = cells(kInto_m);
   const std::vector<core::Wall> solids = find_solids(grid, set.faces, limits);
   std::vector<LeftOut> left_out;
   const std::vector<core::Wall> one_sided =
@@ -91,11 +150,11 @@ ImportResult import_grid(OccupancyGrid grid, double resolution_m, const core::Po
   for (const LeftOut& piece : left_out) {
     result.short_pieces.push_back(placer.remark(piece.centre, piece.size));
   }
-  for (const core::Wall& wall : solids) {
-    result.plan.walls.push_back(placer.wall(wall));
-    ++result.two_sided;
+  result.two_sided = solids.size();
+  result.rectangles = boxes.size();
+  for (const std::vector<core::Wall>* walls : {&solids, &one_sided, &std::as_const(boxes)}) {
+    for (const core::Wall& wall : *walls) result.plan.walls.push_back(placer.wall(wall));
   }
-  for (const core::Wall& wall : one_sided) result.plan.walls.push_back(placer.wall(wall));
   return result;
 }
 

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,14 +18,15 @@ namespace cornerd::gridmap {
 enum class MadeBy : std::uint8_t { kUnknown, kLidar, kDrawing };
 
 struct ImportOptions {
-  MadeBy made_by = MadeBy::kUnknown;  ///< unknown: by detect_maker()
-  double speck_m = 0.1;               ///< smallest occupied patch, at least 2.5 cells
-  double pocket_m2 = 0.05;            ///< smallest free patch
-  double join_gap_m = 0.3;            ///< largest unknown gap within a wall
-  double thickness_m = 0.6;           ///< thickest wall with unknown cells inside
-  double thin_m = 0;                  ///< thickness of walls thinner than a cell
-  double roughness_m = 0.025;         ///< largest step of a mapped wall that is noise
-  bool square = true;                 ///< make walls square that are so within the raster's error
+  MadeBy made_by = MadeBy::kUnknown;  ///< unknown: the data decide
+  /// Smallest occupied patch, at least 2.5 cells. Default: 0.1 m, in a rough map 0.25 m.
+  std::optional<double> speck_m = std::nullopt;
+  double pocket_m2 = 0.05;     ///< smallest free patch
+  double join_gap_m = 0.6;     ///< largest unknown gap within a wall
+  double thickness_m = 0.6;    ///< thickest wall with unknown cells inside
+  double thin_m = 0;           ///< thickness of walls thinner than a cell
+  double roughness_m = 0.025;  ///< largest step of a mapped wall that is noise
+  bool square = true;          ///< make walls square that are so within the raster's error
 };
 
 /// Something left out of the map, or closed without being seen.
@@ -34,18 +36,16 @@ struct Remark {
 };
 
 struct ImportResult {
-  /// Without a name. The two-sided walls come first.
+  /// Without a name. The two-sided walls come first, the rectangles last.
   core::FloorPlan plan;
   MadeBy made_by = MadeBy::kUnknown;
-  std::size_t two_sided = 0;  ///< walls with both faces seen
+  std::size_t two_sided = 0;   ///< walls with both faces seen
+  std::size_t rectangles = 0;  ///< patches beside the walls: chair legs, table edges
   std::vector<Remark> specks;
   std::vector<Remark> pockets;
   std::vector<Remark> short_pieces;
   std::vector<Remark> joined_gaps;
 };
-
-/// A drawing, where no cell is unknown, or many occupied cells cannot have been reached by beams.
-MadeBy detect_maker(const OccupancyGrid& grid);
 
 /// Walls along the borders between free and occupied cells; none where there is no border.
 ImportResult import_grid(OccupancyGrid grid, double resolution_m, const core::Pose2& T_map_picture,

@@ -24,6 +24,24 @@ Cell read_shade(double shade, const MapServerYaml& yaml) {
   return by_thresholds(1 - shade, yaml, yaml.mode == ShadeMode::kScale);
 }
 
+/// map_saver writes 0, 254, and 205 for unknown, whatever thresholds it writes
+/// (nav2_map_server/src/map_io.cpp). By its own default of free_thresh, 0.25, 205 would be free.
+constexpr unsigned kSavedUnknown = 205;
+constexpr unsigned kSavedFree = 254;
+/// One pixel in so many may have another shade: the edges of a brush that corrected the map.
+constexpr std::size_t kCorrected = 100;
+
+bool is_saved_by_ros(const Image& image, const MapServerYaml& yaml) {
+  if (yaml.mode != ShadeMode::kTrinary || yaml.negate || image.white != 255) return false;
+  std::size_t free = 0;
+  std::size_t other = 0;
+  for (const unsigned shade : image.shades) {
+    if (shade == kSavedFree) ++free;
+    if (shade != 0 && shade != kSavedUnknown && shade < kSavedFree) ++other;
+  }
+  return free > 0 && kCorrected * other <= image.shades.size();
+}
+
 }  // namespace
 
 std::size_t OccupancyGrid::count(Cell kind) const {
@@ -38,10 +56,12 @@ Cell OccupancyGrid::at(const core::Vec2& point) const {
 OccupancyGrid read_shades(const Image& image, const MapServerYaml& yaml) {
   OccupancyGrid grid(image.width, image.height);
   const double white = image.white;
+  const bool is_saved = is_saved_by_ros(image, yaml);
   for (std::size_t line = 0; line < image.height; ++line) {
     for (std::size_t column = 0; column < image.width; ++column) {
       const std::size_t i = line * image.width + column;
       if (!image.alphas.empty() && image.alphas[i] != 255) continue;
+      if (is_saved && image.shades[i] == kSavedUnknown) continue;
       grid.set(static_cast<std::int64_t>(column), grid.rows() - 1 - static_cast<std::int64_t>(line),
                read_shade(image.shades[i] / white, yaml));
     }

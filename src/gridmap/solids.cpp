@@ -15,8 +15,6 @@ using core::Vec2;
 constexpr double kLookStep = 0.5;  ///< sampling step along a wall
 constexpr double kMargin = 1;      ///< raster error at a face
 constexpr double kMinOverlap = 1;
-/// Largest deviation from parallel of a wall's faces over their length.
-constexpr double kWedge = 1;
 /// A face covered by walls over this share of its length needs no other.
 constexpr double kEnough = 0.9;
 
@@ -44,7 +42,7 @@ std::optional<Candidate> match(const GridFace& front, const GridFace& back,
   candidate.all = {std::min(a.begin, b.begin), std::max(a.end, b.end)};
   const double overlap = candidate.both.length();
   if (overlap < kMinOverlap) return std::nullopt;
-  if (std::abs(core::cross(front.direction, back.direction)) * overlap > kWedge)
+  if (std::abs(core::cross(front.direction, back.direction)) * overlap > limits.wedge)
     return std::nullopt;
   // Heights of both faces in the middle of what they share.
   const Vec2 middle =

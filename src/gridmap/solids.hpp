@@ -15,8 +15,10 @@ struct SolidLimits {
   double block = 200;          ///< largest thickness with occupied cells only
   double min_thickness = 0.4;  ///< a thinner wall is a line
   double tolerance = 0.7;      ///< distance of a face to a wall's side that is its own
-  double thin = 0;             ///< thickness given to walls that would be lines
-  double into = 0;             ///< overlap of a wall with the one it ends at: no ray passes between
+  double wedge = 1;    ///< largest deviation from parallel of a wall's faces over their length
+  bool lines = false;  ///< a wall seen from one side is a line: what is behind it is noise
+  double thin = 0;     ///< thickness given to walls that would be lines
+  double into = 0;     ///< overlap of a wall with the one it ends at: no ray passes between
 };
 
 /// Walls with both faces and no free cells in between, the thinnest first. In cells. Walls that

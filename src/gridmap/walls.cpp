@@ -53,7 +53,7 @@ class LineFinder {
       Line line;
       line.from = face.from + open.begin * face.direction;
       line.to = face.from + open.end * face.direction;
-      line.depth = face.is_joint ? 0 : depth_behind(face, open);
+      line.depth = face.is_joint || limits_.lines ? 0 : depth_behind(face, open);
       line.touches = touches;
       line.enters_from = open.begin == 0 && face.enters_from;
       line.enters_to = open.end == length && face.enters_to;

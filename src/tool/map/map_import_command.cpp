@@ -82,7 +82,9 @@ std::string report(const gridmap::MapServerYaml& yaml, const gridmap::Image& ima
                         ? "drawing: surfaces on the edges of the occupied cells"
                         : "lidar: surfaces in the middle of the occupied cells",
                     is_detected ? "; detected, --made-by overrides it" : "");
-  const auto one_sided = std::span(result.plan.walls).subspan(result.two_sided);
+  const auto one_sided = std::span(result.plan.walls)
+                             .subspan(result.two_sided, result.plan.walls.size() -
+                                                            result.two_sided - result.rectangles);
   const auto lines = std::count_if(one_sided.begin(), one_sided.end(),
                                    [](const core::Wall& wall) { return wall.thickness_m == 0; });
   text += formatted("%-12s %s: %zu with both faces, %zu with one face", "walls",
@@ -91,6 +93,9 @@ std::string report(const gridmap::MapServerYaml& yaml, const gridmap::Image& ima
     text += formatted(" (%zu as thick as the occupied cells behind it, %zu lines)",
                       one_sided.size() - static_cast<std::size_t>(lines),
                       static_cast<std::size_t>(lines));
+  }
+  if (result.rectangles > 0) {
+    text += formatted(", %zu patches beside the walls", result.rectangles);
   }
   text += "\n";
   text += describe(result.specks, "dropped", "specks of occupied cells");
@@ -152,19 +157,20 @@ void add_map_import(Command& group) {
   command
       .add_option("--made-by", options->made_by,
                   "lidar: surfaces are in the middle of the occupied cells, where beams ended; "
-                  "drawing: surfaces are on their edges; auto: drawing if no cell is unknown, or "
-                  "if more than a quarter of the occupied cells are behind others")
+                  "drawing: surfaces are on their edges; auto: drawing if the walls are straight, "
+                  "and no cell is unknown or a quarter of the occupied cells are behind others")
       .choices({"auto", "lidar", "drawing"})
       .capture_default_str();
   command
       .add_option("--speck", options->grid.speck_m,
-                  "occupied patches smaller than this (m), or than 2.5 cells, are dropped")
+                  "occupied patches beside the walls that are smaller than this (m), or than 2.5 "
+                  "cells, are dropped; default: 0.1, in a rough map 0.25")
       .within(0, 10)
-      .type_name("M")
-      .capture_default_str();
+      .type_name("M");
   command
-      .add_option("--gap", options->grid.join_gap_m,
-                  "largest gap of unknown cells in a wall that is closed (m)")
+      .add_option(
+          "--gap", options->grid.join_gap_m,
+          "largest gap of unknown cells in a wall that is closed (m), as furniture leaves it")
       .within(0, 10)
       .type_name("M")
       .capture_default_str();

@@ -83,5 +83,18 @@ TEST(StraightRuns, WallOfOneCell_GivesTwoRuns) {
   EXPECT_LT(runs[0].direction.dot(runs[1].direction), -0.99);
 }
 
+TEST(StraightShare, RaggedWall_IsLessStraightThanDrawnOne) {
+  OccupancyGrid drawn(60, 20);
+  OccupancyGrid ragged(60, 20);
+  for (std::int64_t column = 0; column < 60; ++column) {
+    for (std::int64_t row = 0; row < 20; ++row) {
+      drawn.set(column, row, row < 10 + column / 6 ? Cell::kFree : Cell::kOccupied);
+      ragged.set(column, row, row < 10 + column * 7 % 5 ? Cell::kFree : Cell::kOccupied);
+    }
+  }
+  EXPECT_GT(straight_share(drawn), 0.95);
+  EXPECT_LT(straight_share(ragged), 0.5);
+}
+
 }  // namespace
 }  // namespace cornerd::gridmap

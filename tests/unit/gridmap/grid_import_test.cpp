@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <random>
+#include <utility>
 
 #include "drawn_map.hpp"
 #include "settings/map_file.hpp"
@@ -55,6 +57,87 @@ TEST(GridImport, MappedByLidar_HasSurfacesInMiddleOfCells) {
   EXPECT_LT(score.median_m(), 0.005);
   EXPECT_LT(score.missed_m, 0.1);
   EXPECT_LT(score.invented_m, 0.1);
+}
+
+/// A room of 8 x 5 m with a cabinet before a wall and two chair legs, and where ranges to its walls
+/// are measured.
+constexpr double kRoomWidth_m = 8;
+constexpr double kRoomDepth_m = 5;
+const core::Vec2 kRoomMiddle(4, 2.5);
+
+core::WallMap furnished_room() {
+  core::FloorPlan plan;
+  const core::Vec2 corners[] = {{0, 0}, {8, 0}, {8, 5}, {0, 5}};
+  for (int i = 0; i < 4; ++i) plan.walls.push_back({corners[i], corners[(i + 1) % 4], 0});
+  plan.walls.push_back({{2.2, 0.5}, {2.6, 0.5}, 0.3});
+  plan.walls.push_back({{5.5, 3.4}, {5.6, 3.4}, 0.1});
+  plan.walls.push_back({{6.1, 3.4}, {6.2, 3.4}, 0.1});
+  return core::WallMap(std::move(plan));
+}
+
+/// Noise of two cells, from few places, and dots.
+DrawnMap noisy_picture(const core::WallMap& room, double yaw_rad) {
+  DrawnMap drawn = scan_map(room, 0.03, yaw_rad, 0.04, 20);
+  std::mt19937 random(20196);
+  for (int dot = 0; dot < 60; ++dot) {
+    const auto column = static_cast<std::int64_t>(random() % drawn.grid.columns());
+    const auto row = static_cast<std::int64_t>(random() % drawn.grid.rows());
+    if (drawn.grid.at(column, row) == Cell::kFree) drawn.grid.set(column, row, Cell::kOccupied);
+  }
+  return drawn;
+}
+
+TEST(GridImport, NoisyMapOfFurnishedRoom_HasFewLongWalls) {
+  const core::WallMap room = furnished_room();
+  for (const double yaw_rad : {0.0, 0.2}) {
+    const ImportResult result = import_drawn(noisy_picture(room, yaw_rad));
+    EXPECT_EQ(result.made_by, MadeBy::kLidar);
+    EXPECT_GE(result.specks.size(), 30U);
+    EXPECT_LE(result.plan.walls.size(), 16U);
+    const core::WallMap imported(result.plan);
+    for (int quarter = 0; quarter < 4; ++quarter) {
+      const double angle_rad = quarter * core::kPi / 2;
+      const double range_m = (quarter % 2 == 0 ? kRoomWidth_m : kRoomDepth_m) / 2;
+      EXPECT_NEAR(imported.range_along(kRoomMiddle, angle_rad, 12), range_m, 0.03) << quarter;
+    }
+    for (const core::Vec2& corner : {core::Vec2(0, 5), core::Vec2(8, 0)}) {
+      const double angle_rad = core::angle_of(corner - kRoomMiddle);
+      EXPECT_NEAR(imported.range_along(kRoomMiddle, angle_rad, 12), (corner - kRoomMiddle).norm(),
+                  0.08);
+    }
+    // The wall behind the cabinet is one.
+    const auto faces = imported.faces();
+    EXPECT_TRUE(std::any_of(faces.begin(), faces.end(), [](const core::Face& face) {
+      return face.normal.y() > 0.99 && std::abs(face.offset_m) < 0.05 &&
+             face.length_m > kRoomWidth_m - 0.2;
+    }));
+  }
+}
+
+TEST(GridImport, NoisyPictureWithoutUnknownCells_IsMadeByLidar) {
+  DrawnMap drawn = noisy_picture(furnished_room(), 0.2);
+  for (std::int64_t row = 0; row < drawn.grid.rows(); ++row) {
+    for (std::int64_t column = 0; column < drawn.grid.columns(); ++column) {
+      if (drawn.grid.at(column, row) == Cell::kUnknown) drawn.grid.set(column, row, Cell::kFree);
+    }
+  }
+  EXPECT_EQ(import_drawn(drawn).made_by, MadeBy::kLidar);
+}
+
+TEST(GridImport, ThickWallsWithRaggedBacks_AreNoDrawing) {
+  std::mt19937 random(20197);
+  const auto picture = [&](bool is_ragged) {
+    OccupancyGrid grid(100, 40);
+    for (std::int64_t column = 0; column < 100; ++column) {
+      const std::int64_t top = is_ragged ? 34 + static_cast<std::int64_t>(random() % 4) : 36;
+      for (std::int64_t row = 0; row < top; ++row) {
+        grid.set(column, row, row < 30 ? Cell::kFree : Cell::kOccupied);
+      }
+    }
+    return grid;
+  };
+  EXPECT_EQ(import_grid(picture(true), 0.05, {}, {}).made_by, MadeBy::kLidar);
+  EXPECT_EQ(import_grid(picture(false), 0.05, {}, {}).made_by, MadeBy::kDrawing);
 }
 
 TEST(GridImport, ThinWalls_AreLinesOrOfGivenThickness) {

@@ -35,6 +35,15 @@ std::vector<Cell> read(const std::vector<std::uint16_t>& shades, const MapServer
   return cells;
 }
 
+TEST(ReadShades, SavedByMapSaver_UnknownWhateverTheThreshold) {
+  MapServerYaml nav2 = yaml(ShadeMode::kTrinary);
+  nav2.free_threshold = 0.25;
+  EXPECT_THAT(read({0, 205, 254}, nav2), ElementsAre(kOccupied, kUnknown, kFree));
+  EXPECT_THAT(read({0, 205, 255, 254}, nav2), ElementsAre(kOccupied, kUnknown, kFree, kFree));
+  EXPECT_THAT(read({0, 205, 255}, nav2), ElementsAre(kOccupied, kFree, kFree));
+  EXPECT_THAT(read({0, 205, 230, 254}, nav2), ElementsAre(kOccupied, kFree, kFree, kFree));
+}
+
 TEST(ReadShades, Trinary_IsUnknownBetweenThresholds) {
   EXPECT_THAT(read({0, 80, 100, 205, 206, 254}, yaml(ShadeMode::kTrinary)),
               ElementsAre(kOccupied, kOccupied, kUnknown, kUnknown, kFree, kFree));
