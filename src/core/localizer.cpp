@@ -25,12 +25,6 @@ constexpr double kSurely = 3;
 /// A prior that may be off by more than this says little about what half a turn shows.
 constexpr double kFresh_m = 0.2;
 constexpr double kFresh_rad = radians(15);
-/// What is left of a turn while a lidar is being covered is believed near a prior that is almost
-/// sure, and is misread where it is farther from it than this beyond what that may be off by.
-constexpr double kAlmostSure_rad = radians(5);
-constexpr double kAtPrior_m = 0.03;
-constexpr double kAtPrior_rad = radians(3);
-
 /// Shorter, and two poses tell nothing of the motion between them.
 constexpr double kLeastTimeOfAMotion_s = 0.02;
 
@@ -62,6 +56,10 @@ const ScanResult& Localizer::step(const Scan& turn) {
   if (decision.state == PoseState::kLost && &scan != &turn) {
     w.reject_motion();
     decision = w.find(turn, t_ns);
+  } else if (&scan != &turn && !w.decided_exactly) {
+    const Decision undeskewed = w.find(turn, t_ns);
+    if (w.decided_exactly) w.reject_motion();
+    decision = w.decided_exactly ? undeskewed : w.find(scan, t_ns);
   }
 
   // 5. What is less than evident, or far from where the robot just was, is not believed at once.
@@ -93,19 +91,21 @@ Decision Localizer::Workspace::find(const Scan& scan, TimeNs t_ns) {
 
   // 3. Where still none is, the whole map is searched.
   candidates = {};
+  decided_exactly = !place;
   if (!place) return {};
   const bool certain = !in_doubt(t_ns);
   if (!certain) {
     search_map(t_ns);
     // A motion fits walls that are beside their place in the map, a little.
-    if (!is_exact(t_ns) && motion != memory.motion()) {
+    if (!is_exact(t_ns) && motion != memory.motion() && !is_explained_by_motion()) {
       look(scan, t_ns, memory.motion());
       search_map(t_ns);
     }
   }
 
   // 4. One place is a fix, several are ambiguous, none is lost.
-  if (certain || is_exact(t_ns)) {
+  decided_exactly = certain || is_exact(t_ns);
+  if (decided_exactly) {
     candidates = place->verification.hypotheses();
     return decide(candidates, memory.prior(t_ns));
   }
@@ -262,14 +262,6 @@ bool Localizer::Workspace::is_expected(const Pose2& T_map_lidar, TimeNs t_ns) co
 bool Localizer::Workspace::prior_is_fresh(TimeNs t_ns) const {
   const std::optional<Prior> prior = memory.prior(t_ns);
   return prior && prior->position_error_m < kFresh_m && prior->heading_error_rad < kFresh_rad;
-}
-
-bool Localizer::Workspace::is_at_prior(const Pose2& T_map_lidar, TimeNs t_ns) const {
-  const std::optional<Prior> prior = memory.prior(t_ns);
-  return prior && prior->heading_error_rad < kAlmostSure_rad &&
-         prior->position_error_m < kFresh_m &&
-         same_pose(prior->T_map_lidar, T_map_lidar, prior->position_error_m + kAtPrior_m,
-                   prior->heading_error_rad + kAtPrior_rad);
 }
 
 PoseState Localizer::Workspace::believe(const Decision& decision, std::size_t corners,

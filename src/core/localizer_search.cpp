@@ -28,6 +28,9 @@ constexpr std::array kGuesses_rad_s = {1.5, -1.5, 3.0, -3.0, 0.75, -0.75};
 constexpr std::size_t kGuessesATurn = 2;
 constexpr double kGuessedShare = 0.8;
 
+/// A motion is believed, and rays are compared one by one, where as many hit as they do in an exact
+/// map but for some furniture.
+constexpr double kMovingHitShare = 0.8;
 /// Hypotheses of pairs of corners that are compared in inexact maps, the most voted ones.
 constexpr std::size_t kMaxPairs = 64;
 /// A place near a fresh prior with a log likelihood ratio above this needs no search of the map.
@@ -130,16 +133,25 @@ bool Localizer::Workspace::is_exact(TimeNs t_ns) const {
   const Pose2& T_map_lidar = places.front().refined.T_map_lidar;
   const bool expected = prior_is_fresh(t_ns) && is_expected(T_map_lidar, t_ns);
   const auto likely = place->place_search.places();
-  return is_conclusive(places.front().likelihood, expected) &&
+  const BeamLikelihood& best = places.front().likelihood;
+  const bool moved = place->map_error.is_exact() && best.hit_share() > kMovingHitShare;
+  return (moved || core::is_exact(best, expected)) &&
          std::any_of(likely.begin(), likely.end(), [&](const VerifiedHypothesis& other) {
            return is_no_chance(other) &&
                   same_pose(other.refined.T_map_lidar, T_map_lidar, kJump_m, kJump_rad);
          });
 }
 
+bool Localizer::Workspace::is_explained_by_motion() const {
+  const auto places = place->verification.hypotheses();
+  return !places.empty() && places.front().likelihood.hit_share() > kMovingHitShare;
+}
+
 void Localizer::Workspace::search_map(TimeNs t_ns) {
   PlaceSearch& search = place->place_search;
-  search.begin(points, noise_scale());
+  // Where walls have been exact, what does not fit is a motion.
+  const double max_map_sigma_m = place->map_error.is_exact() ? map->plan().sigma_m : 1;
+  search.begin(points, result.detection.breakpoints, noise_scale(), max_map_sigma_m);
   const std::optional<Prior> prior = memory.prior(t_ns);
   if (prior) {
     const PoseHypothesis carried_on{prior->T_map_lidar, 0};
@@ -154,7 +166,7 @@ void Localizer::Workspace::search_map(TimeNs t_ns) {
         is_expected(found.front().refined.T_map_lidar, t_ns)) {
       return;
     }
-    search.begin(points, noise_scale());
+    search.begin(points, result.detection.breakpoints, noise_scale(), max_map_sigma_m);
     const PoseHypothesis carried_on{prior->T_map_lidar, 0};
     search.consider(std::span(&carried_on, 1));
     search.consider(pairs.first(std::min(pairs.size(), kMaxPairs)));

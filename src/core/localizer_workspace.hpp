@@ -44,7 +44,7 @@ struct Localizer::Workspace {
           recognition(map, catalog),
           verification(map, config),
           map_search(map),
-          place_search(map, config),
+          place_search(map, recognition, config),
           refinement(config.max_range_m, config.noise),
           bias(config.max_range_m, config.noise, config.bias,
                config.forget_bias ? BiasEstimator::kForgettingRate : 0) {
@@ -77,6 +77,7 @@ struct Localizer::Workspace {
   void look_for_the_motion(const Scan& scan, TimeNs t_ns);
   void search_map(TimeNs t_ns);
   bool is_exact(TimeNs t_ns) const;
+  bool is_explained_by_motion() const;
   std::size_t corners_of(const Decision& decision) const;
   PoseState believe(const Decision& decision, std::size_t corners, TimeNs t_ns);
   const VerifiedHypothesis& chosen(const Decision& decision) const {
@@ -84,7 +85,6 @@ struct Localizer::Workspace {
   }
   bool is_expected(const Pose2& T_map_lidar, TimeNs t_ns) const;
   bool prior_is_fresh(TimeNs t_ns) const;
-  bool is_at_prior(const Pose2& T_map_lidar, TimeNs t_ns) const;
   bool in_doubt(TimeNs t_ns) const;
   bool is_smeared() const;
   std::size_t best_hits() const;
@@ -113,6 +113,7 @@ struct Localizer::Workspace {
   std::size_t guesses = 0;                         ///< of the motion, so far
   Twist2 motion;                                   ///< that `points` were moved back by
   std::span<const VerifiedHypothesis> candidates;  ///< that the last decision is about
+  bool decided_exactly = false;                    ///< by rays, as walls are where the map has them
   std::optional<Pose2> T_map_doubted;  ///< a jump of the turn before that waits for a second
   ScanResult result;
   PoseEstimate between;  ///< of a reading between two turns, or of a part of a turn

@@ -19,6 +19,7 @@ constexpr int kVersion = 1;
 
 constexpr Interval kCoordinateM{-kMaxCoordinateM, kMaxCoordinateM};
 constexpr Interval kThicknessM{0, 10};
+constexpr Interval kSigmaOfWallsM{0.001, 0.5};
 
 /// Points closer than this are one: below any drawing's precision.
 constexpr double kSamePointM = 1e-4;
@@ -109,6 +110,7 @@ core::FloorPlan read_plan(ObjectReader root, const std::filesystem::path& file) 
   plan.name = one_line(file.stem().string());
   read_name(root, plan.name);
   root.number("thickness", plan.thickness_m, kThicknessM);
+  root.number("sigma", plan.sigma_m, kSigmaOfWallsM);
   const Json& walls = require_array(root, "walls", 1, kMaxWalls);
   plan.walls.reserve(walls.size());
   for (std::size_t i = 0; i < walls.size(); ++i) {

@@ -16,6 +16,8 @@ namespace {
 constexpr double kNoiseShare = 0.579;
 constexpr double kShiftShare = 0.771;
 
+constexpr double kExact_m = 0.005;
+
 /// Exponential forgetting with each scan: three seconds.
 constexpr double kRetained = 0.95;
 
@@ -60,6 +62,11 @@ double MapErrorModel::variance() const {
   // Without this margin half of all scans show some excess by chance.
   const double excess = excess_ - std::sqrt(excess_variance_);
   return excess > 0 && excess_per_variance_ > 0 ? excess / excess_per_variance_ : 0;
+}
+
+bool MapErrorModel::is_exact() const {
+  return excess_per_variance_ > 0 &&
+         excess_ + 2 * std::sqrt(excess_variance_) < squared(kExact_m) * excess_per_variance_;
 }
 
 Covariance3 MapErrorModel::pose_covariance(const FaceResidualStatistics& statistics) const {

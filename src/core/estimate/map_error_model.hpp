@@ -41,6 +41,8 @@ class MapErrorModel {
   /// To be added to the covariance of a pose with these residuals.
   Covariance3 pose_covariance(const FaceResidualStatistics& statistics) const;
   double variance() const;
+  /// True where the last scans show that faces are where the map has them, within 5 mm.
+  bool is_exact() const;
   void forget() { *this = {}; }
 
  private:

@@ -102,8 +102,8 @@ FaceSums PointLanes::sum(std::size_t begin, std::size_t end, const Vec2& normal,
     levers_squared += weight * lever_m * lever_m;
     distances += weight * distance_m;
     distances_levers += weight * distance_m * lever_m;
-    z_squares += face_variance > 0 ? Lanes(weight * distance_m * distance_m)
-                                   : Lanes(is_inside * z_squared);
+    z_squares +=
+        face_variance > 0 ? Lanes(weight * distance_m * distance_m) : Lanes(is_inside * z_squared);
     squared_distances += is_inside * distance_m * distance_m;
     inside += is_inside;
   }

@@ -33,6 +33,7 @@ constexpr double kMotionSigma_rad_s = 2;
 
 struct Refinement::Step {
   Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
+  Eigen::Matrix3d of_offsets = Eigen::Matrix3d::Zero();  ///< what marginalisation took of it
   Eigen::Vector3d gradient = Eigen::Vector3d::Zero();
   double chi_square = 0;
   double squared_distances = 0;
@@ -42,7 +43,7 @@ struct Refinement::Step {
   void marginalise(const Vec2& normal, const FaceSums& sum, double map_sigma_m) {
     const Eigen::Vector3d by_offset(sum.weight * normal.x(), sum.weight * normal.y(), sum.lever);
     const double share = 1 / (sum.weight + 1 / (map_sigma_m * map_sigma_m));
-    information -= share * by_offset * by_offset.transpose();
+    of_offsets += share * by_offset * by_offset.transpose();
     gradient -= share * sum.distance * by_offset;
     chi_square -= share * sum.distance * sum.distance;
   }
@@ -99,6 +100,7 @@ Refinement::Step Refinement::step(const WallMap& map, const Pose2& T_map_lidar,
     sums.inliers += static_cast<std::size_t>(sum.points);
   }
   sums.information.triangularView<Eigen::StrictlyLower>() = sums.information.transpose();
+  sums.information -= sums.of_offsets;
   return sums;
 }
 
@@ -109,8 +111,7 @@ RefinedPose Refinement::refine(const WallMap& map, const Pose2& start, double se
   RefinedPose refined = gauss_newton(map, start, search_radius_m, subset, points, noise_scale,
                                      map_sigma_m, kMaxSteps, prior);
   if (refined.valid) {
-    refined.face_residuals = face_residual_statistics(
-        residuals_, refined.covariance / std::max(1.0, refined.reduced_chi_square));
+    refined.face_residuals = face_residual_statistics(residuals_, refined.noise_covariance);
   }
   return refined;
 }
@@ -162,7 +163,12 @@ RefinedPose Refinement::gauss_newton(const WallMap& map, const Pose2& start, dou
   }
   const auto inliers = static_cast<double>(sums.inliers);
   refined.reduced_chi_square = sums.chi_square / std::max(1.0, inliers - 3);
-  refined.covariance = solver.inverse() * std::max(1.0, refined.reduced_chi_square);
+  refined.noise_covariance = solver.inverse();
+  refined.covariance = refined.noise_covariance * std::max(1.0, refined.reduced_chi_square);
+  if (map_sigma_m > 0) {
+    solver.compute(sums.information + sums.of_offsets);
+    refined.noise_covariance = solver.inverse();
+  }
   refined.inliers = sums.inliers;
   refined.rmse_m = std::sqrt(sums.squared_distances / std::max(1.0, inliers));
   refined.valid = refined.covariance.allFinite();

@@ -15,7 +15,8 @@ namespace cornerd::core {
 
 struct RefinedPose {
   Pose2 T_map_lidar;
-  Covariance3 covariance = Covariance3::Zero();  ///< x, y in the map frame, theta
+  Covariance3 covariance = Covariance3::Zero();        ///< x, y in the map frame, theta
+  Covariance3 noise_covariance = Covariance3::Zero();  ///< by the points' noise alone
   std::size_t inliers = 0;
   double rmse_m = 0;              ///< of the inliers' distances to their walls
   double reduced_chi_square = 0;  ///< of the inliers; 1 where the model is right

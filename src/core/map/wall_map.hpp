@@ -30,6 +30,9 @@ struct Room {
 struct FloorPlan {
   std::string name;
   double thickness_m = 0;  ///< of the walls without one of their own
+  /// How far off a wall may be across itself (a standard deviation); the more, the likelier too
+  /// that one is missing or was never there. Default: measured with a tape.
+  double sigma_m = 0.01;
   std::vector<Wall> walls;
   std::vector<Room> rooms;
 };

@@ -44,13 +44,19 @@ constexpr std::ptrdiff_t kMaxEdgeRays = 8;
 constexpr double kStep_m = 0.1;
 /// A face that fits worse than this has something before it.
 constexpr double kWorstFace = -3;
+/// Of a map measured with a tape. One that is less exact is also wrong more often about what there
+/// is: its missing walls and unmapped objects cost as much less.
+constexpr double kMeasuredSigma_m = 0.01;
 /// A map is the less likely the less exact it is.
 constexpr double kPerMapSigma = 1;
 
 }  // namespace
 
 BeamModel::BeamModel(const WallMap& map, const SensorNoise& noise)
-    : map_(map), noise_(noise), faces_(map.faces().size()) {
+    : map_(map),
+      noise_(noise),
+      trust_(std::min(1.0, kMeasuredSigma_m / map.plan().sigma_m)),
+      faces_(map.faces().size()) {
   rays_.reserve(kMaxSamplesPerScan);
   met_.reserve(faces_.size());
 }
@@ -163,15 +169,16 @@ double BeamModel::runs_log_ratio(std::span<const PolarPoint> points, double spac
       case Outcome::kShort: {
         const double width_m = (points[end - 1].position() - points[begin].position()).norm() +
                                spacing_rad * points[begin].range_m;
-        log_ratio -=
-            kObject * std::min(1.0, static_cast<double>(rays) / 3) + kObjectPerMetre * width_m;
+        log_ratio -= kObject * std::min(1.0, static_cast<double>(rays) / 3) +
+                     trust_ * kObjectPerMetre * width_m;
         break;
       }
       case Outcome::kThrough: {
         const double nominal = static_cast<double>(rays) * spacing_rad / kNominalSpacing_rad;
         const double missing = rays <= kEdgeRays ? kEdgeRay * static_cast<double>(rays)
                                                  : kMissingWall + kMissingWallPerRay * nominal;
-        log_ratio -= missing * std::min(1.0, map_.faces()[rays_[begin].face].length_m / kWall_m);
+        log_ratio -=
+            trust_ * missing * std::min(1.0, map_.faces()[rays_[begin].face].length_m / kWall_m);
         break;
       }
       case Outcome::kBeyond:
@@ -210,10 +217,12 @@ ScanLikelihood BeamModel::by_map_sigma(std::span<const PolarPoint> points, doubl
 
 ScanLikelihood BeamModel::likelihood(std::span<const PolarPoint> points,
                                      std::span<const PredictedHit> hits, const Pose2& T_map_lidar,
-                                     double spacing_rad, double noise_scale) {
+                                     double spacing_rad, double noise_scale,
+                                     double max_map_sigma_m) {
   meet(points, hits, T_map_lidar, spacing_rad, noise_scale);
   ScanLikelihood best = by_map_sigma(points, spacing_rad, kMapSigmas_m.front());
   for (const double map_sigma_m : std::span(kMapSigmas_m).subspan(1)) {
+    if (map_sigma_m > max_map_sigma_m) break;
     const ScanLikelihood other = by_map_sigma(points, spacing_rad, map_sigma_m);
     if (other.log_ratio > best.log_ratio) best = other;
   }

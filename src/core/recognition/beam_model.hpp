@@ -32,7 +32,8 @@ class BeamModel {
 
   /// `hits`: the predicted face of each point at `T_map_lidar`. `spacing_rad`: between two rays.
   ScanLikelihood likelihood(std::span<const PolarPoint> points, std::span<const PredictedHit> hits,
-                            const Pose2& T_map_lidar, double spacing_rad, double noise_scale);
+                            const Pose2& T_map_lidar, double spacing_rad, double noise_scale,
+                            double max_map_sigma_m);
 
   /// Standard deviations of a face's offset across itself that are tried, m.
   static constexpr std::array kMapSigmas_m = {0.003, 0.01, 0.025, 0.05};
@@ -64,6 +65,7 @@ class BeamModel {
 
   const WallMap& map_;
   SensorNoise noise_;
+  double trust_;  ///< in what the map has and has not, 0 to 1
   std::vector<Ray> rays_;
   std::vector<FaceSums> faces_;  ///< by index into map.faces()
   std::vector<std::uint32_t> met_;

@@ -7,15 +7,6 @@
 
 namespace cornerd::core {
 
-/// Evidence of one scan for one hypothesis, whatever the competing ones have.
-struct Evidence {
-  BeamLikelihood likelihood;
-  std::size_t corners = 0;     ///< breakpoints with a landmark on the map
-  double largest_gap_rad = 0;  ///< largest gap of the field of view
-  bool exhaustive = true;      ///< every hypothesis of the scan's walls was tested
-  bool at_prior = false;       ///< agrees with a prior of small uncertainty
-};
-
 /// Corners of a place that is certain.
 inline constexpr std::size_t kCertainCorners = 2;
 
@@ -26,15 +17,8 @@ bool has_full_coverage(double largest_gap_rad);
 /// `expected`: near the prior, where unmapped obstacles may take a larger share.
 bool is_conclusive(const BeamLikelihood& likelihood, bool expected);
 
-/// True where the scan alone gives a fix.
-bool is_unambiguous_fix(const Evidence& evidence);
-
-/// True where scan and prior together give a pose. What a covered lidar still sees may be one wall,
-/// along which the pose slides: then a corner at the prior is required.
-bool may_be_tracked(const Evidence& evidence);
-
-/// True where a fix has to be confirmed by the next scan: with a large gap and not at the prior, or
-/// far from the prior without being conclusive. `expected`: near the prior.
-bool needs_confirmation(const Evidence& evidence, bool expected, bool has_prior);
+/// True where so many rays hit within the sensor's noise that the map is exact there: rivals are
+/// then compared ray by ray.
+bool is_exact(const BeamLikelihood& likelihood, bool expected);
 
 }  // namespace cornerd::core

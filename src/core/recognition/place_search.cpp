@@ -26,17 +26,23 @@ constexpr double kSame_m = 0.03;
 constexpr double kSame_rad = 0.02;
 constexpr double kOnePlace_m = 0.3;
 constexpr double kOnePlace_rad = 0.15;
-/// Map uncertainty while hypotheses are refined roughly, and least one in the last steps: a wider
-/// cut loses no wall that is a centimetre off.
+/// Map uncertainty while hypotheses are refined roughly.
 constexpr double kRoughMapSigma_m = 0.025;
-constexpr double kMinMapSigma_m = 0.01;
+/// An end of a wall in front of something farther, where the map has one (nats).
+constexpr double kWallEnd = 4;
 /// A less certain pose is no place: a single wall, a bare corridor.
-constexpr double kMaxSigma_m = 0.15;
+constexpr double kMaxSigma_m = 0.1;
+/// Residuals are the walls' offsets up to here; greater ones are of a motion.
+constexpr double kMaxRmse_m = 1.3 * BeamModel::kMapSigmas_m.back();
+/// Walls whose offsets vary by this many standard deviations more than exact ones would are off.
+constexpr double kExcessSigmas = 3;
 
 }  // namespace
 
-PlaceSearch::PlaceSearch(const WallMap& map, const LocalizerConfig& config)
+PlaceSearch::PlaceSearch(const WallMap& map, const Recognition& recognition,
+                         const LocalizerConfig& config)
     : map_(map),
+      recognition_(recognition),
       ray_caster_(config.max_range_m),
       refinement_(config.max_range_m, config.noise),
       beam_model_(map, config.noise) {
@@ -45,8 +51,11 @@ PlaceSearch::PlaceSearch(const WallMap& map, const LocalizerConfig& config)
   places_.reserve(kMaxCompared);
 }
 
-void PlaceSearch::begin(const PolarScan& scan, double noise_scale) {
+void PlaceSearch::begin(const PolarScan& scan, std::span<const Breakpoint> breakpoints,
+                        double noise_scale, double max_map_sigma_m) {
   points_ = scan.points();
+  max_map_sigma_m_ = max_map_sigma_m;
+  breakpoints_ = breakpoints;
   spacing_rad_ = scan.spacing_rad();
   noise_scale_ = noise_scale;
   candidates_.clear();
@@ -112,27 +121,50 @@ void PlaceSearch::refine_roughly() {
       continue;
     }
     const auto hits = ray_caster_.cast(map_, refined.T_map_lidar, subset_);
-    const ScanLikelihood likelihood =
-        beam_model_.likelihood(subset_, hits, refined.T_map_lidar, spacing_rad, noise_scale_);
+    const ScanLikelihood likelihood = beam_model_.likelihood(
+        subset_, hits, refined.T_map_lidar, spacing_rad, noise_scale_, max_map_sigma_m_);
     candidates_[kept++] = {refined.T_map_lidar, likelihood.log_ratio, likelihood.map_sigma_m};
   }
   candidates_.resize(kept);
   std::sort(candidates_.begin(), candidates_.end(), is_better);
 }
 
+double PlaceSearch::wall_ends_log_ratio(const Pose2& T_map_lidar) const {
+  double log_ratio = 0;
+  for (const Breakpoint& breakpoint : breakpoints_) {
+    if (breakpoint.kind != BreakpointKind::kTerminal) continue;
+    log_ratio += kWallEnd * recognition_.recognised(std::span(&breakpoint, 1), T_map_lidar);
+  }
+  return log_ratio;
+}
+
 void PlaceSearch::add(const Candidate& candidate) {
   VerifiedHypothesis place;
-  place.map_sigma_m = std::max(candidate.map_sigma_m, kMinMapSigma_m);
-  place.refined = refinement_.refine(map_, candidate.T_map_lidar, kFewRaysRadius_m, subset_,
-                                     points_, noise_scale_, place.map_sigma_m);
+  const auto refine = [&](double map_sigma_m) {
+    place.map_sigma_m = map_sigma_m;
+    place.refined = refinement_.refine(map_, candidate.T_map_lidar, kFewRaysRadius_m, subset_,
+                                       points_, noise_scale_, map_sigma_m);
+  };
+  const double stated_m = map_.plan().sigma_m;
+  if (stated_m > FloorPlan{}.sigma_m) {
+    refine(stated_m);
+  } else if (candidate.map_sigma_m > BeamModel::kMapSigmas_m.front()) {
+    refine(candidate.map_sigma_m);
+  } else {
+    // Where the walls are exact, so is the pose.
+    refine(0);
+    const FaceResidualStatistics& faces = place.refined.face_residuals;
+    if (faces.excess > kExcessSigmas * std::sqrt(faces.excess_variance)) refine(stated_m);
+  }
   const Covariance3& covariance = place.refined.covariance;
-  if (!place.refined.valid || covariance(0, 0) + covariance(1, 1) > kMaxSigma_m * kMaxSigma_m) {
+  if (!place.refined.valid || place.refined.rmse_m > kMaxRmse_m ||
+      covariance(0, 0) + covariance(1, 1) > kMaxSigma_m * kMaxSigma_m) {
     return;
   }
   const auto hits = ray_caster_.cast(map_, place.refined.T_map_lidar, points_);
-  const ScanLikelihood likelihood =
-      beam_model_.likelihood(points_, hits, place.refined.T_map_lidar, spacing_rad_, noise_scale_);
-  place.log_ratio = likelihood.log_ratio;
+  const ScanLikelihood likelihood = beam_model_.likelihood(
+      points_, hits, place.refined.T_map_lidar, spacing_rad_, noise_scale_, max_map_sigma_m_);
+  place.log_ratio = likelihood.log_ratio + wall_ends_log_ratio(place.refined.T_map_lidar);
   place.likelihood.rays = likelihood.rays;
   place.likelihood.hits = likelihood.hits;
   place.likelihood.shorts = likelihood.shorts;

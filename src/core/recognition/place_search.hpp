@@ -9,6 +9,7 @@
 #include "core/localizer_config.hpp"
 #include "core/recognition/beam_model.hpp"
 #include "core/recognition/hypothesis.hpp"
+#include "core/recognition/recognition.hpp"
 #include "core/recognition/verification.hpp"
 
 namespace cornerd::core {
@@ -18,10 +19,13 @@ namespace cornerd::core {
 /// on faces. Allocates nothing after construction.
 class PlaceSearch {
  public:
-  PlaceSearch(const WallMap& map, const LocalizerConfig& config);
+  /// `map` and `recognition` must outlive it.
+  PlaceSearch(const WallMap& map, const Recognition& recognition, const LocalizerConfig& config);
 
   /// Starts a scan, which must outlive the calls for it.
-  void begin(const PolarScan& scan, double noise_scale);
+  /// `max_map_sigma_m`: of the walls' offsets, as far as earlier scans have shown.
+  void begin(const PolarScan& scan, std::span<const Breakpoint> breakpoints, double noise_scale,
+             double max_map_sigma_m);
   /// Adds hypotheses that may be off by a decimetre.
   void consider(std::span<const PoseHypothesis> hypotheses);
   /// Compares what was considered since begin(). Distinct places, the likeliest first.
@@ -38,16 +42,20 @@ class PlaceSearch {
   double rough_score(const Pose2& T_map_lidar);
   void refine_roughly();
   void add(const Candidate& candidate);
+  double wall_ends_log_ratio(const Pose2& T_map_lidar) const;
 
   static constexpr std::size_t kMaxCandidates = 512;
 
   const WallMap& map_;
+  const Recognition& recognition_;
   RayCaster ray_caster_;
   Refinement refinement_;
   BeamModel beam_model_;
   std::span<const PolarPoint> points_;
+  std::span<const Breakpoint> breakpoints_;
   double spacing_rad_ = 0;
   double noise_scale_ = 1;
+  double max_map_sigma_m_ = 0;
   std::vector<PolarPoint> subset_;
   std::vector<Candidate> candidates_;
   std::vector<VerifiedHypothesis> places_;

@@ -22,10 +22,6 @@ constexpr double kMinBaseline_m = 0.15;
 constexpr double kDistanceFloor_m = 0.01;
 constexpr double kPatternGateSigmas = 3.5;
 constexpr double kDirectionTolerance_rad = radians(15);
-/// Two walls determine a pose only where they are far from parallel.
-constexpr double kMinWallSine = 0.5;
-/// Overshoot of a wall's end: the heading of a short wall is uncertain by a few degrees.
-constexpr double kWallEndTolerance_m = 0.10;
 /// Error of a breakpoint's position under a hypothesis of one pair or one corner.
 constexpr double kVoteRadius_m = Catalog::kVisitRadius_m;
 /// Closer hypotheses converge to the same pose.
@@ -37,17 +33,6 @@ bool agree(double a_rad, double b_rad) {
 }
 
 double sigma_of(const Breakpoint& breakpoint) { return std::sqrt(breakpoint.covariance.trace()); }
-
-/// True where the measured segment lies on the face under this hypothesis.
-bool contains(const Face& face, const WallSegment& measured, const Pose2& T_map_lidar) {
-  const auto along_m = [&](const Vec2& point) {
-    return face.direction.dot(T_map_lidar * point - face.from);
-  };
-  const double low_m = along_m(measured.first);
-  const double high_m = along_m(measured.last);
-  return std::min(low_m, high_m) > -kWallEndTolerance_m &&
-         std::max(low_m, high_m) < face.length_m + kWallEndTolerance_m;
-}
 
 }  // namespace
 
@@ -148,69 +133,6 @@ std::span<const PoseHypothesis> Recognition::from_pairs(std::span<const Breakpoi
   return ranked();
 }
 
-std::span<const PoseHypothesis> Recognition::from_single_corners(
-    std::span<const Breakpoint> breakpoints) {
-  begin(breakpoints);
-  std::size_t compared = 0;
-  for (const Breakpoint* breakpoint : selected_) {
-    compared += catalog_.landmarks().size();
-    if (compared > kMaxSingles) break;
-    for (const Corner& landmark : catalog_.landmarks()) {
-      // The wall with more samples gives the heading; the other has to agree.
-      const bool by_left = breakpoint->left_support >= breakpoint->right_support;
-      const double heading_rad =
-          by_left ? normalize_angle(landmark.left_face_rad - breakpoint->left_wall_rad)
-                  : normalize_angle(landmark.right_face_rad - breakpoint->right_wall_rad);
-      if (!matches(*breakpoint, landmark, heading_rad)) continue;
-      const Vec2 origin = landmark.position - Pose2{0, 0, heading_rad} * breakpoint->position;
-      add({origin.x(), origin.y(), heading_rad});
-    }
-  }
-  return ranked();
-}
-
-void Recognition::add_walls(const WallSegment& first, const WallSegment& second) {
-  const double first_rad = std::atan2(first.normal.y(), first.normal.x());
-  const double rotation_rad =
-      angle_between(first_rad, std::atan2(second.normal.y(), second.normal.x()));
-  for (const Face& a : map_.faces()) {
-    const double heading_rad = normalize_angle(std::atan2(a.normal.y(), a.normal.x()) - first_rad);
-    for (const Face& b : map_.faces()) {
-      const double sine = cross(a.normal, b.normal);
-      if (std::abs(sine) < kMinWallSine) continue;
-      if (!agree(std::atan2(sine, a.normal.dot(b.normal)), rotation_rad)) continue;
-      // The position at the measured distances from both faces.
-      const double height_a = a.offset_m - first.offset_m;
-      const double height_b = b.offset_m - second.offset_m;
-      const Pose2 T_map_lidar{(height_a * b.normal.y() - height_b * a.normal.y()) / sine,
-                              (height_b * a.normal.x() - height_a * b.normal.x()) / sine,
-                              heading_rad};
-      if (contains(a, first, T_map_lidar) && contains(b, second, T_map_lidar)) add(T_map_lidar);
-    }
-  }
-}
-
-std::span<const PoseHypothesis> Recognition::from_walls(std::span<const WallSegment> segments,
-                                                        std::span<const Breakpoint> breakpoints) {
-  begin(breakpoints);
-  if (!is_exhaustive()) return {};
-  const WallSegment* first = nullptr;
-  const WallSegment* second = nullptr;
-  std::uint32_t best = 0;
-  for (const WallSegment& a : segments) {
-    for (const WallSegment& b : segments) {
-      if (std::abs(cross(a.normal, b.normal)) < kMinWallSine) continue;
-      const std::uint32_t support = std::min(a.support, b.support);
-      if (support <= best) continue;
-      best = support;
-      first = &a;
-      second = &b;
-    }
-  }
-  if (first != nullptr) add_walls(*first, *second);
-  return ranked();
-}
-
 bool Recognition::has_landmark(const Breakpoint& breakpoint, const Pose2& T_map_lidar, double c,
                                double s) const {
   const Vec2 point(T_map_lidar.x_m + c * breakpoint.position.x() - s * breakpoint.position.y(),
@@ -223,8 +145,6 @@ bool Recognition::has_landmark(const Breakpoint& breakpoint, const Pose2& T_map_
   });
   return found;
 }
-
-bool Recognition::is_exhaustive() const { return map_.faces().size() <= kMaxFacesForWalls; }
 
 int Recognition::recognised(std::span<const Breakpoint> breakpoints,
                             const Pose2& T_map_lidar) const {

@@ -23,26 +23,10 @@ class Recognition {
   /// Hypotheses of pairs of breakpoints, most votes first, without duplicates.
   std::span<const PoseHypothesis> from_pairs(std::span<const Breakpoint> breakpoints);
 
-  /// Hypotheses of single corners, each of which gives position and heading. Many more than from
-  /// pairs: for scans with few corners, and to test exhaustively. Large maps use only the most
-  /// certain breakpoints, or none (kMaxSingles).
-  std::span<const PoseHypothesis> from_single_corners(std::span<const Breakpoint> breakpoints);
-
-  /// Hypotheses of two walls that are not parallel, tested only for the walls' lengths: for scans
-  /// without a reliable corner. None in a map of more than kMaxFacesForWalls faces.
-  std::span<const PoseHypothesis> from_walls(std::span<const WallSegment> segments,
-                                             std::span<const Breakpoint> breakpoints);
-
-  /// True where from_walls() covers the map.
-  bool is_exhaustive() const;
-
   /// Number of breakpoints with a landmark under this hypothesis.
   int recognised(std::span<const Breakpoint> breakpoints, const Pose2& T_map_lidar) const;
 
   static constexpr std::size_t kMaxHypotheses = 2048;
-  /// Limit of breakpoints times landmarks in from_single_corners().
-  static constexpr std::size_t kMaxSingles = 8192;
-  static constexpr std::size_t kMaxFacesForWalls = 360;
 
  private:
   struct SelectedPair {
@@ -54,7 +38,6 @@ class Recognition {
   void begin(std::span<const Breakpoint> breakpoints);
   void select_pair(const Breakpoint& one, const Breakpoint& other);
   void add_pair(const SelectedPair& pair);
-  void add_walls(const WallSegment& first, const WallSegment& second);
   void add(const Pose2& T_map_lidar);
   int votes(const Pose2& T_map_lidar) const;
   bool has_landmark(const Breakpoint& breakpoint, const Pose2& T_map_lidar, double c,

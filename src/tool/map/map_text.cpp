@@ -29,7 +29,8 @@ std::string map_text(const core::FloorPlan& plan) {
   message::JsonText json(256);
   json.string(plan.name);
   std::string text = "{ \"format\": \"cornerd-map\", \"version\": 1, \"name\": ";
-  text.append(json.view()).append(",\n  \"walls\": [\n");
+  text.append(json.view()).append(formatted(", \"sigma\": %g", plan.sigma_m));
+  text.append(",\n  \"walls\": [\n");
   for (std::size_t i = 0; i < plan.walls.size(); ++i) {
     const core::Wall& wall = plan.walls[i];
     json.clear();

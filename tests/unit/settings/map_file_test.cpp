@@ -40,13 +40,15 @@ TEST(MapFile, Image_IsRefusedWithTheCommandThatImportsIt) {
 }
 
 TEST(MapFile, EveryField_ReachesThePlan) {
-  const core::FloorPlan plan = parse_floor_plan(map_of(R"("name": "flat", "thickness": 0.018,
+  const core::FloorPlan plan =
+      parse_floor_plan(map_of(R"("name": "flat", "thickness": 0.018, "sigma": 0.03,
         "walls": [{"from": [0, 0], "to": [2.4, 0]},
                   {"from": [1.2, -1], "to": [1.2, 0.8], "thickness": 0}],
         "rooms": [{"name": "room-1", "polygon": [[0, 0], [1, 0], [1, 1]]}])"),
-                                                "/m/a.json");
+                       "/m/a.json");
   EXPECT_EQ(plan.name, "flat");
   EXPECT_EQ(plan.thickness_m, 0.018);
+  EXPECT_EQ(plan.sigma_m, 0.03);
   ASSERT_EQ(plan.walls.size(), 2u);
   EXPECT_EQ(plan.walls[0].to, core::Vec2(2.4, 0));
   EXPECT_EQ(plan.walls[0].thickness_m, 0.018);

@@ -35,6 +35,28 @@ TEST_F(RefinementTest, NoiselessScan_PoseIsExact) {
   EXPECT_NEAR(refined.T_map_lidar.theta_rad, 0.7, 1e-5);
 }
 
+TEST_F(RefinementTest, DisplacedWalls_OffsetsAreMarginalised) {
+  constexpr double kOff_m = 0.02;
+  FloorPlan plan = testing::l_shaped_room();
+  for (Wall& wall : plan.walls) {
+    for (Vec2* end : {&wall.from, &wall.to}) end->y() += end->y() > 1.5 ? kOff_m : 0;
+  }
+  const auto building = testing::make_map(plan);
+  const Pose2 T_map_lidar{1.2, 0.9, 0.7};
+  const PolarScan points = testing::polar(source_.take(*building, T_map_lidar));
+  const auto error_of = [&](double map_sigma_m) {
+    const RefinedPose refined = refinement_.refine(*map_, T_map_lidar, 0.1, points.points(),
+                                                   points.points(), 1, map_sigma_m);
+    EXPECT_TRUE(refined.valid);
+    const Eigen::Vector3d error(refined.T_map_lidar.x_m - T_map_lidar.x_m,
+                                refined.T_map_lidar.y_m - T_map_lidar.y_m,
+                                refined.T_map_lidar.theta_rad - T_map_lidar.theta_rad);
+    return error.dot(refined.covariance.inverse() * error);
+  };
+  EXPECT_LT(error_of(kOff_m), 7.8);  // 95 % of a chi-square of three
+  EXPECT_GT(error_of(0), error_of(kOff_m));
+}
+
 TEST_F(RefinementTest, NoisyScans_CovarianceIsConsistent) {
   double nees = 0;
   int count = 0;

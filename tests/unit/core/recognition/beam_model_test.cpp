@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT
+#include "core/recognition/beam_model.hpp"
+
+#include <gtest/gtest.h>
+
+#include "../fixtures.hpp"
+
+namespace cornerd::core {
+namespace {
+
+constexpr double kMaxMapSigma_m = 1;
+
+class BeamModelTest : public ::testing::Test {
+ protected:
+  ScanLikelihood likelihood(const Scan& scan, const WallMap& map, const Pose2& T_map_lidar) {
+    const PolarScan points = testing::polar(scan);
+    BeamModel model(map, {});
+    const auto hits = ray_caster_.cast(map, T_map_lidar, points.points());
+    return model.likelihood(points.points(), hits, T_map_lidar, points.spacing_rad(), 1,
+                            kMaxMapSigma_m);
+  }
+
+  /// The room with the wall on the right this much farther out.
+  static FloorPlan widened(double by_m) {
+    FloorPlan plan = testing::rectangular_room(3, 2);
+    for (Wall& wall : plan.walls) {
+      for (Vec2* end : {&wall.from, &wall.to}) {
+        if (end->x() > 1.5) end->x() += by_m;
+      }
+    }
+    return plan;
+  }
+
+  std::shared_ptr<const WallMap> map_ = testing::make_map(testing::rectangular_room(3, 2));
+  Pose2 T_map_lidar_{1, 0.8, 0.4};
+  RayCaster ray_caster_{12};
+  testing::ScanSource source_{72};
+};
+
+TEST_F(BeamModelTest, TruePose_AllRaysHitAnExactMap) {
+  const ScanLikelihood found = likelihood(source_.take(*map_, T_map_lidar_), *map_, T_map_lidar_);
+  EXPECT_GT(static_cast<double>(found.hits), 0.98 * static_cast<double>(found.rays));
+  EXPECT_EQ(found.hits + found.shorts + found.throughs, found.rays);
+  EXPECT_EQ(found.map_sigma_m, BeamModel::kMapSigmas_m.front());
+  EXPECT_GT(found.log_ratio, 30);
+}
+
+TEST_F(BeamModelTest, WrongPose_IsLessLikelyThanAnyPlace) {
+  EXPECT_LT(likelihood(source_.take(*map_, T_map_lidar_), *map_, {1.5, 1.2, 1.9}).log_ratio, 0);
+}
+
+TEST_F(BeamModelTest, DisplacedWall_CostsItsOffsetOnce) {
+  const Scan scan = source_.take(*map_, T_map_lidar_);
+  const double exact = likelihood(scan, *map_, T_map_lidar_).log_ratio;
+  const ScanLikelihood off = likelihood(scan, *testing::make_map(widened(0.04)), T_map_lidar_);
+  EXPECT_GE(off.map_sigma_m, 0.025);
+  EXPECT_EQ(off.throughs + off.shorts, 0U);
+  EXPECT_LT(off.log_ratio, exact);
+  EXPECT_GT(off.log_ratio, exact - 30);
+}
+
+TEST_F(BeamModelTest, MissingWall_CostsMoreThanAnObject) {
+  const Scan scan = source_.take(*map_, T_map_lidar_);
+  const double behind = likelihood(scan, *testing::make_map(widened(-0.5)), T_map_lidar_).log_ratio;
+  const double before = likelihood(scan, *testing::make_map(widened(0.5)), T_map_lidar_).log_ratio;
+  EXPECT_LT(behind, before);
+}
+
+TEST_F(BeamModelTest, InexactMap_TrustsItsWallsLess) {
+  const Scan scan = source_.take(*map_, T_map_lidar_);
+  FloorPlan plan = widened(0.5);
+  const double measured = likelihood(scan, *testing::make_map(plan), T_map_lidar_).log_ratio;
+  plan.sigma_m = 0.04;
+  EXPECT_GT(likelihood(scan, *testing::make_map(plan), T_map_lidar_).log_ratio, measured);
+}
+
+}  // namespace
+}  // namespace cornerd::core
