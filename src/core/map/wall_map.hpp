@@ -30,11 +30,11 @@ struct Room {
 struct FloorPlan {
   std::string name;
   double thickness_m = 0;  ///< of the walls without one of their own
+  std::vector<Wall> walls;
+  std::vector<Room> rooms;
   /// How far off a wall may be across itself (a standard deviation); the more, the likelier too
   /// that one is missing or was never there. Default: measured with a tape.
   double sigma_m = 0.01;
-  std::vector<Wall> walls;
-  std::vector<Room> rooms;
 };
 
 /// A straight piece of wall surface. The free space is on the left of the direction from `from` to
