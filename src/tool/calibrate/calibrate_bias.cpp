@@ -60,9 +60,10 @@ void calibrate_bias(const CalibrateBiasOptions& options) {
   }
   const core::EstimatedBias estimated = pipeline.localizer().estimated_bias();
   if (estimated.scans < kMinBiasScans) {
-    throw Failure("only " + std::to_string(estimated.scans) +
-                  " scans were localized with the lidar at rest: record some seconds each at "
-                  "several places, and check with replay that they are localized");
+    throw Failure(
+        "only " + std::to_string(estimated.scans) +
+        " scans were localized with the lidar at rest: record some seconds each at "
+        "several places; where replay does not localize them, check that the map is to scale");
   }
   if (estimated.is_limited) {
     throw Failure("the bias exceeds its limits: check that the map is to scale");
