@@ -85,6 +85,7 @@ struct Localizer::Workspace {
   }
   bool is_expected(const Pose2& T_map_lidar, TimeNs t_ns) const;
   bool prior_is_fresh(TimeNs t_ns) const;
+  bool is_at_prior(const Pose2& T_map_lidar, TimeNs t_ns) const;
   bool in_doubt(TimeNs t_ns) const;
   bool is_smeared() const;
   std::size_t best_hits() const;
@@ -113,6 +114,7 @@ struct Localizer::Workspace {
   std::size_t guesses = 0;                         ///< of the motion, so far
   Twist2 motion;                                   ///< that `points` were moved back by
   std::span<const VerifiedHypothesis> candidates;  ///< that the last decision is about
+  bool saw_all_around = false;                     ///< in a scan with a pose, ever
   bool decided_exactly = false;                    ///< by rays, as walls are where the map has them
   std::optional<Pose2> T_map_doubted;  ///< a jump of the turn before that waits for a second
   ScanResult result;
