@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "core/localizer_workspace.hpp"
-#include "core/recognition/evidence.hpp"
 
 namespace cornerd::core {
 namespace {
@@ -22,15 +21,6 @@ constexpr double kGivenSigma_rad = radians(5);
 
 /// What a prediction by odometry is off by at most: three sigma.
 constexpr double kSurely = 3;
-/// A prior that may be off by more than this says little about what half a turn shows.
-constexpr double kFresh_m = 0.2;
-constexpr double kFresh_rad = radians(15);
-/// What is left of a scan while a lidar is being covered is believed near a prior that is almost
-/// sure, and is misread where it is farther from it than this beyond what that may be off by.
-constexpr double kAlmostSure_rad = radians(5);
-constexpr double kAtPrior_m = 0.03;
-constexpr double kAtPrior_rad = radians(3);
-
 /// Shorter, and two poses tell nothing of the motion between them.
 constexpr double kLeastTimeOfAMotion_s = 0.02;
 
@@ -55,9 +45,8 @@ const ScanResult& Localizer::step(const Scan& turn) {
   //    be.
   const Scan& scan = w.deskewed(turn, t_ns);
 
-  // 1. to 4. The place where that turn was taken. One that fits nowhere may have been deskewed
-  // by
-  //    wheels that lie: once more, as it came.
+  // 1. to 4. The place where that turn was taken. One that fits nowhere may have been deskewed by
+  //    wheels that lie: once more, as it came. One that fits exactly only as it came was.
   Decision decision = w.find(scan, t_ns);
   if (decision.state == PoseState::kLost && &scan != &turn) {
     w.reject_motion();
@@ -116,7 +105,8 @@ Decision Localizer::Workspace::find(const Scan& scan, TimeNs t_ns) {
     return decide(candidates, memory.prior(t_ns));
   }
   candidates = place->place_search.places();
-  return decide_by_faces(candidates, memory.prior(t_ns));
+  return decide_by_faces(candidates, place->place_search.unmapped_log_ratio(), memory.prior(t_ns),
+                         belief);
 }
 
 const PoseEstimate* Localizer::add(const OdometryReading& reading, std::optional<TimeNs> now_ns) {
@@ -172,7 +162,8 @@ void Localizer::set_pose(const Pose2& T_map_base) {
       Eigen::Vector3d(kGivenSigma_m * kGivenSigma_m, kGivenSigma_m * kGivenSigma_m,
                       kGivenSigma_rad * kGivenSigma_rad)
           .asDiagonal();
-  w.memory.update(T_map_base * w.config.T_base_lidar, w.result.pose.t_ns, {});
+  w.memory.update(T_map_base * w.config.T_base_lidar, w.result.pose.t_ns, {}, {});
+  w.belief.confirm();
   w.odometer.set_pose(T_map_base, doubt);
 }
 
@@ -259,49 +250,6 @@ std::size_t Localizer::Workspace::corners_of(const Decision& decision) const {
   const core::VerifiedHypothesis& found = chosen(decision);
   return static_cast<std::size_t>(
       place->recognition.recognised(result.detection.breakpoints, found.refined.T_map_lidar));
-}
-
-bool Localizer::Workspace::is_expected(const Pose2& T_map_lidar, TimeNs t_ns) const {
-  const std::optional<Prior> prior = memory.prior(t_ns);
-  return prior && same_pose(prior->T_map_lidar, T_map_lidar, kJump_m, kJump_rad);
-}
-
-bool Localizer::Workspace::prior_is_fresh(TimeNs t_ns) const {
-  const std::optional<Prior> prior = memory.prior(t_ns);
-  return prior && prior->position_error_m < kFresh_m && prior->heading_error_rad < kFresh_rad;
-}
-
-bool Localizer::Workspace::is_at_prior(const Pose2& T_map_lidar, TimeNs t_ns) const {
-  const std::optional<Prior> prior = memory.prior(t_ns);
-  return prior && prior->heading_error_rad < kAlmostSure_rad &&
-         prior->position_error_m < kFresh_m &&
-         same_pose(prior->T_map_lidar, T_map_lidar, prior->position_error_m + kAtPrior_m,
-                   prior->heading_error_rad + kAtPrior_rad);
-}
-
-PoseState Localizer::Workspace::believe(const Decision& decision, std::size_t corners,
-                                        TimeNs t_ns) {
-  const Pose2& T_map_lidar = chosen(decision).refined.T_map_lidar;
-  const bool all_around = has_full_coverage(points.largest_gap_rad());
-  if (decision.state == PoseState::kTracking) {
-    return all_around || (corners >= 1 && is_at_prior(T_map_lidar, t_ns)) ? PoseState::kTracking
-                                                                          : PoseState::kLost;
-  }
-  const bool confirmed =
-      T_map_doubted && same_pose(*T_map_doubted, T_map_lidar, kJump_m, kJump_rad);
-  T_map_doubted.reset();
-  const bool is_certain = all_around &&
-                          is_conclusive(chosen(decision).likelihood, /*expected=*/false) &&
-                          corners >= kCertainCorners;
-  // What is left of the view of a lidar that is being covered shows two walls and no more.
-  const bool is_covered = saw_all_around && !all_around;
-  saw_all_around = saw_all_around || all_around;
-  if (confirmed || is_certain || is_expected(T_map_lidar, t_ns) ||
-      !(memory.prior(t_ns) || is_covered)) {
-    return decision.state;
-  }
-  T_map_doubted = T_map_lidar;
-  return PoseState::kLost;
 }
 
 }  // namespace cornerd::core

@@ -93,7 +93,10 @@ void Localizer::Workspace::report_pose(const core::VerifiedHypothesis& found, st
   const Pose2& T_map_lidar = found.refined.T_map_lidar;
   PoseEstimate& pose = result.pose;
   pose.T_map_base = T_map_lidar * T_lidar_base;
-  memory.update(T_map_lidar, t_ns, motion);
+  // In an exact map the difference of two poses is the velocity.
+  memory.update(T_map_lidar, t_ns, motion,
+                found.map_sigma_m > 0 ? found.refined.covariance : Covariance3::Zero());
+  if (pose.state == PoseState::kFix) belief.confirm();
   place->map_error.add(found.refined.face_residuals);
   const Covariance3 of_lidar =
       found.refined.covariance +

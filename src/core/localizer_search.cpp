@@ -151,25 +151,24 @@ void Localizer::Workspace::search_map(TimeNs t_ns) {
   PlaceSearch& search = place->place_search;
   // Where walls have been exact, what does not fit is a motion.
   const double max_map_sigma_m = place->map_error.is_exact() ? map->plan().sigma_m : 1;
-  search.begin(points, result.detection.breakpoints, noise_scale(), max_map_sigma_m);
   const std::optional<Prior> prior = memory.prior(t_ns);
-  if (prior) {
-    const PoseHypothesis carried_on{prior->T_map_lidar, 0};
-    search.consider(std::span(&carried_on, 1));
-  }
-  const std::span<const Breakpoint> breakpoints = result.detection.breakpoints;
-  const auto pairs = place->recognition.from_pairs(breakpoints);
-  search.consider(pairs.first(std::min(pairs.size(), kMaxPairs)));
+  const auto pairs = place->recognition.from_pairs(result.detection.breakpoints);
+  const auto begin = [&] {
+    search.begin(points, result.detection.breakpoints, noise_scale(), max_map_sigma_m);
+    if (prior) {
+      const PoseHypothesis carried_on{prior->T_map_lidar, 0};
+      search.consider(std::span(&carried_on, 1));
+    }
+    search.consider(pairs.first(std::min(pairs.size(), kMaxPairs)));
+  };
+  begin();
   if (prior_is_fresh(t_ns)) {
     const auto found = search.find();
     if (!found.empty() && found.front().log_ratio > kEvident &&
         is_expected(found.front().refined.T_map_lidar, t_ns)) {
       return;
     }
-    search.begin(points, result.detection.breakpoints, noise_scale(), max_map_sigma_m);
-    const PoseHypothesis carried_on{prior->T_map_lidar, 0};
-    search.consider(std::span(&carried_on, 1));
-    search.consider(pairs.first(std::min(pairs.size(), kMaxPairs)));
+    begin();
   }
   const auto everywhere = place->map_search.find(points.points(), result.detection.segments);
   place->verification.consider(everywhere, kRecognisedRadius_m);

@@ -110,6 +110,7 @@ struct Localizer::Workspace {
   Odometer odometer;
   Scan still;  ///< the turn as a lidar that stood still would have seen it
   ConstantVelocityModel memory;
+  PriorBelief belief;  ///< that the robot is where `memory` has it
   PolarScan points;
   std::size_t guesses = 0;                         ///< of the motion, so far
   Twist2 motion;                                   ///< that `points` were moved back by

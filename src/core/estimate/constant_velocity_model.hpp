@@ -19,7 +19,11 @@ struct Prior {
 class ConstantVelocityModel {
  public:
   /// `motion`: velocity found from the scan itself, used where no earlier pose gives one.
-  void update(const Pose2& T_map_lidar, TimeNs t_ns, const Twist2& motion);
+  /// `covariance`: of the pose, m^2 and rad^2. The less certain poses are, the longer the velocity
+  /// is averaged (Kalman filter of white noise on acceleration, one for translation and rotation
+  /// each).
+  void update(const Pose2& T_map_lidar, TimeNs t_ns, const Twist2& motion,
+              const Covariance3& covariance);
   void forget();
 
   /// A prediction by odometry takes precedence: the lidar's pose at the middle of the coming scan,
@@ -48,6 +52,10 @@ class ConstantVelocityModel {
   std::optional<Prior> expected_;
   bool deskewed_ = false;
   Twist2 motion_;
+  double variance_m2_s2_ = 0;  ///< of motion_, per axis
+  double variance_rad2_s2_ = 0;
+  double sigma_m_ = 0;  ///< of the last pose, per axis
+  double sigma_rad_ = 0;
   bool is_stationary_ = false;
 };
 

@@ -215,6 +215,11 @@ ScanLikelihood BeamModel::by_map_sigma(std::span<const PolarPoint> points, doubl
   return result;
 }
 
+double BeamModel::unmapped_log_ratio(std::span<const PolarPoint> points, double spacing_rad) {
+  rays_.assign(points.size(), Ray{.outcome = Outcome::kShort});
+  return runs_log_ratio(points, spacing_rad);
+}
+
 ScanLikelihood BeamModel::likelihood(std::span<const PolarPoint> points,
                                      std::span<const PredictedHit> hits, const Pose2& T_map_lidar,
                                      double spacing_rad, double noise_scale,

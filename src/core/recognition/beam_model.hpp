@@ -35,6 +35,10 @@ class BeamModel {
                             const Pose2& T_map_lidar, double spacing_rad, double noise_scale,
                             double max_map_sigma_m);
 
+  /// Log ratio of a scan that was taken where nothing is mapped: all of it is unmapped objects,
+  /// nats. What a scan shows is worth as much, wherever it was taken.
+  double unmapped_log_ratio(std::span<const PolarPoint> points, double spacing_rad);
+
   /// Standard deviations of a face's offset across itself that are tried, m.
   static constexpr std::array kMapSigmas_m = {0.003, 0.01, 0.025, 0.05};
 

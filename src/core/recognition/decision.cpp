@@ -21,19 +21,20 @@ constexpr double kNatsPerNatOfThingsPerRay = 0.0052;
 constexpr double kOneThingShare = 0.25;
 /// What things may hide of the turn in all, for a place that is only likely because of them.
 constexpr double kMostThingsShare = 0.3;
-/// Nats of the beam model on faces that are worth one nat of belief. A fix so leads by 19 nats:
-/// of 2,560 scans of furnished and inexact maps 2 are wrong, both with half of the view hidden.
+/// Nats of the beam model on faces that are worth one nat of belief. A fix so leads by 19 nats.
 constexpr double kNatsOfFaces = 1.65;
-/// What a scan reaches by chance where it was not taken: between kElsewhere and what its own second
-/// best place reaches, of which kChanceShare. Fitted to 3,840 scans in their own map, in its mirror
-/// image and in other maps (logistic regression on the best place's nats and its lead).
-constexpr double kElsewhere = 20;
-constexpr double kChanceShare = 0.45;
+/// What a scan reaches by chance where it was not taken: as much less than this as it shows of
+/// structure (kUnmappedShare of what that would be worth unmapped), and half of what its own second
+/// best place reaches. Of 920 scans of simulated and real rooms, in their own maps, in the mirror
+/// images and in another map, this part of the plane of both has the fewest wrong fixes.
+constexpr double kElsewhere = 27;
+constexpr double kUnmappedShare = 0.2;
+constexpr double kChanceShare = 0.5;
 /// The same where nearly all rays hit walls within the sensor's noise.
 constexpr double kElsewhereExactly = 11;
-/// A place at the prior needs no more than this: at one given place, which is not the best of
-/// many, chance reaches less than -100.
-constexpr double kNowhere = -40;
+/// What a scan reaches by chance at one given place, which is not the best of many: this share of
+/// what it is worth unmapped.
+constexpr double kUnmappedShareOfAPlace = 0.4;
 /// Places are named as rivals where the scan was taken in this map but for this share of belief.
 constexpr double kMaxElsewhere = 0.01;
 /// A longer lead says no more (nats).
@@ -47,10 +48,17 @@ constexpr double kRaysForARivalPerThing = 0.125;
 constexpr double kPriorRadius_m = 0.25;
 constexpr double kPriorAngle_rad = radians(20);
 
-double log_ratio_elsewhere(std::span<const VerifiedHypothesis> places) {
+double log_ratio_elsewhere(std::span<const VerifiedHypothesis> places, double unmapped_log_ratio) {
   const double best = places.front().log_ratio;
   const double second = places.size() > 1 ? places[1].log_ratio : best - kWidestLead;
-  return kChanceShare * std::max(second, best - kWidestLead) + (1 - kChanceShare) * kElsewhere;
+  return kElsewhere + kUnmappedShare * unmapped_log_ratio +
+         kChanceShare * std::max(second, best - kWidestLead);
+}
+
+bool is_near(const VerifiedHypothesis& place, const Prior& prior) {
+  return same_pose(place.refined.T_map_lidar, prior.T_map_lidar,
+                   kPriorRadius_m + prior.position_error_m,
+                   kPriorAngle_rad + prior.heading_error_rad);
 }
 
 /// How much a turn believes in a place next to the likeliest one, by whichever of three models of
@@ -120,11 +128,7 @@ Decision decide(std::span<const VerifiedHypothesis> places, const std::optional<
   if (!prior) return decision;
   std::size_t near = 0;
   for (std::size_t i = 0; i < decision.rivals; ++i) {
-    if (!same_pose(places[i].refined.T_map_lidar, prior->T_map_lidar,
-                   kPriorRadius_m + prior->position_error_m,
-                   kPriorAngle_rad + prior->heading_error_rad)) {
-      continue;
-    }
+    if (!is_near(places[i], *prior)) continue;
     decision.place = i;
     ++near;
   }
@@ -132,14 +136,14 @@ Decision decide(std::span<const VerifiedHypothesis> places, const std::optional<
   return decision;
 }
 
-Decision decide_by_faces(std::span<const VerifiedHypothesis> places,
-                         const std::optional<Prior>& prior) {
+Decision decide_by_faces(std::span<const VerifiedHypothesis> places, double unmapped_log_ratio,
+                         const std::optional<Prior>& prior, PriorBelief& belief) {
   Decision decision;
   decision.doubt = 1;
   if (places.empty()) return decision;
   const double best = places.front().log_ratio;
   const auto weight = [&](double log_ratio) { return std::exp((log_ratio - best) / kNatsOfFaces); };
-  const double elsewhere = weight(log_ratio_elsewhere(places));
+  const double elsewhere = weight(log_ratio_elsewhere(places, unmapped_log_ratio));
   double of_others = elsewhere;
   for (std::size_t i = places.size(); i-- > 1;) {
     of_others += weight(places[i].log_ratio);
@@ -151,19 +155,21 @@ Decision decide_by_faces(std::span<const VerifiedHypothesis> places,
     decision.state = PoseState::kFix;
     return decision;
   }
-  if (prior) {
-    for (std::size_t i = 0; i < decision.rivals && places[i].log_ratio > kNowhere; ++i) {
-      if (!same_pose(places[i].refined.T_map_lidar, prior->T_map_lidar,
-                     kPriorRadius_m + prior->position_error_m,
-                     kPriorAngle_rad + prior->heading_error_rad)) {
-        continue;
-      }
-      decision.place = i;
-      decision.state = PoseState::kTracking;
-      return decision;
-    }
-  }
   if (elsewhere < kMaxElsewhere) decision.state = PoseState::kAmbiguous;
+  if (!prior) return decision;
+  const auto expected = std::find_if(places.begin(), places.end(),
+                                     [&](const auto& place) { return is_near(place, *prior); });
+  double other = kUnmappedShareOfAPlace * unmapped_log_ratio;
+  for (const VerifiedHypothesis& place : places) {
+    if (!is_near(place, *prior)) other = std::max(other, place.log_ratio);
+  }
+  if (expected == places.end()) return decision;
+  belief.update((expected->log_ratio - other) / kNatsOfFaces);
+  if (belief.doubt() < kWrongFixRate) {
+    decision.place = static_cast<std::size_t>(expected - places.begin());
+    decision.state = PoseState::kTracking;
+    decision.doubt = belief.doubt();
+  }
   return decision;
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <optional>
 #include <span>
@@ -23,6 +25,22 @@ struct Decision {
   double doubt = 0;        ///< belief that the likeliest place is not the right one
 };
 
+/// Bayes filter over two hypotheses: the robot is where the last scans showed it, or anywhere else.
+class PriorBelief {
+ public:
+  /// A scan that names the place by itself.
+  void confirm() { log_odds_ = kMaxLogOdds; }
+  /// A scan that is so much likelier at the prior than elsewhere (nats).
+  void update(double log_ratio) { log_odds_ = std::min(kMaxLogOdds, log_odds_) + log_ratio; }
+  /// Belief that the robot is elsewhere, by all scans so far.
+  double doubt() const { return 1 / (1 + std::exp(log_odds_)); }
+
+ private:
+  /// Between two scans somebody carries a robot away once in a million scans.
+  static constexpr double kMaxLogOdds = 13.8;
+  double log_odds_ = 0;
+};
+
 /// Names the fewest places, in the order of their likelihood, that leave out no more than
 /// kWrongFixRate of the turn's belief: one of them is a fix, several are ambiguous. `places`: the
 /// likeliest first. `prior`: where the robot should be by what was known before; it may choose
@@ -30,9 +48,10 @@ struct Decision {
 Decision decide(std::span<const VerifiedHypothesis> places, const std::optional<Prior>& prior);
 
 /// The same for places of PlaceSearch, in a map that is inexact and incomplete. That the scan was
-/// taken somewhere else, or not in this map, is a hypothesis of its own.
-Decision decide_by_faces(std::span<const VerifiedHypothesis> places,
-                         const std::optional<Prior>& prior);
+/// taken somewhere else, or not in this map, is a hypothesis of its own. `unmapped_log_ratio`: the
+/// scan's, where nothing is mapped. A place at the prior is judged by the belief, which it updates.
+Decision decide_by_faces(std::span<const VerifiedHypothesis> places, double unmapped_log_ratio,
+                         const std::optional<Prior>& prior, PriorBelief& belief);
 
 /// True for a place of PlaceSearch that leaves no doubt that the scan was taken in this map.
 bool is_no_chance(const VerifiedHypothesis& place);

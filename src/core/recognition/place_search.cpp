@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/geometry/squared.hpp"
+
 namespace cornerd::core {
 namespace {
 
@@ -30,10 +32,13 @@ constexpr double kOnePlace_rad = 0.15;
 constexpr double kRoughMapSigma_m = 0.025;
 /// An end of a wall in front of something farther, where the map has one (nats).
 constexpr double kWallEnd = 4;
-/// A less certain pose is no place: a single wall, a bare corridor.
+/// A pose that is less certain than this beyond the map is no place: a single wall, a bare
+/// corridor.
 constexpr double kMaxSigma_m = 0.1;
-/// Residuals are the walls' offsets up to here; greater ones are of a motion.
-constexpr double kMaxRmse_m = 1.3 * BeamModel::kMapSigmas_m.back();
+/// Residuals are the walls' offsets up to so many of their standard deviations; greater ones are of
+/// a motion.
+constexpr double kMaxRmseSigmas = 1.3;
+constexpr double kMaxRmseSigmasStated = 2;
 /// Walls whose offsets vary by this many standard deviations more than exact ones would are off.
 constexpr double kExcessSigmas = 3;
 
@@ -58,6 +63,7 @@ void PlaceSearch::begin(const PolarScan& scan, std::span<const Breakpoint> break
   breakpoints_ = breakpoints;
   spacing_rad_ = scan.spacing_rad();
   noise_scale_ = noise_scale;
+  unmapped_log_ratio_ = beam_model_.unmapped_log_ratio(points_, spacing_rad_);
   candidates_.clear();
   places_.clear();
   subset_.clear();
@@ -157,8 +163,10 @@ void PlaceSearch::add(const Candidate& candidate) {
     if (faces.excess > kExcessSigmas * std::sqrt(faces.excess_variance)) refine(stated_m);
   }
   const Covariance3& covariance = place.refined.covariance;
-  if (!place.refined.valid || place.refined.rmse_m > kMaxRmse_m ||
-      covariance(0, 0) + covariance(1, 1) > kMaxSigma_m * kMaxSigma_m) {
+  const double max_rmse_m =
+      std::max(kMaxRmseSigmas * BeamModel::kMapSigmas_m.back(), kMaxRmseSigmasStated * stated_m);
+  if (!place.refined.valid || place.refined.rmse_m > max_rmse_m ||
+      covariance(0, 0) + covariance(1, 1) > squared(kMaxSigma_m + stated_m)) {
     return;
   }
   const auto hits = ray_caster_.cast(map_, place.refined.T_map_lidar, points_);

@@ -32,6 +32,8 @@ class PlaceSearch {
   std::span<const VerifiedHypothesis> find();
   /// The result of the last find().
   std::span<const VerifiedHypothesis> places() const { return places_; }
+  /// Of the scan, if it was taken where nothing is mapped (nats).
+  double unmapped_log_ratio() const { return unmapped_log_ratio_; }
 
  private:
   struct Candidate {
@@ -56,6 +58,7 @@ class PlaceSearch {
   double spacing_rad_ = 0;
   double noise_scale_ = 1;
   double max_map_sigma_m_ = 0;
+  double unmapped_log_ratio_ = 0;
   std::vector<PolarPoint> subset_;
   std::vector<Candidate> candidates_;
   std::vector<VerifiedHypothesis> places_;
