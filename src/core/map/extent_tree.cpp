@@ -41,9 +41,8 @@ ExtentTree::ExtentTree(std::span<const Extent> extents, std::vector<std::uint32_
   nodes_.push_back(std::move(root));
 }
 
-bool ExtentTree::touches(std::uint32_t index, const Vec2& from, const Vec2& to) const {
-  return touches_square(Extent::of_segment(from, to, 0), nodes_[index].centre,
-                        nodes_[index].half_m);
+bool ExtentTree::touches(std::uint32_t node, const Extent& extent) const {
+  return touches_square(extent, nodes_[node].centre, nodes_[node].half_m);
 }
 
 void ExtentTree::split(std::uint32_t index) {

@@ -23,12 +23,13 @@ class ExtentTree {
   /// may come several times, in several lists.
   template <typename Visitor>
   void search(const Vec2& from, const Vec2& to, Visitor&& visit) {
+    const Extent segment = Extent::of_segment(from, to, 0);
     std::array<std::uint32_t, 4 * kMaxDepth> stack;
     std::size_t size = 0;
     stack[size++] = 0;
     while (size > 0) {
       const std::uint32_t index = stack[--size];
-      if (!touches(index, from, to)) continue;
+      if (!touches(index, segment)) continue;
       if (nodes_[index].first_child == 0) split(index);
       if (const std::uint32_t child = nodes_[index].first_child; child != 0) {
         for (std::uint32_t i = 0; i < 4; ++i) stack[size++] = child + i;
@@ -50,7 +51,7 @@ class ExtentTree {
     std::vector<std::uint32_t> items;
   };
 
-  bool touches(std::uint32_t node, const Vec2& from, const Vec2& to) const;
+  bool touches(std::uint32_t node, const Extent& extent) const;
   void split(std::uint32_t node);
 
   std::span<const Extent> extents_;

@@ -104,7 +104,11 @@ class VisibleParts {
   /// `shortest`: a share of the length; shorter parts are left out.
   explicit VisibleParts(double shortest) : shortest_(shortest), parts_{{0, 1}} {}
 
-  bool empty() const { return parts_.empty(); }
+  bool has_any_of(const Interval& range) const {
+    return std::any_of(parts_.begin(), parts_.end(), [&](const Interval& part) {
+      return part.begin < range.end && part.end > range.begin;
+    });
+  }
   std::span<const Interval> parts() const { return parts_; }
 
   void hide(const Interval& hidden) {
@@ -182,7 +186,7 @@ class Visibility {
                    [&](std::span<const std::uint32_t> others) {
                      for (const std::uint32_t other : others) {
                        hide_behind(other);
-                       if (visible.empty()) return false;
+                       if (!visible.has_any_of(part)) return false;
                      }
                      return true;
                    });
