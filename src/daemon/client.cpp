@@ -20,8 +20,8 @@ constexpr std::size_t kMaxWaitingAnswers = 16;
 
 }  // namespace
 
-Client::Client(FileDescriptor fd, message::ClassSet watched)
-    : fd_(std::move(fd)), watched_(watched), input_(message::kMaxRequestBytes) {
+Client::Client(FileDescriptor fd, message::ClassSet watched, std::uint64_t number)
+    : fd_(std::move(fd)), number_(number), watched_(watched), input_(message::kMaxRequestBytes) {
   ::setsockopt(fd_.get(), SOL_SOCKET, SO_SNDBUF, &kSendBufferBytes, sizeof(kSendBufferBytes));
 }
 

@@ -16,9 +16,11 @@ namespace cornerd::daemon {
 class Client {
  public:
   /// Makes the socket's send buffer small, so that the kernel holds few stale messages.
-  Client(FileDescriptor fd, message::ClassSet watched);
+  /// `number`: of no other client of the server.
+  Client(FileDescriptor fd, message::ClassSet watched, std::uint64_t number = 0);
 
   int fd() const { return fd_.get(); }
+  std::uint64_t number() const { return number_; }
   Outbox& outbox() { return outbox_; }
   const Outbox& outbox() const { return outbox_; }
   void watch(message::ClassSet classes) { watched_ = classes; }
@@ -44,6 +46,7 @@ class Client {
 
  private:
   FileDescriptor fd_;
+  std::uint64_t number_;
   message::ClassSet watched_;
   LineSplitter input_;
   Outbox outbox_;

@@ -33,21 +33,25 @@ std::unique_ptr<core::Pipeline> with_calibration(std::unique_ptr<core::Pipeline>
   return pipeline;
 }
 
+ScanPublisher::PublishedMap published(const Loaded& loaded) {
+  return {loaded.map, loaded.map_line, !loaded.config.maps.empty()};
+}
+
 SourceKind source_of(settings::DriverKind driver) {
   return driver == settings::DriverKind::kReplay ? SourceKind::kRecording : SourceKind::kDevice;
 }
 
 }  // namespace
 
-Daemon::Daemon(Loaded loaded, Reloader::Load load, std::unique_ptr<drivers::LidarDriver> lidar,
-               std::string version)
+Daemon::Daemon(Loaded loaded, MapLoader loader, std::unique_ptr<drivers::LidarDriver> lidar,
+               std::string_view version)
     : config_(std::move(loaded.config)),
       is_live_(config_.lidar.driver != settings::DriverKind::kReplay),
-      server_(loop_, std::move(version), control_actions(config_)),
-      scans_(server_, std::move(loaded.map)),
+      server_(loop_, version, control_actions(config_)),
+      scans_(server_, published(loaded)),
       status_(server_, notifier_),
       tick_(kTick),
-      reloader_(std::move(load)),
+      reloader_(std::move(loader)),
       calibration_(calibration_file_path(config_.lidar), config_.lidar.bias),
       lidar_(std::move(lidar)),
       localization_(*lidar_,
@@ -131,6 +135,9 @@ ControlActions Daemon::control_actions(const settings::Config& config) {
   actions.set_pose = [this](const message::SetPoseRequest& request) {
     localization_.set_initial_pose(request.T_map_base);
   };
+  actions.set_map = [this](const message::SetMapRequest& request, const Ticket& ticket) {
+    return reloader_.start({request, ticket});
+  };
   if (config.odometry.source == settings::OdometrySource::kSocket) {
     actions.add_odometry = [this](message::OdometryReading reading, int connection) {
       using Verdict = OdometryClients::Verdict;
@@ -163,36 +170,46 @@ void Daemon::on_signal() {
   if (signal == SIGHUP) {
     log(LogLevel::kInfo, "SIGHUP: reloading config and map");
     notifier_.reloading();
-    reloader_.start();
+    reloader_.start({});
   } else if (signal != 0) {
     log(LogLevel::kInfo, signal == SIGTERM ? "SIGTERM: ending" : "SIGINT: ending");
     loop_.stop();
   }
 }
 
+void Daemon::refuse(const Reloader::Outcome& outcome) {
+  const bool is_reload = !outcome.job.set_map;
+  log(LogLevel::kError, (is_reload ? "reload refused, the old config and map stay in use: "
+                                   : "map refused, the old one stays in use: ") +
+                            outcome.error);
+  server_.publish(
+      message::MessageClass::kEvent,
+      line_.event(now_ns(), is_reload ? "reload refused" : "map refused", outcome.error));
+  if (is_reload) return notifier_.ready();
+  server_.answer_later(outcome.job.ticket, message::RequestError{"map", outcome.error});
+}
+
 void Daemon::on_loaded() {
   Reloader::Outcome outcome = reloader_.take();
-  if (!outcome.error.empty()) {
-    log(LogLevel::kError, "reload refused, the old config and map stay in use: " + outcome.error);
-    server_.publish(message::MessageClass::kEvent,
-                    line_.event(now_ns(), "reload refused", outcome.error));
-    return notifier_.ready();
-  }
+  if (!outcome.error.empty()) return refuse(outcome);
   Loaded& loaded = outcome.loaded;
-  if (const std::string list = settings::needs_restart(config_, loaded.config); !list.empty()) {
+  const bool is_reload = !outcome.job.set_map;
+  if (const std::string list = settings::needs_restart(config_, loaded.config);
+      is_reload && !list.empty()) {
     log(LogLevel::kWarning, "restart cornerd to apply: " + list);
   }
-  const std::string name =
-      loaded.map->plan().name + ", " + std::to_string(loaded.map->plan().walls.size()) + " walls";
+  const core::FloorPlan& plan = loaded.map->plan();
+  const std::string name = plan.name + ", " + std::to_string(plan.walls.size()) + " walls";
   if (!calibration_.reconfigure(loaded.config.lidar.bias)) localization_.forget_lidar();
   localization_.publish_predictions(loaded.config.odometry.core.publish_predictions);
   auto pipeline = with_calibration(std::move(loaded.pipeline), loaded.config.lidar, calibration_);
-  scans_.set_next_map(localization_.replace_pipeline(std::move(pipeline)), std::move(loaded.map));
+  scans_.set_next_map(localization_.replace_pipeline(std::move(pipeline)), published(loaded));
   if (health_.memory_is_locked) health_.memory_is_locked = lock_memory() == 0;
   if (config_.realtime.lock_memory && !health_.memory_is_locked) prefault_memory();
   log(LogLevel::kInfo, "map loaded: " + name);
   server_.publish(message::MessageClass::kEvent, line_.event(now_ns(), "map loaded", name));
-  notifier_.ready();
+  if (is_reload) return notifier_.ready();
+  server_.answer_later(outcome.job.ticket, std::nullopt);
 }
 
 void Daemon::on_tick() {
@@ -209,6 +226,7 @@ void Daemon::on_tick() {
   }
   publish_changes();
   update_calibration_file();
+  if (lidar_->status().state != drivers::LidarState::kRunning) scans_.publish_next_map();
   const bool sensors_changed = odometry_ && odometry_->publish_changes(server_, now_ns());
   const bool is_time = ticks_++ % kTicksPerStatus == 0;
   if (is_time || sensors_changed) {

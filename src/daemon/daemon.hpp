@@ -3,7 +3,7 @@
 
 #include <memory>
 #include <optional>
-#include <string>
+#include <string_view>
 
 #include "core/map/wall_map.hpp"
 #include "daemon/calibration_file.hpp"
@@ -27,10 +27,9 @@ namespace cornerd::daemon {
 class Daemon {
  public:
   /// Opens the sockets and starts the threads. Throws std::runtime_error.
-  /// `loaded`: the result of a first call of `load`, made while signals still end the program at
-  /// once. SIGHUP calls `load` again.
-  Daemon(Loaded loaded, Reloader::Load load, std::unique_ptr<drivers::LidarDriver> lidar,
-         std::string version);
+  /// `loaded`: by `loader`, while signals still end the program at once.
+  Daemon(Loaded loaded, MapLoader loader, std::unique_ptr<drivers::LidarDriver> lidar,
+         std::string_view version);
 
   /// Runs until SIGTERM or SIGINT.
   void run();
@@ -43,6 +42,7 @@ class Daemon {
   void on_watchdog();
   void on_signal();
   void on_loaded();
+  void refuse(const Reloader::Outcome& outcome);
   void open_sockets();
   void set_up_realtime();
   /// UNIX time live; the recording's time in a replay.

@@ -109,8 +109,10 @@ void Localization::process(core::Pipeline& pipeline, const SampleChannel::Item& 
     pipeline.localizer().forget_lidar();
     current_->lidar = now;
   }
+  // A pose set after a change of the map is in the new one.
+  const bool is_replaced = next_.load(std::memory_order_relaxed) != nullptr;
   core::Pose2 T_map_base;
-  while (initial_poses_.pop(T_map_base)) pipeline.localizer().set_pose(T_map_base);
+  while (!is_replaced && initial_poses_.pop(T_map_base)) pipeline.localizer().set_pose(T_map_base);
   take_readings();
   if (item.kind == SampleChannel::Kind::kReading) return report(pipeline.add(item.reading));
   const core::ScanResult* result =

@@ -6,7 +6,6 @@
 #include <csignal>
 #include <cstdio>
 #include <exception>
-#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
@@ -18,11 +17,10 @@
 #include "daemon/event_loop.hpp"
 #include "daemon/lidar_factory.hpp"
 #include "daemon/log.hpp"
+#include "daemon/map_loader.hpp"
 #include "daemon/realtime.hpp"
-#include "daemon/reloader.hpp"
 #include "drivers/serial/file_descriptor.hpp"
 #include "settings/config.hpp"
-#include "settings/map_file.hpp"
 
 namespace {
 
@@ -47,19 +45,7 @@ void print(std::string_view text) {
   throw std::system_error(errno, std::generic_category(), "standard output");
 }
 
-core::LocalizerConfig localizer_config(const settings::Config& config) {
-  core::LocalizerConfig localizer = config.localizer();
-  // Tolerated clock difference between an ODOMETRY client and the daemon.
-  constexpr double kClocks_s = 0.25;
-  if (config.lidar.driver != settings::DriverKind::kReplay) {
-    localizer.odometry.limits.ahead_s = kClocks_s;
-  }
-  return localizer;
-}
-
 int run(const daemon::Options& options) {
-  // A reload must not block on a pipe or device.
-  constexpr auto kKind = settings::FileKind::kOrdinary;
   if (options.help) {
     print(daemon::kHelp);
     return 0;
@@ -69,22 +55,16 @@ int run(const daemon::Options& options) {
     return 0;
   }
   if (options.check) {
-    settings::load_map(settings::load_config(options.config, options.overrides, kKind).map, kKind);
+    daemon::MapLoader(options.config, options.overrides).check();
     print("ok\n");
     return 0;
   }
   daemon::set_up_log();
   daemon::use_small_stacks();
-  const auto load = [&options] {
-    daemon::Loaded loaded;
-    loaded.config = settings::load_config(options.config, options.overrides, kKind);
-    loaded.map = settings::load_map(loaded.config.map, kKind);
-    loaded.pipeline = std::make_unique<core::Pipeline>(loaded.map, localizer_config(loaded.config));
-    return loaded;
-  };
-  daemon::Loaded loaded = load();
+  daemon::MapLoader loader(options.config, options.overrides);
+  daemon::Loaded loaded = loader.load();
   auto lidar = daemon::make_lidar(loaded.config.lidar);
-  daemon::Daemon(std::move(loaded), load, std::move(lidar), CORNERD_VERSION).run();
+  daemon::Daemon(std::move(loaded), std::move(loader), std::move(lidar), CORNERD_VERSION).run();
   return 0;
 }
 

@@ -4,10 +4,10 @@
 #include <sys/epoll.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <exception>
 #include <iterator>
 #include <utility>
-#include <variant>
 
 #include "daemon/unix_listener.hpp"
 
@@ -32,17 +32,12 @@ message::ClassSet default_classes(SocketRole role) {
   return classes;
 }
 
-template <typename... Handlers>
-struct Overloaded : Handlers... {
-  using Handlers::operator()...;
-};
-template <typename... Handlers>
-Overloaded(Handlers...) -> Overloaded<Handlers...>;
-
 }  // namespace
 
-MessageServer::MessageServer(EventLoop& loop, std::string version, ControlActions actions)
-    : loop_(loop), version_(std::move(version)), actions_(std::move(actions)) {}
+MessageServer::MessageServer(EventLoop& loop, std::string_view version, ControlActions actions)
+    : loop_(loop), handler_(std::move(actions), newest_) {
+  publish(MessageClass::kVersion, line_.version("cornerd", version));
+}
 
 MessageServer::~MessageServer() {
   for (Socket& socket : sockets_) {
@@ -125,11 +120,11 @@ void MessageServer::reject(FileDescriptor fd, std::string_view code, std::string
 }
 
 void MessageServer::add_client(Socket& socket, FileDescriptor fd) {
-  const ClientIterator client =
-      socket.clients.emplace(socket.clients.end(), std::move(fd), default_classes(socket.role));
-  client->outbox().answer(line_.version("cornerd", version_));
-  const std::string& status = newest_[static_cast<std::size_t>(MessageClass::kStatus)];
-  if (client->watches(MessageClass::kStatus) && !status.empty()) {
+  const ClientIterator client = socket.clients.emplace(socket.clients.end(), std::move(fd),
+                                                       default_classes(socket.role), ++accepted_);
+  client->outbox().answer(newest_[static_cast<std::size_t>(MessageClass::kVersion)]);
+  const Line& status = newest_[static_cast<std::size_t>(MessageClass::kStatus)];
+  if (client->watches(MessageClass::kStatus) && status) {
     client->outbox().put(MessageClass::kStatus, status);
   }
   loop_.add(client->fd(), EPOLLIN, [this, &socket, client](std::uint32_t events) {
@@ -139,7 +134,7 @@ void MessageServer::add_client(Socket& socket, FileDescriptor fd) {
 }
 
 void MessageServer::handle_events(Socket& socket, ClientIterator client, std::uint32_t events) {
-  const auto handle = [&](std::string_view line) { answer(*client, socket.role, line); };
+  const auto handle = [&](std::string_view line) { handler_.handle(*client, socket.role, line); };
   if (events & EPOLLIN) {
     if (!handle_input_result(socket, client, client->receive(handle))) return;
   } else if (events & (EPOLLHUP | EPOLLERR)) {
@@ -173,72 +168,27 @@ bool MessageServer::send_or_remove(Socket& socket, ClientIterator client) {
 
 void MessageServer::remove(Socket& socket, ClientIterator client) {
   dropped_by_closed_ += client->outbox().dropped();
-  if (actions_.disconnect) actions_.disconnect(client->fd());
+  handler_.disconnect(*client);
   loop_.remove(client->fd());
   socket.clients.erase(client);
 }
 
-void MessageServer::answer(Client& client, SocketRole role, std::string_view text) {
-  const message::Request request = message::parse_request(text);
-  const auto ok = [&] { client.outbox().answer(line_.ok(request.name, request.id_json)); };
-  const auto error = [&](std::string_view code, std::string_view reason) {
-    client.outbox().answer(line_.error(code, reason, request.name, request.id_json));
-  };
-  const auto if_control = [&](const auto& act) {
-    if (role == SocketRole::kControl) {
-      act();
-    } else {
-      error("read-only", "the pose socket takes no such request: use the control socket");
-    }
-  };
-  std::visit(Overloaded{
-                 [&](const message::RequestError& wrong) { error(wrong.code, wrong.text); },
-                 [&](const message::WatchRequest& watch) {
-                   client.watch(watch.classes);
-                   ok();
-                 },
-                 [&](const message::PollRequest&) {
-                   answer_poll(client);
-                   ok();
-                 },
-                 [&](const message::RelocalizeRequest&) {
-                   if_control([&] {
-                     actions_.relocalize();
-                     ok();
-                   });
-                 },
-                 [&](const message::SetPoseRequest& set_pose) {
-                   if_control([&] {
-                     if (!actions_.set_pose)
-                       return error("unsupported", "this daemon takes no initial pose");
-                     actions_.set_pose(set_pose);
-                     ok();
-                   });
-                 },
-                 [&](const message::OdometryReading& reading) {
-                   if_control([&] {
-                     if (!actions_.add_odometry) {
-                       return error("unsupported",
-                                    "/odometry/source of the config is not \"socket\"");
-                     }
-                     // Accepted ODOMETRY gets no answer: it comes at up to 500 Hz.
-                     if (actions_.add_odometry(reading, client.fd())) return;
-                     error("second-client",
-                           "another client's odometry is used: stop one of the two clients");
-                   });
-                 },
-             },
-             request.body);
-}
-
-void MessageServer::answer_poll(Client& client) {
-  for (const MessageClass message_class : {MessageClass::kPose, MessageClass::kStatus}) {
-    const std::string& newest = newest_[static_cast<std::size_t>(message_class)];
-    if (!newest.empty()) client.outbox().answer(newest);
+void MessageServer::answer_later(const Ticket& ticket,
+                                 const std::optional<message::RequestError>& error) {
+  for (Socket& socket : sockets_) {
+    const auto client =
+        std::find_if(socket.clients.begin(), socket.clients.end(),
+                     [&](const Client& one) { return one.number() == ticket.client; });
+    if (client == socket.clients.end()) continue;
+    client->outbox().answer(
+        error ? line_.error(error->code, error->text, ticket.request, ticket.id_json)
+              : line_.ok(ticket.request, ticket.id_json));
+    send_or_remove(socket, client);
+    return;
   }
 }
 
-void MessageServer::publish(MessageClass message_class, std::string_view line) {
+void MessageServer::publish(MessageClass message_class, const Line& line) {
   newest_[static_cast<std::size_t>(message_class)] = line;
   for (Socket& socket : sockets_) {
     for (auto next = socket.clients.begin(); next != socket.clients.end();) {

@@ -1,39 +1,25 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <list>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
 
 #include "daemon/client.hpp"
 #include "daemon/event_loop.hpp"
+#include "daemon/request_handler.hpp"
 #include "daemon/systemd.hpp"
 #include "daemon/unix_listener.hpp"
 #include "message/line_writer.hpp"
 #include "message/request.hpp"
 
 namespace cornerd::daemon {
-
-/// The pose socket is read-only; the control socket takes requests that change the estimate.
-enum class SocketRole : std::uint8_t { kPose, kControl };
-
-/// Handlers of control requests. A request with an empty handler is refused as unsupported.
-struct ControlActions {
-  std::function<void()> relocalize;
-  std::function<void(const message::SetPoseRequest&)> set_pose = {};
-  /// Returns false if the client gets an ERROR because another client's odometry is used. That
-  /// happens once per connection, so that answers do not fill the queue of a client that never
-  /// reads. `connection`: identifies the client.
-  std::function<bool(const message::OdometryReading&, int connection)> add_odometry = {};
-  /// A connection was closed; optional.
-  std::function<void(int connection)> disconnect = {};
-};
 
 /// Serves the clients of both sockets. Runs in the thread of `loop`, which must outlive it.
 class MessageServer {
@@ -44,7 +30,7 @@ class MessageServer {
   /// must not lock out the robot's own programs.
   static constexpr std::size_t kReservedControlClients = 4;
 
-  MessageServer(EventLoop& loop, std::string version, ControlActions actions);
+  MessageServer(EventLoop& loop, std::string_view version, ControlActions actions);
   ~MessageServer();
   MessageServer(const MessageServer&) = delete;
   MessageServer& operator=(const MessageServer&) = delete;
@@ -59,8 +45,14 @@ class MessageServer {
   void restore_sockets(const std::function<void(const std::string& line)>& log);
 
   /// Sends to all clients that watch the class. Keeps the newest line for POLL and new clients.
-  void publish(message::MessageClass message_class, std::string_view line);
+  void publish(message::MessageClass message_class, const Line& line);
+  void publish(message::MessageClass message_class, std::string_view line) {
+    publish(message_class, std::make_shared<const std::string>(line));
+  }
   bool is_watched(message::MessageClass message_class) const;
+
+  /// Answers the request of a Ticket: OK, or ERROR. Nothing if the client has left.
+  void answer_later(const Ticket& ticket, const std::optional<message::RequestError>& error);
 
   std::size_t clients() const;
   /// Messages lost by slow clients.
@@ -93,15 +85,13 @@ class MessageServer {
   /// Sends waiting lines. False if the connection was broken and the client removed.
   bool send_or_remove(Socket& socket, ClientIterator client);
   void remove(Socket& socket, ClientIterator client);
-  void answer(Client& client, SocketRole role, std::string_view line);
-  void answer_poll(Client& client);
 
   EventLoop& loop_;
-  const std::string version_;
-  const ControlActions actions_;
   message::LineWriter line_;
   std::list<Socket> sockets_;
-  std::array<std::string, 8> newest_;  ///< by class
+  NewestLines newest_;
+  RequestHandler handler_;
+  std::uint64_t accepted_ = 0;  ///< clients
   std::uint64_t dropped_by_closed_ = 0;
 };
 

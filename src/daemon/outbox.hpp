@@ -6,12 +6,17 @@
 #include <cstdint>
 #include <deque>
 #include <functional>
+#include <memory>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "message/request.hpp"
 
 namespace cornerd::daemon {
+
+/// A line with its newline. Clients share it: a MAP may have megabytes.
+using Line = std::shared_ptr<const std::string>;
 
 /// The lines that wait for one client: answers in order, and the newest message of each class. A
 /// slow client loses older messages; "dropped" in the next one gives their number. A partly written
@@ -28,9 +33,10 @@ class Outbox {
   };
 
   /// Replaces the waiting message of the same class.
-  void put(message::MessageClass message_class, std::string_view line);
+  void put(message::MessageClass message_class, Line line);
   /// Answers are never dropped.
-  void answer(std::string_view line);
+  void answer(Line line) { answers_.push_back(std::move(line)); }
+  void answer(std::string_view line) { answer(std::make_shared<const std::string>(line)); }
 
   Result flush(const Write& write);
 
@@ -40,19 +46,20 @@ class Outbox {
 
  private:
   struct Slot {
-    std::string line;  ///< empty if none waits
+    Line line;  ///< null if none waits
     std::uint64_t order = 0;
     std::uint64_t dropped = 0;  ///< since the last delivered line of this class
   };
-  static constexpr std::size_t kClasses =
-      static_cast<std::size_t>(message::MessageClass::kEvent) + 1;
 
   Slot* oldest();
-  Result write_line(std::string_view line, const Write& write);
+  /// The next line to begin; null if none waits.
+  Line next();
+  void remove_next();
 
-  std::string partial_;  ///< rest of a partly written line
-  std::deque<std::string> answers_;
-  std::array<Slot, kClasses> slots_;
+  Line partial_;             ///< a partly written line, or null
+  std::size_t written_ = 0;  ///< bytes of it
+  std::deque<Line> answers_;
+  std::array<Slot, message::kMessageClasses> slots_;
   std::uint64_t order_ = 0;
   std::uint64_t dropped_ = 0;
 };

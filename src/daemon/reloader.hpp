@@ -1,41 +1,38 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <functional>
-#include <memory>
+#include <deque>
+#include <optional>
 #include <string>
 #include <thread>
 
-#include "core/map/wall_map.hpp"
-#include "core/pipeline.hpp"
+#include "daemon/map_loader.hpp"
+#include "daemon/request_handler.hpp"
 #include "daemon/require_fd.hpp"
-#include "settings/config.hpp"
+#include "message/request.hpp"
 
 namespace cornerd::daemon {
 
-/// The config, its map, and a pipeline for them.
-struct Loaded {
-  settings::Config config;
-  std::shared_ptr<const core::WallMap> map;
-  std::unique_ptr<core::Pipeline> pipeline;
-};
-
-/// Loads config and map in a thread of its own, because the catalogue of a large map takes seconds.
+/// Loads config and map in a thread of its own and of less priority, because the catalogue of a
+/// large map takes seconds.
 class Reloader {
  public:
-  /// Throws if the config or the map is invalid.
-  using Load = std::function<Loaded()>;
-
+  /// A SET_MAP and who waits for its answer; neither on SIGHUP.
+  struct Job {
+    std::optional<message::SetMapRequest> set_map = {};
+    Ticket ticket = {};
+  };
   struct Outcome {
+    Job job;
     Loaded loaded;
     std::string error;  ///< one line; empty on success
   };
 
   /// Throws std::system_error.
-  explicit Reloader(Load load);
+  explicit Reloader(MapLoader loader);
 
-  /// Starts loading. A call during loading makes it load once more afterwards.
-  void start();
+  /// Loads after the jobs that wait. False if too many wait.
+  bool start(Job job);
 
   /// Readable when there is an outcome.
   int event_fd() const { return done_.get(); }
@@ -43,13 +40,14 @@ class Reloader {
   Outcome take();
 
  private:
+  void start_next();
   void run();
 
-  Load load_;
+  MapLoader loader_;  ///< owned by the thread until done_ is readable, as outcome_ is
   FileDescriptor done_;
+  std::deque<Job> waiting_;
   bool is_loading_ = false;
-  bool reload_pending_ = false;
-  Outcome outcome_;  ///< owned by the thread until done_ is readable
+  Outcome outcome_;
   std::jthread thread_;
 };
 

@@ -26,22 +26,36 @@ constexpr double kMaxJump_rad = core::radians(179);
 
 }  // namespace
 
-ScanPublisher::ScanPublisher(MessageServer& server, std::shared_ptr<const core::WallMap> map)
-    : server_(server), map_(std::move(map)) {}
+ScanPublisher::ScanPublisher(MessageServer& server, PublishedMap map)
+    : server_(server), map_(std::move(map)) {
+  if (map_.line) server_.publish(MessageClass::kMap, map_.line);
+}
 
-void ScanPublisher::set_next_map(std::uint32_t generation,
-                                 std::shared_ptr<const core::WallMap> map) {
-  next_generation_ = generation;
-  next_map_ = std::move(map);
+void ScanPublisher::set_next_map(std::uint32_t generation, PublishedMap map) {
+  next_maps_.push_back({generation, std::move(map)});
+}
+
+void ScanPublisher::publish_next_map() {
+  if (next_maps_.empty()) return;
+  if (const Line line = std::exchange(next_maps_.back().map.line, nullptr)) {
+    server_.publish(MessageClass::kMap, line);
+  }
+}
+
+void ScanPublisher::take_next_maps(std::uint32_t generation) {
+  bool is_new = false;
+  for (; !next_maps_.empty() && next_maps_.front().generation <= generation; is_new = true) {
+    map_ = std::move(next_maps_.front().map);
+    next_maps_.pop_front();
+  }
+  if (!is_new) return;
+  last_fix_.reset();  // poses in two maps cannot be compared
+  if (map_.line) server_.publish(MessageClass::kMap, map_.line);
 }
 
 void ScanPublisher::publish(const ScanReport& report) {
   const core::PoseEstimate& pose = report.result.pose;
-  if (next_map_ && report.generation == next_generation_) {
-    map_ = std::move(next_map_);
-    next_map_.reset();
-    last_fix_.reset();  // poses in two maps cannot be compared
-  }
+  take_next_maps(report.generation);
   latencies_.add(core::to_seconds(report.latency_ns));
   ++poses_[static_cast<std::size_t>(pose.state)];
   odometry_ = report.result.odometry;
@@ -49,7 +63,7 @@ void ScanPublisher::publish(const ScanReport& report) {
   lidar_ = report.lidar;
   end_ns_ = report.scan.end_ns();
 
-  server_.publish(MessageClass::kPose, line_.pose(pose, map_ ? &map_->plan() : nullptr));
+  publish_pose(pose);
   if (server_.is_watched(MessageClass::kScan)) {
     server_.publish(MessageClass::kScan, line_.scan(report.scan));
   }
@@ -82,8 +96,11 @@ void ScanPublisher::publish_jump(const core::PoseEstimate& pose, std::uint64_t n
   last_fix_ = {number, pose.T_map_base};
 }
 
-void ScanPublisher::publish(const core::PoseEstimate& pose) {
-  server_.publish(MessageClass::kPose, line_.pose(pose, map_ ? &map_->plan() : nullptr));
+void ScanPublisher::publish(const core::PoseEstimate& pose) { publish_pose(pose); }
+
+void ScanPublisher::publish_pose(const core::PoseEstimate& pose) {
+  server_.publish(MessageClass::kPose,
+                  line_.pose(pose, map_.map ? &map_.map->plan() : nullptr, map_.has_name));
 }
 
 void ScanPublisher::publish_change(core::PoseState to, core::TimeNs t_ns) {

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <deque>
 #include <memory>
 #include <optional>
 
@@ -20,11 +21,20 @@ class ScanPublisher {
  public:
   static constexpr std::size_t kStates = static_cast<std::size_t>(core::PoseState::kLost) + 1;
 
-  ScanPublisher(MessageServer& server, std::shared_ptr<const core::WallMap> map);
+  /// A map with its MAP. `has_name`: POSE names it, because there are several.
+  struct PublishedMap {
+    std::shared_ptr<const core::WallMap> map;
+    Line line = nullptr;
+    bool has_name = false;
+  };
+
+  ScanPublisher(MessageServer& server, PublishedMap map);
 
   void publish(const ScanReport& report);
-  /// The map of scans from `generation` on.
-  void set_next_map(std::uint32_t generation, std::shared_ptr<const core::WallMap> map);
+  /// The map of scans from `generation` on; its MAP is published before the first POSE in it.
+  void set_next_map(std::uint32_t generation, PublishedMap map);
+  /// Publishes MAP of the next map at once: no scan comes.
+  void publish_next_map();
   /// A pose between two scans; it does not change the state.
   void publish(const core::PoseEstimate& pose);
 
@@ -41,13 +51,18 @@ class ScanPublisher {
   const std::array<std::uint64_t, kStates>& poses() const { return poses_; }
 
  private:
+  void take_next_maps(std::uint32_t generation);
+  void publish_pose(const core::PoseEstimate& pose);
   void publish_change(core::PoseState to, core::TimeNs t_ns);
   void publish_jump(const core::PoseEstimate& pose, std::uint64_t number);
 
   MessageServer& server_;
-  std::shared_ptr<const core::WallMap> map_;
-  std::shared_ptr<const core::WallMap> next_map_;
-  std::uint32_t next_generation_ = 0;
+  PublishedMap map_;
+  struct NextMap {
+    std::uint32_t generation = 0;
+    PublishedMap map;
+  };
+  std::deque<NextMap> next_maps_;  ///< in the order of their generations
   struct Fix {
     std::uint64_t number = 0;
     core::Pose2 T_map_base;

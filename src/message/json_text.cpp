@@ -122,6 +122,11 @@ void JsonText::significant(double value) {
   append_digits(text_, value, std::chars_format::general, 6);
 }
 
+void JsonText::shortest(double value) {
+  separate();
+  append_digits(text_, value);
+}
+
 void JsonText::angle(double value_rad) {
   separate();
   append_scaled(std::clamp<std::int64_t>(std::llround(value_rad * 1e6), -kPiInMicroradians,

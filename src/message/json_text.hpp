@@ -50,6 +50,8 @@ class JsonText {
   void fixed(double value, int decimals);
   /// Six significant digits. Finite values only.
   void significant(double value);
+  /// The fewest digits that read back as the same double. Finite values only.
+  void shortest(double value);
   /// An angle in (-pi, pi], to 1e-6 rad. Near the ends it is rounded towards zero, so that the
   /// value read back is in the interval too.
   void angle(double value_rad);

@@ -205,7 +205,8 @@ std::string_view LineWriter::truth(core::TimeNs t_ns, const core::Pose2& T_map_b
   return finish();
 }
 
-std::string_view LineWriter::pose(const core::PoseEstimate& pose, const core::FloorPlan* plan) {
+std::string_view LineWriter::pose(const core::PoseEstimate& pose, const core::FloorPlan* plan,
+                                  bool names_map) {
   const bool publishes_pose =
       pose.state != core::PoseState::kAmbiguous && pose.state != core::PoseState::kLost;
   begin("POSE");
@@ -215,6 +216,7 @@ std::string_view LineWriter::pose(const core::PoseEstimate& pose, const core::Fl
   if (publishes_pose) {
     write_pose(json_, pose.T_map_base);
     write_covariance(json_, pose.covariance);
+    if (names_map && plan != nullptr) json_.string("map", plan->name);
     if (pose.room && plan != nullptr && *pose.room < plan->rooms.size()) {
       json_.string("room", plan->rooms[*pose.room].name);
     }

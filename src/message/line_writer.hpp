@@ -84,11 +84,14 @@ class LineWriter {
   LineWriter();
 
   std::string_view version(std::string_view program, std::string_view version);
-  /// `plan`: gives the room its name; may be null.
-  std::string_view pose(const core::PoseEstimate& pose, const core::FloorPlan* plan);
+  /// `plan`: gives the room its name; may be null. `names_map`: POSE has the plan's name too.
+  std::string_view pose(const core::PoseEstimate& pose, const core::FloorPlan* plan,
+                        bool names_map = false);
   std::string_view scan(const core::Scan& scan);
   std::string_view breakpoints(core::TimeNs t_ns, const core::Detection& detection);
   std::string_view status(const StatusFields& status);
+  /// Allocates where the map is larger than the longest SCAN.
+  std::string_view map(const core::FloorPlan& plan);
   std::string_view event(core::TimeNs t_ns, std::string_view what, std::string_view detail);
   /// `id_json`: the request's id as JSON text; empty if it had none.
   std::string_view ok(std::string_view request, std::string_view id_json);

@@ -8,6 +8,7 @@
 #include "message/field_reader.hpp"
 #include "message/input_fields.hpp"
 #include "message/line_writer.hpp"
+#include "message/parsed_map.hpp"
 
 namespace cornerd::message {
 namespace {
@@ -56,6 +57,7 @@ ParsedLine read_pose(FieldReader& fields) {
   pose.state = read_pose_state(fields);
   if (fields.has("x")) pose.T_map_base = read_pose2(fields);
   if (fields.has("cov")) pose.covariance = read_covariance(fields, fields.optional_object("cov"));
+  pose.map = fields.optional_text("map");
   pose.room = fields.optional_text("room");
   pose.corners = read_count(fields, "corners");
   pose.inliers = read_count(fields, "inliers");
@@ -158,6 +160,7 @@ ParsedLine read_message(std::string_view name, FieldReader& fields) {
   if (name == "BREAKPOINTS") return read_breakpoints(fields);
   if (name == "STATUS") return read_status(fields);
   if (name == "EVENT") return read_event(fields);
+  if (name == "MAP") return ParsedMap{read_map(fields)};
   if (name == "ERROR") {
     return ParsedError{std::string(fields.text("code")),
                        std::string(fields.optional_text("message"))};
@@ -174,7 +177,7 @@ std::uint64_t ParsedStatus::counter(std::string_view name) const {
 }
 
 ParsedLine parse_line(std::string_view line) {
-  return parse_by_class<ParsedLine>(line, kMaxRecordedBytes, read_message);
+  return parse_by_class<ParsedLine>(line, kMaxMessageBytes, read_message);
 }
 
 }  // namespace cornerd::message

@@ -10,6 +10,7 @@
 #include <variant>
 #include <vector>
 
+#include "core/map/wall_map.hpp"
 #include "core/pose_estimate.hpp"
 #include "message/request.hpp"
 
@@ -26,6 +27,7 @@ struct ParsedPose {
   core::PoseState state = core::PoseState::kLost;
   std::optional<core::Pose2> T_map_base;  ///< absent if ambiguous or lost
   std::optional<core::Covariance3> covariance;
+  std::string map;   ///< empty where the daemon has one map only
   std::string room;  ///< empty if none
   std::uint64_t corners = 0;
   std::uint64_t inliers = 0;
@@ -80,6 +82,11 @@ struct ParsedEvent {
   std::string detail;
 };
 
+/// The map in which the daemon localizes.
+struct ParsedMap {
+  core::FloorPlan plan;
+};
+
 struct ParsedError {
   std::string code;
   std::string text;
@@ -87,7 +94,7 @@ struct ParsedError {
 
 using ParsedLine =
     std::variant<RequestError, ParsedVersion, ParsedPose, RecordedScan, ParsedBreakpoints,
-                 ParsedStatus, ParsedEvent, ParsedError, OtherLine>;
+                 ParsedStatus, ParsedEvent, ParsedMap, ParsedError, OtherLine>;
 
 /// Never throws. RequestError if the line is not a message of the daemon.
 ParsedLine parse_line(std::string_view line);

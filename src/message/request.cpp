@@ -32,8 +32,8 @@ std::string read_id(const Json& object, FieldReader& fields) {
   return text;
 }
 
-Body read_watch(FieldReader& fields) {
-  WatchRequest watch;
+ClassSet read_classes(FieldReader& fields) {
+  ClassSet classes;
   for (const Json& name : fields.array("classes", kMaxWatchedClasses)) {
     if (!name.is_string()) {
       fields.fail("\"classes\" must hold names of classes");
@@ -45,9 +45,36 @@ Body read_watch(FieldReader& fields) {
       fields.fail("\"classes\" holds an unknown class: " + text.substr(0, 64));
       break;
     }
-    watch.classes.insert(*message_class);
+    classes.insert(*message_class);
   }
-  return watch;
+  return classes;
+}
+
+Body read_poll(FieldReader& fields) {
+  PollRequest poll;
+  if (!fields.has("classes")) {
+    poll.classes.insert(MessageClass::kPose);
+    poll.classes.insert(MessageClass::kStatus);
+    return poll;
+  }
+  poll.classes = read_classes(fields);
+  ClassSet others = poll.classes;
+  for (const MessageClass polled : kPolled) others.erase(polled);
+  if (!others.empty()) {
+    fields.fail("\"classes\" of POLL may hold VERSION, POSE, STATUS, EVENT and MAP: use WATCH");
+  }
+  return poll;
+}
+
+Body read_set_map(FieldReader& fields) {
+  SetMapRequest request{std::string(fields.optional_text("name")),
+                        std::string(fields.optional_text("file"))};
+  if (request.name.empty() == request.file.empty()) {
+    fields.fail("SET_MAP needs \"name\" or \"file\", and one of them only");
+  } else if (request.file.find('\0') != std::string::npos) {
+    fields.fail("\"file\" must not hold a zero byte");
+  }
+  return request;
 }
 
 Body read_set_pose(FieldReader& fields) {
@@ -59,18 +86,19 @@ Body read_set_pose(FieldReader& fields) {
 }
 
 Body read_body(const std::string& name, FieldReader& fields) {
-  if (name == "WATCH") return read_watch(fields);
-  if (name == "POLL") return PollRequest{};
+  if (name == "WATCH") return WatchRequest{read_classes(fields)};
+  if (name == "POLL") return read_poll(fields);
   if (name == "RELOCALIZE") return RelocalizeRequest{};
   if (name == "SET_POSE") return read_set_pose(fields);
+  if (name == "SET_MAP") return read_set_map(fields);
   if (name == "ODOMETRY") return read_odometry(fields);
   return RequestError{"class", "no request of this class: " + name.substr(0, 64)};
 }
 
 /// In the order of MessageClass.
-constexpr std::array<std::string_view, 8> kNames = {"VERSION",  "POSE",   "SCAN",   "BREAKPOINTS",
-                                                    "ODOMETRY", "STATUS", "SERIAL", "EVENT"};
-static_assert(kNames.size() == static_cast<std::size_t>(MessageClass::kEvent) + 1);
+constexpr std::array<std::string_view, kMessageClasses> kNames = {
+    "VERSION", "POSE", "SCAN", "BREAKPOINTS", "ODOMETRY", "STATUS", "SERIAL", "EVENT", "MAP"};
+static_assert(!kNames.back().empty());
 
 }  // namespace
 

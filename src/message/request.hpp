@@ -24,15 +24,18 @@ enum class MessageClass : std::uint8_t {
   kOdometry,
   kStatus,
   kSerial,
-  kEvent
+  kEvent,
+  kMap
 };
+inline constexpr std::size_t kMessageClasses = static_cast<std::size_t>(MessageClass::kMap) + 1;
 std::string_view to_string(MessageClass message_class);
 std::optional<MessageClass> message_class_from(std::string_view name);
 
-/// The classes that WATCH and --classes select.
+/// A set of message classes.
 class ClassSet {
  public:
   void insert(MessageClass c) { bits_ |= 1u << static_cast<unsigned>(c); }
+  void erase(MessageClass c) { bits_ &= ~(1u << static_cast<unsigned>(c)); }
   bool contains(MessageClass c) const { return bits_ >> static_cast<unsigned>(c) & 1u; }
   bool empty() const { return bits_ == 0; }
 
@@ -43,7 +46,14 @@ class ClassSet {
 struct WatchRequest {
   ClassSet classes;
 };
-struct PollRequest {};
+struct PollRequest {
+  ClassSet classes;  ///< of those that kPolled names
+};
+/// One of the config's maps, or a file below their folders.
+struct SetMapRequest {
+  std::string name;  ///< empty where `file` is given
+  std::string file;
+};
 struct RelocalizeRequest {};
 struct SetPoseRequest {
   core::Pose2 T_map_base;
@@ -60,7 +70,7 @@ struct RequestError {
 
 struct Request {
   std::variant<RequestError, WatchRequest, PollRequest, RelocalizeRequest, SetPoseRequest,
-               OdometryReading>
+               SetMapRequest, OdometryReading>
       body;
   std::string name;     ///< the class as received; may be empty
   std::string id_json;  ///< JSON text; empty if absent
@@ -70,6 +80,13 @@ struct Request {
 inline constexpr std::size_t kMaxRequestBytes = 64 * 1024;
 /// Fits the longest SCAN with all digits of its doubles.
 inline constexpr std::size_t kMaxRecordedBytes = 2 * 1024 * 1024;
+/// Fits a MAP of 100,000 walls with all digits of its doubles.
+inline constexpr std::size_t kMaxMessageBytes = 32 * 1024 * 1024;
+
+/// The classes whose newest message POLL gives; without names it gives POSE and STATUS.
+inline constexpr MessageClass kPolled[] = {MessageClass::kVersion, MessageClass::kPose,
+                                           MessageClass::kStatus, MessageClass::kEvent,
+                                           MessageClass::kMap};
 
 /// Never throws. A malformed line gives a Request that holds RequestError.
 Request parse_request(std::string_view line);

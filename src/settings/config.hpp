@@ -95,9 +95,16 @@ struct RealtimeConfig {
   bool lock_memory = true;
 };
 
+struct NamedMap {
+  std::string name;
+  std::filesystem::path file;  ///< as Config::map
+};
+
 struct Config {
   LidarConfig lidar;
   std::filesystem::path map;  ///< absolute, or as given where the config came from no file
+  std::string map_name;       ///< of the one of `maps` that `map` is; else empty
+  std::vector<NamedMap> maps;
   core::DetectorConfig detector;
   std::size_t updates_per_scan = 1;
   OdometryConfig odometry;

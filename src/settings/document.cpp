@@ -20,42 +20,53 @@ namespace {
 
 constexpr std::size_t kMaxDepth = 16;
 
-/// Checks during parsing what the parsed document no longer shows: repeated keys and depth.
-class StructureCheck {
+/// "line 1, column 2: ..." of "[json.exception.parse_error.101] parse error at line 1, column 2:
+/// ..."
+std::string strip_library_prefix(std::string_view what) {
+  constexpr std::string_view kPrefix = "parse error at ";
+  const std::size_t prefix = what.find(kPrefix);
+  if (prefix != std::string_view::npos) return std::string(what.substr(prefix + kPrefix.size()));
+  const std::size_t bracket = what.find("] ");
+  return std::string(bracket == std::string_view::npos ? what : what.substr(bracket + 2));
+}
+
+/// Checks what the parsed document no longer shows: repeated keys and depth. A pass of its own: the
+/// library's parser with a callback is quadratic in the elements of an array.
+class StructureCheck : public Json::json_sax_t {
  public:
   explicit StructureCheck(const std::filesystem::path& file) : file_(file) {}
 
-  /// Pointer of the value at which the parser stopped.
-  std::string pointer_of_next() {
-    begin_element();
-    return pointer();
+  bool null() override { return begin_element(); }
+  bool boolean(bool /*value*/) override { return begin_element(); }
+  bool number_integer(number_integer_t /*value*/) override { return begin_element(); }
+  bool number_unsigned(number_unsigned_t /*value*/) override { return begin_element(); }
+  bool number_float(number_float_t /*value*/, const string_t& /*text*/) override {
+    return begin_element();
   }
+  bool string(string_t& /*value*/) override { return begin_element(); }
+  bool binary(binary_t& /*value*/) override { return begin_element(); }
+  bool start_object(std::size_t /*size*/) override { return open(/*is_array=*/false); }
+  bool start_array(std::size_t /*size*/) override { return open(/*is_array=*/true); }
+  bool end_object() override { return close(); }
+  bool end_array() override { return close(); }
 
-  bool operator()(Json::parse_event_t event, const Json& parsed) {
-    switch (event) {
-      case Json::parse_event_t::key:
-        levels_.back().key = parsed.get<std::string>();
-        if (!levels_.back().seen.insert(levels_.back().key).second) {
-          throw SettingsError(file_.string(), pointer(), "this key is there twice");
-        }
-        break;
-      case Json::parse_event_t::object_start:
-      case Json::parse_event_t::array_start:
-        if (levels_.size() == kMaxDepth) {
-          throw SettingsError(file_.string(), pointer(), "nested too deep");
-        }
-        begin_element();
-        levels_.push_back({.is_array = event == Json::parse_event_t::array_start});
-        break;
-      case Json::parse_event_t::object_end:
-      case Json::parse_event_t::array_end:
-        levels_.pop_back();
-        break;
-      case Json::parse_event_t::value:
-        begin_element();
-        break;
+  bool key(string_t& name) override {
+    Level& level = levels_.back();
+    level.key = name;
+    if (!level.seen.insert(name).second) {
+      throw SettingsError(file_.string(), pointer(), "this key is there twice");
     }
     return true;
+  }
+
+  bool parse_error(std::size_t /*position*/, const std::string& /*token*/,
+                   const Json::exception& error) override {
+    std::string where;
+    if (dynamic_cast<const Json::out_of_range*>(&error) != nullptr) {
+      begin_element();
+      where = pointer();
+    }
+    throw SettingsError(file_.string(), where, one_line(strip_library_prefix(error.what())));
   }
 
  private:
@@ -66,8 +77,23 @@ class StructureCheck {
     std::set<std::string> seen{};
   };
 
-  void begin_element() {
+  bool begin_element() {
     if (!levels_.empty()) ++levels_.back().count;
+    return true;
+  }
+
+  bool open(bool is_array) {
+    if (levels_.size() == kMaxDepth) {
+      throw SettingsError(file_.string(), pointer(), "nested too deep");
+    }
+    begin_element();
+    levels_.push_back({.is_array = is_array});
+    return true;
+  }
+
+  bool close() {
+    levels_.pop_back();
+    return true;
   }
 
   std::string pointer() const {
@@ -81,16 +107,6 @@ class StructureCheck {
   const std::filesystem::path& file_;
   std::vector<Level> levels_;
 };
-
-/// "line 1, column 2: ..." of "[json.exception.parse_error.101] parse error at line 1, column 2:
-/// ..."
-std::string strip_library_prefix(std::string_view what) {
-  constexpr std::string_view kPrefix = "parse error at ";
-  const std::size_t prefix = what.find(kPrefix);
-  if (prefix != std::string_view::npos) return std::string(what.substr(prefix + kPrefix.size()));
-  const std::size_t bracket = what.find("] ");
-  return std::string(bracket == std::string_view::npos ? what : what.substr(bracket + 2));
-}
 
 struct FileCloser {
   void operator()(std::FILE* stream) const { std::fclose(stream); }
@@ -144,18 +160,9 @@ std::string read_file(const std::filesystem::path& file, std::size_t max_bytes, 
 
 Json parse_document(std::string_view text, const std::filesystem::path& file) {
   StructureCheck check(file);
-  try {
-    return Json::parse(
-        text,
-        [&check](int /*depth*/, Json::parse_event_t event, const Json& parsed) {
-          return check(event, parsed);
-        },
-        /*allow_exceptions=*/true, /*ignore_comments=*/true);
-  } catch (const Json::out_of_range& error) {
-    throw SettingsError(file.string(), check.pointer_of_next(), strip_library_prefix(error.what()));
-  } catch (const Json::exception& error) {
-    throw SettingsError(file.string(), "", one_line(strip_library_prefix(error.what())));
-  }
+  Json::sax_parse(text, &check, Json::input_format_t::json, /*strict=*/true,
+                  /*ignore_comments=*/true);
+  return Json::parse(text, nullptr, /*allow_exceptions=*/true, /*ignore_comments=*/true);
 }
 
 std::string child_pointer(const std::string& parent, std::string_view key) {

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "settings/object_reader.hpp"
+#include "settings/sha256.hpp"
 
 namespace cornerd::settings {
 namespace {
@@ -127,6 +128,15 @@ core::FloorPlan read_plan(ObjectReader root, const std::filesystem::path& file) 
   return plan;
 }
 
+std::shared_ptr<const core::WallMap> make_map(core::FloorPlan plan,
+                                              const std::filesystem::path& file) {
+  try {
+    return std::make_shared<const core::WallMap>(std::move(plan));
+  } catch (const std::invalid_argument& error) {
+    throw SettingsError(file.string(), "/walls", error.what());
+  }
+}
+
 }  // namespace
 
 core::FloorPlan parse_floor_plan(std::string_view text, const std::filesystem::path& file) {
@@ -139,21 +149,21 @@ core::FloorPlan parse_floor_plan(std::string_view text, const std::filesystem::p
   }
   const DocumentContext context{.file = file};
   const Json document = parse_document(text, file);
-  return read_plan({context, document, ""}, file);
+  core::FloorPlan plan = read_plan({context, document, ""}, file);
+  plan.hash = sha256(text);
+  return plan;
 }
 
 std::shared_ptr<const core::WallMap> parse_map(std::string_view text,
                                                const std::filesystem::path& file) {
-  core::FloorPlan plan = parse_floor_plan(text, file);
-  try {
-    return std::make_shared<const core::WallMap>(std::move(plan));
-  } catch (const std::invalid_argument& error) {
-    throw SettingsError(file.string(), "/walls", error.what());
-  }
+  return make_map(parse_floor_plan(text, file), file);
 }
 
-std::shared_ptr<const core::WallMap> load_map(const std::filesystem::path& file, FileKind kind) {
-  return parse_map(read_file(file, kMaxMapBytes, kind), file);
+std::shared_ptr<const core::WallMap> load_map(const std::filesystem::path& file, FileKind kind,
+                                              const std::string& name) {
+  core::FloorPlan plan = parse_floor_plan(read_file(file, kMaxMapBytes, kind), file);
+  if (!name.empty()) plan.name = name;
+  return make_map(std::move(plan), file);
 }
 
 }  // namespace cornerd::settings

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <string>
 #include <string_view>
 
 #include "core/map/wall_map.hpp"
@@ -17,7 +18,9 @@ inline constexpr double kMaxCoordinateM = 10'000;
 core::FloorPlan parse_floor_plan(std::string_view text, const std::filesystem::path& file);
 std::shared_ptr<const core::WallMap> parse_map(std::string_view text,
                                                const std::filesystem::path& file);
+/// `name`: in place of the map's own; may be empty.
 std::shared_ptr<const core::WallMap> load_map(const std::filesystem::path& file,
-                                              FileKind kind = FileKind::kAny);
+                                              FileKind kind = FileKind::kAny,
+                                              const std::string& name = {});
 
 }  // namespace cornerd::settings

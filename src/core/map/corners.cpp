@@ -1,9 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
+#include <limits>
+#include <numeric>
 #include <unordered_map>
+#include <utility>
 
+#include "core/map/crossings.hpp"
+#include "core/map/extent_tree.hpp"
 #include "core/map/outline.hpp"
 
 namespace cornerd::core {
@@ -19,68 +25,65 @@ struct Arm {
   bool free_on_left = false;
 };
 
-/// A hash grid for finding neighbours of a point.
-class Grid {
+/// Points, each once: a hash grid of them.
+class PointSet {
  public:
-  explicit Grid(double cell_m) : cell_m_(cell_m) {}
+  explicit PointSet(std::size_t expected) { newest_.reserve(expected); }
 
-  void insert(const Vec2& point, std::size_t index) { cells_[key(point)].push_back(index); }
-
-  template <typename Visitor>
-  void visit_near(const Vec2& point, Visitor&& visit) const {
-    for (int dx = -1; dx <= 1; ++dx) {
-      for (int dy = -1; dy <= 1; ++dy) {
-        const auto found = cells_.find(key(point + cell_m_ * Vec2(dx, dy)));
-        if (found == cells_.end()) continue;
-        for (const std::size_t index : found->second) visit(index);
+  void add(const Vec2& point) {
+    const auto cell = [](double coordinate) {
+      return static_cast<std::int64_t>(std::floor(coordinate / kCell_m));
+    };
+    for (const double x_m : {point.x() - kCell_m, point.x(), point.x() + kCell_m}) {
+      for (const double y_m : {point.y() - kCell_m, point.y(), point.y() + kCell_m}) {
+        if (holds(cell(x_m), cell(y_m), point)) return;
       }
     }
+    const auto index = static_cast<std::uint32_t>(points_.size());
+    auto [newest, is_new] = newest_.try_emplace(key(cell(point.x()), cell(point.y())), index);
+    before_.push_back(is_new ? kNone : std::exchange(newest->second, index));
+    points_.push_back(point);
   }
 
+  const std::vector<Vec2>& points() const { return points_; }
+
  private:
-  std::uint64_t key(const Vec2& point) const {
-    const auto x = static_cast<std::int64_t>(std::floor(point.x() / cell_m_));
-    const auto y = static_cast<std::int64_t>(std::floor(point.y() / cell_m_));
+  static constexpr double kCell_m = 1e-3;
+  static constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+
+  static std::uint64_t key(std::int64_t x, std::int64_t y) {
     return static_cast<std::uint64_t>(x) << 32 ^ (static_cast<std::uint64_t>(y) & 0xffffffffU);
   }
-  double cell_m_;
-  std::unordered_map<std::uint64_t, std::vector<std::size_t>> cells_;
+
+  bool holds(std::int64_t x, std::int64_t y, const Vec2& point) const {
+    const auto newest = newest_.find(key(x, y));
+    if (newest == newest_.end()) return false;
+    for (std::uint32_t i = newest->second; i != kNone; i = before_[i]) {
+      if ((points_[i] - point).norm() < kSamePoint_m) return true;
+    }
+    return false;
+  }
+
+  std::vector<Vec2> points_;
+  std::vector<std::uint32_t> before_;  ///< the point before it in the same cell
+  std::unordered_map<std::uint64_t, std::uint32_t> newest_;  ///< of a cell
 };
 
 /// The ends of all faces and the crossings of line walls, each point once.
-std::vector<Vec2> vertices_of(std::span<const Face> faces, const CellGrid& grid_of_faces) {
-  std::vector<Vec2> vertices;
-  Grid grid(1e-3);
-  const auto add = [&](const Vec2& point) {
-    bool known = false;
-    grid.visit_near(point, [&](std::size_t i) {
-      known = known || (vertices[i] - point).norm() < kSamePoint_m;
-    });
-    if (known) return;
-    grid.insert(point, vertices.size());
-    vertices.push_back(point);
-  };
+std::vector<Vec2> vertices_of(std::span<const Face> faces) {
+  PointSet vertices(2 * faces.size());
   for (const Face& face : faces) {
-    add(face.from);
-    add(face.to);
+    vertices.add(face.from);
+    vertices.add(face.to);
   }
-  std::vector<std::uint32_t> near;
-  for (std::uint32_t i = 0; i < faces.size(); ++i) {
+  for (const auto& [i, j] : crossings_of(faces, kSamePoint_m)) {
     const Face& a = faces[i];
-    grid_of_faces.collect(Extent::of_segment(a.from, a.to, 0), near);
-    for (const std::uint32_t j : near) {
-      if (j <= i) continue;
-      const Face& b = faces[j];
-      const double sine = cross(a.direction, b.direction);
-      if (std::abs(sine) < 1e-9) continue;
-      const double along_a = cross(b.from - a.from, b.direction) / sine;
-      if (along_a < kSamePoint_m || along_a > a.length_m - kSamePoint_m) continue;
-      const double along_b = cross(b.from - a.from, a.direction) / sine;
-      if (along_b < kSamePoint_m || along_b > b.length_m - kSamePoint_m) continue;
-      add(a.from + along_a * a.direction);
-    }
+    const Face& b = faces[j];
+    const double sine = cross(a.direction, b.direction);
+    const double along_a = cross(b.from - a.from, b.direction) / sine;
+    vertices.add(a.from + along_a * a.direction);
   }
-  return vertices;
+  return vertices.points();
 }
 
 void add_arms(const Face& face, const Vec2& vertex, std::vector<Arm>& arms) {
@@ -92,18 +95,44 @@ void add_arms(const Face& face, const Vec2& vertex, std::vector<Arm>& arms) {
   if (along > kSamePoint_m) arms.push_back({normalize_angle(angle + kPi), false});
 }
 
+/// The smallest angle from `begin` counter-clockwise to one of `ends`; more than a revolution where
+/// there is none.
+double opening_from(double begin_rad, std::span<const double> ends_rad) {
+  double opening = 3 * kPi;
+  for (const double end_rad : ends_rad) {
+    double angle = angle_between(begin_rad, end_rad);
+    if (angle < 1e-6) angle += kTwoPi;
+    opening = std::min(opening, angle);
+  }
+  return opening;
+}
+
 /// One corner per sector of free space around the vertex, counter-clockwise from the arm where it
 /// begins to the arm where it ends.
 void add_corners(const Vec2& vertex, std::span<const Arm> arms, std::vector<Corner>& corners) {
+  std::vector<double> ends_rad;
+  for (const Arm& arm : arms) {
+    if (!arm.free_on_left) ends_rad.push_back(arm.angle_rad);
+  }
+  std::sort(ends_rad.begin(), ends_rad.end());
+  // Where a sector may end: the ends around its begin, and the first and the last.
+  std::array<double, 6> near_rad;
   for (const Arm& begin : arms) {
     if (!begin.free_on_left) continue;
-    double opening = 3 * kPi;
-    for (const Arm& end : arms) {
-      if (end.free_on_left) continue;
-      double angle = angle_between(begin.angle_rad, end.angle_rad);
-      if (angle < 1e-6) angle += kTwoPi;
-      opening = std::min(opening, angle);
+    std::span<const double> candidates(ends_rad);
+    if (ends_rad.size() > near_rad.size()) {
+      const auto next = std::upper_bound(ends_rad.begin(), ends_rad.end(), begin.angle_rad + 1e-6);
+      const std::ptrdiff_t place = next - ends_rad.begin();
+      const auto count = static_cast<std::ptrdiff_t>(ends_rad.size());
+      for (std::ptrdiff_t i = 0; i < 4; ++i) {
+        near_rad[static_cast<std::size_t>(i)] =
+            ends_rad[static_cast<std::size_t>((place + i - 2 + count) % count)];
+      }
+      near_rad[4] = ends_rad.front();
+      near_rad[5] = ends_rad.back();
+      candidates = near_rad;
     }
+    const double opening = opening_from(begin.angle_rad, candidates);
     if (opening > 2.5 * kPi || std::abs(opening - kPi) < kStraight_rad) continue;
     Corner corner;
     corner.position = vertex;
@@ -120,12 +149,21 @@ std::vector<Corner> corners_of(std::span<const Face> faces) {
   std::vector<Corner> corners;
   std::vector<Arm> arms;
   std::vector<Extent> extents;
-  for (const Face& face : faces) extents.push_back(Extent::of_segment(face.from, face.to, 0));
-  const CellGrid grid(extents);
-  std::vector<std::uint32_t> near;
-  for (const Vec2& vertex : vertices_of(faces, grid)) {
+  for (const Face& face : faces) {
+    extents.push_back(Extent::of_segment(face.from, face.to, kSamePoint_m));
+  }
+  std::vector<std::uint32_t> near(faces.size());
+  std::iota(near.begin(), near.end(), 0u);
+  ExtentTree tree(extents, near);
+  for (const Vec2& vertex : vertices_of(faces)) {
+    near.clear();
+    tree.search(vertex, vertex, [&](std::span<const std::uint32_t> some) {
+      near.insert(near.end(), some.begin(), some.end());
+      return true;
+    });
+    std::sort(near.begin(), near.end());
+    near.erase(std::unique(near.begin(), near.end()), near.end());
     arms.clear();
-    grid.collect(Extent::of_segment(vertex, vertex, kSamePoint_m), near);
     for (const std::uint32_t i : near) add_arms(faces[i], vertex, arms);
     add_corners(vertex, arms, corners);
   }

@@ -4,7 +4,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
+#include <numeric>
+#include <random>
+#include <set>
+#include <tuple>
 #include <utility>
+
+#include "core/map/extent_tree.hpp"
 
 namespace cornerd::core {
 namespace {
@@ -91,24 +98,129 @@ Interval hidden_by(const Edge& edge, const WallBox& own, const WallBox& other,
   return inside;
 }
 
-/// [0, 1] without the given intervals, which may overlap.
-std::vector<Interval> remaining(std::vector<Interval> hidden) {
-  std::sort(hidden.begin(), hidden.end(),
-            [](const Interval& a, const Interval& b) { return a.begin < b.begin; });
-  std::vector<Interval> left;
-  double reached = 0;
-  for (const Interval& piece : hidden) {
-    if (piece.begin > reached) left.push_back({reached, piece.begin});
-    reached = std::max(reached, piece.end);
+/// The parts of an edge that no box covers.
+class VisibleParts {
+ public:
+  /// `shortest`: a share of the length; shorter parts are left out.
+  explicit VisibleParts(double shortest) : shortest_(shortest), parts_{{0, 1}} {}
+
+  bool has_any_of(const Interval& range) const {
+    return std::any_of(parts_.begin(), parts_.end(), [&](const Interval& part) {
+      return part.begin < range.end && part.end > range.begin;
+    });
   }
-  if (reached < 1) left.push_back({reached, 1});
-  return left;
+  std::span<const Interval> parts() const { return parts_; }
+
+  void hide(const Interval& hidden) {
+    if (hidden.begin >= hidden.end) return;
+    for (std::size_t i = parts_.size(); i-- > 0;) {
+      const Interval part = parts_[i];
+      if (hidden.end <= part.begin || hidden.begin >= part.end) continue;
+      parts_.erase(parts_.begin() + static_cast<std::ptrdiff_t>(i));
+      insert(i, {hidden.end, part.end});
+      insert(i, {part.begin, hidden.begin});
+    }
+  }
+
+ private:
+  void insert(std::size_t place, const Interval& part) {
+    if (part.end - part.begin <= shortest_) return;
+    parts_.insert(parts_.begin() + static_cast<std::ptrdiff_t>(place), part);
+  }
+
+  double shortest_;
+  std::vector<Interval> parts_;
+};
+
+/// Indices by the boxes' direction, then their place across it: neighbours in a bundle or a fan of
+/// walls hide most of each other.
+std::vector<std::uint32_t> by_direction(std::span<const WallBox> boxes) {
+  std::vector<std::tuple<double, double, std::uint32_t>> lines;
+  for (const WallBox& box : boxes) {
+    lines.emplace_back(std::atan2(box.along.y(), box.along.x()), cross(box.along, box.centre),
+                       static_cast<std::uint32_t>(lines.size()));
+  }
+  std::sort(lines.begin(), lines.end());
+  std::vector<std::uint32_t> order;
+  for (const auto& line : lines) order.push_back(std::get<2>(line));
+  return order;
 }
 
-/// A cheap bounding-circle test: no false negatives.
-bool may_touch(const WallBox& a, const WallBox& b) {
-  const double radius = a.half_length_m + a.half_width_m + b.half_length_m + b.half_width_m;
-  return (a.centre - b.centre).squaredNorm() <= (radius + 1e-3) * (radius + 1e-3);
+/// A fixed permutation without order: where most boxes cover a point, one of the first does.
+std::vector<std::uint32_t> shuffled(std::size_t count) {
+  std::vector<std::uint32_t> order(count);
+  std::iota(order.begin(), order.end(), 0u);
+  std::minstd_rand random(1);
+  for (std::size_t i = count; i > 1; --i) std::swap(order[i - 1], order[random() % i]);
+  return order;
+}
+
+/// Finds what other boxes hide of a box's edges.
+class Visibility {
+ public:
+  explicit Visibility(std::span<const WallBox> boxes)
+      : boxes_(boxes),
+        order_(by_direction(boxes)),
+        place_(boxes.size()),
+        extents_(extents_of(boxes)),
+        tree_(extents_, shuffled(boxes.size())) {
+    for (std::size_t i = 0; i < order_.size(); ++i) place_[order_[i]] = i;
+  }
+
+  VisibleParts of(const Edge& edge) {
+    const Vec2 way = edge.to - edge.from;
+    VisibleParts visible(2 * kGeometryEpsilon_m / way.norm());
+    const auto hide_behind = [&](std::uint32_t other) {
+      if (other == edge.box) return;
+      visible.hide(hidden_by(edge, boxes_[edge.box], boxes_[other], other));
+    };
+    constexpr std::size_t kNeighbours = 4;
+    const std::size_t place = place_[edge.box];
+    const std::size_t last = std::min(place + kNeighbours, order_.size() - 1);
+    for (std::size_t i = place - std::min(place, kNeighbours); i <= last; ++i) {
+      hide_behind(order_[i]);
+    }
+    const std::vector<Interval> open(visible.parts().begin(), visible.parts().end());
+    for (const Interval& part : open) {
+      tree_.search(edge.from + part.begin * way, edge.from + part.end * way,
+                   [&](std::span<const std::uint32_t> others) {
+                     for (const std::uint32_t other : others) {
+                       hide_behind(other);
+                       if (!visible.has_any_of(part)) return false;
+                     }
+                     return true;
+                   });
+    }
+    return visible;
+  }
+
+ private:
+  static std::vector<Extent> extents_of(std::span<const WallBox> boxes) {
+    std::vector<Extent> extents;
+    for (const WallBox& box : boxes) extents.push_back(box.extent());
+    return extents;
+  }
+
+  std::span<const WallBox> boxes_;
+  std::vector<std::uint32_t> order_;
+  std::vector<std::size_t> place_;  ///< of each box in order_
+  std::vector<Extent> extents_;
+  ExtentTree tree_;
+};
+
+/// Equal walls, drawn in either direction, once: the first of them.
+std::vector<WallBox> without_copies(std::span<const WallBox> boxes) {
+  std::vector<WallBox> kept;
+  std::set<std::array<double, 6>> seen;
+  for (const WallBox& box : boxes) {
+    const bool is_turned = box.along.x() < 0 || (box.along.x() == 0 && box.along.y() < 0);
+    const Vec2 along = is_turned ? Vec2(-box.along) : box.along;
+    const bool is_new = seen.insert({box.centre.x(), box.centre.y(), along.x(), along.y(),
+                                     box.half_length_m, box.half_width_m})
+                            .second;
+    if (is_new) kept.push_back(box);
+  }
+  return kept;
 }
 
 /// Joins collinear faces that continue each other: a wall drawn in pieces is one wall.
@@ -163,27 +275,16 @@ Extent WallBox::extent() const {
   return Extent::of_segment(centre - half, centre + half, half_width_m + kGeometryEpsilon_m);
 }
 
-std::vector<Face> outline_of(std::span<const WallBox> boxes) {
+std::vector<Face> outline_of(std::span<const WallBox> all) {
+  const std::vector<WallBox> boxes = without_copies(all);
   std::vector<Face> faces;
-  std::vector<std::uint32_t> near;
-  std::vector<Interval> hidden;
-  std::vector<Extent> extents;
-  for (const WallBox& box : boxes) extents.push_back(box.extent());
-  const CellGrid grid(extents);
+  Visibility visibility(boxes);
   for (std::size_t i = 0; i < boxes.size(); ++i) {
-    grid.collect(extents[i], near);
-    std::erase_if(near, [&](std::uint32_t j) { return j == i || !may_touch(boxes[i], boxes[j]); });
     for (const Edge& edge : edges_of(boxes[i], i)) {
-      hidden.clear();
-      for (const std::uint32_t j : near) {
-        const Interval piece = hidden_by(edge, boxes[i], boxes[j], j);
-        if (piece.begin < piece.end) hidden.push_back(piece);
-      }
-      const double length = (edge.to - edge.from).norm();
-      for (const Interval& piece : remaining(hidden)) {
-        if ((piece.end - piece.begin) * length <= 2 * kGeometryEpsilon_m) continue;
-        faces.push_back(make_face(edge.from + piece.begin * (edge.to - edge.from),
-                                  edge.from + piece.end * (edge.to - edge.from)));
+      const VisibleParts visible = visibility.of(edge);
+      for (const Interval& part : visible.parts()) {
+        faces.push_back(make_face(edge.from + part.begin * (edge.to - edge.from),
+                                  edge.from + part.end * (edge.to - edge.from)));
       }
     }
   }

@@ -46,8 +46,9 @@ void save_plot(const DetectOptions& options, const core::Scan& scan,
 
 void detect(DetectOptions& options) {
   const message::ClassSet classes = parse_classes(options.classes);
-  if (classes.contains(message::MessageClass::kPose)) {
-    throw UsageError("--classes: POSE needs a map; use replay");
+  if (classes.contains(message::MessageClass::kPose) ||
+      classes.contains(message::MessageClass::kMap)) {
+    throw UsageError("--classes: POSE and MAP need a map; use replay");
   }
   CommandFiles files{.read = options.files, .written = {options.plot}, .output = {}};
   files.read.push_back(options.settings.config_file());

@@ -15,6 +15,7 @@ MessagePrinter::MessagePrinter(Output& output, message::ClassSet classes,
   if (classes_.contains(MessageClass::kVersion)) {
     output_.write(writer_.version("cornerctl", CORNERD_VERSION));
   }
+  if (plan_ != nullptr && classes_.contains(MessageClass::kMap)) output_.write(writer_.map(*plan_));
 }
 
 void MessagePrinter::print_scan(const core::Scan& scan, const core::ScanResult& result) {

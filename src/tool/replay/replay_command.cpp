@@ -38,7 +38,8 @@ struct ReplayOptions {
 void replay(const ReplayOptions& options) {
   const message::ClassSet classes = parse_classes(options.classes);
   const std::optional<double> speed = parse_speed(options.speed);
-  const bool needs_map = classes.contains(MessageClass::kPose) || !options.truth.empty();
+  const bool needs_map = classes.contains(MessageClass::kPose) ||
+                         classes.contains(MessageClass::kMap) || !options.truth.empty();
   settings::Config config = options.settings.resolve(needs_map);
   if (!options.odometry.empty()) config.odometry.core.enabled = true;
   // Online calibration of the odometry needs poses, hence the map.

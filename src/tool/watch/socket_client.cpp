@@ -17,6 +17,7 @@ void SocketClient::close() {
   fd_ = -1;
   buffer_.clear();
   handed_out_ = 0;
+  lines_end_ = 0;
 }
 
 bool SocketClient::fail(const std::string& path, int error_number) {
@@ -53,6 +54,7 @@ bool SocketClient::send(std::string_view line) {
 bool SocketClient::fetch(int flags) {
   buffer_.erase(0, handed_out_);
   handed_out_ = 0;
+  lines_end_ = 0;
   char chunk[64 * 1024];
   ssize_t got = 0;
   do {
@@ -60,15 +62,17 @@ bool SocketClient::fetch(int flags) {
   } while (got < 0 && errno == EINTR);
   if (got < 0 && (errno == EAGAIN || errno == EWOULDBLOCK)) return true;
   if (got <= 0) return false;
-  buffer_.append(chunk, static_cast<std::size_t>(got));
+  const std::string_view added(chunk, static_cast<std::size_t>(got));
+  // Only what is new is searched: a MAP of megabytes comes in thousands of pieces.
+  const std::size_t last_newline = added.rfind('\n');
+  if (last_newline != std::string_view::npos) lines_end_ = buffer_.size() + last_newline + 1;
+  buffer_ += added;
   return true;
 }
 
 std::string_view SocketClient::whole_lines() {
-  const std::size_t last_newline = buffer_.rfind('\n');
-  if (last_newline == std::string::npos) return {};
-  handed_out_ = last_newline + 1;
-  return std::string_view(buffer_).substr(0, handed_out_);
+  handed_out_ = lines_end_;
+  return std::string_view(buffer_).substr(0, lines_end_);
 }
 
 std::string_view SocketClient::receive() {

@@ -47,6 +47,7 @@ class SocketClient {
   int fd_ = -1;
   std::string buffer_;
   std::size_t handed_out_ = 0;
+  std::size_t lines_end_ = 0;  ///< of the complete lines
   int error_number_ = 0;
   std::string problem_;
 };

@@ -62,7 +62,10 @@ class MessageServerTest : public ::testing::Test {
   int relocalizations_ = 0;
   std::vector<core::Pose2> given_;
   std::vector<message::OdometryReading> readings_;
-  int publisher_ = -1;  ///< the connection whose readings are used
+  int publisher_ = -1;             ///< the connection whose readings are used
+  std::vector<std::string> maps_;  ///< asked for
+  std::vector<Ticket> tickets_;
+  bool takes_maps_ = true;
   MessageServer server_{
       loop_,
       "1.2.3",
@@ -75,6 +78,11 @@ class MessageServerTest : public ::testing::Test {
        },
        [this](int connection) {
          if (publisher_ == connection) publisher_ = -1;
+       },
+       [this](const message::SetMapRequest& request, const Ticket& ticket) {
+         maps_.push_back(request.name);
+         tickets_.push_back(ticket);
+         return takes_maps_;
        }}};
 };
 

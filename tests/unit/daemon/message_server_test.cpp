@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "daemon/message_server.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <optional>
 #include <string>
 
 #include "message_server_fixture.hpp"
@@ -85,6 +87,65 @@ TEST_F(MessageServerTest, Poll_EitherSocket_NewestPoseAndStatus) {
     EXPECT_EQ(next(client), json({{"class", "OK"}, {"request", "POLL"}, {"id", 1}}))
         << "there was no STATUS yet";
   }
+}
+
+TEST_F(MessageServerTest, Poll_OfMap_NewestMapOnly) {
+  server_.publish(MessageClass::kPose, pose(7));
+  server_.publish(MessageClass::kMap, "{\"class\":\"MAP\",\"name\":\"a\"}\n");
+  TestClient client = greeted(pose_path_);
+  EXPECT_EQ(ask(client, R"({"class":"POLL","classes":["MAP"]})")["name"], "a");
+  EXPECT_EQ(next(client)["class"], "OK");
+  EXPECT_EQ(next(client), "nothing");
+}
+
+TEST_F(MessageServerTest, WatchOfMap_NewestMapAtOnceAndEachNewOne) {
+  server_.publish(MessageClass::kMap, "{\"class\":\"MAP\",\"name\":\"a\"}\n");
+  TestClient other = greeted(pose_path_);
+  TestClient client = greeted(pose_path_);
+  EXPECT_EQ(ask(client, R"({"class":"WATCH","classes":["MAP"]})")["class"], "OK");
+  EXPECT_EQ(next(client)["name"], "a");
+  server_.publish(MessageClass::kMap, "{\"class\":\"MAP\",\"name\":\"b\"}\n");
+  EXPECT_EQ(next(client)["name"], "b");
+  EXPECT_EQ(next(other), "nothing") << "it does not watch MAP";
+}
+
+TEST_F(MessageServerTest, SetMap_PoseSocket_Refused) {
+  TestClient reader = greeted(pose_path_);
+  EXPECT_EQ(ask(reader, R"({"class":"SET_MAP","name":"b"})")["code"], "read-only");
+  EXPECT_TRUE(maps_.empty());
+}
+
+TEST_F(MessageServerTest, SetMap_AnsweredWhenLoaded) {
+  TestClient other = greeted(control_path_);
+  TestClient client = greeted(control_path_);
+  EXPECT_EQ(ask(client, R"({"class":"SET_MAP","name":"b","id":3})"), "nothing");
+  EXPECT_EQ(ask(client, R"({"class":"SET_MAP","name":"c","id":"x"})"), "nothing");
+  EXPECT_THAT(maps_, ::testing::ElementsAre("b", "c"));
+  server_.answer_later(tickets_.at(0), std::nullopt);
+  server_.answer_later(tickets_.at(1), message::RequestError{"map", "c.json: no walls"});
+  EXPECT_EQ(next(client), json({{"class", "OK"}, {"request", "SET_MAP"}, {"id", 3}}));
+  const json error = next(client);
+  EXPECT_EQ(error["code"], "map");
+  EXPECT_EQ(error["message"], "c.json: no walls");
+  EXPECT_EQ(error["id"], "x");
+  EXPECT_EQ(next(other), "nothing");
+}
+
+TEST_F(MessageServerTest, SetMap_ClientHasLeft_NobodyElseAnswered) {
+  {
+    TestClient client = greeted(control_path_);
+    ask(client, R"({"class":"SET_MAP","name":"b"})");
+  }
+  serve();
+  TestClient successor = greeted(control_path_);  // of the same descriptor
+  server_.answer_later(tickets_.at(0), std::nullopt);
+  EXPECT_EQ(next(successor), "nothing");
+}
+
+TEST_F(MessageServerTest, SetMap_TooManyWait_Busy) {
+  takes_maps_ = false;
+  TestClient client = greeted(control_path_);
+  EXPECT_EQ(ask(client, R"({"class":"SET_MAP","name":"b"})")["code"], "busy");
 }
 
 TEST_F(MessageServerTest, Relocalize_PoseSocket_Refused) {

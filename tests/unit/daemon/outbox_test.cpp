@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <memory>
 #include <string>
+#include <string_view>
 
 namespace cornerd::daemon {
 namespace {
@@ -36,11 +38,13 @@ class Pipe {
   std::string received_;
 };
 
+Line line_of(std::string_view text) { return std::make_shared<const std::string>(text); }
+
 TEST(Outbox, ReadingClient_AllLinesInOrder) {
   Outbox outbox;
   Pipe pipe(1000);
-  outbox.put(MessageClass::kScan, "{\"s\":1}\n");
-  outbox.put(MessageClass::kPose, "{\"p\":1}\n");
+  outbox.put(MessageClass::kScan, line_of("{\"s\":1}\n"));
+  outbox.put(MessageClass::kPose, line_of("{\"p\":1}\n"));
   outbox.answer("{\"a\":1}\n");
   EXPECT_EQ(outbox.flush(pipe.writer()), Result::kEmpty);
   EXPECT_EQ(pipe.received(), "{\"a\":1}\n{\"s\":1}\n{\"p\":1}\n");
@@ -51,10 +55,10 @@ TEST(Outbox, SlowClient_NewestLineAndNumberDropped) {
   Outbox outbox;
   Pipe pipe(0);
   for (const char* line : {"{\"p\":1}\n", "{\"p\":2}\n", "{\"p\":3}\n"}) {
-    outbox.put(MessageClass::kPose, line);
+    outbox.put(MessageClass::kPose, line_of(line));
     EXPECT_EQ(outbox.flush(pipe.writer()), Result::kBlocked);
   }
-  outbox.put(MessageClass::kStatus, "{\"s\":1}\n");
+  outbox.put(MessageClass::kStatus, line_of("{\"s\":1}\n"));
   pipe.evict_pose_client(1000);
   EXPECT_EQ(outbox.flush(pipe.writer()), Result::kEmpty);
   EXPECT_EQ(pipe.received(), "{\"p\":3,\"dropped\":2}\n{\"s\":1}\n");
@@ -64,11 +68,11 @@ TEST(Outbox, SlowClient_NewestLineAndNumberDropped) {
 TEST(Outbox, DroppedReported_CountRestarts) {
   Outbox outbox;
   Pipe pipe(0);
-  outbox.put(MessageClass::kPose, "{\"p\":1}\n");
-  outbox.put(MessageClass::kPose, "{\"p\":2}\n");
+  outbox.put(MessageClass::kPose, line_of("{\"p\":1}\n"));
+  outbox.put(MessageClass::kPose, line_of("{\"p\":2}\n"));
   pipe.evict_pose_client(1000);
   ASSERT_EQ(outbox.flush(pipe.writer()), Result::kEmpty);
-  outbox.put(MessageClass::kPose, "{\"p\":3}\n");
+  outbox.put(MessageClass::kPose, line_of("{\"p\":3}\n"));
   ASSERT_EQ(outbox.flush(pipe.writer()), Result::kEmpty);
   EXPECT_EQ(pipe.received(), "{\"p\":2,\"dropped\":1}\n{\"p\":3}\n");
 }
@@ -76,11 +80,11 @@ TEST(Outbox, DroppedReported_CountRestarts) {
 TEST(Outbox, PartlyWrittenLine_FinishedFirst) {
   Outbox outbox;
   Pipe pipe(3);
-  outbox.put(MessageClass::kPose, "{\"p\":1}\n");
+  outbox.put(MessageClass::kPose, line_of("{\"p\":1}\n"));
   EXPECT_EQ(outbox.flush(pipe.writer()), Result::kBlocked);
   outbox.answer("{\"a\":1}\n");
-  outbox.put(MessageClass::kPose, "{\"p\":2}\n");
-  outbox.put(MessageClass::kPose, "{\"p\":3}\n");
+  outbox.put(MessageClass::kPose, line_of("{\"p\":2}\n"));
+  outbox.put(MessageClass::kPose, line_of("{\"p\":3}\n"));
   while (outbox.flush(pipe.writer()) == Result::kBlocked) pipe.evict_pose_client(1);
   EXPECT_EQ(pipe.received(), "{\"p\":1}\n{\"a\":1}\n{\"p\":3,\"dropped\":1}\n");
 }

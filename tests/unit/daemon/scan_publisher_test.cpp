@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "daemon/scan_publisher.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <memory>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include <nlohmann/json.hpp>
 
@@ -48,7 +52,7 @@ class ScanPublisherTest : public ::testing::Test {
   test::TemporaryFolder folder_;
   EventLoop loop_;
   MessageServer server_{loop_, "1", {[] {}}};
-  ScanPublisher publisher_{server_, nullptr};
+  ScanPublisher publisher_{server_, {}};
   ScanReport report_;
   std::optional<TestClient> client_;
 };
@@ -59,6 +63,72 @@ TEST_F(ScanPublisherTest, JumpAtEachScan_EventsAndOneLogLine) {
   for (int i = 0; i <= kJumps; ++i) publish_fix_at(i % 2 == 0 ? 0 : 1);
   EXPECT_EQ(events("jump"), kJumps);
   EXPECT_EQ(log.text(), "info: jump: 1.000 m, 0.0 degrees\n");
+}
+
+class NextMap : public ScanPublisherTest {
+ protected:
+  NextMap() {
+    client_->send(R"({"class":"WATCH","classes":["MAP","POSE"]})"
+                  "\n");
+    loop_.run_once(1000);
+    client_->read_line(1000);
+  }
+
+  static ScanPublisher::PublishedMap map_named(const std::string& name) {
+    core::FloorPlan plan;
+    plan.name = name;
+    plan.walls = {{{0, 0}, {1, 0}, 0.1}};
+    auto line = std::make_shared<const std::string>(R"({"class":"MAP","name":")" + name + "\"}\n");
+    return {std::make_shared<const core::WallMap>(std::move(plan)), line, true};
+  }
+
+  void publish_scan_of(std::uint32_t generation) {
+    report_.generation = generation;
+    publish_fix_at(0);
+  }
+
+  /// What the client got: "MAP a", "POSE a".
+  std::vector<std::string> received() {
+    std::vector<std::string> lines;
+    while (const auto line = client_->read_line(0)) {
+      const json message = json::parse(*line);
+      const char* key = message["class"] == "MAP" ? "name" : "map";
+      lines.push_back(message["class"].get<std::string>() + " " + message.value(key, "-"));
+    }
+    return lines;
+  }
+};
+
+TEST_F(NextMap, PublishedBeforeTheFirstPoseInIt) {
+  publisher_.set_next_map(1, map_named("a"));
+  publish_scan_of(0);
+  publish_scan_of(1);
+  publish_scan_of(1);
+  EXPECT_THAT(received(), testing::ElementsAre("POSE -", "MAP a", "POSE a", "POSE a"));
+}
+
+TEST_F(NextMap, TwoBeforeTheNextScan_TheNewestOnly) {
+  publisher_.set_next_map(1, map_named("a"));
+  publisher_.set_next_map(2, map_named("b"));
+  publish_scan_of(2);
+  EXPECT_THAT(received(), testing::ElementsAre("MAP b", "POSE b"));
+}
+
+TEST_F(NextMap, SecondWhileTheFirstIsInUse_EachBeforeItsPoses) {
+  publisher_.set_next_map(1, map_named("a"));
+  publisher_.set_next_map(2, map_named("b"));
+  publish_scan_of(1);
+  publish_scan_of(2);
+  EXPECT_THAT(received(), testing::ElementsAre("MAP a", "POSE a", "MAP b", "POSE b"));
+}
+
+TEST_F(NextMap, WithoutScans_PublishedOnce) {
+  publisher_.set_next_map(1, map_named("a"));
+  publisher_.publish_next_map();
+  publisher_.publish_next_map();
+  EXPECT_THAT(received(), testing::ElementsAre("MAP a"));
+  publish_scan_of(1);
+  EXPECT_THAT(received(), testing::ElementsAre("POSE a"));
 }
 
 }  // namespace

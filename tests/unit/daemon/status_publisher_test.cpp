@@ -86,7 +86,7 @@ TEST_F(StatusPublisherTest, Status_Published_HasCountersOfDriverAndDaemon) {
   Localization localization(idle,
                             std::make_unique<core::Pipeline>(nullptr, core::LocalizerConfig{}),
                             SourceKind::kDevice);
-  ScanPublisher scans(server_, nullptr);
+  ScanPublisher scans(server_, {});
   ScanReport report;
   report.latency_ns = 2'000'000;
   scans.publish(report);

@@ -68,6 +68,14 @@ TEST(PoseLine, FixWithRoom_HasEveryField) {
       "\n");
 }
 
+TEST(PoseLine, OneMapOfSeveral_Named) {
+  LineWriter writer;
+  core::FloorPlan plan = two_rooms();
+  plan.name = "floor 2";
+  EXPECT_EQ(read(writer.pose(some_pose(core::PoseState::kFix), &plan, true))["map"], "floor 2");
+  EXPECT_FALSE(read(writer.pose(some_pose(core::PoseState::kLost), &plan, true)).contains("map"));
+}
+
 TEST(PoseLine, EachState_Named) {
   LineWriter writer;
   const std::array<std::pair<core::PoseState, const char*>, 5> names = {

@@ -132,6 +132,51 @@ TEST(ParsedLine, Breakpoints_WrittenByLineWriter_ReadBack) {
   EXPECT_FALSE(read.points[1].is_corner);
 }
 
+core::FloorPlan plan_of_all_kinds() {
+  core::FloorPlan plan;
+  plan.name = "hall \"A\"";
+  plan.hash = std::string(64, 'e');
+  plan.thickness_m = 0.1;
+  plan.sigma_m = 0.03;
+  // Numbers without a short decimal fraction, too.
+  plan.walls = {{{0, 0}, {1.0 / 3, -1e-7}, 0.1}, {{-9999.125, 2}, {4, 3}, 0.25}};
+  plan.rooms = {{"one", {{0, 0}, {1, 0}, {0.7, 0.1}}}};
+  return plan;
+}
+
+TEST(ParsedLine, Map_WrittenByLineWriter_ReadBackExactly) {
+  LineWriter writer;
+  const core::FloorPlan plan = plan_of_all_kinds();
+  const core::FloorPlan read = parse<ParsedMap>(writer.map(plan)).plan;
+  EXPECT_EQ(read.name, plan.name);
+  EXPECT_EQ(read.hash, plan.hash);
+  EXPECT_EQ(read.thickness_m, plan.thickness_m);
+  EXPECT_EQ(read.sigma_m, plan.sigma_m);
+  ASSERT_EQ(read.walls.size(), plan.walls.size());
+  for (std::size_t i = 0; i < read.walls.size(); ++i) {
+    EXPECT_EQ(read.walls[i].from, plan.walls[i].from);
+    EXPECT_EQ(read.walls[i].to, plan.walls[i].to);
+    EXPECT_EQ(read.walls[i].thickness_m, plan.walls[i].thickness_m);
+  }
+  ASSERT_EQ(read.rooms.size(), 1U);
+  EXPECT_EQ(read.rooms[0].name, "one");
+  EXPECT_EQ(read.rooms[0].polygon, plan.rooms[0].polygon);
+}
+
+TEST(ParsedLine, WrongMap_NamedInError) {
+  const auto map_error = [](const std::string& rest) {
+    return parse_error(R"({"class":"MAP","name":"a",)" + rest + "}");
+  };
+  EXPECT_EQ(map_error(R"("walls":7)"), "\"walls\" must be an array");
+  EXPECT_EQ(map_error(R"("walls":[7])"), "\"walls\": \"from\" is missing");
+  EXPECT_EQ(map_error(R"("walls":[{"from":[0,0],"to":[1]}])"),
+            "\"walls\": \"to\" must hold points [x, y]");
+  EXPECT_EQ(map_error(R"("walls":[{"from":[0,0],"to":[1,"x"]}])"),
+            "\"walls\": \"to\"[1] must be a number");
+  EXPECT_EQ(map_error(R"("walls":[],"rooms":[{"name":"r","polygon":[7]}])"),
+            "\"rooms\": \"polygon\" must hold points [x, y]");
+}
+
 TEST(ParsedLine, OtherClasses_WrittenByLineWriter_ReadBack) {
   LineWriter writer;
   core::Scan scan;

@@ -52,6 +52,37 @@ TEST(ParseRequest, RequestsWithoutFields_Accepted) {
       parse_request(R"({"class":"RELOCALIZE","later":"field"})").body));
 }
 
+TEST(ParseRequest, PollWithoutClasses_PoseAndStatus) {
+  const auto classes = std::get<PollRequest>(parse_request(R"({"class":"POLL"})").body).classes;
+  for (const MessageClass polled : kPolled) {
+    EXPECT_EQ(classes.contains(polled),
+              polled == MessageClass::kPose || polled == MessageClass::kStatus)
+        << to_string(polled);
+  }
+}
+
+TEST(ParseRequest, PollWithClasses_TheseOnly) {
+  const Request request = parse_request(R"({"class":"POLL","classes":["MAP"]})");
+  const auto classes = std::get<PollRequest>(request.body).classes;
+  EXPECT_TRUE(classes.contains(MessageClass::kMap));
+  EXPECT_FALSE(classes.contains(MessageClass::kPose));
+  EXPECT_THAT(request_error(R"({"class":"POLL","classes":["MAP","SCAN"]})").text,
+              HasSubstr("POSE, STATUS, EVENT and MAP"));
+}
+
+TEST(ParseRequest, SetMap_NameOrFile) {
+  const auto by_name = parse_request(R"({"class":"SET_MAP","name":"floor 2"})");
+  EXPECT_EQ(std::get<SetMapRequest>(by_name.body).name, "floor 2");
+  const auto by_file = parse_request(R"({"class":"SET_MAP","file":"/maps/a.json"})");
+  EXPECT_EQ(std::get<SetMapRequest>(by_file.body).file, "/maps/a.json");
+  for (const char* wrong :
+       {R"({"class":"SET_MAP"})", R"({"class":"SET_MAP","name":"a","file":"b"})",
+        R"({"class":"SET_MAP","name":""})", R"({"class":"SET_MAP","file":7})",
+        R"({"class":"SET_MAP","file":"a\u0000b"})"}) {
+    EXPECT_EQ(request_error(wrong).code, "field") << wrong;
+  }
+}
+
 TEST(ParseRequest, SetPose_ThetaNormalized) {
   const Request request = parse_request(R"({"class":"SET_POSE","x":1,"y":-2.5,"theta":4})");
   const auto& pose = std::get<SetPoseRequest>(request.body).T_map_base;
@@ -142,7 +173,7 @@ TEST(ParseRequest, BracketsInString_NotCountedAsDepth) {
 }
 
 TEST(MessageClass, EveryName_ConvertsBackToItsClass) {
-  for (int i = 0; i <= static_cast<int>(MessageClass::kEvent); ++i) {
+  for (int i = 0; i < static_cast<int>(kMessageClasses); ++i) {
     const auto message_class = static_cast<MessageClass>(i);
     EXPECT_EQ(message_class_from(to_string(message_class)), message_class);
   }

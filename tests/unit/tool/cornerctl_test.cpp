@@ -180,6 +180,12 @@ TEST_F(Cornerctl, Replay_NoPosesRequested_NeedsNoMap) {
   EXPECT_GE(count_lines(outcome.out, R"({"class":"STATUS")"), 1U);
 }
 
+TEST_F(Cornerctl, Replay_MapRequested_PrintedOnce) {
+  const CommandRun outcome = run({"replay", recording(), "--map", map_, "--classes", "MAP"});
+  EXPECT_THAT(outcome.out, StartsWith(R"({"class":"MAP","name":"krpai-2019-a","hash":")"));
+  EXPECT_EQ(count_lines(outcome.out, ""), 1u);
+}
+
 TEST_F(Cornerctl, Replay_SeveralFiles_ArePlayedInOrder) {
   const std::string file = recording();
   const CommandRun outcome = run({"replay", file, file, "--classes", "SCAN"});

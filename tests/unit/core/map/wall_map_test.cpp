@@ -145,5 +145,32 @@ TEST(WallMap, Post_IsSquareOfItsThickness) {
   EXPECT_FALSE(map.is_solid({1.2, 1}));
 }
 
+// Quadratic in the walls, this test takes hours.
+TEST(WallMap, HundredThousandWallsInOnePlace_OneSolid) {
+  FloorPlan plan;
+  for (int i = 0; i < 100'000; ++i) {
+    const Vec2 one(0, 0);
+    const Vec2 other(4, 0);
+    plan.walls.push_back(i % 2 == 0 ? Wall{one, other, 0.1} : Wall{other, one, 0.1});
+  }
+  const WallMap map(std::move(plan));
+  EXPECT_EQ(map.faces().size(), 4U);
+  EXPECT_EQ(map.corners().size(), 4U);
+}
+
+TEST(WallMap, LineWallsThroughOnePoint_OneCornerForEachSector) {
+  constexpr int kWalls = 100;
+  FloorPlan plan;
+  for (int i = 0; i < kWalls; ++i) {
+    const Vec2 end = 3 * unit_vector(kPi * i / kWalls);
+    plan.walls.push_back({-end, end, 0});
+  }
+  const WallMap map(std::move(plan));
+  const auto is_in_the_middle = [](const Corner& corner) { return corner.position.norm() < 1e-4; };
+  EXPECT_EQ(std::count_if(map.corners().begin(), map.corners().end(), is_in_the_middle),
+            2 * kWalls);
+  EXPECT_EQ(map.corners().size(), 4U * kWalls);
+}
+
 }  // namespace
 }  // namespace cornerd::core

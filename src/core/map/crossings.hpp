@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "core/map/wall_map.hpp"
+
+namespace cornerd::core {
+
+/// Pairs of faces that cross between their ends, by more than `end_m` from each, ascending. Of
+/// faces that all cross in one point only one pair is given.
+std::vector<std::pair<std::uint32_t, std::uint32_t>> crossings_of(std::span<const Face> faces,
+                                                                  double end_m);
+
+}  // namespace cornerd::core

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: MIT
+#include "daemon/request_handler.hpp"
+
+#include <variant>
+
+namespace cornerd::daemon {
+namespace {
+
+using message::MessageClass;
+
+template <typename... Handlers>
+struct Overloaded : Handlers... {
+  using Handlers::operator()...;
+};
+template <typename... Handlers>
+Overloaded(Handlers...) -> Overloaded<Handlers...>;
+
+}  // namespace
+
+void RequestHandler::handle(Client& client, SocketRole role, std::string_view text) {
+  const message::Request request = message::parse_request(text);
+  const auto ok = [&] { client.outbox().answer(line_.ok(request.name, request.id_json)); };
+  const auto error = [&](std::string_view code, std::string_view reason) {
+    client.outbox().answer(line_.error(code, reason, request.name, request.id_json));
+  };
+  const auto if_control = [&](const auto& act) {
+    if (role == SocketRole::kControl) {
+      act();
+    } else {
+      error("read-only", "the pose socket takes no such request: use the control socket");
+    }
+  };
+  std::visit(Overloaded{
+                 [&](const message::RequestError& wrong) { error(wrong.code, wrong.text); },
+                 [&](const message::WatchRequest& watch) {
+                   client.watch(watch.classes);
+                   ok();
+                   // It is published at a change only.
+                   const Line& map = newest_[static_cast<std::size_t>(MessageClass::kMap)];
+                   if (map && watch.classes.contains(MessageClass::kMap)) {
+                     client.outbox().put(MessageClass::kMap, map);
+                   }
+                 },
+                 [&](const message::PollRequest& request_for) {
+                   poll(client, request_for.classes);
+                   ok();
+                 },
+                 [&](const message::RelocalizeRequest&) {
+                   if_control([&] {
+                     actions_.relocalize();
+                     ok();
+                   });
+                 },
+                 [&](const message::SetPoseRequest& set_pose) {
+                   if_control([&] {
+                     if (!actions_.set_pose)
+                       return error("unsupported", "this daemon takes no initial pose");
+                     actions_.set_pose(set_pose);
+                     ok();
+                   });
+                 },
+                 [&](const message::SetMapRequest& set_map) {
+                   if_control([&] {
+                     if (!actions_.set_map)
+                       return error("unsupported", "this daemon takes no other map");
+                     const Ticket ticket{client.number(), request.name, request.id_json};
+                     if (actions_.set_map(set_map, ticket)) return;
+                     error("busy", "other maps are being loaded: wait for the answers");
+                   });
+                 },
+                 [&](const message::OdometryReading& reading) {
+                   if_control([&] {
+                     if (!actions_.add_odometry) {
+                       return error("unsupported",
+                                    "/odometry/source of the config is not \"socket\"");
+                     }
+                     // Accepted ODOMETRY gets no answer: it comes at up to 500 Hz.
+                     if (actions_.add_odometry(reading, client.fd())) return;
+                     error("second-client",
+                           "another client's odometry is used: stop one of the two clients");
+                   });
+                 },
+             },
+             request.body);
+}
+
+void RequestHandler::poll(Client& client, message::ClassSet classes) {
+  for (const MessageClass polled : message::kPolled) {
+    const Line& newest = newest_[static_cast<std::size_t>(polled)];
+    if (newest && classes.contains(polled)) client.outbox().answer(newest);
+  }
+}
+
+}  // namespace cornerd::daemon

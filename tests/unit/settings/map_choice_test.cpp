@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+#include "settings/map_choice.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include "error_of.hpp"
+#include "tests/temporary_folder.hpp"
+
+namespace cornerd::settings {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+
+class MapChoice : public testing::Test {
+ protected:
+  MapChoice() {
+    for (const char* folder : {"maps/old", "maps2", "other"}) {
+      fs::create_directories(folder_ / folder);
+    }
+    for (const char* file : {"maps/a.json", "maps/old/b.json", "maps2/c.json", "secret"}) {
+      std::ofstream{folder_ / file} << "{}";
+    }
+    config_.map = folder_ / "maps/a.json";
+  }
+
+  fs::path canonical(const std::string& file) const { return fs::canonical(folder_ / file); }
+  std::string error(const fs::path& file) const {
+    return error_of([&] { map_in_folders(config_, file); });
+  }
+
+  test::TemporaryFolder folder_;
+  Config config_;
+};
+
+TEST_F(MapChoice, FileBelowTheMapsFolder_Taken) {
+  EXPECT_EQ(map_in_folders(config_, folder_ / "maps/a.json"), canonical("maps/a.json"));
+  EXPECT_EQ(map_in_folders(config_, folder_ / "maps/old/b.json"), canonical("maps/old/b.json"));
+  EXPECT_EQ(map_in_folders(config_, "old/../old/b.json"), canonical("maps/old/b.json"));
+}
+
+TEST_F(MapChoice, FileElsewhere_Refused) {
+  fs::create_symlink(folder_ / "secret", folder_ / "maps/link.json");
+  for (const char* file : {"../secret", "../maps2/c.json", "link.json", "/etc/passwd", ".."}) {
+    EXPECT_THAT(error(file), HasSubstr("SET_MAP: /file: must be below")) << file;
+  }
+}
+
+TEST_F(MapChoice, FolderOfAnotherMap_Allowed) {
+  config_.maps = {{"c", folder_ / "maps2/c.json"}};
+  EXPECT_EQ(map_in_folders(config_, folder_ / "maps2/c.json"), canonical("maps2/c.json"));
+  EXPECT_THAT(error(folder_ / "other/d.json"), HasSubstr("must be below"));
+}
+
+TEST_F(MapChoice, Name_OneOfTheConfigs) {
+  EXPECT_THAT(error_of([&] { map_named(config_, "c"); }), HasSubstr("has no \"maps\""));
+  config_.maps = {{"c", "/m/c.json"}, {"d", "/m/d.json"}};
+  EXPECT_EQ(map_named(config_, "d"), "/m/d.json");
+  EXPECT_THAT(error_of([&] { map_named(config_, "e"); }), HasSubstr("they are: c, d"));
+}
+
+}  // namespace
+}  // namespace cornerd::settings
