@@ -8,11 +8,11 @@
 #include <utility>
 
 #include "drivers/rplidar/device.hpp"
-#include "drivers/rplidar/hint.hpp"
 #include "drivers/rplidar/protocol/framing.hpp"
 #include "drivers/rplidar/sample_stream.hpp"
-#include "drivers/rplidar/status_board.hpp"
 #include "drivers/serial/byte_stream.hpp"
+#include "drivers/stream/hint.hpp"
+#include "drivers/stream/status_board.hpp"
 
 namespace cornerd::rplidar {
 namespace {
@@ -107,7 +107,8 @@ void RplidarDriver::run(std::stop_token stop, drivers::SampleSink& sink) {
     if (stop.stop_requested()) break;
     if (failure.fault == LidarFault::kNoAnswer && answers_at_default_baud(stop)) {
       failure.fault = LidarFault::kWrongBaud;
-      failure.extra = "one at " + std::to_string(kDefaultBaud) + " baud";
+      failure.extra =
+          "no answer at the configured speed, but one at " + std::to_string(kDefaultBaud) + " baud";
     }
     report(failure.state, failure.fault, failure.extra);
     wait(backoff, stop);
@@ -158,9 +159,10 @@ RplidarDriver::Failure RplidarDriver::identify(Device& device, drivers::ByteStre
   if (device.booted() && !had_booted) report(LidarState::kIdentifying, LidarFault::kBooting);
   if (!info) {
     if (device.received_bytes() > received_before) {
-      return {LidarState::kBackoff, LidarFault::kWrongBaud, "noise"};
+      return {LidarState::kBackoff, LidarFault::kWrongBaud,
+              "no answer at the configured speed, but noise"};
     }
-    return {LidarState::kBackoff, LidarFault::kNoAnswer, std::to_string(config_.baud)};
+    return {LidarState::kBackoff, LidarFault::kNoAnswer, described()};
   }
   // The answer has no checksum; a damaged serial number would name another lidar.
   const bool agrees = device.info() == info;
@@ -173,7 +175,7 @@ RplidarDriver::Failure RplidarDriver::identify(Device& device, drivers::ByteStre
     device.reset();
     health = device.health();
   }
-  if (!health) return {LidarState::kBackoff, LidarFault::kNoAnswer, std::to_string(config_.baud)};
+  if (!health) return {LidarState::kBackoff, LidarFault::kNoAnswer, described()};
   board_.set_health(health->text());
   if (health->failed()) return {LidarState::kFaulty, LidarFault::kHealthError, health->text()};
 
@@ -201,7 +203,7 @@ RplidarDriver::Failure RplidarDriver::measure(drivers::ByteStream& port, const S
                        .inverted = config_.inverted,
                        .sample_period_s = mode.period_s,
                        .baud = config_.baud});
-  SampleMonitor monitor(sink, board_);
+  drivers::SampleMonitor monitor(sink, board_);
   BannerSearch banner;
   board_.begin_stream();
   Failure failure;
@@ -277,7 +279,7 @@ void RplidarDriver::wait(milliseconds duration, const std::stop_token& stop) {
 }
 
 void RplidarDriver::report(LidarState state, LidarFault fault, std::string_view extra) {
-  const std::string text = hint(fault, config_.device, extra);
+  const std::string text = drivers::hint(fault, config_.device, extra);
   if (board_.state() == state && board_.fault() == fault && board_.detail() == text) return;
   board_.set_state(state, fault, text);
 }

@@ -12,8 +12,8 @@
 #include "drivers/rplidar/device.hpp"
 #include "drivers/rplidar/motor.hpp"
 #include "drivers/rplidar/scan_mode.hpp"
-#include "drivers/rplidar/status_board.hpp"
 #include "drivers/serial/serial_port.hpp"
+#include "drivers/stream/status_board.hpp"
 
 namespace cornerd::rplidar {
 
@@ -45,7 +45,7 @@ class RplidarDriver : public drivers::LidarDriver {
   struct Failure {
     drivers::LidarState state = drivers::LidarState::kBackoff;
     drivers::LidarFault fault = drivers::LidarFault::kUnplugged;
-    std::string extra = {};  ///< see hint()
+    std::string extra = {};  ///< see drivers::hint()
   };
 
   Failure session(drivers::ByteStream& port, const std::stop_token& stop,
@@ -58,6 +58,8 @@ class RplidarDriver : public drivers::LidarDriver {
                                                    const std::stop_token& stop);
   /// False if the configured speed is the default one.
   bool answers_at_default_baud(const std::stop_token& stop);
+  /// The lidar as a hint names it.
+  std::string described() const { return "an RPLidar at " + std::to_string(config_.baud); }
   void wait(std::chrono::milliseconds duration, const std::stop_token& stop);
   void report(drivers::LidarState state, drivers::LidarFault fault, std::string_view extra = {});
 
@@ -65,7 +67,7 @@ class RplidarDriver : public drivers::LidarDriver {
   PortOpener open_port_;
   drivers::Clock& clock_;
   std::unique_ptr<Motor> motor_;
-  StatusBoard board_;
+  drivers::StatusBoard board_;
   bool reset_first_ = false;  ///< the last session ended without data
   bool has_run_ = false;      ///< the last session delivered samples
 };

@@ -6,10 +6,10 @@
 
 #include "drivers/lidar_status.hpp"
 
-namespace cornerd::rplidar {
+namespace cornerd::drivers {
 
 /// One line for a person: where, what is wrong, what to do. `device`: the port. `extra`: a detail
 /// of the fault, such as the health's text, a list of modes or a speed; may be empty.
-std::string hint(drivers::LidarFault fault, std::string_view device, std::string_view extra = {});
+std::string hint(LidarFault fault, std::string_view device, std::string_view extra = {});
 
-}  // namespace cornerd::rplidar
+}  // namespace cornerd::drivers
