@@ -36,26 +36,6 @@ constexpr core::TimeNs kSilenceLimitNs = 3 * core::kNsPerSecond;
 constexpr std::uint64_t kStrayBytes = 8;
 constexpr std::uint32_t kDefaultBaud = 115200;
 
-struct PortFailure {
-  LidarState state;
-  LidarFault fault;
-};
-
-PortFailure failure_of(drivers::OpenError error) {
-  switch (error) {
-    case drivers::OpenError::kAbsent:
-      return {LidarState::kAbsent, LidarFault::kNoPort};
-    case drivers::OpenError::kDenied:
-      return {LidarState::kOpening, LidarFault::kNoPermission};
-    case drivers::OpenError::kBusy:
-      return {LidarState::kOpening, LidarFault::kPortBusy};
-    case drivers::OpenError::kNone:
-    case drivers::OpenError::kFailed:
-      break;
-  }
-  return {LidarState::kOpening, LidarFault::kPortError};
-}
-
 /// Stops the device and its motor however a session ends.
 class Shutdown {
  public:
@@ -89,10 +69,10 @@ RplidarDriver::RplidarDriver(RplidarDriverConfig config, PortOpener open_port,
 void RplidarDriver::run(std::stop_token stop, drivers::SampleSink& sink) {
   milliseconds backoff = kFirstBackoff;
   while (!stop.stop_requested()) {
-    drivers::OpenResult opened = open_port_(config_.baud);
+    drivers::OpenResult opened = open_port_(baud());
     count_progress();
     if (!opened.stream) {
-      const auto [state, fault] = failure_of(opened.error);
+      const auto [state, fault] = drivers::failure_of(opened.error);
       report(state, fault, opened.message);
       wait(kPortInterval, stop);
       continue;
@@ -111,6 +91,9 @@ void RplidarDriver::run(std::stop_token stop, drivers::SampleSink& sink) {
           "no answer at the configured speed, but one at " + std::to_string(kDefaultBaud) + " baud";
     }
     report(failure.state, failure.fault, failure.extra);
+    const bool is_other_speed =
+        failure.fault == LidarFault::kWrongBaud || failure.fault == LidarFault::kNoAnswer;
+    if (is_other_speed && ++rate_ % config_.baud_rates.size() != 0) continue;
     wait(backoff, stop);
     backoff = std::min(2 * backoff, kMaxBackoff);
   }
@@ -202,7 +185,7 @@ RplidarDriver::Failure RplidarDriver::measure(drivers::ByteStream& port, const S
   SampleStream stream({.format = mode.format,
                        .inverted = config_.inverted,
                        .sample_period_s = mode.period_s,
-                       .baud = config_.baud});
+                       .baud = baud()});
   drivers::SampleMonitor monitor(sink, board_);
   BannerSearch banner;
   board_.begin_stream();
@@ -261,7 +244,7 @@ std::optional<Health> RplidarDriver::query_health_after_silence(drivers::ByteStr
 }
 
 bool RplidarDriver::answers_at_default_baud(const std::stop_token& stop) {
-  if (config_.baud == kDefaultBaud) return false;
+  if (config_.baud_rates != std::vector{baud()} || baud() == kDefaultBaud) return false;
   const drivers::OpenResult opened = open_port_(kDefaultBaud);
   if (!opened.stream) return false;
   drivers::MonitoredByteStream port(*opened.stream, [this] { count_progress(); });

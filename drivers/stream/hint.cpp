@@ -68,4 +68,19 @@ std::string hint(LidarFault fault, std::string_view device, std::string_view ext
   return line;
 }
 
+PortFailure failure_of(OpenError error) {
+  switch (error) {
+    case OpenError::kAbsent:
+      return {LidarState::kAbsent, LidarFault::kNoPort};
+    case OpenError::kDenied:
+      return {LidarState::kOpening, LidarFault::kNoPermission};
+    case OpenError::kBusy:
+      return {LidarState::kOpening, LidarFault::kPortBusy};
+    case OpenError::kNone:
+    case OpenError::kFailed:
+      break;
+  }
+  return {LidarState::kOpening, LidarFault::kPortError};
+}
+
 }  // namespace cornerd::drivers

@@ -15,8 +15,6 @@ namespace {
 /// The answer to the start of a scan; an X2 sends it when it is switched on.
 constexpr std::array<std::uint8_t, 7> kScanDescriptor = {0xA5, 0x5A, 0x05, 0x00, 0x00, 0x40, 0x81};
 
-constexpr double kPeriodX4S = 1 / 5'000.0;
-constexpr double kPeriodX2S = 1 / 3'000.0;
 constexpr double kFastFrom_hz = 4'000;
 
 constexpr float kRevolution_deg = 360;

@@ -39,7 +39,7 @@ class YdlidarDecoder : public drivers::FrameDecoder {
   std::uint64_t index_ = 0;
   std::size_t packet_samples_ = 1;
   std::size_t delivered_ = 0;  ///< of the packet being delivered
-  double period_s_ = 1 / 5'000.0;
+  double period_s_ = kPeriodX4S;
 };
 
 }  // namespace cornerd::ydlidar

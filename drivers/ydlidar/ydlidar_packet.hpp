@@ -10,7 +10,9 @@
 namespace cornerd::ydlidar {
 
 inline constexpr std::size_t kHeaderSize = 10;
-inline constexpr std::size_t kMaxSamples = 255;
+/// Between samples.
+inline constexpr double kPeriodX4S = 1 / 5'000.0;
+inline constexpr double kPeriodX2S = 1 / 3'000.0;
 
 /// Fields of a packet; its bytes must outlive it.
 struct Packet {

@@ -59,16 +59,19 @@ Value socket_path(std::filesystem::path& member) {
 }
 
 Value baud_rate(std::uint32_t& baud) {
-  std::string list;
-  for (const std::uint32_t rate : kBaudRates) {
-    list += (list.empty() ? "" : ", ") + std::to_string(rate);
-  }
-  return {[&baud, list](ObjectReader& object, std::string_view key) {
-            object.integer(key, baud, kBaudRates.front(), kBaudRates.back());
-            if (std::find(kBaudRates.begin(), kBaudRates.end(), baud) != kBaudRates.end()) return;
-            object.fail(key, "must be one of " + list);
+  return {[&baud](ObjectReader& object, std::string_view key) {
+            const Json* value = object.find(key);
+            if (value == nullptr) return;
+            if (*value == "auto") {
+              baud = 0;
+            } else if (value->is_string()) {
+              object.fail(key, R"(must be a number, or "auto")");
+            } else {
+              object.integer(key, baud, kMinBaud, kMaxBaud);
+            }
           },
-          [&baud] { return Ordered(baud); }, list};
+          [&baud] { return baud == 0 ? Ordered("auto") : Ordered(baud); },
+          "\"auto\", or " + std::to_string(kMinBaud) + " to " + std::to_string(kMaxBaud)};
 }
 
 Value replay_speed(double& speed) {
