@@ -59,19 +59,21 @@ Value socket_path(std::filesystem::path& member) {
 }
 
 Value baud_rate(std::uint32_t& baud) {
-  return {[&baud](ObjectReader& object, std::string_view key) {
+  const std::string limits =
+      "\"auto\", or " + std::to_string(kMinBaud) + " to " + std::to_string(kMaxBaud);
+  return {[&baud, limits](ObjectReader& object, std::string_view key) {
             const Json* value = object.find(key);
-            if (value == nullptr) return;
-            if (*value == "auto") {
+            if (value != nullptr && *value == "auto") {
               baud = 0;
-            } else if (value->is_string()) {
-              object.fail(key, R"(must be a number, or "auto")");
-            } else {
-              object.integer(key, baud, kMinBaud, kMaxBaud);
+              return;
+            }
+            const bool is_known = value == nullptr || value->is_number_unsigned();
+            if (is_known && !object.integer(key, baud, 0U, ~0U)) return;
+            if (!is_known || baud < kMinBaud || baud > kMaxBaud) {
+              object.fail(key, "must be " + limits);
             }
           },
-          [&baud] { return baud == 0 ? Ordered("auto") : Ordered(baud); },
-          "\"auto\", or " + std::to_string(kMinBaud) + " to " + std::to_string(kMaxBaud)};
+          [&baud] { return baud == 0 ? Ordered("auto") : Ordered(baud); }, limits};
 }
 
 Value replay_speed(double& speed) {

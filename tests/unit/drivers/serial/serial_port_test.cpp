@@ -56,6 +56,7 @@ class PtyMaster {
   }
 
   void hang_up() { fd_ = FileDescriptor(); }
+  std::uint32_t baud() const { return baud_rate(fd_.get()); }
 
   std::string path;
 
@@ -153,7 +154,7 @@ TEST(SerialPort, AnyBaud_IsSet) {
   for (const std::uint32_t baud : {9'600U, 115'200U, 128'000U, 256'000U, 1'000'000U, 12'345U}) {
     const auto opened = open_serial_port(master.path, baud);
     ASSERT_TRUE(opened.stream) << opened.message;
-    EXPECT_EQ(baud_rate(master.fd.get()), baud);
+    EXPECT_EQ(master.baud(), baud);
   }
 }
 
