@@ -48,8 +48,8 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{R"({"map": ""})", "/map: must not be empty"},
         Wrong{R"({MAP, "lidar": []})", "/lidar: must be an object"},
         Wrong{R"({MAP, "advanced": 1})", "/advanced: must be an object"},
-        Wrong{R"({MAP, "advanced": {"lidar": {"baud": "fast"}}})", "/baud: must be a number"},
-        Wrong{R"({MAP, "advanced": {"lidar": {"baud": 115200.5}}})", "must be a whole number"},
+        Wrong{R"({MAP, "advanced": {"lidar": {"baud": "fast"}}})", "/baud: must be \"auto\", or 1200"},
+        Wrong{R"({MAP, "advanced": {"lidar": {"baud": 115200.5}}})", "must be \"auto\", or 1200"},
         Wrong{R"({MAP, "lidar": {"loop": 1}})", "/lidar/loop: must be true or false"},
         Wrong{R"({MAP, "lidar": {"mount": {"x": null}}})", "/lidar/mount/x: must be a number"},
         Wrong{"[]", "cornerd.json: must be an object"}));
