@@ -12,8 +12,8 @@
 namespace cornerd::system_test {
 namespace {
 
-constexpr std::uint64_t kWhole = 60;
-constexpr std::uint64_t kKept = 40;
+constexpr std::uint64_t kWhole = 600;
+constexpr std::uint64_t kKept = 580;
 
 /// A device on a line with faults.
 class FaultyDevice : public replay::DeviceEmulator {

@@ -20,7 +20,7 @@ namespace cornerd::system_test {
 enum class LineFault : std::uint8_t {
   kNone,
   kGarbage,     ///< all are replaced by random ones
-  kHalfFrames,  ///< of every 60 bytes the last 20 are lost
+  kHalfFrames,  ///< of every 600 bytes the last 20 are lost
   kSilence,     ///< the head is held
 };
 

@@ -84,6 +84,8 @@ TEST_P(EveryLidarModel, DriveThroughMap_GivesFixesAndNoneWrong) {
       std::filesystem::path(CORNERD_SOURCE_DIR) / "config/maps" / place.map;
   replay::DriveConfig drive;
   drive.loop = true;
+  drive.acceleration_m_s2 = 0.5;  // as a small robot; at once is beyond any
+  drive.yaw_acceleration_rad_s2 = 3;
   lidar_ =
       std::make_unique<EmulatedModel>(model, map, replay::drive_path(place.path, drive), port());
   launch(model, map);
