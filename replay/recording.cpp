@@ -9,7 +9,8 @@
 #include <utility>
 #include <variant>
 
-#include "drivers/rplidar/sample_stream.hpp"
+#include "drivers/make_driver.hpp"
+#include "drivers/stream/sample_stream.hpp"
 #include "replay/line_reader.hpp"
 
 namespace cornerd::replay {
@@ -65,14 +66,14 @@ class RecordingPlayer::Implementation {
         stream_(file_),
         kind_(kind_of(file, file_)),
         lines_(file_, message::kMaxRecordedBytes),
-        samples_(stream_config(options)) {}
+        samples_(make_stream(options)) {}
 
   Implementation(std::istream& stream, RecordingKind kind, const RecordingOptions& options)
       : name_("recording"),
         stream_(stream),
         kind_(kind),
         lines_(stream, message::kMaxRecordedBytes),
-        samples_(stream_config(options)) {}
+        samples_(make_stream(options)) {}
 
   bool step(RecordingSink& sink) {
     if (ended_) return false;
@@ -82,14 +83,14 @@ class RecordingPlayer::Implementation {
     ended_ = true;
     if (input_ != Input::kScans) {
       TimeTap tap(sink, time_ns_);
-      samples_.finish(tap);
+      samples_->finish(tap);
     }
     return false;
   }
 
   core::TimeNs time_ns() const { return time_ns_; }
   const drivers::StreamCounters& counters() const {
-    return input_ == Input::kScans ? scan_counters_ : samples_.counters();
+    return input_ == Input::kScans ? scan_counters_ : samples_->counters();
   }
   std::uint64_t bad_lines() const { return bad_lines_; }
   const std::string& first_problem() const { return first_problem_; }
@@ -97,19 +98,32 @@ class RecordingPlayer::Implementation {
  private:
   enum class Input : std::uint8_t { kUnknown, kBytes, kScans };
 
-  static rplidar::SampleStreamConfig stream_config(const RecordingOptions& options) {
-    rplidar::SampleStreamConfig config;
-    config.format = options.wire;
-    config.inverted = options.inverted;
-    return config;
+  /// Reads the first block of a .bin whose lidar is not known.
+  std::unique_ptr<drivers::SampleStream> make_stream(const RecordingOptions& options) {
+    std::optional<drivers::DriverKind> driver = options.wire.driver;
+    if (!driver && !options.wire.format && kind_ == RecordingKind::kBytes) {
+      read_block();
+      driver = drivers::detect_driver(block());
+    }
+    return std::make_unique<drivers::SampleStream>(
+        drivers::make_decoder(driver.value_or(drivers::DriverKind::kRplidar), options.wire.format),
+        drivers::StreamConfig{.inverted = options.inverted});
+  }
+
+  void read_block() {
+    stream_.read(block_.data(), kBlockBytes);
+    block_size_ = static_cast<std::size_t>(stream_.gcount());
+  }
+  std::span<const std::uint8_t> block() const {
+    return {reinterpret_cast<const std::uint8_t*>(block_.data()), block_size_};
   }
 
   bool step_bytes(RecordingSink& sink) {
-    stream_.read(block_.data(), kBlockBytes);
-    const auto count = static_cast<std::size_t>(stream_.gcount());
-    if (count == 0) return false;
+    if (block_size_ == 0) read_block();
+    if (block_size_ == 0) return false;
     TimeTap tap(sink, time_ns_);
-    samples_.feed_untimed({reinterpret_cast<const std::uint8_t*>(block_.data()), count}, tap);
+    samples_->feed_untimed(block(), tap);
+    block_size_ = 0;
     return true;
   }
 
@@ -152,7 +166,7 @@ class RecordingPlayer::Implementation {
 
   void play(const message::RecordedBytes& bytes, RecordingSink& sink) {
     if (!bytes.received || !is_input(Input::kBytes)) return;
-    samples_.feed(bytes.bytes, bytes.t_ns, sink);
+    samples_->feed(bytes.bytes, bytes.t_ns, sink);
     time_ns_ = bytes.t_ns;
   }
 
@@ -167,10 +181,11 @@ class RecordingPlayer::Implementation {
   std::istream& stream_;
   RecordingKind kind_;
   LineReader lines_;
-  rplidar::SampleStream samples_;
+  std::array<char, kBlockBytes> block_{};
+  std::size_t block_size_ = 0;
+  std::unique_ptr<drivers::SampleStream> samples_;
   Input input_ = Input::kUnknown;
   bool ended_ = false;
-  std::array<char, kBlockBytes> block_{};
   core::TimeNs time_ns_ = 0;
   drivers::StreamCounters scan_counters_;
   std::uint64_t bad_lines_ = 0;

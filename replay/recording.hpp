@@ -11,6 +11,7 @@
 #include <string>
 
 #include "drivers/lidar_driver.hpp"
+#include "drivers/make_driver.hpp"
 #include "drivers/rplidar/decoder.hpp"
 #include "message/request.hpp"
 
@@ -29,8 +30,8 @@ enum class RecordingKind : std::uint8_t { kBytes, kMessages };
 RecordingKind kind_of_recording(const std::filesystem::path& file);
 
 struct RecordingOptions {
-  std::optional<rplidar::WireFormat> wire;  ///< of bytes without a descriptor
-  bool inverted = false;                    ///< the lidar was upside down
+  drivers::RecordedWire wire;
+  bool inverted = false;  ///< the lidar was upside down
 };
 
 /// Receives a recording: SERIAL and SCAN as samples, and ODOMETRY.

@@ -8,11 +8,11 @@
 #include <utility>
 
 #include "drivers/rplidar/device.hpp"
-#include "drivers/rplidar/hint.hpp"
 #include "drivers/rplidar/protocol/framing.hpp"
 #include "drivers/rplidar/sample_stream.hpp"
-#include "drivers/rplidar/status_board.hpp"
 #include "drivers/serial/byte_stream.hpp"
+#include "drivers/stream/hint.hpp"
+#include "drivers/stream/status_board.hpp"
 
 namespace cornerd::rplidar {
 namespace {
@@ -35,26 +35,6 @@ constexpr core::TimeNs kSilenceLimitNs = 3 * core::kNsPerSecond;
 // A line that is switched on may give a byte or two; more bytes are a sender.
 constexpr std::uint64_t kStrayBytes = 8;
 constexpr std::uint32_t kDefaultBaud = 115200;
-
-struct PortFailure {
-  LidarState state;
-  LidarFault fault;
-};
-
-PortFailure failure_of(drivers::OpenError error) {
-  switch (error) {
-    case drivers::OpenError::kAbsent:
-      return {LidarState::kAbsent, LidarFault::kNoPort};
-    case drivers::OpenError::kDenied:
-      return {LidarState::kOpening, LidarFault::kNoPermission};
-    case drivers::OpenError::kBusy:
-      return {LidarState::kOpening, LidarFault::kPortBusy};
-    case drivers::OpenError::kNone:
-    case drivers::OpenError::kFailed:
-      break;
-  }
-  return {LidarState::kOpening, LidarFault::kPortError};
-}
 
 /// Stops the device and its motor however a session ends.
 class Shutdown {
@@ -89,10 +69,10 @@ RplidarDriver::RplidarDriver(RplidarDriverConfig config, PortOpener open_port,
 void RplidarDriver::run(std::stop_token stop, drivers::SampleSink& sink) {
   milliseconds backoff = kFirstBackoff;
   while (!stop.stop_requested()) {
-    drivers::OpenResult opened = open_port_(config_.baud);
+    drivers::OpenResult opened = open_port_(baud());
     count_progress();
     if (!opened.stream) {
-      const auto [state, fault] = failure_of(opened.error);
+      const auto [state, fault] = drivers::failure_of(opened.error);
       report(state, fault, opened.message);
       wait(kPortInterval, stop);
       continue;
@@ -107,9 +87,13 @@ void RplidarDriver::run(std::stop_token stop, drivers::SampleSink& sink) {
     if (stop.stop_requested()) break;
     if (failure.fault == LidarFault::kNoAnswer && answers_at_default_baud(stop)) {
       failure.fault = LidarFault::kWrongBaud;
-      failure.extra = "one at " + std::to_string(kDefaultBaud) + " baud";
+      failure.extra =
+          "no answer at the configured speed, but one at " + std::to_string(kDefaultBaud) + " baud";
     }
     report(failure.state, failure.fault, failure.extra);
+    const bool is_other_speed =
+        failure.fault == LidarFault::kWrongBaud || failure.fault == LidarFault::kNoAnswer;
+    if (is_other_speed && ++rate_ % config_.baud_rates.size() != 0) continue;
     wait(backoff, stop);
     backoff = std::min(2 * backoff, kMaxBackoff);
   }
@@ -158,9 +142,10 @@ RplidarDriver::Failure RplidarDriver::identify(Device& device, drivers::ByteStre
   if (device.booted() && !had_booted) report(LidarState::kIdentifying, LidarFault::kBooting);
   if (!info) {
     if (device.received_bytes() > received_before) {
-      return {LidarState::kBackoff, LidarFault::kWrongBaud, "noise"};
+      return {LidarState::kBackoff, LidarFault::kWrongBaud,
+              "no answer at the configured speed, but noise"};
     }
-    return {LidarState::kBackoff, LidarFault::kNoAnswer, std::to_string(config_.baud)};
+    return {LidarState::kBackoff, LidarFault::kNoAnswer, described()};
   }
   // The answer has no checksum; a damaged serial number would name another lidar.
   const bool agrees = device.info() == info;
@@ -173,7 +158,7 @@ RplidarDriver::Failure RplidarDriver::identify(Device& device, drivers::ByteStre
     device.reset();
     health = device.health();
   }
-  if (!health) return {LidarState::kBackoff, LidarFault::kNoAnswer, std::to_string(config_.baud)};
+  if (!health) return {LidarState::kBackoff, LidarFault::kNoAnswer, described()};
   board_.set_health(health->text());
   if (health->failed()) return {LidarState::kFaulty, LidarFault::kHealthError, health->text()};
 
@@ -200,8 +185,8 @@ RplidarDriver::Failure RplidarDriver::measure(drivers::ByteStream& port, const S
   SampleStream stream({.format = mode.format,
                        .inverted = config_.inverted,
                        .sample_period_s = mode.period_s,
-                       .baud = config_.baud});
-  SampleMonitor monitor(sink, board_);
+                       .baud = baud()});
+  drivers::SampleMonitor monitor(sink, board_);
   BannerSearch banner;
   board_.begin_stream();
   Failure failure;
@@ -259,7 +244,7 @@ std::optional<Health> RplidarDriver::query_health_after_silence(drivers::ByteStr
 }
 
 bool RplidarDriver::answers_at_default_baud(const std::stop_token& stop) {
-  if (config_.baud == kDefaultBaud) return false;
+  if (config_.baud_rates != std::vector{baud()} || baud() == kDefaultBaud) return false;
   const drivers::OpenResult opened = open_port_(kDefaultBaud);
   if (!opened.stream) return false;
   drivers::MonitoredByteStream port(*opened.stream, [this] { count_progress(); });
@@ -277,7 +262,7 @@ void RplidarDriver::wait(milliseconds duration, const std::stop_token& stop) {
 }
 
 void RplidarDriver::report(LidarState state, LidarFault fault, std::string_view extra) {
-  const std::string text = hint(fault, config_.device, extra);
+  const std::string text = drivers::hint(fault, config_.device, extra);
   if (board_.state() == state && board_.fault() == fault && board_.detail() == text) return;
   board_.set_state(state, fault, text);
 }

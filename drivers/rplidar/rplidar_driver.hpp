@@ -6,22 +6,23 @@
 #include <optional>
 #include <stop_token>
 #include <string>
+#include <vector>
 
 #include "drivers/driver_clock.hpp"
 #include "drivers/lidar_driver.hpp"
 #include "drivers/rplidar/device.hpp"
 #include "drivers/rplidar/motor.hpp"
 #include "drivers/rplidar/scan_mode.hpp"
-#include "drivers/rplidar/status_board.hpp"
 #include "drivers/serial/serial_port.hpp"
+#include "drivers/stream/status_board.hpp"
 
 namespace cornerd::rplidar {
 
 struct RplidarDriverConfig {
   std::string device = "/dev/ttyUSB0";
-  std::uint32_t baud = 115200;
-  std::string mode = "auto";  ///< or the name of a mode of the device
-  bool inverted = false;      ///< mounted upside down
+  std::vector<std::uint32_t> baud_rates = {115'200};  ///< tried in this order until one answers
+  std::string mode = "auto";                          ///< or the name of a mode of the device
+  bool inverted = false;                              ///< mounted upside down
   MotorConfig motor;
 };
 
@@ -45,7 +46,7 @@ class RplidarDriver : public drivers::LidarDriver {
   struct Failure {
     drivers::LidarState state = drivers::LidarState::kBackoff;
     drivers::LidarFault fault = drivers::LidarFault::kUnplugged;
-    std::string extra = {};  ///< see hint()
+    std::string extra = {};  ///< see drivers::hint()
   };
 
   Failure session(drivers::ByteStream& port, const std::stop_token& stop,
@@ -58,6 +59,9 @@ class RplidarDriver : public drivers::LidarDriver {
                                                    const std::stop_token& stop);
   /// False if the configured speed is the default one.
   bool answers_at_default_baud(const std::stop_token& stop);
+  std::uint32_t baud() const { return config_.baud_rates[rate_ % config_.baud_rates.size()]; }
+  /// The lidar as a hint names it.
+  std::string described() const { return "an RPLidar at " + std::to_string(baud()); }
   void wait(std::chrono::milliseconds duration, const std::stop_token& stop);
   void report(drivers::LidarState state, drivers::LidarFault fault, std::string_view extra = {});
 
@@ -65,9 +69,10 @@ class RplidarDriver : public drivers::LidarDriver {
   PortOpener open_port_;
   drivers::Clock& clock_;
   std::unique_ptr<Motor> motor_;
-  StatusBoard board_;
+  drivers::StatusBoard board_;
   bool reset_first_ = false;  ///< the last session ended without data
   bool has_run_ = false;      ///< the last session delivered samples
+  std::size_t rate_ = 0;      ///< of config_.baud_rates
 };
 
 }  // namespace cornerd::rplidar

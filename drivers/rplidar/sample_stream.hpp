@@ -1,16 +1,35 @@
 // SPDX-License-Identifier: MIT
-// Turns bytes with arrival times into samples with measurement times.
+// The RPLidar's decoder, for any stream of samples.
 #pragma once
 
 #include <cstdint>
-#include <memory>
 #include <optional>
 #include <span>
 
-#include "drivers/lidar_driver.hpp"
 #include "drivers/rplidar/decoder.hpp"
+#include "drivers/stream/sample_stream.hpp"
 
 namespace cornerd::rplidar {
+
+/// Samples of the wire in metres and radians.
+class RplidarFrames : public drivers::FrameDecoder, private RawSampleSink {
+ public:
+  /// `format`: of a stream without a descriptor; nullopt: detect.
+  explicit RplidarFrames(std::optional<WireFormat> format = std::nullopt) : decoder_(format) {}
+
+  void feed(std::span<const std::uint8_t> bytes, drivers::FrameSink& sink) override;
+  void finish(drivers::FrameSink& sink) override;
+  drivers::FrameTiming timing() const override;
+  const drivers::StreamCounters& counters() const override { return decoder_.counters(); }
+  std::optional<WireFormat> format() const { return decoder_.format(); }
+
+ private:
+  void on_sample(const RawSample& raw) override;
+  void on_gap() override { sink_->on_gap(); }
+
+  Decoder decoder_;
+  drivers::FrameSink* sink_ = nullptr;
+};
 
 struct SampleStreamConfig {
   std::optional<WireFormat> format;  ///< of a stream without a descriptor; nullopt: detect
@@ -19,32 +38,19 @@ struct SampleStreamConfig {
   std::uint32_t baud = 115200;
 };
 
-/// Decoder plus sample clock. Allocates nothing after construction.
-class SampleStream {
+/// An RPLidar's bytes to timed samples.
+class SampleStream : public drivers::SampleStream {
  public:
-  explicit SampleStream(const SampleStreamConfig& config);
-  ~SampleStream();
-  SampleStream(SampleStream&&) noexcept;
-  SampleStream& operator=(SampleStream&&) noexcept;
+  explicit SampleStream(const SampleStreamConfig& config)
+      : SampleStream(new RplidarFrames(config.format), config) {}
 
-  /// `arrival_ns`: read time of the last byte. `more_pending`: the read left bytes behind. Samples
-  /// of uncertain time are held until it is known.
-  void feed(std::span<const std::uint8_t> bytes, core::TimeNs arrival_ns, drivers::SampleSink& sink,
-            bool more_pending = false);
-  /// Bytes without arrival times: sample i has time i * period.
-  void feed_untimed(std::span<const std::uint8_t> bytes, drivers::SampleSink& sink);
-  void finish(drivers::SampleSink& sink);
-
-  std::optional<WireFormat> format() const;
-  /// Decoded so far, those with a pending time included.
-  std::uint64_t samples() const;
-  const drivers::StreamCounters& counters() const;
-  /// Delay of each feed() that brought samples.
-  const core::LatencyHistogram& latency() const;
+  std::optional<WireFormat> format() const { return frames_->format(); }
 
  private:
-  class Implementation;
-  std::unique_ptr<Implementation> implementation_;
+  /// Owns `frames`.
+  SampleStream(RplidarFrames* frames, const SampleStreamConfig& config);
+
+  const RplidarFrames* frames_;  ///< of the base
 };
 
 }  // namespace cornerd::rplidar

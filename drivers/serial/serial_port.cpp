@@ -13,8 +13,10 @@
 #include <cstring>
 #include <filesystem>
 #include <limits>
+#include <optional>
 #include <utility>
 
+#include "drivers/serial/baud_rate.hpp"
 #include "drivers/serial/file_descriptor.hpp"
 
 namespace cornerd::drivers {
@@ -108,45 +110,8 @@ OpenResult explain_open_failure(const std::string& path, int error) {
   }
 }
 
-bool make_raw(int fd, speed_t speed) {
-  termios settings{};
-  if (::tcgetattr(fd, &settings) != 0) return false;
-  ::cfmakeraw(&settings);
-  settings.c_iflag &= ~static_cast<tcflag_t>(IXOFF | IXANY | INPCK);
-  settings.c_iflag |= IGNBRK;
-  settings.c_cflag &= ~static_cast<tcflag_t>(CSIZE | CSTOPB | PARENB | CRTSCTS | HUPCL);
-  settings.c_cflag |= CS8 | CLOCAL | CREAD;
-  settings.c_cc[VMIN] = 0;
-  settings.c_cc[VTIME] = 0;
-  return ::cfsetspeed(&settings, speed) == 0 && ::tcsetattr(fd, TCSANOW, &settings) == 0;
-}
-
-}  // namespace
-
-OpenResult open_serial_port(const std::string& path, std::uint32_t baud) {
-  const auto speed = termios_speed(baud);
-  if (!speed) {
-    return failure(
-        OpenError::kFailed, path,
-        std::to_string(baud) + " baud is not supported; use a standard rate such as 115200");
-  }
-  FileDescriptor fd(::open(path.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC));
-  if (!fd.is_open()) return explain_open_failure(path, errno);
-  if (::isatty(fd.get()) == 0) return failure(OpenError::kFailed, path, "not a serial port");
-  if (::flock(fd.get(), LOCK_EX | LOCK_NB) != 0) {
-    if (errno != EWOULDBLOCK) return failure(OpenError::kFailed, path, std::strerror(errno));
-    return failure(OpenError::kBusy, path, "held by another process");
-  }
-  if (::ioctl(fd.get(), TIOCEXCL) != 0 || !make_raw(fd.get(), *speed)) {
-    return failure(OpenError::kFailed, path, std::strerror(errno));
-  }
-  ::tcflush(fd.get(), TCIOFLUSH);
-  return {.stream = std::make_unique<SerialPort>(std::move(fd)),
-          .error = OpenError::kNone,
-          .message = {}};
-}
-
-std::optional<speed_t> termios_speed(std::uint32_t baud) {
+/// The constant of a standard rate; QEMU's user mode has no other.
+std::optional<speed_t> standard_speed(std::uint32_t baud) {
   switch (baud) {
     case 9600:
       return B9600;
@@ -169,6 +134,40 @@ std::optional<speed_t> termios_speed(std::uint32_t baud) {
     default:
       return std::nullopt;
   }
+}
+
+bool make_raw(int fd, std::uint32_t baud) {
+  termios settings{};
+  if (::tcgetattr(fd, &settings) != 0) return false;
+  ::cfmakeraw(&settings);
+  settings.c_iflag &= ~static_cast<tcflag_t>(IXOFF | IXANY | INPCK);
+  settings.c_iflag |= IGNBRK;
+  settings.c_cflag &= ~static_cast<tcflag_t>(CSIZE | CSTOPB | PARENB | CRTSCTS | HUPCL);
+  settings.c_cflag |= CS8 | CLOCAL | CREAD;
+  settings.c_cc[VMIN] = 0;
+  settings.c_cc[VTIME] = 0;
+  const auto standard = standard_speed(baud);
+  if (standard && ::cfsetspeed(&settings, *standard) != 0) return false;
+  return ::tcsetattr(fd, TCSANOW, &settings) == 0 && (standard || set_baud_rate(fd, baud));
+}
+
+}  // namespace
+
+OpenResult open_serial_port(const std::string& path, std::uint32_t baud) {
+  FileDescriptor fd(::open(path.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC));
+  if (!fd.is_open()) return explain_open_failure(path, errno);
+  if (::isatty(fd.get()) == 0) return failure(OpenError::kFailed, path, "not a serial port");
+  if (::flock(fd.get(), LOCK_EX | LOCK_NB) != 0) {
+    if (errno != EWOULDBLOCK) return failure(OpenError::kFailed, path, std::strerror(errno));
+    return failure(OpenError::kBusy, path, "held by another process");
+  }
+  if (::ioctl(fd.get(), TIOCEXCL) != 0 || !make_raw(fd.get(), baud)) {
+    return failure(OpenError::kFailed, path, std::strerror(errno));
+  }
+  ::tcflush(fd.get(), TCIOFLUSH);
+  return {.stream = std::make_unique<SerialPort>(std::move(fd)),
+          .error = OpenError::kNone,
+          .message = {}};
 }
 
 }  // namespace cornerd::drivers

@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <termios.h>
-
 #include <cstdint>
 #include <memory>
-#include <optional>
 #include <string>
 
 #include "drivers/serial/byte_stream.hpp"
@@ -17,7 +14,7 @@ enum class OpenError : std::uint8_t {
   kAbsent,  ///< the port does not exist
   kDenied,  ///< no rights
   kBusy,    ///< another process holds it
-  kFailed,  ///< any other error: no terminal, unsupported speed
+  kFailed,  ///< any other error: no terminal, a rate that the port lacks
 };
 
 struct OpenResult {
@@ -28,10 +25,7 @@ struct OpenResult {
 
 /// Opens a serial port (or pseudo-terminal) raw, 8N1, without flow control, exclusively: by
 /// TIOCEXCL, which binds everyone but root, and by flock, which binds programs that use it. DTR
-/// keeps its state on close (no HUPCL). `baud`: a standard rate.
+/// keeps its state on close (no HUPCL).
 OpenResult open_serial_port(const std::string& path, std::uint32_t baud);
-
-/// The termios constant of a standard rate; nullopt for others.
-std::optional<speed_t> termios_speed(std::uint32_t baud);
 
 }  // namespace cornerd::drivers

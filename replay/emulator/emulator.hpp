@@ -12,6 +12,7 @@
 #include "core/types.hpp"
 #include "drivers/rplidar/protocol/answers.hpp"
 #include "drivers/rplidar/protocol/framing.hpp"
+#include "replay/emulator/device_emulator.hpp"
 #include "replay/emulator/firmware.hpp"
 #include "replay/emulator/transmitter.hpp"
 #include "replay/simulator/simulator.hpp"
@@ -31,26 +32,19 @@ struct EmulatorConfig {
                                          0xA7, 0xE7, 0x9C, 0xF3, 0x40, 0x55, 0x34, 0x12};
 };
 
-/// The device's side of the protocol, without port or clock: the caller passes the time (from 0,
-/// not decreasing) and the host's bytes, and takes the bytes sent by then. Not safe for concurrent
-/// calls.
+/// An A1.
 ///
 /// An unknown request, or one with a wrong checksum, has no effect. Any other one ends the scan;
 /// the packet on the line still arrives. With a failed health no scan starts (protection stop).
-class Emulator {
+class Emulator : public DeviceEmulator {
  public:
   Emulator(const EmulatorConfig& config, std::unique_ptr<Simulator> simulator);
 
-  void receive(std::span<const std::uint8_t> bytes, core::TimeNs now_ns);
+  void receive(std::span<const std::uint8_t> bytes, core::TimeNs now_ns) override;
 
-  /// Appends the bytes that have left the device by `now_ns`.
-  void take(core::TimeNs now_ns, std::vector<std::uint8_t>& out);
-
-  /// Time of the next byte; nullopt if none comes without a request.
-  std::optional<core::TimeNs> next_ns() const;
-
-  /// Blocks or releases the head: the stream pauses, and resumes by itself.
-  void set_stalled(bool stalled, core::TimeNs now_ns);
+  void take(core::TimeNs now_ns, std::vector<std::uint8_t>& out) override;
+  std::optional<core::TimeNs> next_ns() const override;
+  void set_stalled(bool stalled, core::TimeNs now_ns) override;
   /// A failed health ends the scan.
   void set_health(const rplidar::Health& health, core::TimeNs now_ns);
   /// As after a RESET, but unasked.

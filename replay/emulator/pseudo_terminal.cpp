@@ -15,7 +15,7 @@
 #include <system_error>
 #include <thread>
 
-#include "drivers/serial/serial_port.hpp"
+#include "drivers/serial/baud_rate.hpp"
 
 namespace cornerd::replay {
 namespace {
@@ -93,10 +93,8 @@ bool PseudoTerminal::wait(int timeout_ms) {
 }
 
 bool PseudoTerminal::has_speed(std::uint32_t baud) const {
-  const auto wanted = drivers::termios_speed(baud);
-  termios settings{};
-  if (!wanted || ::tcgetattr(master_, &settings) != 0) return true;
-  return ::cfgetospeed(&settings) == *wanted;
+  const std::uint32_t set = drivers::baud_rate(master_);
+  return set == 0 || set == baud;
 }
 
 std::size_t PseudoTerminal::read(std::span<std::uint8_t> buffer) {

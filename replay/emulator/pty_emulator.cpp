@@ -23,7 +23,8 @@ int wait_ms(std::optional<core::TimeNs> next_ns, core::TimeNs now_ns) {
 
 }  // namespace
 
-PtyEmulator::PtyEmulator(Emulator emulator, const std::filesystem::path& link)
+PtyEmulator::PtyEmulator(std::unique_ptr<DeviceEmulator> emulator,
+                         const std::filesystem::path& link)
     : emulator_(std::move(emulator)), terminal_(link) {}
 
 void PtyEmulator::run(const std::stop_token& stop) {
@@ -37,7 +38,7 @@ void PtyEmulator::run(const std::stop_token& stop) {
   core::TimeNs reported_ns = -kOnTimePeriodNs;
   while (!stop.stop_requested()) {
     core::TimeNs now_ns = elapsed_ns();
-    const bool has_client = terminal_.wait(wait_ms(emulator_.next_ns(), now_ns));
+    const bool has_client = terminal_.wait(wait_ms(emulator_->next_ns(), now_ns));
     now_ns = elapsed_ns();
     exchange(now_ns, has_client);
     if (on_time_ && now_ns - reported_ns >= kOnTimePeriodNs) {
@@ -52,10 +53,10 @@ void PtyEmulator::exchange(core::TimeNs now_ns, bool has_client) {
   const bool understood = baud == 0 || terminal_.has_speed(baud);
   std::array<std::uint8_t, 512> in;
   for (std::size_t count = terminal_.read(in); count > 0; count = terminal_.read(in)) {
-    if (understood) emulator_.receive(std::span(in).first(count), now_ns);
+    if (understood) emulator_->receive(std::span(in).first(count), now_ns);
   }
   out_.clear();
-  emulator_.take(now_ns, out_);
+  emulator_->take(now_ns, out_);
   if (!understood) {
     for (std::uint8_t& byte : out_) byte = static_cast<std::uint8_t>(byte * 37 + 11);
   }

@@ -5,27 +5,28 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <stop_token>
 
-#include "replay/emulator/emulator.hpp"
+#include "replay/emulator/device_emulator.hpp"
 #include "replay/emulator/pseudo_terminal.hpp"
 
 namespace cornerd::replay {
 
-/// An emulated A1 on a pseudo-terminal in real time: bytes leave at the speed of the serial line,
-/// read or not. Clients may come and go. Its motor always runs, as a pseudo-terminal has no DTR.
+/// An emulated lidar on a pseudo-terminal in real time: bytes leave at the speed of the serial
+/// line, read or not. Clients may come and go. Its motor always runs, as a pseudo-terminal has no
+/// DTR.
 class PtyEmulator {
  public:
   /// Called about every 10 ms with the emulator's time and UNIX time, to write the truth.
   using OnTime = std::function<void(core::TimeNs t_ns, core::TimeNs unix_ns)>;
 
   /// Throws std::system_error if the pseudo-terminal or its link cannot be made.
-  PtyEmulator(Emulator emulator, const std::filesystem::path& link = {});
+  explicit PtyEmulator(std::unique_ptr<DeviceEmulator> emulator,
+                       const std::filesystem::path& link = {});
 
   const std::filesystem::path& path() const { return terminal_.path(); }
   void set_on_time(OnTime on_time) { on_time_ = std::move(on_time); }
-  /// For use by on_time.
-  Emulator& emulator() { return emulator_; }
   /// A client at another speed is ignored and gets noise. 0: any speed. Any thread.
   void expect_speed(std::uint32_t baud) { expected_baud_.store(baud); }
 
@@ -38,7 +39,7 @@ class PtyEmulator {
  private:
   void exchange(core::TimeNs now_ns, bool has_client);
 
-  Emulator emulator_;
+  std::unique_ptr<DeviceEmulator> emulator_;
   PseudoTerminal terminal_;
   OnTime on_time_;
   std::vector<std::uint8_t> out_;

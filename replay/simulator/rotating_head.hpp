@@ -35,6 +35,9 @@ class RotatingHead {
     period_ns_ = period_ns;
   }
 
+  /// Of the next sample.
+  const Position& position() const { return now_; }
+
   Position next() {
     const Position position = now_;
     const double scan = std::floor(now_.angle_deg / 360);

@@ -155,6 +155,12 @@ Config parse_config(std::string_view text, const std::filesystem::path& file,
   const std::vector<Key> table = config_table(config);
   const ConfigReader reader(context, table);
   reader.read(document);
+  if (const DriverKind driver = config.lidar.driver;
+      driver != DriverKind::kRplidar && drivers::first_lidar_model(driver) != nullptr) {
+    // The driver is known only now: its noise, and what the config says of it over that.
+    config.lidar.noise.sensor = drivers::first_lidar_model(driver)->noise();
+    reader.read(document);
+  }
   check(config, reader, require_map);
   OdometryConfig& odometry = config.odometry;
   odometry.core.enabled = odometry.source != OdometrySource::kNone;

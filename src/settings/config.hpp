@@ -14,6 +14,7 @@
 #include "core/localizer_config.hpp"
 #include "core/odometry/odometry_config.hpp"
 #include "drivers/config/kernel_odometry_config.hpp"
+#include "drivers/config/lidar_models.hpp"
 #include "drivers/config/motor_config.hpp"
 
 namespace cornerd::settings {
@@ -33,11 +34,11 @@ inline constexpr int kExitConfig = 78;
 /// kOrdinary: a regular file alone, since opening a pipe without a writer blocks.
 enum class FileKind : std::uint8_t { kOrdinary, kAny };
 
-enum class DriverKind : std::uint8_t { kRplidar, kReplay };
+using drivers::DriverKind;
 
 /// Speeds of a serial port.
-inline constexpr std::array<std::uint32_t, 9> kBaudRates = {
-    9'600, 19'200, 38'400, 57'600, 115'200, 230'400, 460'800, 921'600, 1'000'000};
+inline constexpr std::uint32_t kMinBaud = 1'200;
+inline constexpr std::uint32_t kMaxBaud = 4'000'000;
 
 struct MountConfig {
   double x_m = 0;
@@ -54,7 +55,7 @@ struct NoiseConfig {
 struct LidarConfig {
   DriverKind driver = DriverKind::kRplidar;
   std::filesystem::path device = "/dev/ttyUSB0";
-  std::uint32_t baud = 115200;
+  std::uint32_t baud = 0;     ///< 0: those of the driver's models in turn
   std::string mode = "auto";  ///< or the device's own name of a mode: "Standard", "Express"
   double min_range_m = 0.15;
   double max_range_m = 12.0;

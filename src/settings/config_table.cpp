@@ -10,6 +10,8 @@ constexpr std::size_t kMaxUpdatesPerScan = 16;
 constexpr auto kOnRestart = Applies::kOnRestart;
 
 constexpr Choice<DriverKind> kDrivers[] = {{"rplidar", DriverKind::kRplidar},
+                                           {"ld", DriverKind::kLd},
+                                           {"ydlidar", DriverKind::kYdlidar},
                                            {"replay", DriverKind::kReplay}};
 constexpr Choice<OdometrySource> kOdometrySources[] = {{"none", OdometrySource::kNone},
                                                        {"socket", OdometrySource::kSocket},
@@ -19,7 +21,8 @@ constexpr Choice<char> kGyroAxes[] = {{"x", 'x'}, {"y", 'y'}, {"z", 'z'}};
 void add_lidar_keys(std::vector<Key>& table, LidarConfig& lidar) {
   const auto add = [&table](Key key) { table.push_back(std::move(key)); };
   add({"/lidar/driver", choice(lidar.driver, kDrivers),
-       "\"rplidar\": an RPLidar on a serial port. \"replay\": a recording instead of a device.",
+       "\"rplidar\": an RPLidar on a serial port. \"ld\": an LDROBOT LD06, LD19, STL-19P or "
+       "STL-27L. \"ydlidar\": a YDLIDAR X2 or X4. \"replay\": a recording instead of a device.",
        kOnRestart});
   add({"/lidar/device", path(lidar.device),
        "The serial port. cornerd's udev rules name a USB adapter /dev/rplidar; the ports of a "
@@ -42,8 +45,8 @@ void add_lidar_keys(std::vector<Key>& table, LidarConfig& lidar) {
        kOnRestart});
   add({"/lidar/noise",
        {},
-       "Standard deviations of a measurement. `cornerctl calibrate noise -o` writes this "
-       "section."});
+       "Standard deviations of a measurement. `cornerctl calibrate noise -o` writes this section. "
+       "The defaults depend on the driver (drivers/README.md); these are an RPLidar A1's."});
   add({"/lidar/noise/floor", number(lidar.noise.sensor.floor_m, kSigmaM.low, kSigmaM.high),
        "Of a range, metres: the larger of \"floor\" and \"share\" times the range."});
   add({"/lidar/noise/share", number(lidar.noise.sensor.share, 0, 1), "Of a range, as a share."});
@@ -60,7 +63,10 @@ void add_lidar_keys(std::vector<Key>& table, LidarConfig& lidar) {
 
 void add_advanced_lidar_keys(std::vector<Key>& table, LidarConfig& lidar) {
   const auto add = [&table](Key key) { table.push_back(std::move(key)); };
-  add({"/advanced/lidar/baud", baud_rate(lidar.baud), "An A1 has 115200.", kOnRestart});
+  add({"/advanced/lidar/baud", baud_rate(lidar.baud),
+       "\"auto\" tries those of the driver's models in turn: 115200 first for \"rplidar\", 230400 "
+       "and 921600 for \"ld\", 128000 and 115200 for \"ydlidar\".",
+       kOnRestart});
   add({"/advanced/lidar/mode", text(lidar.mode),
        "The scan mode: \"auto\", or the device's own name of one: \"Standard\", \"Express\", "
        "\"Boost\". \"auto\" takes Express where the device has it: Boost samples twice as often, "

@@ -59,16 +59,21 @@ Value socket_path(std::filesystem::path& member) {
 }
 
 Value baud_rate(std::uint32_t& baud) {
-  std::string list;
-  for (const std::uint32_t rate : kBaudRates) {
-    list += (list.empty() ? "" : ", ") + std::to_string(rate);
-  }
-  return {[&baud, list](ObjectReader& object, std::string_view key) {
-            object.integer(key, baud, kBaudRates.front(), kBaudRates.back());
-            if (std::find(kBaudRates.begin(), kBaudRates.end(), baud) != kBaudRates.end()) return;
-            object.fail(key, "must be one of " + list);
+  const std::string limits =
+      "\"auto\", or " + std::to_string(kMinBaud) + " to " + std::to_string(kMaxBaud);
+  return {[&baud, limits](ObjectReader& object, std::string_view key) {
+            const Json* value = object.find(key);
+            if (value != nullptr && *value == "auto") {
+              baud = 0;
+              return;
+            }
+            const bool is_known = value == nullptr || value->is_number_unsigned();
+            if (is_known && !object.integer(key, baud, 0U, ~0U)) return;
+            if (!is_known || baud < kMinBaud || baud > kMaxBaud) {
+              object.fail(key, "must be " + limits);
+            }
           },
-          [&baud] { return Ordered(baud); }, list};
+          [&baud] { return baud == 0 ? Ordered("auto") : Ordered(baud); }, limits};
 }
 
 Value replay_speed(double& speed) {

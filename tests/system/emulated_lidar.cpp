@@ -16,11 +16,12 @@ EmulatedLidar::EmulatedLidar(const std::filesystem::path& map, const std::filesy
   scene_ = coverable.get();
   auto simulator =
       std::make_unique<replay::Simulator>(std::move(coverable), replay::SimulatorConfig{});
-  pty_ =
-      std::make_unique<replay::PtyEmulator>(replay::Emulator(config, std::move(simulator)), link);
+  auto device = std::make_unique<replay::Emulator>(config, std::move(simulator));
+  device_ = device.get();
+  pty_ = std::make_unique<replay::PtyEmulator>(std::move(device), link);
   pty_->set_on_time([this](core::TimeNs t_ns, core::TimeNs /*unix_ns*/) {
     const std::lock_guard lock(mutex_);
-    if (action_) std::exchange(action_, nullptr)(pty_->emulator(), t_ns);
+    if (action_) std::exchange(action_, nullptr)(*device_, t_ns);
     done_.notify_all();
   });
   thread_ = std::jthread([this](const std::stop_token& stop) { pty_->run(stop); });

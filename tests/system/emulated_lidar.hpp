@@ -8,6 +8,7 @@
 #include <mutex>
 #include <thread>
 
+#include "replay/emulator/emulator.hpp"
 #include "replay/emulator/pty_emulator.hpp"
 #include "replay/simulator/scene.hpp"
 
@@ -33,6 +34,7 @@ class EmulatedLidar {
   void stop();
 
   replay::CoverableScene* scene_ = nullptr;
+  replay::Emulator* device_ = nullptr;
   std::unique_ptr<replay::PtyEmulator> pty_;
   std::mutex mutex_;
   std::condition_variable done_;

@@ -116,9 +116,8 @@ class PoseSink final : public replay::RecordingSink {
 
 }  // namespace
 
-CalibrationDrive play_drive(const std::filesystem::path& file,
-                            std::optional<rplidar::WireFormat> wire, const settings::Config& config,
-                            const Truth* truth, bool deskewed) {
+CalibrationDrive play_drive(const std::filesystem::path& file, drivers::RecordedWire wire,
+                            const settings::Config& config, const Truth* truth, bool deskewed) {
   core::LocalizerConfig localizer = config.localizer();
   localizer.odometry.enabled = deskewed;
   core::Pipeline pipeline(truth != nullptr ? nullptr : settings::load_map(config.map), localizer);
@@ -130,7 +129,7 @@ CalibrationDrive play_drive(const std::filesystem::path& file,
 }
 
 std::vector<calibration::KnownPose> localize_drive(const std::filesystem::path& file,
-                                                   std::optional<rplidar::WireFormat> wire,
+                                                   drivers::RecordedWire wire,
                                                    const settings::Config& config,
                                                    std::vector<core::OdometryReading> readings,
                                                    double delay_s) {

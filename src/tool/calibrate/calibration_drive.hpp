@@ -8,7 +8,7 @@
 #include "calibration/drive_window.hpp"
 #include "core/odometry/odometry_increment.hpp"
 #include "core/odometry/reading_gate.hpp"
-#include "drivers/rplidar/decoder.hpp"
+#include "drivers/make_driver.hpp"
 #include "settings/config.hpp"
 #include "tool/replay/truth.hpp"
 
@@ -26,13 +26,12 @@ struct CalibrationDrive {
 
 /// Poses come from `truth`, or from the lidar's fixes if it is null. `deskewed`: by wheels and
 /// gyro. Throws replay::RecordingError and settings::SettingsError.
-CalibrationDrive play_drive(const std::filesystem::path& file,
-                            std::optional<rplidar::WireFormat> wire, const settings::Config& config,
-                            const Truth* truth, bool deskewed);
+CalibrationDrive play_drive(const std::filesystem::path& file, drivers::RecordedWire wire,
+                            const settings::Config& config, const Truth* truth, bool deskewed);
 
 /// The lidar's fixes with scans deskewed by the readings `delay_s` earlier. Throws as play_drive().
 std::vector<calibration::KnownPose> localize_drive(const std::filesystem::path& file,
-                                                   std::optional<rplidar::WireFormat> wire,
+                                                   drivers::RecordedWire wire,
                                                    const settings::Config& config,
                                                    std::vector<core::OdometryReading> readings,
                                                    double delay_s);

@@ -24,7 +24,7 @@ constexpr double kMaxDeskewDelay_s = 0.005;
 
 class DriveFitter {
  public:
-  DriveFitter(const std::filesystem::path& file, std::optional<rplidar::WireFormat> wire,
+  DriveFitter(const std::filesystem::path& file, drivers::RecordedWire wire,
               const settings::Config& config, const Truth* truth)
       : file_(file), wire_(wire), config_(config), truth_(truth) {}
 
@@ -100,7 +100,7 @@ class DriveFitter {
   }
 
   const std::filesystem::path& file_;
-  std::optional<rplidar::WireFormat> wire_;
+  drivers::RecordedWire wire_;
   const settings::Config& config_;
   const Truth* truth_;
   DelaySearch search_;  ///< of the last drive
@@ -108,7 +108,7 @@ class DriveFitter {
 
 }  // namespace
 
-FittedDrive fit_drive(const std::filesystem::path& file, std::optional<rplidar::WireFormat> wire,
+FittedDrive fit_drive(const std::filesystem::path& file, drivers::RecordedWire wire,
                       const settings::Config& config, const Truth* truth) {
   return DriveFitter(file, wire, config, truth).run();
 }

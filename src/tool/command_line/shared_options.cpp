@@ -73,15 +73,20 @@ settings::Config SettingsOptions::resolve(bool needs_map) const {
 
 void add_wire_option(Command& command, std::string& wire) {
   command.add_option("--wire", wire, "format of bytes that begin without a response descriptor")
-      .choices({"standard", "express", "ultra", "auto"})
+      .choices({"standard", "express", "ultra", "ld", "ydlidar", "auto"})
       .capture_default_str();
 }
 
-std::optional<rplidar::WireFormat> parse_wire(const std::string& wire) {
-  if (wire == "standard") return rplidar::WireFormat::kStandard;
-  if (wire == "express") return rplidar::WireFormat::kExpress;
-  if (wire == "ultra") return rplidar::WireFormat::kUltra;
-  return std::nullopt;
+drivers::RecordedWire parse_wire(const std::string& wire) {
+  const auto rplidar = [](rplidar::WireFormat format) {
+    return drivers::RecordedWire{drivers::DriverKind::kRplidar, format};
+  };
+  if (wire == "standard") return rplidar(rplidar::WireFormat::kStandard);
+  if (wire == "express") return rplidar(rplidar::WireFormat::kExpress);
+  if (wire == "ultra") return rplidar(rplidar::WireFormat::kUltra);
+  if (wire == "ld") return {drivers::DriverKind::kLd};
+  if (wire == "ydlidar") return {drivers::DriverKind::kYdlidar};
+  return {};
 }
 
 void CalibrationOptions::add(Command& command, const std::string& key) {

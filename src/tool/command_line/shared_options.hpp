@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/geometry/pose2.hpp"
-#include "drivers/rplidar/decoder.hpp"
+#include "drivers/make_driver.hpp"
 #include "message/request.hpp"
 #include "settings/config.hpp"
 
@@ -44,7 +44,7 @@ class SettingsOptions {
 /// --wire standard|express|ultra|auto, for bytes that begin without a response descriptor.
 void add_wire_option(Command& command, std::string& wire);
 /// nullopt for auto. The option has checked the name.
-std::optional<rplidar::WireFormat> parse_wire(const std::string& wire);
+drivers::RecordedWire parse_wire(const std::string& wire);
 
 /// Options of a command that measures a config key in a known map.
 struct CalibrationOptions {

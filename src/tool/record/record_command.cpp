@@ -12,7 +12,7 @@
 #include <utility>
 
 #include "drivers/driver_clock.hpp"
-#include "drivers/rplidar/rplidar_driver.hpp"
+#include "drivers/make_driver.hpp"
 #include "drivers/serial/byte_stream.hpp"
 #include "drivers/serial/serial_port.hpp"
 #include "replay/recording_writer.hpp"
@@ -91,14 +91,16 @@ class NoSink : public drivers::SampleSink {
   void on_gap() override {}
 };
 
-rplidar::RplidarDriverConfig driver_config(const settings::LidarConfig& lidar) {
-  rplidar::RplidarDriverConfig config;
-  config.device = lidar.device.string();
-  config.baud = lidar.baud;
-  config.mode = lidar.mode;
-  config.inverted = lidar.mount.inverted;
-  config.motor = lidar.motor;
-  return config;
+drivers::DeviceConfig device_config(const settings::LidarConfig& lidar) {
+  if (lidar.driver == settings::DriverKind::kReplay) {
+    throw UsageError("lidar.driver: \"replay\" has no port to record");
+  }
+  return {.driver = lidar.driver,
+          .device = lidar.device.string(),
+          .baud = lidar.baud,
+          .mode = lidar.mode,
+          .inverted = lidar.mount.inverted,
+          .motor = lidar.motor};
 }
 
 void report_change(const drivers::LidarStatus& now, drivers::LidarStatus& reported) {
@@ -112,20 +114,22 @@ void report_change(const drivers::LidarStatus& now, drivers::LidarStatus& report
 
 void record(RecordOptions& options) {
   const settings::Config settings = options.settings.resolve(/*needs_map=*/false);
-  const rplidar::RplidarDriverConfig config = driver_config(settings.lidar);
+  const drivers::DeviceConfig config = device_config(settings.lidar);
   guard_files({.read = {config.device, options.settings.config_file()},
                .written = {options.output},
                .output = {}});
 
   // A driver waits for a port that is not there; a person who mistyped its name should not.
-  drivers::OpenResult first = drivers::open_serial_port(config.device, config.baud);
+  const std::uint32_t baud =
+      config.baud != 0 ? config.baud : drivers::baud_rates_of(config.driver).front();
+  drivers::OpenResult first = drivers::open_serial_port(config.device, baud);
   if (!first.stream) throw Failure(first.message);
 
   Recorder recorder(options.output);
   StopSignal stop_signal;
-  const auto open_port = [&](std::uint32_t baud) -> drivers::OpenResult {
+  const auto open_port = [&](std::uint32_t rate) -> drivers::OpenResult {
     drivers::OpenResult port =
-        first.stream ? std::exchange(first, {}) : drivers::open_serial_port(config.device, baud);
+        first.stream ? std::exchange(first, {}) : drivers::open_serial_port(config.device, rate);
     if (port.stream) {
       port.stream = std::make_unique<RecordingByteStream>(
           std::move(port.stream),
@@ -133,7 +137,7 @@ void record(RecordOptions& options) {
     }
     return port;
   };
-  rplidar::RplidarDriver driver(config, open_port);
+  const auto driver = drivers::make_driver(config, open_port);
 
   drivers::LidarStatus reported;
   std::optional<std::uint64_t> readings;
@@ -143,7 +147,7 @@ void record(RecordOptions& options) {
     if (settings.odometry.source == settings::OdometrySource::kKernel && recorder.has_lines()) {
       odometry.emplace(settings.odometry, [&](const auto& reading) { recorder.observe(reading); });
     }
-    const std::jthread reader([&](const std::stop_token& stop) { driver.run(stop, sink); });
+    const std::jthread reader([&](const std::stop_token& stop) { driver->run(stop, sink); });
     const core::TimeNs began_ns = drivers::system_clock().monotonic_ns();
     const auto over = [&] {
       const core::TimeNs elapsed_ns = drivers::system_clock().monotonic_ns() - began_ns;
@@ -151,12 +155,12 @@ void record(RecordOptions& options) {
              (options.seconds > 0 && core::to_seconds(elapsed_ns) >= options.seconds);
     };
     while (!over() && !stop_signal.wait(std::chrono::milliseconds(50))) {
-      report_change(driver.status(), reported);
+      report_change(driver->status(), reported);
     }
     if (odometry) readings = odometry->status().counters.readings;
   }
   recorder.finish();
-  const drivers::StreamCounters counters = driver.status().counters;
+  const drivers::StreamCounters counters = driver->status().counters;
   if (counters.samples == 0) throw Failure(config.device + ": sent not a single sample");
   std::fprintf(stderr, "%s: %llu bytes, %llu scans\n", options.output.c_str(),
                static_cast<unsigned long long>(counters.bytes),
@@ -179,7 +183,10 @@ void add_record(Command& program) {
   };
   command.add_option_function("--device", override_with("/lidar/device"), "port of the lidar")
       .type_name("DEV");
-  command.add_option_function("--baud", override_with("/advanced/lidar/baud"), "its baud rate");
+  command.add_option_function("--driver", override_with("/lidar/driver"), "rplidar, ld, ydlidar")
+      .type_name("NAME");
+  command.add_option_function("--baud", override_with("/advanced/lidar/baud"),
+                              "its baud rate; default: found out");
   command.add_option_function("--mode", override_with("/advanced/lidar/mode"),
                               "auto, or a scan mode by name");
   options->settings.add_config(command);

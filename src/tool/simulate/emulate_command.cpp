@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// cornerctl emulate: an A1 on a pseudo-terminal, for cornerd or any other client to open.
+// cornerctl emulate: a lidar on a pseudo-terminal, for cornerd or any other client to open.
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
@@ -9,8 +9,10 @@
 #include <string>
 #include <thread>
 #include <utility>
+#include <vector>
 
 #include "replay/emulator/firmware.hpp"
+#include "replay/emulator/make_emulator.hpp"
 #include "replay/emulator/pty_emulator.hpp"
 #include "replay/emulator/recorded_scene.hpp"
 #include "replay/recording_writer.hpp"
@@ -32,6 +34,7 @@ struct EmulateOptions {
   SettingsOptions settings;
   SimulationOptions simulation;
   std::string wire = "auto";
+  std::string model = "a1";
   std::string firmware = "1.29";
   double spin_up_s = 0;
   std::filesystem::path link;
@@ -62,24 +65,30 @@ World make_world(const EmulateOptions& options, const settings::Config& config) 
           motion};
 }
 
-void emulate(const EmulateOptions& options) {
+void emulate(EmulateOptions options) {
   const replay::Firmware* firmware = replay::find_firmware(options.firmware);
   if (firmware == nullptr) throw UsageError("--firmware: must be 1.29, 1.24 or 1.17");
-  const settings::Config config = options.settings.resolve(/*needs_map=*/options.recording.empty());
+  const drivers::LidarModel& model = *drivers::find_lidar_model(options.model);
+  settings::Config config = options.settings.resolve(/*needs_map=*/options.recording.empty());
+  if (config.lidar.driver != model.driver) config.lidar.noise.sensor = model.noise();
+  if (!options.simulation.motor_hz) options.simulation.motor_hz = model.rate_hz;
   guard_files(
       {.read = {options.recording, options.settings.config_file(), options.simulation.sensor.noise,
                 options.recording.empty() ? config.map : std::filesystem::path()},
        .written = {options.truth, options.link},
        .output = {}});
+
   World world = make_world(options, config);
 
   replay::EmulatorConfig device;
   device.firmware = firmware;
   device.spin_up_s = options.spin_up_s;
-  auto simulator = std::make_unique<replay::Simulator>(
-      std::move(world.scene),
-      options.simulation.simulator(rplidar::WireFormat::kStandard, config.lidar));
-  replay::PtyEmulator emulator(replay::Emulator(device, std::move(simulator)), options.link);
+  replay::SimulatorConfig simulator =
+      options.simulation.simulator(rplidar::WireFormat::kStandard, config.lidar);
+  simulator.sensor.min_range_m = model.min_range_m;
+  simulator.sensor.max_range_m = model.max_range_m;
+  replay::PtyEmulator emulator(
+      replay::make_emulator(model, std::move(world.scene), simulator, device), options.link);
 
   std::optional<replay::TruthWriter> truth;
   if (!options.truth.empty()) {
@@ -107,7 +116,7 @@ void emulate(const EmulateOptions& options) {
 
 void add_emulate(Command& program) {
   Command command = program.add_subcommand(
-      "emulate", "an A1 on a pseudo-terminal, whose path is printed, until interrupted");
+      "emulate", "a lidar on a pseudo-terminal, whose path is printed, until interrupted");
   const auto options = std::make_shared<EmulateOptions>();
   command
       .add_option("file", options->recording, "replay this recording; default: simulate in the map")
@@ -116,8 +125,12 @@ void add_emulate(Command& program) {
   options->settings.add_map(command);
   options->simulation.add_to(command);
   add_wire_option(command, options->wire);
-  command.add_option("--firmware", options->firmware, "1.29, 1.24 or 1.17").capture_default_str();
-  command.add_option("--spin-up", options->spin_up_s, "duration of the motor's spin-up (s)")
+  std::vector<std::string> models;
+  for (const drivers::LidarModel& model : drivers::kLidarModels) models.emplace_back(model.name);
+  command.add_option("--model", options->model, "the lidar").choices(models).capture_default_str();
+  command.add_option("--firmware", options->firmware, "of an a1: 1.29, 1.24 or 1.17")
+      .capture_default_str();
+  command.add_option("--spin-up", options->spin_up_s, "duration of an a1's spin-up (s)")
       .within(0, 3600);
   command.add_option("--link", options->link, "a symbolic link to the pseudo-terminal")
       .type_name("PATH");

@@ -42,7 +42,7 @@ void simulate(const SimulateOptions& options) {
   const SimulationOptions& simulation = options.simulation;
 
   replay::SimulatedRecordingConfig config;
-  config.simulator = simulation.simulator(*parse_wire(options.wire), settings.lidar);
+  config.simulator = simulation.simulator(*parse_wire(options.wire).format, settings.lidar);
   config.T_base_lidar = settings.localizer().T_base_lidar;
   config.scans = options.scans > 0 ? options.scans : simulation.default_scans();
   config.byte_fault_share = options.byte_faults;

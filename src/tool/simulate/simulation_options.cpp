@@ -65,7 +65,8 @@ void SimulationOptions::add_to(Command& command) {
       .add_option("--rotation-acceleration", yaw_acceleration_rad_s2,
                   "angular acceleration at both ends of a rotation (rad/s^2); 0: unlimited")
       .within(0, 1000);
-  command.add_option("--motor", motor_hz, "scan rate (Hz)").within(1, 15).capture_default_str();
+  command.add_option("--motor", motor_hz, "scan rate (Hz); default: the lidar's, 7.3 of an A1")
+      .within(1, 15);
   command
       .add_option("--map-error", map_error_m,
                   "standard deviation of each wall's displacement across itself in the simulated "
@@ -118,7 +119,7 @@ SimulatedPlace SimulationOptions::place(std::shared_ptr<const core::WallMap> map
   if (clutter <= 0) return place;
   const core::Pose2 T_base_lidar{lidar.mount.x_m, lidar.mount.y_m, lidar.mount.theta_rad};
   const replay::Clutter obstacles = replay::place_clutter(
-      *place.world, replay::scanned_path(place.motion, T_base_lidar, scans_of_motion(), motor_hz),
+      *place.world, replay::scanned_path(place.motion, T_base_lidar, scans_of_motion(), rate_hz()),
       simulator(rplidar::WireFormat::kStandard, lidar).sensor, clutter, seed ^ kClutterSeed);
   std::fprintf(stderr, "cornerctl: %zu unmapped obstacles stop %.0f %% of the rays\n",
                obstacles.obstacles, 100 * obstacles.share);
@@ -146,7 +147,7 @@ std::int64_t SimulationOptions::scans_of_motion() const {
   if (!pose.empty()) return 1;
   if (places > 0) return static_cast<std::int64_t>(places) * scans_each;
   return std::max<std::int64_t>(
-      1, std::llround(replay::drive_duration_s(points(), drive()) * motor_hz));
+      1, std::llround(replay::drive_duration_s(points(), drive()) * rate_hz()));
 }
 
 replay::SimulatorConfig SimulationOptions::simulator(rplidar::WireFormat wire,
@@ -155,7 +156,7 @@ replay::SimulatorConfig SimulationOptions::simulator(rplidar::WireFormat wire,
   config.sensor = sensor.model(lidar.noise);
   config.sensor.field_of_view.centre_rad = -lidar.mount.theta_rad;
   config.wire = wire;
-  config.motor_hz = motor_hz;
+  config.motor_hz = rate_hz();
   config.inverted = lidar.mount.inverted;
   config.seed = seed;
   return config;

@@ -64,14 +64,16 @@ struct SimulationOptions {
   double yaw_rate_rad_s = 1.5;
   double acceleration_m_s2 = 0;
   double yaw_acceleration_rad_s2 = 0;
-  double motor_hz = 7.3;
-  double map_error_m = 0;  ///< standard deviation of a wall's displacement from the map
-  double clutter = 0;      ///< share of the rays that stop at unmapped obstacles
+  std::optional<double> motor_hz;  ///< scan rate; default: the lidar's
+  double map_error_m = 0;          ///< standard deviation of a wall's displacement from the map
+  double clutter = 0;              ///< share of the rays that stop at unmapped obstacles
   SensorOptions sensor;
   std::uint64_t seed = 1;
 
   void add_to(Command& command);
 
+  /// An uncontrolled A1's at 5 V, if not given.
+  double rate_hz() const { return motor_hz.value_or(7.3); }
   bool stands_still() const { return !pose.empty(); }
   /// Scans of a recording without --scans.
   std::int64_t default_scans() const;

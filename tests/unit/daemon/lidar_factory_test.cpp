@@ -3,15 +3,19 @@
 
 #include <gtest/gtest.h>
 
-#include "drivers/serial/serial_port.hpp"
+#include <string>
+
 #include "settings/config.hpp"
 
 namespace cornerd::daemon {
 namespace {
 
-TEST(LidarFactory, EveryConfigurableBaud_Supported) {
-  for (const std::uint32_t baud : settings::kBaudRates) {
-    EXPECT_TRUE(drivers::termios_speed(baud)) << baud;
+TEST(LidarFactory, EveryDriver_IsMadeAndHasNoise) {
+  for (const char* driver : {"rplidar", "ld", "ydlidar"}) {
+    const settings::Config config = settings::parse_config(
+        R"({"map": "/m"})", "c.json", {std::string("/lidar/driver=") + driver});
+    EXPECT_NE(make_lidar(config.lidar), nullptr) << driver;
+    EXPECT_GT(config.lidar.noise.sensor.floor_m, 0) << driver;
   }
 }
 

@@ -29,7 +29,7 @@ TEST(Config, MapAlone_IsEnough) {
   const Config config = parse(R"({"map": "/maps/a.json"})");
   EXPECT_EQ(config.map, "/maps/a.json");
   EXPECT_EQ(config.lidar.driver, DriverKind::kRplidar);
-  EXPECT_EQ(config.lidar.baud, 115200u);
+  EXPECT_EQ(config.lidar.baud, 0u) << "auto";
   EXPECT_EQ(config.socket.pose, "/run/cornerd/pose.sock");
 }
 

@@ -56,7 +56,8 @@ class RplidarDriverTest : public testing::Test {
 
   void make(const std::string& mode = "auto", std::uint32_t baud = 115200) {
     driver.emplace(
-        RplidarDriverConfig{.device = "/dev/lidar", .baud = baud, .mode = mode, .motor = {}},
+        RplidarDriverConfig{
+            .device = "/dev/lidar", .baud_rates = {baud}, .mode = mode, .motor = {}},
         [this](std::uint32_t at_baud) { return a1.open(at_baud); }, clock);
   }
 

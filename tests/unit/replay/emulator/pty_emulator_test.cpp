@@ -56,10 +56,11 @@ class Client {
   int port_;
 };
 
-Emulator make_emulator() {
-  return {EmulatorConfig{},
-          std::make_unique<Simulator>(
-              std::make_unique<MapScene>(make_room(), stand_still({1, 1, 0})), SimulatorConfig{})};
+std::unique_ptr<DeviceEmulator> make_emulator() {
+  return std::make_unique<Emulator>(
+      EmulatorConfig{},
+      std::make_unique<Simulator>(std::make_unique<MapScene>(make_room(), stand_still({1, 1, 0})),
+                                  SimulatorConfig{}));
 }
 
 class PtyEmulatorTest : public ::testing::Test {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "drivers/rplidar/sample_clock.hpp"
+#include "drivers/stream/sample_clock.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <random>
 
-namespace cornerd::rplidar {
+namespace cornerd::drivers {
 namespace {
 
 constexpr double kPeriodS = 254e-6;
@@ -143,4 +143,4 @@ TEST(SampleClock, Reanchor_KeepsThePeriod) {
 }
 
 }  // namespace
-}  // namespace cornerd::rplidar
+}  // namespace cornerd::drivers

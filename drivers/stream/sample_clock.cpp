@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "drivers/rplidar/sample_clock.hpp"
+#include "drivers/stream/sample_clock.hpp"
 
 #include <algorithm>
 #include <numeric>
 
-namespace cornerd::rplidar {
+namespace cornerd::drivers {
 namespace {
 
 constexpr double kBlockNs = 125e6;
@@ -146,4 +146,4 @@ void SampleClock::fit() {
   offset_ns_ = a.y - pace_ns * a.x;
 }
 
-}  // namespace cornerd::rplidar
+}  // namespace cornerd::drivers

@@ -7,7 +7,7 @@
 
 #include "core/types.hpp"
 
-namespace cornerd::rplidar {
+namespace cornerd::drivers {
 
 /// Estimates the measurement time of sample i. Model: t(i) = offset + period * i, arrival(i) = t(i)
 /// + delay with delay >= 0 (USB frames, scheduling). The line is therefore an edge of the lower
@@ -88,4 +88,4 @@ class SampleClock {
   core::TimeNs last_delay_ns_ = 0;
 };
 
-}  // namespace cornerd::rplidar
+}  // namespace cornerd::drivers

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "drivers/rplidar/status_board.hpp"
+#include "drivers/stream/status_board.hpp"
 
-namespace cornerd::rplidar {
+namespace cornerd::drivers {
 namespace {
 
 constexpr core::TimeNs kUpdateNs = core::kNsPerSecond / 2;
@@ -12,8 +12,7 @@ double rate_hz(std::uint64_t intervals, core::TimeNs duration_ns) {
 
 }  // namespace
 
-void StatusBoard::set_state(drivers::LidarState state, drivers::LidarFault fault,
-                            std::string_view detail) {
+void StatusBoard::set_state(LidarState state, LidarFault fault, std::string_view detail) {
   status_.state = state;
   status_.fault = fault;
   status_.detail.set(detail);
@@ -22,7 +21,7 @@ void StatusBoard::set_state(drivers::LidarState state, drivers::LidarFault fault
 }
 
 void StatusBoard::count_answers(std::uint64_t bytes, std::uint64_t used_bytes) {
-  for (drivers::StreamCounters* const counters : {&status_.counters, &before_}) {
+  for (StreamCounters* const counters : {&status_.counters, &before_}) {
     counters->bytes += bytes;
     counters->used_bytes += used_bytes;
     counters->skipped_bytes += bytes - used_bytes;
@@ -56,7 +55,7 @@ void StatusBoard::begin_stream() {
   scans_ = 0;
 }
 
-void StatusBoard::end_stream(drivers::StreamCounters of_stream) {
+void StatusBoard::end_stream(StreamCounters of_stream) {
   of_stream.skipped_bytes = of_stream.bytes - of_stream.used_bytes;
   status_.counters = before_;
   status_.counters += of_stream;
@@ -73,8 +72,8 @@ void StatusBoard::count(const core::Sample& sample) {
   last_scan_ns_ = sample.t_ns;
 }
 
-void StatusBoard::update(const drivers::StreamCounters& of_stream,
-                         const core::LatencyHistogram& latency, core::TimeNs now_ns) {
+void StatusBoard::update(const StreamCounters& of_stream, const core::LatencyHistogram& latency,
+                         core::TimeNs now_ns) {
   if (now_ns - updated_ns_ < kUpdateNs) return;
   updated_ns_ = now_ns;
   status_.counters = before_;
@@ -123,4 +122,4 @@ void SampleMonitor::end_scan() {
   scan_returns_ = 0;
 }
 
-}  // namespace cornerd::rplidar
+}  // namespace cornerd::drivers

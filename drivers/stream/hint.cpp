@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include "drivers/rplidar/hint.hpp"
+#include "drivers/stream/hint.hpp"
 
-namespace cornerd::rplidar {
+namespace cornerd::drivers {
 namespace {
-
-using drivers::LidarFault;
 
 /// {} stands for `extra`.
 std::string_view pattern(LidarFault fault) {
@@ -28,10 +26,10 @@ std::string_view pattern(LidarFault fault) {
     case LidarFault::kBooting:
       return "just switched on; waiting until it has started";
     case LidarFault::kNoAnswer:
-      return "no answer; check that it is an RPLidar at {} baud, that RX and TX are not swapped, "
+      return "no answer; check that it is {} baud, that RX and TX are not swapped, "
              "and that it gets 5 V";
     case LidarFault::kWrongBaud:
-      return "no answer at the configured speed, but {}; set advanced.lidar.baud";
+      return "{}; set advanced.lidar.baud";
     case LidarFault::kProtectionStop:
       return "protection stop, {}; resetting it";
     case LidarFault::kHealthError:
@@ -70,4 +68,19 @@ std::string hint(LidarFault fault, std::string_view device, std::string_view ext
   return line;
 }
 
-}  // namespace cornerd::rplidar
+PortFailure failure_of(OpenError error) {
+  switch (error) {
+    case OpenError::kAbsent:
+      return {LidarState::kAbsent, LidarFault::kNoPort};
+    case OpenError::kDenied:
+      return {LidarState::kOpening, LidarFault::kNoPermission};
+    case OpenError::kBusy:
+      return {LidarState::kOpening, LidarFault::kPortBusy};
+    case OpenError::kNone:
+    case OpenError::kFailed:
+      break;
+  }
+  return {LidarState::kOpening, LidarFault::kPortError};
+}
+
+}  // namespace cornerd::drivers

@@ -10,20 +10,20 @@
 #include "core/types.hpp"
 #include "drivers/lidar_driver.hpp"
 
-namespace cornerd::rplidar {
+namespace cornerd::drivers {
 
 /// The status of a device, written by the reader thread and read by another one. Wait-free, without
 /// allocation.
 class StatusBoard {
  public:
   /// Reader thread: all methods up to update().
-  void set_state(drivers::LidarState state, drivers::LidarFault fault, std::string_view detail);
+  void set_state(LidarState state, LidarFault fault, std::string_view detail);
   void set_device(std::string_view model, std::string_view firmware, std::string_view serial);
   void set_health(std::string_view health);
   void set_mode(std::string_view mode);
 
-  drivers::LidarState state() const { return status_.state; }
-  drivers::LidarFault fault() const { return status_.fault; }
+  LidarState state() const { return status_.state; }
+  LidarFault fault() const { return status_.fault; }
   std::string_view detail() const { return status_.detail.view(); }
 
   /// Adds bytes received outside a stream; `used_bytes` of them were answers.
@@ -32,22 +32,22 @@ class StatusBoard {
   /// Counters of the new stream add to those before.
   void begin_stream();
   /// Counts the bytes left undecoded as skipped.
-  void end_stream(drivers::StreamCounters of_stream);
+  void end_stream(StreamCounters of_stream);
   void count(const core::Sample& sample);
   /// Publishes counters and rates, twice a second at most.
-  void update(const drivers::StreamCounters& of_stream, const core::LatencyHistogram& latency,
+  void update(const StreamCounters& of_stream, const core::LatencyHistogram& latency,
               core::TimeNs now_ns);
 
   /// The other thread.
-  drivers::LidarStatus read() { return latest_.read(); }
-  bool take_change(drivers::LidarChange& change) { return changes_.pop(change); }
+  LidarStatus read() { return latest_.read(); }
+  bool take_change(LidarChange& change) { return changes_.pop(change); }
 
  private:
   void publish() { latest_.publish(status_); }
   void measure_rates();
 
-  drivers::LidarStatus status_;
-  drivers::StreamCounters before_;  ///< of the streams that have ended
+  LidarStatus status_;
+  StreamCounters before_;  ///< of the streams that have ended
   core::TimeNs updated_ns_ = 0;
 
   std::uint64_t samples_ = 0;  ///< since first_ns_
@@ -57,16 +57,16 @@ class StatusBoard {
   core::TimeNs first_scan_ns_ = 0;
   core::TimeNs last_scan_ns_ = 0;
 
-  core::TripleBuffer<drivers::LidarStatus> latest_;
+  core::TripleBuffer<LidarStatus> latest_;
   /// About a dozen retries; the reader polls more often.
   static constexpr std::size_t kChanges = 64;
-  core::RingBuffer<drivers::LidarChange> changes_{kChanges};
+  core::RingBuffer<LidarChange> changes_{kChanges};
 };
 
 /// Passes samples on, counts them for the status, and detects scans without returns.
-class SampleMonitor : public drivers::SampleSink {
+class SampleMonitor : public SampleSink {
  public:
-  SampleMonitor(drivers::SampleSink& next, StatusBoard& board) : next_(next), board_(board) {}
+  SampleMonitor(SampleSink& next, StatusBoard& board) : next_(next), board_(board) {}
 
   void on_sample(const core::Sample& sample) override;
   void on_gap() override { next_.on_gap(); }
@@ -77,11 +77,11 @@ class SampleMonitor : public drivers::SampleSink {
  private:
   void end_scan();
 
-  drivers::SampleSink& next_;
+  SampleSink& next_;
   StatusBoard& board_;
   std::size_t scan_samples_ = 0;
   std::size_t scan_returns_ = 0;
   int empty_scans_ = 0;
 };
 
-}  // namespace cornerd::rplidar
+}  // namespace cornerd::drivers
