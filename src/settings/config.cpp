@@ -92,6 +92,21 @@ class ConfigReader {
   const std::vector<Key>& table_;
 };
 
+/// Where there are several maps, "map" is the name of one; it was read as a path.
+void choose_map(Config& config, const ConfigReader& reader) {
+  if (config.maps.empty() || config.map.empty()) return;
+  config.map_name = config.map.filename();
+  std::string names;
+  for (const NamedMap& map : config.maps) {
+    if (map.name == config.map_name) {
+      config.map = map.file;
+      return;
+    }
+    names += (names.empty() ? "" : ", ") + map.name;
+  }
+  reader.fail("/map", "must be a name of \"maps\": " + names);
+}
+
 /// Checks that involve more than one key.
 void check(const Config& config, const ConfigReader& reader, bool require_map) {
   if (require_map && config.map.empty()) {
@@ -161,6 +176,7 @@ Config parse_config(std::string_view text, const std::filesystem::path& file,
     config.lidar.noise.sensor = drivers::first_lidar_model(driver)->noise();
     reader.read(document);
   }
+  choose_map(config, reader);
   check(config, reader, require_map);
   OdometryConfig& odometry = config.odometry;
   odometry.core.enabled = odometry.source != OdometrySource::kNone;

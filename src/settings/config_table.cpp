@@ -201,6 +201,9 @@ std::vector<Key> config_table(Config& config) {
   std::vector<Key> table;
   const auto add = [&table](Key key) { table.push_back(std::move(key)); };
   add({"/map", path(config.map), "The map of the building. The only key without a default."});
+  add({"/maps", named_maps(config.maps),
+       "Floors or buildings to choose from: \"map\" is one of their names then, and so is "
+       "SET_MAP's."});
   add_lidar_keys(table, config.lidar);
   add_odometry_keys(table, config.odometry);
   add({"/socket/pose", socket_path(config.socket.pose), "Clients read poses here.", kOnRestart});

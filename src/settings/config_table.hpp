@@ -50,6 +50,7 @@ Value boolean(bool& member);
 Value text(std::string& member);
 Value path(std::filesystem::path& member);
 Value socket_path(std::filesystem::path& member);
+Value named_maps(std::vector<NamedMap>& maps);
 Value baud_rate(std::uint32_t& baud);
 /// A number, or "max", which is 0.
 Value replay_speed(double& speed);

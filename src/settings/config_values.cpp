@@ -2,6 +2,8 @@
 #include <sys/un.h>
 
 #include <algorithm>
+#include <utility>
+#include <vector>
 
 #include <nlohmann/json.hpp>
 
@@ -56,6 +58,34 @@ Value socket_path(std::filesystem::path& member) {
                          " bytes: " + member.string());
   };
   return value;
+}
+
+Value named_maps(std::vector<NamedMap>& maps) {
+  const auto read = [&maps](ObjectReader& object, std::string_view key) {
+    const Json* value = object.find(key);
+    if (value == nullptr) return;
+    if (!value->is_array()) object.fail(key, "must be a list of objects with name and file");
+    maps.clear();
+    for (std::size_t i = 0; i < value->size(); ++i) {
+      ObjectReader element = object.element(key, *value, i);
+      NamedMap map;
+      if (!element.text("name", map.name, kMaxTextBytes)) object.fail(key, i, "has no name");
+      if (!element.path("file", map.file)) object.fail(key, i, "has no file");
+      element.finish();
+      const auto has_name = [&](const NamedMap& other) { return other.name == map.name; };
+      if (std::any_of(maps.begin(), maps.end(), has_name))
+        object.fail(key, i, "has another's name");
+      maps.push_back(std::move(map));
+    }
+  };
+  const auto write = [&maps] {
+    Ordered list = Ordered::array();
+    for (const NamedMap& map : maps) {
+      list.push_back({{"name", map.name}, {"file", map.file.string()}});
+    }
+    return list;
+  };
+  return {read, write, "a list of { \"name\", \"file\" }"};
 }
 
 Value baud_rate(std::uint32_t& baud) {

@@ -35,7 +35,7 @@ struct FloorPlan {
   /// How far off a wall may be across itself (a standard deviation); the more, the likelier too
   /// that one is missing or was never there. Default: measured with a tape.
   double sigma_m = 0.01;
-  std::string hash;  ///< SHA-256 of the file in hexadecimal; empty if the plan is from none
+  std::string hash{};  ///< SHA-256 of the file in hexadecimal; empty if the plan is from none
 };
 
 /// A straight piece of wall surface. The free space is on the left of the direction from `from` to

@@ -64,5 +64,33 @@ TEST_F(MapChoice, Name_OneOfTheConfigs) {
   EXPECT_THAT(error_of([&] { map_named(config_, "e"); }), HasSubstr("they are: c, d"));
 }
 
+constexpr const char* kTwoFloors =
+    R"("maps": [{"name": "ground", "file": "g.json"}, {"name": "first", "file": "/m/f.json"}]})";
+
+TEST(Maps, MapIsAName_ItsFileIsTheMap) {
+  const Config config =
+      parse_config(R"({"map": "first", )" + std::string(kTwoFloors), "/etc/c.json");
+  EXPECT_EQ(config.map, "/m/f.json");
+  EXPECT_EQ(config.map_name, "first");
+  ASSERT_EQ(config.maps.size(), 2u);
+  EXPECT_EQ(config.maps[0].file, "/etc/g.json");
+  EXPECT_EQ(map_named(config, "ground"), "/etc/g.json");
+}
+
+TEST(Maps, MapIsNoName_RefusedWithNames) {
+  const std::string error = error_of(
+      [] { parse_config(R"({"map": "cellar", )" + std::string(kTwoFloors), "/etc/c.json"); });
+  EXPECT_NE(error.find("ground, first"), std::string::npos) << error;
+}
+
+TEST(Maps, TwoOfOneName_Refused) {
+  const std::string error = error_of([] {
+    parse_config(
+        R"({"map": "a", "maps": [{"name": "a", "file": "a"}, {"name": "a", "file": "b"}]})",
+        "/etc/c.json");
+  });
+  EXPECT_NE(error.find("/maps/1"), std::string::npos) << error;
+}
+
 }  // namespace
 }  // namespace cornerd::settings
