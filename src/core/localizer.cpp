@@ -162,7 +162,7 @@ void Localizer::set_pose(const Pose2& T_map_base) {
       Eigen::Vector3d(kGivenSigma_m * kGivenSigma_m, kGivenSigma_m * kGivenSigma_m,
                       kGivenSigma_rad * kGivenSigma_rad)
           .asDiagonal();
-  w.memory.update(T_map_base * w.config.T_base_lidar, w.result.pose.t_ns, {}, {});
+  w.memory.update(T_map_base * w.config.T_base_lidar, w.result.pose.t_ns, {}, Covariance3::Zero());
   w.belief.confirm();
   w.odometer.set_pose(T_map_base, doubt);
 }

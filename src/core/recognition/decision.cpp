@@ -29,6 +29,8 @@ constexpr double kNatsOfFaces = 1.65;
 /// images and in another map, this part of the plane of both has the fewest wrong fixes.
 constexpr double kElsewhere = 27;
 constexpr double kUnmappedShare = 0.2;
+/// Long bare walls are worth more than this unmapped, but fit each other by chance.
+constexpr double kMostUnmapped = 70;
 constexpr double kChanceShare = 0.5;
 /// The same where nearly all rays hit walls within the sensor's noise.
 constexpr double kElsewhereExactly = 11;
@@ -51,7 +53,7 @@ constexpr double kPriorAngle_rad = radians(20);
 double log_ratio_elsewhere(std::span<const VerifiedHypothesis> places, double unmapped_log_ratio) {
   const double best = places.front().log_ratio;
   const double second = places.size() > 1 ? places[1].log_ratio : best - kWidestLead;
-  return kElsewhere + kUnmappedShare * unmapped_log_ratio +
+  return kElsewhere + kUnmappedShare * std::max(unmapped_log_ratio, -kMostUnmapped) +
          kChanceShare * std::max(second, best - kWidestLead);
 }
 
@@ -159,7 +161,7 @@ Decision decide_by_faces(std::span<const VerifiedHypothesis> places, double unma
   if (!prior) return decision;
   const auto expected = std::find_if(places.begin(), places.end(),
                                      [&](const auto& place) { return is_near(place, *prior); });
-  double other = kUnmappedShareOfAPlace * unmapped_log_ratio;
+  double other = kUnmappedShareOfAPlace * std::max(unmapped_log_ratio, -kMostUnmapped);
   for (const VerifiedHypothesis& place : places) {
     if (!is_near(place, *prior)) other = std::max(other, place.log_ratio);
   }

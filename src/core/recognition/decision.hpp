@@ -36,8 +36,8 @@ class PriorBelief {
   double doubt() const { return 1 / (1 + std::exp(log_odds_)); }
 
  private:
-  /// Between two scans somebody carries a robot away once in a million scans.
-  static constexpr double kMaxLogOdds = 13.8;
+  /// Somebody carries the robot away between two scans once in 1e8 scans, five months of driving.
+  static constexpr double kMaxLogOdds = 18.4;
   double log_odds_ = 0;
 };
 

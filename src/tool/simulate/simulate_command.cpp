@@ -28,7 +28,6 @@ struct SimulateOptions {
   OdometryOptions odometry;
   std::int64_t scans = 0;
   std::string wire = "express";
-  double byte_faults = 0;
   std::filesystem::path output;
   std::filesystem::path truth;
 };
@@ -45,7 +44,6 @@ void simulate(const SimulateOptions& options) {
   config.simulator = simulation.simulator(*parse_wire(options.wire).format, settings.lidar);
   config.T_base_lidar = settings.localizer().T_base_lidar;
   config.scans = options.scans > 0 ? options.scans : simulation.default_scans();
-  config.byte_fault_share = options.byte_faults;
   config.robot = options.odometry.robot(settings.odometry);
   const OdometryOptions::Times covered = options.odometry.covered_times();
   config.covered_from_ns = covered.from_ns;
