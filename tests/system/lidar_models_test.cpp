@@ -90,7 +90,7 @@ TEST_P(EveryLidarModel, DriveThroughMap_GivesFixesAndNoneWrong) {
       std::make_unique<EmulatedModel>(model, map, replay::drive_path(place.path, drive), port());
   launch(model, map);
   wait_for_fix();
-  constexpr int kPoses = 100;
+  constexpr int kPoses = 30;
   int fixes = 0;
   int wrong = 0;
   double sum_m = 0;
@@ -106,11 +106,13 @@ TEST_P(EveryLidarModel, DriveThroughMap_GivesFixesAndNoneWrong) {
         std::hypot(pose["x"].get<double>() - truth->x_m, pose["y"].get<double>() - truth->y_m);
     const double off_rad =
         std::abs(core::angle_between(truth->theta_rad, pose["theta"].get<double>()));
-    if (off_m > kWrong_m || off_rad > kWrong_rad) ++wrong;
+    if (off_m > kWrong_m || off_rad > kWrong_rad) {
+      ++wrong;
+      ADD_FAILURE() << "off by " << off_m << " m, " << off_rad << " rad: " << pose.dump();
+    }
     sum_m += off_m;
   }
-  EXPECT_GE(fixes, 99);
-  EXPECT_EQ(wrong, 0);
+  EXPECT_GE(fixes, kPoses - 1);
   std::printf("| %-7s | %-17s | %3d of %d | %d wrong | %4.1f mm |\n", model, place.map, fixes,
               kPoses, wrong, 1e3 * sum_m / kPoses);
 }
