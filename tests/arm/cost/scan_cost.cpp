@@ -161,7 +161,10 @@ class Parts {
 class Daemon {
  public:
   Daemon(std::shared_ptr<const core::WallMap> map, const std::filesystem::path& socket)
-      : pipeline_(map, {}), parts_(map), server_(loop_, "0", {}), publisher_(server_, map) {
+      : pipeline_(map, {}),
+        parts_(map),
+        server_(loop_, "0", {}),
+        publisher_(server_, {.map = map}) {
     server_.listen(socket, daemon::SocketRole::kPose);
     client_.emplace(socket);
     loop_.run_once(0);
