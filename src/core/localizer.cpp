@@ -36,8 +36,9 @@ Localizer::~Localizer() = default;
 Localizer::Localizer(Localizer&&) noexcept = default;
 Localizer& Localizer::operator=(Localizer&&) noexcept = default;
 
-const ScanResult& Localizer::step(const Scan& turn) {
+const ScanResult& Localizer::step(const Scan& received) {
   Workspace& w = *workspace_;
+  const Scan& turn = w.as_measured(received);
   const TimeNs t_ns = turn.start_ns() + (turn.end_ns() - turn.start_ns()) / 2;
   ++w.result.pose.seq;
 
@@ -73,6 +74,7 @@ const ScanResult& Localizer::step(const Scan& turn) {
                          std::max(1.0, w.result.detection.noise_scale));
   }
   w.result.bias = estimated_bias();
+  w.learn_sweep(turn, t_ns);
   return w.result;
 }
 
@@ -98,6 +100,8 @@ Decision Localizer::Workspace::find(const Scan& scan, TimeNs t_ns) {
     }
   }
 
+  filtered = filter;
+
   // 4. One place is a fix, several are ambiguous, none is lost.
   decided_exactly = certain || is_exact(t_ns);
   if (decided_exactly) {
@@ -106,7 +110,7 @@ Decision Localizer::Workspace::find(const Scan& scan, TimeNs t_ns) {
   }
   candidates = place->place_search.places();
   return decide_by_faces(candidates, place->place_search.unmapped_log_ratio(), memory.prior(t_ns),
-                         belief);
+                         filtered);
 }
 
 const PoseEstimate* Localizer::add(const OdometryReading& reading, std::optional<TimeNs> now_ns) {
@@ -163,13 +167,14 @@ void Localizer::set_pose(const Pose2& T_map_base) {
                       kGivenSigma_rad * kGivenSigma_rad)
           .asDiagonal();
   w.memory.update(T_map_base * w.config.T_base_lidar, w.result.pose.t_ns, {}, Covariance3::Zero());
-  w.belief.confirm();
+  w.filter.confirm(T_map_base * w.config.T_base_lidar);
   w.odometer.set_pose(T_map_base, doubt);
 }
 
 void Localizer::relocalize() {
   workspace_->odometer.forget();
   workspace_->memory.forget();
+  workspace_->filter.forget();
   workspace_->T_map_doubted.reset();
 }
 
@@ -177,6 +182,7 @@ void Localizer::forget() {
   relocalize();
   workspace_->saw_all_around = false;
   workspace_->odometer = Odometer(workspace_->config.odometry);
+  workspace_->sweep_log_odds = 0;
   forget_lidar();
 }
 

@@ -50,6 +50,7 @@ void Localizer::Workspace::report(const Decision& decision, std::size_t corners,
   pose.covariance.setZero();
   pose.T_map_base = {};
   pose.p_wrong = decision.doubt;
+  filter = filtered;
   if (has_pose(decision.state)) {
     report_pose(chosen(decision), corners, t_ns);
   } else if (decision.state == PoseState::kAmbiguous) {
@@ -96,7 +97,7 @@ void Localizer::Workspace::report_pose(const core::VerifiedHypothesis& found, st
   // In an exact map the difference of two poses is the velocity.
   memory.update(T_map_lidar, t_ns, motion,
                 found.map_sigma_m > 0 ? found.refined.covariance : Covariance3::Zero());
-  if (pose.state == PoseState::kFix) belief.confirm();
+  pose.state == PoseState::kFix ? filter.confirm(T_map_lidar) : filter.follow(T_map_lidar);
   place->map_error.add(found.refined.face_residuals);
   const Covariance3 of_lidar =
       found.refined.covariance +

@@ -70,6 +70,9 @@ struct Localizer::Workspace {
     if (map) place.emplace(*map, config);
   }
 
+  const Scan& as_measured(const Scan& turn);
+  void learn_sweep(const Scan& turn, TimeNs t_ns);
+  double log_ratio_at(const Scan& turn, const Pose2& T_map_lidar, TimeNs t_ns);
   const Scan& deskewed(const Scan& turn, TimeNs t_ns);
   void reject_motion();
   Decision find(const Scan& scan, TimeNs t_ns);
@@ -109,8 +112,13 @@ struct Localizer::Workspace {
 
   Odometer odometer;
   Scan still;  ///< the turn as a lidar that stood still would have seen it
+  /// ROS drivers turn the order of a clockwise lidar round, and the times stay: log odds that a
+  /// scan's bearings were measured in the order in which they come.
+  double sweep_log_odds = 0;
+  Scan reversed;  ///< the turn in the opposite order
   ConstantVelocityModel memory;
-  PriorBelief belief;  ///< that the robot is where `memory` has it
+  PlaceFilter filter;    ///< of the scans so far
+  PlaceFilter filtered;  ///< with the one that find() looked at last
   PolarScan points;
   std::size_t guesses = 0;                         ///< of the motion, so far
   Twist2 motion;                                   ///< that `points` were moved back by

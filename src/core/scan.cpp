@@ -20,6 +20,11 @@ double swept_rad(std::span<const Sample> samples) {
 
 }  // namespace
 
+void Scan::assign_reversed(const Scan& other) {
+  samples_.assign(other.samples_.rbegin(), other.samples_.rend());
+  for (std::size_t i = 0; i < samples_.size(); ++i) samples_[i].t_ns = other.samples_[i].t_ns;
+}
+
 bool ScanAssembler::add(const Sample& sample, Scan& scan) {
   bool completed = false;
   if (sample.starts_scan) {

@@ -29,6 +29,9 @@ class Scan {
     return true;
   }
 
+  /// Takes the samples of `other`, the last one first, at the times of the first to the last.
+  void assign_reversed(const Scan& other);
+
   /// Moves all times to another clock that is `by_ns` ahead.
   void shift(TimeNs by_ns) {
     for (Sample& sample : samples_) sample.t_ns += by_ns;

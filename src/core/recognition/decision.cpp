@@ -21,8 +21,6 @@ constexpr double kNatsPerNatOfThingsPerRay = 0.0052;
 constexpr double kOneThingShare = 0.25;
 /// What things may hide of the turn in all, for a place that is only likely because of them.
 constexpr double kMostThingsShare = 0.3;
-/// Nats of the beam model on faces that are worth one nat of belief. A fix so leads by 19 nats.
-constexpr double kNatsOfFaces = 1.65;
 /// What a scan reaches by chance where it was not taken: as much less than this as it shows of
 /// structure (kUnmappedShare of what that would be worth unmapped), and half of what its own second
 /// best place reaches. Of 920 scans of simulated and real rooms, in their own maps, in the mirror
@@ -139,7 +137,7 @@ Decision decide(std::span<const VerifiedHypothesis> places, const std::optional<
 }
 
 Decision decide_by_faces(std::span<const VerifiedHypothesis> places, double unmapped_log_ratio,
-                         const std::optional<Prior>& prior, PriorBelief& belief) {
+                         const std::optional<Prior>& prior, PlaceFilter& filter) {
   Decision decision;
   decision.doubt = 1;
   if (places.empty()) return decision;
@@ -155,22 +153,15 @@ Decision decide_by_faces(std::span<const VerifiedHypothesis> places, double unma
   decision.doubt = of_others / (1 + of_others);
   if (decision.doubt < kWrongFixRate) {
     decision.state = PoseState::kFix;
-    return decision;
+  } else if (elsewhere < kMaxElsewhere) {
+    decision.state = PoseState::kAmbiguous;
   }
-  if (elsewhere < kMaxElsewhere) decision.state = PoseState::kAmbiguous;
-  if (!prior) return decision;
-  const auto expected = std::find_if(places.begin(), places.end(),
-                                     [&](const auto& place) { return is_near(place, *prior); });
-  double other = kUnmappedShareOfAPlace * std::max(unmapped_log_ratio, -kMostUnmapped);
-  for (const VerifiedHypothesis& place : places) {
-    if (!is_near(place, *prior)) other = std::max(other, place.log_ratio);
-  }
-  if (expected == places.end()) return decision;
-  belief.update((expected->log_ratio - other) / kNatsOfFaces);
-  if (belief.doubt() < kWrongFixRate) {
-    decision.place = static_cast<std::size_t>(expected - places.begin());
+  filter.update(places, log_ratio_elsewhere(places, unmapped_log_ratio),
+                kUnmappedShareOfAPlace * std::max(unmapped_log_ratio, -kMostUnmapped), prior);
+  if (filter.likeliest() && filter.doubt() < kWrongFixRate && decision.state != PoseState::kFix) {
+    decision.place = *filter.likeliest();
     decision.state = PoseState::kTracking;
-    decision.doubt = belief.doubt();
+    decision.doubt = filter.doubt();
   }
   return decision;
 }

@@ -10,6 +10,7 @@
 
 #include "core/estimate/constant_velocity_model.hpp"
 #include "core/pose_estimate.hpp"
+#include "core/recognition/place_filter.hpp"
 #include "core/recognition/verification.hpp"
 
 namespace cornerd::core {
@@ -25,22 +26,6 @@ struct Decision {
   double doubt = 0;        ///< belief that the likeliest place is not the right one
 };
 
-/// Bayes filter over two hypotheses: the robot is where the last scans showed it, or anywhere else.
-class PriorBelief {
- public:
-  /// A scan that names the place by itself.
-  void confirm() { log_odds_ = kMaxLogOdds; }
-  /// A scan that is so much likelier at the prior than elsewhere (nats).
-  void update(double log_ratio) { log_odds_ = std::min(kMaxLogOdds, log_odds_) + log_ratio; }
-  /// Belief that the robot is elsewhere, by all scans so far.
-  double doubt() const { return 1 / (1 + std::exp(log_odds_)); }
-
- private:
-  /// Somebody carries the robot away between two scans once in 1e8 scans, five months of driving.
-  static constexpr double kMaxLogOdds = 18.4;
-  double log_odds_ = 0;
-};
-
 /// Names the fewest places, in the order of their likelihood, that leave out no more than
 /// kWrongFixRate of the turn's belief: one of them is a fix, several are ambiguous. `places`: the
 /// likeliest first. `prior`: where the robot should be by what was known before; it may choose
@@ -49,9 +34,9 @@ Decision decide(std::span<const VerifiedHypothesis> places, const std::optional<
 
 /// The same for places of PlaceSearch, in a map that is inexact and incomplete. That the scan was
 /// taken somewhere else, or not in this map, is a hypothesis of its own. `unmapped_log_ratio`: the
-/// scan's, where nothing is mapped. A place at the prior is judged by the belief, which it updates.
+/// scan's, where nothing is mapped. What the last scans showed is in the filter, which it updates.
 Decision decide_by_faces(std::span<const VerifiedHypothesis> places, double unmapped_log_ratio,
-                         const std::optional<Prior>& prior, PriorBelief& belief);
+                         const std::optional<Prior>& prior, PlaceFilter& filter);
 
 /// True for a place of PlaceSearch that leaves no doubt that the scan was taken in this map.
 bool is_no_chance(const VerifiedHypothesis& place);

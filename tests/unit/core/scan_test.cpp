@@ -16,6 +16,18 @@ Sample sample_at(double bearing_rad, bool starts_scan = false) {
   return sample;
 }
 
+TEST(Scan, Reversed_LastBearingComesAtTheFirstTime) {
+  Scan scan;
+  for (int i = 0; i < 3; ++i) scan.add({.t_ns = 10 * i * i, .bearing_rad = static_cast<float>(i)});
+  Scan reversed;
+  reversed.assign_reversed(scan);
+  ASSERT_EQ(reversed.size(), 3U);
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(reversed.samples()[i].t_ns, scan.samples()[i].t_ns);
+    EXPECT_EQ(reversed.samples()[i].bearing_rad, scan.samples()[2 - i].bearing_rad);
+  }
+}
+
 TEST(ScanAssembler, StreamJoinedMidScan_OnlyWholeScans) {
   ScanAssembler assembler;
   Scan scan;

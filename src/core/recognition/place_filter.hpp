@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+#include <span>
+
+#include "core/estimate/constant_velocity_model.hpp"
+#include "core/recognition/verification.hpp"
+
+namespace cornerd::core {
+
+/// Nats of the beam model on faces that are worth one nat of belief. A fix so leads by 19 nats.
+inline constexpr double kNatsOfFaces = 1.65;
+
+/// Bayes filter over the places where an inexact map may have been scanned. Each place has log odds
+/// against "anywhere else, or not in this map", which every scan changes by its evidence. Scans
+/// from nearly one pose see the same errors of the map: they count once.
+class PlaceFilter {
+ public:
+  static constexpr std::size_t kMaxPlaces = 16;
+
+  void forget() { count_ = 0; }
+  /// A scan names `T_map_lidar` by itself, or somebody does.
+  void confirm(const Pose2& T_map_lidar);
+  /// A place is named by the filter: a prior is of this one from now on.
+  void follow(const Pose2& T_map_lidar);
+  /// `places`: of PlaceSearch, the likeliest first. `log_ratio_elsewhere`: what the best of the
+  /// whole map reaches by chance; `log_ratio_there`: what one given place does (nats). `prior`: of
+  /// the place that was named last.
+  void update(std::span<const VerifiedHypothesis> places, double log_ratio_elsewhere,
+              double log_ratio_there, const std::optional<Prior>& prior);
+  /// The likeliest of the places that the last update's scan itself speaks for: an index into them.
+  std::optional<std::size_t> likeliest() const { return likeliest_; }
+  /// Belief that the scan was taken anywhere but at likeliest().
+  double doubt() const { return 1 / (1 + std::exp(log_odds_)); }
+
+ private:
+  struct Place {
+    Pose2 T_map_lidar;      ///< in the last scan
+    Pose2 T_map_anchor;     ///< where `anchored` was counted
+    double base = 0;        ///< log odds by all before `anchored`
+    double anchored = 0;    ///< evidence of the scan at the anchor, log odds
+    bool is_named = false;  ///< the prior is of this one
+  };
+  /// Log odds of a place whose scan at `T_map_lidar` has this evidence.
+  static double weigh(Place& place, const Pose2& T_map_lidar, double evidence);
+
+  static const VerifiedHypothesis* find(const Place& place,
+                                        std::span<const VerifiedHypothesis> found,
+                                        const std::optional<Prior>& prior);
+
+  std::array<Place, kMaxPlaces> places_;
+  std::size_t count_ = 0;
+  std::optional<std::size_t> likeliest_;
+  double log_odds_ = 0;
+};
+
+}  // namespace cornerd::core

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+#include "core/recognition/place_filter.hpp"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+namespace cornerd::core {
+namespace {
+
+constexpr double kElsewhere = 0;
+constexpr double kThere = -30;
+constexpr double kRate = 1e-5;
+
+VerifiedHypothesis place_at(double x_m, double log_ratio) {
+  VerifiedHypothesis place;
+  place.refined.T_map_lidar = {x_m, 0, 0};
+  place.log_ratio = log_ratio;
+  return place;
+}
+
+void update(PlaceFilter& filter, const std::vector<VerifiedHypothesis>& found,
+            const std::optional<Prior>& prior = std::nullopt) {
+  filter.update(found, kElsewhere, kThere, prior);
+}
+
+TEST(PlaceFilter, OneWeakScan_NamesNothing) {
+  PlaceFilter filter;
+  update(filter, {place_at(1, 5)});
+  EXPECT_FALSE(filter.likeliest());
+}
+
+TEST(PlaceFilter, StandingRobot_GathersNothing) {
+  PlaceFilter filter;
+  for (int k = 0; k < 100; ++k) update(filter, {place_at(1, 5)});
+  ASSERT_TRUE(filter.likeliest());
+  EXPECT_GT(filter.doubt(), 0.01);
+}
+
+TEST(PlaceFilter, DrivingRobot_GathersEvidence) {
+  PlaceFilter filter;
+  for (int k = 0; k < 40; ++k) update(filter, {place_at(0.1 * k, 5), place_at(20, -40)});
+  ASSERT_TRUE(filter.likeliest());
+  EXPECT_EQ(*filter.likeliest(), 0U);
+  EXPECT_LT(filter.doubt(), kRate);
+}
+
+TEST(PlaceFilter, EqualPlaces_StayEqual) {
+  PlaceFilter filter;
+  for (int k = 0; k < 100; ++k) {
+    update(filter, {place_at(0.1 * k, 30), place_at(20 + 0.1 * k, 30)});
+  }
+  EXPECT_GT(filter.doubt(), 0.3);
+}
+
+TEST(PlaceFilter, ConfirmedPlace_NamedWhileScansSpeakForIt) {
+  PlaceFilter filter;
+  filter.confirm({1, 0, 0});
+  const Prior there{{1, 0, 0}, 0.1, 0.1};
+  update(filter, {place_at(1, -20)}, there);
+  ASSERT_TRUE(filter.likeliest());
+  EXPECT_LT(filter.doubt(), kRate);
+  update(filter, {place_at(1, -40)}, there);
+  EXPECT_FALSE(filter.likeliest()) << "less than what any place reaches by chance";
+  update(filter, {place_at(1, -20)}, there);
+  EXPECT_TRUE(filter.likeliest());
+}
+
+TEST(PlaceFilter, ConfirmedPlace_LostToOneThatIsMuchLikelier) {
+  PlaceFilter filter;
+  filter.confirm({1, 0, 0});
+  update(filter, {place_at(9, 60), place_at(1, 5)}, Prior{{1, 0, 0}, 0.1, 0.1});
+  EXPECT_TRUE(!filter.likeliest() || filter.doubt() > 0.5);
+}
+
+TEST(PlaceFilter, MorePlacesThanItKeeps_LikeliestAreKept) {
+  PlaceFilter filter;
+  std::vector<VerifiedHypothesis> many;
+  for (int k = 0; k < 40; ++k) many.push_back(place_at(k, 40 - k));
+  for (int k = 0; k < 3; ++k) update(filter, many);
+  ASSERT_TRUE(filter.likeliest());
+  EXPECT_EQ(*filter.likeliest(), 0U);
+}
+
+}  // namespace
+}  // namespace cornerd::core
