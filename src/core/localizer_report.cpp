@@ -101,8 +101,7 @@ void Localizer::Workspace::report_pose(const core::VerifiedHypothesis& found, st
   place->map_error.add(found.refined.face_residuals);
   const Covariance3 of_lidar =
       found.refined.covariance +
-      larger(found.map_sigma_m > 0 ? Covariance3(Covariance3::Zero())
-                                   : place->map_error.pose_covariance(found.refined.face_residuals),
+      larger(place->map_error.pose_covariance(found.refined.face_residuals, found.map_sigma_m),
              odometer.has_motion() ? odometer.deskew_covariance()
                                    : deskew_covariance(motion, memory.motion()));
   pose.covariance = covariance_of_base(of_lidar, T_map_lidar, pose.T_map_base);

@@ -10,6 +10,7 @@
 #include "bench/localization/cramer_rao.hpp"
 #include "bench/localization/world.hpp"
 #include "core/localizer.hpp"
+#include "replay/simulator/map_error.hpp"
 #include "replay/simulator/scan_simulator.hpp"
 #include "replay/simulator/simulated_odometry.hpp"
 
@@ -39,6 +40,31 @@ std::vector<MappedBuilding> changed(const Maps& maps, Change&& change) {
     if (!building.worlds.empty()) buildings.push_back(std::move(building));
   }
   return buildings;
+}
+
+/// Buildings whose walls are each moved by N(0, sigma_m) from where the map has them.
+std::vector<MappedBuilding> with_walls_off(const std::shared_ptr<const core::WallMap>& map,
+                                           double sigma_m) {
+  constexpr std::uint64_t kBuildings = 20;
+  MappedBuilding building{map, {}};
+  for (std::uint64_t seed = 1; seed <= kBuildings; ++seed) {
+    building.worlds.push_back(
+        std::make_shared<const core::WallMap>(replay::with_map_error(map->plan(), sigma_m, seed)));
+  }
+  return {std::move(building)};
+}
+
+/// A building of which the map shows the mirror image: no scan of it may be named.
+std::shared_ptr<const core::WallMap> mirrored(const core::WallMap& map) {
+  core::FloorPlan plan = map.plan();
+  for (core::Wall& wall : plan.walls) {
+    wall.from.x() *= -1;
+    wall.to.x() *= -1;
+  }
+  for (core::Room& room : plan.rooms) {
+    for (core::Vec2& corner : room.polygon) corner.x() *= -1;
+  }
+  return std::make_shared<const core::WallMap>(std::move(plan));
 }
 
 /// Visits one start pose after another.
@@ -162,6 +188,15 @@ std::vector<Trial> default_trials(const Maps& arenas,
   add("30 % of the rays stopped", arena).clutter = 0.3;
   add("a wall displaced by 3 cm", displaced);
   add("a door closed", closed);
+  add("walls off by 3 cm, flat", with_walls_off(flat, 0.03));
+  add("walls off by 5 cm, flat", with_walls_off(flat, 0.05));
+  add("40 % of the rays stopped, flat", home).clutter = 0.4;
+  Trial& half = add("180 degrees, flat", home);
+  half.sensor.field_of_view.width_rad = core::kPi;
+  Trial& hard = add("240 degrees, 25 % stopped, 3 cm", with_walls_off(flat, 0.03));
+  hard.sensor.field_of_view.width_rad = core::radians(240);
+  hard.clutter = 0.25;
+  add("mirror image of the flat's map", std::vector{MappedBuilding{flat, {mirrored(*flat)}}});
   for (const std::size_t updates : {1, 4}) {
     for (const bool odometry : {false, true}) {
       Trial& moving = add(std::string("0.5 m/s, 1.5 rad/s") + (odometry ? ", odometry" : "") +

@@ -17,6 +17,8 @@ constexpr double kNoiseShare = 0.579;
 constexpr double kShiftShare = 0.771;
 
 constexpr double kExact_m = 0.005;
+/// Faces that are farther off are other things than the map's.
+constexpr double kMostInexact_m = 0.05;
 
 /// Exponential forgetting with each scan: three seconds.
 constexpr double kRetained = 0.95;
@@ -69,8 +71,10 @@ bool MapErrorModel::is_exact() const {
          excess_ + 2 * std::sqrt(excess_variance_) < squared(kExact_m) * excess_per_variance_;
 }
 
-Covariance3 MapErrorModel::pose_covariance(const FaceResidualStatistics& statistics) const {
-  return variance() * statistics.covariance_per_variance;
+Covariance3 MapErrorModel::pose_covariance(const FaceResidualStatistics& statistics,
+                                           double known_sigma_m) const {
+  const double unknown_m2 = std::min(variance(), squared(kMostInexact_m)) - squared(known_sigma_m);
+  return std::max(0.0, unknown_m2) * statistics.covariance_per_variance;
 }
 
 }  // namespace cornerd::core

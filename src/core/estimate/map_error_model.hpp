@@ -38,8 +38,10 @@ FaceResidualStatistics face_residual_statistics(std::span<FaceResidual> residual
 class MapErrorModel {
  public:
   void add(const FaceResidualStatistics& statistics);
-  /// To be added to the covariance of a pose with these residuals.
-  Covariance3 pose_covariance(const FaceResidualStatistics& statistics) const;
+  /// To be added to the covariance of a pose with these residuals, which accounts for faces that
+  /// are displaced by `known_sigma_m` already.
+  Covariance3 pose_covariance(const FaceResidualStatistics& statistics,
+                              double known_sigma_m = 0) const;
   double variance() const;
   /// True where the last scans show that faces are where the map has them, within 5 mm.
   bool is_exact() const;
