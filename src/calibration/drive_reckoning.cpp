@@ -5,8 +5,8 @@
 #include <functional>
 
 #include "calibration/odometry_fit.hpp"
-#include "core/odometry/corrected_increment.hpp"
 #include "core/odometry/fusion_filter.hpp"
+#include "core/odometry/motion_factor.hpp"
 
 namespace cornerd::calibration {
 namespace {
@@ -80,9 +80,9 @@ DriveError reckon(std::span<const OdometryIncrement> steps, std::span<const Know
                   DrivePoints* points) {
   return for_each_known_pose(at_true_times(steps, learned.delay_s), places, points, std::identity(),
                              [&](const OdometryIncrement& step) {
-                               const core::CorrectedIncrement moved =
-                                   core::corrected_increment(step, geometry, learned);
-                               return core::arc(moved.translation_m, moved.rotation_rad);
+                               core::MotionFactor factor(geometry, learned);
+                               factor.add(step);
+                               return factor.motion();
                              });
 }
 

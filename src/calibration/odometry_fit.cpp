@@ -12,7 +12,7 @@
 #include "calibration/delay_search.hpp"
 #include "calibration/robust_statistics.hpp"
 #include "core/geometry/squared.hpp"
-#include "core/odometry/corrected_increment.hpp"
+#include "core/odometry/motion_factor.hpp"
 
 namespace cornerd::calibration {
 namespace {
@@ -31,8 +31,8 @@ constexpr double kMaxSigma = 0.05;
 constexpr double kMaxDelaySigma_s = 0.015;
 /// Lags of the Newey-West covariance: adjacent windows share a pose, and slips may last.
 constexpr std::size_t kLags = 4;
-/// For the derivative by differences: about the interval of the readings.
-constexpr double kDelayPerturbation_s = 0.005;
+/// A window without a gyro says nothing of one.
+constexpr double kNoGyroSigma_rad = 1e9;
 /// Unmodelled errors, added to the sigmas: speeds that change between readings, a gyro lag of a
 /// millisecond (from simulated drives).
 constexpr double kUnmodelled = 2e-4;
@@ -56,37 +56,37 @@ constexpr int kResiduals = 4;
 using Residuals = Eigen::Matrix<double, kResiduals, 1>;
 
 /// In sigmas: x, y, rotation by the wheels, rotation by the gyro.
-Residuals residuals_of(const DriveWindow& window, const core::DriveGeometry& geometry,
-                       const Vector& p) {
-  const core::OdometryParameters learned = as_learned(p);
-  core::Pose2 motion;
-  double wheel_rotation_rad = 0;
-  double rotation_rad = 0;
-  bool has_gyro = true;
-  for (const OdometryIncrement& step : window.steps) {
-    const core::CorrectedIncrement moved = core::corrected_increment(step, geometry, learned);
-    motion = motion * core::arc(moved.translation_m, moved.rotation_rad);
-    wheel_rotation_rad += moved.wheel_rotation_rad;
-    rotation_rad += moved.rotation_rad;
-    has_gyro = has_gyro && step.has_gyro;
-  }
-  // Scaled to a fixed track: a wider estimate would otherwise shrink the residuals.
-  const double track = 1 + learned.track_scale;
-  return {(motion.x_m - window.motion.x_m) / kPoseSigma_m,
-          (motion.y_m - window.motion.y_m) / kPoseSigma_m,
-          track * (wheel_rotation_rad - window.rotation_rad) / kWheelRotationSigma_rad,
-          has_gyro ? (rotation_rad - window.rotation_rad) / kGyroRotationSigma_rad : 0};
-}
+struct WindowResiduals {
+  Residuals values;
+  Eigen::Matrix<double, kResiduals, kParameters> slope;
+  /// Extra variance from a rate that changes between two readings at an unknown time.
+  Residuals interpolation;
+};
 
-/// Extra sigmas (in sigmas) from a rate that changes between two readings at an unknown time.
-Residuals interpolation_sigma_of(const DriveWindow& window) {
-  double change_rad2 = 0;
-  for (const OdometryIncrement& step : window.steps) {
-    change_rad2 += core::squared(step.gyro_change_rad) / 3;
+WindowResiduals residuals_of(const DriveWindow& window, const core::DriveGeometry& geometry,
+                             const Vector& p) {
+  using core::MotionFactor;
+  MotionFactor factor(geometry, as_learned(p));
+  for (const OdometryIncrement& step : window.steps) factor.add(step);
+  const core::Pose2 motion = factor.motion();
+  // Scaled to a fixed track: a wider estimate would otherwise shrink the residuals.
+  const double track = 1 + p[kTrack];
+  const Residuals off(motion.x_m - window.motion.x_m, motion.y_m - window.motion.y_m,
+                      factor.wheel_rotation_rad() - window.rotation_rad,
+                      factor.rotation_rad() - window.rotation_rad);
+  const double gyro_sigma_rad = factor.has_gyro() ? kGyroRotationSigma_rad : kNoGyroSigma_rad;
+  const Residuals unit(1 / kPoseSigma_m, 1 / kPoseSigma_m, track / kWheelRotationSigma_rad,
+                       1 / gyro_sigma_rad);
+  constexpr int kRowsInOrder[] = {0, 1, 3, 2};
+  WindowResiduals of{unit.cwiseProduct(off), {}, {}};
+  for (int i = 0; i < kResiduals; ++i) {
+    const int row = kRowsInOrder[i];
+    of.slope.row(i) << unit[i] * factor.jacobian().row(row).head<kDelay>(),
+        unit[i] * factor.delay_slope()[row];
+    of.interpolation[i] = core::squared(unit[i]) * factor.covariance()(row, row);
   }
-  const double change_rad = std::sqrt(change_rad2);
-  const double aside_m = change_rad * std::abs(window.distance_m) / 2;
-  return {aside_m / kPoseSigma_m, aside_m / kPoseSigma_m, 0, change_rad / kGyroRotationSigma_rad};
+  of.slope(2, kTrack) += off[2] / kWheelRotationSigma_rad;
+  return of;
 }
 
 /// Iteratively reweighted least squares over the windows.
@@ -164,15 +164,9 @@ class Fit {
   }
 
   bool linearize() {
-    const auto cut = [&](double delay_s) {
-      return cut_windows(at_true_times(steps_, delay_s), places_);
-    };
-    const std::vector<DriveWindow> windows = cut(p_[kDelay]);
+    const std::vector<DriveWindow> windows =
+        cut_windows(at_true_times(steps_, p_[kDelay]), places_);
     if (windows.size() < kMinWindows) return false;
-    const std::vector<DriveWindow> earlier =
-        with_delay_ ? cut(p_[kDelay] - kDelayPerturbation_s) : windows;
-    const std::vector<DriveWindow> later =
-        with_delay_ ? cut(p_[kDelay] + kDelayPerturbation_s) : windows;
     information_ = prior_.asDiagonal();
     curvature_ = prior_.asDiagonal();
     Vector from_prior = p_;
@@ -182,12 +176,8 @@ class Fit {
     window_gradients_.clear();
     residuals_.clear();
     has_gyro_ = false;
-    for (const DriveWindow& window : windows) {
-      const DriveWindow* before = same(earlier, window);
-      const DriveWindow* after = same(later, window);
-      if (before != nullptr && after != nullptr) add(window, *before, *after);
-    }
-    return window_gradients_.size() >= kMinWindows;
+    for (const DriveWindow& window : windows) add(window);
+    return true;
   }
 
   /// Scales of the residuals by their medians, which occasional slips do not affect.
@@ -200,31 +190,14 @@ class Fit {
     }
   }
 
-  /// The window between the same poses.
-  static const DriveWindow* same(const std::vector<DriveWindow>& windows,
-                                 const DriveWindow& window) {
-    const auto begin = [](const DriveWindow& of) { return of.steps.front().from_ns; };
-    const auto found = std::ranges::lower_bound(windows, begin(window), {}, begin);
-    return found != windows.end() && begin(*found) == begin(window) ? &*found : nullptr;
-  }
-
-  void add(const DriveWindow& window, const DriveWindow& earlier, const DriveWindow& later) {
-    const Residuals sigma =
-        (scale_.cwiseAbs2() + interpolation_sigma_of(window).cwiseAbs2()).cwiseSqrt().eval();
-    const auto residuals = [&](const DriveWindow& of, const Vector& p) -> Residuals {
-      return residuals_of(of, geometry_, p).cwiseQuotient(sigma);
-    };
-    const Residuals now = residuals(window, p_);
-    residuals_.push_back(now.cwiseProduct(sigma));
-    Eigen::Matrix<double, kResiduals, kParameters> slope;
-    constexpr double kPerturbation = 1e-5;
-    for (int i = 0; i < kDelay; ++i) {
-      Vector perturbed = p_;
-      perturbed[i] += kPerturbation;
-      slope.col(i) = (residuals(window, perturbed) - now) / kPerturbation;
-    }
-    slope.col(kDelay) =
-        (residuals(later, p_) - residuals(earlier, p_)) / (2 * kDelayPerturbation_s);
+  void add(const DriveWindow& window) {
+    const WindowResiduals of = residuals_of(window, geometry_, p_);
+    const Residuals sigma = (scale_.cwiseAbs2() + of.interpolation).cwiseSqrt();
+    const Residuals now = of.values.cwiseQuotient(sigma);
+    residuals_.push_back(of.values);
+    Eigen::Matrix<double, kResiduals, kParameters> slope =
+        sigma.cwiseInverse().asDiagonal() * of.slope;
+    if (!with_delay_) slope.col(kDelay).setZero();
     const Residuals weight =
         now.unaryExpr([&](double r) { return uses_tukey_ ? tukey_weight(r) : cauchy_weight(r); });
     const Residuals curve = now.unaryExpr(
