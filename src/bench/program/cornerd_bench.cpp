@@ -206,7 +206,8 @@ void add_options(tool::Command& program, const std::shared_ptr<BenchOptions>& op
   program.add_flag(
       "--localizer", options->localizer,
       "other benchmark: poses against the truth and the Cramer-Rao bound, with a biased lidar, few "
-      "returns, unmapped obstacles, a displaced wall, a closed door, in motion, kidnapped; "
+      "returns, unmapped obstacles, displaced walls, a closed door, half a view, a wrong map, in "
+      "motion, kidnapped; "
       "--positions: poses of each, default 1,000");
   program.add_flag(
       "--odometry", options->odometry,
