@@ -2,7 +2,9 @@
 #include "core/recognition/place_search.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 
 #include "core/geometry/squared.hpp"
 
@@ -17,8 +19,9 @@ constexpr std::size_t kMaxCompared = 12;
 constexpr double kFewRaysMargin = 60;
 /// A ray on the wall that is predicted, roughly (m).
 constexpr double kRoughHit_m = 0.12;
-/// Remaining error of a hypothesis, and of one that was refined on few rays (m).
-constexpr double kCandidateRadius_m = 0.12;
+/// Remaining error of a hypothesis of a search in cells of 5 cm, and of one that was refined on few
+/// rays (m).
+constexpr double kCandidateRadius_m = 0.045;
 constexpr double kFewRaysRadius_m = 0.03;
 /// Refinement that leads farther away has left its place.
 constexpr double kMaxMove_m = 0.5;
@@ -28,8 +31,9 @@ constexpr double kSame_m = 0.03;
 constexpr double kSame_rad = 0.02;
 constexpr double kOnePlace_m = 0.3;
 constexpr double kOnePlace_rad = 0.15;
-/// Map uncertainty while hypotheses are refined roughly.
-constexpr double kRoughMapSigma_m = 0.025;
+/// Map uncertainties with which candidates are refined roughly: with free offsets, walls follow
+/// the things that stand before them; with none, walls that are off do not fit.
+constexpr std::array kRoughMapSigmas_m = {0.025, 0.0};
 /// An end of a wall in front of something farther, where the map has one (nats).
 constexpr double kWallEnd = 4;
 /// A pose that is less certain than this beyond the map is no place: a single wall, a bare
@@ -102,6 +106,26 @@ void PlaceSearch::consider(std::span<const PoseHypothesis> hypotheses) {
   }
 }
 
+PlaceSearch::Candidate PlaceSearch::refined_roughly(const Candidate& candidate,
+                                                    double spacing_rad) {
+  Candidate best{candidate.T_map_lidar, -std::numeric_limits<double>::infinity(), 0};
+  for (const double map_sigma_m : kRoughMapSigmas_m) {
+    const RefinedPose refined = refinement_.refine_roughly(
+        map_, candidate.T_map_lidar, kCandidateRadius_m, subset_, noise_scale_, map_sigma_m);
+    if (!refined.valid ||
+        !same_pose(refined.T_map_lidar, candidate.T_map_lidar, kMaxMove_m, kMaxMove_rad)) {
+      continue;
+    }
+    const auto hits = ray_caster_.cast(map_, refined.T_map_lidar, subset_);
+    const ScanLikelihood likelihood = beam_model_.likelihood(
+        subset_, hits, refined.T_map_lidar, spacing_rad, noise_scale_, max_map_sigma_m_);
+    if (likelihood.log_ratio > best.score) {
+      best = {refined.T_map_lidar, likelihood.log_ratio, likelihood.map_sigma_m};
+    }
+  }
+  return best;
+}
+
 void PlaceSearch::refine_roughly() {
   const auto is_better = [](const Candidate& a, const Candidate& b) {
     if (a.score != b.score) return a.score > b.score;
@@ -114,22 +138,15 @@ void PlaceSearch::refine_roughly() {
   candidates_.resize(std::min(candidates_.size(), kMaxRefined));
   std::size_t kept = 0;
   for (const Candidate& candidate : candidates_) {
-    const RefinedPose refined = refinement_.refine_roughly(
-        map_, candidate.T_map_lidar, kCandidateRadius_m, subset_, noise_scale_, kRoughMapSigma_m);
-    if (!refined.valid ||
-        !same_pose(refined.T_map_lidar, candidate.T_map_lidar, kMaxMove_m, kMaxMove_rad)) {
-      continue;
-    }
+    const Candidate best = refined_roughly(candidate, spacing_rad);
     const auto last = candidates_.begin() + static_cast<std::ptrdiff_t>(kept);
-    if (std::any_of(candidates_.begin(), last, [&](const Candidate& other) {
-          return same_pose(other.T_map_lidar, refined.T_map_lidar, kSame_m, kSame_rad);
+    if (!std::isfinite(best.score) ||
+        std::any_of(candidates_.begin(), last, [&](const Candidate& other) {
+          return same_pose(other.T_map_lidar, best.T_map_lidar, kSame_m, kSame_rad);
         })) {
       continue;
     }
-    const auto hits = ray_caster_.cast(map_, refined.T_map_lidar, subset_);
-    const ScanLikelihood likelihood = beam_model_.likelihood(
-        subset_, hits, refined.T_map_lidar, spacing_rad, noise_scale_, max_map_sigma_m_);
-    candidates_[kept++] = {refined.T_map_lidar, likelihood.log_ratio, likelihood.map_sigma_m};
+    candidates_[kept++] = best;
   }
   candidates_.resize(kept);
   std::sort(candidates_.begin(), candidates_.end(), is_better);

@@ -42,6 +42,7 @@ class PlaceSearch {
     double map_sigma_m = 0;
   };
   double rough_score(const Pose2& T_map_lidar);
+  Candidate refined_roughly(const Candidate& candidate, double spacing_rad);
   void refine_roughly();
   void add(const Candidate& candidate);
   double wall_ends_log_ratio(const Pose2& T_map_lidar) const;
