@@ -39,7 +39,7 @@ class Service : public DaemonTest {
   static void write_large_map(const std::filesystem::path& file) {
     std::ofstream map(file);
     map << R"({ "format": "cornerd-map", "version": 1, "walls": [ )";
-    for (int i = 0; i < 300; ++i) {
+    for (int i = 0; i < 100; ++i) {
       map << (i > 0 ? "," : "") << "{\"from\": [" << i << ", 0], \"to\": [" << i << ", 1]}";
     }
     map << "] }";

@@ -19,9 +19,7 @@ constexpr std::size_t kMaxCompared = 12;
 constexpr double kFewRaysMargin = 60;
 /// A ray on the wall that is predicted, roughly (m).
 constexpr double kRoughHit_m = 0.12;
-/// Remaining error of a hypothesis of a search in cells of 5 cm, and of one that was refined on few
-/// rays (m).
-constexpr double kCandidateRadius_m = 0.045;
+/// Remaining error of one that was refined on few rays (m).
 constexpr double kFewRaysRadius_m = 0.03;
 /// Refinement that leads farther away has left its place.
 constexpr double kMaxMove_m = 0.5;
@@ -31,9 +29,14 @@ constexpr double kSame_m = 0.03;
 constexpr double kSame_rad = 0.02;
 constexpr double kOnePlace_m = 0.3;
 constexpr double kOnePlace_rad = 0.15;
-/// Map uncertainties with which candidates are refined roughly: with free offsets, walls follow
-/// the things that stand before them; with none, walls that are off do not fit.
-constexpr std::array kRoughMapSigmas_m = {0.025, 0.0};
+/// How candidates are refined roughly: with free offsets from a pair of corners, a decimetre off,
+/// and with none from a search in cells of 5 cm. With free offsets walls follow the things that
+/// stand before them; with none, walls that are off do not fit.
+struct RoughRefinement {
+  double radius_m;
+  double map_sigma_m;
+};
+constexpr std::array kRoughRefinements = {RoughRefinement{0.12, 0.025}, RoughRefinement{0.045, 0}};
 /// An end of a wall in front of something farther, where the map has one (nats).
 constexpr double kWallEnd = 4;
 /// A pose that is less certain than this beyond the map is no place: a single wall, a bare
@@ -109,9 +112,9 @@ void PlaceSearch::consider(std::span<const PoseHypothesis> hypotheses) {
 PlaceSearch::Candidate PlaceSearch::refined_roughly(const Candidate& candidate,
                                                     double spacing_rad) {
   Candidate best{candidate.T_map_lidar, -std::numeric_limits<double>::infinity(), 0};
-  for (const double map_sigma_m : kRoughMapSigmas_m) {
+  for (const RoughRefinement& rough : kRoughRefinements) {
     const RefinedPose refined = refinement_.refine_roughly(
-        map_, candidate.T_map_lidar, kCandidateRadius_m, subset_, noise_scale_, map_sigma_m);
+        map_, candidate.T_map_lidar, rough.radius_m, subset_, noise_scale_, rough.map_sigma_m);
     if (!refined.valid ||
         !same_pose(refined.T_map_lidar, candidate.T_map_lidar, kMaxMove_m, kMaxMove_rad)) {
       continue;
