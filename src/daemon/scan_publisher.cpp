@@ -49,6 +49,7 @@ void ScanPublisher::take_next_maps(std::uint32_t generation) {
     next_maps_.pop_front();
   }
   if (!is_new) return;
+  recent_lost_.reset();
   last_fix_.reset();  // poses in two maps cannot be compared
   if (map_.line) server_.publish(MessageClass::kMap, map_.line);
 }
@@ -58,6 +59,8 @@ void ScanPublisher::publish(const ScanReport& report) {
   take_next_maps(report.generation);
   latencies_.add(core::to_seconds(report.latency_ns));
   ++poses_[static_cast<std::size_t>(pose.state)];
+  recent_lost_ <<= 1;
+  recent_lost_[0] = pose.state == core::PoseState::kLost;
   odometry_ = report.result.odometry;
   bias_ = report.result.bias;
   lidar_ = report.lidar;

@@ -2,10 +2,12 @@
 #pragma once
 
 #include <array>
+#include <bitset>
 #include <cstdint>
 #include <deque>
 #include <memory>
 #include <optional>
+#include <string>
 
 #include "core/map/wall_map.hpp"
 #include "daemon/latency_window.hpp"
@@ -19,6 +21,8 @@ namespace cornerd::daemon {
 /// Publishes POSE, SCAN, BREAKPOINTS and EVENT from the results of scans.
 class ScanPublisher {
  public:
+  /// About 15 s of an A1.
+  static constexpr std::size_t kRecentScans = 100;
   static constexpr std::size_t kStates = static_cast<std::size_t>(core::PoseState::kLost) + 1;
 
   /// A map with its MAP. `has_name`: POSE names it, because there are several.
@@ -49,6 +53,10 @@ class ScanPublisher {
   core::TimeNs end_of_newest_scan_ns() const { return end_ns_; }
   /// Number of scans by state.
   const std::array<std::uint64_t, kStates>& poses() const { return poses_; }
+  /// How many of the last kRecentScans in this map were lost.
+  std::size_t recently_lost() const { return recent_lost_.count(); }
+  /// Empty if there is no map.
+  std::string map_name() const { return map_.map ? map_.map->plan().name : std::string(); }
 
  private:
   void take_next_maps(std::uint32_t generation);
@@ -77,6 +85,7 @@ class ScanPublisher {
   std::uint32_t lidar_ = 0;
   core::TimeNs end_ns_ = 0;
   std::array<std::uint64_t, kStates> poses_{};
+  std::bitset<kRecentScans> recent_lost_;  ///< newest first
 };
 
 }  // namespace cornerd::daemon

@@ -5,6 +5,7 @@
 #include <array>
 #include <string_view>
 
+#include "daemon/fault_list.hpp"
 #include "daemon/log.hpp"
 #include "drivers/lidar_status.hpp"
 #include "message/line_writer.hpp"
@@ -104,6 +105,9 @@ void StatusPublisher::publish(const drivers::LidarStatus& lidar, const ScanPubli
   status.odometry = &scans.odometry();
   if (odometry_ != nullptr) odometry_->describe(status);
   if (odometry_clients_ != nullptr) odometry_clients_->describe(status);
+  const FaultList faults(lidar, scans, status.odometry_hint);
+  status.faults = faults.names();
+  status.hint = faults.hint();
   const LatencyWindow& latencies = scans.latencies();
   status.latency = {latencies.percentile(0.5), latencies.percentile(0.95),
                     latencies.percentile(0.99), !latencies.empty()};

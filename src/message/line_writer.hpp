@@ -29,6 +29,8 @@ inline constexpr int kSchema = 2;
 /// The contents of STATUS. Texts must outlive LineWriter::status(). Empty texts are left out.
 struct StatusFields {
   core::TimeNs t_ns = 0;
+  std::span<const std::string_view> faults;  ///< in the order of weight; left out if empty
+  std::string_view hint;                     ///< of the first
   std::string_view lidar_state;
   std::string_view lidar_fault;
   std::string_view lidar_detail;

@@ -6,6 +6,14 @@
 namespace cornerd::message {
 namespace {
 
+void write_faults(JsonText& json, const StatusFields& status) {
+  if (status.faults.empty()) return;
+  json.open_array("faults");
+  for (const std::string_view fault : status.faults) json.string(fault);
+  json.close_array();
+  json.text("hint", status.hint);
+}
+
 void write_bias(JsonText& json, const core::SensorBias& bias) {
   json.number("range_scale", bias.range_scale, kTimeDecimals);
   json.number("range_offset", bias.range_offset_m, kTimeDecimals);
@@ -135,6 +143,7 @@ void write_loops(JsonText& json, const StatusFields& status) {
 std::string_view LineWriter::status(const StatusFields& status) {
   begin("STATUS");
   json_.seconds("t", status.t_ns);
+  write_faults(json_, status);
   write_lidar(json_, status);
   write_counters(json_, status.counters);
   if (status.odometry != nullptr &&

@@ -81,6 +81,61 @@ TEST_F(StatusPublisherTest, EachStateAndFault_Event) {
          "backoff, unplugged: gone");
 }
 
+class StatusFaults : public StatusPublisherTest {
+ protected:
+  void localize(core::PoseState state, std::size_t scans) {
+    ScanReport report;
+    report.result.pose.state = state;
+    for (std::size_t i = 0; i < scans; ++i) scans_.publish(report);
+  }
+
+  json published() {
+    publisher_.publish(lidar_, scans_, localization_, {}, 0);
+    json line = next();
+    while (line.is_object() && line["class"] == "EVENT") line = next();
+    return line;
+  }
+
+  IdleLidar idle_;
+  Localization localization_{idle_,
+                             std::make_unique<core::Pipeline>(nullptr, core::LocalizerConfig{}),
+                             SourceKind::kDevice};
+  ScanPublisher scans_{server_, {}};
+  drivers::LidarStatus lidar_;
+};
+
+TEST_F(StatusFaults, NothingIsWrong_NoFaultsAndNoHint) {
+  localize(core::PoseState::kFix, 100);
+  const json status = published();
+  EXPECT_EQ(status["class"], "STATUS");
+  EXPECT_FALSE(status.contains("faults"));
+  EXPECT_FALSE(status.contains("hint"));
+}
+
+TEST_F(StatusFaults, ScansFitNowhere_MapMismatchUntilTheyFit) {
+  localize(core::PoseState::kLost, 94);
+  EXPECT_FALSE(published().contains("faults"));
+  localize(core::PoseState::kLost, 1);
+  const json status = published();
+  EXPECT_EQ(status["faults"], json::parse(R"(["map-mismatch"])"));
+  EXPECT_EQ(status["hint"].get<std::string>().find("95 of the last 100 scans fit nowhere"), 0U);
+  localize(core::PoseState::kTracking, 6);
+  EXPECT_FALSE(published().contains("faults"));
+}
+
+TEST_F(StatusFaults, LidarFaultAndUnhealthyOdometry_InTheOrderOfWeight) {
+  lidar_.state = LidarState::kFaulty;
+  lidar_.fault = LidarFault::kDeadLaser;
+  lidar_.detail.set("dark");
+  ScanReport report;
+  report.result.odometry.present = true;
+  report.result.odometry.healthy = false;
+  scans_.publish(report);
+  const json status = published();
+  EXPECT_EQ(status["faults"], json::parse(R"(["dead-laser", "odometry-unhealthy"])"));
+  EXPECT_EQ(status["hint"], "dark");
+}
+
 TEST_F(StatusPublisherTest, Status_Published_HasCountersOfDriverAndDaemon) {
   IdleLidar idle;
   Localization localization(idle,

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+#include "daemon/fault_list.hpp"
+
+#include <cstddef>
+#include <utility>
+
+namespace cornerd::daemon {
+namespace {
+
+/// Of the recent scans: in a map of another place hardly any scan has a pose, whereas among
+/// furniture and people that hide half of the walls some always have one.
+constexpr std::size_t kMinLost = ScanPublisher::kRecentScans * 95 / 100;
+
+std::string lost_hint(const ScanPublisher& scans) {
+  return std::to_string(scans.recently_lost()) + " of the last " +
+         std::to_string(ScanPublisher::kRecentScans) + " scans fit nowhere in the map \"" +
+         scans.map_name() +
+         "\": check that it is the map of this place (not mirrored, in metres), that the robot is "
+         "inside it, and lidar.mount.inverted";
+}
+
+}  // namespace
+
+FaultList::FaultList(const drivers::LidarStatus& lidar, const ScanPublisher& scans,
+                     std::string_view odometry_hint) {
+  if (lidar.fault != drivers::LidarFault::kNone) {
+    add(drivers::to_string(lidar.fault), std::string(lidar.detail.view()));
+  }
+  if (scans.recently_lost() >= kMinLost) add("map-mismatch", lost_hint(scans));
+  if (scans.odometry().present && !scans.odometry().healthy) {
+    add("odometry-unhealthy",
+        "the odometry contradicts the lidar and is not used: check wheel_radius, track, "
+        "counts_per_turn, the signs of counts and gyro, and lidar.mount");
+  }
+  if (!odometry_hint.empty()) add("odometry-absent", std::string(odometry_hint));
+}
+
+void FaultList::add(std::string_view name, std::string hint) {
+  if (names_.empty()) hint_ = std::move(hint);
+  names_.push_back(name);
+}
+
+}  // namespace cornerd::daemon

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "daemon/scan_publisher.hpp"
+#include "drivers/lidar_driver.hpp"
+
+namespace cornerd::daemon {
+
+/// What is wrong between lidar and pose, in the order of weight: the faults of STATUS, and a hint
+/// for a person about the first.
+class FaultList {
+ public:
+  /// `odometry_hint`: why odometry is absent; empty if it is not, or nobody knows why.
+  FaultList(const drivers::LidarStatus& lidar, const ScanPublisher& scans,
+            std::string_view odometry_hint);
+
+  std::span<const std::string_view> names() const { return names_; }
+  /// One sentence; empty if there is no fault.
+  const std::string& hint() const { return hint_; }
+
+ private:
+  void add(std::string_view name, std::string hint);
+
+  std::vector<std::string_view> names_;
+  std::string hint_;
+};
+
+}  // namespace cornerd::daemon
