@@ -26,6 +26,10 @@ void write_wall(JsonText& json, const core::Wall& wall, double default_thickness
     json.key("thickness");
     json.shortest(wall.thickness_m);
   }
+  if (wall.sigma_m) {
+    json.key("sigma");
+    json.shortest(*wall.sigma_m);
+  }
   json.close_object();
 }
 

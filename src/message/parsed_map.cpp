@@ -26,6 +26,7 @@ core::Wall read_wall(const Json& object, double thickness_m, FieldReader& walls)
   wall.from = read_point(fields, "from", fields.array("from", 2));
   wall.to = read_point(fields, "to", fields.array("to", 2));
   wall.thickness_m = fields.optional_number("thickness", kThicknessLimitsM).value_or(thickness_m);
+  wall.sigma_m = fields.optional_number("sigma", kSigmaLimitsM);
   if (fields.error()) walls.fail("\"walls\": " + fields.error()->text);
   return wall;
 }

@@ -65,6 +65,7 @@ core::Wall read_wall(ObjectReader object, double default_thickness_m) {
   wall.to = require_point(object, "to");
   wall.thickness_m = default_thickness_m;
   object.number("thickness", wall.thickness_m, kThicknessM);
+  if (double sigma_m = 0; object.number("sigma", sigma_m, kSigmaOfWallsM)) wall.sigma_m = sigma_m;
   object.finish();
   if ((wall.to - wall.from).norm() < kSamePointM && wall.thickness_m < kSamePointM) {
     object.fail("to", "the wall has neither length nor thickness");

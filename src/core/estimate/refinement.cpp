@@ -82,8 +82,9 @@ Refinement::Step Refinement::step(const WallMap& map, const Pose2& T_map_lidar,
     const double nx = face.normal.x();
     const double ny = face.normal.y();
     const double height_m = nx * T_map_lidar.x_m + ny * T_map_lidar.y_m - face.offset_m;
+    const double face_sigma_m = std::max(map_sigma_m, face.sigma_m);
     const FaceSums sum = lanes_.sum(begin, end, {c * nx + s * ny, c * ny - s * nx}, height_m,
-                                    extra_sigma_m, map_sigma_m);
+                                    extra_sigma_m, face_sigma_m);
     if (residuals_.size() < kMaxResiduals) {
       residuals_.push_back({met, face.normal, sum.weight, sum.lever, sum.distance});
     }
@@ -95,7 +96,7 @@ Refinement::Step Refinement::step(const WallMap& map, const Pose2& T_map_lidar,
     sums.information(2, 2) += sum.lever_squared;
     sums.gradient += Eigen::Vector3d(sum.distance * nx, sum.distance * ny, sum.distance_lever);
     sums.chi_square += sum.z_squared;
-    if (map_sigma_m > 0) sums.marginalise(face.normal, sum, map_sigma_m);
+    if (face_sigma_m > 0) sums.marginalise(face.normal, sum, face_sigma_m);
     sums.squared_distances += sum.squared_distances;
     sums.inliers += static_cast<std::size_t>(sum.points);
   }
@@ -165,7 +166,7 @@ RefinedPose Refinement::gauss_newton(const WallMap& map, const Pose2& start, dou
   refined.reduced_chi_square = sums.chi_square / std::max(1.0, inliers - 3);
   refined.noise_covariance = solver.inverse();
   refined.covariance = refined.noise_covariance * std::max(1.0, refined.reduced_chi_square);
-  if (map_sigma_m > 0) {
+  if (!sums.of_offsets.isZero(0)) {
     solver.compute(sums.information + sums.of_offsets);
     refined.noise_covariance = solver.inverse();
   }

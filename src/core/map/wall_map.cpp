@@ -54,6 +54,24 @@ WallMap::WallMap(FloorPlan plan) : plan_(std::move(plan)) {
     upper_right_ = upper_right_.cwiseMax(face.from).cwiseMax(face.to);
   }
   index();
+  assign_sigmas();
+}
+
+void WallMap::assign_sigmas() {
+  const auto& walls = plan_.walls;
+  if (std::none_of(walls.begin(), walls.end(), [](const Wall& wall) { return wall.sigma_m; })) {
+    return;
+  }
+  for (Face& face : faces_) {
+    const Vec2 behind = (face.from + face.to) / 2 - kGeometryEpsilon_m * face.normal;
+    for (const std::uint32_t i : wall_grid_.at(behind)) {
+      const WallBox box(walls[i]);
+      const Vec2 local = box.to_local(behind);
+      if (std::abs(local.x()) > box.half_length_m + kGeometryEpsilon_m) continue;
+      if (std::abs(local.y()) > box.half_width_m + 2 * kGeometryEpsilon_m) continue;
+      face.sigma_m = std::max(face.sigma_m, walls[i].sigma_m.value_or(0));
+    }
+  }
 }
 
 void WallMap::index() {

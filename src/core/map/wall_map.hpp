@@ -19,6 +19,8 @@ struct Wall {
   Vec2 from = Vec2::Zero();
   Vec2 to = Vec2::Zero();
   double thickness_m = 0;
+  /// How far off it may be across itself (a standard deviation), if that is known of this wall.
+  std::optional<double> sigma_m{};
 };
 
 struct Room {
@@ -47,6 +49,7 @@ struct Face {
   Vec2 normal = Vec2::Zero();     ///< unit vector into the free space: rotate_left(direction)
   double offset_m = 0;            ///< normal.dot(p) of every point p on the face
   double length_m = 0;
+  double sigma_m = 0;  ///< of its wall's own offset; 0 where the wall has none of its own
 };
 
 /// A vertex of the free space: two faces meet, or a thin wall ends. "Left" and "right" as seen from
@@ -94,6 +97,7 @@ class WallMap {
 
  private:
   void index();
+  void assign_sigmas();
 
   FloorPlan plan_;
   std::vector<Face> faces_;

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/geometry/squared.hpp"
+
 namespace cornerd::core {
 namespace {
 
@@ -108,7 +110,9 @@ void BeamModel::meet(std::span<const PolarPoint> points, std::span<const Predict
 }
 
 double BeamModel::faces_log_ratio(double spacing_rad, double map_sigma_m) {
-  const double variance_m2 = map_sigma_m * map_sigma_m;
+  const auto variance_m2 = [&](std::uint32_t face) {
+    return squared(std::max(map_sigma_m, map_.faces()[face].sigma_m));
+  };
   ++evaluation_;
   met_.clear();
   for (const Ray& ray : rays_) {
@@ -130,7 +134,7 @@ double BeamModel::faces_log_ratio(double spacing_rad, double map_sigma_m) {
   for (const std::uint32_t index : met_) {
     FaceSums& face = faces_[index];
     const double share = worth(face.rays);
-    face.offset_m = share * face.gradient / (share * face.information + 1 / variance_m2);
+    face.offset_m = share * face.gradient / (share * face.information + 1 / variance_m2(index));
   }
   for (const Ray& ray : rays_) {
     if (ray.outcome != Outcome::kHit) continue;
@@ -143,9 +147,10 @@ double BeamModel::faces_log_ratio(double spacing_rad, double map_sigma_m) {
   for (const std::uint32_t index : met_) {
     const FaceSums& face = faces_[index];
     const double share = worth(face.rays);
-    log_ratio += std::max(kWorstFace, share * face.log_density -
-                                          std::log1p(variance_m2 * share * face.information) / 2 -
-                                          face.offset_m * face.offset_m / (2 * variance_m2));
+    log_ratio +=
+        std::max(kWorstFace, share * face.log_density -
+                                 std::log1p(variance_m2(index) * share * face.information) / 2 -
+                                 face.offset_m * face.offset_m / (2 * variance_m2(index)));
   }
   return log_ratio;
 }
@@ -195,7 +200,9 @@ ScanLikelihood BeamModel::by_map_sigma(std::span<const PolarPoint> points, doubl
   result.rays = rays_.size();
   result.map_sigma_m = map_sigma_m;
   for (Ray& ray : rays_) {
-    const double variance_m2 = ray.variance_m2 + map_sigma_m * map_sigma_m;
+    const double face_sigma_m =
+        ray.face == PredictedHit::kNone ? 0 : map_.faces()[ray.face].sigma_m;
+    const double variance_m2 = ray.variance_m2 + squared(std::max(map_sigma_m, face_sigma_m));
     if (ray.face == PredictedHit::kNone) {
       ray.outcome = Outcome::kBeyond;
     } else if (ray.across_m * ray.across_m < kGateSigmas * kGateSigmas * variance_m2) {

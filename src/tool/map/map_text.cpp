@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "tool/map/map_text.hpp"
 
+#include <cstddef>
+#include <span>
 #include <string_view>
 
 #include "message/json_text.hpp"
@@ -25,6 +27,29 @@ void write_point(message::JsonText& json, std::string_view name, const core::Vec
   json.close_array();
 }
 
+std::string rooms_text(std::span<const core::Room> rooms) {
+  message::JsonText json(256);
+  std::string text = "  \"rooms\": [\n";
+  for (std::size_t i = 0; i < rooms.size(); ++i) {
+    json.clear();
+    json.open_object();
+    json.key("name");
+    json.string(rooms[i].name);
+    json.key("polygon");
+    json.open_array();
+    for (const core::Vec2& point : rooms[i].polygon) {
+      json.open_array();
+      json.fixed(point.x(), kMapDecimals);
+      json.fixed(point.y(), kMapDecimals);
+      json.close_array();
+    }
+    json.close_array();
+    json.close_object();
+    text.append("    ").append(json.view()).append(i + 1 < rooms.size() ? ",\n" : "\n");
+  }
+  return text;
+}
+
 std::string map_text(const core::FloorPlan& plan) {
   message::JsonText json(256);
   json.string(plan.name);
@@ -39,9 +64,14 @@ std::string map_text(const core::FloorPlan& plan) {
     write_point(json, "to", wall.to);
     json.key("thickness");
     json.fixed(wall.thickness_m, kMapDecimals);
+    if (wall.sigma_m) {
+      json.key("sigma");
+      json.fixed(*wall.sigma_m, kMapDecimals);
+    }
     json.close_object();
     text.append("    ").append(json.view()).append(i + 1 < plan.walls.size() ? ",\n" : "\n");
   }
+  if (!plan.rooms.empty()) text.append("  ],\n").append(rooms_text(plan.rooms));
   return text + "  ] }\n";
 }
 
@@ -60,13 +90,14 @@ void MapOutput::add(Command& command, const std::string& plotted) {
   command.add_option("-o,--output", output, "the map; -: on standard output")
       .required()
       .type_name("MAP");
-  command.add_option("--name", name, "name of the map; default: the name of its file")
+  command.add_option("--name", name, "name of the map; default: the plan's, else of its file")
       .type_name("NAME");
   command.add_option("--plot", plot, "draw " + plotted).type_name("SVG");
 }
 
 std::shared_ptr<const core::WallMap> MapOutput::write(core::FloorPlan& plan) const {
-  plan.name = !name.empty() ? name : output == kStandardOutput ? "map" : output.stem().string();
+  if (!name.empty()) plan.name = name;
+  if (plan.name.empty()) plan.name = output == kStandardOutput ? "map" : output.stem().string();
   const std::string text = map_text(plan);
   auto map = read_back(text, output);
   write_file(output, text);

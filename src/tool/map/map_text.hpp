@@ -20,8 +20,8 @@ struct MapOutput {
   /// -o, --name and --plot. `plotted`: the content of the plot.
   void add(Command& command, const std::string& plotted);
 
-  /// Names the plan and writes its walls, without rooms. Throws Failure before it writes if the
-  /// plan is no valid map.
+  /// Names the plan, if it has no name or --name is given, and writes it. Throws Failure before it
+  /// writes if the plan is no valid map.
   std::shared_ptr<const core::WallMap> write(core::FloorPlan& plan) const;
 };
 

@@ -14,6 +14,7 @@
 
 #include "settings/map_file.hpp"
 #include "settings/object_reader.hpp"
+#include "survey/plan_refinement.hpp"
 #include "survey/ransac_survey.hpp"
 #include "survey/survey.hpp"
 #include "tool/command_line/command.hpp"
@@ -37,6 +38,7 @@ struct SurveyOptions : MapOutput {
   std::filesystem::path odometry;
   std::filesystem::path trajectory;
   std::string start;
+  std::filesystem::path prior;
   std::string method = "adjusted";
   std::optional<std::size_t> iterations;
   bool manhattan = false;
@@ -64,6 +66,20 @@ survey::SurveyResult make_map(const SurveyOptions& options, const core::Localize
   }
 }
 
+/// Moves the result into the plan's frame and replaces its walls by the plan's, moved to where they
+/// are.
+std::string refine(const SurveyOptions& options, const core::LocalizerConfig& sensor,
+                   const survey::RecordedDrive& drive,
+                   const std::shared_ptr<const core::WallMap>& prior,
+                   survey::SurveyResult& result) {
+  try {
+    const survey::RefinedPlan refined = survey::refine_to_plan(drive, sensor, prior, result);
+    return refined_plan_report(prior->plan(), refined);
+  } catch (const std::invalid_argument& error) {
+    throw Failure(options.prior.string() + ": " + error.what());
+  }
+}
+
 core::Pose2 parse_start(const std::string& text) {
   if (text.empty()) return {};
   const core::Pose2 start = parse_pose(text);
@@ -79,11 +95,16 @@ void check_usage(const SurveyOptions& options) {
   CommandFiles files{.read = options.files,
                      .written = {options.plot, options.trajectory},
                      .output = options.output};
-  files.read.insert(files.read.end(), {options.odometry, options.settings.config_file()});
+  files.read.insert(files.read.end(),
+                    {options.odometry, options.prior, options.settings.config_file()});
   guard_files(files);
   const bool is_ransac = options.method == "ransac";
   if (is_ransac && options.manhattan)
     throw UsageError("--manhattan: not available with --method ransac; leave one out");
+  if (!options.prior.empty() && (is_ransac || !options.start.empty()))
+    throw UsageError(
+        "--prior: the plan gives the frame, and --method adjusted the walls; leave out " +
+        std::string(is_ransac ? "--method ransac" : "--start"));
   if (!is_ransac && options.iterations)
     throw UsageError("--iterations: only for --method ransac; add it");
 }
@@ -92,10 +113,17 @@ void run_survey(const SurveyOptions& options) {
   check_usage(options);
   const core::Pose2 start = parse_start(options.start);
   const settings::Config config = options.settings.resolve(/*needs_map=*/false);
+  const std::shared_ptr<const core::WallMap> prior =
+      options.prior.empty() ? nullptr : settings::load_map(options.prior);
   const survey::RecordedDrive drive = load_drive(
       options.files, {parse_wire(options.wire), config.lidar.mount.inverted}, options.odometry);
   survey::SurveyResult result = make_map(options, config.localizer(), drive);
-  survey::move_frame(start, result);
+  std::string refined_report;
+  if (prior == nullptr) {
+    survey::move_frame(start, result);
+  } else {
+    refined_report = refine(options, config.localizer(), drive, prior, result);
+  }
 
   options.write(result.plan);
   if (!options.trajectory.empty()) write_file(options.trajectory, trajectory_text(result));
@@ -104,7 +132,7 @@ void run_survey(const SurveyOptions& options) {
                options.method == "ransac" ? ransac_canvas(result) : survey_drawing(result));
   }
   Output report = Output::report_beside(options.output);
-  report.write(survey_report(result));
+  report.write(survey_report(result) + refined_report);
   report.flush();
 }
 
@@ -121,6 +149,10 @@ void add_survey(Command& program) {
       .add_option("--start", options->start,
                   "pose of the first scan in the map (m, m, rad); default: the origin")
       .type_name("X,Y,THETA");
+  command
+      .add_option("--prior", options->prior,
+                  "a drawn plan: its walls, moved to where they are, become the map")
+      .type_name("MAP");
   command
       .add_option("--trajectory", options->trajectory,
                   "the estimated trajectory, a pose for each scan, in the format of --truth")

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "replay/recording.hpp"
+#include "survey/plan_refinement.hpp"
 #include "survey/survey.hpp"
 
 namespace cornerd::tool {
@@ -23,5 +24,8 @@ std::string trajectory_text(const survey::SurveyResult& result);
 
 /// The report: walls, residuals, warnings, and what was dropped and why.
 std::string survey_report(const survey::SurveyResult& result);
+
+/// Which walls of the plan moved, which were not seen, and which are not there or new.
+std::string refined_plan_report(const core::FloorPlan& drawn, const survey::RefinedPlan& refined);
 
 }  // namespace cornerd::tool

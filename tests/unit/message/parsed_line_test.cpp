@@ -139,7 +139,7 @@ core::FloorPlan plan_of_all_kinds() {
   plan.thickness_m = 0.1;
   plan.sigma_m = 0.03;
   // Numbers without a short decimal fraction, too.
-  plan.walls = {{{0, 0}, {1.0 / 3, -1e-7}, 0.1}, {{-9999.125, 2}, {4, 3}, 0.25}};
+  plan.walls = {{{0, 0}, {1.0 / 3, -1e-7}, 0.1}, {{-9999.125, 2}, {4, 3}, 0.25, 0.03}};
   plan.rooms = {{"one", {{0, 0}, {1, 0}, {0.7, 0.1}}}};
   return plan;
 }
@@ -154,6 +154,7 @@ TEST(ParsedLine, Map_WrittenByLineWriter_ReadBackExactly) {
   EXPECT_EQ(read.sigma_m, plan.sigma_m);
   ASSERT_EQ(read.walls.size(), plan.walls.size());
   for (std::size_t i = 0; i < read.walls.size(); ++i) {
+    EXPECT_EQ(read.walls[i].sigma_m, plan.walls[i].sigma_m);
     EXPECT_EQ(read.walls[i].from, plan.walls[i].from);
     EXPECT_EQ(read.walls[i].to, plan.walls[i].to);
     EXPECT_EQ(read.walls[i].thickness_m, plan.walls[i].thickness_m);

@@ -172,5 +172,15 @@ TEST(WallMap, LineWallsThroughOnePoint_OneCornerForEachSector) {
   EXPECT_EQ(map.corners().size(), 4U * kWalls);
 }
 
+TEST(WallMap, WallWithSigma_ItsFacesHaveIt) {
+  FloorPlan plan;
+  plan.walls = {{{0, 0}, {4, 0}, 0.1}, {{0, 2}, {4, 2}, 0.1, 0.03}};
+  const WallMap map(std::move(plan));
+  ASSERT_EQ(map.faces().size(), 8U);
+  for (const Face& face : map.faces()) {
+    EXPECT_EQ(face.sigma_m, face.from.y() > 1 ? 0.03 : 0);
+  }
+}
+
 }  // namespace
 }  // namespace cornerd::core
