@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "tool/doctor/daemon_probe.hpp"
 
-#include <poll.h>
-
 #include <numeric>
 #include <optional>
 #include <string_view>
 
-#include "tool/doctor/machine.hpp"
-#include "tool/watch/socket_client.hpp"
+#include "client/connection.hpp"
 
 namespace cornerd::tool {
 
@@ -69,7 +66,7 @@ bool has_enough(const DaemonView& view) {
 DaemonView probe_daemon(const std::filesystem::path& socket, std::chrono::milliseconds at_most) {
   using Clock = std::chrono::steady_clock;
   DaemonView view;
-  SocketClient daemon;
+  client::Connection daemon;
   if (!daemon.connect(socket, /*blocking=*/false)) {
     view.connect_errno = daemon.error_number();
     return view;
@@ -79,11 +76,10 @@ DaemonView probe_daemon(const std::filesystem::path& socket, std::chrono::millis
   while (!has_enough(view) || !rate.is_settled()) {
     const auto left = std::chrono::ceil<std::chrono::milliseconds>(end - Clock::now());
     if (left.count() <= 0) break;
-    pollfd entry{.fd = daemon.fd(), .events = POLLIN, .revents = 0};
-    if (::poll(&entry, 1, static_cast<int>(left.count())) <= 0) continue;
-    const auto lines = daemon.take();
-    if (!lines) break;
-    for (const std::string_view line : split_words(*lines, "\n")) take_line(line, view, rate);
+    std::string_view line;
+    const client::Received received = daemon.receive(line, left);
+    if (received == client::Received::kEnd) break;
+    if (received == client::Received::kLine) take_line(line, view, rate);
   }
   view.odometry_hz = rate.hz();
   return view;

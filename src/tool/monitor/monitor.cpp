@@ -12,8 +12,6 @@
 #include <string_view>
 #include <utility>
 
-#include "tool/doctor/machine.hpp"
-
 namespace cornerd::tool {
 
 namespace {
@@ -26,8 +24,6 @@ constexpr std::string_view kWatch =
 constexpr auto kMinFrameInterval = 100ms;
 /// Keeps the ages on the screen up to date while no message comes.
 constexpr auto kMaxFrameInterval = 500ms;
-constexpr auto kFirstRetryDelay = 200ms;
-constexpr auto kMaxRetryDelay = 2000ms;
 constexpr int kMaxZoom = 8;
 
 std::string environment(const char* name) {
@@ -49,7 +45,6 @@ Monitor::Monitor(std::filesystem::path socket, const Scene& scene, const ViewCho
       signals_({SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGWINCH, SIGTSTP, SIGCONT}),
       encoder_(colours),
       next_try_(Clock::now()),
-      retry_(kFirstRetryDelay),
       drawn_(Clock::now() - kMaxFrameInterval) {}
 
 void Monitor::run() {
@@ -73,8 +68,7 @@ void Monitor::connect_when_due() {
 
 void Monitor::lose_daemon(std::string_view reason) {
   // Backs off here and not at connect(), so that a daemon that accepts and exits is covered too.
-  next_try_ = Clock::now() + retry_;
-  retry_ = std::min<std::chrono::milliseconds>(retry_ * 2, kMaxRetryDelay);
+  next_try_ = Clock::now() + retry_.next();
   state_.lose(reason, nanoseconds(Clock::now()));
   daemon_.close();
   is_changed_ = true;
@@ -114,13 +108,16 @@ void Monitor::wait() {
 }
 
 void Monitor::listen() {
-  const auto lines = daemon_.take();
-  if (!lines) return lose_daemon(socket_.string() + ": the daemon closed the connection");
-  for (const std::string_view line : split_words(*lines, "\n")) {
+  std::string_view line;
+  client::Received received;
+  while ((received = daemon_.take(line)) == client::Received::kLine) {
     state_.take_line(line, nanoseconds(Clock::now()));
     is_changed_ = true;
   }
-  if (state_.status()) retry_ = kFirstRetryDelay;
+  if (state_.status()) retry_.reset();
+  if (received == client::Received::kEnd) {
+    lose_daemon(socket_.string() + ": the daemon closed the connection");
+  }
 }
 
 void Monitor::handle_keys() {

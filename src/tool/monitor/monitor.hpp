@@ -4,12 +4,13 @@
 #include <chrono>
 #include <filesystem>
 
+#include "client/connection.hpp"
+#include "client/retry_delay.hpp"
 #include "tool/monitor/frame.hpp"
 #include "tool/monitor/monitor_state.hpp"
 #include "tool/monitor/screen.hpp"
 #include "tool/monitor/signal_queue.hpp"
 #include "tool/monitor/terminal.hpp"
-#include "tool/watch/socket_client.hpp"
 
 namespace cornerd::tool {
 
@@ -41,10 +42,10 @@ class Monitor {
   SignalQueue signals_;  // before the terminal: a signal must not prevent its restoration
   Terminal terminal_;
   FrameEncoder encoder_;
-  SocketClient daemon_;
+  client::Connection daemon_;
   MonitorState state_;
   Clock::time_point next_try_;
-  std::chrono::milliseconds retry_;
+  client::RetryDelay retry_{std::chrono::seconds(2)};
   Clock::time_point drawn_;
   bool is_changed_ = true;
   bool is_done_ = false;

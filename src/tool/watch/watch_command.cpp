@@ -1,31 +1,25 @@
 // SPDX-License-Identifier: MIT
 // cornerctl watch: the daemon's messages as they come.
-#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <string>
-#include <thread>
 #include <vector>
 
+#include "client/subscription.hpp"
 #include "settings/config.hpp"
 #include "tool/command_line/command.hpp"
 #include "tool/command_line/failure.hpp"
 #include "tool/command_line/output.hpp"
 #include "tool/command_line/shared_options.hpp"
 #include "tool/commands.hpp"
-#include "tool/watch/socket_client.hpp"
 
 namespace cornerd::tool {
 
 namespace {
 
-using namespace std::chrono_literals;
-
-// The daemon restarts in less than a second.
-constexpr auto kFirstReconnectDelay = 200ms;
-constexpr auto kMaxReconnectDelay = 5000ms;
+constexpr std::chrono::seconds kLargestReconnectDelay{5};
 
 struct WatchOptions {
   SettingsOptions settings;
@@ -37,12 +31,9 @@ struct WatchOptions {
 std::string request_for(const std::vector<std::string>& classes) {
   if (classes.empty()) return {};
   parse_classes(classes);
-  std::string request = R"({"class":"WATCH","classes":[)";
-  for (const std::string& name : classes) {
-    if (request.back() != '[') request += ',';
-    request += '"' + name + '"';
-  }
-  return request + "]}\n";
+  std::string names;
+  for (const std::string& name : classes) names += (names.empty() ? "" : ",") + name;
+  return client::watch_request(names);
 }
 
 void watch(const WatchOptions& options) {
@@ -51,23 +42,21 @@ void watch(const WatchOptions& options) {
       options.socket.empty() ? options.settings.resolve(/*needs_map=*/false).socket.pose
                              : options.socket;
   Output output(/*flush_each=*/true);
-  SocketClient daemon;
-  if (!daemon.connect(socket)) throw Failure(daemon.problem() + " (does cornerd run?)");
-
-  for (auto retry = kFirstReconnectDelay;;) {
-    if (request.empty() || daemon.send(request)) {
-      for (std::string_view lines; !(lines = daemon.receive()).empty();) {
-        output.write(lines);
-        retry = kFirstReconnectDelay;
-      }
+  client::Subscription daemon(socket, request, kLargestReconnectDelay);
+  std::string_view line;
+  if (daemon.wait(line) == client::Event::kLost) {
+    throw Failure(daemon.problem() + " (does cornerd run?)");
+  }
+  for (std::string with_newline;;) {
+    const client::Event event = daemon.wait(line);
+    if (event == client::Event::kMessage) {
+      with_newline.assign(line).push_back('\n');
+      output.write(with_newline);
+    } else if (event == client::Event::kConnected) {
+      std::fputs("cornerctl: the daemon is back\n", stderr);
+    } else {
+      std::fprintf(stderr, "cornerctl: %s; waiting for it\n", daemon.problem().c_str());
     }
-    std::fprintf(stderr, "cornerctl: %s: the daemon closed the connection; waiting for it\n",
-                 socket.c_str());
-    do {
-      std::this_thread::sleep_for(retry);
-      retry = std::min(retry * 2, kMaxReconnectDelay);
-    } while (!daemon.connect(socket));
-    std::fputs("cornerctl: the daemon is back\n", stderr);
   }
 }
 
