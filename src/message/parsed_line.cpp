@@ -143,6 +143,12 @@ ParsedLine read_status(FieldReader& fields) {
   status.latency_p50_s = latency.optional_number("p50", kAnyNumber);
   status.latency_p99_s = latency.optional_number("p99", kAnyNumber);
   if (latency.error()) fields.fail("\"latency\": " + latency.error()->text);
+  if (fields.has("faults")) {
+    for (const Json& fault : fields.array("faults", kMaxEntries)) {
+      if (fault.is_string()) status.faults.push_back(fault.get<std::string>());
+    }
+  }
+  status.hint = fields.optional_text("hint");
   return status;
 }
 

@@ -71,6 +71,8 @@ struct ParsedStatus {
   std::vector<Sensor> odometry_sensors;
   std::optional<double> latency_p50_s;
   std::optional<double> latency_p99_s;
+  std::vector<std::string> faults;  ///< names, in the order of weight
+  std::string hint;                 ///< of the first fault, for a person
 
   /// 0 if there is no such counter.
   std::uint64_t counter(std::string_view name) const;

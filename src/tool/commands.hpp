@@ -8,6 +8,9 @@ namespace cornerd::tool {
 class Command;
 
 void add_watch(Command& program);
+void add_status(Command& program);
+void add_set_pose(Command& program);
+void add_relocalize(Command& program);
 void add_monitor(Command& program);
 void add_doctor(Command& program);
 void add_replay(Command& program);

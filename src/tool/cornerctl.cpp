@@ -10,6 +10,9 @@ int run_cornerctl(int argc, const char* const* argv) {
   const auto add_commands = [](Command& program) {
     program.require_subcommand();
     add_watch(program);
+    add_status(program);
+    add_set_pose(program);
+    add_relocalize(program);
     add_monitor(program);
     add_doctor(program);
     add_replay(program);

@@ -8,12 +8,14 @@
 #include <vector>
 
 #include "client/subscription.hpp"
+#include "message/parsed_line.hpp"
 #include "settings/config.hpp"
 #include "tool/command_line/command.hpp"
 #include "tool/command_line/failure.hpp"
 #include "tool/command_line/output.hpp"
 #include "tool/command_line/shared_options.hpp"
 #include "tool/commands.hpp"
+#include "tool/watch/message_text.hpp"
 
 namespace cornerd::tool {
 
@@ -25,6 +27,7 @@ struct WatchOptions {
   SettingsOptions settings;
   std::filesystem::path socket;
   std::vector<std::string> classes;
+  std::string format = "json";
 };
 
 /// WATCH for the classes; empty for the daemon's default.
@@ -50,6 +53,10 @@ void watch(const WatchOptions& options) {
   for (std::string with_newline;;) {
     const client::Event event = daemon.wait(line);
     if (event == client::Event::kMessage) {
+      if (options.format == "text") {
+        output.write(message_text(message::parse_line(line)));
+        continue;
+      }
       with_newline.assign(line).push_back('\n');
       output.write(with_newline);
     } else if (event == client::Event::kConnected) {
@@ -63,8 +70,7 @@ void watch(const WatchOptions& options) {
 }  // namespace
 
 void add_watch(Command& program) {
-  Command command =
-      program.add_subcommand("watch", "print the daemon's messages, one JSON object per line");
+  Command command = program.add_subcommand("watch", "print the daemon's messages as they come");
   const auto options = std::make_shared<WatchOptions>();
   command.add_option("--socket", options->socket, "default: the pose socket of the config")
       .type_name("PATH");
@@ -73,6 +79,9 @@ void add_watch(Command& program) {
       .add_option("--classes", options->classes,
                   "messages to receive; default: POSE, STATUS, EVENT")
       .delimiter(',');
+  command.add_option("--format", options->format, "json: as on the socket; text: for a person")
+      .choices({"json", "text"})
+      .capture_default_str();
   command.callback([options] { watch(*options); });
 }
 
