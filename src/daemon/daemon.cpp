@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "daemon/initial_pose.hpp"
 #include "daemon/log.hpp"
 #include "daemon/posix_clock.hpp"
 #include "daemon/realtime.hpp"
@@ -133,7 +134,9 @@ ControlActions Daemon::control_actions(const settings::Config& config) {
   ControlActions actions;
   actions.relocalize = [this] { localization_.relocalize(); };
   actions.set_pose = [this](const message::SetPoseRequest& request) {
-    localization_.set_initial_pose(request.T_map_base);
+    std::optional<message::RequestError> refusal = outside_of(scans_.map(), request.T_map_base);
+    if (!refusal) localization_.set_initial_pose(request.T_map_base);
+    return refusal;
   };
   actions.set_map = [this](const message::SetMapRequest& request, const Ticket& ticket) {
     return reloader_.start({request, ticket});

@@ -12,9 +12,9 @@ namespace {
 constexpr std::size_t kMinLost = ScanPublisher::kRecentScans * 95 / 100;
 
 std::string lost_hint(const ScanPublisher& scans) {
+  const std::string name = scans.map() != nullptr ? scans.map()->plan().name : std::string();
   return std::to_string(scans.recently_lost()) + " of the last " +
-         std::to_string(ScanPublisher::kRecentScans) + " scans fit nowhere in the map \"" +
-         scans.map_name() +
+         std::to_string(ScanPublisher::kRecentScans) + " scans fit nowhere in the map \"" + name +
          "\": check that it is the map of this place (not mirrored, in metres), that the robot is "
          "inside it, and lidar.mount.inverted";
 }

@@ -55,7 +55,9 @@ void RequestHandler::handle(Client& client, SocketRole role, std::string_view te
                    if_control([&] {
                      if (!actions_.set_pose)
                        return error("unsupported", "this daemon takes no initial pose");
-                     actions_.set_pose(set_pose);
+                     if (const auto refusal = actions_.set_pose(set_pose)) {
+                       return error(refusal->code, refusal->text);
+                     }
                      ok();
                    });
                  },

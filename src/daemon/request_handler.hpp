@@ -31,7 +31,8 @@ using NewestLines = std::array<Line, message::kMessageClasses>;
 /// Handlers of control requests. A request with an empty handler is refused as unsupported.
 struct ControlActions {
   std::function<void()> relocalize;
-  std::function<void(const message::SetPoseRequest&)> set_pose = {};
+  /// Gives the reason for a refusal.
+  std::function<std::optional<message::RequestError>(const message::SetPoseRequest&)> set_pose = {};
   /// Returns false if the client gets an ERROR because another client's odometry is used. That
   /// happens once per connection, so that answers do not fill the queue of a client that never
   /// reads. `connection`: identifies the client.

@@ -55,8 +55,8 @@ class ScanPublisher {
   const std::array<std::uint64_t, kStates>& poses() const { return poses_; }
   /// How many of the last kRecentScans in this map were lost.
   std::size_t recently_lost() const { return recent_lost_.count(); }
-  /// Empty if there is no map.
-  std::string map_name() const { return map_.map ? map_.map->plan().name : std::string(); }
+  /// Of the last POSE; null if there is none.
+  const core::WallMap* map() const { return map_.map.get(); }
 
  private:
   void take_next_maps(std::uint32_t generation);

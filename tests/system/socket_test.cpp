@@ -88,6 +88,19 @@ TEST_F(Socket, Relocalize_AnsweredAndPosesContinue) {
   EXPECT_EQ(next_of(reader, "POSE")["class"], "POSE");
 }
 
+TEST_F(Socket, SetPoseOutsideOfTheMap_RefusedWithItsExtent) {
+  const DaemonProcess daemon = start();
+  TestClient controller = connect("control.sock");
+  controller.send(R"({"class":"SET_POSE","x":90,"y":1,"theta":0,"id":1})"
+                  "\n");
+  const json error = next_of(controller, "ERROR");
+  EXPECT_EQ(error["code"], "outside");
+  EXPECT_NE(error["message"].get<std::string>().find("to 2.4"), std::string::npos) << error;
+  controller.send(R"({"class":"SET_POSE","x":0.8,"y":0.5,"theta":0,"id":2})"
+                  "\n");
+  EXPECT_EQ(next_of(controller, "OK")["id"], 2);
+}
+
 TEST_F(Socket, SecondInstance_RefusedAndFirstUnaffected) {
   const DaemonProcess daemon = start();
   TestClient client = connect();

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -70,7 +71,11 @@ class MessageServerTest : public ::testing::Test {
       loop_,
       "1.2.3",
       {[this] { ++relocalizations_; },
-       [this](const message::SetPoseRequest& request) { given_.push_back(request.T_map_base); },
+       [this](const message::SetPoseRequest& request) -> std::optional<message::RequestError> {
+         given_.push_back(request.T_map_base);
+         if (request.T_map_base.x_m > 1000) return message::RequestError{"outside", "too far"};
+         return std::nullopt;
+       },
        [this](const message::OdometryReading& reading, int connection) {
          readings_.push_back(reading);
          if (publisher_ < 0) publisher_ = connection;

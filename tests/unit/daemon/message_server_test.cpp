@@ -168,6 +168,15 @@ TEST_F(MessageServerTest, SetPose_PoseSocket_Refused) {
   EXPECT_EQ(given_[0].y_m, 2);
 }
 
+TEST_F(MessageServerTest, SetPose_RefusedByTheDaemon_ErrorWithItsReason) {
+  TestClient controller = greeted(control_path_);
+  const auto error = ask(controller, R"({"class":"SET_POSE","x":2000,"y":2,"theta":0,"id":8})");
+  EXPECT_EQ(error["class"], "ERROR");
+  EXPECT_EQ(error["code"], "outside");
+  EXPECT_EQ(error["message"], "too far");
+  EXPECT_EQ(error["id"], 8);
+}
+
 TEST_F(MessageServerTest, Odometry_ControlSocket_AcceptedWithoutAnswer) {
   TestClient reader = greeted(pose_path_);
   EXPECT_EQ(ask(reader, R"({"class":"ODOMETRY","left":1,"right":2})")["code"], "read-only");
