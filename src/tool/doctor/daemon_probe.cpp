@@ -77,9 +77,12 @@ DaemonView probe_daemon(const std::filesystem::path& socket, std::chrono::millis
     const auto left = std::chrono::ceil<std::chrono::milliseconds>(end - Clock::now());
     if (left.count() <= 0) break;
     std::string_view line;
-    const client::Received received = daemon.receive(line, left);
+    client::Received received = daemon.receive(line, left);
+    // What has come together is judged together.
+    for (; received == client::Received::kLine; received = daemon.take(line)) {
+      take_line(line, view, rate);
+    }
     if (received == client::Received::kEnd) break;
-    if (received == client::Received::kLine) take_line(line, view, rate);
   }
   view.odometry_hz = rate.hz();
   return view;
