@@ -18,6 +18,11 @@ target_link_libraries(cornerd_spdlog INTERFACE Threads::Threads)
 find_path(CORNERD_CLI11_DIR CLI/CLI.hpp PATHS /usr/include REQUIRED NO_CMAKE_FIND_ROOT_PATH)
 add_library(cornerd_cli11 INTERFACE)
 
+# cornerd-web alone; its headers need no library of Boost.
+find_path(CORNERD_BOOST_DIR boost/beast.hpp PATHS /usr/include NO_CMAKE_FIND_ROOT_PATH)
+add_library(cornerd_boost INTERFACE)
+target_link_libraries(cornerd_boost INTERFACE Threads::Threads)
+
 # Shared libraries that the tools link where they are found. A cross build goes without them.
 find_package(PNG QUIET)
 set(CORNERD_PNG ${PNG_FOUND})

@@ -35,10 +35,9 @@ void pass_on(const std::vector<int>& sockets) {
 DaemonProcess::DaemonProcess(const std::vector<std::string>& arguments,
                              const std::filesystem::path& errors,
                              const std::map<std::string, std::string>& environment,
-                             const std::vector<int>& sockets)
+                             const std::vector<int>& sockets, std::string program)
     : errors_(errors) {
   std::vector<char*> argv;
-  std::string program = CORNERD_BINARY;
   argv.push_back(program.data());
   std::vector<std::string> copies = arguments;
   for (std::string& argument : copies) argv.push_back(argument.data());

@@ -24,10 +24,11 @@ using nlohmann::json;
 class DaemonProcess {
  public:
   /// `errors`: target of standard error and standard output; if empty, all three streams are
-  /// closed. `sockets`: listening sockets, passed as a service manager does.
+  /// closed. `sockets`: listening sockets, passed as a service manager does. `program`: another
+  /// one.
   DaemonProcess(const std::vector<std::string>& arguments, const std::filesystem::path& errors,
                 const std::map<std::string, std::string>& environment = {},
-                const std::vector<int>& sockets = {});
+                const std::vector<int>& sockets = {}, std::string program = CORNERD_BINARY);
   ~DaemonProcess();
   DaemonProcess(const DaemonProcess&) = delete;
   DaemonProcess& operator=(const DaemonProcess&) = delete;

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include "message/request.hpp"
+#include "web/access.hpp"
+#include "web/http.hpp"
+#include "web/hub.hpp"
+#include "web/map_store.hpp"
+
+namespace cornerd::web {
+
+/// From a request's header and body to what is answered.
+class Router {
+ public:
+  enum class Kind {
+    kRefused,  ///< `response` says why; the body is not read
+    kPage,     ///< answer() on the thread of the hub
+    kWork,     ///< work() on any thread, since it may block
+    kEvents,   ///< a stream of `classes`
+  };
+  struct Decision {
+    Kind kind = Kind::kRefused;
+    Response response = {};
+    message::ClassSet classes = {};
+    std::size_t max_body_bytes = 0;
+  };
+
+  Router(AccessRules rules, const std::filesystem::path& control_socket,
+         const std::filesystem::path& maps, const Hub& hub);
+
+  /// By the header alone.
+  Decision decide(const Request& request) const;
+  Response answer(const Request& request, Hub::Clock::time_point now) const;
+  Response work(const Request& request) const;
+
+ private:
+  AccessRules rules_;
+  std::filesystem::path control_socket_;
+  MapStore maps_;
+  const Hub& hub_;
+};
+
+/// "POSE,SCAN" as a set; unknown names are ignored. Empty: POSE, STATUS and EVENT.
+message::ClassSet classes_from(std::string_view comma_separated);
+
+}  // namespace cornerd::web

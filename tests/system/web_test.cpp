@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: MIT
+// cornerd-web as a process, asked over loopback, with a daemon behind it.
+#include <arpa/inet.h>
+#include <gtest/gtest.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <string>
+
+#include "daemon_process.hpp"
+#include "tests/wait_until.hpp"
+
+namespace cornerd::system_test {
+namespace {
+
+using test::wait_until;
+
+/// A connection to the server.
+class HttpClient {
+ public:
+  explicit HttpClient(std::uint16_t port) : fd_(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)) {
+    sockaddr_in address{};
+    address.sin_family = AF_INET;
+    address.sin_port = htons(port);
+    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    const timeval patience{.tv_sec = 60, .tv_usec = 0};
+    ::setsockopt(fd_, SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof patience);
+    EXPECT_EQ(::connect(fd_, reinterpret_cast<const sockaddr*>(&address), sizeof address), 0);
+  }
+  ~HttpClient() { ::close(fd_); }
+  HttpClient(const HttpClient&) = delete;
+  HttpClient& operator=(const HttpClient&) = delete;
+
+  void send(const std::string& text) const { ::send(fd_, text.data(), text.size(), MSG_NOSIGNAL); }
+  /// Reads until `text` has come or the server hangs up; all of what has come.
+  std::string read_until(const std::string& text) {
+    char bytes[4096];
+    while (text.empty() || all_.find(text) == std::string::npos) {
+      const ssize_t got = ::recv(fd_, bytes, sizeof bytes, 0);
+      if (got <= 0) break;
+      all_.append(bytes, static_cast<std::size_t>(got));
+    }
+    return all_;
+  }
+
+ private:
+  int fd_;
+  std::string all_;
+};
+
+class Web : public DaemonTest {
+ protected:
+  DaemonProcess start_web() {
+    const auto path = [&](const char* name) { return (folder_ / name).string(); };
+    std::filesystem::create_directory(folder_ / "maps");
+    return {{"--listen", "127.0.0.1:0", "--pose", path("pose.sock"), "--control",
+             path("control.sock"), "--maps", path("maps")},
+            folder_ / "web.log",
+            {},
+            {},
+            CORNERD_WEB_BINARY};
+  }
+  void wait_for_port(const DaemonProcess& web) {
+    const std::string start = "http://127.0.0.1:";
+    std::string told;
+    ASSERT_TRUE(wait_until([&] {
+      told = web.output();
+      return told.find(start) != std::string::npos && told.ends_with('\n');
+    })) << told;
+    port_ = static_cast<std::uint16_t>(std::stoi(told.substr(told.find(start) + start.size())));
+  }
+  static std::string head(const std::string& request, const std::string& more = {}) {
+    return request + " HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n" + more + "\r\n";
+  }
+  /// The whole answer to a request.
+  std::string ask(const std::string& text) const {
+    HttpClient client(port_);
+    client.send(text);
+    return client.read_until("");
+  }
+  std::string post(const std::string& path, const std::string& body) const {
+    return ask(head("POST " + path, "Content-Type: application/json\r\nContent-Length: " +
+                                        std::to_string(body.size()) + "\r\n") +
+               body);
+  }
+  static bool is(const std::string& answer, int status) {
+    return answer.starts_with("HTTP/1.1 " + std::to_string(status) + " ");
+  }
+
+  std::uint16_t port_ = 0;
+};
+
+TEST_F(Web, PageAndLastMessages_AreServed) {
+  const DaemonProcess daemon = start();
+  const DaemonProcess web = start_web();
+  wait_for_port(web);
+  const std::string page = ask(head("GET /"));
+  EXPECT_TRUE(is(page, 200)) << page;
+  EXPECT_NE(page.find("Content-Security-Policy: default-src 'none'"), std::string::npos);
+  EXPECT_NE(page.find("<canvas id=\"map\""), std::string::npos);
+  for (const char* path : {"/api/map", "/api/status", "/metrics", "/api/maps", "/app.js"}) {
+    EXPECT_TRUE(wait_until([&] { return is(ask(head(std::string("GET ") + path)), 200); })) << path;
+  }
+  EXPECT_NE(ask(head("GET /api/map")).find("\"class\":\"MAP\""), std::string::npos);
+  EXPECT_TRUE(is(ask(head("GET /nothing")), 404));
+}
+
+TEST_F(Web, Stream_FollowsTheDaemonThroughItsRestart) {
+  const DaemonProcess web = start_web();
+  wait_for_port(web);
+  HttpClient stream(port_);
+  stream.send(head("GET /api/events?classes=POSE"));
+  {
+    const DaemonProcess daemon = start();
+    EXPECT_NE(stream.read_until("data: {\"class\":\"POSE\"").find("{\"class\":\"POSE\""),
+              std::string::npos);
+    daemon.send_signal(SIGKILL);
+  }
+  const std::string away = "{\"connected\":false}";
+  EXPECT_NE(stream.read_until(away).find(away), std::string::npos);
+  HttpClient other(port_);
+  other.send(head("GET /api/events?classes=STATUS"));
+  EXPECT_NE(other.read_until(away).find(away), std::string::npos);
+  const DaemonProcess again = start();
+  EXPECT_NE(other.read_until("\"class\":\"STATUS\"").find("{\"connected\":true}"),
+            std::string::npos);
+}
+
+TEST_F(Web, Requests_AreAnsweredByTheDaemon) {
+  const DaemonProcess daemon = start();
+  const DaemonProcess web = start_web();
+  wait_for_port(web);
+  EXPECT_TRUE(wait_until([&] { return is(ask(head("GET /api/status")), 200); }));
+  const std::string done = post("/api/request", R"({"class":"RELOCALIZE","id":3})");
+  EXPECT_TRUE(is(done, 200)) << done;
+  EXPECT_NE(done.find("\"id\":3"), std::string::npos);
+  const std::string refused =
+      post("/api/request", R"({"class":"SET_POSE","x":90,"y":0,"theta":0})");
+  EXPECT_TRUE(is(refused, 409)) << refused;
+  EXPECT_NE(refused.find("outside"), std::string::npos) << refused;
+  EXPECT_TRUE(is(post("/api/maps/check", R"({"format":"cornerd-map"})"), 422));
+}
+
+TEST_F(Web, ForeignPagesAndHugeBodies_AreRefused) {
+  const DaemonProcess web = start_web();
+  wait_for_port(web);
+  EXPECT_TRUE(is(ask("GET / HTTP/1.1\r\nHost: evil.com\r\nConnection: close\r\n\r\n"), 403));
+  EXPECT_TRUE(is(ask(head("GET /api/events", "Origin: http://evil.com\r\n")), 403));
+  EXPECT_TRUE(is(ask(head("POST /api/request",
+                          "Content-Type: application/json\r\nContent-Length: 1000000000\r\n")),
+                 413));
+  EXPECT_TRUE(
+      is(ask(head("POST /api/request", "Content-Type: text/plain\r\nContent-Length: 2\r\n") + "{}"),
+         415));
+  // What is no HTTP costs nobody else anything.
+  ask("\xff\xfe garbage\r\n\r\n");
+  EXPECT_TRUE(is(ask(head("GET /")), 200));
+}
+
+TEST_F(Web, TerminateSignal_EndsItCleanly) {
+  DaemonProcess web = start_web();
+  wait_for_port(web);
+  HttpClient stream(port_);
+  stream.send(head("GET /api/events"));
+  stream.read_until("\r\n\r\n");
+  web.send_signal(SIGTERM);
+  EXPECT_EQ(web.wait_for_exit(), 0);
+}
+
+}  // namespace
+}  // namespace cornerd::system_test
