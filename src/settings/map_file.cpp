@@ -160,9 +160,13 @@ std::shared_ptr<const core::WallMap> parse_map(std::string_view text,
   return make_map(parse_floor_plan(text, file), file);
 }
 
+std::string read_map_text(const std::filesystem::path& file, FileKind kind) {
+  return read_file(file, kMaxMapBytes, kind);
+}
+
 std::shared_ptr<const core::WallMap> load_map(const std::filesystem::path& file, FileKind kind,
                                               const std::string& name) {
-  core::FloorPlan plan = parse_floor_plan(read_file(file, kMaxMapBytes, kind), file);
+  core::FloorPlan plan = parse_floor_plan(read_map_text(file, kind), file);
   if (!name.empty()) plan.name = name;
   return make_map(std::move(plan), file);
 }

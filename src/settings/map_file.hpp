@@ -14,6 +14,9 @@ namespace cornerd::settings {
 /// Largest absolute x or y of a map's points, metres.
 inline constexpr double kMaxCoordinateM = 10'000;
 
+/// A map file's bytes. Throws SettingsError where it cannot be read or is too large.
+std::string read_map_text(const std::filesystem::path& file, FileKind kind = FileKind::kAny);
+
 /// Reads a cornerd-map. Throws SettingsError with file, JSON pointer and reason.
 core::FloorPlan parse_floor_plan(std::string_view text, const std::filesystem::path& file);
 std::shared_ptr<const core::WallMap> parse_map(std::string_view text,
