@@ -27,6 +27,7 @@ void add_calibrate_odometry(Command& group);
 void add_map(Command& program);
 void add_map_render(Command& group);
 void add_map_import(Command& group);
+void add_map_export(Command& group);
 void add_map_scale(Command& group);
 
 }  // namespace cornerd::tool
