@@ -46,7 +46,7 @@ TEST_F(MapExportTest, Room_IsFreeInsideAndUnknownOutside) {
   EXPECT_EQ(shade_at(0.51, 0.51), 254);
   EXPECT_EQ(shade_at(-0.41, 1), 205);
   EXPECT_EQ(shade_at(0.01, 1), 0);
-  EXPECT_EQ(shade_at(1.5, 1), 0);
+  EXPECT_EQ(shade_at(1.51, 1.01), 0);
 }
 
 TEST_F(MapExportTest, TooManyCells_AreRefusedBeforeAnythingIsWritten) {
