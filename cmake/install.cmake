@@ -7,6 +7,8 @@ install(DIRECTORY config/maps/ DESTINATION ${CMAKE_INSTALL_DATADIR}/cornerd/maps
   FILES_MATCHING PATTERN "*.json")
 install(DIRECTORY config/robots/ DESTINATION ${CMAKE_INSTALL_DATADIR}/cornerd/robots
   FILES_MATCHING PATTERN "*.json")
+# Not among the system's modules: the package would need Python.
+install(FILES src/client/cornerd.py DESTINATION ${CMAKE_INSTALL_DATADIR}/cornerd)
 install(FILES config/cornerd.full.json DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(FILES systemd/realtime.conf DESTINATION ${CMAKE_INSTALL_DOCDIR})
 
