@@ -116,6 +116,17 @@ void add_hint(const message::ParsedStatus& status, std::vector<Finding>& finding
                       {"see README.md, \"Odometry\", for the fields of a line"}});
 }
 
+/// What only the daemon can know, from many scans; its hint says what to do. The lidar's faults and
+/// absent readings have findings of their own.
+void add_fault(const message::ParsedStatus& status, std::vector<Finding>& findings) {
+  if (status.faults.empty()) return;
+  const std::string& fault = status.faults.front();
+  if (fault == "map-mismatch") findings.push_back({Verdict::kWrong, "map", status.hint, {}});
+  if (fault == "odometry-unhealthy") {
+    findings.push_back({Verdict::kWrong, "odometry", status.hint, {}});
+  }
+}
+
 }  // namespace
 
 std::vector<Finding> check_daemon(const Patient& patient) {
@@ -147,6 +158,7 @@ std::vector<Finding> check_daemon(const Patient& patient) {
   }
   add_hint(*daemon.status, findings);
   add_reading_rate(patient, findings);
+  add_fault(*daemon.status, findings);
   return findings;
 }
 

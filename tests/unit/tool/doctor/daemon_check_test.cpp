@@ -101,6 +101,17 @@ TEST_F(CheckDaemon, OdometryHint_IsQuotedOnce) {
   EXPECT_THAT(found[2], Finds(Verdict::kWrong, "odometry", "absent: lines lack left and right"));
 }
 
+TEST_F(CheckDaemon, MapThatDoesNotFit_IsQuotedFromTheDaemon) {
+  daemon().status->faults = {"map-mismatch"};
+  daemon().status->hint = "98 of the last 100 scans fit nowhere in the map \"hall\"";
+  EXPECT_THAT(check_daemon(stand_in_.patient).back(),
+              Finds(Verdict::kWrong, "map", "fit nowhere in the map \"hall\""));
+  daemon().status->faults = {"odometry-unhealthy"};
+  daemon().status->hint = "the odometry contradicts the lidar";
+  EXPECT_THAT(check_daemon(stand_in_.patient).back(),
+              Finds(Verdict::kWrong, "odometry", "contradicts the lidar"));
+}
+
 TEST_F(CheckDaemon, NoListener_HasRemedyForItsCause) {
   daemon() = {};
   daemon().connect_errno = ENOENT;
