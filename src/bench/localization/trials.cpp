@@ -54,19 +54,6 @@ std::vector<MappedBuilding> with_walls_off(const std::shared_ptr<const core::Wal
   return {std::move(building)};
 }
 
-/// A building of which the map shows the mirror image: no scan of it may be named.
-std::shared_ptr<const core::WallMap> mirrored(const core::WallMap& map) {
-  core::FloorPlan plan = map.plan();
-  for (core::Wall& wall : plan.walls) {
-    wall.from.x() *= -1;
-    wall.to.x() *= -1;
-  }
-  for (core::Room& room : plan.rooms) {
-    for (core::Vec2& corner : room.polygon) corner.x() *= -1;
-  }
-  return std::make_shared<const core::WallMap>(std::move(plan));
-}
-
 /// Visits one start pose after another.
 class Robot {
  public:
@@ -196,7 +183,9 @@ std::vector<Trial> default_trials(const Maps& arenas,
   Trial& hard = add("240 degrees, 25 % stopped, 3 cm", with_walls_off(flat, 0.03));
   hard.sensor.field_of_view.width_rad = core::radians(240);
   hard.clutter = 0.25;
-  add("mirror image of the flat's map", std::vector{MappedBuilding{flat, {mirrored(*flat)}}});
+  add("mirror image of the flat's map",
+      std::vector{
+          MappedBuilding{flat, {std::make_shared<const core::WallMap>(mirrored(flat->plan()))}}});
   for (const std::size_t updates : {1, 4}) {
     for (const bool odometry : {false, true}) {
       Trial& moving = add(std::string("0.5 m/s, 1.5 rad/s") + (odometry ? ", odometry" : "") +

@@ -63,6 +63,17 @@ std::vector<RoundObstacle> clutter_around(const core::WallMap& map, const Vec2& 
   return obstacles;
 }
 
+core::FloorPlan mirrored(core::FloorPlan plan) {
+  for (core::Wall& wall : plan.walls) {
+    wall.from.x() *= -1;
+    wall.to.x() *= -1;
+  }
+  for (core::Room& room : plan.rooms) {
+    for (core::Vec2& corner : room.polygon) corner.x() *= -1;
+  }
+  return plan;
+}
+
 std::vector<core::FloorPlan> with_a_door_closed(const core::WallMap& map) {
   std::vector<core::FloorPlan> plans;
   for (const core::Wall& door : replay::doors_of(map)) {

@@ -34,6 +34,9 @@ std::vector<core::FloorPlan> with_a_door_closed(const core::WallMap& map);
 /// One plan for each wall, with that wall moved along its normal.
 std::vector<core::FloorPlan> with_a_wall_displaced(const core::WallMap& map, double by_m);
 
+/// The mirror image: no scan of the building may be named in it.
+core::FloorPlan mirrored(core::FloorPlan plan);
+
 /// Motion on a circle to the left; at rest where the yaw rate is 0.
 struct CircularMotion {
   double speed_m_s = 0;

@@ -30,6 +30,16 @@ void run_localization_bench(const LocalizationBenchOptions& options);
 void only_localize_in_arena(const LocalizationBenchOptions& options, std::size_t scans,
                             bool tracking);
 
+struct EvidenceBenchOptions {
+  std::filesystem::path maps;  ///< folder of the contest arena's layouts and of flat-7.json
+  std::filesystem::path file;
+  std::size_t scans = 16'000;
+  std::uint64_t seed = 1;
+};
+
+/// cornerd-bench --evidence: what the rays of random scans do at right and wrong places, as CSV.
+void run_evidence_bench(const EvidenceBenchOptions& options);
+
 struct OdometryBenchOptions {
   std::filesystem::path maps;   ///< folder with flat-7.json; empty: the installed one
   std::filesystem::path plots;  ///< folder; empty: no drawings

@@ -42,6 +42,7 @@ struct BenchOptions {
   std::string only_localize;
   bool odometry = false;
   bool survey = false;
+  std::filesystem::path evidence;
   std::vector<std::size_t> corners;
   std::optional<tool::Option> positions_given;
 };
@@ -143,6 +144,13 @@ void guard_maps(const BenchOptions& options) {
 
 void run_bench(const BenchOptions& options) {
   guard_maps(options);
+  if (!options.evidence.empty()) {
+    EvidenceBenchOptions evidence{options.maps, options.evidence};
+    evidence.seed = options.seed;
+    if (options.positions_given->is_given()) evidence.scans = options.positions;
+    run_evidence_bench(evidence);
+    return;
+  }
   if (options.localizer) {
     if (options.scale || options.survey)
       throw tool::UsageError("--localizer excludes --scale and --survey; name one of them");
@@ -216,6 +224,11 @@ void add_options(tool::Command& program, const std::shared_ptr<BenchOptions>& op
   program.add_flag("--survey", options->survey,
                    "other benchmark: a drive of 100 m, surveyed by both methods, and a second one "
                    "localized in the maps");
+  program
+      .add_option("--evidence", options->evidence,
+                  "write what rays do at right and wrong places of --positions random scans "
+                  "(default 16,000), as CSV: what the weights of the evidence are fitted to")
+      .type_name("FILE");
   program
       .add_option("--corners", options->corners,
                   "with --scale: approximate number of corners of each building")

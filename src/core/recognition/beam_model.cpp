@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "core/geometry/squared.hpp"
 
@@ -35,9 +34,6 @@ constexpr double kObjectPerMetre = 12;
 constexpr double kObjectStep_m = 0.1;
 /// Fewer nominal rays on a face or an object are the part of one.
 constexpr double kWholeRays = 3;
-/// Ranges on both sides of an edge differ by so much, and its rays are neighbours.
-constexpr double kEdgeStep_m = 0.15;
-constexpr double kAdjacent_rad = 0.1;
 /// A wall that is not there (nats), and each nominal ray through it. Faces shorter than kWall_m are
 /// the less permanent the shorter they are: furniture.
 constexpr double kMissingWall = 10;
@@ -200,37 +196,10 @@ void BeamModel::add_runs(std::span<const PolarPoint> points, double spacing_rad,
         break;
       }
       case Outcome::kBeyond: {
-        const double run = std::min(2.0, std::sqrt(rays));
-        result.beyond += run;
-        result.log_likelihood -= run;
+        result.log_likelihood -= std::min(2.0, std::sqrt(rays));
         break;
       }
     }
-  }
-}
-
-void BeamModel::count_edges(std::span<const PolarPoint> points, std::span<const PredictedHit> hits,
-                            BeamStatistics& result) const {
-  const auto is_hit = [&](std::size_t i) { return rays_[i].outcome == Outcome::kHit; };
-  const auto is_through = [&](std::size_t i) { return rays_[i].outcome == Outcome::kThrough; };
-  std::size_t begin = 0;  // of the face before the edge
-  for (std::size_t i = 1; i + 2 < points.size(); ++i) {
-    if (hits[i].face == hits[i - 1].face) continue;
-    const std::size_t before = std::exchange(begin, i);
-    const double step_m = hits[i].range_m - hits[i - 1].range_m;
-    if (i - before < 3 || hits[i + 1].face != hits[i].face || hits[i + 2].face != hits[i].face ||
-        hits[i].face == PredictedHit::kNone || hits[i - 1].face == PredictedHit::kNone ||
-        std::abs(step_m) < kEdgeStep_m ||
-        points[i].bearing_rad - points[i - 1].bearing_rad > kAdjacent_rad) {
-      continue;
-    }
-    // The two rays next to the edge on each side, but for the one that may meet either.
-    const int left = is_hit(i + 1) + is_hit(i + 2);
-    const int right = is_hit(i - 2) + is_hit(i - 3);
-    const bool goes_on = std::abs(points[i + 1].range_m - points[i - 2].range_m) < kObjectStep_m;
-    result.edges += left == 2 && right == 2;
-    result.false_edges += right == 2 && left == 0 && (step_m > 0 ? goes_on : is_through(i + 1));
-    result.false_edges += left == 2 && right == 0 && (step_m < 0 ? goes_on : is_through(i - 2));
   }
 }
 
@@ -277,9 +246,6 @@ BeamStatistics BeamModel::statistics(std::span<const PolarPoint> points,
     const BeamStatistics other = by_map_sigma(points, spacing_rad, map_sigma_m);
     if (other.log_likelihood > best.log_likelihood) best = other;
   }
-  BeamStatistics outcomes;
-  classify(best.map_sigma_m, outcomes);
-  count_edges(points, hits, best);
   return best;
 }
 

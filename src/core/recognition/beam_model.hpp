@@ -27,9 +27,6 @@ struct BeamStatistics {
   double obstacles_m = 0;      ///< their width
   double missing_walls = 0;    ///< runs of rays through a face; short faces are a part
   double log_missing = 0;      ///< sum of log(1 + rays) over them
-  double beyond = 0;           ///< runs of rays where no wall is predicted
-  double edges = 0;            ///< predicted edges that the rays on both sides confirm
-  double false_edges = 0;      ///< where the wall goes on or ends before
 };
 
 /// Beam model on faces (Thrun, Burgard and Fox, Probabilistic Robotics, section 6.3) whose errors
@@ -73,8 +70,6 @@ class BeamModel {
   void add_faces(double spacing_rad, double map_sigma_m, BeamStatistics& result);
   void add_runs(std::span<const PolarPoint> points, double spacing_rad,
                 BeamStatistics& result) const;
-  void count_edges(std::span<const PolarPoint> points, std::span<const PredictedHit> hits,
-                   BeamStatistics& result) const;
 
   const WallMap& map_;
   SensorNoise noise_;

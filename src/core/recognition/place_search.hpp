@@ -31,6 +31,8 @@ class PlaceSearch {
   void consider(std::span<const PoseHypothesis> hypotheses);
   /// Compares what was considered since begin(). Distinct places, the likeliest first.
   std::span<const VerifiedHypothesis> find();
+  /// The scan's wall ends that the map has, at a pose.
+  double wall_ends(const Pose2& T_map_lidar) const;
   /// The result of the last find().
   std::span<const VerifiedHypothesis> places() const { return places_; }
 
@@ -44,7 +46,6 @@ class PlaceSearch {
   Candidate refined_roughly(const Candidate& candidate, double spacing_rad);
   void refine_roughly();
   void add(const Candidate& candidate);
-  double wall_ends(const Pose2& T_map_lidar) const;
 
   static constexpr std::size_t kMaxCandidates = 512;
 

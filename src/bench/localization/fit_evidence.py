@@ -1,0 +1,106 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""Fits the weights of core/recognition/place_evidence.cpp.
+
+    cornerd-bench --evidence samples.csv --positions 16000
+    fit_evidence.py samples.csv
+
+Conditional logistic regression: the places of a scan compete with "elsewhere" (log odds 0). A wrong
+place beyond the threshold of a fix (log odds 11.5) costs as much as WRONG_COST right ones below it.
+Needs NumPy and SciPy.
+"""
+
+import sys
+
+import numpy as np
+from scipy.optimize import minimize
+
+FIX = 11.51  # -log(1e-5)
+SCALE = 2.0
+WRONG_COST = 40.0
+RIDGE = 3e-4
+
+
+def features(c):
+    """Columns of BeamStatistics and ScanStructure as log_odds_of_place() takes them."""
+    share = c["faces"] / np.maximum(3, c["segments"])
+    return {
+        "intercept": np.ones(len(share)),
+        "faces_log_ratio": c["faces_log_ratio"],
+        "face": c["faces"],
+        "wall_end": c["wall_ends"],
+        "wall_end_of_share": c["wall_ends"] * share,
+        "log_map_sigma": np.log(c["map_sigma"] / 0.003),
+        "log_unexplained": np.log(np.maximum(0.005, 1 - c["hits"] / c["rays"])),
+        "through_share": c["throughs"] / c["rays"],
+        "missing_wall": c["missing_walls"],
+        "log_missing": c["log_missing"],
+        "missing_of_share": np.log1p(c["missing_walls"]) * share,
+        "obstacle": c["obstacles"],
+        "obstacle_share": c["obstacles_m"] / (c["wall_m"] + c["obstacles_m"] + 0.3),
+        "segment_share": share,
+        "log_wall_m": np.log(np.maximum(0.3, c["wall_m"])),
+        "log_segments": np.log(np.maximum(1, c["segments"])),
+        "log_rays": np.log(c["rays"]),
+    }
+
+
+def lead(z, scan, count):
+    """For each scan: its best place, and the log odds of it against all others and elsewhere."""
+    best = np.full(count, -np.inf)
+    np.maximum.at(best, scan, z)
+    top = np.zeros(count, int)
+    first = np.where(z >= best[scan])[0][::-1]
+    top[scan[first]] = first
+    others = z.copy()
+    others[top] = -np.inf
+    second = np.zeros(count)  # elsewhere
+    np.maximum.at(second, scan, others)
+    weight = np.exp(others - second[scan])
+    total = np.exp(-second)
+    np.add.at(total, scan, weight)
+    return top, best - second - np.log(total), weight / total[scan]
+
+
+def fit(x, right, scan):
+    count = scan.max() + 1
+    scale = x.std(0)
+    scale[scale == 0] = 1
+    z_x = x / scale
+
+    def loss(w):
+        top, lo, share = lead(z_x @ w, scan, count)
+        good = right[top] == 1
+        d = (lo - FIX) / SCALE
+        value = np.where(good, np.logaddexp(0, -d), WRONG_COST * np.logaddexp(0, d))
+        with np.errstate(over="ignore"):
+            by_lo = np.where(good, -1 / (1 + np.exp(d)), WRONG_COST / (1 + np.exp(-d))) / SCALE
+        by_z = -share * by_lo[scan]
+        by_z[top] += by_lo
+        return value.sum() / count + RIDGE * w @ w, z_x.T @ by_z / count + 2 * RIDGE * w
+
+    found = minimize(loss, np.zeros(x.shape[1]), jac=True, method="L-BFGS-B",
+                     options={"maxiter": 2000})
+    return found.x / scale
+
+
+def main():
+    table = np.genfromtxt(sys.argv[1], delimiter=",", names=True)
+    wrong_but_fits = (table["wrong_map"] == 1) & (table["hits"] >= 0.975 * table["rays"])
+    table = table[~np.isin(table["scan"], table["scan"][wrong_but_fits])]
+    scan = np.unique(table["scan"], return_inverse=True)[1]
+    by_name = features(table)
+    x = np.stack(list(by_name.values()), 1)
+    w = fit(x, table["right"], scan)
+    for name, weight in zip(by_name, w):
+        print(f"  double {name} = {weight:.4g};")
+    top, lo, _ = lead(x @ w, scan, scan.max() + 1)
+    good = table["right"][top] == 1
+    in_map = table["wrong_map"][top] == 0
+    print(f"right places named {np.mean(lo[in_map & good] > FIX):.3f}, of right maps' scans "
+          f"{np.sum(in_map & good & (lo > FIX)) / in_map.sum():.3f}; wrong ones named: "
+          f"{np.sum(~good & (lo > FIX))} of {len(lo)} scans", file=sys.stderr)
+
+
+if __name__ == "__main__":
+    main()

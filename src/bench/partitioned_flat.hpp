@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+
+#include "core/map/wall_map.hpp"
+
+namespace cornerd::bench {
+
+/// A random flat of 5 x 5 to 18 x 14 m: rooms by recursive partition, with doors, cupboards and now
+/// and then an oblique wall.
+core::FloorPlan partitioned_flat(std::uint64_t seed);
+
+}  // namespace cornerd::bench
