@@ -30,10 +30,6 @@ constexpr double kDrawnBacks = 0.98;
 constexpr double kDrawnBuriedShare = 0.25;
 /// Patches of two cells are noise at any resolution.
 constexpr double kSpeckCells = 2.5;
-constexpr double kSpeck_m = 0.1;
-/// Legs and feet of furniture move. On a recorded floor, fewer poses are found with them in the
-/// map.
-constexpr double kFurniture_m = 0.25;
 /// Standard deviation of the walls of a rough map: a recorded floor has 31 mm on its hits, the
 /// lidar's noise included.
 constexpr double kRoughSigma_m = 0.04;
@@ -95,7 +91,7 @@ bool is_drawn(const OccupancyGrid& grid, bool is_smooth) {
 }
 
 /// The grid in the finest cells in which it has walls: cells finer than a mapper's noise are dots.
-void dissolve_noise(OccupancyGrid& grid, double& resolution_m) {
+void join_cells(OccupancyGrid& grid, double& resolution_m) {
   double best = straightness(grid).of_all;
   const OccupancyGrid finest = grid;
   const double finest_m = resolution_m;
@@ -115,10 +111,11 @@ void dissolve_noise(OccupancyGrid& grid, double& resolution_m) {
 
 ImportResult import_grid(OccupancyGrid grid, double resolution_m, const core::Pose2& T_map_picture,
                          const ImportOptions& options) {
-  if (options.made_by != MadeBy::kDrawing) dissolve_noise(grid, resolution_m);
+  if (options.made_by != MadeBy::kDrawing) join_cells(grid, resolution_m);
   const Placer placer(resolution_m, T_map_picture);
   const auto cells = [&](double length_m) { return length_m / resolution_m; };
   ImportResult result;
+  result.cell_m = resolution_m;
   const auto remark = [&](const std::vector<Patch>& patches, std::vector<Remark>& remarks) {
     for (const Patch& patch : patches) remarks.push_back(placer.remark(patch.centre, patch.size));
   };
@@ -129,8 +126,7 @@ ImportResult import_grid(OccupancyGrid grid, double resolution_m, const core::Po
                                                        : MadeBy::kLidar;
   const bool by_drawing = result.made_by == MadeBy::kDrawing;
   const bool is_rough = !by_drawing && !is_smooth;
-  const double min_size =
-      std::max(kSpeckCells, cells(options.speck_m.value_or(is_rough ? kFurniture_m : kSpeck_m)));
+  const double min_size = std::max(kSpeckCells, cells(options.speck_m));
   // In a rough map, specks may be parts of walls.
   if (!is_rough) remark(drop_specks(grid, min_size), result.specks);
   const double pocket_cells = options.pocket_m2 / (resolution_m * resolution_m);

@@ -173,8 +173,8 @@ void mark_open_ends(const std::vector<FaceEvidence>& evidence, std::vector<WallP
     const auto is_seen = [&](double from_m, double to_m) {
       return evidence[piece.face].open_between(from_m, to_m) >= kLeastOpen_m;
     };
-    piece.begin.is_open = piece.begin.neighbour == kNoPiece &&
-                          !is_seen(piece.begin_m - kBeside_m, piece.begin_m);
+    piece.begin.is_open =
+        piece.begin.neighbour == kNoPiece && !is_seen(piece.begin_m - kBeside_m, piece.begin_m);
     piece.end.is_open =
         piece.end.neighbour == kNoPiece && !is_seen(piece.end_m, piece.end_m + kBeside_m);
   }

@@ -192,6 +192,7 @@ TEST(GridImport, CellsFinerThanNoise_AreJoined) {
   const core::WallMap room = furnished_room();
   const ImportResult result = import_drawn(scan_map(room, 0.01, 0.2, 0.04, 20));
   EXPECT_EQ(result.made_by, MadeBy::kLidar);
+  EXPECT_GT(result.cell_m, 0.015);
   EXPECT_LE(result.plan.walls.size(), 16U);
   const core::WallMap imported(result.plan);
   for (int quarter = 0; quarter < 4; ++quarter) {
