@@ -37,7 +37,7 @@ struct ImportResult {
   /// Without a name. The two-sided walls come first, the rectangles last.
   core::FloorPlan plan;
   MadeBy made_by = MadeBy::kUnknown;
-  double cell_m = 0;  ///< the picture's, or larger where those are finer than its noise
+  double cell_m = 0;           ///< the picture's, or larger where those are finer than its noise
   std::size_t two_sided = 0;   ///< walls with both faces seen
   std::size_t rectangles = 0;  ///< patches beside the walls: chair legs, table edges
   std::vector<Remark> specks;
