@@ -260,18 +260,22 @@ std::vector<Run> straight_runs(Border& border, double tolerance) {
   return runs;
 }
 
-double straight_share(const OccupancyGrid& grid) {
+Straightness straightness(const OccupancyGrid& grid) {
   std::size_t all = 0;
+  std::size_t in_long = 0;
   std::size_t straight = 0;
   for (Border& border : trace_borders(grid)) {
-    // The border of a speck has no room for a straight run.
-    if (static_cast<double>(border.size()) < 4 * (kStraight + 1)) continue;
     all += border.size();
+    if (static_cast<double>(border.size()) < 4 * (kStraight + 1)) continue;
+    in_long += border.size();
     for (const Run& run : straight_runs(border, kRasterError)) {
       if (run.extent >= kStraight) straight += run.size();
     }
   }
-  return all == 0 ? 1 : static_cast<double>(straight) / static_cast<double>(all);
+  const auto share_of = [&](std::size_t whole) {
+    return whole == 0 ? 1 : static_cast<double>(straight) / static_cast<double>(whole);
+  };
+  return {share_of(in_long), share_of(all)};
 }
 
 }  // namespace cornerd::gridmap

@@ -29,8 +29,13 @@ struct Run {
 /// a corner.
 std::vector<Run> straight_runs(Border& border, double tolerance);
 
-/// Share of all borders that is in straight runs, as a wall's is that no noise displaced.
-double straight_share(const OccupancyGrid& grid);
+/// Share of the borders that is in straight runs, as a wall's is that no noise displaced: of those
+/// that have room for a straight run, and of all, those of specks too.
+struct Straightness {
+  double of_long = 1;
+  double of_all = 1;
+};
+Straightness straightness(const OccupancyGrid& grid);
 
 /// Fits a run's line by least squares.
 void fit_run(const Border& border, Run& run);

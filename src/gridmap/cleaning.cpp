@@ -59,6 +59,23 @@ std::vector<Patch> drop_pockets(OccupancyGrid& grid, std::size_t cells) {
   return dropped;
 }
 
+OccupancyGrid coarser(const OccupancyGrid& grid, std::int64_t factor) {
+  const auto count = [&](std::int64_t cells) {
+    return static_cast<std::size_t>((cells + factor - 1) / factor);
+  };
+  OccupancyGrid coarse(count(grid.columns()), count(grid.rows()));
+  for (std::int64_t row = 0; row < grid.rows(); ++row) {
+    for (std::int64_t column = 0; column < grid.columns(); ++column) {
+      const Cell cell = grid.at(column, row);
+      const Cell other = coarse.at(column / factor, row / factor);
+      if (cell == Cell::kOccupied || (cell == Cell::kFree && other == Cell::kUnknown)) {
+        coarse.set(column / factor, row / factor, cell);
+      }
+    }
+  }
+  return coarse;
+}
+
 double buried_share(const OccupancyGrid& grid) {
   std::size_t occupied = 0;
   std::size_t buried = 0;

@@ -61,6 +61,9 @@ std::vector<Patch> drop_specks(OccupancyGrid& grid, double size);
 /// glass or behind a wall. Returns them. The largest free patch stays.
 std::vector<Patch> drop_pockets(OccupancyGrid& grid, std::size_t cells);
 
+/// The grid in larger cells: occupied where any of their cells is, unknown where all are.
+OccupancyGrid coarser(const OccupancyGrid& grid, std::int64_t factor);
+
 /// Share of the occupied cells with occupied cells all around, which no beam can have ended in.
 double buried_share(const OccupancyGrid& grid);
 

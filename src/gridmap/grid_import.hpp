@@ -4,7 +4,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,10 +18,9 @@ enum class MadeBy : std::uint8_t { kUnknown, kLidar, kDrawing };
 
 struct ImportOptions {
   MadeBy made_by = MadeBy::kUnknown;  ///< unknown: the data decide
-  /// Smallest occupied patch, at least 2.5 cells. Default: 0.1 m, in a rough map 0.25 m.
-  std::optional<double> speck_m = std::nullopt;
-  double pocket_m2 = 0.05;     ///< smallest free patch
-  double join_gap_m = 0.6;     ///< largest unknown gap within a wall
+  double speck_m = 0.1;     ///< smallest occupied patch, at least 2.5 cells: legs of furniture stay
+  double pocket_m2 = 0.05;  ///< smallest free patch
+  double join_gap_m = 0.6;  ///< largest unknown gap within a wall
   double thickness_m = 0.6;    ///< thickest wall with unknown cells inside
   double thin_m = 0;           ///< thickness of walls thinner than a cell
   double roughness_m = 0.025;  ///< largest step of a mapped wall that is noise
@@ -39,6 +37,7 @@ struct ImportResult {
   /// Without a name. The two-sided walls come first, the rectangles last.
   core::FloorPlan plan;
   MadeBy made_by = MadeBy::kUnknown;
+  double cell_m = 0;           ///< the picture's, or larger where those are finer than its noise
   std::size_t two_sided = 0;   ///< walls with both faces seen
   std::size_t rectangles = 0;  ///< patches beside the walls: chair legs, table edges
   std::vector<Remark> specks;

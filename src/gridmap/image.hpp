@@ -53,8 +53,8 @@ bool is_png(std::string_view bytes);
 /// False in a build without libpng: decode_png() then throws.
 bool has_png();
 
-/// Shades are the mean of red, green and blue, as in map_server; gamma is ignored. Throws
-/// GridError.
+/// Shades are the mean of red, green and blue, as in map_server; gamma is ignored. Pixels of bright
+/// colours are transparent: a path or a marker drawn over the map. Throws GridError.
 Image decode_png(std::string_view bytes);
 
 }  // namespace cornerd::gridmap

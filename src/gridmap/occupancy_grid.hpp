@@ -48,8 +48,8 @@ class OccupancyGrid {
 };
 
 /// Occupancy of the pixels as in map_server. Between the thresholds: unknown in the mode trinary,
-/// the nearer state in scale. In raw, values are per cent, and unknown above 100. Transparent
-/// pixels are unknown.
+/// the nearer state in scale, and in a trinary picture that has many shades there. In raw, values
+/// are per cent, and unknown above 100. Transparent pixels are unknown.
 OccupancyGrid read_shades(const Image& image, const MapServerYaml& yaml);
 
 }  // namespace cornerd::gridmap

@@ -91,6 +91,9 @@ class Reader {
 
 }  // namespace
 
+/// Difference of two channels of a pixel that is no shade of a map: half of the range.
+constexpr int kColoured = 127;
+
 bool has_png() { return true; }
 
 Image decode_png(std::string_view bytes) {
@@ -110,7 +113,8 @@ Image decode_png(std::string_view bytes) {
   for (std::size_t i = 0; i < count; ++i) {
     const std::uint8_t* pixel = rgba.data() + 4 * i;
     image.shades.push_back(static_cast<std::uint16_t>((pixel[0] + pixel[1] + pixel[2]) / 3));
-    image.alphas.push_back(pixel[3]);
+    const auto [least, most] = std::minmax({pixel[0], pixel[1], pixel[2]});
+    image.alphas.push_back(most - least > kColoured ? std::uint8_t{0} : pixel[3]);
   }
   if (std::all_of(image.alphas.begin(), image.alphas.end(), [](auto a) { return a == 255; })) {
     image.alphas.clear();

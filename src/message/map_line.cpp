@@ -30,6 +30,11 @@ void write_wall(JsonText& json, const core::Wall& wall, double default_thickness
     json.key("sigma");
     json.shortest(*wall.sigma_m);
   }
+  if (wall.is_open[0] || wall.is_open[1]) {
+    json.open_array("open");
+    for (const bool is_open : wall.is_open) json.boolean(is_open);
+    json.close_array();
+  }
   json.close_object();
 }
 

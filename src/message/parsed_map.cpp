@@ -27,6 +27,16 @@ core::Wall read_wall(const Json& object, double thickness_m, FieldReader& walls)
   wall.to = read_point(fields, "to", fields.array("to", 2));
   wall.thickness_m = fields.optional_number("thickness", kThicknessLimitsM).value_or(thickness_m);
   wall.sigma_m = fields.optional_number("sigma", kSigmaLimitsM);
+  if (fields.has("open")) {
+    const Json& open = fields.array("open", 2);
+    for (std::size_t end = 0; end < 2; ++end) {
+      if (open.size() != 2 || !open[end].is_boolean()) {
+        fields.fail("\"open\" must hold two of true and false");
+        break;
+      }
+      wall.is_open[end] = open[end].get<bool>();
+    }
+  }
   if (fields.error()) walls.fail("\"walls\": " + fields.error()->text);
   return wall;
 }

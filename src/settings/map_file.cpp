@@ -66,6 +66,13 @@ core::Wall read_wall(ObjectReader object, double default_thickness_m) {
   wall.thickness_m = default_thickness_m;
   object.number("thickness", wall.thickness_m, kThicknessM);
   if (double sigma_m = 0; object.number("sigma", sigma_m, kSigmaOfWallsM)) wall.sigma_m = sigma_m;
+  if (object.find("open") != nullptr) {
+    const Json& open = require_array(object, "open", 2, 2);
+    for (std::size_t end = 0; end < 2; ++end) {
+      if (!open[end].is_boolean()) object.fail("open", end, "must be true or false");
+      wall.is_open[end] = open[end].get<bool>();
+    }
+  }
   object.finish();
   if ((wall.to - wall.from).norm() < kSamePointM && wall.thickness_m < kSamePointM) {
     object.fail("to", "the wall has neither length nor thickness");

@@ -85,6 +85,8 @@ std::vector<core::Wall> unexplained(const core::Wall& wall, std::span<const core
       parts.push_back(wall);
       parts.back().from = wall.from + *begin_m * direction;
       parts.back().to = wall.from + end_m * direction;
+      parts.back().is_open = {*begin_m == 0 && wall.is_open[0],
+                              end_m == length_m && wall.is_open[1]};
     }
     begin_m.reset();
   };
@@ -120,6 +122,7 @@ std::vector<core::Wall> without(const core::Wall& wall, std::span<const Interval
     parts.push_back(wall);
     parts.back().from = wall.from + begin_m * direction;
     parts.back().to = wall.from + end_m * direction;
+    parts.back().is_open = {begin_m == 0 && wall.is_open[0], end_m == length_m && wall.is_open[1]};
   };
   // Square ends reach half a thickness past both points.
   const double half_m = wall.thickness_m / 2;

@@ -95,6 +95,8 @@ class Builder {
                                       on_axis, pair.end_m >= one.end_m - extra_m);
     core::Wall wall;
     wall.thickness_m = thickness_m;
+    wall.is_open = {is_open(one.begin, other.end, begin_m, extra_m, on_axis),
+                    is_open(one.end, other.begin, end_m, extra_m, on_axis)};
     if (end_m - begin_m >= thickness_m) {
       wall.from = middle + (begin_m + thickness_m / 2) * direction;
       wall.to = middle + (end_m - thickness_m / 2) * direction;
@@ -102,6 +104,7 @@ class Builder {
       // Thicker than long: as a wall that runs across.
       const core::Vec2 place = middle + (begin_m + end_m) / 2 * direction;
       const double half_m = (thickness_m - (end_m - begin_m)) / 2;
+      wall.is_open = {};
       wall.thickness_m = end_m - begin_m;
       wall.from = place - half_m * normal;
       wall.to = place + half_m * normal;
@@ -143,6 +146,17 @@ class Builder {
     return reached_m;
   }
 
+  /// All faces that end at the end of a solid end where sight did.
+  template <typename OnAxis>
+  static bool is_open(const PieceEnd& out, const PieceEnd& back, double end_m, double extra_m,
+                      const OnAxis& on_axis) {
+    const auto is_here = [&](const PieceEnd& end) {
+      return std::abs(on_axis(end.point) - end_m) <= extra_m;
+    };
+    return (is_here(out) || is_here(back)) && (!is_here(out) || out.is_open) &&
+           (!is_here(back) || back.is_open);
+  }
+
   void add_rest(std::uint32_t index) {
     const WallPiece& piece = pieces_[index];
     const LineLandmark& face = face_of(index);
@@ -158,6 +172,8 @@ class Builder {
         const double begin_m = from_m > piece.begin_m ? from_m - kInto_m : from_m;
         const double end_m = to_m < piece.end_m ? to_m + kInto_m : to_m;
         walls_.push_back({face.at(begin_m), face.at(end_m), 0});
+        walls_.back().is_open = {from_m == piece.begin_m && piece.begin.is_open,
+                                 to_m == piece.end_m && piece.end.is_open};
       }
       from_m = std::max(from_m, next.end_m);
     }
@@ -250,6 +266,7 @@ BuiltWalls build_walls_of(const MappedDrive& drive, const std::vector<FaceEviden
   built.pieces = cut_pieces(drive, evidence, limits.pieces, dropped);
   trim_crossings(drive, limits.pieces, built.pieces, dropped);
   join_corners(drive, evidence, limits.pieces, built.pieces);
+  mark_open_ends(evidence, built.pieces);
   drop_isolated(drive, limits.pieces, built.pieces, dropped);
   built.walls = build_walls(drive, built.pieces, pair_sides(drive, built.pieces, limits.solids));
   return built;

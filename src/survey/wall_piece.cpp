@@ -166,6 +166,20 @@ void trim_crossings(const MappedDrive& drive, const PieceLimits& limits,
   pieces = std::move(kept);
 }
 
+void mark_open_ends(const std::vector<FaceEvidence>& evidence, std::vector<WallPiece>& pieces) {
+  constexpr double kBeside_m = 0.15;
+  constexpr double kLeastOpen_m = kMinOpenCells * FaceEvidence::kCell_m;
+  for (WallPiece& piece : pieces) {
+    const auto is_seen = [&](double from_m, double to_m) {
+      return evidence[piece.face].open_between(from_m, to_m) >= kLeastOpen_m;
+    };
+    piece.begin.is_open =
+        piece.begin.neighbour == kNoPiece && !is_seen(piece.begin_m - kBeside_m, piece.begin_m);
+    piece.end.is_open =
+        piece.end.neighbour == kNoPiece && !is_seen(piece.end_m, piece.end_m + kBeside_m);
+  }
+}
+
 void drop_isolated(const MappedDrive& drive, const PieceLimits& limits,
                    std::vector<WallPiece>& pieces, std::vector<DroppedPiece>& dropped) {
   std::vector<std::uint32_t> place(pieces.size(), kNoPiece);

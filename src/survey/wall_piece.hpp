@@ -20,6 +20,7 @@ struct PieceEnd {
   bool is_concave = false;             ///< the free space's opening angle is less than pi
   bool within = false;                 ///< meets the neighbour's side, not its end
   double unseen_m = 0;                 ///< from the last hit to the corner
+  bool is_open = false;                ///< sight ended here: no ray passed beside the end
 };
 
 /// A part of a wall face without an opening. Free space is on the left of the direction from
@@ -73,6 +74,9 @@ void trim_crossings(const MappedDrive& drive, const PieceLimits& limits,
 /// where rays went through.
 void join_corners(const MappedDrive& drive, const std::vector<FaceEvidence>& evidence,
                   const PieceLimits& limits, std::vector<WallPiece>& pieces);
+
+/// Marks the ends that meet no other piece and that no rays passed beside.
+void mark_open_ends(const std::vector<FaceEvidence>& evidence, std::vector<WallPiece>& pieces);
 
 /// Drops pieces without a neighbour that are too short.
 void drop_isolated(const MappedDrive& drive, const PieceLimits& limits,

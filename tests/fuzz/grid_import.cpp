@@ -24,7 +24,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   options.made_by = static_cast<MadeBy>(data[1] % 3);
   options.square = (data[1] & 4U) != 0;
   if ((data[1] & 8U) != 0) options.thin_m = 0.02;
-  ImportResult result = import_grid(grid, 0.05, {1, 2, 0.3}, options);
+  const double resolution_m = (data[1] & 16U) != 0 ? 0.015 : 0.05;
+  ImportResult result = import_grid(grid, resolution_m, {1, 2, 0.3}, options);
   // Throws if they make no map.
   if (!result.plan.walls.empty()) static_cast<void>(cornerd::core::WallMap(std::move(result.plan)));
   return 0;

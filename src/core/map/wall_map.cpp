@@ -11,6 +11,9 @@
 namespace cornerd::core {
 namespace {
 
+/// Ends of walls and the corners there agree to a few rounding errors.
+constexpr double kSamePoint_m = 5e-6;
+
 void check(const Wall& wall, std::size_t index) {
   const auto fail = [&](const char* reason) {
     throw std::invalid_argument("wall " + std::to_string(index) + ": " + reason);
@@ -55,6 +58,19 @@ WallMap::WallMap(FloorPlan plan) : plan_(std::move(plan)) {
   }
   index();
   assign_sigmas();
+  std::erase_if(corners_, [&](const Corner& corner) { return is_open_end(corner.position); });
+}
+
+bool WallMap::is_open_end(const Vec2& point) const {
+  const auto walls = wall_grid_.at(point);
+  return std::any_of(walls.begin(), walls.end(), [&](std::uint32_t i) {
+    const Wall& wall = plan_.walls[i];
+    const WallBox box(wall);
+    const Vec2 local = box.to_local(point);
+    const bool at_end = std::abs(std::abs(local.x()) - box.half_length_m) < kSamePoint_m &&
+                        std::abs(local.y()) < box.half_width_m + kSamePoint_m;
+    return at_end && wall.is_open[local.x() > 0 ? 1 : 0];
+  });
 }
 
 void WallMap::assign_sigmas() {

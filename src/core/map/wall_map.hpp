@@ -2,6 +2,7 @@
 // The building: drawn walls, and the faces and corners that a lidar sees of them.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <optional>
 #include <span>
@@ -21,6 +22,8 @@ struct Wall {
   double thickness_m = 0;
   /// How far off it may be across itself (a standard deviation), if that is known of this wall.
   std::optional<double> sigma_m{};
+  /// `from` and `to`: the wall goes on where nobody has seen it, so its end is no corner.
+  std::array<bool, 2> is_open{};
 };
 
 struct Room {
@@ -74,6 +77,7 @@ class WallMap {
 
   const FloorPlan& plan() const { return plan_; }
   std::span<const Face> faces() const { return faces_; }
+  /// Without those at the open ends of walls.
   std::span<const Corner> corners() const { return corners_; }
 
   Vec2 lower_left() const { return lower_left_; }
@@ -98,6 +102,7 @@ class WallMap {
  private:
   void index();
   void assign_sigmas();
+  bool is_open_end(const Vec2& point) const;
 
   FloorPlan plan_;
   std::vector<Face> faces_;

@@ -77,6 +77,10 @@ std::string report(const gridmap::MapServerYaml& yaml, const gridmap::Image& ima
                    bool is_detected) {
   std::string text = formatted("%-12s %zu x %zu cells of %g m\n", "image", image.width,
                                image.height, yaml.resolution_m);
+  if (result.cell_m > yaml.resolution_m) {
+    text += formatted("%-12s %g m: the picture's are finer than its noise\n", "cells used",
+                      result.cell_m);
+  }
   text += formatted("%-12s %s%s\n", "made by",
                     result.made_by == MadeBy::kDrawing
                         ? "drawing: surfaces on the edges of the occupied cells"
@@ -164,9 +168,10 @@ void add_map_import(Command& group) {
   command
       .add_option("--speck", options->grid.speck_m,
                   "occupied patches beside the walls that are smaller than this (m), or than 2.5 "
-                  "cells, are dropped; default: 0.1, in a rough map 0.25")
+                  "cells, are dropped")
       .within(0, 10)
-      .type_name("M");
+      .type_name("M")
+      .capture_default_str();
   command
       .add_option(
           "--gap", options->grid.join_gap_m,

@@ -68,6 +68,11 @@ std::string map_text(const core::FloorPlan& plan) {
       json.key("sigma");
       json.fixed(*wall.sigma_m, kMapDecimals);
     }
+    if (wall.is_open[0] || wall.is_open[1]) {
+      json.open_array("open");
+      for (const bool is_open : wall.is_open) json.boolean(is_open);
+      json.close_array();
+    }
     json.close_object();
     text.append("    ").append(json.view()).append(i + 1 < plan.walls.size() ? ",\n" : "\n");
   }

@@ -83,7 +83,19 @@ TEST(StraightRuns, WallOfOneCell_GivesTwoRuns) {
   EXPECT_LT(runs[0].direction.dot(runs[1].direction), -0.99);
 }
 
-TEST(StraightShare, RaggedWall_IsLessStraightThanDrawnOne) {
+TEST(Straightness, Specks_CountInAllBorders) {
+  OccupancyGrid grid(60, 20);
+  for (std::int64_t column = 0; column < 60; ++column) {
+    for (std::int64_t row = 0; row < 20; ++row) {
+      const bool is_speck = column % 6 == 2 && row % 3 == 1 && row < 9;
+      grid.set(column, row, row < 10 && !is_speck ? Cell::kFree : Cell::kOccupied);
+    }
+  }
+  EXPECT_EQ(straightness(grid).of_long, 1);
+  EXPECT_NEAR(straightness(grid).of_all, 60.0 / (60 + 30 * 4), 1e-9);
+}
+
+TEST(Straightness, RaggedWall_IsLessStraightThanDrawnOne) {
   OccupancyGrid drawn(60, 20);
   OccupancyGrid ragged(60, 20);
   for (std::int64_t column = 0; column < 60; ++column) {
@@ -92,8 +104,8 @@ TEST(StraightShare, RaggedWall_IsLessStraightThanDrawnOne) {
       ragged.set(column, row, row < 10 + column * 7 % 5 ? Cell::kFree : Cell::kOccupied);
     }
   }
-  EXPECT_GT(straight_share(drawn), 0.95);
-  EXPECT_LT(straight_share(ragged), 0.5);
+  EXPECT_GT(straightness(drawn).of_long, 0.95);
+  EXPECT_LT(straightness(ragged).of_long, 0.5);
 }
 
 }  // namespace

@@ -25,6 +25,16 @@ TEST(DropPockets, EnclosedPatches_BecomeUnknownExceptLargest) {
   EXPECT_EQ(grid.count(Cell::kFree), 2U);
 }
 
+TEST(Coarser, Cells_AreOccupiedWhereAnyIs) {
+  const OccupancyGrid grid = coarser(sketch({"..#??", "...??", "??.??"}), 2);
+  ASSERT_EQ(grid.columns(), 3);
+  ASSERT_EQ(grid.rows(), 2);
+  EXPECT_EQ(grid.at(0, 0), Cell::kFree);
+  EXPECT_EQ(grid.at(1, 0), Cell::kFree);
+  EXPECT_EQ(grid.at(1, 1), Cell::kOccupied);
+  EXPECT_EQ(grid.at(2, 0), Cell::kUnknown);
+}
+
 TEST(BuriedShare, SolidBlock_CountsInnerCells) {
   EXPECT_EQ(buried_share(sketch({"....", "####", "...."})), 0);
   EXPECT_NEAR(buried_share(sketch({"###", "###", "###"})), 1.0 / 9, 1e-12);

@@ -126,13 +126,18 @@ DrawnMap draw_map(const core::WallMap& map, double resolution_m, double yaw_rad)
   return drawn;
 }
 
+/// Heading of the drift of a mapper's poses, rad for each metre of it.
+constexpr double kDriftPerMetre = 0.1;
+
 DrawnMap scan_map(const core::WallMap& map, double resolution_m, double yaw_rad, double sigma_m,
-                  std::size_t places) {
+                  std::size_t places, double drift_m) {
   constexpr int kBeams = 720;
   DrawnMap drawn = blank(map, resolution_m, yaw_rad);
   std::vector<Counts> counts(static_cast<std::size_t>(drawn.grid.columns() * drawn.grid.rows()));
   std::mt19937_64 random(20193);
   std::normal_distribution<double> noise(0, sigma_m);
+  std::mt19937_64 random_drift(20198);
+  std::normal_distribution<double> drift(0, drift_m);
   const Vec2 size = map.upper_right() - map.lower_left();
   std::uniform_real_distribution<double> share(0, 1);
   for (std::size_t made = 0; made < places;) {
@@ -142,10 +147,13 @@ DrawnMap scan_map(const core::WallMap& map, double resolution_m, double yaw_rad,
     for (const core::Face& face : map.faces()) is_near = is_near || distance_to(face, place) < 0.1;
     if (is_near) continue;
     ++made;
+    const Vec2 drawn_place = place + Vec2(drift(random_drift), drift(random_drift));
+    const double turned_rad = kDriftPerMetre * drift(random_drift);
     for (int beam = 0; beam < kBeams; ++beam) {
       const double angle_rad = beam * core::kTwoPi / kBeams;
       const double range_m = map.range_along(place, angle_rad, 12);
-      if (range_m > 0) trace_beam(drawn, place, angle_rad, range_m + noise(random), counts);
+      if (range_m == 0) continue;
+      trace_beam(drawn, drawn_place, angle_rad + turned_rad, range_m + noise(random), counts);
     }
   }
   std::size_t i = 0;

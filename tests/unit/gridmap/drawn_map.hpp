@@ -31,9 +31,10 @@ struct DrawnMap {
 DrawnMap draw_map(const core::WallMap& map, double resolution_m, double yaw_rad);
 
 /// A mapper's picture from beams every 0.5 degrees at random places: a cell is occupied where a
-/// quarter of the beams that reached it ended in it. `sigma_m`: of their ranges.
+/// quarter of the beams that reached it ended in it. `sigma_m`: of their ranges. `drift_m`:
+/// standard deviation of the mapper's poses, along both axes.
 DrawnMap scan_map(const core::WallMap& map, double resolution_m, double yaw_rad, double sigma_m,
-                  std::size_t places);
+                  std::size_t places, double drift_m = 0);
 
 /// P5, with map_server's own shades.
 std::string to_pgm(const OccupancyGrid& grid);

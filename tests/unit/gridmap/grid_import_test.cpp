@@ -167,6 +167,40 @@ TEST(GridImport, UnknownGapAndDoor_ClosesGapOnly) {
   EXPECT_TRUE(door.joined_gaps.empty());
 }
 
+TEST(GridImport, EndOfKnowledge_IsOpenAndDoorIsNot) {
+  const OccupancyGrid grid = sketch({"????????????????????????", "##########....##########",
+                                     "........................", "........................"});
+  const ImportResult result = import_grid(grid, 0.05, {}, {.made_by = MadeBy::kDrawing});
+  ASSERT_EQ(result.plan.walls.size(), 2U);
+  for (const core::Wall& wall : result.plan.walls) {
+    for (const std::size_t end : {0U, 1U}) {
+      const double x = end == 0 ? wall.from.x() : wall.to.x();
+      EXPECT_EQ(wall.is_open[end], x < 0.2 || x > 1) << x;
+    }
+  }
+}
+
+TEST(GridImport, Sigma_IsHalfACellOrMore) {
+  const core::WallMap arena = sample_map("krpai-2019-a.json");
+  const core::WallMap flat = sample_map("flat-7.json");
+  EXPECT_EQ(import_drawn(draw_map(flat, 0.05, 0)).plan.sigma_m, 0.025);
+  EXPECT_EQ(import_drawn(draw_map(flat, 0.01, 0)).plan.sigma_m, 0.01);
+  EXPECT_EQ(import_drawn(scan_map(arena, 0.02, 0.2, 0.01, 25)).plan.sigma_m, 0.02);
+}
+
+TEST(GridImport, CellsFinerThanNoise_AreJoined) {
+  const core::WallMap room = furnished_room();
+  const ImportResult result = import_drawn(scan_map(room, 0.01, 0.2, 0.04, 20));
+  EXPECT_EQ(result.made_by, MadeBy::kLidar);
+  EXPECT_GT(result.cell_m, 0.015);
+  EXPECT_LE(result.plan.walls.size(), 16U);
+  const core::WallMap imported(result.plan);
+  for (int quarter = 0; quarter < 4; ++quarter) {
+    const double range_m = (quarter % 2 == 0 ? kRoomWidth_m : kRoomDepth_m) / 2;
+    EXPECT_NEAR(imported.range_along(kRoomMiddle, quarter * core::kPi / 2, 12), range_m, 0.03);
+  }
+}
+
 TEST(GridImport, SpecksAndPockets_AreReported) {
   const OccupancyGrid grid =
       sketch({"####################", "#..................#", "#....#.........###.#",

@@ -74,6 +74,13 @@ constexpr char kColoured[] =
     "\x54\x78\x9c\x63\x90\xb3\x89\xfa\xcf\xc0\xc0\xd0\x00\x00\x0a\x34\x02\x34\x6b\xfa"
     "\x44\xee\x00\x00\x00\x00\x49\x45\x4e\x44\xae\x42\x60\x82";
 
+/// Red, nearly grey, black.
+constexpr char kMarked[] =
+    "\x89\x50\x4e\x47\x0d\x0a\x1a\x0a\x00\x00\x00\x0d\x49\x48\x44\x52\x00\x00\x00\x03"
+    "\x00\x00\x00\x01\x08\x02\x00\x00\x00\x94\x82\x83\xe3\x00\x00\x00\x12\x49\x44\x41"
+    "\x54\x78\x9c\x63\xf8\xcf\xc0\x70\x62\xdf\x16\x06\x06\x06\x00\x14\x37\x03\x3a\x08"
+    "\x9d\x38\x3f\x00\x00\x00\x00\x49\x45\x4e\x44\xae\x42\x60\x82";
+
 template <std::size_t n>
 std::string bytes_of(const char (&text)[n]) {
   return {text, n - 1};
@@ -107,6 +114,12 @@ TEST_F(Png, Colours_GiveMeanAndTransparency) {
   const Image image = decode_image(bytes_of(kColoured));
   EXPECT_THAT(image.shades, ElementsAre(60, 0));
   EXPECT_THAT(image.alphas, ElementsAre(255, 128));
+}
+
+TEST_F(Png, BrightColours_AreTransparent) {
+  const Image image = decode_image(bytes_of(kMarked));
+  EXPECT_THAT(image.shades, ElementsAre(85, 190, 0));
+  EXPECT_THAT(image.alphas, ElementsAre(0, 255, 255));
 }
 
 TEST_F(Png, TruncatedOrDamaged_Throws) {

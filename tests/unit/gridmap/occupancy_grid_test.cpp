@@ -49,6 +49,17 @@ TEST(ReadShades, Trinary_IsUnknownBetweenThresholds) {
               ElementsAre(kOccupied, kOccupied, kUnknown, kUnknown, kFree, kFree));
 }
 
+TEST(ReadShades, TrinaryWithManyShades_UsesNearerStateAndKeepsUnknown) {
+  const std::vector<std::uint16_t> shades = {20,  90,  100, 110, 120, 160, 170, 180, 190, 205,
+                                             205, 205, 205, 205, 205, 205, 205, 205, 250};
+  const std::vector<Cell> cells = read(shades, yaml(ShadeMode::kTrinary));
+  EXPECT_EQ(cells[2], kOccupied);
+  EXPECT_EQ(cells[4], kOccupied);
+  EXPECT_EQ(cells[5], kFree);
+  EXPECT_EQ(cells[10], kUnknown);
+  EXPECT_EQ(cells.back(), kFree);
+}
+
 TEST(ReadShades, Negated_HasWhiteOccupied) {
   EXPECT_THAT(read({0, 50, 255}, yaml(ShadeMode::kTrinary, true)),
               ElementsAre(kFree, kUnknown, kOccupied));

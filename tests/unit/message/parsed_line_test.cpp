@@ -139,7 +139,8 @@ core::FloorPlan plan_of_all_kinds() {
   plan.thickness_m = 0.1;
   plan.sigma_m = 0.03;
   // Numbers without a short decimal fraction, too.
-  plan.walls = {{{0, 0}, {1.0 / 3, -1e-7}, 0.1}, {{-9999.125, 2}, {4, 3}, 0.25, 0.03}};
+  plan.walls = {{{0, 0}, {1.0 / 3, -1e-7}, 0.1},
+                {{-9999.125, 2}, {4, 3}, 0.25, 0.03, {false, true}}};
   plan.rooms = {{"one", {{0, 0}, {1, 0}, {0.7, 0.1}}}};
   return plan;
 }
@@ -155,6 +156,7 @@ TEST(ParsedLine, Map_WrittenByLineWriter_ReadBackExactly) {
   ASSERT_EQ(read.walls.size(), plan.walls.size());
   for (std::size_t i = 0; i < read.walls.size(); ++i) {
     EXPECT_EQ(read.walls[i].sigma_m, plan.walls[i].sigma_m);
+    EXPECT_EQ(read.walls[i].is_open, plan.walls[i].is_open);
     EXPECT_EQ(read.walls[i].from, plan.walls[i].from);
     EXPECT_EQ(read.walls[i].to, plan.walls[i].to);
     EXPECT_EQ(read.walls[i].thickness_m, plan.walls[i].thickness_m);
@@ -169,6 +171,8 @@ TEST(ParsedLine, WrongMap_NamedInError) {
     return parse_error(R"({"class":"MAP","name":"a",)" + rest + "}");
   };
   EXPECT_EQ(map_error(R"("walls":7)"), "\"walls\" must be an array");
+  EXPECT_EQ(map_error(R"("walls":[{"from":[0,0],"to":[1,0],"open":[true,1]}])"),
+            "\"walls\": \"open\" must hold two of true and false");
   EXPECT_EQ(map_error(R"("walls":[7])"), "\"walls\": \"from\" is missing");
   EXPECT_EQ(map_error(R"("walls":[{"from":[0,0],"to":[1]}])"),
             "\"walls\": \"to\" must hold points [x, y]");

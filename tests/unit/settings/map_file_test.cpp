@@ -39,11 +39,21 @@ TEST(MapFile, Image_IsRefusedWithTheCommandThatImportsIt) {
   }
 }
 
+TEST(MapFile, OpenEnds_AreTwoBooleans) {
+  const auto error = [](const std::string& open) {
+    return wall_error(R"({"from": [0, 0], "to": [1, 0], "open": )" + open + "}");
+  };
+  EXPECT_THAT(error("true"), HasSubstr("/walls/0/open: must be an array"));
+  EXPECT_THAT(error("[true]"), HasSubstr("/walls/0/open: must have at least 2"));
+  EXPECT_THAT(error("[true, false, true]"), HasSubstr("/walls/0/open: must have at most 2"));
+  EXPECT_THAT(error("[true, 0]"), HasSubstr("/walls/0/open/1: must be true or false"));
+}
+
 TEST(MapFile, EveryField_ReachesThePlan) {
   const core::FloorPlan plan =
       parse_floor_plan(map_of(R"("name": "flat", "thickness": 0.018, "sigma": 0.03,
         "walls": [{"from": [0, 0], "to": [2.4, 0]},
-                  {"from": [1.2, -1], "to": [1.2, 0.8], "thickness": 0}],
+                  {"from": [1.2, -1], "to": [1.2, 0.8], "thickness": 0, "open": [false, true]}],
         "rooms": [{"name": "room-1", "polygon": [[0, 0], [1, 0], [1, 1]]}])"),
                        "/m/a.json");
   EXPECT_EQ(plan.name, "flat");
@@ -54,6 +64,8 @@ TEST(MapFile, EveryField_ReachesThePlan) {
   EXPECT_EQ(plan.walls[0].thickness_m, 0.018);
   EXPECT_EQ(plan.walls[1].from, core::Vec2(1.2, -1));
   EXPECT_EQ(plan.walls[1].thickness_m, 0);
+  EXPECT_EQ(plan.walls[0].is_open, (std::array<bool, 2>{false, false}));
+  EXPECT_EQ(plan.walls[1].is_open, (std::array<bool, 2>{false, true}));
   ASSERT_EQ(plan.rooms.size(), 1u);
   EXPECT_EQ(plan.rooms[0].name, "room-1");
   EXPECT_EQ(plan.rooms[0].polygon[2], core::Vec2(1, 1));

@@ -110,5 +110,20 @@ TEST(BuildWalls, BlockThickerThanLong_IsWallAcross) {
   EXPECT_NEAR((built[0].to - built[0].from).norm(), 0.3, 1e-9);
 }
 
+TEST(BuildWalls, EndWhereSightEnded_IsOpen) {
+  Pieces walls = pieces_of({{{3, 2}, {0, 2}}, {{0.5, 2.12}, {3, 2.12}}, {{0, 0}, {2, 0}}});
+  walls.pieces[0].begin.is_open = true;  // of both faces, at x = 3
+  walls.pieces[1].end.is_open = true;
+  walls.pieces[1].begin.is_open = true;  // of the back alone, where the front goes on
+  walls.pieces[2].end.is_open = true;
+  const auto built =
+      build_walls(walls.drive, walls.pieces, pair_sides(walls.drive, walls.pieces, {}));
+  ASSERT_EQ(built.size(), 3U);
+  EXPECT_NEAR(built[0].thickness_m, 0.12, 1e-9);
+  EXPECT_EQ(built[0].is_open, (std::array<bool, 2>{true, true}));
+  EXPECT_EQ(built[1].is_open, (std::array<bool, 2>{false, false}));
+  EXPECT_EQ(built[2].is_open, (std::array<bool, 2>{false, true}));
+}
+
 }  // namespace
 }  // namespace cornerd::survey

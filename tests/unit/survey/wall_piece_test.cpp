@@ -64,6 +64,16 @@ TEST(CutPieces, FaceObservedInFewScans_IsDroppedWithReason) {
   EXPECT_EQ(scene.dropped[0].why, "observed in 4 scans");
 }
 
+TEST(MarkOpenEnds, EndBesideWhichRaysPassed_IsNotOpen) {
+  // Rays pass beside the right end, x = 1, to the wall behind. Beyond the left one is nothing.
+  Scene scene = cut({{{1, 2}, {-1, 2}}, {{5, 4}, {1, 4}}});
+  mark_open_ends(scene.evidence, scene.pieces);
+  ASSERT_FALSE(scene.pieces.empty());
+  ASSERT_EQ(scene.pieces[0].face, 0U);
+  EXPECT_FALSE(scene.pieces[0].begin.is_open);
+  EXPECT_TRUE(scene.pieces[0].end.is_open);
+}
+
 WallPiece piece_of(MappedDrive& drive, const Vec2& from, const Vec2& to, std::size_t hits) {
   const LineLandmark face = face_between(from, to);
   WallPiece piece;

@@ -38,6 +38,19 @@ TEST(WallMap, SingleWall_FourFacesWithSquareEnds) {
   EXPECT_NE(corner_at(map, {2.1, 0.1}), nullptr);
 }
 
+TEST(WallMap, OpenEnd_HasNoCorners) {
+  Wall thick{{0, 0}, {2, 0}, 0.2};
+  thick.is_open = {false, true};
+  Wall line{{0, 3}, {2, 3}, 0};
+  line.is_open = {true, false};
+  const WallMap map(plan_of({thick, line}));
+  EXPECT_NE(corner_at(map, {-0.1, -0.1}), nullptr);
+  EXPECT_NE(corner_at(map, {-0.1, 0.1}), nullptr);
+  EXPECT_NE(corner_at(map, {2, 3}), nullptr);
+  EXPECT_EQ(map.corners().size(), 3U);
+  EXPECT_EQ(map.faces().size(), 6U);
+}
+
 TEST(WallMap, Faces_FreeSpaceIsOnLeft) {
   const WallMap map(testing::l_shaped_room());
   for (const Face& face : map.faces()) {
