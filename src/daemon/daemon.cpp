@@ -38,6 +38,10 @@ ScanPublisher::PublishedMap published(const Loaded& loaded) {
   return {loaded.map, loaded.map_line, !loaded.config.maps.empty()};
 }
 
+message::StatusFields::Mount mount_of(const settings::Config& config) {
+  return {config.localizer().T_base_lidar, config.lidar.mount.inverted};
+}
+
 SourceKind source_of(settings::DriverKind driver) {
   return driver == settings::DriverKind::kReplay ? SourceKind::kRecording : SourceKind::kDevice;
 }
@@ -58,6 +62,7 @@ Daemon::Daemon(Loaded loaded, MapLoader loader, std::unique_ptr<drivers::LidarDr
       localization_(*lidar_,
                     with_calibration(std::move(loaded.pipeline), config_.lidar, calibration_),
                     source_of(config_.lidar.driver)) {
+  status_.set_mount(mount_of(config_));
   open_sockets();
   // The sockets are opened first: a second instance fails before it touches the serial port.
   localization_.publish_predictions(config_.odometry.core.publish_predictions);
@@ -205,6 +210,7 @@ void Daemon::on_loaded() {
   const std::string name = plan.name + ", " + std::to_string(plan.walls.size()) + " walls";
   if (!calibration_.reconfigure(loaded.config.lidar.bias)) localization_.forget_lidar();
   localization_.publish_predictions(loaded.config.odometry.core.publish_predictions);
+  status_.set_mount(mount_of(loaded.config));
   auto pipeline = with_calibration(std::move(loaded.pipeline), loaded.config.lidar, calibration_);
   scans_.set_next_map(localization_.replace_pipeline(std::move(pipeline)), published(loaded));
   if (health_.memory_is_locked) health_.memory_is_locked = lock_memory() == 0;
