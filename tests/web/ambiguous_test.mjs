@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import { onScreen, sizes, until, withBench } from "./bench.mjs";
+
+// Looks the same after half a turn.
+const room = { format: "cornerd-map", version: 1, name: "room", thickness: 0.1, walls: [
+  { from: [0, 0], to: [3, 0] }, { from: [3, 0], to: [3, 2] }, { from: [3, 2], to: [0, 2] }, { from: [0, 2], to: [0, 0] }] };
+const truth = { x: 1.1, y: 0.8, theta: 0.4 };
+
+test("a tap on the right ghost ends an ambiguous", withBench(async (bench) => {
+  await bench.start(bench.write("room.json", room), { args: ["--pose", `${truth.x},${truth.y},${truth.theta}`] });
+  const page = await bench.browse(sizes.phone);
+  await bench.state(page, "ambiguous");
+  assert.equal(await page.textContent("#x"), "–");
+  const at = await onScreen(page, [truth.x, truth.y]);
+  await page.touchscreen.tap(at.x, at.y);
+  await bench.state(page, "fix", "tracking");
+  assert.ok(Math.abs(Number(await page.textContent("#x")) - truth.x) < 0.05);
+  assert.ok(Math.abs(Number(await page.textContent("#theta")) - truth.theta) < 0.05);
+  await page.click("#relocalize");
+  await bench.state(page, "ambiguous");
+
+  // "You are here": press, drag to where it looks.
+  await page.click("#here");
+  const from = await onScreen(page, [truth.x, truth.y]);
+  const to = await onScreen(page, [truth.x + Math.cos(truth.theta), truth.y + Math.sin(truth.theta)]);
+  await page.mouse.move(from.x, from.y);
+  await page.mouse.down();
+  await page.mouse.move(to.x, to.y, { steps: 4 });
+  await page.mouse.up();
+  await bench.state(page, "fix", "tracking");
+  await until("the right one", async () => Math.abs(Number(await page.textContent("#y")) - truth.y) < 0.05);
+  assert.deepEqual(page.problems, []);
+}));
