@@ -6,6 +6,7 @@ import { distance, Draft } from "./draft.js";
 
 const $ = (id) => document.getElementById(id);
 const kReach_px = 14;  // of a finger
+const kReach_m = 0.3;   // at most, however small the picture
 const kCheckDelay_ms = 300;
 
 const explanations = {
@@ -53,10 +54,13 @@ export class Editor {
     this.choose(map ? "move" : "wall");
     this.changed();
     if (!before || !map) this.view.showWhole();
+    this.view.isFitted = false;  // nothing moves under the pencil
   }
   stop() {
     this.draft = this.view.draft = this.view.preview = this.view.outline = undefined;
     document.body.classList.remove("drawing");
+    const { map } = this.view;
+    if (map) this.view.setWalls(map.walls, map.thickness ?? 0);
     this.view.showWhole();
   }
   // A new scan, where it is not held.
@@ -86,7 +90,7 @@ export class Editor {
   // After each change: the words of `map check`.
   changed() {
     $("thickness").value = Math.round(this.draft.thickness * 1000) / 10;
-    this.view.draw();
+    this.view.setWalls(this.draft.walls, this.draft.thickness);
     clearTimeout(this.timer);
     this.timer = setTimeout(async () => {
       const draft = this.draft;
@@ -113,7 +117,7 @@ export class Editor {
   // What a finger that is pressed at `begin` does with the tool that is chosen; null: nothing.
   gesture(begin) {
     const { draft, view } = this;
-    const reach = kReach_px / view.scale;
+    const reach = Math.min(kReach_px / view.scale, kReach_m);
     const grip = this.tool === "move" ? draft.grab(begin, reach) : null;
     if (this.tool === "move" && !grip) return null;
     this.isRectangle = false;

@@ -4,6 +4,7 @@ import { color, paintDraft, wallPaths } from "./walls.js";
 import { WallIndex } from "./wall_index.js";
 
 const kTrailPoses = 2000;
+const kOutliers = 0.02;  // of a scan, at each end
 const kFollow_m = 6;  // seen around the robot that is followed
 
 export class View {
@@ -43,7 +44,7 @@ export class View {
 
   setMap(map) {
     this.map = map;
-    this.index = new WallIndex(map.walls, map.thickness ?? 0);
+    if (!this.draft) this.setWalls(map.walls, map.thickness ?? 0);
     this.paths = wallPaths(map.walls, map.thickness ?? 0);
     this.trail = [];
     this.showWhole();
@@ -52,12 +53,16 @@ export class View {
   // The whole map in the part of the canvas that is free.
   showWhole() {
     this.isFitted = true;
-    const { walls } = this.draft ?? this.map ?? {};
-    const points = [...(walls ?? []).flatMap((wall) => [wall.from, wall.to]), ...(this.draft?.scan ?? [])];
-    if (!points.length) return;
+    const points = (this.draft ?? this.map)?.walls.flatMap((wall) => [wall.from, wall.to]) ?? [];
+    const scan = this.draft?.scan ?? [];
+    if (!points.length && !scan.length) return;
     const low = [Infinity, Infinity], high = [-Infinity, -Infinity];
-    for (const p of points) {
-      for (const i of [0, 1]) [low[i], high[i]] = [Math.min(low[i], p[i]), Math.max(high[i], p[i])];
+    for (const i of [0, 1]) {
+      // Without the outliers of the scan.
+      const sorted = scan.map((p) => p[i]).sort((a, b) => a - b);
+      const few = Math.floor(kOutliers * sorted.length);
+      const all = [...points.map((p) => p[i]), ...sorted.slice(few, sorted.length - few)];
+      for (const v of all) [low[i], high[i]] = [Math.min(low[i], v), Math.max(high[i], v)];
     }
     const free = this.free();
     const [width, height] = [free.right - free.left, free.bottom - free.top];
@@ -91,8 +96,17 @@ export class View {
   // Points of the lidar in the map, for the pose that holds at the middle of the scan.
   setScan(points) {
     if (this.draft?.isHeld) return;
-    this.points = points.map((p) => ({ ...p, known: !this.index || this.index.contains(p.x, p.y) }));
+    this.points = points;
+    this.compare();
+  }
+  // Which of them the walls do not have.
+  compare() {
+    for (const p of this.points) p.known = !this.index || this.index.contains(p.x, p.y);
     this.draw();
+  }
+  setWalls(walls, thickness) {
+    this.index = new WallIndex(walls, thickness);
+    this.compare();
   }
   setCorners(corners) { this.corners = corners; }
 
@@ -280,7 +294,7 @@ export class View {
     const rough = 120 / this.scale;
     const power = 10 ** Math.floor(Math.log10(rough));
     const length = [5, 2, 1].map((n) => n * power).find((n) => n <= rough);
-    const x = this.width - 20, y = this.height - 80;
+    const x = this.width - 20, y = this.free().bottom + 24;
     c.strokeStyle = c.fillStyle = color("soft");
     c.lineWidth = 2;
     c.strokeRect(x - length * this.scale, y - 1, length * this.scale, 1);
