@@ -48,11 +48,10 @@ const std::string kCubeSchema = object(field("pose", pose()) + ',' + field("size
                                        ',' + field("color", numbers("rgba")));
 const std::string kWallsSchema = object(
     field("deletions", list(stamped(field("type", kInteger) + ',' + field("id", kString)))) + ',' +
-    field("entities",
-          list(stamped(field("frame_id", kString) + ',' + field("id", kString) + ',' +
-                       field("lifetime", kTime) + ',' +
-                       field("frame_locked", R"({"type":"boolean"})") + ',' +
-                       field("cubes", list(kCubeSchema))))));
+    field("entities", list(stamped(field("frame_id", kString) + ',' + field("id", kString) + ',' +
+                                   field("lifetime", kTime) + ',' +
+                                   field("frame_locked", R"({"type":"boolean"})") + ',' +
+                                   field("cubes", list(kCubeSchema))))));
 constexpr std::string_view kOwnSchema = R"({"type":"object"})";
 
 }  // namespace

@@ -71,7 +71,8 @@ std::vector<core::Sample> by_angle(std::vector<core::Sample> samples) {
   std::ranges::sort(samples, {}, angle);
   const auto full_turn = static_cast<float>(2 * core::kPi);
   std::size_t first = 0;
-  float largest_gap_rad = samples.empty() ? 0 : angle(samples[0]) + full_turn - angle(samples.back());
+  float largest_gap_rad =
+      samples.empty() ? 0 : angle(samples[0]) + full_turn - angle(samples.back());
   for (std::size_t i = 1; i < samples.size(); ++i) {
     const float gap_rad = angle(samples[i]) - angle(samples[i - 1]);
     if (gap_rad <= largest_gap_rad) continue;
@@ -108,8 +109,8 @@ void Converter::convert(std::string_view line, core::TimeNs now_ns, const Emit& 
   }
 }
 
-// Foxglove's LaserScan has its samples at equal angles. A lidar turns almost evenly: each of them is
-// the sample next to it, half a step away at most where the samples are evenly spaced.
+// Foxglove's LaserScan has its samples at equal angles. A lidar turns almost evenly: each of them
+// is the sample next to it, half a step away at most where the samples are evenly spaced.
 void Converter::scan(const message::RecordedScan& scan, const Emit& emit) {
   const std::vector<core::Sample> samples = by_angle(scan.samples);
   if (samples.empty()) return;
@@ -185,8 +186,8 @@ void Converter::walls(const core::FloorPlan& plan, core::TimeNs t_ns, const Emit
   json_.string("id", "walls");
   write_time(json_, "lifetime", 0);
   json_.boolean("frame_locked", true);
-  for (const char* none : {"metadata", "arrows", "spheres", "cylinders", "lines", "triangles",
-                           "texts", "models"}) {
+  for (const char* none :
+       {"metadata", "arrows", "spheres", "cylinders", "lines", "triangles", "texts", "models"}) {
     json_.open_array(none);
     json_.close_array();
   }

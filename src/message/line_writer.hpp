@@ -45,7 +45,7 @@ struct StatusFields {
     core::Pose2 T_base_lidar;
     bool inverted = false;  ///< the lidar hangs upside down; SCAN's angles have it already
   };
-  std::optional<Mount> mount;  ///< left out where it is not known
+  std::optional<Mount> mount;                 ///< left out where it is not known
   const core::EstimatedBias* bias = nullptr;  ///< of the lidar; left out before its first scan
   struct Counter {
     std::string_view name;

@@ -50,7 +50,8 @@ const json& list(const json& object, const char* name) {
 
 bool is_text(const json& object, const char* name, std::string_view value) {
   const auto found = object.is_object() ? object.find(name) : object.end();
-  return found != object.end() && found->is_string() && found->get_ref<const std::string&>() == value;
+  return found != object.end() && found->is_string() &&
+         found->get_ref<const std::string&>() == value;
 }
 
 std::string server_info(bool may_publish) {
@@ -103,7 +104,8 @@ void FoxgloveSession::on_text(std::string_view text) {
   if (!message.is_object()) return tell("a text message must be a JSON object");
   if (is_text(message, "op", "subscribe")) {
     for (const json& one : list(message, "subscriptions")) {
-      if (!one.is_object() || !is_id(one.value("id", json())) || !is_id(one.value("channelId", json()))) {
+      if (!one.is_object() || !is_id(one.value("id", json())) ||
+          !is_id(one.value("channelId", json()))) {
         return tell("a subscription must have id and channelId");
       }
       const auto channel = one["channelId"].get<std::uint32_t>();
@@ -119,7 +121,8 @@ void FoxgloveSession::on_text(std::string_view text) {
   } else if (is_text(message, "op", "advertise")) {
     for (const json& channel : list(message, "channels")) {
       if (!is_text(channel, "topic", kInitialPose)) continue;
-      if (!is_text(channel, "encoding", foxglove::kMessageEncoding) || !is_id(channel.value("id", json()))) {
+      if (!is_text(channel, "encoding", foxglove::kMessageEncoding) ||
+          !is_id(channel.value("id", json()))) {
         return tell("/initialpose takes foxglove.PoseInFrame as json");
       }
       if (initial_pose_channels_.size() == kMaxSubscriptions) return tell("too many channels");
@@ -146,9 +149,9 @@ std::string FoxgloveSession::on_binary(std::string_view bytes) {
 std::string FoxgloveSession::pose_request(std::string_view text) {
   const json message = json::parse(text, nullptr, /*allow_exceptions=*/false);
   std::array<double, 6> values{};
-  constexpr std::array<const char*, 6> kPointers = {
-      "/pose/position/x",    "/pose/position/y",    "/pose/orientation/x",
-      "/pose/orientation/y", "/pose/orientation/z", "/pose/orientation/w"};
+  constexpr std::array<const char*, 6> kPointers = {"/pose/position/x",    "/pose/position/y",
+                                                    "/pose/orientation/x", "/pose/orientation/y",
+                                                    "/pose/orientation/z", "/pose/orientation/w"};
   for (std::size_t i = 0; i < values.size(); ++i) {
     const json::json_pointer pointer(kPointers[i]);
     if (!message.is_object() || !message.contains(pointer) || !message[pointer].is_number()) {
@@ -169,24 +172,24 @@ std::string FoxgloveSession::pose_request(std::string_view text) {
 void FoxgloveSession::on_line(std::string_view line, core::TimeNs now_ns) {
   const bool is_map = line.starts_with(R"({"class":"MAP")");
   if (is_map && (!is_subscribed(ChannelId::kWalls) || line.size() > kMaxShownMapBytes)) return;
-  converter_.convert(line, now_ns, [this](ChannelId channel, core::TimeNs t_ns, std::string_view json_text) {
-    for (const auto& [id, subscribed] : subscriptions_) {
-      if (subscribed != channel) continue;
-      std::string bytes(1, kMessageData);
-      append_number(bytes, id);
-      append_number(bytes, static_cast<std::uint64_t>(t_ns));
-      frames_.push_back({true, bytes.append(json_text)});
-    }
-  });
+  converter_.convert(line, now_ns,
+                     [this](ChannelId channel, core::TimeNs t_ns, std::string_view json_text) {
+                       for (const auto& [id, subscribed] : subscriptions_) {
+                         if (subscribed != channel) continue;
+                         std::string bytes(1, kMessageData);
+                         append_number(bytes, id);
+                         append_number(bytes, static_cast<std::uint64_t>(t_ns));
+                         frames_.push_back({true, bytes.append(json_text)});
+                       }
+                     });
 }
 
 void FoxgloveSession::on_connection(bool is_connected) {
-  const json frame = is_connected
-                         ? json{{"op", "removeStatus"}, {"statusIds", {"daemon"}}}
-                         : json{{"op", "status"},
-                                {"id", "daemon"},
-                                {"level", kErrorLevel},
-                                {"message", "The daemon is away."}};
+  const json frame = is_connected ? json{{"op", "removeStatus"}, {"statusIds", {"daemon"}}}
+                                  : json{{"op", "status"},
+                                         {"id", "daemon"},
+                                         {"level", kErrorLevel},
+                                         {"message", "The daemon is away."}};
   frames_.push_back({false, frame.dump()});
 }
 

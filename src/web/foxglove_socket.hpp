@@ -38,8 +38,9 @@ class FoxgloveSocket : public std::enable_shared_from_this<FoxgloveSocket> {
     socket_.read_message_max(kMaxFrameBytes);
     const beast::string_view offered = header[http::field::sec_websocket_protocol];
     const std::string protocol(foxglove_protocol({offered.data(), offered.size()}));
-    socket_.set_option(websocket::stream_base::decorator(
-        [protocol](auto& response) { response.set(http::field::sec_websocket_protocol, protocol); }));
+    socket_.set_option(websocket::stream_base::decorator([protocol](auto& response) {
+      response.set(http::field::sec_websocket_protocol, protocol);
+    }));
     socket_.async_accept(header, [self = shared_from_this()](beast::error_code error) {
       if (!error) self->start();
     });
@@ -58,9 +59,10 @@ class FoxgloveSocket : public std::enable_shared_from_this<FoxgloveSocket> {
   }
 
   void read() {
-    socket_.async_read(received_, [self = shared_from_this()](beast::error_code error, std::size_t) {
-      if (!error) self->on_frame();
-    });
+    socket_.async_read(received_,
+                       [self = shared_from_this()](beast::error_code error, std::size_t) {
+                         if (!error) self->on_frame();
+                       });
   }
 
   void on_frame() {

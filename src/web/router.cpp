@@ -16,8 +16,8 @@ namespace {
 using message::MessageClass;
 
 constexpr std::string_view kMapsFolder = "/api/maps/";
-/// Of 40,000 walls.
-constexpr std::size_t kMaxMapBytes = 4 * 1024 * 1024;
+/// Of 20,000 walls, which take 40 MB while they are checked.
+constexpr std::size_t kMaxMapBytes = 1024 * 1024;
 constexpr long kMaxRecordingSeconds = 60;
 
 const PageFile* find_file(std::string_view path) {
@@ -38,8 +38,8 @@ Methods methods_of(std::string_view path) {
   if (path == "/api/request") return {"", "POST", message::kMaxRequestBytes};
   if (path == "/api/maps/check") return {"", "POST", kMaxMapBytes};
   if (path.starts_with(kMapsFolder)) return {"", "PUT", kMaxMapBytes};
-  for (const std::string_view known :
-       {"/api/map", "/api/status", "/api/events", "/api/recording", "/api/maps", "/metrics", "/foxglove"}) {
+  for (const std::string_view known : {"/api/map", "/api/status", "/api/events", "/api/recording",
+                                       "/api/maps", "/metrics", "/foxglove"}) {
     if (path == known) return {"GET", ""};
   }
   if (find_file(path) != nullptr) return {"GET", ""};

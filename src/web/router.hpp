@@ -18,10 +18,10 @@ namespace cornerd::web {
 class Router {
  public:
   enum class Kind {
-    kRefused,  ///< `response` says why; the body is not read
-    kPage,     ///< answer() on the thread of the hub
-    kWork,     ///< work() on any thread, since it may block
-    kEvents,   ///< a stream of `classes`
+    kRefused,   ///< `response` says why; the body is not read
+    kPage,      ///< answer() on the thread of the hub
+    kWork,      ///< work() on any thread, since it may block
+    kEvents,    ///< a stream of `classes`
     kFoxglove,  ///< a WebSocket
   };
   struct Decision {
