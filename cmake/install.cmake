@@ -44,28 +44,3 @@ install(FILES ${PROJECT_BINARY_DIR}/cornerd.service DESTINATION lib/systemd/syst
 install(FILES systemd/cornerd.socket systemd/cornerd-control.socket DESTINATION lib/systemd/system)
 install(FILES systemd/cornerd.sysusers DESTINATION lib/sysusers.d RENAME cornerd.conf)
 install(FILES systemd/61-cornerd.rules DESTINATION lib/udev/rules.d)
-
-# The client library, for programs of others.
-install(TARGETS cornerd_client ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT libcornerd-client-dev)
-install(FILES src/client/connection.hpp src/client/retry_delay.hpp src/client/subscription.hpp
-  DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/cornerd/client COMPONENT libcornerd-client-dev)
-foreach(file cmake/debian/copyright ${PROJECT_BINARY_DIR}/debian/changelog.gz)
-  install(FILES ${file} DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/libcornerd-client-dev
-    COMPONENT libcornerd-client-dev)
-endforeach()
-
-# The live page: a package of its own, since the daemon keeps no network.
-if(TARGET cornerd-web)
-  install(TARGETS cornerd-web RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT cornerd-web)
-  cornerd_follow_prefix(systemd/cornerd-web.service)
-  install(FILES ${PROJECT_BINARY_DIR}/cornerd-web.service DESTINATION lib/systemd/system COMPONENT cornerd-web)
-  install(FILES systemd/cornerd-web.sysusers DESTINATION lib/sysusers.d RENAME cornerd-web.conf
-    COMPONENT cornerd-web)
-  install(FILES systemd/cornerd-web.tmpfiles DESTINATION lib/tmpfiles.d RENAME cornerd-web.conf
-    COMPONENT cornerd-web)
-  install(FILES systemd/cornerd-web.default DESTINATION ${CMAKE_INSTALL_FULL_SYSCONFDIR}/default
-    RENAME cornerd-web COMPONENT cornerd-web)
-  set(web_doc ${CMAKE_INSTALL_DATADIR}/doc/cornerd-web)
-  install(FILES cmake/debian/copyright DESTINATION ${web_doc} COMPONENT cornerd-web)
-  install(FILES ${PROJECT_BINARY_DIR}/debian/changelog.gz DESTINATION ${web_doc} COMPONENT cornerd-web)
-endif()

@@ -11,17 +11,14 @@ endif()
 set(cornerd_pages)
 # cornerd_man_page(PAGE DEPENDS file... COMMAND script arguments...)
 function(cornerd_man_page page)
-  cmake_parse_arguments(arg "" "COMPONENT" "DEPENDS;COMMAND" ${ARGN})
-  if(NOT arg_COMPONENT)
-    set(arg_COMPONENT Unspecified)
-  endif()
+  cmake_parse_arguments(arg "" "" "DEPENDS;COMMAND" ${ARGN})
   set(output ${PROJECT_BINARY_DIR}/man/${page}.gz)
   string(REGEX REPLACE ".*\\." "" section ${page})
   add_custom_command(OUTPUT ${output}
     COMMAND ${PROJECT_SOURCE_DIR}/cmake/man_page ${output} ${PROJECT_VERSION} ${arg_COMMAND}
     DEPENDS ${PROJECT_SOURCE_DIR}/cmake/man_page ${arg_DEPENDS}
     VERBATIM)
-  install(FILES ${output} DESTINATION ${CMAKE_INSTALL_MANDIR}/man${section} COMPONENT ${arg_COMPONENT})
+  install(FILES ${output} DESTINATION ${CMAKE_INSTALL_MANDIR}/man${section})
   set(cornerd_pages ${cornerd_pages} ${output} PARENT_SCOPE)
 endfunction()
 
@@ -31,8 +28,4 @@ cornerd_man_page(cornerctl.1 DEPENDS cornerctl
   COMMAND program ${CMAKE_CROSSCOMPILING_EMULATOR} $<TARGET_FILE:cornerctl>)
 cornerd_man_page(cornerd.json.5 DEPENDS ${PROJECT_SOURCE_DIR}/config/cornerd.full.json
   COMMAND file ${PROJECT_SOURCE_DIR}/config/cornerd.full.json)
-if(TARGET cornerd-web)
-  cornerd_man_page(cornerd-web.8 COMPONENT cornerd-web DEPENDS cornerd-web
-    COMMAND program ${CMAKE_CROSSCOMPILING_EMULATOR} $<TARGET_FILE:cornerd-web>)
-endif()
 add_custom_target(man_pages ALL DEPENDS ${cornerd_pages})

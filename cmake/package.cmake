@@ -1,5 +1,5 @@
-# `--target deb`: the packages of this build, for the architecture that it was built for, in the build
-# folder: cornerd, and one for each named component. What it depends on is found out by dpkg-shlibdeps.
+# `--target deb`: the package of this build, for the architecture that it was built for, in the build
+# folder. What it depends on is found out by dpkg-shlibdeps.
 
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME cornerd)
@@ -33,33 +33,16 @@ if(CMAKE_CROSSCOMPILING)
 endif()
 
 set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
-set(CPACK_DEB_COMPONENT_INSTALL ON)
-set(CPACK_DEBIAN_UNSPECIFIED_PACKAGE_NAME cornerd)
-set(CPACK_DEBIAN_UNSPECIFIED_PACKAGE_CONTROL_EXTRA
+set(CPACK_DEBIAN_PACKAGE_CONTROL_EXTRA
     ${PROJECT_SOURCE_DIR}/cmake/debian/conffiles ${PROJECT_SOURCE_DIR}/cmake/debian/postinst
     ${PROJECT_SOURCE_DIR}/cmake/debian/prerm ${PROJECT_SOURCE_DIR}/cmake/debian/postrm)
-
-set(CPACK_DEBIAN_LIBCORNERD-CLIENT-DEV_PACKAGE_NAME libcornerd-client-dev)
-set(CPACK_DEBIAN_LIBCORNERD-CLIENT-DEV_PACKAGE_SECTION libdevel)
-set(CPACK_DEBIAN_LIBCORNERD-CLIENT-DEV_DESCRIPTION
-"the client library of cornerd, to build programs with. It connects, reconnects
-and reads one message at a time, without an allocation per line.")
-set(CPACK_DEBIAN_CORNERD-WEB_PACKAGE_NAME cornerd-web)
-set(CPACK_DEBIAN_CORNERD-WEB_DESCRIPTION
-"cornerd-web shows on one page what cornerd knows: the map, the robot with its
-covariance, its scan and its trail. Where several places fit, a tap says which
-one is right. Walls can be drawn over the scan. It also speaks the protocols of
-Prometheus and Foxglove.")
-set(CPACK_DEBIAN_CORNERD-WEB_PACKAGE_DEPENDS "cornerd, systemd")
-list(TRANSFORM CPACK_DEBIAN_UNSPECIFIED_PACKAGE_CONTROL_EXTRA REPLACE "/debian/" "/debian/cornerd-web/"
-  OUTPUT_VARIABLE CPACK_DEBIAN_CORNERD-WEB_PACKAGE_CONTROL_EXTRA)
 
 include(CPack)
 
 add_custom_target(deb
   COMMAND ${CMAKE_CPACK_COMMAND} --config ${PROJECT_BINARY_DIR}/CPackConfig.cmake
           -B ${PROJECT_BINARY_DIR}
-  DEPENDS cornerd cornerctl $<TARGET_NAME_IF_EXISTS:cornerd-web>
+  DEPENDS cornerd cornerctl
   USES_TERMINAL VERBATIM)
 if(TARGET man_pages)
   add_dependencies(deb man_pages)

@@ -1,15 +1,12 @@
 // SPDX-License-Identifier: MIT
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { onScreen, sizes, until, withBench } from "./bench.mjs";
+import { onScreen, sizes, symmetricRoom, until, withBench } from "./bench.mjs";
 
-// Looks the same after half a turn.
-const room = { format: "cornerd-map", version: 1, name: "room", thickness: 0.1, walls: [
-  { from: [0, 0], to: [3, 0] }, { from: [3, 0], to: [3, 2] }, { from: [3, 2], to: [0, 2] }, { from: [0, 2], to: [0, 0] }] };
 const truth = { x: 1.1, y: 0.8, theta: 0.4 };
 
 test("a tap on the right ghost ends an ambiguous", withBench(async (bench) => {
-  await bench.start(bench.write("room.json", room), { args: ["--pose", `${truth.x},${truth.y},${truth.theta}`] });
+  await bench.start(bench.write("room.json", symmetricRoom), { args: ["--pose", `${truth.x},${truth.y},${truth.theta}`] });
   const page = await bench.browse(sizes.phone);
   await bench.state(page, "ambiguous");
   assert.equal(await page.textContent("#x"), "–");

@@ -10,6 +10,9 @@ import { chromium } from "playwright-core";
 const bin = process.env.CORNERD_BIN;
 export const tree = process.env.CORNERD_TREE;
 export const sizes = { phone: { width: 390, height: 844 }, desk: { width: 1280, height: 800 } };
+// Looks the same after half a turn.
+export const symmetricRoom = { format: "cornerd-map", version: 1, name: "room", thickness: 0.1, walls: [
+  { from: [0, 0], to: [3, 0] }, { from: [3, 0], to: [3, 2] }, { from: [3, 2], to: [0, 2] }, { from: [0, 2], to: [0, 0] }] };
 const kPatience_ms = 30000;
 
 export const sleep = (ms) => new Promise((done) => setTimeout(done, ms));

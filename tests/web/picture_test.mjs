@@ -2,7 +2,7 @@
 // The pictures of the README, where SCREENSHOTS names a folder.
 import { test } from "node:test";
 import { join } from "node:path";
-import { sizes, sleep, tree, withBench } from "./bench.mjs";
+import { sizes, sleep, symmetricRoom, tree, withBench } from "./bench.mjs";
 
 const folder = process.env.SCREENSHOTS;
 
@@ -19,4 +19,12 @@ test("pictures", { skip: !folder }, withBench(async (bench) => {
   await desk.click("#edit");
   await sleep(1000);
   await desk.screenshot({ path: join(folder, "editor.png") });
+}));
+
+test("a picture of ghosts", { skip: !folder }, withBench(async (bench) => {
+  await bench.start(bench.write("hall.json", symmetricRoom), { args: ["--pose", "1.1,0.8,0.4"] });
+  const phone = await bench.browse(sizes.phone);
+  await bench.state(phone, "ambiguous");
+  await sleep(500);
+  await phone.screenshot({ path: join(folder, "ghosts.png") });
 }));

@@ -52,8 +52,8 @@ follow({
     showStatus(status);
     placer.mount = status.lidar?.mount ?? placer.mount;
   },
-  // The last event comes at the start too, and may be from yesterday.
-  EVENT: (event) => view.pose && Math.abs(event.t - view.pose.t) < 5 && tell([event.what, event.detail].filter(Boolean).join(": ")),
+  // The panel shows the state. The last event comes at the start too, and may be from yesterday.
+  EVENT: (event) => event.what !== "state change" && view.pose && Math.abs(event.t - view.pose.t) < 5 && tell([event.what, event.detail].filter(Boolean).join(": ")),
 });
 
 async function sendPose(pose) {
