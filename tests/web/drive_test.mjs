@@ -92,3 +92,22 @@ test("record, and the last minute, are recordings", withBench(async (bench) => {
     assert.ok(replayed.output.split('"class":"POSE"').length > 8, `poses of ${button}`);
   }
 }));
+
+test("the scan is drawn from where the lidar sits on the robot", withBench(async (bench) => {
+  await bench.start(map, { args: ["--pose", "0.95,0.6,1.57"] }, { mount: { x: -0.3, y: 0.2, theta: 2 } });
+  const page = await bench.browse(sizes.desk);
+  await bench.state(page, "fix", "tracking");
+  const share = () => page.$eval("#map", (canvas) => {
+    const { data } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
+    const style = getComputedStyle(document.documentElement);
+    const [known, unknown] = ["--scan", "--unexplained"].map((name) => {
+      const color = style.getPropertyValue(name).trim();
+      const [r, g, b] = [1, 3, 5].map((i) => parseInt(color.slice(i, i + 2), 16));
+      let n = 0;
+      for (let i = 0; i < data.length; i += 4) n += data[i] === r && data[i + 1] === g && data[i + 2] === b;
+      return n;
+    });
+    return known / (known + unknown);
+  });
+  await until("the scan lies on the walls", async () => await share() > 0.95, 10000);
+}));
