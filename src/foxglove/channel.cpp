@@ -57,7 +57,7 @@ constexpr std::string_view kOwnSchema = R"({"type":"object"})";
 }  // namespace
 
 std::span<const Channel> channels() {
-  static const std::array<Channel, 8> all = {{
+  static const std::array<Channel, 8> kAll = {{
       {ChannelId::kScan, "/scan", "foxglove.LaserScan", kScanSchema},
       {ChannelId::kPose, "/pose", "foxglove.PoseInFrame", kPoseSchema},
       {ChannelId::kTransform, "/tf", "foxglove.FrameTransform", kTransformSchema},
@@ -67,7 +67,7 @@ std::span<const Channel> channels() {
       {ChannelId::kEventMessage, "/cornerd/event", "cornerd.Event", kOwnSchema},
       {ChannelId::kOdometryMessage, "/cornerd/odometry", "cornerd.Odometry", kOwnSchema},
   }};
-  return all;
+  return kAll;
 }
 
 }  // namespace cornerd::foxglove

@@ -68,7 +68,8 @@ void write_wall(JsonText& json, const core::Wall& wall) {
 /// In ascending angle, from the end of the largest gap on.
 std::vector<core::Sample> by_angle(std::vector<core::Sample> samples) {
   const auto angle = [](const core::Sample& sample) { return sample.bearing_rad; };
-  std::ranges::sort(samples, {}, angle);
+  std::sort(samples.begin(), samples.end(),
+            [&](const auto& a, const auto& b) { return angle(a) < angle(b); });
   const auto full_turn = static_cast<float>(2 * core::kPi);
   std::size_t first = 0;
   float largest_gap_rad =
@@ -80,7 +81,7 @@ std::vector<core::Sample> by_angle(std::vector<core::Sample> samples) {
     first = i;
   }
   for (std::size_t i = 0; i < first; ++i) samples[i].bearing_rad += full_turn;
-  std::ranges::rotate(samples, samples.begin() + static_cast<std::ptrdiff_t>(first));
+  std::rotate(samples.begin(), samples.begin() + static_cast<std::ptrdiff_t>(first), samples.end());
   return samples;
 }
 

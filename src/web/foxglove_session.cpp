@@ -43,9 +43,9 @@ bool is_id(const json& value) {
 
 /// An array of the object; an empty one if it has none.
 const json& list(const json& object, const char* name) {
-  static const json none = json::array();
+  static const json kNone = json::array();
   const auto found = object.find(name);
-  return found != object.end() && found->is_array() ? *found : none;
+  return found != object.end() && found->is_array() ? *found : kNone;
 }
 
 bool is_text(const json& object, const char* name, std::string_view value) {

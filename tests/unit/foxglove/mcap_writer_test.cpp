@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <string>
 
 namespace cornerd::foxglove {
@@ -31,11 +32,11 @@ TEST(McapWriter, EmptyFile_HasBothEnds) {
 TEST(McapWriter, LongRecording_IsWrittenInChunksWhoseSchemasComeOnce) {
   std::string file;
   McapWriter writer([&](std::string_view bytes) { file += bytes; });
-  const std::string json = "{\"a\":\"" + std::string(100'000, 'x') + "\"}";
+  const std::string text = "{\"a\":\"" + std::string(100'000, 'x') + "\"}";
   std::size_t largest_wait = 0;
   for (int i = 0; i < 50; ++i) {
     const std::size_t before = file.size();
-    writer.add(ChannelId::kEventMessage, i, json);
+    writer.add(ChannelId::kEventMessage, i, text);
     largest_wait = std::max(largest_wait, file.size() - before);
   }
   EXPECT_GT(file.size(), 4'000'000u) << "nothing is held back but one chunk";
