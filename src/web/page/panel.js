@@ -35,6 +35,7 @@ export function showStatus(status) {
   $("hint").textContent = status.hint ?? "";
   const parts = [`lidar ${status.lidar?.state ?? "unknown"}`];
   if (status.lidar?.rate_hz) parts.push(`${status.lidar.rate_hz.toFixed(1)} scans/s`);
-  if (status.latency?.p99 !== undefined) parts.push(`latency ${(1000 * status.latency.p99).toFixed(0)} ms`);
+  const { p50, p99 } = status.latency ?? {};
+  if (p99 !== undefined) parts.push(`latency ${(1000 * p50).toFixed(0)} to ${(1000 * p99).toFixed(0)} ms`);
   $("rates").textContent = parts.join(" · ");
 }
