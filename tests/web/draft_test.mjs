@@ -55,3 +55,14 @@ test("walls keep what the page knows nothing of; undo takes back every step", ()
   assert.ok(!one.undo());
   near(one.walls[0].to, [3, 0]);
 });
+
+test("a wall that is dragged near the scan lies on it, with the walls that meet it", () => {
+  const one = draft([[0, 0], [3, 0]], [[3, 0], [3, 2]]);
+  one.scan = Array.from({ length: 100 }, (_, i) => [2.5, 0.05 + i * 0.02]);
+  one.lidar = [1, 1];
+  const grip = one.grab([3, 1], kReach);
+  grip.drag(grip, [2.6, 1]);
+  grip.release();
+  near(one.walls[1].from, [2.55, 0]);
+  near(one.walls[0].to, [2.55, 0]);
+});

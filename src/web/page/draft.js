@@ -183,7 +183,8 @@ export class Draft {
     }
   }
 
-  // What a finger drags: all ends at one point, or a wall with the ends that meet it.
+  // What a finger drags: all ends at one point, or a wall with the ends that meet it. A wall that is let
+  // go near the scan lies on it.
   grab(p, radius) {
     const end = this.endNear(p, radius);
     if (end) {
@@ -208,6 +209,11 @@ export class Draft {
       this.moveEnds(from, add(from, shift));
       this.moveEnds(end, add(end, shift));
       grip.at = to;
+    }, release: () => {
+      const [from, end] = [[...wall.from], [...wall.to]];
+      const [onFrom, onEnd] = this.fitToScan(from, end, radius);
+      this.moveEnds(from, onFrom);
+      this.moveEnds(end, onEnd);
     } };
   }
   split(p, radius) {

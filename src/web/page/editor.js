@@ -128,7 +128,7 @@ export class Editor {
       },
       move: {
         drag: (p) => grip.drag(grip, p),
-        release: () => {},
+        release: (p, isTap) => isTap || grip.release?.(),
       },
       split: { release: (p) => draft.split(p, reach) || this.tell("no wall there") },
       door: {
