@@ -109,8 +109,7 @@ Decision Localizer::Workspace::find(const Scan& scan, TimeNs t_ns) {
     return decide(candidates, memory.prior(t_ns));
   }
   candidates = place->place_search.places();
-  return decide_by_faces(candidates, place->place_search.unmapped_log_ratio(), memory.prior(t_ns),
-                         filtered);
+  return decide_by_faces(candidates, memory.prior(t_ns), filtered);
 }
 
 const PoseEstimate* Localizer::add(const OdometryReading& reading, std::optional<TimeNs> now_ns) {

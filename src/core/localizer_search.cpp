@@ -33,8 +33,6 @@ constexpr double kGuessedShare = 0.8;
 constexpr double kMovingHitShare = 0.8;
 /// Hypotheses of pairs of corners that are compared in inexact maps, the most voted ones.
 constexpr std::size_t kMaxPairs = 64;
-/// A place near a fresh prior with a log likelihood ratio above this needs no search of the map.
-constexpr double kEvident = 20;
 
 /// The share of the rays that a place explains at least roughly where a bias is all that is wrong.
 constexpr double kAllButExact = 0.95;
@@ -137,7 +135,7 @@ bool Localizer::Workspace::is_exact(TimeNs t_ns) const {
   const bool moved = place->map_error.is_exact() && best.hit_share() > kMovingHitShare;
   return (moved || core::is_exact(best, expected)) &&
          std::any_of(likely.begin(), likely.end(), [&](const VerifiedHypothesis& other) {
-           return is_no_chance(other) &&
+           return is_in_map(other) &&
                   same_pose(other.refined.T_map_lidar, T_map_lidar, kJump_m, kJump_rad);
          });
 }
@@ -154,7 +152,8 @@ void Localizer::Workspace::search_map(TimeNs t_ns) {
   const std::optional<Prior> prior = memory.prior(t_ns);
   const auto pairs = place->recognition.from_pairs(result.detection.breakpoints);
   const auto begin = [&] {
-    search.begin(points, result.detection.breakpoints, noise_scale(), max_map_sigma_m);
+    search.begin(points, result.detection.segments, result.detection.breakpoints, noise_scale(),
+                 max_map_sigma_m);
     if (prior) {
       const PoseHypothesis carried_on{prior->T_map_lidar, 0};
       search.consider(std::span(&carried_on, 1));
@@ -164,7 +163,7 @@ void Localizer::Workspace::search_map(TimeNs t_ns) {
   begin();
   if (prior_is_fresh(t_ns)) {
     const auto found = search.find();
-    if (!found.empty() && found.front().log_ratio > kEvident &&
+    if (!found.empty() && is_in_map(found.front()) &&
         is_expected(found.front().refined.T_map_lidar, t_ns)) {
       return;
     }

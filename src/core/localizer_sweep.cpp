@@ -32,15 +32,15 @@ const Scan& Localizer::Workspace::as_measured(const Scan& turn) {
   return reversed;
 }
 
-double Localizer::Workspace::log_ratio_at(const Scan& turn, const Pose2& T_map_lidar, TimeNs t_ns) {
+double Localizer::Workspace::log_odds_at(const Scan& turn, const Pose2& T_map_lidar, TimeNs t_ns) {
   const bool known = odometer.deskew(turn, config.T_base_lidar, still);
   points.assign(known ? still : turn, config.min_range_m, config.max_range_m, t_ns,
                 known ? Twist2{} : memory.motion(), place->bias.bias());
-  place->place_search.begin(points, {}, noise_scale(), 1);
+  place->place_search.begin(points, result.detection.segments, {}, noise_scale(), 1);
   const PoseHypothesis there{T_map_lidar, 0};
   place->place_search.consider(std::span(&there, 1));
   const auto found = place->place_search.find();
-  return found.empty() ? place->place_search.unmapped_log_ratio() : found.front().log_ratio;
+  return found.empty() ? -kMostOfAScan : found.front().log_odds;
 }
 
 void Localizer::Workspace::learn_sweep(const Scan& turn, TimeNs t_ns) {
@@ -50,9 +50,9 @@ void Localizer::Workspace::learn_sweep(const Scan& turn, TimeNs t_ns) {
     return;
   }
   reversed.assign_reversed(turn);
-  const double lead = log_ratio_at(turn, prior->T_map_lidar, t_ns) -
-                      log_ratio_at(reversed, prior->T_map_lidar, t_ns);
-  sweep_log_odds += std::clamp(lead / kNatsOfFaces, -kMostOfAScan, kMostOfAScan);
+  const double lead =
+      log_odds_at(turn, prior->T_map_lidar, t_ns) - log_odds_at(reversed, prior->T_map_lidar, t_ns);
+  sweep_log_odds += std::clamp(lead, -kMostOfAScan, kMostOfAScan);
 }
 
 }  // namespace cornerd::core

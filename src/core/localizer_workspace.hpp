@@ -72,7 +72,7 @@ struct Localizer::Workspace {
 
   const Scan& as_measured(const Scan& turn);
   void learn_sweep(const Scan& turn, TimeNs t_ns);
-  double log_ratio_at(const Scan& turn, const Pose2& T_map_lidar, TimeNs t_ns);
+  double log_odds_at(const Scan& turn, const Pose2& T_map_lidar, TimeNs t_ns);
   const Scan& deskewed(const Scan& turn, TimeNs t_ns);
   void reject_motion();
   Decision find(const Scan& scan, TimeNs t_ns);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/geometry/squared.hpp"
 
@@ -32,6 +33,11 @@ constexpr double kWorthHalf = 0.02;
 constexpr double kObject = 1;
 constexpr double kObjectPerMetre = 12;
 constexpr double kObjectStep_m = 0.1;
+/// Fewer nominal rays on a face or an object are the part of one.
+constexpr double kWholeRays = 3;
+/// Ranges on both sides of an edge differ by so much, and its rays are neighbours.
+constexpr double kEdgeStep_m = 0.15;
+constexpr double kAdjacent_rad = 0.1;
 /// A wall that is not there (nats), and each nominal ray through it. Faces shorter than kWall_m are
 /// the less permanent the shorter they are: furniture.
 constexpr double kMissingWall = 10;
@@ -109,7 +115,7 @@ void BeamModel::meet(std::span<const PolarPoint> points, std::span<const Predict
   }
 }
 
-double BeamModel::faces_log_ratio(double spacing_rad, double map_sigma_m) {
+void BeamModel::add_faces(double spacing_rad, double map_sigma_m, BeamStatistics& result) {
   const auto variance_m2 = [&](std::uint32_t face) {
     return squared(std::max(map_sigma_m, map_.faces()[face].sigma_m));
   };
@@ -143,19 +149,20 @@ double BeamModel::faces_log_ratio(double spacing_rad, double map_sigma_m) {
     face.log_density += std::max(ray.log_peak - residual_m * residual_m / (2 * ray.variance_m2),
                                  std::log(kOutlierRatio));
   }
-  double log_ratio = 0;
   for (const std::uint32_t index : met_) {
     const FaceSums& face = faces_[index];
     const double share = worth(face.rays);
-    log_ratio +=
+    result.faces += std::min(1.0, face.rays * spacing_rad / kNominalSpacing_rad / kWholeRays);
+    result.faces_log_ratio +=
         std::max(kWorstFace, share * face.log_density -
                                  std::log1p(variance_m2(index) * share * face.information) / 2 -
                                  face.offset_m * face.offset_m / (2 * variance_m2(index)));
   }
-  return log_ratio;
+  result.log_likelihood += result.faces_log_ratio;
 }
 
-double BeamModel::runs_log_ratio(std::span<const PolarPoint> points, double spacing_rad) const {
+void BeamModel::add_runs(std::span<const PolarPoint> points, double spacing_rad,
+                         BeamStatistics& result) const {
   const auto continues = [&](std::size_t i) {
     const Ray& a = rays_[i - 1];
     const Ray& b = rays_[i];
@@ -164,39 +171,70 @@ double BeamModel::runs_log_ratio(std::span<const PolarPoint> points, double spac
     return a.outcome != Outcome::kShort ||
            std::abs(points[i].range_m - points[i - 1].range_m) < kObjectStep_m;
   };
-  double log_ratio = 0;
   for (std::size_t begin = 0, end = 0; begin < rays_.size(); begin = end) {
     for (end = begin + 1; end < rays_.size() && continues(end);) ++end;
-    const std::size_t rays = end - begin;
+    const std::size_t count = end - begin;
+    const auto rays = static_cast<double>(count);
     switch (rays_[begin].outcome) {
       case Outcome::kHit:
         break;
       case Outcome::kShort: {
         const double width_m = (points[end - 1].position() - points[begin].position()).norm() +
                                spacing_rad * points[begin].range_m;
-        log_ratio -= kObject * std::min(1.0, static_cast<double>(rays) / 3) +
-                     trust_ * kObjectPerMetre * width_m;
+        const double object = std::min(1.0, rays / kWholeRays);
+        result.obstacles += object;
+        result.obstacles_m += width_m;
+        result.log_likelihood -= kObject * object + trust_ * kObjectPerMetre * width_m;
         break;
       }
       case Outcome::kThrough: {
-        const double nominal = static_cast<double>(rays) * spacing_rad / kNominalSpacing_rad;
-        const double missing = rays <= kEdgeRays ? kEdgeRay * static_cast<double>(rays)
-                                                 : kMissingWall + kMissingWallPerRay * nominal;
-        log_ratio -=
-            trust_ * missing * std::min(1.0, map_.faces()[rays_[begin].face].length_m / kWall_m);
+        const double permanent = std::min(1.0, map_.faces()[rays_[begin].face].length_m / kWall_m);
+        const double nominal = rays * spacing_rad / kNominalSpacing_rad;
+        if (count > kEdgeRays) {
+          result.missing_walls += permanent;
+          result.log_missing += permanent * std::log1p(nominal);
+        }
+        result.log_likelihood -=
+            trust_ * permanent *
+            (count > kEdgeRays ? kMissingWall + kMissingWallPerRay * nominal : kEdgeRay * rays);
         break;
       }
-      case Outcome::kBeyond:
-        log_ratio -= std::min(2.0, std::sqrt(static_cast<double>(rays)));
+      case Outcome::kBeyond: {
+        const double run = std::min(2.0, std::sqrt(rays));
+        result.beyond += run;
+        result.log_likelihood -= run;
         break;
+      }
     }
   }
-  return log_ratio;
 }
 
-ScanLikelihood BeamModel::by_map_sigma(std::span<const PolarPoint> points, double spacing_rad,
-                                       double map_sigma_m) {
-  ScanLikelihood result;
+void BeamModel::count_edges(std::span<const PolarPoint> points, std::span<const PredictedHit> hits,
+                            BeamStatistics& result) const {
+  const auto is_hit = [&](std::size_t i) { return rays_[i].outcome == Outcome::kHit; };
+  const auto is_through = [&](std::size_t i) { return rays_[i].outcome == Outcome::kThrough; };
+  std::size_t begin = 0;  // of the face before the edge
+  for (std::size_t i = 1; i + 2 < points.size(); ++i) {
+    if (hits[i].face == hits[i - 1].face) continue;
+    const std::size_t before = std::exchange(begin, i);
+    const double step_m = hits[i].range_m - hits[i - 1].range_m;
+    if (i - before < 3 || hits[i + 1].face != hits[i].face || hits[i + 2].face != hits[i].face ||
+        hits[i].face == PredictedHit::kNone || hits[i - 1].face == PredictedHit::kNone ||
+        std::abs(step_m) < kEdgeStep_m ||
+        points[i].bearing_rad - points[i - 1].bearing_rad > kAdjacent_rad) {
+      continue;
+    }
+    // The two rays next to the edge on each side, but for the one that may meet either.
+    const int left = is_hit(i + 1) + is_hit(i + 2);
+    const int right = is_hit(i - 2) + is_hit(i - 3);
+    const bool goes_on = std::abs(points[i + 1].range_m - points[i - 2].range_m) < kObjectStep_m;
+    result.edges += left == 2 && right == 2;
+    result.false_edges += right == 2 && left == 0 && (step_m > 0 ? goes_on : is_through(i + 1));
+    result.false_edges += left == 2 && right == 0 && (step_m < 0 ? goes_on : is_through(i - 2));
+  }
+}
+
+void BeamModel::classify(double map_sigma_m, BeamStatistics& result) {
   result.rays = rays_.size();
   result.map_sigma_m = map_sigma_m;
   for (Ray& ray : rays_) {
@@ -216,28 +254,32 @@ ScanLikelihood BeamModel::by_map_sigma(std::span<const PolarPoint> points, doubl
       ++result.throughs;
     }
   }
-  result.log_ratio = faces_log_ratio(spacing_rad, map_sigma_m) +
-                     runs_log_ratio(points, spacing_rad) -
-                     kPerMapSigma * std::log(map_sigma_m / kMapSigmas_m.front());
+}
+
+BeamStatistics BeamModel::by_map_sigma(std::span<const PolarPoint> points, double spacing_rad,
+                                       double map_sigma_m) {
+  BeamStatistics result;
+  classify(map_sigma_m, result);
+  add_faces(spacing_rad, map_sigma_m, result);
+  add_runs(points, spacing_rad, result);
+  result.log_likelihood -= kPerMapSigma * std::log(map_sigma_m / kMapSigmas_m.front());
   return result;
 }
 
-double BeamModel::unmapped_log_ratio(std::span<const PolarPoint> points, double spacing_rad) {
-  rays_.assign(points.size(), Ray{.outcome = Outcome::kShort});
-  return runs_log_ratio(points, spacing_rad);
-}
-
-ScanLikelihood BeamModel::likelihood(std::span<const PolarPoint> points,
+BeamStatistics BeamModel::statistics(std::span<const PolarPoint> points,
                                      std::span<const PredictedHit> hits, const Pose2& T_map_lidar,
                                      double spacing_rad, double noise_scale,
                                      double max_map_sigma_m) {
   meet(points, hits, T_map_lidar, spacing_rad, noise_scale);
-  ScanLikelihood best = by_map_sigma(points, spacing_rad, kMapSigmas_m.front());
+  BeamStatistics best = by_map_sigma(points, spacing_rad, kMapSigmas_m.front());
   for (const double map_sigma_m : std::span(kMapSigmas_m).subspan(1)) {
     if (map_sigma_m > max_map_sigma_m) break;
-    const ScanLikelihood other = by_map_sigma(points, spacing_rad, map_sigma_m);
-    if (other.log_ratio > best.log_ratio) best = other;
+    const BeamStatistics other = by_map_sigma(points, spacing_rad, map_sigma_m);
+    if (other.log_likelihood > best.log_likelihood) best = other;
   }
+  BeamStatistics outcomes;
+  classify(best.map_sigma_m, outcomes);
+  count_edges(points, hits, best);
   return best;
 }
 

@@ -13,14 +13,23 @@
 
 namespace cornerd::core {
 
-/// What a scan says for a pose in a map that is inexact and incomplete.
-struct ScanLikelihood {
+/// What the rays of a scan do at a pose in a map that is inexact and incomplete.
+struct BeamStatistics {
   std::size_t rays = 0;
-  std::size_t hits = 0;      ///< on the face that the ray meets, within its uncertainty
-  std::size_t shorts = 0;    ///< before it: something unmapped
-  std::size_t throughs = 0;  ///< beyond it
-  double map_sigma_m = 0;    ///< the likeliest standard deviation of a face's offset
-  double log_ratio = 0;      ///< nats, over ranges that any other place would give
+  std::size_t hits = 0;        ///< on the face that the ray meets, within its uncertainty
+  std::size_t shorts = 0;      ///< before it: something unmapped
+  std::size_t throughs = 0;    ///< beyond it
+  double map_sigma_m = 0;      ///< the likeliest standard deviation of a face's offset
+  double log_likelihood = 0;   ///< nats, over ranges that any other place would give; tempered
+  double faces_log_ratio = 0;  ///< the part of it by hits
+  double faces = 0;            ///< that are hit; one with less than three nominal rays is a part
+  double obstacles = 0;        ///< runs of short rays, counted likewise
+  double obstacles_m = 0;      ///< their width
+  double missing_walls = 0;    ///< runs of rays through a face; short faces are a part
+  double log_missing = 0;      ///< sum of log(1 + rays) over them
+  double beyond = 0;           ///< runs of rays where no wall is predicted
+  double edges = 0;            ///< predicted edges that the rays on both sides confirm
+  double false_edges = 0;      ///< where the wall goes on or ends before
 };
 
 /// Beam model on faces (Thrun, Burgard and Fox, Probabilistic Robotics, section 6.3) whose errors
@@ -31,13 +40,9 @@ class BeamModel {
   BeamModel(const WallMap& map, const SensorNoise& noise);
 
   /// `hits`: the predicted face of each point at `T_map_lidar`. `spacing_rad`: between two rays.
-  ScanLikelihood likelihood(std::span<const PolarPoint> points, std::span<const PredictedHit> hits,
+  BeamStatistics statistics(std::span<const PolarPoint> points, std::span<const PredictedHit> hits,
                             const Pose2& T_map_lidar, double spacing_rad, double noise_scale,
                             double max_map_sigma_m);
-
-  /// Log ratio of a scan that was taken where nothing is mapped: all of it is unmapped objects,
-  /// nats. What a scan shows is worth as much, wherever it was taken.
-  double unmapped_log_ratio(std::span<const PolarPoint> points, double spacing_rad);
 
   /// Standard deviations of a face's offset across itself that are tried, m.
   static constexpr std::array kMapSigmas_m = {0.003, 0.01, 0.025, 0.05};
@@ -62,10 +67,14 @@ class BeamModel {
 
   void meet(std::span<const PolarPoint> points, std::span<const PredictedHit> hits,
             const Pose2& T_map_lidar, double spacing_rad, double noise_scale);
-  ScanLikelihood by_map_sigma(std::span<const PolarPoint> points, double spacing_rad,
+  BeamStatistics by_map_sigma(std::span<const PolarPoint> points, double spacing_rad,
                               double map_sigma_m);
-  double faces_log_ratio(double spacing_rad, double map_sigma_m);
-  double runs_log_ratio(std::span<const PolarPoint> points, double spacing_rad) const;
+  void classify(double map_sigma_m, BeamStatistics& result);
+  void add_faces(double spacing_rad, double map_sigma_m, BeamStatistics& result);
+  void add_runs(std::span<const PolarPoint> points, double spacing_rad,
+                BeamStatistics& result) const;
+  void count_edges(std::span<const PolarPoint> points, std::span<const PredictedHit> hits,
+                   BeamStatistics& result) const;
 
   const WallMap& map_;
   SensorNoise noise_;

@@ -21,24 +21,8 @@ constexpr double kNatsPerNatOfThingsPerRay = 0.0052;
 constexpr double kOneThingShare = 0.25;
 /// What things may hide of the turn in all, for a place that is only likely because of them.
 constexpr double kMostThingsShare = 0.3;
-/// What a scan reaches by chance where it was not taken: as much less than this as it shows of
-/// structure (kUnmappedShare of what that would be worth unmapped), and half of what its own second
-/// best place reaches. Of 920 scans of simulated and real rooms, in their own maps, in the mirror
-/// images and in another map, this part of the plane of both has the fewest wrong fixes.
-constexpr double kElsewhere = 27;
-constexpr double kUnmappedShare = 0.2;
-/// Long bare walls are worth more than this unmapped, but fit each other by chance.
-constexpr double kMostUnmapped = 70;
-constexpr double kChanceShare = 0.5;
-/// The same where nearly all rays hit walls within the sensor's noise.
-constexpr double kElsewhereExactly = 11;
-/// What a scan reaches by chance at one given place, which is not the best of many: this share of
-/// what it is worth unmapped.
-constexpr double kUnmappedShareOfAPlace = 0.4;
 /// Places are named as rivals where the scan was taken in this map but for this share of belief.
 constexpr double kMaxElsewhere = 0.01;
-/// A longer lead says no more (nats).
-constexpr double kWidestLead = 40;
 /// A place that explains so many rays more than the likeliest one is a rival to it, however
 /// roughly.
 constexpr double kRaysForARival = 4;
@@ -47,13 +31,6 @@ constexpr double kRaysForARivalPerThing = 0.125;
 /// How far from a prior that is exact a rival is out of reach.
 constexpr double kPriorRadius_m = 0.25;
 constexpr double kPriorAngle_rad = radians(20);
-
-double log_ratio_elsewhere(std::span<const VerifiedHypothesis> places, double unmapped_log_ratio) {
-  const double best = places.front().log_ratio;
-  const double second = places.size() > 1 ? places[1].log_ratio : best - kWidestLead;
-  return kElsewhere + kUnmappedShare * std::max(unmapped_log_ratio, -kMostUnmapped) +
-         kChanceShare * std::max(second, best - kWidestLead);
-}
 
 bool is_near(const VerifiedHypothesis& place, const Prior& prior) {
   return same_pose(place.refined.T_map_lidar, prior.T_map_lidar,
@@ -136,28 +113,27 @@ Decision decide(std::span<const VerifiedHypothesis> places, const std::optional<
   return decision;
 }
 
-Decision decide_by_faces(std::span<const VerifiedHypothesis> places, double unmapped_log_ratio,
+Decision decide_by_faces(std::span<const VerifiedHypothesis> places,
                          const std::optional<Prior>& prior, PlaceFilter& filter) {
   Decision decision;
   decision.doubt = 1;
   if (places.empty()) return decision;
-  const double best = places.front().log_ratio;
-  const auto weight = [&](double log_ratio) { return std::exp((log_ratio - best) / kNatsOfFaces); };
-  const double elsewhere = weight(log_ratio_elsewhere(places, unmapped_log_ratio));
-  double of_others = elsewhere;
+  // Relative to the likeliest place; "elsewhere" has log odds 0.
+  const double best = places.front().log_odds;
+  const double elsewhere = std::exp(-best);
+  double of_others = 0;
   for (std::size_t i = places.size(); i-- > 1;) {
-    of_others += weight(places[i].log_ratio);
-    if (decision.rivals == 0 && of_others - elsewhere > kWrongFixRate) decision.rivals = i + 1;
+    of_others += std::exp(places[i].log_odds - best);
+    if (decision.rivals == 0 && of_others > kWrongFixRate) decision.rivals = i + 1;
   }
   decision.rivals = std::max<std::size_t>(decision.rivals, 1);
-  decision.doubt = of_others / (1 + of_others);
-  if (decision.doubt < kWrongFixRate) {
+  decision.doubt = 1 - 1 / (1 + of_others + elsewhere);
+  if (of_others + elsewhere < kWrongFixRate) {
     decision.state = PoseState::kFix;
   } else if (elsewhere < kMaxElsewhere) {
     decision.state = PoseState::kAmbiguous;
   }
-  filter.update(places, log_ratio_elsewhere(places, unmapped_log_ratio),
-                kUnmappedShareOfAPlace * std::max(unmapped_log_ratio, -kMostUnmapped), prior);
+  filter.update(places, prior);
   if (filter.likeliest() && filter.doubt() < kWrongFixRate && decision.state != PoseState::kFix) {
     decision.place = *filter.likeliest();
     decision.state = PoseState::kTracking;
@@ -166,14 +142,12 @@ Decision decide_by_faces(std::span<const VerifiedHypothesis> places, double unma
   return decision;
 }
 
-bool is_no_chance(const VerifiedHypothesis& place) {
-  return (place.log_ratio - kElsewhereExactly) / kNatsOfFaces > -std::log(kWrongFixRate);
+bool is_in_map(const VerifiedHypothesis& place) {
+  return place.log_odds > -std::log(kWrongFixRate);
 }
 
 double relative_belief(const VerifiedHypothesis& place, const VerifiedHypothesis& likeliest) {
-  if (likeliest.log_ratio != 0) {
-    return std::exp((place.log_ratio - likeliest.log_ratio) / kNatsOfFaces);
-  }
+  if (likeliest.log_odds != 0) return std::exp(place.log_odds - likeliest.log_odds);
   return Belief(likeliest).in(place);
 }
 

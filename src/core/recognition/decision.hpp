@@ -33,13 +33,13 @@ struct Decision {
 Decision decide(std::span<const VerifiedHypothesis> places, const std::optional<Prior>& prior);
 
 /// The same for places of PlaceSearch, in a map that is inexact and incomplete. That the scan was
-/// taken somewhere else, or not in this map, is a hypothesis of its own. `unmapped_log_ratio`: the
-/// scan's, where nothing is mapped. What the last scans showed is in the filter, which it updates.
-Decision decide_by_faces(std::span<const VerifiedHypothesis> places, double unmapped_log_ratio,
+/// taken somewhere else, or not in this map, is a hypothesis of its own. What the last scans showed
+/// is in the filter, which it updates.
+Decision decide_by_faces(std::span<const VerifiedHypothesis> places,
                          const std::optional<Prior>& prior, PlaceFilter& filter);
 
 /// True for a place of PlaceSearch that leaves no doubt that the scan was taken in this map.
-bool is_no_chance(const VerifiedHypothesis& place);
+bool is_in_map(const VerifiedHypothesis& place);
 
 /// How much the turn believes in a place next to the likeliest one: 1 for that one itself.
 double relative_belief(const VerifiedHypothesis& place, const VerifiedHypothesis& likeliest);

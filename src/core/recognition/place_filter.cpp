@@ -13,6 +13,9 @@ constexpr double kMaxLogOdds = 18.4;
 /// no difference to drives in maps that are 3 cm off, among 30 to 40 % of clutter, and in wrong
 /// maps.
 constexpr double kIndependent_m = 2;
+/// Log odds of the best of a map's places are by chance so much higher than those of one given
+/// place, which is not searched for: the logarithm of the number of places that differ.
+constexpr double kLogPlaces = 12;
 /// How far a robot moves between two scans, or from a prior that is exact.
 constexpr double kNear_m = 0.25;
 constexpr double kNear_rad = radians(20);
@@ -56,15 +59,15 @@ const VerifiedHypothesis* PlaceFilter::find(const Place& place,
   return at == found.end() ? nullptr : &*at;
 }
 
-void PlaceFilter::update(std::span<const VerifiedHypothesis> found, double log_ratio_elsewhere,
-                         double log_ratio_there, const std::optional<Prior>& prior) {
+void PlaceFilter::update(std::span<const VerifiedHypothesis> found,
+                         const std::optional<Prior>& prior) {
   likeliest_.reset();
   log_odds_ = -std::numeric_limits<double>::infinity();
-  const auto log_odds_of = [&](const VerifiedHypothesis& place, double log_ratio_of_others) {
+  const auto evidence_for = [&](const VerifiedHypothesis& place, double log_odds_elsewhere) {
     for (const VerifiedHypothesis& other : found) {
-      if (&other != &place) log_ratio_of_others = std::max(log_ratio_of_others, other.log_ratio);
+      if (&other != &place) log_odds_elsewhere = std::max(log_odds_elsewhere, other.log_odds);
     }
-    return (place.log_ratio - log_ratio_of_others) / kNatsOfFaces;
+    return place.log_odds - log_odds_elsewhere;
   };
   std::array<const VerifiedHypothesis*, kMaxPlaces> known{};
   std::size_t kept = 0;
@@ -74,7 +77,7 @@ void PlaceFilter::update(std::span<const VerifiedHypothesis> found, double log_r
     if (!at && !(place.is_named && prior)) continue;
     if (at) {
       if (std::find(known.begin(), known.end(), at) != known.end()) continue;
-      const double evidence = log_odds_of(*at, log_ratio_there);
+      const double evidence = evidence_for(*at, -kLogPlaces);
       const double log_odds = weigh(place, at->refined.T_map_lidar, evidence);
       if (evidence > 0 && log_odds > log_odds_) {
         likeliest_ = static_cast<std::size_t>(at - found.data());
@@ -86,12 +89,12 @@ void PlaceFilter::update(std::span<const VerifiedHypothesis> found, double log_r
   }
   count_ = kept;
   for (const VerifiedHypothesis& place : found) {
-    const double evidence = log_odds_of(place, log_ratio_there);
+    const double evidence = evidence_for(place, -kLogPlaces);
     if (count_ == kMaxPlaces || evidence < 0) return;
     if (std::find(known.begin(), known.end(), &place) != known.end()) continue;
-    const double by_search = log_odds_of(place, std::max(log_ratio_elsewhere, log_ratio_there));
     const Pose2& T_map_lidar = place.refined.T_map_lidar;
-    places_[count_++] = {T_map_lidar, T_map_lidar, by_search - evidence, evidence, false};
+    places_[count_++] = {T_map_lidar, T_map_lidar, evidence_for(place, 0) - evidence, evidence,
+                         false};
   }
 }
 

@@ -12,9 +12,6 @@
 
 namespace cornerd::core {
 
-/// Nats of the beam model on faces that are worth one nat of belief. A fix so leads by 19 nats.
-inline constexpr double kNatsOfFaces = 1.65;
-
 /// Bayes filter over the places where an inexact map may have been scanned. Each place has log odds
 /// against "anywhere else, or not in this map", which every scan changes by its evidence. Scans
 /// from nearly one pose see the same errors of the map: they count once.
@@ -27,11 +24,8 @@ class PlaceFilter {
   void confirm(const Pose2& T_map_lidar);
   /// A place is named by the filter: a prior is of this one from now on.
   void follow(const Pose2& T_map_lidar);
-  /// `places`: of PlaceSearch, the likeliest first. `log_ratio_elsewhere`: what the best of the
-  /// whole map reaches by chance; `log_ratio_there`: what one given place does (nats). `prior`: of
-  /// the place that was named last.
-  void update(std::span<const VerifiedHypothesis> places, double log_ratio_elsewhere,
-              double log_ratio_there, const std::optional<Prior>& prior);
+  /// `places`: of PlaceSearch, the likeliest first. `prior`: of the place that was named last.
+  void update(std::span<const VerifiedHypothesis> places, const std::optional<Prior>& prior);
   /// The likeliest of the places that the last update's scan itself speaks for: an index into them.
   std::optional<std::size_t> likeliest() const { return likeliest_; }
   /// Belief that the scan was taken anywhere but at likeliest().

@@ -15,8 +15,6 @@ constexpr std::size_t kFewRays = 90;
 /// Candidates that are refined on few rays, and on all.
 constexpr std::size_t kMaxRefined = 40;
 constexpr std::size_t kMaxCompared = 12;
-/// Farther behind the best on few rays, and no candidate wins on all (nats).
-constexpr double kFewRaysMargin = 60;
 /// A ray on the wall that is predicted, roughly (m).
 constexpr double kRoughHit_m = 0.12;
 /// Remaining error of one that was refined on few rays (m).
@@ -37,8 +35,6 @@ struct RoughRefinement {
   double map_sigma_m;
 };
 constexpr std::array kRoughRefinements = {RoughRefinement{0.12, 0.025}, RoughRefinement{0.045, 0}};
-/// An end of a wall in front of something farther, where the map has one (nats).
-constexpr double kWallEnd = 4;
 /// A pose that is less certain than this beyond the map is no place: a single wall, a bare
 /// corridor.
 constexpr double kMaxSigma_m = 0.1;
@@ -63,14 +59,15 @@ PlaceSearch::PlaceSearch(const WallMap& map, const Recognition& recognition,
   places_.reserve(kMaxCompared);
 }
 
-void PlaceSearch::begin(const PolarScan& scan, std::span<const Breakpoint> breakpoints,
-                        double noise_scale, double max_map_sigma_m) {
+void PlaceSearch::begin(const PolarScan& scan, std::span<const WallSegment> segments,
+                        std::span<const Breakpoint> breakpoints, double noise_scale,
+                        double max_map_sigma_m) {
   points_ = scan.points();
   max_map_sigma_m_ = max_map_sigma_m;
   breakpoints_ = breakpoints;
   spacing_rad_ = scan.spacing_rad();
   noise_scale_ = noise_scale;
-  unmapped_log_ratio_ = beam_model_.unmapped_log_ratio(points_, spacing_rad_);
+  structure_ = scan_structure(segments);
   candidates_.clear();
   places_.clear();
   subset_.clear();
@@ -120,10 +117,10 @@ PlaceSearch::Candidate PlaceSearch::refined_roughly(const Candidate& candidate,
       continue;
     }
     const auto hits = ray_caster_.cast(map_, refined.T_map_lidar, subset_);
-    const ScanLikelihood likelihood = beam_model_.likelihood(
+    const BeamStatistics statistics = beam_model_.statistics(
         subset_, hits, refined.T_map_lidar, spacing_rad, noise_scale_, max_map_sigma_m_);
-    if (likelihood.log_ratio > best.score) {
-      best = {refined.T_map_lidar, likelihood.log_ratio, likelihood.map_sigma_m};
+    if (statistics.log_likelihood > best.score) {
+      best = {refined.T_map_lidar, statistics.log_likelihood, statistics.map_sigma_m};
     }
   }
   return best;
@@ -155,13 +152,13 @@ void PlaceSearch::refine_roughly() {
   std::sort(candidates_.begin(), candidates_.end(), is_better);
 }
 
-double PlaceSearch::wall_ends_log_ratio(const Pose2& T_map_lidar) const {
-  double log_ratio = 0;
+double PlaceSearch::wall_ends(const Pose2& T_map_lidar) const {
+  int count = 0;
   for (const Breakpoint& breakpoint : breakpoints_) {
     if (breakpoint.kind != BreakpointKind::kTerminal) continue;
-    log_ratio += kWallEnd * recognition_.recognised(std::span(&breakpoint, 1), T_map_lidar);
+    count += recognition_.recognised(std::span(&breakpoint, 1), T_map_lidar);
   }
-  return log_ratio;
+  return count;
 }
 
 void PlaceSearch::add(const Candidate& candidate) {
@@ -190,19 +187,23 @@ void PlaceSearch::add(const Candidate& candidate) {
     return;
   }
   const auto hits = ray_caster_.cast(map_, place.refined.T_map_lidar, points_);
-  const ScanLikelihood likelihood = beam_model_.likelihood(
+  const BeamStatistics statistics = beam_model_.statistics(
       points_, hits, place.refined.T_map_lidar, spacing_rad_, noise_scale_, max_map_sigma_m_);
-  place.log_ratio = likelihood.log_ratio + wall_ends_log_ratio(place.refined.T_map_lidar);
-  place.likelihood.rays = likelihood.rays;
-  place.likelihood.hits = likelihood.hits;
-  place.likelihood.shorts = likelihood.shorts;
-  place.likelihood.free_space_violations = likelihood.throughs;
+  place.log_odds = log_odds_of_place(statistics, wall_ends(place.refined.T_map_lidar), structure_);
+  // All rays show better than the few how far walls are off, and the pose's covariance follows.
+  if (statistics.map_sigma_m > std::max(place.map_sigma_m, BeamModel::kMapSigmas_m.front())) {
+    refine(statistics.map_sigma_m);
+  }
+  place.likelihood.rays = statistics.rays;
+  place.likelihood.hits = statistics.hits;
+  place.likelihood.shorts = statistics.shorts;
+  place.likelihood.free_space_violations = statistics.throughs;
   for (VerifiedHypothesis& other : places_) {
     if (!same_pose(other.refined.T_map_lidar, place.refined.T_map_lidar, kOnePlace_m,
                    kOnePlace_rad)) {
       continue;
     }
-    if (place.log_ratio > other.log_ratio) other = place;
+    if (place.log_odds > other.log_odds) other = place;
     return;
   }
   places_.push_back(place);
@@ -212,12 +213,11 @@ std::span<const VerifiedHypothesis> PlaceSearch::find() {
   refine_roughly();
   places_.clear();
   for (std::size_t i = 0; i < std::min(candidates_.size(), kMaxCompared); ++i) {
-    if (candidates_[i].score < candidates_.front().score - kFewRaysMargin) break;
     add(candidates_[i]);
   }
   std::sort(places_.begin(), places_.end(),
             [](const VerifiedHypothesis& a, const VerifiedHypothesis& b) {
-              if (a.log_ratio != b.log_ratio) return a.log_ratio > b.log_ratio;
+              if (a.log_odds != b.log_odds) return a.log_odds > b.log_odds;
               return a.refined.T_map_lidar.x_m < b.refined.T_map_lidar.x_m;
             });
   return places_;

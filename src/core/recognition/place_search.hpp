@@ -9,6 +9,7 @@
 #include "core/localizer_config.hpp"
 #include "core/recognition/beam_model.hpp"
 #include "core/recognition/hypothesis.hpp"
+#include "core/recognition/place_evidence.hpp"
 #include "core/recognition/recognition.hpp"
 #include "core/recognition/verification.hpp"
 
@@ -24,16 +25,14 @@ class PlaceSearch {
 
   /// Starts a scan, which must outlive the calls for it.
   /// `max_map_sigma_m`: of the walls' offsets, as far as earlier scans have shown.
-  void begin(const PolarScan& scan, std::span<const Breakpoint> breakpoints, double noise_scale,
-             double max_map_sigma_m);
+  void begin(const PolarScan& scan, std::span<const WallSegment> segments,
+             std::span<const Breakpoint> breakpoints, double noise_scale, double max_map_sigma_m);
   /// Adds hypotheses that may be off by a decimetre.
   void consider(std::span<const PoseHypothesis> hypotheses);
   /// Compares what was considered since begin(). Distinct places, the likeliest first.
   std::span<const VerifiedHypothesis> find();
   /// The result of the last find().
   std::span<const VerifiedHypothesis> places() const { return places_; }
-  /// Of the scan, if it was taken where nothing is mapped (nats).
-  double unmapped_log_ratio() const { return unmapped_log_ratio_; }
 
  private:
   struct Candidate {
@@ -45,7 +44,7 @@ class PlaceSearch {
   Candidate refined_roughly(const Candidate& candidate, double spacing_rad);
   void refine_roughly();
   void add(const Candidate& candidate);
-  double wall_ends_log_ratio(const Pose2& T_map_lidar) const;
+  double wall_ends(const Pose2& T_map_lidar) const;
 
   static constexpr std::size_t kMaxCandidates = 512;
 
@@ -59,7 +58,7 @@ class PlaceSearch {
   double spacing_rad_ = 0;
   double noise_scale_ = 1;
   double max_map_sigma_m_ = 0;
-  double unmapped_log_ratio_ = 0;
+  ScanStructure structure_;
   std::vector<PolarPoint> subset_;
   std::vector<Candidate> candidates_;
   std::vector<VerifiedHypothesis> places_;

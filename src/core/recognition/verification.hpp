@@ -17,7 +17,7 @@ namespace cornerd::core {
 struct VerifiedHypothesis {
   RefinedPose refined;
   BeamLikelihood likelihood;
-  double log_ratio = 0;    ///< ScanLikelihood's, nats; of PlaceSearch alone
+  double log_odds = 0;     ///< log_odds_of_place(), nats; of PlaceSearch alone
   double map_sigma_m = 0;  ///< of the walls' offsets, which `refined` marginalised
 };
 

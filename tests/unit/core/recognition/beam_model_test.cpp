@@ -12,11 +12,11 @@ constexpr double kMaxMapSigma_m = 1;
 
 class BeamModelTest : public ::testing::Test {
  protected:
-  ScanLikelihood likelihood(const Scan& scan, const WallMap& map, const Pose2& T_map_lidar) {
+  BeamStatistics statistics(const Scan& scan, const WallMap& map, const Pose2& T_map_lidar) {
     const PolarScan points = testing::polar(scan);
     BeamModel model(map, {});
     const auto hits = ray_caster_.cast(map, T_map_lidar, points.points());
-    return model.likelihood(points.points(), hits, T_map_lidar, points.spacing_rad(), 1,
+    return model.statistics(points.points(), hits, T_map_lidar, points.spacing_rad(), 1,
                             kMaxMapSigma_m);
   }
 
@@ -38,40 +38,43 @@ class BeamModelTest : public ::testing::Test {
 };
 
 TEST_F(BeamModelTest, TruePose_AllRaysHitAnExactMap) {
-  const ScanLikelihood found = likelihood(source_.take(*map_, T_map_lidar_), *map_, T_map_lidar_);
+  const BeamStatistics found = statistics(source_.take(*map_, T_map_lidar_), *map_, T_map_lidar_);
   EXPECT_GT(static_cast<double>(found.hits), 0.98 * static_cast<double>(found.rays));
   EXPECT_EQ(found.hits + found.shorts + found.throughs, found.rays);
   EXPECT_EQ(found.map_sigma_m, BeamModel::kMapSigmas_m.front());
-  EXPECT_GT(found.log_ratio, 30);
+  EXPECT_GT(found.log_likelihood, 30);
 }
 
 TEST_F(BeamModelTest, WrongPose_IsLessLikelyThanAnyPlace) {
-  EXPECT_LT(likelihood(source_.take(*map_, T_map_lidar_), *map_, {1.5, 1.2, 1.9}).log_ratio, 0);
+  EXPECT_LT(statistics(source_.take(*map_, T_map_lidar_), *map_, {1.5, 1.2, 1.9}).log_likelihood,
+            0);
 }
 
 TEST_F(BeamModelTest, DisplacedWall_CostsItsOffsetOnce) {
   const Scan scan = source_.take(*map_, T_map_lidar_);
-  const double exact = likelihood(scan, *map_, T_map_lidar_).log_ratio;
-  const ScanLikelihood off = likelihood(scan, *testing::make_map(widened(0.04)), T_map_lidar_);
+  const double exact = statistics(scan, *map_, T_map_lidar_).log_likelihood;
+  const BeamStatistics off = statistics(scan, *testing::make_map(widened(0.04)), T_map_lidar_);
   EXPECT_GE(off.map_sigma_m, 0.025);
   EXPECT_EQ(off.throughs + off.shorts, 0U);
-  EXPECT_LT(off.log_ratio, exact);
-  EXPECT_GT(off.log_ratio, exact - 30);
+  EXPECT_LT(off.log_likelihood, exact);
+  EXPECT_GT(off.log_likelihood, exact - 30);
 }
 
 TEST_F(BeamModelTest, MissingWall_CostsMoreThanAnObject) {
   const Scan scan = source_.take(*map_, T_map_lidar_);
-  const double behind = likelihood(scan, *testing::make_map(widened(-0.5)), T_map_lidar_).log_ratio;
-  const double before = likelihood(scan, *testing::make_map(widened(0.5)), T_map_lidar_).log_ratio;
+  const double behind =
+      statistics(scan, *testing::make_map(widened(-0.5)), T_map_lidar_).log_likelihood;
+  const double before =
+      statistics(scan, *testing::make_map(widened(0.5)), T_map_lidar_).log_likelihood;
   EXPECT_LT(behind, before);
 }
 
 TEST_F(BeamModelTest, InexactMap_TrustsItsWallsLess) {
   const Scan scan = source_.take(*map_, T_map_lidar_);
   FloorPlan plan = widened(0.5);
-  const double measured = likelihood(scan, *testing::make_map(plan), T_map_lidar_).log_ratio;
+  const double measured = statistics(scan, *testing::make_map(plan), T_map_lidar_).log_likelihood;
   plan.sigma_m = 0.04;
-  EXPECT_GT(likelihood(scan, *testing::make_map(plan), T_map_lidar_).log_ratio, measured);
+  EXPECT_GT(statistics(scan, *testing::make_map(plan), T_map_lidar_).log_likelihood, measured);
 }
 
 }  // namespace
