@@ -7,7 +7,7 @@ import { sizes, sleep, tree, until, withBench } from "./bench.mjs";
 const kTolerance_px = 2;
 const map = join(tree, "config/maps/krpai-2019-a.json");
 const drive = { args: ["--path", "0.36,1.1 0.36,0.24 0.95,0.24 0.95,1.15 1.6,1.15", "--loop", "--drive-speed", "0.2",
-  "--acceleration", "0.5", "--rotation-speed", "0.6", "--rotation-acceleration", "1"] };
+  "--acceleration", "0.25", "--rotation-speed", "0.6", "--rotation-acceleration", "1"] };
 
 // The middle of the pixels of the robot's colour, in pixels of the page, with what they were drawn from.
 const findRobot = (page) => page.$eval("#map", (canvas) => {
