@@ -7,9 +7,11 @@
 #include <optional>
 #include <utility>
 
+#include "drivers/config/lidar_models.hpp"
 #include "drivers/rplidar/device.hpp"
 #include "drivers/rplidar/protocol/framing.hpp"
 #include "drivers/rplidar/sample_stream.hpp"
+#include "drivers/rplidar/shutdown.hpp"
 #include "drivers/serial/byte_stream.hpp"
 #include "drivers/stream/hint.hpp"
 #include "drivers/stream/status_board.hpp"
@@ -34,29 +36,19 @@ constexpr core::TimeNs kStallNs = core::kNsPerSecond;
 constexpr core::TimeNs kSilenceLimitNs = 3 * core::kNsPerSecond;
 // A line that is switched on may give a byte or two; more bytes are a sender.
 constexpr std::uint64_t kStrayBytes = 8;
-constexpr std::uint32_t kDefaultBaud = 115200;
-
-/// Stops the device and its motor however a session ends.
-class Shutdown {
- public:
-  Shutdown(drivers::ByteStream& port, Motor& motor) : port_(port), motor_(motor) {}
-  ~Shutdown() {
-    port_.write(Request(Command::kStop).bytes());
-    motor_.stop(port_);
-  }
-  Shutdown(const Shutdown&) = delete;
-  Shutdown& operator=(const Shutdown&) = delete;
-
- private:
-  drivers::ByteStream& port_;
-  Motor& motor_;
-};
+// A head that stops leaves a part of a packet, an answered request some bytes; a line full of noise
+// brings a multiple of it in a second.
+constexpr std::size_t kNoiseBytes = 2048;
+// A request may be lost; where other speeds wait, less time is spent on it.
+constexpr int kInfoTries = 5;
+constexpr int kInfoTriesOfRates = 2;
 
 }  // namespace
 
 RplidarDriver::RplidarDriver(RplidarDriverConfig config, PortOpener open_port,
                              drivers::Clock& clock)
     : config_(std::move(config)),
+      rates_(config_.baud_rates),
       open_port_(std::move(open_port)),
       clock_(clock),
       motor_(make_motor(config_.motor)) {
@@ -69,7 +61,7 @@ RplidarDriver::RplidarDriver(RplidarDriverConfig config, PortOpener open_port,
 void RplidarDriver::run(std::stop_token stop, drivers::SampleSink& sink) {
   milliseconds backoff = kFirstBackoff;
   while (!stop.stop_requested()) {
-    drivers::OpenResult opened = open_port_(baud());
+    drivers::OpenResult opened = open_port_(rates_.current());
     count_progress();
     if (!opened.stream) {
       const auto [state, fault] = drivers::failure_of(opened.error);
@@ -85,15 +77,17 @@ void RplidarDriver::run(std::stop_token stop, drivers::SampleSink& sink) {
       sink.on_gap();
     }
     if (stop.stop_requested()) break;
-    if (failure.fault == LidarFault::kNoAnswer && answers_at_default_baud(stop)) {
-      failure.fault = LidarFault::kWrongBaud;
-      failure.extra =
-          "no answer at the configured speed, but one at " + std::to_string(kDefaultBaud) + " baud";
+    if (failure.fault == LidarFault::kWrongBaud || failure.fault == LidarFault::kNoAnswer) {
+      const auto fault = rates_.fail(failure.fault);
+      if (!fault) continue;
+      failure.fault = *fault;
+      if (const auto other = answering_baud(stop)) {
+        failure.fault = LidarFault::kWrongBaud;
+        failure.extra =
+            "no answer at the configured speed, but one at " + std::to_string(*other) + " baud";
+      }
     }
     report(failure.state, failure.fault, failure.extra);
-    const bool is_other_speed =
-        failure.fault == LidarFault::kWrongBaud || failure.fault == LidarFault::kNoAnswer;
-    if (is_other_speed && ++rate_ % config_.baud_rates.size() != 0) continue;
     wait(backoff, stop);
     backoff = std::min(2 * backoff, kMaxBackoff);
   }
@@ -104,7 +98,7 @@ RplidarDriver::Failure RplidarDriver::session(drivers::ByteStream& opened,
                                               const std::stop_token& stop,
                                               drivers::SampleSink& sink) {
   drivers::MonitoredByteStream port(opened, [this] { count_progress(); });
-  const Shutdown shutdown(port, *motor_);
+  const Shutdown shutdown(port, *motor_, motor_request_, clock_);
   Device device(port, clock_, stop);
   ScanMode mode;
   const Failure failure = identify(device, port, mode);
@@ -125,7 +119,7 @@ RplidarDriver::Failure RplidarDriver::identify(Device& device, drivers::ByteStre
     report(LidarState::kIdentifying, LidarFault::kBooting);
   } else if (search.found()) {
     report(LidarState::kIdentifying, LidarFault::kStreamRunning);
-  } else if (device.received_bytes() > kStrayBytes) {
+  } else if (device.received_bytes() > kStrayBytes && rates_.is_single()) {
     report(LidarState::kIdentifying, LidarFault::kUnexpectedData);
   }
   if (std::exchange(reset_first_, false)) {
@@ -137,9 +131,7 @@ RplidarDriver::Failure RplidarDriver::identify(Device& device, drivers::ByteStre
   }
 
   const std::uint64_t received_before = device.received_bytes();
-  const bool had_booted = device.booted();
-  const auto info = device.info();
-  if (device.booted() && !had_booted) report(LidarState::kIdentifying, LidarFault::kBooting);
+  const auto info = query_info(device);
   if (!info) {
     if (device.received_bytes() > received_before) {
       return {LidarState::kBackoff, LidarFault::kWrongBaud,
@@ -149,8 +141,9 @@ RplidarDriver::Failure RplidarDriver::identify(Device& device, drivers::ByteStre
   }
   // The answer has no checksum; a damaged serial number would name another lidar.
   const bool agrees = device.info() == info;
+  const drivers::LidarModel* const known = drivers::find_rplidar(info->model);
   board_.set_device(info->model_name(), info->firmware_text(),
-                    agrees ? info->serial_text() : std::string());
+                    agrees ? info->serial_text() : std::string(), known);
 
   auto health = device.health();
   if (health && health->failed()) {
@@ -169,14 +162,33 @@ RplidarDriver::Failure RplidarDriver::identify(Device& device, drivers::ByteStre
             "\"" + config_.mode + "\"; set advanced.lidar.mode to one of " + list_names(modes)};
   }
   mode = *chosen;
+  // A pseudo-terminal answers at any speed; its bytes still come at the device's.
+  wire_baud_ = std::max(rates_.current(), known != nullptr ? known->baud : 0);
+  // Some firmwares of the S3 report none.
+  if (mode.period_s <= 0 && known != nullptr) mode.period_s = 1 / known->samples_hz;
   board_.set_mode(mode.name);
   board_.set_state(LidarState::kStarting, LidarFault::kNone,
                    config_.device + ": waiting for the motor");
-  if (!motor_->start(port)) {
+  if (!start_motor(device, *info, port)) {
     return {LidarState::kFaulty, LidarFault::kMotorControl, motor_->error()};
   }
   device.start(mode);
   return {.fault = LidarFault::kNone};
+}
+
+std::optional<DeviceInfo> RplidarDriver::query_info(Device& device) {
+  const bool had_booted = device.booted();
+  auto info = device.info(rates_.is_single() ? kInfoTries : kInfoTriesOfRates);
+  if (!device.booted()) return info;
+  if (!had_booted) report(LidarState::kIdentifying, LidarFault::kBooting);
+  return info ? info : device.info();
+}
+
+bool RplidarDriver::start_motor(Device& device, const DeviceInfo& info, drivers::ByteStream& port) {
+  if (!motor_->start(port)) return false;
+  if (config_.motor.kind == MotorKind::kNone) return true;
+  motor_request_ = device.motor_request(info);
+  return !motor_request_ || device.send(motor_request_->start());
 }
 
 RplidarDriver::Failure RplidarDriver::measure(drivers::ByteStream& port, const ScanMode& mode,
@@ -185,13 +197,14 @@ RplidarDriver::Failure RplidarDriver::measure(drivers::ByteStream& port, const S
   SampleStream stream({.format = mode.format,
                        .inverted = config_.inverted,
                        .sample_period_s = mode.period_s,
-                       .baud = baud()});
+                       .baud = wire_baud_});
   drivers::SampleMonitor monitor(sink, board_);
   BannerSearch banner;
   board_.begin_stream();
   Failure failure;
   std::array<std::uint8_t, 512> buffer;
   core::TimeNs last_sample_ns = clock_.monotonic_ns();
+  std::size_t bytes_since_sample = 0;
   while (!stop.stop_requested()) {
     const auto [status, count] = port.read(buffer, kReadSlice);
     const core::TimeNs now_ns = clock_.monotonic_ns();
@@ -207,6 +220,7 @@ RplidarDriver::Failure RplidarDriver::measure(drivers::ByteStream& port, const S
       break;
     }
     const core::TimeNs silent_ns = now_ns - last_sample_ns;
+    bytes_since_sample = measured ? 0 : bytes_since_sample + count;
     if (measured) {
       last_sample_ns = now_ns;
       const LidarState state =
@@ -218,6 +232,9 @@ RplidarDriver::Failure RplidarDriver::measure(drivers::ByteStream& port, const S
     } else if (silent_ns > (has_run_ ? kSilenceLimitNs : kSpinUpLimitNs)) {
       reset_first_ = true;
       failure.fault = has_run_ ? LidarFault::kMotorStalled : LidarFault::kNoData;
+      break;
+    } else if (has_run_ && silent_ns > kStallNs && bytes_since_sample > kNoiseBytes) {
+      failure.fault = LidarFault::kUnexpectedData;
       break;
     } else if (has_run_ && silent_ns > kStallNs && board_.fault() != LidarFault::kMotorStalled) {
       report(LidarState::kFaulty, LidarFault::kMotorStalled);
@@ -243,15 +260,19 @@ std::optional<Health> RplidarDriver::query_health_after_silence(drivers::ByteStr
   return health;
 }
 
-bool RplidarDriver::answers_at_default_baud(const std::stop_token& stop) {
-  if (config_.baud_rates != std::vector{baud()} || baud() == kDefaultBaud) return false;
-  const drivers::OpenResult opened = open_port_(kDefaultBaud);
-  if (!opened.stream) return false;
-  drivers::MonitoredByteStream port(*opened.stream, [this] { count_progress(); });
-  Device device(port, clock_, stop);
-  const bool answers = device.stop_scan() && device.info(1).has_value();
-  board_.count_answers(device.received_bytes(), device.used_bytes());
-  return answers;
+std::optional<std::uint32_t> RplidarDriver::answering_baud(const std::stop_token& stop) {
+  if (!rates_.is_single()) return std::nullopt;
+  for (const std::uint32_t other : drivers::baud_rates_of(drivers::DriverKind::kRplidar)) {
+    if (other == rates_.current() || stop.stop_requested()) continue;
+    const drivers::OpenResult opened = open_port_(other);
+    if (!opened.stream) return std::nullopt;
+    drivers::MonitoredByteStream port(*opened.stream, [this] { count_progress(); });
+    Device device(port, clock_, stop);
+    const bool answers = device.stop_scan() && device.info(1).has_value();
+    board_.count_answers(device.received_bytes(), device.used_bytes());
+    if (answers) return other;
+  }
+  return std::nullopt;
 }
 
 void RplidarDriver::wait(milliseconds duration, const std::stop_token& stop) {

@@ -100,6 +100,7 @@ void StatusPublisher::publish(const drivers::LidarStatus& lidar, const ScanPubli
   status.lidar_mode = lidar.mode.view();
   status.rate_hz = lidar.rate_hz;
   status.samples_hz = lidar.samples_hz;
+  status.mount = mount_;
   status.bias = &scans.bias();
   status.counters = counters;
   status.odometry = &scans.odometry();

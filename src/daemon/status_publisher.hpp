@@ -33,6 +33,7 @@ class StatusPublisher {
   bool update(const drivers::LidarChange& change, core::TimeNs t_ns);
   void publish(const drivers::LidarStatus& lidar, const ScanPublisher& scans,
                Localization& localization, const DaemonHealth& health, core::TimeNs t_ns);
+  void set_mount(const message::StatusFields::Mount& mount) { mount_ = mount; }
   /// The reader of the board's sensors; null if there is none.
   void set_odometry(OdometryReader* odometry) { odometry_ = odometry; }
   /// The clients that send odometry; null for other sources.
@@ -43,6 +44,7 @@ class StatusPublisher {
   void log_once(const drivers::LidarChange& change, const std::string& text);
 
   MessageServer& server_;
+  std::optional<message::StatusFields::Mount> mount_;
   OdometryReader* odometry_ = nullptr;
   OdometryClients* odometry_clients_ = nullptr;
   Notifier& notifier_;

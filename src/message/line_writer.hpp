@@ -41,6 +41,11 @@ struct StatusFields {
   std::string_view lidar_mode;
   double rate_hz = 0;
   double samples_hz = 0;
+  struct Mount {
+    core::Pose2 T_base_lidar;
+    bool inverted = false;  ///< the lidar hangs upside down; SCAN's angles have it already
+  };
+  std::optional<Mount> mount;                 ///< left out where it is not known
   const core::EstimatedBias* bias = nullptr;  ///< of the lidar; left out before its first scan
   struct Counter {
     std::string_view name;

@@ -106,6 +106,11 @@ void read_lidar(FieldReader& fields, ParsedStatus& status) {
   status.lidar_mode = lidar.optional_text("mode");
   status.rate_hz = lidar.optional_number("rate_hz", kAnyNumber);
   status.samples_hz = lidar.optional_number("samples_hz", kAnyNumber);
+  if (lidar.has("mount")) {
+    FieldReader mount(lidar.optional_object("mount"));
+    status.T_base_lidar = read_pose2(mount);
+    if (mount.error()) lidar.fail("\"mount\": " + mount.error()->text);
+  }
   if (lidar.error()) fields.fail("\"lidar\": " + lidar.error()->text);
 }
 

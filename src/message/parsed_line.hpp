@@ -59,6 +59,7 @@ struct ParsedStatus {
   std::string lidar_mode;
   std::optional<double> rate_hz;
   std::optional<double> samples_hz;
+  std::optional<core::Pose2> T_base_lidar;
   std::vector<std::pair<std::string, std::uint64_t>> counters;
   std::string odometry_state;
   std::string odometry_hint;

@@ -31,6 +31,16 @@ void write_bias(JsonText& json, const core::EstimatedBias& estimated) {
   json.close_object();
 }
 
+void write_mount(JsonText& json, const StatusFields::Mount& mount) {
+  json.open_object("mount");
+  json.number("x", mount.T_base_lidar.x_m, kTimeDecimals);
+  json.number("y", mount.T_base_lidar.y_m, kTimeDecimals);
+  json.key("theta");
+  json.angle(mount.T_base_lidar.theta_rad);
+  json.boolean("inverted", mount.inverted);
+  json.close_object();
+}
+
 void write_lidar(JsonText& json, const StatusFields& status) {
   json.open_object("lidar");
   json.text("state", status.lidar_state);
@@ -43,6 +53,7 @@ void write_lidar(JsonText& json, const StatusFields& status) {
   json.text("mode", status.lidar_mode);
   json.number("rate_hz", status.rate_hz, 3);
   json.number("samples_hz", status.samples_hz, 1);
+  if (status.mount) write_mount(json, *status.mount);
   if (status.bias != nullptr && status.bias->scans > 0) write_bias(json, *status.bias);
   json.close_object();
 }

@@ -19,6 +19,7 @@ void add_record(Command& program);
 void add_simulate(Command& program);
 void add_emulate(Command& program);
 void add_survey(Command& program);
+void add_export(Command& program);
 
 void add_calibrate(Command& program);
 void add_calibrate_bias(Command& group);

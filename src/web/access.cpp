@@ -84,4 +84,8 @@ bool may_change(const Request& request, const AccessRules& rules) {
   return rules.token.empty() ? request.from_loopback : has_token(request, rules.token);
 }
 
+bool may_read(const Request& request, const AccessRules& rules) {
+  return !rules.is_private || has_token(request, rules.token);
+}
+
 }  // namespace cornerd::web

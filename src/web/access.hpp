@@ -14,6 +14,7 @@ struct AccessRules {
   std::string own_name;                      ///< of this machine, without a domain
   std::string token;                         ///< empty: none is set
   std::vector<std::string> allowed_origins;  ///< "https://app.example.org"
+  bool is_private = false;                   ///< reading needs the token too
 };
 
 /// True for an IP literal, localhost, a name below .local and the own name, with or without a port.
@@ -30,5 +31,6 @@ bool has_token(const Request& request, std::string_view token);
 
 /// With a token set, its bearers; without one, clients on this machine.
 bool may_change(const Request& request, const AccessRules& rules);
+bool may_read(const Request& request, const AccessRules& rules);
 
 }  // namespace cornerd::web

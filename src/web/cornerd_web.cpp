@@ -29,6 +29,7 @@ struct ProgramOptions {
   std::filesystem::path token_file;
   std::filesystem::path maps;
   std::vector<std::string> allowed_origins;
+  bool is_private = false;
 };
 
 /// "127.0.0.1:8088" or "[::]:8088".
@@ -66,6 +67,10 @@ void run(const ProgramOptions& options) {
   if (!options.maps.empty()) config.maps = std::filesystem::absolute(options.maps);
   if (!options.token_file.empty()) config.access.token = read_token(options.token_file);
   config.access.allowed_origins = options.allowed_origins;
+  config.access.is_private = options.is_private;
+  if (options.is_private && config.access.token.empty()) {
+    throw tool::UsageError("--private needs a token: --token-file FILE");
+  }
   std::array<char, 256> name{};
   if (::gethostname(name.data(), name.size() - 1) == 0) config.access.own_name = name.data();
   config.access.own_name = config.access.own_name.substr(0, config.access.own_name.find('.'));
@@ -93,6 +98,7 @@ int run_cornerd_web(int argc, const char* const* argv) {
         .add_option("--token-file", options->token_file,
                     "its first line is needed for everything that changes something")
         .type_name("FILE");
+    program.add_flag("--private", options->is_private, "the token is needed for reading too");
     program.add_option("--maps", options->maps, "folder of maps that the page lists and saves")
         .type_name("DIR");
     program

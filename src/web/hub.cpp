@@ -67,6 +67,12 @@ void Hub::set_connected(bool connected, std::string_view problem) {
 
 std::string Hub::recording(std::chrono::seconds span, Clock::time_point now) const {
   std::string text;
+  const auto now_is = [&](MessageClass message_class) {
+    const Line line = last(message_class);
+    if (line && line->size() < message::kMaxRecordedBytes) text.append(*line).push_back('\n');
+  };
+  now_is(MessageClass::kMap);
+  now_is(MessageClass::kStatus);
   for (const Kept& kept : kept_) {
     if (now - kept.at <= span) text.append(*kept.line).push_back('\n');
   }

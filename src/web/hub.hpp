@@ -45,7 +45,8 @@ class Hub {
   Line last(message::MessageClass message_class) const {
     return last_[static_cast<std::size_t>(message_class)];
   }
-  /// Lines with newlines that arrived in this time before `now`: a recording for `replay`.
+  /// Lines with newlines that arrived in this time before `now`, after the map and the last STATUS:
+  /// a recording for `replay` and `export`.
   std::string recording(std::chrono::seconds span, Clock::time_point now) const;
 
   /// The listener gets the last of each of its classes first.

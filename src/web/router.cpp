@@ -16,8 +16,8 @@ namespace {
 using message::MessageClass;
 
 constexpr std::string_view kMapsFolder = "/api/maps/";
-/// Of 40,000 walls.
-constexpr std::size_t kMaxMapBytes = 4 * 1024 * 1024;
+/// Of 20,000 walls, which take 40 MB while they are checked.
+constexpr std::size_t kMaxMapBytes = 1024 * 1024;
 constexpr long kMaxRecordingSeconds = 60;
 
 const PageFile* find_file(std::string_view path) {
@@ -38,8 +38,8 @@ Methods methods_of(std::string_view path) {
   if (path == "/api/request") return {"", "POST", message::kMaxRequestBytes};
   if (path == "/api/maps/check") return {"", "POST", kMaxMapBytes};
   if (path.starts_with(kMapsFolder)) return {"", "PUT", kMaxMapBytes};
-  for (const std::string_view known :
-       {"/api/map", "/api/status", "/api/events", "/api/recording", "/api/maps", "/metrics"}) {
+  for (const std::string_view known : {"/api/map", "/api/status", "/api/events", "/api/recording",
+                                       "/api/maps", "/metrics", "/foxglove"}) {
     if (path == known) return {"GET", ""};
   }
   if (find_file(path) != nullptr) return {"GET", ""};
@@ -94,13 +94,17 @@ Router::Decision Router::decide(const Request& request) const {
     return refuse(404, "path", "there is no such path");
   }
   if (!methods.read.empty() && request.method == methods.read) {
+    if (find_file(request.path) == nullptr && !may_read(request, rules_)) {
+      return refuse(401, "token", "the token is missing or wrong: Authorization: Bearer T");
+    }
+    if (request.path == "/foxglove") return {.kind = Kind::kFoxglove};
     if (request.path != "/api/events") return {.kind = Kind::kPage};
     return {.kind = Kind::kEvents, .classes = classes_from(query_value(request.query, "classes"))};
   }
   if (methods.change.empty() || request.method != methods.change) {
     return refuse(405, "method", "this path takes another method");
   }
-  if (!may_change(request, rules_)) {
+  if (!may_change(request)) {
     return rules_.token.empty()
                ? refuse(403, "read-only", "from another machine only with a token: --token-file")
                : refuse(401, "token", "the token is missing or wrong: Authorization: Bearer T");
@@ -133,8 +137,10 @@ Response Router::answer(const Request& request, Hub::Clock::time_point now) cons
           .download_name = "cornerd.ndjson"};
 }
 
+Response Router::ask(const std::string& line) const { return ask_daemon(control_socket_, line); }
+
 Response Router::work(const Request& request) const {
-  if (request.path == "/api/request") return ask_daemon(control_socket_, request.body);
+  if (request.path == "/api/request") return ask(request.body);
   if (request.path == "/api/maps/check") return MapStore::check(request.body);
   return maps_.put(std::string_view(request.path).substr(kMapsFolder.size()), request.body);
 }

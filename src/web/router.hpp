@@ -18,10 +18,11 @@ namespace cornerd::web {
 class Router {
  public:
   enum class Kind {
-    kRefused,  ///< `response` says why; the body is not read
-    kPage,     ///< answer() on the thread of the hub
-    kWork,     ///< work() on any thread, since it may block
-    kEvents,   ///< a stream of `classes`
+    kRefused,   ///< `response` says why; the body is not read
+    kPage,      ///< answer() on the thread of the hub
+    kWork,      ///< work() on any thread, since it may block
+    kEvents,    ///< a stream of `classes`
+    kFoxglove,  ///< a WebSocket
   };
   struct Decision {
     Kind kind = Kind::kRefused;
@@ -37,6 +38,9 @@ class Router {
   Decision decide(const Request& request) const;
   Response answer(const Request& request, Hub::Clock::time_point now) const;
   Response work(const Request& request) const;
+  /// One request line of the control socket; blocks.
+  Response ask(const std::string& line) const;
+  bool may_change(const Request& request) const { return web::may_change(request, rules_); }
 
  private:
   AccessRules rules_;

@@ -159,6 +159,32 @@ TEST_F(Web, ForeignPagesAndHugeBodies_AreRefused) {
   EXPECT_TRUE(is(ask(head("GET /")), 200));
 }
 
+TEST_F(Web, FoxgloveSocket_GetsPosesUntilItGoes) {
+  const DaemonProcess daemon = start();
+  const DaemonProcess web = start_web();
+  wait_for_port(web);
+  {
+    HttpClient socket(port_);
+    socket.send(
+        "GET /foxglove HTTP/1.1\r\nHost: localhost\r\nConnection: Upgrade\r\nUpgrade: websocket\r\n"
+        "Sec-WebSocket-Version: 13\r\nSec-WebSocket-Key: MDEyMzQ1Njc4OWFiY2RlZg==\r\n"
+        "Sec-WebSocket-Protocol: foxglove.sdk.v1\r\n\r\n");
+    const std::string start = socket.read_until("\"advertise\"");
+    EXPECT_TRUE(is(start, 101)) << start;
+    EXPECT_NE(start.find("Sec-WebSocket-Protocol: foxglove.sdk.v1"), std::string::npos) << start;
+    const std::string subscribe =
+        R"({"op":"subscribe","subscriptions":[{"id":1,"channelId":5},{"id":2,"channelId":4}]})";
+    // RFC 6455, section 5.2: a whole text frame with a mask of zeros.
+    ASSERT_LT(subscribe.size(), 126u);
+    socket.send(std::string("\x81") + static_cast<char>(0x80 | subscribe.size()) +
+                std::string(4, '\0') + subscribe);
+    EXPECT_NE(socket.read_until("\"class\":\"POSE\"").find("\"class\":\"POSE\""),
+              std::string::npos);
+    EXPECT_NE(socket.read_until("\"cubes\"").find("\"cubes\""), std::string::npos);
+  }
+  EXPECT_TRUE(is(ask(head("GET /")), 200));
+}
+
 TEST_F(Web, TerminateSignal_EndsItCleanly) {
   DaemonProcess web = start_web();
   wait_for_port(web);

@@ -1,15 +1,18 @@
 // SPDX-License-Identifier: MIT
 // The daemon's messages, for as long as the page is open.
+import { withToken } from "./actions.js";
 
 const classes = "POSE,SCAN,BREAKPOINTS,STATUS,EVENT,MAP";
 
-// Calls on.POSE(message) and so on, and on.away(reason), with null when the daemon is there.
+// Calls on.POSE(message) and so on, on.line(text), and on.away(reason), with null when the daemon is
+// there.
 export function follow(on) {
   let source;
   const open = () => {
-    source = new EventSource(`/api/events?classes=${classes}`);
+    source = new EventSource(withToken(`/api/events?classes=${classes}`));
     source.onmessage = (event) => {
       const message = JSON.parse(event.data);
+      on.line(event.data, message.class);
       on[message.class]?.(message);
     };
     source.addEventListener("daemon", (event) => {
@@ -25,4 +28,27 @@ export function follow(on) {
   };
   open();
   return () => source.close();
+}
+
+// What comes between start() and stop(), after the map and the last STATUS: for cornerctl replay and
+// export.
+export class Recording {
+  lines = null;
+  last = {};
+  add(text, name) {
+    this.last[name] = text;
+    this.lines?.push(text, "\n");
+  }
+  start() {
+    this.lines = ["MAP", "STATUS"].filter((name) => this.last[name]).flatMap((name) => [this.last[name], "\n"]);
+  }
+  stop() {
+    const file = new Blob(this.lines, { type: "application/x-ndjson" });
+    this.lines = null;
+    const link = document.createElement("a");
+    link.href = URL.createObjectURL(file);
+    link.download = `cornerd-${new Date().toISOString().slice(0, 19).replace(/[:T]/g, "-")}.ndjson`;
+    link.click();
+    setTimeout(() => URL.revokeObjectURL(link.href), 60000);
+  }
 }

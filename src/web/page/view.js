@@ -1,53 +1,22 @@
 // SPDX-License-Identifier: MIT
 // The picture: map, robot, scan. Coordinates are metres in the map; y is up.
+import { color, paintDraft, wallPaths } from "./walls.js";
+import { WallIndex } from "./wall_index.js";
 
 const kTrailPoses = 2000;
-const kExplained_m = 0.1;  // a return this near to a wall is that wall
-const kCell_m = 0.5;
-
-const color = (name) => getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
-
-// Walls by cells of the plane, to find the wall near a point at once.
-class WallIndex {
-  constructor(walls, thickness) {
-    this.cells = new Map();
-    for (const wall of walls) {
-      const reach = (wall.thickness ?? thickness) / 2 + kExplained_m;
-      const [ax, ay] = wall.from, [bx, by] = wall.to;
-      const length = Math.hypot(bx - ax, by - ay);
-      const steps = Math.max(1, Math.ceil(length / kCell_m));
-      const entry = { ax, ay, dx: (bx - ax) / (length || 1), dy: (by - ay) / (length || 1), length, reach };
-      for (let i = 0; i <= steps; ++i) {
-        const x = ax + (bx - ax) * i / steps, y = ay + (by - ay) * i / steps;
-        const spread = Math.ceil(reach / kCell_m);
-        for (let u = -spread; u <= spread; ++u) {
-          for (let v = -spread; v <= spread; ++v) {
-            const key = this.key(x + u * kCell_m, y + v * kCell_m);
-            if (!this.cells.has(key)) this.cells.set(key, new Set());
-            this.cells.get(key).add(entry);
-          }
-        }
-      }
-    }
-  }
-  key(x, y) { return `${Math.floor(x / kCell_m)},${Math.floor(y / kCell_m)}`; }
-  explains(x, y) {
-    for (const w of this.cells.get(this.key(x, y)) ?? []) {
-      const along = (x - w.ax) * w.dx + (y - w.ay) * w.dy;
-      const across = Math.abs((y - w.ay) * w.dx - (x - w.ax) * w.dy);
-      if (across < w.reach && along > -w.reach && along < w.length + w.reach) return true;
-    }
-    return false;
-  }
-}
+const kOutliers = 0.02;  // of a scan, at each end
+const kFollow_m = 6;  // seen around the robot that is followed
 
 export class View {
-  constructor(canvas) {
+  // `free()`: the part of the canvas that nothing covers, in its pixels.
+  constructor(canvas, free) {
     this.canvas = canvas;
+    this.free = free;
     this.context = canvas.getContext("2d");
     this.center = { x: 0, y: 0 };
     this.scale = 60;  // CSS pixels a metre
-    this.following = true;
+    this.following = false;
+    this.isFitted = true;
     this.trail = [];
     this.ghosts = [];
     this.points = [];
@@ -63,7 +32,7 @@ export class View {
     this.height = this.canvas.clientHeight;
     this.canvas.width = Math.round(this.width * this.ratio);
     this.canvas.height = Math.round(this.height * this.ratio);
-    this.draw();
+    this.isFitted ? this.showWhole() : this.draw();
   }
 
   toScreen({ x, y }) {
@@ -75,20 +44,41 @@ export class View {
 
   setMap(map) {
     this.map = map;
-    this.index = new WallIndex(map.walls, map.thickness ?? 0);
+    if (!this.draft) this.setWalls(map.walls, map.thickness ?? 0);
+    this.paths = wallPaths(map.walls, map.thickness ?? 0);
     this.trail = [];
     this.showWhole();
   }
 
+  // The whole map in the part of the canvas that is free.
   showWhole() {
-    if (!this.map) return;
-    const xs = this.map.walls.flatMap((wall) => [wall.from[0], wall.to[0]]);
-    const ys = this.map.walls.flatMap((wall) => [wall.from[1], wall.to[1]]);
-    const low = { x: xs.reduce((a, b) => Math.min(a, b)), y: ys.reduce((a, b) => Math.min(a, b)) };
-    const high = { x: xs.reduce((a, b) => Math.max(a, b)), y: ys.reduce((a, b) => Math.max(a, b)) };
-    this.center = { x: (low.x + high.x) / 2, y: (low.y + high.y) / 2 };
-    const beside = this.width > 900 ? 640 : 0;  // the panel, on both sides
-    this.scale = 0.95 * Math.min((this.width - beside) / (high.x - low.x + 0.2), (this.height - 150) / (high.y - low.y + 0.2));
+    this.isFitted = true;
+    const points = (this.draft ?? this.map)?.walls.flatMap((wall) => [wall.from, wall.to]) ?? [];
+    const scan = this.draft?.scan ?? [];
+    if (!points.length && !scan.length) return;
+    const low = [Infinity, Infinity], high = [-Infinity, -Infinity];
+    for (const i of [0, 1]) {
+      // Without the outliers of the scan.
+      const sorted = scan.map((p) => p[i]).sort((a, b) => a - b);
+      const few = Math.floor(kOutliers * sorted.length);
+      const all = [...points.map((p) => p[i]), ...sorted.slice(few, sorted.length - few)];
+      for (const v of all) [low[i], high[i]] = [Math.min(low[i], v), Math.max(high[i], v)];
+    }
+    const free = this.free();
+    const [width, height] = [free.right - free.left, free.bottom - free.top];
+    this.scale = Math.min(2000, 0.95 * Math.min(width / (high[0] - low[0] + 0.2), height / (high[1] - low[1] + 0.2)));
+    this.center = {
+      x: (low[0] + high[0]) / 2 + (this.width / 2 - (free.left + free.right) / 2) / this.scale,
+      y: (low[1] + high[1]) / 2 - (this.height / 2 - (free.top + free.bottom) / 2) / this.scale };
+    this.draw();
+  }
+
+  follow(on) {
+    this.following = on;
+    this.isFitted = this.isFitted && !on;
+    if (!on || !this.pose) return;
+    this.scale = Math.max(this.scale, Math.min(this.width, this.height) / kFollow_m);
+    this.center = { x: this.pose.x, y: this.pose.y };
     this.draw();
   }
 
@@ -105,12 +95,23 @@ export class View {
 
   // Points of the lidar in the map, for the pose that holds at the middle of the scan.
   setScan(points) {
-    this.points = points.map((p) => ({ ...p, known: !this.index || this.index.explains(p.x, p.y) }));
+    if (this.draft?.isHeld) return;
+    this.points = points;
+    this.compare();
+  }
+  // Which of them the walls do not have.
+  compare() {
+    for (const p of this.points) p.known = !this.index || this.index.contains(p.x, p.y);
     this.draw();
+  }
+  setWalls(walls, thickness) {
+    this.index = new WallIndex(walls, thickness);
+    this.compare();
   }
   setCorners(corners) { this.corners = corners; }
 
   zoom(factor, at) {
+    this.isFitted = false;
     const fixed = this.toMap(at);
     this.scale = Math.min(2000, Math.max(0.5, this.scale * factor));
     const now = this.toMap(at);
@@ -118,6 +119,7 @@ export class View {
     this.draw();
   }
   pan(dx, dy) {
+    this.isFitted = false;
     this.center = { x: this.center.x - dx / this.scale, y: this.center.y + dy / this.scale };
     this.draw();
   }
@@ -143,13 +145,16 @@ export class View {
     c.textBaseline = "alphabetic";
     c.setTransform(this.ratio, 0, 0, this.ratio, 0, 0);
     c.clearRect(0, 0, this.width, this.height);
-    this.paintMap(c);
-    this.paintTrail(c);
+    if (this.draft) paintDraft(c, this);
+    else this.paintMap(c);
+    if (!this.draft) this.paintTrail(c);
     this.paintScan(c);
     this.ghosts.forEach((ghost, i) => this.paintGhost(c, ghost, i + 1));
     if (this.pose) this.paintRobot(c, this.pose);
     if (this.aim) this.paintArrow(c, this.aim);
     this.paintScaleBar(c);
+    // For who looks at the pixels: of what pose, and where they are.
+    Object.assign(this.canvas.dataset, { t: this.pose?.t ?? "", x: this.center.x, y: this.center.y, scale: this.scale });
   }
 
   polygon(c, points) {
@@ -163,31 +168,31 @@ export class View {
 
   paintMap(c) {
     if (!this.map) return;
+    for (const room of this.map.rooms ?? []) this.paintRoom(c, room);
+    c.save();
+    this.toMetres(c);
+    c.fillStyle = c.strokeStyle = color("wall");
+    c.lineWidth = 1 / this.scale;
+    c.fill(this.paths);
+    c.stroke(this.paths);  // a line wall is seen too
+    c.restore();
+  }
+  // From here on the canvas takes metres of the map.
+  toMetres(c) {
+    const { x, y } = this.toScreen({ x: 0, y: 0 });
+    c.transform(this.scale, 0, 0, -this.scale, x, y);
+  }
+  paintRoom(c, room, isChosen = false) {
+    const points = room.polygon.map(([x, y]) => ({ x, y }));
+    this.polygon(c, points);
+    c.fillStyle = color("room");
+    c.fill();
+    const middle = points.reduce((sum, p) => ({ x: sum.x + p.x / points.length, y: sum.y + p.y / points.length }), { x: 0, y: 0 });
+    const at = this.toScreen(middle);
+    c.fillStyle = color(isChosen ? "tracking" : "soft");
     c.font = "13px system-ui, sans-serif";
     c.textAlign = "center";
-    for (const room of this.map.rooms ?? []) {
-      const points = room.polygon.map(([x, y]) => ({ x, y }));
-      this.polygon(c, points);
-      c.fillStyle = color("room");
-      c.fill();
-      const middle = points.reduce((sum, p) => ({ x: sum.x + p.x / points.length, y: sum.y + p.y / points.length }), { x: 0, y: 0 });
-      const at = this.toScreen(middle);
-      c.fillStyle = color("soft");
-      c.fillText(room.name, at.x, at.y);
-    }
-    c.fillStyle = c.strokeStyle = color("wall");
-    c.lineWidth = 1;
-    for (const wall of this.map.walls) {
-      const half = (wall.thickness ?? this.map.thickness ?? 0) / 2;
-      const [ax, ay] = wall.from, [bx, by] = wall.to;
-      const length = Math.hypot(bx - ax, by - ay) || 1;
-      const u = { x: (bx - ax) / length * half, y: (by - ay) / length * half };
-      this.polygon(c, [
-        { x: ax - u.x - u.y, y: ay - u.y + u.x }, { x: bx + u.x - u.y, y: by + u.y + u.x },
-        { x: bx + u.x + u.y, y: by + u.y - u.x }, { x: ax - u.x + u.y, y: ay - u.y - u.x }]);
-      c.fill();
-      c.stroke();  // a line wall is seen too
-    }
+    c.fillText(room.name, at.x, at.y);
   }
 
   paintTrail(c) {
@@ -240,15 +245,19 @@ export class View {
       c.restore();
     }
     c.rotate(-theta);
-    c.fillStyle = color("robot");
+    c.fillStyle = color("nose");
     c.beginPath();
-    c.moveTo(20, 0);
-    c.lineTo(6, -8);
-    c.lineTo(6, 8);
+    c.moveTo(22, 0);
+    c.lineTo(6, -9);
+    c.lineTo(6, 9);
     c.fill();
     c.beginPath();
     c.arc(0, 0, 9, 0, 7);
+    c.fillStyle = color("robot");
     c.fill();
+    c.strokeStyle = color("ring");
+    c.lineWidth = 2;
+    c.stroke();
     c.restore();
   }
 
@@ -285,7 +294,7 @@ export class View {
     const rough = 120 / this.scale;
     const power = 10 ** Math.floor(Math.log10(rough));
     const length = [5, 2, 1].map((n) => n * power).find((n) => n <= rough);
-    const x = this.width - 20, y = this.height - 80;
+    const x = this.width - 20, y = this.free().bottom + 24;
     c.strokeStyle = c.fillStyle = color("soft");
     c.lineWidth = 2;
     c.strokeRect(x - length * this.scale, y - 1, length * this.scale, 1);

@@ -6,7 +6,8 @@
 //
 // FILE gets a line for each NAME: window NAME COUNT, then median and maximum of instructions and of
 // cycles, then the classes' mean numbers. With functions=NAME, lines of the functions that ran
-// inside that window: function SYMBOL INSTRUCTIONS CYCLES, the mean of each window.
+// inside that window: function SYMBOL INSTRUCTIONS CYCLES, the mean of each window. The last line
+// is the whole program: total INSTRUCTIONS CYCLES.
 #include <algorithm>
 #include <cstdio>
 #include <cstring>
@@ -59,7 +60,8 @@ struct Block {
   Window* ends = nullptr;
 };
 
-/// One thread is counted, that of the markers: the program has no other.
+/// Windows count one thread, that of the markers. The total counts all; two that run at once may
+/// lose a block.
 struct Counter {
   Counts total;
   std::map<std::string, Window, std::less<>> windows;
@@ -185,6 +187,8 @@ void write_results(qemu_plugin_id_t /*id*/, void* /*data*/) {
                    static_cast<double>(counts.cycles()) / count);
     }
   }
+  std::fprintf(file, "total %llu %llu\n", static_cast<unsigned long long>(all.total.instructions()),
+               static_cast<unsigned long long>(all.total.cycles()));
   std::fclose(file);
 }
 

@@ -177,11 +177,13 @@ TEST(StatusLine, AllFields_Written) {
   status.lidar_mode = "Express";
   status.rate_hz = 5.51234;
   status.samples_hz = 3953.04;
+  status.mount = {{0.04, -0.5, core::kPi}, true};
   status.counters = counters;
   status.latency = {0.001, 0.002, 0.003, true};
   EXPECT_EQ(read(writer.status(status)), json::parse(R"({"class":"STATUS","t":0.001,
     "lidar":{"state":"running","detail":"a\"b","model":"A1M8","firmware":"1.29","health":"good",
-             "mode":"Express","rate_hz":5.512,"samples_hz":3953},
+             "mode":"Express","rate_hz":5.512,"samples_hz":3953,
+             "mount":{"x":0.04,"y":-0.5,"theta":3.141592,"inverted":true}},
     "counters":{"bytes":7,"scans":2},
     "latency":{"p50":0.001,"p95":0.002,"p99":0.003}})"));
 }

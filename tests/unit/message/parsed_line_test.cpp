@@ -93,6 +93,7 @@ TEST(ParsedLine, Status_WrittenByLineWriter_ReadBack) {
   fields.lidar_detail = "nothing returns";
   fields.lidar_model = "A1";
   fields.rate_hz = 7.125;
+  fields.mount = {{0.04, 0, 1.5}, false};
   fields.counters = counters;
   fields.odometry = &odometry;
   fields.odometry_sensors = sensors;
@@ -104,6 +105,9 @@ TEST(ParsedLine, Status_WrittenByLineWriter_ReadBack) {
   EXPECT_EQ(status.lidar_fault, "dead-laser");
   EXPECT_EQ(status.lidar_detail, "nothing returns");
   EXPECT_EQ(status.lidar_model, "A1");
+  ASSERT_TRUE(status.T_base_lidar);
+  EXPECT_EQ(status.T_base_lidar->x_m, 0.04);
+  EXPECT_EQ(status.T_base_lidar->theta_rad, 1.5);
   EXPECT_EQ(status.lidar_firmware, "");
   EXPECT_EQ(status.rate_hz, 7.125);
   EXPECT_EQ(status.counter("scans"), 70U);

@@ -50,5 +50,17 @@ TEST(MayChange, ByTokenOrFromThisMachine) {
   EXPECT_TRUE(may_change(request, rules));
 }
 
+TEST(MayRead, AnybodyUnlessPrivate) {
+  Request request;
+  request.from_loopback = true;
+  AccessRules rules;
+  rules.token = "0123456789abcdef";
+  EXPECT_TRUE(may_read(request, rules));
+  rules.is_private = true;
+  EXPECT_FALSE(may_read(request, rules));
+  request.query = "token=0123456789abcdef";
+  EXPECT_TRUE(may_read(request, rules));
+}
+
 }  // namespace
 }  // namespace cornerd::web

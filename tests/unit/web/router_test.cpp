@@ -30,7 +30,7 @@ class RouterTest : public ::testing::Test {
 
 TEST_F(RouterTest, EachPath_TakesItsMethodAlone) {
   for (const char* path : {"/", "/app.js", "/api/map", "/api/status", "/api/events",
-                           "/api/recording", "/api/maps", "/metrics"}) {
+                           "/api/recording", "/api/maps", "/metrics", "/foxglove"}) {
     EXPECT_EQ(refusal(request("GET", path)), 0u) << path;
     EXPECT_EQ(refusal(request("POST", path)), 405u) << path;
   }
