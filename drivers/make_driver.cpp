@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "drivers/make_driver.hpp"
 
-#include <algorithm>
 #include <utility>
 
 #include "drivers/ld/ld_protocol.hpp"
@@ -32,17 +31,6 @@ std::unique_ptr<LidarDriver> make_stream_driver(const DeviceConfig& config,
 }
 
 }  // namespace
-
-std::vector<std::uint32_t> baud_rates_of(DriverKind driver) {
-  std::vector<std::uint32_t> rates;
-  for (const LidarModel& model : kLidarModels) {
-    if (model.driver != driver) continue;
-    if (std::find(rates.begin(), rates.end(), model.baud) == rates.end()) {
-      rates.push_back(model.baud);
-    }
-  }
-  return rates;
-}
 
 std::unique_ptr<LidarDriver> make_driver(const DeviceConfig& config, PortOpener open_port) {
   switch (config.driver) {  // no default: -Wswitch names a kind that has no driver

@@ -8,7 +8,6 @@
 #include <optional>
 #include <span>
 #include <string>
-#include <vector>
 
 #include "drivers/config/lidar_models.hpp"
 #include "drivers/config/motor_config.hpp"
@@ -29,9 +28,6 @@ struct DeviceConfig {
 };
 
 using PortOpener = std::function<OpenResult(std::uint32_t baud)>;
-
-/// The baud rates that a driver tries, without repetition.
-std::vector<std::uint32_t> baud_rates_of(DriverKind driver);
 
 /// Null for kReplay. `open_port`: replaces the device, for recorders.
 std::unique_ptr<LidarDriver> make_driver(const DeviceConfig& config,

@@ -3,9 +3,11 @@
 // baud rates of its rows in their order; the emulator imitates each row.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <string_view>
+#include <vector>
 
 #include "core/geometry/angle.hpp"
 #include "core/sensor_noise.hpp"
@@ -30,6 +32,7 @@ struct LidarModel {
   double noise_floor_m = 0;  ///< as core::SensorNoise
   double noise_share = 0;
   double noise_bearing_rad = 0;
+  std::uint8_t device_id = 0;  ///< an RPLidar's answer to GET_INFO
 
   core::SensorNoise noise() const {
     return {.floor_m = noise_floor_m, .share = noise_share, .bearing_rad = noise_bearing_rad};
@@ -39,7 +42,21 @@ struct LidarModel {
 /// Rates and ranges from the data sheets, noise as drivers/README.md says. All see 360 degrees.
 inline constexpr std::array kLidarModels = {
     LidarModel{"a1", DriverKind::kRplidar, 115'200, 3'937, 7.3, 0.15, 12, 0.0015, 0.005,
-               core::radians(0.05)},
+               core::radians(0.05), 0x18},
+    LidarModel{"a2m8", DriverKind::kRplidar, 115'200, 3'968, 10, 0.15, 12, 0.0015, 0.005,
+               core::radians(0.05), 0x28},
+    LidarModel{"a2m12", DriverKind::kRplidar, 256'000, 7'937, 10, 0.2, 12, 0.0015, 0.005,
+               core::radians(0.05), 0x2C},
+    LidarModel{"a3", DriverKind::kRplidar, 256'000, 7'937, 10, 0.2, 25, 0.0015, 0.005,
+               core::radians(0.05), 0x31},
+    LidarModel{"c1", DriverKind::kRplidar, 460'800, 5'000, 10, 0.05, 12, 0.0065, 0.001,
+               core::radians(0.28), 0x41},
+    LidarModel{"s1", DriverKind::kRplidar, 256'000, 9'259, 10, 0.1, 40, 0.0065, 0.001,
+               core::radians(0.15), 0x61},
+    LidarModel{"s2", DriverKind::kRplidar, 1'000'000, 32'000, 10, 0.05, 30, 0.0065, 0.001,
+               core::radians(0.1), 0x71},
+    LidarModel{"s3", DriverKind::kRplidar, 1'000'000, 32'000, 10, 0.05, 40, 0.0065, 0.001,
+               core::radians(0.1), 0x81},
     LidarModel{"ld06", DriverKind::kLd, 230'400, 4'500, 10, 0.02, 12, 0.0065, 0.001,
                core::radians(0.28)},
     LidarModel{"ld19", DriverKind::kLd, 230'400, 4'500, 10, 0.02, 12, 0.0065, 0.001,
@@ -62,12 +79,36 @@ constexpr const LidarModel* find_lidar_model(std::string_view name) {
   return nullptr;
 }
 
+/// The row of an RPLidar by its answer to GET_INFO; of another version of its series that one's; null
+/// if there is none.
+constexpr const LidarModel* find_rplidar(std::uint8_t device_id) {
+  const LidarModel* same_series = nullptr;
+  for (const LidarModel& model : kLidarModels) {
+    if (model.driver != DriverKind::kRplidar) continue;
+    if (model.device_id == device_id) return &model;
+    if (model.device_id >> 4 == device_id >> 4) same_series = &model;
+  }
+  return same_series;
+}
+
 /// The first row of a driver; null for kReplay.
 constexpr const LidarModel* first_lidar_model(DriverKind driver) {
   for (const LidarModel& model : kLidarModels) {
     if (model.driver == driver) return &model;
   }
   return nullptr;
+}
+
+/// The baud rates that a driver tries, without repetition.
+inline std::vector<std::uint32_t> baud_rates_of(DriverKind driver) {
+  std::vector<std::uint32_t> rates;
+  for (const LidarModel& model : kLidarModels) {
+    if (model.driver != driver) continue;
+    if (std::find(rates.begin(), rates.end(), model.baud) == rates.end()) {
+      rates.push_back(model.baud);
+    }
+  }
+  return rates;
 }
 
 }  // namespace cornerd::drivers

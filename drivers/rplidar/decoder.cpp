@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "drivers/rplidar/decoder.hpp"
 
+#include <array>
 #include <cstddef>
 
 #include "drivers/rplidar/wire/byte_window.hpp"
@@ -15,13 +16,19 @@ namespace {
 // error.
 constexpr std::size_t kForgetFormatAfter = 4096;
 
+// The shortest first: each waits for its packet's size.
+constexpr std::array kSearchOrder = {WireFormat::kExpress,  WireFormat::kDense,
+                                     WireFormat::kUltra,    WireFormat::kUltraDense,
+                                     WireFormat::kStandard, WireFormat::kHq};
+
 }  // namespace
 
 /// Locked: the format's decoder takes packet after packet. Searching: byte after byte is skipped
 /// until a packet is found.
 class Decoder::Implementation {
  public:
-  explicit Implementation(std::optional<WireFormat> format) : format_(format) {}
+  explicit Implementation(std::optional<WireFormat> format)
+      : format_(format), last_format_(format.value_or(WireFormat::kExpress)) {}
 
   void feed(std::span<const std::uint8_t> bytes, RawSampleSink& sink) {
     counters_.bytes += bytes.size();
@@ -46,11 +53,7 @@ class Decoder::Implementation {
   const drivers::StreamCounters& counters() const { return counters_; }
 
  private:
-  enum class State : std::uint8_t {
-    kSearching,
-    kLocked,
-    kUnsupported,  ///< a format that no A1 sends; only a descriptor ends it
-  };
+  enum class State : std::uint8_t { kSearching, kLocked };
 
   /// True if bytes were consumed.
   bool step(bool final, RawSampleSink& sink) {
@@ -75,22 +78,27 @@ class Decoder::Implementation {
       begin_stream(descriptor.format, sink);
       return true;
     }
-    if (state_ != State::kUnsupported) {
-      for (const WireFormat format :
-           {WireFormat::kExpress, WireFormat::kUltra, WireFormat::kStandard}) {
-        if (format_ && *format_ != format) continue;
-        const Verdict verdict = match_packet(format, bytes, final);
-        if (verdict == Verdict::kMore) return false;
-        if (verdict == Verdict::kNo) continue;
-        lock_again(format, sink);
-        return true;
-      }
+    for (const WireFormat format : kSearchOrder) {
+      if (!may_be(format)) continue;
+      const Verdict verdict = match_packet(format, bytes, final);
+      if (verdict == Verdict::kMore) return false;
+      if (verdict == Verdict::kNo) continue;
+      lock_again(format, sink);
+      return true;
     }
     window_.consume(1);
     ++counters_.skipped_bytes;
-    if (++skipped_since_lock_ == kForgetFormatAfter && state_ != State::kUnsupported)
-      format_.reset();
+    if (++skipped_since_lock_ == kForgetFormatAfter) format_.reset();
     return true;
+  }
+
+  /// Express and dense capsules differ in nothing that a decoder could see, and an HQ packet takes
+  /// long to be told: of an unknown format both are only what the last one was.
+  bool may_be(WireFormat format) const {
+    if (format_) return format_ == format;
+    if (format == WireFormat::kExpress) return last_format_ != WireFormat::kDense;
+    const bool is_told = format == WireFormat::kDense || format == WireFormat::kHq;
+    return !is_told || last_format_ == format;
   }
 
   static Verdict match_packet(WireFormat format, std::span<const std::uint8_t> bytes, bool final) {
@@ -98,12 +106,10 @@ class Decoder::Implementation {
                                            : match_capsule(bytes, format, final);
   }
 
-  void begin_stream(std::optional<WireFormat> format, RawSampleSink& sink) {
+  void begin_stream(WireFormat format, RawSampleSink& sink) {
     capsules_.drop_pending(index_);
     if (counters_.samples > 0) sink.on_gap();
-    format_ = format;
-    state_ = format ? State::kLocked : State::kUnsupported;
-    if (format) lock(*format, false);
+    lock(format, false);
   }
 
   void lock_again(WireFormat format, RawSampleSink& sink) {
@@ -113,12 +119,12 @@ class Decoder::Implementation {
     // A short gap has a known length in capsules, by their angles, but not in nodes.
     const bool knows_length = same_stream && format != WireFormat::kStandard;
     if (!knows_length && counters_.samples > 0) sink.on_gap();
-    format_ = format;
-    state_ = State::kLocked;
     lock(format, same_stream);
   }
 
   void lock(WireFormat format, bool same_stream) {
+    format_ = last_format_ = format;
+    state_ = State::kLocked;
     has_history_ = true;
     skipped_since_lock_ = 0;
     if (format == WireFormat::kStandard) {
@@ -129,6 +135,7 @@ class Decoder::Implementation {
   }
 
   std::optional<WireFormat> format_;
+  WireFormat last_format_;  ///< of the stream, or as the caller said
   State state_ = State::kSearching;
   drivers::StreamCounters counters_;
   ByteWindow window_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Turns the bytes of an RPLidar A1 into samples. A pure function: no time, port or log.
+// Turns the bytes of an RPLidar into samples. A pure function: no time, port or log.
 #pragma once
 
 #include <cstdint>
@@ -11,15 +11,23 @@
 
 namespace cornerd::rplidar {
 
-/// The answers of an A1 to a scan request: types 0x81, 0x82, 0x84.
-enum class WireFormat : std::uint8_t { kStandard, kExpress, kUltra };
+/// The answers to a scan request.
+enum class WireFormat : std::uint8_t {
+  kStandard,    ///< 0x81: nodes
+  kExpress,     ///< 0x82
+  kUltra,       ///< 0x84
+  kDense,       ///< 0x85
+  kUltraDense,  ///< 0x86
+  kHq,          ///< 0x83
+};
 
 /// A sample in the wire's units. Device angles count clockwise.
 struct RawSample {
   std::uint64_t index = 0;     ///< sample periods since the start, lost ones included
   std::uint16_t angle_q6 = 0;  ///< degrees * 64, below 360 * 64
   std::uint32_t dist_q2 = 0;   ///< millimetres * 4; 0: no return
-  std::uint8_t quality = 0;    ///< 0..63; express and ultra have none: 47 with a return, else 0
+  /// 0..63 of nodes, 0..255 of ultra-dense and HQ; the others have none: 47 with a return, else 0
+  std::uint8_t quality = 0;
   bool starts_scan = false;    ///< by the angle; the device's flag only refines it
 };
 
@@ -35,8 +43,8 @@ class RawSampleSink {
 /// after construction.
 class Decoder {
  public:
-  /// `format`: of a stream without a response descriptor; nullopt: detect it. A descriptor in the
-  /// stream takes precedence.
+  /// `format`: of a stream without a response descriptor; nullopt: detect it, other than dense and
+  /// HQ. A descriptor in the stream takes precedence.
   explicit Decoder(std::optional<WireFormat> format = std::nullopt);
   ~Decoder();
   Decoder(Decoder&&) noexcept;

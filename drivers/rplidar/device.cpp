@@ -2,6 +2,7 @@
 #include "drivers/rplidar/device.hpp"
 
 #include <algorithm>
+#include <array>
 
 namespace cornerd::rplidar {
 namespace {
@@ -14,12 +15,15 @@ constexpr milliseconds kIdle{20};            // pauses within a scan or a banner
 constexpr milliseconds kPause{40};           // longest pause between capsules through a USB adapter
 constexpr milliseconds kListenLimit{100};    // at least six capsules of a running scan
 constexpr milliseconds kDrainLimit{500};     // a device that never stops sending
-constexpr milliseconds kBootLimit{1500};     // no banner; a real one takes 671 ms
+constexpr milliseconds kBootLimit{2000};     // an A1's banner takes 671 ms; an S1 prints none in 2 s
 constexpr milliseconds kSlice{100};          // delay of a requested stop
 
 constexpr std::uint16_t kFirmwareWithConf = firmware_version(1, 24);
 constexpr std::uint16_t kFirmwareWithExpress = firmware_version(1, 17);
 constexpr std::uint32_t kMaxModes = 16;
+// The protocol's examples, for a device that has no answer.
+constexpr std::uint16_t kDefaultPwm = 660;
+constexpr std::uint16_t kDefaultRpm = 600;
 constexpr int kMaxConfirmations = 4;
 
 /// The value of two successive equal answers. Answers have no checksum, and one wrong bit in a
@@ -71,7 +75,7 @@ std::optional<Health> Device::health() {
 
 std::vector<ScanMode> Device::modes(const DeviceInfo& info) {
   std::vector<ScanMode> modes;
-  if (info.firmware >= kFirmwareWithConf) {
+  if (info.measures_time_of_flight() || info.firmware >= kFirmwareWithConf) {
     const auto count = query_conf(ConfType::kModeCount);
     const std::uint32_t number = count ? count->number(2).value_or(0) : 0;
     for (std::uint32_t id = 0; id < std::min(number, kMaxModes) && !lost_; ++id) {
@@ -80,7 +84,7 @@ std::vector<ScanMode> Device::modes(const DeviceInfo& info) {
     if (!modes.empty()) return modes;
   }
   modes.push_back({.id = 0, .name = "Standard", .format = WireFormat::kStandard, .period_s = 0});
-  if (info.firmware >= kFirmwareWithExpress) {
+  if (!info.measures_time_of_flight() && info.firmware >= kFirmwareWithExpress) {
     const auto query_rate = [this] {
       const auto answer = query(Request(Command::kGetSampleRate), AnswerType::kSampleRate);
       return answer ? SampleRate::decode(*answer) : std::nullopt;
@@ -94,6 +98,27 @@ std::vector<ScanMode> Device::modes(const DeviceInfo& info) {
     }
   }
   return modes;
+}
+
+std::optional<MotorRequest> Device::motor_request(const DeviceInfo& info) {
+  constexpr int kFirstWithSpeed = 6;
+  const int series = info.series();
+  const bool may_have_board = series == 2 || series == 3;
+  if (series < kFirstWithSpeed && !may_have_board) return std::nullopt;
+  if (may_have_board) {
+    const auto board = query(Request(Command::kGetAccessoryBoard, std::array<std::uint8_t, 4>{}),
+                             AnswerType::kAccessoryBoard);
+    const bool has_pwm = board && (board->front() & 1) != 0;
+    if (!has_pwm) return std::nullopt;
+  }
+  const auto target = query_conf(ConfType::kDesiredRotation);
+  const std::uint32_t both = target ? target->number(4).value_or(0) : 0;
+  const auto rpm = static_cast<std::uint16_t>(both);
+  const auto pwm = static_cast<std::uint16_t>(both >> 16);
+  if (may_have_board) {
+    return MotorRequest{Command::kSetMotorPwm, pwm != 0 ? pwm : kDefaultPwm};
+  }
+  return MotorRequest{Command::kSetMotorSpeed, rpm != 0 ? rpm : kDefaultRpm};
 }
 
 std::optional<ScanMode> Device::conf_mode(std::uint16_t id) {

@@ -34,7 +34,16 @@ class MeasurementSearch : private RawSampleSink {
   bool found_ = false;
 };
 
-/// Requests to an A1 that is not scanning, one answer each. Each has a time limit and ends early if
+/// The request that sets the motor's speed, and its values.
+struct MotorRequest {
+  Command command = Command::kSetMotorSpeed;
+  std::uint16_t value = 0;
+
+  Request start() const { return Request::set_motor(command, value); }
+  Request stop() const { return Request::set_motor(command, 0); }
+};
+
+/// Requests to an RPLidar that is not scanning, one answer each. Each has a time limit and ends early if
 /// a stop is requested. Answers are searched for in the received bytes, since a device that was
 /// left scanning, or was just switched on, sends bytes unasked.
 class Device {
@@ -51,11 +60,16 @@ class Device {
   /// GET_INFO, asked up to `tries` times.
   std::optional<DeviceInfo> info(int tries = 5);
   std::optional<Health> health();
-  /// By firmware: the table of modes from 1.24 on, the two periods from 1.17 on, standard alone
-  /// before. Modes with an unsupported answer type are left out.
+  /// As the device lists them where it has GET_LIDAR_CONF; else by firmware: the two periods from
+  /// 1.17 on, standard alone before. Modes with an unknown answer type are left out.
   std::vector<ScanMode> modes(const DeviceInfo& info);
+  /// How the motor is set by request, as the vendor's SDK decides: S series by speed, A2 and A3 by the
+  /// accessory board's PWM if there is one; nullopt: by the port's line or by the scan itself.
+  std::optional<MotorRequest> motor_request(const DeviceInfo& info);
   /// Requests a scan. The decoder reads the answer.
   bool start(const ScanMode& mode) { return send(mode.request()); }
+
+  bool send(const Request& request);
 
   /// The port is gone.
   bool lost() const { return lost_; }
@@ -69,7 +83,6 @@ class Device {
   using Milliseconds = std::chrono::milliseconds;
   using Answer = std::span<const std::uint8_t>;
 
-  bool send(const Request& request);
   std::optional<Answer> query(const Request& request, AnswerType type);
   void wait_for_boot();
   std::optional<ConfAnswer> query_conf(ConfType type, std::optional<std::uint16_t> mode = {});

@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "drivers/config/lidar_models.hpp"
 #include "drivers/rplidar/device.hpp"
 #include "drivers/rplidar/protocol/framing.hpp"
 #include "drivers/rplidar/sample_stream.hpp"
@@ -34,14 +35,24 @@ constexpr core::TimeNs kStallNs = core::kNsPerSecond;
 constexpr core::TimeNs kSilenceLimitNs = 3 * core::kNsPerSecond;
 // A line that is switched on may give a byte or two; more bytes are a sender.
 constexpr std::uint64_t kStrayBytes = 8;
-constexpr std::uint32_t kDefaultBaud = 115200;
+// A request may be lost; where other speeds wait, less time is spent on it.
+constexpr int kInfoTries = 5;
+constexpr int kInfoTriesOfRates = 2;
+// Between STOP and the next request: the protocol demands 1 ms.
+constexpr milliseconds kAfterStop{10};
 
 /// Stops the device and its motor however a session ends.
 class Shutdown {
  public:
-  Shutdown(drivers::ByteStream& port, Motor& motor) : port_(port), motor_(motor) {}
+  Shutdown(drivers::ByteStream& port, Motor& motor, std::optional<MotorRequest>& request,
+           drivers::Clock& clock)
+      : port_(port), motor_(motor), request_(request), clock_(clock) {}
   ~Shutdown() {
-    port_.write(Request(Command::kStop).bytes());
+    const bool is_open = port_.write(Request(Command::kStop).bytes());
+    if (const auto request = std::exchange(request_, std::nullopt); request && is_open) {
+      clock_.wait(kAfterStop, {});
+      port_.write(request->stop().bytes());
+    }
     motor_.stop(port_);
   }
   Shutdown(const Shutdown&) = delete;
@@ -50,6 +61,8 @@ class Shutdown {
  private:
   drivers::ByteStream& port_;
   Motor& motor_;
+  std::optional<MotorRequest>& request_;
+  drivers::Clock& clock_;
 };
 
 }  // namespace
@@ -68,6 +81,7 @@ RplidarDriver::RplidarDriver(RplidarDriverConfig config, PortOpener open_port,
 
 void RplidarDriver::run(std::stop_token stop, drivers::SampleSink& sink) {
   milliseconds backoff = kFirstBackoff;
+  bool has_noise = false;  // at one of the speeds tried since the last report
   while (!stop.stop_requested()) {
     drivers::OpenResult opened = open_port_(baud());
     count_progress();
@@ -85,15 +99,20 @@ void RplidarDriver::run(std::stop_token stop, drivers::SampleSink& sink) {
       sink.on_gap();
     }
     if (stop.stop_requested()) break;
-    if (failure.fault == LidarFault::kNoAnswer && answers_at_default_baud(stop)) {
-      failure.fault = LidarFault::kWrongBaud;
-      failure.extra =
-          "no answer at the configured speed, but one at " + std::to_string(kDefaultBaud) + " baud";
-    }
-    report(failure.state, failure.fault, failure.extra);
     const bool is_other_speed =
         failure.fault == LidarFault::kWrongBaud || failure.fault == LidarFault::kNoAnswer;
-    if (is_other_speed && ++rate_ % config_.baud_rates.size() != 0) continue;
+    if (is_other_speed) {
+      has_noise = has_noise || failure.fault == LidarFault::kWrongBaud;
+      if (++rate_ % config_.baud_rates.size() != 0) continue;
+      const bool had_noise = std::exchange(has_noise, false);
+      if (!tries_one_rate() && had_noise) failure.fault = LidarFault::kUnexpectedData;
+      if (const auto other = answering_baud(stop)) {
+        failure.fault = LidarFault::kWrongBaud;
+        failure.extra = "no answer at the configured speed, but one at " +
+                        std::to_string(*other) + " baud";
+      }
+    }
+    report(failure.state, failure.fault, failure.extra);
     wait(backoff, stop);
     backoff = std::min(2 * backoff, kMaxBackoff);
   }
@@ -104,7 +123,7 @@ RplidarDriver::Failure RplidarDriver::session(drivers::ByteStream& opened,
                                               const std::stop_token& stop,
                                               drivers::SampleSink& sink) {
   drivers::MonitoredByteStream port(opened, [this] { count_progress(); });
-  const Shutdown shutdown(port, *motor_);
+  const Shutdown shutdown(port, *motor_, motor_request_, clock_);
   Device device(port, clock_, stop);
   ScanMode mode;
   const Failure failure = identify(device, port, mode);
@@ -125,7 +144,7 @@ RplidarDriver::Failure RplidarDriver::identify(Device& device, drivers::ByteStre
     report(LidarState::kIdentifying, LidarFault::kBooting);
   } else if (search.found()) {
     report(LidarState::kIdentifying, LidarFault::kStreamRunning);
-  } else if (device.received_bytes() > kStrayBytes) {
+  } else if (device.received_bytes() > kStrayBytes && tries_one_rate()) {
     report(LidarState::kIdentifying, LidarFault::kUnexpectedData);
   }
   if (std::exchange(reset_first_, false)) {
@@ -137,9 +156,7 @@ RplidarDriver::Failure RplidarDriver::identify(Device& device, drivers::ByteStre
   }
 
   const std::uint64_t received_before = device.received_bytes();
-  const bool had_booted = device.booted();
-  const auto info = device.info();
-  if (device.booted() && !had_booted) report(LidarState::kIdentifying, LidarFault::kBooting);
+  const auto info = query_info(device);
   if (!info) {
     if (device.received_bytes() > received_before) {
       return {LidarState::kBackoff, LidarFault::kWrongBaud,
@@ -169,14 +186,34 @@ RplidarDriver::Failure RplidarDriver::identify(Device& device, drivers::ByteStre
             "\"" + config_.mode + "\"; set advanced.lidar.mode to one of " + list_names(modes)};
   }
   mode = *chosen;
+  if (const auto* model = drivers::find_rplidar(info->model); model != nullptr) {
+    // Some firmwares of the S3 report none.
+    if (mode.period_s <= 0) mode.period_s = 1 / model->samples_hz;
+  }
   board_.set_mode(mode.name);
   board_.set_state(LidarState::kStarting, LidarFault::kNone,
                    config_.device + ": waiting for the motor");
-  if (!motor_->start(port)) {
+  if (!start_motor(device, *info, port)) {
     return {LidarState::kFaulty, LidarFault::kMotorControl, motor_->error()};
   }
   device.start(mode);
   return {.fault = LidarFault::kNone};
+}
+
+std::optional<DeviceInfo> RplidarDriver::query_info(Device& device) {
+  const bool had_booted = device.booted();
+  auto info = device.info(tries_one_rate() ? kInfoTries : kInfoTriesOfRates);
+  if (!device.booted()) return info;
+  if (!had_booted) report(LidarState::kIdentifying, LidarFault::kBooting);
+  return info ? info : device.info();
+}
+
+bool RplidarDriver::start_motor(Device& device, const DeviceInfo& info,
+                                drivers::ByteStream& port) {
+  if (!motor_->start(port)) return false;
+  if (config_.motor.kind == MotorKind::kNone) return true;
+  motor_request_ = device.motor_request(info);
+  return !motor_request_ || device.send(motor_request_->start());
 }
 
 RplidarDriver::Failure RplidarDriver::measure(drivers::ByteStream& port, const ScanMode& mode,
@@ -243,15 +280,27 @@ std::optional<Health> RplidarDriver::query_health_after_silence(drivers::ByteStr
   return health;
 }
 
-bool RplidarDriver::answers_at_default_baud(const std::stop_token& stop) {
-  if (config_.baud_rates != std::vector{baud()} || baud() == kDefaultBaud) return false;
-  const drivers::OpenResult opened = open_port_(kDefaultBaud);
-  if (!opened.stream) return false;
-  drivers::MonitoredByteStream port(*opened.stream, [this] { count_progress(); });
-  Device device(port, clock_, stop);
-  const bool answers = device.stop_scan() && device.info(1).has_value();
-  board_.count_answers(device.received_bytes(), device.used_bytes());
-  return answers;
+std::optional<std::uint32_t> RplidarDriver::answering_baud(const std::stop_token& stop) {
+  if (!tries_one_rate()) return std::nullopt;
+  for (const std::uint32_t other : drivers::baud_rates_of(drivers::DriverKind::kRplidar)) {
+    if (other == baud() || stop.stop_requested()) continue;
+    const drivers::OpenResult opened = open_port_(other);
+    if (!opened.stream) return std::nullopt;
+    drivers::MonitoredByteStream port(*opened.stream, [this] { count_progress(); });
+    Device device(port, clock_, stop);
+    const bool answers = device.stop_scan() && device.info(1).has_value();
+    board_.count_answers(device.received_bytes(), device.used_bytes());
+    if (answers) return other;
+  }
+  return std::nullopt;
+}
+
+std::string RplidarDriver::described() const {
+  std::string rates;
+  for (const std::uint32_t rate : config_.baud_rates) {
+    rates += (rates.empty() ? "" : ", ") + std::to_string(rate);
+  }
+  return "an RPLidar at " + rates;
 }
 
 void RplidarDriver::wait(milliseconds duration, const std::stop_token& stop) {

@@ -26,8 +26,8 @@ struct RplidarDriverConfig {
   MotorConfig motor;
 };
 
-/// An A1 on a serial port. Opens the port, identifies and starts the device, delivers samples in
-/// the clock's monotonic time, and retries after every failure. Leaves the device stopped, motor
+/// An RPLidar on a serial port. Opens the port, identifies and starts the device, delivers samples
+/// in the clock's monotonic time, and retries after every failure. Leaves the device stopped, motor
 /// off.
 class RplidarDriver : public drivers::LidarDriver {
  public:
@@ -52,16 +52,19 @@ class RplidarDriver : public drivers::LidarDriver {
   Failure session(drivers::ByteStream& port, const std::stop_token& stop,
                   drivers::SampleSink& sink);
   Failure identify(Device& device, drivers::ByteStream& port, ScanMode& mode);
+  std::optional<DeviceInfo> query_info(Device& device);
+  bool start_motor(Device& device, const DeviceInfo& info, drivers::ByteStream& port);
   Failure measure(drivers::ByteStream& port, const ScanMode& mode, const std::stop_token& stop,
                   drivers::SampleSink& sink);
   /// For a device that stopped measuring, perhaps by a protection stop. nullopt: no answer.
   std::optional<Health> query_health_after_silence(drivers::ByteStream& port, const ScanMode& mode,
                                                    const std::stop_token& stop);
-  /// False if the configured speed is the default one.
-  bool answers_at_default_baud(const std::stop_token& stop);
+  /// Of the family's other speeds; nullopt if all are tried anyway.
+  std::optional<std::uint32_t> answering_baud(const std::stop_token& stop);
+  bool tries_one_rate() const { return config_.baud_rates.size() == 1; }
   std::uint32_t baud() const { return config_.baud_rates[rate_ % config_.baud_rates.size()]; }
   /// The lidar as a hint names it.
-  std::string described() const { return "an RPLidar at " + std::to_string(baud()); }
+  std::string described() const;
   void wait(std::chrono::milliseconds duration, const std::stop_token& stop);
   void report(drivers::LidarState state, drivers::LidarFault fault, std::string_view extra = {});
 
@@ -73,6 +76,7 @@ class RplidarDriver : public drivers::LidarDriver {
   bool reset_first_ = false;  ///< the last session ended without data
   bool has_run_ = false;      ///< the last session delivered samples
   std::size_t rate_ = 0;      ///< of config_.baud_rates
+  std::optional<MotorRequest> motor_request_;  ///< that stops the session's motor
 };
 
 }  // namespace cornerd::rplidar

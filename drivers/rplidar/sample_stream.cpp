@@ -18,6 +18,12 @@ double nominal_period_s(WireFormat format) {
       return 254e-6;
     case WireFormat::kUltra:
       return 127e-6;
+    case WireFormat::kDense:
+      return 200e-6;  // C1; S1 108, S2 and S3 31.25
+    case WireFormat::kUltraDense:
+      return 31.25e-6;
+    case WireFormat::kHq:
+      return 100e-6;
   }
   return 508e-6;
 }

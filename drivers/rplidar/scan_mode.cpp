@@ -34,6 +34,12 @@ std::optional<WireFormat> wire_format(AnswerType type) {
       return WireFormat::kExpress;
     case AnswerType::kUltraScan:
       return WireFormat::kUltra;
+    case AnswerType::kDenseScan:
+      return WireFormat::kDense;
+    case AnswerType::kUltraDenseScan:
+      return WireFormat::kUltraDense;
+    case AnswerType::kHqScan:
+      return WireFormat::kHq;
     default:
       return std::nullopt;
   }
@@ -42,7 +48,8 @@ std::optional<WireFormat> wire_format(AnswerType type) {
 const ScanMode* choose_mode(std::span<const ScanMode> modes, std::string_view wanted) {
   if (same_name(wanted, "auto")) {
     for (const WireFormat format :
-         {WireFormat::kExpress, WireFormat::kStandard, WireFormat::kUltra}) {
+         {WireFormat::kExpress, WireFormat::kDense, WireFormat::kUltraDense, WireFormat::kStandard,
+          WireFormat::kHq, WireFormat::kUltra}) {
       if (const ScanMode* mode = first_with(modes, format)) return mode;
     }
     return nullptr;

@@ -34,7 +34,7 @@ class ByteWindow {
     begin_ = 0;
   }
 
-  std::array<std::uint8_t, 1024> bytes_;  ///< no decision needs more than 150
+  std::array<std::uint8_t, 1024> bytes_;  ///< no decision needs more than 783, of an HQ packet
   std::size_t begin_ = 0;
   std::size_t end_ = 0;
 };

@@ -14,14 +14,15 @@ constexpr std::size_t kPieceBytes = 8;
 constexpr int kBitsPerByte = 10;  // 8N1
 
 // Samples held for their time: 0.3 s of the fastest lidar.
-constexpr std::size_t kMaxHeld = 8192;
+constexpr std::size_t kMaxHeld = 16384;
 
 // From the middle of a measurement to the first bit of its packet: half a period of measuring, one
 // of computing, as the RPLidar SDK assumes.
 constexpr double kPeriodsToSend = 1.5;
 
-/// A reported period beyond this ratio is damaged; the clock would not recover from it.
-constexpr double kMaxPeriodRatio = 5;
+/// A reported period beyond this ratio is damaged; the clock would not recover from it. An S2's nodes
+/// have an eighth of an A1's.
+constexpr double kMaxPeriodRatio = 10;
 
 /// Until the decoder gives its own.
 constexpr double kUnknownPeriodS = 508e-6;

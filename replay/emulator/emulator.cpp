@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "replay/emulator/firmware.hpp"
+#include "replay/simulator/wire_encoder.hpp"
 
 namespace cornerd::replay {
 namespace {
@@ -21,17 +22,20 @@ constexpr core::TimeNs kAnswerDelayNs = 1'000'000;
 /// From RESET to the banner, and from there to the first request that is answered; measured on an
 /// A1M8 of firmware 1.29.
 constexpr core::TimeNs kBootNs = 671'000'000;
+/// An S1 sends nothing and takes no request for 2 s, as users report.
+constexpr core::TimeNs kSilentBootNs = 2 * core::kNsPerSecond;
 constexpr core::TimeNs kIgnoreAfterBannerNs = 4'000'000;
 /// If the caller stalls for longer, the stream restarts.
 constexpr core::TimeNs kMaxStallNs = core::kNsPerSecond;
 
 }  // namespace
 
-Emulator::Emulator(const EmulatorConfig& config, std::unique_ptr<Simulator> simulator)
+Emulator::Emulator(const EmulatorConfig& config, std::unique_ptr<PacketSource> source)
     : config_(config),
-      simulator_(std::move(simulator)),
+      source_(std::move(source)),
       transmitter_(config.baud),
-      health_(config.health) {}
+      health_(config.health),
+      motor_runs_(config.firmware->motor != MotorRequests::kPwm) {}
 
 void Emulator::receive(std::span<const std::uint8_t> bytes, core::TimeNs now_ns) {
   measure_until(now_ns);
@@ -82,9 +86,29 @@ void Emulator::handle(const rplidar::Request& request, core::TimeNs now_ns) {
     case Command::kGetConf:
       answer_configuration(request.payload(), now_ns);
       break;
+    case Command::kGetAccessoryBoard:
+      if (firmware.motor == MotorRequests::kPwm) {
+        answer(now_ns, AnswerType::kAccessoryBoard, std::array<std::uint8_t, 4>{1});
+      }
+      break;
+    case Command::kSetMotorPwm:
+    case Command::kSetMotorSpeed: {
+      const auto wanted =
+          firmware.motor == MotorRequests::kPwm ? Command::kSetMotorPwm : Command::kSetMotorSpeed;
+      if (firmware.motor == MotorRequests::kNone || request.command() != wanted) break;
+      if (request.payload().size() != 2) break;
+      set_motor((request.payload()[0] | request.payload()[1]) != 0, now_ns);
+      break;
+    }
     default:
       break;
   }
+}
+
+void Emulator::set_motor(bool runs, core::TimeNs now_ns) {
+  const bool was_still = is_still();
+  motor_runs_ = runs;
+  if (was_still && !is_still() && scanning_) begin_stream(now_ns);
 }
 
 void Emulator::answer(core::TimeNs now_ns, AnswerType type, std::span<const std::uint8_t> payload) {
@@ -105,6 +129,7 @@ void Emulator::answer_configuration(std::span<const std::uint8_t> request, core:
 void Emulator::start_scan(const FirmwareScanMode& mode, bool force, core::TimeNs now_ns) {
   if (health_.failed()) return;
   stop_scan(now_ns);
+  if (config_.firmware->motor == MotorRequests::kSpeed) motor_runs_ = true;
   mode_ = mode;
   scanning_ = true;
   transmitter_.queue(now_ns + kAnswerDelayNs, scan_descriptor(mode.format));
@@ -120,8 +145,9 @@ void Emulator::stop_scan(core::TimeNs now_ns) {
 
 void Emulator::set_stalled(bool stalled, core::TimeNs now_ns) {
   measure_until(now_ns);
-  if (stalled_ && !stalled && scanning_) begin_stream(now_ns);
+  const bool was_still = is_still();
   stalled_ = stalled;
+  if (was_still && !is_still() && scanning_) begin_stream(now_ns);
 }
 
 void Emulator::set_health(const rplidar::Health& health, core::TimeNs now_ns) {
@@ -130,7 +156,7 @@ void Emulator::set_health(const rplidar::Health& health, core::TimeNs now_ns) {
 }
 
 void Emulator::begin_stream(core::TimeNs now_ns) {
-  simulator_->start(now_ns, mode_.format, core::TimeNs{mode_.period_q8_us} * 1000 / 256);
+  source_->start(now_ns, mode_.format, core::TimeNs{mode_.period_q8_us} * 1000 / 256);
   prepare_packet();
 }
 
@@ -141,19 +167,20 @@ void Emulator::reset(core::TimeNs now_ns) {
   if (config_.reset_restores_health) health_ = {};
   const std::string_view banner = config_.firmware->banner;
   const std::vector<std::uint8_t> bytes(banner.begin(), banner.end());
-  transmitter_.queue(now_ns + kBootNs, bytes);
+  const core::TimeNs boot_ns = banner.empty() ? kSilentBootNs : kBootNs;
+  transmitter_.queue(now_ns + boot_ns, bytes);
   ignores_until_ns_ =
-      now_ns + kBootNs + SerialLine(config_.baud).duration_ns(bytes.size()) + kIgnoreAfterBannerNs;
+      now_ns + boot_ns + SerialLine(config_.baud).duration_ns(bytes.size()) + kIgnoreAfterBannerNs;
 }
 
 void Emulator::prepare_packet() {
-  const WirePacket packet = simulator_->next();
+  const WirePacket packet = source_->next();
   packet_ready_ns_ = packet.ready_ns;
   packet_.assign(packet.bytes.begin(), packet.bytes.end());
 }
 
 void Emulator::measure_until(core::TimeNs now_ns) {
-  if (stalled_) return;
+  if (is_still()) return;
   if (scanning_ && now_ns - packet_ready_ns_ > kMaxStallNs) begin_stream(now_ns);
   while (scanning_ && packet_ready_ns_ <= now_ns) {
     transmitter_.queue(packet_ready_ns_, packet_);
@@ -168,7 +195,7 @@ void Emulator::take(core::TimeNs now_ns, std::vector<std::uint8_t>& out) {
 
 std::optional<core::TimeNs> Emulator::next_ns() const {
   const std::optional<core::TimeNs> sending_ns = transmitter_.next_ns();
-  if (!scanning_ || stalled_) return sending_ns;
+  if (!scanning_ || is_still()) return sending_ns;
   return std::min(packet_ready_ns_, sending_ns.value_or(packet_ready_ns_));
 }
 

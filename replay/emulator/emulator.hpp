@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// An A1 at the far end of a serial line: receives requests, sends answers and scans.
+// An RPLidar at the far end of a serial line: receives requests, sends answers and scans.
 #pragma once
 
 #include <array>
@@ -15,7 +15,7 @@
 #include "replay/emulator/device_emulator.hpp"
 #include "replay/emulator/firmware.hpp"
 #include "replay/emulator/transmitter.hpp"
-#include "replay/simulator/simulator.hpp"
+#include "replay/simulator/packet_source.hpp"
 
 namespace cornerd::replay {
 
@@ -32,13 +32,13 @@ struct EmulatorConfig {
                                          0xA7, 0xE7, 0x9C, 0xF3, 0x40, 0x55, 0x34, 0x12};
 };
 
-/// An A1.
+/// An RPLidar: the one of the config's firmware.
 ///
 /// An unknown request, or one with a wrong checksum, has no effect. Any other one ends the scan;
 /// the packet on the line still arrives. With a failed health no scan starts (protection stop).
 class Emulator : public DeviceEmulator {
  public:
-  Emulator(const EmulatorConfig& config, std::unique_ptr<Simulator> simulator);
+  Emulator(const EmulatorConfig& config, std::unique_ptr<PacketSource> source);
 
   void receive(std::span<const std::uint8_t> bytes, core::TimeNs now_ns) override;
 
@@ -51,13 +51,15 @@ class Emulator : public DeviceEmulator {
   void power_cycle(core::TimeNs now_ns) { reset(now_ns); }
 
   bool scanning() const { return scanning_; }
-  Scene& scene() { return simulator_->scene(); }
+  Scene& scene() { return source_->scene(); }
 
  private:
   void handle(const rplidar::Request& request, core::TimeNs now_ns);
   void answer(core::TimeNs now_ns, rplidar::AnswerType type, std::span<const std::uint8_t> payload);
   void answer_configuration(std::span<const std::uint8_t> request, core::TimeNs now_ns);
   void start_scan(const FirmwareScanMode& mode, bool force, core::TimeNs now_ns);
+  void set_motor(bool runs, core::TimeNs now_ns);
+  bool is_still() const { return stalled_ || !motor_runs_; }
   void begin_stream(core::TimeNs now_ns);
   void stop_scan(core::TimeNs now_ns);
   void reset(core::TimeNs now_ns);
@@ -65,7 +67,7 @@ class Emulator : public DeviceEmulator {
   void prepare_packet();
 
   EmulatorConfig config_;
-  std::unique_ptr<Simulator> simulator_;
+  std::unique_ptr<PacketSource> source_;
   rplidar::RequestParser parser_;
   core::TimeNs request_begun_ns_ = 0;
   Transmitter transmitter_;
@@ -74,6 +76,7 @@ class Emulator : public DeviceEmulator {
 
   bool scanning_ = false;
   bool stalled_ = false;
+  bool motor_runs_;
   FirmwareScanMode mode_;
   core::TimeNs packet_ready_ns_ = 0;  ///< of the packet being measured
   std::vector<std::uint8_t> packet_;

@@ -11,6 +11,10 @@ namespace {
 using rplidar::WireFormat;
 
 constexpr std::uint32_t k12MetresQ8 = 12 << 8;
+constexpr std::uint32_t k16MetresQ8 = 16 << 8;
+constexpr std::uint32_t k25MetresQ8 = 25 << 8;
+constexpr std::uint32_t k30MetresQ8 = 30 << 8;
+constexpr std::uint32_t k40MetresQ8 = 40 << 8;
 
 // Answers of a real device: 508, 254, 127, 127, 201 us.
 constexpr std::array<FirmwareScanMode, 5> kModes129 = {{
@@ -27,7 +31,57 @@ constexpr std::array<FirmwareScanMode, 3> kModes124 = {{
     {"Boost", 125 << 8, k12MetresQ8, 0x84, WireFormat::kUltra},
 }};
 
-constexpr std::array<Firmware, 3> kFirmwares = {{
+// 2,000, 4,000, 8,000 and 5,000 samples a second, as the data sheet has it.
+constexpr std::array<FirmwareScanMode, 5> kModesA2M8 = {{
+    {"Standard", 504 << 8, k12MetresQ8, 0x81, WireFormat::kStandard},
+    {"Express", 252 << 8, k12MetresQ8, 0x82, WireFormat::kExpress},
+    {"Boost", 126 << 8, k12MetresQ8, 0x84, WireFormat::kUltra},
+    {"Sensitivity", 126 << 8, k12MetresQ8, 0x84, WireFormat::kUltra},
+    {"Stability", 200 << 8, k12MetresQ8, 0x84, WireFormat::kUltra},
+}};
+
+// A real A3's: 4.0, 7.9, 15.9, 15.9 and 10.0 thousand a second, 25 m.
+constexpr std::array<FirmwareScanMode, 5> kModesA3 = {{
+    {"Standard", 252 << 8, k25MetresQ8, 0x81, WireFormat::kStandard},
+    {"Express", 126 << 8, k25MetresQ8, 0x82, WireFormat::kExpress},
+    {"Boost", 63 << 8, k25MetresQ8, 0x84, WireFormat::kUltra},
+    {"Sensitivity", 63 << 8, k25MetresQ8, 0x84, WireFormat::kUltra},
+    {"Stability", 100 << 8, k25MetresQ8, 0x84, WireFormat::kUltra},
+}};
+
+constexpr std::array<FirmwareScanMode, 5> kModesA2M12 = {{
+    {"Standard", 252 << 8, k12MetresQ8, 0x81, WireFormat::kStandard},
+    {"Express", 126 << 8, k12MetresQ8, 0x82, WireFormat::kExpress},
+    {"Boost", 63 << 8, k12MetresQ8, 0x84, WireFormat::kUltra},
+    {"Sensitivity", 63 << 8, k12MetresQ8, 0x84, WireFormat::kUltra},
+    {"Stability", 100 << 8, k12MetresQ8, 0x84, WireFormat::kUltra},
+}};
+
+constexpr std::array<FirmwareScanMode, 2> kModesC1 = {{
+    {"Standard", 200 << 8, k16MetresQ8, 0x81, WireFormat::kStandard},
+    {"DenseBoost", 200 << 8, k40MetresQ8, 0x85, WireFormat::kDense},
+}};
+
+// Answers of a real device.
+constexpr std::array<FirmwareScanMode, 2> kModesS1 = {{
+    {"Standard", 244 << 8, k40MetresQ8, 0x81, WireFormat::kStandard},
+    {"DenseBoost", 108 << 8, k40MetresQ8, 0x85, WireFormat::kDense},
+}};
+
+constexpr std::array<FirmwareScanMode, 2> kModesS2 = {{
+    {"Standard", 16'000, k30MetresQ8, 0x81, WireFormat::kStandard},
+    {"DenseBoost", 8'000, k30MetresQ8, 0x85, WireFormat::kDense},
+}};
+
+// The last two stand for firmwares whose tables are not published.
+constexpr std::array<FirmwareScanMode, 4> kModesS3 = {{
+    {"Standard", 16'000, k40MetresQ8, 0x81, WireFormat::kStandard},
+    {"DenseBoost", 8'000, k40MetresQ8, 0x85, WireFormat::kDense},
+    {"UltraDense", 8'000, k40MetresQ8, 0x86, WireFormat::kUltraDense},
+    {"HQ", 100 << 8, k40MetresQ8, 0x83, WireFormat::kHq},
+}};
+
+constexpr std::array<Firmware, 10> kFirmwares = {{
     {"1.29", 1, 29, 7, 0x18, 508, 254, kModes129, 3,
      "RP LIDAR System.\r\nFirmware Ver 1.29 - rtm, HW Ver 7\r\nModel: 18\r\n"},
     {"1.24", 1, 24, 5, 0x18, 500, 250, kModes124, 2,
@@ -43,6 +97,19 @@ constexpr std::array<Firmware, 3> kFirmwares = {{
      {},
      0,
      "RP LIDAR System.\r\nFirmware Ver 1.17, HW Ver 0\r\nMode: 0\r\n"},
+    {"a2m8", 1, 29, 5, 0x28, 504, 252, kModesA2M8, 3,
+     "RP LIDAR System.\r\nFirmware Ver 1.29 - rtm, HW Ver 5\r\nModel: 28\r\n",
+     MotorRequests::kPwm},
+    {"a2m12", 1, 32, 6, 0x2C, 252, 126, kModesA2M12, 3,
+     "RP LIDAR System.\r\nFirmware Ver 1.32 - rtm, HW Ver 6\r\nModel: 2C\r\n",
+     MotorRequests::kPwm},
+    {"a3", 1, 29, 6, 0x31, 252, 126, kModesA3, 3,
+     "RP LIDAR System.\r\nFirmware Ver 1.29 - rtm, HW Ver 6\r\nModel: 31\r\n",
+     MotorRequests::kPwm},
+    {"c1", 1, 2, 18, 0x41, 200, 200, kModesC1, 1, "", MotorRequests::kSpeed, 480, 720},
+    {"s1", 1, 28, 18, 0x61, 244, 108, kModesS1, 1, "", MotorRequests::kSpeed, 480, 900},
+    {"s2", 1, 2, 18, 0x71, 62, 31, kModesS2, 1, "", MotorRequests::kSpeed, 480, 900},
+    {"s3", 1, 2, 18, 0x81, 62, 31, kModesS3, 1, "", MotorRequests::kSpeed, 480, 900},
 }};
 
 }  // namespace
@@ -55,12 +122,14 @@ const Firmware* find_firmware(std::string_view version) {
 }
 
 FirmwareScanMode standard_mode(const Firmware& firmware) {
+  if (!firmware.modes.empty()) return firmware.modes.front();
   return {"Standard", static_cast<std::uint32_t>(firmware.standard_us) << 8, k12MetresQ8, 0x81,
           WireFormat::kStandard};
 }
 
 std::optional<FirmwareScanMode> express_mode(const Firmware& firmware, std::uint8_t id) {
   if (id == 0) {
+    if (firmware.measures_time_of_flight()) return std::nullopt;
     return FirmwareScanMode{"Express", static_cast<std::uint32_t>(firmware.express_us) << 8,
                             k12MetresQ8, 0x82, WireFormat::kExpress};
   }
@@ -113,6 +182,11 @@ std::vector<std::uint8_t> configuration_value(const Firmware& firmware,
       if (!target) return {};
       append(bytes, target->rpm, 2);
       append(bytes, target->pwm, 2);
+      return bytes;
+    case ConfType::kMinRotation:
+    case ConfType::kMaxRotation:
+      if (firmware.max_rpm == 0) return {};
+      append(bytes, entry == ConfType::kMinRotation ? firmware.min_rpm : firmware.max_rpm, 2);
       return bytes;
     case ConfType::kModeCount:
       append(bytes, static_cast<std::uint32_t>(firmware.modes.size()), 2);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Capabilities and answers of A1s by firmware.
+// Capabilities and answers of RPLidars by model and, of A1s, by firmware.
 #pragma once
 
 #include <cstdint>
@@ -20,8 +20,15 @@ struct FirmwareScanMode {
   rplidar::WireFormat format = rplidar::WireFormat::kStandard;
 };
 
+/// What turns the motor, other than a line of the port.
+enum class MotorRequests : std::uint8_t {
+  kNone,
+  kPwm,    ///< SET_MOTOR_PWM alone, by the accessory board of the USB cable
+  kSpeed,  ///< a scan request, and HQ_MOTOR_SPEED
+};
+
 struct Firmware {
-  std::string_view version;
+  std::string_view version;  ///< of an A1; else the model's name
   std::uint8_t major = 1;
   std::uint8_t minor = 0;
   std::uint8_t hardware = 0;
@@ -31,16 +38,22 @@ struct Firmware {
   /// By id, for GET_LIDAR_CONF; empty: that request is not answered.
   std::span<const FirmwareScanMode> modes;
   std::uint16_t typical_mode = 0;
-  std::string_view banner;  ///< printed after a reset
+  std::string_view banner;  ///< printed after a reset; empty: nothing for 2 s
+  MotorRequests motor = MotorRequests::kNone;
+  std::uint16_t min_rpm = 0;  ///< 0: not answered
+  std::uint16_t max_rpm = 0;
+
+  bool measures_time_of_flight() const { return model >> 4 >= 4; }
 };
 
-/// "1.29", "1.24" or "1.17"; nullptr for any other.
+/// "1.29", "1.24" or "1.17" of an A1, or the name of another model; nullptr for any other.
 const Firmware* find_firmware(std::string_view version);
 
 /// The mode of a SCAN request.
 FirmwareScanMode standard_mode(const Firmware& firmware);
 
-/// The mode of an EXPRESS_SCAN request. Id 0 is legacy express; the others are rows of the table.
+/// The mode of an EXPRESS_SCAN request. Id 0 is legacy express, which a lidar that measures time of
+/// flight lacks; the others are rows of the table.
 std::optional<FirmwareScanMode> express_mode(const Firmware& firmware, std::uint8_t id);
 
 /// Value of GET_LIDAR_CONF type 0x01, desired rotation.

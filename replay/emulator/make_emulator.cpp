@@ -5,6 +5,7 @@
 
 #include "replay/emulator/ld_emulator.hpp"
 #include "replay/emulator/ydlidar_emulator.hpp"
+#include "replay/simulator/time_of_flight_source.hpp"
 
 namespace cornerd::replay {
 
@@ -22,8 +23,18 @@ std::unique_ptr<DeviceEmulator> make_emulator(const drivers::LidarModel& model,
                                               const EmulatorConfig& a1) {
   const core::TimeNs period_ns = core::from_seconds(1 / model.samples_hz);
   switch (model.driver) {  // no default: -Wswitch names a kind that has no emulator
-    case drivers::DriverKind::kRplidar:
-      return std::make_unique<Emulator>(a1, std::make_unique<Simulator>(std::move(scene), config));
+    case drivers::DriverKind::kRplidar: {
+      EmulatorConfig device = a1;
+      if (const Firmware* firmware = find_firmware(model.name)) device.firmware = firmware;
+      device.baud = model.baud;
+      std::unique_ptr<PacketSource> source;
+      if (device.firmware->measures_time_of_flight()) {
+        source = std::make_unique<TimeOfFlightSource>(std::move(scene), config, period_ns);
+      } else {
+        source = std::make_unique<Simulator>(std::move(scene), config);
+      }
+      return std::make_unique<Emulator>(device, std::move(source));
+    }
     case drivers::DriverKind::kLd:
       return std::make_unique<LdEmulator>(PacketSimulator(std::move(scene), config, period_ns),
                                           model.baud);

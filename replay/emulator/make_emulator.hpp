@@ -14,7 +14,7 @@ namespace cornerd::replay {
 /// Rate, range limits and noise of a model, on top of `config`.
 SimulatorConfig simulator_of(const drivers::LidarModel& model, SimulatorConfig config = {});
 
-/// The emulator of a model. `a1`: what an RPLidar A1 alone has.
+/// The emulator of a model. `a1`: what an RPLidar alone has; its firmware is an A1's.
 std::unique_ptr<DeviceEmulator> make_emulator(const drivers::LidarModel& model,
                                               std::unique_ptr<Scene> scene,
                                               const SimulatorConfig& config,

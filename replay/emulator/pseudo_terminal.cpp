@@ -33,7 +33,8 @@ void make_link(const std::filesystem::path& link, const std::filesystem::path& t
 
 }  // namespace
 
-PseudoTerminal::PseudoTerminal(const std::filesystem::path& link) : link_(link) {
+PseudoTerminal::PseudoTerminal(const std::filesystem::path& link, std::uint32_t baud)
+    : link_(link), baud_(baud) {
   master_ = ::posix_openpt(O_RDWR | O_NOCTTY | O_CLOEXEC | O_NONBLOCK);
   if (master_ < 0) fail("pseudo-terminal");
   try {
@@ -67,8 +68,8 @@ bool PseudoTerminal::prepare_for_next_client() {
   termios settings{};
   if (::tcgetattr(client_end, &settings) == 0 && (settings.c_lflag & (ICANON | ECHO)) != 0) {
     ::cfmakeraw(&settings);
-    ::cfsetspeed(&settings, B115200);
     ::tcsetattr(client_end, TCSANOW, &settings);
+    drivers::set_baud_rate(client_end, baud_);
   }
   ::tcflush(client_end, TCIFLUSH);
   // A pseudo-terminal stays exclusive when its client is killed. (Without CAP_SYS_ADMIN open() has

@@ -13,8 +13,8 @@ namespace cornerd::replay {
 class PseudoTerminal {
  public:
   /// `link`: symbolic link to create; empty: none. Replaces an existing link, but no other file.
-  /// Throws std::system_error.
-  explicit PseudoTerminal(const std::filesystem::path& link = {});
+  /// `baud`: for clients that set none. Throws std::system_error.
+  explicit PseudoTerminal(const std::filesystem::path& link = {}, std::uint32_t baud = 115200);
   ~PseudoTerminal();
   PseudoTerminal(const PseudoTerminal&) = delete;
   PseudoTerminal& operator=(const PseudoTerminal&) = delete;
@@ -39,6 +39,7 @@ class PseudoTerminal {
   int master_ = -1;
   std::filesystem::path path_;
   std::filesystem::path link_;
+  std::uint32_t baud_;
   bool has_client_ = true;
 };
 

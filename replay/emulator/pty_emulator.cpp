@@ -24,8 +24,8 @@ int wait_ms(std::optional<core::TimeNs> next_ns, core::TimeNs now_ns) {
 }  // namespace
 
 PtyEmulator::PtyEmulator(std::unique_ptr<DeviceEmulator> emulator,
-                         const std::filesystem::path& link)
-    : emulator_(std::move(emulator)), terminal_(link) {}
+                         const std::filesystem::path& link, std::uint32_t baud)
+    : emulator_(std::move(emulator)), terminal_(link, baud) {}
 
 void PtyEmulator::run(const std::stop_token& stop) {
   const auto start = std::chrono::steady_clock::now();

@@ -21,9 +21,10 @@ class PtyEmulator {
   /// Called about every 10 ms with the emulator's time and UNIX time, to write the truth.
   using OnTime = std::function<void(core::TimeNs t_ns, core::TimeNs unix_ns)>;
 
-  /// Throws std::system_error if the pseudo-terminal or its link cannot be made.
+  /// `baud`: as PseudoTerminal. Throws std::system_error if the pseudo-terminal or its link cannot be
+  /// made.
   explicit PtyEmulator(std::unique_ptr<DeviceEmulator> emulator,
-                       const std::filesystem::path& link = {});
+                       const std::filesystem::path& link = {}, std::uint32_t baud = 115200);
 
   const std::filesystem::path& path() const { return terminal_.path(); }
   void set_on_time(OnTime on_time) { on_time_ = std::move(on_time); }

@@ -33,11 +33,14 @@ class PacketSimulator {
                   core::TimeNs sample_period_ns, std::optional<Triangulation> optics = {});
 
   /// Continues at `t_ns`, after a pause of the stream.
-  void resume(core::TimeNs t_ns) { head_.resume(t_ns, head_.period_ns()); }
+  void resume(core::TimeNs t_ns) { resume(t_ns, head_.period_ns()); }
+  void resume(core::TimeNs t_ns, core::TimeNs period_ns) { head_.resume(t_ns, period_ns); }
   RotatingHead::Position next_head() { return head_.next(); }
   /// Of the sample after it.
   const RotatingHead::Position& head() const { return head_.position(); }
   core::TimeNs period_ns() const { return head_.period_ns(); }
+
+  Scene& scene() { return *scene_; }
 
   /// What the lidar measures at this time and head angle, metres; 0: no return.
   double measure_m(core::TimeNs t_ns, double head_deg);

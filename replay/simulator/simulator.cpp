@@ -54,7 +54,7 @@ core::TimeNs nominal_sample_period_ns(rplidar::WireFormat format) {
       return 508'000;
     case rplidar::WireFormat::kExpress:
       return 254'000;
-    case rplidar::WireFormat::kUltra:
+    default:
       break;
   }
   return 127'000;
@@ -103,7 +103,7 @@ WirePacket Simulator::next() {
       return next_node();
     case rplidar::WireFormat::kExpress:
       return next_express();
-    case rplidar::WireFormat::kUltra:
+    default:  // no triangulating lidar sends another
       break;
   }
   return next_ultra();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A simulated A1: turns a scene into the bytes of a scan stream.
+// A simulated A1, A2 or A3: turns a scene into the bytes of a scan stream.
 #pragma once
 
 #include <array>
@@ -12,6 +12,7 @@
 
 #include "core/types.hpp"
 #include "drivers/rplidar/decoder.hpp"
+#include "replay/simulator/packet_source.hpp"
 #include "replay/simulator/rotating_head.hpp"
 #include "replay/simulator/scene.hpp"
 #include "replay/simulator/sensor_model.hpp"
@@ -34,26 +35,10 @@ struct SimulatorConfig {
   std::uint64_t seed = 1;
 };
 
-/// A sample as on the wire, with its true time and scan.
-struct SimulatedSample {
-  core::TimeNs t_ns = 0;
-  std::int64_t scan = 0;
-  bool starts_scan = false;
-  double device_angle_deg = 0;  ///< as on the wire, clockwise, in [0, 360)
-  std::uint32_t dist_q2 = 0;    ///< as on the wire, millimetres * 4; 0: no return
-};
-
 /// As a decoder and sample clock deliver it.
 core::Sample to_sample(const SimulatedSample& simulated, bool inverted = false);
 
-/// One packet of the stream: a node or a capsule.
-struct WirePacket {
-  core::TimeNs ready_ns = 0;                 ///< its last sample has been measured
-  std::span<const std::uint8_t> bytes;       ///< valid until the next packet
-  std::span<const SimulatedSample> samples;  ///< likewise
-};
-
-/// An endless stream, deterministic for config and scene.
+/// The stream of a triangulating RPLidar: nodes, express and ultra capsules.
 ///
 /// Within a capsule the head's angle grows linearly. An A1 triangulates: its laser sits 24 mm
 /// beside the axis and points 8 degrees off, so a wall at distance d lies 8 deg - asin(24 mm / d)
@@ -63,20 +48,17 @@ struct WirePacket {
 ///
 /// A scan starts at the last sample before the head's angle passes 0, as in the vendor's decoder;
 /// its corrected angle is 352 to 360 degrees.
-class Simulator {
+class Simulator : public PacketSource {
  public:
   /// Throws std::invalid_argument if the motor's rate is not in [1, 15] Hz.
   Simulator(std::unique_ptr<Scene> scene, const SimulatorConfig& config);
 
-  /// Begins a new stream at `t_ns` (not before the current time), as after a scan request. The head
-  /// keeps rotating; the config's start angle is that of the first stream.
-  void start(core::TimeNs t_ns, rplidar::WireFormat wire, core::TimeNs sample_period_ns);
-
-  WirePacket next();
+  void start(core::TimeNs t_ns, rplidar::WireFormat wire, core::TimeNs sample_period_ns) override;
+  WirePacket next() override;
+  Scene& scene() override { return *scene_; }
 
   rplidar::WireFormat wire() const { return wire_; }
   DescriptorBytes descriptor() const { return scan_descriptor(wire_); }
-  Scene& scene() { return *scene_; }
 
  private:
   using Head = RotatingHead::Position;

@@ -61,15 +61,24 @@ Prediction prediction(std::uint32_t dist_mm, const MajorCode& base) {
 }  // namespace
 
 DescriptorBytes scan_descriptor(rplidar::WireFormat format) {
+  const auto descriptor = [](std::uint32_t size, std::uint8_t type) {
+    return DescriptorBytes{0xA5, 0x5A, low_byte(size), low_byte(size >> 8), 0, 0x40, type};
+  };
   switch (format) {
     case rplidar::WireFormat::kStandard:
-      return {0xA5, 0x5A, 0x05, 0x00, 0x00, 0x40, 0x81};
-    case rplidar::WireFormat::kExpress:
-      return {0xA5, 0x5A, 0x54, 0x00, 0x00, 0x40, 0x82};
-    case rplidar::WireFormat::kUltra:
       break;
+    case rplidar::WireFormat::kExpress:
+      return descriptor(84, 0x82);
+    case rplidar::WireFormat::kUltra:
+      return descriptor(132, 0x84);
+    case rplidar::WireFormat::kDense:
+      return descriptor(84, 0x85);
+    case rplidar::WireFormat::kUltraDense:
+      return descriptor(170, 0x86);
+    case rplidar::WireFormat::kHq:
+      return descriptor(781, 0x83);
   }
-  return {0xA5, 0x5A, 0x84, 0x00, 0x00, 0x40, 0x84};
+  return descriptor(5, 0x81);
 }
 
 NodeBytes encode_node(bool starts_scan, std::uint8_t quality, std::uint16_t angle_q6,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Encodes samples as an A1 does: standard nodes, express and ultra capsules.
+// Encodes samples as an RPLidar does: standard nodes, express and ultra capsules.
 #pragma once
 
 #include <array>
@@ -19,7 +19,7 @@ using ExpressBytes = std::array<std::uint8_t, 84>;
 using UltraBytes = std::array<std::uint8_t, 132>;
 using DescriptorBytes = std::array<std::uint8_t, 7>;
 
-/// Response descriptor of the stream: answer types 0x81, 0x82, 0x84.
+/// Response descriptor of the stream.
 DescriptorBytes scan_descriptor(rplidar::WireFormat format);
 
 /// `angle_q6`: degrees * 64, at most 15 bits; `dist_q2`: millimetres * 4, 0: no return.

@@ -41,10 +41,16 @@ std::optional<DeviceInfo> DeviceInfo::decode(std::span<const std::uint8_t> bytes
 }
 
 std::string DeviceInfo::model_name() const {
-  // The high half counts the series. The oldest A1s say 0.
-  if (model == 0x18) return "A1M8";
   if (model == 0) return "A1";
-  return print("A%d (model 0x%02x)", model >> 4, model);
+  struct Series {
+    int first;
+    char letter;
+  };
+  constexpr std::array<Series, 5> kSeries{{{12, 'M'}, {9, 'T'}, {6, 'S'}, {4, 'C'}, {1, 'A'}}};
+  for (const auto& [first, letter] : kSeries) {
+    if (series() >= first) return print("%c%dM%d", letter, series() - first + 1, model & 0xF);
+  }
+  return print("model 0x%02x", model);
 }
 
 std::string DeviceInfo::firmware_text() const {

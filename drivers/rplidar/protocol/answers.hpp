@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Payloads of an A1's single answers, to encode and to decode.
+// Payloads of an RPLidar's single answers, to encode and to decode.
 #pragma once
 
 #include <array>
@@ -16,7 +16,7 @@ namespace cornerd::rplidar {
 struct DeviceInfo {
   static constexpr std::size_t kSize = 20;
 
-  std::uint8_t model = 0;      ///< 0x18: A1M8
+  std::uint8_t model = 0;      ///< series << 4 | version; 0x18: A1M8, 0x41: C1M1, 0x61: S1M1
   std::uint16_t firmware = 0;  ///< major << 8 | minor
   std::uint8_t hardware = 0;
   std::array<std::uint8_t, 16> serial{};
@@ -27,7 +27,10 @@ struct DeviceInfo {
   /// nullopt if there are too few bytes, as for the other answers.
   static std::optional<DeviceInfo> decode(std::span<const std::uint8_t> bytes);
 
-  std::string model_name() const;     ///< "A1M8", or the byte if unknown
+  /// 1 to 3: A1 to A3, triangulation; 4: C1; 6 to 8: S1 to S3. The oldest A1s say 0.
+  int series() const { return model >> 4; }
+  bool measures_time_of_flight() const { return series() >= 4; }
+  std::string model_name() const;     ///< "A1M8", as the vendor's SDK names it
   std::string firmware_text() const;  ///< "1.29"
   std::string serial_text() const;    ///< hexadecimal, in the order of the vendor's SDK
 };
@@ -63,9 +66,11 @@ struct SampleRate {
   bool operator==(const SampleRate&) const = default;
 };
 
-/// GET_LIDAR_CONF, firmware 1.24 and later.
+/// GET_LIDAR_CONF: of an A series firmware 1.24 and later, of the others every one.
 enum class ConfType : std::uint32_t {
-  kDesiredRotation = 0x01,
+  kDesiredRotation = 0x01,  ///< u16 revolutions per minute, u16 PWM of the accessory board
+  kMinRotation = 0x04,  ///< u16 revolutions per minute
+  kMaxRotation = 0x05,
   kModeCount = 0x70,    ///< u16
   kModePeriod = 0x71,   ///< u32, microseconds per sample in Q8
   kMaxDistance = 0x74,  ///< u32, metres in Q8

@@ -50,6 +50,11 @@ Request Request::get_conf(std::uint32_t type, std::optional<std::uint16_t> mode)
   return Request(Command::kGetConf, payload);
 }
 
+Request Request::set_motor(Command command, std::uint16_t value) {
+  return Request(command, std::array{static_cast<std::uint8_t>(value),
+                                     static_cast<std::uint8_t>(value >> 8)});
+}
+
 std::optional<Request> RequestParser::add(std::uint8_t byte) {
   if (size_ == 0 && byte != kSync) return std::nullopt;
   if (size_ == 1 && byte == kSync) return std::nullopt;  // the request begins here instead

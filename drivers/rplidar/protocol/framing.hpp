@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Requests to an A1, response descriptors and the boot banner. The driver and the emulator share
+// Requests to an RPLidar, response descriptors and the boot banner. The driver and the emulator share
 // it.
 #pragma once
 
@@ -25,6 +25,7 @@ enum class Command : std::uint8_t {
   kExpressScan = 0x82,
   kGetConf = 0x84,
   kSetConf = 0x85,
+  kSetMotorSpeed = 0xA8,  ///< revolutions per minute; C and S series
   kSetMotorPwm = 0xF0,
   kGetAccessoryBoard = 0xFF,
 };
@@ -49,6 +50,8 @@ class Request {
   static Request express_scan(std::uint8_t mode);
   /// GET_LIDAR_CONF, of a common value or of one mode.
   static Request get_conf(std::uint32_t type, std::optional<std::uint16_t> mode = std::nullopt);
+  /// kSetMotorPwm or kSetMotorSpeed.
+  static Request set_motor(Command command, std::uint16_t value);
 
  private:
   static constexpr std::size_t kMaxSize = 3 + 255 + 1;
@@ -74,7 +77,7 @@ class RequestParser {
 
 inline constexpr std::size_t kDescriptorSize = 7;
 
-/// The types of an A1's answers.
+/// The types of its answers.
 enum class AnswerType : std::uint8_t {
   kInfo = 0x04,
   kHealth = 0x06,
@@ -83,7 +86,10 @@ enum class AnswerType : std::uint8_t {
   kSetConf = 0x21,
   kStandardScan = 0x81,
   kExpressScan = 0x82,
+  kHqScan = 0x83,
   kUltraScan = 0x84,
+  kDenseScan = 0x85,
+  kUltraDenseScan = 0x86,
   kAccessoryBoard = 0xFF,
 };
 

@@ -3,7 +3,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <span>
 
 #include "drivers/rplidar/decoder.hpp"
@@ -30,8 +29,7 @@ enum class Step : std::uint8_t {
 
 struct DescriptorMatch {
   Verdict verdict = Verdict::kNo;
-  /// nullopt: a format that no A1 sends (dense, HQ), whose packets resemble capsules.
-  std::optional<WireFormat> format;
+  WireFormat format = WireFormat::kStandard;
 };
 
 /// Whether `bytes` begin with the response descriptor of a scan, all 7 bytes of it.

@@ -16,24 +16,44 @@ inline constexpr std::size_t kExpressSize = 84;
 inline constexpr std::size_t kExpressSamples = 32;
 inline constexpr std::size_t kUltraSize = 132;
 inline constexpr std::size_t kUltraSamples = 96;
+inline constexpr std::size_t kMaxCapsuleSize = 781;  ///< HQ
+inline constexpr std::size_t kMaxCapsuleSamples = 96;
 
-/// Bytes of a capsule. Not for kStandard.
-constexpr std::size_t capsule_size(WireFormat format) {
-  return format == WireFormat::kExpress ? kExpressSize : kUltraSize;
-}
-constexpr std::size_t capsule_samples(WireFormat format) {
-  return format == WireFormat::kExpress ? kExpressSamples : kUltraSamples;
-}
+struct CapsuleLayout {
+  std::size_t size = 0;
+  std::size_t samples = 0;
+};
 
-/// The first bytes carry two sync nibbles, and in their other halves the checksum.
-bool has_capsule_sync(std::span<const std::uint8_t> bytes);
-/// XOR of all bytes of a whole capsule but the first two.
-bool has_right_checksum(std::span<const std::uint8_t> capsule);
+/// Not for kStandard.
+constexpr CapsuleLayout capsule_layout(WireFormat format) {
+  switch (format) {
+    case WireFormat::kStandard:
+    case WireFormat::kExpress:
+      break;
+    case WireFormat::kUltra:
+      return {kUltraSize, kUltraSamples};
+    case WireFormat::kDense:
+      return {84, 40};
+    case WireFormat::kUltraDense:
+      return {170, 64};
+    case WireFormat::kHq:
+      return {kMaxCapsuleSize, kMaxCapsuleSamples};
+  }
+  return {kExpressSize, kExpressSamples};
+}
+constexpr std::size_t capsule_size(WireFormat format) { return capsule_layout(format).size; }
+constexpr std::size_t capsule_samples(WireFormat format) { return capsule_layout(format).samples; }
+
+/// The two sync nibbles, in whose other halves the checksum is; of HQ the byte A5. `bytes`: at
+/// least 2.
+bool has_capsule_sync(std::span<const std::uint8_t> bytes, WireFormat format);
+/// XOR of all bytes of a whole capsule but the first two; of HQ a CRC-32.
+bool has_right_checksum(std::span<const std::uint8_t> capsule, WireFormat format);
 
 /// Angle of the first sample, in [0, 360 * 64).
-int start_angle_q6(std::span<const std::uint8_t> capsule);
+int start_angle_q6(std::span<const std::uint8_t> capsule, WireFormat format);
 /// The flag of a stream's first capsule. Not a scan start.
-bool begins_stream(std::span<const std::uint8_t> capsule);
+bool begins_stream(std::span<const std::uint8_t> capsule, WireFormat format);
 
 /// Whether a capsule begins at the first of `bytes`: by its checksum and the sync of the next
 /// header, 24 bits. At the end of a recording (`final`) by the checksum alone.
@@ -48,14 +68,16 @@ struct Sweep {
 struct SweepSample {
   std::uint16_t angle_q6 = 0;
   std::uint32_t dist_q2 = 0;
+  std::uint8_t quality = 0;
   bool starts_scan = false;
 };
 
 /// Angles of a sweep's samples in Q16, truncated exactly as in the vendor's SDK.
 class SweepCursor {
  public:
-  SweepCursor(const Sweep& sweep, int inc_q16)
-      : raw_q16_(sweep.start_q6 << 10), inc_q16_(inc_q16) {}
+  SweepCursor(const Sweep& sweep, std::size_t samples)
+      : raw_q16_(sweep.start_q6 << 10),
+        inc_q16_((sweep.diff_q6 << 10) / static_cast<int>(samples)) {}
 
   int raw_q16() const { return raw_q16_; }
   /// As in the SDK: the sample before the uncorrected angle passes zero.
@@ -73,25 +95,13 @@ class SweepCursor {
   int inc_q16_;
 };
 
-/// Samples of an express capsule (answer type 0x82): whole millimetres, angles corrected by the
-/// device in 1/8 degree.
-void decode_express(std::span<const std::uint8_t, kExpressSize> capsule, const Sweep& sweep,
-                    std::span<SweepSample, kExpressSamples> samples);
+/// What the formats without a quality report where there is a return; the SDK's value.
+inline constexpr std::uint8_t kUnknownQuality = 47;
 
-struct VarbitDistance {
-  int mm = 0;
-  int level = 0;  ///< its predictions have steps of 2^level mm
-};
-
-/// The 12-bit floating point of the ultra format: 1 mm steps below 512 mm, 16 mm beyond 16384.
-VarbitDistance decode_varbit(int code);
-
-/// Samples of an ultra capsule (answer type 0x84). `next_major`: first_major() of the next capsule,
-/// the base of the last predictions. A negative distance is no return.
-void decode_ultra(std::span<const std::uint8_t, kUltraSize> capsule, int next_major,
-                  const Sweep& sweep, std::span<SweepSample, kUltraSamples> samples);
-
-/// The 12-bit code of a capsule's first distance.
-int first_major(std::span<const std::uint8_t> capsule);
+/// Samples of a capsule. `next`: the one after it, whose first distance ends an ultra capsule; empty
+/// if it is missing.
+void decode_capsule(WireFormat format, std::span<const std::uint8_t> capsule,
+                    std::span<const std::uint8_t> next, const Sweep& sweep,
+                    std::span<SweepSample> samples);
 
 }  // namespace cornerd::rplidar

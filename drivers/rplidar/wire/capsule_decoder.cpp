@@ -12,10 +12,10 @@ namespace cornerd::rplidar {
 namespace {
 
 constexpr float kDegree = 64;
-// A capsule at 11 Hz: 8.1 ms of express, 12.2 ms of ultra. More is a gap while the speed is
-// unknown.
-constexpr float kFirstLimitExpress = 33 * kDegree;
-constexpr float kFirstLimitUltra = 50 * kDegree;
+// The slowest capsule of a format at 11 Hz: 8.1 ms of express and dense, 12.2 ms of ultra. More is a
+// gap while the speed is unknown.
+constexpr float kFirstLimitShort = 33 * kDegree;
+constexpr float kFirstLimitLong = 50 * kDegree;
 
 constexpr float kMinRatio = 0.6F;
 constexpr float kMaxRatio = 1.5F;
@@ -34,7 +34,8 @@ constexpr int kFirstSpeed = 2;
 
 void CapsuleGapDetector::reset(WireFormat format) {
   step_q6_ = 0;
-  first_limit_q6_ = format == WireFormat::kExpress ? kFirstLimitExpress : kFirstLimitUltra;
+  const bool is_long = format == WireFormat::kUltra || format == WireFormat::kHq;
+  first_limit_q6_ = is_long ? kFirstLimitLong : kFirstLimitShort;
   rejections_ = 0;
 }
 
@@ -73,12 +74,6 @@ void CapsuleGapDetector::accept(int diff_q6) {
   rejections_ = 0;
 }
 
-namespace {
-
-constexpr std::uint8_t kUnknownQuality = 47;  // the format has none; the SDK's value
-
-}  // namespace
-
 void CapsuleDecoder::lock(WireFormat format, bool same_stream) {
   if (same_stream && format == format_) {
     contiguous_ = false;
@@ -96,10 +91,10 @@ Step CapsuleDecoder::step(ByteWindow& window, std::uint64_t& index, RawSampleSin
   const std::size_t size = capsule_size(format_);
   const auto bytes = window.unread();
   if (bytes.size() < 2) return Step::kMore;
-  if (!has_capsule_sync(bytes)) return Step::kLost;
+  if (!has_capsule_sync(bytes, format_)) return Step::kLost;
   if (bytes.size() < size) return Step::kMore;
   const auto capsule = bytes.first(size);
-  if (!has_right_checksum(capsule)) {
+  if (!has_right_checksum(capsule, format_)) {
     ++counters_->bad_checksums;
     ++damaged_;
     return Step::kLost;
@@ -112,12 +107,12 @@ Step CapsuleDecoder::step(ByteWindow& window, std::uint64_t& index, RawSampleSin
 
 void CapsuleDecoder::pair(std::span<const std::uint8_t> next, std::uint64_t& index,
                           RawSampleSink& sink) {
-  if (has_pending_ && begins_stream(next)) {
+  if (has_pending_ && begins_stream(next, format_)) {
     drop_pending(index);
     sink.on_gap();
   } else if (has_pending_) {
-    const int start_q6 = start_angle_q6(pending_);
-    const int diff_q6 = (start_angle_q6(next) - start_q6 + kFullRevolutionQ6) % kFullRevolutionQ6;
+    const int start_q6 = start_angle_q6(pending_, format_);
+    const int diff_q6 = (start_angle_q6(next, format_) - start_q6 + kFullRevolutionQ6) % kFullRevolutionQ6;
     const auto [relation, missing] = gap_detector_.classify(diff_q6, damaged_);
     if (relation == CapsuleGapDetector::Relation::kAdjacent && contiguous_) {
       decode_pending(next, diff_q6, index, sink);
@@ -163,20 +158,11 @@ void CapsuleDecoder::drop_pending(std::uint64_t& index) {
 
 void CapsuleDecoder::decode_pending(std::span<const std::uint8_t> next, int diff_q6,
                                     std::uint64_t index, RawSampleSink& sink) {
-  std::array<SweepSample, kUltraSamples> samples;
-  const Sweep sweep{.start_q6 = start_angle_q6(pending_), .diff_q6 = diff_q6};
-  const std::span<const std::uint8_t, kUltraSize> capsule(pending_);
-  const std::span<SweepSample, kUltraSamples> decoded(samples);
-  if (format_ == WireFormat::kExpress) {
-    decode_express(capsule.first<kExpressSize>(), sweep, decoded.first<kExpressSamples>());
-  } else {
-    decode_ultra(capsule, next.empty() ? 0 : first_major(next), sweep, decoded);
-    if (next.empty()) {
-      // The last two distances are predicted from the next capsule.
-      for (SweepSample& sample : decoded.last(2)) sample.dist_q2 = 0;
-    }
-  }
-  for (const SweepSample& sample : decoded.first(capsule_samples(format_))) {
+  std::array<SweepSample, kMaxCapsuleSamples> buffer;
+  const auto samples = std::span(buffer).first(capsule_samples(format_));
+  const Sweep sweep{.start_q6 = start_angle_q6(pending_, format_), .diff_q6 = diff_q6};
+  decode_capsule(format_, std::span(pending_).first(capsule_size(format_)), next, sweep, samples);
+  for (const SweepSample& sample : samples) {
     const bool starts_scan = sample.starts_scan || scan_began_in_gap_;
     scan_began_in_gap_ = false;
     ++counters_->samples;
@@ -184,7 +170,7 @@ void CapsuleDecoder::decode_pending(std::span<const std::uint8_t> next, int diff
     sink.on_sample({.index = index++,
                     .angle_q6 = sample.angle_q6,
                     .dist_q2 = sample.dist_q2,
-                    .quality = sample.dist_q2 > 0 ? kUnknownQuality : std::uint8_t{0},
+                    .quality = sample.quality,
                     .starts_scan = starts_scan});
   }
 }

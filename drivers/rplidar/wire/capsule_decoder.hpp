@@ -38,8 +38,8 @@ class CapsuleGapDetector {
   int rejections_ = 0;
 };
 
-/// Decodes express and ultra capsules. A capsule holds the angle of its first sample only, so each
-/// waits for its successor. If that one is lost, the one after it gives the angle as well; if more
+/// Decodes every format but standard nodes. A capsule holds the angle of its first sample only, so each
+/// waits for its successor; HQ packets wait likewise, to tell a gap. If that one is lost, the one after it gives the angle as well; if more
 /// are missing, or another stream begins, the capsule is dropped.
 class CapsuleDecoder {
  public:
@@ -60,7 +60,7 @@ class CapsuleDecoder {
   drivers::StreamCounters* counters_;
   WireFormat format_ = WireFormat::kExpress;
   CapsuleGapDetector gap_detector_;
-  std::array<std::uint8_t, kUltraSize> pending_{};
+  std::array<std::uint8_t, kMaxCapsuleSize> pending_{};
   bool has_pending_ = false;
   bool contiguous_ = true;  ///< no byte was skipped since the pending capsule
   int damaged_ = 0;         ///< capsules with a bad checksum since then

@@ -70,7 +70,10 @@ void emulate(EmulateOptions options) {
   if (firmware == nullptr) throw UsageError("--firmware: must be 1.29, 1.24 or 1.17");
   const drivers::LidarModel& model = *drivers::find_lidar_model(options.model);
   settings::Config config = options.settings.resolve(/*needs_map=*/options.recording.empty());
-  if (config.lidar.driver != model.driver) config.lidar.noise.sensor = model.noise();
+  // The config's noise is that of its driver's first model.
+  if (&model != drivers::first_lidar_model(config.lidar.driver)) {
+    config.lidar.noise.sensor = model.noise();
+  }
   if (!options.simulation.motor_hz) options.simulation.motor_hz = model.rate_hz;
   guard_files(
       {.read = {options.recording, options.settings.config_file(), options.simulation.sensor.noise,
@@ -88,7 +91,9 @@ void emulate(EmulateOptions options) {
   simulator.sensor.min_range_m = model.min_range_m;
   simulator.sensor.max_range_m = model.max_range_m;
   replay::PtyEmulator emulator(
-      replay::make_emulator(model, std::move(world.scene), simulator, device), options.link);
+      replay::make_emulator(model, std::move(world.scene), simulator, device), options.link,
+      model.baud);
+  emulator.expect_speed(model.baud);
 
   std::optional<replay::TruthWriter> truth;
   if (!options.truth.empty()) {
@@ -130,7 +135,7 @@ void add_emulate(Command& program) {
   command.add_option("--model", options->model, "the lidar").choices(models).capture_default_str();
   command.add_option("--firmware", options->firmware, "of an a1: 1.29, 1.24 or 1.17")
       .capture_default_str();
-  command.add_option("--spin-up", options->spin_up_s, "duration of an a1's spin-up (s)")
+  command.add_option("--spin-up", options->spin_up_s, "duration of an RPLidar's spin-up (s)")
       .within(0, 3600);
   command.add_option("--link", options->link, "a symbolic link to the pseudo-terminal")
       .type_name("PATH");
