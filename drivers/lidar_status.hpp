@@ -9,6 +9,8 @@
 
 namespace cornerd::drivers {
 
+struct LidarModel;
+
 enum class LidarState : std::uint8_t {
   kAbsent,       ///< the port does not exist
   kOpening,      ///< the port exists but cannot be opened yet
@@ -103,6 +105,7 @@ struct LidarStatus {
   LidarFault fault = LidarFault::kNone;
   ShortText detail;  ///< for a person: what is wrong, where, what to do
   ShortText model;
+  const LidarModel* known_model = nullptr;  ///< null where the device does not say which it is
   ShortText firmware;
   ShortText serial;  ///< as the vendor's tools print it
   ShortText health;

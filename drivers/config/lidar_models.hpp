@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The table of lidars. A driver uses its first row's noise where the config has none, and tries the
-// baud rates of its rows in their order; the emulator imitates each row.
+// The table of lidars. Where the config has no noise, that of a driver's first row holds until the device
+// has said which row it is. A driver tries the baud rates of its rows in their order; the emulator
+// imitates each row.
 #pragma once
 
 #include <algorithm>
@@ -36,6 +37,10 @@ struct LidarModel {
 
   core::SensorNoise noise() const {
     return {.floor_m = noise_floor_m, .share = noise_share, .bearing_rad = noise_bearing_rad};
+  }
+  bool has_noise_of(const LidarModel& other) const {
+    return noise_floor_m == other.noise_floor_m && noise_share == other.noise_share &&
+           noise_bearing_rad == other.noise_bearing_rad;
   }
 };
 

@@ -166,8 +166,9 @@ RplidarDriver::Failure RplidarDriver::identify(Device& device, drivers::ByteStre
   }
   // The answer has no checksum; a damaged serial number would name another lidar.
   const bool agrees = device.info() == info;
+  const drivers::LidarModel* const known = drivers::find_rplidar(info->model);
   board_.set_device(info->model_name(), info->firmware_text(),
-                    agrees ? info->serial_text() : std::string());
+                    agrees ? info->serial_text() : std::string(), known);
 
   auto health = device.health();
   if (health && health->failed()) {
@@ -186,10 +187,8 @@ RplidarDriver::Failure RplidarDriver::identify(Device& device, drivers::ByteStre
             "\"" + config_.mode + "\"; set advanced.lidar.mode to one of " + list_names(modes)};
   }
   mode = *chosen;
-  if (const auto* model = drivers::find_rplidar(info->model); model != nullptr) {
-    // Some firmwares of the S3 report none.
-    if (mode.period_s <= 0) mode.period_s = 1 / model->samples_hz;
-  }
+  // Some firmwares of the S3 report none.
+  if (mode.period_s <= 0 && known != nullptr) mode.period_s = 1 / known->samples_hz;
   board_.set_mode(mode.name);
   board_.set_state(LidarState::kStarting, LidarFault::kNone,
                    config_.device + ": waiting for the motor");

@@ -30,8 +30,9 @@ void StatusBoard::count_answers(std::uint64_t bytes, std::uint64_t used_bytes) {
 }
 
 void StatusBoard::set_device(std::string_view model, std::string_view firmware,
-                             std::string_view serial) {
+                             std::string_view serial, const LidarModel* known) {
   status_.model.set(model);
+  status_.known_model = known;
   status_.firmware.set(firmware);
   status_.serial.set(serial);
   publish();

@@ -18,7 +18,8 @@ class StatusBoard {
  public:
   /// Reader thread: all methods up to update().
   void set_state(LidarState state, LidarFault fault, std::string_view detail);
-  void set_device(std::string_view model, std::string_view firmware, std::string_view serial);
+  void set_device(std::string_view model, std::string_view firmware, std::string_view serial,
+                  const LidarModel* known = nullptr);
   void set_health(std::string_view health);
   void set_mode(std::string_view mode);
 

@@ -16,6 +16,7 @@
 #include "daemon/log.hpp"
 #include "daemon/posix_clock.hpp"
 #include "daemon/realtime.hpp"
+#include "drivers/config/lidar_models.hpp"
 
 namespace cornerd::daemon {
 namespace {
@@ -53,6 +54,7 @@ Daemon::Daemon(Loaded loaded, MapLoader loader, std::unique_ptr<drivers::LidarDr
       status_(server_, notifier_),
       tick_(kTick),
       reloader_(std::move(loader)),
+      model_(drivers::first_lidar_model(config_.lidar.driver)),
       calibration_(calibration_file_path(config_.lidar), config_.lidar.bias),
       lidar_(std::move(lidar)),
       localization_(*lidar_,
@@ -181,22 +183,23 @@ void Daemon::on_signal() {
 }
 
 void Daemon::refuse(const Reloader::Outcome& outcome) {
-  const bool is_reload = !outcome.job.set_map;
-  log(LogLevel::kError, (is_reload ? "reload refused, the old config and map stay in use: "
+  const bool is_reload = outcome.job.is_reload();
+  log(LogLevel::kError, (!outcome.job.set_map ? "reload refused, the old config and map stay in use: "
                                    : "map refused, the old one stays in use: ") +
                             outcome.error);
   server_.publish(
       message::MessageClass::kEvent,
-      line_.event(now_ns(), is_reload ? "reload refused" : "map refused", outcome.error));
+      line_.event(now_ns(), outcome.job.set_map ? "map refused" : "reload refused", outcome.error));
   if (is_reload) return notifier_.ready();
-  server_.answer_later(outcome.job.ticket, message::RequestError{"map", outcome.error});
+  if (outcome.job.set_map) server_.answer_later(outcome.job.ticket, message::RequestError{"map", outcome.error});
 }
 
 void Daemon::on_loaded() {
   Reloader::Outcome outcome = reloader_.take();
   if (!outcome.error.empty()) return refuse(outcome);
   Loaded& loaded = outcome.loaded;
-  const bool is_reload = !outcome.job.set_map;
+  if (!loaded.pipeline) return;
+  const bool is_reload = outcome.job.is_reload();
   if (const std::string list = settings::needs_restart(config_, loaded.config);
       is_reload && !list.empty()) {
     log(LogLevel::kWarning, "restart cornerd to apply: " + list);
@@ -209,6 +212,10 @@ void Daemon::on_loaded() {
   scans_.set_next_map(localization_.replace_pipeline(std::move(pipeline)), published(loaded));
   if (health_.memory_is_locked) health_.memory_is_locked = lock_memory() == 0;
   if (config_.realtime.lock_memory && !health_.memory_is_locked) prefault_memory();
+  if (const auto* model = outcome.job.model) {
+    log(LogLevel::kInfo, "lidar noise: that of model " + std::string(model->name));
+    return;
+  }
   log(LogLevel::kInfo, "map loaded: " + name);
   server_.publish(message::MessageClass::kEvent, line_.event(now_ns(), "map loaded", name));
   if (is_reload) return notifier_.ready();
@@ -229,6 +236,7 @@ void Daemon::on_tick() {
   }
   publish_changes();
   update_calibration_file();
+  follow_model(lidar_->status());
   if (lidar_->status().state != drivers::LidarState::kRunning) scans_.publish_next_map();
   const bool sensors_changed = odometry_ && odometry_->publish_changes(server_, now_ns());
   const bool is_time = ticks_++ % kTicksPerStatus == 0;
@@ -238,6 +246,13 @@ void Daemon::on_tick() {
   if (is_time) {
     server_.restore_sockets([](const std::string& line) { log(LogLevel::kWarning, line); });
   }
+}
+
+void Daemon::follow_model(const drivers::LidarStatus& lidar) {
+  const drivers::LidarModel* const before = model_;
+  if (lidar.known_model == nullptr || lidar.known_model == before) return;
+  model_ = lidar.known_model;
+  if (before == nullptr || !model_->has_noise_of(*before)) reloader_.start({.model = model_});
 }
 
 void Daemon::update_calibration_file() {

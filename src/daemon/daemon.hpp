@@ -39,6 +39,8 @@ class Daemon {
   void on_tick();
   void publish_changes();
   void update_calibration_file();
+  /// The noise of the lidar that is there, where the config has none.
+  void follow_model(const drivers::LidarStatus& lidar);
   void on_watchdog();
   void on_signal();
   void on_loaded();
@@ -65,6 +67,7 @@ class Daemon {
   int ticks_ = 0;
   DaemonHealth health_;
   Reloader reloader_;
+  const drivers::LidarModel* model_;  ///< whose noise is used, unless the config has one
   CalibrationFile calibration_;
   std::unique_ptr<drivers::LidarDriver> lidar_;
   Localization localization_;

@@ -37,12 +37,37 @@ void MapLoader::check() const {
 }
 
 Loaded MapLoader::load() {
-  Loaded loaded = with_map(settings::load_config(config_file_, overrides_, kKind));
-  config_ = loaded.config;
-  return loaded;
+  std::string text = settings::read_file(config_file_, settings::kMaxConfigBytes, kKind);
+  text_.swap(text);
+  try {
+    Loaded loaded = with_map(parse());
+    config_ = loaded.config;
+    return loaded;
+  } catch (...) {
+    text_.swap(text);
+    throw;
+  }
 }
 
-Loaded MapLoader::load(const message::SetMapRequest& request) const {
+settings::Config MapLoader::parse() const {
+  return settings::parse_config(text_, config_file_, overrides_, /*require_map=*/true, model_);
+}
+
+Loaded MapLoader::load(const drivers::LidarModel& model) {
+  model_ = &model;
+  const core::SensorNoise& noise = parse().lidar.noise.sensor;
+  const core::SensorNoise& before = config_.lidar.noise.sensor;
+  Loaded loaded;
+  if (noise.floor_m == before.floor_m && noise.share == before.share &&
+      noise.bearing_rad == before.bearing_rad) {
+    return loaded;
+  }
+  config_.lidar.noise.sensor = noise;
+  used_.lidar.noise.sensor = noise;
+  return with_map(used_);
+}
+
+Loaded MapLoader::load(const message::SetMapRequest& request) {
   settings::Config config = config_;
   config.map_name = request.name;
   config.map = request.name.empty() ? settings::map_in_folders(config_, request.file)
@@ -56,6 +81,7 @@ Loaded MapLoader::with_map(settings::Config config) {
   loaded.map_line =
       std::make_shared<const std::string>(message::LineWriter().map(loaded.map->plan()));
   loaded.pipeline = std::make_unique<core::Pipeline>(loaded.map, localizer_config(config));
+  used_ = config;
   loaded.config = std::move(config);
   return loaded;
 }

@@ -34,14 +34,21 @@ class MapLoader {
   /// Reads the config and its map.
   Loaded load();
   /// Another map in the config of the last load(), which has succeeded.
-  Loaded load(const message::SetMapRequest& request) const;
+  Loaded load(const message::SetMapRequest& request);
+  /// The same config and map for this lidar, also in later loads. Without a pipeline where the config
+  /// has a noise of its own.
+  Loaded load(const drivers::LidarModel& model);
 
  private:
-  static Loaded with_map(settings::Config config);
+  Loaded with_map(settings::Config config);
+  settings::Config parse() const;
 
   std::filesystem::path config_file_;
   std::vector<std::string> overrides_;
-  settings::Config config_;
+  const drivers::LidarModel* model_ = nullptr;
+  std::string text_;         ///< of the config, at the last load()
+  settings::Config config_;  ///< of it
+  settings::Config used_;    ///< with the map of the last SET_MAP
 };
 
 }  // namespace cornerd::daemon

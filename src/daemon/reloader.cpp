@@ -25,7 +25,7 @@ Reloader::Reloader(MapLoader loader)
 
 bool Reloader::start(Job job) {
   // One reload after the last signal has seen all changes of the files.
-  if (!job.set_map && !waiting_.empty() && !waiting_.back().set_map) return true;
+  if (job.is_reload() && !waiting_.empty() && waiting_.back().is_reload()) return true;
   if (job.set_map && waiting_.size() >= kMaxWaiting) return false;
   waiting_.push_back(std::move(job));
   if (!is_loading_) start_next();
@@ -42,8 +42,10 @@ void Reloader::start_next() {
 void Reloader::run() {
   ::setpriority(PRIO_PROCESS, static_cast<id_t>(::gettid()), kNiceness);
   try {
-    const auto& set_map = outcome_.job.set_map;
-    outcome_.loaded = set_map ? loader_.load(*set_map) : loader_.load();
+    const Job& job = outcome_.job;
+    outcome_.loaded = job.set_map ? loader_.load(*job.set_map)
+                      : job.model ? loader_.load(*job.model)
+                                  : loader_.load();
   } catch (const std::exception& error) {
     outcome_.error = error.what();
   }

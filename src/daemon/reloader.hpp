@@ -17,10 +17,13 @@ namespace cornerd::daemon {
 /// large map takes seconds.
 class Reloader {
  public:
-  /// A SET_MAP and who waits for its answer; neither on SIGHUP.
+  /// A SET_MAP and who waits for its answer, or a lidar that has said which it is; on SIGHUP neither.
   struct Job {
     std::optional<message::SetMapRequest> set_map = {};
     Ticket ticket = {};
+    const drivers::LidarModel* model = nullptr;
+
+    bool is_reload() const { return !set_map && model == nullptr; }
   };
   struct Outcome {
     Job job;

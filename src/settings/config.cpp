@@ -9,7 +9,6 @@
 namespace cornerd::settings {
 namespace {
 
-constexpr std::size_t kMaxConfigBytes = 1 << 20;
 constexpr std::string_view kAdvanced = "/advanced";
 
 /// A pointer of schema 1 that has no successor.
@@ -159,7 +158,8 @@ core::LocalizerConfig Config::localizer() const {
 }
 
 Config parse_config(std::string_view text, const std::filesystem::path& file,
-                    const std::vector<std::string>& overrides, bool require_map) {
+                    const std::vector<std::string>& overrides, bool require_map,
+                    const drivers::LidarModel* model) {
   DocumentContext context{.file = file};
   if (!file.empty()) context.folder = std::filesystem::absolute(file).parent_path();
   Json document = parse_document(text, file);
@@ -170,10 +170,11 @@ Config parse_config(std::string_view text, const std::filesystem::path& file,
   const std::vector<Key> table = config_table(config);
   const ConfigReader reader(context, table);
   reader.read(document);
-  if (const DriverKind driver = config.lidar.driver;
-      driver != DriverKind::kRplidar && drivers::first_lidar_model(driver) != nullptr) {
+  const DriverKind driver = config.lidar.driver;
+  if (model == nullptr || model->driver != driver) model = drivers::first_lidar_model(driver);
+  if (model != nullptr && model != drivers::first_lidar_model(DriverKind::kRplidar)) {
     // The driver is known only now: its noise, and what the config says of it over that.
-    config.lidar.noise.sensor = drivers::first_lidar_model(driver)->noise();
+    config.lidar.noise.sensor = model->noise();
     reader.read(document);
   }
   choose_map(config, reader);

@@ -37,6 +37,7 @@ enum class FileKind : std::uint8_t { kOrdinary, kAny };
 using drivers::DriverKind;
 
 /// Speeds of a serial port.
+inline constexpr std::size_t kMaxConfigBytes = 1 << 20;
 inline constexpr std::uint32_t kMinBaud = 1'200;
 inline constexpr std::uint32_t kMaxBaud = 4'000'000;
 
@@ -122,8 +123,10 @@ Config load_config(const std::filesystem::path& file,
                    const std::vector<std::string>& overrides = {}, FileKind kind = FileKind::kAny);
 
 /// The same from text. `file` names it in errors; `require_map`: a config without map is an error.
+/// `model`: the lidar, whose noise is the default; null: the first of the driver.
 Config parse_config(std::string_view text, const std::filesystem::path& file,
-                    const std::vector<std::string>& overrides = {}, bool require_map = true);
+                    const std::vector<std::string>& overrides = {}, bool require_map = true,
+                    const drivers::LidarModel* model = nullptr);
 
 /// /lidar/noise of a config, or of a file that has nothing else. Throws SettingsError, also where
 /// the file does not have it.

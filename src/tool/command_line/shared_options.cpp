@@ -18,7 +18,6 @@ namespace cornerd::tool {
 
 namespace {
 
-constexpr std::size_t kMaxConfigBytes = std::size_t{1} << 20;
 constexpr const char* kInstalledConfig = "/etc/cornerd/cornerd.json";
 
 /// Exactly `count` finite numbers separated by commas; empty for any other text.
@@ -67,7 +66,7 @@ settings::Config SettingsOptions::resolve(bool needs_map) const {
   std::vector<std::string> overrides = overrides_;
   if (!map_.empty()) overrides.push_back("/map=" + settings::Json(map_.string()).dump());
   overrides.insert(overrides.end(), set_.begin(), set_.end());
-  const std::string text = config_.empty() ? "{}" : settings::read_file(config_, kMaxConfigBytes);
+  const std::string text = config_.empty() ? "{}" : settings::read_file(config_, settings::kMaxConfigBytes);
   return settings::parse_config(text, config_, overrides, needs_map);
 }
 
