@@ -4,6 +4,7 @@
 #include "drivers/rplidar/decoder.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cstdlib>
 #include <optional>
 #include <span>
@@ -21,17 +22,16 @@ void require(bool condition) {
 class CheckingSink : public RawSampleSink {
  public:
   void on_sample(const RawSample& sample) override {
-    constexpr std::uint32_t kMaxDistanceQ2 =
-        (28656 + (510 << 4)) * 4;  // ultra: major and prediction
+    constexpr std::uint32_t kMaxDistanceQ2 = 400'000;  // HQ; any other has 65 m at most
     require(sample.angle_q6 < kFullRevolutionQ6);
     require(sample.dist_q2 <= kMaxDistanceQ2);
-    require(sample.quality < 64);
     require(!any_ || sample.index > last_index_);
     last_index_ = sample.index;
     any_ = true;
     ++samples_;
     // Half a revolution at 20 Hz is 49 nodes; a gap may shorten a scan.
-    if (sample.starts_scan && since_start_ >= 0) require(since_start_ >= 2);
+    // An HQ packet's flags are its own.
+    if (sample.starts_scan && since_start_ >= 0 && !is_hq) require(since_start_ >= 2);
     if (sample.starts_scan) since_start_ = 0;
     if (since_start_ >= 0) ++since_start_;
   }
@@ -39,6 +39,8 @@ class CheckingSink : public RawSampleSink {
   void on_gap() override { since_start_ = -1; }
 
   std::uint64_t samples() const { return samples_; }
+
+  bool is_hq = false;
 
  private:
   bool any_ = false;
@@ -48,16 +50,11 @@ class CheckingSink : public RawSampleSink {
 };
 
 std::optional<WireFormat> format_of(unsigned choice) {
-  switch (choice % 4) {
-    case 0:
-      return WireFormat::kStandard;
-    case 1:
-      return WireFormat::kExpress;
-    case 2:
-      return WireFormat::kUltra;
-    default:
-      return std::nullopt;
-  }
+  constexpr std::array kFormats = {WireFormat::kStandard, WireFormat::kExpress, WireFormat::kUltra,
+                                   WireFormat::kDense,    WireFormat::kUltraDense, WireFormat::kHq};
+  const unsigned index = choice / 128 * 3 + choice % 4;
+  if (choice % 4 == 3) return std::nullopt;
+  return kFormats[index];
 }
 
 }  // namespace
@@ -65,13 +62,14 @@ std::optional<WireFormat> format_of(unsigned choice) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   if (size == 0) return 0;
   const unsigned choice = data[0];
-  const std::size_t portion = choice / 4 == 0 ? size : choice / 4;
+  const std::size_t portion = choice % 128 / 4 == 0 ? size : choice % 128 / 4;
   Decoder decoder(format_of(choice));
   CheckingSink sink;
   std::span<const std::uint8_t> bytes(data + 1, size - 1);
   while (!bytes.empty()) {
     const auto piece = bytes.first(std::min(portion, bytes.size()));
     decoder.feed(piece, sink);
+    sink.is_hq = sink.is_hq || decoder.format() == WireFormat::kHq;
     bytes = bytes.subspan(piece.size());
   }
   decoder.finish(sink);

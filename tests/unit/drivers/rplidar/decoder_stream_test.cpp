@@ -89,22 +89,6 @@ TEST(DecoderStream, DescriptorLikeBytesInACapsule_AreData) {
   EXPECT_THAT(decode(join(capsules)).samples, SizeIs(9 * 32));
 }
 
-TEST(DecoderStream, DenseFormat_GivesNothing) {
-  Decoder decoder;
-  const Bytes dense_descriptor = from_hex("a55a5400004085");
-  // A dense capsule looks like an express one, to the checksum.
-  const auto sink = decode(join({dense_descriptor, join(express_capsules(10, 5))}), decoder);
-  EXPECT_THAT(sink.samples, IsEmpty());
-  EXPECT_EQ(decoder.format(), std::nullopt);
-}
-
-TEST(DecoderStream, DenseFormat_EndsAtTheNextDescriptor) {
-  EXPECT_THAT(decode(join({from_hex("a55a5400004085"), join(express_capsules(3, 5)),
-                           kExpressDescriptor, join(express_capsules(3, 5))}))
-                  .samples,
-              SizeIs(2 * 32));
-}
-
 TEST(DecoderStream, DamagedDescriptor_FormatIsDetected) {
   Bytes descriptor = kExpressDescriptor;
   descriptor[2] ^= 1;

@@ -11,6 +11,7 @@ using std::chrono::seconds;
 using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::IsEmpty;
 using testing::IsSupersetOf;
 using testing::Not;
 
@@ -64,7 +65,7 @@ TEST_F(RplidarDriverTest, RestartedDevice_IsReportedAndStartedAgain) {
 
 TEST_F(RplidarDriverTest, WrongBaud_IsReportedWithTheDefaultBaud) {
   a1.baud = 115200;
-  make("auto", 57600);
+  make("auto", {57600});
   run(seconds(5));
   EXPECT_THAT(faults, Contains(LidarFault::kWrongBaud));
   EXPECT_EQ(hints[LidarFault::kWrongBaud],
@@ -131,7 +132,38 @@ TEST_F(RplidarDriverTest, SilentDevice_IsReportedAndRetried) {
   EXPECT_EQ(last.state, LidarState::kIdentifying);
   EXPECT_THAT(states, Contains(LidarState::kBackoff));
   EXPECT_THAT(faults, Contains(LidarFault::kNoAnswer));
-  EXPECT_EQ(a1.opened, 2);
+  EXPECT_EQ(a1.opened, 5) << "at the configured speed, at the three others, and again";
+}
+
+TEST_F(RplidarDriverTest, WrongBaud_IsReportedWithTheFamilysOther) {
+  a1.baud = 1'000'000;
+  run(seconds(6));
+  EXPECT_THAT(hints[LidarFault::kWrongBaud], HasSubstr("but one at 1000000 baud"));
+}
+
+TEST_F(RplidarDriverTest, SeveralRates_TheOneThatAnswersIsFoundWithoutAFault) {
+  a1.baud = 460'800;
+  make("auto", {115'200, 256'000, 460'800, 1'000'000});
+  run(seconds(5));
+  EXPECT_EQ(last.state, LidarState::kRunning);
+  EXPECT_THAT(faults, IsEmpty());
+  EXPECT_EQ(a1.opened, 3);
+}
+
+TEST_F(RplidarDriverTest, SeveralRates_NoneAnswers_AllAreNamed) {
+  a1.answers = false;
+  make("auto", {115'200, 256'000});
+  run(seconds(5));
+  EXPECT_THAT(hints[LidarFault::kNoAnswer], HasSubstr("an RPLidar at 115200, 256000 baud"));
+}
+
+TEST_F(RplidarDriverTest, SeveralRates_NoiseAtAll_IsUnexpectedData) {
+  a1.answers = false;
+  a1.noise = true;
+  make("auto", {115'200, 256'000});
+  run(seconds(5));
+  EXPECT_THAT(faults, Contains(LidarFault::kUnexpectedData));
+  EXPECT_THAT(faults, Not(Contains(LidarFault::kWrongBaud)));
 }
 
 TEST_F(RplidarDriverTest, UnpluggedAndBack_RunsAgain) {

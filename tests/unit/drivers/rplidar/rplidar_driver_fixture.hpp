@@ -54,10 +54,10 @@ class RplidarDriverTest : public testing::Test {
     event = std::move(happens);
   }
 
-  void make(const std::string& mode = "auto", std::uint32_t baud = 115200) {
+  void make(const std::string& mode = "auto", std::vector<std::uint32_t> rates = {115200}) {
     driver.emplace(
         RplidarDriverConfig{
-            .device = "/dev/lidar", .baud_rates = {baud}, .mode = mode, .motor = {}},
+            .device = "/dev/lidar", .baud_rates = std::move(rates), .mode = mode, .motor = {}},
         [this](std::uint32_t at_baud) { return a1.open(at_baud); }, clock);
   }
 

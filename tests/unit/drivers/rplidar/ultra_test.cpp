@@ -4,7 +4,7 @@
 #include <array>
 #include <utility>
 
-#include "drivers/rplidar/wire/capsule.hpp"
+#include "drivers/rplidar/wire/ultra_capsule.hpp"
 
 namespace cornerd::rplidar {
 namespace {

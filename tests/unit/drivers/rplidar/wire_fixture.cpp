@@ -129,6 +129,71 @@ std::vector<Bytes> ultra_capsules(int count, double from_deg, double step_deg) {
   return capsules;
 }
 
+std::vector<Bytes> dense_capsules(int count, double from_deg, double step_deg) {
+  std::vector<Bytes> capsules;
+  for (int c = 0; c < count; ++c) {
+    Bytes bytes = capsule_header(std::fmod(from_deg + c * step_deg, 360), c == 0);
+    for (int k = 0; k < 40; ++k) put_u16(bytes, 1000 + 40 * c + k);
+    capsules.push_back(sealed(bytes));
+  }
+  return capsules;
+}
+
+Bytes ultra_dense_capsule(double start_deg, bool stream_start,
+                          const std::array<ScaledSample, 64>& samples) {
+  Bytes bytes = {0, 0, 0x12, 0x34, 0x56, 0x78, 0x9A, 0xBC};  // time and status
+  put_u16(bytes, to_q6(start_deg) | (stream_start ? 0x8000 : 0));
+  const auto word = [](const ScaledSample& sample) {
+    return sample.quality << (12 + sample.scale) | sample.steps << 2 | sample.scale;
+  };
+  for (std::size_t k = 0; k < samples.size(); k += 2) {
+    put_u16(bytes, word(samples[k]) & 0xFFFF);
+    put_u16(bytes, word(samples[k + 1]) & 0xFFFF);
+    bytes.push_back(static_cast<std::uint8_t>(word(samples[k]) >> 16 |
+                                              word(samples[k + 1]) >> 16 << 4));
+  }
+  return sealed(bytes);
+}
+
+std::vector<Bytes> ultra_dense_capsules(int count, double from_deg, double step_deg) {
+  std::vector<Bytes> capsules;
+  for (int c = 0; c < count; ++c) {
+    std::array<ScaledSample, 64> samples;
+    for (int k = 0; k < 64; ++k) {
+      samples[static_cast<std::size_t>(k)] = {0, 100 + (64 * c + k) % 900, 200};
+    }
+    capsules.push_back(
+        ultra_dense_capsule(std::fmod(from_deg + c * step_deg, 360), c == 0, samples));
+  }
+  return capsules;
+}
+
+std::vector<Bytes> hq_packets(int count, double from_deg) {
+  std::vector<Bytes> packets;
+  double angle_deg = from_deg;
+  for (int c = 0; c < count; ++c) {
+    Bytes bytes = {0xA5, 1, 2, 3, 4, 5, 6, 7, 8};
+    for (int k = 0; k < 96; ++k) {
+      const bool starts = std::fmod(angle_deg, 360) < 0.25;
+      put_u16(bytes, static_cast<int>(std::lround(std::fmod(angle_deg, 360) * 16384 / 90)));
+      put_u16(bytes, 4 * (1000 + 96 * c + k));
+      put_u16(bytes, 0);
+      bytes.push_back(0xBC);
+      bytes.push_back(starts ? 1 : 0);
+      angle_deg += 0.25;
+    }
+    std::uint32_t crc = 0xFFFFFFFF;  // of IEEE 802.3, over the packet and three zeros
+    for (std::size_t i = 0; i < bytes.size() + 3; ++i) {
+      crc ^= i < bytes.size() ? bytes[i] : 0U;
+      for (int bit = 0; bit < 8; ++bit) crc = crc >> 1 ^ ((crc & 1) != 0 ? 0xEDB88320U : 0U);
+    }
+    put_u16(bytes, static_cast<int>(~crc & 0xFFFF));
+    put_u16(bytes, static_cast<int>(~crc >> 16));
+    packets.push_back(bytes);
+  }
+  return packets;
+}
+
 std::vector<std::uint32_t> CollectingSink::distances() const {
   std::vector<std::uint32_t> distances;
   for (const RawSample& sample : samples) distances.push_back(sample.dist_q2);

@@ -21,6 +21,9 @@ Bytes join(std::initializer_list<Bytes> parts);
 
 inline const Bytes kStandardDescriptor = {0xA5, 0x5A, 0x05, 0x00, 0x00, 0x40, 0x81};
 inline const Bytes kExpressDescriptor = {0xA5, 0x5A, 0x54, 0x00, 0x00, 0x40, 0x82};
+inline const Bytes kDenseDescriptor = {0xA5, 0x5A, 0x54, 0x00, 0x00, 0x40, 0x85};
+inline const Bytes kUltraDenseDescriptor = {0xA5, 0x5A, 0xAA, 0x00, 0x00, 0x40, 0x86};
+inline const Bytes kHqDescriptor = {0xA5, 0x5A, 0x0D, 0x03, 0x00, 0x40, 0x83};
 inline const Bytes kUltraDescriptor = {0xA5, 0x5A, 0x84, 0x00, 0x00, 0x40, 0x84};
 
 Bytes node(bool start, int quality, double angle_deg, double dist_mm);
@@ -49,6 +52,22 @@ struct UltraCabin {
 };
 Bytes ultra_capsule(double start_deg, bool stream_start, const std::array<UltraCabin, 32>& cabins);
 std::vector<Bytes> ultra_capsules(int count, double from_deg, double step_deg = 32);
+
+/// `count` capsules of 40 samples; sample k of capsule c is 1000 + 40 * c + k mm away.
+std::vector<Bytes> dense_capsules(int count, double from_deg, double step_deg = 28.8);
+
+/// A sample of an ultra-dense capsule as the wire has it.
+struct ScaledSample {
+  int scale = 0;
+  int steps = 0;
+  int quality = 0;  ///< its upper bits alone: 8 - scale of them
+};
+Bytes ultra_dense_capsule(double start_deg, bool stream_start,
+                          const std::array<ScaledSample, 64>& samples);
+std::vector<Bytes> ultra_dense_capsules(int count, double from_deg, double step_deg = 7.2);
+
+/// `count` packets of 96 nodes a degree's quarter apart, 1000 + 96 * c + k mm away.
+std::vector<Bytes> hq_packets(int count, double from_deg);
 
 Bytes join(std::span<const Bytes> parts);
 

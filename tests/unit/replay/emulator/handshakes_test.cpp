@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "replay/emulator/emulator.hpp"
+#include "replay/simulator/simulator.hpp"
 #include "tests/unit/replay/hex.hpp"
 #include "tests/unit/replay/test_maps.hpp"
 

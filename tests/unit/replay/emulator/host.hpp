@@ -9,6 +9,7 @@
 
 #include "drivers/rplidar/decoder.hpp"
 #include "replay/emulator/emulator.hpp"
+#include "replay/simulator/simulator.hpp"
 #include "tests/unit/replay/hex.hpp"
 #include "tests/unit/replay/test_maps.hpp"
 
