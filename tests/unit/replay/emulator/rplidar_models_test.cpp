@@ -96,8 +96,7 @@ void measure(const drivers::LidarModel& model, const std::string& mode, Measured
       if (change.fault != drivers::LidarFault::kNone) result.faults.push_back(change.fault);
       if (change.state == drivers::LidarState::kRunning) running_ns = now_ns;
     }
-    const drivers::LidarStatus status = driver->status();
-    if (status.state == drivers::LidarState::kRunning) result.status = status;
+    if (!stop.stop_requested()) result.status = driver->status();
     const bool is_over = running_ns != 0 && now_ns > running_ns + 3 * core::kNsPerSecond;
     if (is_over || now_ns > 20 * core::kNsPerSecond) stop.request_stop();
   });
