@@ -11,6 +11,7 @@
 #include "drivers/rplidar/device.hpp"
 #include "drivers/rplidar/protocol/framing.hpp"
 #include "drivers/rplidar/sample_stream.hpp"
+#include "drivers/rplidar/shutdown.hpp"
 #include "drivers/serial/byte_stream.hpp"
 #include "drivers/stream/hint.hpp"
 #include "drivers/stream/status_board.hpp"
@@ -35,35 +36,12 @@ constexpr core::TimeNs kStallNs = core::kNsPerSecond;
 constexpr core::TimeNs kSilenceLimitNs = 3 * core::kNsPerSecond;
 // A line that is switched on may give a byte or two; more bytes are a sender.
 constexpr std::uint64_t kStrayBytes = 8;
+// A head that stops leaves a part of a packet, an answered request some bytes; a line full of noise
+// brings a multiple of it in a second.
+constexpr std::size_t kNoiseBytes = 2048;
 // A request may be lost; where other speeds wait, less time is spent on it.
 constexpr int kInfoTries = 5;
 constexpr int kInfoTriesOfRates = 2;
-// Between STOP and the next request: the protocol demands 1 ms.
-constexpr milliseconds kAfterStop{10};
-
-/// Stops the device and its motor however a session ends.
-class Shutdown {
- public:
-  Shutdown(drivers::ByteStream& port, Motor& motor, std::optional<MotorRequest>& request,
-           drivers::Clock& clock)
-      : port_(port), motor_(motor), request_(request), clock_(clock) {}
-  ~Shutdown() {
-    const bool is_open = port_.write(Request(Command::kStop).bytes());
-    if (const auto request = std::exchange(request_, std::nullopt); request && is_open) {
-      clock_.wait(kAfterStop, {});
-      port_.write(request->stop().bytes());
-    }
-    motor_.stop(port_);
-  }
-  Shutdown(const Shutdown&) = delete;
-  Shutdown& operator=(const Shutdown&) = delete;
-
- private:
-  drivers::ByteStream& port_;
-  Motor& motor_;
-  std::optional<MotorRequest>& request_;
-  drivers::Clock& clock_;
-};
 
 }  // namespace
 
@@ -228,6 +206,7 @@ RplidarDriver::Failure RplidarDriver::measure(drivers::ByteStream& port, const S
   Failure failure;
   std::array<std::uint8_t, 512> buffer;
   core::TimeNs last_sample_ns = clock_.monotonic_ns();
+  std::size_t bytes_since_sample = 0;
   while (!stop.stop_requested()) {
     const auto [status, count] = port.read(buffer, kReadSlice);
     const core::TimeNs now_ns = clock_.monotonic_ns();
@@ -243,6 +222,7 @@ RplidarDriver::Failure RplidarDriver::measure(drivers::ByteStream& port, const S
       break;
     }
     const core::TimeNs silent_ns = now_ns - last_sample_ns;
+    bytes_since_sample = measured ? 0 : bytes_since_sample + count;
     if (measured) {
       last_sample_ns = now_ns;
       const LidarState state =
@@ -254,6 +234,9 @@ RplidarDriver::Failure RplidarDriver::measure(drivers::ByteStream& port, const S
     } else if (silent_ns > (has_run_ ? kSilenceLimitNs : kSpinUpLimitNs)) {
       reset_first_ = true;
       failure.fault = has_run_ ? LidarFault::kMotorStalled : LidarFault::kNoData;
+      break;
+    } else if (has_run_ && silent_ns > kStallNs && bytes_since_sample > kNoiseBytes) {
+      failure.fault = LidarFault::kUnexpectedData;
       break;
     } else if (has_run_ && silent_ns > kStallNs && board_.fault() != LidarFault::kMotorStalled) {
       report(LidarState::kFaulty, LidarFault::kMotorStalled);

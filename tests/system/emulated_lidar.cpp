@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "replay/simulator/motion.hpp"
+#include "replay/simulator/simulator.hpp"
 #include "room_recording.hpp"
 #include "settings/map_file.hpp"
 
