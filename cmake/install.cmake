@@ -1,25 +1,25 @@
-# Where Debian's packages put such things. A file of settings that is there already is kept.
+# Where Debian's packages put such things; debian/*.install says which package has what. A file of
+# settings that is there already is kept. `installed`: everything that is, and nothing else.
 include(GNUInstallDirs)
+add_custom_target(installed DEPENDS cornerd cornerctl cornerd_client)
 
 install(TARGETS cornerd cornerctl RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+if(TARGET cornerd-web)
+  add_dependencies(installed cornerd-web)
+  install(TARGETS cornerd-web RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+endif()
+
+install(TARGETS cornerd_client ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+install(FILES src/client/connection.hpp src/client/retry_delay.hpp src/client/subscription.hpp
+  DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/cornerd/client)
+configure_file(src/client/cornerd-client.pc.in ${PROJECT_BINARY_DIR}/cornerd-client.pc @ONLY)
+install(FILES ${PROJECT_BINARY_DIR}/cornerd-client.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
 
 install(DIRECTORY config/maps/ DESTINATION ${CMAKE_INSTALL_DATADIR}/cornerd/maps
   FILES_MATCHING PATTERN "*.json")
 install(DIRECTORY config/robots/ DESTINATION ${CMAKE_INSTALL_DATADIR}/cornerd/robots
   FILES_MATCHING PATTERN "*.json")
-# Not among the system's modules: the package would need Python.
-install(FILES src/client/cornerd.py DESTINATION ${CMAKE_INSTALL_DATADIR}/cornerd)
-install(FILES config/cornerd.full.json DESTINATION ${CMAKE_INSTALL_DOCDIR})
-install(FILES systemd/realtime.conf DESTINATION ${CMAKE_INSTALL_DOCDIR})
-
-configure_file(cmake/debian/changelog ${PROJECT_BINARY_DIR}/debian/changelog @ONLY)
-foreach(file ${PROJECT_BINARY_DIR}/debian/changelog CHANGELOG.md)
-  get_filename_component(name ${file} NAME)
-  execute_process(COMMAND gzip -9nc ${file} WORKING_DIRECTORY ${PROJECT_SOURCE_DIR}
-    OUTPUT_FILE ${PROJECT_BINARY_DIR}/debian/${name}.gz COMMAND_ERROR_IS_FATAL ANY)
-  install(FILES ${PROJECT_BINARY_DIR}/debian/${name}.gz DESTINATION ${CMAKE_INSTALL_DOCDIR})
-endforeach()
-install(FILES cmake/debian/copyright DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(FILES config/cornerd.full.json systemd/realtime.conf DESTINATION ${CMAKE_INSTALL_DOCDIR})
 
 # cornerd_follow_prefix(FILE): a copy in the build folder, its paths those of this installation.
 function(cornerd_follow_prefix file)
@@ -40,7 +40,10 @@ install(CODE "
   endif()")
 
 cornerd_follow_prefix(systemd/cornerd.service)
-install(FILES ${PROJECT_BINARY_DIR}/cornerd.service DESTINATION lib/systemd/system)
-install(FILES systemd/cornerd.socket systemd/cornerd-control.socket DESTINATION lib/systemd/system)
-install(FILES systemd/cornerd.sysusers DESTINATION lib/sysusers.d RENAME cornerd.conf)
+cornerd_follow_prefix(systemd/cornerd-web.service)
+install(FILES ${PROJECT_BINARY_DIR}/cornerd.service ${PROJECT_BINARY_DIR}/cornerd-web.service
+  systemd/cornerd.socket systemd/cornerd-control.socket DESTINATION lib/systemd/system)
+foreach(program cornerd cornerd-web)
+  install(FILES systemd/${program}.sysusers DESTINATION lib/sysusers.d RENAME ${program}.conf)
+endforeach()
 install(FILES systemd/61-cornerd.rules DESTINATION lib/udev/rules.d)

@@ -24,8 +24,13 @@ endfunction()
 
 cornerd_man_page(cornerd.8 DEPENDS cornerd
   COMMAND program ${CMAKE_CROSSCOMPILING_EMULATOR} $<TARGET_FILE:cornerd>)
+if(TARGET cornerd-web)
+  cornerd_man_page(cornerd-web.8 DEPENDS cornerd-web
+    COMMAND program ${CMAKE_CROSSCOMPILING_EMULATOR} $<TARGET_FILE:cornerd-web>)
+endif()
 cornerd_man_page(cornerctl.1 DEPENDS cornerctl
   COMMAND program ${CMAKE_CROSSCOMPILING_EMULATOR} $<TARGET_FILE:cornerctl>)
 cornerd_man_page(cornerd.json.5 DEPENDS ${PROJECT_SOURCE_DIR}/config/cornerd.full.json
   COMMAND file ${PROJECT_SOURCE_DIR}/config/cornerd.full.json)
 add_custom_target(man_pages ALL DEPENDS ${cornerd_pages})
+add_dependencies(installed man_pages)
