@@ -31,4 +31,4 @@ build_packages=(cmake ninja-build g++ libeigen3-dev libspdlog-dev libfmt-dev nlo
   libcli11-dev libpng-dev libyaml-cpp-dev libboost-dev)
 # What makes packages of it.
 # shellcheck disable=SC2034
-package_packages=(debhelper dh-python dpkg-dev fakeroot file gzip python3)
+package_packages=(build-essential debhelper dh-python dpkg-dev fakeroot file gzip python3)

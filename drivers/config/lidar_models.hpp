@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The table of lidars. Where the config has no noise, that of a driver's first row holds until the device
-// has said which row it is. A driver tries the baud rates of its rows in their order; the emulator
-// imitates each row.
+// The table of lidars. Where the config has no noise, that of a driver's first row holds until the
+// device has said which row it is. A driver tries the baud rates of its rows in their order; the
+// emulator imitates each row.
 #pragma once
 
 #include <algorithm>
@@ -84,8 +84,8 @@ constexpr const LidarModel* find_lidar_model(std::string_view name) {
   return nullptr;
 }
 
-/// The row of an RPLidar by its answer to GET_INFO; of another version of its series that one's; null
-/// if there is none.
+/// The row of an RPLidar by its answer to GET_INFO; of another version of its series that one's;
+/// null if there is none.
 constexpr const LidarModel* find_rplidar(std::uint8_t device_id) {
   const LidarModel* same_series = nullptr;
   for (const LidarModel& model : kLidarModels) {

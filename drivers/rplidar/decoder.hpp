@@ -28,7 +28,7 @@ struct RawSample {
   std::uint32_t dist_q2 = 0;   ///< millimetres * 4; 0: no return
   /// 0..63 of nodes, 0..255 of ultra-dense and HQ; the others have none: 47 with a return, else 0
   std::uint8_t quality = 0;
-  bool starts_scan = false;    ///< by the angle; the device's flag only refines it
+  bool starts_scan = false;  ///< by the angle; the device's flag only refines it
 };
 
 class RawSampleSink {

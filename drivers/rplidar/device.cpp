@@ -15,8 +15,8 @@ constexpr milliseconds kIdle{20};            // pauses within a scan or a banner
 constexpr milliseconds kPause{40};           // longest pause between capsules through a USB adapter
 constexpr milliseconds kListenLimit{100};    // at least six capsules of a running scan
 constexpr milliseconds kDrainLimit{500};     // a device that never stops sending
-constexpr milliseconds kBootLimit{2000};     // an A1's banner takes 671 ms; an S1 prints none in 2 s
-constexpr milliseconds kSlice{100};          // delay of a requested stop
+constexpr milliseconds kBootLimit{2000};  // an A1's banner takes 671 ms; an S1 prints none in 2 s
+constexpr milliseconds kSlice{100};       // delay of a requested stop
 
 constexpr std::uint16_t kFirmwareWithConf = firmware_version(1, 24);
 constexpr std::uint16_t kFirmwareWithExpress = firmware_version(1, 17);

@@ -43,9 +43,9 @@ struct MotorRequest {
   Request stop() const { return Request::set_motor(command, 0); }
 };
 
-/// Requests to an RPLidar that is not scanning, one answer each. Each has a time limit and ends early if
-/// a stop is requested. Answers are searched for in the received bytes, since a device that was
-/// left scanning, or was just switched on, sends bytes unasked.
+/// Requests to an RPLidar that is not scanning, one answer each. Each has a time limit and ends
+/// early if a stop is requested. Answers are searched for in the received bytes, since a device
+/// that was left scanning, or was just switched on, sends bytes unasked.
 class Device {
  public:
   Device(drivers::ByteStream& port, drivers::Clock& clock, std::stop_token stop)
@@ -63,8 +63,8 @@ class Device {
   /// As the device lists them where it has GET_LIDAR_CONF; else by firmware: the two periods from
   /// 1.17 on, standard alone before. Modes with an unknown answer type are left out.
   std::vector<ScanMode> modes(const DeviceInfo& info);
-  /// How the motor is set by request, as the vendor's SDK decides: S series by speed, A2 and A3 by the
-  /// accessory board's PWM if there is one; nullopt: by the port's line or by the scan itself.
+  /// How the motor is set by request, as the vendor's SDK decides: S series by speed, A2 and A3 by
+  /// the accessory board's PWM if there is one; nullopt: by the port's line or by the scan itself.
   std::optional<MotorRequest> motor_request(const DeviceInfo& info);
   /// Requests a scan. The decoder reads the answer.
   bool start(const ScanMode& mode) { return send(mode.request()); }

@@ -48,6 +48,7 @@ constexpr int kInfoTriesOfRates = 2;
 RplidarDriver::RplidarDriver(RplidarDriverConfig config, PortOpener open_port,
                              drivers::Clock& clock)
     : config_(std::move(config)),
+      rates_(config_.baud_rates),
       open_port_(std::move(open_port)),
       clock_(clock),
       motor_(make_motor(config_.motor)) {
@@ -59,9 +60,8 @@ RplidarDriver::RplidarDriver(RplidarDriverConfig config, PortOpener open_port,
 
 void RplidarDriver::run(std::stop_token stop, drivers::SampleSink& sink) {
   milliseconds backoff = kFirstBackoff;
-  bool has_noise = false;  // at one of the speeds tried since the last report
   while (!stop.stop_requested()) {
-    drivers::OpenResult opened = open_port_(baud());
+    drivers::OpenResult opened = open_port_(rates_.current());
     count_progress();
     if (!opened.stream) {
       const auto [state, fault] = drivers::failure_of(opened.error);
@@ -77,17 +77,14 @@ void RplidarDriver::run(std::stop_token stop, drivers::SampleSink& sink) {
       sink.on_gap();
     }
     if (stop.stop_requested()) break;
-    const bool is_other_speed =
-        failure.fault == LidarFault::kWrongBaud || failure.fault == LidarFault::kNoAnswer;
-    if (is_other_speed) {
-      has_noise = has_noise || failure.fault == LidarFault::kWrongBaud;
-      if (++rate_ % config_.baud_rates.size() != 0) continue;
-      const bool had_noise = std::exchange(has_noise, false);
-      if (!tries_one_rate() && had_noise) failure.fault = LidarFault::kUnexpectedData;
+    if (failure.fault == LidarFault::kWrongBaud || failure.fault == LidarFault::kNoAnswer) {
+      const auto fault = rates_.fail(failure.fault);
+      if (!fault) continue;
+      failure.fault = *fault;
       if (const auto other = answering_baud(stop)) {
         failure.fault = LidarFault::kWrongBaud;
-        failure.extra = "no answer at the configured speed, but one at " +
-                        std::to_string(*other) + " baud";
+        failure.extra =
+            "no answer at the configured speed, but one at " + std::to_string(*other) + " baud";
       }
     }
     report(failure.state, failure.fault, failure.extra);
@@ -122,7 +119,7 @@ RplidarDriver::Failure RplidarDriver::identify(Device& device, drivers::ByteStre
     report(LidarState::kIdentifying, LidarFault::kBooting);
   } else if (search.found()) {
     report(LidarState::kIdentifying, LidarFault::kStreamRunning);
-  } else if (device.received_bytes() > kStrayBytes && tries_one_rate()) {
+  } else if (device.received_bytes() > kStrayBytes && rates_.is_single()) {
     report(LidarState::kIdentifying, LidarFault::kUnexpectedData);
   }
   if (std::exchange(reset_first_, false)) {
@@ -179,14 +176,13 @@ RplidarDriver::Failure RplidarDriver::identify(Device& device, drivers::ByteStre
 
 std::optional<DeviceInfo> RplidarDriver::query_info(Device& device) {
   const bool had_booted = device.booted();
-  auto info = device.info(tries_one_rate() ? kInfoTries : kInfoTriesOfRates);
+  auto info = device.info(rates_.is_single() ? kInfoTries : kInfoTriesOfRates);
   if (!device.booted()) return info;
   if (!had_booted) report(LidarState::kIdentifying, LidarFault::kBooting);
   return info ? info : device.info();
 }
 
-bool RplidarDriver::start_motor(Device& device, const DeviceInfo& info,
-                                drivers::ByteStream& port) {
+bool RplidarDriver::start_motor(Device& device, const DeviceInfo& info, drivers::ByteStream& port) {
   if (!motor_->start(port)) return false;
   if (config_.motor.kind == MotorKind::kNone) return true;
   motor_request_ = device.motor_request(info);
@@ -199,7 +195,7 @@ RplidarDriver::Failure RplidarDriver::measure(drivers::ByteStream& port, const S
   SampleStream stream({.format = mode.format,
                        .inverted = config_.inverted,
                        .sample_period_s = mode.period_s,
-                       .baud = baud()});
+                       .baud = rates_.current()});
   drivers::SampleMonitor monitor(sink, board_);
   BannerSearch banner;
   board_.begin_stream();
@@ -263,9 +259,9 @@ std::optional<Health> RplidarDriver::query_health_after_silence(drivers::ByteStr
 }
 
 std::optional<std::uint32_t> RplidarDriver::answering_baud(const std::stop_token& stop) {
-  if (!tries_one_rate()) return std::nullopt;
+  if (!rates_.is_single()) return std::nullopt;
   for (const std::uint32_t other : drivers::baud_rates_of(drivers::DriverKind::kRplidar)) {
-    if (other == baud() || stop.stop_requested()) continue;
+    if (other == rates_.current() || stop.stop_requested()) continue;
     const drivers::OpenResult opened = open_port_(other);
     if (!opened.stream) return std::nullopt;
     drivers::MonitoredByteStream port(*opened.stream, [this] { count_progress(); });
@@ -275,14 +271,6 @@ std::optional<std::uint32_t> RplidarDriver::answering_baud(const std::stop_token
     if (answers) return other;
   }
   return std::nullopt;
-}
-
-std::string RplidarDriver::described() const {
-  std::string rates;
-  for (const std::uint32_t rate : config_.baud_rates) {
-    rates += (rates.empty() ? "" : ", ") + std::to_string(rate);
-  }
-  return "an RPLidar at " + rates;
 }
 
 void RplidarDriver::wait(milliseconds duration, const std::stop_token& stop) {

@@ -10,6 +10,7 @@
 
 #include "drivers/driver_clock.hpp"
 #include "drivers/lidar_driver.hpp"
+#include "drivers/rplidar/baud_search.hpp"
 #include "drivers/rplidar/device.hpp"
 #include "drivers/rplidar/motor.hpp"
 #include "drivers/rplidar/scan_mode.hpp"
@@ -61,21 +62,19 @@ class RplidarDriver : public drivers::LidarDriver {
                                                    const std::stop_token& stop);
   /// Of the family's other speeds; nullopt if all are tried anyway.
   std::optional<std::uint32_t> answering_baud(const std::stop_token& stop);
-  bool tries_one_rate() const { return config_.baud_rates.size() == 1; }
-  std::uint32_t baud() const { return config_.baud_rates[rate_ % config_.baud_rates.size()]; }
   /// The lidar as a hint names it.
-  std::string described() const;
+  std::string described() const { return "an RPLidar at " + rates_.text(); }
   void wait(std::chrono::milliseconds duration, const std::stop_token& stop);
   void report(drivers::LidarState state, drivers::LidarFault fault, std::string_view extra = {});
 
   RplidarDriverConfig config_;
+  BaudSearch rates_;
   PortOpener open_port_;
   drivers::Clock& clock_;
   std::unique_ptr<Motor> motor_;
   drivers::StatusBoard board_;
-  bool reset_first_ = false;  ///< the last session ended without data
-  bool has_run_ = false;      ///< the last session delivered samples
-  std::size_t rate_ = 0;      ///< of config_.baud_rates
+  bool reset_first_ = false;                   ///< the last session ended without data
+  bool has_run_ = false;                       ///< the last session delivered samples
   std::optional<MotorRequest> motor_request_;  ///< that stops the session's motor
 };
 

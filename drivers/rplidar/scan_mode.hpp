@@ -27,8 +27,8 @@ struct ScanMode {
 std::optional<WireFormat> wire_format(AnswerType type);
 
 /// `wanted`: "auto" or a name, case-insensitive; null if there is no such mode. Auto prefers
-/// express and dense: a checksum, which standard nodes lack, and millimetres, where ultra rounds to 2
-/// to 16 mm beyond 0.5 m.
+/// express and dense: a checksum, which standard nodes lack, and millimetres, where ultra rounds to
+/// 2 to 16 mm beyond 0.5 m.
 const ScanMode* choose_mode(std::span<const ScanMode> modes, std::string_view wanted);
 
 /// "Standard, Express, Boost".

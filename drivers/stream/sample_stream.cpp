@@ -20,8 +20,8 @@ constexpr std::size_t kMaxHeld = 16384;
 // of computing, as the RPLidar SDK assumes.
 constexpr double kPeriodsToSend = 1.5;
 
-/// A reported period beyond this ratio is damaged; the clock would not recover from it. An S2's nodes
-/// have an eighth of an A1's.
+/// A reported period beyond this ratio is damaged; the clock would not recover from it. An S2's
+/// nodes have an eighth of an A1's.
 constexpr double kMaxPeriodRatio = 10;
 
 /// Until the decoder gives its own.

@@ -21,8 +21,8 @@ class PtyEmulator {
   /// Called about every 10 ms with the emulator's time and UNIX time, to write the truth.
   using OnTime = std::function<void(core::TimeNs t_ns, core::TimeNs unix_ns)>;
 
-  /// `baud`: as PseudoTerminal. Throws std::system_error if the pseudo-terminal or its link cannot be
-  /// made.
+  /// `baud`: as PseudoTerminal. Throws std::system_error if the pseudo-terminal or its link cannot
+  /// be made.
   explicit PtyEmulator(std::unique_ptr<DeviceEmulator> emulator,
                        const std::filesystem::path& link = {}, std::uint32_t baud = 115200);
 

@@ -11,9 +11,9 @@
 
 namespace cornerd::replay {
 
-/// The stream of an RPLidar that measures time of flight (C1, S1, S2, S3), by the protocol paper and
-/// the packed structs of the vendor's SDK: nodes, dense and ultra-dense capsules, HQ packets. Its angles
-/// are the head's: it corrects nothing.
+/// The stream of an RPLidar that measures time of flight (C1, S1, S2, S3), by the protocol paper
+/// and the packed structs of the vendor's SDK: nodes, dense and ultra-dense capsules, HQ packets.
+/// Its angles are the head's: it corrects nothing.
 class TimeOfFlightSource : public PacketSource {
  public:
   /// Throws std::invalid_argument if the motor's rate is not in [1, 15] Hz.
@@ -45,7 +45,7 @@ class TimeOfFlightSource : public PacketSource {
 
   PacketSimulator simulator_;
   rplidar::WireFormat wire_ = rplidar::WireFormat::kDense;
-  bool is_first_ = true;        ///< of the stream
+  bool is_first_ = true;         ///< of the stream
   std::int64_t revolution_ = 0;  ///< of the last sample
   core::TimeNs ready_ns_ = 0;
   std::vector<Measured> measured_;

@@ -184,14 +184,16 @@ void Daemon::on_signal() {
 
 void Daemon::refuse(const Reloader::Outcome& outcome) {
   const bool is_reload = outcome.job.is_reload();
-  log(LogLevel::kError, (!outcome.job.set_map ? "reload refused, the old config and map stay in use: "
-                                   : "map refused, the old one stays in use: ") +
-                            outcome.error);
+  log(LogLevel::kError,
+      (!outcome.job.set_map ? "reload refused, the old config and map stay in use: "
+                            : "map refused, the old one stays in use: ") +
+          outcome.error);
   server_.publish(
       message::MessageClass::kEvent,
       line_.event(now_ns(), outcome.job.set_map ? "map refused" : "reload refused", outcome.error));
   if (is_reload) return notifier_.ready();
-  if (outcome.job.set_map) server_.answer_later(outcome.job.ticket, message::RequestError{"map", outcome.error});
+  if (outcome.job.set_map)
+    server_.answer_later(outcome.job.ticket, message::RequestError{"map", outcome.error});
 }
 
 void Daemon::on_loaded() {

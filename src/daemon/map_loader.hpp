@@ -35,8 +35,8 @@ class MapLoader {
   Loaded load();
   /// Another map in the config of the last load(), which has succeeded.
   Loaded load(const message::SetMapRequest& request);
-  /// The same config and map for this lidar, also in later loads. Without a pipeline where the config
-  /// has a noise of its own.
+  /// The same config and map for this lidar, also in later loads. Without a pipeline where the
+  /// config has a noise of its own.
   Loaded load(const drivers::LidarModel& model);
 
  private:

@@ -17,7 +17,8 @@ namespace cornerd::daemon {
 /// large map takes seconds.
 class Reloader {
  public:
-  /// A SET_MAP and who waits for its answer, or a lidar that has said which it is; on SIGHUP neither.
+  /// A SET_MAP and who waits for its answer, or a lidar that has said which it is; on SIGHUP
+  /// neither.
   struct Job {
     std::optional<message::SetMapRequest> set_map = {};
     Ticket ticket = {};

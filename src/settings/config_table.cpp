@@ -46,7 +46,8 @@ void add_lidar_keys(std::vector<Key>& table, LidarConfig& lidar) {
   add({"/lidar/noise",
        {},
        "Standard deviations of a measurement. `cornerctl calibrate noise -o` writes this section. "
-       "The defaults depend on the driver (drivers/README.md); these are an RPLidar A1's."});
+       "The defaults are those of the model (drivers/README.md), as far as the lidar says which it "
+       "is; these are an RPLidar A1's."});
   add({"/lidar/noise/floor", number(lidar.noise.sensor.floor_m, kSigmaM.low, kSigmaM.high),
        "Of a range, metres: the larger of \"floor\" and \"share\" times the range."});
   add({"/lidar/noise/share", number(lidar.noise.sensor.share, 0, 1), "Of a range, as a share."});
@@ -64,21 +65,25 @@ void add_lidar_keys(std::vector<Key>& table, LidarConfig& lidar) {
 void add_advanced_lidar_keys(std::vector<Key>& table, LidarConfig& lidar) {
   const auto add = [&table](Key key) { table.push_back(std::move(key)); };
   add({"/advanced/lidar/baud", baud_rate(lidar.baud),
-       "\"auto\" tries those of the driver's models in turn: 115200 first for \"rplidar\", 230400 "
-       "and 921600 for \"ld\", 128000 and 115200 for \"ydlidar\".",
+       "\"auto\" tries those of the driver's models in turn: 115200, 256000, 460800 and 1000000 "
+       "for "
+       "\"rplidar\", 230400 and 921600 for \"ld\", 128000 and 115200 for \"ydlidar\".",
        kOnRestart});
   add({"/advanced/lidar/mode", text(lidar.mode),
        "The scan mode: \"auto\", or the device's own name of one: \"Standard\", \"Express\", "
-       "\"Boost\". \"auto\" takes Express where the device has it: Boost samples twice as often, "
-       "but its ranges are coarser beyond half a metre.",
+       "\"Boost\", \"DenseBoost\". \"auto\" takes Express or a dense mode where the device has "
+       "one: "
+       "Boost samples twice as often as Express, but its ranges are coarser beyond half a metre.",
        kOnRestart});
   add({"/advanced/lidar/min_range", number(lidar.min_range_m, 0, 40),
        "Nearer returns are ignored, metres."});
   add({"/advanced/lidar/max_range", number(lidar.max_range_m, 0.1, 40),
        "Farther returns are ignored, metres."});
   add({"/advanced/lidar/motor", motor(lidar.motor),
-       "The motor's switch. \"dtr\": the DTR line, as the A1's USB adapter wires it. \"none\": the "
-       "motor always runs. Or a line of the board, set up and writable: { \"kind\": \"gpio\", "
+       "The motor's switch. \"dtr\": the DTR line, as the A1's USB adapter wires it, and the "
+       "request "
+       "that a newer RPLidar takes instead. \"none\": the motor always runs. Or a line of the "
+       "board, set up and writable: { \"kind\": \"gpio\", "
        "\"path\": \"/sys/class/gpio/gpio60\" }, or { \"kind\": \"pwm\", \"path\": "
        "\"/sys/class/pwm/pwmchip0/pwm0\", \"duty\": 1.0, \"period\": 4e-5 } (duty: share of the "
        "period that the line is high; period: seconds).",

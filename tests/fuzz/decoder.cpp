@@ -50,8 +50,9 @@ class CheckingSink : public RawSampleSink {
 };
 
 std::optional<WireFormat> format_of(unsigned choice) {
-  constexpr std::array kFormats = {WireFormat::kStandard, WireFormat::kExpress, WireFormat::kUltra,
-                                   WireFormat::kDense,    WireFormat::kUltraDense, WireFormat::kHq};
+  constexpr std::array kFormats = {WireFormat::kStandard,   WireFormat::kExpress,
+                                   WireFormat::kUltra,      WireFormat::kDense,
+                                   WireFormat::kUltraDense, WireFormat::kHq};
   const unsigned index = choice / 128 * 3 + choice % 4;
   if (choice % 4 == 3) return std::nullopt;
   return kFormats[index];

@@ -221,7 +221,8 @@ TEST_P(LidarModelFaults, Covered_SeesAgain_Recovers) {
   expect_recovery();
 }
 
-INSTANTIATE_TEST_SUITE_P(Drivers, LidarModelFaults, testing::Values("a3", "c1", "s2", "ld19", "x4", "x2"),
+INSTANTIATE_TEST_SUITE_P(Drivers, LidarModelFaults,
+                         testing::Values("a3", "c1", "s2", "ld19", "x4", "x2"),
                          [](const auto& instance) { return std::string(instance.param); });
 
 }  // namespace

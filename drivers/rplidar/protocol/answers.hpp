@@ -69,7 +69,7 @@ struct SampleRate {
 /// GET_LIDAR_CONF: of an A series firmware 1.24 and later, of the others every one.
 enum class ConfType : std::uint32_t {
   kDesiredRotation = 0x01,  ///< u16 revolutions per minute, u16 PWM of the accessory board
-  kMinRotation = 0x04,  ///< u16 revolutions per minute
+  kMinRotation = 0x04,      ///< u16 revolutions per minute
   kMaxRotation = 0x05,
   kModeCount = 0x70,    ///< u16
   kModePeriod = 0x71,   ///< u32, microseconds per sample in Q8

@@ -51,8 +51,8 @@ Request Request::get_conf(std::uint32_t type, std::optional<std::uint16_t> mode)
 }
 
 Request Request::set_motor(Command command, std::uint16_t value) {
-  return Request(command, std::array{static_cast<std::uint8_t>(value),
-                                     static_cast<std::uint8_t>(value >> 8)});
+  return Request(
+      command, std::array{static_cast<std::uint8_t>(value), static_cast<std::uint8_t>(value >> 8)});
 }
 
 std::optional<Request> RequestParser::add(std::uint8_t byte) {

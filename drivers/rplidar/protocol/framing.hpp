@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Requests to an RPLidar, response descriptors and the boot banner. The driver and the emulator share
-// it.
+// Requests to an RPLidar, response descriptors and the boot banner. The driver and the emulator
+// share it.
 #pragma once
 
 #include <array>

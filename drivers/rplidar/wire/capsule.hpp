@@ -98,8 +98,8 @@ class SweepCursor {
 /// What the formats without a quality report where there is a return; the SDK's value.
 inline constexpr std::uint8_t kUnknownQuality = 47;
 
-/// Samples of a capsule. `next`: the one after it, whose first distance ends an ultra capsule; empty
-/// if it is missing.
+/// Samples of a capsule. `next`: the one after it, whose first distance ends an ultra capsule;
+/// empty if it is missing.
 void decode_capsule(WireFormat format, std::span<const std::uint8_t> capsule,
                     std::span<const std::uint8_t> next, const Sweep& sweep,
                     std::span<SweepSample> samples);

@@ -12,8 +12,8 @@ namespace cornerd::rplidar {
 namespace {
 
 constexpr float kDegree = 64;
-// The slowest capsule of a format at 11 Hz: 8.1 ms of express and dense, 12.2 ms of ultra. More is a
-// gap while the speed is unknown.
+// The slowest capsule of a format at 11 Hz: 8.1 ms of express and dense, 12.2 ms of ultra. More is
+// a gap while the speed is unknown.
 constexpr float kFirstLimitShort = 33 * kDegree;
 constexpr float kFirstLimitLong = 50 * kDegree;
 
@@ -112,7 +112,8 @@ void CapsuleDecoder::pair(std::span<const std::uint8_t> next, std::uint64_t& ind
     sink.on_gap();
   } else if (has_pending_) {
     const int start_q6 = start_angle_q6(pending_, format_);
-    const int diff_q6 = (start_angle_q6(next, format_) - start_q6 + kFullRevolutionQ6) % kFullRevolutionQ6;
+    const int diff_q6 =
+        (start_angle_q6(next, format_) - start_q6 + kFullRevolutionQ6) % kFullRevolutionQ6;
     const auto [relation, missing] = gap_detector_.classify(diff_q6, damaged_);
     if (relation == CapsuleGapDetector::Relation::kAdjacent && contiguous_) {
       decode_pending(next, diff_q6, index, sink);

@@ -38,9 +38,10 @@ class CapsuleGapDetector {
   int rejections_ = 0;
 };
 
-/// Decodes every format but standard nodes. A capsule holds the angle of its first sample only, so each
-/// waits for its successor; HQ packets wait likewise, to tell a gap. If that one is lost, the one after it gives the angle as well; if more
-/// are missing, or another stream begins, the capsule is dropped.
+/// Decodes every format but standard nodes. A capsule holds the angle of its first sample only, so
+/// each waits for its successor; HQ packets wait likewise, to tell a gap. If that one is lost, the
+/// one after it gives the angle as well; if more are missing, or another stream begins, the capsule
+/// is dropped.
 class CapsuleDecoder {
  public:
   explicit CapsuleDecoder(drivers::StreamCounters& counters) : counters_(&counters) {}

@@ -66,13 +66,15 @@ settings::Config SettingsOptions::resolve(bool needs_map) const {
   std::vector<std::string> overrides = overrides_;
   if (!map_.empty()) overrides.push_back("/map=" + settings::Json(map_.string()).dump());
   overrides.insert(overrides.end(), set_.begin(), set_.end());
-  const std::string text = config_.empty() ? "{}" : settings::read_file(config_, settings::kMaxConfigBytes);
+  const std::string text =
+      config_.empty() ? "{}" : settings::read_file(config_, settings::kMaxConfigBytes);
   return settings::parse_config(text, config_, overrides, needs_map);
 }
 
 void add_wire_option(Command& command, std::string& wire) {
   command.add_option("--wire", wire, "format of bytes that begin without a response descriptor")
-      .choices({"standard", "express", "ultra", "ld", "ydlidar", "auto"})
+      .choices(
+          {"standard", "express", "ultra", "dense", "ultra-dense", "hq", "ld", "ydlidar", "auto"})
       .capture_default_str();
 }
 
@@ -83,6 +85,9 @@ drivers::RecordedWire parse_wire(const std::string& wire) {
   if (wire == "standard") return rplidar(rplidar::WireFormat::kStandard);
   if (wire == "express") return rplidar(rplidar::WireFormat::kExpress);
   if (wire == "ultra") return rplidar(rplidar::WireFormat::kUltra);
+  if (wire == "dense") return rplidar(rplidar::WireFormat::kDense);
+  if (wire == "ultra-dense") return rplidar(rplidar::WireFormat::kUltraDense);
+  if (wire == "hq") return rplidar(rplidar::WireFormat::kHq);
   if (wire == "ld") return {drivers::DriverKind::kLd};
   if (wire == "ydlidar") return {drivers::DriverKind::kYdlidar};
   return {};

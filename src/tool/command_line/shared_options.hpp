@@ -41,7 +41,7 @@ class SettingsOptions {
   std::vector<std::string> set_;
 };
 
-/// --wire standard|express|ultra|auto, for bytes that begin without a response descriptor.
+/// --wire standard|express|...|auto, for bytes that begin without a response descriptor.
 void add_wire_option(Command& command, std::string& wire);
 /// nullopt for auto. The option has checked the name.
 drivers::RecordedWire parse_wire(const std::string& wire);

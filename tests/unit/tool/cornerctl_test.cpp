@@ -76,7 +76,7 @@ TEST_F(Cornerctl, WrongUsage_ExitCode2WithReasonOnStandardError) {
       {"replay", "x.bin", "--map", map_, "--set", "x"},
       {"replay", "x.bin", "--map", map_, "--speed", "fast"},
       {"replay", "x.bin", "--map", map_, "--classes", "POSES"},
-      {"replay", "x.bin", "--map", map_, "--wire", "dense"},
+      {"replay", "x.bin", "--map", map_, "--wire", "thin"},
       {"detect", "x.bin", "--method", "guess"},
       {"simulate", "--map", map_, "-o", path("x.bin")},
       {"simulate", "--map", map_, "-o", path("x.bin"), "--pose", "1,2"},

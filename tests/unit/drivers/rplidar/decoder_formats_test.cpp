@@ -33,9 +33,8 @@ TEST(UltraDenseCapsule, EveryScale_HasItsStepAndQuality) {
   samples[4] = {2, 4095, 1};
   samples[5] = {3, 1, 31};
   samples[6] = {3, 8191, 1};
-  const auto sink =
-      decode(join({kUltraDenseDescriptor, ultra_dense_capsule(10, true, samples),
-                   ultra_dense_capsule(17.2, false, samples)}));
+  const auto sink = decode(join({kUltraDenseDescriptor, ultra_dense_capsule(10, true, samples),
+                                 ultra_dense_capsule(17.2, false, samples)}));
   ASSERT_THAT(sink.samples, SizeIs(64));
   constexpr std::array<std::uint32_t, 8> kMm = {2046, 2049, 8187, 8191, 24567, 24572, 65522, 0};
   constexpr std::array<int, 8> kQuality = {255, 254, 2, 252, 4, 248, 8, 0};
@@ -122,7 +121,8 @@ TEST_P(EveryNewFormat, ByteByByte_GivesTheSame) {
 TEST_P(EveryNewFormat, LongNoise_DoesNotMakeItAnotherFormat) {
   Bytes noise(6000);
   std::uint32_t state = 1;
-  for (std::uint8_t& byte : noise) byte = static_cast<std::uint8_t>((state = state * 69069 + 1) >> 24);
+  for (std::uint8_t& byte : noise)
+    byte = static_cast<std::uint8_t>((state = state * 69069 + 1) >> 24);
   const auto packets = join(GetParam().packets);
   const auto sink = decode(join({GetParam().descriptor, packets, noise, packets}), decoder_);
   const std::size_t whole = (GetParam().packets.size() - 1) * GetParam().samples;

@@ -149,8 +149,8 @@ Bytes ultra_dense_capsule(double start_deg, bool stream_start,
   for (std::size_t k = 0; k < samples.size(); k += 2) {
     put_u16(bytes, word(samples[k]) & 0xFFFF);
     put_u16(bytes, word(samples[k + 1]) & 0xFFFF);
-    bytes.push_back(static_cast<std::uint8_t>(word(samples[k]) >> 16 |
-                                              word(samples[k + 1]) >> 16 << 4));
+    bytes.push_back(
+        static_cast<std::uint8_t>(word(samples[k]) >> 16 | word(samples[k + 1]) >> 16 << 4));
   }
   return sealed(bytes);
 }

@@ -79,8 +79,7 @@ void measure(const drivers::LidarModel& model, const std::string& mode, Measured
   EmulatedDevice port(std::move(dynamic_cast<Emulator&>(*emulator)), clock, 1);
   const auto open = [&](std::uint32_t baud) {
     if (baud == model.baud) return port.open();
-    return drivers::OpenResult{
-        std::make_unique<DeafStream>(clock), drivers::OpenError::kNone, {}};
+    return drivers::OpenResult{std::make_unique<DeafStream>(clock), drivers::OpenError::kNone, {}};
   };
   const auto driver = [&] {
     rplidar::RplidarDriverConfig wanted;
@@ -137,12 +136,13 @@ INSTANTIATE_TEST_SUITE_P(
                     ModelAndMode{"a2m8", "Standard", 1984}, ModelAndMode{"a2m8", "Boost", 7937},
                     ModelAndMode{"a2m12", "auto", 7937}, ModelAndMode{"a2m12", "Boost", 15873},
                     ModelAndMode{"a3", "auto", 7937}, ModelAndMode{"a3", "Standard", 3968},
-                    ModelAndMode{"a3", "Sensitivity", 15873}, ModelAndMode{"a3", "Stability", 10000},
-                    ModelAndMode{"c1", "auto", 5000}, ModelAndMode{"c1", "Standard", 5000},
-                    ModelAndMode{"s1", "auto", 9259}, ModelAndMode{"s1", "Standard", 4098},
-                    ModelAndMode{"s2", "auto", 32000}, ModelAndMode{"s2", "Standard", 16000},
-                    ModelAndMode{"s3", "auto", 32000}, ModelAndMode{"s3", "Standard", 16000},
-                    ModelAndMode{"s3", "UltraDense", 32000}, ModelAndMode{"s3", "HQ", 10000}),
+                    ModelAndMode{"a3", "Sensitivity", 15873},
+                    ModelAndMode{"a3", "Stability", 10000}, ModelAndMode{"c1", "auto", 5000},
+                    ModelAndMode{"c1", "Standard", 5000}, ModelAndMode{"s1", "auto", 9259},
+                    ModelAndMode{"s1", "Standard", 4098}, ModelAndMode{"s2", "auto", 32000},
+                    ModelAndMode{"s2", "Standard", 16000}, ModelAndMode{"s3", "auto", 32000},
+                    ModelAndMode{"s3", "Standard", 16000}, ModelAndMode{"s3", "UltraDense", 32000},
+                    ModelAndMode{"s3", "HQ", 10000}),
     [](const auto& instance) {
       return std::string(std::get<0>(instance.param)) + "_" + std::get<1>(instance.param);
     });

@@ -50,6 +50,7 @@ TEST(ParseSpeed, MaxOrPositiveNumber_IsASpeed) {
 TEST(ParseWire, Names_GiveDriverAndFormat) {
   EXPECT_EQ(parse_wire("express").driver, drivers::DriverKind::kRplidar);
   EXPECT_EQ(parse_wire("express").format, rplidar::WireFormat::kExpress);
+  EXPECT_EQ(parse_wire("ultra-dense").format, rplidar::WireFormat::kUltraDense);
   EXPECT_EQ(parse_wire("ld").driver, drivers::DriverKind::kLd);
   EXPECT_EQ(parse_wire("ydlidar").driver, drivers::DriverKind::kYdlidar);
   EXPECT_EQ(parse_wire("auto").driver, std::nullopt);
