@@ -163,6 +163,18 @@ class LidarModelFaults : public LidarModelTest, public testing::WithParamInterfa
   }
 };
 
+TEST_F(LidarModelTest, ConfigWithoutNoise_UsesTheModels) {
+  lidar_ = std::make_unique<EmulatedModel>(
+      "c1", folder_ / "map.json", replay::stand_still({kTrueX, kTrueY, kTrueTheta}), port());
+  launch("c1", folder_ / "map.json");
+  wait_for_fix();
+  for (int i = 0; i < 5 && daemon_->output().find("lidar noise") == std::string::npos; ++i) {
+    next_of(*client_, "STATUS");
+  }
+  EXPECT_NE(daemon_->output().find("lidar noise: that of model c1"), std::string::npos);
+  wait_for_fix();
+}
+
 TEST_P(LidarModelFaults, Unplugged_PluggedInAgain_Recovers) {
   start();
   lidar_.reset();

@@ -30,6 +30,24 @@ TEST(Noise, Absent_IsTheDefault) {
   EXPECT_TRUE(noise.table.empty());
 }
 
+TEST(Noise, AbsentKey_IsTheModels) {
+  const drivers::LidarModel& model = *drivers::find_lidar_model("s2");
+  const core::SensorNoise noise =
+      parse_config(R"({"map": "/m", "lidar": {"noise": {"share": 0.02}}})", "n.json", {}, true,
+                   &model)
+          .localizer()
+          .noise;
+  EXPECT_EQ(noise.floor_m, model.noise_floor_m);
+  EXPECT_EQ(noise.share, 0.02);
+  EXPECT_EQ(noise.bearing_rad, model.noise_bearing_rad);
+  const core::SensorNoise of_driver =
+      parse_config(R"({"map": "/m", "lidar": {"driver": "ld"}})", "n.json", {}, true, &model)
+          .localizer()
+          .noise;
+  EXPECT_EQ(of_driver.bearing_rad, drivers::find_lidar_model("ld06")->noise_bearing_rad)
+      << "the model is another driver's";
+}
+
 TEST(Noise, EveryKey_ReachesTheLocalizer) {
   const core::SensorNoise noise = parse_noise(R"({"floor": 0.002, "share": 0.01, "bearing": 0.003,
       "ranges": [{"range": 0.5, "sigma": 0.001}, {"range": 2, "sigma": 0.004}]})")
