@@ -77,8 +77,15 @@ std::vector<ScanMode> Device::modes(const DeviceInfo& info) {
   std::vector<ScanMode> modes;
   if (info.measures_time_of_flight() || info.firmware >= kFirmwareWithConf) {
     const auto count = query_conf(ConfType::kModeCount);
-    const std::uint32_t number = count ? count->number(2).value_or(0) : 0;
-    for (std::uint32_t id = 0; id < std::min(number, kMaxModes) && !lost_; ++id) {
+    std::uint32_t first = 0;
+    std::uint32_t end = std::min(count ? count->number(2).value_or(0) : 0, kMaxModes);
+    if (!count) {
+      // The vendor's programs ask for the typical mode alone.
+      const auto typical = query_conf(ConfType::kTypicalMode);
+      first = typical ? typical->number(2).value_or(0) : 0;
+      end = typical ? first + 1 : 0;
+    }
+    for (std::uint32_t id = first; id < end && !lost_; ++id) {
       if (auto mode = conf_mode(static_cast<std::uint16_t>(id))) modes.push_back(std::move(*mode));
     }
     if (!modes.empty()) return modes;

@@ -162,6 +162,8 @@ RplidarDriver::Failure RplidarDriver::identify(Device& device, drivers::ByteStre
             "\"" + config_.mode + "\"; set advanced.lidar.mode to one of " + list_names(modes)};
   }
   mode = *chosen;
+  // A pseudo-terminal answers at any speed; its bytes still come at the device's.
+  wire_baud_ = std::max(rates_.current(), known != nullptr ? known->baud : 0);
   // Some firmwares of the S3 report none.
   if (mode.period_s <= 0 && known != nullptr) mode.period_s = 1 / known->samples_hz;
   board_.set_mode(mode.name);
@@ -195,7 +197,7 @@ RplidarDriver::Failure RplidarDriver::measure(drivers::ByteStream& port, const S
   SampleStream stream({.format = mode.format,
                        .inverted = config_.inverted,
                        .sample_period_s = mode.period_s,
-                       .baud = rates_.current()});
+                       .baud = wire_baud_});
   drivers::SampleMonitor monitor(sink, board_);
   BannerSearch banner;
   board_.begin_stream();

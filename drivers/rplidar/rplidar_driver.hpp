@@ -75,6 +75,7 @@ class RplidarDriver : public drivers::LidarDriver {
   drivers::StatusBoard board_;
   bool reset_first_ = false;                   ///< the last session ended without data
   bool has_run_ = false;                       ///< the last session delivered samples
+  std::uint32_t wire_baud_ = 0;                ///< of the session, for the times of its bytes
   std::optional<MotorRequest> motor_request_;  ///< that stops the session's motor
 };
 

@@ -20,6 +20,7 @@
 #include "progress_monitor.hpp"
 #include "replay/pose_error.hpp"
 #include "replay/simulator/motion.hpp"
+#include "replay/simulator/simulator.hpp"
 #include "settings/map_file.hpp"
 #include "tests/sanitized.hpp"
 

@@ -65,6 +65,23 @@ TEST_F(RplidarDriverTest, ModeByName_IsUsed) {
   EXPECT_EQ(last.mode.view(), "Sensitivity");
 }
 
+TEST_F(RplidarDriverTest, UncountedModes_TypicalOneIsUsed) {
+  a1.counts_modes = false;
+  run(seconds(3));
+  EXPECT_EQ(last.state, LidarState::kRunning);
+  EXPECT_EQ(last.mode.view(), "Express");
+  EXPECT_THAT(names(a1.requests), Contains("EXPRESS 1"));
+}
+
+TEST_F(RplidarDriverTest, C1OfFirmware102_HasItsModesAsked) {
+  a1.info = {.model = 0x41, .firmware = firmware_version(1, 2), .hardware = 18};
+  run(seconds(1));
+  EXPECT_EQ(last.model.view(), "C1M1");
+  ASSERT_NE(last.known_model, nullptr);
+  EXPECT_EQ(last.known_model->name, "c1");
+  EXPECT_THAT(names(a1.requests), Contains("CONF"));
+}
+
 TEST_F(RplidarDriverTest, UnknownMode_FaultListsTheModes) {
   a1.mode_names = {"Standard", "Express", "Boost"};
   make("Sensitivity");

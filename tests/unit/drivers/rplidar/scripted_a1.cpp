@@ -147,7 +147,7 @@ void ScriptedA1::answer(std::uint8_t type, const Bytes& payload) {
 }
 
 void ScriptedA1::answer_conf(const Request& request) {
-  if (info.firmware < firmware_version(1, 24)) return;
+  if (info.series() < 4 && info.firmware < firmware_version(1, 24)) return;
   const auto query = ConfQuery::decode(request.payload());
   Bytes payload(request.payload().begin(), request.payload().begin() + 4);
   const auto add = [&](std::initializer_list<int> bytes) {
@@ -158,7 +158,11 @@ void ScriptedA1::answer_conf(const Request& request) {
   constexpr std::array<int, 5> kPeriodsUs{508, 254, 127, 127, 201};
   if (mode >= mode_names.size()) return;
   switch (static_cast<ConfType>(query->type)) {
+    case ConfType::kTypicalMode:
+      add({1, 0});
+      break;
     case ConfType::kModeCount:
+      if (!counts_modes) return;
       add({static_cast<int>(mode_names.size()), 0});
       break;
     case ConfType::kAnswerType:

@@ -47,6 +47,7 @@ struct ScriptedA1 {
   DeviceInfo info{.model = 0x18, .firmware = firmware_version(1, 29), .hardware = 7};
   std::deque<Health> health{Health{}};  ///< the last one stays
   std::vector<std::string> mode_names{"Standard", "Express", "Boost", "Sensitivity", "Stability"};
+  bool counts_modes = true;  ///< else GET_LIDAR_CONF knows the typical mode alone, "Express"
   bool answers = true;
   bool noise = false;  ///< is sent in place of answers
   bool measures = true;
