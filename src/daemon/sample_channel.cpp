@@ -10,7 +10,7 @@
 namespace cornerd::daemon {
 namespace {
 
-/// Two seconds of an A1's fastest mode (8,000 samples per second).
+/// Two seconds of an A1's fastest mode (8,000 samples per second), half a second of an S2's.
 constexpr std::size_t kCapacity = 16384;
 constexpr std::uint32_t kWakeInterval = 4096;
 

@@ -23,7 +23,9 @@ TEST(SampleStream, DamagedStreamOfAllFormats_AllocatesNothing) {
   damaged_nodes[5000] ^= 1;
   const Bytes stream =
       join({kStandardDescriptor, damaged_nodes, kExpressDescriptor, join(express_capsules(100, 5)),
-            from_hex("a55a0300000006000000"), kUltraDescriptor, join(ultra_capsules(100, 5))});
+            from_hex("a55a0300000006000000"), kUltraDescriptor, join(ultra_capsules(100, 5)),
+            kDenseDescriptor, join(dense_capsules(100, 5)), kUltraDenseDescriptor,
+            join(ultra_dense_capsules(100, 5)), kHqDescriptor, join(hq_packets(20, 5))});
   SampleStream samples({});
   CountingSink sink;
   const std::size_t before = cornerd::test::allocations();
@@ -33,7 +35,7 @@ TEST(SampleStream, DamagedStreamOfAllFormats_AllocatesNothing) {
   }
   samples.finish(sink);
   EXPECT_EQ(cornerd::test::allocations() - before, 0U);
-  EXPECT_GT(sink.samples, 14000U);
+  EXPECT_GT(sink.samples, 26000U);
 }
 
 TEST(SampleStream, HeldSamples_AllocateNothing) {
