@@ -35,7 +35,8 @@ TEST(SampleStream, DamagedStreamOfAllFormats_AllocatesNothing) {
   }
   samples.finish(sink);
   EXPECT_EQ(cornerd::test::allocations() - before, 0U);
-  EXPECT_GT(sink.samples, 26000U);
+  EXPECT_GT(samples.samples(), 26000U) << "those of the fast formats have no time at this pace";
+  EXPECT_GT(sink.samples, 14000U);
 }
 
 TEST(SampleStream, HeldSamples_AllocateNothing) {

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "drivers/config/lidar_models.hpp"
 #include "rplidar_driver_fixture.hpp"
 
 namespace cornerd::rplidar::test {
