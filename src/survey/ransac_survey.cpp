@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "core/breakpoint/line_fit.hpp"
-#include "core/odometry/fusion_filter.hpp"
+#include "core/odometry/motion_factor.hpp"
 #include "core/odometry/reading_gate.hpp"
 
 namespace cornerd::survey {
@@ -21,13 +21,14 @@ class Track {
  public:
   Track(const RecordedDrive& drive, const core::OdometryConfig& config) {
     core::ReadingGate gate(config);
-    core::FusionFilter filter(config);
     core::Pose2 pose;
     for (const RecordedDrive::Reading& reading : drive.readings()) {
       const auto step = gate.add(reading.reading, reading.now_ns);
       if (!step || step->is_gap || step->to_ns <= step->from_ns) continue;
       if (points_.empty()) points_.push_back({step->from_ns, pose});
-      pose = pose * filter.motion_of(*step);
+      core::MotionFactor factor(config.geometry, config.initial);
+      factor.add(*step);
+      pose = pose * factor.motion();
       if (step->to_ns > points_.back().t_ns) points_.push_back({step->to_ns, pose});
     }
     if (points_.size() < 2) {

@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <optional>
 
+#include "core/odometry/wrapping_counter.hpp"
+
 namespace cornerd::survey {
 namespace {
 
@@ -20,7 +22,6 @@ constexpr double kMinWay_m = 0.02;
 double counted_m(const RecordedDrive& drive, const core::OdometryConfig& config,
                  std::optional<std::int64_t> core::OdometryReading::*wheel) {
   const core::DriveGeometry& geometry = config.geometry;
-  const std::int64_t modulus = geometry.counter_max > 0 ? geometry.counter_max + 1 : 0;
   double distance_m = 0;
   std::optional<std::int64_t> last;
   core::TimeNs last_ns = 0;
@@ -28,12 +29,7 @@ double counted_m(const RecordedDrive& drive, const core::OdometryConfig& config,
     const std::optional<std::int64_t> count = next.reading.*wheel;
     if (!count) continue;
     if (last) {
-      std::int64_t rolled = *count - *last;
-      if (modulus > 0) {
-        rolled %= modulus;
-        if (rolled > modulus / 2) rolled -= modulus;
-        if (rolled < -modulus / 2) rolled += modulus;
-      }
+      const std::int64_t rolled = core::count_difference(*last, *count, geometry.counter_max);
       const double step_m = std::abs(static_cast<double>(rolled)) * geometry.metres_per_count();
       const double dt_s = core::to_seconds(next.reading.t_ns - last_ns);
       if (dt_s > 0 && step_m < config.limits.wheel_speed_m_s * dt_s) distance_m += step_m;

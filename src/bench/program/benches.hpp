@@ -46,11 +46,15 @@ struct OdometryBenchOptions {
   std::string json;             ///< file, "-" or empty
   std::uint64_t seed = 1;
   std::size_t drives = 4;  ///< of each robot whose lidar is covered periodically
+  std::size_t robots = 0;  ///< drawn at random
 };
 
 /// cornerd-bench --odometry: the paper's odometry modes on its drives, as a table, as JSON and
 /// drawn with the truth.
 void run_odometry_bench(const OdometryBenchOptions& options);
+
+/// cornerd-bench --odometry --robots N: drives of robots, sensors and faults drawn at random.
+void run_random_robot_bench(const OdometryBenchOptions& options);
 
 struct ScaleBenchOptions {
   std::vector<std::size_t> corners = {20, 200, 2000, 20'000};

@@ -37,6 +37,7 @@ struct BenchOptions {
   std::filesystem::path plots;
   std::string json;
   std::size_t detections = 0;
+  std::size_t robots = 0;
   bool scale = false;
   bool localizer = false;
   std::string only_localize;
@@ -161,7 +162,8 @@ void run_bench(const BenchOptions& options) {
     if (options.scale) throw tool::UsageError("--odometry excludes --scale; name one of them");
     OdometryBenchOptions odometry{options.maps, options.plots, options.json, options.seed};
     if (options.positions_given->is_given()) odometry.drives = options.positions;
-    run_odometry_bench(odometry);
+    odometry.robots = options.robots;
+    odometry.robots > 0 ? run_random_robot_bench(odometry) : run_odometry_bench(odometry);
     return;
   }
   if (options.survey) {
@@ -173,6 +175,7 @@ void run_bench(const BenchOptions& options) {
     run_scale(options);
     return;
   }
+  if (options.robots > 0) throw tool::UsageError("--robots: only with --odometry; add it");
   if (!options.corners.empty()) throw tool::UsageError("--corners: only with --scale; add it");
   if (options.detections > 0) {
     only_detect(options);
@@ -221,6 +224,12 @@ void add_options(tool::Command& program, const std::shared_ptr<BenchOptions>& op
       "--odometry", options->odometry,
       "other benchmark: the paper's odometry modes on its drives, and poses dead reckoned "
       "while the lidar is covered; --maps: with flat-7.json");
+  program
+      .add_option("--robots", options->robots,
+                  "with --odometry, in place of its tables: drives of so many robots with noises, "
+                  "clocks and faults drawn at random")
+      .range(std::size_t{0}, std::size_t{100'000})
+      .type_name("N");
   program.add_flag("--survey", options->survey,
                    "other benchmark: a drive of 100 m, surveyed by both methods, and a second one "
                    "localized in the maps");

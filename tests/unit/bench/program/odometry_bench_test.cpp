@@ -42,5 +42,16 @@ TEST(BenchOdometry, AllDrives_HaveEachModeAndDrawings) {
   }
 }
 
+TEST(BenchOdometry, RandomRobots_AreCountedByFault) {
+  const test::ProgramRun outcome("cornerd-bench", run_cornerd_bench,
+                                 {"--maps", CORNERD_SOURCE_DIR "/config/maps", "--odometry",
+                                  "--robots", "2", "--seed", "5", "--json", "-"});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const auto robots = nlohmann::json::parse(outcome.out)["robots"];
+  ASSERT_EQ(robots.size(), 2U);
+  EXPECT_EQ(robots[0]["fault"], "none");
+  EXPECT_GT(robots[0]["named"], 500);
+}
+
 }  // namespace
 }  // namespace cornerd::bench
