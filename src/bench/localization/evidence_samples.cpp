@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "bench/localization/evidence_samples.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <sstream>
 #include <stdexcept>
 #include <utility>
 
@@ -151,7 +149,7 @@ struct EvidenceSamples::State {
     search.consider(pairs.first(std::min(pairs.size(), kMaxPairs)));
     search.consider(searcher->map_search.find(points.points(), detection.segments));
     const core::ScanStructure structure = core::scan_structure(detection.segments);
-    std::string text;
+    std::ostringstream text;
     for (const core::VerifiedHypothesis& place : search.find()) {
       const core::Pose2& at = place.refined.T_map_lidar;
       const core::BeamStatistics s = searcher->beam_model.statistics(
@@ -160,13 +158,13 @@ struct EvidenceSamples::State {
       const bool right =
           drawn.is_right() &&
           core::same_pose(at, truth, kRight_m + kRightPerSigma * drawn.map_error_m, kRight_rad);
-      text += fmt::format(
-          "{},{:d},{:d},{},{},{},{},{:.4g},{:.4g},{:.4g},{:.4g},{:.4g},{:.4g},{:.4g},{:.4g},{}\n",
-          scans, !drawn.is_right(), right, s.rays, s.hits, s.throughs, s.map_sigma_m,
-          s.faces_log_ratio, s.faces, s.obstacles, s.obstacles_m, s.missing_walls, s.log_missing,
-          search.wall_ends(at), structure.wall_m, structure.segments);
+      text << scans << ',' << !drawn.is_right() << ',' << right << ',' << s.rays << ',' << s.hits
+           << ',' << s.throughs << ',' << s.map_sigma_m << ',' << s.faces_log_ratio << ','
+           << s.faces << ',' << s.obstacles << ',' << s.obstacles_m << ',' << s.missing_walls << ','
+           << s.log_missing << ',' << search.wall_ends(at) << ',' << structure.wall_m << ','
+           << structure.segments << '\n';
     }
-    return text;
+    return text.str();
   }
 };
 
