@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "drivers/rplidar/sample_stream.hpp"
 
+#include <array>
 #include <cstddef>
 #include <memory>
 
@@ -10,7 +11,7 @@
 namespace cornerd::rplidar {
 namespace {
 
-double nominal_period_s(WireFormat format) {
+constexpr double nominal_period_s(WireFormat format) {
   switch (format) {
     case WireFormat::kStandard:
       return 508e-6;
@@ -27,6 +28,18 @@ double nominal_period_s(WireFormat format) {
   }
   return 508e-6;
 }
+
+constexpr drivers::FrameTiming timing_of(WireFormat format) {
+  const double period_s = nominal_period_s(format);
+  if (format == WireFormat::kStandard) return {period_s, kNodeSize, 1};
+  return {period_s, capsule_size(format), 2 * capsule_samples(format) - 1};
+}
+
+/// By format: asked for each sample.
+constexpr std::array kTimings = {
+    timing_of(WireFormat::kStandard),   timing_of(WireFormat::kExpress),
+    timing_of(WireFormat::kUltra),      timing_of(WireFormat::kDense),
+    timing_of(WireFormat::kUltraDense), timing_of(WireFormat::kHq)};
 
 float radians_of(std::uint16_t angle_q6) {
   constexpr float kRadian = 3.14159265358979F / 180 / 64;
@@ -47,10 +60,7 @@ void RplidarFrames::finish(drivers::FrameSink& sink) {
 }
 
 drivers::FrameTiming RplidarFrames::timing() const {
-  const WireFormat format = decoder_.format().value_or(WireFormat::kStandard);
-  const double period_s = nominal_period_s(format);
-  if (format == WireFormat::kStandard) return {period_s, kNodeSize, 1};
-  return {period_s, capsule_size(format), 2 * capsule_samples(format) - 1};
+  return kTimings[static_cast<std::size_t>(decoder_.format().value_or(WireFormat::kStandard))];
 }
 
 void RplidarFrames::on_sample(const RawSample& raw) {
