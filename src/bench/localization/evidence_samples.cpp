@@ -48,24 +48,6 @@ struct ScanConditions {
   bool is_right() const { return map == world && !mirrored; }
 };
 
-/// What localizes in one map.
-struct Searcher {
-  explicit Searcher(const core::WallMap& map)
-      : catalog(map, config.max_range_m),
-        recognition(map, catalog),
-        map_search(map),
-        place_search(map, recognition, config),
-        beam_model(map, config.noise),
-        detector(config.detector, config.noise) {}
-  core::LocalizerConfig config;
-  core::Catalog catalog;
-  core::Recognition recognition;
-  core::MapSearch map_search;
-  core::PlaceSearch place_search;
-  core::BeamModel beam_model;
-  core::Detector detector;
-};
-
 ScanConditions draw_conditions(std::size_t maps, replay::Random& random) {
   const auto any_map = [&] { return static_cast<std::size_t>(random.uniform() * maps); };
   ScanConditions drawn;
@@ -102,6 +84,27 @@ const char* const kEvidenceColumns =
     "obstacles_m,missing_walls,log_missing,wall_ends,wall_m,segments";
 
 struct EvidenceSamples::State {
+  /// What localizes in one map.
+  struct Searcher {
+    explicit Searcher(const core::WallMap& map)
+        : catalog(map, config.max_range_m),
+          recognition(map, catalog),
+          map_search(map),
+          place_search(map, recognition, config),
+          beam_model(map, config.noise),
+          detector(config.detector, config.noise) {}
+    core::LocalizerConfig config;
+    core::Catalog catalog;
+    core::Recognition recognition;
+    core::MapSearch map_search;
+    core::PlaceSearch place_search;
+    core::BeamModel beam_model;
+    core::Detector detector;
+  };
+
+  State(std::vector<MapPtr> the_maps, std::uint64_t seed)
+      : maps(std::move(the_maps)), random(seed) {}
+
   std::vector<MapPtr> maps;
   replay::Random random;
   std::vector<std::unique_ptr<Searcher>> searchers;  ///< by map
@@ -169,8 +172,7 @@ struct EvidenceSamples::State {
 };
 
 EvidenceSamples::EvidenceSamples(std::vector<MapPtr> maps, std::uint64_t seed)
-    : state_(
-          std::make_unique<State>(State{.maps = std::move(maps), .random = replay::Random(seed)})) {
+    : state_(std::make_unique<State>(std::move(maps), seed)) {
   for (std::uint64_t k = 1; k <= kOffices; ++k) {
     state_->maps.push_back(std::make_shared<const core::WallMap>(office_building(30 + 40 * k, k)));
   }
