@@ -190,10 +190,6 @@ void PlaceSearch::add(const Candidate& candidate) {
   const BeamStatistics statistics = beam_model_.statistics(
       points_, hits, place.refined.T_map_lidar, spacing_rad_, noise_scale_, max_map_sigma_m_);
   place.log_odds = log_odds_of_place(statistics, wall_ends(place.refined.T_map_lidar), structure_);
-  // All rays show better than the few how far walls are off, and the pose's covariance follows.
-  if (statistics.map_sigma_m > std::max(place.map_sigma_m, BeamModel::kMapSigmas_m.front())) {
-    refine(statistics.map_sigma_m);
-  }
   place.likelihood.rays = statistics.rays;
   place.likelihood.hits = statistics.hits;
   place.likelihood.shorts = statistics.shorts;
