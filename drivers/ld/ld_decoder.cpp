@@ -98,7 +98,7 @@ void LdDecoder::decode(const Packet& packet, drivers::FrameSink& sink) {
 }
 
 /// The angle since the last packet counts the missing ones up to whole revolutions, which the
-/// device's clock gives.
+/// device's clock gives. A wrong CRC is not a packet: it may be a false header in foreign bytes.
 void LdDecoder::count_missing(const Packet& packet, drivers::FrameSink& sink) {
   const double packet_cdeg = last_.span_cdeg() * (kPacketSamples / (kPacketSamples - 1.0));
   const int swept_cdeg =
@@ -108,10 +108,10 @@ void LdDecoder::count_missing(const Packet& packet, drivers::FrameSink& sink) {
   const double revolutions =
       std::max(0.0, std::round((turned_cdeg - swept_cdeg) / kRevolution_cdeg));
   const double way_cdeg = swept_cdeg + revolutions * kRevolution_cdeg;
-  const double packets = packet_cdeg > 0 ? std::round(way_cdeg / packet_cdeg) : 1;
-  const auto missing = static_cast<std::uint64_t>(std::max(packets, 1.0 + damaged_) - 1);
-  if (missing == 0) return;
-  counters_.lost_capsules += missing - static_cast<std::uint64_t>(damaged_);
+  const double packets = packet_cdeg > 0 ? std::round(way_cdeg / packet_cdeg) : 1 + damaged_;
+  if (packets <= 1) return;
+  const auto missing = static_cast<std::uint64_t>(packets) - 1;
+  counters_.lost_capsules += missing - std::min(missing, damaged_);
   index_ += missing * kPacketSamples;
   revolution_.after_gap();
   if (way_cdeg > kMaxGap_cdeg) sink.on_gap();

@@ -36,7 +36,7 @@ class LdDecoder : public drivers::FrameDecoder {
   bool locked_ = false;  ///< a packet begins at the window's front
   bool has_last_ = false;
   Packet last_;
-  int damaged_ = 0;  ///< packets with a wrong CRC since last_
+  std::uint64_t damaged_ = 0;  ///< wrong CRCs since last_
   std::uint64_t index_ = 0;
   double period_s_ = 0;  ///< of the first packet's model; 0: none yet
 };

@@ -10,11 +10,11 @@
 
 #include "drivers/driver_clock.hpp"
 #include "drivers/lidar_driver.hpp"
-#include "drivers/rplidar/baud_search.hpp"
 #include "drivers/rplidar/device.hpp"
 #include "drivers/rplidar/motor.hpp"
 #include "drivers/rplidar/scan_mode.hpp"
 #include "drivers/serial/serial_port.hpp"
+#include "drivers/stream/baud_search.hpp"
 #include "drivers/stream/status_board.hpp"
 
 namespace cornerd::rplidar {
@@ -68,7 +68,7 @@ class RplidarDriver : public drivers::LidarDriver {
   void report(drivers::LidarState state, drivers::LidarFault fault, std::string_view extra = {});
 
   RplidarDriverConfig config_;
-  BaudSearch rates_;
+  drivers::BaudSearch rates_;
   PortOpener open_port_;
   drivers::Clock& clock_;
   std::unique_ptr<Motor> motor_;

@@ -21,13 +21,14 @@ std::string_view pattern(LidarFault fault) {
     case LidarFault::kStreamRunning:
       return "still measuring for a program that ended without stopping it; stopped it";
     case LidarFault::kUnexpectedData:
-      return "unexpected bytes that are no lidar's measurement; is it another device, a console, "
-             "or a wrong advanced.lidar.baud?";
+      return "unexpected bytes that are no measurement of the configured lidar; is it one of "
+             "another lidar.driver, another device, a console, or is advanced.lidar.baud set "
+             "wrong?";
     case LidarFault::kBooting:
       return "just switched on; waiting until it has started";
     case LidarFault::kNoAnswer:
-      return "no answer; check that it is {} baud, that RX and TX are not swapped, "
-             "and that it gets 5 V";
+      return "no answer; check that it is {} baud (if not, set lidar.driver), that RX and TX are "
+             "not swapped, and that it gets 5 V";
     case LidarFault::kWrongBaud:
       return "{}; set advanced.lidar.baud";
     case LidarFault::kProtectionStop:

@@ -53,6 +53,7 @@ struct StreamDriver::Session {
 StreamDriver::StreamDriver(StreamDriverConfig config, std::unique_ptr<StreamProtocol> protocol,
                            PortOpener open_port, Clock& clock)
     : config_(std::move(config)),
+      rates_(config_.baud_rates),
       protocol_(std::move(protocol)),
       open_port_(std::move(open_port)),
       clock_(clock) {
@@ -63,7 +64,7 @@ StreamDriver::StreamDriver(StreamDriverConfig config, std::unique_ptr<StreamProt
 void StreamDriver::run(std::stop_token stop, SampleSink& sink) {
   milliseconds backoff = kFirstBackoff;
   while (!stop.stop_requested()) {
-    OpenResult opened = open_port_(baud());
+    OpenResult opened = open_port_(rates_.current());
     count_progress();
     if (!opened.stream) {
       const auto [state, fault] = failure_of(opened.error);
@@ -72,17 +73,19 @@ void StreamDriver::run(std::stop_token stop, SampleSink& sink) {
       continue;
     }
     has_run_ = false;
-    const Failure failure = session(*opened.stream, stop, sink);
+    Failure failure = session(*opened.stream, stop, sink);
     opened.stream.reset();
     if (has_run_) {
       backoff = kFirstBackoff;
       sink.on_gap();
     }
     if (stop.stop_requested()) break;
+    if (failure.fault == LidarFault::kWrongBaud || failure.fault == LidarFault::kNoAnswer) {
+      const auto fault = rates_.fail(failure.fault);
+      if (!fault) continue;
+      failure.fault = *fault;
+    }
     report(failure.state, failure.fault, failure.extra);
-    const bool is_other_speed =
-        failure.fault == LidarFault::kWrongBaud || failure.fault == LidarFault::kNoAnswer;
-    if (is_other_speed && ++rate_ % config_.baud_rates.size() != 0) continue;
     wait(backoff, stop);
     backoff = std::min(2 * backoff, kMaxBackoff);
   }
@@ -110,7 +113,7 @@ StreamDriver::Failure StreamDriver::measure(ByteStream& port, double sample_peri
                                             const std::stop_token& stop, SampleSink& sink) {
   SampleStream stream(
       protocol_->make_decoder(),
-      {.inverted = config_.inverted, .sample_period_s = sample_period_s, .baud = baud()});
+      {.inverted = config_.inverted, .sample_period_s = sample_period_s, .baud = rates_.current()});
   SampleMonitor monitor(sink, board_);
   board_.begin_stream();
   Failure failure;
@@ -168,7 +171,7 @@ std::optional<StreamDriver::Failure> StreamDriver::judge(Session& session, core:
 }
 
 std::string StreamDriver::described() const {
-  return std::string(protocol_->name()) + " at " + std::to_string(baud());
+  return std::string(protocol_->name()) + " at " + rates_.text();
 }
 
 void StreamDriver::wait(milliseconds duration, const std::stop_token& stop) {

@@ -16,6 +16,7 @@
 #include "drivers/lidar_driver.hpp"
 #include "drivers/serial/byte_stream.hpp"
 #include "drivers/serial/serial_port.hpp"
+#include "drivers/stream/baud_search.hpp"
 #include "drivers/stream/frame_decoder.hpp"
 #include "drivers/stream/status_board.hpp"
 
@@ -78,17 +79,17 @@ class StreamDriver : public LidarDriver {
   Failure measure(ByteStream& port, double sample_period_s, const std::stop_token& stop,
                   SampleSink& sink);
   std::optional<Failure> judge(Session& session, core::TimeNs now_ns, bool received, bool measured);
-  std::uint32_t baud() const { return config_.baud_rates[rate_ % config_.baud_rates.size()]; }
+  /// The lidar as a hint names it.
   std::string described() const;
   void wait(std::chrono::milliseconds duration, const std::stop_token& stop);
   void report(LidarState state, LidarFault fault, std::string_view extra = {});
 
   StreamDriverConfig config_;
+  BaudSearch rates_;
   std::unique_ptr<StreamProtocol> protocol_;
   PortOpener open_port_;
   Clock& clock_;
   StatusBoard board_;
-  std::size_t rate_ = 0;  ///< of config_.baud_rates
   bool has_run_ = false;  ///< the last session delivered samples
 };
 

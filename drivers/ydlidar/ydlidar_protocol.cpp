@@ -17,7 +17,8 @@ using RequestBytes = std::array<std::uint8_t, 2>;
 constexpr RequestBytes kStart = {0xA5, 0x60};
 constexpr RequestBytes kStop = {0xA5, 0x65};
 constexpr RequestBytes kGetInfo = {0xA5, 0x90};
-constexpr RequestBytes kGetHealth = {0xA5, 0x91};
+// The manuals say 91, the vendor's SDK sends 92.
+constexpr std::array<RequestBytes, 2> kGetHealth = {{{0xA5, 0x91}, {0xA5, 0x92}}};
 
 constexpr milliseconds kAnswerTimeout{300};
 constexpr milliseconds kDrainLimit{300};  // an X2 never stops sending
@@ -111,11 +112,13 @@ std::optional<drivers::StreamProtocol::Device> YdlidarProtocol::start(drivers::B
                  .serial = info->serial_text(),
                  .health = {},
                  .sample_period_s = kPeriodX4S};
-    const auto health = rplidar::Health::decode(
-        device.query(kGetHealth, rplidar::AnswerType::kHealth, rplidar::Health::kSize));
-    if (health) {
+    for (const RequestBytes& request : kGetHealth) {
+      const auto health = rplidar::Health::decode(
+          device.query(request, rplidar::AnswerType::kHealth, rplidar::Health::kSize));
+      if (!health) continue;
       found.health = health->text();
       found.failed = health->failed();
+      break;
     }
     found.received_bytes = device.received();
     found.used_bytes = device.used();

@@ -11,9 +11,9 @@
 
 namespace cornerd::ydlidar {
 
-/// X4: takes requests (A5 60 start, A5 65 stop, A5 90 information, A5 91 health), whose answers
-/// have the RPLidar's form. X2: sends as soon as it has power. The USB adapters of both switch the
-/// motor by DTR, asserted: on.
+/// X4: takes requests (A5 60 start, A5 65 stop, A5 90 information, A5 91 or 92 health), whose
+/// answers have the RPLidar's form. X2: sends as soon as it has power. The USB adapters of both
+/// switch the motor by DTR, asserted: on.
 class YdlidarProtocol : public drivers::StreamProtocol {
  public:
   /// `motor_by_dtr`: false leaves DTR alone.

@@ -108,6 +108,7 @@ void YdlidarEmulator::answer(std::uint8_t request, core::TimeNs now_ns) {
       send(now_ns + kTurnaroundNs, kInfoAnswer);
       break;
     case 0x91:
+    case 0x92:  // as the vendor's SDK asks
       send(now_ns + kTurnaroundNs, kHealthAnswer);
       break;
     default:

@@ -77,12 +77,17 @@ class SweepCursor {
  public:
   SweepCursor(const Sweep& sweep, std::size_t samples)
       : raw_q16_(sweep.start_q6 << 10),
-        inc_q16_((sweep.diff_q6 << 10) / static_cast<int>(samples)) {}
+        inc_q16_((sweep.diff_q6 << 10) / static_cast<int>(samples)),
+        end_q16_((sweep.start_q6 + sweep.diff_q6) << 10),
+        left_(samples) {}
 
   int raw_q16() const { return raw_q16_; }
   /// As in the SDK: the sample before the uncorrected angle passes zero.
-  bool starts_scan() const { return (raw_q16_ + inc_q16_) % kRevolutionQ16 < inc_q16_; }
-  void advance() { raw_q16_ += inc_q16_; }
+  bool starts_scan() const { return raw_q16_ < kRevolutionQ16 && next_q16() >= kRevolutionQ16; }
+  void advance() {
+    raw_q16_ = next_q16();
+    --left_;
+  }
 
   static std::uint16_t wrap_q6(int angle_q6) {
     return static_cast<std::uint16_t>((angle_q6 % kFullRevolutionQ6 + kFullRevolutionQ6) %
@@ -91,8 +96,13 @@ class SweepCursor {
 
  private:
   static constexpr int kRevolutionQ16 = 360 << 16;
+  /// After the last sample comes the next capsule's first, which the truncated step may not reach.
+  int next_q16() const { return left_ > 1 ? raw_q16_ + inc_q16_ : end_q16_; }
+
   int raw_q16_;
   int inc_q16_;
+  int end_q16_;
+  std::size_t left_;
 };
 
 /// What the formats without a quality report where there is a return; the SDK's value.

@@ -118,6 +118,23 @@ TEST(LdDecoder, LostBytes_CostTheirPacketAlone) {
   }
 }
 
+TEST(LdDecoder, FalseHeaderBetweenPackets_IsNoLostPacket) {
+  for (const std::size_t count : {2U, 10U, 44U, 60U, 130U}) {
+    Head head;
+    Bytes bytes = head.next(20);
+    bytes.insert(bytes.end(), {0x54, 0x2C});
+    bytes.insert(bytes.end(), count - 2, 0x7B);
+    const Bytes after = head.next(20);
+    bytes.insert(bytes.end(), after.begin(), after.end());
+    LdDecoder decoder;
+    const FrameCollector got = decode_all(decoder, bytes);
+    ASSERT_EQ(got.samples.size(), 40 * kPacketSamples) << count;
+    EXPECT_EQ(got.samples.back().index, 40 * kPacketSamples - 1) << count;
+    EXPECT_EQ(decoder.counters().lost_capsules, 0U) << count;
+    EXPECT_EQ(decoder.counters().skipped_bytes, count);
+  }
+}
+
 TEST(LdDecoder, LostPackets_AreCountedByAngleAndClock) {
   Head head;
   Bytes bytes = head.next(20);

@@ -56,6 +56,28 @@ TEST(HqPacket, Nodes_HaveTheirOwnAnglesAndFlags) {
   }
 }
 
+TEST(ScanStart, OfEveryPhase_IsToldOncePerRevolution) {
+  for (const double from_deg : {0.0, 0.015625, 1.0, 2.5, 359.984375}) {
+    for (const double step_deg : {4.5, 4.515625, 7.984375, 8.0, 15.0, 28.8}) {
+      const int count = 2000;
+      const auto revolutions = static_cast<std::size_t>((from_deg + (count - 1) * step_deg) / 360);
+      const auto scans = [](const Bytes& descriptor, const std::vector<Bytes>& capsules) {
+        return decode(join({descriptor, join(capsules)})).scans();
+      };
+      const auto where = [&] { return testing::Message() << from_deg << " + " << step_deg; };
+      EXPECT_EQ(scans(kExpressDescriptor, express_capsules(count, from_deg, step_deg)), revolutions)
+          << where();
+      EXPECT_EQ(scans(kUltraDescriptor, ultra_capsules(count, from_deg, step_deg)), revolutions)
+          << where();
+      EXPECT_EQ(scans(kDenseDescriptor, dense_capsules(count, from_deg, step_deg)), revolutions)
+          << where();
+      EXPECT_EQ(scans(kUltraDenseDescriptor, ultra_dense_capsules(count, from_deg, step_deg)),
+                revolutions)
+          << where();
+    }
+  }
+}
+
 struct Format {
   const char* name;
   Bytes descriptor;

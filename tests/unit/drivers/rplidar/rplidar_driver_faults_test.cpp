@@ -38,7 +38,8 @@ TEST_F(RplidarDriverTest, OtherBytesBeforeTheFirstRequest_AreUnexpectedData) {
   run(seconds(1));
   EXPECT_EQ(last.state, LidarState::kRunning);
   EXPECT_THAT(faults, ElementsAre(LidarFault::kUnexpectedData));
-  EXPECT_THAT(hints[LidarFault::kUnexpectedData], HasSubstr("no lidar's measurement"));
+  EXPECT_THAT(hints[LidarFault::kUnexpectedData],
+              HasSubstr("no measurement of the configured lidar"));
 }
 
 TEST_F(RplidarDriverTest, BootingDevice_IsWaitedFor) {

@@ -92,7 +92,9 @@ TEST(YdlidarEmulator, X4Requests_AreAnswered) {
     device->receive(from_hex(hex), now_ns);
     return to_hex(run(*device, now_ns, 0.02));
   };
-  EXPECT_EQ(ask("A591").substr(0, 20), to_hex(from_hex("A55A0300000006000000")));
+  const std::string health = to_hex(from_hex("A55A0300000006000000"));
+  EXPECT_EQ(ask("A591").substr(0, 20), health);
+  EXPECT_EQ(ask("A592").substr(0, 20), health);
   EXPECT_EQ(ask("A590").size(), 2U * 27);
   EXPECT_EQ(ask("A560").substr(0, 14), to_hex(from_hex("A55A0500004081")));
   ask("A565");

@@ -10,7 +10,7 @@
 
 #include "drivers/lidar_status.hpp"
 
-namespace cornerd::rplidar {
+namespace cornerd::drivers {
 
 /// The speeds that are tried in turn until one answers.
 class BaudSearch {
@@ -31,8 +31,7 @@ class BaudSearch {
 
   /// The current speed has failed with kNoAnswer or kWrongBaud; the next one is current. What to
   /// report if all have failed now; nullopt: not yet.
-  std::optional<drivers::LidarFault> fail(drivers::LidarFault fault) {
-    using drivers::LidarFault;
+  std::optional<LidarFault> fail(LidarFault fault) {
     has_noise_ = has_noise_ || fault == LidarFault::kWrongBaud;
     index_ = (index_ + 1) % rates_.size();
     if (index_ != 0) return std::nullopt;
@@ -46,4 +45,4 @@ class BaudSearch {
   bool has_noise_ = false;  ///< at one of those tried since the last report
 };
 
-}  // namespace cornerd::rplidar
+}  // namespace cornerd::drivers
