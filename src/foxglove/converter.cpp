@@ -89,8 +89,9 @@ std::vector<core::Sample> by_angle(std::vector<core::Sample> samples) {
 
 Converter::Converter() : json_(64 * 1024) {}
 
-void Converter::convert(std::string_view line, core::TimeNs now_ns, const Emit& emit) {
+std::string Converter::convert(std::string_view line, core::TimeNs now_ns, const Emit& emit) {
   const message::ParsedLine parsed = message::parse_line(line);
+  if (const auto* damage = std::get_if<message::RequestError>(&parsed)) return damage->text;
   if (const auto* scanned = std::get_if<message::RecordedScan>(&parsed)) {
     scan(*scanned, emit);
   } else if (const auto* posed = std::get_if<message::ParsedPose>(&parsed)) {
@@ -105,9 +106,11 @@ void Converter::convert(std::string_view line, core::TimeNs now_ns, const Emit& 
   } else if (const auto* other = std::get_if<message::OtherLine>(&parsed);
              other != nullptr && other->name == "ODOMETRY") {
     const message::RecordedLine recorded = message::parse_recorded_line(line);
+    if (const auto* damage = std::get_if<message::RequestError>(&recorded)) return damage->text;
     const auto* reading = std::get_if<message::OdometryReading>(&recorded);
     if (reading != nullptr) emit(ChannelId::kOdometryMessage, reading->t_ns, line);
   }
+  return {};
 }
 
 // Foxglove's LaserScan has its samples at equal angles. A lidar turns almost evenly: each of them

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <string>
 #include <string_view>
 
 #include "core/geometry/pose2.hpp"
@@ -21,8 +22,9 @@ class Converter {
   Converter();
 
   /// One line without its newline, and what it is in each channel; nothing for lines that are no
-  /// message or damaged. `now_ns`: the time of a message that has none (MAP).
-  void convert(std::string_view line, core::TimeNs now_ns, const Emit& emit);
+  /// message or damaged. `now_ns`: the time of a message that has none (MAP). Returns what the
+  /// damage is; empty if there is none.
+  std::string convert(std::string_view line, core::TimeNs now_ns, const Emit& emit);
 
  private:
   void scan(const message::RecordedScan& scan, const Emit& emit);

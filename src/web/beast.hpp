@@ -45,6 +45,14 @@ struct Site {
   net::thread_pool workers{1};
 };
 
+/// Also as IPv6 has it, ::ffff:127.0.0.1.
+inline bool is_loopback(net::ip::address address) {
+  if (address.is_v6() && address.to_v6().is_v4_mapped()) {
+    address = net::ip::make_address_v4(net::ip::v4_mapped, address.to_v6());
+  }
+  return address.is_loopback();
+}
+
 inline std::string text_of(beast::string_view text) { return {text.data(), text.size()}; }
 
 }  // namespace cornerd::web

@@ -58,7 +58,10 @@ class FoxgloveSocket : public std::enable_shared_from_this<FoxgloveSocket> {
     read();
   }
 
+  /// Unless a frame is being read or answered, or some wait for a client that does not read them.
   void read() {
+    if (is_reading_ || session_.has_frame()) return;
+    is_reading_ = true;
     socket_.async_read(received_,
                        [self = shared_from_this()](beast::error_code error, std::size_t) {
                          if (!error) self->on_frame();
@@ -79,7 +82,10 @@ class FoxgloveSocket : public std::enable_shared_from_this<FoxgloveSocket> {
       request = session_.on_binary(frame);
     }
     pump();
-    if (request.empty()) return read();
+    if (request.empty()) {
+      is_reading_ = false;
+      return read();
+    }
     // The next frame is read when the daemon has answered.
     net::post(site_.workers, [self = shared_from_this(), request]() mutable {
       auto response = std::make_shared<Response>(self->site_.router.ask(request));
@@ -87,6 +93,7 @@ class FoxgloveSocket : public std::enable_shared_from_this<FoxgloveSocket> {
       net::post(io, [self = std::move(self), response] {
         if (response->status != 200) self->session_.tell(response->body);
         self->pump();
+        self->is_reading_ = false;
         self->read();
       });
     });
@@ -113,7 +120,9 @@ class FoxgloveSocket : public std::enable_shared_from_this<FoxgloveSocket> {
     socket_.async_write(net::buffer(frame_.bytes),
                         [self = shared_from_this()](beast::error_code error, std::size_t) {
                           self->is_writing_ = false;
-                          if (!error) self->pump();
+                          if (error) return;
+                          self->read();
+                          self->pump();
                         });
   }
 
@@ -123,6 +132,7 @@ class FoxgloveSocket : public std::enable_shared_from_this<FoxgloveSocket> {
   std::optional<Hub::Handle> listener_;
   beast::flat_buffer received_;
   FoxgloveSession::Frame frame_;
+  bool is_reading_ = false;
   bool is_writing_ = false;
 };
 

@@ -2,6 +2,7 @@
 // Requests and responses, apart from any HTTP library.
 #pragma once
 
+#include <memory>
 #include <string>
 #include <string_view>
 
@@ -24,6 +25,8 @@ struct Response {
   std::string content_type = "application/json";
   std::string body = {};
   std::string download_name = {};  ///< for the browser's file dialog; empty: none
+  /// Of what is limited in number; given back when the response is written.
+  std::shared_ptr<const void> place = {};
 };
 
 /// {"class":"ERROR","code":...,"message":...}, as the daemon words its own.

@@ -62,7 +62,7 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
     request_.origin = text_of(header[http::field::origin]);
     request_.content_type = text_of(header[http::field::content_type]);
     request_.authorization = text_of(header[http::field::authorization]);
-    request_.from_loopback = stream_.socket().remote_endpoint(ignored_).address().is_loopback();
+    request_.from_loopback = is_loopback(stream_.socket().remote_endpoint(ignored_).address());
     keep_alive_ = header.keep_alive();
     if (!set_target({header.target().data(), header.target().size()}, request_)) {
       return refuse(error_response(400, "path", "the path is malformed"));
@@ -125,11 +125,13 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
     }
     allow_origin(*answer_);
     answer_->body() = std::move(response.body);
+    place_ = std::move(response.place);
     answer_->prepare_payload();
     stream_.expires_after(kWriteTime);
     http::async_write(stream_, *answer_,
                       [self = shared_from_this()](beast::error_code error, std::size_t) {
                         self->answer_.reset();
+                        if (std::exchange(self->place_, nullptr)) ::malloc_trim(0);
                         if (error) return;
                         if (!self->keep_alive_) return self->close();
                         self->read();
@@ -142,6 +144,9 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
     if (request_.origin.empty() || header.result_int() == 403) return;
     header.set(http::field::access_control_allow_origin, request_.origin);
     header.set(http::field::vary, "Origin");
+    if (request_.method != "OPTIONS") return;
+    header.set(http::field::access_control_allow_methods, "GET, POST, PUT");
+    header.set(http::field::access_control_allow_headers, "Authorization, Content-Type");
   }
 
   void start_foxglove() {
@@ -164,6 +169,8 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
     allow_origin(header);
     std::ostringstream text;
     text << header.base();
+    text << "event: access\ndata: {\"may_change\":"
+         << (site_.router.may_change(request_) ? "true" : "false") << "}\n\n";
     writing_ = text.str();
     stream_.socket().set_option(net::socket_base::send_buffer_size(kSendBufferBytes), ignored_);
     const std::weak_ptr<HttpSession> weak = shared_from_this();
@@ -223,6 +230,7 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
   beast::flat_static_buffer<2 * kReadBytes + kMaxHeaderBytes> buffer_;
   std::optional<http::request_parser<http::string_body>> parser_;
   std::optional<http::response<http::string_body>> answer_;
+  std::shared_ptr<const void> place_;  ///< of the answer
   Request request_;
   Router::Decision decision_;
   bool keep_alive_ = false;

@@ -67,6 +67,7 @@ void Hub::set_connected(bool connected, std::string_view problem) {
 
 std::string Hub::recording(std::chrono::seconds span, Clock::time_point now) const {
   std::string text;
+  text.reserve(kept_bytes_ + kept_.size());
   const auto now_is = [&](MessageClass message_class) {
     const Line line = last(message_class);
     if (line && line->size() < message::kMaxRecordedBytes) text.append(*line).push_back('\n');

@@ -19,6 +19,8 @@ constexpr std::string_view kMapsFolder = "/api/maps/";
 /// Of 20,000 walls, which take 40 MB while they are checked.
 constexpr std::size_t kMaxMapBytes = 1024 * 1024;
 constexpr long kMaxRecordingSeconds = 60;
+/// Each of up to 5 MB, as long as its reader takes.
+constexpr long kMaxRecordings = 2;
 
 const PageFile* find_file(std::string_view path) {
   const auto files = page_files();
@@ -34,9 +36,11 @@ struct Methods {
   std::size_t max_body_bytes = 0;
 };
 
-Methods methods_of(std::string_view path) {
+Methods methods_of(const Request& request) {
+  const std::string_view path = request.path;
   if (path == "/api/request") return {"", "POST", message::kMaxRequestBytes};
-  if (path == "/api/maps/check") return {"", "POST", kMaxMapBytes};
+  // A map may have that name.
+  if (path == "/api/maps/check" && request.method != "PUT") return {"", "POST", kMaxMapBytes};
   if (path.starts_with(kMapsFolder)) return {"", "PUT", kMaxMapBytes};
   for (const std::string_view known : {"/api/map", "/api/status", "/api/events", "/api/recording",
                                        "/api/maps", "/metrics", "/foxglove"}) {
@@ -89,9 +93,13 @@ Router::Decision Router::decide(const Request& request) const {
   if (!is_allowed_origin(request.origin, request.host, rules_.allowed_origins)) {
     return refuse(403, "origin", "another site's page: start cornerd-web with --allow-origin");
   }
-  const Methods methods = methods_of(request.path);
+  const Methods methods = methods_of(request);
   if (methods.read.empty() && methods.change.empty()) {
     return refuse(404, "path", "there is no such path");
+  }
+  // What a browser asks before another site's page may send a token or JSON.
+  if (request.method == "OPTIONS" && !request.origin.empty()) {
+    return {.kind = Kind::kRefused, .response = {.status = 204, .body = {}}};
   }
   if (!methods.read.empty() && request.method == methods.read) {
     if (find_file(request.path) == nullptr && !may_read(request, rules_)) {
@@ -132,16 +140,20 @@ Response Router::answer(const Request& request, Hub::Clock::time_point now) cons
                         seconds > kMaxRecordingSeconds)) {
     return error_response(400, "seconds", "seconds must be a whole number from 1 to 60");
   }
+  if (recordings_.use_count() > kMaxRecordings) {
+    return error_response(503, "busy", "others are downloading a recording: try again soon");
+  }
   return {.content_type = "application/x-ndjson",
           .body = hub_.recording(std::chrono::seconds(seconds), now),
-          .download_name = "cornerd.ndjson"};
+          .download_name = "cornerd.ndjson",
+          .place = recordings_};
 }
 
 Response Router::ask(const std::string& line) const { return ask_daemon(control_socket_, line); }
 
 Response Router::work(const Request& request) const {
   if (request.path == "/api/request") return ask(request.body);
-  if (request.path == "/api/maps/check") return MapStore::check(request.body);
+  if (request.path == "/api/maps/check" && request.method == "POST") return MapStore::check(request.body);
   return maps_.put(std::string_view(request.path).substr(kMapsFolder.size()), request.body);
 }
 

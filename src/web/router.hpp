@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <string_view>
 
@@ -18,7 +19,7 @@ namespace cornerd::web {
 class Router {
  public:
   enum class Kind {
-    kRefused,   ///< `response` says why; the body is not read
+    kRefused,   ///< `response` says why, or is a preflight's; the body is not read
     kPage,      ///< answer() on the thread of the hub
     kWork,      ///< work() on any thread, since it may block
     kEvents,    ///< a stream of `classes`
@@ -47,6 +48,7 @@ class Router {
   std::filesystem::path control_socket_;
   MapStore maps_;
   const Hub& hub_;
+  std::shared_ptr<const void> recordings_ = std::make_shared<char>();  ///< an owner each
 };
 
 /// "POSE,SCAN" as a set; unknown names are ignored. Empty: POSE, STATUS and EVENT.

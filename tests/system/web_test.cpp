@@ -3,6 +3,7 @@
 #include <arpa/inet.h>
 #include <gtest/gtest.h>
 #include <netinet/in.h>
+#include <poll.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
@@ -16,6 +17,11 @@ namespace cornerd::system_test {
 namespace {
 
 using test::wait_until;
+
+constexpr const char* kFoxgloveHandshake =
+    "GET /foxglove HTTP/1.1\r\nHost: localhost\r\nConnection: Upgrade\r\nUpgrade: websocket\r\n"
+    "Sec-WebSocket-Version: 13\r\nSec-WebSocket-Key: MDEyMzQ1Njc4OWFiY2RlZg==\r\n"
+    "Sec-WebSocket-Protocol: foxglove.sdk.v1\r\n\r\n";
 
 /// A connection to the server.
 class HttpClient {
@@ -33,6 +39,20 @@ class HttpClient {
   HttpClient(const HttpClient&) = delete;
   HttpClient& operator=(const HttpClient&) = delete;
 
+  /// Sends `text` again and again until the server reads no more for a second, or `most` bytes; how
+  /// many went.
+  std::size_t send_unread(const std::string& text, std::size_t most) const {
+    std::size_t sent = 0;
+    pollfd ready{.fd = fd_, .events = POLLOUT, .revents = 0};
+    while (sent < most && ::poll(&ready, 1, 1000) == 1) {
+      const std::size_t begin = sent % text.size();
+      const ssize_t went =
+          ::send(fd_, text.data() + begin, text.size() - begin, MSG_NOSIGNAL | MSG_DONTWAIT);
+      if (went < 0) break;
+      sent += static_cast<std::size_t>(went);
+    }
+    return sent;
+  }
   void send(const std::string& text) const { ::send(fd_, text.data(), text.size(), MSG_NOSIGNAL); }
   /// Reads until `text` has come or the server hangs up; all of what has come.
   std::string read_until(const std::string& text) {
@@ -52,10 +72,10 @@ class HttpClient {
 
 class Web : public DaemonTest {
  protected:
-  DaemonProcess start_web() {
+  DaemonProcess start_web(const std::string& listen = "127.0.0.1:0") {
     const auto path = [&](const char* name) { return (folder_ / name).string(); };
     std::filesystem::create_directory(folder_ / "maps");
-    return {{"--listen", "127.0.0.1:0", "--pose", path("pose.sock"), "--control",
+    return {{"--listen", listen, "--allow-origin", "https://app.example.org", "--pose", path("pose.sock"), "--control",
              path("control.sock"), "--maps", path("maps")},
             folder_ / "web.log",
             {},
@@ -63,13 +83,13 @@ class Web : public DaemonTest {
             CORNERD_WEB_BINARY};
   }
   void wait_for_port(const DaemonProcess& web) {
-    const std::string start = "http://127.0.0.1:";
+    const std::string start = "http://";
     std::string told;
     ASSERT_TRUE(wait_until([&] {
       told = web.output();
       return told.find(start) != std::string::npos && told.ends_with('\n');
     })) << told;
-    port_ = static_cast<std::uint16_t>(std::stoi(told.substr(told.find(start) + start.size())));
+    port_ = static_cast<std::uint16_t>(std::stoi(told.substr(told.rfind(':') + 1)));
   }
   static std::string head(const std::string& request, const std::string& more = {}) {
     return request + " HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n" + more + "\r\n";
@@ -159,16 +179,34 @@ TEST_F(Web, ForeignPagesAndHugeBodies_AreRefused) {
   EXPECT_TRUE(is(ask(head("GET /")), 200));
 }
 
+TEST_F(Web, Preflight_SaysWhatAnAllowedOriginMaySend) {
+  const DaemonProcess web = start_web();
+  wait_for_port(web);
+  const std::string answer =
+      ask(head("OPTIONS /api/request", "Origin: https://app.example.org\r\n"));
+  EXPECT_TRUE(is(answer, 204)) << answer;
+  for (const char* line : {"Access-Control-Allow-Origin: https://app.example.org\r\n",
+                           "Access-Control-Allow-Methods: GET, POST, PUT\r\n",
+                           "Access-Control-Allow-Headers: Authorization, Content-Type\r\n"}) {
+    EXPECT_NE(answer.find(line), std::string::npos) << line << answer;
+  }
+}
+
+TEST_F(Web, Ipv4OverIpv6_IsThisMachine) {
+  const DaemonProcess web = start_web("[::]:0");
+  EXPECT_TRUE(wait_until([&] { return web.output().ends_with('\n'); }));
+  if (web.output().find("http://[::]:") == std::string::npos) GTEST_SKIP() << web.output();
+  wait_for_port(web);
+  EXPECT_TRUE(is(post("/api/maps/check", "{}"), 422));
+}
+
 TEST_F(Web, FoxgloveSocket_GetsPosesUntilItGoes) {
   const DaemonProcess daemon = start();
   const DaemonProcess web = start_web();
   wait_for_port(web);
   {
     HttpClient socket(port_);
-    socket.send(
-        "GET /foxglove HTTP/1.1\r\nHost: localhost\r\nConnection: Upgrade\r\nUpgrade: websocket\r\n"
-        "Sec-WebSocket-Version: 13\r\nSec-WebSocket-Key: MDEyMzQ1Njc4OWFiY2RlZg==\r\n"
-        "Sec-WebSocket-Protocol: foxglove.sdk.v1\r\n\r\n");
+    socket.send(kFoxgloveHandshake);
     const std::string start = socket.read_until("\"advertise\"");
     EXPECT_TRUE(is(start, 101)) << start;
     EXPECT_NE(start.find("Sec-WebSocket-Protocol: foxglove.sdk.v1"), std::string::npos) << start;
@@ -182,6 +220,19 @@ TEST_F(Web, FoxgloveSocket_GetsPosesUntilItGoes) {
               std::string::npos);
     EXPECT_NE(socket.read_until("\"cubes\"").find("\"cubes\""), std::string::npos);
   }
+  EXPECT_TRUE(is(ask(head("GET /")), 200));
+}
+
+TEST_F(Web, FoxgloveClientThatNeverReads_IsReadNoMore) {
+  const DaemonProcess web = start_web();
+  wait_for_port(web);
+  HttpClient socket(port_);
+  socket.send(kFoxgloveHandshake);
+  socket.read_until("\"advertise\"");
+  // Each frame of 4 kB gets an answer; what goes beyond the kernel's buffers waits in the server.
+  constexpr std::size_t kMost = 64 * 1024 * 1024;
+  const std::string frame = std::string("\x81\xfe\x10\0\0\0\0\0", 8) + std::string(4096, 'a');
+  EXPECT_LT(socket.send_unread(frame, kMost), kMost);
   EXPECT_TRUE(is(ask(head("GET /")), 200));
 }
 

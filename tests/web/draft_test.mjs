@@ -20,6 +20,20 @@ test("a wall that ends at another meets it, and at an end both do", () => {
   near(one.addWall([2.95, 2.05], [0, 2], kReach).from, one.walls[1].to);
 });
 
+test("a wall that is let go at an end has its end there, whatever right angles and the scan say", () => {
+  const one = draft([[0, 0], [3, 0]], [[3, 0], [3, 1.9]], [[0, 0], [0, 2.5]]);
+  const wall = one.addWall([3, 1.9], [0.05, 2.45], kReach);  // 11 degrees off
+  near(wall.to, [0, 2.5]);
+  near(one.walls[2].to, wall.to);
+  near(one.walls[1].to, wall.from);
+  const line = draft([[0, 0], [1, 0]]);
+  line.scan = Array.from({ length: 100 }, (_, i) => [1 + i * 0.02, 0.12]);
+  line.lidar = [1, 1];
+  const more = line.addWall([3, 0.05], [1.05, 0.05], kReach);
+  near(more.to, [1, 0]);
+  near(line.walls[0].to, more.to);
+});
+
 test("the face of a wall lies on the scan, also at an angle of its own", () => {
   for (const angle of [0, 0.4]) {
     const one = draft();

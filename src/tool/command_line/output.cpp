@@ -14,6 +14,12 @@ void Output::Closer::operator()(std::FILE* file) const {
   if (file != stdout && file != stderr) std::fclose(file);
 }
 
+void Output::Remover::operator()(const std::filesystem::path* temporary) const {
+  std::error_code ignored;
+  std::filesystem::remove(*temporary, ignored);
+  delete temporary;
+}
+
 Output::Output(std::FILE* stream, std::string name, bool flush_each)
     : file_(stream), name_(std::move(name)), flush_each_(flush_each) {}
 
@@ -23,6 +29,20 @@ Output::Output(const std::filesystem::path& file)
     : Output(file == kStandardOutput ? stdout : std::fopen(file.c_str(), "wbe"), file.string(),
              false) {
   if (!file_) fail();
+}
+
+Output Output::replacing(const std::filesystem::path& file) {
+  std::error_code ignored;
+  const bool is_new = !std::filesystem::exists(file, ignored);
+  if (file == kStandardOutput || (!is_new && !std::filesystem::is_regular_file(file, ignored))) {
+    return Output(file);
+  }
+  // Not in place of a link, but of what it points at.
+  const std::filesystem::path target = is_new ? file : std::filesystem::canonical(file, ignored);
+  Output output(target.string() + ".part");
+  output.temporary_.reset(new std::filesystem::path(output.name_));
+  output.name_ = target.string();
+  return output;
 }
 
 Output Output::report_beside(const std::filesystem::path& data) {
@@ -37,6 +57,13 @@ void Output::write(std::string_view bytes) {
 
 void Output::flush() {
   if (std::fflush(file_.get()) != 0) fail();
+}
+
+void Output::commit() {
+  flush();
+  if (!temporary_) return;
+  if (std::rename(temporary_->c_str(), name_.c_str()) != 0) fail();
+  delete temporary_.release();
 }
 
 void Output::fail() const {

@@ -18,6 +18,9 @@ class Output {
   /// A new file, or standard output if the name is "-". Throws Failure.
   explicit Output(const std::filesystem::path& file);
 
+  /// As Output(file), but a regular file keeps its old content until commit().
+  static Output replacing(const std::filesystem::path& file);
+
   /// Output for the report: standard output, or standard error if `data` is standard output.
   static Output report_beside(const std::filesystem::path& data);
 
@@ -27,15 +30,23 @@ class Output {
   /// Writes the buffer; a full disk may only be reported here. Throws as write().
   void flush();
 
+  /// Flushes; the file of replacing() is what was written from here on. Throws as write().
+  void commit();
+
  private:
   Output(std::FILE* stream, std::string name, bool flush_each);
   [[noreturn]] void fail() const;
 
+  struct Remover {
+    void operator()(const std::filesystem::path* temporary) const;
+  };
   struct Closer {
     void operator()(std::FILE* file) const;
   };
   std::unique_ptr<std::FILE, Closer> file_;
   std::string name_;
+  /// Of replacing(), until commit().
+  std::unique_ptr<const std::filesystem::path, Remover> temporary_;
   bool flush_each_ = false;
 };
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // cornerctl export: a recording as MCAP.
+#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <memory>
@@ -35,26 +36,36 @@ struct McapOptions {
 class Exporter {
  public:
   explicit Exporter(const std::filesystem::path& file)
-      : file_(file), mcap_([this](std::string_view bytes) { file_.write(bytes); }) {}
+      : file_(Output::replacing(file)), mcap_([this](std::string_view bytes) { file_.write(bytes); }) {}
 
-  /// Of the file, as it is.
-  void add_messages(const std::filesystem::path& recording) {
+  /// Of the file, as it is. Returns what was skipped, in a line; empty if nothing was.
+  std::string add_messages(const std::filesystem::path& recording) {
     std::ifstream stream(recording);
     replay::LineReader lines(stream, message::kMaxMessageBytes);
     using Result = replay::LineReader::Result;
+    std::uint64_t skipped = 0;
+    std::string first;
     for (Result result = lines.next(); result != Result::kEnd; result = lines.next()) {
-      if (result == Result::kLine) add(lines.line());
+      // The end of a recording may be torn.
+      if (result == Result::kTornLine || (result == Result::kLine && lines.line().empty())) continue;
+      const std::string problem =
+          result == Result::kTooLong ? "too long for a message" : add(lines.line());
+      if (problem.empty() || skipped++ > 0) continue;
+      first = "line " + std::to_string(lines.number()) + ": " + problem;
     }
+    return skipped == 0 ? first : std::to_string(skipped) + " lines skipped; the first: " + first;
   }
-  /// A line, with or without its end.
-  void add(std::string_view line) {
+  /// A line, with or without its end. Returns what is damaged in it; empty if nothing is.
+  std::string add(std::string_view line) {
     if (line.ends_with('\n')) line.remove_suffix(1);
     // A map is in force from the first message after it.
     if (line.starts_with(R"({"class":"MAP")")) {
+      const message::ParsedLine parsed = message::parse_line(line);
+      if (const auto* damage = std::get_if<message::RequestError>(&parsed)) return damage->text;
       map_ = line;
-      return;
+      return {};
     }
-    converter_.convert(line, 0, [&](foxglove::ChannelId channel, core::TimeNs t_ns, auto json) {
+    return converter_.convert(line, 0, [&](foxglove::ChannelId channel, core::TimeNs t_ns, auto json) {
       if (!map_.empty()) map_converter_.convert(std::exchange(map_, {}), t_ns, emit_);
       emit_(channel, t_ns, json);
     });
@@ -62,7 +73,7 @@ class Exporter {
   bool has_scans() const { return has_scans_; }
   void finish() {
     mcap_.finish();
-    file_.flush();
+    file_.commit();
   }
   std::uint64_t messages() const { return mcap_.messages(); }
 
@@ -97,8 +108,13 @@ void export_recording(const McapOptions& options) {
                .output = options.output});
   const auto kind = replay::kind_of_recording(options.recording);
   Exporter exporter(options.output);
-  if (kind == replay::RecordingKind::kMessages) exporter.add_messages(options.recording);
-  if (!exporter.has_scans()) add_decoded(exporter, options);
+  std::string skipped;
+  if (kind == replay::RecordingKind::kMessages) skipped = exporter.add_messages(options.recording);
+  if (!exporter.has_scans()) {
+    add_decoded(exporter, options);  // says itself what it skips
+  } else if (!skipped.empty()) {
+    std::fprintf(stderr, "%s: %s\n", options.recording.c_str(), skipped.c_str());
+  }
   exporter.finish();
 }
 

@@ -38,6 +38,7 @@ follow({
     $("away").hidden = reason === null;
     $("away").textContent = reason ?? "";
   },
+  access: (mayChange) => document.body.classList.toggle("read-only", !mayChange),
   line: (text, name) => recording.add(text, name),
   MAP: (map) => view.setMap(map),
   POSE: (pose) => {
@@ -119,5 +120,5 @@ listenToFingers(canvas, view, (p) => {
   return editor.isOpen ? editor.gesture(p) : null;
 }, (at) => {
   const ghost = view.ghostAt(at);
-  if (ghost) sendPose(ghost);
+  if (ghost && !document.body.classList.contains("read-only")) sendPose(ghost);
 }, () => view.following && setFollowing(false));

@@ -4,6 +4,7 @@
 export const kDoor_m = 0.8;
 const kRightAngle_rad = 12 * Math.PI / 180;  // nearer than this to a right angle is one
 const kMinWall_m = 0.05;
+const kJoin_m = 0.5;  // at most, from where an end was drawn to where its walls meet
 const kMinScanPoints = 8;
 const kHalfChord = 4;       // samples; a piece of the scan of twice as many shows a direction
 const kStraight_m = 0.015;  // where its middle is no farther off
@@ -124,15 +125,13 @@ export class Draft {
     if (distance(from, to) < kMinWall_m) return null;
     [from, to] = this.fitToScan(from, to, Math.max(radius, 0.15));
     const d = sub(to, from);
-    for (const [end, walls] of [["from", starts], ["to", ends]]) {
-      for (const wall of walls) {
-        const at = meet(from, d, wall.from, sub(wall.to, wall.from));
-        if (!at || distance(at, end === "from" ? from : to) > 0.5) continue;
-        end === "from" ? from = at : to = at;
-        break;
-      }
-    }
-    return { from, to };
+    // An end that was drawn to another one is there in any case.
+    [from, to] = [[from, starts, a], [to, ends, b]].map(([end, walls, drawn]) => {
+      const old = this.endNear(drawn, radius);
+      return walls.map((wall) => meet(from, d, wall.from, sub(wall.to, wall.from)))
+        .find((at) => at && distance(at, old ?? end) <= kJoin_m) ?? old ?? end;
+    });
+    return { from: [...from], to: [...to] };
   }
   wallsAt(p, radius) {
     const end = this.endNear(p, radius);
@@ -172,7 +171,7 @@ export class Draft {
     const met = [[wall.from, a], [wall.to, b]].map(([end, drawn]) => [end, this.endNear(drawn, radius)]);
     this.remember();
     // The walls that it was drawn to end where it does.
-    for (const [end, old] of met) if (old && distance(end, old) < 0.5) this.moveEnds(old, end);
+    for (const [end, old] of met) if (old) this.moveEnds(old, end);
     this.walls.push(wall);
     return wall;
   }

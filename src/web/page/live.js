@@ -5,7 +5,7 @@ import { withToken } from "./actions.js";
 const classes = "POSE,SCAN,BREAKPOINTS,STATUS,EVENT,MAP";
 
 // Calls on.POSE(message) and so on, on.line(text), and on.away(reason), with null when the daemon is
-// there.
+// there, and on.access(may_change).
 export function follow(on) {
   let source;
   const open = () => {
@@ -19,10 +19,15 @@ export function follow(on) {
       const { connected } = JSON.parse(event.data);
       on.away(connected ? null : "The daemon is away. Waiting for it …");
     });
-    source.onerror = () => {
-      on.away("No connection to cornerd-web. Trying again …");
+    source.addEventListener("access", (event) => on.access(JSON.parse(event.data).may_change));
+    source.onerror = async () => {
       // A browser gives up after some errors, and waits for long after others.
       source.close();
+      // It does not say why it could not.
+      const response = await fetch(withToken("/api/maps")).catch(() => null);
+      on.away(response?.status === 401
+        ? "This page needs the token: open it with ?token=T at the end of its address."
+        : "No connection to cornerd-web. Trying again …");
       setTimeout(open, 1000);
     };
   };

@@ -18,7 +18,19 @@ export function tell(text) {
   timer = setTimeout(() => { $("told").textContent = ""; }, 5000);
 }
 
+// A pose that nothing follows says nothing of where the robot is now.
+const kOld_s = 2;
+let shownAt;
+setInterval(() => {
+  const age_s = (performance.now() - shownAt) / 1000;
+  if (!(age_s > kOld_s)) return;
+  $("state").textContent = "no pose";
+  $("state").dataset.state = "lost";
+  $("meaning").textContent = `since ${age_s.toFixed(0)} s`;
+}, 500);
+
 export function showPose(pose) {
+  shownAt = performance.now();
   $("state").textContent = pose.state;
   $("state").dataset.state = pose.state;
   $("meaning").textContent = meanings[pose.state] + (pose.state !== "predicted" || pose.age === undefined ? "" : ` for ${pose.age.toFixed(1)} s`);

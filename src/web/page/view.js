@@ -168,7 +168,7 @@ export class View {
 
   paintMap(c) {
     if (!this.map) return;
-    for (const room of this.map.rooms ?? []) this.paintRoom(c, room);
+    this.paintRooms(c, this.map.rooms ?? []);
     c.save();
     this.toMetres(c);
     c.fillStyle = c.strokeStyle = color("wall");
@@ -182,17 +182,22 @@ export class View {
     const { x, y } = this.toScreen({ x: 0, y: 0 });
     c.transform(this.scale, 0, 0, -this.scale, x, y);
   }
-  paintRoom(c, room, isChosen = false) {
-    const points = room.polygon.map(([x, y]) => ({ x, y }));
-    this.polygon(c, points);
+  // All names above all rooms: one may lie within another.
+  paintRooms(c, rooms) {
+    const shapes = rooms.map((room) => room.polygon.map(([x, y]) => ({ x, y })));
     c.fillStyle = color("room");
-    c.fill();
-    const middle = points.reduce((sum, p) => ({ x: sum.x + p.x / points.length, y: sum.y + p.y / points.length }), { x: 0, y: 0 });
-    const at = this.toScreen(middle);
-    c.fillStyle = color(isChosen ? "tracking" : "soft");
+    for (const points of shapes) {
+      this.polygon(c, points);
+      c.fill();
+    }
     c.font = "13px system-ui, sans-serif";
     c.textAlign = "center";
-    c.fillText(room.name, at.x, at.y);
+    shapes.forEach((points, i) => {
+      const middle = points.reduce((sum, p) => ({ x: sum.x + p.x / points.length, y: sum.y + p.y / points.length }), { x: 0, y: 0 });
+      const at = this.toScreen(middle);
+      c.fillStyle = color(rooms[i] === this.chosenRoom ? "tracking" : "soft");
+      c.fillText(rooms[i].name, at.x, at.y);
+    });
   }
 
   paintTrail(c) {

@@ -22,7 +22,7 @@ export function wallPaths(walls, thickness) {
 
 export function paintDraft(c, view) {
   const { draft, preview, outline } = view;
-  for (const room of draft.rooms) view.paintRoom(c, room, room === view.chosenRoom);
+  view.paintRooms(c, draft.rooms);
   c.save();
   view.toMetres(c);
   c.lineWidth = 1 / view.scale;

@@ -49,6 +49,28 @@ TEST_F(RouterTest, ForeignPages_AreRefused) {
   EXPECT_EQ(refusal(one), 403u);
 }
 
+TEST_F(RouterTest, Preflight_IsForAllowedOrigins) {
+  const Router router({.own_name = {},
+                       .token = "0123456789abcdef",
+                       .allowed_origins = {"https://app.example.org"},
+                       .is_private = true},
+                      "/nowhere/control.sock", {}, hub_);
+  Request one = request("OPTIONS", "/api/request");
+  EXPECT_EQ(router.decide(one).response.status, 405u);
+  one.origin = "https://app.example.org";
+  EXPECT_EQ(router.decide(one).response.status, 204u);
+  one.origin = "http://evil.com";
+  EXPECT_EQ(router.decide(one).response.status, 403u);
+}
+
+TEST_F(RouterTest, MapNamedCheck_IsAMapAsOthers) {
+  Request one = request("PUT", "/api/maps/check");
+  EXPECT_EQ(refusal(one), 0u);
+  EXPECT_EQ(router_.work(one).status, 404u);  // without --maps
+  one.method = "POST";
+  EXPECT_EQ(router_.work(one).status, 422u);
+}
+
 TEST_F(RouterTest, Change_NeedsJsonAndPermission) {
   Request one = request("POST", "/api/request");
   one.content_type = "text/plain";
@@ -74,6 +96,17 @@ TEST_F(RouterTest, Recording_TakesOneToSixtySeconds) {
     EXPECT_EQ(router_.answer(one, {}).status, 400u) << query;
   }
   EXPECT_EQ(router_.answer(request("GET", "/api/recording"), {}).status, 200u);
+}
+
+TEST_F(RouterTest, Recordings_AreTwoAtATime) {
+  const Request one = request("GET", "/api/recording");
+  const Response first = router_.answer(one, {});
+  {
+    const Response second = router_.answer(one, {});
+    EXPECT_EQ(second.status, 200u);
+    EXPECT_EQ(router_.answer(one, {}).status, 503u);
+  }
+  EXPECT_EQ(router_.answer(one, {}).status, 200u);
 }
 
 TEST_F(RouterTest, Page_AsksNobodyElseAndIsSmall) {
