@@ -31,7 +31,7 @@ def features(c):
         "wall_end": c["wall_ends"],
         "wall_end_of_share": c["wall_ends"] * share,
         "log_map_sigma": np.log(c["map_sigma"] / 0.003),
-        "log_unexplained": np.log(np.maximum(0.005, 1 - c["hits"] / c["rays"])),
+        "log_unexplained": np.log(np.maximum(0.005, (c["rays"] - c["hits"] + 1) / (c["rays"] + 1))),
         "through_share": c["throughs"] / c["rays"],
         "missing_wall": c["missing_walls"],
         "log_missing": c["log_missing"],
@@ -41,7 +41,7 @@ def features(c):
         "segment_share": share,
         "log_wall_m": np.log(np.maximum(0.3, c["wall_m"])),
         "log_segments": np.log(np.maximum(1, c["segments"])),
-        "log_rays": np.log(c["rays"]),
+        "log_rays": np.log(np.maximum(150, c["rays"])),
     }
 
 

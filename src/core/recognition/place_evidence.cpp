@@ -39,6 +39,7 @@ constexpr Weights kWeights;
 constexpr double kLeastUnexplained = 0.005;
 constexpr double kLeastWall_m = 0.3;
 constexpr double kLeastSegments = 3;
+constexpr double kLeastRays = 150;
 
 }  // namespace
 
@@ -55,19 +56,21 @@ double log_odds_of_place(const BeamStatistics& place, double wall_ends, const Sc
   const double rays = std::max(1.0, static_cast<double>(place.rays));
   const auto share = [&](std::size_t count) { return static_cast<double>(count) / rays; };
   const auto log_of = [](double value, double least) { return std::log(std::max(least, value)); };
+  // Laplace's rule: a few rays that all hit show little of the share that does not.
+  const double unexplained = (rays - static_cast<double>(place.hits) + 1) / (rays + 1);
   const double segments_share = place.faces / std::max(kLeastSegments, scan.segments);
   const double surface_m = scan.wall_m + place.obstacles_m + kLeastWall_m;
   const Weights& w = kWeights;
   return w.intercept + w.faces_log_ratio * place.faces_log_ratio + w.face * place.faces +
          (w.wall_end + w.wall_end_of_share * segments_share) * wall_ends +
          w.log_map_sigma * std::log(place.map_sigma_m / BeamModel::kMapSigmas_m.front()) +
-         w.log_unexplained * log_of(1 - share(place.hits), kLeastUnexplained) +
+         w.log_unexplained * log_of(unexplained, kLeastUnexplained) +
          w.through_share * share(place.throughs) + w.missing_wall * place.missing_walls +
          w.log_missing * place.log_missing +
          w.missing_of_share * std::log1p(place.missing_walls) * segments_share +
          w.obstacle * place.obstacles + w.obstacle_share * place.obstacles_m / surface_m +
          w.segment_share * segments_share + w.log_wall_m * log_of(scan.wall_m, kLeastWall_m) +
-         w.log_segments * log_of(scan.segments, 1) + w.log_rays * std::log(rays);
+         w.log_segments * log_of(scan.segments, 1) + w.log_rays * log_of(rays, kLeastRays);
 }
 
 }  // namespace cornerd::core

@@ -59,6 +59,12 @@ TEST(PlaceEvidence, WallEnds_AreEvidence) {
   EXPECT_GT(log_odds_of_place(most_walls_hit(), 4, kScan), log_odds(most_walls_hit()) + 1);
 }
 
+TEST(PlaceEvidence, EightRays_AreNoFix) {
+  const BeamStatistics place{
+      .rays = 8, .hits = 8, .map_sigma_m = 0.003, .faces_log_ratio = 25, .faces = 2};
+  EXPECT_LT(log_odds_of_place(place, 0, {.wall_m = 0.3, .segments = 2}), 5);
+}
+
 TEST(PlaceEvidence, EmptyScan_IsFinite) {
   EXPECT_TRUE(std::isfinite(log_odds_of_place({.map_sigma_m = 0.003}, 0, {})));
 }
