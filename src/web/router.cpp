@@ -153,7 +153,8 @@ Response Router::ask(const std::string& line) const { return ask_daemon(control_
 
 Response Router::work(const Request& request) const {
   if (request.path == "/api/request") return ask(request.body);
-  if (request.path == "/api/maps/check" && request.method == "POST") return MapStore::check(request.body);
+  if (request.path == "/api/maps/check" && request.method == "POST")
+    return MapStore::check(request.body);
   return maps_.put(std::string_view(request.path).substr(kMapsFolder.size()), request.body);
 }
 

@@ -75,8 +75,8 @@ class Web : public DaemonTest {
   DaemonProcess start_web(const std::string& listen = "127.0.0.1:0") {
     const auto path = [&](const char* name) { return (folder_ / name).string(); };
     std::filesystem::create_directory(folder_ / "maps");
-    return {{"--listen", listen, "--allow-origin", "https://app.example.org", "--pose", path("pose.sock"), "--control",
-             path("control.sock"), "--maps", path("maps")},
+    return {{"--listen", listen, "--allow-origin", "https://app.example.org", "--pose",
+             path("pose.sock"), "--control", path("control.sock"), "--maps", path("maps")},
             folder_ / "web.log",
             {},
             {},

@@ -36,7 +36,8 @@ struct McapOptions {
 class Exporter {
  public:
   explicit Exporter(const std::filesystem::path& file)
-      : file_(Output::replacing(file)), mcap_([this](std::string_view bytes) { file_.write(bytes); }) {}
+      : file_(Output::replacing(file)),
+        mcap_([this](std::string_view bytes) { file_.write(bytes); }) {}
 
   /// Of the file, as it is. Returns what was skipped, in a line; empty if nothing was.
   std::string add_messages(const std::filesystem::path& recording) {
@@ -47,7 +48,8 @@ class Exporter {
     std::string first;
     for (Result result = lines.next(); result != Result::kEnd; result = lines.next()) {
       // The end of a recording may be torn.
-      if (result == Result::kTornLine || (result == Result::kLine && lines.line().empty())) continue;
+      if (result == Result::kTornLine || (result == Result::kLine && lines.line().empty()))
+        continue;
       const std::string problem =
           result == Result::kTooLong ? "too long for a message" : add(lines.line());
       if (problem.empty() || skipped++ > 0) continue;
@@ -65,10 +67,12 @@ class Exporter {
       map_ = line;
       return {};
     }
-    return converter_.convert(line, 0, [&](foxglove::ChannelId channel, core::TimeNs t_ns, auto json) {
-      if (!map_.empty()) map_converter_.convert(std::exchange(map_, {}), t_ns, emit_);
-      emit_(channel, t_ns, json);
-    });
+    return converter_.convert(line, 0,
+                              [&](foxglove::ChannelId channel, core::TimeNs t_ns, auto json) {
+                                if (!map_.empty())
+                                  map_converter_.convert(std::exchange(map_, {}), t_ns, emit_);
+                                emit_(channel, t_ns, json);
+                              });
   }
   bool has_scans() const { return has_scans_; }
   void finish() {

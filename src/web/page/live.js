@@ -23,11 +23,10 @@ export function follow(on) {
     source.onerror = async () => {
       // A browser gives up after some errors, and waits for long after others.
       source.close();
-      // It does not say why it could not.
-      const response = await fetch(withToken("/api/maps")).catch(() => null);
-      on.away(response?.status === 401
-        ? "This page needs the token: open it with ?token=T at the end of its address."
-        : "No connection to cornerd-web. Trying again …");
+      on.away("No connection to cornerd-web. Trying again …");
+      // The error does not say whether it is the token.
+      const response = await fetch(withToken("/api/maps"), { signal: AbortSignal.timeout(1000) }).catch(() => null);
+      if (response?.status === 401) on.away("This page needs the token: open it with ?token=T at the end of its address.");
       setTimeout(open, 1000);
     };
   };

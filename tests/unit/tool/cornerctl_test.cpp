@@ -200,24 +200,6 @@ TEST_F(Cornerctl, Replay_RecordedScans_GivesAllPoses) {
   EXPECT_EQ(count_lines(outcome.out, R"({"class":"POSE")"), 4U);
 }
 
-TEST_F(Cornerctl, Export_ThatFails_LeavesTheOldFileAlone) {
-  write("drive.mcap", "old");
-  write("empty.ndjson", "");
-  EXPECT_NE(run({"export", path("empty.ndjson"), "-o", path("drive.mcap")}).exit_code, kExitDone);
-  EXPECT_EQ(read(path("drive.mcap")), "old");
-  EXPECT_FALSE(std::filesystem::exists(path("drive.mcap.part")));
-}
-
-TEST_F(Cornerctl, Export_DamagedLines_AreCountedAndTheFirstNamed) {
-  const std::string scans = run({"replay", recording(), "--classes", "SCAN"}).out;
-  write("damaged.ndjson", scans + "{\"class\":\"POSE\",\"t\":\nno message\n\n" + scans);
-  const CommandRun outcome = run({"export", path("damaged.ndjson"), "-o", path("drive.mcap")});
-  EXPECT_EQ(outcome.exit_code, kExitDone) << outcome.err;
-  EXPECT_THAT(outcome.err, HasSubstr("2 lines skipped; the first: line 5: "));
-  EXPECT_TRUE(read(path("drive.mcap")).starts_with("\x89MCAP"));
-  EXPECT_FALSE(std::filesystem::exists(path("drive.mcap.part")));
-}
-
 TEST_F(Cornerctl, Detect_Recording_GivesBreakpointsOfEachScan) {
   const CommandRun outcome = run({"detect", recording(), "--method", "altbd"});
   EXPECT_EQ(outcome.exit_code, kExitDone);
