@@ -148,7 +148,8 @@ bool Localizer::Workspace::is_explained_by_motion() const {
 void Localizer::Workspace::search_map(TimeNs t_ns) {
   PlaceSearch& search = place->place_search;
   // Where walls have been exact, what does not fit is a motion.
-  const double max_map_sigma_m = place->map_error.is_exact() ? map->plan().sigma_m : 1;
+  const double max_map_sigma_m = place->map_error.is_exact() ? BeamModel::kMapSigmas_m.front()
+                                                             : BeamModel::kMapSigmas_m.back();
   const std::optional<Prior> prior = memory.prior(t_ns);
   const auto pairs = place->recognition.from_pairs(result.detection.breakpoints);
   const auto begin = [&] {

@@ -174,10 +174,13 @@ void PlaceSearch::add(const Candidate& candidate) {
   } else if (candidate.map_sigma_m > BeamModel::kMapSigmas_m.front()) {
     refine(candidate.map_sigma_m);
   } else {
-    // Where the walls are exact, so is the pose.
+    // Where the walls are exact, so is the pose, and what does not fit is a motion.
     refine(0);
     const FaceResidualStatistics& faces = place.refined.face_residuals;
-    if (faces.excess > kExcessSigmas * std::sqrt(faces.excess_variance)) refine(stated_m);
+    if (max_map_sigma_m_ > BeamModel::kMapSigmas_m.front() &&
+        faces.excess > kExcessSigmas * std::sqrt(faces.excess_variance)) {
+      refine(stated_m);
+    }
   }
   const Covariance3& covariance = place.refined.covariance;
   const double max_rmse_m =
