@@ -19,7 +19,8 @@ ScanStructure scan_structure(std::span<const WallSegment> segments);
 /// Log odds that a scan was taken at a pose, against "somewhere else, or not in this map", nats.
 /// `wall_ends`: breakpoints at an end of a wall that the map has there. A logistic regression on
 /// the statistics of the beam model: single rays are not independent, so that products of their
-/// likelihoods promise too much (`cornerd-bench --reliability`).
+/// likelihoods promise too much (`cornerd-bench --evidence`,
+/// src/bench/localization/fit_evidence.py).
 double log_odds_of_place(const BeamStatistics& place, double wall_ends, const ScanStructure& scan);
 
 }  // namespace cornerd::core
