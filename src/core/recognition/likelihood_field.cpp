@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/recognition/likelihood_field.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace cornerd::core {
@@ -23,13 +24,21 @@ LikelihoodField::LikelihoodField(const WallMap& map) : cell_m_(kFieldCell_m) {
   lower_left_ = map.lower_left() - border;
   const Vec2 extent = map.upper_right() + border - lower_left_;
   const auto cells = [&](double length_m) { return std::floor(length_m / cell_m_) + 1; };
-  while (kLevels * cells(extent.x()) * cells(extent.y()) > static_cast<double>(kMaxBytes)) {
+  constexpr int kPadding = 1 << (kLevels - 1);
+  while (kLevels * (cells(extent.x()) + kPadding) * (cells(extent.y()) + kPadding) >
+         static_cast<double>(kMaxBytes)) {
     cell_m_ *= 1.25;
   }
   columns_ = static_cast<int>(cells(extent.x()));
   rows_ = static_cast<int>(cells(extent.y()));
-  scores_.resize(static_cast<std::size_t>(kLevels) * static_cast<std::size_t>(columns_) *
-                 static_cast<std::size_t>(rows_));
+  std::size_t size = 0;
+  for (int level = 0; level < kLevels; ++level) {
+    const int last = (1 << level) - 1;
+    levels_[static_cast<std::size_t>(level)] = {size, static_cast<std::uint32_t>(columns_ + last),
+                                                static_cast<std::uint32_t>(rows_ + last), last};
+    size += static_cast<std::size_t>(columns_ + last) * static_cast<std::size_t>(rows_ + last);
+  }
+  scores_.resize(size);
   for (const Face& face : map.faces()) draw(face);
   for (int level = 1; level < kLevels; ++level) pool(level);
 }
@@ -53,20 +62,19 @@ void LikelihoodField::draw(const Face& face) {
       const double density = std::exp(-distance_m * distance_m / (2 * sigma_m * sigma_m));
       const auto score =
           static_cast<std::uint8_t>(100 * std::log1p(kContrast * density) / std::log1p(kContrast));
-      std::uint8_t& at = scores_[index(0, column, row)];
-      at = std::max(at, score);
+      at(0, column, row) = std::max(at(0, column, row), score);
     }
   }
 }
 
 void LikelihoodField::pool(int level) {
   const int half = 1 << (level - 1);
-  for (int row = 0; row < rows_; ++row) {
-    for (int column = 0; column < columns_; ++column) {
-      scores_[index(level, column, row)] = static_cast<std::uint8_t>(std::max(
-          std::max(max_score(level - 1, column, row), max_score(level - 1, column + half, row)),
-          std::max(max_score(level - 1, column, row + half),
-                   max_score(level - 1, column + half, row + half))));
+  const int last = 2 * half - 1;
+  for (int row = -last; row < rows_; ++row) {
+    for (int column = -last; column < columns_; ++column) {
+      const auto below = [&](int x, int y) { return max_score(level - 1, column + x, row + y); };
+      at(level, column, row) = static_cast<std::uint8_t>(
+          std::max({below(0, 0), below(half, 0), below(0, half), below(half, half)}));
     }
   }
 }

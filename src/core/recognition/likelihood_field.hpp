@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "core/map/wall_map.hpp"
@@ -19,6 +20,11 @@ class LikelihoodField {
 
   static constexpr int kLevels = 7;
 
+  struct Cell {
+    std::int32_t column = 0;
+    std::int32_t row = 0;
+  };
+
   double cell_m() const { return cell_m_; }
   const Vec2& lower_left() const { return lower_left_; }
   int columns() const { return columns_; }
@@ -27,17 +33,35 @@ class LikelihoodField {
 
   /// Largest score of the cells (column, row) to (column, row) + 2^level - 1; 0 outside the field.
   int max_score(int level, int column, int row) const {
-    const int last = (1 << level) - 1;
-    if (column + last < 0 || row + last < 0 || column >= columns_ || row >= rows_) return 0;
-    return scores_[index(level, std::max(column, 0), std::max(row, 0))];
+    const std::array<Cell, 1> origin{};
+    return sum_of_max_scores(level, column, row, origin);
+  }
+  /// The sum of max_score() over points at these cells from (column, row).
+  int sum_of_max_scores(int level, int column, int row, std::span<const Cell> points) const {
+    const Level all = levels_[static_cast<std::size_t>(level)];
+    const std::uint8_t* const scores = scores_.data() + all.begin;
+    int sum = 0;
+    for (const Cell& point : points) {
+      // Huge where it is negative.
+      const auto x = static_cast<std::uint32_t>(column + point.column + all.last);
+      const auto y = static_cast<std::uint32_t>(row + point.row + all.last);
+      if (x < all.columns && y < all.rows) sum += scores[y * all.columns + x];
+    }
+    return sum;
   }
 
  private:
-  std::size_t index(int level, int column, int row) const {
-    return (static_cast<std::size_t>(level) * static_cast<std::size_t>(rows_) +
-            static_cast<std::size_t>(row)) *
-               static_cast<std::size_t>(columns_) +
-           static_cast<std::size_t>(column);
+  /// Squares that overlap the field: their first cells are from -last.
+  struct Level {
+    std::size_t begin = 0;  ///< in scores_
+    std::uint32_t columns = 0;
+    std::uint32_t rows = 0;
+    int last = 0;  ///< 2^level - 1
+  };
+  std::uint8_t& at(int level, int column, int row) {
+    const Level& all = levels_[static_cast<std::size_t>(level)];
+    return scores_[all.begin + static_cast<std::uint32_t>(row + all.last) * all.columns +
+                   static_cast<std::uint32_t>(column + all.last)];
   }
   void draw(const Face& face);
   void pool(int level);
@@ -46,6 +70,7 @@ class LikelihoodField {
   Vec2 lower_left_ = Vec2::Zero();
   int columns_ = 0;
   int rows_ = 0;
+  std::array<Level, kLevels> levels_;
   std::vector<std::uint8_t> scores_;
 };
 

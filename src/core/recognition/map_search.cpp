@@ -23,24 +23,36 @@ constexpr double kLongWall_m = 3;
 constexpr double kLongFaces_m = 20;
 /// Headings that turn less wall length into the map's directions than this share of the best one's
 /// are left out: furniture may stand across a room, most walls do not.
+constexpr double kLeastOfBest = 0.75;
 constexpr double kMinHeadingShare = 0.5;
 
-std::size_t bin_of(const Vec2& direction) {
-  const double turns = std::atan2(direction.y(), direction.x()) / kHeadingStep_rad;
-  return static_cast<std::size_t>(std::floor(turns + 0.5) + MapSearch::kHeadings) %
-         MapSearch::kHeadings;
+/// Adds to the two bins next to a direction.
+void add(std::span<double, MapSearch::kHeadings> weights, const Vec2& direction, double weight) {
+  const double bin = std::atan2(direction.y(), direction.x()) / kHeadingStep_rad + weights.size();
+  const double whole = std::floor(bin);
+  const auto index = static_cast<std::size_t>(whole);
+  weights[index % weights.size()] += weight * (1 - (bin - whole));
+  weights[(index + 1) % weights.size()] += weight * (bin - whole);
+}
+
+/// Walls differ from their direction in the map by a bin.
+void smooth(std::span<double, MapSearch::kHeadings> weights) {
+  const double first = weights[0];
+  double previous = weights.back();
+  for (std::size_t i = 0; i < weights.size(); ++i) {
+    const double next = i + 1 < weights.size() ? weights[i + 1] : first;
+    const double own = weights[i];
+    weights[i] = (previous + 2 * own + next) / 4;
+    previous = own;
+  }
 }
 
 }  // namespace
 
 MapSearch::MapSearch(const WallMap& map) : field_(map) {
-  for (const Face& face : map.faces()) {
-    const std::size_t bin = bin_of(face.normal);
-    for (const std::size_t step : {kHeadings - 1, std::size_t{0}, std::size_t{1}}) {
-      double& length_m = map_directions_[(bin + step) % kHeadings];
-      length_m = std::min(length_m + face.length_m, kLongFaces_m);
-    }
-  }
+  for (const Face& face : map.faces()) add(map_directions_, face.normal, face.length_m);
+  for (double& length_m : map_directions_) length_m = std::min(length_m, kLongFaces_m);
+  smooth(map_directions_);
   headings_.reserve(kHeadings);
   points_.reserve(kPoints);
   cells_.resize(kHeadings * kPoints);
@@ -53,7 +65,7 @@ void MapSearch::select_headings(std::span<const WallSegment> segments) {
   for (const WallSegment& segment : segments) {
     const double length_m = (segment.last - segment.first).norm();
     if (segment.support < kMinSupport || length_m < kMinWall_m) continue;
-    scan_directions[bin_of(segment.normal)] += std::min(length_m, kLongWall_m);
+    add(scan_directions, segment.normal, std::min(length_m, kLongWall_m));
   }
   HeadingWeights weights{};
   for (std::size_t direction = 0; direction < kHeadings; ++direction) {
@@ -63,10 +75,16 @@ void MapSearch::select_headings(std::span<const WallSegment> segments) {
           scan_directions[direction] * map_directions_[(direction + heading) % kHeadings];
     }
   }
-  const double least = kMinHeadingShare * *std::max_element(weights.begin(), weights.end());
+  const double best = *std::max_element(weights.begin(), weights.end());
   headings_.clear();
   for (std::size_t heading = 0; heading < kHeadings; ++heading) {
-    if (weights[heading] >= least) headings_.push_back(static_cast<std::uint16_t>(heading));
+    const double before = weights[(heading + kHeadings - 1) % kHeadings];
+    const double at = weights[heading];
+    const double after = weights[(heading + 1) % kHeadings];
+    if (best > 0 && (at < kMinHeadingShare * best || at <= before || at < after)) continue;
+    const double curvature = before + after - 2 * at;
+    const double offset = curvature < 0 ? (before - after) / curvature / 2 : 0;
+    headings_.push_back((static_cast<double>(heading) + offset) * kHeadingStep_rad);
   }
 }
 
@@ -100,8 +118,8 @@ void MapSearch::select_points(std::span<const PolarPoint> points,
 }
 
 void MapSearch::rotate(std::size_t heading) {
-  const double c = std::cos(static_cast<double>(heading) * kHeadingStep_rad);
-  const double s = std::sin(static_cast<double>(heading) * kHeadingStep_rad);
+  const double c = std::cos(headings_[heading]);
+  const double s = std::sin(headings_[heading]);
   for (std::size_t i = 0; i < points_.size(); ++i) {
     const Vec2 point =
         Vec2(c * points_[i].x() - s * points_[i].y(), s * points_[i].x() + c * points_[i].y()) /
@@ -111,17 +129,17 @@ void MapSearch::rotate(std::size_t heading) {
   }
 }
 
-void MapSearch::push(std::uint16_t heading, int level, int column, int row) {
-  if (column >= field_.columns() || row >= field_.rows()) return;
+bool MapSearch::push(std::uint16_t heading, int level, int column, int row) {
+  if (column >= field_.columns() || row >= field_.rows()) return false;
   ++nodes_;
   if (queue_.size() == queue_.capacity()) {
     complete_ = false;
-    return;
+    return false;
   }
-  int bound = 0;
-  const auto cells = std::span(cells_).subspan(heading * kPoints, points_.size());
-  for (const auto& [x, y] : cells) bound += field_.max_score(level, column + x, row + y);
+  const int bound = field_.sum_of_max_scores(
+      level, column, row, std::span(cells_).subspan(heading * kPoints, points_.size()));
   queue_.push_back({bound, heading, static_cast<std::uint16_t>(level), column, row});
+  return true;
 }
 
 bool MapSearch::is_found(const Pose2& T_map_lidar) const {
@@ -148,7 +166,7 @@ std::span<const PoseHypothesis> MapSearch::find(std::span<const PolarPoint> poin
   if (points_.empty()) return found_;
   select_headings(segments);
   constexpr int kTop = LikelihoodField::kLevels - 1;
-  for (const std::uint16_t heading : headings_) {
+  for (std::uint16_t heading = 0; heading < headings_.size(); ++heading) {
     rotate(heading);
     for (int row = 0; row < field_.rows(); row += 1 << kTop) {
       for (int column = 0; column < field_.columns(); column += 1 << kTop) {
@@ -161,10 +179,11 @@ std::span<const PoseHypothesis> MapSearch::find(std::span<const PolarPoint> poin
     std::pop_heap(queue_.begin(), queue_.end(), is_worse);
     const Node node = queue_.back();
     queue_.pop_back();
+    if (!found_.empty() && node.bound < kLeastOfBest * found_.front().votes * static_cast<int>(points_.size())) break;
     if (node.level == 0) {
       const Vec2 at =
           field_.lower_left() + field_.cell_m() * Vec2(node.column + 0.5, node.row + 0.5);
-      const Pose2 T_map_lidar{at.x(), at.y(), normalize_angle(node.heading * kHeadingStep_rad)};
+      const Pose2 T_map_lidar{at.x(), at.y(), normalize_angle(headings_[node.heading])};
       if (is_found(T_map_lidar)) continue;
       found_.push_back({T_map_lidar, node.bound / static_cast<int>(points_.size())});
       continue;
@@ -172,9 +191,9 @@ std::span<const PoseHypothesis> MapSearch::find(std::span<const PolarPoint> poin
     const int level = node.level - 1;
     for (const int row : {node.row, node.row + (1 << level)}) {
       for (const int column : {node.column, node.column + (1 << level)}) {
-        const std::size_t size = queue_.size();
-        push(node.heading, level, column, row);
-        if (queue_.size() > size) std::push_heap(queue_.begin(), queue_.end(), is_worse);
+        if (push(node.heading, level, column, row)) {
+          std::push_heap(queue_.begin(), queue_.end(), is_worse);
+        }
       }
     }
   }

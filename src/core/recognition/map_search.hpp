@@ -16,14 +16,14 @@ namespace cornerd::core {
 
 /// Search of the whole map for the poses at which most of the scan's walls lie on the map's:
 /// best-first branch and bound on a likelihood field (Hess et al. 2016, algorithm 3; Olson 2015).
-/// It needs no corner and misses no place of its headings, which are those that turn the scan's
-/// walls into directions of the map's. Allocates nothing after construction.
+/// It needs no corner and misses no place of its headings, which are those that turn most of the
+/// scan's walls into directions of the map's. Allocates nothing after construction.
 class MapSearch {
  public:
   explicit MapSearch(const WallMap& map);
 
   /// Number of poses found: more than look alike in one building.
-  static constexpr std::size_t kMaxFound = 64;
+  static constexpr std::size_t kMaxFound = 16;
 
   /// The best distinct poses, best first; `votes` is the mean score of a point, 0 to 100.
   /// `segments`: walls of the scan.
@@ -36,13 +36,13 @@ class MapSearch {
   std::size_t nodes() const { return nodes_; }
 
   static constexpr std::size_t kMaxNodes = 1U << 18U;
-  static constexpr std::size_t kPoints = 72;
+  static constexpr std::size_t kPoints = 36;
   static constexpr std::size_t kHeadings = 240;
 
  private:
   struct Node {
     int bound = 0;  ///< sum of scores, at most
-    std::uint16_t heading = 0;
+    std::uint16_t heading = 0;  ///< index into headings_
     std::uint16_t level = 0;
     int column = 0;
     int row = 0;
@@ -52,14 +52,14 @@ class MapSearch {
   void select_headings(std::span<const WallSegment> segments);
   void select_points(std::span<const PolarPoint> points, std::span<const WallSegment> segments);
   void rotate(std::size_t heading);
-  void push(std::uint16_t heading, int level, int column, int row);
+  bool push(std::uint16_t heading, int level, int column, int row);
   bool is_found(const Pose2& T_map_lidar) const;
 
   LikelihoodField field_;
   HeadingWeights map_directions_{};  ///< length of the faces by the direction of their normals, m
   std::vector<Vec2> points_;         ///< on the scan's walls, evenly, m
-  std::vector<std::uint16_t> headings_;
-  std::vector<std::array<std::int32_t, 2>> cells_;  ///< of kPoints points, heading by heading
+  std::vector<double> headings_;     ///< rad
+  std::vector<LikelihoodField::Cell> cells_;  ///< of kPoints points, heading by heading
   std::vector<Node> queue_;                         ///< a heap
   std::vector<PoseHypothesis> found_;
   std::size_t nodes_ = 0;
