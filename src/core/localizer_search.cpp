@@ -32,7 +32,7 @@ constexpr double kGuessedShare = 0.8;
 /// map but for some furniture.
 constexpr double kMovingHitShare = 0.8;
 /// Hypotheses of pairs of corners that are compared in inexact maps, the most voted ones.
-constexpr std::size_t kMaxPairs = 64;
+constexpr std::size_t kMaxPairs = 8;
 
 /// The share of the rays that a place explains at least roughly where a bias is all that is wrong.
 constexpr double kAllButExact = 0.95;

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t kFewRays = 90;
 /// Candidates that are refined on few rays, and on all.
-constexpr std::size_t kMaxRefined = 40;
+constexpr std::size_t kMaxRefined = 12;
 constexpr std::size_t kMaxCompared = 12;
 /// A ray on the wall that is predicted, roughly (m).
 constexpr double kRoughHit_m = 0.12;
@@ -22,6 +22,8 @@ constexpr double kFewRaysRadius_m = 0.03;
 /// Refinement that leads farther away has left its place.
 constexpr double kMaxMove_m = 0.5;
 constexpr double kMaxMove_rad = 0.3;
+/// Nats behind the likeliest on few rays, beyond which none was the right one.
+constexpr double kHopeless = 30;
 /// One candidate, and one place.
 constexpr double kSame_m = 0.03;
 constexpr double kSame_rad = 0.02;
@@ -212,6 +214,7 @@ std::span<const VerifiedHypothesis> PlaceSearch::find() {
   refine_roughly();
   places_.clear();
   for (std::size_t i = 0; i < std::min(candidates_.size(), kMaxCompared); ++i) {
+    if (candidates_[i].score < candidates_.front().score - kHopeless) break;
     add(candidates_[i]);
   }
   std::sort(places_.begin(), places_.end(),
