@@ -90,39 +90,56 @@ std::size_t Localizer::Workspace::best_hits() const {
   return places.empty() ? 0 : places.front().likelihood.hits;
 }
 
+BeamLikelihood Localizer::Workspace::try_at(const Scan& scan, TimeNs t_ns, const Twist2& as_if,
+                                            const Pose2& T_map_lidar) {
+  tried_points.assign(scan, config.min_range_m, config.max_range_m, t_ns, as_if,
+                      place->bias.bias());
+  place->trial.begin(tried_points.points(), noise_scale());
+  const PoseHypothesis there{T_map_lidar, 0};
+  place->trial.consider(std::span(&there, 1), kMotionSearchRadius_m);
+  const auto places = place->trial.hypotheses();
+  return places.empty() ? BeamLikelihood{} : places.front().likelihood;
+}
+
 void Localizer::Workspace::look_for_the_motion(const Scan& scan, TimeNs t_ns) {
   if (!place) return;
-  Twist2 best_motion = motion;
-  std::size_t best = best_hits();
-  const auto try_motion = [&](const Twist2& candidate) {
-    look(scan, t_ns, candidate);
-    if (best_hits() <= best + points.size() / kRaysForAMotion) return;
-    best = best_hits();
-    best_motion = motion;
+  const auto best_place = [&] {
+    return place->verification.hypotheses().front().refined.T_map_lidar;
   };
-  if (!motion.is_rest()) try_motion({});
+  const auto look_if_better = [&](const Twist2& candidate, const Pose2& T_map_lidar) {
+    const std::size_t hits = try_at(scan, t_ns, candidate, T_map_lidar).hits;
+    const bool is_better = hits > best_hits() + points.size() / kRaysForAMotion;
+    if (is_better) look(scan, t_ns, candidate);
+    return is_better;
+  };
   const auto refine = [&] {
     for (int k = 0; k < 2 && (in_doubt(t_ns) || is_smeared()) && best_hits() > 0; ++k) {
-      const Pose2 start = place->verification.hypotheses().front().refined.T_map_lidar;
-      const RefinedMotion refined = place->refinement.refine_motion(
-          *map, start, kMotionSearchRadius_m, points.points(), result.detection.noise_scale);
-      if (!refined.valid || !is_plausible(refined.motion)) break;
-      try_motion(motion + refined.motion);
+      const RefinedMotion refined =
+          place->refinement.refine_motion(*map, best_place(), kMotionSearchRadius_m,
+                                          points.points(), result.detection.noise_scale);
+      if (!refined.valid || !is_plausible(refined.motion) ||
+          !look_if_better(motion + refined.motion, refined.T_map_lidar)) {
+        return;
+      }
     }
   };
+  if (best_hits() == 0) {
+    if (!motion.is_rest()) look(scan, t_ns, {});
+  } else if (!motion.is_rest()) {
+    look_if_better({}, best_place());
+  }
   refine();
   const bool is_known = odometer.has_motion() || memory.prior(t_ns);
   for (std::size_t k = 0; k < kGuessesATurn && !is_known && best_hits() < points.size() / 2; ++k) {
-    const Twist2 motion_before = best_motion;
-    const std::size_t best_before = best;
-    try_motion({0, 0, kGuesses_rad_s[guesses++ % kGuesses_rad_s.size()]});
+    const Twist2 motion_before = motion;
+    look(scan, t_ns, {0, 0, kGuesses_rad_s[guesses++ % kGuesses_rad_s.size()]});
     refine();
     // A guess that is right explains nearly all; any other explains a little more than rest does.
-    if (static_cast<double>(best) > kGuessedShare * static_cast<double>(points.size())) break;
-    best_motion = motion_before;
-    best = best_before;
+    if (static_cast<double>(best_hits()) > kGuessedShare * static_cast<double>(points.size())) {
+      return;
+    }
+    look(scan, t_ns, motion_before);
   }
-  if (motion != best_motion) look(scan, t_ns, best_motion);
 }
 
 bool Localizer::Workspace::is_exact(TimeNs t_ns) const {

@@ -43,6 +43,7 @@ struct Localizer::Workspace {
         : catalog(map, config.max_range_m),
           recognition(map, catalog),
           verification(map, config),
+          trial(map, config),
           map_search(map),
           place_search(map, recognition, config),
           refinement(config.max_range_m, config.noise),
@@ -53,6 +54,7 @@ struct Localizer::Workspace {
     Catalog catalog;
     Recognition recognition;
     Verification verification;
+    Verification trial;  ///< of single poses, as if the lidar had moved otherwise
     MapSearch map_search;
     PlaceSearch place_search;
     Refinement refinement;
@@ -77,6 +79,8 @@ struct Localizer::Workspace {
   void reject_motion();
   Decision find(const Scan& scan, TimeNs t_ns);
   void look(const Scan& scan, TimeNs t_ns, const Twist2& as_if_moving);
+  BeamLikelihood try_at(const Scan& scan, TimeNs t_ns, const Twist2& as_if,
+                        const Pose2& T_map_lidar);
   void look_for_the_motion(const Scan& scan, TimeNs t_ns);
   void search_map(TimeNs t_ns);
   bool is_exact(TimeNs t_ns) const;
@@ -120,6 +124,7 @@ struct Localizer::Workspace {
   PlaceFilter filter;    ///< of the scans so far
   PlaceFilter filtered;  ///< with the one that find() looked at last
   PolarScan points;
+  PolarScan tried_points;
   std::size_t guesses = 0;                         ///< of the motion, so far
   Twist2 motion;                                   ///< that `points` were moved back by
   std::span<const VerifiedHypothesis> candidates;  ///< that the last decision is about

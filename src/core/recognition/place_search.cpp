@@ -23,7 +23,7 @@ constexpr double kFewRaysRadius_m = 0.03;
 constexpr double kMaxMove_m = 0.5;
 constexpr double kMaxMove_rad = 0.3;
 /// Nats behind the likeliest on few rays, beyond which none was the right one.
-constexpr double kHopeless = 30;
+constexpr double kHopeless = 16;
 /// One candidate, and one place.
 constexpr double kSame_m = 0.03;
 constexpr double kSame_rad = 0.02;
@@ -121,8 +121,10 @@ PlaceSearch::Candidate PlaceSearch::refined_roughly(const Candidate& candidate,
     const auto hits = ray_caster_.cast(map_, refined.T_map_lidar, subset_);
     const BeamStatistics statistics = beam_model_.statistics(
         subset_, hits, refined.T_map_lidar, spacing_rad, noise_scale_, max_map_sigma_m_);
-    if (statistics.log_likelihood > best.score) {
-      best = {refined.T_map_lidar, statistics.log_likelihood, statistics.map_sigma_m};
+    const double log_odds =
+        log_odds_of_place(statistics, wall_ends(refined.T_map_lidar), structure_);
+    if (log_odds > best.score) {
+      best = {refined.T_map_lidar, log_odds, statistics.map_sigma_m};
     }
   }
   return best;
