@@ -52,7 +52,7 @@ const ScanResult& Localizer::step(const Scan& received) {
   if (decision.state == PoseState::kLost && &scan != &turn) {
     w.reject_motion();
     decision = w.find(turn, t_ns);
-  } else if (&scan != &turn && !w.decided_exactly) {
+  } else if (&scan != &turn && !w.decided_exactly && w.fits_as_it_came(turn, t_ns)) {
     const Decision undeskewed = w.find(turn, t_ns);
     if (w.decided_exactly) w.reject_motion();
     decision = w.decided_exactly ? undeskewed : w.find(scan, t_ns);

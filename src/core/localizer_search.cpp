@@ -142,6 +142,11 @@ void Localizer::Workspace::look_for_the_motion(const Scan& scan, TimeNs t_ns) {
   }
 }
 
+bool Localizer::Workspace::fits_as_it_came(const Scan& turn, TimeNs t_ns) {
+  return place && !candidates.empty() &&
+         core::is_exact(try_at(turn, t_ns, {}, candidates.front().refined.T_map_lidar), true);
+}
+
 bool Localizer::Workspace::is_exact(TimeNs t_ns) const {
   const auto places = place->verification.hypotheses();
   if (places.empty()) return false;

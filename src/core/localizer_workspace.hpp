@@ -84,6 +84,7 @@ struct Localizer::Workspace {
   void look_for_the_motion(const Scan& scan, TimeNs t_ns);
   void search_map(TimeNs t_ns);
   bool is_exact(TimeNs t_ns) const;
+  bool fits_as_it_came(const Scan& turn, TimeNs t_ns);
   bool is_explained_by_motion() const;
   std::size_t corners_of(const Decision& decision) const;
   PoseState believe(const Decision& decision, std::size_t corners, TimeNs t_ns);

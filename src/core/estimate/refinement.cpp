@@ -62,7 +62,8 @@ void Refinement::find_hits(const WallMap& map, const Pose2& T_map_lidar,
   const bool same_points = points.data() == points_.data() && points.size() == points_.size();
   if (same_points && same_pose(T_map_lidar, T_map_hits_, same_m, same_rad)) return;
   if (!same_points) lanes_.assign(points, noise_, noise_scale);
-  hits_ = ray_caster_.cast_near(map, T_map_lidar, points);
+  hits_ = same_points ? ray_caster_.cast_again(map, T_map_lidar, points)
+                      : ray_caster_.cast_near(map, T_map_lidar, points);
   points_ = points;
   T_map_hits_ = T_map_lidar;
 }
@@ -191,7 +192,8 @@ RefinedMotion Refinement::refine_motion(const WallMap& map, const Pose2& start,
   double extra_sigma_m = search_radius_m;
   for (int k = 0; k < kMotionIterations; ++k) {
     const Pose2& T_map_lidar = refined.T_map_lidar;
-    const auto hits = ray_caster_.cast_near(map, T_map_lidar, points);
+    const auto hits = k == 0 ? ray_caster_.cast_near(map, T_map_lidar, points)
+                             : ray_caster_.cast_again(map, T_map_lidar, points);
     const double c = std::cos(T_map_lidar.theta_rad);
     const double s = std::sin(T_map_lidar.theta_rad);
     Matrix6 information = prior_information.asDiagonal();

@@ -9,6 +9,8 @@ namespace {
 
 /// Larger than any range error and any pose error of a hypothesis.
 constexpr double kBeyond_m = 1;
+/// Faces that a room shows are some ten.
+constexpr std::size_t kMaxVisible = 1024;
 
 /// First ray at or after the bearing.
 std::size_t first_at(std::span<const PolarPoint> points, double bearing_rad) {
@@ -22,6 +24,7 @@ std::size_t first_at(std::span<const PolarPoint> points, double bearing_rad) {
 
 RayCaster::RayCaster(double max_range_m) : max_range_m_(max_range_m) {
   hits_.reserve(kMaxSamplesPerScan);
+  visible_.reserve(kMaxVisible);
 }
 
 void RayCaster::cover(std::uint32_t face, const Vec2& normal_lidar, double height_m,
@@ -49,37 +52,67 @@ std::span<const PredictedHit> RayCaster::cast_near(const WallMap& map, const Pos
   return cast(map, T_map_lidar, points, std::min(max_range_m_, farthest_m + kBeyond_m));
 }
 
-std::span<const PredictedHit> RayCaster::cast(const WallMap& map, const Pose2& T_map_lidar,
-                                              std::span<const PolarPoint> points,
-                                              double max_range_m) {
-  hits_.assign(points.size(), {max_range_m, PredictedHit::kNone});
-  const double c = std::cos(T_map_lidar.theta_rad);
-  const double s = std::sin(T_map_lidar.theta_rad);
-  const Vec2 origin = T_map_lidar.translation();
-  const auto to_lidar = [&](const Vec2& v) {
-    return Vec2(c * v.x() + s * v.y(), -s * v.x() + c * v.y());
-  };
-  visible_faces_.find(map, origin, max_range_m, [&](std::uint32_t i, const VisibleFace& visible) {
-    const Vec2 from = to_lidar(visible.from);
-    const Vec2 to = to_lidar(visible.to);
-    const Vec2 normal = to_lidar(map.faces()[i].normal);
-    // Seen from its free side a face runs counter-clockwise from `from` to `to`, over less than pi.
-    // A falling bearing means that it crosses the seam.
-    const double from_rad = std::atan2(from.y(), from.x());
-    const double to_rad = std::atan2(to.y(), to.x());
-    const std::size_t begin = first_at(points, from_rad);
-    const std::size_t end = first_at(points, to_rad);
-    if (from_rad <= to_rad) {
-      cover(i, normal, visible.height_m, begin, end, points);
-    } else {
-      cover(i, normal, visible.height_m, begin, points.size(), points);
-      cover(i, normal, visible.height_m, 0, end, points);
-    }
-  });
+RayCaster::Axes::Axes(const Pose2& T_map_lidar)
+    : c(std::cos(T_map_lidar.theta_rad)), s(std::sin(T_map_lidar.theta_rad)) {}
+
+void RayCaster::begin(std::size_t points, double max_range_m) {
+  hits_.assign(points, {max_range_m, PredictedHit::kNone});
+  last_max_range_m_ = max_range_m;
+}
+
+void RayCaster::meet(std::uint32_t face, const WallMap& map, const VisibleFace& visible,
+                     const Axes& axes, std::span<const PolarPoint> points) {
+  const Vec2 from = axes.to_lidar(visible.from);
+  const Vec2 to = axes.to_lidar(visible.to);
+  const Vec2 normal = axes.to_lidar(map.faces()[face].normal);
+  // Seen from its free side a face runs counter-clockwise from `from` to `to`, over less than pi.
+  // A falling bearing means that it crosses the seam.
+  const double from_rad = std::atan2(from.y(), from.x());
+  const double to_rad = std::atan2(to.y(), to.x());
+  const std::size_t begin = first_at(points, from_rad);
+  const std::size_t end = first_at(points, to_rad);
+  if (from_rad <= to_rad) {
+    cover(face, normal, visible.height_m, begin, end, points);
+  } else {
+    cover(face, normal, visible.height_m, begin, points.size(), points);
+    cover(face, normal, visible.height_m, 0, end, points);
+  }
+}
+
+std::span<const PredictedHit> RayCaster::end() {
   for (PredictedHit& hit : hits_) {
     if (hit.face == PredictedHit::kNone) hit.range_m = 0;
   }
   return hits_;
+}
+
+std::span<const PredictedHit> RayCaster::cast(const WallMap& map, const Pose2& T_map_lidar,
+                                              std::span<const PolarPoint> points,
+                                              double max_range_m) {
+  const Axes axes(T_map_lidar);
+  begin(points.size(), max_range_m);
+  visible_.clear();
+  visible_faces_.find(map, T_map_lidar.translation(), max_range_m,
+                      [&](std::uint32_t face, const VisibleFace& visible) {
+                        if (visible_.size() < kMaxVisible) visible_.push_back(face);
+                        meet(face, map, visible, axes, points);
+                      });
+  return end();
+}
+
+std::span<const PredictedHit> RayCaster::cast_again(const WallMap& map, const Pose2& T_map_lidar,
+                                                    std::span<const PolarPoint> points) {
+  if (visible_.size() == kMaxVisible) return cast(map, T_map_lidar, points, last_max_range_m_);
+  const Axes axes(T_map_lidar);
+  begin(points.size(), last_max_range_m_);
+  const Vec2 origin = T_map_lidar.translation();
+  for (const std::uint32_t index : visible_) {
+    const Face& face = map.faces()[index];
+    const double height_m = face.normal.dot(origin) - face.offset_m;
+    if (height_m <= 0) continue;
+    meet(index, map, {face.from - origin, face.to - origin, height_m}, axes, points);
+  }
+  return end();
 }
 
 }  // namespace cornerd::core

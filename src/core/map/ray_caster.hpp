@@ -31,8 +31,23 @@ class RayCaster {
   /// been seen, and cost most where the pose is wrong.
   std::span<const PredictedHit> cast_near(const WallMap& map, const Pose2& T_map_lidar,
                                           std::span<const PolarPoint> points);
+  /// The same from a pose near the last cast's, with the faces that were visible there.
+  std::span<const PredictedHit> cast_again(const WallMap& map, const Pose2& T_map_lidar,
+                                           std::span<const PolarPoint> points);
 
  private:
+  /// The lidar's axes in the map.
+  struct Axes {
+    explicit Axes(const Pose2& T_map_lidar);
+    Vec2 to_lidar(const Vec2& v) const { return {c * v.x() + s * v.y(), c * v.y() - s * v.x()}; }
+    double c;
+    double s;
+  };
+  void begin(std::size_t points, double max_range_m);
+  void meet(std::uint32_t face, const WallMap& map, const VisibleFace& visible, const Axes& axes,
+            std::span<const PolarPoint> points);
+  std::span<const PredictedHit> end();
+
   std::span<const PredictedHit> cast(const WallMap& map, const Pose2& T_map_lidar,
                                      std::span<const PolarPoint> points, double max_range_m);
   void cover(std::uint32_t face, const Vec2& normal_lidar, double height_m, std::size_t begin,
@@ -41,6 +56,8 @@ class RayCaster {
   double max_range_m_;
   VisibleFaces visible_faces_;
   std::vector<PredictedHit> hits_;
+  double last_max_range_m_ = 0;
+  std::vector<std::uint32_t> visible_;  ///< of the last cast, at most kMaxVisible
 };
 
 }  // namespace cornerd::core

@@ -25,8 +25,8 @@ constexpr double kMaxMove_rad = 0.3;
 /// Nats behind the likeliest on few rays, beyond which none was the right one.
 constexpr double kHopeless = 16;
 /// One candidate, and one place.
-constexpr double kSame_m = 0.03;
-constexpr double kSame_rad = 0.02;
+constexpr double kSame_m = 0.06;
+constexpr double kSame_rad = 0.04;
 constexpr double kOnePlace_m = 0.3;
 constexpr double kOnePlace_rad = 0.15;
 /// How candidates are refined roughly: with free offsets from a pair of corners, a decimetre off,
@@ -142,15 +142,16 @@ void PlaceSearch::refine_roughly() {
   candidates_.resize(std::min(candidates_.size(), kMaxRefined));
   std::size_t kept = 0;
   for (const Candidate& candidate : candidates_) {
+    const auto is_known = [&](const Pose2& T_map_lidar) {
+      return std::any_of(candidates_.begin(),
+                         candidates_.begin() + static_cast<std::ptrdiff_t>(kept),
+                         [&](const Candidate& other) {
+                           return same_pose(other.T_map_lidar, T_map_lidar, kSame_m, kSame_rad);
+                         });
+    };
+    if (is_known(candidate.T_map_lidar)) continue;
     const Candidate best = refined_roughly(candidate, spacing_rad);
-    const auto last = candidates_.begin() + static_cast<std::ptrdiff_t>(kept);
-    if (!std::isfinite(best.score) ||
-        std::any_of(candidates_.begin(), last, [&](const Candidate& other) {
-          return same_pose(other.T_map_lidar, best.T_map_lidar, kSame_m, kSame_rad);
-        })) {
-      continue;
-    }
-    candidates_[kept++] = best;
+    if (std::isfinite(best.score) && !is_known(best.T_map_lidar)) candidates_[kept++] = best;
   }
   candidates_.resize(kept);
   std::sort(candidates_.begin(), candidates_.end(), is_better);
