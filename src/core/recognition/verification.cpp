@@ -21,7 +21,7 @@ constexpr double kMaxRoughViolations = 0.35;
 /// rays and by obstacles. Hypotheses that stayed ambiguous on all rays were behind by up to 27 in
 /// clear scans, and by 74 where most rays were missing or hit unmapped obstacles.
 constexpr double kRoughMargin = 60;
-constexpr double kRoughMarginPerUnmatchedRay = 2;
+constexpr double kRoughMarginPerUnmatchedRay = 0;
 /// The same before refinement: 68 and 169 observed.
 constexpr double kUnrefinedMargin = 150;
 /// Remaining error after the rough refinement.
