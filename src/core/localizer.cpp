@@ -41,6 +41,7 @@ const ScanResult& Localizer::step(const Scan& received) {
   const Scan& turn = w.as_measured(received);
   const TimeNs t_ns = turn.start_ns() + (turn.end_ns() - turn.start_ns()) / 2;
   ++w.result.pose.seq;
+  w.turn_rate_rad_s = w.rotation.update(turn);
 
   // 0. Odometry, where there is any, says how the robot moved during the turn and where it should
   //    be.
@@ -180,6 +181,7 @@ void Localizer::relocalize() {
 void Localizer::forget() {
   relocalize();
   workspace_->saw_all_around = false;
+  workspace_->rotation.forget();
   workspace_->odometer = Odometer(workspace_->config.odometry);
   workspace_->sweep_log_odds = 0;
   forget_lidar();

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: MIT
 // From a turn to the places where it may have been taken.
-#include <array>
-
 #include "core/localizer_workspace.hpp"
 #include "core/recognition/evidence.hpp"
 
@@ -21,12 +19,6 @@ constexpr double kLikelyShare = 0.7;
 /// A motion has to explain one ray in so many more than rest does: it fits things that are not on
 /// the map a little, always.
 constexpr std::size_t kRaysForAMotion = 50;
-
-/// Where nothing explains half of the rays, the robot may be turning: so many of these rates are
-/// tried, by turns. Places are found within some 0.8 rad/s of the true one.
-constexpr std::array kGuesses_rad_s = {1.5, -1.5, 3.0, -3.0, 0.75, -0.75};
-constexpr std::size_t kGuessesATurn = 2;
-constexpr double kGuessedShare = 0.8;
 
 /// A motion is believed, and rays are compared one by one, where as many hit as they do in an exact
 /// map but for some furniture.
@@ -129,17 +121,13 @@ void Localizer::Workspace::look_for_the_motion(const Scan& scan, TimeNs t_ns) {
     look_if_better({}, best_place());
   }
   refine();
-  const bool is_known = odometer.has_motion() || memory.prior(t_ns);
-  for (std::size_t k = 0; k < kGuessesATurn && !is_known && best_hits() < points.size() / 2; ++k) {
-    const Twist2 motion_before = motion;
-    look(scan, t_ns, {0, 0, kGuesses_rad_s[guesses++ % kGuesses_rad_s.size()]});
-    refine();
-    // A guess that is right explains nearly all; any other explains a little more than rest does.
-    if (static_cast<double>(best_hits()) > kGuessedShare * static_cast<double>(points.size())) {
-      return;
-    }
-    look(scan, t_ns, motion_before);
-  }
+  // Nothing fits: the robot turns, as the scan before tells.
+  if (odometer.has_motion() || !turn_rate_rad_s || best_hits() >= points.size() / 2) return;
+  const Twist2 motion_before = motion;
+  const std::size_t hits_before = best_hits();
+  look(scan, t_ns, {motion.vx_m_s, motion.vy_m_s, *turn_rate_rad_s});
+  refine();
+  if (best_hits() <= hits_before + points.size() / kRaysForAMotion) look(scan, t_ns, motion_before);
 }
 
 bool Localizer::Workspace::fits_as_it_came(const Scan& turn, TimeNs t_ns) {

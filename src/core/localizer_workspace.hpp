@@ -14,6 +14,7 @@
 #include "core/estimate/bias_estimator.hpp"
 #include "core/estimate/constant_velocity_model.hpp"
 #include "core/estimate/refinement.hpp"
+#include "core/estimate/scan_rotation.hpp"
 #include "core/localizer.hpp"
 #include "core/odometry/odometer.hpp"
 #include "core/recognition/decision.hpp"
@@ -126,7 +127,8 @@ struct Localizer::Workspace {
   PlaceFilter filtered;  ///< with the one that find() looked at last
   PolarScan points;
   PolarScan tried_points;
-  std::size_t guesses = 0;                         ///< of the motion, so far
+  ScanRotation rotation;
+  std::optional<double> turn_rate_rad_s;           ///< by the last two scans
   Twist2 motion;                                   ///< that `points` were moved back by
   std::span<const VerifiedHypothesis> candidates;  ///< that the last decision is about
   bool saw_all_around = false;                     ///< in a scan with a pose, ever

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+#include "core/estimate/scan_rotation.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/geometry/angle.hpp"
+
+namespace cornerd::core {
+namespace {
+
+/// A robot's fastest turn.
+constexpr double kMaxRate_rad_s = 4;
+constexpr double kMaxInterval_s = 1;
+/// Ranges of one surface, seen from two places of a robot in motion, differ by up to this share.
+constexpr float kSameShare = 0.1F;
+/// Two scans that look alike agree in more of the bearings than this.
+constexpr double kMinAgreement = 0.5;
+
+}  // namespace
+
+std::optional<double> ScanRotation::update(const Scan& turn) {
+  const bool had_scan = has_scan_;
+  const double interval_s = to_seconds(turn.start_ns() - last_ns_);
+  const Ranges& before = ranges_[last_];
+  last_ = 1 - last_;
+  Ranges& now = ranges_[last_];
+  now.fill(0);
+  for (const Sample& sample : turn.samples()) {
+    const double bin = std::floor(sample.bearing_rad / kTwoPi * kBins) + kBins;
+    float& nearest_m = now[static_cast<std::size_t>(bin) % kBins];
+    if (sample.range_m > 0 && (nearest_m == 0 || sample.range_m < nearest_m)) {
+      nearest_m = sample.range_m;
+    }
+  }
+  last_ns_ = turn.start_ns();
+  has_scan_ = !turn.empty();
+  if (!had_scan || interval_s <= 0 || interval_s > kMaxInterval_s) return std::nullopt;
+
+  // A lidar that turns counter-clockwise sees a wall at lower bearings than before.
+  const auto agreement = [&](int shift) {
+    int same = 0;
+    int both = 1;
+    for (std::size_t i = 0; i < kBins; ++i) {
+      const auto at = static_cast<std::size_t>(static_cast<int>(i + kBins) + shift) % kBins;
+      if (now[i] == 0 || before[at] == 0) continue;
+      ++both;
+      same += std::abs(now[i] - before[at]) < kSameShare * now[i] ? 1 : 0;
+    }
+    return static_cast<double>(same) / both;
+  };
+  constexpr double kBin_rad = kTwoPi / kBins;
+  const int most =
+      static_cast<int>(std::min(kBins / 2.0, std::ceil(kMaxRate_rad_s * interval_s / kBin_rad)));
+  int best_shift = 0;
+  double best = agreement(0);
+  for (int shift = -most; shift <= most; ++shift) {
+    const double share = agreement(shift);
+    if (share > best) {
+      best = share;
+      best_shift = shift;
+    }
+  }
+  if (best < kMinAgreement) return std::nullopt;
+  // The peak's vertex.
+  const double below = agreement(best_shift - 1);
+  const double above = agreement(best_shift + 1);
+  const double curvature = below + above - 2 * best;
+  const double offset = curvature < 0 ? (below - above) / curvature / 2 : 0;
+  return (best_shift + offset) * kBin_rad / interval_s;
+}
+
+}  // namespace cornerd::core
