@@ -85,7 +85,7 @@ Decision Localizer::Workspace::find(const Scan& scan, TimeNs t_ns) {
   look(scan, t_ns, memory.motion());
 
   // 2. Where none is convincing, the robot may have changed its speed since the last turns.
-  if ((in_doubt(t_ns) || is_smeared()) && !may_be_biased()) look_for_the_motion(scan, t_ns);
+  if (is_smeared() && !may_be_biased()) look_for_the_motion(scan, t_ns);
 
   // 3. Where still none is, the whole map is searched.
   candidates = {};

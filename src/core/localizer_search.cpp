@@ -64,9 +64,11 @@ bool Localizer::Workspace::in_doubt(TimeNs t_ns) const {
          !(is_fresh || has_full_coverage(points.largest_gap_rad()));
 }
 
+/// Nothing fits, or not as well as a lidar at rest would see it.
 bool Localizer::Workspace::is_smeared() const {
-  return place && !place->verification.hypotheses().empty() &&
-         place->verification.hypotheses().front().refined.reduced_chi_square > kSmearedSpread;
+  if (!place) return false;
+  const auto places = place->verification.hypotheses();
+  return places.empty() || places.front().refined.reduced_chi_square > kSmearedSpread;
 }
 
 /// A bias fits like a motion: walls are where they should be, but not exactly. While the lidar is
@@ -105,7 +107,7 @@ void Localizer::Workspace::look_for_the_motion(const Scan& scan, TimeNs t_ns) {
     return is_better;
   };
   const auto refine = [&] {
-    for (int k = 0; k < 2 && (in_doubt(t_ns) || is_smeared()) && best_hits() > 0; ++k) {
+    for (int k = 0; k < 2 && is_smeared() && best_hits() > 0; ++k) {
       const RefinedMotion refined =
           place->refinement.refine_motion(*map, best_place(), kMotionSearchRadius_m,
                                           points.points(), result.detection.noise_scale);
