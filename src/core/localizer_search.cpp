@@ -182,10 +182,11 @@ void Localizer::Workspace::search_map(TimeNs t_ns) {
     }
     begin();
   }
-  const auto everywhere = place->map_search.find(points.points(), result.detection.segments);
-  place->verification.consider(everywhere, kRecognisedRadius_m);
-  search.consider(everywhere);
-  search.find();
+  search.consider(place->map_search.find(points.points(), result.detection.segments));
+  for (const core::VerifiedHypothesis& found : search.find()) {
+    const PoseHypothesis there{found.refined.T_map_lidar, 0};
+    place->verification.consider(std::span(&there, 1), kRecognisedRadius_m);
+  }
 }
 
 }  // namespace cornerd::core

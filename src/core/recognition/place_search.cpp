@@ -108,10 +108,11 @@ void PlaceSearch::consider(std::span<const PoseHypothesis> hypotheses) {
   }
 }
 
-PlaceSearch::Candidate PlaceSearch::refined_roughly(const Candidate& candidate,
-                                                    double spacing_rad) {
+PlaceSearch::Candidate PlaceSearch::refined_roughly(const Candidate& candidate, double spacing_rad,
+                                                    double least_score) {
   Candidate best{candidate.T_map_lidar, -std::numeric_limits<double>::infinity(), 0};
   for (const RoughRefinement& rough : kRoughRefinements) {
+    if (std::isfinite(best.score) && best.score < least_score) break;
     const RefinedPose refined = refinement_.refine_roughly(
         map_, candidate.T_map_lidar, rough.radius_m, subset_, noise_scale_, rough.map_sigma_m);
     if (!refined.valid ||
@@ -141,6 +142,7 @@ void PlaceSearch::refine_roughly() {
                              static_cast<double>(std::max<std::size_t>(1, subset_.size()));
   candidates_.resize(std::min(candidates_.size(), kMaxRefined));
   std::size_t kept = 0;
+  double best_score = -std::numeric_limits<double>::infinity();
   for (const Candidate& candidate : candidates_) {
     const auto is_known = [&](const Pose2& T_map_lidar) {
       return std::any_of(candidates_.begin(),
@@ -150,8 +152,10 @@ void PlaceSearch::refine_roughly() {
                          });
     };
     if (is_known(candidate.T_map_lidar)) continue;
-    const Candidate best = refined_roughly(candidate, spacing_rad);
-    if (std::isfinite(best.score) && !is_known(best.T_map_lidar)) candidates_[kept++] = best;
+    const Candidate best = refined_roughly(candidate, spacing_rad, best_score - kHopeless);
+    if (!std::isfinite(best.score) || is_known(best.T_map_lidar)) continue;
+    candidates_[kept++] = best;
+    best_score = std::max(best_score, best.score);
   }
   candidates_.resize(kept);
   std::sort(candidates_.begin(), candidates_.end(), is_better);

@@ -43,7 +43,7 @@ class PlaceSearch {
     double map_sigma_m = 0;
   };
   double rough_score(const Pose2& T_map_lidar);
-  Candidate refined_roughly(const Candidate& candidate, double spacing_rad);
+  Candidate refined_roughly(const Candidate& candidate, double spacing_rad, double least_score);
   void refine_roughly();
   void add(const Candidate& candidate);
 
