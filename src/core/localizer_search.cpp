@@ -184,6 +184,7 @@ void Localizer::Workspace::search_map(TimeNs t_ns) {
   }
   search.consider(place->map_search.find(points.points(), result.detection.segments));
   for (const core::VerifiedHypothesis& found : search.find()) {
+    if (found.log_odds < 0) break;
     const PoseHypothesis there{found.refined.T_map_lidar, 0};
     place->verification.consider(std::span(&there, 1), kRecognisedRadius_m);
   }

@@ -142,7 +142,7 @@ void PlaceSearch::refine_roughly() {
                              static_cast<double>(std::max<std::size_t>(1, subset_.size()));
   candidates_.resize(std::min(candidates_.size(), kMaxRefined));
   std::size_t kept = 0;
-  double best_score = -std::numeric_limits<double>::infinity();
+  double best_score = 0;  // of elsewhere
   for (const Candidate& candidate : candidates_) {
     const auto is_known = [&](const Pose2& T_map_lidar) {
       return std::any_of(candidates_.begin(),
@@ -221,7 +221,7 @@ std::span<const VerifiedHypothesis> PlaceSearch::find() {
   refine_roughly();
   places_.clear();
   for (std::size_t i = 0; i < std::min(candidates_.size(), kMaxCompared); ++i) {
-    if (candidates_[i].score < candidates_.front().score - kHopeless) break;
+    if (candidates_[i].score < std::max(0.0, candidates_.front().score) - kHopeless) break;
     add(candidates_[i]);
   }
   std::sort(places_.begin(), places_.end(),
