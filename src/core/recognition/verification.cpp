@@ -105,6 +105,8 @@ void Verification::refine_roughly(double search_radius_m) {
     const auto hits = ray_caster_.cast_near(map_, refined.T_map_lidar, subset_);
     const BeamLikelihood rough =
         beam_likelihood(map_, subset_, hits, refined.T_map_lidar, noise_, noise_scale_, 0);
+    // passes() asks for more.
+    if (2 * (rough.hits + rough.near_hits) < rough.rays) continue;
     if (rough.log_likelihood > best_.log_likelihood) {
       best_.log_likelihood = rough.log_likelihood;
       best_.on_walls = rough.hits + rough.near_hits;
