@@ -175,6 +175,7 @@ void Localizer::relocalize() {
   workspace_->odometer.forget();
   workspace_->memory.forget();
   workspace_->filter.forget();
+  if (workspace_->place) workspace_->place->map_search.stop();
   workspace_->T_map_doubted.reset();
 }
 

@@ -26,6 +26,9 @@ constexpr double kMovingHitShare = 0.8;
 /// Hypotheses of pairs of corners that are compared in inexact maps, the most voted ones.
 constexpr std::size_t kMaxPairs = 8;
 
+/// A search that did not go on for longer is of another scan.
+constexpr double kMaxSearchPause_s = 1;
+
 /// The share of the rays that a place explains at least roughly where a bias is all that is wrong.
 constexpr double kAllButExact = 0.95;
 
@@ -182,12 +185,30 @@ void Localizer::Workspace::search_map(TimeNs t_ns) {
     }
     begin();
   }
-  search.consider(place->map_search.find(points.points(), result.detection.segments));
+  search.consider(search_everywhere(t_ns));
   for (const core::VerifiedHypothesis& found : search.find()) {
     if (found.log_odds < 0) break;
     const PoseHypothesis there{found.refined.T_map_lidar, 0};
     place->verification.consider(std::span(&there, 1), kRecognisedRadius_m);
   }
+}
+
+std::span<const PoseHypothesis> Localizer::Workspace::search_everywhere(TimeNs t_ns) {
+  MapSearch& search = place->map_search;
+  if (!search.is_running() || to_seconds(t_ns - searched_ns) > kMaxSearchPause_s) {
+    search.begin(points.points(), result.detection.segments);
+    searched_ns = t_ns;
+    turned_rad = 0;
+  } else if (t_ns != searched_ns) {
+    turned_rad += turn_rate_rad_s.value_or(0) * to_seconds(t_ns - searched_ns);
+    searched_ns = t_ns;
+  }
+  search.advance(config.search_nodes_per_scan);
+  everywhere.assign(search.found().begin(), search.found().end());
+  for (PoseHypothesis& found : everywhere) {
+    found.T_map_lidar.theta_rad = normalize_angle(found.T_map_lidar.theta_rad + turned_rad);
+  }
+  return everywhere;
 }
 
 }  // namespace cornerd::core

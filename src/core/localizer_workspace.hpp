@@ -8,6 +8,7 @@
 #include <optional>
 #include <span>
 #include <utility>
+#include <vector>
 
 #include "core/breakpoint/detector.hpp"
 #include "core/catalog/catalog.hpp"
@@ -71,6 +72,7 @@ struct Localizer::Workspace {
         detector(the_config.detector, the_config.noise),
         odometer(the_config.odometry) {
     if (map) place.emplace(*map, config);
+    everywhere.reserve(MapSearch::kMaxFound);
   }
 
   const Scan& as_measured(const Scan& turn);
@@ -84,6 +86,7 @@ struct Localizer::Workspace {
                         const Pose2& T_map_lidar);
   void look_for_the_motion(const Scan& scan, TimeNs t_ns);
   void search_map(TimeNs t_ns);
+  std::span<const PoseHypothesis> search_everywhere(TimeNs t_ns);
   bool is_exact(TimeNs t_ns) const;
   bool fits_as_it_came(const Scan& turn, TimeNs t_ns);
   bool is_explained_by_motion() const;
@@ -127,6 +130,9 @@ struct Localizer::Workspace {
   PlaceFilter filtered;  ///< with the one that find() looked at last
   PolarScan points;
   PolarScan tried_points;
+  std::vector<PoseHypothesis> everywhere;          ///< by the search of the map so far
+  TimeNs searched_ns = 0;
+  double turned_rad = 0;                           ///< since that search began
   ScanRotation rotation;
   std::optional<double> turn_rate_rad_s;           ///< by the last two scans
   Twist2 motion;                                   ///< that `points` were moved back by

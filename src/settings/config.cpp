@@ -150,6 +150,7 @@ core::LocalizerConfig Config::localizer() const {
                          core::normalize_angle(lidar.mount.theta_rad)};
   config.detector = detector;
   config.updates_per_scan = updates_per_scan;
+  config.search_nodes_per_scan = core::kSearchInRealTime;
   config.noise = lidar.noise.sensor;
   config.bias = lidar.bias;
   config.calibrate_online = lidar.calibrate_online;

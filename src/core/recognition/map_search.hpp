@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/breakpoint/breakpoint.hpp"
+#include "core/localizer_config.hpp"
 #include "core/polar_scan.hpp"
 #include "core/recognition/hypothesis.hpp"
 #include "core/recognition/likelihood_field.hpp"
@@ -30,12 +31,21 @@ class MapSearch {
   std::span<const PoseHypothesis> find(std::span<const PolarPoint> points,
                                        std::span<const WallSegment> segments);
 
+  /// The same in parts: starts,
+  void begin(std::span<const PolarPoint> points, std::span<const WallSegment> segments);
+  /// goes on for so many nodes; true at the end,
+  bool advance(std::size_t nodes);
+  bool is_running() const { return !queue_.empty(); }
+  void stop() { queue_.clear(); }
+  /// and gives what was found so far.
+  std::span<const PoseHypothesis> found() const { return found_; }
+
   /// False where the last search ended before its end: more nodes than kMaxNodes.
   bool is_complete() const { return complete_; }
   /// Nodes that the last search visited, each a sum over kPoints points.
   std::size_t nodes() const { return nodes_; }
 
-  static constexpr std::size_t kMaxNodes = 1U << 18U;
+  static constexpr std::size_t kMaxNodes = kWholeSearch;
   static constexpr std::size_t kPoints = 36;
   static constexpr std::size_t kHeadings = 240;
 
@@ -49,6 +59,11 @@ class MapSearch {
   };
   using HeadingWeights = std::array<double, kHeadings>;
 
+  static bool is_worse(const Node& a, const Node& b);
+  int mean_score(const Node& node) const {
+    return node.bound / static_cast<int>(points_.size());
+  }
+  void visit(const Node& node);
   void select_headings(std::span<const WallSegment> segments);
   void select_points(std::span<const PolarPoint> points, std::span<const WallSegment> segments);
   void rotate(std::size_t heading);

@@ -51,7 +51,9 @@ void replay(const ReplayOptions& options) {
 
   Output output(/*flush_each=*/speed.has_value());
   MessagePrinter printer(output, classes, map ? &map->plan() : nullptr);
-  core::Pipeline pipeline(map, config.localizer());
+  core::LocalizerConfig localizer = config.localizer();
+  if (options.independent) localizer.search_nodes_per_scan = core::kWholeSearch;
+  core::Pipeline pipeline(map, localizer);
   ErrorStatistics errors;
   ErrorStatistics intermediate_errors;
   std::optional<Pace> pace;
