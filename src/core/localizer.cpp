@@ -41,7 +41,7 @@ const ScanResult& Localizer::step(const Scan& received) {
   const Scan& turn = w.as_measured(received);
   const TimeNs t_ns = turn.start_ns() + (turn.end_ns() - turn.start_ns()) / 2;
   ++w.result.pose.seq;
-  w.turn_rate_rad_s = w.rotation.update(turn);
+  w.rotation.add(turn);
 
   // 0. Odometry, where there is any, says how the robot moved during the turn and where it should
   //    be.
@@ -85,7 +85,7 @@ Decision Localizer::Workspace::find(const Scan& scan, TimeNs t_ns) {
   look(scan, t_ns, memory.motion());
 
   // 2. Where none is convincing, the robot may have changed its speed since the last turns.
-  if (is_smeared() && !may_be_biased()) look_for_the_motion(scan, t_ns);
+  if (may_move() && !may_be_biased()) look_for_the_motion(scan, t_ns);
 
   // 3. Where still none is, the whole map is searched.
   candidates = {};

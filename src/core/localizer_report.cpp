@@ -11,6 +11,8 @@ namespace {
 
 /// A turn without a wider gap than this has seen all around.
 constexpr double kSeesAround_rad = radians(90);
+/// Residuals this much beyond the scan's own noise are smeared by a motion.
+constexpr double kSmearedSpread = 1.4;
 
 Covariance3 doubt_of(double place_m, double heading_rad) {
   return Eigen::Vector3d(squared(place_m), squared(place_m), squared(heading_rad)).asDiagonal();

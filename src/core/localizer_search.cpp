@@ -20,6 +20,13 @@ constexpr double kLikelyShare = 0.7;
 /// the map a little, always.
 constexpr std::size_t kRaysForAMotion = 50;
 
+/// Residuals this much beyond the scan's noise may be a motion's (reduced chi-square; 800 rays at
+/// rest: 1.15 is three of its standard deviations).
+constexpr double kMayMove = 1.15;
+
+/// A lidar that turns slower is not smeared beyond what refinement finds.
+constexpr double kTurning_rad_s = 0.3;
+
 /// A motion is believed, and rays are compared one by one, where as many hit as they do in an exact
 /// map but for some furniture.
 constexpr double kMovingHitShare = 0.8;
@@ -68,10 +75,10 @@ bool Localizer::Workspace::in_doubt(TimeNs t_ns) const {
 }
 
 /// Nothing fits, or not as well as a lidar at rest would see it.
-bool Localizer::Workspace::is_smeared() const {
+bool Localizer::Workspace::may_move() const {
   if (!place) return false;
   const auto places = place->verification.hypotheses();
-  return places.empty() || places.front().refined.reduced_chi_square > kSmearedSpread;
+  return places.empty() || places.front().refined.reduced_chi_square > kMayMove;
 }
 
 /// A bias fits like a motion: walls are where they should be, but not exactly. While the lidar is
@@ -110,7 +117,7 @@ void Localizer::Workspace::look_for_the_motion(const Scan& scan, TimeNs t_ns) {
     return is_better;
   };
   const auto refine = [&] {
-    for (int k = 0; k < 2 && is_smeared() && best_hits() > 0; ++k) {
+    for (int k = 0; k < 2 && may_move() && best_hits() > 0; ++k) {
       const RefinedMotion refined =
           place->refinement.refine_motion(*map, best_place(), kMotionSearchRadius_m,
                                           points.points(), result.detection.noise_scale);
@@ -126,18 +133,25 @@ void Localizer::Workspace::look_for_the_motion(const Scan& scan, TimeNs t_ns) {
     look_if_better({}, best_place());
   }
   refine();
-  // Nothing fits: the robot turns, as the scan before tells.
-  if (odometer.has_motion() || !turn_rate_rad_s || best_hits() >= points.size() / 2) return;
+  // Nothing fits: the robot turns, as the scan before tells; the other way round, where the order
+  // of the bearings is not known.
+  const std::optional<double> rate_rad_s = rotation.rate_rad_s();
+  if (odometer.has_motion() || !rate_rad_s || std::abs(*rate_rad_s) < kTurning_rad_s) return;
   const Twist2 motion_before = motion;
-  const std::size_t hits_before = best_hits();
-  look(scan, t_ns, {motion.vx_m_s, motion.vy_m_s, *turn_rate_rad_s});
-  refine();
-  if (best_hits() <= hits_before + points.size() / kRaysForAMotion) look(scan, t_ns, motion_before);
+  for (const double omega_rad_s : {*rate_rad_s, -*rate_rad_s}) {
+    const std::size_t hits_before = best_hits();
+    if (hits_before >= points.size() / 2 || (omega_rad_s != *rate_rad_s && knows_order())) return;
+    look(scan, t_ns, {motion_before.vx_m_s, motion_before.vy_m_s, omega_rad_s});
+    refine();
+    if (best_hits() <= hits_before + points.size() / kRaysForAMotion) look(scan, t_ns, motion_before);
+  }
 }
 
 bool Localizer::Workspace::fits_as_it_came(const Scan& turn, TimeNs t_ns) {
-  return place && !candidates.empty() &&
-         core::is_exact(try_at(turn, t_ns, {}, candidates.front().refined.T_map_lidar), true);
+  if (!place || candidates.empty()) return false;
+  const BeamLikelihood there = try_at(turn, t_ns, {}, candidates.front().refined.T_map_lidar);
+  return core::is_exact(there, /*expected=*/true) ||
+         (place->map_error.is_exact() && there.hit_share() > kMovingHitShare);
 }
 
 bool Localizer::Workspace::is_exact(TimeNs t_ns) const {
@@ -200,7 +214,7 @@ std::span<const PoseHypothesis> Localizer::Workspace::search_everywhere(TimeNs t
     searched_ns = t_ns;
     turned_rad = 0;
   } else if (t_ns != searched_ns) {
-    turned_rad += turn_rate_rad_s.value_or(0) * to_seconds(t_ns - searched_ns);
+    turned_rad += rotation.rate_rad_s().value_or(0) * to_seconds(t_ns - searched_ns);
     searched_ns = t_ns;
   }
   search.advance(config.search_nodes_per_scan);

@@ -26,6 +26,8 @@ bool counts_up(const Scan& turn) {
 
 }  // namespace
 
+bool Localizer::Workspace::knows_order() const { return std::abs(sweep_log_odds) >= kSure; }
+
 const Scan& Localizer::Workspace::as_measured(const Scan& turn) {
   if (sweep_log_odds > -kSure || !counts_up(turn)) return turn;
   reversed.assign_reversed(turn);
@@ -45,7 +47,7 @@ double Localizer::Workspace::log_odds_at(const Scan& turn, const Pose2& T_map_li
 
 void Localizer::Workspace::learn_sweep(const Scan& turn, TimeNs t_ns) {
   const std::optional<Prior> prior = memory.prior(t_ns);
-  if (!place || !prior || memory.is_stationary() || std::abs(sweep_log_odds) >= kSure ||
+  if (!place || !prior || memory.is_stationary() || knows_order() ||
       !counts_up(turn)) {
     return;
   }

@@ -35,9 +35,6 @@ inline constexpr double kJump_rad = radians(60);
 /// Turns within which a lidar's bias is learnt.
 inline constexpr std::size_t kTurnsOfANewLidar = 20;
 
-/// Residuals this much beyond the turn's own noise are smeared by a motion.
-inline constexpr double kSmearedSpread = 1.4;
-
 struct Localizer::Workspace {
   /// What needs a map.
   struct Place {
@@ -76,6 +73,7 @@ struct Localizer::Workspace {
   }
 
   const Scan& as_measured(const Scan& turn);
+  bool knows_order() const;
   void learn_sweep(const Scan& turn, TimeNs t_ns);
   double log_odds_at(const Scan& turn, const Pose2& T_map_lidar, TimeNs t_ns);
   const Scan& deskewed(const Scan& turn, TimeNs t_ns);
@@ -99,7 +97,7 @@ struct Localizer::Workspace {
   bool prior_is_fresh(TimeNs t_ns) const;
   bool is_at_prior(const Pose2& T_map_lidar, TimeNs t_ns) const;
   bool in_doubt(TimeNs t_ns) const;
-  bool is_smeared() const;
+  bool may_move() const;
   std::size_t best_hits() const;
   bool may_be_biased() const;
   bool teaches(const Decision& decision) const;
@@ -134,7 +132,6 @@ struct Localizer::Workspace {
   TimeNs searched_ns = 0;
   double turned_rad = 0;                           ///< since that search began
   ScanRotation rotation;
-  std::optional<double> turn_rate_rad_s;           ///< by the last two scans
   Twist2 motion;                                   ///< that `points` were moved back by
   std::span<const VerifiedHypothesis> candidates;  ///< that the last decision is about
   bool saw_all_around = false;                     ///< in a scan with a pose, ever

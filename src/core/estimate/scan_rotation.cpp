@@ -19,23 +19,22 @@ constexpr double kMinAgreement = 0.5;
 
 }  // namespace
 
-std::optional<double> ScanRotation::update(const Scan& turn) {
-  const bool had_scan = has_scan_;
-  const double interval_s = to_seconds(turn.start_ns() - last_ns_);
-  const Ranges& before = ranges_[last_];
-  last_ = 1 - last_;
-  Ranges& now = ranges_[last_];
-  now.fill(0);
+void ScanRotation::add(const Scan& turn) {
+  before_ = last_;
+  last_ = {{}, turn.start_ns()};
   for (const Sample& sample : turn.samples()) {
     const double bin = std::floor(sample.bearing_rad / kTwoPi * kBins) + kBins;
-    float& nearest_m = now[static_cast<std::size_t>(bin) % kBins];
+    float& nearest_m = last_.ranges_m[static_cast<std::size_t>(bin) % kBins];
     if (sample.range_m > 0 && (nearest_m == 0 || sample.range_m < nearest_m)) {
       nearest_m = sample.range_m;
     }
   }
-  last_ns_ = turn.start_ns();
-  has_scan_ = !turn.empty();
-  if (!had_scan || interval_s <= 0 || interval_s > kMaxInterval_s) return std::nullopt;
+  scans_ = turn.empty() ? 0 : std::min(scans_ + 1, 2);
+}
+
+std::optional<double> ScanRotation::rate_rad_s() const {
+  const double interval_s = to_seconds(last_.start_ns - before_.start_ns);
+  if (scans_ < 2 || interval_s <= 0 || interval_s > kMaxInterval_s) return std::nullopt;
 
   // A lidar that turns counter-clockwise sees a wall at lower bearings than before.
   const auto agreement = [&](int shift) {
@@ -43,9 +42,9 @@ std::optional<double> ScanRotation::update(const Scan& turn) {
     int both = 1;
     for (std::size_t i = 0; i < kBins; ++i) {
       const auto at = static_cast<std::size_t>(static_cast<int>(i + kBins) + shift) % kBins;
-      if (now[i] == 0 || before[at] == 0) continue;
+      if (last_.ranges_m[i] == 0 || before_.ranges_m[at] == 0) continue;
       ++both;
-      same += std::abs(now[i] - before[at]) < kSameShare * now[i] ? 1 : 0;
+      same += std::abs(last_.ranges_m[i] - before_.ranges_m[at]) < kSameShare * last_.ranges_m[i] ? 1 : 0;
     }
     return static_cast<double>(same) / both;
   };

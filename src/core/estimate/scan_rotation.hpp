@@ -14,21 +14,27 @@ namespace cornerd::core {
 /// that the shift is the turn from one to the next. Allocates nothing.
 class ScanRotation {
  public:
-  void forget() { has_scan_ = false; }
+  void forget() { scans_ = 0; }
 
-  /// Adds a scan as it was measured. The mean rate since the one before, rad/s, counter-clockwise,
-  /// to some 0.1 rad/s up to 4 rad/s; nullopt without a scan in the second before, or where the two
-  /// do not look alike.
-  std::optional<double> update(const Scan& turn);
+  /// Adds a scan as it was measured.
+  void add(const Scan& turn);
+
+  /// The mean rate between the last two scans, rad/s, counter-clockwise, to some 0.1 rad/s up to
+  /// 4 rad/s; nullopt where they do not look alike or more than a second lies between.
+  std::optional<double> rate_rad_s() const;
 
  private:
   static constexpr std::size_t kBins = 360;
   using Ranges = std::array<float, kBins>;  ///< m, in a degree of bearing; 0: no return
 
-  std::array<Ranges, 2> ranges_{};
-  std::size_t last_ = 0;  ///< index of the last scan's
-  TimeNs last_ns_ = 0;
-  bool has_scan_ = false;
+  struct Profile {
+    Ranges ranges_m{};
+    TimeNs start_ns = 0;
+  };
+
+  Profile last_;
+  Profile before_;
+  int scans_ = 0;  ///< up to two
 };
 
 }  // namespace cornerd::core

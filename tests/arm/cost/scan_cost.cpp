@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
@@ -47,6 +48,7 @@ CORNERD_COST_STAGE(recognize)
 CORNERD_COST_STAGE(refine)
 CORNERD_COST_STAGE(likelihood)
 CORNERD_COST_STAGE(first_fix)
+CORNERD_COST_STAGE(clutter)
 
 namespace cornerd {
 namespace {
@@ -141,11 +143,37 @@ class Parts {
     cost_begin_first_fix();
     static_cast<void>(fresh_.step(scan));
     cost_end_first_fix();
+
+    const core::Scan furnished = among_posts(scan);
+    fresh_.relocalize();
+    cost_begin_clutter();
+    static_cast<void>(fresh_.step(furnished));
+    cost_end_clutter();
   }
 
  private:
+  /// Posts that no map has stop three rays in ten, at six tenths of their way.
+  static core::Scan among_posts(const core::Scan& scan) {
+    constexpr double kSpacing_rad = core::radians(15);
+    constexpr double kWidth_rad = core::radians(4.5);
+    core::Scan furnished;
+    for (core::Sample sample : scan.samples()) {
+      const double beyond_rad = std::fmod(sample.bearing_rad + core::kTwoPi, kSpacing_rad);
+      if (beyond_rad < kWidth_rad) sample.range_m *= 0.6F;
+      furnished.add(sample);
+    }
+    return furnished;
+  }
+
+  /// As the daemon does, which searches the map in parts.
+  static core::LocalizerConfig in_real_time() {
+    core::LocalizerConfig config;
+    config.search_nodes_per_scan = core::kSearchInRealTime;
+    return config;
+  }
+
   std::shared_ptr<const core::WallMap> map_;
-  core::LocalizerConfig config_;
+  core::LocalizerConfig config_ = in_real_time();
   core::Catalog catalog_;
   core::Recognition recognition_;
   core::Detector detector_;

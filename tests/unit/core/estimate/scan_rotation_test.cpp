@@ -25,10 +25,12 @@ class ScanRotationTest : public ::testing::TestWithParam<double> {
 
 TEST_P(ScanRotationTest, TurnedLidar_RateIsTheTurnOverTheTime) {
   const double rate_rad_s = GetParam();
-  EXPECT_FALSE(rotation_.update(at({1.0, 0.9, 0.3}, 0)));
+  rotation_.add(at({1.0, 0.9, 0.3}, 0));
+  EXPECT_FALSE(rotation_.rate_rad_s());
   for (int k = 1; k < 5; ++k) {
     const double turned_rad = rate_rad_s * k * to_seconds(kPeriod_ns);
-    const auto found = rotation_.update(at({1.0 + 0.05 * k, 0.9, 0.3 + turned_rad}, k));
+    rotation_.add(at({1.0 + 0.05 * k, 0.9, 0.3 + turned_rad}, k));
+    const auto found = rotation_.rate_rad_s();
     ASSERT_TRUE(found);
     EXPECT_NEAR(*found, rate_rad_s, 0.2);
   }
@@ -37,10 +39,13 @@ TEST_P(ScanRotationTest, TurnedLidar_RateIsTheTurnOverTheTime) {
 INSTANTIATE_TEST_SUITE_P(Rates, ScanRotationTest, ::testing::Values(0, 0.5, -1.5, 3, -3.5));
 
 TEST_F(ScanRotationTest, ScanAfterAPauseOrNothingInSight_RateIsUnknown) {
-  rotation_.update(at({1, 1, 0}, 0));
-  EXPECT_FALSE(rotation_.update(at({1, 1, 0}, 20)));
-  EXPECT_FALSE(rotation_.update(Scan()));
-  EXPECT_FALSE(rotation_.update(at({1, 1, 0}, 21)));
+  rotation_.add(at({1, 1, 0}, 0));
+  rotation_.add(at({1, 1, 0}, 20));
+  EXPECT_FALSE(rotation_.rate_rad_s());
+  rotation_.add(Scan());
+  EXPECT_FALSE(rotation_.rate_rad_s());
+  rotation_.add(at({1, 1, 0}, 21));
+  EXPECT_FALSE(rotation_.rate_rad_s());
 }
 
 }  // namespace

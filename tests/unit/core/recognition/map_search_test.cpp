@@ -37,7 +37,9 @@ TEST_F(MapSearchTest, ScansFromAnywhere_TruePoseIsFoundFirst) {
   }
 }
 
-TEST_F(MapSearchTest, Results_AreDistinctAndBestFirst) {
+TEST_F(MapSearchTest, TwoPlacesInASymmetricRoom_AreDistinctAndBestFirst) {
+  map_ = testing::make_map(testing::rectangular_room(3, 2));
+  search_ = MapSearch(*map_);
   const auto found = find(source_.take(*map_, {1.2, 0.9, 0.7}));
   ASSERT_GT(found.size(), 1U);
   EXPECT_LE(found.size(), MapSearch::kMaxFound);
