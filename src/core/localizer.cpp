@@ -85,7 +85,7 @@ Decision Localizer::Workspace::find(const Scan& scan, TimeNs t_ns) {
   look(scan, t_ns, memory.motion());
 
   // 2. Where none is convincing, the robot may have changed its speed since the last turns.
-  if (may_move() && !may_be_biased()) look_for_the_motion(scan, t_ns);
+  if (may_move(t_ns) && !may_be_biased()) look_for_the_motion(scan, t_ns);
 
   // 3. Where still none is, the whole map is searched.
   candidates = {};

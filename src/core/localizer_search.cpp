@@ -20,9 +20,10 @@ constexpr double kLikelyShare = 0.7;
 /// the map a little, always.
 constexpr std::size_t kRaysForAMotion = 50;
 
-/// Residuals this much beyond the scan's noise may be a motion's (reduced chi-square; 800 rays at
-/// rest: 1.15 is three of its standard deviations).
+/// Residuals this much beyond the scan's noise may be a motion's (reduced chi-square; 1.15 is three
+/// standard deviations of 800 rays'). Where all else fits, only what is more is looked into.
 constexpr double kMayMove = 1.15;
+constexpr double kSurelyMoves = 1.4;
 
 /// A lidar that turns slower is not smeared beyond what refinement finds.
 constexpr double kTurning_rad_s = 0.3;
@@ -75,10 +76,11 @@ bool Localizer::Workspace::in_doubt(TimeNs t_ns) const {
 }
 
 /// Nothing fits, or not as well as a lidar at rest would see it.
-bool Localizer::Workspace::may_move() const {
+bool Localizer::Workspace::may_move(TimeNs t_ns) const {
   if (!place) return false;
   const auto places = place->verification.hypotheses();
-  return places.empty() || places.front().refined.reduced_chi_square > kMayMove;
+  return places.empty() || places.front().refined.reduced_chi_square >
+                               (in_doubt(t_ns) ? kMayMove : kSurelyMoves);
 }
 
 /// A bias fits like a motion: walls are where they should be, but not exactly. While the lidar is
@@ -117,7 +119,7 @@ void Localizer::Workspace::look_for_the_motion(const Scan& scan, TimeNs t_ns) {
     return is_better;
   };
   const auto refine = [&] {
-    for (int k = 0; k < 2 && may_move() && best_hits() > 0; ++k) {
+    for (int k = 0; k < 2 && may_move(t_ns) && best_hits() > 0; ++k) {
       const RefinedMotion refined =
           place->refinement.refine_motion(*map, best_place(), kMotionSearchRadius_m,
                                           points.points(), result.detection.noise_scale);

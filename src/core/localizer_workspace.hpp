@@ -97,7 +97,7 @@ struct Localizer::Workspace {
   bool prior_is_fresh(TimeNs t_ns) const;
   bool is_at_prior(const Pose2& T_map_lidar, TimeNs t_ns) const;
   bool in_doubt(TimeNs t_ns) const;
-  bool may_move() const;
+  bool may_move(TimeNs t_ns) const;
   std::size_t best_hits() const;
   bool may_be_biased() const;
   bool teaches(const Decision& decision) const;

@@ -25,6 +25,10 @@ constexpr std::size_t kMinInliers = 8;
 /// Runs of neighbouring rays on one face in a scan; more are left out of the map error model.
 constexpr std::size_t kMaxResiduals = 1024;
 constexpr int kMotionIterations = 8;
+/// More points than this determine a motion no better than refinement needs.
+constexpr std::size_t kMotionPoints = 512;
+constexpr double kFinest_m = 1e-3;
+constexpr double kMotionConverged = 1e-4;  // m, rad
 /// Prior standard deviations of the robot's velocity.
 constexpr double kMotionSigma_m_s = 0.5;
 constexpr double kMotionSigma_rad_s = 2;
@@ -190,6 +194,7 @@ RefinedMotion Refinement::refine_motion(const WallMap& map, const Pose2& start,
   refined.T_map_lidar = start;
   Eigen::Vector3d twist = Eigen::Vector3d::Zero();
   double extra_sigma_m = search_radius_m;
+  const std::size_t stride = std::max<std::size_t>(1, points.size() / kMotionPoints);
   for (int k = 0; k < kMotionIterations; ++k) {
     const Pose2& T_map_lidar = refined.T_map_lidar;
     const auto hits = k == 0 ? ray_caster_.cast_near(map, T_map_lidar, points)
@@ -200,7 +205,7 @@ RefinedMotion Refinement::refine_motion(const WallMap& map, const Pose2& start,
     Vector6 gradient = Vector6::Zero();
     gradient.tail<3>() = prior_information.tail<3>().cwiseProduct(twist);
     std::size_t inliers = 0;
-    for (std::size_t i = 0; i < points.size(); ++i) {
+    for (std::size_t i = 0; i < points.size(); i += stride) {
       if (hits[i].face == PredictedHit::kNone) continue;
       const PolarPoint& point = points[i];
       const Face& face = map.faces()[hits[i].face];
@@ -231,7 +236,8 @@ RefinedMotion Refinement::refine_motion(const WallMap& map, const Pose2& start,
     if (!move.allFinite()) return refined;
     refined.T_map_lidar = T_map_lidar * Pose2{-move[0], -move[1], -move[2]};
     twist -= move.tail<3>();
-    extra_sigma_m = std::max(0.4 * extra_sigma_m, 1e-3);
+    if (extra_sigma_m == kFinest_m && move.norm() < kMotionConverged) break;
+    extra_sigma_m = std::max(0.4 * extra_sigma_m, kFinest_m);
   }
   refined.motion = {twist.x(), twist.y(), twist.z()};
   refined.valid = true;
