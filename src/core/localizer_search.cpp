@@ -79,8 +79,8 @@ bool Localizer::Workspace::in_doubt(TimeNs t_ns) const {
 bool Localizer::Workspace::may_move(TimeNs t_ns) const {
   if (!place) return false;
   const auto places = place->verification.hypotheses();
-  return places.empty() || places.front().refined.reduced_chi_square >
-                               (in_doubt(t_ns) ? kMayMove : kSurelyMoves);
+  return places.empty() ||
+         places.front().refined.reduced_chi_square > (in_doubt(t_ns) ? kMayMove : kSurelyMoves);
 }
 
 /// A bias fits like a motion: walls are where they should be, but not exactly. While the lidar is
@@ -120,9 +120,8 @@ void Localizer::Workspace::look_for_the_motion(const Scan& scan, TimeNs t_ns) {
   };
   const auto refine = [&] {
     for (int k = 0; k < 2 && may_move(t_ns) && best_hits() > 0; ++k) {
-      const RefinedMotion refined =
-          place->refinement.refine_motion(*map, best_place(), kMotionSearchRadius_m,
-                                          points.points(), result.detection.noise_scale);
+      const RefinedMotion refined = place->refinement.refine_motion(
+          *map, best_place(), kMotionSearchRadius_m, points.points(), result.detection.noise_scale);
       if (!refined.valid || !is_plausible(refined.motion) ||
           !look_if_better(motion + refined.motion, refined.T_map_lidar)) {
         return;
@@ -145,7 +144,8 @@ void Localizer::Workspace::look_for_the_motion(const Scan& scan, TimeNs t_ns) {
     if (hits_before >= points.size() / 2 || (omega_rad_s != *rate_rad_s && knows_order())) return;
     look(scan, t_ns, {motion_before.vx_m_s, motion_before.vy_m_s, omega_rad_s});
     refine();
-    if (best_hits() <= hits_before + points.size() / kRaysForAMotion) look(scan, t_ns, motion_before);
+    if (best_hits() <= hits_before + points.size() / kRaysForAMotion)
+      look(scan, t_ns, motion_before);
   }
 }
 

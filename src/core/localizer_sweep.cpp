@@ -47,8 +47,7 @@ double Localizer::Workspace::log_odds_at(const Scan& turn, const Pose2& T_map_li
 
 void Localizer::Workspace::learn_sweep(const Scan& turn, TimeNs t_ns) {
   const std::optional<Prior> prior = memory.prior(t_ns);
-  if (!place || !prior || memory.is_stationary() || knows_order() ||
-      !counts_up(turn)) {
+  if (!place || !prior || memory.is_stationary() || knows_order() || !counts_up(turn)) {
     return;
   }
   reversed.assign_reversed(turn);

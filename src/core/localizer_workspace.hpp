@@ -128,9 +128,9 @@ struct Localizer::Workspace {
   PlaceFilter filtered;  ///< with the one that find() looked at last
   PolarScan points;
   PolarScan tried_points;
-  std::vector<PoseHypothesis> everywhere;          ///< by the search of the map so far
+  std::vector<PoseHypothesis> everywhere;  ///< by the search of the map so far
   TimeNs searched_ns = 0;
-  double turned_rad = 0;                           ///< since that search began
+  double turned_rad = 0;  ///< since that search began
   ScanRotation rotation;
   Twist2 motion;                                   ///< that `points` were moved back by
   std::span<const VerifiedHypothesis> candidates;  ///< that the last decision is about

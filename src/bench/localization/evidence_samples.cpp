@@ -25,10 +25,10 @@ namespace {
 
 using MapPtr = std::shared_ptr<const core::WallMap>;
 
-constexpr std::size_t kOffices = 5;
-constexpr std::size_t kRandomFlats = 20;
+constexpr std::size_t kOffices = 10;
+constexpr std::size_t kRandomFlats = 60;
 /// Places of pairs of corners that are compared, as the localizer does.
-constexpr std::size_t kMaxPairs = 64;
+constexpr std::size_t kMaxPairs = 8;
 constexpr double kWrongMaps = 0.4;
 /// A place is the right one within this, and the more the more the map is off.
 constexpr double kRight_m = 0.12;
@@ -80,7 +80,7 @@ ScanConditions draw_conditions(std::size_t maps, replay::Random& random) {
 }  // namespace
 
 const char* const kEvidenceColumns =
-    "scan,wrong_map,right,rays,hits,throughs,map_sigma,faces_log_ratio,faces,obstacles,"
+    "scan,wrong_map,right,rays,hits,map_sigma,faces_log_ratio,faces,unseen_faces,weakest_view,"
     "obstacles_m,missing_walls,log_missing,wall_ends,wall_m,segments";
 
 struct EvidenceSamples::State {
@@ -162,10 +162,10 @@ struct EvidenceSamples::State {
           drawn.is_right() &&
           core::same_pose(at, truth, kRight_m + kRightPerSigma * drawn.map_error_m, kRight_rad);
       text << scans << ',' << !drawn.is_right() << ',' << right << ',' << s.rays << ',' << s.hits
-           << ',' << s.throughs << ',' << s.map_sigma_m << ',' << s.faces_log_ratio << ','
-           << s.faces << ',' << s.obstacles << ',' << s.obstacles_m << ',' << s.missing_walls << ','
-           << s.log_missing << ',' << search.wall_ends(at) << ',' << structure.wall_m << ','
-           << structure.segments << '\n';
+           << ',' << s.map_sigma_m << ',' << s.faces_log_ratio << ',' << s.faces << ','
+           << s.unseen_faces << ',' << s.weakest_view_rad << ',' << s.obstacles_m << ','
+           << s.missing_walls << ',' << s.log_missing << ',' << search.wall_ends(at) << ','
+           << structure.wall_m << ',' << structure.segments << '\n';
     }
     return text.str();
   }

@@ -6,9 +6,9 @@
     fit_evidence.py samples.csv
 
 Conditional logistic regression: the places of a scan compete with "elsewhere" (log odds 0). A wrong
-place beyond the threshold of a fix (log odds 11.5) costs as much as WRONG_COST right ones below it.
-The weights in the tree were fitted with recorded
-scans beside the simulated ones (src/bench/README.md, "Evidence for a place"). Needs NumPy and SciPy.
+place beyond the threshold of a fix (log odds 11.5) costs as much as WRONG_COST or WRONG_PLACE_COST
+right ones below it. The weights in the tree were fitted with recorded scans, eightfold, beside the
+simulated ones (src/bench/README.md, "Evidence for a place"). Needs NumPy and SciPy.
 """
 
 import sys
@@ -18,7 +18,8 @@ from scipy.optimize import minimize
 
 FIX = 11.51  # -log(1e-5)
 SCALE = 2.0
-WRONG_COST = 40.0
+WRONG_COST = 40.0  # in a wrong map
+WRONG_PLACE_COST = 100.0  # in the right one
 RIDGE = 3e-4
 
 
@@ -27,19 +28,17 @@ def features(c):
     share = c["faces"] / np.maximum(3, c["segments"])
     return {
         "intercept": np.ones(len(share)),
-        "faces_log_ratio": c["faces_log_ratio"],
         "face": c["faces"],
         "wall_end": c["wall_ends"],
-        "wall_end_of_share": c["wall_ends"] * share,
         "log_map_sigma": np.log(c["map_sigma"] / 0.003),
         "log_unexplained": np.log(np.maximum(0.005, (c["rays"] - c["hits"] + 1) / (c["rays"] + 1))),
-        "through_share": c["throughs"] / c["rays"],
-        "missing_wall": c["missing_walls"],
         "log_missing": c["log_missing"],
         "missing_of_share": np.log1p(c["missing_walls"]) * share,
-        "obstacle": c["obstacles"],
         "obstacle_share": c["obstacles_m"] / (c["wall_m"] + c["obstacles_m"] + 0.3),
         "segment_share": share,
+        "unseen_share": c["unseen_faces"] / (c["unseen_faces"] + c["faces"] + 1),
+        "root_view": np.sqrt(c["weakest_view"]),
+        "log_faces_ratio": np.log(np.maximum(2, c["faces_log_ratio"])),
         "log_wall_m": np.log(np.maximum(0.3, c["wall_m"])),
         "log_segments": np.log(np.maximum(1, c["segments"])),
         "log_rays": np.log(np.maximum(150, c["rays"])),
@@ -63,8 +62,9 @@ def lead(z, scan, count):
     return top, best - second - np.log(total), weight / total[scan]
 
 
-def fit(x, right, scan):
+def fit(x, right, scan, wrong_map):
     count = scan.max() + 1
+    wrong_cost = np.where(wrong_map, WRONG_COST, WRONG_PLACE_COST)
     scale = x.std(0)
     scale[scale == 0] = 1
     z_x = x / scale
@@ -73,9 +73,9 @@ def fit(x, right, scan):
         top, lo, share = lead(z_x @ w, scan, count)
         good = right[top] == 1
         d = (lo - FIX) / SCALE
-        value = np.where(good, np.logaddexp(0, -d), WRONG_COST * np.logaddexp(0, d))
+        value = np.where(good, np.logaddexp(0, -d), wrong_cost * np.logaddexp(0, d))
         with np.errstate(over="ignore"):
-            by_lo = np.where(good, -1 / (1 + np.exp(d)), WRONG_COST / (1 + np.exp(-d))) / SCALE
+            by_lo = np.where(good, -1 / (1 + np.exp(d)), wrong_cost / (1 + np.exp(-d))) / SCALE
         by_z = -share * by_lo[scan]
         by_z[top] += by_lo
         return value.sum() / count + RIDGE * w @ w, z_x.T @ by_z / count + 2 * RIDGE * w
@@ -92,7 +92,9 @@ def main():
     scan = np.unique(table["scan"], return_inverse=True)[1]
     by_name = features(table)
     x = np.stack(list(by_name.values()), 1)
-    w = fit(x, table["right"], scan)
+    wrong_map = np.zeros(scan.max() + 1)
+    wrong_map[scan] = table["wrong_map"]
+    w = fit(x, table["right"], scan, wrong_map == 1)
     for name, weight in zip(by_name, w):
         print(f"  double {name} = {weight:.4g};")
     top, lo, _ = lead(x @ w, scan, scan.max() + 1)

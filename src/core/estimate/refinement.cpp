@@ -124,9 +124,10 @@ RefinedPose Refinement::refine(const WallMap& map, const Pose2& start, double se
 
 RefinedPose Refinement::refine_roughly(const WallMap& map, const Pose2& start,
                                        double search_radius_m, std::span<const PolarPoint> subset,
-                                       double noise_scale, double map_sigma_m) {
+                                       double noise_scale, double map_sigma_m,
+                                       const PosePrior* prior) {
   return gauss_newton(map, start, search_radius_m, subset, subset, noise_scale, map_sigma_m, 1,
-                      nullptr);
+                      prior);
 }
 
 RefinedPose Refinement::gauss_newton(const WallMap& map, const Pose2& start, double search_radius_m,

@@ -54,7 +54,7 @@ class Refinement {
   /// The same on few points, with only the steps that a rejection test needs.
   RefinedPose refine_roughly(const WallMap& map, const Pose2& start, double search_radius_m,
                              std::span<const PolarPoint> subset, double noise_scale,
-                             double map_sigma_m = 0);
+                             double map_sigma_m = 0, const PosePrior* prior = nullptr);
 
   /// The same for an unknown motion within the scan: estimates pose and velocity (six unknowns). A
   /// weak prior at rest bounds directions in which no wall is seen.

@@ -44,7 +44,9 @@ std::optional<double> ScanRotation::rate_rad_s() const {
       const auto at = static_cast<std::size_t>(static_cast<int>(i + kBins) + shift) % kBins;
       if (last_.ranges_m[i] == 0 || before_.ranges_m[at] == 0) continue;
       ++both;
-      same += std::abs(last_.ranges_m[i] - before_.ranges_m[at]) < kSameShare * last_.ranges_m[i] ? 1 : 0;
+      same += std::abs(last_.ranges_m[i] - before_.ranges_m[at]) < kSameShare * last_.ranges_m[i]
+                  ? 1
+                  : 0;
     }
     return static_cast<double>(same) / both;
   };

@@ -34,6 +34,11 @@ constexpr double kObjectPerMetre = 12;
 constexpr double kObjectStep_m = 0.1;
 /// Fewer nominal rays on a face or an object are the part of one.
 constexpr double kWholeRays = 3;
+/// A face within so much of the view is seen where more than this share of its rays hit.
+constexpr double kInView_rad = radians(4);
+constexpr double kSeenShare = 0.15;
+/// More of the view on one face tells no more.
+constexpr double kWideView_rad = 1.5;
 /// A wall that is not there (nats), and each nominal ray through it. Faces shorter than kWall_m are
 /// the less permanent the shorter they are: furniture.
 constexpr double kMissingWall = 10;
@@ -80,7 +85,7 @@ void BeamModel::meet(std::span<const PolarPoint> points, std::span<const Predict
     const PolarPoint& point = points[static_cast<std::size_t>(i)];
     const PredictedHit& met = hits[static_cast<std::size_t>(i)];
     Ray& ray = rays_[static_cast<std::size_t>(i)];
-    ray.face = met.face;
+    ray.face = ray.predicted = met.face;
     const bool none = met.face == PredictedHit::kNone;
     double sine = none ? 1 : sine_of(point, met.face);
     ray.across_m = none ? kBeyondAll_m : (point.range_m - met.range_m) * sine;
@@ -111,6 +116,37 @@ void BeamModel::meet(std::span<const PolarPoint> points, std::span<const Predict
   }
 }
 
+BeamModel::FaceSums& BeamModel::sums_of(std::uint32_t face) {
+  FaceSums& sums = faces_[face];
+  if (sums.evaluation != evaluation_) {
+    sums = {};
+    sums.evaluation = evaluation_;
+    met_.push_back(face);
+  }
+  return sums;
+}
+
+void BeamModel::add_view(double spacing_rad, BeamStatistics& result) const {
+  double xx = 0;
+  double xy = 0;
+  double yy = 0;
+  for (const std::uint32_t index : met_) {
+    const FaceSums& face = faces_[index];
+    const Vec2& normal = map_.faces()[index].normal;
+    const double view_rad = std::min(kWideView_rad, face.rays * spacing_rad);
+    xx += view_rad * normal.x() * normal.x();
+    xy += view_rad * normal.x() * normal.y();
+    yy += view_rad * normal.y() * normal.y();
+    result.unseen_faces += face.predicted * spacing_rad > kInView_rad &&
+                                   face.predicted_hits < kSeenShare * face.predicted
+                               ? 1
+                               : 0;
+  }
+  // The smaller eigenvalue.
+  result.weakest_view_rad =
+      std::max(0.0, (xx + yy - std::sqrt(squared(xx - yy) + 4 * xy * xy)) / 2);
+}
+
 void BeamModel::add_faces(double spacing_rad, double map_sigma_m, BeamStatistics& result) {
   const auto variance_m2 = [&](std::uint32_t face) {
     return squared(std::max(map_sigma_m, map_.faces()[face].sigma_m));
@@ -118,13 +154,14 @@ void BeamModel::add_faces(double spacing_rad, double map_sigma_m, BeamStatistics
   ++evaluation_;
   met_.clear();
   for (const Ray& ray : rays_) {
-    if (ray.outcome != Outcome::kHit) continue;
-    FaceSums& face = faces_[ray.face];
-    if (face.evaluation != evaluation_) {
-      face = {};
-      face.evaluation = evaluation_;
-      met_.push_back(ray.face);
+    const bool hits = ray.outcome == Outcome::kHit;
+    if (ray.predicted != PredictedHit::kNone) {
+      FaceSums& predicted = sums_of(ray.predicted);
+      predicted.predicted += 1;
+      predicted.predicted_hits += hits && ray.face == ray.predicted ? 1 : 0;
     }
+    if (!hits) continue;
+    FaceSums& face = sums_of(ray.face);
     face.rays += 1;
     face.information += 1 / ray.variance_m2;
     face.gradient += ray.across_m / ray.variance_m2;
@@ -135,6 +172,7 @@ void BeamModel::add_faces(double spacing_rad, double map_sigma_m, BeamStatistics
   };
   for (const std::uint32_t index : met_) {
     FaceSums& face = faces_[index];
+    if (face.rays == 0) continue;
     const double share = worth(face.rays);
     face.offset_m = share * face.gradient / (share * face.information + 1 / variance_m2(index));
   }
@@ -147,6 +185,7 @@ void BeamModel::add_faces(double spacing_rad, double map_sigma_m, BeamStatistics
   }
   for (const std::uint32_t index : met_) {
     const FaceSums& face = faces_[index];
+    if (face.rays == 0) continue;
     const double share = worth(face.rays);
     result.faces += std::min(1.0, face.rays * spacing_rad / kNominalSpacing_rad / kWholeRays);
     result.faces_log_ratio +=
@@ -155,6 +194,7 @@ void BeamModel::add_faces(double spacing_rad, double map_sigma_m, BeamStatistics
                                  face.offset_m * face.offset_m / (2 * variance_m2(index)));
   }
   result.log_likelihood += result.faces_log_ratio;
+  add_view(spacing_rad, result);
 }
 
 void BeamModel::add_runs(std::span<const PolarPoint> points, double spacing_rad,
@@ -178,7 +218,6 @@ void BeamModel::add_runs(std::span<const PolarPoint> points, double spacing_rad,
         const double width_m = (points[end - 1].position() - points[begin].position()).norm() +
                                spacing_rad * points[begin].range_m;
         const double object = std::min(1.0, rays / kWholeRays);
-        result.obstacles += object;
         result.obstacles_m += width_m;
         result.log_likelihood -= kObject * object + trust_ * kObjectPerMetre * width_m;
         break;

@@ -16,17 +16,19 @@ namespace cornerd::core {
 /// What the rays of a scan do at a pose in a map that is inexact and incomplete.
 struct BeamStatistics {
   std::size_t rays = 0;
-  std::size_t hits = 0;        ///< on the face that the ray meets, within its uncertainty
-  std::size_t shorts = 0;      ///< before it: something unmapped
-  std::size_t throughs = 0;    ///< beyond it
-  double map_sigma_m = 0;      ///< the likeliest standard deviation of a face's offset
-  double log_likelihood = 0;   ///< nats, over ranges that any other place would give; tempered
-  double faces_log_ratio = 0;  ///< the part of it by hits
-  double faces = 0;            ///< that are hit; one with less than three nominal rays is a part
-  double obstacles = 0;        ///< runs of short rays, counted likewise
-  double obstacles_m = 0;      ///< their width
-  double missing_walls = 0;    ///< runs of rays through a face; short faces are a part
-  double log_missing = 0;      ///< sum of log(1 + rays) over them
+  std::size_t hits = 0;         ///< on the face that the ray meets, within its uncertainty
+  std::size_t shorts = 0;       ///< before it: something unmapped
+  std::size_t throughs = 0;     ///< beyond it
+  double map_sigma_m = 0;       ///< the likeliest standard deviation of a face's offset
+  double log_likelihood = 0;    ///< nats, over ranges that any other place would give; tempered
+  double faces_log_ratio = 0;   ///< the part of it by hits
+  double faces = 0;             ///< that are hit; one with less than three nominal rays is a part
+  double unseen_faces = 0;      ///< that should be in view, and hardly a ray hits
+  double weakest_view_rad = 0;  ///< angle of view of the faces that are hit, along the direction in
+                                ///< which they determine the place least
+  double obstacles_m = 0;       ///< width of the runs of short rays
+  double missing_walls = 0;     ///< runs of rays through a face; short faces are a part
+  double log_missing = 0;       ///< sum of log(1 + rays) over them
 };
 
 /// Beam model on faces (Thrun, Burgard and Fox, Probabilistic Robotics, section 6.3) whose errors
@@ -47,18 +49,21 @@ class BeamModel {
  private:
   enum class Outcome : std::uint8_t { kHit, kShort, kThrough, kBeyond };
   struct Ray {
-    std::uint32_t face = 0;
-    double across_m = 0;     ///< residual across the face, positive behind it
-    double variance_m2 = 0;  ///< of the sensor, across the face
-    double log_peak = 0;     ///< log density ratio of a hit without residual
+    std::uint32_t predicted = 0;  ///< face that the ray should meet
+    std::uint32_t face = 0;       ///< that it meets; another one next to an edge
+    double across_m = 0;          ///< residual across the face, positive behind it
+    double variance_m2 = 0;       ///< of the sensor, across the face
+    double log_peak = 0;          ///< log density ratio of a hit without residual
     Outcome outcome = Outcome::kBeyond;
   };
   struct FaceSums {
     std::uint32_t evaluation = 0;  ///< that the sums belong to
-    double rays = 0;
-    double information = 0;  ///< sum of 1/variance, 1/m^2
-    double gradient = 0;     ///< sum of across/variance, 1/m
-    double offset_m = 0;     ///< the face's displacement, a posteriori
+    double predicted = 0;          ///< rays that should meet it
+    double predicted_hits = 0;     ///< of these
+    double rays = 0;               ///< that hit it
+    double information = 0;        ///< sum of 1/variance, 1/m^2
+    double gradient = 0;           ///< sum of across/variance, 1/m
+    double offset_m = 0;           ///< the face's displacement, a posteriori
     double log_density = 0;
   };
 
@@ -67,6 +72,8 @@ class BeamModel {
   BeamStatistics by_map_sigma(std::span<const PolarPoint> points, double spacing_rad,
                               double map_sigma_m);
   void classify(double map_sigma_m, BeamStatistics& result);
+  FaceSums& sums_of(std::uint32_t face);
+  void add_view(double spacing_rad, BeamStatistics& result) const;
   void add_faces(double spacing_rad, double map_sigma_m, BeamStatistics& result);
   void add_runs(std::span<const PolarPoint> points, double spacing_rad,
                 BeamStatistics& result) const;
@@ -75,8 +82,8 @@ class BeamModel {
   SensorNoise noise_;
   double trust_;  ///< in what the map has and has not, 0 to 1
   std::vector<Ray> rays_;
-  std::vector<FaceSums> faces_;  ///< by index into map.faces()
-  std::vector<std::uint32_t> met_;
+  std::vector<FaceSums> faces_;     ///< by index into map.faces()
+  std::vector<std::uint32_t> met_;  ///< faces with sums
   std::uint32_t evaluation_ = 0;
 };
 

@@ -26,7 +26,7 @@ constexpr double kLongFaces_m = 20;
 constexpr double kLeastOfBest = 0.75;
 /// Headings that turn less wall length into the map's directions than this share of the best one's
 /// are left out: furniture may stand across a room, most walls do not.
-constexpr double kMinHeadingShare = 0.5;
+constexpr double kMinHeadingShare = 0.35;
 
 /// Adds to the two bins next to a direction.
 void add(std::span<double, MapSearch::kHeadings> weights, const Vec2& direction, double weight) {
@@ -204,8 +204,9 @@ bool MapSearch::advance(std::size_t nodes) {
     const Node node = queue_.back();
     queue_.pop_back();
     visit(node);
-    const bool has_all = found_.size() == kMaxFound ||
-                         (!found_.empty() && mean_score(node) < kLeastOfBest * found_.front().votes);
+    const bool has_all =
+        found_.size() == kMaxFound ||
+        (!found_.empty() && mean_score(node) < kLeastOfBest * found_.front().votes);
     if (has_all) queue_.clear();
   }
   if (nodes_ >= kMaxNodes) {

@@ -24,7 +24,7 @@ class MapSearch {
   explicit MapSearch(const WallMap& map);
 
   /// Number of poses found: more than look alike in one building.
-  static constexpr std::size_t kMaxFound = 16;
+  static constexpr std::size_t kMaxFound = 48;
 
   /// The best distinct poses, best first; `votes` is the mean score of a point, 0 to 100.
   /// `segments`: walls of the scan.
@@ -51,7 +51,7 @@ class MapSearch {
 
  private:
   struct Node {
-    int bound = 0;  ///< sum of scores, at most
+    int bound = 0;              ///< sum of scores, at most
     std::uint16_t heading = 0;  ///< index into headings_
     std::uint16_t level = 0;
     int column = 0;
@@ -60,9 +60,7 @@ class MapSearch {
   using HeadingWeights = std::array<double, kHeadings>;
 
   static bool is_worse(const Node& a, const Node& b);
-  int mean_score(const Node& node) const {
-    return node.bound / static_cast<int>(points_.size());
-  }
+  int mean_score(const Node& node) const { return node.bound / static_cast<int>(points_.size()); }
   void visit(const Node& node);
   void select_headings(std::span<const WallSegment> segments);
   void select_points(std::span<const PolarPoint> points, std::span<const WallSegment> segments);
@@ -75,7 +73,7 @@ class MapSearch {
   std::vector<Vec2> points_;         ///< on the scan's walls, evenly, m
   std::vector<double> headings_;     ///< rad
   std::vector<LikelihoodField::Cell> cells_;  ///< of kPoints points, heading by heading
-  std::vector<Node> queue_;                         ///< a heap
+  std::vector<Node> queue_;                   ///< a heap
   std::vector<PoseHypothesis> found_;
   std::size_t nodes_ = 0;
   bool complete_ = true;

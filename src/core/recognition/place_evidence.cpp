@@ -11,27 +11,26 @@ namespace {
 constexpr double kLongWall_m = 3;
 
 /// Weights of the regression (nats per unit), fitted to the likeliest wrong and the right places of
-/// 16,000 simulated scans (random buildings, map errors, obstacles, views; right, mirrored and
+/// 55,000 simulated scans (random buildings, map errors, obstacles, views; right, mirrored and
 /// other maps) and of 1,962 recorded ones (src/bench/README.md, "Evidence for a place"). A wrong
-/// place beyond the threshold of a fix weighs as much as 40 right ones below it.
+/// place beyond the threshold of a fix weighs as much as 40 right ones below it, in the right map
+/// as 100.
 struct Weights {
-  double intercept = -2.249;
-  double faces_log_ratio = 0.1791;
-  double face = 0.9266;
-  double wall_end = 3.825;
-  double wall_end_of_share = -3.717;  ///< wall ends times the share of segments on faces
-  double log_map_sigma = -1.354;
-  double log_unexplained = -3.934;
-  double through_share = -11.54;
-  double missing_wall = -0.5738;
-  double log_missing = -0.6011;
-  double missing_of_share = -8.816;  ///< log(1 + missing walls) times the share of segments
-  double obstacle = 0.3188;
-  double obstacle_share = -42.29;
-  double segment_share = -4.316;
-  double log_wall_m = -1.440;
-  double log_segments = 6.046;
-  double log_rays = -2.802;
+  double intercept = -0.6097;
+  double face = 1.468;
+  double wall_end = 1.694;
+  double log_map_sigma = -2.55;
+  double log_unexplained = -3.213;
+  double log_missing = -1.114;
+  double missing_of_share = -9.073;  ///< log(1 + missing walls) times the share of segments
+  double obstacle_share = -37.65;
+  double segment_share = -9.871;
+  double unseen_share = -13.51;
+  double root_view = -2.931;
+  double log_faces_ratio = 5.096;
+  double log_wall_m = -1.543;
+  double log_segments = 5.834;
+  double log_rays = -3.248;
 };
 constexpr Weights kWeights;
 
@@ -40,6 +39,7 @@ constexpr Weights kWeights;
 constexpr double kLeastUnexplained = 0.005;
 constexpr double kLeastWall_m = 0.3;
 constexpr double kLeastSegments = 3;
+constexpr double kLeastRatio = 2;
 constexpr double kLeastRays = 150;
 
 }  // namespace
@@ -55,22 +55,22 @@ ScanStructure scan_structure(std::span<const WallSegment> segments) {
 
 double log_odds_of_place(const BeamStatistics& place, double wall_ends, const ScanStructure& scan) {
   const double rays = std::max(1.0, static_cast<double>(place.rays));
-  const auto share = [&](std::size_t count) { return static_cast<double>(count) / rays; };
   const auto log_of = [](double value, double least) { return std::log(std::max(least, value)); };
   // Laplace's rule: a few rays that all hit show little of the share that does not.
   const double unexplained = (rays - static_cast<double>(place.hits) + 1) / (rays + 1);
   const double segments_share = place.faces / std::max(kLeastSegments, scan.segments);
   const double surface_m = scan.wall_m + place.obstacles_m + kLeastWall_m;
+  const double unseen_share = place.unseen_faces / (place.unseen_faces + place.faces + 1);
   const Weights& w = kWeights;
-  return w.intercept + w.faces_log_ratio * place.faces_log_ratio + w.face * place.faces +
-         (w.wall_end + w.wall_end_of_share * segments_share) * wall_ends +
+  return w.intercept + w.face * place.faces + w.wall_end * wall_ends +
          w.log_map_sigma * std::log(place.map_sigma_m / BeamModel::kMapSigmas_m.front()) +
          w.log_unexplained * log_of(unexplained, kLeastUnexplained) +
-         w.through_share * share(place.throughs) + w.missing_wall * place.missing_walls +
          w.log_missing * place.log_missing +
          w.missing_of_share * std::log1p(place.missing_walls) * segments_share +
-         w.obstacle * place.obstacles + w.obstacle_share * place.obstacles_m / surface_m +
-         w.segment_share * segments_share + w.log_wall_m * log_of(scan.wall_m, kLeastWall_m) +
+         w.obstacle_share * place.obstacles_m / surface_m + w.segment_share * segments_share +
+         w.unseen_share * unseen_share + w.root_view * std::sqrt(place.weakest_view_rad) +
+         w.log_faces_ratio * log_of(place.faces_log_ratio, kLeastRatio) +
+         w.log_wall_m * log_of(scan.wall_m, kLeastWall_m) +
          w.log_segments * log_of(scan.segments, 1) + w.log_rays * log_of(rays, kLeastRays);
 }
 

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t kFewRays = 90;
 /// Candidates that are refined on few rays, and on all.
-constexpr std::size_t kMaxRefined = 12;
+constexpr std::size_t kMaxRefined = 16;
 constexpr std::size_t kMaxCompared = 12;
 /// A ray on the wall that is predicted, roughly (m).
 constexpr double kRoughHit_m = 0.12;
@@ -37,15 +37,24 @@ struct RoughRefinement {
   double map_sigma_m;
 };
 constexpr std::array kRoughRefinements = {RoughRefinement{0.12, 0.025}, RoughRefinement{0.045, 0}};
-/// A pose that is less certain than this beyond the map is no place: a single wall, a bare
-/// corridor.
+/// A pose that is less certain than this beyond the map is not named: a single wall, a bare
+/// corridor. It is a rival to those that are.
 constexpr double kMaxSigma_m = 0.1;
+/// How far refinement may go along what the walls leave open: the pose stays where it was proposed.
+constexpr double kOpen_m = 0.2;
+constexpr double kOpen_rad = 0.2;
 /// Residuals are the walls' offsets up to so many of their standard deviations; greater ones are of
 /// a motion.
 constexpr double kMaxRmseSigmas = 1.3;
 constexpr double kMaxRmseSigmasStated = 2;
 /// Walls whose offsets vary by this many standard deviations more than exact ones would are off.
 constexpr double kExcessSigmas = 3;
+
+PosePrior near_to(const Pose2& T_map_lidar) {
+  const Eigen::Vector3d information(1 / squared(kOpen_m), 1 / squared(kOpen_m),
+                                    1 / squared(kOpen_rad));
+  return {T_map_lidar, information.asDiagonal()};
+}
 
 }  // namespace
 
@@ -59,6 +68,7 @@ PlaceSearch::PlaceSearch(const WallMap& map, const Recognition& recognition,
   subset_.reserve(2 * kFewRays);
   candidates_.reserve(kMaxCandidates);
   places_.reserve(kMaxCompared);
+  open_places_.reserve(kMaxCompared);
 }
 
 void PlaceSearch::begin(const PolarScan& scan, std::span<const WallSegment> segments,
@@ -113,8 +123,10 @@ PlaceSearch::Candidate PlaceSearch::refined_roughly(const Candidate& candidate, 
   Candidate best{candidate.T_map_lidar, -std::numeric_limits<double>::infinity(), 0};
   for (const RoughRefinement& rough : kRoughRefinements) {
     if (std::isfinite(best.score) && best.score < least_score) break;
-    const RefinedPose refined = refinement_.refine_roughly(
-        map_, candidate.T_map_lidar, rough.radius_m, subset_, noise_scale_, rough.map_sigma_m);
+    const PosePrior prior = near_to(candidate.T_map_lidar);
+    const RefinedPose refined =
+        refinement_.refine_roughly(map_, candidate.T_map_lidar, rough.radius_m, subset_,
+                                   noise_scale_, rough.map_sigma_m, &prior);
     if (!refined.valid ||
         !same_pose(refined.T_map_lidar, candidate.T_map_lidar, kMaxMove_m, kMaxMove_rad)) {
       continue;
@@ -172,10 +184,11 @@ double PlaceSearch::wall_ends(const Pose2& T_map_lidar) const {
 
 void PlaceSearch::add(const Candidate& candidate) {
   VerifiedHypothesis place;
+  const PosePrior prior = near_to(candidate.T_map_lidar);
   const auto refine = [&](double map_sigma_m) {
     place.map_sigma_m = map_sigma_m;
     place.refined = refinement_.refine(map_, candidate.T_map_lidar, kFewRaysRadius_m, subset_,
-                                       points_, noise_scale_, map_sigma_m);
+                                       points_, noise_scale_, map_sigma_m, &prior);
   };
   const double stated_m = map_.plan().sigma_m;
   if (stated_m > FloorPlan{}.sigma_m) {
@@ -194,10 +207,9 @@ void PlaceSearch::add(const Candidate& candidate) {
   const Covariance3& covariance = place.refined.covariance;
   const double max_rmse_m =
       std::max(kMaxRmseSigmas * BeamModel::kMapSigmas_m.back(), kMaxRmseSigmasStated * stated_m);
-  if (!place.refined.valid || place.refined.rmse_m > max_rmse_m ||
-      covariance(0, 0) + covariance(1, 1) > squared(kMaxSigma_m + stated_m)) {
-    return;
-  }
+  if (!place.refined.valid) return;
+  const bool is_determined = place.refined.rmse_m <= max_rmse_m &&
+                             covariance(0, 0) + covariance(1, 1) <= squared(kMaxSigma_m + stated_m);
   const auto hits = ray_caster_.cast(map_, place.refined.T_map_lidar, points_);
   const BeamStatistics statistics = beam_model_.statistics(
       points_, hits, place.refined.T_map_lidar, spacing_rad_, noise_scale_, max_map_sigma_m_);
@@ -206,24 +218,38 @@ void PlaceSearch::add(const Candidate& candidate) {
   place.likelihood.hits = statistics.hits;
   place.likelihood.shorts = statistics.shorts;
   place.likelihood.free_space_violations = statistics.throughs;
-  for (VerifiedHypothesis& other : places_) {
-    if (!same_pose(other.refined.T_map_lidar, place.refined.T_map_lidar, kOnePlace_m,
-                   kOnePlace_rad)) {
-      continue;
-    }
-    if (place.log_odds > other.log_odds) other = place;
+  const auto is_here = [&](const VerifiedHypothesis& other) {
+    return same_pose(other.refined.T_map_lidar, place.refined.T_map_lidar, kOnePlace_m,
+                     kOnePlace_rad);
+  };
+  const auto determined = std::find_if(places_.begin(), places_.end(), is_here);
+  if (determined != places_.end()) {
+    if (is_determined && place.log_odds > determined->log_odds) *determined = place;
     return;
   }
-  places_.push_back(place);
+  const auto open = std::find_if(open_places_.begin(), open_places_.end(), is_here);
+  if (is_determined) {
+    if (open != open_places_.end()) open_places_.erase(open);
+    places_.push_back(place);
+  } else if (open == open_places_.end()) {
+    open_places_.push_back(place);
+  } else if (place.log_odds > open->log_odds) {
+    *open = place;
+  }
 }
 
 std::span<const VerifiedHypothesis> PlaceSearch::find() {
   refine_roughly();
   places_.clear();
+  open_places_.clear();
   for (std::size_t i = 0; i < std::min(candidates_.size(), kMaxCompared); ++i) {
     if (candidates_[i].score < std::max(0.0, candidates_.front().score) - kHopeless) break;
     add(candidates_[i]);
   }
+  // Elsewhere has odds of 1, and those of the places that the scan leaves open besides.
+  double elsewhere = 1;
+  for (const VerifiedHypothesis& open : open_places_) elsewhere += std::exp(open.log_odds);
+  for (VerifiedHypothesis& place : places_) place.log_odds -= std::log(elsewhere);
   std::sort(places_.begin(), places_.end(),
             [](const VerifiedHypothesis& a, const VerifiedHypothesis& b) {
               if (a.log_odds != b.log_odds) return a.log_odds > b.log_odds;

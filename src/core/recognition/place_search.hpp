@@ -63,6 +63,7 @@ class PlaceSearch {
   std::vector<PolarPoint> subset_;
   std::vector<Candidate> candidates_;
   std::vector<VerifiedHypothesis> places_;
+  std::vector<VerifiedHypothesis> open_places_;  ///< whose pose the scan does not determine
 };
 
 }  // namespace cornerd::core
