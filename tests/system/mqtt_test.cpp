@@ -111,6 +111,7 @@ TEST_F(Mqtt, InitPosition_ReachesTheDaemonThroughAFlood) {
   const DaemonProcess bridge = start_bridge();
   EXPECT_TRUE(hears("state", is_localized));
   TestClient witness = connect();
+  int requests = 0;
   for (int i = 0; i < 2000; ++i) act(R"({"actions":[{"actionId":)" + std::string(i % 3, '"'));
   act(std::string(1 << 20, '['));
   act(R"({"actions":[{"actionType":"initPosition","actionId":"old","actionParameters":[)"
@@ -122,9 +123,15 @@ TEST_F(Mqtt, InitPosition_ReachesTheDaemonThroughAFlood) {
     }
     return false;
   };
-  act(R"({"actions":[{"actionType":"initPosition","actionId":"new","actionParameters":[)"
-      R"({"key":"x","value":0.4},{"key":"y","value":1},{"key":"theta","value":0}]}]})");
-  EXPECT_TRUE(hears("state", is_finished)) << last_;
+  // As a master does that gets no answer: of a flood the bridge keeps 1,024 messages. An action
+  // runs once.
+  EXPECT_TRUE(hears("state", [&](const json& told) {
+    act(R"({"actions":[{"actionType":"initPosition","actionId":"new","actionParameters":[)"
+        R"({"key":"x","value":0.4},{"key":"y","value":1},{"key":"theta","value":0}]},)"
+        R"({"actionType":"stateRequest","actionId":")" +
+        std::to_string(++requests) + "\"}]}");
+    return is_finished(told);
+  })) << last_;
   EXPECT_TRUE(daemon.is_running());
   EXPECT_EQ(next_of(witness, "POSE")["class"], "POSE");
 }
