@@ -39,6 +39,7 @@ core::TimeNs unix_ns(std::chrono::system_clock::time_point time) {
 Bridge::Bridge(const BridgeConfig& config, BrokerLink& broker, Ask ask)
     : config_(config), broker_(broker), ask_(std::move(ask)), vda5050_(config) {
   broker_.subscribe(vda5050_.topic("instantActions"));
+  if (!config_.map.empty()) map_.emplace(config_, broker_, robot_, ask_);
 }
 
 void Bridge::on_daemon(client::Event event, std::string_view text, const Now& now) {
@@ -48,6 +49,7 @@ void Bridge::on_daemon(client::Event event, std::string_view text, const Now& no
     case client::Event::kConnected:
       robot_.is_daemon_connected = true;
       robot_.pose.reset();
+      if (map_) map_->on_daemon_connected();
       return;
     case client::Event::kLost:
       robot_.is_daemon_connected = false;
@@ -70,6 +72,7 @@ void Bridge::take_line(std::string_view line, const Now& now) {
   } else if (const auto* map = std::get_if<message::ParsedMap>(&parsed)) {
     robot_.map_name = map->plan.name;
     robot_.map_hash = map->plan.hash;
+    if (map_) map_->on_daemon_map();
   } else if (const auto* version = std::get_if<message::ParsedVersion>(&parsed)) {
     robot_.daemon_version = version->version;
   }
@@ -91,6 +94,7 @@ void Bridge::on_broker(const Message& message) {
   if (message.topic == vda5050_.topic("instantActions") && !message.is_retained) {
     take_actions(message.payload);
   }
+  if (map_) map_->on_broker(message);
 }
 
 void Bridge::take_actions(std::string_view payload) {

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -11,6 +12,7 @@
 #include "client/subscription.hpp"
 #include "mqtt/broker_link.hpp"
 #include "mqtt/config.hpp"
+#include "mqtt/fleet_map.hpp"
 #include "mqtt/instant_actions.hpp"
 #include "mqtt/robot_state.hpp"
 #include "mqtt/vda5050.hpp"
@@ -60,6 +62,7 @@ class Bridge {
   Ask ask_;
   Vda5050 vda5050_;
   RobotState robot_;
+  std::optional<FleetMap> map_;
   std::uint64_t greeted_ = 0;  ///< connections
   bool state_is_requested_ = false;
   bool factsheet_is_requested_ = false;

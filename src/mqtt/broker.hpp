@@ -38,8 +38,8 @@ struct BrokerConfig {
 /// A connection to a broker, kept up by a thread of its own. No call waits for the network.
 class Broker : public BrokerLink {
  public:
-  /// Fits the largest map and its header.
-  static constexpr std::size_t kMaxPayloadBytes = 33 * 1024 * 1024;
+  /// Fits a fleet's largest map.
+  static constexpr std::size_t kMaxPayloadBytes = 4 * 1024 * 1024;
   /// Messages that wait for take(). More are lost, and counted.
   static constexpr std::size_t kMaxWaiting = 1024;
 

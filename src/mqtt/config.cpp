@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
+#include <stdexcept>
 
 #include "settings/document.hpp"
 #include "settings/object_reader.hpp"
@@ -135,6 +137,30 @@ bool is_topic_level(std::string_view text) {
   return !text.empty() && std::none_of(text.begin(), text.end(), [](unsigned char c) {
     return c < 0x20 || c == 0x7f || c == '/' || c == '+' || c == '#';
   });
+}
+
+BrokerConfig broker_at(const std::string& host_and_port) {
+  BrokerConfig broker;
+  broker.host = host_and_port;
+  const std::size_t bracket = host_and_port.find(']');
+  const std::size_t colon = host_and_port.rfind(':');
+  // Without brackets an address of IPv6 has no port.
+  const bool is_bare_ipv6 = bracket == std::string::npos && host_and_port.find(':') != colon;
+  if (colon != std::string::npos && !is_bare_ipv6 &&
+      (bracket == std::string::npos || colon > bracket)) {
+    const char* const begin = host_and_port.data() + colon + 1;
+    const char* const end = host_and_port.data() + host_and_port.size();
+    const auto [parsed_to, error] = std::from_chars(begin, end, broker.port);
+    if (error != std::errc() || parsed_to != end || broker.port == 0) {
+      throw std::invalid_argument("the port must be a number from 1 to 65535");
+    }
+    broker.host.resize(colon);
+  }
+  if (broker.host.starts_with('[') && broker.host.ends_with(']')) {
+    broker.host = broker.host.substr(1, broker.host.size() - 2);
+  }
+  if (broker.host.empty()) throw std::invalid_argument("a host is needed");
+  return broker;
 }
 
 BridgeConfig parse_bridge_config(std::string_view text, const std::filesystem::path& file) {

@@ -53,6 +53,9 @@ BridgeConfig parse_bridge_config(std::string_view text, const std::filesystem::p
 /// Reads and parses the file, and reads the password's file. Throws SettingsError.
 BridgeConfig load_bridge_config(const std::filesystem::path& file);
 
+/// "broker.example", "10.0.0.7:1884" or "[::1]:1883". Throws std::invalid_argument.
+BrokerConfig broker_at(const std::string& host_and_port);
+
 /// A level of a topic: neither empty nor with '/', '+', '#', or a control character.
 bool is_topic_level(std::string_view text);
 

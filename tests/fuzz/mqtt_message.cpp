@@ -16,7 +16,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::string payload(reinterpret_cast<const char*>(data), size);
   mqtt::parse_robot_report(payload);
 
-  const mqtt::BridgeConfig config;
+  mqtt::BridgeConfig config;
+  config.map = "hall";
+  config.map_folder = "/proc/self/fd/none";
   mqtt::FakeBroker broker;
   broker.connect();
   const auto ask = [](const std::string& line, const auto& done) {
@@ -28,6 +30,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   };
   mqtt::Bridge bridge(config, broker, ask);
   bridge.on_broker({mqtt::Vda5050(config).topic("instantActions"), payload, false});
+  const std::string topic = mqtt::map_topic(config.site, config.map);
+  bridge.on_broker({topic, payload, true});
+  if (const auto announcement = mqtt::parse_map_announcement(payload)) {
+    bridge.on_broker({mqtt::map_file_topic(config.site, *announcement), payload, true});
+  }
   bridge.tick({1, {}});
   return 0;
 }

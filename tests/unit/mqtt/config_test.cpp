@@ -73,6 +73,16 @@ TEST(MqttConfig, WrongValue_IsNamedByItsPointer) {
   }
 }
 
+TEST(MqttConfig, BrokerAt_IsHostAndPort) {
+  EXPECT_EQ(broker_at("mq").port, 1883);
+  EXPECT_EQ(broker_at("mq:99").port, 99);
+  EXPECT_EQ(broker_at("[::1]:99").host, "::1");
+  EXPECT_EQ(broker_at("::1").host, "::1");
+  for (const char* wrong : {"", ":1", "mq:", "mq:0", "mq:65536", "mq:x"}) {
+    EXPECT_THROW(broker_at(wrong), std::invalid_argument) << wrong;
+  }
+}
+
 TEST(MqttConfig, TopicLevel_HasNoWildcardAndNoSeparator) {
   EXPECT_TRUE(is_topic_level("hall 1"));
   for (const char* wrong : {"", "a/b", "+", "#", "a\nb"}) EXPECT_FALSE(is_topic_level(wrong));
