@@ -68,7 +68,13 @@ function draw() {
     }
     context.fill();
   }
+  // Names upright, in pixels.
+  const { a, d, e, f } = context.getTransform();
+  context.setTransform(1, 0, 0, 1, 0, 0);
+  context.font = `${12 * ratio}px sans-serif`;
+  context.fillStyle = color("wall");
   context.globalAlpha = 1;
+  for (const robot of shown) context.fillText(robot.serial, a * robot.x + e + 12 * ratio, d * robot.y + f + 4 * ratio);
 }
 
 async function refresh() {
