@@ -119,6 +119,8 @@ void Bridge::start(const InstantAction& action) {
     state_is_requested_ = true;
   } else if (action.type == "factsheetRequest") {
     factsheet_is_requested_ = true;
+  } else if (action.type == "clearInstantActions") {
+    robot_.clear_actions();
   } else {
     return done(ActionStatus::kFailed, "this robot has no action " + action.type);
   }

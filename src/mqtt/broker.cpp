@@ -24,6 +24,8 @@ constexpr std::chrono::seconds kLargestRetryDelay{30};
 /// A shorter connection does not reset the delay: two clients of one id end each other's.
 constexpr std::chrono::seconds kStableTime{20};
 constexpr int kManyShortOnes = 3;
+/// How long a flood waits: less than the keep-alive.
+constexpr std::chrono::seconds kReadingPause{1};
 constexpr int kLoop_ms = 100;
 
 std::runtime_error failure(const BrokerConfig& config, const std::string& reason) {
@@ -165,8 +167,11 @@ void Broker::on_connect(int reason) {
 
 void Broker::on_message(const mosquitto_message& message) {
   const auto size = static_cast<std::size_t>(message.payloadlen);
-  const std::lock_guard lock(mutex_);
-  if (waiting_.size() >= kMaxWaiting || waiting_bytes_ + size > 2 * kMaxPayloadBytes) {
+  std::unique_lock lock(mutex_);
+  const auto has_room = [&] {
+    return waiting_.size() < kMaxWaiting && waiting_bytes_ + size <= 2 * kMaxPayloadBytes;
+  };
+  if (!taken_.wait_for(lock, kReadingPause, has_room)) {
     ++lost_;
     return;
   }
@@ -181,6 +186,7 @@ std::vector<Message> Broker::take() {
                              std::make_move_iterator(waiting_.end()));
   waiting_.clear();
   waiting_bytes_ = 0;
+  taken_.notify_one();
   return taken;
 }
 

@@ -40,7 +40,8 @@ class Broker : public BrokerLink {
  public:
   /// Fits a fleet's largest map.
   static constexpr std::size_t kMaxPayloadBytes = 4 * 1024 * 1024;
-  /// Messages that wait for take(). More are lost, and counted.
+  /// Messages that wait for take(). Then no more are read; after a second they are lost, and
+  /// counted.
   static constexpr std::size_t kMaxWaiting = 1024;
 
   /// `will`: published, retained, by the broker when the connection breaks; no topic: none. Throws
@@ -88,6 +89,7 @@ class Broker : public BrokerLink {
   std::atomic<int> unacknowledged_{0};
   mutable std::mutex mutex_;  ///< of what follows
   std::condition_variable_any stopped_;
+  std::condition_variable taken_;
   std::string problem_ = "not connected yet";
   std::set<std::string> filters_;
   std::deque<Message> waiting_;

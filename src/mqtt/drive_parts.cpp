@@ -51,7 +51,7 @@ void DriveParts::take(const Message& message) {
   if (drives_.size() >= kMaxDrives && !drives_.contains(name)) return;
   Parts& drive = drives_[name];
   if (part) {
-    if (bytes_ + message.payload.size() > kMaxDrives * kMaxDriveBytes / 8) return;
+    if (bytes_ + message.payload.size() > 4 * kMaxDriveBytes) return;
     bytes_ += message.payload.size();
     drive.parts[*part] = message.payload;
     return;

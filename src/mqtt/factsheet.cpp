@@ -60,9 +60,11 @@ json actions(const Names& names, bool is_v3) {
   for (const char* const key : {"mapId", "lastNodeId"}) {
     position.push_back(parameter(key, "STRING", true));
   }
-  return {action(names.init_position, std::move(position), is_v3),
-          action("stateRequest", json::array(), is_v3),
-          action("factsheetRequest", json::array(), is_v3)};
+  json all = {action(names.init_position, std::move(position), is_v3)};
+  for (const char* const type : {"stateRequest", "factsheetRequest", "clearInstantActions"}) {
+    all.push_back(action(type, json::array(), is_v3));
+  }
+  return all;
 }
 
 }  // namespace

@@ -42,6 +42,7 @@ void FleetMap::stop_fetching() {
 
 void FleetMap::take_announcement(std::string_view payload) {
   stop_fetching();
+  robot_.map_problem.clear();
   if (payload.empty()) return;  // taken back: the robot keeps what it has
   const auto announcement = parse_map_announcement(payload);
   if (!announcement || announcement->map != config_.map) {
@@ -52,9 +53,8 @@ void FleetMap::take_announcement(std::string_view payload) {
   if (announcement->version < kept) return;
   if (announcement->version == kept) {
     if (announcement->sha256 != folder_.files().front().sha256) {
-      return refuse(kept, "is kept with another SHA-256: publish it as a new version");
+      refuse(kept, "is kept with another SHA-256: publish it as a new version");
     }
-    robot_.map_problem.clear();
     return;
   }
   fetched_ = announcement;
@@ -102,7 +102,9 @@ void FleetMap::switch_daemon() {
   const bool is_asked =
       ask_(std::string(line.view()),
            [this, version = newest.version](const auto& answer) { on_answer(version, answer); });
-  if (!is_asked) is_switch_due_ = true;
+  if (is_asked) return;
+  is_switch_due_ = true;
+  refuse(newest.version, "the daemon is busy: it is used when the daemon starts again");
 }
 
 void FleetMap::on_answer(std::uint64_t version, const client::Answer& answer) {

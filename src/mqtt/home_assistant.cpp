@@ -22,12 +22,12 @@ struct Sensor {
   bool is_length = false;
 };
 
-// A position that is not known gives an empty text, which Home Assistant takes for "unknown".
+// "None" is Home Assistant's word for a number that is not known.
 constexpr Sensor kSensors[] = {
     {"state", "State", "mdi:robot", "{{ value_json.state }}"},
     {"room", "Room", "mdi:floor-plan", "{{ value_json.room }}"},
-    {"x", "Position x", "mdi:axis-x-arrow", "{{ value_json.x | default('') }}", true},
-    {"y", "Position y", "mdi:axis-y-arrow", "{{ value_json.y | default('') }}", true}};
+    {"x", "Position x", "mdi:axis-x-arrow", "{{ value_json.x | default('None') }}", true},
+    {"y", "Position y", "mdi:axis-y-arrow", "{{ value_json.y | default('None') }}", true}};
 
 /// Letters, digits, '_' and '-' alone make an object id.
 std::string object_id(const BridgeConfig& config) {

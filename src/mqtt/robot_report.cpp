@@ -9,7 +9,9 @@ namespace cornerd::mqtt {
 
 namespace {
 
-constexpr std::size_t kMaxReportBytes = 16 * 1024;
+/// A table holds thousands of them.
+constexpr std::size_t kMaxReportBytes = 2048;
+constexpr std::size_t kMaxProblemBytes = 512;
 constexpr message::Limits kVersionLimits{0, 9007199254740992.0};
 
 std::string problem_of(const RobotState& robot) {
@@ -61,7 +63,7 @@ std::string robot_report_json(const RobotReport& report) {
   json.string("map", report.map);
   json.integer("map_version", report.map_version);
   json.text("map_hash", report.map_hash);
-  json.text("problem", report.problem);
+  json.text("problem", std::string_view(report.problem).substr(0, kMaxProblemBytes));
   json.close_object();
   return std::string(json.view());
 }

@@ -84,6 +84,11 @@ bool RobotState::add_action(ActionState action) {
   return true;
 }
 
+void RobotState::clear_actions() {
+  std::erase_if(actions,
+                [](const ActionState& one) { return one.status != ActionStatus::kRunning; });
+}
+
 void RobotState::set_action(std::string_view id, ActionStatus status, std::string result) {
   for (ActionState& action : actions) {
     if (action.id != id) continue;

@@ -60,6 +60,8 @@ struct RobotState {
   void note(const message::ParsedPose& newest, double now_s);
   /// False if there is one with this id.
   bool add_action(ActionState action);
+  /// Those that run stay.
+  void clear_actions();
   void set_action(std::string_view id, ActionStatus status, std::string result);
 };
 

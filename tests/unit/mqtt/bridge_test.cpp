@@ -201,6 +201,18 @@ TEST_F(BridgeTest, Requests_GetStateAndFactsheet) {
   EXPECT_EQ(last("state")["actionStates"][1]["actionStatus"], "FINISHED");
 }
 
+TEST_F(BridgeTest, ClearedActions_AreGoneButThoseThatRun) {
+  broker_.connect();
+  act("pick", "p");
+  act("initPosition", "a", position(""));
+  act("clearInstantActions", "c");
+  tick(0.2);
+  const json actions = last("state")["actionStates"];
+  ASSERT_EQ(actions.size(), 2u) << actions;
+  EXPECT_EQ(actions[0]["actionId"], "a");
+  EXPECT_EQ(actions[1]["actionStatus"], "FINISHED") << "the clearing itself";
+}
+
 TEST_F(BridgeTest, SteppedClock_DisturbsNoInterval) {
   broker_.connect();
   tick(0.1);
