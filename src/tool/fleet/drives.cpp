@@ -20,7 +20,8 @@ FleetDrives::FleetDrives(const BrokerOptions& options, const std::string& robot)
   mqtt::Broker broker(options.broker());
   broker.subscribe(parts.filter());
   wait_for_connection(broker);
-  take_until_silent(broker, kDriveSilence, [&](const mqtt::Message& message) { parts.take(message); });
+  take_until_silent(broker, kDriveSilence,
+                    [&](const mqtt::Message& message) { parts.take(message); });
   if (const auto names = parts.incomplete(); !names.empty()) {
     throw Failure("drive " + settings::one_line(names.front()) + " of robot " + robot +
                   " is not whole, or damaged: send it again");
