@@ -21,7 +21,7 @@ using settings::ObjectReader;
 constexpr std::size_t kMaxConfigBytes = 64 * 1024;
 constexpr std::size_t kMaxTextBytes = 128;
 constexpr Choice<VdaVersion> kVersions[] = {
-    {"2.0", VdaVersion::k2_0}, {"2.1", VdaVersion::k2_1}, {"3.0", VdaVersion::k3_0}};
+    {"2.0", VdaVersion::kV20}, {"2.1", VdaVersion::kV21}, {"3.0", VdaVersion::kV30}};
 constexpr Choice<std::string_view> kClasses[] = {{"FORKLIFT", "FORKLIFT"},
                                                  {"CONVEYOR", "CONVEYOR"},
                                                  {"TUGGER", "TUGGER"},

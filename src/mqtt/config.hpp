@@ -13,7 +13,7 @@ namespace cornerd::mqtt {
 
 /// Versions of VDA 5050, "interface for the communication between automated guided vehicles and a
 /// master control".
-enum class VdaVersion : std::uint8_t { k2_0, k2_1, k3_0 };
+enum class VdaVersion : std::uint8_t { kV20, kV21, kV30 };
 
 enum class Kinematics : std::uint8_t { kDifferential, kOmnidirectional, kThreeWheel };
 
@@ -34,7 +34,7 @@ struct BridgeConfig {
   BrokerConfig broker;
   std::string manufacturer = "cornerd";
   std::string serial;  ///< default: this machine's name
-  VdaVersion vda5050 = VdaVersion::k2_1;
+  VdaVersion vda5050 = VdaVersion::kV21;
   double visualization_hz = 5;
   double max_deviation_m = 0.3;  ///< of a pose that counts as initialized
   double max_age_s = 3;          ///< of the last scan that named a place

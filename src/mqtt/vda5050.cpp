@@ -158,7 +158,7 @@ std::string Vda5050::state(const RobotState& robot, UnixTime now, double now_s) 
                   {"errors", errors_of(robot, is_localized, is_v3())},
                   {"information", information()}});
   message[is_v3() ? "mobileRobotPosition" : "agvPosition"] = std::move(position_now);
-  if (config_.vda5050 != VdaVersion::k2_0) message["maps"] = maps_of(robot);
+  if (config_.vda5050 != VdaVersion::kV20) message["maps"] = maps_of(robot);
   if (is_v3()) {
     message["actionStates"] = json::array();
     message["instantActionStates"] = actions_of(robot, true);

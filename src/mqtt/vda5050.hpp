@@ -32,7 +32,7 @@ class Vda5050 {
   std::string factsheet(UnixTime now);
 
  private:
-  bool is_v3() const { return config_.vda5050 == VdaVersion::k3_0; }
+  bool is_v3() const { return config_.vda5050 == VdaVersion::kV30; }
   nlohmann::json header(UnixTime now, std::uint32_t& count) const;
   nlohmann::json position(const RobotState& robot, double now_s) const;
 

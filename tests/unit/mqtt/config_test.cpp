@@ -21,7 +21,7 @@ TEST(MqttConfig, EmptyObject_HasDefaults) {
   EXPECT_FALSE(config.broker.is_tls);
   EXPECT_TRUE(config.broker.is_v5);
   EXPECT_FALSE(config.serial.empty());
-  EXPECT_EQ(config.vda5050, VdaVersion::k2_1);
+  EXPECT_EQ(config.vda5050, VdaVersion::kV21);
   EXPECT_TRUE(config.home_assistant.empty());
   EXPECT_EQ(config.broker.client_id, "cornerd-cornerd-" + config.serial);
 }
@@ -40,7 +40,7 @@ TEST(MqttConfig, EveryKey_IsRead) {
   EXPECT_EQ(config.broker.ca, "/etc/x/ca.pem");
   EXPECT_EQ(config.broker.key, "/k.pem");
   EXPECT_FALSE(config.broker.is_v5);
-  EXPECT_EQ(config.vda5050, VdaVersion::k3_0);
+  EXPECT_EQ(config.vda5050, VdaVersion::kV30);
   EXPECT_EQ(config.vehicle.kinematics, Kinematics::kOmnidirectional);
   EXPECT_EQ(config.vehicle.vehicle_class, "TUGGER");
   EXPECT_EQ(config.map_folder, "/etc/x/fleet");

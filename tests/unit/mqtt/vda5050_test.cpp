@@ -38,12 +38,12 @@ TEST(Vda5050, Time_IsIso8601InUtc) {
 }
 
 TEST(Vda5050, Topic_IsThatOfTheMajorVersion) {
-  EXPECT_EQ(Vda5050(config_of(VdaVersion::k2_0)).topic("state"), "uagv/v2/acme/r-1/state");
-  EXPECT_EQ(Vda5050(config_of(VdaVersion::k3_0)).topic("state"), "vda5050/v3/acme/r-1/state");
+  EXPECT_EQ(Vda5050(config_of(VdaVersion::kV20)).topic("state"), "uagv/v2/acme/r-1/state");
+  EXPECT_EQ(Vda5050(config_of(VdaVersion::kV30)).topic("state"), "vda5050/v3/acme/r-1/state");
 }
 
 TEST(Vda5050, HeaderId_CountsEachTopic) {
-  const BridgeConfig config = config_of(VdaVersion::k2_0);
+  const BridgeConfig config = config_of(VdaVersion::kV20);
   Vda5050 writer(config);
   EXPECT_EQ(json::parse(writer.visualization(robot(), kTime, 10))["headerId"], 0);
   EXPECT_EQ(json::parse(writer.visualization(robot(), kTime, 10))["headerId"], 1);
@@ -51,7 +51,7 @@ TEST(Vda5050, HeaderId_CountsEachTopic) {
 }
 
 TEST(Vda5050, State_SaysWhereTheRobotIs) {
-  const BridgeConfig config = config_of(VdaVersion::k2_1);
+  const BridgeConfig config = config_of(VdaVersion::kV21);
   const json state = json::parse(Vda5050(config).state(robot(), kTime, 10));
   EXPECT_EQ(state["version"], "2.1.0");
   EXPECT_EQ(state["agvPosition"]["positionInitialized"], true);
@@ -62,7 +62,7 @@ TEST(Vda5050, State_SaysWhereTheRobotIs) {
 }
 
 TEST(Vda5050, StateOfVersion3_HasItsNames) {
-  const BridgeConfig config = config_of(VdaVersion::k3_0);
+  const BridgeConfig config = config_of(VdaVersion::kV30);
   RobotState one = robot();
   one.add_action({"a", "initializePosition", ActionStatus::kFailed, "why"});
   const json state = json::parse(Vda5050(config).state(one, kTime, 10));
@@ -80,7 +80,7 @@ TEST(Vda5050, StateOfVersion3_HasItsNames) {
 }
 
 TEST(Vda5050, LostRobot_IsALocalizationError) {
-  const BridgeConfig config = config_of(VdaVersion::k2_0);
+  const BridgeConfig config = config_of(VdaVersion::kV20);
   RobotState one = robot();
   one.pose = message::ParsedPose{};
   one.hint = "the lidar is covered \xff";
@@ -92,11 +92,11 @@ TEST(Vda5050, LostRobot_IsALocalizationError) {
 }
 
 TEST(Vda5050, Factsheet_HasTheNamesOfItsVersion) {
-  const BridgeConfig v2 = config_of(VdaVersion::k2_0);
+  const BridgeConfig v2 = config_of(VdaVersion::kV20);
   const json old = json::parse(Vda5050(v2).factsheet(kTime));
   EXPECT_EQ(old["protocolFeatures"]["agvActions"][0]["actionType"], "initPosition");
   EXPECT_EQ(old["typeSpecification"]["agvKinematic"], "DIFF");
-  const BridgeConfig v3 = config_of(VdaVersion::k3_0);
+  const BridgeConfig v3 = config_of(VdaVersion::kV30);
   const json now = json::parse(Vda5050(v3).factsheet(kTime));
   EXPECT_EQ(now["protocolFeatures"]["mobileRobotActions"][0]["actionType"], "initializePosition");
   EXPECT_EQ(now["typeSpecification"]["mobileRobotKinematics"], "DIFFERENTIAL");
