@@ -39,7 +39,7 @@ constexpr Names kV3{"mobileRobotKinematics", "mobileRobotClass",
 
 json action(const char* type, json parameters, bool is_v3) {
   json entry = {{"actionType", type},
-                {"actionScopes", {"INSTANT"}},
+                {"actionScopes", json::array({"INSTANT"})},
                 {"actionParameters", std::move(parameters)}};
   if (is_v3) {
     entry["pauseAllowed"] = "false";
@@ -60,7 +60,9 @@ json actions(const Names& names, bool is_v3) {
   for (const char* const key : {"mapId", "lastNodeId"}) {
     position.push_back(parameter(key, "STRING", true));
   }
-  json all = {action(names.init_position, std::move(position), is_v3)};
+  // Not {...}: compilers differ in whether one element in braces is an array.
+  json all = json::array();
+  all.push_back(action(names.init_position, std::move(position), is_v3));
   for (const char* const type : {"stateRequest", "factsheetRequest", "clearInstantActions"}) {
     all.push_back(action(type, json::array(), is_v3));
   }
@@ -78,8 +80,8 @@ std::string Vda5050::factsheet(UnixTime now) {
       {names.kinematic, names.kinematics[static_cast<std::size_t>(vehicle.kinematics)]},
       {names.vehicle_class, vehicle.vehicle_class},
       {names.load, vehicle.max_load_kg},
-      {"localizationTypes", {"NATURAL"}},
-      {"navigationTypes", {"AUTONOMOUS"}}};
+      {"localizationTypes", json::array({"NATURAL"})},
+      {"navigationTypes", json::array({"AUTONOMOUS"})}};
   message["physicalParameters"] = {{names.min_speed, 0},
                                    {names.max_speed, vehicle.max_speed_m_s},
                                    {names.acceleration, vehicle.max_acceleration_m_s2},

@@ -54,7 +54,7 @@ std::vector<Message> home_assistant_discovery(const BridgeConfig& config,
                     {"availability_template",
                      "{{ 'online' if value_json.connectionState == 'ONLINE' else 'offline' }}"},
                     {"device",
-                     {{"identifiers", {id}},
+                     {{"identifiers", json::array({id})},
                       {"name", config.serial},
                       {"manufacturer", config.manufacturer},
                       {"model", config.vehicle.series}}}};

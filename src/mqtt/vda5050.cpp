@@ -85,10 +85,12 @@ json maps_of(const RobotState& robot) {
 
 /// The bridge knows of the localization alone: this is said, not guessed.
 json information() {
-  return json::array({{{"infoType", "LOCALIZATION_ONLY"},
-                       {"infoLevel", "INFO"},
-                       {"infoReferences", json::array()},
-                       {"infoDescription", "battery and safety are not measured"}}});
+  json all = json::array();
+  all.push_back({{"infoType", "LOCALIZATION_ONLY"},
+                 {"infoLevel", "INFO"},
+                 {"infoReferences", json::array()},
+                 {"infoDescription", "battery and safety are not measured"}});
+  return all;
 }
 
 }  // namespace

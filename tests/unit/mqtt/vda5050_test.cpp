@@ -59,6 +59,7 @@ TEST(Vda5050, State_SaysWhereTheRobotIs) {
   EXPECT_DOUBLE_EQ(state["agvPosition"]["x"], 1);
   EXPECT_NEAR(state["agvPosition"]["deviationRange"].get<double>(), 0.0245, 1e-4);
   EXPECT_TRUE(state["errors"].empty());
+  EXPECT_TRUE(state["information"].is_array());
 }
 
 TEST(Vda5050, StateOfVersion3_HasItsNames) {
