@@ -39,7 +39,7 @@ struct BrokerConfig {
 class Broker : public BrokerLink {
  public:
   /// Fits a fleet's largest map.
-  static constexpr std::size_t kMaxPayloadBytes = 4 * 1024 * 1024;
+  static constexpr std::size_t kMaxPayloadBytes = 2 * 1024 * 1024;
   /// Messages that wait for take(). Then no more are read; after a second they are lost, and
   /// counted.
   static constexpr std::size_t kMaxWaiting = 1024;

@@ -9,8 +9,9 @@
 
 namespace cornerd::mqtt {
 
-/// Of a fleet's map: what a robot holds in memory while it checks one.
-inline constexpr std::size_t kMaxFleetMapBytes = 4 * 1024 * 1024;
+/// Of a fleet's map. A wrong one of this size takes 80 MB while it is checked, of the 128 MB of the
+/// service.
+inline constexpr std::size_t kMaxFleetMapBytes = 2 * 1024 * 1024;
 
 /// The newest version of a map of a site: `cornerd/SITE/map/MAP`, retained. The file's bytes are
 /// retained below it, at a topic that names their SHA-256, so that they never belong to another

@@ -41,7 +41,7 @@ void publish(const PublishOptions& options) {
   const std::string text = settings::read_map_text(options.map);
   const auto map = settings::parse_map(text, options.map);
   if (text.size() > mqtt::kMaxFleetMapBytes) {
-    throw Failure(options.map.string() + ": a fleet's map has at most 4 MiB");
+    throw Failure(options.map.string() + ": a fleet's map has at most 2 MiB");
   }
   mqtt::MapAnnouncement next;
   next.map = options.name.empty() ? map->plan().name : options.name;
