@@ -23,6 +23,12 @@ find_path(CORNERD_BOOST_DIR boost/beast.hpp PATHS /usr/include NO_CMAKE_FIND_ROO
 add_library(cornerd_boost INTERFACE)
 target_link_libraries(cornerd_boost INTERFACE Threads::Threads)
 
+# cornerd-mqtt, the fleet commands of cornerctl and cornerd-web: libmosquitto's header alone. The library is opened
+# at run time (src/mqtt/mosquitto_library.cpp), so that a robot without a broker needs no package of it.
+find_path(CORNERD_MOSQUITTO_DIR mosquitto.h PATHS /usr/include REQUIRED NO_CMAKE_FIND_ROOT_PATH)
+add_library(cornerd_mosquitto INTERFACE)
+target_link_libraries(cornerd_mosquitto INTERFACE ${CMAKE_DL_LIBS} Threads::Threads)
+
 # Shared libraries that the tools link where they are found. A cross build goes without them.
 find_package(PNG QUIET)
 set(CORNERD_PNG ${PNG_FOUND})

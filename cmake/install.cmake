@@ -9,8 +9,12 @@ if(TARGET cornerd-web)
   install(TARGETS cornerd-web RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 endif()
 
+add_dependencies(installed cornerd-mqtt)
+install(TARGETS cornerd-mqtt RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+
 install(TARGETS cornerd_client ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
-install(FILES src/client/connection.hpp src/client/retry_delay.hpp src/client/subscription.hpp
+install(FILES src/client/connection.hpp src/client/request.hpp src/client/retry_delay.hpp
+  src/client/subscription.hpp
   DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/cornerd/client)
 configure_file(src/client/cornerd-client.pc.in ${PROJECT_BINARY_DIR}/cornerd-client.pc @ONLY)
 install(FILES ${PROJECT_BINARY_DIR}/cornerd-client.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
@@ -32,18 +36,22 @@ function(cornerd_follow_prefix file)
   set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${file})
 endfunction()
 
-cornerd_follow_prefix(config/cornerd.json)
-install(CODE "
-  set(settings \"${CMAKE_INSTALL_FULL_SYSCONFDIR}/cornerd\")
-  if(NOT EXISTS \"\$ENV{DESTDIR}\${settings}/cornerd.json\")
-    file(INSTALL \"${PROJECT_BINARY_DIR}/cornerd.json\" DESTINATION \"\${settings}\")
-  endif()")
+foreach(settings cornerd.json mqtt.json)
+  cornerd_follow_prefix(config/${settings})
+  install(CODE "
+    set(folder \"${CMAKE_INSTALL_FULL_SYSCONFDIR}/cornerd\")
+    if(NOT EXISTS \"\$ENV{DESTDIR}\${folder}/${settings}\")
+      file(INSTALL \"${PROJECT_BINARY_DIR}/${settings}\" DESTINATION \"\${folder}\")
+    endif()")
+endforeach()
 
 cornerd_follow_prefix(systemd/cornerd.service)
 cornerd_follow_prefix(systemd/cornerd-web.service)
+cornerd_follow_prefix(systemd/cornerd-mqtt.service)
 install(FILES ${PROJECT_BINARY_DIR}/cornerd.service ${PROJECT_BINARY_DIR}/cornerd-web.service
+  ${PROJECT_BINARY_DIR}/cornerd-mqtt.service
   systemd/cornerd.socket systemd/cornerd-control.socket DESTINATION lib/systemd/system)
-foreach(program cornerd cornerd-web)
+foreach(program cornerd cornerd-web cornerd-mqtt)
   install(FILES systemd/${program}.sysusers DESTINATION lib/sysusers.d RENAME ${program}.conf)
 endforeach()
 install(FILES systemd/61-cornerd.rules DESTINATION lib/udev/rules.d)

@@ -28,6 +28,8 @@ if(TARGET cornerd-web)
   cornerd_man_page(cornerd-web.8 DEPENDS cornerd-web
     COMMAND program ${CMAKE_CROSSCOMPILING_EMULATOR} $<TARGET_FILE:cornerd-web>)
 endif()
+cornerd_man_page(cornerd-mqtt.8 DEPENDS cornerd-mqtt
+  COMMAND program ${CMAKE_CROSSCOMPILING_EMULATOR} $<TARGET_FILE:cornerd-mqtt>)
 cornerd_man_page(cornerctl.1 DEPENDS cornerctl
   COMMAND program ${CMAKE_CROSSCOMPILING_EMULATOR} $<TARGET_FILE:cornerctl>)
 cornerd_man_page(cornerd.json.5 DEPENDS ${PROJECT_SOURCE_DIR}/config/cornerd.full.json

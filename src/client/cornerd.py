@@ -64,8 +64,9 @@ class Client:
 def messages(path=POSE_SOCKET, classes=None, reconnect=True):
     """Yields the daemon's messages; waits for a daemon that is absent or restarts.
 
-    `classes`: names to WATCH; without them POSE, STATUS and EVENT. Without `reconnect` it ends with
-    the connection, and raises OSError if nobody listens.
+    `classes`: names to WATCH; without them POSE, STATUS and EVENT. POSE is in the frame map; ODOM in
+    odom (REP 105), which never jumps: steer by it. Without `reconnect` it ends with the connection, and
+    raises OSError if nobody listens.
     """
     delay = FIRST_RETRY_DELAY_S
     while True:

@@ -130,6 +130,8 @@ const PoseEstimate* Localizer::add(const OdometryReading& reading, std::optional
   return &w.between;
 }
 
+const OdometryConfig& Localizer::odometry_config() const { return workspace_->config.odometry; }
+
 const PoseEstimate* Localizer::follow(const Sample& sample) {
   Workspace& w = *workspace_;
   if (!w.place || !w.place->parts || !w.place->parts->add(sample)) return nullptr;

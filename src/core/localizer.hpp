@@ -50,6 +50,7 @@ class Localizer {
   /// For another lidar: forgets the estimated bias and noise, not the pose.
   void forget_lidar();
 
+  const OdometryConfig& odometry_config() const;
   /// The current estimate of the lidar's bias.
   EstimatedBias estimated_bias() const;
   /// Continues from a stored estimate of this lidar's bias.

@@ -75,9 +75,8 @@ Daemon::Daemon(Loaded loaded, MapLoader loader, std::unique_ptr<drivers::LidarDr
     odometry_.emplace(std::move(odometry), localization_);
     status_.set_odometry(&*odometry_);
   }
-  if (is_live_ && config_.odometry.source == settings::OdometrySource::kSocket) {
+  if (is_live_ && config_.odometry.source == settings::OdometrySource::kSocket)
     status_.set_odometry(&odometry_clients_);
-  }
   set_up_realtime();
 
   loop_.add(signals_.fd(), EPOLLIN, [this](std::uint32_t) { on_signal(); });
@@ -85,8 +84,8 @@ Daemon::Daemon(Loaded loaded, MapLoader loader, std::unique_ptr<drivers::LidarDr
   loop_.add(reloader_.event_fd(), EPOLLIN, [this](std::uint32_t) { on_loaded(); });
   loop_.add(localization_.event_fd(), EPOLLIN, [this](std::uint32_t) {
     localization_.take([this](const ScanReport& report) { scans_.publish(report); });
-    localization_.take_predictions(
-        [this](const core::PoseEstimate& pose) { scans_.publish(pose); });
+    localization_.take_predictions([this](const auto& pose) { scans_.publish(pose); });
+    scans_.publish_odometry(localization_);
   });
   if (const auto period_us = notifier_.watchdog_period_us()) {
     watchdog_.emplace(microseconds(*period_us));
@@ -242,6 +241,7 @@ void Daemon::on_tick() {
     }
     clock_steps_.flush(monotonic_ns());
   }
+  scans_.publish_odometry(localization_);
   publish_changes();
   update_calibration_file();
   follow_model(lidar_->status());

@@ -35,6 +35,9 @@ Localization::Localization(drivers::LidarDriver& driver, std::unique_ptr<core::P
       initial_poses_(kInitialPoseSlots),
       reports_(kReportSlots),
       predictions_(kPredictionSlots),
+      odometry_frame_(current_->pipeline->localizer().odometry_config()),
+      odometry_parameters_(current_->pipeline->localizer().odometry_config().initial),
+      odometry_poses_(kPredictionSlots),
       reported_(require_fd(::eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC), "eventfd")) {}
 
 Localization::~Localization() {
@@ -72,7 +75,7 @@ void Localization::localize(const std::stop_token& stop) {
     const std::uint32_t seen = channel_.wakes();
     if (stop.stop_requested()) return;
     while (!stop.stop_requested() && channel_.pop(item)) process(item);
-    if (publishes_predictions_.load(std::memory_order_relaxed)) take_readings();
+    if (wants_every_reading()) take_readings();
     rounds_.fetch_add(1, std::memory_order_relaxed);
     channel_.wait(seen);
   }
@@ -98,6 +101,7 @@ void Localization::swap_pipeline(const SampleChannel::Item& item) {
   if (next == nullptr) return;
   retired_.store(current_.release());
   current_.reset(next);
+  odometry_frame_.configure(next->pipeline->localizer().odometry_config());
   // The sample that ended the last scan is the first of the next.
   const bool begins = item.kind == SampleChannel::Kind::kSample && item.sample.starts_scan;
   if (begins) next->pipeline->add(item.sample);
@@ -114,7 +118,7 @@ void Localization::process(core::Pipeline& pipeline, const SampleChannel::Item& 
   core::Pose2 T_map_base;
   while (!is_replaced && initial_poses_.pop(T_map_base)) pipeline.localizer().set_pose(T_map_base);
   take_readings();
-  if (item.kind == SampleChannel::Kind::kReading) return report(pipeline.add(item.reading));
+  if (item.kind == SampleChannel::Kind::kReading) return take(item.reading, std::nullopt);
   const core::ScanResult* result =
       item.kind == SampleChannel::Kind::kGap ? pipeline.finish() : pipeline.add(item.sample);
   if (result != nullptr) report(pipeline, *result, item.arrival_ns);
@@ -126,6 +130,7 @@ void Localization::report(const core::Pipeline& pipeline, const core::ScanResult
   rounds_.fetch_add(1, std::memory_order_relaxed);
   ++scans_;
   ++poses_;
+  odometry_parameters_ = result.odometry.parameters;
   const bool handed_over = reports_.put([&](ScanReport& report) {
     report.result = result;
     report.scan = pipeline.scan();
@@ -150,9 +155,22 @@ void Localization::take_readings() {
   core::OdometryReading reading;
   const bool is_device = source_ == SourceKind::kDevice;
   while (readings_.pop(reading)) {
-    report(
-        current_->pipeline->add(reading, is_device ? std::optional(monotonic_ns()) : std::nullopt));
+    take(reading, is_device ? std::optional(monotonic_ns()) : std::nullopt);
   }
+}
+
+void Localization::take(const core::OdometryReading& reading, std::optional<core::TimeNs> now_ns) {
+  report(current_->pipeline->add(reading, now_ns));
+  report(odometry_frame_.add(reading, now_ns, odometry_parameters_));
+}
+
+void Localization::report(const core::OdometryPose* pose) {
+  if (pose == nullptr) return;
+  odometry_poses_.put([&](core::OdometryPose& slot) {
+    slot = *pose;
+    if (source_ == SourceKind::kDevice) slot.t_ns += unix_ns() - monotonic_ns();
+  });
+  if (hurries_odometry_.load(std::memory_order_relaxed)) ::eventfd_write(reported_.get(), 1);
 }
 
 void Localization::report(const core::PoseEstimate* prediction) {

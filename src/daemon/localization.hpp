@@ -4,9 +4,11 @@
 #include <atomic>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <thread>
 
 #include "core/latency_histogram.hpp"
+#include "core/odometry/odometry_frame.hpp"
 #include "core/pipeline.hpp"
 #include "core/ring_buffer.hpp"
 #include "core/triple_buffer.hpp"
@@ -76,13 +78,21 @@ class Localization {
   /// that finds no room is lost; the next encoder counts contain its motion.
   void add(const core::OdometryReading& reading) {
     readings_.push(reading);
-    if (publishes_predictions_.load(std::memory_order_relaxed)) channel_.wake();
+    if (wants_every_reading()) channel_.wake();
   }
   /// Time of the newest sample, which may belong to an incomplete scan.
   core::TimeNs newest_sample_ns() const { return channel_.newest_ns(); }
   /// Publish a pose for each reading: /advanced/odometry/publish_predictions.
   void publish_predictions(bool every) {
     publishes_predictions_.store(every, std::memory_order_relaxed);
+  }
+  /// Wake for each reading, since somebody watches ODOM.
+  void hurry_odometry(bool every) { hurries_odometry_.store(every, std::memory_order_relaxed); }
+  /// Calls `use` with each waiting pose in the frame `odom`, oldest first. Call it after take(),
+  /// and ten times a second: they wake nobody unless hurry_odometry().
+  void take_odometry(const auto& use) {
+    while (odometry_poses_.take(use)) {
+    }
   }
   /// An approximate pose from a client (SET_POSE).
   void set_initial_pose(const core::Pose2& T_map_base) { initial_poses_.push(T_map_base); }
@@ -120,8 +130,14 @@ class Localization {
               std::int64_t arrival_ns);
   /// Installs the next pipeline, if there is one, between two scans.
   void swap_pipeline(const SampleChannel::Item& item);
+  bool wants_every_reading() const {
+    return publishes_predictions_.load(std::memory_order_relaxed) ||
+           hurries_odometry_.load(std::memory_order_relaxed);
+  }
   void take_readings();
+  void take(const core::OdometryReading& reading, std::optional<core::TimeNs> now_ns);
   void report(const core::PoseEstimate* prediction);
+  void report(const core::OdometryPose* pose);
   void clear_event() const;
 
   drivers::LidarDriver& driver_;
@@ -139,6 +155,11 @@ class Localization {
   SlotExchange<ScanReport> reports_;
   SlotExchange<core::PoseEstimate> predictions_;
   std::atomic<bool> publishes_predictions_{false};
+  std::atomic<bool> hurries_odometry_{false};
+  /// Owned by the localizer thread. It outlives pipelines: another map moves no robot.
+  core::OdometryFrame odometry_frame_;
+  core::OdometryParameters odometry_parameters_;  ///< estimated by the last scan
+  SlotExchange<core::OdometryPose> odometry_poses_;
   FileDescriptor reported_;
   LoopHealth own_health_;  ///< owned by the localizer thread
   core::TripleBuffer<LoopHealth> health_;

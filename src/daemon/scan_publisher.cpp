@@ -101,6 +101,17 @@ void ScanPublisher::publish_jump(const core::PoseEstimate& pose, std::uint64_t n
 
 void ScanPublisher::publish(const core::PoseEstimate& pose) { publish_pose(pose); }
 
+void ScanPublisher::publish_odometry(Localization& localization) {
+  const bool is_watched = server_.is_watched(MessageClass::kOdom);
+  localization.hurry_odometry(is_watched);
+  std::optional<core::OdometryPose> newest;
+  localization.take_odometry([&](const core::OdometryPose& pose) {
+    if (is_watched) return server_.publish(MessageClass::kOdom, line_.odom(pose));
+    newest = pose;
+  });
+  if (newest) server_.publish(MessageClass::kOdom, line_.odom(*newest));
+}
+
 void ScanPublisher::publish_pose(const core::PoseEstimate& pose) {
   server_.publish(MessageClass::kPose,
                   line_.pose(pose, map_.map ? &map_.map->plan() : nullptr, map_.has_name));

@@ -18,7 +18,7 @@
 
 namespace cornerd::daemon {
 
-/// Publishes POSE, SCAN, BREAKPOINTS and EVENT from the results of scans.
+/// Publishes POSE, SCAN, BREAKPOINTS and EVENT from the results of scans, and ODOM.
 class ScanPublisher {
  public:
   /// About 15 s of an A1.
@@ -39,6 +39,9 @@ class ScanPublisher {
   void set_next_map(std::uint32_t generation, PublishedMap map);
   /// Publishes MAP of the next map at once: no scan comes.
   void publish_next_map();
+  /// ODOM of what waits; where nobody watches, the newest alone, for POLL. Call it ten times a
+  /// second.
+  void publish_odometry(Localization& localization);
   /// A pose between two scans; it does not change the state.
   void publish(const core::PoseEstimate& pose);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Reads untrusted JSON objects. Internal to src/message.
+// Reads untrusted JSON objects.
 #pragma once
 
 #include <cstddef>

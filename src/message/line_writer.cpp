@@ -197,6 +197,15 @@ std::string_view LineWriter::odometry(const OdometryFields& odometry) {
   return finish();
 }
 
+std::string_view LineWriter::odom(const core::OdometryPose& pose) {
+  begin("ODOM");
+  json_.seconds("t", pose.t_ns);
+  write_pose(json_, pose.T_odom_base);
+  write_metres(json_, "vx", pose.vx_m_s);
+  json_.number("omega", pose.omega_rad_s, 6);
+  return finish();
+}
+
 std::string_view LineWriter::truth(core::TimeNs t_ns, const core::Pose2& T_map_base) {
   json_.clear();
   json_.open_object();

@@ -10,6 +10,7 @@
 
 #include "core/breakpoint/breakpoint.hpp"
 #include "core/latency_histogram.hpp"
+#include "core/odometry/odometry_frame.hpp"
 #include "core/odometry/odometry_summary.hpp"
 #include "core/pose_estimate.hpp"
 #include "message/json_text.hpp"
@@ -116,6 +117,7 @@ class LineWriter {
     double gyro_rad_s = 0;
   };
   std::string_view odometry(const OdometryFields& odometry);
+  std::string_view odom(const core::OdometryPose& pose);
   /// A line of a --truth file.
   std::string_view truth(core::TimeNs t_ns, const core::Pose2& T_map_base);
 

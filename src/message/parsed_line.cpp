@@ -162,6 +162,12 @@ ParsedLine read_event(FieldReader& fields) {
                      std::string(fields.optional_text("detail"))};
 }
 
+ParsedLine read_odom(FieldReader& fields) {
+  return ParsedOdom{fields.time("t"), read_pose2(fields),
+                    fields.optional_number("vx", kAnyNumber).value_or(0),
+                    fields.optional_number("omega", kAnyNumber).value_or(0)};
+}
+
 ParsedLine read_message(std::string_view name, FieldReader& fields) {
   if (name == "VERSION") {
     return ParsedVersion{std::string(fields.text("program")), std::string(fields.text("version"))};
@@ -171,6 +177,7 @@ ParsedLine read_message(std::string_view name, FieldReader& fields) {
   if (name == "BREAKPOINTS") return read_breakpoints(fields);
   if (name == "STATUS") return read_status(fields);
   if (name == "EVENT") return read_event(fields);
+  if (name == "ODOM") return read_odom(fields);
   if (name == "MAP") return ParsedMap{read_map(fields)};
   if (name == "ERROR") {
     return ParsedError{std::string(fields.text("code")),

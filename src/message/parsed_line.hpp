@@ -85,6 +85,14 @@ struct ParsedEvent {
   std::string detail;
 };
 
+/// The robot in the frame `odom`.
+struct ParsedOdom {
+  core::TimeNs t_ns = 0;
+  core::Pose2 T_odom_base;
+  double vx_m_s = 0;
+  double omega_rad_s = 0;
+};
+
 /// The map in which the daemon localizes.
 struct ParsedMap {
   core::FloorPlan plan;
@@ -97,7 +105,7 @@ struct ParsedError {
 
 using ParsedLine =
     std::variant<RequestError, ParsedVersion, ParsedPose, RecordedScan, ParsedBreakpoints,
-                 ParsedStatus, ParsedEvent, ParsedMap, ParsedError, OtherLine>;
+                 ParsedStatus, ParsedEvent, ParsedOdom, ParsedMap, ParsedError, OtherLine>;
 
 /// Never throws. RequestError if the line is not a message of the daemon.
 ParsedLine parse_line(std::string_view line);

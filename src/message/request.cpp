@@ -61,7 +61,8 @@ Body read_poll(FieldReader& fields) {
   ClassSet others = poll.classes;
   for (const MessageClass polled : kPolled) others.erase(polled);
   if (!others.empty()) {
-    fields.fail("\"classes\" of POLL may hold VERSION, POSE, STATUS, EVENT and MAP: use WATCH");
+    fields.fail(
+        "\"classes\" of POLL may hold VERSION, POSE, STATUS, EVENT, MAP and ODOM: use WATCH");
   }
   return poll;
 }
@@ -97,7 +98,8 @@ Body read_body(const std::string& name, FieldReader& fields) {
 
 /// In the order of MessageClass.
 constexpr std::array<std::string_view, kMessageClasses> kNames = {
-    "VERSION", "POSE", "SCAN", "BREAKPOINTS", "ODOMETRY", "STATUS", "SERIAL", "EVENT", "MAP"};
+    "VERSION", "POSE",   "SCAN",  "BREAKPOINTS", "ODOMETRY",
+    "STATUS",  "SERIAL", "EVENT", "MAP",         "ODOM"};
 static_assert(!kNames.back().empty());
 
 }  // namespace

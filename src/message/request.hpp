@@ -25,9 +25,10 @@ enum class MessageClass : std::uint8_t {
   kStatus,
   kSerial,
   kEvent,
-  kMap
+  kMap,
+  kOdom
 };
-inline constexpr std::size_t kMessageClasses = static_cast<std::size_t>(MessageClass::kMap) + 1;
+inline constexpr std::size_t kMessageClasses = static_cast<std::size_t>(MessageClass::kOdom) + 1;
 std::string_view to_string(MessageClass message_class);
 std::optional<MessageClass> message_class_from(std::string_view name);
 
@@ -85,8 +86,8 @@ inline constexpr std::size_t kMaxMessageBytes = 32 * 1024 * 1024;
 
 /// The classes whose newest message POLL gives; without names it gives POSE and STATUS.
 inline constexpr MessageClass kPolled[] = {MessageClass::kVersion, MessageClass::kPose,
-                                           MessageClass::kStatus, MessageClass::kEvent,
-                                           MessageClass::kMap};
+                                           MessageClass::kStatus,  MessageClass::kEvent,
+                                           MessageClass::kMap,     MessageClass::kOdom};
 
 /// Never throws. A malformed line gives a Request that holds RequestError.
 Request parse_request(std::string_view line);

@@ -19,6 +19,8 @@ void add_record(Command& program);
 void add_simulate(Command& program);
 void add_emulate(Command& program);
 void add_survey(Command& program);
+void add_fleet(Command& program);
+void add_send_drive(Command& program);
 void add_export(Command& program);
 
 void add_calibrate(Command& program);
@@ -30,5 +32,6 @@ void add_map_render(Command& group);
 void add_map_import(Command& group);
 void add_map_export(Command& group);
 void add_map_scale(Command& group);
+void add_map_publish(Command& group);
 
 }  // namespace cornerd::tool

@@ -21,6 +21,8 @@ int run_cornerctl(int argc, const char* const* argv) {
     add_simulate(program);
     add_emulate(program);
     add_survey(program);
+    add_fleet(program);
+    add_send_drive(program);
     add_export(program);
     add_calibrate(program);
     add_map(program);

@@ -36,7 +36,9 @@ constexpr int kMaxConnections = 64;
 /// What all connections share.
 struct Site {
   explicit Site(const ServerConfig& config)
-      : router(config.access, config.control_socket, config.maps, hub) {}
+      : router(config.access, config.control_socket, config.maps, hub,
+               config.broker ? std::make_unique<const FleetLink>(*config.broker, config.site)
+                             : nullptr) {}
   Hub hub;
   Router router;
   int connections = 0;

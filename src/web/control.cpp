@@ -3,9 +3,8 @@
 
 #include <algorithm>
 #include <chrono>
-#include <string_view>
 
-#include "client/connection.hpp"
+#include "client/request.hpp"
 #include "message/request.hpp"
 
 namespace cornerd::web {
@@ -32,23 +31,12 @@ Response ask_daemon(const std::filesystem::path& control_socket, const std::stri
                           request.name + " is for sockets; for messages use /api/events");
   }
   line += '\n';
-  client::Connection daemon;
-  if (!daemon.connect(control_socket, /*blocking=*/false) || !daemon.send(line)) {
-    return error_response(503, "unavailable",
-                          daemon.problem() + " (does cornerd run, and is this user in its group?)");
+  const client::Answer answer = client::ask(control_socket, line, kAnswerTime);
+  if (answer.kind == client::Answer::Kind::kNone) {
+    return error_response(503, "unavailable", answer.text);
   }
-  const auto until = std::chrono::steady_clock::now() + kAnswerTime;
-  for (std::string_view answer;;) {
-    const auto left =
-        std::chrono::ceil<std::chrono::milliseconds>(until - std::chrono::steady_clock::now());
-    if (left.count() <= 0 || daemon.receive(answer, left) != client::Received::kLine) {
-      return error_response(503, "unavailable", "the daemon did not answer");
-    }
-    const bool done = answer.starts_with(R"({"class":"OK")");
-    if (done || answer.starts_with(R"({"class":"ERROR")")) {
-      return {.status = done ? 200u : 409u, .body = std::string(answer) + "\n"};
-    }
-  }
+  const bool done = answer.kind == client::Answer::Kind::kOk;
+  return {.status = done ? 200u : 409u, .body = answer.text + "\n"};
 }
 
 }  // namespace cornerd::web

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "mqtt/config.hpp"
 #include "settings/config.hpp"
 #include "tool/command_line/command.hpp"
 #include "tool/command_line/failure.hpp"
@@ -29,6 +30,9 @@ struct ProgramOptions {
   std::filesystem::path token_file;
   std::filesystem::path maps;
   std::vector<std::string> allowed_origins;
+  std::string broker;
+  std::filesystem::path broker_config;
+  std::string site = mqtt::BridgeConfig().site;
   bool is_private = false;
 };
 
@@ -59,9 +63,26 @@ std::string read_token(const std::filesystem::path& file) {
   return token;
 }
 
+void set_fleet(const ProgramOptions& options, ServerConfig& config) {
+  config.site = options.site;
+  if (!options.broker_config.empty()) {
+    const mqtt::BridgeConfig bridge = mqtt::load_bridge_config(options.broker_config);
+    config.broker = bridge.broker;
+    config.broker->client_id.clear();  // the robot's own
+    config.site = bridge.site;
+  } else if (!options.broker.empty()) {
+    try {
+      config.broker = mqtt::broker_at(options.broker);
+    } catch (const std::invalid_argument& error) {
+      throw tool::UsageError(std::string("--broker: ") + error.what());
+    }
+  }
+}
+
 void run(const ProgramOptions& options) {
   ServerConfig config;
   set_endpoint(options.listen, config);
+  set_fleet(options, config);
   config.pose_socket = options.pose;
   config.control_socket = options.control;
   if (!options.maps.empty()) config.maps = std::filesystem::absolute(options.maps);
@@ -106,6 +127,17 @@ int run_cornerd_web(int argc, const char* const* argv) {
                     "a site whose pages may use this one, such as https://app.example.org")
         .type_name("ORIGIN")
         .one_word();
+    program
+        .add_option("--broker", options->broker,
+                    "a fleet's MQTT broker: all its robots on /fleet.html")
+        .type_name("HOST[:PORT]");
+    program
+        .add_option("--broker-config", options->broker_config,
+                    "broker (TLS, user, certificates) and site of a config of cornerd-mqtt")
+        .type_name("FILE");
+    program.add_option("--site", options->site, "the site of --broker")
+        .type_name("SITE")
+        .capture_default_str();
     program.callback([options] { run(*options); });
   };
   return tool::run_program("cornerd-web", "shows in a browser what cornerd publishes", add, argc,

@@ -16,6 +16,7 @@ std::ptrdiff_t most_of(MessageClass message_class) {
     case MessageClass::kPose:
     case MessageClass::kEvent:
     case MessageClass::kOdometry:
+    case MessageClass::kOdom:
       return 16;
     default:
       return 1;

@@ -42,8 +42,9 @@ Methods methods_of(const Request& request) {
   // A map may have that name.
   if (path == "/api/maps/check" && request.method != "PUT") return {"", "POST", kMaxMapBytes};
   if (path.starts_with(kMapsFolder)) return {"", "PUT", kMaxMapBytes};
-  for (const std::string_view known : {"/api/map", "/api/status", "/api/events", "/api/recording",
-                                       "/api/maps", "/metrics", "/foxglove"}) {
+  for (const std::string_view known :
+       {"/api/map", "/api/status", "/api/events", "/api/recording", "/api/maps", "/api/fleet",
+        "/api/fleet/map", "/metrics", "/foxglove"}) {
     if (path == known) return {"GET", ""};
   }
   if (find_file(path) != nullptr) return {"GET", ""};
@@ -80,8 +81,13 @@ message::ClassSet classes_from(std::string_view comma_separated) {
 }
 
 Router::Router(AccessRules rules, const std::filesystem::path& control_socket,
-               const std::filesystem::path& maps, const Hub& hub)
-    : rules_(std::move(rules)), control_socket_(control_socket), maps_(maps), hub_(hub) {}
+               const std::filesystem::path& maps, const Hub& hub,
+               std::unique_ptr<const FleetLink> fleet)
+    : rules_(std::move(rules)),
+      control_socket_(control_socket),
+      maps_(maps),
+      hub_(hub),
+      fleet_(std::move(fleet)) {}
 
 Router::Decision Router::decide(const Request& request) const {
   const auto refuse = [](unsigned status, std::string_view code, std::string_view why) {
@@ -123,6 +129,16 @@ Router::Decision Router::decide(const Request& request) const {
   return {.kind = Kind::kWork, .max_body_bytes = methods.max_body_bytes};
 }
 
+Response Router::answer_fleet(const Request& request) const {
+  if (!fleet_) {
+    return error_response(404, "fleet", "no broker: start cornerd-web with --broker");
+  }
+  if (request.path == "/api/fleet") return {.body = fleet_->robots_json()};
+  std::string line = fleet_->map_line(query_value(request.query, "name"));
+  if (line.empty()) return error_response(404, "map", "the site has no such map");
+  return {.body = std::move(line)};
+}
+
 Response Router::answer(const Request& request, Hub::Clock::time_point now) const {
   if (const PageFile* file = find_file(request.path)) {
     return {.content_type = std::string(file->content_type), .body = std::string(file->content)};
@@ -130,6 +146,7 @@ Response Router::answer(const Request& request, Hub::Clock::time_point now) cons
   if (request.path == "/api/map") return last_line(hub_, MessageClass::kMap);
   if (request.path == "/api/status") return last_line(hub_, MessageClass::kStatus);
   if (request.path == "/api/maps") return maps_.list();
+  if (request.path.starts_with("/api/fleet")) return answer_fleet(request);
   if (request.path == "/metrics") {
     return {.content_type = "text/plain; version=0.0.4; charset=utf-8", .body = metrics_text(hub_)};
   }

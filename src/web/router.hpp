@@ -9,6 +9,7 @@
 
 #include "message/request.hpp"
 #include "web/access.hpp"
+#include "web/fleet_link.hpp"
 #include "web/http.hpp"
 #include "web/hub.hpp"
 #include "web/map_store.hpp"
@@ -33,10 +34,13 @@ class Router {
   };
 
   Router(AccessRules rules, const std::filesystem::path& control_socket,
-         const std::filesystem::path& maps, const Hub& hub);
+         const std::filesystem::path& maps, const Hub& hub,
+         std::unique_ptr<const FleetLink> fleet = nullptr);
 
   /// By the header alone.
   Decision decide(const Request& request) const;
+  /// `request`: of /api/fleet or /api/fleet/map.
+  Response answer_fleet(const Request& request) const;
   Response answer(const Request& request, Hub::Clock::time_point now) const;
   Response work(const Request& request) const;
   /// One request line of the control socket; blocks.
@@ -48,6 +52,7 @@ class Router {
   std::filesystem::path control_socket_;
   MapStore maps_;
   const Hub& hub_;
+  std::unique_ptr<const FleetLink> fleet_;                             ///< null without a broker
   std::shared_ptr<const void> recordings_ = std::make_shared<char>();  ///< an owner each
 };
 

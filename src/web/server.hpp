@@ -3,8 +3,10 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 
+#include "mqtt/broker.hpp"
 #include "web/access.hpp"
 
 namespace cornerd::web {
@@ -16,6 +18,8 @@ struct ServerConfig {
   std::filesystem::path control_socket;
   std::filesystem::path maps;  ///< empty: none
   AccessRules access;
+  std::optional<mqtt::BrokerConfig> broker;  ///< of a fleet
+  std::string site;
 };
 
 /// Serves until SIGTERM or SIGINT. Throws std::runtime_error if it cannot listen.

@@ -28,7 +28,7 @@ export async function until(what, ask, patience = kPatience_ms) {
   }
 }
 
-async function freePort() {
+export async function freePort() {
   const server = createServer();
   await new Promise((done) => server.listen(0, "127.0.0.1", done));
   const { port } = server.address();
@@ -47,7 +47,7 @@ export class Bench {
     return this.path(name);
   }
   run(program, args) {
-    const child = spawn(join(bin, program), args, { stdio: ["ignore", "pipe", "pipe"] });
+    const child = spawn(program.startsWith("/") ? program : join(bin, program), args, { stdio: ["ignore", "pipe", "pipe"] });
     const one = { child, output: "", errors: "", ended: new Promise((done) => child.on("close", done)) };
     child.stdout.on("data", (data) => { one.output += data; });
     child.stderr.on("data", (data) => { one.errors += data; });

@@ -91,6 +91,7 @@ void add_map(Command& program) {
   add_map_import(group);
   add_map_export(group);
   add_map_scale(group);
+  add_map_publish(group);
 }
 
 }  // namespace cornerd::tool

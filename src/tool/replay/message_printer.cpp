@@ -31,6 +31,10 @@ void MessagePrinter::print_pose(const core::PoseEstimate& pose) {
   if (classes_.contains(MessageClass::kPose)) output_.write(writer_.pose(pose, plan_));
 }
 
+void MessagePrinter::print_odom(const core::OdometryPose& pose) {
+  if (classes_.contains(MessageClass::kOdom)) output_.write(writer_.odom(pose));
+}
+
 void MessagePrinter::begin_recording() {
   last_status_.reset();
   odometry_ = {};

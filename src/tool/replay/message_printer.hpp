@@ -24,11 +24,15 @@ class MessagePrinter {
   /// Counts odometry lines, for the hint in STATUS.
   void note(const core::OdometryReading& reading) { odometry_lines_.add(reading); }
 
+  void print_odom(const core::OdometryPose& pose);
+
   /// A pose between two scans.
   void print_pose(const core::PoseEstimate& pose);
 
   /// Resets the rates for the next file.
   void begin_recording();
+  /// As of the last scan.
+  const core::OdometrySummary& odometry() const { return odometry_; }
   /// STATUS if a second of the data's time has passed since the last one.
   void print_status_when_due(core::TimeNs t_ns, const drivers::StreamCounters& counters);
   void print_status(core::TimeNs t_ns, const drivers::StreamCounters& counters,

@@ -43,7 +43,9 @@ void replay(const ReplayOptions& options) {
   settings::Config config = options.settings.resolve(needs_map);
   if (!options.odometry.empty()) config.odometry.core.enabled = true;
   // Online calibration of the odometry needs poses, hence the map.
-  const bool learns = classes.contains(MessageClass::kStatus) && config.odometry.core.enabled;
+  const bool learns =
+      (classes.contains(MessageClass::kStatus) || classes.contains(MessageClass::kOdom)) &&
+      config.odometry.core.enabled;
   const bool uses_map = needs_map || (learns && !config.map.empty());
   const auto map = uses_map ? settings::load_map(config.map) : nullptr;
   std::optional<Truth> truth;
@@ -80,7 +82,12 @@ void replay(const ReplayOptions& options) {
     if (!truth) return;
     if (const auto T_map_base = truth->at(pose.t_ns)) intermediate_errors.add(pose, *T_map_base);
   });
-  playback.set_on_reading([&](const core::OdometryReading& reading) { printer.note(reading); });
+  core::OdometryFrame frame(config.odometry.core);
+  playback.set_on_reading([&](const core::OdometryReading& reading) {
+    printer.note(reading);
+    const auto* odom = frame.add(reading, std::nullopt, printer.odometry().parameters);
+    if (odom != nullptr) printer.print_odom(*odom);
+  });
   if (!options.odometry.empty()) playback.set_odometry(load_odometry(options.odometry));
   const replay::RecordingOptions recording{parse_wire(options.wire), config.lidar.mount.inverted};
   for (const std::filesystem::path& file : options.files) {

@@ -24,6 +24,8 @@
 #include "tool/command_line/shared_options.hpp"
 #include "tool/commands.hpp"
 #include "tool/drawing/survey_drawing.hpp"
+#include "tool/fleet/broker_options.hpp"
+#include "tool/fleet/drives.hpp"
 #include "tool/map/map_text.hpp"
 #include "tool/survey/survey_files.hpp"
 
@@ -33,6 +35,8 @@ namespace {
 
 struct SurveyOptions : MapOutput {
   std::vector<std::filesystem::path> files;
+  BrokerOptions broker;
+  std::string robot;  ///< whose drives the broker has
   SettingsOptions settings;
   std::string wire = "auto";
   std::filesystem::path odometry;
@@ -98,6 +102,9 @@ void check_usage(const SurveyOptions& options) {
   files.read.insert(files.read.end(),
                     {options.odometry, options.prior, options.settings.config_file()});
   guard_files(files);
+  if (options.broker.is_given() == !options.files.empty() ||
+      options.broker.is_given() == options.robot.empty())
+    throw UsageError("recordings are needed: files, or --broker and --robot");
   const bool is_ransac = options.method == "ransac";
   if (is_ransac && options.manhattan)
     throw UsageError("--manhattan: not available with --method ransac; leave one out");
@@ -109,8 +116,11 @@ void check_usage(const SurveyOptions& options) {
     throw UsageError("--iterations: only for --method ransac; add it");
 }
 
-void run_survey(const SurveyOptions& options) {
+void run_survey(SurveyOptions options) {
   check_usage(options);
+  std::optional<FleetDrives> drives;
+  if (options.broker.is_given())
+    options.files = drives.emplace(options.broker, options.robot).files();
   const core::Pose2 start = parse_start(options.start);
   const settings::Config config = options.settings.resolve(/*needs_map=*/false);
   const std::shared_ptr<const core::WallMap> prior =
@@ -142,8 +152,10 @@ void add_survey(Command& program) {
   Command command = program.add_subcommand("survey", "a map of the walls from a recorded drive");
   const auto options = std::make_shared<SurveyOptions>();
   command.add_option("files", options->files, "consecutive recordings of one drive")
-      .required()
       .type_name("FILE");
+  options->broker.add(command);
+  command.add_option("--robot", options->robot, "with --broker: the drives that this robot sent")
+      .type_name("SERIAL");
   options->add(command, "walls, points and trajectory");
   command
       .add_option("--start", options->start,

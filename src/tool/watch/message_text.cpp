@@ -48,6 +48,11 @@ std::string describe(const message::ParsedStatus& status) {
   return text + "\n";
 }
 
+std::string describe(const message::ParsedOdom& odom) {
+  return formatted("%.3f odom      ", core::to_seconds(odom.t_ns)) + pose_of(odom.T_odom_base) +
+         formatted(", %.3f m/s, %.1f degrees/s\n", odom.vx_m_s, core::degrees(odom.omega_rad_s));
+}
+
 std::string describe(const message::ParsedEvent& event) {
   return event.what + (event.detail.empty() ? "" : ": " + event.detail) + "\n";
 }

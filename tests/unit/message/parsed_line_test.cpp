@@ -64,6 +64,17 @@ TEST(ParsedLine, Pose_WrittenByLineWriter_ReadBack) {
   EXPECT_EQ(pose.age_s, 0);
 }
 
+TEST(ParsedLine, Odom_WrittenByLineWriter_ReadBack) {
+  LineWriter writer;
+  const auto odom =
+      parse<ParsedOdom>(writer.odom({1'500'000'000, core::Pose2{1.25, -2, 0.5}, 0.25, -0.125}));
+  EXPECT_EQ(odom.t_ns, 1'500'000'000);
+  EXPECT_EQ(odom.T_odom_base.y_m, -2);
+  EXPECT_EQ(odom.T_odom_base.theta_rad, 0.5);
+  EXPECT_EQ(odom.vx_m_s, 0.25);
+  EXPECT_EQ(odom.omega_rad_s, -0.125);
+}
+
 TEST(ParsedLine, AmbiguousPose_AlternativesAndNoPose) {
   LineWriter writer;
   core::PoseEstimate ambiguous = fix();

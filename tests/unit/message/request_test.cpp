@@ -67,7 +67,7 @@ TEST(ParseRequest, PollWithClasses_TheseOnly) {
   EXPECT_TRUE(classes.contains(MessageClass::kMap));
   EXPECT_FALSE(classes.contains(MessageClass::kPose));
   EXPECT_THAT(request_error(R"({"class":"POLL","classes":["MAP","SCAN"]})").text,
-              HasSubstr("POSE, STATUS, EVENT and MAP"));
+              HasSubstr("POSE, STATUS, EVENT, MAP and ODOM"));
 }
 
 TEST(ParseRequest, SetMap_NameOrFile) {

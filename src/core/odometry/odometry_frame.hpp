@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <optional>
+
+#include "core/geometry/pose2.hpp"
+#include "core/odometry/odometry_config.hpp"
+#include "core/odometry/odometry_reading.hpp"
+#include "core/odometry/reading_gate.hpp"
+
+namespace cornerd::core {
+
+/// The robot in the frame `odom` of REP 105: dead reckoning alone, continuous, drifting.
+struct OdometryPose {
+  TimeNs t_ns = 0;
+  Pose2 T_odom_base;
+  double vx_m_s = 0;  ///< forward, of `base`
+  double omega_rad_s = 0;
+};
+
+/// Integrates odometry readings as they come. The pose begins at the origin and never jumps: no fix
+/// corrects it, better parameters hold for what is driven afterwards, and over a gap of the
+/// readings it stands still. Allocates nothing.
+class OdometryFrame {
+ public:
+  explicit OdometryFrame(const OdometryConfig& config)
+      : is_enabled_(config.enabled), geometry_(config.geometry), gate_(config) {}
+
+  /// Another geometry or other limits from now on; the pose stays.
+  void configure(const OdometryConfig& config);
+
+  /// `now_ns`: see ReadingGate. `parameters`: as estimated until now. Null where the reading ended
+  /// no increment; else valid until the next call.
+  const OdometryPose* add(const OdometryReading& reading, std::optional<TimeNs> now_ns,
+                          const OdometryParameters& parameters);
+
+ private:
+  bool is_enabled_;
+  DriveGeometry geometry_;
+  ReadingGate gate_;
+  OdometryPose pose_;
+};
+
+}  // namespace cornerd::core

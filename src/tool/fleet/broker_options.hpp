@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <chrono>
+#include <filesystem>
+#include <functional>
+#include <string>
+
+#include "mqtt/broker.hpp"
+
+namespace cornerd::tool {
+
+class Command;
+
+/// --broker, --broker-config and --site of the commands for a fleet.
+class BrokerOptions {
+ public:
+  void add(Command& command);
+  bool is_given() const { return !broker_.empty() || !config_.empty(); }
+
+  /// Throws UsageError, or settings::SettingsError.
+  mqtt::BrokerConfig broker() const;
+  std::string site() const;
+
+ private:
+  std::string broker_;
+  std::filesystem::path config_;
+  std::string site_;
+};
+
+/// Throws Failure, with the reason, if there is no connection within seconds.
+void wait_for_connection(const mqtt::Broker& broker);
+/// Throws Failure if what was published is not acknowledged within a minute.
+void wait_for_acknowledgement(const mqtt::Broker& broker);
+/// Calls `take` with each message until none has come for `silence`.
+void take_until_silent(mqtt::Broker& broker, std::chrono::milliseconds silence,
+                       const std::function<void(const mqtt::Message&)>& take);
+
+}  // namespace cornerd::tool
