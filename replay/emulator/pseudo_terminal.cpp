@@ -11,6 +11,7 @@
 #include <array>
 #include <cerrno>
 #include <chrono>
+#include <stdexcept>
 #include <string>
 #include <system_error>
 #include <thread>
@@ -27,6 +28,9 @@ namespace {
 void make_link(const std::filesystem::path& link, const std::filesystem::path& target) {
   if (std::filesystem::is_symlink(std::filesystem::symlink_status(link))) {
     std::filesystem::remove(link);
+  } else if (std::filesystem::exists(link)) {
+    throw std::runtime_error(link.string() +
+                             ": exists and is no symbolic link: name another path for the link");
   }
   std::filesystem::create_symlink(target, link);
 }

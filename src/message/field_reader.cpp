@@ -79,7 +79,8 @@ double FieldReader::check(const std::string& name, const Json& value, Limits lim
   }
   const double number = value.get<double>();
   if (!(number >= limits.low && number <= limits.high)) {
-    fail(name + " must be from " + shortest(limits.low) + " to " + shortest(limits.high));
+    fail(name + " must be from " + shortest(limits.low) + " to " + shortest(limits.high) +
+         limits.unit);
     return 0;
   }
   return number;

@@ -20,13 +20,14 @@ using Json = nlohmann::json;
 struct Limits {
   double low = 0;
   double high = 0;
+  const char* unit = "";  ///< for a message, after the numbers
 };
 
 /// UNIX time or time since the start of a recording; in nanoseconds it fits 64 bits.
-inline constexpr Limits kTimeLimitsS{-9e9, 9e9};
-inline constexpr Limits kCoordinateLimitsM{-1e5, 1e5};
+inline constexpr Limits kTimeLimitsS{-9e9, 9e9, " seconds"};
+inline constexpr Limits kCoordinateLimitsM{-1e5, 1e5, " metres"};
 /// Slightly more than 2 pi, so that most angles in degrees are refused.
-inline constexpr Limits kAngleLimitsRad{-6.3, 6.3};
+inline constexpr Limits kAngleLimitsRad{-6.3, 6.3, " radians"};
 
 /// Parses one line. Returns nullopt and sets `error` if the line is too long, nested too deeply, or
 /// not a JSON object.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "tool/command_line/command.hpp"
 
+#include <csignal>
 #include <cstdint>
 #include <cstdio>
 #include <exception>
@@ -138,6 +139,19 @@ void Command::add_renamed(const std::string& old_name, const std::string& new_na
 
 void Command::callback(const std::function<void()>& run) { app_->callback(run); }
 
+namespace {
+
+/// "noise, bias, odometry"; old names, which have no group, are left out.
+std::string names_of_subcommands(const CLI::App& group) {
+  std::string names;
+  for (const CLI::App* one : group.get_subcommands([](const CLI::App*) { return true; })) {
+    if (!one->get_group().empty()) names += (names.empty() ? "" : ", ") + one->get_name();
+  }
+  return names + "\n";
+}
+
+}  // namespace
+
 int run_program(const std::string& name, const std::string& summary,
                 const std::function<void(Command& program)>& add, int argc,
                 const char* const* argv) {
@@ -145,10 +159,18 @@ int run_program(const std::string& name, const std::string& summary,
     std::fprintf(stderr, "%s: %s\n", name.c_str(), text);
     return exit_code;
   };
+  // A write beyond a limit of file sizes fails with a message.
+  std::signal(SIGXFSZ, SIG_IGN);
   CLI::App app(name + ": " + summary, name);
   app.set_version_flag("--version", name + " " CORNERD_VERSION);
   app.fallthrough();
   app.failure_message([&](const CLI::App* parsed, const CLI::Error& error) {
+    const CLI::App* command = parsed;
+    while (!command->get_subcommands().empty()) command = command->get_subcommands().front();
+    // CLI11's own words do not name the choices.
+    if (command != parsed && command->get_require_subcommand_min() > 0) {
+      return name + ": " + command->get_name() + " needs one of: " + names_of_subcommands(*command);
+    }
     return name + ": " + CLI::FailureMessage::simple(parsed, error);
   });
   Command program(app);

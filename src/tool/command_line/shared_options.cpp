@@ -9,6 +9,7 @@
 #include <sstream>
 #include <string_view>
 
+#include "message/field_reader.hpp"
 #include "settings/document.hpp"
 #include "settings/object_reader.hpp"
 #include "tool/command_line/command.hpp"
@@ -117,6 +118,9 @@ core::Pose2 parse_pose(const std::string& text) {
   const std::vector<double> numbers = parse_numbers(text, 3);
   if (numbers.empty()) {
     throw UsageError("'" + text + "' is no pose: x,y,theta in metres and radians");
+  }
+  if (std::abs(numbers[2]) > message::kAngleLimitsRad.high) {
+    throw UsageError("'" + text + "': theta is in radians, and 90 degrees are 1.5708");
   }
   return {numbers[0], numbers[1], core::normalize_angle(numbers[2])};
 }
