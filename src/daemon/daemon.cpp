@@ -159,9 +159,11 @@ ControlActions Daemon::control_actions(const settings::Config& config) {
         // scan.
         reading.t_ns = localization_.newest_sample_ns();
       }
-      const bool has_values = reading.left || reading.right || reading.gyro_rad_s;
-      if (verdict == Verdict::kAccepted || has_values) localization_.add(reading);
+      if (reading.left || reading.right || reading.gyro_rad_s) localization_.add(reading);
       return verdict != Verdict::kFirstRejection;
+    };
+    actions.refuse_odometry = [this](const message::RequestError& error) {
+      odometry_clients_.refuse(error);
     };
     actions.disconnect = [this](int connection) { odometry_clients_.disconnect(connection); };
   }

@@ -22,7 +22,7 @@ std::string lost_hint(const ScanPublisher& scans) {
 }  // namespace
 
 FaultList::FaultList(const drivers::LidarStatus& lidar, const ScanPublisher& scans,
-                     std::string_view odometry_hint) {
+                     const message::StatusFields& status) {
   if (lidar.fault != drivers::LidarFault::kNone) {
     add(drivers::to_string(lidar.fault), std::string(lidar.detail.view()));
   }
@@ -32,7 +32,10 @@ FaultList::FaultList(const drivers::LidarStatus& lidar, const ScanPublisher& sca
         "the odometry contradicts the lidar and is not used: check wheel_radius, track, "
         "counts_per_turn, the signs of counts and gyro, and lidar.mount");
   }
-  if (!odometry_hint.empty()) add("odometry-absent", std::string(odometry_hint));
+  if (!status.odometry_hint.empty()) {
+    add(status.odometry_is_refused ? "odometry-refused" : "odometry-absent",
+        std::string(status.odometry_hint));
+  }
 }
 
 void FaultList::add(std::string_view name, std::string hint) {

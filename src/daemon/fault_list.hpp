@@ -15,9 +15,9 @@ namespace cornerd::daemon {
 /// for a person about the first.
 class FaultList {
  public:
-  /// `odometry_hint`: why odometry is absent; empty if it is not, or nobody knows why.
+  /// `status`: with what the odometry's source says of itself.
   FaultList(const drivers::LidarStatus& lidar, const ScanPublisher& scans,
-            std::string_view odometry_hint);
+            const message::StatusFields& status);
 
   std::span<const std::string_view> names() const { return names_; }
   /// One sentence; empty if there is no fault.

@@ -106,7 +106,7 @@ void StatusPublisher::publish(const drivers::LidarStatus& lidar, const ScanPubli
   status.odometry = &scans.odometry();
   if (odometry_ != nullptr) odometry_->describe(status);
   if (odometry_clients_ != nullptr) odometry_clients_->describe(status);
-  const FaultList faults(lidar, scans, status.odometry_hint);
+  const FaultList faults(lidar, scans, status);
   status.faults = faults.names();
   status.hint = faults.hint();
   const LatencyWindow& latencies = scans.latencies();

@@ -54,11 +54,19 @@ class FieldReader {
   /// array[index], a finite number within limits.
   double element(const char* name, const Json& array, std::size_t index, Limits limits);
 
-  void fail(const std::string& reason);
+  /// Why a field is wrong, for counters.
+  static constexpr std::string_view kMissing = "missing";
+  static constexpr std::string_view kNotANumber = "not_a_number";
+  static constexpr std::string_view kNotWhole = "not_whole";
+  static constexpr std::string_view kOutOfRange = "out_of_range";
+  static constexpr std::string_view kOther = "other";
+
+  void fail(const std::string& reason, std::string_view cause = kOther);
   const std::optional<RequestError>& error() const { return error_; }
 
  private:
   const Json* find(const char* name);
+  void refuse_range(const std::string& name, Limits limits, double number);
   double check(const std::string& name, const Json& value, Limits limits);
 
   const Json& object_;

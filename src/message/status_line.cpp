@@ -101,6 +101,10 @@ void write_summary(JsonText& json, const StatusFields& status) {
   write_each(json, counters);
   if (status.second_client) json.integer("second_client", *status.second_client);
   json.close_object();
+  if (status.odometry_refusals.empty()) return;
+  json.open_object("refused");
+  write_each(json, status.odometry_refusals);
+  json.close_object();
 }
 
 void write_sensors(JsonText& json, const StatusFields& status) {

@@ -217,7 +217,7 @@ TEST(UnixListener, MissingFolder_Created) {
 
 TEST(UnixListener, InvalidPath_NamedInError) {
   EXPECT_THAT(error_of("/nowhere/at/all/s"),
-              StartsWith("/nowhere/at/all/s: cannot bind the socket: "));
+              StartsWith("/nowhere/at/all: cannot create the socket's folder: "));
   EXPECT_THAT(error_of("/tmp/" + std::string(200, 'x')), HasSubstr("too long for a socket"));
 }
 
