@@ -11,7 +11,6 @@
 #include <array>
 #include <cerrno>
 #include <chrono>
-#include <stdexcept>
 #include <string>
 #include <system_error>
 #include <thread>
@@ -29,8 +28,8 @@ void make_link(const std::filesystem::path& link, const std::filesystem::path& t
   if (std::filesystem::is_symlink(std::filesystem::symlink_status(link))) {
     std::filesystem::remove(link);
   } else if (std::filesystem::exists(link)) {
-    throw std::runtime_error(link.string() +
-                             ": exists and is no symbolic link: name another path for the link");
+    throw std::system_error(EEXIST, std::generic_category(),
+                            link.string() + ": is no symbolic link, name another path");
   }
   std::filesystem::create_symlink(target, link);
 }

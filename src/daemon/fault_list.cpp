@@ -22,15 +22,19 @@ std::string lost_hint(const ScanPublisher& scans) {
 }  // namespace
 
 FaultList::FaultList(const drivers::LidarStatus& lidar, const ScanPublisher& scans,
-                     const message::StatusFields& status) {
+                     const message::StatusFields& status, const calibration::DriveFaults& drive,
+                     const calibration::OdometryNames& names) {
   if (lidar.fault != drivers::LidarFault::kNone) {
     add(drivers::to_string(lidar.fault), std::string(lidar.detail.view()));
   }
   if (scans.recently_lost() >= kMinLost) add("map-mismatch", lost_hint(scans));
-  if (scans.odometry().present && !scans.odometry().healthy) {
+  for (const std::string_view name : calibration::names_of(drive)) {
+    add(name, calibration::describe(drive, names));
+  }
+  if (!drive.any() && scans.odometry().present && !scans.odometry().healthy) {
     add("odometry-unhealthy",
-        "the odometry contradicts the lidar and is not used: check wheel_radius, track, "
-        "counts_per_turn, the signs of counts and gyro, and lidar.mount");
+        "the odometry contradicts the lidar and is not used: drive a minute, straight and with "
+        "rotations both ways, and the reason is named here");
   }
   if (!status.odometry_hint.empty()) {
     add(status.odometry_is_refused ? "odometry-refused" : "odometry-absent",

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "calibration/drive_fault_text.hpp"
 #include "daemon/scan_publisher.hpp"
 #include "drivers/lidar_driver.hpp"
 
@@ -15,9 +16,10 @@ namespace cornerd::daemon {
 /// for a person about the first.
 class FaultList {
  public:
-  /// `status`: with what the odometry's source says of itself.
+  /// `status`: with what the odometry's source says of itself; `names`: of the remedies of `drive`.
   FaultList(const drivers::LidarStatus& lidar, const ScanPublisher& scans,
-            const message::StatusFields& status);
+            const message::StatusFields& status, const calibration::DriveFaults& drive,
+            const calibration::OdometryNames& names);
 
   std::span<const std::string_view> names() const { return names_; }
   /// One sentence; empty if there is no fault.

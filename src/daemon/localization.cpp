@@ -32,6 +32,7 @@ Localization::Localization(drivers::LidarDriver& driver, std::unique_ptr<core::P
       channel_(source == SourceKind::kDevice ? SampleChannel::WhenFull::kLose
                                              : SampleChannel::WhenFull::kWait),
       readings_(kReadingSlots),
+      taken_(kReadingSlots),
       initial_poses_(kInitialPoseSlots),
       reports_(kReportSlots),
       predictions_(kPredictionSlots),
@@ -114,7 +115,7 @@ void Localization::process(core::Pipeline& pipeline, const SampleChannel::Item& 
   core::Pose2 T_map_base;
   while (!is_replaced && initial_poses_.pop(T_map_base)) pipeline.localizer().set_pose(T_map_base);
   take_readings();
-  if (item.kind == SampleChannel::Kind::kReading) return report(pipeline.add(item.reading));
+  if (item.kind == SampleChannel::Kind::kReading) return take_reading(pipeline, item.reading, {});
   const core::ScanResult* result =
       item.kind == SampleChannel::Kind::kGap ? pipeline.finish() : pipeline.add(item.sample);
   if (result != nullptr) report(pipeline, *result, item.arrival_ns);
@@ -131,11 +132,9 @@ void Localization::report(const core::Pipeline& pipeline, const core::ScanResult
     report.scan = pipeline.scan();
     report.number = scans_;
     report.result.pose.seq = poses_;  // continues across pipelines
-    if (source_ == SourceKind::kDevice) {
-      const core::TimeNs to_unix_ns = unix_ns() - monotonic_ns();
-      report.result.pose.t_ns += to_unix_ns;
-      report.scan.shift(to_unix_ns);
-    }
+    report.to_unix_ns = source_ == SourceKind::kDevice ? unix_ns() - monotonic_ns() : 0;
+    report.result.pose.t_ns += report.to_unix_ns;
+    report.scan.shift(report.to_unix_ns);
     report.latency_ns = monotonic_ns() - arrival_ns;
     report.generation = current_->number;
     report.lidar = current_->lidar;
@@ -150,9 +149,15 @@ void Localization::take_readings() {
   core::OdometryReading reading;
   const bool is_device = source_ == SourceKind::kDevice;
   while (readings_.pop(reading)) {
-    report(
-        current_->pipeline->add(reading, is_device ? std::optional(monotonic_ns()) : std::nullopt));
+    take_reading(*current_->pipeline, reading,
+                 is_device ? std::optional(monotonic_ns()) : std::nullopt);
   }
+}
+
+void Localization::take_reading(core::Pipeline& pipeline, const core::OdometryReading& reading,
+                                std::optional<core::TimeNs> now_ns) {
+  report(pipeline.add(reading, now_ns));
+  taken_.push(reading);
 }
 
 void Localization::report(const core::PoseEstimate* prediction) {

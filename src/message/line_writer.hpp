@@ -44,6 +44,11 @@ struct StatusFields {
   struct Mount {
     core::Pose2 T_base_lidar;
     bool inverted = false;  ///< the lidar hangs upside down; SCAN's angles have it already
+    struct Estimate {
+      core::Pose2 T_base_lidar;
+      core::Pose2 sigma;
+    };
+    std::optional<Estimate> estimated{};  ///< by wheels and lidar
   };
   std::optional<Mount> mount;                 ///< left out where it is not known
   const core::EstimatedBias* bias = nullptr;  ///< of the lidar; left out before its first scan

@@ -38,6 +38,20 @@ void write_mount(JsonText& json, const StatusFields::Mount& mount) {
   json.key("theta");
   json.angle(mount.T_base_lidar.theta_rad);
   json.boolean("inverted", mount.inverted);
+  if (mount.estimated) {
+    const auto& [T_base_lidar, sigma] = *mount.estimated;
+    json.open_object("estimated");
+    json.number("x", T_base_lidar.x_m, kTimeDecimals);
+    json.number("y", T_base_lidar.y_m, kTimeDecimals);
+    json.key("theta");
+    json.angle(T_base_lidar.theta_rad);
+    json.open_object("sigma");
+    json.number("x", sigma.x_m, kTimeDecimals);
+    json.number("y", sigma.y_m, kTimeDecimals);
+    json.number("theta", sigma.theta_rad, kTimeDecimals);
+    json.close_object();
+    json.close_object();
+  }
   json.close_object();
 }
 

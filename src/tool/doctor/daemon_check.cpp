@@ -121,10 +121,11 @@ void add_hint(const message::ParsedStatus& status, std::vector<Finding>& finding
 void add_fault(const message::ParsedStatus& status, std::vector<Finding>& findings) {
   if (status.faults.empty()) return;
   const std::string& fault = status.faults.front();
-  if (fault == "map-mismatch") findings.push_back({Verdict::kWrong, "map", status.hint, {}});
-  if (fault == "odometry-unhealthy") {
-    findings.push_back({Verdict::kWrong, "odometry", status.hint, {}});
-  }
+  if (fault == status.lidar_fault || status.hint == status.odometry_hint) return;
+  const char* subject = fault.starts_with("map")     ? "map"
+                        : fault.starts_with("mount") ? "mount"
+                                                     : "odometry";
+  findings.push_back({Verdict::kWrong, subject, status.hint, {}});
 }
 
 }  // namespace
