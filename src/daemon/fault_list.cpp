@@ -22,12 +22,18 @@ std::string lost_hint(const ScanPublisher& scans) {
 }  // namespace
 
 FaultList::FaultList(const drivers::LidarStatus& lidar, const ScanPublisher& scans,
+                     const std::optional<calibration::MapFinding>& map,
                      const message::StatusFields& status, const calibration::DriveFaults& drive,
                      const calibration::OdometryNames& names) {
   if (lidar.fault != drivers::LidarFault::kNone) {
     add(drivers::to_string(lidar.fault), std::string(lidar.detail.view()));
   }
-  if (scans.recently_lost() >= kMinLost) add("map-mismatch", lost_hint(scans));
+  const bool is_mostly_lost = scans.recently_lost() >= kMinLost;
+  if (map && (is_mostly_lost || map->fault != calibration::MapFault::kNoVariant)) {
+    add(calibration::name_of(*map), calibration::describe(*map, scans.map()->plan().name));
+  } else if (is_mostly_lost) {
+    add("map-mismatch", lost_hint(scans));
+  }
   for (const std::string_view name : calibration::names_of(drive)) {
     add(name, calibration::describe(drive, names));
   }

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "calibration/drive_fault_text.hpp"
+#include "calibration/map_faults.hpp"
 #include "daemon/scan_publisher.hpp"
 #include "drivers/lidar_driver.hpp"
 
@@ -18,7 +20,7 @@ class FaultList {
  public:
   /// `status`: with what the odometry's source says of itself; `names`: of the remedies of `drive`.
   FaultList(const drivers::LidarStatus& lidar, const ScanPublisher& scans,
-            const message::StatusFields& status, const calibration::DriveFaults& drive,
+            const std::optional<calibration::MapFinding>& map, const message::StatusFields& status, const calibration::DriveFaults& drive,
             const calibration::OdometryNames& names);
 
   std::span<const std::string_view> names() const { return names_; }

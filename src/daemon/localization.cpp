@@ -60,6 +60,7 @@ int Localization::prioritize_reader(int priority) {
 }
 
 void Localization::read(const std::stop_token& stop) {
+  ::pthread_setname_np(::pthread_self(), "reader");
   driver_.run(stop, channel_);
   // At the end of a recording no further sample completes the last scan.
   channel_.on_gap();
@@ -67,6 +68,7 @@ void Localization::read(const std::stop_token& stop) {
 }
 
 void Localization::localize(const std::stop_token& stop) {
+  ::pthread_setname_np(::pthread_self(), "localizer");
   SampleChannel::Item item;
   while (true) {
     // Read wakes() first: a stop requested after the check below changes it.

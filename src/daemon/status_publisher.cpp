@@ -58,10 +58,12 @@ void StatusPublisher::configure(const settings::Config& config) {
   mount_ = {names_.T_base_lidar, config.lidar.mount.inverted, {}};
   drive_.reset();
   if (config.odometry.core.enabled) drive_.emplace(config.odometry.core, names_.T_base_lidar);
+  map_examiner_.configure(config);
 }
 
 void StatusPublisher::observe(const ScanReport& report) {
   const core::PoseEstimate& pose = report.result.pose;
+  map_examiner_.observe(report);
   if (drive_ && core::has_pose(pose.state)) {
     drive_->add(pose.t_ns - report.to_unix_ns, pose.T_map_base);
   }
@@ -130,7 +132,8 @@ void StatusPublisher::publish(const drivers::LidarStatus& lidar, const ScanPubli
   if (drive_ && drive.mount.sigma.theta_rad > 0) {
     status.mount->estimated = {drive.mount.T_base_lidar, drive.mount.sigma};
   }
-  const FaultList faults(lidar, scans, status, drive, names_);
+  const FaultList faults(lidar, scans, map_examiner_.update(scans.recently_lost(), scans.map()),
+                         status, drive, names_);
   status.faults = faults.names();
   status.hint = faults.hint();
   const LatencyWindow& latencies = scans.latencies();

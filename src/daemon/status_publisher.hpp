@@ -6,6 +6,7 @@
 #include <string>
 
 #include "daemon/localization.hpp"
+#include "daemon/map_examiner.hpp"
 #include "daemon/message_server.hpp"
 #include "daemon/odometry_clients.hpp"
 #include "daemon/odometry_reader.hpp"
@@ -54,6 +55,7 @@ class StatusPublisher {
   std::optional<message::StatusFields::Mount> mount_;
   calibration::OdometryNames names_;
   std::optional<calibration::DriveMonitor> drive_;  ///< where there is odometry
+  MapExaminer map_examiner_;
   OdometryReader* odometry_ = nullptr;
   OdometryClients* odometry_clients_ = nullptr;
   Notifier& notifier_;

@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: MIT
+#include "calibration/map_faults.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <memory>
+#include <stdexcept>
+
+#include "core/localizer.hpp"
+
+namespace cornerd::calibration {
+namespace {
+
+/// Metres of units that drawings are in.
+constexpr double kUnits[] = {0.001, 0.01, 0.0254, 0.3048};
+/// Scales tried, in steps within which scans still have poses (README.md of this folder).
+constexpr double kScaleStep = 0.015;
+constexpr int kScaleSteps = 20;
+/// Of the scans: a variant with fewer poses does not fit, a map with more does. Between them the best
+/// variant must be better by as much.
+constexpr double kFits = 0.6;
+constexpr double kGain = 0.25;
+/// A variant in which none of so many scans has a pose is given up: lost scans cost the most.
+constexpr double kFirstScans = 4;
+/// A lidar's ranges may be off by as much.
+constexpr double kMaxLidarScale = 0.03;
+
+core::FloorPlan mirrored(core::FloorPlan plan) {
+  for (core::Wall& wall : plan.walls) {
+    wall.from.y() = -wall.from.y();
+    wall.to.y() = -wall.to.y();
+  }
+  plan.rooms.clear();
+  return plan;
+}
+
+core::FloorPlan scaled(core::FloorPlan plan, double scale) {
+  for (core::Wall& wall : plan.walls) {
+    wall.from *= scale;
+    wall.to *= scale;
+    wall.thickness_m *= scale;
+  }
+  plan.rooms.clear();
+  return plan;
+}
+
+class MapTrials {
+ public:
+  MapTrials(const core::LocalizerConfig& config, std::span<const ScanSamples> scans,
+            const std::function<bool()>& is_over)
+      : config_(config), scans_(scans), is_over_(is_over) {
+    config_.odometry.enabled = false;
+    config_.calibrate_online = false;
+    config_.updates_per_scan = 1;
+  }
+
+  bool is_over() const { return is_over_(); }
+
+  /// Share of the scans that have a pose; 0 where it cannot exceed `least`, or the first have none.
+  double share(const core::FloorPlan& plan, double least) const {
+    std::shared_ptr<const core::WallMap> map;
+    try {
+      map = std::make_shared<const core::WallMap>(plan);
+    } catch (const std::invalid_argument&) {
+      return 0;  // of a scale at which it is none
+    }
+    core::Localizer localizer(map, config_);
+    core::Scan scan;
+    const auto count = static_cast<double>(scans_.size());
+    double named = 0;
+    double left = count;
+    for (const ScanSamples& samples : scans_) {
+      const bool begins_badly = named == 0 && count - left >= kFirstScans;
+      if (begins_badly || named + left <= least * count || is_over_()) return 0;
+      scan.clear();
+      for (const core::Sample& sample : samples) scan.add(sample);
+      localizer.relocalize();
+      named += localizer.step(scan).pose.state == core::PoseState::kFix ? 1 : 0;
+      --left;
+    }
+    return named / count;
+  }
+
+ private:
+  core::LocalizerConfig config_;
+  std::span<const ScanSamples> scans_;
+  const std::function<bool()>& is_over_;
+};
+
+}  // namespace
+
+std::optional<MapFinding> find_map_fault(const core::FloorPlan& plan,
+                                         std::span<const core::FloorPlan> others,
+                                         const core::LocalizerConfig& config,
+                                         std::span<const ScanSamples> scans,
+                                         const std::function<bool()>& is_over) {
+  if (scans.empty()) return std::nullopt;
+  const MapTrials trials(config, scans, is_over);
+  const double as_it_is = trials.share(plan, 0);
+  if (as_it_is > kFits) return std::nullopt;
+  MapFinding best;
+  double most = std::max(kFits, as_it_is + kGain);
+  const auto consider = [&](const core::FloorPlan& variant, const MapFinding& finding) {
+    const double share = trials.share(variant, most);
+    if (share <= most) return;
+    most = share;
+    best = finding;
+  };
+  consider(mirrored(plan), {.fault = MapFault::kMirrored});
+  for (const core::FloorPlan& other : others) {
+    consider(other, {.fault = MapFault::kOtherMap, .map = other.name});
+  }
+  for (const double unit : kUnits) {
+    consider(scaled(plan, unit), {.fault = MapFault::kUnits, .scale = unit});
+  }
+  // Several scales fit: the true one is in their middle.
+  double weights = 0;
+  double sum = 0;
+  for (int step = -kScaleSteps; step <= kScaleSteps && !trials.is_over(); ++step) {
+    if (step == 0) continue;
+    const double logarithm = step * std::log1p(kScaleStep);
+    const double share = trials.share(scaled(plan, std::exp(logarithm)), most);
+    weights += share;
+    sum += share * logarithm;
+  }
+  if (weights > 0) best = {.fault = MapFault::kScale, .scale = std::exp(sum / weights)};
+  if (trials.is_over()) return std::nullopt;
+  return best;
+}
+
+std::string_view name_of(const MapFinding& finding) {
+  constexpr std::array<std::string_view, 5> kNames = {"map-mirrored", "map-scale", "map-units",
+                                                      "map-other", "map-mismatch"};
+  return kNames[static_cast<std::size_t>(finding.fault)];
+}
+
+std::string describe(const MapFinding& finding, const std::string& name) {
+  const std::string map = "the map \"" + name + "\"";
+  std::array<char, 64> number{};
+  const auto text_of = [&](const char* format, double value) {
+    std::snprintf(number.data(), number.size(), format, value);
+    return std::string(number.data());
+  };
+  switch (finding.fault) {
+    case MapFault::kMirrored:
+      return "the scans fit the mirror image of " + map +
+             ": change lidar.mount.inverted, or mirror the map, whichever is wrong";
+    case MapFault::kScale: {
+      const std::string text = "the scans fit " + map + " made " + text_of("%.3f", finding.scale) +
+                               " times as large: cornerctl map scale";
+      const bool may_be_lidar = std::abs(finding.scale - 1) < 1.5 * kMaxLidarScale;
+      return text + (may_be_lidar ? "; or the lidar's ranges are off by as much: cornerctl "
+                                    "calibrate bias, where the map was measured"
+                                  : "");
+    }
+    case MapFault::kUnits:
+      return "the scans fit " + map + " where its lengths are times " +
+             text_of("%.4g", finding.scale) + ": maps are in metres, cornerctl map scale";
+    case MapFault::kOtherMap:
+      return "the scans fit the map \"" + finding.map + "\" of the config, not " + map +
+             ": set map, or map \"auto\"";
+    case MapFault::kNoVariant:
+      return "hardly any scan fits " + map +
+             ", nor its mirror image, nor it 0.75 to 1.35 times as large or in another unit: check "
+             "that it is the map of this place and floor, and that the robot is inside it";
+  }
+  return {};
+}
+
+}  // namespace cornerd::calibration
