@@ -6,7 +6,11 @@
 #include <cstdio>
 #include <exception>
 #include <filesystem>
+#include <memory>
 #include <optional>
+#include <sstream>
+#include <string>
+#include <utility>
 
 #include <CLI/CLI.hpp>
 
@@ -141,6 +145,38 @@ void Command::callback(const std::function<void()>& run) { app_->callback(run); 
 
 namespace {
 
+/// CLI11's help, wrapped at 80 columns. Continued lines keep the column of their description.
+class WrappedHelp : public CLI::Formatter {
+ public:
+  std::string make_help(const CLI::App* app, std::string name,
+                        CLI::AppFormatMode mode) const override {
+    std::istringstream lines(CLI::Formatter::make_help(app, std::move(name), mode));
+    std::string wrapped;
+    for (std::string line; std::getline(lines, line);) wrapped += wrap(line);
+    return wrapped;
+  }
+
+ private:
+  static constexpr std::size_t kWidth = 80;
+
+  static std::string wrap(std::string line) {
+    // Where the description begins: after the name, or after the spaces of a continued line.
+    const std::size_t name = line.find_first_not_of(' ');
+    std::size_t column = name == std::string::npos ? 0 : name;
+    if (const std::size_t gap = line.find("  ", column); gap != std::string::npos) {
+      column = line.find_first_not_of(' ', gap);
+    }
+    std::string wrapped;
+    while (line.size() > kWidth && column < kWidth / 2) {
+      const std::size_t space = line.rfind(' ', kWidth);
+      if (space == std::string::npos || space <= column) break;
+      wrapped += line.substr(0, space) + '\n';
+      line = std::string(column, ' ') + line.substr(space + 1);
+    }
+    return wrapped + line + '\n';
+  }
+};
+
 /// "noise, bias, odometry"; old names, which have no group, are left out.
 std::string names_of_subcommands(const CLI::App& group) {
   std::string names;
@@ -162,6 +198,7 @@ int run_program(const std::string& name, const std::string& summary,
   // A write beyond a limit of file sizes fails with a message.
   std::signal(SIGXFSZ, SIG_IGN);
   CLI::App app(name + ": " + summary, name);
+  app.formatter(std::make_shared<WrappedHelp>());
   app.set_version_flag("--version", name + " " CORNERD_VERSION);
   app.fallthrough();
   app.failure_message([&](const CLI::App* parsed, const CLI::Error& error) {
