@@ -24,8 +24,9 @@ namespace cornerd::drivers {
 namespace {
 
 constexpr int kWriteTimeoutMs = 500;
-/// While bytes stream in, they are read so often: a UART wakes its reader for every few bytes. Added to
-/// the latency of a pose; the age of the newest byte, from which samples get their times, is not.
+/// While bytes stream in, they are read so often: a UART wakes its reader for every few bytes.
+/// Added to the latency of a pose; the age of the newest byte, from which samples get their times,
+/// is not.
 constexpr std::chrono::milliseconds kGather{5};
 
 class SerialPort : public ByteStream {

@@ -60,8 +60,9 @@ class FaultText {
   }
 
   std::string of(const GyroHypothesis& one) const {
-    constexpr const char* kReversed = "the gyro's sign is reversed; a rotation to the left is "
-                                      "positive: ";
+    constexpr const char* kReversed =
+        "the gyro's sign is reversed; a rotation to the left is "
+        "positive: ";
     constexpr const char* kDegrees = "the gyro is in degrees a second: send radians a second";
     switch (one.fault) {
       case GyroFault::kNone:
@@ -217,8 +218,8 @@ std::string_view name_of(const DriveHypothesis& hypothesis) {
 
 std::string_view name_of(const GyroHypothesis& hypothesis) {
   constexpr std::array<std::string_view, 7> kNames = {
-      "none", "gyro-reversed", "gyro-degrees", "gyro-degrees-reversed", "gyro-scale",
-      "gyro-bias", "gyro-axis"};
+      "none",       "gyro-reversed", "gyro-degrees", "gyro-degrees-reversed",
+      "gyro-scale", "gyro-bias",     "gyro-axis"};
   return kNames[static_cast<std::size_t>(hypothesis.fault)];
 }
 

@@ -21,8 +21,8 @@ constexpr double kTurned_rad = core::kPi / 2;
 constexpr double kPriorRight = 1;
 constexpr double kPriorFault = 0.01;
 constexpr double kPriorTwoFaults = 1e-4;
-/// A factor is one of any between 1 / kLargestFactor and kLargestFactor, each as likely on a logarithmic
-/// scale; a cell of them is as wide as the errors of measured wheels.
+/// A factor is one of any between 1 / kLargestFactor and kLargestFactor, each as likely on a
+/// logarithmic scale; a cell of them is as wide as the errors of measured wheels.
 constexpr double kLargestFactor = 60;
 const double kFactorCells = 2 * std::log(kLargestFactor) / (0.07 * std::sqrt(2 * core::kPi));
 /// Nearer to 1 a factor is none.
@@ -45,7 +45,8 @@ std::vector<WheelTravel> travel_of(std::span<const MotionWindow> windows, const 
   return travel;
 }
 
-/// Normalizes posteriors of hypotheses with logarithms in `posterior`; keeps what cannot be told apart.
+/// Normalizes posteriors of hypotheses with logarithms in `posterior`; keeps what cannot be told
+/// apart.
 template <typename Hypothesis>
 std::vector<Hypothesis> named(std::vector<Hypothesis> all) {
   double most = all.front().posterior;
@@ -130,7 +131,8 @@ class DriveBank {
       }
       const auto factor = checked(ratios);
       if (!factor) continue;
-      add({.fault = is_left ? DriveFault::kLeftCounts : DriveFault::kRightCounts, .factor = *factor},
+      add({.fault = is_left ? DriveFault::kLeftCounts : DriveFault::kRightCounts,
+           .factor = *factor},
           kPriorFault / kFactorCells, usual(),
           travel_of(windows_, {}, is_left ? *factor : 1, is_left ? 1 : *factor));
     }
@@ -166,8 +168,8 @@ class DriveBank {
       const bool is_silent = (trusts_left || left_m < kSilentShare * path_m) &&
                              (trusts_right || right_m < kSilentShare * path_m);
       // Silence says that the encoder is dead; noise may have many reasons.
-      add({.fault = fault, .is_silent = is_silent}, is_silent ? kPriorFault : kPriorTwoFaults, model,
-          travel_of(windows_, {}, 1, 1));
+      add({.fault = fault, .is_silent = is_silent}, is_silent ? kPriorFault : kPriorTwoFaults,
+          model, travel_of(windows_, {}, 1, 1));
     };
     add_one(DriveFault::kLeftUnrelated, false, true);
     add_one(DriveFault::kRightUnrelated, true, false);
@@ -183,8 +185,8 @@ class DriveBank {
     }
     const core::Pose2 any_turn{kMeasured.x_m, kMeasured.y_m, kTurned_rad};
     const core::Pose2 anywhere{kDisplaced_m, kDisplaced_m, kTurned_rad};
-    add({.fault = DriveFault::kMountTurned}, kPriorFault, {track_m_, track_m_, turned_to(best_turn()), any_turn},
-        travel);
+    add({.fault = DriveFault::kMountTurned}, kPriorFault,
+        {track_m_, track_m_, turned_to(best_turn()), any_turn}, travel);
     add({.fault = DriveFault::kMountDisplaced}, kPriorFault,
         {track_m_, track_m_, mount_, {kDisplaced_m, kDisplaced_m, kMeasured.theta_rad}}, travel);
     add({.fault = DriveFault::kMountBoth}, kPriorTwoFaults,
@@ -245,8 +247,8 @@ std::vector<GyroHypothesis> gyro_bank(std::span<const MotionWindow> all) {
   std::vector<GyroHypothesis> hypotheses;
   const auto add = [&](GyroFault fault, double prior, const GyroModel& model) {
     const GyroFit fit = fit_gyro_model(windows, model);
-    hypotheses.push_back({fault, std::log(prior) + fit.log_evidence, 1 / fit.share,
-                          -fit.rest_rad_s / fit.share});
+    hypotheses.push_back(
+        {fault, std::log(prior) + fit.log_evidence, 1 / fit.share, -fit.rest_rad_s / fit.share});
   };
   add(GyroFault::kNone, kPriorRight, {});
   add(GyroFault::kReversed, kPriorFault, {.share = -1});
@@ -265,7 +267,8 @@ std::vector<GyroHypothesis> gyro_bank(std::span<const MotionWindow> all) {
 
 }  // namespace
 
-DriveFaults find_drive_faults(std::span<const MotionWindow> windows, const core::Pose2& T_base_lidar,
+DriveFaults find_drive_faults(std::span<const MotionWindow> windows,
+                              const core::Pose2& T_base_lidar,
                               const core::DriveGeometry& geometry) {
   DriveFaults faults;
   if (windows.empty()) return faults;

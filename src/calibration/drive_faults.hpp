@@ -13,8 +13,8 @@
 
 namespace cornerd::calibration {
 
-/// How the counts of the two fields of ODOMETRY belong to the wheels. `left` is what the left wheel's
-/// counts are: the left (0) or the right (1) field, with its sign.
+/// How the counts of the two fields of ODOMETRY belong to the wheels. `left` is what the left
+/// wheel's counts are: the left (0) or the right (1) field, with its sign.
 struct Wiring {
   bool is_swapped = false;
   bool left_is_reversed = false;  ///< of the left field
@@ -25,12 +25,12 @@ struct Wiring {
 
 enum class DriveFault : std::uint8_t {
   kNone,
-  kWiring,          ///< fields swapped or reversed; possibly with wrong counts, too
-  kCounts,          ///< counts_per_turn, or wheel_radius
-  kLeftCounts,      ///< of the left field alone
+  kWiring,      ///< fields swapped or reversed; possibly with wrong counts, too
+  kCounts,      ///< counts_per_turn, or wheel_radius
+  kLeftCounts,  ///< of the left field alone
   kRightCounts,
   kTrack,
-  kLeftUnrelated,   ///< the left field does not tell the motion of the wheel: a dead encoder
+  kLeftUnrelated,  ///< the left field does not tell the motion of the wheel: a dead encoder
   kRightUnrelated,
   kBothUnrelated,   ///< or several faults at once
   kMountTurned,     ///< lidar.mount.theta
@@ -53,8 +53,9 @@ struct DriveHypothesis {
   DriveFault fault = DriveFault::kNone;
   Wiring wiring{};
   double posterior = 0;
-  double factor = 1;     ///< true over counted distance: of both wheels, or of the one that `fault` names
-  double track_m = 0;    ///< kTrack: the true one
+  double factor =
+      1;  ///< true over counted distance: of both wheels, or of the one that `fault` names
+  double track_m = 0;          ///< kTrack: the true one
   core::Pose2 T_base_lidar{};  ///< estimated
   core::Pose2 sigma{};         ///< of T_base_lidar
   bool is_silent = false;      ///< unrelated: the counts do not change
@@ -67,8 +68,8 @@ struct GyroHypothesis {
   double bias_rad_s = 0;  ///< of the readings as they are
 };
 
-/// Hypotheses by posterior, best first. A fault is named where kNone has less than kMaxPosterior; then
-/// all that the data cannot tell apart are.
+/// Hypotheses by posterior, best first. A fault is named where kNone has less than kMaxPosterior;
+/// then all that the data cannot tell apart are.
 struct DriveFaults {
   /// Of "nothing is wrong" where something is.
   static constexpr double kMaxPosterior = 1e-3;
@@ -84,7 +85,7 @@ struct DriveFaults {
 };
 
 /// `T_base_lidar`: the configured mount; `geometry`: by which the windows' distances were counted.
-DriveFaults find_drive_faults(std::span<const MotionWindow> windows, const core::Pose2& T_base_lidar,
-                              const core::DriveGeometry& geometry);
+DriveFaults find_drive_faults(std::span<const MotionWindow> windows,
+                              const core::Pose2& T_base_lidar, const core::DriveGeometry& geometry);
 
 }  // namespace cornerd::calibration

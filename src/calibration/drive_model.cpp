@@ -36,8 +36,8 @@ constexpr double kSideways_m = 0.006;
 constexpr double kSidewaysShare = 0.015;
 constexpr double kGyro_rad = 0.03;
 constexpr double kGyroShare = 0.03;
-/// Graduated non-convexity: the sigmas begin so many times larger and halve, so that a start far from
-/// the maximum has inliers.
+/// Graduated non-convexity: the sigmas begin so many times larger and halve, so that a start far
+/// from the maximum has inliers.
 constexpr double kFirstWidth = 8;
 constexpr int kIterations = 7;
 
@@ -148,7 +148,8 @@ class DriveProblem {
                   const auto& add) const {
     const double left_m = (1 + at[kLeftScale]) * travel.left_m;
     const double right_m = (1 + at[kRightScale]) * travel.right_m;
-    const double slips_m = kWheelShare * std::hypot(path_m, window.rotation_rad * noise_track_m_ / 2);
+    const double slips_m =
+        kWheelShare * std::hypot(path_m, window.rotation_rad * noise_track_m_ / 2);
     const double rotation_sigma_rad =
         std::hypot(kRotation_rad, kRotationShare * window.rotation_rad, slips_m / noise_track_m_);
     Equation forward;
@@ -179,8 +180,7 @@ class DriveProblem {
     }
     // One wheel and the rotation give the translation.
     const double half_m = (model_.trusts_left ? 1 : -1) * window.rotation_rad * model_.track_m / 2;
-    forward.residual -=
-        (model_.trusts_left ? left_m : right_m) + half_m * (1 + at[kTrackScale]);
+    forward.residual -= (model_.trusts_left ? left_m : right_m) + half_m * (1 + at[kTrackScale]);
     forward.gradient[model_.trusts_left ? kLeftScale : kRightScale] =
         -(model_.trusts_left ? travel.left_m : travel.right_m);
     forward.gradient[kTrackScale] = -half_m;
@@ -224,8 +224,7 @@ GyroFit fit_gyro_model(std::span<const MotionWindow> windows, const GyroModel& m
     for (const MotionWindow& window : windows) {
       const Eigen::Vector2d row(model.share * window.gyro_rad, window.duration_s);
       const double residual = window.rotation_rad - row.dot(at);
-      const double width =
-          width_of(i) * std::hypot(kGyro_rad, kGyroShare * window.rotation_rad);
+      const double width = width_of(i) * std::hypot(kGyro_rad, kGyroShare * window.rotation_rad);
       const Mixture mixture(residual, width, kAnyRotation_rad, kGyroOutliers);
       const double share = mixture.inlier / (width * width);
       information += share * row * row.transpose();

@@ -27,7 +27,7 @@ enum class MapFault : std::uint8_t {
 
 struct MapFinding {
   MapFault fault = MapFault::kNoVariant;
-  double scale = 1;  ///< true length over length in the map
+  double scale = 1;   ///< true length over length in the map
   std::string map{};  ///< kOtherMap: its name
 };
 
@@ -38,8 +38,8 @@ std::string describe(const MapFinding& finding, const std::string& name);
 
 using ScanSamples = std::vector<core::Sample>;
 
-/// Localizes each scan without a prior in variants of `plan`, and in `others`. Nullopt where the map
-/// itself fits most of them, or `is_over` returns true. Takes seconds.
+/// Localizes each scan without a prior in variants of `plan`, and in `others`. Nullopt where the
+/// map itself fits most of them, or `is_over` returns true. Takes seconds.
 std::optional<MapFinding> find_map_fault(const core::FloorPlan& plan,
                                          std::span<const core::FloorPlan> others,
                                          const core::LocalizerConfig& config,

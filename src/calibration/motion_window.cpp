@@ -23,7 +23,8 @@ void MotionWindow::extend(const core::Pose2& T_from_to) {
   const double half_rad = T_from_to.theta_rad / 2;
   const double c = std::cos(half_rad);
   const double s = std::sin(half_rad);
-  lidar_m += core::Vec2(c * T_from_to.x_m + s * T_from_to.y_m, c * T_from_to.y_m - s * T_from_to.x_m);
+  lidar_m +=
+      core::Vec2(c * T_from_to.x_m + s * T_from_to.y_m, c * T_from_to.y_m - s * T_from_to.x_m);
   sine += 2 * s;
   rotation_rad += T_from_to.theta_rad;
 }

@@ -18,7 +18,8 @@ namespace cornerd::calibration {
 /// Sums over the scans of a window. With T_base_lidar = (x, y, theta), and no slip sideways:
 ///     cos(theta) lidar.x - sin(theta) lidar.y + y sine = translation of the base
 ///     sin(theta) lidar.x + cos(theta) lidar.y - x sine = 0
-/// They are the hand-eye relation A X = X B in the plane, each scan's turned by half of its rotation.
+/// They are the hand-eye relation A X = X B in the plane, each scan's turned by half of its
+/// rotation.
 struct MotionWindow {
   /// Translation of the lidar from scan to scan, turned by minus half of the rotation; lidar frame.
   core::Vec2 lidar_m = core::Vec2::Zero();

@@ -211,8 +211,8 @@ void Daemon::on_loaded() {
       is_reload && !list.empty()) {
     log(LogLevel::kWarning, "restart cornerd to apply: " + list);
   }
-  const std::string name = loaded.map->plan().name + ", " +
-                           std::to_string(loaded.map->plan().walls.size()) + " walls";
+  const std::string name =
+      loaded.map->plan().name + ", " + std::to_string(loaded.map->plan().walls.size()) + " walls";
   if (!calibration_.reconfigure(loaded.config.lidar.bias)) localization_.forget_lidar();
   localization_.publish_predictions(loaded.config.odometry.core.publish_predictions);
   status_.configure(loaded.config);

@@ -20,8 +20,8 @@ class FaultList {
  public:
   /// `status`: with what the odometry's source says of itself; `names`: of the remedies of `drive`.
   FaultList(const drivers::LidarStatus& lidar, const ScanPublisher& scans,
-            const std::optional<calibration::MapFinding>& map, const message::StatusFields& status, const calibration::DriveFaults& drive,
-            const calibration::OdometryNames& names);
+            const std::optional<calibration::MapFinding>& map, const message::StatusFields& status,
+            const calibration::DriveFaults& drive, const calibration::OdometryNames& names);
 
   std::span<const std::string_view> names() const { return names_; }
   /// One sentence; empty if there is no fault.

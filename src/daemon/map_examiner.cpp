@@ -17,9 +17,9 @@ constexpr std::size_t kScans = 16;
 /// New scans before the same map is examined again.
 constexpr std::size_t kScansBetween = 120;
 constexpr int kExaminerNiceness = 19;
-/// Of a hundred: in a map whose walls are where it says hardly so many are lost, but for a lidar that is
-/// covered or a crowd. The variants decide.
-constexpr std::size_t kManyLost = 30;
+/// Of a hundred: in a map whose walls are where it says hardly so many are lost, but for a lidar
+/// that is covered or a crowd. The variants decide.
+constexpr std::size_t kManyLost = 15;
 
 }  // namespace
 

@@ -15,14 +15,15 @@
 
 namespace cornerd::daemon {
 
-/// Looks for the reason where many scans have no pose, in a thread of its own and of least priority.
+/// Looks for the reason where many scans have no pose, in a thread of its own and of least
+/// priority.
 class MapExaminer {
  public:
   /// Of the scans that follow.
   void configure(const settings::Config& config);
   void observe(const ScanReport& report);
-  /// `lost`: how many of the last ScanPublisher::kRecentScans scans were. Starts an examination where
-  /// they are many; returns what the last one found, as long as they are.
+  /// `lost`: how many of the last ScanPublisher::kRecentScans scans were. Starts an examination
+  /// where they are many; returns what the last one found, as long as they are.
   const std::optional<calibration::MapFinding>& update(std::size_t lost, const core::WallMap* map);
 
  private:
@@ -31,7 +32,7 @@ class MapExaminer {
   settings::Config config_;
   std::deque<calibration::ScanSamples> scans_;  ///< a second apart
   core::TimeNs newest_ns_ = 0;
-  std::size_t added_ = 0;     ///< scans since the last examination
+  std::size_t added_ = 0;  ///< scans since the last examination
   const core::WallMap* map_ = nullptr;
   std::vector<calibration::ScanSamples> examined_;
   std::optional<calibration::MapFinding> result_;  ///< of the thread, until is_done_

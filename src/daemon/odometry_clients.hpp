@@ -51,9 +51,9 @@ class OdometryClients {
   Publisher gyro_;
   std::set<int> rejected_connections_;  ///< of open connections
   message::OdometryInputMonitor input_;
-  std::uint64_t rejected_ = 0;  ///< lines with a rejected value
-  std::uint64_t reported_ = 0;  ///< rejected_ at the last STATUS
-  int hint_repeats_ = 0;        ///< STATUS messages left with the hint
+  std::uint64_t rejected_ = 0;                            ///< lines with a rejected value
+  std::uint64_t reported_ = 0;                            ///< rejected_ at the last STATUS
+  int hint_repeats_ = 0;                                  ///< STATUS messages left with the hint
   std::vector<message::StatusFields::Counter> refusals_;  ///< those of STATUS
 };
 

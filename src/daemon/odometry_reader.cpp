@@ -34,9 +34,7 @@ std::unique_ptr<drivers::OdometryDriver> make_odometry(const settings::OdometryC
 
 OdometryReader::OdometryReader(std::unique_ptr<drivers::OdometryDriver> driver,
                                Localization& localization)
-    : driver_(std::move(driver)),
-      sink_(localization),
-      thread_([this](const std::stop_token& stop) {
+    : driver_(std::move(driver)), sink_(localization), thread_([this](const std::stop_token& stop) {
         ::pthread_setname_np(::pthread_self(), "odometry");
         driver_->run(stop, sink_);
       }) {}

@@ -5,6 +5,8 @@
 #include <set>
 #include <string>
 
+#include "calibration/drive_fault_text.hpp"
+#include "calibration/drive_monitor.hpp"
 #include "daemon/localization.hpp"
 #include "daemon/map_examiner.hpp"
 #include "daemon/message_server.hpp"
@@ -13,8 +15,6 @@
 #include "daemon/scan_publisher.hpp"
 #include "daemon/systemd.hpp"
 #include "drivers/lidar_driver.hpp"
-#include "calibration/drive_fault_text.hpp"
-#include "calibration/drive_monitor.hpp"
 #include "message/line_writer.hpp"
 #include "settings/config.hpp"
 

@@ -68,7 +68,7 @@ struct StatusFields {
   std::span<const Sensor> odometry_sensors;
   std::span<const Counter> odometry_counters;  ///< of the sensors
   std::string_view odometry_hint;
-  bool odometry_is_refused = false;          ///< the hint is about lines that cannot be read
+  bool odometry_is_refused = false;            ///< the hint is about lines that cannot be read
   std::span<const Counter> odometry_refusals;  ///< ODOMETRY lines that could not be read, by cause
   /// ODOMETRY lines rejected because another client publishes the same quantity.
   std::optional<std::uint64_t> second_client;

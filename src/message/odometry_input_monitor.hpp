@@ -46,10 +46,10 @@ class OdometryInputMonitor {
   struct LineCounts {
     std::uint64_t all = 0;      ///< that could be read
     std::uint64_t refused = 0;  ///< that could not
-    std::uint64_t both = 0;   ///< with left and right
-    std::uint64_t left = 0;   ///< with left only
-    std::uint64_t right = 0;  ///< with right only
-    std::uint64_t rates = 0;  ///< with a gyro
+    std::uint64_t both = 0;     ///< with left and right
+    std::uint64_t left = 0;     ///< with left only
+    std::uint64_t right = 0;    ///< with right only
+    std::uint64_t rates = 0;    ///< with a gyro
   };
   std::string diagnose(const core::OdometryCounters& counters) const;
   Rejected find_rejected(const core::OdometryCounters& counters) const;
@@ -63,7 +63,7 @@ class OdometryInputMonitor {
                                      {FieldReader::kNotWhole},
                                      {FieldReader::kOutOfRange},
                                      {FieldReader::kOther}}};
-  std::string refusal_;  ///< text of the last one
+  std::string refusal_;       ///< text of the last one
   bool are_refused_ = false;  ///< most lines of the last interval
   std::string hint_;
   Rejected rejected_;

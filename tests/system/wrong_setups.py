@@ -4,7 +4,7 @@
 
     wrong_setups.py BIN [--sample] [--table]
 
-BIN: the folder of cornerctl. --sample: a few of each kind, for every commit. --table: rows for
+BIN: the folder of cornerd and cornerctl. --sample: a few of each kind, for every commit. --table: rows for
 src/tool/doctor/README.md. Exit code 1 where a wrong set-up is not named within a minute of driving, or a
 right one is.
 """
@@ -13,9 +13,11 @@ import argparse
 import json
 import math
 import os
+import re
 import subprocess
 import sys
 import tempfile
+import time
 
 SOURCE = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 MAPS = os.path.join(SOURCE, "config", "maps")
@@ -93,6 +95,34 @@ WRONG = [
     ("gyro biased by 0.6 rad/s", {"gyro-bias"}, biased, {}),
 ]
 
+
+
+def plan(change=None, scale=1.0):
+    """The flat, with each point changed."""
+    def point(p):
+        return [scale * value for value in (change(p) if change else p)]
+    with open(os.path.join(MAPS, "flat-7.json"), encoding="utf-8") as file:
+        text = re.sub(r"^\s*//.*$", "", file.read(), flags=re.M)
+    flat = json.loads(text)
+    flat.pop("rooms", None)
+    flat["thickness"] *= scale
+    for wall in flat["walls"]:
+        wall["from"], wall["to"] = point(wall["from"]), point(wall["to"])
+        if "thickness" in wall:
+            wall["thickness"] *= scale
+    return flat
+
+
+# Name, expected faults, map (default: the flat), config. The daemon tries variants of a map in a thread.
+WRONG_MAPS = [
+    ("mirrored map", {"map-mirrored"}, plan(lambda p: [p[0], -p[1]]), {}),
+    ("lidar upside down", {"map-mirrored"}, plan(), {"inverted": True}),
+    ("map 3 % too large", {"map-scale"}, plan(scale=1.03), {}),
+    ("map 10 % too small", {"map-scale"}, plan(scale=0.9), {}),
+    ("map of another floor, the right one in `maps`", {"map-other"}, "krpai-2019-a.json", {}),
+    ("map of another floor", {"map-mismatch"}, "krpai-2019-b.json", {}),
+]
+
 # Options of simulate.
 RIGHT = [
     ("wheels and track %+d %% off, drive %d" % (percent, seed),
@@ -108,6 +138,7 @@ RIGHT = [
 class Bench:
     def __init__(self, tools, folder):
         self.tool = os.path.join(tools, "cornerctl")
+        self.daemon = os.path.join(tools, "cornerd")
         self.folder = folder
 
     def drive(self, name, options):
@@ -156,6 +187,47 @@ class Bench:
         return (last["faults"], last["hint"], first) if last else ([], "", None)
 
 
+    def said_live(self, file, the_map, mount):
+        """The same of a daemon that replays as fast as the lidar was."""
+        map_file = os.path.join(self.folder, "map.json")
+        if isinstance(the_map, str):
+            map_file = os.path.join(MAPS, the_map)
+        else:
+            with open(map_file, "w", encoding="utf-8") as out:
+                json.dump(the_map, out)
+        sockets = {name: os.path.join(self.folder, name + ".sock") for name in ("pose", "control")}
+        config = {"map": map_file, "lidar": {"driver": "replay", "file": file, "speed": 1,
+                                             "mount": {**MOUNT, **mount}}, "socket": sockets}
+        if the_map == "krpai-2019-a.json":
+            config["maps"] = [{"name": "krpai-2019-a", "file": map_file},
+                              {"name": "home", "file": os.path.join(MAPS, "flat-7.json")}]
+            config["map"] = "krpai-2019-a"
+        config_file = os.path.join(self.folder, "config.json")
+        with open(config_file, "w", encoding="utf-8") as out:
+            json.dump(config, out)
+        faults, hint, t_s = [], "", None
+        with subprocess.Popen([self.daemon, "--config", config_file],
+                              stderr=subprocess.DEVNULL) as daemon:
+            while not os.path.exists(sockets["pose"]) and daemon.poll() is None:
+                time.sleep(0.05)
+            with subprocess.Popen([self.tool, "watch", "--config", config_file, "--classes", "STATUS"],
+                                  stdout=subprocess.PIPE, stderr=subprocess.DEVNULL) as watch:
+                for text in watch.stdout:
+                    status = json.loads(text)
+                    if status["class"] != "STATUS":
+                        continue
+                    if status.get("faults"):
+                        if status["faults"] != faults:
+                            t_s = status["t"]
+                        faults, hint = status["faults"], status["hint"]
+                    # The fault of a map that fits nowhere is named before its variants have been tried.
+                    if status["t"] > LIMIT_S - 2 or (faults and faults[0] != "map-mismatch"):
+                        break
+                watch.terminate()
+            daemon.terminate()
+        return faults, hint, t_s
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("tools", metavar="BIN")
@@ -166,8 +238,14 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         bench = Bench(options.tools, folder)
         base = bench.drive("base", [])
-        for name, expected, change, config in WRONG[::6] if options.sample else WRONG:
-            faults, hint, t_s = bench.said(bench.changed(base, change), config)
+        cases = [(name, expected, lambda change=change, config=config:
+                  bench.said(bench.changed(base, change), config))
+                 for name, expected, change, config in (WRONG[::6] if options.sample else WRONG)]
+        cases += [(name, expected, lambda the_map=the_map, mount=mount:
+                   bench.said_live(base, the_map, mount))
+                  for name, expected, the_map, mount in (WRONG_MAPS[:1] if options.sample else WRONG_MAPS)]
+        for name, expected, say in cases:
+            faults, hint, t_s = say()
             is_named = bool(expected & set(faults)) and t_s <= LIMIT_S
             failed += not is_named
             if options.table:

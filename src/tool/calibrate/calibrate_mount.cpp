@@ -68,8 +68,9 @@ class MountCalibration {
     add("theta, rad", mount.theta_rad, sigma_.theta_rad);
     table.add_row({"inverted", mount.inverted ? "true" : "false",
                    tells_inverted_ ? "" : "as configured: the recording does not show it"});
-    std::string text = formatted("The lidar on the robot, from %zu windows of a second:\n", windows_) +
-                       table.text();
+    std::string text =
+        formatted("The lidar on the robot, from %zu windows of a second:\n", windows_) +
+        table.text();
     if (!alternatives_.empty()) {
       calibration::DriveFaults others;
       others.drive = alternatives_;
@@ -121,8 +122,9 @@ class MountCalibration {
            " scans were localized in the map: check the map, and record a minute's drive");
     }
     if (drive_.increments_within_wide_limits.empty()) {
-      fail("no ODOMETRY line with left and right in it: without wheels the drive does not tell "
-           "forward from backward");
+      fail(
+          "no ODOMETRY line with left and right in it: without wheels the drive does not tell "
+          "forward from backward");
     }
   }
 
@@ -138,8 +140,8 @@ class MountCalibration {
 
   void take(const calibration::DriveHypothesis& mount) {
     sigma_ = mount.sigma;
-    const bool is_certain = sigma_.x_m < kMaxSigma_m && sigma_.y_m < kMaxSigma_m &&
-                            sigma_.theta_rad < kMaxSigma_rad;
+    const bool is_certain =
+        sigma_.x_m < kMaxSigma_m && sigma_.y_m < kMaxSigma_m && sigma_.theta_rad < kMaxSigma_rad;
     if (windows_ == 0 || !is_certain) {
       fail("too few data: drive a minute, straight and with rotations in both directions");
     }

@@ -84,9 +84,8 @@ class DriveFitter {
     deskew(drive, search_.delay_s);
     calibration::OdometryNames names = settings::odometry_names(config_);
     if (truth_ != nullptr) names.T_base_lidar = {};
-    const auto windows =
-        calibration::motion_windows(calibration::at_true_times(steps, search_.delay_s),
-                                    drive.places, names.T_base_lidar);
+    const auto windows = calibration::motion_windows(
+        calibration::at_true_times(steps, search_.delay_s), drive.places, names.T_base_lidar);
     return calibration::describe(
         calibration::find_drive_faults(windows, names.T_base_lidar, names.geometry), names);
   }

@@ -32,8 +32,8 @@ std::string describe_poses(const Poses& poses) {
 Poses poses_of_run(const message::ParsedStatus& status) {
   Poses poses{};
   for (std::size_t i = 0; i < poses.size(); ++i) {
-    poses[i] = status.counter(
-        "poses_" + std::string(message::to_string(static_cast<core::PoseState>(i))));
+    poses[i] =
+        status.counter("poses_" + std::string(message::to_string(static_cast<core::PoseState>(i))));
   }
   return poses;
 }

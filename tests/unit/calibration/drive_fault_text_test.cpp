@@ -53,11 +53,12 @@ TEST(DriveFaultText, WhatCannotBeToldApart_IsAllSaid) {
   faults.drive = {{.fault = DriveFault::kMountTurned, .T_base_lidar = {0, 0, core::kPi}},
                   {.fault = DriveFault::kWiring, .wiring = {true, true, true}}};
   faults.gyro = {{.fault = GyroFault::kDegrees}};
-  EXPECT_EQ(describe(faults, {}),
-            "either the lidar looks 180 degrees off what lidar.mount says: set lidar.mount.theta to "
-            "3.1416, or left and right are exchanged: swap left and right in the ODOMETRY lines; "
-            "both wheels count backward: negate left in the ODOMETRY lines and negate right in the "
-            "ODOMETRY lines; the gyro is in degrees a second: send radians a second");
+  EXPECT_EQ(
+      describe(faults, {}),
+      "either the lidar looks 180 degrees off what lidar.mount says: set lidar.mount.theta to "
+      "3.1416, or left and right are exchanged: swap left and right in the ODOMETRY lines; "
+      "both wheels count backward: negate left in the ODOMETRY lines and negate right in the "
+      "ODOMETRY lines; the gyro is in degrees a second: send radians a second");
 }
 
 TEST(DriveFaultText, Factor_IsNoUnit) {

@@ -136,7 +136,8 @@ TEST(DriveFaults, WrongCounts_GiveFactor) {
     ASSERT_THAT(names_of(faults), ElementsAre("counts-per-turn")) << factor;
     EXPECT_NEAR(faults.drive.front().factor / factor, 1.02, 0.02);
   }
-  const DriveFaults one = faults_of(Robot{.change = [](OdometryIncrement& step) { step.right_m *= 4; }});
+  const DriveFaults one =
+      faults_of(Robot{.change = [](OdometryIncrement& step) { step.right_m *= 4; }});
   ASSERT_THAT(names_of(one), ElementsAre("right-counts"));
   EXPECT_NEAR(one.drive.front().factor, 0.25, 0.02);
 }
@@ -150,7 +151,8 @@ TEST(DriveFaults, WrongTrack_GivesTrueTrack) {
 }
 
 TEST(DriveFaults, DeadEncoder_IsNamed) {
-  const DriveFaults left = faults_of(Robot{.change = [](OdometryIncrement& step) { step.left_m = 0; }});
+  const DriveFaults left =
+      faults_of(Robot{.change = [](OdometryIncrement& step) { step.left_m = 0; }});
   ASSERT_THAT(names_of(left), ElementsAre("left-encoder"));
   EXPECT_TRUE(left.drive.front().is_silent);
   EXPECT_THAT(names([](OdometryIncrement& step) { step.right_m = 0; }),

@@ -15,8 +15,8 @@ using core::Vec2;
 
 /// A room with an alcove, whose mirror image is another.
 core::FloorPlan room(double scale = 1, double mirror = 1) {
-  const std::vector<Vec2> outline = {{0, 0}, {4, 0}, {4, 1.5}, {5, 1.5}, {5, 2.3}, {4, 2.3},
-                                     {4, 3}, {1.2, 3}, {1.2, 2.2}, {0, 2.2}};
+  const std::vector<Vec2> outline = {{0, 0},   {4, 0}, {4, 1.5}, {5, 1.5},   {5, 2.3},
+                                     {4, 2.3}, {4, 3}, {1.2, 3}, {1.2, 2.2}, {0, 2.2}};
   core::FloorPlan plan;
   plan.name = "room";
   for (std::size_t i = 0; i < outline.size(); ++i) {
@@ -39,8 +39,8 @@ std::vector<ScanSamples> scans() {
       sample.t_ns = i * core::TimeNs{250'000};
       const double bearing_rad = core::normalize_angle(-i * core::kTwoPi / 540);
       sample.bearing_rad = static_cast<float>(bearing_rad);
-      sample.range_m = static_cast<float>(
-          map.range_along(pose.translation(), pose.theta_rad + bearing_rad, 12));
+      sample.range_m =
+          static_cast<float>(map.range_along(pose.translation(), pose.theta_rad + bearing_rad, 12));
       sample.quality = 47;
       sample.starts_scan = i == 0;
       sample.ends_scan = i == 539;
@@ -90,8 +90,8 @@ TEST(MapFaults, ScaleOfFewPercent_MayBeTheLidars) {
 
 TEST(MapFaults, AnotherMapOfTheConfig_IsNamed) {
   core::FloorPlan hall;
-  hall.walls = {{{0, 0}, {9, 0}, 0.1}, {{9, 0}, {9, 6}, 0.1}, {{9, 6}, {0, 7}, 0.1},
-                {{0, 7}, {0, 0}, 0.1}};
+  hall.walls = {
+      {{0, 0}, {9, 0}, 0.1}, {{9, 0}, {9, 6}, 0.1}, {{9, 6}, {0, 7}, 0.1}, {{0, 7}, {0, 0}, 0.1}};
   core::FloorPlan home = room();
   home.name = "home";
   const auto finding = found(hall, {home});

@@ -88,7 +88,8 @@ TEST(UnixListener, ReplacedFile_NoticedAndKept) {
 }
 
 TEST(UnixListener, FolderThatCannotBeMade_IsNamedWithItsReason) {
-  EXPECT_THAT(error_of("/proc/none/s"), StartsWith("/proc/none: cannot create the socket's folder"));
+  EXPECT_THAT(error_of("/proc/none/s"),
+              StartsWith("/proc/none: cannot create the socket's folder"));
 }
 
 TEST(UnixListener, SimultaneousStarts_OneListens) {

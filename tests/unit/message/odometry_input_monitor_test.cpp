@@ -49,10 +49,10 @@ TEST_F(OdometryInputMonitorTest, MissingFields_NamedInHint) {
 TEST_F(OdometryInputMonitorTest, RefusedLines_CauseInHintAndCounted) {
   summary_.present = true;  // as it still is when the client changes
   add({0, 1, 1, {}}, 10);
-  for (const char* line :
-       {R"({"class":"ODOMETRY","left":1.5,"right":2})", R"({"class":"ODOMETRY","left":"1","right":2})",
-        R"({"class":"ODOMETRY","t":1795161601180,"left":1,"right":2})", R"({"class":"ODOMETRY"})",
-        R"({"class":"ODOMETRY","gyro":NaN})"}) {
+  for (const char* line : {R"({"class":"ODOMETRY","left":1.5,"right":2})",
+                           R"({"class":"ODOMETRY","left":"1","right":2})",
+                           R"({"class":"ODOMETRY","t":1795161601180,"left":1,"right":2})",
+                           R"({"class":"ODOMETRY"})", R"({"class":"ODOMETRY","gyro":NaN})"}) {
     const Request request = parse_request(line);
     const auto* error = std::get_if<RequestError>(&request.body);
     ASSERT_NE(error, nullptr) << line;

@@ -111,7 +111,8 @@ TEST(ParseRequest, OdometryWithoutValues_Refused) {
 }
 
 TEST(ParseRequest, OdometryFields_Read) {
-  const auto bare = std::get<OdometryReading>(parse_request(R"({"class":"ODOMETRY","left":1})").body);
+  const auto bare =
+      std::get<OdometryReading>(parse_request(R"({"class":"ODOMETRY","left":1})").body);
   EXPECT_FALSE(bare.timed);
   EXPECT_EQ(bare.right, std::nullopt);
   const auto full = std::get<OdometryReading>(

@@ -296,9 +296,15 @@ TEST_F(Cornerctl, Replay_ClosedReader_EndsWithoutError) {
 }
 
 TEST(CornerctlUsage, Help_WrapsAt80Columns) {
-  for (const std::vector<std::string>& command :
-       {std::vector<std::string>{}, {"simulate"}, {"emulate"}, {"replay"}, {"calibrate", "noise"},
-        {"calibrate", "mount"}, {"map", "import"}, {"survey"}, {"doctor"}}) {
+  for (const std::vector<std::string>& command : {std::vector<std::string>{},
+                                                  {"simulate"},
+                                                  {"emulate"},
+                                                  {"replay"},
+                                                  {"calibrate", "noise"},
+                                                  {"calibrate", "mount"},
+                                                  {"map", "import"},
+                                                  {"survey"},
+                                                  {"doctor"}}) {
     std::vector<std::string> words = command;
     words.emplace_back("--help");
     std::istringstream lines(CommandRun(words).out);

@@ -2,15 +2,15 @@
 #include "tool/command_line/shared_options.hpp"
 
 #include <gtest/gtest.h>
-#include <vector>
-#include <string>
-#include <fstream>
-#include <filesystem>
 
-#include "tool/command_line/failure.hpp"
-#include "tool/replay/playback.hpp"
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
 
 #include "tests/temporary_folder.hpp"
+#include "tool/command_line/failure.hpp"
+#include "tool/replay/playback.hpp"
 
 namespace cornerd::tool {
 namespace {

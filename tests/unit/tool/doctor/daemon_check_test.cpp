@@ -148,11 +148,13 @@ TEST_F(CheckDaemon, HalfOfPosesAreFixes_IsGood) {
 TEST_F(CheckDaemon, WholeRun_IsJudged) {
   see(10, 0, 0);
   daemon().status->counters = {{"poses_fix", 40}, {"poses_lost", 900}};
-  EXPECT_THAT(check_poses(stand_in_.patient),
-              ElementsAre(Finds(Verdict::kWrong, "poses", "10 fix; since the start: 40 fix, 900 lost")));
+  EXPECT_THAT(
+      check_poses(stand_in_.patient),
+      ElementsAre(Finds(Verdict::kWrong, "poses", "10 fix; since the start: 40 fix, 900 lost")));
   see(1, 0, 9);
   daemon().status->counters = {{"poses_fix", 900}, {"poses_lost", 40}};
-  EXPECT_THAT(check_poses(stand_in_.patient), ElementsAre(Finds(Verdict::kGood, "poses", "900 fix")));
+  EXPECT_THAT(check_poses(stand_in_.patient),
+              ElementsAre(Finds(Verdict::kGood, "poses", "900 fix")));
 }
 
 TEST_F(CheckDaemon, FaultsOfTheDaemon_AreQuotedWithTheirSubject) {
