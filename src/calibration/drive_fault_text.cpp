@@ -44,11 +44,12 @@ class FaultText {
       case DriveFault::kRightUnrelated:
         return of_unrelated("right", one.is_silent);
       case DriveFault::kBothUnrelated:
-        return one.is_silent ? "neither wheel's counts change while the robot drives: check both "
-                               "encoders"
-                             : "wheels and lidar measure different motions, and no single fault "
-                               "explains it: check wheel_radius, track, counts_per_turn, the signs "
-                               "of the counts and lidar.mount";
+        return one.is_silent
+                   ? "neither wheel's counts change while the robot drives: check both "
+                     "encoders"
+                   : "wheels and lidar measure different motions, and no single fault "
+                     "accounts for it: check wheel_radius, track, counts_per_turn, the signs "
+                     "of the counts and lidar.mount";
       case DriveFault::kMountTurned:
         return of_turn(one);
       case DriveFault::kMountDisplaced:

@@ -98,14 +98,14 @@ class DriveBank {
     all_.push_back(hypothesis);
   }
 
-  DriveModel usual() const { return {track_m_, track_m_, mount_, kMeasured}; }
+  DriveModel as_configured() const { return {track_m_, track_m_, mount_, kMeasured}; }
 
   /// The first is the one that nothing is wrong.
   void add_wirings() {
     for (int i = 0; i < 8; ++i) {
       const Wiring wiring{(i & 1) != 0, (i & 2) != 0, (i & 4) != 0};
       const DriveFault fault = i == 0 ? DriveFault::kNone : DriveFault::kWiring;
-      add({.fault = fault, .wiring = wiring}, i == 0 ? kPriorRight : kPriorFault, usual(),
+      add({.fault = fault, .wiring = wiring}, i == 0 ? kPriorRight : kPriorFault, as_configured(),
           travel_of(windows_, wiring, 1, 1));
     }
     for (int i = 0; i < 8; ++i) {
@@ -115,7 +115,7 @@ class DriveBank {
       add({.fault = i == 0 ? DriveFault::kCounts : DriveFault::kWiring,
            .wiring = wiring,
            .factor = *factor},
-          (i == 0 ? kPriorFault : kPriorTwoFaults) / kFactorCells, usual(),
+          (i == 0 ? kPriorFault : kPriorTwoFaults) / kFactorCells, as_configured(),
           travel_of(windows_, wiring, *factor, *factor));
     }
   }
@@ -133,7 +133,7 @@ class DriveBank {
       if (!factor) continue;
       add({.fault = is_left ? DriveFault::kLeftCounts : DriveFault::kRightCounts,
            .factor = *factor},
-          kPriorFault / kFactorCells, usual(),
+          kPriorFault / kFactorCells, as_configured(),
           travel_of(windows_, {}, is_left ? *factor : 1, is_left ? 1 : *factor));
     }
   }
@@ -146,7 +146,7 @@ class DriveBank {
     }
     const auto factor = checked(ratios);
     if (!factor) return;
-    DriveModel model = usual();
+    DriveModel model = as_configured();
     model.track_m *= *factor;
     add({.fault = DriveFault::kTrack, .track_m = model.track_m}, kPriorFault / kFactorCells, model,
         travel_of(windows_, {}, 1, 1));
@@ -162,7 +162,7 @@ class DriveBank {
       path_m += window.lidar_m.norm();
     }
     const auto add_one = [&](DriveFault fault, bool trusts_left, bool trusts_right) {
-      DriveModel model = usual();
+      DriveModel model = as_configured();
       model.trusts_left = trusts_left;
       model.trusts_right = trusts_right;
       const bool is_silent = (trusts_left || left_m < kSilentShare * path_m) &&

@@ -27,7 +27,7 @@ struct DriveModel {
   bool trusts_right = true;
 };
 
-/// Maximum of the posterior of mount and scales (Gauss-Newton in expectation maximization: each
+/// Maximum of the posterior of mount and scales (Gauss-Newton in the EM algorithm: each
 /// residual is an inlier or one of the motions of any robot), with the logarithm of the evidence by
 /// Laplace's method.
 struct DriveFit {

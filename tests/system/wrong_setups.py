@@ -144,11 +144,11 @@ class Bench:
     def drive(self, name, options):
         """A minute in the flat: a recording."""
         file = os.path.join(self.folder, name + ".ndjson")
-        usual = {"--drive-speed": "0.3", "--acceleration": "1", "--rotation-acceleration": "6",
+        defaults = {"--drive-speed": "0.3", "--acceleration": "1", "--rotation-acceleration": "6",
                  "--scans": "430"}
         command = [self.tool, "simulate", "--map", os.path.join(MAPS, "flat-7.json"), "--scenario",
                    "circuit-1", "--loop", "--odometry", "-o", file]
-        command += [word for pair in usual.items() if pair[0] not in options for word in pair]
+        command += [word for pair in defaults.items() if pair[0] not in options for word in pair]
         command += [word for key, value in MOUNT.items()
                     for word in ("--set", "/lidar/mount/%s=%s" % (key, value))]
         subprocess.run(command + options, check=True, stderr=subprocess.DEVNULL)

@@ -25,7 +25,7 @@ namespace {
 /// Enough for a significant bias (cornerd-bench --localizer, "biased lidar").
 constexpr std::size_t kMinBiasScans = 20;
 
-/// The localizer corrects scans by the prior before it looks whether the map explains them whole,
+/// The localizer corrects scans by the prior before it tests whether the map fits them whole,
 /// as a scan with a scale error of 1.5 % or more is not: other priors are tried then.
 constexpr double kScaleStarts[] = {0, 0.02, -0.02};
 /// A larger scale error means a wrong map.
