@@ -57,6 +57,7 @@ class MapTrials {
     config_.odometry.enabled = false;
     config_.calibrate_online = false;
     config_.updates_per_scan = 1;
+    config_.search_nodes_per_scan = core::kWholeSearch;  // each scan for itself
   }
 
   bool is_over() const { return is_over_(); }
