@@ -41,10 +41,9 @@ class ReplayDriver::Pacer : public RecordingSink {
   void on_sample(const core::Sample& recorded) override {
     if (stop_.stop_requested()) return;
     core::Sample sample = recorded;
-    if (first_of_pass_ && samples_ > 0) shift_ns_ = last_ns_ + period_ns_ - recorded.t_ns;
+    begin_pass_at(recorded.t_ns);
     sample.t_ns += shift_ns_;
-    if (!first_of_pass_) period_ns_ = std::max<core::TimeNs>(1, sample.t_ns - last_ns_);
-    first_of_pass_ = false;
+    if (samples_of_pass_ > 0) period_ns_ = std::max<core::TimeNs>(1, sample.t_ns - last_ns_);
     if (speed_ > 0) wait_until(sample.t_ns);
     while (speed_ <= 0 && !sink_.ready() && !stop_.stop_requested()) {
       std::this_thread::sleep_for(kRoomSleep);
@@ -59,13 +58,23 @@ class ReplayDriver::Pacer : public RecordingSink {
   }
 
   void on_gap() override { sink_.on_gap(); }
-  void on_odometry(const message::OdometryReading& reading) override { sink_.on_reading(reading); }
+  void on_odometry(const message::OdometryReading& recorded) override {
+    begin_pass_at(recorded.t_ns);
+    message::OdometryReading reading = recorded;
+    reading.t_ns += shift_ns_;
+    sink_.on_reading(reading);
+  }
 
   std::uint64_t samples_of_pass() const { return samples_of_pass_; }
   double rate_hz() const { return rate_hz_; }
   double samples_hz() const { return samples_hz_; }
 
  private:
+  /// A pass goes on where the last one ended: samples and odometry keep their order.
+  void begin_pass_at(core::TimeNs recorded_ns) {
+    if (first_of_pass_ && samples_ > 0) shift_ns_ = last_ns_ + period_ns_ - recorded_ns;
+    first_of_pass_ = false;
+  }
   void wait_until(core::TimeNs t_ns) {
     const core::TimeNs step_ns = t_ns - last_ns_;
     if (samples_ == 0 || step_ns < 0 || step_ns > kMaxPauseNs) {

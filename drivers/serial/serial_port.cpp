@@ -14,6 +14,7 @@
 #include <filesystem>
 #include <limits>
 #include <optional>
+#include <thread>
 #include <utility>
 
 #include "drivers/serial/baud_rate.hpp"
@@ -23,6 +24,10 @@ namespace cornerd::drivers {
 namespace {
 
 constexpr int kWriteTimeoutMs = 500;
+/// While bytes stream in, they are read so often: a UART wakes its reader for every few bytes.
+/// Added to the latency of a pose; the age of the newest byte, from which samples get their times,
+/// is not.
+constexpr std::chrono::milliseconds kGather{5};
 
 class SerialPort : public ByteStream {
  public:
@@ -33,6 +38,12 @@ class SerialPort : public ByteStream {
   SerialPort& operator=(const SerialPort&) = delete;
 
   ReadResult read(std::span<std::uint8_t> buffer, std::chrono::milliseconds timeout) override {
+    if (is_streaming_) {
+      std::this_thread::sleep_for(std::min(timeout, kGather));
+      const ssize_t count = ::read(fd_.get(), buffer.data(), buffer.size());
+      if (count > 0) return data(count, buffer.size());
+    }
+    is_streaming_ = false;
     pollfd entry{.fd = fd_.get(), .events = POLLIN, .revents = 0};
     const int timeout_ms = static_cast<int>(
         std::clamp<std::int64_t>(timeout.count(), 0, std::numeric_limits<int>::max()));
@@ -41,7 +52,7 @@ class SerialPort : public ByteStream {
     if (ready == 0) return {};
     // Bytes received before a hang-up can still be read.
     const ssize_t count = ::read(fd_.get(), buffer.data(), buffer.size());
-    if (count > 0) return {ReadStatus::kData, static_cast<std::size_t>(count)};
+    if (count > 0) return data(count, buffer.size());
     const bool nothing_yet = count == 0 ? (entry.revents & (POLLHUP | POLLERR | POLLNVAL)) == 0
                                         : errno == EAGAIN || errno == EINTR;
     return {nothing_yet ? ReadStatus::kTimeout : ReadStatus::kLost, 0};
@@ -73,7 +84,13 @@ class SerialPort : public ByteStream {
   }
 
  private:
+  ReadResult data(ssize_t count, std::size_t most) {
+    is_streaming_ = static_cast<std::size_t>(count) < most;
+    return {ReadStatus::kData, static_cast<std::size_t>(count)};
+  }
+
   FileDescriptor fd_;
+  bool is_streaming_ = false;  ///< the last read emptied the port: more bytes follow
 };
 
 OpenResult failure(OpenError error, const std::string& path, const std::string& reason) {

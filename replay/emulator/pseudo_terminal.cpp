@@ -27,6 +27,9 @@ namespace {
 void make_link(const std::filesystem::path& link, const std::filesystem::path& target) {
   if (std::filesystem::is_symlink(std::filesystem::symlink_status(link))) {
     std::filesystem::remove(link);
+  } else if (std::filesystem::exists(link)) {
+    throw std::system_error(EEXIST, std::generic_category(),
+                            link.string() + ": is no symbolic link, name another path");
   }
   std::filesystem::create_symlink(target, link);
 }

@@ -33,10 +33,6 @@ bool is_own(std::string_view text) {
   return text.substr(0, begin.size()) == begin.substr(0, text.size());
 }
 
-bool is_json(std::string_view text) {
-  return settings::Json::accept(text, /*ignore_comments=*/true);
-}
-
 }  // namespace
 
 std::filesystem::path calibration_file_path(const settings::LidarConfig& config) {
@@ -88,16 +84,8 @@ void CalibrationFile::load() {
     log(LogLevel::kInfo, file_.string() + ": the lidar's bias is known from " +
                              std::to_string(written_.scans) + " scans");
   } catch (const std::exception& error) {
-    if (!is_own(text)) {
-      // A configuration or map given by mistake must not be overwritten.
-      if (is_json(text)) return leave_alone(error.what());
-      const std::filesystem::path aside = file_.string() + ".bad";
-      std::error_code failed;
-      std::filesystem::rename(file_, aside, failed);
-      if (failed) return leave_alone(error.what());
-      return log(LogLevel::kWarning, std::string(error.what()) + "; renamed to " + aside.string() +
-                                         ", the lidar is calibrated again");
-    }
+    // A file given by mistake is neither overwritten nor moved.
+    if (!is_own(text)) return leave_alone(error.what());
     log(LogLevel::kWarning,
         std::string("the lidar's stored calibration is not used: ") + error.what());
   }

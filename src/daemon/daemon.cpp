@@ -39,10 +39,6 @@ ScanPublisher::PublishedMap published(const Loaded& loaded) {
   return {loaded.map, loaded.map_line, !loaded.config.maps.empty()};
 }
 
-message::StatusFields::Mount mount_of(const settings::Config& config) {
-  return {config.localizer().T_base_lidar, config.lidar.mount.inverted};
-}
-
 SourceKind source_of(settings::DriverKind driver) {
   return driver == settings::DriverKind::kReplay ? SourceKind::kRecording : SourceKind::kDevice;
 }
@@ -64,7 +60,7 @@ Daemon::Daemon(Loaded loaded, MapLoader loader, std::unique_ptr<drivers::LidarDr
       localization_(*lidar_,
                     with_calibration(std::move(loaded.pipeline), config_.lidar, calibration_),
                     source_of(config_.lidar.driver)) {
-  status_.set_mount(mount_of(config_));
+  status_.configure(config_);
   open_sockets();
   // The sockets are opened first: a second instance fails before it touches the serial port.
   localization_.publish_predictions(config_.odometry.core.publish_predictions);
@@ -83,7 +79,11 @@ Daemon::Daemon(Loaded loaded, MapLoader loader, std::unique_ptr<drivers::LidarDr
   loop_.add(tick_.fd(), EPOLLIN, [this](std::uint32_t) { on_tick(); });
   loop_.add(reloader_.event_fd(), EPOLLIN, [this](std::uint32_t) { on_loaded(); });
   loop_.add(localization_.event_fd(), EPOLLIN, [this](std::uint32_t) {
-    localization_.take([this](const ScanReport& report) { scans_.publish(report); });
+    localization_.take_odometry([this](const auto& reading) { status_.observe(reading); });
+    localization_.take([this](const ScanReport& report) {
+      scans_.publish(report);
+      status_.observe(report);
+    });
     localization_.take_predictions([this](const auto& pose) { scans_.publish(pose); });
     scans_.publish_odometry(localization_);
   });
@@ -158,10 +158,10 @@ ControlActions Daemon::control_actions(const settings::Config& config) {
         // scan.
         reading.t_ns = localization_.newest_sample_ns();
       }
-      const bool has_values = reading.left || reading.right || reading.gyro_rad_s;
-      if (verdict == Verdict::kAccepted || has_values) localization_.add(reading);
+      if (reading.left || reading.right || reading.gyro_rad_s) localization_.add(reading);
       return verdict != Verdict::kFirstRejection;
     };
+    actions.refuse_odometry = [this](const auto& error) { odometry_clients_.refuse(error); };
     actions.disconnect = [this](int connection) { odometry_clients_.disconnect(connection); };
   }
   return actions;
@@ -210,11 +210,11 @@ void Daemon::on_loaded() {
       is_reload && !list.empty()) {
     log(LogLevel::kWarning, "restart cornerd to apply: " + list);
   }
-  const core::FloorPlan& plan = loaded.map->plan();
-  const std::string name = plan.name + ", " + std::to_string(plan.walls.size()) + " walls";
+  const std::string name =
+      loaded.map->plan().name + ", " + std::to_string(loaded.map->plan().walls.size()) + " walls";
   if (!calibration_.reconfigure(loaded.config.lidar.bias)) localization_.forget_lidar();
   localization_.publish_predictions(loaded.config.odometry.core.publish_predictions);
-  status_.set_mount(mount_of(loaded.config));
+  status_.configure(loaded.config);
   auto pipeline = with_calibration(std::move(loaded.pipeline), loaded.config.lidar, calibration_);
   scans_.set_next_map(localization_.replace_pipeline(std::move(pipeline)), published(loaded));
   if (health_.memory_is_locked) health_.memory_is_locked = lock_memory() == 0;

@@ -22,17 +22,30 @@ std::string lost_hint(const ScanPublisher& scans) {
 }  // namespace
 
 FaultList::FaultList(const drivers::LidarStatus& lidar, const ScanPublisher& scans,
-                     std::string_view odometry_hint) {
+                     const std::optional<calibration::MapFinding>& map,
+                     const message::StatusFields& status, const calibration::DriveFaults& drive,
+                     const calibration::OdometryNames& names) {
   if (lidar.fault != drivers::LidarFault::kNone) {
     add(drivers::to_string(lidar.fault), std::string(lidar.detail.view()));
   }
-  if (scans.recently_lost() >= kMinLost) add("map-mismatch", lost_hint(scans));
-  if (scans.odometry().present && !scans.odometry().healthy) {
-    add("odometry-unhealthy",
-        "the odometry contradicts the lidar and is not used: check wheel_radius, track, "
-        "counts_per_turn, the signs of counts and gyro, and lidar.mount");
+  const bool is_mostly_lost = scans.recently_lost() >= kMinLost;
+  if (map && (is_mostly_lost || map->fault != calibration::MapFault::kNoVariant)) {
+    add(calibration::name_of(*map), calibration::describe(*map, scans.map()->plan().name));
+  } else if (is_mostly_lost) {
+    add("map-mismatch", lost_hint(scans));
   }
-  if (!odometry_hint.empty()) add("odometry-absent", std::string(odometry_hint));
+  for (const std::string_view name : calibration::names_of(drive)) {
+    add(name, calibration::describe(drive, names));
+  }
+  if (!drive.any() && scans.odometry().present && !scans.odometry().healthy) {
+    add("odometry-unhealthy",
+        "the odometry contradicts the lidar and is not used: drive a minute, straight and with "
+        "rotations both ways, and the reason is named here");
+  }
+  if (!status.odometry_hint.empty()) {
+    add(status.odometry_is_refused ? "odometry-refused" : "odometry-absent",
+        std::string(status.odometry_hint));
+  }
 }
 
 void FaultList::add(std::string_view name, std::string hint) {

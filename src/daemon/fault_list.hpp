@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "calibration/drive_fault_text.hpp"
+#include "calibration/map_faults.hpp"
 #include "daemon/scan_publisher.hpp"
 #include "drivers/lidar_driver.hpp"
 
@@ -15,9 +18,10 @@ namespace cornerd::daemon {
 /// for a person about the first.
 class FaultList {
  public:
-  /// `odometry_hint`: why odometry is absent; empty if it is not, or nobody knows why.
+  /// `status`: with what the odometry's source says of itself; `names`: of the remedies of `drive`.
   FaultList(const drivers::LidarStatus& lidar, const ScanPublisher& scans,
-            std::string_view odometry_hint);
+            const std::optional<calibration::MapFinding>& map, const message::StatusFields& status,
+            const calibration::DriveFaults& drive, const calibration::OdometryNames& names);
 
   std::span<const std::string_view> names() const { return names_; }
   /// One sentence; empty if there is no fault.

@@ -32,6 +32,7 @@ Localization::Localization(drivers::LidarDriver& driver, std::unique_ptr<core::P
       channel_(source == SourceKind::kDevice ? SampleChannel::WhenFull::kLose
                                              : SampleChannel::WhenFull::kWait),
       readings_(kReadingSlots),
+      taken_(kReadingSlots),
       initial_poses_(kInitialPoseSlots),
       reports_(kReportSlots),
       predictions_(kPredictionSlots),
@@ -62,6 +63,7 @@ int Localization::prioritize_reader(int priority) {
 }
 
 void Localization::read(const std::stop_token& stop) {
+  ::pthread_setname_np(::pthread_self(), "reader");
   driver_.run(stop, channel_);
   // At the end of a recording no further sample completes the last scan.
   channel_.on_gap();
@@ -69,6 +71,7 @@ void Localization::read(const std::stop_token& stop) {
 }
 
 void Localization::localize(const std::stop_token& stop) {
+  ::pthread_setname_np(::pthread_self(), "localizer");
   SampleChannel::Item item;
   while (true) {
     // Read wakes() first: a stop requested after the check below changes it.
@@ -136,11 +139,9 @@ void Localization::report(const core::Pipeline& pipeline, const core::ScanResult
     report.scan = pipeline.scan();
     report.number = scans_;
     report.result.pose.seq = poses_;  // continues across pipelines
-    if (source_ == SourceKind::kDevice) {
-      const core::TimeNs to_unix_ns = unix_ns() - monotonic_ns();
-      report.result.pose.t_ns += to_unix_ns;
-      report.scan.shift(to_unix_ns);
-    }
+    report.to_unix_ns = source_ == SourceKind::kDevice ? unix_ns() - monotonic_ns() : 0;
+    report.result.pose.t_ns += report.to_unix_ns;
+    report.scan.shift(report.to_unix_ns);
     report.latency_ns = monotonic_ns() - arrival_ns;
     report.generation = current_->number;
     report.lidar = current_->lidar;
@@ -162,6 +163,7 @@ void Localization::take_readings() {
 void Localization::take(const core::OdometryReading& reading, std::optional<core::TimeNs> now_ns) {
   report(current_->pipeline->add(reading, now_ns));
   report(odometry_frame_.add(reading, now_ns, odometry_parameters_));
+  taken_.push(reading);
 }
 
 void Localization::report(const core::OdometryPose* pose) {

@@ -27,7 +27,8 @@ enum class SourceKind : std::uint8_t { kDevice, kRecording };
 struct ScanReport {
   core::ScanResult result;
   core::Scan scan;
-  std::uint64_t number = 0;  ///< counts scans; POSE.seq also counts predictions
+  core::TimeNs to_unix_ns = 0;  ///< added to the times of `result` and `scan`
+  std::uint64_t number = 0;     ///< counts scans; POSE.seq also counts predictions
   /// From the arrival of the scan's last sample to its pose.
   std::int64_t latency_ns = 0;
   std::uint32_t generation = 0;  ///< of the pipeline, see Localization::replace_pipeline()
@@ -73,6 +74,11 @@ class Localization {
   void take_predictions(const auto& use) {
     while (predictions_.take(use)) {
     }
+  }
+  /// Calls `use` with each odometry reading that the localizer has taken, in the samples' time.
+  void take_odometry(const auto& use) {
+    core::OdometryReading reading;
+    while (taken_.pop(reading)) use(reading);
   }
   /// An odometry reading with the time base of the samples. Call it from one thread only. A reading
   /// that finds no room is lost; the next encoder counts contain its motion.
@@ -151,6 +157,7 @@ class Localization {
   std::uint32_t newest_ = 0;  ///< number of the last pipeline handed over
   SampleChannel channel_;
   core::RingBuffer<core::OdometryReading> readings_;
+  core::RingBuffer<core::OdometryReading> taken_;  ///< back to the server thread
   core::RingBuffer<core::Pose2> initial_poses_;
   SlotExchange<ScanReport> reports_;
   SlotExchange<core::PoseEstimate> predictions_;

@@ -75,6 +75,8 @@ int main(int argc, char** argv) {
   drivers::occupy_standard_streams();
   // A closed log must not end the daemon.
   std::signal(SIGPIPE, SIG_IGN);
+  // Nor a limit of file sizes: the write fails, and its caller says so.
+  std::signal(SIGXFSZ, SIG_IGN);
   try {
     const std::span<const char* const> arguments(argv, static_cast<std::size_t>(argc));
     return run(daemon::parse_options(arguments.subspan(argc > 0 ? 1 : 0)));

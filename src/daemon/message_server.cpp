@@ -63,11 +63,20 @@ void MessageServer::serve(Socket& socket) {
 
 void MessageServer::restore_sockets(const std::function<void(const std::string& line)>& log) {
   for (Socket& socket : sockets_) {
-    if (socket.listener->file_exists()) {
+    const UnixListener::File file = socket.listener->file();
+    const std::filesystem::path path = socket.listener->path();
+    if (file == UnixListener::File::kOwn) {
       socket.restore_failed = false;
       continue;
     }
-    const std::filesystem::path path = socket.listener->path();
+    if (file == UnixListener::File::kReplaced) {
+      if (!std::exchange(socket.restore_failed, true)) {
+        log(path.string() +
+            ": is no longer the socket of this daemon, whose clients connect to something else: "
+            "remove it, and the daemon makes its own again");
+      }
+      continue;
+    }
     try {
       auto listener = std::make_unique<UnixListener>(path, mode_of(socket.role));
       loop_.remove(socket.listener->fd());

@@ -27,7 +27,6 @@ bool OdometryClients::Publisher::accepts(int other, core::TimeNs now_ns, bool is
 
 OdometryClients::Verdict OdometryClients::accept(int connection, core::TimeNs now_ns,
                                                  message::OdometryReading& reading) {
-  const bool is_empty = !reading.left && !reading.right && !reading.gyro_rad_s;
   const bool has_both_counts = reading.left && reading.right;
   const message::OdometryInputMonitor::Rejected rejected = input_.rejected();
   bool all = true;
@@ -41,7 +40,7 @@ OdometryClients::Verdict OdometryClients::accept(int connection, core::TimeNs no
     reading.gyro_rad_s.reset();
     all = false;
   }
-  if (is_empty || reading.left || reading.right || reading.gyro_rad_s) input_.add(reading);
+  if (reading.left || reading.right || reading.gyro_rad_s) input_.add(reading);
   if (all) return Verdict::kAccepted;
   ++rejected_;
   return rejected_connections_.insert(connection).second ? Verdict::kFirstRejection
@@ -58,11 +57,17 @@ void OdometryClients::describe(message::StatusFields& status) {
   if (rejected_ - reported_ > kMaxHandoverLines) hint_repeats_ = kHintRepeats;
   reported_ = rejected_;
   status.second_client = rejected_;
+  refusals_.clear();
+  for (const auto& [cause, count] : input_.refusals()) {
+    if (count > 0) refusals_.push_back({cause, count});
+  }
+  status.odometry_refusals = refusals_;
   const std::string_view why_absent = input_.hint(*status.odometry, status.t_ns);
   const bool is_shown = hint_repeats_ > 0 && hint_repeats_-- > 0;
   status.odometry_hint =
       is_shown ? "two clients send ODOMETRY: one client's lines are used, stop the other client"
                : why_absent;
+  status.odometry_is_refused = !is_shown && input_.are_refused();
 }
 
 }  // namespace cornerd::daemon

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <set>
+#include <vector>
 
 #include "message/line_writer.hpp"
 #include "message/odometry_input_monitor.hpp"
@@ -29,6 +30,8 @@ class OdometryClients {
   /// Removes values of which another client is the publisher; the caller uses the rest.
   /// `connection`: unique among open connections.
   Verdict accept(int connection, core::TimeNs now_ns, message::OdometryReading& reading);
+  /// An ODOMETRY line that could not be read.
+  void refuse(const message::RequestError& error) { input_.refuse(error); }
   /// The connection was closed; its number may be reused.
   void disconnect(int connection);
 
@@ -48,9 +51,10 @@ class OdometryClients {
   Publisher gyro_;
   std::set<int> rejected_connections_;  ///< of open connections
   message::OdometryInputMonitor input_;
-  std::uint64_t rejected_ = 0;  ///< lines with a rejected value
-  std::uint64_t reported_ = 0;  ///< rejected_ at the last STATUS
-  int hint_repeats_ = 0;        ///< STATUS messages left with the hint
+  std::uint64_t rejected_ = 0;                            ///< lines with a rejected value
+  std::uint64_t reported_ = 0;                            ///< rejected_ at the last STATUS
+  int hint_repeats_ = 0;                                  ///< STATUS messages left with the hint
+  std::vector<message::StatusFields::Counter> refusals_;  ///< those of STATUS
 };
 
 }  // namespace cornerd::daemon

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "daemon/odometry_reader.hpp"
 
+#include <pthread.h>
+
 #include <string>
 #include <utility>
 
@@ -32,9 +34,10 @@ std::unique_ptr<drivers::OdometryDriver> make_odometry(const settings::OdometryC
 
 OdometryReader::OdometryReader(std::unique_ptr<drivers::OdometryDriver> driver,
                                Localization& localization)
-    : driver_(std::move(driver)),
-      sink_(localization),
-      thread_([this](const std::stop_token& stop) { driver_->run(stop, sink_); }) {}
+    : driver_(std::move(driver)), sink_(localization), thread_([this](const std::stop_token& stop) {
+        ::pthread_setname_np(::pthread_self(), "odometry");
+        driver_->run(stop, sink_);
+      }) {}
 
 bool OdometryReader::publish_changes(MessageServer& server, core::TimeNs t_ns) {
   newest_ = driver_->status();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "daemon/reloader.hpp"
 
+#include <pthread.h>
 #include <sys/eventfd.h>
 #include <sys/resource.h>
 #include <unistd.h>
@@ -40,6 +41,7 @@ void Reloader::start_next() {
 }
 
 void Reloader::run() {
+  ::pthread_setname_np(::pthread_self(), "reloader");
   ::setpriority(PRIO_PROCESS, static_cast<id_t>(::gettid()), kNiceness);
   try {
     const Job& job = outcome_.job;

@@ -31,7 +31,16 @@ void RequestHandler::handle(Client& client, SocketRole role, std::string_view te
     }
   };
   std::visit(Overloaded{
-                 [&](const message::RequestError& wrong) { error(wrong.code, wrong.text); },
+                 [&](const message::RequestError& wrong) {
+                   error(wrong.code, wrong.text);
+                   // A line that is no JSON, such as one with NaN, has no name.
+                   const bool is_odometry =
+                       request.name == "ODOMETRY" ||
+                       (request.name.empty() && text.find("\"ODOMETRY\"") != text.npos);
+                   if (role == SocketRole::kControl && is_odometry && actions_.refuse_odometry) {
+                     actions_.refuse_odometry(wrong);
+                   }
+                 },
                  [&](const message::WatchRequest& watch) {
                    client.watch(watch.classes);
                    ok();

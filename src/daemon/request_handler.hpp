@@ -41,6 +41,8 @@ struct ControlActions {
   std::function<void(int connection)> disconnect = {};
   /// The answer follows with MessageServer::answer_later(). False if too many requests wait.
   std::function<bool(const message::SetMapRequest&, const Ticket&)> set_map = {};
+  /// An ODOMETRY line could not be read; optional.
+  std::function<void(const message::RequestError&)> refuse_odometry = {};
 };
 
 /// Acts on the requests of clients and puts the answers into their outboxes.

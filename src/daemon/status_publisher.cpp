@@ -9,6 +9,7 @@
 #include "daemon/log.hpp"
 #include "drivers/lidar_status.hpp"
 #include "message/line_writer.hpp"
+#include "settings/odometry_names.hpp"
 
 namespace cornerd::daemon {
 namespace {
@@ -51,6 +52,26 @@ std::string_view name_of(const std::optional<drivers::LidarChange>& from,
 
 StatusPublisher::StatusPublisher(MessageServer& server, Notifier& notifier)
     : server_(server), notifier_(notifier) {}
+
+void StatusPublisher::configure(const settings::Config& config) {
+  names_ = settings::odometry_names(config);
+  mount_ = {names_.T_base_lidar, config.lidar.mount.inverted, {}};
+  drive_.reset();
+  if (config.odometry.core.enabled) drive_.emplace(config.odometry.core, names_.T_base_lidar);
+  map_examiner_.configure(config);
+}
+
+void StatusPublisher::observe(const ScanReport& report) {
+  const core::PoseEstimate& pose = report.result.pose;
+  map_examiner_.observe(report);
+  if (drive_ && core::has_pose(pose.state)) {
+    drive_->add(pose.t_ns - report.to_unix_ns, pose.T_map_base);
+  }
+}
+
+void StatusPublisher::observe(const core::OdometryReading& reading) {
+  if (drive_) drive_->add(reading);
+}
 
 bool StatusPublisher::update(const drivers::LidarChange& change, core::TimeNs t_ns) {
   const std::string text = describe(change.state, change.fault, change.detail.view());
@@ -106,7 +127,13 @@ void StatusPublisher::publish(const drivers::LidarStatus& lidar, const ScanPubli
   status.odometry = &scans.odometry();
   if (odometry_ != nullptr) odometry_->describe(status);
   if (odometry_clients_ != nullptr) odometry_clients_->describe(status);
-  const FaultList faults(lidar, scans, status.odometry_hint);
+  static const calibration::DriveFaults kNoFaults;
+  const calibration::DriveFaults& drive = drive_ ? drive_->faults() : kNoFaults;
+  if (drive_ && drive.mount.sigma.theta_rad > 0) {
+    status.mount->estimated = {drive.mount.T_base_lidar, drive.mount.sigma};
+  }
+  const FaultList faults(lidar, scans, map_examiner_.update(scans.recently_lost(), scans.map()),
+                         status, drive, names_);
   status.faults = faults.names();
   status.hint = faults.hint();
   const LatencyWindow& latencies = scans.latencies();

@@ -5,7 +5,10 @@
 #include <set>
 #include <string>
 
+#include "calibration/drive_fault_text.hpp"
+#include "calibration/drive_monitor.hpp"
 #include "daemon/localization.hpp"
+#include "daemon/map_examiner.hpp"
 #include "daemon/message_server.hpp"
 #include "daemon/odometry_clients.hpp"
 #include "daemon/odometry_reader.hpp"
@@ -13,6 +16,7 @@
 #include "daemon/systemd.hpp"
 #include "drivers/lidar_driver.hpp"
 #include "message/line_writer.hpp"
+#include "settings/config.hpp"
 
 namespace cornerd::daemon {
 
@@ -33,7 +37,11 @@ class StatusPublisher {
   bool update(const drivers::LidarChange& change, core::TimeNs t_ns);
   void publish(const drivers::LidarStatus& lidar, const ScanPublisher& scans,
                Localization& localization, const DaemonHealth& health, core::TimeNs t_ns);
-  void set_mount(const message::StatusFields::Mount& mount) { mount_ = mount; }
+  /// Of the scans that follow.
+  void configure(const settings::Config& config);
+  /// For the faults of the odometry. Readings before the scans that they belong to.
+  void observe(const ScanReport& report);
+  void observe(const core::OdometryReading& reading);
   /// The reader of the board's sensors; null if there is none.
   void set_odometry(OdometryReader* odometry) { odometry_ = odometry; }
   /// The clients that send odometry; null for other sources.
@@ -45,6 +53,9 @@ class StatusPublisher {
 
   MessageServer& server_;
   std::optional<message::StatusFields::Mount> mount_;
+  calibration::OdometryNames names_;
+  std::optional<calibration::DriveMonitor> drive_;  ///< where there is odometry
+  MapExaminer map_examiner_;
   OdometryReader* odometry_ = nullptr;
   OdometryClients* odometry_clients_ = nullptr;
   Notifier& notifier_;

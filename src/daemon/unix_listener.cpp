@@ -130,8 +130,11 @@ std::vector<gid_t> groups_of(int fd) {
 UnixListener::UnixListener(const std::filesystem::path& path, mode_t mode)
     : path_(path), spare_(make_spare()) {
   const sockaddr_un address = address_of(path);
-  std::error_code ignored;
-  if (path.has_parent_path()) std::filesystem::create_directory(path.parent_path(), ignored);
+  std::error_code failed;
+  if (path.has_parent_path()) std::filesystem::create_directory(path.parent_path(), failed);
+  if (failed && !std::filesystem::exists(path.parent_path())) {
+    fail(path.parent_path(), "cannot create the socket's folder: " + failed.message());
+  }
   const FileDescriptor lock = lock_folder(path);
   remove_stale(path, address);
   fd_ = make_socket();
@@ -142,6 +145,7 @@ UnixListener::UnixListener(const std::filesystem::path& path, mode_t mode)
   if (::stat(path.c_str(), &file) == 0) {
     device_ = file.st_dev;
     inode_ = file.st_ino;
+    owns_file_ = true;
     group_ = file.st_gid;
   }
   // After bind(), because the umask limits the mode; before listen(), because no client can connect
@@ -156,15 +160,14 @@ UnixListener::UnixListener(const std::filesystem::path& path, mode_t mode)
 UnixListener::UnixListener(const std::filesystem::path& path, FileDescriptor inherited)
     : path_(path), fd_(std::move(inherited)), spare_(make_spare()) {
   struct stat file {};
-  if (::stat(path.c_str(), &file) == 0) group_ = file.st_gid;
+  if (::stat(path.c_str(), &file) != 0) return;
+  device_ = file.st_dev;
+  inode_ = file.st_ino;
+  group_ = file.st_gid;
 }
 
 UnixListener::~UnixListener() {
-  if (inode_ == 0) return;
-  struct stat file {};
-  if (::lstat(path_.c_str(), &file) == 0 && file.st_dev == device_ && file.st_ino == inode_) {
-    ::unlink(path_.c_str());
-  }
+  if (owns_file_ && file() == File::kOwn) ::unlink(path_.c_str());
 }
 
 FileDescriptor UnixListener::accept() {
@@ -180,9 +183,13 @@ FileDescriptor UnixListener::accept() {
   return client;
 }
 
-bool UnixListener::file_exists() const {
+UnixListener::File UnixListener::file() const {
   struct stat file {};
-  return ::lstat(path_.c_str(), &file) == 0 || (errno != ENOENT && errno != ENOTDIR);
+  if (::stat(path_.c_str(), &file) != 0) {
+    return errno == ENOENT || errno == ENOTDIR ? File::kRemoved : File::kOwn;
+  }
+  const bool is_same = file.st_dev == device_ && file.st_ino == inode_;
+  return inode_ == 0 || is_same ? File::kOwn : File::kReplaced;
 }
 
 std::optional<bool> is_listening(const std::filesystem::path& file) {

@@ -3,6 +3,7 @@
 
 #include <sys/types.h>
 
+#include <cstdint>
 #include <filesystem>
 #include <istream>
 #include <optional>
@@ -27,8 +28,9 @@ class UnixListener {
 
   int fd() const { return fd_.get(); }
   const std::filesystem::path& path() const { return path_; }
-  /// False if the socket file was removed, so that no client can connect.
-  bool file_exists() const;
+  /// kRemoved and kReplaced: no client can connect. kReplaced: by something of somebody else.
+  enum class File : std::uint8_t { kOwn, kRemoved, kReplaced };
+  File file() const;
   /// The next waiting client, non-blocking; not open if there is none. If the process is out of
   /// descriptors, the client is disconnected, since it would keep the event loop busy.
   FileDescriptor accept();
@@ -41,7 +43,8 @@ class UnixListener {
   FileDescriptor spare_;  ///< closed to accept and disconnect a client without a descriptor
   gid_t group_ = 0;
   dev_t device_ = 0;
-  ino_t inode_ = 0;
+  ino_t inode_ = 0;         ///< 0: not known
+  bool owns_file_ = false;  ///< it is removed at the end
 };
 
 /// True if a process listens on the socket file, by /proc/self/net/unix; nullopt if that cannot be

@@ -59,27 +59,37 @@ std::optional<Json> parse_object(std::string_view line, std::size_t max_bytes,
   return parsed;
 }
 
-void FieldReader::fail(const std::string& reason) {
-  if (!error_) error_ = {"field", reason};
+void FieldReader::fail(const std::string& reason, std::string_view cause) {
+  if (!error_) error_ = {"field", reason, cause};
 }
 
 const Json* FieldReader::find(const char* name) {
   const auto found = object_.find(name);
   if (found == object_.end()) {
-    fail(in_quotes(name) + " is missing");
+    fail(in_quotes(name) + " is missing", kMissing);
     return nullptr;
   }
   return &*found;
 }
 
+void FieldReader::refuse_range(const std::string& name, Limits limits, double number) {
+  // A thousand times too much is another unit: milliseconds, millimetres.
+  const double share = std::abs(number) / 1000;
+  const bool is_thousandfold =
+      *limits.unit != 0 && share > limits.high / 1000 && share <= limits.high;
+  fail(name + " must be from " + shortest(limits.low) + " to " + shortest(limits.high) +
+           limits.unit + (is_thousandfold ? ", not thousandths of them" : ""),
+       kOutOfRange);
+}
+
 double FieldReader::check(const std::string& name, const Json& value, Limits limits) {
   if (!value.is_number()) {
-    fail(name + " must be a number");
+    fail(name + " must be a number", kNotANumber);
     return 0;
   }
   const double number = value.get<double>();
   if (!(number >= limits.low && number <= limits.high)) {
-    fail(name + " must be from " + shortest(limits.low) + " to " + shortest(limits.high));
+    refuse_range(name, limits, number);
     return 0;
   }
   return number;
@@ -100,14 +110,14 @@ std::optional<std::int64_t> FieldReader::optional_integer(const char* name) {
   const Json& value = object_[name];
   constexpr std::int64_t kMax = std::numeric_limits<std::int64_t>::max();
   if (value.is_number_unsigned() && value.get<std::uint64_t>() > static_cast<std::uint64_t>(kMax)) {
-    fail(in_quotes(name) + " must fit 64 bits");
+    fail(in_quotes(name) + " must fit 64 bits", kOutOfRange);
     return std::nullopt;
   }
   if (value.is_number_integer()) return value.get<std::int64_t>();
   // JavaScript and Lua may write 12.0 or 1e6. Above 2^53 a double is not exact.
   constexpr double kLargestExact = 9007199254740992.0;
   const double number = check(in_quotes(name), value, {-kLargestExact, kLargestExact});
-  if (number != std::floor(number)) fail(in_quotes(name) + " must be a whole number");
+  if (number != std::floor(number)) fail(in_quotes(name) + " must be a whole number", kNotWhole);
   return error_ ? std::nullopt : std::optional(static_cast<std::int64_t>(number));
 }
 

@@ -20,13 +20,14 @@ using Json = nlohmann::json;
 struct Limits {
   double low = 0;
   double high = 0;
+  const char* unit = "";  ///< for a message, after the numbers
 };
 
 /// UNIX time or time since the start of a recording; in nanoseconds it fits 64 bits.
-inline constexpr Limits kTimeLimitsS{-9e9, 9e9};
-inline constexpr Limits kCoordinateLimitsM{-1e5, 1e5};
+inline constexpr Limits kTimeLimitsS{-9e9, 9e9, " seconds"};
+inline constexpr Limits kCoordinateLimitsM{-1e5, 1e5, " metres"};
 /// Slightly more than 2 pi, so that most angles in degrees are refused.
-inline constexpr Limits kAngleLimitsRad{-6.3, 6.3};
+inline constexpr Limits kAngleLimitsRad{-6.3, 6.3, " radians"};
 
 /// Parses one line. Returns nullopt and sets `error` if the line is too long, nested too deeply, or
 /// not a JSON object.
@@ -53,11 +54,19 @@ class FieldReader {
   /// array[index], a finite number within limits.
   double element(const char* name, const Json& array, std::size_t index, Limits limits);
 
-  void fail(const std::string& reason);
+  /// Why a field is wrong, for counters.
+  static constexpr std::string_view kMissing = "missing";
+  static constexpr std::string_view kNotANumber = "not_a_number";
+  static constexpr std::string_view kNotWhole = "not_whole";
+  static constexpr std::string_view kOutOfRange = "out_of_range";
+  static constexpr std::string_view kOther = "other";
+
+  void fail(const std::string& reason, std::string_view cause = kOther);
   const std::optional<RequestError>& error() const { return error_; }
 
  private:
   const Json* find(const char* name);
+  void refuse_range(const std::string& name, Limits limits, double number);
   double check(const std::string& name, const Json& value, Limits limits);
 
   const Json& object_;

@@ -70,6 +70,10 @@ OdometryReading read_odometry(FieldReader& fields) {
   reading.left = fields.optional_integer("left");
   reading.right = fields.optional_integer("right");
   reading.gyro_rad_s = fields.optional_number("gyro", kGyroLimitsRadS);
+  if (!fields.error() && !reading.left && !reading.right && !reading.gyro_rad_s) {
+    fields.fail("ODOMETRY needs \"left\" and \"right\", \"gyro\", or all of them",
+                FieldReader::kMissing);
+  }
   return reading;
 }
 

@@ -45,6 +45,11 @@ struct StatusFields {
   struct Mount {
     core::Pose2 T_base_lidar;
     bool inverted = false;  ///< the lidar hangs upside down; SCAN's angles have it already
+    struct Estimate {
+      core::Pose2 T_base_lidar;
+      core::Pose2 sigma;
+    };
+    std::optional<Estimate> estimated{};  ///< by wheels and lidar
   };
   std::optional<Mount> mount;                 ///< left out where it is not known
   const core::EstimatedBias* bias = nullptr;  ///< of the lidar; left out before its first scan
@@ -64,6 +69,8 @@ struct StatusFields {
   std::span<const Sensor> odometry_sensors;
   std::span<const Counter> odometry_counters;  ///< of the sensors
   std::string_view odometry_hint;
+  bool odometry_is_refused = false;            ///< the hint is about lines that cannot be read
+  std::span<const Counter> odometry_refusals;  ///< ODOMETRY lines that could not be read, by cause
   /// ODOMETRY lines rejected because another client publishes the same quantity.
   std::optional<std::uint64_t> second_client;
   /// From a scan's last sample to its pose, seconds.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "message/odometry_input_monitor.hpp"
 
+#include <algorithm>
+
 namespace cornerd::message {
 namespace {
 
@@ -18,25 +20,34 @@ void OdometryInputMonitor::add(const core::OdometryReading& reading) {
     ++lines_.left;
   } else if (reading.right) {
     ++lines_.right;
-  } else if (reading.gyro_rad_s) {
-    ++lines_.gyro;
   }
+}
+
+void OdometryInputMonitor::refuse(const RequestError& error) {
+  ++lines_.refused;
+  refusal_ = error.text;
+  const std::string_view cause = error.cause.empty() ? std::string_view(error.code) : error.cause;
+  const auto known = std::find_if(refusals_.begin(), refusals_.end(),
+                                  [&](const Refusals& one) { return one.cause == cause; });
+  ++(known == refusals_.end() ? refusals_.back() : *known).count;
 }
 
 std::string_view OdometryInputMonitor::hint(const core::OdometrySummary& summary,
                                             core::TimeNs t_ns) {
   if (!evaluated_ns_ || t_ns < *evaluated_ns_) evaluated_ns_ = t_ns;
   if (t_ns - *evaluated_ns_ >= kMinInterval_ns) {
+    are_refused_ = lines_.refused > lines_.all;
     hint_ = diagnose(summary.counters);
     rejected_ = find_rejected(summary.counters);
     evaluated_ns_ = t_ns;
     counters_ = summary.counters;
     lines_ = {};
   }
-  return summary.present ? std::string_view() : hint_;
+  return summary.present && !are_refused_ ? std::string_view() : hint_;
 }
 
-std::string_view OdometryInputMonitor::diagnose(const core::OdometryCounters& counters) const {
+std::string OdometryInputMonitor::diagnose(const core::OdometryCounters& counters) const {
+  if (are_refused_) return "ODOMETRY lines are refused: " + refusal_;
   if (lines_.all == 0)
     return "no ODOMETRY line arrives: start the program that sends encoder counts to the control "
            "socket";
@@ -46,10 +57,8 @@ std::string_view OdometryInputMonitor::diagnose(const core::OdometryCounters& co
     }
     if (lines_.left > 0) return "ODOMETRY lines lack right: send both counts in one line";
     if (lines_.right > 0) return "ODOMETRY lines lack left: send both counts in one line";
-    if (lines_.gyro > 0)
-      return "ODOMETRY lines lack left and right: a gyro does not measure distance, send encoder "
-             "counts too";
-    return "ODOMETRY lines lack left, right and gyro: send encoder counts";
+    return "ODOMETRY lines lack left and right: a gyro does not measure distance, send encoder "
+           "counts too";
   }
   const std::uint64_t half = lines_.all / 2;
   if (counters.future - counters_.future > half) {

@@ -1,22 +1,36 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
+#include <span>
+#include <string>
 #include <string_view>
 
 #include "core/odometry/odometry_reading.hpp"
 #include "core/odometry/odometry_summary.hpp"
+#include "message/field_reader.hpp"
+#include "message/request.hpp"
 
 namespace cornerd::message {
 
-/// Counts what ODOMETRY lines contain, and reports why odometry is absent. Allocates nothing.
+/// Counts what ODOMETRY lines contain, and reports why odometry is absent.
 class OdometryInputMonitor {
  public:
   void add(const core::OdometryReading& reading);
+  /// A line that could not be read.
+  void refuse(const RequestError& error);
+
+  /// Lines that could not be read, since the start, by FieldReader's cause or "json".
+  struct Refusals {
+    std::string_view cause;
+    std::uint64_t count = 0;
+  };
+  std::span<const Refusals> refusals() const { return refusals_; }
 
   /// Why odometry is absent, from the lines of about the last second; empty if it is present or the
-  /// cause is unknown. `t_ns`: the current time.
+  /// cause is unknown. Also says that most lines are refused. `t_ns`: the current time.
   std::string_view hint(const core::OdometrySummary& summary, core::TimeNs t_ns);
 
   /// True if most values of the last evaluated interval were rejected, for any reason.
@@ -25,23 +39,33 @@ class OdometryInputMonitor {
     bool gyro = false;
   };
   Rejected rejected() const { return rejected_; }
+  /// True if most lines of the last evaluated interval could not be read.
+  bool are_refused() const { return are_refused_; }
 
  private:
   struct LineCounts {
-    std::uint64_t all = 0;
-    std::uint64_t both = 0;   ///< with left and right
-    std::uint64_t left = 0;   ///< with left only
-    std::uint64_t right = 0;  ///< with right only
-    std::uint64_t gyro = 0;   ///< with a gyro and no counts
-    std::uint64_t rates = 0;  ///< with a gyro
+    std::uint64_t all = 0;      ///< that could be read
+    std::uint64_t refused = 0;  ///< that could not
+    std::uint64_t both = 0;     ///< with left and right
+    std::uint64_t left = 0;     ///< with left only
+    std::uint64_t right = 0;    ///< with right only
+    std::uint64_t rates = 0;    ///< with a gyro
   };
-  std::string_view diagnose(const core::OdometryCounters& counters) const;
+  std::string diagnose(const core::OdometryCounters& counters) const;
   Rejected find_rejected(const core::OdometryCounters& counters) const;
 
   LineCounts lines_;                 ///< since the last evaluation
   core::OdometryCounters counters_;  ///< at the last evaluation
   std::optional<core::TimeNs> evaluated_ns_;
-  std::string_view hint_;
+  std::array<Refusals, 6> refusals_{{{"json"},
+                                     {FieldReader::kMissing},
+                                     {FieldReader::kNotANumber},
+                                     {FieldReader::kNotWhole},
+                                     {FieldReader::kOutOfRange},
+                                     {FieldReader::kOther}}};
+  std::string refusal_;       ///< text of the last one
+  bool are_refused_ = false;  ///< most lines of the last interval
+  std::string hint_;
   Rejected rejected_;
 };
 

@@ -67,6 +67,7 @@ struct OdometryReading : core::OdometryReading {
 struct RequestError {
   std::string code;  ///< "too-long", "json", "class", "field"
   std::string text;
+  std::string_view cause = {};  ///< of "field": one of FieldReader's
 };
 
 struct Request {

@@ -38,6 +38,20 @@ void write_mount(JsonText& json, const StatusFields::Mount& mount) {
   json.key("theta");
   json.angle(mount.T_base_lidar.theta_rad);
   json.boolean("inverted", mount.inverted);
+  if (mount.estimated) {
+    const auto& [T_base_lidar, sigma] = *mount.estimated;
+    json.open_object("estimated");
+    json.number("x", T_base_lidar.x_m, kTimeDecimals);
+    json.number("y", T_base_lidar.y_m, kTimeDecimals);
+    json.key("theta");
+    json.angle(T_base_lidar.theta_rad);
+    json.open_object("sigma");
+    json.number("x", sigma.x_m, kTimeDecimals);
+    json.number("y", sigma.y_m, kTimeDecimals);
+    json.number("theta", sigma.theta_rad, kTimeDecimals);
+    json.close_object();
+    json.close_object();
+  }
   json.close_object();
 }
 
@@ -100,6 +114,10 @@ void write_summary(JsonText& json, const StatusFields& status) {
   json.open_object("counters");
   write_each(json, counters);
   if (status.second_client) json.integer("second_client", *status.second_client);
+  json.close_object();
+  if (status.odometry_refusals.empty()) return;
+  json.open_object("refused");
+  write_each(json, status.odometry_refusals);
   json.close_object();
 }
 

@@ -39,7 +39,7 @@ void add_lidar_keys(std::vector<Key>& table, LidarConfig& lidar) {
   add({"/lidar/mount/x", number(lidar.mount.x_m, -10, 10),
        "Metres forward of the middle of the axle."});
   add({"/lidar/mount/y", number(lidar.mount.y_m, -10, 10), "Metres to the left of it."});
-  add({"/lidar/mount/theta", number(lidar.mount.theta_rad, -6.2832, 6.2832),
+  add({"/lidar/mount/theta", number(lidar.mount.theta_rad, -6.2832, 6.2832, " radians"),
        "Direction of the lidar's zero mark, radians counter-clockwise."});
   add({"/lidar/mount/inverted", boolean(lidar.mount.inverted), "The lidar hangs upside down.",
        kOnRestart});

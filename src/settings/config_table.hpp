@@ -45,7 +45,7 @@ std::vector<Key> config_table(Config& config);
 /// Its part below /advanced/detector.
 void add_detector_keys(std::vector<Key>& table, core::DetectorConfig& config);
 
-Value number(double& member, double low, double high);
+Value number(double& member, double low, double high, std::string_view unit = {});
 Value boolean(bool& member);
 Value text(std::string& member);
 Value path(std::filesystem::path& member);

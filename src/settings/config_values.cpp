@@ -24,9 +24,9 @@ constexpr Choice<rplidar::MotorKind> kMotorsByPath[] = {{"gpio", rplidar::MotorK
 
 }  // namespace
 
-Value number(double& member, double low, double high) {
-  return {[&member, low, high](ObjectReader& object, std::string_view key) {
-            object.number(key, member, {low, high});
+Value number(double& member, double low, double high, std::string_view unit) {
+  return {[&member, low, high, unit](ObjectReader& object, std::string_view key) {
+            object.number(key, member, {low, high, unit});
           },
           [&member] { return Ordered(member); }, to_text(low) + " to " + to_text(high)};
 }

@@ -48,7 +48,7 @@ core::Vec2 read_point(const Json& value, const auto& fail) {
   const core::Vec2 point{value[0].get<double>(), value[1].get<double>()};
   if (!(point.minCoeff() >= kCoordinateM.low && point.maxCoeff() <= kCoordinateM.high)) {
     fail("coordinates must be from " + to_text(kCoordinateM.low) + " to " +
-         to_text(kCoordinateM.high));
+         to_text(kCoordinateM.high) + " metres: `cornerctl map scale` converts other units");
   }
   return point;
 }

@@ -92,8 +92,8 @@ bool ObjectReader::number(std::string_view key, double& member, Interval limits)
   if (!value->is_number()) fail(key, "must be a number");
   const double number = value->get<double>();
   if (!(number >= limits.low && number <= limits.high)) {
-    fail(key, "must be from " + to_text(limits.low) + " to " + to_text(limits.high) + ", not " +
-                  to_text(number));
+    fail(key, "must be from " + to_text(limits.low) + " to " + to_text(limits.high) +
+                  std::string(limits.unit) + ", not " + to_text(number));
   }
   member = number;
   return true;

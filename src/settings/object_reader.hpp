@@ -27,6 +27,7 @@ struct DocumentContext {
 struct Interval {
   double low = 0;
   double high = 0;
+  std::string_view unit{};  ///< for a message, after the numbers: " radians"
 };
 
 template <typename Value>

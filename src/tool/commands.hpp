@@ -25,6 +25,7 @@ void add_export(Command& program);
 
 void add_calibrate(Command& program);
 void add_calibrate_bias(Command& group);
+void add_calibrate_mount(Command& group);
 void add_calibrate_odometry(Command& group);
 
 void add_map(Command& program);

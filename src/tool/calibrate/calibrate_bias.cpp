@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // cornerctl calibrate bias: the lidar's systematic errors, from recordings in a known map.
+#include <cmath>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -24,6 +25,12 @@ namespace {
 /// Enough for a significant bias (cornerd-bench --localizer, "biased lidar").
 constexpr std::size_t kMinBiasScans = 20;
 
+/// The localizer corrects scans by the prior before it tests whether the map fits them whole,
+/// as a scan with a scale error of 1.5 % or more is not: other priors are tried then.
+constexpr double kScaleStarts[] = {0, 0.02, -0.02};
+/// A larger scale error means a wrong map.
+constexpr double kMaxScaleChange = 0.03;
+
 struct CalibrateBiasOptions : CalibrationOptions {
   std::vector<std::filesystem::path> files;
 };
@@ -44,28 +51,42 @@ std::string describe_bias(const core::EstimatedBias& estimated) {
          table.text();
 }
 
-void calibrate_bias(const CalibrateBiasOptions& options) {
-  const settings::Config config = options.settings.resolve(/*needs_map=*/true);
-  CommandFiles files{.read = options.files, .written = {}, .output = options.output};
-  files.read.insert(files.read.end(), {options.settings.config_file(), config.map});
-  guard_files(files);
+/// From a prior whose scale is `scale` larger than the config's.
+core::EstimatedBias estimate_bias(const CalibrateBiasOptions& options,
+                                  const settings::Config& config,
+                                  const std::shared_ptr<const core::WallMap>& map, double scale) {
   core::LocalizerConfig localizer = config.localizer();
   localizer.calibrate_online = true;
   localizer.forget_bias = false;
-  core::Pipeline pipeline(settings::load_map(config.map), localizer);
+  localizer.bias.range_scale += scale;
+  core::Pipeline pipeline(map, localizer);
   Playback playback(pipeline, [](const core::Scan&, const core::ScanResult&) {});
   for (const std::filesystem::path& file : options.files) {
     pipeline.localizer().relocalize();
     playback.play(file, {parse_wire(options.wire), config.lidar.mount.inverted});
   }
-  const core::EstimatedBias estimated = pipeline.localizer().estimated_bias();
+  return pipeline.localizer().estimated_bias();
+}
+
+void calibrate_bias(const CalibrateBiasOptions& options) {
+  const settings::Config config = options.settings.resolve(/*needs_map=*/true);
+  CommandFiles files{.read = options.files, .written = {}, .output = options.output};
+  files.read.insert(files.read.end(), {options.settings.config_file(), config.map});
+  guard_files(files);
+  const auto map = settings::load_map(config.map);
+  core::EstimatedBias estimated;
+  for (const double scale : kScaleStarts) {
+    estimated = estimate_bias(options, config, map, scale);
+    if (estimated.scans >= kMinBiasScans) break;
+  }
+  const double scale_change = estimated.bias.range_scale - config.lidar.bias.range_scale;
   if (estimated.scans < kMinBiasScans) {
     throw Failure(
         "only " + std::to_string(estimated.scans) +
         " scans were localized with the lidar at rest: record some seconds each at "
         "several places; where replay does not localize them, check that the map is to scale");
   }
-  if (estimated.is_limited) {
+  if (estimated.is_limited || std::abs(scale_change) > kMaxScaleChange) {
     throw Failure("the bias exceeds its limits: check that the map is to scale");
   }
   Output report = Output::report_beside(options.output);

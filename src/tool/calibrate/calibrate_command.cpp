@@ -217,6 +217,7 @@ void add_calibrate(Command& program) {
   group.require_subcommand();
   add_noise(group);
   add_calibrate_bias(group);
+  add_calibrate_mount(group);
   add_calibrate_odometry(group);
 }
 

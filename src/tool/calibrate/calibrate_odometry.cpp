@@ -13,7 +13,6 @@
 #include "calibration/drive_reckoning.hpp"
 #include "calibration/factor_search.hpp"
 #include "calibration/odometry_fit.hpp"
-#include "calibration/wiring_faults.hpp"
 #include "settings/map_file.hpp"
 #include "tool/calibrate/calibration_drive.hpp"
 #include "tool/calibrate/drive_fit.hpp"
@@ -195,11 +194,6 @@ void calibrate_odometry(const CalibrateOdometryOptions& options) {
       formatted("\nLeast squares over %zu windows of a second, as shares:\n", fit.windows));
   report.write(describe_estimate(fit));
   report.write(describe_delay(fit));
-  if (std::abs(fit.learned.track_scale) >= calibration::kMaxFittedScale) {
-    const auto track_m =
-        calibration::apparent_track_m(calibration::cut_windows(steps, drive.places));
-    if (track_m) report.write(formatted("  its rotations match a track of %.3g m\n", *track_m));
-  }
   report.flush();
   if (plot) {
     plot->write(draw_dead_reckoning(drive, steps, config, fit, filtered));

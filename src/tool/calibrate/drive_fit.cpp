@@ -7,8 +7,9 @@
 #include <vector>
 
 #include "calibration/delay_search.hpp"
-#include "calibration/wiring_faults.hpp"
-#include "tool/calibrate/wiring_fault_text.hpp"
+#include "calibration/drive_fault_text.hpp"
+#include "calibration/motion_window.hpp"
+#include "settings/odometry_names.hpp"
 #include "tool/command_line/failure.hpp"
 #include "tool/drawing/text_table.hpp"
 
@@ -81,10 +82,12 @@ class DriveFitter {
                     calibration::kMaxDelay_s, search_.delay_s > 0 ? "late" : "early"));
     }
     deskew(drive, search_.delay_s);
-    const auto windows =
-        calibration::cut_windows(calibration::at_true_times(steps, search_.delay_s), drive.places);
-    const core::DriveGeometry& geometry = config_.odometry.core.geometry;
-    return describe_faults(calibration::find_wiring_faults(windows, geometry), config_.odometry);
+    calibration::OdometryNames names = settings::odometry_names(config_);
+    if (truth_ != nullptr) names.T_base_lidar = {};
+    const auto windows = calibration::motion_windows(
+        calibration::at_true_times(steps, search_.delay_s), drive.places, names.T_base_lidar);
+    return calibration::describe(
+        calibration::find_drive_faults(windows, names.T_base_lidar, names.geometry), names);
   }
 
   /// Localizes again if the scans were deskewed by readings with a wrong delay.

@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: MIT
 #include "tool/command_line/command.hpp"
 
+#include <csignal>
 #include <cstdint>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
+#include <memory>
 #include <optional>
+#include <sstream>
+#include <string>
+#include <utility>
 
 #include <CLI/CLI.hpp>
 
@@ -138,6 +143,51 @@ void Command::add_renamed(const std::string& old_name, const std::string& new_na
 
 void Command::callback(const std::function<void()>& run) { app_->callback(run); }
 
+namespace {
+
+/// CLI11's help, wrapped at 80 columns. Continued lines keep the column of their description.
+class WrappedHelp : public CLI::Formatter {
+ public:
+  std::string make_help(const CLI::App* app, std::string name,
+                        CLI::AppFormatMode mode) const override {
+    std::istringstream lines(CLI::Formatter::make_help(app, std::move(name), mode));
+    std::string wrapped;
+    for (std::string line; std::getline(lines, line);) wrapped += wrap(line);
+    return wrapped;
+  }
+
+ private:
+  static constexpr std::size_t kWidth = 80;
+
+  static std::string wrap(std::string line) {
+    // Where the description begins: after the name, or after the spaces of a continued line.
+    const std::size_t name = line.find_first_not_of(' ');
+    std::size_t column = name == std::string::npos ? 0 : name;
+    if (const std::size_t gap = line.find("  ", column); gap != std::string::npos) {
+      column = line.find_first_not_of(' ', gap);
+    }
+    std::string wrapped;
+    while (line.size() > kWidth && column < kWidth / 2) {
+      const std::size_t space = line.rfind(' ', kWidth);
+      if (space == std::string::npos || space <= column) break;
+      wrapped += line.substr(0, space) + '\n';
+      line = std::string(column, ' ') + line.substr(space + 1);
+    }
+    return wrapped + line + '\n';
+  }
+};
+
+/// "noise, bias, odometry"; old names, which have no group, are left out.
+std::string names_of_subcommands(const CLI::App& group) {
+  std::string names;
+  for (const CLI::App* one : group.get_subcommands([](const CLI::App*) { return true; })) {
+    if (!one->get_group().empty()) names += (names.empty() ? "" : ", ") + one->get_name();
+  }
+  return names + "\n";
+}
+
+}  // namespace
+
 int run_program(const std::string& name, const std::string& summary,
                 const std::function<void(Command& program)>& add, int argc,
                 const char* const* argv) {
@@ -145,10 +195,19 @@ int run_program(const std::string& name, const std::string& summary,
     std::fprintf(stderr, "%s: %s\n", name.c_str(), text);
     return exit_code;
   };
+  // A write beyond a limit of file sizes fails with a message.
+  std::signal(SIGXFSZ, SIG_IGN);
   CLI::App app(name + ": " + summary, name);
+  app.formatter(std::make_shared<WrappedHelp>());
   app.set_version_flag("--version", name + " " CORNERD_VERSION);
   app.fallthrough();
   app.failure_message([&](const CLI::App* parsed, const CLI::Error& error) {
+    const CLI::App* command = parsed;
+    while (!command->get_subcommands().empty()) command = command->get_subcommands().front();
+    // CLI11's own words do not name the choices.
+    if (command != parsed && command->get_require_subcommand_min() > 0) {
+      return name + ": " + command->get_name() + " needs one of: " + names_of_subcommands(*command);
+    }
     return name + ": " + CLI::FailureMessage::simple(parsed, error);
   });
   Command program(app);

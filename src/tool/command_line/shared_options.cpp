@@ -3,12 +3,15 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <fstream>
 #include <optional>
 #include <sstream>
 #include <string_view>
 
+#include "message/field_reader.hpp"
 #include "settings/document.hpp"
 #include "settings/object_reader.hpp"
 #include "tool/command_line/command.hpp"
@@ -37,7 +40,32 @@ std::vector<double> parse_numbers(std::string_view text, std::size_t count) {
   return {};
 }
 
+/// The words of a process's command line.
+std::vector<std::string> words_of(const std::filesystem::path& process) {
+  std::ifstream stream(process / "cmdline", std::ios::binary);
+  std::vector<std::string> words;
+  for (std::string word; std::getline(stream, word, '\0');) words.push_back(word);
+  return words;
+}
+
 }  // namespace
+
+std::filesystem::path running_config(const std::filesystem::path& processes) {
+  std::filesystem::path found;
+  std::error_code ended;
+  for (const auto& process : std::filesystem::directory_iterator(processes, ended)) {
+    const std::vector<std::string> words = words_of(process.path());
+    if (words.empty() || std::filesystem::path(words.front()).filename() != "cornerd") continue;
+    const auto option = std::find(words.begin(), words.end(), "--config");
+    if (option == words.end() || option + 1 == words.end()) continue;
+    const auto folder = std::filesystem::read_symlink(process.path() / "cwd", ended);
+    const std::filesystem::path config = (folder / option[1]).lexically_normal();
+    if (::access(config.c_str(), R_OK) != 0 || config == found) continue;
+    if (!found.empty()) return {};
+    found = config;
+  }
+  return found;
+}
 
 void SettingsOptions::add_config(Command& command) {
   command.add_option("--config", config_, "config file; default: every key has its default")
@@ -55,7 +83,8 @@ void SettingsOptions::add_map(Command& command) {
       .type_name("FILE");
 }
 
-void SettingsOptions::use_installed_config() {
+void SettingsOptions::use_daemons_config() {
+  if (config_.empty()) config_ = running_config("/proc");
   if (config_.empty() && ::access(kInstalledConfig, R_OK) == 0) config_ = kInstalledConfig;
 }
 
@@ -117,6 +146,9 @@ core::Pose2 parse_pose(const std::string& text) {
   const std::vector<double> numbers = parse_numbers(text, 3);
   if (numbers.empty()) {
     throw UsageError("'" + text + "' is no pose: x,y,theta in metres and radians");
+  }
+  if (std::abs(numbers[2]) > message::kAngleLimitsRad.high) {
+    throw UsageError("'" + text + "': theta is in radians, and 90 degrees are 1.5708");
   }
   return {numbers[0], numbers[1], core::normalize_angle(numbers[2])};
 }

@@ -25,8 +25,15 @@ class SettingsOptions {
   /// settings::SettingsError; UsageError if a map is needed and none is named.
   settings::Config resolve(bool needs_map) const;
 
-  /// Without --config: the service's config file, if it is readable.
-  void use_installed_config();
+  /// Without --config: the config of the daemon that runs, if it is the only one, or that of the
+  /// service, if it is readable.
+  void use_daemons_config();
+  /// The config after use_daemons_config(), for a command that needs the daemon's sockets alone.
+  settings::Config resolve_for_daemon() const {
+    SettingsOptions options = *this;
+    options.use_daemons_config();
+    return options.resolve(/*needs_map=*/false);
+  }
   const std::filesystem::path& config_file() const { return config_; }
   /// The values of --set, in the format of settings::parse_config.
   const std::vector<std::string>& set() const { return set_; }
@@ -40,6 +47,10 @@ class SettingsOptions {
   std::vector<std::string> overrides_;
   std::vector<std::string> set_;
 };
+
+/// The config of the only cornerd that runs with --config; empty where there is none or several.
+/// `processes`: "/proc", which tests replace.
+std::filesystem::path running_config(const std::filesystem::path& processes);
 
 /// --wire standard|express|...|auto, for bytes that begin without a response descriptor.
 void add_wire_option(Command& command, std::string& wire);

@@ -13,6 +13,8 @@ namespace {
 
 /// Line noise damages fewer bytes than this.
 constexpr double kMaxSkippedShare = 0.01;
+/// Less than two seconds of an A1 tells nothing of the line.
+constexpr double kMinBytes = 8000;
 constexpr std::string_view kDoctorAdvice = ". `sudo cornerctl doctor`";
 
 std::vector<Finding> unreachable(const Patient& patient) {
@@ -71,7 +73,7 @@ Finding lidar_finding(const message::ParsedStatus& status) {
 void add_line_quality(const message::ParsedStatus& status, std::vector<Finding>& findings) {
   const auto bytes = static_cast<double>(status.counter("bytes"));
   const double share = bytes > 0 ? static_cast<double>(status.counter("skipped_bytes")) / bytes : 0;
-  if (share <= kMaxSkippedShare) return;
+  if (bytes < kMinBytes || share <= kMaxSkippedShare) return;
   findings.push_back(
       {Verdict::kNote,
        "line",
@@ -121,10 +123,11 @@ void add_hint(const message::ParsedStatus& status, std::vector<Finding>& finding
 void add_fault(const message::ParsedStatus& status, std::vector<Finding>& findings) {
   if (status.faults.empty()) return;
   const std::string& fault = status.faults.front();
-  if (fault == "map-mismatch") findings.push_back({Verdict::kWrong, "map", status.hint, {}});
-  if (fault == "odometry-unhealthy") {
-    findings.push_back({Verdict::kWrong, "odometry", status.hint, {}});
-  }
+  if (fault == status.lidar_fault || status.hint == status.odometry_hint) return;
+  const char* subject = fault.starts_with("map")     ? "map"
+                        : fault.starts_with("mount") ? "mount"
+                                                     : "odometry";
+  findings.push_back({Verdict::kWrong, subject, status.hint, {}});
 }
 
 }  // namespace

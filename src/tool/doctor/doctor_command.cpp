@@ -35,7 +35,7 @@ Account caller_account(const Machine& machine) {
 }
 
 void diagnose(SettingsOptions& options) {
-  options.use_installed_config();
+  options.use_daemons_config();
   SettingsCheck settings = check_settings(options.config_file(), options.set());
   Patient patient;
   patient.config = settings.config;

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: MIT
+#include <array>
+#include <cstdint>
 #include <numeric>
+#include <string>
 
 #include "message/line_writer.hpp"
 #include "tool/doctor/checks.hpp"
@@ -8,19 +11,35 @@ namespace cornerd::tool {
 
 namespace {
 
-std::uint64_t poses_in(const DaemonView& daemon, core::PoseState state) {
-  return daemon.poses[static_cast<std::size_t>(state)];
+std::uint64_t poses_in(const std::array<std::uint64_t, 5>& poses, core::PoseState state) {
+  return poses[static_cast<std::size_t>(state)];
 }
 
+using Poses = decltype(DaemonView::poses);
+
 /// "6 fix, 2 lost"
-std::string describe_poses(const DaemonView& daemon) {
+std::string describe_poses(const Poses& poses) {
   std::string text;
-  for (std::size_t i = 0; i < daemon.poses.size(); ++i) {
-    if (daemon.poses[i] == 0) continue;
-    text += (text.empty() ? "" : ", ") + std::to_string(daemon.poses[i]) + ' ' +
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    if (poses[i] == 0) continue;
+    text += (text.empty() ? "" : ", ") + std::to_string(poses[i]) + ' ' +
             std::string(message::to_string(static_cast<core::PoseState>(i)));
   }
   return text;
+}
+
+/// Of the scans since the daemon's start.
+Poses poses_of_run(const message::ParsedStatus& status) {
+  Poses poses{};
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    poses[i] =
+        status.counter("poses_" + std::string(message::to_string(static_cast<core::PoseState>(i))));
+  }
+  return poses;
+}
+
+std::uint64_t count_of(const Poses& poses) {
+  return std::accumulate(poses.begin(), poses.end(), std::uint64_t{0});
 }
 
 }  // namespace
@@ -28,17 +47,20 @@ std::string describe_poses(const DaemonView& daemon) {
 std::vector<Finding> check_poses(const Patient& patient) {
   const DaemonView& daemon = patient.daemon;
   if (!daemon.status || daemon.status->lidar_state != "running") return {};
-  const std::uint64_t all =
-      std::accumulate(daemon.poses.begin(), daemon.poses.end(), std::uint64_t{0});
-  if (all == 0) {
+  if (count_of(daemon.poses) == 0) {
     return {{Verdict::kWrong,
              "poses",
              "none came, although the lidar runs",
              {"try again in a few seconds: the first scan may not be complete"}}};
   }
-  const std::string what = "of the last scans: " + describe_poses(daemon);
-  const std::uint64_t lost = poses_in(daemon, core::PoseState::kLost);
-  const std::uint64_t ambiguous = poses_in(daemon, core::PoseState::kAmbiguous);
+  // Two seconds of scans may all be of one bad place, or of one good one.
+  const Poses run = poses_of_run(*daemon.status);
+  const Poses& judged = count_of(run) > count_of(daemon.poses) ? run : daemon.poses;
+  const std::string what = "of the last scans: " + describe_poses(daemon.poses) +
+                           (count_of(run) > 0 ? "; since the start: " + describe_poses(run) : "");
+  const std::uint64_t all = count_of(judged);
+  const std::uint64_t lost = poses_in(judged, core::PoseState::kLost);
+  const std::uint64_t ambiguous = poses_in(judged, core::PoseState::kAmbiguous);
   if (2 * (lost + ambiguous) <= all) return {{Verdict::kGood, "poses", what}};
   if (ambiguous > lost) {
     return {{Verdict::kWrong,

@@ -31,6 +31,14 @@ Process describe_process(const Machine& machine, int pid) {
   return {pid, machine.read_line("/proc/" + std::to_string(pid) + "/comm")};
 }
 
+/// A process that has ended, and waits for its parent to ask for its exit code.
+bool is_zombie(const Machine& machine, int pid) {
+  const std::string stat = machine.read_line("/proc/" + std::to_string(pid) + "/stat");
+  // "12 (name) Z 1 ...": the name may have any characters.
+  const std::size_t end = stat.rfind(')');
+  return end != std::string::npos && stat.size() > end + 2 && stat[end + 2] == 'Z';
+}
+
 bool has_open(const Machine& machine, const std::filesystem::path& files,
               const std::string& device) {
   const std::vector<std::string> names = machine.list(files);
@@ -50,7 +58,7 @@ void add_once(std::vector<Process>& processes, Process process) {
 std::optional<Process> find_process(const Machine& machine, std::string_view name) {
   for (const int pid : process_ids(machine)) {
     Process process = describe_process(machine, pid);
-    if (process.name == name) return process;
+    if (process.name == name && !is_zombie(machine, pid)) return process;
   }
   return std::nullopt;
 }

@@ -23,7 +23,7 @@ void monitor(MonitorOptions& options) {
   if (terminal_is_dumb()) {
     throw Failure("monitor: TERM=dumb has no cursor control; use cornerctl watch");
   }
-  options.settings.use_installed_config();
+  options.settings.use_daemons_config();
   const settings::Config config = options.settings.resolve(/*needs_map=*/false);
   std::shared_ptr<const core::WallMap> map;
   if (!config.map.empty()) map = settings::load_map(config.map);

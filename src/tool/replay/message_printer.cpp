@@ -3,15 +3,17 @@
 
 #include <array>
 
+#include "calibration/drive_fault_text.hpp"
 #include "drivers/lidar_status.hpp"
+#include "settings/odometry_names.hpp"
 
 namespace cornerd::tool {
 
 using message::MessageClass;
 
 MessagePrinter::MessagePrinter(Output& output, message::ClassSet classes,
-                               const core::FloorPlan* plan)
-    : output_(output), classes_(classes), plan_(plan) {
+                               const core::FloorPlan* plan, const settings::Config* config)
+    : config_(config), output_(output), classes_(classes), plan_(plan) {
   if (classes_.contains(MessageClass::kVersion)) {
     output_.write(writer_.version("cornerctl", CORNERD_VERSION));
   }
@@ -20,11 +22,19 @@ MessagePrinter::MessagePrinter(Output& output, message::ClassSet classes,
 
 void MessagePrinter::print_scan(const core::Scan& scan, const core::ScanResult& result) {
   odometry_ = result.odometry;
+  if (drive_ && core::has_pose(result.pose.state)) {
+    drive_->add(result.pose.t_ns, result.pose.T_map_base);
+  }
   if (classes_.contains(MessageClass::kScan)) output_.write(writer_.scan(scan));
   if (classes_.contains(MessageClass::kBreakpoints)) {
     output_.write(writer_.breakpoints(scan.start_ns(), result.detection));
   }
   print_pose(result.pose);
+}
+
+void MessagePrinter::note(const core::OdometryReading& reading) {
+  odometry_lines_.add(reading);
+  if (drive_) drive_->add(reading);
 }
 
 void MessagePrinter::print_pose(const core::PoseEstimate& pose) {
@@ -39,6 +49,10 @@ void MessagePrinter::begin_recording() {
   last_status_.reset();
   odometry_ = {};
   odometry_lines_ = {};
+  drive_.reset();
+  if (config_ != nullptr && config_->odometry.core.enabled) {
+    drive_.emplace(config_->odometry.core, config_->localizer().T_base_lidar);
+  }
 }
 
 void MessagePrinter::print_status_when_due(core::TimeNs t_ns,
@@ -67,6 +81,14 @@ void MessagePrinter::print_status(core::TimeNs t_ns, const drivers::StreamCounte
   if (status.odometry_hint.empty() && plan_ == nullptr) {
     status.odometry_hint = "no calibration without a map: name one with --map";
   }
+  std::vector<std::string_view> faults;
+  std::string hint;
+  if (drive_) {
+    faults = calibration::names_of(drive_->faults());
+    hint = calibration::describe(drive_->faults(), settings::odometry_names(*config_));
+  }
+  status.faults = faults;
+  status.hint = hint;
   if (last_status_ && t_ns > last_status_->t_ns) {
     const double elapsed_s = core::to_seconds(t_ns - last_status_->t_ns);
     const auto rate = [&](std::uint64_t now, std::uint64_t then) {

@@ -3,12 +3,14 @@
 
 #include <optional>
 
+#include "calibration/drive_monitor.hpp"
 #include "core/scan.hpp"
 #include "core/scan_result.hpp"
 #include "drivers/lidar_driver.hpp"
 #include "message/line_writer.hpp"
 #include "message/odometry_input_monitor.hpp"
 #include "message/request.hpp"
+#include "settings/config.hpp"
 #include "tool/command_line/output.hpp"
 
 namespace cornerd::tool {
@@ -17,12 +19,13 @@ namespace cornerd::tool {
 class MessagePrinter {
  public:
   /// `plan`: names the rooms; null: there is no map.
-  MessagePrinter(Output& output, message::ClassSet classes, const core::FloorPlan* plan);
+  MessagePrinter(Output& output, message::ClassSet classes, const core::FloorPlan* plan,
+                 const settings::Config* config = nullptr);
 
   void print_scan(const core::Scan& scan, const core::ScanResult& result);
 
   /// Counts odometry lines, for the hint in STATUS.
-  void note(const core::OdometryReading& reading) { odometry_lines_.add(reading); }
+  void note(const core::OdometryReading& reading);
 
   void print_odom(const core::OdometryPose& pose);
 
@@ -44,6 +47,7 @@ class MessagePrinter {
     drivers::StreamCounters counters;
   };
 
+  const settings::Config* config_;  ///< of the odometry; null: there is none
   Output& output_;
   message::ClassSet classes_;
   const core::FloorPlan* plan_;
@@ -51,6 +55,7 @@ class MessagePrinter {
   std::optional<Mark> last_status_;
   core::OdometrySummary odometry_;  ///< as of the last scan
   message::OdometryInputMonitor odometry_lines_;
+  std::optional<calibration::DriveMonitor> drive_;  ///< where there is odometry
 };
 
 }  // namespace cornerd::tool

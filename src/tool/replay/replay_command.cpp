@@ -52,7 +52,7 @@ void replay(const ReplayOptions& options) {
   if (!options.truth.empty()) truth = Truth::load(options.truth);
 
   Output output(/*flush_each=*/speed.has_value());
-  MessagePrinter printer(output, classes, map ? &map->plan() : nullptr);
+  MessagePrinter printer(output, classes, map ? &map->plan() : nullptr, &config);
   core::LocalizerConfig localizer = config.localizer();
   if (options.independent) localizer.search_nodes_per_scan = core::kWholeSearch;
   core::Pipeline pipeline(map, localizer);

@@ -23,6 +23,8 @@
 #include "tool/command_line/shared_options.hpp"
 #include "tool/command_line/stop_signal.hpp"
 #include "tool/commands.hpp"
+#include "tool/simulate/odometry_feed.hpp"
+#include "tool/simulate/odometry_options.hpp"
 #include "tool/simulate/simulation_options.hpp"
 
 namespace cornerd::tool {
@@ -39,6 +41,7 @@ struct EmulateOptions {
   double spin_up_s = 0;
   std::filesystem::path link;
   std::filesystem::path truth;
+  OdometryOptions odometry;
 };
 
 /// A scene, and the motion in it where there is one.
@@ -50,11 +53,15 @@ struct World {
 World make_world(const EmulateOptions& options, const settings::Config& config) {
   if (!options.recording.empty()) {
     if (!options.truth.empty()) throw UsageError("--truth: not available for a recording");
+    if (options.odometry.enabled) throw UsageError("--odometry: not available for a recording");
     if (options.simulation.changes_map()) {
       throw UsageError("--map-error and --clutter: not available for a recording; give --map");
     }
     const replay::RecordingOptions how{parse_wire(options.wire), config.lidar.mount.inverted};
     return {std::make_unique<replay::RecordedScene>(options.recording, how), {}};
+  }
+  if (options.simulation.places > 0 && options.odometry.enabled) {
+    throw UsageError("--odometry: not available with --places: the robot must drive or stand");
   }
   if (options.simulation.places > 0 && !options.truth.empty()) {
     throw UsageError("--truth: not available with --places: the robot jumps between scans");
@@ -96,12 +103,18 @@ void emulate(EmulateOptions options) {
   emulator.expect_speed(model.baud);
 
   std::optional<replay::TruthWriter> truth;
-  if (!options.truth.empty()) {
-    truth.emplace(options.truth);
-    emulator.set_on_time([&](core::TimeNs t_ns, core::TimeNs unix_ns) {
-      truth->add(unix_ns, world.motion(t_ns, 0));
-    });
+  if (!options.truth.empty()) truth.emplace(options.truth);
+  std::optional<OdometryFeed> odometry;
+  if (const auto robot = options.odometry.robot(config.odometry)) {
+    odometry.emplace(config.socket.control,
+                     replay::SimulatedOdometry(world.motion, *robot, simulator.seed));
   }
+  emulator.set_on_time([&](core::TimeNs t_ns, core::TimeNs unix_ns) {
+    if (odometry) odometry->send_until(t_ns, unix_ns);
+    if (!truth) return;
+    truth->add(unix_ns, world.motion(t_ns, 0));
+    truth->flush();  // so that it can be compared while it is written
+  });
 
   // Before the path is printed: its reader may send a signal at once.
   const StopSignal stop_signal;
@@ -114,7 +127,6 @@ void emulate(EmulateOptions options) {
   Output output(/*flush_each=*/true);
   output.write((options.link.empty() ? emulator.path() : options.link).string() + "\n");
   emulator.run(stop.get_token());
-  if (truth) truth->flush();
 }
 
 }  // namespace
@@ -139,6 +151,7 @@ void add_emulate(Command& program) {
       .within(0, 3600);
   command.add_option("--link", options->link, "a symbolic link to the pseudo-terminal")
       .type_name("PATH");
+  options->odometry.add_to(command);
   command.add_option("--truth", options->truth, "write the true poses, in UNIX time")
       .type_name("FILE");
   command.callback([options] { emulate(*options); });

@@ -22,7 +22,8 @@ core::Vec2 parse_pair(const std::string& text, const char* option) {
 void OdometryOptions::add_to(Command& command) {
   command.add_flag(
       "--odometry", enabled,
-      "add ODOMETRY lines with the geometry of the config (odometry.wheel_radius ...)");
+      "ODOMETRY lines with the geometry of the config (odometry.wheel_radius ...), in the "
+      "recording, or to the control socket of the config");
   command.add_option("--odometry-rate", model.rate_hz, "rate of the readings (Hz)")
       .within(1, 1000)
       .capture_default_str();

@@ -59,7 +59,7 @@ void ask(const std::filesystem::path& socket, const std::string& request, Take&&
 }
 
 void show_status(const RequestOptions& options) {
-  const settings::Config config = options.settings.resolve(/*needs_map=*/false);
+  const settings::Config config = options.settings.resolve_for_daemon();
   std::string pose;
   std::string status;
   const auto keep = [&](std::string_view line, const message::ParsedLine& parsed) {
@@ -76,7 +76,7 @@ void show_status(const RequestOptions& options) {
 }
 
 void send_control(const RequestOptions& options, const std::string& request) {
-  const settings::Config config = options.settings.resolve(/*needs_map=*/false);
+  const settings::Config config = options.settings.resolve_for_daemon();
   ask(options.socket.empty() ? config.socket.control : options.socket, request,
       [](std::string_view, const message::ParsedLine&) {});
 }

@@ -42,8 +42,7 @@ std::string request_for(const std::vector<std::string>& classes) {
 void watch(const WatchOptions& options) {
   const std::string request = request_for(options.classes);
   const std::filesystem::path socket =
-      options.socket.empty() ? options.settings.resolve(/*needs_map=*/false).socket.pose
-                             : options.socket;
+      options.socket.empty() ? options.settings.resolve_for_daemon().socket.pose : options.socket;
   Output output(/*flush_each=*/true);
   client::Subscription daemon(socket, request, kLargestReconnectDelay);
   std::string_view line;

@@ -71,9 +71,25 @@ TEST(UnixListener, OutOfDescriptors_ClientDisconnected) {
 TEST(UnixListener, RemovedFile_Noticed) {
   const test::TemporaryFolder folder;
   const UnixListener listener(folder / "s", 0600);
-  EXPECT_TRUE(listener.file_exists());
+  EXPECT_EQ(listener.file(), UnixListener::File::kOwn);
   std::filesystem::remove(folder / "s");
-  EXPECT_FALSE(listener.file_exists());
+  EXPECT_EQ(listener.file(), UnixListener::File::kRemoved);
+}
+
+TEST(UnixListener, ReplacedFile_NoticedAndKept) {
+  const test::TemporaryFolder folder;
+  {
+    const UnixListener listener(folder / "s", 0600);
+    std::filesystem::rename(folder / "s", folder / "moved");
+    std::ofstream(folder / "s") << "precious";
+    EXPECT_EQ(listener.file(), UnixListener::File::kReplaced);
+  }
+  EXPECT_TRUE(std::filesystem::exists(folder / "s"));
+}
+
+TEST(UnixListener, FolderThatCannotBeMade_IsNamedWithItsReason) {
+  EXPECT_THAT(error_of("/proc/none/s"),
+              StartsWith("/proc/none: cannot create the socket's folder"));
 }
 
 TEST(UnixListener, SimultaneousStarts_OneListens) {
@@ -175,7 +191,7 @@ TEST(UnixListener, SocketOfAnotherUsersLiveInstance_LeftAlone) {
   EXPECT_THAT(
       error_of(folder / "s"),
       StartsWith((folder / "s").string() + ": another user's cornerd listens on this socket"));
-  EXPECT_TRUE(first.file_exists());
+  EXPECT_EQ(first.file(), UnixListener::File::kOwn);
 }
 
 TEST(UnixListener, UnremovableStaleFile_NamedInError) {
@@ -202,7 +218,7 @@ TEST(UnixListener, MissingFolder_Created) {
 
 TEST(UnixListener, InvalidPath_NamedInError) {
   EXPECT_THAT(error_of("/nowhere/at/all/s"),
-              StartsWith("/nowhere/at/all/s: cannot bind the socket: "));
+              StartsWith("/nowhere/at/all: cannot create the socket's folder: "));
   EXPECT_THAT(error_of("/tmp/" + std::string(200, 'x')), HasSubstr("too long for a socket"));
 }
 

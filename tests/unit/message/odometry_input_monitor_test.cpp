@@ -44,8 +44,27 @@ TEST_F(OdometryInputMonitorTest, MissingFields_NamedInHint) {
   add({0, 1, {}, {}});
   add({0, {}, 1, {}});
   EXPECT_THAT(hint(), HasSubstr("left or right: send both counts in one line"));
-  add({});
-  EXPECT_THAT(hint(), HasSubstr("lack left, right and gyro"));
+}
+
+TEST_F(OdometryInputMonitorTest, RefusedLines_CauseInHintAndCounted) {
+  summary_.present = true;  // as it still is when the client changes
+  add({0, 1, 1, {}}, 10);
+  for (const char* line : {R"({"class":"ODOMETRY","left":1.5,"right":2})",
+                           R"({"class":"ODOMETRY","left":"1","right":2})",
+                           R"({"class":"ODOMETRY","t":1795161601180,"left":1,"right":2})",
+                           R"({"class":"ODOMETRY"})", R"({"class":"ODOMETRY","gyro":NaN})"}) {
+    const Request request = parse_request(line);
+    const auto* error = std::get_if<RequestError>(&request.body);
+    ASSERT_NE(error, nullptr) << line;
+    for (int i = 0; i < 50; ++i) monitor_.refuse(*error);
+    EXPECT_THAT(hint(), HasSubstr("lines are refused: " + error->text)) << line;
+    EXPECT_TRUE(monitor_.are_refused());
+  }
+  for (const auto& [cause, count] : monitor_.refusals()) {
+    EXPECT_EQ(count, cause == FieldReader::kOther ? 0u : 50u) << cause;
+  }
+  add({0, 1, 1, {}});
+  EXPECT_THAT(hint(), IsEmpty());
 }
 
 TEST_F(OdometryInputMonitorTest, RejectedLines_CauseInHint) {

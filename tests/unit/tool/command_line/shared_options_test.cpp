@@ -3,6 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include "tests/temporary_folder.hpp"
 #include "tool/command_line/failure.hpp"
 #include "tool/replay/playback.hpp"
 
@@ -54,6 +60,28 @@ TEST(ParseWire, Names_GiveDriverAndFormat) {
   EXPECT_EQ(parse_wire("ld").driver, drivers::DriverKind::kLd);
   EXPECT_EQ(parse_wire("ydlidar").driver, drivers::DriverKind::kYdlidar);
   EXPECT_EQ(parse_wire("auto").driver, std::nullopt);
+}
+
+/// A process of a stand-in for /proc, with the words of its command line.
+void add_process(const test::TemporaryFolder& folder, const std::string& pid,
+                 const std::vector<std::string>& words) {
+  std::filesystem::create_directory(folder / pid);
+  std::filesystem::create_symlink(folder.path(), folder.path() / pid / "cwd");
+  std::ofstream stream(folder.path() / pid / "cmdline");
+  for (const std::string& word : words) stream << word << '\0';
+}
+
+TEST(RunningConfig, OnlyDaemon_GivesItsConfig) {
+  const test::TemporaryFolder folder;
+  std::ofstream(folder.path() / "a.json") << "{}";
+  std::ofstream(folder.path() / "b.json") << "{}";
+  EXPECT_EQ(running_config(folder.path()), "");
+  add_process(folder, "1", {"/sbin/init", "--config", "b.json"});
+  add_process(folder, "2", {"/usr/sbin/cornerd", "--config", "a.json"});
+  add_process(folder, "3", {"cornerd", "--version"});
+  EXPECT_EQ(running_config(folder.path()), folder.path() / "a.json");
+  add_process(folder, "4", {"cornerd", "--config", "b.json"});
+  EXPECT_EQ(running_config(folder.path()), "") << "two daemons";
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cerrno>
+#include <utility>
 
 #include "doctor/stand_in.hpp"
 #include "tool/doctor/checks.hpp"
@@ -60,9 +61,9 @@ TEST_F(CheckDaemon, AdviceToRunDoctor_IsOmitted) {
 }
 
 TEST_F(CheckDaemon, DamagedBytesAboveLimit_AreNoted) {
-  daemon().status->counters = {{"bytes", 1000}, {"skipped_bytes", 10}};
+  daemon().status->counters = {{"bytes", 10000}, {"skipped_bytes", 100}};
   EXPECT_THAT(check_daemon(stand_in_.patient), SizeIs(2));
-  daemon().status->counters = {{"bytes", 1000}, {"skipped_bytes", 25}};
+  daemon().status->counters = {{"bytes", 10000}, {"skipped_bytes", 250}};
   EXPECT_THAT(check_daemon(stand_in_.patient)[2], Finds(Verdict::kNote, "line", "2.5 %"));
 }
 
@@ -142,6 +143,46 @@ TEST_F(CheckDaemon, HalfOfPosesAreFixes_IsGood) {
               ElementsAre(Finds(Verdict::kGood, "poses", "5 fix, 2 ambiguous, 3 lost")));
   see(0, 0, 0);
   EXPECT_THAT(check_poses(stand_in_.patient), ElementsAre(Finds(Verdict::kWrong, "poses", "none")));
+}
+
+TEST_F(CheckDaemon, WholeRun_IsJudged) {
+  see(10, 0, 0);
+  daemon().status->counters = {{"poses_fix", 40}, {"poses_lost", 900}};
+  EXPECT_THAT(
+      check_poses(stand_in_.patient),
+      ElementsAre(Finds(Verdict::kWrong, "poses", "10 fix; since the start: 40 fix, 900 lost")));
+  see(1, 0, 9);
+  daemon().status->counters = {{"poses_fix", 900}, {"poses_lost", 40}};
+  EXPECT_THAT(check_poses(stand_in_.patient),
+              ElementsAre(Finds(Verdict::kGood, "poses", "900 fix")));
+}
+
+TEST_F(CheckDaemon, FaultsOfTheDaemon_AreQuotedWithTheirSubject) {
+  see(10, 0, 0);
+  for (const auto& [fault, subject] :
+       {std::pair("mount-theta", "mount"), {"wheels-swapped", "odometry"}, {"map-scale", "map"}}) {
+    daemon().status->faults = {fault};
+    daemon().status->hint = "so it is";
+    EXPECT_THAT(check_daemon(stand_in_.patient),
+                testing::Contains(Finds(Verdict::kWrong, subject, "so it is")));
+  }
+}
+
+TEST_F(CheckDaemon, ZombieOfADaemon_DoesNotRun) {
+  daemon().connect_errno = ENOENT;
+  stand_in_.write("/proc/12/comm", "cornerd\n");
+  stand_in_.write("/proc/12/stat", "12 (cornerd) S 1 12 12\n");
+  EXPECT_THAT(check_daemon(stand_in_.patient),
+              ElementsAre(Finds(Verdict::kWrong, "daemon", "cornerd runs (process 12)")));
+  stand_in_.write("/proc/12/stat", "12 (cornerd) Z 1 12 12\n");
+  EXPECT_THAT(check_daemon(stand_in_.patient),
+              ElementsAre(Finds(Verdict::kWrong, "daemon", "does not run")));
+}
+
+TEST_F(CheckDaemon, FewBytes_SayNothingOfTheLine) {
+  daemon().status->counters = {{"bytes", 2000}, {"skipped_bytes", 1000}};
+  EXPECT_THAT(check_daemon(stand_in_.patient),
+              testing::Not(testing::Contains(Finds(Verdict::kNote, "line", ""))));
 }
 
 TEST_F(CheckDaemon, LostAndAmbiguous_HaveDifferentRemedies) {

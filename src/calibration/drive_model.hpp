@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cmath>
+#include <span>
+
+#include <Eigen/Core>
+
+#include "calibration/motion_window.hpp"
+#include "core/geometry/pose2.hpp"
+
+namespace cornerd::calibration {
+
+/// A window's motion by wheels whose wiring a hypothesis supposes.
+struct WheelTravel {
+  double left_m = 0;
+  double right_m = 0;
+};
+
+/// What a hypothesis predicts, and which wheels it trusts.
+struct DriveModel {
+  double noise_track_m = 0;  ///< as configured: of the noise of rotations
+  double track_m = 0;
+  core::Pose2 T_base_lidar;  ///< prior
+  core::Pose2 mount_sigma;
+  bool trusts_left = true;
+  bool trusts_right = true;
+};
+
+/// Maximum of the posterior of mount and scales (Gauss-Newton in the EM algorithm: each
+/// residual is an inlier or one of the motions of any robot), with the logarithm of the evidence by
+/// Laplace's method.
+struct DriveFit {
+  core::Pose2 T_base_lidar;
+  core::Pose2 sigma;
+  double log_evidence = 0;
+};
+
+/// `travel`: of each window.
+DriveFit fit_drive_model(std::span<const MotionWindow> windows, std::span<const WheelTravel> travel,
+                         const DriveModel& model);
+
+/// Rotation by the gyro: rotation = share * gyro + rest * duration.
+struct GyroModel {
+  double share = 1;
+  double bias_sigma_rad_s = 0.05;
+  bool trusts_gyro = true;
+};
+
+struct GyroFit {
+  double share = 1;
+  double rest_rad_s = 0;
+  double log_evidence = 0;
+};
+
+/// `windows`: all with a gyro.
+GyroFit fit_gyro_model(std::span<const MotionWindow> windows, const GyroModel& model);
+
+}  // namespace cornerd::calibration

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+#include "calibration/drive_monitor.hpp"
+
+namespace cornerd::calibration {
+namespace {
+
+/// A minute of driving, so that a repair shows within one.
+constexpr std::size_t kMonitored = 60;
+/// Less tells of nothing; an evaluation takes 1 ms on a PC, and some ten on a BeagleBone.
+constexpr std::size_t kMinMonitored = 8;
+constexpr std::size_t kNewMonitored = 4;
+/// Exceeds the factor of any wrong unit.
+constexpr double kLimitFactor = 100;
+
+core::OdometryConfig widened(core::OdometryConfig config) {
+  config.limits.wheel_speed_m_s *= kLimitFactor;
+  config.limits.gyro_rad_s *= kLimitFactor;
+  config.conservative = false;
+  return config;
+}
+
+}  // namespace
+
+DriveMonitor::DriveMonitor(const core::OdometryConfig& config, const core::Pose2& T_base_lidar)
+    : config_(config), T_base_lidar_(T_base_lidar), gate_(widened(config)), windows_(kMonitored) {}
+
+void DriveMonitor::add(const core::OdometryReading& reading) {
+  if (const auto step = gate_.add(reading, std::nullopt)) windows_.add(*step);
+}
+
+void DriveMonitor::add(core::TimeNs t_ns, const core::Pose2& T_map_base) {
+  windows_.add(t_ns, T_map_base * T_base_lidar_);
+}
+
+const DriveFaults& DriveMonitor::faults() {
+  const std::size_t count = windows_.count();
+  if (count >= kMinMonitored && count >= evaluated_ + kNewMonitored) {
+    evaluated_ = count;
+    const std::vector<MotionWindow> windows(windows_.windows().begin(), windows_.windows().end());
+    faults_ = find_drive_faults(windows, T_base_lidar_, config_.geometry);
+  }
+  return faults_;
+}
+
+}  // namespace cornerd::calibration

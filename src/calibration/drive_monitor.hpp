@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <optional>
+
+#include "calibration/drive_faults.hpp"
+#include "calibration/motion_window.hpp"
+#include "core/odometry/odometry_reading.hpp"
+#include "core/odometry/reading_gate.hpp"
+
+namespace cornerd::calibration {
+
+/// Compares odometry with the lidar while a robot drives. Independent of the odometry filter, which
+/// rejects what it cannot use. Bounded memory; not for the real-time threads.
+class DriveMonitor {
+ public:
+  /// `config`: its limits are widened, as wrong units exceed them.
+  DriveMonitor(const core::OdometryConfig& config, const core::Pose2& T_base_lidar);
+
+  /// Both in the order of time, by one clock.
+  void add(const core::OdometryReading& reading);
+  void add(core::TimeNs t_ns, const core::Pose2& T_map_base);
+
+  /// From the newest windows; computed where there are some new ones.
+  const DriveFaults& faults();
+
+ private:
+  core::OdometryConfig config_;
+  core::Pose2 T_base_lidar_;
+  core::ReadingGate gate_;
+  MotionWindows windows_;
+  DriveFaults faults_;
+  std::size_t evaluated_ = 0;  ///< windows, at the last evaluation
+};
+
+}  // namespace cornerd::calibration

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+// The motion of a robot over about a second, by its lidar, its wheels and its gyro.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <deque>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "calibration/drive_window.hpp"
+#include "core/geometry/pose2.hpp"
+#include "core/odometry/odometry_increment.hpp"
+
+namespace cornerd::calibration {
+
+/// Sums over the scans of a window. With T_base_lidar = (x, y, theta), and no slip sideways:
+///     cos(theta) lidar.x - sin(theta) lidar.y + y sine = translation of the base
+///     sin(theta) lidar.x + cos(theta) lidar.y - x sine = 0
+/// They are the hand-eye relation A X = X B in the plane, each scan's turned by half of its
+/// rotation.
+struct MotionWindow {
+  /// Translation of the lidar from scan to scan, turned by minus half of the rotation; lidar frame.
+  core::Vec2 lidar_m = core::Vec2::Zero();
+  double sine = 0;          ///< 2 sin(rotation / 2), summed
+  double rotation_rad = 0;  ///< of the lidar, not wrapped
+  double left_m = 0;        ///< by the counts and the configured geometry
+  double right_m = 0;
+  double gyro_rad = 0;
+  bool has_gyro = true;
+  double duration_s = 0;
+
+  /// Adds the lidar's motion from one scan to the next.
+  void extend(const core::Pose2& T_from_to);
+  void extend(const core::OdometryIncrement& step);
+  /// By lidar or wheels.
+  bool has_motion() const;
+};
+
+/// Cuts windows from odometry increments and the lidar's poses, each in the order of time. A window
+/// with a gap in either is dropped. Keeps the newest windows in which the robot moved.
+class MotionWindows {
+ public:
+  explicit MotionWindows(std::size_t capacity) : capacity_(capacity) {}
+
+  void add(const core::OdometryIncrement& step);
+  void add(core::TimeNs t_ns, const core::Pose2& T_map_lidar);
+
+  const std::deque<MotionWindow>& windows() const { return windows_; }
+  /// How many there have been.
+  std::size_t count() const { return count_; }
+
+ private:
+  struct Pose {
+    core::TimeNs t_ns = 0;
+    core::Pose2 T_map_lidar;
+  };
+
+  void advance();
+  void extend_to(const Pose& pose);
+  void begin_at(const Pose& pose);
+
+  std::size_t capacity_;
+  std::deque<core::OdometryIncrement> steps_;  ///< that no window has yet
+  std::deque<Pose> poses_;                     ///< that wait for increments
+  std::optional<Pose> last_;                   ///< the window in progress ends here
+  core::TimeNs begin_ns_ = 0;
+  MotionWindow window_;
+  std::deque<MotionWindow> windows_;
+  std::size_t count_ = 0;
+};
+
+/// All windows of a recorded drive. `T_base_lidar`: of the config that gave the places.
+std::vector<MotionWindow> motion_windows(std::span<const core::OdometryIncrement> steps,
+                                         std::span<const KnownPose> places,
+                                         const core::Pose2& T_base_lidar);
+
+}  // namespace cornerd::calibration

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "command_run.hpp"
+#include "tool/command_line/failure.hpp"
+
+namespace cornerd::tool {
+namespace {
+
+TEST(CornerctlUsage, Help_WrapsAt80Columns) {
+  for (const std::vector<std::string>& command : {std::vector<std::string>{},
+                                                  {"simulate"},
+                                                  {"emulate"},
+                                                  {"replay"},
+                                                  {"calibrate", "noise"},
+                                                  {"calibrate", "mount"},
+                                                  {"map", "import"},
+                                                  {"survey"},
+                                                  {"doctor"}}) {
+    std::vector<std::string> words = command;
+    words.emplace_back("--help");
+    std::istringstream lines(CommandRun(words).out);
+    for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 80u) << line;
+  }
+}
+
+TEST(CornerctlUsage, GroupWithoutCommand_NamesItsCommands) {
+  const CommandRun run({"calibrate"});
+  EXPECT_EQ(run.exit_code, kExitUsage);
+  EXPECT_NE(run.err.find("noise, bias, mount, odometry"), std::string::npos) << run.err;
+}
+
+}  // namespace
+}  // namespace cornerd::tool
