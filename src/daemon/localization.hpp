@@ -76,7 +76,7 @@ class Localization {
     }
   }
   /// Calls `use` with each odometry reading that the localizer has taken, in the samples' time.
-  void take_odometry(const auto& use) {
+  void take_odometry_readings(const auto& use) {
     core::OdometryReading reading;
     while (taken_.pop(reading)) use(reading);
   }

@@ -34,13 +34,14 @@ struct Weights {
 };
 constexpr Weights kWeights;
 
-/// Least values of shares and logarithms' arguments: less is no more evidence. That of the rays was
-/// chosen after the fit, whose scans have about 75 and more (tests/soak, "laser covered").
+/// Least values of shares and logarithms' arguments: less is no more evidence.
 constexpr double kLeastUnexplained = 0.005;
 constexpr double kLeastWall_m = 0.3;
 constexpr double kLeastSegments = 3;
 constexpr double kLeastRatio = 2;
-constexpr double kLeastRays = 150;
+/// Few scans of the fit have less rays. Such are less evidence the fewer they are (chosen after the
+/// fit; tests/soak, "laser covered").
+constexpr double kRaysOfTheFit = 150;
 
 }  // namespace
 
@@ -71,7 +72,8 @@ double log_odds_of_place(const BeamStatistics& place, double wall_ends, const Sc
          w.unseen_share * unseen_share + w.root_view * std::sqrt(place.weakest_view_rad) +
          w.log_faces_ratio * log_of(place.faces_log_ratio, kLeastRatio) +
          w.log_wall_m * log_of(scan.wall_m, kLeastWall_m) +
-         w.log_segments * log_of(scan.segments, 1) + w.log_rays * log_of(rays, kLeastRays);
+         w.log_segments * log_of(scan.segments, 1) +
+         w.log_rays * (std::log(kRaysOfTheFit) + std::abs(std::log(rays / kRaysOfTheFit)));
 }
 
 }  // namespace cornerd::core

@@ -50,6 +50,15 @@ TEST_F(BeamModelTest, WrongPose_IsLessLikelyThanAnyPlace) {
             0);
 }
 
+TEST_F(BeamModelTest, ViewOfARoom_IsWideBothWays) {
+  const BeamStatistics found = statistics(source_.take(*map_, T_map_lidar_), *map_, T_map_lidar_);
+  EXPECT_EQ(found.unseen_faces, 0);
+  EXPECT_GT(found.weakest_view_rad, 1);
+  // With one of the four walls far behind its place.
+  const WallMap narrow(widened(-0.5));
+  EXPECT_EQ(statistics(source_.take(*map_, T_map_lidar_), narrow, T_map_lidar_).unseen_faces, 1);
+}
+
 TEST_F(BeamModelTest, DisplacedWall_CostsItsOffsetOnce) {
   const Scan scan = source_.take(*map_, T_map_lidar_);
   const double exact = statistics(scan, *map_, T_map_lidar_).log_likelihood;

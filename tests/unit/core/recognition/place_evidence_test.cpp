@@ -18,7 +18,7 @@ BeamStatistics most_walls_hit() {
   place.map_sigma_m = 0.01;
   place.faces = 9;
   place.faces_log_ratio = 60;
-  place.obstacles = 4;
+  place.weakest_view_rad = 1.2;
   place.obstacles_m = 0.8;
   return place;
 }
@@ -30,14 +30,14 @@ double log_odds(const BeamStatistics& place) { return log_odds_of_place(place, k
 
 TEST(PlaceEvidence, MostWallsHit_IsAFix) { EXPECT_GT(log_odds(most_walls_hit()), 11.5); }
 
-TEST(PlaceEvidence, HalfOfTheFaces_IsNone) {
+TEST(PlaceEvidence, HalfOfTheFaces_LeavesADoubtOfAPercent) {
   BeamStatistics place = most_walls_hit();
   place.faces /= 2;
   place.faces_log_ratio /= 2;
   place.hits = 165;
   place.shorts = 235;
   place.obstacles_m = 5;
-  EXPECT_LT(log_odds(place), 0);
+  EXPECT_LT(log_odds(place), std::log(99));
 }
 
 TEST(PlaceEvidence, RaysThroughWalls_SpeakAgainstThePlace) {
@@ -57,6 +57,12 @@ TEST(PlaceEvidence, WallsThatAreOff_AreLessEvidence) {
 
 TEST(PlaceEvidence, WallEnds_AreEvidence) {
   EXPECT_GT(log_odds_of_place(most_walls_hit(), 4, kScan), log_odds(most_walls_hit()) + 1);
+}
+
+TEST(PlaceEvidence, FacesInViewThatNoRayHits_SpeakAgainstThePlace) {
+  BeamStatistics place = most_walls_hit();
+  place.unseen_faces = 4;
+  EXPECT_LT(log_odds(place), log_odds(most_walls_hit()) - 3);
 }
 
 TEST(PlaceEvidence, EightRays_AreNoFix) {

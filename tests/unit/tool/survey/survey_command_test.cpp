@@ -254,7 +254,7 @@ TEST_F(SurveyCommandTest, InvalidMap_IsNotWritten) {
     EXPECT_FALSE(std::filesystem::exists(file("map.json")));
     EXPECT_FALSE(std::filesystem::exists(file("trajectory.ndjson")));
   };
-  expect({"--start", "9999.9,0,0"}, "coordinates must be from -10000 to 10000; nothing is written");
+  expect({"--start", "9999.9,0,0"}, "coordinates must be from -10000 to 10000 metres");
   expect({"--name", std::string(200, 'x')}, "/name: ");
 }
 
