@@ -79,7 +79,11 @@ Daemon::Daemon(Loaded loaded, MapLoader loader, std::unique_ptr<drivers::LidarDr
   loop_.add(tick_.fd(), EPOLLIN, [this](std::uint32_t) { on_tick(); });
   loop_.add(reloader_.event_fd(), EPOLLIN, [this](std::uint32_t) { on_loaded(); });
   loop_.add(localization_.event_fd(), EPOLLIN, [this](std::uint32_t) {
-    localization_.take_odometry_readings([this](const auto& reading) { status_.observe(reading); });
+    const core::TimeNs to_unix_ns = is_live_ ? unix_ns() - monotonic_ns() : 0;
+    localization_.take_odometry_readings([&](const core::OdometryReading& reading) {
+      status_.observe(reading);
+      scans_.publish(reading, to_unix_ns);
+    });
     localization_.take([this](const ScanReport& report) {
       scans_.publish(report);
       status_.observe(report);
