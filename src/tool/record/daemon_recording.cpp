@@ -86,7 +86,8 @@ void record_from_daemon(const std::filesystem::path& socket, const std::filesyst
   std::fprintf(stderr, "%s: %llu scans, %llu readings of wheels and gyro\n", file.c_str(),
                recorded.scans, recorded.readings);
   if (recorded.dropped > 0) {
-    std::fprintf(stderr, "cornerctl: %llu messages are missing: this program was too slow\n",
+    std::fprintf(stderr,
+                 "cornerctl: %llu messages are missing: the machine was too busy to read them\n",
                  recorded.dropped);
   }
 }
