@@ -1,4 +1,4 @@
-# Manual pages, made from the programs' --help. A cross build runs the programs in the emulator of its
+# Manual pages, made from the programs' --help, the full config and the protocol's README. A cross build runs the programs in the emulator of its
 # toolchain file, and makes no pages without one. Builds that are never installed have no pages.
 if(CORNERD_SANITIZE OR CORNERD_FUZZ)
   return()
@@ -16,7 +16,7 @@ function(cornerd_man_page page)
   string(REGEX REPLACE ".*\\." "" section ${page})
   add_custom_command(OUTPUT ${output}
     COMMAND ${PROJECT_SOURCE_DIR}/cmake/man_page ${output} ${PROJECT_VERSION} ${arg_COMMAND}
-    DEPENDS ${PROJECT_SOURCE_DIR}/cmake/man_page ${arg_DEPENDS}
+    DEPENDS ${PROJECT_SOURCE_DIR}/cmake/man_page ${PROJECT_SOURCE_DIR}/cmake/man/${page} ${arg_DEPENDS}
     VERBATIM)
   install(FILES ${output} DESTINATION ${CMAKE_INSTALL_MANDIR}/man${section})
   set(cornerd_pages ${cornerd_pages} ${output} PARENT_SCOPE)
@@ -33,6 +33,9 @@ cornerd_man_page(cornerd-mqtt.8 DEPENDS cornerd-mqtt
 cornerd_man_page(cornerctl.1 DEPENDS cornerctl
   COMMAND program ${CMAKE_CROSSCOMPILING_EMULATOR} $<TARGET_FILE:cornerctl>)
 cornerd_man_page(cornerd.json.5 DEPENDS ${PROJECT_SOURCE_DIR}/config/cornerd.full.json
-  COMMAND file ${PROJECT_SOURCE_DIR}/config/cornerd.full.json)
+  COMMAND settings ${PROJECT_SOURCE_DIR}/config/cornerd.full.json)
+cornerd_man_page(cornerd-protocol.7
+  DEPENDS ${PROJECT_SOURCE_DIR}/src/message/README.md ${PROJECT_SOURCE_DIR}/cmake/man/markdown.awk
+  COMMAND protocol ${PROJECT_SOURCE_DIR}/src/message/README.md)
 add_custom_target(man_pages ALL DEPENDS ${cornerd_pages})
 add_dependencies(installed man_pages)

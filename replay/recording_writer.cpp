@@ -53,8 +53,8 @@ void RecordingWriter::sent(core::TimeNs t_ns, std::span<const std::uint8_t> byte
   put(line_.serial(t_ns, message::LineWriter::Direction::kTx, bytes));
 }
 
-void RecordingWriter::odometry(const message::LineWriter::OdometryFields& odometry) {
-  if (has_lines_) put(line_.odometry(odometry));
+void RecordingWriter::odometry(const core::OdometryReading& reading) {
+  if (has_lines_) put(line_.odometry(reading));
 }
 
 void RecordingWriter::flush() { flush_or_fail(stream_, file_); }

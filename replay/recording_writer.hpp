@@ -24,7 +24,7 @@ class RecordingWriter {
   /// `t_ns`: arrival of the last byte.
   void received(core::TimeNs t_ns, std::span<const std::uint8_t> bytes);
   void sent(core::TimeNs t_ns, std::span<const std::uint8_t> bytes);
-  void odometry(const message::LineWriter::OdometryFields& odometry);
+  void odometry(const core::OdometryReading& reading);
   /// Writes buffered data to the file.
   void flush();
 

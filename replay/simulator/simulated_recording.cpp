@@ -91,9 +91,7 @@ class OdometryInputMonitor {
 
   void write_until(core::TimeNs t_ns) {
     while (odometry_ && odometry_->next_ns() <= t_ns) {
-      const core::OdometryReading reading = odometry_->next();
-      recording_.odometry({reading.t_ns, true, *reading.left, *reading.right,
-                           reading.gyro_rad_s.has_value(), reading.gyro_rad_s.value_or(0)});
+      recording_.odometry(odometry_->next());
     }
   }
 

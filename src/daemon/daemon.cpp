@@ -79,7 +79,10 @@ Daemon::Daemon(Loaded loaded, MapLoader loader, std::unique_ptr<drivers::LidarDr
   loop_.add(tick_.fd(), EPOLLIN, [this](std::uint32_t) { on_tick(); });
   loop_.add(reloader_.event_fd(), EPOLLIN, [this](std::uint32_t) { on_loaded(); });
   loop_.add(localization_.event_fd(), EPOLLIN, [this](std::uint32_t) {
-    localization_.take_odometry_readings([this](const auto& reading) { status_.observe(reading); });
+    localization_.take_odometry_readings([this](const core::OdometryReading& reading) {
+      status_.observe(reading);
+      scans_.publish(reading, is_live_ ? unix_ns() - monotonic_ns() : 0);
+    });
     localization_.take([this](const ScanReport& report) {
       scans_.publish(report);
       status_.observe(report);
@@ -291,10 +294,6 @@ void Daemon::on_watchdog() {
   watchdog_->acknowledge();
   // Reader and localizer must make progress too. A driver that waits for its device does.
   if (localization_.has_progressed()) notifier_.alive();
-}
-
-core::TimeNs Daemon::now_ns() const {
-  return is_live_ ? unix_ns() : scans_.end_of_newest_scan_ns();
 }
 
 }  // namespace cornerd::daemon

@@ -48,7 +48,7 @@ class Daemon {
   void open_sockets();
   void set_up_realtime();
   /// UNIX time live; the recording's time in a replay.
-  core::TimeNs now_ns() const;
+  core::TimeNs now_ns() const { return is_live_ ? unix_ns() : scans_.end_of_newest_scan_ns(); }
 
   settings::Config config_;
   const bool is_live_;

@@ -52,15 +52,15 @@ constexpr std::string_view kHelp =
     R"(cornerd: localizes a robot in a known map, from one scan of its lidar.
 
     cornerd --config FILE            run in the foreground; SIGTERM ends it
-    cornerd --config FILE --check    check the config and its map; print "ok" or the error
+    cornerd --config FILE --check    check config and map; print "ok" or errors
 
     --config FILE           the config, JSON with // comments
     --set /POINTER=VALUE    overrides one value of the config; may be repeated
     --check                 check only
     --help, --version
 
-Exit codes: 0 success; 1 failure, see standard error; 2 wrong usage; 78 invalid config or map, named
-by file, JSON pointer and reason.
+Exit codes: 0 success; 1 failure, see standard error; 2 wrong usage; 78 invalid
+config or map, named by file, JSON pointer and reason.
 )";
 
 Options parse_options(std::span<const char* const> arguments) {

@@ -161,9 +161,9 @@ void Localization::take_readings() {
 }
 
 void Localization::take(const core::OdometryReading& reading, std::optional<core::TimeNs> now_ns) {
+  taken_.push(reading);
   report(current_->pipeline->add(reading, now_ns));
   report(odometry_frame_.add(reading, now_ns, odometry_parameters_));
-  taken_.push(reading);
 }
 
 void Localization::report(const core::OdometryPose* pose) {

@@ -92,7 +92,7 @@ class Localization {
   void publish_predictions(bool every) {
     publishes_predictions_.store(every, std::memory_order_relaxed);
   }
-  /// Wake for each reading, since somebody watches ODOM.
+  /// Wake for each reading, since somebody watches ODOM or ODOMETRY.
   void hurry_odometry(bool every) { hurries_odometry_.store(every, std::memory_order_relaxed); }
   /// Calls `use` with each waiting pose in the frame `odom`, oldest first. Call it after take(),
   /// and ten times a second: they wake nobody unless hurry_odometry().

@@ -101,9 +101,15 @@ void ScanPublisher::publish_jump(const core::PoseEstimate& pose, std::uint64_t n
 
 void ScanPublisher::publish(const core::PoseEstimate& pose) { publish_pose(pose); }
 
+void ScanPublisher::publish(core::OdometryReading reading, core::TimeNs to_unix_ns) {
+  if (!server_.is_watched(MessageClass::kOdometry)) return;
+  reading.t_ns += to_unix_ns;
+  server_.publish(MessageClass::kOdometry, line_.odometry(reading));
+}
+
 void ScanPublisher::publish_odometry(Localization& localization) {
   const bool is_watched = server_.is_watched(MessageClass::kOdom);
-  localization.hurry_odometry(is_watched);
+  localization.hurry_odometry(is_watched || server_.is_watched(MessageClass::kOdometry));
   std::optional<core::OdometryPose> newest;
   localization.take_odometry([&](const core::OdometryPose& pose) {
     if (is_watched) return server_.publish(MessageClass::kOdom, line_.odom(pose));

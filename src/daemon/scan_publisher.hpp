@@ -18,7 +18,7 @@
 
 namespace cornerd::daemon {
 
-/// Publishes POSE, SCAN, BREAKPOINTS and EVENT from the results of scans, and ODOM.
+/// Publishes POSE, SCAN, BREAKPOINTS and EVENT from the results of scans, ODOM and ODOMETRY.
 class ScanPublisher {
  public:
   /// About 15 s of an A1.
@@ -42,6 +42,8 @@ class ScanPublisher {
   /// ODOM of what waits; where nobody watches, the newest alone, for POLL. Call it ten times a
   /// second.
   void publish_odometry(Localization& localization);
+  /// ODOMETRY of a reading, for recordings. `to_unix_ns`: added to its time.
+  void publish(core::OdometryReading reading, core::TimeNs to_unix_ns);
   /// A pose between two scans; it does not change the state.
   void publish(const core::PoseEstimate& pose);
 

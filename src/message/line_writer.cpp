@@ -186,14 +186,12 @@ std::string_view LineWriter::serial(core::TimeNs t_ns, Direction direction,
   return finish();
 }
 
-std::string_view LineWriter::odometry(const OdometryFields& odometry) {
+std::string_view LineWriter::odometry(const core::OdometryReading& reading) {
   begin("ODOMETRY");
-  json_.seconds("t", odometry.t_ns);
-  if (odometry.has_counts) {
-    json_.integer("left", odometry.left);
-    json_.integer("right", odometry.right);
-  }
-  if (odometry.has_gyro) json_.number("gyro", odometry.gyro_rad_s, 6);
+  json_.seconds("t", reading.t_ns);
+  if (reading.left) json_.integer("left", *reading.left);
+  if (reading.right) json_.integer("right", *reading.right);
+  if (reading.gyro_rad_s) json_.number("gyro", *reading.gyro_rad_s, 6);
   return finish();
 }
 

@@ -11,6 +11,7 @@
 #include "core/breakpoint/breakpoint.hpp"
 #include "core/latency_histogram.hpp"
 #include "core/odometry/odometry_frame.hpp"
+#include "core/odometry/odometry_reading.hpp"
 #include "core/odometry/odometry_summary.hpp"
 #include "core/pose_estimate.hpp"
 #include "message/json_text.hpp"
@@ -115,15 +116,7 @@ class LineWriter {
   enum class Direction : std::uint8_t { kRx, kTx };
   std::string_view serial(core::TimeNs t_ns, Direction direction,
                           std::span<const std::uint8_t> bytes);
-  struct OdometryFields {
-    core::TimeNs t_ns = 0;
-    bool has_counts = false;
-    std::int64_t left = 0;
-    std::int64_t right = 0;
-    bool has_gyro = false;
-    double gyro_rad_s = 0;
-  };
-  std::string_view odometry(const OdometryFields& odometry);
+  std::string_view odometry(const core::OdometryReading& reading);
   std::string_view odom(const core::OdometryPose& pose);
   /// A line of a --truth file.
   std::string_view truth(core::TimeNs t_ns, const core::Pose2& T_map_base);

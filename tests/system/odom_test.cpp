@@ -49,6 +49,28 @@ TEST_F(Odom, WithoutLidar_FollowsTheWheels) {
   EXPECT_EQ(next_of(client, "OK")["request"], "POLL");
 }
 
+TEST_F(Odom, Odometry_CanBeWatchedForARecording) {
+  const DaemonProcess daemon =
+      start({"/lidar/driver=rplidar", "/lidar/device=" + (folder_ / "absent").string(),
+             "/odometry/source=socket"});
+  TestClient client = connect();
+  client.send(R"({"class":"WATCH","classes":["ODOMETRY"]})"
+              "\n");
+  const std::jthread robot = rolling_robot();
+  double t_s = 0;
+  int left = -1;
+  for (int i = 0; i < 20; ++i) {
+    const json reading = next_of(client, "ODOMETRY");
+    ASSERT_TRUE(reading.is_object()) << daemon.output();
+    EXPECT_GT(reading["t"].get<double>(), t_s);
+    EXPECT_GT(reading["left"].get<int>(), left);
+    EXPECT_EQ(reading["left"], reading["right"]);
+    EXPECT_FALSE(reading.contains("gyro"));
+    t_s = reading["t"];
+    left = reading["left"];
+  }
+}
+
 TEST_F(Odom, AnotherMapAndANewPose_AreNoJump) {
   const DaemonProcess daemon =
       start({"/lidar/speed=1", "/lidar/loop=true", "/odometry/source=socket"});

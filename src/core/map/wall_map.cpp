@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/map/outline.hpp"
+#include "core/map/polygon.hpp"
 
 namespace cornerd::core {
 namespace {
@@ -25,19 +26,6 @@ void check(const Wall& wall, std::size_t index) {
   if (wall.thickness_m == 0 && (wall.to - wall.from).norm() < 1e-3) {
     fail("it has neither length nor thickness");
   }
-}
-
-/// Even-odd rule: counts the sides that a ray to the right crosses.
-bool contains(const std::vector<Vec2>& polygon, const Vec2& point) {
-  bool inside = false;
-  for (std::size_t i = 0, j = polygon.size() - 1; i < polygon.size(); j = i++) {
-    const Vec2& a = polygon[i];
-    const Vec2& b = polygon[j];
-    if ((a.y() > point.y()) == (b.y() > point.y())) continue;
-    const double crossing_x = a.x() + (point.y() - a.y()) / (b.y() - a.y()) * (b.x() - a.x());
-    if (point.x() < crossing_x) inside = !inside;
-  }
-  return inside;
 }
 
 }  // namespace

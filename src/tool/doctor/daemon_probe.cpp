@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "client/connection.hpp"
+#include "client/subscription.hpp"
 
 namespace cornerd::tool {
 
@@ -53,6 +54,13 @@ void take_line(std::string_view line, DaemonView& view, ReadingRate& rate) {
     view.status = std::move(*status);
   } else if (const auto* pose = std::get_if<message::ParsedPose>(&parsed)) {
     ++view.poses[static_cast<std::size_t>(pose->state)];
+    const bool is_of_scan =
+        pose->state == core::PoseState::kFix || pose->state == core::PoseState::kTracking;
+    if (is_of_scan && pose->rmse_m) view.rmse_m.push_back(*pose->rmse_m);
+  } else if (const auto* scan = std::get_if<message::RecordedScan>(&parsed)) {
+    for (const core::Sample& sample : scan->samples) {
+      if (sample.range_m > 0) view.scan_returns_m.push_back(sample.range_m);
+    }
   }
 }
 
@@ -71,6 +79,7 @@ DaemonView probe_daemon(const std::filesystem::path& socket, std::chrono::millis
     view.connect_errno = daemon.error_number();
     return view;
   }
+  daemon.send(client::watch_request("POSE,STATUS,SCAN"));
   ReadingRate rate;
   const Clock::time_point end = Clock::now() + at_most;
   while (!has_enough(view) || !rate.is_settled()) {

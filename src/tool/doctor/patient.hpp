@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "message/parsed_line.hpp"
 #include "settings/config.hpp"
@@ -23,6 +24,8 @@ struct DaemonView {
   std::optional<double> odometry_hz;
   /// Poses by state, in the order of core::PoseState.
   std::array<std::uint64_t, 5> poses{};
+  std::vector<double> rmse_m;         ///< of each scan that gave a pose
+  std::vector<float> scan_returns_m;  ///< ranges of all scans
 };
 
 /// The input of all checks.

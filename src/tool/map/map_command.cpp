@@ -16,6 +16,7 @@
 #include "tool/drawing/text_table.hpp"
 #include "tool/map/look_alikes.hpp"
 #include "tool/map/map_text.hpp"
+#include "tool/map/map_warnings.hpp"
 
 namespace cornerd::tool {
 
@@ -51,6 +52,7 @@ void check(const CheckOptions& options) {
   output.write(text);
   output.write(rooms);
   output.write("\n");
+  output.write(describe_warnings(map_warnings(*map)));
   output.flush();
   if (options.places == 0) return;
   const std::vector<ExaminedPlace> places = examine_places(map, options.places);
@@ -66,9 +68,10 @@ void check(const CheckOptions& options) {
 }
 
 void add_check(Command& group) {
-  Command command = group.add_subcommand(
-      "check",
-      "validate a map; report its content and the places that one scan cannot distinguish");
+  Command command = group.add_subcommand("check",
+                                         "validate a map; report its content, what is probably a "
+                                         "mistake in it, and the places that one "
+                                         "scan cannot distinguish");
   const auto options = std::make_shared<CheckOptions>();
   command.add_option("map", options->map, "the map").required().type_name("MAP");
   command

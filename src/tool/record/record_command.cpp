@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// cornerctl record: what comes from a lidar's port, and in .ndjson what is sent to it, with times.
+// cornerctl record: what comes from a lidar's port, and in .ndjson what is sent to it, with times;
+// or what a running daemon reads.
 #include <atomic>
 #include <cstdio>
 #include <exception>
@@ -23,6 +24,7 @@
 #include "tool/command_line/stop_signal.hpp"
 #include "tool/commands.hpp"
 #include "tool/record/board_odometry.hpp"
+#include "tool/record/daemon_recording.hpp"
 
 namespace cornerd::tool {
 
@@ -34,6 +36,9 @@ struct RecordOptions {
   SettingsOptions settings;
   std::filesystem::path output;
   double seconds = 0;
+  bool from_daemon = false;
+  std::filesystem::path socket;
+  bool names_port = false;  ///< --device, --driver, --baud or --mode
 };
 
 /// Writes the bytes of the driver's thread; a full disk ends the recording, not the thread.
@@ -49,14 +54,7 @@ class Recorder {
   }
   /// Of another thread.
   void observe(const core::OdometryReading& reading) {
-    message::LineWriter::OdometryFields fields;
-    fields.t_ns = reading.t_ns;
-    fields.has_counts = reading.left && reading.right;
-    fields.left = reading.left.value_or(0);
-    fields.right = reading.right.value_or(0);
-    fields.has_gyro = reading.gyro_rad_s.has_value();
-    fields.gyro_rad_s = reading.gyro_rad_s.value_or(0);
-    write([&] { writer_.odometry(fields); });
+    write([&] { writer_.odometry(reading); });
   }
   bool has_lines() const { return writer_.has_lines(); }
 
@@ -112,7 +110,23 @@ void report_change(const drivers::LidarStatus& now, drivers::LidarStatus& report
                detail.empty() ? "" : ": ", static_cast<int>(detail.size()), detail.data());
 }
 
+/// Beside the daemon, which keeps the port.
+void record_daemon(const RecordOptions& options) {
+  if (options.names_port) {
+    throw UsageError("--from-daemon records what the daemon reads; give no port of a lidar");
+  }
+  if (!replay::RecordingWriter::has_lines(options.output)) {
+    throw UsageError("--from-daemon writes messages: give a file *.ndjson");
+  }
+  guard_files(
+      {.read = {options.settings.config_file()}, .written = {options.output}, .output = {}});
+  record_from_daemon(
+      options.socket.empty() ? options.settings.resolve_for_daemon().socket.pose : options.socket,
+      options.output, options.seconds);
+}
+
 void record(RecordOptions& options) {
+  if (options.from_daemon || !options.socket.empty()) return record_daemon(options);
   const settings::Config settings = options.settings.resolve(/*needs_map=*/false);
   const drivers::DeviceConfig config = device_config(settings.lidar);
   guard_files({.read = {config.device, options.settings.config_file()},
@@ -174,11 +188,13 @@ void record(RecordOptions& options) {
 }  // namespace
 
 void add_record(Command& program) {
-  Command command = program.add_subcommand("record", "record the bytes of a lidar");
+  Command command =
+      program.add_subcommand("record", "record the bytes of a lidar, or a running daemon's input");
   const auto options = std::make_shared<RecordOptions>();
   const auto override_with = [options](const char* pointer) {
     return [options, pointer](const std::string& value) {
       options->settings.add_override(pointer + ("=" + value));
+      options->names_port = true;
     };
   };
   command.add_option_function("--device", override_with("/lidar/device"), "port of the lidar")
@@ -197,6 +213,14 @@ void add_record(Command& program) {
           "gyro if odometry.source is kernel")
       .required()
       .type_name("FILE");
+  command.add_flag(
+      "--from-daemon", options->from_daemon,
+      "record beside a running daemon, from its socket: scans, wheels and gyro as they "
+      "come, for replay; .ndjson");
+  command
+      .add_option("--socket", options->socket,
+                  "the same, of this daemon; default: the pose socket of the config")
+      .type_name("PATH");
   command.add_option("--seconds", options->seconds, "duration; default: until interrupted")
       .positive()
       .type_name("N");

@@ -9,13 +9,10 @@ namespace cornerd::tool {
 void OdometryFeed::send_until(core::TimeNs t_ns, core::TimeNs unix_ns) {
   const bool connected = is_connected(t_ns);
   while (odometry_.next_ns() <= t_ns) {
-    const core::OdometryReading reading = odometry_.next();
+    core::OdometryReading reading = odometry_.next();
     if (!connected || !daemon_.is_connected()) continue;
-    const message::LineWriter::OdometryFields fields{
-        reading.t_ns + unix_ns - t_ns,  reading.left.has_value(),
-        reading.left.value_or(0),       reading.right.value_or(0),
-        reading.gyro_rad_s.has_value(), reading.gyro_rad_s.value_or(0)};
-    if (!daemon_.send(line_.odometry(fields))) daemon_.close();
+    reading.t_ns += unix_ns - t_ns;
+    if (!daemon_.send(line_.odometry(reading))) daemon_.close();
   }
   print_answers();
 }

@@ -4,6 +4,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <sstream>
+#include <string>
+#include <string_view>
 #include <vector>
 
 namespace cornerd::daemon {
@@ -45,6 +48,11 @@ TEST(Options, Help_Text_NamesEveryOption) {
   for (const char* option : {"--config", "--set", "--check", "--help", "--version"}) {
     EXPECT_NE(kHelp.find(option), std::string_view::npos) << option;
   }
+}
+
+TEST(Options, Help_Text_Fits80Columns) {
+  std::istringstream lines{std::string(kHelp)};
+  for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 80U) << line;
 }
 
 }  // namespace

@@ -252,10 +252,10 @@ TEST(SerialLine, AnyBytes_ReadBack) {
 
 TEST(OdometryLine, AbsentFields_LeftOut) {
   LineWriter writer;
-  EXPECT_EQ(writer.odometry({.t_ns = 1'000'000'000, .has_gyro = true, .gyro_rad_s = -0.25}),
+  EXPECT_EQ(writer.odometry({.t_ns = 1'000'000'000, .left = {}, .right = {}, .gyro_rad_s = -0.25}),
             "{\"class\":\"ODOMETRY\",\"t\":1.000000,\"gyro\":-0.25}\n");
   const auto parsed = std::get<OdometryReading>(
-      parse_recorded_line(writer.odometry({.has_counts = true, .left = -5, .right = 6})));
+      parse_recorded_line(writer.odometry({.t_ns = 0, .left = -5, .right = 6, .gyro_rad_s = {}})));
   EXPECT_EQ(parsed.left, -5);
   EXPECT_EQ(parsed.right, 6);
   EXPECT_EQ(parsed.gyro_rad_s, std::nullopt);

@@ -24,9 +24,8 @@ TEST(RecordingWriter, Ndjson_HoldsBothDirectionsAndOdometry) {
   writer.sent(1'500'000'000, kBytes);
   writer.received(2'000'000'000, kBytes);
   writer.received(2'000'000'000, {});
-  message::LineWriter::OdometryFields odometry;
+  core::OdometryReading odometry;
   odometry.t_ns = 3'000'000'000;
-  odometry.has_counts = true;
   odometry.left = -5;
   writer.odometry(odometry);
   writer.flush();

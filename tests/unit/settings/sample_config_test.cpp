@@ -16,7 +16,7 @@ namespace cornerd::settings {
 namespace {
 
 const std::filesystem::path kFolder = std::filesystem::path(CORNERD_SOURCE_DIR) / "config";
-constexpr std::size_t kColumns = 100;
+constexpr std::size_t kColumns = 80;
 constexpr int kDigits = 7;
 
 /// A default, rounded for the reader.
@@ -74,8 +74,14 @@ std::string object_text(const std::vector<Key>& table, const std::string& sectio
       comments += indent + "// \"" + name + "\": \"...\",\n";
       continue;
     }
-    const std::string value =
+    std::string value =
         is_leaf ? default_text(key) : object_text(table, section + "/" + name, indent + "  ");
+    if (is_leaf && indent.size() + name.size() + value.size() > kColumns - 10) {
+      value = key.value.write().dump(2);
+      for (std::size_t i = 0; (i = value.find('\n', i)) != std::string::npos; i += indent.size()) {
+        value.insert(++i, indent);
+      }
+    }
     members.push_back(comments + indent + '"' + name + "\": " + value);
     comments.clear();
     if (!is_leaf) last_section = name;

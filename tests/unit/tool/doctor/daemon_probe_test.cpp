@@ -23,11 +23,16 @@ TEST(ProbeDaemon, Messages_AreCounted) {
   const test::TemporaryFolder folder;
   const ListeningSocket daemon(folder.path() / "pose.sock");
   std::string messages = kGreeting;
+  messages +=
+      "{\"class\":\"POSE\",\"t\":1,\"state\":\"fix\",\"rmse\":0.004}\n"
+      "{\"class\":\"SCAN\",\"t\":1,\"angles\":[0,1,2],\"ranges\":[2,0,3]}\n";
   for (int i = 0; i < 10; ++i) messages += "{\"class\":\"POSE\",\"t\":1,\"state\":\"lost\"}\n";
   // The queue of the socket holds both until they are wanted.
   const std::jthread client([&] { daemon.accept_and_send(messages); });
   const DaemonView view = probe_daemon(folder.path() / "pose.sock", 60s);
   EXPECT_EQ(view.connect_errno, 0);
+  EXPECT_EQ(view.rmse_m, std::vector<double>{0.004});
+  EXPECT_EQ(view.scan_returns_m, (std::vector<float>{2, 3}));
   EXPECT_EQ(view.version, "1.2.3");
   ASSERT_TRUE(view.status);
   EXPECT_EQ(view.status->lidar_state, "running");
