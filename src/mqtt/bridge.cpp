@@ -72,8 +72,7 @@ void Bridge::take_line(std::string_view line, const Now& now) {
     robot_.faults = status->faults;
     robot_.hint = status->hint;
   } else if (const auto* map = std::get_if<message::ParsedMap>(&parsed)) {
-    robot_.map_name = map->plan.name;
-    robot_.map_hash = map->plan.hash;
+    robot_.note_map(map->plan.name, map->plan.hash);
     if (map_) map_->on_daemon_map();
   } else if (const auto* version = std::get_if<message::ParsedVersion>(&parsed)) {
     robot_.daemon_version = version->version;
