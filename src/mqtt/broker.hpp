@@ -90,7 +90,7 @@ class Broker : public BrokerLink {
   std::atomic<std::uint64_t> lost_{0};
   std::atomic<int> unacknowledged_{0};
   std::atomic<int> refusal_{0};  ///< reason code of MQTT 5
-  mutable std::mutex mutex_;  ///< of what follows
+  mutable std::mutex mutex_;     ///< of what follows
   std::condition_variable_any stopped_;
   std::condition_variable taken_;
   std::string problem_ = "not connected yet";
