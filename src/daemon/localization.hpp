@@ -96,7 +96,7 @@ class Localization {
   void hurry_odometry(bool every) { hurries_odometry_.store(every, std::memory_order_relaxed); }
   /// Calls `use` with each waiting pose in the frame `odom`, oldest first. Call it after take(),
   /// and ten times a second: they wake nobody unless hurry_odometry().
-  void take_odometry(const auto& use) {
+  void take_odometry_poses(const auto& use) {
     while (odometry_poses_.take(use)) {
     }
   }

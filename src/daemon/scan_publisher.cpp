@@ -111,7 +111,7 @@ void ScanPublisher::publish_odometry(Localization& localization) {
   const bool is_watched = server_.is_watched(MessageClass::kOdom);
   localization.hurry_odometry(is_watched || server_.is_watched(MessageClass::kOdometry));
   std::optional<core::OdometryPose> newest;
-  localization.take_odometry([&](const core::OdometryPose& pose) {
+  localization.take_odometry_poses([&](const core::OdometryPose& pose) {
     if (is_watched) return server_.publish(MessageClass::kOdom, line_.odom(pose));
     newest = pose;
   });

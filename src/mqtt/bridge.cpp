@@ -21,6 +21,8 @@ constexpr double kMinStateInterval_s = 0.1;
 constexpr double kReportPeriod_s = 1;
 /// A report of a robot that stands still.
 constexpr double kIdleReportPeriod_s = 10;
+/// Between two attempts to have a map used: loading one takes a second.
+constexpr double kMapRetryPeriod_s = 5;
 constexpr int kAtLeastOnce = 1;
 
 /// "message" of an ERROR; the text itself where there is none.
@@ -70,8 +72,7 @@ void Bridge::take_line(std::string_view line, const Now& now) {
     robot_.faults = status->faults;
     robot_.hint = status->hint;
   } else if (const auto* map = std::get_if<message::ParsedMap>(&parsed)) {
-    robot_.map_name = map->plan.name;
-    robot_.map_hash = map->plan.hash;
+    robot_.note_map(map->plan.name, map->plan.hash);
     if (map_) map_->on_daemon_map();
   } else if (const auto* version = std::get_if<message::ParsedVersion>(&parsed)) {
     robot_.daemon_version = version->version;
@@ -204,6 +205,10 @@ void Bridge::greet(const Now& now) {
 }
 
 void Bridge::tick(const Now& now) {
+  if (map_ && now.steady_s - map_retry_s_ >= kMapRetryPeriod_s) {
+    map_retry_s_ = now.steady_s;
+    map_->retry();
+  }
   const std::uint64_t connections = broker_.connections();
   if (connections == 0) return;
   if (connections != greeted_) greet(now);

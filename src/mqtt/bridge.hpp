@@ -70,6 +70,7 @@ class Bridge {
   double state_s_ = 0;
   double report_s_ = 0;
   double visualization_s_ = 0;
+  double map_retry_s_ = 0;
 };
 
 }  // namespace cornerd::mqtt

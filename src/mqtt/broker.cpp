@@ -27,6 +27,8 @@ constexpr int kManyShortOnes = 3;
 /// How long a flood waits: less than the keep-alive.
 constexpr std::chrono::seconds kReadingPause{1};
 constexpr int kLoop_ms = 100;
+/// MQTT 5, section 2.4: reason codes from here on are failures.
+constexpr int kLeastFailure = 0x80;
 
 std::runtime_error failure(const BrokerConfig& config, const std::string& reason) {
   return std::runtime_error("broker " + config.host + ":" + std::to_string(config.port) + ": " +
@@ -72,8 +74,11 @@ Broker::Broker(BrokerConfig config, Message will) : config_(std::move(config)) {
   lib.message_callback_set(client_, [](mosquitto*, void* self, const mosquitto_message* message) {
     static_cast<Broker*>(self)->on_message(*message);
   });
-  lib.publish_callback_set(
-      client_, [](mosquitto*, void* self, int) { --static_cast<Broker*>(self)->unacknowledged_; });
+  lib.publish_v5_callback_set(
+      client_, [](mosquitto*, void* self, int, int reason, const mosquitto_property*) {
+        if (reason >= kLeastFailure) static_cast<Broker*>(self)->refusal_ = reason;
+        --static_cast<Broker*>(self)->unacknowledged_;
+      });
   thread_ = std::jthread([this](const std::stop_token& stop) { run(stop); });
 }
 
@@ -131,6 +136,7 @@ void Broker::serve(const std::stop_token& stop) {
   const MosquittoLibrary& lib = mosquitto_library();
   is_refused_ = false;
   unacknowledged_ = 0;
+  refusal_ = 0;
   int result = connect();
   const Clock::time_point consent_until = Clock::now() + kConnectTime;
   while (result == MOSQ_ERR_SUCCESS && !stop.stop_requested() && !is_refused_) {
@@ -214,6 +220,11 @@ bool Broker::publish(const std::string& topic, std::string_view payload, bool is
 }
 
 bool Broker::has_sent_all() const { return !mosquitto_library().want_write(client_); }
+
+std::string Broker::refusal() const {
+  const int reason = refusal_;
+  return reason == 0 ? std::string() : mosquitto_library().reason_string(reason);
+}
 
 std::string Broker::problem() const {
   const std::lock_guard lock(mutex_);

@@ -62,6 +62,8 @@ class Broker : public BrokerLink {
   bool has_sent_all() const override;
   /// Messages that have not gone out, or that the broker has not acknowledged (QoS 1).
   int unacknowledged() const { return unacknowledged_; }
+  /// Why this broker has refused a message (QoS 1, MQTT 5); empty if it has not.
+  std::string refusal() const;
 
   std::vector<Message> take();
   std::uint64_t lost_messages() const { return lost_; }
@@ -87,7 +89,8 @@ class Broker : public BrokerLink {
   std::atomic<std::uint64_t> connections_{0};
   std::atomic<std::uint64_t> lost_{0};
   std::atomic<int> unacknowledged_{0};
-  mutable std::mutex mutex_;  ///< of what follows
+  std::atomic<int> refusal_{0};  ///< reason code of MQTT 5
+  mutable std::mutex mutex_;     ///< of what follows
   std::condition_variable_any stopped_;
   std::condition_variable taken_;
   std::string problem_ = "not connected yet";

@@ -5,8 +5,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <charconv>
 #include <stdexcept>
+#include <system_error>
+#include <utility>
 
 #include "settings/document.hpp"
 #include "settings/object_reader.hpp"
@@ -131,6 +134,19 @@ BridgeConfig parse(std::string_view text, const std::filesystem::path& file,
   return config;
 }
 
+/// libmosquitto does not say which file it is that it cannot read.
+void check_tls_files(const BrokerConfig& broker, const std::filesystem::path& file) {
+  if (!broker.is_tls) return;
+  const std::pair<const char*, const std::filesystem::path*> files[] = {
+      {"ca", &broker.ca}, {"certificate", &broker.certificate}, {"key", &broker.key}};
+  for (const auto& [key, path] : files) {
+    if (path->empty() || ::access(path->c_str(), R_OK) == 0) continue;
+    throw settings::SettingsError(
+        file.string(), std::string("/broker/tls/") + key,
+        path->string() + ": cannot be read: " + std::generic_category().message(errno));
+  }
+}
+
 }  // namespace
 
 bool is_topic_level(std::string_view text) {
@@ -171,6 +187,7 @@ BridgeConfig parse_bridge_config(std::string_view text, const std::filesystem::p
 BridgeConfig load_bridge_config(const std::filesystem::path& file) {
   std::filesystem::path password_file;
   BridgeConfig config = parse(settings::read_file(file, kMaxConfigBytes), file, password_file);
+  check_tls_files(config.broker, file);
   if (!password_file.empty()) {
     config.broker.password = settings::read_file(password_file, kMaxTextBytes);
     config.broker.password.erase(

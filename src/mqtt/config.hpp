@@ -50,7 +50,8 @@ struct BridgeConfig {
 /// file is read by read_password().
 BridgeConfig parse_bridge_config(std::string_view text, const std::filesystem::path& file);
 
-/// Reads and parses the file, and reads the password's file. Throws SettingsError.
+/// Reads and parses the file, reads the password's file, and looks whether those of TLS can be
+/// read. Throws SettingsError.
 BridgeConfig load_bridge_config(const std::filesystem::path& file);
 
 /// "broker.example", "10.0.0.7:1884" or "[::1]:1883". Throws std::invalid_argument.

@@ -37,6 +37,7 @@ class ConnectionLog {
   void note(const Broker& broker) {
     std::string text =
         broker.is_connected() ? "connected to the broker" : "no broker: " + broker.problem();
+    if (!broker.refusal().empty()) text += ", which refuses messages: " + broker.refusal();
     if (text == told_) return;
     std::fprintf(stderr, "cornerd-mqtt: %s\n", text.c_str());
     told_ = std::move(text);

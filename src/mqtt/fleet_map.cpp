@@ -58,6 +58,7 @@ void FleetMap::take_announcement(std::string_view payload) {
     return;
   }
   fetched_ = announcement;
+  is_fetch_slow_ = false;
   broker_.subscribe(map_file_topic(config_.site, *fetched_));
 }
 
@@ -85,10 +86,24 @@ void FleetMap::take_file(std::string_view text) {
   }
 }
 
+void FleetMap::on_daemon_connected() {
+  is_switch_due_ = true;
+  is_retry_due_ = false;
+}
+
 void FleetMap::on_daemon_map() {
   describe();
   if (!std::exchange(is_switch_due_, false) || folder_.files().empty()) return;
   if (folder_.files().front().sha256 != robot_.map_hash) switch_daemon();
+}
+
+void FleetMap::retry() {
+  if (fetched_ && std::exchange(is_fetch_slow_, true)) {
+    refuse(fetched_->version, "its bytes have not come yet: if they do not, publish it again");
+  }
+  if (!robot_.is_daemon_connected || !std::exchange(is_retry_due_, false)) return;
+  if (folder_.files().empty() || folder_.files().front().sha256 == robot_.map_hash) return;
+  switch_daemon();
 }
 
 void FleetMap::switch_daemon() {
@@ -103,8 +118,8 @@ void FleetMap::switch_daemon() {
       ask_(std::string(line.view()),
            [this, version = newest.version](const auto& answer) { on_answer(version, answer); });
   if (is_asked) return;
-  is_switch_due_ = true;
-  refuse(newest.version, "the daemon is busy: it is used when the daemon starts again");
+  is_retry_due_ = true;
+  refuse(newest.version, "the daemon is busy: tried again");
 }
 
 void FleetMap::on_answer(std::uint64_t version, const client::Answer& answer) {
@@ -113,13 +128,13 @@ void FleetMap::on_answer(std::uint64_t version, const client::Answer& answer) {
     robot_.map_problem.clear();
     return describe();
   }
-  if (answer.kind == Kind::kNone) {
-    // Again when the daemon is back.
-    is_switch_due_ = true;
-    return refuse(version, answer.text);
-  }
   const message::ParsedLine line = message::parse_line(answer.text);
   const auto* error = std::get_if<message::ParsedError>(&line);
+  // Neither says anything of the map.
+  if (answer.kind == Kind::kNone || (error != nullptr && error->code == "busy")) {
+    is_retry_due_ = true;
+    return refuse(version, error != nullptr ? error->text : answer.text);
+  }
   refuse(version, "the daemon refuses it: " + (error != nullptr ? error->text : answer.text));
   if (!folder_.files().empty() && folder_.files().front().version == version) {
     folder_.drop_newest();

@@ -26,9 +26,12 @@ class FleetMap {
 
   void on_broker(const Message& message);
   /// The daemon has started, or was started again: it runs the map of its own config.
-  void on_daemon_connected() { is_switch_due_ = true; }
+  void on_daemon_connected();
   /// Its MAP is in RobotState::map_hash.
   void on_daemon_map();
+  /// Asks a daemon again that was busy or silent, and says what does not come. Call it every few
+  /// seconds.
+  void retry();
 
  private:
   void take_announcement(std::string_view payload);
@@ -46,7 +49,9 @@ class FleetMap {
   Ask ask_;
   MapFolder folder_;
   std::optional<MapAnnouncement> fetched_;  ///< being fetched
+  bool is_fetch_slow_ = false;
   bool is_switch_due_ = false;
+  bool is_retry_due_ = false;
 };
 
 }  // namespace cornerd::mqtt

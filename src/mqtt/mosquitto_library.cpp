@@ -35,7 +35,7 @@ MosquittoLibrary open_library() {
   find(library, "mosquitto_connect_callback_set", found.connect_callback_set);
   find(library, "mosquitto_disconnect_callback_set", found.disconnect_callback_set);
   find(library, "mosquitto_message_callback_set", found.message_callback_set);
-  find(library, "mosquitto_publish_callback_set", found.publish_callback_set);
+  find(library, "mosquitto_publish_v5_callback_set", found.publish_v5_callback_set);
   find(library, "mosquitto_connect_bind_v5", found.connect_bind_v5);
   find(library, "mosquitto_disconnect", found.disconnect);
   find(library, "mosquitto_loop", found.loop);

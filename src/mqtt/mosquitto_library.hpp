@@ -21,7 +21,7 @@ struct MosquittoLibrary {
   decltype(&mosquitto_connect_callback_set) connect_callback_set = nullptr;
   decltype(&mosquitto_disconnect_callback_set) disconnect_callback_set = nullptr;
   decltype(&mosquitto_message_callback_set) message_callback_set = nullptr;
-  decltype(&mosquitto_publish_callback_set) publish_callback_set = nullptr;
+  decltype(&mosquitto_publish_v5_callback_set) publish_v5_callback_set = nullptr;
   decltype(&mosquitto_connect_bind_v5) connect_bind_v5 = nullptr;
   decltype(&mosquitto_disconnect) disconnect = nullptr;
   decltype(&mosquitto_loop) loop = nullptr;

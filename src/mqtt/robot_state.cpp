@@ -75,6 +75,13 @@ void RobotState::note(const message::ParsedPose& newest, double now_s) {
   if (newest.T_map_base) T_map_base = newest.T_map_base;
 }
 
+void RobotState::note_map(const std::string& name, const std::string& hash) {
+  map_name = name;
+  if (std::exchange(map_hash, hash) == hash) return;
+  T_map_base.reset();
+  if (pose) pose->T_map_base.reset();
+}
+
 bool RobotState::add_action(ActionState action) {
   const bool is_known = std::any_of(actions.begin(), actions.end(),
                                     [&](const ActionState& one) { return one.id == action.id; });

@@ -58,6 +58,8 @@ struct RobotState {
   std::uint64_t map_version() const;
 
   void note(const message::ParsedPose& newest, double now_s);
+  /// A position in the map before is none in another.
+  void note_map(const std::string& name, const std::string& hash);
   /// False if there is one with this id.
   bool add_action(ActionState action);
   /// Those that run stay.

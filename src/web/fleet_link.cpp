@@ -71,7 +71,12 @@ std::string FleetLink::robots_json() const {
   json.boolean("connected", broker_.is_connected());
   if (!broker_.is_connected()) json.text("problem", broker_.problem());
   json.open_array("maps");
-  for (const auto& [name, map] : maps_) json.string(name);
+  for (const auto& [name, map] : maps_) {
+    json.open_object();
+    json.string("name", name);
+    json.integer("version", map.announcement.version);
+    json.close_object();
+  }
   json.close_array();
   json.open_array("robots");
   for (const mqtt::Fleet::Robot& robot : fleet_.robots(steady_s())) {

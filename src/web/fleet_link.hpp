@@ -20,7 +20,7 @@ class FleetLink {
   /// Throws std::runtime_error without libmosquitto.
   FleetLink(const mqtt::BrokerConfig& broker, const std::string& site);
 
-  /// {"connected", "problem", "maps": [names], "robots": [reports with "age"]}.
+  /// {"connected", "problem", "maps": [{"name", "version"}], "robots": [reports with "age"]}.
   std::string robots_json() const;
   /// MAP of the site's map of this name; empty if it has none that is whole.
   std::string map_line(const std::string& name) const;

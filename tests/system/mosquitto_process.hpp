@@ -62,15 +62,19 @@ class SilentListener {
 /// Debian's broker, on loopback, without a password and without a memory.
 class MosquittoProcess {
  public:
-  MosquittoProcess(const std::filesystem::path& name, std::uint16_t port)
-      : process_({"-c", config(name, port)}, name.string() + ".log", {}, {},
+  /// `more`: further lines of its config.
+  MosquittoProcess(const std::filesystem::path& name, std::uint16_t port,
+                   const std::string& more = {})
+      : process_({"-c", config(name, port, more)}, name.string() + ".log", {}, {},
                  "/usr/sbin/mosquitto") {}
 
  private:
-  static std::string config(const std::filesystem::path& name, std::uint16_t port) {
+  static std::string config(const std::filesystem::path& name, std::uint16_t port,
+                            const std::string& more) {
     const std::string file = name.string() + ".conf";
     std::ofstream(file) << "listener " << port << " 127.0.0.1\nallow_anonymous true\n"
-                        << "persistence false\nuser root\n";
+                        << "persistence false\nuser root\n"
+                        << more;
     return file;
   }
 

@@ -7,6 +7,7 @@
 #include <fstream>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -152,6 +153,26 @@ TEST_F(Mqtt, BrokerThatSaysNothing_DelaysNoEnd) {
   EXPECT_TRUE(wait_until([&] { return silent.has_client(); }));
   bridge.send_signal(SIGTERM);
   EXPECT_EQ(bridge.wait_for_exit(), 0);
+}
+
+TEST_F(Mqtt, WhatTheBrokerRefuses_IsAFailureThatIsNamed) {
+  const std::filesystem::path acl = folder_ / "acl";
+  std::ofstream(acl) << "topic read #\ntopic write cornerd/mine/#\n";
+  const MosquittoProcess strict(folder_ / "strict", port_,
+                                "acl_file " + acl.string() + "\nmax_packet_size 4096\n");
+  const std::filesystem::path large = folder_ / "large.json";
+  std::filesystem::copy_file(folder_ / "map.json", large);
+  std::ofstream(large, std::ios::app) << "// " << std::string(8192, '-') << "\n";
+  const auto publish = [&](const char* map, const char* site) {
+    DaemonProcess run({"map", "publish", (folder_ / map).string(), "--site", site, "--broker",
+                       "127.0.0.1:" + std::to_string(port_)},
+                      folder_ / "publish.log", {}, {}, CORNERCTL_BINARY);
+    const std::optional<int> code = run.wait_for_exit();
+    return std::to_string(code.value_or(-1)) + " " + run.output();
+  };
+  EXPECT_TRUE(publish("map.json", "mine").starts_with("0 "));
+  EXPECT_NE(publish("map.json", "other").find("Not authorized"), std::string::npos);
+  EXPECT_NE(publish("large.json", "mine").find("larger"), std::string::npos);
 }
 
 TEST_F(Mqtt, WrongConfig_IsNamed) {

@@ -83,6 +83,11 @@ test("a published map is on the robot, and the robot on the page of the fleet", 
   });
   await until("walls and a robot", async () => await drawn() > 3);
   assert.equal(await page.isVisible("#away"), false);
+  let loads = 0;
+  page.on("response", (response) => { loads += response.url().includes("/api/fleet/map") && response.ok(); });
+  bench.write("next.json", `${map}\n// the version after it\n`);
+  assert.match((await publish()).output, /hall version 2/);
+  await until("the page has the newer map", () => loads === 1);
   if (process.env.SCREENSHOTS) await page.screenshot({ path: join(process.env.SCREENSHOTS, "fleet.png") });
   assert.deepEqual(page.problems, []);
 }));

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "tool/fleet/broker_options.hpp"
 
+#include <cstdio>
+#include <cstdlib>
 #include <thread>
 
 #include "mqtt/config.hpp"
@@ -15,6 +17,7 @@ using Clock = std::chrono::steady_clock;
 
 constexpr std::chrono::milliseconds kPoll{10};
 constexpr std::chrono::seconds kConnectTime{10};
+constexpr std::chrono::seconds kStopTime{1};
 constexpr std::chrono::seconds kAcknowledgementTime{60};
 
 }  // namespace
@@ -53,22 +56,28 @@ std::string BrokerOptions::site() const {
   return config_.empty() ? mqtt::BridgeConfig().site : mqtt::load_bridge_config(config_).site;
 }
 
-void wait_for_connection(const mqtt::Broker& broker) {
+void wait_for_connection(mqtt::Broker& broker) {
   const Clock::time_point until = Clock::now() + kConnectTime;
-  while (!broker.is_connected()) {
-    if (Clock::now() > until) throw Failure("no broker: " + broker.problem());
-    std::this_thread::sleep_for(kPoll);
-  }
+  while (!broker.is_connected() && Clock::now() < until) std::this_thread::sleep_for(kPoll);
+  if (broker.is_connected()) return;
+  const std::string reason = "no broker: " + broker.problem();
+  if (broker.stop(kStopTime)) throw Failure(reason);
+  // A machine that does not answer keeps the thread for two minutes.
+  std::fprintf(stderr, "cornerctl: %s\n", reason.c_str());
+  std::_Exit(kExitFailed);
 }
 
-void wait_for_acknowledgement(const mqtt::Broker& broker) {
+void publish_retained(mqtt::Broker& broker, const std::string& topic, std::string_view payload) {
+  const std::string failure = topic + ": the broker has not taken it: ";
+  if (!broker.publish(topic, payload, /*is_retained=*/true, /*qos=*/1)) {
+    throw Failure(failure + (broker.is_connected() ? "larger than it allows" : broker.problem()));
+  }
   const Clock::time_point until = Clock::now() + kAcknowledgementTime;
   while (broker.unacknowledged() > 0) {
-    if (Clock::now() > until || !broker.is_connected()) {
-      throw Failure("the broker has not taken it: " + broker.problem());
-    }
+    if (Clock::now() > until || !broker.is_connected()) throw Failure(failure + broker.problem());
     std::this_thread::sleep_for(kPoll);
   }
+  if (!broker.refusal().empty()) throw Failure(failure + broker.refusal());
 }
 
 void take_until_silent(mqtt::Broker& broker, std::chrono::milliseconds silence,

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <functional>
 #include <string>
+#include <string_view>
 
 #include "mqtt/broker.hpp"
 
@@ -29,9 +30,10 @@ class BrokerOptions {
 };
 
 /// Throws Failure, with the reason, if there is no connection within seconds.
-void wait_for_connection(const mqtt::Broker& broker);
-/// Throws Failure if what was published is not acknowledged within a minute.
-void wait_for_acknowledgement(const mqtt::Broker& broker);
+void wait_for_connection(mqtt::Broker& broker);
+/// Publishes a retained message. Throws Failure if the broker does not acknowledge it within a
+/// minute, or refuses it.
+void publish_retained(mqtt::Broker& broker, const std::string& topic, std::string_view payload);
 /// Calls `take` with each message until none has come for `silence`.
 void take_until_silent(mqtt::Broker& broker, std::chrono::milliseconds silence,
                        const std::function<void(const mqtt::Message&)>& take);

@@ -63,11 +63,9 @@ void publish(const PublishOptions& options) {
   }
   next.version = before ? before->version + 1 : 1;
   // The bytes first: the announcement makes robots ask for them.
-  broker.publish(mqtt::map_file_topic(site, next), text, /*is_retained=*/true, /*qos=*/1);
-  wait_for_acknowledgement(broker);
-  broker.publish(topic, mqtt::map_announcement_json(next), /*is_retained=*/true, /*qos=*/1);
-  if (before) broker.publish(mqtt::map_file_topic(site, *before), "", /*is_retained=*/true, 1);
-  wait_for_acknowledgement(broker);
+  publish_retained(broker, mqtt::map_file_topic(site, next), text);
+  publish_retained(broker, topic, mqtt::map_announcement_json(next));
+  if (before) publish_retained(broker, mqtt::map_file_topic(site, *before), "");
   output.write(next.map + " version " + std::to_string(next.version) + ", " +
                std::to_string(next.bytes) + " bytes, SHA-256 " + next.sha256 + "\n");
   output.flush();

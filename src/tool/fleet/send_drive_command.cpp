@@ -35,8 +35,7 @@ void send(const SendOptions& options) {
   wait_for_connection(broker);
   for (const mqtt::Message& message :
        mqtt::drive_messages(options.broker.site(), options.robot, name, bytes)) {
-    broker.publish(message.topic, message.payload, /*is_retained=*/true, /*qos=*/1);
-    wait_for_acknowledgement(broker);
+    publish_retained(broker, message.topic, message.payload);
   }
 }
 

@@ -6,18 +6,19 @@ import { color, wallPaths } from "./walls.js";
 const $ = (id) => document.getElementById(id);
 const kOld_s = 15;  // a robot that stands still reports every 10 s
 const canvas = $("map"), context = canvas.getContext("2d");
-let robots = [], map = null, loaded = "";
+let robots = [], maps = [], map = null, loaded = "", version = 0;
 
 const get = (path) => fetch(withToken(path), { signal: AbortSignal.timeout(2000) });
 const ageText = (s) => s < 120 ? `${s.toFixed(0)} s` : s < 7200 ? `${(s / 60).toFixed(0)} min` : `${(s / 3600).toFixed(0)} h`;
 
 async function loadMap() {
-  const name = $("choice").value;
-  if (name === loaded) return;
+  const name = $("choice").value, announced = maps.find((one) => one.name === name)?.version;
+  if (name === loaded && announced === version) return;
   const response = await get(`/api/fleet/map?name=${encodeURIComponent(name)}`).catch(() => null);
   if (!response?.ok) return;
   map = await response.json();
   loaded = name;
+  version = announced;
 }
 
 function cell(row, text, small) {
@@ -85,7 +86,8 @@ async function refresh() {
   $("away").textContent = problem;
   if (answer?.robots) {
     robots = answer.robots;
-    const names = answer.maps, options = [...$("choice").options].map((option) => option.value);
+    maps = answer.maps;
+    const names = maps.map(({ name }) => name), options = [...$("choice").options].map((option) => option.value);
     if (names.join() !== options.join()) $("choice").replaceChildren(...names.map((name) => new Option(name)));
     if (names.length) await loadMap();
     showRows();

@@ -139,6 +139,27 @@ TEST_F(BridgeTest, Visualization_KeepsItsRateAndAnOverloadedBroker) {
   EXPECT_EQ(count("visualization"), before);
 }
 
+TEST_F(BridgeTest, PoseOfTheMapBefore_IsNoneInTheNextOne) {
+  broker_.connect();
+  bridge_.on_daemon(client::Event::kConnected, "", now());
+  const auto map = [&](const std::string& name, char digit) {
+    daemon(R"({"class":"MAP","name":")" + name + R"(","hash":")" + std::string(64, digit) +
+           R"(","thickness":0.02,"walls":[{"from":[0,0],"to":[1,0]}],"rooms":[]})");
+  };
+  map("ground", 'a');
+  pose();
+  map("ground", 'a');
+  tick(0.2);
+  EXPECT_EQ(last("state")["agvPosition"]["positionInitialized"], true);
+  map("upper", 'b');
+  tick(0.2);
+  EXPECT_EQ(last("state")["agvPosition"]["mapId"], "upper");
+  EXPECT_EQ(last("state")["agvPosition"]["positionInitialized"], false);
+  pose();
+  tick(0.2);
+  EXPECT_EQ(last("state")["agvPosition"]["positionInitialized"], true);
+}
+
 TEST_F(BridgeTest, InitPosition_IsSetPose) {
   broker_.connect();
   act("initPosition", "a", position(""));

@@ -3,7 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <fstream>
+
 #include "settings/config.hpp"
+#include "tests/temporary_folder.hpp"
 
 namespace cornerd::mqtt {
 namespace {
@@ -70,6 +73,19 @@ TEST(MqttConfig, WrongValue_IsNamedByItsPointer) {
     } catch (const SettingsError& error) {
       EXPECT_NE(std::string(error.what()).find(pointer), std::string::npos) << error.what();
     }
+  }
+}
+
+TEST(MqttConfig, AbsentTlsFile_IsNamed) {
+  const test::TemporaryFolder folder;
+  const std::filesystem::path file = folder / "mqtt.json";
+  std::ofstream(file) << R"({"broker": {"tls": {"ca": "absent.pem"}}})";
+  try {
+    load_bridge_config(file);
+    FAIL() << "it is not there";
+  } catch (const SettingsError& error) {
+    EXPECT_NE(std::string(error.what()).find("/broker/tls/ca"), std::string::npos);
+    EXPECT_NE(std::string(error.what()).find("absent.pem"), std::string::npos);
   }
 }
 

@@ -27,6 +27,7 @@ class FleetMapTest : public ::testing::Test {
   }
   FleetMap make() {
     return {config_, broker_, robot_, [this](std::string line, auto done) {
+              if (is_busy_) return false;
               asked_.push_back(std::move(line));
               done_ = std::move(done);
               return true;
@@ -61,6 +62,7 @@ class FleetMapTest : public ::testing::Test {
   BridgeConfig config_;
   FakeBroker broker_;
   RobotState robot_;
+  bool is_busy_ = false;
   std::vector<std::string> asked_;
   std::function<void(const client::Answer&)> done_;
 };
@@ -158,6 +160,41 @@ TEST_F(FleetMapTest, AbsentDaemon_SwitchesWhenItIsBack) {
   runs(map, map_of(7));
   ASSERT_EQ(asked_.size(), 2u);
   answer(client::Answer::Kind::kOk);
+  EXPECT_EQ(robot_.map_problem, "");
+}
+
+TEST_F(FleetMapTest, BusyDaemon_IsAskedAgainAndTheMapIsKept) {
+  FleetMap map = make();
+  is_busy_ = true;  // requests of a flood wait
+  publish(map, 1, map_of(3));
+  EXPECT_THAT(robot_.map_problem, HasSubstr("busy"));
+  map.retry();
+  EXPECT_TRUE(asked_.empty());
+  is_busy_ = false;
+  map.retry();
+  ASSERT_EQ(asked_.size(), 1u);
+  answer(client::Answer::Kind::kError, R"({"class":"ERROR","code":"busy","message":"wait"})");
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "hall.1.json"));
+  map.retry();
+  ASSERT_EQ(asked_.size(), 2u);
+  answer(client::Answer::Kind::kNone, "no answer");
+  map.retry();
+  ASSERT_EQ(asked_.size(), 3u);
+  answer(client::Answer::Kind::kOk);
+  EXPECT_EQ(robot_.map_problem, "");
+  map.retry();
+  EXPECT_EQ(asked_.size(), 3u);
+}
+
+TEST_F(FleetMapTest, AnnouncedMapWithoutItsBytes_IsTold) {
+  FleetMap map = make();
+  const MapAnnouncement announcement = announcement_of(1, map_of(3));
+  announce(map, announcement);
+  map.retry();
+  EXPECT_EQ(robot_.map_problem, "") << "asked for a moment ago";
+  map.retry();
+  EXPECT_THAT(robot_.map_problem, HasSubstr("have not come"));
+  map.on_broker({map_file_topic("default", announcement), map_of(3), true});
   EXPECT_EQ(robot_.map_problem, "");
 }
 
