@@ -15,7 +15,8 @@ namespace {
 constexpr std::size_t kPartBytes = 512 * 1024;
 constexpr std::size_t kMaxHeaderBytes = 4096;
 constexpr std::size_t kMaxDrives = 64;
-constexpr double kMaxParts = static_cast<double>(kMaxDriveBytes / kPartBytes);
+constexpr std::size_t kWholeParts = kMaxDriveBytes / kPartBytes;
+constexpr double kMaxParts = kWholeParts;
 
 }  // namespace
 

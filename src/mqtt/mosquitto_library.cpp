@@ -55,8 +55,8 @@ MosquittoLibrary open_library() {
 }  // namespace
 
 const MosquittoLibrary& mosquitto_library() {
-  static const MosquittoLibrary library = open_library();
-  return library;
+  static const MosquittoLibrary kLibrary = open_library();
+  return kLibrary;
 }
 
 }  // namespace cornerd::mqtt

@@ -169,11 +169,11 @@ void MapSearch::begin(std::span<const PolarPoint> points, std::span<const WallSe
   if (points_.empty()) return;
   select_headings(segments);
   constexpr int kTop = LikelihoodField::kLevels - 1;
-  for (std::uint16_t heading = 0; heading < headings_.size(); ++heading) {
+  for (std::size_t heading = 0; heading < headings_.size(); ++heading) {
     rotate(heading);
     for (int row = 0; row < field_.rows(); row += 1 << kTop) {
       for (int column = 0; column < field_.columns(); column += 1 << kTop) {
-        push(heading, kTop, column, row);
+        push(static_cast<std::uint16_t>(heading), kTop, column, row);
       }
     }
   }
