@@ -136,8 +136,9 @@ void Localizer::Workspace::look_for_the_motion(const Scan& scan, TimeNs t_ns) {
   refine();
   // Nothing fits: the robot turns, as the scan before tells; the other way round, where the order
   // of the bearings is not known.
+  if (odometer.has_motion() || best_hits() >= points.size() / 2) return;
   const std::optional<double> rate_rad_s = rotation.rate_rad_s();
-  if (odometer.has_motion() || !rate_rad_s || std::abs(*rate_rad_s) < kTurning_rad_s) return;
+  if (!rate_rad_s || std::abs(*rate_rad_s) < kTurning_rad_s) return;
   const Twist2 motion_before = motion;
   for (const double omega_rad_s : {*rate_rad_s, -*rate_rad_s}) {
     const std::size_t hits_before = best_hits();
