@@ -28,7 +28,8 @@ install_missing() {
 # What every native build needs; tests add googletest.
 # shellcheck disable=SC2034
 build_packages=(cmake ninja-build g++ libeigen3-dev libspdlog-dev libfmt-dev nlohmann-json3-dev
-  libcli11-dev libpng-dev libyaml-cpp-dev libboost-dev libmosquitto-dev)
+  libcli11-dev libpng-dev libyaml-cpp-dev libboost-dev libmosquitto-dev
+  libdxflib-dev libpugixml-dev)
 # What makes packages of it.
 # shellcheck disable=SC2034
 package_packages=(build-essential debhelper dh-python dpkg-dev fakeroot file gzip python3)

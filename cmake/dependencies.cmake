@@ -36,6 +36,16 @@ if(NOT CMAKE_CROSSCOMPILING)
   find_package(yaml-cpp QUIET)
 endif()
 set(CORNERD_YAML ${yaml-cpp_FOUND})
+# Drawn plans: SVG and DXF (src/plan).
+if(NOT CMAKE_CROSSCOMPILING)
+  find_package(pugixml QUIET)
+  find_path(CORNERD_DXFLIB_DIR dxflib/dl_dxf.h)
+  find_library(CORNERD_DXFLIB_LIBRARY dxflib)
+endif()
+set(CORNERD_PUGIXML ${pugixml_FOUND})
+if(CORNERD_DXFLIB_DIR AND CORNERD_DXFLIB_LIBRARY)
+  set(CORNERD_DXFLIB ${CORNERD_DXFLIB_LIBRARY})
+endif()
 
 if(CORNERD_BUILD_TESTS)
   # From Debian's sources, so that sanitized and ARM builds get a library built like themselves.

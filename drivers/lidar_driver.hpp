@@ -17,6 +17,9 @@ class SampleSink {
  public:
   virtual ~SampleSink() = default;
   virtual void on_sample(const core::Sample& sample) = 0;
+  /// When the last byte of the next sample's packet arrived, monotonic: before a sample that starts
+  /// a scan, from devices.
+  virtual void on_arrival(core::TimeNs /*arrival_ns*/) {}
   /// An unknown number of samples is missing here: begin a new scan.
   virtual void on_gap() = 0;
   /// Odometry from a recording that holds both, in order of time among the samples.

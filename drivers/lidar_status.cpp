@@ -67,6 +67,8 @@ std::string_view to_string(LidarFault fault) {
       return "restarted";
     case LidarFault::kDeadLaser:
       return "dead-laser";
+    case LidarFault::kNoScan:
+      return "no-scan";
   }
   return "unknown";
 }

@@ -43,6 +43,7 @@ enum class LidarFault : std::uint8_t {
   kMotorStalled,    ///< samples arrived and then stopped
   kRestarted,       ///< the device printed its banner while it measured: its supply broke down
   kDeadLaser,       ///< samples arrive, and none has a return
+  kNoScan,          ///< samples arrive, and make no revolution
 };
 
 std::string_view to_string(LidarState state);

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cerrno>
+#include <cstdio>
 #include <cstring>
 #include <fstream>
 #include <span>
@@ -17,6 +18,10 @@ namespace cornerd::replay {
 namespace {
 
 constexpr std::size_t kBlockBytes = 4096;
+/// Times of different classes are less out of order.
+constexpr core::TimeNs kMaxBack_ns = core::kNsPerSecond;
+/// From so many lines on times tell that they stand still.
+constexpr std::uint64_t kMinTimed = 16;
 
 std::ifstream open_for_reading(const std::filesystem::path& file) {
   const auto fail = [&](const std::string& reason) {
@@ -58,6 +63,32 @@ RecordingKind kind_of_recording(const std::filesystem::path& file) {
   return kind_of(file, stream);
 }
 
+/// Times of lines that go on where the recorder's clock was set back.
+class LineClock {
+ public:
+  /// By how much this line's time goes back, where that is a set clock; else 0.
+  core::TimeNs observe(core::TimeNs t_ns) {
+    ++lines_;
+    if (lines_ > 1 && t_ns == last_ns_) ++repeats_;
+    last_ns_ = t_ns;
+    const bool is_first = lines_ == 1;
+    const core::TimeNs back_ns = is_first ? 0 : newest_ns_ - (t_ns + shift_ns_);
+    if (is_first || back_ns < 0) newest_ns_ = t_ns + shift_ns_;
+    if (back_ns <= kMaxBack_ns) return 0;
+    shift_ns_ += back_ns;
+    return back_ns;
+  }
+  core::TimeNs shift_ns() const { return shift_ns_; }
+  bool stands_still() const { return lines_ >= kMinTimed && repeats_ + 1 == lines_; }
+
+ private:
+  core::TimeNs newest_ns_ = 0;
+  core::TimeNs last_ns_ = 0;  ///< as recorded
+  core::TimeNs shift_ns_ = 0;
+  std::uint64_t lines_ = 0;
+  std::uint64_t repeats_ = 0;
+};
+
 class RecordingPlayer::Implementation {
  public:
   Implementation(const std::filesystem::path& file, const RecordingOptions& options)
@@ -81,6 +112,9 @@ class RecordingPlayer::Implementation {
     if (stream_.bad()) throw RecordingError(name_ + ": read error; check the disk");
     if (more) return true;
     ended_ = true;
+    if (clock_.stands_still()) {
+      clock_problem_ = name_ + ": t is the same in every line: record the time of each line";
+    }
     if (input_ != Input::kScans) {
       TimeTap tap(sink, time_ns_);
       samples_->finish(tap);
@@ -93,7 +127,17 @@ class RecordingPlayer::Implementation {
     return input_ == Input::kScans ? scan_counters_ : samples_->counters();
   }
   std::uint64_t bad_lines() const { return bad_lines_; }
-  const std::string& first_problem() const { return first_problem_; }
+  const std::string& first_problem() const {
+    return first_problem_.empty() ? clock_problem_ : first_problem_;
+  }
+  std::string report() const {
+    std::string text;
+    if (bad_lines_ > 0) {
+      text = name_ + ": " + std::to_string(bad_lines_) +
+             " lines skipped; the first: " + first_problem_ + '\n';
+    }
+    return clock_problem_.empty() ? text : text + clock_problem_ + '\n';
+  }
 
  private:
   enum class Input : std::uint8_t { kUnknown, kBytes, kScans };
@@ -137,14 +181,16 @@ class RecordingPlayer::Implementation {
     if (lines_.line().empty()) return true;
     message::RecordedLine line = message::parse_recorded_line(lines_.line());
     if (const auto* error = std::get_if<message::RequestError>(&line)) {
-      if (result == LineReader::Result::kLine) note_problem(error->text);
+      const bool is_cut = result == LineReader::Result::kTornLine;
+      note_problem(is_cut ? "the last line is cut: the recording ends before its end"
+                          : error->text);
+      if (error->class_name == "ODOMETRY") sink.on_refused_odometry(*error);
     } else if (auto* scan = std::get_if<message::RecordedScan>(&line)) {
       play(*scan, sink);
     } else if (const auto* bytes = std::get_if<message::RecordedBytes>(&line)) {
       play(*bytes, sink);
     } else if (const auto* reading = std::get_if<message::OdometryReading>(&line)) {
-      time_ns_ = reading->t_ns;
-      sink.on_odometry(*reading);
+      play(*reading, sink);
     }
     return true;
   }
@@ -156,6 +202,8 @@ class RecordingPlayer::Implementation {
 
   void play(message::RecordedScan& scan, RecordingSink& sink) {
     if (!is_input(Input::kScans) || scan.samples.empty()) return;
+    observe_time(scan.t_ns);
+    for (core::Sample& sample : scan.samples) sample.t_ns += clock_.shift_ns();
     scan.samples.front().starts_scan = true;
     scan.samples.back().ends_scan = true;
     for (const core::Sample& sample : scan.samples) sink.on_sample(sample);
@@ -166,8 +214,25 @@ class RecordingPlayer::Implementation {
 
   void play(const message::RecordedBytes& bytes, RecordingSink& sink) {
     if (!bytes.received || !is_input(Input::kBytes)) return;
-    samples_->feed(bytes.bytes, bytes.t_ns, sink);
-    time_ns_ = bytes.t_ns;
+    observe_time(bytes.t_ns);
+    time_ns_ = bytes.t_ns + clock_.shift_ns();
+    samples_->feed(bytes.bytes, time_ns_, sink);
+  }
+
+  /// Its time is by the client's clock, which tells nothing of the recorder's.
+  void play(message::OdometryReading reading, RecordingSink& sink) {
+    time_ns_ = reading.t_ns += clock_.shift_ns();
+    sink.on_odometry(reading);
+  }
+
+  void observe_time(core::TimeNs t_ns) {
+    const core::TimeNs back_ns = clock_.observe(t_ns);
+    if (back_ns == 0 || !clock_problem_.empty()) return;
+    std::array<char, 32> seconds{};
+    std::snprintf(seconds.data(), seconds.size(), "%.1f s", core::to_seconds(back_ns));
+    clock_problem_ = name_ + ": line " + std::to_string(lines_.number()) + ": t goes back by " +
+                     seconds.data() + ": the recorder's clock was set, or two recordings follow " +
+                     "each other; times go on from the line before";
   }
 
   void note_problem(const std::string& problem) {
@@ -190,6 +255,8 @@ class RecordingPlayer::Implementation {
   drivers::StreamCounters scan_counters_;
   std::uint64_t bad_lines_ = 0;
   std::string first_problem_;
+  LineClock clock_;
+  std::string clock_problem_;  ///< the first
 };
 
 RecordingPlayer::RecordingPlayer(const std::filesystem::path& file, const RecordingOptions& options)
@@ -208,5 +275,6 @@ std::uint64_t RecordingPlayer::bad_lines() const { return implementation_->bad_l
 const std::string& RecordingPlayer::first_problem() const {
   return implementation_->first_problem();
 }
+std::string RecordingPlayer::report() const { return implementation_->report(); }
 
 }  // namespace cornerd::replay

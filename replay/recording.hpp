@@ -38,11 +38,16 @@ struct RecordingOptions {
 class RecordingSink : public drivers::SampleSink {
  public:
   virtual void on_odometry(const message::OdometryReading& reading) = 0;
+  /// An ODOMETRY line that cannot be read; it counts as a bad line, too.
+  virtual void on_refused_odometry(const message::RequestError& /*error*/) {}
 };
 
-/// Plays a recording in the order of its lines. Damaged lines and bytes are counted and skipped; an
-/// incomplete last line is only skipped, as a killed recorder leaves one. Memory is bounded: a line
-/// of more than message::kMaxRecordedBytes is damaged.
+/// Plays a recording in the order of its lines. Damaged lines and bytes are counted and skipped,
+/// also an incomplete last line, as a killed recorder leaves one. Memory is bounded: a line of more
+/// than message::kMaxRecordedBytes is damaged.
+///
+/// Where t of SERIAL or SCAN goes back by more than a second (a set clock, two recordings in a
+/// file), all times go on from the newest one.
 ///
 /// Each SCAN is one scan, whatever its angles. Of SERIAL and SCAN only the kind that comes first is
 /// played, as both hold the same samples.
@@ -62,8 +67,11 @@ class RecordingPlayer {
   core::TimeNs time_ns() const;
   const drivers::StreamCounters& counters() const;
   std::uint64_t bad_lines() const;
-  /// One line about the first bad line; empty if there was none.
+  /// One line about the first bad line, else about times that do not advance; empty if there are
+  /// neither.
   const std::string& first_problem() const;
+  /// For standard error: a line about bad lines, and one about times.
+  std::string report() const;
 
  private:
   class Implementation;

@@ -66,6 +66,7 @@ class ReplayDriver::Pacer : public RecordingSink {
   }
 
   std::uint64_t samples_of_pass() const { return samples_of_pass_; }
+  std::uint64_t samples() const { return samples_; }
   double rate_hz() const { return rate_hz_; }
   double samples_hz() const { return samples_hz_; }
 
@@ -140,7 +141,7 @@ void ReplayDriver::publish(const RecordingPlayer& player, const Pacer& pacer) {
   now.counters += player.counters();
   now.rate_hz = pacer.rate_hz();
   now.samples_hz = pacer.samples_hz();
-  if (player.bad_lines() > 0) now.detail.set(player.first_problem());
+  if (!player.first_problem().empty()) now.detail.set(player.first_problem());
   publish(now);
 }
 
@@ -166,6 +167,11 @@ void ReplayDriver::run(std::stop_token stop, drivers::SampleSink& sink) {
   Pacer pacer(*this, sink, config_.speed, stop);
   try {
     play(stop, pacer);
+    if (pacer.samples() == 0 && !stop.stop_requested()) {
+      throw std::runtime_error(config_.file.string() +
+                               ": no sample in it; name a lidar's bytes (.bin) or messages "
+                               "(.ndjson) with SERIAL or SCAN");
+    }
   } catch (const std::exception& error) {
     status_.state = drivers::LidarState::kFaulty;
     status_.detail.set(error.what());

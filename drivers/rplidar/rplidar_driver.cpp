@@ -202,10 +202,11 @@ RplidarDriver::Failure RplidarDriver::measure(drivers::ByteStream& port, const S
   BannerSearch banner;
   board_.begin_stream();
   Failure failure;
-  std::array<std::uint8_t, 512> buffer;
+  std::array<std::uint8_t, 2048> buffer;  // more than the fastest lidar sends meanwhile
   core::TimeNs last_sample_ns = clock_.monotonic_ns();
   std::size_t bytes_since_sample = 0;
   while (!stop.stop_requested()) {
+    port.collect_for(monitor.collecting_time(clock_.monotonic_ns()));
     const auto [status, count] = port.read(buffer, kReadSlice);
     const core::TimeNs now_ns = clock_.monotonic_ns();
     if (status == drivers::ByteStream::ReadStatus::kLost) break;
@@ -223,11 +224,11 @@ RplidarDriver::Failure RplidarDriver::measure(drivers::ByteStream& port, const S
     bytes_since_sample = measured ? 0 : bytes_since_sample + count;
     if (measured) {
       last_sample_ns = now_ns;
-      const LidarState state =
-          monitor.has_no_returns() ? LidarState::kFaulty : LidarState::kRunning;
-      if (board_.state() != state || board_.fault() == LidarFault::kMotorStalled) {
-        monitor.has_no_returns() ? report(state, LidarFault::kDeadLaser)
-                                 : board_.set_state(state, LidarFault::kNone, "");
+      const LidarFault fault = monitor.fault();
+      const bool is_faulty = fault != LidarFault::kNone;
+      const LidarState state = is_faulty ? LidarState::kFaulty : LidarState::kRunning;
+      if (board_.state() != state || board_.fault() != fault) {
+        is_faulty ? report(state, fault) : board_.set_state(state, fault, "");
       }
     } else if (silent_ns > (has_run_ ? kSilenceLimitNs : kSpinUpLimitNs)) {
       reset_first_ = true;

@@ -30,6 +30,9 @@ class ByteStream {
 
   /// Waits until there are bytes, and returns what there is.
   virtual ReadResult read(std::span<std::uint8_t> buffer, std::chrono::milliseconds timeout) = 0;
+  /// How long the next reads collect bytes that stream in, since a UART wakes its reader for every
+  /// few of them. Added to the latency of what the bytes carry.
+  virtual void collect_for(std::chrono::milliseconds /*duration*/) {}
   /// True if all bytes were written.
   virtual bool write(std::span<const std::uint8_t> bytes) = 0;
   /// Discards received bytes that were not read.
@@ -52,6 +55,7 @@ class RecordingByteStream : public ByteStream {
     if (result.count > 0) observer_(Direction::kReceived, buffer.first(result.count));
     return result;
   }
+  void collect_for(std::chrono::milliseconds duration) override { stream_->collect_for(duration); }
 
   bool write(std::span<const std::uint8_t> bytes) override {
     const bool written = stream_->write(bytes);
@@ -78,6 +82,7 @@ class MonitoredByteStream : public ByteStream {
     on_return_();
     return result;
   }
+  void collect_for(std::chrono::milliseconds duration) override { stream_.collect_for(duration); }
 
   bool write(std::span<const std::uint8_t> bytes) override {
     const bool written = stream_.write(bytes);

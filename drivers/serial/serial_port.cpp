@@ -24,10 +24,8 @@ namespace cornerd::drivers {
 namespace {
 
 constexpr int kWriteTimeoutMs = 500;
-/// While bytes stream in, they are read so often: a UART wakes its reader for every few bytes.
-/// Added to the latency of a pose; the age of the newest byte, from which samples get their times,
-/// is not.
-constexpr std::chrono::milliseconds kGather{5};
+/// Until collect_for() is called.
+constexpr std::chrono::milliseconds kCollect{5};
 
 class SerialPort : public ByteStream {
  public:
@@ -39,7 +37,7 @@ class SerialPort : public ByteStream {
 
   ReadResult read(std::span<std::uint8_t> buffer, std::chrono::milliseconds timeout) override {
     if (is_streaming_) {
-      std::this_thread::sleep_for(std::min(timeout, kGather));
+      std::this_thread::sleep_for(std::min(timeout, collect_));
       const ssize_t count = ::read(fd_.get(), buffer.data(), buffer.size());
       if (count > 0) return data(count, buffer.size());
     }
@@ -57,6 +55,8 @@ class SerialPort : public ByteStream {
                                         : errno == EAGAIN || errno == EINTR;
     return {nothing_yet ? ReadStatus::kTimeout : ReadStatus::kLost, 0};
   }
+
+  void collect_for(std::chrono::milliseconds duration) override { collect_ = duration; }
 
   bool write(std::span<const std::uint8_t> bytes) override {
     while (!bytes.empty()) {
@@ -90,6 +90,7 @@ class SerialPort : public ByteStream {
   }
 
   FileDescriptor fd_;
+  std::chrono::milliseconds collect_ = kCollect;
   bool is_streaming_ = false;  ///< the last read emptied the port: more bytes follow
 };
 

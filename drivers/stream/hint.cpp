@@ -41,9 +41,8 @@ std::string_view pattern(LidarFault fault) {
     case LidarFault::kMotorControl:
       return "motor cannot be switched, {}; check the motor settings";
     case LidarFault::kNoData:
-      return "never began to measure; check that its motor turns (belt, advanced.lidar.motor, 5 "
-             "V). "
-             "Retrying";
+      return "never began to measure; check {}that its motor turns (belt, advanced.lidar.motor, "
+             "5 V). Retrying";
     case LidarFault::kMotorStalled:
       return "stopped measuring; check that its head turns freely, its belt and its 5 V";
     case LidarFault::kRestarted:
@@ -51,6 +50,9 @@ std::string_view pattern(LidarFault fault) {
              "shorter cable";
     case LidarFault::kDeadLaser:
       return "its head turns, but nothing returns; check whether the laser is covered or dead";
+    case LidarFault::kNoScan:
+      return "measures, but its samples make no revolution; check that its head turns (belt, "
+             "motor), and lidar.driver";
   }
   return "{}";
 }

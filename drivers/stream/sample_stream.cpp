@@ -122,6 +122,7 @@ void SampleStream::deliver(const FrameSample& raw) {
   const core::TimeNs t_ns =
       timed_ ? clock_.time_of(raw.index)
              : core::from_seconds(static_cast<double>(raw.index) * period_s(nominal_period_s_));
+  if (timed_ && raw.starts_scan) sink_->on_arrival(packet_arrival_ns_);
   sink_->on_sample({.t_ns = t_ns,
                     .bearing_rad = std::clamp(bearing, -kLargest, kLargest),
                     .range_m = raw.range_m,
@@ -136,6 +137,8 @@ void SampleStream::observe(const FrameSample& raw, const FrameTiming& timing) {
       byte_ns * static_cast<double>(timing.packet_bytes) + kPeriodsToSend * clock_.period_s() * 1e9;
   clock_.observe(raw.index + timing.samples_ahead,
                  piece_arrival_ns_ - static_cast<core::TimeNs>(sent_ns), more_pending_);
+  // What the read is late by, compared with the fastest ones: it waited for more bytes.
+  packet_arrival_ns_ = piece_arrival_ns_ - clock_.last_delay_ns();
   first_of_piece_ = false;
   if (first_of_feed_) latency_.add(clock_.last_delay_ns());
   first_of_feed_ = false;

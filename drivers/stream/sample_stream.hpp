@@ -56,6 +56,7 @@ class SampleStream : private FrameSink {
   double nominal_period_s_ = 0;  ///< of clock_
   SampleSink* sink_ = nullptr;
   core::TimeNs piece_arrival_ns_ = 0;
+  core::TimeNs packet_arrival_ns_ = 0;  ///< of the newest observation
   bool more_pending_ = false;
   bool first_of_piece_ = false;
   bool first_of_feed_ = false;

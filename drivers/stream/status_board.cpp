@@ -102,19 +102,56 @@ void StatusBoard::measure_rates() {
 namespace {
 
 constexpr int kMaxEmptyScans = 20;
+/// The slowest heads need a second.
+constexpr core::TimeNs kLongestScan_ns = 3 * core::kNsPerSecond;
 constexpr std::size_t kMinReturnsPercent = 1;
+
+/// An A1's express capsule takes 8 ms.
+constexpr std::chrono::milliseconds kLongCollection{10};
+/// The latency that a pose may cost.
+constexpr std::chrono::milliseconds kShortCollection{3};
+/// A head's speed is steadier than this from one revolution to the next.
+constexpr double kSteadyShare = 0.95;
 
 }  // namespace
 
 void SampleMonitor::on_sample(const core::Sample& sample) {
-  if (sample.starts_scan) end_scan();
+  if (sample.starts_scan) {
+    end_scan();
+    time_scan(sample.t_ns);
+  }
+  last_ns_ = sample.t_ns;
+  if (sample.starts_scan || !turned_ns_) turned_ns_ = sample.t_ns;
   ++scan_samples_;
   if (sample.range_m > 0) ++scan_returns_;
   board_.count(sample);
   next_.on_sample(sample);
 }
 
-bool SampleMonitor::has_no_returns() const { return empty_scans_ >= kMaxEmptyScans; }
+void SampleMonitor::on_gap() {
+  scan_start_ns_ = 0;
+  scan_duration_ns_ = 0;
+  next_.on_gap();
+}
+
+void SampleMonitor::time_scan(core::TimeNs start_ns) {
+  if (scan_start_ns_ != 0) scan_duration_ns_ = start_ns - scan_start_ns_;
+  scan_start_ns_ = start_ns;
+  scan_arrival_ns_ = arrival_ns_ != 0 ? arrival_ns_ : start_ns;
+}
+
+std::chrono::milliseconds SampleMonitor::collecting_time(core::TimeNs now_ns) const {
+  const auto due_ns = scan_arrival_ns_ + static_cast<core::TimeNs>(
+                                             kSteadyShare * static_cast<double>(scan_duration_ns_));
+  const auto left =
+      std::chrono::floor<std::chrono::milliseconds>(std::chrono::nanoseconds(due_ns - now_ns));
+  return std::clamp(left, kShortCollection, kLongCollection);
+}
+
+LidarFault SampleMonitor::fault() const {
+  if (turned_ns_ && last_ns_ - *turned_ns_ > kLongestScan_ns) return LidarFault::kNoScan;
+  return empty_scans_ >= kMaxEmptyScans ? LidarFault::kDeadLaser : LidarFault::kNone;
+}
 
 void SampleMonitor::end_scan() {
   const bool sees = scan_returns_ * 100 >= scan_samples_ * kMinReturnsPercent;

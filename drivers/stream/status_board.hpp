@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string_view>
 
 #include "core/ring_buffer.hpp"
@@ -64,25 +66,42 @@ class StatusBoard {
   core::RingBuffer<LidarChange> changes_{kChanges};
 };
 
-/// Passes samples on, counts them for the status, and detects scans without returns.
+/// Passes samples on, counts them for the status, detects scans without returns, and foresees the
+/// end of a scan.
 class SampleMonitor : public SampleSink {
  public:
   SampleMonitor(SampleSink& next, StatusBoard& board) : next_(next), board_(board) {}
 
   void on_sample(const core::Sample& sample) override;
-  void on_gap() override { next_.on_gap(); }
+  void on_arrival(core::TimeNs arrival_ns) override {
+    arrival_ns_ = arrival_ns;
+    next_.on_arrival(arrival_ns);
+  }
+  void on_gap() override;
 
-  /// 20 scans in a row had returns for less than 1 % of their samples.
-  bool has_no_returns() const;
+  /// kDeadLaser: 20 scans in a row had returns for less than 1 % of their samples. kNoScan: no scan
+  /// has begun for 3 s.
+  LidarFault fault() const;
+
+  /// How long bytes may be collected from `now_ns` on: for long within a scan, since only its end
+  /// gives a pose; briefly where the end is due.
+  std::chrono::milliseconds collecting_time(core::TimeNs now_ns) const;
 
  private:
   void end_scan();
+  void time_scan(core::TimeNs start_ns);
 
   SampleSink& next_;
   StatusBoard& board_;
   std::size_t scan_samples_ = 0;
   std::size_t scan_returns_ = 0;
   int empty_scans_ = 0;
+  core::TimeNs last_ns_ = 0;               ///< of the newest sample
+  std::optional<core::TimeNs> turned_ns_;  ///< the newest start of a scan, or the first sample
+  core::TimeNs arrival_ns_ = 0;            ///< of the next start of a scan; 0: not known
+  core::TimeNs scan_start_ns_ = 0;
+  core::TimeNs scan_arrival_ns_ = 0;   ///< a sample of a capsule arrives 8 to 20 ms after its time
+  core::TimeNs scan_duration_ns_ = 0;  ///< of the last whole scan; 0 if there is none
 };
 
 }  // namespace cornerd::drivers

@@ -102,6 +102,7 @@ StreamDriver::Failure StreamDriver::session(ByteStream& opened, const std::stop_
   if (!device) return {LidarState::kBackoff, LidarFault::kNoAnswer, described()};
   board_.set_device(device->model, device->firmware, device->serial);
   board_.set_health(device->health);
+  has_answered_ = device->received_bytes > 0;
   board_.count_answers(device->received_bytes, device->used_bytes);
   if (device->failed) return {LidarState::kFaulty, LidarFault::kHealthError, device->health};
   board_.set_state(LidarState::kStarting, LidarFault::kNone,
@@ -117,9 +118,10 @@ StreamDriver::Failure StreamDriver::measure(ByteStream& port, double sample_peri
   SampleMonitor monitor(sink, board_);
   board_.begin_stream();
   Failure failure;
-  std::array<std::uint8_t, 512> buffer;
+  std::array<std::uint8_t, 2048> buffer;  // more than the fastest lidar sends meanwhile
   Session session(clock_.monotonic_ns());
   while (!stop.stop_requested()) {
+    port.collect_for(monitor.collecting_time(clock_.monotonic_ns()));
     const auto [status, count] = port.read(buffer, kReadSlice);
     const core::TimeNs now_ns = clock_.monotonic_ns();
     if (status == ByteStream::ReadStatus::kLost) break;
@@ -134,11 +136,11 @@ StreamDriver::Failure StreamDriver::measure(ByteStream& port, double sample_peri
       break;
     }
     if (!measured) continue;
-    const bool is_dead = monitor.has_no_returns();
-    const LidarState state = is_dead ? LidarState::kFaulty : LidarState::kRunning;
-    if (board_.state() == state && board_.fault() != LidarFault::kMotorStalled) continue;
-    is_dead ? report(state, LidarFault::kDeadLaser)
-            : board_.set_state(state, LidarFault::kNone, "");
+    const LidarFault fault = monitor.fault();
+    const bool is_faulty = fault != LidarFault::kNone;
+    const LidarState state = is_faulty ? LidarState::kFaulty : LidarState::kRunning;
+    if (board_.state() == state && board_.fault() == fault) continue;
+    is_faulty ? report(state, fault) : board_.set_state(state, fault, "");
   }
   board_.end_stream(stream.counters());
   return failure;
@@ -163,8 +165,12 @@ std::optional<StreamDriver::Failure> StreamDriver::judge(Session& session, core:
   }
   const core::TimeNs silent_ns = now_ns - session.last_byte_ns;
   if (silent_ns > (has_run_ ? kSilenceLimitNs : kSpinUpLimitNs)) {
-    return Failure{LidarState::kBackoff,
-                   has_run_ ? LidarFault::kMotorStalled : LidarFault::kNoData};
+    if (has_run_) return Failure{LidarState::kBackoff, LidarFault::kMotorStalled};
+    // Silence of one that sends by itself: it may be another lidar.
+    return Failure{LidarState::kBackoff, LidarFault::kNoData,
+                   has_answered_
+                       ? std::string()
+                       : "that it is " + described() + " baud (if not, set lidar.driver), and "};
   }
   if (has_run_ && silent_ns > kStallNs) report(LidarState::kFaulty, LidarFault::kMotorStalled);
   return std::nullopt;

@@ -90,7 +90,8 @@ class StreamDriver : public LidarDriver {
   PortOpener open_port_;
   Clock& clock_;
   StatusBoard board_;
-  bool has_run_ = false;  ///< the last session delivered samples
+  bool has_run_ = false;       ///< the last session delivered samples
+  bool has_answered_ = false;  ///< the device of the last session, to a request
 };
 
 }  // namespace cornerd::drivers

@@ -31,7 +31,9 @@ void make_link(const std::filesystem::path& link, const std::filesystem::path& t
     throw std::system_error(EEXIST, std::generic_category(),
                             link.string() + ": is no symbolic link, name another path");
   }
-  std::filesystem::create_symlink(target, link);
+  std::error_code error;
+  std::filesystem::create_symlink(target, link, error);
+  if (error) throw std::system_error(error, link.string() + ": cannot be made, name another path");
 }
 
 }  // namespace

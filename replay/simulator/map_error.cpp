@@ -42,11 +42,12 @@ core::FloorPlan with_map_error(const core::FloorPlan& plan, double sigma_m, std:
   }
   Random random(seed);
   std::vector<double> by_m;
-  std::vector<core::WallBox> boxes;
-  for (const core::Wall& wall : plan.walls) {
-    by_m.push_back(sigma_m * random.normal());
-    boxes.emplace_back(wall);
-  }
+  for (std::size_t i = 0; i < plan.walls.size(); ++i) by_m.push_back(sigma_m * random.normal());
+  return with_walls_moved(plan, by_m);
+}
+
+core::FloorPlan with_walls_moved(const core::FloorPlan& plan, std::span<const double> by_m) {
+  std::vector<core::WallBox> boxes(plan.walls.begin(), plan.walls.end());
   // Where the end of wall i touches wall j, it moves along wall i until it lies on the displaced
   // line of wall j: n_j . (by_i n_i + shift u_i) = by_j.
   const auto shift = [&](std::size_t i, const Vec2& end) -> Vec2 {
@@ -64,9 +65,9 @@ core::FloorPlan with_map_error(const core::FloorPlan& plan, double sigma_m, std:
   core::FloorPlan changed = plan;
   for (std::size_t i = 0; i < plan.walls.size(); ++i) {
     core::Wall& wall = changed.walls[i];
-    wall = displaced(wall, by_m[i]);
-    wall.from += shift(i, plan.walls[i].from);
-    wall.to += shift(i, plan.walls[i].to);
+    const Vec2 across = by_m[i] * normal_of(plan.walls[i]);
+    wall.from += across + shift(i, plan.walls[i].from);
+    wall.to += across + shift(i, plan.walls[i].to);
   }
   return changed;
 }

@@ -9,7 +9,7 @@
 namespace cornerd::bench {
 namespace {
 
-using core::HeadingSource;
+using calibration::HeadingSource;
 
 /// The truth is sampled at the ends of the paper's steps.
 constexpr core::TimeNs kTruthPeriod_ns = kPaperStep_ns;
@@ -67,7 +67,7 @@ ReckonedTrack reckon_by_mode(const Drive& drive, HeadingSource source, bool as_p
   track.source = source;
   track.as_printed = as_printed;
   const auto& steps = as_printed ? drive.paper_steps : drive.steps;
-  core::DeadReckoningConfig config{source, {}};
+  calibration::DeadReckoningConfig config{source, {}};
   if (as_printed) config.factors.dead_band_rad = kPaperDeadBand_rad;
   if (with_factors) {
     track.factors = calibration::search_factors(steps, drive.poses, drive.geometry, config);

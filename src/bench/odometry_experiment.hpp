@@ -9,11 +9,11 @@
 #include <string_view>
 #include <vector>
 
+#include "calibration/dead_reckoning.hpp"
 #include "calibration/drive_reckoning.hpp"
 #include "calibration/factor_search.hpp"
 #include "calibration/odometry_fit.hpp"
 #include "core/geometry/pose2.hpp"
-#include "core/odometry/dead_reckoning.hpp"
 #include "replay/simulator/motion.hpp"
 #include "replay/simulator/simulated_odometry.hpp"
 
@@ -34,7 +34,8 @@ inline constexpr core::TimeNs kPaperStep_ns = core::kNsPerSecond / 10;
 
 /// The trajectory of one mode.
 struct ReckonedTrack {
-  core::HeadingSource source = core::HeadingSource::kEncoder;  ///< kFilter: by least squares
+  calibration::HeadingSource source =
+      calibration::HeadingSource::kEncoder;  ///< kFilter: by least squares
   /// With the paper's steps and dead band; otherwise each reading is a step, without a dead band.
   bool as_printed = false;
   std::optional<calibration::FoundFactors> factors;  ///< fitted to this drive

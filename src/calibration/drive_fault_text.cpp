@@ -40,18 +40,20 @@ class FaultText {
         return "the rotations match a track of " + number("%.3g m", one.track_m) +
                ": set odometry.track";
       case DriveFault::kLeftUnrelated:
-        return of_unrelated("left", one.is_silent);
+        return of_unrelated("left", "right", one);
       case DriveFault::kRightUnrelated:
-        return of_unrelated("right", one.is_silent);
+        return of_unrelated("right", "left", one);
       case DriveFault::kBothUnrelated:
         return one.is_silent
                    ? "neither wheel's counts change while the robot drives: check both "
                      "encoders"
                    : "wheels and lidar measure different motions, and no single fault "
                      "accounts for it: check wheel_radius, track, counts_per_turn, the signs "
-                     "of the counts and lidar.mount";
+                     "and times of the counts, and that lidar.mount is in metres";
+      case DriveFault::kDelay:
+        return of_delay(one.delay_s);
       case DriveFault::kMountTurned:
-        return of_turn(one);
+        return one.factor == 1 ? of_turn(one) : of_turn(one) + "; " + of_counts(one.factor);
       case DriveFault::kMountDisplaced:
         return of_place(one);
       case DriveFault::kMountBoth:
@@ -80,6 +82,11 @@ class FaultText {
       case GyroFault::kBias:
         return "the gyro reads " + number("%+.2f", one.bias_rad_s) +
                " rad/s while the robot stands: calibrate its zero before the drive";
+      case GyroFault::kDelay:
+        return of_delay(one.delay_s);
+      case GyroFault::kStuck:
+        return "the gyro repeats its value while the robot rotates, and is not used: check that it "
+               "is read anew for each reading, and its wires";
       case GyroFault::kUnrelated:
         return names_.is_kernel
                    ? "the gyro does not measure the robot's rotation: set "
@@ -138,10 +145,23 @@ class FaultText {
            " times as far as its counts: count the edges of both encoders alike";
   }
 
-  static std::string of_unrelated(const std::string& name, bool is_silent) {
+  static std::string of_unrelated(const std::string& name, const std::string& other,
+                                  const DriveHypothesis& one) {
+    if (one.is_copy) {
+      return "the " + name + " counts are those of the " + other +
+             " wheel: check that each encoder has its own input";
+    }
     return "the " + name + " counts do not " +
-           (is_silent ? "change while the robot drives" : "follow the motion of their wheel") +
+           (one.is_silent ? "change while the robot drives" : "follow the motion of their wheel") +
            ": check that encoder and its wires";
+  }
+
+  std::string of_delay(double delay_s) const {
+    return "the times of counts or gyro are about " + number("%.1f s", std::abs(delay_s)) +
+           (delay_s > 0 ? " late" : " early") +
+           (names_.is_kernel ? ": the encoders' or the gyro's driver gives wrong times"
+                             : ": send as t of ODOMETRY the UNIX time of the reading, by the "
+                               "clock of cornerd's computer");
   }
 
   std::string of_turn(const DriveHypothesis& one) const {
@@ -207,6 +227,8 @@ std::string_view name_of(const DriveHypothesis& hypothesis) {
       return "right-encoder";
     case DriveFault::kBothUnrelated:
       return "encoders";
+    case DriveFault::kDelay:
+      return "odometry-delay";
     case DriveFault::kMountTurned:
       return "mount-theta";
     case DriveFault::kMountDisplaced:
@@ -218,9 +240,10 @@ std::string_view name_of(const DriveHypothesis& hypothesis) {
 }
 
 std::string_view name_of(const GyroHypothesis& hypothesis) {
-  constexpr std::array<std::string_view, 7> kNames = {
-      "none",       "gyro-reversed", "gyro-degrees", "gyro-degrees-reversed",
-      "gyro-scale", "gyro-bias",     "gyro-axis"};
+  constexpr std::array<std::string_view, 9> kNames = {
+      "none",       "gyro-reversed", "gyro-degrees",   "gyro-degrees-reversed",
+      "gyro-scale", "gyro-bias",     "odometry-delay", "gyro-stuck",
+      "gyro-axis"};
   return kNames[static_cast<std::size_t>(hypothesis.fault)];
 }
 
@@ -238,7 +261,8 @@ std::string describe(const DriveFaults& faults, const OdometryNames& names) {
   const FaultText text(names);
   const std::string drive = joined(faults.drive, text);
   const std::string gyro = joined(faults.gyro, text);
-  return drive + (drive.empty() || gyro.empty() ? "" : "; ") + gyro;
+  // Times that are late concern both.
+  return drive == gyro ? drive : drive + (drive.empty() || gyro.empty() ? "" : "; ") + gyro;
 }
 
 }  // namespace cornerd::calibration

@@ -33,6 +33,7 @@ enum class DriveFault : std::uint8_t {
   kLeftUnrelated,  ///< the left field does not tell the motion of the wheel: a dead encoder
   kRightUnrelated,
   kBothUnrelated,   ///< or several faults at once
+  kDelay,           ///< the times of the readings
   kMountTurned,     ///< lidar.mount.theta
   kMountDisplaced,  ///< lidar.mount.x, .y
   kMountBoth,
@@ -45,6 +46,8 @@ enum class GyroFault : std::uint8_t {
   kDegreesReversed,
   kFactor,
   kBias,
+  kDelay,      ///< the times of the readings
+  kStuck,      ///< it repeats its value
   kUnrelated,  ///< another axis
 };
 
@@ -58,7 +61,10 @@ struct DriveHypothesis {
   double track_m = 0;          ///< kTrack: the true one
   core::Pose2 T_base_lidar{};  ///< estimated
   core::Pose2 sigma{};         ///< of T_base_lidar
+  double delay_s = 0;          ///< kDelay: how late the times of the readings are
   bool is_silent = false;      ///< unrelated: the counts do not change
+  bool is_copy = false;        ///< unrelated: the counts are those of the other wheel
+  double reduced_chi_square = 0;
 };
 
 struct GyroHypothesis {
@@ -66,15 +72,20 @@ struct GyroHypothesis {
   double posterior = 0;
   double factor = 1;      ///< measured over true rate
   double bias_rad_s = 0;  ///< of the readings as they are
+  double delay_s = 0;
 };
 
 /// Hypotheses by posterior, best first. A fault is named where kNone has less than kMaxPosterior;
-/// then all that the data cannot tell apart are.
+/// then all that the data cannot tell apart are, if the best accounts for the motion.
 struct DriveFaults {
   /// Of "nothing is wrong" where something is.
   static constexpr double kMaxPosterior = 1e-3;
   /// Relative to the best: less is told apart.
   static constexpr double kMinRatio = 0.02;
+
+  /// Of the best hypothesis: its sigmas are upper bounds, so that 180 residuals of a robot that it
+  /// describes have less (mean + 2 sigma). Others are kBothUnrelated.
+  static constexpr double kMaxReducedChiSquare = 1.2;
 
   std::vector<DriveHypothesis> drive;  ///< those that cannot be told apart; empty: nothing is wrong
   std::vector<GyroHypothesis> gyro;
@@ -85,7 +96,9 @@ struct DriveFaults {
 };
 
 /// `T_base_lidar`: the configured mount; `geometry`: by which the windows' distances were counted.
+/// Where the mount is not known, the best hypothesis need not account for the motion.
 DriveFaults find_drive_faults(std::span<const MotionWindow> windows,
-                              const core::Pose2& T_base_lidar, const core::DriveGeometry& geometry);
+                              const core::Pose2& T_base_lidar, const core::DriveGeometry& geometry,
+                              bool mount_is_known = true);
 
 }  // namespace cornerd::calibration

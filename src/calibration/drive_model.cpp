@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "core/geometry/linear_solve.hpp"
+#include "core/geometry/squared.hpp"
 
 namespace cornerd::calibration {
 namespace {
@@ -36,6 +37,8 @@ constexpr double kSideways_m = 0.006;
 constexpr double kSidewaysShare = 0.015;
 constexpr double kGyro_rad = 0.03;
 constexpr double kGyroShare = 0.03;
+/// Of one residual in DriveFit's sum: more is an outlier.
+constexpr double kMaxChiSquare = 9;
 /// Graduated non-convexity: the sigmas begin so many times larger and halve, so that a start far
 /// from the maximum has inliers.
 constexpr double kFirstWidth = 8;
@@ -82,23 +85,24 @@ class DriveProblem {
   DriveFit fit() const {
     Vector6 at = mean_;
     for (int i = 0; i < kIterations; ++i) {
-      const auto [information, gradient, unused] = sum(at, width_of(i));
-      const core::SymmetricSolver<6> solver(information);
+      const Sums sums = sum(at, width_of(i));
+      const core::SymmetricSolver<6> solver(sums.information);
       if (!solver.succeeded() || !solver.is_positive()) break;
-      at += solver.solve(gradient);
+      at += solver.solve(sums.gradient);
     }
-    const auto [information, gradient, log_likelihood] = sum(at, 1);
-    const core::SymmetricSolver<6> solver(information);
+    const Sums sums = sum(at, 1);
+    const core::SymmetricSolver<6> solver(sums.information);
     const Vector6 off = (at - mean_).cwiseQuotient(sigma_);
     const auto sigma_of = [&](int i) { return std::sqrt(solver.solve(Vector6::Unit(i))[i]); };
     DriveFit fit;
     fit.T_base_lidar = {at[kX], at[kY], core::normalize_angle(at[kTheta])};
     fit.sigma = {sigma_of(kX), sigma_of(kY), sigma_of(kTheta)};
-    fit.log_evidence = log_likelihood - off.squaredNorm() / 2 - sigma_.array().log().sum() -
+    fit.log_evidence = sums.log_likelihood - off.squaredNorm() / 2 - sigma_.array().log().sum() -
                        solver.pivots().array().log().sum() / 2;
     if (!std::isfinite(fit.log_evidence)) {
       fit.log_evidence = -std::numeric_limits<double>::infinity();
     }
+    fit.reduced_chi_square = sums.chi_square / sums.residuals;
     return fit;
   }
 
@@ -107,6 +111,8 @@ class DriveProblem {
     Matrix6 information;
     Vector6 gradient;
     double log_likelihood = 0;
+    double chi_square = 0;
+    int residuals = 0;
   };
 
   Sums sum(const Vector6& at, double width) const {
@@ -121,6 +127,8 @@ class DriveProblem {
       sums.information += share * equation.gradient * equation.gradient.transpose();
       sums.gradient -= share * equation.residual * equation.gradient;
       sums.log_likelihood += mixture.log_likelihood;
+      sums.chi_square += std::min(kMaxChiSquare, core::squared(equation.residual / sigma));
+      ++sums.residuals;
     };
     for (std::size_t i = 0; i < windows_.size(); ++i) {
       const MotionWindow& window = windows_[i];
@@ -222,7 +230,8 @@ GyroFit fit_gyro_model(std::span<const MotionWindow> windows, const GyroModel& m
     Eigen::Vector2d gradient = sigma.cwiseAbs2().cwiseInverse().cwiseProduct(mean - at);
     double log_likelihood = 0;
     for (const MotionWindow& window : windows) {
-      const Eigen::Vector2d row(model.share * window.gyro_rad, window.duration_s);
+      const Eigen::Vector2d row(model.share * window.counted[model.delay].gyro_rad,
+                                window.duration_s);
       const double residual = window.rotation_rad - row.dot(at);
       const double width = width_of(i) * std::hypot(kGyro_rad, kGyroShare * window.rotation_rad);
       const Mixture mixture(residual, width, kAnyRotation_rad, kGyroOutliers);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <cmath>
+#include <cstddef>
 #include <span>
 
 #include <Eigen/Core>
@@ -34,6 +34,7 @@ struct DriveFit {
   core::Pose2 T_base_lidar;
   core::Pose2 sigma;
   double log_evidence = 0;
+  double reduced_chi_square = 0;  ///< of the residuals; each counts for at most 9
 };
 
 /// `travel`: of each window.
@@ -44,6 +45,7 @@ DriveFit fit_drive_model(std::span<const MotionWindow> windows, std::span<const 
 struct GyroModel {
   double share = 1;
   double bias_sigma_rad_s = 0.05;
+  std::size_t delay = 0;  ///< of kDelays_s
   bool trusts_gyro = true;
 };
 

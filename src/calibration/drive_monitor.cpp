@@ -11,6 +11,9 @@ constexpr std::size_t kMinMonitored = 8;
 constexpr std::size_t kNewMonitored = 4;
 /// Exceeds the factor of any wrong unit.
 constexpr double kLimitFactor = 100;
+/// Times of readings that are further from the newest pose: the program that sends them has ended,
+/// or has another clock, and OdometryInputMonitor says so.
+constexpr core::TimeNs kMaxApart_ns = 2 * core::kNsPerSecond;
 
 core::OdometryConfig widened(core::OdometryConfig config) {
   config.limits.wheel_speed_m_s *= kLimitFactor;
@@ -25,16 +28,22 @@ DriveMonitor::DriveMonitor(const core::OdometryConfig& config, const core::Pose2
     : config_(config), T_base_lidar_(T_base_lidar), gate_(widened(config)), windows_(kMonitored) {}
 
 void DriveMonitor::add(const core::OdometryReading& reading) {
+  newest_ns_ = reading.t_ns;
   if (const auto step = gate_.add(reading, std::nullopt)) windows_.add(*step);
 }
 
 void DriveMonitor::add(core::TimeNs t_ns, const core::Pose2& T_map_base) {
+  if (t_ns > newest_ns_ + kMaxApart_ns || t_ns < newest_ns_ - kMaxApart_ns) {
+    windows_.clear();
+    faults_ = {};
+    evaluated_ = windows_.count();
+  }
   windows_.add(t_ns, T_map_base * T_base_lidar_);
 }
 
 const DriveFaults& DriveMonitor::faults() {
   const std::size_t count = windows_.count();
-  if (count >= kMinMonitored && count >= evaluated_ + kNewMonitored) {
+  if (windows_.windows().size() >= kMinMonitored && count >= evaluated_ + kNewMonitored) {
     evaluated_ = count;
     const std::vector<MotionWindow> windows(windows_.windows().begin(), windows_.windows().end());
     faults_ = find_drive_faults(windows, T_base_lidar_, config_.geometry);

@@ -21,7 +21,8 @@ class DriveMonitor {
   void add(const core::OdometryReading& reading);
   void add(core::TimeNs t_ns, const core::Pose2& T_map_base);
 
-  /// From the newest windows; computed where there are some new ones.
+  /// From the newest windows; computed where there are some new ones. None where readings have
+  /// ended.
   const DriveFaults& faults();
 
  private:
@@ -29,6 +30,7 @@ class DriveMonitor {
   core::Pose2 T_base_lidar_;
   core::ReadingGate gate_;
   MotionWindows windows_;
+  core::TimeNs newest_ns_ = 0;  ///< reading
   DriveFaults faults_;
   std::size_t evaluated_ = 0;  ///< windows, at the last evaluation
 };

@@ -5,8 +5,8 @@
 #include <functional>
 
 #include "calibration/odometry_fit.hpp"
-#include "core/odometry/fusion_filter.hpp"
 #include "core/odometry/motion_factor.hpp"
+#include "core/odometry/motion_filter.hpp"
 
 namespace cornerd::calibration {
 namespace {
@@ -64,12 +64,12 @@ core::Covariance3 known_covariance() {
 }  // namespace
 
 DriveError reckon(std::span<const OdometryIncrement> steps, std::span<const KnownPose> places,
-                  const core::DriveGeometry& geometry, const core::DeadReckoningConfig& config,
+                  const core::DriveGeometry& geometry, const DeadReckoningConfig& config,
                   DrivePoints* points) {
   // The dead band applies to whole increments: their parts would stay under it.
   return for_each_known_pose(
       steps, places, points,
-      [&](const OdometryIncrement& step) { return core::by_wheels_alone(step, geometry, config); },
+      [&](const OdometryIncrement& step) { return by_wheels_alone(step, geometry, config); },
       [&](const OdometryIncrement& alone) {
         return core::arc(alone.translation_m(), (alone.right_m - alone.left_m) / geometry.track_m);
       });
@@ -90,7 +90,7 @@ FilteredDrive filter_drive(std::span<const core::OdometryIncrement> steps,
                            std::span<const KnownPose> places, const core::OdometryConfig& config,
                            core::TimeNs corrected_until_ns) {
   FilteredDrive drive;
-  core::FusionFilter filter(config);
+  core::MotionFilter filter(config);
   const core::Covariance3 covariance = known_covariance();
   std::size_t next = 0;
   while (next < places.size() && !steps.empty() && places[next].t_ns < steps.front().from_ns) {
@@ -98,8 +98,9 @@ FilteredDrive filter_drive(std::span<const core::OdometryIncrement> steps,
   }
   bool begun = false;
   const auto arrive = [&](const KnownPose& place) {
+    filter.advance();
     if (!begun) {
-      filter.set_pose(place.T_map_base, covariance);
+      filter.set_pose(place.T_map_base, covariance, {});
       begun = true;
       return;
     }
@@ -107,8 +108,8 @@ FilteredDrive filter_drive(std::span<const core::OdometryIncrement> steps,
     drive.points.push_back(here);
     if (place.t_ns <= corrected_until_ns) {
       // A pose that fails the gate resets the filter: the wheels slipped.
-      if (!filter.correct(place.T_map_base, covariance)) {
-        filter.set_pose(place.T_map_base, covariance);
+      if (!filter.correct(place.T_map_base, covariance, {})) {
+        filter.set_pose(place.T_map_base, covariance, {});
       }
       return;
     }
@@ -122,16 +123,16 @@ FilteredDrive filter_drive(std::span<const core::OdometryIncrement> steps,
       const core::TimeNs t_ns = places[next].t_ns;
       if (t_ns > rest.from_ns && t_ns < rest.to_ns) {
         const core::OdometryIncrement before = rest.split(t_ns);
-        if (begun) filter.predict(before);
+        if (begun) filter.add(before);
       } else if (t_ns == rest.to_ns) {
         break;
       }
       arrive(places[next]);
     }
-    if (begun) filter.predict(rest);
+    if (begun) filter.add(rest);
   }
   if (drive.alone.places > 0) drive.alone.mean_m /= static_cast<double>(drive.alone.places);
-  drive.learned = filter.learned();
+  drive.learned = filter.parameters();
   drive.slips = filter.slips();
   return drive;
 }

@@ -7,8 +7,8 @@
 #include <span>
 #include <vector>
 
+#include "calibration/dead_reckoning.hpp"
 #include "calibration/drive_window.hpp"
-#include "core/odometry/dead_reckoning.hpp"
 #include "core/odometry/odometry_config.hpp"
 
 namespace cornerd::calibration {
@@ -25,14 +25,14 @@ using DrivePoints = std::vector<core::Vec2>;
 
 /// By the paper's odometry.
 DriveError reckon(std::span<const core::OdometryIncrement> steps, std::span<const KnownPose> places,
-                  const core::DriveGeometry& geometry, const core::DeadReckoningConfig& config,
+                  const core::DriveGeometry& geometry, const DeadReckoningConfig& config,
                   DrivePoints* points = nullptr);
 /// By calibrated odometry, with its delay; the rotation is the gyro's where there is one.
 DriveError reckon(std::span<const core::OdometryIncrement> steps, std::span<const KnownPose> places,
                   const core::DriveGeometry& geometry, const core::OdometryParameters& learned,
                   DrivePoints* points = nullptr);
 
-/// The fusion filter over a drive: corrected by the known poses at first, then dead reckoning.
+/// The motion filter over a drive: corrected by the known poses at first, then dead reckoning.
 struct FilteredDrive {
   DriveError alone;                ///< after the last correction
   std::vector<core::Vec2> points;  ///< at each known pose, before its correction

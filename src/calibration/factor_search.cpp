@@ -7,8 +7,6 @@
 namespace cornerd::calibration {
 namespace {
 
-using core::HeadingSource;
-
 /// Factors in whole thousandths, exact in each grid.
 constexpr int kThousand = 1000;
 constexpr int kMin = static_cast<int>(kMinFactor * kThousand);
@@ -22,7 +20,7 @@ struct FactorPair {
 class GridSearch {
  public:
   GridSearch(std::span<const core::OdometryIncrement> steps, std::span<const KnownPose> places,
-             const core::DriveGeometry& geometry, const core::DeadReckoningConfig& start)
+             const core::DriveGeometry& geometry, const DeadReckoningConfig& start)
       : steps_(steps), places_(places), geometry_(geometry), config_(start) {
     try_candidate({});
   }
@@ -53,8 +51,8 @@ class GridSearch {
   }
 
  private:
-  core::PaperFactors factors_of(const FactorPair& candidate) const {
-    core::PaperFactors factors = config_.factors;
+  PaperFactors factors_of(const FactorPair& candidate) const {
+    PaperFactors factors = config_.factors;
     if (by_encoder()) factors.encoder_factor = candidate.encoder / double{kThousand};
     if (by_gyro()) factors.gyro_factor = candidate.gyro / double{kThousand};
     return factors;
@@ -73,7 +71,7 @@ class GridSearch {
   std::span<const core::OdometryIncrement> steps_;
   std::span<const KnownPose> places_;
   const core::DriveGeometry& geometry_;
-  core::DeadReckoningConfig config_;
+  DeadReckoningConfig config_;
   FactorPair best_;
   std::optional<double> least_m_;
 };
@@ -82,7 +80,7 @@ class GridSearch {
 
 FoundFactors search_factors(std::span<const core::OdometryIncrement> steps,
                             std::span<const KnownPose> places, const core::DriveGeometry& geometry,
-                            const core::DeadReckoningConfig& start) {
+                            const DeadReckoningConfig& start) {
   GridSearch grid(steps, places, geometry, start);
   // The first grid covers the whole range.
   grid.search(50, (kMax - kMin) / 50);

@@ -14,7 +14,7 @@ inline constexpr double kMinFactor = 0;
 inline constexpr double kMaxFactor = 2.5;
 
 struct FoundFactors {
-  core::PaperFactors factors;
+  PaperFactors factors;
   /// The best factor is at an end of the range, and may lie beyond.
   bool encoder_at_edge = false;
   bool gyro_at_edge = false;
@@ -26,6 +26,6 @@ struct FoundFactors {
 /// step. The dead band of `start` stays.
 FoundFactors search_factors(std::span<const core::OdometryIncrement> steps,
                             std::span<const KnownPose> places, const core::DriveGeometry& geometry,
-                            const core::DeadReckoningConfig& start);
+                            const DeadReckoningConfig& start);
 
 }  // namespace cornerd::calibration

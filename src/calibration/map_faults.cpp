@@ -142,6 +142,20 @@ std::optional<MapFinding> find_map_fault(const core::FloorPlan& plan,
   return best;
 }
 
+bool RecentScans::add(const core::Scan& scan) {
+  const core::TimeNs since_ns = scan.start_ns() - newest_ns_;
+  if (since_ns > 0 && since_ns < core::kNsPerSecond) return false;
+  newest_ns_ = scan.start_ns();
+  if (are_enough()) scans_.pop_front();
+  scans_.emplace_back(scan.samples().begin(), scan.samples().end());
+  return true;
+}
+
+bool RecentScans::are_enough() const {
+  constexpr std::size_t kScans = 16;
+  return scans_.size() == kScans;
+}
+
 std::string_view name_of(const MapFinding& finding) {
   constexpr std::array<std::string_view, 5> kNames = {"map-mirrored", "map-scale", "map-units",
                                                       "map-other", "map-mismatch"};
@@ -172,7 +186,7 @@ std::string describe(const MapFinding& finding, const std::string& name) {
              text_of("%.4g", finding.scale) + ": maps are in metres, cornerctl map scale";
     case MapFault::kOtherMap:
       return "the scans fit the map \"" + finding.map + "\" of the config, not " + map +
-             ": set map, or map \"auto\"";
+             ": set map to it, or SET_MAP";
     case MapFault::kNoVariant:
       return "hardly any scan fits " + map +
              ", nor its mirror image, nor it 0.75 to 1.35 times as large or in another unit: check "

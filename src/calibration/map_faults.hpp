@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <deque>
 #include <functional>
 #include <optional>
 #include <span>
@@ -37,6 +38,23 @@ std::string_view name_of(const MapFinding& finding);
 std::string describe(const MapFinding& finding, const std::string& name);
 
 using ScanSamples = std::vector<core::Sample>;
+
+/// The newest scans, a second apart, to be examined.
+class RecentScans {
+ public:
+  /// Of the last hundred scans: in a map whose walls are where it says hardly so many are lost, but
+  /// for a lidar that is covered or a crowd. The variants decide.
+  static constexpr std::size_t kManyLost = 15;
+
+  /// True if it is kept.
+  bool add(const core::Scan& scan);
+  bool are_enough() const;
+  std::vector<ScanSamples> all() const { return {scans_.begin(), scans_.end()}; }
+
+ private:
+  std::deque<ScanSamples> scans_;
+  core::TimeNs newest_ns_ = 0;
+};
 
 /// Localizes each scan without a prior in variants of `plan`, and in `others`. Nullopt where the
 /// map itself fits most of them, or `is_over` returns true. Takes seconds.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "calibration/motion_window.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -13,6 +14,7 @@ constexpr core::TimeNs kMaxStep_ns = core::kNsPerSecond;
 /// Less is no motion.
 constexpr double kMotion_m = 0.02;
 constexpr double kMotion_rad = 0.05;
+const core::TimeNs kLongestDelay_ns = core::from_seconds(std::ranges::max(kDelays_s));
 /// Two seconds at 500 readings a second, and of scans.
 constexpr std::size_t kMaxSteps = 1024;
 constexpr std::size_t kMaxPoses = 64;
@@ -29,17 +31,15 @@ void MotionWindow::extend(const core::Pose2& T_from_to) {
   rotation_rad += T_from_to.theta_rad;
 }
 
-void MotionWindow::extend(const core::OdometryIncrement& step) {
+void CountedMotion::extend(const core::OdometryIncrement& step) {
   left_m += step.left_m;
   right_m += step.right_m;
   gyro_rad += step.gyro_rad;
-  has_gyro = has_gyro && step.has_gyro;
-  duration_s += step.duration_s();
 }
 
 bool MotionWindow::has_motion() const {
   return lidar_m.norm() > kMotion_m || std::abs(rotation_rad) > kMotion_rad ||
-         std::abs(left_m) + std::abs(right_m) > 2 * kMotion_m;
+         std::abs(counted[0].left_m) + std::abs(counted[0].right_m) > 2 * kMotion_m;
 }
 
 void MotionWindows::add(const core::OdometryIncrement& step) {
@@ -62,8 +62,11 @@ void MotionWindows::add(core::TimeNs t_ns, const core::Pose2& T_map_lidar) {
 }
 
 void MotionWindows::advance() {
-  while (!poses_.empty() && !steps_.empty() && steps_.back().to_ns >= poses_.front().t_ns) {
+  while (!poses_.empty() && !steps_.empty() &&
+         steps_.back().to_ns >= poses_.front().t_ns + kLongestDelay_ns) {
     extend_to(poses_.front());
+    const core::TimeNs needed_ns = poses_.front().t_ns - kLongestDelay_ns;
+    while (!steps_.empty() && steps_.front().to_ns <= needed_ns) steps_.pop_front();
     poses_.pop_front();
   }
 }
@@ -72,20 +75,7 @@ void MotionWindows::extend_to(const Pose& pose) {
   if (!last_ || pose.t_ns <= last_->t_ns || pose.t_ns - last_->t_ns > kMaxStep_ns) {
     return begin_at(pose);
   }
-  core::TimeNs reached_ns = last_->t_ns;
-  while (reached_ns < pose.t_ns && !steps_.empty()) {
-    core::OdometryIncrement& step = steps_.front();
-    if (step.is_gap || step.from_ns > reached_ns) return begin_at(pose);
-    if (step.to_ns > pose.t_ns) {
-      window_.extend(step.split(pose.t_ns));
-      reached_ns = pose.t_ns;
-      break;
-    }
-    window_.extend(step);
-    reached_ns = step.to_ns;
-    steps_.pop_front();
-  }
-  if (reached_ns < pose.t_ns) return begin_at(pose);
+  if (!extend_by_odometry(last_->t_ns, pose.t_ns)) return begin_at(pose);
   window_.extend(last_->T_map_lidar.inverse() * pose.T_map_lidar);
   last_ = pose;
   if (pose.t_ns - begin_ns_ < kWindowLength_ns) return;
@@ -97,9 +87,28 @@ void MotionWindows::extend_to(const Pose& pose) {
   begin_at(pose);
 }
 
+bool MotionWindows::extend_by_odometry(core::TimeNs from_ns, core::TimeNs to_ns) {
+  for (std::size_t i = 0; i < kDelays_s.size(); ++i) {
+    const core::TimeNs delay_ns = core::from_seconds(kDelays_s[i]);
+    const core::TimeNs end_ns = to_ns + delay_ns;
+    core::TimeNs reached_ns = from_ns + delay_ns;
+    auto next = std::ranges::upper_bound(steps_, reached_ns, {}, &core::OdometryIncrement::to_ns);
+    for (; reached_ns < end_ns; ++next) {
+      if (next == steps_.end() || next->is_gap || next->from_ns > reached_ns) return false;
+      core::OdometryIncrement step = *next;
+      if (step.from_ns < reached_ns) step.split(reached_ns);
+      if (step.to_ns > end_ns) step = step.split(end_ns);
+      window_.counted[i].extend(step);
+      window_.has_gyro = window_.has_gyro && step.has_gyro;
+      window_.gyro_is_stuck = window_.gyro_is_stuck || (!step.has_gyro && step.gyro_may_be_stuck);
+      reached_ns = step.to_ns;
+    }
+  }
+  window_.duration_s += core::to_seconds(to_ns - from_ns);
+  return true;
+}
+
 void MotionWindows::begin_at(const Pose& pose) {
-  while (!steps_.empty() && steps_.front().to_ns <= pose.t_ns) steps_.pop_front();
-  if (!steps_.empty() && steps_.front().from_ns < pose.t_ns) steps_.front().split(pose.t_ns);
   window_ = {};
   begin_ns_ = pose.t_ns;
   last_ = pose;

@@ -7,10 +7,10 @@
 #include <span>
 #include <vector>
 
+#include "calibration/dead_reckoning.hpp"
 #include "calibration/drive_window.hpp"
 #include "core/geometry/pose2.hpp"
-#include "core/odometry/dead_reckoning.hpp"
-#include "core/odometry/fusion_filter.hpp"
+#include "core/odometry/motion_filter.hpp"
 #include "core/odometry/odometry_increment.hpp"
 
 namespace cornerd::calibration {

@@ -4,7 +4,10 @@
 
 #include <memory>
 #include <optional>
+#include <span>
 
+#include "core/estimate/map_changes.hpp"
+#include "core/estimate/wall_offset_filter.hpp"
 #include "core/localizer_config.hpp"
 #include "core/map/wall_map.hpp"
 #include "core/odometry/odometry_reading.hpp"
@@ -50,11 +53,29 @@ class Localizer {
   /// For another lidar: forgets the estimated bias and noise, not the pose.
   void forget_lidar();
 
+  /// Log odds, nats, that the last scan was taken at the likeliest of the places that step() has
+  /// reported, against elsewhere or another map; nullopt where it was lost. Comparable between
+  /// maps.
+  std::optional<double> log_odds_of_map();
+
+  /// True where the last scan has left a search of the map unfinished, which step() with the same
+  /// scan goes on with: LocalizerConfig::search_nodes_per_scan.
+  bool is_searching() const;
+
   const OdometryConfig& odometry_config() const;
+  /// Null without a map.
+  const WallMap* map() const;
   /// The current estimate of the lidar's bias.
   EstimatedBias estimated_bias() const;
   /// Continues from a stored estimate of this lidar's bias.
   void resume(const EstimatedBias& learned);
+
+  /// What was learned of the walls' offsets; null without a map, or without learn_walls.
+  const WallOffsetFilter* walls() const;
+  /// Walls that are gone and things that stay, in this map; none where walls() is null.
+  std::span<const MapChange> map_changes() const;
+  /// Continues from what was learned of this map. False where it does not fit.
+  bool resume(const LearnedWalls& learned);
 
  private:
   struct Workspace;

@@ -25,6 +25,7 @@ struct LocalizerConfig {
   SensorBias bias;               ///< prior, from the config
   bool calibrate_online = true;  ///< estimate the bias from scans at known poses
   bool forget_bias = true;       ///< exponential forgetting, since a lidar ages
+  bool learn_walls = false;      ///< estimate the walls' offsets where the map states a sigma
   OdometryConfig odometry;
   /// Poses per scan of a robot whose pose is known: one at the scan's end, one per partial scan
   /// before.

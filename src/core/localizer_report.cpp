@@ -53,6 +53,7 @@ void Localizer::Workspace::report(const Decision& decision, std::size_t corners,
   pose.T_map_base = {};
   pose.p_wrong = decision.doubt;
   filter = filtered;
+  if (!has_pose(decision.state)) named_in_a_row = 0;
   if (has_pose(decision.state)) {
     report_pose(chosen(decision), corners, t_ns);
   } else if (decision.state == PoseState::kAmbiguous) {
@@ -93,29 +94,32 @@ void Localizer::Workspace::predict(const PredictedPose& predicted, PoseEstimate&
 
 void Localizer::Workspace::report_pose(const core::VerifiedHypothesis& found, std::size_t corners,
                                        TimeNs t_ns) {
-  const Pose2& T_map_lidar = found.refined.T_map_lidar;
+  const RefinedPose refined = refined_by_walls(found, t_ns);
+  const Pose2& T_map_lidar = refined.T_map_lidar;
   PoseEstimate& pose = result.pose;
   pose.T_map_base = T_map_lidar * T_lidar_base;
+  const double known_sigma_m =
+      place->walls ? std::max(found.map_sigma_m, map->plan().sigma_m) : found.map_sigma_m;
   // In an exact map the difference of two poses is the velocity.
   memory.update(T_map_lidar, t_ns, motion,
-                found.map_sigma_m > 0 ? found.refined.covariance : Covariance3::Zero());
+                known_sigma_m > 0 ? refined.covariance : Covariance3::Zero());
   pose.state == PoseState::kFix ? filter.confirm(T_map_lidar) : filter.follow(T_map_lidar);
-  place->map_error.add(found.refined.face_residuals);
+  place->map_error.add(refined.face_residuals);
   const Covariance3 of_lidar =
-      found.refined.covariance +
-      larger(place->map_error.pose_covariance(found.refined.face_residuals, found.map_sigma_m),
+      refined.covariance +
+      larger(place->map_error.pose_covariance(refined.face_residuals, known_sigma_m),
              odometer.has_motion() ? odometer.deskew_covariance()
                                    : deskew_covariance(motion, memory.motion()));
   pose.covariance = covariance_of_base(of_lidar, T_map_lidar, pose.T_map_base);
-  if (found.refined.reduced_chi_square > kSmearedSpread) {
-    pose.covariance += doubt_of_smear(found.refined, pose.state);
+  if (refined.reduced_chi_square > kSmearedSpread) {
+    pose.covariance += doubt_of_smear(refined, pose.state);
     if (place->bias.scans() < kTurnsOfANewLidar) pose.covariance += doubt_of_bias();
   }
   odometer.correct(pose.T_map_base, pose.covariance);
   pose.room = map->room_at(pose.T_map_base.translation());
   pose.corners = corners;
   pose.inliers = found.likelihood.hits;
-  pose.rmse_m = found.refined.rmse_m;
+  pose.rmse_m = refined.rmse_m;
 }
 
 void Localizer::Workspace::report_alternatives(std::span<const core::VerifiedHypothesis> rivals) {

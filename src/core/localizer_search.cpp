@@ -210,6 +210,28 @@ void Localizer::Workspace::search_map(TimeNs t_ns) {
   }
 }
 
+std::optional<double> Localizer::log_odds_of_map() {
+  Workspace& w = *workspace_;
+  if (!w.place) return std::nullopt;
+  PlaceSearch& search = w.place->place_search;
+  search.begin(w.points, w.result.detection.segments, w.result.detection.breakpoints,
+               w.noise_scale(), BeamModel::kMapSigmas_m.back());
+  const auto consider = [&](const Pose2& T_map_base) {
+    const PoseHypothesis there{T_map_base * w.config.T_base_lidar, 0};
+    search.consider(std::span(&there, 1));
+  };
+  const PoseEstimate& pose = w.result.pose;
+  if (has_pose(pose.state)) consider(pose.T_map_base);
+  for (const Alternative& alternative : pose.alternatives) consider(alternative.T_map_base);
+  const auto found = search.find();
+  if (found.empty()) return std::nullopt;
+  return found.front().log_odds;
+}
+
+bool Localizer::is_searching() const {
+  return workspace_->place && workspace_->place->map_search.is_running();
+}
+
 std::span<const PoseHypothesis> Localizer::Workspace::search_everywhere(TimeNs t_ns) {
   MapSearch& search = place->map_search;
   if (!search.is_running() || to_seconds(t_ns - searched_ns) > kMaxSearchPause_s) {

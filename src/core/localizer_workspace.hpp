@@ -14,8 +14,10 @@
 #include "core/catalog/catalog.hpp"
 #include "core/estimate/bias_estimator.hpp"
 #include "core/estimate/constant_velocity_model.hpp"
+#include "core/estimate/map_changes.hpp"
 #include "core/estimate/refinement.hpp"
 #include "core/estimate/scan_rotation.hpp"
+#include "core/estimate/wall_offset_filter.hpp"
 #include "core/localizer.hpp"
 #include "core/odometry/odometer.hpp"
 #include "core/recognition/decision.hpp"
@@ -48,8 +50,14 @@ struct Localizer::Workspace {
           refinement(config.max_range_m, config.noise),
           bias(config.max_range_m, config.noise, config.bias,
                config.forget_bias ? BiasEstimator::kForgettingRate : 0) {
+      if (config.learn_walls && learns_walls(map.plan())) {
+        walls.emplace(map);
+        changes.emplace(map, config.max_range_m);
+      }
       if (config.updates_per_scan > 1) parts.emplace(map, config);
     }
+    /// Where the map states how far off its walls may be.
+    static bool learns_walls(const FloorPlan& plan);
     Catalog catalog;
     Recognition recognition;
     Verification verification;
@@ -59,6 +67,8 @@ struct Localizer::Workspace {
     Refinement refinement;
     BiasEstimator bias;
     MapErrorModel map_error;
+    std::optional<WallOffsetFilter> walls;
+    std::optional<MapChanges> changes;        ///< where `walls` is
     std::optional<PartialScanTracker> parts;  ///< where poses are asked for before a turn ends
   };
 
@@ -101,6 +111,9 @@ struct Localizer::Workspace {
   std::size_t best_hits() const;
   bool may_be_biased() const;
   bool teaches(const Decision& decision) const;
+  bool is_certain(const RefinedPose& refined) const;
+  bool teaches_walls(const RefinedPose& refined) const;
+  RefinedPose refined_by_walls(const VerifiedHypothesis& found, TimeNs t_ns);
   void report(const Decision& decision, std::size_t corners, TimeNs t_ns);
   void report_pose(const core::VerifiedHypothesis& found, std::size_t corners, TimeNs t_ns);
   void report_alternatives(std::span<const core::VerifiedHypothesis> rivals);
@@ -136,6 +149,8 @@ struct Localizer::Workspace {
   std::span<const VerifiedHypothesis> candidates;  ///< that the last decision is about
   bool saw_all_around = false;                     ///< in a scan with a pose, ever
   bool decided_exactly = false;                    ///< by rays, as walls are where the map has them
+  std::size_t named_in_a_row = 0;      ///< scans, each near where the one before led to expect it
+  std::optional<Pose2> T_map_taught;   ///< of the last scan that the walls were learned from
   std::optional<Pose2> T_map_doubted;  ///< a jump of the turn before that waits for a second
   ScanResult result;
   PoseEstimate between;  ///< of a reading between two turns, or of a part of a turn

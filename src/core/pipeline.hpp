@@ -3,9 +3,9 @@
 
 #include <memory>
 #include <optional>
-#include <utility>
+#include <span>
 
-#include "core/localizer.hpp"
+#include "core/map_choice.hpp"
 #include "core/scan.hpp"
 
 namespace cornerd::core {
@@ -16,14 +16,17 @@ class Pipeline {
  public:
   /// `map`: may be null; see Localizer.
   Pipeline(std::shared_ptr<const WallMap> map, const LocalizerConfig& config)
-      : localizer_(std::move(map), config) {}
+      : Pipeline(std::span(&map, 1), config) {}
+  /// Several maps: see MapChoice.
+  Pipeline(std::span<const std::shared_ptr<const WallMap>> maps, const LocalizerConfig& config)
+      : maps_(maps, config) {}
 
   /// The result of a scan, if this sample is the first after it; else null. Valid, as scan(), until
   /// the next call.
   const ScanResult* add(const Sample& sample) {
     now_ns_ = sample.t_ns;
-    const ScanResult* result = assembler_.add(sample, scan_) ? &localizer_.step(scan_) : nullptr;
-    partial_pose_ = localizer_.follow(sample);
+    const ScanResult* result = assembler_.add(sample, scan_) ? &maps_.step(scan_) : nullptr;
+    partial_pose_ = localizer().follow(sample);
     return result;
   }
 
@@ -33,27 +36,29 @@ class Pipeline {
   /// Odometry, in order of time among the samples. Returns as Localizer::add(). `now_ns`: by a
   /// clock; nullopt: the time of the newest sample.
   const PoseEstimate* add(const OdometryReading& reading, std::optional<TimeNs> now_ns = {}) {
-    return localizer_.add(reading, now_ns ? now_ns : now_ns_);
+    return localizer().add(reading, now_ns ? now_ns : now_ns_);
   }
 
   /// End of the stream: the result of the scan in progress, if it is complete.
   const ScanResult* finish() {
     const bool whole = assembler_.finish(scan_);
     assembler_.reset();
-    return whole ? &localizer_.step(scan_) : nullptr;
+    return whole ? &maps_.step(scan_) : nullptr;
   }
 
   /// The scan of the last result.
   const Scan& scan() const { return scan_; }
 
-  Localizer& localizer() { return localizer_; }
+  /// Of the map; where it is not known yet, one without a map.
+  Localizer& localizer() { return maps_.localizer(); }
+  MapChoice& maps() { return maps_; }
   const ScanAssembler& assembler() const { return assembler_; }
 
  private:
   std::optional<TimeNs> now_ns_;  ///< of the newest sample
   ScanAssembler assembler_;
   Scan scan_;
-  Localizer localizer_;
+  MapChoice maps_;
   const PoseEstimate* partial_pose_ = nullptr;
 };
 

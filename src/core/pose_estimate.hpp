@@ -22,6 +22,7 @@ constexpr bool has_pose(PoseState state) {
 struct Alternative {
   Pose2 T_map_base;
   double score = 0;
+  std::size_t map = 0;  ///< where it is in one of several, see MapChoice
 };
 
 inline constexpr std::size_t kMaxAlternatives = 16;

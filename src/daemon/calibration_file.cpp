@@ -28,7 +28,7 @@ constexpr double core::SensorBias::*kParts[] = {
 /// zeros.
 bool is_own(std::string_view text) {
   if (text.find_first_not_of('\0') == std::string_view::npos) return true;
-  const std::string all = settings::text_of({});
+  const std::string all = settings::text_of(settings::LidarCalibration{});
   const std::string_view begin = std::string_view(all).substr(0, all.find('\n', 2));
   return text.substr(0, begin.size()) == begin.substr(0, text.size());
 }

@@ -61,7 +61,8 @@ Client::Input Client::handle_requests(const Handle& handle) {
 
 std::uint32_t Client::wanted_events() const {
   const bool listens = !input_ended_ && !has_requests();
-  return (listens ? EPOLLIN : 0u) | (blocked_ ? EPOLLOUT : 0u);
+  // Requests that wait are handled as soon as there is room for their answers.
+  return (listens ? EPOLLIN : 0u) | (blocked_ || has_requests() ? EPOLLOUT : 0u);
 }
 
 }  // namespace cornerd::daemon

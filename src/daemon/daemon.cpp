@@ -10,10 +10,10 @@
 #include <cstdio>
 #include <cstring>
 #include <utility>
-#include <vector>
 
 #include "daemon/initial_pose.hpp"
 #include "daemon/log.hpp"
+#include "daemon/open_sockets.hpp"
 #include "daemon/posix_clock.hpp"
 #include "daemon/realtime.hpp"
 #include "drivers/config/lidar_models.hpp"
@@ -28,15 +28,12 @@ using std::chrono::milliseconds;
 constexpr milliseconds kTick{100};
 constexpr int kTicksPerStatus = 10;
 
-std::unique_ptr<core::Pipeline> with_calibration(std::unique_ptr<core::Pipeline> pipeline,
-                                                 const settings::LidarConfig& config,
-                                                 const CalibrationFile& calibration) {
-  if (config.calibrate_online) pipeline->localizer().resume(calibration.estimate());
-  return pipeline;
-}
-
-ScanPublisher::PublishedMap published(const Loaded& loaded) {
-  return {loaded.map, loaded.map_line, !loaded.config.maps.empty()};
+ScanPublisher::PublishedMaps published(const std::vector<LoadedMap>& loaded,
+                                       const settings::Config& config) {
+  ScanPublisher::PublishedMaps maps{loaded};
+  if (config.maps.empty()) return maps;
+  for (const LoadedMap& map : loaded) maps.names.push_back(map.map->plan().name);
+  return maps;
 }
 
 SourceKind source_of(settings::DriverKind driver) {
@@ -47,23 +44,24 @@ SourceKind source_of(settings::DriverKind driver) {
 
 Daemon::Daemon(Loaded loaded, MapLoader loader, std::unique_ptr<drivers::LidarDriver> lidar,
                std::string_view version)
-    : config_(std::move(loaded.config)),
+    : reloader_(std::move(loader)),
+      config_(std::move(loaded.config)),
       is_live_(config_.lidar.driver != settings::DriverKind::kReplay),
       server_(loop_, version, control_actions(config_)),
-      scans_(server_, published(loaded)),
+      scans_(server_, published(loaded.maps, config_)),
       status_(server_, notifier_),
       tick_(kTick),
-      reloader_(std::move(loader)),
       model_(drivers::first_lidar_model(config_.lidar.driver)),
       calibration_(calibration_file_path(config_.lidar), config_.lidar.bias),
+      walls_(learned_walls_folder(config_)),
       lidar_(std::move(lidar)),
-      localization_(*lidar_,
-                    with_calibration(std::move(loaded.pipeline), config_.lidar, calibration_),
-                    source_of(config_.lidar.driver)) {
+      localization_(*lidar_, with_learned(loaded), source_of(config_.lidar.driver)) {
   status_.configure(config_);
-  open_sockets();
+  log(LogLevel::kInfo, "map in use: " + describe(loaded.maps));
+  log_sizes(loaded.maps);
+  open_sockets(server_, config_.socket);
   // The sockets are opened first: a second instance fails before it touches the serial port.
-  localization_.publish_predictions(config_.odometry.core.publish_predictions);
+  configure_localization(config_);
   localization_.start();
   // A recording contains its own odometry.
   auto odometry = is_live_ ? make_odometry(config_.odometry) : nullptr;
@@ -83,11 +81,12 @@ Daemon::Daemon(Loaded loaded, MapLoader loader, std::unique_ptr<drivers::LidarDr
       status_.observe(reading);
       scans_.publish(reading, is_live_ ? unix_ns() - monotonic_ns() : 0);
     });
-    localization_.take([this](const ScanReport& report) {
-      scans_.publish(report);
-      status_.observe(report);
-    });
-    localization_.take_predictions([this](const auto& pose) { scans_.publish(pose); });
+    localization_.take(
+        [this](const ScanReport& report) {
+          scans_.publish(report);
+          status_.observe(report);
+        },
+        [this](const core::PoseEstimate& pose) { scans_.publish(pose); });
     scans_.publish_odometry(localization_);
   });
   if (const auto period_us = notifier_.watchdog_period_us()) {
@@ -96,22 +95,9 @@ Daemon::Daemon(Loaded loaded, MapLoader loader, std::unique_ptr<drivers::LidarDr
   }
 }
 
-void Daemon::open_sockets() {
-  std::vector<InheritedSocket> inherited = take_inherited_sockets();
-  const auto open = [&](const std::filesystem::path& path, SocketRole role) {
-    const auto found = std::find_if(inherited.begin(), inherited.end(),
-                                    [&](const auto& socket) { return socket.path == path; });
-    if (found == inherited.end()) return server_.listen(path, role);
-    server_.listen(std::move(*found), role);
-    inherited.erase(found);
-  };
-  open(config_.socket.pose, SocketRole::kPose);
-  open(config_.socket.control, SocketRole::kControl);
-  for (const InheritedSocket& socket : inherited) {
-    log(LogLevel::kWarning,
-        socket.path.string() +
-            ": the service manager's socket is not used: set its path in /socket");
-  }
+void Daemon::configure_localization(const settings::Config& config) {
+  localization_.publish_predictions(config.odometry.core.publish_predictions);
+  localization_.localize_parts(config.updates_per_scan > 1);
 }
 
 /// Refusals are logged; the daemon runs without real-time privileges.
@@ -180,7 +166,6 @@ void Daemon::run() {
 void Daemon::on_signal() {
   const int signal = signals_.take();
   if (signal == SIGHUP) {
-    log(LogLevel::kInfo, "SIGHUP: reloading config and map");
     notifier_.reloading();
     reloader_.start({});
   } else if (signal != 0) {
@@ -191,10 +176,11 @@ void Daemon::on_signal() {
 
 void Daemon::refuse(const Reloader::Outcome& outcome) {
   const bool is_reload = outcome.job.is_reload();
-  log(LogLevel::kError,
-      (!outcome.job.set_map ? "reload refused, the old config and map stay in use: "
-                            : "map refused, the old one stays in use: ") +
-          outcome.error);
+  if (outcome.job.set_map) {
+    map_refusals_.add(outcome.error, monotonic_ns());
+  } else {
+    reload_refusals_.add(outcome.error, monotonic_ns());
+  }
   server_.publish(
       message::MessageClass::kEvent,
       line_.event(now_ns(), outcome.job.set_map ? "map refused" : "reload refused", outcome.error));
@@ -213,20 +199,21 @@ void Daemon::on_loaded() {
       is_reload && !list.empty()) {
     log(LogLevel::kWarning, "restart cornerd to apply: " + list);
   }
-  const std::string name =
-      loaded.map->plan().name + ", " + std::to_string(loaded.map->plan().walls.size()) + " walls";
+  const std::string name = describe(loaded.maps);
   if (!calibration_.reconfigure(loaded.config.lidar.bias)) localization_.forget_lidar();
-  localization_.publish_predictions(loaded.config.odometry.core.publish_predictions);
+  configure_localization(loaded.config);
   status_.configure(loaded.config);
-  auto pipeline = with_calibration(std::move(loaded.pipeline), loaded.config.lidar, calibration_);
-  scans_.set_next_map(localization_.replace_pipeline(std::move(pipeline)), published(loaded));
+  config_.lidar.calibrate_online = loaded.config.lidar.calibrate_online;
+  scans_.set_next_maps(localization_.replace_pipeline(with_learned(loaded)),
+                       published(loaded.maps, loaded.config));
   if (health_.memory_is_locked) health_.memory_is_locked = lock_memory() == 0;
   if (config_.realtime.lock_memory && !health_.memory_is_locked) prefault_memory();
   if (const auto* model = outcome.job.model) {
     log(LogLevel::kInfo, "lidar noise: that of model " + std::string(model->name));
     return;
   }
-  log(LogLevel::kInfo, "map loaded: " + name);
+  loaded_maps_.add(name, monotonic_ns());
+  log_sizes(loaded.maps);
   server_.publish(message::MessageClass::kEvent, line_.event(now_ns(), "map loaded", name));
   if (is_reload) return notifier_.ready();
   server_.answer_later(outcome.job.ticket, std::nullopt);
@@ -244,6 +231,9 @@ void Daemon::on_tick() {
     }
     clock_steps_.flush(monotonic_ns());
   }
+  map_refusals_.flush(monotonic_ns());
+  reload_refusals_.flush(monotonic_ns());
+  loaded_maps_.flush(monotonic_ns());
   scans_.publish_odometry(localization_);
   publish_changes();
   update_calibration_file();
@@ -255,6 +245,7 @@ void Daemon::on_tick() {
     status_.publish(lidar_->status(), scans_, localization_, health_, now_ns());
   }
   if (is_time) {
+    status_.set_walls(walls_.update(localization_, scans_.map()).get(), scans_.map(), now_ns());
     server_.restore_sockets([](const std::string& line) { log(LogLevel::kWarning, line); });
   }
 }
@@ -275,6 +266,13 @@ void Daemon::update_calibration_file() {
     server_.publish(message::MessageClass::kEvent, line_.event(now_ns(), "another lidar", text));
   }
   if (scans_.lidar() == localization_.lidar()) calibration_.update(scans_.bias());
+}
+
+std::unique_ptr<core::Pipeline> Daemon::with_learned(Loaded& loaded) {
+  core::MapChoice& maps = loaded.pipeline->maps();
+  if (config_.lidar.calibrate_online) maps.resume(calibration_.estimate());
+  for (core::Localizer& localizer : maps.localizers()) walls_.resume(localizer, *localizer.map());
+  return std::move(loaded.pipeline);
 }
 
 void Daemon::publish_changes() {

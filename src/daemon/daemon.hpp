@@ -8,6 +8,7 @@
 #include "core/map/wall_map.hpp"
 #include "daemon/calibration_file.hpp"
 #include "daemon/event_loop.hpp"
+#include "daemon/learned_walls_file.hpp"
 #include "daemon/localization.hpp"
 #include "daemon/message_server.hpp"
 #include "daemon/odometry_clients.hpp"
@@ -39,17 +40,20 @@ class Daemon {
   void on_tick();
   void publish_changes();
   void update_calibration_file();
+  /// Its pipeline, with what is known of the lidar and of the map's walls.
+  std::unique_ptr<core::Pipeline> with_learned(Loaded& loaded);
   /// The noise of the lidar that is there, where the config has none.
   void follow_model(const drivers::LidarStatus& lidar);
   void on_watchdog();
   void on_signal();
   void on_loaded();
   void refuse(const Reloader::Outcome& outcome);
-  void open_sockets();
+  void configure_localization(const settings::Config& config);
   void set_up_realtime();
   /// UNIX time live; the recording's time in a replay.
   core::TimeNs now_ns() const { return is_live_ ? unix_ns() : scans_.end_of_newest_scan_ns(); }
 
+  Reloader reloader_;  ///< the first, as its destructor may end the process
   settings::Config config_;
   const bool is_live_;
   Signals signals_;  ///< constructed before any thread
@@ -66,9 +70,14 @@ class Daemon {
   message::LineWriter line_;
   int ticks_ = 0;
   DaemonHealth health_;
-  Reloader reloader_;
+  /// There may be many SET_MAP and SIGHUP.
+  RateLimitedLog map_refusals_{LogLevel::kError, "map refused, the old one stays in use"};
+  RateLimitedLog reload_refusals_{LogLevel::kError,
+                                  "reload refused, the old config and map stay in use"};
+  RateLimitedLog loaded_maps_{LogLevel::kInfo, "map loaded"};
   const drivers::LidarModel* model_;  ///< whose noise is used, unless the config has one
   CalibrationFile calibration_;
+  LearnedWallsFile walls_;
   std::unique_ptr<drivers::LidarDriver> lidar_;
   Localization localization_;
   std::optional<OdometryReader> odometry_;  ///< last: its thread uses localization_

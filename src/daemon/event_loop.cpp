@@ -46,11 +46,13 @@ void EventLoop::add(int fd, std::uint32_t events, Handler handler) {
   if (::epoll_ctl(epoll_.get(), EPOLL_CTL_ADD, fd, &event) != 0) {
     throw std::system_error(errno, std::generic_category(), "epoll_ctl");
   }
-  registrations_[fd] = {newest_, std::make_shared<const Handler>(std::move(handler))};
+  registrations_[fd] = {newest_, events, std::make_shared<const Handler>(std::move(handler))};
 }
 
 void EventLoop::change(int fd, std::uint32_t events) {
-  epoll_event event = event_of(fd, registrations_.at(fd).number, events);
+  Registration& registration = registrations_.at(fd);
+  if (std::exchange(registration.events, events) == events) return;
+  epoll_event event = event_of(fd, registration.number, events);
   ::epoll_ctl(epoll_.get(), EPOLL_CTL_MOD, fd, &event);
 }
 

@@ -22,6 +22,7 @@ class EventLoop {
 
   /// Does not take ownership of `fd`. Call remove() before closing it.
   void add(int fd, std::uint32_t events, Handler handler);
+  /// No system call if they are the same.
   void change(int fd, std::uint32_t events);
   void remove(int fd);
 
@@ -34,6 +35,7 @@ class EventLoop {
  private:
   struct Registration {
     std::uint32_t number = 0;
+    std::uint32_t events = 0;
     std::shared_ptr<const Handler> handler;
   };
 

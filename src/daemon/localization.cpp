@@ -18,6 +18,7 @@ namespace {
 constexpr std::size_t kReportSlots = 16;
 /// Two seconds at 500 Hz; a scan takes at most one second.
 constexpr std::size_t kReadingSlots = 1024;
+constexpr std::size_t kHashDigits = 64;
 constexpr std::size_t kInitialPoseSlots = 4;
 /// More than a tenth of a second of readings.
 constexpr std::size_t kPredictionSlots = 64;
@@ -49,6 +50,8 @@ Localization::~Localization() {
   reader_ = {};
   delete next_.load();
   delete retired_.load();
+  delete walls_wanted_.load();
+  delete walls_filled_.load();
 }
 
 void Localization::start() {
@@ -91,8 +94,33 @@ std::uint32_t Localization::replace_pipeline(std::unique_ptr<core::Pipeline> pip
   return newest_;
 }
 
+void Localization::request_walls() {
+  if (walls_wanted_.load() != nullptr) return;
+  constexpr std::size_t kSize = core::WallOffsetFilter::kMaxWalls;
+  auto report = std::make_unique<WallReport>();
+  report->walls.offsets.reserve(kSize);
+  // Touched here, so that the localizer meets no page fault.
+  report->walls.covariance_m2.resize(kSize * (kSize + 1) / 2);
+  report->walls.covariance_m2.clear();
+  report->map_hash.reserve(kHashDigits);
+  report->changes.reserve(core::MapChanges::kMaxChanges);
+  walls_wanted_.store(report.release());
+}
+
+void Localization::report_walls(const core::Localizer& localizer) {
+  // The server thread has not yet taken the last one.
+  if (walls_filled_.load() != nullptr) return;
+  WallReport* const report = walls_wanted_.exchange(nullptr);
+  if (report == nullptr) return;
+  if (localizer.walls() != nullptr) localizer.walls()->copy_to(report->walls);
+  const auto changes = localizer.map_changes();
+  report->changes.assign(changes.begin(), changes.end());
+  if (localizer.map() != nullptr) report->map_hash = localizer.map()->plan().hash;
+  walls_filled_.store(report);
+}
+
 void Localization::process(const SampleChannel::Item& item) {
-  if (item.arrival_ns != 0) own_health_.latency.add(monotonic_ns() - item.arrival_ns);
+  if (item.passed_ns != 0) own_health_.latency.add(monotonic_ns() - item.passed_ns);
   process(*current_->pipeline, item);
   if (item.arrival_ns != 0) swap_pipeline(item);
 }
@@ -111,9 +139,9 @@ void Localization::swap_pipeline(const SampleChannel::Item& item) {
 }
 
 void Localization::process(core::Pipeline& pipeline, const SampleChannel::Item& item) {
-  if (relocalize_.exchange(false, std::memory_order_relaxed)) pipeline.localizer().relocalize();
+  if (relocalize_.exchange(false, std::memory_order_relaxed)) pipeline.maps().relocalize();
   if (const std::uint32_t now = lidar(); current_->lidar != now) {
-    pipeline.localizer().forget_lidar();
+    pipeline.maps().forget_lidar();
     current_->lidar = now;
   }
   // A pose set after a change of the map is in the new one.
@@ -121,14 +149,17 @@ void Localization::process(core::Pipeline& pipeline, const SampleChannel::Item& 
   core::Pose2 T_map_base;
   while (!is_replaced && initial_poses_.pop(T_map_base)) pipeline.localizer().set_pose(T_map_base);
   take_readings();
-  if (item.kind == SampleChannel::Kind::kReading) return take(item.reading, std::nullopt);
+  if (item.kind == SampleChannel::Kind::kReading) return process(item.reading, std::nullopt);
   const core::ScanResult* result =
       item.kind == SampleChannel::Kind::kGap ? pipeline.finish() : pipeline.add(item.sample);
-  if (result != nullptr) report(pipeline, *result, item.arrival_ns);
+  if (result != nullptr) {
+    report(pipeline, *result, item.arrival_ns);
+    report_walls(pipeline.localizer());
+  }
   if (item.kind == SampleChannel::Kind::kSample) report(pipeline.partial_pose());
 }
 
-void Localization::report(const core::Pipeline& pipeline, const core::ScanResult& result,
+void Localization::report(core::Pipeline& pipeline, const core::ScanResult& result,
                           std::int64_t arrival_ns) {
   rounds_.fetch_add(1, std::memory_order_relaxed);
   ++scans_;
@@ -144,6 +175,7 @@ void Localization::report(const core::Pipeline& pipeline, const core::ScanResult
     report.scan.shift(report.to_unix_ns);
     report.latency_ns = monotonic_ns() - arrival_ns;
     report.generation = current_->number;
+    report.map = pipeline.maps().map();
     report.lidar = current_->lidar;
   });
   if (!handed_over) lost_reports_.fetch_add(1, std::memory_order_relaxed);
@@ -156,11 +188,12 @@ void Localization::take_readings() {
   core::OdometryReading reading;
   const bool is_device = source_ == SourceKind::kDevice;
   while (readings_.pop(reading)) {
-    take(reading, is_device ? std::optional(monotonic_ns()) : std::nullopt);
+    process(reading, is_device ? std::optional(monotonic_ns()) : std::nullopt);
   }
 }
 
-void Localization::take(const core::OdometryReading& reading, std::optional<core::TimeNs> now_ns) {
+void Localization::process(const core::OdometryReading& reading,
+                           std::optional<core::TimeNs> now_ns) {
   taken_.push(reading);
   report(current_->pipeline->add(reading, now_ns));
   report(odometry_frame_.add(reading, now_ns, odometry_parameters_));

@@ -5,7 +5,9 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <string>
 #include <thread>
+#include <vector>
 
 #include "core/latency_histogram.hpp"
 #include "core/odometry/odometry_frame.hpp"
@@ -29,10 +31,18 @@ struct ScanReport {
   core::Scan scan;
   core::TimeNs to_unix_ns = 0;  ///< added to the times of `result` and `scan`
   std::uint64_t number = 0;     ///< counts scans; POSE.seq also counts predictions
-  /// From the arrival of the scan's last sample to its pose.
+  /// From the arrival of the scan's last byte to its pose; of a recording, from its last sample.
   std::int64_t latency_ns = 0;
-  std::uint32_t generation = 0;  ///< of the pipeline, see Localization::replace_pipeline()
-  std::uint32_t lidar = 0;       ///< to which result.bias belongs, see Localization::lidar()
+  std::uint32_t generation = 0;    ///< of the pipeline, see Localization::replace_pipeline()
+  std::optional<std::size_t> map;  ///< of the pipeline's; nullopt until it is known
+  std::uint32_t lidar = 0;         ///< to which result.bias belongs, see Localization::lidar()
+};
+
+/// What the localizer has learned of the walls.
+struct WallReport {
+  core::LearnedWalls walls;
+  std::vector<core::MapChange> changes;
+  std::string map_hash;
 };
 
 /// Timing of a thread.
@@ -63,16 +73,21 @@ class Localization {
 
   /// Readable when reports or predictions wait.
   int event_fd() const { return reported_.get(); }
-  /// Calls `use` with each waiting ScanReport, oldest first.
-  void take(const auto& use) {
+  /// Calls `use_report` with each waiting ScanReport and `use_pose` with each pose between scans,
+  /// in the order of their POSE.seq.
+  void take(const auto& use_report, const auto& use_pose) {
     clear_event();
     delete retired_.exchange(nullptr);
-    while (reports_.take(use)) {
-    }
-  }
-  /// Calls `use` with each waiting pose between scans. Call it after take().
-  void take_predictions(const auto& use) {
-    while (predictions_.take(use)) {
+    while (true) {
+      const ScanReport* report = reports_.front();
+      const core::PoseEstimate* const pose = predictions_.front();
+      // A report may have come before this pose, since the first look.
+      if (report == nullptr && pose != nullptr) report = reports_.front();
+      if (report != nullptr && (pose == nullptr || report->result.pose.seq < pose->seq)) {
+        reports_.take(use_report);
+      } else if (!predictions_.take(use_pose)) {
+        return;
+      }
     }
   }
   /// Calls `use` with each odometry reading that the localizer has taken, in the samples' time.
@@ -92,6 +107,8 @@ class Localization {
   void publish_predictions(bool every) {
     publishes_predictions_.store(every, std::memory_order_relaxed);
   }
+  /// Localize partial scans as they come: /advanced/localizer/updates_per_scan.
+  void localize_parts(bool parts) { channel_.wake_for_parts(parts); }
   /// Wake for each reading, since somebody watches ODOM or ODOMETRY.
   void hurry_odometry(bool every) { hurries_odometry_.store(every, std::memory_order_relaxed); }
   /// Calls `use` with each waiting pose in the frame `odom`, oldest first. Call it after take(),
@@ -104,7 +121,13 @@ class Localization {
   void set_initial_pose(const core::Pose2& T_map_base) { initial_poses_.push(T_map_base); }
   /// Replaces the pipeline after the current scan. Returns the generation of the new one.
   std::uint32_t replace_pipeline(std::unique_ptr<core::Pipeline> pipeline);
-  /// The next scan is matched without a prior.
+  /// Asks for a WallReport, which is there after the next scan.
+  void request_walls();
+  /// The one asked for; null until it is there.
+  std::unique_ptr<WallReport> take_walls() {
+    return std::unique_ptr<WallReport>(walls_filled_.exchange(nullptr));
+  }
+  /// The next scan is matched without a prior; where there are several maps, in all of them.
   void relocalize() { relocalize_.store(true, std::memory_order_relaxed); }
   /// Forgets the estimated bias after a change of the lidar. Later reports have a new lidar().
   void forget_lidar() { lidar_.fetch_add(1, std::memory_order_relaxed); }
@@ -132,8 +155,8 @@ class Localization {
   void localize(const std::stop_token& stop);
   void process(const SampleChannel::Item& item);
   void process(core::Pipeline& pipeline, const SampleChannel::Item& item);
-  void report(const core::Pipeline& pipeline, const core::ScanResult& result,
-              std::int64_t arrival_ns);
+  void report(core::Pipeline& pipeline, const core::ScanResult& result, std::int64_t arrival_ns);
+  void report_walls(const core::Localizer& localizer);
   /// Installs the next pipeline, if there is one, between two scans.
   void swap_pipeline(const SampleChannel::Item& item);
   bool wants_every_reading() const {
@@ -141,7 +164,7 @@ class Localization {
            hurries_odometry_.load(std::memory_order_relaxed);
   }
   void take_readings();
-  void take(const core::OdometryReading& reading, std::optional<core::TimeNs> now_ns);
+  void process(const core::OdometryReading& reading, std::optional<core::TimeNs> now_ns);
   void report(const core::PoseEstimate* prediction);
   void report(const core::OdometryPose* pose);
   void clear_event() const;
@@ -154,6 +177,9 @@ class Localization {
   /// Pipelines go to the localizer thread and back, so that it neither allocates nor frees.
   std::atomic<Generation*> next_{nullptr};
   std::atomic<Generation*> retired_{nullptr};
+  /// Goes to the localizer thread empty and comes back filled.
+  std::atomic<WallReport*> walls_wanted_{nullptr};
+  std::atomic<WallReport*> walls_filled_{nullptr};
   std::uint32_t newest_ = 0;  ///< number of the last pipeline handed over
   SampleChannel channel_;
   core::RingBuffer<core::OdometryReading> readings_;

@@ -6,6 +6,8 @@
 #include <csignal>
 #include <cstdio>
 #include <exception>
+#include <memory>
+#include <new>
 #include <span>
 #include <string>
 #include <string_view>
@@ -64,7 +66,10 @@ int run(const daemon::Options& options) {
   daemon::MapLoader loader(options.config, options.overrides);
   daemon::Loaded loaded = loader.load();
   auto lidar = daemon::make_lidar(loaded.config.lidar);
-  daemon::Daemon(std::move(loaded), std::move(loader), std::move(lidar), CORNERD_VERSION).run();
+  // On the heap: its 36 kB do not fit on a small stack (ulimit -s 64).
+  std::make_unique<daemon::Daemon>(std::move(loaded), std::move(loader), std::move(lidar),
+                                   CORNERD_VERSION)
+      ->run();
   return 0;
 }
 
@@ -86,6 +91,9 @@ int main(int argc, char** argv) {
   } catch (const settings::SettingsError& error) {
     print_error(error.what());
     return settings::kExitConfig;
+  } catch (const std::bad_alloc&) {
+    print_error("not enough memory: check `ulimit -v` and the size of the map");
+    return kExitFailed;
   } catch (const std::exception& error) {
     print_error(error.what());
     return kExitFailed;

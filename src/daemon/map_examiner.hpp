@@ -3,7 +3,6 @@
 
 #include <atomic>
 #include <cstddef>
-#include <deque>
 #include <memory>
 #include <optional>
 #include <thread>
@@ -22,7 +21,7 @@ class MapExaminer {
   /// Of the scans that follow.
   void configure(const settings::Config& config);
   void observe(const ScanReport& report);
-  /// `lost`: how many of the last ScanPublisher::kRecentScans scans were. Starts an examination
+  /// `lost`: how many of the last RecentPoses::kScans scans were. Starts an examination
   /// where they are many; returns what the last one found, as long as they are.
   const std::optional<calibration::MapFinding>& update(std::size_t lost, const core::WallMap* map);
 
@@ -30,8 +29,7 @@ class MapExaminer {
   void examine(const core::FloorPlan& plan, const std::stop_token& stop);
 
   settings::Config config_;
-  std::deque<calibration::ScanSamples> scans_;  ///< a second apart
-  core::TimeNs newest_ns_ = 0;
+  calibration::RecentScans scans_;
   std::size_t added_ = 0;  ///< scans since the last examination
   const core::WallMap* map_ = nullptr;
   std::vector<calibration::ScanSamples> examined_;

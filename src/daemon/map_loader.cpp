@@ -3,7 +3,9 @@
 
 #include <utility>
 
+#include "daemon/log.hpp"
 #include "message/line_writer.hpp"
+#include "settings/document.hpp"
 #include "settings/map_choice.hpp"
 #include "settings/map_file.hpp"
 
@@ -23,14 +25,50 @@ core::LocalizerConfig localizer_config(const settings::Config& config) {
   return localizer;
 }
 
+/// Those that scans are localized in.
+std::vector<settings::NamedMap> used_maps(const settings::Config& config,
+                                          const std::filesystem::path& config_file) {
+  if (!config.chooses_map()) return {{config.map_name, config.map}};
+  if (config.maps.size() > core::MapChoice::kMaxMaps) {
+    throw settings::SettingsError(
+        config_file, "/maps",
+        "\"auto\" chooses from at most " + std::to_string(core::MapChoice::kMaxMaps));
+  }
+  return config.maps;
+}
+
 }  // namespace
+
+std::string describe(const core::WallMap& map) {
+  const core::FloorPlan& plan = map.plan();
+  return plan.name + ", " + std::to_string(plan.walls.size()) + " walls, SHA-256 " + plan.hash;
+}
+
+std::string describe(const std::vector<LoadedMap>& maps) {
+  if (maps.size() == 1) return describe(*maps.front().map);
+  std::string names;
+  for (const LoadedMap& loaded : maps) {
+    names += (names.empty() ? "one of: " : ", ") + loaded.map->plan().name;
+  }
+  return names;
+}
+
+void log_sizes(const std::vector<LoadedMap>& maps) {
+  for (const LoadedMap& loaded : maps) {
+    const std::string warning = settings::size_warning(*loaded.map);
+    if (!warning.empty()) log(LogLevel::kWarning, loaded.map->plan().name + ": " + warning);
+  }
+}
 
 MapLoader::MapLoader(std::filesystem::path config_file, std::vector<std::string> overrides)
     : config_file_(std::move(config_file)), overrides_(std::move(overrides)) {}
 
 void MapLoader::check() const {
   const settings::Config config = settings::load_config(config_file_, overrides_, kKind);
-  settings::load_map(config.map, kKind);
+  for (const settings::NamedMap& map : used_maps(config, config_file_)) {
+    settings::load_map(map.file, kKind);
+  }
+  if (config.chooses_map()) return;
   for (const settings::NamedMap& map : config.maps) {
     if (map.file != config.map) settings::load_map(map.file, kKind);
   }
@@ -77,10 +115,13 @@ Loaded MapLoader::load(const message::SetMapRequest& request) {
 
 Loaded MapLoader::with_map(settings::Config config) {
   Loaded loaded;
-  loaded.map = settings::load_map(config.map, kKind, config.map_name);
-  loaded.map_line =
-      std::make_shared<const std::string>(message::LineWriter().map(loaded.map->plan()));
-  loaded.pipeline = std::make_unique<core::Pipeline>(loaded.map, localizer_config(config));
+  std::vector<std::shared_ptr<const core::WallMap>> maps;
+  for (const settings::NamedMap& map : used_maps(config, config_file_)) {
+    maps.push_back(settings::load_map(map.file, kKind, map.name));
+    loaded.maps.push_back({maps.back(), std::make_shared<const std::string>(
+                                            message::LineWriter().map(maps.back()->plan()))});
+  }
+  loaded.pipeline = std::make_unique<core::Pipeline>(maps, localizer_config(config));
   used_ = config;
   loaded.config = std::move(config);
   return loaded;

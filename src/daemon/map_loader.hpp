@@ -14,13 +14,24 @@
 
 namespace cornerd::daemon {
 
-/// The config, its map, and a pipeline for them.
+/// A map with its MAP.
+struct LoadedMap {
+  std::shared_ptr<const core::WallMap> map;
+  Line line = nullptr;
+};
+
+/// The config, its map or those that the scans choose from, and a pipeline for them.
 struct Loaded {
   settings::Config config;
-  std::shared_ptr<const core::WallMap> map;
-  Line map_line;  ///< MAP
+  std::vector<LoadedMap> maps;
   std::unique_ptr<core::Pipeline> pipeline;
 };
+
+/// "hall, 12 walls, SHA-256 3f0c...", for the log; "one of: hall, cellar" for several.
+std::string describe(const core::WallMap& map);
+std::string describe(const std::vector<LoadedMap>& maps);
+/// Warns in the log of maps that are probably in other units; they are loaded all the same.
+void log_sizes(const std::vector<LoadedMap>& maps);
 
 /// Loads what a pipeline needs. Takes seconds where the map is large. Throws SettingsError where
 /// config or map is invalid; the next load is then the same as without that call.

@@ -20,6 +20,20 @@ using message::MessageClass;
 constexpr mode_t kPoseMode = 0666;
 constexpr mode_t kControlMode = 0660;
 
+/// Why clients cannot connect to the socket, and what to do; empty if the daemon mends it.
+std::string_view complaint(UnixListener::File file) {
+  switch (file) {
+    case UnixListener::File::kReplaced:
+      return ": is no longer the socket of this daemon, whose clients connect to something else: "
+             "remove it, and the daemon makes its own again";
+    case UnixListener::File::kClosed:
+      return ": its mode was changed, and clients that could connect cannot: remove it, and the "
+             "daemon makes it again";
+    default:
+      return {};
+  }
+}
+
 mode_t mode_of(SocketRole role) { return role == SocketRole::kPose ? kPoseMode : kControlMode; }
 
 /// The classes before the first WATCH.
@@ -69,12 +83,8 @@ void MessageServer::restore_sockets(const std::function<void(const std::string& 
       socket.restore_failed = false;
       continue;
     }
-    if (file == UnixListener::File::kReplaced) {
-      if (!std::exchange(socket.restore_failed, true)) {
-        log(path.string() +
-            ": is no longer the socket of this daemon, whose clients connect to something else: "
-            "remove it, and the daemon makes its own again");
-      }
+    if (const std::string_view text = complaint(file); !text.empty()) {
+      if (!std::exchange(socket.restore_failed, true)) log(path.string().append(text));
       continue;
     }
     try {

@@ -67,7 +67,7 @@ void OdometryClients::describe(message::StatusFields& status) {
   status.odometry_hint =
       is_shown ? "two clients send ODOMETRY: one client's lines are used, stop the other client"
                : why_absent;
-  status.odometry_is_refused = !is_shown && input_.are_refused();
+  status.odometry_fault = is_shown ? "odometry-second-client" : input_.fault();
 }
 
 }  // namespace cornerd::daemon

@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: MIT
 #include "daemon/reloader.hpp"
 
+#include <poll.h>
 #include <pthread.h>
 #include <sys/eventfd.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <exception>
+#include <new>
 #include <utility>
 
 namespace cornerd::daemon {
@@ -17,12 +20,20 @@ namespace {
 constexpr std::size_t kMaxWaiting = 8;
 /// The localizer's thread comes first on a board with one core: nine times as much of it, sched(7).
 constexpr int kNiceness = 10;
+/// A large map may take longer than a service manager waits.
+constexpr int kMaxWait_ms = 1000;
 
 }  // namespace
 
 Reloader::Reloader(MapLoader loader)
     : loader_(std::move(loader)),
       done_(require_fd(::eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC), "eventfd")) {}
+
+Reloader::~Reloader() {
+  if (!is_loading_) return;
+  pollfd done{done_.get(), POLLIN, 0};
+  if (::poll(&done, 1, kMaxWait_ms) <= 0) std::_Exit(EXIT_SUCCESS);
+}
 
 bool Reloader::start(Job job) {
   // One reload after the last signal has seen all changes of the files.
@@ -48,6 +59,8 @@ void Reloader::run() {
     outcome_.loaded = job.set_map ? loader_.load(*job.set_map)
                       : job.model ? loader_.load(*job.model)
                                   : loader_.load();
+  } catch (const std::bad_alloc&) {
+    outcome_.error = "the map needs more memory than there is: fewer walls, or `ulimit -v`";
   } catch (const std::exception& error) {
     outcome_.error = error.what();
   }

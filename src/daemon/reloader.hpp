@@ -34,6 +34,10 @@ class Reloader {
 
   /// Throws std::system_error.
   explicit Reloader(MapLoader loader);
+  /// Ends the process where a load, which cannot be interrupted, goes on for more than a second.
+  ~Reloader();
+  Reloader(const Reloader&) = delete;
+  Reloader& operator=(const Reloader&) = delete;
 
   /// Loads after the jobs that wait. False if too many wait.
   bool start(Job job);

@@ -12,15 +12,17 @@ namespace cornerd::daemon {
 /// Passes samples and gaps from the reader to the localizer, in order.
 ///
 /// The localizer sleeps (std::atomic::wait) until a sample may complete a scan: a few wake-ups per
-/// second instead of one per sample. A stream without scan starts wakes it every kWakeInterval
-/// samples, before the ring is full.
+/// second instead of one per sample, or one every 10 ms for partial scans. A stream without scan
+/// starts wakes it every kWakeInterval samples, before the ring is full.
 class SampleChannel final : public drivers::SampleSink {
  public:
   enum class Kind : std::uint8_t { kSample, kGap, kReading };
   struct Item {
     core::Sample sample;
     core::OdometryReading reading;
-    std::int64_t arrival_ns = 0;  ///< monotonic; 0 for a sample inside a scan
+    /// Of the last byte, monotonic; 0 for a sample inside a scan.
+    std::int64_t arrival_ns = 0;
+    std::int64_t passed_ns = 0;  ///< when it was put into the channel; 0 likewise
     Kind kind = Kind::kSample;
   };
 
@@ -31,6 +33,7 @@ class SampleChannel final : public drivers::SampleSink {
 
   /// Producer.
   void on_sample(const core::Sample& sample) override;
+  void on_arrival(core::TimeNs arrival_ns) override { arrival_ns_ = arrival_ns; }
   void on_gap() override;
   void on_reading(const core::OdometryReading& reading) override;
 
@@ -42,6 +45,8 @@ class SampleChannel final : public drivers::SampleSink {
 
   /// Any thread.
   void wake();
+  /// Wakes the consumer within scans too.
+  void wake_for_parts(bool parts) { wakes_for_parts_.store(parts, std::memory_order_relaxed); }
   /// Ends waiting of the producer; its further samples are lost.
   void close();
   /// Time of the producer's newest sample; 0 before the first.
@@ -60,7 +65,10 @@ class SampleChannel final : public drivers::SampleSink {
   const WhenFull when_full_;
   core::RingBuffer<Item> ring_;
   std::uint32_t since_wake_ = 0;
-  bool gap_pending_ = false;  ///< samples were lost and the gap is not yet in the ring
+  core::TimeNs woken_ns_ = 0;    ///< time of the sample of the last wake-up
+  std::int64_t arrival_ns_ = 0;  ///< of the next sample; 0 if the source does not say
+  bool gap_pending_ = false;     ///< samples were lost and the gap is not yet in the ring
+  std::atomic<bool> wakes_for_parts_{false};
   std::atomic<std::uint32_t> wakes_{0};
   std::atomic<core::TimeNs> newest_ns_{0};
   std::atomic<std::uint32_t> lost_{0};

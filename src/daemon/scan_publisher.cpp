@@ -26,41 +26,64 @@ constexpr double kMaxJump_rad = core::radians(179);
 
 }  // namespace
 
-ScanPublisher::ScanPublisher(MessageServer& server, PublishedMap map)
-    : server_(server), map_(std::move(map)) {
-  if (map_.line) server_.publish(MessageClass::kMap, map_.line);
+ScanPublisher::ScanPublisher(MessageServer& server, PublishedMaps maps)
+    : server_(server), maps_(std::move(maps)) {
+  if (maps_.maps.size() == 1) use_map(0, 0);
 }
 
-void ScanPublisher::set_next_map(std::uint32_t generation, PublishedMap map) {
-  next_maps_.push_back({generation, std::move(map)});
+void ScanPublisher::set_next_maps(std::uint32_t generation, PublishedMaps maps) {
+  next_maps_.push_back({generation, std::move(maps)});
 }
 
 void ScanPublisher::publish_next_map() {
-  if (next_maps_.empty()) return;
-  if (const Line line = std::exchange(next_maps_.back().map.line, nullptr)) {
+  if (next_maps_.empty() || next_maps_.back().maps.maps.size() > 1) return;
+  if (const Line line = std::exchange(next_maps_.back().maps.maps.front().line, nullptr)) {
     server_.publish(MessageClass::kMap, line);
   }
 }
 
 void ScanPublisher::take_next_maps(std::uint32_t generation) {
-  bool is_new = false;
-  for (; !next_maps_.empty() && next_maps_.front().generation <= generation; is_new = true) {
-    map_ = std::move(next_maps_.front().map);
-    next_maps_.pop_front();
+  for (; !next_maps_.empty() && next_maps_.front().generation <= generation;
+       next_maps_.pop_front()) {
+    maps_ = std::move(next_maps_.front().maps);
+    map_.reset();
+    recent_ = {};
   }
-  if (!is_new) return;
-  recent_lost_.reset();
+}
+
+void ScanPublisher::use_map(std::optional<std::size_t> map, core::TimeNs t_ns) {
+  if (map == map_) return;
+  map_ = map;
+  recent_ = {};
   last_fix_.reset();  // poses in two maps cannot be compared
-  if (map_.line) server_.publish(MessageClass::kMap, map_.line);
+  if (!map) return;
+  const LoadedMap& used = maps_.maps[*map];
+  if (used.line) server_.publish(MessageClass::kMap, used.line);
+  if (maps_.maps.size() == 1) return;
+  const std::string text = describe(*used.map);
+  log(LogLevel::kInfo, "map chosen by the scans: " + text);
+  server_.publish(MessageClass::kEvent, line_.event(t_ns, "map chosen", text));
+}
+
+std::optional<message::StatusFields::Map> ScanPublisher::choice() const {
+  if (maps_.names.empty()) return std::nullopt;
+  if (map_) return {{"known", map()->plan().name, {}}};
+  return {{candidates_.empty() ? "unknown" : "ambiguous", {}, candidates_}};
 }
 
 void ScanPublisher::publish(const ScanReport& report) {
   const core::PoseEstimate& pose = report.result.pose;
   take_next_maps(report.generation);
+  use_map(report.map, pose.t_ns);
+  candidates_.clear();
+  if (!map_) {
+    for (const core::Alternative& other : pose.alternatives) {
+      candidates_.push_back(maps_.names[other.map]);
+    }
+  }
   latencies_.add(core::to_seconds(report.latency_ns));
   ++poses_[static_cast<std::size_t>(pose.state)];
-  recent_lost_ <<= 1;
-  recent_lost_[0] = pose.state == core::PoseState::kLost;
+  recent_.add(pose, map());
   odometry_ = report.result.odometry;
   bias_ = report.result.bias;
   lidar_ = report.lidar;
@@ -75,6 +98,9 @@ void ScanPublisher::publish(const ScanReport& report) {
                     line_.breakpoints(report.scan.start_ns(), report.result.detection));
   }
   if (pose.state != state_) publish_change(pose.state, pose.t_ns);
+  if (const auto line = pose_log_.add(pose, pose.t_ns - report.to_unix_ns)) {
+    log(LogLevel::kInfo, *line);
+  }
   publish_jump(pose, report.number);
   jumps_.flush(monotonic_ns());
 }
@@ -120,7 +146,7 @@ void ScanPublisher::publish_odometry(Localization& localization) {
 
 void ScanPublisher::publish_pose(const core::PoseEstimate& pose) {
   server_.publish(MessageClass::kPose,
-                  line_.pose(pose, map_.map ? &map_.map->plan() : nullptr, map_.has_name));
+                  line_.pose(pose, map() ? &map()->plan() : nullptr, maps_.names));
 }
 
 void ScanPublisher::publish_change(core::PoseState to, core::TimeNs t_ns) {

@@ -2,17 +2,19 @@
 #pragma once
 
 #include <array>
-#include <bitset>
 #include <cstdint>
 #include <deque>
-#include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
+#include "calibration/fault_list.hpp"
 #include "core/map/wall_map.hpp"
 #include "daemon/latency_window.hpp"
 #include "daemon/localization.hpp"
+#include "daemon/map_loader.hpp"
 #include "daemon/message_server.hpp"
+#include "daemon/pose_log.hpp"
 #include "daemon/rate_limited_log.hpp"
 #include "message/line_writer.hpp"
 
@@ -21,22 +23,19 @@ namespace cornerd::daemon {
 /// Publishes POSE, SCAN, BREAKPOINTS and EVENT from the results of scans, ODOM and ODOMETRY.
 class ScanPublisher {
  public:
-  /// About 15 s of an A1.
-  static constexpr std::size_t kRecentScans = 100;
   static constexpr std::size_t kStates = static_cast<std::size_t>(core::PoseState::kLost) + 1;
 
-  /// A map with its MAP. `has_name`: POSE names it, because there are several.
-  struct PublishedMap {
-    std::shared_ptr<const core::WallMap> map;
-    Line line = nullptr;
-    bool has_name = false;
+  /// Of a pipeline. `names`: POSE names its map, because there are several.
+  struct PublishedMaps {
+    std::vector<LoadedMap> maps;
+    std::vector<std::string> names = {};
   };
 
-  ScanPublisher(MessageServer& server, PublishedMap map);
+  ScanPublisher(MessageServer& server, PublishedMaps maps);
 
   void publish(const ScanReport& report);
-  /// The map of scans from `generation` on; its MAP is published before the first POSE in it.
-  void set_next_map(std::uint32_t generation, PublishedMap map);
+  /// The maps of scans from `generation` on; MAP is published before the first POSE in it.
+  void set_next_maps(std::uint32_t generation, PublishedMaps maps);
   /// Publishes MAP of the next map at once: no scan comes.
   void publish_next_map();
   /// ODOM of what waits; where nobody watches, the newest alone, for POLL. Call it ten times a
@@ -58,30 +57,36 @@ class ScanPublisher {
   core::TimeNs end_of_newest_scan_ns() const { return end_ns_; }
   /// Number of scans by state.
   const std::array<std::uint64_t, kStates>& poses() const { return poses_; }
-  /// How many of the last kRecentScans in this map were lost.
-  std::size_t recently_lost() const { return recent_lost_.count(); }
-  /// Of the last POSE; null if there is none.
-  const core::WallMap* map() const { return map_.map.get(); }
+  /// In this map.
+  const calibration::RecentPoses& recent() const { return recent_; }
+  /// Of the last POSE; null where it is not known which of several.
+  const core::WallMap* map() const { return map_ ? maps_.maps[*map_].map.get() : nullptr; }
+  /// Which of several maps the robot is in; nullopt where there is one.
+  std::optional<message::StatusFields::Map> choice() const;
 
  private:
   void take_next_maps(std::uint32_t generation);
+  void use_map(std::optional<std::size_t> map, core::TimeNs t_ns);
   void publish_pose(const core::PoseEstimate& pose);
   void publish_change(core::PoseState to, core::TimeNs t_ns);
   void publish_jump(const core::PoseEstimate& pose, std::uint64_t number);
 
   MessageServer& server_;
-  PublishedMap map_;
-  struct NextMap {
+  PublishedMaps maps_;
+  std::optional<std::size_t> map_;       ///< of maps_; nullopt until it is known
+  std::vector<std::string> candidates_;  ///< where it is not: those in doubt, of the last scan
+  struct NextMaps {
     std::uint32_t generation = 0;
-    PublishedMap map;
+    PublishedMaps maps;
   };
-  std::deque<NextMap> next_maps_;  ///< in the order of their generations
+  std::deque<NextMaps> next_maps_;  ///< in the order of their generations
   struct Fix {
     std::uint64_t number = 0;
     core::Pose2 T_map_base;
   };
   std::optional<Fix> last_fix_;
   message::LineWriter line_;
+  PoseLog pose_log_;
   RateLimitedLog jumps_{LogLevel::kInfo, "jump"};
   LatencyWindow latencies_;
   std::optional<core::PoseState> state_;
@@ -90,7 +95,7 @@ class ScanPublisher {
   std::uint32_t lidar_ = 0;
   core::TimeNs end_ns_ = 0;
   std::array<std::uint64_t, kStates> poses_{};
-  std::bitset<kRecentScans> recent_lost_;  ///< newest first
+  calibration::RecentPoses recent_;
 };
 
 }  // namespace cornerd::daemon

@@ -3,6 +3,8 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
+#include <utility>
 #include <vector>
 
 #include "core/ring_buffer.hpp"
@@ -27,13 +29,20 @@ class SlotExchange {
     return true;
   }
 
+  /// Consumer: the oldest filled slot; null if there is none. Valid until take().
+  const T* front() {
+    std::uint32_t index = 0;
+    if (!front_ && filled_.pop(index)) front_ = index;
+    return front_ ? &slots_[*front_] : nullptr;
+  }
+
   /// Consumer: calls `use` with the oldest filled slot, then returns the slot. False if there is
   /// none.
   bool take(const auto& use) {
-    std::uint32_t index = 0;
-    if (!filled_.pop(index)) return false;
-    use(static_cast<const T&>(slots_[index]));
-    empty_.push(index);
+    const T* const oldest = front();
+    if (oldest == nullptr) return false;
+    use(*oldest);
+    empty_.push(*std::exchange(front_, std::nullopt));
     return true;
   }
 
@@ -41,6 +50,7 @@ class SlotExchange {
   std::vector<T> slots_;
   core::RingBuffer<std::uint32_t> filled_;
   core::RingBuffer<std::uint32_t> empty_;
+  std::optional<std::uint32_t> front_;  ///< owned by the consumer
 };
 
 }  // namespace cornerd::daemon

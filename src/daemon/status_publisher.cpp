@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <cstdio>
 #include <string_view>
+#include <vector>
 
-#include "daemon/fault_list.hpp"
 #include "daemon/log.hpp"
 #include "drivers/lidar_status.hpp"
 #include "message/line_writer.hpp"
@@ -48,6 +50,24 @@ std::string_view name_of(const std::optional<drivers::LidarChange>& from,
   return to.fault == LidarFault::kNone ? "device state" : "device fault";
 }
 
+bool is_gone(const core::MapChange& change) {
+  return change.kind == core::MapChange::Kind::kWallGone;
+}
+
+/// "wall 12 at (1.20, 3.40) is gone"
+std::string describe(const core::MapChange& change, const core::FloorPlan& plan) {
+  core::Vec2 at = change.position;
+  std::string subject = "something new";
+  if (is_gone(change)) {
+    const core::Wall& wall = plan.walls[change.wall];
+    at = (wall.from + wall.to) / 2;
+    subject = "wall " + std::to_string(change.wall);
+  }
+  std::array<char, 64> place{};
+  std::snprintf(place.data(), place.size(), " at (%.2f, %.2f) ", at.x(), at.y());
+  return subject + place.data() + (is_gone(change) ? "is gone" : "stays");
+}
+
 }  // namespace
 
 StatusPublisher::StatusPublisher(MessageServer& server, Notifier& notifier)
@@ -59,6 +79,34 @@ void StatusPublisher::configure(const settings::Config& config) {
   drive_.reset();
   if (config.odometry.core.enabled) drive_.emplace(config.odometry.core, names_.T_base_lidar);
   map_examiner_.configure(config);
+}
+
+void StatusPublisher::set_walls(const WallReport* report, const core::WallMap* map,
+                                core::TimeNs t_ns) {
+  if (report == nullptr || map == nullptr) return;
+  walls_ = {.learned = report->walls.offsets.size()};
+  std::vector<double> sigmas_m;
+  for (const core::WallOffset& wall : report->walls.offsets) {
+    sigmas_m.push_back(wall.sigma_m);
+    walls_.offset_m = std::max(walls_.offset_m, std::abs(wall.offset_m));
+  }
+  if (!sigmas_m.empty()) {
+    const auto median = sigmas_m.begin() + static_cast<std::ptrdiff_t>(sigmas_m.size() / 2);
+    std::nth_element(sigmas_m.begin(), median, sigmas_m.end());
+    walls_.sigma_m = *median;
+  }
+  for (const core::MapChange& change : report->changes) {
+    const bool is_known =
+        std::any_of(changes_.begin(), changes_.end(), [&](const core::MapChange& other) {
+          return is_gone(change) == is_gone(other) && change.wall == other.wall &&
+                 change.position == other.position;
+        });
+    if (is_known) continue;
+    const std::string text = describe(change, map->plan());
+    log(LogLevel::kInfo, "map: " + text);
+    server_.publish(MessageClass::kEvent, line_.event(t_ns, "map change", text));
+  }
+  changes_ = report->changes;
 }
 
 void StatusPublisher::observe(const ScanReport& report) {
@@ -93,6 +141,20 @@ void StatusPublisher::log_once(const drivers::LidarChange& change, const std::st
   log(is_fault(change) ? LogLevel::kWarning : LogLevel::kInfo, "lidar " + text);
 }
 
+drivers::LidarStatus StatusPublisher::with_last_fault(const drivers::LidarStatus& lidar) {
+  if (lidar.fault != LidarFault::kNone) {
+    last_fault_ = {lidar.state, lidar.fault, lidar.detail};
+  } else if (lidar.state == LidarState::kRunning) {
+    last_fault_.reset();
+  }
+  drivers::LidarStatus status = lidar;
+  if (last_fault_) {
+    status.fault = last_fault_->fault;
+    status.detail = last_fault_->detail;
+  }
+  return status;
+}
+
 void StatusPublisher::publish(const drivers::LidarStatus& lidar, const ScanPublisher& scans,
                               Localization& localization, const DaemonHealth& health,
                               core::TimeNs t_ns) {
@@ -123,6 +185,11 @@ void StatusPublisher::publish(const drivers::LidarStatus& lidar, const ScanPubli
   status.samples_hz = lidar.samples_hz;
   status.mount = mount_;
   status.bias = &scans.bias();
+  status.map = scans.choice();
+  status.walls = walls_;
+  status.walls_gone =
+      static_cast<std::size_t>(std::count_if(changes_.begin(), changes_.end(), is_gone));
+  status.new_things = changes_.size() - status.walls_gone;
   status.counters = counters;
   status.odometry = &scans.odometry();
   if (odometry_ != nullptr) odometry_->describe(status);
@@ -132,8 +199,20 @@ void StatusPublisher::publish(const drivers::LidarStatus& lidar, const ScanPubli
   if (drive_ && drive.mount.sigma.theta_rad > 0) {
     status.mount->estimated = {drive.mount.T_base_lidar, drive.mount.sigma};
   }
-  const FaultList faults(lidar, scans, map_examiner_.update(scans.recently_lost(), scans.map()),
-                         status, drive, names_);
+  calibration::FaultList faults;
+  const drivers::LidarStatus reported = with_last_fault(lidar);
+  if (reported.fault != LidarFault::kNone) {
+    faults.add(drivers::to_string(reported.fault), std::string(reported.detail.view()));
+  } else if (reported.state == LidarState::kFaulty) {
+    // Only a recording fails without a fault of a device.
+    faults.add("recording", std::string(reported.detail.view()));
+  }
+  faults.add_map(map_examiner_.update(scans.recent().lost(), scans.map()), scans.recent(),
+                 scans.map() != nullptr ? &scans.map()->plan() : nullptr);
+  faults.add_drive(drive, names_, scans.odometry());
+  if (!status.odometry_hint.empty()) {
+    faults.add(status.odometry_fault, std::string(status.odometry_hint));
+  }
   status.faults = faults.names();
   status.hint = faults.hint();
   const LatencyWindow& latencies = scans.latencies();

@@ -37,6 +37,9 @@ class StatusPublisher {
   bool update(const drivers::LidarChange& change, core::TimeNs t_ns);
   void publish(const drivers::LidarStatus& lidar, const ScanPublisher& scans,
                Localization& localization, const DaemonHealth& health, core::TimeNs t_ns);
+  /// Where there is a report: what is known of the walls of `map`. Publishes EVENT for each new
+  /// change.
+  void set_walls(const WallReport* report, const core::WallMap* map, core::TimeNs t_ns);
   /// Of the scans that follow.
   void configure(const settings::Config& config);
   /// For the faults of the odometry. Readings before the scans that they belong to.
@@ -48,6 +51,8 @@ class StatusPublisher {
   void set_odometry(OdometryClients* clients) { odometry_clients_ = clients; }
 
  private:
+  /// With the last fault while the driver tries again, where most of the time nothing is wrong yet.
+  drivers::LidarStatus with_last_fault(const drivers::LidarStatus& lidar);
   /// Logs each text once until the lidar runs, because retries repeat the same states.
   void log_once(const drivers::LidarChange& change, const std::string& text);
 
@@ -59,8 +64,11 @@ class StatusPublisher {
   OdometryReader* odometry_ = nullptr;
   OdometryClients* odometry_clients_ = nullptr;
   Notifier& notifier_;
+  message::StatusFields::Walls walls_;
+  std::vector<core::MapChange> changes_;  ///< of the map, in the last report
   message::LineWriter line_;
   std::optional<drivers::LidarChange> last_;
+  std::optional<drivers::LidarChange> last_fault_;  ///< since the lidar ran
   std::string text_;
   std::set<std::string> logged_texts_;  ///< since the lidar last ran
 };

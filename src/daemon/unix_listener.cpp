@@ -23,6 +23,8 @@ namespace cornerd::daemon {
 namespace {
 
 constexpr int kBacklog = 16;
+/// connect() needs write permission, unix(7).
+constexpr mode_t kWriters = S_IWUSR | S_IWGRP | S_IWOTH;
 
 [[noreturn]] void fail(const std::filesystem::path& path, const std::string& reason) {
   throw std::runtime_error(path.string() + ": " + reason);
@@ -147,6 +149,7 @@ UnixListener::UnixListener(const std::filesystem::path& path, mode_t mode)
     inode_ = file.st_ino;
     owns_file_ = true;
     group_ = file.st_gid;
+    writers_ = mode & kWriters;
   }
   // After bind(), because the umask limits the mode; before listen(), because no client can connect
   // until then.
@@ -164,6 +167,7 @@ UnixListener::UnixListener(const std::filesystem::path& path, FileDescriptor inh
   device_ = file.st_dev;
   inode_ = file.st_ino;
   group_ = file.st_gid;
+  writers_ = file.st_mode & kWriters;
 }
 
 UnixListener::~UnixListener() {
@@ -188,8 +192,9 @@ UnixListener::File UnixListener::file() const {
   if (::stat(path_.c_str(), &file) != 0) {
     return errno == ENOENT || errno == ENOTDIR ? File::kRemoved : File::kOwn;
   }
-  const bool is_same = file.st_dev == device_ && file.st_ino == inode_;
-  return inode_ == 0 || is_same ? File::kOwn : File::kReplaced;
+  if (inode_ == 0) return File::kOwn;
+  if (file.st_dev != device_ || file.st_ino != inode_) return File::kReplaced;
+  return (file.st_mode & writers_) == writers_ ? File::kOwn : File::kClosed;
 }
 
 std::optional<bool> is_listening(const std::filesystem::path& file) {

@@ -28,8 +28,9 @@ class UnixListener {
 
   int fd() const { return fd_.get(); }
   const std::filesystem::path& path() const { return path_; }
-  /// kRemoved and kReplaced: no client can connect. kReplaced: by something of somebody else.
-  enum class File : std::uint8_t { kOwn, kRemoved, kReplaced };
+  /// All but kOwn: clients cannot connect. kReplaced: by something of somebody else. kClosed: the
+  /// file's mode denies what it allowed at the start.
+  enum class File : std::uint8_t { kOwn, kRemoved, kReplaced, kClosed };
   File file() const;
   /// The next waiting client, non-blocking; not open if there is none. If the process is out of
   /// descriptors, the client is disconnected, since it would keep the event loop busy.
@@ -42,6 +43,7 @@ class UnixListener {
   FileDescriptor fd_;
   FileDescriptor spare_;  ///< closed to accept and disconnect a client without a descriptor
   gid_t group_ = 0;
+  mode_t writers_ = 0;  ///< whom the file's mode allows to connect
   dev_t device_ = 0;
   ino_t inode_ = 0;         ///< 0: not known
   bool owns_file_ = false;  ///< it is removed at the end

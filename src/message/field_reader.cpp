@@ -75,10 +75,14 @@ const Json* FieldReader::find(const char* name) {
 void FieldReader::refuse_range(const std::string& name, Limits limits, double number) {
   // A thousand times too much is another unit: milliseconds, millimetres.
   const double share = std::abs(number) / 1000;
-  const bool is_thousandfold =
-      *limits.unit != 0 && share > limits.high / 1000 && share <= limits.high;
+  const char* hint = "";
+  if (limits.unit == std::string_view(kAngleLimitsRad.unit)) {
+    hint = ", not degrees";
+  } else if (*limits.unit != 0 && share > limits.high / 1000 && share <= limits.high) {
+    hint = ", not thousandths of them";
+  }
   fail(name + " must be from " + shortest(limits.low) + " to " + shortest(limits.high) +
-           limits.unit + (is_thousandfold ? ", not thousandths of them" : ""),
+           limits.unit + hint,
        kOutOfRange);
 }
 

@@ -83,8 +83,10 @@ Line parse_by_class(std::string_view line, std::size_t max_bytes, const auto& re
   const std::string_view name = fields.text("class");
   if (fields.error()) return RequestError{"class", fields.error()->text};
   Line result = read(name, fields);
-  if (fields.error()) return *fields.error();
-  return result;
+  if (!fields.error()) return result;
+  error = *fields.error();
+  error.class_name = name;
+  return error;
 }
 
 }  // namespace cornerd::message

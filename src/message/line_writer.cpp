@@ -46,13 +46,16 @@ void write_covariance(JsonText& json, const core::Covariance3& covariance) {
   json.close_object();
 }
 
-void write_alternatives(JsonText& json, std::span<const core::Alternative> alternatives) {
+/// `map_of`: the name of an alternative's map, or empty.
+void write_alternatives(JsonText& json, std::span<const core::Alternative> alternatives,
+                        const auto& map_of) {
   if (alternatives.empty()) return;
   json.open_array("alternatives");
   for (const core::Alternative& alternative : alternatives) {
     json.open_object();
     write_pose(json, alternative.T_map_base);
     json.number("score", alternative.score, 4);
+    json.text("map", map_of(alternative));
     json.close_object();
   }
   json.close_array();
@@ -213,7 +216,7 @@ std::string_view LineWriter::truth(core::TimeNs t_ns, const core::Pose2& T_map_b
 }
 
 std::string_view LineWriter::pose(const core::PoseEstimate& pose, const core::FloorPlan* plan,
-                                  bool names_map) {
+                                  std::span<const std::string> map_names) {
   const bool publishes_pose =
       pose.state != core::PoseState::kAmbiguous && pose.state != core::PoseState::kLost;
   begin("POSE");
@@ -223,7 +226,7 @@ std::string_view LineWriter::pose(const core::PoseEstimate& pose, const core::Fl
   if (publishes_pose) {
     write_pose(json_, pose.T_map_base);
     write_covariance(json_, pose.covariance);
-    if (names_map && plan != nullptr) json_.string("map", plan->name);
+    if (!map_names.empty() && plan != nullptr) json_.string("map", plan->name);
     if (pose.room && plan != nullptr && *pose.room < plan->rooms.size()) {
       json_.string("room", plan->rooms[*pose.room].name);
     }
@@ -232,7 +235,10 @@ std::string_view LineWriter::pose(const core::PoseEstimate& pose, const core::Fl
   json_.integer("inliers", pose.inliers);
   if (publishes_pose && pose.inliers > 0) write_metres(json_, "rmse", pose.rmse_m);
   json_.number("age", pose.age_s, kTimeDecimals);
-  write_alternatives(json_, pose.alternatives);
+  write_alternatives(json_, pose.alternatives, [&](const core::Alternative& alternative) {
+    if (map_names.empty()) return std::string_view();
+    return std::string_view(plan != nullptr ? plan->name : map_names[alternative.map]);
+  });
   return finish();
 }
 

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 
 #include "core/breakpoint/breakpoint.hpp"
@@ -54,6 +55,22 @@ struct StatusFields {
   };
   std::optional<Mount> mount;                 ///< left out where it is not known
   const core::EstimatedBias* bias = nullptr;  ///< of the lidar; left out before its first scan
+  /// Learned offsets of the map's walls; left out where nothing is learned.
+  struct Walls {
+    std::size_t learned = 0;
+    double sigma_m = 0;   ///< median
+    double offset_m = 0;  ///< the largest, without its sign
+  };
+  Walls walls;
+  /// Which of several maps the robot is in; left out where there is one.
+  struct Map {
+    std::string_view state;
+    std::string_view name;                    ///< where it is known
+    std::span<const std::string> candidates;  ///< where it is not
+  };
+  std::optional<Map> map;
+  std::size_t walls_gone = 0;  ///< and things that stay and are not in the map
+  std::size_t new_things = 0;
   struct Counter {
     std::string_view name;
     std::uint64_t value = 0;
@@ -70,7 +87,7 @@ struct StatusFields {
   std::span<const Sensor> odometry_sensors;
   std::span<const Counter> odometry_counters;  ///< of the sensors
   std::string_view odometry_hint;
-  bool odometry_is_refused = false;            ///< the hint is about lines that cannot be read
+  std::string_view odometry_fault = "odometry-absent";  ///< which the hint is about
   std::span<const Counter> odometry_refusals;  ///< ODOMETRY lines that could not be read, by cause
   /// ODOMETRY lines rejected because another client publishes the same quantity.
   std::optional<std::uint64_t> second_client;
@@ -100,9 +117,10 @@ class LineWriter {
   LineWriter();
 
   std::string_view version(std::string_view program, std::string_view version);
-  /// `plan`: gives the room its name; may be null. `names_map`: POSE has the plan's name too.
+  /// `plan`: gives the room its name; null where the map is not known. `map_names`: of the maps
+  /// that it is one of; where there are, POSE and its alternatives have a map's name too.
   std::string_view pose(const core::PoseEstimate& pose, const core::FloorPlan* plan,
-                        bool names_map = false);
+                        std::span<const std::string> map_names = {});
   std::string_view scan(const core::Scan& scan);
   std::string_view breakpoints(core::TimeNs t_ns, const core::Detection& detection);
   std::string_view status(const StatusFields& status);

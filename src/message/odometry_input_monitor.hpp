@@ -30,7 +30,7 @@ class OdometryInputMonitor {
   std::span<const Refusals> refusals() const { return refusals_; }
 
   /// Why odometry is absent, from the lines of about the last second; empty if it is present or the
-  /// cause is unknown. Also says that most lines are refused. `t_ns`: the current time.
+  /// lines have just begun. Also says that most lines are refused. `t_ns`: the current time.
   std::string_view hint(const core::OdometrySummary& summary, core::TimeNs t_ns);
 
   /// True if most values of the last evaluated interval were rejected, for any reason.
@@ -39,24 +39,31 @@ class OdometryInputMonitor {
     bool gyro = false;
   };
   Rejected rejected() const { return rejected_; }
-  /// True if most lines of the last evaluated interval could not be read.
-  bool are_refused() const { return are_refused_; }
+  /// Which fault of STATUS hint() is about.
+  std::string_view fault() const { return are_refused_ ? "odometry-refused" : "odometry-absent"; }
 
  private:
   struct LineCounts {
-    std::uint64_t all = 0;      ///< that could be read
-    std::uint64_t refused = 0;  ///< that could not
-    std::uint64_t both = 0;     ///< with left and right
-    std::uint64_t left = 0;     ///< with left only
-    std::uint64_t right = 0;    ///< with right only
-    std::uint64_t rates = 0;    ///< with a gyro
+    std::uint64_t all = 0;       ///< that could be read
+    std::uint64_t repeated = 0;  ///< with the t of the line before
+    std::uint64_t refused = 0;   ///< that could not
+    std::uint64_t both = 0;      ///< with left and right
+    std::uint64_t left = 0;      ///< with left only
+    std::uint64_t right = 0;     ///< with right only
+    std::uint64_t rates = 0;     ///< with a gyro
   };
-  std::string diagnose(const core::OdometryCounters& counters) const;
+  std::string diagnose(const core::OdometryCounters& counters, core::TimeNs t_ns) const;
   Rejected find_rejected(const core::OdometryCounters& counters) const;
 
   LineCounts lines_;                 ///< since the last evaluation
   core::OdometryCounters counters_;  ///< at the last evaluation
   std::optional<core::TimeNs> evaluated_ns_;
+  core::TimeNs newest_ns_ = 0;  ///< time of the last reading
+  struct Interval {
+    std::uint64_t count = 0;
+    core::TimeNs t_ns = 0;  ///< its end
+  };
+  std::optional<Interval> last_lines_;  ///< the last interval with a line
   std::array<Refusals, 6> refusals_{{{"json"},
                                      {FieldReader::kMissing},
                                      {FieldReader::kNotANumber},

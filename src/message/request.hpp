@@ -68,6 +68,7 @@ struct RequestError {
   std::string code;  ///< "too-long", "json", "class", "field"
   std::string text;
   std::string_view cause = {};  ///< of "field": one of FieldReader's
+  std::string class_name = {};  ///< of a recorded line, where it has one
 };
 
 struct Request {

@@ -134,6 +134,31 @@ void write_sensors(JsonText& json, const StatusFields& status) {
   json.close_object();
 }
 
+void write_map(JsonText& json, const StatusFields& status) {
+  if (!status.map) return;
+  json.open_object("map");
+  json.string("state", status.map->state);
+  json.text("name", status.map->name);
+  if (!status.map->candidates.empty()) {
+    json.open_array("candidates");
+    for (const std::string& name : status.map->candidates) json.string(name);
+    json.close_array();
+  }
+  json.close_object();
+}
+
+void write_walls(JsonText& json, const StatusFields& status) {
+  const StatusFields::Walls& walls = status.walls;
+  if (walls.learned == 0) return;
+  json.open_object("walls");
+  json.integer("learned", walls.learned);
+  json.number("sigma", walls.sigma_m, 4);
+  json.number("offset", walls.offset_m, 4);
+  json.integer("gone", status.walls_gone);
+  json.integer("new", status.new_things);
+  json.close_object();
+}
+
 void write_latency(JsonText& json, const StatusFields& status) {
   if (!status.latency.valid) return;
   json.open_object("latency");
@@ -182,6 +207,8 @@ std::string_view LineWriter::status(const StatusFields& status) {
     write_sensors(json_, status);
     json_.close_object();
   }
+  write_map(json_, status);
+  write_walls(json_, status);
   write_latency(json_, status);
   write_loops(json_, status);
   return finish();

@@ -3,6 +3,7 @@
 
 #include <mqtt_protocol.h>
 
+#include <cerrno>
 #include <stdexcept>
 #include <utility>
 
@@ -138,15 +139,25 @@ void Broker::serve(const std::stop_token& stop) {
   unacknowledged_ = 0;
   refusal_ = 0;
   int result = connect();
+  bool was_connected = false;
   const Clock::time_point consent_until = Clock::now() + kConnectTime;
   while (result == MOSQ_ERR_SUCCESS && !stop.stop_requested() && !is_refused_) {
+    errno = 0;
     result = lib.loop(client_, kLoop_ms, 1);
+    was_connected = was_connected || is_connected_;
     if (!is_connected_ && result == MOSQ_ERR_SUCCESS && !is_refused_ &&
         Clock::now() > consent_until) {
       return set_problem("the broker accepts and says nothing");
     }
   }
-  if (result != MOSQ_ERR_SUCCESS && !is_refused_) set_problem(lib.strerror(result));
+  const bool is_nonsense = result == MOSQ_ERR_PROTOCOL || result == MOSQ_ERR_MALFORMED_PACKET ||
+                           result == MOSQ_ERR_UNKNOWN || (result == MOSQ_ERR_ERRNO && errno == 0);
+  if (is_nonsense && !was_connected) {
+    set_problem("what answers at " + config_.host + ":" + std::to_string(config_.port) +
+                " is no MQTT broker: check host and port");
+  } else if (result != MOSQ_ERR_SUCCESS && !is_refused_) {
+    set_problem(lib.strerror(result));
+  }
   if (!stop.stop_requested()) return;
   // What was published last goes out before the end.
   const Clock::time_point until = Clock::now() + std::chrono::milliseconds(500);

@@ -179,6 +179,28 @@ BrokerConfig broker_at(const std::string& host_and_port) {
   return broker;
 }
 
+BrokerConfig FleetOptions::broker_config() const {
+  if (broker.empty() == config.empty()) {
+    throw std::invalid_argument("one of --broker HOST[:PORT] and --broker-config FILE is needed");
+  }
+  if (broker.empty()) {
+    BrokerConfig of_config = load_bridge_config(config).broker;
+    of_config.client_id.clear();  // the robot's own
+    return of_config;
+  }
+  try {
+    return broker_at(broker);
+  } catch (const std::invalid_argument& error) {
+    throw std::invalid_argument(std::string("--broker: ") + error.what());
+  }
+}
+
+std::string FleetOptions::site_name() const {
+  if (site.empty()) return config.empty() ? BridgeConfig().site : load_bridge_config(config).site;
+  if (is_topic_level(site)) return site;
+  throw std::invalid_argument("--site must not have '/', '+' or '#'");
+}
+
 BridgeConfig parse_bridge_config(std::string_view text, const std::filesystem::path& file) {
   std::filesystem::path password_file;
   return parse(text, file, password_file);

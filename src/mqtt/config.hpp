@@ -57,6 +57,19 @@ BridgeConfig load_bridge_config(const std::filesystem::path& file);
 /// "broker.example", "10.0.0.7:1884" or "[::1]:1883". Throws std::invalid_argument.
 BrokerConfig broker_at(const std::string& host_and_port);
 
+/// Broker and site of a fleet, as the options --broker, --broker-config and --site give them.
+struct FleetOptions {
+  std::string broker;
+  std::filesystem::path config;  ///< of cornerd-mqtt
+  std::string site;              ///< empty: the config's, else the default
+
+  bool is_given() const { return !broker.empty() || !config.empty(); }
+  /// Throws std::invalid_argument where neither or both are given, SettingsError for the config.
+  BrokerConfig broker_config() const;
+  /// Throws std::invalid_argument where it is no level of a topic, SettingsError for the config.
+  std::string site_name() const;
+};
+
 /// A level of a topic: neither empty nor with '/', '+', '#', or a control character.
 bool is_topic_level(std::string_view text);
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "settings/config.hpp"
 
+#include <algorithm>
 #include <set>
 
 #include "settings/config_table.hpp"
@@ -93,17 +94,19 @@ class ConfigReader {
 
 /// Where there are several maps, "map" is the name of one; it was read as a path.
 void choose_map(Config& config, const ConfigReader& reader) {
-  if (config.maps.empty() || config.map.empty()) return;
-  config.map_name = config.map.filename();
-  std::string names;
-  for (const NamedMap& map : config.maps) {
-    if (map.name == config.map_name) {
-      config.map = map.file;
-      return;
+  if (config.map.empty()) return;
+  if (config.maps.empty()) {
+    if (config.map.filename() == kAutoMap) {
+      reader.fail("/map", "\"auto\" chooses one of \"maps\", and there are none");
     }
-    names += (names.empty() ? "" : ", ") + map.name;
+    return;
   }
-  reader.fail("/map", "must be a name of \"maps\": " + names);
+  config.map_name = config.map.filename();
+  const std::filesystem::path* file = file_of(config.maps, config.map_name);
+  if (file == nullptr) {
+    reader.fail("/map", "must be \"auto\" or a name of \"maps\": " + names_of(config.maps));
+  }
+  config.map = *file;
 }
 
 /// Checks that involve more than one key.
@@ -136,6 +139,19 @@ void check(const Config& config, const ConfigReader& reader, bool require_map) {
 
 }  // namespace
 
+const std::filesystem::path* file_of(std::span<const NamedMap> maps, std::string_view name) {
+  if (name == kAutoMap && !maps.empty()) return &maps.front().file;
+  const auto found =
+      std::find_if(maps.begin(), maps.end(), [&](const NamedMap& map) { return map.name == name; });
+  return found != maps.end() ? &found->file : nullptr;
+}
+
+std::string names_of(std::span<const NamedMap> maps) {
+  std::string names;
+  for (const NamedMap& map : maps) names += (names.empty() ? "" : ", ") + map.name;
+  return names;
+}
+
 std::string Key::old_pointer() const {
   if (!old.empty()) return old;
   return is_below(pointer, kAdvanced) && !is_section() ? pointer.substr(kAdvanced.size())
@@ -154,6 +170,7 @@ core::LocalizerConfig Config::localizer() const {
   config.noise = lidar.noise.sensor;
   config.bias = lidar.bias;
   config.calibrate_online = lidar.calibrate_online;
+  config.learn_walls = learn_walls;
   config.odometry = odometry.core;
   return config;
 }

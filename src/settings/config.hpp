@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -97,18 +98,32 @@ struct RealtimeConfig {
   bool lock_memory = true;
 };
 
+/// "map": the scans choose one of `maps`.
+inline constexpr std::string_view kAutoMap = "auto";
+
 struct NamedMap {
   std::string name;
   std::filesystem::path file;  ///< as Config::map
 };
 
+/// The file of the map with this name, of the first for kAutoMap; null where there is none.
+const std::filesystem::path* file_of(std::span<const NamedMap> maps, std::string_view name);
+/// "ground, first", for messages.
+std::string names_of(std::span<const NamedMap> maps);
+
 struct Config {
   LidarConfig lidar;
   std::filesystem::path map;  ///< absolute, or as given where the config came from no file
-  std::string map_name;       ///< of the one of `maps` that `map` is; else empty
+  /// Of the one of `maps` that `map` is, or kAutoMap: then `map` is the first; else empty.
+  std::string map_name;
   std::vector<NamedMap> maps;
+  bool chooses_map() const { return map_name == kAutoMap; }
   core::DetectorConfig detector;
   std::size_t updates_per_scan = 1;
+  bool learn_walls = true;
+  /// Keeps what was learned from one run to the next, a file for each map; empty: the service
+  /// manager's state folder, or none.
+  std::filesystem::path walls_folder;
   OdometryConfig odometry;
   SocketConfig socket;
   RealtimeConfig realtime;

@@ -36,9 +36,9 @@ void add_lidar_keys(std::vector<Key>& table, LidarConfig& lidar) {
   add({"/lidar/loop", boolean(lidar.loop),
        "Driver \"replay\": start again at the end of the recording.", kOnRestart});
   add({"/lidar/mount", {}, "Pose of the lidar on the robot."});
-  add({"/lidar/mount/x", number(lidar.mount.x_m, -10, 10),
+  add({"/lidar/mount/x", number(lidar.mount.x_m, -10, 10, " metres"),
        "Metres forward of the middle of the axle."});
-  add({"/lidar/mount/y", number(lidar.mount.y_m, -10, 10), "Metres to the left of it."});
+  add({"/lidar/mount/y", number(lidar.mount.y_m, -10, 10, " metres"), "Metres to the left of it."});
   add({"/lidar/mount/theta", number(lidar.mount.theta_rad, -6.2832, 6.2832, " radians"),
        "Direction of the lidar's zero mark, radians counter-clockwise."});
   add({"/lidar/mount/inverted", boolean(lidar.mount.inverted), "The lidar hangs upside down.",
@@ -109,8 +109,8 @@ void add_odometry_keys(std::vector<Key>& table, OdometryConfig& odometry) {
        "\"none\": the lidar alone. \"socket\": ODOMETRY lines on control.sock or in a recording. "
        "\"kernel\": encoders and gyro on the board itself (drivers/odometry/README.md).",
        kOnRestart});
-  add({"/odometry/wheel_radius", number(geometry.wheel_radius_m, 0.001, 10), "Metres."});
-  add({"/odometry/track", number(geometry.track_m, 0.001, 10),
+  add({"/odometry/wheel_radius", number(geometry.wheel_radius_m, 0.001, 10, " metres"), "Metres."});
+  add({"/odometry/track", number(geometry.track_m, 0.001, 10, " metres"),
        "Distance between the wheels, metres."});
   add({"/odometry/counts_per_turn", number(geometry.counts_per_turn, 1, 1e7),
        "Encoder counts of one revolution of a wheel; they grow when the robot rolls forward."});
@@ -208,7 +208,7 @@ std::vector<Key> config_table(Config& config) {
   add({"/map", path(config.map), "The map of the building. The only key without a default."});
   add({"/maps", named_maps(config.maps),
        "Floors or buildings to choose from: \"map\" is one of their names then, and so is "
-       "SET_MAP's."});
+       "SET_MAP's; or \"auto\": the scans of the first metres choose one of at most 16."});
   add_lidar_keys(table, config.lidar);
   add_odometry_keys(table, config.odometry);
   add({"/socket/pose", socket_path(config.socket.pose), "Clients read poses here.", kOnRestart});
@@ -222,6 +222,14 @@ std::vector<Key> config_table(Config& config) {
        "While the pose is known: a POSE for each part of a scan, at the time of its last sample, "
        "before the whole scan's own. 4 gives one for each quarter of a revolution.",
        Applies::kOnReload, "/localizer/updates_per_turn"});
+  add({"/advanced/localizer/learn_walls", boolean(config.learn_walls),
+       "In a map that states a sigma: estimate each wall's offset across itself while the robot "
+       "drives. `cornerctl map learned` writes the result into a map.",
+       Applies::kOnReload});
+  add({"/advanced/localizer/walls_folder", path(config.walls_folder),
+       "Keeps that estimate for the next start, a file for each map: walls-HASH.json. Default: the "
+       "service manager's state folder ($STATE_DIRECTORY); without that folder, no file.",
+       kOnRestart});
   add_detector_keys(table, config.detector);
   add({"/advanced/realtime/priority", integer(config.realtime.priority, 0, 99),
        "SCHED_FIFO priority of the thread that reads the port; 0: none. A refusal is logged and "

@@ -72,6 +72,7 @@ Value named_maps(std::vector<NamedMap>& maps) {
       if (!element.text("name", map.name, kMaxTextBytes)) object.fail(key, i, "has no name");
       if (!element.path("file", map.file)) object.fail(key, i, "has no file");
       element.finish();
+      if (map.name == kAutoMap) object.fail(key, i, "has the name \"auto\", which is reserved");
       const auto has_name = [&](const NamedMap& other) { return other.name == map.name; };
       if (std::any_of(maps.begin(), maps.end(), has_name))
         object.fail(key, i, "has another's name");
@@ -112,10 +113,11 @@ Value replay_speed(double& speed) {
             if (value != nullptr && *value == "max") {
               speed = 0;
             } else {
-              object.number(key, speed, {0, 1000});
+              object.number(key, speed, {0.001, 1000});
             }
           },
-          [&speed] { return Ordered(speed); }, "0 to 1000, \"max\""};
+          [&speed] { return speed == 0 ? Ordered("max") : Ordered(speed); },
+          "0.001 to 1000, \"max\""};
 }
 
 /// A name, or an object where a line of the board switches the motor.

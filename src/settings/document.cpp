@@ -5,7 +5,6 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <array>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -19,6 +18,7 @@ namespace cornerd::settings {
 namespace {
 
 constexpr std::size_t kMaxDepth = 16;
+constexpr std::size_t kReadBytes = 64 * 1024;
 
 /// "line 1, column 2: ..." of "[json.exception.parse_error.101] parse error at line 1, column 2:
 /// ..."
@@ -83,10 +83,10 @@ class StructureCheck : public Json::json_sax_t {
   }
 
   bool open(bool is_array) {
+    begin_element();
     if (levels_.size() == kMaxDepth) {
       throw SettingsError(file_.string(), pointer(), "nested too deep");
     }
-    begin_element();
     levels_.push_back({.is_array = is_array});
     return true;
   }
@@ -149,7 +149,7 @@ std::string read_file(const std::filesystem::path& file, std::size_t max_bytes, 
   if (S_ISDIR(found.st_mode)) fail("is a folder");
   if (kind == FileKind::kOrdinary && !S_ISREG(found.st_mode)) fail("is no ordinary file");
   std::string text;
-  std::array<char, 64 * 1024> block;
+  std::vector<char> block(kReadBytes);
   while (const std::size_t size = std::fread(block.data(), 1, block.size(), stream.get())) {
     text.append(block.data(), size);
     if (text.size() > max_bytes) fail("longer than " + std::to_string(max_bytes) + " bytes");

@@ -31,14 +31,11 @@ std::vector<fs::path> folders_of(const Config& config) {
 }  // namespace
 
 fs::path map_named(const Config& config, const std::string& name) {
-  std::string names;
-  for (const NamedMap& map : config.maps) {
-    if (map.name == name) return map.file;
-    names += (names.empty() ? "" : ", ") + map.name;
-  }
+  if (const fs::path* file = file_of(config.maps, name)) return *file;
   throw SettingsError("SET_MAP", "/name",
-                      names.empty() ? "the config has no \"maps\": use \"file\""
-                                    : "no map of the config has this name; they are: " + names);
+                      config.maps.empty() ? "the config has no \"maps\": use \"file\""
+                                          : "no map of the config has this name; they are: auto, " +
+                                                names_of(config.maps));
 }
 
 fs::path map_in_folders(const Config& config, const fs::path& file) {

@@ -8,7 +8,7 @@
 
 namespace cornerd::settings {
 
-/// The file of one of the config's `maps`. Throws SettingsError.
+/// The file of one of the config's `maps`, of the first for kAutoMap. Throws SettingsError.
 std::filesystem::path map_named(const Config& config, const std::string& name);
 
 /// `file` with its symbolic links resolved; a relative one is in the folder of the config's map.

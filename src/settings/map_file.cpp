@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "settings/map_file.hpp"
 
+#include <array>
+#include <cstdio>
+#include <optional>
 #include <stdexcept>
+#include <string_view>
 #include <utility>
 
 #include "settings/object_reader.hpp"
@@ -19,7 +23,8 @@ constexpr std::size_t kMaxNameBytes = 128;
 constexpr int kVersion = 1;
 
 constexpr Interval kCoordinateM{-kMaxCoordinateM, kMaxCoordinateM};
-constexpr Interval kThicknessM{0, 10};
+constexpr Interval kThicknessM{0, kMaxThicknessM,
+                               " metres (`cornerctl map scale` converts millimetres)"};
 constexpr Interval kSigmaOfWallsM{0.001, 0.5};
 
 /// Points closer than this are one: below any drawing's precision.
@@ -136,6 +141,44 @@ core::FloorPlan read_plan(ObjectReader root, const std::filesystem::path& file) 
   return plan;
 }
 
+/// What a file is that somebody took for a map; nullopt where it may be one.
+std::optional<std::string> why_no_map(std::string_view text) {
+  constexpr const char* kImage =
+      "is an image, not a map; cornerctl map import makes a map from the yaml beside it";
+  constexpr const char* kPlan = "is a drawing, not a map; cornerctl map import makes a map from it";
+  constexpr const char* kRos =
+      "is the yaml of a ROS map, not a map; cornerctl map import makes a map from it";
+  constexpr const char* kPage = "is a web page, not a map; download the file itself";
+  constexpr const char* kUtf16 = "is UTF-16 text; save it as UTF-8";
+  constexpr std::pair<std::string_view, const char*> kBegins[] = {
+      {"\x89PNG", kImage},
+      {"P2", kImage},
+      {"P4", kImage},
+      {"P5", kImage},
+      {"<svg", kPlan},
+      {"<?xml", kPlan},
+      {"0\nSECTION", kPlan},
+      {"0\r\nSECTION", kPlan},
+      {"999\n", kPlan},
+      {"999\r\n", kPlan},
+      {"<!", kPage},
+      {"<html", kPage},
+      {"\x1f\x8b", "is compressed; unpack it first (gunzip)"},
+      {"\xff\xfe", kUtf16},
+      {"\xfe\xff", kUtf16},
+      {"{\"class\":", "is a recording, not a map"},
+      {"image:", kRos},
+      {"resolution:", kRos}};
+  const std::size_t begin = text.find_first_not_of(" \t\r\n");
+  if (begin == std::string_view::npos) return "is empty";
+  for (const auto& [start, reason] : kBegins) {
+    if (text.substr(begin).starts_with(start)) return reason;
+  }
+  // After comments or other keys.
+  if (text[begin] != '{' && text.find("\nimage:") != std::string_view::npos) return kRos;
+  return std::nullopt;
+}
+
 std::shared_ptr<const core::WallMap> make_map(core::FloorPlan plan,
                                               const std::filesystem::path& file) {
   try {
@@ -148,18 +191,24 @@ std::shared_ptr<const core::WallMap> make_map(core::FloorPlan plan,
 }  // namespace
 
 core::FloorPlan parse_floor_plan(std::string_view text, const std::filesystem::path& file) {
-  for (const std::string_view image : {"\x89PNG", "P2", "P4", "P5", "<svg", "<?xml"}) {
-    if (text.starts_with(image)) {
-      throw SettingsError(file.string(), "",
-                          "is an image, not a map; cornerctl map import makes a map from the yaml "
-                          "beside it");
-    }
-  }
+  if (const auto reason = why_no_map(text)) throw SettingsError(file.string(), "", *reason);
   const DocumentContext context{.file = file};
   const Json document = parse_document(text, file);
   core::FloorPlan plan = read_plan({context, document, ""}, file);
   plan.hash = sha256(text);
   return plan;
+}
+
+std::string size_warning(const core::WallMap& map) {
+  // Larger buildings are rare; drawings in millimetres or pixels are not.
+  constexpr double kMaxSize_m = 500;
+  const core::Vec2 size = map.upper_right() - map.lower_left();
+  if (size.maxCoeff() <= kMaxSize_m) return {};
+  std::array<char, 64> metres{};
+  std::snprintf(metres.data(), metres.size(), "%.0f x %.0f m", size.x(), size.y());
+  return std::string("the map is ") + metres.data() +
+         " large: if it was drawn in other units, cornerctl map scale --factor 0.001 (millimetres) "
+         "or 0.01 (centimetres) converts it; else look for a stray wall";
 }
 
 std::shared_ptr<const core::WallMap> parse_map(std::string_view text,

@@ -14,6 +14,12 @@ namespace cornerd::settings {
 /// Largest absolute x or y of a map's points, metres.
 inline constexpr double kMaxCoordinateM = 10'000;
 
+/// Of a wall, metres.
+inline constexpr double kMaxThicknessM = 10;
+
+/// Of a map larger than a building is; else empty.
+std::string size_warning(const core::WallMap& map);
+
 /// A map file's bytes. Throws SettingsError where it cannot be read or is too large.
 std::string read_map_text(const std::filesystem::path& file, FileKind kind = FileKind::kAny);
 

@@ -32,7 +32,9 @@ void add_map(Command& program);
 void add_map_render(Command& group);
 void add_map_import(Command& group);
 void add_map_export(Command& group);
+void add_map_learned(Command& group);
 void add_map_scale(Command& group);
+void add_map_diff(Command& group);
 void add_map_publish(Command& group);
 
 }  // namespace cornerd::tool

@@ -30,9 +30,7 @@ struct ProgramOptions {
   std::filesystem::path token_file;
   std::filesystem::path maps;
   std::vector<std::string> allowed_origins;
-  std::string broker;
-  std::filesystem::path broker_config;
-  std::string site = mqtt::BridgeConfig().site;
+  mqtt::FleetOptions fleet;
   bool is_private = false;
 };
 
@@ -63,26 +61,17 @@ std::string read_token(const std::filesystem::path& file) {
   return token;
 }
 
-void set_fleet(const ProgramOptions& options, ServerConfig& config) {
-  config.site = options.site;
-  if (!options.broker_config.empty()) {
-    const mqtt::BridgeConfig bridge = mqtt::load_bridge_config(options.broker_config);
-    config.broker = bridge.broker;
-    config.broker->client_id.clear();  // the robot's own
-    config.site = bridge.site;
-  } else if (!options.broker.empty()) {
-    try {
-      config.broker = mqtt::broker_at(options.broker);
-    } catch (const std::invalid_argument& error) {
-      throw tool::UsageError(std::string("--broker: ") + error.what());
-    }
-  }
+void set_fleet(const mqtt::FleetOptions& options, ServerConfig& config) try {
+  config.site = options.site_name();
+  if (options.is_given()) config.broker = options.broker_config();
+} catch (const std::invalid_argument& error) {
+  throw tool::UsageError(error.what());
 }
 
 void run(const ProgramOptions& options) {
   ServerConfig config;
   set_endpoint(options.listen, config);
-  set_fleet(options, config);
+  set_fleet(options.fleet, config);
   config.pose_socket = options.pose;
   config.control_socket = options.control;
   if (!options.maps.empty()) config.maps = std::filesystem::absolute(options.maps);
@@ -128,16 +117,15 @@ int run_cornerd_web(int argc, const char* const* argv) {
         .type_name("ORIGIN")
         .one_word();
     program
-        .add_option("--broker", options->broker,
+        .add_option("--broker", options->fleet.broker,
                     "a fleet's MQTT broker: all its robots on /fleet.html")
         .type_name("HOST[:PORT]");
     program
-        .add_option("--broker-config", options->broker_config,
+        .add_option("--broker-config", options->fleet.config,
                     "broker (TLS, user, certificates) and site of a config of cornerd-mqtt")
         .type_name("FILE");
-    program.add_option("--site", options->site, "the site of --broker")
-        .type_name("SITE")
-        .capture_default_str();
+    program.add_option("--site", options->fleet.site, "the site of the fleet; default: default")
+        .type_name("SITE");
     program.callback([options] { run(*options); });
   };
   return tool::run_program("cornerd-web", "shows in a browser what cornerd publishes", add, argc,

@@ -66,13 +66,16 @@ Response last_line(const Hub& hub, MessageClass message_class) {
 
 }  // namespace
 
-message::ClassSet classes_from(std::string_view comma_separated) {
+message::ClassSet classes_from(std::string_view comma_separated, std::string* unknown) {
   if (comma_separated.empty()) comma_separated = "POSE,STATUS,EVENT";
   message::ClassSet classes;
   while (!comma_separated.empty()) {
     const std::size_t comma = comma_separated.find(',');
-    if (const auto one = message::message_class_from(comma_separated.substr(0, comma))) {
+    const std::string_view name = comma_separated.substr(0, comma);
+    if (const auto one = message::message_class_from(name)) {
       classes.insert(*one);
+    } else if (unknown != nullptr) {
+      *unknown = name.substr(0, 64);
     }
     if (comma == std::string_view::npos) break;
     comma_separated.remove_prefix(comma + 1);
@@ -113,7 +116,10 @@ Router::Decision Router::decide(const Request& request) const {
     }
     if (request.path == "/foxglove") return {.kind = Kind::kFoxglove};
     if (request.path != "/api/events") return {.kind = Kind::kPage};
-    return {.kind = Kind::kEvents, .classes = classes_from(query_value(request.query, "classes"))};
+    std::string unknown;
+    const message::ClassSet classes = classes_from(query_value(request.query, "classes"), &unknown);
+    if (!unknown.empty()) return refuse(400, "classes", "no class of messages: " + unknown);
+    return {.kind = Kind::kEvents, .classes = classes};
   }
   if (methods.change.empty() || request.method != methods.change) {
     return refuse(405, "method", "this path takes another method");

@@ -56,7 +56,8 @@ class Router {
   std::shared_ptr<const void> recordings_ = std::make_shared<char>();  ///< an owner each
 };
 
-/// "POSE,SCAN" as a set; unknown names are ignored. Empty: POSE, STATUS and EVENT.
-message::ClassSet classes_from(std::string_view comma_separated);
+/// "POSE,SCAN" as a set. Empty: POSE, STATUS and EVENT. `unknown`: an unknown name, where there is
+/// one.
+message::ClassSet classes_from(std::string_view comma_separated, std::string* unknown = nullptr);
 
 }  // namespace cornerd::web

@@ -123,7 +123,7 @@ SoakReport run(const SoakConfig& config) {
     pollfd readable{localization.event_fd(), POLLIN, 0};
     while (report.scans < config.scans) {
       ::poll(&readable, 1, 100);
-      localization.take([&](const daemon::ScanReport& scan) {
+      const auto judge = [&](const daemon::ScanReport& scan) {
         ++report.scans;
         ++report.poses[static_cast<std::size_t>(scan.result.pose.state)];
         const core::PoseEstimate& pose = scan.result.pose;
@@ -133,7 +133,8 @@ SoakReport run(const SoakConfig& config) {
         if (config.on_wrong) {
           config.on_wrong(describe(pose, truth, report.scans, world.plan));
         }
-      });
+      };
+      localization.take(judge, [](const core::PoseEstimate&) {});
       if (report.warm_bytes == 0 && report.scans >= config.scans / 10) {
         report.warm_bytes = resident_bytes();
       }

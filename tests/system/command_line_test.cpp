@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <signal.h>
 #include <sys/stat.h>
 
 #include <algorithm>
@@ -9,6 +10,7 @@
 #include <vector>
 
 #include "daemon_process.hpp"
+#include "tests/sanitized.hpp"
 
 namespace cornerd::system_test {
 namespace {
@@ -101,6 +103,21 @@ TEST_F(CommandLine, PipeInsteadOfFile_RefusedWithoutBlocking) {
   ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
   expect_config_error({"--config", pipe}, pipe, "is no ordinary file");
   expect_config_error({"--config", config(), "--set", "/map=" + pipe}, pipe, "is no ordinary file");
+}
+
+TEST_F(CommandLine, StackOf64kB_Runs) {
+  if (test::kSanitized) GTEST_SKIP() << "a sanitizer needs more";
+  const std::string run = "ulimit -s 64; exec " CORNERD_BINARY " --config " + config();
+  {
+    DaemonProcess check({"-c", run + " --check"}, folder_ / "check.log", {}, {}, "/bin/sh");
+    EXPECT_EQ(check.wait_for_exit(), 0);
+  }
+  DaemonProcess daemon({"-c", run}, folder_ / "run.log", {}, {}, "/bin/sh");
+  TestClient client = connect();
+  EXPECT_TRUE(next_of(client, "POSE").is_object());
+  daemon.send_signal(SIGHUP);
+  daemon.send_signal(SIGTERM);
+  EXPECT_EQ(daemon.wait_for_exit(), 0) << daemon.output();
 }
 
 }  // namespace

@@ -9,17 +9,20 @@
 
 #include "daemon/require_fd.hpp"
 #include "daemon_process.hpp"
+#include "tests/wait_until.hpp"
 
 namespace cornerd::system_test {
 namespace {
 
 class LidarState : public DaemonTest {
  protected:
-  /// The first STATUS with this lidar state.
+  /// The first STATUS with this lidar state and a reason: without one, the port was not tried yet.
   static json status_in(TestClient& client, const std::string& state) {
     while (true) {
       json status = next_of(client, "STATUS");
-      if (!status.is_object() || status["lidar"]["state"] == state) return status;
+      if (!status.is_object()) return status;
+      const json& lidar = status["lidar"];
+      if (lidar["state"] == state && lidar.contains("detail")) return status;
     }
   }
 };
@@ -32,7 +35,9 @@ TEST_F(LidarState, MissingPort_ReportedAndWaitedFor) {
             std::string::npos)
       << status;
   EXPECT_TRUE(daemon.is_running());
-  EXPECT_NE(daemon.output().find("/dev/no_such_lidar"), std::string::npos) << daemon.output();
+  EXPECT_TRUE(test::wait_until([&] {
+    return daemon.output().find("/dev/no_such_lidar") != std::string::npos;
+  })) << daemon.output();
 }
 
 TEST_F(LidarState, MissingRecording_Reported) {

@@ -10,6 +10,7 @@ needs a daemon, a device or a terminal, --help runs: it names the command and it
 
 import os
 import re
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -58,6 +59,7 @@ def prepare(tools):
         out.write(text)
     with open("plan.json", "w", encoding="utf-8") as out:
         out.write(text)
+    shutil.copy(os.path.join(SOURCE, "tests", "unit", "plan", "samples", "flat.svg"), "plan.svg")
     with open("cornerd.json", "w", encoding="utf-8") as out:
         out.write('{ "map": "flat.json" }')
     simulate = [os.path.join(tools, "cornerctl"), "simulate", "--map", "flat.json"]

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "room_recording.hpp"
 
+#include <algorithm>
 #include <fstream>
 #include <string>
 
@@ -32,17 +33,27 @@ void write_map(const std::filesystem::path& file, const std::string& room) {
   std::ofstream(file) << text;
 }
 
-void write_recording(const std::filesystem::path& file, int scans) {
+void write_other_map(const std::filesystem::path& file) {
+  std::string text = kMap;
+  for (std::size_t at; (at = text.find("[1.5, ")) != std::string::npos;) {
+    text.replace(at, 6, "[1.1, ");
+  }
+  std::ofstream(file) << text;
+}
+
+void write_recording(const std::filesystem::path& file, int scans, bool drives) {
+  constexpr double kWay_m = 1.2;
   const core::WallMap map(settings::parse_floor_plan(kMap, file));
   core::Scan scan;
   message::LineWriter line;
   std::ofstream stream(file);
-  for (int i = 0; i < scans; ++i) {
+  for (int i = 0; i < (drives ? 2 * scans : scans); ++i) {
+    const double x_m = kTrueX + kWay_m * std::max(0, i - scans) / scans;
     scan.clear();
     for (int k = 0; k < kSamplesPerScan; ++k) {
       // An RPLidar rotates clockwise.
       const double bearing_rad = core::kPi - core::kTwoPi * k / kSamplesPerScan;
-      const double range_m = map.range_along({kTrueX, kTrueY}, kTrueTheta + bearing_rad, 12);
+      const double range_m = map.range_along({x_m, kTrueY}, kTrueTheta + bearing_rad, 12);
       scan.add({.t_ns = i * kScanNs + k * kScanNs / kSamplesPerScan,
                 .bearing_rad = static_cast<float>(bearing_rad),
                 .range_m = static_cast<float>(range_m),

@@ -14,7 +14,11 @@ inline constexpr double kTrueTheta = 0.5;
 /// A room without symmetry.
 void write_map(const std::filesystem::path& file, const std::string& room = "only");
 
-/// `scans` scans of a lidar at rest in the room, 10 Hz.
-void write_recording(const std::filesystem::path& file, int scans);
+/// Another room, of the same kind.
+void write_other_map(const std::filesystem::path& file);
+
+/// `scans` scans of a lidar at rest in the room, 10 Hz; then, in as many, it is driven 1.2 m along
+/// x where it `drives`.
+void write_recording(const std::filesystem::path& file, int scans, bool drives = false);
 
 }  // namespace cornerd::system_test

@@ -150,10 +150,27 @@ TEST_F(Service, HangupDuringStart_HandledAfterStart) {
   DaemonProcess daemon = start();
   EXPECT_TRUE(test::wait_until([&] { return ignores_broken_pipes(daemon.pid()); }));
   daemon.send_signal(SIGHUP);
-  connect();
+  EXPECT_TRUE(test::wait_until([&] {
+    return daemon.output().find("map loaded: ") != std::string::npos;
+  })) << daemon.output();
+}
+
+TEST_F(Service, ManyHangups_OneLine) {
+  DaemonProcess daemon = start();
+  TestClient client = connect();
+  client.send(R"({"class":"WATCH","classes":["EVENT"]})"
+              "\n");
+  for (int i = 0; i < 5; ++i) {
+    daemon.send_signal(SIGHUP);
+    ASSERT_TRUE(next_event(client, "map loaded").is_object());
+  }
   daemon.send_signal(SIGTERM);
   EXPECT_EQ(daemon.wait_for_exit(), 0);
-  EXPECT_NE(daemon.output().find("SIGHUP: reloading"), std::string::npos) << daemon.output();
+  const std::string output = daemon.output();
+  const std::size_t first = output.find("map loaded: ");
+  ASSERT_NE(first, std::string::npos) << output;
+  EXPECT_EQ(output.find("map loaded: ", first + 1), std::string::npos) << output;
+  EXPECT_EQ(output.find("SIGHUP"), std::string::npos) << output;
 }
 
 TEST_F(Service, KilledInstance_NextOneStarts) {

@@ -56,6 +56,18 @@ def biased(line):
     line["gyro"] += 0.6
 
 
+def late(line):
+    line["t"] += 0.3
+
+
+def one_encoder(line):
+    line["right"] = line["left"]
+
+
+def stuck(line):
+    line["gyro"] = 0.1
+
+
 MOUNT = {"x": 0.05, "y": -0.02, "theta": 0.3}
 
 
@@ -75,6 +87,7 @@ WRONG = [
     ("lidar turned by 2 degrees", {"mount-theta"}, None, mounted(degrees=2)),
     ("lidar 5 cm behind", {"mount-position"}, None, mounted(x=0.05)),
     ("lidar 5 cm to the right", {"mount-position"}, None, mounted(y=0.05)),
+    ("mount of 5 cm configured as 5 m", {"mount-position"}, None, {"/lidar/mount/x": 5}),
     ("wheels swapped", {"wheels-swapped"}, swapped, {}),
     ("left wheel reversed", {"left-wheel-reversed"}, scaled("left", by=-1), {}),
     ("right wheel reversed", {"right-wheel-reversed"}, scaled("right", by=-1), {}),
@@ -84,14 +97,18 @@ WRONG = [
     ("left encoder dead", {"left-encoder"}, frozen("left"), {}),
     ("right encoder dead", {"right-encoder"}, frozen("right"), {}),
     ("both encoders dead", {"encoders"}, frozen("left", "right"), {}),
+    ("left encoder on both inputs", {"right-encoder"}, one_encoder, {}),
+    ("readings 0.3 s late", {"odometry-delay"}, late, {}),
     ("1,440 counts configured as 360", {"counts-per-turn"}, None, {"/odometry/counts_per_turn": 360}),
     ("1,440 counts configured as 5,760", {"counts-per-turn"}, None, {"/odometry/counts_per_turn": 5760}),
     ("diameter configured as radius", {"counts-per-turn"}, None, {"/odometry/wheel_radius": 0.065}),
     ("track of 0.16 m configured as 0.32 m", {"track"}, None, {"/odometry/track": 0.32}),
+    ("track of 0.16 m configured as 10 m", {"track"}, None, {"/odometry/track": 10}),
     ("one wheel of double resolution", {"right-counts"}, scaled("right", by=2), {}),
     ("gyro reversed", {"gyro-reversed"}, scaled("gyro", by=-1), {}),
     ("gyro in degrees", {"gyro-degrees"}, scaled("gyro", by=180 / math.pi), {}),
     ("gyro of another axis", {"gyro-axis"}, tilted, {}),
+    ("gyro that repeats a value", {"gyro-stuck"}, stuck, {}),
     ("gyro biased by 0.6 rad/s", {"gyro-bias"}, biased, {}),
 ]
 
@@ -179,11 +196,10 @@ class Bench:
         last = None
         for text in output.splitlines():
             status = json.loads(text)
-            if status.get("faults"):
-                first = first or status["t"]
-                last = status
-            else:
-                first, last = None, None
+            faults = status.get("faults")
+            if faults and faults != (last or {}).get("faults"):
+                first = status["t"]
+            last = status if faults else None
         return (last["faults"], last["hint"], first) if last else ([], "", None)
 
 

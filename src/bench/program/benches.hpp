@@ -56,6 +56,10 @@ void run_odometry_bench(const OdometryBenchOptions& options);
 /// cornerd-bench --odometry --robots N: drives of robots, sensors and faults drawn at random.
 void run_random_robot_bench(const OdometryBenchOptions& options);
 
+/// cornerd-bench --floors: which of ten maps a drive is in, where they are floors of one building;
+/// a tenth as many drives where these are furnished, where two are the same, and in flats.
+void run_floors_bench(std::size_t floors, std::uint64_t seed);
+
 struct ScaleBenchOptions {
   std::vector<std::size_t> corners = {20, 200, 2000, 20'000};
   std::size_t scans = 200;
@@ -71,6 +75,16 @@ void run_scale_bench(const ScaleBenchOptions& options);
 
 /// The workload for valgrind: localizes each scan `times` without output.
 void only_localize(const ScaleBenchOptions& options, std::size_t times);
+
+struct DrawnPlanBenchOptions {
+  std::filesystem::path maps;  ///< folder of the contest arena's layouts and of flat-7.json
+  std::size_t plans = 8;       ///< of each building
+  std::uint64_t seed = 1;
+};
+
+/// cornerd-bench --drawn-plans: drives in maps with errors of a plan drawn by hand, with and
+/// without learning the walls' offsets, as a table.
+void run_drawn_plan_bench(const DrawnPlanBenchOptions& options);
 
 struct SurveyBenchOptions {
   std::filesystem::path maps;   ///< folder with flat-7.json

@@ -22,9 +22,7 @@ constexpr double kMarginAroundPx = 76;
 constexpr double kHalfBoxPx = 32;
 constexpr double kHalfCapPx = 14;
 
-constexpr std::string_view kBoxInk = "#2f3640";
 constexpr std::string_view kBoxLabel = "#8c867a";
-constexpr std::string_view kBoxGrid = "#e9e6df";
 constexpr std::string_view kMedian = "#c2255c";
 constexpr std::array<std::string_view, 4> kBoxTints = {"#9cc9e3", "#f0c490", "#b8d8b0", "#d9bfe3"};
 
@@ -54,18 +52,18 @@ class BoxplotPage {
     const double step = boxplot_step(highest);
     for (double i = 0; i * step <= highest * (1 + 1e-9); ++i) {
       const double y = i * step * scale_;
-      svg_.line({0, y}, {width_px_, y}, {.stroke = kBoxGrid});
+      svg_.line({0, y}, {width_px_, y}, {.stroke = tool::kGridInk});
       svg_.text({0, y}, boxplot_tick(i * step), {.fill = kBoxLabel, .anchor = "end"}, -10, 4);
     }
-    svg_.text({0, kHeightPx / 2}, name, {.fill = kBoxInk, .size = 13, .rotation_deg = 90}, -52);
+    svg_.text({0, kHeightPx / 2}, name, {.fill = tool::kInk, .size = 13, .rotation_deg = 90}, -52);
   }
 
   void box(std::size_t slot, const BoxplotSeries& series) {
     const double x = kSlotPx * (static_cast<double>(slot) + 0.5);
-    svg_.text({x, 0}, series.name, {.fill = kBoxInk, .size = 14}, 0, 26);
+    svg_.text({x, 0}, series.name, {.fill = tool::kInk, .size = 14}, 0, 26);
     if (series.values.empty()) return;
     const BoxplotStatistics plot = boxplot_of(series.values);
-    const tool::Paint ink{.stroke = kBoxInk, .stroke_width = 1.4};
+    const tool::Paint ink{.stroke = tool::kInk, .stroke_width = 1.4};
     whisker(x, plot.upper_quartile, plot.upper_whisker, ink);
     whisker(x, plot.lower_quartile, plot.lower_whisker, ink);
     const double low = plot.lower_quartile * scale_;
@@ -74,7 +72,7 @@ class BoxplotPage {
                                          Vec2(x + kHalfBoxPx, high), Vec2(x - kHalfBoxPx, high)};
     svg_.polygon(
         outline,
-        {.fill = kBoxTints[slot % kBoxTints.size()], .stroke = kBoxInk, .stroke_width = 1.4});
+        {.fill = kBoxTints[slot % kBoxTints.size()], .stroke = tool::kInk, .stroke_width = 1.4});
     const double median = plot.median * scale_;
     svg_.line({x - kHalfBoxPx, median}, {x + kHalfBoxPx, median},
               {.stroke = kMedian, .stroke_width = 2.4});
@@ -83,7 +81,7 @@ class BoxplotPage {
 
   std::string document(const BoxplotTexts& texts) {
     svg_.text({0, kHeightPx}, texts.title,
-              {.fill = kBoxInk, .size = 16, .anchor = "start", .bold = true}, 0, -40);
+              {.fill = tool::kInk, .size = 16, .anchor = "start", .bold = true}, 0, -40);
     svg_.text({0, kHeightPx}, texts.subtitle, {.fill = kBoxLabel, .anchor = "start"}, 0, -20);
     return svg_.document(texts.title);
   }

@@ -39,10 +39,12 @@ struct BenchOptions {
   std::size_t detections = 0;
   std::size_t robots = 0;
   bool scale = false;
+  std::size_t floor_starts = 0;
   bool localizer = false;
   std::string only_localize;
   bool odometry = false;
   bool survey = false;
+  bool drawn_plans = false;
   std::filesystem::path evidence;
   std::vector<std::size_t> corners;
   std::optional<tool::Option> positions_given;
@@ -149,38 +151,34 @@ void run_bench(const BenchOptions& options) {
     EvidenceBenchOptions evidence{options.maps, options.evidence};
     evidence.seed = options.seed;
     if (options.positions_given->is_given()) evidence.scans = options.positions;
-    run_evidence_bench(evidence);
-    return;
+    return run_evidence_bench(evidence);
   }
+  if (options.floor_starts > 0) return run_floors_bench(options.floor_starts, options.seed);
   if (options.localizer) {
     if (options.scale || options.survey)
       throw tool::UsageError("--localizer excludes --scale and --survey; name one of them");
-    run_localizer(options);
-    return;
+    return run_localizer(options);
   }
   if (options.odometry) {
     if (options.scale) throw tool::UsageError("--odometry excludes --scale; name one of them");
     OdometryBenchOptions odometry{options.maps, options.plots, options.json, options.seed};
     if (options.positions_given->is_given()) odometry.drives = options.positions;
     odometry.robots = options.robots;
-    odometry.robots > 0 ? run_random_robot_bench(odometry) : run_odometry_bench(odometry);
-    return;
+    return odometry.robots > 0 ? run_random_robot_bench(odometry) : run_odometry_bench(odometry);
+  }
+  if (options.drawn_plans) {
+    DrawnPlanBenchOptions drawn{.maps = options.maps, .seed = options.seed};
+    if (options.positions_given->is_given()) drawn.plans = options.positions;
+    return run_drawn_plan_bench(drawn);
   }
   if (options.survey) {
     if (options.scale) throw tool::UsageError("--survey excludes --scale; name one of them");
-    run_survey_bench({options.maps, options.plots, options.seed});
-    return;
+    return run_survey_bench({options.maps, options.plots, options.seed});
   }
-  if (options.scale) {
-    run_scale(options);
-    return;
-  }
+  if (options.scale) return run_scale(options);
   if (options.robots > 0) throw tool::UsageError("--robots: only with --odometry; add it");
   if (!options.corners.empty()) throw tool::UsageError("--corners: only with --scale; add it");
-  if (options.detections > 0) {
-    only_detect(options);
-    return;
-  }
+  if (options.detections > 0) return only_detect(options);
   // Fails before the work if the file cannot be written.
   std::unique_ptr<tool::Output> json;
   if (options.json == "-") json = std::make_unique<tool::Output>();
@@ -214,6 +212,12 @@ void add_options(tool::Command& program, const std::shared_ptr<BenchOptions>& op
       "--scale", options->scale,
       "other benchmark: the first fix in buildings of 20 to 20,000 corners, and in equal rooms; "
       "--positions: scans in each, default 200");
+  program
+      .add_option("--floors", options->floor_starts,
+                  "other benchmark: N drives on ten floors of one building, and a tenth as many in "
+                  "each of other sets of ten maps: which map they are in, and when it is named")
+      .range(std::size_t{1}, std::size_t{1'000'000})
+      .type_name("N");
   program.add_flag(
       "--localizer", options->localizer,
       "other benchmark: poses against the truth and the Cramer-Rao bound, with a biased lidar, few "
@@ -233,6 +237,10 @@ void add_options(tool::Command& program, const std::shared_ptr<BenchOptions>& op
   program.add_flag("--survey", options->survey,
                    "other benchmark: a drive of 100 m, surveyed by both methods, and a second one "
                    "localized in the maps");
+  program.add_flag("--drawn-plans", options->drawn_plans,
+                   "other benchmark: drives in maps with the errors of a plan drawn by hand, with "
+                   "and without learning where the walls are; --positions: plans of each building, "
+                   "default 8");
   program
       .add_option("--evidence", options->evidence,
                   "write what rays do at right and wrong places of --positions random scans "

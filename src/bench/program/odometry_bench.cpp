@@ -24,7 +24,7 @@ namespace cornerd::bench {
 
 namespace {
 
-using core::HeadingSource;
+using calibration::HeadingSource;
 
 /// Of the table by rate, for each of --positions drives.
 constexpr std::size_t kScansPerDrive = 650;

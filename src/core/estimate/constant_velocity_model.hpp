@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <limits>
 #include <optional>
 
 #include "core/geometry/pose2.hpp"
@@ -43,7 +44,9 @@ class ConstantVelocityModel {
   bool is_stationary() const { return is_stationary_; }
 
   /// Seconds since the last pose; 0 before the first.
-  double age_s(TimeNs t_ns) const { return has_pose_ ? to_seconds(t_ns - last_ns_) : 0; }
+  double age_s(TimeNs t_ns) const {
+    return has_pose_ ? to_seconds(t_ns - last_ns_) : std::numeric_limits<double>::infinity();
+  }
 
  private:
   std::optional<Pose2> last_T_map_lidar_;

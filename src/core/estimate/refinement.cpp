@@ -24,6 +24,8 @@ constexpr double kMinPivot = 1e-7;
 constexpr std::size_t kMinInliers = 8;
 /// Runs of neighbouring rays on one face in a scan; more are left out of the map error model.
 constexpr std::size_t kMaxResiduals = 1024;
+/// Standard deviation of an offset that tells nothing of the pose.
+constexpr double kUnknown_m = 1e3;
 constexpr int kMotionIterations = 8;
 /// More points than this determine a motion no better than refinement needs.
 constexpr std::size_t kMotionPoints = 512;
@@ -73,11 +75,13 @@ void Refinement::find_hits(const WallMap& map, const Pose2& T_map_lidar,
 }
 
 Refinement::Step Refinement::step(const WallMap& map, const Pose2& T_map_lidar,
-                                  double extra_sigma_m, double map_sigma_m) {
+                                  double extra_sigma_m, double map_sigma_m,
+                                  WallOffsetFilter* walls) {
   const double c = std::cos(T_map_lidar.theta_rad);
   const double s = std::sin(T_map_lidar.theta_rad);
   Step sums;
   residuals_.clear();
+  if (walls != nullptr) walls->begin();
   // Neighbouring rays mostly hit the same face: each run is summed at once.
   for (std::size_t begin = 0, end = 0; begin < hits_.size(); begin = end) {
     const std::uint32_t met = hits_[begin].face;
@@ -86,8 +90,12 @@ Refinement::Step Refinement::step(const WallMap& map, const Pose2& T_map_lidar,
     const Face& face = map.faces()[met];
     const double nx = face.normal.x();
     const double ny = face.normal.y();
-    const double height_m = nx * T_map_lidar.x_m + ny * T_map_lidar.y_m - face.offset_m;
-    const double face_sigma_m = std::max(map_sigma_m, face.sigma_m);
+    double height_m = nx * T_map_lidar.x_m + ny * T_map_lidar.y_m - face.offset_m;
+    double face_sigma_m = std::max(map_sigma_m, face.sigma_m);
+    if (walls != nullptr) {
+      height_m -= walls->offset_m(met);
+      if (const double learned_m = walls->sigma_m(met); learned_m > 0) face_sigma_m = learned_m;
+    }
     const FaceSums sum = lanes_.sum(begin, end, {c * nx + s * ny, c * ny - s * nx}, height_m,
                                     extra_sigma_m, face_sigma_m);
     if (residuals_.size() < kMaxResiduals) {
@@ -101,9 +109,20 @@ Refinement::Step Refinement::step(const WallMap& map, const Pose2& T_map_lidar,
     sums.information(2, 2) += sum.lever_squared;
     sums.gradient += Eigen::Vector3d(sum.distance * nx, sum.distance * ny, sum.distance_lever);
     sums.chi_square += sum.z_squared;
-    if (face_sigma_m > 0) sums.marginalise(face.normal, sum, face_sigma_m);
+    if (walls == nullptr) {
+      if (face_sigma_m > 0) sums.marginalise(face.normal, sum, face_sigma_m);
+    } else if (!walls->add(met, face.normal, sum, end - begin)) {
+      // Its offset is the same in each scan, and would pass for news of the frame.
+      sums.marginalise(face.normal, sum, kUnknown_m);
+    }
     sums.squared_distances += sum.squared_distances;
     sums.inliers += static_cast<std::size_t>(sum.points);
+  }
+  if (walls != nullptr) {
+    const WallOffsetFilter::Reduced reduced = walls->marginalise();
+    sums.of_offsets += reduced.information;
+    sums.gradient -= reduced.gradient;
+    sums.chi_square -= reduced.chi_square;
   }
   sums.information.triangularView<Eigen::StrictlyLower>() = sums.information.transpose();
   sums.information -= sums.of_offsets;
@@ -113,9 +132,10 @@ Refinement::Step Refinement::step(const WallMap& map, const Pose2& T_map_lidar,
 RefinedPose Refinement::refine(const WallMap& map, const Pose2& start, double search_radius_m,
                                std::span<const PolarPoint> subset,
                                std::span<const PolarPoint> points, double noise_scale,
-                               double map_sigma_m, const PosePrior* prior) {
+                               double map_sigma_m, const PosePrior* prior,
+                               WallOffsetFilter* walls) {
   RefinedPose refined = gauss_newton(map, start, search_radius_m, subset, points, noise_scale,
-                                     map_sigma_m, kMaxSteps, prior);
+                                     map_sigma_m, kMaxSteps, prior, walls);
   if (refined.valid) {
     refined.face_residuals = face_residual_statistics(residuals_, refined.noise_covariance);
   }
@@ -127,14 +147,14 @@ RefinedPose Refinement::refine_roughly(const WallMap& map, const Pose2& start,
                                        double noise_scale, double map_sigma_m,
                                        const PosePrior* prior) {
   return gauss_newton(map, start, search_radius_m, subset, subset, noise_scale, map_sigma_m, 1,
-                      prior);
+                      prior, nullptr);
 }
 
 RefinedPose Refinement::gauss_newton(const WallMap& map, const Pose2& start, double search_radius_m,
                                      std::span<const PolarPoint> subset,
                                      std::span<const PolarPoint> points, double noise_scale,
                                      double map_sigma_m, int max_final_steps,
-                                     const PosePrior* prior) {
+                                     const PosePrior* prior, WallOffsetFilter* walls) {
   RefinedPose refined;
   refined.T_map_lidar = start;
   double extra_sigma_m = search_radius_m;
@@ -145,7 +165,7 @@ RefinedPose Refinement::gauss_newton(const WallMap& map, const Pose2& start, dou
     const bool rough = extra_sigma_m > 0.004;
     const double step_extra_sigma_m = rough ? extra_sigma_m : 0;
     find_hits(map, refined.T_map_lidar, rough ? subset : points, noise_scale, step_extra_sigma_m);
-    sums = step(map, refined.T_map_lidar, step_extra_sigma_m, map_sigma_m);
+    sums = step(map, refined.T_map_lidar, step_extra_sigma_m, map_sigma_m, walls);
     if (prior != nullptr) {
       const Pose2& at = refined.T_map_lidar;
       sums.information += prior->information;

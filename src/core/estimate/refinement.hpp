@@ -6,6 +6,7 @@
 
 #include "core/estimate/map_error_model.hpp"
 #include "core/estimate/point_lanes.hpp"
+#include "core/estimate/wall_offset_filter.hpp"
 #include "core/map/ray_caster.hpp"
 #include "core/map/wall_map.hpp"
 #include "core/polar_scan.hpp"
@@ -47,9 +48,11 @@ class Refinement {
   /// `start` may be off by `search_radius_m`. `subset`: some of `points`, for the first steps,
   /// which need no precision. `map_sigma_m`: standard deviation of each face's offset, which is
   /// marginalised, so that the covariance knows of it (Probabilistic Robotics, section 3.5.4).
+  /// `walls`: what was learned of the offsets, jointly; it holds the last step afterwards.
   RefinedPose refine(const WallMap& map, const Pose2& start, double search_radius_m,
                      std::span<const PolarPoint> subset, std::span<const PolarPoint> points,
-                     double noise_scale, double map_sigma_m = 0, const PosePrior* prior = nullptr);
+                     double noise_scale, double map_sigma_m = 0, const PosePrior* prior = nullptr,
+                     WallOffsetFilter* walls = nullptr);
 
   /// The same on few points, with only the steps that a rejection test needs.
   RefinedPose refine_roughly(const WallMap& map, const Pose2& start, double search_radius_m,
@@ -67,12 +70,13 @@ class Refinement {
   RefinedPose gauss_newton(const WallMap& map, const Pose2& start, double search_radius_m,
                            std::span<const PolarPoint> subset, std::span<const PolarPoint> points,
                            double noise_scale, double map_sigma_m, int max_final_steps,
-                           const PosePrior* prior);
+                           const PosePrior* prior, WallOffsetFilter* walls);
   /// The face that each point's ray hits from this pose.
   void find_hits(const WallMap& map, const Pose2& T_map_lidar, std::span<const PolarPoint> points,
                  double noise_scale, double extra_sigma_m);
   /// Normal equations of the last hits.
-  Step step(const WallMap& map, const Pose2& T_map_lidar, double extra_sigma_m, double map_sigma_m);
+  Step step(const WallMap& map, const Pose2& T_map_lidar, double extra_sigma_m, double map_sigma_m,
+            WallOffsetFilter* walls);
 
   SensorNoise noise_;
   RayCaster ray_caster_;

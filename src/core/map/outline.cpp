@@ -8,6 +8,7 @@
 #include <numeric>
 #include <random>
 #include <set>
+#include <stdexcept>
 #include <tuple>
 #include <utility>
 
@@ -172,6 +173,7 @@ class Visibility {
     VisibleParts visible(2 * kGeometryEpsilon_m / way.norm());
     const auto hide_behind = [&](std::uint32_t other) {
       if (other == edge.box) return;
+      if (++compared_ > kMaxCompared) throw std::invalid_argument(kTooMany);
       visible.hide(hidden_by(edge, boxes_[edge.box], boxes_[other], other));
     };
     constexpr std::size_t kNeighbours = 4;
@@ -206,6 +208,10 @@ class Visibility {
   std::vector<std::size_t> place_;  ///< of each box in order_
   std::vector<Extent> extents_;
   ExtentTree tree_;
+  /// Pairs of an edge and a box: seconds on a PC; 100,000 walls of a building have some millions.
+  static constexpr std::uint64_t kMaxCompared = 200'000'000;
+  static constexpr const char* kTooMany = "too many walls cross each other: hatching, or noise?";
+  std::uint64_t compared_ = 0;
 };
 
 /// Equal walls, drawn in either direction, once: the first of them.

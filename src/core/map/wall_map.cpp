@@ -13,7 +13,7 @@ namespace cornerd::core {
 namespace {
 
 /// Ends of walls and the corners there agree to a few rounding errors.
-constexpr double kSamePoint_m = 5e-6;
+constexpr double kSameEnd_m = 5e-6;
 
 void check(const Wall& wall, std::size_t index) {
   const auto fail = [&](const char* reason) {
@@ -55,8 +55,8 @@ bool WallMap::is_open_end(const Vec2& point) const {
     const Wall& wall = plan_.walls[i];
     const WallBox box(wall);
     const Vec2 local = box.to_local(point);
-    const bool at_end = std::abs(std::abs(local.x()) - box.half_length_m) < kSamePoint_m &&
-                        std::abs(local.y()) < box.half_width_m + kSamePoint_m;
+    const bool at_end = std::abs(std::abs(local.x()) - box.half_length_m) < kSameEnd_m &&
+                        std::abs(local.y()) < box.half_width_m + kSameEnd_m;
     return at_end && wall.is_open[local.x() > 0 ? 1 : 0];
   });
 }

@@ -93,6 +93,9 @@ class WallMap {
   /// tools and tests; the localizer casts whole scans (ray_caster.hpp).
   double range_along(const Vec2& origin, double angle_rad, double max_range_m) const;
 
+  /// Indices into plan().walls of those that may contain the point, and few others.
+  std::span<const std::uint32_t> walls_at(const Vec2& point) const { return wall_grid_.at(point); }
+
   /// Index of the faces by position.
   const CellGrid& face_grid() const { return face_grid_; }
 

@@ -40,11 +40,12 @@ void MotionFactor::add(const OdometryIncrement& step) {
   // Their noise.
   const double left_m2 = noise_.wheel_m2_per_m * std::abs(left_m);
   const double right_m2 = noise_.wheel_m2_per_m * std::abs(right_m);
+  const double slip_rad2 = noise_.slip_rad2_per_m * (std::abs(left_m) + std::abs(right_m)) / 2;
   Eigen::Matrix3d noise = Eigen::Matrix3d::Zero();
-  noise(0, 0) = (left_m2 + right_m2) / 4;
+  noise(0, 0) = (left_m2 + right_m2) / 4 + slip_rad2 * squared(track_m_ / 2);
   noise(0, 1) = noise(1, 0) = (right_m2 - left_m2) / (2 * track_m_);
-  noise(1, 1) =
-      (left_m2 + right_m2) / squared(track_m_) + noise_.scrub_rad2_per_rad * std::abs(wheel_rad);
+  noise(1, 1) = (left_m2 + right_m2) / squared(track_m_) +
+                noise_.scrub_rad2_per_rad * std::abs(wheel_rad) + slip_rad2;
   if (step.has_gyro) {
     // When within the step the rate changed is unknown: evenly between its two ends.
     noise(2, 2) =

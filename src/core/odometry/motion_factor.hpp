@@ -15,6 +15,7 @@ namespace cornerd::core {
 struct MotionNoise {
   double wheel_m2_per_m = 0;      ///< of a wheel's travel
   double scrub_rad2_per_rad = 0;  ///< of the wheels' rotation: tyres touch the floor somewhere
+  double slip_rad2_per_m = 0;     ///< of the same, by slips: one wheel's travel is wrong
   double gyro_rad2_per_s = 0;     ///< of the gyro's rotation
 };
 

@@ -8,17 +8,13 @@
 #include <optional>
 
 #include "core/geometry/pose2.hpp"
-#include "core/odometry/delay_finder.hpp"
-#include "core/odometry/fix_watch.hpp"
-#include "core/odometry/fusion_filter.hpp"
-#include "core/odometry/gyro_proof.hpp"
+#include "core/odometry/motion_filter.hpp"
 #include "core/odometry/motion_path.hpp"
-#include "core/odometry/noise_meter.hpp"
+#include "core/odometry/motion_trust.hpp"
 #include "core/odometry/odometry_config.hpp"
 #include "core/odometry/odometry_reading.hpp"
 #include "core/odometry/odometry_summary.hpp"
 #include "core/odometry/reading_gate.hpp"
-#include "core/odometry/turn_slips.hpp"
 #include "core/scan.hpp"
 
 namespace cornerd::core {
@@ -52,19 +48,19 @@ class Odometer {
   /// True where deskew() succeeds.
   bool has_motion() const { return knows_motion_; }
   /// The scan shows another motion than the readings: discard it.
-  void reject_motion();
+  void reject_motion() { knows_motion_ = false; }
   /// Covariance from the motion left in a deskewed scan.
   Covariance3 deskew_covariance() const;
 
   /// Predicted pose; nullopt before the first fix, max_extrapolation_s after the last one, and
-  /// while wheels and lidar are inconsistent.
+  /// while sensors that it is made of are not known to be right.
   std::optional<PredictedPose> prediction() const;
 
   /// True where the readings may miss a motion: their delay is not yet observable, or they pause.
   bool may_miss_motion() const;
 
   /// The same at the time of the newest reading, for OdometryConfig::publish_predictions.
-  std::optional<PredictedPose> predict_latest();
+  std::optional<PredictedPose> predict_latest() const;
 
   /// Updates the filter by a fix of the lidar at the time reached.
   void correct(const Pose2& T_map_base, const Covariance3& covariance);
@@ -76,75 +72,49 @@ class Odometer {
   OdometrySummary summary() const;
 
  private:
-  /// By as much a robot may have changed its speed in a time of which no reading tells.
-  static constexpr double kChange_m_s = 0.5;
-  static constexpr double kChange_rad_s = 1.5;
-
-  /// More readings than come in half a turn of the slowest lidar, at 500 a second.
+  /// More readings than come in half a scan of the slowest lidar, at 500 a second.
   static constexpr std::size_t kPending = 256;
+  static constexpr int kContradiction = 3;
 
-  void begin_anew(const OdometryIncrement& hole);
-  /// All that was learned with another delay was learned wrong.
-  void learn_anew(double delay_s);
-  bool learns_delay() const;
-  double delay_doubt_s2(double delay_s) const;
-  void consume(const OdometryIncrement& step);
-  void add_stranger(const Pose2& T_map_base, const Covariance3& covariance);
-  /// The covariance of a fix with what it does not know of, as much as fixes lately showed and as
-  /// this one needs.
-  Covariance3 learned_doubt(const Pose2& T_map_base, const Covariance3& covariance);
-  std::optional<PredictedPose> prediction_of(const FusionFilter& filter, TimeNs t_ns,
-                                             TimeNs guessed_ns) const;
-  /// Of what was driven since the last fix: slips that no gyro shows.
-  Covariance3 doubt_of_slips(const FusionFilter& filter) const;
-  bool doubts_slips() const { return config_.conservative && !last_.has_gyro; }
-  void watch_for_slips(const Pose2& T_map_base, const Covariance3& covariance);
-  /// What a robot makes of a time, its variance in s^2, of which no reading tells.
-  static Covariance3 doubt_of_change(double unread_s2);
-  static Covariance3 doubt_of_guess(TimeNs guessed_ns);
-  /// What the filter has moved on beyond the newest reading.
-  TimeNs guessed_ns() const { return config_.conservative ? guessed_.to_ns - guessed_.from_ns : 0; }
-  /// False where wheels, gyro and lidar have lately told different stories.
-  bool is_believed() const;
-  void tell_velocity(FusionFilter& filter, TimeNs t_ns) const;
-  void consume_until(TimeNs t_ns);
-  void guess_until(TimeNs t_ns);
+  const OdometryIncrement& pending(std::size_t i) const {
+    return pending_[(first_ + i) % kPending];
+  }
+  void restart(const OdometryIncrement& gap);
+  /// Without the gyro's rotation where wheels are trusted more.
+  OdometryIncrement trusted(OdometryIncrement step) const;
+  void consume_front(std::optional<TimeNs> until_ns = std::nullopt);
+  MotionFilter::Epoch epoch_at(TimeNs reading_ns, TimeNs reached_ns) const;
+  std::optional<PredictedPose> prediction_of(const MotionFilter& filter,
+                                             const MotionFilter::Epoch& epoch, TimeNs t_ns) const;
+  /// A survey's fixes are no better than its odometry: there a few in a row tell.
+  bool is_believed() const {
+    return filter_.is_in_bounds() &&
+           (config_.conservative ? trust_.is_healthy() : rejected_in_a_row_ < kContradiction);
+  }
 
   OdometryConfig config_;
   ReadingGate gate_;
-  FusionFilter filter_;
+  MotionFilter filter_;
+  MotionTrust trust_;
   MotionPath path_;
-  DelayFinder delays_;
 
   std::array<OdometryIncrement, kPending> pending_;  ///< not yet in the filter; a ring
   std::size_t first_ = 0;
   std::size_t size_ = 0;
-  TimeNs reached_ns_ = 0;      ///< the filter stands here, by the readings' times
-  OdometryIncrement last_;     ///< the newest whole step in the filter, for a guess
-  OdometryIncrement guessed_;  ///< what the filter has taken beyond the newest reading
+  TimeNs reached_ns_ = 0;  ///< the filter stands here, by the readings' times
 
-  FusionFilter ahead_;               ///< with what is pending
-  std::size_t ahead_by_ = 0;         ///< steps of what is pending; where it is stale, none
-  OdometryIncrement ahead_guessed_;  ///< as guessed_
-  bool ahead_is_stale_ = true;       ///< the filter has moved since
-
-  TimeNs start_ns_ = 0;  ///< of the turn
+  TimeNs start_ns_ = 0;  ///< of the scan
   TimeNs middle_ns_ = 0;
   TimeNs end_ns_ = 0;
-  TimeNs delay_ns_ = 0;  ///< of the readings, as it was learned before the turn
+  TimeNs delay_ns_ = 0;        ///< of the readings, as estimated before the scan
+  MotionFilter::Epoch epoch_;  ///< of the scan's middle
   bool knows_motion_ = false;
   bool has_pose_ = false;
   bool present_ = false;
+  int rejected_in_a_row_ = 0;  ///< fixes: which of both is wrong, the next one shows
   TimeNs fixed_ns_ = 0;
-  double fixed_heading_rad_ = 0;
-  FixWatch fix_watch_;
-  GyroProof gyro_proof_;
-  TurnSlips turn_slips_;
-  /// Of the floors' variances. A twentieth stays: half a millimetre is the same from turn to turn.
-  NoiseMeter place_floor_{10, 0.06, 1};
-  NoiseMeter heading_floor_{5, 0.03, 1};
   std::uint64_t fixes_ = 0;
-  std::uint64_t strangers_ = 0;
+  std::uint64_t rejected_fixes_ = 0;
 };
 
 }  // namespace cornerd::core

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "core/odometry/odometry_frame.hpp"
 
-#include "core/odometry/corrected_increment.hpp"
+#include <cmath>
+
+#include "core/odometry/motion_factor.hpp"
 
 namespace cornerd::core {
 
@@ -19,10 +21,12 @@ const OdometryPose* OdometryFrame::add(const OdometryReading& reading, std::opti
   pose_.t_ns = step->to_ns;
   pose_.vx_m_s = pose_.omega_rad_s = 0;
   if (step->is_gap || step->to_ns <= step->from_ns) return &pose_;
-  const CorrectedIncrement motion = corrected_increment(*step, geometry_, parameters);
-  pose_.T_odom_base = pose_.T_odom_base * arc(motion.translation_m, motion.rotation_rad);
-  pose_.vx_m_s = motion.translation_m / step->duration_s();
-  pose_.omega_rad_s = motion.rotation_rad / step->duration_s();
+  MotionFactor factor(geometry_, parameters);
+  factor.add(*step);
+  const Pose2 motion = factor.motion();
+  pose_.T_odom_base = pose_.T_odom_base * motion;
+  pose_.vx_m_s = std::copysign(motion.translation().norm(), motion.x_m) / step->duration_s();
+  pose_.omega_rad_s = factor.rotation_rad() / step->duration_s();
   return &pose_;
 }
 

@@ -19,7 +19,7 @@ constexpr double kMinPointWall_m = 0.25;
 constexpr std::uint32_t kMinPointSupport = 5;
 constexpr double kEnoughWall_m = 1.5;
 /// Walls count up to these lengths, so that one long wall does not outvote a room.
-constexpr double kLongWall_m = 3;
+constexpr double kLongSegment_m = 3;
 constexpr double kLongFaces_m = 20;
 /// Poses with less than this share of the best score are not the right one
 /// (99 % of 3,000 random scans are among those found).
@@ -67,7 +67,7 @@ void MapSearch::select_headings(std::span<const WallSegment> segments) {
   for (const WallSegment& segment : segments) {
     const double length_m = (segment.last - segment.first).norm();
     if (segment.support < kMinSupport || length_m < kMinWall_m) continue;
-    add(scan_directions, segment.normal, std::min(length_m, kLongWall_m));
+    add(scan_directions, segment.normal, std::min(length_m, kLongSegment_m));
   }
   HeadingWeights weights{};
   for (std::size_t direction = 0; direction < kHeadings; ++direction) {

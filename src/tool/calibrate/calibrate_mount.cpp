@@ -135,7 +135,8 @@ class MountCalibration {
     const auto windows = calibration::motion_windows(calibration::at_true_times(steps, delay_s),
                                                      drive.places, T_base_lidar);
     windows_ = windows.size();
-    return calibration::find_drive_faults(windows, T_base_lidar, config_.odometry.core.geometry);
+    return calibration::find_drive_faults(windows, T_base_lidar, config_.odometry.core.geometry,
+                                          /*mount_is_known=*/false);
   }
 
   void take(const calibration::DriveHypothesis& mount) {

@@ -23,6 +23,7 @@
 #include "tool/commands.hpp"
 #include "tool/drawing/drive_drawing.hpp"
 #include "tool/drawing/factors_text.hpp"
+#include "tool/drawing/svg.hpp"
 #include "tool/drawing/text_table.hpp"
 #include "tool/replay/truth.hpp"
 
@@ -31,7 +32,7 @@ namespace cornerd::tool {
 namespace {
 
 using calibration::DriveError;
-using core::HeadingSource;
+using calibration::HeadingSource;
 
 struct CalibrateOdometryOptions : CalibrationOptions {
   std::filesystem::path file;
@@ -128,17 +129,17 @@ std::string draw_dead_reckoning(const CalibrationDrive& drive,
     known.push_back(place.T_map_base.translation());
   }
   calibration::DrivePoints raw;
-  reckon(steps, drive.places, geometry, core::DeadReckoningConfig{}, &raw);
+  reckon(steps, drive.places, geometry, calibration::DeadReckoningConfig{}, &raw);
   calibration::DrivePoints fitted;
   reckon(drive.steps, drive.places, geometry, fit.learned, &fitted);
   const std::span<const core::Vec2> points(filtered.points);
   const std::size_t alone = filtered.alone.places;
   const DrawnTrack tracks[] = {
-      {"by the lidar", "#2f3640", known, true},
+      {"by the lidar", kInk, known, true},
       {"wheels as configured", "#c2255c", raw},
-      {"least squares", "#d9822b", fitted},
-      {"filter, with fixes", "#8fb8d8", points.first(points.size() - alone)},
-      {"filter, dead reckoning", "#2f6f9f", points.last(alone)}};
+      {"wheels corrected by least squares", "#d9822b", fitted},
+      {"filter, with fixes (first half)", "#8fb8d8", points.first(points.size() - alone)},
+      {"filter, dead reckoning (second half)", "#2f6f9f", points.last(alone)}};
   std::shared_ptr<const core::WallMap> map;
   if (!config.map.empty()) map = settings::load_map(config.map);
   return draw_drive("The drive by wheels and gyro", tracks, map.get());
@@ -168,7 +169,7 @@ void calibrate_odometry(const CalibrateOdometryOptions& options) {
                                                          {HeadingSource::kWeighted, "weighted"}};
   for (const auto& [source, name] : modes) {
     if (source != HeadingSource::kEncoder && !fit.has_gyro) continue;
-    core::DeadReckoningConfig reckoning{source, {}};
+    calibration::DeadReckoningConfig reckoning{source, {}};
     if (source != HeadingSource::kWeighted) {
       table.add_row(row(name, "none", reckon(steps, drive.places, geometry, reckoning)));
     }

@@ -11,6 +11,7 @@
 #include <sstream>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 
@@ -82,7 +83,13 @@ Option& Option::within(double low, double high) {
 }
 
 Option& Option::positive() {
-  option_->check(CLI::PositiveNumber);
+  // CLI11's own message has the largest double in 309 digits.
+  option_->check([](const std::string& text) {
+    // NaN passes PositiveNumber.
+    const bool is_number = text.find("nan") == text.npos && text.find("NaN") == text.npos &&
+                           CLI::PositiveNumber(text).empty();
+    return is_number ? "" : "must be a number above 0, not " + text;
+  });
   return *this;
 }
 
@@ -220,6 +227,11 @@ int run_program(const std::string& name, const std::string& summary,
     }
     app.parse(argc, argv);
     return kExitDone;
+  } catch (const CLI::RequiredError& error) {
+    // An unknown option may be the required one, misspelt.
+    const std::vector<std::string> unknown = app.remaining(/*recurse=*/true);
+    unknown.empty() ? app.exit(error) : app.exit(CLI::ExtrasError(app.get_name(), unknown));
+    return kExitUsage;
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? kExitDone : kExitUsage;
   } catch (const OutputClosed&) {

@@ -72,9 +72,9 @@ void Output::fail() const {
 }
 
 void write_file(const std::filesystem::path& file, std::string_view text) {
-  Output output(file);
+  Output output = Output::replacing(file);
   output.write(text);
-  output.flush();
+  output.commit();
 }
 
 namespace {

@@ -50,7 +50,8 @@ class Output {
   bool flush_each_ = false;
 };
 
-/// Writes a whole file, or standard output for "-". Throws as Output.
+/// Replaces a whole file, or writes standard output for "-". On a failure the old file stays.
+/// Throws as Output.
 void write_file(const std::filesystem::path& file, std::string_view text);
 
 /// The name of standard output.

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <cstdio>
 #include <fstream>
 #include <optional>
 #include <sstream>
@@ -67,8 +68,8 @@ std::filesystem::path running_config(const std::filesystem::path& processes) {
   return found;
 }
 
-void SettingsOptions::add_config(Command& command) {
-  command.add_option("--config", config_, "config file; default: every key has its default")
+void SettingsOptions::add_config(Command& command, std::string_view fallback) {
+  command.add_option("--config", config_, "config file; default: " + std::string(fallback))
       .type_name("FILE");
   command.add_option("--set", set_, "override a config value: /json/pointer=value")
       .type_name("/PTR=VALUE")
@@ -88,6 +89,14 @@ void SettingsOptions::use_daemons_config() {
   if (config_.empty() && ::access(kInstalledConfig, R_OK) == 0) config_ = kInstalledConfig;
 }
 
+settings::Config SettingsOptions::resolve_with_map() {
+  if (config_.empty() && map_.empty()) {
+    use_daemons_config();
+    if (!config_.empty()) std::fprintf(stderr, "cornerctl: config %s\n", config_.c_str());
+  }
+  return resolve(/*needs_map=*/true);
+}
+
 settings::Config SettingsOptions::resolve(bool needs_map) const {
   if (needs_map && config_.empty() && map_.empty()) {
     throw UsageError("no map: name one with --map FILE, or with the key map in --config FILE");
@@ -97,7 +106,13 @@ settings::Config SettingsOptions::resolve(bool needs_map) const {
   overrides.insert(overrides.end(), set_.begin(), set_.end());
   const std::string text =
       config_.empty() ? "{}" : settings::read_file(config_, settings::kMaxConfigBytes);
-  return settings::parse_config(text, config_, overrides, needs_map);
+  settings::Config config = settings::parse_config(text, config_, overrides, needs_map);
+  if (needs_map && config.chooses_map()) {
+    throw settings::SettingsError(config_, "/map",
+                                  "is \"auto\", which only the daemon takes: name one of \"maps\" "
+                                  "with --set /map=NAME");
+  }
+  return config;
 }
 
 void add_wire_option(Command& command, std::string& wire) {

@@ -18,7 +18,8 @@ class Command;
 /// --config, --map and --set of the commands that need settings.
 class SettingsOptions {
  public:
-  void add_config(Command& command);
+  /// `fallback`: the config without the option.
+  void add_config(Command& command, std::string_view fallback = "every key has its default");
   void add_map(Command& command);
 
   /// The config with the overrides of the command line. Without --config: defaults. Throws
@@ -34,6 +35,8 @@ class SettingsOptions {
     options.use_daemons_config();
     return options.resolve(/*needs_map=*/false);
   }
+  /// As resolve(true); without --config and --map as resolve_for_daemon(), which is said.
+  settings::Config resolve_with_map();
   const std::filesystem::path& config_file() const { return config_; }
   /// The values of --set, in the format of settings::parse_config.
   const std::vector<std::string>& set() const { return set_; }
@@ -47,6 +50,10 @@ class SettingsOptions {
   std::vector<std::string> overrides_;
   std::vector<std::string> set_;
 };
+
+/// After use_daemons_config(), for add_config().
+inline constexpr std::string_view kDaemonsConfig =
+    "that of the daemon that runs, else /etc/cornerd/cornerd.json";
 
 /// The config of the only cornerd that runs with --config; empty where there is none or several.
 /// `processes`: "/proc", which tests replace.

@@ -64,7 +64,7 @@ void add_doctor(Command& program) {
       "doctor",
       "find faults between lidar and pose, with remedies; exit code 1 if there is a fault");
   const auto options = std::make_shared<SettingsOptions>();
-  options->add_config(command);
+  options->add_config(command, kDaemonsConfig);
   command.callback([options] { diagnose(*options); });
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <cstddef>
 
@@ -17,6 +18,16 @@ constexpr std::size_t kMinScans = 5;
 /// Residuals of simulated scans are 0.66 to 1.03 of the noise (README.md).
 constexpr double kLargestRatio = 2;
 constexpr double kSmallestRatio = 0.2;
+
+/// The row of a model as STATUS names it ("A1M8"); null if there is none.
+const drivers::LidarModel* model_of(const DaemonView& daemon) {
+  std::string name = daemon.status ? daemon.status->lidar_model : "";
+  for (char& c : name) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  for (const drivers::LidarModel& model : drivers::kLidarModels) {
+    if (name.starts_with(model.name)) return &model;
+  }
+  return nullptr;
+}
 
 /// Without noise in the config the daemon takes that of the lidar's model.
 bool is_default(const settings::LidarConfig& lidar) {
@@ -38,7 +49,8 @@ std::vector<Finding> check_residuals(const Patient& patient) {
   const DaemonView& daemon = patient.daemon;
   const settings::Config& config = patient.config;
   if (daemon.rmse_m.size() < kMinScans || daemon.scan_returns_m.empty()) return {};
-  if (is_default(config.lidar)) return {};
+  const drivers::LidarModel* const model = is_default(config.lidar) ? model_of(daemon) : nullptr;
+  const core::SensorNoise noise = model != nullptr ? model->noise() : config.lidar.noise.sensor;
   double map_sigma_m = 0;
   try {
     map_sigma_m =
@@ -48,13 +60,15 @@ std::vector<Finding> check_residuals(const Patient& patient) {
   }
   double variance_m2 = 0;
   for (const float range_m : daemon.scan_returns_m) {
-    const double sigma_m = config.lidar.noise.sensor.sigma_range_m(double{range_m});
+    const double sigma_m = noise.sigma_range_m(double{range_m});
     variance_m2 += sigma_m * sigma_m / static_cast<double>(daemon.scan_returns_m.size());
   }
   const double expected_m = std::sqrt(variance_m2);
   const double measured_m = median_of(daemon.rmse_m);
-  const std::string what = formatted("residuals of the scans: %.1f mm; by lidar.noise: %.1f mm",
-                                     1000 * measured_m, 1000 * expected_m);
+  const std::string what =
+      formatted("residuals of the scans: %.1f mm; by %s: %.1f mm", 1000 * measured_m,
+                is_default(config.lidar) ? "the noise of the lidar's model" : "lidar.noise",
+                1000 * expected_m);
   const std::string remedy =
       "record half a minute at rest and run cornerctl calibrate noise still.bin -o noise.json";
   if (measured_m > std::hypot(kLargestRatio * expected_m, map_sigma_m)) {
@@ -62,7 +76,7 @@ std::vector<Finding> check_residuals(const Patient& patient) {
              "noise",
              what + ": poses are less exact than their covariance",
              {remedy,
-              "if that agrees with lidar.noise, walls are not where the map has them: "
+              "if that agrees with the noise in use, walls are not where the map has them: "
               "measure them, or give the map its \"sigma\""}}};
   }
   if (measured_m < kSmallestRatio * expected_m) {

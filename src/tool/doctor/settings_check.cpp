@@ -37,8 +37,16 @@ void check_map_file(SettingsCheck& check) {
         {Verdict::kWrong,
          "map",
          "the config names none: no pose is possible",
-         {R"(draw one (README.md, "A map") and name it: "map": "/path/to/map.json")"}});
+         {R"(draw one (README.md, "Configure") and name it: "map": "/path/to/map.json")"}});
     return;
+  }
+  if (check.config.chooses_map()) {
+    check.findings.push_back(
+        {Verdict::kNote,
+         "map",
+         "\"auto\": the daemon's scans choose it, and what follows is about the "
+         "first of \"maps\"",
+         {"for another one: --set /map=NAME"}});
   }
   const auto map = settings::load_map(file, kDaemonFileKind);
   const core::Vec2 size = map->upper_right() - map->lower_left();

@@ -9,7 +9,8 @@
 namespace cornerd::tool {
 
 /// The factors of the mode, "0.812, 1.190", with a star at a limit of the search.
-std::string describe_factors(core::HeadingSource source, const calibration::FoundFactors& found);
+std::string describe_factors(calibration::HeadingSource source,
+                             const calibration::FoundFactors& found);
 
 /// The footnote of the star, one line.
 inline constexpr std::string_view kEdgeText =

@@ -18,9 +18,7 @@ using core::Vec2;
 constexpr double kPicturePx = 900;  // the longer side of the map, without its margin
 constexpr double kMarginPx = 64;
 
-constexpr std::string_view kGrid = "#e9e6df";
 constexpr std::string_view kLabel = "#8c867a";
-constexpr std::string_view kInk = "#2f3640";
 constexpr std::string_view kConcave = "#2f6f9f";
 constexpr std::string_view kConvex = "#d1813a";
 constexpr std::string_view kReturn = "#1b9e77";
@@ -123,7 +121,7 @@ void MapDrawing::draw_grid(double step_m) {
   svg_.begin_group("grid");
   const Vec2 low = map_.lower_left();
   const Vec2 high = map_.upper_right();
-  const Paint paint{.stroke = kGrid, .stroke_width = 1};
+  const Paint paint{.stroke = kGridInk, .stroke_width = 1};
   const double tolerance_m = step_m * 1e-6;
   for (double i = std::ceil(low.x() / step_m - 1e-6); i * step_m <= high.x() + tolerance_m; ++i) {
     const double x = i * step_m;

@@ -19,13 +19,13 @@ using calibration::BinSpread;
 using calibration::RangeCell;
 
 constexpr Paint kDirection{.fill = "#1b9e77", .opacity = 0.35};
-constexpr Paint kCellBar{.stroke = "#2f3640", .stroke_width = 1.5};
-constexpr Paint kCellDot{.fill = "#2f3640"};
+constexpr Paint kCellBar{.stroke = kInk, .stroke_width = 1.5};
+constexpr Paint kCellDot{.fill = kInk};
 constexpr Paint kPlainLine{.stroke = "#c2255c", .stroke_width = 2};
 constexpr Paint kTableLine{.stroke = "#2f6f9f", .stroke_width = 2, .dashes = "6 4"};
 constexpr double kToMm = 1e3;
 constexpr std::array<std::string_view, 6> kWallTints = {"#c2255c", "#2f6f9f", "#1b9e77",
-                                                        "#d1813a", "#6741d9", "#2f3640"};
+                                                        "#d1813a", "#6741d9", kInk};
 
 std::vector<core::Vec2> curve(const core::SensorNoise& noise, double end_m) {
   std::vector<core::Vec2> points;

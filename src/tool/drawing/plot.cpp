@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "tool/drawing/metre_plot.hpp"
+
 namespace cornerd::tool {
 
 namespace {
@@ -13,18 +15,6 @@ core::Vec2 size_of_plot() { return {8, 5}; }
 constexpr double kPixelsPerUnit = 100;
 constexpr double kPlotMarginPx = 60;
 constexpr double kLegendLinePx = 18;
-constexpr std::string_view kAxisInk = "#2f3640";
-constexpr std::string_view kGridInk = "#e9e6df";
-
-/// 1, 2 or 5 times a power of ten: four to ten steps per axis.
-double step_of(const PlotAxis& axis) {
-  const double rough = (axis.high - axis.low) / 5;
-  const double power = std::pow(10, std::floor(std::log10(rough)));
-  for (const double factor : {1.0, 2.0, 5.0}) {
-    if (factor * power >= rough) return factor * power;
-  }
-  return 10 * power;
-}
 
 std::string tick_text(double value) {
   char text[32];
@@ -46,25 +36,25 @@ core::Vec2 Plot::position(double x, double y) const {
 
 void Plot::draw_axes() {
   const Paint grid{.stroke = kGridInk};
-  const TextStyle tick{.fill = kAxisInk, .size = 11};
+  const TextStyle tick{.fill = kInk, .size = 11};
   svg_.begin_group("axes");
-  const double dx = step_of(x_);
+  const double dx = grid_step(x_.high - x_.low);
   for (double x = std::ceil(x_.low / dx) * dx; x <= x_.high + dx * 1e-6; x += dx) {
     svg_.line(position(x, y_.low), position(x, y_.high), grid);
     svg_.text(position(x, y_.low), tick_text(x), tick, 0, 18);
   }
-  const double dy = step_of(y_);
+  const double dy = grid_step(y_.high - y_.low);
   for (double y = std::ceil(y_.low / dy) * dy; y <= y_.high + dy * 1e-6; y += dy) {
     svg_.line(position(x_.low, y), position(x_.high, y), grid);
-    svg_.text(position(x_.low, y), tick_text(y), {.fill = kAxisInk, .size = 11, .anchor = "end"},
-              -6, 4);
+    svg_.text(position(x_.low, y), tick_text(y), {.fill = kInk, .size = 11, .anchor = "end"}, -6,
+              4);
   }
-  const TextStyle label{.fill = kAxisInk, .size = 13};
+  const TextStyle label{.fill = kInk, .size = 13};
   svg_.text(position((x_.low + x_.high) / 2, y_.low), x_.label, label, 0, 42);
   svg_.text(position(x_.low, (y_.low + y_.high) / 2), y_.label,
-            {.fill = kAxisInk, .size = 13, .rotation_deg = 90}, -40, 0);
+            {.fill = kInk, .size = 13, .rotation_deg = 90}, -40, 0);
   svg_.text(position((x_.low + x_.high) / 2, y_.high), title_,
-            {.fill = kAxisInk, .size = 15, .bold = true}, 0, -24);
+            {.fill = kInk, .size = 15, .bold = true}, 0, -24);
   svg_.end_group();
 }
 
@@ -96,7 +86,7 @@ void Plot::legend(std::string_view text, const Paint& paint) {
   } else {
     svg_.line(at, at + core::Vec2(0.3, 0), paint);
   }
-  svg_.text(at + core::Vec2(0.4, 0), text, {.fill = kAxisInk, .size = 12, .anchor = "start"}, 0, 4);
+  svg_.text(at + core::Vec2(0.4, 0), text, {.fill = kInk, .size = 12, .anchor = "start"}, 0, 4);
 }
 
 }  // namespace cornerd::tool

@@ -9,6 +9,10 @@
 
 namespace cornerd::tool {
 
+/// Colours of every drawing: walls, axes and text; the lines of a grid.
+inline constexpr std::string_view kInk = "#2f3640";
+inline constexpr std::string_view kGridInk = "#e9e6df";
+
 /// Style of a shape: SVG colours ("#2f3640", "none"), widths in pixels.
 struct Paint {
   std::string_view fill = "none";

@@ -3,9 +3,9 @@
 
 #include <cstdio>
 #include <cstdlib>
+#include <stdexcept>
 #include <thread>
 
-#include "mqtt/config.hpp"
 #include "tool/command_line/command.hpp"
 #include "tool/command_line/failure.hpp"
 
@@ -23,37 +23,26 @@ constexpr std::chrono::seconds kAcknowledgementTime{60};
 }  // namespace
 
 void BrokerOptions::add(Command& command) {
-  command.add_option("--broker", broker_, "the fleet's MQTT broker").type_name("HOST[:PORT]");
+  command.add_option("--broker", options_.broker, "the fleet's MQTT broker")
+      .type_name("HOST[:PORT]");
   command
-      .add_option("--broker-config", config_,
+      .add_option("--broker-config", options_.config,
                   "broker (TLS, user, certificates) and site of a config of cornerd-mqtt")
       .type_name("FILE");
-  command.add_option("--site", site_, "the site of the fleet; default: default")
-      .type_name("SITE")
-      .check([](const std::string& site) {
-        return mqtt::is_topic_level(site) ? "" : "must not have '/', '+' or '#'";
-      });
+  command.add_option("--site", options_.site, "the site of the fleet; default: default")
+      .type_name("SITE");
 }
 
-mqtt::BrokerConfig BrokerOptions::broker() const {
-  if (broker_.empty() == config_.empty()) {
-    throw UsageError("one of --broker HOST[:PORT] and --broker-config FILE is needed");
-  }
-  if (broker_.empty()) {
-    mqtt::BrokerConfig broker = mqtt::load_bridge_config(config_).broker;
-    broker.client_id.clear();  // the robot's own
-    return broker;
-  }
-  try {
-    return mqtt::broker_at(broker_);
-  } catch (const std::invalid_argument& error) {
-    throw UsageError(std::string("--broker: ") + error.what());
-  }
+mqtt::BrokerConfig BrokerOptions::broker() const try {
+  return options_.broker_config();
+} catch (const std::invalid_argument& error) {
+  throw UsageError(error.what());
 }
 
-std::string BrokerOptions::site() const {
-  if (!site_.empty()) return site_;
-  return config_.empty() ? mqtt::BridgeConfig().site : mqtt::load_bridge_config(config_).site;
+std::string BrokerOptions::site() const try {
+  return options_.site_name();
+} catch (const std::invalid_argument& error) {
+  throw UsageError(error.what());
 }
 
 void wait_for_connection(mqtt::Broker& broker) {

@@ -2,12 +2,12 @@
 #pragma once
 
 #include <chrono>
-#include <filesystem>
 #include <functional>
 #include <string>
 #include <string_view>
 
 #include "mqtt/broker.hpp"
+#include "mqtt/config.hpp"
 
 namespace cornerd::tool {
 
@@ -17,16 +17,14 @@ class Command;
 class BrokerOptions {
  public:
   void add(Command& command);
-  bool is_given() const { return !broker_.empty() || !config_.empty(); }
+  bool is_given() const { return options_.is_given(); }
 
   /// Throws UsageError, or settings::SettingsError.
   mqtt::BrokerConfig broker() const;
   std::string site() const;
 
  private:
-  std::string broker_;
-  std::filesystem::path config_;
-  std::string site_;
+  mqtt::FleetOptions options_;
 };
 
 /// Throws Failure, with the reason, if there is no connection within seconds.

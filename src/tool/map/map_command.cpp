@@ -87,13 +87,15 @@ void add_check(Command& group) {
 }  // namespace
 
 void add_map(Command& program) {
-  Command group = program.add_subcommand("map", "validate, draw, convert and scale maps");
+  Command group = program.add_subcommand("map", "validate, draw, convert, scale and compare maps");
   group.require_subcommand();
   add_check(group);
   add_map_render(group);
   add_map_import(group);
   add_map_export(group);
+  add_map_learned(group);
   add_map_scale(group);
+  add_map_diff(group);
   add_map_publish(group);
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// cornerctl map import: a ROS map (YAML and image) to walls.
+// cornerctl map import: a ROS map (YAML and image), or a drawn plan (SVG, DXF), to walls.
 #include <algorithm>
 #include <filesystem>
 #include <map>
@@ -14,6 +14,7 @@
 #include "gridmap/image.hpp"
 #include "gridmap/map_server_yaml.hpp"
 #include "settings/document.hpp"
+#include "settings/map_file.hpp"
 #include "tool/command_line/command.hpp"
 #include "tool/command_line/failure.hpp"
 #include "tool/command_line/output.hpp"
@@ -22,6 +23,7 @@
 #include "tool/drawing/map_drawing.hpp"
 #include "tool/drawing/text_table.hpp"
 #include "tool/map/map_text.hpp"
+#include "tool/map/plan_import.hpp"
 
 namespace cornerd::tool {
 
@@ -35,14 +37,21 @@ constexpr std::size_t kMaxYamlBytes = 64 << 10;
 constexpr std::size_t kMaxImageBytes = 4 * gridmap::kMaxPixels + 4096;
 
 struct MapImportOptions : MapOutput {
-  std::filesystem::path yaml;
+  std::filesystem::path file;
   std::string made_by = "auto";
   gridmap::ImportOptions grid;
+  double metres_per_unit = 0;
+  std::vector<std::string> layers;
 };
 
 /// Errors name the file.
 gridmap::MapServerYaml read_yaml(const std::filesystem::path& file) {
-  const std::string text = settings::read_file(file, kMaxYamlBytes);
+  const std::string text = settings::read_file(file, kMaxImageBytes);
+  if (text.size() > kMaxYamlBytes) {
+    throw settings::SettingsError(file.string(), "",
+                                  "is too long for the yaml of a map: name the yaml, not the "
+                                  "picture");
+  }
   try {
     return gridmap::parse_map_server_yaml(text);
   } catch (const gridmap::GridError& error) {
@@ -123,21 +132,48 @@ void draw(const MapImportOptions& options, const gridmap::ImportResult& result,
              drawing.document(describe_map(map) + "; crosses: dropped; orange rings: gaps closed"));
 }
 
+void import_plan(const MapImportOptions& options) {
+  guard_files({.read = {options.file}, .written = {options.plot}, .output = options.output});
+  PlanImport imported =
+      import_plan_file(options.file, {options.metres_per_unit,
+                                      {options.layers.begin(), options.layers.end()},
+                                      {options.grid.thickness_m, options.grid.thin_m}});
+  const auto map = options.write(imported.plan);
+  if (!options.plot.empty()) {
+    write_file(options.plot, MapDrawing(*map).document(describe_map(*map)));
+  }
+  Output summary = Output::report_beside(options.output);
+  summary.write(imported.report + formatted("%-12s %s\n", "map", describe_map(*map).c_str()));
+  summary.flush();
+}
+
 void import_map(MapImportOptions options) {
+  if (is_drawn_plan(options.file)) return import_plan(options);
+  if (options.metres_per_unit > 0 || !options.layers.empty()) {
+    throw UsageError("--scale and --layer are of SVG and DXF; a ROS map states its resolution");
+  }
   static const std::map<std::string, MadeBy> kMakers = {
       {"auto", MadeBy::kUnknown}, {"lidar", MadeBy::kLidar}, {"drawing", MadeBy::kDrawing}};
   options.grid.made_by = kMakers.at(options.made_by);
-  const gridmap::MapServerYaml yaml = read_yaml(options.yaml);
-  const std::filesystem::path image_file = options.yaml.parent_path() / yaml.image;
+  const gridmap::MapServerYaml yaml = read_yaml(options.file);
+  const std::filesystem::path image_file = options.file.parent_path() / yaml.image;
   guard_files(
-      {.read = {options.yaml, image_file}, .written = {options.plot}, .output = options.output});
-  const gridmap::Image image = read_image(options.yaml, image_file);
+      {.read = {options.file, image_file}, .written = {options.plot}, .output = options.output});
+  const gridmap::Image image = read_image(options.file, image_file);
   gridmap::ImportResult result = gridmap::import_grid(
       gridmap::read_shades(image, yaml), yaml.resolution_m, yaml.T_map_picture, options.grid);
   if (result.plan.walls.empty()) {
-    throw Failure(options.yaml.string() +
+    throw Failure(options.file.string() +
                   ": no border between free and occupied cells: check negate, mode and the "
                   "thresholds");
+  }
+  const double thickest_m =
+      std::ranges::max(result.plan.walls, {}, &core::Wall::thickness_m).thickness_m;
+  if (thickest_m > settings::kMaxThicknessM) {
+    throw Failure(options.file.string() +
+                  formatted(": has a wall %.1f m thick: check negate, mode, the thresholds and "
+                            "resolution",
+                            thickest_m));
   }
   const auto map = options.write(result.plan);
   if (!options.plot.empty()) draw(options, result, *map);
@@ -150,13 +186,16 @@ void import_map(MapImportOptions options) {
 
 void add_map_import(Command& group) {
   Command command =
-      group.add_subcommand("import", "make a map of walls from a ROS map (YAML, and PGM or PNG)");
+      group.add_subcommand("import",
+                           "make a map of walls from a ROS map (YAML, and PGM or PNG) or from a "
+                           "drawn plan (SVG, DXF)");
   const auto options = std::make_shared<MapImportOptions>();
   command
-      .add_option("yaml", options->yaml,
-                  "the map's file for map_server; its key image names the image")
+      .add_option("file", options->file,
+                  "the map's file for map_server, whose key image names the image; or a plan, "
+                  "*.svg or *.dxf")
       .required()
-      .type_name("YAML");
+      .type_name("FILE");
   options->add(command, "the walls, what was dropped and what was closed");
   command
       .add_option("--made-by", options->made_by,
@@ -180,12 +219,16 @@ void add_map_import(Command& group) {
       .type_name("M")
       .capture_default_str();
   command
-      .add_option("--thickest", options->grid.thickness_m,
-                  "largest distance of two faces of one wall with unknown cells in between (m)")
+      .add_option(
+          "--thickest", options->grid.thickness_m,
+          "largest distance of two faces of one wall (m); of a ROS map, with unknown cells in "
+          "between")
       .within(0, 5)
       .type_name("M")
       .capture_default_str();
-  command.add_option("--thin", options->grid.thin_m, "thickness of walls thinner than a cell (m)")
+  command
+      .add_option("--thin", options->grid.thin_m,
+                  "thickness of walls thinner than a cell, or drawn as one line (m)")
       .within(0, 1)
       .type_name("M")
       .capture_default_str();
@@ -195,6 +238,17 @@ void add_map_import(Command& group) {
       .within(0, 0.5)
       .type_name("M")
       .capture_default_str();
+  command
+      .add_option("--scale", options->metres_per_unit,
+                  "SVG, DXF: metres per unit of the drawing; default: what it states")
+      .positive()
+      .type_name("METRES_PER_UNIT");
+  command
+      .add_option("--layer", options->layers,
+                  "SVG, DXF: read this layer alone; may be given several times. SVG: a group's "
+                  "label or id")
+      .one_word()
+      .type_name("NAME");
   command.add_flag("!--keep-angles", options->grid.square,
                    "do not make walls square that are square within the error of the cells");
   command.callback([options] { import_map(*options); });

@@ -13,6 +13,7 @@
 
 #include "core/map/crossings.hpp"
 #include "core/map/polygon.hpp"
+#include "settings/map_file.hpp"
 #include "tool/drawing/text_table.hpp"
 
 namespace cornerd::tool {
@@ -21,8 +22,6 @@ namespace {
 
 using core::Vec2;
 
-/// Larger buildings are rare; drawings in millimetres or pixels are not.
-constexpr double kMaxSize_m = 500;
 /// Drawings have millimetres: closer points are one.
 constexpr double kSamePoint_m = 1e-3;
 /// SET_POSE is refused as far outside of the map.
@@ -41,12 +40,8 @@ std::string room_name(const core::Room& room, std::size_t index) {
 }
 
 void check_size(const core::WallMap& map, Warnings& warnings) {
-  const Vec2 size = map.upper_right() - map.lower_left();
-  if (size.maxCoeff() <= kMaxSize_m) return;
-  warnings.push_back(formatted(
-      "the map is %.0f x %.0f m large: if it was drawn in other units, cornerctl map scale "
-      "--factor 0.001 (millimetres) or 0.01 (centimetres) converts it; else look for a stray wall",
-      size.x(), size.y()));
+  const std::string warning = settings::size_warning(map);
+  if (!warning.empty()) warnings.push_back(warning);
 }
 
 void check_walls(const core::FloorPlan& plan, Warnings& warnings) {

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <vector>
 
 #include "tool/monitor/dot_canvas.hpp"
 
@@ -16,6 +18,8 @@ using core::Vec2;
 
 /// Steps of the lidar view's radius, so that the scale does not change with every scan.
 constexpr std::array<double, 6> kViewRadii_m = {0.5, 1, 2, 4, 8, 12};
+/// An outlier does not shrink the room. 5 % are more than an A1 has.
+constexpr double kShareInView = 0.95;
 
 /// Metres to dots, and to the cells of the frame.
 class Projection {
@@ -71,14 +75,19 @@ char32_t arrow(double direction_rad, bool unicode) {
   return arrows[static_cast<std::size_t>(index) % arrows.size()];
 }
 
-/// The smallest step that holds the scan.
+/// The smallest step that holds most of the scan's returns.
 double view_radius_of(const ReceivedScan& received) {
-  double farthest_m = 0;
+  std::vector<double> ranges_m;
   for (const core::Sample& sample : received.scan.samples) {
-    farthest_m = std::max(farthest_m, double{sample.range_m});
+    if (sample.range_m > 0) ranges_m.push_back(sample.range_m);
   }
-  const auto* const radius = std::lower_bound(kViewRadii_m.begin(), kViewRadii_m.end(), farthest_m);
-  return radius == kViewRadii_m.end() ? farthest_m : *radius;
+  if (ranges_m.empty()) return kViewRadii_m.front();
+  const auto index = static_cast<std::ptrdiff_t>(
+      std::ceil(kShareInView * static_cast<double>(ranges_m.size())) - 1);
+  std::nth_element(ranges_m.begin(), ranges_m.begin() + index, ranges_m.end());
+  const double range_m = ranges_m[static_cast<std::size_t>(index)];
+  const auto* const radius = std::lower_bound(kViewRadii_m.begin(), kViewRadii_m.end(), range_m);
+  return radius == kViewRadii_m.end() ? range_m : *radius;
 }
 
 void draw_walls(DotCanvas& canvas, const Projection& projection, const core::WallMap& map) {

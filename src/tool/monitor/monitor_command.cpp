@@ -45,7 +45,7 @@ void add_monitor(Command& program) {
   const auto options = std::make_shared<MonitorOptions>();
   command.add_option("--socket", options->socket, "the daemon's socket; default: the config's")
       .type_name("PATH");
-  options->settings.add_config(command);
+  options->settings.add_config(command, kDaemonsConfig);
   options->settings.add_map(command);
   command.callback([options] { monitor(*options); });
 }

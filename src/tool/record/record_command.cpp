@@ -205,7 +205,7 @@ void add_record(Command& program) {
                               "its baud rate; default: found out");
   command.add_option_function("--mode", override_with("/advanced/lidar/mode"),
                               "auto, or a scan mode by name");
-  options->settings.add_config(command);
+  options->settings.add_config(command, kDaemonsConfig);
   command
       .add_option(
           "-o,--output", options->output,

@@ -33,14 +33,7 @@ struct DetectOptions {
 void save_plot(const DetectOptions& options, const core::Scan& scan,
                const core::Detection& detection) {
   Output picture(options.plot);
-  const std::size_t corners =
-      std::count_if(detection.breakpoints.begin(), detection.breakpoints.end(),
-                    [](const auto& b) { return b.kind == core::BreakpointKind::kCorner; });
-  picture.write(draw_scan(
-      scan, detection,
-      std::to_string(scan.size()) + " samples, " + std::to_string(detection.segments.size()) +
-          " walls, " + std::to_string(corners) + " corners (rings), " +
-          std::to_string(detection.breakpoints.size() - corners) + " ends (squares)"));
+  picture.write(draw_scan(scan, detection));
   picture.flush();
 }
 

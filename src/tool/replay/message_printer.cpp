@@ -3,17 +3,21 @@
 
 #include <array>
 
-#include "calibration/drive_fault_text.hpp"
 #include "drivers/lidar_status.hpp"
+#include "settings/map_examination.hpp"
 #include "settings/odometry_names.hpp"
 
 namespace cornerd::tool {
 
 using message::MessageClass;
 
-MessagePrinter::MessagePrinter(Output& output, message::ClassSet classes,
-                               const core::FloorPlan* plan, const settings::Config* config)
-    : config_(config), output_(output), classes_(classes), plan_(plan) {
+MessagePrinter::MessagePrinter(Output& output, message::ClassSet classes, const core::WallMap* map,
+                               const settings::Config* config)
+    : config_(config),
+      output_(output),
+      classes_(classes),
+      map_(map),
+      plan_(map != nullptr ? &map->plan() : nullptr) {
   if (classes_.contains(MessageClass::kVersion)) {
     output_.write(writer_.version("cornerctl", CORNERD_VERSION));
   }
@@ -25,6 +29,8 @@ void MessagePrinter::print_scan(const core::Scan& scan, const core::ScanResult& 
   if (drive_ && core::has_pose(result.pose.state)) {
     drive_->add(result.pose.t_ns, result.pose.T_map_base);
   }
+  recent_.add(result.pose, map_);
+  if (plan_ != nullptr) scans_.add(scan);
   if (classes_.contains(MessageClass::kScan)) output_.write(writer_.scan(scan));
   if (classes_.contains(MessageClass::kBreakpoints)) {
     output_.write(writer_.breakpoints(scan.start_ns(), result.detection));
@@ -33,8 +39,14 @@ void MessagePrinter::print_scan(const core::Scan& scan, const core::ScanResult& 
 }
 
 void MessagePrinter::note(const core::OdometryReading& reading) {
+  has_odometry_lines_ = true;
   odometry_lines_.add(reading);
   if (drive_) drive_->add(reading);
+}
+
+void MessagePrinter::refuse(const message::RequestError& error) {
+  has_odometry_lines_ = true;
+  odometry_lines_.refuse(error);
 }
 
 void MessagePrinter::print_pose(const core::PoseEstimate& pose) {
@@ -49,6 +61,9 @@ void MessagePrinter::begin_recording() {
   last_status_.reset();
   odometry_ = {};
   odometry_lines_ = {};
+  has_odometry_lines_ = false;
+  recent_ = {};
+  scans_ = {};
   drive_.reset();
   if (config_ != nullptr && config_->odometry.core.enabled) {
     drive_.emplace(config_->odometry.core, config_->localizer().T_base_lidar);
@@ -62,6 +77,25 @@ void MessagePrinter::print_status_when_due(core::TimeNs t_ns,
   } else if (t_ns - last_status_->t_ns >= core::kNsPerSecond) {
     print_status(t_ns, counters, drivers::LidarState::kRunning);
   }
+}
+
+calibration::FaultList MessagePrinter::faults(const message::StatusFields& status, bool has_ended) {
+  calibration::FaultList faults;
+  if (plan_ != nullptr) {
+    std::optional<calibration::MapFinding> finding;
+    if (has_ended && config_ != nullptr && scans_.are_enough() &&
+        recent_.lost() >= calibration::RecentScans::kManyLost) {
+      finding = settings::examine_map(*plan_, *config_, scans_.all(), [] { return false; });
+    }
+    faults.add_map(finding, recent_, plan_);
+  }
+  if (drive_) {
+    faults.add_drive(drive_->faults(), settings::odometry_names(*config_), odometry_);
+    if (!status.odometry_hint.empty()) {
+      faults.add(odometry_lines_.fault(), std::string(status.odometry_hint));
+    }
+  }
+  return faults;
 }
 
 void MessagePrinter::print_status(core::TimeNs t_ns, const drivers::StreamCounters& counters,
@@ -78,17 +112,16 @@ void MessagePrinter::print_status(core::TimeNs t_ns, const drivers::StreamCounte
   status.counters = named;
   status.odometry = &odometry_;
   status.odometry_hint = odometry_lines_.hint(odometry_, t_ns);
+  if (!status.odometry_hint.empty() && !has_odometry_lines_) {
+    status.odometry_hint =
+        "the recording has no ODOMETRY line so far: name a file of them with --odometry";
+  }
+  const calibration::FaultList faults = this->faults(status, state == drivers::LidarState::kEnded);
   if (status.odometry_hint.empty() && plan_ == nullptr) {
     status.odometry_hint = "no calibration without a map: name one with --map";
   }
-  std::vector<std::string_view> faults;
-  std::string hint;
-  if (drive_) {
-    faults = calibration::names_of(drive_->faults());
-    hint = calibration::describe(drive_->faults(), settings::odometry_names(*config_));
-  }
-  status.faults = faults;
-  status.hint = hint;
+  status.faults = faults.names();
+  status.hint = faults.hint();
   if (last_status_ && t_ns > last_status_->t_ns) {
     const double elapsed_s = core::to_seconds(t_ns - last_status_->t_ns);
     const auto rate = [&](std::uint64_t now, std::uint64_t then) {

@@ -31,6 +31,9 @@ class Playback::Sink : public replay::RecordingSink {
   void on_odometry(const message::OdometryReading& reading) override {
     if (!playback_.has_readings_) playback_.add(reading);
   }
+  void on_refused_odometry(const message::RequestError& error) override {
+    if (!playback_.has_readings_ && playback_.on_refusal_) playback_.on_refusal_(error);
+  }
 
  private:
   Playback& playback_;
@@ -73,11 +76,7 @@ void Playback::play(const std::filesystem::path& file, const replay::RecordingOp
   on_result(pipeline_.finish());
   if (on_piece_) on_piece_(player.time_ns(), player.counters());
 
-  if (player.bad_lines() > 0) {
-    std::fprintf(stderr, "%s: %llu lines skipped; the first: %s\n", file.c_str(),
-                 static_cast<unsigned long long>(player.bad_lines()),
-                 player.first_problem().c_str());
-  }
+  std::fputs(player.report().c_str(), stderr);
   if (scans_ == 0) throw Failure(file.string() + ": not one complete scan in it");
 }
 

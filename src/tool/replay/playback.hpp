@@ -36,6 +36,10 @@ class Playback {
   using OnReading = std::function<void(const core::OdometryReading& reading)>;
 
   void set_on_reading(OnReading on_reading) { on_reading_ = std::move(on_reading); }
+  /// Called for every ODOMETRY line that cannot be read.
+  void set_on_refusal(std::function<void(const message::RequestError& error)> on_refusal) {
+    on_refusal_ = std::move(on_refusal);
+  }
   void set_on_prediction(OnPrediction on_prediction) { on_prediction_ = std::move(on_prediction); }
 
   /// Resets the localizer after every scan.
@@ -62,6 +66,7 @@ class Playback {
   OnPiece on_piece_;
   OnPrediction on_prediction_;
   OnReading on_reading_;
+  std::function<void(const message::RequestError& error)> on_refusal_;
   void add(const core::OdometryReading& reading);
   void play_readings_until(core::TimeNs t_ns);
 

@@ -35,24 +35,24 @@ struct ReplayOptions {
   bool independent = false;
 };
 
-void replay(const ReplayOptions& options) {
+void replay(ReplayOptions& options) {
   const message::ClassSet classes = parse_classes(options.classes);
   const std::optional<double> speed = parse_speed(options.speed);
   const bool needs_map = classes.contains(MessageClass::kPose) ||
                          classes.contains(MessageClass::kMap) || !options.truth.empty();
-  settings::Config config = options.settings.resolve(needs_map);
+  settings::Config config =
+      needs_map ? options.settings.resolve_with_map() : options.settings.resolve(false);
   if (!options.odometry.empty()) config.odometry.core.enabled = true;
-  // Online calibration of the odometry needs poses, hence the map.
-  const bool learns =
-      (classes.contains(MessageClass::kStatus) || classes.contains(MessageClass::kOdom)) &&
-      config.odometry.core.enabled;
-  const bool uses_map = needs_map || (learns && !config.map.empty());
+  // Faults and the online calibration of the odometry need poses, hence the map.
+  const bool judges = classes.contains(MessageClass::kStatus) ||
+                      (classes.contains(MessageClass::kOdom) && config.odometry.core.enabled);
+  const bool uses_map = needs_map || (judges && !config.map.empty());
   const auto map = uses_map ? settings::load_map(config.map) : nullptr;
   std::optional<Truth> truth;
   if (!options.truth.empty()) truth = Truth::load(options.truth);
 
   Output output(/*flush_each=*/speed.has_value());
-  MessagePrinter printer(output, classes, map ? &map->plan() : nullptr, &config);
+  MessagePrinter printer(output, classes, map.get(), &config);
   core::LocalizerConfig localizer = config.localizer();
   if (options.independent) localizer.search_nodes_per_scan = core::kWholeSearch;
   core::Pipeline pipeline(map, localizer);
@@ -88,6 +88,7 @@ void replay(const ReplayOptions& options) {
     const auto* odom = frame.add(reading, std::nullopt, printer.odometry().parameters);
     if (odom != nullptr) printer.print_odom(*odom);
   });
+  playback.set_on_refusal([&](const message::RequestError& error) { printer.refuse(error); });
   if (!options.odometry.empty()) playback.set_odometry(load_odometry(options.odometry));
   const replay::RecordingOptions recording{parse_wire(options.wire), config.lidar.mount.inverted};
   for (const std::filesystem::path& file : options.files) {
@@ -112,7 +113,7 @@ void add_replay(Command& program) {
   command.add_option("files", options->files, "recordings (.bin, .ndjson), one after another")
       .required()
       .type_name("FILE");
-  options->settings.add_config(command);
+  options->settings.add_config(command, kDaemonsConfig);
   options->settings.add_map(command);
   command.add_option("--classes", options->classes, "messages to print")
       .delimiter(',')

@@ -49,8 +49,6 @@ void OdometryOptions::add_to(Command& command) {
       .add_option("--slips", model.slips_per_m,
                   "slips of a wheel per metre: 50 % more rotation for 0.2 s")
       .within(0, 100);
-  command.add_option("--covered", covered, "the lidar is covered between these times (s)")
-      .type_name("FROM,TO");
 }
 
 std::optional<replay::RobotModel> OdometryOptions::robot(

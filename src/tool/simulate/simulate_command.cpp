@@ -82,8 +82,12 @@ void add_simulate(Command& program) {
   options->simulation.add_to(command);
   options->odometry.add_to(command);
   command
+      .add_option("--covered", options->odometry.covered,
+                  "the lidar is covered between these times (s)")
+      .type_name("FROM,TO");
+  command
       .add_option("--scans", options->scans,
-                  "number of scans; default: all poses, once through the scenario, or 10")
+                  "number of scans; default: all places, once along the path, or 10 at rest")
       .positive()
       .type_name("N");
   command.add_renamed("--turns", "--scans");

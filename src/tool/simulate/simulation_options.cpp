@@ -140,7 +140,8 @@ replay::DriveConfig SimulationOptions::drive() const {
 
 std::int64_t SimulationOptions::default_scans() const {
   constexpr std::int64_t kShortRecording = 10;
-  return scenario.empty() && places == 0 ? kShortRecording : scans_of_motion();
+  const bool moves = places > 0 || !path.empty() || !scenario.empty();
+  return moves ? scans_of_motion() : kShortRecording;
 }
 
 std::int64_t SimulationOptions::scans_of_motion() const {

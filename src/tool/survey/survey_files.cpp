@@ -91,11 +91,7 @@ survey::RecordedDrive load_drive(std::span<const std::filesystem::path> files,
     while (player.step(sink)) {
     }
     sink.finish();
-    if (player.bad_lines() > 0) {
-      std::fprintf(stderr, "%s: %llu lines skipped; the first: %s\n", file.c_str(),
-                   static_cast<unsigned long long>(player.bad_lines()),
-                   player.first_problem().c_str());
-    }
+    std::fputs(player.report().c_str(), stderr);
     if (drive.size() == scans_before) {
       throw Failure(file.string() + ": not one complete scan in it" +
                     (files.size() > 1 ? "; name a file of ODOMETRY lines with --odometry" : ""));

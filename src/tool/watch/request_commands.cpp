@@ -3,6 +3,7 @@
 #include <chrono>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -16,6 +17,7 @@
 #include "tool/command_line/output.hpp"
 #include "tool/command_line/shared_options.hpp"
 #include "tool/commands.hpp"
+#include "tool/drawing/text_table.hpp"
 #include "tool/watch/message_text.hpp"
 
 namespace cornerd::tool {
@@ -62,14 +64,27 @@ void show_status(const RequestOptions& options) {
   const settings::Config config = options.settings.resolve_for_daemon();
   std::string pose;
   std::string status;
+  std::optional<core::TimeNs> pose_ns;
+  std::optional<core::TimeNs> status_ns;
+  const bool is_text = options.format == "text";
   const auto keep = [&](std::string_view line, const message::ParsedLine& parsed) {
-    const std::string shown =
-        options.format == "text" ? message_text(parsed) : std::string(line) + "\n";
-    if (std::holds_alternative<message::ParsedPose>(parsed)) pose = shown;
-    if (std::holds_alternative<message::ParsedStatus>(parsed)) status = shown;
+    const std::string shown = is_text ? message_text(parsed) : std::string(line) + "\n";
+    if (const auto* one = std::get_if<message::ParsedPose>(&parsed)) {
+      pose = shown;
+      pose_ns = one->t_ns;
+    }
+    if (const auto* one = std::get_if<message::ParsedStatus>(&parsed)) {
+      status = shown;
+      status_ns = one->t_ns;
+    }
   };
   ask(options.socket.empty() ? config.socket.pose : options.socket,
       "{\"class\":\"POLL\",\"classes\":[\"POSE\",\"STATUS\"],\"id\":1}\n", keep);
+  // STATUS is of the last second.
+  constexpr core::TimeNs kOld_ns = 2 * core::kNsPerSecond;
+  if (is_text && pose_ns && status_ns && *status_ns - *pose_ns > kOld_ns) {
+    pose = formatted("%.0f s old: ", core::to_seconds(*status_ns - *pose_ns)) + pose;
+  }
   Output output;
   output.write(pose + status);
   output.flush();
@@ -104,7 +119,7 @@ std::shared_ptr<RequestOptions> add_shared(Command& command, const std::string& 
   command
       .add_option("--socket", options->socket, "default: the " + socket + " socket of the config")
       .type_name("PATH");
-  options->settings.add_config(command);
+  options->settings.add_config(command, kDaemonsConfig);
   return options;
 }
 

@@ -73,7 +73,7 @@ void add_watch(Command& program) {
   const auto options = std::make_shared<WatchOptions>();
   command.add_option("--socket", options->socket, "default: the pose socket of the config")
       .type_name("PATH");
-  options->settings.add_config(command);
+  options->settings.add_config(command, kDaemonsConfig);
   command
       .add_option("--classes", options->classes,
                   "messages to receive; default: POSE, STATUS, EVENT")

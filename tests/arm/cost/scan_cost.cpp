@@ -192,7 +192,7 @@ class Daemon {
       : pipeline_(map, {}),
         parts_(map),
         server_(loop_, "0", {}),
-        publisher_(server_, {.map = map}) {
+        publisher_(server_, {.maps = {{.map = map}}}) {
     server_.listen(socket, daemon::SocketRole::kPose);
     client_.emplace(socket);
     loop_.run_once(0);

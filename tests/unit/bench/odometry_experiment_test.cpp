@@ -8,7 +8,7 @@
 namespace cornerd::bench {
 namespace {
 
-using core::HeadingSource;
+using calibration::HeadingSource;
 
 const ReckonedTrack& track_of(const OdometryResult& result, HeadingSource source, bool factors,
                               bool as_printed = true) {

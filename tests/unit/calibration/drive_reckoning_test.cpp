@@ -45,13 +45,15 @@ TEST_F(FilteredDriveTest, CorrectedFirstHalf_ImprovesSecondHalf) {
   EXPECT_NEAR(drive.learned.right_scale, kRightScale, 0.003);
   EXPECT_EQ(drive.points.size(), places_.size() - 1);
   EXPECT_NEAR(static_cast<double>(drive.alone.places), 30 / 0.14, 2);
-  const DriveError raw = reckon(steps_, places_, config_.geometry, core::DeadReckoningConfig{});
+  const DriveError raw =
+      reckon(steps_, places_, config_.geometry, calibration::DeadReckoningConfig{});
   EXPECT_LT(drive.alone.end_m, raw.end_m / 5);
 }
 
 TEST_F(FilteredDriveTest, WithoutCorrections_IsDeadReckoning) {
   const FilteredDrive drive = filter(0);
-  const DriveError raw = reckon(steps_, places_, config_.geometry, core::DeadReckoningConfig{});
+  const DriveError raw =
+      reckon(steps_, places_, config_.geometry, calibration::DeadReckoningConfig{});
   EXPECT_NEAR(drive.alone.end_m, raw.end_m, 1e-6);
   EXPECT_EQ(drive.alone.places, raw.places);
 }

@@ -8,7 +8,7 @@
 namespace cornerd::calibration {
 namespace {
 
-using core::HeadingSource;
+using calibration::HeadingSource;
 
 /// A drive whose wheels measure 1 / `encoder` of each rotation, and whose gyro 1 / `gyro` of it.
 KnownDrive scaled_drive(const core::DriveGeometry& geometry, double encoder, double gyro) {
@@ -55,7 +55,7 @@ TEST(SearchFactors, FactorBeyondRange_IsMarkedAtEdge) {
 
 TEST(SearchFactors, BothSensors_GiveTheRotationTogether) {
   const FoundFactors both = found(1 / 0.99, 1 / 1.02, HeadingSource::kWeighted);
-  const core::PaperFactors& factors = both.factors;
+  const calibration::PaperFactors& factors = both.factors;
   EXPECT_NEAR((factors.encoder_factor * 0.99 + factors.gyro_factor * 1.02) / 2, 1, 0.002);
 }
 

@@ -75,7 +75,8 @@ TEST(Reckon, DeadBand_AppliesToWholeIncrements) {
   step.left_m = step.right_m = 1.5 * 0.01 * geometry.wheel_radius_m;
   const std::vector<KnownPose> places = {
       {0, {}}, {50'000'000, {step.left_m / 2, 0, 0}}, {100'000'000, {step.left_m, 0, 0}}};
-  const core::DeadReckoningConfig with_dead_band{core::HeadingSource::kEncoder, {1, 1, 0.01}};
+  const calibration::DeadReckoningConfig with_dead_band{calibration::HeadingSource::kEncoder,
+                                                        {1, 1, 0.01}};
   const DriveError error = reckon(std::vector{step}, places, geometry, with_dead_band);
   EXPECT_EQ(error.places, 1U);
   EXPECT_NEAR(error.end_m, 0, 1e-9);

@@ -75,6 +75,53 @@ TEST(Pipeline, SampleToPose_AllocatesNothing) {
   }
 }
 
+TEST(Pipeline, ChoosingAMap_AllocatesNothing) {
+  const std::vector<std::shared_ptr<const WallMap>> maps = {
+      testing::make_map(testing::l_shaped_room()), testing::make_map(testing::two_equal_rooms()),
+      testing::make_map(testing::rectangular_room(3, 2))};
+  testing::ScanSource source(75);
+  std::vector<Scan> scans;
+  testing::ScanOptions options;
+  for (int k = 0; k < 100; ++k) {
+    options.start_ns = 137'000'000 * TimeNs{k};
+    scans.push_back(source.take(*maps.front(), {0.5 + 0.03 * k, 0.6, 0.2}, options));
+  }
+  Pipeline pipeline(maps, {});
+  const long before = allocations;
+  for (int round = 0; round < 2; ++round) {
+    for (const Scan& scan : scans) {
+      for (const Sample& sample : scan.samples()) pipeline.add(sample);
+    }
+    EXPECT_EQ(pipeline.maps().map(), 0U);
+    pipeline.maps().relocalize();
+  }
+  EXPECT_EQ(allocations - before, 0);
+}
+
+TEST(Pipeline, LearningWalls_AllocatesNothing) {
+  FloorPlan plan = testing::l_shaped_room();
+  plan.sigma_m = 0.03;
+  const auto map = testing::make_map(plan);
+  for (Wall& wall : plan.walls) {
+    for (Vec2* end : {&wall.from, &wall.to}) end->y() += end->y() > 1.5 ? 0.03 : 0;
+  }
+  const auto building = testing::make_map(plan);
+  testing::ScanSource source(72);
+  std::vector<Scan> scans;
+  testing::ScanOptions options;
+  for (int k = 0; k < 60; ++k) {
+    options.start_ns = std::int64_t{137'000'000} * k;
+    scans.push_back(source.take(*building, {0.5 + 0.03 * k, 0.6, 0.2}, options));
+  }
+  LocalizerConfig config;
+  config.learn_walls = true;
+  Localizer localizer(map, config);
+  const long before = allocations;
+  for (const Scan& scan : scans) localizer.step(scan);
+  EXPECT_EQ(allocations - before, 0);
+  EXPECT_GT(localizer.walls()->size(), 4u);
+}
+
 TEST(Pipeline, SampleToPoseEachMethod_AllocatesNothing) {
   const auto map = testing::make_map(testing::l_shaped_room());
   for (const char* method : {"altbd", "altbd-printed", "abd-iepf", "lt"}) {

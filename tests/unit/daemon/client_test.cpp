@@ -36,8 +36,10 @@ TEST(Client, ManyRequestsAtOnce_HandledAsAnswersFindRoom) {
     ASSERT_TRUE(client.send());
     if (client.is_blocked()) {
       EXPECT_EQ(client.wanted_events() & EPOLLIN, client.has_requests() ? 0u : EPOLLIN);
+      EXPECT_NE(client.wanted_events() & EPOLLOUT, 0u);
       ASSERT_GT(::recv(peer.get(), block, sizeof(block), 0), 0);
     } else if (client.has_requests()) {
+      EXPECT_EQ(client.wanted_events(), static_cast<std::uint32_t>(EPOLLOUT)) << "work is left";
       EXPECT_EQ(client.handle_requests(handle), Client::Input::kOpen);
     } else {
       break;

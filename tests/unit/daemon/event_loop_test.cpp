@@ -76,6 +76,22 @@ TEST(EventLoop, DescriptorNumberReusedInSameRound_NoStaleEvent) {
   EXPECT_EQ(calls, 1);
 }
 
+TEST(EventLoop, ChangedEvents_OthersThanBeforeAreReported) {
+  constexpr std::uint32_t kNone = 0;
+  constexpr std::uint32_t kIn = EPOLLIN;
+  constexpr std::uint32_t kOut = EPOLLOUT;
+  EventLoop loop;
+  const FileDescriptor fd = readable_fd();
+  std::uint32_t seen = 0;
+  loop.add(fd.get(), EPOLLIN, [&](std::uint32_t events) { seen = events; });
+  for (const std::uint32_t events : {kNone, kIn | kOut, kIn, kIn}) {
+    loop.change(fd.get(), events);
+    seen = 0;
+    loop.run_once(0);
+    EXPECT_EQ(seen, events);
+  }
+}
+
 TEST(EventLoop, Stop_Called_EndsRun) {
   EventLoop loop;
   const FileDescriptor fd = readable_fd();

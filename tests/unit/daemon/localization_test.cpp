@@ -61,12 +61,14 @@ std::vector<core::TimeNs> collect(Localization& localization, std::size_t count)
   std::vector<core::TimeNs> starts;
   pollfd readable{localization.event_fd(), POLLIN, 0};
   while (starts.size() < count && ::poll(&readable, 1, 30'000) == 1) {
-    localization.take([&starts](const ScanReport& report) {
-      EXPECT_EQ(report.scan.size(), 360u);
-      EXPECT_GT(report.latency_ns, 0);
-      EXPECT_EQ(report.result.pose.state, core::PoseState::kLost) << "there is no map";
-      starts.push_back(report.scan.start_ns());
-    });
+    localization.take(
+        [&starts](const ScanReport& report) {
+          EXPECT_EQ(report.scan.size(), 360u);
+          EXPECT_GT(report.latency_ns, 0);
+          EXPECT_EQ(report.result.pose.state, core::PoseState::kLost) << "there is no map";
+          starts.push_back(report.scan.start_ns());
+        },
+        [](const core::PoseEstimate&) { FAIL() << "no odometry"; });
   }
   return starts;
 }
@@ -122,10 +124,12 @@ TEST(Localization, ReplacedPipeline_NoScanMissed) {
   std::vector<core::TimeNs> starts;
   pollfd readable{localization.event_fd(), POLLIN, 0};
   while (starts.size() < 16 && ::poll(&readable, 1, 30'000) == 1) {
-    localization.take([&](const ScanReport& report) {
-      generations.push_back(report.generation);
-      starts.push_back(report.scan.start_ns());
-    });
+    localization.take(
+        [&](const ScanReport& report) {
+          generations.push_back(report.generation);
+          starts.push_back(report.scan.start_ns());
+        },
+        [](const core::PoseEstimate&) { FAIL() << "no odometry"; });
   }
   for (std::size_t i = 0; i < starts.size(); ++i) {
     EXPECT_EQ(starts[i], static_cast<core::TimeNs>(i) * 1000);

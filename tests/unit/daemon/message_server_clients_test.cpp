@@ -137,6 +137,35 @@ TEST_F(MessageServerTest, UnrestorableSocket_LoggedOnce) {
   greeted(pose_path_);
 }
 
+TEST_F(MessageServerTest, OdometryRefusedToAClientThatNeverReads_LaterLinesAreRead) {
+  TestClient client = greeted(control_path_);
+  for (int i = 0; i < 1000; ++i) {
+    ASSERT_TRUE(client.send(R"({"class":"ODOMETRY","left":1.5})"
+                            "\n"));
+    if (i % 10 == 0) serve();
+  }
+  ASSERT_TRUE(client.send(R"({"class":"ODOMETRY","left":7,"right":7})"
+                          "\n"));
+  serve();
+  ASSERT_EQ(readings_.size(), 1u);
+  EXPECT_EQ(next(client)["class"], "ERROR") << "the first ones are answered";
+}
+
+TEST_F(MessageServerTest, SocketWithoutPermissions_LoggedOnceAndMadeAgainAfterRemoval) {
+  std::vector<std::string> logged;
+  const auto restore = [&] {
+    server_.restore_sockets([&](const std::string& line) { logged.push_back(line); });
+  };
+  std::filesystem::permissions(control_path_, std::filesystem::perms::none);
+  restore();
+  restore();
+  ASSERT_EQ(logged.size(), 1u);
+  EXPECT_THAT(logged.front(), ::testing::StartsWith(control_path_.string() + ": its mode"));
+  std::filesystem::remove(control_path_);
+  restore();
+  greeted(control_path_);
+}
+
 TEST_F(MessageServerTest, TooManyClients_Refused) {
   TestClient controller = greeted(control_path_);
   std::vector<TestClient> clients;

@@ -63,8 +63,9 @@ class MessageServerTest : public ::testing::Test {
   int relocalizations_ = 0;
   std::vector<core::Pose2> given_;
   std::vector<message::OdometryReading> readings_;
-  int publisher_ = -1;             ///< the connection whose readings are used
-  std::vector<std::string> maps_;  ///< asked for
+  std::vector<std::string> refusals_;  ///< of ODOMETRY
+  int publisher_ = -1;                 ///< the connection whose readings are used
+  std::vector<std::string> maps_;      ///< asked for
   std::vector<Ticket> tickets_;
   bool takes_maps_ = true;
   MessageServer server_{
@@ -88,7 +89,8 @@ class MessageServerTest : public ::testing::Test {
          maps_.push_back(request.name);
          tickets_.push_back(ticket);
          return takes_maps_;
-       }}};
+       },
+       [this](const message::RequestError& error) { refusals_.push_back(error.text); }}};
 };
 
 }  // namespace cornerd::daemon

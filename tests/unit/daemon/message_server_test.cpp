@@ -191,6 +191,18 @@ TEST_F(MessageServerTest, Odometry_ControlSocket_AcceptedWithoutAnswer) {
   EXPECT_EQ(ask(controller, R"({"class":"ODOMETRY","left":"x"})")["code"], "field");
 }
 
+TEST_F(MessageServerTest, OdometryThatIsNoRequest_IsCountedAsRefused) {
+  TestClient controller = greeted(control_path_);
+  for (const char* line : {"ODOMETRY 1 2 3", R"({"class":"ODOM","left":1,"right":2})",
+                           R"({"class":"odometry","left":1})"}) {
+    const std::size_t before = refusals_.size();
+    EXPECT_EQ(ask(controller, line)["class"], "ERROR");
+    EXPECT_EQ(refusals_.size(), before + 1) << line;
+  }
+  ask(controller, R"({"class":"FLY"})");
+  EXPECT_EQ(refusals_.size(), 3U);
+}
+
 TEST_F(MessageServerTest, Odometry_SecondClient_ErrorUntilFirstDisconnects) {
   const std::string line = R"({"class":"ODOMETRY","left":1,"right":2})";
   TestClient second = greeted(control_path_);

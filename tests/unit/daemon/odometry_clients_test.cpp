@@ -61,6 +61,7 @@ TEST_F(OdometryClientsTest, SecondClient_RejectedCountedAndInHint) {
   }
   EXPECT_EQ(described().second_client, 50U);
   EXPECT_THAT(std::string(described().odometry_hint), HasSubstr("two clients"));
+  EXPECT_EQ(described().odometry_fault, "odometry-second-client");
   for (int i = 0; i < 5; ++i) static_cast<void>(described());
   EXPECT_THAT(described().odometry_hint, IsEmpty()) << "the hint expires";
 }

@@ -158,7 +158,7 @@ TEST(Realtime, ReaderAndLocalizer_AfterWarmUp_NoAllocationsOrFaults) {
   };
   pollfd readable{localization.event_fd(), POLLIN, 0};
   while (scans < kScans && ::poll(&readable, 1, 60'000) == 1) {
-    localization.take([&](const ScanReport&) { ++reported; });
+    localization.take([&](const ScanReport&) { ++reported; }, [](const core::PoseEstimate&) {});
     scans = reported + localization.lost_reports();
     if (allocations == 0 && scans >= kWarmUpScans) {
       allocations = allocations_of_loops;

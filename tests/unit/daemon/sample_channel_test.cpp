@@ -53,6 +53,30 @@ TEST(SampleChannel, SampleThatMayCompleteScan_WakesConsumer) {
   EXPECT_EQ(channel.wakes(), before + 3);
 }
 
+TEST(SampleChannel, ForParts_WakesConsumerWithinScan) {
+  SampleChannel channel(WhenFull::kLose);
+  channel.wake_for_parts(true);
+  channel.on_sample(sample(1, true));
+  const std::uint32_t before = channel.wakes();
+  channel.on_sample(sample(9'000'000));
+  EXPECT_EQ(channel.wakes(), before);
+  channel.on_sample(sample(11'000'000));
+  EXPECT_EQ(channel.wakes(), before + 1);
+}
+
+TEST(SampleChannel, ArrivalOfLastByte_IsThatOfTheNextSample) {
+  SampleChannel channel(WhenFull::kLose);
+  channel.on_arrival(7);
+  channel.on_sample(sample(1, true));
+  channel.on_sample(sample(2, true));
+  SampleChannel::Item item;
+  ASSERT_TRUE(channel.pop(item));
+  EXPECT_EQ(item.arrival_ns, 7);
+  EXPECT_GT(item.passed_ns, 7);
+  ASSERT_TRUE(channel.pop(item));
+  EXPECT_EQ(item.arrival_ns, item.passed_ns);
+}
+
 TEST(SampleChannel, StreamWithoutScanStarts_WakesBeforeRingIsFull) {
   SampleChannel channel(WhenFull::kLose);
   const std::uint32_t before = channel.wakes();

@@ -58,9 +58,10 @@ class ScanPublisherTest : public ::testing::Test {
 };
 
 TEST_F(ScanPublisherTest, JumpAtEachScan_EventsAndOneLogLine) {
+  publish_fix_at(0);
   const CapturedLog log;
   constexpr int kJumps = 5;
-  for (int i = 0; i <= kJumps; ++i) publish_fix_at(i % 2 == 0 ? 0 : 1);
+  for (int i = 1; i <= kJumps; ++i) publish_fix_at(i % 2 == 0 ? 0 : 1);
   EXPECT_EQ(events("jump"), kJumps);
   EXPECT_EQ(log.text(), "info: jump: 1.000 m, 0.0 degrees\n");
 }
@@ -74,16 +75,17 @@ class NextMap : public ScanPublisherTest {
     client_->read_line(1000);
   }
 
-  static ScanPublisher::PublishedMap map_named(const std::string& name) {
+  static ScanPublisher::PublishedMaps map_named(const std::string& name) {
     core::FloorPlan plan;
     plan.name = name;
     plan.walls = {{{0, 0}, {1, 0}, 0.1}};
     auto line = std::make_shared<const std::string>(R"({"class":"MAP","name":")" + name + "\"}\n");
-    return {std::make_shared<const core::WallMap>(std::move(plan)), line, true};
+    return {{{std::make_shared<const core::WallMap>(std::move(plan)), line}}, {name}};
   }
 
   void publish_scan_of(std::uint32_t generation) {
     report_.generation = generation;
+    if (generation > 0 && !report_.map) report_.map = 0;
     publish_fix_at(0);
   }
 
@@ -100,7 +102,7 @@ class NextMap : public ScanPublisherTest {
 };
 
 TEST_F(NextMap, PublishedBeforeTheFirstPoseInIt) {
-  publisher_.set_next_map(1, map_named("a"));
+  publisher_.set_next_maps(1, map_named("a"));
   publish_scan_of(0);
   publish_scan_of(1);
   publish_scan_of(1);
@@ -108,22 +110,43 @@ TEST_F(NextMap, PublishedBeforeTheFirstPoseInIt) {
 }
 
 TEST_F(NextMap, TwoBeforeTheNextScan_TheNewestOnly) {
-  publisher_.set_next_map(1, map_named("a"));
-  publisher_.set_next_map(2, map_named("b"));
+  publisher_.set_next_maps(1, map_named("a"));
+  publisher_.set_next_maps(2, map_named("b"));
   publish_scan_of(2);
   EXPECT_THAT(received(), testing::ElementsAre("MAP b", "POSE b"));
 }
 
 TEST_F(NextMap, SecondWhileTheFirstIsInUse_EachBeforeItsPoses) {
-  publisher_.set_next_map(1, map_named("a"));
-  publisher_.set_next_map(2, map_named("b"));
+  publisher_.set_next_maps(1, map_named("a"));
+  publisher_.set_next_maps(2, map_named("b"));
   publish_scan_of(1);
   publish_scan_of(2);
   EXPECT_THAT(received(), testing::ElementsAre("MAP a", "POSE a", "MAP b", "POSE b"));
 }
 
+TEST_F(NextMap, OneOfSeveral_PublishedWhenItIsKnown) {
+  ScanPublisher::PublishedMaps maps = map_named("a");
+  maps.maps.push_back(map_named("b").maps.front());
+  maps.names.emplace_back("b");
+  publisher_.set_next_maps(1, maps);
+  report_.generation = 1;
+  EXPECT_FALSE(publisher_.choice());
+  report_.map.reset();
+  report_.result.pose.alternatives = {{{}, 0.7, 1}, {{}, 0.3, 0}};
+  publish_fix_at(0);
+  EXPECT_EQ(publisher_.map(), nullptr);
+  EXPECT_EQ(publisher_.choice()->state, "ambiguous");
+  EXPECT_THAT(publisher_.choice()->candidates, testing::ElementsAre("b", "a"));
+  report_.result.pose.alternatives.clear();
+  report_.map = 1;
+  publish_fix_at(0);
+  EXPECT_EQ(publisher_.choice()->state, "known");
+  EXPECT_EQ(publisher_.choice()->name, "b");
+  EXPECT_THAT(received(), testing::ElementsAre("POSE -", "MAP b", "POSE b"));
+}
+
 TEST_F(NextMap, WithoutScans_PublishedOnce) {
-  publisher_.set_next_map(1, map_named("a"));
+  publisher_.set_next_maps(1, map_named("a"));
   publisher_.publish_next_map();
   publisher_.publish_next_map();
   EXPECT_THAT(received(), testing::ElementsAre("MAP a"));

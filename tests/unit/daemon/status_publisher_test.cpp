@@ -83,8 +83,16 @@ TEST_F(StatusPublisherTest, EachStateAndFault_Event) {
 
 class StatusFaults : public StatusPublisherTest {
  protected:
+  static ScanPublisher::PublishedMaps hall() {
+    core::FloorPlan plan;
+    plan.name = "hall";
+    plan.walls = {{{0, 0}, {1, 0}, 0.1}};
+    return {{{std::make_shared<const core::WallMap>(std::move(plan))}}};
+  }
+
   void localize(core::PoseState state, std::size_t scans) {
     ScanReport report;
+    report.map = 0;
     report.result.pose.state = state;
     for (std::size_t i = 0; i < scans; ++i) scans_.publish(report);
   }
@@ -100,7 +108,7 @@ class StatusFaults : public StatusPublisherTest {
   Localization localization_{idle_,
                              std::make_unique<core::Pipeline>(nullptr, core::LocalizerConfig{}),
                              SourceKind::kDevice};
-  ScanPublisher scans_{server_, {}};
+  ScanPublisher scans_{server_, hall()};
   drivers::LidarStatus lidar_;
 };
 
@@ -118,7 +126,9 @@ TEST_F(StatusFaults, ScansFitNowhere_MapMismatchUntilTheyFit) {
   localize(core::PoseState::kLost, 1);
   const json status = published();
   EXPECT_EQ(status["faults"], json::parse(R"(["map-mismatch"])"));
-  EXPECT_EQ(status["hint"].get<std::string>().find("95 of the last 100 scans fit nowhere"), 0U);
+  EXPECT_EQ(status["hint"].get<std::string>().find(
+                "95 of the last 100 scans fit nowhere in the map \"hall\""),
+            0U);
   localize(core::PoseState::kTracking, 6);
   EXPECT_FALSE(published().contains("faults"));
 }
@@ -134,6 +144,33 @@ TEST_F(StatusFaults, LidarFaultAndUnhealthyOdometry_InTheOrderOfWeight) {
   const json status = published();
   EXPECT_EQ(status["faults"], json::parse(R"(["dead-laser", "odometry-unhealthy"])"));
   EXPECT_EQ(status["hint"], "dark");
+}
+
+TEST_F(StatusFaults, FaultOfLidar_StaysNamedWhileItIsTriedAgain) {
+  lidar_.state = LidarState::kBackoff;
+  lidar_.fault = LidarFault::kNoAnswer;
+  lidar_.detail.set("no answer");
+  EXPECT_EQ(published()["hint"], "no answer");
+  lidar_.state = LidarState::kIdentifying;
+  lidar_.fault = LidarFault::kNone;
+  lidar_.detail.set("asking");
+  const json again = published();
+  EXPECT_EQ(again["faults"], json::parse(R"(["no-answer"])"));
+  EXPECT_EQ(again["hint"], "no answer");
+  EXPECT_EQ(again["lidar"]["state"], "identifying");
+  EXPECT_FALSE(again["lidar"].contains("fault"));
+  lidar_.state = LidarState::kRunning;
+  EXPECT_FALSE(published().contains("faults"));
+  lidar_.state = LidarState::kIdentifying;
+  EXPECT_FALSE(published().contains("faults"));
+}
+
+TEST_F(StatusFaults, RecordingThatCannotBeReplayed_IsNamed) {
+  lidar_.state = LidarState::kFaulty;
+  lidar_.detail.set("a.bin: no sample in it");
+  const json status = published();
+  EXPECT_EQ(status["faults"], json::parse(R"(["recording"])"));
+  EXPECT_EQ(status["hint"], "a.bin: no sample in it");
 }
 
 TEST_F(StatusPublisherTest, Status_Published_HasCountersOfDriverAndDaemon) {

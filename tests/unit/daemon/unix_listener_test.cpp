@@ -87,6 +87,15 @@ TEST(UnixListener, ReplacedFile_NoticedAndKept) {
   EXPECT_TRUE(std::filesystem::exists(folder / "s"));
 }
 
+TEST(UnixListener, ModeThatDeniesClients_Noticed) {
+  const test::TemporaryFolder folder;
+  const UnixListener listener(folder / "s", 0660);
+  ASSERT_EQ(::chmod((folder / "s").c_str(), 0600), 0);
+  EXPECT_EQ(listener.file(), UnixListener::File::kClosed);
+  ASSERT_EQ(::chmod((folder / "s").c_str(), 0666), 0);
+  EXPECT_EQ(listener.file(), UnixListener::File::kOwn) << "all who could connect can";
+}
+
 TEST(UnixListener, FolderThatCannotBeMade_IsNamedWithItsReason) {
   EXPECT_THAT(error_of("/proc/none/s"),
               StartsWith("/proc/none: cannot create the socket's folder"));

@@ -72,8 +72,19 @@ TEST(PoseLine, OneMapOfSeveral_Named) {
   LineWriter writer;
   core::FloorPlan plan = two_rooms();
   plan.name = "floor 2";
-  EXPECT_EQ(read(writer.pose(some_pose(core::PoseState::kFix), &plan, true))["map"], "floor 2");
-  EXPECT_FALSE(read(writer.pose(some_pose(core::PoseState::kLost), &plan, true)).contains("map"));
+  const std::vector<std::string> names = {"floor 1", "floor 2"};
+  EXPECT_EQ(read(writer.pose(some_pose(core::PoseState::kFix), &plan, names))["map"], "floor 2");
+  EXPECT_FALSE(read(writer.pose(some_pose(core::PoseState::kLost), &plan, names)).contains("map"));
+}
+
+TEST(PoseLine, MapNotKnown_AlternativesNameTheirs) {
+  LineWriter writer;
+  core::PoseEstimate pose = some_pose(core::PoseState::kAmbiguous);
+  pose.alternatives = {{{1, 2, 0.5}, 0.6, 1}, {{-1, 0, -0.5}, 0.4, 0}};
+  const json alternatives = read(
+      writer.pose(pose, nullptr, std::vector<std::string>{"floor 1", "floor 2"}))["alternatives"];
+  EXPECT_EQ(alternatives[0]["map"], "floor 2");
+  EXPECT_EQ(alternatives[1]["map"], "floor 1");
 }
 
 TEST(PoseLine, EachState_Named) {

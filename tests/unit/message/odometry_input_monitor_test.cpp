@@ -58,7 +58,7 @@ TEST_F(OdometryInputMonitorTest, RefusedLines_CauseInHintAndCounted) {
     ASSERT_NE(error, nullptr) << line;
     for (int i = 0; i < 50; ++i) monitor_.refuse(*error);
     EXPECT_THAT(hint(), HasSubstr("lines are refused: " + error->text)) << line;
-    EXPECT_TRUE(monitor_.are_refused());
+    EXPECT_EQ(monitor_.fault(), "odometry-refused");
   }
   for (const auto& [cause, count] : monitor_.refusals()) {
     EXPECT_EQ(count, cause == FieldReader::kOther ? 0u : 50u) << cause;
@@ -70,15 +70,55 @@ TEST_F(OdometryInputMonitorTest, RefusedLines_CauseInHintAndCounted) {
 TEST_F(OdometryInputMonitorTest, RejectedLines_CauseInHint) {
   add({0, 1, 1, {}});
   EXPECT_THAT(hint(), IsEmpty());
-  add({0, 1, 1, {}});
+  for (int i = 0; i < 50; ++i) add({i, 1, 1, {}}, 1);
   summary_.counters.future += 40;
   EXPECT_THAT(hint(), HasSubstr("ahead of the lidar's"));
-  add({0, 1, 1, {}});
+  for (int i = 0; i < 50; ++i) add({i, 1, 1, {}}, 1);
   summary_.counters.past += 40;
   EXPECT_THAT(hint(), HasSubstr("behind the lidar's"));
   add({0, 1, 1, {}});
   summary_.counters.jumps += 40;
   EXPECT_THAT(hint(), HasSubstr("/advanced/odometry/max_speed"));
+}
+
+TEST_F(OdometryInputMonitorTest, UsableLinesWithoutEffect_CauseInHint) {
+  const auto late = [&](core::TimeNs by_ns) {
+    // The time of the next hint, less the delay.
+    return core::OdometryReading{t_ns_ + core::kNsPerSecond - by_ns, 1, 1, {}};
+  };
+  add(late(0));
+  EXPECT_THAT(hint(), IsEmpty()) << "lines have just begun";
+  add(late(core::kNsPerSecond / 2));
+  EXPECT_THAT(hint(), HasSubstr("0.5 s behind the lidar's clock"));
+  add(late(0), 1);
+  EXPECT_THAT(hint(), HasSubstr("too rarely (1 in"));
+  add(late(0));
+  EXPECT_THAT(hint(), IsEmpty()) << "no scan yet: the lidar's fault says why";
+}
+
+TEST_F(OdometryInputMonitorTest, ALineEachTwoSeconds_IsTooRare) {
+  for (int i = 0; i < 3; ++i) {
+    add({t_ns_, 1, 1, {}}, 1);
+    static_cast<void>(hint());
+    EXPECT_THAT(hint(), HasSubstr("too rarely"));
+  }
+  add({t_ns_, 1, 1, {}}, 1);
+  EXPECT_THAT(hint(), HasSubstr("too rarely"));
+  for (int i = 0; i < 5; ++i) static_cast<void>(hint());
+  EXPECT_THAT(hint(), HasSubstr("no ODOMETRY line"));
+}
+
+TEST_F(OdometryInputMonitorTest, ProgramThatEnds_IsNotTooRare) {
+  add({t_ns_, 1, 1, {}});
+  static_cast<void>(hint());
+  EXPECT_THAT(hint(), HasSubstr("no ODOMETRY line"));
+}
+
+TEST_F(OdometryInputMonitorTest, TimeInWholeSeconds_IsNamed) {
+  add({t_ns_, 1, 1, {}});
+  summary_.counters.past += 20;
+  summary_.counters.future += 20;
+  EXPECT_THAT(hint(), HasSubstr("repeats: send the time of each reading with its fractions"));
 }
 
 TEST_F(OdometryInputMonitorTest, MostValuesRejected_Reported) {

@@ -95,7 +95,7 @@ TEST(ParseRequest, SetPose_ThetaNormalized) {
 
 TEST(ParseRequest, SetPoseInDegrees_Refused) {
   EXPECT_THAT(request_error(R"({"class":"SET_POSE","x":1,"y":0,"theta":90})").text,
-              HasSubstr("\"theta\" must be from -6.3 to 6.3"));
+              HasSubstr("\"theta\" must be from -6.3 to 6.3 radians, not degrees"));
 }
 
 TEST(ParseRequest, SetPoseWithoutField_NamedInError) {

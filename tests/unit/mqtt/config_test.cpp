@@ -104,5 +104,16 @@ TEST(MqttConfig, TopicLevel_HasNoWildcardAndNoSeparator) {
   for (const char* wrong : {"", "a/b", "+", "#", "a\nb"}) EXPECT_FALSE(is_topic_level(wrong));
 }
 
+TEST(FleetOptions, BrokerAndSite_AreCheckedForEveryProgram) {
+  const FleetOptions given{"mq:1884", "", "hq"};
+  EXPECT_EQ(given.broker_config().port, 1884);
+  EXPECT_EQ(given.site_name(), "hq");
+  EXPECT_EQ(FleetOptions{}.site_name(), "default");
+  EXPECT_THROW(FleetOptions{}.broker_config(), std::invalid_argument);
+  EXPECT_THROW((FleetOptions{"mq", "bridge.json", ""}.broker_config()), std::invalid_argument);
+  EXPECT_THROW((FleetOptions{"mq:x", "", ""}.broker_config()), std::invalid_argument);
+  EXPECT_THROW((FleetOptions{"mq", "", "a/b"}.site_name()), std::invalid_argument);
+}
+
 }  // namespace
 }  // namespace cornerd::mqtt

@@ -104,13 +104,47 @@ TEST(RecordingPlayer, DamagedLines_AreCountedAndSkipped) {
   EXPECT_EQ(played.scan_sizes.size(), 3u);
 }
 
-TEST(RecordingPlayer, IncompleteLastLine_IsNotCounted) {
+TEST(RecordingPlayer, IncompleteLastLine_IsCountedAndNamed) {
   std::uint64_t bad_lines = 0;
+  std::string problem;
   const std::string whole = scan_line(2);
-  EXPECT_EQ(play_lines(scan_line(1) + whole.substr(0, 40), &bad_lines).scan_sizes.size(), 1u);
-  EXPECT_EQ(bad_lines, 0u);
+  EXPECT_EQ(play_lines(scan_line(1) + whole.substr(0, 40), &bad_lines, &problem).scan_sizes.size(),
+            1u);
+  EXPECT_EQ(bad_lines, 1u);
+  EXPECT_NE(problem.find("line 2: the last line is cut"), std::string::npos) << problem;
   // A last line that lacks only its newline is complete.
   EXPECT_EQ(play_lines(scan_line(1) + whole.substr(0, whole.size() - 1)).scan_sizes.size(), 2u);
+}
+
+std::string odometry_line(double t_s) {
+  return R"({"class":"ODOMETRY","t":)" + std::to_string(t_s) + R"(,"left":1,"right":1})" + "\n";
+}
+
+TEST(RecordingPlayer, ClockThatIsSetBack_GoesOnAndIsNamed) {
+  std::uint64_t bad_lines = 0;
+  std::string problem;
+  const Played played = play_lines(scan_line(3600) + scan_line(3600.1) + odometry_line(3600.2) +
+                                       scan_line(0.2) + odometry_line(0.3) + scan_line(0.1),
+                                   &bad_lines, &problem);
+  EXPECT_EQ(bad_lines, 0u);
+  // By the scans: what a client says of ODOMETRY's time tells nothing of the recorder's clock.
+  EXPECT_NE(problem.find("line 4: t goes back by 3599.9 s"), std::string::npos) << problem;
+  ASSERT_EQ(played.samples.size(), 16u);
+  EXPECT_NEAR(core::to_seconds(played.samples[8].t_ns), 3600.1, 1e-6);
+  ASSERT_EQ(played.odometry.size(), 2u);
+  EXPECT_NEAR(core::to_seconds(played.odometry[1].t_ns), 3600.2, 1e-6);
+  // Lines may be somewhat out of order.
+  EXPECT_NEAR(core::to_seconds(played.samples[12].t_ns), 3600.0, 1e-6);
+}
+
+TEST(RecordingPlayer, TimesThatStandStill_AreNamed) {
+  std::string lines;
+  for (int i = 0; i < 20; ++i) lines += scan_line(0) + odometry_line(0);
+  std::string problem;
+  play_lines(lines, nullptr, &problem);
+  EXPECT_NE(problem.find("t is the same in every line"), std::string::npos) << problem;
+  play_lines(scan_line(0) + scan_line(0), nullptr, &problem);
+  EXPECT_EQ(problem, "");
 }
 
 TEST(RecordingPlayer, BinAndNdjson_GiveTheSameSamples) {

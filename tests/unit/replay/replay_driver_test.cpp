@@ -144,13 +144,14 @@ TEST(ReplayDriver, PipeWithoutWriter_IsFaultyWithItsName) {
             pipe.string() + ": is no regular file; name a recording");
 }
 
-TEST(ReplayDriver, LoopOverEmptyFile_Ends) {
+TEST(ReplayDriver, LoopOverFileWithoutSamples_IsFaultyAndSaysSo) {
   const test::TemporaryFolder folder;
   std::ofstream(folder.path() / "empty.bin").flush();
   ReplayDriver driver({folder.path() / "empty.bin", 0, true, {}});
   PlayedSamples sink;
   driver.run({}, sink);
-  EXPECT_EQ(driver.status().state, LidarState::kEnded);
+  EXPECT_EQ(driver.status().state, LidarState::kFaulty);
+  EXPECT_NE(driver.status().detail.view().find("empty.bin: no sample in it"), std::string::npos);
 }
 
 }  // namespace

@@ -202,6 +202,12 @@ TEST(NeedsRestart, KeysAppliedByAReload_AreNotListed) {
 
 TEST(OneLine, ControlCharacters_AreQuestionMarks) {
   EXPECT_EQ(one_line("a\x1b[2J\nb\x7f"), "a?[2J?b?");
+  EXPECT_EQ(one_line("K\xc3\xbc"
+                     "che \xff\xc3(\xe5\x8f\xb0 \xe5\x8f"),
+            "K\xc3\xbc"
+            "che ?"
+            "?(\xe5\x8f\xb0 ?"
+            "?");
 }
 
 TEST(SettingsError, AnyText_IsOneLine) {

@@ -47,7 +47,7 @@ TEST(Document, RepeatedKey_IsNamedByItsPointer) {
 }
 
 TEST(Document, NestingTooDeep_IsAnError) {
-  EXPECT_THAT(document_error(std::string(100'000, '[')), HasSubstr("nested too deep"));
+  EXPECT_THAT(document_error(std::string(100'000, '[')), HasSubstr("/0/0: nested too deep"));
 }
 
 TEST(ChildPointer, SpecialCharacters_AreEscaped) {

@@ -61,7 +61,7 @@ TEST_F(MapChoice, Name_OneOfTheConfigs) {
   EXPECT_THAT(error_of([&] { map_named(config_, "c"); }), HasSubstr("has no \"maps\""));
   config_.maps = {{"c", "/m/c.json"}, {"d", "/m/d.json"}};
   EXPECT_EQ(map_named(config_, "d"), "/m/d.json");
-  EXPECT_THAT(error_of([&] { map_named(config_, "e"); }), HasSubstr("they are: c, d"));
+  EXPECT_THAT(error_of([&] { map_named(config_, "e"); }), HasSubstr("they are: auto, c, d"));
 }
 
 constexpr const char* kTwoFloors =
@@ -81,6 +81,18 @@ TEST(Maps, MapIsNoName_RefusedWithNames) {
   const std::string error = error_of(
       [] { parse_config(R"({"map": "cellar", )" + std::string(kTwoFloors), "/etc/c.json"); });
   EXPECT_NE(error.find("ground, first"), std::string::npos) << error;
+}
+
+TEST(Maps, Auto_TheScansChoose) {
+  const Config config =
+      parse_config(R"({"map": "auto", )" + std::string(kTwoFloors), "/etc/c.json");
+  EXPECT_TRUE(config.chooses_map());
+  EXPECT_EQ(config.map, "/etc/g.json");
+  EXPECT_EQ(map_named(config, "auto"), "/etc/g.json");
+  const std::string error = error_of([] {
+    parse_config(R"({"map": "auto", "maps": [{"name": "auto", "file": "a"}]})", "/etc/c.json");
+  });
+  EXPECT_NE(error.find("/maps/0"), std::string::npos) << error;
 }
 
 TEST(Maps, TwoOfOneName_Refused) {

@@ -11,6 +11,7 @@
 #include <thread>
 
 #include "error_of.hpp"
+#include "tests/sanitized.hpp"
 #include "tests/temporary_folder.hpp"
 
 namespace cornerd::settings {
@@ -128,6 +129,42 @@ TEST(MapFile, WrongRoom_IsNamedByItsIndex) {
               EndsWith("/rooms/0/name: is missing"));
   EXPECT_THAT(room_error(R"({"name": "a", "polygon": [[0, 0], [1, 0], [1]]})"),
               HasSubstr("/rooms/0/polygon/2: must be a point"));
+}
+
+TEST(MapFile, FileOfAnotherKind_IsNamed) {
+  EXPECT_THAT(map_error(" \n"), EndsWith("is empty"));
+  EXPECT_THAT(map_error("P5\n1 1\n255\n"), HasSubstr("is an image"));
+  EXPECT_THAT(map_error("<svg/>"), HasSubstr("is a drawing"));
+  EXPECT_THAT(map_error("  0\r\nSECTION\r\n"), HasSubstr("is a drawing"));
+  EXPECT_THAT(map_error("<!DOCTYPE html>"), HasSubstr("is a web page"));
+  EXPECT_THAT(map_error("\x1f\x8b\b"), HasSubstr("is compressed"));
+  EXPECT_THAT(map_error("\xff\xfe{"), HasSubstr("is UTF-16"));
+  EXPECT_THAT(map_error(R"({"class":"SCAN"})"), HasSubstr("is a recording"));
+  EXPECT_THAT(map_error("# saved\nimage: a.pgm\n"), HasSubstr("is the yaml of a ROS map"));
+}
+
+TEST(MapFile, Millimetres_AreNamed) {
+  EXPECT_THAT(map_error(map_of(std::string(kWall) + R"(, "thickness": 120)")),
+              EndsWith("/thickness: must be from 0 to 10 metres (`cornerctl map scale` converts "
+                       "millimetres), not 120"));
+}
+
+TEST(MapFile, FanOfWallsWithoutEnd_IsRefusedInSeconds) {
+  if (test::kSanitized) GTEST_SKIP() << "a sanitizer takes minutes";
+  std::string walls;
+  for (int i = 0; i < 16'000; ++i) {
+    const std::string y = std::to_string(i * 1e-4);
+    walls += (i == 0 ? "" : ",") + ("{\"from\":[0," + y + "],\"to\":[50,5" + y.substr(1) + "]}");
+  }
+  EXPECT_THAT(error_of([&] { parse_map(map_of("\"walls\":[" + walls + "]"), "a.json"); }),
+              HasSubstr("/walls: too many walls cross each other"));
+}
+
+TEST(MapFile, SizeOfNoBuilding_IsAWarning) {
+  EXPECT_EQ(size_warning(*parse_map(map_of(kWall), "a.json")), "");
+  EXPECT_THAT(
+      size_warning(*parse_map(map_of(R"("walls": [{"from": [0, 0], "to": [900, 0]}])"), "a.json")),
+      HasSubstr("900 x 0 m"));
 }
 
 TEST(MapFile, ControlCharacterInName_IsRefused) {

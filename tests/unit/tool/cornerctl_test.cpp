@@ -71,7 +71,7 @@ TEST_F(Cornerctl, WrongUsage_ExitCode2WithReasonOnStandardError) {
       {},
       {"dance"},
       {"replay"},
-      {"replay", "x.bin"},
+      {"calibrate", "odometry", "x.ndjson"},
       {"replay", "x.bin", "--map", map_, "--nonsense"},
       {"replay", "x.bin", "--map", map_, "--set", "x"},
       {"replay", "x.bin", "--map", map_, "--speed", "fast"},

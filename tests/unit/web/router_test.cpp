@@ -40,6 +40,14 @@ TEST_F(RouterTest, EachPath_TakesItsMethodAlone) {
   EXPECT_EQ(refusal(request("GET", "/../etc/passwd")), 404u);
 }
 
+TEST_F(RouterTest, EventsOfAnUnknownClass_AreRefused) {
+  Request one = request("GET", "/api/events");
+  one.query = "classes=POSE,SCAN";
+  EXPECT_EQ(refusal(one), 0u);
+  one.query = "classes=POSE,pose";
+  EXPECT_EQ(refusal(one), 400u);
+}
+
 TEST_F(RouterTest, ForeignPages_AreRefused) {
   Request one = request("GET", "/");
   one.host = "evil.com";

@@ -7,7 +7,7 @@
 
 #include <Eigen/Cholesky>
 
-#include "core/odometry/fusion_filter.hpp"
+#include "core/odometry/motion_filter.hpp"
 #include "core/odometry/reading_gate.hpp"
 #include "driven_robot.hpp"
 
@@ -35,7 +35,7 @@ class FilteredDrive {
     fix_covariance_ = Eigen::Vector3d(kFixSigma_m * kFixSigma_m, kFixSigma_m * kFixSigma_m,
                                       kFixSigma_rad * kFixSigma_rad)
                           .asDiagonal();
-    filter_.set_pose(measured(), fix_covariance_);
+    filter_.set_pose(measured(), fix_covariance_, {});
   }
 
   void drive(double duration_s, bool with_fixes, bool with_gyro = true) {
@@ -43,13 +43,15 @@ class FilteredDrive {
       const Rates rates = lively_drive(0.02 * ticks_);
       OdometryReading reading = robot_.drive(0.02, rates.speed_m_s, rates.rate_rad_s);
       if (!with_gyro) reading.gyro_rad_s.reset();
-      if (const auto step = gate_.add(reading, std::nullopt)) filter_.predict(*step);
+      if (const auto step = gate_.add(reading, std::nullopt)) filter_.add(*step);
+      if (ticks_ % 7 == 0) filter_.advance();
       // As in Odometer.
       if (with_fixes && ticks_ % 7 == 0 && !correct())
-        filter_.set_pose(measured(), fix_covariance_);
+        filter_.set_pose(measured(), fix_covariance_, {});
     }
+    filter_.advance();
   }
-  bool correct() { return filter_.correct(measured(), fix_covariance_); }
+  bool correct() { return filter_.correct(measured(), fix_covariance_, {}); }
 
   Pose2 measured() {
     const Pose2& truth = robot_.truth();
@@ -63,15 +65,15 @@ class FilteredDrive {
             angle_between(truth.theta_rad, pose.theta_rad)};
   }
   double nees() const {
-    return error().dot(Eigen::LLT<Eigen::Matrix3d>(filter_.pose_covariance()).solve(error()));
+    return error().dot(Eigen::LLT<Eigen::Matrix3d>(filter_.covariance_at({})).solve(error()));
   }
-  FusionFilter& filter() { return filter_; }
+  MotionFilter& filter() { return filter_; }
   DrivenRobot& robot() { return robot_; }
 
  private:
   DrivenRobot robot_;
   ReadingGate gate_;
-  FusionFilter filter_;
+  MotionFilter filter_;
   Covariance3 fix_covariance_;
   int ticks_ = 0;
 };

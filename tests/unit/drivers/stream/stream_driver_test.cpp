@@ -62,8 +62,8 @@ struct Outcome {
   LidarStatus last;
 };
 
-Outcome run(Line& line, std::unique_ptr<StreamProtocol> protocol,
-            std::vector<std::uint32_t> rates) {
+Outcome run(Line& line, std::unique_ptr<StreamProtocol> protocol, std::vector<std::uint32_t> rates,
+            int seconds = 5) {
   rplidar::test::ManualClock clock;
   StreamDriver driver(
       {"/dev/lidar", std::move(rates), false}, std::move(protocol),
@@ -79,7 +79,7 @@ Outcome run(Line& line, std::unique_ptr<StreamProtocol> protocol,
       if (change.fault != LidarFault::kNone) outcome.hints[change.fault] = change.detail.view();
     }
     outcome.last = driver.status();
-    if (clock.now_ns > 5 * core::kNsPerSecond) stop.request_stop();
+    if (clock.now_ns > seconds * core::kNsPerSecond) stop.request_stop();
   };
   NoSamples sink;
   driver.run(stop.get_token(), sink);
@@ -108,6 +108,14 @@ TEST(StreamDriver, NoAnswerAtEverySpeed_NamesThemAll) {
   ASSERT_EQ(hints.size(), 1U);
   EXPECT_THAT(hints.at(LidarFault::kNoAnswer),
               HasSubstr("a YDLIDAR at 128000, 115200 baud (if not, set lidar.driver)"));
+}
+
+TEST(StreamDriver, SilenceOfALidarThatSendsByItself_MayBeAnother) {
+  Line line;
+  const auto hints = run(line, std::make_unique<ld::LdProtocol>(), {230'400, 921'600}, 9).hints;
+  EXPECT_THAT(hints.at(LidarFault::kNoData),
+              HasSubstr("check that it is an LD lidar at 230400, 921600 baud (if not, set "
+                        "lidar.driver), and that its motor turns"));
 }
 
 TEST(YdlidarProtocol, HealthRequestOfTheSdk_IsSentWhereTheManualsIsNotAnswered) {

@@ -139,5 +139,14 @@ TEST(PseudoTerminal, FileAtTheLinksPath_IsKept) {
   EXPECT_TRUE(std::filesystem::is_regular_file(link));
 }
 
+TEST(PseudoTerminal, LinkInMissingFolder_IsNamed) {
+  try {
+    const PseudoTerminal terminal("/nowhere/port");
+    ADD_FAILURE() << "made";
+  } catch (const std::system_error& error) {
+    EXPECT_EQ(std::string(error.what()).find("/nowhere/port: cannot be made"), 0u) << error.what();
+  }
+}
+
 }  // namespace
 }  // namespace cornerd::replay

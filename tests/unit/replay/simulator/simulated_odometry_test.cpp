@@ -6,7 +6,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "core/odometry/dead_reckoning.hpp"
+#include "calibration/dead_reckoning.hpp"
 #include "core/odometry/reading_gate.hpp"
 
 namespace cornerd::replay {
@@ -31,12 +31,13 @@ Motion square_drive() {
 }
 
 /// Final pose of dead reckoning with one heading source.
-core::Pose2 reckoned(const RobotModel& model, core::HeadingSource source, double duration_s) {
+core::Pose2 reckoned(const RobotModel& model, calibration::HeadingSource source,
+                     double duration_s) {
   SimulatedOdometry odometry(square_drive(), model, 7);
   core::OdometryConfig config;
   config.geometry = model.geometry;
   core::ReadingGate gate(config);
-  core::DeadReckoning reckoning(config.geometry, {source, {}});
+  calibration::DeadReckoning reckoning(config.geometry, {source, {}});
   while (odometry.next_ns() <= core::from_seconds(duration_s)) {
     if (const auto step = gate.add(odometry.next(), std::nullopt)) reckoning.add(*step);
   }
@@ -44,7 +45,8 @@ core::Pose2 reckoned(const RobotModel& model, core::HeadingSource source, double
 }
 
 TEST(SimulatedOdometry, ExactRobot_DeadReckoningEndsAtTheTruth) {
-  for (const auto source : {core::HeadingSource::kEncoder, core::HeadingSource::kGyro}) {
+  for (const auto source :
+       {calibration::HeadingSource::kEncoder, calibration::HeadingSource::kGyro}) {
     const core::Pose2 truth = square_drive()(core::from_seconds(30), 0);
     const core::Pose2 pose = reckoned(exact_robot(), source, 30);
     EXPECT_NEAR(pose.x_m, truth.x_m, 0.02);
@@ -57,8 +59,8 @@ TEST(SimulatedOdometry, WrappingCounts_ChangeNothing) {
   RobotModel wide = exact_robot();
   RobotModel narrow = exact_robot();
   narrow.geometry.counter_max = 999;
-  const core::Pose2 a = reckoned(wide, core::HeadingSource::kEncoder, 20);
-  const core::Pose2 b = reckoned(narrow, core::HeadingSource::kEncoder, 20);
+  const core::Pose2 a = reckoned(wide, calibration::HeadingSource::kEncoder, 20);
+  const core::Pose2 b = reckoned(narrow, calibration::HeadingSource::kEncoder, 20);
   EXPECT_NEAR(a.x_m, b.x_m, 1e-9);
   EXPECT_NEAR(a.theta_rad, b.theta_rad, 1e-9);
 }
@@ -100,7 +102,7 @@ TEST(SimulatedOdometry, Slips_AddCountsWithoutTravel) {
   RobotModel model = exact_robot();
   model.slips_per_m = 0.5;
   const core::Pose2 truth = square_drive()(core::from_seconds(60), 0);
-  const core::Pose2 pose = reckoned(model, core::HeadingSource::kEncoder, 60);
+  const core::Pose2 pose = reckoned(model, calibration::HeadingSource::kEncoder, 60);
   EXPECT_GT((pose.translation() - truth.translation()).norm(), 0.1);
 }
 

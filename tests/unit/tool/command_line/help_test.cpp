@@ -34,5 +34,14 @@ TEST(CornerctlUsage, GroupWithoutCommand_NamesItsCommands) {
   EXPECT_NE(run.err.find("noise, bias, mount, odometry"), std::string::npos) << run.err;
 }
 
+TEST(CornerctlUsage, OptionThatMustBePositive_SaysSo) {
+  for (const std::string value : {"X", "0", "-1"}) {
+    const CommandRun run({"map", "import", "plan.svg", "--scale", value, "-o", "map.json"});
+    EXPECT_EQ(run.exit_code, kExitUsage);
+    EXPECT_NE(run.err.find("--scale: must be a number above 0, not " + value), std::string::npos)
+        << run.err;
+  }
+}
+
 }  // namespace
 }  // namespace cornerd::tool

@@ -3,7 +3,10 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
+#include <csignal>
+#include <filesystem>
 #include <fstream>
 #include <map>
 #include <span>
@@ -179,6 +182,24 @@ TEST_F(CommandFilesTest, DrawingOnStandardOutput_HasNoOtherText) {
   EXPECT_EQ(run.exit_code, kExitDone) << run.err;
   EXPECT_THAT(run.out, testing::StartsWith("<svg"));
   EXPECT_FALSE(fs::exists("-"));
+}
+
+TEST(WriteFile, FullDisk_LeavesTheOldFileAlone) {
+  const test::TemporaryFolder folder;
+  const std::filesystem::path file = folder / "map.json";
+  write_file(file, "old");
+  rlimit before{};
+  ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &before), 0);
+  const auto old_handler = std::signal(SIGXFSZ, SIG_IGN);
+  const rlimit small{1000, before.rlim_max};
+  ::setrlimit(RLIMIT_FSIZE, &small);
+  EXPECT_THROW(write_file(file, std::string(100'000, 'x')), Failure);
+  ::setrlimit(RLIMIT_FSIZE, &before);
+  std::signal(SIGXFSZ, old_handler);
+  std::ostringstream text;
+  text << std::ifstream(file).rdbuf();
+  EXPECT_EQ(text.str(), "old");
+  EXPECT_FALSE(std::filesystem::exists(file.string() + ".part"));
 }
 
 }  // namespace

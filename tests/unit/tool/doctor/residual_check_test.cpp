@@ -40,10 +40,17 @@ TEST_F(CheckResiduals, MuchSmaller_AreNoted) {
   EXPECT_THAT(check(0.003), ElementsAre(Finds(Verdict::kNote, "noise", "more exact")));
 }
 
-TEST_F(CheckResiduals, FewScans_OrTheModelsNoise_AreNotJudged) {
-  EXPECT_THAT(check(0.043, 4), IsEmpty());
+TEST_F(CheckResiduals, FewScans_AreNotJudged) { EXPECT_THAT(check(0.043, 4), IsEmpty()); }
+
+TEST_F(CheckResiduals, NoNoiseInConfig_ThatOfTheModelIsCompared) {
   patient().config.lidar.noise = {};
-  EXPECT_THAT(check(0.3), IsEmpty());
+  patient().daemon.status.emplace().lidar_model = "S2M1";
+  EXPECT_THAT(check(0.006), ElementsAre(Finds(Verdict::kGood, "noise", "lidar's model: 6.5 mm")));
+  EXPECT_THAT(check(0.3), ElementsAre(Finds(Verdict::kNote, "noise", "less exact")));
+  patient().daemon.status->lidar_model = "A1M8";
+  EXPECT_THAT(check(0.008), ElementsAre(Finds(Verdict::kGood, "noise", "lidar's model: 10.0 mm")));
+  patient().daemon.status.reset();
+  EXPECT_THAT(check(0.008), ElementsAre(Finds(Verdict::kGood, "noise", "10.0 mm")));
 }
 
 TEST_F(CheckResiduals, NoMap_IsAnotherChecksFinding) {

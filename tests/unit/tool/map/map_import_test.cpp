@@ -91,6 +91,8 @@ TEST_F(MapImport, WrongInput_IsNamedByFileAndKey) {
     EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1);
     EXPECT_FALSE(std::filesystem::exists(path("room.json")));
   };
+  write("large.pgm", "P5\n300 300\n255\n" + std::string(90'000, '\xfe'));
+  expect("large.pgm", "name the yaml, not the picture");
   expect("no-image.yaml", "no-image.yaml: /image: ");
   expect("itself.yaml", "itself.yaml: is neither PGM");
   expect("short.yaml", "short.yaml: /resolution: is missing");

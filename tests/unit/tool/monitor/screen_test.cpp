@@ -136,6 +136,24 @@ q quit  + - zoom  l lidar's view  a ASCII         |------| 0.5 m
 )");
 }
 
+TEST_F(Screen, LidarView_OutlierDoesNotShrinkTheRoom) {
+  const auto scale_of = [this](double last_range_m) {
+    std::string angles;
+    std::string ranges;
+    for (int i = 0; i < 30; ++i) {
+      angles += (i == 0 ? "" : ",") + std::to_string(0.2 * i);
+      ranges += (i == 0 ? "" : ",") + std::to_string(i < 29 ? 0.5 : last_range_m);
+    }
+    state_.take_line(R"({"class":"SCAN","t":100.4,"duration":0.1,"angles":[)" + angles +
+                         R"(],"ranges":[)" + ranges + "]}",
+                     0);
+    const std::string screen = shown(64, 12);
+    return screen.substr(screen.find('|'));
+  };
+  choice_.lidar_view = true;
+  EXPECT_EQ(scale_of(11), scale_of(0.5));
+}
+
 TEST_F(Screen, AnySize_IsFilled) {
   receive_scan(kFixLine);
   for (std::size_t columns = 1; columns < 140; columns += 7) {

@@ -65,6 +65,31 @@ TEST_F(OdometryCommandTest, LinesWithoutOneWheel_GiveHint) {
               HasSubstr(R"("odometry":{"state":"absent","hint":"ODOMETRY lines lack left: )"));
 }
 
+TEST_F(OdometryCommandTest, Faults_AreNamedAsByTheDaemon) {
+  ASSERT_EQ(simulate({}, "200").exit_code, 0);
+  const auto last_status = [&](const std::string& file, const std::string& map) {
+    const std::string out =
+        CommandRun({"replay", file, "--map", map, "--set", "/odometry/source=socket"}).out;
+    return json::parse(out.substr(out.rfind("{\"class\":\"STATUS\"")));
+  };
+  const std::string wrong = folder_ / "wrong.ndjson";
+  rewrite(wrong, [](json& line) { line["left"] = "many"; });
+  const json refused = last_status(wrong, map_);
+  EXPECT_EQ(refused["faults"], json({"odometry-refused"}));
+  EXPECT_THAT(refused["odometry"]["hint"].get<std::string>(), HasSubstr("\"left\""));
+
+  const std::string mirrored = folder_ / "mirrored.json";
+  json map = json::parse(std::ifstream(map_), nullptr, true, /*ignore_comments=*/true);
+  for (json& wall : map["walls"]) {
+    for (const char* end : {"from", "to"}) wall[end][0] = -wall[end][0].get<double>();
+  }
+  map.erase("rooms");
+  std::ofstream(mirrored) << map;
+  EXPECT_EQ(last_status(recording_, mirrored)["faults"][0], "map-mirrored");
+  const CommandRun alone({"replay", recording_, "--map", mirrored, "--classes", "STATUS"});
+  EXPECT_THAT(alone.out, HasSubstr("\"faults\":[\"map-mirrored\"]"));
+}
+
 TEST_F(OdometryCommandTest, OdometryFile_OverridesRecording) {
   ASSERT_EQ(simulate({"--covered", "15,17"}).exit_code, 0);
   const std::string same = replay({"--set", "/odometry/source=socket"}).out;

@@ -59,6 +59,15 @@ TEST_F(SimulationOptionsTest, InvalidNumber_IsWrongUsage) {
   EXPECT_EQ(CommandRun({"emulate", "--map", map_, "--places", "-1"}).exit_code, kExitUsage);
 }
 
+TEST_F(SimulationOptionsTest, UnknownOption_IsNamedAlsoWhereARequiredOneIsMissing) {
+  const CommandRun misspelt({"simulate", "--map", map_, "--ouput", "a.bin"});
+  EXPECT_EQ(misspelt.exit_code, kExitUsage);
+  EXPECT_THAT(misspelt.err, testing::HasSubstr("--ouput"));
+  EXPECT_THAT(CommandRun({"simulate", "--map", map_}).err,
+              testing::HasSubstr("--output is required"));
+  EXPECT_EQ(CommandRun({"emulate", "--map", map_, "--covered", "3,9"}).exit_code, kExitUsage);
+}
+
 TEST_F(SimulationOptionsTest, TruthOverRecording_IsWrongUsage) {
   for (const std::string& same : {path("x.bin"), path("./x.bin"), path("a/../x.bin")}) {
     const CommandRun run = simulate({"--truth", same});
@@ -82,6 +91,14 @@ TEST_F(SimulationOptionsTest, PoseOutsideBuilding_IsWarnedAboutAndSimulated) {
   EXPECT_THAT(outside.err, HasSubstr("warning: 7.5,1 is outside the walls"));
   EXPECT_THAT(with({"--pose", "0,1,0"}).err, HasSubstr("warning: 0,1 is inside a wall"));
   EXPECT_THAT(with({"--path", "0.3,0.5 9,9"}).err, HasSubstr("warning: 9,9"));
+}
+
+TEST_F(SimulationOptionsTest, PathWithoutScans_IsDrivenOnce) {
+  // 3 m at 0.5 m/s and 7.3 Hz: 44 scans.
+  const CommandRun run({"simulate", "--map", CORNERD_SOURCE_DIR "/config/maps/flat-7.json",
+                        "--path", "1,4 4,4", "--drive-speed", "0.5", "-o", path("path.bin")});
+  EXPECT_EQ(run.exit_code, kExitDone);
+  EXPECT_THAT(run.err, HasSubstr(": 44 scans in "));
 }
 
 TEST_F(SimulationOptionsTest, PlaceWithMapErrorAndClutter_IsTheSameForTheSeed) {

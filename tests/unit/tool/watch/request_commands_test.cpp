@@ -60,6 +60,14 @@ TEST_F(RequestCommandTest, StatusAsText_HasStateSigmaAndHint) {
             "lidar running, 7.1 scans/s\n    no ODOMETRY line comes\n");
 }
 
+TEST_F(RequestCommandTest, OldPoseAsText_HasItsAge) {
+  std::string later = kStatus;
+  later.replace(later.find("12.6"), 4, "27.7");
+  const CommandRun status = run({"status", "--format", "text"},
+                                std::string(kPose) + later + "{\"class\":\"OK\",\"id\":1}\n");
+  EXPECT_THAT(status.out, testing::StartsWith("15 s old: 12.500 fix"));
+}
+
 TEST_F(RequestCommandTest, SetPose_SendsThePose) {
   const CommandRun sent = run({"set-pose", "--pose=-1.25,2,0.5"}, "{\"class\":\"OK\",\"id\":1}\n");
   EXPECT_EQ(sent.exit_code, 0) << sent.err;

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+#include "calibration/fault_list.hpp"
+
+#include <utility>
+
+namespace cornerd::calibration {
+namespace {
+
+/// Of the recent scans: in a map of another place hardly any scan has a pose, whereas among
+/// furniture and people that hide half of the walls some always have one.
+constexpr std::size_t kMost = RecentPoses::kScans * 95 / 100;
+
+std::string lost_hint(std::size_t lost, const core::FloorPlan* plan) {
+  if (plan == nullptr) {
+    return "the scans fit in none of the config's maps: check that the map of this place is one of "
+           "\"maps\", that the robot is inside it, and lidar.mount.inverted";
+  }
+  return std::to_string(lost) + " of the last " + std::to_string(RecentPoses::kScans) +
+         " scans fit nowhere in the map \"" + plan->name +
+         "\": check that it is the map of this place (not mirrored, in metres), that the robot is "
+         "inside it, and lidar.mount.inverted";
+}
+
+}  // namespace
+
+void FaultList::add(std::string_view name, std::string hint) {
+  if (names_.empty()) hint_ = std::move(hint);
+  names_.push_back(name);
+}
+
+bool is_outside(const core::WallMap& map, const core::Vec2& place) {
+  constexpr double kMargin_m = 1;
+  return (place - map.lower_left()).minCoeff() < -kMargin_m ||
+         (map.upper_right() - place).minCoeff() < -kMargin_m;
+}
+
+void RecentPoses::add(const core::PoseEstimate& pose, const core::WallMap* map) {
+  lost_ <<= 1;
+  lost_[0] = pose.state == core::PoseState::kLost;
+  outside_ <<= 1;
+  outside_[0] = map != nullptr && core::has_pose(pose.state) &&
+                is_outside(*map, pose.T_map_base.translation());
+}
+
+void FaultList::add_map(const std::optional<MapFinding>& finding, const RecentPoses& recent,
+                        const core::FloorPlan* plan) {
+  const bool is_mostly_lost = recent.lost() >= kMost;
+  if (finding && (is_mostly_lost || finding->fault != MapFault::kNoVariant)) {
+    add(name_of(*finding), describe(*finding, plan->name));
+  } else if (is_mostly_lost) {
+    add("map-mismatch", lost_hint(recent.lost(), plan));
+  }
+  // The scans fit: the lidar is inside.
+  if (recent.outside() >= kMost) {
+    add("outside-map",
+        "the robot's poses are more than a metre outside of the map, where the lidar is not: check "
+        "that lidar.mount is in metres, and that the map has all walls");
+  }
+}
+
+void FaultList::add_drive(const DriveFaults& drive, const OdometryNames& names,
+                          const core::OdometrySummary& odometry) {
+  for (const std::string_view name : names_of(drive)) add(name, describe(drive, names));
+  if (!drive.any() && odometry.present && !odometry.healthy) {
+    add("odometry-unhealthy",
+        "the odometry contradicts the lidar and is not used: drive a minute, straight and with "
+        "rotations both ways; if no reason is named here by then, check wheel_radius, track, "
+        "counts_per_turn, the signs and times of the counts, lidar.mount, and whether wheels slip");
+  }
+}
+
+}  // namespace cornerd::calibration

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <bitset>
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "calibration/drive_fault_text.hpp"
+#include "calibration/map_faults.hpp"
+#include "core/map/wall_map.hpp"
+#include "core/odometry/odometry_summary.hpp"
+#include "core/pose_estimate.hpp"
+
+namespace cornerd::calibration {
+
+/// More than a metre from the box around the map's walls: further out than in front of a door.
+bool is_outside(const core::WallMap& map, const core::Vec2& place);
+
+/// Of the newest scans in one map: about 15 s of an A1.
+class RecentPoses {
+ public:
+  static constexpr std::size_t kScans = 100;
+
+  /// `map`: null where it is not known which of several maps the robot is in.
+  void add(const core::PoseEstimate& pose, const core::WallMap* map);
+  std::size_t lost() const { return lost_.count(); }
+  std::size_t outside() const { return outside_.count(); }
+
+ private:
+  std::bitset<kScans> lost_;  ///< newest first
+  std::bitset<kScans> outside_;
+};
+
+/// What is wrong between lidar and pose, in the order of weight: the faults of STATUS, and a hint
+/// for a person about the first.
+class FaultList {
+ public:
+  void add(std::string_view name, std::string hint);
+  /// Of the scans in `plan`, which is null where it is not known which of several maps the robot is
+  /// in.
+  void add_map(const std::optional<MapFinding>& finding, const RecentPoses& recent,
+               const core::FloorPlan* plan);
+  /// `names`: of the remedies of `drive`.
+  void add_drive(const DriveFaults& drive, const OdometryNames& names,
+                 const core::OdometrySummary& odometry);
+
+  std::span<const std::string_view> names() const { return names_; }
+  /// One sentence; empty if there is no fault.
+  const std::string& hint() const { return hint_; }
+
+ private:
+  std::vector<std::string_view> names_;
+  std::string hint_;
+};
+
+}  // namespace cornerd::calibration

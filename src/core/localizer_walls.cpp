@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: MIT
+// Poses by walls whose offsets from the map are learned.
+#include <algorithm>
+
+#include "core/localizer_workspace.hpp"
+
+namespace cornerd::core {
+namespace {
+
+/// The walls' offsets move a pose by this much at most; the rest is another place.
+constexpr double kMaxMove_m = 0.1;
+constexpr double kMaxMove_rad = radians(3);
+/// Error of a pose that was refined without the learned offsets.
+constexpr double kLearnedRadius_m = 0.02;
+/// Scans from one place err together: the next one counts after a motion of this much.
+constexpr double kNextPlace_m = 0.1;
+constexpr double kNextPlace_rad = radians(10);
+/// Scans that are less certain than this or worse explained teach nothing: posterior of another
+/// pose; reduced chi-square, which a motion raises; share of the points on walls; pose.
+constexpr double kMaxWrong = 1e-5;
+constexpr double kMaxSpread = 1.4;
+constexpr double kMinShare = 0.5;
+constexpr double kMaxSigma_m = 0.05;
+/// Scans in a row that named the place where the last one led to expect it: 1.4 s.
+constexpr std::size_t kMinNamed = 10;
+
+}  // namespace
+
+const WallOffsetFilter* Localizer::walls() const {
+  return workspace_->place && workspace_->place->walls ? &*workspace_->place->walls : nullptr;
+}
+
+const WallMap* Localizer::map() const { return workspace_->map.get(); }
+
+std::span<const MapChange> Localizer::map_changes() const {
+  if (walls() == nullptr) return {};
+  return workspace_->place->changes->changes();
+}
+
+bool Localizer::resume(const LearnedWalls& learned) {
+  return walls() != nullptr && workspace_->place->walls->resume(learned);
+}
+
+bool Localizer::Workspace::Place::learns_walls(const FloorPlan& plan) {
+  return plan.sigma_m > FloorPlan{}.sigma_m ||
+         std::any_of(plan.walls.begin(), plan.walls.end(),
+                     [](const Wall& wall) { return wall.sigma_m.has_value(); });
+}
+
+bool Localizer::Workspace::is_certain(const RefinedPose& refined) const {
+  const double on_walls = static_cast<double>(refined.inliers);
+  const double variance_m2 = refined.covariance(0, 0) + refined.covariance(1, 1);
+  return named_in_a_row >= kMinNamed && result.pose.p_wrong < kMaxWrong &&
+         refined.reduced_chi_square < kMaxSpread &&
+         on_walls > kMinShare * static_cast<double>(points.size()) &&
+         variance_m2 < kMaxSigma_m * kMaxSigma_m;
+}
+
+bool Localizer::Workspace::teaches_walls(const RefinedPose& refined) const {
+  return is_certain(refined) && !(T_map_taught && same_pose(*T_map_taught, refined.T_map_lidar,
+                                                            kNextPlace_m, kNextPlace_rad));
+}
+
+RefinedPose Localizer::Workspace::refined_by_walls(const VerifiedHypothesis& found, TimeNs t_ns) {
+  const bool is_next = prior_is_fresh(t_ns) && is_expected(found.refined.T_map_lidar, t_ns);
+  named_in_a_row = is_next ? named_in_a_row + 1 : 0;
+  if (!place->walls) return found.refined;
+  WallOffsetFilter& walls = *place->walls;
+  RefinedPose refined = place->refinement.refine(
+      *map, found.refined.T_map_lidar, kLearnedRadius_m, points.points(), points.points(),
+      noise_scale(), std::max(found.map_sigma_m, map->plan().sigma_m), nullptr, &walls);
+  if (!refined.valid ||
+      !same_pose(refined.T_map_lidar, found.refined.T_map_lidar, kMaxMove_m, kMaxMove_rad)) {
+    return found.refined;
+  }
+  const bool is_learned = walls.size() > 0;
+  if (is_certain(refined)) {
+    place->changes->add(*map, refined.T_map_lidar, points.points(), map->plan().sigma_m, t_ns);
+  }
+  if (teaches_walls(refined)) {
+    walls.learn(refined.covariance / std::max(1.0, refined.reduced_chi_square));
+    T_map_taught = refined.T_map_lidar;
+  }
+  // Ends of walls tell something of a pose too, though nothing of the walls.
+  if (!is_learned) return found.refined;
+  // Whether the map is exact is asked of its own walls.
+  refined.face_residuals = found.refined.face_residuals;
+  return refined;
+}
+
+}  // namespace cornerd::core

@@ -1,0 +1,228 @@
+// SPDX-License-Identifier: MIT
+#include "core/odometry/motion_filter.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/geometry/squared.hpp"
+
+namespace cornerd::core {
+namespace {
+
+/// Chi-square, 1 degree of freedom, probability 1e-4.
+constexpr double kSlipGate = 15.1;
+/// How much likelier it is that the wheel that turned more slipped than the other one: a share of
+/// the correlation.
+constexpr double kLikelier = 0.94;
+/// Where a tyre touches the floor wanders with every rotation on the spot.
+constexpr double kScrub_rad_per_sqrt_rad = 0.001;
+/// Bounds of the calibration; of scales in sigma of their priors: more is a wrong setting.
+constexpr double kMostSigmas = 15;
+constexpr double kMostBias_rad_s = 0.5;
+constexpr double kMostDelay_s = 0.2;
+
+}  // namespace
+
+MotionFilter::MotionFilter(const OdometryConfig& config)
+    : geometry_(config.geometry),
+      noise_(config.noise),
+      factor_(config.geometry, config.initial),
+      // Fixes in a growing map share errors: what they show seems smaller than it is.
+      wheel_noise_(8, config.conservative ? 0.1 : 1, 25),
+      gyro_noise_(4, config.conservative ? 0.3 : 1, 25),
+      fix_place_(10, config.conservative ? 0.06 : 1, 1),
+      fix_heading_(5, config.conservative ? 0.03 : 1, 1) {
+  const OdometryParameters& initial = config.initial;
+  state_.segment<5>(kBias) << initial.gyro_bias_rad_s, initial.left_scale, initial.right_scale,
+      initial.track_scale, initial.gyro_scale;
+  state_[kDelay] = initial.delay_s;
+  Vector sigma = Vector::Zero();
+  sigma.segment<5>(kBias) << noise_.gyro_bias_rad_s, noise_.wheel_scale, noise_.wheel_scale,
+      noise_.track_scale, noise_.gyro_scale;
+  sigma.segment<2>(kLeftRest).setConstant(std::sqrt(geometry_.quantization_variance()));
+  sigma[kDelay] = noise_.delay_s;
+  covariance_.diagonal() = sigma.cwiseAbs2();
+  most_scale_ = kMostSigmas * sigma.segment<4>(kLeft);
+  factor_ = factor(kSlipTail);
+}
+
+Eigen::Matrix3d MotionFilter::rotation_of(double theta_rad) {
+  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
+  rotation(0, 0) = rotation(1, 1) = std::cos(theta_rad);
+  rotation(1, 0) = std::sin(theta_rad);
+  rotation(0, 1) = -rotation(1, 0);
+  return rotation;
+}
+
+MotionFactor MotionFilter::factor(double slip_tail) const {
+  const double wheel = wheel_noise_.factor();
+  return {geometry_,
+          parameters(),
+          {.wheel_m2_per_m = wheel * squared(noise_.wheel_m_per_sqrt_m),
+           .scrub_rad2_per_rad = wheel * squared(kScrub_rad_per_sqrt_rad),
+           .slip_rad2_per_m = has_gyro_ ? 0 : slip_tail * slip_rate_.rad2_per_m(),
+           .gyro_rad2_per_s = gyro_noise_.factor() * squared(noise_.gyro_rad_s_per_sqrt_hz)}};
+}
+
+void MotionFilter::add(const OdometryIncrement& step) {
+  if (step.has_gyro != has_gyro_ || step.is_gap) advance();
+  if (step.is_gap) return predict_gap(step.duration_s());
+  if (factor_.duration_s() == 0) {
+    has_gyro_ = step.has_gyro;
+    factor_ = factor(kSlipTail);  // by the parameters of now
+  }
+  factor_.add(step);
+}
+
+void MotionFilter::advance() {
+  const double dt_s = factor_.duration_s();
+  if (!(dt_s > 0)) return;
+  const Pose2 motion = factor_.motion();
+  const MotionFactor::Covariance& noise = factor_.covariance();
+  const double rate_rad_s = factor_.rotation_rad() / dt_s;
+  const double jitter_rad2 = 2 * jitter_.variance_s2() * squared(rate_rad_s);
+  // Second-order terms of the scales (Bar-Shalom et al. 2001, 10.3.2), while they are uncertain.
+  const double second_order_rad2 =
+      2 * squared(factor_.rotation_rad()) *
+      (squared(covariance_(kTrack, kTrack)) + squared(covariance_(kGyro, kGyro)));
+
+  MotionFactor::Jacobian by = factor_.jacobian();
+  const MotionFactor::EndSlope by_rest = factor_.end_slope();
+  const double rest_m2 = geometry_.quantization_variance();
+  if (!factor_.is_counted()) {
+    // There is no rotation that a scale could have scaled, but noise.
+    by(2, MotionFactor::kGyro) = by(3, MotionFactor::kTrack) = 0;
+  } else if (has_gyro_) {
+    // Slopes by the scales at the rotation that both measure: at each one's own they would be
+    // correlated with its noise, and the scales biased (errors in variables).
+    const double gyro_rad2 = noise(2, 2) + jitter_rad2;
+    const double wheel_rad2 = noise(3, 3) + 4 * rest_m2 / squared(geometry_.track_m);
+    const double rotation_rad =
+        (wheel_rad2 * factor_.rotation_rad() + gyro_rad2 * factor_.wheel_rotation_rad()) /
+        (wheel_rad2 + gyro_rad2);
+    by(2, MotionFactor::kGyro) = -rotation_rad / (1 + state_[kGyro]);
+    by(3, MotionFactor::kTrack) = -rotation_rad / (1 + state_[kTrack]);
+  }
+
+  const Eigen::Matrix3d rotation = rotation_of(state_[kTheta]);
+  const Eigen::Vector3d way = rotation * Eigen::Vector3d(motion.x_m, motion.y_m, 0);
+  Matrix transition = Matrix::Identity();
+  transition(kX, kTheta) = -way.y();
+  transition(kY, kTheta) = way.x();
+  transition.block<3, 7>(kX, kBias) = rotation * by.topRows<3>();
+  transition.diagonal().segment<2>(kLeftRest).setZero();
+  Eigen::Matrix<double, kSize, 2> rests = Eigen::Matrix<double, kSize, 2>::Zero();
+  rests.topRows<3>() = rotation * by_rest.topRows<3>();
+  rests.middleRows<2>(kLeftRest).setIdentity();
+
+  // Of the wheels' rotation less the gyro's, and with the state.
+  Eigen::RowVector<double, kSize> difference_by = Eigen::RowVector<double, kSize>::Zero();
+  difference_by.segment<7>(kBias) = by.row(3) - by.row(2);
+  const Eigen::Vector2d difference_by_rest = (by_rest.row(3) - by_rest.row(2)).transpose();
+  const Vector state_with_difference = covariance_ * difference_by.transpose();
+  Vector with_difference =
+      transition * state_with_difference + rest_m2 * rests * difference_by_rest;
+  with_difference.head<3>() += rotation * (noise.block<3, 1>(0, 3) - noise.block<3, 1>(0, 2));
+  const double difference_rad2 = difference_by.dot(state_with_difference) + noise(2, 2) +
+                                 noise(3, 3) - 2 * noise(2, 3) + jitter_rad2 + second_order_rad2 +
+                                 rest_m2 * difference_by_rest.squaredNorm();
+
+  covariance_ =
+      transition * covariance_ * transition.transpose() + rest_m2 * rests * rests.transpose();
+  covariance_.topLeftCorner<3, 3>() +=
+      rotation * noise.topLeftCorner<3, 3>() * rotation.transpose();
+  covariance_.diagonal().segment<5>(kBias) +=
+      dt_s * Eigen::Vector<double, 5>(noise_.bias_rad_s_per_sqrt_s, noise_.scale_per_sqrt_s,
+                                      noise_.scale_per_sqrt_s, noise_.scale_per_sqrt_s,
+                                      noise_.scale_per_sqrt_s)
+                 .cwiseAbs2();
+  covariance_(kDelay, kDelay) += dt_s * squared(noise_.delay_s_per_sqrt_s);
+  const MotionFactor::Column of_rests = by.rightCols<2>() * state_.segment<2>(kLeftRest);
+  state_.head<3>() += way + rotation * of_rests.head<3>();
+  state_[kTheta] += factor_.rotation_rad();
+  state_.segment<2>(kLeftRest).setZero();
+
+  wheel_rad2_ += noise(3, 3) / wheel_noise_.factor();
+  gyro_rad2_ += squared(noise_.gyro_rad_s_per_sqrt_hz) * dt_s;
+  rolled_m_ += factor_.rolled_m();
+  ++scans_;
+  if (has_gyro_) {
+    const double difference_rad =
+        factor_.wheel_rotation_rad() - factor_.rotation_rad() + of_rests[3] - of_rests[2];
+    compare_rotations(difference_rad, difference_rad2, with_difference);
+  }
+  keep_in_bounds();
+  factor_ = factor(kSlipTail);
+}
+
+void MotionFilter::compare_rotations(double difference_rad, double variance,
+                                     Vector with_difference) {
+  if (!(variance > 0)) return;
+  const double rate_rad_s = factor_.rotation_rad() / factor_.duration_s();
+  const double jitter_rad2 = 2 * jitter_.variance_s2() * squared(rate_rad_s);
+  jitter_.add(difference_rad, rate_rad_s, variance - jitter_rad2);
+  rotations_ = {squared(difference_rad), variance,
+                std::max(squared(factor_.rotation_rad()), squared(factor_.wheel_rotation_rad()))};
+  double robust_variance = variance;
+  if (squared(difference_rad) > kSlipGate * variance) {
+    // The travel of one wheel is wrong by as much, most likely of the one that turned more: the
+    // difference measures the mean travel as well.
+    ++slips_;
+    const double slip_m = std::abs(difference_rad) * geometry_.track_m / 2;
+    const bool is_right = factor_.motion().x_m * factor_.wheel_rotation_rad() > 0;
+    const Vec2 along = unit_vector(state_[kTheta] - factor_.rotation_rad() / 2);
+    covariance_.topLeftCorner<2, 2>() += squared(slip_m) * along * along.transpose();
+    with_difference.head<2>() +=
+        kLikelier * (is_right ? slip_m : -slip_m) * std::abs(difference_rad) * along;
+    robust_variance += squared(difference_rad);
+  } else if (factor_.is_counted()) {
+    const double wheel_rad2 = factor_.covariance()(3, 3);
+    wheel_noise_.add(squared(difference_rad), wheel_rad2 / wheel_noise_.factor(),
+                     variance - wheel_rad2);
+  }
+  const Vector gain = with_difference / robust_variance;
+  state_ -= gain * difference_rad;
+  covariance_ -= gain * with_difference.transpose();
+}
+
+void MotionFilter::predict_gap(double duration_s) {
+  doubt_times();
+  const double place_m2 = squared(kUnknown_m_s * duration_s);
+  covariance_.diagonal().head<3>() +=
+      Eigen::Vector3d(place_m2, place_m2, squared(std::min(kUnknown_rad_s * duration_s, kPi)));
+}
+
+void MotionFilter::doubt_times() { covariance_(kDelay, kDelay) += squared(noise_.delay_s); }
+
+Pose2 MotionFilter::motion_of(const OdometryIncrement& step) const {
+  MotionFactor one(geometry_, parameters());
+  one.add(step);
+  return one.motion();
+}
+
+OdometryParameters MotionFilter::parameters() const {
+  return {state_[kBias],  state_[kLeft], state_[kRight],
+          state_[kTrack], state_[kGyro], state_[kDelay]};
+}
+
+OdometryParameters MotionFilter::sigma() const {
+  const Vector sigma = covariance_.diagonal().cwiseSqrt();
+  return {sigma[kBias], sigma[kLeft], sigma[kRight], sigma[kTrack], sigma[kGyro], sigma[kDelay]};
+}
+
+bool MotionFilter::is_in_bounds() const {
+  return (state_.segment<2>(kLeft).array().abs() < most_scale_.head<2>().array()).all();
+}
+
+void MotionFilter::keep_in_bounds() {
+  state_[kTheta] = normalize_angle(state_[kTheta]);
+  state_[kBias] = std::clamp(state_[kBias], -kMostBias_rad_s, kMostBias_rad_s);
+  state_[kDelay] = std::clamp(state_[kDelay], -kMostDelay_s, kMostDelay_s);
+  state_.segment<4>(kLeft) = state_.segment<4>(kLeft).cwiseMax(-most_scale_).cwiseMin(most_scale_);
+  // Rounding leaves a symmetric matrix symmetric to the last bits alone.
+  covariance_ = ((covariance_ + covariance_.transpose()) / 2).eval();
+  covariance_.diagonal().head<kDelay>() = covariance_.diagonal().head<kDelay>().cwiseMax(1e-14);
+  covariance_(kDelay, kDelay) = std::max(covariance_(kDelay, kDelay), 0.0);
+}
+
+}  // namespace cornerd::core

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <utility>
+
+#include <Eigen/Core>
+
+#include "core/geometry/pose2.hpp"
+#include "core/odometry/cusum.hpp"
+#include "core/odometry/jitter_meter.hpp"
+#include "core/odometry/motion_factor.hpp"
+#include "core/odometry/noise_meter.hpp"
+#include "core/odometry/odometry_config.hpp"
+#include "core/odometry/odometry_increment.hpp"
+#include "core/odometry/slip_rate.hpp"
+
+namespace cornerd::core {
+
+/// An extended Kalman filter over the pose of `base` in `map` and the calibration, a slow random
+/// walk: gyro bias b, wheel scales l and r, track scale t, gyro scale g, the wheels' positions
+/// within their counts, and the delay of the readings. Predicted once a scan by a MotionFactor; a
+/// fix of the lidar is a measurement of the pose at its own time. Process and measurement noise
+/// adapt to the innovations (Mehra 1970). Fixed size, no allocation. Metres, radians, seconds.
+class MotionFilter {
+ public:
+  /// kLeftRest, kRightRest: metres that a wheel has rolled beyond the middle of its count.
+  enum Index : std::uint8_t {
+    kX,
+    kY,
+    kTheta,
+    kBias,
+    kLeft,
+    kRight,
+    kTrack,
+    kGyro,
+    kLeftRest,
+    kRightRest,
+    kDelay,
+    kSize
+  };
+  using Vector = Eigen::Matrix<double, kSize, 1>;
+  using Matrix = Eigen::Matrix<double, kSize, kSize>;
+
+  explicit MotionFilter(const OdometryConfig& config);
+
+  /// Takes an increment that begins where the last one ended. advance() predicts by them.
+  void add(const OdometryIncrement& step);
+  /// Predicts the state to the end of the last increment; the wheels' rotation is a second
+  /// measurement of the gyro's.
+  void advance();
+
+  /// A time of the lidar relative to the filter: `lead_s` after the end of the last increment by
+  /// the estimated delay, negative before it; `velocity` of `base` then.
+  struct Epoch {
+    double lead_s = 0;
+    Twist2 velocity;
+    /// The scan then is deskewed by the filter's own sensors.
+    bool is_deskewed = false;
+  };
+  Pose2 pose_at(const Epoch& epoch) const;
+  /// Of pose_at(), with the delay's uncertainty and the jitter of the readings' times.
+  Covariance3 covariance_at(const Epoch& epoch) const;
+
+  /// Starts from this pose; the calibration stays.
+  void set_pose(const Pose2& T_map_base, const Covariance3& covariance, const Epoch& epoch);
+  /// Updates the state by a fix. False, and nothing changed, where its NIS is one that a true fix
+  /// exceeds once in a million.
+  bool correct(const Pose2& T_map_base, const Covariance3& covariance, const Epoch& epoch);
+
+  /// The times of the readings are those of another clock from now on.
+  void doubt_times();
+
+  /// The motion of `base` in an increment, by the estimated calibration.
+  Pose2 motion_of(const OdometryIncrement& step) const;
+  /// Factor of a motion from now on, by the calibration and noise estimated. `slip_tail`: of the
+  /// mean square of slips.
+  MotionFactor factor(double slip_tail = 1) const;
+
+  OdometryParameters parameters() const;
+  /// False where the scale of a wheel is one that no setting that is right could need. (A tracked
+  /// vehicle turns as one of nearly twice its track.)
+  bool is_in_bounds() const;
+  OdometryParameters sigma() const;
+  Pose2 pose() const { return {state_[kX], state_[kY], state_[kTheta]}; }
+  const Matrix& covariance() const { return covariance_; }
+  /// Variance of the readings' times, s^2.
+  double jitter_s2() const { return jitter_.variance_s2(); }
+  /// The rotation is the gyro's.
+  bool has_gyro() const { return has_gyro_; }
+  /// The wheels' rotation against the gyro's in the last advance() that had both.
+  struct Comparison {
+    double error2 = 0;
+    double variance = 0;
+    double motion2 = 0;
+  };
+  Comparison take_comparison() { return std::exchange(rotations_, {}); }
+  /// Scans in which the wheels' rotation was not the gyro's.
+  std::uint64_t slips() const { return slips_; }
+
+ private:
+  /// Slips are rare and large: a covariance with their mean square is exceeded by each of them.
+  static constexpr double kSlipTail = 4;
+  /// What a robot may do in a time of which nothing is known.
+  static constexpr double kUnknown_m_s = 0.5;
+  static constexpr double kUnknown_rad_s = 1.5;
+
+  using Measurement = Eigen::Matrix<double, 3, kSize>;
+  /// Of x and y; theta stays.
+  static Eigen::Matrix3d rotation_of(double theta_rad);
+  Measurement jacobian_at(const Epoch& epoch) const;
+  Eigen::Vector3d velocity_in_map(const Epoch& epoch) const;
+  void predict_gap(double duration_s);
+  void compare_rotations(double difference_rad, double variance, Vector with_difference);
+  void adapt(const Eigen::Vector3d& innovation, const Covariance3& known, bool is_deskewed);
+  void detect_changes(const Measurement& with_state, const Covariance3& innovation_covariance,
+                      const Eigen::Vector3d& innovation);
+  void keep_in_bounds();
+
+  DriveGeometry geometry_;
+  OdometryNoise noise_;
+  Eigen::Vector4d most_scale_;  ///< from kLeft to kGyro
+  Vector state_ = Vector::Zero();
+  Matrix covariance_ = Matrix::Zero();
+  MotionFactor factor_;
+  std::uint64_t slips_ = 0;
+  Comparison rotations_;
+
+  // Factors of variances as configured, and the variance of the heading by each since the last fix.
+  NoiseMeter wheel_noise_;
+  NoiseMeter gyro_noise_;
+  NoiseMeter fix_place_;
+  NoiseMeter fix_heading_;
+  double wheel_rad2_ = 0;
+  double gyro_rad2_ = 0;
+  double rolled_m_ = 0;
+  int scans_ = 0;
+  bool has_gyro_ = false;
+  SlipRate slip_rate_;
+  JitterMeter jitter_;
+  std::array<Cusum, kSize> cusums_;
+};
+
+}  // namespace cornerd::core

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: MIT
+#include "core/odometry/motion_trust.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/geometry/squared.hpp"
+
+namespace cornerd::core {
+namespace {
+
+/// Of a right sensor's motions: slips, and robots that are carried.
+constexpr double kOutliers = 0.05;
+/// Between two comparisons a sensor breaks, or is mended.
+constexpr double kChanges = 1e-4;
+/// Log odds are kept within this, so that a sensor that breaks is noticed by two motions.
+constexpr double kMostLogOdds = 7;
+/// Log odds of wheels and gyro after a fix: they may differ in five scans, by slip.
+constexpr double kAgreement = 15;
+/// Share of the evidence against a sensor that a comparison can give at most.
+constexpr double kSurely = 0.8;
+/// Needed to carry a motion that is not small.
+constexpr double kTrusted = 0.99;
+/// Wheels beside a gyro that is right may slip a few times in a row.
+constexpr double kSlipping = 0.02;
+constexpr double kSmall_m = 0.04;
+constexpr double kSmall_rad = radians(3);
+/// What a fix may be off by beyond its covariance, as in MotionFilter, and what a scan's motion.
+constexpr double kFloor_m = 0.003;
+constexpr double kFloor_rad = 0.003;
+/// Unevenness of a motion within an increment that a fix divides.
+constexpr double kUneven_m_s = 0.07;
+constexpr double kUneven_rad_s = 0.2;
+
+}  // namespace
+
+double SensorTrust::evidence(double error2, double variance, double motion2) {
+  const double wrong_variance = variance + motion2;
+  const auto density = [&](double of_variance) {
+    return std::exp(-error2 / (2 * of_variance)) / std::sqrt(of_variance);
+  };
+  const double wrong = std::max(density(wrong_variance), 1e-300);
+  const double right = (1 - kOutliers) * density(variance) + kOutliers * wrong;
+  return std::log(right / wrong);
+}
+
+void SensorTrust::add(double error2, double variance, double motion2) {
+  log_odds_ += evidence(error2, variance, motion2);
+  const double p = std::clamp(p_right(), kChanges, 1 - kChanges);
+  log_odds_ = std::clamp(std::log(p / (1 - p)), -kMostLogOdds, kMostLogOdds);
+}
+
+double SensorTrust::p_right() const { return 1 / (1 + std::exp(-log_odds_)); }
+
+void MotionTrust::add(const OdometryIncrement& step, const MotionFilter& filter) {
+  if (step.is_gap) return interrupt();
+  MotionFactor one = filter.factor();
+  one.add(step);
+  const MotionFactor::Covariance& noise = one.covariance();
+  const Pose2 motion = one.motion();
+  travel_m_.measured += std::copysign(motion.translation().norm(), motion.x_m);
+  travel_m_.noise += noise(0, 0) + noise(1, 1);
+  wheel_rad_.measured += one.wheel_rotation_rad();
+  wheel_rad_.noise += noise(3, 3);
+  has_gyro_ = step.has_gyro;
+  gyro_rad_.measured += one.rotation_rad();
+  gyro_rad_.noise += noise(2, 2);
+  may_be_stuck_ = may_be_stuck_ || (step.has_gyro && step.gyro_may_be_stuck);
+  longest_s_ = std::max(longest_s_, step.duration_s());
+  duration_s_ += step.duration_s();
+  travel_since_fix_m_ += motion.translation().norm();
+  rotation_since_fix_rad_ += one.rotation_rad();
+}
+
+void MotionTrust::compare(Sum& sum, SensorTrust& trust, double end_variance, double calibration,
+                          double least) {
+  const double motion2 = std::max(squared(sum.measured), squared(sum.seen));
+  if (motion2 < squared(least)) return;
+  trust.add(squared(sum.measured - sum.seen),
+            sum.noise + sum.end_variance + end_variance + calibration * motion2, motion2);
+  sum = {.end_variance = end_variance};
+}
+
+void MotionTrust::add_comparison(const MotionFilter::Comparison& rotations) {
+  if (!(rotations.variance > 0)) return;
+  const double evidence =
+      SensorTrust::evidence(rotations.error2, rotations.variance, rotations.motion2);
+  agreement_ = std::min(agreement_ + evidence, kAgreement);
+  // A gyro that says the same to the bit, and surely not what the wheels say, is no slip.
+  if (may_be_stuck_ && evidence < kSurely * std::log(kOutliers)) agreement_ = 0;
+}
+
+void MotionTrust::add_fix(const Pose2& T_map_base, const Covariance3& covariance,
+                          const MotionFilter& filter) {
+  const double count_m2 = geometry_.quantization_variance();
+  const double gyro_rad2 =
+      covariance(2, 2) + squared(kFloor_rad) + squared(kUneven_rad_s * longest_s_);
+  const double wheel_rad2 = gyro_rad2 + 2 * count_m2 / squared(geometry_.track_m);
+  const double travel_m2 = covariance.topLeftCorner<2, 2>().trace() + squared(kFloor_m) +
+                           squared(kUneven_m_s * longest_s_) + count_m2 / 2;
+  longest_s_ = 0;
+  may_be_stuck_ = false;
+  travel_since_fix_m_ = rotation_since_fix_rad_ = 0;
+  agreement_ = kAgreement;
+  if (!has_fix_) {
+    travel_m_ = {.end_variance = travel_m2};
+    wheel_rad_ = {.end_variance = wheel_rad2};
+    gyro_rad_ = {.end_variance = gyro_rad2};
+    duration_s_ = 0;
+    has_fix_ = true;
+    T_map_fix_ = T_map_base;
+    return;
+  }
+  const Pose2 seen = T_map_fix_.inverse() * T_map_base;
+  T_map_fix_ = T_map_base;
+  travel_m_.seen += std::copysign(seen.translation().norm(), seen.x_m);
+  wheel_rad_.seen += seen.theta_rad;
+  gyro_rad_.seen += seen.theta_rad;
+  const OdometryParameters sigma = filter.sigma();
+  const double scale2 = squared(sigma.left_scale) + squared(sigma.right_scale);
+  gyro_rad_.noise += squared(sigma.gyro_bias_rad_s * duration_s_);
+  duration_s_ = 0;
+  compare(travel_m_, travel_, travel_m2, scale2 / 2, kSmall_m);
+  compare(wheel_rad_, wheel_rotation_, wheel_rad2, scale2 + squared(sigma.track_scale), kSmall_rad);
+  if (has_gyro_) {
+    compare(gyro_rad_, gyro_rotation_, gyro_rad2, squared(sigma.gyro_scale), kSmall_rad);
+  }
+}
+
+bool MotionTrust::uses_gyro() const {
+  return gyro_rotation_.p_right() >= 0.5 || wheel_rotation_.p_right() < gyro_rotation_.p_right();
+}
+
+double MotionTrust::p_rotation() const {
+  return has_gyro_ && uses_gyro() ? gyro_rotation_.p_right() : wheel_rotation_.p_right();
+}
+
+bool MotionTrust::is_healthy() const {
+  return travel_.p_right() >= 0.5 && p_rotation() >= 0.5 && wheel_rotation_.p_right() >= kSlipping;
+}
+
+bool MotionTrust::carries() const {
+  return agreement_ > 0 &&
+         (std::abs(travel_since_fix_m_) < kSmall_m || travel_.p_right() > kTrusted) &&
+         (std::abs(rotation_since_fix_rad_) < kSmall_rad || p_rotation() > kTrusted);
+}
+
+}  // namespace cornerd::core

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include "core/estimate/wall_offset_filter.hpp"
+
+namespace cornerd::settings {
+
+/// What the daemon learned of a map's walls, kept in a file for the next run.
+struct LearnedWallsOfMap {
+  std::string map_hash;  ///< FloorPlan::hash
+  core::LearnedWalls walls;
+};
+
+inline constexpr std::size_t kMaxLearnedWallsBytes = 2U << 20U;
+
+/// "walls-HASH.json", with the first digits of the map's hash.
+std::string learned_walls_name(std::string_view map_hash);
+
+/// `file` names it in errors. Throws SettingsError.
+LearnedWallsOfMap parse_learned_walls(std::string_view text, const std::filesystem::path& file);
+std::string text_of(const LearnedWallsOfMap& learned);
+
+}  // namespace cornerd::settings

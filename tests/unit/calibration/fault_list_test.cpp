@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+#include "calibration/fault_list.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace cornerd::calibration {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+core::WallMap flat() {
+  core::FloorPlan plan;
+  plan.name = "flat";
+  plan.walls = {{{0, 0}, {4, 0}, 0.1}, {{4, 0}, {4, 3}, 0.1}};
+  return core::WallMap(plan);
+}
+
+/// The last hundred scans: `lost` of them, the others at `x_m`.
+RecentPoses recent(std::size_t lost, const core::WallMap& map, double x_m = 1) {
+  RecentPoses poses;
+  for (std::size_t i = 0; i < 150; ++i) {
+    core::PoseEstimate pose;
+    pose.state = i < 50 || i >= 50 + lost ? core::PoseState::kFix : core::PoseState::kLost;
+    pose.T_map_base.x_m = x_m;
+    poses.add(pose, &map);
+  }
+  return poses;
+}
+
+TEST(FaultList, MostlyLost_IsMismatchUntilAVariantFits) {
+  const core::WallMap map = flat();
+  FaultList few;
+  few.add_map({}, recent(94, map), &map.plan());
+  EXPECT_THAT(few.names(), IsEmpty());
+  FaultList many;
+  many.add_map({}, recent(95, map), &map.plan());
+  EXPECT_THAT(many.names(), ElementsAre("map-mismatch"));
+  EXPECT_THAT(many.hint(), HasSubstr("95 of the last 100 scans fit nowhere in the map \"flat\""));
+  FaultList found;
+  found.add_map(MapFinding{.fault = MapFault::kMirrored}, recent(20, map), &map.plan());
+  EXPECT_THAT(found.names(), ElementsAre("map-mirrored"));
+}
+
+TEST(FaultList, PosesOutsideOfTheMap_AreNamed) {
+  const core::WallMap map = flat();
+  FaultList near;
+  near.add_map({}, recent(0, map, 4.9), &map.plan());
+  EXPECT_THAT(near.names(), IsEmpty());
+  FaultList far;
+  far.add_map({}, recent(5, map, -9), &map.plan());
+  EXPECT_THAT(far.names(), ElementsAre("outside-map"));
+  EXPECT_THAT(far.hint(), HasSubstr("lidar.mount"));
+}
+
+TEST(FaultList, HintIsAboutTheFirst) {
+  FaultList faults;
+  faults.add("no-port", "plug it in");
+  core::OdometrySummary contradicting;
+  contradicting.present = true;
+  faults.add_drive({}, {}, contradicting);
+  EXPECT_THAT(faults.names(), ElementsAre("no-port", "odometry-unhealthy"));
+  EXPECT_EQ(faults.hint(), "plug it in");
+}
+
+}  // namespace
+}  // namespace cornerd::calibration
