@@ -14,7 +14,7 @@ constexpr double kSlipGate = 15.1;
 /// How much likelier it is that the wheel that turned more slipped than the other one: a share of
 /// the correlation.
 constexpr double kLikelier = 0.94;
-/// Where a tyre touches the floor wanders with every rotation on the spot.
+/// Where a tyre touches the floor changes with every rotation on the spot.
 constexpr double kScrub_rad_per_sqrt_rad = 0.001;
 /// Bounds of the calibration; of scales in sigma of their priors: more is a wrong setting.
 constexpr double kMostSigmas = 15;
@@ -105,10 +105,10 @@ void MotionFilter::advance() {
   }
 
   const Eigen::Matrix3d rotation = rotation_of(state_[kTheta]);
-  const Eigen::Vector3d way = rotation * Eigen::Vector3d(motion.x_m, motion.y_m, 0);
+  const Eigen::Vector3d translation = rotation * Eigen::Vector3d(motion.x_m, motion.y_m, 0);
   Matrix transition = Matrix::Identity();
-  transition(kX, kTheta) = -way.y();
-  transition(kY, kTheta) = way.x();
+  transition(kX, kTheta) = -translation.y();
+  transition(kY, kTheta) = translation.x();
   transition.block<3, 7>(kX, kBias) = rotation * by.topRows<3>();
   transition.diagonal().segment<2>(kLeftRest).setZero();
   Eigen::Matrix<double, kSize, 2> rests = Eigen::Matrix<double, kSize, 2>::Zero();
@@ -138,7 +138,7 @@ void MotionFilter::advance() {
                  .cwiseAbs2();
   covariance_(kDelay, kDelay) += dt_s * squared(noise_.delay_s_per_sqrt_s);
   const MotionFactor::Column of_rests = by.rightCols<2>() * state_.segment<2>(kLeftRest);
-  state_.head<3>() += way + rotation * of_rests.head<3>();
+  state_.head<3>() += translation + rotation * of_rests.head<3>();
   state_[kTheta] += factor_.rotation_rad();
   state_.segment<2>(kLeftRest).setZero();
 

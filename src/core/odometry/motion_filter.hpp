@@ -9,9 +9,9 @@
 
 #include "core/geometry/pose2.hpp"
 #include "core/odometry/cusum.hpp"
-#include "core/odometry/jitter_meter.hpp"
+#include "core/odometry/jitter_estimator.hpp"
 #include "core/odometry/motion_factor.hpp"
-#include "core/odometry/noise_meter.hpp"
+#include "core/odometry/noise_estimator.hpp"
 #include "core/odometry/odometry_config.hpp"
 #include "core/odometry/odometry_increment.hpp"
 #include "core/odometry/slip_rate.hpp"
@@ -25,6 +25,11 @@ namespace cornerd::core {
 /// adapt to the innovations (Mehra 1970). Fixed size, no allocation. Metres, radians, seconds.
 class MotionFilter {
  public:
+  /// Of the sensors' noise over a scan, the share in the fix of a scan that is deskewed by them: a
+  /// sample between the middle and the end is off by a quarter of that variance, all together by a
+  /// twelfth; between them by NEES of fixes (`cornerd-bench --odometry`).
+  static constexpr double kDeskewNoiseShare = 0.3;
+
   /// kLeftRest, kRightRest: metres that a wheel has rolled beyond the middle of its count.
   enum Index : std::uint8_t {
     kX,
@@ -128,17 +133,17 @@ class MotionFilter {
   Comparison rotations_;
 
   // Factors of variances as configured, and the variance of the heading by each since the last fix.
-  NoiseMeter wheel_noise_;
-  NoiseMeter gyro_noise_;
-  NoiseMeter fix_place_;
-  NoiseMeter fix_heading_;
+  NoiseEstimator wheel_noise_;
+  NoiseEstimator gyro_noise_;
+  NoiseEstimator fix_place_;
+  NoiseEstimator fix_heading_;
   double wheel_rad2_ = 0;
   double gyro_rad2_ = 0;
   double rolled_m_ = 0;
   int scans_ = 0;
   bool has_gyro_ = false;
   SlipRate slip_rate_;
-  JitterMeter jitter_;
+  JitterEstimator jitter_;
   std::array<Cusum, kSize> cusums_;
 };
 

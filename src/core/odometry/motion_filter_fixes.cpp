@@ -13,16 +13,14 @@ namespace {
 /// Chi-square, 3 degrees of freedom, probability 1e-6.
 constexpr double kFixGate = 30.7;
 /// An innovation within three sigma needs no other reason.
-constexpr double kUsual = 9;
+constexpr double kFloorGate = 9;
 /// What a fix may be off by that its covariance does not know of: a lidar's bias, a wall that was
 /// mapped wrong. The share of it that there is adapts to the innovations.
 constexpr double kFixFloor_m = 0.002;
 constexpr double kFixFloor_rad = 0.001;
 /// Of a random walk over a scan, in units of its variance: what two consecutive fixes that are
-/// deskewed by it share, 5/12 by integration over the samples, and what of it Odometer adds to a
-/// fix's covariance.
-constexpr double kSharedWander = 5.0 / 12;
-constexpr double kDeskewWander = 0.3;
+/// deskewed by it share: 5/12, by integration over the samples.
+constexpr double kSharedNoise = 5.0 / 12;
 /// After a detected change: share of the prior's sigma that is added.
 constexpr double kChangedShare = 0.3;
 
@@ -45,9 +43,9 @@ Eigen::Vector3d MotionFilter::velocity_in_map(const Epoch& epoch) const {
 
 MotionFilter::Measurement MotionFilter::jacobian_at(const Epoch& epoch) const {
   Measurement jacobian = Measurement::Identity();
-  const Vec2 way = pose_at(epoch).translation() - pose().translation();
-  jacobian(kX, kTheta) = -way.y();
-  jacobian(kY, kTheta) = way.x();
+  const Vec2 lever = pose_at(epoch).translation() - pose().translation();
+  jacobian(kX, kTheta) = -lever.y();
+  jacobian(kY, kTheta) = lever.x();
   jacobian.col(kDelay) = velocity_in_map(epoch);
   return jacobian;
 }
@@ -93,7 +91,7 @@ bool MotionFilter::correct(const Pose2& T_map_base, const Covariance3& covarianc
   if (!widest.succeeded() || innovation.dot(widest.solve(innovation)) > kFixGate) return false;
 
   const auto needed = [&](int i, double floor) {
-    return (squared(innovation[i]) / kUsual - known(i, i)) / squared(floor);
+    return (squared(innovation[i]) / kFloorGate - known(i, i)) / squared(floor);
   };
   const double place = std::clamp(std::max(needed(0, kFixFloor_m), needed(1, kFixFloor_m)),
                                   fix_place_.factor(), 1.0);
@@ -114,14 +112,14 @@ bool MotionFilter::correct(const Pose2& T_map_base, const Covariance3& covarianc
 
 void MotionFilter::adapt(const Eigen::Vector3d& innovation, const Covariance3& known,
                          bool is_deskewed) {
-  NoiseMeter& noise = has_gyro_ ? gyro_noise_ : wheel_noise_;
-  const double told_rad2 = has_gyro_ ? gyro_rad2_ : wheel_rad2_;
-  // What the sensors wander in a scan that is deskewed by them is in the fix as well, and less of
-  // it in the innovation of consecutive ones.
-  const double of_scan_rad2 = is_deskewed ? told_rad2 / std::max(1, scans_) : 0;
+  NoiseEstimator& noise = has_gyro_ ? gyro_noise_ : wheel_noise_;
+  const double modelled_rad2 = has_gyro_ ? gyro_rad2_ : wheel_rad2_;
+  // The sensors' noise in a scan that is deskewed by them is in the fix as well, and less of it in
+  // the innovation of consecutive ones.
+  const double of_scan_rad2 = is_deskewed ? modelled_rad2 / std::max(1, scans_) : 0;
   const double heading_rad2 = known(2, 2) + fix_heading_.factor() * squared(kFixFloor_rad);
-  noise.add(squared(innovation[2]), told_rad2 - kSharedWander * of_scan_rad2,
-            heading_rad2 - noise.factor() * (told_rad2 + 2 * kDeskewWander * of_scan_rad2));
+  noise.add(squared(innovation[2]), modelled_rad2 - kSharedNoise * of_scan_rad2,
+            heading_rad2 - noise.factor() * (modelled_rad2 + 2 * kDeskewNoiseShare * of_scan_rad2));
   for (const int i : {0, 1}) {
     fix_place_.add(squared(innovation[i]), squared(kFixFloor_m), known(i, i));
   }

@@ -33,8 +33,8 @@ Pose2 MotionPath::greatest_change(TimeNs from_ns, TimeNs to_ns) const {
     const Pose2 before = point(age + 1).T_start_base.inverse() * point(age).T_start_base;
     const Pose2 after = point(age).T_start_base.inverse() * point(age - 1).T_start_base;
     const double longer_s = std::max(before_s, after_s);
-    const auto change = [&](double way, double way_after) {
-      return longer_s * std::abs(way_after / after_s - way / before_s);
+    const auto change = [&](double motion, double motion_after) {
+      return longer_s * std::abs(motion_after / after_s - motion / before_s);
     };
     greatest.x_m = std::max(greatest.x_m, change(before.x_m, after.x_m));
     greatest.theta_rad = std::max(greatest.theta_rad, change(before.theta_rad, after.theta_rad));
@@ -46,8 +46,8 @@ Twist2 MotionPath::velocity_at(TimeNs t_ns) const {
   constexpr double kAround_s = 0.06;
   const TimeNs half_ns = from_seconds(kAround_s / 2);
   if (!covers(t_ns - half_ns, t_ns + half_ns)) return {};
-  const Pose2 way = at(t_ns - half_ns).inverse() * at(t_ns + half_ns);
-  return {way.x_m / kAround_s, way.y_m / kAround_s, way.theta_rad / kAround_s};
+  const Pose2 motion = at(t_ns - half_ns).inverse() * at(t_ns + half_ns);
+  return {motion.x_m / kAround_s, motion.y_m / kAround_s, motion.theta_rad / kAround_s};
 }
 
 Pose2 MotionPath::at(TimeNs t_ns) const {
@@ -57,11 +57,11 @@ Pose2 MotionPath::at(TimeNs t_ns) const {
   const Point& to = point(age - 1);
   const double share =
       static_cast<double>(t_ns - from.t_ns) / static_cast<double>(to.t_ns - from.t_ns);
-  const Pose2 way = from.T_start_base.inverse() * to.T_start_base;
+  const Pose2 motion = from.T_start_base.inverse() * to.T_start_base;
   // The same arc, begun or carried on: half-way through its turn it points along its chord.
-  const double half_rad = way.theta_rad / 2;
-  const double chord_m = way.x_m * std::cos(half_rad) + way.y_m * std::sin(half_rad);
-  return from.T_start_base * arc(share * chord_m, share * way.theta_rad);
+  const double half_rad = motion.theta_rad / 2;
+  const double chord_m = motion.x_m * std::cos(half_rad) + motion.y_m * std::sin(half_rad);
+  return from.T_start_base * arc(share * chord_m, share * motion.theta_rad);
 }
 
 }  // namespace cornerd::core

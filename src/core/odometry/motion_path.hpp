@@ -16,7 +16,7 @@ class MotionPath {
  public:
   /// Goes on by a motion that ends at `t_ns`.
   void add(TimeNs from_ns, TimeNs t_ns, const Pose2& motion);
-  /// What was before is of no use: the way from there is not known.
+  /// What was before is of no use: the motion from there is not known.
   void clear() { size_ = 0; }
 
   /// True where the path tells of all of this time, but for what the last motion may be carried on.
@@ -33,7 +33,7 @@ class MotionPath {
   Twist2 velocity_at(TimeNs t_ns) const;
 
   /// How unevenly it was driven: what the greatest change of speed between two readings would come
-  /// to in the time between them, x for the way and theta for the turn, no signs.
+  /// to in the time between them, x for translation and theta for rotation, no signs.
   Pose2 greatest_change(TimeNs from_ns, TimeNs to_ns) const;
 
   /// The last motion is taken to go on for so long after the last reading.

@@ -42,9 +42,9 @@ class Odometer {
   /// time.
   void advance(TimeNs start_ns, TimeNs middle_ns, TimeNs end_ns);
 
-  /// Deskews the scan to the lidar's pose at its middle. False where the motion is unknown; `still`
-  /// is then unchanged.
-  bool deskew(const Scan& turn, const Pose2& T_base_lidar, Scan& still) const;
+  /// Deskews the scan to the lidar's pose at its middle. False where the motion is unknown;
+  /// `deskewed` is then unchanged.
+  bool deskew(const Scan& scan, const Pose2& T_base_lidar, Scan& deskewed) const;
   /// True where deskew() succeeds.
   bool has_motion() const { return knows_motion_; }
   /// The scan shows another motion than the readings: discard it.

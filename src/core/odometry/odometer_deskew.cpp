@@ -12,20 +12,16 @@ namespace {
 
 /// How far wheels and gyro mistake the motion of half a turn, as a share of it.
 constexpr double kMotionShare = 0.01;
-/// What a turn's fix is off by of what wheels and gyro wander in it: a sample between its middle
-/// and its end by a quarter of that, all of them together by a twelfth, and those that a coordinate
-/// hangs on by something between (NEES of fixes, `cornerd-bench --odometry`).
-constexpr double kWanderShare = 0.3;
-/// A turn whose pieces are turned against each other seems to be elsewhere as well: by so much of
+/// A scan whose pieces are turned against each other seems to be elsewhere as well: by so much of
 /// that angle, in rooms (NEES of fixes without a gyro, the same).
 constexpr double kLever_m = 0.3;
 /// A change of speed between two readings moves what is between them by a quarter of what it comes
-/// to at most, and a turn's samples are only in part there (NEES of fixes with few readings a
+/// to at most, and a scan's samples are only in part there (NEES of fixes with few readings a
 /// second, `cornerd-bench --odometry`).
 constexpr double kUnevenShare = 0.2;
 
-/// The end of a turn that no reading tells of: of a change of speed in it, so much is in the pose.
-/// That the last reading is a little older than the turn is usual, and nothing.
+/// The end of a scan that no reading tells of: of a change of speed in it, so much is in the pose.
+/// The last reading is often a little older than the scan's end: that is nothing.
 constexpr double kUnreadShare = 0.3;
 constexpr double kUnread_m_s = 0.5;
 constexpr double kUnread_rad_s = 1.5;
@@ -33,9 +29,9 @@ constexpr TimeNs kSoon_ns = 50'000'000;
 
 }  // namespace
 
-bool Odometer::deskew(const Scan& turn, const Pose2& T_base_lidar, Scan& still) const {
+bool Odometer::deskew(const Scan& scan, const Pose2& T_base_lidar, Scan& deskewed) const {
   if (!knows_motion_) return false;
-  // The way from one of these to the next, 2 ms, is straight enough.
+  // The motion from one of these to the next, 2 ms, is straight enough.
   constexpr std::size_t kPieces = 64;
   std::array<Pose2, kPieces + 1> T_middle_then;
   const Pose2 T_middle_start = (path_.at(middle_ns_ + delay_ns_) * T_base_lidar).inverse();
@@ -44,8 +40,8 @@ bool Odometer::deskew(const Scan& turn, const Pose2& T_base_lidar, Scan& still) 
     const TimeNs t_ns = start_ns_ + static_cast<TimeNs>(static_cast<double>(i) * piece_ns);
     T_middle_then[i] = T_middle_start * path_.at(t_ns + delay_ns_) * T_base_lidar;
   }
-  still.clear();
-  for (const Sample& sample : turn.samples()) {
+  deskewed.clear();
+  for (const Sample& sample : scan.samples()) {
     Sample moved = sample;
     if (sample.range_m > 0) {
       const double piece = static_cast<double>(sample.t_ns - start_ns_) / std::max(piece_ns, 1.0);
@@ -60,7 +56,7 @@ bool Odometer::deskew(const Scan& turn, const Pose2& T_base_lidar, Scan& still) 
       moved.bearing_rad = static_cast<float>(std::atan2(place.y(), place.x()));
       moved.range_m = static_cast<float>(place.norm());
     }
-    still.add(moved);
+    deskewed.add(moved);
   }
   return true;
 }
@@ -68,45 +64,45 @@ bool Odometer::deskew(const Scan& turn, const Pose2& T_base_lidar, Scan& still) 
 Covariance3 Odometer::deskew_covariance() const {
   const TimeNs from_ns = start_ns_ + delay_ns_;
   const TimeNs to_ns = end_ns_ + delay_ns_;
-  const Pose2 way = path_.at(from_ns).inverse() * path_.at(to_ns);
+  const Pose2 motion = path_.at(from_ns).inverse() * path_.at(to_ns);
   const OdometryParameters sigma = filter_.sigma();
-  const double place_m =
-      std::hypot(kMotionShare, sigma.left_scale, sigma.right_scale) / 2 * way.translation().norm();
+  const double place_m = std::hypot(kMotionShare, sigma.left_scale, sigma.right_scale) / 2 *
+                         motion.translation().norm();
   const double rotation_rad =
       std::hypot(kMotionShare, filter_.has_gyro() ? sigma.gyro_scale : sigma.track_scale) / 2 *
-      way.theta_rad;
+      motion.theta_rad;
   // As one increment of the same motion.
   const DriveGeometry& geometry = config_.geometry;
-  const double along_m = way.translation().norm();
-  const double aside_m = way.theta_rad * geometry.track_m / 2;
+  const double along_m = motion.translation().norm();
+  const double aside_m = motion.theta_rad * geometry.track_m / 2;
   const double duration_s = to_seconds(end_ns_ - start_ns_);
-  MotionFactor scan = filter_.factor();
-  scan.add({.from_ns = start_ns_,
-            .to_ns = end_ns_,
-            .left_m = along_m - aside_m,
-            .right_m = along_m + aside_m,
-            .gyro_rad = way.theta_rad,
-            .has_gyro = filter_.has_gyro()});
+  MotionFactor factor = filter_.factor();
+  factor.add({.from_ns = start_ns_,
+              .to_ns = end_ns_,
+              .left_m = along_m - aside_m,
+              .right_m = along_m + aside_m,
+              .gyro_rad = motion.theta_rad,
+              .has_gyro = filter_.has_gyro()});
   const double late_share2 = filter_.jitter_s2() / squared(std::max(duration_s, 1e-3));
-  const double wander_m2 =
-      (scan.covariance()(0, 0) + scan.covariance()(1, 1)) / 2 + late_share2 * squared(along_m);
-  const double wander_rad2 = scan.covariance()(2, 2) + late_share2 * squared(way.theta_rad);
+  const double place_noise =
+      (factor.covariance()(0, 0) + factor.covariance()(1, 1)) / 2 + late_share2 * squared(along_m);
+  const double heading_noise = factor.covariance()(2, 2) + late_share2 * squared(motion.theta_rad);
   // When between two readings the robot changed its speed nobody knows.
   const Pose2 uneven = path_.greatest_change(from_ns, to_ns);
   const double uneven_m = kUnevenShare * uneven.x_m;
   const double uneven_rad = kUnevenShare * uneven.theta_rad;
-  // What the turn's end is guessed to be, nobody has read.
+  // What the scan's end is guessed to be, nobody has read.
   const TimeNs unread_ns = config_.conservative ? to_ns - path_.newest_ns() - kSoon_ns : 0;
   const double unread_s = to_seconds(std::max<TimeNs>(0, unread_ns));
   const double unread_by_s =
       kUnreadShare * unread_s * unread_s / to_seconds(std::max<TimeNs>(1, end_ns_ - start_ns_));
   // Where in its count each wheel is in the middle: what the rest of the scan is deskewed to.
   const double lever_m2 = config_.conservative ? kLever_m * kLever_m : 0;
-  const double place_m2 = place_m * place_m + uneven_m * uneven_m +
-                          geometry.quantization_variance() / 2 +
-                          kWanderShare * (wander_m2 + lever_m2 * wander_rad2);
-  double rotation_variance =
-      rotation_rad * rotation_rad + uneven_rad * uneven_rad + kWanderShare * wander_rad2;
+  const double place_m2 =
+      place_m * place_m + uneven_m * uneven_m + geometry.quantization_variance() / 2 +
+      MotionFilter::kDeskewNoiseShare * (place_noise + lever_m2 * heading_noise);
+  double rotation_variance = rotation_rad * rotation_rad + uneven_rad * uneven_rad +
+                             MotionFilter::kDeskewNoiseShare * heading_noise;
   if (!filter_.has_gyro())
     rotation_variance += 2 * geometry.quantization_variance() / squared(geometry.track_m);
   const double unread_m = kUnread_m_s * unread_by_s;

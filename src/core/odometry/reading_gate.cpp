@@ -15,21 +15,21 @@ constexpr TimeNs kMostBehind_ns = 5 * kNsPerSecond;
 /// So many readings in a row that are before the last one, and in order, are no accident: the
 /// client's clock was set.
 constexpr std::uint32_t kClockWasSet = 5;
-/// A reading so much later than usual is the next one after a pause where the ones that follow go
-/// on from it, and of the future where they come before it.
-constexpr double kUsualPauses = 3;
+/// A reading so much later than its period is the next one after a pause where the ones that follow
+/// go on from it, and of the future where they come before it.
+constexpr double kTypicalPeriods = 3;
 constexpr double kShortestLeap_s = 0.06;
 constexpr std::uint32_t kWentOn = 3;
 constexpr double kSlower = 1.5;
-/// What comes so much faster than usual was held back, and bears the time when it was let go.
+/// What comes so much faster than its period was held back, and bears the time when it was let go.
 constexpr double kBunched = 0.34;
 /// A leap that is longer by this than the time that the lidar saw go by is one of the clock, and a
 /// clock that is always so far ahead is a wrong one.
 constexpr TimeNs kClockAhead_ns = kNsPerSecond / 4;
 /// A recorded turn may come as a whole: how far ahead of it readings are shows when it has come.
 constexpr TimeNs kSlowTurn_ns = kNsPerSecond * 5 / 4;
-/// How fast the usual time between readings is learned.
-constexpr double kUsualShare = 1.0 / 16;
+/// How fast the period of the readings is learned.
+constexpr double kPeriodShare = 1.0 / 16;
 /// Counts that jumped and then go on evenly so often are a controller that was restarted.
 constexpr std::uint32_t kRestarted = 3;
 /// Counts farther apart say where the robot went, not how.
@@ -108,15 +108,15 @@ bool ReadingGate::clock_leapt(TimeNs t_ns, TimeNs now_ns) const {
 bool ReadingGate::leaps_ahead(TimeNs t_ns, std::optional<TimeNs> clock_ns) {
   if (!last_ns_) return false;
   const double pause_s = to_seconds(t_ns - *last_ns_);
-  const double longest_s = std::max(kShortestLeap_s, kUsualPauses * usual_s_.value_or(pause_s));
+  const double longest_s = std::max(kShortestLeap_s, kTypicalPeriods * period_s_.value_or(pause_s));
   if (pause_s > longest_s) {
     // Or as slowly as after the pause: a client that has less to do.
     const bool goes_on =
         leapt_ns_ && t_ns >= *leapt_ns_ &&
         to_seconds(t_ns - *leapt_ns_) <=
             std::max(longest_s, kSlower * to_seconds(*leapt_ns_ - *last_ns_) / leaps_);
-    if (config_.conservative && goes_on && usual_s_ &&
-        to_seconds(t_ns - *leapt_ns_) < kBunched * *usual_s_) {
+    if (config_.conservative && goes_on && period_s_ &&
+        to_seconds(t_ns - *leapt_ns_) < kBunched * *period_s_) {
       ++counters_.past;
       return true;
     }
@@ -130,10 +130,11 @@ bool ReadingGate::leaps_ahead(TimeNs t_ns, std::optional<TimeNs> clock_ns) {
       leaps_ = kWentOn - 1;
       return true;
     }
-    usual_s_ = followed_s;
+    period_s_ = followed_s;
   } else {
     counters_.future += leaps_;
-    usual_s_ = usual_s_.value_or(pause_s) + kUsualShare * (pause_s - usual_s_.value_or(pause_s));
+    period_s_ =
+        period_s_.value_or(pause_s) + kPeriodShare * (pause_s - period_s_.value_or(pause_s));
   }
   leaps_ = 0;
   leapt_ns_.reset();

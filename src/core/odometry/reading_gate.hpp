@@ -59,7 +59,7 @@ class ReadingGate {
   std::optional<TimeNs> compared_since_ns_;
   TimeNs least_ahead_ns_ = 0;
   TimeNs least_ahead_before_ns_ = 0;
-  std::optional<double> usual_s_;    ///< between two readings
+  std::optional<double> period_s_;   ///< between two readings
   std::optional<TimeNs> leapt_ns_;   ///< the newest reading that was ahead
   std::uint32_t leaps_ = 0;          ///< how many in a row agree with each other
   bool clock_was_set_back_ = false;  ///< and no counts have come since

@@ -13,7 +13,7 @@
 
 namespace cornerd::core::testing {
 
-inline RobotErrors usual_errors() {
+inline RobotErrors nominal_errors() {
   RobotErrors errors;
   errors.left_scale = 0.015;
   errors.right_scale = 0.025;

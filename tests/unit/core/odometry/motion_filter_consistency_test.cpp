@@ -17,7 +17,7 @@ namespace {
 
 using testing::config_with_counts_of_5_mm;
 using testing::switched_on;
-using testing::usual_errors;
+using testing::nominal_errors;
 using Drive = testing::FilteredDrive;
 
 /// Normalized estimation error squared: 3 in the mean where the covariance is consistent. Each
@@ -30,7 +30,7 @@ double mean_nees(double taught_s, double blind_s, bool with_gyro, double noisier
     std::mt19937_64 random(seed);
     random.discard(1000);  // decorrelates similar seeds
     std::normal_distribution<double> normal;
-    testing::RobotErrors errors = usual_errors();
+    testing::RobotErrors errors = nominal_errors();
     errors.left_scale = config.noise.wheel_scale * normal(random);
     errors.right_scale = config.noise.wheel_scale * normal(random);
     errors.track_scale = config.noise.track_scale * normal(random);

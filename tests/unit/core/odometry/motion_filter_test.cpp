@@ -13,12 +13,12 @@ namespace {
 using testing::config_with_counts_of_5_mm;
 using testing::kFixSigma_m;
 using testing::switched_on;
-using testing::usual_errors;
+using testing::nominal_errors;
 using Drive = testing::FilteredDrive;
 
 TEST(MotionFilter, ThirtySecondsOfFixes_ScalesAndBiasAreEstimated) {
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
-    const testing::RobotErrors errors = usual_errors();
+    const testing::RobotErrors errors = nominal_errors();
     Drive drive(switched_on(), errors, seed);
     drive.drive(30, true);
     const OdometryParameters learned = drive.filter().parameters();
@@ -32,7 +32,7 @@ TEST(MotionFilter, ThirtySecondsOfFixes_ScalesAndBiasAreEstimated) {
 
 TEST(MotionFilter, FiveSecondsWithoutFixes_ErrorBelow3cm) {
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
-    Drive drive(switched_on(), usual_errors(), seed);
+    Drive drive(switched_on(), nominal_errors(), seed);
     drive.drive(30, true);
     drive.drive(5, false);
     EXPECT_LT(drive.error().head<2>().norm(), 0.03) << seed;
@@ -42,7 +42,7 @@ TEST(MotionFilter, FiveSecondsWithoutFixes_ErrorBelow3cm) {
 
 TEST(MotionFilter, ParametersChange_AreEstimatedAgain) {
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
-    testing::RobotErrors errors = usual_errors();
+    testing::RobotErrors errors = nominal_errors();
     Drive drive(switched_on(), errors, seed);
     drive.drive(60, true);
     errors.left_scale += 0.02;
@@ -59,7 +59,7 @@ TEST(MotionFilter, ParametersChange_AreEstimatedAgain) {
 
 TEST(MotionFilter, ParametersConstant_CovarianceIsNotInflated) {
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
-    Drive drive(switched_on(), usual_errors(), seed);
+    Drive drive(switched_on(), nominal_errors(), seed);
     drive.drive(60, true);
     const MotionFilter::Vector before = drive.filter().covariance().diagonal();
     drive.drive(60, true);
@@ -74,7 +74,7 @@ TEST(MotionFilter, CoarseCounts_QuantizationDoesNotAccumulate) {
   // The travel between two counts is off by 1.4 mm at each end, however many lie in between.
   const OdometryConfig config = config_with_counts_of_5_mm();
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
-    Drive drive(config, usual_errors(), seed);
+    Drive drive(config, nominal_errors(), seed);
     drive.drive(30, true);
     EXPECT_NEAR(drive.filter().parameters().left_scale, 0.015, 0.004) << seed;
     EXPECT_NEAR(drive.filter().parameters().right_scale, 0.025, 0.004) << seed;
@@ -87,7 +87,7 @@ TEST(MotionFilter, CoarseCounts_QuantizationDoesNotAccumulate) {
 TEST(MotionFilter, WithFixes_ErrorBelowFixNoise) {
   double squares_m2 = 0;
   int count = 0;
-  Drive drive(switched_on(), usual_errors(), 3);
+  Drive drive(switched_on(), nominal_errors(), 3);
   drive.drive(20, true);
   for (int i = 0; i < 300; ++i, ++count) {
     drive.drive(0.14, true);
@@ -98,7 +98,7 @@ TEST(MotionFilter, WithFixes_ErrorBelowFixNoise) {
 
 TEST(MotionFilter, WheelSpinsFree_HeadingIsUnchanged) {
   const OdometryConfig config = switched_on();
-  Drive drive(config, usual_errors(), 4);
+  Drive drive(config, nominal_errors(), 4);
   drive.drive(30, true);
   const OdometryParameters before = drive.filter().parameters();
   const Pose2 start = drive.filter().pose();
@@ -121,7 +121,7 @@ TEST(MotionFilter, WheelSpinsFree_HeadingIsUnchanged) {
 }
 
 TEST(MotionFilter, NisAboveGate_FixIsRejected) {
-  Drive drive(switched_on(), usual_errors(), 5);
+  Drive drive(switched_on(), nominal_errors(), 5);
   drive.drive(10, true);
   const MotionFilter before = drive.filter();
   Pose2 elsewhere = drive.robot().truth();
@@ -133,7 +133,7 @@ TEST(MotionFilter, NisAboveGate_FixIsRejected) {
 }
 
 TEST(MotionFilter, Gap_CovarianceGrowsAndParametersStay) {
-  Drive drive(switched_on(), usual_errors(), 6);
+  Drive drive(switched_on(), nominal_errors(), 6);
   drive.drive(30, true);
   const OdometryParameters before = drive.filter().parameters();
   OdometryIncrement hole;

@@ -5,26 +5,26 @@
 
 namespace cornerd::core {
 
-/// Learns how much larger or smaller a noise is than was told, from squared residuals that have
+/// Learns how much larger or smaller a noise is than modelled, from squared residuals that have
 /// other noise in them as well. Variances in any unit; the factor is one of variances.
-class NoiseMeter {
+class NoiseEstimator {
  public:
-  /// What was told counts as so many observations of that noise alone.
-  NoiseMeter(double weight, double least, double most)
+  /// What was modelled counts as so many observations of that noise alone.
+  NoiseEstimator(double weight, double least, double most)
       : weight_(weight), least_(least), most_(most) {}
 
-  /// `squared`: the residual's; `told`: its variance by the noise as told; `other`: by all else.
-  /// Observations in which the noise drowns among others weigh little.
-  void add(double squared, double told, double other) {
-    if (!(told > 0)) return;
-    const double expected = factor_ * told + other;
+  /// `squared`: the residual's; `modelled`: its variance by the noise as modelled; `other`: by all
+  /// else. Observations in which the noise drowns among others weigh little.
+  void add(double squared, double modelled, double other) {
+    if (!(modelled > 0)) return;
+    const double expected = factor_ * modelled + other;
     const double share =
-        std::max(factor_, kSeen) * told / (std::max(factor_, kSeen) * told + other);
+        std::max(factor_, kSeen) * modelled / (std::max(factor_, kSeen) * modelled + other);
     const double weight = share * share;
     if (!(weight > 0)) return;
     const double surely = std::min(squared, kOutlier * expected);
     weight_ = std::min(weight_ + weight, kMemory);
-    factor_ += weight / weight_ * ((surely - other) / told - factor_);
+    factor_ += weight / weight_ * ((surely - other) / modelled - factor_);
     factor_ = std::clamp(factor_, least_, most_);
   }
 
