@@ -17,9 +17,17 @@ class DriveMonitor {
   /// `config`: its limits are widened, as wrong units exceed them.
   DriveMonitor(const core::OdometryConfig& config, const core::Pose2& T_base_lidar);
 
+  /// True where what was compared so far holds for this config.
+  bool is_of(const core::OdometryConfig& config, const core::Pose2& T_base_lidar) const {
+    return config_.is_of_same_robot(config) && T_base_lidar_ == T_base_lidar;
+  }
+
   /// Both in the order of time, by one clock.
   void add(const core::OdometryReading& reading);
   void add(core::TimeNs t_ns, const core::Pose2& T_map_base);
+
+  /// The next pose is no motion from the last: another map, or an initial pose.
+  void interrupt() { windows_.interrupt(); }
 
   /// From the newest windows; computed where there are some new ones. None where readings have
   /// ended.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace cornerd::calibration {
 namespace {
@@ -11,6 +12,9 @@ namespace {
 constexpr core::TimeNs kWindowLength_ns = core::kNsPerSecond;
 /// Between two localized scans; more is a gap.
 constexpr core::TimeNs kMaxStep_ns = core::kNsPerSecond;
+/// More between two of them: the robot was carried, or one of the poses is wrong.
+constexpr double kJump_m = 0.5;
+constexpr double kJump_rad = core::radians(60);
 /// Less is no motion.
 constexpr double kMotion_m = 0.02;
 constexpr double kMotion_rad = 0.05;
@@ -57,7 +61,7 @@ void MotionWindows::add(const core::OdometryIncrement& step) {
 void MotionWindows::add(core::TimeNs t_ns, const core::Pose2& T_map_lidar) {
   if (!poses_.empty() && t_ns <= poses_.back().t_ns) poses_.clear();
   if (poses_.size() == kMaxPoses) poses_.pop_front();
-  poses_.push_back({t_ns, T_map_lidar});
+  poses_.push_back({t_ns, T_map_lidar, std::exchange(is_interrupted_, false)});
   advance();
 }
 
@@ -72,11 +76,15 @@ void MotionWindows::advance() {
 }
 
 void MotionWindows::extend_to(const Pose& pose) {
-  if (!last_ || pose.t_ns <= last_->t_ns || pose.t_ns - last_->t_ns > kMaxStep_ns) {
+  if (!last_ || pose.is_first || pose.t_ns <= last_->t_ns ||
+      pose.t_ns - last_->t_ns > kMaxStep_ns) {
     return begin_at(pose);
   }
-  if (!extend_by_odometry(last_->t_ns, pose.t_ns)) return begin_at(pose);
-  window_.extend(last_->T_map_lidar.inverse() * pose.T_map_lidar);
+  const core::Pose2 motion = last_->T_map_lidar.inverse() * pose.T_map_lidar;
+  const bool jumps =
+      motion.translation().norm() > kJump_m || std::abs(motion.theta_rad) > kJump_rad;
+  if (jumps || !extend_by_odometry(last_->t_ns, pose.t_ns)) return begin_at(pose);
+  window_.extend(motion);
   last_ = pose;
   if (pose.t_ns - begin_ns_ < kWindowLength_ns) return;
   if (window_.has_motion()) {

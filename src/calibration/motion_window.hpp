@@ -52,7 +52,8 @@ struct MotionWindow {
 };
 
 /// Cuts windows from odometry increments and the lidar's poses, each in the order of time. A window
-/// with a gap in either is dropped, be it within the longest delay. Keeps the newest windows in
+/// with a gap in either is dropped, be it within the longest delay, and one with a jump of the
+/// pose. Keeps the newest windows in
 /// which the robot moved.
 class MotionWindows {
  public:
@@ -60,6 +61,8 @@ class MotionWindows {
 
   void add(const core::OdometryIncrement& step);
   void add(core::TimeNs t_ns, const core::Pose2& T_map_lidar);
+  /// The next pose is no motion from the last.
+  void interrupt() { is_interrupted_ = true; }
   void clear() { windows_.clear(); }
 
   const std::deque<MotionWindow>& windows() const { return windows_; }
@@ -70,6 +73,7 @@ class MotionWindows {
   struct Pose {
     core::TimeNs t_ns = 0;
     core::Pose2 T_map_lidar;
+    bool is_first = false;  ///< after an interruption
   };
 
   void advance();
@@ -81,6 +85,7 @@ class MotionWindows {
   std::size_t capacity_;
   std::deque<core::OdometryIncrement> steps_;  ///< that a window may need
   std::deque<Pose> poses_;                     ///< that wait for increments
+  bool is_interrupted_ = false;                ///< since the last of them
   std::optional<Pose> last_;                   ///< the window in progress ends here
   core::TimeNs begin_ns_ = 0;
   MotionWindow window_;

@@ -206,6 +206,13 @@ void Localizer::resume(const EstimatedBias& learned) {
   if (workspace_->place) workspace_->place->bias.resume(learned);
 }
 
+void Localizer::resume_odometry(const Localizer& other) {
+  const Workspace& before = *other.workspace_;
+  if (workspace_->config.T_base_lidar == before.config.T_base_lidar) {
+    workspace_->odometer.resume(before.odometer);
+  }
+}
+
 bool Localizer::Workspace::teaches(const Decision& decision) const {
   if (!config.calibrate_online) return false;
   if (!has_pose(decision.state)) return false;

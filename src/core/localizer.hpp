@@ -74,6 +74,9 @@ class Localizer {
   const WallOffsetFilter* walls() const;
   /// Walls that are gone and things that stay, in this map; none where walls() is null.
   std::span<const MapChange> map_changes() const;
+  /// Continues with what another localizer has learned of the odometry, from its readings on.
+  /// Nothing where the mount or the robot of its config is another.
+  void resume_odometry(const Localizer& other);
   /// Continues from what was learned of this map. False where it does not fit.
   bool resume(const LearnedWalls& learned);
 

@@ -48,7 +48,7 @@ void MapChoice::compare(const Scan& scan) {
     compared_ = evidence_;
     compared_ns_ = kept_.start_ns() + (kept_.end_ns() - kept_.start_ns()) / 2;
     map_ = filter_.map();
-    if (map_) return;
+    if (map_) return localizers_[*map_].resume_odometry(*without_map_);
   }
   if (!is_comparing_) {
     is_comparing_ = true;
@@ -88,8 +88,13 @@ void MapChoice::resume(const EstimatedBias& learned) {
   for (Localizer& localizer : localizers_) localizer.resume(learned);
 }
 
+void MapChoice::resume_odometry(MapChoice& other) {
+  localizer().resume_odometry(other.localizer());
+}
+
 void MapChoice::relocalize() {
   if (map_) bias_ = localizer().estimated_bias();
+  if (map_ && without_map_) without_map_->resume_odometry(localizer());
   for (Localizer& localizer : localizers_) localizer.relocalize();
   if (!without_map_) return;
   without_map_->relocalize();

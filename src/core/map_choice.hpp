@@ -38,6 +38,8 @@ class MapChoice {
   std::span<Localizer> localizers() { return localizers_; }
   /// Continues from a stored estimate of this lidar's bias.
   void resume(const EstimatedBias& learned);
+  /// Continues with what another pipeline has learned of the odometry: see Localizer.
+  void resume_odometry(MapChoice& other);
   const MapFilter& filter() const { return filter_; }
 
   /// Forgets the pose, and the map where there are several.

@@ -130,6 +130,7 @@ void Localization::swap_pipeline(const SampleChannel::Item& item) {
   if (next_.load() == nullptr || retired_.load() != nullptr) return;
   Generation* const next = next_.exchange(nullptr);
   if (next == nullptr) return;
+  next->pipeline->maps().resume_odometry(current_->pipeline->maps());
   retired_.store(current_.release());
   current_.reset(next);
   odometry_frame_.configure(next->pipeline->localizer().odometry_config());
@@ -147,7 +148,10 @@ void Localization::process(core::Pipeline& pipeline, const SampleChannel::Item& 
   // A pose set after a change of the map is in the new one.
   const bool is_replaced = next_.load(std::memory_order_relaxed) != nullptr;
   core::Pose2 T_map_base;
-  while (!is_replaced && initial_poses_.pop(T_map_base)) pipeline.localizer().set_pose(T_map_base);
+  while (!is_replaced && initial_poses_.pop(T_map_base)) {
+    pipeline.localizer().set_pose(T_map_base);
+    has_initial_pose_ = true;
+  }
   take_readings();
   if (item.kind == SampleChannel::Kind::kReading) return process(item.reading, std::nullopt);
   const core::ScanResult* result =
@@ -169,6 +173,7 @@ void Localization::report(core::Pipeline& pipeline, const core::ScanResult& resu
     report.result = result;
     report.scan = pipeline.scan();
     report.number = scans_;
+    report.follows_initial_pose = std::exchange(has_initial_pose_, false);
     report.result.pose.seq = poses_;  // continues across pipelines
     report.to_unix_ns = source_ == SourceKind::kDevice ? unix_ns() - monotonic_ns() : 0;
     report.result.pose.t_ns += report.to_unix_ns;

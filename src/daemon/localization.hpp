@@ -33,9 +33,10 @@ struct ScanReport {
   std::uint64_t number = 0;     ///< counts scans; POSE.seq also counts predictions
   /// From the arrival of the scan's last byte to its pose; of a recording, from its last sample.
   std::int64_t latency_ns = 0;
-  std::uint32_t generation = 0;    ///< of the pipeline, see Localization::replace_pipeline()
-  std::optional<std::size_t> map;  ///< of the pipeline's; nullopt until it is known
-  std::uint32_t lidar = 0;         ///< to which result.bias belongs, see Localization::lidar()
+  bool follows_initial_pose = false;  ///< SET_POSE came since the scan before
+  std::uint32_t generation = 0;       ///< of the pipeline, see Localization::replace_pipeline()
+  std::optional<std::size_t> map;     ///< of the pipeline's; nullopt until it is known
+  std::uint32_t lidar = 0;            ///< to which result.bias belongs, see Localization::lidar()
 };
 
 /// What the localizer has learned of the walls.
@@ -173,7 +174,8 @@ class Localization {
   const SourceKind source_;
   std::unique_ptr<Generation> current_;  ///< owned by the localizer thread, like the two counters
   std::uint64_t scans_ = 0;
-  std::uint64_t poses_ = 0;  ///< including those between scans
+  std::uint64_t poses_ = 0;        ///< including those between scans
+  bool has_initial_pose_ = false;  ///< since the last scan
   /// Pipelines go to the localizer thread and back, so that it neither allocates nor frees.
   std::atomic<Generation*> next_{nullptr};
   std::atomic<Generation*> retired_{nullptr};

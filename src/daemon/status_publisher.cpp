@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdio>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "daemon/log.hpp"
@@ -74,10 +75,14 @@ StatusPublisher::StatusPublisher(MessageServer& server, Notifier& notifier)
     : server_(server), notifier_(notifier) {}
 
 void StatusPublisher::configure(const settings::Config& config) {
+  const core::OdometryConfig& odometry = config.odometry.core;
   names_ = settings::odometry_names(config);
   mount_ = {names_.T_base_lidar, config.lidar.mount.inverted, {}};
-  drive_.reset();
-  if (config.odometry.core.enabled) drive_.emplace(config.odometry.core, names_.T_base_lidar);
+  if (!odometry.enabled) {
+    drive_.reset();
+  } else if (!drive_ || !drive_->is_of(odometry, names_.T_base_lidar)) {
+    drive_.emplace(odometry, names_.T_base_lidar);
+  }
   map_examiner_.configure(config);
 }
 
@@ -112,6 +117,8 @@ void StatusPublisher::set_walls(const WallReport* report, const core::WallMap* m
 void StatusPublisher::observe(const ScanReport& report) {
   const core::PoseEstimate& pose = report.result.pose;
   map_examiner_.observe(report);
+  const bool is_other_map = std::exchange(generation_, report.generation) != report.generation;
+  if (drive_ && (is_other_map || report.follows_initial_pose)) drive_->interrupt();
   if (drive_ && core::has_pose(pose.state)) {
     drive_->add(pose.t_ns - report.to_unix_ns, pose.T_map_base);
   }

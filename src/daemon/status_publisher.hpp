@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <set>
 #include <string>
@@ -60,6 +61,7 @@ class StatusPublisher {
   std::optional<message::StatusFields::Mount> mount_;
   calibration::OdometryNames names_;
   std::optional<calibration::DriveMonitor> drive_;  ///< where there is odometry
+  std::uint32_t generation_ = 0;                    ///< of the last scan's pipeline
   MapExaminer map_examiner_;
   OdometryReader* odometry_ = nullptr;
   OdometryClients* odometry_clients_ = nullptr;

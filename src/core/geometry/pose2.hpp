@@ -43,6 +43,8 @@ struct Pose2 {
     const double s = std::sin(theta_rad);
     return {-c * x_m - s * y_m, s * x_m - c * y_m, normalize_angle(-theta_rad)};
   }
+
+  bool operator==(const Pose2&) const = default;
 };
 
 /// Velocity of a frame in its own axes.

@@ -129,11 +129,12 @@ std::optional<PredictedPose> Odometer::prediction_of(const MotionFilter& filter,
 void Odometer::correct(const Pose2& T_map_base, const Covariance3& covariance) {
   if (!config_.enabled || !present_) return;
   trust_.add_fix(T_map_base, covariance, filter_);
-  if (has_pose_ && filter_.correct(T_map_base, covariance, epoch_)) {
+  const bool is_comparable = has_pose_ && !pose_is_given_;
+  if (is_comparable && filter_.correct(T_map_base, covariance, epoch_)) {
     ++fixes_;
     rejected_in_a_row_ = 0;
   } else {
-    if (has_pose_) {
+    if (is_comparable) {
       ++rejected_fixes_;
       filter_.doubt_times();
       ++rejected_in_a_row_;
@@ -141,6 +142,7 @@ void Odometer::correct(const Pose2& T_map_base, const Covariance3& covariance) {
     filter_.set_pose(T_map_base, covariance, epoch_);
   }
   has_pose_ = true;
+  pose_is_given_ = false;
   fixed_ns_ = middle_ns_;
 }
 
@@ -149,6 +151,7 @@ void Odometer::set_pose(const Pose2& T_map_base, const Covariance3& covariance) 
   trust_.interrupt();
   rejected_in_a_row_ = 0;
   has_pose_ = true;
+  pose_is_given_ = true;
   fixed_ns_ = middle_ns_;
 }
 
@@ -156,6 +159,14 @@ void Odometer::forget() {
   has_pose_ = false;
   rejected_in_a_row_ = 0;
   trust_.interrupt();
+}
+
+void Odometer::resume(const Odometer& other) {
+  if (!config_.is_of_same_robot(other.config_)) return;
+  const OdometryConfig own = config_;
+  *this = other;
+  config_ = own;
+  forget();
 }
 
 bool Odometer::may_miss_motion() const {

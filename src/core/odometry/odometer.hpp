@@ -64,10 +64,13 @@ class Odometer {
 
   /// Updates the filter by a fix of the lidar at the time reached.
   void correct(const Pose2& T_map_base, const Covariance3& covariance);
-  /// Sets the pose at the time reached; does not update the parameters.
+  /// Sets the pose at the time reached; neither it nor the next fix updates the parameters.
   void set_pose(const Pose2& T_map_base, const Covariance3& covariance);
   /// Forgets the pose; the parameters stay.
   void forget();
+  /// Takes over the readings of another odometer, its parameters and what it knows of the sensors,
+  /// not its pose. Nothing where its config is of another robot.
+  void resume(const Odometer& other);
 
   OdometrySummary summary() const;
 
@@ -110,6 +113,7 @@ class Odometer {
   MotionFilter::Epoch epoch_;  ///< of the scan's middle
   bool knows_motion_ = false;
   bool has_pose_ = false;
+  bool pose_is_given_ = false;  ///< by set_pose(): no evidence about the sensors
   bool present_ = false;
   int rejected_in_a_row_ = 0;  ///< fixes: which of both is wrong, the next one shows
   TimeNs fixed_ns_ = 0;

@@ -17,6 +17,8 @@ struct DriveGeometry {
   double metres_per_count() const { return kTwoPi * wheel_radius_m / counts_per_turn; }
   /// Variance of a wheel's position within a count, m^2: uniform.
   double quantization_variance() const { return metres_per_count() * metres_per_count() / 12; }
+
+  bool operator==(const DriveGeometry&) const = default;
 };
 
 /// Physical limits: a reading beyond them is invalid.
@@ -26,6 +28,8 @@ struct OdometryLimits {
   /// Largest lead of a reading's time over its arrival; more means a wrong clock. Where the arrival
   /// time is that of the lidar's newest sample, it may be a slow revolution old.
   double ahead_s = 2;
+
+  bool operator==(const OdometryLimits&) const = default;
 };
 
 /// Standard deviations of wheels and gyro. Those of scales and bias are priors of
@@ -44,6 +48,8 @@ struct OdometryNoise {
   double scale_per_sqrt_s = 2e-5;
   double bias_rad_s_per_sqrt_s = 5e-5;
   double delay_s_per_sqrt_s = 2e-5;
+
+  bool operator==(const OdometryNoise&) const = default;
 };
 
 /// Parameters of the robot. A scale is a relative error: a wheel's true travel is (1 + scale) times
@@ -57,6 +63,8 @@ struct OdometryParameters {
   double track_scale = 0;
   double gyro_scale = 0;
   double delay_s = 0;
+
+  bool operator==(const OdometryParameters&) const = default;
 };
 
 struct OdometryConfig {
@@ -70,6 +78,12 @@ struct OdometryConfig {
   /// extrapolation. A survey, which adjusts the drive as a whole, switches this off.
   bool conservative = true;
   bool publish_predictions = false;  ///< a predicted pose for every reading
+
+  /// True where what was learned of the robot by the one config holds for the other.
+  bool is_of_same_robot(const OdometryConfig& other) const {
+    return enabled == other.enabled && geometry == other.geometry && limits == other.limits &&
+           noise == other.noise && initial == other.initial && conservative == other.conservative;
+  }
 };
 
 }  // namespace cornerd::core

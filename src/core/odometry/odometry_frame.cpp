@@ -8,20 +8,20 @@
 namespace cornerd::core {
 
 void OdometryFrame::configure(const OdometryConfig& config) {
-  is_enabled_ = config.enabled;
-  geometry_ = config.geometry;
-  gate_ = ReadingGate(config);
+  const bool is_other_robot = !config.is_of_same_robot(config_);
+  config_ = config;
+  if (is_other_robot) gate_ = ReadingGate(config);
 }
 
 const OdometryPose* OdometryFrame::add(const OdometryReading& reading, std::optional<TimeNs> now_ns,
                                        const OdometryParameters& parameters) {
-  if (!is_enabled_) return nullptr;
+  if (!config_.enabled) return nullptr;
   const std::optional<OdometryIncrement> step = gate_.add(reading, now_ns);
   if (!step) return nullptr;
   pose_.t_ns = step->to_ns;
   pose_.vx_m_s = pose_.omega_rad_s = 0;
   if (step->is_gap || step->to_ns <= step->from_ns) return &pose_;
-  MotionFactor factor(geometry_, parameters);
+  MotionFactor factor(config_.geometry, parameters);
   factor.add(*step);
   const Pose2 motion = factor.motion();
   pose_.T_odom_base = pose_.T_odom_base * motion;

@@ -23,10 +23,9 @@ struct OdometryPose {
 /// readings it stands still. Allocates nothing.
 class OdometryFrame {
  public:
-  explicit OdometryFrame(const OdometryConfig& config)
-      : is_enabled_(config.enabled), geometry_(config.geometry), gate_(config) {}
+  explicit OdometryFrame(const OdometryConfig& config) : config_(config), gate_(config) {}
 
-  /// Another geometry or other limits from now on; the pose stays.
+  /// For another robot's config begins with the next reading; the pose stays.
   void configure(const OdometryConfig& config);
 
   /// `now_ns`: see ReadingGate. `parameters`: as estimated until now. Null where the reading ended
@@ -35,8 +34,7 @@ class OdometryFrame {
                           const OdometryParameters& parameters);
 
  private:
-  bool is_enabled_;
-  DriveGeometry geometry_;
+  OdometryConfig config_;
   ReadingGate gate_;
   OdometryPose pose_;
 };

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "core/localizer.hpp"
@@ -22,7 +23,8 @@ class CircleDrive {
   CircleDrive(double speed_m_s, double rate_rad_s, double max_extrapolation_s = 10,
               bool publish = false)
       : map_(testing::make_map(testing::l_shaped_room())),
-        localizer_(map_, config(max_extrapolation_s, publish)),
+        config_(config(max_extrapolation_s, publish)),
+        localizer_(map_, config_),
         robot_({}, errors(), 5),
         speed_m_s_(speed_m_s),
         rate_rad_s_(rate_rad_s) {}
@@ -44,6 +46,14 @@ class CircleDrive {
     const ScanResult& result = localizer_.step(turned_round_ ? listed_ : scan);
     odometry_ = result.odometry;
     return result.pose;
+  }
+  void set_pose(const Pose2& T_map_base) { localizer_.set_pose(T_map_base); }
+  /// A reload: one with another config goes on.
+  void replace_localizer(void (*change)(LocalizerConfig&)) {
+    change(config_);
+    Localizer next(map_, config_);
+    next.resume_odometry(localizer_);
+    localizer_ = std::move(next);
   }
   /// From now on bearings come counter-clockwise, as ROS drivers give those of clockwise lidars.
   void turn_order_round() { turned_round_ = true; }
@@ -73,6 +83,7 @@ class CircleDrive {
   }
 
   std::shared_ptr<const WallMap> map_;
+  LocalizerConfig config_;
   Localizer localizer_;
   testing::DrivenRobot robot_;
   testing::ScanSource source_{91};
@@ -198,6 +209,45 @@ TEST(LocalizerWithOdometry, Summary_HasEstimatedParameters) {
   EXPECT_NEAR(
       (0.236 * odometry.parameters.left_scale + 0.364 * odometry.parameters.right_scale) / 0.6,
       0.01 * 0.236 / 0.6, 0.001);
+}
+
+TEST(LocalizerWithOdometry, WrongInitialPoses_AreNoEvidenceAboutTheWheels) {
+  CircleDrive drive(0.3, 0.8);
+  for (int k = 0; k < 200; ++k) {
+    if (k % 2 == 0) drive.set_pose({0.3 + 0.1 * (k % 20), 0.5 + 0.1 * (k % 7), 0.7});
+    ASSERT_EQ(drive.drive_scan().state, PoseState::kFix) << k;
+  }
+  EXPECT_EQ(drive.odometry().rejected_fixes, 0U);
+  EXPECT_TRUE(drive.odometry().healthy);
+  EXPECT_LT(drive.odometry().sigma.delay_s, 0.011) << "the readings' times are not in doubt";
+}
+
+TEST(LocalizerWithOdometry, AnotherPipelineOfTheSameRobot_GoesOnWithWhatWasLearned) {
+  CircleDrive drive(0.3, 0.8);
+  for (int k = 0; k < 200; ++k) drive.drive_scan();
+  const OdometrySummary learned = drive.odometry();
+  ASSERT_LT(learned.sigma.left_scale, 0.02);
+  drive.replace_localizer([](LocalizerConfig& config) {
+    config.odometry.publish_predictions = true;
+    config.learn_walls = false;
+  });
+  EXPECT_EQ(drive.drive_scan().state, PoseState::kFix);
+  EXPECT_NEAR(drive.odometry().parameters.left_scale, learned.parameters.left_scale, 1e-4);
+  EXPECT_NEAR(drive.odometry().sigma.left_scale, learned.sigma.left_scale, 1e-4);
+  EXPECT_TRUE(drive.odometry().present) << "the readings go on";
+  EXPECT_GT(drive.odometry().counters.readings, learned.counters.readings);
+}
+
+TEST(LocalizerWithOdometry, AnotherRobotOrMount_LearnsAnew) {
+  for (const auto& change :
+       {+[](LocalizerConfig& config) { config.odometry.geometry.track_m *= 2; },
+        +[](LocalizerConfig& config) { config.T_base_lidar.x_m += 0.1; }}) {
+    CircleDrive drive(0.3, 0.8);
+    for (int k = 0; k < 50; ++k) drive.drive_scan();
+    drive.replace_localizer(change);
+    drive.drive_scan();
+    EXPECT_EQ(drive.odometry().counters.readings, 14U) << "those of its own scan";
+  }
 }
 
 TEST(Localizer, InitialPose_ResolvesSymmetry) {

@@ -104,5 +104,29 @@ TEST(MapChoice, Relocalize_ChoosesAgain) {
   EXPECT_EQ(choice.map(), 1U);
 }
 
+TEST(MapChoice, ChosenMap_GoesOnWithTheOdometry) {
+  const Maps maps = two_rooms();
+  LocalizerConfig config;
+  config.odometry.enabled = true;
+  DrivingRobot robot{maps[0]};
+  MapChoice choice(maps, config);
+  std::uint64_t readings = 0;
+  const auto drive_until_known = [&] {
+    do {
+      OdometryReading reading;
+      reading.t_ns = TimeNs{137'000'000} * robot.scans + 1;
+      reading.left = reading.right = 300 * robot.scans;
+      choice.localizer().add(reading, std::nullopt);
+      ++readings;
+      EXPECT_EQ(choice.step(robot.next()).odometry.counters.readings, readings);
+    } while (!choice.map() && robot.scans < 400);
+  };
+  drive_until_known();
+  ASSERT_EQ(choice.map(), 0U);
+  choice.relocalize();
+  drive_until_known();
+  EXPECT_EQ(choice.map(), 0U);
+}
+
 }  // namespace
 }  // namespace cornerd::core

@@ -139,6 +139,45 @@ TEST(Localization, ReplacedPipeline_NoScanMissed) {
   localization.replace_pipeline(pipeline_without_map());
 }
 
+TEST(Localization, ReplacedPipeline_GoesOnWithTheOdometry) {
+  FakeLidar lidar(4, /*ends=*/true);
+  core::LocalizerConfig config;
+  config.odometry.enabled = true;
+  const auto pipeline = [&] { return std::make_unique<core::Pipeline>(nullptr, config); };
+  Localization localization(lidar, pipeline(), SourceKind::kRecording);
+  core::OdometryReading reading;
+  reading.left = reading.right = 0;
+  for (; reading.t_ns < 5; ++reading.t_ns) localization.add(reading);
+  localization.replace_pipeline(pipeline());
+  localization.start();
+  pollfd readable{localization.event_fd(), POLLIN, 0};
+  std::size_t scans = 0;
+  while (scans < 4 && ::poll(&readable, 1, 30'000) == 1) {
+    localization.take(
+        [&](const ScanReport& report) {
+          ++scans;
+          EXPECT_EQ(report.result.odometry.counters.readings, 5u) << report.generation;
+        },
+        [](const core::PoseEstimate&) {});
+  }
+  EXPECT_EQ(scans, 4u);
+}
+
+TEST(Localization, InitialPose_IsReportedWithTheNextScanAlone) {
+  FakeLidar lidar(4, /*ends=*/true);
+  Localization localization(lidar, pipeline_without_map(), SourceKind::kRecording);
+  localization.set_initial_pose({});
+  localization.start();
+  std::vector<bool> follows;
+  pollfd readable{localization.event_fd(), POLLIN, 0};
+  while (follows.size() < 4 && ::poll(&readable, 1, 30'000) == 1) {
+    localization.take(
+        [&](const ScanReport& report) { follows.push_back(report.follows_initial_pose); },
+        [](const core::PoseEstimate&) {});
+  }
+  EXPECT_EQ(follows, (std::vector<bool>{true, false, false, false}));
+}
+
 TEST(Localization, IdleLocalizer_HasProgressed) {
   FakeLidar lidar(0, /*ends=*/false);
   Localization localization(lidar, pipeline_without_map(), SourceKind::kDevice);

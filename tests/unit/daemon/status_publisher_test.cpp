@@ -3,8 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include <nlohmann/json.hpp>
 
+#include "core/odometry/odometry_increment.hpp"
 #include "test_client.hpp"
 #include "tests/temporary_folder.hpp"
 
@@ -162,6 +165,36 @@ TEST_F(StatusFaults, FaultOfLidar_StaysNamedWhileItIsTriedAgain) {
   lidar_.state = LidarState::kRunning;
   EXPECT_FALSE(published().contains("faults"));
   lidar_.state = LidarState::kIdentifying;
+  EXPECT_FALSE(published().contains("faults"));
+}
+
+TEST_F(StatusFaults, ReloadOfTheSameRobot_KeepsTheFaultsOfItsWheels) {
+  settings::Config config;
+  config.odometry.source = settings::OdometrySource::kSocket;
+  config.odometry.core.enabled = true;
+  publisher_.configure(config);
+  ScanReport report;
+  report.result.pose.state = core::PoseState::kFix;
+  double left_m = 0;
+  double right_m = 0;
+  for (int step = 0; step < 1000; ++step) {
+    const double rotation_rad = 0.02 * std::sin(step * 0.02);
+    report.result.pose.T_map_base = report.result.pose.T_map_base * core::arc(0.008, rotation_rad);
+    const double half_m = rotation_rad * config.odometry.core.geometry.track_m / 2;
+    left_m += 0.008 - half_m;
+    right_m += 0.008 + half_m;
+    core::OdometryReading swapped;
+    swapped.t_ns = report.result.pose.t_ns = step * core::TimeNs{20'000'000};
+    swapped.left = std::llround(right_m / config.odometry.core.geometry.metres_per_count());
+    swapped.right = std::llround(left_m / config.odometry.core.geometry.metres_per_count());
+    publisher_.observe(swapped);
+    publisher_.observe(report);
+  }
+  EXPECT_EQ(published()["faults"], json::parse(R"(["wheels-swapped"])"));
+  publisher_.configure(config);
+  EXPECT_EQ(published()["faults"], json::parse(R"(["wheels-swapped"])"));
+  config.odometry.core.geometry.track_m = 0.3;
+  publisher_.configure(config);
   EXPECT_FALSE(published().contains("faults"));
 }
 
