@@ -1,6 +1,6 @@
 # Manual pages, made from the programs' --help, the full config and the protocol's README. A cross build runs the programs in the emulator of its
 # toolchain file, and makes no pages without one. Builds that are never installed have no pages.
-if(CORNERD_SANITIZE OR CORNERD_FUZZ)
+if(CORNERD_SANITIZE)
   return()
 endif()
 if(CMAKE_CROSSCOMPILING AND NOT CMAKE_CROSSCOMPILING_EMULATOR)

@@ -52,11 +52,12 @@ endfunction()
 #           emulated builds, since it tests algorithms and neither memory nor the board.
 #           `host`: not in emulated builds, since a board has no use for it.
 #           `threads`: the thread sanitizer runs it.
-#   LONG    cases that only `tests/run all` runs, each pattern in a process of its own
+#           `realtime`: it waits for clocks and lines, and more of them run at once, after all others.
+#   LONG    cases that only `tests/run all` runs, each pattern in processes of its own
 #   ALONE   cases that run while nothing else does
 #   NATIVE  cases of minutes of simulated scans, whose code others call as well: not in sanitized and
 #           emulated builds, which take fifty times as long
-#   SHARDS  the number of processes that share the other cases; COST: the larger, the sooner it starts
+#   SHARDS  the number of processes that share cases; COST: the larger, the sooner it starts
 function(cornerd_add_test_program name)
   cmake_parse_arguments(arg "" "SHARDS;COST" "SOURCES;LINK;LABELS;LONG;ALONE;NATIVE" ${ARGN})
   if("host" IN_LIST arg_LABELS AND CMAKE_CROSSCOMPILING)
@@ -102,7 +103,8 @@ function(cornerd_add_test_program name)
     COST ${arg_COST})
   set(number 0)
   foreach(pattern IN LISTS arg_LONG)
-    cornerd_add_test_run(${name}.long.${number} ${name} "${pattern}" LABELS ${arg_LABELS} long COST 100)
+    cornerd_add_test_run(${name}.long.${number} ${name} "${pattern}" LABELS ${arg_LABELS} long
+      SHARDS ${arg_SHARDS} COST 100)
     math(EXPR number "${number} + 1")
   endforeach()
   if(alone)
