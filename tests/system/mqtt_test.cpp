@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "daemon_process.hpp"
+#include "drivers/serial/file_descriptor.hpp"
 #include "mosquitto_process.hpp"
 #include "mqtt/broker.hpp"
 #include "tests/wait_until.hpp"
@@ -179,6 +180,28 @@ TEST_F(Mqtt, WrongConfig_IsNamed) {
   DaemonProcess bridge = start_bridge("wrong", R"(, "vda5050": "9")");
   EXPECT_EQ(bridge.wait_for_exit(), 78);
   EXPECT_NE(bridge.output().find("/vda5050"), std::string::npos) << bridge.output();
+}
+
+/// A broker that consents to MQTT 5 and goes on with a property that there is not.
+void serve_nonsense(const LoopbackSocket& listener) {
+  const drivers::FileDescriptor client(::accept(listener.fd(), nullptr, nullptr));
+  char bytes[256];
+  EXPECT_GT(::recv(client.get(), bytes, sizeof bytes, 0), 0);
+  const std::string all("\x20\x03\0\0\0\x30\x06\0\x01t\x02\x7f\0", 13);
+  ::send(client.get(), all.data(), all.size(), MSG_NOSIGNAL);
+  ::recv(client.get(), bytes, sizeof bytes, 0);
+}
+
+// libmosquitto 2.0.11 of Debian 12 aborts; later ones end the connection.
+TEST_F(Mqtt, BrokerThatSendsNonsense_IsNamedWithTheWayOut) {
+  const LoopbackSocket listener(port_);
+  ASSERT_EQ(::listen(listener.fd(), 4), 0);
+  const DaemonProcess bridge = start_bridge();
+  serve_nonsense(listener);
+  const std::string words = "broker 127.0.0.1:" + std::to_string(port_) +
+                            ": what it sends is no MQTT 5, and libmosquitto ends this process";
+  EXPECT_TRUE(wait_until([&] { return bridge.output().find(words) != std::string::npos; }))
+      << bridge.output();
 }
 
 }  // namespace
