@@ -5,7 +5,9 @@
 #include <charconv>
 #include <cmath>
 #include <limits>
+#include <set>
 #include <utility>
+#include <vector>
 
 namespace cornerd::message {
 namespace {
@@ -57,6 +59,31 @@ std::optional<Json> parse_object(std::string_view line, std::size_t max_bytes,
     return std::nullopt;
   }
   return parsed;
+}
+
+std::optional<std::string> repeated_key(std::string_view line, const Json& object) {
+  std::vector<std::string_view> keys;  // as written
+  int depth = 0;
+  std::string_view text;
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    const char c = line[i];
+    if (c == '"') {
+      const std::size_t begin = i;
+      for (++i; line[i] != '"'; ++i) i += line[i] == '\\' ? 1 : 0;
+      text = line.substr(begin, i + 1 - begin);
+    } else if (c == ':' && depth == 1) {
+      keys.push_back(text);
+    } else {
+      depth += (c == '{' || c == '[' ? 1 : 0) - (c == '}' || c == ']' ? 1 : 0);
+    }
+  }
+  if (keys.size() == object.size()) return std::nullopt;
+  std::set<std::string> seen;
+  for (const std::string_view key : keys) {
+    auto name = Json::parse(key).get<std::string>();
+    if (!seen.insert(name).second) return name;
+  }
+  return std::nullopt;
 }
 
 void FieldReader::fail(const std::string& reason, std::string_view cause) {

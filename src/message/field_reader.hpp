@@ -33,6 +33,9 @@ inline constexpr Limits kAngleLimitsRad{-6.3, 6.3, " radians"};
 /// not a JSON object.
 std::optional<Json> parse_object(std::string_view line, std::size_t max_bytes, RequestError& error);
 
+/// A key that a valid JSON object has twice; the library keeps one of the values.
+std::optional<std::string> repeated_key(std::string_view line, const Json& object);
+
 /// Reads fields of an object. Keeps the first error; values read after it are unspecified.
 class FieldReader {
  public:

@@ -191,5 +191,20 @@ TEST(MessageClass, EveryName_ConvertsBackToItsClass) {
   EXPECT_EQ(message_class_from("TRUTH"), std::nullopt);
 }
 
+TEST(ParseRequest, KeyTwice_NamedInError) {
+  for (const char* line :
+       {R"({"class":"SET_POSE","x":1,"y":2,"theta":0,"x":3})",
+        R"({"class":"SET_POSE","x":{"x":1},"y":"\\\"x\":","theta":0,"\u0078":3})"}) {
+    const RequestError error = request_error(line);
+    EXPECT_EQ(error.code, "json") << line;
+    EXPECT_EQ(error.text, "the key \"x\" is there twice") << line;
+  }
+  EXPECT_EQ(request_error(R"({"class":"POLL","class":"WATCH"})").text,
+            "the key \"class\" is there twice");
+  EXPECT_TRUE(std::holds_alternative<PollRequest>(
+      parse_request(R"({"class":"POLL","a":{"b":1,"b":2},"b":[":",{"c":1}],"c":":{\"c\":"})")
+          .body));
+}
+
 }  // namespace
 }  // namespace cornerd::message
