@@ -52,6 +52,23 @@ bool is_allowed_host(std::string_view host, std::string_view own_name) {
          is_address(AF_INET, name);
 }
 
+bool is_origin(std::string_view text) {
+  const std::size_t colon = text.find("://");
+  if (colon == std::string_view::npos || colon == 0) return false;
+  const auto is_scheme = [](unsigned char c) {
+    return std::isalnum(c) != 0 || c == '+' || c == '-' || c == '.';
+  };
+  const std::string_view host = text.substr(colon + 3);
+  const std::size_t port = host.starts_with('[') ? host.find("]:") : host.find(':');
+  const std::size_t end = host.starts_with('[') && port != std::string_view::npos ? port + 1 : port;
+  if (end != std::string_view::npos && !is_port(host.substr(end + 1))) return false;
+  return std::all_of(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(colon), is_scheme) &&
+         !host.substr(0, end).empty() &&
+         std::none_of(host.begin(), host.end(), [](unsigned char c) {
+           return c <= ' ' || c == '/' || c == '?' || c == '#' || c == '@' || c == '*';
+         });
+}
+
 bool is_allowed_origin(std::string_view origin, std::string_view host,
                        const std::vector<std::string>& allowed) {
   if (origin.empty()) return true;

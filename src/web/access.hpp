@@ -21,6 +21,9 @@ struct AccessRules {
 /// Any other name may be one that an attacker points at this machine (DNS rebinding).
 bool is_allowed_host(std::string_view host, std::string_view own_name);
 
+/// True for what a browser may send as Origin of a page: scheme, host and no more than a port.
+bool is_origin(std::string_view text);
+
 /// True for no origin, that of the page itself, and the allowed ones.
 bool is_allowed_origin(std::string_view origin, std::string_view host,
                        const std::vector<std::string>& allowed);

@@ -74,6 +74,18 @@ void run(const ProgramOptions& options) {
   set_fleet(options.fleet, config);
   config.pose_socket = options.pose;
   config.control_socket = options.control;
+  if (std::error_code error;
+      !options.maps.empty() && !std::filesystem::is_directory(options.maps, error)) {
+    throw tool::Failure("--maps " + options.maps.string() + ": " +
+                        (error ? error.message() : "is no folder") + "; make it, or name another");
+  }
+  for (const std::string& origin : options.allowed_origins) {
+    if (is_origin(origin)) continue;
+    throw tool::UsageError(
+        "--allow-origin takes what a browser sends as Origin, such as "
+        "https://app.example.org, without a path, not \"" +
+        origin + "\"");
+  }
   if (!options.maps.empty()) config.maps = std::filesystem::absolute(options.maps);
   if (!options.token_file.empty()) config.access.token = read_token(options.token_file);
   config.access.allowed_origins = options.allowed_origins;

@@ -53,11 +53,14 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
 
  private:
   void on_header(beast::error_code error) {
-    if (error == http::error::end_of_stream) return close();
-    if (error) return;  // what is no HTTP gets no answer in HTTP
-    const auto& header = parser_->get();
     request_ = {};
+    is_head_ = false;
+    if (error == http::error::end_of_stream) return close();
+    if (error) return refuse_malformed(error);
+    const auto& header = parser_->get();
     request_.method = text_of(header.method_string());
+    is_head_ = request_.method == "HEAD";
+    if (is_head_) request_.method = "GET";
     request_.host = text_of(header[http::field::host]);
     request_.origin = text_of(header[http::field::origin]);
     request_.content_type = text_of(header[http::field::content_type]);
@@ -71,13 +74,26 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
     if (decision_.kind == Router::Kind::kRefused) return refuse(std::move(decision_.response));
     if (parser_->content_length_remaining().value_or(0) > decision_.max_body_bytes)
       return too_large();
-    if (decision_.kind == Router::Kind::kEvents) return start_events();
+    if (decision_.kind == Router::Kind::kEvents) {
+      return is_head_ ? refuse({.content_type = "text/event-stream"}) : start_events();
+    }
     if (decision_.kind == Router::Kind::kFoxglove) return start_foxglove();
     parser_->body_limit(decision_.max_body_bytes);
     http::async_read(stream_, buffer_, *parser_,
                      [self = shared_from_this()](beast::error_code body_error, std::size_t) {
                        self->on_body(body_error);
                      });
+  }
+
+  /// Of what is no HTTP; a client that is gone, or too slow, gets no answer.
+  void refuse_malformed(beast::error_code error) {
+    static const auto& kHttp = http::make_error_code(http::error::bad_method).category();
+    if (error.category() != kHttp || error == http::error::partial_message) return;
+    if (error == http::error::header_limit) {
+      return refuse(error_response(
+          431, "too-long", "a header has at most " + std::to_string(kMaxHeaderBytes) + " bytes"));
+    }
+    refuse(error_response(400, "http", "this is no request of HTTP/1.1: " + error.message()));
   }
 
   void too_large() {
@@ -87,7 +103,7 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
 
   void on_body(beast::error_code error) {
     if (error == http::error::body_limit) return too_large();
-    if (error) return;
+    if (error) return refuse_malformed(error);
     request_.body = std::move(parser_->get().body());
     if (decision_.kind == Router::Kind::kPage) {
       return respond(site_.router.answer(request_, Hub::Clock::now()));
@@ -110,6 +126,7 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
   }
 
   void respond(Response response) {
+    serializer_.reset();
     answer_.emplace();
     answer_->result(response.status);
     answer_->version(11);
@@ -128,14 +145,17 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
     place_ = std::move(response.place);
     answer_->prepare_payload();
     stream_.expires_after(kWriteTime);
-    http::async_write(stream_, *answer_,
-                      [self = shared_from_this()](beast::error_code error, std::size_t) {
-                        self->answer_.reset();
-                        if (std::exchange(self->place_, nullptr)) ::malloc_trim(0);
-                        if (error) return;
-                        if (!self->keep_alive_) return self->close();
-                        self->read();
-                      });
+    serializer_.emplace(*answer_);
+    const auto on_written = [self = shared_from_this()](beast::error_code error, std::size_t) {
+      self->serializer_.reset();
+      self->answer_.reset();
+      if (std::exchange(self->place_, nullptr)) ::malloc_trim(0);
+      if (error) return;
+      if (!self->keep_alive_) return self->close();
+      self->read();
+    };
+    is_head_ ? http::async_write_header(stream_, *serializer_, on_written)
+             : http::async_write(stream_, *serializer_, on_written);
   }
 
   /// A foreign origin that got here is one of --allow-origin.
@@ -230,7 +250,9 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
   beast::flat_static_buffer<2 * kReadBytes + kMaxHeaderBytes> buffer_;
   std::optional<http::request_parser<http::string_body>> parser_;
   std::optional<http::response<http::string_body>> answer_;
+  std::optional<http::response_serializer<http::string_body>> serializer_;
   std::shared_ptr<const void> place_;  ///< of the answer
+  bool is_head_ = false;               ///< the answer has no body
   Request request_;
   Router::Decision decision_;
   bool keep_alive_ = false;

@@ -246,5 +246,54 @@ TEST_F(Web, TerminateSignal_EndsItCleanly) {
   EXPECT_EQ(web.wait_for_exit(), 0);
 }
 
+TEST_F(Web, WhatIsNoHttp_IsToldSo) {
+  const DaemonProcess web = start_web();
+  wait_for_port(web);
+  for (const char* text : {"nonsense\r\n\r\n", "GET / HTTP/9.9\r\n\r\n", "\x16\x03\x01\x02\r\n\r\n",
+                           "GET / HTTP/1.1\r\nHost localhost\r\n\r\n"}) {
+    const std::string answer = ask(text);
+    EXPECT_TRUE(is(answer, 400)) << text << answer;
+    EXPECT_NE(answer.find("this is no request of HTTP/1.1"), std::string::npos) << answer;
+  }
+  EXPECT_TRUE(is(ask(head("GET /", "X: " + std::string(20'000, 'x') + "\r\n")), 431));
+}
+
+TEST_F(Web, Head_IsGetWithoutTheBody) {
+  const DaemonProcess daemon = start();
+  const DaemonProcess web = start_web();
+  wait_for_port(web);
+  const auto length_of = [](const std::string& answer) {
+    const std::size_t at = answer.find("Content-Length: ");
+    return at == std::string::npos ? std::string() : answer.substr(at, answer.find('\r', at) - at);
+  };
+  for (const char* path : {"/", "/app.js", "/api/maps", "/nothing"}) {
+    const std::string whole = ask(head(std::string("GET ") + path));
+    const std::string header = ask(head(std::string("HEAD ") + path));
+    EXPECT_EQ(header.substr(0, 12), whole.substr(0, 12)) << path;
+    EXPECT_EQ(length_of(header), length_of(whole)) << path;
+    EXPECT_TRUE(header.ends_with("\r\n\r\n")) << header;
+  }
+  EXPECT_TRUE(is(ask(head("HEAD /api/events")), 200));
+  EXPECT_TRUE(is(ask(head("HEAD /api/request")), 405));
+  // One connection, one request after the other.
+  HttpClient client(port_);
+  client.send("HEAD / HTTP/1.1\r\nHost: localhost\r\n\r\n" + head("GET /nothing"));
+  EXPECT_NE(client.read_until("").find("\r\n\r\nHTTP/1.1 404 "), std::string::npos);
+}
+
+TEST_F(Web, WrongOptions_AreRefusedWithTheReason) {
+  const auto refusal = [&](const char* option, const std::string& value, int code) {
+    DaemonProcess web({"--listen", "127.0.0.1:0", option, value}, folder_ / "web.log", {}, {},
+                      CORNERD_WEB_BINARY);
+    EXPECT_EQ(web.wait_for_exit(), code) << option;
+    return web.output();
+  };
+  EXPECT_NE(refusal("--maps", (folder_ / "nope").string(), 1).find("nope: No such file"),
+            std::string::npos);
+  EXPECT_NE(refusal("--maps", config(), 1).find("is no folder"), std::string::npos);
+  EXPECT_NE(refusal("--allow-origin", "foo", 2).find("such as https://app.example.org"),
+            std::string::npos);
+}
+
 }  // namespace
 }  // namespace cornerd::system_test

@@ -62,5 +62,16 @@ TEST(MayRead, AnybodyUnlessPrivate) {
   EXPECT_TRUE(may_read(request, rules));
 }
 
+TEST(Origin, SchemeHostAndPort_AndNoMore) {
+  for (const char* origin : {"https://app.example.org", "http://127.0.0.1:8080", "http://[::1]:80",
+                             "http://[::1]", "capacitor://localhost"}) {
+    EXPECT_TRUE(is_origin(origin)) << origin;
+  }
+  for (const char* text : {"", "foo", "app.example.org", "https://", "https://a/", "https://a/b",
+                           "https://a:x", "https://a b", "*", "null", "https://*.a", "://a"}) {
+    EXPECT_FALSE(is_origin(text)) << text;
+  }
+}
+
 }  // namespace
 }  // namespace cornerd::web
