@@ -27,6 +27,10 @@ constexpr double kLeastOverlap = 0.5;
 constexpr double kShortest_m = 1e-3;
 /// A line this near to the surface of a wall is its end, or was drawn twice.
 constexpr double kOnSurface_m = 0.01;
+/// Pairs of lines near each other that are compared; of a plan's walls each line has some dozens.
+/// More would take minutes, and of those that may be one wall more than a gigabyte.
+constexpr std::size_t kMaxCompared = 20'000'000;
+constexpr std::size_t kMaxCandidates = 5'000'000;
 /// Where walls meet, a face is interrupted by as much as the other wall is thick.
 constexpr double kJoint = 1.2;
 
@@ -85,6 +89,13 @@ class Pairing {
   }
 
  private:
+  [[noreturn]] void refuse_hatching() const {
+    throw PlanError(
+        "too many of its " + std::to_string(lines_.size()) +
+        " lines cross each other or lie side by side: hatching, or noise? Keep only the "
+        "layers with walls (--layer), and check --scale");
+  }
+
   /// Parallel lines within reach, the nearest first.
   std::vector<Candidate> candidates() const {
     std::vector<core::Extent> extents;
@@ -94,8 +105,11 @@ class Pairing {
     const core::CellGrid grid(extents);
     std::vector<Candidate> found;
     std::vector<std::uint32_t> near;
+    std::size_t compared = 0;
     for (std::uint32_t i = 0; i < lines_.size(); ++i) {
       grid.collect(core::Extent::of_segment(lines_[i].from, lines_[i].to(), 0), near);
+      compared += near.size();
+      if (compared > kMaxCompared || found.size() > kMaxCandidates) refuse_hatching();
       for (const std::uint32_t j : near) {
         if (j <= i || std::abs(core::cross(lines_[i].along, lines_[j].along)) > kParallel_rad) {
           continue;

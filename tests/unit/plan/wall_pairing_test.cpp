@@ -86,5 +86,13 @@ TEST(WallPairing, SingleLines_AreThinWallsOnce) {
   for (const core::Wall& wall : paired.walls) EXPECT_EQ(wall.thickness_m, 0.05);
 }
 
+TEST(WallPairing, Hatching_IsRefusedAtOnce) {
+  std::vector<DrawnLine> crossing;
+  for (int i = 0; i < 8'000; ++i) {
+    crossing.push_back({{30.0 * (i % 5'021) / 5'021, 0}, {30.0 * (i % 4'999) / 4'999, 30}});
+  }
+  EXPECT_THROW(pair_walls(crossing, {}), PlanError);
+}
+
 }  // namespace
 }  // namespace cornerd::plan
