@@ -5,9 +5,11 @@
 
 #include "mqtt/config.hpp"
 #include "mqtt/drive_parts.hpp"
+#include "replay/recording.hpp"
 #include "settings/document.hpp"
 #include "tool/command_line/command.hpp"
 #include "tool/command_line/failure.hpp"
+#include "tool/command_line/shared_options.hpp"
 #include "tool/commands.hpp"
 #include "tool/fleet/broker_options.hpp"
 
@@ -21,6 +23,44 @@ struct SendOptions {
   BrokerOptions broker;
 };
 
+/// Plays until the second scan begins.
+class FirstScan final : public replay::RecordingSink {
+ public:
+  void on_sample(const core::Sample& sample) override { starts_ += sample.starts_scan ? 1 : 0; }
+  void on_gap() override {}
+  void on_odometry(const message::OdometryReading& /*reading*/) override {}
+  bool is_whole() const { return starts_ > 1; }
+
+ private:
+  int starts_ = 0;
+};
+
+bool has_scan(const std::filesystem::path& file, const std::string& wire) {
+  FirstScan scan;
+  replay::RecordingPlayer player(file, {parse_wire(wire), false});
+  while (!scan.is_whole() && player.step(scan)) {
+  }
+  // Other bytes are a measurement by chance, here and there.
+  const drivers::StreamCounters& counters = player.counters();
+  return scan.is_whole() && counters.used_bytes >= counters.bytes / 2;
+}
+
+/// The site gets what a survey can read.
+void require_drive(const std::filesystem::path& file) {
+  const bool is_bytes = replay::kind_of_recording(file) == replay::RecordingKind::kBytes;
+  if (is_bytes && file.extension() != ".bin") {
+    throw Failure(file.string() +
+                  ": is no drive (.ndjson), nor are a port's bytes named so (.bin)");
+  }
+  for (const char* wire :
+       {"auto", "standard", "express", "ultra", "dense", "ultra-dense", "hq", "ld", "ydlidar"}) {
+    if (has_scan(file, wire)) return;
+    if (!is_bytes) break;
+  }
+  throw Failure(file.string() +
+                ": has no whole scan of a lidar, so is no drive: send what cornerctl record makes");
+}
+
 void send(const SendOptions& options) {
   const std::string name = options.file.filename();
   for (const std::string& level : {name, options.robot}) {
@@ -31,6 +71,7 @@ void send(const SendOptions& options) {
   const std::string bytes =
       settings::read_file(options.file, mqtt::kMaxDriveBytes, settings::FileKind::kOrdinary);
   if (bytes.empty()) throw Failure(options.file.string() + ": is empty");
+  require_drive(options.file);
   mqtt::Broker broker(options.broker.broker());
   wait_for_connection(broker);
   for (const mqtt::Message& message :
