@@ -32,6 +32,8 @@ std::vector<Finding> check_daemon(const Patient& patient);
 std::vector<Finding> check_control(const Patient& patient);
 /// Does the daemon send poses, and are most of them fixes?
 std::vector<Finding> check_poses(const Patient& patient);
+/// Are most returns within lidar.max_range?
+std::vector<Finding> check_range(const Patient& patient);
 /// Are the residuals of the scans those of lidar.noise?
 std::vector<Finding> check_residuals(const Patient& patient);
 

@@ -54,9 +54,9 @@ bool has_port(const Patient& patient) {
 }
 
 std::vector<Finding> examine(const Patient& patient) {
-  constexpr std::array kChecks = {check_reading,  check_port,     check_rights, check_holders,
-                                  check_claimers, check_power,    check_daemon, check_control,
-                                  check_poses,    check_residuals};
+  constexpr std::array kChecks = {check_reading,  check_port,  check_rights,   check_holders,
+                                  check_claimers, check_power, check_daemon,   check_control,
+                                  check_poses,    check_range, check_residuals};
   std::vector<Finding> findings;
   for (const auto check : kChecks) {
     std::vector<Finding> found = check(patient);

@@ -43,7 +43,27 @@ double median_of(std::vector<double> values) {
   return *middle;
 }
 
+/// Of the returns: more than a few beyond the range are no mirages.
+constexpr double kManyBeyond = 0.05;
+
 }  // namespace
+
+std::vector<Finding> check_range(const Patient& patient) {
+  const std::vector<float>& returns_m = patient.daemon.scan_returns_m;
+  const double max_m = patient.config.lidar.max_range_m;
+  const auto beyond = static_cast<double>(std::ranges::count_if(
+      returns_m, [&](float range_m) { return static_cast<double>(range_m) > max_m; }));
+  const double share = beyond / static_cast<double>(std::max(returns_m.size(), std::size_t{1}));
+  if (share < kManyBeyond) return {};
+  const auto farthest_m = static_cast<double>(*std::ranges::max_element(returns_m));
+  return {{Verdict::kNote,
+           "range",
+           formatted("%.0f %% of the lidar's returns, up to %.1f m, are beyond "
+                     "advanced.lidar.max_range, %g m, and are not used",
+                     100 * share, farthest_m, max_m),
+           {formatted("unless they are wrong: \"advanced\": { \"lidar\": { \"max_range\": %.0f } }",
+                      std::ceil(farthest_m))}}};
+}
 
 std::vector<Finding> check_residuals(const Patient& patient) {
   const DaemonView& daemon = patient.daemon;

@@ -58,5 +58,19 @@ TEST_F(CheckResiduals, NoMap_IsAnotherChecksFinding) {
   EXPECT_THAT(check(0.3), IsEmpty());
 }
 
+TEST_F(CheckResiduals, ReturnsBeyondTheRange_AreNoted) {
+  patient().config.lidar.max_range_m = 3;
+  EXPECT_THAT(check_range(patient()), IsEmpty());
+  patient().daemon.scan_returns_m.resize(1040, 7.2F);
+  EXPECT_THAT(check_range(patient()), IsEmpty()) << "a few are mirages";
+  patient().daemon.scan_returns_m.resize(1500, 7.2F);
+  EXPECT_THAT(check_range(patient()),
+              ElementsAre(Finds(Verdict::kNote, "range",
+                                "33 % of the lidar's returns, up to 7.2 m, are beyond "
+                                "advanced.lidar.max_range, 3 m")));
+  patient().daemon.scan_returns_m.clear();
+  EXPECT_THAT(check_range(patient()), IsEmpty());
+}
+
 }  // namespace
 }  // namespace cornerd::tool
