@@ -47,6 +47,12 @@ void replay(ReplayOptions& options) {
   const bool judges = classes.contains(MessageClass::kStatus) ||
                       (classes.contains(MessageClass::kOdom) && config.odometry.core.enabled);
   const bool uses_map = needs_map || (judges && !config.map.empty());
+  // Where scans fit nowhere, the last STATUS says whether another map fits.
+  if (uses_map && classes.contains(MessageClass::kStatus)) {
+    for (const settings::NamedMap& other : config.maps) {
+      if (other.file != config.map) settings::load_map(other.file);
+    }
+  }
   const auto map = uses_map ? settings::load_map(config.map) : nullptr;
   std::optional<Truth> truth;
   if (!options.truth.empty()) truth = Truth::load(options.truth);
