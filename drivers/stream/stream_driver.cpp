@@ -47,6 +47,7 @@ struct StreamDriver::Session {
 
   core::TimeNs last_sample_ns;
   core::TimeNs last_byte_ns;
+  bool has_received = false;
   core::TimeNs noise_since_ns = 0;  ///< 0: no byte since the last sample
 };
 
@@ -100,21 +101,22 @@ StreamDriver::Failure StreamDriver::session(ByteStream& opened, const std::stop_
                    config_.device + ": looking for " + described());
   const auto device = protocol_->start(port, clock_, stop);
   if (!device) return {LidarState::kBackoff, LidarFault::kNoAnswer, described()};
-  board_.set_device(device->model, device->firmware, device->serial);
   board_.set_health(device->health);
   has_answered_ = device->received_bytes > 0;
+  // One that sends by itself is what it should be as soon as it measures.
+  board_.set_device(has_answered_ ? device->model : "", device->firmware, device->serial);
   board_.count_answers(device->received_bytes, device->used_bytes);
   if (device->failed) return {LidarState::kFaulty, LidarFault::kHealthError, device->health};
   board_.set_state(LidarState::kStarting, LidarFault::kNone,
                    config_.device + ": waiting for the motor");
-  return measure(port, device->sample_period_s, stop, sink);
+  return measure(port, *device, stop, sink);
 }
 
-StreamDriver::Failure StreamDriver::measure(ByteStream& port, double sample_period_s,
+StreamDriver::Failure StreamDriver::measure(ByteStream& port, const StreamProtocol::Device& device,
                                             const std::stop_token& stop, SampleSink& sink) {
-  SampleStream stream(
-      protocol_->make_decoder(),
-      {.inverted = config_.inverted, .sample_period_s = sample_period_s, .baud = rates_.current()});
+  SampleStream stream(protocol_->make_decoder(), {.inverted = config_.inverted,
+                                                  .sample_period_s = device.sample_period_s,
+                                                  .baud = rates_.current()});
   SampleMonitor monitor(sink, board_);
   board_.begin_stream();
   Failure failure;
@@ -130,6 +132,7 @@ StreamDriver::Failure StreamDriver::measure(ByteStream& port, double sample_peri
                 /*more_pending=*/count == buffer.size());
     board_.update(stream.counters(), stream.latency(), now_ns);
     const bool measured = stream.samples() > samples;
+    if (measured && !has_run_) board_.set_device(device.model, device.firmware, device.serial);
     has_run_ = has_run_ || measured;
     if (const auto found = judge(session, now_ns, count > 0, measured)) {
       failure = *found;
@@ -149,6 +152,7 @@ StreamDriver::Failure StreamDriver::measure(ByteStream& port, double sample_peri
 /// The failure that ends the session; a stall is only reported, as the head may resume.
 std::optional<StreamDriver::Failure> StreamDriver::judge(Session& session, core::TimeNs now_ns,
                                                          bool received, bool measured) {
+  session.has_received = session.has_received || received;
   if (received) session.last_byte_ns = now_ns;
   if (measured) {
     session.last_sample_ns = now_ns;
@@ -168,12 +172,15 @@ std::optional<StreamDriver::Failure> StreamDriver::judge(Session& session, core:
     if (has_run_) return Failure{LidarState::kBackoff, LidarFault::kMotorStalled};
     // Silence of one that sends by itself: it may be another lidar.
     return Failure{LidarState::kBackoff, LidarFault::kNoData,
-                   has_answered_
-                       ? std::string()
-                       : "that it is " + described() + " baud (if not, set lidar.driver), and "};
+                   has_answered_ ? std::string() : suspicions(session.has_received)};
   }
   if (has_run_ && silent_ns > kStallNs) report(LidarState::kFaulty, LidarFault::kMotorStalled);
   return std::nullopt;
+}
+
+std::string StreamDriver::suspicions(bool has_received) const {
+  return std::string(has_received ? "" : "why not a byte comes (is its TX at the RX here?), ") +
+         "that it is " + described() + " baud (if not, set lidar.driver), and ";
 }
 
 std::string StreamDriver::described() const {

@@ -76,9 +76,11 @@ class StreamDriver : public LidarDriver {
   struct Session;
 
   Failure session(ByteStream& opened, const std::stop_token& stop, SampleSink& sink);
-  Failure measure(ByteStream& port, double sample_period_s, const std::stop_token& stop,
-                  SampleSink& sink);
+  Failure measure(ByteStream& port, const StreamProtocol::Device& device,
+                  const std::stop_token& stop, SampleSink& sink);
   std::optional<Failure> judge(Session& session, core::TimeNs now_ns, bool received, bool measured);
+  /// Of a lidar that never measured and was never asked for its name, for a hint.
+  std::string suspicions(bool has_received) const;
   /// The lidar as a hint names it.
   std::string described() const;
   void wait(std::chrono::milliseconds duration, const std::stop_token& stop);

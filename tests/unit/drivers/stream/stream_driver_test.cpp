@@ -114,8 +114,9 @@ TEST(StreamDriver, SilenceOfALidarThatSendsByItself_MayBeAnother) {
   Line line;
   const auto hints = run(line, std::make_unique<ld::LdProtocol>(), {230'400, 921'600}, 9).hints;
   EXPECT_THAT(hints.at(LidarFault::kNoData),
-              HasSubstr("check that it is an LD lidar at 230400, 921600 baud (if not, set "
-                        "lidar.driver), and that its motor turns"));
+              HasSubstr("check why not a byte comes (is its TX at the RX here?), that it is an LD "
+                        "lidar at 230400, 921600 baud (if not, set lidar.driver), and that its "
+                        "motor turns"));
 }
 
 TEST(YdlidarProtocol, HealthRequestOfTheSdk_IsSentWhereTheManualsIsNotAnswered) {
