@@ -17,6 +17,7 @@
 #include <thread>
 #include <utility>
 
+#include "drivers/config/open_files.hpp"
 #include "drivers/serial/baud_rate.hpp"
 #include "drivers/serial/file_descriptor.hpp"
 
@@ -124,7 +125,7 @@ OpenResult explain_open_failure(const std::string& path, int error) {
     case EBUSY:
       return failure(OpenError::kBusy, path, "held by another process");
     default:
-      return failure(OpenError::kFailed, path, std::strerror(error));
+      return failure(OpenError::kFailed, path, std::strerror(error) + open_files_hint(error));
   }
 }
 

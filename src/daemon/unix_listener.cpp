@@ -19,6 +19,9 @@
 #include <thread>
 #include <utility>
 
+#include "daemon/posix_clock.hpp"
+#include "drivers/config/open_files.hpp"
+
 namespace cornerd::daemon {
 namespace {
 
@@ -180,6 +183,7 @@ FileDescriptor UnixListener::accept() {
   };
   FileDescriptor client = take();
   if (!client.is_open() && (errno == EMFILE || errno == ENFILE)) {
+    turned_away_.add(std::strerror(errno) + drivers::open_files_hint(errno), monotonic_ns());
     spare_ = FileDescriptor();
     take();
     spare_ = make_spare();

@@ -9,6 +9,7 @@
 #include <optional>
 #include <vector>
 
+#include "daemon/rate_limited_log.hpp"
 #include "daemon/require_fd.hpp"
 
 namespace cornerd::daemon {
@@ -42,6 +43,7 @@ class UnixListener {
   std::filesystem::path path_;
   FileDescriptor fd_;
   FileDescriptor spare_;  ///< closed to accept and disconnect a client without a descriptor
+  RateLimitedLog turned_away_{LogLevel::kWarning, "a client is turned away"};
   gid_t group_ = 0;
   mode_t writers_ = 0;  ///< whom the file's mode allows to connect
   dev_t device_ = 0;

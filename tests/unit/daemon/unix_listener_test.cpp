@@ -15,6 +15,7 @@
 #include <thread>
 #include <vector>
 
+#include "captured_log.hpp"
 #include "test_client.hpp"
 #include "tests/temporary_folder.hpp"
 
@@ -60,10 +61,14 @@ TEST(UnixListener, OutOfDescriptors_ClientDisconnected) {
   const FileDescriptor lowest(::dup(listener.fd()));
   const rlimit full{static_cast<rlim_t>(lowest.get()), limit.rlim_max};
   ASSERT_EQ(::setrlimit(RLIMIT_NOFILE, &full), 0);
+  const CapturedLog log;
   EXPECT_FALSE(listener.accept().is_open());
   EXPECT_EQ(client.read_line(0), std::nullopt);
   EXPECT_TRUE(client.has_ended());
   EXPECT_EQ(::setrlimit(RLIMIT_NOFILE, &limit), 0);
+  const std::string words = "of at most " + std::to_string(lowest.get()) +
+                            " in this process: raise `ulimit -n`, or LimitNOFILE=";
+  EXPECT_NE(log.text().find(words), std::string::npos) << log.text();
   const TestClient next(folder / "s");
   EXPECT_TRUE(listener.accept().is_open());
 }

@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 #include <string>
 
@@ -90,6 +91,22 @@ TEST(Override, BelowANonObject_IsAnError) {
                 apply_override(document, "/map/x=1");
               }),
               HasSubstr("/map/x"));
+}
+
+TEST(ReadFile, LimitOfOpenFiles_IsNamedWithTheWayOut) {
+  rlimit limit{};
+  ASSERT_EQ(::getrlimit(RLIMIT_NOFILE, &limit), 0);
+  const rlimit none{3, limit.rlim_max};
+  ASSERT_EQ(::setrlimit(RLIMIT_NOFILE, &none), 0);
+  std::string error;
+  try {
+    read_file("/etc/passwd", 1 << 20, FileKind::kOrdinary);
+  } catch (const SettingsError& refused) {
+    error = refused.what();
+  }
+  ASSERT_EQ(::setrlimit(RLIMIT_NOFILE, &limit), 0);
+  EXPECT_NE(error.find("of at most 3 in this process: raise `ulimit -n`"), std::string::npos)
+      << error;
 }
 
 }  // namespace
