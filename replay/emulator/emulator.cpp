@@ -176,7 +176,7 @@ void Emulator::reset(core::TimeNs now_ns) {
 void Emulator::prepare_packet() {
   const WirePacket packet = source_->next();
   packet_ready_ns_ = packet.ready_ns;
-  packet_.assign(packet.bytes.begin(), packet.bytes.end());
+  if (!repeats_) packet_.assign(packet.bytes.begin(), packet.bytes.end());
 }
 
 void Emulator::measure_until(core::TimeNs now_ns) {

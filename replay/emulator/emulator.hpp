@@ -45,6 +45,8 @@ class Emulator : public DeviceEmulator {
   void take(core::TimeNs now_ns, std::vector<std::uint8_t>& out) override;
   std::optional<core::TimeNs> next_ns() const override;
   void set_stalled(bool stalled, core::TimeNs now_ns) override;
+  /// The head stands and samples go on: each packet repeats the one before.
+  void set_repeating(bool repeats) { repeats_ = repeats; }
   /// A failed health ends the scan.
   void set_health(const rplidar::Health& health, core::TimeNs now_ns);
   /// As after a RESET, but unasked.
@@ -76,6 +78,7 @@ class Emulator : public DeviceEmulator {
 
   bool scanning_ = false;
   bool stalled_ = false;
+  bool repeats_ = false;
   bool motor_runs_;
   FirmwareScanMode mode_;
   core::TimeNs packet_ready_ns_ = 0;  ///< of the packet being measured

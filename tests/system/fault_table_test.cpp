@@ -132,6 +132,15 @@ TEST_F(FaultTable, MotorStalled_Released_Recovers) {
       [&] { lidar_->act([](auto& device, auto t_ns) { device.set_stalled(false, t_ns); }); });
 }
 
+TEST_F(FaultTable, HeadStandsWhileItMeasures_TurnsAgain_Recovers) {
+  // A packet of the standard mode is a sample, which may come again.
+  start_daemon({"/advanced/lidar/mode=Standard"});
+  expect(
+      "head stands, samples go on; turns again", "no-scan", "faulty",
+      [&] { lidar_->act([](auto& device, auto) { device.set_repeating(true); }); },
+      [&] { lidar_->act([](auto& device, auto) { device.set_repeating(false); }); });
+}
+
 TEST_F(FaultTable, ProtectionStop_Reset_Recovers) {
   start_daemon();
   expect(
