@@ -58,7 +58,7 @@ Daemon::Daemon(Loaded loaded, MapLoader loader, std::unique_ptr<drivers::LidarDr
       localization_(*lidar_, with_learned(loaded), source_of(config_.lidar.driver)) {
   status_.configure(config_);
   log(LogLevel::kInfo, "map in use: " + describe(loaded.maps));
-  log_sizes(loaded.maps);
+  log_doubts(loaded);
   open_sockets(server_, config_.socket);
   // The sockets are opened first: a second instance fails before it touches the serial port.
   configure_localization(config_);
@@ -213,7 +213,7 @@ void Daemon::on_loaded() {
     return;
   }
   loaded_maps_.add(name, monotonic_ns());
-  log_sizes(loaded.maps);
+  log_doubts(loaded);
   server_.publish(message::MessageClass::kEvent, line_.event(now_ns(), "map loaded", name));
   if (is_reload) return notifier_.ready();
   server_.answer_later(outcome.job.ticket, std::nullopt);
@@ -246,6 +246,7 @@ void Daemon::on_tick() {
   }
   if (is_time) {
     status_.set_walls(walls_.update(localization_, scans_.map()).get(), scans_.map(), now_ns());
+    status_.set_walls_problem(walls_.problem());
     server_.restore_sockets([](const std::string& line) { log(LogLevel::kWarning, line); });
   }
 }

@@ -50,8 +50,10 @@ core::LearnedWalls LearnedWallsFile::load(const std::string& map_hash, std::size
   written_ = {};
   if (folder_.empty() || map_hash.empty()) return {};
   const std::filesystem::path file = folder_ / settings::learned_walls_name(map_hash);
-  std::error_code absent;
-  if (!std::filesystem::exists(file, absent)) return {};
+  std::error_code unread;
+  if (std::filesystem::status(file, unread).type() == std::filesystem::file_type::not_found) {
+    return {};
+  }
   try {
     settings::LearnedWallsOfMap found = settings::parse_learned_walls(
         settings::read_file(file, settings::kMaxLearnedWallsBytes, settings::FileKind::kOrdinary),
@@ -64,8 +66,8 @@ core::LearnedWalls LearnedWallsFile::load(const std::string& map_hash, std::size
     log(LogLevel::kInfo, file.string() + ": offsets of " + std::to_string(written_.offsets.size()) +
                              " walls are known");
   } catch (const std::exception& error) {
-    log(LogLevel::kWarning,
-        std::string("what was learned of the walls is not used: ") + error.what());
+    problem_ = std::string("what was learned of the walls is not used: ") + error.what();
+    log(LogLevel::kWarning, problem_);
   }
   return written_;
 }
@@ -90,12 +92,11 @@ void LearnedWallsFile::update(const std::string& map_hash, const core::LearnedWa
     replace_file(folder_ / settings::learned_walls_name(map_hash),
                  settings::text_of({map_hash, walls}));
     written_ = walls;
+    problem_.clear();
   } catch (const std::exception& error) {
-    if (!has_warned_) {
-      log(LogLevel::kWarning,
-          std::string("cannot store what was learned of the walls: ") + error.what());
-    }
-    has_warned_ = true;
+    const std::string problem = std::string("cannot store what was learned of the walls: ") +
+                                error.what() + "; set another /advanced/localizer/walls_folder";
+    if (problem != std::exchange(problem_, problem)) log(LogLevel::kWarning, problem);
   }
 }
 

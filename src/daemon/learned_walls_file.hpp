@@ -17,7 +17,7 @@ namespace cornerd::daemon {
 /// without either, and for a recording.
 std::filesystem::path learned_walls_folder(const settings::Config& config);
 
-/// Keeps what was learned of each map's walls across restarts. Errors are logged and otherwise
+/// Keeps what was learned of each map's walls across restarts. Errors are logged once and otherwise
 /// ignored. For the server thread.
 class LearnedWallsFile {
  public:
@@ -29,6 +29,9 @@ class LearnedWallsFile {
   /// Asks for what the localizer has learned, and takes what came since the last call: null where
   /// that is nothing, or not of `map`, the last POSE's.
   std::unique_ptr<WallReport> update(Localization& localization, const core::WallMap* map);
+
+  /// Why what is learned is not kept, or what was stored is not used; empty if nothing is wrong.
+  const std::string& problem() const { return problem_; }
 
   /// What is stored for the map; nothing where there is none or it is of another map.
   core::LearnedWalls load(const std::string& map_hash, std::size_t walls);
@@ -43,7 +46,7 @@ class LearnedWallsFile {
   std::string hash_;          ///< of the map in use
   core::LearnedWalls walls_;  ///< of it, the newest
   core::LearnedWalls written_;
-  bool has_warned_ = false;
+  std::string problem_;
 };
 
 }  // namespace cornerd::daemon

@@ -5,6 +5,7 @@
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <memory>
 #include <new>
@@ -21,6 +22,7 @@
 #include "daemon/log.hpp"
 #include "daemon/map_loader.hpp"
 #include "daemon/realtime.hpp"
+#include "drivers/config/open_files.hpp"
 #include "drivers/serial/file_descriptor.hpp"
 #include "settings/config.hpp"
 
@@ -57,12 +59,15 @@ int run(const daemon::Options& options) {
     return 0;
   }
   if (options.check) {
-    daemon::MapLoader(options.config, options.overrides).check();
+    const std::string warning = daemon::MapLoader(options.config, options.overrides).check();
+    if (!warning.empty()) print_error("warning: " + warning);
     print("ok\n");
     return 0;
   }
   daemon::set_up_log();
   daemon::use_small_stacks();
+  // While a large map loads there is nothing to end in an orderly way; the event loop takes over.
+  for (const int signal : {SIGTERM, SIGINT}) std::signal(signal, [](int) { std::_Exit(0); });
   daemon::MapLoader loader(options.config, options.overrides);
   daemon::Loaded loaded = loader.load();
   auto lidar = daemon::make_lidar(loaded.config.lidar);
@@ -93,6 +98,9 @@ int main(int argc, char** argv) {
     return settings::kExitConfig;
   } catch (const std::bad_alloc&) {
     print_error("not enough memory: check `ulimit -v` and the size of the map");
+    return kExitFailed;
+  } catch (const std::system_error& error) {
+    print_error(error.what() + drivers::open_files_hint(error.code().value()));
     return kExitFailed;
   } catch (const std::exception& error) {
     print_error(error.what());

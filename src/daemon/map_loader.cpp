@@ -53,25 +53,27 @@ std::string describe(const std::vector<LoadedMap>& maps) {
   return names;
 }
 
-void log_sizes(const std::vector<LoadedMap>& maps) {
-  for (const LoadedMap& loaded : maps) {
-    const std::string warning = settings::size_warning(*loaded.map);
-    if (!warning.empty()) log(LogLevel::kWarning, loaded.map->plan().name + ": " + warning);
+void log_doubts(const Loaded& loaded) {
+  for (const LoadedMap& one : loaded.maps) {
+    const std::string warning = settings::size_warning(*one.map);
+    if (!warning.empty()) log(LogLevel::kWarning, one.map->plan().name + ": " + warning);
   }
+  const std::string warning = settings::equal_maps_warning(loaded.config);
+  if (!warning.empty()) log(LogLevel::kWarning, warning);
 }
 
 MapLoader::MapLoader(std::filesystem::path config_file, std::vector<std::string> overrides)
     : config_file_(std::move(config_file)), overrides_(std::move(overrides)) {}
 
-void MapLoader::check() const {
+std::string MapLoader::check() const {
   const settings::Config config = settings::load_config(config_file_, overrides_, kKind);
   for (const settings::NamedMap& map : used_maps(config, config_file_)) {
     settings::load_map(map.file, kKind);
   }
-  if (config.chooses_map()) return;
   for (const settings::NamedMap& map : config.maps) {
-    if (map.file != config.map) settings::load_map(map.file, kKind);
+    if (!config.chooses_map() && map.file != config.map) settings::load_map(map.file, kKind);
   }
+  return settings::equal_maps_warning(config);
 }
 
 Loaded MapLoader::load() {

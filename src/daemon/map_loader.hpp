@@ -30,8 +30,9 @@ struct Loaded {
 /// "hall, 12 walls, SHA-256 3f0c...", for the log; "one of: hall, cellar" for several.
 std::string describe(const core::WallMap& map);
 std::string describe(const std::vector<LoadedMap>& maps);
-/// Warns in the log of maps that are probably in other units; they are loaded all the same.
-void log_sizes(const std::vector<LoadedMap>& maps);
+/// Warns in the log of maps that are probably in other units, or twice the same; they are loaded
+/// all the same.
+void log_doubts(const Loaded& loaded);
 
 /// Loads what a pipeline needs. Takes seconds where the map is large. Throws SettingsError where
 /// config or map is invalid; the next load is then the same as without that call.
@@ -40,8 +41,9 @@ class MapLoader {
   /// `overrides`: "/json/pointer=value".
   MapLoader(std::filesystem::path config_file, std::vector<std::string> overrides);
 
-  /// Reads the config and its maps, and throws what is wrong with them.
-  void check() const;
+  /// Reads the config and its maps, and throws what is wrong with them. Returns a warning, or
+  /// nothing.
+  std::string check() const;
   /// Reads the config and its map.
   Loaded load();
   /// Another map in the config of the last load(), which has succeeded.

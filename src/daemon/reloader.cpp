@@ -21,7 +21,7 @@ constexpr std::size_t kMaxWaiting = 8;
 /// The localizer's thread comes first on a board with one core: nine times as much of it, sched(7).
 constexpr int kNiceness = 10;
 /// A large map may take longer than a service manager waits.
-constexpr int kMaxWait_ms = 1000;
+constexpr int kMaxWait_ms = 500;
 
 }  // namespace
 

@@ -38,6 +38,19 @@ fs::path map_named(const Config& config, const std::string& name) {
                                                 names_of(config.maps));
 }
 
+std::string equal_maps_warning(const Config& config) {
+  for (std::size_t i = 0; i < config.maps.size(); ++i) {
+    for (std::size_t k = 0; k < i; ++k) {
+      std::error_code unread;
+      if (!fs::equivalent(config.maps[k].file, config.maps[i].file, unread) || unread) continue;
+      return "/maps: \"" + config.maps[k].name + "\" and \"" + config.maps[i].name +
+             "\" are one file, " + config.maps[i].file.string() +
+             ": scans cannot tell them apart; is one of the files wrong?";
+    }
+  }
+  return {};
+}
+
 fs::path map_in_folders(const Config& config, const fs::path& file) {
   const auto fail = [](const std::string& reason) {
     throw SettingsError("SET_MAP", "/file", reason);

@@ -16,4 +16,7 @@ std::filesystem::path map_named(const Config& config, const std::string& name);
 /// read the daemon's other files.
 std::filesystem::path map_in_folders(const Config& config, const std::filesystem::path& file);
 
+/// A line about two of "maps" that are the same file; empty if there are none.
+std::string equal_maps_warning(const Config& config);
+
 }  // namespace cornerd::settings

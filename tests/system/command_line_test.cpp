@@ -120,5 +120,14 @@ TEST_F(CommandLine, StackOf64kB_Runs) {
   EXPECT_EQ(daemon.wait_for_exit(), 0) << daemon.output();
 }
 
+TEST_F(CommandLine, OneMapTwice_IsWarnedOf) {
+  const json maps = {{{"name", "ground"}, {"file", (folder_ / "map.json").string()}},
+                     {{"name", "first"}, {"file", (folder_ / "map.json").string()}}};
+  const Result result = run(
+      {"--config", config(), "--check", "--set", "/maps=" + maps.dump(), "--set", "/map=first"});
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_THAT(result.output, HasSubstr("\"ground\" and \"first\" are one file"));
+}
+
 }  // namespace
 }  // namespace cornerd::system_test

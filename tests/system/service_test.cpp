@@ -4,13 +4,16 @@
 #include <signal.h>
 #include <sys/stat.h>
 
+#include <chrono>
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include <thread>
 
 #include "daemon_process.hpp"
 #include "room_recording.hpp"
 #include "service_manager.hpp"
+#include "tests/sanitized.hpp"
 #include "tests/wait_until.hpp"
 
 namespace cornerd::system_test {
@@ -25,6 +28,16 @@ class Service : public DaemonTest {
     }
   }
 
+  static bool has_thread(pid_t pid, const std::string& name) {
+    for (const auto& entry :
+         std::filesystem::directory_iterator("/proc/" + std::to_string(pid) + "/task")) {
+      std::string found;
+      std::getline(std::ifstream(entry.path() / "comm"), found);
+      if (found == name) return true;
+    }
+    return false;
+  }
+
   /// One of the daemon's first actions.
   static bool ignores_broken_pipes(pid_t pid) {
     std::ifstream status("/proc/" + std::to_string(pid) + "/status");
@@ -33,6 +46,18 @@ class Service : public DaemonTest {
       return (std::stoull(line.substr(7), nullptr, 16) >> (SIGPIPE - 1) & 1) != 0;
     }
     return false;
+  }
+
+  /// A map that takes seconds to load: 90,000 crossings of line walls.
+  static void write_slow_map(const std::filesystem::path& file) {
+    std::ofstream map(file);
+    map << R"({ "format": "cornerd-map", "version": 1, "walls": [ )";
+    for (int i = 0; i < 300; ++i) {
+      const double at = 0.3 * i;
+      map << (i > 0 ? "," : "") << "{\"from\": [0, " << at << "], \"to\": [90, " << at
+          << "]}, {\"from\": [" << at + 0.1 << ", 0], \"to\": [" << at + 0.1 << ", 90]}";
+    }
+    map << "] }";
   }
 
   /// A map that takes a while to load.
@@ -143,6 +168,32 @@ TEST_F(Service, HangupWithPipeInsteadOfMap_Refused) {
   EXPECT_TRUE(next_event(client, "map loaded").is_object());
   daemon.send_signal(SIGTERM);
   EXPECT_EQ(daemon.wait_for_exit(), 0);
+}
+
+TEST_F(Service, TerminateSignalWhileAMapLoads_EndsItWithinASecond) {
+  using SteadyClock = std::chrono::steady_clock;
+  const auto expect_end = [](DaemonProcess& daemon) {
+    const SteadyClock::time_point told = SteadyClock::now();
+    daemon.send_signal(SIGTERM);
+    EXPECT_EQ(daemon.wait_for_exit(), 0) << daemon.output();
+    EXPECT_LT(SteadyClock::now() - told, std::chrono::seconds(test::kSanitized ? 10 : 1));
+  };
+  {
+    DaemonProcess daemon = start();
+    TestClient client = connect();
+    next_of(client, "POSE");
+    write_slow_map(folder_ / "map.json");
+    daemon.send_signal(SIGHUP);
+    EXPECT_TRUE(test::wait_until([&] { return has_thread(daemon.pid(), "reloader"); }));
+    expect_end(daemon);
+    EXPECT_EQ(daemon.output().find("map loaded"), std::string::npos) << "it was loading";
+  }
+  DaemonProcess daemon = start();
+  EXPECT_TRUE(test::wait_until([&] { return ignores_broken_pipes(daemon.pid()); }));
+  std::this_thread::sleep_for(std::chrono::milliseconds(300));
+  expect_end(daemon);
+  EXPECT_EQ(daemon.output().find("map in use"), daemon.output().rfind("map in use"))
+      << "it was loading";
 }
 
 TEST_F(Service, HangupDuringStart_HandledAfterStart) {

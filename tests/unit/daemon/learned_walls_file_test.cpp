@@ -4,9 +4,12 @@
 #include <gtest/gtest.h>
 #include <stdlib.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <string>
 
+#include "captured_log.hpp"
 #include "tests/temporary_folder.hpp"
 
 namespace cornerd::daemon {
@@ -65,6 +68,34 @@ TEST(LearnedWallsFile, Folder_ConfiguredOrTheServicesOrNone) {
   config.lidar.driver = settings::DriverKind::kReplay;
   EXPECT_TRUE(learned_walls_folder(config).empty());
   ::unsetenv("STATE_DIRECTORY");
+}
+
+TEST(LearnedWallsFile, LoopOfLinks_SaidOnce) {
+  test::TemporaryFolder folder;
+  const CapturedLog log;
+  std::filesystem::create_symlink("loop", folder / "loop");
+  LearnedWallsFile file(folder / "loop");
+  file.load("abc", 27);
+  EXPECT_NE(file.problem().find("is not used: "), std::string::npos) << file.problem();
+  core::LearnedWalls walls = kLearned;
+  file.update("abc", walls);
+  walls.offsets[0].offset_m += 1;
+  file.update("abc", walls);
+  EXPECT_NE(file.problem().find("set another /advanced/localizer/walls_folder"), std::string::npos);
+  const std::string text = log.text();
+  EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 2) << text;
+}
+
+TEST(LearnedWallsFile, FolderThatAppears_MendsIt) {
+  test::TemporaryFolder folder;
+  LearnedWallsFile file(folder / "later");
+  file.load("abc", 27);
+  EXPECT_EQ(file.problem(), "") << "nothing is stored yet";
+  file.update("abc", kLearned);
+  EXPECT_NE(file.problem(), "");
+  std::filesystem::create_directory(folder / "later");
+  file.update("abc", kLearned);
+  EXPECT_EQ(file.problem(), "");
 }
 
 }  // namespace

@@ -149,6 +149,15 @@ TEST_F(StatusFaults, LidarFaultAndUnhealthyOdometry_InTheOrderOfWeight) {
   EXPECT_EQ(status["hint"], "dark");
 }
 
+TEST_F(StatusFaults, LearnedWallsThatCannotBeStored_AreTheLastFault) {
+  publisher_.set_walls_problem("cannot store it");
+  const json status = published();
+  EXPECT_EQ(status["faults"], json::parse(R"(["walls-file"])"));
+  EXPECT_EQ(status["hint"], "cannot store it");
+  publisher_.set_walls_problem("");
+  EXPECT_FALSE(published().contains("faults"));
+}
+
 TEST_F(StatusFaults, FaultOfLidar_StaysNamedWhileItIsTriedAgain) {
   lidar_.state = LidarState::kBackoff;
   lidar_.fault = LidarFault::kNoAnswer;

@@ -104,5 +104,14 @@ TEST(Maps, TwoOfOneName_Refused) {
   EXPECT_NE(error.find("/maps/1"), std::string::npos) << error;
 }
 
+TEST_F(MapChoice, OneFileTwice_IsNamed) {
+  config_.maps = {{"ground", folder_ / "maps/a.json"}, {"first", folder_ / "maps2/c.json"}};
+  EXPECT_EQ(equal_maps_warning(config_), "");
+  config_.maps.push_back({"second", folder_ / "maps/../maps/a.json"});
+  EXPECT_THAT(equal_maps_warning(config_), HasSubstr("\"ground\" and \"second\" are one file"));
+  config_.maps = {{"a", folder_ / "none.json"}, {"b", folder_ / "none.json"}};
+  EXPECT_EQ(equal_maps_warning(config_), "") << "that it is absent is said elsewhere";
+}
+
 }  // namespace
 }  // namespace cornerd::settings
