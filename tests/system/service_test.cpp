@@ -25,12 +25,12 @@ class Service : public DaemonTest {
     }
   }
 
-  /// One of the daemon's first actions.
-  static bool ignores_broken_pipes(pid_t pid) {
+  /// The daemon's first action: before it, SIGHUP ends the process.
+  static bool blocks_hangups(pid_t pid) {
     std::ifstream status("/proc/" + std::to_string(pid) + "/status");
     for (std::string line; std::getline(status, line);) {
-      if (!line.starts_with("SigIgn:")) continue;
-      return (std::stoull(line.substr(7), nullptr, 16) >> (SIGPIPE - 1) & 1) != 0;
+      if (!line.starts_with("SigBlk:")) continue;
+      return (std::stoull(line.substr(7), nullptr, 16) >> (SIGHUP - 1) & 1) != 0;
     }
     return false;
   }
@@ -148,7 +148,7 @@ TEST_F(Service, HangupWithPipeInsteadOfMap_Refused) {
 TEST_F(Service, HangupDuringStart_HandledAfterStart) {
   write_large_map(folder_ / "map.json");
   DaemonProcess daemon = start();
-  EXPECT_TRUE(test::wait_until([&] { return ignores_broken_pipes(daemon.pid()); }));
+  EXPECT_TRUE(test::wait_until([&] { return blocks_hangups(daemon.pid()); }));
   daemon.send_signal(SIGHUP);
   EXPECT_TRUE(test::wait_until([&] {
     return daemon.output().find("map loaded: ") != std::string::npos;
