@@ -17,7 +17,7 @@ constexpr double kLikelier = 0.94;
 /// Where a tyre touches the floor changes with every rotation on the spot.
 constexpr double kScrub_rad_per_sqrt_rad = 0.001;
 /// Bounds of the calibration; of scales in sigma of their priors: more is a wrong setting.
-constexpr double kMostSigmas = 15;
+constexpr double kMostSigmas = 10;
 constexpr double kMostBias_rad_s = 0.5;
 constexpr double kMostDelay_s = 0.2;
 
@@ -28,10 +28,10 @@ MotionFilter::MotionFilter(const OdometryConfig& config)
       noise_(config.noise),
       factor_(config.geometry, config.initial),
       // Fixes in a growing map share errors: what they show seems smaller than it is.
-      wheel_noise_(8, config.conservative ? 0.1 : 1, 25),
-      gyro_noise_(4, config.conservative ? 0.3 : 1, 25),
-      fix_place_(10, config.conservative ? 0.06 : 1, 1),
-      fix_heading_(5, config.conservative ? 0.03 : 1, 1) {
+      wheel_noise_(config.conservative ? 0.1 : 1, 100),
+      gyro_noise_(config.conservative ? 0.1 : 1, 100),
+      fix_place_(config.conservative ? 0.03 : 1, 1),
+      fix_heading_(config.conservative ? 0.03 : 1, 1) {
   const OdometryParameters& initial = config.initial;
   state_.segment<5>(kBias) << initial.gyro_bias_rad_s, initial.left_scale, initial.right_scale,
       initial.track_scale, initial.gyro_scale;

@@ -66,16 +66,6 @@ TEST_F(Cornerctl, HelpAndVersion_ExitCode0) {
   EXPECT_EQ(run({"map", "check", "--version"}).exit_code, kExitDone);
 }
 
-TEST_F(Cornerctl, ReplayWithAnUnreadableOtherMap_SaysItBeforeTheFirstMessage) {
-  write("bad.json", "{");
-  write("two.json", R"({ "maps": [{ "name": "a", "file": ")" + map_ +
-                        R"(" }, { "name": "b", "file": "bad.json" }], "map": "a" })");
-  const CommandRun outcome = run({"replay", recording(), "--config", path("two.json")});
-  EXPECT_EQ(outcome.exit_code, 78);
-  EXPECT_THAT(outcome.err, HasSubstr("bad.json: "));
-  EXPECT_EQ(outcome.out, "");
-}
-
 TEST_F(Cornerctl, WrongUsage_ExitCode2WithReasonOnStandardError) {
   const std::vector<std::vector<std::string>> wrong = {
       {},
