@@ -88,7 +88,7 @@ TEST(WallPairing, SingleLines_AreThinWallsOnce) {
 
 TEST(WallPairing, Hatching_IsRefusedAtOnce) {
   std::vector<DrawnLine> crossing;
-  for (int i = 0; i < 8'000; ++i) {
+  for (int i = 0; i < 14'000; ++i) {
     crossing.push_back({{30.0 * (i % 5'021) / 5'021, 0}, {30.0 * (i % 4'999) / 4'999, 30}});
   }
   EXPECT_THROW(pair_walls(crossing, {}), PlanError);
