@@ -16,8 +16,8 @@ namespace cornerd::core {
 namespace {
 
 using testing::config_with_counts_of_5_mm;
-using testing::switched_on;
 using testing::nominal_errors;
+using testing::switched_on;
 using Drive = testing::FilteredDrive;
 
 /// Normalized estimation error squared: 3 in the mean where the covariance is consistent. Each

@@ -12,8 +12,8 @@ namespace {
 
 using testing::config_with_counts_of_5_mm;
 using testing::kFixSigma_m;
-using testing::switched_on;
 using testing::nominal_errors;
+using testing::switched_on;
 using Drive = testing::FilteredDrive;
 
 TEST(MotionFilter, ThirtySecondsOfFixes_ScalesAndBiasAreEstimated) {
