@@ -53,8 +53,7 @@ struct MotionWindow {
 
 /// Cuts windows from odometry increments and the lidar's poses, each in the order of time. A window
 /// with a gap in either is dropped, be it within the longest delay, and one with a jump of the
-/// pose. Keeps the newest windows in
-/// which the robot moved.
+/// pose. Keeps the newest windows in which the robot moved.
 class MotionWindows {
  public:
   explicit MotionWindows(std::size_t capacity) : capacity_(capacity) {}
