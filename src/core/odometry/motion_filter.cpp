@@ -16,8 +16,10 @@ constexpr double kSlipGate = 15.1;
 constexpr double kLikelier = 0.94;
 /// Where a tyre touches the floor changes with every rotation on the spot.
 constexpr double kScrub_rad_per_sqrt_rad = 0.001;
-/// Bounds of the calibration; of scales in sigma of their priors: more is a wrong setting.
+/// Bounds of the calibration; of scales in sigma of their priors: more is a wrong setting. In a
+/// survey nothing depends on them while it drives.
 constexpr double kMostSigmas = 10;
+constexpr double kMostSigmasOfSurvey = 15;
 constexpr double kMostBias_rad_s = 0.5;
 constexpr double kMostDelay_s = 0.2;
 
@@ -42,7 +44,7 @@ MotionFilter::MotionFilter(const OdometryConfig& config)
   sigma.segment<2>(kLeftRest).setConstant(std::sqrt(geometry_.quantization_variance()));
   sigma[kDelay] = noise_.delay_s;
   covariance_.diagonal() = sigma.cwiseAbs2();
-  most_scale_ = kMostSigmas * sigma.segment<4>(kLeft);
+  most_scale_ = (config.conservative ? kMostSigmas : kMostSigmasOfSurvey) * sigma.segment<4>(kLeft);
   factor_ = factor(kSlipTail);
 }
 

@@ -22,7 +22,7 @@ namespace cornerd::core {
 /// walk: gyro bias b, wheel scales l and r, track scale t, gyro scale g, the wheels' positions
 /// within their counts, and the delay of the readings. Predicted once a scan by a MotionFactor; a
 /// fix of the lidar is a measurement of the pose at its own time. Process and measurement noise
-/// adapt to the innovations (Mehra 1970). Fixed size, no allocation. Metres, radians, seconds.
+/// adapt to the innovations (NoiseEstimator). Fixed size, no allocation. Metres, radians, seconds.
 class MotionFilter {
  public:
   /// Of the sensors' noise over a scan, the share in the fix of a scan that is deskewed by them: a
