@@ -7,7 +7,6 @@
 #include <limits>
 #include <set>
 #include <utility>
-#include <vector>
 
 namespace cornerd::message {
 namespace {
@@ -53,37 +52,23 @@ std::optional<Json> parse_object(std::string_view line, std::size_t max_bytes,
     error = {"json", "nested deeper than " + std::to_string(kMaxDepth) + " levels"};
     return std::nullopt;
   }
-  Json parsed = Json::parse(line, nullptr, /*allow_exceptions=*/false);
+  std::set<std::string> keys;
+  std::string repeated;
+  const auto note_key = [&](int depth, Json::parse_event_t event, const Json& key) {
+    if (event != Json::parse_event_t::key || depth != 1) return true;
+    if (!keys.insert(key).second) repeated = in_quotes(key.get<std::string>().substr(0, 64));
+    return true;
+  };
+  Json parsed = Json::parse(line, note_key, /*allow_exceptions=*/false);
   if (!parsed.is_object()) {
     error = {"json", "not one JSON object in UTF-8 on a line of its own"};
     return std::nullopt;
   }
+  if (!repeated.empty()) {
+    error = {"json", "the key " + repeated + " is there twice"};
+    return std::nullopt;
+  }
   return parsed;
-}
-
-std::optional<std::string> repeated_key(std::string_view line, const Json& object) {
-  std::vector<std::string_view> keys;  // as written
-  int depth = 0;
-  std::string_view text;
-  for (std::size_t i = 0; i < line.size(); ++i) {
-    const char c = line[i];
-    if (c == '"') {
-      const std::size_t begin = i;
-      for (++i; line[i] != '"'; ++i) i += line[i] == '\\' ? 1 : 0;
-      text = line.substr(begin, i + 1 - begin);
-    } else if (c == ':' && depth == 1) {
-      keys.push_back(text);
-    } else {
-      depth += (c == '{' || c == '[' ? 1 : 0) - (c == '}' || c == ']' ? 1 : 0);
-    }
-  }
-  if (keys.size() == object.size()) return std::nullopt;
-  std::set<std::string> seen;
-  for (const std::string_view key : keys) {
-    auto name = Json::parse(key).get<std::string>();
-    if (!seen.insert(name).second) return name;
-  }
-  return std::nullopt;
 }
 
 void FieldReader::fail(const std::string& reason, std::string_view cause) {

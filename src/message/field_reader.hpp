@@ -29,12 +29,9 @@ inline constexpr Limits kCoordinateLimitsM{-1e5, 1e5, " metres"};
 /// Slightly more than 2 pi, so that most angles in degrees are refused.
 inline constexpr Limits kAngleLimitsRad{-6.3, 6.3, " radians"};
 
-/// Parses one line. Returns nullopt and sets `error` if the line is too long, nested too deeply, or
-/// not a JSON object.
+/// Parses one line. Returns nullopt and sets `error` if the line is too long, nested too deeply,
+/// not a JSON object, or one with a key twice, of which the library would keep one value.
 std::optional<Json> parse_object(std::string_view line, std::size_t max_bytes, RequestError& error);
-
-/// A key that a valid JSON object has twice; the library keeps one of the values.
-std::optional<std::string> repeated_key(std::string_view line, const Json& object);
 
 /// Reads fields of an object. Keeps the first error; values read after it are unspecified.
 class FieldReader {

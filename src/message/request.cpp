@@ -112,10 +112,6 @@ Request parse_request(std::string_view line) {
     request.body = std::move(error);
     return request;
   }
-  if (const auto key = repeated_key(line, *object)) {
-    request.body = RequestError{"json", "the key \"" + key->substr(0, 64) + "\" is there twice"};
-    return request;
-  }
   FieldReader fields(*object);
   request.id_json = read_id(*object, fields);
   if (!fields.has("class")) {
