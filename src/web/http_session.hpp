@@ -87,8 +87,8 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
 
   /// Of what is no HTTP; a client that is gone, or too slow, gets no answer.
   void refuse_malformed(beast::error_code error) {
-    static const auto& kHttp = http::make_error_code(http::error::bad_method).category();
-    if (error.category() != kHttp || error == http::error::partial_message) return;
+    static const auto& http_category = http::make_error_code(http::error::bad_method).category();
+    if (error.category() != http_category || error == http::error::partial_message) return;
     if (error == http::error::header_limit) {
       return refuse(error_response(
           431, "too-long", "a header has at most " + std::to_string(kMaxHeaderBytes) + " bytes"));
