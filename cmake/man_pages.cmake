@@ -1,5 +1,6 @@
-# Manual pages, made from the programs' --help, the full config and the protocol's README. A cross build runs the programs in the emulator of its
-# toolchain file, and makes no pages without one. Builds that are never installed have no pages.
+# Manual pages, made from the programs' --help, the full config and the protocol's README. A cross build runs the
+# programs in the emulator of its toolchain file, and makes no pages without one. Builds that are never installed
+# have no pages.
 if(CORNERD_SANITIZE)
   return()
 endif()

@@ -144,9 +144,11 @@ std::string read_file(const std::filesystem::path& file, std::size_t max_bytes, 
     throw SettingsError(file.string(), "", reason);
   };
   const FileStream stream = open_to_read(file, kind);
-  if (!stream)
-    fail(std::string("cannot be opened: ") + std::strerror(errno) +
-         drivers::open_files_hint(errno));
+  if (!stream) {
+    const int error = errno;
+    fail(std::string("cannot be opened: ") + std::strerror(error) +
+         drivers::open_files_hint(error));
+  }
   struct stat found {};
   if (::fstat(::fileno(stream.get()), &found) != 0) fail(std::strerror(errno));
   if (S_ISDIR(found.st_mode)) fail("is a folder");

@@ -33,19 +33,21 @@ bool is_label_text(std::string_view name) {
   });
 }
 
+/// The name in "NAME", "NAME:PORT", "[IPV6]" or "[IPV6]:PORT", with its brackets; empty for any
+/// other text.
+std::string_view without_port(std::string_view host) {
+  const std::size_t end = host.starts_with('[') ? host.find(']') + 1 : host.find(':');
+  if (end == 0) return {};
+  const std::string_view rest = end < host.size() ? host.substr(end) : std::string_view();
+  if (!rest.empty() && (rest[0] != ':' || !is_port(rest.substr(1)))) return {};
+  return host.substr(0, end);
+}
+
 }  // namespace
 
 bool is_allowed_host(std::string_view host, std::string_view own_name) {
-  if (host.starts_with('[')) {
-    const std::size_t end = host.find(']');
-    if (end == std::string_view::npos) return false;
-    const std::string_view rest = host.substr(end + 1);
-    if (!rest.empty() && (rest[0] != ':' || !is_port(rest.substr(1)))) return false;
-    return is_address(AF_INET6, std::string(host.substr(1, end - 1)));
-  }
-  const std::size_t colon = host.find(':');
-  if (colon != std::string_view::npos && !is_port(host.substr(colon + 1))) return false;
-  std::string name = lower_case(host.substr(0, colon));
+  std::string name = lower_case(without_port(host));
+  if (name.starts_with('[')) return is_address(AF_INET6, name.substr(1, name.size() - 2));
   if (name.ends_with('.')) name.pop_back();
   if (name.empty() || !is_label_text(name)) return false;
   return name == "localhost" || name.ends_with(".local") || name == lower_case(own_name) ||
@@ -58,13 +60,9 @@ bool is_origin(std::string_view text) {
   const auto is_scheme = [](unsigned char c) {
     return std::isalnum(c) != 0 || c == '+' || c == '-' || c == '.';
   };
-  const std::string_view host = text.substr(colon + 3);
-  const std::size_t port = host.starts_with('[') ? host.find("]:") : host.find(':');
-  const std::size_t end = host.starts_with('[') && port != std::string_view::npos ? port + 1 : port;
-  if (end != std::string_view::npos && !is_port(host.substr(end + 1))) return false;
+  const std::string_view name = without_port(text.substr(colon + 3));
   return std::all_of(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(colon), is_scheme) &&
-         !host.substr(0, end).empty() &&
-         std::none_of(host.begin(), host.end(), [](unsigned char c) {
+         !name.empty() && std::none_of(name.begin(), name.end(), [](unsigned char c) {
            return c <= ' ' || c == '/' || c == '?' || c == '#' || c == '@' || c == '*';
          });
 }

@@ -16,8 +16,9 @@ constexpr double kSlipGate = 15.1;
 constexpr double kLikelier = 0.94;
 /// Where a tyre touches the floor changes with every rotation on the spot.
 constexpr double kScrub_rad_per_sqrt_rad = 0.001;
-/// Bounds of the calibration; of scales in sigma of their priors: more is a wrong setting. In a
-/// survey nothing depends on them while it drives.
+/// Bounds of the calibration; of scales in sigma of their priors: more is a wrong setting, doubled
+/// counts (-50 %) among them. A survey, which nobody drives by, corrects a radius that is a third
+/// too small (SurveyCommandTest.WrongWheelRadius).
 constexpr double kMostSigmas = 10;
 constexpr double kMostSigmasOfSurvey = 15;
 constexpr double kMostBias_rad_s = 0.5;

@@ -116,24 +116,34 @@ settings::Config SettingsOptions::resolve(bool needs_map) const {
 }
 
 void add_wire_option(Command& command, std::string& wire) {
+  std::vector<std::string> names;
+  for (const NamedWire& known : known_wires()) names.emplace_back(known.name);
+  names.emplace_back("auto");
   command.add_option("--wire", wire, "format of bytes that begin without a response descriptor")
-      .choices(
-          {"standard", "express", "ultra", "dense", "ultra-dense", "hq", "ld", "ydlidar", "auto"})
+      .choices(names)
       .capture_default_str();
 }
 
-drivers::RecordedWire parse_wire(const std::string& wire) {
-  const auto rplidar = [](rplidar::WireFormat format) {
-    return drivers::RecordedWire{drivers::DriverKind::kRplidar, format};
+std::span<const NamedWire> known_wires() {
+  using rplidar::WireFormat;
+  constexpr auto kRplidar = drivers::DriverKind::kRplidar;
+  static const NamedWire kWires[] = {
+      {"standard", {kRplidar, WireFormat::kStandard}},
+      {"express", {kRplidar, WireFormat::kExpress}},
+      {"ultra", {kRplidar, WireFormat::kUltra}},
+      {"dense", {kRplidar, WireFormat::kDense}},
+      {"ultra-dense", {kRplidar, WireFormat::kUltraDense}},
+      {"hq", {kRplidar, WireFormat::kHq}},
+      {"ld", {drivers::DriverKind::kLd}},
+      {"ydlidar", {drivers::DriverKind::kYdlidar}},
   };
-  if (wire == "standard") return rplidar(rplidar::WireFormat::kStandard);
-  if (wire == "express") return rplidar(rplidar::WireFormat::kExpress);
-  if (wire == "ultra") return rplidar(rplidar::WireFormat::kUltra);
-  if (wire == "dense") return rplidar(rplidar::WireFormat::kDense);
-  if (wire == "ultra-dense") return rplidar(rplidar::WireFormat::kUltraDense);
-  if (wire == "hq") return rplidar(rplidar::WireFormat::kHq);
-  if (wire == "ld") return {drivers::DriverKind::kLd};
-  if (wire == "ydlidar") return {drivers::DriverKind::kYdlidar};
+  return kWires;
+}
+
+drivers::RecordedWire parse_wire(const std::string& name) {
+  for (const NamedWire& known : known_wires()) {
+    if (known.name == name) return known.wire;
+  }
   return {};
 }
 

@@ -3,7 +3,9 @@
 
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/geometry/pose2.hpp"
@@ -61,8 +63,14 @@ std::filesystem::path running_config(const std::filesystem::path& processes);
 
 /// --wire standard|express|...|auto, for bytes that begin without a response descriptor.
 void add_wire_option(Command& command, std::string& wire);
-/// nullopt for auto. The option has checked the name.
-drivers::RecordedWire parse_wire(const std::string& wire);
+struct NamedWire {
+  std::string_view name;
+  drivers::RecordedWire wire;
+};
+/// All that --wire takes but "auto".
+std::span<const NamedWire> known_wires();
+/// Neither driver nor format for "auto". The option has checked the name.
+drivers::RecordedWire parse_wire(const std::string& name);
 
 /// Options of a command that measures a config key in a known map.
 struct CalibrationOptions {

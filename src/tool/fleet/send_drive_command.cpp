@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // cornerctl send-drive: a recording to the robot's site, for `cornerctl survey --broker`.
+#include <algorithm>
+#include <filesystem>
 #include <memory>
 #include <string>
 
@@ -35,9 +37,9 @@ class FirstScan final : public replay::RecordingSink {
   int starts_ = 0;
 };
 
-bool has_scan(const std::filesystem::path& file, const std::string& wire) {
+bool has_scan(const std::filesystem::path& file, const drivers::RecordedWire& wire) {
   FirstScan scan;
-  replay::RecordingPlayer player(file, {parse_wire(wire), false});
+  replay::RecordingPlayer player(file, {wire, false});
   while (!scan.is_whole() && player.step(scan)) {
   }
   // Other bytes are a measurement by chance, here and there.
@@ -52,11 +54,9 @@ void require_drive(const std::filesystem::path& file) {
     throw Failure(file.string() +
                   ": is no drive (.ndjson), nor are a port's bytes named so (.bin)");
   }
-  for (const char* wire :
-       {"auto", "standard", "express", "ultra", "dense", "ultra-dense", "hq", "ld", "ydlidar"}) {
-    if (has_scan(file, wire)) return;
-    if (!is_bytes) break;
-  }
+  if (has_scan(file, {})) return;
+  const auto is_of = [&](const NamedWire& known) { return has_scan(file, known.wire); };
+  if (is_bytes && std::ranges::any_of(known_wires(), is_of)) return;
   throw Failure(file.string() +
                 ": has no whole scan of a lidar, so is no drive: send what cornerctl record makes");
 }
