@@ -2,9 +2,11 @@
 # 1,700 times takes longer than most cases do. Each run writes its cases to cases/NAME.xml in the build
 # folder, and tests/run counts them there.
 
-# What `tests/run` builds, and what `tests/run tsan` does: the layers with threads of their own.
+# What `tests/run` builds, what `tests/run tsan` does: the layers with threads of their own, and what
+# `tests/run arm` does.
 add_custom_target(short_tests)
 add_custom_target(threaded_tests)
+add_custom_target(board_tests)
 
 # What most tests include. Not where sources are compiled one by one: there each shows what it needs.
 if(CMAKE_UNITY_BUILD)
@@ -90,6 +92,7 @@ function(cornerd_add_test_program name)
   if(NOT "long" IN_LIST arg_LABELS)
     add_dependencies(short_tests ${name})
   endif()
+  add_dependencies(board_tests ${name})
   if((CMAKE_CROSSCOMPILING OR CORNERD_SANITIZE) AND NOT arg_SHARDS)
     set(arg_SHARDS 2)
   endif()

@@ -11,7 +11,6 @@
 #include <thread>
 
 #include "error_of.hpp"
-#include "tests/sanitized.hpp"
 #include "tests/temporary_folder.hpp"
 
 namespace cornerd::settings {
@@ -150,7 +149,6 @@ TEST(MapFile, Millimetres_AreNamed) {
 }
 
 TEST(MapFile, FanOfWallsWithoutEnd_IsRefusedInSeconds) {
-  if (test::kSanitized) GTEST_SKIP() << "a sanitizer takes minutes";
   std::string walls;
   for (int i = 0; i < 16'000; ++i) {
     const std::string y = std::to_string(i * 1e-4);

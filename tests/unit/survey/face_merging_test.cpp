@@ -59,16 +59,22 @@ TEST(FaceMerging, Merge_BoxInFrontOfWall_StaysTwo) {
   EXPECT_EQ(merge_faces(drive, evidence, {}), 0U) << "the box hides the wall behind it";
 }
 
-TEST(FaceMerging, Merge_GapWithPasses_StaysTwo) {
-  MappedDrive drive = with_walls({{{3, 2}, {1.2, 2}}, {{1, 2}, {-1, 2}}, {{6, 4}, {-4, 4}}});
-  const auto evidence = gather_evidence(drive, {}, {});
-  EXPECT_EQ(merge_faces(drive, evidence, {}), 0U) << "rays went through, 20 cm wide";
-}
-
-TEST(FaceMerging, Merge_GapWithoutPasses_BecomesOne) {
-  MappedDrive drive = with_walls({{{3, 2}, {1.2, 2}}, {{1, 2}, {-1, 2}}, {{1.3, 1.8}, {0.9, 1.8}}});
+TEST(FaceMerging, Merge_WallOnBothSidesOfADoor_BecomesOne) {
+  MappedDrive drive = with_walls({{{3, 2}, {1.5, 2}}, {{0.6, 2}, {-1, 2}}, {{6, 4}, {-4, 4}}});
   const auto evidence = gather_evidence(drive, {}, {});
   EXPECT_EQ(merge_faces(drive, evidence, {}), 1U);
+}
+
+TEST(FaceMerging, Merge_OnOneLineFartherApart_StaysTwo) {
+  MappedDrive drive = with_walls({{{3, 2}, {1.5, 2}}, {{0.2, 2}, {-1, 2}}, {{6, 4}, {-4, 4}}});
+  const auto evidence = gather_evidence(drive, {}, {});
+  EXPECT_EQ(merge_faces(drive, evidence, {}), 0U);
+}
+
+TEST(FaceMerging, Merge_SteppedBehindADoor_StaysTwo) {
+  MappedDrive drive = with_walls({{{3, 2}, {1.5, 2}}, {{0.6, 2.1}, {-1, 2.1}}, {{6, 4}, {-4, 4}}});
+  const auto evidence = gather_evidence(drive, {}, {});
+  EXPECT_EQ(merge_faces(drive, evidence, {}), 0U);
 }
 
 /// Along a wall of 12 m; another wall is in sight only from both ends of the trajectory.
