@@ -21,14 +21,6 @@ std::pair<double, double> extent_on(const LineLandmark& face, const LineLandmark
   return {std::min(a, b), std::max(a, b)};
 }
 
-bool gap_is_closed(const LineLandmark& face, const FaceEvidence& evidence,
-                   const LineLandmark& other) {
-  const auto [begin_m, end_m] = extent_on(face, other);
-  if (begin_m > face.end_m()) return evidence.open_between(face.end_m(), begin_m) == 0;
-  if (end_m < face.begin_m()) return evidence.open_between(end_m, face.begin_m()) == 0;
-  return true;
-}
-
 bool lie_on_one_line(const LineLandmark& longer, const LineLandmark& shorter,
                      const MergeLimits& limits) {
   const double rotation_rad = core::angle_between(longer.normal_rad(), shorter.normal_rad());
@@ -92,11 +84,7 @@ bool are_one(const MappedDrive& drive, const std::vector<FaceEvidence>& evidence
     return true;
   }
   const bool first_longer = one.length_m() >= other.length_m();
-  if (!lie_on_one_line(first_longer ? one : other, first_longer ? other : one, limits)) {
-    return false;
-  }
-  return evidence.empty() || gap_m <= 0 ||
-         (gap_is_closed(one, evidence[a], other) && gap_is_closed(other, evidence[b], one));
+  return lie_on_one_line(first_longer ? one : other, first_longer ? other : one, limits);
 }
 
 }  // namespace

@@ -13,8 +13,8 @@ namespace cornerd::survey {
 struct MergeLimits {
   double place_m = 0.02;
   double heading_rad = core::radians(1.5);
-  /// Largest gap along the wall, where no ray went through.
-  double gap_m = 0.3;
+  /// Largest gap along the wall: it goes on behind a door.
+  double gap_m = 1.2;
   /// Largest offset and angle of duplicate walls: rays ended on both at the same coordinates,
   /// although the front face would have hidden the one behind.
   double duplicate_m = 0.1;
@@ -22,8 +22,8 @@ struct MergeLimits {
 };
 
 /// Merges faces with the same normal that lie on one line within their covariances and the limits,
-/// and overlap or leave a gap that no ray went through. `evidence`: of the faces; where it is empty
-/// only faces that overlap are merged. Returns the number of faces merged into others.
+/// and overlap or leave a gap. `evidence`: of the faces; where it is empty only faces that overlap
+/// are merged. Returns the number of faces merged into others.
 std::size_t merge_faces(MappedDrive& drive, const std::vector<FaceEvidence>& evidence,
                         const MergeLimits& limits);
 
