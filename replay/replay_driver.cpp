@@ -19,6 +19,8 @@ using Clock = std::chrono::steady_clock;
 
 /// Longest delay of a stop.
 constexpr std::chrono::milliseconds kMaxSleep{50};
+/// Samples come together for this long, as those of a capsule do: 8,000 a second are no 8,000 sleeps.
+constexpr std::chrono::milliseconds kTogether{4};
 /// Poll interval of a full consumer.
 constexpr std::chrono::microseconds kRoomSleep{500};
 /// A longer step of recorded time is a clock step or a pause, which is skipped.
@@ -85,7 +87,7 @@ class ReplayDriver::Pacer : public RecordingSink {
     const auto due = anchor_ + std::chrono::nanoseconds(static_cast<std::int64_t>(
                                    static_cast<double>(t_ns - anchor_ns_) / speed_));
     for (auto now = Clock::now(); now < due && !stop_.stop_requested(); now = Clock::now()) {
-      std::this_thread::sleep_for(std::min<Clock::duration>(due - now, kMaxSleep));
+      std::this_thread::sleep_for(std::min<Clock::duration>(due + kTogether - now, kMaxSleep));
       driver_.count_progress();
     }
   }
