@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/geometry/squared.hpp"
 #include "core/odometry/odometry_increment.hpp"
 
 namespace cornerd::core {
@@ -24,8 +25,9 @@ bool MotionPath::covers(TimeNs from_ns, TimeNs to_ns) const {
   return size_ > 1 && from_ns >= point(size_ - 1).t_ns && to_ns <= point(0).t_ns + kLongestGuess_ns;
 }
 
-Pose2 MotionPath::greatest_change(TimeNs from_ns, TimeNs to_ns) const {
-  Pose2 greatest;
+MotionPath::Change MotionPath::mean_square_change(TimeNs from_ns, TimeNs to_ns) const {
+  Change sum;
+  double all_s = 0;
   for (std::size_t age = 1; age + 1 < size_ && point(age - 1).t_ns > from_ns; ++age) {
     if (point(age + 1).t_ns >= to_ns) continue;
     const double before_s = to_seconds(point(age).t_ns - point(age + 1).t_ns);
@@ -33,13 +35,14 @@ Pose2 MotionPath::greatest_change(TimeNs from_ns, TimeNs to_ns) const {
     const Pose2 before = point(age + 1).T_start_base.inverse() * point(age).T_start_base;
     const Pose2 after = point(age).T_start_base.inverse() * point(age - 1).T_start_base;
     const double longer_s = std::max(before_s, after_s);
-    const auto change = [&](double motion, double motion_after) {
-      return longer_s * std::abs(motion_after / after_s - motion / before_s);
+    const auto change2 = [&](double motion, double motion_after) {
+      return squared(longer_s * (motion_after / after_s - motion / before_s));
     };
-    greatest.x_m = std::max(greatest.x_m, change(before.x_m, after.x_m));
-    greatest.theta_rad = std::max(greatest.theta_rad, change(before.theta_rad, after.theta_rad));
+    sum.x_m2 += longer_s * change2(before.x_m, after.x_m);
+    sum.theta_rad2 += longer_s * change2(before.theta_rad, after.theta_rad);
+    all_s += longer_s;
   }
-  return greatest;
+  return all_s > 0 ? Change{sum.x_m2 / all_s, sum.theta_rad2 / all_s} : Change{};
 }
 
 Twist2 MotionPath::velocity_at(TimeNs t_ns) const {

@@ -32,9 +32,13 @@ class MotionPath {
   /// speed is not seen late; none where too little is known.
   Twist2 velocity_at(TimeNs t_ns) const;
 
-  /// How unevenly it was driven: what the greatest change of speed between two readings would come
-  /// to in the time between them, x for translation and theta for rotation, no signs.
-  Pose2 greatest_change(TimeNs from_ns, TimeNs to_ns) const;
+  struct Change {
+    double x_m2 = 0;
+    double theta_rad2 = 0;
+  };
+  /// How unevenly it was driven: the mean square of what a change of speed between two readings
+  /// comes to in the time between them.
+  Change mean_square_change(TimeNs from_ns, TimeNs to_ns) const;
 
   /// The last motion is taken to go on for so long after the last reading.
   static constexpr TimeNs kLongestGuess_ns = kNsPerSecond / 4;

@@ -10,15 +10,12 @@
 namespace cornerd::core {
 namespace {
 
-/// How far wheels and gyro mistake the motion of half a turn, as a share of it.
-constexpr double kMotionShare = 0.01;
 /// A scan whose pieces are turned against each other seems to be elsewhere as well: by so much of
 /// that angle, in rooms (NEES of fixes without a gyro, the same).
 constexpr double kLever_m = 0.3;
-/// A change of speed between two readings moves what is between them by a quarter of what it comes
-/// to at most, and a scan's samples are only in part there (NEES of fixes with few readings a
-/// second, `cornerd-bench --odometry`).
-constexpr double kUnevenShare = 0.2;
+/// A constant acceleration between two readings displaces what is between them by a twelfth of what
+/// it comes to in the mean, a sudden one by up to a quarter.
+constexpr double kUnevenShare = 0.1;
 
 /// The end of a scan that no reading tells of: of a change of speed in it, so much is in the pose.
 /// The last reading is often a little older than the scan's end: that is nothing.
@@ -66,11 +63,10 @@ Covariance3 Odometer::deskew_covariance() const {
   const TimeNs to_ns = end_ns_ + delay_ns_;
   const Pose2 motion = path_.at(from_ns).inverse() * path_.at(to_ns);
   const OdometryParameters sigma = filter_.sigma();
-  const double place_m = std::hypot(kMotionShare, sigma.left_scale, sigma.right_scale) / 2 *
-                         motion.translation().norm();
+  const double place_m =
+      std::hypot(sigma.left_scale, sigma.right_scale) / 2 * motion.translation().norm();
   const double rotation_rad =
-      std::hypot(kMotionShare, filter_.has_gyro() ? sigma.gyro_scale : sigma.track_scale) / 2 *
-      motion.theta_rad;
+      (filter_.has_gyro() ? sigma.gyro_scale : sigma.track_scale) / 2 * motion.theta_rad;
   // As one increment of the same motion.
   const DriveGeometry& geometry = config_.geometry;
   const double along_m = motion.translation().norm();
@@ -87,10 +83,14 @@ Covariance3 Odometer::deskew_covariance() const {
   const double place_noise =
       (factor.covariance()(0, 0) + factor.covariance()(1, 1)) / 2 + late_share2 * squared(along_m);
   const double heading_noise = factor.covariance()(2, 2) + late_share2 * squared(motion.theta_rad);
-  // When between two readings the robot changed its speed nobody knows.
-  const Pose2 uneven = path_.greatest_change(from_ns, to_ns);
-  const double uneven_m = kUnevenShare * uneven.x_m;
-  const double uneven_rad = kUnevenShare * uneven.theta_rad;
+  // When between two readings the robot changed its speed nobody knows. Counts that are rounded
+  // seem to change by a quarter of a count's square.
+  const double count_m2 = squared(geometry.metres_per_count());
+  const double counted_rad2 = filter_.has_gyro() ? 0 : count_m2 / squared(geometry.track_m);
+  const MotionPath::Change change = path_.mean_square_change(from_ns, to_ns);
+  const double uneven_m2 = squared(kUnevenShare) * std::max(0.0, change.x_m2 - count_m2 / 4);
+  const double uneven_rad2 =
+      squared(kUnevenShare) * std::max(0.0, change.theta_rad2 - counted_rad2);
   // What the scan's end is guessed to be, nobody has read.
   const TimeNs unread_ns = config_.conservative ? to_ns - path_.newest_ns() - kSoon_ns : 0;
   const double unread_s = to_seconds(std::max<TimeNs>(0, unread_ns));
@@ -99,10 +99,10 @@ Covariance3 Odometer::deskew_covariance() const {
   // Where in its count each wheel is in the middle: what the rest of the scan is deskewed to.
   const double lever_m2 = config_.conservative ? kLever_m * kLever_m : 0;
   const double place_m2 =
-      place_m * place_m + uneven_m * uneven_m + geometry.quantization_variance() / 2 +
+      place_m * place_m + uneven_m2 + geometry.quantization_variance() / 2 +
       MotionFilter::kDeskewNoiseShare * (place_noise + lever_m2 * heading_noise);
-  double rotation_variance = rotation_rad * rotation_rad + uneven_rad * uneven_rad +
-                             MotionFilter::kDeskewNoiseShare * heading_noise;
+  double rotation_variance =
+      rotation_rad * rotation_rad + uneven_rad2 + MotionFilter::kDeskewNoiseShare * heading_noise;
   if (!filter_.has_gyro())
     rotation_variance += 2 * geometry.quantization_variance() / squared(geometry.track_m);
   const double unread_m = kUnread_m_s * unread_by_s;

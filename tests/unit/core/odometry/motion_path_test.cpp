@@ -48,8 +48,10 @@ TEST(MotionPath, SpeedChange_IsLocated) {
   };
   for (int i = 0; i < 10; ++i) drive(i, 0.02);
   for (int i = 10; i < 20; ++i) drive(i, 0.05);
-  EXPECT_NEAR(path.greatest_change(kNsPerSecond / 2, 3 * kNsPerSecond / 2).x_m, 0.03, 1e-9);
-  EXPECT_NEAR(path.greatest_change(3 * kNsPerSecond / 2, 2 * kNsPerSecond).x_m, 0, 1e-9);
+  // One change in eleven.
+  EXPECT_NEAR(path.mean_square_change(kNsPerSecond / 2, 3 * kNsPerSecond / 2).x_m2,
+              0.03 * 0.03 / 11, 1e-9);
+  EXPECT_NEAR(path.mean_square_change(3 * kNsPerSecond / 2, 2 * kNsPerSecond).x_m2, 0, 1e-9);
 }
 
 TEST(MotionPath, LongDrive_KeepsLastTwoSeconds) {
