@@ -103,8 +103,9 @@ Decision Localizer::Workspace::find(const Scan& scan, TimeNs t_ns) {
 
   filtered = filter;
 
-  // 4. One place is a fix, several are ambiguous, none is lost.
-  decided_exactly = certain || is_exact(t_ns);
+  // 4. One place is a fix, several are ambiguous, none is lost. Few rays may fit as well at a place
+  //    that nobody proposed, and are not compared one by one.
+  decided_exactly = certain || (sees_enough(t_ns) && is_exact(t_ns));
   if (decided_exactly) {
     candidates = place->verification.hypotheses();
     return decide(candidates, memory.prior(t_ns));

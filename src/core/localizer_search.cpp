@@ -66,13 +66,15 @@ void Localizer::Workspace::look(const Scan& scan, TimeNs t_ns, const Twist2& as_
   if (in_doubt(t_ns)) verification.consider(pairs.subspan(likely), kRecognisedRadius_m);
 }
 
+bool Localizer::Workspace::sees_enough(TimeNs t_ns) const {
+  return prior_is_fresh(t_ns) || has_full_coverage(points.largest_gap_rad());
+}
+
 bool Localizer::Workspace::in_doubt(TimeNs t_ns) const {
-  if (!place || place->verification.hypotheses().empty()) return true;
+  if (!place || place->verification.hypotheses().empty() || !sees_enough(t_ns)) return true;
   const core::VerifiedHypothesis& best = place->verification.hypotheses().front();
-  const bool is_fresh = prior_is_fresh(t_ns);
-  const bool expected = is_fresh && is_expected(best.refined.T_map_lidar, t_ns);
-  return !is_conclusive(best.likelihood, expected) ||
-         !(is_fresh || has_full_coverage(points.largest_gap_rad()));
+  const bool expected = prior_is_fresh(t_ns) && is_expected(best.refined.T_map_lidar, t_ns);
+  return !is_conclusive(best.likelihood, expected);
 }
 
 /// Nothing fits, or not as well as a lidar at rest would see it.
@@ -186,7 +188,7 @@ void Localizer::Workspace::search_map(TimeNs t_ns) {
   const auto pairs = place->recognition.from_pairs(result.detection.breakpoints);
   const auto begin = [&] {
     search.begin(points, result.detection.segments, result.detection.breakpoints, noise_scale(),
-                 max_map_sigma_m);
+                 max_map_sigma_m, /*fits_motion=*/motion != memory.motion() && !sees_enough(t_ns));
     if (prior) {
       const PoseHypothesis carried_on{prior->T_map_lidar, 0};
       search.consider(std::span(&carried_on, 1));
@@ -215,7 +217,7 @@ std::optional<double> Localizer::log_odds_of_map() {
   if (!w.place) return std::nullopt;
   PlaceSearch& search = w.place->place_search;
   search.begin(w.points, w.result.detection.segments, w.result.detection.breakpoints,
-               w.noise_scale(), BeamModel::kMapSigmas_m.back());
+               w.noise_scale(), BeamModel::kMapSigmas_m.back(), /*fits_motion=*/false);
   const auto consider = [&](const Pose2& T_map_base) {
     const PoseHypothesis there{T_map_base * w.config.T_base_lidar, 0};
     search.consider(std::span(&there, 1));

@@ -106,6 +106,8 @@ struct Localizer::Workspace {
   bool is_expected(const Pose2& T_map_lidar, TimeNs t_ns) const;
   bool prior_is_fresh(TimeNs t_ns) const;
   bool is_at_prior(const Pose2& T_map_lidar, TimeNs t_ns) const;
+  /// Around it, or beside a prior.
+  bool sees_enough(TimeNs t_ns) const;
   bool in_doubt(TimeNs t_ns) const;
   bool may_move(TimeNs t_ns) const;
   std::size_t best_hits() const;

@@ -148,7 +148,8 @@ struct EvidenceSamples::State {
     searcher->detector.detect(points, detection);
     const auto pairs = searcher->recognition.from_pairs(detection.breakpoints);
     core::PlaceSearch& search = searcher->place_search;
-    search.begin(points, detection.segments, detection.breakpoints, detection.noise_scale, 1);
+    search.begin(points, detection.segments, detection.breakpoints, detection.noise_scale, 1,
+                 /*fits_motion=*/false);
     search.consider(pairs.first(std::min(pairs.size(), kMaxPairs)));
     search.consider(searcher->map_search.find(points.points(), detection.segments));
     const core::ScanStructure structure = core::scan_structure(detection.segments);

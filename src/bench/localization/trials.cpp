@@ -180,6 +180,9 @@ std::vector<Trial> default_trials(const Maps& arenas,
   add("40 % of the rays stopped, flat", home).clutter = 0.4;
   Trial& half = add("180 degrees, flat", home);
   half.sensor.field_of_view.width_rad = core::kPi;
+  Trial& narrow = add("90 degrees, 0.3 m/s, 0.9 rad/s, first scans", home);
+  narrow.sensor.field_of_view.width_rad = core::kPi / 2;
+  narrow.motion = {0.3, 0.9};
   Trial& hard = add("240 degrees, 25 % stopped, 3 cm", with_walls_off(flat, 0.03));
   hard.sensor.field_of_view.width_rad = core::radians(240);
   hard.clutter = 0.25;

@@ -73,8 +73,9 @@ PlaceSearch::PlaceSearch(const WallMap& map, const Recognition& recognition,
 
 void PlaceSearch::begin(const PolarScan& scan, std::span<const WallSegment> segments,
                         std::span<const Breakpoint> breakpoints, double noise_scale,
-                        double max_map_sigma_m) {
+                        double max_map_sigma_m, bool fits_motion) {
   points_ = scan.points();
+  odds_elsewhere_ = fits_motion ? std::pow(static_cast<double>(points_.size()), 1.5) : 1;
   max_map_sigma_m_ = max_map_sigma_m;
   breakpoints_ = breakpoints;
   spacing_rad_ = scan.spacing_rad();
@@ -246,8 +247,8 @@ std::span<const VerifiedHypothesis> PlaceSearch::find() {
     if (candidates_[i].score < std::max(0.0, candidates_.front().score) - kHopeless) break;
     add(candidates_[i]);
   }
-  // Elsewhere has odds of 1, and those of the places that the scan leaves open besides.
-  double elsewhere = 1;
+  // Elsewhere has those of the places that the scan leaves open besides.
+  double elsewhere = odds_elsewhere_;
   for (const VerifiedHypothesis& open : open_places_) elsewhere += std::exp(open.log_odds);
   for (VerifiedHypothesis& place : places_) place.log_odds -= std::log(elsewhere);
   std::sort(places_.begin(), places_.end(),

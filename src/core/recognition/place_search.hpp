@@ -24,9 +24,12 @@ class PlaceSearch {
   PlaceSearch(const WallMap& map, const Recognition& recognition, const LocalizerConfig& config);
 
   /// Starts a scan, which must outlive the calls for it.
-  /// `max_map_sigma_m`: of the walls' offsets, as far as earlier scans have shown.
+  /// `max_map_sigma_m`: of the walls' offsets, as far as earlier scans have shown. `fits_motion`:
+  /// the scan was deskewed by a motion that was fitted to it, on few walls. That takes its three
+  /// parameters' worth from the odds of a place, sqrt(rays) each (Schwarz 1978).
   void begin(const PolarScan& scan, std::span<const WallSegment> segments,
-             std::span<const Breakpoint> breakpoints, double noise_scale, double max_map_sigma_m);
+             std::span<const Breakpoint> breakpoints, double noise_scale, double max_map_sigma_m,
+             bool fits_motion);
   /// Adds hypotheses that may be off by a decimetre.
   void consider(std::span<const PoseHypothesis> hypotheses);
   /// Compares what was considered since begin(). Distinct places, the likeliest first.
@@ -58,6 +61,7 @@ class PlaceSearch {
   std::span<const Breakpoint> breakpoints_;
   double spacing_rad_ = 0;
   double noise_scale_ = 1;
+  double odds_elsewhere_ = 1;
   double max_map_sigma_m_ = 0;
   ScanStructure structure_;
   std::vector<PolarPoint> subset_;
