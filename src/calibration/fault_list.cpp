@@ -10,6 +10,9 @@ namespace {
 /// furniture and people that hide half of the walls some always have one.
 constexpr std::size_t kMost = RecentPoses::kScans * 95 / 100;
 
+/// A scan that shows so many walls is that of an uncovered lidar.
+constexpr std::size_t kUncoveredSegments = 3;
+
 std::string lost_hint(std::size_t lost, const core::FloorPlan* plan) {
   if (plan == nullptr) {
     return "the scans fit in none of the config's maps: check that the map of this place is one of "
@@ -34,9 +37,12 @@ bool is_outside(const core::WallMap& map, const core::Vec2& place) {
          (map.upper_right() - place).minCoeff() < -kMargin_m;
 }
 
-void RecentPoses::add(const core::PoseEstimate& pose, const core::WallMap* map) {
+void RecentPoses::add(const core::ScanResult& result, const core::WallMap* map) {
+  const core::PoseEstimate& pose = result.pose;
   lost_ <<= 1;
-  lost_[0] = pose.state == core::PoseState::kLost;
+  lost_[0] = pose.state == core::PoseState::kLost ||
+             (pose.state == core::PoseState::kPredicted &&
+              result.detection.segments.size() >= kUncoveredSegments);
   outside_ <<= 1;
   outside_[0] = map != nullptr && core::has_pose(pose.state) &&
                 is_outside(*map, pose.T_map_base.translation());

@@ -13,7 +13,7 @@
 #include "calibration/map_faults.hpp"
 #include "core/map/wall_map.hpp"
 #include "core/odometry/odometry_summary.hpp"
-#include "core/pose_estimate.hpp"
+#include "core/scan_result.hpp"
 
 namespace cornerd::calibration {
 
@@ -26,7 +26,8 @@ class RecentPoses {
   static constexpr std::size_t kScans = 100;
 
   /// `map`: null where it is not known which of several maps the robot is in.
-  void add(const core::PoseEstimate& pose, const core::WallMap* map);
+  void add(const core::ScanResult& result, const core::WallMap* map);
+  /// That fit nowhere, whether or not odometry carried the pose on.
   std::size_t lost() const { return lost_.count(); }
   std::size_t outside() const { return outside_.count(); }
 

@@ -64,8 +64,7 @@ Daemon::Daemon(Loaded loaded, MapLoader loader, std::unique_ptr<drivers::LidarDr
   configure_localization(config_);
   localization_.start();
   // A recording contains its own odometry.
-  auto odometry = is_live_ ? make_odometry(config_.odometry) : nullptr;
-  if (odometry) {
+  if (auto odometry = is_live_ ? make_odometry(config_.odometry) : nullptr) {
     odometry_.emplace(std::move(odometry), localization_);
     status_.set_odometry(&*odometry_);
   }
@@ -150,9 +149,12 @@ ControlActions Daemon::control_actions(const settings::Config& config) {
       if (reading.left || reading.right || reading.gyro_rad_s) localization_.add(reading);
       return verdict != Verdict::kFirstRejection;
     };
-    actions.refuse_odometry = [this](const auto& error) { odometry_clients_.refuse(error); };
     actions.disconnect = [this](int connection) { odometry_clients_.disconnect(connection); };
   }
+  actions.refuse_odometry = [this](const auto& error) {
+    odometry_clients_.refuse(error);
+    if (is_live_) status_.set_odometry(&odometry_clients_);
+  };
   return actions;
 }
 

@@ -59,7 +59,8 @@ class Daemon {
   Signals signals_;  ///< constructed before any thread
   EventLoop loop_;
   Notifier notifier_;
-  OdometryClients odometry_clients_;  ///< before server_, whose destructor calls it
+  /// Before server_, whose destructor calls it.
+  OdometryClients odometry_clients_{config_.odometry.source == settings::OdometrySource::kSocket};
   MessageServer server_;
   ScanPublisher scans_;
   StatusPublisher status_;

@@ -62,11 +62,13 @@ void OdometryClients::describe(message::StatusFields& status) {
     if (count > 0) refusals_.push_back({cause, count});
   }
   status.odometry_refusals = refusals_;
-  const std::string_view why_absent = input_.hint(*status.odometry, status.t_ns);
+  status.odometry_hint = input_.hint(*status.odometry, status.t_ns);
+  if (!expects_lines_ && !input_.are_refused()) status.odometry_hint = {};
   const bool is_shown = hint_repeats_ > 0 && hint_repeats_-- > 0;
-  status.odometry_hint =
-      is_shown ? "two clients send ODOMETRY: one client's lines are used, stop the other client"
-               : why_absent;
+  if (is_shown) {
+    status.odometry_hint =
+        "two clients send ODOMETRY: one client's lines are used, stop the other client";
+  }
   status.odometry_fault = is_shown ? "odometry-second-client" : input_.fault();
 }
 

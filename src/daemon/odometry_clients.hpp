@@ -27,10 +27,13 @@ class OdometryClients {
     kRejected,        ///< at least one value
     kFirstRejection,  ///< the first of this connection, which gets an ERROR
   };
+  /// `expects_lines`: the config's odometry comes in lines; that none come is a fault.
+  explicit OdometryClients(bool expects_lines) : expects_lines_(expects_lines) {}
+
   /// Removes values of which another client is the publisher; the caller uses the rest.
   /// `connection`: unique among open connections.
   Verdict accept(int connection, core::TimeNs now_ns, message::OdometryReading& reading);
-  /// An ODOMETRY line that could not be read.
+  /// An ODOMETRY line that could not be read, or is not asked for.
   void refuse(const message::RequestError& error) { input_.refuse(error); }
   /// The connection was closed; its number may be reused.
   void disconnect(int connection);
@@ -51,8 +54,9 @@ class OdometryClients {
   Publisher gyro_;
   std::set<int> rejected_connections_;  ///< of open connections
   message::OdometryInputMonitor input_;
-  std::uint64_t rejected_ = 0;                            ///< lines with a rejected value
-  std::uint64_t reported_ = 0;                            ///< rejected_ at the last STATUS
+  std::uint64_t rejected_ = 0;  ///< lines with a rejected value
+  std::uint64_t reported_ = 0;  ///< rejected_ at the last STATUS
+  bool expects_lines_;
   int hint_repeats_ = 0;                                  ///< STATUS messages left with the hint
   std::vector<message::StatusFields::Counter> refusals_;  ///< those of STATUS
 };

@@ -25,8 +25,9 @@ void RequestHandler::handle(Client& client, SocketRole role, std::string_view te
   const auto ok = [&] { client.outbox().answer(line_.ok(request.name, request.id_json)); };
   // A line that is no JSON, such as one with NaN, has no name.
   const auto is_odometry = [&] {
-    // Also one with a misspelt class, or that is no JSON.
-    return request.name.empty() ? text.find("ODOM") != text.npos
+    // Also one with a misspelt class or none, or that is no JSON.
+    const auto has = [&](std::string_view word) { return text.find(word) != text.npos; };
+    return request.name.empty() ? has("ODOM") || has("\"left\"") || has("\"gyro\"")
                                 : request.name.starts_with("ODOM") || request.name == "odometry";
   };
   const auto error = [&](std::string_view code, std::string_view reason) {
@@ -89,8 +90,10 @@ void RequestHandler::handle(Client& client, SocketRole role, std::string_view te
                  [&](const message::OdometryReading& reading) {
                    if_control([&] {
                      if (!actions_.add_odometry) {
-                       return error("unsupported",
-                                    "/odometry/source of the config is not \"socket\"");
+                       const message::RequestError wrong{
+                           "unsupported", "/odometry/source of the config is not \"socket\""};
+                       if (actions_.refuse_odometry) actions_.refuse_odometry(wrong);
+                       return error(wrong.code, wrong.text);
                      }
                      // Accepted ODOMETRY gets no answer: it comes at up to 500 Hz.
                      if (actions_.add_odometry(reading, client.fd())) return;

@@ -39,6 +39,8 @@ class OdometryInputMonitor {
     bool gyro = false;
   };
   Rejected rejected() const { return rejected_; }
+  /// Most lines of the last evaluated interval could not be read.
+  bool are_refused() const { return are_refused_; }
   /// Which fault of STATUS hint() is about.
   std::string_view fault() const { return are_refused_ ? "odometry-refused" : "odometry-absent"; }
 

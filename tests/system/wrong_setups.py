@@ -203,7 +203,7 @@ class Bench:
         return (last["faults"], last["hint"], first) if last else ([], "", None)
 
 
-    def said_live(self, file, the_map, mount):
+    def said_live(self, file, the_map, mount, odometry):
         """The same of a daemon that replays as fast as the lidar was."""
         map_file = os.path.join(self.folder, "map.json")
         if isinstance(the_map, str):
@@ -213,7 +213,8 @@ class Bench:
                 json.dump(the_map, out)
         sockets = {name: os.path.join(self.folder, name + ".sock") for name in ("pose", "control")}
         config = {"map": map_file, "lidar": {"driver": "replay", "file": file, "speed": 1,
-                                             "mount": {**MOUNT, **mount}}, "socket": sockets}
+                                             "mount": {**MOUNT, **mount}}, "socket": sockets,
+                  "odometry": {"source": odometry}}
         if the_map == "krpai-2019-a.json":
             config["maps"] = [{"name": "krpai-2019-a", "file": map_file},
                               {"name": "home", "file": os.path.join(MAPS, "flat-7.json")}]
@@ -257,9 +258,12 @@ def main():
         cases = [(name, expected, lambda change=change, config=config:
                   bench.said(bench.changed(base, change), config))
                  for name, expected, change, config in (WRONG[::6] if options.sample else WRONG)]
-        cases += [(name, expected, lambda the_map=the_map, mount=mount:
-                   bench.said_live(base, the_map, mount))
-                  for name, expected, the_map, mount in (WRONG_MAPS[:1] if options.sample else WRONG_MAPS)]
+        # Odometry carries a pose across the scans that fit nowhere.
+        cases += [(name + (", with odometry" if odometry == "socket" else ""), expected,
+                   lambda the_map=the_map, mount=mount, odometry=odometry:
+                   bench.said_live(base, the_map, mount, odometry))
+                  for name, expected, the_map, mount in (WRONG_MAPS[:1] if options.sample else WRONG_MAPS)
+                  for odometry in ("none", "socket")]
         for name, expected, say in cases:
             faults, hint, t_s = say()
             is_named = bool(expected & set(faults)) and t_s <= LIMIT_S

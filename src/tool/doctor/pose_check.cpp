@@ -59,7 +59,9 @@ std::vector<Finding> check_poses(const Patient& patient) {
   const std::string what = "of the last scans: " + describe_poses(daemon.poses) +
                            (count_of(run) > 0 ? "; since the start: " + describe_poses(run) : "");
   const std::uint64_t all = count_of(judged);
-  const std::uint64_t lost = poses_in(judged, core::PoseState::kLost);
+  // Scans that fit nowhere, whether or not odometry carried the pose on.
+  const std::uint64_t lost = poses_in(judged, core::PoseState::kLost) +
+                             poses_in(judged, core::PoseState::kPredicted);
   const std::uint64_t ambiguous = poses_in(judged, core::PoseState::kAmbiguous);
   if (2 * (lost + ambiguous) <= all) return {{Verdict::kGood, "poses", what}};
   if (ambiguous > lost) {

@@ -77,6 +77,10 @@ std::vector<ExaminedPlace> examine_places(const std::shared_ptr<const core::Wall
 
 std::string describe_look_alikes(const core::WallMap& map,
                                  const std::vector<ExaminedPlace>& places) {
+  if (places.empty()) {
+    return "alike    no place examined: none is in a room or has walls on all sides; close the "
+           "outline, outer doors too, or add rooms\n";
+  }
   std::size_t alike = 0;
   std::size_t lost = 0;
   std::map<std::string, std::size_t> places_of;

@@ -29,7 +29,7 @@ void MessagePrinter::print_scan(const core::Scan& scan, const core::ScanResult& 
   if (drive_ && core::has_pose(result.pose.state)) {
     drive_->add(result.pose.t_ns, result.pose.T_map_base);
   }
-  recent_.add(result.pose, map_);
+  recent_.add(result, map_);
   if (plan_ != nullptr) scans_.add(scan);
   if (classes_.contains(MessageClass::kScan)) output_.write(writer_.scan(scan));
   if (classes_.contains(MessageClass::kBreakpoints)) {

@@ -19,15 +19,23 @@ core::WallMap flat() {
 }
 
 /// The last hundred scans: `lost` of them, the others at `x_m`.
-RecentPoses recent(std::size_t lost, const core::WallMap& map, double x_m = 1) {
+RecentPoses recent(std::size_t lost, const core::WallMap& map, double x_m = 1,
+                   core::PoseState as = core::PoseState::kLost, std::size_t segments = 4) {
   RecentPoses poses;
   for (std::size_t i = 0; i < 150; ++i) {
-    core::PoseEstimate pose;
-    pose.state = i < 50 || i >= 50 + lost ? core::PoseState::kFix : core::PoseState::kLost;
-    pose.T_map_base.x_m = x_m;
-    poses.add(pose, &map);
+    core::ScanResult result;
+    result.detection.segments.resize(segments);
+    result.pose.state = i < 50 || i >= 50 + lost ? core::PoseState::kFix : as;
+    result.pose.T_map_base.x_m = x_m;
+    poses.add(result, &map);
   }
   return poses;
+}
+
+TEST(RecentPoses, ScansOfAnUncoveredLidarThatOdometryCarriesOn_FitNowhere) {
+  const core::WallMap map = flat();
+  EXPECT_EQ(recent(30, map, 1, core::PoseState::kPredicted).lost(), 30U);
+  EXPECT_EQ(recent(30, map, 1, core::PoseState::kPredicted, /*segments=*/1).lost(), 0U);
 }
 
 TEST(FaultList, MostlyLost_IsMismatchUntilAVariantFits) {

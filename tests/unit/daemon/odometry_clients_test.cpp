@@ -42,11 +42,24 @@ class OdometryClientsTest : public ::testing::Test {
     return status;
   }
 
-  OdometryClients clients_;
+  OdometryClients clients_{/*expects_lines=*/true};
   Verdict verdict_ = Verdict::kAccepted;  ///< the last one
   core::OdometrySummary summary_;
   core::TimeNs now_ns_ = 0;
 };
+
+TEST_F(OdometryClientsTest, LinesThatNobodyAskedFor_AreNamedWhileTheyCome) {
+  clients_ = OdometryClients(/*expects_lines=*/false);
+  summary_.enabled = summary_.present = false;
+  EXPECT_THAT(described().odometry_hint, IsEmpty());
+  clients_.refuse({"unsupported", "/odometry/source of the config is not \"socket\""});
+  now_ns_ += core::kNsPerSecond;
+  const message::StatusFields status = described();
+  EXPECT_THAT(std::string(status.odometry_hint), HasSubstr("/odometry/source"));
+  EXPECT_EQ(status.odometry_fault, "odometry-refused");
+  now_ns_ += core::kNsPerSecond;
+  EXPECT_THAT(described().odometry_hint, IsEmpty());
+}
 
 TEST_F(OdometryClientsTest, OneClient_Accepted) {
   for (int i = 0; i < 100; ++i) EXPECT_TRUE(accepts(7, wheels()));

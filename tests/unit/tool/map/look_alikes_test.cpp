@@ -47,6 +47,14 @@ TEST(LookAlikes, RectangularRoom_MatchesItselfRotated) {
   EXPECT_THAT(describe_look_alikes(*map, places), HasSubstr("hall like itself, turned by 180"));
 }
 
+TEST(LookAlikes, OpenOutline_IsSaid) {
+  core::FloorPlan plan = closed_room(3, 2);
+  plan.walls.pop_back();
+  plan.rooms.clear();
+  const auto map = make_map(plan);
+  EXPECT_THAT(describe_look_alikes(*map, examine_places(map, 60)), HasSubstr("no place examined"));
+}
+
 TEST(LookAlikes, AsymmetricRoom_HasNone) {
   core::FloorPlan plan = closed_room(3, 2);
   plan.walls.push_back({{0.9, 0}, {0.9, 0.7}, 0.1});
