@@ -44,8 +44,8 @@ class Service : public DaemonTest {
     }
     return false;
   }
-  /// The daemon's first action: before it, SIGHUP ends the process. (fork() and sanitizers block all
-  /// signals for a moment.)
+  /// The daemon's first action: before it, SIGHUP ends the process. (fork() and sanitizers block
+  /// all signals for a moment.)
   static bool blocks_hangups(pid_t pid) {
     return has_signal(pid, "SigBlk:", SIGHUP) && !has_signal(pid, "SigBlk:", SIGUSR2);
   }

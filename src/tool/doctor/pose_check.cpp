@@ -60,8 +60,8 @@ std::vector<Finding> check_poses(const Patient& patient) {
                            (count_of(run) > 0 ? "; since the start: " + describe_poses(run) : "");
   const std::uint64_t all = count_of(judged);
   // Scans that fit nowhere, whether or not odometry carried the pose on.
-  const std::uint64_t lost = poses_in(judged, core::PoseState::kLost) +
-                             poses_in(judged, core::PoseState::kPredicted);
+  const std::uint64_t lost =
+      poses_in(judged, core::PoseState::kLost) + poses_in(judged, core::PoseState::kPredicted);
   const std::uint64_t ambiguous = poses_in(judged, core::PoseState::kAmbiguous);
   if (2 * (lost + ambiguous) <= all) return {{Verdict::kGood, "poses", what}};
   if (ambiguous > lost) {
