@@ -45,8 +45,8 @@ class FaultText {
         return of_unrelated("right", "left", one);
       case DriveFault::kBothUnrelated:
         return one.is_silent
-                   ? "neither wheel's counts change while the robot drives: check both "
-                     "encoders"
+                   ? "neither wheel's counts change, or hardly, while the robot drives: check both "
+                     "encoders, that counts are totals and no increments, and counts_per_turn"
                    : "wheels and lidar measure different motions, and no single fault "
                      "accounts for it: check wheel_radius, track, counts_per_turn, the signs "
                      "and times of the counts, and that lidar.mount is in metres";

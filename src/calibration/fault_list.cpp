@@ -13,6 +13,9 @@ constexpr std::size_t kMost = RecentPoses::kScans * 95 / 100;
 /// A scan that shows so many walls is that of an uncovered lidar.
 constexpr std::size_t kUncoveredSegments = 3;
 
+/// A controller that is restarted so often in a drive is none.
+constexpr std::uint64_t kManyRestarts = 3;
+
 std::string lost_hint(std::size_t lost, const core::FloorPlan* plan) {
   if (plan == nullptr) {
     return "the scans fit in none of the config's maps: check that the map of this place is one of "
@@ -66,7 +69,12 @@ void FaultList::add_map(const std::optional<MapFinding>& finding, const RecentPo
 
 void FaultList::add_drive(const DriveFaults& drive, const OdometryNames& names,
                           const core::OdometrySummary& odometry) {
-  for (const std::string_view name : names_of(drive)) add(name, describe(drive, names));
+  const std::string wraps =
+      odometry.counters.restarts < kManyRestarts
+          ? ""
+          : "; counts began again elsewhere " + std::to_string(odometry.counters.restarts) +
+                " times: if they wrap, set odometry.counter_max to the highest count";
+  for (const std::string_view name : names_of(drive)) add(name, describe(drive, names) + wraps);
   if (!drive.any() && odometry.present && !odometry.healthy) {
     add("odometry-unhealthy",
         "the odometry contradicts the lidar and is not used: drive a minute, straight and with "

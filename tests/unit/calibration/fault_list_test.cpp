@@ -63,6 +63,20 @@ TEST(FaultList, PosesOutsideOfTheMap_AreNamed) {
   EXPECT_THAT(far.hint(), HasSubstr("lidar.mount"));
 }
 
+TEST(FaultList, CountsThatBeginAgain_MayWrap) {
+  DriveFaults drive;
+  drive.drive.push_back({.fault = DriveFault::kLeftUnrelated});
+  core::OdometrySummary odometry;
+  odometry.counters.restarts = 2;
+  FaultList once;
+  once.add_drive(drive, {}, odometry);
+  EXPECT_THAT(once.hint(), Not(HasSubstr("counter_max")));
+  odometry.counters.restarts = 5;
+  FaultList often;
+  often.add_drive(drive, {}, odometry);
+  EXPECT_THAT(often.hint(), HasSubstr("5 times: if they wrap, set odometry.counter_max"));
+}
+
 TEST(FaultList, HintIsAboutTheFirst) {
   FaultList faults;
   faults.add("no-port", "plug it in");
