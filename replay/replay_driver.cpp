@@ -19,8 +19,7 @@ using Clock = std::chrono::steady_clock;
 
 /// Longest delay of a stop.
 constexpr std::chrono::milliseconds kMaxSleep{50};
-/// Samples come together for this long, as those of a capsule do: 8,000 a second are no 8,000
-/// sleeps.
+/// Samples are passed on in batches of this length, as those of a capsule come: one sleep for each.
 constexpr std::chrono::milliseconds kTogether{4};
 /// Poll interval of a full consumer.
 constexpr std::chrono::microseconds kRoomSleep{500};

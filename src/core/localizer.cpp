@@ -103,8 +103,8 @@ Decision Localizer::Workspace::find(const Scan& scan, TimeNs t_ns) {
 
   filtered = filter;
 
-  // 4. One place is a fix, several are ambiguous, none is lost. Few rays may fit as well at a place
-  //    that nobody proposed, and are not compared one by one.
+  // 4. One place is a fix, several are ambiguous, none is lost. A part of the view may fit as well
+  //    at a place that was not proposed: its places are compared by evidence.
   decided_exactly = certain || (sees_enough(t_ns) && is_exact(t_ns));
   if (decided_exactly) {
     candidates = place->verification.hypotheses();

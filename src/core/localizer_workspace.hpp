@@ -106,7 +106,7 @@ struct Localizer::Workspace {
   bool is_expected(const Pose2& T_map_lidar, TimeNs t_ns) const;
   bool prior_is_fresh(TimeNs t_ns) const;
   bool is_at_prior(const Pose2& T_map_lidar, TimeNs t_ns) const;
-  /// Around it, or beside a prior.
+  /// The lidar sees around it, or a fresh prior tells where it is.
   bool sees_enough(TimeNs t_ns) const;
   bool in_doubt(TimeNs t_ns) const;
   bool may_move(TimeNs t_ns) const;

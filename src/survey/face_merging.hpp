@@ -22,8 +22,8 @@ struct MergeLimits {
 };
 
 /// Merges faces with the same normal that lie on one line within their covariances and the limits,
-/// and overlap or leave a gap. `evidence`: of the faces; where it is empty only faces that overlap
-/// are merged. Returns the number of faces merged into others.
+/// and overlap or leave a gap of at most gap_m. `evidence`: of the faces; where it is empty only
+/// faces that overlap are merged. Returns the number of faces merged into others.
 std::size_t merge_faces(MappedDrive& drive, const std::vector<FaceEvidence>& evidence,
                         const MergeLimits& limits);
 

@@ -32,12 +32,13 @@ class MotionPath {
   /// speed is not seen late; none where too little is known.
   Twist2 velocity_at(TimeNs t_ns) const;
 
+  /// Mean squares along x and of the heading.
   struct Change {
     double x_m2 = 0;
     double theta_rad2 = 0;
   };
-  /// How unevenly it was driven: the mean square of what a change of speed between two readings
-  /// comes to in the time between them.
+  /// How unevenly it was driven: the mean square, over the time, of the change of speed from one
+  /// pair of readings to the next, times the interval between readings.
   Change mean_square_change(TimeNs from_ns, TimeNs to_ns) const;
 
   /// The last motion is taken to go on for so long after the last reading.

@@ -247,7 +247,7 @@ std::span<const VerifiedHypothesis> PlaceSearch::find() {
     if (candidates_[i].score < std::max(0.0, candidates_.front().score) - kHopeless) break;
     add(candidates_[i]);
   }
-  // Elsewhere has those of the places that the scan leaves open besides.
+  // Elsewhere has odds of its own, and those of the places that the scan leaves open.
   double elsewhere = odds_elsewhere_;
   for (const VerifiedHypothesis& open : open_places_) elsewhere += std::exp(open.log_odds);
   for (VerifiedHypothesis& place : places_) place.log_odds -= std::log(elsewhere);

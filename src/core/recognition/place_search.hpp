@@ -61,7 +61,7 @@ class PlaceSearch {
   std::span<const Breakpoint> breakpoints_;
   double spacing_rad_ = 0;
   double noise_scale_ = 1;
-  double odds_elsewhere_ = 1;
+  double odds_elsewhere_ = 1;  ///< of no place at all, by the motion alone
   double max_map_sigma_m_ = 0;
   ScanStructure structure_;
   std::vector<PolarPoint> subset_;
