@@ -94,6 +94,7 @@ PolarScan::PolarScan() { points_.reserve(kMaxSamplesPerScan); }
 void PolarScan::assign(const Scan& scan, double min_range_m, double max_range_m, TimeNs at_ns,
                        const Twist2& motion, const SensorBias& bias) {
   points_.clear();
+  largest_gap_rad_.reset();
   const bool biased = !bias.is_none();
   const bool moves = !motion.is_rest();
   RayIterator rays;
@@ -111,15 +112,22 @@ void PolarScan::assign(const Scan& scan, double min_range_m, double max_range_m,
 
 void PolarScan::begin(double spacing_rad) {
   points_.clear();
+  largest_gap_rad_.reset();
   spacing_rad_ = spacing_rad;
 }
 
 void PolarScan::append(double bearing_rad, double range_m) {
+  largest_gap_rad_.reset();
   if (points_.size() < kMaxSamplesPerScan)
     points_.push_back(point_at(bearing_rad, range_m, 0, unit_vector(bearing_rad)));
 }
 
 double PolarScan::largest_gap_rad() const {
+  if (!largest_gap_rad_) largest_gap_rad_ = find_largest_gap_rad();
+  return *largest_gap_rad_;
+}
+
+double PolarScan::find_largest_gap_rad() const {
   const double min_neighbours =
       std::max(2.0, kMinNeighbourShare * 2 * kNeighbourhood_rad / spacing_rad_);
   // The neighbourhood of a return is [first, end), started one round before.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -52,14 +53,16 @@ class PolarScan {
   double spacing_rad() const { return spacing_rad_; }
 
   /// Largest gap of the field of view: bearings without returns, isolated returns not counted. 2 pi
-  /// where all returns are isolated.
+  /// where all returns are isolated. Found when first asked for: by one thread at a time.
   double largest_gap_rad() const;
 
  private:
   void sort();
+  double find_largest_gap_rad() const;
 
   std::vector<PolarPoint> points_;
   double spacing_rad_ = 0;
+  mutable std::optional<double> largest_gap_rad_;
 };
 
 }  // namespace cornerd::core
