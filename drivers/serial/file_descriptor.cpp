@@ -8,8 +8,10 @@ namespace cornerd::drivers {
 
 void occupy_standard_streams() {
   for (int fd = STDIN_FILENO; fd <= STDERR_FILENO; ++fd) {
-    // open() takes the lowest free number, which is this one.
-    if (::fcntl(fd, F_GETFD) < 0 && ::open("/dev/null", O_RDWR) != fd) return;
+    // A write to a closed standard output fails, as it would have. open() takes the lowest free
+    // number, which is fd.
+    const int flags = fd == STDOUT_FILENO ? O_RDONLY : O_RDWR;
+    if (::fcntl(fd, F_GETFD) < 0 && ::open("/dev/null", flags) != fd) return;
   }
 }
 

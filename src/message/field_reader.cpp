@@ -61,7 +61,9 @@ std::optional<Json> parse_object(std::string_view line, std::size_t max_bytes,
   };
   Json parsed = Json::parse(line, note_key, /*allow_exceptions=*/false);
   if (!parsed.is_object()) {
-    error = {"json", "not one JSON object in UTF-8 on a line of its own"};
+    const bool has_nan = line.find("NaN") != line.npos || line.find("nan") != line.npos;
+    error = {"json", std::string("not one JSON object in UTF-8 on a line of its own") +
+                         (has_nan ? ": JSON has no NaN" : "")};
     return std::nullopt;
   }
   if (!repeated.empty()) {

@@ -78,7 +78,7 @@ std::string OdometryInputMonitor::diagnose(const core::OdometryCounters& counter
   }
   if (lines_.all == 0)
     return "no ODOMETRY line arrives: start the program that sends encoder counts to the control "
-           "socket";
+           "socket, each line with its newline";
   if (lines_.both == 0) {
     if (lines_.left > 0 && lines_.right > 0) {
       return "ODOMETRY lines have left or right: send both counts in one line";

@@ -34,9 +34,12 @@ constexpr int kLoop_ms = 100;
 /// MQTT 5, section 2.4: reason codes from here on are failures.
 constexpr int kLeastFailure = 0x80;
 
+std::string address(const BrokerConfig& config) {
+  return config.host + ":" + std::to_string(config.port);
+}
+
 std::runtime_error failure(const BrokerConfig& config, const std::string& reason) {
-  return std::runtime_error("broker " + config.host + ":" + std::to_string(config.port) + ": " +
-                            reason);
+  return std::runtime_error("broker " + address(config) + ": " + reason);
 }
 
 /// libmosquitto 2.0.11 (Debian 12) ends the process by an assertion where a packet of MQTT 5 has a
@@ -173,10 +176,9 @@ void Broker::serve(const std::stop_token& stop) {
   const bool is_nonsense = result == MOSQ_ERR_PROTOCOL || result == MOSQ_ERR_MALFORMED_PACKET ||
                            result == MOSQ_ERR_UNKNOWN || (result == MOSQ_ERR_ERRNO && errno == 0);
   if (is_nonsense && !was_connected) {
-    set_problem("what answers at " + config_.host + ":" + std::to_string(config_.port) +
-                " is no MQTT broker: check host and port");
+    set_problem("what answers at " + address(config_) + " is no MQTT broker: check host and port");
   } else if (result != MOSQ_ERR_SUCCESS && !is_refused_) {
-    set_problem(lib.strerror(result));
+    set_problem(address(config_) + ": " + lib.strerror(result));
   }
   if (!stop.stop_requested()) return;
   // What was published last goes out before the end.

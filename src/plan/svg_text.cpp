@@ -15,6 +15,9 @@ namespace {
 
 using core::Vec2;
 
+/// "100.25mm": what is longer is a list of numbers.
+constexpr std::size_t kLongestLength = 12;
+
 std::string excerpt(std::string_view text) {
   std::string shown(text.substr(0, 20));
   for (char& c : shown) {
@@ -81,7 +84,9 @@ double NumberReader::number() {
   double value = 0;
   const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
   if (error != std::errc{} || !std::isfinite(value)) {
-    throw PlanError(excerpt(digits) + " is not a number");
+    const bool is_unit = digits.size() < whole_.size() && whole_.size() <= kLongestLength;
+    throw PlanError(excerpt(digits) + (is_unit ? " in " + excerpt(whole_) : "") +
+                    " is not a number; shapes are in user units, without one of their own");
   }
   text_.remove_prefix(static_cast<std::size_t>(end - digits.data()));
   return value;

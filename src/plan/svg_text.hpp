@@ -24,7 +24,7 @@ struct Affine {
 /// Reads numbers one after the other, as they may stand in attributes: "1-2.5.5e1,3".
 class NumberReader {
  public:
-  explicit NumberReader(std::string_view text) : text_(text) {}
+  explicit NumberReader(std::string_view text) : whole_(text), text_(text) {}
 
   /// Without spaces and commas; 0 at the end.
   char peek();
@@ -37,6 +37,7 @@ class NumberReader {
   std::string_view rest() const { return text_; }
 
  private:
+  std::string_view whole_;
   std::string_view text_;
 };
 

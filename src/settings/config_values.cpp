@@ -112,6 +112,8 @@ Value replay_speed(double& speed) {
             const Json* value = object.find(key);
             if (value != nullptr && *value == "max") {
               speed = 0;
+            } else if (value != nullptr && value->is_string()) {
+              object.fail(key, "must be a number from 0.001 to 1000, or \"max\"");
             } else {
               object.number(key, speed, {0.001, 1000});
             }

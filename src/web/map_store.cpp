@@ -6,9 +6,11 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cerrno>
 #include <cstring>
+#include <fstream>
 #include <vector>
 
 #include <nlohmann/json.hpp>
@@ -32,6 +34,16 @@ bool write_file(int fd, std::string_view text) {
   return ::fsync(fd) == 0;
 }
 
+/// Comments and names may come before the format; what is no map is not offered.
+bool looks_like_a_map(const std::filesystem::path& file) {
+  if (std::error_code ignored; !std::filesystem::is_regular_file(file, ignored)) return false;
+  std::array<char, 4096> head{};
+  std::ifstream stream(file, std::ios::binary);
+  stream.read(head.data(), head.size());
+  const std::string_view text(head.data(), static_cast<std::size_t>(stream.gcount()));
+  return text.find("\"cornerd-map\"") != text.npos;
+}
+
 }  // namespace
 
 bool is_map_name(std::string_view name) {
@@ -48,7 +60,10 @@ Response MapStore::list() const {
     for (std::filesystem::directory_iterator entry(folder_, error), end; !error && entry != end;
          entry.increment(error)) {
       const std::filesystem::path& file = entry->path();
-      if (file.extension() == ".json" && is_map_name(file.stem().native())) files.push_back(file);
+      if (file.extension() == ".json" && is_map_name(file.stem().native()) &&
+          looks_like_a_map(file)) {
+        files.push_back(file);
+      }
     }
   }
   if (error) {
@@ -84,7 +99,8 @@ Response MapStore::put(std::string_view name, const std::string& map) const {
     return error_response(404, "maps", "no folder of maps: start cornerd-web with --maps DIR");
   }
   if (!is_map_name(name)) {
-    return error_response(400, "name", "a map's name has letters, digits, '-', '_' and '.' only");
+    return error_response(400, "name",
+                          "a map's name has at most 64 letters, digits, '-', '_' and '.'");
   }
   if (Response checked = check(map); checked.status != 200) return checked;
   const std::string file = (folder_ / (std::string(name) + ".json")).native();

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "tool/command_line/command.hpp"
 
+#include <cerrno>
 #include <csignal>
 #include <cstdint>
 #include <cstdio>
+#include <cstring>
 #include <exception>
 #include <filesystem>
+#include <iostream>
 #include <memory>
 #include <optional>
 #include <sstream>
@@ -233,7 +236,9 @@ int run_program(const std::string& name, const std::string& summary,
     unknown.empty() ? app.exit(error) : app.exit(CLI::ExtrasError(app.get_name(), unknown));
     return kExitUsage;
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? kExitDone : kExitUsage;
+    if (app.exit(error) != 0) return kExitUsage;
+    if (std::cout.flush() || errno == EPIPE) return kExitDone;
+    return fail(("standard output: " + std::string(std::strerror(errno))).c_str(), kExitFailed);
   } catch (const OutputClosed&) {
     return kExitDone;
   } catch (const UsageError& error) {

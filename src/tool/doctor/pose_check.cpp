@@ -73,13 +73,14 @@ std::vector<Finding> check_poses(const Patient& patient) {
               "add details that break the symmetry to the map, or send the pose: SET_POSE on the "
               "control socket"}}};
   }
-  return {
-      {Verdict::kWrong,
-       "poses",
-       what,
-       {"check that the map is right and the robot inside it: cornerctl monitor shows both",
-        "check lidar.mount: theta if the scan is rotated, inverted if it is mirrored",
-        "check that the walls are where the map has them, to a few centimetres, and not hidden"}}};
+  return {{Verdict::kWrong,
+           "poses",
+           what,
+           {"check that the map is right and the robot inside it: cornerctl monitor shows both",
+            "check lidar.mount: theta if the scan is rotated, inverted if it is mirrored",
+            "check that nothing covers the lidar, and that the walls are where the map has them, "
+            "to a few "
+            "centimetres"}}};
 }
 
 }  // namespace cornerd::tool

@@ -55,7 +55,13 @@ gridmap::MapServerYaml read_yaml(const std::filesystem::path& file) {
   try {
     return gridmap::parse_map_server_yaml(text);
   } catch (const gridmap::GridError& error) {
-    throw settings::SettingsError(file.string(), error.pointer(), error.what());
+    const std::string suffix = file.extension();
+    const bool is_named_so = suffix == ".yaml" || suffix == ".yml";
+    throw settings::SettingsError(
+        file.string(), error.pointer(),
+        error.what() + std::string(is_named_so ? ""
+                                               : "; it was read as the .yaml of a ROS map: "
+                                                 "plans end in .svg or .dxf"));
   }
 }
 

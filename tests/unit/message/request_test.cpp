@@ -171,6 +171,10 @@ TEST(ParseRequest, NotAnObject_JsonError) {
   }
 }
 
+TEST(ParseRequest, NotANumber_SaysThatJsonHasNone) {
+  EXPECT_THAT(request_error(R"({"class":"SET_POSE","x":NaN})").text, HasSubstr("JSON has no NaN"));
+}
+
 TEST(ParseRequest, TooLongOrTooDeep_RefusedBeforeParsing) {
   EXPECT_EQ(request_error(std::string(kMaxRequestBytes + 1, ' ')).code, "too-long");
   EXPECT_EQ(request_error(std::string(kMaxRequestBytes, '[')).code, "json");

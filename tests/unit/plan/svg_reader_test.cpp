@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "plan/svg_reader.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <string>
@@ -89,6 +90,17 @@ TEST_F(SvgReader, Layers_ByLabelAndId) {
     FAIL();
   } catch (const PlanError& error) {
     EXPECT_STREQ(error.what(), "has no layer \"doors\"; its layers: Walls, g2, inner");
+  }
+}
+
+TEST_F(SvgReader, LengthWithUnit_IsQuotedWhole) {
+  for (const std::string length : {"50%", "25.5mm"}) {
+    try {
+      read_body("<line x2='" + length + "'/>");
+      FAIL();
+    } catch (const PlanError& error) {
+      EXPECT_THAT(error.what(), testing::HasSubstr("in \"" + length + "\" is not a number"));
+    }
   }
 }
 

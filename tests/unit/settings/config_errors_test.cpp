@@ -64,7 +64,7 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{R"({MAP, "lidar": {"mount": {"theta": 90}}})", "/lidar/mount/theta: must be from"},
         Wrong{R"({MAP, "odometry": {"track": 0}})",
               "/odometry/track: must be from 0.001 to 10 metres"},
-        Wrong{R"({MAP, "lidar": {"speed": "slow"}})", "/lidar/speed: must be a number"},
+        Wrong{R"({MAP, "lidar": {"speed": "slow"}})", "/lidar/speed: must be a number from 0.001 to 1000, or \"max\""},
         Wrong{R"({MAP, "lidar": {"speed": 0}})", "/lidar/speed: "},
         Wrong{R"({MAP, "advanced": {"localizer": {"updates_per_scan": 17}}})", "from 1 to 16"},
         Wrong{R"({MAP, "odometry": {"source": "wheels"}})",

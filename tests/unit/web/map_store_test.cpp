@@ -25,6 +25,8 @@ TEST(MapName, LeavesNoFolder) {
 TEST(MapStore, SavedMap_IsListedAndNeverReplaced) {
   const test::TemporaryFolder folder;
   const MapStore store(folder.path());
+  std::ofstream(folder / "learned.json") << R"({"format":"cornerd-learned"})";
+  std::filesystem::create_directory(folder / "plans.json");
   EXPECT_EQ(store.put("hall", kMap).status, 201u);
   const Response again = store.put("hall", kMap);
   EXPECT_EQ(again.status, 409u);

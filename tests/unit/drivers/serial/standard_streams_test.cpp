@@ -32,5 +32,17 @@ TEST(StandardStreams, ClosedStreams_AreOccupied) {
   EXPECT_EQ(first_free_number({0}), expected);
 }
 
+TEST(StandardStreams, WriteToClosedOutput_FailsStill) {
+  const pid_t child = ::fork();
+  if (child == 0) {
+    ::close(STDOUT_FILENO);
+    occupy_standard_streams();
+    ::_exit(::write(STDOUT_FILENO, "x", 1) < 0 ? 0 : 1);
+  }
+  int status = 0;
+  ::waitpid(child, &status, 0);
+  EXPECT_EQ(status, 0);
+}
+
 }  // namespace
 }  // namespace cornerd::drivers

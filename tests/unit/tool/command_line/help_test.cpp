@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: MIT
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <sstream>
 #include <string>
@@ -7,6 +10,7 @@
 
 #include "command_run.hpp"
 #include "tool/command_line/failure.hpp"
+#include "tool/cornerctl.hpp"
 
 namespace cornerd::tool {
 namespace {
@@ -26,6 +30,18 @@ TEST(CornerctlUsage, Help_WrapsAt80Columns) {
     std::istringstream lines(CommandRun(words).out);
     for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 80u) << line;
   }
+}
+
+TEST(CornerctlUsage, HelpThatCannotBeWritten_Fails) {
+  const pid_t child = ::fork();
+  if (child == 0) {
+    ::dup2(::open("/dev/full", O_WRONLY | O_CLOEXEC), STDOUT_FILENO);
+    const char* const words[] = {"cornerctl", "--help"};
+    ::_exit(run_cornerctl(2, words));
+  }
+  int status = 0;
+  ::waitpid(child, &status, 0);
+  EXPECT_EQ(WEXITSTATUS(status), kExitFailed);
 }
 
 TEST(CornerctlUsage, GroupWithoutCommand_NamesItsCommands) {
