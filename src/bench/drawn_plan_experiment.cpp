@@ -2,6 +2,7 @@
 #include "bench/drawn_plan_experiment.hpp"
 
 #include <cmath>
+#include <span>
 #include <vector>
 
 #include "bench/drawn_plan.hpp"
@@ -49,9 +50,10 @@ double aligned_error_m(const std::vector<Pair>& pairs) {
 
 void drive_in_drawn_plan(const std::shared_ptr<const core::WallMap>& building,
                          const std::shared_ptr<const core::WallMap>& map, std::uint64_t seed,
-                         bool learn_walls, DrawnPlanResult& result) {
+                         const DrawnPlanCase& test_case, DrawnPlanResult& result) {
   SimulatedDriveConfig config;
-  config.has_odometry = false;
+  config.has_odometry = test_case.has_odometry;
+  config.robot = miscalibrated_robot();
   config.simulator.seed = seed;
   config.scans = static_cast<std::size_t>(2 * kHalf_s * config.simulator.motor_hz);
   const replay::Motion motion = replay::drive_path(
@@ -59,11 +61,17 @@ void drive_in_drawn_plan(const std::shared_ptr<const core::WallMap>& building,
   const SimulatedDrive drive = simulate_drive(building, motion, config);
 
   core::LocalizerConfig localizer_config;
-  localizer_config.learn_walls = learn_walls;
+  localizer_config.learn_walls = test_case.learns_walls;
+  localizer_config.odometry.enabled = test_case.has_odometry;
+  localizer_config.odometry.geometry = config.robot.geometry;
   core::Localizer localizer(map, localizer_config);
   std::vector<Pair> pairs;
   core::Scan scan;
+  std::span<const survey::RecordedDrive::Reading> readings = drive.drive.readings();
   for (std::size_t i = 0; i < drive.drive.size(); ++i) {
+    for (; !readings.empty() && readings.front().scan <= i; readings = readings.subspan(1)) {
+      localizer.add(readings.front().reading, readings.front().now_ns);
+    }
     drive.drive.load(i, scan);
     const core::PoseEstimate& pose = localizer.step(scan).pose;
     const core::Pose2& truth = drive.T_map_base[i];

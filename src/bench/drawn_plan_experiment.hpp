@@ -19,10 +19,14 @@ struct DrawnPlanResult {
   std::vector<double> aligned_errors_m;
 };
 
-/// A drive of two minutes at up to 0.4 m/s, without odometry, added to `result`. `map`: of
-/// `building`, with errors.
+struct DrawnPlanCase {
+  bool learns_walls = false;
+  bool has_odometry = true;  ///< of miscalibrated_robot()
+};
+
+/// A drive of two minutes at up to 0.4 m/s, added to `result`. `map`: of `building`, with errors.
 void drive_in_drawn_plan(const std::shared_ptr<const core::WallMap>& building,
                          const std::shared_ptr<const core::WallMap>& map, std::uint64_t seed,
-                         bool learn_walls, DrawnPlanResult& result);
+                         const DrawnPlanCase& test_case, DrawnPlanResult& result);
 
 }  // namespace cornerd::bench

@@ -215,8 +215,8 @@ void Localizer::resume_odometry(const Localizer& other) {
 }
 
 bool Localizer::Workspace::teaches(const Decision& decision) const {
-  if (!config.calibrate_online) return false;
-  if (!has_pose(decision.state)) return false;
+  // Of walls that are off by centimetres a bias would be learnt that the lidar has not.
+  if (!config.calibrate_online || !has_pose(decision.state) || is_map_rough()) return false;
   const core::VerifiedHypothesis& at = chosen(decision);
   return at.map_sigma_m == 0 && (memory.is_stationary() || odometer.has_motion()) &&
          at.likelihood.near_hit_share() > kTeachingShare;

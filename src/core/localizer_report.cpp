@@ -98,8 +98,7 @@ void Localizer::Workspace::report_pose(const core::VerifiedHypothesis& found, st
   const Pose2& T_map_lidar = refined.T_map_lidar;
   PoseEstimate& pose = result.pose;
   pose.T_map_base = T_map_lidar * T_lidar_base;
-  const double known_sigma_m =
-      place->walls ? std::max(found.map_sigma_m, map->plan().sigma_m) : found.map_sigma_m;
+  const double known_sigma_m = map_sigma_m(found);
   // In an exact map the difference of two poses is the velocity.
   memory.update(T_map_lidar, t_ns, motion,
                 known_sigma_m > 0 ? refined.covariance : Covariance3::Zero());

@@ -41,6 +41,10 @@ bool Localizer::resume(const LearnedWalls& learned) {
   return walls() != nullptr && workspace_->place->walls->resume(learned);
 }
 
+bool Localizer::Workspace::is_map_rough() const {
+  return map->plan().sigma_m > FloorPlan{}.sigma_m;
+}
+
 bool Localizer::Workspace::Place::learns_walls(const FloorPlan& plan) {
   return plan.sigma_m > FloorPlan{}.sigma_m ||
          std::any_of(plan.walls.begin(), plan.walls.end(),
@@ -61,18 +65,31 @@ bool Localizer::Workspace::teaches_walls(const RefinedPose& refined) const {
                                                             kNextPlace_m, kNextPlace_rad));
 }
 
+double Localizer::Workspace::map_sigma_m(const VerifiedHypothesis& found) const {
+  return is_map_rough() ? std::max(found.map_sigma_m, map->plan().sigma_m) : found.map_sigma_m;
+}
+
 RefinedPose Localizer::Workspace::refined_by_walls(const VerifiedHypothesis& found, TimeNs t_ns) {
   const bool is_next = prior_is_fresh(t_ns) && is_expected(found.refined.T_map_lidar, t_ns);
   named_in_a_row = is_next ? named_in_a_row + 1 : 0;
-  if (!place->walls) return found.refined;
+  const auto refine = [&](WallOffsetFilter* walls) {
+    RefinedPose refined = place->refinement.refine(
+        *map, found.refined.T_map_lidar, kLearnedRadius_m, points.points(), points.points(),
+        noise_scale(), map_sigma_m(found), nullptr, walls);
+    refined.valid = refined.valid && same_pose(refined.T_map_lidar, found.refined.T_map_lidar,
+                                               kMaxMove_m, kMaxMove_rad);
+    return refined;
+  };
+  // A scan may fit a wrong map exactly: the map knows better how far off it is.
+  RefinedPose by_map = found.refined;
+  if (map_sigma_m(found) > found.map_sigma_m) by_map = refine(nullptr);
+  if (!by_map.valid) by_map = found.refined;
+  // Whether the map is exact is asked of its own walls.
+  by_map.face_residuals = found.refined.face_residuals;
+  if (!place->walls) return by_map;
   WallOffsetFilter& walls = *place->walls;
-  RefinedPose refined = place->refinement.refine(
-      *map, found.refined.T_map_lidar, kLearnedRadius_m, points.points(), points.points(),
-      noise_scale(), std::max(found.map_sigma_m, map->plan().sigma_m), nullptr, &walls);
-  if (!refined.valid ||
-      !same_pose(refined.T_map_lidar, found.refined.T_map_lidar, kMaxMove_m, kMaxMove_rad)) {
-    return found.refined;
-  }
+  RefinedPose refined = refine(&walls);
+  if (!refined.valid) return by_map;
   const bool is_learned = walls.size() > 0;
   if (is_certain(refined)) {
     place->changes->add(*map, refined.T_map_lidar, points.points(), map->plan().sigma_m, t_ns);
@@ -82,8 +99,7 @@ RefinedPose Localizer::Workspace::refined_by_walls(const VerifiedHypothesis& fou
     T_map_taught = refined.T_map_lidar;
   }
   // Ends of walls tell something of a pose too, though nothing of the walls.
-  if (!is_learned) return found.refined;
-  // Whether the map is exact is asked of its own walls.
+  if (!is_learned) return by_map;
   refined.face_residuals = found.refined.face_residuals;
   return refined;
 }

@@ -115,6 +115,10 @@ struct Localizer::Workspace {
   bool teaches(const Decision& decision) const;
   bool is_certain(const RefinedPose& refined) const;
   bool teaches_walls(const RefinedPose& refined) const;
+  /// The map says that its walls are off by more than those of most maps.
+  bool is_map_rough() const;
+  /// What the map says, or the scan where that is more.
+  double map_sigma_m(const VerifiedHypothesis& found) const;
   RefinedPose refined_by_walls(const VerifiedHypothesis& found, TimeNs t_ns);
   void report(const Decision& decision, std::size_t corners, TimeNs t_ns);
   void report_pose(const core::VerifiedHypothesis& found, std::size_t corners, TimeNs t_ns);

@@ -57,13 +57,17 @@ void run_drawn_plan_bench(const DrawnPlanBenchOptions& options) {
     const auto building = std::make_shared<const core::WallMap>(plan);
     DrawnPlanResult off;
     DrawnPlanResult on;
+    DrawnPlanResult alone;
     for (std::uint64_t seed = options.seed; seed < options.seed + options.plans; ++seed) {
       const auto map = std::make_shared<const core::WallMap>(drawn_plan(plan, seed));
-      drive_in_drawn_plan(building, map, seed, /*learn_walls=*/false, off);
-      drive_in_drawn_plan(building, map, seed, /*learn_walls=*/true, on);
+      drive_in_drawn_plan(building, map, seed, {}, off);
+      drive_in_drawn_plan(building, map, seed, {.learns_walls = true}, on);
+      drive_in_drawn_plan(building, map, seed, {.learns_walls = true, .has_odometry = false},
+                          alone);
     }
     add_row(table, plan.name, "off", off);
     add_row(table, plan.name, "on", on);
+    add_row(table, plan.name, "on, no odometry", alone);
   }
   tool::Output output;
   output.write(table.text());

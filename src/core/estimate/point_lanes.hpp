@@ -14,6 +14,15 @@ namespace cornerd::core {
 /// Contribution of one face's points to the normal equations: sums over the points within the cut
 /// of weight, lever d(distance)/d(theta) and distance.
 struct FaceSums {
+  /// To a plane so much behind the one that they are about. Of `squared_distances` alone it is an
+  /// approximation: their mean distance is taken for 0.
+  void move(double offset_m) {
+    z_squared += 2 * offset_m * distance + offset_m * offset_m * weight;
+    distance += offset_m * weight;
+    distance_lever += offset_m * lever;
+    squared_distances += offset_m * offset_m * points;
+  }
+
   double weight = 0;
   double lever = 0;  ///< this and the next three: times the point's weight
   double lever_squared = 0;
