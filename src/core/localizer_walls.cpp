@@ -45,6 +45,11 @@ bool Localizer::Workspace::is_map_rough() const {
   return map->plan().sigma_m > FloorPlan{}.sigma_m;
 }
 
+/// Walls that are off by centimetres look like a motion of centimetres a scan.
+bool Localizer::Workspace::wheels_know_better() const {
+  return odometer.has_motion() && is_map_rough();
+}
+
 bool Localizer::Workspace::Place::learns_walls(const FloorPlan& plan) {
   return plan.sigma_m > FloorPlan{}.sigma_m ||
          std::any_of(plan.walls.begin(), plan.walls.end(),
@@ -95,7 +100,8 @@ RefinedPose Localizer::Workspace::refined_by_walls(const VerifiedHypothesis& fou
     place->changes->add(*map, refined.T_map_lidar, points.points(), map->plan().sigma_m, t_ns);
   }
   if (teaches_walls(refined)) {
-    walls.learn(refined.covariance / std::max(1.0, refined.reduced_chi_square));
+    const double excess = std::max(1.0, refined.reduced_chi_square) - 1;
+    walls.learn(refined.covariance - excess * refined.noise_covariance);
     T_map_taught = refined.T_map_lidar;
   }
   // Ends of walls tell something of a pose too, though nothing of the walls.

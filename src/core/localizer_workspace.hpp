@@ -117,6 +117,7 @@ struct Localizer::Workspace {
   bool teaches_walls(const RefinedPose& refined) const;
   /// The map says that its walls are off by more than those of most maps.
   bool is_map_rough() const;
+  bool wheels_know_better() const;
   /// What the map says, or the scan where that is more.
   double map_sigma_m(const VerifiedHypothesis& found) const;
   RefinedPose refined_by_walls(const VerifiedHypothesis& found, TimeNs t_ns);

@@ -200,12 +200,13 @@ RefinedPose Refinement::gauss_newton(const WallMap& map, const Pose2& start, dou
   }
   const auto inliers = static_cast<double>(sums.inliers);
   refined.reduced_chi_square = sums.chi_square / std::max(1.0, inliers - 3);
-  refined.noise_covariance = solver.inverse();
-  refined.covariance = refined.noise_covariance * std::max(1.0, refined.reduced_chi_square);
+  refined.covariance = solver.inverse();
+  refined.noise_covariance = refined.covariance;
   if (!sums.of_offsets.isZero(0)) {
     solver.compute(sums.information + sums.of_offsets);
     refined.noise_covariance = solver.inverse();
   }
+  refined.covariance += (std::max(1.0, refined.reduced_chi_square) - 1) * refined.noise_covariance;
   refined.inliers = sums.inliers;
   refined.rmse_m = std::sqrt(sums.squared_distances / std::max(1.0, inliers));
   refined.valid = refined.covariance.allFinite();
