@@ -50,10 +50,11 @@ const ScanResult& Localizer::step(const Scan& received) {
   // 1. to 4. The place where that turn was taken. One that fits nowhere may have been deskewed by
   //    wheels that lie: once more, as it came. One that fits exactly only as it came was.
   Decision decision = w.find(scan, t_ns);
-  if (decision.state == PoseState::kLost && &scan != &turn) {
+  const bool may_lie = &scan != &turn && !(w.wheels_know_better() && w.memory.prior(t_ns));
+  if (decision.state == PoseState::kLost && may_lie) {
     w.reject_motion();
     decision = w.find(turn, t_ns);
-  } else if (&scan != &turn && !w.decided_exactly && w.fits_as_it_came(turn, t_ns)) {
+  } else if (may_lie && !w.decided_exactly && w.fits_as_it_came(turn, t_ns)) {
     const Decision undeskewed = w.find(turn, t_ns);
     if (w.decided_exactly) w.reject_motion();
     decision = w.decided_exactly ? undeskewed : w.find(scan, t_ns);

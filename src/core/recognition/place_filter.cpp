@@ -70,11 +70,14 @@ void PlaceFilter::update(std::span<const VerifiedHypothesis> found,
     return place.log_odds - log_odds_elsewhere;
   };
   std::array<const VerifiedHypothesis*, kMaxPlaces> known{};
+  // Of the place that was named last, where this scan does not show it: it speaks against others.
+  double log_odds_of_unseen = 0;
   std::size_t kept = 0;
   for (const Place& last : std::span(places_).first(count_)) {
     Place place = last;
     const VerifiedHypothesis* const at = find(place, found, prior);
     if (!at && !(place.is_named && prior)) continue;
+    if (!at) log_odds_of_unseen = std::max(log_odds_of_unseen, place.base);
     if (at) {
       if (std::find(known.begin(), known.end(), at) != known.end()) continue;
       const double evidence = evidence_for(*at, -kLogPlaces);
@@ -88,6 +91,7 @@ void PlaceFilter::update(std::span<const VerifiedHypothesis> found,
     places_[kept++] = place;
   }
   count_ = kept;
+  log_odds_ -= log_odds_of_unseen;
   for (const VerifiedHypothesis& place : found) {
     const double evidence = evidence_for(place, -kLogPlaces);
     if (count_ == kMaxPlaces || evidence < 0) return;
