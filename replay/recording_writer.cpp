@@ -9,8 +9,9 @@ namespace cornerd::replay {
 namespace {
 
 [[noreturn]] void fail(const std::filesystem::path& file) {
+  const bool is_full = errno == ENOSPC || errno == EDQUOT || errno == EFBIG;
   throw RecordingError(file.string() + ": cannot be written: " + std::strerror(errno) +
-                       "; check the folder and its rights");
+                       (is_full ? "" : "; check the folder and its rights"));
 }
 
 std::ofstream open_for_writing(const std::filesystem::path& file) {

@@ -9,6 +9,15 @@ namespace {
 /// Of the recent scans: in a map of another place hardly any scan has a pose, whereas among
 /// furniture and people that hide half of the walls some always have one.
 constexpr std::size_t kMost = RecentPoses::kScans * 95 / 100;
+/// The same where the map and its variants were tried on some of them, in vain.
+constexpr std::size_t kMostExamined = RecentPoses::kScans * 3 / 4;
+/// In rooms that look alike most scans are ambiguous, but hardly one is lost.
+constexpr std::size_t kLeastLost = RecentPoses::kScans / 2;
+
+/// A robot's own body may be nearer than min_range in half of the view; nothing is beyond a
+/// lidar's reach.
+constexpr double kMostNear = 0.6;
+constexpr double kMostFar = 0.25;
 
 /// A scan that shows so many walls is that of an uncovered lidar.
 constexpr std::size_t kUncoveredSegments = 3;
@@ -27,6 +36,19 @@ std::string lost_hint(std::size_t lost, const core::FloorPlan* plan) {
          "inside it, and lidar.mount.inverted";
 }
 
+bool are_cut(const core::Scan& scan, const RecentPoses::Limits& limits) {
+  double returns = 0;
+  double near = 0;
+  double far = 0;
+  for (const core::Sample& sample : scan.samples()) {
+    if (!(sample.range_m > 0)) continue;
+    ++returns;
+    near += sample.range_m < limits.min_range_m ? 1 : 0;
+    far += sample.range_m > limits.max_range_m ? 1 : 0;
+  }
+  return near > kMostNear * returns || far > kMostFar * returns;
+}
+
 }  // namespace
 
 void FaultList::add(std::string_view name, std::string hint) {
@@ -40,12 +62,16 @@ bool is_outside(const core::WallMap& map, const core::Vec2& place) {
          (map.upper_right() - place).minCoeff() < -kMargin_m;
 }
 
-void RecentPoses::add(const core::ScanResult& result, const core::WallMap* map) {
+void RecentPoses::add(const core::ScanResult& result, const core::Scan& scan, const Limits& limits,
+                      const core::WallMap* map) {
   const core::PoseEstimate& pose = result.pose;
   lost_ <<= 1;
-  lost_[0] = pose.state == core::PoseState::kLost ||
-             (pose.state == core::PoseState::kPredicted &&
-              result.detection.segments.size() >= kUncoveredSegments);
+  lost_[0] = (pose.state == core::PoseState::kLost || pose.state == core::PoseState::kPredicted) &&
+             result.detection.segments.size() >= kUncoveredSegments;
+  ambiguous_ <<= 1;
+  ambiguous_[0] = pose.state == core::PoseState::kAmbiguous;
+  cut_ <<= 1;
+  cut_[0] = are_cut(scan, limits);
   outside_ <<= 1;
   outside_[0] = map != nullptr && core::has_pose(pose.state) &&
                 is_outside(*map, pose.T_map_base.translation());
@@ -53,7 +79,13 @@ void RecentPoses::add(const core::ScanResult& result, const core::WallMap* map) 
 
 void FaultList::add_map(const std::optional<MapFinding>& finding, const RecentPoses& recent,
                         const core::FloorPlan* plan) {
-  const bool is_mostly_lost = recent.lost() >= kMost;
+  if (recent.cut() > RecentPoses::kScans / 2) {
+    add("range-limits",
+        "most of the lidar's returns are beyond advanced.lidar.min_range and max_range, which are "
+        "in metres, and are not used");
+  }
+  const std::size_t most = finding ? kMostExamined : kMost;
+  const bool is_mostly_lost = recent.lost() >= kLeastLost && recent.unnamed() >= most;
   if (finding && (is_mostly_lost || finding->fault != MapFault::kNoVariant)) {
     add(name_of(*finding), describe(*finding, plan->name));
   } else if (is_mostly_lost) {

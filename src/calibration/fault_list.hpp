@@ -3,6 +3,7 @@
 
 #include <bitset>
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <span>
 #include <string>
@@ -13,6 +14,7 @@
 #include "calibration/map_faults.hpp"
 #include "core/map/wall_map.hpp"
 #include "core/odometry/odometry_summary.hpp"
+#include "core/scan.hpp"
 #include "core/scan_result.hpp"
 
 namespace cornerd::calibration {
@@ -25,14 +27,27 @@ class RecentPoses {
  public:
   static constexpr std::size_t kScans = 100;
 
+  /// Returns nearer and farther than these are not used.
+  struct Limits {
+    double min_range_m = 0;
+    double max_range_m = std::numeric_limits<double>::infinity();
+  };
+
   /// `map`: null where it is not known which of several maps the robot is in.
-  void add(const core::ScanResult& result, const core::WallMap* map);
+  void add(const core::ScanResult& result, const core::Scan& scan, const Limits& limits,
+           const core::WallMap* map);
   /// That fit nowhere, whether or not odometry carried the pose on.
   std::size_t lost() const { return lost_.count(); }
+  /// Lost, or at several places.
+  std::size_t unnamed() const { return (lost_ | ambiguous_).count(); }
+  /// Whose returns are mostly beyond the limits.
+  std::size_t cut() const { return cut_.count(); }
   std::size_t outside() const { return outside_.count(); }
 
  private:
   std::bitset<kScans> lost_;  ///< newest first
+  std::bitset<kScans> ambiguous_;
+  std::bitset<kScans> cut_;
   std::bitset<kScans> outside_;
 };
 

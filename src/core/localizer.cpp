@@ -89,6 +89,7 @@ Decision Localizer::Workspace::find(const Scan& scan, TimeNs t_ns) {
   if (may_move(t_ns) && !may_be_biased()) look_for_the_motion(scan, t_ns);
 
   // 3. Where still none is, the whole map is searched.
+  searched = false;
   candidates = {};
   decided_exactly = !place;
   if (!place) return {};

@@ -231,7 +231,7 @@ std::optional<double> Localizer::log_odds_of_map() {
 }
 
 bool Localizer::is_searching() const {
-  return workspace_->place && workspace_->place->map_search.is_running();
+  return workspace_->searched && workspace_->place->map_search.is_running();
 }
 
 std::span<const PoseHypothesis> Localizer::Workspace::search_everywhere(TimeNs t_ns) {
@@ -245,6 +245,7 @@ std::span<const PoseHypothesis> Localizer::Workspace::search_everywhere(TimeNs t
     searched_ns = t_ns;
   }
   search.advance(config.search_nodes_per_scan);
+  searched = true;
   everywhere.assign(search.found().begin(), search.found().end());
   for (PoseHypothesis& found : everywhere) {
     found.T_map_lidar.theta_rad = normalize_angle(found.T_map_lidar.theta_rad + turned_rad);

@@ -42,7 +42,7 @@ bool Localizer::resume(const LearnedWalls& learned) {
 }
 
 bool Localizer::Workspace::is_map_rough() const {
-  return map->plan().sigma_m > FloorPlan{}.sigma_m;
+  return map && map->plan().sigma_m > FloorPlan{}.sigma_m;
 }
 
 /// Walls that are off by centimetres look like a motion of centimetres a scan.
@@ -100,8 +100,7 @@ RefinedPose Localizer::Workspace::refined_by_walls(const VerifiedHypothesis& fou
     place->changes->add(*map, refined.T_map_lidar, points.points(), map->plan().sigma_m, t_ns);
   }
   if (teaches_walls(refined)) {
-    const double excess = std::max(1.0, refined.reduced_chi_square) - 1;
-    walls.learn(refined.covariance - excess * refined.noise_covariance);
+    walls.learn(refined.nominal_covariance());
     T_map_taught = refined.T_map_lidar;
   }
   // Ends of walls tell something of a pose too, though nothing of the walls.

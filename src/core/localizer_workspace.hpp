@@ -150,6 +150,7 @@ struct Localizer::Workspace {
   PolarScan tried_points;
   std::vector<PoseHypothesis> everywhere;  ///< by the search of the map so far
   TimeNs searched_ns = 0;
+  bool searched = false;  ///< everywhere, for this scan
   double turned_rad = 0;  ///< since that search began
   ScanRotation rotation;
   Twist2 motion;                                   ///< that `points` were moved back by

@@ -52,6 +52,7 @@ void MapChoice::compare(const Scan& scan) {
   }
   if (!is_comparing_) {
     is_comparing_ = true;
+    has_begun_ = false;
     next_ = 0;
     kept_ = scan;
   }
@@ -59,12 +60,14 @@ void MapChoice::compare(const Scan& scan) {
   if (next_ == localizers_.size()) return;
   Localizer& localizer = localizers_[next_];
   // From nothing, so that what a scan taught in a wrong map is forgotten.
-  if (!localizer.is_searching()) {
+  if (!has_begun_) {
     localizer.forget();
     localizer.resume(bias_);
+    has_begun_ = true;
   }
   const PoseEstimate& pose = localizer.step(kept_).pose;
   if (pose.state != PoseState::kFix && localizer.is_searching()) return;
+  has_begun_ = false;
   evidence_[next_++] = evidence_of(localizer, pose);
 }
 

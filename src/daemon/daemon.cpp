@@ -31,6 +31,7 @@ constexpr int kTicksPerStatus = 10;
 ScanPublisher::PublishedMaps published(const std::vector<LoadedMap>& loaded,
                                        const settings::Config& config) {
   ScanPublisher::PublishedMaps maps{loaded};
+  maps.limits = {config.lidar.min_range_m, config.lidar.max_range_m};
   if (config.maps.empty()) return maps;
   for (const LoadedMap& map : loaded) maps.names.push_back(map.map->plan().name);
   return maps;

@@ -83,7 +83,7 @@ void ScanPublisher::publish(const ScanReport& report) {
   }
   latencies_.add(core::to_seconds(report.latency_ns));
   ++poses_[static_cast<std::size_t>(pose.state)];
-  recent_.add(report.result, map());
+  recent_.add(report.result, report.scan, maps_.limits, map());
   odometry_ = report.result.odometry;
   bias_ = report.result.bias;
   lidar_ = report.lidar;

@@ -29,6 +29,7 @@ class ScanPublisher {
   struct PublishedMaps {
     std::vector<LoadedMap> maps;
     std::vector<std::string> names = {};
+    calibration::RecentPoses::Limits limits = {};
   };
 
   ScanPublisher(MessageServer& server, PublishedMaps maps);

@@ -48,9 +48,10 @@ void add_lidar_keys(std::vector<Key>& table, LidarConfig& lidar) {
        "Standard deviations of a measurement. `cornerctl calibrate noise -o` writes this section. "
        "The defaults are those of the model (drivers/README.md), as far as the lidar says which it "
        "is; these are an RPLidar A1's."});
-  add({"/lidar/noise/floor", number(lidar.noise.sensor.floor_m, kSigmaM.low, kSigmaM.high),
+  add({"/lidar/noise/floor", number(lidar.noise.sensor.floor_m, kSigmaM.low, 0.1),
        "Of a range, metres: the larger of \"floor\" and \"share\" times the range."});
-  add({"/lidar/noise/share", number(lidar.noise.sensor.share, 0, 1), "Of a range, as a share."});
+  add({"/lidar/noise/share", number(lidar.noise.sensor.share, 0, 0.1),
+       "Of a range, as a share: 0.005 is half a percent."});
   add({"/lidar/noise/bearing", number(lidar.noise.sensor.bearing_rad, 0, 0.1),
        "Of a bearing, radians."});
   add({"/lidar/noise/ranges", sigma_table(lidar.noise.sensor.table),

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <span>
 #include <vector>
 
@@ -15,6 +16,11 @@
 namespace cornerd::core {
 
 struct RefinedPose {
+  /// The share of `covariance` that holds if the noise is as modelled.
+  Covariance3 nominal_covariance() const {
+    return covariance - (std::max(1.0, reduced_chi_square) - 1) * noise_covariance;
+  }
+
   Pose2 T_map_lidar;
   Covariance3 covariance = Covariance3::Zero();        ///< x, y in the map frame, theta
   Covariance3 noise_covariance = Covariance3::Zero();  ///< by the points' noise alone

@@ -154,7 +154,7 @@ void calibrate_odometry(const CalibrateOdometryOptions& options) {
                .output = options.output});
   // Fails before the work if the file cannot be written.
   std::unique_ptr<Output> plot;
-  if (!options.plot.empty()) plot = std::make_unique<Output>(options.plot);
+  if (!options.plot.empty()) plot = std::make_unique<Output>(Output::replacing(options.plot));
   const auto [drive, fit] =
       fit_drive(options.file, parse_wire(options.wire), config, truth ? &*truth : nullptr);
   const auto steps = calibration::at_true_times(drive.steps, fit.learned.delay_s);
@@ -198,7 +198,7 @@ void calibrate_odometry(const CalibrateOdometryOptions& options) {
   report.flush();
   if (plot) {
     plot->write(draw_dead_reckoning(drive, steps, config, fit, filtered));
-    plot->flush();
+    plot->commit();
   }
   if (!options.output.empty()) {
     write_file(options.output,

@@ -71,6 +71,28 @@ void Output::fail() const {
   throw Failure(name_ + ": " + std::strerror(errno));
 }
 
+Replacement::Replacement(const std::filesystem::path& file) : path_(file) {
+  std::error_code ignored;
+  const bool is_new = !std::filesystem::exists(file, ignored);
+  if (file.empty() || (!is_new && !std::filesystem::is_regular_file(file, ignored))) return;
+  target_ = is_new ? file : std::filesystem::canonical(file, ignored);
+  path_ =
+      target_.parent_path() / (target_.stem().string() + ".part" + target_.extension().string());
+}
+
+Replacement::~Replacement() {
+  std::error_code ignored;
+  if (!target_.empty()) std::filesystem::remove(path_, ignored);
+}
+
+void Replacement::commit() {
+  if (target_.empty()) return;
+  if (std::rename(path_.c_str(), target_.c_str()) != 0) {
+    throw Failure(target_.string() + ": " + std::strerror(errno));
+  }
+  target_.clear();
+}
+
 void write_file(const std::filesystem::path& file, std::string_view text) {
   Output output = Output::replacing(file);
   output.write(text);

@@ -50,6 +50,25 @@ class Output {
   bool flush_each_ = false;
 };
 
+/// A file for others to write, beside the one that it takes the place of; that one stays on a
+/// failure. Pipes, devices and "" are written themselves.
+class Replacement {
+ public:
+  explicit Replacement(const std::filesystem::path& file);
+  ~Replacement();
+  Replacement(const Replacement&) = delete;
+  Replacement& operator=(const Replacement&) = delete;
+
+  /// With the same ending.
+  const std::filesystem::path& path() const { return path_; }
+  /// Throws Failure.
+  void commit();
+
+ private:
+  std::filesystem::path target_;  ///< empty: path_ itself
+  std::filesystem::path path_;
+};
+
 /// Replaces a whole file, or writes standard output for "-". On a failure the old file stays.
 /// Throws as Output.
 void write_file(const std::filesystem::path& file, std::string_view text);

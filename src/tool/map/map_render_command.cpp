@@ -140,9 +140,7 @@ void render(const RenderOptions& options) {
   }
   if (T_map_base) drawing.add_pose(*T_map_base);
 
-  Output output(options.output);
-  output.write(drawing.document(subtitle));
-  output.flush();
+  write_file(options.output, drawing.document(subtitle));
 }
 
 }  // namespace

@@ -32,9 +32,7 @@ struct DetectOptions {
 
 void save_plot(const DetectOptions& options, const core::Scan& scan,
                const core::Detection& detection) {
-  Output picture(options.plot);
-  picture.write(draw_scan(scan, detection));
-  picture.flush();
+  write_file(options.plot, draw_scan(scan, detection));
 }
 
 void detect(DetectOptions& options) {

@@ -29,7 +29,11 @@ void MessagePrinter::print_scan(const core::Scan& scan, const core::ScanResult& 
   if (drive_ && core::has_pose(result.pose.state)) {
     drive_->add(result.pose.t_ns, result.pose.T_map_base);
   }
-  recent_.add(result, map_);
+  const calibration::RecentPoses::Limits limits =
+      config_ == nullptr ? calibration::RecentPoses::Limits{}
+                         : calibration::RecentPoses::Limits{config_->lidar.min_range_m,
+                                                            config_->lidar.max_range_m};
+  recent_.add(result, scan, limits, map_);
   if (plan_ != nullptr) scans_.add(scan);
   if (classes_.contains(MessageClass::kScan)) output_.write(writer_.scan(scan));
   if (classes_.contains(MessageClass::kBreakpoints)) {

@@ -60,11 +60,15 @@ void simulate(const SimulateOptions& options) {
     throw UsageError("--truth of a robot that moves needs a recording with times: -o FILE.ndjson");
   }
   const auto [world, motion] = simulation.place(settings::load_map(settings.map), settings.lidar);
-  replay::RecordingWriter recording(options.output);
+  Replacement output(options.output);
+  Replacement truth_output(options.truth);
+  replay::RecordingWriter recording(output.path());
   std::optional<replay::TruthWriter> truth;
-  if (!options.truth.empty()) truth.emplace(options.truth);
+  if (!options.truth.empty()) truth.emplace(truth_output.path());
   const replay::SimulatedRecordingSummary summary =
       simulate_recording(world, motion, config, recording, truth ? &*truth : nullptr);
+  output.commit();
+  truth_output.commit();
   std::fprintf(stderr, "%s: %lld scans in %.1f s, %llu samples, %.0f %% of them with a return\n",
                options.output.c_str(), static_cast<long long>(config.scans), summary.duration_s,
                static_cast<unsigned long long>(summary.samples),

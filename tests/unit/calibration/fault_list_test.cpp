@@ -20,14 +20,17 @@ core::WallMap flat() {
 
 /// The last hundred scans: `lost` of them, the others at `x_m`.
 RecentPoses recent(std::size_t lost, const core::WallMap& map, double x_m = 1,
-                   core::PoseState as = core::PoseState::kLost, std::size_t segments = 4) {
+                   core::PoseState as = core::PoseState::kLost, std::size_t segments = 4,
+                   const RecentPoses::Limits& limits = {}) {
   RecentPoses poses;
+  core::Scan scan;
+  for (int i = 0; i < 10; ++i) scan.add({.bearing_rad = 0.1F * i, .range_m = 0.5F * i});
   for (std::size_t i = 0; i < 150; ++i) {
     core::ScanResult result;
     result.detection.segments.resize(segments);
     result.pose.state = i < 50 || i >= 50 + lost ? core::PoseState::kFix : as;
     result.pose.T_map_base.x_m = x_m;
-    poses.add(result, &map);
+    poses.add(result, scan, limits, &map);
   }
   return poses;
 }
@@ -36,6 +39,7 @@ TEST(RecentPoses, ScansOfAnUncoveredLidarThatOdometryCarriesOn_FitNowhere) {
   const core::WallMap map = flat();
   EXPECT_EQ(recent(30, map, 1, core::PoseState::kPredicted).lost(), 30U);
   EXPECT_EQ(recent(30, map, 1, core::PoseState::kPredicted, /*segments=*/1).lost(), 0U);
+  EXPECT_EQ(recent(30, map, 1, core::PoseState::kLost, /*segments=*/0).lost(), 0U);
 }
 
 TEST(FaultList, MostlyLost_IsMismatchUntilAVariantFits) {
@@ -50,6 +54,33 @@ TEST(FaultList, MostlyLost_IsMismatchUntilAVariantFits) {
   FaultList found;
   found.add_map(MapFinding{.fault = MapFault::kMirrored}, recent(20, map), &map.plan());
   EXPECT_THAT(found.names(), ElementsAre("map-mirrored"));
+}
+
+TEST(FaultList, ExaminedInVain_MismatchWhereThreeQuartersHaveNoPose) {
+  const core::WallMap map = flat();
+  const MapFinding in_vain{.fault = MapFault::kNoVariant};
+  FaultList few;
+  few.add_map(in_vain, recent(74, map), &map.plan());
+  EXPECT_THAT(few.names(), IsEmpty());
+  FaultList many;
+  many.add_map(in_vain, recent(75, map), &map.plan());
+  EXPECT_THAT(many.names(), ElementsAre("map-mismatch"));
+  FaultList alike;
+  alike.add_map(in_vain, recent(100, map, 1, core::PoseState::kAmbiguous), &map.plan());
+  EXPECT_THAT(alike.names(), IsEmpty());
+}
+
+TEST(FaultList, ReturnsBeyondTheLimits_AreNamed) {
+  const core::WallMap map = flat();
+  const auto names = [&](double min_m, double max_m) {
+    FaultList faults;
+    faults.add_map({}, recent(0, map, 1, core::PoseState::kFix, 4, {min_m, max_m}), &map.plan());
+    return std::vector<std::string_view>(faults.names().begin(), faults.names().end());
+  };
+  EXPECT_THAT(names(0.15, 12), IsEmpty());
+  EXPECT_THAT(names(2.1, 12), IsEmpty()) << "the robot's own body may be in half of the view";
+  EXPECT_THAT(names(0.15, 2), ElementsAre("range-limits"));
+  EXPECT_THAT(names(4, 12), ElementsAre("range-limits"));
 }
 
 TEST(FaultList, PosesOutsideOfTheMap_AreNamed) {

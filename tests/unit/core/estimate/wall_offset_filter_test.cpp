@@ -40,7 +40,7 @@ class WallOffsetFilterTest : public ::testing::Test {
     for (int k = 0; k < scans; ++k) {
       const RefinedPose refined = refine(source_.place_in(0.4, 2.2, 0.4, 2.6));
       ASSERT_TRUE(refined.valid);
-      filter_.learn(refined.covariance / std::max(1.0, refined.reduced_chi_square));
+      filter_.learn(refined.nominal_covariance());
     }
   }
   WallOffset wall(std::size_t index) const {
