@@ -39,9 +39,10 @@ Output Output::replacing(const std::filesystem::path& file) {
   }
   // Not in place of a link, but of what it points at.
   const std::filesystem::path target = is_new ? file : std::filesystem::canonical(file, ignored);
-  Output output(target.string() + ".part");
-  output.temporary_.reset(new std::filesystem::path(output.name_));
-  output.name_ = target.string();
+  const std::filesystem::path part = target.string() + ".part";
+  Output output(std::fopen(part.c_str(), "wbe"), target.string(), false);
+  if (!output.file_) output.fail();
+  output.temporary_.reset(new std::filesystem::path(part));
   return output;
 }
 

@@ -97,6 +97,7 @@ class StatusFaults : public StatusPublisherTest {
     ScanReport report;
     report.map = 0;
     report.result.pose.state = state;
+    report.result.detection.segments.resize(4);
     for (std::size_t i = 0; i < scans; ++i) scans_.publish(report);
   }
 
