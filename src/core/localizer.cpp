@@ -181,6 +181,7 @@ void Localizer::relocalize() {
   workspace_->memory.forget();
   workspace_->filter.forget();
   if (workspace_->place) workspace_->place->map_search.stop();
+  workspace_->searched_ns.reset();
   workspace_->T_map_doubted.reset();
 }
 

@@ -149,7 +149,7 @@ struct Localizer::Workspace {
   PolarScan points;
   PolarScan tried_points;
   std::vector<PoseHypothesis> everywhere;  ///< by the search of the map so far
-  TimeNs searched_ns = 0;
+  std::optional<TimeNs> searched_ns;  ///< time of the scan that a search was last of
   bool searched = false;  ///< everywhere, for this scan
   double turned_rad = 0;  ///< since that search began
   ScanRotation rotation;
