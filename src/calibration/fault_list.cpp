@@ -22,9 +22,6 @@ constexpr double kMostFar = 0.25;
 /// A scan that shows so many walls is that of an uncovered lidar.
 constexpr std::size_t kUncoveredSegments = 3;
 
-/// A controller that is restarted so often in a drive is none.
-constexpr std::uint64_t kManyRestarts = 3;
-
 std::string lost_hint(std::size_t lost, const core::FloorPlan* plan) {
   if (plan == nullptr) {
     return "the scans fit in none of the config's maps: check that the map of this place is one of "
@@ -79,7 +76,8 @@ void RecentPoses::add(const core::ScanResult& result, const core::Scan& scan, co
 
 void FaultList::add_map(const std::optional<MapFinding>& finding, const RecentPoses& recent,
                         const core::FloorPlan* plan) {
-  if (recent.cut() > RecentPoses::kScans / 2) {
+  // A hall is cut on purpose, where it does no harm.
+  if (recent.cut() > RecentPoses::kScans / 2 && recent.unnamed() >= RecentScans::kManyLost) {
     add("range-limits",
         "most of the lidar's returns are beyond advanced.lidar.min_range and max_range, which are "
         "in metres, and are not used");
@@ -102,10 +100,10 @@ void FaultList::add_map(const std::optional<MapFinding>& finding, const RecentPo
 void FaultList::add_drive(const DriveFaults& drive, const OdometryNames& names,
                           const core::OdometrySummary& odometry) {
   const std::string wraps =
-      odometry.counters.restarts < kManyRestarts
+      odometry.counters.restarts == 0
           ? ""
-          : "; counts began again elsewhere " + std::to_string(odometry.counters.restarts) +
-                " times: if they wrap, set odometry.counter_max to the highest count";
+          : "; counts began again elsewhere, " + std::to_string(odometry.counters.restarts) +
+                " times so far: if they wrap, set odometry.counter_max to the highest count";
   for (const std::string_view name : names_of(drive)) add(name, describe(drive, names) + wraps);
   if (!drive.any() && odometry.present && !odometry.healthy) {
     add("odometry-unhealthy",

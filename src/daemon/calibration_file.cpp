@@ -60,9 +60,10 @@ void CalibrationFile::load() {
   const file_type type = std::filesystem::status(file_, unread).type();
   if (type == file_type::not_found) return;
   const auto leave_alone = [this](std::string_view why) {
-    log(LogLevel::kWarning, std::string(why) +
-                                "; the lidar's calibration is not stored: set another "
-                                "/advanced/lidar/calibration_file");
+    problem_ = std::string(why) +
+               "; the lidar's calibration is not stored: set another "
+               "/advanced/lidar/calibration_file";
+    log(LogLevel::kWarning, problem_);
     file_.clear();
   };
   if (type != file_type::regular) return leave_alone(file_.string() + ": not a regular file");
@@ -124,11 +125,11 @@ void CalibrationFile::update(const core::EstimatedBias& learned) {
   try {
     replace_file(file_, settings::text_of(content_));
     written_ = learned;
+    problem_.clear();
   } catch (const std::exception& error) {
-    if (!has_warned_) {
-      log(LogLevel::kWarning, std::string("cannot store the lidar's calibration: ") + error.what());
-    }
-    has_warned_ = true;
+    const bool is_known = !problem_.empty();
+    problem_ = std::string("cannot store the lidar's calibration: ") + error.what();
+    if (!is_known) log(LogLevel::kWarning, problem_);
   }
 }
 

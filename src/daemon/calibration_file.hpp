@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <string_view>
 
 #include "core/sensor_bias.hpp"
@@ -37,6 +38,9 @@ class CalibrationFile {
   /// dozen times in the first minutes, rarely later.
   void update(const core::EstimatedBias& learned);
 
+  /// Why the estimate is not kept; empty if nothing is wrong.
+  const std::string& problem() const { return problem_; }
+
  private:
   void load();
   bool is_significant() const;
@@ -44,7 +48,7 @@ class CalibrationFile {
   std::filesystem::path file_;
   settings::LidarCalibration content_;
   core::EstimatedBias written_;
-  bool has_warned_ = false;
+  std::string problem_;
 };
 
 }  // namespace cornerd::daemon

@@ -249,7 +249,7 @@ void Daemon::on_tick() {
   }
   if (is_time) {
     status_.set_walls(walls_.update(localization_, scans_.map()).get(), scans_.map(), now_ns());
-    status_.set_walls_problem(walls_.problem());
+    status_.set_file_problems(walls_.problem(), calibration_.problem());
     server_.restore_sockets([](const std::string& line) { log(LogLevel::kWarning, line); });
   }
 }

@@ -221,6 +221,7 @@ void StatusPublisher::publish(const drivers::LidarStatus& lidar, const ScanPubli
     faults.add(status.odometry_fault, std::string(status.odometry_hint));
   }
   if (!walls_problem_.empty()) faults.add("walls-file", walls_problem_);
+  if (!calibration_problem_.empty()) faults.add("calibration-file", calibration_problem_);
   status.faults = faults.names();
   status.hint = faults.hint();
   const LatencyWindow& latencies = scans.latencies();

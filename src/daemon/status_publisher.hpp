@@ -41,8 +41,11 @@ class StatusPublisher {
   /// Where there is a report: what is known of the walls of `map`. Publishes EVENT for each new
   /// change.
   void set_walls(const WallReport* report, const core::WallMap* map, core::TimeNs t_ns);
-  /// Why what is learned of the walls is not kept; empty if nothing is wrong.
-  void set_walls_problem(const std::string& problem) { walls_problem_ = problem; }
+  /// Why what is learned of the walls and of the lidar is not kept; empty if nothing is wrong.
+  void set_file_problems(const std::string& walls, const std::string& calibration) {
+    walls_problem_ = walls;
+    calibration_problem_ = calibration;
+  }
   /// Of the scans that follow.
   void configure(const settings::Config& config);
   /// For the faults of the odometry. Readings before the scans that they belong to.
@@ -70,6 +73,7 @@ class StatusPublisher {
   Notifier& notifier_;
   message::StatusFields::Walls walls_;
   std::string walls_problem_;
+  std::string calibration_problem_;
   std::vector<core::MapChange> changes_;  ///< of the map, in the last report
   message::LineWriter line_;
   std::optional<drivers::LidarChange> last_;

@@ -124,9 +124,11 @@ void add_fault(const message::ParsedStatus& status, std::vector<Finding>& findin
   if (status.faults.empty()) return;
   const std::string& fault = status.faults.front();
   if (fault == status.lidar_fault || status.hint == status.odometry_hint) return;
-  const char* subject = fault.starts_with("map")     ? "map"
-                        : fault.starts_with("mount") ? "mount"
-                                                     : "odometry";
+  const char* subject = fault.find("map") != fault.npos ? "map"
+                        : fault.starts_with("mount")    ? "mount"
+                        : fault.starts_with("range")    ? "ranges"
+                        : fault.ends_with("-file")      ? "files"
+                                                        : "odometry";
   findings.push_back({Verdict::kWrong, subject, status.hint, {}});
 }
 

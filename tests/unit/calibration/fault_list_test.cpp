@@ -72,14 +72,16 @@ TEST(FaultList, ExaminedInVain_MismatchWhereThreeQuartersHaveNoPose) {
 
 TEST(FaultList, ReturnsBeyondTheLimits_AreNamed) {
   const core::WallMap map = flat();
-  const auto names = [&](double min_m, double max_m) {
+  const auto names = [&](double min_m, double max_m, std::size_t lost = 10) {
     FaultList faults;
-    faults.add_map({}, recent(0, map, 1, core::PoseState::kFix, 4, {min_m, max_m}), &map.plan());
+    faults.add_map({}, recent(lost, map, 1, core::PoseState::kLost, 4, {min_m, max_m}),
+                   &map.plan());
     return std::vector<std::string_view>(faults.names().begin(), faults.names().end());
   };
   EXPECT_THAT(names(0.15, 12), IsEmpty());
   EXPECT_THAT(names(2.1, 12), IsEmpty()) << "the robot's own body may be in half of the view";
   EXPECT_THAT(names(0.15, 2), ElementsAre("range-limits"));
+  EXPECT_THAT(names(0.15, 2, /*lost=*/0), IsEmpty());
   EXPECT_THAT(names(4, 12), ElementsAre("range-limits"));
 }
 
@@ -98,14 +100,13 @@ TEST(FaultList, CountsThatBeginAgain_MayWrap) {
   DriveFaults drive;
   drive.drive.push_back({.fault = DriveFault::kLeftUnrelated});
   core::OdometrySummary odometry;
-  odometry.counters.restarts = 2;
-  FaultList once;
-  once.add_drive(drive, {}, odometry);
-  EXPECT_THAT(once.hint(), Not(HasSubstr("counter_max")));
+  FaultList never;
+  never.add_drive(drive, {}, odometry);
+  EXPECT_THAT(never.hint(), Not(HasSubstr("counter_max")));
   odometry.counters.restarts = 5;
   FaultList often;
   often.add_drive(drive, {}, odometry);
-  EXPECT_THAT(often.hint(), HasSubstr("5 times: if they wrap, set odometry.counter_max"));
+  EXPECT_THAT(often.hint(), HasSubstr("5 times so far: if they wrap, set odometry.counter_max"));
 }
 
 TEST(FaultList, HintIsAboutTheFirst) {

@@ -151,11 +151,13 @@ TEST_F(StatusFaults, LidarFaultAndUnhealthyOdometry_InTheOrderOfWeight) {
 }
 
 TEST_F(StatusFaults, LearnedWallsThatCannotBeStored_AreTheLastFault) {
-  publisher_.set_walls_problem("cannot store it");
+  publisher_.set_file_problems("cannot store it", "");
   const json status = published();
   EXPECT_EQ(status["faults"], json::parse(R"(["walls-file"])"));
   EXPECT_EQ(status["hint"], "cannot store it");
-  publisher_.set_walls_problem("");
+  publisher_.set_file_problems("", "nor this");
+  EXPECT_EQ(published()["faults"], json::parse(R"(["calibration-file"])"));
+  publisher_.set_file_problems("", "");
   EXPECT_FALSE(published().contains("faults"));
 }
 
