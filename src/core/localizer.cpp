@@ -89,7 +89,6 @@ Decision Localizer::Workspace::find(const Scan& scan, TimeNs t_ns) {
   if (may_move(t_ns) && !may_be_biased()) look_for_the_motion(scan, t_ns);
 
   // 3. Where still none is, the whole map is searched.
-  searched = false;
   candidates = {};
   decided_exactly = !place;
   if (!place) return {};
@@ -181,7 +180,6 @@ void Localizer::relocalize() {
   workspace_->memory.forget();
   workspace_->filter.forget();
   if (workspace_->place) workspace_->place->map_search.stop();
-  workspace_->searched_ns.reset();
   workspace_->T_map_doubted.reset();
 }
 

@@ -231,22 +231,20 @@ std::optional<double> Localizer::log_odds_of_map() {
 }
 
 bool Localizer::is_searching() const {
-  return workspace_->searched && workspace_->place->map_search.is_running();
+  return workspace_->place && workspace_->place->map_search.is_running();
 }
 
 std::span<const PoseHypothesis> Localizer::Workspace::search_everywhere(TimeNs t_ns) {
   MapSearch& search = place->map_search;
-  const double pause_s = searched_ns ? to_seconds(t_ns - *searched_ns) : 0;
-  const bool has_ended = !search.is_running() && pause_s != 0;
-  if (!searched_ns || has_ended || pause_s > kMaxSearchPause_s) {
+  if (!search.is_running() || to_seconds(t_ns - searched_ns) > kMaxSearchPause_s) {
     search.begin(points.points(), result.detection.segments);
+    searched_ns = t_ns;
     turned_rad = 0;
-  } else {
-    turned_rad += rotation.rate_rad_s().value_or(0) * pause_s;
+  } else if (t_ns != searched_ns) {
+    turned_rad += rotation.rate_rad_s().value_or(0) * to_seconds(t_ns - searched_ns);
+    searched_ns = t_ns;
   }
-  searched_ns = t_ns;
   search.advance(config.search_nodes_per_scan);
-  searched = true;
   everywhere.assign(search.found().begin(), search.found().end());
   for (PoseHypothesis& found : everywhere) {
     found.T_map_lidar.theta_rad = normalize_angle(found.T_map_lidar.theta_rad + turned_rad);

@@ -149,8 +149,7 @@ struct Localizer::Workspace {
   PolarScan points;
   PolarScan tried_points;
   std::vector<PoseHypothesis> everywhere;  ///< by the search of the map so far
-  std::optional<TimeNs> searched_ns;  ///< time of the scan that a search was last of
-  bool searched = false;  ///< everywhere, for this scan
+  TimeNs searched_ns = 0;
   double turned_rad = 0;  ///< since that search began
   ScanRotation rotation;
   Twist2 motion;                                   ///< that `points` were moved back by

@@ -6,6 +6,10 @@
 namespace cornerd::core {
 namespace {
 
+/// Of one scan in one map: a whole search. A scan that is looked at as if the robot had moved
+/// otherwise begins another whenever one ends.
+constexpr std::size_t kMostSteps = kWholeSearch / kSearchInRealTime;
+
 MapEvidence evidence_of(Localizer& localizer, const PoseEstimate& pose) {
   MapEvidence evidence;
   evidence.log_odds = localizer.log_odds_of_map();
@@ -52,7 +56,7 @@ void MapChoice::compare(const Scan& scan) {
   }
   if (!is_comparing_) {
     is_comparing_ = true;
-    has_begun_ = false;
+    steps_ = 0;
     next_ = 0;
     kept_ = scan;
   }
@@ -60,14 +64,13 @@ void MapChoice::compare(const Scan& scan) {
   if (next_ == localizers_.size()) return;
   Localizer& localizer = localizers_[next_];
   // From nothing, so that what a scan taught in a wrong map is forgotten.
-  if (!has_begun_) {
+  if (steps_++ == 0) {
     localizer.forget();
     localizer.resume(bias_);
-    has_begun_ = true;
   }
   const PoseEstimate& pose = localizer.step(kept_).pose;
-  if (pose.state != PoseState::kFix && localizer.is_searching()) return;
-  has_begun_ = false;
+  if (pose.state != PoseState::kFix && localizer.is_searching() && steps_ < kMostSteps) return;
+  steps_ = 0;
   evidence_[next_++] = evidence_of(localizer, pose);
 }
 

@@ -60,7 +60,7 @@ class MapChoice {
   std::vector<MapEvidence> compared_;  ///< of the last one that was compared in all maps
   std::size_t next_ = 0;               ///< map of the comparison
   bool is_comparing_ = false;
-  bool has_begun_ = false;  ///< with kept_ in the map next_
+  std::size_t steps_ = 0;  ///< with kept_ in the map next_
   Scan kept_;
   TimeNs compared_ns_ = 0;
   EstimatedBias bias_;  ///< that every comparison begins with
