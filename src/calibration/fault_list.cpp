@@ -68,7 +68,7 @@ void RecentPoses::add(const core::ScanResult& result, const core::Scan& scan, co
   ambiguous_ <<= 1;
   ambiguous_[0] = pose.state == core::PoseState::kAmbiguous;
   cut_ <<= 1;
-  cut_[0] = are_cut(scan, limits);
+  cut_[0] = !core::has_pose(pose.state) && are_cut(scan, limits);
   outside_ <<= 1;
   outside_[0] = map != nullptr && core::has_pose(pose.state) &&
                 is_outside(*map, pose.T_map_base.translation());
@@ -76,8 +76,7 @@ void RecentPoses::add(const core::ScanResult& result, const core::Scan& scan, co
 
 void FaultList::add_map(const std::optional<MapFinding>& finding, const RecentPoses& recent,
                         const core::FloorPlan* plan) {
-  // A hall is cut on purpose, where it does no harm.
-  if (recent.cut() > RecentPoses::kScans / 2 && recent.unnamed() >= RecentScans::kManyLost) {
+  if (recent.cut() >= RecentScans::kManyLost) {
     add("range-limits",
         "most of the lidar's returns are beyond advanced.lidar.min_range and max_range, which are "
         "in metres, and are not used");

@@ -40,7 +40,8 @@ class RecentPoses {
   std::size_t lost() const { return lost_.count(); }
   /// Lost, or at several places.
   std::size_t unnamed() const { return (lost_ | ambiguous_).count(); }
-  /// Whose returns are mostly beyond the limits.
+  /// That have no pose, and whose returns are mostly beyond the limits. Who cuts a hall on purpose
+  /// has poses.
   std::size_t cut() const { return cut_.count(); }
   std::size_t outside() const { return outside_.count(); }
 

@@ -81,7 +81,7 @@ TEST(FaultList, ReturnsBeyondTheLimits_AreNamed) {
   EXPECT_THAT(names(0.15, 12), IsEmpty());
   EXPECT_THAT(names(2.1, 12), IsEmpty()) << "the robot's own body may be in half of the view";
   EXPECT_THAT(names(0.15, 2), ElementsAre("range-limits"));
-  EXPECT_THAT(names(0.15, 2, /*lost=*/0), IsEmpty());
+  EXPECT_THAT(names(0.15, 2, /*lost=*/7), IsEmpty());
   EXPECT_THAT(names(4, 12), ElementsAre("range-limits"));
 }
 
