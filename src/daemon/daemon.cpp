@@ -30,8 +30,8 @@ constexpr int kTicksPerStatus = 10;
 
 ScanPublisher::PublishedMaps published(const std::vector<LoadedMap>& loaded,
                                        const settings::Config& config) {
-  ScanPublisher::PublishedMaps maps{loaded};
-  maps.limits = {config.lidar.min_range_m, config.lidar.max_range_m};
+  ScanPublisher::PublishedMaps maps{
+      loaded, {}, {config.lidar.min_range_m, config.lidar.max_range_m}};
   if (config.maps.empty()) return maps;
   for (const LoadedMap& map : loaded) maps.names.push_back(map.map->plan().name);
   return maps;
@@ -229,8 +229,8 @@ void Daemon::on_tick() {
       std::array<char, 64> text{};
       std::snprintf(text.data(), text.size(), "%+.3f s", core::to_seconds(*step_ns));
       clock_steps_.add(text.data(), monotonic_ns());
-      server_.publish(message::MessageClass::kEvent,
-                      line_.event(now_ns(), "clock step", text.data()));
+      const auto event = line_.event(now_ns(), "clock step", text.data());
+      server_.publish(message::MessageClass::kEvent, event);
     }
     clock_steps_.flush(monotonic_ns());
   }
@@ -242,11 +242,10 @@ void Daemon::on_tick() {
   update_calibration_file();
   follow_model(lidar_->status());
   if (lidar_->status().state != drivers::LidarState::kRunning) scans_.publish_next_map();
-  const bool sensors_changed = odometry_ && odometry_->publish_changes(server_, now_ns());
+  const bool has_changed = odometry_ && odometry_->publish_changes(server_, now_ns());
   const bool is_time = ticks_++ % kTicksPerStatus == 0;
-  if (is_time || sensors_changed) {
-    status_.publish(lidar_->status(), scans_, localization_, health_, now_ns());
-  }
+  const drivers::LidarStatus lidar = lidar_->status();
+  if (is_time || has_changed) status_.publish(lidar, scans_, localization_, health_, now_ns());
   if (is_time) {
     status_.set_walls(walls_.update(localization_, scans_.map()).get(), scans_.map(), now_ns());
     status_.set_file_problems(walls_.problem(), calibration_.problem());
