@@ -42,7 +42,7 @@ struct Localizer::Workspace {
   struct Place {
     Place(const WallMap& map, const LocalizerConfig& config)
         : catalog(map, config.max_range_m),
-          recognition(map, catalog),
+          recognition(catalog),
           verification(map, config),
           trial(map, config),
           map_search(map),

@@ -88,7 +88,7 @@ struct EvidenceSamples::State {
   struct Searcher {
     explicit Searcher(const core::WallMap& map)
         : catalog(map, config.max_range_m),
-          recognition(map, catalog),
+          recognition(catalog),
           map_search(map),
           place_search(map, recognition, config),
           beam_model(map, config.noise),

@@ -47,8 +47,7 @@ bool matches(const Breakpoint& breakpoint, const Corner& landmark, double headin
           agree(breakpoint.right_wall_rad + heading_rad, landmark.right_face_rad));
 }
 
-Recognition::Recognition(const WallMap& map, const Catalog& catalog)
-    : map_(map), catalog_(catalog), hypotheses_(kMaxHypotheses) {
+Recognition::Recognition(const Catalog& catalog) : catalog_(catalog), hypotheses_(kMaxHypotheses) {
   selected_.reserve(kMaxBreakpointsPerScan);
   pairs_.reserve(kMaxSelected * (kMaxSelected - 1) / 2);
 }

@@ -18,7 +18,7 @@ namespace cornerd::core {
 /// rare pairs are looked up first. Allocates nothing after construction.
 class Recognition {
  public:
-  Recognition(const WallMap& map, const Catalog& catalog);
+  explicit Recognition(const Catalog& catalog);
 
   /// Hypotheses of pairs of breakpoints, most votes first, without duplicates.
   std::span<const PoseHypothesis> from_pairs(std::span<const Breakpoint> breakpoints);
@@ -44,7 +44,6 @@ class Recognition {
                     double s) const;
   std::span<const PoseHypothesis> ranked();
 
-  const WallMap& map_;
   const Catalog& catalog_;
   std::vector<const Breakpoint*> selected_;
   std::vector<SelectedPair> pairs_;

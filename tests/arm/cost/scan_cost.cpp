@@ -107,7 +107,7 @@ class Parts {
   explicit Parts(std::shared_ptr<const core::WallMap> map)
       : map_(std::move(map)),
         catalog_(*map_, config_.max_range_m),
-        recognition_(*map_, catalog_),
+        recognition_(catalog_),
         detector_(config_.detector, config_.noise),
         refinement_(config_.max_range_m, config_.noise),
         prediction_(config_.max_range_m),

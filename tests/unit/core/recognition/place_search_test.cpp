@@ -28,7 +28,7 @@ class PlaceSearchTest : public ::testing::Test {
 
   std::shared_ptr<const WallMap> map_ = testing::make_map(testing::l_shaped_room());
   Catalog catalog_{*map_, 12};
-  Recognition recognition_{*map_, catalog_};
+  Recognition recognition_{catalog_};
   PlaceSearch search_{*map_, recognition_, {}};
   Detector detector_{{}, {}};
   Detection detection_;
