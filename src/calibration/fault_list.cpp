@@ -33,7 +33,7 @@ std::string lost_hint(std::size_t lost, const core::FloorPlan* plan) {
          "inside it, and lidar.mount.inverted";
 }
 
-bool are_cut(const core::Scan& scan, const RecentPoses::Limits& limits) {
+bool is_cut(const core::Scan& scan, const RecentPoses::Limits& limits) {
   double returns = 0;
   double near = 0;
   double far = 0;
@@ -68,7 +68,7 @@ void RecentPoses::add(const core::ScanResult& result, const core::Scan& scan, co
   ambiguous_ <<= 1;
   ambiguous_[0] = pose.state == core::PoseState::kAmbiguous;
   cut_ <<= 1;
-  cut_[0] = !core::has_pose(pose.state) && are_cut(scan, limits);
+  cut_[0] = !core::has_pose(pose.state) && is_cut(scan, limits);
   outside_ <<= 1;
   outside_[0] = map != nullptr && core::has_pose(pose.state) &&
                 is_outside(*map, pose.T_map_base.translation());

@@ -50,11 +50,11 @@ const ScanResult& Localizer::step(const Scan& received) {
   // 1. to 4. The place where that turn was taken. One that fits nowhere may have been deskewed by
   //    wheels that lie: once more, as it came. One that fits exactly only as it came was.
   Decision decision = w.find(scan, t_ns);
-  const bool may_lie = &scan != &turn && !(w.wheels_know_better() && w.memory.prior(t_ns));
-  if (decision.state == PoseState::kLost && may_lie) {
+  const bool wheels_may_lie = &scan != &turn && !(w.trusts_odometry() && w.memory.prior(t_ns));
+  if (decision.state == PoseState::kLost && wheels_may_lie) {
     w.reject_motion();
     decision = w.find(turn, t_ns);
-  } else if (may_lie && !w.decided_exactly && w.fits_as_it_came(turn, t_ns)) {
+  } else if (wheels_may_lie && !w.decided_exactly && w.fits_as_it_came(turn, t_ns)) {
     const Decision undeskewed = w.find(turn, t_ns);
     if (w.decided_exactly) w.reject_motion();
     decision = w.decided_exactly ? undeskewed : w.find(scan, t_ns);
@@ -217,7 +217,7 @@ void Localizer::resume_odometry(const Localizer& other) {
 
 bool Localizer::Workspace::teaches(const Decision& decision) const {
   // Of walls that are off by centimetres a bias would be learnt that the lidar has not.
-  if (!config.calibrate_online || !has_pose(decision.state) || is_map_rough()) return false;
+  if (!config.calibrate_online || !has_pose(decision.state) || is_map_inexact()) return false;
   const core::VerifiedHypothesis& at = chosen(decision);
   return at.map_sigma_m == 0 && (memory.is_stationary() || odometer.has_motion()) &&
          at.likelihood.near_hit_share() > kTeachingShare;

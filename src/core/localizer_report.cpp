@@ -110,7 +110,7 @@ void Localizer::Workspace::report_pose(const core::VerifiedHypothesis& found, st
              odometer.has_motion() ? odometer.deskew_covariance()
                                    : deskew_covariance(motion, memory.motion()));
   pose.covariance = covariance_of_base(of_lidar, T_map_lidar, pose.T_map_base);
-  if (refined.reduced_chi_square > kSmearedSpread && !wheels_know_better()) {
+  if (refined.reduced_chi_square > kSmearedSpread && !trusts_odometry()) {
     pose.covariance += doubt_of_smear(refined, pose.state);
     if (place->bias.scans() < kTurnsOfANewLidar) pose.covariance += doubt_of_bias();
   }

@@ -79,7 +79,7 @@ bool Localizer::Workspace::in_doubt(TimeNs t_ns) const {
 
 /// Nothing fits, or not as well as a lidar at rest would see it.
 bool Localizer::Workspace::may_move(TimeNs t_ns) const {
-  if (!place || wheels_know_better()) return false;
+  if (!place || trusts_odometry()) return false;
   const auto places = place->verification.hypotheses();
   return places.empty() ||
          places.front().refined.reduced_chi_square > (in_doubt(t_ns) ? kMayMove : kSurelyMoves);

@@ -41,19 +41,20 @@ bool Localizer::resume(const LearnedWalls& learned) {
   return walls() != nullptr && workspace_->place->walls->resume(learned);
 }
 
-bool Localizer::Workspace::is_map_rough() const {
-  return map && map->plan().sigma_m > FloorPlan{}.sigma_m;
+bool Localizer::Workspace::Place::is_inexact(const FloorPlan& plan) {
+  return plan.sigma_m > FloorPlan{}.sigma_m;
 }
 
+bool Localizer::Workspace::is_map_inexact() const { return map && Place::is_inexact(map->plan()); }
+
 /// Walls that are off by centimetres look like a motion of centimetres a scan.
-bool Localizer::Workspace::wheels_know_better() const {
-  return odometer.has_motion() && is_map_rough();
+bool Localizer::Workspace::trusts_odometry() const {
+  return odometer.has_motion() && is_map_inexact();
 }
 
 bool Localizer::Workspace::Place::learns_walls(const FloorPlan& plan) {
-  return plan.sigma_m > FloorPlan{}.sigma_m ||
-         std::any_of(plan.walls.begin(), plan.walls.end(),
-                     [](const Wall& wall) { return wall.sigma_m.has_value(); });
+  return is_inexact(plan) || std::any_of(plan.walls.begin(), plan.walls.end(),
+                                         [](const Wall& wall) { return wall.sigma_m.has_value(); });
 }
 
 bool Localizer::Workspace::is_certain(const RefinedPose& refined) const {
@@ -71,7 +72,7 @@ bool Localizer::Workspace::teaches_walls(const RefinedPose& refined) const {
 }
 
 double Localizer::Workspace::map_sigma_m(const VerifiedHypothesis& found) const {
-  return is_map_rough() ? std::max(found.map_sigma_m, map->plan().sigma_m) : found.map_sigma_m;
+  return is_map_inexact() ? std::max(found.map_sigma_m, map->plan().sigma_m) : found.map_sigma_m;
 }
 
 RefinedPose Localizer::Workspace::refined_by_walls(const VerifiedHypothesis& found, TimeNs t_ns) {
@@ -85,16 +86,19 @@ RefinedPose Localizer::Workspace::refined_by_walls(const VerifiedHypothesis& fou
                                                kMaxMove_m, kMaxMove_rad);
     return refined;
   };
-  // A scan may fit a wrong map exactly: the map knows better how far off it is.
-  RefinedPose by_map = found.refined;
-  if (map_sigma_m(found) > found.map_sigma_m) by_map = refine(nullptr);
-  if (!by_map.valid) by_map = found.refined;
-  // Whether the map is exact is asked of its own walls.
-  by_map.face_residuals = found.refined.face_residuals;
-  if (!place->walls) return by_map;
+  const auto by_map = [&] {
+    // A scan may fit a wrong map exactly: the map knows better how far off it is.
+    if (map_sigma_m(found) == found.map_sigma_m) return found.refined;
+    RefinedPose refined = refine(nullptr);
+    if (!refined.valid) return found.refined;
+    // Whether the map is exact is asked of its own walls.
+    refined.face_residuals = found.refined.face_residuals;
+    return refined;
+  };
+  if (!place->walls) return by_map();
   WallOffsetFilter& walls = *place->walls;
   RefinedPose refined = refine(&walls);
-  if (!refined.valid) return by_map;
+  if (!refined.valid) return by_map();
   const bool is_learned = walls.size() > 0;
   if (is_certain(refined)) {
     place->changes->add(*map, refined.T_map_lidar, points.points(), map->plan().sigma_m, t_ns);
@@ -104,7 +108,7 @@ RefinedPose Localizer::Workspace::refined_by_walls(const VerifiedHypothesis& fou
     T_map_taught = refined.T_map_lidar;
   }
   // Ends of walls tell something of a pose too, though nothing of the walls.
-  if (!is_learned) return by_map;
+  if (!is_learned) return by_map();
   refined.face_residuals = found.refined.face_residuals;
   return refined;
 }

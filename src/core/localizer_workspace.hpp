@@ -56,6 +56,8 @@ struct Localizer::Workspace {
       }
       if (config.updates_per_scan > 1) parts.emplace(map, config);
     }
+    /// The map says that its walls are off by more than those of most maps.
+    static bool is_inexact(const FloorPlan& plan);
     /// Where the map states how far off its walls may be.
     static bool learns_walls(const FloorPlan& plan);
     Catalog catalog;
@@ -115,9 +117,9 @@ struct Localizer::Workspace {
   bool teaches(const Decision& decision) const;
   bool is_certain(const RefinedPose& refined) const;
   bool teaches_walls(const RefinedPose& refined) const;
-  /// The map says that its walls are off by more than those of most maps.
-  bool is_map_rough() const;
-  bool wheels_know_better() const;
+  bool is_map_inexact() const;
+  /// More than walls, to tell how the robot moves.
+  bool trusts_odometry() const;
   /// What the map says, or the scan where that is more.
   double map_sigma_m(const VerifiedHypothesis& found) const;
   RefinedPose refined_by_walls(const VerifiedHypothesis& found, TimeNs t_ns);

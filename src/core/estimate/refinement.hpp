@@ -16,10 +16,12 @@
 namespace cornerd::core {
 
 struct RefinedPose {
-  /// The share of `covariance` that holds if the noise is as modelled.
-  Covariance3 nominal_covariance() const {
-    return covariance - (std::max(1.0, reduced_chi_square) - 1) * noise_covariance;
+  /// What noise beyond the model adds to `covariance`.
+  Covariance3 excess_covariance() const {
+    return (std::max(1.0, reduced_chi_square) - 1) * noise_covariance;
   }
+  /// `covariance` if the noise is as modelled.
+  Covariance3 nominal_covariance() const { return covariance - excess_covariance(); }
 
   Pose2 T_map_lidar;
   Covariance3 covariance = Covariance3::Zero();        ///< x, y in the map frame, theta

@@ -14,12 +14,6 @@ void Output::Closer::operator()(std::FILE* file) const {
   if (file != stdout && file != stderr) std::fclose(file);
 }
 
-void Output::Remover::operator()(const std::filesystem::path* temporary) const {
-  std::error_code ignored;
-  std::filesystem::remove(*temporary, ignored);
-  delete temporary;
-}
-
 Output::Output(std::FILE* stream, std::string name, bool flush_each)
     : file_(stream), name_(std::move(name)), flush_each_(flush_each) {}
 
@@ -32,17 +26,11 @@ Output::Output(const std::filesystem::path& file)
 }
 
 Output Output::replacing(const std::filesystem::path& file) {
-  std::error_code ignored;
-  const bool is_new = !std::filesystem::exists(file, ignored);
-  if (file == kStandardOutput || (!is_new && !std::filesystem::is_regular_file(file, ignored))) {
-    return Output(file);
-  }
-  // Not in place of a link, but of what it points at.
-  const std::filesystem::path target = is_new ? file : std::filesystem::canonical(file, ignored);
-  const std::filesystem::path part = target.string() + ".part";
-  Output output(std::fopen(part.c_str(), "wbe"), target.string(), false);
+  if (file == kStandardOutput) return Output(file);
+  auto replacement = std::make_unique<Replacement>(file);
+  Output output(std::fopen(replacement->path().c_str(), "wbe"), file.string(), false);
   if (!output.file_) output.fail();
-  output.temporary_.reset(new std::filesystem::path(part));
+  output.replacement_ = std::move(replacement);
   return output;
 }
 
@@ -62,9 +50,7 @@ void Output::flush() {
 
 void Output::commit() {
   flush();
-  if (!temporary_) return;
-  if (std::rename(temporary_->c_str(), name_.c_str()) != 0) fail();
-  delete temporary_.release();
+  if (replacement_) replacement_->commit();
 }
 
 void Output::fail() const {
@@ -76,6 +62,7 @@ Replacement::Replacement(const std::filesystem::path& file) : path_(file) {
   std::error_code ignored;
   const bool is_new = !std::filesystem::exists(file, ignored);
   if (file.empty() || (!is_new && !std::filesystem::is_regular_file(file, ignored))) return;
+  // Not in place of a link, but of what it points at.
   target_ = is_new ? file : std::filesystem::canonical(file, ignored);
   path_ =
       target_.parent_path() / (target_.stem().string() + ".part" + target_.extension().string());

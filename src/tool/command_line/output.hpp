@@ -10,6 +10,25 @@
 
 namespace cornerd::tool {
 
+/// A file for others to write, beside the one that it takes the place of; that one stays on a
+/// failure. Pipes, devices and "" are written themselves.
+class Replacement {
+ public:
+  explicit Replacement(const std::filesystem::path& file);
+  ~Replacement();
+  Replacement(const Replacement&) = delete;
+  Replacement& operator=(const Replacement&) = delete;
+
+  /// With the same ending.
+  const std::filesystem::path& path() const { return path_; }
+  /// Throws Failure; the file is what is at path() from here on.
+  void commit();
+
+ private:
+  std::filesystem::path target_;  ///< empty: path_ itself
+  std::filesystem::path path_;
+};
+
 /// Standard output or a file. Reports every failed write.
 class Output {
  public:
@@ -37,36 +56,13 @@ class Output {
   Output(std::FILE* stream, std::string name, bool flush_each);
   [[noreturn]] void fail() const;
 
-  struct Remover {
-    void operator()(const std::filesystem::path* temporary) const;
-  };
   struct Closer {
     void operator()(std::FILE* file) const;
   };
   std::unique_ptr<std::FILE, Closer> file_;
   std::string name_;
-  /// Of replacing(), until commit().
-  std::unique_ptr<const std::filesystem::path, Remover> temporary_;
+  std::unique_ptr<Replacement> replacement_;  ///< of replacing()
   bool flush_each_ = false;
-};
-
-/// A file for others to write, beside the one that it takes the place of; that one stays on a
-/// failure. Pipes, devices and "" are written themselves.
-class Replacement {
- public:
-  explicit Replacement(const std::filesystem::path& file);
-  ~Replacement();
-  Replacement(const Replacement&) = delete;
-  Replacement& operator=(const Replacement&) = delete;
-
-  /// With the same ending.
-  const std::filesystem::path& path() const { return path_; }
-  /// Throws Failure.
-  void commit();
-
- private:
-  std::filesystem::path target_;  ///< empty: path_ itself
-  std::filesystem::path path_;
 };
 
 /// Replaces a whole file, or writes standard output for "-". On a failure the old file stays.

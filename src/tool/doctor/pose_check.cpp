@@ -79,8 +79,7 @@ std::vector<Finding> check_poses(const Patient& patient) {
            {"check that the map is right and the robot inside it: cornerctl monitor shows both",
             "check lidar.mount: theta if the scan is rotated, inverted if it is mirrored",
             "check that nothing covers the lidar, and that the walls are where the map has them, "
-            "to a few "
-            "centimetres"}}};
+            "to a few centimetres"}}};
 }
 
 }  // namespace cornerd::tool

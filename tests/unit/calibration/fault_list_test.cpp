@@ -103,6 +103,10 @@ TEST(FaultList, CountsThatBeginAgain_MayWrap) {
   FaultList never;
   never.add_drive(drive, {}, odometry);
   EXPECT_THAT(never.hint(), Not(HasSubstr("counter_max")));
+  odometry.counters.restarts = 1;
+  FaultList once;
+  once.add_drive(drive, {}, odometry);
+  EXPECT_THAT(once.hint(), HasSubstr("1 times so far: if they wrap"));
   odometry.counters.restarts = 5;
   FaultList often;
   often.add_drive(drive, {}, odometry);
