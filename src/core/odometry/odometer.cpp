@@ -23,7 +23,12 @@ constexpr double kUnknownDelay_s = 0.02;
 }  // namespace
 
 Odometer::Odometer(const OdometryConfig& config)
-    : config_(config), gate_(config), filter_(config), trust_(config.geometry) {}
+    : config_(config),
+      gate_(config),
+      filter_(config),
+      trust_(config.geometry),
+      left_(config.geometry.metres_per_count()),
+      right_(config.geometry.metres_per_count()) {}
 
 bool Odometer::add(const OdometryReading& reading, std::optional<TimeNs> now_ns) {
   if (!config_.enabled) return false;
@@ -36,7 +41,7 @@ bool Odometer::add(const OdometryReading& reading, std::optional<TimeNs> now_ns)
   if (step->is_gap) {
     path_.clear();
   } else {
-    path_.add(step->from_ns, step->to_ns, filter_.motion_of(trusted(*step)));
+    path_.add(step->from_ns, step->to_ns, filter_.motion_of(trusted(interpolated(*step))));
   }
   if (size_ == kPending) {
     consume_front();
@@ -57,6 +62,12 @@ void Odometer::restart(const OdometryIncrement& gap) {
 
 OdometryIncrement Odometer::trusted(OdometryIncrement step) const {
   step.has_gyro = step.has_gyro && (!config_.conservative || trust_.uses_gyro());
+  return step;
+}
+
+OdometryIncrement Odometer::interpolated(OdometryIncrement step) {
+  step.left_m = left_.travel_m(step.left_m, step.duration_s());
+  step.right_m = right_.travel_m(step.right_m, step.duration_s());
   return step;
 }
 

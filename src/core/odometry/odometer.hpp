@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "core/geometry/pose2.hpp"
+#include "core/odometry/count_interpolator.hpp"
 #include "core/odometry/motion_filter.hpp"
 #include "core/odometry/motion_path.hpp"
 #include "core/odometry/motion_trust.hpp"
@@ -85,6 +86,8 @@ class Odometer {
   void restart(const OdometryIncrement& gap);
   /// Without the gyro's rotation where wheels are trusted more.
   OdometryIncrement trusted(OdometryIncrement step) const;
+  /// The same with the travel of wheels that go on within their counts.
+  OdometryIncrement interpolated(OdometryIncrement step);
   void consume_front(std::optional<TimeNs> until_ns = std::nullopt);
   MotionFilter::Epoch epoch_at(TimeNs reading_ns, TimeNs reached_ns) const;
   std::optional<PredictedPose> prediction_of(const MotionFilter& filter,
@@ -100,6 +103,8 @@ class Odometer {
   MotionFilter filter_;
   MotionTrust trust_;
   MotionPath path_;
+  CountInterpolator left_;
+  CountInterpolator right_;
 
   std::array<OdometryIncrement, kPending> pending_;  ///< not yet in the filter; a ring
   std::size_t first_ = 0;

@@ -17,7 +17,6 @@ constexpr double kLever_m = 0.3;
 /// it comes to in the mean, a sudden one by up to a quarter; between the two by NEES of fixes
 /// (`cornerd-bench --odometry`).
 constexpr double kUnevenShare = 0.1;
-
 /// The end of a scan that no reading tells of: of a change of speed in it, so much is in the pose.
 /// The last reading is often a little older than the scan's end: that is nothing.
 constexpr double kUnreadShare = 0.3;
@@ -84,28 +83,23 @@ Covariance3 Odometer::deskew_covariance() const {
   const double place_noise =
       (factor.covariance()(0, 0) + factor.covariance()(1, 1)) / 2 + late_share2 * squared(along_m);
   const double heading_noise = factor.covariance()(2, 2) + late_share2 * squared(motion.theta_rad);
-  // When between two readings the robot changed its speed nobody knows. Counts that are rounded
-  // seem to change by a quarter of a count's square.
-  const double count_m2 = squared(geometry.metres_per_count());
-  const double counted_rad2 = filter_.has_gyro() ? 0 : count_m2 / squared(geometry.track_m);
+  // When between two readings the robot changed its speed nobody knows.
   const MotionPath::Change change = path_.mean_square_change(from_ns, to_ns);
-  const double uneven_m2 = squared(kUnevenShare) * std::max(0.0, change.x_m2 - count_m2 / 4);
-  const double uneven_rad2 =
-      squared(kUnevenShare) * std::max(0.0, change.theta_rad2 - counted_rad2);
   // What the scan's end is guessed to be, nobody has read.
   const TimeNs unread_ns = config_.conservative ? to_ns - path_.newest_ns() - kSoon_ns : 0;
   const double unread_s = to_seconds(std::max<TimeNs>(0, unread_ns));
   const double unread_by_s =
       kUnreadShare * unread_s * unread_s / to_seconds(std::max<TimeNs>(1, end_ns_ - start_ns_));
-  // Where in its count each wheel is in the middle: what the rest of the scan is deskewed to.
+  // Where in its count each wheel is.
+  const double counted_m2 = geometry.quantization_variance();
+  const double counted_rad2 = filter_.has_gyro() ? 0 : 4 * counted_m2 / squared(geometry.track_m);
   const double lever_m2 = config_.conservative ? kLever_m * kLever_m : 0;
   const double place_m2 =
-      place_m * place_m + uneven_m2 + geometry.quantization_variance() / 2 +
+      place_m * place_m + squared(kUnevenShare) * change.x_m2 + counted_m2 +
       MotionFilter::kDeskewNoiseShare * (place_noise + lever_m2 * heading_noise);
-  double rotation_variance =
-      rotation_rad * rotation_rad + uneven_rad2 + MotionFilter::kDeskewNoiseShare * heading_noise;
-  if (!filter_.has_gyro())
-    rotation_variance += 2 * geometry.quantization_variance() / squared(geometry.track_m);
+  const double rotation_variance = rotation_rad * rotation_rad +
+                                   squared(kUnevenShare) * change.theta_rad2 + counted_rad2 +
+                                   MotionFilter::kDeskewNoiseShare * heading_noise;
   const double unread_m = kUnread_m_s * unread_by_s;
   const double unread_rad = kUnread_rad_s * unread_by_s;
   return Eigen::Vector3d(place_m2 + unread_m * unread_m, place_m2 + unread_m * unread_m,
