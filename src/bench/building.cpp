@@ -137,6 +137,38 @@ core::FloorPlan equal_rooms(std::size_t rooms) {
   return plan;
 }
 
+core::FloorPlan long_corridor(std::uint64_t seed) {
+  replay::Random random(seed);
+  core::FloorPlan plan;
+  plan.name = "corridor";
+  plan.thickness_m = kThickness_m;
+  const auto add = [&](const Vec2& from, const Vec2& to) {
+    plan.walls.push_back({from, to, kThickness_m});
+  };
+  const double length_m = random.uniform(20, 80);
+  const double width_m = random.uniform(1.2, 3);
+  const double longest_m = random.uniform(6, 30);
+  for (const double side_m : {0.0, width_m}) {
+    double x_m = 0;
+    for (double gap_m = random.uniform(2, longest_m); x_m + gap_m < length_m - 1.5;
+         gap_m = random.uniform(2, longest_m)) {
+      const double wide_m = random.chance(0.7) ? kDoor_m : 1.2;
+      const double deep_m = random.chance(0.5) ? 0.15 : random.uniform(1.5, 3);
+      const double end_m = side_m + (side_m > 0 ? deep_m : -deep_m);
+      add({x_m, side_m}, {x_m + gap_m, side_m});
+      x_m += gap_m;
+      add({x_m, side_m}, {x_m, end_m});
+      add({x_m, end_m}, {x_m + wide_m, end_m});
+      add({x_m + wide_m, end_m}, {x_m + wide_m, side_m});
+      x_m += wide_m;
+    }
+    add({x_m, side_m}, {length_m, side_m});
+  }
+  add({0, 0}, {0, width_m});
+  add({length_m, 0}, {length_m, width_m});
+  return plan;
+}
+
 core::FloorPlan ring_corridor() {
   core::FloorPlan plan;
   plan.name = "ring";

@@ -10,11 +10,6 @@
 namespace cornerd::core {
 namespace {
 
-/// The lidar's bias is learnt from turns that the map explains nearly whole, of a robot that
-/// stands or whose wheels tell how it moves: what is steady in a motion passes for no bias, but
-/// what changes would.
-constexpr double kTeachingShare = 0.8;
-
 /// How sure somebody is who says where the robot is.
 constexpr double kGivenSigma_m = 0.1;
 constexpr double kGivenSigma_rad = radians(5);
@@ -52,11 +47,22 @@ const ScanResult& Localizer::step(const Scan& received) {
   Decision decision = w.find(scan, t_ns);
   const bool wheels_may_lie = &scan != &turn && !(w.trusts_odometry() && w.memory.prior(t_ns));
   if (decision.state == PoseState::kLost && wheels_may_lie) {
-    w.reject_motion();
-    decision = w.find(turn, t_ns);
+    // By evidence only where odometry leads: what is alike is named anywhere.
+    const PlaceFilter lost = w.filtered;
+    const std::optional<Prior> prior = w.memory.prior(t_ns);
+    w.reject_motion(prior);
+    const Decision undeskewed = w.find(turn, t_ns);
+    if (w.decided_exactly || !prior ||
+        (has_pose(undeskewed.state) &&
+         w.is_expected(w.chosen(undeskewed).refined.T_map_lidar, t_ns))) {
+      w.reject_motion(std::nullopt);
+      decision = undeskewed;
+    } else {
+      w.filtered = lost;
+    }
   } else if (wheels_may_lie && !w.decided_exactly && w.fits_as_it_came(turn, t_ns)) {
     const Decision undeskewed = w.find(turn, t_ns);
-    if (w.decided_exactly) w.reject_motion();
+    if (w.decided_exactly) w.reject_motion(std::nullopt);
     decision = w.decided_exactly ? undeskewed : w.find(scan, t_ns);
   }
 
@@ -74,6 +80,9 @@ const ScanResult& Localizer::step(const Scan& received) {
     const core::VerifiedHypothesis& at = w.chosen(decision);
     w.place->bias.update(*w.map, at.refined.T_map_lidar, w.points.points(),
                          std::max(1.0, w.result.detection.noise_scale));
+    w.scans_against_bias = 0;
+  } else {
+    w.doubt_bias(w.odometer.has_motion() ? scan : turn, decision, t_ns);
   }
   w.result.bias = estimated_bias();
   w.learn_sweep(turn, t_ns);
@@ -109,7 +118,7 @@ Decision Localizer::Workspace::find(const Scan& scan, TimeNs t_ns) {
   decided_exactly = certain || (sees_enough(t_ns) && is_exact(t_ns));
   if (decided_exactly) {
     candidates = place->verification.hypotheses();
-    return decide(candidates, memory.prior(t_ns));
+    return decide(candidates, memory.prior(t_ns), place->verification.open_hypotheses());
   }
   candidates = place->place_search.places();
   return decide_by_faces(candidates, memory.prior(t_ns), filtered);
@@ -192,35 +201,11 @@ void Localizer::forget() {
   forget_lidar();
 }
 
-void Localizer::forget_lidar() {
-  workspace_->detector.forget();
-  if (!workspace_->place) return;
-  workspace_->place->bias.forget();
-  workspace_->place->map_error.forget();
-}
-
-EstimatedBias Localizer::estimated_bias() const {
-  if (workspace_->place) return workspace_->place->bias.estimate();
-  return {.bias = workspace_->config.bias, .sigma = {}};
-}
-
-void Localizer::resume(const EstimatedBias& learned) {
-  if (workspace_->place) workspace_->place->bias.resume(learned);
-}
-
 void Localizer::resume_odometry(const Localizer& other) {
   const Workspace& before = *other.workspace_;
   if (workspace_->config.T_base_lidar == before.config.T_base_lidar) {
     workspace_->odometer.resume(before.odometer);
   }
-}
-
-bool Localizer::Workspace::teaches(const Decision& decision) const {
-  // Of walls that are off by centimetres a bias would be learnt that the lidar has not.
-  if (!config.calibrate_online || !has_pose(decision.state) || is_map_inexact()) return false;
-  const core::VerifiedHypothesis& at = chosen(decision);
-  return at.map_sigma_m == 0 && (memory.is_stationary() || odometer.has_motion()) &&
-         at.likelihood.near_hit_share() > kTeachingShare;
 }
 
 /// By odometry, where it knows; else the robot goes on as the last turns saw it move.
@@ -245,9 +230,9 @@ std::optional<PredictedState> Localizer::Workspace::expectation(TimeNs t_ns) {
                         memory.motion(), age_s};
 }
 
-void Localizer::Workspace::reject_motion() {
+void Localizer::Workspace::reject_motion(const std::optional<Prior>& prior) {
   odometer.reject_motion();
-  memory.set_prediction(std::nullopt, false);
+  memory.set_prediction(prior, false);
 }
 
 const Scan& Localizer::Workspace::deskewed(const Scan& turn, TimeNs t_ns) {
@@ -258,6 +243,12 @@ const Scan& Localizer::Workspace::deskewed(const Scan& turn, TimeNs t_ns) {
     prior = {predicted->T_map_base * config.T_base_lidar,
              kSurely * std::sqrt(std::max(covariance(0, 0), covariance(1, 1))),
              kSurely * std::sqrt(covariance(2, 2))};
+  }
+  // By coarse counts less is known of the motion in a scan than by the poses before.
+  const double duration_s = to_seconds(turn.end_ns() - turn.start_ns());
+  if (odometer.has_motion() && outdated_motion_covariance(memory.age_s(t_ns), duration_s).trace() <
+                                   odometer.deskew_covariance().trace()) {
+    odometer.reject_motion();
   }
   const bool known = odometer.deskew(turn, config.T_base_lidar, still);
   memory.set_prediction(prior, known);

@@ -1,15 +1,22 @@
 // SPDX-License-Identifier: MIT
 // From a turn to the places where it may have been taken.
+#include <algorithm>
+#include <array>
+
 #include "core/localizer_workspace.hpp"
 #include "core/recognition/evidence.hpp"
 
 namespace cornerd::core {
 namespace {
 
-/// A place that recognition gave is off by up to this much; one that was carried on from the turn
-/// before, by what a robot drives meanwhile; one that a turn in motion gave, by the motion.
+/// A place that recognition gave is off by up to this much; one that a prior leads to, by what it
+/// says, within what a robot drives from turn to turn; one that a turn in motion gave, by the
+/// motion.
 constexpr double kRecognisedRadius_m = 0.10;
 constexpr double kPriorSearchRadius_m = 0.15;
+constexpr double kSurePriorRadius_m = 0.03;
+/// What a prior's heading is off by counts at walls that are so far away.
+constexpr double kReach_m = 3;
 constexpr double kMotionSearchRadius_m = 0.08;
 
 /// Places with fewer votes of corners than this share of the best one's are looked at where those
@@ -56,9 +63,18 @@ void Localizer::Workspace::look(const Scan& scan, TimeNs t_ns, const Twist2& as_
   Verification& verification = place->verification;
   verification.begin(points.points(), noise_scale());
   if (const std::optional<Prior> prior = memory.prior(t_ns)) {
-    const PoseHypothesis carried_on{prior->T_map_lidar, 0};
-    verification.consider(std::span(&carried_on, 1), kPriorSearchRadius_m);
+    const double off_m = prior->position_error_m + kReach_m * prior->heading_error_rad;
+    verification.consider_prior(prior->T_map_lidar,
+                                std::clamp(off_m, kSurePriorRadius_m, kPriorSearchRadius_m));
   }
+  // Those that the last scan left in doubt: one that this scan would not propose is a rival still.
+  std::array<PoseHypothesis, kMaxAlternatives> doubted;
+  std::transform(result.pose.alternatives.begin(), result.pose.alternatives.end(), doubted.begin(),
+                 [&](const Alternative& last) {
+                   return PoseHypothesis{last.T_map_base * config.T_base_lidar, 0};
+                 });
+  verification.consider(std::span(doubted).first(result.pose.alternatives.size()),
+                        kPriorSearchRadius_m);
   const Detection& seen = result.detection;
   const auto pairs = place->recognition.from_pairs(seen.breakpoints);
   const std::size_t likely = count_likely(pairs, kLikelyShare);
@@ -99,9 +115,8 @@ std::size_t Localizer::Workspace::best_hits() const {
 }
 
 BeamLikelihood Localizer::Workspace::try_at(const Scan& scan, TimeNs t_ns, const Twist2& as_if,
-                                            const Pose2& T_map_lidar) {
-  tried_points.assign(scan, config.min_range_m, config.max_range_m, t_ns, as_if,
-                      place->bias.bias());
+                                            const Pose2& T_map_lidar, const SensorBias& bias) {
+  tried_points.assign(scan, config.min_range_m, config.max_range_m, t_ns, as_if, bias);
   place->trial.begin(tried_points.points(), noise_scale());
   const PoseHypothesis there{T_map_lidar, 0};
   place->trial.consider(std::span(&there, 1), kMotionSearchRadius_m);
@@ -115,7 +130,7 @@ void Localizer::Workspace::look_for_the_motion(const Scan& scan, TimeNs t_ns) {
     return place->verification.hypotheses().front().refined.T_map_lidar;
   };
   const auto look_if_better = [&](const Twist2& candidate, const Pose2& T_map_lidar) {
-    const std::size_t hits = try_at(scan, t_ns, candidate, T_map_lidar).hits;
+    const std::size_t hits = try_at(scan, t_ns, candidate, T_map_lidar, place->bias.bias()).hits;
     const bool is_better = hits > best_hits() + points.size() / kRaysForAMotion;
     if (is_better) look(scan, t_ns, candidate);
     return is_better;
@@ -154,7 +169,8 @@ void Localizer::Workspace::look_for_the_motion(const Scan& scan, TimeNs t_ns) {
 
 bool Localizer::Workspace::fits_as_it_came(const Scan& turn, TimeNs t_ns) {
   if (!place || candidates.empty()) return false;
-  const BeamLikelihood there = try_at(turn, t_ns, {}, candidates.front().refined.T_map_lidar);
+  const BeamLikelihood there =
+      try_at(turn, t_ns, {}, candidates.front().refined.T_map_lidar, place->bias.bias());
   return core::is_exact(there, /*expected=*/true) ||
          (place->map_error.is_exact() && there.hit_share() > kMovingHitShare);
 }

@@ -89,11 +89,12 @@ struct Localizer::Workspace {
   void learn_sweep(const Scan& turn, TimeNs t_ns);
   double log_odds_at(const Scan& turn, const Pose2& T_map_lidar, TimeNs t_ns);
   const Scan& deskewed(const Scan& turn, TimeNs t_ns);
-  void reject_motion();
+  /// Scans are as they came; `prior` is what is left of odometry.
+  void reject_motion(const std::optional<Prior>& prior);
   Decision find(const Scan& scan, TimeNs t_ns);
   void look(const Scan& scan, TimeNs t_ns, const Twist2& as_if_moving);
   BeamLikelihood try_at(const Scan& scan, TimeNs t_ns, const Twist2& as_if,
-                        const Pose2& T_map_lidar);
+                        const Pose2& T_map_lidar, const SensorBias& bias);
   void look_for_the_motion(const Scan& scan, TimeNs t_ns);
   void search_map(TimeNs t_ns);
   std::span<const PoseHypothesis> search_everywhere(TimeNs t_ns);
@@ -115,6 +116,7 @@ struct Localizer::Workspace {
   std::size_t best_hits() const;
   bool may_be_biased() const;
   bool teaches(const Decision& decision) const;
+  void doubt_bias(const Scan& scan, const Decision& decision, TimeNs t_ns);
   bool is_certain(const RefinedPose& refined) const;
   bool teaches_walls(const RefinedPose& refined) const;
   bool is_map_inexact() const;
@@ -158,6 +160,7 @@ struct Localizer::Workspace {
   std::span<const VerifiedHypothesis> candidates;  ///< that the last decision is about
   bool saw_all_around = false;                     ///< in a scan with a pose, ever
   bool decided_exactly = false;                    ///< by rays, as walls are where the map has them
+  std::size_t scans_against_bias = 0;              ///< of those tried, in a row
   std::size_t named_in_a_row = 0;      ///< scans, each near where the one before led to expect it
   std::optional<Pose2> T_map_taught;   ///< of the last scan that the walls were learned from
   std::optional<Pose2> T_map_doubted;  ///< a jump of the turn before that waits for a second

@@ -86,6 +86,9 @@ struct DrawnPlanBenchOptions {
 /// without learning the walls' offsets, as a table.
 void run_drawn_plan_bench(const DrawnPlanBenchOptions& options);
 
+/// cornerd-bench --corridors: drives along so many corridors drawn at random, as a table.
+void run_corridor_bench(std::size_t corridors, std::uint64_t seed);
+
 struct SurveyBenchOptions {
   std::filesystem::path maps;   ///< folder with flat-7.json
   std::filesystem::path plots;  ///< folder; empty: no drawings

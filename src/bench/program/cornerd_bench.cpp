@@ -45,6 +45,7 @@ struct BenchOptions {
   bool odometry = false;
   bool survey = false;
   bool drawn_plans = false;
+  std::size_t corridors = 0;
   std::filesystem::path evidence;
   std::vector<std::size_t> corners;
   std::optional<tool::Option> positions_given;
@@ -166,6 +167,7 @@ void run_bench(const BenchOptions& options) {
     odometry.robots = options.robots;
     return odometry.robots > 0 ? run_random_robot_bench(odometry) : run_odometry_bench(odometry);
   }
+  if (options.corridors > 0) return run_corridor_bench(options.corridors, options.seed);
   if (options.drawn_plans) {
     DrawnPlanBenchOptions drawn{.maps = options.maps, .seed = options.seed};
     if (options.positions_given->is_given()) drawn.plans = options.positions;
@@ -237,6 +239,10 @@ void add_options(tool::Command& program, const std::shared_ptr<BenchOptions>& op
   program.add_flag("--survey", options->survey,
                    "other benchmark: a drive of 100 m, surveyed by both methods, and a second one "
                    "localized in the maps");
+  program
+      .add_option("--corridors", options->corridors,
+                  "other benchmark: drives along N corridors drawn at random")
+      .type_name("N");
   program.add_flag("--drawn-plans", options->drawn_plans,
                    "other benchmark: drives in maps with the errors of a plan drawn by hand, with "
                    "and without learning where the walls are; --positions: plans of each building, "

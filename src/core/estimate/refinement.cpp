@@ -36,11 +36,19 @@ constexpr int kMotionIterations = 8;
 constexpr std::size_t kMotionPoints = 512;
 constexpr double kFinest_m = 1e-3;
 constexpr double kMotionConverged = 1e-4;  // m, rad
+/// Standard deviations of PosePrior::near_to().
+constexpr double kOpen_m = 0.2;
+constexpr double kOpen_rad = 0.2;
 /// Prior standard deviations of the robot's velocity.
 constexpr double kMotionSigma_m_s = 0.5;
 constexpr double kMotionSigma_rad_s = 2;
 
 }  // namespace
+
+PosePrior PosePrior::near_to(const Pose2& T_map_lidar) {
+  const Eigen::Vector3d sigma(kOpen_m, kOpen_m, kOpen_rad);
+  return {T_map_lidar, sigma.cwiseAbs2().cwiseInverse().asDiagonal()};
+}
 
 struct Refinement::Step {
   Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
@@ -49,6 +57,7 @@ struct Refinement::Step {
   double chi_square = 0;
   double squared_distances = 0;
   std::size_t inliers = 0;
+  Eigen::Matrix2d normals = Eigen::Matrix2d::Zero();  ///< sum of the inliers' n n'
 
   /// Eliminates the offset of a face: the Schur complement, of rank one.
   void marginalise(const Vec2& normal, const FaceSums& sum, double map_sigma_m) {
@@ -127,6 +136,7 @@ Refinement::Step Refinement::step(const WallMap& map, const Pose2& T_map_lidar,
     }
     sums.squared_distances += sum.squared_distances;
     sums.inliers += static_cast<std::size_t>(sum.points);
+    sums.normals += sum.points * face.normal * face.normal.transpose();
   }
   if (walls != nullptr) {
     const WallOffsetFilter::Reduced reduced = walls->marginalise();
@@ -154,10 +164,10 @@ RefinedPose Refinement::refine(const WallMap& map, const Pose2& start, double se
 
 RefinedPose Refinement::refine_roughly(const WallMap& map, const Pose2& start,
                                        double search_radius_m, std::span<const PolarPoint> subset,
-                                       double noise_scale, double map_sigma_m,
-                                       const PosePrior* prior) {
+                                       double noise_scale, double map_sigma_m) {
+  const PosePrior prior = PosePrior::near_to(start);
   return gauss_newton(map, start, search_radius_m, subset, subset, noise_scale, map_sigma_m, 1,
-                      prior, nullptr);
+                      &prior, nullptr);
 }
 
 RefinedPose Refinement::gauss_newton(const WallMap& map, const Pose2& start, double search_radius_m,
@@ -208,6 +218,9 @@ RefinedPose Refinement::gauss_newton(const WallMap& map, const Pose2& start, dou
   }
   refined.covariance += refined.excess_covariance();
   refined.inliers = sums.inliers;
+  const Eigen::Matrix2d& normals = sums.normals;
+  refined.least_inliers =
+      (normals.trace() - std::hypot(normals(0, 0) - normals(1, 1), 2 * normals(0, 1))) / 2;
   refined.rmse_m = std::sqrt(sums.squared_distances / std::max(1.0, inliers));
   refined.valid = refined.covariance.allFinite();
   return refined;

@@ -27,6 +27,13 @@ struct RefinedPose {
   Covariance3 covariance = Covariance3::Zero();        ///< x, y in the map frame, theta
   Covariance3 noise_covariance = Covariance3::Zero();  ///< by the points' noise alone
   std::size_t inliers = 0;
+  /// Inliers by how much their walls' normals are along the direction in which walls determine the
+  /// place least: those that tell where along a corridor it is.
+  double least_inliers = 0;
+  /// A wall holds the place in each direction, and not a few rays at the edges of niches, which fit
+  /// by chance wherever they are.
+  bool is_held() const { return least_inliers >= kLeastInliers; }
+  static constexpr double kLeastInliers = 6;
   double rmse_m = 0;              ///< of the inliers' distances to their walls
   double reduced_chi_square = 0;  ///< of the inliers; 1 where the model is right
   FaceResidualStatistics face_residuals;
@@ -38,6 +45,10 @@ struct PosePrior {
   Pose2 T_map_lidar;
   Eigen::Matrix3d information =
       Eigen::Matrix3d::Zero();  ///< of x, y, theta: the inverse covariance
+
+  /// How far a refinement goes from its start along what its points leave open: in a corridor few
+  /// rays meet a niche, and none of a subset's may.
+  static PosePrior near_to(const Pose2& T_map_lidar);
 };
 
 struct RefinedMotion {
@@ -62,10 +73,10 @@ class Refinement {
                      double noise_scale, double map_sigma_m = 0, const PosePrior* prior = nullptr,
                      WallOffsetFilter* walls = nullptr);
 
-  /// The same on few points, with only the steps that a rejection test needs.
+  /// The same on few points, near to the start, with only the steps that a rejection test needs.
   RefinedPose refine_roughly(const WallMap& map, const Pose2& start, double search_radius_m,
                              std::span<const PolarPoint> subset, double noise_scale,
-                             double map_sigma_m = 0, const PosePrior* prior = nullptr);
+                             double map_sigma_m = 0);
 
   /// The same for an unknown motion within the scan: estimates pose and velocity (six unknowns). A
   /// weak prior at rest bounds directions in which no wall is seen.

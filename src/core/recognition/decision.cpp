@@ -30,11 +30,12 @@ constexpr double kRaysForARival = 4;
 constexpr double kRaysForARivalPerThing = 0.125;
 /// How far from a prior that is exact a rival is out of reach.
 constexpr double kPriorRadius_m = 0.25;
+/// The same where only a few rays tell the place along a corridor.
+constexpr double kWeakPriorRadius_m = 0.05;
 constexpr double kPriorAngle_rad = radians(20);
 
-bool is_near(const VerifiedHypothesis& place, const Prior& prior) {
-  return same_pose(place.refined.T_map_lidar, prior.T_map_lidar,
-                   kPriorRadius_m + prior.position_error_m,
+bool is_near(const VerifiedHypothesis& place, const Prior& prior, double radius_m) {
+  return same_pose(place.refined.T_map_lidar, prior.T_map_lidar, radius_m + prior.position_error_m,
                    kPriorAngle_rad + prior.heading_error_rad);
 }
 
@@ -86,7 +87,8 @@ class Belief {
 
 }  // namespace
 
-Decision decide(std::span<const VerifiedHypothesis> places, const std::optional<Prior>& prior) {
+Decision decide(std::span<const VerifiedHypothesis> places, const std::optional<Prior>& prior,
+                std::span<const VerifiedHypothesis> open) {
   Decision decision;
   if (places.empty()) return decision;
   const Belief belief(places.front());
@@ -95,21 +97,29 @@ Decision decide(std::span<const VerifiedHypothesis> places, const std::optional<
     of_others += belief.in(places[i]);
     if (decision.rivals == 0 && of_others > kWrongFixRate) decision.rivals = i + 1;
   }
+  decision.rivals = std::max<std::size_t>(decision.rivals, 1);
+  for (const VerifiedHypothesis& place : open) of_others += belief.in(place);
   decision.doubt = of_others / (1 + of_others);
-  if (decision.rivals == 0) {
-    decision.rivals = 1;
+  const bool is_held = places.front().refined.is_held();
+  if (of_others <= kWrongFixRate && is_held) {
     decision.state = PoseState::kFix;
     return decision;
   }
   decision.state = PoseState::kAmbiguous;
-  if (!prior) return decision;
+  if (!prior || (!is_held && prior->position_error_m > kWeakPriorRadius_m)) return decision;
+  const double radius_m = is_held ? kPriorRadius_m : kWeakPriorRadius_m;
+  const auto is_here = [&](const VerifiedHypothesis& place) {
+    return is_near(place, *prior, radius_m);
+  };
   std::size_t near = 0;
   for (std::size_t i = 0; i < decision.rivals; ++i) {
-    if (!is_near(places[i], *prior)) continue;
+    if (!is_here(places[i])) continue;
     decision.place = i;
     ++near;
   }
-  if (near == 1) decision.state = PoseState::kTracking;
+  if (near == 1 && std::none_of(open.begin(), open.end(), is_here)) {
+    decision.state = PoseState::kTracking;
+  }
   return decision;
 }
 

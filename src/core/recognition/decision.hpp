@@ -29,8 +29,10 @@ struct Decision {
 /// Names the fewest places, in the order of their likelihood, that leave out no more than
 /// kWrongFixRate of the turn's belief: one of them is a fix, several are ambiguous. `places`: the
 /// likeliest first. `prior`: where the robot should be by what was known before; it may choose
-/// among rivals where the robot can have come to no other one, never against the turn.
-Decision decide(std::span<const VerifiedHypothesis> places, const std::optional<Prior>& prior);
+/// among rivals where the robot can have come to no other one, never against the turn. `open`:
+/// other places, whose poses the turn leaves open.
+Decision decide(std::span<const VerifiedHypothesis> places, const std::optional<Prior>& prior,
+                std::span<const VerifiedHypothesis> open = {});
 
 /// The same for places of PlaceSearch, in a map that is inexact and incomplete. That the scan was
 /// taken somewhere else, or not in this map, is a hypothesis of its own. What the last scans showed

@@ -40,21 +40,12 @@ constexpr std::array kRoughRefinements = {RoughRefinement{0.12, 0.025}, RoughRef
 /// A pose that is less certain than this beyond the map is not named: a single wall, a bare
 /// corridor. It is a rival to those that are.
 constexpr double kMaxSigma_m = 0.1;
-/// How far refinement may go along what the walls leave open: the pose stays where it was proposed.
-constexpr double kOpen_m = 0.2;
-constexpr double kOpen_rad = 0.2;
 /// Residuals are the walls' offsets up to so many of their standard deviations; greater ones are of
 /// a motion.
 constexpr double kMaxRmseSigmas = 1.3;
 constexpr double kMaxRmseSigmasStated = 2;
 /// Walls whose offsets vary by this many standard deviations more than exact ones would are off.
 constexpr double kExcessSigmas = 3;
-
-PosePrior near_to(const Pose2& T_map_lidar) {
-  const Eigen::Vector3d information(1 / squared(kOpen_m), 1 / squared(kOpen_m),
-                                    1 / squared(kOpen_rad));
-  return {T_map_lidar, information.asDiagonal()};
-}
 
 }  // namespace
 
@@ -124,10 +115,8 @@ PlaceSearch::Candidate PlaceSearch::refined_roughly(const Candidate& candidate, 
   Candidate best{candidate.T_map_lidar, -std::numeric_limits<double>::infinity(), 0};
   for (const RoughRefinement& rough : kRoughRefinements) {
     if (std::isfinite(best.score) && best.score < least_score) break;
-    const PosePrior prior = near_to(candidate.T_map_lidar);
-    const RefinedPose refined =
-        refinement_.refine_roughly(map_, candidate.T_map_lidar, rough.radius_m, subset_,
-                                   noise_scale_, rough.map_sigma_m, &prior);
+    const RefinedPose refined = refinement_.refine_roughly(
+        map_, candidate.T_map_lidar, rough.radius_m, subset_, noise_scale_, rough.map_sigma_m);
     if (!refined.valid ||
         !same_pose(refined.T_map_lidar, candidate.T_map_lidar, kMaxMove_m, kMaxMove_rad)) {
       continue;
@@ -185,7 +174,7 @@ double PlaceSearch::wall_ends(const Pose2& T_map_lidar) const {
 
 void PlaceSearch::add(const Candidate& candidate) {
   VerifiedHypothesis place;
-  const PosePrior prior = near_to(candidate.T_map_lidar);
+  const PosePrior prior = PosePrior::near_to(candidate.T_map_lidar);
   const auto refine = [&](double map_sigma_m) {
     place.map_sigma_m = map_sigma_m;
     place.refined = refinement_.refine(map_, candidate.T_map_lidar, kFewRaysRadius_m, subset_,
@@ -209,7 +198,7 @@ void PlaceSearch::add(const Candidate& candidate) {
   const double max_rmse_m =
       std::max(kMaxRmseSigmas * BeamModel::kMapSigmas_m.back(), kMaxRmseSigmasStated * stated_m);
   if (!place.refined.valid) return;
-  const bool is_determined = place.refined.rmse_m <= max_rmse_m &&
+  const bool is_determined = place.refined.is_held() && place.refined.rmse_m <= max_rmse_m &&
                              covariance(0, 0) + covariance(1, 1) <= squared(kMaxSigma_m + stated_m);
   const auto hits = ray_caster_.cast(map_, place.refined.T_map_lidar, points_);
   const BeamStatistics statistics = beam_model_.statistics(

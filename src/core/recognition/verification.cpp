@@ -33,9 +33,20 @@ constexpr double kRefinedRadius_m = 0.01;
 constexpr std::size_t kMinSurplus = 30;
 constexpr double kMinHitShare = 0.25;
 constexpr double kMaxViolations = 0.08;
-/// A less certain pose is rejected: a single wall, a bare corridor.
+/// A less certain pose is open: a single wall, a bare corridor.
 constexpr double kMaxPoseSigma_m = 0.05;
 constexpr double kMaxSigma_rad = radians(3);
+
+bool explains(const BeamLikelihood& likelihood) {
+  const std::size_t on_walls = likelihood.hits + likelihood.near_hits;
+  return on_walls >= likelihood.rays - on_walls + kMinSurplus &&
+         likelihood.hit_share() >= kMinHitShare && likelihood.violation_share() <= kMaxViolations;
+}
+
+bool is_determined(const Covariance3& covariance) {
+  return covariance(0, 0) + covariance(1, 1) < kMaxPoseSigma_m * kMaxPoseSigma_m &&
+         covariance(2, 2) < kMaxSigma_rad * kMaxSigma_rad;
+}
 
 }  // namespace
 
@@ -47,12 +58,14 @@ Verification::Verification(const WallMap& map, const LocalizerConfig& config)
   subset_.reserve(2 * kSubsetRays);
   candidates_.reserve(Recognition::kMaxHypotheses);
   hypotheses_.reserve(kMaxVerified);
+  open_.reserve(kMaxVerified);
 }
 
 void Verification::begin(std::span<const PolarPoint> points, double noise_scale) {
   points_ = points;
   noise_scale_ = noise_scale;
   hypotheses_.clear();
+  open_.clear();
   best_ = {};
   subset_.clear();
   const std::size_t stride = std::max<std::size_t>(1, points.size() / kSubsetRays);
@@ -62,7 +75,20 @@ void Verification::begin(std::span<const PolarPoint> points, double noise_scale)
 void Verification::consider(std::span<const PoseHypothesis> hypotheses, double search_radius_m) {
   shortlist(hypotheses, search_radius_m);
   refine_roughly(search_radius_m);
-  for (const Candidate& candidate : candidates_) examine(candidate.T_map_lidar);
+  for (const Candidate& candidate : candidates_) {
+    examine(candidate.T_map_lidar, kRefinedRadius_m, subset_);
+  }
+  sort();
+}
+
+void Verification::consider_prior(const Pose2& T_map_lidar, double search_radius_m) {
+  const PoseHypothesis prior{T_map_lidar, 0};
+  shortlist(std::span(&prior, 1), search_radius_m);
+  if (!candidates_.empty()) examine(T_map_lidar, search_radius_m, points_);
+  sort();
+}
+
+void Verification::sort() {
   // std::stable_sort would allocate; ties are broken by position.
   std::sort(hypotheses_.begin(), hypotheses_.end(),
             [](const VerifiedHypothesis& a, const VerifiedHypothesis& b) {
@@ -105,7 +131,7 @@ void Verification::refine_roughly(double search_radius_m) {
     const auto hits = ray_caster_.cast_near(map_, refined.T_map_lidar, subset_);
     const BeamLikelihood rough =
         beam_likelihood(map_, subset_, hits, refined.T_map_lidar, noise_, noise_scale_, 0);
-    // passes() asks for more.
+    // explains() asks for more.
     if (2 * (rough.hits + rough.near_hits) < rough.rays) continue;
     if (rough.log_likelihood > best_.log_likelihood) {
       best_.log_likelihood = rough.log_likelihood;
@@ -139,16 +165,20 @@ bool Verification::is_unambiguous(const Pose2& T_map_lidar) const {
       });
 }
 
-void Verification::examine(const Pose2& T_map_lidar) {
+void Verification::examine(const Pose2& T_map_lidar, double search_radius_m,
+                           std::span<const PolarPoint> first) {
   if (is_duplicate(T_map_lidar)) return;
   VerifiedHypothesis hypothesis;
-  hypothesis.refined =
-      refinement_.refine(map_, T_map_lidar, kRefinedRadius_m, subset_, points_, noise_scale_);
+  const PosePrior prior = PosePrior::near_to(T_map_lidar);
+  hypothesis.refined = refinement_.refine(map_, T_map_lidar, search_radius_m, first, points_,
+                                          noise_scale_, /*map_sigma_m=*/0, &prior);
   if (!hypothesis.refined.valid || is_duplicate(hypothesis.refined.T_map_lidar)) return;
   const auto hits = ray_caster_.cast(map_, hypothesis.refined.T_map_lidar, points_);
   hypothesis.likelihood =
       beam_likelihood(map_, points_, hits, hypothesis.refined.T_map_lidar, noise_, noise_scale_, 0);
-  if (passes(hypothesis) && hypotheses_.size() < kMaxVerified) hypotheses_.push_back(hypothesis);
+  if (!explains(hypothesis.likelihood)) return;
+  auto& kind = is_determined(hypothesis.refined.covariance) ? hypotheses_ : open_;
+  if (kind.size() < kMaxVerified) kind.push_back(hypothesis);
 }
 
 bool Verification::is_duplicate(const Pose2& T_map_lidar) const {
@@ -156,16 +186,6 @@ bool Verification::is_duplicate(const Pose2& T_map_lidar) const {
       hypotheses_.begin(), hypotheses_.end(), [&](const VerifiedHypothesis& hypothesis) {
         return same_pose(hypothesis.refined.T_map_lidar, T_map_lidar, kDistinct_m, kDistinct_rad);
       });
-}
-
-bool Verification::passes(const VerifiedHypothesis& hypothesis) const {
-  const Covariance3& covariance = hypothesis.refined.covariance;
-  const BeamLikelihood& likelihood = hypothesis.likelihood;
-  const std::size_t on_walls = likelihood.hits + likelihood.near_hits;
-  return on_walls >= likelihood.rays - on_walls + kMinSurplus &&
-         likelihood.hit_share() >= kMinHitShare && likelihood.violation_share() <= kMaxViolations &&
-         covariance(0, 0) + covariance(1, 1) < kMaxPoseSigma_m * kMaxPoseSigma_m &&
-         covariance(2, 2) < kMaxSigma_rad * kMaxSigma_rad;
 }
 
 }  // namespace cornerd::core

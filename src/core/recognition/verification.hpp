@@ -33,9 +33,15 @@ class Verification {
 
   /// Adds hypotheses that may be off by `search_radius_m`.
   void consider(std::span<const PoseHypothesis> hypotheses, double search_radius_m);
+  /// The same for the pose that a prior leads to, by all rays from the first step on: of few rays
+  /// none may tell the place along a corridor.
+  void consider_prior(const Pose2& T_map_lidar, double search_radius_m);
 
   /// Distinct hypotheses that passed, most likely first.
   std::span<const VerifiedHypothesis> hypotheses() const { return hypotheses_; }
+
+  /// The same whose pose the scan leaves open: a bare corridor. They are rivals to those above.
+  std::span<const VerifiedHypothesis> open_hypotheses() const { return open_; }
 
   /// Distance between distinct hypotheses.
   static constexpr double kDistinct_m = 0.06;
@@ -61,9 +67,10 @@ class Verification {
   double unmatched_margin() const;
   /// True where this leads to a conclusive hypothesis that is already verified.
   bool is_unambiguous(const Pose2& T_map_lidar) const;
-  void examine(const Pose2& T_map_lidar);
+  /// `first`: points of the first steps.
+  void examine(const Pose2& T_map_lidar, double search_radius_m, std::span<const PolarPoint> first);
+  void sort();
   bool is_duplicate(const Pose2& T_map_lidar) const;
-  bool passes(const VerifiedHypothesis& hypothesis) const;
 
   const WallMap& map_;
   SensorNoise noise_;
@@ -75,6 +82,7 @@ class Verification {
   std::vector<Candidate> candidates_;
   BestByFewRays best_;
   std::vector<VerifiedHypothesis> hypotheses_;
+  std::vector<VerifiedHypothesis> open_;
 };
 
 }  // namespace cornerd::core

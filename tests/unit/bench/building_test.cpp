@@ -48,5 +48,14 @@ TEST(EqualRooms, SameSpotInEachRoom_SameRanges) {
   }
 }
 
+TEST(LongCorridor, AnySeed_IsClosed) {
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    const core::WallMap map(long_corridor(seed));
+    for (int degrees = 0; degrees < 360; ++degrees) {
+      EXPECT_LT(map.range_along({1, 0.6}, core::radians(degrees + 0.5), 100), 99) << seed;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace cornerd::bench

@@ -12,6 +12,7 @@ VerifiedHypothesis place_at(double x_m, double log_likelihood, double of_things)
   VerifiedHypothesis place;
   place.refined.T_map_lidar = {x_m, 0, 0};
   place.refined.valid = true;
+  place.refined.least_inliers = 100;
   place.likelihood.rays = 300;
   place.likelihood.hits = 300;
   place.likelihood.log_likelihood = log_likelihood;
@@ -102,6 +103,24 @@ TEST(Decide, PriorAgainstClearScan_IsOverruled) {
   const Decision decision = decide(places, Prior{{5, 0, 0}});
   EXPECT_EQ(decision.state, PoseState::kFix);
   EXPECT_EQ(decision.place, 0U);
+}
+
+TEST(Decide, OpenRival_IsNoFixButNearThePrior) {
+  const std::vector<VerifiedHypothesis> places = {place_at(1, 1000, 1000)};
+  const std::vector<VerifiedHypothesis> open = {place_at(5, 995, 995)};
+  EXPECT_EQ(decide(places, std::nullopt).state, PoseState::kFix);
+  EXPECT_EQ(decide(places, std::nullopt, open).state, PoseState::kAmbiguous);
+  EXPECT_EQ(decide(places, Prior{{1, 0, 0}}, open).state, PoseState::kTracking);
+  EXPECT_EQ(decide(places, Prior{{5, 0, 0}}, open).state, PoseState::kAmbiguous);
+}
+
+TEST(Decide, FewRaysAlongACorridor_AreBelievedAtASurePriorAlone) {
+  std::vector<VerifiedHypothesis> places = {place_at(1, 1000, 1000)};
+  places[0].refined.least_inliers = 2;
+  EXPECT_EQ(decide(places, std::nullopt).state, PoseState::kAmbiguous);
+  EXPECT_EQ(decide(places, Prior{{1.02, 0, 0}}).state, PoseState::kTracking);
+  EXPECT_EQ(decide(places, Prior{{1.2, 0, 0}}).state, PoseState::kAmbiguous);
+  EXPECT_EQ(decide(places, Prior{{1.02, 0, 0}, 0.3}).state, PoseState::kAmbiguous);
 }
 
 }  // namespace
