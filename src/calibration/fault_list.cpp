@@ -14,6 +14,11 @@ constexpr std::size_t kMostExamined = RecentPoses::kScans * 3 / 4;
 /// In rooms that look alike most scans are ambiguous, but hardly one is lost.
 constexpr std::size_t kLeastLost = RecentPoses::kScans / 2;
 
+/// Of a minute's scans: so many fit nowhere by no crowd or closed door alone.
+constexpr std::size_t kMostOfAMinute = RecentPoses::kScansOfAMinute * 2 / 3;
+/// Scans in which odometry contradicts the lidar; after a slip it is some.
+constexpr std::size_t kManyContradicted = RecentPoses::kScans / 2;
+
 /// A robot's own body may be nearer than min_range in half of the view; nothing is beyond a
 /// lidar's reach.
 constexpr double kMostNear = 0.6;
@@ -62,9 +67,17 @@ bool is_outside(const core::WallMap& map, const core::Vec2& place) {
 void RecentPoses::add(const core::ScanResult& result, const core::Scan& scan, const Limits& limits,
                       const core::WallMap* map) {
   const core::PoseEstimate& pose = result.pose;
+  const bool fits_nowhere =
+      pose.state == core::PoseState::kLost || pose.state == core::PoseState::kPredicted;
+  const bool shows_walls = result.detection.segments.size() >= kUncoveredSegments;
   lost_ <<= 1;
-  lost_[0] = (pose.state == core::PoseState::kLost || pose.state == core::PoseState::kPredicted) &&
-             result.detection.segments.size() >= kUncoveredSegments;
+  lost_[0] = fits_nowhere && shows_walls;
+  lost_in_a_minute_ <<= 1;
+  lost_in_a_minute_[0] = lost_[0];
+  blank_ <<= 1;
+  blank_[0] = fits_nowhere && !shows_walls;
+  contradicted_ <<= 1;
+  contradicted_[0] = result.odometry.present && !result.odometry.healthy;
   ambiguous_ <<= 1;
   ambiguous_[0] = pose.state == core::PoseState::kAmbiguous;
   cut_ <<= 1;
@@ -87,6 +100,21 @@ void FaultList::add_map(const std::optional<MapFinding>& finding, const RecentPo
     add(name_of(*finding), describe(*finding, plan->name));
   } else if (is_mostly_lost) {
     add("map-mismatch", lost_hint(recent.lost(), plan));
+  } else if (recent.lost_in_a_minute() >= kMostOfAMinute && plan != nullptr) {
+    add("map-mismatch", "most scans of the last minute fit nowhere in the map \"" + plan->name +
+                            "\": its walls may be hidden (closed doors, furniture), missing or "
+                            "elsewhere by now, or "
+                            "one side of it may be drawn to another scale");
+  }
+  if (recent.blank() == RecentPoses::kScans) {
+    add("no-walls",
+        "the last scans show hardly a wall: the lidar may be covered, or lidar.noise and "
+        "advanced.detector may be those of another lidar");
+  }
+  if (recent.ambiguous() == RecentPoses::kScans && plan != nullptr) {
+    add("map-alike", "the last scans fit several places of the map \"" + plan->name +
+                         "\": drive on, or say where the robot is: cornerctl set-pose "
+                         "--pose=X,Y,THETA");
   }
   // The scans fit: the lidar is inside.
   if (recent.outside() >= kMost) {
@@ -97,14 +125,16 @@ void FaultList::add_map(const std::optional<MapFinding>& finding, const RecentPo
 }
 
 void FaultList::add_drive(const DriveFaults& drive, const OdometryNames& names,
-                          const core::OdometrySummary& odometry) {
-  const std::string wraps =
-      odometry.counters.restarts == 0
-          ? ""
-          : "; counts began again elsewhere, " + std::to_string(odometry.counters.restarts) +
-                " times so far: if they wrap, set odometry.counter_max to the highest count";
+                          const RecentPoses& recent, const core::OdometrySummary& odometry) {
+  const std::string wraps = odometry.counters.restarts == 0
+                                ? ""
+                                : "; counts began again elsewhere, " +
+                                      std::to_string(odometry.counters.restarts) +
+                                      " times so far: if they wrap, set "
+                                      "advanced.odometry.counter_max to the highest count";
   for (const std::string_view name : names_of(drive)) add(name, describe(drive, names) + wraps);
-  if (!drive.any() && odometry.present && !odometry.healthy) {
+  if (!drive.any() && odometry.present && !odometry.healthy &&
+      recent.contradicted() >= kManyContradicted) {
     add("odometry-unhealthy",
         "the odometry contradicts the lidar and is not used: drive a minute, straight and with "
         "rotations both ways; if no reason is named here by then, check wheel_radius, track, "

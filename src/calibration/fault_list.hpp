@@ -44,12 +44,24 @@ class RecentPoses {
   /// has poses.
   std::size_t cut() const { return cut_.count(); }
   std::size_t outside() const { return outside_.count(); }
+  /// At several places.
+  std::size_t ambiguous() const { return ambiguous_.count(); }
+  /// That show hardly a wall, and have no pose.
+  std::size_t blank() const { return blank_.count(); }
+  /// In which the odometry contradicts the lidar.
+  std::size_t contradicted() const { return contradicted_.count(); }
+  /// Of the scans of the last minute, that fit nowhere.
+  std::size_t lost_in_a_minute() const { return lost_in_a_minute_.count(); }
+  static constexpr std::size_t kScansOfAMinute = 440;
 
  private:
   std::bitset<kScans> lost_;  ///< newest first
   std::bitset<kScans> ambiguous_;
   std::bitset<kScans> cut_;
   std::bitset<kScans> outside_;
+  std::bitset<kScans> blank_;
+  std::bitset<kScans> contradicted_;
+  std::bitset<kScansOfAMinute> lost_in_a_minute_;
 };
 
 /// What is wrong between lidar and pose, in the order of weight: the faults of STATUS, and a hint
@@ -62,7 +74,7 @@ class FaultList {
   void add_map(const std::optional<MapFinding>& finding, const RecentPoses& recent,
                const core::FloorPlan* plan);
   /// `names`: of the remedies of `drive`.
-  void add_drive(const DriveFaults& drive, const OdometryNames& names,
+  void add_drive(const DriveFaults& drive, const OdometryNames& names, const RecentPoses& recent,
                  const core::OdometrySummary& odometry);
 
   std::span<const std::string_view> names() const { return names_; }

@@ -87,6 +87,8 @@ int main(int argc, char** argv) {
   std::signal(SIGPIPE, SIG_IGN);
   // Nor a limit of file sizes: the write fails, and its caller says so.
   std::signal(SIGXFSZ, SIG_IGN);
+  // Sent by what rotates logs and the like, for other daemons.
+  for (const int signal : {SIGUSR1, SIGUSR2, SIGALRM}) std::signal(signal, SIG_IGN);
   try {
     const std::span<const char* const> arguments(argv, static_cast<std::size_t>(argc));
     return run(daemon::parse_options(arguments.subspan(argc > 0 ? 1 : 0)));

@@ -25,10 +25,11 @@ void RequestHandler::handle(Client& client, SocketRole role, std::string_view te
   const auto ok = [&] { client.outbox().answer(line_.ok(request.name, request.id_json)); };
   // A line that is no JSON, such as one with NaN, has no name.
   const auto is_odometry = [&] {
-    // Also one with a misspelt class or none, or that is no JSON.
+    // Also one with a misspelt class or none, or that is no JSON: where odometry is awaited, any.
     const auto has = [&](std::string_view word) { return text.find(word) != text.npos; };
-    return request.name.empty() ? has("ODOM") || has("\"left\"") || has("\"gyro\"")
-                                : request.name.starts_with("ODOM") || request.name == "odometry";
+    return request.name.empty()
+               ? actions_.add_odometry || has("ODOM") || has("\"left\"") || has("\"gyro\"")
+               : request.name.starts_with("ODOM") || request.name == "odometry";
   };
   const auto error = [&](std::string_view code, std::string_view reason) {
     // A program that sends odometry may never read, and its later lines may be right.

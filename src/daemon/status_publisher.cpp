@@ -216,7 +216,7 @@ void StatusPublisher::publish(const drivers::LidarStatus& lidar, const ScanPubli
   }
   faults.add_map(map_examiner_.update(scans.recent().lost(), scans.map()), scans.recent(),
                  scans.map() != nullptr ? &scans.map()->plan() : nullptr);
-  faults.add_drive(drive, names_, scans.odometry());
+  faults.add_drive(drive, names_, scans.recent(), scans.odometry());
   if (!status.odometry_hint.empty()) {
     faults.add(status.odometry_fault, std::string(status.odometry_hint));
   }

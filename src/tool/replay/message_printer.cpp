@@ -94,7 +94,7 @@ calibration::FaultList MessagePrinter::faults(const message::StatusFields& statu
     faults.add_map(finding, recent_, plan_);
   }
   if (drive_) {
-    faults.add_drive(drive_->faults(), settings::odometry_names(*config_), odometry_);
+    faults.add_drive(drive_->faults(), settings::odometry_names(*config_), recent_, odometry_);
     if (!status.odometry_hint.empty()) {
       faults.add(odometry_lines_.fault(), std::string(status.odometry_hint));
     }

@@ -66,8 +66,37 @@ TEST(FaultList, ExaminedInVain_MismatchWhereThreeQuartersHaveNoPose) {
   many.add_map(in_vain, recent(75, map), &map.plan());
   EXPECT_THAT(many.names(), ElementsAre("map-mismatch"));
   FaultList alike;
-  alike.add_map(in_vain, recent(100, map, 1, core::PoseState::kAmbiguous), &map.plan());
+  alike.add_map(in_vain, recent(99, map, 1, core::PoseState::kAmbiguous), &map.plan());
   EXPECT_THAT(alike.names(), IsEmpty());
+}
+
+TEST(FaultList, NoScanWithAPose_IsNamedWhateverTheCause) {
+  const core::WallMap map = flat();
+  FaultList alike;
+  alike.add_map({}, recent(100, map, 1, core::PoseState::kAmbiguous), &map.plan());
+  EXPECT_THAT(alike.names(), ElementsAre("map-alike"));
+  EXPECT_THAT(alike.hint(), HasSubstr("cornerctl set-pose"));
+  FaultList blank;
+  blank.add_map({}, recent(100, map, 1, core::PoseState::kLost, /*segments=*/2), &map.plan());
+  EXPECT_THAT(blank.names(), ElementsAre("no-walls"));
+}
+
+TEST(FaultList, TwoThirdsOfAMinuteLost_IsNamed) {
+  const core::WallMap map = flat();
+  RecentPoses poses;
+  core::ScanResult result;
+  result.detection.segments.resize(4);
+  const auto drive = [&](std::size_t lost_of_ten) {
+    for (std::size_t i = 0; i < RecentPoses::kScansOfAMinute; ++i) {
+      result.pose.state = i % 10 < lost_of_ten ? core::PoseState::kLost : core::PoseState::kFix;
+      poses.add(result, {}, {}, &map);
+    }
+    FaultList faults;
+    faults.add_map({}, poses, &map.plan());
+    return std::vector<std::string_view>(faults.names().begin(), faults.names().end());
+  };
+  EXPECT_THAT(drive(6), IsEmpty());
+  EXPECT_THAT(drive(7), ElementsAre("map-mismatch"));
 }
 
 TEST(FaultList, ReturnsBeyondTheLimits_AreNamed) {
@@ -101,24 +130,33 @@ TEST(FaultList, CountsThatBeginAgain_MayWrap) {
   drive.drive.push_back({.fault = DriveFault::kLeftUnrelated});
   core::OdometrySummary odometry;
   FaultList never;
-  never.add_drive(drive, {}, odometry);
+  never.add_drive(drive, {}, {}, odometry);
   EXPECT_THAT(never.hint(), Not(HasSubstr("counter_max")));
   odometry.counters.restarts = 1;
   FaultList once;
-  once.add_drive(drive, {}, odometry);
+  once.add_drive(drive, {}, {}, odometry);
   EXPECT_THAT(once.hint(), HasSubstr("1 times so far: if they wrap"));
   odometry.counters.restarts = 5;
   FaultList often;
-  often.add_drive(drive, {}, odometry);
-  EXPECT_THAT(often.hint(), HasSubstr("5 times so far: if they wrap, set odometry.counter_max"));
+  often.add_drive(drive, {}, {}, odometry);
+  EXPECT_THAT(often.hint(),
+              HasSubstr("5 times so far: if they wrap, set advanced.odometry.counter_max"));
 }
 
 TEST(FaultList, HintIsAboutTheFirst) {
   FaultList faults;
   faults.add("no-port", "plug it in");
-  core::OdometrySummary contradicting;
-  contradicting.present = true;
-  faults.add_drive({}, {}, contradicting);
+  core::ScanResult result;
+  result.odometry.present = true;
+  RecentPoses poses;
+  const core::WallMap map = flat();
+  for (int i = 0; i < 50; ++i) {
+    FaultList early;
+    early.add_drive({}, {}, poses, result.odometry);
+    EXPECT_THAT(early.names(), IsEmpty()) << "a slip contradicts, too";
+    poses.add(result, {}, {}, &map);
+  }
+  faults.add_drive({}, {}, poses, result.odometry);
   EXPECT_THAT(faults.names(), ElementsAre("no-port", "odometry-unhealthy"));
   EXPECT_EQ(faults.hint(), "plug it in");
 }

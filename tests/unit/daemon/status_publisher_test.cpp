@@ -144,7 +144,7 @@ TEST_F(StatusFaults, LidarFaultAndUnhealthyOdometry_InTheOrderOfWeight) {
   ScanReport report;
   report.result.odometry.present = true;
   report.result.odometry.healthy = false;
-  scans_.publish(report);
+  for (int i = 0; i < 50; ++i) scans_.publish(report);
   const json status = published();
   EXPECT_EQ(status["faults"], json::parse(R"(["dead-laser", "odometry-unhealthy"])"));
   EXPECT_EQ(status["hint"], "dark");
