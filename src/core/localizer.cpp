@@ -80,10 +80,8 @@ const ScanResult& Localizer::step(const Scan& received) {
     const core::VerifiedHypothesis& at = w.chosen(decision);
     w.place->bias.update(*w.map, at.refined.T_map_lidar, w.points.points(),
                          std::max(1.0, w.result.detection.noise_scale));
-    w.scans_against_bias = 0;
-  } else {
-    w.doubt_bias(w.odometer.has_motion() ? scan : turn, decision, t_ns);
   }
+  w.try_bias(w.odometer.has_motion() ? scan : turn, decision, t_ns);
   w.result.bias = estimated_bias();
   w.learn_sweep(turn, t_ns);
   return w.result;

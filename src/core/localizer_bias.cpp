@@ -1,5 +1,9 @@
 // SPDX-License-Identifier: MIT
 // What is learned of the lidar.
+#include <algorithm>
+#include <cstdint>
+#include <cstdlib>
+
 #include "core/localizer_workspace.hpp"
 
 namespace cornerd::core {
@@ -10,11 +14,11 @@ namespace {
 /// what changes would.
 constexpr double kTeachingShare = 0.8;
 
-/// Scans that do not teach are tried without the learned bias, one in so many; it is forgotten
-/// where so many in a row have more hits by this share of the rays.
-constexpr std::uint64_t kScansPerTrialOfBias = 8;
-constexpr std::size_t kTrialsAgainstBias = 5;
-constexpr double kShareAgainstBias = 0.1;
+/// A stored bias is tried against none in one scan of so many. So many in a row for one of both
+/// decide: by so many nats per ray against it, by none for it.
+constexpr std::uint64_t kScansPerTrial = 8;
+constexpr int kTrials = 5;
+constexpr double kNatsPerRay = 0.1;
 
 }  // namespace
 
@@ -31,7 +35,10 @@ EstimatedBias Localizer::estimated_bias() const {
 }
 
 void Localizer::resume(const EstimatedBias& learned) {
-  if (workspace_->place) workspace_->place->bias.resume(learned);
+  if (!workspace_->place) return;
+  workspace_->place->bias.resume(learned);
+  workspace_->doubts_bias = learned.scans > 0;
+  workspace_->trials_of_bias = 0;
 }
 
 bool Localizer::Workspace::teaches(const Decision& decision) const {
@@ -42,22 +49,25 @@ bool Localizer::Workspace::teaches(const Decision& decision) const {
          at.likelihood.near_hit_share() > kTeachingShare;
 }
 
-/// What was learned of another lidar, or in a map of another scale, would never be unlearned: no
-/// scan with it fits, and none would teach.
-void Localizer::Workspace::doubt_bias(const Scan& scan, const Decision& decision, TimeNs t_ns) {
-  if (!config.calibrate_online || place->bias.scans() == 0 || !has_pose(decision.state) ||
-      result.pose.seq % kScansPerTrialOfBias != 0) {
-    return;
+/// What was learned of another lidar, or in a map of another scale, would never be unlearned: its
+/// many scans outweigh those to come, or none of them fits and teaches.
+void Localizer::Workspace::try_bias(const Scan& scan, const Decision& decision, TimeNs t_ns) {
+  if (!doubts_bias || !place || result.pose.seq % kScansPerTrial != 0) return;
+  double with = 0;
+  double without = 0;
+  if (has_pose(decision.state)) {
+    const Pose2& T_map_lidar = chosen(decision).refined.T_map_lidar;
+    with = try_at(scan, t_ns, motion, T_map_lidar, place->bias.bias()).log_likelihood;
+    // What a bias leaves of the residuals passes for a motion.
+    without = try_at(scan, t_ns, memory.motion(), T_map_lidar, config.bias).log_likelihood;
   }
-  const Pose2& T_map_lidar = chosen(decision).refined.T_map_lidar;
-  const auto with = try_at(scan, t_ns, motion, T_map_lidar, place->bias.bias());
-  const auto without = try_at(scan, t_ns, motion, T_map_lidar, config.bias);
-  const auto margin =
-      static_cast<std::size_t>(kShareAgainstBias * static_cast<double>(points.size()));
-  scans_against_bias = without.hits > with.hits + margin ? scans_against_bias + 1 : 0;
-  if (scans_against_bias < kTrialsAgainstBias) return;
-  place->bias.forget();
-  scans_against_bias = 0;
+  const double margin = kNatsPerRay * static_cast<double>(points.size());
+  const bool is_against = !has_pose(decision.state) || without > with + margin;
+  const bool is_for = has_pose(decision.state) && with >= without;
+  trials_of_bias =
+      is_against ? std::max(trials_of_bias, 0) + 1 : (is_for ? std::min(trials_of_bias, 0) - 1 : 0);
+  if (trials_of_bias == kTrials) place->bias.forget();
+  doubts_bias = std::abs(trials_of_bias) < kTrials;
 }
 
 }  // namespace cornerd::core

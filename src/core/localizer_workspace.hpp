@@ -116,7 +116,7 @@ struct Localizer::Workspace {
   std::size_t best_hits() const;
   bool may_be_biased() const;
   bool teaches(const Decision& decision) const;
-  void doubt_bias(const Scan& scan, const Decision& decision, TimeNs t_ns);
+  void try_bias(const Scan& scan, const Decision& decision, TimeNs t_ns);
   bool is_certain(const RefinedPose& refined) const;
   bool teaches_walls(const RefinedPose& refined) const;
   bool is_map_inexact() const;
@@ -160,7 +160,8 @@ struct Localizer::Workspace {
   std::span<const VerifiedHypothesis> candidates;  ///< that the last decision is about
   bool saw_all_around = false;                     ///< in a scan with a pose, ever
   bool decided_exactly = false;                    ///< by rays, as walls are where the map has them
-  std::size_t scans_against_bias = 0;              ///< of those tried, in a row
+  bool doubts_bias = false;                        ///< a stored one, not tried enough
+  int trials_of_bias = 0;                          ///< in a row: against it, for it if negative
   std::size_t named_in_a_row = 0;      ///< scans, each near where the one before led to expect it
   std::optional<Pose2> T_map_taught;   ///< of the last scan that the walls were learned from
   std::optional<Pose2> T_map_doubted;  ///< a jump of the turn before that waits for a second

@@ -41,7 +41,7 @@ TEST(AbruptRobot, LidarAlone_CovarianceIsConsistent) {
                                     map,           "--scenario",
                                     "exploration", "--loop",
                                     "--real",      "--seed",
-                                    "3",           "--scans",
+                                    "1",           "--scans",
                                     "900",         "--range-scale",
                                     "1.01",        "--range-offset",
                                     "0.005",       "--drive-speed",
