@@ -38,6 +38,11 @@ bool Localizer::Workspace::is_at_prior(const Pose2& T_map_lidar, TimeNs t_ns) co
 PoseState Localizer::Workspace::believe(const Decision& decision, std::size_t corners,
                                         TimeNs t_ns) {
   const Pose2& T_map_lidar = chosen(decision).refined.T_map_lidar;
+  if (!decided_exactly && odometer.expectation() && !is_expected(T_map_lidar, t_ns) &&
+      chosen(decision).log_odds < PlaceFilter::kLogOddsAgainstCarried - std::log(kWrongFixRate)) {
+    T_map_doubted.reset();
+    return PoseState::kLost;
+  }
   const bool all_around = has_full_coverage(points.largest_gap_rad());
   if (decision.state == PoseState::kTracking) {
     return all_around || (corners >= 1 && is_at_prior(T_map_lidar, t_ns)) ? PoseState::kTracking

@@ -108,8 +108,15 @@ void Odometer::advance(TimeNs start_ns, TimeNs middle_ns, TimeNs end_ns) {
   if (!present_) has_pose_ = false;
 }
 
-std::optional<PredictedPose> Odometer::prediction() const {
+std::optional<PredictedPose> Odometer::expectation() const {
   return prediction_of(filter_, epoch_, middle_ns_);
+}
+
+std::optional<PredictedPose> Odometer::prediction() const { return in_time(expectation()); }
+
+std::optional<PredictedPose> Odometer::in_time(const std::optional<PredictedPose>& pose) const {
+  const bool is_old = pose && to_seconds(pose->t_ns - fixed_ns_) > config_.max_extrapolation_s;
+  return is_old ? std::nullopt : pose;
 }
 
 std::optional<PredictedPose> Odometer::predict_latest() const {
@@ -120,7 +127,7 @@ std::optional<PredictedPose> Odometer::predict_latest() const {
   MotionFilter ahead = filter_;
   for (std::size_t i = 0; i < size_; ++i) ahead.add(trusted(pending(i)));
   ahead.advance();
-  return prediction_of(ahead, epoch_at(reading_ns, reading_ns), t_ns);
+  return in_time(prediction_of(ahead, epoch_at(reading_ns, reading_ns), t_ns));
 }
 
 std::optional<PredictedPose> Odometer::prediction_of(const MotionFilter& filter,
@@ -128,7 +135,6 @@ std::optional<PredictedPose> Odometer::prediction_of(const MotionFilter& filter,
                                                      TimeNs t_ns) const {
   if (!has_pose_ || !present_ || !is_believed()) return std::nullopt;
   if (config_.conservative && (rejected_in_a_row_ > 0 || !trust_.carries())) return std::nullopt;
-  if (to_seconds(t_ns - fixed_ns_) > config_.max_extrapolation_s) return std::nullopt;
   const Covariance3 covariance = filter.covariance_at(epoch);
   const double place_m2 = std::max(covariance(0, 0), covariance(1, 1));
   if (!(place_m2 < squared(kMostSigma_m)) || !(covariance(2, 2) < squared(kMostSigma_rad))) {

@@ -56,6 +56,8 @@ class Odometer {
   /// Predicted pose; nullopt before the first fix, max_extrapolation_s after the last one, and
   /// while sensors that it is made of are not known to be right.
   std::optional<PredictedPose> prediction() const;
+  /// The same however long ago the last fix was: what a fix elsewhere is weighed against.
+  std::optional<PredictedPose> expectation() const;
 
   /// True where the readings may miss a motion: their delay is not yet observable, or they pause.
   bool may_miss_motion() const;
@@ -92,6 +94,8 @@ class Odometer {
   MotionFilter::Epoch epoch_at(TimeNs reading_ns, TimeNs reached_ns) const;
   std::optional<PredictedPose> prediction_of(const MotionFilter& filter,
                                              const MotionFilter::Epoch& epoch, TimeNs t_ns) const;
+  /// Not older than max_extrapolation_s.
+  std::optional<PredictedPose> in_time(const std::optional<PredictedPose>& pose) const;
   /// A survey's fixes are no better than its odometry: there a few in a row tell.
   bool is_believed() const {
     return filter_.is_in_bounds() &&

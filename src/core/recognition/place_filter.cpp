@@ -7,8 +7,6 @@
 namespace cornerd::core {
 namespace {
 
-/// Somebody carries the robot away between two scans once in 1e8 scans, five months of driving.
-constexpr double kMaxLogOdds = 18.4;
 /// Scans so far apart show other walls, or other things before them. Between 0.5 and 4 m it makes
 /// no difference to drives in maps that are 3 cm off, among 30 to 40 % of clutter, and in wrong
 /// maps.
@@ -23,7 +21,7 @@ constexpr double kNear_rad = radians(20);
 }  // namespace
 
 void PlaceFilter::confirm(const Pose2& T_map_lidar) {
-  places_.front() = {T_map_lidar, T_map_lidar, kMaxLogOdds, 0, true};
+  places_.front() = {T_map_lidar, T_map_lidar, kLogOddsAgainstCarried, 0, true};
   count_ = 1;
 }
 
@@ -38,7 +36,7 @@ double PlaceFilter::weigh(Place& place, const Pose2& T_map_lidar, double evidenc
   const double fresh = std::min(1.0, way_m / kIndependent_m);
   const double log_odds = place.base + fresh * place.anchored + evidence;
   if (fresh == 1) {
-    place.base = std::min(kMaxLogOdds, place.base + place.anchored);
+    place.base = std::min(kLogOddsAgainstCarried, place.base + place.anchored);
     place.anchored = evidence;
     place.T_map_anchor = T_map_lidar;
   }

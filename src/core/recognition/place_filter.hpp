@@ -18,6 +18,8 @@ namespace cornerd::core {
 class PlaceFilter {
  public:
   static constexpr std::size_t kMaxPlaces = 16;
+  /// Somebody carries the robot away between two scans once in 1e8 scans, five months of driving.
+  static constexpr double kLogOddsAgainstCarried = 18.4;
 
   void forget() { count_ = 0; }
   /// A scan names `T_map_lidar` by itself, or somebody does.
