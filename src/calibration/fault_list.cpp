@@ -35,7 +35,8 @@ std::string lost_hint(std::size_t lost, const core::FloorPlan* plan) {
   return std::to_string(lost) + " of the last " + std::to_string(RecentPoses::kScans) +
          " scans fit nowhere in the map \"" + plan->name +
          "\": check that it is the map of this place (not mirrored, in metres), that the robot is "
-         "inside it, and lidar.mount.inverted";
+         "inside it, that closed doors and furniture do not hide its walls, and "
+         "lidar.mount.inverted";
 }
 
 bool is_cut(const core::Scan& scan, const RecentPoses::Limits& limits) {

@@ -214,6 +214,14 @@ void StatusPublisher::publish(const drivers::LidarStatus& lidar, const ScanPubli
     // Only a recording fails without a fault of a device.
     faults.add("recording", std::string(reported.detail.view()));
   }
+  line_quality_.add(lidar.counters.bytes, lidar.counters.skipped_bytes);
+  if (line_quality_.is_damaged()) {
+    faults.add(
+        "damaged-line",
+        std::to_string(std::lround(100 * line_quality_.skipped_share())) +
+            " % of the lidar's bytes are damaged or missing: use a shorter or shielded cable, "
+            "away from motors, and a stable 5 V supply");
+  }
   faults.add_map(map_examiner_.update(scans.recent().lost(), scans.map()), scans.recent(),
                  scans.map() != nullptr ? &scans.map()->plan() : nullptr);
   faults.add_drive(drive, names_, scans.recent(), scans.odometry());

@@ -8,6 +8,7 @@
 
 #include "calibration/drive_fault_text.hpp"
 #include "calibration/drive_monitor.hpp"
+#include "daemon/line_quality.hpp"
 #include "daemon/localization.hpp"
 #include "daemon/map_examiner.hpp"
 #include "daemon/message_server.hpp"
@@ -72,6 +73,7 @@ class StatusPublisher {
   OdometryClients* odometry_clients_ = nullptr;
   Notifier& notifier_;
   message::StatusFields::Walls walls_;
+  LineQuality line_quality_;
   std::string walls_problem_;
   std::string calibration_problem_;
   std::vector<core::MapChange> changes_;  ///< of the map, in the last report

@@ -137,6 +137,20 @@ TEST_F(StatusFaults, ScansFitNowhere_MapMismatchUntilTheyFit) {
   EXPECT_FALSE(published().contains("faults"));
 }
 
+TEST_F(StatusFaults, ManySkippedBytes_DamagedLineUntilTheyAreFew) {
+  const auto send = [&](std::uint64_t skipped_of_4000) {
+    lidar_.counters.bytes += 4000;
+    lidar_.counters.skipped_bytes += skipped_of_4000;
+    return published();
+  };
+  for (int i = 0; i < 20; ++i) EXPECT_FALSE(send(300).contains("faults"));
+  json status;
+  for (int i = 0; i < 20; ++i) status = send(880);
+  EXPECT_EQ(status["faults"], json::parse(R"(["damaged-line"])"));
+  for (int i = 0; i < 20; ++i) status = send(0);
+  EXPECT_FALSE(status.contains("faults"));
+}
+
 TEST_F(StatusFaults, LidarFaultAndUnhealthyOdometry_InTheOrderOfWeight) {
   lidar_.state = LidarState::kFaulty;
   lidar_.fault = LidarFault::kDeadLaser;
