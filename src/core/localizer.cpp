@@ -236,7 +236,7 @@ void Localizer::Workspace::reject_motion(const std::optional<Prior>& prior) {
 const Scan& Localizer::Workspace::deskewed(const Scan& turn, TimeNs t_ns) {
   odometer.advance(turn.start_ns(), t_ns, turn.end_ns());
   std::optional<Prior> prior;
-  if (const auto predicted = odometer.expectation()) {
+  if (const auto predicted = odometer.dead_reckoning()) {
     const Covariance3& covariance = predicted->covariance;
     prior = {predicted->T_map_base * config.T_base_lidar,
              kSurely * std::sqrt(std::max(covariance(0, 0), covariance(1, 1))),

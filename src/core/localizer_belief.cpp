@@ -38,7 +38,7 @@ bool Localizer::Workspace::is_at_prior(const Pose2& T_map_lidar, TimeNs t_ns) co
 PoseState Localizer::Workspace::believe(const Decision& decision, std::size_t corners,
                                         TimeNs t_ns) {
   const Pose2& T_map_lidar = chosen(decision).refined.T_map_lidar;
-  if (!decided_exactly && odometer.expectation() && !is_expected(T_map_lidar, t_ns) &&
+  if (!decided_exactly && odometer.dead_reckoning() && !is_expected(T_map_lidar, t_ns) &&
       chosen(decision).log_odds < PlaceFilter::kLogOddsAgainstCarried - std::log(kWrongFixRate)) {
     T_map_doubted.reset();
     return PoseState::kLost;

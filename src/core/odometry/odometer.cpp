@@ -108,11 +108,11 @@ void Odometer::advance(TimeNs start_ns, TimeNs middle_ns, TimeNs end_ns) {
   if (!present_) has_pose_ = false;
 }
 
-std::optional<PredictedPose> Odometer::expectation() const {
+std::optional<PredictedPose> Odometer::dead_reckoning() const {
   return prediction_of(filter_, epoch_, middle_ns_);
 }
 
-std::optional<PredictedPose> Odometer::prediction() const { return in_time(expectation()); }
+std::optional<PredictedPose> Odometer::prediction() const { return in_time(dead_reckoning()); }
 
 std::optional<PredictedPose> Odometer::in_time(const std::optional<PredictedPose>& pose) const {
   const bool is_old = pose && to_seconds(pose->t_ns - fixed_ns_) > config_.max_extrapolation_s;

@@ -57,7 +57,7 @@ class Odometer {
   /// while sensors that it is made of are not known to be right.
   std::optional<PredictedPose> prediction() const;
   /// The same however long ago the last fix was: what a fix elsewhere is weighed against.
-  std::optional<PredictedPose> expectation() const;
+  std::optional<PredictedPose> dead_reckoning() const;
 
   /// True where the readings may miss a motion: their delay is not yet observable, or they pause.
   bool may_miss_motion() const;
