@@ -17,7 +17,7 @@ core::FloorPlan office_building(std::size_t corners, std::uint64_t seed);
 /// A corridor with `rooms` identical rooms on one side.
 core::FloorPlan equal_rooms(std::size_t rooms);
 
-/// A straight corridor of 20 to 80 m, 1.2 to 3 m wide, with niches and doorways of three widths at
+/// A straight corridor of 20 to 80 m, 1.2 to 3 m wide, with niches and rooms of two widths at
 /// random on both sides: long stretches are bare, and many look alike.
 core::FloorPlan long_corridor(std::uint64_t seed);
 

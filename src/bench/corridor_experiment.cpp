@@ -2,10 +2,8 @@
 #include "bench/corridor_experiment.hpp"
 
 #include <algorithm>
-#include <span>
 
 #include "bench/simulated_drive.hpp"
-#include "core/localizer.hpp"
 
 namespace cornerd::bench {
 namespace {
@@ -40,15 +38,10 @@ PoseScore drive_along(const std::shared_ptr<const core::WallMap>& corridor, Corr
   localizer_config.odometry.geometry = config.robot.geometry;
   core::Localizer localizer(corridor, localizer_config);
   PoseScore score;
-  core::Scan scan;
-  std::span<const survey::RecordedDrive::Reading> readings = drive.drive.readings();
-  for (std::size_t i = 0; i < drive.drive.size(); ++i) {
-    for (; !readings.empty() && readings.front().scan <= i; readings = readings.subspan(1)) {
-      localizer.add(readings.front().reading, readings.front().now_ns);
-    }
-    drive.drive.load(i, scan);
-    score.add(localizer.step(scan).pose, drive.T_map_base[i]);
-  }
+  localize_drive(localizer, drive,
+                 [&](const core::PoseEstimate& pose, const core::Pose2& T_map_base) {
+                   score.add(pose, T_map_base);
+                 });
   return score;
 }
 

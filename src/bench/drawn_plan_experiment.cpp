@@ -2,12 +2,10 @@
 #include "bench/drawn_plan_experiment.hpp"
 
 #include <cmath>
-#include <span>
 #include <vector>
 
 #include "bench/drawn_plan.hpp"
 #include "bench/simulated_drive.hpp"
-#include "core/localizer.hpp"
 
 namespace cornerd::bench {
 namespace {
@@ -66,21 +64,14 @@ void drive_in_drawn_plan(const std::shared_ptr<const core::WallMap>& building,
   localizer_config.odometry.geometry = config.robot.geometry;
   core::Localizer localizer(map, localizer_config);
   std::vector<Pair> pairs;
-  core::Scan scan;
-  std::span<const survey::RecordedDrive::Reading> readings = drive.drive.readings();
-  for (std::size_t i = 0; i < drive.drive.size(); ++i) {
-    for (; !readings.empty() && readings.front().scan <= i; readings = readings.subspan(1)) {
-      localizer.add(readings.front().reading, readings.front().now_ns);
-    }
-    drive.drive.load(i, scan);
-    const core::PoseEstimate& pose = localizer.step(scan).pose;
-    const core::Pose2& truth = drive.T_map_base[i];
-    const bool is_first = 2 * i < drive.drive.size();
+  std::size_t done = 0;
+  localize_drive(localizer, drive, [&](const core::PoseEstimate& pose, const core::Pose2& truth) {
+    const bool is_first = 2 * done++ < drive.drive.size();
     (is_first ? result.first : result.later).add(pose, truth);
     if (!is_first && has_pose(pose.state)) {
       pairs.push_back({pose.T_map_base.translation(), truth.translation()});
     }
-  }
+  });
   result.aligned_errors_m.push_back(aligned_error_m(pairs));
 }
 

@@ -42,6 +42,20 @@ replay::DriveConfig gentle_drive(double speed_m_s) {
   return drive;
 }
 
+void localize_drive(
+    core::Localizer& localizer, const SimulatedDrive& drive,
+    const std::function<void(const core::PoseEstimate&, const core::Pose2& truth)>& visit) {
+  core::Scan scan;
+  std::span<const survey::RecordedDrive::Reading> readings = drive.drive.readings();
+  for (std::size_t i = 0; i < drive.drive.size(); ++i) {
+    for (; !readings.empty() && readings.front().scan <= i; readings = readings.subspan(1)) {
+      localizer.add(readings.front().reading, readings.front().now_ns);
+    }
+    drive.drive.load(i, scan);
+    visit(localizer.step(scan).pose, drive.T_map_base[i]);
+  }
+}
+
 replay::RobotModel miscalibrated_robot() {
   replay::RobotModel robot;
   robot.left_scale = 0.015;

@@ -2,10 +2,12 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <span>
 #include <vector>
 
+#include "core/localizer.hpp"
 #include "core/map/wall_map.hpp"
 #include "replay/simulator/motion.hpp"
 #include "replay/simulator/simulated_odometry.hpp"
@@ -29,6 +31,11 @@ struct SimulatedDriveConfig {
 
 SimulatedDrive simulate_drive(std::shared_ptr<const core::WallMap> map,
                               const replay::Motion& motion, const SimulatedDriveConfig& config);
+
+/// Localizes a drive: `visit` gets each scan's estimate and the true pose.
+void localize_drive(
+    core::Localizer& localizer, const SimulatedDrive& drive,
+    const std::function<void(const core::PoseEstimate&, const core::Pose2& truth)>& visit);
 
 /// A looped path at no more than 1 m/s2 and 6 rad/s2.
 replay::DriveConfig gentle_drive(double speed_m_s = 0.4);

@@ -47,7 +47,8 @@ const ScanResult& Localizer::step(const Scan& received) {
   Decision decision = w.find(scan, t_ns);
   const bool wheels_may_lie = &scan != &turn && !(w.trusts_odometry() && w.memory.prior(t_ns));
   if (decision.state == PoseState::kLost && wheels_may_lie) {
-    // By evidence only where odometry leads: what is alike is named anywhere.
+    // Rays may name any place; evidence alone only the one that odometry leads to, for it fits
+    // rooms that look alike.
     const PlaceFilter lost = w.filtered;
     const std::optional<Prior> prior = w.memory.prior(t_ns);
     w.reject_motion(prior);

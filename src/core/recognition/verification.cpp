@@ -21,7 +21,6 @@ constexpr double kMaxRoughViolations = 0.35;
 /// rays and by obstacles. Hypotheses that stayed ambiguous on all rays were behind by up to 27 in
 /// clear scans, and by 74 where most rays were missing or hit unmapped obstacles.
 constexpr double kRoughMargin = 60;
-constexpr double kRoughMarginPerUnmatchedRay = 0;
 /// The same before refinement: 68 and 169 observed.
 constexpr double kUnrefinedMargin = 150;
 /// Remaining error after the rough refinement.
@@ -123,7 +122,7 @@ void Verification::refine_roughly(double search_radius_m) {
   const double unrefined_best = candidates_.empty() ? 0 : candidates_.front().log_likelihood;
   std::size_t kept = 0;
   for (const Candidate& candidate : candidates_) {
-    if (candidate.log_likelihood < unrefined_best - kUnrefinedMargin - unmatched_margin()) break;
+    if (candidate.log_likelihood < unrefined_best - kUnrefinedMargin) break;
     if (is_unambiguous(candidate.T_map_lidar)) continue;
     const RefinedPose refined = refinement_.refine_roughly(map_, candidate.T_map_lidar,
                                                            search_radius_m, subset_, noise_scale_);
@@ -136,7 +135,6 @@ void Verification::refine_roughly(double search_radius_m) {
     if (rough.log_likelihood > best_.log_likelihood) {
       best_.log_likelihood = rough.log_likelihood;
       best_.on_walls = rough.hits + rough.near_hits;
-      best_.unmatched = rough.rays - rough.hits;
     }
     best_.log_likelihood_of_obstacles =
         std::max(best_.log_likelihood_of_obstacles, rough.log_likelihood_of_obstacles);
@@ -144,17 +142,12 @@ void Verification::refine_roughly(double search_radius_m) {
                            rough.log_likelihood_of_obstacles, rough.hits + rough.near_hits};
   }
   candidates_.resize(kept);
-  const double margin = kRoughMargin + unmatched_margin();
   // A hypothesis with more rays on walls stays, however roughly they fit: the lidar may be biased.
   std::erase_if(candidates_, [&](const Candidate& candidate) {
     return candidate.on_walls <= best_.on_walls &&
-           candidate.log_likelihood < best_.log_likelihood - margin &&
-           candidate.log_likelihood_of_obstacles < best_.log_likelihood_of_obstacles - margin;
+           candidate.log_likelihood < best_.log_likelihood - kRoughMargin &&
+           candidate.log_likelihood_of_obstacles < best_.log_likelihood_of_obstacles - kRoughMargin;
   });
-}
-
-double Verification::unmatched_margin() const {
-  return kRoughMarginPerUnmatchedRay * static_cast<double>(best_.unmatched);
 }
 
 bool Verification::is_unambiguous(const Pose2& T_map_lidar) const {

@@ -60,11 +60,9 @@ class Verification {
     double log_likelihood = -std::numeric_limits<double>::infinity();
     double log_likelihood_of_obstacles = -std::numeric_limits<double>::infinity();
     std::size_t on_walls = 0;
-    std::size_t unmatched = 0;  ///< rays without a hit
   };
   void shortlist(std::span<const PoseHypothesis> hypotheses, double search_radius_m);
   void refine_roughly(double search_radius_m);
-  double unmatched_margin() const;
   /// True where this leads to a conclusive hypothesis that is already verified.
   bool is_unambiguous(const Pose2& T_map_lidar) const;
   /// `first`: points of the first steps.

@@ -8,8 +8,7 @@
 namespace cornerd::bench {
 namespace {
 
-// Where 90 rays stood for all, most of these drives had wrong fixes, up to the corridor's length
-// off.
+// A subset of 90 rays may not meet a niche: it tells nothing of the place along a corridor.
 TEST(Corridor, AnyRobot_NoPlaceThatLooksAlikeIsNamed) {
   for (const CorridorRobot robot : {CorridorRobot::kLidarAlone, CorridorRobot::kWheelsAndGyro}) {
     for (std::uint64_t seed = 1; seed <= 8; ++seed) {
