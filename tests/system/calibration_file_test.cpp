@@ -24,12 +24,10 @@ class CalibrationFile : public DaemonTest {
   /// The first STATUS whose bias has at least this many scans.
   json status_after(std::uint64_t scans) {
     TestClient client = connect();
-    while (true) {
-      json status = next_of(client, "STATUS");
-      if (!status.is_object()) return {};
+    return next_of(client, "STATUS", [&](const json& status) {
       const json& lidar = status["lidar"];
-      if (lidar.contains("bias") && lidar["bias"]["scans"] >= scans) return status;
-    }
+      return lidar.contains("bias") && lidar["bias"]["scans"] >= scans;
+    });
   }
 
   void end(DaemonProcess& daemon) {
@@ -66,9 +64,7 @@ TEST_F(CalibrationFile, Restart_BiasLoadedForSameLidarOnly) {
   TestClient client = connect();
   client.send(R"({"class":"WATCH","classes":["EVENT"]})"
               "\n");
-  json event = next_of(client, "EVENT");
-  while (event.is_object() && event["what"] != "another lidar") event = next_of(client, "EVENT");
-  EXPECT_TRUE(event.is_object()) << daemon.output();
+  EXPECT_TRUE(next_event(client, "another lidar").is_object()) << daemon.output();
   const json fresh = status_after(1);
   ASSERT_TRUE(fresh.is_object());
   EXPECT_LT(fresh["lidar"]["bias"]["scans"], 20u) << fresh;
@@ -86,9 +82,7 @@ TEST_F(CalibrationFile, ReloadBeforeFirstScan_StoredBiasKept) {
   client.send(R"({"class":"WATCH","classes":["EVENT"]})"
               "\n");
   daemon.send_signal(SIGHUP);
-  json event = next_of(client, "EVENT");
-  while (event.is_object() && event["what"] != "map loaded") event = next_of(client, "EVENT");
-  ASSERT_TRUE(event.is_object()) << daemon.output();
+  ASSERT_TRUE(next_event(client, "map loaded").is_object()) << daemon.output();
   const EmulatedLidar lidar(folder_ / "map.json", folder_ / "lidar");
   const json status = status_after(1);
   ASSERT_TRUE(status.is_object()) << daemon.output();
@@ -108,18 +102,15 @@ TEST_F(CalibrationFile, ReloadAfterChangeOfLidar_OldBiasNotRestored) {
   replay::EmulatorConfig another;
   another.serial[0] ^= 0xFF;
   lidar = std::make_unique<EmulatedLidar>(folder_ / "map.json", folder_ / "lidar", another);
-  json event = next_of(client, "EVENT");
-  while (event.is_object() && event["what"] != "another lidar") event = next_of(client, "EVENT");
-  ASSERT_TRUE(event.is_object()) << daemon.output();
+  ASSERT_TRUE(next_event(client, "another lidar").is_object()) << daemon.output();
   daemon.send_signal(SIGHUP);
-  while (event.is_object() && event["what"] != "map loaded") event = next_of(client, "EVENT");
-  ASSERT_TRUE(event.is_object()) << daemon.output();
+  ASSERT_TRUE(next_event(client, "map loaded").is_object()) << daemon.output();
   TestClient later = connect();
-  json status;
-  do {
-    status = next_of(later, "STATUS");
-    ASSERT_TRUE(status.is_object()) << daemon.output();
-  } while (!status["lidar"].contains("bias") || status["lidar"]["bias"]["scans"] >= 40u);
+  const json status = next_of(later, "STATUS", [](const json& message) {
+    const json& bias = message["lidar"].value("bias", json());
+    return bias.is_object() && bias["scans"] < 40u;
+  });
+  ASSERT_TRUE(status.is_object()) << daemon.output();
   EXPECT_NE(status["lidar"]["serial"], first["lidar"]["serial"]);
   end(daemon);
 }

@@ -46,12 +46,6 @@ class ClockStep : public DaemonTest {
                 "\n");
   }
 
-  static void wait_for_fix(TestClient& client) {
-    for (json pose = next_of(client, "POSE"); pose.is_object() && pose["state"] != "fix";) {
-      pose = next_of(client, "POSE");
-    }
-  }
-
   /// True if the message has the current time of a clock with this offset.
   bool is_of_now(const json& message, double offset_s) const {
     const double late_s = clock_.now_s() - clock_.offset_s() - (message_s(message) - offset_s);
@@ -127,10 +121,8 @@ TEST_F(ClockStep, StepBackDuringBackoff_BackoffNotExtended) {
   const DaemonProcess daemon = start_live({"/advanced/lidar/baud=57600"});
   TestClient client = connect();
   watch(client);
-  for (json status = next_of(client, "STATUS");
-       status.is_object() && status["lidar"]["state"] != "backoff";) {
-    status = next_of(client, "STATUS");
-  }
+  next_of(client, "STATUS",
+          [](const json& status) { return status["lidar"]["state"] == "backoff"; });
   clock_.step_s(kHourBack_s);
   manager_.forget();
   EXPECT_TRUE(manager_.hears("WATCHDOG=1"));

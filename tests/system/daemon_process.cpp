@@ -125,13 +125,23 @@ json DaemonTest::next(TestClient& client) {
   return line ? json::parse(*line) : json("nothing");
 }
 
-json DaemonTest::next_of(TestClient& client, const std::string& message_class) {
+json DaemonTest::next_of(TestClient& client, const std::string& message_class,
+                         const std::function<bool(const json&)>& is_it) {
   const auto deadline = std::chrono::steady_clock::now() + test::kPatience;
   while (std::chrono::steady_clock::now() < deadline) {
     json message = next(client);
-    if (!message.is_object() || message["class"] == message_class) return message;
+    if (!message.is_object()) return message;
+    if (message["class"] == message_class && (!is_it || is_it(message))) return message;
   }
   return "nothing";
+}
+
+json DaemonTest::next_event(TestClient& client, const std::string& what) {
+  return next_of(client, "EVENT", [&](const json& event) { return event["what"] == what; });
+}
+
+json DaemonTest::wait_for_fix(TestClient& client) {
+  return next_of(client, "POSE", [](const json& pose) { return pose["state"] == "fix"; });
 }
 
 }  // namespace cornerd::system_test

@@ -5,6 +5,7 @@
 #include <sys/types.h>
 
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -63,9 +64,13 @@ class DaemonTest : public ::testing::Test {
 
   /// A client of the socket; waits for the socket.
   TestClient connect(const char* socket = "pose.sock");
-  /// The next message of this class.
-  static json next_of(TestClient& client, const std::string& message_class);
+  /// The next message of this class, or the first of them that `is_it`; "nothing" if none came in
+  /// time.
+  static json next_of(TestClient& client, const std::string& message_class,
+                      const std::function<bool(const json&)>& is_it = {});
   static json next(TestClient& client);
+  static json next_event(TestClient& client, const std::string& what);
+  static json wait_for_fix(TestClient& client);
 
   std::vector<std::string> with_config() const { return {"--config", config()}; }
   std::string config() const { return (folder_ / "cornerd.json").string(); }

@@ -34,7 +34,7 @@ class FaultTable : public DaemonTest {
   /// Starts cornerd on the emulated port and waits for the first pose.
   void start_daemon(const std::vector<std::string>& more = {}) {
     launch(more);
-    wait_for_fix();
+    wait_for_fix(*client_);
   }
 
   void launch(const std::vector<std::string>& more = {}) {
@@ -52,24 +52,17 @@ class FaultTable : public DaemonTest {
                   "\n");
   }
 
-  void wait_for_fix() {
-    for (json pose = next_of(*client_, "POSE"); pose.is_object() && pose["state"] != "fix";) {
-      pose = next_of(*client_, "POSE");
-    }
-  }
-
   /// Seconds until a STATUS has the fault; `state`: the state of that STATUS.
   double wait_for_fault(const std::string& fault, std::string& state) {
     const auto began = Clock::now();
-    while (true) {
-      const json status = next_of(*client_, "STATUS");
-      if (!status.is_object()) return -1;
-      if (status["lidar"].value("fault", "") != fault) continue;
-      state = status["lidar"]["state"];
-      EXPECT_FALSE(status["lidar"]["detail"].get<std::string>().empty())
-          << "the detail must not be empty";
-      return seconds_since(began);
-    }
+    const json status = next_of(*client_, "STATUS", [&](const json& message) {
+      return message["lidar"].value("fault", "") == fault;
+    });
+    if (!status.is_object()) return -1;
+    state = status["lidar"]["state"];
+    EXPECT_FALSE(status["lidar"]["detail"].get<std::string>().empty())
+        << "the detail must not be empty";
+    return seconds_since(began);
   }
 
   /// Begins and ends the fault; prints both delays.
@@ -83,7 +76,7 @@ class FaultTable : public DaemonTest {
     end();
     const auto ended = Clock::now();
     skip_stale_poses();
-    wait_for_fix();
+    wait_for_fix(*client_);
     print(what, seen + ", " + fault, noticed_s, seconds_since(ended));
     if (std::getenv("CORNERD_TIMES") == nullptr) return;
     if (limit_s > 0) {
@@ -95,9 +88,7 @@ class FaultTable : public DaemonTest {
   /// Poses from before the fault may still arrive until the first STATUS.
   void skip_stale_poses() {
     client_->send("{\"class\":\"POLL\",\"id\":\"now\"}\n");
-    for (json ok = next_of(*client_, "OK"); ok.is_object() && ok.value("id", "") != "now";) {
-      ok = next_of(*client_, "OK");
-    }
+    next_of(*client_, "OK", [](const json& ok) { return ok.value("id", "") == "now"; });
   }
 
   static void print(const char* what, const std::string& state, double noticed_s, double back_s) {
@@ -185,7 +176,7 @@ TEST_F(FaultTable, StreamRunning_DaemonRestarted_Recovers) {
   // The old process must have ended before the next starts, as with a service manager.
   daemon_.reset();
   launch();
-  wait_for_fix();
+  wait_for_fix(*client_);
   const double back_s = seconds_since(began);
   // A byte of the old stream between opening the port and STOP is a matter of milliseconds.
   const bool seen = daemon_->output().find("stream-running") != std::string::npos;

@@ -17,14 +17,11 @@ class KernelOdometry : public DaemonTest {
   }
   /// The sensors of the first STATUS in which this sensor has this state.
   static json sensors_with(TestClient& client, const char* sensor, const std::string& state) {
-    while (true) {
-      const json status = next_of(client, "STATUS");
-      if (!status.is_object()) return status;
-      const json sensors = status.value("/odometry/sensors"_json_pointer, json::object());
-      if (sensors.value(json::json_pointer("/" + std::string(sensor) + "/state"), "") == state) {
-        return sensors;
-      }
-    }
+    const json::json_pointer sensors("/odometry/sensors");
+    const json status = next_of(client, "STATUS", [&](const json& message) {
+      return message.value(sensors / sensor / "state", "") == state;
+    });
+    return status.is_object() ? status[sensors] : status;
   }
 
   test::SysfsTree tree_;

@@ -49,17 +49,9 @@ class LidarModelTest : public DaemonTest {
   }
   std::filesystem::path port() const { return folder_ / "lidar"; }
 
-  void wait_for_fix() {
-    for (json pose = next_of(*client_, "POSE"); pose.is_object() && pose["state"] != "fix";) {
-      pose = next_of(*client_, "POSE");
-    }
-  }
   json wait_for_fault(const std::string& fault) {
-    json status = next_of(*client_, "STATUS");
-    while (status.is_object() && status["lidar"].value("fault", "") != fault) {
-      status = next_of(*client_, "STATUS");
-    }
-    return status;
+    return next_of(*client_, "STATUS",
+                   [&](const json& status) { return status["lidar"].value("fault", "") == fault; });
   }
 
   std::unique_ptr<EmulatedModel> lidar_;
@@ -89,7 +81,7 @@ TEST_P(EveryLidarModel, DriveThroughMap_GivesFixesAndNoneWrong) {
   lidar_ =
       std::make_unique<EmulatedModel>(model, map, replay::drive_path(place.path, drive), port());
   launch(model, map);
-  wait_for_fix();
+  wait_for_fix(*client_);
   constexpr int kPoses = 100;
   int fixes = 0;
   int wrong = 0;
@@ -139,7 +131,7 @@ class LidarModelFaults : public LidarModelTest, public testing::WithParamInterfa
   void start() {
     plug_in();
     launch(GetParam(), folder_ / "map.json");
-    wait_for_fix();
+    wait_for_fix(*client_);
   }
   void expect(const std::string& fault, const std::string& state) {
     const json status = wait_for_fault(fault);
@@ -152,10 +144,8 @@ class LidarModelFaults : public LidarModelTest, public testing::WithParamInterfa
   /// Poses from before the fault may still arrive until the answer.
   void expect_recovery() {
     client_->send("{\"class\":\"POLL\",\"id\":\"now\"}\n");
-    for (json ok = next_of(*client_, "OK"); ok.is_object() && ok.value("id", "") != "now";) {
-      ok = next_of(*client_, "OK");
-    }
-    wait_for_fix();
+    next_of(*client_, "OK", [](const json& ok) { return ok.value("id", "") == "now"; });
+    wait_for_fix(*client_);
   }
   json counters() {
     json status = next_of(*client_, "STATUS");
@@ -167,12 +157,12 @@ TEST_F(LidarModelTest, ConfigWithoutNoise_UsesTheModels) {
   lidar_ = std::make_unique<EmulatedModel>(
       "c1", folder_ / "map.json", replay::stand_still({kTrueX, kTrueY, kTrueTheta}), port());
   launch("c1", folder_ / "map.json");
-  wait_for_fix();
+  wait_for_fix(*client_);
   for (int i = 0; i < 5 && daemon_->output().find("lidar noise") == std::string::npos; ++i) {
     next_of(*client_, "STATUS");
   }
   EXPECT_NE(daemon_->output().find("lidar noise: that of model c1"), std::string::npos);
-  wait_for_fix();
+  wait_for_fix(*client_);
 }
 
 TEST_P(LidarModelFaults, Unplugged_PluggedInAgain_Recovers) {

@@ -18,12 +18,10 @@ class LidarState : public DaemonTest {
  protected:
   /// The first STATUS with this lidar state and a reason: without one, the port was not tried yet.
   static json status_in(TestClient& client, const std::string& state) {
-    while (true) {
-      json status = next_of(client, "STATUS");
-      if (!status.is_object()) return status;
+    return next_of(client, "STATUS", [&](const json& status) {
       const json& lidar = status["lidar"];
-      if (lidar["state"] == state && lidar.contains("detail")) return status;
-    }
+      return lidar["state"] == state && lidar.contains("detail");
+    });
   }
 };
 

@@ -23,9 +23,7 @@ class OdometryReload : public DaemonTest {
   }
 
   static json next_in(TestClient& client, const std::string& state) {
-    json pose = next_of(client, "POSE");
-    while (pose.is_object() && pose["state"] != state) pose = next_of(client, "POSE");
-    return pose;
+    return next_of(client, "POSE", [&](const json& pose) { return pose["state"] == state; });
   }
 };
 

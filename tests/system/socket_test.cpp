@@ -23,8 +23,8 @@ TEST_F(Socket, NewClient_VersionThenCorrectPoses) {
   EXPECT_EQ(pose["room"], "only");
   EXPECT_GT(pose["cov"]["xx"].get<double>(), 0);
   // A state that lasted for milliseconds is published too, before this one.
-  json status = next_of(client, "STATUS");
-  while (status["lidar"]["state"] == "opening") status = next_of(client, "STATUS");
+  const json status = next_of(
+      client, "STATUS", [](const json& message) { return message["lidar"]["state"] != "opening"; });
   EXPECT_EQ(status["lidar"]["state"], "running");
 }
 
