@@ -39,15 +39,18 @@ core::FloorPlan mirrored(core::FloorPlan plan) {
   return plan;
 }
 
-core::FloorPlan scaled(core::FloorPlan plan, double scale) {
+/// `scale`: along x and y.
+core::FloorPlan scaled(core::FloorPlan plan, const core::Vec2& scale) {
   for (core::Wall& wall : plan.walls) {
-    wall.from *= scale;
-    wall.to *= scale;
-    wall.thickness_m *= scale;
+    wall.from = wall.from.cwiseProduct(scale);
+    wall.to = wall.to.cwiseProduct(scale);
+    wall.thickness_m *= std::sqrt(scale.prod());
   }
   plan.rooms.clear();
   return plan;
 }
+
+core::Vec2 exp_of(const core::Vec2& logarithms) { return logarithms.array().exp(); }
 
 class MapTrials {
  public:
@@ -101,6 +104,27 @@ class MapTrials {
   const std::function<bool()>& is_over_;
 };
 
+/// Of the axes that are 1 in `axes`; nullopt where the scans fit none better than `most`, which it
+/// raises.
+std::optional<core::Vec2> fitting_scale(const MapTrials& trials, const core::FloorPlan& plan,
+                                        const core::Vec2& axes, double& most) {
+  // Several scales fit: the true one is in their middle.
+  double weights = 0;
+  double sum = 0;
+  double largest = most;
+  for (int step = -kScaleSteps; step <= kScaleSteps && !trials.is_over(); ++step) {
+    if (step == 0) continue;
+    const double logarithm = step * std::log1p(kScaleStep);
+    const double share = trials.fit(scaled(plan, exp_of(logarithm * axes)), most);
+    weights += share;
+    sum += share * logarithm;
+    largest = std::max(largest, share);
+  }
+  if (weights == 0) return std::nullopt;
+  most = largest;
+  return exp_of(sum / weights * axes);
+}
+
 }  // namespace
 
 std::optional<MapFinding> find_map_fault(const core::FloorPlan& plan,
@@ -125,19 +149,15 @@ std::optional<MapFinding> find_map_fault(const core::FloorPlan& plan,
     consider(other, {.fault = MapFault::kOtherMap, .map = other.name});
   }
   for (const double unit : kUnits) {
-    consider(scaled(plan, unit), {.fault = MapFault::kUnits, .scale = unit});
+    const core::Vec2 scale(unit, unit);
+    consider(scaled(plan, scale), {.fault = MapFault::kUnits, .scale = scale});
   }
-  // Several scales fit: the true one is in their middle.
-  double weights = 0;
-  double sum = 0;
-  for (int step = -kScaleSteps; step <= kScaleSteps && !trials.is_over(); ++step) {
-    if (step == 0) continue;
-    const double logarithm = step * std::log1p(kScaleStep);
-    const double share = trials.fit(scaled(plan, std::exp(logarithm)), most);
-    weights += share;
-    sum += share * logarithm;
+  // The map as a whole, and a picture that was stretched, or one tape that was off.
+  for (const core::Vec2& axes : {core::Vec2(1, 1), core::Vec2(1, 0), core::Vec2(0, 1)}) {
+    if (const auto scale = fitting_scale(trials, plan, axes, most)) {
+      best = {.fault = MapFault::kScale, .scale = *scale};
+    }
   }
-  if (weights > 0) best = {.fault = MapFault::kScale, .scale = std::exp(sum / weights)};
   if (trials.is_over()) return std::nullopt;
   return best;
 }
@@ -174,22 +194,29 @@ std::string describe(const MapFinding& finding, const std::string& name) {
       return "the scans fit the mirror image of " + map +
              ": change lidar.mount.inverted, or mirror the map, whichever is wrong";
     case MapFault::kScale: {
-      const std::string text = "the scans fit " + map + " made " + text_of("%.3f", finding.scale) +
-                               " times as large: cornerctl map scale";
-      const bool may_be_lidar = std::abs(finding.scale - 1) < 1.5 * kMaxLidarScale;
+      const bool is_stretched = finding.scale.x() != finding.scale.y();
+      const std::string text =
+          "the scans fit " + map + " made " + text_of("%.3f", finding.scale.x()) +
+          (is_stretched ? " times as large along x and " + text_of("%.3f", finding.scale.y()) +
+                              " times along y"
+                        : " times as large") +
+          ": cornerctl map scale";
+      const bool may_be_lidar =
+          !is_stretched && std::abs(finding.scale.x() - 1) < 1.5 * kMaxLidarScale;
       return text + (may_be_lidar ? "; or the lidar's ranges are off by as much: cornerctl "
                                     "calibrate bias, where the map was measured"
                                   : "");
     }
     case MapFault::kUnits:
       return "the scans fit " + map + " where its lengths are times " +
-             text_of("%.4g", finding.scale) + ": maps are in metres, cornerctl map scale";
+             text_of("%.4g", finding.scale.x()) + ": maps are in metres, cornerctl map scale";
     case MapFault::kOtherMap:
       return "the scans fit the map \"" + finding.map + "\" of the config, not " + map +
              ": set map to it, or SET_MAP";
     case MapFault::kNoVariant:
       return "hardly any scan fits " + map +
-             ", nor its mirror image, nor it 0.75 to 1.35 times as large or in another unit: check "
+             ", nor its mirror image, nor it 0.75 to 1.35 times as large, as a whole or along one "
+             "axis, or in another unit: check "
              "that it is the map of this place and floor, and that the robot is inside it";
   }
   return {};

@@ -20,7 +20,7 @@ namespace cornerd::calibration {
 
 enum class MapFault : std::uint8_t {
   kMirrored,  ///< or the lidar hangs upside down, or does not
-  kScale,     ///< of the map, or of the lidar where it is small
+  kScale,     ///< of the map or one of its axes, or of the lidar where it is small
   kUnits,     ///< millimetres, centimetres, feet, inches
   kOtherMap,  ///< one of the config's
   kNoVariant  ///< none fits
@@ -28,8 +28,8 @@ enum class MapFault : std::uint8_t {
 
 struct MapFinding {
   MapFault fault = MapFault::kNoVariant;
-  double scale = 1;   ///< true length over length in the map
-  std::string map{};  ///< kOtherMap: its name
+  core::Vec2 scale = core::Vec2::Ones();  ///< true length over length in the map, along x and y
+  std::string map{};                      ///< kOtherMap: its name
 };
 
 /// "map-mirrored" ...

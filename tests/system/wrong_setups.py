@@ -136,6 +136,7 @@ WRONG_MAPS = [
     ("lidar upside down", {"map-mirrored"}, plan(), {"inverted": True}),
     ("map 3 % too large", {"map-scale"}, plan(scale=1.03), {}),
     ("map 10 % too small", {"map-scale"}, plan(scale=0.9), {}),
+    ("map stretched by 7 % along x", {"map-scale"}, plan(lambda p: [1.07 * p[0], p[1]]), {}),
     ("map of another floor, the right one in `maps`", {"map-other"}, "krpai-2019-a.json", {}),
     ("map of another floor", {"map-mismatch"}, "krpai-2019-b.json", {}),
 ]

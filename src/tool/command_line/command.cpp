@@ -125,6 +125,7 @@ template Option Command::add_option(const std::string&, std::vector<std::string>
                                     const std::string&);
 template Option Command::add_option(const std::string&, std::vector<std::filesystem::path>&,
                                     const std::string&);
+template Option Command::add_option(const std::string&, std::vector<double>&, const std::string&);
 template Option Command::add_option(const std::string&, std::vector<std::size_t>&,
                                     const std::string&);
 #if SIZE_MAX != UINT64_MAX

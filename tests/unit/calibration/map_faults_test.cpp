@@ -69,7 +69,7 @@ TEST(MapFaults, Millimetres_AreNamed) {
   const auto finding = found(room(1000));
   ASSERT_TRUE(finding);
   EXPECT_EQ(name_of(*finding), "map-units");
-  EXPECT_EQ(finding->scale, 0.001);
+  EXPECT_EQ(finding->scale.x(), 0.001);
 }
 
 TEST(MapFaults, ScaledMap_GivesItsScale) {
@@ -77,14 +77,26 @@ TEST(MapFaults, ScaledMap_GivesItsScale) {
     const auto finding = found(room(scale));
     ASSERT_TRUE(finding) << scale;
     ASSERT_EQ(name_of(*finding), "map-scale") << scale;
-    EXPECT_NEAR(finding->scale * scale, 1, 0.01);
+    EXPECT_NEAR(finding->scale.x() * scale, 1, 0.01);
+    EXPECT_EQ(finding->scale.x(), finding->scale.y());
+  }
+}
+
+TEST(MapFaults, StretchedMap_GivesTheAxis) {
+  for (const double scale : {0.9, 1.07}) {
+    const auto finding = found(room(1, scale));
+    ASSERT_TRUE(finding) << scale;
+    ASSERT_EQ(name_of(*finding), "map-scale") << scale;
+    EXPECT_EQ(finding->scale.x(), 1);
+    EXPECT_NEAR(finding->scale.y() * scale, 1, 0.01);
+    EXPECT_THAT(describe(*finding, "a"), testing::HasSubstr("along y"));
   }
 }
 
 TEST(MapFaults, ScaleOfFewPercent_MayBeTheLidars) {
-  EXPECT_THAT(describe({.fault = MapFault::kScale, .scale = 1.02}, "a"),
+  EXPECT_THAT(describe({.fault = MapFault::kScale, .scale = {1.02, 1.02}}, "a"),
               testing::HasSubstr("calibrate bias"));
-  EXPECT_THAT(describe({.fault = MapFault::kScale, .scale = 1.1}, "a"),
+  EXPECT_THAT(describe({.fault = MapFault::kScale, .scale = {1.1, 1.1}}, "a"),
               testing::Not(testing::HasSubstr("calibrate bias")));
 }
 
