@@ -118,7 +118,8 @@ struct Localizer::Workspace {
   bool teaches(const Decision& decision) const;
   void try_bias(const Scan& scan, const Decision& decision, TimeNs t_ns);
   bool is_certain(const RefinedPose& refined) const;
-  bool teaches_walls(const RefinedPose& refined) const;
+  RefinedPose refine_by(WallOffsetFilter* walls, const VerifiedHypothesis& found);
+  void teach_walls(const RefinedPose& refined, const VerifiedHypothesis& found);
   bool is_map_inexact() const;
   /// More than walls, to tell how the robot moves.
   bool trusts_odometry() const;
@@ -164,6 +165,8 @@ struct Localizer::Workspace {
   int trials_of_bias = 0;                          ///< in a row: against it, for it if negative
   std::size_t named_in_a_row = 0;      ///< scans, each near where the one before led to expect it
   std::optional<Pose2> T_map_taught;   ///< of the last scan that the walls were learned from
+  std::optional<Pose2> T_map_against;  ///< of the last scan that contradicted them
+  std::size_t contradictions = 0;      ///< places since then
   std::optional<Pose2> T_map_doubted;  ///< a jump of the turn before that waits for a second
   ScanResult result;
   PoseEstimate between;  ///< of a reading between two turns, or of a part of a turn

@@ -128,11 +128,21 @@ void WallOffsetFilter::assign_slots() {
   }
 }
 
+void WallOffsetFilter::forget_visible() {
+  for (std::size_t i = 0; i < count_; ++i) {
+    const WallState& state = states_[visible_[i].wall];
+    if (state.slot == kNone) continue;
+    for (std::size_t k = 0; k < slots_.size(); ++k) at(state.slot, k) = at(k, state.slot) = 0;
+    at(state.slot, state.slot) = state.prior_variance_m2;
+    means_m_[state.slot] = 0;
+  }
+}
+
 // The gain's matrix: S (B^-1 - B^-1 G covariance G' B^-1) S, where B^-1 = L^-T L^-1.
-void WallOffsetFilter::learn(const Covariance3& covariance) {
+bool WallOffsetFilter::learn(const Covariance3& covariance) {
   double innovations = 0;
   for (std::size_t i = 0; i < count_; ++i) innovations += squared(whitened_[i][3]);
-  if (!(innovations <= kMaxInnovation * static_cast<double>(count_))) return;
+  if (!(innovations <= kMaxInnovation * static_cast<double>(count_))) return false;
   assign_slots();
   const std::size_t size = slots_.size();
   // Rows of L^-1 S P_v, and of the whitened Jacobian's share in them.
@@ -167,6 +177,7 @@ void WallOffsetFilter::learn(const Covariance3& covariance) {
   for (std::size_t k = 0; k < size; ++k) {
     for (std::size_t l = 0; l < k; ++l) at(l, k) = at(k, l);
   }
+  return true;
 }
 
 WallOffset WallOffsetFilter::operator[](std::size_t slot) const {

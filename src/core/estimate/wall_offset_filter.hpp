@@ -59,8 +59,11 @@ class WallOffsetFilter {
   Reduced marginalise();
 
   /// Takes the scan that marginalise() was last called for. `covariance`: of its pose, given this
-  /// filter, at which the gradient is zero.
-  void learn(const Covariance3& covariance);
+  /// filter, at which the gradient is zero. False, and nothing is learned, where the scan
+  /// contradicts what is known.
+  bool learn(const Covariance3& covariance);
+  /// The walls of that scan are where the map has them, by its sigma.
+  void forget_visible();
 
   /// Of the walls learned so far.
   std::size_t size() const { return slots_.size(); }
