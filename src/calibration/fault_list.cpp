@@ -88,6 +88,10 @@ void RecentPoses::add(const core::ScanResult& result, const core::Scan& scan, co
                 is_outside(*map, pose.T_map_base.translation());
 }
 
+bool RecentPoses::doubts_map() const {
+  return lost() >= RecentScans::kManyLost || contradicted() >= kManyContradicted;
+}
+
 void FaultList::add_map(const std::optional<MapFinding>& finding, const RecentPoses& recent,
                         const core::FloorPlan* plan) {
   if (recent.cut() >= RecentScans::kManyLost) {
@@ -104,8 +108,7 @@ void FaultList::add_map(const std::optional<MapFinding>& finding, const RecentPo
   } else if (recent.lost_in_a_minute() >= kMostOfAMinute && plan != nullptr) {
     add("map-mismatch", "most scans of the last minute fit nowhere in the map \"" + plan->name +
                             "\": its walls may be hidden (closed doors, furniture), missing or "
-                            "elsewhere by now, or "
-                            "one side of it may be drawn to another scale");
+                            "elsewhere by now");
   }
   if (recent.blank() == RecentPoses::kScans) {
     add("no-walls",
@@ -139,7 +142,8 @@ void FaultList::add_drive(const DriveFaults& drive, const OdometryNames& names,
     add("odometry-unhealthy",
         "the odometry contradicts the lidar and is not used: drive a minute, straight and with "
         "rotations both ways; if no reason is named here by then, check wheel_radius, track, "
-        "counts_per_turn, the signs and times of the counts, lidar.mount, and whether wheels slip");
+        "counts_per_turn, the signs and times of the counts, lidar.mount, the map's measures, and "
+        "whether wheels slip");
   }
 }
 

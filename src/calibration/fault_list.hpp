@@ -38,6 +38,8 @@ class RecentPoses {
            const core::WallMap* map);
   /// That fit nowhere, whether or not odometry carried the pose on.
   std::size_t lost() const { return lost_.count(); }
+  /// The map may be wrong: many scans fit nowhere, or poses are not where odometry leads.
+  bool doubts_map() const;
   /// Lost, or at several places.
   std::size_t unnamed() const { return (lost_ | ambiguous_).count(); }
   /// That have no pose, and whose returns are mostly beyond the limits. Who cuts a hall on purpose

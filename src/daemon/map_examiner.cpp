@@ -34,17 +34,16 @@ void MapExaminer::observe(const ScanReport& report) {
   if (scans_.add(report.scan)) ++added_;
 }
 
-const std::optional<calibration::MapFinding>& MapExaminer::update(std::size_t lost,
+const std::optional<calibration::MapFinding>& MapExaminer::update(bool is_doubtful,
                                                                   const core::WallMap* map) {
   if (is_done_.load(std::memory_order_acquire)) {
     thread_.join();
     is_done_.store(false, std::memory_order_relaxed);
     finding_ = result_;
   }
-  const bool is_many = lost >= calibration::RecentScans::kManyLost;
-  if (!is_many || map != map_) finding_.reset();
+  if (!is_doubtful || map != map_) finding_.reset();
   const bool is_due = map != map_ || added_ >= kScansBetween;
-  if (is_many && map != nullptr && is_due && scans_.are_enough() && !thread_.joinable()) {
+  if (is_doubtful && map != nullptr && is_due && scans_.are_enough() && !thread_.joinable()) {
     map_ = map;
     added_ = 0;
     examined_ = scans_.all();

@@ -14,16 +14,16 @@
 
 namespace cornerd::daemon {
 
-/// Looks for the reason where many scans have no pose, in a thread of its own and of least
+/// Looks for the reason where the map may be wrong, in a thread of its own and of least
 /// priority.
 class MapExaminer {
  public:
   /// Of the scans that follow.
   void configure(const settings::Config& config);
   void observe(const ScanReport& report);
-  /// `lost`: how many of the last RecentPoses::kScans scans were. Starts an examination
-  /// where they are many; returns what the last one found, as long as they are.
-  const std::optional<calibration::MapFinding>& update(std::size_t lost, const core::WallMap* map);
+  /// `is_doubtful`: RecentPoses::doubts_map(). Starts an examination where it is; returns what the
+  /// last one found, as long as it is.
+  const std::optional<calibration::MapFinding>& update(bool is_doubtful, const core::WallMap* map);
 
  private:
   void examine(const core::FloorPlan& plan, const std::stop_token& stop);

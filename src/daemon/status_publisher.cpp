@@ -222,7 +222,7 @@ void StatusPublisher::publish(const drivers::LidarStatus& lidar, const ScanPubli
             " % of the lidar's bytes are damaged or missing: use a shorter or shielded cable, "
             "away from motors, and a stable 5 V supply");
   }
-  faults.add_map(map_examiner_.update(scans.recent().lost(), scans.map()), scans.recent(),
+  faults.add_map(map_examiner_.update(scans.recent().doubts_map(), scans.map()), scans.recent(),
                  scans.map() != nullptr ? &scans.map()->plan() : nullptr);
   faults.add_drive(drive, names_, scans.recent(), scans.odometry());
   if (!status.odometry_hint.empty()) {

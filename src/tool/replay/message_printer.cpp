@@ -87,8 +87,7 @@ calibration::FaultList MessagePrinter::faults(const message::StatusFields& statu
   calibration::FaultList faults;
   if (plan_ != nullptr) {
     std::optional<calibration::MapFinding> finding;
-    if (has_ended && config_ != nullptr && scans_.are_enough() &&
-        recent_.lost() >= calibration::RecentScans::kManyLost) {
+    if (has_ended && config_ != nullptr && scans_.are_enough() && recent_.doubts_map()) {
       finding = settings::examine_map(*plan_, *config_, scans_.all(), [] { return false; });
     }
     faults.add_map(finding, recent_, plan_);

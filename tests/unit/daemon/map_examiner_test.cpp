@@ -18,10 +18,10 @@ TEST(MapExaminer, MapChangedDuringExamination_ItsEndIsNotTakenForAnother) {
     report.scan.add({.t_ns = (2 * second + 1) * core::kNsPerSecond, .range_m = 1});
     examiner.observe(report);
   }
-  examiner.update(100, &map);
+  examiner.update(true, &map);
   examiner.configure({});  // waits for the thread, which has ended its examination or stopped it
-  EXPECT_FALSE(examiner.update(100, &map));
-  EXPECT_FALSE(examiner.update(0, nullptr));
+  EXPECT_FALSE(examiner.update(true, &map));
+  EXPECT_FALSE(examiner.update(false, nullptr));
 }
 
 }  // namespace
