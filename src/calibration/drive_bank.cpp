@@ -45,7 +45,7 @@ class DriveBank {
  public:
   DriveBank(std::span<const MotionWindow> windows, const core::Pose2& T_base_lidar,
             const core::DriveGeometry& geometry)
-      : windows_(windows), mount_(T_base_lidar), track_m_(geometry.track_m) {}
+      : windows_(windows), mount_(T_base_lidar), geometry_(geometry), track_m_(geometry.track_m) {}
 
   std::vector<DriveHypothesis> run() {
     add_wirings();
@@ -65,7 +65,7 @@ class DriveBank {
     DriveHypothesis hypothesis;
     const DriveFit fit = fit_drive_model(
         windows_, travel_of(windows_, {}, 1, 1),
-        {track_m_, track_m_, turned_to(best_turn()), {kDisplaced_m, kDisplaced_m, kTurned_rad}});
+        {geometry_, track_m_, turned_to(best_turn()), {kDisplaced_m, kDisplaced_m, kTurned_rad}});
     hypothesis.T_base_lidar = fit.T_base_lidar;
     hypothesis.sigma = fit.sigma;
     return hypothesis;
@@ -82,7 +82,7 @@ class DriveBank {
     all_.push_back(hypothesis);
   }
 
-  DriveModel as_configured() const { return {track_m_, track_m_, mount_, kMeasured}; }
+  DriveModel as_configured() const { return {geometry_, track_m_, mount_, kMeasured}; }
 
   /// The first is the one that nothing is wrong.
   void add_wirings() {
@@ -104,7 +104,7 @@ class DriveBank {
       if (wiring != Wiring{true, true, true}) continue;
       // The same motion by a lidar that looks backward.
       add({.fault = DriveFault::kMountTurned, .factor = *factor}, kPriorTwoFaults / kFactorCells,
-          {track_m_, track_m_, turned_to(mount_.theta_rad + core::kPi), kMeasured},
+          {geometry_, track_m_, turned_to(mount_.theta_rad + core::kPi), kMeasured},
           travel_of(windows_, {}, *factor, *factor));
     }
   }
@@ -195,7 +195,7 @@ class DriveBank {
     // A lidar is mounted along an axis of the robot, or anyhow.
     for (const double turn_rad : {core::kPi, core::kPi / 2, -core::kPi / 2}) {
       add({.fault = DriveFault::kMountTurned}, kPriorFault,
-          {track_m_, track_m_, turned_to(mount_.theta_rad + turn_rad), kMeasured}, travel);
+          {geometry_, track_m_, turned_to(mount_.theta_rad + turn_rad), kMeasured}, travel);
     }
     const core::Pose2 any_turn{kMeasured.x_m, kMeasured.y_m, kTurned_rad};
     const core::Pose2 anywhere{kDisplaced_m, kDisplaced_m, kTurned_rad};
@@ -203,15 +203,15 @@ class DriveBank {
     const bool is_far = (place.translation() - mount_.translation()).norm() > 3 * kDisplaced_m;
     const double displaced_m = is_far ? kFar_m : kDisplaced_m;
     add({.fault = DriveFault::kMountTurned}, kPriorFault,
-        {track_m_, track_m_, turned_to(best_turn()), any_turn}, travel);
+        {geometry_, track_m_, turned_to(best_turn()), any_turn}, travel);
     add({.fault = DriveFault::kMountDisplaced}, kPriorFault,
-        {track_m_,
+        {geometry_,
          track_m_,
          is_far ? place : mount_,
          {displaced_m, displaced_m, kMeasured.theta_rad}},
         travel);
     add({.fault = DriveFault::kMountBoth}, kPriorTwoFaults,
-        {track_m_, track_m_, turned_to(best_turn()), anywhere}, travel);
+        {geometry_, track_m_, turned_to(best_turn()), anywhere}, travel);
   }
 
   core::Pose2 turned_to(double theta_rad) const {
@@ -269,6 +269,7 @@ class DriveBank {
 
   std::span<const MotionWindow> windows_;
   core::Pose2 mount_;
+  core::DriveGeometry geometry_;
   double track_m_;
   std::vector<DriveHypothesis> all_;
 };

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "calibration/drive_faults.hpp"
+#include "calibration/drive_model.hpp"
 
 namespace cornerd::calibration {
 
@@ -16,7 +17,8 @@ inline constexpr double kPriorTwoFaults = 1e-4;
 /// A factor is one of any between 1 / kLargestFactor and kLargestFactor, each as likely on a
 /// logarithmic scale; a cell of them is as wide as the errors of measured wheels.
 inline constexpr double kLargestFactor = 1000;
-inline const double kFactorCells = 2 * std::log(kLargestFactor) / (0.07 * std::sqrt(2 * core::kPi));
+inline const double kFactorCells =
+    2 * std::log(kLargestFactor) / (kMeasuredSigma * std::sqrt(2 * core::kPi));
 /// Nearer to 1 a factor is none.
 inline constexpr double kMinFactorChange = 0.25;
 /// Windows with less do not tell of a factor.

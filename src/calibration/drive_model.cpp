@@ -10,13 +10,12 @@
 namespace cornerd::calibration {
 namespace {
 
-/// Parameters: theta, x, y of the mount; relative errors of the left wheel, right wheel, track.
+/// Parameters: theta, x, y of the mount; logarithms of what the left wheel, right wheel and track
+/// are off by, so that too wide is as unlikely as too narrow.
 enum DriveParameter { kTheta, kX, kY, kLeftScale, kRightScale, kTrackScale };
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
-/// Of wheels and track that a user measured. Larger errors are faults.
-constexpr double kScaleSigma = 0.07;
 /// Share of windows whose motion the sensors do not show: slips, wrong fixes.
 constexpr double kOutliers = 0.05;
 /// The same of a gyro, which does not slip.
@@ -76,10 +75,10 @@ class DriveProblem {
  public:
   DriveProblem(std::span<const MotionWindow> windows, std::span<const WheelTravel> travel,
                const DriveModel& model)
-      : windows_(windows), travel_(travel), model_(model), noise_track_m_(model.noise_track_m) {
+      : windows_(windows), travel_(travel), model_(model) {
     mean_ << model.T_base_lidar.theta_rad, model.T_base_lidar.x_m, model.T_base_lidar.y_m, 0, 0, 0;
     sigma_ << model.mount_sigma.theta_rad, model.mount_sigma.x_m, model.mount_sigma.y_m,
-        kScaleSigma, kScaleSigma, kScaleSigma;
+        kMeasuredSigma, kMeasuredSigma, kMeasuredSigma;
   }
 
   DriveFit fit() const {
@@ -154,29 +153,33 @@ class DriveProblem {
   void add_wheels(const MotionWindow& window, const WheelTravel& travel, const Vector6& at,
                   double along_m, double aside_m, double path_m, Sums& sums,
                   const auto& add) const {
-    const double left_m = (1 + at[kLeftScale]) * travel.left_m;
-    const double right_m = (1 + at[kRightScale]) * travel.right_m;
+    const double left_m = std::exp(at[kLeftScale]) * travel.left_m;
+    const double right_m = std::exp(at[kRightScale]) * travel.right_m;
+    const double track_scale = std::exp(at[kTrackScale]);
+    const core::DriveGeometry& configured = model_.configured;
+    const double count_m2 = 2 * configured.quantization_variance();  // at both ends of the window
     const double slips_m =
-        kWheelShare * std::hypot(path_m, window.rotation_rad * noise_track_m_ / 2);
+        std::hypot(kWheelShare * path_m, kWheelShare * window.rotation_rad * configured.track_m / 2,
+                   std::sqrt(count_m2));
     const double rotation_sigma_rad =
-        std::hypot(kRotation_rad, kRotationShare * window.rotation_rad, slips_m / noise_track_m_);
+        std::hypot(kRotation_rad, kRotationShare * window.rotation_rad,
+                   std::sqrt(core::squared(slips_m) + count_m2) / configured.track_m);
     Equation forward;
     forward.gradient[kTheta] = -aside_m;
     forward.gradient[kY] = window.sine;
     forward.any = kAnyMotion_m;
-    forward.sigma = std::hypot(kForward_m, kForwardShare * path_m);
+    forward.sigma = std::hypot(kForward_m, kForwardShare * path_m, std::sqrt(count_m2 / 2));
     forward.residual = along_m + at[kY] * window.sine;
     if (model_.trusts_left && model_.trusts_right) {
       forward.residual -= (left_m + right_m) / 2;
-      forward.gradient[kLeftScale] = -travel.left_m / 2;
-      forward.gradient[kRightScale] = -travel.right_m / 2;
+      forward.gradient[kLeftScale] = -left_m / 2;
+      forward.gradient[kRightScale] = -right_m / 2;
       add(forward);
       Equation rotation;
-      rotation.residual =
-          window.rotation_rad * (1 + at[kTrackScale]) - (right_m - left_m) / model_.track_m;
-      rotation.gradient[kLeftScale] = travel.left_m / model_.track_m;
-      rotation.gradient[kRightScale] = -travel.right_m / model_.track_m;
-      rotation.gradient[kTrackScale] = window.rotation_rad;
+      rotation.residual = window.rotation_rad * track_scale - (right_m - left_m) / model_.track_m;
+      rotation.gradient[kLeftScale] = left_m / model_.track_m;
+      rotation.gradient[kRightScale] = -right_m / model_.track_m;
+      rotation.gradient[kTrackScale] = window.rotation_rad * track_scale;
       rotation.sigma = rotation_sigma_rad;
       rotation.any = kAnyRotation_rad;
       return add(rotation);
@@ -187,10 +190,11 @@ class DriveProblem {
       return;
     }
     // One wheel and the rotation give the translation.
-    const double half_m = (model_.trusts_left ? 1 : -1) * window.rotation_rad * model_.track_m / 2;
-    forward.residual -= (model_.trusts_left ? left_m : right_m) + half_m * (1 + at[kTrackScale]);
-    forward.gradient[model_.trusts_left ? kLeftScale : kRightScale] =
-        -(model_.trusts_left ? travel.left_m : travel.right_m);
+    const double half_m =
+        (model_.trusts_left ? 1 : -1) * window.rotation_rad * track_scale * model_.track_m / 2;
+    const double wheel_m = model_.trusts_left ? left_m : right_m;
+    forward.residual -= wheel_m + half_m;
+    forward.gradient[model_.trusts_left ? kLeftScale : kRightScale] = -wheel_m;
     forward.gradient[kTrackScale] = -half_m;
     forward.sigma = std::hypot(forward.sigma, slips_m);
     add(forward);
@@ -199,7 +203,6 @@ class DriveProblem {
   std::span<const MotionWindow> windows_;
   std::span<const WheelTravel> travel_;
   const DriveModel& model_;
-  double noise_track_m_;
   Vector6 mean_;
   Vector6 sigma_;
 };
@@ -222,7 +225,7 @@ GyroFit fit_gyro_model(std::span<const MotionWindow> windows, const GyroModel& m
     return fit;
   }
   const Eigen::Vector2d mean(1, 0);  // of a factor on the share, and of the rest
-  const Eigen::Vector2d sigma(kScaleSigma, model.bias_sigma_rad_s);
+  const Eigen::Vector2d sigma(kMeasuredSigma, model.bias_sigma_rad_s);
   Eigen::Vector2d at = mean;
   Eigen::Matrix2d information;
   for (int i = 0;; ++i) {

@@ -11,6 +11,10 @@
 
 namespace cornerd::calibration {
 
+/// Relative error of wheels and track that a user measured, as the motion filter begins with for
+/// the track. Larger ones are faults.
+inline constexpr double kMeasuredSigma = 0.05;
+
 /// A window's motion by wheels whose wiring a hypothesis supposes.
 struct WheelTravel {
   double left_m = 0;
@@ -19,7 +23,7 @@ struct WheelTravel {
 
 /// What a hypothesis predicts, and which wheels it trusts.
 struct DriveModel {
-  double noise_track_m = 0;  ///< as configured: of the noise of rotations
+  core::DriveGeometry configured{};  ///< of the noise: quantization, and of rotations
   double track_m = 0;
   core::Pose2 T_base_lidar;  ///< prior
   core::Pose2 mount_sigma;
