@@ -59,8 +59,10 @@ int run(const daemon::Options& options) {
     return 0;
   }
   if (options.check) {
-    const std::string warning = daemon::MapLoader(options.config, options.overrides).check();
-    if (!warning.empty()) print_error("warning: " + warning);
+    for (const std::string& warning :
+         daemon::MapLoader(options.config, options.overrides).check()) {
+      print_error("warning: " + warning);
+    }
     print("ok\n");
     return 0;
   }

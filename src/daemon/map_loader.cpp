@@ -58,14 +58,15 @@ void log_doubts(const Loaded& loaded) {
     const std::string warning = settings::size_warning(*one.map);
     if (!warning.empty()) log(LogLevel::kWarning, one.map->plan().name + ": " + warning);
   }
-  const std::string warning = settings::equal_maps_warning(loaded.config);
-  if (!warning.empty()) log(LogLevel::kWarning, warning);
+  for (const std::string& warning : settings::warnings_of(loaded.config)) {
+    log(LogLevel::kWarning, warning);
+  }
 }
 
 MapLoader::MapLoader(std::filesystem::path config_file, std::vector<std::string> overrides)
     : config_file_(std::move(config_file)), overrides_(std::move(overrides)) {}
 
-std::string MapLoader::check() const {
+std::vector<std::string> MapLoader::check() const {
   const settings::Config config = settings::load_config(config_file_, overrides_, kKind);
   for (const settings::NamedMap& map : used_maps(config, config_file_)) {
     settings::load_map(map.file, kKind);
@@ -73,7 +74,7 @@ std::string MapLoader::check() const {
   for (const settings::NamedMap& map : config.maps) {
     if (!config.chooses_map() && map.file != config.map) settings::load_map(map.file, kKind);
   }
-  return settings::equal_maps_warning(config);
+  return settings::warnings_of(config);
 }
 
 Loaded MapLoader::load() {

@@ -41,9 +41,8 @@ class MapLoader {
   /// `overrides`: "/json/pointer=value".
   MapLoader(std::filesystem::path config_file, std::vector<std::string> overrides);
 
-  /// Reads the config and its maps, and throws what is wrong with them. Returns a warning, or
-  /// nothing.
-  std::string check() const;
+  /// Reads the config and its maps, and throws what is wrong with them. Returns warnings.
+  std::vector<std::string> check() const;
   /// Reads the config and its map.
   Loaded load();
   /// Another map in the config of the last load(), which has succeeded.

@@ -143,7 +143,7 @@ MapServerYaml parse_map_server_yaml(std::string_view text) {
   } catch (const YAML::Exception& error) {
     const bool has_line = !error.mark.is_null();
     throw GridError((has_line ? "line " + std::to_string(error.mark.line + 1) + ": " : "") +
-                    "is no YAML: " + error.msg);
+                    "is no YAML (a picture is named by its yaml): " + error.msg);
   }
 }
 

@@ -104,6 +104,12 @@ static_assert(!kNames.back().empty());
 
 }  // namespace
 
+std::string class_names() {
+  std::string names;
+  for (const std::string_view name : kNames) names.append(names.empty() ? "" : ",").append(name);
+  return names;
+}
+
 Request parse_request(std::string_view line) {
   Request request;
   RequestError error;

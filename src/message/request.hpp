@@ -31,6 +31,8 @@ enum class MessageClass : std::uint8_t {
 inline constexpr std::size_t kMessageClasses = static_cast<std::size_t>(MessageClass::kOdom) + 1;
 std::string_view to_string(MessageClass message_class);
 std::optional<MessageClass> message_class_from(std::string_view name);
+/// Of all classes, separated by commas.
+std::string class_names();
 
 /// A set of message classes.
 class ClassSet {

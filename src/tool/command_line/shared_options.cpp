@@ -160,8 +160,10 @@ message::ClassSet parse_classes(const std::vector<std::string>& names) {
   message::ClassSet classes;
   for (const std::string& name : names) {
     const std::optional<message::MessageClass> known = message::message_class_from(name);
-    if (!known)
-      throw UsageError("--classes: '" + name + "' is no message class; see src/message/README.md");
+    if (!known) {
+      throw UsageError("--classes: '" + name +
+                       "' is no message class; they are: " + message::class_names());
+    }
     classes.insert(*known);
   }
   return classes;
