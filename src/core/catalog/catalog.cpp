@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numeric>
 #include <utility>
 
@@ -12,6 +13,8 @@ namespace cornerd::core {
 namespace {
 
 constexpr double kWallOffset_m = 1e-3;
+/// Where this near to a landmark there are as many others as are kept, they are many everywhere.
+constexpr double kCrowd_m = 0.5;
 
 /// The landmark's position, moved into its opening, off its own walls.
 Vec2 off_wall(const Corner& landmark) {
@@ -29,10 +32,23 @@ bool is_visible(const WallMap& map, const Corner& a, const Corner& b) {
   return range_m == 0 || range_m > distance_m - kWallOffset_m;
 }
 
+/// Where walls fan out there are more corners than a lidar resolves, and all are in sight of each
+/// other: the first kMaxCrowded of each square of 0.1 m.
+std::vector<Corner> without_crowds(std::span<const Corner> corners) {
+  constexpr double kSquare_m = Catalog::kVisitRadius_m;
+  std::map<std::pair<double, double>, std::size_t> found;
+  std::vector<Corner> kept;
+  for (const Corner& corner : corners) {
+    const Vec2 square = (corner.position / kSquare_m).array().floor();
+    if (++found[{square.x(), square.y()}] <= Catalog::kMaxCrowded) kept.push_back(corner);
+  }
+  return kept;
+}
+
 }  // namespace
 
 Catalog::Catalog(const WallMap& map, double max_distance_m)
-    : landmarks_(map.corners().begin(), map.corners().end()) {
+    : landmarks_(without_crowds(map.corners())) {
   index_landmarks(map);
   const std::vector<LandmarkPair> pairs = visible_pairs(map, max_distance_m);
   pairs_ = PairIndex(landmarks_, pairs);
@@ -71,31 +87,42 @@ std::vector<LandmarkPair> Catalog::visible_pairs(const WallMap& map, double max_
   VisibleFaces visible_faces;
   std::vector<Candidate> candidates;
   std::vector<LandmarkPair> pairs;
-  for (std::uint32_t i = 0; i < landmarks_.size(); ++i) {
-    const Corner& landmark = landmarks_[i];
-    visible_faces.find(map, off_wall(landmark), max_distance_m + kWallOffset_m,
-                       [](std::uint32_t, const VisibleFace&) {});
+  const auto list = [&](std::uint32_t i, double radius_m, auto&& is_candidate) {
     candidates.clear();
-    const double max_range_m =
-        std::min(max_distance_m, visible_faces.occlusion().max_range_m() + 2 * kWallOffset_m);
-    visit_within(landmark.position, max_range_m, [&](std::uint32_t j) {
-      const Vec2 displacement = landmarks_[j].position - landmark.position;
+    visit_within(landmarks_[i].position, radius_m, [&](std::uint32_t j) {
+      const Vec2 displacement = landmarks_[j].position - landmarks_[i].position;
       const double distance_m = displacement.norm();
-      if (j == i || distance_m > max_distance_m ||
-          !visible_faces.occlusion().may_be_visible(displacement, 3 * kWallOffset_m))
-        return;
-      candidates.push_back({distance_m, j});
+      if (j != i && is_candidate(displacement, distance_m)) candidates.push_back({distance_m, j});
     });
     std::sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
       return a.distance_m != b.distance_m ? a.distance_m < b.distance_m : a.index < b.index;
     });
+  };
+  // True where as many are in sight as are kept.
+  const auto add_visible = [&](std::uint32_t i) {
     std::size_t found = 0;
     for (const Candidate& candidate : candidates) {
-      if (!is_visible(map, landmark, landmarks_[candidate.index])) continue;
+      if (!is_visible(map, landmarks_[i], landmarks_[candidate.index])) continue;
       pairs.push_back({std::min(i, candidate.index), std::max(i, candidate.index),
                        static_cast<float>(candidate.distance_m)});
-      if (++found == max_pairs) break;
+      if (++found == max_pairs) return true;
     }
+    return false;
+  };
+  const double near_m = std::min(kCrowd_m, max_distance_m);
+  for (std::uint32_t i = 0; i < landmarks_.size(); ++i) {
+    // Where landmarks crowd, so do faces: those farther off are not looked at.
+    list(i, near_m, [&](const Vec2&, double distance_m) { return distance_m <= near_m; });
+    if (candidates.size() >= max_pairs && add_visible(i)) continue;
+    visible_faces.find(map, off_wall(landmarks_[i]), max_distance_m + kWallOffset_m,
+                       [](std::uint32_t, const VisibleFace&) {});
+    const OcclusionBuffer& occlusion = visible_faces.occlusion();
+    list(i, std::min(max_distance_m, occlusion.max_range_m() + 2 * kWallOffset_m),
+         [&](const Vec2& displacement, double distance_m) {
+           return distance_m <= max_distance_m &&
+                  occlusion.may_be_visible(displacement, 3 * kWallOffset_m);
+         });
+    add_visible(i);
   }
   // Most pairs are found from both ends: keep each once.
   const auto ends = [](const LandmarkPair& pair) { return std::pair(pair.from, pair.to); };

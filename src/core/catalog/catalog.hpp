@@ -19,6 +19,7 @@ class Catalog {
   /// Pairs farther apart than `max_distance_m` are left out.
   Catalog(const WallMap& map, double max_distance_m);
 
+  /// The map's corners; of more than kMaxCrowded within a decimetre the first.
   std::span<const Corner> landmarks() const { return landmarks_; }
 
   /// The pairs of landmarks in line of sight. A landmark with very many visible others keeps the
@@ -42,6 +43,8 @@ class Catalog {
 
   static constexpr double kVisitRadius_m = 0.1;
   static constexpr std::size_t kMaxNeighbours = 32;
+  /// Two walls that cross have 4 corners there.
+  static constexpr std::size_t kMaxCrowded = 16;
   static constexpr std::size_t kMaxPairs = 800'000;
 
  private:

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
-#include <numeric>
+#include <stdexcept>
 #include <unordered_map>
 #include <utility>
 
@@ -17,6 +17,9 @@ namespace {
 
 /// Ends of clipped faces agree to a few rounding errors.
 constexpr double kSamePoint_m = 5e-6;
+/// Of faces of line walls, four where two walls cross. A large building has 10,000 walls, most of
+/// which end at others: ten times one crossing of each wall, twice.
+constexpr std::size_t kMaxCrossings = 800'000;
 constexpr double kStraight_rad = radians(1);
 
 /// A face that leaves a vertex, and the side of its free space.
@@ -76,7 +79,9 @@ std::vector<Vec2> vertices_of(std::span<const Face> faces) {
     vertices.add(face.from);
     vertices.add(face.to);
   }
-  for (const auto& [i, j] : crossings_of(faces, kSamePoint_m)) {
+  const auto crossings = crossings_of(faces, kSamePoint_m, kMaxCrossings);
+  if (crossings.size() >= kMaxCrossings) throw std::invalid_argument(kTooManyCrossings);
+  for (const auto& [i, j] : crossings) {
     const Face& a = faces[i];
     const Face& b = faces[j];
     const double sine = cross(a.direction, b.direction);
@@ -152,9 +157,8 @@ std::vector<Corner> corners_of(std::span<const Face> faces) {
   for (const Face& face : faces) {
     extents.push_back(Extent::of_segment(face.from, face.to, kSamePoint_m));
   }
-  std::vector<std::uint32_t> near(faces.size());
-  std::iota(near.begin(), near.end(), 0u);
-  ExtentTree tree(extents, near);
+  ExtentTree tree(extents);
+  std::vector<std::uint32_t> near;
   for (const Vec2& vertex : vertices_of(faces)) {
     near.clear();
     tree.search(vertex, vertex, [&](std::span<const std::uint32_t> some) {

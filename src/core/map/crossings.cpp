@@ -62,7 +62,8 @@ struct Chord {
 
 class Search {
  public:
-  Search(std::span<const Face> faces, double end_m) : faces_(faces), end_m_(end_m) {}
+  Search(std::span<const Face> faces, double end_m, std::size_t max_pairs)
+      : faces_(faces), end_m_(end_m), max_pairs_(max_pairs) {}
 
   std::vector<std::pair<std::uint32_t, std::uint32_t>> run() {
     if (faces_.empty()) return {};
@@ -75,6 +76,7 @@ class Search {
     Items all(faces_.size());
     std::iota(all.begin(), all.end(), 0u);
     search({(low + high) / 2, (high - low).maxCoeff() / 2 + end_m_}, all);
+    if (pairs_.size() >= max_pairs_) return std::move(pairs_);
     std::sort(pairs_.begin(), pairs_.end());
     pairs_.erase(std::unique(pairs_.begin(), pairs_.end()), pairs_.end());
     return std::move(pairs_);
@@ -82,7 +84,8 @@ class Search {
 
  private:
   void search(const Square& square, const Items& items) {
-    if (items.size() <= kFew) return compare_all(items);
+    if (pairs_.size() >= max_pairs_) return;
+    if (items.size() <= kFew) return compare_all(items, square);
     // In one point, or in a square as small as one.
     if (meet_in_one_point(items) || square.half_m < end_m_) return compare_first(items);
     if (!chords_cross(square, items)) return;
@@ -99,7 +102,7 @@ class Search {
     }
   }
 
-  void compare(std::uint32_t i, std::uint32_t j) {
+  void compare(std::uint32_t i, std::uint32_t j, const Square* within) {
     const Face& a = faces_[i];
     const Face& b = faces_[j];
     const double sine = cross(a.direction, b.direction);
@@ -108,19 +111,23 @@ class Search {
     if (along_a < end_m_ || along_a > a.length_m - end_m_) return;
     const double along_b = cross(b.from - a.from, a.direction) / sine;
     if (along_b < end_m_ || along_b > b.length_m - end_m_) return;
+    if (within != nullptr) {
+      const Vec2 aside = a.from + along_a * a.direction - within->centre;
+      if (aside.lpNorm<Eigen::Infinity>() > within->half_m) return;  // found in another square
+    }
     pairs_.emplace_back(i, j);
   }
 
-  void compare_all(const Items& items) {
+  void compare_all(const Items& items, const Square& square) {
     for (std::size_t i = 0; i < items.size(); ++i) {
-      for (std::size_t j = i + 1; j < items.size(); ++j) compare(items[i], items[j]);
+      for (std::size_t j = i + 1; j < items.size(); ++j) compare(items[i], items[j], &square);
     }
   }
 
   void compare_first(const Items& items) {
     const std::size_t before = pairs_.size();
     for (std::size_t j = 1; j < items.size() && pairs_.size() == before; ++j) {
-      compare(items[0], items[j]);
+      compare(items[0], items[j], nullptr);
     }
   }
 
@@ -159,6 +166,7 @@ class Search {
 
   std::span<const Face> faces_;
   double end_m_;
+  std::size_t max_pairs_;
   std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs_;
   std::vector<Chord> chords_;
   std::vector<double> open_;  ///< far ends of the chords around the current one
@@ -167,8 +175,9 @@ class Search {
 }  // namespace
 
 std::vector<std::pair<std::uint32_t, std::uint32_t>> crossings_of(std::span<const Face> faces,
-                                                                  double end_m) {
-  return Search(faces, end_m).run();
+                                                                  double end_m,
+                                                                  std::size_t max_pairs) {
+  return Search(faces, end_m, max_pairs).run();
 }
 
 }  // namespace cornerd::core

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <utility>
@@ -11,8 +12,10 @@
 namespace cornerd::core {
 
 /// Pairs of faces that cross between their ends, by more than `end_m` from each, ascending. Of
-/// faces that all cross in one point only one pair is given.
+/// faces that all cross in one point only one pair is given. The search ends at
+/// `max_pairs`, those on borders of its squares counted repeatedly.
 std::vector<std::pair<std::uint32_t, std::uint32_t>> crossings_of(std::span<const Face> faces,
-                                                                  double end_m);
+                                                                  double end_m,
+                                                                  std::size_t max_pairs);
 
 }  // namespace cornerd::core

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -11,13 +12,18 @@
 
 namespace cornerd::core {
 
-/// A quadtree of extents, split where a search goes and items crowd: unlike a uniform grid it
+/// A quadtree of extents, split where searches go and items crowd: unlike a uniform grid it
 /// stays fast where most items are in few places. Memory is linear in the number of items.
 class ExtentTree {
  public:
-  /// `order`: indices of `extents`, in the order in which a search shall give them. `extents` must
-  /// outlive this.
-  ExtentTree(std::span<const Extent> extents, std::vector<std::uint32_t> order);
+  /// True where an item covers all of a square: its index, the square's centre, half its side, m.
+  using Covers = std::function<bool(std::uint32_t, const Vec2&, double)>;
+
+  /// `extents` must outlive this.
+  explicit ExtentTree(std::span<const Extent> extents);
+  /// `order`: indices of `extents`, in the order in which a search shall give them. Where two items
+  /// cover all of a square, a search there gives no others.
+  ExtentTree(std::span<const Extent> extents, std::vector<std::uint32_t> order, Covers covers);
 
   /// Calls `visit` with lists of items that may touch the segment until it returns false. An item
   /// may come several times, in several lists.
@@ -47,14 +53,17 @@ class ExtentTree {
     double half_m = 0;
     std::uint32_t depth = 0;
     std::uint32_t first_child = 0;  ///< 0: a leaf
-    bool is_final = false;          ///< not to be split
+    std::uint32_t visits = 0;       ///< as a leaf
+    std::uint32_t fruitless = 0;    ///< splits above it in a row that parted nothing
     std::vector<std::uint32_t> items;
   };
 
   bool touches(std::uint32_t node, const Extent& extent) const;
   void split(std::uint32_t node);
+  void fill(Node& node, std::span<const std::uint32_t> items) const;
 
   std::span<const Extent> extents_;
+  Covers covers_;
   std::vector<Node> nodes_;
   std::size_t entries_ = 0;
 };

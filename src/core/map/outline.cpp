@@ -5,23 +5,17 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <numeric>
 #include <random>
 #include <set>
 #include <stdexcept>
-#include <tuple>
 #include <utility>
 
 #include "core/map/extent_tree.hpp"
+#include "core/map/line_coverage.hpp"
+#include "core/map/visible_parts.hpp"
 
 namespace cornerd::core {
 namespace {
-
-/// Part of an edge, as shares of its length.
-struct Interval {
-  double begin = 0;
-  double end = 1;
-};
 
 struct Edge {
   Vec2 from;
@@ -71,7 +65,16 @@ bool runs_along(double start, double slope, double half_extent) {
          std::abs(std::abs(start) - half_extent) < kGeometryEpsilon_m;
 }
 
-/// The part of `edge` that `other` covers; empty where begin >= end.
+/// True where the box covers nothing from `from` to `to`, by a look at its four sides.
+bool is_beside(const WallBox& box, const Vec2& from, const Vec2& to) {
+  const Vec2 reach = Vec2(box.half_length_m, box.half_width_m).array() + 2 * kGeometryEpsilon_m;
+  const Vec2 a = box.to_local(from);
+  const Vec2 b = box.to_local(to);
+  return (a.cwiseMin(b).array() > reach.array()).any() ||
+         (a.cwiseMax(b).array() < -reach.array()).any();
+}
+
+/// The part of `edge` that `other`, no line wall, covers; empty where begin >= end.
 Interval hidden_by(const Edge& edge, const WallBox& own, const WallBox& other,
                    std::size_t other_index) {
   constexpr Interval kNothing{0, 0};
@@ -81,10 +84,6 @@ Interval hidden_by(const Edge& edge, const WallBox& own, const WallBox& other,
   if (!clip(a.x(), d.x(), other.half_length_m + kGeometryEpsilon_m, inside) ||
       !clip(a.y(), d.y(), other.half_width_m + kGeometryEpsilon_m, inside)) {
     return kNothing;
-  }
-  if (other.is_line()) {
-    const bool same_line = std::abs(d.y()) < kGeometryEpsilon_m;
-    return own.is_line() && same_line && other_index < edge.box ? inside : kNothing;
   }
   if (own.is_line()) return inside;
   const bool along_length = runs_along(a.y(), d.y(), other.half_width_m);
@@ -99,104 +98,71 @@ Interval hidden_by(const Edge& edge, const WallBox& own, const WallBox& other,
   return inside;
 }
 
-/// The parts of an edge that no box covers.
-class VisibleParts {
- public:
-  /// `shortest`: a share of the length; shorter parts are left out.
-  explicit VisibleParts(double shortest) : shortest_(shortest), parts_{{0, 1}} {}
-
-  bool has_any_of(const Interval& range) const {
-    return std::any_of(parts_.begin(), parts_.end(), [&](const Interval& part) {
-      return part.begin < range.end && part.end > range.begin;
-    });
-  }
-  std::span<const Interval> parts() const { return parts_; }
-
-  void hide(const Interval& hidden) {
-    if (hidden.begin >= hidden.end) return;
-    for (std::size_t i = parts_.size(); i-- > 0;) {
-      const Interval part = parts_[i];
-      if (hidden.end <= part.begin || hidden.begin >= part.end) continue;
-      parts_.erase(parts_.begin() + static_cast<std::ptrdiff_t>(i));
-      insert(i, {hidden.end, part.end});
-      insert(i, {part.begin, hidden.begin});
-    }
-  }
-
- private:
-  void insert(std::size_t place, const Interval& part) {
-    if (part.end - part.begin <= shortest_) return;
-    parts_.insert(parts_.begin() + static_cast<std::ptrdiff_t>(place), part);
-  }
-
-  double shortest_;
-  std::vector<Interval> parts_;
-};
-
-/// Indices by the boxes' direction, then their place across it: neighbours in a bundle or a fan of
-/// walls hide most of each other.
-std::vector<std::uint32_t> by_direction(std::span<const WallBox> boxes) {
-  std::vector<std::tuple<double, double, std::uint32_t>> lines;
-  for (const WallBox& box : boxes) {
-    lines.emplace_back(std::atan2(box.along.y(), box.along.x()), cross(box.along, box.centre),
-                       static_cast<std::uint32_t>(lines.size()));
-  }
-  std::sort(lines.begin(), lines.end());
+/// Those with a thickness, in a fixed permutation without order: where most boxes cover a point,
+/// one of the first does.
+std::vector<std::uint32_t> shuffled_solids(std::span<const WallBox> boxes) {
   std::vector<std::uint32_t> order;
-  for (const auto& line : lines) order.push_back(std::get<2>(line));
-  return order;
-}
-
-/// A fixed permutation without order: where most boxes cover a point, one of the first does.
-std::vector<std::uint32_t> shuffled(std::size_t count) {
-  std::vector<std::uint32_t> order(count);
-  std::iota(order.begin(), order.end(), 0u);
+  for (std::uint32_t i = 0; i < boxes.size(); ++i) {
+    if (!boxes[i].is_line()) order.push_back(i);
+  }
   std::minstd_rand random(1);
-  for (std::size_t i = count; i > 1; --i) std::swap(order[i - 1], order[random() % i]);
+  for (std::size_t i = order.size(); i > 1; --i) std::swap(order[i - 1], order[random() % i]);
   return order;
 }
 
-/// Finds what other boxes hide of a box's edges.
+/// Finds what other boxes hide of a box's edges: all with a thickness, and the line walls added.
 class Visibility {
  public:
   explicit Visibility(std::span<const WallBox> boxes)
       : boxes_(boxes),
-        order_(by_direction(boxes)),
-        place_(boxes.size()),
         extents_(extents_of(boxes)),
-        tree_(extents_, shuffled(boxes.size())) {
-    for (std::size_t i = 0; i < order_.size(); ++i) place_[order_[i]] = i;
-  }
+        tree_(extents_, shuffled_solids(boxes), covers(boxes)) {}
 
   VisibleParts of(const Edge& edge) {
-    const Vec2 way = edge.to - edge.from;
-    VisibleParts visible(2 * kGeometryEpsilon_m / way.norm());
-    const auto hide_behind = [&](std::uint32_t other) {
-      if (other == edge.box) return;
-      if (++compared_ > kMaxCompared) throw std::invalid_argument(kTooMany);
-      visible.hide(hidden_by(edge, boxes_[edge.box], boxes_[other], other));
-    };
-    constexpr std::size_t kNeighbours = 4;
-    const std::size_t place = place_[edge.box];
-    const std::size_t last = std::min(place + kNeighbours, order_.size() - 1);
-    for (std::size_t i = place - std::min(place, kNeighbours); i <= last; ++i) {
-      hide_behind(order_[i]);
+    VisibleParts visible(2 * kGeometryEpsilon_m / (edge.to - edge.from).norm());
+    if (boxes_[edge.box].is_line()) {
+      for (const Interval& covered : lines_.of(edge.from, edge.to)) visible.hide(covered);
     }
-    const std::vector<Interval> open(visible.parts().begin(), visible.parts().end());
-    for (const Interval& part : open) {
-      tree_.search(edge.from + part.begin * way, edge.from + part.end * way,
-                   [&](std::span<const std::uint32_t> others) {
-                     for (const std::uint32_t other : others) {
-                       hide_behind(other);
-                       if (!visible.has_any_of(part)) return false;
-                     }
-                     return true;
-                   });
-    }
+    for (const Interval& part : visible.within({0, 1})) hide_behind_solids(edge, part, visible);
     return visible;
   }
 
+  /// The edges of later boxes are hidden where they lie on those of this line wall.
+  void add_line(const WallBox& box) { lines_.add(box); }
+
  private:
+  void hide_behind_solids(const Edge& edge, const Interval& range, VisibleParts& visible) {
+    const Vec2 way = edge.to - edge.from;
+    const Vec2 from = edge.from + range.begin * way;
+    const Vec2 to = edge.from + range.end * way;
+    // What is left is searched anew: one wall often hides nearly all of the edge.
+    const double half = (range.end - range.begin) / 2;
+    bool is_halved = false;
+    const auto compare = [&](std::span<const std::uint32_t> others) {
+      for (const std::uint32_t other : others) {
+        if (other == edge.box) continue;
+        if (++compared_ > kMaxCompared) throw std::invalid_argument(kTooManyCrossings);
+        if (is_beside(boxes_[other], from, to)) continue;
+        compared_ += visible.parts().size();
+        visible.hide(hidden_by(edge, boxes_[edge.box], boxes_[other], other));
+        is_halved = visible.length_within(range) < half;
+        if (is_halved) break;
+      }
+      return !is_halved;
+    };
+    tree_.search(from, to, compare);
+    if (!is_halved) return;
+    for (const Interval& part : visible.within(range)) hide_behind_solids(edge, part, visible);
+  }
+
+  static ExtentTree::Covers covers(std::span<const WallBox> boxes) {
+    return [boxes](std::uint32_t i, const Vec2& centre, double half_m) {
+      const Vec2 local = boxes[i].to_local(centre).cwiseAbs();
+      const double reach_m = half_m * boxes[i].along.lpNorm<1>();
+      return local.x() + reach_m < boxes[i].half_length_m &&
+             local.y() + reach_m < boxes[i].half_width_m;
+    };
+  }
   static std::vector<Extent> extents_of(std::span<const WallBox> boxes) {
     std::vector<Extent> extents;
     for (const WallBox& box : boxes) extents.push_back(box.extent());
@@ -204,13 +170,12 @@ class Visibility {
   }
 
   std::span<const WallBox> boxes_;
-  std::vector<std::uint32_t> order_;
-  std::vector<std::size_t> place_;  ///< of each box in order_
   std::vector<Extent> extents_;
-  ExtentTree tree_;
-  /// Pairs of an edge and a box: seconds on a PC; 100,000 walls of a building have some millions.
-  static constexpr std::uint64_t kMaxCompared = 200'000'000;
-  static constexpr const char* kTooMany = "too many walls cross each other: hatching, or noise?";
+  ExtentTree tree_;  ///< of the boxes with a thickness
+  LineCoverage lines_;
+  /// Parts of edges and boxes compared: seconds on a PC; 100,000 walls of a building have some
+  /// millions.
+  static constexpr std::uint64_t kMaxCompared = 400'000'000;
   std::uint64_t compared_ = 0;
 };
 
@@ -293,6 +258,7 @@ std::vector<Face> outline_of(std::span<const WallBox> all) {
                                   edge.from + part.end * (edge.to - edge.from)));
       }
     }
+    if (boxes[i].is_line()) visibility.add_line(boxes[i]);
   }
   return join_straight(std::move(faces));
 }

@@ -26,8 +26,13 @@ struct WallBox {
   Extent extent() const;
 };
 
+/// Why a map is refused that no building has and that takes minutes to load.
+inline constexpr const char* kTooManyCrossings =
+    "too many walls cross each other: hatching, or noise?";
+
 /// The surface of the union of all walls. Parts inside another wall are removed, shared parts kept
-/// once, collinear parts joined.
+/// once, collinear parts joined. Throws std::invalid_argument, as does corners_of, where too many
+/// walls cross each other.
 std::vector<Face> outline_of(std::span<const WallBox> boxes);
 
 /// Every vertex where the free space opens by another angle than pi.

@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "core/map/extent_tree.hpp"
 #include "core/map/outline.hpp"
 #include "core/map/polygon.hpp"
 
@@ -28,6 +29,23 @@ void check(const Wall& wall, std::size_t index) {
   }
 }
 
+/// An end of a wall that goes on there.
+struct OpenEnd {
+  WallBox box;
+  double side;  ///< 1 at the wall's `to`, -1 at its `from`
+
+  Extent extent() const {
+    const Vec2 end = box.centre + side * box.half_length_m * box.along;
+    const Vec2 across = box.half_width_m * rotate_left(box.along);
+    return Extent::of_segment(end - across, end + across, kSameEnd_m);
+  }
+  bool holds(const Vec2& point) const {
+    const Vec2 local = box.to_local(point);
+    return std::abs(side * local.x() - box.half_length_m) < kSameEnd_m &&
+           std::abs(local.y()) < box.half_width_m + kSameEnd_m;
+  }
+};
+
 }  // namespace
 
 WallMap::WallMap(FloorPlan plan) : plan_(std::move(plan)) {
@@ -46,35 +64,56 @@ WallMap::WallMap(FloorPlan plan) : plan_(std::move(plan)) {
   }
   index();
   assign_sigmas();
-  std::erase_if(corners_, [&](const Corner& corner) { return is_open_end(corner.position); });
+  remove_open_ends();
 }
 
-bool WallMap::is_open_end(const Vec2& point) const {
-  const auto walls = wall_grid_.at(point);
-  return std::any_of(walls.begin(), walls.end(), [&](std::uint32_t i) {
-    const Wall& wall = plan_.walls[i];
+void WallMap::remove_open_ends() {
+  std::vector<OpenEnd> ends;
+  std::vector<Extent> extents;
+  for (const Wall& wall : plan_.walls) {
     const WallBox box(wall);
-    const Vec2 local = box.to_local(point);
-    const bool at_end = std::abs(std::abs(local.x()) - box.half_length_m) < kSameEnd_m &&
-                        std::abs(local.y()) < box.half_width_m + kSameEnd_m;
-    return at_end && wall.is_open[local.x() > 0 ? 1 : 0];
+    for (const double side : {-1.0, 1.0}) {
+      if (!wall.is_open[side > 0 ? 1 : 0]) continue;
+      ends.push_back({box, side});
+      extents.push_back(ends.back().extent());
+    }
+  }
+  if (ends.empty()) return;
+  ExtentTree tree(extents);
+  std::erase_if(corners_, [&](const Corner& corner) {
+    bool is_open = false;
+    tree.search(corner.position, corner.position, [&](std::span<const std::uint32_t> near) {
+      is_open = std::any_of(near.begin(), near.end(),
+                            [&](std::uint32_t i) { return ends[i].holds(corner.position); });
+      return !is_open;
+    });
+    return is_open;
   });
 }
 
 void WallMap::assign_sigmas() {
-  const auto& walls = plan_.walls;
-  if (std::none_of(walls.begin(), walls.end(), [](const Wall& wall) { return wall.sigma_m; })) {
-    return;
+  std::vector<WallBox> boxes;
+  std::vector<double> sigmas_m;
+  std::vector<Extent> extents;
+  for (const Wall& wall : plan_.walls) {
+    if (!wall.sigma_m) continue;
+    boxes.emplace_back(wall);
+    sigmas_m.push_back(*wall.sigma_m);
+    extents.push_back(boxes.back().extent());
   }
+  if (boxes.empty()) return;
+  ExtentTree tree(extents);
   for (Face& face : faces_) {
     const Vec2 behind = (face.from + face.to) / 2 - kGeometryEpsilon_m * face.normal;
-    for (const std::uint32_t i : wall_grid_.at(behind)) {
-      const WallBox box(walls[i]);
-      const Vec2 local = box.to_local(behind);
-      if (std::abs(local.x()) > box.half_length_m + kGeometryEpsilon_m) continue;
-      if (std::abs(local.y()) > box.half_width_m + 2 * kGeometryEpsilon_m) continue;
-      face.sigma_m = std::max(face.sigma_m, walls[i].sigma_m.value_or(0));
-    }
+    tree.search(behind, behind, [&](std::span<const std::uint32_t> near) {
+      for (const std::uint32_t i : near) {
+        const Vec2 local = boxes[i].to_local(behind);
+        if (std::abs(local.x()) > boxes[i].half_length_m + kGeometryEpsilon_m) continue;
+        if (std::abs(local.y()) > boxes[i].half_width_m + 2 * kGeometryEpsilon_m) continue;
+        face.sigma_m = std::max(face.sigma_m, sigmas_m[i]);
+      }
+      return true;
+    });
   }
 }
 

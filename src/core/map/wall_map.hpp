@@ -105,7 +105,7 @@ class WallMap {
  private:
   void index();
   void assign_sigmas();
-  bool is_open_end(const Vec2& point) const;
+  void remove_open_ends();
 
   FloorPlan plan_;
   std::vector<Face> faces_;

@@ -82,7 +82,7 @@ bool crosses_itself(const std::vector<Vec2>& polygon) {
     edge.offset_m = edge.normal.dot(edge.from);
     edges.push_back(edge);
   }
-  return !core::crossings_of(edges, kSamePoint_m).empty();
+  return !core::crossings_of(edges, kSamePoint_m, 1).empty();
 }
 
 struct Box {

@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstddef>
+#include <utility>
 #include <vector>
 
 #include "../fixtures.hpp"
@@ -80,6 +82,21 @@ TEST(Catalog, HallOfColumns_KeepsNearestNeighbours) {
     ASSERT_GE(catalog.neighbours(i).size(), Catalog::kMaxNeighbours);
     EXPECT_LT(catalog.neighbours(i).front().distance_m, 0.03);
   }
+}
+
+// Quadratic in the walls, this test takes minutes.
+TEST(Catalog, FanOfWalls_HasFewLandmarksInOnePlace) {
+  constexpr int kWalls = 4'000;
+  FloorPlan plan;
+  for (int i = 0; i < kWalls; ++i) {
+    plan.walls.push_back({{0, 0}, 5 * unit_vector(kTwoPi * i / kWalls), 0});
+  }
+  const Catalog catalog(WallMap(std::move(plan)), 12);
+  const auto in_the_middle =
+      std::count_if(catalog.landmarks().begin(), catalog.landmarks().end(),
+                    [](const Corner& landmark) { return landmark.position.norm() < 1; });
+  EXPECT_LE(in_the_middle, 4 * static_cast<std::ptrdiff_t>(Catalog::kMaxCrowded));
+  EXPECT_GT(catalog.landmarks().size(), 3'000U);  // the walls' ends
 }
 
 TEST(Catalog, VisitNear_VisitsAllWithinRadius) {
