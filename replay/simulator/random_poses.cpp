@@ -10,15 +10,19 @@
 namespace cornerd::replay {
 namespace {
 
-/// Rays per point; a ray that hits no wall means outside.
+/// Rays per point; a ray that hits no wall means outside. None is along an axis or a diagonal: on
+/// these lie corners, between whose faces a ray may pass.
 constexpr int kDirections = 64;
+constexpr double kFirstDirection_rad = 0.0382;
 /// Usable share of the map's bounding box below which the search gives up.
 constexpr double kMinUsableShare = 1e-4;
 
 bool has_walls_on_all_sides(const core::WallMap& map, const core::Vec2& point) {
   const double diagonal_m = (map.upper_right() - map.lower_left()).norm();
   for (int i = 0; i < kDirections; ++i) {
-    if (map.range_along(point, core::kTwoPi * i / kDirections, diagonal_m) <= 0) return false;
+    if (map.range_along(point, kFirstDirection_rad + core::kTwoPi * i / kDirections, diagonal_m) <=
+        0)
+      return false;
   }
   return true;
 }

@@ -169,9 +169,7 @@ double WallMap::range_along(const Vec2& origin, double angle_rad, double max_ran
     if (approach <= 1e-12 || height_m <= 0 || height_m > nearest_m * approach) return;
     const double range_m = height_m / approach;
     const double along_m = face.direction.dot(origin + range_m * ray - face.from);
-    // By rounding a ray that meets a corner exactly would pass between its faces.
-    constexpr double kRounding_m = 1e-12;
-    if (along_m < -kRounding_m || along_m > face.length_m + kRounding_m) return;
+    if (along_m < 0 || along_m > face.length_m) return;
     nearest_m = range_m;
     hit = true;
   };
