@@ -20,9 +20,8 @@ constexpr double kMinUsableShare = 1e-4;
 bool has_walls_on_all_sides(const core::WallMap& map, const core::Vec2& point) {
   const double diagonal_m = (map.upper_right() - map.lower_left()).norm();
   for (int i = 0; i < kDirections; ++i) {
-    if (map.range_along(point, kFirstDirection_rad + core::kTwoPi * i / kDirections, diagonal_m) <=
-        0)
-      return false;
+    const double angle_rad = kFirstDirection_rad + core::kTwoPi * i / kDirections;
+    if (map.range_along(point, angle_rad, diagonal_m) <= 0) return false;
   }
   return true;
 }

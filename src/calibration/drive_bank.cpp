@@ -45,7 +45,7 @@ class DriveBank {
  public:
   DriveBank(std::span<const MotionWindow> windows, const core::Pose2& T_base_lidar,
             const core::DriveGeometry& geometry)
-      : windows_(windows), mount_(T_base_lidar), geometry_(geometry), track_m_(geometry.track_m) {}
+      : windows_(windows), mount_(T_base_lidar), geometry_(geometry) {}
 
   std::vector<DriveHypothesis> run() {
     add_wirings();
@@ -63,9 +63,9 @@ class DriveBank {
 
   DriveHypothesis free_mount() const {
     DriveHypothesis hypothesis;
-    const DriveFit fit = fit_drive_model(
-        windows_, travel_of(windows_, {}, 1, 1),
-        {geometry_, track_m_, turned_to(best_turn()), {kDisplaced_m, kDisplaced_m, kTurned_rad}});
+    const DriveFit fit =
+        fit_drive_model(windows_, travel_of(windows_, {}, 1, 1),
+                        mounted(turned_to(best_turn()), {kDisplaced_m, kDisplaced_m, kTurned_rad}));
     hypothesis.T_base_lidar = fit.T_base_lidar;
     hypothesis.sigma = fit.sigma;
     return hypothesis;
@@ -82,7 +82,10 @@ class DriveBank {
     all_.push_back(hypothesis);
   }
 
-  DriveModel as_configured() const { return {geometry_, track_m_, mount_, kMeasured}; }
+  DriveModel mounted(const core::Pose2& T_base_lidar, const core::Pose2& sigma) const {
+    return {geometry_, geometry_.track_m, T_base_lidar, sigma};
+  }
+  DriveModel as_configured() const { return mounted(mount_, kMeasured); }
 
   /// The first is the one that nothing is wrong.
   void add_wirings() {
@@ -104,7 +107,7 @@ class DriveBank {
       if (wiring != Wiring{true, true, true}) continue;
       // The same motion by a lidar that looks backward.
       add({.fault = DriveFault::kMountTurned, .factor = *factor}, kPriorTwoFaults / kFactorCells,
-          {geometry_, track_m_, turned_to(mount_.theta_rad + core::kPi), kMeasured},
+          mounted(turned_to(mount_.theta_rad + core::kPi), kMeasured),
           travel_of(windows_, {}, *factor, *factor));
     }
   }
@@ -115,7 +118,7 @@ class DriveBank {
       for (const MotionWindow& window : windows_) {
         const double counted_m = is_left ? window.counted[0].left_m : window.counted[0].right_m;
         if (std::abs(counted_m) < kMinTravel_m) continue;
-        const double half_m = window.rotation_rad * track_m_ / 2;
+        const double half_m = window.rotation_rad * geometry_.track_m / 2;
         ratios.push_back((forward_m(window) + (is_left ? -half_m : half_m)) / counted_m);
       }
       const auto factor = checked(ratios);
@@ -132,7 +135,8 @@ class DriveBank {
     for (const MotionWindow& window : windows_) {
       if (std::abs(window.rotation_rad) < kMinRotation_rad) continue;
       const CountedMotion& counted = window.counted[0];
-      ratios.push_back((counted.right_m - counted.left_m) / window.rotation_rad / track_m_);
+      ratios.push_back((counted.right_m - counted.left_m) / window.rotation_rad /
+                       geometry_.track_m);
     }
     const auto factor = checked(ratios);
     if (!factor) return;
@@ -195,23 +199,19 @@ class DriveBank {
     // A lidar is mounted along an axis of the robot, or anyhow.
     for (const double turn_rad : {core::kPi, core::kPi / 2, -core::kPi / 2}) {
       add({.fault = DriveFault::kMountTurned}, kPriorFault,
-          {geometry_, track_m_, turned_to(mount_.theta_rad + turn_rad), kMeasured}, travel);
+          mounted(turned_to(mount_.theta_rad + turn_rad), kMeasured), travel);
     }
     const core::Pose2 any_turn{kMeasured.x_m, kMeasured.y_m, kTurned_rad};
     const core::Pose2 anywhere{kDisplaced_m, kDisplaced_m, kTurned_rad};
     const core::Pose2 place = best_place();
     const bool is_far = (place.translation() - mount_.translation()).norm() > 3 * kDisplaced_m;
     const double displaced_m = is_far ? kFar_m : kDisplaced_m;
-    add({.fault = DriveFault::kMountTurned}, kPriorFault,
-        {geometry_, track_m_, turned_to(best_turn()), any_turn}, travel);
-    add({.fault = DriveFault::kMountDisplaced}, kPriorFault,
-        {geometry_,
-         track_m_,
-         is_far ? place : mount_,
-         {displaced_m, displaced_m, kMeasured.theta_rad}},
+    add({.fault = DriveFault::kMountTurned}, kPriorFault, mounted(turned_to(best_turn()), any_turn),
         travel);
+    add({.fault = DriveFault::kMountDisplaced}, kPriorFault,
+        mounted(is_far ? place : mount_, {displaced_m, displaced_m, kMeasured.theta_rad}), travel);
     add({.fault = DriveFault::kMountBoth}, kPriorTwoFaults,
-        {geometry_, track_m_, turned_to(best_turn()), anywhere}, travel);
+        mounted(turned_to(best_turn()), anywhere), travel);
   }
 
   core::Pose2 turned_to(double theta_rad) const {
@@ -270,7 +270,6 @@ class DriveBank {
   std::span<const MotionWindow> windows_;
   core::Pose2 mount_;
   core::DriveGeometry geometry_;
-  double track_m_;
   std::vector<DriveHypothesis> all_;
 };
 

@@ -158,12 +158,12 @@ class DriveProblem {
     const double track_scale = std::exp(at[kTrackScale]);
     const core::DriveGeometry& configured = model_.configured;
     const double count_m2 = 2 * configured.quantization_variance();  // at both ends of the window
-    const double slips_m =
+    const double wheel_sigma_m =
         std::hypot(kWheelShare * path_m, kWheelShare * window.rotation_rad * configured.track_m / 2,
                    std::sqrt(count_m2));
     const double rotation_sigma_rad =
         std::hypot(kRotation_rad, kRotationShare * window.rotation_rad,
-                   std::sqrt(core::squared(slips_m) + count_m2) / configured.track_m);
+                   std::sqrt(core::squared(wheel_sigma_m) + count_m2) / configured.track_m);
     Equation forward;
     forward.gradient[kTheta] = -aside_m;
     forward.gradient[kY] = window.sine;
@@ -196,7 +196,7 @@ class DriveProblem {
     forward.residual -= wheel_m + half_m;
     forward.gradient[model_.trusts_left ? kLeftScale : kRightScale] = -wheel_m;
     forward.gradient[kTrackScale] = -half_m;
-    forward.sigma = std::hypot(forward.sigma, slips_m);
+    forward.sigma = std::hypot(forward.sigma, wheel_sigma_m);
     add(forward);
   }
 

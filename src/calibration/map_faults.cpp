@@ -216,8 +216,8 @@ std::string describe(const MapFinding& finding, const std::string& name) {
     case MapFault::kNoVariant:
       return "hardly any scan fits " + map +
              ", nor its mirror image, nor it 0.75 to 1.35 times as large, as a whole or along one "
-             "axis, or in another unit: check "
-             "that it is the map of this place and floor, and that the robot is inside it";
+             "axis, or in another unit: check that it is the map of this place and floor, and that "
+             "the robot is inside it";
   }
   return {};
 }

@@ -42,11 +42,6 @@ using ScanSamples = std::vector<core::Sample>;
 /// The newest scans, a second apart, to be examined.
 class RecentScans {
  public:
-  /// Of the last hundred scans: in a map whose walls are where it says hardly so many are lost, but
-  /// for a lidar that is covered or a crowd. Chosen below the 11 of a simulated drive with odometry
-  /// in a map 3 % too large (wrong_setups.py). The variants decide.
-  static constexpr std::size_t kManyLost = 8;
-
   /// True if it is kept.
   bool add(const core::Scan& scan);
   bool are_enough() const;

@@ -98,7 +98,8 @@ void Localizer::Workspace::teach_walls(const RefinedPose& refined,
     if (is_same_place(T_map_taught)) return;
     if (walls.learn(refined.nominal_covariance())) contradictions = 0;
     T_map_taught = refined.T_map_lidar;
-  } else if (!is_same_place(T_map_against) && is_explained(refine_by(nullptr, found))) {
+  } else if (walls.size() > 0 && !is_same_place(T_map_against) &&
+             is_explained(refine_by(nullptr, found))) {
     T_map_against = refined.T_map_lidar;
     if (++contradictions == kUntilMoved) {
       walls.forget_visible();

@@ -5,6 +5,7 @@
 
 #include "daemon/log.hpp"
 #include "message/line_writer.hpp"
+#include "settings/config_warnings.hpp"
 #include "settings/document.hpp"
 #include "settings/map_choice.hpp"
 #include "settings/map_file.hpp"

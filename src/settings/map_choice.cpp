@@ -2,19 +2,13 @@
 #include "settings/map_choice.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <system_error>
 #include <vector>
-
-#include "settings/object_reader.hpp"
 
 namespace cornerd::settings {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// Small robots are no larger: beyond it centimetres were meant.
-constexpr double kFarMount_m = 1;
 
 /// Both are canonical.
 bool is_below(const fs::path& file, const fs::path& folder) {
@@ -44,23 +38,17 @@ fs::path map_named(const Config& config, const std::string& name) {
                                                 names_of(config.maps));
 }
 
-std::vector<std::string> warnings_of(const Config& config) {
-  std::vector<std::string> warnings;
-  const MountConfig& mount = config.lidar.mount;
-  if (std::hypot(mount.x_m, mount.y_m) > kFarMount_m) {
-    warnings.push_back("/lidar/mount: x = " + to_text(mount.x_m) + ", y = " + to_text(mount.y_m) +
-                       " is far off the middle of the axle: is it in metres?");
-  }
+std::string equal_maps_warning(const Config& config) {
   for (std::size_t i = 0; i < config.maps.size(); ++i) {
     for (std::size_t k = 0; k < i; ++k) {
       std::error_code unread;
       if (!fs::equivalent(config.maps[k].file, config.maps[i].file, unread) || unread) continue;
-      warnings.push_back("/maps: \"" + config.maps[k].name + "\" and \"" + config.maps[i].name +
-                         "\" are one file, " + config.maps[i].file.string() +
-                         ": scans cannot tell them apart; is one of the files wrong?");
+      return "/maps: \"" + config.maps[k].name + "\" and \"" + config.maps[i].name +
+             "\" are one file, " + config.maps[i].file.string() +
+             ": scans cannot tell them apart; is one of the files wrong?";
     }
   }
-  return warnings;
+  return {};
 }
 
 fs::path map_in_folders(const Config& config, const fs::path& file) {

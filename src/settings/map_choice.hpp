@@ -3,7 +3,6 @@
 
 #include <filesystem>
 #include <string>
-#include <vector>
 
 #include "settings/config.hpp"
 
@@ -17,8 +16,7 @@ std::filesystem::path map_named(const Config& config, const std::string& name);
 /// read the daemon's other files.
 std::filesystem::path map_in_folders(const Config& config, const std::filesystem::path& file);
 
-/// Of what is allowed, and hardly meant: two of "maps" that are one file, a lidar metres beside the
-/// robot.
-std::vector<std::string> warnings_of(const Config& config);
+/// A line about two of "maps" that are the same file; empty if there are none.
+std::string equal_maps_warning(const Config& config);
 
 }  // namespace cornerd::settings

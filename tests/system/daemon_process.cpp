@@ -125,15 +125,20 @@ json DaemonTest::next(TestClient& client) {
   return line ? json::parse(*line) : json("nothing");
 }
 
-json DaemonTest::next_of(TestClient& client, const std::string& message_class,
-                         const std::function<bool(const json&)>& is_it) {
+json DaemonTest::next_where(TestClient& client, const std::function<bool(const json&)>& is_it) {
   const auto deadline = std::chrono::steady_clock::now() + test::kPatience;
   while (std::chrono::steady_clock::now() < deadline) {
     json message = next(client);
-    if (!message.is_object()) return message;
-    if (message["class"] == message_class && (!is_it || is_it(message))) return message;
+    if (!message.is_object() || is_it(message)) return message;
   }
   return "nothing";
+}
+
+json DaemonTest::next_of(TestClient& client, const std::string& message_class,
+                         const std::function<bool(const json&)>& is_it) {
+  return next_where(client, [&](const json& message) {
+    return message["class"] == message_class && (!is_it || is_it(message));
+  });
 }
 
 json DaemonTest::next_event(TestClient& client, const std::string& what) {

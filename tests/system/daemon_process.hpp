@@ -64,8 +64,9 @@ class DaemonTest : public ::testing::Test {
 
   /// A client of the socket; waits for the socket.
   TestClient connect(const char* socket = "pose.sock");
-  /// The next message of this class, or the first of them that `is_it`; "nothing" if none came in
-  /// time.
+  /// The first message that `is_it`; "nothing" if none came in time.
+  static json next_where(TestClient& client, const std::function<bool(const json&)>& is_it);
+  /// The next message of this class, or the first of them that `is_it`.
   static json next_of(TestClient& client, const std::string& message_class,
                       const std::function<bool(const json&)>& is_it = {});
   static json next(TestClient& client);

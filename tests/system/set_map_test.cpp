@@ -66,11 +66,9 @@ class SetMap : public DaemonTest {
 
   static json ask(TestClient& client, const std::string& request) {
     client.send(request + "\n");
-    json answer = next(client);
-    while (answer.is_object() && answer["class"] != "OK" && answer["class"] != "ERROR") {
-      answer = next(client);
-    }
-    return answer;
+    return next_where(client, [](const json& message) {
+      return message["class"] == "OK" || message["class"] == "ERROR";
+    });
   }
   static json set_file(TestClient& control, const std::string& file) {
     return ask(control, json({{"class", "SET_MAP"}, {"file", file}, {"id", file}}).dump());
@@ -184,10 +182,7 @@ class AutoMap : public SetMap {
   }
   /// Reads until the scans have chosen; returns the first POSE in the map.
   static json read_until_chosen(TestClient& client) {
-    for (json message = next(client); message.is_object(); message = next(client)) {
-      if (message["class"] == "POSE" && message.contains("map")) return message;
-    }
-    return {};
+    return next_of(client, "POSE", [](const json& pose) { return pose.contains("map"); });
   }
 };
 
@@ -199,23 +194,20 @@ TEST_F(AutoMap, ScansOfADriveChoose_AmbiguousUntilThen) {
   bool is_ambiguous = false;
   bool status_names_candidates = false;
   std::string map;
-  json pose;
-  while (!pose.is_object()) {
-    const json message = next(client);
-    ASSERT_TRUE(message.is_object()) << daemon.output();
+  const json pose = next_where(client, [&](const json& message) {
     if (message["class"] == "MAP") map = message["name"];
     if (message["class"] == "STATUS" && message["map"]["state"] == "ambiguous") {
       status_names_candidates = message["map"]["candidates"] == json({"ground"});
     }
-    if (message["class"] != "POSE") continue;
-    if (message.contains("map")) {
-      pose = message;
-    } else if (message["state"] == "ambiguous") {
+    if (message["class"] != "POSE") return false;
+    if (!message.contains("map") && message["state"] == "ambiguous") {
       is_ambiguous = true;
       EXPECT_EQ(map, "") << "MAP comes when the map is known";
       EXPECT_EQ(message["alternatives"][0]["map"], "ground");
     }
-  }
+    return message.contains("map");
+  });
+  ASSERT_TRUE(pose.is_object()) << daemon.output();
   EXPECT_TRUE(is_ambiguous);
   EXPECT_TRUE(status_names_candidates);
   EXPECT_EQ(map, "ground");

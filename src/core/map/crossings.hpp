@@ -12,8 +12,8 @@
 namespace cornerd::core {
 
 /// Pairs of faces that cross between their ends, by more than `end_m` from each, ascending. Of
-/// faces that all cross in one point only one pair is given. The search ends at
-/// `max_pairs`, those on borders of its squares counted repeatedly.
+/// faces that all cross in one point only one pair is given. The search ends
+/// where it has `max_pairs`, of which some may be equal and the order is any.
 std::vector<std::pair<std::uint32_t, std::uint32_t>> crossings_of(std::span<const Face> faces,
                                                                   double end_m,
                                                                   std::size_t max_pairs);

@@ -84,7 +84,7 @@ TEST(Catalog, HallOfColumns_KeepsNearestNeighbours) {
   }
 }
 
-// Quadratic in the walls, this test takes minutes.
+// In time quadratic in the walls this would take minutes.
 TEST(Catalog, FanOfWalls_HasFewLandmarksInOnePlace) {
   constexpr int kWalls = 4'000;
   FloorPlan plan;

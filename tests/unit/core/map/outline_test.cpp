@@ -105,7 +105,7 @@ TEST(Outline, RandomWalls_FacesWhereNoSolidIs) {
   }
 }
 
-// Quadratic in the walls, these take minutes.
+// In time quadratic in the walls these would take minutes.
 TEST(Outline, FanOfLineWalls_AllStand) {
   constexpr int kWalls = 50'000;
   const std::vector<Face> faces = outline_of(boxes_of(fan({1, 1}, kWalls, 0)));
