@@ -28,9 +28,10 @@ bool lie_on_one_line(const LineLandmark& longer, const LineLandmark& shorter,
   const double allowed_rad =
       std::min(kMaxMergeAngle_rad, limits.heading_rad + kMergeSigmas * angle_sigma_rad);
   if (std::abs(rotation_rad) > allowed_rad) return false;
-  // Compared where the two faces are nearest to each other.
+  // Compared in the middle of what they share, or where they are nearest to each other.
   const auto [begin_m, end_m] = extent_on(longer, shorter);
-  const double middle_m = (begin_m + end_m) / 2;
+  const double middle_m =
+      (std::max(begin_m, longer.begin_m()) + std::min(end_m, longer.end_m())) / 2;
   const double nearest_m = std::clamp(middle_m, longer.begin_m(), longer.end_m());
   const core::Vec2 place = longer.at(nearest_m);
   const double own_m = std::clamp(shorter.along_of(place), shorter.begin_m(), shorter.end_m());
