@@ -14,6 +14,9 @@ namespace {
 
 /// Windows with a stuck gyro.
 constexpr std::ptrdiff_t kMinStuck = 3;
+/// Raw counts of a gyro of 250 degrees a second are 7,506 times the rate (MPU-6050 data sheet,
+/// 6.1), millidegrees 57,296.
+constexpr double kLargestGyroFactor = 1e5;
 
 /// Normalizes posteriors of hypotheses with logarithms in `posterior`; keeps what cannot be told
 /// apart.
@@ -67,7 +70,7 @@ std::vector<GyroHypothesis> gyro_bank(std::span<const MotionWindow> all) {
   add(GyroFault::kBias, kPriorFault, {.bias_sigma_rad_s = 1});
   add(GyroFault::kUnrelated, kPriorFault, {.trusts_gyro = false});
   const double share = median(std::move(ratios));
-  if (std::abs(share) > 1 / kLargestFactor / 2 && std::abs(share) < kLargestFactor &&
+  if (std::abs(share) > 1 / kLargestGyroFactor && std::abs(share) < kLargestFactor &&
       std::abs(std::log(std::abs(share))) > kMinFactorChange &&
       std::abs(std::log(std::abs(share) / core::radians(1))) > kMinFactorChange) {
     add(GyroFault::kFactor, kPriorFault / kFactorCells / 2, {.share = share});

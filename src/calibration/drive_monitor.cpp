@@ -11,13 +11,15 @@ constexpr std::size_t kMinMonitored = 8;
 constexpr std::size_t kNewMonitored = 4;
 /// Exceeds the factor of any wrong unit.
 constexpr double kLimitFactor = 100;
+/// Of a gyro in any unit.
+constexpr double kMostRate = 1e6;
 /// Times of readings that are further from the newest pose: the program that sends them has ended,
 /// or has another clock, and OdometryInputMonitor says so.
 constexpr core::TimeNs kMaxApart_ns = 2 * core::kNsPerSecond;
 
 core::OdometryConfig widened(core::OdometryConfig config) {
   config.limits.wheel_speed_m_s *= kLimitFactor;
-  config.limits.gyro_rad_s *= kLimitFactor;
+  config.limits.gyro_rad_s = kMostRate;
   config.conservative = false;
   return config;
 }

@@ -23,6 +23,9 @@ constexpr std::size_t kManyLost = 8;
 /// Scans in which odometry contradicts the lidar; after a slip it is some.
 constexpr std::size_t kManyContradicted = RecentPoses::kScans / 2;
 
+/// Of all readings: a wheel that spins up now and then moves as far.
+constexpr double kManyJumps = 0.02;
+
 /// A robot's own body may be nearer than min_range in half of the view; nothing is beyond a
 /// lidar's reach.
 constexpr double kMostNear = 0.6;
@@ -54,6 +57,20 @@ bool is_cut(const core::Scan& scan, const RecentPoses::Limits& limits) {
     far += sample.range_m > limits.max_range_m ? 1 : 0;
   }
   return near > kMostNear * returns || far > kMostFar * returns;
+}
+
+/// What the gate left out, where it may be why the rest contradicts the lidar.
+std::string lost_counts(const core::OdometryCounters& counters) {
+  std::string text;
+  if (counters.restarts > 0) {
+    text = "; counts began again elsewhere, " + std::to_string(counters.restarts) +
+           " times so far: if they wrap, set advanced.odometry.counter_max to the highest count";
+  }
+  if (static_cast<double>(counters.jumps) > kManyJumps * static_cast<double>(counters.readings)) {
+    text += "; " + std::to_string(counters.jumps) +
+            " readings moved farther than advanced.odometry.max_speed allows, and were left out";
+  }
+  return text;
 }
 
 }  // namespace
@@ -134,20 +151,16 @@ void FaultList::add_map(const std::optional<MapFinding>& finding, const RecentPo
 
 void FaultList::add_drive(const DriveFaults& drive, const OdometryNames& names,
                           const RecentPoses& recent, const core::OdometrySummary& odometry) {
-  const std::string wraps = odometry.counters.restarts == 0
-                                ? ""
-                                : "; counts began again elsewhere, " +
-                                      std::to_string(odometry.counters.restarts) +
-                                      " times so far: if they wrap, set "
-                                      "advanced.odometry.counter_max to the highest count";
-  for (const std::string_view name : names_of(drive)) add(name, describe(drive, names) + wraps);
+  const std::string lost = lost_counts(odometry.counters);
+  for (const std::string_view name : names_of(drive)) add(name, describe(drive, names) + lost);
   if (!drive.any() && odometry.present && !odometry.healthy &&
       recent.contradicted() >= kManyContradicted) {
     add("odometry-unhealthy",
         "the odometry contradicts the lidar and is not used: drive a minute, straight and with "
         "rotations both ways; if no reason is named here by then, check wheel_radius, track, "
         "counts_per_turn, the signs and times of the counts, lidar.mount, the map's measures, and "
-        "whether wheels slip");
+        "whether wheels slip" +
+            lost);
   }
 }
 

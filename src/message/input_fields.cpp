@@ -63,7 +63,8 @@ RecordedScan read_scan(FieldReader& fields) {
 }
 
 OdometryReading read_odometry(FieldReader& fields) {
-  constexpr Limits kGyroLimitsRadS{-1000, 1000};
+  // As raw counts or millidegrees too: what is wrong with those, the motion tells.
+  constexpr Limits kGyroLimitsRadS{-1e6, 1e6};
   OdometryReading reading;
   reading.timed = fields.has("t");
   if (reading.timed) reading.t_ns = fields.time("t");

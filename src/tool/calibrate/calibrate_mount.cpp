@@ -31,13 +31,9 @@ constexpr std::size_t kMinPlaces = 50;
 constexpr double kMaxSigma_m = 0.02;
 constexpr double kMaxSigma_rad = core::radians(1);
 
-struct CalibrateMountOptions : CalibrationOptions {
-  std::filesystem::path file;
-};
-
 class MountCalibration {
  public:
-  explicit MountCalibration(const CalibrateMountOptions& options)
+  explicit MountCalibration(const DriveOptions& options)
       : options_(options), config_(options.settings.resolve(/*needs_map=*/true)) {}
 
   const settings::Config& config() const { return config_; }
@@ -104,7 +100,7 @@ class MountCalibration {
   CalibrationDrive play(bool inverted, bool deskewed) const {
     settings::Config config = config_;
     config.lidar.mount.inverted = inverted;
-    return play_drive(options_.file, parse_wire(options_.wire), config, nullptr, deskewed);
+    return play_drive(options_.drive(), config, nullptr, deskewed);
   }
 
   /// A scan that is mirrored fits hardly anywhere.
@@ -151,7 +147,7 @@ class MountCalibration {
     config_.lidar.mount.theta_rad = mount.T_base_lidar.theta_rad;
   }
 
-  const CalibrateMountOptions& options_;
+  const DriveOptions& options_;
   settings::Config config_;
   CalibrationDrive drive_;
   bool tells_inverted_ = false;
@@ -160,9 +156,10 @@ class MountCalibration {
   std::vector<calibration::DriveHypothesis> alternatives_;
 };
 
-void calibrate_mount(const CalibrateMountOptions& options) {
+void calibrate_mount(const DriveOptions& options) {
   MountCalibration calibration(options);
-  guard_files({.read = {options.file, options.settings.config_file(), calibration.config().map},
+  guard_files({.read = {options.file, options.odometry, options.settings.config_file(),
+                        calibration.config().map},
                .written = {},
                .output = options.output});
   calibration.run();
@@ -177,14 +174,9 @@ void calibrate_mount(const CalibrateMountOptions& options) {
 void add_calibrate_mount(Command& group) {
   Command command = group.add_subcommand(
       "mount", "where the lidar sits on the robot, from a recorded drive in a known map");
-  const auto options = std::make_shared<CalibrateMountOptions>();
-  command
-      .add_option("file", options->file,
-                  "a drive with ODOMETRY lines (.ndjson): a minute, straight and with rotations in "
-                  "both directions")
-      .required()
-      .type_name("FILE");
-  options->add(command, "lidar.mount");
+  const auto options = std::make_shared<DriveOptions>();
+  options->add_drive(command, "a minute, straight and with rotations in both directions",
+                     "lidar.mount");
   command.callback([options] { calibrate_mount(*options); });
 }
 

@@ -34,8 +34,7 @@ namespace {
 using calibration::DriveError;
 using calibration::HeadingSource;
 
-struct CalibrateOdometryOptions : CalibrationOptions {
-  std::filesystem::path file;
+struct CalibrateOdometryOptions : DriveOptions {
   std::filesystem::path truth;
   std::filesystem::path plot;
 };
@@ -149,14 +148,14 @@ void calibrate_odometry(const CalibrateOdometryOptions& options) {
   std::optional<Truth> truth;
   if (!options.truth.empty()) truth = Truth::load(options.truth);
   const settings::Config config = options.settings.resolve(/*needs_map=*/!truth);
-  guard_files({.read = {options.file, options.truth, options.settings.config_file(), config.map},
+  guard_files({.read = {options.file, options.odometry, options.truth,
+                        options.settings.config_file(), config.map},
                .written = {options.plot},
                .output = options.output});
   // Fails before the work if the file cannot be written.
   std::unique_ptr<Output> plot;
   if (!options.plot.empty()) plot = std::make_unique<Output>(Output::replacing(options.plot));
-  const auto [drive, fit] =
-      fit_drive(options.file, parse_wire(options.wire), config, truth ? &*truth : nullptr);
+  const auto [drive, fit] = fit_drive(options.drive(), config, truth ? &*truth : nullptr);
   const auto steps = calibration::at_true_times(drive.steps, fit.learned.delay_s);
   const core::DriveGeometry& geometry = config.odometry.core.geometry;
 
@@ -212,13 +211,9 @@ void add_calibrate_odometry(Command& group) {
   Command command = group.add_subcommand(
       "odometry", "errors and delay of wheels and gyro, from a recorded drive in a known map");
   const auto options = std::make_shared<CalibrateOdometryOptions>();
-  command
-      .add_option("file", options->file,
-                  "a drive with ODOMETRY lines (.ndjson): half a minute or "
-                  "more, straight and with rotations in both directions")
-      .required()
-      .type_name("FILE");
-  options->add(command, "advanced.odometry.initial");
+  options->add_drive(command,
+                     "half a minute or more, straight and with rotations in both directions",
+                     "advanced.odometry.initial");
   command.add_option("--truth", options->truth, "true poses in place of the lidar's fixes")
       .type_name("FILE");
   command

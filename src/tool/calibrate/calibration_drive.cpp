@@ -7,6 +7,9 @@
 #include "core/pipeline.hpp"
 #include "replay/recording.hpp"
 #include "settings/map_file.hpp"
+#include "tool/command_line/command.hpp"
+#include "tool/replay/other_odometry.hpp"
+#include "tool/replay/playback.hpp"
 
 namespace cornerd::tool {
 
@@ -114,22 +117,41 @@ class PoseSink final : public replay::RecordingSink {
   std::vector<calibration::KnownPose> places_;
 };
 
+void play(const DriveFile& file, const settings::Config& config, replay::RecordingSink& sink) {
+  replay::RecordingPlayer player(file.file, {file.wire, config.lidar.mount.inverted});
+  while (player.step(sink)) {
+  }
+}
+
 }  // namespace
 
-CalibrationDrive play_drive(const std::filesystem::path& file, drivers::RecordedWire wire,
-                            const settings::Config& config, const Truth* truth, bool deskewed) {
+void DriveOptions::add_drive(Command& command, const std::string& what, const std::string& key) {
+  command.add_option("file", file, "a drive with ODOMETRY lines (.ndjson): " + what)
+      .required()
+      .type_name("FILE");
+  command
+      .add_option("--odometry", odometry,
+                  "ODOMETRY lines of another file, in place of the recording's own")
+      .type_name("FILE");
+  add(command, key);
+}
+
+CalibrationDrive play_drive(const DriveFile& file, const settings::Config& config,
+                            const Truth* truth, bool deskewed) {
   core::LocalizerConfig localizer = config.localizer();
   localizer.odometry.enabled = deskewed;
   core::Pipeline pipeline(truth != nullptr ? nullptr : settings::load_map(config.map), localizer);
   DriveSink sink(pipeline, config.odometry.core, truth);
-  replay::RecordingPlayer player(file, {wire, config.lidar.mount.inverted});
-  while (player.step(sink)) {
+  if (file.odometry.empty()) {
+    play(file, config, sink);
+  } else {
+    OtherOdometry other(sink, load_odometry(file.odometry));
+    play(file, config, other);
   }
   return sink.finish();
 }
 
-std::vector<calibration::KnownPose> localize_drive(const std::filesystem::path& file,
-                                                   drivers::RecordedWire wire,
+std::vector<calibration::KnownPose> localize_drive(const DriveFile& file,
                                                    const settings::Config& config,
                                                    std::vector<core::OdometryReading> readings,
                                                    double delay_s) {
@@ -139,9 +161,7 @@ std::vector<calibration::KnownPose> localize_drive(const std::filesystem::path& 
   localizer.odometry.initial.delay_s = 0;
   core::Pipeline pipeline(settings::load_map(config.map), localizer);
   PoseSink sink(pipeline, std::move(readings));
-  replay::RecordingPlayer player(file, {wire, config.lidar.mount.inverted});
-  while (player.step(sink)) {
-  }
+  play(file, config, sink);
   return sink.finish();
 }
 

@@ -25,9 +25,8 @@ constexpr double kMaxDeskewDelay_s = 0.005;
 
 class DriveFitter {
  public:
-  DriveFitter(const std::filesystem::path& file, drivers::RecordedWire wire,
-              const settings::Config& config, const Truth* truth)
-      : file_(file), wire_(wire), config_(config), truth_(truth) {}
+  DriveFitter(const DriveFile& file, const settings::Config& config, const Truth* truth)
+      : file_(file), config_(config), truth_(truth) {}
 
   FittedDrive run() {
     CalibrationDrive drive = play(/*deskewed=*/true);
@@ -56,13 +55,13 @@ class DriveFitter {
 
  private:
   [[noreturn]] void fail(const std::string& why) const {
-    throw Failure(file_.string() + ": " + why);
+    throw Failure(file_.file.string() + ": " + why);
   }
 
   double configured_s() const { return config_.odometry.core.initial.delay_s; }
 
   CalibrationDrive play(bool deskewed) const {
-    return play_drive(file_, wire_, config_, truth_, deskewed);
+    return play_drive(file_, config_, truth_, deskewed);
   }
 
   static bool is_wide(const CalibrationDrive& drive) {
@@ -93,7 +92,7 @@ class DriveFitter {
   /// Localizes again if the scans were deskewed by readings with a wrong delay.
   void deskew(CalibrationDrive& drive, double delay_s) const {
     if (truth_ != nullptr || std::abs(delay_s - configured_s()) <= kMaxDeskewDelay_s) return;
-    auto places = localize_drive(file_, wire_, config_, drive.readings, delay_s);
+    auto places = localize_drive(file_, config_, drive.readings, delay_s);
     if (places.size() >= drive.places.size() / 2) drive.places = std::move(places);
   }
 
@@ -102,8 +101,7 @@ class DriveFitter {
                                      search_.delay_s);
   }
 
-  const std::filesystem::path& file_;
-  drivers::RecordedWire wire_;
+  const DriveFile& file_;
   const settings::Config& config_;
   const Truth* truth_;
   DelaySearch search_;  ///< of the last drive
@@ -111,9 +109,8 @@ class DriveFitter {
 
 }  // namespace
 
-FittedDrive fit_drive(const std::filesystem::path& file, drivers::RecordedWire wire,
-                      const settings::Config& config, const Truth* truth) {
-  return DriveFitter(file, wire, config, truth).run();
+FittedDrive fit_drive(const DriveFile& file, const settings::Config& config, const Truth* truth) {
+  return DriveFitter(file, config, truth).run();
 }
 
 }  // namespace cornerd::tool

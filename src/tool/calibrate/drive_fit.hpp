@@ -1,11 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <filesystem>
-#include <optional>
-
 #include "calibration/odometry_fit.hpp"
-#include "drivers/make_driver.hpp"
 #include "settings/config.hpp"
 #include "tool/calibrate/calibration_drive.hpp"
 #include "tool/replay/truth.hpp"
@@ -20,7 +16,6 @@ struct FittedDrive {
 /// Plays a recorded drive and fits wheels and gyro: first the delay, then wiring faults, then
 /// scales. Poses come from `truth`, or from the lidar's fixes if it is null. Throws Failure with
 /// the fault, replay::RecordingError and settings::SettingsError.
-FittedDrive fit_drive(const std::filesystem::path& file, drivers::RecordedWire wire,
-                      const settings::Config& config, const Truth* truth);
+FittedDrive fit_drive(const DriveFile& file, const settings::Config& config, const Truth* truth);
 
 }  // namespace cornerd::tool

@@ -87,6 +87,19 @@ void write_file(const std::filesystem::path& file, std::string_view text) {
   output.commit();
 }
 
+void keep_earlier(const std::filesystem::path& file) {
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(file, ignored) ||
+      std::filesystem::is_empty(file, ignored)) {
+    return;
+  }
+  const std::filesystem::path earlier = file.string() + '~';
+  std::error_code error;
+  std::filesystem::rename(file, earlier, error);
+  if (error) throw Failure(earlier.string() + ": " + error.message());
+  std::fprintf(stderr, "%s: the earlier file is %s now\n", file.c_str(), earlier.c_str());
+}
+
 namespace {
 
 namespace fs = std::filesystem;

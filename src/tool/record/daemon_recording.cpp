@@ -59,6 +59,7 @@ void record_from_daemon(const std::filesystem::path& socket, const std::filesyst
   if (daemon.wait(line) == client::Event::kLost) {
     throw Failure(daemon.problem() + " (does cornerd run?)");
   }
+  keep_earlier(file);
   Output output(file);
   const StopSignal stop_signal;
   Recorded recorded;

@@ -139,6 +139,7 @@ void record(RecordOptions& options) {
   drivers::OpenResult first = drivers::open_serial_port(config.device, baud);
   if (!first.stream) throw Failure(first.message);
 
+  keep_earlier(options.output);
   Recorder recorder(options.output);
   StopSignal stop_signal;
   const auto open_port = [&](std::uint32_t rate) -> drivers::OpenResult {
@@ -210,7 +211,7 @@ void add_record(Command& program) {
       .add_option(
           "-o,--output", options->output,
           "the recording: .bin received bytes; .ndjson both directions with times, and wheels and "
-          "gyro if odometry.source is kernel")
+          "gyro if odometry.source is kernel; a file of that name becomes FILE~")
       .required()
       .type_name("FILE");
   command.add_flag(

@@ -15,6 +15,7 @@
 #include "message/request.hpp"
 #include "replay/line_reader.hpp"
 #include "tool/command_line/failure.hpp"
+#include "tool/replay/other_odometry.hpp"
 
 namespace cornerd::tool {
 
@@ -23,16 +24,13 @@ class Playback::Sink : public replay::RecordingSink {
   explicit Sink(Playback& playback) : playback_(playback) {}
 
   void on_sample(const core::Sample& sample) override {
-    playback_.play_readings_until(sample.t_ns);
     playback_.on_result(playback_.pipeline_.add(sample));
     playback_.on_intermediate_pose(playback_.pipeline_.partial_pose());
   }
   void on_gap() override { playback_.on_result(playback_.pipeline_.finish()); }
-  void on_odometry(const message::OdometryReading& reading) override {
-    if (!playback_.has_readings_) playback_.add(reading);
-  }
+  void on_odometry(const message::OdometryReading& reading) override { playback_.add(reading); }
   void on_refused_odometry(const message::RequestError& error) override {
-    if (!playback_.has_readings_ && playback_.on_refusal_) playback_.on_refusal_(error);
+    if (playback_.on_refusal_) playback_.on_refusal_(error);
   }
 
  private:
@@ -41,12 +39,6 @@ class Playback::Sink : public replay::RecordingSink {
 
 Playback::Playback(core::Pipeline& pipeline, OnScan on_scan, OnPiece on_piece)
     : pipeline_(pipeline), on_scan_(std::move(on_scan)), on_piece_(std::move(on_piece)) {}
-
-void Playback::play_readings_until(core::TimeNs t_ns) {
-  while (next_reading_ < readings_.size() && readings_[next_reading_].t_ns <= t_ns) {
-    add(readings_[next_reading_++]);
-  }
-}
 
 void Playback::add(const core::OdometryReading& reading) {
   if (on_reading_) on_reading_(reading);
@@ -66,9 +58,11 @@ void Playback::on_result(const core::ScanResult* result) {
 
 void Playback::play(const std::filesystem::path& file, const replay::RecordingOptions& options) {
   replay::RecordingPlayer player(file, options);
-  Sink sink(*this);
+  Sink own(*this);
+  std::optional<OtherOdometry> other;
+  if (readings_) other.emplace(own, *readings_);
+  replay::RecordingSink& sink = other ? static_cast<replay::RecordingSink&>(*other) : own;
   scans_ = 0;
-  next_reading_ = 0;
   pipeline_.localizer().relocalize();
   while (player.step(sink)) {
     if (on_piece_) on_piece_(player.time_ns(), player.counters());

@@ -48,7 +48,6 @@ class Playback {
   /// Replaces the recording's odometry by these readings in ascending time.
   void set_odometry(std::vector<core::OdometryReading> readings) {
     readings_ = std::move(readings);
-    has_readings_ = true;
   }
 
   /// Plays one file with a fresh localizer. Reports skipped lines on standard error. Throws
@@ -68,12 +67,9 @@ class Playback {
   OnReading on_reading_;
   std::function<void(const message::RequestError& error)> on_refusal_;
   void add(const core::OdometryReading& reading);
-  void play_readings_until(core::TimeNs t_ns);
 
   bool independent_ = false;
-  bool has_readings_ = false;
-  std::vector<core::OdometryReading> readings_;
-  std::size_t next_reading_ = 0;
+  std::optional<std::vector<core::OdometryReading>> readings_;
   std::size_t scans_ = 0;
 };
 

@@ -191,7 +191,7 @@ TEST(DriveFaults, MountWithinATapesError_IsNone) {
 }
 
 TEST(DriveFaults, WrongCounts_GiveFactor) {
-  for (const double factor : {0.25, 0.5, 2.0, 4.0}) {
+  for (const double factor : {0.25, 0.5, 2.0, 4.0, 30.0}) {
     const DriveFaults faults = faults_of(Robot{.change = [&](OdometryIncrement& step) {
       step.left_m /= factor;
       step.right_m /= factor;
@@ -248,8 +248,12 @@ TEST(DriveFaults, WrongGyro_IsNamed) {
               ElementsAre("gyro-degrees"));
   EXPECT_THAT(names([](OdometryIncrement& step) { step.gyro_rad = -core::degrees(step.gyro_rad); }),
               ElementsAre("gyro-degrees-reversed"));
-  EXPECT_THAT(names([](OdometryIncrement& step) { step.gyro_rad *= 3; }),
-              ElementsAre("gyro-scale"));
+  // The last two: raw counts of a chip, and millidegrees.
+  for (const double factor : {3.0, 7506.0, 57296.0}) {
+    EXPECT_THAT(names([=](OdometryIncrement& step) { step.gyro_rad *= factor; }),
+                ElementsAre("gyro-scale"))
+        << factor;
+  }
   const DriveFaults biased = faults_of(
       Robot{.change = [](OdometryIncrement& step) { step.gyro_rad += 0.6 * step.duration_s(); }});
   ASSERT_THAT(names_of(biased), ElementsAre("gyro-bias"));

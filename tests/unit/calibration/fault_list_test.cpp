@@ -10,6 +10,7 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
+using testing::Not;
 
 core::WallMap flat() {
   core::FloorPlan plan;
@@ -141,6 +142,23 @@ TEST(FaultList, CountsThatBeginAgain_MayWrap) {
   often.add_drive(drive, {}, {}, odometry);
   EXPECT_THAT(often.hint(),
               HasSubstr("5 times so far: if they wrap, set advanced.odometry.counter_max"));
+}
+
+TEST(FaultList, MaxSpeedThatIsTooLow_IsInTheHint) {
+  core::ScanResult result;
+  result.odometry.present = true;
+  result.odometry.counters.readings = 1000;
+  RecentPoses poses;
+  const core::WallMap map = flat();
+  for (std::size_t i = 0; i < RecentPoses::kScans; ++i) poses.add(result, {}, {}, &map);
+  const auto hint = [&](std::uint64_t jumps) {
+    result.odometry.counters.jumps = jumps;
+    FaultList faults;
+    faults.add_drive({}, {}, poses, result.odometry);
+    return faults.hint();
+  };
+  EXPECT_THAT(hint(10), Not(HasSubstr("max_speed")));
+  EXPECT_THAT(hint(100), HasSubstr("100 readings moved farther than advanced.odometry.max_speed"));
 }
 
 TEST(FaultList, HintIsAboutTheFirst) {

@@ -43,6 +43,15 @@ TEST_F(CalibrateMount, UnknownMount_IsFoundAndReplays) {
   EXPECT_EQ(CommandRun({"replay", recording_, "--config", output_, "--map", map_}).exit_code, 0);
 }
 
+TEST_F(CalibrateMount, OdometryOfAnotherFile_GivesTheSame) {
+  const CommandRun own({"calibrate", "mount", recording_, "--map", map_});
+  const std::string bare = folder_ / "bare.ndjson";
+  rewrite(bare, [](json& line) { line["class"] = "EVENT"; });
+  const CommandRun other({"calibrate", "mount", bare, "--map", map_, "--odometry", recording_});
+  ASSERT_EQ(other.exit_code, 0) << other.err;
+  EXPECT_EQ(other.out, own.out);
+}
+
 TEST_F(CalibrateMount, WrongWheels_AreNamedFirst) {
   const std::string wrong = folder_ / "wrong.ndjson";
   rewrite(wrong, [](json& line) { line["left"] = -line["left"].get<int>(); });

@@ -58,6 +58,14 @@ TEST_F(DaemonRecording, KeepsScansAndReadings_ThatReplayReads) {
   EXPECT_THAT(replay.out, HasSubstr("\"class\":\"SCAN\",\"t\":1.0"));
 }
 
+TEST_F(DaemonRecording, EarlierRecording_IsKept) {
+  std::ofstream(file("a.ndjson")) << kScan;
+  const CommandRun run = record(kReading + kScan);
+  EXPECT_THAT(run.err, HasSubstr("the earlier file is"));
+  std::ifstream earlier(file("a.ndjson~"));
+  EXPECT_EQ(std::string(std::istreambuf_iterator<char>(earlier), {}), kScan);
+}
+
 TEST_F(DaemonRecording, NothingComes_IsFailure) {
   const CommandRun run = record("");
   EXPECT_EQ(run.exit_code, 1);
