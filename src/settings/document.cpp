@@ -5,6 +5,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <cctype>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -29,6 +30,20 @@ std::string strip_library_prefix(std::string_view what) {
   if (prefix != std::string_view::npos) return std::string(what.substr(prefix + kPrefix.size()));
   const std::size_t bracket = what.find("] ");
   return std::string(bracket == std::string_view::npos ? what : what.substr(bracket + 2));
+}
+
+/// What people write who know YAML, Python or JavaScript; empty for anything else.
+std::string way_out(const std::string& error, char token) {
+  const auto says = [&](const char* text) { return error.find(text) != std::string::npos; };
+  if (says("object key - unexpected '}'") || says("value - unexpected ']'")) {
+    return "; JSON has no comma after the last one";
+  }
+  if (token == '#') return "; a comment begins with //";
+  if (token == '\'') return "; a string is in double quotes";
+  const bool is_word = std::isalpha(static_cast<unsigned char>(token)) != 0;
+  return is_word && says("invalid literal")
+             ? "; all words but true, false and null are in double quotes"
+             : "";
 }
 
 /// Checks what the parsed document no longer shows: repeated keys and depth. A pass of its own: the
@@ -60,14 +75,16 @@ class StructureCheck : public Json::json_sax_t {
     return true;
   }
 
-  bool parse_error(std::size_t /*position*/, const std::string& /*token*/,
+  bool parse_error(std::size_t /*position*/, const std::string& token,
                    const Json::exception& error) override {
     std::string where;
     if (dynamic_cast<const Json::out_of_range*>(&error) != nullptr) {
       begin_element();
       where = pointer();
     }
-    throw SettingsError(file_.string(), where, one_line(strip_library_prefix(error.what())));
+    throw SettingsError(file_.string(), where,
+                        one_line(strip_library_prefix(error.what())) +
+                            way_out(error.what(), token.empty() ? '\0' : token.back()));
   }
 
  private:

@@ -14,6 +14,7 @@ namespace {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
+using ::testing::Not;
 using ::testing::StartsWith;
 
 std::string document_error(std::string_view text) {
@@ -23,6 +24,16 @@ std::string document_error(std::string_view text) {
 TEST(Document, Comments_AreAllowed) {
   const Json document = parse_document("// one\n{ \"a\": 1 /* two */ } // three", "f.json");
   EXPECT_EQ(document["a"], 1);
+}
+
+TEST(Document, OtherSyntaxes_GetTheWayOut) {
+  EXPECT_THAT(document_error("{\"a\": 1,}"), HasSubstr("no comma after the last one"));
+  EXPECT_THAT(document_error("{\"a\": [1, 2,]}"), HasSubstr("no comma after the last one"));
+  EXPECT_THAT(document_error("# map\n{}"), HasSubstr("a comment begins with //"));
+  EXPECT_THAT(document_error("{'a': 1}"), HasSubstr("in double quotes"));
+  EXPECT_THAT(document_error("{a: 1}"), HasSubstr("in double quotes"));
+  EXPECT_THAT(document_error("map: flat.json"), HasSubstr("in double quotes"));
+  EXPECT_THAT(document_error("{\"a\": 1"), Not(HasSubstr("double quotes")));
 }
 
 TEST(Document, SyntaxError_IsNamedByLineAndColumn) {
