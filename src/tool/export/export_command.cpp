@@ -110,6 +110,10 @@ void export_recording(const McapOptions& options) {
   guard_files({.read = {options.recording, options.settings.config_file()},
                .written = {},
                .output = options.output});
+  const std::string ending = options.output.extension().string();
+  if (ending == ".bag" || ending == ".db3") {
+    throw UsageError("-o: MCAP is no " + ending + " of rosbag: name it *.mcap");
+  }
   const auto kind = replay::kind_of_recording(options.recording);
   Exporter exporter(options.output);
   std::string skipped;

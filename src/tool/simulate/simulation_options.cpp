@@ -34,6 +34,16 @@ void warn_unless_indoors(const core::WallMap& map, const core::Vec2& point) {
                point.x(), point.y(), map.is_solid(point) ? "inside a wall" : "outside the walls");
 }
 
+void warn_of_walls(const core::WallMap& map, const std::vector<core::Vec2>& stops) {
+  for (std::size_t i = 1; i < stops.size(); ++i) {
+    const core::Vec2 way = stops[i] - stops[i - 1];
+    if (map.range_along(stops[i - 1], core::angle_of(way), way.norm()) == 0) continue;
+    std::fprintf(
+        stderr, "cornerctl: warning: the way from %.12g,%.12g to %.12g,%.12g goes through a wall\n",
+        stops[i - 1].x(), stops[i - 1].y(), stops[i].x(), stops[i].y());
+  }
+}
+
 }  // namespace
 
 void SimulationOptions::add_to(Command& command) {
@@ -100,6 +110,7 @@ replay::Motion SimulationOptions::motion(const core::WallMap& world) const {
   }
   const std::vector<core::Vec2> stops = points();
   for (const core::Vec2& point : stops) warn_unless_indoors(world, point);
+  warn_of_walls(world, stops);
   return replay::drive_path(stops, drive());
 }
 

@@ -40,6 +40,13 @@ TEST_F(ExportCommand, Failure_LeavesTheOldFileAlone) {
   EXPECT_FALSE(std::filesystem::exists(path("drive.mcap.part")));
 }
 
+TEST_F(ExportCommand, NameOfAnotherFormat_IsWrongUsage) {
+  write("drive.ndjson", "");
+  const CommandRun run({"export", path("drive.ndjson"), "-o", path("drive.bag")});
+  EXPECT_EQ(run.exit_code, kExitUsage);
+  EXPECT_THAT(run.err, testing::HasSubstr("*.mcap"));
+}
+
 TEST_F(ExportCommand, DamagedLines_AreCountedAndTheFirstNamed) {
   write("drive.mcap", "old");
   const std::string scan =
