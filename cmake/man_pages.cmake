@@ -36,7 +36,7 @@ cornerd_man_page(cornerctl.1 DEPENDS cornerctl
 cornerd_man_page(cornerd.json.5 DEPENDS ${PROJECT_SOURCE_DIR}/config/cornerd.full.json
   COMMAND settings ${PROJECT_SOURCE_DIR}/config/cornerd.full.json)
 cornerd_man_page(cornerd-protocol.7
-  DEPENDS ${PROJECT_SOURCE_DIR}/src/message/README.md ${PROJECT_SOURCE_DIR}/cmake/man/markdown.awk
-  COMMAND protocol ${PROJECT_SOURCE_DIR}/src/message/README.md)
+  DEPENDS ${PROJECT_SOURCE_DIR}/src/message/protocol.md ${PROJECT_SOURCE_DIR}/cmake/man/markdown.awk
+  COMMAND protocol ${PROJECT_SOURCE_DIR}/src/message/protocol.md)
 add_custom_target(man_pages ALL DEPENDS ${cornerd_pages})
 add_dependencies(installed man_pages)

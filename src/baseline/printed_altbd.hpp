@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // ALTBD as El Amin et al. print it (section III.A, steps 1-19), in the variants that the print
-// leaves open. `cornerd-bench --variants` measures them (src/bench/README.md).
+// leaves open. `cornerd-bench --variants` measures them (src/bench/corners.md).
 #pragma once
 
 #include <cstddef>

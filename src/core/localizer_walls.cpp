@@ -24,7 +24,7 @@ constexpr double kMaxSigma_m = 0.05;
 /// Scans in a row that named the place where the last one led to expect it: 1.4 s.
 constexpr std::size_t kMinNamed = 10;
 /// Places whose scans the map explains and what was learned does not, until walls count as moved: a
-/// cupboard was taken away. In 24 drives through drawn plans (README.md of src/bench) 5 in a row
+/// cupboard was taken away. In 24 drives through drawn plans (src/bench/maps.md) 5 in a row
 /// happened, 20 did not.
 constexpr std::size_t kUntilMoved = 20;
 

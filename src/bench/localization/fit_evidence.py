@@ -8,7 +8,7 @@
 Conditional logistic regression: the places of a scan compete with "elsewhere" (log odds 0). A wrong
 place beyond the threshold of a fix (log odds 11.5) costs as much as WRONG_COST or WRONG_PLACE_COST
 right ones below it. The weights in the tree were fitted with recorded scans, eightfold, beside the
-simulated ones (src/bench/README.md, "Evidence for a place"). Needs NumPy and SciPy.
+simulated ones (src/bench/poses.md, "Evidence for a place"). Needs NumPy and SciPy.
 """
 
 import sys

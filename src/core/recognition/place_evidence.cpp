@@ -12,7 +12,7 @@ constexpr double kLongWall_m = 3;
 
 /// Weights of the regression (nats per unit), fitted to the likeliest wrong and the right places of
 /// 55,000 simulated scans (random buildings, map errors, obstacles, views; right, mirrored and
-/// other maps) and of 1,962 recorded ones (src/bench/README.md, "Evidence for a place"). A wrong
+/// other maps) and of 1,962 recorded ones (src/bench/poses.md, "Evidence for a place"). A wrong
 /// place beyond the threshold of a fix weighs as much as 40 right ones below it, in the right map
 /// as 100.
 struct Weights {

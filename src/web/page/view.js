@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The picture: map, robot, scan. Coordinates are metres in the map; y is up.
+import { paintArrow, paintGhost, paintRobot } from "./robots.js";
 import { color, paintDraft, wallPaths } from "./walls.js";
 import { WallIndex } from "./wall_index.js";
 
@@ -149,9 +150,9 @@ export class View {
     else this.paintMap(c);
     if (!this.draft) this.paintTrail(c);
     this.paintScan(c);
-    this.ghosts.forEach((ghost, i) => this.paintGhost(c, ghost, i + 1));
-    if (this.pose) this.paintRobot(c, this.pose);
-    if (this.aim) this.paintArrow(c, this.aim);
+    this.ghosts.forEach((ghost, i) => paintGhost(c, this, ghost, i + 1));
+    if (this.pose) paintRobot(c, this, this.pose);
+    if (this.aim) paintArrow(c, this, this.aim);
     this.paintScaleBar(c);
     // For who looks at the pixels: of what pose, and where they are.
     Object.assign(this.canvas.dataset, { t: this.pose?.t ?? "", x: this.center.x, y: this.center.y, scale: this.scale });
@@ -230,69 +231,6 @@ export class View {
       corner.kind === "corner" ? c.rect(x - 4, y - 4, 8, 8) : c.arc(x, y, 4, 0, 7);
       c.stroke();
     }
-  }
-
-  paintRobot(c, { x, y, theta, cov }) {
-    const at = this.toScreen({ x, y });
-    c.save();
-    c.translate(at.x, at.y);
-    if (cov) {
-      // 95 % of a normal distribution in the plane: 2.45 sigma.
-      const mean = (cov.xx + cov.yy) / 2;
-      const spread = Math.hypot((cov.xx - cov.yy) / 2, cov.xy);
-      c.save();
-      c.rotate(-Math.atan2(2 * cov.xy, cov.xx - cov.yy) / 2);
-      c.beginPath();
-      const radius = (variance) => Math.max(1, 2.45 * Math.sqrt(Math.max(0, variance)) * this.scale);
-      c.ellipse(0, 0, radius(mean + spread), radius(mean - spread), 0, 0, 7);
-      c.fillStyle = color("sigma");
-      c.fill();
-      c.restore();
-    }
-    c.rotate(-theta);
-    c.fillStyle = color("nose");
-    c.beginPath();
-    c.moveTo(22, 0);
-    c.lineTo(6, -9);
-    c.lineTo(6, 9);
-    c.fill();
-    c.beginPath();
-    c.arc(0, 0, 9, 0, 7);
-    c.fillStyle = color("robot");
-    c.fill();
-    c.strokeStyle = color("ring");
-    c.lineWidth = 2;
-    c.stroke();
-    c.restore();
-  }
-
-  paintGhost(c, ghost, number) {
-    const at = this.toScreen(ghost);
-    c.save();
-    c.translate(at.x, at.y);
-    c.strokeStyle = c.fillStyle = color("ghost");
-    c.lineWidth = 2;
-    c.beginPath();
-    c.arc(0, 0, 14, 0, 7);
-    c.moveTo(14 * Math.cos(ghost.theta), -14 * Math.sin(ghost.theta));
-    c.lineTo(26 * Math.cos(ghost.theta), -26 * Math.sin(ghost.theta));
-    c.stroke();
-    c.font = "600 14px system-ui, sans-serif";
-    c.textAlign = "center";
-    c.textBaseline = "middle";
-    c.fillText(String(number), 0, 0);
-    c.restore();
-  }
-
-  paintArrow(c, { x, y, theta }) {
-    this.paintRobot(c, { x, y, theta });
-    const from = this.toScreen({ x, y });
-    c.strokeStyle = color("robot");
-    c.lineWidth = 3;
-    c.beginPath();
-    c.moveTo(from.x, from.y);
-    c.lineTo(from.x + 60 * Math.cos(theta), from.y - 60 * Math.sin(theta));
-    c.stroke();
   }
 
   paintScaleBar(c) {

@@ -58,7 +58,7 @@ TEST_P(CoveredLidarRobot, FixesAndPredictions_AreConsistent) {
   }
 }
 
-// Without a gyro the covariance is slightly overconfident (src/bench/README.md); the bounds hold
+// Without a gyro the covariance is slightly overconfident (src/bench/odometry.md); the bounds hold
 // that.
 INSTANTIATE_TEST_SUITE_P(Robots, CoveredLidarRobot,
                          testing::Values(RobotBounds{"16 cm robot"}, RobotBounds{"twice the noise"},

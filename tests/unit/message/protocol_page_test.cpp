@@ -33,7 +33,7 @@ class ProtocolPageTest : public ::testing::Test {
     const std::string source = CORNERD_SOURCE_DIR;
     const std::string file = (folder / "cornerd-protocol.7.gz").string();
     page_ = output_of(source + "/cmake/man_page " + file + " 1 protocol " + source +
-                      "/src/message/README.md && gzip -dc " + file);
+                      "/src/message/protocol.md && gzip -dc " + file);
   }
   static std::string page_;
 };
