@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 
 namespace cornerd::core {
 
@@ -18,8 +19,14 @@ class CountInterpolator {
   double travel_m(double counted_m, double duration_s) {
     since_change_s_ += duration_s;
     const double ahead_m = beyond_middle_m_ + speed_m_s_ * duration_s - counted_m;
-    const double within_m = std::clamp(ahead_m, -half_m_, half_m_);
-    if (since_change_s_ > 0) speed_m_s_ += kGain * (within_m - ahead_m) / since_change_s_;
+    // A speed that misses the count by another one tells nothing of where in it the wheel is.
+    const bool missed = std::abs(ahead_m) > 3 * half_m_;
+    const double within_m = missed ? 0 : std::clamp(ahead_m, -half_m_, half_m_);
+    if (missed && since_change_s_ > 0) {
+      speed_m_s_ = counted_m / since_change_s_;
+    } else if (since_change_s_ > 0) {
+      speed_m_s_ += kGain * (within_m - ahead_m) / since_change_s_;
+    }
     if (counted_m != 0) since_change_s_ = 0;
     const double moved_m = counted_m + within_m - beyond_middle_m_;
     beyond_middle_m_ = within_m;
