@@ -23,7 +23,7 @@ constexpr double kTurned_rad = core::kPi / 2;
 constexpr double kSilentShare = 0.01;
 /// Counts of both wheels that differ as little over so much of rotation are those of one wheel.
 constexpr double kSameRotation_rad = 3;
-/// Of the lidar: windows with less do not tell of a factor.
+/// By the lidar or by the counts: windows with less do not tell of a factor.
 constexpr double kMinTravel_m = 0.02;
 
 /// `delay`: of kDelays_s.
@@ -118,9 +118,8 @@ class DriveBank {
       for (const MotionWindow& window : windows_) {
         const double half_m = window.rotation_rad * geometry_.track_m / 2;
         const double moved_m = forward_m(window) + (is_left ? -half_m : half_m);
-        if (std::abs(moved_m) < kMinTravel_m) continue;
-        ratios.push_back(moved_m /
-                         (is_left ? window.counted[0].left_m : window.counted[0].right_m));
+        const double counted_m = is_left ? window.counted[0].left_m : window.counted[0].right_m;
+        if (tells_factor(moved_m, counted_m)) ratios.push_back(moved_m / counted_m);
       }
       const auto factor = checked(ratios);
       if (!factor) continue;
@@ -256,10 +255,14 @@ class DriveBank {
     std::vector<double> ratios;
     for (std::size_t i = 0; i < windows_.size(); ++i) {
       const double moved_m = forward_m(windows_[i]);
-      if (std::abs(moved_m) < kMinTravel_m) continue;
-      ratios.push_back(2 * moved_m / (travel[i].left_m + travel[i].right_m));
+      const double counted_m = (travel[i].left_m + travel[i].right_m) / 2;
+      if (tells_factor(moved_m, counted_m)) ratios.push_back(moved_m / counted_m);
     }
     return checked(ratios);
+  }
+
+  static bool tells_factor(double moved_m, double counted_m) {
+    return std::max(std::abs(moved_m), std::abs(counted_m)) >= kMinTravel_m;
   }
 
   static std::optional<double> checked(const std::vector<double>& ratios) {

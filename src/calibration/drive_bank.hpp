@@ -14,8 +14,8 @@ namespace cornerd::calibration {
 inline constexpr double kPriorRight = 1;
 inline constexpr double kPriorFault = 0.01;
 inline constexpr double kPriorTwoFaults = 1e-4;
-/// A factor is one of any between 1 / kLargestFactor and kLargestFactor, each as likely on a
-/// logarithmic scale; a cell of them is as wide as the errors of measured wheels.
+/// A wheel's factor is one of any between 1 / kLargestFactor and kLargestFactor, each as likely on
+/// a logarithmic scale; a cell of them is as wide as the errors of measured wheels.
 inline constexpr double kLargestFactor = 1000;
 inline const double kFactorCells =
     2 * std::log(kLargestFactor) / (kMeasuredSigma * std::sqrt(2 * core::kPi));

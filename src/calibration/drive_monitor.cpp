@@ -17,17 +17,22 @@ constexpr double kMostRate = 1e6;
 /// or has another clock, and OdometryInputMonitor says so.
 constexpr core::TimeNs kMaxApart_ns = 2 * core::kNsPerSecond;
 
-core::OdometryConfig widened(core::OdometryConfig config) {
-  config.limits.wheel_speed_m_s *= kLimitFactor;
-  config.limits.gyro_rad_s = kMostRate;
-  config.conservative = false;
-  return config;
+core::OdometryConfig of_gate(const core::OdometryConfig& config) {
+  core::OdometryConfig wide = with_wide_limits(config);
+  wide.conservative = false;
+  return wide;
 }
 
 }  // namespace
 
+core::OdometryConfig with_wide_limits(core::OdometryConfig config) {
+  config.limits.wheel_speed_m_s *= kLimitFactor;
+  config.limits.gyro_rad_s = kMostRate;
+  return config;
+}
+
 DriveMonitor::DriveMonitor(const core::OdometryConfig& config, const core::Pose2& T_base_lidar)
-    : config_(config), T_base_lidar_(T_base_lidar), gate_(widened(config)), windows_(kMonitored) {}
+    : config_(config), T_base_lidar_(T_base_lidar), gate_(of_gate(config)), windows_(kMonitored) {}
 
 void DriveMonitor::add(const core::OdometryReading& reading) {
   newest_ns_ = reading.t_ns;

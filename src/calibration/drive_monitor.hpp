@@ -10,6 +10,9 @@
 
 namespace cornerd::calibration {
 
+/// With limits that no wrong unit exceeds, so that what is wrong shows in the motion.
+core::OdometryConfig with_wide_limits(core::OdometryConfig config);
+
 /// Compares odometry with the lidar while a robot drives. Independent of the odometry filter, which
 /// rejects what it cannot use. Bounded memory; not for the real-time threads.
 class DriveMonitor {

@@ -61,16 +61,13 @@ bool is_cut(const core::Scan& scan, const RecentPoses::Limits& limits) {
 
 /// What the gate left out, where it may be why the rest contradicts the lidar.
 std::string lost_counts(const core::OdometryCounters& counters) {
-  std::string text;
-  if (counters.restarts > 0) {
-    text = "; counts began again elsewhere, " + std::to_string(counters.restarts) +
-           " times so far: if they wrap, set advanced.odometry.counter_max to the highest count";
-  }
   if (static_cast<double>(counters.jumps) > kManyJumps * static_cast<double>(counters.readings)) {
-    text += "; " + std::to_string(counters.jumps) +
-            " readings moved farther than advanced.odometry.max_speed allows, and were left out";
+    return "; " + std::to_string(counters.jumps) +
+           " readings moved farther than advanced.odometry.max_speed allows, and were left out";
   }
-  return text;
+  if (counters.restarts == 0) return {};
+  return "; counts began again elsewhere, " + std::to_string(counters.restarts) +
+         " times so far: if they wrap, set advanced.odometry.counter_max to the highest count";
 }
 
 }  // namespace

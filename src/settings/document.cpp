@@ -32,25 +32,32 @@ std::string strip_library_prefix(std::string_view what) {
   return std::string(bracket == std::string_view::npos ? what : what.substr(bracket + 2));
 }
 
-/// What people write who know YAML, Python or JavaScript; empty for anything else.
-std::string way_out(const std::string& error, char token) {
-  const auto says = [&](const char* text) { return error.find(text) != std::string::npos; };
-  if (says("object key - unexpected '}'") || says("value - unexpected ']'")) {
+/// Where people write what YAML, Python or JavaScript takes; empty for anything else. `text`: up to
+/// the character that is wrong.
+std::string way_out(std::string_view what, std::string_view text) {
+  if (text.empty()) return {};
+  const char wrong = text.back();
+  text.remove_suffix(1);
+  const std::size_t before = text.find_last_not_of(" \t\r\n");
+  const char last = before == std::string_view::npos ? '\0' : text[before];
+  if ((wrong == '}' || wrong == ']') && last == ',')
     return "; JSON has no comma after the last one";
-  }
-  if (token == '#') return "; a comment begins with //";
-  if (token == '\'') return "; a string is in double quotes";
-  const bool is_word = std::isalpha(static_cast<unsigned char>(token)) != 0;
-  return is_word && says("invalid literal")
-             ? "; all words but true, false and null are in double quotes"
-             : "";
+  // Of the library's words alone, not of the text that it quotes.
+  if (what.substr(0, what.find("last read")).find("invalid literal") == std::string_view::npos)
+    return {};
+  if (wrong == '#') return "; a comment begins with //";
+  if (wrong == '\'') return "; a string is in double quotes";
+  if (std::isalpha(static_cast<unsigned char>(wrong)) == 0) return {};
+  return "; JSON has the words true, false and null alone: others are strings in double quotes, "
+         "and numbers have no unit";
 }
 
 /// Checks what the parsed document no longer shows: repeated keys and depth. A pass of its own: the
 /// library's parser with a callback is quadratic in the elements of an array.
 class StructureCheck : public Json::json_sax_t {
  public:
-  explicit StructureCheck(const std::filesystem::path& file) : file_(file) {}
+  StructureCheck(const std::filesystem::path& file, std::string_view text)
+      : file_(file), text_(text) {}
 
   bool null() override { return begin_element(); }
   bool boolean(bool /*value*/) override { return begin_element(); }
@@ -75,7 +82,7 @@ class StructureCheck : public Json::json_sax_t {
     return true;
   }
 
-  bool parse_error(std::size_t /*position*/, const std::string& token,
+  bool parse_error(std::size_t position, const std::string& /*token*/,
                    const Json::exception& error) override {
     std::string where;
     if (dynamic_cast<const Json::out_of_range*>(&error) != nullptr) {
@@ -84,7 +91,7 @@ class StructureCheck : public Json::json_sax_t {
     }
     throw SettingsError(file_.string(), where,
                         one_line(strip_library_prefix(error.what())) +
-                            way_out(error.what(), token.empty() ? '\0' : token.back()));
+                            way_out(error.what(), text_.substr(0, position)));
   }
 
  private:
@@ -123,6 +130,7 @@ class StructureCheck : public Json::json_sax_t {
   }
 
   const std::filesystem::path& file_;
+  std::string_view text_;
   std::vector<Level> levels_;
 };
 
@@ -181,7 +189,7 @@ std::string read_file(const std::filesystem::path& file, std::size_t max_bytes, 
 }
 
 Json parse_document(std::string_view text, const std::filesystem::path& file) {
-  StructureCheck check(file);
+  StructureCheck check(file, text);
   Json::sax_parse(text, &check, Json::input_format_t::json, /*strict=*/true,
                   /*ignore_comments=*/true);
   return Json::parse(text, nullptr, /*allow_exceptions=*/true, /*ignore_comments=*/true);

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <algorithm>
-#include <cmath>
 
 namespace cornerd::core {
 
@@ -19,13 +18,17 @@ class CountInterpolator {
   double travel_m(double counted_m, double duration_s) {
     since_change_s_ += duration_s;
     const double ahead_m = beyond_middle_m_ + speed_m_s_ * duration_s - counted_m;
-    // A speed that misses the count by another one tells nothing of where in it the wheel is.
-    const bool missed = std::abs(ahead_m) > 3 * half_m_;
-    const double within_m = missed ? 0 : std::clamp(ahead_m, -half_m_, half_m_);
-    if (missed && since_change_s_ > 0) {
-      speed_m_s_ = counted_m / since_change_s_;
+    double within_m = std::clamp(ahead_m, -half_m_, half_m_);
+    const double missed_m = within_m - ahead_m;
+    if (counted_m != 0 || missed_m != 0) {
+      missed_m2_ += kShare * (std::min(missed_m * missed_m, 16 * half_m_ * half_m_) - missed_m2_);
+    }
+    if (missed_m2_ > 4 * half_m_ * half_m_) {
+      // A speed that is a count off tells nothing of where in it the wheel is.
+      within_m = 0;
+      if (since_change_s_ > 0) speed_m_s_ = counted_m / since_change_s_;
     } else if (since_change_s_ > 0) {
-      speed_m_s_ += kGain * (within_m - ahead_m) / since_change_s_;
+      speed_m_s_ += kGain * missed_m / since_change_s_;
     }
     if (counted_m != 0) since_change_s_ = 0;
     const double moved_m = counted_m + within_m - beyond_middle_m_;
@@ -36,11 +39,14 @@ class CountInterpolator {
  private:
   /// Of what a count tells of the speed. More, and it follows the rounding of counts.
   static constexpr double kGain = 0.2;
+  /// Of one increment in the mean of what the speed misses counts by.
+  static constexpr double kShare = 0.1;
 
   double half_m_;
   double beyond_middle_m_ = 0;  ///< of the count
   double speed_m_s_ = 0;
   double since_change_s_ = 0;
+  double missed_m2_ = 0;  ///< mean square, each of at most two counts
 };
 
 }  // namespace cornerd::core

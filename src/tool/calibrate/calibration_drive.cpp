@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <utility>
 
+#include "calibration/drive_monitor.hpp"
 #include "core/pipeline.hpp"
 #include "replay/recording.hpp"
 #include "settings/map_file.hpp"
@@ -15,16 +16,8 @@ namespace cornerd::tool {
 
 namespace {
 
-/// Exceeds the factor of any wrong unit.
-constexpr double kLimitFactor = 100;
 constexpr core::TimeNs kMaxClockOffset_ns = 2 * core::kNsPerSecond;
 constexpr core::TimeNs kMaxLead_ns = 10 * core::kNsPerSecond;
-
-core::OdometryConfig widened(core::OdometryConfig config) {
-  config.limits.wheel_speed_m_s *= kLimitFactor;
-  config.limits.gyro_rad_s *= kLimitFactor;
-  return config;
-}
 
 /// Drops poses that go back in time.
 void add_pose(const calibration::KnownPose& place, std::vector<calibration::KnownPose>& places) {
@@ -40,7 +33,10 @@ void add_fix(const core::ScanResult& result, std::vector<calibration::KnownPose>
 class DriveSink final : public replay::RecordingSink {
  public:
   DriveSink(core::Pipeline& pipeline, const core::OdometryConfig& odometry, const Truth* truth)
-      : pipeline_(pipeline), gate_(odometry), wide_gate_(widened(odometry)), truth_(truth) {}
+      : pipeline_(pipeline),
+        gate_(odometry),
+        wide_gate_(calibration::with_wide_limits(odometry)),
+        truth_(truth) {}
 
   void on_sample(const core::Sample& sample) override {
     now_ns_ = sample.t_ns;

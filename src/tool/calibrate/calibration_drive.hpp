@@ -18,9 +18,8 @@ namespace cornerd::tool {
 /// A drive's odometry and poses.
 struct CalibrationDrive {
   std::vector<core::OdometryIncrement> steps;
-  std::vector<core::OdometryIncrement>
-      increments_within_wide_limits;  ///< with 100 times wider limits
-  core::OdometryCounters counters;    ///< of `steps`
+  std::vector<core::OdometryIncrement> increments_within_wide_limits;  ///< with_wide_limits()
+  core::OdometryCounters counters;                                     ///< of `steps`
   std::vector<calibration::KnownPose> places;
   std::vector<core::OdometryReading> readings;  ///< all of them, as they came
 };

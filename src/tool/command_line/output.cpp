@@ -88,14 +88,17 @@ void write_file(const std::filesystem::path& file, std::string_view text) {
 }
 
 void keep_earlier(const std::filesystem::path& file) {
-  std::error_code ignored;
-  if (!std::filesystem::is_regular_file(file, ignored) ||
-      std::filesystem::is_empty(file, ignored)) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(file, error) || std::filesystem::is_empty(file, error)) {
     return;
   }
-  const std::filesystem::path earlier = file.string() + '~';
-  std::error_code error;
-  std::filesystem::rename(file, earlier, error);
+  // Not a link, but what it points at.
+  const std::filesystem::path target = std::filesystem::canonical(file, error);
+  std::filesystem::path earlier = target.string() + '~';
+  for (int i = 2; std::filesystem::exists(earlier, error); ++i) {
+    earlier = target.string() + '~' + std::to_string(i);
+  }
+  std::filesystem::rename(target, earlier, error);
   if (error) throw Failure(earlier.string() + ": " + error.message());
   std::fprintf(stderr, "%s: the earlier file is %s now\n", file.c_str(), earlier.c_str());
 }

@@ -69,8 +69,8 @@ class Output {
 /// Throws as Output.
 void write_file(const std::filesystem::path& file, std::string_view text);
 
-/// A file that cannot be made again, as a drive's recording, becomes FILE~ before another takes its
-/// name; says so on standard error. Throws Failure.
+/// A file that cannot be made again, as a drive's recording, becomes FILE~, or FILE~2 and so on,
+/// before another takes its name; says so on standard error. Throws Failure.
 void keep_earlier(const std::filesystem::path& file);
 
 /// The name of standard output.

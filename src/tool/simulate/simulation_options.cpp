@@ -108,10 +108,13 @@ replay::Motion SimulationOptions::motion(const core::WallMap& world) const {
   if (places > 0) {
     return replay::visit_poses(replay::random_poses(world, places, kClearanceM, seed), scans_each);
   }
-  const std::vector<core::Vec2> stops = points();
+  std::vector<core::Vec2> stops = points();
   for (const core::Vec2& point : stops) warn_unless_indoors(world, point);
+  const replay::DriveConfig config = drive();
+  replay::Motion motion = replay::drive_path(stops, config);
+  if (config.loop) stops.push_back(stops.front());
   warn_of_walls(world, stops);
-  return replay::drive_path(stops, drive());
+  return motion;
 }
 
 std::vector<core::Vec2> SimulationOptions::points() const {

@@ -13,6 +13,7 @@ namespace cornerd::settings {
 namespace {
 
 using ::testing::AllOf;
+using ::testing::AnyOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
 using ::testing::StartsWith;
@@ -33,7 +34,13 @@ TEST(Document, OtherSyntaxes_GetTheWayOut) {
   EXPECT_THAT(document_error("{'a': 1}"), HasSubstr("in double quotes"));
   EXPECT_THAT(document_error("{a: 1}"), HasSubstr("in double quotes"));
   EXPECT_THAT(document_error("map: flat.json"), HasSubstr("in double quotes"));
-  EXPECT_THAT(document_error("{\"a\": 1"), Not(HasSubstr("double quotes")));
+  EXPECT_THAT(document_error("{\"a\": 5m}"), HasSubstr("numbers have no unit"));
+  for (const char* text : {"{\"a\": 1", "{\"a\": \"it\\'s\"}", "{\"a\": \"b#", "{\"a\": ]}",
+                           "{\"invalid literal\": }"}) {
+    EXPECT_THAT(document_error(text),
+                Not(AnyOf(HasSubstr("double quotes"), HasSubstr("//"), HasSubstr("no comma"))))
+        << text;
+  }
 }
 
 TEST(Document, SyntaxError_IsNamedByLineAndColumn) {
