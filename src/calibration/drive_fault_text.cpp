@@ -12,7 +12,7 @@ namespace {
 /// A factor this near to an integer counts as the integer.
 constexpr double kIntegerTolerance = 0.1;
 /// A gyro of 2,000 degrees a second in 16 bits counts 939 a rad/s; degrees are 57.
-constexpr double kRaw = 300;
+constexpr double kRawGyroFactor = 300;
 
 std::string number(const char* format, double value) {
   std::array<char, 48> text{};
@@ -80,8 +80,9 @@ class FaultText {
         return kReversed + reverse("gyro", names_.gyro_is_reversed) + "; " + kDegrees;
       case GyroFault::kFactor:
         return "the gyro reads " + number("%.3g", one.factor) + " times the true rate" +
-               (std::abs(one.factor) > kRaw ? ", as raw counts of a chip do, or millidegrees"
-                                            : "") +
+               (std::abs(one.factor) > kRawGyroFactor
+                    ? ", as raw counts of a chip do, or millidegrees"
+                    : "") +
                ": it has to be in radians a second";
       case GyroFault::kBias:
         return "the gyro reads " + number("%+.2f", one.bias_rad_s) +

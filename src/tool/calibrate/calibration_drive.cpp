@@ -17,7 +17,6 @@ namespace cornerd::tool {
 namespace {
 
 constexpr core::TimeNs kMaxClockOffset_ns = 2 * core::kNsPerSecond;
-constexpr core::TimeNs kMaxLead_ns = 10 * core::kNsPerSecond;
 
 /// Drops poses that go back in time.
 void add_pose(const calibration::KnownPose& place, std::vector<calibration::KnownPose>& places) {
@@ -80,19 +79,16 @@ class DriveSink final : public replay::RecordingSink {
   CalibrationDrive drive_;
 };
 
-/// Feeds each reading by its time, not by its position in the recording.
+/// Feeds readings whose times were changed.
 class PoseSink final : public replay::RecordingSink {
  public:
   PoseSink(core::Pipeline& pipeline, std::vector<core::OdometryReading> readings)
       : pipeline_(pipeline), readings_(std::move(readings)) {}
 
   void on_sample(const core::Sample& sample) override {
-    for (; next_ < readings_.size(); ++next_) {
-      const core::TimeNs ahead_ns = readings_[next_].t_ns - sample.t_ns;
-      // A reading of the far future must not block the others.
-      if (ahead_ns > 0 && ahead_ns < kMaxLead_ns) break;
-      pipeline_.add(readings_[next_], sample.t_ns);
-    }
+    readings_.take_until(sample.t_ns, [&](const core::OdometryReading& reading) {
+      pipeline_.add(reading, sample.t_ns);
+    });
     take(pipeline_.add(sample));
   }
   void on_gap() override { take(pipeline_.finish()); }
@@ -108,8 +104,7 @@ class PoseSink final : public replay::RecordingSink {
   }
 
   core::Pipeline& pipeline_;
-  std::vector<core::OdometryReading> readings_;
-  std::size_t next_ = 0;
+  TimedReadings readings_;
   std::vector<calibration::KnownPose> places_;
 };
 
