@@ -78,7 +78,7 @@ class Localizer {
   /// Nothing where the mount or the robot of its config is another.
   void resume_odometry(const Localizer& other);
   /// Continues from what was learned of this map. False where it does not fit.
-  bool resume(const LearnedWalls& learned);
+  bool resume(const LearnedWalls& learned, std::span<const MapChange> changes);
 
  private:
   struct Workspace;

@@ -45,8 +45,10 @@ std::span<const MapChange> Localizer::map_changes() const {
   return workspace_->place->changes->changes();
 }
 
-bool Localizer::resume(const LearnedWalls& learned) {
-  return walls() != nullptr && workspace_->place->walls->resume(learned);
+bool Localizer::resume(const LearnedWalls& learned, std::span<const MapChange> changes) {
+  if (walls() == nullptr || !workspace_->place->walls->resume(learned)) return false;
+  workspace_->place->changes->resume(changes);
+  return true;
 }
 
 bool Localizer::Workspace::Place::is_inexact(const FloorPlan& plan) {

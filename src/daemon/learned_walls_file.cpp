@@ -29,8 +29,9 @@ std::filesystem::path learned_walls_folder(const settings::Config& config) {
 }
 
 void LearnedWallsFile::resume(core::Localizer& localizer, const core::WallMap& map) {
-  if (hash_ != map.plan().hash) walls_ = load(map.plan().hash, map.plan().walls.size());
-  if (!walls_.offsets.empty()) localizer.resume(walls_);
+  const core::FloorPlan& plan = map.plan();
+  if (known_.map_hash != plan.hash) known_ = load(plan.hash, plan.walls.size());
+  localizer.resume(known_.walls, known_.changes);
 }
 
 std::unique_ptr<WallReport> LearnedWallsFile::update(Localization& localization,
@@ -39,32 +40,30 @@ std::unique_ptr<WallReport> LearnedWallsFile::update(Localization& localization,
   localization.request_walls();
   if (!report || map == nullptr || report->map_hash != map->plan().hash) return nullptr;
   // Chosen among several.
-  if (hash_ != report->map_hash) load(report->map_hash, map->plan().walls.size());
-  walls_ = report->walls;
-  update(hash_, walls_);
+  if (known_.map_hash != report->map_hash) load(report->map_hash, map->plan().walls.size());
+  known_ = *report;
+  update(known_);
   return report;
 }
 
-core::LearnedWalls LearnedWallsFile::load(const std::string& map_hash, std::size_t walls) {
-  hash_ = map_hash;
-  written_ = {};
-  if (folder_.empty() || map_hash.empty()) return {};
+WallReport LearnedWallsFile::load(const std::string& map_hash, std::size_t walls) {
+  written_ = {.map_hash = map_hash, .walls = {}, .changes = {}};
+  if (folder_.empty() || map_hash.empty()) return written_;
   const std::filesystem::path file = folder_ / settings::learned_walls_name(map_hash);
   std::error_code unread;
   if (std::filesystem::status(file, unread).type() == std::filesystem::file_type::not_found) {
-    return {};
+    return written_;
   }
   try {
-    settings::LearnedWallsOfMap found = settings::parse_learned_walls(
+    WallReport found = settings::parse_learned_walls(
         settings::read_file(file, settings::kMaxLearnedWallsBytes, settings::FileKind::kOrdinary),
         file);
-    const auto is_unknown = [&](const core::WallOffset& one) { return one.wall >= walls; };
-    if (found.map_hash != map_hash || std::ranges::any_of(found.walls.offsets, is_unknown)) {
+    if (found.map_hash != map_hash || !found.fits(walls)) {
       throw settings::SettingsError(file.string(), "", "is of another map");
     }
-    written_ = std::move(found.walls);
-    log(LogLevel::kInfo, file.string() + ": offsets of " + std::to_string(written_.offsets.size()) +
-                             " walls are known");
+    written_ = std::move(found);
+    log(LogLevel::kInfo, file.string() + ": offsets of " +
+                             std::to_string(written_.walls.offsets.size()) + " walls are known");
   } catch (const std::exception& error) {
     problem_ = std::string("what was learned of the walls is not used: ") + error.what();
     log(LogLevel::kWarning, problem_);
@@ -72,26 +71,22 @@ core::LearnedWalls LearnedWallsFile::load(const std::string& map_hash, std::size
   return written_;
 }
 
-bool LearnedWallsFile::is_significant(const core::LearnedWalls& walls) const {
-  if (walls.offsets.size() != written_.offsets.size()) return true;
-  for (std::size_t k = 0; k < walls.offsets.size(); ++k) {
-    const core::WallOffset& now = walls.offsets[k];
-    const core::WallOffset& then = written_.offsets[k];
-    if (now.wall != then.wall || now.sigma_m < kWorthRatio * then.sigma_m ||
-        std::abs(now.offset_m - then.offset_m) > kWorthSigmas * now.sigma_m) {
-      return true;
-    }
-  }
-  return false;
+bool LearnedWallsFile::is_significant(const WallReport& learned) const {
+  const auto is_close = [](const core::WallOffset& now, const core::WallOffset& then) {
+    return now.wall == then.wall && now.sigma_m >= kWorthRatio * then.sigma_m &&
+           std::abs(now.offset_m - then.offset_m) <= kWorthSigmas * now.sigma_m;
+  };
+  return !std::ranges::equal(learned.walls.offsets, written_.walls.offsets, is_close) ||
+         learned.changes != written_.changes;
 }
 
-void LearnedWallsFile::update(const std::string& map_hash, const core::LearnedWalls& walls) {
-  if (folder_.empty() || map_hash.empty() || map_hash != hash_) return;
-  if (walls.offsets.empty() || !is_significant(walls)) return;
+void LearnedWallsFile::update(const WallReport& learned) {
+  const std::string& hash = learned.map_hash;
+  if (folder_.empty() || hash.empty() || hash != written_.map_hash) return;
+  if (!is_significant(learned)) return;
   try {
-    replace_file(folder_ / settings::learned_walls_name(map_hash),
-                 settings::text_of({map_hash, walls}));
-    written_ = walls;
+    replace_file(folder_ / settings::learned_walls_name(hash), settings::text_of(learned));
+    written_ = learned;
     problem_.clear();
   } catch (const std::exception& error) {
     const std::string problem = std::string("cannot store what was learned of the walls: ") +

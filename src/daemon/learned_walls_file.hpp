@@ -34,18 +34,17 @@ class LearnedWallsFile {
   const std::string& problem() const { return problem_; }
 
   /// What is stored for the map; nothing where there is none or it is of another map.
-  core::LearnedWalls load(const std::string& map_hash, std::size_t walls);
-  /// Writes it if it differs from what is stored by more than its uncertainty: a few dozen times
+  WallReport load(const std::string& map_hash, std::size_t walls);
+  /// Writes it if a wall has changed, or an offset by more than its uncertainty: a few dozen times
   /// while the robot sees the building for the first time, rarely later.
-  void update(const std::string& map_hash, const core::LearnedWalls& walls);
+  void update(const WallReport& learned);
 
  private:
-  bool is_significant(const core::LearnedWalls& walls) const;
+  bool is_significant(const WallReport& learned) const;
 
   std::filesystem::path folder_;
-  std::string hash_;          ///< of the map in use
-  core::LearnedWalls walls_;  ///< of it, the newest
-  core::LearnedWalls written_;
+  WallReport known_;  ///< of the map in use, the newest
+  WallReport written_;
   std::string problem_;
 };
 

@@ -18,6 +18,7 @@
 #include "daemon/sample_channel.hpp"
 #include "daemon/slot_exchange.hpp"
 #include "drivers/lidar_driver.hpp"
+#include "settings/learned_walls.hpp"
 
 namespace cornerd::daemon {
 
@@ -40,11 +41,7 @@ struct ScanReport {
 };
 
 /// What the localizer has learned of the walls.
-struct WallReport {
-  core::LearnedWalls walls;
-  std::vector<core::MapChange> changes;
-  std::string map_hash;
-};
+using WallReport = settings::LearnedWallsOfMap;
 
 /// Timing of a thread.
 struct LoopHealth {

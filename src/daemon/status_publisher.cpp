@@ -55,20 +55,6 @@ bool is_gone(const core::MapChange& change) {
   return change.kind == core::MapChange::Kind::kWallGone;
 }
 
-/// "wall 12 at (1.20, 3.40) is gone"
-std::string describe(const core::MapChange& change, const core::FloorPlan& plan) {
-  core::Vec2 at = change.position;
-  std::string subject = "something new";
-  if (is_gone(change)) {
-    const core::Wall& wall = plan.walls[change.wall];
-    at = (wall.from + wall.to) / 2;
-    subject = "wall " + std::to_string(change.wall);
-  }
-  std::array<char, 64> place{};
-  std::snprintf(place.data(), place.size(), " at (%.2f, %.2f) ", at.x(), at.y());
-  return subject + place.data() + (is_gone(change) ? "is gone" : "stays");
-}
-
 }  // namespace
 
 StatusPublisher::StatusPublisher(MessageServer& server, Notifier& notifier)
@@ -101,13 +87,8 @@ void StatusPublisher::set_walls(const WallReport* report, const core::WallMap* m
     walls_.sigma_m = *median;
   }
   for (const core::MapChange& change : report->changes) {
-    const bool is_known =
-        std::any_of(changes_.begin(), changes_.end(), [&](const core::MapChange& other) {
-          return is_gone(change) == is_gone(other) && change.wall == other.wall &&
-                 change.position == other.position;
-        });
-    if (is_known) continue;
-    const std::string text = describe(change, map->plan());
+    if (std::ranges::find(changes_, change) != changes_.end()) continue;
+    const std::string text = settings::describe(change, map->plan());
     log(LogLevel::kInfo, "map: " + text);
     server_.publish(MessageClass::kEvent, line_.event(t_ns, "map change", text));
   }

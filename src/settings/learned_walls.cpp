@@ -2,7 +2,9 @@
 #include "settings/learned_walls.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdio>
 
 #include <nlohmann/json.hpp>
 
@@ -13,6 +15,7 @@ namespace {
 
 constexpr std::string_view kWallsFormat = "cornerd-walls";
 constexpr std::size_t kHashDigits = 64;
+constexpr std::uint32_t kMaxWallIndex = 1'000'000;
 constexpr std::size_t kNameDigits = 16;
 constexpr std::size_t kMostWalls = core::WallOffsetFilter::kMaxWalls;
 /// Farther off is another wall.
@@ -25,6 +28,30 @@ const Json& require_list(ObjectReader& object, std::string_view key, std::size_t
     object.fail(key, "must be an array of at most " + std::to_string(size_limit));
   }
   return *array;
+}
+
+/// Changes of the map; a file of an earlier daemon has none.
+void read_changes(ObjectReader& root, std::vector<core::MapChange>& changes) {
+  using Kind = core::MapChange::Kind;
+  const auto list = [&root](std::string_view key) {
+    return root.find(key) == nullptr ? Json::array()
+                                     : require_list(root, key, core::MapChanges::kMaxChanges);
+  };
+  const Json gone = list("gone");
+  for (std::size_t i = 0; i < gone.size(); ++i) {
+    if (!gone[i].is_number_unsigned() || gone[i].get<std::uint64_t>() > kMaxWallIndex) {
+      root.fail("gone", i, "must be a wall's number");
+    }
+    changes.push_back({Kind::kWallGone, gone[i].get<std::uint32_t>(), core::Vec2::Zero()});
+  }
+  const Json added = list("new");
+  for (std::size_t i = 0; i < added.size(); ++i) {
+    const Json& at = added[i];
+    if (!at.is_array() || at.size() != 2 || !at[0].is_number() || !at[1].is_number()) {
+      root.fail("new", i, "must be a place, [x, y]");
+    }
+    changes.push_back({Kind::kNewThing, 0, core::Vec2(at[0].get<double>(), at[1].get<double>())});
+  }
 }
 
 }  // namespace
@@ -47,7 +74,7 @@ LearnedWallsOfMap parse_learned_walls(std::string_view text, const std::filesyst
     ObjectReader object = root.element("walls", walls, i);
     core::WallOffset wall;
     std::uint32_t index = 0;
-    if (!object.integer("wall", index, 0U, 1'000'000U)) object.fail("wall", "is missing");
+    if (!object.integer("wall", index, 0U, kMaxWallIndex)) object.fail("wall", "is missing");
     wall.wall = index;
     object.number("offset", wall.offset_m, kOffsetM);
     object.finish();
@@ -70,8 +97,17 @@ LearnedWallsOfMap parse_learned_walls(std::string_view text, const std::filesyst
     if (!(variance_m2 > 0)) root.fail("covariance", "a variance must be positive");
     learned.walls.offsets[k].sigma_m = std::sqrt(variance_m2);
   }
+  read_changes(root, learned.changes);
   root.finish();
   return learned;
+}
+
+bool LearnedWallsOfMap::fits(std::size_t walls_of_map) const {
+  return std::ranges::all_of(walls.offsets,
+                             [&](const auto& one) { return one.wall < walls_of_map; }) &&
+         std::ranges::all_of(changes, [&](const core::MapChange& change) {
+           return change.kind != core::MapChange::Kind::kWallGone || change.wall < walls_of_map;
+         });
 }
 
 std::string text_of(const LearnedWallsOfMap& learned) {
@@ -79,11 +115,34 @@ std::string text_of(const LearnedWallsOfMap& learned) {
   for (const core::WallOffset& wall : learned.walls.offsets) {
     walls.push_back({{"wall", wall.wall}, {"offset", wall.offset_m}});
   }
-  const nlohmann::ordered_json document = {{"format", kWallsFormat},
-                                           {"map", learned.map_hash},
-                                           {"walls", walls},
-                                           {"covariance", learned.walls.covariance_m2}};
+  Json gone = Json::array();
+  Json added = Json::array();
+  for (const core::MapChange& change : learned.changes) {
+    if (change.kind == core::MapChange::Kind::kWallGone) {
+      gone.push_back(change.wall);
+    } else {
+      added.push_back({change.position.x(), change.position.y()});
+    }
+  }
+  const nlohmann::ordered_json document = {
+      {"format", kWallsFormat}, {"map", learned.map_hash},
+      {"walls", walls},         {"gone", gone},
+      {"new", added},           {"covariance", learned.walls.covariance_m2}};
   return document.dump() + '\n';
+}
+
+std::string describe(const core::MapChange& change, const core::FloorPlan& plan) {
+  const bool is_gone = change.kind == core::MapChange::Kind::kWallGone;
+  core::Vec2 at = change.position;
+  std::string subject = "something new";
+  if (is_gone) {
+    const core::Wall& wall = plan.walls[change.wall];
+    at = (wall.from + wall.to) / 2;
+    subject = "wall " + std::to_string(change.wall);
+  }
+  std::array<char, 64> place{};
+  std::snprintf(place.data(), place.size(), " at (%.2f, %.2f) ", at.x(), at.y());
+  return subject + place.data() + (is_gone ? "is gone" : "stays");
 }
 
 }  // namespace cornerd::settings

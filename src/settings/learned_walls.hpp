@@ -5,7 +5,9 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <vector>
 
+#include "core/estimate/map_changes.hpp"
 #include "core/estimate/wall_offset_filter.hpp"
 
 namespace cornerd::settings {
@@ -14,6 +16,10 @@ namespace cornerd::settings {
 struct LearnedWallsOfMap {
   std::string map_hash;  ///< FloorPlan::hash
   core::LearnedWalls walls;
+  std::vector<core::MapChange> changes;
+
+  /// True where each wall is one of a map of so many.
+  bool fits(std::size_t walls_of_map) const;
 };
 
 inline constexpr std::size_t kMaxLearnedWallsBytes = 2U << 20U;
@@ -24,5 +30,8 @@ std::string learned_walls_name(std::string_view map_hash);
 /// `file` names it in errors. Throws SettingsError.
 LearnedWallsOfMap parse_learned_walls(std::string_view text, const std::filesystem::path& file);
 std::string text_of(const LearnedWallsOfMap& learned);
+
+/// "wall 12 at (1.20, 3.40) is gone"; a wall of `plan`.
+std::string describe(const core::MapChange& change, const core::FloorPlan& plan);
 
 }  // namespace cornerd::settings

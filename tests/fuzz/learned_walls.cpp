@@ -18,6 +18,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const LearnedWallsOfMap learned = parse_learned_walls(input, "w.json");
     const LearnedWallsOfMap again = parse_learned_walls(text_of(learned), "w.json");
     if (again.walls.covariance_m2 != learned.walls.covariance_m2) std::abort();
+    if (again.changes.size() != learned.changes.size()) std::abort();
   } catch (const SettingsError& error) {
     if (std::strchr(error.what(), '\n') != nullptr) std::abort();
   }

@@ -49,13 +49,28 @@ MapChanges::MapChanges(const WallMap& map, double max_range_m)
   changes_.reserve(kMaxChanges);
 }
 
+void MapChanges::resume(std::span<const MapChange> changes) {
+  for (const MapChange& change : changes) {
+    if (change.kind == MapChange::Kind::kWallGone) {
+      if (change.wall >= gone_.size() || gone_[change.wall] == kLooksUntilGone) continue;
+      gone_[change.wall] = kLooksUntilGone;
+    } else {
+      const std::size_t cell = cell_at(change.position);
+      if (cell >= occupied_.size()) continue;
+      occupied_[cell] = kLooksUntilThere;
+    }
+    report(change);
+  }
+}
+
 std::size_t MapChanges::cell_at(const Vec2& point) const {
   const Vec2 at = (point - low_) / cell_m_;
-  if (!(at.x() >= 0 && at.y() >= 0 && at.x() < static_cast<double>(columns_))) {
+  const std::size_t rows = occupied_.size() / columns_;
+  if (!(at.x() >= 0 && at.y() >= 0 && at.x() < static_cast<double>(columns_) &&
+        at.y() < static_cast<double>(rows))) {
     return occupied_.size();
   }
-  return std::min(occupied_.size(),
-                  static_cast<std::size_t>(at.y()) * columns_ + static_cast<std::size_t>(at.x()));
+  return static_cast<std::size_t>(at.y()) * columns_ + static_cast<std::size_t>(at.x());
 }
 
 void MapChanges::count_ray(const Vec2& origin, const Vec2& end, bool is_short) {

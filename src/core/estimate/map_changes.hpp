@@ -19,6 +19,8 @@ struct MapChange {
   Kind kind = Kind::kNewThing;
   std::uint32_t wall = 0;  ///< kWallGone: index into FloorPlan::walls
   Vec2 position = Vec2::Zero();
+
+  bool operator==(const MapChange&) const = default;
 };
 
 /// Finds walls that rays go through, and things in front of walls, where they stay: people pass.
@@ -33,6 +35,9 @@ class MapChanges {
   /// A scan at a known pose. `sigma_m`: of the walls' offsets from the map.
   void add(const WallMap& map, const Pose2& T_map_lidar, std::span<const PolarPoint> points,
            double sigma_m, TimeNs t_ns);
+
+  /// Goes on from changes() of an earlier run. Those that are not of this map are left out.
+  void resume(std::span<const MapChange> changes);
 
   /// Those that are there now, in the order in which they were found.
   std::span<const MapChange> changes() const { return changes_; }

@@ -5,6 +5,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <cstdio>
 #include <vector>
 
 #include <Eigen/Eigenvalues>
@@ -207,6 +208,15 @@ void MapDrawing::add_points(std::span<const Vec2> points) {
 
 void MapDrawing::add_thin(const Vec2& from, const Vec2& to) {
   svg_.line(from, to, {.stroke = kConvex, .stroke_width = 4, .opacity = 0.8});
+}
+
+void MapDrawing::add_learned_wall(const core::Wall& wall, const core::WallOffset& offset) {
+  constexpr double kMillimetres = 1000;
+  svg_.line(wall.from, wall.to, {.stroke = kRobot, .stroke_width = 1.6});
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%+.0f ± %.0f", kMillimetres * offset.offset_m,
+                kMillimetres * offset.sigma_m);
+  svg_.text((wall.from + wall.to) / 2, text.data(), {.fill = kRobot, .size = 11}, 0, -5);
 }
 
 void MapDrawing::add_left_out(const Vec2& place) {

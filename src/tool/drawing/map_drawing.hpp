@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/breakpoint/breakpoint.hpp"
+#include "core/estimate/wall_offset_filter.hpp"
 #include "core/geometry/pose2.hpp"
 #include "core/map/wall_map.hpp"
 #include "core/scan.hpp"
@@ -38,6 +39,10 @@ class MapDrawing {
   void add_scan(const core::Scan& scan, const core::Pose2& T_map_lidar);
   /// Returns of a whole drive, on the map.
   void add_points(std::span<const core::Vec2> points);
+  /// `wall`: where it was learned to be, with its offset in millimetres.
+  void add_learned_wall(const core::Wall& wall, const core::WallOffset& offset);
+  /// A ring where something stays that the map lacks.
+  void add_new_thing(const core::Vec2& place) { add_closed(place, 0); }
   /// A piece of wall without observations.
   void add_thin(const core::Vec2& from, const core::Vec2& to);
   /// A cross where an import left something out; a ring where it closed a gap of this width.

@@ -17,6 +17,7 @@
 #include "tool/drawing/map_drawing.hpp"
 #include "tool/drawing/text_table.hpp"
 #include "tool/map/drive_points.hpp"
+#include "tool/map/learned_map.hpp"
 #include "tool/map/map_text.hpp"
 #include "tool/replay/playback.hpp"
 #include "tool/replay/truth.hpp"
@@ -34,6 +35,7 @@ struct RenderOptions {
   std::string wire = "auto";
   std::filesystem::path trajectory;
   std::filesystem::path truth;
+  std::filesystem::path walls;
 };
 
 /// A recording in the map: the robot's path, all points and one scan.
@@ -95,12 +97,32 @@ void draw_points(MapDrawing& drawing, const core::WallMap& map,
       thin_out(points, drawing.pixel_m(), map.lower_left() - margin, map.upper_right() + margin));
 }
 
+/// Returns what it drew, for the subtitle.
+std::string draw_learned(MapDrawing& drawing, const core::FloorPlan& plan,
+                         const std::filesystem::path& file) {
+  const settings::LearnedWallsOfMap learned = load_learned_walls(plan, file);
+  const core::FloorPlan moved = with_learned_walls(plan, learned.walls);
+  for (const core::WallOffset& wall : learned.walls.offsets) {
+    drawing.add_learned_wall(moved.walls[wall.wall], wall);
+  }
+  for (const core::MapChange& change : learned.changes) {
+    if (change.kind == core::MapChange::Kind::kWallGone) {
+      const core::Wall& wall = plan.walls[change.wall];
+      drawing.add_left_out((wall.from + wall.to) / 2);
+    } else {
+      drawing.add_new_thing(change.position);
+    }
+  }
+  return formatted("; %zu walls learned, %zu changes", learned.walls.offsets.size(),
+                   learned.changes.size());
+}
+
 void render(const RenderOptions& options) {
   if (!options.trajectory.empty() && options.recording.empty()) {
     throw UsageError("--trajectory needs --recording");
   }
   guard_files({.read = {options.map, options.recording, options.trajectory, options.truth,
-                        options.settings.config_file()},
+                        options.walls, options.settings.config_file()},
                .written = {},
                .output = options.output});
   const settings::Config config = options.settings.resolve(/*needs_map=*/false);
@@ -111,6 +133,7 @@ void render(const RenderOptions& options) {
 
   MapDrawing drawing(*map);
   std::string subtitle = describe_map(*map);
+  if (!options.walls.empty()) subtitle += draw_learned(drawing, map->plan(), options.walls);
   if (!options.truth.empty()) {
     drawing.add_path(path_of(Truth::load(options.truth)), /*truth=*/true);
   }
@@ -166,6 +189,12 @@ void add_map_render(Command& group) {
                   "draw the robot at this pose, and the recording's last scan from it")
       .type_name("X,Y,THETA");
   command.add_option("--truth", options->truth, "draw the true path, dashed").type_name("FILE");
+  command
+      .add_option(
+          "--walls", options->walls,
+          "draw what the daemon learned: offsets of walls in mm, crosses where one is gone, "
+          "rings at new things (walls-HASH.json of /advanced/localizer/walls_folder)")
+      .type_name("FILE");
   options->settings.add_config(command);
   add_wire_option(command, options->wire);
   command.callback([options] { render(*options); });

@@ -12,6 +12,7 @@
 
 #include "settings/map_file.hpp"
 #include "tool/command_line/command.hpp"
+#include "tool/command_line/failure.hpp"
 #include "tool/command_line/output.hpp"
 #include "tool/commands.hpp"
 #include "tool/map/map_text.hpp"

@@ -38,7 +38,7 @@ class LearnedWallsTest : public ::testing::Test {
     localizer_config.odometry.enabled = true;
     localizer_config.odometry.geometry = config.robot.geometry;
     core::Localizer localizer(std::make_shared<const core::WallMap>(plan), localizer_config);
-    EXPECT_TRUE(localizer.resume(learned_));
+    EXPECT_TRUE(localizer.resume(learned_, {}));
     localize_drive(localizer, simulate_drive(building, motion, config), [](auto&&...) {});
     localizer.walls()->copy_to(learned_);
   }

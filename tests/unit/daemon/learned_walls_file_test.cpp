@@ -15,46 +15,57 @@
 namespace cornerd::daemon {
 namespace {
 
-const core::LearnedWalls kLearned{{{3, 0.012, 0.01}, {0, -0.02, 0.02}}, {1e-4, 5e-5, 4e-4}};
+const WallReport kLearned{"abc", {{{3, 0.012, 0.01}, {0, -0.02, 0.02}}, {1e-4, 5e-5, 4e-4}}, {}};
 
 TEST(LearnedWallsFile, Stored_LoadedForThatMapAlone) {
   test::TemporaryFolder folder;
   LearnedWallsFile first(folder.path());
-  EXPECT_TRUE(first.load("abc", 27).offsets.empty());
-  first.update("abc", kLearned);
+  EXPECT_TRUE(first.load("abc", 27).walls.offsets.empty());
+  first.update(kLearned);
   LearnedWallsFile second(folder.path());
-  EXPECT_TRUE(second.load("abd", 27).offsets.empty());
-  EXPECT_EQ(second.load("abc", 27).covariance_m2, kLearned.covariance_m2);
+  EXPECT_TRUE(second.load("abd", 27).walls.offsets.empty());
+  EXPECT_EQ(second.load("abc", 27).walls.covariance_m2, kLearned.walls.covariance_m2);
 }
 
 TEST(LearnedWallsFile, WallsThatTheMapLacks_NotUsed) {
   test::TemporaryFolder folder;
   LearnedWallsFile file(folder.path());
   file.load("abc", 27);
-  file.update("abc", kLearned);
-  EXPECT_TRUE(LearnedWallsFile(folder.path()).load("abc", 1).offsets.empty());
+  file.update(kLearned);
+  EXPECT_TRUE(LearnedWallsFile(folder.path()).load("abc", 1).walls.offsets.empty());
 }
 
 TEST(LearnedWallsFile, InsignificantChange_NotWritten) {
   test::TemporaryFolder folder;
   LearnedWallsFile file(folder.path());
   file.load("abc", 27);
-  file.update("abc", kLearned);
-  core::LearnedWalls walls = kLearned;
-  walls.offsets[0].offset_m += 0.001;
-  file.update("abc", walls);
-  EXPECT_EQ(LearnedWallsFile(folder.path()).load("abc", 27).offsets[0].offset_m, 0.012);
-  walls.offsets[0].offset_m += 0.02;
-  file.update("abc", walls);
-  EXPECT_EQ(LearnedWallsFile(folder.path()).load("abc", 27).offsets[0].offset_m,
-            walls.offsets[0].offset_m);
+  file.update(kLearned);
+  WallReport learned = kLearned;
+  learned.walls.offsets[0].offset_m += 0.001;
+  file.update(learned);
+  EXPECT_EQ(LearnedWallsFile(folder.path()).load("abc", 27).walls.offsets[0].offset_m, 0.012);
+  learned.walls.offsets[0].offset_m += 0.02;
+  file.update(learned);
+  EXPECT_EQ(LearnedWallsFile(folder.path()).load("abc", 27).walls.offsets[0].offset_m,
+            learned.walls.offsets[0].offset_m);
+}
+
+TEST(LearnedWallsFile, ChangeOfTheMap_WrittenAndKept) {
+  test::TemporaryFolder folder;
+  LearnedWallsFile file(folder.path());
+  file.load("abc", 27);
+  file.update(kLearned);
+  WallReport learned = kLearned;
+  learned.changes = {{core::MapChange::Kind::kWallGone, 12, core::Vec2::Zero()}};
+  file.update(learned);
+  EXPECT_EQ(LearnedWallsFile(folder.path()).load("abc", 27).changes, learned.changes);
 }
 
 TEST(LearnedWallsFile, DamagedFile_NotUsed) {
   test::TemporaryFolder folder;
   std::ofstream(folder / "walls-abc.json") << "{";
   LearnedWallsFile file(folder.path());
-  EXPECT_TRUE(file.load("abc", 27).offsets.empty());
+  EXPECT_TRUE(file.load("abc", 27).walls.offsets.empty());
 }
 
 TEST(LearnedWallsFile, Folder_ConfiguredOrTheServicesOrNone) {
@@ -77,10 +88,10 @@ TEST(LearnedWallsFile, LoopOfLinks_SaidOnce) {
   LearnedWallsFile file(folder / "loop");
   file.load("abc", 27);
   EXPECT_NE(file.problem().find("is not used: "), std::string::npos) << file.problem();
-  core::LearnedWalls walls = kLearned;
-  file.update("abc", walls);
-  walls.offsets[0].offset_m += 1;
-  file.update("abc", walls);
+  WallReport learned = kLearned;
+  file.update(learned);
+  learned.walls.offsets[0].offset_m += 1;
+  file.update(learned);
   EXPECT_NE(file.problem().find("set another /advanced/localizer/walls_folder"), std::string::npos);
   const std::string text = log.text();
   EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 2) << text;
@@ -91,10 +102,10 @@ TEST(LearnedWallsFile, FolderThatAppears_MendsIt) {
   LearnedWallsFile file(folder / "later");
   file.load("abc", 27);
   EXPECT_EQ(file.problem(), "") << "nothing is stored yet";
-  file.update("abc", kLearned);
+  file.update(kLearned);
   EXPECT_NE(file.problem(), "");
   std::filesystem::create_directory(folder / "later");
-  file.update("abc", kLearned);
+  file.update(kLearned);
   EXPECT_EQ(file.problem(), "");
 }
 

@@ -74,6 +74,24 @@ TEST_F(MapChangesTest, ThingThatStays_IsNewAfterMinutesAndForgottenWhenTakenAway
   EXPECT_TRUE(changes_->changes().empty());
 }
 
+TEST_F(MapChangesTest, AfterARestart_ChangesStayUntilTheyAreSeenNoMore) {
+  use_map(with_screen());
+  const std::vector<MapChange> known = {
+      {MapChange::Kind::kWallGone, 6, Vec2::Zero()},
+      {MapChange::Kind::kWallGone, 700, Vec2::Zero()},
+      {MapChange::Kind::kNewThing, 0, Vec2(0.85, 0.95)},
+      {MapChange::Kind::kNewThing, 0, Vec2(0.85, 1e300)},
+  };
+  changes_->resume(known);
+  ASSERT_EQ(changes_->changes().size(), 2u) << "two are not of this map";
+  EXPECT_EQ(changes_->changes()[1], known[2]);
+  drive(testing::l_shaped_room(), 2);
+  ASSERT_FALSE(changes_->changes().empty());
+  EXPECT_EQ(changes_->changes()[0], known[0]);
+  drive(with_screen(), 100);
+  EXPECT_TRUE(changes_->changes().empty());
+}
+
 TEST_F(MapChangesTest, Passers_AreNoChange) {
   use_map(testing::l_shaped_room());
   for (int k = 0; k < 40; ++k) drive(with_screen({0.15 * (k % 6), 0.15 * (k % 4)}), 5);
