@@ -24,6 +24,7 @@ constexpr double kDriveClearance_m = 0.2;
 constexpr double kShortestLeg_m = 0.4;
 constexpr double kCheckEvery_m = 0.05;
 constexpr int kTries = 20'000;
+constexpr int kTriesOfAPlace = 2'000;
 constexpr double kTouching_m = 0.02;
 
 bool is_free(const std::vector<core::Wall>& walls, std::size_t own, const Vec2& end) {
@@ -87,7 +88,12 @@ std::vector<Vec2> random_drive(const core::WallMap& building, double length_m, s
   std::vector<Vec2> path = {places.front().translation()};
   replay::Random random(seed);
   double driven_m = 0;
-  for (int k = 0; k < kTries; ++k) {
+  for (int k = 0, last = 0; k < kTries; ++k) {
+    if (k - last == kTriesOfAPlace) {  // shut in: from somewhere else
+      last = k;
+      driven_m = 0;
+      path = {places[random.bits() % places.size()].translation()};
+    }
     const auto at = static_cast<std::size_t>(random.uniform(0, static_cast<double>(places.size())));
     const Vec2 next = places[at].translation();
     const double leg_m = (next - path.back()).norm();
@@ -95,6 +101,7 @@ std::vector<Vec2> random_drive(const core::WallMap& building, double length_m, s
       continue;
     }
     path.push_back(next);
+    last = k;
     driven_m += leg_m;
     if (driven_m >= length_m) return path;
   }
