@@ -30,6 +30,10 @@ constexpr std::size_t kRandomFlats = 60;
 /// Places of pairs of corners that are compared, as the localizer does.
 constexpr std::size_t kMaxPairs = 8;
 constexpr double kWrongMaps = 0.4;
+/// Places of the map that a scan is tried at beside its own.
+constexpr std::size_t kGivenPlaces = 3;
+/// Log odds of a given place that the scan does not fit.
+constexpr double kNowhere = -99;
 /// A place is the right one within this, and the more the more the map is off.
 constexpr double kRight_m = 0.12;
 constexpr double kRightPerSigma = 1.5;
@@ -42,6 +46,8 @@ struct ScanConditions {
   bool mirrored = false;
   double map_error_m = 0;
   double clutter = 0;
+  double gone = 0;    ///< share of the map's walls
+  double ends_m = 0;  ///< standard deviation of walls' ends along them
   std::size_t samples = 800;
   replay::SensorModel sensor;
 
@@ -77,10 +83,48 @@ ScanConditions draw_conditions(std::size_t maps, replay::Random& random) {
   return drawn;
 }
 
+double draw_log_uniform(double low, double high, replay::Random& random) {
+  return std::exp(random.uniform(std::log(low), std::log(high)));
+}
+
+/// As a building is some years after its plan was drawn: one thing is wrong, or any.
+ScanConditions draw_aged_conditions(std::size_t maps, replay::Random& random) {
+  ScanConditions drawn;
+  drawn.world = drawn.map = static_cast<std::size_t>(random.uniform() * static_cast<double>(maps));
+  drawn.samples = static_cast<std::size_t>(draw_log_uniform(150, 2000, random));
+  const auto only = static_cast<int>(random.uniform(0, 12));
+  const auto is_wrong = [&](int kind) { return only < 6 ? only == kind : random.chance(0.5); };
+  if (is_wrong(0)) drawn.map_error_m = draw_log_uniform(0.003, 0.06, random);
+  if (is_wrong(1) || is_wrong(2)) drawn.clutter = random.uniform(0.02, 0.5);
+  if (is_wrong(3)) drawn.gone = random.uniform(0, 0.2);
+  if (drawn.gone > 0) drawn.ends_m = random.uniform(0, 0.1);
+  if (is_wrong(4)) drawn.sensor.field_of_view.width_rad = core::radians(random.uniform(90, 300));
+  if (is_wrong(5)) {
+    drawn.sensor.noise.bearing_rad = core::radians(random.uniform(0, 0.5));
+    drawn.sensor.noise.share = draw_log_uniform(0.002, 0.015, random);
+    drawn.sensor.missing = random.uniform(0, 0.6);
+    drawn.sensor.missing_run = draw_log_uniform(1, 8, random);
+    drawn.sensor.outliers = random.uniform(0, 0.03);
+  }
+  return drawn;
+}
+
+core::FloorPlan aged(core::FloorPlan plan, const ScanConditions& drawn, replay::Random& random) {
+  std::erase_if(plan.walls, [&](const core::Wall&) { return random.chance(drawn.gone); });
+  for (core::Wall& wall : plan.walls) {
+    const core::Vec2 along = (wall.to - wall.from).normalized();
+    const double half_m = 0.45 * (wall.to - wall.from).norm();
+    wall.from += std::min(half_m, drawn.ends_m * random.normal()) * along;
+    wall.to += std::max(-half_m, drawn.ends_m * random.normal()) * along;
+  }
+  return plan;
+}
+
 }  // namespace
 
 const char* const kEvidenceColumns =
-    "scan,wrong_map,right,rays,hits,map_sigma,faces_log_ratio,faces,unseen_faces,weakest_view,"
+    "scan,given,wrong_map,right,log_odds,rays,hits,map_sigma,faces_log_ratio,faces,unseen_faces,"
+    "weakest_view,"
     "obstacles_m,missing_walls,log_missing,wall_ends,wall_m,segments";
 
 struct EvidenceSamples::State {
@@ -137,7 +181,9 @@ struct EvidenceSamples::State {
     });
   }
 
-  std::string lines(const ScanConditions& drawn, const core::Scan& scan, const core::Pose2& truth) {
+  /// `is_given`: at the scan's own place and at random ones, in place of those that a search finds.
+  std::string lines(const ScanConditions& drawn, const core::Scan& scan, const core::Pose2& truth,
+                    bool is_given) {
     auto& searcher = searchers[drawn.map];
     const core::WallMap& map = *maps[drawn.map];
     if (!searcher) searcher = std::make_unique<Searcher>(map);
@@ -148,13 +194,13 @@ struct EvidenceSamples::State {
     searcher->detector.detect(points, detection);
     const auto pairs = searcher->recognition.from_pairs(detection.breakpoints);
     core::PlaceSearch& search = searcher->place_search;
-    search.begin(points, detection.segments, detection.breakpoints, detection.noise_scale, 1,
-                 /*fits_motion=*/false);
-    search.consider(pairs.first(std::min(pairs.size(), kMaxPairs)));
-    search.consider(searcher->map_search.find(points.points(), detection.segments));
     const core::ScanStructure structure = core::scan_structure(detection.segments);
     std::ostringstream text;
-    for (const core::VerifiedHypothesis& place : search.find()) {
+    const auto begin = [&] {
+      search.begin(points, detection.segments, detection.breakpoints, detection.noise_scale, 1,
+                   /*fits_motion=*/false);
+    };
+    const auto write = [&](const core::VerifiedHypothesis& place) {
       const core::Pose2& at = place.refined.T_map_lidar;
       const core::BeamStatistics s = searcher->beam_model.statistics(
           points.points(), ray_caster.cast(map, at, points.points()), at, points.spacing_rad(),
@@ -162,13 +208,51 @@ struct EvidenceSamples::State {
       const bool right =
           drawn.is_right() &&
           core::same_pose(at, truth, kRight_m + kRightPerSigma * drawn.map_error_m, kRight_rad);
-      text << scans << ',' << !drawn.is_right() << ',' << right << ',' << s.rays << ',' << s.hits
-           << ',' << s.map_sigma_m << ',' << s.faces_log_ratio << ',' << s.faces << ','
-           << s.unseen_faces << ',' << s.weakest_view_rad << ',' << s.obstacles_m << ','
-           << s.missing_walls << ',' << s.log_missing << ',' << search.wall_ends(at) << ','
-           << structure.wall_m << ',' << structure.segments << '\n';
+      text << scans << ',' << is_given << ',' << !drawn.is_right() << ',' << right << ','
+           << place.log_odds << ',' << s.rays << ',' << s.hits << ',' << s.map_sigma_m << ','
+           << s.faces_log_ratio << ',' << s.faces << ',' << s.unseen_faces << ','
+           << s.weakest_view_rad << ',' << s.obstacles_m << ',' << s.missing_walls << ','
+           << s.log_missing << ',' << search.wall_ends(at) << ',' << structure.wall_m << ','
+           << structure.segments << '\n';
+    };
+    if (!is_given) {
+      begin();
+      search.consider(pairs.first(std::min(pairs.size(), kMaxPairs)));
+      search.consider(searcher->map_search.find(points.points(), detection.segments));
+      for (const core::VerifiedHypothesis& place : search.find()) write(place);
+      return text.str();
+    }
+    std::vector<core::Pose2> given =
+        replay::random_poses(map, kGivenPlaces, kRight_m, random.bits());
+    given.push_back(truth);
+    for (const core::Pose2& there : given) {
+      begin();
+      const core::PoseHypothesis hypothesis{there, 0};
+      search.consider(std::span(&hypothesis, 1));
+      core::VerifiedHypothesis place;
+      place.refined.T_map_lidar = there;
+      place.log_odds = kNowhere;
+      const auto found = search.find();
+      write(found.empty() ? place : found.front());
     }
     return text.str();
+  }
+
+  std::string take(const ScanConditions& drawn, bool is_given) {
+    core::FloorPlan plan = maps[drawn.world]->plan();
+    if (drawn.mirrored) plan = mirrored(std::move(plan));
+    if (drawn.map_error_m > 0) {
+      plan = replay::with_map_error(plan, drawn.map_error_m, random.bits());
+    }
+    plan = aged(std::move(plan), drawn, random);
+    if (plan.walls.empty()) return {};
+    const core::WallMap world(std::move(plan));
+    try {
+      const core::Pose2 truth = replay::random_poses(world, 1, kRight_m, random.bits()).front();
+      return lines(drawn, take_scan(drawn, world, truth), truth, is_given);
+    } catch (const std::runtime_error&) {
+      return {};  // no room for so much clutter
+    }
   }
 };
 
@@ -188,19 +272,9 @@ EvidenceSamples::~EvidenceSamples() = default;
 std::string EvidenceSamples::take() {
   ++state_->scans;
   replay::Random& random = state_->random;
-  const ScanConditions drawn = draw_conditions(state_->maps.size(), random);
-  core::FloorPlan plan = state_->maps[drawn.world]->plan();
-  if (drawn.mirrored) plan = mirrored(std::move(plan));
-  if (drawn.map_error_m > 0) {
-    plan = replay::with_map_error(plan, drawn.map_error_m, random.bits());
-  }
-  const core::WallMap world(std::move(plan));
-  const core::Pose2 truth = replay::random_poses(world, 1, kRight_m, random.bits()).front();
-  try {
-    return state_->lines(drawn, state_->take_scan(drawn, world, truth), truth);
-  } catch (const std::runtime_error&) {
-    return {};  // no room for so much clutter
-  }
+  const std::size_t maps = state_->maps.size();
+  const std::string found = state_->take(draw_conditions(maps, random), /*is_given=*/false);
+  return found + state_->take(draw_aged_conditions(maps, random), /*is_given=*/true);
 }
 
 }  // namespace cornerd::bench

@@ -24,7 +24,8 @@ class EvidenceSamples {
   EvidenceSamples(std::vector<std::shared_ptr<const core::WallMap>> maps, std::uint64_t seed);
   ~EvidenceSamples();
 
-  /// One line for each place of the next scan, comma-separated; empty where it finds none.
+  /// One line for each place that a search finds for the next scan, comma-separated; and of a scan
+  /// in an aged building, at its own place and at random ones (`given`).
   std::string take();
 
  private:

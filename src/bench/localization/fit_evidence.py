@@ -7,7 +7,8 @@
 
 Conditional logistic regression: the places of a scan compete with "elsewhere" (log odds 0). A wrong
 place beyond the threshold of a fix (log odds 11.5) costs as much as WRONG_COST or WRONG_PLACE_COST
-right ones below it. The weights in the tree were fitted with recorded scans, eightfold, beside the
+right ones below it. Prints last how much likelier log odds are at the right place than at one that is given
+and wrong (core/recognition/place_filter.cpp). The weights in the tree were fitted with recorded scans, eightfold, beside the
 simulated ones (src/bench/poses.md, "Evidence for a place"). Needs NumPy and SciPy.
 """
 
@@ -85,8 +86,20 @@ def fit(x, right, scan, wrong_map):
     return found.x / scale
 
 
+def print_ratios(given):
+    """The logarithm of the ratio of both histograms, by log odds."""
+    edges = [-1e9, -40, -30, -25, -20, -16, -12, -8, -4, 0, 5, 11.5, 1e9]
+    right = given["right"] == 1
+    share = [np.histogram(given["log_odds"][m], edges)[0] / m.sum() for m in (right, ~right)]
+    for low, high, at_right, at_wrong in zip(edges, edges[1:], *share):
+        ratio = np.log(at_right / at_wrong) if at_right > 0 and at_wrong > 0 else np.nan
+        print(f"log odds {max(low, -99):5.1f} to {min(high, 99):5.1f}: right {at_right:.5f}, "
+              f"given and wrong {at_wrong:.5f}, log ratio {ratio:5.1f}", file=sys.stderr)
+
+
 def main():
     table = np.genfromtxt(sys.argv[1], delimiter=",", names=True)
+    given, table = table[table["given"] == 1], table[table["given"] == 0]
     wrong_but_fits = (table["wrong_map"] == 1) & (table["hits"] >= 0.975 * table["rays"])
     table = table[~np.isin(table["scan"], table["scan"][wrong_but_fits])]
     scan = np.unique(table["scan"], return_inverse=True)[1]
@@ -103,6 +116,7 @@ def main():
     print(f"right places named {np.mean(lo[in_map & good] > FIX):.3f}, of right maps' scans "
           f"{np.sum(in_map & good & (lo > FIX)) / in_map.sum():.3f}; wrong ones named: "
           f"{np.sum(~good & (lo > FIX))} of {len(lo)} scans", file=sys.stderr)
+    print_ratios(given)
 
 
 if __name__ == "__main__":

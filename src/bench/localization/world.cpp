@@ -51,8 +51,9 @@ std::vector<RoundObstacle> clutter_around(const core::WallMap& map, const Vec2& 
   constexpr double kNearest_m = 0.25;
   constexpr double kSmallest_m = 0.02;  // a chair's leg
   constexpr double kLargest_m = 0.2;    // a person
+  constexpr int kMostTries = 1000;
   std::vector<RoundObstacle> obstacles;
-  while (share_stopped(map, place, obstacles) < share) {
+  for (int k = 0; k < kMostTries && share_stopped(map, place, obstacles) < share; ++k) {
     const double angle_rad = random.uniform(0, core::kTwoPi);
     const double range_m = map.range_along(place, angle_rad, kWorldRange_m);
     const double radius_m = random.uniform(kSmallest_m, kLargest_m);

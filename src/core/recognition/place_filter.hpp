@@ -2,7 +2,6 @@
 #pragma once
 
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <optional>
 #include <span>
@@ -31,27 +30,26 @@ class PlaceFilter {
   /// The likeliest of the places that the last update's scan itself speaks for: an index into them.
   std::optional<std::size_t> likeliest() const { return likeliest_; }
   /// Belief that the scan was taken anywhere but at likeliest().
-  double doubt() const { return 1 / (1 + std::exp(log_odds_)); }
+  double doubt() const { return doubt_; }
 
  private:
   struct Place {
     Pose2 T_map_lidar;      ///< in the last scan
     Pose2 T_map_anchor;     ///< where `anchored` was counted
     double base = 0;        ///< log odds by all before `anchored`
-    double anchored = 0;    ///< evidence of the scan at the anchor, log odds
+    double anchored = 0;    ///< likelihood ratio of the scan at the anchor, nats
     bool is_named = false;  ///< the prior is of this one
   };
-  /// Log odds of a place whose scan at `T_map_lidar` has this evidence.
-  static double weigh(Place& place, const Pose2& T_map_lidar, double evidence);
+  /// Log odds of a place whose scan at `T_map_lidar` has this likelihood ratio.
+  static double weigh(Place& place, const Pose2& T_map_lidar, double log_ratio);
 
-  static const VerifiedHypothesis* find(const Place& place,
-                                        std::span<const VerifiedHypothesis> found,
+  static const VerifiedHypothesis* find(Place& place, std::span<const VerifiedHypothesis> found,
                                         const std::optional<Prior>& prior);
 
   std::array<Place, kMaxPlaces> places_;
   std::size_t count_ = 0;
   std::optional<std::size_t> likeliest_;
-  double log_odds_ = 0;
+  double doubt_ = 1;
 };
 
 }  // namespace cornerd::core
