@@ -15,8 +15,8 @@ constexpr double kIndependent_m = 2;
 /// The logarithm of the number of places of a map that differ.
 constexpr double kLogPlaces = 12;
 /// Log odds are of the best of a map's places. How much likelier they are at the right place than
-/// at a given wrong one, nats: a line through the histogram of 16,000 right and 48,000 given wrong places
-/// (`cornerd-bench --evidence`, fit_evidence.py), which has no more wrong ones beyond its limits.
+/// at a given wrong one, nats: a line through the histogram of 16,000 right and 48,000 wrong places
+/// (`cornerd-bench --evidence`, fit_evidence.py), which has hardly a wrong one beyond its limits.
 constexpr double kEvenLogOdds = -14;
 constexpr double kRatioPerLogOdds = 0.25;
 constexpr double kLeastLogRatio = -3;

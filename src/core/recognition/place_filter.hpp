@@ -12,8 +12,9 @@
 namespace cornerd::core {
 
 /// Bayes filter over the places where an inexact map may have been scanned. Each place has log odds
-/// against "anywhere else, or not in this map", which every scan changes by its evidence. Scans
-/// from nearly one pose see the same errors of the map: they count once.
+/// against "anywhere else, or not in this map", which every scan changes by how much likelier its
+/// evidence is there than at a given wrong place. Scans from nearly one pose see the same errors of
+/// the map: they count once.
 class PlaceFilter {
  public:
   static constexpr std::size_t kMaxPlaces = 16;
