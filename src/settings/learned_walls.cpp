@@ -18,6 +18,8 @@ constexpr std::size_t kHashDigits = 64;
 constexpr std::uint32_t kMaxWallIndex = 1'000'000;
 constexpr std::size_t kNameDigits = 16;
 constexpr std::size_t kMostWalls = core::WallOffsetFilter::kMaxWalls;
+/// Beyond any map.
+constexpr double kFarthest_m = 1e6;
 /// Farther off is another wall.
 constexpr Interval kOffsetM{-0.5, 0.5};
 
@@ -47,7 +49,10 @@ void read_changes(ObjectReader& root, std::vector<core::MapChange>& changes) {
   const Json added = list("new");
   for (std::size_t i = 0; i < added.size(); ++i) {
     const Json& at = added[i];
-    if (!at.is_array() || at.size() != 2 || !at[0].is_number() || !at[1].is_number()) {
+    const auto is_coordinate = [](const Json& value) {
+      return value.is_number() && std::abs(value.get<double>()) < kFarthest_m;
+    };
+    if (!at.is_array() || at.size() != 2 || !is_coordinate(at[0]) || !is_coordinate(at[1])) {
       root.fail("new", i, "must be a place, [x, y]");
     }
     changes.push_back({Kind::kNewThing, 0, core::Vec2(at[0].get<double>(), at[1].get<double>())});

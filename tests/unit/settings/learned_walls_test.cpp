@@ -52,6 +52,8 @@ TEST(LearnedWalls, WrongFile_NamedWithPointerAndReason) {
               HasSubstr("/gone/0: must be a wall's number"));
   EXPECT_THAT(walls_error(begin + R"("covariance": [1], "new": [[1, 2], [1]]})"),
               HasSubstr("/new/1: must be a place"));
+  EXPECT_THAT(walls_error(begin + R"("covariance": [1], "new": [[1e308, 0]]})"),
+              HasSubstr("/new/0: must be a place"));
 }
 
 TEST(LearnedWalls, FileName_HasTheMapsHash) {
