@@ -83,7 +83,10 @@ bool LearnedWallsFile::is_significant(const WallReport& learned) const {
 void LearnedWallsFile::update(const WallReport& learned) {
   const std::string& hash = learned.map_hash;
   if (folder_.empty() || hash.empty() || hash != written_.map_hash) return;
-  if (!is_significant(learned)) return;
+  // Nothing is learned where that is switched off: what was stays.
+  if ((learned.walls.offsets.empty() && learned.changes.empty()) || !is_significant(learned)) {
+    return;
+  }
   try {
     replace_file(folder_ / settings::learned_walls_name(hash), settings::text_of(learned));
     written_ = learned;

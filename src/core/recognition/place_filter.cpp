@@ -42,6 +42,9 @@ void PlaceFilter::follow(const Pose2& T_map_lidar) {
   for (Place& place : std::span(places_).first(count_)) {
     place.is_named = same_pose(place.T_map_lidar, T_map_lidar, kNear_m, kNear_rad);
   }
+  // Of two places that a hypothesis may be of it is the named one's.
+  std::partition(places_.begin(), places_.begin() + static_cast<std::ptrdiff_t>(count_),
+                 [](const Place& place) { return place.is_named; });
 }
 
 double PlaceFilter::weigh(Place& place, const Pose2& T_map_lidar, double log_ratio) {
@@ -49,7 +52,7 @@ double PlaceFilter::weigh(Place& place, const Pose2& T_map_lidar, double log_rat
   const double fresh = std::min(1.0, way_m / kIndependent_m);
   const double log_odds = place.base + fresh * place.anchored + log_ratio;
   if (fresh == 1) {
-    place.base = std::min(kLogOddsAgainstCarried, place.base + place.anchored);
+    place.base = std::clamp(place.base + place.anchored, -kLogPlaces, kLogOddsAgainstCarried);
     place.anchored = log_ratio;
     place.T_map_anchor = T_map_lidar;
   }

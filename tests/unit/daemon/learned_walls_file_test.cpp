@@ -61,6 +61,15 @@ TEST(LearnedWallsFile, ChangeOfTheMap_WrittenAndKept) {
   EXPECT_EQ(LearnedWallsFile(folder.path()).load("abc", 27).changes, learned.changes);
 }
 
+TEST(LearnedWallsFile, LearningSwitchedOff_StoredStays) {
+  test::TemporaryFolder folder;
+  LearnedWallsFile file(folder.path());
+  file.load("abc", 27);
+  file.update(kLearned);
+  file.update({"abc", {}, {}});
+  EXPECT_FALSE(LearnedWallsFile(folder.path()).load("abc", 27).walls.offsets.empty());
+}
+
 TEST(LearnedWallsFile, DamagedFile_NotUsed) {
   test::TemporaryFolder folder;
   std::ofstream(folder / "walls-abc.json") << "{";

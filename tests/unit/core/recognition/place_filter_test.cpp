@@ -73,6 +73,25 @@ TEST(PlaceFilter, RoomThatLooksAlike_DoesNotTakeTheConfirmedPlaceAway) {
   EXPECT_LT(filter.doubt(), kRate);
 }
 
+TEST(PlaceFilter, WeakPlaceBesideTheNamedOne_DoesNotTakeItsHypothesis) {
+  PlaceFilter filter;
+  update(filter, {place_at(0.7, -4)});
+  update(filter, {place_at(0.7, -4), place_at(1, 12)});
+  for (int k = 0; k < 100; ++k) update(filter, {place_at(1 + 0.1 * k, 20), place_at(0.7, -4)});
+  ASSERT_LT(filter.doubt(), kRate);
+  filter.follow({10.9, 0, 0});
+  update(filter, {place_at(10.9, 12), place_at(10.6, -4)}, Prior{{10.9, 0, 0}, 0.02, 0.02});
+  update(filter, {place_at(10.65, 12)}, Prior{{10.65, 0, 0}, 0.02, 0.02});
+  EXPECT_LT(filter.doubt(), kRate);
+}
+
+TEST(PlaceFilter, PlaceThatWasWrongForLong_IsNamedAgainAsSoonAsANewOne) {
+  PlaceFilter filter;
+  for (int k = 0; k < 400; ++k) update(filter, {place_at(0.2 * k, -30)});
+  for (int k = 0; k < 100; ++k) update(filter, {place_at(80 + 0.2 * k, 6)});
+  EXPECT_LT(filter.doubt(), kRate);
+}
+
 TEST(PlaceFilter, VaguePrior_DoesNotNameAnotherPlaceAtOnce) {
   PlaceFilter filter;
   filter.confirm({1, 0, 0});
