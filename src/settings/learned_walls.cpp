@@ -136,15 +136,16 @@ std::string text_of(const LearnedWallsOfMap& learned) {
   return document.dump() + '\n';
 }
 
+core::Vec2 place_of(const core::MapChange& change, const core::FloorPlan& plan) {
+  if (change.kind != core::MapChange::Kind::kWallGone) return change.position;
+  const core::Wall& wall = plan.walls[change.wall];
+  return (wall.from + wall.to) / 2;
+}
+
 std::string describe(const core::MapChange& change, const core::FloorPlan& plan) {
   const bool is_gone = change.kind == core::MapChange::Kind::kWallGone;
-  core::Vec2 at = change.position;
-  std::string subject = "something new";
-  if (is_gone) {
-    const core::Wall& wall = plan.walls[change.wall];
-    at = (wall.from + wall.to) / 2;
-    subject = "wall " + std::to_string(change.wall);
-  }
+  const core::Vec2 at = place_of(change, plan);
+  const std::string subject = is_gone ? "wall " + std::to_string(change.wall) : "something new";
   std::array<char, 64> place{};
   std::snprintf(place.data(), place.size(), " at (%.2f, %.2f) ", at.x(), at.y());
   return subject + place.data() + (is_gone ? "is gone" : "stays");

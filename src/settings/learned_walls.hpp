@@ -31,6 +31,8 @@ std::string learned_walls_name(std::string_view map_hash);
 LearnedWallsOfMap parse_learned_walls(std::string_view text, const std::filesystem::path& file);
 std::string text_of(const LearnedWallsOfMap& learned);
 
+/// The middle of the wall that is gone, one of `plan`; where the new thing is.
+core::Vec2 place_of(const core::MapChange& change, const core::FloorPlan& plan);
 /// "wall 12 at (1.20, 3.40) is gone"; a wall of `plan`.
 std::string describe(const core::MapChange& change, const core::FloorPlan& plan);
 

@@ -54,11 +54,15 @@ struct ScanConditions {
   bool is_right() const { return map == world && !mirrored; }
 };
 
+double draw_log_uniform(double low, double high, replay::Random& random) {
+  return std::exp(random.uniform(std::log(low), std::log(high)));
+}
+
 ScanConditions draw_conditions(std::size_t maps, replay::Random& random) {
   const auto any_map = [&] { return static_cast<std::size_t>(random.uniform() * maps); };
   ScanConditions drawn;
   drawn.world = drawn.map = any_map();
-  drawn.samples = static_cast<std::size_t>(std::exp(random.uniform(std::log(250), std::log(1450))));
+  drawn.samples = static_cast<std::size_t>(draw_log_uniform(250, 1450, random));
   if (random.chance(kWrongMaps)) {
     drawn.mirrored = random.chance(0.6);
     while (!drawn.mirrored && drawn.map == drawn.world) drawn.map = any_map();
@@ -81,10 +85,6 @@ ScanConditions draw_conditions(std::size_t maps, replay::Random& random) {
     drawn.sensor.noise.share = 0.01;
   }
   return drawn;
-}
-
-double draw_log_uniform(double low, double high, replay::Random& random) {
-  return std::exp(random.uniform(std::log(low), std::log(high)));
 }
 
 /// As a building is some years after its plan was drawn: one thing is wrong, or any.
@@ -124,8 +124,7 @@ core::FloorPlan aged(core::FloorPlan plan, const ScanConditions& drawn, replay::
 
 const char* const kEvidenceColumns =
     "scan,given,wrong_map,right,log_odds,rays,hits,map_sigma,faces_log_ratio,faces,unseen_faces,"
-    "weakest_view,"
-    "obstacles_m,missing_walls,log_missing,wall_ends,wall_m,segments";
+    "weakest_view,obstacles_m,missing_walls,log_missing,wall_ends,wall_m,segments";
 
 struct EvidenceSamples::State {
   /// What localizes in one map.

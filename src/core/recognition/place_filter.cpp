@@ -24,7 +24,7 @@ constexpr double kMostLogRatio = 8;
 /// How far a robot moves between two scans, or from a prior that is exact.
 constexpr double kNear_m = 0.25;
 constexpr double kNear_rad = radians(20);
-/// A prior that is less exact than that is wrong once in a hundred times: its motion is a guess.
+/// A prior that is less exact than that is wrong once in ten thousand times: its motion is a guess.
 constexpr double kLogOddsOfVaguePrior = 9;
 
 double log_ratio_at(double log_odds) {
@@ -108,7 +108,7 @@ void PlaceFilter::update(std::span<const VerifiedHypothesis> found,
     }
   }
   for (const VerifiedHypothesis& place : found) {
-    if (count_ == kMaxPlaces || log_ratio_at(place.log_odds) <= 0) break;
+    if (count_ == kMaxPlaces || place.log_odds <= kEvenLogOdds) break;
     if (is_known(&place)) continue;
     const Pose2& T_map_lidar = place.refined.T_map_lidar;
     const double log_ratio = log_ratio_at(place.log_odds);
@@ -116,7 +116,7 @@ void PlaceFilter::update(std::span<const VerifiedHypothesis> found,
   }
   std::size_t best = count_;
   for (std::size_t i = 0; i < count_; ++i) {
-    const bool speaks = known[i] && log_ratio_at(known[i]->log_odds) > 0;
+    const bool speaks = known[i] && known[i]->log_odds > kEvenLogOdds;
     if (speaks && (best == count_ || log_odds[i] > log_odds[best])) best = i;
   }
   if (best == count_) return;

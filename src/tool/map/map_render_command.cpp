@@ -106,12 +106,9 @@ std::string draw_learned(MapDrawing& drawing, const core::FloorPlan& plan,
     drawing.add_learned_wall(moved.walls[wall.wall], wall);
   }
   for (const core::MapChange& change : learned.changes) {
-    if (change.kind == core::MapChange::Kind::kWallGone) {
-      const core::Wall& wall = plan.walls[change.wall];
-      drawing.add_left_out((wall.from + wall.to) / 2);
-    } else {
-      drawing.add_new_thing(change.position);
-    }
+    const bool is_gone = change.kind == core::MapChange::Kind::kWallGone;
+    const core::Vec2 at = settings::place_of(change, plan);
+    is_gone ? drawing.add_left_out(at) : drawing.add_new_thing(at);
   }
   return formatted("; %zu walls learned, %zu changes", learned.walls.offsets.size(),
                    learned.changes.size());

@@ -17,6 +17,14 @@ namespace {
 
 const WallReport kLearned{"abc", {{{3, 0.012, 0.01}, {0, -0.02, 0.02}}, {1e-4, 5e-5, 4e-4}}, {}};
 
+/// Has stored kLearned.
+LearnedWallsFile file_with_walls(const test::TemporaryFolder& folder) {
+  LearnedWallsFile file(folder.path());
+  file.load("abc", 27);
+  file.update(kLearned);
+  return file;
+}
+
 TEST(LearnedWallsFile, Stored_LoadedForThatMapAlone) {
   test::TemporaryFolder folder;
   LearnedWallsFile first(folder.path());
@@ -29,17 +37,13 @@ TEST(LearnedWallsFile, Stored_LoadedForThatMapAlone) {
 
 TEST(LearnedWallsFile, WallsThatTheMapLacks_NotUsed) {
   test::TemporaryFolder folder;
-  LearnedWallsFile file(folder.path());
-  file.load("abc", 27);
-  file.update(kLearned);
+  file_with_walls(folder);
   EXPECT_TRUE(LearnedWallsFile(folder.path()).load("abc", 1).walls.offsets.empty());
 }
 
 TEST(LearnedWallsFile, InsignificantChange_NotWritten) {
   test::TemporaryFolder folder;
-  LearnedWallsFile file(folder.path());
-  file.load("abc", 27);
-  file.update(kLearned);
+  LearnedWallsFile file = file_with_walls(folder);
   WallReport learned = kLearned;
   learned.walls.offsets[0].offset_m += 0.001;
   file.update(learned);
@@ -52,9 +56,7 @@ TEST(LearnedWallsFile, InsignificantChange_NotWritten) {
 
 TEST(LearnedWallsFile, ChangeOfTheMap_WrittenAndKept) {
   test::TemporaryFolder folder;
-  LearnedWallsFile file(folder.path());
-  file.load("abc", 27);
-  file.update(kLearned);
+  LearnedWallsFile file = file_with_walls(folder);
   WallReport learned = kLearned;
   learned.changes = {{core::MapChange::Kind::kWallGone, 12, core::Vec2::Zero()}};
   file.update(learned);
@@ -63,9 +65,7 @@ TEST(LearnedWallsFile, ChangeOfTheMap_WrittenAndKept) {
 
 TEST(LearnedWallsFile, LearningSwitchedOff_StoredStays) {
   test::TemporaryFolder folder;
-  LearnedWallsFile file(folder.path());
-  file.load("abc", 27);
-  file.update(kLearned);
+  LearnedWallsFile file = file_with_walls(folder);
   file.update({"abc", {}, {}});
   EXPECT_FALSE(LearnedWallsFile(folder.path()).load("abc", 27).walls.offsets.empty());
 }
