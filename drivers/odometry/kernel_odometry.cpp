@@ -70,6 +70,7 @@ void KernelOdometry::poll(OdometrySink& sink) {
   right_.set_stuck(stuck_.right_is_stuck());
   gyro_.set_stuck(stuck_.gyro_is_stuck());
   reading.t_ns = before_ns + (after_ns - before_ns) / 2;
+  reading.arrival_ns = after_ns;
   ++readings_;
   sink.on_reading(reading);
 }

@@ -105,7 +105,7 @@ void simulate_covered_drive(std::shared_ptr<const core::WallMap> map,
     world.cover(is_covered(test_case, now_ns));
     for (const replay::SimulatedSample& sample : simulator.next().samples) {
       while (odometry.next_ns() <= sample.t_ns) {
-        if (const core::PoseEstimate* pose = pipeline.add(odometry.next(), sample.t_ns)) {
+        if (const core::PoseEstimate* pose = pipeline.add(odometry.next().arrived(sample.t_ns))) {
           score.add(*pose, motion(pose->t_ns, 0));
         }
       }

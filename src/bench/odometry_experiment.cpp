@@ -52,7 +52,7 @@ Drive drive_once(const OdometryRobot& robot, const replay::Scenario& scenario, s
   core::ReadingGate gate(config);
   replay::SimulatedOdometry odometry(motion, robot.model, seed);
   while (odometry.next_ns() <= end_ns) {
-    if (const auto step = gate.add(odometry.next(), std::nullopt)) drive.steps.push_back(*step);
+    if (const auto step = gate.add(odometry.next())) drive.steps.push_back(*step);
   }
   drive.paper_steps = joined(drive.steps);
   for (core::TimeNs t_ns = 0; t_ns <= end_ns; t_ns += kTruthPeriod_ns) {

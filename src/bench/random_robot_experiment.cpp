@@ -181,11 +181,7 @@ RandomRobotResult run_random_robot(std::shared_ptr<const core::WallMap> map,
   config.odometry.enabled = true;
   config.odometry.geometry = robot.model.geometry;
   core::Pipeline pipeline(map, config);
-  struct OnItsWay {
-    core::TimeNs arrival_ns;
-    core::OdometryReading reading;
-  };
-  std::deque<OnItsWay> on_their_way;
+  std::deque<core::OdometryReading> on_their_way;
   RandomRobotResult result;
   core::TimeNs arrival_ns = 0;
   int cover = -1;
@@ -200,10 +196,10 @@ RandomRobotResult run_random_robot(std::shared_ptr<const core::WallMap> map,
         arrival_ns = std::max(arrival_ns,
                               read.t_ns + core::from_seconds(random.uniform(0, robot.latency_s)));
         if (const auto spoiled = sensors.spoil(read))
-          on_their_way.push_back({arrival_ns, *spoiled});
+          on_their_way.push_back(spoiled->arrived(arrival_ns));
       }
-      while (!on_their_way.empty() && on_their_way.front().arrival_ns <= sample.t_ns) {
-        pipeline.add(on_their_way.front().reading, on_their_way.front().arrival_ns);
+      while (!on_their_way.empty() && *on_their_way.front().arrival_ns <= sample.t_ns) {
+        pipeline.add(on_their_way.front());
         on_their_way.pop_front();
       }
       now_ns = sample.t_ns;

@@ -55,7 +55,7 @@ RateResult run_rate_case(std::shared_ptr<const core::WallMap> map, double rate_h
   while (result.scans < scans) {
     for (const replay::SimulatedSample& sample : simulator.next().samples) {
       while (odometry && odometry->next_ns() <= sample.t_ns) {
-        pipeline.add(odometry->next(), sample.t_ns);
+        pipeline.add(odometry->next().arrived(sample.t_ns));
       }
       if (const core::ScanResult* scan = pipeline.add(replay::to_sample(sample))) {
         score_scan(scan->pose, motion(scan->pose.t_ns, 0), result);

@@ -21,7 +21,7 @@ SimulatedDrive simulate_drive(std::shared_ptr<const core::WallMap> map,
   while (simulated.drive.size() < config.scans) {
     for (const replay::SimulatedSample& sample : simulator.next().samples) {
       while (odometry && odometry->next_ns() <= sample.t_ns) {
-        simulated.drive.add(odometry->next(), sample.t_ns);
+        simulated.drive.add(odometry->next().arrived(sample.t_ns));
       }
       if (assembler.add(replay::to_sample(sample), scan)) simulated.drive.add(scan);
     }
@@ -49,7 +49,7 @@ void localize_drive(
   std::span<const survey::RecordedDrive::Reading> readings = drive.drive.readings();
   for (std::size_t i = 0; i < drive.drive.size(); ++i) {
     for (; !readings.empty() && readings.front().scan <= i; readings = readings.subspan(1)) {
-      localizer.add(readings.front().reading, readings.front().now_ns);
+      localizer.add(readings.front().reading);
     }
     drive.drive.load(i, scan);
     visit(localizer.step(scan).pose, drive.T_map_base[i]);

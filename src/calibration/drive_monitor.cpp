@@ -36,7 +36,7 @@ DriveMonitor::DriveMonitor(const core::OdometryConfig& config, const core::Pose2
 
 void DriveMonitor::add(const core::OdometryReading& reading) {
   newest_ns_ = reading.t_ns;
-  if (const auto step = gate_.add(reading, std::nullopt)) windows_.add(*step);
+  if (const auto step = gate_.add(reading)) windows_.add(*step);
 }
 
 void DriveMonitor::add(core::TimeNs t_ns, const core::Pose2& T_map_base) {

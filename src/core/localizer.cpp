@@ -123,9 +123,9 @@ Decision Localizer::Workspace::find(const Scan& scan, TimeNs t_ns) {
   return decide_by_faces(candidates, memory.prior(t_ns), filtered);
 }
 
-const PoseEstimate* Localizer::add(const OdometryReading& reading, std::optional<TimeNs> now_ns) {
+const PoseEstimate* Localizer::add(const OdometryReading& reading) {
   Workspace& w = *workspace_;
-  const bool moved = w.odometer.add(reading, now_ns);
+  const bool moved = w.odometer.add(reading);
   const PoseState last = w.result.pose.state;
   if (!moved || !w.config.odometry.publish_predictions || last == PoseState::kAmbiguous ||
       last == PoseState::kLost) {

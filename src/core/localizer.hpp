@@ -30,11 +30,10 @@ class Localizer {
   /// Localizes by one complete scan. The result is valid until the next call.
   const ScanResult& step(const Scan& scan);
 
-  /// Adds a reading of wheels and gyro, before the scan that it belongs to. `now_ns`: see
-  /// ReadingGate. Returns the pose at the reading's time, state predicted, where
-  /// odometry.publish_predictions is on and the last scan gave a pose; else null. Valid until the
-  /// next call.
-  const PoseEstimate* add(const OdometryReading& reading, std::optional<TimeNs> now_ns);
+  /// Adds a reading of wheels and gyro, before the scan that it belongs to. Returns the
+  /// pose at the reading's time, state predicted, where odometry.publish_predictions is on and the
+  /// last scan gave a pose; else null. Valid until the next call.
+  const PoseEstimate* add(const OdometryReading& reading);
 
   /// Adds the next sample of the scan in progress. Returns the pose at the sample's time, state
   /// tracking, where the sample ends a partial scan (updates_per_scan) that is consistent with the

@@ -24,7 +24,7 @@ class Pipeline {
   /// The result of a scan, if this sample is the first after it; else null. Valid, as scan(), until
   /// the next call.
   const ScanResult* add(const Sample& sample) {
-    now_ns_ = sample.t_ns;
+    newest_ns_ = sample.t_ns;
     const ScanResult* result = assembler_.add(sample, scan_) ? &maps_.step(scan_) : nullptr;
     partial_pose_ = localizer().follow(sample);
     return result;
@@ -33,10 +33,10 @@ class Pipeline {
   /// Pose from a partial scan, if the last sample ended one; see Localizer::follow().
   const PoseEstimate* partial_pose() const { return partial_pose_; }
 
-  /// Odometry, in order of time among the samples. Returns as Localizer::add(). `now_ns`: by a
-  /// clock; nullopt: the time of the newest sample.
-  const PoseEstimate* add(const OdometryReading& reading, std::optional<TimeNs> now_ns = {}) {
-    return localizer().add(reading, now_ns ? now_ns : now_ns_);
+  /// Odometry, in order of time among the samples. Returns as Localizer::add(). A reading without
+  /// an arrival time came after the newest sample.
+  const PoseEstimate* add(const OdometryReading& reading) {
+    return localizer().add(reading.arrival_ns ? reading : reading.arrived(newest_ns_));
   }
 
   /// End of the stream: the result of the scan in progress, if it is complete.
@@ -55,7 +55,7 @@ class Pipeline {
   const ScanAssembler& assembler() const { return assembler_; }
 
  private:
-  std::optional<TimeNs> now_ns_;  ///< of the newest sample
+  std::optional<TimeNs> newest_ns_;  ///< sample
   ScanAssembler assembler_;
   Scan scan_;
   MapChoice maps_;

@@ -139,9 +139,11 @@ ControlActions Daemon::control_actions(const settings::Config& config) {
   if (config.odometry.source == settings::OdometrySource::kSocket) {
     actions.add_odometry = [this](message::OdometryReading reading, int connection) {
       using Verdict = OdometryClients::Verdict;
-      const Verdict verdict = odometry_clients_.accept(connection, monotonic_ns(), reading);
+      const core::TimeNs now_ns = monotonic_ns();
+      const Verdict verdict = odometry_clients_.accept(connection, now_ns, reading);
       if (is_live_) {
-        reading.t_ns = reading.timed ? reading.t_ns - (unix_ns() - monotonic_ns()) : monotonic_ns();
+        reading.t_ns = reading.timed ? reading.t_ns - (unix_ns() - now_ns) : now_ns;
+        reading.arrival_ns = now_ns;
       } else if (!reading.timed) {
         // The newest sample's time, because the time of the last scan does not advance within a
         // scan.
@@ -243,6 +245,7 @@ void Daemon::on_tick() {
   follow_model(lidar_->status());
   if (lidar_->status().state != drivers::LidarState::kRunning) scans_.publish_next_map();
   const bool has_changed = odometry_ && odometry_->publish_changes(server_, now_ns());
+  odometry_clients_.update(scans_.odometry().counters, now_ns());
   const bool is_time = ticks_++ % kTicksPerStatus == 0;
   const drivers::LidarStatus lidar = lidar_->status();
   if (is_time || has_changed) status_.publish(lidar, scans_, localization_, health_, now_ns());

@@ -153,7 +153,7 @@ void Localization::process(core::Pipeline& pipeline, const SampleChannel::Item& 
     has_initial_pose_ = true;
   }
   take_readings();
-  if (item.kind == SampleChannel::Kind::kReading) return process(item.reading, std::nullopt);
+  if (item.kind == SampleChannel::Kind::kReading) return process(item.reading);
   const core::ScanResult* result =
       item.kind == SampleChannel::Kind::kGap ? pipeline.finish() : pipeline.add(item.sample);
   if (result != nullptr) {
@@ -191,17 +191,13 @@ void Localization::report(core::Pipeline& pipeline, const core::ScanResult& resu
 
 void Localization::take_readings() {
   core::OdometryReading reading;
-  const bool is_device = source_ == SourceKind::kDevice;
-  while (readings_.pop(reading)) {
-    process(reading, is_device ? std::optional(monotonic_ns()) : std::nullopt);
-  }
+  while (readings_.pop(reading)) process(reading);
 }
 
-void Localization::process(const core::OdometryReading& reading,
-                           std::optional<core::TimeNs> now_ns) {
+void Localization::process(const core::OdometryReading& reading) {
   taken_.push(reading);
-  report(current_->pipeline->add(reading, now_ns));
-  report(odometry_frame_.add(reading, now_ns, odometry_parameters_));
+  report(current_->pipeline->add(reading));
+  report(odometry_frame_.add(reading, odometry_parameters_));
 }
 
 void Localization::report(const core::OdometryPose* pose) {

@@ -162,7 +162,7 @@ class Localization {
            hurries_odometry_.load(std::memory_order_relaxed);
   }
   void take_readings();
-  void process(const core::OdometryReading& reading, std::optional<core::TimeNs> now_ns);
+  void process(const core::OdometryReading& reading);
   void report(const core::PoseEstimate* prediction);
   void report(const core::OdometryPose* pose);
   void clear_event() const;

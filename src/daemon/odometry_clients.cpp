@@ -62,7 +62,7 @@ void OdometryClients::describe(message::StatusFields& status) {
     if (count > 0) refusals_.push_back({cause, count});
   }
   status.odometry_refusals = refusals_;
-  status.odometry_hint = input_.hint(*status.odometry, status.t_ns);
+  status.odometry_hint = input_.hint(status.odometry->present);
   if (!expects_lines_ && !input_.are_refused()) status.odometry_hint = {};
   const bool is_shown = hint_repeats_ > 0 && hint_repeats_-- > 0;
   if (is_shown) {

@@ -38,7 +38,12 @@ class OdometryClients {
   /// The connection was closed; its number may be reused.
   void disconnect(int connection);
 
-  /// Sets second_client and odometry_hint. Call once for each STATUS, with odometry and t_ns set.
+  /// What became of the lines, by which a publisher keeps its place. Call it every second or more
+  /// often.
+  void update(const core::OdometryCounters& counters, core::TimeNs t_ns) {
+    input_.update(counters, t_ns);
+  }
+  /// Sets second_client and odometry_hint. Call once for each STATUS, with odometry set.
   void describe(message::StatusFields& status);
 
  private:

@@ -8,7 +8,7 @@
 namespace cornerd::message {
 namespace {
 
-/// Length of an evaluated interval. STATUS may be published twice in a shorter time.
+/// Length of an evaluated interval, for callers that come once a second, more or less.
 constexpr core::TimeNs kMinInterval_ns = core::kNsPerSecond * 9 / 10;
 
 /// Readings that end longer before a scan's middle do not tell the motion of the scan.
@@ -50,19 +50,16 @@ void OdometryInputMonitor::refuse(const RequestError& error) {
   ++(known == refusals_.end() ? refusals_.back() : *known).count;
 }
 
-std::string_view OdometryInputMonitor::hint(const core::OdometrySummary& summary,
-                                            core::TimeNs t_ns) {
+void OdometryInputMonitor::update(const core::OdometryCounters& counters, core::TimeNs t_ns) {
   if (!evaluated_ns_ || t_ns < *evaluated_ns_) evaluated_ns_ = t_ns;
-  if (t_ns - *evaluated_ns_ >= kMinInterval_ns) {
-    are_refused_ = lines_.refused > lines_.all;
-    hint_ = diagnose(summary.counters, t_ns);
-    rejected_ = find_rejected(summary.counters);
-    evaluated_ns_ = t_ns;
-    counters_ = summary.counters;
-    if (lines_.all > 0) last_lines_ = {lines_.all, t_ns};
-    lines_ = {};
-  }
-  return summary.present && !are_refused_ ? std::string_view() : hint_;
+  if (t_ns - *evaluated_ns_ < kMinInterval_ns) return;
+  are_refused_ = lines_.refused > lines_.all;
+  hint_ = diagnose(counters, t_ns);
+  rejected_ = find_rejected(counters);
+  evaluated_ns_ = t_ns;
+  counters_ = counters;
+  if (lines_.all > 0) last_lines_ = {lines_.all, t_ns};
+  lines_ = {};
 }
 
 std::string OdometryInputMonitor::diagnose(const core::OdometryCounters& counters,

@@ -29,9 +29,15 @@ class OdometryInputMonitor {
   };
   std::span<const Refusals> refusals() const { return refusals_; }
 
-  /// Why odometry is absent, from the lines of about the last second; empty if it is present or the
-  /// lines have just begun. Also says that most lines are refused. `t_ns`: the current time.
-  std::string_view hint(const core::OdometrySummary& summary, core::TimeNs t_ns);
+  /// Evaluates the lines once a second, however often it is called. `counters`: of the readings
+  /// among them.
+  void update(const core::OdometryCounters& counters, core::TimeNs t_ns);
+
+  /// Why odometry is absent, from the last interval; empty if it is `present` or the lines have
+  /// just begun. Also says that most lines are refused.
+  std::string_view hint(bool present) const {
+    return present && !are_refused_ ? std::string_view() : hint_;
+  }
 
   /// True if most values of the last evaluated interval were rejected, for any reason.
   struct Rejected {

@@ -46,7 +46,7 @@ std::vector<LocalizedScan> localize(const RecordedDrive& drive,
   auto reading = drive.readings().begin();
   for (std::size_t i = 0; i < drive.size(); ++i) {
     for (; reading != drive.readings().end() && reading->scan <= i; ++reading) {
-      localizer.add(reading->reading, reading->now_ns);
+      localizer.add(reading->reading);
     }
     drive.load(i, scan);
     const core::PoseEstimate& pose = localizer.step(scan).pose;

@@ -23,7 +23,7 @@ class Track {
     core::ReadingGate gate(config);
     core::Pose2 pose;
     for (const RecordedDrive::Reading& reading : drive.readings()) {
-      const auto step = gate.add(reading.reading, reading.now_ns);
+      const auto step = gate.add(reading.reading);
       if (!step || step->is_gap || step->to_ns <= step->from_ns) continue;
       if (points_.empty()) points_.push_back({step->from_ns, pose});
       core::MotionFactor factor(config.geometry, config.initial);

@@ -27,7 +27,7 @@ void RecordedDrive::set_odometry(const std::vector<core::OdometryReading>& readi
   std::size_t index = 0;
   for (const core::OdometryReading& reading : readings) {
     while (index < scans_.size() && end_ns(index) < reading.t_ns) ++index;
-    keep({reading, reading.t_ns, index});
+    keep({reading.arrived(reading.t_ns), index});
   }
 }
 

@@ -17,14 +17,11 @@ class RecordedDrive {
  public:
   struct Reading {
     core::OdometryReading reading;
-    std::optional<core::TimeNs> now_ns;  ///< time of the newest lidar sample when it arrived
-    std::size_t scan = 0;                ///< index of the scan that was being received
+    std::size_t scan = 0;  ///< index of the scan that was being received
   };
 
   void add(const core::Scan& scan);
-  void add(const core::OdometryReading& reading, std::optional<core::TimeNs> now_ns) {
-    keep({reading, now_ns, scans_.size()});
-  }
+  void add(const core::OdometryReading& reading) { keep({reading, scans_.size()}); }
 
   /// Replaces the readings by those of another file.
   void set_odometry(const std::vector<core::OdometryReading>& readings);

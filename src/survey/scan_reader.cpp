@@ -80,7 +80,7 @@ void ScanReader::add_readings() {
     const bool ahead = last_reading_ns_ < end_ns && next.scan <= index_ + kScansAhead;
     if (next.scan > index_ && !ahead) return;
     has_gyro_ |= next.reading.gyro_rad_s.has_value();
-    odometer_.add(next.reading, next.now_ns);
+    odometer_.add(next.reading);
     last_reading_ns_ = next.reading.t_ns;
   }
 }

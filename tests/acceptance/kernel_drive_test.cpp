@@ -99,7 +99,7 @@ class KernelDrive : public drivers::Clock, public drivers::OdometrySink {
     if (core::to_seconds(now_ns_) > kDrive_s) stop_.request_stop();
   }
   void on_reading(const core::OdometryReading& reading) override {
-    pipeline_->add(reading, now_ns_);
+    pipeline_->add(reading.arrived(now_ns_));
   }
 
  private:

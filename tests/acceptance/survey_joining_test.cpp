@@ -50,7 +50,7 @@ void append(const survey::RecordedDrive& from, std::size_t first, std::size_t la
       to.add(scan);
     }
   };
-  for (survey::RecordedDrive::Reading recorded : from.readings()) {
+  for (const survey::RecordedDrive::Reading& recorded : from.readings()) {
     if (recorded.scan < first || recorded.scan >= last) continue;
     add_scans(recorded.scan);
     core::OdometryReading reading = recorded.reading;
@@ -62,8 +62,8 @@ void append(const survey::RecordedDrive& from, std::size_t first, std::size_t la
     reading.t_ns += later_ns;
     *reading.left += counts.first;
     *reading.right += counts.second;
-    if (recorded.now_ns) *recorded.now_ns += later_ns;
-    to.add(reading, recorded.now_ns);
+    if (reading.arrival_ns) *reading.arrival_ns += later_ns;
+    to.add(reading);
   }
   add_scans(last);
 }

@@ -94,7 +94,7 @@ class Robot {
         continue;
       }
       while (trial_.odometry && odometry.next_ns() <= scan.end_ns()) {
-        localizer_.add(odometry.next(), std::nullopt);
+        localizer_.add(odometry.next());
       }
       const core::PoseEstimate& pose = localizer_.step(scan).pose;
       const core::Pose2 truth = motion(pose.t_ns, 0);
@@ -109,7 +109,7 @@ class Robot {
               replay::SimulatedOdometry& odometry, PoseScore& score) {
     for (const core::Sample& sample : scan.samples()) {
       while (trial_.odometry && odometry.next_ns() <= sample.t_ns) {
-        localizer_.add(odometry.next(), std::nullopt);
+        localizer_.add(odometry.next());
       }
       const core::PoseEstimate* pose = localizer_.follow(sample);
       if (pose != nullptr) score.add(*pose, motion(pose->t_ns, 0));

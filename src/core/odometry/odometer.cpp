@@ -30,9 +30,9 @@ Odometer::Odometer(const OdometryConfig& config)
       left_(config.geometry.metres_per_count()),
       right_(config.geometry.metres_per_count()) {}
 
-bool Odometer::add(const OdometryReading& reading, std::optional<TimeNs> now_ns) {
+bool Odometer::add(const OdometryReading& reading) {
   if (!config_.enabled) return false;
-  std::optional<OdometryIncrement> step = gate_.add(reading, now_ns);
+  std::optional<OdometryIncrement> step = gate_.add(reading);
   if (!step) return false;
   if (step->to_ns < step->from_ns) {
     restart(*step);

@@ -35,9 +35,8 @@ class Odometer {
 
   bool enabled() const { return config_.enabled; }
 
-  /// `now_ns`: see ReadingGate. True where the reading gave an increment: predict_latest() then
-  /// holds for its time.
-  bool add(const OdometryReading& reading, std::optional<TimeNs> now_ns);
+  /// True where the reading gave an increment: predict_latest() then holds for its time.
+  bool add(const OdometryReading& reading);
 
   /// Advances to the middle of a scan that ends at `end_ns`. The calls that follow hold for that
   /// time.

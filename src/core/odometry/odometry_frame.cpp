@@ -13,10 +13,10 @@ void OdometryFrame::configure(const OdometryConfig& config) {
   if (is_other_robot) gate_ = ReadingGate(config);
 }
 
-const OdometryPose* OdometryFrame::add(const OdometryReading& reading, std::optional<TimeNs> now_ns,
+const OdometryPose* OdometryFrame::add(const OdometryReading& reading,
                                        const OdometryParameters& parameters) {
   if (!config_.enabled) return nullptr;
-  const std::optional<OdometryIncrement> step = gate_.add(reading, now_ns);
+  const std::optional<OdometryIncrement> step = gate_.add(reading);
   if (!step) return nullptr;
   pose_.t_ns = step->to_ns;
   pose_.vx_m_s = pose_.omega_rad_s = 0;

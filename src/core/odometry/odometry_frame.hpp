@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <optional>
-
 #include "core/geometry/pose2.hpp"
 #include "core/odometry/odometry_config.hpp"
 #include "core/odometry/odometry_reading.hpp"
@@ -28,10 +26,9 @@ class OdometryFrame {
   /// For another robot's config begins with the next reading; the pose stays.
   void configure(const OdometryConfig& config);
 
-  /// `now_ns`: see ReadingGate. `parameters`: as estimated until now. Null where the reading ended
-  /// no increment; else valid until the next call.
-  const OdometryPose* add(const OdometryReading& reading, std::optional<TimeNs> now_ns,
-                          const OdometryParameters& parameters);
+  /// `parameters`: as estimated until now. Null where the reading ended no increment; else valid
+  /// until the next call.
+  const OdometryPose* add(const OdometryReading& reading, const OdometryParameters& parameters);
 
  private:
   OdometryConfig config_;

@@ -50,25 +50,24 @@ constexpr double kSlackCounts = 2;
 
 }  // namespace
 
-std::optional<OdometryIncrement> ReadingGate::add(const OdometryReading& reading,
-                                                  std::optional<TimeNs> now_ns) {
+std::optional<OdometryIncrement> ReadingGate::add(const OdometryReading& reading) {
   ++counters_.readings;
-  if (!is_in_time(reading.t_ns, now_ns)) return std::nullopt;
+  if (!is_in_time(reading.t_ns, reading.arrival_ns)) return std::nullopt;
   if (reading.gyro_rad_s) add_gyro(reading.t_ns, *reading.gyro_rad_s);
   if (!reading.left || !reading.right) return std::nullopt;
   return add_counts({reading.t_ns, *reading.left, *reading.right});
 }
 
-bool ReadingGate::is_in_time(TimeNs t_ns, std::optional<TimeNs> now_ns) {
-  if (now_ns && t_ns > *now_ns + from_seconds(config_.limits.ahead_s)) {
+bool ReadingGate::is_in_time(TimeNs t_ns, std::optional<TimeNs> arrival_ns) {
+  if (arrival_ns && t_ns > *arrival_ns + from_seconds(config_.limits.ahead_s)) {
     ++counters_.future;
     return false;
   }
-  if (now_ns && t_ns < *now_ns - kMostBehind_ns) {
+  if (arrival_ns && t_ns < *arrival_ns - kMostBehind_ns) {
     ++counters_.past;
     return false;
   }
-  const std::optional<TimeNs> clock_ns = config_.conservative ? now_ns : std::nullopt;
+  const std::optional<TimeNs> clock_ns = config_.conservative ? arrival_ns : std::nullopt;
   if (last_ns_ && t_ns < *last_ns_) {
     ++counters_.past;
     refused_in_a_row_ = refused_ns_ && t_ns < *refused_ns_ ? 1 : refused_in_a_row_ + 1;
@@ -86,12 +85,12 @@ bool ReadingGate::is_in_time(TimeNs t_ns, std::optional<TimeNs> now_ns) {
   refused_in_a_row_ = 0;
   refused_ns_.reset();
   last_ns_ = t_ns;
-  then_ns_ = now_ns;
+  last_arrival_ns_ = arrival_ns;
   return true;
 }
 
-bool ReadingGate::is_always_ahead(TimeNs t_ns, TimeNs now_ns) {
-  const TimeNs ahead_ns = t_ns - now_ns;
+bool ReadingGate::is_always_ahead(TimeNs t_ns, TimeNs arrival_ns) {
+  const TimeNs ahead_ns = t_ns - arrival_ns;
   if (!compared_since_ns_ || t_ns - *compared_since_ns_ > kSlowTurn_ns) {
     least_ahead_before_ns_ = std::exchange(least_ahead_ns_, ahead_ns);
     compared_since_ns_ = t_ns;
@@ -100,9 +99,9 @@ bool ReadingGate::is_always_ahead(TimeNs t_ns, TimeNs now_ns) {
   return std::min(least_ahead_ns_, least_ahead_before_ns_) > kClockAhead_ns;
 }
 
-bool ReadingGate::clock_leapt(TimeNs t_ns, TimeNs now_ns) const {
-  if (!last_ns_ || !then_ns_ || t_ns < now_ns + kClockAhead_ns) return false;
-  return (t_ns - *last_ns_) - (now_ns - *then_ns_) > kClockAhead_ns;
+bool ReadingGate::clock_leapt(TimeNs t_ns, TimeNs arrival_ns) const {
+  if (!last_ns_ || !last_arrival_ns_ || t_ns < arrival_ns + kClockAhead_ns) return false;
+  return (t_ns - *last_ns_) - (arrival_ns - *last_arrival_ns_) > kClockAhead_ns;
 }
 
 bool ReadingGate::leaps_ahead(TimeNs t_ns, std::optional<TimeNs> clock_ns) {

@@ -19,10 +19,9 @@ class ReadingGate {
  public:
   explicit ReadingGate(const OdometryConfig& config) : config_(config) {}
 
-  /// The increment that ends with this reading, if one does. `now_ns`: time of the lidar's newest
-  /// sample, to detect readings of the future; nullopt before the first.
-  std::optional<OdometryIncrement> add(const OdometryReading& reading,
-                                       std::optional<TimeNs> now_ns);
+  /// The increment that ends with this reading, if one does. Without an arrival time nothing is of
+  /// the future.
+  std::optional<OdometryIncrement> add(const OdometryReading& reading);
 
   const OdometryCounters& counters() const { return counters_; }
 
@@ -33,11 +32,11 @@ class ReadingGate {
     std::int64_t right = 0;
   };
 
-  bool is_in_time(TimeNs t_ns, std::optional<TimeNs> now_ns);
-  bool is_always_ahead(TimeNs t_ns, TimeNs now_ns);
-  bool clock_leapt(TimeNs t_ns, TimeNs now_ns) const;
-  /// `clock_ns`: now, where the lidar's clock is to be compared with.
-  bool leaps_ahead(TimeNs t_ns, std::optional<TimeNs> clock_ns);
+  bool is_in_time(TimeNs t_ns, std::optional<TimeNs> arrival_ns);
+  bool is_always_ahead(TimeNs t_ns, TimeNs arrival_ns);
+  bool clock_leapt(TimeNs t_ns, TimeNs arrival_ns) const;
+  /// `arrival_ns`: where the clocks are to be compared.
+  bool leaps_ahead(TimeNs t_ns, std::optional<TimeNs> arrival_ns);
   void add_gyro(TimeNs t_ns, double rate_rad_s);
   std::optional<OdometryIncrement> add_counts(const Counts& counts);
   std::optional<OdometryIncrement> restart(const Counts& counts);
@@ -51,8 +50,8 @@ class ReadingGate {
 
   OdometryConfig config_;
   OdometryCounters counters_;
-  std::optional<TimeNs> last_ns_;     ///< of any reading that was taken
-  std::optional<TimeNs> then_ns_;     ///< when that came
+  std::optional<TimeNs> last_ns_;  ///< of any reading that was taken
+  std::optional<TimeNs> last_arrival_ns_;
   std::optional<TimeNs> refused_ns_;  ///< the newest reading that was before the last one
   std::uint32_t refused_in_a_row_ = 0;
   // Of the last second or two.

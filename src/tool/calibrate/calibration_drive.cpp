@@ -45,9 +45,9 @@ class DriveSink final : public replay::RecordingSink {
   void on_odometry(const message::OdometryReading& reading) override {
     drive_.readings.push_back(reading);
     pipeline_.add(reading);
-    const auto now_ns = arrival_time(reading.t_ns);
-    if (const auto step = gate_.add(reading, now_ns)) drive_.steps.push_back(*step);
-    if (const auto step = wide_gate_.add(reading, now_ns))
+    const core::OdometryReading timed = reading.arrived(arrival_time(reading.t_ns));
+    if (const auto step = gate_.add(timed)) drive_.steps.push_back(*step);
+    if (const auto step = wide_gate_.add(timed))
       drive_.increments_within_wide_limits.push_back(*step);
   }
   CalibrationDrive finish() {
@@ -87,7 +87,7 @@ class PoseSink final : public replay::RecordingSink {
 
   void on_sample(const core::Sample& sample) override {
     readings_.take_until(sample.t_ns, [&](const core::OdometryReading& reading) {
-      pipeline_.add(reading, sample.t_ns);
+      pipeline_.add(reading.arrived(sample.t_ns));
     });
     take(pipeline_.add(sample));
   }

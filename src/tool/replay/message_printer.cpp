@@ -114,7 +114,8 @@ void MessagePrinter::print_status(core::TimeNs t_ns, const drivers::StreamCounte
   status.lidar_state = drivers::to_string(state);
   status.counters = named;
   status.odometry = &odometry_;
-  status.odometry_hint = odometry_lines_.hint(odometry_, t_ns);
+  odometry_lines_.update(odometry_.counters, t_ns);
+  status.odometry_hint = odometry_lines_.hint(odometry_.present);
   if (!status.odometry_hint.empty() && !has_odometry_lines_) {
     status.odometry_hint =
         "the recording has no ODOMETRY line so far: name a file of them with --odometry";

@@ -91,7 +91,7 @@ void replay(ReplayOptions& options) {
   core::OdometryFrame frame(config.odometry.core);
   playback.set_on_reading([&](const core::OdometryReading& reading) {
     printer.note(reading);
-    const auto* odom = frame.add(reading, std::nullopt, printer.odometry().parameters);
+    const auto* odom = frame.add(reading, printer.odometry().parameters);
     if (odom != nullptr) printer.print_odom(*odom);
   });
   playback.set_on_refusal([&](const message::RequestError& error) { printer.refuse(error); });

@@ -49,7 +49,7 @@ class SurveySink final : public replay::RecordingSink {
     if (now_ns_ && shifted.t_ns < *now_ns_ + kMaxReadingInterval_ns) {
       now_ns_ = std::max(*now_ns_, shifted.t_ns);
     }
-    if (takes_odometry_) drive_.add(shifted, now_ns_);
+    if (takes_odometry_) drive_.add(shifted.arrived(now_ns_));
   }
   void finish() {
     if (assembler_.finish(scan_)) drive_.add(scan_);

@@ -37,7 +37,7 @@ class CircleDrive {
     options.missing_share = covered ? 1 : 0;
     for (int i = 0; i < 14; ++i) {
       const OdometryReading reading = robot_.drive(0.01, speed_m_s_, rate_rad_s_);
-      const PoseEstimate* between = localizer_.add(reading, std::nullopt);
+      const PoseEstimate* between = localizer_.add(reading);
       if (between != nullptr) between_.push_back({*between, Pose2{1.2, 0.9, 0.3} * robot_.truth()});
       if (i == 6) truth_ = Pose2{1.2, 0.9, 0.3} * robot_.truth();
     }

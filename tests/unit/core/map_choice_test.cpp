@@ -127,7 +127,7 @@ TEST(MapChoice, ChosenMap_GoesOnWithTheOdometry) {
       OdometryReading reading;
       reading.t_ns = TimeNs{137'000'000} * robot.scans + 1;
       reading.left = reading.right = 300 * robot.scans;
-      choice.localizer().add(reading, std::nullopt);
+      choice.localizer().add(reading);
       ++readings;
       EXPECT_EQ(choice.step(robot.next()).odometry.counters.readings, readings);
     } while (!choice.map() && robot.scans < 400);

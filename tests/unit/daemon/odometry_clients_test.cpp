@@ -37,7 +37,7 @@ class OdometryClientsTest : public ::testing::Test {
   message::StatusFields described() {
     message::StatusFields status;
     status.odometry = &summary_;
-    status.t_ns = now_ns_;
+    clients_.update(summary_.counters, now_ns_);
     clients_.describe(status);
     return status;
   }

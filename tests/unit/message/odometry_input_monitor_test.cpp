@@ -25,7 +25,8 @@ class OdometryInputMonitorTest : public ::testing::Test {
   /// The hint one second later.
   std::string hint() {
     t_ns_ += core::kNsPerSecond;
-    return std::string(monitor_.hint(summary_, t_ns_));
+    monitor_.update(summary_.counters, t_ns_);
+    return std::string(monitor_.hint(summary_.present));
   }
 
   OdometryInputMonitor monitor_;
@@ -149,8 +150,10 @@ TEST_F(OdometryInputMonitorTest, OdometryPresent_NoHint) {
 TEST_F(OdometryInputMonitorTest, TwoCallsWithinInterval_SameHint) {
   add({0, {}, 1, {}});
   const std::string first = hint();
-  EXPECT_EQ(monitor_.hint(summary_, t_ns_ + 1000), first);
-  EXPECT_EQ(monitor_.hint(summary_, t_ns_ - core::kNsPerSecond), first) << "the clock was set back";
+  monitor_.update(summary_.counters, t_ns_ + 1000);
+  EXPECT_EQ(monitor_.hint(false), first);
+  monitor_.update(summary_.counters, t_ns_ - core::kNsPerSecond);
+  EXPECT_EQ(monitor_.hint(false), first) << "the clock was set back";
 }
 
 }  // namespace

@@ -34,7 +34,7 @@ TEST(RecordedDrive, Load_AfterAdd_ReturnsTheSamples) {
 TEST(RecordedDrive, Add_Reading_StoresCurrentScan) {
   RecordedDrive drive;
   drive.add(scan_at(0, 1));
-  drive.add(core::OdometryReading{}, std::nullopt);
+  drive.add(core::OdometryReading{});
   EXPECT_EQ(drive.readings().front().scan, 1U);
 }
 

@@ -20,7 +20,7 @@ TEST(MeasureWheelDistances, StuckCounter_GivesZero) {
     reading.t_ns = i * 100'000'000;
     reading.left = 3;
     reading.right = i % 10;
-    drive.add(reading, reading.t_ns);
+    drive.add(reading.arrived(reading.t_ns));
     trajectory.push_back({0.1 * i, 0, 0});
   }
   RejectedOdometry rejected;

@@ -43,7 +43,7 @@ class FilteredDrive {
       const Rates rates = lively_drive(0.02 * ticks_);
       OdometryReading reading = robot_.drive(0.02, rates.speed_m_s, rates.rate_rad_s);
       if (!with_gyro) reading.gyro_rad_s.reset();
-      if (const auto step = gate_.add(reading, std::nullopt)) filter_.add(*step);
+      if (const auto step = gate_.add(reading)) filter_.add(*step);
       if (ticks_ % 7 == 0) filter_.advance();
       // As in Odometer.
       if (with_fixes && ticks_ % 7 == 0 && !correct())

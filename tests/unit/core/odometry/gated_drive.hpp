@@ -33,7 +33,7 @@ inline Outcome drive_with(const std::function<void(int, OdometryReading&)>& spoi
   for (int i = 0; i < 150; ++i) {
     OdometryReading reading = robot.drive(0.02, 0.3, 0.1);
     spoil(i, reading);
-    const auto step = gate.add(reading, robot.now_ns());
+    const auto step = gate.add(reading.arrived(robot.now_ns()));
     if (!step) continue;
     ++outcome.steps;
     outcome.holes += step->is_gap;

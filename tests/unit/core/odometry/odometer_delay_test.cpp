@@ -44,7 +44,7 @@ class LateRide {
       const testing::Rates rates = testing::lively_drive(kReading_s * readings_);
       OdometryReading reading = robot_.drive(kReading_s, rates.speed_m_s, rates.rate_rad_s);
       reading.t_ns += delay_ns_;
-      odometer.add(reading, robot_.now_ns());
+      odometer.add(reading.arrived(robot_.now_ns()));
       if (i != 2) continue;
       middle_ns = robot_.now_ns();
       truth_ = robot_.truth();
@@ -64,7 +64,7 @@ class LateRide {
     const TimeNs middle_ns = robot_.now_ns() + from_seconds(ahead_s);
     odometer.advance(middle_ns - 1000, middle_ns, middle_ns + 1000);
   }
-  void read() { odometer.add(robot_.drive(0.02, 0.4, 0), robot_.now_ns()); }
+  void read() { odometer.add(robot_.drive(0.02, 0.4, 0).arrived(robot_.now_ns())); }
 
   Odometer odometer;
 
@@ -131,7 +131,7 @@ TEST(OdometerDelay, StationaryRobot_DelayIsNotEstimated) {
   testing::DrivenRobot robot(config.geometry, errors, 5);
   for (int k = 0; k < 2000; ++k) {
     const TimeNs start_ns = robot.now_ns();
-    for (int i = 0; i < 7; ++i) odometer.add(robot.drive(0.02, 0, 0), robot.now_ns());
+    for (int i = 0; i < 7; ++i) odometer.add(robot.drive(0.02, 0, 0).arrived(robot.now_ns()));
     odometer.advance(start_ns, start_ns + 60'000'000, robot.now_ns());
     constexpr double kSigma = 1e-4;
     odometer.correct({kSigma * robot.normal(), kSigma * robot.normal(), kSigma * robot.normal()},

@@ -38,7 +38,7 @@ class OdometerDrive {
       if (spoil) spoil(spoiled_++, reading);
       waiting_.push_back(reading);
       if (waiting_.size() <= static_cast<std::size_t>(late_)) continue;
-      if (readings && ticks_ % every_ == 0) odometer.add(waiting_.front(), robot_.now_ns());
+      if (readings && ticks_ % every_ == 0) odometer.add(waiting_.front().arrived(robot_.now_ns()));
       waiting_.erase(waiting_.begin());
     }
     odometer.advance(start_ns, start_ns + 70'000'000, robot_.now_ns());
@@ -53,7 +53,7 @@ class OdometerDrive {
   Pose2 go_on() {
     const Rates rates = lively_drive(0.01 * ticks_++);
     const OdometryReading reading = robot_.drive(0.01, rates.speed_m_s, rates.rate_rad_s);
-    odometer.add(reading, reading.t_ns);
+    odometer.add(reading.arrived(reading.t_ns));
     return robot_.truth();
   }
 

@@ -144,7 +144,7 @@ TEST(Odometer, StationaryRobot_WheelScalesAreUnchanged) {
     for (int i = 0; i < 7; ++i) {
       now_ns += 20'000'000;
       // Four times the configured noise.
-      odometer.add({now_ns, 0, 0, 0.01 + 0.007 * normal(random)}, now_ns);
+      odometer.add({now_ns, 0, 0, 0.01 + 0.007 * normal(random), now_ns});
     }
     odometer.advance(start_ns, start_ns + 70'000'000, now_ns);
     odometer.correct(Pose2{1 + 3e-4 * normal(random), 2, 0.3 + 3e-4 * normal(random)},
@@ -201,7 +201,7 @@ TEST(Odometer, ScanTakenInMotion_IsDeskewed) {
   const Pose2 T_base_lidar{0.05, -0.02, 0.3};
   constexpr double kSpeed_m_s = 0.5;
   constexpr double kRate_rad_s = 2;
-  for (int i = 0; i < 15; ++i) odometer.add(robot.drive(0.01, kSpeed_m_s, kRate_rad_s), {});
+  for (int i = 0; i < 15; ++i) odometer.add(robot.drive(0.01, kSpeed_m_s, kRate_rad_s));
 
   // Each ray from the robot's pose at its time; the middle of the scan is at (1, 1) in the room.
   const TimeNs start_ns = 15'000'000;

@@ -28,7 +28,7 @@ class FrameDrive {
       left_ += left;
       right_ += right;
       const OdometryPose* pose =
-          frame_.add({t_ns_, left_, right_, std::nullopt}, t_ns_, parameters);
+          frame_.add({t_ns_, left_, right_, std::nullopt, t_ns_}, parameters);
       if (pose == nullptr) continue;
       largest_step_m_ =
           std::max(largest_step_m_,
@@ -98,8 +98,8 @@ TEST(OdometryFrame, OtherConfig_KeepsThePose) {
 
 TEST(OdometryFrame, Disabled_HasNoPose) {
   OdometryFrame frame(OdometryConfig{});
-  EXPECT_EQ(frame.add({1, 2, 3, {}}, 1, {}), nullptr);
-  EXPECT_EQ(frame.add({kNsPerSecond, 9, 9, {}}, kNsPerSecond, {}), nullptr);
+  EXPECT_EQ(frame.add({1, 2, 3, {}, 1}, {}), nullptr);
+  EXPECT_EQ(frame.add({kNsPerSecond, 9, 9, {}, kNsPerSecond}, {}), nullptr);
 }
 
 }  // namespace

@@ -42,7 +42,7 @@ TEST(ReadingGate, ClockSetBack_GapEndsBeforeItBegins) {
   for (int i = 0; i < 150; ++i) {
     OdometryReading reading = robot.drive(0.02, 0.3, 0.1);
     if (i >= 50) reading.t_ns -= kNsPerSecond;
-    const auto step = gate.add(reading, robot.now_ns());
+    const auto step = gate.add(reading.arrived(robot.now_ns()));
     if (step && step->to_ns < step->from_ns) back.push_back(*step);
   }
   ASSERT_EQ(back.size(), 1U);
@@ -96,7 +96,7 @@ TEST(ReadingGate, ScansInOnePiece_NoFutureReadings) {
   TimeNs newest_sample_ns = 0;
   for (int i = 0; i < 500; ++i) {
     const OdometryReading reading = robot.drive(0.02, 0.3, 0.1);
-    gate.add(reading, newest_sample_ns);
+    gate.add(reading.arrived(newest_sample_ns));
     if (i % 50 == 49) newest_sample_ns = reading.t_ns;
   }
   EXPECT_EQ(gate.counters().future, 0U);
@@ -108,7 +108,7 @@ TEST(ReadingGate, PauseWithScansInOnePiece_IsNoClockLeap) {
   TimeNs newest_sample_ns = 0;
   for (int i = 0; i < 60; ++i) {
     const OdometryReading reading = robot.drive(i % 10 == 9 ? 0.5 : 0.18, 0.3, 0.1);
-    gate.add(reading, newest_sample_ns);
+    gate.add(reading.arrived(newest_sample_ns));
     newest_sample_ns = reading.t_ns;
   }
   EXPECT_EQ(gate.counters().future, 0U);
@@ -122,7 +122,7 @@ TEST(ReadingGate, AheadOfLimit_IsRejected) {
   testing::DrivenRobot robot(config.geometry, {});
   for (const int ahead_ms : {240, 260}) {
     const OdometryReading reading = robot.drive(0.02, 0.3, 0.1);
-    gate.add(reading, reading.t_ns - ahead_ms * kMillisecond_ns);
+    gate.add(reading.arrived(reading.t_ns - ahead_ms * kMillisecond_ns));
   }
   EXPECT_EQ(gate.counters().future, 1U);
 }
@@ -151,7 +151,7 @@ TEST(ReadingGate, SparseReadings_AreNoLeaps) {
   int steps = 0;
   for (int i = 0; i < 20; ++i) {
     const OdometryReading reading = robot.drive(i % 2 == 0 ? 0.4 : 0.6, 0.3, 0.1);
-    steps += gate.add(reading, reading.t_ns).has_value();
+    steps += gate.add(reading.arrived(reading.t_ns)).has_value();
   }
   EXPECT_EQ(steps, 19);
   EXPECT_EQ(gate.counters().future, 0U);
@@ -163,7 +163,7 @@ TEST(ReadingGate, ClientSlowsDown_IsFollowed) {
     ReadingGate gate(small_robot());
     const auto add = [&](double dt_s) {
       const OdometryReading reading = robot.drive(dt_s, 0.3, 0.1);
-      return gate.add(reading, reading.t_ns).has_value();
+      return gate.add(reading.arrived(reading.t_ns)).has_value();
     };
     for (int i = 0; i < 100; ++i) add(0.02);
     int steps = 0;

@@ -106,7 +106,7 @@ TEST(ReadingGate, GyroStuck_IsDetectedByWheels) {
   for (int i = 0; i < 100; ++i) {
     OdometryReading reading = robot.drive(0.02, 0.2, 1);
     reading.gyro_rad_s = 0.25;
-    const auto step = gate.add(reading, std::nullopt);
+    const auto step = gate.add(reading);
     with_gyro += step && step->has_gyro;
   }
   EXPECT_LT(with_gyro, 15);
@@ -121,14 +121,14 @@ TEST(ReadingGate, GyroStuck_StaysRejectedWhenRotationReverses) {
   for (int i = 0; i < 400; ++i) {
     OdometryReading reading = robot.drive(0.02, 0.2, i / 50 % 2 == 0 ? 1 : -1);
     reading.gyro_rad_s = 0;
-    const auto step = gate.add(reading, std::nullopt);
+    const auto step = gate.add(reading);
     with_gyro += step && step->has_gyro;
   }
   EXPECT_LT(with_gyro, 15);
 
   OdometryReading alive = robot.drive(0.02, 0.2, 1);
   alive.gyro_rad_s = 1;
-  const auto step = gate.add(alive, std::nullopt);
+  const auto step = gate.add(alive);
   ASSERT_TRUE(step);
   EXPECT_TRUE(step->has_gyro);
 }
@@ -143,9 +143,9 @@ TEST(ReadingGate, CountsAndRatesInSeparateLines_FormOneIncrement) {
     OdometryReading counts = robot.drive(0.01, 0.2, 0.5);
     const OdometryReading rate{counts.t_ns, {}, {}, counts.gyro_rad_s};
     counts.gyro_rad_s.reset();
-    EXPECT_FALSE(gate.add(rate, std::nullopt));
+    EXPECT_FALSE(gate.add(rate));
     if (i % 4 != 0) continue;
-    const auto step = gate.add(counts, std::nullopt);
+    const auto step = gate.add(counts);
     if (!step) continue;
     ++steps;
     EXPECT_TRUE(step->has_gyro);
@@ -167,7 +167,7 @@ TEST(ReadingGate, AnyReadings_IncrementsArePossible) {
     if (random() % 10 != 0) reading.left = static_cast<std::int64_t>(random() >> (random() % 64));
     if (random() % 10 != 0) reading.right = static_cast<std::int64_t>(random() >> (random() % 64));
     if (random() % 3 != 0) reading.gyro_rad_s = std::bit_cast<double>(random());
-    const auto step = gate.add(reading, t_ns);
+    const auto step = gate.add(reading.arrived(t_ns));
     if (!step) continue;
     ASSERT_GT(step->to_ns, step->from_ns);
     ASSERT_LE(std::abs(step->left_m), 3 * step->duration_s() + 0.001);

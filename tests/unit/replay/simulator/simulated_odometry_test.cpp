@@ -39,7 +39,7 @@ core::Pose2 reckoned(const RobotModel& model, calibration::HeadingSource source,
   core::ReadingGate gate(config);
   calibration::DeadReckoning reckoning(config.geometry, {source, {}});
   while (odometry.next_ns() <= core::from_seconds(duration_s)) {
-    if (const auto step = gate.add(odometry.next(), std::nullopt)) reckoning.add(*step);
+    if (const auto step = gate.add(odometry.next())) reckoning.add(*step);
   }
   return reckoning.pose();
 }
