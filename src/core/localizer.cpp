@@ -96,6 +96,14 @@ Decision Localizer::Workspace::find(const Scan& scan, TimeNs t_ns) {
   // 2. Where none is convincing, the robot may have changed its speed since the last turns.
   if (may_move(t_ns) && !may_be_biased()) look_for_the_motion(scan, t_ns);
 
+  const Decision decision = compare_places(scan, t_ns);
+  if (decision.state != PoseState::kLost || !may_turn_unseen() || !look_while_turning(scan, t_ns)) {
+    return decision;
+  }
+  return compare_places(scan, t_ns);
+}
+
+Decision Localizer::Workspace::compare_places(const Scan& scan, TimeNs t_ns) {
   // 3. Where still none is, the whole map is searched.
   candidates = {};
   decided_exactly = !place;

@@ -10,34 +10,17 @@ namespace cornerd::core {
 namespace {
 
 /// A place that recognition gave is off by up to this much; one that a prior leads to, by what it
-/// says, within what a robot drives from turn to turn; one that a turn in motion gave, by the
-/// motion.
+/// says, within what a robot drives from turn to turn.
 constexpr double kRecognisedRadius_m = 0.10;
 constexpr double kPriorSearchRadius_m = 0.15;
 constexpr double kSurePriorRadius_m = 0.03;
 /// What a prior's heading is off by counts at walls that are so far away.
 constexpr double kReach_m = 3;
-constexpr double kMotionSearchRadius_m = 0.08;
 
 /// Places with fewer votes of corners than this share of the best one's are looked at where those
 /// with more leave doubt: in large buildings they are many.
 constexpr double kLikelyShare = 0.7;
 
-/// A motion has to explain one ray in so many more than rest does: it fits things that are not on
-/// the map a little, always.
-constexpr std::size_t kRaysForAMotion = 50;
-
-/// Residuals this much beyond the scan's noise may be a motion's (reduced chi-square; 1.15 is three
-/// standard deviations of 800 rays'). Where all else fits, only what is more is looked into.
-constexpr double kMayMove = 1.15;
-constexpr double kSurelyMoves = 1.4;
-
-/// A lidar that turns slower is not smeared beyond what refinement finds.
-constexpr double kTurning_rad_s = 0.3;
-
-/// A motion is believed, and rays are compared one by one, where as many hit as they do in an exact
-/// map but for some furniture.
-constexpr double kMovingHitShare = 0.8;
 /// Hypotheses of pairs of corners that are compared in inexact maps, the most voted ones.
 constexpr std::size_t kMaxPairs = 8;
 
@@ -93,86 +76,12 @@ bool Localizer::Workspace::in_doubt(TimeNs t_ns) const {
   return !is_conclusive(best.likelihood, expected);
 }
 
-/// Nothing fits, or not as well as a lidar at rest would see it.
-bool Localizer::Workspace::may_move(TimeNs t_ns) const {
-  if (!place || trusts_odometry()) return false;
-  const auto places = place->verification.hypotheses();
-  return places.empty() ||
-         places.front().refined.reduced_chi_square > (in_doubt(t_ns) ? kMayMove : kSurelyMoves);
-}
-
 /// A bias fits like a motion: walls are where they should be, but not exactly. While the lidar is
 /// new and the robot is seen to stand, it is the bias.
 bool Localizer::Workspace::may_be_biased() const {
   if (!config.calibrate_online || !place || place->verification.hypotheses().empty()) return false;
   return place->bias.scans() < kTurnsOfANewLidar && memory.is_stationary() &&
          place->verification.hypotheses().front().likelihood.near_hit_share() > kAllButExact;
-}
-
-std::size_t Localizer::Workspace::best_hits() const {
-  const auto places = place->verification.hypotheses();
-  return places.empty() ? 0 : places.front().likelihood.hits;
-}
-
-BeamLikelihood Localizer::Workspace::try_at(const Scan& scan, TimeNs t_ns, const Twist2& as_if,
-                                            const Pose2& T_map_lidar, const SensorBias& bias) {
-  tried_points.assign(scan, config.min_range_m, config.max_range_m, t_ns, as_if, bias);
-  place->trial.begin(tried_points.points(), noise_scale());
-  const PoseHypothesis there{T_map_lidar, 0};
-  place->trial.consider(std::span(&there, 1), kMotionSearchRadius_m);
-  const auto places = place->trial.hypotheses();
-  return places.empty() ? BeamLikelihood{} : places.front().likelihood;
-}
-
-void Localizer::Workspace::look_for_the_motion(const Scan& scan, TimeNs t_ns) {
-  if (!place) return;
-  const auto best_place = [&] {
-    return place->verification.hypotheses().front().refined.T_map_lidar;
-  };
-  const auto look_if_better = [&](const Twist2& candidate, const Pose2& T_map_lidar) {
-    const std::size_t hits = try_at(scan, t_ns, candidate, T_map_lidar, place->bias.bias()).hits;
-    const bool is_better = hits > best_hits() + points.size() / kRaysForAMotion;
-    if (is_better) look(scan, t_ns, candidate);
-    return is_better;
-  };
-  const auto refine = [&] {
-    for (int k = 0; k < 2 && may_move(t_ns) && best_hits() > 0; ++k) {
-      const RefinedMotion refined = place->refinement.refine_motion(
-          *map, best_place(), kMotionSearchRadius_m, points.points(), result.detection.noise_scale);
-      if (!refined.valid || !is_plausible(refined.motion) ||
-          !look_if_better(motion + refined.motion, refined.T_map_lidar)) {
-        return;
-      }
-    }
-  };
-  if (best_hits() == 0) {
-    if (!motion.is_rest()) look(scan, t_ns, {});
-  } else if (!motion.is_rest()) {
-    look_if_better({}, best_place());
-  }
-  refine();
-  // Nothing fits: the robot turns, as the scan before tells; the other way round, where the order
-  // of the bearings is not known.
-  if (odometer.has_motion() || best_hits() >= points.size() / 2) return;
-  const std::optional<double> rate_rad_s = rotation.rate_rad_s();
-  if (!rate_rad_s || std::abs(*rate_rad_s) < kTurning_rad_s) return;
-  const Twist2 motion_before = motion;
-  for (const double omega_rad_s : {*rate_rad_s, -*rate_rad_s}) {
-    const std::size_t hits_before = best_hits();
-    if (hits_before >= points.size() / 2 || (omega_rad_s != *rate_rad_s && knows_order())) return;
-    look(scan, t_ns, {motion_before.vx_m_s, motion_before.vy_m_s, omega_rad_s});
-    refine();
-    if (best_hits() <= hits_before + points.size() / kRaysForAMotion)
-      look(scan, t_ns, motion_before);
-  }
-}
-
-bool Localizer::Workspace::fits_as_it_came(const Scan& turn, TimeNs t_ns) {
-  if (!place || candidates.empty()) return false;
-  const BeamLikelihood there =
-      try_at(turn, t_ns, {}, candidates.front().refined.T_map_lidar, place->bias.bias());
-  return core::is_exact(there, /*expected=*/true) ||
-         (place->map_error.is_exact() && there.hit_share() > kMovingHitShare);
 }
 
 bool Localizer::Workspace::is_exact(TimeNs t_ns) const {
@@ -182,17 +91,12 @@ bool Localizer::Workspace::is_exact(TimeNs t_ns) const {
   const bool expected = prior_is_fresh(t_ns) && is_expected(T_map_lidar, t_ns);
   const auto likely = place->place_search.places();
   const BeamLikelihood& best = places.front().likelihood;
-  const bool moved = place->map_error.is_exact() && best.hit_share() > kMovingHitShare;
+  const bool moved = place->map_error.is_exact() && is_explained_by_motion();
   return (moved || core::is_exact(best, expected)) &&
          std::any_of(likely.begin(), likely.end(), [&](const VerifiedHypothesis& other) {
            return is_in_map(other) &&
                   same_pose(other.refined.T_map_lidar, T_map_lidar, kJump_m, kJump_rad);
          });
-}
-
-bool Localizer::Workspace::is_explained_by_motion() const {
-  const auto places = place->verification.hypotheses();
-  return !places.empty() && places.front().likelihood.hit_share() > kMovingHitShare;
 }
 
 void Localizer::Workspace::search_map(TimeNs t_ns) {

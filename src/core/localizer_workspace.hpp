@@ -96,6 +96,16 @@ struct Localizer::Workspace {
   BeamLikelihood try_at(const Scan& scan, TimeNs t_ns, const Twist2& as_if,
                         const Pose2& T_map_lidar, const SensorBias& bias);
   void look_for_the_motion(const Scan& scan, TimeNs t_ns);
+  /// Refines the motion with the pose, where residuals are beyond the noise.
+  void refine_motion(const Scan& scan, TimeNs t_ns);
+  /// Looks at a candidate of the motion and a place; keeps it where clearly more rays hit.
+  bool look_if_better(const Scan& scan, TimeNs t_ns, const Twist2& candidate,
+                      const Pose2& T_map_lidar);
+  /// No scan before this one, nor odometry, has told how the robot turns.
+  bool may_turn_unseen() const;
+  /// Looks as if the robot turned, this way and that. False where at no rate half of the rays hit.
+  bool look_while_turning(const Scan& scan, TimeNs t_ns);
+  Decision compare_places(const Scan& scan, TimeNs t_ns);
   void search_map(TimeNs t_ns);
   std::span<const PoseHypothesis> search_everywhere(TimeNs t_ns);
   bool is_exact(TimeNs t_ns) const;

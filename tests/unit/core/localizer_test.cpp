@@ -123,6 +123,23 @@ TEST(Localizer, MountedOffCentre_PoseIsOfBase) {
   EXPECT_NEAR(pose.T_map_base.theta_rad, T_map_base.theta_rad, 0.005);
 }
 
+TEST(Localizer, FirstScanWhileTurning_IsNamed) {
+  const auto map = testing::make_map(testing::l_shaped_room());
+  testing::ScanSource source(71);
+  testing::ScanOptions options;
+  int named = 0;
+  for (int k = 0; k < 40; ++k) {
+    Localizer localizer(map, {});
+    options.motion = {0.3, 0, (k % 2 == 0 ? 0.05 : -0.05) * (k + 20)};
+    const Pose2 T_map_base = source.place_in(0.4, 2.2, 0.4, 2.6);
+    const PoseEstimate& pose = localizer.step(source.take(*map, T_map_base, options)).pose;
+    if (!has_pose(pose.state)) continue;
+    ++named;
+    EXPECT_TRUE(same_pose(pose.T_map_base, T_map_base, 0.05, radians(2))) << k;
+  }
+  EXPECT_GE(named, 38);
+}
+
 TEST(Localizer, DrivingRobot_IsTracked) {
   const auto map = testing::make_map(testing::l_shaped_room());
   testing::ScanSource source(67);

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: MIT
+// The robot's motion within a scan, from the scan itself.
+#include <algorithm>
+#include <array>
+
+#include "core/localizer_workspace.hpp"
+#include "core/recognition/evidence.hpp"
+
+namespace cornerd::core {
+namespace {
+
+/// A place that a turn in motion gave is off by the motion.
+constexpr double kMotionSearchRadius_m = 0.08;
+
+/// A motion has to explain one ray in so many more than rest does: it fits things that are not on
+/// the map a little, always.
+constexpr std::size_t kRaysForAMotion = 50;
+
+/// Residuals this much beyond the scan's noise may be a motion's (reduced chi-square; 1.15 is three
+/// standard deviations of 800 rays'). Where all else fits, only what is more is looked into.
+constexpr double kMayMove = 1.15;
+constexpr double kSurelyMoves = 1.4;
+
+/// Rates that are tried where nobody has seen the robot turn: small robots turn at up to 3 rad/s,
+/// and half a radian per second is refined.
+constexpr std::array kUnseenRates_rad_s = {1.0, -1.0, 2.0, -2.0, 3.0, -3.0};
+
+/// A lidar that turns slower is not smeared beyond what refinement finds.
+constexpr double kTurning_rad_s = 0.3;
+
+/// A motion is believed, and rays are compared one by one, where as many hit as they do in an exact
+/// map but for some furniture.
+constexpr double kMovingHitShare = 0.8;
+
+}  // namespace
+
+/// Nothing fits, or not as well as a lidar at rest would see it.
+bool Localizer::Workspace::may_move(TimeNs t_ns) const {
+  if (!place || trusts_odometry()) return false;
+  const auto places = place->verification.hypotheses();
+  return places.empty() ||
+         places.front().refined.reduced_chi_square > (in_doubt(t_ns) ? kMayMove : kSurelyMoves);
+}
+
+std::size_t Localizer::Workspace::best_hits() const {
+  const auto places = place->verification.hypotheses();
+  return places.empty() ? 0 : places.front().likelihood.hits;
+}
+
+BeamLikelihood Localizer::Workspace::try_at(const Scan& scan, TimeNs t_ns, const Twist2& as_if,
+                                            const Pose2& T_map_lidar, const SensorBias& bias) {
+  tried_points.assign(scan, config.min_range_m, config.max_range_m, t_ns, as_if, bias);
+  place->trial.begin(tried_points.points(), noise_scale());
+  const PoseHypothesis there{T_map_lidar, 0};
+  place->trial.consider(std::span(&there, 1), kMotionSearchRadius_m);
+  const auto places = place->trial.hypotheses();
+  return places.empty() ? BeamLikelihood{} : places.front().likelihood;
+}
+
+bool Localizer::Workspace::look_if_better(const Scan& scan, TimeNs t_ns, const Twist2& candidate,
+                                          const Pose2& T_map_lidar) {
+  const std::size_t hits = try_at(scan, t_ns, candidate, T_map_lidar, place->bias.bias()).hits;
+  const bool is_better = hits > best_hits() + points.size() / kRaysForAMotion;
+  if (is_better) look(scan, t_ns, candidate);
+  return is_better;
+}
+
+void Localizer::Workspace::refine_motion(const Scan& scan, TimeNs t_ns) {
+  for (int k = 0; k < 2 && may_move(t_ns) && best_hits() > 0; ++k) {
+    const RefinedMotion refined = place->refinement.refine_motion(
+        *map, place->verification.hypotheses().front().refined.T_map_lidar, kMotionSearchRadius_m,
+        points.points(), result.detection.noise_scale);
+    if (!refined.valid || !is_plausible(refined.motion) ||
+        !look_if_better(scan, t_ns, motion + refined.motion, refined.T_map_lidar)) {
+      return;
+    }
+  }
+}
+
+bool Localizer::Workspace::may_turn_unseen() const {
+  return place && !odometer.has_motion() && !rotation.rate_rad_s();
+}
+
+bool Localizer::Workspace::look_while_turning(const Scan& scan, TimeNs t_ns) {
+  for (const double omega_rad_s : kUnseenRates_rad_s) {
+    look(scan, t_ns, {0, 0, omega_rad_s});
+    refine_motion(scan, t_ns);
+    if (best_hits() >= points.size() / 2) return true;
+  }
+  look(scan, t_ns, memory.motion());
+  return false;
+}
+
+void Localizer::Workspace::look_for_the_motion(const Scan& scan, TimeNs t_ns) {
+  if (!place) return;
+  if (best_hits() == 0) {
+    if (!motion.is_rest()) look(scan, t_ns, {});
+  } else if (!motion.is_rest()) {
+    look_if_better(scan, t_ns, {}, place->verification.hypotheses().front().refined.T_map_lidar);
+  }
+  refine_motion(scan, t_ns);
+  // Nothing fits: the robot turns, as the scan before tells; the other way round, where the order
+  // of the bearings is not known.
+  if (odometer.has_motion() || best_hits() >= points.size() / 2) return;
+  const std::optional<double> rate_rad_s = rotation.rate_rad_s();
+  if (!rate_rad_s || std::abs(*rate_rad_s) < kTurning_rad_s) return;
+  const Twist2 motion_before = motion;
+  for (const double omega_rad_s : {*rate_rad_s, -*rate_rad_s}) {
+    const std::size_t hits_before = best_hits();
+    if (hits_before >= points.size() / 2 || (omega_rad_s != *rate_rad_s && knows_order())) return;
+    look(scan, t_ns, {motion_before.vx_m_s, motion_before.vy_m_s, omega_rad_s});
+    refine_motion(scan, t_ns);
+    if (best_hits() <= hits_before + points.size() / kRaysForAMotion)
+      look(scan, t_ns, motion_before);
+  }
+}
+
+bool Localizer::Workspace::fits_as_it_came(const Scan& turn, TimeNs t_ns) {
+  if (!place || candidates.empty()) return false;
+  const BeamLikelihood there =
+      try_at(turn, t_ns, {}, candidates.front().refined.T_map_lidar, place->bias.bias());
+  return core::is_exact(there, /*expected=*/true) ||
+         (place->map_error.is_exact() && there.hit_share() > kMovingHitShare);
+}
+
+bool Localizer::Workspace::is_explained_by_motion() const {
+  const auto places = place->verification.hypotheses();
+  return !places.empty() && places.front().likelihood.hit_share() > kMovingHitShare;
+}
+
+}  // namespace cornerd::core
