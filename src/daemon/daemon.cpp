@@ -138,19 +138,16 @@ ControlActions Daemon::control_actions(const settings::Config& config) {
   };
   if (config.odometry.source == settings::OdometrySource::kSocket) {
     actions.add_odometry = [this](message::OdometryReading reading, int connection) {
-      using Verdict = OdometryClients::Verdict;
-      const core::TimeNs now_ns = monotonic_ns();
-      const Verdict verdict = odometry_clients_.accept(connection, now_ns, reading);
+      const core::TimeNs arrival_ns = monotonic_ns();
+      const auto verdict = odometry_clients_.accept(connection, arrival_ns, reading);
       if (is_live_) {
-        reading.t_ns = reading.timed ? reading.t_ns - (unix_ns() - now_ns) : now_ns;
-        reading.arrival_ns = now_ns;
-      } else if (!reading.timed) {
-        // The newest sample's time, because the time of the last scan does not advance within a
-        // scan.
+        reading.t_ns = reading.timed ? reading.t_ns - (unix_ns() - arrival_ns) : arrival_ns;
+        reading.arrival_ns = arrival_ns;
+      } else if (!reading.timed) {  // the last scan's time does not advance within a scan
         reading.t_ns = localization_.newest_sample_ns();
       }
       if (reading.left || reading.right || reading.gyro_rad_s) localization_.add(reading);
-      return verdict != Verdict::kFirstRejection;
+      return verdict != OdometryClients::Verdict::kFirstRejection;
     };
     actions.disconnect = [this](int connection) { odometry_clients_.disconnect(connection); };
   }
