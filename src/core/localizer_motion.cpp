@@ -83,7 +83,7 @@ bool Localizer::Workspace::may_turn_unseen() const {
 
 bool Localizer::Workspace::look_while_turning(const Scan& scan, TimeNs t_ns) {
   for (const double omega_rad_s : kUnseenRates_rad_s) {
-    look(scan, t_ns, {0, 0, omega_rad_s});
+    look(scan, t_ns, {0, 0, omega_rad_s}, /*is_thorough=*/false);
     refine_motion(scan, t_ns);
     if (best_hits() >= points.size() / 2) return true;
   }

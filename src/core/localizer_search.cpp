@@ -32,7 +32,8 @@ constexpr double kAllButExact = 0.95;
 
 }  // namespace
 
-void Localizer::Workspace::look(const Scan& scan, TimeNs t_ns, const Twist2& as_if_moving) {
+void Localizer::Workspace::look(const Scan& scan, TimeNs t_ns, const Twist2& as_if_moving,
+                                bool is_thorough) {
   // The returns in the order of their bearing, as a lidar that stood still would have seen them.
   motion = as_if_moving;
   points.assign(scan, config.min_range_m, config.max_range_m, t_ns, motion,
@@ -62,7 +63,8 @@ void Localizer::Workspace::look(const Scan& scan, TimeNs t_ns, const Twist2& as_
   const auto pairs = place->recognition.from_pairs(seen.breakpoints);
   const std::size_t likely = count_likely(pairs, kLikelyShare);
   verification.consider(pairs.first(likely), kRecognisedRadius_m);
-  if (in_doubt(t_ns)) verification.consider(pairs.subspan(likely), kRecognisedRadius_m);
+  if (is_thorough && in_doubt(t_ns))
+    verification.consider(pairs.subspan(likely), kRecognisedRadius_m);
 }
 
 bool Localizer::Workspace::sees_enough(TimeNs t_ns) const {

@@ -92,7 +92,8 @@ struct Localizer::Workspace {
   /// Scans are as they came; `prior` is what is left of odometry.
   void reject_motion(const std::optional<Prior>& prior);
   Decision find(const Scan& scan, TimeNs t_ns);
-  void look(const Scan& scan, TimeNs t_ns, const Twist2& as_if_moving);
+  /// `is_thorough`: where the likely places leave doubt, the others too.
+  void look(const Scan& scan, TimeNs t_ns, const Twist2& as_if_moving, bool is_thorough = true);
   BeamLikelihood try_at(const Scan& scan, TimeNs t_ns, const Twist2& as_if,
                         const Pose2& T_map_lidar, const SensorBias& bias);
   void look_for_the_motion(const Scan& scan, TimeNs t_ns);

@@ -84,6 +84,7 @@ class Refinement {
                               std::span<const PolarPoint> points, double noise_scale);
 
  private:
+  static constexpr std::size_t kMinInliers = 8;
   struct Step;
   /// `max_final_steps`: limit of the steps on all `points`.
   RefinedPose gauss_newton(const WallMap& map, const Pose2& start, double search_radius_m,

@@ -9,19 +9,8 @@
 namespace cornerd::core {
 namespace {
 
-/// Share of the rays that end on the mapped wall: a furnished room.
-constexpr double kWallShare = 0.7;
-/// Density of a range that says nothing of the place: uniform over a room, 1/m.
-constexpr double kAnyDensity = 0.25;
 /// Density of an outlier among hits, over kAnyDensity.
 constexpr double kOutlierRatio = 0.02;
-constexpr double kGateSigmas = 3;
-/// Roughness of real surfaces, and what the noise model leaves out, as a standard deviation.
-constexpr double kSurface_m = 0.003;
-constexpr double kNoiseVarianceScale = 1.5;
-constexpr double kMinSine = 0.05;
-/// Beyond all walls.
-constexpr double kBeyondAll_m = 1e3;
 /// Rays are counted as if there were 400 a revolution: more are not more independent.
 constexpr double kNominalSpacing_rad = kTwoPi / 400;
 /// What n hits on one face are worth together: kWorth log(1 + n / kWorthHalf) of them. A face gives
@@ -44,13 +33,8 @@ constexpr double kWideView_rad = 1.5;
 constexpr double kMissingWall = 10;
 constexpr double kMissingWallPerRay = 3;
 constexpr double kWall_m = 0.3;
-/// Rays that end on a wall's edge may miss it; up to so many rays in a row cost this much each.
-constexpr std::size_t kEdgeRays = 2;
+/// Each of the rays that end on a wall's edge and miss it.
 constexpr double kEdgeRay = 1;
-/// Neighbouring rays whose wall a ray at an edge may meet, and where two walls are two.
-constexpr double kEdge_m = 0.06;
-constexpr std::ptrdiff_t kMaxEdgeRays = 8;
-constexpr double kStep_m = 0.1;
 /// A face that fits worse than this has something before it.
 constexpr double kWorstFace = -3;
 /// Of a map measured with a tape. One that is less exact is also wrong more often about what there
@@ -68,52 +52,6 @@ BeamModel::BeamModel(const WallMap& map, const SensorNoise& noise)
       faces_(map.faces().size()) {
   rays_.reserve(kMaxSamplesPerScan);
   met_.reserve(faces_.size());
-}
-
-void BeamModel::meet(std::span<const PolarPoint> points, std::span<const PredictedHit> hits,
-                     const Pose2& T_map_lidar, double spacing_rad, double noise_scale) {
-  const double c = std::cos(T_map_lidar.theta_rad);
-  const double s = std::sin(T_map_lidar.theta_rad);
-  const auto count = static_cast<std::ptrdiff_t>(points.size());
-  const auto sine_of = [&](const PolarPoint& point, std::uint32_t face) {
-    const Vec2& normal = map_.faces()[face].normal;
-    return std::max(kMinSine, std::abs(normal.x() * (c * point.ray_x - s * point.ray_y) +
-                                       normal.y() * (s * point.ray_x + c * point.ray_y)));
-  };
-  rays_.resize(points.size());
-  for (std::ptrdiff_t i = 0; i < count; ++i) {
-    const PolarPoint& point = points[static_cast<std::size_t>(i)];
-    const PredictedHit& met = hits[static_cast<std::size_t>(i)];
-    Ray& ray = rays_[static_cast<std::size_t>(i)];
-    ray.face = ray.predicted = met.face;
-    const bool none = met.face == PredictedHit::kNone;
-    double sine = none ? 1 : sine_of(point, met.face);
-    ray.across_m = none ? kBeyondAll_m : (point.range_m - met.range_m) * sine;
-    const double near_m = none ? point.range_m : std::min(met.range_m, point.range_m);
-    if (std::abs(ray.across_m) > kEdge_m) {
-      // At an edge it may be the neighbours' face that is met.
-      const auto reach = std::clamp<std::ptrdiff_t>(
-          static_cast<std::ptrdiff_t>(kEdge_m / (near_m * spacing_rad)), kEdgeRays, kMaxEdgeRays);
-      for (std::ptrdiff_t step = -reach; step <= reach; ++step) {
-        const PredictedHit& other = hits[static_cast<std::size_t>((i + step + count) % count)];
-        if (other.face == PredictedHit::kNone || other.face == met.face ||
-            (!none && std::abs(other.range_m - met.range_m) < kStep_m)) {
-          continue;
-        }
-        const double other_sine = sine_of(point, other.face);
-        const double across_m = (point.range_m - other.range_m) * other_sine;
-        if (std::abs(across_m) >= std::abs(ray.across_m)) continue;
-        ray.face = other.face;
-        ray.across_m = across_m;
-        sine = other_sine;
-      }
-    }
-    ray.variance_m2 = noise_.variance_across_m2(point.range_m, sine) * noise_scale * noise_scale *
-                          kNoiseVarianceScale +
-                      kSurface_m * kSurface_m;
-    ray.log_peak =
-        std::log(kWallShare * sine / (kAnyDensity * std::sqrt(kTwoPi * ray.variance_m2)));
-  }
 }
 
 BeamModel::FaceSums& BeamModel::sums_of(std::uint32_t face) {
@@ -238,28 +176,6 @@ void BeamModel::add_runs(std::span<const PolarPoint> points, double spacing_rad,
         result.log_likelihood -= std::min(2.0, std::sqrt(rays));
         break;
       }
-    }
-  }
-}
-
-void BeamModel::classify(double map_sigma_m, BeamStatistics& result) {
-  result.rays = rays_.size();
-  result.map_sigma_m = map_sigma_m;
-  for (Ray& ray : rays_) {
-    const double face_sigma_m =
-        ray.face == PredictedHit::kNone ? 0 : map_.faces()[ray.face].sigma_m;
-    const double variance_m2 = ray.variance_m2 + squared(std::max(map_sigma_m, face_sigma_m));
-    if (ray.face == PredictedHit::kNone) {
-      ray.outcome = Outcome::kBeyond;
-    } else if (ray.across_m * ray.across_m < kGateSigmas * kGateSigmas * variance_m2) {
-      ray.outcome = Outcome::kHit;
-      ++result.hits;
-    } else if (ray.across_m < 0) {
-      ray.outcome = Outcome::kShort;
-      ++result.shorts;
-    } else {
-      ray.outcome = Outcome::kThrough;
-      ++result.throughs;
     }
   }
 }

@@ -47,6 +47,9 @@ class BeamModel {
   static constexpr std::array kMapSigmas_m = {0.003, 0.01, 0.025, 0.05};
 
  private:
+  /// Rays in a row that end on a wall's edge and may miss it.
+  static constexpr std::size_t kEdgeRays = 2;
+
   enum class Outcome : std::uint8_t { kHit, kShort, kThrough, kBeyond };
   struct Ray {
     std::uint32_t predicted = 0;  ///< face that the ray should meet

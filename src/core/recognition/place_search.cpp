@@ -126,9 +126,7 @@ PlaceSearch::Candidate PlaceSearch::refined_roughly(const Candidate& candidate, 
         subset_, hits, refined.T_map_lidar, spacing_rad, noise_scale_, max_map_sigma_m_);
     const double log_odds =
         log_odds_of_place(statistics, wall_ends(refined.T_map_lidar), structure_);
-    if (log_odds > best.score) {
-      best = {refined.T_map_lidar, log_odds, statistics.map_sigma_m};
-    }
+    if (log_odds > best.score) best = {refined.T_map_lidar, log_odds, statistics.map_sigma_m};
   }
   return best;
 }
@@ -194,10 +192,10 @@ void PlaceSearch::add(const Candidate& candidate) {
       refine(stated_m);
     }
   }
-  const Covariance3& covariance = place.refined.covariance;
   const double max_rmse_m =
       std::max(kMaxRmseSigmas * BeamModel::kMapSigmas_m.back(), kMaxRmseSigmasStated * stated_m);
   if (!place.refined.valid) return;
+  const Covariance3& covariance = place.refined.covariance;
   const bool is_determined = place.refined.is_held() && place.refined.rmse_m <= max_rmse_m &&
                              covariance(0, 0) + covariance(1, 1) <= squared(kMaxSigma_m + stated_m);
   const auto hits = ray_caster_.cast(map_, place.refined.T_map_lidar, points_);
