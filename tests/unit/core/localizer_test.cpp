@@ -128,16 +128,18 @@ TEST(Localizer, FirstScanWhileTurning_IsNamed) {
   testing::ScanSource source(71);
   testing::ScanOptions options;
   int named = 0;
-  for (int k = 0; k < 40; ++k) {
+  for (int k = 0; k < 80; ++k) {
     Localizer localizer(map, {});
-    options.motion = {0.3, 0, (k % 2 == 0 ? 0.05 : -0.05) * (k + 20)};
+    options.motion = {0.3, 0, (k % 2 == 0 ? 0.025 : -0.025) * (k + 40)};
     const Pose2 T_map_base = source.place_in(0.4, 2.2, 0.4, 2.6);
+    const bool has_prior = k % 4 < 2;
+    if (has_prior) localizer.set_pose(T_map_base * Pose2{0.05, -0.05, 0.05});
     const PoseEstimate& pose = localizer.step(source.take(*map, T_map_base, options)).pose;
     if (!has_pose(pose.state)) continue;
     ++named;
     EXPECT_TRUE(same_pose(pose.T_map_base, T_map_base, 0.05, radians(2))) << k;
   }
-  EXPECT_GE(named, 38);
+  EXPECT_GE(named, 78);
 }
 
 TEST(Localizer, DrivingRobot_IsTracked) {
