@@ -59,7 +59,8 @@ RefinedMotion Refinement::refine_motion(const WallMap& map, const Pose2& start,
       const double variance =
           noise_.variance_across_m2(point.range_m, sine) * noise_scale * noise_scale +
           extra_sigma_m * extra_sigma_m;
-      const double share = 1 - distance_m * distance_m / (variance * PointLanes::kCutSigmas * PointLanes::kCutSigmas);
+      const double share = 1 - distance_m * distance_m /
+                                   (variance * PointLanes::kCutSigmas * PointLanes::kCutSigmas);
       if (share <= 0) continue;
       const double weight = share * share / variance;
       const Eigen::Vector3d jacobian(normal.x(), normal.y(), normal.y() * x_m - normal.x() * y_m);
