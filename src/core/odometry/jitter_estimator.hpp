@@ -6,27 +6,26 @@
 
 namespace cornerd::core {
 
-/// Learns how late or early the times of readings are. A reading that comes late counts the gyro's
-/// rate for too long, and the next one for as much too short: what the gyro says beyond the wheels
-/// is modelled from slip, and from a gyro that lies, by its changing sides with every reading.
+/// Estimates the jitter of the readings' times. A late reading counts the gyro's rate for too long,
+/// and the next reading for as much too short: jitter is what changes sides from one innovation to
+/// the next (their covariance is negative). Slips and wrong gyros do not.
 class JitterEstimator {
  public:
-  /// `surprise_rad`: the gyro's turn beyond the wheels' in a step; `other_rad2`: its variance but
-  /// for jitter.
-  void add(double surprise_rad, double rate_rad_s, double other_rad2) {
-    const double modelled_rad2 = std::abs(rate_rad_s * rate_before_rad_s_);
-    const double expected_rad2 = variance_s2_ * modelled_rad2 + other_rad2;
-    if (modelled_rad2 > 0 && expected_rad2 > 0) {
+  /// `innovation_rad`: the wheels' rotation less the gyro's in a scan; `other_rad2`: its variance
+  /// without jitter.
+  void add(double innovation_rad, double rate_rad_s, double other_rad2) {
+    const double per_s2 = std::abs(rate_rad_s * rate_before_rad_s_);
+    const double expected_rad2 = variance_s2_ * per_s2 + other_rad2;
+    if (per_s2 > 0 && expected_rad2 > 0) {
       const double most_rad2 = kOutlier * expected_rad2;
       const double sides_rad2 =
-          std::clamp(-surprise_rad * surprise_before_rad_, -most_rad2, most_rad2);
-      const double share =
-          modelled_rad2 * kMattering_s2 / (modelled_rad2 * kMattering_s2 + expected_rad2);
+          std::clamp(-innovation_rad * innovation_before_rad_, -most_rad2, most_rad2);
+      const double share = per_s2 * kObservable_s2 / (per_s2 * kObservable_s2 + expected_rad2);
       weight_ = std::min(weight_ + share * share, kMemory);
-      variance_s2_ += share * share / weight_ * (sides_rad2 / modelled_rad2 - variance_s2_);
+      variance_s2_ += share * share / weight_ * (sides_rad2 / per_s2 - variance_s2_);
       variance_s2_ = std::clamp(variance_s2_, 0.0, kMost_s2);
     }
-    surprise_before_rad_ = surprise_rad;
+    innovation_before_rad_ = innovation_rad;
     rate_before_rad_s_ = rate_rad_s;
   }
 
@@ -34,15 +33,15 @@ class JitterEstimator {
   double variance_s2() const { return variance_s2_; }
 
  private:
-  static constexpr double kMemory = 150;
-  static constexpr double kOutlier = 9;
-  /// What is worth looking for, and what is no jitter any more.
-  static constexpr double kMattering_s2 = 0.001 * 0.001;
+  static constexpr double kMemory = 150;  ///< innovations, of those that show jitter well
+  static constexpr double kOutlier = 9;   ///< squared, three sigma
+  /// Jitter of 1 ms is worth estimating; above 10 ms the times are wrong in another way.
+  static constexpr double kObservable_s2 = 0.001 * 0.001;
   static constexpr double kMost_s2 = 0.01 * 0.01;
 
   double variance_s2_ = 0;
-  double weight_ = 2;  ///< of the guess that there is none
-  double surprise_before_rad_ = 0;
+  double weight_ = 2;  ///< of the prior, no jitter
+  double innovation_before_rad_ = 0;
   double rate_before_rad_s_ = 0;
 };
 

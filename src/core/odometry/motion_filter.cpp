@@ -11,10 +11,10 @@ namespace {
 
 /// Chi-square, 1 degree of freedom, probability 1e-4.
 constexpr double kSlipGate = 15.1;
-/// How much likelier it is that the wheel that turned more slipped than the other one: a share of
-/// the correlation.
+/// Correlation of a slip with the travel of the wheel that turned more: that wheel with 97 %.
 constexpr double kLikelier = 0.94;
-/// Where a tyre touches the floor changes with every rotation on the spot.
+/// Where a tyre touches the floor changes with every rotation on the spot: 0.14 degrees after a
+/// revolution.
 constexpr double kScrub_rad_per_sqrt_rad = 0.001;
 /// Bounds of the calibration; of scales in sigma of their priors: more is a wrong setting, doubled
 /// counts (-50 %) among them. A survey, which nobody drives by, corrects a radius that is a third
@@ -29,6 +29,7 @@ constexpr double kMostDelay_s = 0.2;
 MotionFilter::MotionFilter(const OdometryConfig& config)
     : geometry_(config.geometry),
       noise_(config.noise),
+      most_sigmas_(config.conservative ? kMostSigmas : kMostSigmasOfSurvey),
       factor_(config.geometry, config.initial),
       // Fixes in a growing map share errors: what they show seems smaller than it is.
       wheel_noise_(config.conservative ? 0.1 : 1, 100),
@@ -39,13 +40,11 @@ MotionFilter::MotionFilter(const OdometryConfig& config)
   state_.segment<5>(kBias) << initial.gyro_bias_rad_s, initial.left_scale, initial.right_scale,
       initial.track_scale, initial.gyro_scale;
   state_[kDelay] = initial.delay_s;
-  Vector sigma = Vector::Zero();
-  sigma.segment<5>(kBias) << noise_.gyro_bias_rad_s, noise_.wheel_scale, noise_.wheel_scale,
+  prior_sigma_.segment<5>(kBias) << noise_.gyro_bias_rad_s, noise_.wheel_scale, noise_.wheel_scale,
       noise_.track_scale, noise_.gyro_scale;
-  sigma.segment<2>(kLeftRest).setConstant(std::sqrt(geometry_.quantization_variance()));
-  sigma[kDelay] = noise_.delay_s;
-  covariance_.diagonal() = sigma.cwiseAbs2();
-  most_scale_ = (config.conservative ? kMostSigmas : kMostSigmasOfSurvey) * sigma.segment<4>(kLeft);
+  prior_sigma_.segment<2>(kLeftRest).setConstant(std::sqrt(geometry_.quantization_variance()));
+  prior_sigma_[kDelay] = noise_.delay_s;
+  covariance_.diagonal() = prior_sigma_.cwiseAbs2();
   factor_ = factor(kSlipTail);
 }
 
@@ -81,111 +80,102 @@ void MotionFilter::advance() {
   const double dt_s = factor_.duration_s();
   if (!(dt_s > 0)) return;
   const Pose2 motion = factor_.motion();
-  const MotionFactor::Covariance& noise = factor_.covariance();
-  const double rate_rad_s = factor_.rotation_rad() / dt_s;
-  const double jitter_rad2 = 2 * jitter_.variance_s2() * squared(rate_rad_s);
-  // Second-order terms of the scales (Bar-Shalom et al. 2001, 10.3.2), while they are uncertain.
-  const double second_order_rad2 =
-      2 * squared(factor_.rotation_rad()) *
-      (squared(covariance_(kTrack, kTrack)) + squared(covariance_(kGyro, kGyro)));
-
+  const Eigen::Vector3d moved(motion.x_m, motion.y_m, factor_.rotation_rad());
   MotionFactor::Jacobian by = factor_.jacobian();
-  const MotionFactor::EndSlope by_rest = factor_.end_slope();
+  const MotionFactor::EndSlope by_end = factor_.end_slope();
   const double rest_m2 = geometry_.quantization_variance();
+  // Of the times of both ends.
+  const double jitter_rad2 = 2 * jitter_s2() * squared(factor_.rotation_rad() / dt_s);
   if (!factor_.is_counted()) {
     // There is no rotation that a scale could have scaled, but noise.
     by(2, MotionFactor::kGyro) = by(3, MotionFactor::kTrack) = 0;
   } else if (has_gyro_) {
     // Slopes by the scales at the rotation that both measure: at each one's own they would be
     // correlated with its noise, and the scales biased (errors in variables).
-    const double gyro_rad2 = noise(2, 2) + jitter_rad2;
-    const double wheel_rad2 = noise(3, 3) + 4 * rest_m2 / squared(geometry_.track_m);
+    const double gyro_rad2 = factor_.covariance()(2, 2) + jitter_rad2;
+    const double wheel_rad2 = factor_.covariance()(3, 3) + 4 * rest_m2 / squared(geometry_.track_m);
     const double rotation_rad =
         (wheel_rad2 * factor_.rotation_rad() + gyro_rad2 * factor_.wheel_rotation_rad()) /
         (wheel_rad2 + gyro_rad2);
     by(2, MotionFactor::kGyro) = -rotation_rad / (1 + state_[kGyro]);
     by(3, MotionFactor::kTrack) = -rotation_rad / (1 + state_[kTrack]);
   }
-
-  const Eigen::Matrix3d rotation = rotation_of(state_[kTheta]);
-  const Eigen::Vector3d translation = rotation * Eigen::Vector3d(motion.x_m, motion.y_m, 0);
-  Matrix transition = Matrix::Identity();
-  transition(kX, kTheta) = -translation.y();
-  transition(kY, kTheta) = translation.x();
-  transition.block<3, 7>(kX, kBias) = rotation * by.topRows<3>();
-  transition.diagonal().segment<2>(kLeftRest).setZero();
-  Eigen::Matrix<double, kSize, 2> rests = Eigen::Matrix<double, kSize, 2>::Zero();
-  rests.topRows<3>() = rotation * by_rest.topRows<3>();
-  rests.middleRows<2>(kLeftRest).setIdentity();
-
-  // Of the wheels' rotation less the gyro's, and with the state.
-  Eigen::RowVector<double, kSize> difference_by = Eigen::RowVector<double, kSize>::Zero();
-  difference_by.segment<7>(kBias) = by.row(3) - by.row(2);
-  const Eigen::Vector2d difference_by_rest = (by_rest.row(3) - by_rest.row(2)).transpose();
-  const Vector state_with_difference = covariance_ * difference_by.transpose();
-  Vector with_difference =
-      transition * state_with_difference + rest_m2 * rests * difference_by_rest;
-  with_difference.head<3>() += rotation * (noise.block<3, 1>(0, 3) - noise.block<3, 1>(0, 2));
-  const double difference_rad2 = difference_by.dot(state_with_difference) + noise(2, 2) +
-                                 noise(3, 3) - 2 * noise(2, 3) + jitter_rad2 + second_order_rad2 +
-                                 rest_m2 * difference_by_rest.squaredNorm();
-
-  covariance_ =
-      transition * covariance_ * transition.transpose() + rest_m2 * rests * rests.transpose();
-  covariance_.topLeftCorner<3, 3>() +=
-      rotation * noise.topLeftCorner<3, 3>() * rotation.transpose();
-  covariance_.diagonal().segment<5>(kBias) +=
-      dt_s * Eigen::Vector<double, 5>(noise_.bias_rad_s_per_sqrt_s, noise_.scale_per_sqrt_s,
-                                      noise_.scale_per_sqrt_s, noise_.scale_per_sqrt_s,
-                                      noise_.scale_per_sqrt_s)
-                 .cwiseAbs2();
-  covariance_(kDelay, kDelay) += dt_s * squared(noise_.delay_s_per_sqrt_s);
   const MotionFactor::Column of_rests = by.rightCols<2>() * state_.segment<2>(kLeftRest);
-  state_.head<3>() += translation + rotation * of_rests.head<3>();
-  state_[kTheta] += factor_.rotation_rad();
+
+  // The state, and below it the wheels' rotation less the gyro's, by the state before and by the
+  // noise: of the factor, and of the wheels' positions within their counts.
+  constexpr int kDifference = kSize;
+  const Eigen::Matrix3d rotation = rotation_of(state_[kTheta]);
+  const Eigen::Vector3d displacement = rotation * (moved + of_rests.head<3>());
+  Eigen::Matrix<double, kSize + 1, kSize> by_state = decltype(by_state)::Identity();
+  by_state(kX, kTheta) = -displacement.y();
+  by_state(kY, kTheta) = displacement.x();
+  by_state.block<3, 7>(kX, kBias) = rotation * by.topRows<3>();
+  by_state.diagonal().segment<2>(kLeftRest).setZero();
+  by_state.block<1, 7>(kDifference, kBias) = by.row(3) - by.row(2);
+  Eigen::Matrix<double, kSize + 1, 6> by_noise = decltype(by_noise)::Zero();
+  by_noise.topLeftCorner<3, 3>() = rotation;
+  by_noise.topRightCorner<3, 2>() = rotation * by_end.topRows<3>();
+  by_noise.block<2, 2>(kLeftRest, 4).setIdentity();
+  by_noise.row(kDifference) << 0, 0, -1, 1, by_end.row(3) - by_end.row(2);
+  Eigen::Matrix<double, 6, 6> noise = decltype(noise)::Zero();
+  noise.topLeftCorner<4, 4>() = factor_.covariance();
+  noise.diagonal().tail<2>().setConstant(rest_m2);
+  const Eigen::Matrix<double, kSize + 1, kSize + 1> joint =
+      by_state * covariance_ * by_state.transpose() + by_noise * noise * by_noise.transpose();
+
+  state_.head<3>() += displacement;
   state_.segment<2>(kLeftRest).setZero();
+  covariance_ = joint.topLeftCorner<kSize, kSize>();
+  Vector walk = Vector::Zero();
+  walk.segment<5>(kBias).setConstant(noise_.scale_per_sqrt_s);
+  walk[kBias] = noise_.bias_rad_s_per_sqrt_s;
+  walk[kDelay] = noise_.delay_s_per_sqrt_s;
+  covariance_.diagonal() += dt_s * walk.cwiseAbs2();
 
   wheel_rad2_ += noise(3, 3) / wheel_noise_.factor();
   gyro_rad2_ += squared(noise_.gyro_rad_s_per_sqrt_hz) * dt_s;
   rolled_m_ += factor_.rolled_m();
   ++scans_;
   if (has_gyro_) {
-    const double difference_rad =
-        factor_.wheel_rotation_rad() - factor_.rotation_rad() + of_rests[3] - of_rests[2];
-    compare_rotations(difference_rad, difference_rad2, with_difference);
+    compare_rotations(
+        factor_.wheel_rotation_rad() - factor_.rotation_rad() + of_rests[3] - of_rests[2],
+        joint(kDifference, kDifference), jitter_rad2, joint.col(kDifference).head<kSize>());
   }
   keep_in_bounds();
   factor_ = factor(kSlipTail);
 }
 
-void MotionFilter::compare_rotations(double difference_rad, double variance,
+void MotionFilter::compare_rotations(double difference_rad, double variance, double jitter_rad2,
                                      Vector with_difference) {
-  if (!(variance > 0)) return;
-  const double rate_rad_s = factor_.rotation_rad() / factor_.duration_s();
-  const double jitter_rad2 = 2 * jitter_.variance_s2() * squared(rate_rad_s);
-  jitter_.add(difference_rad, rate_rad_s, variance - jitter_rad2);
-  rotations_ = {squared(difference_rad), variance,
-                std::max(squared(factor_.rotation_rad()), squared(factor_.wheel_rotation_rad()))};
+  const double difference_rad2 = squared(difference_rad);
+  const double rotation_rad2 = squared(factor_.rotation_rad());
+  // Second-order terms of the scales (Bar-Shalom et al. 2001, 10.3.2), while they are uncertain.
+  variance += 2 * rotation_rad2 *
+              (squared(covariance_(kTrack, kTrack)) + squared(covariance_(kGyro, kGyro)));
+  if (!(variance + jitter_rad2 > 0)) return;
+  jitter_.add(difference_rad, factor_.rotation_rad() / factor_.duration_s(), variance);
+  variance += jitter_rad2;
+  rotations_ = {difference_rad2, variance,
+                std::max(rotation_rad2, squared(factor_.wheel_rotation_rad()))};
   double robust_variance = variance;
-  if (squared(difference_rad) > kSlipGate * variance) {
+  if (difference_rad2 > kSlipGate * variance) {
     // The travel of one wheel is wrong by as much, most likely of the one that turned more: the
     // difference measures the mean travel as well.
     ++slips_;
-    const double slip_m = std::abs(difference_rad) * geometry_.track_m / 2;
     const bool is_right = factor_.motion().x_m * factor_.wheel_rotation_rad() > 0;
-    const Vec2 along = unit_vector(state_[kTheta] - factor_.rotation_rad() / 2);
-    covariance_.topLeftCorner<2, 2>() += squared(slip_m) * along * along.transpose();
+    const Vec2 slip_m = std::abs(difference_rad) * geometry_.track_m / 2 *
+                        unit_vector(state_[kTheta] - factor_.rotation_rad() / 2);
+    covariance_.topLeftCorner<2, 2>() += slip_m * slip_m.transpose();
     with_difference.head<2>() +=
-        kLikelier * (is_right ? slip_m : -slip_m) * std::abs(difference_rad) * along;
-    robust_variance += squared(difference_rad);
+        kLikelier * (is_right ? 1 : -1) * std::abs(difference_rad) * slip_m;
+    robust_variance += difference_rad2;
   } else if (factor_.is_counted()) {
     const double wheel_rad2 = factor_.covariance()(3, 3);
-    wheel_noise_.add(squared(difference_rad), wheel_rad2 / wheel_noise_.factor(),
-                     variance - wheel_rad2);
+    wheel_noise_.add(difference_rad2, wheel_rad2 / wheel_noise_.factor(), variance - wheel_rad2);
   }
-  const Vector gain = with_difference / robust_variance;
-  state_ -= gain * difference_rad;
-  covariance_ -= gain * with_difference.transpose();
+  update<1>(-Eigen::Matrix<double, 1, 1>(difference_rad), with_difference / robust_variance,
+            with_difference);
 }
 
 void MotionFilter::predict_gap(double duration_s) {
@@ -214,14 +204,15 @@ OdometryParameters MotionFilter::sigma() const {
 }
 
 bool MotionFilter::is_in_bounds() const {
-  return (state_.segment<2>(kLeft).array().abs() < most_scale_.head<2>().array()).all();
+  return state_.segment<2>(kLeft).cwiseAbs().maxCoeff() < most_sigmas_ * noise_.wheel_scale;
 }
 
 void MotionFilter::keep_in_bounds() {
   state_[kTheta] = normalize_angle(state_[kTheta]);
   state_[kBias] = std::clamp(state_[kBias], -kMostBias_rad_s, kMostBias_rad_s);
   state_[kDelay] = std::clamp(state_[kDelay], -kMostDelay_s, kMostDelay_s);
-  state_.segment<4>(kLeft) = state_.segment<4>(kLeft).cwiseMax(-most_scale_).cwiseMin(most_scale_);
+  const Eigen::Vector4d most = most_sigmas_ * prior_sigma_.segment<4>(kLeft);
+  state_.segment<4>(kLeft) = state_.segment<4>(kLeft).cwiseMax(-most).cwiseMin(most);
   // Rounding leaves a symmetric matrix symmetric to the last bits alone.
   covariance_ = ((covariance_ + covariance_.transpose()) / 2).eval();
   covariance_.diagonal().head<kDelay>() = covariance_.diagonal().head<kDelay>().cwiseMax(1e-14);

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <utility>
 
 #include <Eigen/Core>
 
+#include "core/geometry/linear_solve.hpp"
 #include "core/geometry/pose2.hpp"
-#include "core/odometry/cusum.hpp"
 #include "core/odometry/jitter_estimator.hpp"
 #include "core/odometry/motion_factor.hpp"
 #include "core/odometry/noise_estimator.hpp"
@@ -17,6 +16,13 @@
 #include "core/odometry/slip_rate.hpp"
 
 namespace cornerd::core {
+
+/// A measured motion against another measurement of it.
+struct MotionError {
+  double error2 = 0;
+  double variance = 0;  ///< by the noise of both
+  double motion2 = 0;   ///< of the larger one
+};
 
 /// An extended Kalman filter over the pose of `base` in `map` and the calibration, a slow random
 /// walk: gyro bias b, wheel scales l and r, track scale t, gyro scale g, the wheels' positions
@@ -29,6 +35,9 @@ class MotionFilter {
   /// sample between the middle and the end is off by a quarter of that variance, all together by a
   /// twelfth; between them by NEES of fixes (`cornerd-bench --odometry`).
   static constexpr double kDeskewNoiseShare = 0.3;
+  /// What a robot may do in a time of which nothing is known.
+  static constexpr double kUnknown_m_s = 0.5;
+  static constexpr double kUnknown_rad_s = 1.5;
 
   /// kLeftRest, kRightRest: metres that a wheel has rolled beyond the middle of its count.
   enum Index : std::uint8_t {
@@ -92,24 +101,16 @@ class MotionFilter {
   const Matrix& covariance() const { return covariance_; }
   /// Variance of the readings' times, s^2.
   double jitter_s2() const { return jitter_.variance_s2(); }
+  /// The wheels' rotation against the gyro's in the last advance() that had both.
+  MotionError take_comparison() { return std::exchange(rotations_, {}); }
   /// The rotation is the gyro's.
   bool has_gyro() const { return has_gyro_; }
-  /// The wheels' rotation against the gyro's in the last advance() that had both.
-  struct Comparison {
-    double error2 = 0;
-    double variance = 0;
-    double motion2 = 0;
-  };
-  Comparison take_comparison() { return std::exchange(rotations_, {}); }
   /// Scans in which the wheels' rotation was not the gyro's.
   std::uint64_t slips() const { return slips_; }
 
  private:
   /// Slips are rare and large: a covariance with their mean square is exceeded by each of them.
   static constexpr double kSlipTail = 4;
-  /// What a robot may do in a time of which nothing is known.
-  static constexpr double kUnknown_m_s = 0.5;
-  static constexpr double kUnknown_rad_s = 1.5;
 
   using Measurement = Eigen::Matrix<double, 3, kSize>;
   /// Of x and y; theta stays.
@@ -117,34 +118,47 @@ class MotionFilter {
   Measurement jacobian_at(const Epoch& epoch) const;
   Eigen::Vector3d velocity_in_map(const Epoch& epoch) const;
   void predict_gap(double duration_s);
-  void compare_rotations(double difference_rad, double variance, Vector with_difference);
-  void adapt(const Eigen::Vector3d& innovation, const Covariance3& known, bool is_deskewed);
-  void detect_changes(const Measurement& with_state, const Covariance3& innovation_covariance,
+  void compare_rotations(double difference_rad, double variance, double jitter_rad2,
+                         Vector with_difference);
+  /// Kalman update: the innovation's covariance, and the state's with it.
+  template <int N>
+  void update(const Eigen::Matrix<double, N, 1>& innovation,
+              const Eigen::Matrix<double, kSize, N>& gain,
+              const Eigen::Matrix<double, kSize, N>& with_innovation) {
+    state_ += gain * innovation;
+    covariance_ -= gain * with_innovation.transpose();
+    keep_in_bounds();
+  }
+  void detect_changes(const Measurement& with_innovation, const Cholesky3& root,
                       const Eigen::Vector3d& innovation);
+  void adapt(const Eigen::Vector3d& innovation, const Covariance3& known, bool is_deskewed);
   void keep_in_bounds();
 
   DriveGeometry geometry_;
   OdometryNoise noise_;
-  Eigen::Vector4d most_scale_;  ///< from kLeft to kGyro
+  Vector prior_sigma_ = Vector::Zero();
+  double most_sigmas_;  ///< of the scales
   Vector state_ = Vector::Zero();
   Matrix covariance_ = Matrix::Zero();
   MotionFactor factor_;
   std::uint64_t slips_ = 0;
-  Comparison rotations_;
+  MotionError rotations_;
 
   // Factors of variances as configured, and the variance of the heading by each since the last fix.
   NoiseEstimator wheel_noise_;
   NoiseEstimator gyro_noise_;
   NoiseEstimator fix_place_;
   NoiseEstimator fix_heading_;
+  JitterEstimator jitter_;
+  SlipRate slip_rate_;
+  /// Of innovations along each parameter.
+  Vector cusums_ = Vector::Zero();
+  Vector cusum_variances_ = Vector::Zero();
   double wheel_rad2_ = 0;
   double gyro_rad2_ = 0;
   double rolled_m_ = 0;
   int scans_ = 0;
   bool has_gyro_ = false;
-  SlipRate slip_rate_;
-  JitterEstimator jitter_;
-  std::array<Cusum, kSize> cusums_;
 };
 
 }  // namespace cornerd::core

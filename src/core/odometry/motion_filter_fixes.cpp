@@ -12,7 +12,7 @@ namespace {
 
 /// Chi-square, 3 degrees of freedom, probability 1e-6.
 constexpr double kFixGate = 30.7;
-/// An innovation within three sigma needs no other reason.
+/// Squared, three sigma: an innovation within them needs no other reason.
 constexpr double kFloorGate = 9;
 /// What a fix may be off by that its covariance does not know of: a lidar's bias, a wall that was
 /// mapped wrong. The share of it that there is adapts to the innovations.
@@ -21,7 +21,12 @@ constexpr double kFixFloor_rad = 0.001;
 /// Of a random walk over a scan, in units of its variance: what two consecutive fixes that are
 /// deskewed by it share: 5/12, by integration over the samples.
 constexpr double kSharedNoise = 5.0 / 12;
-/// After a detected change: share of the prior's sigma that is added.
+/// A parameter changes where the cumulative sum of the innovations along it, normalised, exceeds so
+/// many sigma (Page 1954), with forgetting (Lucas and Saccucci 1990): of thirty fixes. Constant
+/// parameters reach 3.1 in drives of 600 fixes, wheels that change by 1 % 25.
+constexpr double kForgetting = 0.97;
+constexpr double kChange = 5;
+/// After a change: share of the prior's sigma that is added.
 constexpr double kChangedShare = 0.3;
 
 Covariance3 with_floor(const Covariance3& covariance, double place, double heading) {
@@ -57,7 +62,7 @@ Covariance3 MotionFilter::covariance_at(const Epoch& epoch) const {
   // At any time of the lead, evenly.
   const double guessed_s2 = squared(std::max(0.0, epoch.lead_s)) / 3;
   return jacobian * covariance_ * jacobian.transpose() +
-         jitter_.variance_s2() * velocity * velocity.transpose() +
+         jitter_s2() * velocity * velocity.transpose() +
          Covariance3((guessed_s2 * guess.cwiseAbs2()).asDiagonal());
 }
 
@@ -96,15 +101,12 @@ bool MotionFilter::correct(const Pose2& T_map_base, const Covariance3& covarianc
   const double place = std::clamp(std::max(needed(0, kFixFloor_m), needed(1, kFixFloor_m)),
                                   fix_place_.factor(), 1.0);
   const double heading = std::clamp(needed(2, kFixFloor_rad), fix_heading_.factor(), 1.0);
-  const Covariance3 innovation_covariance = with_floor(known, place, heading);
   adapt(innovation, known, epoch.is_deskewed);
-  const Cholesky3 root(innovation_covariance);
-  const Measurement with_state = jacobian_at(epoch) * covariance_;
-  detect_changes(with_state, innovation_covariance, innovation);
-  const Eigen::Matrix<double, kSize, 3> gain = root.solve_columns(with_state).transpose();
-  state_ += gain * innovation;
-  covariance_ -= gain * with_state;
-  keep_in_bounds();
+  const Cholesky3 root(with_floor(known, place, heading));
+  const Measurement with_innovation = jacobian_at(epoch) * covariance_;
+  detect_changes(with_innovation, root, innovation);
+  update<3>(innovation, root.solve_columns(with_innovation).transpose(),
+            with_innovation.transpose());
   wheel_rad2_ = gyro_rad2_ = rolled_m_ = 0;
   scans_ = 0;
   return true;
@@ -126,22 +128,17 @@ void MotionFilter::adapt(const Eigen::Vector3d& innovation, const Covariance3& k
   fix_heading_.add(squared(innovation[2]), squared(kFixFloor_rad), known(2, 2));
 }
 
-void MotionFilter::detect_changes(const Measurement& with_state,
-                                  const Covariance3& innovation_covariance,
+void MotionFilter::detect_changes(const Measurement& with_innovation, const Cholesky3& root,
                                   const Eigen::Vector3d& innovation) {
-  const Cholesky3 root(innovation_covariance);
   const Eigen::Vector3d whitened = root.whiten(innovation);
-  Vector prior = Vector::Zero();
-  prior.segment<5>(kBias) << noise_.gyro_bias_rad_s, noise_.wheel_scale, noise_.wheel_scale,
-      noise_.track_scale, noise_.gyro_scale;
-  prior[kDelay] = noise_.delay_s;
-  for (int i = kBias; i < kSize; ++i) {
-    const Eigen::Vector3d along = root.whiten(with_state.col(i));
-    if (prior[i] == 0 || !(along.squaredNorm() > 0)) continue;
-    cusums_[static_cast<std::size_t>(i)].add(along.normalized().dot(whitened));
-    if (!cusums_[static_cast<std::size_t>(i)].is_change()) continue;
-    cusums_[static_cast<std::size_t>(i)] = {};
-    covariance_(i, i) += squared(kChangedShare * prior[i]);
+  for (const int i : {kBias, kLeft, kRight, kTrack, kGyro, kDelay}) {
+    const Eigen::Vector3d along = root.whiten(with_innovation.col(i));
+    if (!(along.squaredNorm() > 0)) continue;
+    cusums_[i] = kForgetting * cusums_[i] + along.normalized().dot(whitened);
+    cusum_variances_[i] = squared(kForgetting) * cusum_variances_[i] + 1;
+    if (squared(cusums_[i]) <= squared(kChange) * cusum_variances_[i]) continue;
+    cusums_[i] = cusum_variances_[i] = 0;
+    covariance_(i, i) += squared(kChangedShare * prior_sigma_[i]);
   }
 }
 

@@ -9,20 +9,22 @@
 namespace cornerd::core {
 namespace {
 
-/// Of a right sensor's motions: slips, and robots that are carried.
+/// Of a right sensor's motions: slips, and robots that are carried. Evidence against a sensor is
+/// bounded by it: log(0.05) = -3.
 constexpr double kOutliers = 0.05;
-/// Between two comparisons a sensor breaks, or is mended.
-constexpr double kChanges = 1e-4;
-/// Log odds are kept within this, so that a sensor that breaks is noticed by two motions.
+/// Log odds are kept within this, so that two or three motions show a sensor that breaks.
 constexpr double kMostLogOdds = 7;
-/// Log odds of wheels and gyro after a fix: they may differ in five scans, by slip.
+/// Log odds of wheels and gyro after a fix: by slip they may differ in five scans, each of -3.
 constexpr double kAgreement = 15;
-/// Share of the evidence against a sensor that a comparison can give at most.
+/// Share of the evidence against a sensor that a comparison can give at most: with half of it a
+/// stuck gyro is rejected for too long (OdometryFaults.GyroStuck_IsRejected).
 constexpr double kSurely = 0.8;
 /// Needed to carry a motion that is not small.
 constexpr double kTrusted = 0.99;
 /// Wheels beside a gyro that is right may slip a few times in a row.
 constexpr double kSlipping = 0.02;
+/// A wrong sensor is off by as much as the motion: the largest error of a prediction by sensors
+/// that are not known to be right.
 constexpr double kSmall_m = 0.04;
 constexpr double kSmall_rad = radians(3);
 /// What a fix may be off by beyond its covariance, as in MotionFilter, and what a scan's motion.
@@ -34,20 +36,17 @@ constexpr double kUneven_rad_s = 0.2;
 
 }  // namespace
 
-double SensorTrust::evidence(double error2, double variance, double motion2) {
-  const double wrong_variance = variance + motion2;
-  const auto density = [&](double of_variance) {
-    return std::exp(-error2 / (2 * of_variance)) / std::sqrt(of_variance);
+double SensorTrust::evidence(const MotionError& error) {
+  const auto density = [&](double variance) {
+    return std::exp(-error.error2 / (2 * variance)) / std::sqrt(variance);
   };
-  const double wrong = std::max(density(wrong_variance), 1e-300);
-  const double right = (1 - kOutliers) * density(variance) + kOutliers * wrong;
+  const double wrong = std::max(density(error.variance + error.motion2), 1e-300);
+  const double right = (1 - kOutliers) * density(error.variance) + kOutliers * wrong;
   return std::log(right / wrong);
 }
 
-void SensorTrust::add(double error2, double variance, double motion2) {
-  log_odds_ += evidence(error2, variance, motion2);
-  const double p = std::clamp(p_right(), kChanges, 1 - kChanges);
-  log_odds_ = std::clamp(std::log(p / (1 - p)), -kMostLogOdds, kMostLogOdds);
+void SensorTrust::add(const MotionError& error) {
+  log_odds_ = std::clamp(log_odds_ + evidence(error), -kMostLogOdds, kMostLogOdds);
 }
 
 double SensorTrust::p_right() const { return 1 / (1 + std::exp(-log_odds_)); }
@@ -76,17 +75,16 @@ void MotionTrust::compare(Sum& sum, SensorTrust& trust, double end_variance, dou
                           double least) {
   const double motion2 = std::max(squared(sum.measured), squared(sum.seen));
   if (motion2 < squared(least)) return;
-  trust.add(squared(sum.measured - sum.seen),
-            sum.noise + sum.end_variance + end_variance + calibration * motion2, motion2);
+  trust.add({squared(sum.measured - sum.seen),
+             sum.noise + sum.end_variance + end_variance + calibration * motion2, motion2});
   sum = {.end_variance = end_variance};
 }
 
-void MotionTrust::add_comparison(const MotionFilter::Comparison& rotations) {
+void MotionTrust::add_comparison(const MotionError& rotations) {
   if (!(rotations.variance > 0)) return;
-  const double evidence =
-      SensorTrust::evidence(rotations.error2, rotations.variance, rotations.motion2);
+  const double evidence = SensorTrust::evidence(rotations);
   agreement_ = std::min(agreement_ + evidence, kAgreement);
-  // A gyro that says the same to the bit, and surely not what the wheels say, is no slip.
+  // A rate that repeats to the bit, and surely differs from the wheels', is no slip.
   if (may_be_stuck_ && evidence < kSurely * std::log(kOutliers)) agreement_ = 0;
 }
 

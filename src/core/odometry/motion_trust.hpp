@@ -12,10 +12,9 @@ namespace cornerd::core {
 /// in other units) is off by as much as the motion.
 class SensorTrust {
  public:
-  /// Error squared of a measured motion, its variance by the noise, and the motion squared.
-  void add(double error2, double variance, double motion2);
+  void add(const MotionError& error);
   /// Log of how much more probable such an error is of a right sensor.
-  static double evidence(double error2, double variance, double motion2);
+  static double evidence(const MotionError& error);
   double p_right() const;
 
  private:
@@ -29,7 +28,7 @@ class MotionTrust {
 
   void add(const OdometryIncrement& step, const MotionFilter& filter);
   /// The wheels' rotation against the gyro's in a scan: which one is wrong does not show.
-  void add_comparison(const MotionFilter::Comparison& rotations);
+  void add_comparison(const MotionError& rotations);
   void add_fix(const Pose2& T_map_base, const Covariance3& covariance, const MotionFilter& filter);
   /// The next fix may be anywhere.
   void interrupt() { has_fix_ = false; }

@@ -13,15 +13,13 @@ namespace {
 /// A scan whose pieces are turned against each other seems to be elsewhere as well: by so much of
 /// that angle, in rooms (NEES of fixes without a gyro, the same).
 constexpr double kLever_m = 0.3;
-/// A constant acceleration between two readings displaces what is between them by a twelfth of what
-/// it comes to in the mean, a sudden one by up to a quarter; between the two by NEES of fixes
-/// (`cornerd-bench --odometry`).
+/// A change of speed displaces what is between two readings by a share of what it comes to: a
+/// constant acceleration by a twelfth in the mean, a sudden one by up to a quarter. Between the two
+/// by NEES of fixes (`cornerd-bench --odometry`).
 constexpr double kUnevenShare = 0.1;
 /// The end of a scan that no reading tells of: of a change of speed in it, so much is in the pose.
 /// The last reading is often a little older than the scan's end: that is nothing.
 constexpr double kUnreadShare = 0.3;
-constexpr double kUnread_m_s = 0.5;
-constexpr double kUnread_rad_s = 1.5;
 constexpr TimeNs kSoon_ns = 50'000'000;
 
 }  // namespace
@@ -83,9 +81,9 @@ Covariance3 Odometer::deskew_covariance() const {
   const double place_noise =
       (factor.covariance()(0, 0) + factor.covariance()(1, 1)) / 2 + late_share2 * squared(along_m);
   const double heading_noise = factor.covariance()(2, 2) + late_share2 * squared(motion.theta_rad);
-  // When between two readings the robot changed its speed nobody knows.
+  // When between two readings the robot changed its speed is unknown.
   const MotionPath::Change change = path_.mean_square_change(from_ns, to_ns);
-  // What the scan's end is guessed to be, nobody has read.
+  // The end of the scan that no reading tells of is extrapolated.
   const TimeNs unread_ns = config_.conservative ? to_ns - path_.newest_ns() - kSoon_ns : 0;
   const double unread_s = to_seconds(std::max<TimeNs>(0, unread_ns));
   const double unread_by_s =
@@ -100,8 +98,8 @@ Covariance3 Odometer::deskew_covariance() const {
   const double rotation_variance = rotation_rad * rotation_rad +
                                    squared(kUnevenShare) * change.theta_rad2 + counted_rad2 +
                                    MotionFilter::kDeskewNoiseShare * heading_noise;
-  const double unread_m = kUnread_m_s * unread_by_s;
-  const double unread_rad = kUnread_rad_s * unread_by_s;
+  const double unread_m = MotionFilter::kUnknown_m_s * unread_by_s;
+  const double unread_rad = MotionFilter::kUnknown_rad_s * unread_by_s;
   return Eigen::Vector3d(place_m2 + unread_m * unread_m, place_m2 + unread_m * unread_m,
                          rotation_variance + unread_rad * unread_rad)
       .asDiagonal();

@@ -10,25 +10,25 @@ namespace {
 
 TEST(SensorTrust, RightMotions_AreTrusted) {
   SensorTrust trust;
-  for (int i = 0; i < 3; ++i) trust.add(1e-4, 1e-4, 0.01);
+  for (int i = 0; i < 3; ++i) trust.add({1e-4, 1e-4, 0.01});
   EXPECT_GT(trust.p_right(), 0.99);
 }
 
 TEST(SensorTrust, MotionsBelowNoise_TellNothing) {
   SensorTrust trust;
   const double before = trust.p_right();
-  for (int i = 0; i < 100; ++i) trust.add(1e-4, 1e-4, 1e-8);
+  for (int i = 0; i < 100; ++i) trust.add({1e-4, 1e-4, 1e-8});
   EXPECT_NEAR(trust.p_right(), before, 0.01);
 }
 
 TEST(SensorTrust, OneSlip_IsForgivenAndARowIsNot) {
   SensorTrust trust;
-  for (int i = 0; i < 10; ++i) trust.add(1e-4, 1e-4, 0.01);
-  trust.add(0.01, 1e-4, 0.01);
+  for (int i = 0; i < 10; ++i) trust.add({1e-4, 1e-4, 0.01});
+  trust.add({0.01, 1e-4, 0.01});
   EXPECT_GT(trust.p_right(), 0.9);
-  for (int i = 0; i < 3; ++i) trust.add(0.01, 1e-4, 0.01);
+  for (int i = 0; i < 3; ++i) trust.add({0.01, 1e-4, 0.01});
   EXPECT_LT(trust.p_right(), 0.1);
-  for (int i = 0; i < 10; ++i) trust.add(1e-4, 1e-4, 0.01);
+  for (int i = 0; i < 10; ++i) trust.add({1e-4, 1e-4, 0.01});
   EXPECT_GT(trust.p_right(), 0.99) << "repaired";
 }
 
