@@ -90,14 +90,16 @@ Decision Localizer::Workspace::find(const Scan& scan, TimeNs t_ns) {
   // 2. Where none is convincing, the robot may have changed its speed since the last turns.
   if (may_move(t_ns) && !may_be_biased()) look_for_the_motion(scan, t_ns);
 
-  const Decision decision = compare_places(scan, t_ns);
-  if (decision.state != PoseState::kLost || !may_turn_unseen() || !look_while_turning(scan, t_ns)) {
+  const Decision decision = compare_places(scan, t_ns, /*may_rest=*/true);
+  if (decision.state != PoseState::kLost || !rotation_is_unknown() ||
+      !try_rotation_rates(scan, t_ns)) {
     return decision;
   }
-  return compare_places(scan, t_ns);
+  place->map_search.stop();  // it matched the scan as if at rest
+  return compare_places(scan, t_ns, /*may_rest=*/false);
 }
 
-Decision Localizer::Workspace::compare_places(const Scan& scan, TimeNs t_ns) {
+Decision Localizer::Workspace::compare_places(const Scan& scan, TimeNs t_ns, bool may_rest) {
   // 3. Where still none is, the whole map is searched.
   candidates = {};
   decided_exactly = !place;
@@ -106,7 +108,7 @@ Decision Localizer::Workspace::compare_places(const Scan& scan, TimeNs t_ns) {
   if (!certain) {
     search_map(t_ns);
     // A motion fits walls that are beside their place in the map, a little.
-    if (!is_exact(t_ns) && motion != memory.motion() && !is_explained_by_motion()) {
+    if (may_rest && !is_exact(t_ns) && motion != memory.motion() && !is_explained_by_motion()) {
       look(scan, t_ns, memory.motion());
       search_map(t_ns);
     }

@@ -21,14 +21,14 @@ constexpr std::size_t kRaysForAMotion = 50;
 constexpr double kMayMove = 1.15;
 constexpr double kSurelyMoves = 1.4;
 
-/// Rates that are tried where nobody has seen the robot turn: small robots turn at up to 3 rad/s,
+/// Rates that are tried where nothing measures the rotation: small robots turn at up to 3 rad/s,
 /// and half a radian per second is refined.
-constexpr std::array kUnseenRates_rad_s = {1.0, -1.0, 2.0, -2.0, 3.0, -3.0};
+constexpr std::array kTriedRates_rad_s = {1.0, -1.0, 2.0, -2.0, 3.0, -3.0};
 
 /// A lidar that turns slower is not smeared beyond what refinement finds.
 constexpr double kTurning_rad_s = 0.3;
 
-/// A motion is believed, and rays are compared one by one, where as many hit as they do in an exact
+/// A motion is accepted, and rays are compared one by one, where as many hit as they do in an exact
 /// map but for some furniture.
 constexpr double kMovingHitShare = 0.8;
 
@@ -57,7 +57,7 @@ BeamLikelihood Localizer::Workspace::try_at(const Scan& scan, TimeNs t_ns, const
   return places.empty() ? BeamLikelihood{} : places.front().likelihood;
 }
 
-bool Localizer::Workspace::look_if_better(const Scan& scan, TimeNs t_ns, const Twist2& candidate,
+bool Localizer::Workspace::keep_if_better(const Scan& scan, TimeNs t_ns, const Twist2& candidate,
                                           const Pose2& T_map_lidar) {
   const std::size_t hits = try_at(scan, t_ns, candidate, T_map_lidar, place->bias.bias()).hits;
   const bool is_better = hits > best_hits() + points.size() / kRaysForAMotion;
@@ -71,18 +71,18 @@ void Localizer::Workspace::refine_motion(const Scan& scan, TimeNs t_ns) {
         *map, place->verification.hypotheses().front().refined.T_map_lidar, kMotionSearchRadius_m,
         points.points(), result.detection.noise_scale);
     if (!refined.valid || !is_plausible(refined.motion) ||
-        !look_if_better(scan, t_ns, motion + refined.motion, refined.T_map_lidar)) {
+        !keep_if_better(scan, t_ns, motion + refined.motion, refined.T_map_lidar)) {
       return;
     }
   }
 }
 
-bool Localizer::Workspace::may_turn_unseen() const {
+bool Localizer::Workspace::rotation_is_unknown() const {
   return place && !odometer.has_motion() && !rotation.rate_rad_s();
 }
 
-bool Localizer::Workspace::look_while_turning(const Scan& scan, TimeNs t_ns) {
-  for (const double omega_rad_s : kUnseenRates_rad_s) {
+bool Localizer::Workspace::try_rotation_rates(const Scan& scan, TimeNs t_ns) {
+  for (const double omega_rad_s : kTriedRates_rad_s) {
     look(scan, t_ns, {0, 0, omega_rad_s}, /*is_thorough=*/false);
     refine_motion(scan, t_ns);
     if (best_hits() >= points.size() / 2) return true;
@@ -96,7 +96,7 @@ void Localizer::Workspace::look_for_the_motion(const Scan& scan, TimeNs t_ns) {
   if (best_hits() == 0) {
     if (!motion.is_rest()) look(scan, t_ns, {});
   } else if (!motion.is_rest()) {
-    look_if_better(scan, t_ns, {}, place->verification.hypotheses().front().refined.T_map_lidar);
+    keep_if_better(scan, t_ns, {}, place->verification.hypotheses().front().refined.T_map_lidar);
   }
   refine_motion(scan, t_ns);
   // Nothing fits: the robot turns, as the scan before tells; the other way round, where the order

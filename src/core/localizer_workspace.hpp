@@ -99,14 +99,15 @@ struct Localizer::Workspace {
   void look_for_the_motion(const Scan& scan, TimeNs t_ns);
   /// Refines the motion with the pose, where residuals are beyond the noise.
   void refine_motion(const Scan& scan, TimeNs t_ns);
-  /// Looks at a candidate of the motion and a place; keeps it where clearly more rays hit.
-  bool look_if_better(const Scan& scan, TimeNs t_ns, const Twist2& candidate,
+  /// Matches the scan by another motion near a place; keeps it where clearly more rays hit.
+  bool keep_if_better(const Scan& scan, TimeNs t_ns, const Twist2& candidate,
                       const Pose2& T_map_lidar);
-  /// No scan before this one, nor odometry, has told how the robot turns.
-  bool may_turn_unseen() const;
-  /// Looks as if the robot turned, this way and that. False where at no rate half of the rays hit.
-  bool look_while_turning(const Scan& scan, TimeNs t_ns);
-  Decision compare_places(const Scan& scan, TimeNs t_ns);
+  /// Neither odometry nor a scan before this one measures the rotation.
+  bool rotation_is_unknown() const;
+  /// Matches the scan by each of a few rotation rates. False where by none half of the rays hit.
+  bool try_rotation_rates(const Scan& scan, TimeNs t_ns);
+  /// `may_rest`: a motion that explains little may be none.
+  Decision compare_places(const Scan& scan, TimeNs t_ns, bool may_rest);
   void search_map(TimeNs t_ns);
   std::span<const PoseHypothesis> search_everywhere(TimeNs t_ns);
   bool is_exact(TimeNs t_ns) const;

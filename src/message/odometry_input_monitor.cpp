@@ -8,7 +8,7 @@
 namespace cornerd::message {
 namespace {
 
-/// Length of an evaluated interval, for callers that come once a second, more or less.
+/// Length of an evaluated interval; replays call once a second of the recording, more or less.
 constexpr core::TimeNs kMinInterval_ns = core::kNsPerSecond * 9 / 10;
 
 /// Readings that end longer before a scan's middle do not tell the motion of the scan.

@@ -29,8 +29,8 @@ class OdometryInputMonitor {
   };
   std::span<const Refusals> refusals() const { return refusals_; }
 
-  /// Evaluates the lines once a second, however often it is called. `counters`: of the readings
-  /// among them.
+  /// Evaluates the lines of each interval of 0.9 s, however often it is called. `counters`: of the
+  /// readings among them.
   void update(const core::OdometryCounters& counters, core::TimeNs t_ns);
 
   /// Why odometry is absent, from the last interval; empty if it is `present` or the lines have
