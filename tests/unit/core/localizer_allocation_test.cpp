@@ -181,6 +181,22 @@ TEST(Pipeline, OdometryAndPartialScans_AllocatesNothing) {
   EXPECT_GT(parts, 20);
 }
 
+TEST(Localizer, FirstScanWhileTurning_AllocatesNothing) {
+  const auto map = testing::make_map(testing::l_shaped_room());
+  testing::ScanSource source(75);
+  testing::ScanOptions options;
+  int named = 0;
+  for (int k = 0; k < 10; ++k) {
+    Localizer localizer(map, {});
+    options.motion = {0.3, 0, k % 2 == 0 ? 2.2 : -2.2};
+    const Scan scan = source.take(*map, source.place_in(0.4, 2.2, 0.4, 2.6), options);
+    const long before = allocations;
+    named += has_pose(localizer.step(scan).pose.state);
+    EXPECT_EQ(allocations - before, 0);
+  }
+  EXPECT_GE(named, 9);
+}
+
 TEST(BreakpointStream, ReturnToBreakpoint_AllocatesNothing) {
   const auto map = testing::make_map(testing::l_shaped_room());
   testing::ScanSource source(73);
