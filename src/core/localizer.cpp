@@ -91,6 +91,7 @@ Decision Localizer::Workspace::find(const Scan& scan, TimeNs t_ns) {
   if (may_move(t_ns) && !may_be_biased()) look_for_the_motion(scan, t_ns);
 
   const Decision decision = compare_places(scan, t_ns, /*may_rest=*/true);
+  // Or it rotates, and neither odometry nor a scan before shows how: once more by a few rates.
   if (decision.state != PoseState::kLost || !rotation_is_unknown() ||
       !try_rotation_rates(scan, t_ns)) {
     return decision;

@@ -9,7 +9,7 @@
 namespace cornerd::core {
 namespace {
 
-/// A place that a turn in motion gave is off by the motion.
+/// A place found in a scan in motion is off by the motion.
 constexpr double kMotionSearchRadius_m = 0.08;
 
 /// A motion has to explain one ray in so many more than rest does: it fits things that are not on
@@ -21,11 +21,11 @@ constexpr std::size_t kRaysForAMotion = 50;
 constexpr double kMayMove = 1.15;
 constexpr double kSurelyMoves = 1.4;
 
-/// Rates that are tried where nothing measures the rotation: small robots turn at up to 3 rad/s,
-/// and half a radian per second is refined.
+/// Rotation rates that are tried where nothing measures them: small robots rotate at up to 3 rad/s,
+/// and refinement corrects half a radian per second.
 constexpr std::array kTriedRates_rad_s = {1.0, -1.0, 2.0, -2.0, 3.0, -3.0};
 
-/// A lidar that turns slower is not smeared beyond what refinement finds.
+/// A scan in a slower rotation is not smeared beyond what refinement corrects.
 constexpr double kTurning_rad_s = 0.3;
 
 /// A motion is accepted, and rays are compared one by one, where as many hit as they do in an exact
@@ -45,6 +45,10 @@ bool Localizer::Workspace::may_move(TimeNs t_ns) const {
 std::size_t Localizer::Workspace::best_hits() const {
   const auto places = place->verification.hypotheses();
   return places.empty() ? 0 : places.front().likelihood.hits;
+}
+
+bool Localizer::Workspace::is_half_explained() const {
+  return best_hits() > 0 && best_hits() >= points.size() / 2;
 }
 
 BeamLikelihood Localizer::Workspace::try_at(const Scan& scan, TimeNs t_ns, const Twist2& as_if,
@@ -85,7 +89,7 @@ bool Localizer::Workspace::try_rotation_rates(const Scan& scan, TimeNs t_ns) {
   for (const double omega_rad_s : kTriedRates_rad_s) {
     look(scan, t_ns, {0, 0, omega_rad_s}, /*is_thorough=*/false);
     refine_motion(scan, t_ns);
-    if (best_hits() >= points.size() / 2) return true;
+    if (is_half_explained()) return true;
   }
   look(scan, t_ns, memory.motion());
   return false;
@@ -99,15 +103,15 @@ void Localizer::Workspace::look_for_the_motion(const Scan& scan, TimeNs t_ns) {
     keep_if_better(scan, t_ns, {}, place->verification.hypotheses().front().refined.T_map_lidar);
   }
   refine_motion(scan, t_ns);
-  // Nothing fits: the robot turns, as the scan before tells; the other way round, where the order
-  // of the bearings is not known.
-  if (odometer.has_motion() || best_hits() >= points.size() / 2) return;
+  // Nothing fits: the robot rotates, as the scan before shows; in the other direction where the
+  // order of the bearings is not known.
+  if (odometer.has_motion() || is_half_explained()) return;
   const std::optional<double> rate_rad_s = rotation.rate_rad_s();
   if (!rate_rad_s || std::abs(*rate_rad_s) < kTurning_rad_s) return;
   const Twist2 motion_before = motion;
   for (const double omega_rad_s : {*rate_rad_s, -*rate_rad_s}) {
     const std::size_t hits_before = best_hits();
-    if (hits_before >= points.size() / 2 || (omega_rad_s != *rate_rad_s && knows_order())) return;
+    if (is_half_explained() || (omega_rad_s != *rate_rad_s && knows_order())) return;
     look(scan, t_ns, {motion_before.vx_m_s, motion_before.vy_m_s, omega_rad_s});
     refine_motion(scan, t_ns);
     if (best_hits() <= hits_before + points.size() / kRaysForAMotion)
@@ -115,10 +119,10 @@ void Localizer::Workspace::look_for_the_motion(const Scan& scan, TimeNs t_ns) {
   }
 }
 
-bool Localizer::Workspace::fits_as_it_came(const Scan& turn, TimeNs t_ns) {
+bool Localizer::Workspace::fits_as_it_came(const Scan& scan, TimeNs t_ns) {
   if (!place || candidates.empty()) return false;
   const BeamLikelihood there =
-      try_at(turn, t_ns, {}, candidates.front().refined.T_map_lidar, place->bias.bias());
+      try_at(scan, t_ns, {}, candidates.front().refined.T_map_lidar, place->bias.bias());
   return core::is_exact(there, /*expected=*/true) ||
          (place->map_error.is_exact() && there.hit_share() > kMovingHitShare);
 }

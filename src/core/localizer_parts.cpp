@@ -9,7 +9,7 @@ namespace {
 constexpr double kLeastTimeOfAMotion_s = 0.02;
 
 /// Wheels tell the way itself; how unevenly it was driven is as if a motion were so much of the
-/// time old (the NEES of quarters of turns, drives in a flat that stop and turn often).
+/// time old (the NEES of quarters of scans, drives in a flat that stop and turn often).
 constexpr double kUnevenAge = 0.15;
 
 }  // namespace
@@ -43,7 +43,7 @@ const PoseEstimate* Localizer::follow(const Sample& sample) {
   return &pose;
 }
 
-/// By odometry, where it knows; else the robot goes on as the last turns saw it move.
+/// By odometry where there is a prediction; else the last scans' velocity is constant.
 std::optional<PredictedState> Localizer::Workspace::expectation(TimeNs t_ns) {
   if (!has_pose(result.pose.state)) return std::nullopt;
   const auto ahead = odometer.predict_latest();

@@ -111,7 +111,7 @@ struct Localizer::Workspace {
   void search_map(TimeNs t_ns);
   std::span<const PoseHypothesis> search_everywhere(TimeNs t_ns);
   bool is_exact(TimeNs t_ns) const;
-  bool fits_as_it_came(const Scan& turn, TimeNs t_ns);
+  bool fits_as_it_came(const Scan& scan, TimeNs t_ns);
   bool is_explained_by_motion() const;
   std::size_t corners_of(const Decision& decision) const;
   PoseState believe(const Decision& decision, std::size_t corners, TimeNs t_ns);
@@ -126,6 +126,8 @@ struct Localizer::Workspace {
   bool in_doubt(TimeNs t_ns) const;
   bool may_move(TimeNs t_ns) const;
   std::size_t best_hits() const;
+  /// Half of the rays hit at the likeliest place, and there is one.
+  bool is_half_explained() const;
   bool may_be_biased() const;
   bool teaches(const Decision& decision) const;
   void try_bias(const Scan& scan, const Decision& decision, TimeNs t_ns);

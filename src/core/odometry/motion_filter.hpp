@@ -127,7 +127,6 @@ class MotionFilter {
               const Eigen::Matrix<double, kSize, N>& with_innovation) {
     state_ += gain * innovation;
     covariance_ -= gain * with_innovation.transpose();
-    keep_in_bounds();
   }
   void detect_changes(const Measurement& with_innovation, const Cholesky3& root,
                       const Eigen::Vector3d& innovation);

@@ -107,6 +107,7 @@ bool MotionFilter::correct(const Pose2& T_map_base, const Covariance3& covarianc
   detect_changes(with_innovation, root, innovation);
   update<3>(innovation, root.solve_columns(with_innovation).transpose(),
             with_innovation.transpose());
+  keep_in_bounds();
   wheel_rad2_ = gyro_rad2_ = rolled_m_ = 0;
   scans_ = 0;
   return true;

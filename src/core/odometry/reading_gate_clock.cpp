@@ -25,8 +25,8 @@ constexpr double kBunched = 0.34;
 /// A leap that is longer by this than the time that the lidar saw go by is one of the clock, and a
 /// clock that is always so far ahead is a wrong one.
 constexpr TimeNs kClockAhead_ns = kNsPerSecond / 4;
-/// A recorded turn may come as a whole: how far ahead of it readings are shows when it has come.
-constexpr TimeNs kSlowTurn_ns = kNsPerSecond * 5 / 4;
+/// A recorded scan may come as a whole: how far ahead of it readings are shows when it has come.
+constexpr TimeNs kSlowestScan_ns = kNsPerSecond * 5 / 4;
 /// How fast the period of the readings is learned.
 constexpr double kPeriodShare = 1.0 / 16;
 
@@ -65,7 +65,7 @@ bool ReadingGate::is_in_time(TimeNs t_ns, std::optional<TimeNs> arrival_ns) {
 
 bool ReadingGate::is_always_ahead(TimeNs t_ns, TimeNs arrival_ns) {
   const TimeNs ahead_ns = t_ns - arrival_ns;
-  if (!compared_since_ns_ || t_ns - *compared_since_ns_ > kSlowTurn_ns) {
+  if (!compared_since_ns_ || t_ns - *compared_since_ns_ > kSlowestScan_ns) {
     least_ahead_before_ns_ = std::exchange(least_ahead_ns_, ahead_ns);
     compared_since_ns_ = t_ns;
   }
