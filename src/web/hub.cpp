@@ -60,6 +60,7 @@ void Hub::set_connected(bool connected, std::string_view problem) {
     if (static_cast<MessageClass>(i) != MessageClass::kMap) last_[i].reset();
   }
   for (Listener& listener : listeners_) {
+    listener.outbox.forget_all_but_map();
     listener.connection_changed = true;
     listener.wake();
   }

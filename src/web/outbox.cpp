@@ -34,6 +34,11 @@ void Outbox::offer(MessageClass message_class, Line line) {
   waiting_.push_back({message_class, std::move(line)});
 }
 
+void Outbox::forget_all_but_map() {
+  std::erase_if(waiting_,
+                [](const Entry& entry) { return entry.message_class != MessageClass::kMap; });
+}
+
 std::string Outbox::take() {
   const Entry entry = std::move(waiting_.front());
   waiting_.pop_front();

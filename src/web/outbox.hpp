@@ -20,6 +20,8 @@ class Outbox {
  public:
   void offer(message::MessageClass message_class, Line line);
   bool empty() const { return waiting_.empty(); }
+  /// What a daemon said that is gone may be wrong; its map is still the picture to show.
+  void forget_all_but_map();
   /// The oldest, with "dropped":n if older ones of its class were lost.
   std::string take();
 

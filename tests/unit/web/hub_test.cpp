@@ -54,10 +54,12 @@ TEST_F(HubTest, DaemonGone_StreamsAreToldAndOldPosesForgotten) {
   hub_.note(Event::kConnected, "", {});
   say(pose(1));
   say("{\"class\":\"MAP\",\"name\":\"a\",\"walls\":[]}");
-  const auto stream = hub_.add(classes_from("STATUS"), [] {});
+  const auto stream = hub_.add(classes_from("POSE,MAP"), [] {});
   hub_.next_event(*stream);
   hub_.note(Event::kLost, "gone", {});
   EXPECT_EQ(hub_.next_event(*stream), "event: daemon\ndata: {\"connected\":false}\n\n");
+  EXPECT_NE(hub_.next_event(*stream).find("MAP"), std::string::npos);
+  EXPECT_EQ(hub_.next_event(*stream), "");
   EXPECT_EQ(hub_.last(message::MessageClass::kPose), nullptr);
   EXPECT_NE(hub_.last(message::MessageClass::kMap), nullptr);
   EXPECT_EQ(hub_.problem(), "gone");
