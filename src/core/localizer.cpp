@@ -71,11 +71,7 @@ const ScanResult& Localizer::step(const Scan& received) {
   w.report(decision, corners, t_ns);
 
   // 6. A turn whose place is known tells how the lidar errs always.
-  if (w.teaches(decision)) {
-    const core::VerifiedHypothesis& at = w.chosen(decision);
-    w.place->bias.update(*w.map, at.refined.T_map_lidar, w.points.points(),
-                         std::max(1.0, w.result.detection.noise_scale));
-  }
+  w.learn_bias(decision);
   w.try_bias(w.odometer.has_motion() ? scan : turn, decision, t_ns);
   w.result.bias = estimated_bias();
   w.learn_sweep(turn, t_ns);

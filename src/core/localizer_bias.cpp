@@ -14,6 +14,11 @@ namespace {
 /// what changes would.
 constexpr double kTeachingShare = 0.8;
 
+/// A robot that sets out is faster after one scan; the poses of one that stands, of a lidar whose
+/// bias is not known yet, seem to move by less.
+constexpr double kSetsOut_m_s = 0.3;
+constexpr double kSetsOut_rad_s = 0.15;
+
 /// A stored bias is tried against none in one scan of so many. So many in a row for one of both
 /// decide: by so many nats per ray against it, by none for it.
 constexpr std::uint64_t kScansPerTrial = 8;
@@ -24,6 +29,7 @@ constexpr double kNatsPerRay = 0.1;
 
 void Localizer::forget_lidar() {
   workspace_->detector.forget();
+  workspace_->of_last_scan.reset();
   if (!workspace_->place) return;
   workspace_->place->bias.forget();
   workspace_->place->map_error.forget();
@@ -47,6 +53,26 @@ bool Localizer::Workspace::teaches(const Decision& decision) const {
   const core::VerifiedHypothesis& at = chosen(decision);
   return at.map_sigma_m == 0 && (memory.is_stationary() || odometer.has_motion()) &&
          at.likelihood.near_hit_share() > kTeachingShare;
+}
+
+/// Whether a robot stood during a scan the next one shows: one that sets out passes for a bias.
+void Localizer::Workspace::learn_bias(const Decision& decision) {
+  if (!place) return;
+  const bool teaches_now = teaches(decision);
+  const Twist2 since = memory.motion();
+  const bool set_out = has_pose(decision.state) && (since.speed_m_s() > kSetsOut_m_s ||
+                                                    std::abs(since.omega_rad_s) > kSetsOut_rad_s);
+  if (of_last_scan && !set_out) place->bias.update(*of_last_scan);
+  of_last_scan.reset();
+  if (!teaches_now) return;
+  const auto evidence =
+      place->bias.evidence(*map, chosen(decision).refined.T_map_lidar, points.points(),
+                           std::max(1.0, result.detection.noise_scale));
+  if (!odometer.has_motion()) {
+    of_last_scan = evidence;
+  } else if (evidence) {
+    place->bias.update(*evidence);
+  }
 }
 
 /// What was learned of another lidar, or in a map of another scale, would never be unlearned: its

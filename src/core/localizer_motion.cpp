@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "core/geometry/squared.hpp"
 #include "core/localizer_workspace.hpp"
 #include "core/recognition/evidence.hpp"
 
@@ -32,6 +33,10 @@ constexpr double kTurning_rad_s = 0.3;
 /// map but for some furniture.
 constexpr double kMovingHitShare = 0.8;
 
+/// A yaw rate that changes by so much from scan to scan turns the walls of a scan, on average, by
+/// this much of it against those at its middle: 1/24 of an A1's 0.137 s.
+constexpr double kUnsteady_s = 0.0057;
+
 }  // namespace
 
 /// Nothing fits, or not as well as a lidar at rest would see it.
@@ -51,7 +56,7 @@ bool Localizer::Workspace::is_half_explained() const {
   return best_hits() > 0 && best_hits() >= points.size() / 2;
 }
 
-BeamLikelihood Localizer::Workspace::try_at(const Scan& scan, TimeNs t_ns, const Twist2& as_if,
+BeamLikelihood Localizer::Workspace::try_at(const Scan& scan, TimeNs t_ns, const ScanMotion& as_if,
                                             const Pose2& T_map_lidar, const SensorBias& bias) {
   tried_points.assign(scan, config.min_range_m, config.max_range_m, t_ns, as_if, bias);
   place->trial.begin(tried_points.points(), noise_scale());
@@ -61,8 +66,8 @@ BeamLikelihood Localizer::Workspace::try_at(const Scan& scan, TimeNs t_ns, const
   return places.empty() ? BeamLikelihood{} : places.front().likelihood;
 }
 
-bool Localizer::Workspace::keep_if_better(const Scan& scan, TimeNs t_ns, const Twist2& candidate,
-                                          const Pose2& T_map_lidar) {
+bool Localizer::Workspace::keep_if_better(const Scan& scan, TimeNs t_ns,
+                                          const ScanMotion& candidate, const Pose2& T_map_lidar) {
   const std::size_t hits = try_at(scan, t_ns, candidate, T_map_lidar, place->bias.bias()).hits;
   const bool is_better = hits > best_hits() + points.size() / kRaysForAMotion;
   if (is_better) look(scan, t_ns, candidate);
@@ -70,11 +75,13 @@ bool Localizer::Workspace::keep_if_better(const Scan& scan, TimeNs t_ns, const T
 }
 
 void Localizer::Workspace::refine_motion(const Scan& scan, TimeNs t_ns) {
+  // Where walls have been exact, what does not fit is a motion.
+  const bool accelerates = place->map_error.is_exact();
   for (int k = 0; k < 2 && may_move(t_ns) && best_hits() > 0; ++k) {
     const RefinedMotion refined = place->refinement.refine_motion(
         *map, place->verification.hypotheses().front().refined.T_map_lidar, kMotionSearchRadius_m,
-        points.points(), result.detection.noise_scale);
-    if (!refined.valid || !is_plausible(refined.motion) ||
+        points.points(), result.detection.noise_scale, accelerates);
+    if (!refined.valid || !is_plausible(refined.motion.twist) ||
         !keep_if_better(scan, t_ns, motion + refined.motion, refined.T_map_lidar)) {
       return;
     }
@@ -87,7 +94,7 @@ bool Localizer::Workspace::rotation_is_unknown() const {
 
 bool Localizer::Workspace::try_rotation_rates(const Scan& scan, TimeNs t_ns) {
   for (const double omega_rad_s : kTriedRates_rad_s) {
-    look(scan, t_ns, {0, 0, omega_rad_s}, /*is_thorough=*/false);
+    look(scan, t_ns, Twist2{0, 0, omega_rad_s}, /*is_thorough=*/false);
     refine_motion(scan, t_ns);
     if (is_half_explained()) return true;
   }
@@ -108,11 +115,11 @@ void Localizer::Workspace::look_for_the_motion(const Scan& scan, TimeNs t_ns) {
   if (odometer.has_motion() || is_half_explained()) return;
   const std::optional<double> rate_rad_s = rotation.rate_rad_s();
   if (!rate_rad_s || std::abs(*rate_rad_s) < kTurning_rad_s) return;
-  const Twist2 motion_before = motion;
+  const ScanMotion motion_before = motion;
   for (const double omega_rad_s : {*rate_rad_s, -*rate_rad_s}) {
     const std::size_t hits_before = best_hits();
     if (is_half_explained() || (omega_rad_s != *rate_rad_s && knows_order())) return;
-    look(scan, t_ns, {motion_before.vx_m_s, motion_before.vy_m_s, omega_rad_s});
+    look(scan, t_ns, Twist2{motion_before.twist.vx_m_s, motion_before.twist.vy_m_s, omega_rad_s});
     refine_motion(scan, t_ns);
     if (best_hits() <= hits_before + points.size() / kRaysForAMotion)
       look(scan, t_ns, motion_before);
@@ -130,6 +137,17 @@ bool Localizer::Workspace::fits_as_it_came(const Scan& scan, TimeNs t_ns) {
 bool Localizer::Workspace::is_explained_by_motion() const {
   const auto places = place->verification.hypotheses();
   return !places.empty() && places.front().likelihood.hit_share() > kMovingHitShare;
+}
+
+Covariance3 Localizer::Workspace::deskew_covariance(const Pose2& T_map_lidar) {
+  const Twist2 measured = memory.motion();
+  if (motion.is_rest() && measured.is_rest()) return Covariance3::Zero();
+  const Eigen::Matrix3d error = place->refinement.error_per_velocity(
+      *map, T_map_lidar, points.points(), result.detection.noise_scale);
+  const Eigen::Vector3d sigma = velocity_sigma(motion.twist, measured);
+  Covariance3 covariance = error * sigma.cwiseAbs2().asDiagonal() * error.transpose();
+  covariance(2, 2) += squared(kUnsteady_s * (measured.omega_rad_s - motion.twist.omega_rad_s));
+  return covariance;
 }
 
 }  // namespace cornerd::core

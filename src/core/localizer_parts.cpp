@@ -31,7 +31,6 @@ const PoseEstimate* Localizer::follow(const Sample& sample) {
   const Covariance3 of_lidar =
       found->refined.covariance +
       w.place->map_error.pose_covariance(found->refined.face_residuals) +
-      deskew_covariance(expected->motion, expected->motion) +
       outdated_motion_covariance(expected->motion_age_s, parts.duration_s());
   pose.covariance = covariance_of_base(of_lidar, T_map_lidar, pose.T_map_base);
   pose.room = w.map->room_at(pose.T_map_base.translation());

@@ -100,15 +100,14 @@ void Localizer::Workspace::report_pose(const core::VerifiedHypothesis& found, st
   pose.T_map_base = T_map_lidar * T_lidar_base;
   const double known_sigma_m = map_sigma_m(found);
   // In an exact map the difference of two poses is the velocity.
-  memory.update(T_map_lidar, t_ns, motion,
+  memory.update(T_map_lidar, t_ns, motion.twist,
                 known_sigma_m > 0 ? refined.covariance : Covariance3::Zero());
   pose.state == PoseState::kFix ? filter.confirm(T_map_lidar) : filter.follow(T_map_lidar);
   place->map_error.add(refined.face_residuals);
   const Covariance3 of_lidar =
       refined.covariance +
       larger(place->map_error.pose_covariance(refined.face_residuals, known_sigma_m),
-             odometer.has_motion() ? odometer.deskew_covariance()
-                                   : deskew_covariance(motion, memory.motion()));
+             odometer.has_motion() ? odometer.deskew_covariance() : deskew_covariance(T_map_lidar));
   pose.covariance = covariance_of_base(of_lidar, T_map_lidar, pose.T_map_base);
   if (refined.reduced_chi_square > kSmearedSpread && !trusts_odometry()) {
     pose.covariance += doubt_of_smear(refined, pose.state);

@@ -32,7 +32,7 @@ constexpr double kAllButExact = 0.95;
 
 }  // namespace
 
-void Localizer::Workspace::look(const Scan& scan, TimeNs t_ns, const Twist2& as_if_moving,
+void Localizer::Workspace::look(const Scan& scan, TimeNs t_ns, const ScanMotion& as_if_moving,
                                 bool is_thorough) {
   // The returns in the order of their bearing, as a lidar that stood still would have seen them.
   motion = as_if_moving;

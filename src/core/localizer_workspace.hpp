@@ -93,14 +93,16 @@ struct Localizer::Workspace {
   void reject_motion(const std::optional<Prior>& prior);
   Decision find(const Scan& scan, TimeNs t_ns);
   /// `is_thorough`: where the likely places leave doubt, the others too.
-  void look(const Scan& scan, TimeNs t_ns, const Twist2& as_if_moving, bool is_thorough = true);
-  BeamLikelihood try_at(const Scan& scan, TimeNs t_ns, const Twist2& as_if,
+  void look(const Scan& scan, TimeNs t_ns, const ScanMotion& as_if_moving, bool is_thorough = true);
+  BeamLikelihood try_at(const Scan& scan, TimeNs t_ns, const ScanMotion& as_if,
                         const Pose2& T_map_lidar, const SensorBias& bias);
+  /// Covariance of a pose of the lidar from the motion that was not deskewed, m^2 and rad^2.
+  Covariance3 deskew_covariance(const Pose2& T_map_lidar);
   void look_for_the_motion(const Scan& scan, TimeNs t_ns);
   /// Refines the motion with the pose, where residuals are beyond the noise.
   void refine_motion(const Scan& scan, TimeNs t_ns);
   /// Matches the scan by another motion near a place; keeps it where clearly more rays hit.
-  bool keep_if_better(const Scan& scan, TimeNs t_ns, const Twist2& candidate,
+  bool keep_if_better(const Scan& scan, TimeNs t_ns, const ScanMotion& candidate,
                       const Pose2& T_map_lidar);
   /// Neither odometry nor a scan before this one measures the rotation.
   bool rotation_is_unknown() const;
@@ -130,6 +132,7 @@ struct Localizer::Workspace {
   bool is_half_explained() const;
   bool may_be_biased() const;
   bool teaches(const Decision& decision) const;
+  void learn_bias(const Decision& decision);
   void try_bias(const Scan& scan, const Decision& decision, TimeNs t_ns);
   bool is_certain(const RefinedPose& refined) const;
   RefinedPose refine_by(WallOffsetFilter* walls, const VerifiedHypothesis& found);
@@ -171,12 +174,13 @@ struct Localizer::Workspace {
   TimeNs searched_ns = 0;
   double turned_rad = 0;  ///< since that search began
   ScanRotation rotation;
-  Twist2 motion;                                   ///< that `points` were moved back by
+  ScanMotion motion;                               ///< that `points` were moved back by
   std::span<const VerifiedHypothesis> candidates;  ///< that the last decision is about
   bool saw_all_around = false;                     ///< in a scan with a pose, ever
   bool decided_exactly = false;                    ///< by rays, as walls are where the map has them
   bool doubts_bias = false;                        ///< a stored one, not tried enough
-  int trials_of_bias = 0;                          ///< in a row: against it, for it if negative
+  std::optional<BiasEstimator::Evidence> of_last_scan;  ///< of the bias, if the robot stood still
+  int trials_of_bias = 0;              ///< in a row: against it, for it if negative
   std::size_t named_in_a_row = 0;      ///< scans, each near where the one before led to expect it
   std::optional<Pose2> T_map_taught;   ///< of the last scan that the walls were learned from
   std::optional<Pose2> T_map_against;  ///< of the last scan that contradicted them

@@ -66,14 +66,14 @@ class Cursor {
   std::size_t i_ = 0;
 };
 
-PolarPoint moved(const PolarPoint& point, const Twist2& motion) {
+PolarPoint moved(const PolarPoint& point, const ScanMotion& motion) {
   const double dt_s = point.dt_s;
-  const double rotation_rad = motion.omega_rad_s * dt_s;
+  const double rotation_rad = motion.rotation_rad(dt_s);
   // Exponential map as in Twist2::over(), by series: rotations within a scan are small.
   const double along = 1 - rotation_rad * rotation_rad / 6;
   const double aside = rotation_rad / 2 * (1 - rotation_rad * rotation_rad / 12);
-  const Vec2 position = Vec2(along * motion.vx_m_s - aside * motion.vy_m_s,
-                             aside * motion.vx_m_s + along * motion.vy_m_s) *
+  const Vec2 position = Vec2(along * motion.twist.vx_m_s - aside * motion.twist.vy_m_s,
+                             aside * motion.twist.vx_m_s + along * motion.twist.vy_m_s) *
                             dt_s +
                         rotated(point.position(), rotation_rad);
   const double range_m = std::max(position.norm(), 1e-6);
@@ -92,7 +92,7 @@ PolarPoint moved(const PolarPoint& point, const Twist2& motion) {
 PolarScan::PolarScan() { points_.reserve(kMaxSamplesPerScan); }
 
 void PolarScan::assign(const Scan& scan, double min_range_m, double max_range_m, TimeNs at_ns,
-                       const Twist2& motion, const SensorBias& bias) {
+                       const ScanMotion& motion, const SensorBias& bias) {
   points_.clear();
   largest_gap_rad_.reset();
   const bool biased = !bias.is_none();

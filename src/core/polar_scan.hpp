@@ -33,10 +33,10 @@ class PolarScan {
   PolarScan();
 
   /// Keeps the samples within the range limits. Allocates nothing.
-  /// `motion`: velocity of the lidar; each return is deskewed to the lidar's pose at `at_ns`.
+  /// `motion`: of the lidar; each return is deskewed to the lidar's pose at `at_ns`.
   /// `bias`: of the lidar, removed from each return.
   void assign(const Scan& scan, double min_range_m, double max_range_m, TimeNs at_ns = 0,
-              const Twist2& motion = {}, const SensorBias& bias = {});
+              const ScanMotion& motion = {}, const SensorBias& bias = {});
 
   /// Starts an empty scan that append() fills. `spacing_rad`: expected distance in bearing between
   /// samples.

@@ -69,8 +69,10 @@ void BiasEstimator::set_estimate(const Vector4& bias, const Matrix4& covariance)
   estimate_.sigma = bias_of(covariance.diagonal().cwiseSqrt());
 }
 
-void BiasEstimator::update(const WallMap& map, const Pose2& T_map_lidar,
-                           std::span<const PolarPoint> points, double noise_scale) {
+std::optional<BiasEstimator::Evidence> BiasEstimator::evidence(const WallMap& map,
+                                                               const Pose2& T_map_lidar,
+                                                               std::span<const PolarPoint> points,
+                                                               double noise_scale) {
   const auto hits = ray_caster_.cast(map, T_map_lidar, points);
   const double c = std::cos(T_map_lidar.theta_rad);
   const double s = std::sin(T_map_lidar.theta_rad);
@@ -102,20 +104,22 @@ void BiasEstimator::update(const WallMap& map, const Pose2& T_map_lidar,
     gradient.noalias() += weight * distance_m * jacobian;
     ++used;
   }
-  if (used < kMinPoints) return;
+  if (used < kMinPoints) return std::nullopt;
 
   information.diagonal().segment<3>(3) += kMotionSigma.cwiseAbs2().cwiseInverse();
   const SymmetricSolver<6> of_turn(information.topLeftCorner<6, 6>());
-  if (!of_turn.succeeded() || !of_turn.is_positive()) return;
+  if (!of_turn.succeeded() || !of_turn.is_positive()) return std::nullopt;
   const Eigen::Matrix<double, 6, 4> coupled = information.topRightCorner<6, 4>();
   const Eigen::Matrix<double, 6, 4> solved = of_turn.solve_columns(coupled);
   const Matrix4 of_bias = information.bottomRightCorner<4, 4>() - coupled.transpose() * solved;
   const Vector4 reduced_gradient = gradient.tail<4>() - solved.transpose() * gradient.head<6>();
-  if (!of_bias.allFinite() || !reduced_gradient.allFinite()) return;
+  if (!of_bias.allFinite() || !reduced_gradient.allFinite()) return std::nullopt;
+  return Evidence{of_bias, of_bias * vector_of(estimate_.bias) + reduced_gradient};
+}
 
-  information_ = retained_share_ * information_ + kScanShare * of_bias;
-  evidence_ = retained_share_ * evidence_ +
-              kScanShare * (of_bias * vector_of(estimate_.bias) + reduced_gradient);
+void BiasEstimator::update(const Evidence& of_scan) {
+  information_ = retained_share_ * information_ + kScanShare * of_scan.information;
+  evidence_ = retained_share_ * evidence_ + kScanShare * of_scan.weighted_bias;
   const Vector4 prior = prior_information();
   const Matrix4 sum = information_ + Matrix4(prior.asDiagonal());
   const Matrix4 covariance = SymmetricSolver<4>(sum).inverse();

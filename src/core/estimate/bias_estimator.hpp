@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <optional>
 #include <span>
 
 #include <Eigen/Core>
@@ -39,10 +40,16 @@ class BiasEstimator {
   /// Resets to the prior.
   void forget();
 
+  /// What one scan tells of the bias: an information matrix, and that times the bias.
+  struct Evidence {
+    Eigen::Matrix4d information;
+    Eigen::Vector4d weighted_bias;
+  };
   /// `points`: of a scan of a robot at rest or nearly so, corrected by bias(), taken at
-  /// `T_map_lidar`.
-  void update(const WallMap& map, const Pose2& T_map_lidar, std::span<const PolarPoint> points,
-              double noise_scale);
+  /// `T_map_lidar`. Nullopt where they are too few.
+  std::optional<Evidence> evidence(const WallMap& map, const Pose2& T_map_lidar,
+                                   std::span<const PolarPoint> points, double noise_scale);
+  void update(const Evidence& of_scan);
 
  private:
   using Vector4 = Eigen::Vector4d;

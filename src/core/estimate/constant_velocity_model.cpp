@@ -96,19 +96,13 @@ bool is_plausible(const Twist2& motion) {
   return motion.speed_m_s() < kMaxSpeed_m_s && std::abs(motion.omega_rad_s) < kMaxOmega_rad_s;
 }
 
-Covariance3 deskew_covariance(const Twist2& assumed, const Twist2& measured) {
-  constexpr double kHalfTurn_s = 0.07;
+Eigen::Vector3d velocity_sigma(const Twist2& assumed, const Twist2& measured) {
   constexpr double kSteadyShare = 0.02;
-  constexpr double kChangeShare = 0.25;
-  const Twist2 change = measured + Twist2{-assumed.vx_m_s, -assumed.vy_m_s, -assumed.omega_rad_s};
-  const auto variance = [](double steady, double changed) {
-    const double sigma = kHalfTurn_s * (kSteadyShare * steady + kChangeShare * changed);
-    return sigma * sigma;
+  const auto sigma = [](double of_assumed, double of_measured) {
+    return kSteadyShare * std::abs(of_assumed) + std::abs(of_measured - of_assumed);
   };
-  const double place_m2 = variance(assumed.speed_m_s(), change.speed_m_s());
-  return Eigen::Vector3d(place_m2, place_m2,
-                         variance(std::abs(assumed.omega_rad_s), std::abs(change.omega_rad_s)))
-      .asDiagonal();
+  return {sigma(assumed.vx_m_s, measured.vx_m_s), sigma(assumed.vy_m_s, measured.vy_m_s),
+          sigma(assumed.omega_rad_s, measured.omega_rad_s)};
 }
 
 Covariance3 extrapolated_covariance(const Covariance3& covariance, double dt_s) {

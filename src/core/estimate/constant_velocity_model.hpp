@@ -65,10 +65,9 @@ class ConstantVelocityModel {
 /// True for speeds that a robot with an A1 reaches.
 bool is_plausible(const Twist2& motion);
 
-/// Covariance from the motion within a scan that is left after deskewing by `assumed`: 2 % of half
-/// a scan's translation, which makes drives at a steady 0.1 to 0.5 m/s consistent, and a quarter of
-/// the difference from the velocity `measured` between the poses.
-Covariance3 deskew_covariance(const Twist2& assumed, const Twist2& measured);
+/// Standard deviations of the velocity by which a scan was deskewed: what it differs from the one
+/// `measured` between the last two poses, and 2 %, of robots that drive steadily at 0.1 to 0.5 m/s.
+Eigen::Vector3d velocity_sigma(const Twist2& assumed, const Twist2& measured);
 
 /// A pose's covariance after `dt_s` at constant velocity. The velocity is as uncertain as the
 /// difference of two such poses one scan of nominal duration apart.

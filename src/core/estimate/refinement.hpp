@@ -53,7 +53,7 @@ struct PosePrior {
 
 struct RefinedMotion {
   Pose2 T_map_lidar;
-  Twist2 motion;  ///< in addition to the one that the points were deskewed by
+  ScanMotion motion;  ///< in addition to the one that the points were deskewed by
   bool valid = false;
 };
 
@@ -78,13 +78,22 @@ class Refinement {
                              std::span<const PolarPoint> subset, double noise_scale,
                              double map_sigma_m = 0);
 
-  /// The same for an unknown motion within the scan: estimates pose and velocity (six unknowns). A
-  /// weak prior at rest bounds directions in which no wall is seen.
+  /// The same for an unknown motion within the scan: estimates pose, velocity and, where it
+  /// `accelerates`, the angular acceleration (six or seven unknowns). A weak prior at rest bounds
+  /// directions in which no wall is seen.
   RefinedMotion refine_motion(const WallMap& map, const Pose2& start, double search_radius_m,
-                              std::span<const PolarPoint> points, double noise_scale);
+                              std::span<const PolarPoint> points, double noise_scale,
+                              bool accelerates);
+
+  /// How much a refined pose (x, y in the map frame, theta; m, rad) is off for a velocity of the
+  /// lidar by which `points` should have been deskewed in addition (vx, vy in its own axes, omega;
+  /// m/s, rad/s). Zero where the points determine no pose.
+  Eigen::Matrix3d error_per_velocity(const WallMap& map, const Pose2& T_map_lidar,
+                                     std::span<const PolarPoint> points, double noise_scale);
 
  private:
   static constexpr std::size_t kMinInliers = 8;
+  static constexpr std::size_t kFewPoints = 96;
   struct Step;
   /// `max_final_steps`: limit of the steps on all `points`.
   RefinedPose gauss_newton(const WallMap& map, const Pose2& start, double search_radius_m,
@@ -104,7 +113,8 @@ class Refinement {
   std::span<const PolarPoint> points_;  ///< that `lanes_` and `hits_` are of
   std::span<const PredictedHit> hits_;
   std::vector<FaceResidual> residuals_;  ///< of the last step
-  Pose2 T_map_hits_;                     ///< where `hits_` were cast from
+  std::vector<PolarPoint> few_;
+  Pose2 T_map_hits_;  ///< where `hits_` were cast from
 };
 
 }  // namespace cornerd::core

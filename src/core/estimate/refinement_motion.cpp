@@ -5,6 +5,7 @@
 
 #include "core/estimate/refinement.hpp"
 #include "core/geometry/linear_solve.hpp"
+#include "core/geometry/squared.hpp"
 
 namespace cornerd::core {
 namespace {
@@ -17,21 +18,25 @@ constexpr double kMotionConverged = 1e-4;  // m, rad
 /// Prior standard deviations of the robot's velocity.
 constexpr double kMotionSigma_m_s = 0.5;
 constexpr double kMotionSigma_rad_s = 2;
+/// Robots that rotate at 1.5 to 3 rad/s reach that within a scan or two.
+constexpr double kMotionSigma_rad_s2 = 10;
+constexpr double kNoSigma_rad_s2 = 1e-6;
 
 }  // namespace
 
 RefinedMotion Refinement::refine_motion(const WallMap& map, const Pose2& start,
                                         double search_radius_m, std::span<const PolarPoint> points,
-                                        double noise_scale) {
-  using Vector6 = Eigen::Matrix<double, 6, 1>;
-  using Matrix6 = Eigen::Matrix<double, 6, 6>;
-  const Vector6 prior_information =
-      (Vector6() << 0, 0, 0, 1 / (kMotionSigma_m_s * kMotionSigma_m_s),
-       1 / (kMotionSigma_m_s * kMotionSigma_m_s), 1 / (kMotionSigma_rad_s * kMotionSigma_rad_s))
+                                        double noise_scale, bool accelerates) {
+  using Vector7 = Eigen::Matrix<double, 7, 1>;
+  using Matrix7 = Eigen::Matrix<double, 7, 7>;
+  const Vector7 prior_information =
+      (Vector7() << 0, 0, 0, 1 / squared(kMotionSigma_m_s), 1 / squared(kMotionSigma_m_s),
+       1 / squared(kMotionSigma_rad_s),
+       1 / squared(accelerates ? kMotionSigma_rad_s2 : kNoSigma_rad_s2))
           .finished();
   RefinedMotion refined;
   refined.T_map_lidar = start;
-  Eigen::Vector3d twist = Eigen::Vector3d::Zero();
+  Eigen::Vector4d motion = Eigen::Vector4d::Zero();  // velocity, angular acceleration
   double extra_sigma_m = search_radius_m;
   const std::size_t stride = std::max<std::size_t>(1, points.size() / kMotionPoints);
   for (int k = 0; k < kMotionIterations; ++k) {
@@ -40,9 +45,9 @@ RefinedMotion Refinement::refine_motion(const WallMap& map, const Pose2& start,
                              : ray_caster_.cast_again(map, T_map_lidar, points);
     const double c = std::cos(T_map_lidar.theta_rad);
     const double s = std::sin(T_map_lidar.theta_rad);
-    Matrix6 information = prior_information.asDiagonal();
-    Vector6 gradient = Vector6::Zero();
-    gradient.tail<3>() = prior_information.tail<3>().cwiseProduct(twist);
+    Matrix7 information = prior_information.asDiagonal();
+    Vector7 gradient = Vector7::Zero();
+    gradient.tail<4>() = prior_information.tail<4>().cwiseProduct(motion);
     std::size_t inliers = 0;
     for (std::size_t i = 0; i < points.size(); i += stride) {
       if (hits[i].face == PredictedHit::kNone) continue;
@@ -51,8 +56,9 @@ RefinedMotion Refinement::refine_motion(const WallMap& map, const Pose2& start,
       // In the lidar's frame: the wall's normal, and the point deskewed by the motion so far.
       const Vec2 normal(c * face.normal.x() + s * face.normal.y(),
                         c * face.normal.y() - s * face.normal.x());
-      const double x_m = point.x_m + point.dt_s * (twist.x() - twist.z() * point.y_m);
-      const double y_m = point.y_m + point.dt_s * (twist.y() + twist.z() * point.x_m);
+      const double rotation_rad = (motion[2] + motion[3] / 2 * point.dt_s) * point.dt_s;
+      const double x_m = point.x_m + point.dt_s * motion[0] - rotation_rad * point.y_m;
+      const double y_m = point.y_m + point.dt_s * motion[1] + rotation_rad * point.x_m;
       const double height_m = face.normal.dot(T_map_lidar.translation()) - face.offset_m;
       const double distance_m = normal.x() * x_m + normal.y() * y_m + height_m;
       const double sine = std::abs(normal.x() * point.ray_x + normal.y() * point.ray_y);
@@ -64,24 +70,60 @@ RefinedMotion Refinement::refine_motion(const WallMap& map, const Pose2& start,
       if (share <= 0) continue;
       const double weight = share * share / variance;
       const Eigen::Vector3d jacobian(normal.x(), normal.y(), normal.y() * x_m - normal.x() * y_m);
-      Vector6 jacobians;
-      jacobians << jacobian, point.dt_s * jacobian;
-      information.noalias() += weight * jacobians * jacobians.transpose();
+      Vector7 jacobians;
+      jacobians << jacobian, point.dt_s * jacobian, squared(point.dt_s) / 2 * jacobian.z();
+      information.selfadjointView<Eigen::Lower>().rankUpdate(jacobians, weight);
       gradient.noalias() += weight * distance_m * jacobians;
       ++inliers;
     }
-    const SymmetricSolver<6> solver(information);
+    const SymmetricSolver<7> solver(information);
     if (inliers < kMinInliers || !solver.succeeded()) return refined;
-    const Vector6 move = solver.solve(gradient);
+    const Vector7 move = solver.solve(gradient);
     if (!move.allFinite()) return refined;
     refined.T_map_lidar = T_map_lidar * Pose2{-move[0], -move[1], -move[2]};
-    twist -= move.tail<3>();
-    if (extra_sigma_m == kFinest_m && move.norm() < kMotionConverged) break;
+    motion -= move.tail<4>();
+    if (extra_sigma_m == kFinest_m && move.head<6>().norm() < kMotionConverged) break;
     extra_sigma_m = std::max(0.4 * extra_sigma_m, kFinest_m);
   }
-  refined.motion = {twist.x(), twist.y(), twist.z()};
+  refined.motion = {Twist2{motion[0], motion[1], motion[2]}, motion[3]};
   refined.valid = true;
   return refined;
+}
+
+Eigen::Matrix3d Refinement::error_per_velocity(const WallMap& map, const Pose2& T_map_lidar,
+                                               std::span<const PolarPoint> points,
+                                               double noise_scale) {
+  few_.clear();
+  const std::size_t stride = 1 + points.size() / kFewPoints;
+  for (std::size_t i = 0; i < points.size(); i += stride) few_.push_back(points[i]);
+  const auto hits = ray_caster_.cast(map, T_map_lidar, few_);
+  const double c = std::cos(T_map_lidar.theta_rad);
+  const double s = std::sin(T_map_lidar.theta_rad);
+  Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
+  Eigen::Matrix3d coupled = Eigen::Matrix3d::Zero();  // of pose and velocity
+  for (std::size_t i = 0; i < few_.size(); ++i) {
+    if (hits[i].face == PredictedHit::kNone) continue;
+    const PolarPoint& point = few_[i];
+    const Face& face = map.faces()[hits[i].face];
+    const Vec2 normal(c * face.normal.x() + s * face.normal.y(),
+                      c * face.normal.y() - s * face.normal.x());
+    const double distance_m =
+        normal.dot(point.position()) + face.normal.dot(T_map_lidar.translation()) - face.offset_m;
+    const double sine = std::abs(normal.dot(point.ray()));
+    const double variance =
+        noise_.variance_across_m2(point.range_m, sine) * noise_scale * noise_scale;
+    const double share = 1 - distance_m * distance_m / (variance * squared(PointLanes::kCutSigmas));
+    if (share <= 0) continue;
+    const double lever_m = normal.y() * point.x_m - normal.x() * point.y_m;
+    const double weight = share * share / variance;
+    const Eigen::Vector3d of_pose(face.normal.x(), face.normal.y(), lever_m);
+    const Eigen::Vector3d of_velocity(normal.x(), normal.y(), lever_m);
+    information.noalias() += weight * of_pose * of_pose.transpose();
+    coupled.noalias() += weight * point.dt_s * of_pose * of_velocity.transpose();
+  }
+  const SymmetricSolver<3> solver(information);
+  if (!solver.succeeded() || !solver.is_positive()) return Eigen::Matrix3d::Zero();
+  return solver.inverse() * coupled;
 }
 
 }  // namespace cornerd::core

@@ -72,7 +72,9 @@ Scan ScanSource::take(const WallMap& map, const Pose2& T_map_lidar, const ScanOp
   for (int i = 0; i < options.samples; ++i) {
     const double share = static_cast<double>(i) / options.samples;
     const double bearing = options.first_bearing_rad - kTwoPi * share;
-    const Pose2 T_map_now = T_map_lidar * options.motion.over((share - 0.5) * options.scan_s);
+    const double dt_s = (share - 0.5) * options.scan_s;
+    const Pose2 T_map_now = T_map_lidar * options.motion.twist.over(dt_s) *
+                            Pose2{0, 0, options.motion.alpha_rad_s2 / 2 * dt_s * dt_s};
     const double aside = options.with_noise ? options.noise.bearing_rad * normal() : 0;
     double range =
         map.range_along(T_map_now.translation(), T_map_now.theta_rad + bearing + aside, 12);

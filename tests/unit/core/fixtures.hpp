@@ -30,7 +30,7 @@ struct ScanOptions {
   bool with_noise = true;
   SensorNoise noise;
   double first_bearing_rad = 3.0;  ///< bearings fall from here
-  Twist2 motion;                   ///< of the lidar, about the middle of the scan
+  ScanMotion motion;               ///< of the lidar, about the middle of the scan
   double scan_s = 0.137;
   TimeNs start_ns = 0;
 };

@@ -188,7 +188,7 @@ TEST(Localizer, FirstScanWhileTurning_AllocatesNothing) {
   int named = 0;
   for (int k = 0; k < 10; ++k) {
     Localizer localizer(map, {});
-    options.motion = {0.3, 0, k % 2 == 0 ? 2.2 : -2.2};
+    options.motion = Twist2{0.3, 0, k % 2 == 0 ? 2.2 : -2.2};
     const Scan scan = source.take(*map, source.place_in(0.4, 2.2, 0.4, 2.6), options);
     const long before = allocations;
     named += has_pose(localizer.step(scan).pose.state);

@@ -33,7 +33,7 @@ class CircleDrive {
     testing::ScanOptions options;
     options.scan_s = kScanDuration_s;
     options.start_ns = robot_.now_ns();
-    options.motion = {speed_m_s_, 0, rate_rad_s_};
+    options.motion = Twist2{speed_m_s_, 0, rate_rad_s_};
     options.missing_share = covered ? 1 : 0;
     for (int i = 0; i < 14; ++i) {
       const OdometryReading reading = robot_.drive(0.01, speed_m_s_, rate_rad_s_);

@@ -131,7 +131,7 @@ TEST(Localizer, FirstScanWhileTurning_IsAnswered) {
   int answered = 0;
   for (int k = 0; k < 80; ++k) {
     Localizer localizer(map, {});
-    options.motion = {0.3, 0, (k % 2 == 0 ? 0.025 : -0.025) * (k + 40)};
+    options.motion = Twist2{0.3, 0, (k % 2 == 0 ? 0.025 : -0.025) * (k + 40)};
     const Pose2 T_map_base = source.place_in(0.4, 2.2, 0.4, 2.6);
     const bool has_prior = k % 4 < 2;
     if (has_prior) localizer.set_pose(T_map_base * Pose2{0.05, -0.05, 0.05});
@@ -156,14 +156,14 @@ TEST(Localizer, DrivingRobot_IsTracked) {
   testing::ScanSource source(67);
   Localizer localizer(map, {});
   testing::ScanOptions options;
-  options.motion = {0.3, 0, 0.5};
+  options.motion = Twist2{0.3, 0, 0.5};
   Pose2 T_map_base{0.6, 0.6, 0};
   for (int scan = 0; scan < 12; ++scan) {
     const PoseEstimate& pose = localizer.step(source.take(*map, T_map_base, options)).pose;
     ASSERT_TRUE(has_pose(pose.state)) << scan;
     EXPECT_LT((pose.T_map_base.translation() - T_map_base.translation()).norm(),
               scan < 4 ? 0.03 : 0.006);
-    T_map_base = T_map_base * options.motion.over(options.scan_s);
+    T_map_base = T_map_base * options.motion.twist.over(options.scan_s);
     options.start_ns += from_seconds(options.scan_s);
   }
 }

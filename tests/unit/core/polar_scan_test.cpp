@@ -103,7 +103,7 @@ TEST(PolarScan, ScanTakenInMotion_IsDeskewed) {
   testing::ScanSource source;
   testing::ScanOptions options;
   options.with_noise = false;
-  options.motion = {0.4, -0.2, 0.8};
+  options.motion = Twist2{0.4, -0.2, 0.8};
   const Scan scan = source.take(*map, T_map_lidar, options);
   PolarScan points;
   points.assign(scan, 0.15, 12, from_seconds(options.scan_s / 2), options.motion);

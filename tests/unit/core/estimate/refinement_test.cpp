@@ -57,6 +57,47 @@ TEST_F(RefinementTest, DisplacedWalls_OffsetsAreMarginalised) {
   EXPECT_GT(error_of(0), error_of(kOff_m));
 }
 
+TEST_F(RefinementTest, AcceleratedRotation_IsFound) {
+  testing::ScanOptions options;
+  options.with_noise = false;
+  options.motion = {Twist2{0.1, -0.05, 1.5}, 6};
+  const Pose2 T_map_lidar{1.2, 0.9, 0.7};
+  const Scan scan = source_.take(*map_, T_map_lidar, options);
+  PolarScan points;
+  points.assign(scan, 0.05, 12, from_seconds(options.scan_s / 2), Twist2{0, 0, 1});
+  const RefinedMotion refined =
+      refinement_.refine_motion(*map_, T_map_lidar, 0.08, points.points(), 1, true);
+  ASSERT_TRUE(refined.valid);
+  EXPECT_NEAR(refined.motion.twist.vx_m_s, 0.1, 0.01);
+  EXPECT_NEAR(refined.motion.twist.vy_m_s, -0.05, 0.01);
+  EXPECT_NEAR(refined.motion.twist.omega_rad_s, 0.5, 0.01);
+  EXPECT_NEAR(refined.motion.alpha_rad_s2, 6, 0.2);
+  EXPECT_NEAR(refined.T_map_lidar.theta_rad, 0.7, 5e-4);
+}
+
+TEST_F(RefinementTest, PoseOfAScanNotDeskewed_IsOffAsItsDerivativeSays) {
+  testing::ScanOptions options;
+  options.with_noise = false;
+  const Pose2 T_map_lidar{1.2, 0.9, 0.7};
+  for (const Twist2& motion : {Twist2{0.05, 0, 0}, Twist2{0, 0.05, 0}, Twist2{0, 0, 0.02}}) {
+    options.motion = motion;
+    const Scan scan = source_.take(*map_, T_map_lidar, options);
+    PolarScan points;
+    points.assign(scan, 0.05, 12, from_seconds(options.scan_s / 2));
+    const RefinedPose refined =
+        refinement_.refine(*map_, T_map_lidar, 0.02, points.points(), points.points(), 1);
+    ASSERT_TRUE(refined.valid);
+    const Eigen::Vector3d expected =
+        refinement_.error_per_velocity(*map_, T_map_lidar, points.points(), 1) *
+        Eigen::Vector3d(motion.vx_m_s, motion.vy_m_s, motion.omega_rad_s);
+    const Eigen::Vector3d error(refined.T_map_lidar.x_m - T_map_lidar.x_m,
+                                refined.T_map_lidar.y_m - T_map_lidar.y_m,
+                                refined.T_map_lidar.theta_rad - T_map_lidar.theta_rad);
+    EXPECT_GT(error.norm(), 2e-4);
+    EXPECT_LT((error - expected).norm(), 0.15 * error.norm()) << error << expected;
+  }
+}
+
 TEST_F(RefinementTest, NoisyScans_CovarianceIsConsistent) {
   double nees = 0;
   int count = 0;

@@ -44,12 +44,18 @@ TEST_F(CalibrateMount, UnknownMount_IsFoundAndReplays) {
 }
 
 TEST_F(CalibrateMount, OdometryOfAnotherFile_GivesTheSame) {
-  const CommandRun own({"calibrate", "mount", recording_, "--map", map_});
+  ASSERT_EQ(calibrate(recording_).exit_code, 0);
+  const json own = json::parse(std::ifstream(output_))["lidar"]["mount"];
   const std::string bare = folder_ / "bare.ndjson";
   rewrite(bare, [](json& line) { line["class"] = "EVENT"; });
-  const CommandRun other({"calibrate", "mount", bare, "--map", map_, "--odometry", recording_});
-  ASSERT_EQ(other.exit_code, 0) << other.err;
-  EXPECT_EQ(other.out, own.out);
+  const CommandRun run(
+      {"calibrate", "mount", bare, "--map", map_, "--odometry", recording_, "-o", output_});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const json other = json::parse(std::ifstream(output_))["lidar"]["mount"];
+  // Readings of another file come by their times, not by their lines.
+  for (const char* key : {"x", "y", "theta"}) {
+    EXPECT_NEAR(other[key].get<double>(), own[key].get<double>(), 5e-4) << key;
+  }
 }
 
 TEST_F(CalibrateMount, WrongWheels_AreNamedFirst) {
