@@ -47,9 +47,8 @@ AbruptDrive drive(const std::vector<std::string>& more) {
   const std::string map = CORNERD_SOURCE_DIR "/config/maps/flat-7.json";
   const std::string recording = folder / "drive.ndjson";
   const std::string truth_file = folder / "truth.ndjson";
-  std::vector<std::string> simulate = {"simulate",    "--map",    map,       "--scenario",
-                                       "exploration", "--loop",   "-o",      recording,
-                                       "--truth",     truth_file, "--scans", "900"};
+  std::vector<std::string> simulate = {"simulate", "--map",   map,        "--loop",  "-o",
+                                       recording,  "--truth", truth_file, "--scans", "900"};
   simulate.insert(simulate.end(), more.begin(), more.end());
   const tool::CommandRun simulated(simulate);
   EXPECT_EQ(simulated.exit_code, 0) << simulated.err;
@@ -79,8 +78,9 @@ AbruptDrive drive(const std::vector<std::string>& more) {
 }
 
 TEST(AbruptRobot, LidarAlone_CovarianceIsConsistent) {
-  AbruptDrive driven = drive({"--real", "--seed", "1", "--range-scale", "1.01", "--range-offset",
-                              "0.005", "--drive-speed", "0.4", "--rotation-speed", "2"});
+  AbruptDrive driven =
+      drive({"--scenario", "exploration", "--real", "--seed", "1", "--range-scale", "1.01",
+             "--range-offset", "0.005", "--drive-speed", "0.4", "--rotation-speed", "2"});
   ASSERT_GE(driven.count["tracking"], 5);
   ASSERT_GE(driven.count["fix"], 700);
   EXPECT_LT(driven.nees["tracking"], 6);
@@ -91,13 +91,24 @@ TEST(AbruptRobot, LidarAlone_CovarianceIsConsistent) {
 
 /// The yaw rate changes by 0.8 rad/s within a scan.
 TEST(AbruptRobot, GentleStarts_AreDeskewed) {
-  AbruptDrive driven = drive({"--seed", "7", "--drive-speed", "0.25", "--rotation-speed", "3",
-                              "--acceleration", "1", "--rotation-acceleration", "6"});
+  AbruptDrive driven =
+      drive({"--scenario", "exploration", "--seed", "7", "--drive-speed", "0.25",
+             "--rotation-speed", "3", "--acceleration", "1", "--rotation-acceleration", "6"});
   EXPECT_GE(driven.count["fix"], 890);
   EXPECT_LT(driven.mean_error_m, 0.8e-3);
   EXPECT_LT(driven.mean_error_rad, core::radians(0.05));
   EXPECT_LT(driven.nees["fix"], 4);
   EXPECT_GT(driven.nees["fix"], 1.5);
+}
+
+/// A robot that sets out again and again: scans in which it does not stand any more.
+TEST(AbruptRobot, SettingOut_TeachesNoBias) {
+  AbruptDrive driven = drive({"--path", "1.65,2.7 1.35,2.7 1.35,2.45 1.65,2.45", "--seed", "5",
+                              "--drive-speed", "0.25", "--rotation-speed", "1.5", "--acceleration",
+                              "1", "--rotation-acceleration", "6"});
+  EXPECT_GE(driven.count["fix"], 890);
+  EXPECT_LT(driven.mean_error_m, 1.2e-3);
+  EXPECT_LT(driven.nees["fix"], 5);
 }
 
 }  // namespace

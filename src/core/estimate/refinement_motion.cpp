@@ -20,7 +20,8 @@ constexpr double kMotionSigma_m_s = 0.5;
 constexpr double kMotionSigma_rad_s = 2;
 /// Robots that rotate at 1.5 to 3 rad/s reach that within a scan or two.
 constexpr double kMotionSigma_rad_s2 = 10;
-constexpr double kNoSigma_rad_s2 = 1e-6;
+/// None.
+constexpr double kSteadySigma_rad_s2 = 1e-6;
 
 }  // namespace
 
@@ -32,7 +33,7 @@ RefinedMotion Refinement::refine_motion(const WallMap& map, const Pose2& start,
   const Vector7 prior_information =
       (Vector7() << 0, 0, 0, 1 / squared(kMotionSigma_m_s), 1 / squared(kMotionSigma_m_s),
        1 / squared(kMotionSigma_rad_s),
-       1 / squared(accelerates ? kMotionSigma_rad_s2 : kNoSigma_rad_s2))
+       1 / squared(accelerates ? kMotionSigma_rad_s2 : kSteadySigma_rad_s2))
           .finished();
   RefinedMotion refined;
   refined.T_map_lidar = start;
