@@ -75,8 +75,8 @@ bool Localizer::Workspace::keep_if_better(const Scan& scan, TimeNs t_ns,
 }
 
 void Localizer::Workspace::refine_motion(const Scan& scan, TimeNs t_ns) {
-  // Where walls have been exact, what does not fit is a motion.
-  const bool accelerates = place->map_error.is_exact();
+  // Where walls have been exact, what does not fit is a motion. A first scan fits too much already.
+  const bool accelerates = place->map_error.is_exact() && memory.prior(t_ns).has_value();
   for (int k = 0; k < 2 && may_move(t_ns) && best_hits() > 0; ++k) {
     const RefinedMotion refined = place->refinement.refine_motion(
         *map, place->verification.hypotheses().front().refined.T_map_lidar, kMotionSearchRadius_m,
