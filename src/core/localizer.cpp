@@ -70,7 +70,7 @@ const ScanResult& Localizer::step(const Scan& received) {
   }
   w.report(decision, corners, t_ns);
 
-  // 6. A turn whose place is known tells how the lidar errs always.
+  // 6. A turn whose place is known tells how the lidar errs always, if the robot stood.
   w.learn_bias(decision);
   w.try_bias(w.odometer.has_motion() ? scan : turn, decision, t_ns);
   w.result.bias = estimated_bias();
@@ -161,6 +161,7 @@ void Localizer::relocalize() {
   workspace_->filter.forget();
   if (workspace_->place) workspace_->place->map_search.stop();
   workspace_->T_map_doubted.reset();
+  workspace_->of_last_scan.reset();
 }
 
 void Localizer::forget() {

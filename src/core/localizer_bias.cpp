@@ -42,6 +42,7 @@ EstimatedBias Localizer::estimated_bias() const {
 
 void Localizer::resume(const EstimatedBias& learned) {
   if (!workspace_->place) return;
+  workspace_->of_last_scan.reset();
   workspace_->place->bias.resume(learned);
   workspace_->doubts_bias = learned.scans > 0;
   workspace_->trials_of_bias = 0;
@@ -55,14 +56,15 @@ bool Localizer::Workspace::teaches(const Decision& decision) const {
          at.likelihood.near_hit_share() > kTeachingShare;
 }
 
-/// Whether a robot stood during a scan the next one shows: one that sets out passes for a bias.
+/// Whether a robot stood during a scan the next one shows: one that sets out passes for a bias. A
+/// next scan that is lost shows nothing, and is what a bias that is not known yet leads to.
 void Localizer::Workspace::learn_bias(const Decision& decision) {
   if (!place) return;
   const bool teaches_now = teaches(decision);
   const Twist2 since = memory.motion();
   const bool set_out = has_pose(decision.state) && (since.speed_m_s() > kSetsOut_m_s ||
                                                     std::abs(since.omega_rad_s) > kSetsOut_rad_s);
-  if (of_last_scan && !set_out) place->bias.update(*of_last_scan);
+  if (of_last_scan && !set_out && !odometer.has_motion()) place->bias.update(*of_last_scan);
   of_last_scan.reset();
   if (!teaches_now) return;
   const auto evidence =

@@ -142,8 +142,8 @@ bool Localizer::Workspace::is_explained_by_motion() const {
 Covariance3 Localizer::Workspace::deskew_covariance(const Pose2& T_map_lidar) {
   const Twist2 measured = memory.motion();
   if (motion.is_rest() && measured.is_rest()) return Covariance3::Zero();
-  const Eigen::Matrix3d error = place->refinement.error_per_velocity(
-      *map, T_map_lidar, points.points(), result.detection.noise_scale);
+  const Eigen::Matrix3d error =
+      place->refinement.error_per_velocity(*map, T_map_lidar, points.points(), noise_scale());
   const Eigen::Vector3d sigma = velocity_sigma(motion.twist, measured);
   Covariance3 covariance = error * sigma.cwiseAbs2().asDiagonal() * error.transpose();
   covariance(2, 2) += squared(kUnsteady_s * (measured.omega_rad_s - motion.twist.omega_rad_s));

@@ -17,7 +17,7 @@ namespace cornerd::core {
 /// Estimates a lidar's bias online from scans at known poses: least squares of point-to-face
 /// distances over each scan's pose and motion and one common bias. Pose and motion are eliminated
 /// scan by scan (Schur complement), so that a scan leaves a 4 x 4 information matrix and
-/// accelerations within a scan do not pass for bias. Allocates nothing.
+/// a steady motion within a scan does not pass for bias. Allocates nothing.
 class BiasEstimator {
  public:
   /// `forgetting_rate`: share of the information dropped with each scan, since a lidar ages.

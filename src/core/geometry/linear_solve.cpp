@@ -53,7 +53,9 @@ template Eigen::Matrix3d SymmetricSolver<3>::inverse() const;
 template void SymmetricSolver<4>::compute(const Matrix&);
 template Eigen::Matrix4d SymmetricSolver<4>::inverse() const;
 template void SymmetricSolver<6>::compute(const Matrix&);
+template void SymmetricSolver<7>::compute(const Matrix&);
 template SymmetricSolver<6>::Vector SymmetricSolver<6>::solve(const Vector&) const;
+template SymmetricSolver<7>::Vector SymmetricSolver<7>::solve(const Vector&) const;
 template Eigen::Matrix<double, 6, 4> SymmetricSolver<6>::solve_columns(
     const Eigen::Matrix<double, 6, 4>&) const;
 template Eigen::Matrix<double, 3, 11> Cholesky3::solve_columns(

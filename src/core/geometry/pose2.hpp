@@ -79,8 +79,7 @@ struct Twist2 {
 /// 0.14 s are turned by 0.8 degrees more than at constant velocity.
 struct ScanMotion {
   ScanMotion() = default;
-  ScanMotion(const Twist2& velocity,
-             double acceleration_rad_s2 = 0)  // NOLINT(google-explicit-constructor)
+  ScanMotion(const Twist2& velocity, double acceleration_rad_s2 = 0)
       : twist(velocity), alpha_rad_s2(acceleration_rad_s2) {}
 
   Twist2 twist;
