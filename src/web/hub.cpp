@@ -55,7 +55,6 @@ void Hub::take(std::string_view line, Clock::time_point now) {
 void Hub::set_connected(bool connected, std::string_view problem) {
   connected_ = connected;
   problem_ = problem;
-  // What a daemon said that is gone may be wrong; its map is still the picture to show.
   for (std::size_t i = 0; i < last_.size(); ++i) {
     if (static_cast<MessageClass>(i) != MessageClass::kMap) last_[i].reset();
   }

@@ -93,6 +93,8 @@ class Refinement {
 
  private:
   static constexpr std::size_t kMinInliers = 8;
+  /// So many give NEES within 0.1 of what 800 give in drives that start and stop, at a third of
+  /// the cost.
   static constexpr std::size_t kFewPoints = 96;
   struct Step;
   /// `max_final_steps`: limit of the steps on all `points`.
@@ -113,8 +115,8 @@ class Refinement {
   std::span<const PolarPoint> points_;  ///< that `lanes_` and `hits_` are of
   std::span<const PredictedHit> hits_;
   std::vector<FaceResidual> residuals_;  ///< of the last step
-  std::vector<PolarPoint> few_;
-  Pose2 T_map_hits_;  ///< where `hits_` were cast from
+  std::vector<PolarPoint> few_;          ///< of error_per_velocity()
+  Pose2 T_map_hits_;                     ///< where `hits_` were cast from
 };
 
 }  // namespace cornerd::core

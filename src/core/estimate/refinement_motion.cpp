@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <Eigen/Geometry>
+
 #include "core/estimate/refinement.hpp"
 #include "core/geometry/linear_solve.hpp"
 #include "core/geometry/squared.hpp"
@@ -20,7 +22,7 @@ constexpr double kMotionSigma_m_s = 0.5;
 constexpr double kMotionSigma_rad_s = 2;
 /// Robots that rotate at 1.5 to 3 rad/s reach that within a scan or two.
 constexpr double kMotionSigma_rad_s2 = 10;
-/// None.
+/// As good as none.
 constexpr double kSteadySigma_rad_s2 = 1e-6;
 
 }  // namespace
@@ -115,16 +117,18 @@ Eigen::Matrix3d Refinement::error_per_velocity(const WallMap& map, const Pose2& 
         noise_.variance_across_m2(point.range_m, sine) * noise_scale * noise_scale;
     const double share = 1 - distance_m * distance_m / (variance * squared(PointLanes::kCutSigmas));
     if (share <= 0) continue;
-    const double lever_m = normal.y() * point.x_m - normal.x() * point.y_m;
-    const double weight = share * share / variance;
-    const Eigen::Vector3d of_pose(face.normal.x(), face.normal.y(), lever_m);
-    const Eigen::Vector3d of_velocity(normal.x(), normal.y(), lever_m);
-    information.noalias() += weight * of_pose * of_pose.transpose();
-    coupled.noalias() += weight * point.dt_s * of_pose * of_velocity.transpose();
+    const Eigen::Vector3d jacobian(normal.x(), normal.y(),
+                                   normal.y() * point.x_m - normal.x() * point.y_m);
+    const Eigen::Matrix3d of_point = share * share / variance * jacobian * jacobian.transpose();
+    information += of_point;
+    coupled += point.dt_s * of_point;
   }
   const SymmetricSolver<3> solver(information);
   if (!solver.succeeded() || !solver.is_positive()) return Eigen::Matrix3d::Zero();
-  return solver.inverse() * coupled;
+  Eigen::Matrix3d error = solver.inverse() * coupled;  // in the lidar's frame
+  error.topRows<2>() =
+      Eigen::Rotation2Dd(T_map_lidar.theta_rad).toRotationMatrix() * error.topRows<2>().eval();
+  return error;
 }
 
 }  // namespace cornerd::core
