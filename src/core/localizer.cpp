@@ -71,8 +71,9 @@ const ScanResult& Localizer::step(const Scan& received) {
   w.report(decision, corners, t_ns);
 
   // 6. A turn whose place is known tells how the lidar errs always, if the robot stood.
-  w.learn_bias(decision);
-  w.try_bias(w.odometer.has_motion() ? scan : turn, decision, t_ns);
+  const Scan& seen = w.odometer.has_motion() ? scan : turn;
+  w.learn_bias(seen, decision, t_ns);
+  w.try_bias(seen, decision, t_ns);
   w.result.bias = estimated_bias();
   w.learn_sweep(turn, t_ns);
   return w.result;
@@ -84,7 +85,10 @@ Decision Localizer::Workspace::find(const Scan& scan, TimeNs t_ns) {
   look(scan, t_ns, memory.motion());
 
   // 2. Where none is convincing, the robot may have changed its speed since the last turns.
-  if (may_move(t_ns) && !may_be_biased()) look_for_the_motion(scan, t_ns);
+  if (may_move(t_ns) && !may_be_biased()) {
+    look_for_the_motion(scan, t_ns);
+    if (motion != memory.motion() && is_by_offsets(scan, t_ns)) look(scan, t_ns, memory.motion());
+  }
 
   const Decision decision = compare_places(scan, t_ns, /*may_rest=*/true);
   // Or it rotates, and neither odometry nor a scan before shows how: once more by a few rates.

@@ -5,6 +5,7 @@
 #include <cstdlib>
 
 #include "core/localizer_workspace.hpp"
+#include "core/recognition/evidence.hpp"
 
 namespace cornerd::core {
 namespace {
@@ -52,13 +53,13 @@ bool Localizer::Workspace::teaches(const Decision& decision) const {
   // Of walls that are off by centimetres a bias would be learnt that the lidar has not.
   if (!config.calibrate_online || !has_pose(decision.state) || is_map_inexact()) return false;
   const core::VerifiedHypothesis& at = chosen(decision);
-  return at.map_sigma_m == 0 && (memory.is_stationary() || odometer.has_motion()) &&
+  return (memory.is_stationary() || odometer.has_motion()) &&
          at.likelihood.near_hit_share() > kTeachingShare;
 }
 
 /// Whether a robot stood during a scan the next one shows: one that sets out passes for a bias. A
 /// next scan that is lost shows nothing, and is what a bias that is not known yet leads to.
-void Localizer::Workspace::learn_bias(const Decision& decision) {
+void Localizer::Workspace::learn_bias(const Scan& scan, const Decision& decision, TimeNs t_ns) {
   if (!place) return;
   const bool teaches_now = teaches(decision);
   const Twist2 since = memory.motion();
@@ -67,9 +68,16 @@ void Localizer::Workspace::learn_bias(const Decision& decision) {
   if (of_last_scan && !set_out && !odometer.has_motion()) place->bias.update(*of_last_scan);
   of_last_scan.reset();
   if (!teaches_now) return;
-  const auto evidence =
-      place->bias.evidence(*map, chosen(decision).refined.T_map_lidar, points.points(),
-                           std::max(1.0, result.detection.noise_scale));
+  const VerifiedHypothesis& at = chosen(decision);
+  const auto evidence = place->bias.evidence(*map, at.refined.T_map_lidar, points.points(),
+                                             std::max(1.0, result.detection.noise_scale));
+  // Walls seem off: they are exact where four numbers explain all of them.
+  if (evidence && at.map_sigma_m > 0 &&
+      !core::is_exact(
+          try_at(scan, t_ns, motion, at.refined.T_map_lidar, place->bias.bias_by(*evidence)),
+          /*expected=*/true)) {
+    return;
+  }
   if (!odometer.has_motion()) {
     of_last_scan = evidence;
   } else if (evidence) {

@@ -2,6 +2,7 @@
 // The robot's motion within a scan, from the scan itself.
 #include <algorithm>
 #include <array>
+#include <limits>
 
 #include "core/geometry/squared.hpp"
 #include "core/localizer_workspace.hpp"
@@ -29,6 +30,10 @@ constexpr std::array kTriedRates_rad_s = {1.0, -1.0, 2.0, -2.0, 3.0, -3.0};
 /// A scan in a slower rotation is not smeared beyond what refinement corrects.
 constexpr double kTurning_rad_s = 0.3;
 
+/// Standard deviation of the velocity of small robots, of which nothing is known.
+constexpr double kDrives_m_s = 0.2;
+constexpr double kDrives_rad_s = 0.6;
+
 /// A motion is accepted, and rays are compared one by one, where as many hit as they do in an exact
 /// map but for some furniture.
 constexpr double kMovingHitShare = 0.8;
@@ -50,6 +55,23 @@ bool Localizer::Workspace::may_move(TimeNs t_ns) const {
 std::size_t Localizer::Workspace::best_hits() const {
   const auto places = place->verification.hypotheses();
   return places.empty() ? 0 : places.front().likelihood.hits;
+}
+
+bool Localizer::Workspace::is_by_offsets(const Scan& scan, TimeNs t_ns) {
+  const auto places = place->verification.hypotheses();
+  if (places.empty() || place->map_error.is_exact() ||
+      !places.front().refined.face_residuals.shows_offsets()) {
+    return false;
+  }
+  const auto spread = [&](const PolarScan& as_seen) {
+    const RefinedPose refined = place->refinement.refine(
+        *map, places.front().refined.T_map_lidar, kMotionSearchRadius_m, as_seen.points(),
+        as_seen.points(), noise_scale(), map->plan().sigma_m);
+    return refined.valid ? refined.spread : std::numeric_limits<double>::infinity();
+  };
+  tried_points.assign(scan, config.min_range_m, config.max_range_m, t_ns, memory.motion(),
+                      place->bias.bias());
+  return spread(tried_points) < kMayMove * spread(points);
 }
 
 bool Localizer::Workspace::is_half_explained() const {
@@ -139,12 +161,15 @@ bool Localizer::Workspace::is_explained_by_motion() const {
   return !places.empty() && places.front().likelihood.hit_share() > kMovingHitShare;
 }
 
-Covariance3 Localizer::Workspace::deskew_covariance(const Pose2& T_map_lidar) {
+Covariance3 Localizer::Workspace::deskew_covariance(const Pose2& T_map_lidar, bool is_first) {
   const Twist2 measured = memory.motion();
-  if (motion.is_rest() && measured.is_rest()) return Covariance3::Zero();
+  // Neither a scan before nor walls that are known to be exact show that it stood.
+  const bool may_drive = is_first && !place->map_error.is_exact();
+  if (motion.is_rest() && measured.is_rest() && !may_drive) return Covariance3::Zero();
   const Eigen::Matrix3d error =
       place->refinement.error_per_velocity(*map, T_map_lidar, points.points(), noise_scale());
-  const Eigen::Vector3d sigma = velocity_sigma(motion.twist, measured);
+  Eigen::Vector3d sigma = velocity_sigma(motion.twist, measured);
+  if (may_drive) sigma += Eigen::Vector3d(kDrives_m_s, kDrives_m_s, kDrives_rad_s);
   Covariance3 covariance = error * sigma.cwiseAbs2().asDiagonal() * error.transpose();
   covariance(2, 2) += squared(kUnsteady_s * (measured.omega_rad_s - motion.twist.omega_rad_s));
   return covariance;

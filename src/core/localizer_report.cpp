@@ -33,7 +33,7 @@ Covariance3 doubt_of_bias() { return doubt_of(0.006, radians(0.15)); }
 /// turn at once, simulated in flat-7 without odometry, with a bias of 1 % and 5 mm and without: the
 /// NEES of `tracking` turns, by how smeared they are, is 1 to 6 in five drives (up to 195 without).
 Covariance3 doubt_of_smear(const RefinedPose& refined, PoseState state) {
-  const double smear_m = refined.rmse_m * std::sqrt(1 - 1 / refined.reduced_chi_square);
+  const double smear_m = refined.rmse_m * std::sqrt(1 - 1 / refined.spread);
   return state == PoseState::kTracking ? doubt_of(smear_m, 1.2 * smear_m)
                                        : doubt_of(smear_m / 2, 0.2 * smear_m);
 }
@@ -98,18 +98,19 @@ void Localizer::Workspace::report_pose(const core::VerifiedHypothesis& found, st
   const Pose2& T_map_lidar = refined.T_map_lidar;
   PoseEstimate& pose = result.pose;
   pose.T_map_base = T_map_lidar * T_lidar_base;
-  const double known_sigma_m = map_sigma_m(found);
+  const bool is_first = !memory.prior(t_ns);
+  const bool is_off = refined.map_sigma_m > 0;
   // In an exact map the difference of two poses is the velocity.
-  memory.update(T_map_lidar, t_ns, motion.twist,
-                known_sigma_m > 0 ? refined.covariance : Covariance3::Zero());
+  memory.update(T_map_lidar, t_ns, motion.twist, is_off ? refined.covariance : Covariance3::Zero());
   pose.state == PoseState::kFix ? filter.confirm(T_map_lidar) : filter.follow(T_map_lidar);
   place->map_error.add(refined.face_residuals);
   const Covariance3 of_lidar =
-      refined.covariance +
-      larger(place->map_error.pose_covariance(refined.face_residuals, known_sigma_m),
-             odometer.has_motion() ? odometer.deskew_covariance() : deskew_covariance(T_map_lidar));
+      refined.covariance + larger(is_off ? Covariance3::Zero()
+                                         : place->map_error.pose_covariance(refined.face_residuals),
+                                  odometer.has_motion() ? odometer.deskew_covariance()
+                                                        : deskew_covariance(T_map_lidar, is_first));
   pose.covariance = covariance_of_base(of_lidar, T_map_lidar, pose.T_map_base);
-  if (refined.reduced_chi_square > kSmearedSpread && !trusts_odometry()) {
+  if (refined.spread > kSmearedSpread && !trusts_odometry()) {
     pose.covariance += doubt_of_smear(refined, pose.state);
     if (place->bias.scans() < kTurnsOfANewLidar) pose.covariance += doubt_of_bias();
   }

@@ -76,7 +76,9 @@ bool Localizer::Workspace::is_certain(const RefinedPose& refined) const {
 }
 
 double Localizer::Workspace::map_sigma_m(const VerifiedHypothesis& found) const {
-  return is_map_inexact() ? std::max(found.map_sigma_m, map->plan().sigma_m) : found.map_sigma_m;
+  const bool is_off = !place->map_error.is_exact() && found.refined.face_residuals.shows_offsets();
+  return is_map_inexact() || is_off ? std::max(found.map_sigma_m, map->plan().sigma_m)
+                                    : found.map_sigma_m;
 }
 
 RefinedPose Localizer::Workspace::refine_by(WallOffsetFilter* walls,
@@ -116,11 +118,8 @@ RefinedPose Localizer::Workspace::refined_by_walls(const VerifiedHypothesis& fou
   const auto by_map = [&] {
     // A scan may fit a wrong map exactly: the map knows better how far off it is.
     if (map_sigma_m(found) == found.map_sigma_m) return found.refined;
-    RefinedPose refined = refine_by(nullptr, found);
-    if (!refined.valid) return found.refined;
-    // Whether the map is exact is asked of its own walls.
-    refined.face_residuals = found.refined.face_residuals;
-    return refined;
+    const RefinedPose refined = refine_by(nullptr, found);
+    return refined.valid ? refined : found.refined;
   };
   if (!place->walls) return by_map();
   RefinedPose refined = refine_by(&*place->walls, found);

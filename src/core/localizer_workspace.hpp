@@ -97,7 +97,7 @@ struct Localizer::Workspace {
   BeamLikelihood try_at(const Scan& scan, TimeNs t_ns, const ScanMotion& as_if,
                         const Pose2& T_map_lidar, const SensorBias& bias);
   /// Covariance of a pose of the lidar from the motion that was not deskewed, m^2 and rad^2.
-  Covariance3 deskew_covariance(const Pose2& T_map_lidar);
+  Covariance3 deskew_covariance(const Pose2& T_map_lidar, bool is_first);
   void look_for_the_motion(const Scan& scan, TimeNs t_ns);
   /// Refines the motion with the pose, where residuals are beyond the noise.
   void refine_motion(const Scan& scan, TimeNs t_ns);
@@ -128,11 +128,14 @@ struct Localizer::Workspace {
   bool in_doubt(TimeNs t_ns) const;
   bool may_move(TimeNs t_ns) const;
   std::size_t best_hits() const;
+  /// Walls that are off look like a motion, a little: the one that was found leaves them off, and
+  /// by the last scans' motion each is as straight.
+  bool is_by_offsets(const Scan& scan, TimeNs t_ns);
   /// Half of the rays hit at the likeliest place, and there is one.
   bool is_half_explained() const;
   bool may_be_biased() const;
   bool teaches(const Decision& decision) const;
-  void learn_bias(const Decision& decision);
+  void learn_bias(const Scan& scan, const Decision& decision, TimeNs t_ns);
   void try_bias(const Scan& scan, const Decision& decision, TimeNs t_ns);
   bool is_certain(const RefinedPose& refined) const;
   RefinedPose refine_by(WallOffsetFilter* walls, const VerifiedHypothesis& found);

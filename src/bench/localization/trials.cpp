@@ -175,6 +175,8 @@ std::vector<Trial> default_trials(const Maps& arenas,
   add("30 % of the rays stopped", arena).clutter = 0.3;
   add("a wall displaced by 3 cm", displaced);
   add("a door closed", closed);
+  add("walls off by 1 cm, arena", with_walls_off(arenas.front(), 0.01));
+  add("walls off by 1 cm, flat", with_walls_off(flat, 0.01));
   add("walls off by 3 cm, flat", with_walls_off(flat, 0.03));
   add("walls off by 5 cm, flat", with_walls_off(flat, 0.05));
   add("40 % of the rays stopped, flat", home).clutter = 0.4;

@@ -117,6 +117,13 @@ std::optional<BiasEstimator::Evidence> BiasEstimator::evidence(const WallMap& ma
   return Evidence{of_bias, of_bias * vector_of(estimate_.bias) + reduced_gradient};
 }
 
+SensorBias BiasEstimator::bias_by(const Evidence& of_scan) const {
+  const Vector4 prior = prior_information();
+  const Matrix4 sum = information_ + of_scan.information + Matrix4(prior.asDiagonal());
+  return bias_of(SymmetricSolver<4>(sum).solve(evidence_ + of_scan.weighted_bias +
+                                               prior.cwiseProduct(prior_)));
+}
+
 void BiasEstimator::update(const Evidence& of_scan) {
   information_ = retained_share_ * information_ + kScanShare * of_scan.information;
   evidence_ = retained_share_ * evidence_ + kScanShare * of_scan.weighted_bias;

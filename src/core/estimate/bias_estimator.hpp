@@ -50,6 +50,8 @@ class BiasEstimator {
   std::optional<Evidence> evidence(const WallMap& map, const Pose2& T_map_lidar,
                                    std::span<const PolarPoint> points, double noise_scale);
   void update(const Evidence& of_scan);
+  /// The bias if that scan counted in full.
+  SensorBias bias_by(const Evidence& of_scan) const;
 
  private:
   using Vector4 = Eigen::Vector4d;

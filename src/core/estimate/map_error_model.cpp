@@ -25,29 +25,34 @@ constexpr double kRetained = 0.95;
 
 }  // namespace
 
-FaceResidualStatistics face_residual_statistics(std::span<FaceResidual> residuals,
-                                                const Covariance3& covariance) {
+void merge_by_face(std::vector<FaceResidual>& residuals) {
   std::sort(
       residuals.begin(), residuals.end(),
       [](const FaceResidual& one, const FaceResidual& other) { return one.face < other.face; });
+  std::size_t faces = 0;
+  for (const FaceResidual& residual : residuals) {
+    if (faces > 0 && residuals[faces - 1].face == residual.face) {
+      residuals[faces - 1].add(residual);
+    } else {
+      residuals[faces++] = residual;
+    }
+  }
+  residuals.resize(faces);
+}
+
+FaceResidualStatistics face_residual_statistics(std::span<const FaceResidual> residuals,
+                                                const Covariance3& covariance) {
   FaceResidualStatistics statistics;
   Covariance3 squared_gradients = Covariance3::Zero();
-  for (std::size_t begin = 0, end = 0; begin < residuals.size(); begin = end) {
-    FaceResidual sum = residuals[begin];
-    for (end = begin + 1; end < residuals.size() && residuals[end].face == sum.face; ++end) {
-      sum.weight += residuals[end].weight;
-      sum.lever += residuals[end].lever;
-      sum.distance += residuals[end].distance;
-    }
-    if (!(sum.weight > 0)) continue;
-    const Eigen::Vector3d gradient(sum.weight * sum.normal.x(), sum.weight * sum.normal.y(),
-                                   sum.lever);
+  for (const FaceResidual& face : residuals) {
+    if (!(face.weight > 0)) continue;
+    const Eigen::Vector3d gradient = face.gradient();
     // Leverage of the face: the share of its displacement that the pose absorbs.
-    const double leverage = gradient.dot(covariance * gradient) / sum.weight;
+    const double leverage = gradient.dot(covariance * gradient) / face.weight;
     const double noise = kNoiseShare * (1 - leverage);
-    statistics.excess += squared(sum.distance) / sum.weight - noise;
+    statistics.excess += squared(face.distance) / face.weight - noise;
     statistics.excess_variance += 2 * squared(noise);
-    statistics.excess_per_variance += squared(kShiftShare) * sum.weight * (1 - leverage);
+    statistics.excess_per_variance += squared(kShiftShare) * face.weight * (1 - leverage);
     squared_gradients += gradient * gradient.transpose();
   }
   statistics.covariance_per_variance = covariance * squared_gradients * covariance;
@@ -71,10 +76,8 @@ bool MapErrorModel::is_exact() const {
          excess_ + 2 * std::sqrt(excess_variance_) < squared(kExact_m) * excess_per_variance_;
 }
 
-Covariance3 MapErrorModel::pose_covariance(const FaceResidualStatistics& statistics,
-                                           double known_sigma_m) const {
-  const double unknown_m2 = std::min(variance(), squared(kMostInexact_m)) - squared(known_sigma_m);
-  return std::max(0.0, unknown_m2) * statistics.covariance_per_variance;
+Covariance3 MapErrorModel::pose_covariance(const FaceResidualStatistics& statistics) const {
+  return std::min(variance(), squared(kMostInexact_m)) * statistics.covariance_per_variance;
 }
 
 }  // namespace cornerd::core

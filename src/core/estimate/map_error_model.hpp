@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <span>
+#include <vector>
 
 #include "core/geometry/pose2.hpp"
 
@@ -10,12 +12,23 @@ namespace cornerd::core {
 
 /// The residual of one face: sums over its points.
 struct FaceResidual {
+  void add(const FaceResidual& other) {
+    weight += other.weight;
+    lever += other.lever;
+    distance += other.distance;
+  }
+  /// Of the pose (x, y, theta): the weighted sum of the points' Jacobians.
+  Eigen::Vector3d gradient() const { return {weight * normal.x(), weight * normal.y(), lever}; }
+
   std::uint32_t face = 0;
   Vec2 normal;
   double weight = 0;    ///< 1/m^2, sum of the biweights
   double lever = 0;     ///< weighted sum of d(distance)/d(theta), m
   double distance = 0;  ///< weighted sum of the distances in front of the face, m
 };
+
+/// One residual a face, in the order of their numbers: sums those of one face.
+void merge_by_face(std::vector<FaceResidual>& residuals);
 
 /// What a refined scan shows of faces that are displaced from the map. All points of such a face
 /// are off together, so that no number of points averages the error out. Causes: hand-measured
@@ -26,11 +39,14 @@ struct FaceResidualStatistics {
   double excess_per_variance = 0;  ///< expected excess per m^2 of the faces' variance
   /// Pose covariance (x, y, theta) per m^2 of the faces' variance.
   Covariance3 covariance_per_variance = Covariance3::Zero();
+
+  /// Exact faces would show as much once in 700 scans.
+  bool shows_offsets() const { return excess > 3 * std::sqrt(excess_variance); }
 };
 
-/// `residuals`: at the refined pose; sorted in place. `covariance`: of that pose by the points'
-/// noise alone.
-FaceResidualStatistics face_residual_statistics(std::span<FaceResidual> residuals,
+/// `residuals`: at the refined pose, one a face. `covariance`: of that pose by the points' noise
+/// alone.
+FaceResidualStatistics face_residual_statistics(std::span<const FaceResidual> residuals,
                                                 const Covariance3& covariance);
 
 /// Map error model: the variance of the faces' positions, averaged over the last scans since one
@@ -38,10 +54,9 @@ FaceResidualStatistics face_residual_statistics(std::span<FaceResidual> residual
 class MapErrorModel {
  public:
   void add(const FaceResidualStatistics& statistics);
-  /// To be added to the covariance of a pose with these residuals, which accounts for faces that
-  /// are displaced by `known_sigma_m` already.
-  Covariance3 pose_covariance(const FaceResidualStatistics& statistics,
-                              double known_sigma_m = 0) const;
+  /// To be added to the covariance of a pose with these residuals, in which no offset was
+  /// marginalised.
+  Covariance3 pose_covariance(const FaceResidualStatistics& statistics) const;
   double variance() const;
   /// True where the last scans show that faces are where the map has them, within 5 mm.
   bool is_exact() const;

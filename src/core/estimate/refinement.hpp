@@ -36,6 +36,8 @@ struct RefinedPose {
   static constexpr double kLeastInliers = 6;
   double rmse_m = 0;              ///< of the inliers' distances to their walls
   double reduced_chi_square = 0;  ///< of the inliers; 1 where the model is right
+  double spread = 0;              ///< the same by the sensor's noise, of walls that seem uneven too
+  double map_sigma_m = 0;         ///< of the faces' offsets, by what the scan shows of them
   FaceResidualStatistics face_residuals;
   bool valid = false;  ///< false: the points do not determine the pose
 };
@@ -109,12 +111,21 @@ class Refinement {
   Step step(const WallMap& map, const Pose2& T_map_lidar, double extra_sigma_m, double map_sigma_m,
             WallOffsetFilter* walls);
 
+  /// Standard deviation of the offsets of the last step's faces, where the map states `stated_m`
+  /// and they were marginalised by `sigma_m`: a step of expectation maximisation.
+  double sigma_of_offsets(const WallMap& map, double stated_m, double sigma_m) const;
+
+  /// What the variance of the normal equations' right side has beyond their information where the
+  /// walls of a line are off together.
+  Eigen::Matrix3d variance_of_lines(const WallMap& map, double sigma_m) const;
+
   SensorNoise noise_;
   RayCaster ray_caster_;
   PointLanes lanes_;
   std::span<const PolarPoint> points_;  ///< that `lanes_` and `hits_` are of
   std::span<const PredictedHit> hits_;
-  std::vector<FaceResidual> residuals_;  ///< of the last step
+  std::vector<FaceResidual> residuals_;  ///< of the last step, one a face
+  double uneven_share_ = 1;              ///< of walls, of what they are off
   std::vector<PolarPoint> few_;          ///< of error_per_velocity()
   Pose2 T_map_hits_;                     ///< where `hits_` were cast from
 };

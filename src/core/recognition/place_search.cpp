@@ -44,8 +44,6 @@ constexpr double kMaxSigma_m = 0.1;
 /// a motion.
 constexpr double kMaxRmseSigmas = 1.3;
 constexpr double kMaxRmseSigmasStated = 2;
-/// Walls whose offsets vary by this many standard deviations more than exact ones would are off.
-constexpr double kExcessSigmas = 3;
 
 }  // namespace
 
@@ -184,13 +182,11 @@ void PlaceSearch::add(const Candidate& candidate) {
   } else if (candidate.map_sigma_m > BeamModel::kMapSigmas_m.front()) {
     refine(candidate.map_sigma_m);
   } else {
-    // Where the walls are exact, so is the pose, and what does not fit is a motion.
-    refine(0);
-    const FaceResidualStatistics& faces = place.refined.face_residuals;
-    if (max_map_sigma_m_ > BeamModel::kMapSigmas_m.front() &&
-        faces.excess > kExcessSigmas * std::sqrt(faces.excess_variance)) {
-      refine(stated_m);
-    }
+    // Where the walls are exact, so is the pose, and what does not fit is a motion. With no offsets
+    // walls that are off would be left out, and not seen to be.
+    const bool may_be_off = max_map_sigma_m_ > BeamModel::kMapSigmas_m.front();
+    if (may_be_off) refine(stated_m);
+    if (!may_be_off || !place.refined.face_residuals.shows_offsets()) refine(0);
   }
   const double max_rmse_m =
       std::max(kMaxRmseSigmas * BeamModel::kMapSigmas_m.back(), kMaxRmseSigmasStated * stated_m);
