@@ -39,7 +39,8 @@ core::FloorPlan moved(core::FloorPlan plan, double sigma_m, std::uint64_t seed) 
 TEST(InexactMap, DisplacedWalls_CovarianceIsConsistent) {
   const auto map =
       settings::load_map(std::filesystem::path(CORNERD_SOURCE_DIR) / "config/maps/flat-7.json");
-  constexpr int kBuildings = 5;
+  // Few lines fix a flat's frame: NEES is 1 to 12 from building to building.
+  constexpr int kBuildings = 30;
   for (const double sigma_m : {0.001, 0.003, 0.01}) {
     double nees = 0;
     double error_m = 0;
@@ -48,11 +49,11 @@ TEST(InexactMap, DisplacedWalls_CovarianceIsConsistent) {
           std::make_shared<const core::WallMap>(moved(map->plan(), sigma_m, seed));
       replay::SimulatedRecordingConfig config;
       config.simulator.seed = seed;
-      config.scans = 300;
+      config.scans = 100;
       const auto statistics = localize_random_places(building, map, config, /*scans_each=*/10);
       SCOPED_TRACE(statistics.report());
       EXPECT_EQ(statistics.wrong(), 0U);
-      EXPECT_GE(statistics.count(core::PoseState::kFix), 250U);
+      EXPECT_GE(statistics.count(core::PoseState::kFix), 72U);
       nees += statistics.mean_nees() / kBuildings;
       error_m += statistics.mean_error_m() / kBuildings;
     }

@@ -23,6 +23,15 @@ constexpr double kMostInexact_m = 0.05;
 /// Exponential forgetting with each scan: three seconds.
 constexpr double kRetained = 0.95;
 
+/// A chi-square of so many degrees of freedom, over its mean, that is less once in 20 times (Wilson
+/// and Hilferty 1931).
+double least_share(double freedom) {
+  constexpr double kOnceIn20 = 1.645;
+  const double variance = 2 / (9 * freedom);
+  const double root = 1 - variance - kOnceIn20 * std::sqrt(variance);
+  return freedom > 0 && root > 0 ? root * root * root : 0;
+}
+
 }  // namespace
 
 void merge_by_face(std::vector<FaceResidual>& residuals) {
@@ -53,6 +62,7 @@ FaceResidualStatistics face_residual_statistics(std::span<const FaceResidual> re
     statistics.excess += squared(face.distance) / face.weight - noise;
     statistics.excess_variance += 2 * squared(noise);
     statistics.excess_per_variance += squared(kShiftShare) * face.weight * (1 - leverage);
+    statistics.freedom += 1 - leverage;
     squared_gradients += gradient * gradient.transpose();
   }
   statistics.covariance_per_variance = covariance * squared_gradients * covariance;
@@ -63,6 +73,7 @@ void MapErrorModel::add(const FaceResidualStatistics& statistics) {
   excess_ = kRetained * excess_ + statistics.excess;
   excess_variance_ = squared(kRetained) * excess_variance_ + statistics.excess_variance;
   excess_per_variance_ = kRetained * excess_per_variance_ + statistics.excess_per_variance;
+  freedom_ = std::max(kRetained * freedom_, statistics.freedom);
 }
 
 double MapErrorModel::variance() const {
@@ -73,7 +84,8 @@ double MapErrorModel::variance() const {
 
 bool MapErrorModel::is_exact() const {
   return excess_per_variance_ > 0 &&
-         excess_ + 2 * std::sqrt(excess_variance_) < squared(kExact_m) * excess_per_variance_;
+         excess_ + 2 * std::sqrt(excess_variance_) <
+             least_share(freedom_) * squared(kExact_m) * excess_per_variance_;
 }
 
 Covariance3 MapErrorModel::pose_covariance(const FaceResidualStatistics& statistics) const {

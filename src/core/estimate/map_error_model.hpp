@@ -37,6 +37,7 @@ struct FaceResidualStatistics {
   double excess = 0;               ///< of the faces' mean squared distances over the points' noise
   double excess_variance = 0;      ///< variance of `excess` where no face is displaced
   double excess_per_variance = 0;  ///< expected excess per m^2 of the faces' variance
+  double freedom = 0;              ///< number of faces less what the pose takes of them
   /// Pose covariance (x, y, theta) per m^2 of the faces' variance.
   Covariance3 covariance_per_variance = Covariance3::Zero();
 
@@ -58,7 +59,8 @@ class MapErrorModel {
   /// marginalised.
   Covariance3 pose_covariance(const FaceResidualStatistics& statistics) const;
   double variance() const;
-  /// True where the last scans show that faces are where the map has them, within 5 mm.
+  /// True where the last scans show that faces are where the map has them: a standard deviation of
+  /// 5 mm or more would show as little once in 20 times.
   bool is_exact() const;
   void forget() { *this = {}; }
 
@@ -66,6 +68,7 @@ class MapErrorModel {
   double excess_ = 0;  ///< sums over the scans, with exponential forgetting
   double excess_variance_ = 0;
   double excess_per_variance_ = 0;
+  double freedom_ = 0;  ///< of the scan with most; those of one place see the same faces
 };
 
 }  // namespace cornerd::core

@@ -26,7 +26,7 @@ constexpr double kMinPivot = 1e-7;
 /// all of it where the map states that sigma, as one does that a robot made in cells (of 357 scans
 /// of recordings/olin 0.5 names 327, 1 339, 1.5 335); else what the scan shows, down to this.
 constexpr double kEvenShare = 0.1;
-/// A scan sees few walls: what the map says of their offsets counts as much as so many of them.
+/// A scan sees few walls: what the map says of their offsets counts as much as two of them.
 constexpr double kPriorFaces = 2;
 /// Faces that are farther off are other things than the map's.
 constexpr double kMostOff_m = 0.05;

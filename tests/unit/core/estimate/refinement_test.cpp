@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <random>
+
 #include <Eigen/LU>
 
 #include "../fixtures.hpp"
@@ -55,6 +58,68 @@ TEST_F(RefinementTest, DisplacedWalls_OffsetsAreMarginalised) {
   };
   EXPECT_LT(error_of(kOff_m), 7.8);  // 95 % of a chi-square of three
   EXPECT_GT(error_of(0), error_of(kOff_m));
+}
+
+/// Walls that are each off along their normal.
+FloorPlan with_walls_off(FloorPlan plan, double sigma_m, std::uint64_t seed) {
+  std::mt19937_64 random(seed);
+  std::normal_distribution<double> off_m(0, sigma_m);
+  for (Wall& wall : plan.walls) {
+    const Vec2 across = off_m(random) * rotate_left((wall.to - wall.from).normalized());
+    wall.from += across;
+    wall.to += across;
+  }
+  return plan;
+}
+
+TEST_F(RefinementTest, WallsOff_HowFarIsEstimated_AndTheHeadingIsOfTheirDirections) {
+  constexpr int kBuildings = 40;
+  for (const double sigma_m : {0.005, 0.03}) {
+    double square_m2 = 0;
+    double error_rad = 0;
+    double nees = 0;
+    for (std::uint64_t seed = 1; seed <= kBuildings; ++seed) {
+      const auto building =
+          testing::make_map(with_walls_off(testing::l_shaped_room(), sigma_m, seed));
+      const Pose2 truth = source_.place_in(0.5, 2.2, 0.4, 1.5);
+      const PolarScan points = testing::polar(source_.take(*building, truth));
+      const RefinedPose refined =
+          refinement_.refine(*map_, truth, 0.02, points.points(), points.points(), 1, 0.01);
+      ASSERT_TRUE(refined.valid);
+      square_m2 += refined.map_sigma_m * refined.map_sigma_m / kBuildings;
+      const Eigen::Vector3d error(refined.T_map_lidar.x_m - truth.x_m,
+                                  refined.T_map_lidar.y_m - truth.y_m,
+                                  angle_between(truth.theta_rad, refined.T_map_lidar.theta_rad));
+      error_rad += std::abs(error.z()) / kBuildings;
+      nees += error.dot(refined.covariance.inverse() * error) / kBuildings;
+    }
+    // The prior of 1 cm counts as much as two of six walls, of which the pose takes three.
+    EXPECT_GT(std::sqrt(square_m2), sigma_m / 2);
+    EXPECT_LT(std::sqrt(square_m2), sigma_m < 0.01 ? 0.01 : sigma_m * 1.3);
+    EXPECT_LT(error_rad, radians(0.06));  // half a degree where walls are taken for exact
+    EXPECT_LT(nees, 9);                   // one scan of a prior that is three times too sure
+    EXPECT_GT(nees, 0.5);
+  }
+}
+
+TEST_F(RefinementTest, OneLineInTwoWalls_CovarianceIsOfOneOffset) {
+  // The same two planes, as one wall and in two pieces beside a gap: offsets of a line are common.
+  FloorPlan plan = testing::l_shaped_room();
+  const Wall first = plan.walls.front();
+  const Vec2 middle = (first.from + first.to) / 2;
+  const Vec2 gap = 0.02 * (first.to - first.from).normalized();
+  plan.walls.front().to = middle - gap;
+  plan.walls.push_back({middle + gap, first.to, first.thickness_m});
+  const auto in_two = testing::make_map(plan);
+  const Pose2 truth{1.2, 0.9, 0.7};
+  const PolarScan points = testing::polar(source_.take(*map_, truth));
+  const auto variance_of = [&](const WallMap& map) {
+    const RefinedPose refined =
+        refinement_.refine(map, truth, 0.02, points.points(), points.points(), 1, 0.01);
+    EXPECT_TRUE(refined.valid);
+    return refined.covariance.topLeftCorner<2, 2>().trace() / std::pow(refined.map_sigma_m, 2);
+  };
+  EXPECT_NEAR(variance_of(*in_two) / variance_of(*map_), 1, 0.25);
 }
 
 TEST_F(RefinementTest, AcceleratedRotation_IsFound) {
