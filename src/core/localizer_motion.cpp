@@ -30,9 +30,10 @@ constexpr std::array kTriedRates_rad_s = {1.0, -1.0, 2.0, -2.0, 3.0, -3.0};
 /// A scan in a slower rotation is not smeared beyond what refinement corrects.
 constexpr double kTurning_rad_s = 0.3;
 
-/// Standard deviation of the velocity of small robots, of which nothing is known.
-constexpr double kDrives_m_s = 0.2;
-constexpr double kDrives_rad_s = 0.6;
+/// Standard deviation of the velocity of a robot of which nothing is known: most stand when they
+/// are asked for the first time.
+constexpr double kDrives_m_s = 0.1;
+constexpr double kDrives_rad_s = 0.3;
 
 /// A motion is accepted, and rays are compared one by one, where as many hit as they do in an exact
 /// map but for some furniture.
