@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/estimate/face_offsets.hpp"
 #include "core/geometry/linear_solve.hpp"
 #include "core/geometry/squared.hpp"
 
@@ -26,10 +27,6 @@ constexpr double kMinPivot = 1e-7;
 /// all of it where the map states that sigma, as one does that a robot made in cells (of 357 scans
 /// of recordings/olin 0.5 names 327, 1 339, 1.5 335); else what the scan shows, down to this.
 constexpr double kEvenShare = 0.1;
-/// A scan sees few walls: what the map says of their offsets counts as much as two of them.
-constexpr double kPriorFaces = 2;
-/// Faces that are farther off are other things than the map's.
-constexpr double kMostOff_m = 0.05;
 /// Runs of neighbouring rays on one face in a scan; more faces are left out.
 constexpr std::size_t kMaxResiduals = 1024;
 /// Standard deviation of an offset that tells nothing of the pose.
@@ -37,16 +34,6 @@ constexpr double kUnknown_m = 1e3;
 /// Standard deviations of PosePrior::near_to().
 constexpr double kOpen_m = 0.2;
 constexpr double kOpen_rad = 0.2;
-
-/// Walls in a line are measured, or drawn, together or each by itself: poses are as uncertain as if
-/// together. The sides of a wall are apart by its thickness.
-bool are_in_line(const Face& one, const Face& other) {
-  constexpr double kApart_m = 0.15;
-  constexpr double kCosine = 0.999;
-  const double cosine = one.normal.dot(other.normal);
-  return std::abs(cosine) > kCosine &&
-         std::abs(one.offset_m - (cosine > 0 ? 1 : -1) * other.offset_m) < kApart_m;
-}
 
 bool is_uneven(const WallMap& map) { return map.plan().sigma_m > FloorPlan{}.sigma_m; }
 
@@ -182,41 +169,6 @@ Refinement::Step Refinement::step(const WallMap& map, const Pose2& T_map_lidar,
   return sums;
 }
 
-double Refinement::sigma_of_offsets(const WallMap& map, double stated_m, double sigma_m) const {
-  double variance = kPriorFaces * squared(stated_m);
-  std::size_t lines = 0;
-  for (std::size_t i = 0; i < residuals_.size(); ++i) {
-    const FaceResidual& face = residuals_[i];
-    // Mean and variance of its offset, given its points.
-    const double share = 1 / (face.weight + 1 / squared(sigma_m));
-    variance += squared(share * face.distance) + share;
-    lines += std::none_of(residuals_.begin(), residuals_.begin() + static_cast<std::ptrdiff_t>(i),
-                          [&](const FaceResidual& other) {
-                            return are_in_line(map.faces()[other.face], map.faces()[face.face]);
-                          });
-  }
-  // The pose takes three lines.
-  const double free_share = lines > 3 ? 1 - 3.0 / static_cast<double>(lines) : 0;
-  const double faces = kPriorFaces + free_share * static_cast<double>(residuals_.size());
-  return std::min(std::sqrt(variance / faces), std::max(kMostOff_m, stated_m));
-}
-
-Eigen::Matrix3d Refinement::variance_of_lines(const WallMap& map, double sigma_m) const {
-  Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
-  const auto by_offset = [&](const FaceResidual& face) -> Eigen::Vector3d {
-    return face.gradient() / (1 + squared(sigma_m) * face.weight);
-  };
-  for (auto one = residuals_.begin(); one != residuals_.end(); ++one) {
-    for (auto other = residuals_.begin(); other != one; ++other) {
-      if (!are_in_line(map.faces()[one->face], map.faces()[other->face])) continue;
-      const double variance = std::copysign(squared(sigma_m), one->normal.dot(other->normal));
-      const Eigen::Matrix3d product = variance * by_offset(*one) * by_offset(*other).transpose();
-      sum += product + product.transpose();
-    }
-  }
-  return sum;
-}
-
 RefinedPose Refinement::refine(const WallMap& map, const Pose2& start, double search_radius_m,
                                std::span<const PolarPoint> subset,
                                std::span<const PolarPoint> points, double noise_scale,
@@ -279,7 +231,7 @@ RefinedPose Refinement::gauss_newton(const WallMap& map, const Pose2& start, dou
     if (!rough && (converged || --max_final_steps == 0)) break;
     extra_sigma_m *= 0.4;
     if (rough || !shows_sigma || !(sums.uneven_weight > 0)) continue;
-    map_sigma_m = sigma_of_offsets(map, stated_m, map_sigma_m);
+    map_sigma_m = sigma_of_offsets(residuals_, map, stated_m, map_sigma_m);
     uneven_share_ = std::clamp(sums.shown_share(), kEvenShare, 1.0);
   }
   refined.map_sigma_m = map_sigma_m;
@@ -295,7 +247,7 @@ RefinedPose Refinement::gauss_newton(const WallMap& map, const Pose2& start, dou
   }
   if (walls == nullptr && map_sigma_m > 0) {
     const Covariance3 noise = refined.covariance;
-    refined.covariance += noise * variance_of_lines(map, map_sigma_m) * noise;
+    refined.covariance += noise * variance_of_lines(residuals_, map, map_sigma_m) * noise;
   }
   refined.covariance += refined.excess_covariance();
   refined.inliers = sums.inliers;

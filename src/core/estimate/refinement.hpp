@@ -111,14 +111,6 @@ class Refinement {
   Step step(const WallMap& map, const Pose2& T_map_lidar, double extra_sigma_m, double map_sigma_m,
             WallOffsetFilter* walls);
 
-  /// Standard deviation of the offsets of the last step's faces, where the map states `stated_m`
-  /// and they were marginalised by `sigma_m`: a step of expectation maximisation.
-  double sigma_of_offsets(const WallMap& map, double stated_m, double sigma_m) const;
-
-  /// What the variance of the normal equations' right side has beyond their information where the
-  /// walls of a line are off together.
-  Eigen::Matrix3d variance_of_lines(const WallMap& map, double sigma_m) const;
-
   SensorNoise noise_;
   RayCaster ray_caster_;
   PointLanes lanes_;

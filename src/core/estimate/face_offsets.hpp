@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <span>
+
+#include "core/estimate/map_error_model.hpp"
+#include "core/map/wall_map.hpp"
+
+namespace cornerd::core {
+
+/// Standard deviation of faces' offsets across themselves, m, by their residuals where it was
+/// `sigma_m` so far and the map states `stated_m`: a step of the EM algorithm (Dempster, Laird and
+/// Rubin 1977) with a prior. At most 5 cm, or `stated_m`.
+double sigma_of_offsets(std::span<const FaceResidual> residuals, const WallMap& map,
+                        double stated_m, double sigma_m);
+
+/// Normal equations whose faces' offsets of `sigma_m` are marginalised, each by itself: what the
+/// variance of their right side (x, y, theta) has beyond their information where the faces of a
+/// line are off together.
+Covariance3 variance_of_lines(std::span<const FaceResidual> residuals, const WallMap& map,
+                              double sigma_m);
+
+}  // namespace cornerd::core
