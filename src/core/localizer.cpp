@@ -84,10 +84,14 @@ Decision Localizer::Workspace::find(const Scan& scan, TimeNs t_ns) {
   //    against every ray.
   look(scan, t_ns, memory.motion());
 
-  // 2. Where none is convincing, the robot may have changed its speed since the last turns.
+  // 2. Where none is convincing, the robot may have changed its speed since the last turns, or
+  // walls
+  //    are off.
   if (may_move(t_ns) && !may_be_biased()) {
     look_for_the_motion(scan, t_ns);
-    if (motion != memory.motion() && is_by_offsets(scan, t_ns)) look(scan, t_ns, memory.motion());
+    if (motion != memory.motion() && is_explained_by_offsets(scan, t_ns)) {
+      look(scan, t_ns, memory.motion());
+    }
   }
 
   const Decision decision = compare_places(scan, t_ns, /*may_rest=*/true);

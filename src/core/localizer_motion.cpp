@@ -58,7 +58,7 @@ std::size_t Localizer::Workspace::best_hits() const {
   return places.empty() ? 0 : places.front().likelihood.hits;
 }
 
-bool Localizer::Workspace::is_by_offsets(const Scan& scan, TimeNs t_ns) {
+bool Localizer::Workspace::is_explained_by_offsets(const Scan& scan, TimeNs t_ns) {
   const auto places = place->verification.hypotheses();
   if (places.empty() || place->map_error.is_exact() ||
       !places.front().refined.face_residuals.shows_offsets()) {

@@ -51,11 +51,7 @@ bool Localizer::resume(const LearnedWalls& learned, std::span<const MapChange> c
   return true;
 }
 
-bool Localizer::Workspace::Place::is_inexact(const FloorPlan& plan) {
-  return plan.sigma_m > FloorPlan{}.sigma_m;
-}
-
-bool Localizer::Workspace::is_map_inexact() const { return map && Place::is_inexact(map->plan()); }
+bool Localizer::Workspace::is_map_inexact() const { return map && map->plan().is_inexact(); }
 
 /// Walls that are off by centimetres look like a motion of centimetres a scan.
 bool Localizer::Workspace::trusts_odometry() const {
@@ -63,8 +59,9 @@ bool Localizer::Workspace::trusts_odometry() const {
 }
 
 bool Localizer::Workspace::Place::learns_walls(const FloorPlan& plan) {
-  return is_inexact(plan) || std::any_of(plan.walls.begin(), plan.walls.end(),
-                                         [](const Wall& wall) { return wall.sigma_m.has_value(); });
+  return plan.is_inexact() ||
+         std::any_of(plan.walls.begin(), plan.walls.end(),
+                     [](const Wall& wall) { return wall.sigma_m.has_value(); });
 }
 
 bool Localizer::Workspace::is_certain(const RefinedPose& refined) const {

@@ -56,8 +56,6 @@ struct Localizer::Workspace {
       }
       if (config.updates_per_scan > 1) parts.emplace(map, config);
     }
-    /// The map says that its walls are off by more than those of most maps.
-    static bool is_inexact(const FloorPlan& plan);
     /// Where the map states how far off its walls may be.
     static bool learns_walls(const FloorPlan& plan);
     Catalog catalog;
@@ -97,6 +95,7 @@ struct Localizer::Workspace {
   BeamLikelihood try_at(const Scan& scan, TimeNs t_ns, const ScanMotion& as_if,
                         const Pose2& T_map_lidar, const SensorBias& bias);
   /// Covariance of a pose of the lidar from the motion that was not deskewed, m^2 and rad^2.
+  /// `is_first`: no scan before tells of a motion.
   Covariance3 deskew_covariance(const Pose2& T_map_lidar, bool is_first);
   void look_for_the_motion(const Scan& scan, TimeNs t_ns);
   /// Refines the motion with the pose, where residuals are beyond the noise.
@@ -130,7 +129,7 @@ struct Localizer::Workspace {
   std::size_t best_hits() const;
   /// Walls that are off look like a motion, a little: the one that was found leaves them off, and
   /// by the last scans' motion each is as straight.
-  bool is_by_offsets(const Scan& scan, TimeNs t_ns);
+  bool is_explained_by_offsets(const Scan& scan, TimeNs t_ns);
   /// Half of the rays hit at the likeliest place, and there is one.
   bool is_half_explained() const;
   bool may_be_biased() const;

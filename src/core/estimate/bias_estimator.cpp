@@ -117,20 +117,23 @@ std::optional<BiasEstimator::Evidence> BiasEstimator::evidence(const WallMap& ma
   return Evidence{of_bias, of_bias * vector_of(estimate_.bias) + reduced_gradient};
 }
 
-SensorBias BiasEstimator::bias_by(const Evidence& of_scan) const {
+BiasEstimator::Posterior BiasEstimator::posterior(const Matrix4& information,
+                                                  const Vector4& weighted_bias) const {
   const Vector4 prior = prior_information();
-  const Matrix4 sum = information_ + of_scan.information + Matrix4(prior.asDiagonal());
-  return bias_of(SymmetricSolver<4>(sum).solve(evidence_ + of_scan.weighted_bias +
-                                               prior.cwiseProduct(prior_)));
+  const Matrix4 sum = information + Matrix4(prior.asDiagonal());
+  const Matrix4 covariance = SymmetricSolver<4>(sum).inverse();
+  return {covariance * (weighted_bias + prior.cwiseProduct(prior_)), covariance};
+}
+
+SensorBias BiasEstimator::bias_by(const Evidence& of_scan) const {
+  return bias_of(
+      posterior(information_ + of_scan.information, evidence_ + of_scan.weighted_bias).bias);
 }
 
 void BiasEstimator::update(const Evidence& of_scan) {
   information_ = retained_share_ * information_ + kScanShare * of_scan.information;
   evidence_ = retained_share_ * evidence_ + kScanShare * of_scan.weighted_bias;
-  const Vector4 prior = prior_information();
-  const Matrix4 sum = information_ + Matrix4(prior.asDiagonal());
-  const Matrix4 covariance = SymmetricSolver<4>(sum).inverse();
-  const Vector4 best = covariance * (evidence_ + prior.cwiseProduct(prior_));
+  const auto [best, covariance] = posterior(information_, evidence_);
   if (!best.allFinite() || !(covariance.diagonal().minCoeff() > 0)) return;
   set_estimate(best, covariance);
   ++estimate_.scans;

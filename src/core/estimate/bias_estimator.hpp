@@ -57,6 +57,12 @@ class BiasEstimator {
   using Vector4 = Eigen::Vector4d;
   using Matrix4 = Eigen::Matrix4d;
 
+  struct Posterior {
+    Vector4 bias;
+    Matrix4 covariance;
+  };
+  /// By scans of so much information, and the prior.
+  Posterior posterior(const Matrix4& information, const Vector4& weighted_bias) const;
   void set_estimate(const Vector4& bias, const Matrix4& covariance);
 
   SensorNoise noise_;

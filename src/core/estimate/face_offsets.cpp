@@ -11,8 +11,6 @@ namespace {
 
 /// A scan sees few walls: what the map says of their offsets counts as much as two of them.
 constexpr double kPriorFaces = 2;
-/// Faces that are farther off are other things than the map's.
-constexpr double kMostOff_m = 0.05;
 
 /// Walls in a line are measured, or drawn, together or each by itself: poses are as uncertain as if
 /// together. The sides of a wall are apart by its thickness.

@@ -17,8 +17,6 @@ constexpr double kNoiseShare = 0.579;
 constexpr double kShiftShare = 0.771;
 
 constexpr double kExact_m = 0.005;
-/// Faces that are farther off are other things than the map's.
-constexpr double kMostInexact_m = 0.05;
 
 /// Exponential forgetting with each scan: three seconds.
 constexpr double kRetained = 0.95;
@@ -89,7 +87,7 @@ bool MapErrorModel::is_exact() const {
 }
 
 Covariance3 MapErrorModel::pose_covariance(const FaceResidualStatistics& statistics) const {
-  return std::min(variance(), squared(kMostInexact_m)) * statistics.covariance_per_variance;
+  return std::min(variance(), squared(kMostOff_m)) * statistics.covariance_per_variance;
 }
 
 }  // namespace cornerd::core

@@ -27,6 +27,9 @@ struct FaceResidual {
   double distance = 0;  ///< weighted sum of the distances in front of the face, m
 };
 
+/// Faces that are farther off, by this standard deviation, are other things than the map's.
+inline constexpr double kMostOff_m = 0.05;
+
 /// One residual a face, in the order of their numbers: sums those of one face.
 void merge_by_face(std::vector<FaceResidual>& residuals);
 

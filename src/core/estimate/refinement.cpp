@@ -35,8 +35,6 @@ constexpr double kUnknown_m = 1e3;
 constexpr double kOpen_m = 0.2;
 constexpr double kOpen_rad = 0.2;
 
-bool is_uneven(const WallMap& map) { return map.plan().sigma_m > FloorPlan{}.sigma_m; }
-
 }  // namespace
 
 PosePrior PosePrior::near_to(const Pose2& T_map_lidar) {
@@ -152,7 +150,7 @@ Refinement::Step Refinement::step(const WallMap& map, const Pose2& T_map_lidar,
     sums.normals += sum.points * face.normal * face.normal.transpose();
   }
   // Stretches of uneven walls are off, each by itself.
-  if (!is_uneven(map)) merge_by_face(residuals_);
+  if (!map.plan().is_inexact()) merge_by_face(residuals_);
   if (walls == nullptr) {
     for (const FaceResidual& face : residuals_) {
       const double face_sigma_m = std::max(map_sigma_m, map.faces()[face.face].sigma_m);
@@ -200,7 +198,7 @@ RefinedPose Refinement::gauss_newton(const WallMap& map, const Pose2& start, dou
   double extra_sigma_m = search_radius_m;
   SymmetricSolver<3> solver;
   Step sums;
-  const bool shows_sigma = map_sigma_m > 0 && walls == nullptr && !is_uneven(map);
+  const bool shows_sigma = map_sigma_m > 0 && walls == nullptr && !map.plan().is_inexact();
   const double stated_m = map_sigma_m;
   uneven_share_ = 1;
   points_ = {};

@@ -33,13 +33,17 @@ struct Room {
 
 /// Contents of a map file.
 struct FloorPlan {
+  static constexpr double kMeasuredSigma_m = 0.01;
+  /// The map says that its walls are off by more than those of most maps.
+  bool is_inexact() const { return sigma_m > kMeasuredSigma_m; }
+
   std::string name;
   double thickness_m = 0;  ///< of the walls without one of their own
   std::vector<Wall> walls;
   std::vector<Room> rooms;
   /// How far off a wall may be across itself (a standard deviation); the more, the likelier too
   /// that one is missing or was never there. Default: measured with a tape.
-  double sigma_m = 0.01;
+  double sigma_m = kMeasuredSigma_m;
   std::string hash{};  ///< SHA-256 of the file in hexadecimal; empty if the plan is from none
 };
 

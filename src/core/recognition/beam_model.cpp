@@ -37,9 +37,6 @@ constexpr double kWall_m = 0.3;
 constexpr double kEdgeRay = 1;
 /// A face that fits worse than this has something before it.
 constexpr double kWorstFace = -3;
-/// Of a map measured with a tape. One that is less exact is also wrong more often about what there
-/// is: its missing walls and unmapped objects cost as much less.
-constexpr double kMeasuredSigma_m = 0.01;
 /// A map is the less likely the less exact it is.
 constexpr double kPerMapSigma = 1;
 
@@ -48,7 +45,7 @@ constexpr double kPerMapSigma = 1;
 BeamModel::BeamModel(const WallMap& map, const SensorNoise& noise)
     : map_(map),
       noise_(noise),
-      trust_(std::min(1.0, kMeasuredSigma_m / map.plan().sigma_m)),
+      trust_(std::min(1.0, FloorPlan::kMeasuredSigma_m / map.plan().sigma_m)),
       faces_(map.faces().size()) {
   rays_.reserve(kMaxSamplesPerScan);
   met_.reserve(faces_.size());

@@ -83,7 +83,10 @@ class BeamModel {
 
   const WallMap& map_;
   SensorNoise noise_;
-  double trust_;  ///< in what the map has and has not, 0 to 1
+  /// In what the map has and has not, 0 to 1. A map that is less exact than one measured with a tape
+  /// is also wrong more often about what there is: missing walls and unmapped objects cost as much
+  /// less.
+  double trust_;
   std::vector<Ray> rays_;
   std::vector<FaceSums> faces_;     ///< by index into map.faces()
   std::vector<std::uint32_t> met_;  ///< faces with sums

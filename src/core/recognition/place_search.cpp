@@ -177,7 +177,7 @@ void PlaceSearch::add(const Candidate& candidate) {
                                        points_, noise_scale_, map_sigma_m, &prior);
   };
   const double stated_m = map_.plan().sigma_m;
-  if (stated_m > FloorPlan{}.sigma_m) {
+  if (map_.plan().is_inexact()) {
     refine(stated_m);
   } else if (candidate.map_sigma_m > BeamModel::kMapSigmas_m.front()) {
     refine(candidate.map_sigma_m);

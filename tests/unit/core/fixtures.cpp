@@ -2,6 +2,7 @@
 #include "fixtures.hpp"
 
 #include <cmath>
+#include <random>
 #include <utility>
 
 namespace cornerd::core::testing {
@@ -47,6 +48,17 @@ FloorPlan two_equal_rooms() {
   for (const double x : {0.0, 5.0}) {
     add_box(plan, x, 0, x + 3, 2);
     plan.walls.push_back({{x + 1, 0}, {x + 1, 0.7}, kThickness_m});  // breaks the room's symmetry
+  }
+  return plan;
+}
+
+FloorPlan with_walls_off(FloorPlan plan, double sigma_m, std::uint64_t seed) {
+  std::mt19937_64 random(seed);
+  std::normal_distribution<double> off_m(0, sigma_m);
+  for (Wall& wall : plan.walls) {
+    const Vec2 across = off_m(random) * rotate_left((wall.to - wall.from).normalized());
+    wall.from += across;
+    wall.to += across;
   }
   return plan;
 }

@@ -22,6 +22,9 @@ FloorPlan l_shaped_room();
 /// Two equal rectangular rooms side by side, not visible from each other.
 FloorPlan two_equal_rooms();
 
+/// The walls each displaced across themselves by N(0, sigma_m).
+FloorPlan with_walls_off(FloorPlan plan, double sigma_m, std::uint64_t seed);
+
 std::shared_ptr<const WallMap> make_map(FloorPlan plan);
 
 struct ScanOptions {

@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <random>
 
 #include <Eigen/LU>
 
@@ -19,15 +18,8 @@ class MapErrorModelTest : public ::testing::Test {
   /// Scans in a room whose walls are displaced from the map by this standard deviation, across
   /// themselves.
   void take_turns(double sigma_m, std::uint64_t seed) {
-    FloorPlan plan = testing::l_shaped_room();
-    std::mt19937_64 random(seed);
-    std::normal_distribution<double> off_m(0, sigma_m);
-    for (Wall& wall : plan.walls) {
-      const Vec2 across = off_m(random) * rotate_left((wall.to - wall.from).normalized());
-      wall.from += across;
-      wall.to += across;
-    }
-    const auto building = testing::make_map(plan);
+    const auto building =
+        testing::make_map(testing::with_walls_off(testing::l_shaped_room(), sigma_m, seed));
     for (int scan = 0; scan < kScans; ++scan) {
       const Pose2 T_map_lidar = source_.place_in(0.5, 2.2, 0.4, 1.5);
       const PolarScan points = testing::polar(source_.take(*building, T_map_lidar));

@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <random>
 
 #include <Eigen/LU>
 
@@ -60,18 +59,6 @@ TEST_F(RefinementTest, DisplacedWalls_OffsetsAreMarginalised) {
   EXPECT_GT(error_of(0), error_of(kOff_m));
 }
 
-/// Walls that are each off along their normal.
-FloorPlan with_walls_off(FloorPlan plan, double sigma_m, std::uint64_t seed) {
-  std::mt19937_64 random(seed);
-  std::normal_distribution<double> off_m(0, sigma_m);
-  for (Wall& wall : plan.walls) {
-    const Vec2 across = off_m(random) * rotate_left((wall.to - wall.from).normalized());
-    wall.from += across;
-    wall.to += across;
-  }
-  return plan;
-}
-
 TEST_F(RefinementTest, WallsOff_HowFarIsEstimated_AndTheHeadingIsOfTheirDirections) {
   constexpr int kBuildings = 40;
   for (const double sigma_m : {0.005, 0.03}) {
@@ -80,7 +67,7 @@ TEST_F(RefinementTest, WallsOff_HowFarIsEstimated_AndTheHeadingIsOfTheirDirectio
     double nees = 0;
     for (std::uint64_t seed = 1; seed <= kBuildings; ++seed) {
       const auto building =
-          testing::make_map(with_walls_off(testing::l_shaped_room(), sigma_m, seed));
+          testing::make_map(testing::with_walls_off(testing::l_shaped_room(), sigma_m, seed));
       const Pose2 truth = source_.place_in(0.5, 2.2, 0.4, 1.5);
       const PolarScan points = testing::polar(source_.take(*building, truth));
       const RefinedPose refined =
