@@ -83,9 +83,9 @@ class BeamModel {
 
   const WallMap& map_;
   SensorNoise noise_;
-  /// In what the map has and has not, 0 to 1. A map that is less exact than one measured with a tape
-  /// is also wrong more often about what there is: missing walls and unmapped objects cost as much
-  /// less.
+  /// In what the map has and has not, 0 to 1. A map that is less exact than one measured with a
+  /// tape is also wrong more often about what there is: missing walls and unmapped objects cost as
+  /// much less.
   double trust_;
   std::vector<Ray> rays_;
   std::vector<FaceSums> faces_;     ///< by index into map.faces()
