@@ -32,22 +32,22 @@ const ScanResult& Localizer::step(const Scan& received) {
   ++w.result.pose.seq;
   w.rotation.add(turn);
 
-  // 0. Odometry, where there is any, says how the robot moved during the turn and where it should
+  // 0. Odometry, where there is any, says how the robot moved during the scan and where it should
   //    be.
   const Scan& scan = w.deskewed(turn, t_ns);
 
-  // 1. to 4. The place where that turn was taken. One that fits nowhere may have been deskewed by
-  //    wheels that lie: once more, as it came. One that fits exactly only as it came was.
+  // 1. to 4. The place where that scan was taken. One that fits nowhere may have been deskewed by
+  //    wrong odometry: once more, as it came. One that fits exactly only as it came was.
   Decision decision = w.find(scan, t_ns);
-  const bool wheels_may_lie = &scan != &turn && !(w.trusts_odometry() && w.memory.prior(t_ns));
-  if (decision.state == PoseState::kLost && wheels_may_lie) {
-    // Rays may name any place; evidence alone only the one that odometry leads to, for it fits
-    // rooms that look alike.
+  const bool may_be_wrong = &scan != &turn && !(w.trusts_odometry() && w.memory.prior(t_ns));
+  if (decision.state == PoseState::kLost && may_be_wrong) {
+    // Where nearly every ray hits, that may be anywhere; else only where odometry leads to, for
+    // rooms that look alike fit.
     const PlaceFilter lost = w.filtered;
     const std::optional<Prior> prior = w.memory.prior(t_ns);
     w.reject_motion(prior);
     const Decision undeskewed = w.find(turn, t_ns);
-    if (w.decided_exactly || !prior ||
+    if (w.is_conclusive(t_ns) || !prior ||
         (has_pose(undeskewed.state) &&
          w.is_expected(w.chosen(undeskewed).refined.T_map_lidar, t_ns))) {
       w.reject_motion(std::nullopt);
@@ -55,13 +55,15 @@ const ScanResult& Localizer::step(const Scan& received) {
     } else {
       w.filtered = lost;
     }
-  } else if (wheels_may_lie && !w.decided_exactly && w.fits_as_it_came(turn, t_ns)) {
+  } else if (may_be_wrong && !w.is_conclusive(t_ns) && w.fits_as_it_came(turn, t_ns)) {
     const Decision undeskewed = w.find(turn, t_ns);
-    if (w.decided_exactly) w.reject_motion(std::nullopt);
-    decision = w.decided_exactly ? undeskewed : w.find(scan, t_ns);
+    const bool is_exact = w.is_conclusive(t_ns);
+    if (is_exact) w.reject_motion(std::nullopt);
+    decision = is_exact ? undeskewed : w.find(scan, t_ns);
   }
 
-  // 5. What is less than evident, or far from where the robot just was, is not believed at once.
+  // 5. A place that is less than certain, or far from where the robot just was, waits for the next
+  //    scan.
   const std::size_t corners = w.corners_of(decision);
   if (has_pose(decision.state)) {
     decision.state = w.believe(decision, corners, t_ns);
@@ -70,7 +72,7 @@ const ScanResult& Localizer::step(const Scan& received) {
   }
   w.report(decision, corners, t_ns);
 
-  // 6. A turn whose place is known tells how the lidar errs always, if the robot stood.
+  // 6. A scan whose place is known tells how the lidar errs always, if the robot stood.
   const Scan& seen = w.odometer.has_motion() ? scan : turn;
   w.learn_bias(seen, decision, t_ns);
   w.try_bias(seen, decision, t_ns);
@@ -80,56 +82,40 @@ const ScanResult& Localizer::step(const Scan& received) {
 }
 
 Decision Localizer::Workspace::find(const Scan& scan, TimeNs t_ns) {
-  // 1. The turn's walls and corners, and the places whose corners form the same pattern, tested
-  //    against every ray.
+  // 1. The scan's walls and corners, and the places whose corners form the same pattern, compared
+  //    by every ray.
   look(scan, t_ns, memory.motion());
 
-  // 2. Where none is convincing, the robot may have changed its speed since the last turns, or
+  // 2. Where none is convincing, the robot may have changed its speed since the last scans, or
   // walls
   //    are off.
-  if (may_move(t_ns) && !may_be_biased()) {
+  if (may_move(t_ns)) {
     look_for_the_motion(scan, t_ns);
     if (motion != memory.motion() && is_explained_by_offsets(scan, t_ns)) {
       look(scan, t_ns, memory.motion());
     }
   }
 
-  const Decision decision = compare_places(scan, t_ns, /*may_rest=*/true);
+  const Decision decision = compare_places(t_ns);
   // Or it rotates, and neither odometry nor a scan before shows how: once more by a few rates.
   if (decision.state != PoseState::kLost || !rotation_is_unknown() ||
       !try_rotation_rates(scan, t_ns)) {
     return decision;
   }
   place->map_search.stop();  // it matched the scan as if at rest
-  return compare_places(scan, t_ns, /*may_rest=*/false);
+  return compare_places(t_ns);
 }
 
-Decision Localizer::Workspace::compare_places(const Scan& scan, TimeNs t_ns, bool may_rest) {
+Decision Localizer::Workspace::compare_places(TimeNs t_ns) {
   // 3. Where still none is, the whole map is searched.
   candidates = {};
-  decided_exactly = !place;
   if (!place) return {};
-  const bool certain = !in_doubt(t_ns);
-  if (!certain) {
-    search_map(t_ns);
-    // A motion fits walls that are beside their place in the map, a little.
-    if (may_rest && !is_exact(t_ns) && motion != memory.motion() && !is_explained_by_motion()) {
-      look(scan, t_ns, memory.motion());
-      search_map(t_ns);
-    }
-  }
+  if (!is_conclusive(t_ns)) search_map(t_ns);
 
-  filtered = filter;
-
-  // 4. One place is a fix, several are ambiguous, none is lost. A part of the view may fit as well
-  //    at a place that was not proposed: its places are compared by evidence.
-  decided_exactly = certain || (sees_enough(t_ns) && is_exact(t_ns));
-  if (decided_exactly) {
-    candidates = place->verification.hypotheses();
-    return decide(candidates, memory.prior(t_ns), place->verification.open_hypotheses());
-  }
+  // 4. One place is a fix, several are ambiguous, none is lost.
   candidates = place->place_search.places();
-  return decide_by_faces(candidates, memory.prior(t_ns), filtered);
+  filtered = filter;
+  return decide(candidates, memory.prior(t_ns), filtered);
 }
 
 const PoseEstimate* Localizer::add(const OdometryReading& reading) {
@@ -168,6 +154,7 @@ void Localizer::relocalize() {
   workspace_->memory.forget();
   workspace_->filter.forget();
   if (workspace_->place) workspace_->place->map_search.stop();
+  workspace_->result.pose.alternatives.clear();
   workspace_->T_map_doubted.reset();
   workspace_->of_last_scan.reset();
 }

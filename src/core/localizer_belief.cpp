@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What is believed of a decision, by what was known before the scan.
 #include "core/localizer_workspace.hpp"
-#include "core/recognition/evidence.hpp"
 
 namespace cornerd::core {
 namespace {
@@ -15,7 +14,16 @@ constexpr double kAlmostSure_rad = radians(5);
 constexpr double kAtPrior_m = 0.03;
 constexpr double kAtPrior_rad = radians(3);
 
+/// Two walls and a box stand like a corner: with half of the view, most hits prove little.
+constexpr double kMaxGap_rad = radians(170);
+/// Corners of a place that is certain.
+constexpr std::size_t kCertainCorners = 2;
+
 }  // namespace
+
+bool Localizer::Workspace::sees_all_around() const {
+  return points.largest_gap_rad() < kMaxGap_rad;
+}
 
 bool Localizer::Workspace::is_expected(const Pose2& T_map_lidar, TimeNs t_ns) const {
   const std::optional<Prior> prior = memory.prior(t_ns);
@@ -38,12 +46,13 @@ bool Localizer::Workspace::is_at_prior(const Pose2& T_map_lidar, TimeNs t_ns) co
 PoseState Localizer::Workspace::believe(const Decision& decision, std::size_t corners,
                                         TimeNs t_ns) {
   const Pose2& T_map_lidar = chosen(decision).refined.T_map_lidar;
-  if (!decided_exactly && odometer.dead_reckoning() && !is_expected(T_map_lidar, t_ns) &&
+  if (!is_conclusive(chosen(decision), t_ns) && odometer.dead_reckoning() &&
+      !is_expected(T_map_lidar, t_ns) &&
       chosen(decision).log_odds < PlaceFilter::kLogOddsAgainstCarried - std::log(kWrongFixRate)) {
     T_map_doubted.reset();
     return PoseState::kLost;
   }
-  const bool all_around = has_full_coverage(points.largest_gap_rad());
+  const bool all_around = sees_all_around();
   if (decision.state == PoseState::kTracking) {
     return all_around || (corners >= 1 && is_at_prior(T_map_lidar, t_ns)) ? PoseState::kTracking
                                                                           : PoseState::kLost;
@@ -52,7 +61,7 @@ PoseState Localizer::Workspace::believe(const Decision& decision, std::size_t co
       T_map_doubted && same_pose(*T_map_doubted, T_map_lidar, kJump_m, kJump_rad);
   T_map_doubted.reset();
   const bool is_certain = all_around &&
-                          is_conclusive(chosen(decision).likelihood, /*expected=*/false) &&
+                          chosen(decision).likelihood.is_conclusive(/*expected=*/false) &&
                           corners >= kCertainCorners;
   // What is left of the view of a lidar that is being covered shows two walls and no more.
   const bool is_covered = saw_all_around && !all_around;

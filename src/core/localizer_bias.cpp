@@ -5,7 +5,6 @@
 #include <cstdlib>
 
 #include "core/localizer_workspace.hpp"
-#include "core/recognition/evidence.hpp"
 
 namespace cornerd::core {
 namespace {
@@ -73,9 +72,8 @@ void Localizer::Workspace::learn_bias(const Scan& scan, const Decision& decision
                                              std::max(1.0, result.detection.noise_scale));
   // Walls seem off: they are exact where four numbers explain all of them.
   if (evidence && at.map_sigma_m > 0 &&
-      !core::is_exact(
-          try_at(scan, t_ns, motion, at.refined.T_map_lidar, place->bias.bias_by(*evidence)),
-          /*expected=*/true)) {
+      !try_at(scan, t_ns, motion, at.refined.T_map_lidar, place->bias.bias_by(*evidence))
+           .is_conclusive(/*expected=*/true)) {
     return;
   }
   if (!odometer.has_motion()) {

@@ -6,7 +6,6 @@
 
 #include "core/geometry/squared.hpp"
 #include "core/localizer_workspace.hpp"
-#include "core/recognition/evidence.hpp"
 
 namespace cornerd::core {
 namespace {
@@ -35,8 +34,7 @@ constexpr double kTurning_rad_s = 0.3;
 constexpr double kDrives_m_s = 0.1;
 constexpr double kDrives_rad_s = 0.3;
 
-/// A motion is accepted, and rays are compared one by one, where as many hit as they do in an exact
-/// map but for some furniture.
+/// A scan fits as it came where as many rays hit as do in an exact map but for some furniture.
 constexpr double kMovingHitShare = 0.8;
 
 /// A yaw rate that changes by so much from scan to scan turns the walls of a scan, on average, by
@@ -48,26 +46,32 @@ constexpr double kUnsteady_s = 0.0057;
 /// Nothing fits, or not as well as a lidar at rest would see it.
 bool Localizer::Workspace::may_move(TimeNs t_ns) const {
   if (!place || trusts_odometry()) return false;
-  const auto places = place->verification.hypotheses();
-  return places.empty() ||
-         places.front().refined.reduced_chi_square > (in_doubt(t_ns) ? kMayMove : kSurelyMoves);
+  const auto& exact = place->place_search.exact();
+  // Walls that are off explain all that a motion would.
+  const auto places = place->place_search.places();
+  if (sees_enough(t_ns) && !places.empty() && places.front().map_sigma_m > 0 &&
+      is_in_map(places.front()) && places.front().refined.spread < kMayMove) {
+    return false;
+  }
+  return !exact ||
+         exact->refined.reduced_chi_square > (is_conclusive(t_ns) ? kSurelyMoves : kMayMove);
 }
 
 std::size_t Localizer::Workspace::best_hits() const {
-  const auto places = place->verification.hypotheses();
-  return places.empty() ? 0 : places.front().likelihood.hits;
+  if (!place) return 0;
+  const auto& exact = place->place_search.exact();
+  return exact ? exact->likelihood.hits : 0;
 }
 
 bool Localizer::Workspace::is_explained_by_offsets(const Scan& scan, TimeNs t_ns) {
-  const auto places = place->verification.hypotheses();
-  if (places.empty() || place->map_error.is_exact() ||
-      !places.front().refined.face_residuals.shows_offsets()) {
+  const auto& exact = place->place_search.exact();
+  if (!exact || place->map_error.is_exact() || !exact->refined.face_residuals.shows_offsets()) {
     return false;
   }
   const auto spread = [&](const PolarScan& as_seen) {
     const RefinedPose refined = place->refinement.refine(
-        *map, places.front().refined.T_map_lidar, kMotionSearchRadius_m, as_seen.points(),
-        as_seen.points(), noise_scale(), map->plan().sigma_m);
+        *map, exact->refined.T_map_lidar, kMotionSearchRadius_m, as_seen.points(), as_seen.points(),
+        noise_scale(), map->plan().sigma_m);
     return refined.valid ? refined.spread : std::numeric_limits<double>::infinity();
   };
   tried_points.assign(scan, config.min_range_m, config.max_range_m, t_ns, memory.motion(),
@@ -82,11 +86,8 @@ bool Localizer::Workspace::is_half_explained() const {
 BeamLikelihood Localizer::Workspace::try_at(const Scan& scan, TimeNs t_ns, const ScanMotion& as_if,
                                             const Pose2& T_map_lidar, const SensorBias& bias) {
   tried_points.assign(scan, config.min_range_m, config.max_range_m, t_ns, as_if, bias);
-  place->trial.begin(tried_points.points(), noise_scale());
-  const PoseHypothesis there{T_map_lidar, 0};
-  place->trial.consider(std::span(&there, 1), kMotionSearchRadius_m);
-  const auto places = place->trial.hypotheses();
-  return places.empty() ? BeamLikelihood{} : places.front().likelihood;
+  place->trial.begin(tried_points.points(), {.noise_scale = noise_scale()});
+  return place->trial.exactly(T_map_lidar, kMotionSearchRadius_m).likelihood;
 }
 
 bool Localizer::Workspace::keep_if_better(const Scan& scan, TimeNs t_ns,
@@ -102,7 +103,7 @@ void Localizer::Workspace::refine_motion(const Scan& scan, TimeNs t_ns) {
   const bool accelerates = place->map_error.is_exact() && memory.prior(t_ns).has_value();
   for (int k = 0; k < 2 && may_move(t_ns) && best_hits() > 0; ++k) {
     const RefinedMotion refined = place->refinement.refine_motion(
-        *map, place->verification.hypotheses().front().refined.T_map_lidar, kMotionSearchRadius_m,
+        *map, place->place_search.exact()->refined.T_map_lidar, kMotionSearchRadius_m,
         points.points(), result.detection.noise_scale, accelerates);
     if (!refined.valid || !is_plausible(refined.motion.twist) ||
         !keep_if_better(scan, t_ns, motion + refined.motion, refined.T_map_lidar)) {
@@ -117,7 +118,7 @@ bool Localizer::Workspace::rotation_is_unknown() const {
 
 bool Localizer::Workspace::try_rotation_rates(const Scan& scan, TimeNs t_ns) {
   for (const double omega_rad_s : kTriedRates_rad_s) {
-    look(scan, t_ns, Twist2{0, 0, omega_rad_s}, /*is_thorough=*/false);
+    look(scan, t_ns, Twist2{0, 0, omega_rad_s});
     refine_motion(scan, t_ns);
     if (is_half_explained()) return true;
   }
@@ -126,11 +127,10 @@ bool Localizer::Workspace::try_rotation_rates(const Scan& scan, TimeNs t_ns) {
 }
 
 void Localizer::Workspace::look_for_the_motion(const Scan& scan, TimeNs t_ns) {
-  if (!place) return;
   if (best_hits() == 0) {
     if (!motion.is_rest()) look(scan, t_ns, {});
   } else if (!motion.is_rest()) {
-    keep_if_better(scan, t_ns, {}, place->verification.hypotheses().front().refined.T_map_lidar);
+    keep_if_better(scan, t_ns, {}, place->place_search.exact()->refined.T_map_lidar);
   }
   refine_motion(scan, t_ns);
   // Nothing fits: the robot rotates, as the scan before shows; in the other direction where the
@@ -153,13 +153,8 @@ bool Localizer::Workspace::fits_as_it_came(const Scan& scan, TimeNs t_ns) {
   if (!place || candidates.empty()) return false;
   const BeamLikelihood there =
       try_at(scan, t_ns, {}, candidates.front().refined.T_map_lidar, place->bias.bias());
-  return core::is_exact(there, /*expected=*/true) ||
+  return there.is_conclusive(/*expected=*/true) ||
          (place->map_error.is_exact() && there.hit_share() > kMovingHitShare);
-}
-
-bool Localizer::Workspace::is_explained_by_motion() const {
-  const auto places = place->verification.hypotheses();
-  return !places.empty() && places.front().likelihood.hit_share() > kMovingHitShare;
 }
 
 Covariance3 Localizer::Workspace::deskew_covariance(const Pose2& T_map_lidar, bool is_first) {

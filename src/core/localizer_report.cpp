@@ -124,10 +124,13 @@ void Localizer::Workspace::report_pose(const core::VerifiedHypothesis& found, st
 void Localizer::Workspace::report_alternatives(std::span<const core::VerifiedHypothesis> rivals) {
   const std::size_t count = std::min(rivals.size(), kMaxAlternatives);
   double sum = 0;
-  for (std::size_t i = 0; i < count; ++i) sum += relative_belief(rivals[i], rivals.front());
+  const auto belief = [&](std::size_t i) {
+    return std::exp(rivals[i].log_odds - rivals.front().log_odds);
+  };
+  for (std::size_t i = 0; i < count; ++i) sum += belief(i);
   for (std::size_t i = 0; i < count; ++i) {
-    result.pose.alternatives.push_back({rivals[i].refined.T_map_lidar * T_lidar_base,
-                                        relative_belief(rivals[i], rivals.front()) / sum});
+    result.pose.alternatives.push_back(
+        {rivals[i].refined.T_map_lidar * T_lidar_base, belief(i) / sum});
   }
 }
 

@@ -36,10 +36,10 @@ const Scan& Localizer::Workspace::as_measured(const Scan& turn) {
 
 double Localizer::Workspace::log_odds_at(const Scan& turn, const Pose2& T_map_lidar, TimeNs t_ns) {
   const bool known = odometer.deskew(turn, config.T_base_lidar, still);
-  points.assign(known ? still : turn, config.min_range_m, config.max_range_m, t_ns,
-                known ? Twist2{} : memory.motion(), place->bias.bias());
-  place->place_search.begin(points, result.detection.segments, {}, noise_scale(), 1,
-                            /*fits_motion=*/false);
+  tried_points.assign(known ? still : turn, config.min_range_m, config.max_range_m, t_ns,
+                      known ? Twist2{} : memory.motion(), place->bias.bias());
+  place->place_search.begin(tried_points, result.detection.segments, {},
+                            {.noise_scale = noise_scale()});
   const PoseHypothesis there{T_map_lidar, 0};
   place->place_search.consider(std::span(&there, 1));
   const auto found = place->place_search.find();

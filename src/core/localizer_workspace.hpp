@@ -25,14 +25,8 @@
 #include "core/recognition/partial_scan_tracker.hpp"
 #include "core/recognition/place_search.hpp"
 #include "core/recognition/recognition.hpp"
-#include "core/recognition/verification.hpp"
 
 namespace cornerd::core {
-
-/// A robot moves no farther than this between two turns. A place farther off was either wrong or
-/// the robot was carried: the next turn tells.
-inline constexpr double kJump_m = 0.5;
-inline constexpr double kJump_rad = radians(60);
 
 /// Turns within which a lidar's bias is learnt.
 inline constexpr std::size_t kTurnsOfANewLidar = 20;
@@ -43,10 +37,9 @@ struct Localizer::Workspace {
     Place(const WallMap& map, const LocalizerConfig& config)
         : catalog(map, config.max_range_m),
           recognition(catalog),
-          verification(map, config),
-          trial(map, config),
           map_search(map),
           place_search(map, recognition, config),
+          trial(map, config),
           refinement(config.max_range_m, config.noise),
           bias(config.max_range_m, config.noise, config.bias,
                config.forget_bias ? BiasEstimator::kForgettingRate : 0) {
@@ -60,10 +53,9 @@ struct Localizer::Workspace {
     static bool learns_walls(const FloorPlan& plan);
     Catalog catalog;
     Recognition recognition;
-    Verification verification;
-    Verification trial;  ///< of single poses, as if the lidar had moved otherwise
     MapSearch map_search;
     PlaceSearch place_search;
+    PlaceFitter trial;  ///< of single poses, as if the lidar had moved otherwise
     Refinement refinement;
     BiasEstimator bias;
     MapErrorModel map_error;
@@ -90,8 +82,7 @@ struct Localizer::Workspace {
   /// Scans are as they came; `prior` is what is left of odometry.
   void reject_motion(const std::optional<Prior>& prior);
   Decision find(const Scan& scan, TimeNs t_ns);
-  /// `is_thorough`: where the likely places leave doubt, the others too.
-  void look(const Scan& scan, TimeNs t_ns, const ScanMotion& as_if_moving, bool is_thorough = true);
+  void look(const Scan& scan, TimeNs t_ns, const ScanMotion& as_if_moving);
   BeamLikelihood try_at(const Scan& scan, TimeNs t_ns, const ScanMotion& as_if,
                         const Pose2& T_map_lidar, const SensorBias& bias);
   /// Covariance of a pose of the lidar from the motion that was not deskewed, m^2 and rad^2.
@@ -107,13 +98,10 @@ struct Localizer::Workspace {
   bool rotation_is_unknown() const;
   /// Matches the scan by each of a few rotation rates. False where by none half of the rays hit.
   bool try_rotation_rates(const Scan& scan, TimeNs t_ns);
-  /// `may_rest`: a motion that explains little may be none.
-  Decision compare_places(const Scan& scan, TimeNs t_ns, bool may_rest);
+  Decision compare_places(TimeNs t_ns);
   void search_map(TimeNs t_ns);
   std::span<const PoseHypothesis> search_everywhere(TimeNs t_ns);
-  bool is_exact(TimeNs t_ns) const;
   bool fits_as_it_came(const Scan& scan, TimeNs t_ns);
-  bool is_explained_by_motion() const;
   std::size_t corners_of(const Decision& decision) const;
   PoseState believe(const Decision& decision, std::size_t corners, TimeNs t_ns);
   const VerifiedHypothesis& chosen(const Decision& decision) const {
@@ -122,9 +110,13 @@ struct Localizer::Workspace {
   bool is_expected(const Pose2& T_map_lidar, TimeNs t_ns) const;
   bool prior_is_fresh(TimeNs t_ns) const;
   bool is_at_prior(const Pose2& T_map_lidar, TimeNs t_ns) const;
+  /// The field of view has no gap of 170 degrees or more: the lidar is not covered.
+  bool sees_all_around() const;
   /// The lidar sees around it, or a fresh prior tells where it is.
   bool sees_enough(TimeNs t_ns) const;
-  bool in_doubt(TimeNs t_ns) const;
+  /// Hardly any ray is left for a competing place.
+  bool is_conclusive(const VerifiedHypothesis& found, TimeNs t_ns) const;
+  bool is_conclusive(TimeNs t_ns) const;  ///< the likeliest place
   bool may_move(TimeNs t_ns) const;
   std::size_t best_hits() const;
   /// Walls that are off look like a motion, a little: the one that was found leaves them off, and
@@ -132,7 +124,6 @@ struct Localizer::Workspace {
   bool is_explained_by_offsets(const Scan& scan, TimeNs t_ns);
   /// Half of the rays hit at the likeliest place, and there is one.
   bool is_half_explained() const;
-  bool may_be_biased() const;
   bool teaches(const Decision& decision) const;
   void learn_bias(const Scan& scan, const Decision& decision, TimeNs t_ns);
   void try_bias(const Scan& scan, const Decision& decision, TimeNs t_ns);
@@ -172,15 +163,15 @@ struct Localizer::Workspace {
   PlaceFilter filtered;  ///< with the one that find() looked at last
   PolarScan points;
   PolarScan tried_points;
+  std::span<const PoseHypothesis> pairs;   ///< that the corners point to
   std::vector<PoseHypothesis> everywhere;  ///< by the search of the map so far
   TimeNs searched_ns = 0;
   double turned_rad = 0;  ///< since that search began
   ScanRotation rotation;
-  ScanMotion motion;                               ///< that `points` were moved back by
-  std::span<const VerifiedHypothesis> candidates;  ///< that the last decision is about
-  bool saw_all_around = false;                     ///< in a scan with a pose, ever
-  bool decided_exactly = false;                    ///< by rays, as walls are where the map has them
-  bool doubts_bias = false;                        ///< a stored one, not tried enough
+  ScanMotion motion;                                    ///< that `points` were moved back by
+  std::span<const VerifiedHypothesis> candidates;       ///< that the last decision is about
+  bool saw_all_around = false;                          ///< in a scan with a pose, ever
+  bool doubts_bias = false;                             ///< a stored one, not tried enough
   std::optional<BiasEstimator::Evidence> of_last_scan;  ///< of the bias, if the robot stood still
   int trials_of_bias = 0;              ///< in a row: against it, for it if negative
   std::size_t named_in_a_row = 0;      ///< scans, each near where the one before led to expect it

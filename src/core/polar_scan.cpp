@@ -127,9 +127,19 @@ double PolarScan::largest_gap_rad() const {
   return *largest_gap_rad_;
 }
 
+double PolarScan::largest_step_rad() const {
+  double largest_rad = points_.front().bearing_rad + kTwoPi - points_.back().bearing_rad;
+  for (std::size_t i = 1; i < points_.size(); ++i) {
+    largest_rad = std::max(largest_rad, points_[i].bearing_rad - points_[i - 1].bearing_rad);
+  }
+  return largest_rad;
+}
+
 double PolarScan::find_largest_gap_rad() const {
-  const double min_neighbours =
-      std::max(2.0, kMinNeighbourShare * 2 * kNeighbourhood_rad / spacing_rad_);
+  const double around = 2 * kNeighbourhood_rad / spacing_rad_;  // samples around a return
+  const double min_neighbours = std::max(2.0, kMinNeighbourShare * around);
+  const double missing = kTwoPi / spacing_rad_ - static_cast<double>(points_.size());
+  if (missing < around - min_neighbours - 1) return largest_step_rad();  // none is isolated
   // The neighbourhood of a return is [first, end), started one round before.
   Cursor first(points_, -kTwoPi);
   Cursor end = first;

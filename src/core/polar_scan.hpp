@@ -58,6 +58,7 @@ class PolarScan {
 
  private:
   void sort();
+  double largest_step_rad() const;
   double find_largest_gap_rad() const;
 
   std::vector<PolarPoint> points_;

@@ -3,6 +3,7 @@
 // consistent covariance.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <sstream>
@@ -32,6 +33,10 @@ double nees_of(const json& pose, const core::Pose2& truth) {
   covariance << cov["xx"], cov["xy"], cov["xt"], cov["xy"], cov["yy"], cov["yt"], cov["xt"],
       cov["yt"], cov["tt"];
   return error.dot(Eigen::LLT<Eigen::Matrix3d>(covariance).solve(error));
+}
+
+double sigma_m(const json& cov) {
+  return std::sqrt(cov["xx"].get<double>() + cov["yy"].get<double>());
 }
 
 struct AbruptDrive {
@@ -64,7 +69,7 @@ AbruptDrive drive(const std::vector<std::string>& more) {
     const auto T_map_base = truth.at(core::from_seconds(pose["t"]));
     if (!pose.contains("x") || !T_map_base) continue;
     const double error_m = (core::Vec2(pose["x"], pose["y"]) - T_map_base->translation()).norm();
-    EXPECT_LT(error_m, 0.1) << line;
+    EXPECT_LT(error_m, std::max(0.1, 2 * sigma_m(pose["cov"]))) << line;
     driven.mean_error_m += error_m;
     driven.mean_error_rad += std::abs(core::angle_between(T_map_base->theta_rad, pose["theta"]));
     ++poses;

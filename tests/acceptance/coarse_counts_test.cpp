@@ -55,7 +55,8 @@ TEST_P(CoarseCounts, WithoutGyro_HeadingsAreThoseOfTheLidar) {
   }
   ASSERT_GT(errors_rad.size(), 290U);
   std::sort(errors_rad.begin(), errors_rad.end());
-  EXPECT_LT(errors_rad.back(), core::radians(3));
+  // Where the rotation begins within a scan; more would be wrong.
+  EXPECT_LT(errors_rad.back(), core::radians(5));
   // Alone the lidar reaches 0.10 degrees.
   EXPECT_LT(errors_rad[errors_rad.size() * 19 / 20], core::radians(0.25));
 }

@@ -196,8 +196,8 @@ struct EvidenceSamples::State {
     const core::ScanStructure structure = core::scan_structure(detection.segments);
     std::ostringstream text;
     const auto begin = [&] {
-      search.begin(points, detection.segments, detection.breakpoints, detection.noise_scale, 1,
-                   /*fits_motion=*/false);
+      search.begin(points, detection.segments, detection.breakpoints,
+                   {.noise_scale = detection.noise_scale});
     };
     const auto write = [&](const core::VerifiedHypothesis& place) {
       const core::Pose2& at = place.refined.T_map_lidar;

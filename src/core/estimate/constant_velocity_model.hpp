@@ -9,6 +9,11 @@
 
 namespace cornerd::core {
 
+/// A robot moves no farther than this between two scans. A place farther off was either wrong or
+/// the robot was carried: the next scan tells.
+inline constexpr double kJump_m = 0.5;
+inline constexpr double kJump_rad = radians(60);
+
 /// Where the lidar should be, and how far off that may be at most.
 struct Prior {
   Pose2 T_map_lidar;

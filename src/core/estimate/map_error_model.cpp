@@ -21,13 +21,16 @@ constexpr double kExact_m = 0.005;
 /// Exponential forgetting with each scan: three seconds.
 constexpr double kRetained = 0.95;
 
-/// A chi-square of so many degrees of freedom, over its mean, that is less once in 20 times (Wilson
-/// and Hilferty 1931).
+/// A chi-square of so many degrees of freedom, over its mean, that is less once in 20 times: by
+/// Wilson and Hilferty (1931), and by the leading term of its series, which is better below two.
 double least_share(double freedom) {
   constexpr double kOnceIn20 = 1.645;
+  if (!(freedom > 0)) return 0;
   const double variance = 2 / (9 * freedom);
-  const double root = 1 - variance - kOnceIn20 * std::sqrt(variance);
-  return freedom > 0 && root > 0 ? root * root * root : 0;
+  const double root = std::max(0.0, 1 - variance - kOnceIn20 * std::sqrt(variance));
+  const double of_few =
+      2 * std::exp((std::lgamma(freedom / 2 + 1) - std::log(20)) * 2 / freedom) / freedom;
+  return std::max(root * root * root, of_few);
 }
 
 }  // namespace
@@ -51,6 +54,10 @@ FaceResidualStatistics face_residual_statistics(std::span<const FaceResidual> re
                                                 const Covariance3& covariance) {
   FaceResidualStatistics statistics;
   Covariance3 squared_gradients = Covariance3::Zero();
+  // Of the quadratic form that the excess is in the faces' displacements, of which the pose absorbs
+  // what it can: W - G C G', one row of G a face's gradient.
+  double trace = 0;
+  double trace_of_square = 0;
   for (const FaceResidual& face : residuals) {
     if (!(face.weight > 0)) continue;
     const Eigen::Vector3d gradient = face.gradient();
@@ -60,30 +67,34 @@ FaceResidualStatistics face_residual_statistics(std::span<const FaceResidual> re
     statistics.excess += squared(face.distance) / face.weight - noise;
     statistics.excess_variance += 2 * squared(noise);
     statistics.excess_per_variance += squared(kShiftShare) * face.weight * (1 - leverage);
-    statistics.freedom += 1 - leverage;
+    trace += face.weight * (1 - leverage);
+    trace_of_square += squared(face.weight) * (1 - 2 * leverage);
     squared_gradients += gradient * gradient.transpose();
   }
+  const Covariance3 absorbed = covariance * squared_gradients;
+  trace_of_square += (absorbed * absorbed).trace();
+  statistics.freedom = trace_of_square > 0 ? squared(trace) / trace_of_square : 0;
   statistics.covariance_per_variance = covariance * squared_gradients * covariance;
   return statistics;
 }
 
+bool FaceResidualStatistics::excludes_offsets() const {
+  return excess_per_variance > 0 &&
+         excess + 2 * std::sqrt(excess_variance) <
+             least_share(freedom) * squared(kExact_m) * excess_per_variance;
+}
+
 void MapErrorModel::add(const FaceResidualStatistics& statistics) {
-  excess_ = kRetained * excess_ + statistics.excess;
-  excess_variance_ = squared(kRetained) * excess_variance_ + statistics.excess_variance;
-  excess_per_variance_ = kRetained * excess_per_variance_ + statistics.excess_per_variance;
-  freedom_ = std::max(kRetained * freedom_, statistics.freedom);
+  sum_.excess = kRetained * sum_.excess + statistics.excess;
+  sum_.excess_variance = squared(kRetained) * sum_.excess_variance + statistics.excess_variance;
+  sum_.excess_per_variance = kRetained * sum_.excess_per_variance + statistics.excess_per_variance;
+  sum_.freedom = std::max(kRetained * sum_.freedom, statistics.freedom);
 }
 
 double MapErrorModel::variance() const {
   // Without this margin half of all scans show some excess by chance.
-  const double excess = excess_ - std::sqrt(excess_variance_);
-  return excess > 0 && excess_per_variance_ > 0 ? excess / excess_per_variance_ : 0;
-}
-
-bool MapErrorModel::is_exact() const {
-  return excess_per_variance_ > 0 &&
-         excess_ + 2 * std::sqrt(excess_variance_) <
-             least_share(freedom_) * squared(kExact_m) * excess_per_variance_;
+  const double excess = sum_.excess - std::sqrt(sum_.excess_variance);
+  return excess > 0 && sum_.excess_per_variance > 0 ? excess / sum_.excess_per_variance : 0;
 }
 
 Covariance3 MapErrorModel::pose_covariance(const FaceResidualStatistics& statistics) const {

@@ -40,12 +40,16 @@ struct FaceResidualStatistics {
   double excess = 0;               ///< of the faces' mean squared distances over the points' noise
   double excess_variance = 0;      ///< variance of `excess` where no face is displaced
   double excess_per_variance = 0;  ///< expected excess per m^2 of the faces' variance
-  double freedom = 0;              ///< number of faces less what the pose takes of them
+  /// Of a chi-square that is distributed as displaced faces' excess is (Satterthwaite 1946): less
+  /// than there are faces, as near ones weigh more and the pose takes a part.
+  double freedom = 0;
   /// Pose covariance (x, y, theta) per m^2 of the faces' variance.
   Covariance3 covariance_per_variance = Covariance3::Zero();
 
   /// Exact faces would show as much once in 700 scans.
   bool shows_offsets() const { return excess > 3 * std::sqrt(excess_variance); }
+  /// Offsets of a standard deviation of 5 mm or more would show as little once in 20 times.
+  bool excludes_offsets() const;
 };
 
 /// `residuals`: at the refined pose, one a face. `covariance`: of that pose by the points' noise
@@ -62,16 +66,14 @@ class MapErrorModel {
   /// marginalised.
   Covariance3 pose_covariance(const FaceResidualStatistics& statistics) const;
   double variance() const;
-  /// True where the last scans show that faces are where the map has them: a standard deviation of
-  /// 5 mm or more would show as little once in 20 times.
-  bool is_exact() const;
+  /// True where the last scans show that faces are where the map has them.
+  bool is_exact() const { return sum_.excludes_offsets(); }
   void forget() { *this = {}; }
 
  private:
-  double excess_ = 0;  ///< sums over the scans, with exponential forgetting
-  double excess_variance_ = 0;
-  double excess_per_variance_ = 0;
-  double freedom_ = 0;  ///< of the scan with most; those of one place see the same faces
+  /// Over the scans, with exponential forgetting; `freedom` is that of the scan with most, as those
+  /// of one place see the same faces.
+  FaceResidualStatistics sum_;
 };
 
 }  // namespace cornerd::core

@@ -88,15 +88,20 @@ void BeamModel::add_faces(double spacing_rad, double map_sigma_m, BeamStatistics
   };
   ++evaluation_;
   met_.clear();
+  std::uint32_t last = PredictedHit::kNone;  // faces come in runs of rays
+  FaceSums* predicted = nullptr;
   for (const Ray& ray : rays_) {
     const bool hits = ray.outcome == Outcome::kHit;
-    if (ray.predicted != PredictedHit::kNone) {
-      FaceSums& predicted = sums_of(ray.predicted);
-      predicted.predicted += 1;
-      predicted.predicted_hits += hits && ray.face == ray.predicted ? 1 : 0;
+    if (ray.predicted != last && ray.predicted != PredictedHit::kNone) {
+      predicted = &sums_of(ray.predicted);
     }
+    if (ray.predicted != PredictedHit::kNone) {
+      predicted->predicted += 1;
+      predicted->predicted_hits += hits && ray.face == ray.predicted ? 1 : 0;
+    }
+    last = ray.predicted;
     if (!hits) continue;
-    FaceSums& face = sums_of(ray.face);
+    FaceSums& face = ray.face == ray.predicted ? *predicted : sums_of(ray.face);
     face.rays += 1;
     face.information += 1 / ray.variance_m2;
     face.gradient += ray.across_m / ray.variance_m2;

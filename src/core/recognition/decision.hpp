@@ -11,7 +11,7 @@
 #include "core/estimate/constant_velocity_model.hpp"
 #include "core/pose_estimate.hpp"
 #include "core/recognition/place_filter.hpp"
-#include "core/recognition/verification.hpp"
+#include "core/recognition/place_search.hpp"
 
 namespace cornerd::core {
 
@@ -26,24 +26,15 @@ struct Decision {
   double doubt = 0;        ///< belief that the likeliest place is not the right one
 };
 
-/// Names the fewest places, in the order of their likelihood, that leave out no more than
-/// kWrongFixRate of the turn's belief: one of them is a fix, several are ambiguous. `places`: the
-/// likeliest first. `prior`: where the robot should be by what was known before; it may choose
-/// among rivals where the robot can have come to no other one, never against the turn. `open`:
-/// other places, whose poses the turn leaves open.
+/// Names the fewest places of PlaceSearch, the likeliest first, that leave out no more than
+/// kWrongFixRate of the scan's belief: one of them is a fix, several are ambiguous. That the scan
+/// was taken somewhere else, or not in this map, is a hypothesis of its own. `prior`: where the
+/// robot should be by what was known before. What the last scans showed is in the filter, which it
+/// updates.
 Decision decide(std::span<const VerifiedHypothesis> places, const std::optional<Prior>& prior,
-                std::span<const VerifiedHypothesis> open = {});
+                PlaceFilter& filter);
 
-/// The same for places of PlaceSearch, in a map that is inexact and incomplete. That the scan was
-/// taken somewhere else, or not in this map, is a hypothesis of its own. What the last scans showed
-/// is in the filter, which it updates.
-Decision decide_by_faces(std::span<const VerifiedHypothesis> places,
-                         const std::optional<Prior>& prior, PlaceFilter& filter);
-
-/// True for a place of PlaceSearch that leaves no doubt that the scan was taken in this map.
+/// True for a place that leaves no doubt that the scan was taken in this map.
 bool is_in_map(const VerifiedHypothesis& place);
-
-/// How much the turn believes in a place next to the likeliest one: 1 for that one itself.
-double relative_belief(const VerifiedHypothesis& place, const VerifiedHypothesis& likeliest);
 
 }  // namespace cornerd::core

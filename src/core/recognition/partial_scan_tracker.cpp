@@ -82,8 +82,8 @@ std::optional<PartialScanPose> PartialScanTracker::localize(const PredictedState
     return std::nullopt;
   }
   const auto hits = ray_caster_.cast(map_, pose.refined.T_map_lidar, points_.points());
-  pose.likelihood = beam_likelihood(map_, points_.points(), hits, pose.refined.T_map_lidar, noise_,
-                                    noise_scale, 0);
+  pose.likelihood =
+      beam_likelihood(map_, points_.points(), hits, pose.refined.T_map_lidar, noise_, noise_scale);
   if (pose.likelihood.hits < kMinHits || pose.likelihood.hit_share() < kMinPartialHitShare ||
       pose.likelihood.violation_share() > kMaxViolationShare) {
     return std::nullopt;

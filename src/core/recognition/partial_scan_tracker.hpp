@@ -12,7 +12,7 @@
 #include "core/map/ray_caster.hpp"
 #include "core/map/wall_map.hpp"
 #include "core/polar_scan.hpp"
-#include "core/recognition/explanation.hpp"
+#include "core/recognition/beam_likelihood.hpp"
 #include "core/scan.hpp"
 
 namespace cornerd::core {

@@ -100,7 +100,7 @@ void PlaceFilter::update(std::span<const VerifiedHypothesis> found,
     Place place = places_[i];
     const VerifiedHypothesis* const at = find(place, found, prior);
     if (at && !is_known(at)) {
-      const double now = weigh(place, at->refined.T_map_lidar, log_ratio_at(at->log_odds));
+      const double now = weigh(place, at->refined.T_map_lidar, log_ratio_at(at->evidence));
       keep(place, at, now);
     } else if (!at && place.is_named && prior) {
       // That a scan does not show it is no evidence: it may be covered.
@@ -116,7 +116,7 @@ void PlaceFilter::update(std::span<const VerifiedHypothesis> found,
   }
   std::size_t best = count_;
   for (std::size_t i = 0; i < count_; ++i) {
-    const bool speaks = known[i] && known[i]->log_odds > kEvenLogOdds;
+    const bool speaks = known[i] && known[i]->evidence > kEvenLogOdds;
     if (speaks && (best == count_ || log_odds[i] > log_odds[best])) best = i;
   }
   if (best == count_) return;

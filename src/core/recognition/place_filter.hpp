@@ -7,7 +7,7 @@
 #include <span>
 
 #include "core/estimate/constant_velocity_model.hpp"
-#include "core/recognition/verification.hpp"
+#include "core/recognition/place_search.hpp"
 
 namespace cornerd::core {
 

@@ -6,15 +6,14 @@
 #include <cmath>
 #include <limits>
 
-#include "core/geometry/squared.hpp"
-
 namespace cornerd::core {
 namespace {
 
-constexpr std::size_t kFewRays = 90;
 /// Candidates that are refined on few rays, and on all.
 constexpr std::size_t kMaxRefined = 16;
-constexpr std::size_t kMaxCompared = 12;
+constexpr std::size_t kMaxCompared = 16;
+/// The same where elsewhere is likelier than each, as in a motion that is not known yet.
+constexpr std::size_t kMaxUnlikely = 3;
 /// A ray on the wall that is predicted, roughly (m).
 constexpr double kRoughHit_m = 0.12;
 /// Remaining error of one that was refined on few rays (m).
@@ -37,13 +36,11 @@ struct RoughRefinement {
   double map_sigma_m;
 };
 constexpr std::array kRoughRefinements = {RoughRefinement{0.12, 0.025}, RoughRefinement{0.045, 0}};
-/// A pose that is less certain than this beyond the map is not named: a single wall, a bare
-/// corridor. It is a rival to those that are.
-constexpr double kMaxSigma_m = 0.1;
-/// Residuals are the walls' offsets up to so many of their standard deviations; greater ones are of
-/// a motion.
-constexpr double kMaxRmseSigmas = 1.3;
-constexpr double kMaxRmseSigmasStated = 2;
+constexpr std::size_t kMaxPlaces = 48;
+
+bool is_one_place(const VerifiedHypothesis& one, const VerifiedHypothesis& other) {
+  return same_pose(one.refined.T_map_lidar, other.refined.T_map_lidar, kOnePlace_m, kOnePlace_rad);
+}
 
 }  // namespace
 
@@ -51,43 +48,42 @@ PlaceSearch::PlaceSearch(const WallMap& map, const Recognition& recognition,
                          const LocalizerConfig& config)
     : map_(map),
       recognition_(recognition),
+      fitter_(map, config),
       ray_caster_(config.max_range_m),
       refinement_(config.max_range_m, config.noise),
       beam_model_(map, config.noise) {
-  subset_.reserve(2 * kFewRays);
   candidates_.reserve(kMaxCandidates);
-  places_.reserve(kMaxCompared);
-  open_places_.reserve(kMaxCompared);
+  places_.reserve(kMaxPlaces);
+  open_places_.reserve(kMaxPlaces);
 }
 
 void PlaceSearch::begin(const PolarScan& scan, std::span<const WallSegment> segments,
-                        std::span<const Breakpoint> breakpoints, double noise_scale,
-                        double max_map_sigma_m, bool fits_motion) {
+                        std::span<const Breakpoint> breakpoints, const ScanPrior& known) {
   points_ = scan.points();
-  odds_elsewhere_ = fits_motion ? std::pow(static_cast<double>(points_.size()), 1.5) : 1;
-  max_map_sigma_m_ = max_map_sigma_m;
+  known_ = known;
   breakpoints_ = breakpoints;
   spacing_rad_ = scan.spacing_rad();
-  noise_scale_ = noise_scale;
   structure_ = scan_structure(segments);
+  fitter_.begin(points_, known);
+  few_ = fitter_.few_rays();
   candidates_.clear();
+  best_score_ = 0;
   places_.clear();
-  subset_.clear();
-  const std::size_t stride = std::max<std::size_t>(1, points_.size() / kFewRays);
-  for (std::size_t i = 0; i < points_.size(); i += stride) subset_.push_back(points_[i]);
+  open_places_.clear();
+  exact_.reset();
 }
 
 double PlaceSearch::rough_score(const Pose2& T_map_lidar) {
-  const auto hits = ray_caster_.cast_near(map_, T_map_lidar, subset_);
+  const auto hits = ray_caster_.cast_near(map_, T_map_lidar, few_);
   const double c = std::cos(T_map_lidar.theta_rad);
   const double s = std::sin(T_map_lidar.theta_rad);
   double score = 0;
-  for (std::size_t i = 0; i < subset_.size(); ++i) {
+  for (std::size_t i = 0; i < few_.size(); ++i) {
     if (hits[i].face == PredictedHit::kNone) {
       score -= 0.5;
       continue;
     }
-    const PolarPoint& point = subset_[i];
+    const PolarPoint& point = few_[i];
     const Vec2& normal = map_.faces()[hits[i].face].normal;
     const double across_m = (point.range_m - hits[i].range_m) *
                             std::abs(normal.x() * (c * point.ray_x - s * point.ray_y) +
@@ -101,11 +97,19 @@ double PlaceSearch::rough_score(const Pose2& T_map_lidar) {
   return score;
 }
 
-void PlaceSearch::consider(std::span<const PoseHypothesis> hypotheses) {
+void PlaceSearch::consider(std::span<const PoseHypothesis> hypotheses, bool are_sure) {
   for (const PoseHypothesis& hypothesis : hypotheses) {
     if (candidates_.size() == kMaxCandidates) return;
-    candidates_.push_back({hypothesis.T_map_lidar, rough_score(hypothesis.T_map_lidar), 0});
+    candidates_.push_back(
+        {hypothesis.T_map_lidar, rough_score(hypothesis.T_map_lidar), 0, are_sure});
   }
+}
+
+void PlaceSearch::consider_prior(const Pose2& T_map_lidar, double search_radius_m) {
+  const PoseHypothesis prior{T_map_lidar, 0};
+  consider(std::span(&prior, 1), /*are_sure=*/true);
+  const VerifiedHypothesis fit = fitter_.exactly(T_map_lidar, search_radius_m, points_);
+  if (fitter_.is_exact(fit)) add(fit, {});
 }
 
 PlaceSearch::Candidate PlaceSearch::refined_roughly(const Candidate& candidate, double spacing_rad,
@@ -114,14 +118,14 @@ PlaceSearch::Candidate PlaceSearch::refined_roughly(const Candidate& candidate, 
   for (const RoughRefinement& rough : kRoughRefinements) {
     if (std::isfinite(best.score) && best.score < least_score) break;
     const RefinedPose refined = refinement_.refine_roughly(
-        map_, candidate.T_map_lidar, rough.radius_m, subset_, noise_scale_, rough.map_sigma_m);
+        map_, candidate.T_map_lidar, rough.radius_m, few_, known_.noise_scale, rough.map_sigma_m);
     if (!refined.valid ||
         !same_pose(refined.T_map_lidar, candidate.T_map_lidar, kMaxMove_m, kMaxMove_rad)) {
       continue;
     }
-    const auto hits = ray_caster_.cast(map_, refined.T_map_lidar, subset_);
+    const auto hits = ray_caster_.cast(map_, refined.T_map_lidar, few_);
     const BeamStatistics statistics = beam_model_.statistics(
-        subset_, hits, refined.T_map_lidar, spacing_rad, noise_scale_, max_map_sigma_m_);
+        few_, hits, refined.T_map_lidar, spacing_rad, known_.noise_scale, known_.max_map_sigma_m);
     const double log_odds =
         log_odds_of_place(statistics, wall_ends(refined.T_map_lidar), structure_);
     if (log_odds > best.score) best = {refined.T_map_lidar, log_odds, statistics.map_sigma_m};
@@ -129,31 +133,36 @@ PlaceSearch::Candidate PlaceSearch::refined_roughly(const Candidate& candidate, 
   return best;
 }
 
+bool PlaceSearch::is_known(const Pose2& T_map_lidar, std::size_t kept) const {
+  const auto is_here = [&](const Pose2& other) {
+    return same_pose(other, T_map_lidar, kSame_m, kSame_rad);
+  };
+  const auto known = std::span(candidates_).first(kept);
+  return std::any_of(known.begin(), known.end(),
+                     [&](const Candidate& other) { return is_here(other.T_map_lidar); }) ||
+         std::any_of(places_.begin(), places_.end(), [&](const VerifiedHypothesis& other) {
+           return other.is_exact && is_here(other.refined.T_map_lidar);
+         });
+}
+
 void PlaceSearch::refine_roughly() {
   const auto is_better = [](const Candidate& a, const Candidate& b) {
+    if (a.is_sure != b.is_sure) return a.is_sure;
     if (a.score != b.score) return a.score > b.score;
     if (a.T_map_lidar.x_m != b.T_map_lidar.x_m) return a.T_map_lidar.x_m < b.T_map_lidar.x_m;
     return a.T_map_lidar.theta_rad < b.T_map_lidar.theta_rad;
   };
   std::sort(candidates_.begin(), candidates_.end(), is_better);
   const double spacing_rad = spacing_rad_ * static_cast<double>(points_.size()) /
-                             static_cast<double>(std::max<std::size_t>(1, subset_.size()));
+                             static_cast<double>(std::max<std::size_t>(1, few_.size()));
   candidates_.resize(std::min(candidates_.size(), kMaxRefined));
   std::size_t kept = 0;
-  double best_score = 0;  // of elsewhere
   for (const Candidate& candidate : candidates_) {
-    const auto is_known = [&](const Pose2& T_map_lidar) {
-      return std::any_of(candidates_.begin(),
-                         candidates_.begin() + static_cast<std::ptrdiff_t>(kept),
-                         [&](const Candidate& other) {
-                           return same_pose(other.T_map_lidar, T_map_lidar, kSame_m, kSame_rad);
-                         });
-    };
-    if (is_known(candidate.T_map_lidar)) continue;
-    const Candidate best = refined_roughly(candidate, spacing_rad, best_score - kHopeless);
-    if (!std::isfinite(best.score) || is_known(best.T_map_lidar)) continue;
+    if (is_known(candidate.T_map_lidar, kept)) continue;
+    const Candidate best = refined_roughly(candidate, spacing_rad, best_score_ - kHopeless);
+    if (!std::isfinite(best.score) || is_known(best.T_map_lidar, kept)) continue;
     candidates_[kept++] = best;
-    best_score = std::max(best_score, best.score);
+    best_score_ = std::max(best_score_, best.score);
   }
   candidates_.resize(kept);
   std::sort(candidates_.begin(), candidates_.end(), is_better);
@@ -168,72 +177,60 @@ double PlaceSearch::wall_ends(const Pose2& T_map_lidar) const {
   return count;
 }
 
-void PlaceSearch::add(const Candidate& candidate) {
-  VerifiedHypothesis place;
-  const PosePrior prior = PosePrior::near_to(candidate.T_map_lidar);
-  const auto refine = [&](double map_sigma_m) {
-    place.map_sigma_m = map_sigma_m;
-    place.refined = refinement_.refine(map_, candidate.T_map_lidar, kFewRaysRadius_m, subset_,
-                                       points_, noise_scale_, map_sigma_m, &prior);
-  };
-  const double stated_m = map_.plan().sigma_m;
-  if (map_.plan().is_inexact()) {
-    refine(stated_m);
-  } else if (candidate.map_sigma_m > BeamModel::kMapSigmas_m.front()) {
-    refine(candidate.map_sigma_m);
-  } else {
-    // Where the walls are exact, so is the pose, and what does not fit is a motion. With no offsets
-    // walls that are off would be left out, and not seen to be.
-    const bool may_be_off = max_map_sigma_m_ > BeamModel::kMapSigmas_m.front();
-    if (may_be_off) refine(stated_m);
-    if (!may_be_off || !place.refined.face_residuals.shows_offsets()) refine(0);
+void PlaceSearch::add(const VerifiedHypothesis& exact, const Candidate& candidate) {
+  if (exact.likelihood.rays > 0 &&
+      (!exact_ || exact.likelihood.log_likelihood > exact_->likelihood.log_likelihood)) {
+    exact_ = exact;
   }
-  const double max_rmse_m =
-      std::max(kMaxRmseSigmas * BeamModel::kMapSigmas_m.back(), kMaxRmseSigmasStated * stated_m);
+  const bool is_exact = fitter_.is_exact(exact);
+  VerifiedHypothesis place = is_exact
+                                 ? exact
+                                 : fitter_.with_offsets(candidate.T_map_lidar, kFewRaysRadius_m,
+                                                        candidate.map_sigma_m, exact.refined);
   if (!place.refined.valid) return;
-  const Covariance3& covariance = place.refined.covariance;
-  const bool is_determined = place.refined.is_held() && place.refined.rmse_m <= max_rmse_m &&
-                             covariance(0, 0) + covariance(1, 1) <= squared(kMaxSigma_m + stated_m);
-  const auto hits = ray_caster_.cast(map_, place.refined.T_map_lidar, points_);
-  const BeamStatistics statistics = beam_model_.statistics(
-      points_, hits, place.refined.T_map_lidar, spacing_rad_, noise_scale_, max_map_sigma_m_);
-  place.log_odds = log_odds_of_place(statistics, wall_ends(place.refined.T_map_lidar), structure_);
-  place.likelihood.rays = statistics.rays;
-  place.likelihood.hits = statistics.hits;
-  place.likelihood.shorts = statistics.shorts;
-  place.likelihood.free_space_violations = statistics.throughs;
-  const auto is_here = [&](const VerifiedHypothesis& other) {
-    return same_pose(other.refined.T_map_lidar, place.refined.T_map_lidar, kOnePlace_m,
-                     kOnePlace_rad);
+  place.is_exact = is_exact;
+  const Pose2& T_map_lidar = place.refined.T_map_lidar;
+  const BeamStatistics statistics =
+      beam_model_.statistics(points_, is_exact ? fitter_.last_hits() : fitter_.hits_at(T_map_lidar),
+                             T_map_lidar, spacing_rad_, known_.noise_scale,
+                             is_exact ? BeamModel::kMapSigmas_m.front() : known_.max_map_sigma_m);
+  place.evidence = log_odds_of_place(statistics, wall_ends(T_map_lidar), structure_);
+  if (!is_exact) {
+    place.likelihood = {.rays = statistics.rays,
+                        .hits = statistics.hits,
+                        .shorts = statistics.shorts,
+                        .free_space_violations = statistics.throughs};
+  }
+  const auto keep_in = [&](std::vector<VerifiedHypothesis>& places) {
+    const auto known = std::find_if(places.begin(), places.end(),
+                                    [&](const auto& other) { return is_one_place(other, place); });
+    if (known == places.end()) {
+      if (places.size() < kMaxPlaces) places.push_back(place);
+    } else if (place.evidence > known->evidence) {
+      *known = place;
+    }
   };
-  const auto determined = std::find_if(places_.begin(), places_.end(), is_here);
-  if (determined != places_.end()) {
-    if (is_determined && place.log_odds > determined->log_odds) *determined = place;
-    return;
-  }
-  const auto open = std::find_if(open_places_.begin(), open_places_.end(), is_here);
-  if (is_determined) {
-    if (open != open_places_.end()) open_places_.erase(open);
-    places_.push_back(place);
-  } else if (open == open_places_.end()) {
-    open_places_.push_back(place);
-  } else if (place.log_odds > open->log_odds) {
-    *open = place;
-  }
+  keep_in(fitter_.is_determined(place.refined) ? places_ : open_places_);
 }
 
 std::span<const VerifiedHypothesis> PlaceSearch::find() {
   refine_roughly();
-  places_.clear();
-  open_places_.clear();
-  for (std::size_t i = 0; i < std::min(candidates_.size(), kMaxCompared); ++i) {
-    if (candidates_[i].score < std::max(0.0, candidates_.front().score) - kHopeless) break;
-    add(candidates_[i]);
+  const std::size_t most = best_score_ > 0 ? kMaxCompared : kMaxUnlikely;
+  for (const Candidate& candidate :
+       std::span(candidates_).first(std::min(candidates_.size(), most))) {
+    if (best_score_ > 0 && candidate.score < best_score_ - kHopeless) break;
+    add(fitter_.exactly(candidate.T_map_lidar, kFewRaysRadius_m), candidate);
   }
+  candidates_.clear();
   // Elsewhere has odds of its own, and those of the places that the scan leaves open.
-  double elsewhere = odds_elsewhere_;
-  for (const VerifiedHypothesis& open : open_places_) elsewhere += std::exp(open.log_odds);
-  for (VerifiedHypothesis& place : places_) place.log_odds -= std::log(elsewhere);
+  double elsewhere = known_.fits_motion ? std::pow(static_cast<double>(points_.size()), 1.5) : 1;
+  for (const VerifiedHypothesis& open : open_places_) {
+    const bool is_a_place = std::any_of(places_.begin(), places_.end(), [&](const auto& place) {
+      return is_one_place(place, open);
+    });
+    if (!is_a_place) elsewhere += std::exp(open.evidence);
+  }
+  for (VerifiedHypothesis& place : places_) place.log_odds = place.evidence - std::log(elsewhere);
   std::sort(places_.begin(), places_.end(),
             [](const VerifiedHypothesis& a, const VerifiedHypothesis& b) {
               if (a.log_odds != b.log_odds) return a.log_odds > b.log_odds;

@@ -2,72 +2,82 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <vector>
 
+#include "core/breakpoint/breakpoint.hpp"
 #include "core/estimate/refinement.hpp"
 #include "core/localizer_config.hpp"
 #include "core/recognition/beam_model.hpp"
 #include "core/recognition/hypothesis.hpp"
 #include "core/recognition/place_evidence.hpp"
+#include "core/recognition/place_fitter.hpp"
 #include "core/recognition/recognition.hpp"
-#include "core/recognition/verification.hpp"
 
 namespace cornerd::core {
 
-/// The places that explain a scan best in a map that is inexact and incomplete: hypotheses are
-/// ranked by few rays, refined with the walls' offsets marginalised, and compared by the beam model
-/// on faces. Allocates nothing after construction.
+/// The places that explain a scan best in a map that may be inexact and incomplete: hypotheses are
+/// ranked by few rays and refined, with the walls' offsets marginalised where walls are not where
+/// the map has them, and compared by their evidence. Allocates nothing after construction.
 class PlaceSearch {
  public:
   /// `map` and `recognition` must outlive it.
   PlaceSearch(const WallMap& map, const Recognition& recognition, const LocalizerConfig& config);
 
   /// Starts a scan, which must outlive the calls for it.
-  /// `max_map_sigma_m`: of the walls' offsets, as far as earlier scans have shown. `fits_motion`:
-  /// the scan was deskewed by a motion that was fitted to it, on few walls. That takes its three
-  /// parameters' worth from the odds of a place, sqrt(rays) each (Schwarz 1978).
   void begin(const PolarScan& scan, std::span<const WallSegment> segments,
-             std::span<const Breakpoint> breakpoints, double noise_scale, double max_map_sigma_m,
-             bool fits_motion);
-  /// Adds hypotheses that may be off by a decimetre.
-  void consider(std::span<const PoseHypothesis> hypotheses);
+             std::span<const Breakpoint> breakpoints, const ScanPrior& known);
+  /// Adds hypotheses that may be off by a decimetre. `are_sure`: each is refined, however it
+  /// scores.
+  void consider(std::span<const PoseHypothesis> hypotheses, bool are_sure = false);
+  /// The same for the pose that a prior leads to, by all rays from the first step on: of few rays
+  /// none may tell the place along a corridor.
+  void consider_prior(const Pose2& T_map_lidar, double search_radius_m);
   /// Compares what was considered since begin(). Distinct places, the likeliest first.
   std::span<const VerifiedHypothesis> find();
-  /// The scan's wall ends that the map has, at a pose.
-  double wall_ends(const Pose2& T_map_lidar) const;
   /// The result of the last find().
   std::span<const VerifiedHypothesis> places() const { return places_; }
+  /// The likeliest place if every wall were where the map has it and the rays explained by it or by
+  /// a motion; none where no place explains them.
+  const std::optional<VerifiedHypothesis>& exact() const { return exact_; }
+
+  /// The scan's wall ends that the map has, at a pose.
+  double wall_ends(const Pose2& T_map_lidar) const;
 
  private:
   struct Candidate {
     Pose2 T_map_lidar;
     double score = 0;
     double map_sigma_m = 0;
+    bool is_sure = false;
   };
   double rough_score(const Pose2& T_map_lidar);
+  bool is_known(const Pose2& T_map_lidar, std::size_t kept) const;
   Candidate refined_roughly(const Candidate& candidate, double spacing_rad, double least_score);
   void refine_roughly();
-  void add(const Candidate& candidate);
+  /// `exact`: of the last PlaceFitter::exactly().
+  void add(const VerifiedHypothesis& exact, const Candidate& candidate);
 
   static constexpr std::size_t kMaxCandidates = 512;
 
   const WallMap& map_;
   const Recognition& recognition_;
+  PlaceFitter fitter_;
   RayCaster ray_caster_;
   Refinement refinement_;
   BeamModel beam_model_;
   std::span<const PolarPoint> points_;
   std::span<const Breakpoint> breakpoints_;
   double spacing_rad_ = 0;
-  double noise_scale_ = 1;
-  double odds_elsewhere_ = 1;  ///< of no place at all, by the motion alone
-  double max_map_sigma_m_ = 0;
+  ScanPrior known_;
   ScanStructure structure_;
-  std::vector<PolarPoint> subset_;
-  std::vector<Candidate> candidates_;
+  std::span<const PolarPoint> few_;    ///< of `points_`
+  std::vector<Candidate> candidates_;  ///< since the last find()
+  double best_score_ = 0;              ///< of them and those before, on few rays
   std::vector<VerifiedHypothesis> places_;
   std::vector<VerifiedHypothesis> open_places_;  ///< whose pose the scan does not determine
+  std::optional<VerifiedHypothesis> exact_;
 };
 
 }  // namespace cornerd::core

@@ -26,9 +26,10 @@
 
 #include "core/breakpoint/detector.hpp"
 #include "core/catalog/catalog.hpp"
+#include "core/estimate/refinement.hpp"
 #include "core/pipeline.hpp"
+#include "core/recognition/beam_likelihood.hpp"
 #include "core/recognition/recognition.hpp"
-#include "core/recognition/verification.hpp"
 #include "daemon/event_loop.hpp"
 #include "daemon/message_server.hpp"
 #include "daemon/sample_channel.hpp"
@@ -136,7 +137,7 @@ class Parts {
     cost_begin_likelihood();
     const auto hits = prediction_.cast(*map_, refined.T_map_lidar, points_.points());
     static_cast<void>(core::beam_likelihood(*map_, points_.points(), hits, refined.T_map_lidar,
-                                            config_.noise, 1, 0));
+                                            config_.noise, 1));
     cost_end_likelihood();
 
     fresh_.relocalize();

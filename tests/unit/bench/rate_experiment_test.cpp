@@ -15,6 +15,8 @@ RateResult run_at(double rate_hz, bool gently = false) {
 
 /// Where the speed jumps in the middle of a scan, 0.25 m/s for half of its 0.18 s are in its pose.
 constexpr double kJumpInAScan_m = 0.25 * 0.18 / 2;
+/// Walls that the scans so far do not show to be where the map has them take a part of a motion.
+constexpr double kOffsets_m = 0.01;
 /// Three times the error of a pose at rest.
 constexpr double kNoise_m = 3 * 0.0005;
 
@@ -28,7 +30,7 @@ TEST(RateExperiment, TenReadingsASecond_BeatLidarAlone) {
       EXPECT_EQ(with.fixes.wrong() + with.predicted.wrong(), 0u) << rate_hz;
       // Scans in which the speed jumps are not named always.
       EXPECT_GT(with.fixes.scans(), 0.99 * static_cast<double>(with.scans)) << rate_hz << gently;
-      EXPECT_LT(with.worst_fix_m, kJumpInAScan_m + kNoise_m) << rate_hz;
+      EXPECT_LT(with.worst_fix_m, kJumpInAScan_m + kOffsets_m + kNoise_m) << rate_hz;
       if (gently) {
         EXPECT_LT(with.fixes.mean_error_m(), alone.fixes.mean_error_m()) << rate_hz;
       }

@@ -8,119 +8,86 @@
 namespace cornerd::core {
 namespace {
 
-VerifiedHypothesis place_at(double x_m, double log_likelihood, double of_things) {
+VerifiedHypothesis place_at(double x_m, double log_odds) {
   VerifiedHypothesis place;
   place.refined.T_map_lidar = {x_m, 0, 0};
   place.refined.valid = true;
   place.refined.least_inliers = 100;
-  place.likelihood.rays = 300;
-  place.likelihood.hits = 300;
-  place.likelihood.log_likelihood = log_likelihood;
-  place.likelihood.log_likelihood_of_obstacles = of_things;
+  place.evidence = place.log_odds = log_odds;
   return place;
 }
 
-TEST(Decide, NoHypothesis_IsLost) {
-  EXPECT_EQ(decide({}, std::nullopt).state, PoseState::kLost);
-  EXPECT_EQ(decide({}, Prior{}).state, PoseState::kLost);
+Decision decide_alone(const std::vector<VerifiedHypothesis>& places) {
+  PlaceFilter filter;
+  return decide(places, std::nullopt, filter);
 }
 
-TEST(Decide, OneHypothesisFarAhead_IsFix) {
-  const std::vector<VerifiedHypothesis> places = {place_at(1, 1000, 1000), place_at(5, 900, 900)};
-  const Decision decision = decide(places, std::nullopt);
+/// The robot was last named at `T_map_lidar`, and should be there still.
+Decision decide_after(const Pose2& T_map_lidar, const std::vector<VerifiedHypothesis>& places) {
+  PlaceFilter filter;
+  filter.confirm(T_map_lidar);
+  return decide(places, Prior{T_map_lidar, 0.05, 0.05}, filter);
+}
+
+TEST(Decide, NoPlace_IsLost) {
+  EXPECT_EQ(decide_alone({}).state, PoseState::kLost);
+  EXPECT_EQ(decide_after({}, {}).state, PoseState::kLost);
+}
+
+TEST(Decide, OnePlaceFarAhead_IsFix) {
+  const Decision decision = decide_alone({place_at(1, 30), place_at(5, 10)});
   EXPECT_EQ(decision.state, PoseState::kFix);
   EXPECT_EQ(decision.place, 0U);
 }
 
-TEST(Decide, TwoEqualHypotheses_AreAmbiguous) {
-  const std::vector<VerifiedHypothesis> places = {place_at(1, 1000, 1000), place_at(5, 995, 995),
-                                                  place_at(9, 800, 800)};
-  const Decision decision = decide(places, std::nullopt);
+TEST(Decide, TwoEqualPlaces_AreAmbiguous) {
+  const Decision decision = decide_alone({place_at(1, 30), place_at(5, 29), place_at(9, 5)});
   EXPECT_EQ(decision.state, PoseState::kAmbiguous);
   EXPECT_EQ(decision.rivals, 2U);
 }
 
-TEST(Decide, ManyUnlikelyHypotheses_AreAmbiguousTogether) {
-  std::vector<VerifiedHypothesis> places = {place_at(1, 1000, 1000), place_at(5, 984, 900)};
-  const Decision alone = decide(places, std::nullopt);
+TEST(Decide, ManyUnlikelyPlaces_AreAmbiguousTogether) {
+  std::vector<VerifiedHypothesis> places = {place_at(1, 30), place_at(5, 18)};
+  const Decision alone = decide_alone(places);
   EXPECT_EQ(alone.state, PoseState::kFix);
-  EXPECT_LT(alone.doubt, kWrongFixRate);
-  EXPECT_GT(alone.doubt, 0.1 * kWrongFixRate);
-  for (int k = 0; k < 6; ++k) places.push_back(place_at(10 + k, 984, 900));
-  const Decision among_many = decide(places, std::nullopt);
+  for (int k = 0; k < 6; ++k) places.push_back(place_at(10 + k, 18));
+  const Decision among_many = decide_alone(places);
   EXPECT_EQ(among_many.state, PoseState::kAmbiguous);
   EXPECT_NEAR(among_many.doubt, 7 * alone.doubt, 0.01 * kWrongFixRate);
 }
 
-TEST(Decide, EqualHypotheses_ShareThePosterior) {
-  const std::vector<VerifiedHypothesis> places(4, place_at(1, 1000, 1000));
-  EXPECT_NEAR(decide(places, std::nullopt).doubt, 0.75, 1e-12);
+TEST(Decide, EqualPlaces_ShareThePosterior) {
+  EXPECT_NEAR(decide_alone(std::vector(4, place_at(1, 40))).doubt, 0.75, 1e-12);
 }
 
-TEST(Decide, BehindByRaysOfOneObstacle_StaysAmbiguous) {
-  const std::vector<VerifiedHypothesis> places = {place_at(1, 1000, 1000), place_at(5, 700, 995)};
-  EXPECT_EQ(decide(places, std::nullopt).state, PoseState::kAmbiguous);
+TEST(Decide, MaybeNotInThisMap_IsNoFix) {
+  EXPECT_EQ(decide_alone({place_at(1, 12)}).state, PoseState::kFix);
+  EXPECT_EQ(decide_alone({place_at(1, 11)}).state, PoseState::kAmbiguous);
+  EXPECT_EQ(decide_alone({place_at(1, 4)}).state, PoseState::kLost);
 }
 
-TEST(Decide, CompetingWithMoreHits_StaysAmbiguous) {
-  // A sensor off by 1 % and 5 mm: the true hypothesis fits less exactly, but with all rays.
-  std::vector<VerifiedHypothesis> places = {place_at(1, 1000, 1000), place_at(5, 800, 800)};
-  places[0].likelihood.hits = 280;
-  places[1].likelihood.hits = 220;
-  places[1].likelihood.near_hits = 75;
-  EXPECT_EQ(decide(places, std::nullopt).state, PoseState::kAmbiguous);
-  places[1].likelihood.near_hits = 55;
-  EXPECT_EQ(decide(places, std::nullopt).state, PoseState::kFix);
-}
-
-TEST(Decide, ReducedChiSquareAboveOne_WidensMargin) {
-  std::vector<VerifiedHypothesis> places = {place_at(1, 1000, 1000), place_at(5, 970, 970)};
-  EXPECT_EQ(decide(places, std::nullopt).state, PoseState::kFix);
-  places[0].refined.reduced_chi_square = 2.5;
-  EXPECT_EQ(decide(places, std::nullopt).state, PoseState::kAmbiguous);
-}
-
-TEST(Decide, PriorAtOneHypothesis_ChoosesIt) {
-  const std::vector<VerifiedHypothesis> places = {place_at(1, 1000, 1000), place_at(5, 995, 995)};
-  const Decision decision = decide(places, Prior{{5.1, 0.05, 0.1}});
+TEST(Decide, PriorAtOneOfTwo_ChoosesIt) {
+  const Decision decision = decide_after({5, 0, 0}, {place_at(1, 30), place_at(5.1, 29)});
   EXPECT_EQ(decision.state, PoseState::kTracking);
   EXPECT_EQ(decision.place, 1U);
 }
 
-TEST(Decide, PriorReachesBothHypotheses_ChoosesNone) {
-  const std::vector<VerifiedHypothesis> places = {place_at(1, 1000, 1000), place_at(1.3, 995, 995)};
-  EXPECT_EQ(decide(places, Prior{{1, 0, 0}}).state, PoseState::kTracking);
-  EXPECT_EQ(decide(places, Prior{{1, 0, 0}, 0.1}).state, PoseState::kAmbiguous);
-}
-
 TEST(Decide, PriorElsewhere_ChoosesNone) {
-  const std::vector<VerifiedHypothesis> places = {place_at(1, 1000, 1000), place_at(5, 995, 995)};
-  EXPECT_EQ(decide(places, Prior{{3, 0, 0}}).state, PoseState::kAmbiguous);
+  EXPECT_EQ(decide_after({3, 0, 0}, {place_at(1, 30), place_at(5, 29)}).state,
+            PoseState::kAmbiguous);
 }
 
 TEST(Decide, PriorAgainstClearScan_IsOverruled) {
-  const std::vector<VerifiedHypothesis> places = {place_at(1, 1000, 1000), place_at(5, 500, 500)};
-  const Decision decision = decide(places, Prior{{5, 0, 0}});
+  const Decision decision = decide_after({5, 0, 0}, {place_at(1, 30), place_at(5, -20)});
   EXPECT_EQ(decision.state, PoseState::kFix);
   EXPECT_EQ(decision.place, 0U);
 }
 
-TEST(Decide, OpenRival_IsNoFixButNearThePrior) {
-  const std::vector<VerifiedHypothesis> places = {place_at(1, 1000, 1000)};
-  const std::vector<VerifiedHypothesis> open = {place_at(5, 995, 995)};
-  EXPECT_EQ(decide(places, std::nullopt).state, PoseState::kFix);
-  EXPECT_EQ(decide(places, std::nullopt, open).state, PoseState::kAmbiguous);
-  EXPECT_EQ(decide(places, Prior{{1, 0, 0}}, open).state, PoseState::kTracking);
-  EXPECT_EQ(decide(places, Prior{{5, 0, 0}}, open).state, PoseState::kAmbiguous);
-}
-
-TEST(Decide, FewRaysAlongACorridor_AreBelievedAtASurePriorAlone) {
-  std::vector<VerifiedHypothesis> places = {place_at(1, 1000, 1000)};
-  places[0].refined.least_inliers = 2;
-  EXPECT_EQ(decide(places, std::nullopt).state, PoseState::kAmbiguous);
-  EXPECT_EQ(decide(places, Prior{{1.02, 0, 0}}).state, PoseState::kTracking);
-  EXPECT_EQ(decide(places, Prior{{1.2, 0, 0}}).state, PoseState::kAmbiguous);
-  EXPECT_EQ(decide(places, Prior{{1.02, 0, 0}, 0.3}).state, PoseState::kAmbiguous);
+TEST(Decide, FewRaysAlongACorridor_AreNoFix) {
+  VerifiedHypothesis place = place_at(1, 30);
+  place.refined.least_inliers = 2;
+  EXPECT_EQ(decide_alone({place}).state, PoseState::kAmbiguous);
+  EXPECT_EQ(decide_after({1, 0, 0}, {place}).state, PoseState::kTracking);
 }
 
 }  // namespace

@@ -13,7 +13,7 @@ constexpr double kRate = 1e-5;
 VerifiedHypothesis place_at(double x_m, double log_odds) {
   VerifiedHypothesis place;
   place.refined.T_map_lidar = {x_m, 0, 0};
-  place.log_odds = log_odds;
+  place.evidence = place.log_odds = log_odds;
   return place;
 }
 

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "core/recognition/explanation.hpp"
+#include "core/recognition/beam_likelihood.hpp"
 
 #include <gtest/gtest.h>
-
-#include <cmath>
 
 #include "../fixtures.hpp"
 
@@ -15,7 +13,7 @@ class BeamLikelihoodTest : public ::testing::Test {
   BeamLikelihood at(const Pose2& T_map_lidar, const Scan& scan) {
     const PolarScan points = testing::polar(scan);
     const auto hits = prediction_.cast(*map_, T_map_lidar, points.points());
-    return beam_likelihood(*map_, points.points(), hits, T_map_lidar, {}, 1, 0);
+    return beam_likelihood(*map_, points.points(), hits, T_map_lidar, {}, 1);
   }
 
   std::shared_ptr<const WallMap> map_ = testing::make_map(testing::l_shaped_room());
@@ -46,26 +44,36 @@ TEST_F(BeamLikelihoodTest, WrongPose_LowerLikelihoodAndViolations) {
   EXPECT_LT(wrong.log_likelihood + 500, at(T_map_lidar, scan).log_likelihood);
 }
 
-TEST_F(BeamLikelihoodTest, ObstacleBeforeWall_CountsOnce) {
+TEST_F(BeamLikelihoodTest, ObstacleBeforeWall_IsShort) {
   const Pose2 T_map_lidar{1, 1, 0.5};
   const Scan clear = source_.take(*map_, T_map_lidar);
-  const auto hidden = [&](std::size_t count) {
-    Scan scan;
-    for (std::size_t i = 0; i < clear.size(); ++i) {
-      Sample sample = clear.samples()[i];
-      if (i >= 100 && i < 100 + count) sample.range_m = 0.4F;
-      scan.add(sample);
-    }
-    return at(T_map_lidar, scan);
-  };
-  const BeamLikelihood small = hidden(30);
-  const BeamLikelihood large = hidden(90);
-  EXPECT_EQ(small.shorts, 30U);
-  EXPECT_EQ(large.shorts, 90U);
-  const double by_rays = small.log_likelihood - large.log_likelihood;
-  const double by_things = small.log_likelihood_of_obstacles - large.log_likelihood_of_obstacles;
-  EXPECT_GT(by_rays, 150);
-  EXPECT_LT(std::abs(by_things), by_rays / 3);
+  Scan hidden;
+  for (Sample sample : clear.samples()) {
+    if (hidden.size() >= 100 && hidden.size() < 130) sample.range_m = 0.4F;
+    hidden.add(sample);
+  }
+  EXPECT_EQ(at(T_map_lidar, hidden).shorts, 30U);
+  EXPECT_LT(at(T_map_lidar, hidden).log_likelihood, at(T_map_lidar, clear).log_likelihood);
+}
+
+BeamLikelihood hits_of(std::size_t rays, std::size_t hits) {
+  return {.rays = rays, .hits = hits, .shorts = rays - hits};
+}
+
+TEST(BeamLikelihood, NearlyAllHits_IsConclusive) {
+  EXPECT_TRUE(hits_of(800, 780).is_conclusive(false));
+  EXPECT_FALSE(hits_of(800, 770).is_conclusive(false));
+  EXPECT_TRUE(hits_of(800, 770).is_conclusive(true));
+  EXPECT_FALSE(hits_of(99, 99).is_conclusive(true));
+}
+
+TEST(BeamLikelihood, HalfOfTheRaysOnWalls_ExplainsAScan) {
+  EXPECT_TRUE(hits_of(800, 420).explains_scan());
+  EXPECT_FALSE(hits_of(800, 400).explains_scan());
+  EXPECT_FALSE(hits_of(40, 30).explains_scan());
+  BeamLikelihood through = hits_of(800, 700);
+  through.free_space_violations = 80;
+  EXPECT_FALSE(through.explains_scan());
 }
 
 }  // namespace

@@ -10,8 +10,8 @@
 
 namespace cornerd::core {
 
-/// Likelihood of a scan under a hypothesis by the beam model (Thrun, Burgard and Fox, Probabilistic
-/// Robotics, section 6.3).
+/// Likelihood of a scan at a pose in an exact map, ray by ray, by the beam model (Thrun, Burgard
+/// and Fox, Probabilistic Robotics, section 6.3).
 struct BeamLikelihood {
   std::size_t rays = 0;
   std::size_t hits = 0;                   ///< at the predicted range
@@ -19,12 +19,16 @@ struct BeamLikelihood {
   std::size_t shorts = 0;                 ///< short of the wall: an unmapped obstacle
   std::size_t free_space_violations = 0;  ///< beyond the wall
   double log_likelihood = 0;
-  /// The same with consecutive short rays counted as one obstacle.
-  double log_likelihood_of_obstacles = 0;
 
   double hit_share() const { return share(hits); }
   double near_hit_share() const { return share(hits + near_hits); }
   double violation_share() const { return share(free_space_violations); }
+
+  /// Enough rays are on walls, and hardly any goes through one, for the place to be the right one.
+  bool explains_scan() const;
+  /// Hardly any ray is left for a competing place. `expected`: near the prior, where unmapped
+  /// obstacles may take a larger share.
+  bool is_conclusive(bool expected) const;
 
  private:
   double share(std::size_t count) const {
@@ -32,9 +36,9 @@ struct BeamLikelihood {
   }
 };
 
-/// `extra_sigma_m`: uncertainty of the predicted range from the hypothesis' own error.
+/// `hits`: the face that each point's ray meets at `T_map_lidar`, by RayCaster.
 BeamLikelihood beam_likelihood(const WallMap& map, std::span<const PolarPoint> points,
                                std::span<const PredictedHit> hits, const Pose2& T_map_lidar,
-                               const SensorNoise& noise, double noise_scale, double extra_sigma_m);
+                               const SensorNoise& noise, double noise_scale);
 
 }  // namespace cornerd::core

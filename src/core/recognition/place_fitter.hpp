@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "core/estimate/constant_velocity_model.hpp"
+#include "core/estimate/refinement.hpp"
+#include "core/localizer_config.hpp"
+#include "core/recognition/beam_likelihood.hpp"
+#include "core/recognition/beam_model.hpp"
+
+namespace cornerd::core {
+
+/// A pose that was refined on all rays.
+struct VerifiedHypothesis {
+  RefinedPose refined;
+  BeamLikelihood likelihood;
+  double evidence = 0;     ///< log_odds_of_place(), nats
+  double log_odds = 0;     ///< against places that the scan leaves open, too
+  double map_sigma_m = 0;  ///< of the walls' offsets, which `refined` marginalised
+  bool is_exact = false;   ///< the rays hit walls where the map has them, within the noise
+};
+
+/// What is known before a scan.
+struct ScanPrior {
+  double noise_scale = 1;
+  /// Of the walls' offsets, as far as earlier scans have shown.
+  double max_map_sigma_m = BeamModel::kMapSigmas_m.back();
+  /// The scan was deskewed by a motion that was fitted to it, on few walls. That takes its three
+  /// parameters' worth from the odds of a place, sqrt(rays) each (Schwarz 1978).
+  bool fits_motion = false;
+  std::optional<Prior> prior = std::nullopt;  ///< where it is fresh
+};
+
+/// Fits the pose of a scan near one place, on all rays. Allocates nothing after construction.
+class PlaceFitter {
+ public:
+  /// `map` must outlive it.
+  PlaceFitter(const WallMap& map, const LocalizerConfig& config);
+
+  /// Starts a scan, which must outlive the calls for it.
+  void begin(std::span<const PolarPoint> points, const ScanPrior& known);
+  /// Some of its rays, spread over it.
+  std::span<const PolarPoint> few_rays() const { return few_; }
+
+  /// As if every wall were where the map has it. No likelihood where the map does not explain the
+  /// rays. `first`: rays of the first steps.
+  VerifiedHypothesis exactly(const Pose2& T_map_lidar, double search_radius_m,
+                             std::span<const PolarPoint> first);
+  VerifiedHypothesis exactly(const Pose2& T_map_lidar, double search_radius_m) {
+    return exactly(T_map_lidar, search_radius_m, few_);
+  }
+  /// With the walls' offsets marginalised, unless they show themselves to be none. `map_sigma_m`:
+  /// of the offsets, by few rays. `exact`: the same place as exactly() gave it.
+  VerifiedHypothesis with_offsets(const Pose2& T_map_lidar, double search_radius_m,
+                                  double map_sigma_m, const RefinedPose& exact);
+  /// The rays that reach walls hit them, and walls that are off would show.
+  bool is_exact(const VerifiedHypothesis& fit) const;
+  /// The scan, or a prior, holds the pose in each direction: no single wall, no bare corridor.
+  bool is_determined(const RefinedPose& refined) const;
+  /// The face that each ray meets, at a pose or at that of the last exactly(). Until the next call.
+  std::span<const PredictedHit> hits_at(const Pose2& T_map_lidar) {
+    return ray_caster_.cast(map_, T_map_lidar, points_);
+  }
+  std::span<const PredictedHit> last_hits() const { return hits_; }
+
+ private:
+  bool may_be_off() const { return known_.max_map_sigma_m > BeamModel::kMapSigmas_m.front(); }
+
+  const WallMap& map_;
+  SensorNoise noise_;
+  RayCaster ray_caster_;
+  Refinement refinement_;
+  std::span<const PolarPoint> points_;
+  std::vector<PolarPoint> few_;
+  ScanPrior known_;
+  std::span<const PredictedHit> hits_;
+};
+
+}  // namespace cornerd::core
