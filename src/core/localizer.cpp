@@ -27,26 +27,26 @@ Localizer& Localizer::operator=(Localizer&&) noexcept = default;
 
 const ScanResult& Localizer::step(const Scan& received) {
   Workspace& w = *workspace_;
-  const Scan& turn = w.as_measured(received);
-  const TimeNs t_ns = turn.start_ns() + (turn.end_ns() - turn.start_ns()) / 2;
+  const Scan& measured = w.as_measured(received);
+  const TimeNs t_ns = measured.start_ns() + (measured.end_ns() - measured.start_ns()) / 2;
   ++w.result.pose.seq;
-  w.rotation.add(turn);
+  w.rotation.add(measured);
 
   // 0. Odometry, where there is any, says how the robot moved during the scan and where it should
   //    be.
-  const Scan& scan = w.deskewed(turn, t_ns);
+  const Scan& scan = w.deskewed(measured, t_ns);
 
   // 1. to 4. The place where that scan was taken. One that fits nowhere may have been deskewed by
   //    wrong odometry: once more, as it came. One that fits exactly only as it came was.
   Decision decision = w.find(scan, t_ns);
-  const bool may_be_wrong = &scan != &turn && !(w.trusts_odometry() && w.memory.prior(t_ns));
+  const bool may_be_wrong = &scan != &measured && !(w.trusts_odometry() && w.memory.prior(t_ns));
   if (decision.state == PoseState::kLost && may_be_wrong) {
     // Where nearly every ray hits, that may be anywhere; else only where odometry leads to, for
     // rooms that look alike fit.
     const PlaceFilter lost = w.filtered;
     const std::optional<Prior> prior = w.memory.prior(t_ns);
     w.reject_motion(prior);
-    const Decision undeskewed = w.find(turn, t_ns);
+    const Decision undeskewed = w.find(measured, t_ns);
     if (w.is_conclusive(t_ns) || !prior ||
         (has_pose(undeskewed.state) &&
          w.is_expected(w.chosen(undeskewed).refined.T_map_lidar, t_ns))) {
@@ -55,8 +55,8 @@ const ScanResult& Localizer::step(const Scan& received) {
     } else {
       w.filtered = lost;
     }
-  } else if (may_be_wrong && !w.is_conclusive(t_ns) && w.fits_as_it_came(turn, t_ns)) {
-    const Decision undeskewed = w.find(turn, t_ns);
+  } else if (may_be_wrong && !w.is_conclusive(t_ns) && w.fits_as_it_came(measured, t_ns)) {
+    const Decision undeskewed = w.find(measured, t_ns);
     const bool is_exact = w.is_conclusive(t_ns);
     if (is_exact) w.reject_motion(std::nullopt);
     decision = is_exact ? undeskewed : w.find(scan, t_ns);
@@ -73,11 +73,11 @@ const ScanResult& Localizer::step(const Scan& received) {
   w.report(decision, corners, t_ns);
 
   // 6. A scan whose place is known tells how the lidar errs always, if the robot stood.
-  const Scan& seen = w.odometer.has_motion() ? scan : turn;
+  const Scan& seen = w.odometer.has_motion() ? scan : measured;
   w.learn_bias(seen, decision, t_ns);
   w.try_bias(seen, decision, t_ns);
   w.result.bias = estimated_bias();
-  w.learn_sweep(turn, t_ns);
+  w.learn_sweep(measured, t_ns);
   return w.result;
 }
 
@@ -180,8 +180,8 @@ void Localizer::Workspace::reject_motion(const std::optional<Prior>& prior) {
   memory.set_prediction(prior, false);
 }
 
-const Scan& Localizer::Workspace::deskewed(const Scan& turn, TimeNs t_ns) {
-  odometer.advance(turn.start_ns(), t_ns, turn.end_ns());
+const Scan& Localizer::Workspace::deskewed(const Scan& measured, TimeNs t_ns) {
+  odometer.advance(measured.start_ns(), t_ns, measured.end_ns());
   std::optional<Prior> prior;
   if (const auto predicted = odometer.dead_reckoning()) {
     const Covariance3& covariance = predicted->covariance;
@@ -190,14 +190,14 @@ const Scan& Localizer::Workspace::deskewed(const Scan& turn, TimeNs t_ns) {
              kSurely * std::sqrt(covariance(2, 2))};
   }
   // By coarse counts less is known of the motion in a scan than by the poses before.
-  const double duration_s = to_seconds(turn.end_ns() - turn.start_ns());
+  const double duration_s = to_seconds(measured.end_ns() - measured.start_ns());
   if (odometer.has_motion() && outdated_motion_covariance(memory.age_s(t_ns), duration_s).trace() <
                                    odometer.deskew_covariance().trace()) {
     odometer.reject_motion();
   }
-  const bool known = odometer.deskew(turn, config.T_base_lidar, still);
+  const bool known = odometer.deskew(measured, config.T_base_lidar, still);
   memory.set_prediction(prior, known);
-  return known ? still : turn;
+  return known ? still : measured;
 }
 
 std::size_t Localizer::Workspace::corners_of(const Decision& decision) const {

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
 // What is believed of a decision, by what was known before the scan.
+#include <cmath>
+
 #include "core/localizer_workspace.hpp"
 
 namespace cornerd::core {
 namespace {
 
-/// A prior that may be off by more than this says little about what half a turn shows.
+/// A prior that may be off by more than this says little about what half a scan shows.
 constexpr double kFresh_m = 0.2;
 constexpr double kFresh_rad = radians(15);
 /// What is left of a scan while a lidar is being covered is believed near a prior that is almost

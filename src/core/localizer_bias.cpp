@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What is learned of the lidar.
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <cstdlib>
 
@@ -9,7 +10,7 @@
 namespace cornerd::core {
 namespace {
 
-/// The lidar's bias is learnt from turns that the map explains nearly whole, of a robot that
+/// The lidar's bias is learnt from scans that the map explains nearly whole, of a robot that
 /// stands or whose wheels tell how it moves: what is steady in a motion passes for no bias, but
 /// what changes would.
 constexpr double kTeachingShare = 0.8;

@@ -2,6 +2,7 @@
 // The robot's motion within a scan, from the scan itself.
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 
 #include "core/geometry/squared.hpp"

@@ -9,8 +9,10 @@
 namespace cornerd::core {
 namespace {
 
-/// A turn without a wider gap than this has seen all around.
+/// A scan without a wider gap than this has seen all around.
 constexpr double kSeesAround_rad = radians(90);
+/// Scans in which a lidar's bias is learned.
+constexpr std::size_t kScansOfANewLidar = 20;
 /// Residuals this much beyond the scan's own noise are smeared by a motion.
 constexpr double kSmearedSpread = 1.4;
 
@@ -29,9 +31,9 @@ Covariance3 doubt_of_bias() { return doubt_of(0.006, radians(0.15)); }
 
 /// Residuals beyond the noise are no noise that many points average out: a motion that is not known
 /// moves them together, and the pose with them. More so where the pose rests on the last one, as
-/// such a turn showed too little to tell by itself. The shares are those of robots that start and
+/// such a scan showed too little to tell by itself. The shares are those of robots that start and
 /// turn at once, simulated in flat-7 without odometry, with a bias of 1 % and 5 mm and without: the
-/// NEES of `tracking` turns, by how smeared they are, is 1 to 6 in five drives (up to 195 without).
+/// NEES of `tracking` scans, by how smeared they are, is 1 to 6 in five drives (up to 195 without).
 Covariance3 doubt_of_smear(const RefinedPose& refined, PoseState state) {
   const double smear_m = refined.rmse_m * std::sqrt(1 - 1 / refined.spread);
   return state == PoseState::kTracking ? doubt_of(smear_m, 1.2 * smear_m)
@@ -78,7 +80,7 @@ bool Localizer::Workspace::contradicts(const PredictedPose& predicted) const {
   return std::none_of(result.pose.alternatives.begin(), result.pose.alternatives.end(), is_near);
 }
 
-/// A turn that sees all around and shows no place was most likely taken in motion, of which
+/// A scan that sees all around and shows no place was most likely taken in motion, of which
 /// readings that are late or missing may not tell.
 bool Localizer::Workspace::may_set_out() const {
   return odometer.may_miss_motion() && points.largest_gap_rad() < kSeesAround_rad;
@@ -112,7 +114,7 @@ void Localizer::Workspace::report_pose(const core::VerifiedHypothesis& found, st
   pose.covariance = covariance_of_base(of_lidar, T_map_lidar, pose.T_map_base);
   if (refined.spread > kSmearedSpread && !trusts_odometry()) {
     pose.covariance += doubt_of_smear(refined, pose.state);
-    if (place->bias.scans() < kTurnsOfANewLidar) pose.covariance += doubt_of_bias();
+    if (place->bias.scans() < kScansOfANewLidar) pose.covariance += doubt_of_bias();
   }
   odometer.correct(pose.T_map_base, pose.covariance);
   pose.room = map->room_at(pose.T_map_base.translation());

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// From a turn to the places where it may have been taken.
+// From a scan to the places where it may have been taken.
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "core/localizer_workspace.hpp"
 

@@ -15,8 +15,8 @@ constexpr double kSure = 7;
 constexpr double kAscendingShare = 0.9;
 
 /// Lidars that rotate clockwise count down: their own samples need no guess.
-bool counts_up(const Scan& turn) {
-  const auto samples = turn.samples();
+bool counts_up(const Scan& measured) {
+  const auto samples = measured.samples();
   std::size_t up = 0;
   for (std::size_t i = 1; i < samples.size(); ++i) {
     up += samples[i].bearing_rad > samples[i - 1].bearing_rad ? 1 : 0;
@@ -28,15 +28,16 @@ bool counts_up(const Scan& turn) {
 
 bool Localizer::Workspace::knows_order() const { return std::abs(sweep_log_odds) >= kSure; }
 
-const Scan& Localizer::Workspace::as_measured(const Scan& turn) {
-  if (sweep_log_odds > -kSure || !counts_up(turn)) return turn;
-  reversed.assign_reversed(turn);
+const Scan& Localizer::Workspace::as_measured(const Scan& measured) {
+  if (sweep_log_odds > -kSure || !counts_up(measured)) return measured;
+  reversed.assign_reversed(measured);
   return reversed;
 }
 
-double Localizer::Workspace::log_odds_at(const Scan& turn, const Pose2& T_map_lidar, TimeNs t_ns) {
-  const bool known = odometer.deskew(turn, config.T_base_lidar, still);
-  tried_points.assign(known ? still : turn, config.min_range_m, config.max_range_m, t_ns,
+double Localizer::Workspace::log_odds_at(const Scan& measured, const Pose2& T_map_lidar,
+                                         TimeNs t_ns) {
+  const bool known = odometer.deskew(measured, config.T_base_lidar, still);
+  tried_points.assign(known ? still : measured, config.min_range_m, config.max_range_m, t_ns,
                       known ? Twist2{} : memory.motion(), place->bias.bias());
   place->place_search.begin(tried_points, result.detection.segments, {},
                             {.noise_scale = noise_scale()});
@@ -46,14 +47,14 @@ double Localizer::Workspace::log_odds_at(const Scan& turn, const Pose2& T_map_li
   return found.empty() ? -kMostOfAScan : found.front().log_odds;
 }
 
-void Localizer::Workspace::learn_sweep(const Scan& turn, TimeNs t_ns) {
+void Localizer::Workspace::learn_sweep(const Scan& measured, TimeNs t_ns) {
   const std::optional<Prior> prior = memory.prior(t_ns);
-  if (!place || !prior || memory.is_stationary() || knows_order() || !counts_up(turn)) {
+  if (!place || !prior || memory.is_stationary() || knows_order() || !counts_up(measured)) {
     return;
   }
-  reversed.assign_reversed(turn);
-  const double lead =
-      log_odds_at(turn, prior->T_map_lidar, t_ns) - log_odds_at(reversed, prior->T_map_lidar, t_ns);
+  reversed.assign_reversed(measured);
+  const double lead = log_odds_at(measured, prior->T_map_lidar, t_ns) -
+                      log_odds_at(reversed, prior->T_map_lidar, t_ns);
   sweep_log_odds += std::clamp(lead, -kMostOfAScan, kMostOfAScan);
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What Localizer keeps between turns, and the steps that it takes. Private to localizer*.cpp.
+// What Localizer keeps between scans, and the steps that it takes. Private to localizer*.cpp.
 #pragma once
 
 #include <algorithm>
@@ -27,9 +27,6 @@
 #include "core/recognition/recognition.hpp"
 
 namespace cornerd::core {
-
-/// Turns within which a lidar's bias is learnt.
-inline constexpr std::size_t kTurnsOfANewLidar = 20;
 
 struct Localizer::Workspace {
   /// What needs a map.
@@ -61,7 +58,7 @@ struct Localizer::Workspace {
     MapErrorModel map_error;
     std::optional<WallOffsetFilter> walls;
     std::optional<MapChanges> changes;        ///< where `walls` is
-    std::optional<PartialScanTracker> parts;  ///< where poses are asked for before a turn ends
+    std::optional<PartialScanTracker> parts;  ///< where poses are asked for before a scan ends
   };
 
   Workspace(std::shared_ptr<const WallMap> the_map, const LocalizerConfig& the_config)
@@ -74,11 +71,11 @@ struct Localizer::Workspace {
     everywhere.reserve(MapSearch::kMaxFound);
   }
 
-  const Scan& as_measured(const Scan& turn);
+  const Scan& as_measured(const Scan& measured);
   bool knows_order() const;
-  void learn_sweep(const Scan& turn, TimeNs t_ns);
-  double log_odds_at(const Scan& turn, const Pose2& T_map_lidar, TimeNs t_ns);
-  const Scan& deskewed(const Scan& turn, TimeNs t_ns);
+  void learn_sweep(const Scan& measured, TimeNs t_ns);
+  double log_odds_at(const Scan& measured, const Pose2& T_map_lidar, TimeNs t_ns);
+  const Scan& deskewed(const Scan& measured, TimeNs t_ns);
   /// Scans are as they came; `prior` is what is left of odometry.
   void reject_motion(const std::optional<Prior>& prior);
   Decision find(const Scan& scan, TimeNs t_ns);
@@ -141,7 +138,7 @@ struct Localizer::Workspace {
   void report_alternatives(std::span<const core::VerifiedHypothesis> rivals);
   std::optional<PredictedState> expectation(TimeNs t_ns);
   void predict(const PredictedPose& predicted, PoseEstimate& pose) const;
-  /// What a turn showed of the noise, where it is more than chance.
+  /// What a scan showed of the noise, where it is more than chance.
   double noise_scale() const { return std::clamp(result.detection.noise_scale, 0.5, 4.0); }
   bool contradicts(const PredictedPose& predicted) const;
   bool may_set_out() const;
@@ -153,11 +150,11 @@ struct Localizer::Workspace {
   std::optional<Place> place;
 
   Odometer odometer;
-  Scan still;  ///< the turn as a lidar that stood still would have seen it
+  Scan still;  ///< the scan as a lidar that stood still would have seen it
   /// ROS drivers turn the order of a clockwise lidar round, and the times stay: log odds that a
   /// scan's bearings were measured in the order in which they come.
   double sweep_log_odds = 0;
-  Scan reversed;  ///< the turn in the opposite order
+  Scan reversed;  ///< the scan in the opposite order
   ConstantVelocityModel memory;
   PlaceFilter filter;    ///< of the scans so far
   PlaceFilter filtered;  ///< with the one that find() looked at last
@@ -178,9 +175,9 @@ struct Localizer::Workspace {
   std::optional<Pose2> T_map_taught;   ///< of the last scan that the walls were learned from
   std::optional<Pose2> T_map_against;  ///< of the last scan that contradicted them
   std::size_t contradictions = 0;      ///< places since then
-  std::optional<Pose2> T_map_doubted;  ///< a jump of the turn before that waits for a second
+  std::optional<Pose2> T_map_doubted;  ///< a jump of the scan before that waits for a second
   ScanResult result;
-  PoseEstimate between;  ///< of a reading between two turns, or of a part of a turn
+  PoseEstimate between;  ///< of a reading between two scans, or of a part of a scan
 };
 
 }  // namespace cornerd::core

@@ -11,7 +11,7 @@
 namespace cornerd::core {
 
 /// Where `base` was lately, in a frame of its own that starts anywhere and drifts: what the samples
-/// of a turn are moved back by. Holds the last readings alone; nothing is allocated.
+/// of a scan are moved back by. Holds the last readings alone; nothing is allocated.
 class MotionPath {
  public:
   /// Goes on by a motion that ends at `t_ns`.

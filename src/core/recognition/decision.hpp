@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <optional>
 #include <span>
-#include <vector>
 
 #include "core/estimate/constant_velocity_model.hpp"
 #include "core/pose_estimate.hpp"
@@ -15,7 +12,7 @@
 
 namespace cornerd::core {
 
-/// A turn may name the wrong one of several places so often, by its own account: the places of an
+/// A scan may name the wrong one of several places so often, by its own account: the places of an
 /// answer hold the truth but for this share of belief.
 inline constexpr double kWrongFixRate = 1e-5;
 
