@@ -21,16 +21,17 @@ constexpr double kExact_m = 0.005;
 /// Exponential forgetting with each scan: three seconds.
 constexpr double kRetained = 0.95;
 
-/// A chi-square of so many degrees of freedom, over its mean, that is less once in 20 times: by
-/// Wilson and Hilferty (1931), and by the leading term of its series, which is better below two.
+/// A chi-square of so many degrees of freedom, over its mean, that is less once in 20 times: below
+/// three by the leading term of its series, else by Wilson and Hilferty (1931); both meet there.
 double least_share(double freedom) {
   constexpr double kOnceIn20 = 1.645;
   if (!(freedom > 0)) return 0;
+  if (freedom < 3) {
+    return 2 * std::pow(std::tgamma(freedom / 2 + 1) / 20, 2 / freedom) / freedom;
+  }
   const double variance = 2 / (9 * freedom);
-  const double root = std::max(0.0, 1 - variance - kOnceIn20 * std::sqrt(variance));
-  const double of_few =
-      2 * std::exp((std::lgamma(freedom / 2 + 1) - std::log(20)) * 2 / freedom) / freedom;
-  return std::max(root * root * root, of_few);
+  const double root = 1 - variance - kOnceIn20 * std::sqrt(variance);
+  return root * root * root;
 }
 
 }  // namespace
