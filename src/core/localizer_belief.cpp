@@ -62,8 +62,7 @@ PoseState Localizer::Workspace::believe(const Decision& decision, std::size_t co
   const bool confirmed =
       T_map_doubted && same_pose(*T_map_doubted, T_map_lidar, kJump_m, kJump_rad);
   T_map_doubted.reset();
-  const bool is_certain = all_around &&
-                          chosen(decision).likelihood.is_conclusive(/*expected=*/false) &&
+  const bool is_certain = all_around && chosen(decision).rays.is_conclusive(/*expected=*/false) &&
                           corners >= kCertainCorners;
   // What is left of the view of a lidar that is being covered shows two walls and no more.
   const bool is_covered = saw_all_around && !all_around;

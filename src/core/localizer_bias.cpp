@@ -54,7 +54,7 @@ bool Localizer::Workspace::teaches(const Decision& decision) const {
   if (!config.calibrate_online || !has_pose(decision.state) || is_map_inexact()) return false;
   const core::VerifiedHypothesis& at = chosen(decision);
   return (memory.is_stationary() || odometer.has_motion()) &&
-         at.likelihood.near_hit_share() > kTeachingShare;
+         at.rays.near_hit_share() > kTeachingShare;
 }
 
 /// Whether a robot stood during a scan the next one shows: one that sets out passes for a bias. A

@@ -14,9 +14,10 @@ namespace {
 /// A place found in a scan in motion is off by the motion.
 constexpr double kMotionSearchRadius_m = 0.08;
 
-/// A motion has to explain one ray in so many more than rest does: it fits things that are not on
-/// the map a little, always.
-constexpr std::size_t kRaysForAMotion = 50;
+/// A motion has to explain a scan better than rest by so much: it fits things that are not on the
+/// map a little, always. Fewer make poses in motion no better, more make them worse
+/// (`cornerd-bench --localizer`).
+constexpr double kNatsPerRayOfMotion = 0.05;
 
 /// Residuals this much beyond the scan's noise may be a motion's (reduced chi-square; 1.15 is three
 /// standard deviations of 800 rays'). Where all else fits, only what is more is looked into.
@@ -58,10 +59,16 @@ bool Localizer::Workspace::may_move(TimeNs t_ns) const {
          exact->refined.reduced_chi_square > (is_conclusive(t_ns) ? kSurelyMoves : kMayMove);
 }
 
-std::size_t Localizer::Workspace::best_hits() const {
-  if (!place) return 0;
-  const auto& exact = place->place_search.exact();
-  return exact ? exact->likelihood.hits : 0;
+BeamCounts Localizer::Workspace::best_rays() const {
+  if (!place || !place->place_search.exact()) return {};
+  return place->place_search.exact()->rays;
+}
+
+bool Localizer::Workspace::explains_more(const BeamCounts& rays, const BeamCounts& than) const {
+  return rays.rays > 0 &&
+         (than.rays == 0 ||
+          rays.log_likelihood >
+              than.log_likelihood + kNatsPerRayOfMotion * static_cast<double>(points.size()));
 }
 
 bool Localizer::Workspace::is_explained_by_offsets(const Scan& scan, TimeNs t_ns) {
@@ -81,20 +88,21 @@ bool Localizer::Workspace::is_explained_by_offsets(const Scan& scan, TimeNs t_ns
 }
 
 bool Localizer::Workspace::is_half_explained() const {
-  return best_hits() > 0 && best_hits() >= points.size() / 2;
+  const std::size_t hits = best_rays().hits;
+  return hits > 0 && hits >= points.size() / 2;
 }
 
-BeamLikelihood Localizer::Workspace::try_at(const Scan& scan, TimeNs t_ns, const ScanMotion& as_if,
-                                            const Pose2& T_map_lidar, const SensorBias& bias) {
+BeamCounts Localizer::Workspace::try_at(const Scan& scan, TimeNs t_ns, const ScanMotion& as_if,
+                                        const Pose2& T_map_lidar, const SensorBias& bias) {
   tried_points.assign(scan, config.min_range_m, config.max_range_m, t_ns, as_if, bias);
-  place->trial.begin(tried_points.points(), {.noise_scale = noise_scale()});
-  return place->trial.exactly(T_map_lidar, kMotionSearchRadius_m).likelihood;
+  place->trial.begin(tried_points, {.noise_scale = noise_scale()});
+  return place->trial.exactly(T_map_lidar, kMotionSearchRadius_m).rays;
 }
 
 bool Localizer::Workspace::keep_if_better(const Scan& scan, TimeNs t_ns,
                                           const ScanMotion& candidate, const Pose2& T_map_lidar) {
-  const std::size_t hits = try_at(scan, t_ns, candidate, T_map_lidar, place->bias.bias()).hits;
-  const bool is_better = hits > best_hits() + points.size() / kRaysForAMotion;
+  const bool is_better =
+      explains_more(try_at(scan, t_ns, candidate, T_map_lidar, place->bias.bias()), best_rays());
   if (is_better) look(scan, t_ns, candidate);
   return is_better;
 }
@@ -102,7 +110,7 @@ bool Localizer::Workspace::keep_if_better(const Scan& scan, TimeNs t_ns,
 void Localizer::Workspace::refine_motion(const Scan& scan, TimeNs t_ns) {
   // Where walls have been exact, what does not fit is a motion. A first scan fits too much already.
   const bool accelerates = place->map_error.is_exact() && memory.prior(t_ns).has_value();
-  for (int k = 0; k < 2 && may_move(t_ns) && best_hits() > 0; ++k) {
+  for (int k = 0; k < 2 && may_move(t_ns) && best_rays().hits > 0; ++k) {
     const RefinedMotion refined = place->refinement.refine_motion(
         *map, place->place_search.exact()->refined.T_map_lidar, kMotionSearchRadius_m,
         points.points(), result.detection.noise_scale, accelerates);
@@ -128,7 +136,7 @@ bool Localizer::Workspace::try_rotation_rates(const Scan& scan, TimeNs t_ns) {
 }
 
 void Localizer::Workspace::look_for_the_motion(const Scan& scan, TimeNs t_ns) {
-  if (best_hits() == 0) {
+  if (best_rays().hits == 0) {
     if (!motion.is_rest()) look(scan, t_ns, {});
   } else if (!motion.is_rest()) {
     keep_if_better(scan, t_ns, {}, place->place_search.exact()->refined.T_map_lidar);
@@ -141,18 +149,17 @@ void Localizer::Workspace::look_for_the_motion(const Scan& scan, TimeNs t_ns) {
   if (!rate_rad_s || std::abs(*rate_rad_s) < kTurning_rad_s) return;
   const ScanMotion motion_before = motion;
   for (const double omega_rad_s : {*rate_rad_s, -*rate_rad_s}) {
-    const std::size_t hits_before = best_hits();
+    const BeamCounts before = best_rays();
     if (is_half_explained() || (omega_rad_s != *rate_rad_s && knows_order())) return;
     look(scan, t_ns, Twist2{motion_before.twist.vx_m_s, motion_before.twist.vy_m_s, omega_rad_s});
     refine_motion(scan, t_ns);
-    if (best_hits() <= hits_before + points.size() / kRaysForAMotion)
-      look(scan, t_ns, motion_before);
+    if (!explains_more(best_rays(), before)) look(scan, t_ns, motion_before);
   }
 }
 
 bool Localizer::Workspace::fits_as_it_came(const Scan& scan, TimeNs t_ns) {
   if (!place || candidates.empty()) return false;
-  const BeamLikelihood there =
+  const BeamCounts there =
       try_at(scan, t_ns, {}, candidates.front().refined.T_map_lidar, place->bias.bias());
   return there.is_conclusive(/*expected=*/true) ||
          (place->map_error.is_exact() && there.hit_share() > kMovingHitShare);

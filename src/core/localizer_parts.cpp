@@ -36,7 +36,7 @@ const PoseEstimate* Localizer::follow(const Sample& sample) {
   pose.room = w.map->room_at(pose.T_map_base.translation());
   pose.corners =
       static_cast<std::size_t>(w.place->recognition.recognised(parts.breakpoints(), T_map_lidar));
-  pose.inliers = found->likelihood.hits;
+  pose.inliers = found->rays.hits;
   pose.rmse_m = found->refined.rmse_m;
   pose.age_s = w.memory.age_s(pose.t_ns);
   return &pose;

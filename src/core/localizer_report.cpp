@@ -119,7 +119,7 @@ void Localizer::Workspace::report_pose(const core::VerifiedHypothesis& found, st
   odometer.correct(pose.T_map_base, pose.covariance);
   pose.room = map->room_at(pose.T_map_base.translation());
   pose.corners = corners;
-  pose.inliers = found.likelihood.hits;
+  pose.inliers = found.rays.hits;
   pose.rmse_m = refined.rmse_m;
 }
 

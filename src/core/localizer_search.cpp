@@ -67,7 +67,7 @@ bool Localizer::Workspace::sees_enough(TimeNs t_ns) const {
 
 bool Localizer::Workspace::is_conclusive(const VerifiedHypothesis& found, TimeNs t_ns) const {
   const bool expected = prior_is_fresh(t_ns) && is_expected(found.refined.T_map_lidar, t_ns);
-  return sees_enough(t_ns) && found.is_exact && found.likelihood.is_conclusive(expected);
+  return sees_enough(t_ns) && found.is_exact && found.rays.is_conclusive(expected);
 }
 
 bool Localizer::Workspace::is_conclusive(TimeNs t_ns) const {

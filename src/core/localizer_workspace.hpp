@@ -80,8 +80,8 @@ struct Localizer::Workspace {
   void reject_motion(const std::optional<Prior>& prior);
   Decision find(const Scan& scan, TimeNs t_ns);
   void look(const Scan& scan, TimeNs t_ns, const ScanMotion& as_if_moving);
-  BeamLikelihood try_at(const Scan& scan, TimeNs t_ns, const ScanMotion& as_if,
-                        const Pose2& T_map_lidar, const SensorBias& bias);
+  BeamCounts try_at(const Scan& scan, TimeNs t_ns, const ScanMotion& as_if,
+                    const Pose2& T_map_lidar, const SensorBias& bias);
   /// Covariance of a pose of the lidar from the motion that was not deskewed, m^2 and rad^2.
   /// `is_first`: no scan before tells of a motion.
   Covariance3 deskew_covariance(const Pose2& T_map_lidar, bool is_first);
@@ -115,7 +115,10 @@ struct Localizer::Workspace {
   bool is_conclusive(const VerifiedHypothesis& found, TimeNs t_ns) const;
   bool is_conclusive(TimeNs t_ns) const;  ///< the likeliest place
   bool may_move(TimeNs t_ns) const;
-  std::size_t best_hits() const;
+  /// Of the likeliest place of an exact map; none where no place explains the scan.
+  BeamCounts best_rays() const;
+  /// By more than any motion would.
+  bool explains_more(const BeamCounts& rays, const BeamCounts& than) const;
   /// Walls that are off look like a motion, a little: the one that was found leaves them off, and
   /// by the last scans' motion each is as straight.
   bool is_explained_by_offsets(const Scan& scan, TimeNs t_ns);

@@ -201,9 +201,9 @@ struct EvidenceSamples::State {
     };
     const auto write = [&](const core::VerifiedHypothesis& place) {
       const core::Pose2& at = place.refined.T_map_lidar;
-      const core::BeamStatistics s = searcher->beam_model.statistics(
-          points.points(), ray_caster.cast(map, at, points.points()), at, points.spacing_rad(),
-          detection.noise_scale, 1);
+      searcher->beam_model.meet(points.points(), ray_caster.cast(map, at, points.points()), at,
+                                points.spacing_rad(), detection.noise_scale);
+      const core::BeamStatistics s = searcher->beam_model.statistics(/*max_map_sigma_m=*/1);
       const bool right =
           drawn.is_right() &&
           core::same_pose(at, truth, kRight_m + kRightPerSigma * drawn.map_error_m, kRight_rad);

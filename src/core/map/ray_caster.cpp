@@ -37,6 +37,7 @@ void RayCaster::cover(std::uint32_t face, const Vec2& normal_lidar, double heigh
     if (approach <= 0 || height_m > hit.range_m * approach) continue;
     hit.range_m = height_m / approach;
     hit.face = face;
+    hit.sine = static_cast<float>(approach);
   }
 }
 

@@ -16,6 +16,7 @@ struct PredictedHit {
   static constexpr std::uint32_t kNone = 0xffffffff;
   double range_m = 0;          ///< 0: no wall within range
   std::uint32_t face = kNone;  ///< index into WallMap::faces()
+  float sine = 0;              ///< of the angle between the ray and the face
 };
 
 /// Ray casting for a whole scan: every visible face covers an interval of bearings, and only the

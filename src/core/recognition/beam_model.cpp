@@ -9,8 +9,6 @@
 namespace cornerd::core {
 namespace {
 
-/// Density of an outlier among hits, over kAnyDensity.
-constexpr double kOutlierRatio = 0.02;
 /// Rays are counted as if there were 400 a revolution: more are not more independent.
 constexpr double kNominalSpacing_rad = kTwoPi / 400;
 /// What n hits on one face are worth together: kWorth log(1 + n / kWorthHalf) of them. A face gives
@@ -61,18 +59,18 @@ BeamModel::FaceSums& BeamModel::sums_of(std::uint32_t face) {
   return sums;
 }
 
-void BeamModel::add_view(double spacing_rad, BeamStatistics& result) const {
+void BeamModel::add_view(BeamStatistics& result) const {
   double xx = 0;
   double xy = 0;
   double yy = 0;
   for (const std::uint32_t index : met_) {
     const FaceSums& face = faces_[index];
     const Vec2& normal = map_.faces()[index].normal;
-    const double view_rad = std::min(kWideView_rad, face.rays * spacing_rad);
+    const double view_rad = std::min(kWideView_rad, face.rays * spacing_rad_);
     xx += view_rad * normal.x() * normal.x();
     xy += view_rad * normal.x() * normal.y();
     yy += view_rad * normal.y() * normal.y();
-    result.unseen_faces += face.predicted * spacing_rad > kInView_rad &&
+    result.unseen_faces += face.predicted * spacing_rad_ > kInView_rad &&
                                    face.predicted_hits < kSeenShare * face.predicted
                                ? 1
                                : 0;
@@ -82,7 +80,7 @@ void BeamModel::add_view(double spacing_rad, BeamStatistics& result) const {
       std::max(0.0, (xx + yy - std::sqrt(squared(xx - yy) + 4 * xy * xy)) / 2);
 }
 
-void BeamModel::add_faces(double spacing_rad, double map_sigma_m, BeamStatistics& result) {
+void BeamModel::add_faces(double map_sigma_m, BeamStatistics& result) {
   const auto variance_m2 = [&](std::uint32_t face) {
     return squared(std::max(map_sigma_m, map_.faces()[face].sigma_m));
   };
@@ -107,7 +105,7 @@ void BeamModel::add_faces(double spacing_rad, double map_sigma_m, BeamStatistics
     face.gradient += ray.across_m / ray.variance_m2;
   }
   const auto worth = [&](double rays) {
-    const double nominal = rays * spacing_rad / kNominalSpacing_rad;
+    const double nominal = rays * spacing_rad_ / kNominalSpacing_rad;
     return std::min(1.0, kWorth * std::log1p(nominal / kWorthHalf) / rays);
   };
   for (const std::uint32_t index : met_) {
@@ -127,25 +125,24 @@ void BeamModel::add_faces(double spacing_rad, double map_sigma_m, BeamStatistics
     const FaceSums& face = faces_[index];
     if (face.rays == 0) continue;
     const double share = worth(face.rays);
-    result.faces += std::min(1.0, face.rays * spacing_rad / kNominalSpacing_rad / kWholeRays);
+    result.faces += std::min(1.0, face.rays * spacing_rad_ / kNominalSpacing_rad / kWholeRays);
     result.faces_log_ratio +=
         std::max(kWorstFace, share * face.log_density -
                                  std::log1p(variance_m2(index) * share * face.information) / 2 -
                                  face.offset_m * face.offset_m / (2 * variance_m2(index)));
   }
   result.log_likelihood += result.faces_log_ratio;
-  add_view(spacing_rad, result);
+  add_view(result);
 }
 
-void BeamModel::add_runs(std::span<const PolarPoint> points, double spacing_rad,
-                         BeamStatistics& result) const {
+void BeamModel::add_runs(BeamStatistics& result) const {
   const auto continues = [&](std::size_t i) {
     const Ray& a = rays_[i - 1];
     const Ray& b = rays_[i];
     if (a.outcome != b.outcome) return false;
     if (a.outcome == Outcome::kThrough) return a.face == b.face;
     return a.outcome != Outcome::kShort ||
-           std::abs(points[i].range_m - points[i - 1].range_m) < kObjectStep_m;
+           std::abs(points_[i].range_m - points_[i - 1].range_m) < kObjectStep_m;
   };
   for (std::size_t begin = 0, end = 0; begin < rays_.size(); begin = end) {
     for (end = begin + 1; end < rays_.size() && continues(end);) ++end;
@@ -155,8 +152,8 @@ void BeamModel::add_runs(std::span<const PolarPoint> points, double spacing_rad,
       case Outcome::kHit:
         break;
       case Outcome::kShort: {
-        const double width_m = (points[end - 1].position() - points[begin].position()).norm() +
-                               spacing_rad * points[begin].range_m;
+        const double width_m = (points_[end - 1].position() - points_[begin].position()).norm() +
+                               spacing_rad_ * points_[begin].range_m;
         const double object = std::min(1.0, rays / kWholeRays);
         result.obstacles_m += width_m;
         result.log_likelihood -= kObject * object + trust_ * kObjectPerMetre * width_m;
@@ -164,7 +161,7 @@ void BeamModel::add_runs(std::span<const PolarPoint> points, double spacing_rad,
       }
       case Outcome::kThrough: {
         const double permanent = std::min(1.0, map_.faces()[rays_[begin].face].length_m / kWall_m);
-        const double nominal = rays * spacing_rad / kNominalSpacing_rad;
+        const double nominal = rays * spacing_rad_ / kNominalSpacing_rad;
         if (count > kEdgeRays) {
           result.missing_walls += permanent;
           result.log_missing += permanent * std::log1p(nominal);
@@ -182,25 +179,20 @@ void BeamModel::add_runs(std::span<const PolarPoint> points, double spacing_rad,
   }
 }
 
-BeamStatistics BeamModel::by_map_sigma(std::span<const PolarPoint> points, double spacing_rad,
-                                       double map_sigma_m) {
+BeamStatistics BeamModel::by_map_sigma(double map_sigma_m) {
   BeamStatistics result;
   classify(map_sigma_m, result);
-  add_faces(spacing_rad, map_sigma_m, result);
-  add_runs(points, spacing_rad, result);
+  add_faces(map_sigma_m, result);
+  add_runs(result);
   result.log_likelihood -= kPerMapSigma * std::log(map_sigma_m / kMapSigmas_m.front());
   return result;
 }
 
-BeamStatistics BeamModel::statistics(std::span<const PolarPoint> points,
-                                     std::span<const PredictedHit> hits, const Pose2& T_map_lidar,
-                                     double spacing_rad, double noise_scale,
-                                     double max_map_sigma_m) {
-  meet(points, hits, T_map_lidar, spacing_rad, noise_scale);
-  BeamStatistics best = by_map_sigma(points, spacing_rad, kMapSigmas_m.front());
+BeamStatistics BeamModel::statistics(double max_map_sigma_m) {
+  BeamStatistics best = by_map_sigma(kMapSigmas_m.front());
   for (const double map_sigma_m : std::span(kMapSigmas_m).subspan(1)) {
     if (map_sigma_m > max_map_sigma_m) break;
-    const BeamStatistics other = by_map_sigma(points, spacing_rad, map_sigma_m);
+    const BeamStatistics other = by_map_sigma(map_sigma_m);
     if (other.log_likelihood > best.log_likelihood) best = other;
   }
   return best;

@@ -13,7 +13,33 @@
 
 namespace cornerd::core {
 
-/// What the rays of a scan do at a pose in a map that is inexact and incomplete.
+/// What the rays of a scan do at a pose if every wall is where the map has it.
+struct BeamCounts {
+  std::size_t rays = 0;
+  std::size_t hits = 0;       ///< on the face that the ray meets, within the noise
+  std::size_t near_hits = 0;  ///< close to it: a wall slightly displaced
+  std::size_t shorts = 0;     ///< short of it: an unmapped obstacle
+  std::size_t throughs = 0;   ///< beyond it
+  /// Nats, over ranges that any other place would give; as if rays were independent.
+  double log_likelihood = 0;
+
+  double hit_share() const { return share(hits); }
+  double near_hit_share() const { return share(hits + near_hits); }
+  double through_share() const { return share(throughs); }
+
+  /// Enough rays are on walls, and hardly any goes through one, for the place to be the right one.
+  bool explains_scan() const;
+  /// Hardly any ray is left for a competing place. `expected`: near the prior, where unmapped
+  /// obstacles may take a larger share.
+  bool is_conclusive(bool expected) const;
+
+ private:
+  double share(std::size_t count) const {
+    return rays == 0 ? 0 : static_cast<double>(count) / static_cast<double>(rays);
+  }
+};
+
+/// What they do in a map that is inexact and incomplete.
 struct BeamStatistics {
   std::size_t rays = 0;
   std::size_t hits = 0;         ///< on the face that the ray meets, within its uncertainty
@@ -38,15 +64,20 @@ class BeamModel {
  public:
   BeamModel(const WallMap& map, const SensorNoise& noise);
 
-  /// `hits`: the predicted face of each point at `T_map_lidar`. `spacing_rad`: between two rays.
-  BeamStatistics statistics(std::span<const PolarPoint> points, std::span<const PredictedHit> hits,
-                            const Pose2& T_map_lidar, double spacing_rad, double noise_scale,
-                            double max_map_sigma_m);
+  /// `points` and `hits`, the predicted face of each at `T_map_lidar`, must outlive the calls of
+  /// the others. `spacing_rad`: between two rays.
+  void meet(std::span<const PolarPoint> points, std::span<const PredictedHit> hits,
+            const Pose2& T_map_lidar, double spacing_rad, double noise_scale);
+  /// Of the last meet().
+  BeamCounts counts() const;
+  BeamStatistics statistics(double max_map_sigma_m);
 
   /// Standard deviations of a face's offset across itself that are tried, m.
   static constexpr std::array kMapSigmas_m = {0.003, 0.01, 0.025, 0.05};
 
  private:
+  /// Density of an outlier among hits, over that of a range that says nothing of the place.
+  static constexpr double kOutlierRatio = 0.02;
   /// Rays in a row that end on a wall's edge and may miss it.
   static constexpr std::size_t kEdgeRays = 2;
 
@@ -70,16 +101,12 @@ class BeamModel {
     double log_density = 0;
   };
 
-  void meet(std::span<const PolarPoint> points, std::span<const PredictedHit> hits,
-            const Pose2& T_map_lidar, double spacing_rad, double noise_scale);
-  BeamStatistics by_map_sigma(std::span<const PolarPoint> points, double spacing_rad,
-                              double map_sigma_m);
+  BeamStatistics by_map_sigma(double map_sigma_m);
   void classify(double map_sigma_m, BeamStatistics& result);
   FaceSums& sums_of(std::uint32_t face);
-  void add_view(double spacing_rad, BeamStatistics& result) const;
-  void add_faces(double spacing_rad, double map_sigma_m, BeamStatistics& result);
-  void add_runs(std::span<const PolarPoint> points, double spacing_rad,
-                BeamStatistics& result) const;
+  void add_view(BeamStatistics& result) const;
+  void add_faces(double map_sigma_m, BeamStatistics& result);
+  void add_runs(BeamStatistics& result) const;
 
   const WallMap& map_;
   SensorNoise noise_;
@@ -87,6 +114,8 @@ class BeamModel {
   /// tape is also wrong more often about what there is: missing walls and unmapped objects cost as
   /// much less.
   double trust_;
+  std::span<const PolarPoint> points_;
+  double spacing_rad_ = 0;
   std::vector<Ray> rays_;
   std::vector<FaceSums> faces_;     ///< by index into map.faces()
   std::vector<std::uint32_t> met_;  ///< faces with sums

@@ -25,7 +25,35 @@ constexpr double kEdge_m = 0.06;
 constexpr std::ptrdiff_t kMaxEdgeRays = 8;
 constexpr double kStep_m = 0.1;
 
+/// Where walls are taken to be exact: what is near one (a standard deviation), and the share of the
+/// rays there, and density of a ray that is stopped before, over kAnyDensity.
+constexpr double kNearSigma_m = BeamModel::kMapSigmas_m[2];
+constexpr double kNearShare = 0.15;
+constexpr double kShortRatio = 0.2;
+
+/// Half of the rays on walls, as the rest may be people and chairs, and hardly any through one. The
+/// two walls of one corner fit any other corner, so that of few rays more than half.
+constexpr std::size_t kMinSurplus = 30;
+constexpr double kMinHitShare = 0.25;
+constexpr double kMaxThroughs = 0.08;
+/// A place with a lower share of hits than outliers and mixed pixels explain, or with few hits, may
+/// be the wrong one of several: rooms of one building share walls.
+constexpr double kCertainHitShare = 0.97;
+constexpr double kCertainHitShareExpected = 0.9;
+constexpr std::size_t kCertainHits = 100;
+
 }  // namespace
+
+bool BeamCounts::explains_scan() const {
+  const std::size_t on_walls = hits + near_hits;
+  return on_walls >= rays - on_walls + kMinSurplus && hit_share() >= kMinHitShare &&
+         through_share() <= kMaxThroughs;
+}
+
+bool BeamCounts::is_conclusive(bool expected) const {
+  return hits >= kCertainHits &&
+         hit_share() >= (expected ? kCertainHitShareExpected : kCertainHitShare);
+}
 
 void BeamModel::meet(std::span<const PolarPoint> points, std::span<const PredictedHit> hits,
                      const Pose2& T_map_lidar, double spacing_rad, double noise_scale) {
@@ -37,6 +65,8 @@ void BeamModel::meet(std::span<const PolarPoint> points, std::span<const Predict
     return std::max(kMinSine, std::abs(normal.x() * (c * point.ray_x - s * point.ray_y) +
                                        normal.y() * (s * point.ray_x + c * point.ray_y)));
   };
+  points_ = points;
+  spacing_rad_ = spacing_rad;
   rays_.resize(points.size());
   for (std::ptrdiff_t i = 0; i < count; ++i) {
     const PolarPoint& point = points[static_cast<std::size_t>(i)];
@@ -44,7 +74,7 @@ void BeamModel::meet(std::span<const PolarPoint> points, std::span<const Predict
     Ray& ray = rays_[static_cast<std::size_t>(i)];
     ray.face = ray.predicted = met.face;
     const bool none = met.face == PredictedHit::kNone;
-    double sine = none ? 1 : sine_of(point, met.face);
+    double sine = none ? 1 : std::max<double>(kMinSine, met.sine);
     ray.across_m = none ? kBeyondAll_m : (point.range_m - met.range_m) * sine;
     const double near_m = none ? point.range_m : std::min(met.range_m, point.range_m);
     if (std::abs(ray.across_m) > kEdge_m) {
@@ -71,6 +101,41 @@ void BeamModel::meet(std::span<const PolarPoint> points, std::span<const Predict
     ray.log_peak =
         std::log(kWallShare * sine / (kAnyDensity * std::sqrt(kTwoPi * ray.variance_m2)));
   }
+}
+
+BeamCounts BeamModel::counts() const {
+  static const double kLogOther = std::log(kOutlierRatio);
+  static const double kLogShort = std::log(kShortRatio);
+  BeamCounts result;
+  result.rays = rays_.size();
+  for (const Ray& ray : rays_) {
+    if (ray.face == PredictedHit::kNone) {
+      ++result.shorts;
+      result.log_likelihood += kLogOther;
+      continue;
+    }
+    const double sigma_m = map_.faces()[ray.face].sigma_m;
+    const double square_m2 = ray.across_m * ray.across_m;
+    const double exact_m2 = ray.variance_m2 + squared(std::max(kMapSigmas_m.front(), sigma_m));
+    const double near_m2 = ray.variance_m2 + squared(std::max(kNearSigma_m, sigma_m));
+    if (square_m2 < kGateSigmas * kGateSigmas * exact_m2) {
+      ++result.hits;
+      result.log_likelihood +=
+          std::max(kLogOther, ray.log_peak - square_m2 / (2 * ray.variance_m2));
+    } else if (square_m2 < kGateSigmas * kGateSigmas * near_m2) {
+      ++result.near_hits;
+      result.log_likelihood +=
+          ray.log_peak + std::log(kNearShare / kWallShare * std::sqrt(ray.variance_m2 / near_m2)) -
+          square_m2 / (2 * near_m2);
+    } else if (ray.across_m < 0) {
+      ++result.shorts;
+      result.log_likelihood += kLogShort;
+    } else {
+      ++result.throughs;
+      result.log_likelihood += kLogOther;
+    }
+  }
+  return result;
 }
 
 void BeamModel::classify(double map_sigma_m, BeamStatistics& result) {

@@ -18,7 +18,7 @@ constexpr double kMaxInnovation_rad = radians(15);
 /// pass through one.
 constexpr std::size_t kMinHits = 25;
 constexpr double kMinPartialHitShare = 0.8;
-constexpr double kMaxViolationShare = 0.05;
+constexpr double kMaxThroughShare = 0.05;
 
 }  // namespace
 
@@ -26,10 +26,10 @@ PartialScanTracker::PartialScanTracker(const WallMap& map, const LocalizerConfig
     : map_(map),
       min_range_m_(config.min_range_m),
       max_range_m_(config.max_range_m),
-      noise_(config.noise),
       parts_(config.updates_per_scan),
       ray_caster_(config.max_range_m),
       refinement_(config.max_range_m, config.noise),
+      beam_model_(map, config.noise),
       stream_(config.detector, config.noise) {
   breakpoints_.reserve(kMaxBreakpointsPerScan);
 }
@@ -81,11 +81,12 @@ std::optional<PartialScanPose> PartialScanTracker::localize(const PredictedState
                                         kMaxInnovation_m, kMaxInnovation_rad)) {
     return std::nullopt;
   }
-  const auto hits = ray_caster_.cast(map_, pose.refined.T_map_lidar, points_.points());
-  pose.likelihood =
-      beam_likelihood(map_, points_.points(), hits, pose.refined.T_map_lidar, noise_, noise_scale);
-  if (pose.likelihood.hits < kMinHits || pose.likelihood.hit_share() < kMinPartialHitShare ||
-      pose.likelihood.violation_share() > kMaxViolationShare) {
+  beam_model_.meet(points_.points(),
+                   ray_caster_.cast(map_, pose.refined.T_map_lidar, points_.points()),
+                   pose.refined.T_map_lidar, points_.spacing_rad(), noise_scale);
+  pose.rays = beam_model_.counts();
+  if (pose.rays.hits < kMinHits || pose.rays.hit_share() < kMinPartialHitShare ||
+      pose.rays.through_share() > kMaxThroughShare) {
     return std::nullopt;
   }
   return pose;

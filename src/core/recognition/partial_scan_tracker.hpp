@@ -9,10 +9,9 @@
 #include "core/breakpoint/breakpoint_stream.hpp"
 #include "core/estimate/refinement.hpp"
 #include "core/localizer_config.hpp"
-#include "core/map/ray_caster.hpp"
 #include "core/map/wall_map.hpp"
 #include "core/polar_scan.hpp"
-#include "core/recognition/beam_likelihood.hpp"
+#include "core/recognition/beam_model.hpp"
 #include "core/scan.hpp"
 
 namespace cornerd::core {
@@ -28,7 +27,7 @@ struct PredictedState {
 /// Pose at the time of the partial scan's last sample.
 struct PartialScanPose {
   RefinedPose refined;
-  BeamLikelihood likelihood;
+  BeamCounts rays;
 };
 
 /// Localizes by partial scans while a revolution goes on: the predicted state and the part's wall
@@ -58,10 +57,10 @@ class PartialScanTracker {
   const WallMap& map_;
   double min_range_m_;
   double max_range_m_;
-  SensorNoise noise_;
   std::size_t parts_;
   RayCaster ray_caster_;
   Refinement refinement_;
+  BeamModel beam_model_;
   BreakpointStream stream_;
   std::vector<Breakpoint> breakpoints_;
   Scan part_;

@@ -10,6 +10,11 @@ namespace cornerd::core {
 namespace {
 
 constexpr std::size_t kFewRays = 90;
+/// A ray on the wall that is predicted, roughly (m).
+constexpr double kRoughHit_m = 0.12;
+/// Refinement that leads farther away has left its place.
+constexpr double kMaxMove_m = 0.5;
+constexpr double kMaxMove_rad = 0.3;
 /// A pose that is less certain than this beyond the map is not named: a single wall, a bare
 /// corridor. It is a rival to those that are. Where only a few rays tell the place along a
 /// corridor, a prior as sure as kSurePrior_m has to lead there.
@@ -28,18 +33,63 @@ constexpr double kExactShare = 0.95;
 
 PlaceFitter::PlaceFitter(const WallMap& map, const LocalizerConfig& config)
     : map_(map),
-      noise_(config.noise),
       ray_caster_(config.max_range_m),
-      refinement_(config.max_range_m, config.noise) {
+      refinement_(config.max_range_m, config.noise),
+      beam_model_(map, config.noise) {
   few_.reserve(2 * kFewRays);
 }
 
-void PlaceFitter::begin(std::span<const PolarPoint> points, const ScanPrior& known) {
-  points_ = points;
+void PlaceFitter::begin(const PolarScan& scan, const ScanPrior& known) {
+  points_ = scan.points();
+  spacing_rad_ = scan.spacing_rad();
   known_ = known;
   few_.clear();
-  const std::size_t stride = std::max<std::size_t>(1, points.size() / kFewRays);
-  for (std::size_t i = 0; i < points.size(); i += stride) few_.push_back(points[i]);
+  const std::size_t stride = std::max<std::size_t>(1, points_.size() / kFewRays);
+  for (std::size_t i = 0; i < points_.size(); i += stride) few_.push_back(points_[i]);
+}
+
+double PlaceFitter::rough_score(const Pose2& T_map_lidar) {
+  const auto hits = ray_caster_.cast_near(map_, T_map_lidar, few_);
+  double score = 0;
+  for (std::size_t i = 0; i < few_.size(); ++i) {
+    if (hits[i].face == PredictedHit::kNone) {
+      score -= 0.5;
+      continue;
+    }
+    const double across_m = (few_[i].range_m - hits[i].range_m) * hits[i].sine;
+    if (std::abs(across_m) < kRoughHit_m) {
+      score += 1;
+    } else if (across_m > 0) {
+      score -= 1;
+    }
+  }
+  return score;
+}
+
+std::optional<PlaceFitter::RoughFit> PlaceFitter::roughly(const Pose2& T_map_lidar,
+                                                          double search_radius_m,
+                                                          double map_sigma_m) {
+  const RefinedPose refined = refinement_.refine_roughly(map_, T_map_lidar, search_radius_m, few_,
+                                                         known_.noise_scale, map_sigma_m);
+  if (!refined.valid || !same_pose(refined.T_map_lidar, T_map_lidar, kMaxMove_m, kMaxMove_rad)) {
+    return std::nullopt;
+  }
+  const double spacing_rad = spacing_rad_ * static_cast<double>(points_.size()) /
+                             static_cast<double>(std::max<std::size_t>(1, few_.size()));
+  beam_model_.meet(few_, ray_caster_.cast(map_, refined.T_map_lidar, few_), refined.T_map_lidar,
+                   spacing_rad, known_.noise_scale);
+  return RoughFit{refined.T_map_lidar, beam_model_.statistics(known_.max_map_sigma_m)};
+}
+
+void PlaceFitter::meet(const Pose2& T_map_lidar) {
+  beam_model_.meet(points_, ray_caster_.cast(map_, T_map_lidar, points_), T_map_lidar, spacing_rad_,
+                   known_.noise_scale);
+}
+
+BeamStatistics PlaceFitter::statistics(const Pose2& T_map_lidar, bool is_exact) {
+  if (is_exact) return beam_model_.statistics(BeamModel::kMapSigmas_m.front());
+  meet(T_map_lidar);
+  return beam_model_.statistics(known_.max_map_sigma_m);
 }
 
 VerifiedHypothesis PlaceFitter::exactly(const Pose2& T_map_lidar, double search_radius_m,
@@ -49,10 +99,9 @@ VerifiedHypothesis PlaceFitter::exactly(const Pose2& T_map_lidar, double search_
   fit.refined = refinement_.refine(map_, T_map_lidar, search_radius_m, first, points_,
                                    known_.noise_scale, /*map_sigma_m=*/0, &prior);
   if (!fit.refined.valid) return fit;
-  hits_ = hits_at(fit.refined.T_map_lidar);
-  const BeamLikelihood likelihood =
-      beam_likelihood(map_, points_, hits_, fit.refined.T_map_lidar, noise_, known_.noise_scale);
-  if (likelihood.explains_scan()) fit.likelihood = likelihood;
+  meet(fit.refined.T_map_lidar);
+  const BeamCounts rays = beam_model_.counts();
+  if (rays.explains_scan()) fit.rays = rays;
   return fit;
 }
 
@@ -82,10 +131,9 @@ VerifiedHypothesis PlaceFitter::with_offsets(const Pose2& T_map_lidar, double se
 }
 
 bool PlaceFitter::is_exact(const VerifiedHypothesis& fit) const {
-  const BeamLikelihood& rays = fit.likelihood;
+  const BeamCounts& rays = fit.rays;
   if (!may_be_off() && rays.hit_share() > kExactMapShare) return true;
-  const auto at_walls =
-      static_cast<double>(rays.hits + rays.near_hits + rays.free_space_violations);
+  const auto at_walls = static_cast<double>(rays.hits + rays.near_hits + rays.throughs);
   return rays.hits > 0 && static_cast<double>(rays.hits) > kExactShare * at_walls &&
          (!may_be_off() || fit.refined.face_residuals.excludes_offsets());
 }

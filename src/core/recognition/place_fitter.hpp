@@ -9,7 +9,6 @@
 #include "core/estimate/constant_velocity_model.hpp"
 #include "core/estimate/refinement.hpp"
 #include "core/localizer_config.hpp"
-#include "core/recognition/beam_likelihood.hpp"
 #include "core/recognition/beam_model.hpp"
 
 namespace cornerd::core {
@@ -17,7 +16,7 @@ namespace cornerd::core {
 /// A pose that was refined on all rays.
 struct VerifiedHypothesis {
   RefinedPose refined;
-  BeamLikelihood likelihood;
+  BeamCounts rays;         ///< of an exact map; of the likeliest one where it is not
   double evidence = 0;     ///< log_odds_of_place(), nats
   double log_odds = 0;     ///< against places that the scan leaves open, too
   double map_sigma_m = 0;  ///< of the walls' offsets, which `refined` marginalised
@@ -42,12 +41,20 @@ class PlaceFitter {
   PlaceFitter(const WallMap& map, const LocalizerConfig& config);
 
   /// Starts a scan, which must outlive the calls for it.
-  void begin(std::span<const PolarPoint> points, const ScanPrior& known);
-  /// Some of its rays, spread over it.
-  std::span<const PolarPoint> few_rays() const { return few_; }
+  void begin(const PolarScan& scan, const ScanPrior& known);
 
-  /// As if every wall were where the map has it. No likelihood where the map does not explain the
-  /// rays. `first`: rays of the first steps.
+  /// Grows with the rays on walls, of few.
+  double rough_score(const Pose2& T_map_lidar);
+  struct RoughFit {
+    Pose2 T_map_lidar;
+    BeamStatistics rays;
+  };
+  /// One step from a pose that is off by `search_radius_m`, by few rays; none where it leads away.
+  std::optional<RoughFit> roughly(const Pose2& T_map_lidar, double search_radius_m,
+                                  double map_sigma_m);
+
+  /// As if every wall were where the map has it. `rays` is empty where the map does not explain
+  /// them. `first`: rays of the first steps.
   VerifiedHypothesis exactly(const Pose2& T_map_lidar, double search_radius_m,
                              std::span<const PolarPoint> first);
   VerifiedHypothesis exactly(const Pose2& T_map_lidar, double search_radius_m) {
@@ -61,23 +68,21 @@ class PlaceFitter {
   bool is_exact(const VerifiedHypothesis& fit) const;
   /// The scan, or a prior, holds the pose in each direction: no single wall, no bare corridor.
   bool is_determined(const RefinedPose& refined) const;
-  /// The face that each ray meets, at a pose or at that of the last exactly(). Until the next call.
-  std::span<const PredictedHit> hits_at(const Pose2& T_map_lidar) {
-    return ray_caster_.cast(map_, T_map_lidar, points_);
-  }
-  std::span<const PredictedHit> last_hits() const { return hits_; }
+  /// Of all rays at a place. `is_exact`: it is that of the last exactly().
+  BeamStatistics statistics(const Pose2& T_map_lidar, bool is_exact);
 
  private:
+  void meet(const Pose2& T_map_lidar);
   bool may_be_off() const { return known_.max_map_sigma_m > BeamModel::kMapSigmas_m.front(); }
 
   const WallMap& map_;
-  SensorNoise noise_;
   RayCaster ray_caster_;
   Refinement refinement_;
+  BeamModel beam_model_;
   std::span<const PolarPoint> points_;
+  double spacing_rad_ = 0;
   std::vector<PolarPoint> few_;
   ScanPrior known_;
-  std::span<const PredictedHit> hits_;
 };
 
 }  // namespace cornerd::core

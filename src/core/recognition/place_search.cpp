@@ -14,13 +14,8 @@ constexpr std::size_t kMaxRefined = 16;
 constexpr std::size_t kMaxCompared = 16;
 /// The same where elsewhere is likelier than each, as in a motion that is not known yet.
 constexpr std::size_t kMaxUnlikely = 3;
-/// A ray on the wall that is predicted, roughly (m).
-constexpr double kRoughHit_m = 0.12;
 /// Remaining error of one that was refined on few rays (m).
 constexpr double kFewRaysRadius_m = 0.03;
-/// Refinement that leads farther away has left its place.
-constexpr double kMaxMove_m = 0.5;
-constexpr double kMaxMove_rad = 0.3;
 /// Nats behind the likeliest on few rays, beyond which none was the right one.
 constexpr double kHopeless = 16;
 /// One candidate, and one place.
@@ -46,12 +41,7 @@ bool is_one_place(const VerifiedHypothesis& one, const VerifiedHypothesis& other
 
 PlaceSearch::PlaceSearch(const WallMap& map, const Recognition& recognition,
                          const LocalizerConfig& config)
-    : map_(map),
-      recognition_(recognition),
-      fitter_(map, config),
-      ray_caster_(config.max_range_m),
-      refinement_(config.max_range_m, config.noise),
-      beam_model_(map, config.noise) {
+    : recognition_(recognition), fitter_(map, config) {
   candidates_.reserve(kMaxCandidates);
   places_.reserve(kMaxPlaces);
   open_places_.reserve(kMaxPlaces);
@@ -62,10 +52,8 @@ void PlaceSearch::begin(const PolarScan& scan, std::span<const WallSegment> segm
   points_ = scan.points();
   known_ = known;
   breakpoints_ = breakpoints;
-  spacing_rad_ = scan.spacing_rad();
   structure_ = scan_structure(segments);
-  fitter_.begin(points_, known);
-  few_ = fitter_.few_rays();
+  fitter_.begin(scan, known);
   candidates_.clear();
   best_score_ = 0;
   places_.clear();
@@ -73,35 +61,11 @@ void PlaceSearch::begin(const PolarScan& scan, std::span<const WallSegment> segm
   exact_.reset();
 }
 
-double PlaceSearch::rough_score(const Pose2& T_map_lidar) {
-  const auto hits = ray_caster_.cast_near(map_, T_map_lidar, few_);
-  const double c = std::cos(T_map_lidar.theta_rad);
-  const double s = std::sin(T_map_lidar.theta_rad);
-  double score = 0;
-  for (std::size_t i = 0; i < few_.size(); ++i) {
-    if (hits[i].face == PredictedHit::kNone) {
-      score -= 0.5;
-      continue;
-    }
-    const PolarPoint& point = few_[i];
-    const Vec2& normal = map_.faces()[hits[i].face].normal;
-    const double across_m = (point.range_m - hits[i].range_m) *
-                            std::abs(normal.x() * (c * point.ray_x - s * point.ray_y) +
-                                     normal.y() * (s * point.ray_x + c * point.ray_y));
-    if (std::abs(across_m) < kRoughHit_m) {
-      score += 1;
-    } else if (across_m > 0) {
-      score -= 1;
-    }
-  }
-  return score;
-}
-
 void PlaceSearch::consider(std::span<const PoseHypothesis> hypotheses, bool are_sure) {
   for (const PoseHypothesis& hypothesis : hypotheses) {
     if (candidates_.size() == kMaxCandidates) return;
     candidates_.push_back(
-        {hypothesis.T_map_lidar, rough_score(hypothesis.T_map_lidar), 0, are_sure});
+        {hypothesis.T_map_lidar, fitter_.rough_score(hypothesis.T_map_lidar), 0, are_sure});
   }
 }
 
@@ -112,23 +76,15 @@ void PlaceSearch::consider_prior(const Pose2& T_map_lidar, double search_radius_
   if (fitter_.is_exact(fit)) add(fit, {});
 }
 
-PlaceSearch::Candidate PlaceSearch::refined_roughly(const Candidate& candidate, double spacing_rad,
+PlaceSearch::Candidate PlaceSearch::refined_roughly(const Candidate& candidate,
                                                     double least_score) {
   Candidate best{candidate.T_map_lidar, -std::numeric_limits<double>::infinity(), 0};
   for (const RoughRefinement& rough : kRoughRefinements) {
     if (std::isfinite(best.score) && best.score < least_score) break;
-    const RefinedPose refined = refinement_.refine_roughly(
-        map_, candidate.T_map_lidar, rough.radius_m, few_, known_.noise_scale, rough.map_sigma_m);
-    if (!refined.valid ||
-        !same_pose(refined.T_map_lidar, candidate.T_map_lidar, kMaxMove_m, kMaxMove_rad)) {
-      continue;
-    }
-    const auto hits = ray_caster_.cast(map_, refined.T_map_lidar, few_);
-    const BeamStatistics statistics = beam_model_.statistics(
-        few_, hits, refined.T_map_lidar, spacing_rad, known_.noise_scale, known_.max_map_sigma_m);
-    const double log_odds =
-        log_odds_of_place(statistics, wall_ends(refined.T_map_lidar), structure_);
-    if (log_odds > best.score) best = {refined.T_map_lidar, log_odds, statistics.map_sigma_m};
+    const auto fit = fitter_.roughly(candidate.T_map_lidar, rough.radius_m, rough.map_sigma_m);
+    if (!fit) continue;
+    const double log_odds = log_odds_of_place(fit->rays, wall_ends(fit->T_map_lidar), structure_);
+    if (log_odds > best.score) best = {fit->T_map_lidar, log_odds, fit->rays.map_sigma_m};
   }
   return best;
 }
@@ -153,13 +109,11 @@ void PlaceSearch::refine_roughly() {
     return a.T_map_lidar.theta_rad < b.T_map_lidar.theta_rad;
   };
   std::sort(candidates_.begin(), candidates_.end(), is_better);
-  const double spacing_rad = spacing_rad_ * static_cast<double>(points_.size()) /
-                             static_cast<double>(std::max<std::size_t>(1, few_.size()));
   candidates_.resize(std::min(candidates_.size(), kMaxRefined));
   std::size_t kept = 0;
   for (const Candidate& candidate : candidates_) {
     if (is_known(candidate.T_map_lidar, kept)) continue;
-    const Candidate best = refined_roughly(candidate, spacing_rad, best_score_ - kHopeless);
+    const Candidate best = refined_roughly(candidate, best_score_ - kHopeless);
     if (!std::isfinite(best.score) || is_known(best.T_map_lidar, kept)) continue;
     candidates_[kept++] = best;
     best_score_ = std::max(best_score_, best.score);
@@ -178,8 +132,7 @@ double PlaceSearch::wall_ends(const Pose2& T_map_lidar) const {
 }
 
 void PlaceSearch::add(const VerifiedHypothesis& exact, const Candidate& candidate) {
-  if (exact.likelihood.rays > 0 &&
-      (!exact_ || exact.likelihood.log_likelihood > exact_->likelihood.log_likelihood)) {
+  if (exact.rays.rays > 0 && (!exact_ || exact.rays.log_likelihood > exact_->rays.log_likelihood)) {
     exact_ = exact;
   }
   const bool is_exact = fitter_.is_exact(exact);
@@ -190,16 +143,13 @@ void PlaceSearch::add(const VerifiedHypothesis& exact, const Candidate& candidat
   if (!place.refined.valid) return;
   place.is_exact = is_exact;
   const Pose2& T_map_lidar = place.refined.T_map_lidar;
-  const BeamStatistics statistics =
-      beam_model_.statistics(points_, is_exact ? fitter_.last_hits() : fitter_.hits_at(T_map_lidar),
-                             T_map_lidar, spacing_rad_, known_.noise_scale,
-                             is_exact ? BeamModel::kMapSigmas_m.front() : known_.max_map_sigma_m);
+  const BeamStatistics statistics = fitter_.statistics(T_map_lidar, is_exact);
   place.evidence = log_odds_of_place(statistics, wall_ends(T_map_lidar), structure_);
   if (!is_exact) {
-    place.likelihood = {.rays = statistics.rays,
-                        .hits = statistics.hits,
-                        .shorts = statistics.shorts,
-                        .free_space_violations = statistics.throughs};
+    place.rays = {.rays = statistics.rays,
+                  .hits = statistics.hits,
+                  .shorts = statistics.shorts,
+                  .throughs = statistics.throughs};
   }
   const auto keep_in = [&](std::vector<VerifiedHypothesis>& places) {
     const auto known = std::find_if(places.begin(), places.end(),

@@ -7,9 +7,7 @@
 #include <vector>
 
 #include "core/breakpoint/breakpoint.hpp"
-#include "core/estimate/refinement.hpp"
 #include "core/localizer_config.hpp"
-#include "core/recognition/beam_model.hpp"
 #include "core/recognition/hypothesis.hpp"
 #include "core/recognition/place_evidence.hpp"
 #include "core/recognition/place_fitter.hpp"
@@ -52,27 +50,20 @@ class PlaceSearch {
     double map_sigma_m = 0;
     bool is_sure = false;
   };
-  double rough_score(const Pose2& T_map_lidar);
   bool is_known(const Pose2& T_map_lidar, std::size_t kept) const;
-  Candidate refined_roughly(const Candidate& candidate, double spacing_rad, double least_score);
+  Candidate refined_roughly(const Candidate& candidate, double least_score);
   void refine_roughly();
   /// `exact`: of the last PlaceFitter::exactly().
   void add(const VerifiedHypothesis& exact, const Candidate& candidate);
 
   static constexpr std::size_t kMaxCandidates = 512;
 
-  const WallMap& map_;
   const Recognition& recognition_;
   PlaceFitter fitter_;
-  RayCaster ray_caster_;
-  Refinement refinement_;
-  BeamModel beam_model_;
   std::span<const PolarPoint> points_;
   std::span<const Breakpoint> breakpoints_;
-  double spacing_rad_ = 0;
   ScanPrior known_;
   ScanStructure structure_;
-  std::span<const PolarPoint> few_;    ///< of `points_`
   std::vector<Candidate> candidates_;  ///< since the last find()
   double best_score_ = 0;              ///< of them and those before, on few rays
   std::vector<VerifiedHypothesis> places_;

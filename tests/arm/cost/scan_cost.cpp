@@ -28,7 +28,7 @@
 #include "core/catalog/catalog.hpp"
 #include "core/estimate/refinement.hpp"
 #include "core/pipeline.hpp"
-#include "core/recognition/beam_likelihood.hpp"
+#include "core/recognition/beam_model.hpp"
 #include "core/recognition/recognition.hpp"
 #include "daemon/event_loop.hpp"
 #include "daemon/message_server.hpp"
@@ -112,6 +112,7 @@ class Parts {
         detector_(config_.detector, config_.noise),
         refinement_(config_.max_range_m, config_.noise),
         prediction_(config_.max_range_m),
+        beam_model_(*map_, config_.noise),
         fresh_(map_, config_) {}
 
   void count(const core::Scan& scan, const core::ScanResult& result) {
@@ -136,8 +137,8 @@ class Parts {
 
     cost_begin_likelihood();
     const auto hits = prediction_.cast(*map_, refined.T_map_lidar, points_.points());
-    static_cast<void>(core::beam_likelihood(*map_, points_.points(), hits, refined.T_map_lidar,
-                                            config_.noise, 1));
+    beam_model_.meet(points_.points(), hits, refined.T_map_lidar, points_.spacing_rad(), 1);
+    static_cast<void>(beam_model_.counts());
     cost_end_likelihood();
 
     fresh_.relocalize();
@@ -180,6 +181,7 @@ class Parts {
   core::Detector detector_;
   core::Refinement refinement_;
   core::RayCaster prediction_;
+  core::BeamModel beam_model_;
   core::Localizer fresh_;
   core::PolarScan points_;
   std::vector<core::PolarPoint> thin_;

@@ -16,8 +16,16 @@ class BeamModelTest : public ::testing::Test {
     const PolarScan points = testing::polar(scan);
     BeamModel model(map, {});
     const auto hits = ray_caster_.cast(map, T_map_lidar, points.points());
-    return model.statistics(points.points(), hits, T_map_lidar, points.spacing_rad(), 1,
-                            kMaxMapSigma_m);
+    model.meet(points.points(), hits, T_map_lidar, points.spacing_rad(), 1);
+    return model.statistics(kMaxMapSigma_m);
+  }
+
+  BeamCounts counts(const Scan& scan, const Pose2& T_map_lidar) {
+    const PolarScan points = testing::polar(scan);
+    BeamModel model(*map_, {});
+    const auto hits = ray_caster_.cast(*map_, T_map_lidar, points.points());
+    model.meet(points.points(), hits, T_map_lidar, points.spacing_rad(), 1);
+    return model.counts();
   }
 
   /// The room with the wall on the right this much farther out.
@@ -84,6 +92,50 @@ TEST_F(BeamModelTest, InexactMap_TrustsItsWallsLess) {
   const double measured = statistics(scan, *testing::make_map(plan), T_map_lidar_).log_likelihood;
   plan.sigma_m = 0.04;
   EXPECT_GT(statistics(scan, *testing::make_map(plan), T_map_lidar_).log_likelihood, measured);
+}
+
+TEST_F(BeamModelTest, EveryRay_IsCountedOnce) {
+  const BeamCounts rays = counts(source_.take(*map_, T_map_lidar_), {1.4, 1.2, 2.5});
+  EXPECT_EQ(rays.hits + rays.near_hits + rays.shorts + rays.throughs, rays.rays);
+}
+
+TEST_F(BeamModelTest, TruePose_IsLikelierThanAWrongOne) {
+  const Scan scan = source_.take(*map_, T_map_lidar_);
+  const BeamCounts right = counts(scan, T_map_lidar_);
+  EXPECT_GT(right.hit_share(), 0.98);
+  EXPECT_LT(right.through_share(), 0.01);
+  const BeamCounts wrong = counts(scan, {1.5, 1.2, 1.9});
+  EXPECT_GT(wrong.through_share(), 0.1);
+  EXPECT_LT(wrong.log_likelihood + 500, right.log_likelihood);
+}
+
+TEST_F(BeamModelTest, ObstacleBeforeWall_IsShort) {
+  Scan hidden;
+  for (Sample sample : source_.take(*map_, T_map_lidar_).samples()) {
+    if (hidden.size() >= 100 && hidden.size() < 130) sample.range_m = 0.3F;
+    hidden.add(sample);
+  }
+  EXPECT_NEAR(static_cast<double>(counts(hidden, T_map_lidar_).shorts), 30, 2);
+}
+
+BeamCounts hits_of(std::size_t rays, std::size_t hits) {
+  return {.rays = rays, .hits = hits, .shorts = rays - hits};
+}
+
+TEST(BeamCounts, NearlyAllHits_IsConclusive) {
+  EXPECT_TRUE(hits_of(800, 780).is_conclusive(false));
+  EXPECT_FALSE(hits_of(800, 770).is_conclusive(false));
+  EXPECT_TRUE(hits_of(800, 770).is_conclusive(true));
+  EXPECT_FALSE(hits_of(99, 99).is_conclusive(true));
+}
+
+TEST(BeamCounts, HalfOfTheRaysOnWalls_ExplainsAScan) {
+  EXPECT_TRUE(hits_of(800, 420).explains_scan());
+  EXPECT_FALSE(hits_of(800, 400).explains_scan());
+  EXPECT_FALSE(hits_of(40, 30).explains_scan());
+  BeamCounts through = hits_of(800, 700);
+  through.throughs = 80;
+  EXPECT_FALSE(through.explains_scan());
 }
 
 }  // namespace

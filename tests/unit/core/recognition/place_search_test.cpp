@@ -50,7 +50,7 @@ TEST_F(PlaceSearchTest, WallsWhereTheMapHasThem_AreExact) {
   points_ = testing::polar(source_.take(*map_, kTruth));
   EXPECT_TRUE(place_at(kTruth).is_exact);
   ASSERT_TRUE(search_.exact());
-  EXPECT_GT(search_.exact()->likelihood.hit_share(), 0.99);
+  EXPECT_GT(search_.exact()->rays.hit_share(), 0.99);
 }
 
 TEST_F(PlaceSearchTest, WallsOff_AreNotExact) {
