@@ -12,11 +12,18 @@ constexpr double kBeyond_m = 1;
 /// Faces that a room shows are some ten.
 constexpr std::size_t kMaxVisible = 1024;
 
-/// First ray at or after the bearing.
-std::size_t first_at(std::span<const PolarPoint> points, double bearing_rad) {
+/// Bearing of `a` below that of `b`, both from -pi to pi, without an arctangent.
+bool is_before(double a_x, double a_y, const Vec2& b) {
+  const bool a_is_left = a_y >= 0;
+  const bool b_is_left = b.y() >= 0;
+  return a_is_left == b_is_left ? a_x * b.y() > a_y * b.x() : b_is_left;
+}
+
+/// First ray at or after a direction.
+std::size_t first_at(std::span<const PolarPoint> points, const Vec2& direction) {
   const auto found = std::partition_point(
       points.begin(), points.end(),
-      [&](const PolarPoint& point) { return point.bearing_rad < bearing_rad; });
+      [&](const PolarPoint& point) { return is_before(point.ray_x, point.ray_y, direction); });
   return static_cast<std::size_t>(found - points.begin());
 }
 
@@ -68,11 +75,9 @@ void RayCaster::meet(std::uint32_t face, const WallMap& map, const VisibleFace& 
   const Vec2 normal = axes.to_lidar(map.faces()[face].normal);
   // Seen from its free side a face runs counter-clockwise from `from` to `to`, over less than pi.
   // A falling bearing means that it crosses the seam.
-  const double from_rad = std::atan2(from.y(), from.x());
-  const double to_rad = std::atan2(to.y(), to.x());
-  const std::size_t begin = first_at(points, from_rad);
-  const std::size_t end = first_at(points, to_rad);
-  if (from_rad <= to_rad) {
+  const std::size_t begin = first_at(points, from);
+  const std::size_t end = first_at(points, to);
+  if (!is_before(to.x(), to.y(), from)) {
     cover(face, normal, visible.height_m, begin, end, points);
   } else {
     cover(face, normal, visible.height_m, begin, points.size(), points);
