@@ -34,20 +34,6 @@ RayCaster::RayCaster(double max_range_m) : max_range_m_(max_range_m) {
   visible_.reserve(kMaxVisible);
 }
 
-void RayCaster::cover(std::uint32_t face, const Vec2& normal_lidar, double height_m,
-                      std::size_t begin, std::size_t end, std::span<const PolarPoint> points) {
-  for (std::size_t i = begin; i < end; ++i) {
-    const double approach =
-        -(normal_lidar.x() * points[i].ray_x + normal_lidar.y() * points[i].ray_y);
-    PredictedHit& hit = hits_[i];
-    // height / approach < range, without a division where the face is not the nearest.
-    if (approach <= 0 || height_m > hit.range_m * approach) continue;
-    hit.range_m = height_m / approach;
-    hit.face = face;
-    hit.sine = static_cast<float>(approach);
-  }
-}
-
 std::span<const PredictedHit> RayCaster::cast(const WallMap& map, const Pose2& T_map_lidar,
                                               std::span<const PolarPoint> points) {
   return cast(map, T_map_lidar, points, max_range_m_);
@@ -73,16 +59,24 @@ void RayCaster::meet(std::uint32_t face, const WallMap& map, const VisibleFace& 
   const Vec2 from = axes.to_lidar(visible.from);
   const Vec2 to = axes.to_lidar(visible.to);
   const Vec2 normal = axes.to_lidar(map.faces()[face].normal);
+  const auto cover = [&](std::size_t i) {
+    const double approach = -(normal.x() * points[i].ray_x + normal.y() * points[i].ray_y);
+    PredictedHit& hit = hits_[i];
+    // height / approach < range, without a division where the face is not the nearest.
+    if (approach <= 0 || visible.height_m > hit.range_m * approach) return;
+    hit = {visible.height_m / approach, face, static_cast<float>(approach)};
+  };
   // Seen from its free side a face runs counter-clockwise from `from` to `to`, over less than pi.
   // A falling bearing means that it crosses the seam.
-  const std::size_t begin = first_at(points, from);
-  const std::size_t end = first_at(points, to);
-  if (!is_before(to.x(), to.y(), from)) {
-    cover(face, normal, visible.height_m, begin, end, points);
-  } else {
-    cover(face, normal, visible.height_m, begin, points.size(), points);
-    cover(face, normal, visible.height_m, 0, end, points);
+  const bool crosses_seam = is_before(to.x(), to.y(), from);
+  const auto ends = [&](const PolarPoint& point) {
+    return !is_before(point.ray_x, point.ray_y, to);
+  };
+  for (std::size_t i = first_at(points, from); i < points.size(); ++i) {
+    if (!crosses_seam && ends(points[i])) return;
+    cover(i);
   }
+  for (std::size_t i = 0; crosses_seam && i < points.size() && !ends(points[i]); ++i) cover(i);
 }
 
 std::span<const PredictedHit> RayCaster::end() {

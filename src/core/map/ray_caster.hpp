@@ -51,8 +51,6 @@ class RayCaster {
 
   std::span<const PredictedHit> cast(const WallMap& map, const Pose2& T_map_lidar,
                                      std::span<const PolarPoint> points, double max_range_m);
-  void cover(std::uint32_t face, const Vec2& normal_lidar, double height_m, std::size_t begin,
-             std::size_t end, std::span<const PolarPoint> points);
 
   double max_range_m_;
   VisibleFaces visible_faces_;
