@@ -73,8 +73,8 @@ void Localizer::Workspace::learn_bias(const Scan& scan, const Decision& decision
                                              std::max(1.0, result.detection.noise_scale));
   // Walls seem off: they are exact where four numbers explain all of them.
   if (evidence && at.map_sigma_m > 0 &&
-      !try_at(scan, t_ns, motion, at.refined.T_map_lidar, place->bias.bias_by(*evidence))
-           .is_conclusive(/*expected=*/true)) {
+      !place->trial.is_exact(
+          try_at(scan, t_ns, motion, at.refined.T_map_lidar, place->bias.bias_by(*evidence)))) {
     return;
   }
   if (!odometer.has_motion()) {
@@ -92,9 +92,9 @@ void Localizer::Workspace::try_bias(const Scan& scan, const Decision& decision, 
   double without = 0;
   if (has_pose(decision.state)) {
     const Pose2& T_map_lidar = chosen(decision).refined.T_map_lidar;
-    with = try_at(scan, t_ns, motion, T_map_lidar, place->bias.bias()).log_likelihood;
+    with = try_at(scan, t_ns, motion, T_map_lidar, place->bias.bias()).rays.log_likelihood;
     // What a bias leaves of the residuals passes for a motion.
-    without = try_at(scan, t_ns, memory.motion(), T_map_lidar, config.bias).log_likelihood;
+    without = try_at(scan, t_ns, memory.motion(), T_map_lidar, config.bias).rays.log_likelihood;
   }
   const double margin = kNatsPerRay * static_cast<double>(points.size());
   const bool is_against = !has_pose(decision.state) || without > with + margin;

@@ -92,17 +92,18 @@ bool Localizer::Workspace::is_half_explained() const {
   return hits > 0 && hits >= points.size() / 2;
 }
 
-BeamCounts Localizer::Workspace::try_at(const Scan& scan, TimeNs t_ns, const ScanMotion& as_if,
-                                        const Pose2& T_map_lidar, const SensorBias& bias) {
+VerifiedHypothesis Localizer::Workspace::try_at(const Scan& scan, TimeNs t_ns,
+                                                const ScanMotion& as_if, const Pose2& T_map_lidar,
+                                                const SensorBias& bias) {
   tried_points.assign(scan, config.min_range_m, config.max_range_m, t_ns, as_if, bias);
   place->trial.begin(tried_points, {.noise_scale = noise_scale()});
-  return place->trial.exactly(T_map_lidar, kMotionSearchRadius_m).rays;
+  return place->trial.exactly(T_map_lidar, kMotionSearchRadius_m);
 }
 
 bool Localizer::Workspace::keep_if_better(const Scan& scan, TimeNs t_ns,
                                           const ScanMotion& candidate, const Pose2& T_map_lidar) {
-  const bool is_better =
-      explains_more(try_at(scan, t_ns, candidate, T_map_lidar, place->bias.bias()), best_rays());
+  const bool is_better = explains_more(
+      try_at(scan, t_ns, candidate, T_map_lidar, place->bias.bias()).rays, best_rays());
   if (is_better) look(scan, t_ns, candidate);
   return is_better;
 }
@@ -160,7 +161,7 @@ void Localizer::Workspace::look_for_the_motion(const Scan& scan, TimeNs t_ns) {
 bool Localizer::Workspace::fits_as_it_came(const Scan& scan, TimeNs t_ns) {
   if (!place || candidates.empty()) return false;
   const BeamCounts there =
-      try_at(scan, t_ns, {}, candidates.front().refined.T_map_lidar, place->bias.bias());
+      try_at(scan, t_ns, {}, candidates.front().refined.T_map_lidar, place->bias.bias()).rays;
   return there.is_conclusive(/*expected=*/true) ||
          (place->map_error.is_exact() && there.hit_share() > kMovingHitShare);
 }

@@ -80,8 +80,8 @@ struct Localizer::Workspace {
   void reject_motion(const std::optional<Prior>& prior);
   Decision find(const Scan& scan, TimeNs t_ns);
   void look(const Scan& scan, TimeNs t_ns, const ScanMotion& as_if_moving);
-  BeamCounts try_at(const Scan& scan, TimeNs t_ns, const ScanMotion& as_if,
-                    const Pose2& T_map_lidar, const SensorBias& bias);
+  VerifiedHypothesis try_at(const Scan& scan, TimeNs t_ns, const ScanMotion& as_if,
+                            const Pose2& T_map_lidar, const SensorBias& bias);
   /// Covariance of a pose of the lidar from the motion that was not deskewed, m^2 and rad^2.
   /// `is_first`: no scan before tells of a motion.
   Covariance3 deskew_covariance(const Pose2& T_map_lidar, bool is_first);
