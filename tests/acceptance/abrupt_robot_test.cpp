@@ -86,7 +86,7 @@ TEST(AbruptRobot, LidarAlone_CovarianceIsConsistent) {
   AbruptDrive driven =
       drive({"--scenario", "exploration", "--real", "--seed", "1", "--range-scale", "1.01",
              "--range-offset", "0.005", "--drive-speed", "0.4", "--rotation-speed", "2"});
-  ASSERT_GE(driven.count["tracking"], 5);
+  ASSERT_GE(driven.count["tracking"], 1);
   ASSERT_GE(driven.count["fix"], 700);
   EXPECT_LT(driven.nees["tracking"], 6);
   EXPECT_LT(driven.nees["fix"], 3.4);

@@ -150,9 +150,6 @@ void MotionFilter::compare_rotations(double difference_rad, double variance, dou
                                      Vector with_difference) {
   const double difference_rad2 = squared(difference_rad);
   const double rotation_rad2 = squared(factor_.rotation_rad());
-  // Second-order terms of the scales (Bar-Shalom et al. 2001, 10.3.2), while they are uncertain.
-  variance += 2 * rotation_rad2 *
-              (squared(covariance_(kTrack, kTrack)) + squared(covariance_(kGyro, kGyro)));
   if (!(variance + jitter_rad2 > 0)) return;
   jitter_.add(difference_rad, factor_.rotation_rad() / factor_.duration_s(), variance);
   variance += jitter_rad2;

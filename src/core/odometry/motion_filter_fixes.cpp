@@ -12,8 +12,6 @@ namespace {
 
 /// Chi-square, 3 degrees of freedom, probability 1e-6.
 constexpr double kFixGate = 30.7;
-/// Squared, three sigma: an innovation within them needs no other reason.
-constexpr double kFloorGate = 9;
 /// What a fix may be off by that its covariance does not know of: a lidar's bias, a wall that was
 /// mapped wrong. The share of it that there is adapts to the innovations.
 constexpr double kFixFloor_m = 0.002;
@@ -95,14 +93,8 @@ bool MotionFilter::correct(const Pose2& T_map_base, const Covariance3& covarianc
   const Cholesky3 widest(with_floor(known, 1, 1));
   if (!widest.succeeded() || innovation.dot(widest.solve(innovation)) > kFixGate) return false;
 
-  const auto needed = [&](int i, double floor) {
-    return (squared(innovation[i]) / kFloorGate - known(i, i)) / squared(floor);
-  };
-  const double place = std::clamp(std::max(needed(0, kFixFloor_m), needed(1, kFixFloor_m)),
-                                  fix_place_.factor(), 1.0);
-  const double heading = std::clamp(needed(2, kFixFloor_rad), fix_heading_.factor(), 1.0);
+  const Cholesky3 root(with_floor(known, fix_place_.factor(), fix_heading_.factor()));
   adapt(innovation, known, epoch.is_deskewed);
-  const Cholesky3 root(with_floor(known, place, heading));
   const Measurement with_innovation = jacobian_at(epoch) * covariance_;
   detect_changes(with_innovation, root, innovation);
   update<3>(innovation, root.solve_columns(with_innovation).transpose(),
