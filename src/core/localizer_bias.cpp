@@ -71,11 +71,14 @@ void Localizer::Workspace::learn_bias(const Scan& scan, const Decision& decision
   const VerifiedHypothesis& at = chosen(decision);
   const auto evidence = place->bias.evidence(*map, at.refined.T_map_lidar, points.points(),
                                              std::max(1.0, result.detection.noise_scale));
-  // Walls seem off: they are exact where four numbers explain all of them.
-  if (evidence && at.map_sigma_m > 0 &&
-      !place->trial.is_exact(
-          try_at(scan, t_ns, motion, at.refined.T_map_lidar, place->bias.bias_by(*evidence)))) {
-    return;
+  // Walls seem off: they are exact where four numbers explain all of them, offsets and all.
+  if (evidence && at.map_sigma_m > 0) {
+    const VerifiedHypothesis biased =
+        try_at(scan, t_ns, motion, at.refined.T_map_lidar, place->bias.bias_by(*evidence));
+    if (!biased.rays.is_conclusive(/*expected=*/true) ||
+        biased.refined.face_residuals.shows_offsets()) {
+      return;
+    }
   }
   if (!odometer.has_motion()) {
     of_last_scan = evidence;
