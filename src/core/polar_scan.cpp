@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "core/geometry/angle.hpp"
+#include "core/geometry/ray_iterator.hpp"
 #include "core/geometry/small_angle.hpp"
 
 namespace cornerd::core {
@@ -19,28 +20,6 @@ constexpr double kMinNeighbourShare = 0.25;
 PolarPoint point_at(double bearing_rad, double range_m, double dt_s, const Vec2& ray) {
   return {bearing_rad, range_m, ray.x(), ray.y(), range_m * ray.x(), range_m * ray.y(), dt_s};
 }
-
-/// Unit vectors of the rays in the order of arrival: each is the previous one rotated, every 32nd
-/// is computed afresh, so that errors do not add up.
-class RayIterator {
- public:
-  const Vec2& at(double bearing_rad) {
-    if (left_-- == 0) {
-      left_ = kMaxRotationsInARow;
-      ray_ = unit_vector(bearing_rad);
-    } else {
-      ray_ = rotated(ray_, bearing_rad - bearing_rad_);
-    }
-    bearing_rad_ = bearing_rad;
-    return ray_;
-  }
-
- private:
-  static constexpr int kMaxRotationsInARow = 31;
-  int left_ = 0;
-  double bearing_rad_ = 0;
-  Vec2 ray_ = Vec2::Zero();
-};
 
 PolarPoint unbiased(const PolarPoint& point, const SensorBias& bias) {
   const double bearing_rad = bias.true_bearing_rad(point.bearing_rad, point.ray_y, point.ray_x);

@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "core/geometry/ray_iterator.hpp"
+#include "core/geometry/small_angle.hpp"
 #include "core/geometry/squared.hpp"
 #include "core/odometry/odometer.hpp"
 
@@ -22,8 +24,8 @@ constexpr double kUnevenShare = 0.1;
 
 bool Odometer::deskew(const Scan& scan, const Pose2& T_base_lidar, Scan& deskewed) const {
   if (!knows_motion_) return false;
-  // The motion from one of these to the next, 2 ms, is straight enough.
-  constexpr std::size_t kPieces = 64;
+  // The motion from one of these to the next, 4 ms, is straight enough.
+  constexpr std::size_t kPieces = 32;
   std::array<Pose2, kPieces + 1> T_middle_then;
   const Pose2 T_middle_start = (path_.at(middle_ns_ + delay_ns_) * T_base_lidar).inverse();
   const double piece_ns = static_cast<double>(end_ns_ - start_ns_) / kPieces;
@@ -32,6 +34,7 @@ bool Odometer::deskew(const Scan& scan, const Pose2& T_base_lidar, Scan& deskewe
     T_middle_then[i] = T_middle_start * path_.at(t_ns + delay_ns_) * T_base_lidar;
   }
   deskewed.clear();
+  RayIterator rays;
   for (const Sample& sample : scan.samples()) {
     Sample moved = sample;
     if (sample.range_m > 0) {
@@ -42,9 +45,11 @@ bool Odometer::deskew(const Scan& scan, const Pose2& T_base_lidar, Scan& deskewe
       const Pose2& to = T_middle_then[i + 1];
       const double rotation_rad =
           from.theta_rad + share * angle_between(from.theta_rad, to.theta_rad);
+      const Vec2 direction = rotated(rays.at(sample.bearing_rad), rotation_rad);
       const Vec2 place = from.translation() + share * (to.translation() - from.translation()) +
-                         sample.range_m * unit_vector(rotation_rad + sample.bearing_rad);
-      moved.bearing_rad = static_cast<float>(std::atan2(place.y(), place.x()));
+                         sample.range_m * direction;
+      moved.bearing_rad = static_cast<float>(
+          normalize_angle(sample.bearing_rad + rotation_rad + rotation_between(direction, place)));
       moved.range_m = static_cast<float>(place.norm());
     }
     deskewed.add(moved);
