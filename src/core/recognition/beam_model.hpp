@@ -101,6 +101,7 @@ class BeamModel {
     double log_density = 0;
   };
 
+  Outcome outcome_of(const Ray& ray, double map_sigma_m) const;
   BeamStatistics by_map_sigma(double map_sigma_m);
   void classify(double map_sigma_m, BeamStatistics& result);
   FaceSums& sums_of(std::uint32_t face);

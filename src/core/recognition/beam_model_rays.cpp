@@ -103,36 +103,39 @@ void BeamModel::meet(std::span<const PolarPoint> points, std::span<const Predict
   }
 }
 
+BeamModel::Outcome BeamModel::outcome_of(const Ray& ray, double map_sigma_m) const {
+  if (ray.face == PredictedHit::kNone) return Outcome::kBeyond;
+  const double sigma_m = std::max(map_sigma_m, map_.faces()[ray.face].sigma_m);
+  if (squared(ray.across_m) < squared(kGateSigmas) * (ray.variance_m2 + squared(sigma_m))) {
+    return Outcome::kHit;
+  }
+  return ray.across_m < 0 ? Outcome::kShort : Outcome::kThrough;
+}
+
 BeamCounts BeamModel::counts() const {
-  static const double kLogOther = std::log(kOutlierRatio);
-  static const double kLogShort = std::log(kShortRatio);
+  const double log_other = std::log(kOutlierRatio);
+  const double log_short = std::log(kShortRatio);
+  const double log_near = std::log(kNearShare / kWallShare);
   BeamCounts result;
   result.rays = rays_.size();
   for (const Ray& ray : rays_) {
-    if (ray.face == PredictedHit::kNone) {
-      ++result.shorts;
-      result.log_likelihood += kLogOther;
-      continue;
-    }
-    const double sigma_m = map_.faces()[ray.face].sigma_m;
-    const double square_m2 = ray.across_m * ray.across_m;
-    const double exact_m2 = ray.variance_m2 + squared(std::max(kMapSigmas_m.front(), sigma_m));
-    const double near_m2 = ray.variance_m2 + squared(std::max(kNearSigma_m, sigma_m));
-    if (square_m2 < kGateSigmas * kGateSigmas * exact_m2) {
+    const Outcome outcome = outcome_of(ray, kMapSigmas_m.front());
+    if (outcome == Outcome::kHit) {
       ++result.hits;
       result.log_likelihood +=
-          std::max(kLogOther, ray.log_peak - square_m2 / (2 * ray.variance_m2));
-    } else if (square_m2 < kGateSigmas * kGateSigmas * near_m2) {
+          std::max(log_other, ray.log_peak - squared(ray.across_m) / (2 * ray.variance_m2));
+    } else if (outcome_of(ray, kNearSigma_m) == Outcome::kHit) {
       ++result.near_hits;
-      result.log_likelihood +=
-          ray.log_peak + std::log(kNearShare / kWallShare * std::sqrt(ray.variance_m2 / near_m2)) -
-          square_m2 / (2 * near_m2);
-    } else if (ray.across_m < 0) {
-      ++result.shorts;
-      result.log_likelihood += kLogShort;
-    } else {
+      const double variance_m2 = ray.variance_m2 + squared(kNearSigma_m);
+      result.log_likelihood += ray.log_peak + log_near +
+                               std::log(ray.variance_m2 / variance_m2) / 2 -
+                               squared(ray.across_m) / (2 * variance_m2);
+    } else if (outcome == Outcome::kThrough) {
       ++result.throughs;
-      result.log_likelihood += kLogOther;
+      result.log_likelihood += log_other;
+    } else {
+      ++result.shorts;
+      result.log_likelihood += outcome == Outcome::kShort ? log_short : log_other;
     }
   }
   return result;
@@ -142,21 +145,10 @@ void BeamModel::classify(double map_sigma_m, BeamStatistics& result) {
   result.rays = rays_.size();
   result.map_sigma_m = map_sigma_m;
   for (Ray& ray : rays_) {
-    const double face_sigma_m =
-        ray.face == PredictedHit::kNone ? 0 : map_.faces()[ray.face].sigma_m;
-    const double variance_m2 = ray.variance_m2 + squared(std::max(map_sigma_m, face_sigma_m));
-    if (ray.face == PredictedHit::kNone) {
-      ray.outcome = Outcome::kBeyond;
-    } else if (ray.across_m * ray.across_m < kGateSigmas * kGateSigmas * variance_m2) {
-      ray.outcome = Outcome::kHit;
-      ++result.hits;
-    } else if (ray.across_m < 0) {
-      ray.outcome = Outcome::kShort;
-      ++result.shorts;
-    } else {
-      ray.outcome = Outcome::kThrough;
-      ++result.throughs;
-    }
+    ray.outcome = outcome_of(ray, map_sigma_m);
+    result.hits += ray.outcome == Outcome::kHit ? 1 : 0;
+    result.shorts += ray.outcome == Outcome::kShort ? 1 : 0;
+    result.throughs += ray.outcome == Outcome::kThrough ? 1 : 0;
   }
 }
 
