@@ -109,17 +109,25 @@ bool Localizer::Workspace::keep_if_better(const Scan& scan, TimeNs t_ns,
 }
 
 void Localizer::Workspace::refine_motion(const Scan& scan, TimeNs t_ns) {
+  if (!may_move(t_ns) || best_rays().hits == 0) return;
   // Where walls have been exact, what does not fit is a motion. A first scan fits too much already.
   const bool accelerates = place->map_error.is_exact() && memory.prior(t_ns).has_value();
-  for (int k = 0; k < 2 && may_move(t_ns) && best_rays().hits > 0; ++k) {
-    const RefinedMotion refined = place->refinement.refine_motion(
-        *map, place->place_search.exact()->refined.T_map_lidar, kMotionSearchRadius_m,
-        points.points(), result.detection.noise_scale, accelerates);
-    if (!refined.valid || !is_plausible(refined.motion.twist) ||
-        !keep_if_better(scan, t_ns, motion + refined.motion, refined.T_map_lidar)) {
-      return;
-    }
+  ScanMotion found = motion;
+  VerifiedHypothesis best = *place->place_search.exact();
+  const PolarScan* seen = &points;
+  for (int k = 0; k < 2 && best.refined.reduced_chi_square > kMayMove; ++k) {
+    const RefinedMotion refined =
+        place->refinement.refine_motion(*map, best.refined.T_map_lidar, kMotionSearchRadius_m,
+                                        seen->points(), result.detection.noise_scale, accelerates);
+    if (!refined.valid || !is_plausible(refined.motion.twist)) break;
+    const VerifiedHypothesis fit =
+        try_at(scan, t_ns, found + refined.motion, refined.T_map_lidar, place->bias.bias());
+    if (!explains_more(fit.rays, best.rays)) break;
+    found = found + refined.motion;
+    best = fit;
+    seen = &tried_points;
   }
+  if (found != motion) look(scan, t_ns, found);
 }
 
 bool Localizer::Workspace::rotation_is_unknown() const {
