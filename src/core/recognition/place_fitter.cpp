@@ -44,6 +44,7 @@ void PlaceFitter::begin(const PolarScan& scan, const ScanPrior& known) {
   spacing_rad_ = scan.spacing_rad();
   known_ = known;
   few_.clear();
+  T_map_met_.reset();
   const std::size_t stride = std::max<std::size_t>(1, points_.size() / kFewRays);
   for (std::size_t i = 0; i < points_.size(); i += stride) few_.push_back(points_[i]);
 }
@@ -76,20 +77,23 @@ std::optional<PlaceFitter::RoughFit> PlaceFitter::roughly(const Pose2& T_map_lid
   }
   const double spacing_rad = spacing_rad_ * static_cast<double>(points_.size()) /
                              static_cast<double>(std::max<std::size_t>(1, few_.size()));
+  T_map_met_.reset();
   beam_model_.meet(few_, ray_caster_.cast(map_, refined.T_map_lidar, few_), refined.T_map_lidar,
                    spacing_rad, known_.noise_scale);
   return RoughFit{refined.T_map_lidar, beam_model_.statistics(known_.max_map_sigma_m)};
 }
 
 void PlaceFitter::meet(const Pose2& T_map_lidar) {
+  if (T_map_met_ == T_map_lidar) return;
   beam_model_.meet(points_, ray_caster_.cast(map_, T_map_lidar, points_), T_map_lidar, spacing_rad_,
                    known_.noise_scale);
+  T_map_met_ = T_map_lidar;
 }
 
-BeamStatistics PlaceFitter::statistics(const Pose2& T_map_lidar, bool is_exact) {
-  if (is_exact) return beam_model_.statistics(BeamModel::kMapSigmas_m.front());
-  meet(T_map_lidar);
-  return beam_model_.statistics(known_.max_map_sigma_m);
+BeamStatistics PlaceFitter::statistics(const VerifiedHypothesis& place) {
+  meet(place.refined.T_map_lidar);
+  return beam_model_.statistics(place.is_exact ? BeamModel::kMapSigmas_m.front()
+                                               : known_.max_map_sigma_m);
 }
 
 VerifiedHypothesis PlaceFitter::exactly(const Pose2& T_map_lidar, double search_radius_m,

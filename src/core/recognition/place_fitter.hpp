@@ -68,8 +68,8 @@ class PlaceFitter {
   bool is_exact(const VerifiedHypothesis& fit) const;
   /// The scan, or a prior, holds the pose in each direction: no single wall, no bare corridor.
   bool is_determined(const RefinedPose& refined) const;
-  /// Of all rays at a place. `is_exact`: it is that of the last exactly().
-  BeamStatistics statistics(const Pose2& T_map_lidar, bool is_exact);
+  /// Of all rays at a place. Free where it is that of the last exactly().
+  BeamStatistics statistics(const VerifiedHypothesis& place);
 
  private:
   void meet(const Pose2& T_map_lidar);
@@ -83,6 +83,7 @@ class PlaceFitter {
   double spacing_rad_ = 0;
   std::vector<PolarPoint> few_;
   ScanPrior known_;
+  std::optional<Pose2> T_map_met_;  ///< where the beam model's rays are, all of them
 };
 
 }  // namespace cornerd::core

@@ -143,7 +143,7 @@ void PlaceSearch::add(const VerifiedHypothesis& exact, const Candidate& candidat
   if (!place.refined.valid) return;
   place.is_exact = is_exact;
   const Pose2& T_map_lidar = place.refined.T_map_lidar;
-  const BeamStatistics statistics = fitter_.statistics(T_map_lidar, is_exact);
+  const BeamStatistics statistics = fitter_.statistics(place);
   place.evidence = log_odds_of_place(statistics, wall_ends(T_map_lidar), structure_);
   if (!is_exact) {
     place.rays = {.rays = statistics.rays,
