@@ -12,18 +12,20 @@ constexpr double kBeyond_m = 1;
 /// Faces that a room shows are some ten.
 constexpr std::size_t kMaxVisible = 1024;
 
-/// Bearing of `a` below that of `b`, both from -pi to pi, without an arctangent.
-bool is_before(double a_x, double a_y, const Vec2& b) {
-  const bool a_is_left = a_y >= 0;
-  const bool b_is_left = b.y() >= 0;
-  return a_is_left == b_is_left ? a_x * b.y() > a_y * b.x() : b_is_left;
+/// The ray's bearing is below that of a direction, without an arctangent. By its bearing a ray is
+/// left or right, as rays are in the order of bearings: that of pi as a float is beyond pi.
+bool is_before(const PolarPoint& point, const Vec2& direction) {
+  const bool is_left = point.bearing_rad >= 0;
+  const bool to_the_left = direction.y() >= 0;
+  return is_left == to_the_left ? point.ray_x * direction.y() > point.ray_y * direction.x()
+                                : to_the_left;
 }
 
 /// First ray at or after a direction.
 std::size_t first_at(std::span<const PolarPoint> points, const Vec2& direction) {
-  const auto found = std::partition_point(
-      points.begin(), points.end(),
-      [&](const PolarPoint& point) { return is_before(point.ray_x, point.ray_y, direction); });
+  const auto found =
+      std::partition_point(points.begin(), points.end(),
+                           [&](const PolarPoint& point) { return is_before(point, direction); });
   return static_cast<std::size_t>(found - points.begin());
 }
 
@@ -66,12 +68,11 @@ void RayCaster::meet(std::uint32_t face, const WallMap& map, const VisibleFace& 
     if (approach <= 0 || visible.height_m > hit.range_m * approach) return;
     hit = {visible.height_m / approach, face, static_cast<float>(approach)};
   };
-  // Seen from its free side a face runs counter-clockwise from `from` to `to`, over less than pi.
-  // A falling bearing means that it crosses the seam.
-  const bool crosses_seam = is_before(to.x(), to.y(), from);
-  const auto ends = [&](const PolarPoint& point) {
-    return !is_before(point.ray_x, point.ray_y, to);
-  };
+  // Seen from its free side a face runs counter-clockwise from `from` to `to`, over less than pi;
+  // seen along itself it hides nothing.
+  if (!(cross(from, to) > 0)) return;
+  const bool crosses_seam = from.y() >= 0 && to.y() < 0;
+  const auto ends = [&](const PolarPoint& point) { return !is_before(point, to); };
   for (std::size_t i = first_at(points, from); i < points.size(); ++i) {
     if (!crosses_seam && ends(points[i])) return;
     cover(i);

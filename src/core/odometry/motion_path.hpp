@@ -22,6 +22,9 @@ class MotionPath {
   /// True where the path tells of all of this time, but for what the last motion may be carried on.
   bool covers(TimeNs from_ns, TimeNs to_ns) const;
 
+  /// Where it ends; 0 where there is none.
+  TimeNs newest_ns() const { return size_ > 0 ? point(0).t_ns : 0; }
+
   /// The pose at a time that is covered. Times that grow are found fastest.
   Pose2 at(TimeNs t_ns) const;
 

@@ -14,11 +14,15 @@ namespace {
 
 /// A scan whose pieces are turned against each other seems to be elsewhere as well: by so much of
 /// that angle, in rooms (NEES of fixes without a gyro, `cornerd-bench --odometry --robots`).
-constexpr double kLever_m = 0.15;
+constexpr double kLever_m = 0.2;
 /// A change of speed displaces what is between two readings by a share of what it comes to: a
 /// constant acceleration by a twelfth in the mean, a sudden one by up to a quarter. Between the two
 /// by NEES of fixes (`cornerd-bench --odometry`).
 constexpr double kUnevenShare = 0.1;
+/// The end of a scan that no reading tells of: of a change of speed in it, so much is in the pose.
+/// The last reading is often a little older than the scan's end: that is nothing.
+constexpr double kUnreadShare = 0.3;
+constexpr TimeNs kSoon_ns = 50'000'000;
 
 }  // namespace
 
@@ -84,9 +88,16 @@ Covariance3 Odometer::deskew_covariance() const {
   const double heading_noise = factor.covariance()(2, 2) + late_share2 * squared(motion.theta_rad);
   // When between two readings the robot changed its speed is unknown.
   const MotionPath::Change change = path_.mean_square_change(from_ns, to_ns);
-  // Where in its count each wheel is.
-  const double counted_m2 = geometry.quantization_variance() / 2;
-  const double counted_rad2 = filter_.has_gyro() ? 0 : 8 * counted_m2 / squared(geometry.track_m);
+  // The end of the scan that no reading tells of is extrapolated.
+  const TimeNs unread_ns = config_.conservative ? to_ns - path_.newest_ns() - kSoon_ns : 0;
+  const double unread_s = to_seconds(std::max<TimeNs>(0, unread_ns));
+  const double unread_by_s =
+      kUnreadShare * unread_s * unread_s / to_seconds(std::max<TimeNs>(1, end_ns_ - start_ns_));
+  // Where in its count each wheel is: the scan's middle is off along its way by both wheels' mean
+  // (less by the readings around it), its pieces are turned by the wheels' difference at two times.
+  const double count_m2 = geometry.quantization_variance();
+  const double counted_m2 = count_m2 / (filter_.has_gyro() ? 4 : 2);
+  const double counted_rad2 = filter_.has_gyro() ? 0 : 4 * count_m2 / squared(geometry.track_m);
   const double lever_m2 = config_.conservative ? kLever_m * kLever_m : 0;
   const double place_m2 =
       place_m * place_m + squared(kUnevenShare) * change.x_m2 + counted_m2 +
@@ -94,7 +105,10 @@ Covariance3 Odometer::deskew_covariance() const {
   const double heading_rad2 = rotation_rad * rotation_rad +
                               squared(kUnevenShare) * change.theta_rad2 + counted_rad2 +
                               MotionFilter::kDeskewNoiseShare * heading_noise;
-  return Eigen::Vector3d(place_m2, place_m2, heading_rad2).asDiagonal();
+  const double unread_m2 = squared(MotionFilter::kUnknown_m_s * unread_by_s);
+  const double unread_rad2 = squared(MotionFilter::kUnknown_rad_s * unread_by_s);
+  return Eigen::Vector3d(place_m2 + unread_m2, place_m2 + unread_m2, heading_rad2 + unread_rad2)
+      .asDiagonal();
 }
 
 }  // namespace cornerd::core

@@ -140,7 +140,7 @@ void BeamModel::add_runs(BeamStatistics& result) const {
     const Ray& a = rays_[i - 1];
     const Ray& b = rays_[i];
     if (a.outcome != b.outcome) return false;
-    if (a.outcome == Outcome::kThrough) return a.face == b.face;
+    if (a.outcome == Outcome::kViolation) return a.face == b.face;
     return a.outcome != Outcome::kShort ||
            std::abs(points_[i].range_m - points_[i - 1].range_m) < kObjectStep_m;
   };
@@ -159,7 +159,7 @@ void BeamModel::add_runs(BeamStatistics& result) const {
         result.log_likelihood -= kObject * object + trust_ * kObjectPerMetre * width_m;
         break;
       }
-      case Outcome::kThrough: {
+      case Outcome::kViolation: {
         const double permanent = std::min(1.0, map_.faces()[rays_[begin].face].length_m / kWall_m);
         const double nominal = rays * spacing_rad_ / kNominalSpacing_rad;
         if (count > kEdgeRays) {

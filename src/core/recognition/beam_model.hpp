@@ -16,16 +16,16 @@ namespace cornerd::core {
 /// What the rays of a scan do at a pose if every wall is where the map has it.
 struct BeamCounts {
   std::size_t rays = 0;
-  std::size_t hits = 0;       ///< on the face that the ray meets, within the noise
+  std::size_t hits = 0;       ///< on the face that the ray meets, within the noise and 3 mm
   std::size_t near_hits = 0;  ///< close to it: a wall slightly displaced
-  std::size_t shorts = 0;     ///< short of it: an unmapped obstacle
-  std::size_t throughs = 0;   ///< beyond it
+  std::size_t shorts = 0;     ///< short of it: an unmapped obstacle; or where no face is
+  std::size_t free_space_violations = 0;  ///< beyond it
   /// Nats, over ranges that any other place would give; as if rays were independent.
   double log_likelihood = 0;
 
   double hit_share() const { return share(hits); }
   double near_hit_share() const { return share(hits + near_hits); }
-  double through_share() const { return share(throughs); }
+  double violation_share() const { return share(free_space_violations); }
 
   /// Enough rays are on walls, and hardly any goes through one, for the place to be the right one.
   bool explains_scan() const;
@@ -42,10 +42,10 @@ struct BeamCounts {
 /// What they do in a map that is inexact and incomplete.
 struct BeamStatistics {
   std::size_t rays = 0;
-  std::size_t hits = 0;         ///< on the face that the ray meets, within its uncertainty
-  std::size_t shorts = 0;       ///< before it: something unmapped
-  std::size_t throughs = 0;     ///< beyond it
-  double map_sigma_m = 0;       ///< the likeliest standard deviation of a face's offset
+  std::size_t hits = 0;    ///< on the face that the ray meets, within its uncertainty
+  std::size_t shorts = 0;  ///< before it: something unmapped
+  std::size_t free_space_violations = 0;  ///< beyond it
+  double map_sigma_m = 0;                 ///< the likeliest standard deviation of a face's offset
   double log_likelihood = 0;    ///< nats, over ranges that any other place would give; tempered
   double faces_log_ratio = 0;   ///< the part of it by hits
   double faces = 0;             ///< that are hit; one with less than three nominal rays is a part
@@ -64,8 +64,8 @@ class BeamModel {
  public:
   BeamModel(const WallMap& map, const SensorNoise& noise);
 
-  /// `points` and `hits`, the predicted face of each at `T_map_lidar`, must outlive the calls of
-  /// the others. `spacing_rad`: between two rays.
+  /// `points` must outlive the calls of the others. `hits`: the predicted face of each at
+  /// `T_map_lidar`. `spacing_rad`: between two rays.
   void meet(std::span<const PolarPoint> points, std::span<const PredictedHit> hits,
             const Pose2& T_map_lidar, double spacing_rad, double noise_scale);
   /// Of the last meet().
@@ -81,7 +81,7 @@ class BeamModel {
   /// Rays in a row that end on a wall's edge and may miss it.
   static constexpr std::size_t kEdgeRays = 2;
 
-  enum class Outcome : std::uint8_t { kHit, kShort, kThrough, kBeyond };
+  enum class Outcome : std::uint8_t { kHit, kShort, kViolation, kBeyond };
   struct Ray {
     std::uint32_t predicted = 0;  ///< face that the ray should meet
     std::uint32_t face = 0;       ///< that it meets; another one next to an edge
@@ -101,6 +101,8 @@ class BeamModel {
     double log_density = 0;
   };
 
+  /// Over that of a range which any other place would give; of a ray that is on a wall or near.
+  double log_density(const Ray& ray) const;
   Outcome outcome_of(const Ray& ray, double map_sigma_m) const;
   BeamStatistics by_map_sigma(double map_sigma_m);
   void classify(double map_sigma_m, BeamStatistics& result);

@@ -35,7 +35,7 @@ constexpr double kShortRatio = 0.2;
 /// two walls of one corner fit any other corner, so that of few rays more than half.
 constexpr std::size_t kMinSurplus = 30;
 constexpr double kMinHitShare = 0.25;
-constexpr double kMaxThroughs = 0.08;
+constexpr double kMaxViolations = 0.08;
 /// A place with a lower share of hits than outliers and mixed pixels explain, or with few hits, may
 /// be the wrong one of several: rooms of one building share walls.
 constexpr double kCertainHitShare = 0.97;
@@ -47,7 +47,7 @@ constexpr std::size_t kCertainHits = 100;
 bool BeamCounts::explains_scan() const {
   const std::size_t on_walls = hits + near_hits;
   return on_walls >= rays - on_walls + kMinSurplus && hit_share() >= kMinHitShare &&
-         through_share() <= kMaxThroughs;
+         violation_share() <= kMaxViolations;
 }
 
 bool BeamCounts::is_conclusive(bool expected) const {
@@ -79,8 +79,10 @@ void BeamModel::meet(std::span<const PolarPoint> points, std::span<const Predict
     const double near_m = none ? point.range_m : std::min(met.range_m, point.range_m);
     if (std::abs(ray.across_m) > kEdge_m) {
       // At an edge it may be the neighbours' face that is met.
-      const auto reach = std::clamp<std::ptrdiff_t>(
-          static_cast<std::ptrdiff_t>(kEdge_m / (near_m * spacing_rad)), kEdgeRays, kMaxEdgeRays);
+      const auto reach = std::min(
+          count,
+          std::clamp<std::ptrdiff_t>(static_cast<std::ptrdiff_t>(kEdge_m / (near_m * spacing_rad)),
+                                     kEdgeRays, kMaxEdgeRays));
       for (std::ptrdiff_t step = -reach; step <= reach; ++step) {
         const PredictedHit& other = hits[static_cast<std::size_t>((i + step + count) % count)];
         if (other.face == PredictedHit::kNone || other.face == met.face ||
@@ -109,33 +111,38 @@ BeamModel::Outcome BeamModel::outcome_of(const Ray& ray, double map_sigma_m) con
   if (squared(ray.across_m) < squared(kGateSigmas) * (ray.variance_m2 + squared(sigma_m))) {
     return Outcome::kHit;
   }
-  return ray.across_m < 0 ? Outcome::kShort : Outcome::kThrough;
+  return ray.across_m < 0 ? Outcome::kShort : Outcome::kViolation;
+}
+
+double BeamModel::log_density(const Ray& ray) const {
+  const double log_other = std::log(kOutlierRatio);
+  const double square_m2 = squared(ray.across_m);
+  const double hit = ray.log_peak - square_m2 / (2 * ray.variance_m2);
+  // Nearer than this a hit is likelier than something near, whatever their variances are.
+  if (square_m2 < 2 * std::log(kWallShare / kNearShare) * ray.variance_m2) return hit;
+  const double near_m2 = ray.variance_m2 + squared(kNearSigma_m);
+  const double near = ray.log_peak + std::log(kNearShare / kWallShare) +
+                      std::log(ray.variance_m2 / near_m2) / 2 - square_m2 / (2 * near_m2);
+  return std::max({hit, near, log_other});
 }
 
 BeamCounts BeamModel::counts() const {
-  const double log_other = std::log(kOutlierRatio);
-  const double log_short = std::log(kShortRatio);
-  const double log_near = std::log(kNearShare / kWallShare);
   BeamCounts result;
   result.rays = rays_.size();
   for (const Ray& ray : rays_) {
     const Outcome outcome = outcome_of(ray, kMapSigmas_m.front());
     if (outcome == Outcome::kHit) {
       ++result.hits;
-      result.log_likelihood +=
-          std::max(log_other, ray.log_peak - squared(ray.across_m) / (2 * ray.variance_m2));
+      result.log_likelihood += log_density(ray);
     } else if (outcome_of(ray, kNearSigma_m) == Outcome::kHit) {
       ++result.near_hits;
-      const double variance_m2 = ray.variance_m2 + squared(kNearSigma_m);
-      result.log_likelihood += ray.log_peak + log_near +
-                               std::log(ray.variance_m2 / variance_m2) / 2 -
-                               squared(ray.across_m) / (2 * variance_m2);
-    } else if (outcome == Outcome::kThrough) {
-      ++result.throughs;
-      result.log_likelihood += log_other;
+      result.log_likelihood += log_density(ray);
+    } else if (outcome == Outcome::kViolation) {
+      ++result.free_space_violations;
+      result.log_likelihood += std::log(kOutlierRatio);
     } else {
       ++result.shorts;
-      result.log_likelihood += outcome == Outcome::kShort ? log_short : log_other;
+      result.log_likelihood += std::log(outcome == Outcome::kShort ? kShortRatio : kOutlierRatio);
     }
   }
   return result;
@@ -148,7 +155,7 @@ void BeamModel::classify(double map_sigma_m, BeamStatistics& result) {
     ray.outcome = outcome_of(ray, map_sigma_m);
     result.hits += ray.outcome == Outcome::kHit ? 1 : 0;
     result.shorts += ray.outcome == Outcome::kShort ? 1 : 0;
-    result.throughs += ray.outcome == Outcome::kThrough ? 1 : 0;
+    result.free_space_violations += ray.outcome == Outcome::kViolation ? 1 : 0;
   }
 }
 

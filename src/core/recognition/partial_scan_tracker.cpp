@@ -18,7 +18,7 @@ constexpr double kMaxInnovation_rad = radians(15);
 /// pass through one.
 constexpr std::size_t kMinHits = 25;
 constexpr double kMinPartialHitShare = 0.8;
-constexpr double kMaxThroughShare = 0.05;
+constexpr double kMaxViolationShare = 0.05;
 
 }  // namespace
 
@@ -81,12 +81,12 @@ std::optional<PartialScanPose> PartialScanTracker::localize(const PredictedState
                                         kMaxInnovation_m, kMaxInnovation_rad)) {
     return std::nullopt;
   }
-  beam_model_.meet(points_.points(),
-                   ray_caster_.cast(map_, pose.refined.T_map_lidar, points_.points()),
-                   pose.refined.T_map_lidar, points_.spacing_rad(), noise_scale);
+  beam_model_.meet(
+      points_.points(), ray_caster_.cast(map_, pose.refined.T_map_lidar, points_.points()),
+      pose.refined.T_map_lidar, kTwoPi / static_cast<double>(expected_samples_), noise_scale);
   pose.rays = beam_model_.counts();
   if (pose.rays.hits < kMinHits || pose.rays.hit_share() < kMinPartialHitShare ||
-      pose.rays.through_share() > kMaxThroughShare) {
+      pose.rays.violation_share() > kMaxViolationShare) {
     return std::nullopt;
   }
   return pose;

@@ -9,6 +9,7 @@
 #include "core/breakpoint/breakpoint_stream.hpp"
 #include "core/estimate/refinement.hpp"
 #include "core/localizer_config.hpp"
+#include "core/map/ray_caster.hpp"
 #include "core/map/wall_map.hpp"
 #include "core/polar_scan.hpp"
 #include "core/recognition/beam_model.hpp"

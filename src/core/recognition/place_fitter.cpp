@@ -137,7 +137,8 @@ VerifiedHypothesis PlaceFitter::with_offsets(const Pose2& T_map_lidar, double se
 bool PlaceFitter::is_exact(const VerifiedHypothesis& fit) const {
   const BeamCounts& rays = fit.rays;
   if (!may_be_off() && rays.hit_share() > kExactMapShare) return true;
-  const auto at_walls = static_cast<double>(rays.hits + rays.near_hits + rays.throughs);
+  const auto at_walls =
+      static_cast<double>(rays.hits + rays.near_hits + rays.free_space_violations);
   return rays.hits > 0 && static_cast<double>(rays.hits) > kExactShare * at_walls &&
          (!may_be_off() || fit.refined.face_residuals.excludes_offsets());
 }

@@ -149,7 +149,7 @@ void PlaceSearch::add(const VerifiedHypothesis& exact, const Candidate& candidat
     place.rays = {.rays = statistics.rays,
                   .hits = statistics.hits,
                   .shorts = statistics.shorts,
-                  .throughs = statistics.throughs};
+                  .free_space_violations = statistics.free_space_violations};
   }
   const auto keep_in = [&](std::vector<VerifiedHypothesis>& places) {
     const auto known = std::find_if(places.begin(), places.end(),

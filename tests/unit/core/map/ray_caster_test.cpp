@@ -44,5 +44,44 @@ TEST(RayCaster, RayWithoutWall_NoHit) {
   EXPECT_EQ(hits[2].range_m, 0);
 }
 
+/// Rays every half degree from -pi on; as a float that is less than -pi.
+PolarScan full_circle() {
+  constexpr int kRays = 720;
+  PolarScan points;
+  points.begin(kTwoPi / kRays);
+  for (int i = 0; i < kRays; ++i) {
+    points.append(i == 0 ? -static_cast<float>(kPi) : -kPi + i * kTwoPi / kRays, 1);
+  }
+  return points;
+}
+
+TEST(RayCaster, RayAtTheSeam_EndsNoFace) {
+  const auto map = testing::make_map(testing::rectangular_room(3, 2));
+  const PolarScan points = full_circle();
+  RayCaster prediction(12);
+  for (const PredictedHit& hit : prediction.cast(*map, {1.13, 0.83, 0}, points.points())) {
+    EXPECT_GT(hit.range_m, 0.5);
+    EXPECT_GT(hit.sine, 0);
+  }
+}
+
+TEST(RayCaster, FaceSeenAlongItself_HidesNothing) {
+  const PolarScan points = full_circle();
+  RayCaster prediction(12);
+  FloorPlan plan;
+  plan.walls.push_back({{1, 0.05}, {2, 0.05}, 0.1});
+  const WallMap map(plan);
+  for (const double x_m : {-3.0, -0.1, 0.3, 2.5}) {
+    for (const double y_m : {0.0, 0.1, 1e-17, -1e-17}) {
+      for (const double theta_rad : {0.0, 0.7, kPi / 2, -2.0, kPi}) {
+        for (const PredictedHit& hit :
+             prediction.cast(map, {x_m, y_m, theta_rad}, points.points())) {
+          EXPECT_TRUE(hit.face == PredictedHit::kNone || hit.range_m > 0.3) << x_m << ' ' << y_m;
+        }
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace cornerd::core

@@ -42,7 +42,7 @@ TEST(PlaceEvidence, HalfOfTheFaces_LeavesADoubtOfAPercent) {
 
 TEST(PlaceEvidence, RaysThroughWalls_SpeakAgainstThePlace) {
   BeamStatistics place = most_walls_hit();
-  place.throughs = 40;
+  place.free_space_violations = 40;
   place.shorts -= 40;
   place.missing_walls = 2;
   place.log_missing = 6;
