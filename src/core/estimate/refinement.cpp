@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kCutSigmas = PointLanes::kCutSigmas;
 constexpr int kMaxSteps = 12;
-/// Smaller steps change no figure of `cornerd-bench --localizer`: poses are twice as uncertain.
+/// Poses are twice as uncertain; smaller steps moved no mean of `cornerd-bench --localizer` by 1 %.
 constexpr double kConverged_m = 1e-4;
 constexpr double kConverged_rad = 5e-5;
 /// A smaller step leaves each ray on the face that it hit before, except near a face's end.
