@@ -100,14 +100,6 @@ VerifiedHypothesis Localizer::Workspace::try_at(const Scan& scan, TimeNs t_ns,
   return place->trial.exactly(T_map_lidar, kMotionSearchRadius_m);
 }
 
-bool Localizer::Workspace::keep_if_better(const Scan& scan, TimeNs t_ns,
-                                          const ScanMotion& candidate, const Pose2& T_map_lidar) {
-  const bool is_better = explains_more(
-      try_at(scan, t_ns, candidate, T_map_lidar, place->bias.bias()).rays, best_rays());
-  if (is_better) look(scan, t_ns, candidate);
-  return is_better;
-}
-
 void Localizer::Workspace::refine_motion(const Scan& scan, TimeNs t_ns) {
   if (!may_move(t_ns) || best_rays().hits == 0) return;
   // Where walls have been exact, what does not fit is a motion. A first scan fits too much already.
@@ -145,11 +137,13 @@ bool Localizer::Workspace::try_rotation_rates(const Scan& scan, TimeNs t_ns) {
 }
 
 void Localizer::Workspace::look_for_the_motion(const Scan& scan, TimeNs t_ns) {
-  if (best_rays().hits == 0) {
-    if (!motion.is_rest()) look(scan, t_ns, {});
-  } else if (!motion.is_rest()) {
-    keep_if_better(scan, t_ns, {}, place->place_search.exact()->refined.T_map_lidar);
-  }
+  const auto is_likelier_at_rest = [&] {
+    const BeamCounts moving = best_rays();
+    if (moving.hits == 0) return true;
+    const Pose2 T_map_lidar = place->place_search.exact()->refined.T_map_lidar;
+    return explains_more(try_at(scan, t_ns, {}, T_map_lidar, place->bias.bias()).rays, moving);
+  };
+  if (!motion.is_rest() && is_likelier_at_rest()) look(scan, t_ns, {});
   refine_motion(scan, t_ns);
   // Nothing fits: the robot rotates, as the scan before shows; in the other direction where the
   // order of the bearings is not known.

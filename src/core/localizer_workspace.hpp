@@ -88,9 +88,6 @@ struct Localizer::Workspace {
   void look_for_the_motion(const Scan& scan, TimeNs t_ns);
   /// Refines the motion with the pose, where residuals are beyond the noise.
   void refine_motion(const Scan& scan, TimeNs t_ns);
-  /// Matches the scan by another motion near a place; keeps it where clearly more rays hit.
-  bool keep_if_better(const Scan& scan, TimeNs t_ns, const ScanMotion& candidate,
-                      const Pose2& T_map_lidar);
   /// Neither odometry nor a scan before this one measures the rotation.
   bool rotation_is_unknown() const;
   /// Matches the scan by each of a few rotation rates. False where by none half of the rays hit.
