@@ -87,8 +87,7 @@ Decision Localizer::Workspace::find(const Scan& scan, TimeNs t_ns) {
   look(scan, t_ns, memory.motion());
 
   // 2. Where none is convincing, the robot may have changed its speed since the last scans, or
-  // walls
-  //    are off.
+  //    walls are off.
   if (may_move(t_ns)) {
     look_for_the_motion(scan, t_ns);
     if (motion != memory.motion() && is_explained_by_offsets(scan, t_ns)) {
