@@ -41,7 +41,7 @@ void print(const soak::SoakReport& report) {
   std::printf("  bytes %llu = used %llu + skipped %llu; read from the port %llu\n",
               number(report.counters.bytes), number(report.counters.used_bytes),
               number(report.counters.skipped_bytes), number(report.read_bytes));
-  std::printf("  resident memory %llu kB after a tenth, %llu kB at the end\n",
+  std::printf("  heap %llu kB after a tenth, %llu kB at the end\n",
               number(report.warm_bytes / 1024), number(report.end_bytes / 1024));
   std::printf("  longest time without progress of both loops: %.2f s\n",
               report.max_without_progress_s);

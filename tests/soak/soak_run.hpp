@@ -35,7 +35,7 @@ struct SoakReport {
   double simulated_s = 0;
   double real_s = 0;
   double max_without_progress_s = 0;  ///< of both loops, as the watchdog sees it
-  std::uint64_t warm_bytes = 0;       ///< resident memory after a tenth of the scans
+  std::uint64_t warm_bytes = 0;       ///< on the heap after a tenth of the scans
   std::uint64_t end_bytes = 0;
 
   /// Failed checks.
