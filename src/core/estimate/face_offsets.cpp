@@ -11,6 +11,8 @@ namespace {
 
 /// A scan sees few walls: what the map says of their offsets counts as much as two of them.
 constexpr double kPriorFaces = 2;
+/// Faces that are farther off, by this standard deviation, are other things than the map's.
+constexpr double kMostOff_m = 0.05;
 
 /// Walls in a line are measured, or drawn, together or each by itself: poses are as uncertain as if
 /// together. The sides of a wall are apart by its thickness.
@@ -42,6 +44,22 @@ double sigma_of_offsets(std::span<const FaceResidual> residuals, const WallMap& 
   const double free_share = lines > 3 ? 1 - 3.0 / static_cast<double>(lines) : 0;
   const double faces = kPriorFaces + free_share * static_cast<double>(residuals.size());
   return std::min(std::sqrt(variance / faces), std::max(kMostOff_m, stated_m));
+}
+
+void merge_by_line(std::vector<FaceResidual>& residuals, const WallMap& map) {
+  auto lines = residuals.begin();
+  for (const FaceResidual& face : residuals) {
+    const auto line = std::find_if(residuals.begin(), lines, [&](const FaceResidual& other) {
+      return are_in_line(map.faces()[other.face], map.faces()[face.face]);
+    });
+    if (line == lines) {
+      *lines++ = face;
+    } else {
+      const double side = std::copysign(1.0, line->normal.dot(face.normal));
+      line->add({face.face, face.normal, face.weight, side * face.lever, side * face.distance});
+    }
+  }
+  residuals.erase(lines, residuals.end());
 }
 
 Covariance3 variance_of_lines(std::span<const FaceResidual> residuals, const WallMap& map,

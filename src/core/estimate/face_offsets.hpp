@@ -2,6 +2,7 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
 #include "core/estimate/map_error_model.hpp"
 #include "core/map/wall_map.hpp"
@@ -13,6 +14,9 @@ namespace cornerd::core {
 /// Rubin 1977) with a prior. At most 5 cm, or `stated_m`.
 double sigma_of_offsets(std::span<const FaceResidual> residuals, const WallMap& map,
                         double stated_m, double sigma_m);
+
+/// One residual a line: sums those of faces that may be off together.
+void merge_by_line(std::vector<FaceResidual>& residuals, const WallMap& map);
 
 /// Normal equations whose faces' offsets of `sigma_m` are marginalised, each by itself: what the
 /// variance of their right side (x, y, theta) has beyond their information where the faces of a

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/geometry/linear_solve.hpp"
 #include "core/geometry/squared.hpp"
 
 namespace cornerd::core {
@@ -16,22 +17,37 @@ namespace {
 constexpr double kNoiseShare = 0.579;
 constexpr double kShiftShare = 0.771;
 
-constexpr double kExact_m = 0.005;
-
+/// Before the first scan half of all maps are exact, the others measured with a tape.
+constexpr double kTape_m = 0.01;
+/// Offsets that are less are none.
+constexpr double kExact_m = 0.003;
 /// Exponential forgetting with each scan: three seconds.
 constexpr double kRetained = 0.95;
 
-/// A chi-square of so many degrees of freedom, over its mean, that is less once in 20 times: below
-/// three by the leading term of its series, else by Wilson and Hilferty (1931); both meet there.
-double least_share(double freedom) {
-  constexpr double kOnceIn20 = 1.645;
-  if (!(freedom > 0)) return 0;
-  if (freedom < 3) {
-    return 2 * std::pow(std::tgamma(freedom / 2 + 1) / 20, 2 / freedom) / freedom;
+/// Log likelihood of the faces' residuals if each face has an offset of this variance, over that
+/// without any, nats. Pose and offsets are marginalised: `information` is the pose's without
+/// offsets, at which the gradient is zero.
+double log_likelihood(std::span<const FaceResidual> residuals, const Eigen::Matrix3d& information,
+                      double variance_m2) {
+  if (!(variance_m2 > 0)) return 0;
+  Eigen::Matrix3d reduced = information;
+  Eigen::Vector3d gradient = Eigen::Vector3d::Zero();
+  double chi_square = 0;
+  double log_determinant = 0;
+  for (const FaceResidual& face : residuals) {
+    if (!(face.weight > 0)) continue;
+    const double share = 1 / (face.weight + 1 / variance_m2);
+    const double distance = face.distance / kShiftShare;
+    reduced -= share * face.gradient() * face.gradient().transpose();
+    gradient += share * distance * face.gradient();
+    chi_square -= share * squared(distance);
+    log_determinant += std::log1p(variance_m2 * face.weight);
   }
-  const double variance = 2 / (9 * freedom);
-  const double root = 1 - variance - kOnceIn20 * std::sqrt(variance);
-  return root * root * root;
+  const SymmetricSolver<3> solver(reduced);
+  const double ratio = solver.pivots().prod() / SymmetricSolver<3>(information).pivots().prod();
+  if (!solver.is_positive() || !(ratio > 0)) return 0;
+  chi_square -= gradient.dot(solver.solve(gradient));
+  return -(chi_square + log_determinant + std::log(ratio)) / 2;
 }
 
 }  // namespace
@@ -55,10 +71,6 @@ FaceResidualStatistics face_residual_statistics(std::span<const FaceResidual> re
                                                 const Covariance3& covariance) {
   FaceResidualStatistics statistics;
   Covariance3 squared_gradients = Covariance3::Zero();
-  // Of the quadratic form that the excess is in the faces' displacements, of which the pose absorbs
-  // what it can: W - G C G', one row of G a face's gradient.
-  double trace = 0;
-  double trace_of_square = 0;
   for (const FaceResidual& face : residuals) {
     if (!(face.weight > 0)) continue;
     const Eigen::Vector3d gradient = face.gradient();
@@ -68,38 +80,46 @@ FaceResidualStatistics face_residual_statistics(std::span<const FaceResidual> re
     statistics.excess += squared(face.distance) / face.weight - noise;
     statistics.excess_variance += 2 * squared(noise);
     statistics.excess_per_variance += squared(kShiftShare) * face.weight * (1 - leverage);
-    trace += face.weight * (1 - leverage);
-    trace_of_square += squared(face.weight) * (1 - 2 * leverage);
     squared_gradients += gradient * gradient.transpose();
   }
-  const Covariance3 absorbed = covariance * squared_gradients;
-  trace_of_square += (absorbed * absorbed).trace();
-  statistics.freedom = trace_of_square > 0 ? squared(trace) / trace_of_square : 0;
   statistics.covariance_per_variance = covariance * squared_gradients * covariance;
   return statistics;
 }
 
+double log_odds_of_tape(std::span<const FaceResidual> residuals, const Covariance3& covariance,
+                        double shown_m2) {
+  if (shown_m2 >= squared(kTape_m)) return 0;
+  const Eigen::Matrix3d information = inverse(covariance);
+  return log_likelihood(residuals, information, squared(kTape_m)) -
+         log_likelihood(residuals, information, shown_m2);
+}
+
+double FaceResidualStatistics::shown_variance_m2() const {
+  if (!(excess_per_variance > 0)) return 0;
+  return std::max(0.0, excess - std::sqrt(excess_variance)) / excess_per_variance;
+}
+
+double FaceResidualStatistics::variance_m2() const {
+  if (!(excess_per_variance > 0)) return 0;
+  const double shown_m2 = shown_variance_m2();
+  const double p_tape = 1 / (1 + std::exp(-log_odds_of_tape));
+  return shown_m2 + p_tape * std::max(0.0, squared(kTape_m) - shown_m2);
+}
+
 bool FaceResidualStatistics::excludes_offsets() const {
-  return excess_per_variance > 0 &&
-         excess + 2 * std::sqrt(excess_variance) <
-             least_share(freedom) * squared(kExact_m) * excess_per_variance;
+  return excess_per_variance > 0 && variance_m2() < squared(kExact_m);
 }
 
 void MapErrorModel::add(const FaceResidualStatistics& statistics) {
   sum_.excess = kRetained * sum_.excess + statistics.excess;
   sum_.excess_variance = squared(kRetained) * sum_.excess_variance + statistics.excess_variance;
   sum_.excess_per_variance = kRetained * sum_.excess_per_variance + statistics.excess_per_variance;
-  sum_.freedom = std::max(kRetained * sum_.freedom, statistics.freedom);
-}
-
-double MapErrorModel::variance() const {
-  // Without this margin half of all scans show some excess by chance.
-  const double excess = sum_.excess - std::sqrt(sum_.excess_variance);
-  return excess > 0 && sum_.excess_per_variance > 0 ? excess / sum_.excess_per_variance : 0;
+  weight_ = kRetained * weight_ + 1;
+  sum_.log_odds_of_tape += (statistics.log_odds_of_tape - sum_.log_odds_of_tape) / weight_;
 }
 
 Covariance3 MapErrorModel::pose_covariance(const FaceResidualStatistics& statistics) const {
-  return std::min(variance(), squared(kMostOff_m)) * statistics.covariance_per_variance;
+  return variance_m2() * statistics.covariance_per_variance;
 }
 
 }  // namespace cornerd::core

@@ -27,9 +27,6 @@ struct FaceResidual {
   double distance = 0;  ///< weighted sum of the distances in front of the face, m
 };
 
-/// Faces that are farther off, by this standard deviation, are other things than the map's.
-inline constexpr double kMostOff_m = 0.05;
-
 /// One residual a face, in the order of their numbers: sums those of one face.
 void merge_by_face(std::vector<FaceResidual>& residuals);
 
@@ -40,22 +37,32 @@ struct FaceResidualStatistics {
   double excess = 0;               ///< of the faces' mean squared distances over the points' noise
   double excess_variance = 0;      ///< variance of `excess` where no face is displaced
   double excess_per_variance = 0;  ///< expected excess per m^2 of the faces' variance
-  /// Of a chi-square that is distributed as displaced faces' excess is (Satterthwaite 1946): less
-  /// than there are faces, as near ones weigh more and the pose takes a part.
-  double freedom = 0;
+  /// Of a map measured with a tape, over one whose faces are as far off as they look (nats).
+  double log_odds_of_tape = 0;
   /// Pose covariance (x, y, theta) per m^2 of the faces' variance.
   Covariance3 covariance_per_variance = Covariance3::Zero();
 
   /// Exact faces would show as much once in 700 scans.
   bool shows_offsets() const { return excess > 3 * std::sqrt(excess_variance); }
-  /// Offsets of a standard deviation of 5 mm or more would show as little once in 20 times.
+  /// Expected, of the faces' offsets: as the scan shows it, or that of a map measured with a tape
+  /// by the odds that its faces show no more by chance; 0 where there is nothing to compare.
+  double variance_m2() const;
+  /// The faces are where the map has them but for the roughness of walls.
   bool excludes_offsets() const;
+
+  /// Without a margin half of all scans of an exact map show some excess by chance.
+  double shown_variance_m2() const;
 };
 
-/// `residuals`: at the refined pose, one a face. `covariance`: of that pose by the points' noise
-/// alone.
+/// `residuals`: at the pose that fits the points best, one a face. `covariance`: of that pose by
+/// the points' noise alone.
 FaceResidualStatistics face_residual_statistics(std::span<const FaceResidual> residuals,
                                                 const Covariance3& covariance);
+
+/// Log odds that the faces are off by a centimetre each, and hardly show it by chance, over the
+/// variance that they show (nats). `residuals`: one for all faces that may be off together.
+double log_odds_of_tape(std::span<const FaceResidual> residuals, const Covariance3& covariance,
+                        double shown_m2);
 
 /// Map error model: the variance of the faces' positions, averaged over the last scans since one
 /// scan sees too few faces.
@@ -65,15 +72,16 @@ class MapErrorModel {
   /// To be added to the covariance of a pose with these residuals, in which no offset was
   /// marginalised.
   Covariance3 pose_covariance(const FaceResidualStatistics& statistics) const;
-  double variance() const;
+  double variance_m2() const { return sum_.variance_m2(); }
   /// True where the last scans show that faces are where the map has them.
   bool is_exact() const { return sum_.excludes_offsets(); }
   void forget() { *this = {}; }
 
  private:
-  /// Over the scans, with exponential forgetting; `freedom` is that of the scan with most, as those
-  /// of one place see the same faces.
+  /// Over the scans, with exponential forgetting. The odds are their mean: scans of one place see
+  /// the same faces.
   FaceResidualStatistics sum_;
+  double weight_ = 0;
 };
 
 }  // namespace cornerd::core

@@ -47,6 +47,7 @@ struct Refinement::Step {
   Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
   Eigen::Matrix3d of_offsets = Eigen::Matrix3d::Zero();  ///< what marginalisation took of it
   Eigen::Vector3d gradient = Eigen::Vector3d::Zero();
+  Eigen::Vector3d gradient_of_offsets = Eigen::Vector3d::Zero();  ///< the same
   double chi_square = 0;
   double squared_distances = 0;
   std::size_t inliers = 0;
@@ -74,6 +75,7 @@ struct Refinement::Step {
     const double share = 1 / (face.weight + 1 / squared(sigma_m));
     of_offsets += share * by_offset * by_offset.transpose();
     gradient -= share * face.distance * by_offset;
+    gradient_of_offsets += share * face.distance * by_offset;
     chi_square -= share * squared(face.distance);
   }
 };
@@ -161,6 +163,7 @@ Refinement::Step Refinement::step(const WallMap& map, const Pose2& T_map_lidar,
     const WallOffsetFilter::Reduced reduced = walls->marginalise();
     sums.of_offsets += reduced.information;
     sums.gradient -= reduced.gradient;
+    sums.gradient_of_offsets += reduced.gradient;
     sums.chi_square -= reduced.chi_square;
   }
   sums.information.triangularView<Eigen::StrictlyLower>() = sums.information.transpose();
@@ -176,7 +179,11 @@ RefinedPose Refinement::refine(const WallMap& map, const Pose2& start, double se
   RefinedPose refined = gauss_newton(map, start, search_radius_m, subset, points, noise_scale,
                                      map_sigma_m, kMaxSteps, prior, walls);
   if (refined.valid) {
-    refined.face_residuals = face_residual_statistics(residuals_, refined.noise_covariance);
+    FaceResidualStatistics& faces = refined.face_residuals;
+    faces = face_residual_statistics(residuals_, refined.noise_covariance);
+    merge_by_line(residuals_, map);
+    faces.log_odds_of_tape =
+        log_odds_of_tape(residuals_, refined.noise_covariance, faces.shown_variance_m2());
   }
   return refined;
 }
@@ -244,10 +251,14 @@ RefinedPose Refinement::gauss_newton(const WallMap& map, const Pose2& start, dou
     solver.compute(sums.information + sums.of_offsets);
     refined.noise_covariance = solver.inverse();
   }
+  // To the pose that fits the points best.
+  const Eigen::Vector3d move =
+      refined.noise_covariance * (sums.gradient + sums.gradient_of_offsets);
   if (walls == nullptr && map_sigma_m > 0) {
     const Covariance3 noise = refined.covariance;
     refined.covariance += noise * variance_of_lines(residuals_, map, map_sigma_m) * noise;
   }
+  for (FaceResidual& face : residuals_) face.distance -= face.gradient().dot(move);
   refined.covariance += refined.excess_covariance();
   refined.inliers = sums.inliers;
   const Eigen::Matrix2d& normals = sums.normals;
