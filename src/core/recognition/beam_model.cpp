@@ -31,8 +31,10 @@ constexpr double kWideView_rad = 1.5;
 constexpr double kMissingWall = 10;
 constexpr double kMissingWallPerRay = 3;
 constexpr double kWall_m = 0.3;
-/// Each of the rays that end on a wall's edge and miss it.
+/// Each of the rays that end on a wall's edge and miss it; a dense lidar's are within one nominal
+/// ray.
 constexpr double kEdgeRay = 1;
+constexpr double kEdgeNominalRays = 1;
 /// A face that fits worse than this has something before it.
 constexpr double kWorstFace = -3;
 /// A map is the less likely the less exact it is.
@@ -150,6 +152,7 @@ void BeamModel::add_runs(BeamStatistics& result) const {
     const auto rays = static_cast<double>(count);
     switch (rays_[begin].outcome) {
       case Outcome::kHit:
+      case Outcome::kNear:
         break;
       case Outcome::kShort: {
         const double width_m = (points_[end - 1].position() - points_[begin].position()).norm() +
@@ -162,13 +165,14 @@ void BeamModel::add_runs(BeamStatistics& result) const {
       case Outcome::kViolation: {
         const double permanent = std::min(1.0, map_.faces()[rays_[begin].face].length_m / kWall_m);
         const double nominal = rays * spacing_rad_ / kNominalSpacing_rad;
-        if (count > kEdgeRays) {
+        const bool is_edge = count <= kEdgeRays || nominal <= kEdgeNominalRays;
+        if (!is_edge) {
           result.missing_walls += permanent;
           result.log_missing += permanent * std::log1p(nominal);
         }
         result.log_likelihood -=
             trust_ * permanent *
-            (count > kEdgeRays ? kMissingWall + kMissingWallPerRay * nominal : kEdgeRay * rays);
+            (is_edge ? kEdgeRay * rays : kMissingWall + kMissingWallPerRay * nominal);
         break;
       }
       case Outcome::kBeyond: {
@@ -179,9 +183,9 @@ void BeamModel::add_runs(BeamStatistics& result) const {
   }
 }
 
-BeamStatistics BeamModel::by_map_sigma(double map_sigma_m) {
+BeamStatistics BeamModel::by_map_sigma(double map_sigma_m, double near_sigma_m) {
   BeamStatistics result;
-  classify(map_sigma_m, result);
+  classify(map_sigma_m, near_sigma_m, result);
   add_faces(map_sigma_m, result);
   add_runs(result);
   result.log_likelihood -= kPerMapSigma * std::log(map_sigma_m / kMapSigmas_m.front());
@@ -189,13 +193,17 @@ BeamStatistics BeamModel::by_map_sigma(double map_sigma_m) {
 }
 
 BeamStatistics BeamModel::statistics(double max_map_sigma_m) {
-  BeamStatistics best = by_map_sigma(kMapSigmas_m.front());
+  BeamStatistics best = by_map_sigma(kMapSigmas_m.front(), kMapSigmas_m.front());
   for (const double map_sigma_m : std::span(kMapSigmas_m).subspan(1)) {
     if (map_sigma_m > max_map_sigma_m) break;
-    const BeamStatistics other = by_map_sigma(map_sigma_m);
+    const BeamStatistics other = by_map_sigma(map_sigma_m, map_sigma_m);
     if (other.log_likelihood > best.log_likelihood) best = other;
   }
   return best;
+}
+
+BeamStatistics BeamModel::statistics_if_exact() {
+  return by_map_sigma(kMapSigmas_m.front(), kNearSigma_m);
 }
 
 }  // namespace cornerd::core

@@ -71,6 +71,9 @@ class BeamModel {
   /// Of the last meet().
   BeamCounts counts() const;
   BeamStatistics statistics(double max_map_sigma_m);
+  /// The same where walls are where the map has them: a ray that ends near one is smeared by a
+  /// motion that changes. No wall is missing there, and nothing stands before it.
+  BeamStatistics statistics_if_exact();
 
   /// Standard deviations of a face's offset across itself that are tried, m.
   static constexpr std::array kMapSigmas_m = {0.003, 0.01, 0.025, 0.05};
@@ -80,8 +83,10 @@ class BeamModel {
   static constexpr double kOutlierRatio = 0.02;
   /// Rays in a row that end on a wall's edge and may miss it.
   static constexpr std::size_t kEdgeRays = 2;
+  /// What is near a wall.
+  static constexpr double kNearSigma_m = kMapSigmas_m[2];
 
-  enum class Outcome : std::uint8_t { kHit, kShort, kViolation, kBeyond };
+  enum class Outcome : std::uint8_t { kHit, kNear, kShort, kViolation, kBeyond };
   struct Ray {
     std::uint32_t predicted = 0;  ///< face that the ray should meet
     std::uint32_t face = 0;       ///< that it meets; another one next to an edge
@@ -104,8 +109,8 @@ class BeamModel {
   /// Over that of a range which any other place would give; of a ray that is on a wall or near.
   double log_density(const Ray& ray) const;
   Outcome outcome_of(const Ray& ray, double map_sigma_m) const;
-  BeamStatistics by_map_sigma(double map_sigma_m);
-  void classify(double map_sigma_m, BeamStatistics& result);
+  BeamStatistics by_map_sigma(double map_sigma_m, double near_sigma_m);
+  void classify(double map_sigma_m, double near_sigma_m, BeamStatistics& result);
   FaceSums& sums_of(std::uint32_t face);
   void add_view(BeamStatistics& result) const;
   void add_faces(double map_sigma_m, BeamStatistics& result);

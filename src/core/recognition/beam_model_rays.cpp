@@ -22,12 +22,12 @@ constexpr double kMinSine = 0.05;
 constexpr double kBeyondAll_m = 1e3;
 /// Neighbouring rays whose wall a ray at an edge may meet, and where two walls are two.
 constexpr double kEdge_m = 0.06;
-constexpr std::ptrdiff_t kMaxEdgeRays = 8;
+constexpr double kMaxEdgeRays = 8;
+constexpr double kMaxEdge_rad = radians(3.6);  ///< of a dense lidar
 constexpr double kStep_m = 0.1;
 
-/// Where walls are taken to be exact: what is near one (a standard deviation), and the share of the
-/// rays there, and density of a ray that is stopped before, over kAnyDensity.
-constexpr double kNearSigma_m = BeamModel::kMapSigmas_m[2];
+/// Where walls are taken to be exact: the share of the rays near one, and density of a ray that is
+/// stopped before, over kAnyDensity.
 constexpr double kNearShare = 0.15;
 constexpr double kShortRatio = 0.2;
 
@@ -79,10 +79,9 @@ void BeamModel::meet(std::span<const PolarPoint> points, std::span<const Predict
     const double near_m = none ? point.range_m : std::min(met.range_m, point.range_m);
     if (std::abs(ray.across_m) > kEdge_m) {
       // At an edge it may be the neighbours' face that is met.
-      const auto reach = std::min(
-          count,
-          std::clamp<std::ptrdiff_t>(static_cast<std::ptrdiff_t>(kEdge_m / (near_m * spacing_rad)),
-                                     kEdgeRays, kMaxEdgeRays));
+      const double most = std::max(kMaxEdgeRays, kMaxEdge_rad / spacing_rad);
+      const auto reach = std::min(count, static_cast<std::ptrdiff_t>(std::clamp<double>(
+                                             kEdge_m / (near_m * spacing_rad), kEdgeRays, most)));
       for (std::ptrdiff_t step = -reach; step <= reach; ++step) {
         const PredictedHit& other = hits[static_cast<std::size_t>((i + step + count) % count)];
         if (other.face == PredictedHit::kNone || other.face == met.face ||
@@ -148,11 +147,14 @@ BeamCounts BeamModel::counts() const {
   return result;
 }
 
-void BeamModel::classify(double map_sigma_m, BeamStatistics& result) {
+void BeamModel::classify(double map_sigma_m, double near_sigma_m, BeamStatistics& result) {
   result.rays = rays_.size();
   result.map_sigma_m = map_sigma_m;
   for (Ray& ray : rays_) {
     ray.outcome = outcome_of(ray, map_sigma_m);
+    const bool is_near = ray.outcome != Outcome::kHit && near_sigma_m > map_sigma_m &&
+                         outcome_of(ray, near_sigma_m) == Outcome::kHit;
+    if (is_near) ray.outcome = Outcome::kNear;
     result.hits += ray.outcome == Outcome::kHit ? 1 : 0;
     result.shorts += ray.outcome == Outcome::kShort ? 1 : 0;
     result.free_space_violations += ray.outcome == Outcome::kViolation ? 1 : 0;

@@ -41,7 +41,9 @@ constexpr double kLeastSegments = 3;
 constexpr double kLeastRatio = 2;
 /// Few scans of the fit have less rays. Such are less evidence the fewer they are (chosen after the
 /// fit; tests/soak, "laser covered").
-constexpr double kRaysOfTheFit = 150;
+constexpr double kFewestRays = 150;
+/// None has more: these are no less evidence (an S3's 3,200; tests/system/lidar_models_test.cpp).
+constexpr double kMostRays = 2000;
 
 /// Of the 30,000 right places of the fit that were named none was hit by a smaller share of the
 /// rays: a part of a map that the robot has left, or a room that is not drawn yet, is no evidence.
@@ -77,7 +79,8 @@ double log_odds_of_place(const BeamStatistics& place, double wall_ends, const Sc
       w.unseen_share * unseen_share + w.root_view * std::sqrt(place.weakest_view_rad) +
       w.log_faces_ratio * log_of(place.faces_log_ratio, kLeastRatio) +
       w.log_wall_m * log_of(scan.wall_m, kLeastWall_m) + w.log_segments * log_of(scan.segments, 1) +
-      w.log_rays * (std::log(kRaysOfTheFit) + std::abs(std::log(rays / kRaysOfTheFit)));
+      w.log_rays *
+          (std::log(kFewestRays) + std::abs(std::log(std::min(kMostRays, rays) / kFewestRays)));
   const bool is_fitted = static_cast<double>(place.hits) >= kLeastHitShare * rays;
   return is_fitted ? log_odds : std::min(log_odds, 0.0);
 }

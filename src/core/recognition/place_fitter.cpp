@@ -92,6 +92,8 @@ void PlaceFitter::meet(const Pose2& T_map_lidar) {
 
 BeamStatistics PlaceFitter::statistics(const VerifiedHypothesis& place) {
   meet(place.refined.T_map_lidar);
+  const bool is_followed = known_.prior && !may_be_off();
+  if (place.is_exact && is_followed) return beam_model_.statistics_if_exact();
   return beam_model_.statistics(place.is_exact ? BeamModel::kMapSigmas_m.front()
                                                : known_.max_map_sigma_m);
 }
