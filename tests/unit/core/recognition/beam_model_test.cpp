@@ -17,7 +17,18 @@ class BeamModelTest : public ::testing::Test {
     BeamModel model(map, {});
     const auto hits = ray_caster_.cast(map, T_map_lidar, points.points());
     model.meet(points.points(), hits, T_map_lidar, points.spacing_rad(), 1);
+    if_exact_ = model.statistics_if_exact();
     return model.statistics(kMaxMapSigma_m);
+  }
+
+  /// This many neighbouring rays end far behind the wall.
+  static Scan with_rays_through(const Scan& whole, std::size_t count) {
+    Scan scan;
+    for (Sample sample : whole.samples()) {
+      if (scan.size() >= 100 && scan.size() < 100 + count) sample.range_m += 1;
+      scan.add(sample);
+    }
+    return scan;
   }
 
   BeamCounts counts(const Scan& scan, const Pose2& T_map_lidar) {
@@ -43,6 +54,7 @@ class BeamModelTest : public ::testing::Test {
   Pose2 T_map_lidar_{1, 0.8, 0.4};
   RayCaster ray_caster_{12};
   testing::ScanSource source_{72};
+  BeamStatistics if_exact_;  ///< of the last statistics()
 };
 
 TEST_F(BeamModelTest, TruePose_AllRaysHitAnExactMap) {
@@ -84,6 +96,30 @@ TEST_F(BeamModelTest, MissingWall_CostsMoreThanAnObject) {
   const double before =
       statistics(scan, *testing::make_map(widened(0.5)), T_map_lidar_).log_likelihood;
   EXPECT_LT(behind, before);
+}
+
+TEST_F(BeamModelTest, FewRaysThroughAWall_AreOnItsEdge_OfADenseLidarMore) {
+  testing::ScanOptions lidar;
+  lidar.samples = 800;
+  const Scan sparse = source_.take(*map_, T_map_lidar_, lidar);
+  lidar.samples = 3200;
+  const Scan dense = source_.take(*map_, T_map_lidar_, lidar);
+  const auto missing_walls = [&](const Scan& whole, std::size_t count) {
+    return statistics(with_rays_through(whole, count), *map_, T_map_lidar_).missing_walls;
+  };
+  EXPECT_EQ(missing_walls(sparse, 2), 0);
+  EXPECT_EQ(missing_walls(sparse, 4), 1);
+  EXPECT_EQ(missing_walls(dense, 7), 0);
+  EXPECT_EQ(missing_walls(dense, 12), 1);
+}
+
+TEST_F(BeamModelTest, RaysNearAnExactWall_AreNeitherHitsNorThroughIt) {
+  const Scan scan = source_.take(*testing::make_map(widened(0.04)), T_map_lidar_);
+  statistics(scan, *map_, T_map_lidar_);
+  EXPECT_LT(if_exact_.hits + 30, if_exact_.rays);
+  EXPECT_EQ(if_exact_.missing_walls, 0);
+  statistics(with_rays_through(scan, 30), *map_, T_map_lidar_);
+  EXPECT_GE(if_exact_.missing_walls, 1);
 }
 
 TEST_F(BeamModelTest, InexactMap_TrustsItsWallsLess) {
