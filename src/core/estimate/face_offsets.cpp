@@ -56,7 +56,9 @@ void merge_by_line(std::vector<FaceResidual>& residuals, const WallMap& map) {
       *lines++ = face;
     } else {
       const double side = std::copysign(1.0, line->normal.dot(face.normal));
+      const Vec2 normals = line->weight * line->normal + side * face.weight * face.normal;
       line->add({face.face, face.normal, face.weight, side * face.lever, side * face.distance});
+      if (line->weight > 0) line->normal = normals / line->weight;
     }
   }
   residuals.erase(lines, residuals.end());

@@ -70,7 +70,6 @@ void merge_by_face(std::vector<FaceResidual>& residuals) {
 FaceResidualStatistics face_residual_statistics(std::span<const FaceResidual> residuals,
                                                 const Covariance3& covariance) {
   FaceResidualStatistics statistics;
-  Covariance3 squared_gradients = Covariance3::Zero();
   for (const FaceResidual& face : residuals) {
     if (!(face.weight > 0)) continue;
     const Eigen::Vector3d gradient = face.gradient();
@@ -80,10 +79,17 @@ FaceResidualStatistics face_residual_statistics(std::span<const FaceResidual> re
     statistics.excess += squared(face.distance) / face.weight - noise;
     statistics.excess_variance += 2 * squared(noise);
     statistics.excess_per_variance += squared(kShiftShare) * face.weight * (1 - leverage);
-    squared_gradients += gradient * gradient.transpose();
   }
-  statistics.covariance_per_variance = covariance * squared_gradients * covariance;
   return statistics;
+}
+
+Covariance3 covariance_per_variance(std::span<const FaceResidual> residuals,
+                                    const Covariance3& covariance) {
+  Covariance3 squared_gradients = Covariance3::Zero();
+  for (const FaceResidual& face : residuals) {
+    squared_gradients += face.gradient() * face.gradient().transpose();
+  }
+  return covariance * squared_gradients * covariance;
 }
 
 double log_odds_of_tape(std::span<const FaceResidual> residuals, const Covariance3& covariance,
@@ -114,8 +120,9 @@ void MapErrorModel::add(const FaceResidualStatistics& statistics) {
   sum_.excess = kRetained * sum_.excess + statistics.excess;
   sum_.excess_variance = squared(kRetained) * sum_.excess_variance + statistics.excess_variance;
   sum_.excess_per_variance = kRetained * sum_.excess_per_variance + statistics.excess_per_variance;
-  weight_ = kRetained * weight_ + 1;
-  sum_.log_odds_of_tape += (statistics.log_odds_of_tape - sum_.log_odds_of_tape) / weight_;
+  if (!(sum_.excess_per_variance > 0)) return;
+  sum_.log_odds_of_tape += (statistics.log_odds_of_tape - sum_.log_odds_of_tape) *
+                           statistics.excess_per_variance / sum_.excess_per_variance;
 }
 
 Covariance3 MapErrorModel::pose_covariance(const FaceResidualStatistics& statistics) const {

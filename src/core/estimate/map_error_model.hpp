@@ -37,7 +37,7 @@ struct FaceResidualStatistics {
   double excess = 0;               ///< of the faces' mean squared distances over the points' noise
   double excess_variance = 0;      ///< variance of `excess` where no face is displaced
   double excess_per_variance = 0;  ///< expected excess per m^2 of the faces' variance
-  /// Of a map measured with a tape, over one whose faces are as far off as they look (nats).
+  /// Of a map measured with a tape, against one whose faces are off by shown_variance_m2() (nats).
   double log_odds_of_tape = 0;
   /// Pose covariance (x, y, theta) per m^2 of the faces' variance.
   Covariance3 covariance_per_variance = Covariance3::Zero();
@@ -59,8 +59,12 @@ struct FaceResidualStatistics {
 FaceResidualStatistics face_residual_statistics(std::span<const FaceResidual> residuals,
                                                 const Covariance3& covariance);
 
-/// Log odds that the faces are off by a centimetre each, and hardly show it by chance, over the
-/// variance that they show (nats). `residuals`: one for all faces that may be off together.
+/// For those that may be off together one of `residuals`: pose covariance per m^2 of their
+/// variance.
+Covariance3 covariance_per_variance(std::span<const FaceResidual> residuals,
+                                    const Covariance3& covariance);
+/// And the log odds (nats) of offsets of N(0, 1 cm) against those of N(0, shown_m2), if either was
+/// as likely before the scan.
 double log_odds_of_tape(std::span<const FaceResidual> residuals, const Covariance3& covariance,
                         double shown_m2);
 
@@ -78,10 +82,9 @@ class MapErrorModel {
   void forget() { *this = {}; }
 
  private:
-  /// Over the scans, with exponential forgetting. The odds are their mean: scans of one place see
-  /// the same faces.
+  /// Over the scans, with exponential forgetting. The log odds are their mean by what each scan can
+  /// show: scans of one place see the same faces.
   FaceResidualStatistics sum_;
-  double weight_ = 0;
 };
 
 }  // namespace cornerd::core

@@ -182,6 +182,7 @@ RefinedPose Refinement::refine(const WallMap& map, const Pose2& start, double se
     FaceResidualStatistics& faces = refined.face_residuals;
     faces = face_residual_statistics(residuals_, refined.noise_covariance);
     merge_by_line(residuals_, map);
+    faces.covariance_per_variance = covariance_per_variance(residuals_, refined.noise_covariance);
     faces.log_odds_of_tape =
         log_odds_of_tape(residuals_, refined.noise_covariance, faces.shown_variance_m2());
   }

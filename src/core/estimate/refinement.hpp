@@ -116,7 +116,7 @@ class Refinement {
   PointLanes lanes_;
   std::span<const PolarPoint> points_;  ///< that `lanes_` and `hits_` are of
   std::span<const PredictedHit> hits_;
-  std::vector<FaceResidual> residuals_;  ///< of the last step
+  std::vector<FaceResidual> residuals_;  ///< of the last step, or refine()
   double uneven_share_ = 1;              ///< of walls, of what they are off
   std::vector<PolarPoint> few_;          ///< of error_per_velocity()
   Pose2 T_map_hits_;                     ///< where `hits_` were cast from

@@ -172,7 +172,8 @@ void BeamModel::add_runs(BeamStatistics& result) const {
         }
         result.log_likelihood -=
             trust_ * permanent *
-            (is_edge ? kEdgeRay * rays : kMissingWall + kMissingWallPerRay * nominal);
+            (is_edge ? kEdgeRay * std::min(rays, static_cast<double>(kEdgeRays))
+                     : kMissingWall + kMissingWallPerRay * nominal);
         break;
       }
       case Outcome::kBeyond: {

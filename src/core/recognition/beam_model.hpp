@@ -71,8 +71,8 @@ class BeamModel {
   /// Of the last meet().
   BeamCounts counts() const;
   BeamStatistics statistics(double max_map_sigma_m);
-  /// The same where walls are where the map has them: a ray that ends near one is smeared by a
-  /// motion that changes. No wall is missing there, and nothing stands before it.
+  /// The same at the prior's place, among walls where the map has them: a ray that ends near one is
+  /// off by a motion that changes. No wall is missing there, and nothing stands before it.
   BeamStatistics statistics_if_exact();
 
   /// Standard deviations of a face's offset across itself that are tried, m.

@@ -65,6 +65,7 @@ void BeamModel::meet(std::span<const PolarPoint> points, std::span<const Predict
     return std::max(kMinSine, std::abs(normal.x() * (c * point.ray_x - s * point.ray_y) +
                                        normal.y() * (s * point.ray_x + c * point.ray_y)));
   };
+  const double most_edge_rays = std::max(kMaxEdgeRays, kMaxEdge_rad / spacing_rad);
   points_ = points;
   spacing_rad_ = spacing_rad;
   rays_.resize(points.size());
@@ -79,9 +80,9 @@ void BeamModel::meet(std::span<const PolarPoint> points, std::span<const Predict
     const double near_m = none ? point.range_m : std::min(met.range_m, point.range_m);
     if (std::abs(ray.across_m) > kEdge_m) {
       // At an edge it may be the neighbours' face that is met.
-      const double most = std::max(kMaxEdgeRays, kMaxEdge_rad / spacing_rad);
-      const auto reach = std::min(count, static_cast<std::ptrdiff_t>(std::clamp<double>(
-                                             kEdge_m / (near_m * spacing_rad), kEdgeRays, most)));
+      const auto reach =
+          std::min(count, static_cast<std::ptrdiff_t>(std::clamp<double>(
+                              kEdge_m / (near_m * spacing_rad), kEdgeRays, most_edge_rays)));
       for (std::ptrdiff_t step = -reach; step <= reach; ++step) {
         const PredictedHit& other = hits[static_cast<std::size_t>((i + step + count) % count)];
         if (other.face == PredictedHit::kNone || other.face == met.face ||

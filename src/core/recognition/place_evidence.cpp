@@ -42,7 +42,8 @@ constexpr double kLeastRatio = 2;
 /// Few scans of the fit have less rays. Such are less evidence the fewer they are (chosen after the
 /// fit; tests/soak, "laser covered").
 constexpr double kFewestRays = 150;
-/// None has more: these are no less evidence (an S3's 3,200; tests/system/lidar_models_test.cpp).
+/// None has more (src/bench/localization/evidence_samples.cpp): such count as so many, an S3's
+/// 3,200 (tests/system/lidar_models_test.cpp).
 constexpr double kMostRays = 2000;
 
 /// Of the 30,000 right places of the fit that were named none was hit by a smaller share of the

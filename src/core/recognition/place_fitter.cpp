@@ -92,7 +92,9 @@ void PlaceFitter::meet(const Pose2& T_map_lidar) {
 
 BeamStatistics PlaceFitter::statistics(const VerifiedHypothesis& place) {
   meet(place.refined.T_map_lidar);
-  const bool is_followed = known_.prior && !may_be_off();
+  const bool is_followed =
+      !may_be_off() && known_.prior &&
+      same_pose(known_.prior->T_map_lidar, place.refined.T_map_lidar, kJump_m, kJump_rad);
   if (place.is_exact && is_followed) return beam_model_.statistics_if_exact();
   return beam_model_.statistics(place.is_exact ? BeamModel::kMapSigmas_m.front()
                                                : known_.max_map_sigma_m);

@@ -51,7 +51,7 @@ class MapErrorModelTest : public ::testing::Test {
   int count_ = 0;
 };
 
-TEST_F(MapErrorModelTest, ExactMap_VarianceIsZero) {
+TEST_F(MapErrorModelTest, ExactMap_VarianceIsHardlyAny) {
   for (std::uint64_t seed = 1; seed <= 10; ++seed) take_turns(0, seed);
   EXPECT_LT(sigma_m(), 0.0006);
   EXPECT_GT(nees_with_ / count_, 2);  // 3 where no scan might be of a map that fits by chance
