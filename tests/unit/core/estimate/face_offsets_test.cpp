@@ -29,5 +29,23 @@ TEST(FaceOffsets, MergeByLine_BothSidesOfWallsInALineMoveTogether) {
   EXPECT_EQ(faces, static_cast<double>(map->faces().size()));
 }
 
+TEST(FaceOffsets, MergeByLine_OfFacesThatAreNotQuiteParallel_KeepsTheSumOfTheirGradients) {
+  FloorPlan plan;
+  plan.walls = {{{0, 0}, {2, 0}, 0.1}, {{2.2, 0}, {4, 0.05}, 0.1}};
+  const auto map = testing::make_map(plan);
+  std::vector<FaceResidual> residuals;
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (std::uint32_t i = 0; i < map->faces().size(); ++i) {
+    const Vec2& normal = map->faces()[i].normal;
+    if (normal.y() < 0.9) continue;
+    residuals.push_back({i, normal, 1e6 * (i + 1), 4e5, 0});
+    sum += residuals.back().gradient();
+  }
+  ASSERT_EQ(residuals.size(), 2U);
+  merge_by_line(residuals, *map);
+  ASSERT_EQ(residuals.size(), 1U);
+  EXPECT_LT((residuals.front().gradient() - sum).norm(), 1e-6 * sum.norm());
+}
+
 }  // namespace
 }  // namespace cornerd::core
