@@ -6,6 +6,7 @@
 
 #include "core/geometry/linear_solve.hpp"
 #include "core/geometry/squared.hpp"
+#include "core/map/wall_map.hpp"
 
 namespace cornerd::core {
 namespace {
@@ -18,8 +19,8 @@ constexpr double kNoiseShare = 0.579;
 constexpr double kShiftShare = 0.771;
 
 /// Before the first scan half of all maps are exact, the others measured with a tape.
-constexpr double kTape_m = 0.01;
-/// Offsets that are less are none.
+constexpr double kTape_m = FloorPlan::kMeasuredSigma_m;
+/// The roughness of real surfaces: offsets that are less are none.
 constexpr double kExact_m = 0.003;
 /// Exponential forgetting with each scan: three seconds.
 constexpr double kRetained = 0.95;
