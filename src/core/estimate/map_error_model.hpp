@@ -55,16 +55,15 @@ struct FaceResidualStatistics {
 };
 
 /// `residuals`: at the pose that fits the points best, one a face. `covariance`: of that pose by
-/// the points' noise alone.
+/// the points' noise alone. Leaves out what is of lines, which the next two functions give.
 FaceResidualStatistics face_residual_statistics(std::span<const FaceResidual> residuals,
                                                 const Covariance3& covariance);
 
-/// For those that may be off together one of `residuals`: pose covariance per m^2 of their
-/// variance.
+/// Pose covariance per m^2 of the offsets' variance. `residuals`: one a line (merge_by_line()).
 Covariance3 covariance_per_variance(std::span<const FaceResidual> residuals,
                                     const Covariance3& covariance);
-/// And the log odds (nats) of offsets of N(0, 1 cm) against those of N(0, shown_m2), if either was
-/// as likely before the scan.
+/// Log odds (nats) of lines that are off by N(0, 1 cm) against N(0, shown_m2), each as likely
+/// before the scan (map_error_model_test.cpp).
 double log_odds_of_tape(std::span<const FaceResidual> residuals, const Covariance3& covariance,
                         double shown_m2);
 

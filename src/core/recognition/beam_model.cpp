@@ -31,8 +31,8 @@ constexpr double kWideView_rad = 1.5;
 constexpr double kMissingWall = 10;
 constexpr double kMissingWallPerRay = 3;
 constexpr double kWall_m = 0.3;
-/// Each of the rays that end on a wall's edge and miss it; a dense lidar's are within one nominal
-/// ray.
+/// Each of the rays that end on a wall's edge and miss it: kEdgeRays in a row, or all of a dense
+/// lidar's within one nominal ray.
 constexpr double kEdgeRay = 1;
 constexpr double kEdgeNominalRays = 1;
 /// A face that fits worse than this has something before it.
