@@ -80,9 +80,7 @@ DriveError reckon(std::span<const OdometryIncrement> steps, std::span<const Know
                   DrivePoints* points) {
   return for_each_known_pose(at_true_times(steps, learned.delay_s), places, points, std::identity(),
                              [&](const OdometryIncrement& step) {
-                               core::MotionFactor factor(geometry, learned);
-                               factor.add(step);
-                               return factor.motion();
+                               return core::CalibratedIncrement(step, geometry, learned).motion();
                              });
 }
 

@@ -26,9 +26,7 @@ class Track {
       const auto step = gate.add(reading.reading);
       if (!step || step->is_gap || step->to_ns <= step->from_ns) continue;
       if (points_.empty()) points_.push_back({step->from_ns, pose});
-      core::MotionFactor factor(config.geometry, config.initial);
-      factor.add(*step);
-      pose = pose * factor.motion();
+      pose = pose * core::CalibratedIncrement(*step, config.geometry, config.initial).motion();
       if (step->to_ns > points_.back().t_ns) points_.push_back({step->to_ns, pose});
     }
     if (points_.size() < 2) {

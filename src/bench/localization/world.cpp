@@ -133,7 +133,8 @@ std::vector<core::Pose2> random_circles(const core::WallMap& world, const Circul
   std::vector<core::Pose2> starts;
   const double radius_m = motion.speed_m_s / motion.yaw_rate_rad_s;
   for (std::size_t tries = 0; starts.size() < count; ++tries) {
-    if (tries == kMaxCircleTries) throw std::runtime_error("no room for a circle of that size");
+    if (tries == kMaxCircleTries + count)
+      throw std::runtime_error("no room for a circle of that size");
     for (const core::Pose2& place :
          replay::random_poses(world, kPosesAtOnce, kCircleClearance_m, seed + tries)) {
       if (starts.size() == count) break;

@@ -7,16 +7,23 @@
 
 namespace cornerd::core {
 
+CalibratedIncrement::CalibratedIncrement(const OdometryIncrement& step,
+                                         const DriveGeometry& geometry,
+                                         const OdometryParameters& by)
+    : left_m((1 + by.left_scale) * step.left_m),
+      right_m((1 + by.right_scale) * step.right_m),
+      travel_m((left_m + right_m) / 2),
+      wheel_rotation_rad((right_m - left_m) / (geometry.track_m * (1 + by.track_scale))),
+      rotation_rad(step.has_gyro ? (step.gyro_rad - by.gyro_bias_rad_s * step.duration_s()) /
+                                       (1 + by.gyro_scale)
+                                 : wheel_rotation_rad) {}
+
 void MotionFactor::add(const OdometryIncrement& step) {
   const double dt_s = step.duration_s();
   const bool is_first = duration_s_ == 0;
-  const double left_m = (1 + at_.left_scale) * step.left_m;
-  const double right_m = (1 + at_.right_scale) * step.right_m;
-  const double way_m = (left_m + right_m) / 2;
-  const double wheel_rad = (right_m - left_m) / track_m_;
+  const CalibratedIncrement by_parameters(step, geometry_, at_);
+  const auto& [left_m, right_m, way_m, wheel_rad, turn_rad] = by_parameters;
   const double gyro_gain = 1 + at_.gyro_scale;
-  const double turn_rad =
-      step.has_gyro ? (step.gyro_rad - at_.gyro_bias_rad_s * dt_s) / gyro_gain : wheel_rad;
 
   // How travel s, wheels' rotation f and rotation w of this step change with the parameters.
   Eigen::Matrix<double, 3, kParameters> by = Eigen::Matrix<double, 3, kParameters>::Zero();

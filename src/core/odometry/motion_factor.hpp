@@ -19,13 +19,27 @@ struct MotionNoise {
   double gyro_rad2_per_s = 0;     ///< of the gyro's rotation
 };
 
-/// Wheel counts and gyro rates between two times, preintegrated on SE(2) (Forster et al. 2017, with
-/// a differential drive's travel): the motion in the frame of `base` at the first time, for
-/// parameters c, with its covariance and its slopes. Per increment with travels L, R and gyro
-/// integral G over dt, midpoint rule:
+/// One increment by the parameters, with travels L, R and gyro integral G over dt:
 ///
 ///     s = ((1 + l) L + (1 + r) R) / 2,  f = ((1 + r) R - (1 + l) L) / (track (1 + t))
 ///     w = (G - b dt) / (1 + g) with a gyro, else f
+struct CalibratedIncrement {
+  CalibratedIncrement(const OdometryIncrement& step, const DriveGeometry& geometry,
+                      const OdometryParameters& by);
+
+  double left_m = 0;
+  double right_m = 0;
+  double travel_m = 0;            ///< s
+  double wheel_rotation_rad = 0;  ///< f
+  double rotation_rad = 0;        ///< w
+
+  Pose2 motion() const { return arc(travel_m, rotation_rad); }
+};
+
+/// Wheel counts and gyro rates between two times, preintegrated on SE(2) (Forster et al. 2017, with
+/// a differential drive's travel): the motion in the frame of `base` at the first time, for
+/// parameters c, with its covariance and its slopes. Per increment, midpoint rule:
+///
 ///     p += s (cos(theta + w / 2), sin(theta + w / 2)),  theta += w,  phi += f
 ///
 /// phi - theta is zero but for noise: the wheels are a second measurement of the rotation. Counts
@@ -45,7 +59,10 @@ class MotionFactor {
   /// `at`: the parameters of the linearization.
   MotionFactor(const DriveGeometry& geometry, const OdometryParameters& at,
                const MotionNoise& noise = {})
-      : track_m_(geometry.track_m * (1 + at.track_scale)), at_(at), noise_(noise) {}
+      : geometry_(geometry),
+        track_m_(geometry.track_m * (1 + at.track_scale)),
+        at_(at),
+        noise_(noise) {}
 
   /// Goes on by an increment that is no gap and begins where the last one ended.
   void add(const OdometryIncrement& step);
@@ -78,6 +95,7 @@ class MotionFactor {
     double wheel_rate_rad_s = 0;
   };
 
+  DriveGeometry geometry_;
   double track_m_;
   OdometryParameters at_;
   MotionNoise noise_;

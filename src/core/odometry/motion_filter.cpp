@@ -184,12 +184,6 @@ void MotionFilter::predict_gap(double duration_s) {
 
 void MotionFilter::doubt_times() { covariance_(kDelay, kDelay) += squared(noise_.delay_s); }
 
-Pose2 MotionFilter::motion_of(const OdometryIncrement& step) const {
-  MotionFactor one(geometry_, parameters());
-  one.add(step);
-  return one.motion();
-}
-
 OdometryParameters MotionFilter::parameters() const {
   return {state_[kBias],  state_[kLeft], state_[kRight],
           state_[kTrack], state_[kGyro], state_[kDelay]};

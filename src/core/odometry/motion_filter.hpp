@@ -86,8 +86,6 @@ class MotionFilter {
   /// The times of the readings are those of another clock from now on.
   void doubt_times();
 
-  /// The motion of `base` in an increment, by the estimated calibration.
-  Pose2 motion_of(const OdometryIncrement& step) const;
   /// Factor of a motion from now on, by the calibration and noise estimated. `slip_tail`: of the
   /// mean square of slips.
   MotionFactor factor(double slip_tail = 1) const;

@@ -50,7 +50,7 @@ class Odometer {
   /// The scan shows another motion than the readings: discard it.
   void reject_motion() { knows_motion_ = false; }
   /// Covariance from the motion left in a deskewed scan.
-  Covariance3 deskew_covariance() const;
+  const Covariance3& deskew_covariance() const { return deskew_covariance_; }
 
   /// Predicted pose; nullopt before the first fix, max_extrapolation_s after the last one, and
   /// while sensors that it is made of are not known to be right.
@@ -89,6 +89,7 @@ class Odometer {
   OdometryIncrement trusted(OdometryIncrement step) const;
   /// The same with the travel of wheels that go on within their counts.
   OdometryIncrement interpolated(OdometryIncrement step);
+  Covariance3 covariance_of_motion() const;
   void consume_front(std::optional<TimeNs> until_ns = std::nullopt);
   MotionFilter::Epoch epoch_at(TimeNs reading_ns, TimeNs reached_ns) const;
   std::optional<PredictedPose> prediction_of(const MotionFilter& filter,
@@ -119,6 +120,7 @@ class Odometer {
   TimeNs end_ns_ = 0;
   TimeNs delay_ns_ = 0;        ///< of the readings, as estimated before the scan
   MotionFilter::Epoch epoch_;  ///< of the scan's middle
+  Covariance3 deskew_covariance_ = Covariance3::Zero();
   bool knows_motion_ = false;
   bool has_pose_ = false;
   bool pose_is_given_ = false;  ///< by set_pose(): no evidence about the sensors

@@ -28,32 +28,42 @@ constexpr TimeNs kSoon_ns = 50'000'000;
 
 bool Odometer::deskew(const Scan& scan, const Pose2& T_base_lidar, Scan& deskewed) const {
   if (!knows_motion_) return false;
-  // The motion from one of these to the next, 4 ms, is straight enough.
-  constexpr std::size_t kPieces = 32;
-  std::array<Pose2, kPieces + 1> T_middle_then;
+  // The motion within one of these, 9 ms, is straight enough.
+  constexpr std::size_t kPieces = 16;
+  struct Piece {
+    Vec2 from;
+    Vec2 along;
+    double from_rad;
+    double along_rad;
+  };
+  std::array<Piece, kPieces> pieces;
   const Pose2 T_middle_start = (path_.at(middle_ns_ + delay_ns_) * T_base_lidar).inverse();
-  const double piece_ns = static_cast<double>(end_ns_ - start_ns_) / kPieces;
-  for (std::size_t i = 0; i <= kPieces; ++i) {
-    const TimeNs t_ns = start_ns_ + static_cast<TimeNs>(static_cast<double>(i) * piece_ns);
-    T_middle_then[i] = T_middle_start * path_.at(t_ns + delay_ns_) * T_base_lidar;
+  const double piece_ns = std::max(1.0, static_cast<double>(end_ns_ - start_ns_) / kPieces);
+  const auto T_middle_at = [&](std::size_t piece) {
+    const TimeNs t_ns = start_ns_ + static_cast<TimeNs>(static_cast<double>(piece) * piece_ns);
+    return T_middle_start * path_.at(t_ns + delay_ns_) * T_base_lidar;
+  };
+  Pose2 from = T_middle_at(0);
+  for (std::size_t i = 0; i < kPieces; ++i) {
+    const Pose2 to = T_middle_at(i + 1);
+    pieces[i] = {from.translation(), to.translation() - from.translation(), from.theta_rad,
+                 angle_between(from.theta_rad, to.theta_rad)};
+    from = to;
   }
   deskewed.clear();
   RayIterator rays;
   for (const Sample& sample : scan.samples()) {
     Sample moved = sample;
     if (sample.range_m > 0) {
-      const double piece = static_cast<double>(sample.t_ns - start_ns_) / std::max(piece_ns, 1.0);
-      const auto i = static_cast<std::size_t>(std::clamp(piece, 0.0, kPieces - 1.0));
-      const double share = piece - static_cast<double>(i);
-      const Pose2& from = T_middle_then[i];
-      const Pose2& to = T_middle_then[i + 1];
-      const double rotation_rad =
-          from.theta_rad + share * angle_between(from.theta_rad, to.theta_rad);
-      const Vec2 direction = rotated(rays.at(sample.bearing_rad), rotation_rad);
-      const Vec2 place = from.translation() + share * (to.translation() - from.translation()) +
-                         sample.range_m * direction;
-      moved.bearing_rad = static_cast<float>(
-          normalize_angle(sample.bearing_rad + rotation_rad + rotation_between(direction, place)));
+      const double at = static_cast<double>(sample.t_ns - start_ns_) / piece_ns;
+      const auto i = static_cast<std::size_t>(std::clamp(at, 0.0, kPieces - 1.0));
+      const Piece& piece = pieces[i];
+      const double share = at - static_cast<double>(i);
+      const double bearing_rad = sample.bearing_rad + piece.from_rad + share * piece.along_rad;
+      const Vec2& direction = rays.at(bearing_rad);
+      const Vec2 place = piece.from + share * piece.along + sample.range_m * direction;
+      moved.bearing_rad =
+          static_cast<float>(normalize_angle(bearing_rad + rotation_between(direction, place)));
       moved.range_m = static_cast<float>(place.norm());
     }
     deskewed.add(moved);
@@ -61,7 +71,7 @@ bool Odometer::deskew(const Scan& scan, const Pose2& T_base_lidar, Scan& deskewe
   return true;
 }
 
-Covariance3 Odometer::deskew_covariance() const {
+Covariance3 Odometer::covariance_of_motion() const {
   const TimeNs from_ns = start_ns_ + delay_ns_;
   const TimeNs to_ns = end_ns_ + delay_ns_;
   const Pose2 motion = path_.at(from_ns).inverse() * path_.at(to_ns);

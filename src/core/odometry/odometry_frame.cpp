@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "core/odometry/odometry_frame.hpp"
 
-#include <cmath>
-
 #include "core/odometry/motion_factor.hpp"
 
 namespace cornerd::core {
@@ -21,12 +19,10 @@ const OdometryPose* OdometryFrame::add(const OdometryReading& reading,
   pose_.t_ns = step->to_ns;
   pose_.vx_m_s = pose_.omega_rad_s = 0;
   if (step->is_gap || step->to_ns <= step->from_ns) return &pose_;
-  MotionFactor factor(config_.geometry, parameters);
-  factor.add(*step);
-  const Pose2 motion = factor.motion();
-  pose_.T_odom_base = pose_.T_odom_base * motion;
-  pose_.vx_m_s = std::copysign(motion.translation().norm(), motion.x_m) / step->duration_s();
-  pose_.omega_rad_s = factor.rotation_rad() / step->duration_s();
+  const CalibratedIncrement calibrated(*step, config_.geometry, parameters);
+  pose_.T_odom_base = pose_.T_odom_base * calibrated.motion();
+  pose_.vx_m_s = calibrated.travel_m / step->duration_s();
+  pose_.omega_rad_s = calibrated.rotation_rad / step->duration_s();
   return &pose_;
 }
 
