@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "bench/partitioned_flat.hpp"
 
+#include <cmath>
 #include <string>
 #include <utility>
 
@@ -18,8 +19,9 @@ struct Rectangle {
 
 class Partition {
  public:
-  explicit Partition(std::uint64_t seed) : random_(seed) {
-    const Rectangle outline{{0, 0}, {random_.uniform(5, 18), random_.uniform(5, 14)}};
+  Partition(std::uint64_t seed, bool is_plain) : random_(seed), is_plain_(is_plain) {
+    const Rectangle outline{{0, 0},
+                            {on_grid(random_.uniform(5, 18)), on_grid(random_.uniform(5, 14))}};
     plan_.name = "flat-" + std::to_string(seed);
     plan_.thickness_m = random_.uniform(0.05, 0.2);
     box(outline);
@@ -28,6 +30,11 @@ class Partition {
   core::FloorPlan take() { return std::move(plan_); }
 
  private:
+  double on_grid(double way_m) const {
+    constexpr double kGrid_m = 0.25;
+    return is_plain_ ? kGrid_m * std::round(way_m / kGrid_m) : way_m;
+  }
+
   void wall(const Vec2& from, const Vec2& to) {
     plan_.walls.push_back({from, to, plan_.thickness_m});
   }
@@ -38,7 +45,8 @@ class Partition {
     const double length_m = (to - from).norm();
     if (length_m < kShortestWithDoor_m) return wall(from, to);
     const Vec2 direction = (to - from) / length_m;
-    const double door_m = random_.uniform(0.7, 1.1);
+    constexpr double kPlainDoor_m = 0.9;
+    const double door_m = is_plain_ ? kPlainDoor_m : random_.uniform(0.7, 1.1);
     const double begin_m = random_.uniform(kJamb_m, length_m - door_m - kJamb_m);
     wall(from, from + begin_m * direction);
     wall(from + (begin_m + door_m) * direction, to);
@@ -74,7 +82,7 @@ class Partition {
     const bool is_small = size.maxCoeff() < kSmall_m;
     if (depth <= 0 || is_small || (depth < 3 && random_.chance(0.2))) return furnish(area);
     const int axis = size.x() > size.y() ? 0 : 1;
-    const double at_m = area.low[axis] + random_.uniform(0.35, 0.65) * size[axis];
+    const double at_m = on_grid(area.low[axis] + random_.uniform(0.35, 0.65) * size[axis]);
     Rectangle first = area;
     Rectangle second = area;
     first.high[axis] = second.low[axis] = at_m;
@@ -87,7 +95,8 @@ class Partition {
     plan_.rooms.push_back(
         {"room-" + std::to_string(plan_.rooms.size() + 1),
          {room.low, {room.high.x(), room.low.y()}, room.high, {room.low.x(), room.high.y()}}});
-    for (auto count = static_cast<int>(random_.uniform(0, 3)); count > 0; --count) cupboard(room);
+    for (auto count = static_cast<int>(random_.uniform(0, is_plain_ ? 1.4 : 3)); count > 0; --count)
+      cupboard(room);
     if (random_.chance(0.15)) {
       const double cut_m = random_.uniform(0.5, 1);
       wall(room.low + Vec2(0, cut_m), room.low + Vec2(cut_m, 0));
@@ -95,11 +104,13 @@ class Partition {
   }
 
   replay::Random random_;
+  bool is_plain_;
   core::FloorPlan plan_;
 };
 
 }  // namespace
 
-core::FloorPlan partitioned_flat(std::uint64_t seed) { return Partition(seed).take(); }
+core::FloorPlan partitioned_flat(std::uint64_t seed) { return Partition(seed, false).take(); }
+core::FloorPlan plain_flat(std::uint64_t seed) { return Partition(seed, true).take(); }
 
 }  // namespace cornerd::bench

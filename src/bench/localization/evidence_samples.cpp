@@ -26,7 +26,7 @@ namespace {
 using MapPtr = std::shared_ptr<const core::WallMap>;
 
 constexpr std::size_t kOffices = 10;
-constexpr std::size_t kRandomFlats = 60;
+constexpr std::size_t kRandomFlats = 60;  ///< of each kind
 /// Places of pairs of corners that are compared, as the localizer does.
 constexpr std::size_t kMaxPairs = 8;
 constexpr double kWrongMaps = 0.4;
@@ -123,8 +123,9 @@ core::FloorPlan aged(core::FloorPlan plan, const ScanConditions& drawn, replay::
 }  // namespace
 
 const char* const kEvidenceColumns =
-    "scan,given,wrong_map,right,log_odds,rays,hits,map_sigma,faces_log_ratio,faces,unseen_faces,"
-    "weakest_view,obstacles_m,missing_walls,log_missing,wall_ends,wall_m,segments";
+    "scan,given,wrong_map,right,log_odds,rays,hits,shorts,violations,map_sigma,faces_log_ratio,"
+    "faces,unseen_faces,predicted,predicted_hits,obstacles_m,missing_walls,rays_through,wall_ends,"
+    "wall_m,segments";
 
 struct EvidenceSamples::State {
   /// What localizes in one map.
@@ -208,11 +209,11 @@ struct EvidenceSamples::State {
           drawn.is_right() &&
           core::same_pose(at, truth, kRight_m + kRightPerSigma * drawn.map_error_m, kRight_rad);
       text << scans << ',' << is_given << ',' << !drawn.is_right() << ',' << right << ','
-           << place.log_odds << ',' << s.rays << ',' << s.hits << ',' << s.map_sigma_m << ','
-           << s.faces_log_ratio << ',' << s.faces << ',' << s.unseen_faces << ','
-           << s.weakest_view_rad << ',' << s.obstacles_m << ',' << s.missing_walls << ','
-           << s.log_missing << ',' << search.wall_ends(at) << ',' << structure.wall_m << ','
-           << structure.segments << '\n';
+           << place.log_odds << ',' << s.rays << ',' << s.hits << ',' << s.shorts << ','
+           << s.free_space_violations << ',' << s.map_sigma_m << ',' << s.faces_log_ratio << ','
+           << s.faces << ',' << s.unseen_faces << ',' << s.predicted << ',' << s.predicted_hits
+           << ',' << s.obstacles_m << ',' << s.missing_walls << ',' << s.rays_through << ','
+           << search.wall_ends(at) << ',' << structure.wall_m << ',' << structure.segments << '\n';
     };
     if (!is_given) {
       begin();
@@ -262,6 +263,7 @@ EvidenceSamples::EvidenceSamples(std::vector<MapPtr> maps, std::uint64_t seed)
   }
   for (std::uint64_t k = 1; k <= kRandomFlats; ++k) {
     state_->maps.push_back(std::make_shared<const core::WallMap>(partitioned_flat(k)));
+    state_->maps.push_back(std::make_shared<const core::WallMap>(plain_flat(k)));
   }
   state_->searchers.resize(state_->maps.size());
 }

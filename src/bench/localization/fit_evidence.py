@@ -7,9 +7,10 @@
 
 Conditional logistic regression: the places of a scan compete with "elsewhere" (log odds 0). A wrong
 place beyond the threshold of a fix (log odds 11.5) costs as much as WRONG_COST or WRONG_PLACE_COST
-right ones below it. Prints last how much likelier log odds are at the right place than at one that is given
-and wrong (core/recognition/place_filter.cpp). The weights in the tree were fitted with recorded scans, eightfold, beside the
-simulated ones (src/bench/poses.md, "Evidence for a place"). Needs NumPy and SciPy.
+right ones below it. The loss has more than one minimum: the search begins at the weights in the tree
+(START). Prints last how much likelier log odds are at the right place than at one that is given and
+wrong (core/recognition/place_filter.cpp). The weights in the tree were fitted with other scans as
+well (src/bench/poses.md, "Evidence for a place"). Needs NumPy and SciPy.
 """
 
 import sys
@@ -21,28 +22,43 @@ FIX = 11.51  # -log(1e-5)
 SCALE = 2.0
 WRONG_COST = 40.0  # in a wrong map
 WRONG_PLACE_COST = 100.0  # in the right one
-RIDGE = 3e-4
+RIDGE = 1e-4
+START = {
+    "intercept": -1.835, "face": 1.571, "faces_log_ratio": 0.113, "wall_end": 1.476,
+    "log_map_sigma": -2.217, "log_hits": 12.33, "log_unexplained": -1.683,
+    "log_unpredicted": -3.636, "log_violations": -2.185, "violation_share": 19.34,
+    "short_share": 34.79, "obstacle_share": -26.78, "log_rays_through": -3.489,
+    "log_missing_walls": 3.415, "unseen_face": -1.011, "segment_share": -11.52,
+    "log_segments": 4.7, "log_rays": -5.009,
+}
 
 
 def features(c):
     """Columns of BeamStatistics and ScanStructure as log_odds_of_place() takes them."""
-    share = c["faces"] / np.maximum(3, c["segments"])
+    rays = np.maximum(1, c["rays"])
+
+    def log_share(count, of, least=1 / 2000):
+        return np.log(np.maximum((count + 1) / (of + 1), least))
+
     return {
-        "intercept": np.ones(len(share)),
+        "intercept": np.ones(len(rays)),
         "face": c["faces"],
+        "faces_log_ratio": c["faces_log_ratio"],
         "wall_end": c["wall_ends"],
         "log_map_sigma": np.log(c["map_sigma"] / 0.003),
-        "log_unexplained": np.log(np.maximum(0.005, (c["rays"] - c["hits"] + 1) / (c["rays"] + 1))),
-        "log_missing": c["log_missing"],
-        "missing_of_share": np.log1p(c["missing_walls"]) * share,
+        "log_hits": log_share(c["hits"], rays, 0),
+        "log_unexplained": log_share(rays - c["hits"], rays, 0.005),
+        "log_unpredicted": log_share(c["predicted"] - c["predicted_hits"], c["predicted"]),
+        "log_violations": log_share(c["violations"], rays),
+        "violation_share": c["violations"] / rays,
+        "short_share": c["shorts"] / rays,
         "obstacle_share": c["obstacles_m"] / (c["wall_m"] + c["obstacles_m"] + 0.3),
-        "segment_share": share,
-        "unseen_share": c["unseen_faces"] / (c["unseen_faces"] + c["faces"] + 1),
-        "root_view": np.sqrt(c["weakest_view"]),
-        "log_faces_ratio": np.log(np.maximum(2, c["faces_log_ratio"])),
-        "log_wall_m": np.log(np.maximum(0.3, c["wall_m"])),
+        "log_rays_through": np.log1p(c["rays_through"]),
+        "log_missing_walls": np.log1p(c["missing_walls"]),
+        "unseen_face": c["unseen_faces"],
+        "segment_share": c["faces"] / np.maximum(3, c["segments"]),
         "log_segments": np.log(np.maximum(1, c["segments"])),
-        "log_rays": np.log(np.maximum(150, c["rays"])),
+        "log_rays": np.log(np.maximum(150, rays)),
     }
 
 
@@ -63,7 +79,7 @@ def lead(z, scan, count):
     return top, best - second - np.log(total), weight / total[scan]
 
 
-def fit(x, right, scan, wrong_map):
+def fit(x, right, scan, wrong_map, start):
     count = scan.max() + 1
     wrong_cost = np.where(wrong_map, WRONG_COST, WRONG_PLACE_COST)
     scale = x.std(0)
@@ -81,7 +97,7 @@ def fit(x, right, scan, wrong_map):
         by_z[top] += by_lo
         return value.sum() / count + RIDGE * w @ w, z_x.T @ by_z / count + 2 * RIDGE * w
 
-    found = minimize(loss, np.zeros(x.shape[1]), jac=True, method="L-BFGS-B",
+    found = minimize(loss, start * scale, jac=True, method="L-BFGS-B",
                      options={"maxiter": 2000})
     return found.x / scale
 
@@ -107,7 +123,7 @@ def main():
     x = np.stack(list(by_name.values()), 1)
     wrong_map = np.zeros(scan.max() + 1)
     wrong_map[scan] = table["wrong_map"]
-    w = fit(x, table["right"], scan, wrong_map == 1)
+    w = fit(x, table["right"], scan, wrong_map == 1, np.array([START[name] for name in by_name]))
     for name, weight in zip(by_name, w):
         print(f"  double {name} = {weight:.4g};")
     top, lo, _ = lead(x @ w, scan, scan.max() + 1)

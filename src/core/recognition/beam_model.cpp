@@ -24,8 +24,6 @@ constexpr double kWholeRays = 3;
 /// A face within so much of the view is seen where more than this share of its rays hit.
 constexpr double kInView_rad = radians(4);
 constexpr double kSeenShare = 0.15;
-/// More of the view on one face tells no more.
-constexpr double kWideView_rad = 1.5;
 /// A wall that is not there (nats), and each nominal ray through it. Faces shorter than kWall_m are
 /// the less permanent the shorter they are: furniture.
 constexpr double kMissingWall = 10;
@@ -62,24 +60,15 @@ BeamModel::FaceSums& BeamModel::sums_of(std::uint32_t face) {
 }
 
 void BeamModel::add_view(BeamStatistics& result) const {
-  double xx = 0;
-  double xy = 0;
-  double yy = 0;
   for (const std::uint32_t index : met_) {
     const FaceSums& face = faces_[index];
-    const Vec2& normal = map_.faces()[index].normal;
-    const double view_rad = std::min(kWideView_rad, face.rays * spacing_rad_);
-    xx += view_rad * normal.x() * normal.x();
-    xy += view_rad * normal.x() * normal.y();
-    yy += view_rad * normal.y() * normal.y();
+    result.predicted += face.predicted;
+    result.predicted_hits += face.predicted_hits;
     result.unseen_faces += face.predicted * spacing_rad_ > kInView_rad &&
                                    face.predicted_hits < kSeenShare * face.predicted
                                ? 1
                                : 0;
   }
-  // The smaller eigenvalue.
-  result.weakest_view_rad =
-      std::max(0.0, (xx + yy - std::sqrt(squared(xx - yy) + 4 * xy * xy)) / 2);
 }
 
 void BeamModel::add_faces(double map_sigma_m, BeamStatistics& result) {
@@ -95,7 +84,7 @@ void BeamModel::add_faces(double map_sigma_m, BeamStatistics& result) {
     if (ray.predicted != last && ray.predicted != PredictedHit::kNone) {
       predicted = &sums_of(ray.predicted);
     }
-    if (ray.predicted != PredictedHit::kNone) {
+    if (ray.predicted != PredictedHit::kNone && ray.outcome != Outcome::kNear) {
       predicted->predicted += 1;
       predicted->predicted_hits += hits && ray.face == ray.predicted ? 1 : 0;
     }
@@ -168,7 +157,7 @@ void BeamModel::add_runs(BeamStatistics& result) const {
         const bool is_edge = count <= kEdgeRays || nominal <= kEdgeNominalRays;
         if (!is_edge) {
           result.missing_walls += permanent;
-          result.log_missing += permanent * std::log1p(nominal);
+          result.rays_through += permanent * nominal;
         }
         result.log_likelihood -=
             trust_ * permanent *

@@ -46,15 +46,15 @@ struct BeamStatistics {
   std::size_t shorts = 0;  ///< before it: something unmapped
   std::size_t free_space_violations = 0;  ///< beyond it
   double map_sigma_m = 0;                 ///< the likeliest standard deviation of a face's offset
-  double log_likelihood = 0;    ///< nats, over ranges that any other place would give; tempered
-  double faces_log_ratio = 0;   ///< the part of it by hits
-  double faces = 0;             ///< that are hit; one with less than three nominal rays is a part
-  double unseen_faces = 0;      ///< that should be in view, and hardly a ray hits
-  double weakest_view_rad = 0;  ///< angle of view of the faces that are hit, along the direction in
-                                ///< which they determine the place least
-  double obstacles_m = 0;       ///< width of the runs of short rays
-  double missing_walls = 0;     ///< runs of rays through a face; short faces are a part
-  double log_missing = 0;       ///< sum of log(1 + rays) over them
+  double log_likelihood = 0;   ///< nats, over ranges that any other place would give; tempered
+  double faces_log_ratio = 0;  ///< the part of it by hits
+  double faces = 0;            ///< that are hit; one with less than three nominal rays is a part
+  double unseen_faces = 0;     ///< that should be in view, and hardly a ray hits
+  double predicted = 0;        ///< rays that should meet a face
+  double predicted_hits = 0;   ///< that meet it, and no other
+  double obstacles_m = 0;      ///< width of the runs of short rays
+  double missing_walls = 0;    ///< runs of rays through a face; short faces are a part
+  double rays_through = 0;     ///< nominal rays in these runs, the same
 };
 
 /// Beam model on faces (Thrun, Burgard and Fox, Probabilistic Robotics, section 6.3) whose errors

@@ -11,26 +11,29 @@ namespace {
 constexpr double kLongWall_m = 3;
 
 /// Weights of the regression (nats per unit), fitted to the likeliest wrong and the right places of
-/// 55,000 simulated scans (random buildings, map errors, obstacles, views; right, mirrored and
-/// other maps) and of 1,962 recorded ones (src/bench/poses.md, "Evidence for a place"). A wrong
-/// place beyond the threshold of a fix weighs as much as 40 right ones below it, in the right map
-/// as 100.
+/// 57,000 simulated scans (random buildings, arenas; map errors, obstacles, views, noise; right,
+/// mirrored and other maps) and of 7,500 recorded ones (src/bench/poses.md, "Evidence for a
+/// place"). A wrong place beyond the threshold of a fix weighs as much as 4 to 40 right ones below
+/// it, in the right map as 100.
 struct Weights {
-  double intercept = -0.6097;
-  double face = 1.468;
-  double wall_end = 1.694;
-  double log_map_sigma = -2.55;
-  double log_unexplained = -3.213;
-  double log_missing = -1.114;
-  double missing_of_share = -9.073;  ///< log(1 + missing walls) times the share of segments
-  double obstacle_share = -37.65;
-  double segment_share = -9.871;
-  double unseen_share = -13.51;
-  double root_view = -2.931;
-  double log_faces_ratio = 5.096;
-  double log_wall_m = -1.543;
-  double log_segments = 5.834;
-  double log_rays = -3.248;
+  double intercept = -1.835;
+  double face = 1.571;
+  double faces_log_ratio = 0.113;
+  double wall_end = 1.476;
+  double log_map_sigma = -2.217;
+  double log_hits = 12.33;
+  double log_unexplained = -1.683;
+  double log_unpredicted = -3.636;  ///< rays that do not meet the face that they should
+  double log_violations = -2.185;
+  double violation_share = 19.34;
+  double short_share = 34.79;
+  double obstacle_share = -26.78;  ///< of the scan's surface
+  double log_rays_through = -3.489;
+  double log_missing_walls = 3.415;
+  double unseen_face = -1.011;
+  double segment_share = -11.52;
+  double log_segments = 4.7;
+  double log_rays = -5.009;
 };
 constexpr Weights kWeights;
 
@@ -38,9 +41,8 @@ constexpr Weights kWeights;
 constexpr double kLeastUnexplained = 0.005;
 constexpr double kLeastWall_m = 0.3;
 constexpr double kLeastSegments = 3;
-constexpr double kLeastRatio = 2;
-/// Few scans of the fit have less rays. Such are less evidence the fewer they are (chosen after the
-/// fit; tests/soak, "laser covered").
+/// Few scans of the fit have less rays: these count as so many, and are less evidence by the other
+/// terms (tests/soak, "laser covered").
 constexpr double kFewestRays = 150;
 /// None has more (src/bench/localization/evidence_samples.cpp): such count as so many, an S3's
 /// 3,200 (tests/system/lidar_models_test.cpp).
@@ -63,27 +65,32 @@ ScanStructure scan_structure(std::span<const WallSegment> segments) {
 
 double log_odds_of_place(const BeamStatistics& place, double wall_ends, const ScanStructure& scan) {
   const double rays = std::max(1.0, static_cast<double>(place.rays));
-  const auto log_of = [](double value, double least) { return std::log(std::max(least, value)); };
+  const auto hits = static_cast<double>(place.hits);
+  const auto violations = static_cast<double>(place.free_space_violations);
   // Laplace's rule: a few rays that all hit show little of the share that does not.
-  const double unexplained = (rays - static_cast<double>(place.hits) + 1) / (rays + 1);
+  const auto log_share = [](double count, double of, double least) {
+    return std::log(std::max((count + 1) / (of + 1), least));
+  };
   const double segments_share = place.faces / std::max(kLeastSegments, scan.segments);
   const double surface_m = scan.wall_m + place.obstacles_m + kLeastWall_m;
-  const double unseen_share = place.unseen_faces / (place.unseen_faces + place.faces + 1);
   const Weights& w = kWeights;
   const double log_odds =
-      w.intercept + w.face * place.faces + w.wall_end * wall_ends +
+      w.intercept + w.face * place.faces + w.faces_log_ratio * place.faces_log_ratio +
+      w.wall_end * wall_ends +
       w.log_map_sigma * std::log(place.map_sigma_m / BeamModel::kMapSigmas_m.front()) +
-      w.log_unexplained * log_of(unexplained, kLeastUnexplained) +
-      w.log_missing * place.log_missing +
-      w.missing_of_share * std::log1p(place.missing_walls) * segments_share +
-      w.obstacle_share * place.obstacles_m / surface_m + w.segment_share * segments_share +
-      w.unseen_share * unseen_share + w.root_view * std::sqrt(place.weakest_view_rad) +
-      w.log_faces_ratio * log_of(place.faces_log_ratio, kLeastRatio) +
-      w.log_wall_m * log_of(scan.wall_m, kLeastWall_m) + w.log_segments * log_of(scan.segments, 1) +
-      w.log_rays *
-          (std::log(kFewestRays) + std::abs(std::log(std::min(kMostRays, rays) / kFewestRays)));
-  const bool is_fitted = static_cast<double>(place.hits) >= kLeastHitShare * rays;
-  return is_fitted ? log_odds : std::min(log_odds, 0.0);
+      w.log_hits * log_share(hits, rays, 0) +
+      w.log_unexplained * log_share(rays - hits, rays, kLeastUnexplained) +
+      w.log_unpredicted *
+          log_share(place.predicted - place.predicted_hits, place.predicted, 1 / kMostRays) +
+      w.log_violations * log_share(violations, rays, 1 / kMostRays) +
+      w.violation_share * violations / rays +
+      w.short_share * static_cast<double>(place.shorts) / rays +
+      w.obstacle_share * place.obstacles_m / surface_m +
+      w.log_rays_through * std::log1p(place.rays_through) +
+      w.log_missing_walls * std::log1p(place.missing_walls) + w.unseen_face * place.unseen_faces +
+      w.segment_share * segments_share + w.log_segments * std::log(std::max(1.0, scan.segments)) +
+      w.log_rays * std::log(std::clamp(rays, kFewestRays, kMostRays));
+  return hits >= kLeastHitShare * rays ? log_odds : std::min(log_odds, 0.0);
 }
 
 }  // namespace cornerd::core

@@ -70,13 +70,16 @@ TEST_F(BeamModelTest, WrongPose_IsLessLikelyThanAnyPlace) {
             0);
 }
 
-TEST_F(BeamModelTest, ViewOfARoom_IsWideBothWays) {
-  const BeamStatistics found = statistics(source_.take(*map_, T_map_lidar_), *map_, T_map_lidar_);
+TEST_F(BeamModelTest, WallFarBehindItsPlace_IsUnseenAndMissedByItsRays) {
+  const Scan scan = source_.take(*map_, T_map_lidar_);
+  const BeamStatistics found = statistics(scan, *map_, T_map_lidar_);
   EXPECT_EQ(found.unseen_faces, 0);
-  EXPECT_GT(found.weakest_view_rad, 1);
-  // With one of the four walls far behind its place.
+  EXPECT_GT(found.predicted_hits, 0.95 * found.predicted);
   const WallMap narrow(widened(-0.5));
-  EXPECT_EQ(statistics(source_.take(*map_, T_map_lidar_), narrow, T_map_lidar_).unseen_faces, 1);
+  const BeamStatistics missed = statistics(scan, narrow, T_map_lidar_);
+  EXPECT_EQ(missed.unseen_faces, 1);
+  EXPECT_LT(missed.predicted_hits, found.predicted_hits - 30);
+  EXPECT_GT(missed.rays_through, 10);
 }
 
 TEST_F(BeamModelTest, DisplacedWall_CostsItsOffsetOnce) {
@@ -118,6 +121,7 @@ TEST_F(BeamModelTest, RaysNearAnExactWall_AreNeitherHitsNorThroughIt) {
   statistics(scan, *map_, T_map_lidar_);
   EXPECT_LT(if_exact_.hits + 30, if_exact_.rays);
   EXPECT_EQ(if_exact_.missing_walls, 0);
+  EXPECT_GT(if_exact_.predicted_hits, 0.95 * if_exact_.predicted);
   statistics(with_rays_through(scan, 30), *map_, T_map_lidar_);
   EXPECT_GE(if_exact_.missing_walls, 1);
 }

@@ -18,7 +18,8 @@ BeamStatistics most_walls_hit() {
   place.map_sigma_m = 0.01;
   place.faces = 9;
   place.faces_log_ratio = 60;
-  place.weakest_view_rad = 1.2;
+  place.predicted = 400;
+  place.predicted_hits = 320;
   place.obstacles_m = 0.8;
   return place;
 }
@@ -35,6 +36,7 @@ TEST(PlaceEvidence, HalfOfTheFaces_LeavesADoubtOfAPercent) {
   place.faces /= 2;
   place.faces_log_ratio /= 2;
   place.hits = 165;
+  place.predicted_hits = 160;
   place.shorts = 235;
   place.obstacles_m = 5;
   EXPECT_LT(log_odds(place), std::log(99));
@@ -45,7 +47,7 @@ TEST(PlaceEvidence, RaysThroughWalls_SpeakAgainstThePlace) {
   place.free_space_violations = 40;
   place.shorts -= 40;
   place.missing_walls = 2;
-  place.log_missing = 6;
+  place.rays_through = 40;
   EXPECT_LT(log_odds(place), log_odds(most_walls_hit()) - 6);
 }
 
@@ -65,9 +67,20 @@ TEST(PlaceEvidence, FacesInViewThatNoRayHits_SpeakAgainstThePlace) {
   EXPECT_LT(log_odds(place), log_odds(most_walls_hit()) - 3);
 }
 
+TEST(PlaceEvidence, RaysThatMissTheFaceTheyShouldMeet_SpeakAgainstThePlace) {
+  BeamStatistics place = most_walls_hit();
+  place.predicted_hits = 240;
+  EXPECT_LT(log_odds(place), log_odds(most_walls_hit()) - 2);
+}
+
 TEST(PlaceEvidence, EightRays_AreNoFix) {
-  const BeamStatistics place{
-      .rays = 8, .hits = 8, .map_sigma_m = 0.003, .faces_log_ratio = 25, .faces = 2};
+  const BeamStatistics place{.rays = 8,
+                             .hits = 8,
+                             .map_sigma_m = 0.003,
+                             .faces_log_ratio = 25,
+                             .faces = 2,
+                             .predicted = 8,
+                             .predicted_hits = 8};
   EXPECT_LT(log_odds_of_place(place, 0, {.wall_m = 0.3, .segments = 2}), 5);
 }
 
