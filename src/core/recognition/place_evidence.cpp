@@ -11,10 +11,10 @@ namespace {
 constexpr double kLongWall_m = 3;
 
 /// Weights of the regression (nats per unit), fitted to the likeliest wrong and the right places of
-/// 57,000 simulated scans (random buildings, arenas; map errors, obstacles, views, noise; right,
+/// 58,000 simulated scans (random buildings, arenas; map errors, obstacles, views, noise; right,
 /// mirrored and other maps) and of 7,500 recorded ones (src/bench/poses.md, "Evidence for a
 /// place"). A wrong place beyond the threshold of a fix weighs as much as 4 to 40 right ones below
-/// it, in the right map as 100.
+/// it (a tenth of that among obstacles), in the right map as 100.
 struct Weights {
   double intercept = -1.835;
   double face = 1.571;
