@@ -68,6 +68,14 @@ PolarPoint moved(const PolarPoint& point, const ScanMotion& motion) {
 
 }  // namespace
 
+std::size_t take_few(std::span<const PolarPoint> points, std::size_t least,
+                     std::vector<PolarPoint>& few) {
+  const std::size_t stride = std::max<std::size_t>(1, points.size() / least);
+  few.clear();
+  for (std::size_t i = 0; i < points.size(); i += stride) few.push_back(points[i]);
+  return stride;
+}
+
 PolarScan::PolarScan() { points_.reserve(kMaxSamplesPerScan); }
 
 void PolarScan::assign(const Scan& scan, double min_range_m, double max_range_m, TimeNs at_ns,

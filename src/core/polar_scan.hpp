@@ -26,6 +26,11 @@ struct PolarPoint {
   double dt_s = 0;  ///< time of measurement, relative to the time that the scan is deskewed to
 };
 
+/// Every n-th of the points, all around: at least `least` of them where there are as many, and less
+/// than twice that. Returns n.
+std::size_t take_few(std::span<const PolarPoint> points, std::size_t least,
+                     std::vector<PolarPoint>& few);
+
 /// The returns of a scan sorted by bearing. An A1 corrects each bearing by the range, so that
 /// samples arrive slightly out of order.
 class PolarScan {

@@ -20,6 +20,8 @@ const Eigen::Vector3d kMotionSigma(0.5, 0.5, 1);
 constexpr double kScanShare = 0.05;
 constexpr double kCut = 4;
 constexpr std::size_t kMinPoints = 60;
+/// Points of a scan that are used, for all: more tell no more of walls that are off.
+constexpr std::size_t kFewPoints = 200;
 
 Eigen::Vector4d vector_of(const SensorBias& bias) {
   return {bias.range_scale, bias.range_offset_m, bias.bearing_sine_rad, bias.bearing_cosine_rad};
@@ -39,6 +41,7 @@ BiasEstimator::BiasEstimator(double max_range_m, const SensorNoise& noise, const
       retained_share_(1 - forgetting_rate),
       ray_caster_(max_range_m),
       prior_(vector_of(prior)) {
+  few_.reserve(2 * kFewPoints);
   estimate_.bias = prior;
 }
 
@@ -73,15 +76,16 @@ std::optional<BiasEstimator::Evidence> BiasEstimator::evidence(const WallMap& ma
                                                                const Pose2& T_map_lidar,
                                                                std::span<const PolarPoint> points,
                                                                double noise_scale) {
-  const auto hits = ray_caster_.cast(map, T_map_lidar, points);
+  const std::size_t stride = take_few(points, kFewPoints, few_);
+  const auto hits = ray_caster_.cast(map, T_map_lidar, few_);
   const double c = std::cos(T_map_lidar.theta_rad);
   const double s = std::sin(T_map_lidar.theta_rad);
   Eigen::Matrix<double, 10, 10> information = Eigen::Matrix<double, 10, 10>::Zero();
   Eigen::Matrix<double, 10, 1> gradient = Eigen::Matrix<double, 10, 1>::Zero();
   std::size_t used = 0;
-  for (std::size_t i = 0; i < points.size(); ++i) {
+  for (std::size_t i = 0; i < few_.size(); ++i) {
     if (hits[i].face == PredictedHit::kNone) continue;
-    const PolarPoint& point = points[i];
+    const PolarPoint& point = few_[i];
     const Face& face = map.faces()[hits[i].face];
     // All in the lidar's frame.
     const Vec2 normal(c * face.normal.x() + s * face.normal.y(),
@@ -104,7 +108,9 @@ std::optional<BiasEstimator::Evidence> BiasEstimator::evidence(const WallMap& ma
     gradient.noalias() += weight * distance_m * jacobian;
     ++used;
   }
-  if (used < kMinPoints) return std::nullopt;
+  if (stride * used < kMinPoints) return std::nullopt;
+  information *= static_cast<double>(stride);
+  gradient *= static_cast<double>(stride);
 
   information.diagonal().segment<3>(3) += kMotionSigma.cwiseAbs2().cwiseInverse();
   const SymmetricSolver<6> of_turn(information.topLeftCorner<6, 6>());

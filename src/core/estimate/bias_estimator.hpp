@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <span>
+#include <vector>
 
 #include <Eigen/Core>
 
@@ -68,6 +69,7 @@ class BiasEstimator {
   SensorNoise noise_;
   double retained_share_;
   RayCaster ray_caster_;
+  std::vector<PolarPoint> few_;
   EstimatedBias estimate_;
   Vector4 prior_;
   Matrix4 information_ = Matrix4::Zero();  ///< of the scans, with exponential forgetting

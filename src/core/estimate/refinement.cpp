@@ -83,7 +83,7 @@ struct Refinement::Step {
 Refinement::Refinement(double max_range_m, const SensorNoise& noise)
     : noise_(noise), ray_caster_(max_range_m) {
   residuals_.reserve(kMaxResiduals);
-  few_.reserve(kFewPoints);
+  few_.reserve(2 * kFewPoints);
 }
 
 void Refinement::find_hits(const WallMap& map, const Pose2& T_map_lidar,

@@ -96,9 +96,7 @@ RefinedMotion Refinement::refine_motion(const WallMap& map, const Pose2& start,
 Eigen::Matrix3d Refinement::error_per_velocity(const WallMap& map, const Pose2& T_map_lidar,
                                                std::span<const PolarPoint> points,
                                                double noise_scale) {
-  few_.clear();
-  const std::size_t stride = 1 + points.size() / kFewPoints;
-  for (std::size_t i = 0; i < points.size(); i += stride) few_.push_back(points[i]);
+  take_few(points, kFewPoints, few_);
   const auto hits = ray_caster_.cast(map, T_map_lidar, few_);
   const double c = std::cos(T_map_lidar.theta_rad);
   const double s = std::sin(T_map_lidar.theta_rad);

@@ -43,10 +43,8 @@ void PlaceFitter::begin(const PolarScan& scan, const ScanPrior& known) {
   points_ = scan.points();
   spacing_rad_ = scan.spacing_rad();
   known_ = known;
-  few_.clear();
   T_map_met_.reset();
-  const std::size_t stride = std::max<std::size_t>(1, points_.size() / kFewRays);
-  for (std::size_t i = 0; i < points_.size(); i += stride) few_.push_back(points_[i]);
+  take_few(points_, kFewRays, few_);
 }
 
 double PlaceFitter::rough_score(const Pose2& T_map_lidar) {

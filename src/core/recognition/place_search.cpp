@@ -70,10 +70,10 @@ void PlaceSearch::consider(std::span<const PoseHypothesis> hypotheses, bool are_
 }
 
 void PlaceSearch::consider_prior(const Pose2& T_map_lidar, double search_radius_m) {
+  const VerifiedHypothesis fit = fitter_.exactly(T_map_lidar, search_radius_m, points_);
+  if (fitter_.is_exact(fit)) return add(fit, {});
   const PoseHypothesis prior{T_map_lidar, 0};
   consider(std::span(&prior, 1), /*are_sure=*/true);
-  const VerifiedHypothesis fit = fitter_.exactly(T_map_lidar, search_radius_m, points_);
-  if (fitter_.is_exact(fit)) add(fit, {});
 }
 
 PlaceSearch::Candidate PlaceSearch::refined_roughly(const Candidate& candidate,

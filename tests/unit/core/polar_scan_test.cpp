@@ -28,6 +28,15 @@ Scan scan_of(std::initializer_list<double> bearings_rad) {
   return scan;
 }
 
+TEST(PolarScan, TakeFew_AllAround) {
+  const std::vector<PolarPoint> points(1000);
+  std::vector<PolarPoint> few;
+  EXPECT_EQ(take_few(points, 300, few), 3U);
+  EXPECT_EQ(few.size(), 334U);
+  EXPECT_EQ(take_few(points, 1001, few), 1U);
+  EXPECT_EQ(few.size(), 1000U);
+}
+
 TEST(PolarScan, ClockwiseScanWithBackwardSteps_IsSorted) {
   const PolarScan points =
       testing::polar(scan_of({1, 0.9, 0.95, 0.5, -1, -0.9, -3, 3, 2, 2.1, 1.2}));
