@@ -56,13 +56,13 @@ Eigen::Matrix3d MotionFilter::rotation_of(double theta_rad) {
   return rotation;
 }
 
-MotionFactor MotionFilter::factor(double slip_tail) const {
+MotionFactor MotionFilter::factor(double slip_share) const {
   const double wheel = wheel_noise_.factor();
   return {geometry_,
           parameters(),
           {.wheel_m2_per_m = wheel * squared(noise_.wheel_m_per_sqrt_m),
            .scrub_rad2_per_rad = wheel * squared(kScrub_rad_per_sqrt_rad),
-           .slip_rad2_per_m = has_gyro_ ? 0 : slip_tail * slip_rate_.rad2_per_m(),
+           .slip_rad2_per_m = slip_share / kSlipTail * slip_rad2(1),
            .gyro_rad2_per_s = gyro_noise_.factor() * squared(noise_.gyro_rad_s_per_sqrt_hz)}};
 }
 
@@ -73,6 +73,7 @@ void MotionFilter::add(const OdometryIncrement& step) {
     has_gyro_ = step.has_gyro;
     factor_ = factor(kSlipTail);  // by the parameters of now
   }
+  jitter_s2_ = step.jitter_s2;
   factor_.add(step);
 }
 
@@ -133,7 +134,7 @@ void MotionFilter::advance() {
   walk[kDelay] = noise_.delay_s_per_sqrt_s;
   covariance_.diagonal() += dt_s * walk.cwiseAbs2();
 
-  wheel_rad2_ += noise(3, 3) / wheel_noise_.factor();
+  wheel_rad2_ += (noise(3, 3) - slip_rad2(factor_.rolled_m())) / wheel_noise_.factor();
   gyro_rad2_ += squared(noise_.gyro_rad_s_per_sqrt_hz) * dt_s;
   rolled_m_ += factor_.rolled_m();
   ++scans_;
@@ -151,7 +152,6 @@ void MotionFilter::compare_rotations(double difference_rad, double variance, dou
   const double difference_rad2 = squared(difference_rad);
   const double rotation_rad2 = squared(factor_.rotation_rad());
   if (!(variance + jitter_rad2 > 0)) return;
-  jitter_.add(difference_rad, factor_.rotation_rad() / factor_.duration_s(), variance);
   variance += jitter_rad2;
   rotations_ = {difference_rad2, variance,
                 std::max(rotation_rad2, squared(factor_.wheel_rotation_rad()))};

@@ -8,7 +8,6 @@
 
 #include "core/geometry/linear_solve.hpp"
 #include "core/geometry/pose2.hpp"
-#include "core/odometry/jitter_estimator.hpp"
 #include "core/odometry/motion_factor.hpp"
 #include "core/odometry/noise_estimator.hpp"
 #include "core/odometry/odometry_config.hpp"
@@ -86,9 +85,9 @@ class MotionFilter {
   /// The times of the readings are those of another clock from now on.
   void doubt_times();
 
-  /// Factor of a motion from now on, by the calibration and noise estimated. `slip_tail`: of the
+  /// Factor of a motion from now on, by the calibration and noise estimated. `slip_share`: of the
   /// mean square of slips.
-  MotionFactor factor(double slip_tail = 1) const;
+  MotionFactor factor(double slip_share) const;
 
   OdometryParameters parameters() const;
   /// False where the scale of a wheel is one that no setting that is right could need. (A tracked
@@ -98,7 +97,7 @@ class MotionFilter {
   Pose2 pose() const { return {state_[kX], state_[kY], state_[kTheta]}; }
   const Matrix& covariance() const { return covariance_; }
   /// Variance of the readings' times, s^2.
-  double jitter_s2() const { return jitter_.variance_s2(); }
+  double jitter_s2() const { return jitter_s2_; }
   /// The wheels' rotation against the gyro's in the last advance() that had both.
   MotionError take_comparison() { return std::exchange(rotations_, {}); }
   /// The rotation is the gyro's.
@@ -128,6 +127,11 @@ class MotionFilter {
   }
   void detect_changes(const Measurement& with_innovation, const Cholesky3& root,
                       const Eigen::Vector3d& innovation);
+  /// Variance of the rotation by slips; with a gyro there is none.
+  double slip_rad2(double rolled_m) const {
+    return has_gyro_ ? 0 : kSlipTail * slip_rate_.rad2_per_m() * rolled_m;
+  }
+  /// `known`: without slips.
   void adapt(const Eigen::Vector3d& innovation, const Covariance3& known, bool is_deskewed);
   void keep_in_bounds();
 
@@ -146,7 +150,7 @@ class MotionFilter {
   NoiseEstimator gyro_noise_;
   NoiseEstimator fix_place_;
   NoiseEstimator fix_heading_;
-  JitterEstimator jitter_;
+  double jitter_s2_ = 0;
   SlipRate slip_rate_;
   /// Of innovations along each parameter.
   Vector cusums_ = Vector::Zero();

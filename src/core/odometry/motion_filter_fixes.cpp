@@ -84,17 +84,18 @@ bool MotionFilter::correct(const Pose2& T_map_base, const Covariance3& covarianc
   const Eigen::Vector3d innovation(T_map_base.x_m - expected.x_m, T_map_base.y_m - expected.y_m,
                                    angle_between(expected.theta_rad, T_map_base.theta_rad));
   const Covariance3 known = covariance_at(epoch) + covariance;
-  if (!has_gyro_) {
-    slip_rate_.add(
-        squared(innovation[2]),
-        known(2, 2) + squared(kFixFloor_rad) - kSlipTail * slip_rate_.rad2_per_m() * rolled_m_,
-        rolled_m_);
-  }
+  Covariance3 without_slips = known;
+  without_slips(2, 2) -= slip_rad2(rolled_m_);
+  const bool is_slip =
+      !has_gyro_ &&
+      slip_rate_.add(squared(innovation[2]),
+                     without_slips(2, 2) + fix_heading_.factor() * squared(kFixFloor_rad),
+                     rolled_m_);
   const Cholesky3 widest(with_floor(known, 1, 1));
   if (!widest.succeeded() || innovation.dot(widest.solve(innovation)) > kFixGate) return false;
 
   const Cholesky3 root(with_floor(known, fix_place_.factor(), fix_heading_.factor()));
-  adapt(innovation, known, epoch.is_deskewed);
+  if (!is_slip) adapt(innovation, without_slips, epoch.is_deskewed);
   const Measurement with_innovation = jacobian_at(epoch) * covariance_;
   detect_changes(with_innovation, root, innovation);
   update<3>(innovation, root.solve_columns(with_innovation).transpose(),

@@ -53,7 +53,7 @@ double SensorTrust::p_right() const { return 1 / (1 + std::exp(-log_odds_)); }
 
 void MotionTrust::add(const OdometryIncrement& step, const MotionFilter& filter) {
   if (step.is_gap) return interrupt();
-  MotionFactor one = filter.factor();
+  MotionFactor one = filter.factor(/*slip_share=*/1);
   one.add(step);
   const MotionFactor::Covariance& noise = one.covariance();
   const Pose2 motion = one.motion();

@@ -85,7 +85,8 @@ Covariance3 Odometer::covariance_of_motion() const {
   const double along_m = motion.translation().norm();
   const double aside_m = motion.theta_rad * geometry.track_m / 2;
   const double duration_s = to_seconds(end_ns_ - start_ns_);
-  MotionFactor factor = filter_.factor();
+  // A slip within a scan shows: its walls are bent.
+  MotionFactor factor = filter_.factor(/*slip_share=*/0);
   factor.add({.from_ns = start_ns_,
               .to_ns = end_ns_,
               .left_m = along_m - aside_m,
@@ -93,9 +94,8 @@ Covariance3 Odometer::covariance_of_motion() const {
               .gyro_rad = motion.theta_rad,
               .has_gyro = filter_.has_gyro()});
   const double late_share2 = filter_.jitter_s2() / squared(std::max(duration_s, 1e-3));
-  const double place_noise =
-      (factor.covariance()(0, 0) + factor.covariance()(1, 1)) / 2 + late_share2 * squared(along_m);
-  const double heading_noise = factor.covariance()(2, 2) + late_share2 * squared(motion.theta_rad);
+  const double place_noise = (factor.covariance()(0, 0) + factor.covariance()(1, 1)) / 2;
+  const double heading_noise = factor.covariance()(2, 2);
   // When between two readings the robot changed its speed is unknown.
   const MotionPath::Change change = path_.mean_square_change(from_ns, to_ns);
   // The end of the scan that no reading tells of is extrapolated.
@@ -111,10 +111,11 @@ Covariance3 Odometer::covariance_of_motion() const {
   const double lever_m2 = config_.conservative ? kLever_m * kLever_m : 0;
   const double place_m2 =
       place_m * place_m + squared(kUnevenShare) * change.x_m2 + counted_m2 +
+      late_share2 * squared(along_m) +
       MotionFilter::kDeskewNoiseShare * (place_noise + lever_m2 * heading_noise);
-  const double heading_rad2 = rotation_rad * rotation_rad +
-                              squared(kUnevenShare) * change.theta_rad2 + counted_rad2 +
-                              MotionFilter::kDeskewNoiseShare * heading_noise;
+  const double heading_rad2 =
+      rotation_rad * rotation_rad + squared(kUnevenShare) * change.theta_rad2 + counted_rad2 +
+      late_share2 * squared(motion.theta_rad) + MotionFilter::kDeskewNoiseShare * heading_noise;
   const double unread_m2 = squared(MotionFilter::kUnknown_m_s * unread_by_s);
   const double unread_rad2 = squared(MotionFilter::kUnknown_rad_s * unread_by_s);
   return Eigen::Vector3d(place_m2 + unread_m2, place_m2 + unread_m2, heading_rad2 + unread_rad2)

@@ -138,6 +138,7 @@ std::optional<OdometryIncrement> ReadingGate::restart(const Counts& counts) {
   before_last_.reset();
   doubted_.reset();
   doubts_ = 0;
+  jitter_.interrupt();
   return hole;
 }
 
@@ -152,6 +153,8 @@ OdometryIncrement ReadingGate::step_between(const Counts& from, const Counts& to
   step.to_ns = to.t_ns;
   step.left_m = way_m(from.left, to.left);
   step.right_m = way_m(from.right, to.right);
+  jitter_.add(step.left_m, step.right_m, step.duration_s(), geometry.quantization_variance());
+  step.jitter_s2 = jitter_.variance_between_s2();
   take_gyro(step);
   step.gyro_may_be_stuck = same_rates_ >= kSuspiciousRates;
   if (step.has_gyro && gyro_is_stuck(step)) step.has_gyro = false;

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "core/odometry/jitter_estimator.hpp"
 #include "core/odometry/odometry_config.hpp"
 #include "core/odometry/odometry_increment.hpp"
 #include "core/odometry/odometry_reading.hpp"
@@ -63,6 +64,7 @@ class ReadingGate {
   std::uint32_t leaps_ = 0;          ///< how many in a row agree with each other
   bool clock_was_set_back_ = false;  ///< and no counts have come since
 
+  JitterEstimator jitter_;
   std::optional<Counts> last_;
   std::optional<Counts> before_last_;  ///< where the robot came on from there to it
   std::optional<Counts> doubted_;      ///< the newest counts that jumped
