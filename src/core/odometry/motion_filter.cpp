@@ -136,7 +136,7 @@ void MotionFilter::advance() {
 
   wheel_rad2_ += (noise(3, 3) - slip_rad2(factor_.rolled_m())) / wheel_noise_.factor();
   gyro_rad2_ += squared(noise_.gyro_rad_s_per_sqrt_hz) * dt_s;
-  rolled_m_ += factor_.rolled_m();
+  rolled_m_ += has_gyro_ ? 0 : factor_.rolled_m();
   ++scans_;
   if (has_gyro_) {
     compare_rotations(

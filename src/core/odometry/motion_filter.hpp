@@ -157,7 +157,7 @@ class MotionFilter {
   Vector cusum_variances_ = Vector::Zero();
   double wheel_rad2_ = 0;
   double gyro_rad2_ = 0;
-  double rolled_m_ = 0;
+  double rolled_m_ = 0;  ///< without a gyro, which would show slips
   int scans_ = 0;
   bool has_gyro_ = false;
 };
