@@ -188,10 +188,11 @@ const Scan& Localizer::Workspace::deskewed(const Scan& measured, TimeNs t_ns) {
              kSurely * std::sqrt(std::max(covariance(0, 0), covariance(1, 1))),
              kSurely * std::sqrt(covariance(2, 2))};
   }
-  // By coarse counts less is known of the motion in a scan than by the poses before.
+  // By coarse counts, or wheels that slip, less is known of the motion in a scan than by the poses
+  // before.
   const double duration_s = to_seconds(measured.end_ns() - measured.start_ns());
   if (odometer.has_motion() && outdated_motion_covariance(memory.age_s(t_ns), duration_s).trace() <
-                                   odometer.deskew_covariance().trace()) {
+                                   odometer.deskew_covariance_with_slips().trace()) {
     odometer.reject_motion();
   }
   const bool known = odometer.deskew(measured, config.T_base_lidar, still);

@@ -105,7 +105,7 @@ void Odometer::advance(TimeNs start_ns, TimeNs middle_ns, TimeNs end_ns) {
   epoch_ = epoch_at(reading_ns, reached_ns_);
   knows_motion_ = is_believed() && path_.covers(start_ns + delay_ns_, end_ns + delay_ns_);
   epoch_.is_deskewed = knows_motion_;
-  if (knows_motion_) deskew_covariance_ = covariance_of_motion();
+  if (knows_motion_) deskew_covariance_ = covariance_of_motion(/*slip_share=*/0);
   const TimeNs behind_ns = reading_ns - reached_ns_;
   present_ = reached_ns_ != 0 && std::abs(behind_ns) <= MotionPath::kLongestGuess_ns;
   if (!present_) has_pose_ = false;

@@ -49,8 +49,12 @@ class Odometer {
   bool has_motion() const { return knows_motion_; }
   /// The scan shows another motion than the readings: discard it.
   void reject_motion() { knows_motion_ = false; }
-  /// Covariance from the motion left in a deskewed scan.
+  /// Covariance from the motion left in a deskewed scan, whose walls no slip bends.
   const Covariance3& deskew_covariance() const { return deskew_covariance_; }
+  /// The same where a wheel may have slipped in the scan.
+  Covariance3 deskew_covariance_with_slips() const {
+    return covariance_of_motion(/*slip_share=*/1);
+  }
 
   /// Predicted pose; nullopt before the first fix, max_extrapolation_s after the last one, and
   /// while sensors that it is made of are not known to be right.
@@ -89,7 +93,7 @@ class Odometer {
   OdometryIncrement trusted(OdometryIncrement step) const;
   /// The same with the travel of wheels that go on within their counts.
   OdometryIncrement interpolated(OdometryIncrement step);
-  Covariance3 covariance_of_motion() const;
+  Covariance3 covariance_of_motion(double slip_share) const;
   void consume_front(std::optional<TimeNs> until_ns = std::nullopt);
   MotionFilter::Epoch epoch_at(TimeNs reading_ns, TimeNs reached_ns) const;
   std::optional<PredictedPose> prediction_of(const MotionFilter& filter,

@@ -71,7 +71,7 @@ bool Odometer::deskew(const Scan& scan, const Pose2& T_base_lidar, Scan& deskewe
   return true;
 }
 
-Covariance3 Odometer::covariance_of_motion() const {
+Covariance3 Odometer::covariance_of_motion(double slip_share) const {
   const TimeNs from_ns = start_ns_ + delay_ns_;
   const TimeNs to_ns = end_ns_ + delay_ns_;
   const Pose2 motion = path_.at(from_ns).inverse() * path_.at(to_ns);
@@ -85,8 +85,7 @@ Covariance3 Odometer::covariance_of_motion() const {
   const double along_m = motion.translation().norm();
   const double aside_m = motion.theta_rad * geometry.track_m / 2;
   const double duration_s = to_seconds(end_ns_ - start_ns_);
-  // A slip within a scan shows: its walls are bent.
-  MotionFactor factor = filter_.factor(/*slip_share=*/0);
+  MotionFactor factor = filter_.factor(slip_share);
   factor.add({.from_ns = start_ns_,
               .to_ns = end_ns_,
               .left_m = along_m - aside_m,
