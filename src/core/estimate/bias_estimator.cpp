@@ -20,7 +20,8 @@ const Eigen::Vector3d kMotionSigma(0.5, 0.5, 1);
 constexpr double kScanShare = 0.05;
 constexpr double kCut = 4;
 constexpr std::size_t kMinPoints = 60;
-/// Points of a scan that are used, for all: more tell no more of walls that are off.
+/// At least so many points of a scan stand for all (the row of a biased lidar in src/bench/poses.md
+/// is none the worse for it).
 constexpr std::size_t kFewPoints = 200;
 
 Eigen::Vector4d vector_of(const SensorBias& bias) {

@@ -96,7 +96,7 @@ class MotionFilter {
   OdometryParameters sigma() const;
   Pose2 pose() const { return {state_[kX], state_[kY], state_[kTheta]}; }
   const Matrix& covariance() const { return covariance_; }
-  /// Variance of the readings' times, s^2.
+  /// Variance of a time between two readings, s^2.
   double jitter_s2() const { return jitter_s2_; }
   /// The wheels' rotation against the gyro's in the last advance() that had both.
   MotionError take_comparison() { return std::exchange(rotations_, {}); }

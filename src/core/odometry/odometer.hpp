@@ -51,9 +51,9 @@ class Odometer {
   void reject_motion() { knows_motion_ = false; }
   /// Covariance from the motion left in a deskewed scan, whose walls no slip bends.
   const Covariance3& deskew_covariance() const { return deskew_covariance_; }
-  /// The same where a wheel may have slipped in the scan.
+  /// The same where a wheel may have slipped in the scan; a gyro would show it.
   Covariance3 deskew_covariance_with_slips() const {
-    return covariance_of_motion(/*slip_share=*/1);
+    return filter_.has_gyro() ? deskew_covariance_ : covariance_of_motion(/*slip_share=*/1);
   }
 
   /// Predicted pose; nullopt before the first fix, max_extrapolation_s after the last one, and

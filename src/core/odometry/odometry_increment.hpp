@@ -14,7 +14,7 @@ struct OdometryIncrement {
   TimeNs to_ns = 0;
   double left_m = 0;
   double right_m = 0;
-  double jitter_s2 = 0;  ///< variance of times within it
+  double jitter_s2 = 0;  ///< variance of a time within it
   double gyro_rad = 0;   ///< integral of the gyro's rate
   double gyro_change_rad =
       0;  ///< bound of the integration error by the rate's change within the increment
