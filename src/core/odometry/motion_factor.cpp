@@ -10,20 +10,47 @@ namespace cornerd::core {
 CalibratedIncrement::CalibratedIncrement(const OdometryIncrement& step,
                                          const DriveGeometry& geometry,
                                          const OdometryParameters& by)
-    : left_m((1 + by.left_scale) * step.left_m),
+    : duration_s(step.duration_s()),
+      track_m(geometry.track_m * (1 + by.track_scale)),
+      gyro_gain(1 + by.gyro_scale),
+      left_m((1 + by.left_scale) * step.left_m),
       right_m((1 + by.right_scale) * step.right_m),
       travel_m((left_m + right_m) / 2),
-      wheel_rotation_rad((right_m - left_m) / (geometry.track_m * (1 + by.track_scale))),
-      rotation_rad(step.has_gyro ? (step.gyro_rad - by.gyro_bias_rad_s * step.duration_s()) /
-                                       (1 + by.gyro_scale)
-                                 : wheel_rotation_rad) {}
+      wheel_rotation_rad((right_m - left_m) / track_m),
+      rotation_rad(step.has_gyro ? (step.gyro_rad - by.gyro_bias_rad_s * duration_s) / gyro_gain
+                                 : wheel_rotation_rad),
+      gyro_change_rad(step.gyro_change_rad),
+      has_gyro(step.has_gyro) {}
+
+double CalibratedIncrement::rolled_m() const { return (std::abs(left_m) + std::abs(right_m)) / 2; }
+
+Eigen::Matrix3d CalibratedIncrement::covariance(const MotionNoise& noise) const {
+  const double left_m2 = noise.wheel_m2_per_m * std::abs(left_m);
+  const double right_m2 = noise.wheel_m2_per_m * std::abs(right_m);
+  const double slip_rad2 = noise.slip_rad2_per_m * rolled_m();
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+  covariance(0, 0) = (left_m2 + right_m2) / 4 + slip_rad2 * squared(track_m / 2);
+  covariance(0, 1) = covariance(1, 0) = (right_m2 - left_m2) / (2 * track_m);
+  covariance(1, 1) = (left_m2 + right_m2) / squared(track_m) +
+                     noise.scrub_rad2_per_rad * std::abs(wheel_rotation_rad) + slip_rad2;
+  if (has_gyro) {
+    // When within the step the rate changed is unknown: evenly between its two ends.
+    covariance(2, 2) =
+        (noise.gyro_rad2_per_s * duration_s + squared(gyro_change_rad) / 3) / squared(gyro_gain);
+  } else {
+    covariance.row(2) = covariance.row(1);
+    covariance.col(2) = covariance.col(1);
+  }
+  return covariance;
+}
 
 void MotionFactor::add(const OdometryIncrement& step) {
-  const double dt_s = step.duration_s();
+  const CalibratedIncrement one(step, geometry_, at_);
+  const double dt_s = one.duration_s;
   const bool is_first = duration_s_ == 0;
-  const CalibratedIncrement by_parameters(step, geometry_, at_);
-  const auto& [left_m, right_m, way_m, wheel_rad, turn_rad] = by_parameters;
-  const double gyro_gain = 1 + at_.gyro_scale;
+  const double way_m = one.travel_m;
+  const double wheel_rad = one.wheel_rotation_rad;
+  const double turn_rad = one.rotation_rad;
 
   // How travel s, wheels' rotation f and rotation w of this step change with the parameters.
   Eigen::Matrix<double, 3, kParameters> by = Eigen::Matrix<double, 3, kParameters>::Zero();
@@ -38,28 +65,10 @@ void MotionFactor::add(const OdometryIncrement& step) {
     by(1, kRightRest) = -1 / track_m_;
   }
   if (step.has_gyro) {
-    by(2, kBias) = -dt_s / gyro_gain;
-    by(2, kGyro) = -turn_rad / gyro_gain;
+    by(2, kBias) = -dt_s / one.gyro_gain;
+    by(2, kGyro) = -turn_rad / one.gyro_gain;
   } else {
     by.row(2) = by.row(1);
-  }
-
-  // Their noise.
-  const double left_m2 = noise_.wheel_m2_per_m * std::abs(left_m);
-  const double right_m2 = noise_.wheel_m2_per_m * std::abs(right_m);
-  const double slip_rad2 = noise_.slip_rad2_per_m * (std::abs(left_m) + std::abs(right_m)) / 2;
-  Eigen::Matrix3d noise = Eigen::Matrix3d::Zero();
-  noise(0, 0) = (left_m2 + right_m2) / 4 + slip_rad2 * squared(track_m_ / 2);
-  noise(0, 1) = noise(1, 0) = (right_m2 - left_m2) / (2 * track_m_);
-  noise(1, 1) = (left_m2 + right_m2) / squared(track_m_) +
-                noise_.scrub_rad2_per_rad * std::abs(wheel_rad) + slip_rad2;
-  if (step.has_gyro) {
-    // When within the step the rate changed is unknown: evenly between its two ends.
-    noise(2, 2) =
-        (noise_.gyro_rad2_per_s * dt_s + squared(step.gyro_change_rad) / 3) / squared(gyro_gain);
-  } else {
-    noise.row(2) = noise.row(1);
-    noise.col(2) = noise.col(1);
   }
 
   // The motion before moves on (transition), and the step is added to it (slope by s, f, w).
@@ -75,12 +84,12 @@ void MotionFactor::add(const OdometryIncrement& step) {
       0, 0, 1,                    //
       0, 1, 0;
   jacobian_ = transition * jacobian_ + slope * by;
-  covariance_ =
-      transition * covariance_ * transition.transpose() + slope * noise * slope.transpose();
+  covariance_ = transition * covariance_ * transition.transpose() +
+                slope * one.covariance(noise_) * slope.transpose();
   p_ += Column(way_m * c, way_m * s, turn_rad, wheel_rad);
 
   duration_s_ += dt_s;
-  rolled_m_ += (std::abs(left_m) + std::abs(right_m)) / 2;
+  rolled_m_ += one.rolled_m();
   has_gyro_ = has_gyro_ && step.has_gyro;
   is_counted_ = is_counted_ || step.left_m != 0 || step.right_m != 0;
   ends_by_gyro_ = step.has_gyro;

@@ -27,13 +27,22 @@ struct CalibratedIncrement {
   CalibratedIncrement(const OdometryIncrement& step, const DriveGeometry& geometry,
                       const OdometryParameters& by);
 
+  double duration_s = 0;
+  double track_m = 0;
+  double gyro_gain = 1;  ///< 1 + g
   double left_m = 0;
   double right_m = 0;
   double travel_m = 0;            ///< s
   double wheel_rotation_rad = 0;  ///< f
   double rotation_rad = 0;        ///< w
+  double gyro_change_rad = 0;     ///< as in OdometryIncrement
+  bool has_gyro = false;
 
   Pose2 motion() const { return arc(travel_m, rotation_rad); }
+  /// By both wheels, the mean of both.
+  double rolled_m() const;
+  /// Covariance of s, f and w.
+  Eigen::Matrix3d covariance(const MotionNoise& noise) const;
 };
 
 /// Wheel counts and gyro rates between two times, preintegrated on SE(2) (Forster et al. 2017, with

@@ -45,7 +45,7 @@ MotionFilter::MotionFilter(const OdometryConfig& config)
   prior_sigma_.segment<2>(kLeftRest).setConstant(std::sqrt(geometry_.quantization_variance()));
   prior_sigma_[kDelay] = noise_.delay_s;
   covariance_.diagonal() = prior_sigma_.cwiseAbs2();
-  factor_ = factor(kSlipTail);
+  factor_ = factor();
 }
 
 Eigen::Matrix3d MotionFilter::rotation_of(double theta_rad) {
@@ -56,14 +56,12 @@ Eigen::Matrix3d MotionFilter::rotation_of(double theta_rad) {
   return rotation;
 }
 
-MotionFactor MotionFilter::factor(double slip_share) const {
+MotionNoise MotionFilter::noise(double slip_share) const {
   const double wheel = wheel_noise_.factor();
-  return {geometry_,
-          parameters(),
-          {.wheel_m2_per_m = wheel * squared(noise_.wheel_m_per_sqrt_m),
-           .scrub_rad2_per_rad = wheel * squared(kScrub_rad_per_sqrt_rad),
-           .slip_rad2_per_m = slip_share / kSlipTail * slip_rad2(1),
-           .gyro_rad2_per_s = gyro_noise_.factor() * squared(noise_.gyro_rad_s_per_sqrt_hz)}};
+  return {.wheel_m2_per_m = wheel * squared(noise_.wheel_m_per_sqrt_m),
+          .scrub_rad2_per_rad = wheel * squared(kScrub_rad_per_sqrt_rad),
+          .slip_rad2_per_m = slip_share / kSlipTail * slip_rad2(1),
+          .gyro_rad2_per_s = gyro_noise_.factor() * squared(noise_.gyro_rad_s_per_sqrt_hz)};
 }
 
 void MotionFilter::add(const OdometryIncrement& step) {
@@ -71,7 +69,7 @@ void MotionFilter::add(const OdometryIncrement& step) {
   if (step.is_gap) return predict_gap(step.duration_s());
   if (factor_.duration_s() == 0) {
     has_gyro_ = step.has_gyro;
-    factor_ = factor(kSlipTail);  // by the parameters of now
+    factor_ = factor();  // by the parameters of now
   }
   jitter_s2_ = step.jitter_s2;
   factor_.add(step);
@@ -144,7 +142,7 @@ void MotionFilter::advance() {
         joint(kDifference, kDifference), jitter_rad2, joint.col(kDifference).head<kSize>());
   }
   keep_in_bounds();
-  factor_ = factor(kSlipTail);
+  factor_ = factor();
 }
 
 void MotionFilter::compare_rotations(double difference_rad, double variance, double jitter_rad2,

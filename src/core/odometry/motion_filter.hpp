@@ -85,9 +85,8 @@ class MotionFilter {
   /// The times of the readings are those of another clock from now on.
   void doubt_times();
 
-  /// Factor of a motion from now on, by the calibration and noise estimated. `slip_share`: of the
-  /// mean square of slips.
-  MotionFactor factor(double slip_share) const;
+  /// As estimated. `slip_share`: of the mean square of slips.
+  MotionNoise noise(double slip_share) const;
 
   OdometryParameters parameters() const;
   /// False where the scale of a wheel is one that no setting that is right could need. (A tracked
@@ -110,6 +109,8 @@ class MotionFilter {
   static constexpr double kSlipTail = 4;
 
   using Measurement = Eigen::Matrix<double, 3, kSize>;
+  /// Of a motion from now on.
+  MotionFactor factor() const { return {geometry_, parameters(), noise(kSlipTail)}; }
   /// Of x and y; theta stays.
   static Eigen::Matrix3d rotation_of(double theta_rad);
   Measurement jacobian_at(const Epoch& epoch) const;

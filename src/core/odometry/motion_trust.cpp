@@ -53,22 +53,20 @@ double SensorTrust::p_right() const { return 1 / (1 + std::exp(-log_odds_)); }
 
 void MotionTrust::add(const OdometryIncrement& step, const MotionFilter& filter) {
   if (step.is_gap) return interrupt();
-  MotionFactor one = filter.factor(/*slip_share=*/1);
-  one.add(step);
-  const MotionFactor::Covariance& noise = one.covariance();
-  const Pose2 motion = one.motion();
-  travel_m_.measured += std::copysign(motion.translation().norm(), motion.x_m);
-  travel_m_.noise += noise(0, 0) + noise(1, 1);
-  wheel_rad_.measured += one.wheel_rotation_rad();
-  wheel_rad_.noise += noise(3, 3);
+  const CalibratedIncrement one(step, geometry_, filter.parameters());
+  const Eigen::Matrix3d noise = one.covariance(filter.noise(/*slip_share=*/1));
+  travel_m_.measured += one.travel_m;
+  travel_m_.noise += noise(0, 0);
+  wheel_rad_.measured += one.wheel_rotation_rad;
+  wheel_rad_.noise += noise(1, 1);
   has_gyro_ = step.has_gyro;
-  gyro_rad_.measured += one.rotation_rad();
+  gyro_rad_.measured += one.rotation_rad;
   gyro_rad_.noise += noise(2, 2);
   may_be_stuck_ = may_be_stuck_ || (step.has_gyro && step.gyro_may_be_stuck);
-  longest_s_ = std::max(longest_s_, step.duration_s());
-  duration_s_ += step.duration_s();
-  travel_since_fix_m_ += motion.translation().norm();
-  rotation_since_fix_rad_ += one.rotation_rad();
+  longest_s_ = std::max(longest_s_, one.duration_s);
+  duration_s_ += one.duration_s;
+  travel_since_fix_m_ += std::abs(one.travel_m);
+  rotation_since_fix_rad_ += one.rotation_rad;
 }
 
 void MotionTrust::compare(Sum& sum, SensorTrust& trust, double end_variance, double calibration,

@@ -85,16 +85,17 @@ Covariance3 Odometer::covariance_of_motion(double slip_share) const {
   const double along_m = motion.translation().norm();
   const double aside_m = motion.theta_rad * geometry.track_m / 2;
   const double duration_s = to_seconds(end_ns_ - start_ns_);
-  MotionFactor factor = filter_.factor(slip_share);
-  factor.add({.from_ns = start_ns_,
-              .to_ns = end_ns_,
-              .left_m = along_m - aside_m,
-              .right_m = along_m + aside_m,
-              .gyro_rad = motion.theta_rad,
-              .has_gyro = filter_.has_gyro()});
+  const CalibratedIncrement whole({.from_ns = start_ns_,
+                                   .to_ns = end_ns_,
+                                   .left_m = along_m - aside_m,
+                                   .right_m = along_m + aside_m,
+                                   .gyro_rad = motion.theta_rad,
+                                   .has_gyro = filter_.has_gyro()},
+                                  geometry, filter_.parameters());
+  const Eigen::Matrix3d noise = whole.covariance(filter_.noise(slip_share));
   const double late_share2 = filter_.jitter_s2() / squared(std::max(duration_s, 1e-3));
-  const double place_noise = (factor.covariance()(0, 0) + factor.covariance()(1, 1)) / 2;
-  const double heading_noise = factor.covariance()(2, 2);
+  const double heading_noise = noise(2, 2);
+  const double place_noise = (noise(0, 0) + squared(along_m / 2) * heading_noise) / 2;
   // When between two readings the robot changed its speed is unknown.
   const MotionPath::Change change = path_.mean_square_change(from_ns, to_ns);
   // The end of the scan that no reading tells of is extrapolated.
