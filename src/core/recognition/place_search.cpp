@@ -64,16 +64,42 @@ void PlaceSearch::begin(const PolarScan& scan, std::span<const WallSegment> segm
 void PlaceSearch::consider(std::span<const PoseHypothesis> hypotheses, bool are_sure) {
   for (const PoseHypothesis& hypothesis : hypotheses) {
     if (candidates_.size() == kMaxCandidates) return;
+    if (is_known(hypothesis.T_map_lidar, 0)) continue;
     candidates_.push_back(
         {hypothesis.T_map_lidar, fitter_.rough_score(hypothesis.T_map_lidar), 0, are_sure});
   }
 }
 
 void PlaceSearch::consider_prior(const Pose2& T_map_lidar, double search_radius_m) {
-  const VerifiedHypothesis fit = fitter_.exactly(T_map_lidar, search_radius_m, points_);
-  if (fitter_.is_exact(fit)) return add(fit, {});
+  if (add_if_exact(fitter_.exactly(T_map_lidar, search_radius_m, points_))) return;
   const PoseHypothesis prior{T_map_lidar, 0};
   consider(std::span(&prior, 1), /*are_sure=*/true);
+}
+
+bool PlaceSearch::add_if_exact(const VerifiedHypothesis& fit) {
+  const bool is_exact = fitter_.is_exact(fit);
+  if (is_exact) add(fit, {});
+  return is_exact;
+}
+
+bool PlaceSearch::is_better(const Candidate& a, const Candidate& b) {
+  if (a.is_sure != b.is_sure) return a.is_sure;
+  if (a.score != b.score) return a.score > b.score;
+  if (a.T_map_lidar.x_m != b.T_map_lidar.x_m) return a.T_map_lidar.x_m < b.T_map_lidar.x_m;
+  return a.T_map_lidar.theta_rad < b.T_map_lidar.theta_rad;
+}
+
+bool PlaceSearch::has_exact_place() const {
+  return std::any_of(places_.begin(), places_.end(),
+                     [](const VerifiedHypothesis& place) { return place.is_exact; });
+}
+
+void PlaceSearch::fit_best_exactly() {
+  const auto best = std::min_element(candidates_.begin(), candidates_.end(), is_better);
+  if (has_exact_place() || best == candidates_.end() || best->is_sure) return;
+  if (add_if_exact(fitter_.exactly(best->T_map_lidar, kRoughRefinements.front().radius_m))) {
+    candidates_.erase(best);
+  }
 }
 
 PlaceSearch::Candidate PlaceSearch::refined_roughly(const Candidate& candidate,
@@ -102,12 +128,6 @@ bool PlaceSearch::is_known(const Pose2& T_map_lidar, std::size_t kept) const {
 }
 
 void PlaceSearch::refine_roughly() {
-  const auto is_better = [](const Candidate& a, const Candidate& b) {
-    if (a.is_sure != b.is_sure) return a.is_sure;
-    if (a.score != b.score) return a.score > b.score;
-    if (a.T_map_lidar.x_m != b.T_map_lidar.x_m) return a.T_map_lidar.x_m < b.T_map_lidar.x_m;
-    return a.T_map_lidar.theta_rad < b.T_map_lidar.theta_rad;
-  };
   std::sort(candidates_.begin(), candidates_.end(), is_better);
   candidates_.resize(std::min(candidates_.size(), kMaxRefined));
   std::size_t kept = 0;
@@ -164,11 +184,13 @@ void PlaceSearch::add(const VerifiedHypothesis& exact, const Candidate& candidat
 }
 
 std::span<const VerifiedHypothesis> PlaceSearch::find() {
+  fit_best_exactly();
   refine_roughly();
   const std::size_t most = best_score_ > 0 ? kMaxCompared : kMaxUnlikely;
+  const bool has_place = best_score_ > 0 || has_exact_place();
   for (const Candidate& candidate :
        std::span(candidates_).first(std::min(candidates_.size(), most))) {
-    if (best_score_ > 0 && candidate.score < best_score_ - kHopeless) break;
+    if (has_place && candidate.score < best_score_ - kHopeless) break;
     add(fitter_.exactly(candidate.T_map_lidar, kFewRaysRadius_m), candidate);
   }
   candidates_.clear();

@@ -50,6 +50,13 @@ class PlaceSearch {
     double map_sigma_m = 0;
     bool is_sure = false;
   };
+  static bool is_better(const Candidate& a, const Candidate& b);
+  bool has_exact_place() const;
+  /// False, with nothing added, where the last PlaceFitter::exactly() is not exact.
+  bool add_if_exact(const VerifiedHypothesis& fit);
+  /// The best candidate by few rays alone mostly is the place, and fits exactly: rough fits would
+  /// tell no more of it.
+  void fit_best_exactly();
   bool is_known(const Pose2& T_map_lidar, std::size_t kept) const;
   Candidate refined_roughly(const Candidate& candidate, double least_score);
   void refine_roughly();
