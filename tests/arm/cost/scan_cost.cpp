@@ -24,17 +24,13 @@
 #include <utility>
 #include <vector>
 
-#include "core/breakpoint/detector.hpp"
-#include "core/catalog/catalog.hpp"
-#include "core/estimate/refinement.hpp"
 #include "core/pipeline.hpp"
-#include "core/recognition/beam_model.hpp"
-#include "core/recognition/recognition.hpp"
 #include "daemon/event_loop.hpp"
 #include "daemon/message_server.hpp"
 #include "daemon/sample_channel.hpp"
 #include "daemon/scan_publisher.hpp"
 #include "drivers/rplidar/sample_stream.hpp"
+#include "localizer_stages.hpp"
 #include "markers.hpp"
 #include "message/line_writer.hpp"
 #include "replay/simulator/simulator.hpp"
@@ -44,12 +40,6 @@ CORNERD_COST_STAGE(scan)
 CORNERD_COST_STAGE(decode)
 CORNERD_COST_STAGE(localize)
 CORNERD_COST_STAGE(publish)
-CORNERD_COST_STAGE(detect)
-CORNERD_COST_STAGE(recognize)
-CORNERD_COST_STAGE(refine)
-CORNERD_COST_STAGE(likelihood)
-CORNERD_COST_STAGE(first_fix)
-CORNERD_COST_STAGE(clutter)
 
 namespace cornerd {
 namespace {
@@ -102,98 +92,13 @@ class Reader {
   int fd_;
 };
 
-/// The parts of the localizer one by one, on a scan that it has just localized.
-class Parts {
- public:
-  explicit Parts(std::shared_ptr<const core::WallMap> map)
-      : map_(std::move(map)),
-        catalog_(*map_, config_.max_range_m),
-        recognition_(catalog_),
-        detector_(config_.detector, config_.noise),
-        refinement_(config_.max_range_m, config_.noise),
-        prediction_(config_.max_range_m),
-        beam_model_(*map_, config_.noise),
-        fresh_(map_, config_) {}
-
-  void count(const core::Scan& scan, const core::ScanResult& result) {
-    cost_begin_detect();
-    points_.assign(scan, config_.min_range_m, config_.max_range_m, result.pose.t_ns);
-    detector_.detect(points_, detection_);
-    cost_end_detect();
-
-    cost_begin_recognize();
-    static_cast<void>(recognition_.from_pairs(detection_.breakpoints));
-    cost_end_recognize();
-
-    thin_.clear();
-    for (std::size_t i = 0; i < points_.size(); i += 4) thin_.push_back(points_[i]);
-    core::Pose2 start = result.pose.T_map_base;
-    start.x_m += 0.02;
-    start.theta_rad += 0.02;
-    cost_begin_refine();
-    const core::RefinedPose refined =
-        refinement_.refine(*map_, start, 0.15, thin_, points_.points(), 1);
-    cost_end_refine();
-
-    cost_begin_likelihood();
-    const auto hits = prediction_.cast(*map_, refined.T_map_lidar, points_.points());
-    beam_model_.meet(points_.points(), hits, refined.T_map_lidar, points_.spacing_rad(), 1);
-    static_cast<void>(beam_model_.counts());
-    cost_end_likelihood();
-
-    fresh_.relocalize();
-    cost_begin_first_fix();
-    static_cast<void>(fresh_.step(scan));
-    cost_end_first_fix();
-
-    const core::Scan furnished = among_posts(scan);
-    fresh_.relocalize();
-    cost_begin_clutter();
-    static_cast<void>(fresh_.step(furnished));
-    cost_end_clutter();
-  }
-
- private:
-  /// Posts that no map has stop three rays in ten, at six tenths of their way.
-  static core::Scan among_posts(const core::Scan& scan) {
-    constexpr double kSpacing_rad = core::radians(15);
-    constexpr double kWidth_rad = core::radians(4.5);
-    core::Scan furnished;
-    for (core::Sample sample : scan.samples()) {
-      const double beyond_rad = std::fmod(sample.bearing_rad + core::kTwoPi, kSpacing_rad);
-      if (beyond_rad < kWidth_rad) sample.range_m *= 0.6F;
-      furnished.add(sample);
-    }
-    return furnished;
-  }
-
-  /// As the daemon does, which searches the map in parts.
-  static core::LocalizerConfig in_real_time() {
-    core::LocalizerConfig config;
-    config.search_nodes_per_scan = core::kSearchInRealTime;
-    return config;
-  }
-
-  std::shared_ptr<const core::WallMap> map_;
-  core::LocalizerConfig config_ = in_real_time();
-  core::Catalog catalog_;
-  core::Recognition recognition_;
-  core::Detector detector_;
-  core::Refinement refinement_;
-  core::RayCaster prediction_;
-  core::BeamModel beam_model_;
-  core::Localizer fresh_;
-  core::PolarScan points_;
-  std::vector<core::PolarPoint> thin_;
-  core::Detection detection_;
-};
-
 /// The daemon without its threads.
 class Daemon {
  public:
-  Daemon(std::shared_ptr<const core::WallMap> map, const std::filesystem::path& socket)
+  Daemon(std::shared_ptr<const core::WallMap> map, const replay::Motion& drive,
+         const std::filesystem::path& socket)
       : pipeline_(map, {}),
-        parts_(map),
+        stages_(map, drive),
         server_(loop_, "0", {}),
         publisher_(server_, {.maps = {{.map = map}}}) {
     server_.listen(socket, daemon::SocketRole::kPose);
@@ -220,7 +125,7 @@ class Daemon {
     std::printf("%-10s %zu samples %zu bytes\n",
                 std::string(message::to_string(result->pose.state)).c_str(),
                 pipeline_.scan().size(), bytes);
-    parts_.count(pipeline_.scan(), *result);
+    stages_.count(pipeline_.scan(), *result);
   }
 
  private:
@@ -260,7 +165,7 @@ class Daemon {
   rplidar::SampleStream stream_{{}};
   daemon::SampleChannel channel_{daemon::SampleChannel::WhenFull::kLose};
   core::Pipeline pipeline_;
-  Parts parts_;
+  LocalizerStages stages_;
   daemon::EventLoop loop_;
   daemon::MessageServer server_;
   daemon::ScanPublisher publisher_;
@@ -272,11 +177,12 @@ class Daemon {
 int run(const std::filesystem::path& map_file, std::size_t samples) {
   auto map = settings::load_map(map_file);
   const replay::SimulatorConfig config = lidar_of(samples);
-  auto scene = std::make_unique<replay::MapScene>(map, drive(config.motor_hz));
+  const replay::Motion motion = drive(config.motor_hz);
+  auto scene = std::make_unique<replay::MapScene>(map, motion);
   replay::Simulator lidar(std::move(scene), config);
   const std::filesystem::path socket =
       std::filesystem::temp_directory_path() / ("cornerd-cost-" + std::to_string(::getpid()));
-  Daemon daemon(std::move(map), socket);
+  Daemon daemon(std::move(map), motion, socket);
   for (int i = 0; i < kScansBefore + kScans; ++i) daemon.scan(lidar, i >= kScansBefore);
   return 0;
 }
