@@ -20,6 +20,7 @@ constexpr double kMinAgreement = 0.5;
 }  // namespace
 
 void ScanRotation::add(const Scan& turn) {
+  rate_rad_s_.reset();
   before_ = last_;
   last_ = {{}, turn.start_ns()};
   for (const Sample& sample : turn.samples()) {
@@ -33,6 +34,11 @@ void ScanRotation::add(const Scan& turn) {
 }
 
 std::optional<double> ScanRotation::rate_rad_s() const {
+  if (!rate_rad_s_) rate_rad_s_ = find_rate_rad_s();
+  return *rate_rad_s_;
+}
+
+std::optional<double> ScanRotation::find_rate_rad_s() const {
   const double interval_s = to_seconds(last_.start_ns - before_.start_ns);
   if (scans_ < 2 || interval_s <= 0 || interval_s > kMaxInterval_s) return std::nullopt;
 
@@ -40,8 +46,8 @@ std::optional<double> ScanRotation::rate_rad_s() const {
   const auto agreement = [&](int shift) {
     int same = 0;
     int both = 1;
-    for (std::size_t i = 0; i < kBins; ++i) {
-      const auto at = static_cast<std::size_t>(static_cast<int>(i + kBins) + shift) % kBins;
+    const auto first = static_cast<std::size_t>(shift + static_cast<int>(kBins)) % kBins;
+    for (std::size_t i = 0, at = first; i < kBins; ++i, at = at + 1 < kBins ? at + 1 : 0) {
       if (last_.ranges_m[i] == 0 || before_.ranges_m[at] == 0) continue;
       ++both;
       same += std::abs(last_.ranges_m[i] - before_.ranges_m[at]) < kSameShare * last_.ranges_m[i]

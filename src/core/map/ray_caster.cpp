@@ -71,13 +71,11 @@ void RayCaster::meet(std::uint32_t face, const WallMap& map, const VisibleFace& 
   // Seen from its free side a face runs counter-clockwise from `from` to `to`, over less than pi;
   // seen along itself it hides nothing.
   if (!(cross(from, to) > 0)) return;
+  const std::size_t begin = first_at(points, from);
+  const std::size_t end = first_at(points, to);
   const bool crosses_seam = from.y() >= 0 && to.y() < 0;
-  const auto ends = [&](const PolarPoint& point) { return !is_before(point, to); };
-  for (std::size_t i = first_at(points, from); i < points.size(); ++i) {
-    if (!crosses_seam && ends(points[i])) return;
-    cover(i);
-  }
-  for (std::size_t i = 0; crosses_seam && i < points.size() && !ends(points[i]); ++i) cover(i);
+  for (std::size_t i = begin; i < (crosses_seam ? points.size() : end); ++i) cover(i);
+  for (std::size_t i = 0; crosses_seam && i < end; ++i) cover(i);
 }
 
 std::span<const PredictedHit> RayCaster::end() {

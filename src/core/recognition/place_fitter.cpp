@@ -62,23 +62,26 @@ double PlaceFitter::rough_score(const Pose2& T_map_lidar) {
       score -= 1;
     }
   }
-  return score;
+  return score / static_cast<double>(std::max<std::size_t>(1, few_.size()));
 }
 
-std::optional<PlaceFitter::RoughFit> PlaceFitter::roughly(const Pose2& T_map_lidar,
-                                                          double search_radius_m,
-                                                          double map_sigma_m) {
+std::optional<Pose2> PlaceFitter::roughly(const Pose2& T_map_lidar, double search_radius_m,
+                                          double map_sigma_m) {
   const RefinedPose refined = refinement_.refine_roughly(map_, T_map_lidar, search_radius_m, few_,
                                                          known_.noise_scale, map_sigma_m);
   if (!refined.valid || !same_pose(refined.T_map_lidar, T_map_lidar, kMaxMove_m, kMaxMove_rad)) {
     return std::nullopt;
   }
+  return refined.T_map_lidar;
+}
+
+BeamStatistics PlaceFitter::statistics_of_few(const Pose2& T_map_lidar) {
   const double spacing_rad = spacing_rad_ * static_cast<double>(points_.size()) /
                              static_cast<double>(std::max<std::size_t>(1, few_.size()));
   T_map_met_.reset();
-  beam_model_.meet(few_, ray_caster_.cast(map_, refined.T_map_lidar, few_), refined.T_map_lidar,
-                   spacing_rad, known_.noise_scale);
-  return RoughFit{refined.T_map_lidar, beam_model_.statistics(known_.max_map_sigma_m)};
+  beam_model_.meet(few_, ray_caster_.cast(map_, T_map_lidar, few_), T_map_lidar, spacing_rad,
+                   known_.noise_scale);
+  return beam_model_.statistics(known_.max_map_sigma_m);
 }
 
 void PlaceFitter::meet(const Pose2& T_map_lidar) {

@@ -43,15 +43,12 @@ class PlaceFitter {
   /// Starts a scan, which must outlive the calls for it.
   void begin(const PolarScan& scan, const ScanPrior& known);
 
-  /// Grows with the rays on walls, of few.
+  /// Of few rays, how much larger the share on walls is than that through walls: 1 at most.
   double rough_score(const Pose2& T_map_lidar);
-  struct RoughFit {
-    Pose2 T_map_lidar;
-    BeamStatistics rays;
-  };
   /// One step from a pose that is off by `search_radius_m`, by few rays; none where it leads away.
-  std::optional<RoughFit> roughly(const Pose2& T_map_lidar, double search_radius_m,
-                                  double map_sigma_m);
+  std::optional<Pose2> roughly(const Pose2& T_map_lidar, double search_radius_m,
+                               double map_sigma_m);
+  BeamStatistics statistics_of_few(const Pose2& T_map_lidar);
 
   /// As if every wall were where the map has it. `rays` is empty where the map does not explain
   /// them. `first`: rays of the first steps.

@@ -14,6 +14,8 @@ constexpr std::size_t kMaxRefined = 16;
 constexpr std::size_t kMaxCompared = 16;
 /// The same where elsewhere is likelier than each, as in a motion that is not known yet.
 constexpr std::size_t kMaxUnlikely = 3;
+/// Rough score, of 1, from which a candidate may fit exactly: nearly all few rays are on walls.
+constexpr double kMayBeExact = 0.9;
 /// Remaining error of one that was refined on few rays (m).
 constexpr double kFewRaysRadius_m = 0.03;
 /// Nats behind the likeliest on few rays, beyond which none was the right one.
@@ -89,17 +91,27 @@ bool PlaceSearch::is_better(const Candidate& a, const Candidate& b) {
   return a.T_map_lidar.theta_rad < b.T_map_lidar.theta_rad;
 }
 
-bool PlaceSearch::has_exact_place() const {
-  return std::any_of(places_.begin(), places_.end(),
-                     [](const VerifiedHypothesis& place) { return place.is_exact; });
+const VerifiedHypothesis* PlaceSearch::exact_place() const {
+  const auto found = std::find_if(places_.begin(), places_.end(),
+                                  [](const VerifiedHypothesis& place) { return place.is_exact; });
+  return found != places_.end() ? &*found : nullptr;
 }
 
 void PlaceSearch::fit_best_exactly() {
   const auto best = std::min_element(candidates_.begin(), candidates_.end(), is_better);
-  if (has_exact_place() || best == candidates_.end() || best->is_sure) return;
+  if (exact_place() != nullptr || best == candidates_.end() || best->is_sure ||
+      best->score < kMayBeExact) {
+    return;
+  }
   if (add_if_exact(fitter_.exactly(best->T_map_lidar, kRoughRefinements.front().radius_m))) {
     candidates_.erase(best);
   }
+}
+
+PlaceSearch::Candidate PlaceSearch::by_few_rays(const Pose2& T_map_lidar) {
+  const BeamStatistics rays = fitter_.statistics_of_few(T_map_lidar);
+  return {T_map_lidar, log_odds_of_place(rays, wall_ends(T_map_lidar), structure_),
+          rays.map_sigma_m};
 }
 
 PlaceSearch::Candidate PlaceSearch::refined_roughly(const Candidate& candidate,
@@ -107,10 +119,10 @@ PlaceSearch::Candidate PlaceSearch::refined_roughly(const Candidate& candidate,
   Candidate best{candidate.T_map_lidar, -std::numeric_limits<double>::infinity(), 0};
   for (const RoughRefinement& rough : kRoughRefinements) {
     if (std::isfinite(best.score) && best.score < least_score) break;
-    const auto fit = fitter_.roughly(candidate.T_map_lidar, rough.radius_m, rough.map_sigma_m);
-    if (!fit) continue;
-    const double log_odds = log_odds_of_place(fit->rays, wall_ends(fit->T_map_lidar), structure_);
-    if (log_odds > best.score) best = {fit->T_map_lidar, log_odds, fit->rays.map_sigma_m};
+    const auto refined = fitter_.roughly(candidate.T_map_lidar, rough.radius_m, rough.map_sigma_m);
+    if (!refined) continue;
+    const Candidate there = by_few_rays(*refined);
+    if (there.score > best.score) best = there;
   }
   return best;
 }
@@ -123,13 +135,17 @@ bool PlaceSearch::is_known(const Pose2& T_map_lidar, std::size_t kept) const {
   return std::any_of(known.begin(), known.end(),
                      [&](const Candidate& other) { return is_here(other.T_map_lidar); }) ||
          std::any_of(places_.begin(), places_.end(), [&](const VerifiedHypothesis& other) {
-           return other.is_exact && is_here(other.refined.T_map_lidar);
+           return is_here(other.refined.T_map_lidar);
          });
 }
 
 void PlaceSearch::refine_roughly() {
   std::sort(candidates_.begin(), candidates_.end(), is_better);
   candidates_.resize(std::min(candidates_.size(), kMaxRefined));
+  const VerifiedHypothesis* exact = exact_place();
+  if (exact != nullptr && !candidates_.empty()) {
+    best_score_ = std::max(best_score_, by_few_rays(exact->refined.T_map_lidar).score);
+  }
   std::size_t kept = 0;
   for (const Candidate& candidate : candidates_) {
     if (is_known(candidate.T_map_lidar, kept)) continue;
@@ -187,10 +203,9 @@ std::span<const VerifiedHypothesis> PlaceSearch::find() {
   fit_best_exactly();
   refine_roughly();
   const std::size_t most = best_score_ > 0 ? kMaxCompared : kMaxUnlikely;
-  const bool has_place = best_score_ > 0 || has_exact_place();
   for (const Candidate& candidate :
        std::span(candidates_).first(std::min(candidates_.size(), most))) {
-    if (has_place && candidate.score < best_score_ - kHopeless) break;
+    if (best_score_ > 0 && candidate.score < best_score_ - kHopeless) break;
     add(fitter_.exactly(candidate.T_map_lidar, kFewRaysRadius_m), candidate);
   }
   candidates_.clear();

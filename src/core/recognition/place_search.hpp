@@ -51,7 +51,10 @@ class PlaceSearch {
     bool is_sure = false;
   };
   static bool is_better(const Candidate& a, const Candidate& b);
-  bool has_exact_place() const;
+  /// The first one; null where there is none.
+  const VerifiedHypothesis* exact_place() const;
+  /// With its log odds by few rays.
+  Candidate by_few_rays(const Pose2& T_map_lidar);
   /// False, with nothing added, where the last PlaceFitter::exactly() is not exact.
   bool add_if_exact(const VerifiedHypothesis& fit);
   /// The best candidate by few rays alone mostly is the place, and fits exactly: rough fits would
