@@ -26,15 +26,19 @@ inline Vec2 rotated(const Vec2& direction, double angle_rad) {
   return {c * direction.x() - s * direction.y(), s * direction.x() + c * direction.y()};
 }
 
-/// Angle between two directions, counter-clockwise, in [-pi, pi]; error at most 1e-12.
-inline double rotation_between(const Vec2& from, const Vec2& to) {
-  const double across = cross(from, to);
-  const double along = from.dot(to);
+/// Bearing of what is `along` a direction and `across` it to the left, in [-pi, pi]; error at most
+/// 1e-12.
+inline double bearing_off(double along, double across) {
   if (!(std::abs(across) < kSmallAngle_rad * along)) return std::atan2(across, along);
   const double tangent = across / along;
   const double square = tangent * tangent;
   return tangent - tangent * square *
                        (1.0 / 3 - square * (1.0 / 5 - square * (1.0 / 7 - square * (1.0 / 9))));
+}
+
+/// Angle between two directions, counter-clockwise, in [-pi, pi]; error at most 1e-12.
+inline double rotation_between(const Vec2& from, const Vec2& to) {
+  return bearing_off(from.dot(to), cross(from, to));
 }
 
 }  // namespace cornerd::core

@@ -52,19 +52,22 @@ bool Odometer::deskew(const Scan& scan, const Pose2& T_base_lidar, Scan& deskewe
   }
   deskewed.clear();
   RayIterator rays;
+  const double pieces_per_ns = 1 / piece_ns;
   for (const Sample& sample : scan.samples()) {
     Sample moved = sample;
     if (sample.range_m > 0) {
-      const double at = static_cast<double>(sample.t_ns - start_ns_) / piece_ns;
+      const double at = static_cast<double>(sample.t_ns - start_ns_) * pieces_per_ns;
       const auto i = static_cast<std::size_t>(std::clamp(at, 0.0, kPieces - 1.0));
       const Piece& piece = pieces[i];
       const double share = at - static_cast<double>(i);
       const double bearing_rad = sample.bearing_rad + piece.from_rad + share * piece.along_rad;
+      const Vec2 shift = piece.from + share * piece.along;
       const Vec2& direction = rays.at(bearing_rad);
-      const Vec2 place = piece.from + share * piece.along + sample.range_m * direction;
+      const double along_m = sample.range_m + direction.dot(shift);
+      const double across_m = cross(direction, shift);
       moved.bearing_rad =
-          static_cast<float>(normalize_angle(bearing_rad + rotation_between(direction, place)));
-      moved.range_m = static_cast<float>(place.norm());
+          static_cast<float>(normalize_angle(bearing_rad + bearing_off(along_m, across_m)));
+      moved.range_m = static_cast<float>(std::sqrt(squared(along_m) + squared(across_m)));
     }
     deskewed.add(moved);
   }

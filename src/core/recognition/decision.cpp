@@ -31,6 +31,7 @@ Decision decide(std::span<const VerifiedHypothesis> places, const std::optional<
     decision.state = PoseState::kFix;
   } else if (elsewhere < kMaxElsewhere) {
     decision.state = PoseState::kAmbiguous;
+    decision.doubt = std::max(decision.doubt, kLeastDoubt);
   }
   filter.update(places, prior);
   if (filter.likeliest() && filter.doubt() < kWrongFixRate && decision.state != PoseState::kFix) {
