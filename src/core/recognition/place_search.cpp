@@ -61,6 +61,7 @@ void PlaceSearch::begin(const PolarScan& scan, std::span<const WallSegment> segm
   places_.clear();
   open_places_.clear();
   exact_.reset();
+  tried_ = {};
 }
 
 void PlaceSearch::consider(std::span<const PoseHypothesis> hypotheses, bool are_sure) {
@@ -103,9 +104,14 @@ void PlaceSearch::fit_best_exactly() {
       best->score < kMayBeExact) {
     return;
   }
-  if (add_if_exact(fitter_.exactly(best->T_map_lidar, kRoughRefinements.front().radius_m))) {
-    candidates_.erase(best);
-  }
+  tried_ = fitter_.exactly(best->T_map_lidar, kRoughRefinements.front().radius_m);
+  if (add_if_exact(tried_)) candidates_.erase(best);
+}
+
+VerifiedHypothesis PlaceSearch::fitted_exactly(const Pose2& T_map_lidar) {
+  const bool was_tried = tried_.refined.valid &&
+                         same_pose(tried_.refined.T_map_lidar, T_map_lidar, kSame_m, kSame_rad);
+  return was_tried ? tried_ : fitter_.exactly(T_map_lidar, kFewRaysRadius_m);
 }
 
 PlaceSearch::Candidate PlaceSearch::by_few_rays(const Pose2& T_map_lidar) {
@@ -206,7 +212,7 @@ std::span<const VerifiedHypothesis> PlaceSearch::find() {
   for (const Candidate& candidate :
        std::span(candidates_).first(std::min(candidates_.size(), most))) {
     if (best_score_ > 0 && candidate.score < best_score_ - kHopeless) break;
-    add(fitter_.exactly(candidate.T_map_lidar, kFewRaysRadius_m), candidate);
+    add(fitted_exactly(candidate.T_map_lidar), candidate);
   }
   candidates_.clear();
   // Elsewhere has odds of its own, and those of the places that the scan leaves open.

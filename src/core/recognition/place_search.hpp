@@ -60,10 +60,11 @@ class PlaceSearch {
   /// The best candidate by few rays alone mostly is the place, and fits exactly: rough fits would
   /// tell no more of it.
   void fit_best_exactly();
+  VerifiedHypothesis fitted_exactly(const Pose2& T_map_lidar);
   bool is_known(const Pose2& T_map_lidar, std::size_t kept) const;
   Candidate refined_roughly(const Candidate& candidate, double least_score);
   void refine_roughly();
-  /// `exact`: of the last PlaceFitter::exactly().
+  /// `exact`: the place as PlaceFitter::exactly() gave it.
   void add(const VerifiedHypothesis& exact, const Candidate& candidate);
 
   static constexpr std::size_t kMaxCandidates = 512;
@@ -79,6 +80,7 @@ class PlaceSearch {
   std::vector<VerifiedHypothesis> places_;
   std::vector<VerifiedHypothesis> open_places_;  ///< whose pose the scan does not determine
   std::optional<VerifiedHypothesis> exact_;
+  VerifiedHypothesis tried_;  ///< by fit_best_exactly()
 };
 
 }  // namespace cornerd::core
