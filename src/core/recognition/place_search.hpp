@@ -60,6 +60,7 @@ class PlaceSearch {
   /// The best candidate by few rays alone mostly is the place, and fits exactly: rough fits would
   /// tell no more of it.
   void fit_best_exactly();
+  /// The one that was tried, where it led here.
   VerifiedHypothesis fitted_exactly(const Pose2& T_map_lidar);
   bool is_known(const Pose2& T_map_lidar, std::size_t kept) const;
   Candidate refined_roughly(const Candidate& candidate, double least_score);
