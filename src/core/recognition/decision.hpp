@@ -16,8 +16,8 @@ namespace cornerd::core {
 /// answer hold the truth but for this share of belief.
 inline constexpr double kWrongFixRate = 1e-5;
 /// Belief that an ambiguous scan was taken elsewhere, at least. Where the likeliest place is not
-/// likely enough for a fix, evidence is weak: of 901 such scans 29 were elsewhere where it promised
-/// one (`cornerd-bench --localizer`, "Reliability").
+/// likely enough for a fix, evidence is weak and promises too much: 3 % of such scans are elsewhere
+/// (`cornerd-bench --localizer`, src/bench/poses.md, "Reliability of the posterior").
 inline constexpr double kLeastDoubt = 0.03;
 
 struct Decision {
