@@ -71,11 +71,11 @@ void RayCaster::meet(std::uint32_t face, const WallMap& map, const VisibleFace& 
   // Seen from its free side a face runs counter-clockwise from `from` to `to`, over less than pi;
   // seen along itself it hides nothing.
   if (!(cross(from, to) > 0)) return;
-  const std::size_t begin = first_at(points, from);
-  const std::size_t end = first_at(points, to);
+  const std::size_t first = first_at(points, from);
+  const std::size_t beyond = first_at(points, to);
   const bool crosses_seam = from.y() >= 0 && to.y() < 0;
-  for (std::size_t i = begin; i < (crosses_seam ? points.size() : end); ++i) cover(i);
-  for (std::size_t i = 0; crosses_seam && i < end; ++i) cover(i);
+  for (std::size_t i = first; i < (crosses_seam ? points.size() : beyond); ++i) cover(i);
+  for (std::size_t i = 0; crosses_seam && i < beyond; ++i) cover(i);
 }
 
 std::span<const PredictedHit> RayCaster::end() {

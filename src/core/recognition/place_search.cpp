@@ -67,7 +67,7 @@ void PlaceSearch::begin(const PolarScan& scan, std::span<const WallSegment> segm
 void PlaceSearch::consider(std::span<const PoseHypothesis> hypotheses, bool are_sure) {
   for (const PoseHypothesis& hypothesis : hypotheses) {
     if (candidates_.size() == kMaxCandidates) return;
-    if (is_known(hypothesis.T_map_lidar, 0)) continue;
+    if (is_compared(hypothesis.T_map_lidar)) continue;
     candidates_.push_back(
         {hypothesis.T_map_lidar, fitter_.rough_score(hypothesis.T_map_lidar), 0, are_sure});
   }
@@ -133,15 +133,17 @@ PlaceSearch::Candidate PlaceSearch::refined_roughly(const Candidate& candidate,
   return best;
 }
 
+bool PlaceSearch::is_compared(const Pose2& T_map_lidar) const {
+  return std::any_of(places_.begin(), places_.end(), [&](const VerifiedHypothesis& place) {
+    return same_pose(place.refined.T_map_lidar, T_map_lidar, kSame_m, kSame_rad);
+  });
+}
+
 bool PlaceSearch::is_known(const Pose2& T_map_lidar, std::size_t kept) const {
-  const auto is_here = [&](const Pose2& other) {
-    return same_pose(other, T_map_lidar, kSame_m, kSame_rad);
-  };
   const auto known = std::span(candidates_).first(kept);
-  return std::any_of(known.begin(), known.end(),
-                     [&](const Candidate& other) { return is_here(other.T_map_lidar); }) ||
-         std::any_of(places_.begin(), places_.end(), [&](const VerifiedHypothesis& other) {
-           return is_here(other.refined.T_map_lidar);
+  return is_compared(T_map_lidar) ||
+         std::any_of(known.begin(), known.end(), [&](const Candidate& other) {
+           return same_pose(other.T_map_lidar, T_map_lidar, kSame_m, kSame_rad);
          });
 }
 

@@ -62,6 +62,9 @@ class PlaceSearch {
   void fit_best_exactly();
   /// The one that was tried, where it led here.
   VerifiedHypothesis fitted_exactly(const Pose2& T_map_lidar);
+  /// One of the places that were found is there.
+  bool is_compared(const Pose2& T_map_lidar) const;
+  /// The same, or one of the first `kept` candidates.
   bool is_known(const Pose2& T_map_lidar, std::size_t kept) const;
   Candidate refined_roughly(const Candidate& candidate, double least_score);
   void refine_roughly();
